@@ -1,0 +1,28 @@
+# What Debian 12 packages, with the four places where its packaging needs help.
+set(THREADS_PREFER_PTHREAD_FLAG ON)
+find_package(Threads REQUIRED)
+find_package(ZLIB REQUIRED)
+find_package(glm REQUIRED)
+find_package(fmt 9 CONFIG REQUIRED)
+find_package(TBB 2021 CONFIG REQUIRED COMPONENTS tbb)
+find_package(CLI11 CONFIG REQUIRED)
+find_package(nlohmann_json 3 CONFIG REQUIRED)
+find_package(embree 3.13 REQUIRED)
+
+# libosd-dev's CMake package stops the configuration over static libraries that it does not contain, so the
+# shared library is named by hand; elsewhere the package's own configuration serves.
+find_library(OSD_CPU_LIBRARY osdCPU)
+find_path(OSD_INCLUDE_DIR opensubdiv/bfr/surface.h)
+if(OSD_CPU_LIBRARY AND OSD_INCLUDE_DIR)
+  add_library(OpenSubdiv::osdCPU UNKNOWN IMPORTED)
+  set_target_properties(OpenSubdiv::osdCPU PROPERTIES IMPORTED_LOCATION "${OSD_CPU_LIBRARY}"
+                        INTERFACE_INCLUDE_DIRECTORIES "${OSD_INCLUDE_DIR}")
+else()
+  find_package(OpenSubdiv CONFIG REQUIRED)
+endif()
+
+# libopenimageio-dev exports an OpenCV include path that exists only with libopencv-dev (1 GB).
+find_package(OpenImageIO 2.4 CONFIG REQUIRED)
+get_target_property(_oiio_include OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
+list(FILTER _oiio_include EXCLUDE REGEX opencv)
+set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${_oiio_include}")

@@ -1,0 +1,28 @@
+// Verb: final gathering. One irradiance record at one point: stratified cosine-weighted rays over the hemisphere, their
+// hits shaded with direct diffuse light (approximate-gi 4.1, 4.2), and from the same rays the gradients, distances and dominant
+// directions. Also the plain Monte Carlo estimate that the reference uses.
+// Irradiance: results are E/pi.
+#pragma once
+#include "gi/irradiance_cache.h"
+#include "raytrace/trace.h"
+
+namespace tomales {
+
+struct GatherSettings {
+  int samples = 600;
+  float maxDistance = 1e30f;
+  uint32_t seed = 0;
+};
+
+/// `group`: the shade group that the rays leave (for the origin offset). `normal`: unit, on the side to gather from.
+/// `key` names the point for random numbers.
+IrradianceRecord gather(const RayScene& rays, const ShadingSystem& shading, int group, const vec3& position, const vec3& normal,
+                        uint32_t key, float pixelSize, const GatherSettings& settings, Stats& stats);
+
+/// Directions of a stratified cosine hemisphere of M x N cells (M rings of equal projected area, N sectors), as the lecture notes'
+/// estimator has them: cell (j, k) is sample j * N + k. Around +z.
+struct HemisphereCells { int rings, sectors; };
+HemisphereCells hemisphereCells(int samples);   ///< rings * sectors close to `samples`, sectors ~ pi * rings
+vec3 hemisphereDirection(const HemisphereCells& cells, int ring, int sector, vec2 xi);
+
+}  // namespace tomales

@@ -1,0 +1,54 @@
+// Noun: an irradiance cache. Records with position, normal, E, gradients and dominant directions in an octree; an error
+// function says how far each may be used. Over reyes/base alone.
+// Irradiance: E here is irradiance / pi (the RSL convention), as everywhere behind indirectDiffuse().
+// Space: that of the caller, the same for insert and lookup. Threads: lookups are concurrent and lock-free as long as
+// nobody inserts.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "reyes/base/math.h"
+
+namespace tomales {
+
+struct IrradianceRecord {
+  vec3 position, normal;           ///< normal: unit, not bumped (approximate-gi section 4.5)
+  vec3 E;                          ///< E/pi per channel
+  vec3 rotationGradient[3];        ///< per channel; E(n) ~ E + dot(cross(ni, n), gradient) (Ward and Heckbert 1992)
+  vec3 translationGradient[3];     ///< per channel; E(x) ~ E + dot(x - xi, gradient)
+  vec3 dominant[3];                ///< unit; for red, green, blue (eq. 7)
+  float harmonicMean;              ///< of distances to what the rays hit; Ward's R
+  float closest;                   ///< least of them; the paper's R_i
+  float pixelSize;                 ///< root of the projected pixel area at the record, for R+ and R- (eq. 3)
+};
+
+enum class ErrorFunction { Screen, Ward };
+
+struct CacheSettings {
+  ErrorFunction errorFunction = ErrorFunction::Screen;
+  float maxError = 1;              ///< kappa, eq. 2
+};
+
+struct IrradianceEstimate {
+  vec3 E;
+  vec3 dominant[3];
+  float weight = 0;                ///< Sum of weights; 0: nothing usable was found.
+};
+
+class IrradianceCache {
+ public:
+  /// `bound` should hold all records; what falls outside still works, only slower.
+  IrradianceCache(const Bound3& bound, const CacheSettings& settings);
+  ~IrradianceCache();
+
+  void insert(const IrradianceRecord& record);
+  /// Weighted mean of the extrapolated records (eq. 5, 7). pixelSize: root of the projected pixel area at x.
+  IrradianceEstimate lookup(const vec3& x, const vec3& normal, float pixelSize) const;
+  const std::vector<IrradianceRecord>& records() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tomales

@@ -1,0 +1,61 @@
+// Composer: rays against a coarse tessellation of the scene (Embree), with the hit-list origin offset of
+// "An Approximate Global Illumination System", section 4.3:
+//   1 record the hits within the offset distance, before and after the origin
+//   2 stop at the first hit beyond it
+//   3 the recorded hit closest to the origin, if any, is the new origin
+//   4 the next hit after that is the answer
+// One traversal: an Embree filter function records and rejects hits inside the offset and accepts the first beyond.
+// Space: current (camera space at shutter open). Threads: const members may be called concurrently.
+#pragma once
+#include "reyes/shade.h"
+
+namespace tomales {
+
+struct Ray {
+  vec3 origin, direction;       ///< direction: unit length
+  float tMax = kInfinity;       ///< Hits at t >= tMax do not count.
+  float offset = 0;             ///< Hit-list distance; 0 switches the algorithm off and uses `bias` alone.
+  float bias = 0;               ///< Without a hit list: hits at t <= bias do not count.
+};
+
+struct Hit {
+  float t = kInfinity;          ///< From the ray's own origin.
+  int object = -1;              ///< -1: nothing was hit.
+  uint32_t patch = 0;
+  float u = 0, v = 0;           ///< Patch parameters.
+  vec3 normal{0};               ///< Of the coarse surface, RISpec side, interpolated, unit length.
+  vec3 geometricNormal{0};      ///< Of the coarse polygon, RISpec side, unit length.
+  bool adjusted = false;        ///< The origin was moved to a recorded hit.
+};
+
+/// Which rays see an object; bits of Attributes::visibility.
+enum RayMask : uint32_t { kMaskDiffuse = 1, kMaskSpecular = 2, kMaskTransmission = 4, kMaskPhoton = 8 };
+
+class RayScene {
+ public:
+  /// Tessellates every object that some ray may see. Displaces with `shading` where trace:displacements asks for it.
+  RayScene(const Scene& scene, const Camera& camera, const ShadingSystem& shading, bool hitList, Stats& stats, Log& log);
+  ~RayScene();
+
+  Hit closest(const Ray& ray, RayMask mask) const;
+  /// Fraction of light that passes from the origin to tMax, by the objects' opacities.
+  vec3 transmission(const Ray& ray) const;
+
+  /// Offset and bias for rays that leave a point of this object at P: trace:offset and trace:bias, or by default more than the
+  /// largest distance between its coarse and its diced surface (displacement bound included).
+  void prepareOrigin(int group, const vec3& P, Ray& ray) const;
+
+  /// Radiance at hits towards the ray origins. All hits of one call are shaded together, a batch for each shade group.
+  /// `keys` name the hits for random numbers. radiance: count entries; misses get 0.
+  void shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& hits, const std::vector<uint32_t>& keys,
+                 const ShadingSystem& shading, const ShadeContext& context, std::vector<vec3>& radiance) const;
+
+  /// The coarse polygons of area light `light`, for sampling (reyes/shade.h: sampleEmitter).
+  bool sampleEmitter(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N, float* area) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tomales

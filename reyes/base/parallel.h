@@ -1,0 +1,28 @@
+// Threads. oneTBB lives behind these functions, in parallel.cpp alone; Embree shares its pool.
+// A loop body must be a function of its index, never of the thread that runs it.
+#pragma once
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+namespace tomales {
+
+/// Calls body(begin, end) over [0, count) in chunks of at most `grain`, on all threads of the pool.
+/// The chunks are [k*grain, (k+1)*grain): they never depend on the number of threads.
+void parallelFor(size_t count, size_t grain, const std::function<void(size_t begin, size_t end)>& body);
+
+/// Limits the pool for as long as it lives. 0: as many as the machine has.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads);
+  ~ThreadLimit();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Threads that parallelFor uses now.
+int threadCount();
+
+}  // namespace tomales

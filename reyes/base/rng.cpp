@@ -1,0 +1,59 @@
+#include "reyes/base/rng.h"
+
+namespace tomales {
+
+uint32_t reverseBits(uint32_t x) {
+  x = ((x >> 1) & 0x55555555U) | ((x & 0x55555555U) << 1);
+  x = ((x >> 2) & 0x33333333U) | ((x & 0x33333333U) << 2);
+  x = ((x >> 4) & 0x0f0f0f0fU) | ((x & 0x0f0f0f0fU) << 4);
+  x = ((x >> 8) & 0x00ff00ffU) | ((x & 0x00ff00ffU) << 8);
+  return (x >> 16) | (x << 16);
+}
+
+namespace {
+
+// Each output bit depends only on lower input bits; on a bit-reversed number that is Owen's tree.
+uint32_t laineKarras(uint32_t x, uint32_t seed) {
+  x ^= x * 0x3d20adeaU;
+  x += seed;
+  x *= (seed >> 16) | 1U;
+  x ^= x * 0x05526c56U;
+  x ^= x * 0x53a22864U;
+  return x;
+}
+
+// Second Sobol dimension: its direction numbers are the rows of Pascal's triangle modulo 2.
+uint32_t sobolSecond(uint32_t index) {
+  uint32_t result = 0;
+  for (uint32_t v = 1U << 31; index; index >>= 1, v ^= v >> 1)
+    if (index & 1U) result ^= v;
+  return result;
+}
+
+}  // namespace
+
+uint32_t owenScramble(uint32_t x, uint32_t seed) { return reverseBits(laineKarras(reverseBits(x), seed)); }
+
+vec2 sobol2(uint32_t index, uint32_t seed) {
+  const uint32_t shuffled = owenScramble(index, seed);
+  return {unitFloat(owenScramble(reverseBits(shuffled), hash32(seed ^ 0x9c8f2d35U))),
+          unitFloat(owenScramble(sobolSecond(shuffled), hash32(seed ^ 0x1b56c4e9U)))};
+}
+
+float sobol1(uint32_t index, uint32_t seed) {
+  return unitFloat(owenScramble(reverseBits(owenScramble(index, seed)), hash32(seed ^ 0x68bc21ebU)));
+}
+
+vec3 cosineHemisphere(vec2 xi) {
+  const vec2 o = 2.0f * xi - vec2(1.0f);
+  if (o.x == 0.0f && o.y == 0.0f) return {0.0f, 0.0f, 1.0f};
+  float r, phi;
+  if (std::abs(o.x) > std::abs(o.y))
+    r = o.x, phi = (kPi / 4) * (o.y / o.x);
+  else
+    r = o.y, phi = kPi / 2 - (kPi / 4) * (o.x / o.y);
+  const float x = r * std::cos(phi), y = r * std::sin(phi);
+  return {x, y, std::sqrt(std::max(0.0f, 1.0f - x * x - y * y))};
+}
+
+}  // namespace tomales

@@ -1,0 +1,41 @@
+// Counter-based random numbers: every number is a pure function of what it is for (pixel, point, sample,
+// dimension, seed), so results never depend on the schedule of threads or buckets.
+// Threads: everything here is pure.
+#pragma once
+#include "reyes/base/math.h"
+
+namespace tomales {
+
+/// A good 32-bit mix ("lowbias32", C. Wellons).
+inline uint32_t hash32(uint32_t x) {
+  x ^= x >> 16, x *= 0x7feb352dU, x ^= x >> 15, x *= 0x846ca68bU, x ^= x >> 16;
+  return x;
+}
+inline uint32_t hashCombine(uint32_t a, uint32_t b) {
+  return hash32(a ^ (b * 0x9e3779b9U + 0x7f4a7c15U + (a << 6) + (a >> 2)));
+}
+template <class... Rest>
+uint32_t hashCombine(uint32_t a, uint32_t b, Rest... rest) {
+  return hashCombine(hashCombine(a, b), rest...);
+}
+
+/// [0, 1): 24 bits, exactly representable.
+inline float unitFloat(uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24f; }
+
+uint32_t reverseBits(uint32_t x);
+
+/// Nested uniform (Owen) scrambling of the bits of x by a hash (Laine and Karras 2011, constants of
+/// Burley 2020, "Practical hash-based Owen scrambling").
+uint32_t owenScramble(uint32_t x, uint32_t seed);
+
+/// Point `index` of the Owen-scrambled, shuffled (0,2)-sequence named by `seed`, in [0,1)^2. Any first
+/// 2^k points are stratified over all elementary intervals; different seeds are independent.
+vec2 sobol2(uint32_t index, uint32_t seed);
+
+/// The one-dimensional companion: van der Corput, Owen-scrambled and shuffled.
+float sobol1(uint32_t index, uint32_t seed);
+
+/// Direction of the hemisphere around +z with density cos(theta)/pi (Malley's method, concentric disk).
+vec3 cosineHemisphere(vec2 xi);
+
+}  // namespace tomales

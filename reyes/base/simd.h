@@ -1,0 +1,35 @@
+// Portable vectorisation: hot loops are plain loops in functions marked TOMALES_HOT, which the compiler
+// builds for SSE2, AVX2 and AVX-512 and the loader picks by CPU. IEEE operations without contraction give
+// the same bits in every width, so dispatch never changes a picture (docs/decisions/0005).
+#pragma once
+#include <cstddef>
+#include <new>
+#include <vector>
+
+// Sanitizer runtimes are not ready when the loader runs ifunc resolvers, so those builds take one version.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(TOMALES_SANITIZED)
+#define TOMALES_HOT __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define TOMALES_HOT
+#endif
+
+namespace tomales {
+
+constexpr int kLanes = 16;  ///< Arrays that shaders and kernels see are padded to this many floats.
+inline int padded(int count) { return (count + kLanes - 1) / kLanes * kLanes; }
+
+/// std::vector memory that starts on a cache line.
+template <class T>
+struct CacheAligned {
+  using value_type = T;
+  CacheAligned() = default;
+  template <class U>
+  CacheAligned(const CacheAligned<U>&) {}
+  T* allocate(size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{64})); }
+  void deallocate(T* p, size_t) { ::operator delete(p, std::align_val_t{64}); }
+  bool operator==(const CacheAligned&) const { return true; }
+};
+template <class T>
+using AlignedVector = std::vector<T, CacheAligned<T>>;
+
+}  // namespace tomales

@@ -1,0 +1,45 @@
+#include "reyes/base/stats.h"
+
+#include <ctime>
+
+namespace tomales {
+
+void Stats::addShader(const std::string& name, int64_t vertices, double time_s) {
+  const std::lock_guard lock(mutex_);
+  ShaderFigures& f = shaders_[name];
+  f.vertices += vertices;
+  f.time_s += time_s;
+}
+
+void Stats::addStage(const std::string& name, double wall_s, double cpu_s) {
+  const std::lock_guard lock(mutex_);
+  StageFigures& f = stages_[name];
+  f.wall_s += wall_s;
+  f.cpu_s += cpu_s;
+}
+
+std::map<std::string, Stats::ShaderFigures> Stats::byShader() const {
+  const std::lock_guard lock(mutex_);
+  return shaders_;
+}
+
+std::map<std::string, Stats::StageFigures> Stats::stages() const {
+  const std::lock_guard lock(mutex_);
+  return stages_;
+}
+
+double processCpuSeconds() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+StageTimer::StageTimer(Stats& stats, std::string name)
+    : stats_(stats), name_(std::move(name)), start_(std::chrono::steady_clock::now()), cpuStart_(processCpuSeconds()) {}
+
+StageTimer::~StageTimer() {
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start_;
+  stats_.addStage(name_, wall.count(), processCpuSeconds() - cpuStart_);
+}
+
+}  // namespace tomales

@@ -1,0 +1,58 @@
+// Counters and stage times of one frame, filled by every unit and printed by reyes/app (--stats).
+// Threads: counters are atomic; add in bulk (per bucket, per batch), never per sample.
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace tomales {
+
+using Counter = std::atomic<int64_t>;
+
+struct Stats {
+  struct { Counter primitives{0}, subpatches{0}, gridsDiced{0}, micropolygonsDiced{0}, micropolygonsVisible{0},
+           culled{0}, eyeSplitsGivenUp{0}; } geometry;
+  struct { Counter verticesShaded{0}; } shade;
+  struct { Counter gather{0}, transmission{0}, specular{0}, photon{0}, reference{0}, hitlistAdjusted{0}; } rays;
+  struct { Counter coarsePolygons{0}, bytes{0}; } raytrace;
+  struct { Counter samples{0}, lookups{0}, interpolated{0}; } irradianceCache;
+  struct { Counter lookups{0}; } textures;
+  struct { Counter grids{0}, geometry{0}, deepFrame{0}; } memoryBytes;
+
+  /// Adds to the figures of one named shader ("shade.by_shader").
+  void addShader(const std::string& name, int64_t vertices, double time_s);
+  /// Adds wall and process CPU time to a stage of the frame ("parse", "hide", "gather", "shade", "image").
+  void addStage(const std::string& name, double wall_s, double cpu_s);
+
+  struct ShaderFigures { int64_t vertices = 0; double time_s = 0; };
+  struct StageFigures { double wall_s = 0, cpu_s = 0; };
+  std::map<std::string, ShaderFigures> byShader() const;
+  std::map<std::string, StageFigures> stages() const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::map<std::string, ShaderFigures> shaders_;
+  std::map<std::string, StageFigures> stages_;
+};
+
+/// CPU seconds that this process has used, all threads.
+double processCpuSeconds();
+
+/// Times one stage from construction to destruction.
+class StageTimer {
+ public:
+  StageTimer(Stats& stats, std::string name);
+  ~StageTimer();
+  StageTimer(const StageTimer&) = delete;
+
+ private:
+  Stats& stats_;
+  std::string name_;
+  std::chrono::steady_clock::time_point start_;
+  double cpuStart_;
+};
+
+}  // namespace tomales

@@ -1,0 +1,45 @@
+#include "reyes/camera.h"
+
+namespace tomales {
+
+Camera::Camera(const Options& o)
+    : xResolution_(o.xResolution), yResolution_(o.yResolution),
+      perspective_(o.projection == ProjectionKind::Perspective), near_(o.nearClip), far_(o.farClip) {
+  const float x = static_cast<float>(xResolution_), y = static_cast<float>(yResolution_);
+  const float aspect = o.frameAspect.value_or(x * o.pixelAspect / y);
+  // fov spans the smaller image dimension: screen space is +-1 along it (RISpec 3.2 section 4.1.2).
+  std::array<float, 4> w = aspect >= 1 ? std::array<float, 4>{-aspect, aspect, -1, 1}
+                                       : std::array<float, 4>{-1, 1, -1 / aspect, 1 / aspect};
+  if (o.screenWindow) w = *o.screenWindow;
+  const float focal = perspective_ ? 1.0f / std::tan(o.fov_degrees * (kPi / 360.0f)) : 1.0f;
+  scale_ = {x / (w[1] - w[0]) * focal, -y / (w[3] - w[2]) * focal};
+  offset_ = {-w[0] * x / (w[1] - w[0]), w[3] * y / (w[3] - w[2])};
+  pixelSizeAtUnit_ = 1.0f / std::sqrt(std::abs(scale_.x * scale_.y));
+
+  const auto edge = [](float fraction, float shift, int resolution) {
+    const float e = std::ceil(static_cast<float>(resolution) * fraction + shift);
+    return std::clamp(static_cast<int>(e), 0, resolution - 1);
+  };
+  crop_ = {edge(o.cropWindow[0], 0, xResolution_), edge(o.cropWindow[2], 0, yResolution_),
+           edge(o.cropWindow[1], -1, xResolution_) + 1, edge(o.cropWindow[3], -1, yResolution_) + 1};
+}
+
+bool Camera::rasterBound(const Bound3& b, Bound2& out) const {
+  if (perspective_ && b.lo.z < near_) return false;
+  out = {};
+  for (int i = 0; i < 8; ++i) out.extend(raster(b.corner(i)));
+  return true;
+}
+
+void Camera::ray(const vec2& r, vec3& origin, vec3& direction) const {
+  const vec2 p = (r - offset_) / scale_;
+  if (perspective_) {
+    origin = vec3(0.0f);
+    direction = glm::normalize(vec3(p, 1.0f));
+  } else {
+    origin = vec3(p, 0.0f);
+    direction = vec3(0, 0, 1);
+  }
+}
+
+}  // namespace tomales

@@ -1,0 +1,53 @@
+// Noun: the projection of a frame. Camera space (eye at the origin, +x right, +y up, +z into the scene) to raster
+// space (pixels, origin at the top left, y down).
+// Threads: immutable.
+#pragma once
+#include "reyes/state.h"
+
+namespace tomales {
+
+class Camera {
+ public:
+  explicit Camera(const Options& options);
+
+  int xResolution() const { return xResolution_; }
+  int yResolution() const { return yResolution_; }
+  /// The pixels that CropWindow asks for (RISpec: abutting windows tile exactly).
+  PixelRect crop() const { return crop_; }
+  bool perspective() const { return perspective_; }
+  float nearClip() const { return near_; }
+  float farClip() const { return far_; }
+
+  /// Raster x, y. Pre: p.z > 0 under perspective.
+  vec2 raster(const vec3& p) const {
+    const float w = perspective_ ? 1.0f / p.z : 1.0f;
+    return {offset_.x + scale_.x * p.x * w, offset_.y + scale_.y * p.y * w};
+  }
+  /// A depth that grows with distance and is linear in raster space: -1/z under perspective, z otherwise.
+  float depthKey(float z) const { return perspective_ ? -1.0f / z : z; }
+  float zFromDepthKey(float key) const { return perspective_ ? -1.0f / key : key; }
+
+  /// Conservative raster bound of a camera-space box. False where it reaches nearer than `nearClip`
+  /// under perspective: the box must be split or culled first.
+  bool rasterBound(const Bound3& b, Bound2& out) const;
+
+  /// Width in camera space of one pixel's footprint at p, seen face on; `size / |cos|` of the viewing angle along
+  /// the slope gives the projected area of approximate-gi section 4.5.
+  float pixelSize(const vec3& p) const {
+    return perspective_ ? glm::length(p) * pixelSizeAtUnit_ : pixelSizeAtUnit_;
+  }
+  /// Unit direction from the eye to p (orthographic: +z). RSL's I is not normalised; see `incident`.
+  vec3 incident(const vec3& p) const { return perspective_ ? p : vec3(0, 0, 1); }
+  /// Ray through raster position r: origin and unit direction in camera space.
+  void ray(const vec2& r, vec3& origin, vec3& direction) const;
+
+ private:
+  int xResolution_, yResolution_;
+  bool perspective_;
+  float near_, far_;
+  vec2 scale_, offset_;  ///< raster = offset + scale * (x, y) [/ z]
+  float pixelSizeAtUnit_;
+  PixelRect crop_;
+};
+
+}  // namespace tomales

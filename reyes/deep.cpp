@@ -1,0 +1,12 @@
+#include "reyes/deep.h"
+
+namespace tomales {
+
+size_t DeepTile::bytes() const {
+  size_t n = facets.capacity() * sizeof(Facet) + fragments.capacity() * sizeof(Fragment) + pixels.capacity() * sizeof(DeepPixel);
+  for (const ShadePoints& b : batches) n += b.bytes();
+  for (const ShadedPoints& s : shaded) n += 6 * s.Ci[0].capacity() * sizeof(float);
+  return n;
+}
+
+}  // namespace tomales

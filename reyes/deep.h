@@ -1,0 +1,59 @@
+// Noun: the deep frame buffer. For every bucket, the micropolygons that some sample sees, as points to shade, and the
+// fragments of every pixel. Gathering and shading read it as often as they like; no geometry is needed any more.
+//
+//   DeepFrame 1--* DeepTile 1--* ShadePoints (one batch a shade group)
+//                           1--* DeepPixel 1--* Fragment --> Facet --> shade point(s)
+#pragma once
+#include "reyes/points.h"
+#include "reyes/scene.h"
+
+namespace tomales {
+
+/// One visible micropolygon. Constant shading: all four are the same point, shaded at its centre. Smooth: its corners,
+/// in the order (0,0) (1,0) (0,1) (1,1) of its own (u,v).
+struct Facet {
+  int batch;      ///< In DeepTile::batches.
+  int point[4];
+};
+
+/// What the samples of one pixel see of one facet.
+struct Fragment {
+  uint32_t facet;     ///< In DeepTile::facets.
+  float z;            ///< Camera-space depth of the nearest of its samples.
+  uint64_t samples;   ///< Bit s: sample 64 * word + s of the pixel.
+  uint16_t word = 0;
+  uint8_t u = 0, v = 0;  ///< Mean position of its samples on the facet, 0..255; used by smooth shading.
+};
+
+struct DeepPixel {
+  uint32_t first = 0, count = 0;  ///< In DeepTile::fragments, nearest first.
+};
+
+struct DeepTile {
+  PixelRect rect;                     ///< Pixels of the padded frame (crop plus filter margin).
+  std::vector<ShadePoints> batches;
+  std::vector<Facet> facets;
+  std::vector<Fragment> fragments;
+  std::vector<DeepPixel> pixels;      ///< rect.width() * rect.height(), rows from the top.
+  std::vector<ShadedPoints> shaded;   ///< Filled by the shade pass, one a batch.
+
+  const DeepPixel& pixel(int x, int y) const {
+    return pixels[static_cast<size_t>((y - rect.y0) * rect.width() + (x - rect.x0))];
+  }
+  size_t bytes() const;
+};
+
+struct DeepFrame {
+  PixelRect crop;       ///< Pixels to write.
+  PixelRect padded;     ///< Pixels that have samples: crop grown by the filter's reach.
+  int bucketWidth = 16, bucketHeight = 16, columns = 0, rows = 0;
+  int samplesPerPixel = 1;
+  bool complete = true; ///< False: interrupted, some tiles are empty.
+  std::vector<DeepTile> tiles;  ///< columns * rows, rows from the top.
+
+  const DeepTile& tileAt(int x, int y) const {
+    return tiles[static_cast<size_t>((y - padded.y0) / bucketHeight * columns + (x - padded.x0) / bucketWidth)];
+  }
+};
+
+}  // namespace tomales

@@ -1,0 +1,21 @@
+// Verb: a rectangle of a patch -> Grid. Evaluates one primitive on a regular lattice, at every motion key.
+//   in     object, patch, rectangle and counts that split.h (or a ray tessellator) chose
+//   out    vertices: P in camera space per key, N, (u,v) and every primitive variable
+//   never  projects, culls, displaces or shades
+// Crack rule: a vertex on an edge depends only on the edge's parameters and its count along it, so neighbours with equal
+// counts agree bit for bit; unequal counts are closed by the hider (docs/decisions/0003).
+// Threads: concurrent calls are safe.
+#pragma once
+#include "reyes/grid.h"
+#include "reyes/points.h"
+
+namespace tomales {
+
+/// keys: how many of the object's keyTimes to evaluate (all, or 1 for ray tracing at shutter open).
+Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, int keys);
+
+/// Fills one shading point at patch position (u, v): a ray hit. P and normals are evaluated on the true surface;
+/// the caller may overwrite them. `primvarFloats` of the batch must be the object's.
+void evaluatePoint(const Scene& scene, int object, uint32_t patch, float u, float v, ShadePoints& batch, int index);
+
+}  // namespace tomales

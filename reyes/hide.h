@@ -1,0 +1,59 @@
+// Verb: grids -> DeepTile. Samples one bucket: every pixel has a stratified, reproducible set of sample positions and
+// times, and each micropolygon that covers a sample competes for it by depth. Opaque surfaces keep the nearest; others keep
+// all in front of the nearest opaque one, nearest first.
+// Edges: a sample exactly on an edge shared by two micropolygons belongs to one of them (no gap, no double hit). Along the
+// border of a grid that joins a neighbour, micropolygons reach over by the sagitta of the border, so that different rates
+// leave no crack (docs/decisions/0003).
+// Threads: one Hider a bucket, each on its own thread; grids are shared and read only.
+#pragma once
+#include "reyes/deep.h"
+#include "reyes/grid.h"
+
+namespace tomales {
+
+/// Positions of the samples of every pixel: one of 256 precomputed stratified patterns, chosen by a hash of the pixel.
+class SamplePattern {
+ public:
+  SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t seed);
+  int count() const { return count_; }
+  int padded() const { return padded_; }
+  int patternOf(int x, int y) const;              ///< 0..255
+  const float* x(int pattern) const;              ///< In [0,1) inside the pixel; padded() floats.
+  const float* y(int pattern) const;
+  const float* time(int pattern) const;           ///< In [0,1) of the shutter.
+
+ private:
+  int count_, padded_;
+  AlignedVector<float> x_, y_, time_;
+};
+
+/// Vertices of a grid in raster space, made once a grid by `project` and shared by the buckets.
+struct RasterGrid {
+  std::shared_ptr<const Grid> grid;
+  bool opaque = true;           ///< Hides what is behind it.
+  bool matte = false;
+  int sides = 2;
+  bool smooth = false;          ///< ShadingInterpolation
+  AlignedVector<float> x, y, d; ///< Raster x, y and depth key (Camera::depthKey): keyCount * stride each; borders pushed out.
+  float dMin = 0;
+  Bound2 bound;
+};
+/// Pre: every vertex lies in front of the eye.
+std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene, const Camera& camera, bool opaque);
+
+class Hider {
+ public:
+  Hider(const Scene& scene, const Camera& camera, const SamplePattern& pattern, const PixelRect& rect);
+  ~Hider();
+  /// True if every sample in the bound is already hidden by something opaque nearer than zMin (camera space).
+  bool hidden(const Bound2& raster, float zMin) const;
+  void insert(const std::shared_ptr<const RasterGrid>& grid);
+  /// Collects visible micropolygons into points to shade. The Hider is spent.
+  DeepTile resolve();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tomales

@@ -1,0 +1,71 @@
+// Noun: a batch of surface points to shade, visible micropolygons and ray hits alike: structure of arrays in current
+// (camera) space. Whoever fills it knows geometry; whoever shades it does not.
+#pragma once
+#include <array>
+
+#include "reyes/base/math.h"
+#include "reyes/base/simd.h"
+#include "reyes/shader_api.h"
+
+namespace tomales {
+
+/// The fixed channels of a point; primitive variables follow them.
+enum PointChannel : int {
+  kPx, kPy, kPz,           ///< position
+  kNx, kNy, kNz,           ///< shading normal (RISpec side, not flipped towards the viewer), unit length
+  kNgx, kNgy, kNgz,        ///< geometric normal, unit length
+  kIx, kIy, kIz,           ///< incident direction: from the eye or ray origin to P (orthographic: +z), not normalised
+  kDpduX, kDpduY, kDpduZ, kDpdvX, kDpdvY, kDpdvZ,  ///< by the shader's u and v
+  kU, kV, kS, kT, kDu, kDv,
+  kArea,                   ///< of the micropolygon, or of the ray's footprint
+  kFixedChannels
+};
+
+class ShadePoints {
+ public:
+  /// `group`: Scene::groups; `primvarFloats`: the sum of widths of the group's primvars.
+  ShadePoints(int group, int primvarFloats) : group_(group), channels_(static_cast<size_t>(kFixedChannels + primvarFloats)) {}
+
+  int group() const { return group_; }
+  int count() const { return static_cast<int>(keys_.size()); }
+  int channelCount() const { return static_cast<int>(channels_.size()); }
+
+  /// Appends a point and returns its index; channels are then set through `channel`. `key` names the point for random
+  /// numbers: the same point must have the same key for any thread count, bucket size and crop.
+  int add(uint32_t key);
+  void reserve(int count);
+  void clear();
+
+  float* channel(int c) { return channels_[static_cast<size_t>(c)].data(); }
+  const float* channel(int c) const { return channels_[static_cast<size_t>(c)].data(); }
+  float* primvar(int offset) { return channel(kFixedChannels + offset); }
+  const float* primvar(int offset) const { return channel(kFixedChannels + offset); }
+  uint32_t key(int i) const { return keys_[static_cast<size_t>(i)]; }
+
+  vec3 get3(int c, int i) const { return {channel(c)[i], channel(c + 1)[i], channel(c + 2)[i]}; }
+  void set3(int c, int i, const vec3& v) { channel(c)[i] = v.x, channel(c + 1)[i] = v.y, channel(c + 2)[i] = v.z; }
+  TmConstVec3 vec(int c) const { return {channel(c), channel(c + 1), channel(c + 2)}; }
+
+  vec3 position(int i) const { return get3(kPx, i); }
+  /// The shading normal turned to the side that the viewer sees (RSL faceforward(N, I)).
+  vec3 facingNormal(int i) const {
+    const vec3 n = get3(kNx, i);
+    return dot(get3(kIx, i), get3(kNgx, i)) > 0 ? -n : n;
+  }
+  size_t bytes() const { return channels_.size() * channels_[0].capacity() * sizeof(float) + keys_.capacity() * sizeof(uint32_t); }
+
+ private:
+  int group_;
+  std::vector<AlignedVector<float>> channels_;  ///< Each padded(count()) long; the padding repeats zeros.
+  std::vector<uint32_t> keys_;
+};
+
+/// Colour and opacity of a batch of shaded points, Ci premultiplied. Arrays are padded as ShadePoints' are.
+struct ShadedPoints {
+  AlignedVector<float> Ci[3], Oi[3];
+  void resize(int count);
+  vec3 color(int i) const { return {Ci[0][static_cast<size_t>(i)], Ci[1][static_cast<size_t>(i)], Ci[2][static_cast<size_t>(i)]}; }
+  vec3 opacity(int i) const { return {Oi[0][static_cast<size_t>(i)], Oi[1][static_cast<size_t>(i)], Oi[2][static_cast<size_t>(i)]}; }
+};
+
+}  // namespace tomales

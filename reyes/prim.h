@@ -1,0 +1,119 @@
+// Noun: geometry. A Prim is an immutable surface made of one or more *patches*, each over the unit square (u,v);
+// splitting a primitive is taking a smaller rectangle of one patch, so every vertex that two pieces share is
+// evaluated from the same numbers.
+//   bound     a box that contains a rectangle of a patch
+//   evaluate  positions and derivatives at any points of a patch: dicing a lattice and shading a ray hit are one call
+//   never     knows a camera, an attribute or a shader
+// Space: everything is in object space. Threads: const members may be called concurrently.
+#pragma once
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "reyes/base/math.h"
+#include "reyes/base/value.h"
+
+namespace tomales {
+
+struct UvRect { float u0 = 0, u1 = 1, v0 = 0, v1 = 1; };
+
+/// Bits for the four edges of a patch, in the order of PatchInfo::openEdges.
+enum PatchEdge : uint8_t { kEdgeU0 = 1, kEdgeU1 = 2, kEdgeV0 = 4, kEdgeV1 = 8, kAllEdges = 15 };
+
+struct PatchInfo {
+  bool planar = false;            ///< Flat, with straight edges: two triangles are exact.
+  uint8_t openEdges = kAllEdges;  ///< Edges that end the surface; the others have a neighbour to join without cracks.
+};
+
+/// What evaluate() fills: structure of arrays, each at least n long.
+struct SurfacePoints {
+  float *px, *py, *pz;
+  float *dux, *duy, *duz;  ///< dP/du by patch parameter
+  float *dvx, *dvy, *dvz;
+  float *nx, *ny, *nz;     ///< Outward RISpec normal for Orientation "outside": dPdu x dPdv where that is defined, its
+                           ///< limit at poles and degenerate corners. Not normalised; never zero for a real surface.
+};
+
+/// A primitive variable as it came in RIB, values in element order.
+struct Primvar {
+  std::string name;
+  Storage storage;
+  ValueType type;
+  int width;  ///< Floats of one element.
+  std::vector<float> values;
+};
+
+class Prim {
+ public:
+  virtual ~Prim() = default;
+
+  virtual uint32_t patchCount() const = 0;
+  virtual PatchInfo info(uint32_t patch) const = 0;
+
+  /// Contains every point of the rectangle (conservative).
+  virtual Bound3 bound(uint32_t patch, const UvRect& rect) const = 0;
+
+  virtual void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const = 0;
+
+  /// Surface parameters u,v as shaders see them: over the whole primitive, 0..1 (a polygon: object-space x,y).
+  virtual void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su, float* sv) const;
+
+  /// Interpolates primvars()[index]: component c of point i goes to out[c * stride + i].
+  virtual void interpolate(uint32_t patch, int index, int n, const float* u, const float* v, float* out,
+                           int stride) const = 0;
+
+  /// Those other than P, in a fixed order. "st" arrives split into "s" and "t".
+  const std::vector<Primvar>& primvars() const { return primvars_; }
+
+ protected:
+  explicit Prim(std::vector<Primvar> primvars) : primvars_(std::move(primvars)) {}
+  std::vector<Primvar> primvars_;
+};
+using PrimPtr = std::shared_ptr<const Prim>;
+
+// The make* functions check their input and throw PrimError with a sentence for the user; the caller adds file:line.
+struct PrimError : std::runtime_error { using std::runtime_error::runtime_error; };
+
+/// Turns a RIB parameter list into primvars for `counts` elements of each storage. Values of a wrong count are an error
+/// for P/Pw/Pz, and dropped with a sentence in `problems` for all others.
+struct PrimvarCounts { size_t uniform = 1, varying = 4, vertex = 4, faceVarying = 4; };
+std::vector<Primvar> takePrimvars(const ParamList& params, const PrimvarCounts& counts, std::vector<std::string>& problems);
+
+// Every factory takes the parameter list after the positional arguments and appends to `problems` what it dropped.
+using Problems = std::vector<std::string>;
+PrimPtr makeSphere(float radius, float zmin, float zmax, float thetaMax_degrees, const ParamList&, Problems&);
+PrimPtr makeCone(float height, float radius, float thetaMax_degrees, const ParamList&, Problems&);
+PrimPtr makeCylinder(float radius, float zmin, float zmax, float thetaMax_degrees, const ParamList&, Problems&);
+PrimPtr makeHyperboloid(const vec3& point1, const vec3& point2, float thetaMax_degrees, const ParamList&, Problems&);
+PrimPtr makeParaboloid(float rmax, float zmin, float zmax, float thetaMax_degrees, const ParamList&, Problems&);
+PrimPtr makeDisk(float height, float radius, float thetaMax_degrees, const ParamList&, Problems&);
+PrimPtr makeTorus(float major, float minor, float phiMin_degrees, float phiMax_degrees, float thetaMax_degrees,
+                  const ParamList&, Problems&);
+
+/// Faces of any size and convexity, without holes. `vertexCounts` per face, `vertices` concatenated.
+/// Polygon is the same with one face. Degenerate faces (fewer than three distinct vertices) are dropped with a problem.
+PrimPtr makePolygons(const std::vector<int>& vertexCounts, const std::vector<int>& vertices, const ParamList&, Problems&);
+
+/// A spline basis (rows as RISpec prints them, power-basis coefficients from control values) and its step.
+struct Basis { mat4 matrix; int step; };
+Basis bezierBasis();
+Basis bsplineBasis();
+Basis catmullRomBasis();
+Basis hermiteBasis();
+Basis powerBasis();
+
+PrimPtr makeBilinearPatchMesh(int nu, bool uPeriodic, int nv, bool vPeriodic, const ParamList&, Problems&);
+PrimPtr makeBicubicPatchMesh(int nu, bool uPeriodic, const Basis& uBasis, int nv, bool vPeriodic, const Basis& vBasis,
+                             const ParamList&, Problems&);
+
+/// Catmull-Clark by OpenSubdiv's limit surface. Tags as RIB gives them: per tag a name, {number of ints, number of floats}.
+struct SubdivisionTags {
+  std::vector<std::string> names;
+  std::vector<int> argCounts, ints;
+  std::vector<float> floats;
+};
+PrimPtr makeSubdivisionMesh(const std::string& scheme, const std::vector<int>& vertexCounts, const std::vector<int>& vertices,
+                            const SubdivisionTags& tags, const ParamList&, Problems&);
+
+}  // namespace tomales

@@ -1,0 +1,49 @@
+// Verb: text -> Scene. A streaming reader of RIB (ASCII; gzip is detected) in three steps that meet in the Request:
+//   lexer  bytes -> tokens       parser  tokens -> Request, checked against the request table       RiSink  takes Requests
+// Bad input is reported with file:line and the reader goes on at the next request.
+#pragma once
+#include <functional>
+#include <iosfwd>
+
+#include "reyes/scene.h"
+
+namespace tomales {
+
+/// One positional argument.
+struct RibArg {
+  enum class Kind { Number, String, Numbers, Strings } kind = Kind::Number;
+  std::vector<float> numbers;
+  std::vector<std::string> strings;
+  float number() const { return numbers.empty() ? 0.0f : numbers[0]; }
+  std::vector<int> ints() const;
+};
+
+/// A complete request: its positional arguments as the request table orders them, then its parameter list.
+struct Request {
+  std::string name;
+  std::vector<RibArg> args;
+  ParamList params;
+  SourceLoc where;
+};
+
+/// The seam behind the parser: the scene builder, a recorder, a writer.
+class RiSink {
+ public:
+  virtual ~RiSink() = default;
+  virtual void request(const Request& request) = 0;
+};
+
+struct RibSettings {
+  /// Called at every WorldEnd with the frozen scene, in stream order.
+  std::function<void(Scene&&)> onScene;
+  std::vector<std::string> archivePath{"."};
+  int maxArchiveDepth = 64;
+};
+
+/// Reads files as one stream ("-" is standard input). False if any of them could not be opened or held no readable RIB
+/// at all; details are in the log.
+bool readRib(const std::vector<std::string>& files, const RibSettings& settings, Log& log);
+/// The same from memory; `name` stands for the file in messages.
+bool readRibText(const std::string& text, const std::string& name, const RibSettings& settings, Log& log);
+
+}  // namespace tomales

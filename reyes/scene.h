@@ -1,0 +1,58 @@
+// Noun: everything that one WorldBegin/WorldEnd describes, frozen. Owns the geometry.
+// Threads: immutable once freeze() has run.
+#pragma once
+#include <map>
+
+#include "reyes/camera.h"
+#include "reyes/prim.h"
+
+namespace tomales {
+
+/// One primitive request placed in the world. Deforming geometry has a Prim for each of `shapeTimes`, alike in
+/// topology; all motion in between is linear.
+struct Object {
+  std::vector<PrimPtr> shapes;
+  std::vector<float> shapeTimes{0.0f};
+  Motion worldFromObject;
+  std::shared_ptr<const Attributes> attributes;
+  SourceLoc where;
+
+  // Filled by Scene::freeze().
+  Motion cameraFromObject;       ///< Over the shutter; one key when nothing moves.
+  std::vector<float> keyTimes;   ///< Union of transformation and deformation keys inside the shutter; front() is its opening.
+  float displacementBound = 0;   ///< Camera space.
+  bool flipsNormal = false;      ///< cameraFromObject mirrors, or Orientation is inside (not both).
+  int group = -1;                ///< Its ShadeGroup.
+
+  const Prim& shape() const { return *shapes.front(); }
+};
+
+/// Objects whose points may be shaded together: the same attributes, transformation and primvar names.
+struct ShadeGroup {
+  std::shared_ptr<const Attributes> attributes;
+  mat4 cameraFromObject{1.0f};
+  std::vector<Primvar> primvars;  ///< Layout only: name, storage, type, width; no values.
+  int exampleObject = -1;         ///< Some object of the group, for messages.
+};
+
+struct Scene {
+  Options options;
+  Motion cameraFromWorld;
+  std::vector<Object> objects;
+  std::vector<std::shared_ptr<LightCall>> lights;
+  std::map<std::string, mat4> worldFromNamed;  ///< CoordinateSystem
+  SourceLoc where;                             ///< Of WorldBegin.
+
+  std::vector<ShadeGroup> groups;              ///< Filled by freeze().
+  /// Fills the derived fields above. Call once, when all objects and lights are in.
+  void freeze();
+
+  mat4 cameraFromWorldAtOpen() const { return cameraFromWorld.at(options.shutterOpen); }
+  /// "current" from a named space (camera, current, world, or a CoordinateSystem). False: unknown.
+  bool cameraFromNamed(const std::string& name, mat4& out) const;
+};
+
+/// cameraFromObject at one time, and the shape to evaluate at a key time: linear between shapes is left to the grid.
+std::string objectName(const Object& object);  ///< identifier name, or "object at FILE:LINE"
+
+}  // namespace tomales

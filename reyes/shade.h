@@ -1,0 +1,105 @@
+// Verb: runs shaders over batches of points. Owns the bound shaders of a scene (parameters resolved, spaces transformed)
+// and the lights; asks ShadeServices for everything that needs rays or global illumination.
+// Irradiance: all light is in the RSL convention, E/pi.
+// Threads: after construction, every const member may be called concurrently.
+#pragma once
+#include <functional>
+
+#include "reyes/base/stats.h"
+#include "reyes/grid.h"
+#include "reyes/points.h"
+
+namespace tomales {
+
+enum class RayKind : uint8_t {
+  Camera,    ///< Visible micropolygons: the whole shader.
+  Diffuse,   ///< Hits of gather rays: direct light, diffuse component only, no emission of area lights (approximate-gi 4.1, 4.2).
+};
+
+/// Why and how a batch is being shaded.
+struct ShadeContext {
+  RayKind kind = RayKind::Camera;
+  int depth = 0;               ///< Diffuse bounces between the eye and these points.
+  uint32_t seed = 0;
+  int lightSamples = 0;        ///< Samples of each area light; 0: as many as the light asks for.
+  bool indirect = true;        ///< Run indirect lights.
+};
+
+/// Parameters of an indirect light (docs/gi.md), bound from the calling `indirectlight`.
+struct IndirectQuery {
+  int samples = 600;
+  float maxError = 1, maxDistance = 1e30f;
+  std::string errorFunction = "screen", radiance = "shader", atlas, subset;
+  int bounces = 1;
+};
+
+/// Arrays for count() points. E is E/pi.
+struct IndirectResult {
+  TmVec3 E;
+  TmVec3 dominant[3];  ///< Unit; for red, green, blue. Null pointers: not wanted.
+};
+
+/// The seam to ray tracing and GI (implemented in gi/services, injected by reyes/app). Batched; obeys `active`.
+class ShadeServices {
+ public:
+  virtual ~ShadeServices() = default;
+
+  /// Multiplies `light` by the fraction that arrives at each point from P + toward (solar: from infinity along it).
+  virtual void transmission(const ShadePoints& points, const uint8_t* active, TmConstVec3 toward, bool solar,
+                            const ShadeContext& context, TmVec3 light) const = 0;
+
+  /// A point on area light `light` for each xi in [0,1)^2, uniform in area after weighting: position, unit normal (RISpec side) and
+  /// the area it stands for (total area for a uniform sample). Returns false if the light has no geometry.
+  virtual bool sampleEmitter(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N, float* area_out) const = 0;
+
+  /// Indirect diffuse light on the side of N.
+  virtual void indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N, const IndirectQuery& query,
+                               const ShadeContext& context, IndirectResult out) const = 0;
+};
+
+/// Shaders by name: built-ins and plugins come through the same table.
+class ShaderRegistry {
+ public:
+  explicit ShaderRegistry(Log& log);
+  ~ShaderRegistry();
+  /// Checks versions and sizes before anything else is touched; later libraries win over earlier names.
+  bool addLibrary(const TmShaderLibrary* library, const std::string& origin);
+  /// Opens a .so and adds it. False and a message if it is not a shader plugin of this ABI.
+  bool loadPlugin(const std::string& path);
+  /// By name and kind; looks for NAME.so along `searchPath` (colon-separated, & and @ are the built-in default) if not known yet.
+  const TmShader* find(const std::string& name, TmKind kind, const std::string& searchPath);
+  std::vector<const TmShader*> all() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+class ShadingSystem {
+ public:
+  /// Binds every surface, displacement and light of the scene; reports unknown shaders and parameters with file:line.
+  ShadingSystem(const Scene& scene, ShaderRegistry& registry, const ShadeServices* services, Log& log, Stats& stats);
+  ~ShadingSystem();
+
+  /// Services may arrive after construction (they need the ray scene, which needs displacement).
+  void setServices(const ShadeServices* services);
+
+  /// Does a group hide what is behind it (Os = 1 everywhere and a shader that keeps opacity)?
+  bool opaque(int group) const;
+  /// Runs the displacement shader of the grid's object, in place; recomputes N. No-op without one.
+  void displace(Grid& grid) const;
+  /// Surface shader and lights over a batch of one group. `out` is resized.
+  void shade(const ShadePoints& points, const ShadeContext& context, ShadedPoints& out) const;
+
+  /// Radiance that an emitter's front adds for camera and specular rays: Cl of its area light, 0 if none or `visible` 0.
+  vec3 visibleEmission(int group) const;
+  /// The indirect light switched on for a group, if any: what the gather pass must prepare.
+  const IndirectQuery* indirectQuery(int group) const;
+  bool needsRays() const;  ///< Some light or shader will trace.
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tomales

@@ -1,0 +1,157 @@
+/* The binary contract between the renderer and a shader, built-in or plugin. Plain C, so that it survives
+ * compilers and releases; reyes/shader.h is its C++ face and what most shader writers include.
+ *
+ * A shader is one callback for a batch of points. All arrays are structures of arrays, start on a 64-byte
+ * boundary and are padded to TM_LANES floats, so a loop may run over `padded` points without a tail; points
+ * whose `active` byte is 0 must keep their values, and services leave them alone.
+ *
+ * Space: "current" is camera space at shutter open (left-handed, +z into the scene). Colours are linear.
+ * Irradiance: diffuse(), ambient() and indirect light are E/pi, the RSL convention: Ci = Cs * diffuse(N).
+ * Threads: one shader runs on many threads at once, on different batches. It must keep no state.
+ * Growth: fields and functions are only ever appended; check structBytes before using a later one. */
+#pragma once
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define TM_SHADER_ABI 1u
+#define TM_LANES 16
+
+typedef struct TmVec3 { float *x, *y, *z; } TmVec3;                  /* structure of arrays, writable */
+typedef struct TmConstVec3 { const float *x, *y, *z; } TmConstVec3;  /* the same, read only */
+
+typedef enum TmKind { TM_SURFACE = 0, TM_DISPLACEMENT = 1, TM_LIGHT = 2, TM_VOLUME = 3, TM_IMAGER = 4 } TmKind;
+typedef enum TmType { TM_FLOAT = 0, TM_COLOR, TM_POINT, TM_VECTOR, TM_NORMAL, TM_STRING, TM_MATRIX } TmType;
+
+/* What a shader declares about itself, so that the core shades no more than needed. */
+typedef enum TmCapability {
+  TM_KEEPS_OPACITY = 1 << 0,  /* surface: Oi = Os always, so an object with Os = 1 hides what is behind it */
+  TM_LIGHT_AMBIENT = 1 << 1,  /* light: no direction; seen by ambient() alone */
+  TM_LIGHT_SOLAR = 1 << 2,    /* light: L is a direction, the source is at infinity */
+  TM_LIGHT_AREA = 1 << 3,     /* light: the host samples the geometry of an AreaLightSource and sets Pl, Nl, L */
+  TM_LIGHT_INDIRECT = 1 << 4, /* light: brings indirect light; never run at the hits of gather rays */
+  TM_LIGHT_SHADOWED = 1 << 5, /* light: the host traces a shadow ray along L for every sample */
+  TM_EMITS = 1 << 6           /* surface: adds emitted radiance of its own, beside light that it reflects */
+} TmCapability;
+
+/* One declared parameter. Points, vectors, normals and matrices are given in shader space and arrive in current. */
+typedef struct TmParamDecl {
+  const char* name;
+  int32_t type;                /* TmType */
+  int32_t arrayLength;         /* 1 for a single value */
+  const float* floats;         /* the default, arrayLength values; NULL is all zero */
+  const char* const* strings;  /* the default of a string parameter */
+  const char* doc;             /* one line for `tomales info` */
+} TmParamDecl;
+
+/* One bound parameter: component k of point i is c[k][i * step]. step 0: uniform; 1: varying (a primitive
+ * variable of the same name overrides the parameter). Arrays and matrices are uniform: c[0][0..]. */
+typedef struct TmValue {
+  const float* c[3];
+  int32_t step;
+  int32_t length;              /* array length */
+  const char* string;          /* never NULL for a string parameter */
+} TmValue;
+
+struct TmServices;
+
+typedef struct TmGrid {
+  uint32_t structBytes;
+  int32_t count, padded;       /* live points; length of every array, a multiple of TM_LANES */
+  const uint8_t* active;       /* 1: this point wants a result */
+  const TmValue* params;       /* in the order of TmShader::params */
+  const struct TmServices* call;
+  void* host;                  /* pass it to every service */
+
+  TmVec3 P, N;                 /* position and shading normal (not normalised); a displacement may write both */
+  TmConstVec3 Ng, I;           /* geometric normal; incident direction, from the eye or ray origin to P */
+  TmConstVec3 dPdu, dPdv;
+  const float *u, *v, *s, *t, *du, *dv;
+  TmConstVec3 Cs, Os;
+  TmVec3 Ci, Oi;               /* surface, volume, imager: the result, premultiplied by opacity */
+  float E[3];                  /* the eye, current space */
+  float time;
+
+  /* Light shaders alone. P and N above are the point being lit (RSL's Ps) and its normal. */
+  int32_t sample, samples;     /* which of how many samples of this light */
+  TmVec3 L;                    /* out (area: in): from P towards the light; its length is the distance for shadows */
+  TmVec3 Cl;                   /* out: light colour arriving at P, whole light (host divides area samples) */
+  TmConstVec3 Pl, Nl;          /* area: sampled point on the emitter and its RISpec normal, unit length */
+
+  /* Imager shaders alone: alpha of the pixel, in and out. */
+  float* alpha;
+} TmGrid;
+
+/* One sample of one light at every point of the batch. */
+typedef struct TmLightSample {
+  TmConstVec3 L;               /* unit vector from P to the light */
+  TmConstVec3 Cl;              /* shadowed, divided by the number of samples */
+  int32_t isIndirect, nondiffuse, nonspecular;
+} TmLightSample;
+
+typedef enum TmTransformKind { TM_AS_POINT = 0, TM_AS_VECTOR = 1, TM_AS_NORMAL = 2 } TmTransformKind;
+
+/* What a shader may ask of the renderer. Every call works on the whole batch and obeys `active`. */
+typedef struct TmServices {
+  uint32_t structBytes;
+
+  /* RISpec 15.6. diffuse: sum of Cl * max(0, L.N) (E/pi); specular: sum of Cl * max(0, N.H)^(8/roughness), see
+   * docs/decisions on the exponent; ambient: sum of ambient Cl. N, V need not be unit length. */
+  void (*diffuse)(void* host, const TmGrid*, TmConstVec3 N, TmVec3 out);
+  void (*specular)(void* host, const TmGrid*, TmConstVec3 N, TmConstVec3 V, const float* roughness, TmVec3 out);
+  void (*ambient)(void* host, const TmGrid*, TmVec3 out);
+
+  /* illuminance(): fills `out` with light sample `index` (0, 1, ...); returns 0 when there are no more.
+   * The arrays live until the shader returns. Ambient lights are not listed. */
+  int32_t (*light)(void* host, const TmGrid*, int32_t index, TmLightSample* out);
+
+  /* Between named spaces (current, camera, world, object, shader, raster, NDC, screen, or a CoordinateSystem).
+   * Returns 0 and copies when a space is unknown. in and out may be the same arrays. */
+  int32_t (*transform)(void* host, const TmGrid*, int32_t kind, const char* from, const char* to, TmConstVec3 in, TmVec3 out);
+
+  /* Texture `name` at (s,t) with the footprint of one point, `channels` floats (1 or 3) from `channel`, t down the image.
+   * Returns 0 when the file is missing: the error has been reported and `out` holds the loud substitute. */
+  int32_t (*texture)(void* host, const TmGrid*, const char* name, int32_t channel, int32_t channels, const float* s,
+                     const float* t, TmVec3 out);
+
+  /* RISpec calculatenormal(): normal of the batch's surface if its points were at P. Displacement batches only; elsewhere copies N. */
+  void (*calculateNormal)(void* host, const TmGrid*, TmConstVec3 P, TmVec3 out);
+
+  /* Fraction of light that travels from P along `toward` to its tip (1: clear). Rays use the hit-list origin offset. */
+  void (*transmission)(void* host, const TmGrid*, TmConstVec3 P, TmConstVec3 toward, TmVec3 out);
+
+  /* Indirect light at P on the side of N: E/pi, unclamped, and one unit dominant direction for each of red, green and
+   * blue (approximate-gi eq. 7). `dominant` may be NULL; else three vectors. The parameters are those of the calling
+   * indirectlight; elsewhere the scene's. */
+  void (*indirectDiffuse)(void* host, const TmGrid*, TmConstVec3 N, TmVec3 out, TmVec3* dominant);
+
+  /* Tells the user once per shader and object; severity 1 warning, 2 missing (a substitute is rendered). */
+  void (*report)(void* host, const TmGrid*, int32_t severity, const char* message);
+} TmServices;
+
+typedef struct TmShader {
+  uint32_t abi, structBytes;   /* TM_SHADER_ABI and sizeof(TmShader) of the plugin's header: checked before all else */
+  const char* name;
+  int32_t kind;                /* TmKind */
+  uint32_t capabilities;       /* of TmCapability */
+  const TmParamDecl* params;
+  int32_t paramCount;
+  void (*shade)(const TmGrid* grid);
+  const char* doc;
+} TmShader;
+
+typedef struct TmShaderLibrary {
+  uint32_t abi, structBytes;
+  const TmShader* const* shaders;
+  int32_t count;
+} TmShaderLibrary;
+
+/* The one symbol that a plugin exports. */
+typedef const TmShaderLibrary* (*TmShadersFunction)(void);
+#define TM_SHADERS_SYMBOL "tomales_shaders"
+
+#ifdef __cplusplus
+}
+#endif

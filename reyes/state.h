@@ -1,0 +1,111 @@
+// Noun: what RIB requests leave behind, frozen at WorldEnd. Options, camera, attributes, shader calls, motion.
+// Defaults are those of RISpec 3.2 unless a comment says otherwise.
+// Threads: built by one thread (reyes/rib), read by many.
+#pragma once
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reyes/base/log.h"
+#include "reyes/base/math.h"
+#include "reyes/base/value.h"
+
+namespace tomales {
+
+/// A transformation that may move: keys at increasing times, linear between them, constant outside.
+struct Motion {
+  std::vector<float> times{0.0f};
+  std::vector<mat4> keys{mat4(1.0f)};
+
+  bool moving() const { return keys.size() > 1; }
+  mat4 at(float time) const;
+  static Motion still(const mat4& m) { return {{0.0f}, {m}}; }
+};
+/// a(t) * b(t), with a key at every key time of either.
+Motion operator*(const Motion& a, const Motion& b);
+
+/// One Surface, Displacement, LightSource, ... request.
+struct ShaderCall {
+  std::string name;
+  ParamList params;
+  Motion worldFromShader;  ///< The CTM at the request: points among the parameters are given in that space.
+  SourceLoc where;
+};
+
+struct LightCall {
+  ShaderCall shader;
+  std::string handle;
+  bool area = false;         ///< AreaLightSource: its emitters are the Objects whose attributes name it.
+  bool castsShadows = false; ///< Attribute "light" "shadows" "on", or shadowname "raytrace"; area lights always do.
+  int index = -1;            ///< In Scene::lights.
+};
+
+struct DisplayCall {
+  std::string name = "ri.pic", type = "file", mode = "rgba";  ///< mode: "rgb", "rgba", "rgbaz", "z", ...
+  ParamList params;
+  SourceLoc where;
+};
+
+enum class ProjectionKind { Orthographic, Perspective, Null };
+
+struct Quantize { float one = 255, min = 0, max = 255, dither = 0.5f; };
+
+struct Options {
+  int xResolution = 640, yResolution = 480;
+  float pixelAspect = 1;
+  std::optional<float> frameAspect;
+  std::optional<std::array<float, 4>> screenWindow;        ///< left right bottom top
+  std::array<float, 4> cropWindow{0, 1, 0, 1};             ///< xmin xmax ymin ymax of the frame, from the top left
+  ProjectionKind projection = ProjectionKind::Orthographic;
+  float fov_degrees = 90;
+  float nearClip = 1e-6f, farClip = 1e30f;                 ///< RI_EPSILON, RI_INFINITY
+  float shutterOpen = 0, shutterClose = 0;
+  float fStop = kInfinity, focalLength = 1, focalDistance = 1;
+  int xSamples = 2, ySamples = 2;
+  std::string filter = "gaussian";
+  float xFilterWidth = 2, yFilterWidth = 2;
+  float exposureGain = 1, exposureGamma = 1;
+  Quantize rgbaQuantize{}, depthQuantize{0, 0, 0, 0};
+  bool quantizeGiven = false;                              ///< The RIB said Quantize; else the file's type decides.
+  std::vector<DisplayCall> displays;                       ///< Empty: the default Display.
+  std::optional<ShaderCall> imager;
+  int bucketWidth = 16, bucketHeight = 16;
+  int gridSize = 256;                                      ///< Most micropolygons in a grid.
+  std::string hider = "hidden";
+  bool jitter = true;
+  int frame = 0;
+  std::map<std::string, std::string> searchPaths;          ///< "archive", "texture", "shader", "display", ...
+  std::map<std::string, Param> user;                       ///< "category:name" of options that shaders may read
+};
+
+enum class ShadingInterpolation { Constant, Smooth };
+
+struct Visibility { bool camera = true, diffuse = true, specular = true, transmission = true, photon = true; };
+
+/// Immutable once a primitive refers to it; consecutive primitives share one.
+struct Attributes {
+  vec3 color{1.0f}, opacity{1.0f};
+  std::array<vec2, 4> textureCoordinates{vec2{0, 0}, vec2{1, 0}, vec2{0, 1}, vec2{1, 1}};
+  float shadingRate = 1;                                    ///< px2 for one micropolygon
+  ShadingInterpolation interpolation = ShadingInterpolation::Constant;
+  bool matte = false;
+  int sides = 2;
+  bool insideOut = false;                                   ///< Orientation differs from "outside".
+  std::string name;                                         ///< Attribute "identifier" "name"
+  std::shared_ptr<const ShaderCall> surface, displacement;  ///< null: the default surface; none
+  std::vector<int> lights;                                  ///< Indices in Scene::lights of those switched on.
+  int areaLight = -1;                                       ///< This geometry emits for that light.
+  float displacementBound = 0;                              ///< Radius in the space below.
+  std::string displacementBoundSpace = "object";
+  Visibility visibility;
+  struct { std::optional<float> bias, offset; bool displacements = false; float tessellation = 1; } trace;
+  struct { bool receive = true; float gain = 1, bleeding = 1; vec3 bleedingColor{1.0f}; std::string surface; } indirect;
+  std::optional<float> irradianceMaxError, irradianceMaxPixelDist;
+  bool rasterOrient = true;                                 ///< Attribute "dice" "rasterorient"
+  std::map<std::string, Param> user;                        ///< "category:name" that shaders may read
+};
+
+}  // namespace tomales

@@ -1,0 +1,55 @@
+"""Includes point down, never sideways, never into another unit's private folder (docs/architecture.md)."""
+import pathlib
+import re
+import sys
+
+root = pathlib.Path(sys.argv[1])
+rank, public = {}, set()
+for line_number, line in enumerate((root / "tests/layers.txt").read_text().splitlines()):
+    for unit in line.split("#")[0].split():
+        rank[unit.rstrip("*")] = line_number
+        if unit.endswith("*"):
+            public.add(unit.rstrip("*"))
+
+
+def unit_of(path):
+    """The longest listed prefix: gi/irradiance_cache.h is its own unit, gi/gather.h belongs to gi."""
+    parts = path.rsplit(".", 1)[0].split("/")
+    prefixes = ("/".join(parts[:k]) for k in range(len(parts), 0, -1))
+    return next((p for p in prefixes if p in rank), None)
+
+
+SHADER_HEADERS = {"reyes/shader_api", "reyes/shader"}
+# Each third-party library is included by the units named here and nowhere else.
+THIRD_PARTY = {
+    "embree3/": ["raytrace/embree_scene.cpp"],
+    "opensubdiv/": ["reyes/prim/subdivision_mesh.cpp"],
+    "OpenImageIO/": ["reyes/shade/texture.cpp", "reyes/image/image_file.cpp"],
+    "tbb/": ["reyes/base/parallel.cpp"],
+    "nlohmann/": ["reyes/app/"],
+    "CLI/": ["reyes/app/"],
+    "zlib.h": ["reyes/rib/stream.cpp"],
+}
+
+bad = []
+for folder in ("reyes", "raytrace", "gi", "shaders"):
+    for file in sorted((root / folder).rglob("*.[hc]*")):
+        me = file.relative_to(root).as_posix()
+        for line_number, line in enumerate(file.read_text().splitlines(), 1):
+            if m := re.match(r"\s*#\s*include\s+<([^>]+)>", line):
+                for library, users in THIRD_PARTY.items():
+                    if m[1].startswith(library) and not any(me.startswith(u) for u in users):
+                        bad.append(f"{me}:{line_number}: <{m[1]}> belongs to {', '.join(users)}")
+            if not (m := re.match(r'\s*#\s*include\s+"([^"]+)"', line)):
+                continue
+            a, b = unit_of(me), unit_of(m[1])
+            if a is None or b is None:
+                bad.append(f"{me}:{line_number}: {m[1]} or this file is not in tests/layers.txt")
+            elif a != b and (
+                rank[b] >= rank[a]
+                or ("/" in m[1][len(b):] and b not in public)
+                or (a == "shaders" and b not in SHADER_HEADERS)
+            ):
+                bad.append(f"{me}:{line_number}: {a} may not include {m[1]}")
+print("\n".join(bad))
+sys.exit(bool(bad))
