@@ -26,7 +26,8 @@ enum class ErrorFunction { Screen, Ward };
 
 struct CacheSettings {
   ErrorFunction errorFunction = ErrorFunction::Screen;
-  float maxError = 1;              ///< kappa, eq. 2
+  float maxError = 1;              ///< kappa, eq. 2: records reach 1 / kappa as far. 0: every point is computed anew.
+  float maxPixels = 10;            ///< R+ of eq. 3, in roots of the projected pixel area (Attribute "irradiance" "maxpixeldist")
 };
 
 struct IrradianceEstimate {

@@ -31,6 +31,23 @@ bool Camera::rasterBound(const Bound3& b, Bound2& out) const {
   return true;
 }
 
+bool Camera::outside(const Bound3& b, const PixelRect& window) const {
+  if (b.empty() || b.hi.z < near_ || b.lo.z > far_) return true;
+  // raster_x >= x0  <=>  scale * x + (offset - x0) * z >= 0 for z > 0: a half space through the eye. The frustum is the
+  // intersection of four of them, so a box wholly outside one of them is wholly outside.
+  const auto allNegative = [&](float scale, float constant, int axis, float sign) {
+    for (int i = 0; i < 8; ++i) {
+      const vec3 c = b.corner(i);
+      if (sign * (scale * c[axis] + constant * (perspective_ ? c.z : 1.0f)) >= 0) return false;
+    }
+    return true;
+  };
+  return allNegative(scale_.x, offset_.x - static_cast<float>(window.x0), 0, 1.0f) ||
+         allNegative(scale_.x, offset_.x - static_cast<float>(window.x1), 0, -1.0f) ||
+         allNegative(scale_.y, offset_.y - static_cast<float>(window.y0), 1, 1.0f) ||
+         allNegative(scale_.y, offset_.y - static_cast<float>(window.y1), 1, -1.0f);
+}
+
 void Camera::ray(const vec2& r, vec3& origin, vec3& direction) const {
   const vec2 p = (r - offset_) / scale_;
   if (perspective_) {

@@ -31,6 +31,10 @@ class Camera {
   /// under perspective: the box must be split or culled first.
   bool rasterBound(const Bound3& b, Bound2& out) const;
 
+  /// True only if no point of the box can be seen through `window`: outside a side of the frustum, nearer than
+  /// `nearClip` or beyond `farClip`. Works for boxes that cross the eye plane.
+  bool outside(const Bound3& b, const PixelRect& window) const;
+
   /// Width in camera space of one pixel's footprint at p, seen face on; `size / |cos|` of the viewing angle along
   /// the slope gives the projected area of approximate-gi section 4.5.
   float pixelSize(const vec3& p) const {

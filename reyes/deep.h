@@ -14,6 +14,7 @@ namespace tomales {
 struct Facet {
   int batch;      ///< In DeepTile::batches.
   int point[4];
+  bool matte = false;  ///< Attributes::matte: hides what is behind it and leaves no colour and no alpha.
 };
 
 /// What the samples of one pixel see of one facet.

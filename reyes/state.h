@@ -106,6 +106,12 @@ struct Attributes {
   std::optional<float> irradianceMaxError, irradianceMaxPixelDist;
   bool rasterOrient = true;                                 ///< Attribute "dice" "rasterorient"
   std::map<std::string, Param> user;                        ///< "category:name" that shaders may read
+
+  /// Standard texture coordinates at surface parameters (u, v), where no primitive variable gives them.
+  vec2 textureAt(float u, float v) const {
+    const auto& c = textureCoordinates;
+    return glm::mix(glm::mix(c[0], c[1], u), glm::mix(c[2], c[3], u), v);
+  }
 };
 
 }  // namespace tomales

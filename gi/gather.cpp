@@ -1,0 +1,43 @@
+#include "gi/gather.h"
+
+#include "gi/hemisphere.h"
+#include "reyes/base/rng.h"
+
+namespace tomales {
+
+IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, int group, const vec3& position, const vec3& normal,
+                        uint32_t key, float pixelSize, const GatherSettings& settings, Stats& stats) {
+  const HemisphereCells cells = hemisphereCells(settings.samples);
+  const size_t count = static_cast<size_t>(cells.rings) * static_cast<size_t>(cells.sectors);
+  HemisphereSamples samples{cells, {}, {}, normal, {}, {}, {}};
+  orthonormalBasis(normal, samples.tangent, samples.bitangent);
+
+  Ray ray{position, normal, settings.maxDistance};
+  scene.prepareOrigin(group, position, ray);
+  std::vector<Ray> rays(count, ray);
+  std::vector<Hit> hits(count);
+  std::vector<uint32_t> keys(count);
+  std::vector<vec3> directions(count), radiance;
+  std::vector<float> distances(count);
+  for (size_t i = 0; i < count; ++i) {
+    const int cell = static_cast<int>(i);
+    keys[i] = hashCombine(key, static_cast<uint32_t>(i), settings.seed);
+    const vec2 xi{unitFloat(hash32(keys[i] ^ 0x3c6ef372U)), unitFloat(hash32(keys[i] ^ 0xa54ff53aU))};
+    const vec3 local = hemisphereDirection(cells, cell / cells.sectors, cell % cells.sectors, xi);
+    directions[i] = local.x * samples.tangent + local.y * samples.bitangent + local.z * normal;
+    rays[i].direction = directions[i];
+    hits[i] = scene.closest(rays[i], kMaskDiffuse);
+    distances[i] = hits[i].object < 0 ? kInfinity : hits[i].t;
+  }
+  stats.rays.gather += static_cast<int64_t>(count);
+  const ShadeContext context{RayKind::Diffuse, 1, settings.seed, 1, false};
+  scene.shadeHits(rays, hits, keys, shading, context, radiance);
+
+  samples.directions = directions, samples.radiance = radiance, samples.distances = distances;
+  IrradianceRecord record = summarize(samples);
+  record.position = position;
+  record.pixelSize = pixelSize;
+  return record;
+}
+
+}  // namespace tomales

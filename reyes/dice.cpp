@@ -1,0 +1,179 @@
+#include "reyes/dice.h"
+
+#include "reyes/base/rng.h"
+
+namespace tomales {
+namespace {
+
+/// Object-space results of Prim::evaluate for n points.
+struct Evaluated {
+  explicit Evaluated(int n) : stride(static_cast<size_t>(padded(n))), data(stride * 12) {}
+  float* array(size_t i) { return data.data() + i * stride; }
+  SurfacePoints view() {
+    return {array(0), array(1), array(2), array(3), array(4), array(5), array(6), array(7), array(8), array(9), array(10), array(11)};
+  }
+  vec3 get(size_t first, int i) {
+    const auto k = static_cast<size_t>(i);
+    return {array(first)[k], array(first + 1)[k], array(first + 2)[k]};
+  }
+  size_t stride;
+  AlignedVector<float> data;
+};
+
+/// Evaluates a deforming object at `time`: linear between the two shapes around it.
+void evaluateAt(const Object& o, float time, uint32_t patch, int n, const float* u, const float* v, Evaluated& out) {
+  size_t k = 0;
+  while (k + 1 < o.shapeTimes.size() && o.shapeTimes[k + 1] <= time) ++k;
+  o.shapes[k]->evaluate(patch, n, u, v, out.view());
+  if (k + 1 >= o.shapes.size() || time <= o.shapeTimes[k]) return;
+  const float t = (time - o.shapeTimes[k]) / (o.shapeTimes[k + 1] - o.shapeTimes[k]);
+  Evaluated next(n);
+  o.shapes[k + 1]->evaluate(patch, n, u, v, next.view());
+  for (size_t i = 0; i < out.data.size(); ++i) out.data[i] = lerp(out.data[i], next.data[i], t);
+}
+
+/// Normals by the cofactor matrix: right for any scale, and mirrored exactly when cross products of transformed
+/// derivatives are, which Object::flipsNormal undoes.
+mat3 normalMatrix(const Object& o, const mat4& m) {
+  const mat3 a(m);
+  const mat3 cofactor(cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1]));
+  return o.flipsNormal ? -cofactor : cofactor;
+}
+
+/// Primitive variables given in object space arrive in current space.
+void transformPrimvar(const Primvar& p, const mat4& m, const mat3& normals, int n, float* values, int stride) {
+  const bool point = p.type == ValueType::Point, vector = p.type == ValueType::Vector, normal = p.type == ValueType::Normal;
+  if (!point && !vector && !normal) return;
+  for (int first = 0; first + 2 < p.width; first += 3)
+    for (int i = 0; i < n; ++i) {
+      float* x = values + first * stride + i;
+      const vec3 in(x[0], x[stride], x[2 * stride]);
+      const vec3 out = point ? transformPoint(m, in) : vector ? transformVector(m, in) : normals * in;
+      x[0] = out.x, x[stride] = out.y, x[2 * stride] = out.z;
+    }
+}
+
+uint32_t nameOf(int object, uint32_t patch, const UvRect& r, int nu, int nv) {
+  const auto bits = [](float f) { return __builtin_bit_cast(uint32_t, f); };
+  return hashCombine(static_cast<uint32_t>(object), patch, bits(r.u0), bits(r.u1), bits(r.v0), bits(r.v1),
+                     static_cast<uint32_t>(nu), static_cast<uint32_t>(nv));
+}
+
+uint8_t openEdgesOf(const PatchInfo& info, const UvRect& r) {
+  const int touched = (r.u0 <= 0 ? kEdgeU0 : 0) | (r.u1 >= 1 ? kEdgeU1 : 0) | (r.v0 <= 0 ? kEdgeV0 : 0) | (r.v1 >= 1 ? kEdgeV1 : 0);
+  return static_cast<uint8_t>(touched & info.openEdges);
+}
+
+/// Offset of the primvar `name` among the group's floats, or -1.
+int offsetOf(const std::vector<Primvar>& primvars, std::string_view name) {
+  int offset = 0;
+  for (const Primvar& p : primvars) {
+    if (p.name == name) return offset;
+    offset += p.width;
+  }
+  return -1;
+}
+
+}  // namespace
+
+Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, int keys) {
+  const Object& o = scene.objects[static_cast<size_t>(object)];
+  const Prim& prim = o.shape();
+  int floats = 0;
+  for (const Primvar& p : prim.primvars()) floats += p.width;
+
+  Grid g;
+  g.object = object, g.patch = patch, g.rect = rect;
+  g.allocate(nu, nv, keys, floats);
+  g.openEdges = openEdgesOf(prim.info(patch), rect);
+  g.name = nameOf(object, patch, rect, nu, nv);
+
+  const int n = g.vertexCount();
+  AlignedVector<float> u(static_cast<size_t>(g.stride())), v(u.size());
+  // The last vertex is the rectangle's own number, so that neighbours evaluate the same one.
+  const auto at = [](float a, float b, int i, int count) {
+    return i == count ? b : a + (b - a) * (static_cast<float>(i) / static_cast<float>(count));
+  };
+  for (int j = 0, k = 0; j <= nv; ++j)
+    for (int i = 0; i <= nu; ++i, ++k) {
+      u[static_cast<size_t>(k)] = at(rect.u0, rect.u1, i, nu);
+      v[static_cast<size_t>(k)] = at(rect.v0, rect.v1, j, nv);
+    }
+
+  Evaluated e(n);
+  for (int key = 0; key < keys; ++key) {
+    const float time = o.keyTimes[static_cast<size_t>(key)];
+    const mat4 m = o.cameraFromObject.at(time);
+    evaluateAt(o, time, patch, n, u.data(), v.data(), e);
+    for (int i = 0; i < n; ++i) {
+      const vec3 p = transformPoint(m, e.get(0, i));
+      g.P(key, 0)[i] = p.x, g.P(key, 1)[i] = p.y, g.P(key, 2)[i] = p.z;
+    }
+    if (key == 0) {
+      const mat3 normals = normalMatrix(o, m);
+      for (int i = 0; i < n; ++i) {
+        const vec3 normal = normals * e.get(9, i);
+        g.N(0)[i] = normal.x, g.N(1)[i] = normal.y, g.N(2)[i] = normal.z;
+      }
+      int offset = 0;
+      for (size_t k = 0; k < prim.primvars().size(); ++k) {
+        const Primvar& p = prim.primvars()[k];
+        prim.interpolate(patch, static_cast<int>(k), n, u.data(), v.data(), g.primvar(offset), g.stride());
+        transformPrimvar(p, m, normals, n, g.primvar(offset), g.stride());
+        offset += p.width;
+      }
+    }
+  }
+  prim.surfaceParameters(patch, n, u.data(), v.data(), g.u(), g.v());
+
+  // A normal that the user gives is the shading normal (RISpec 5.2); the geometric one is still measured from P.
+  if (const int offset = offsetOf(prim.primvars(), "N"); offset >= 0)
+    for (int axis = 0; axis < 3; ++axis) std::copy_n(g.primvar(offset + axis), n, g.N(axis));
+  return g;
+}
+
+void evaluatePoint(const Scene& scene, int object, uint32_t patch, float u, float v, ShadePoints& batch, int index) {
+  const Object& o = scene.objects[static_cast<size_t>(object)];
+  const Prim& prim = o.shape();
+  const float time = o.keyTimes.front();
+  const mat4& m = scene.groups[static_cast<size_t>(o.group)].cameraFromObject;
+  const mat3 normals = normalMatrix(o, m);
+
+  Evaluated e(1);
+  evaluateAt(o, time, patch, 1, &u, &v, e);
+  const vec3 geometric = normalizeOr(normals * e.get(9, 0), vec3(0, 0, -1));
+  batch.set3(kPx, index, transformPoint(m, e.get(0, 0)));
+  batch.set3(kNgx, index, geometric);
+  batch.set3(kNx, index, geometric);
+
+  // Derivatives by the shader's parameters: patches of one mesh share a parameter square, so ask how it runs along this one.
+  const float us[3] = {u, u < 0.5f ? u + 0.5f : u - 0.5f, u}, vs[3] = {v, v, v < 0.5f ? v + 0.5f : v - 0.5f};
+  float su[3], sv[3];
+  prim.surfaceParameters(patch, 3, us, vs, su, sv);
+  const float dsu = (su[1] - su[0]) / (us[1] - us[0]), dsv = (sv[2] - sv[0]) / (vs[2] - vs[0]);
+  batch.set3(kDpduX, index, transformVector(m, e.get(3, 0)) / (dsu != 0 ? dsu : 1.0f));
+  batch.set3(kDpdvX, index, transformVector(m, e.get(6, 0)) / (dsv != 0 ? dsv : 1.0f));
+  batch.channel(kU)[index] = su[0];
+  batch.channel(kV)[index] = sv[0];
+  batch.channel(kDu)[index] = 0;
+  batch.channel(kDv)[index] = 0;
+  batch.channel(kArea)[index] = 0;
+
+  AlignedVector<float> values;
+  int offset = 0;
+  for (size_t k = 0; k < prim.primvars().size(); ++k) {
+    const Primvar& p = prim.primvars()[k];
+    values.resize(static_cast<size_t>(p.width));
+    prim.interpolate(patch, static_cast<int>(k), 1, &u, &v, values.data(), 1);
+    transformPrimvar(p, m, normals, 1, values.data(), 1);
+    for (int c = 0; c < p.width; ++c) batch.primvar(offset + c)[index] = values[static_cast<size_t>(c)];
+    if (p.name == "N") batch.set3(kNx, index, normalizeOr({values[0], values[1], values[2]}, geometric));
+    offset += p.width;
+  }
+  const vec2 st = o.attributes->textureAt(su[0], sv[0]);
+  const int s = offsetOf(prim.primvars(), "s"), t = offsetOf(prim.primvars(), "t");
+  batch.channel(kS)[index] = s >= 0 ? batch.primvar(s)[index] : st.x;
+  batch.channel(kT)[index] = t >= 0 ? batch.primvar(t)[index] : st.y;
+}
+
+}  // namespace tomales

@@ -1,0 +1,39 @@
+"""The same picture, bit for bit, for any thread count, bucket size and crop; and from run to run."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from pictures import pixels
+
+tomales, root = sys.argv[1], pathlib.Path(sys.argv[2])
+failures = []
+
+
+def render(scene, *options):
+    with tempfile.TemporaryDirectory() as folder:
+        out = pathlib.Path(folder) / "out.exr"
+        subprocess.run([tomales, "render", str(root / "scenes" / scene), "-o", str(out), "-q", *options], check=True)
+        return pixels(str(out))
+
+
+def expect_same(a, b, what):
+    differing = sum(1 for key in b if a.get(key) != b[key])
+    same = differing == 0 and len(b) > 0
+    print(("ok      " if same else "FAILED  ") + f"{what}: {differing} of {len(b)} pixels differ")
+    if not same:
+        failures.append(what)
+
+
+small = ["--format", "96x96", "--samples", "32"]
+whole = render("cornell/cornell.rib", *small, "-t", "1")
+expect_same(whole, render("cornell/cornell.rib", *small, "-t", "2"), "two threads against one, with GI")
+for size in ("8", "64"):
+    expect_same(whole, render("cornell/cornell.rib", *small, "--bucket-size", size), f"buckets of {size} against 16, with GI")
+direct = render("cornell/cornell.rib", *small, "--gi", "none")
+crop = render("cornell/cornell.rib", *small, "--gi", "none", "--crop", "0.25,0.75,0.4,0.9")
+expect_same(direct, crop, "a crop window against the whole frame")
+if not any(any(c > 0.05 for c in p[:3]) for p in whole.values()):
+    failures.append("black")
+    print("FAILED  the picture is black")
+sys.exit(bool(failures))
