@@ -5,19 +5,30 @@
 namespace tomales {
 namespace {
 
-/// Object-space results of Prim::evaluate for n points.
-struct Evaluated {
-  explicit Evaluated(int n) : stride(static_cast<size_t>(padded(n))), data(stride * 12) {}
-  float* array(size_t i) { return data.data() + i * stride; }
+/// Object-space results of Prim::evaluate for n points; a single point (a ray hit) stays off the heap.
+class Evaluated {
+ public:
+  explicit Evaluated(int n) : stride_(n == 1 ? 1 : static_cast<size_t>(padded(n))) {
+    if (n > 1) many_.resize(stride_ * 12);
+    data_ = n > 1 ? many_.data() : one_;
+  }
   SurfacePoints view() {
-    return {array(0), array(1), array(2), array(3), array(4), array(5), array(6), array(7), array(8), array(9), array(10), array(11)};
+    const auto a = [this](size_t i) { return data_ + i * stride_; };
+    return {a(0), a(1), a(2), a(3), a(4), a(5), a(6), a(7), a(8), a(9), a(10), a(11)};
   }
-  vec3 get(size_t first, int i) {
-    const auto k = static_cast<size_t>(i);
-    return {array(first)[k], array(first + 1)[k], array(first + 2)[k]};
+  vec3 get(size_t first, int i) const {
+    const float* x = data_ + first * stride_ + i;
+    return {x[0], x[stride_], x[2 * stride_]};
   }
-  size_t stride;
-  AlignedVector<float> data;
+  void blend(const Evaluated& next, float t) {
+    for (size_t i = 0; i < stride_ * 12; ++i) data_[i] = lerp(data_[i], next.data_[i], t);
+  }
+
+ private:
+  size_t stride_;
+  float one_[12] = {};
+  AlignedVector<float> many_;
+  float* data_;
 };
 
 /// Evaluates a deforming object at `time`: linear between the two shapes around it.
@@ -29,7 +40,7 @@ void evaluateAt(const Object& o, float time, uint32_t patch, int n, const float*
   const float t = (time - o.shapeTimes[k]) / (o.shapeTimes[k + 1] - o.shapeTimes[k]);
   Evaluated next(n);
   o.shapes[k + 1]->evaluate(patch, n, u, v, next.view());
-  for (size_t i = 0; i < out.data.size(); ++i) out.data[i] = lerp(out.data[i], next.data[i], t);
+  out.blend(next, t);
 }
 
 /// Normals by the cofactor matrix: right for any scale, and mirrored exactly when cross products of transformed

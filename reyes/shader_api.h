@@ -152,6 +152,9 @@ typedef struct TmShaderLibrary {
 typedef const TmShaderLibrary* (*TmShadersFunction)(void);
 #define TM_SHADERS_SYMBOL "tomales_shaders"
 
+/* The shaders that come with the renderer (shaders/library.cpp). */
+const TmShaderLibrary* tomales_builtin_shaders(void);
+
 #ifdef __cplusplus
 }
 #endif

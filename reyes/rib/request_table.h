@@ -1,0 +1,27 @@
+// The signatures of every request of RISpec 3.2 and of PRMan's extensions. The parser needs them for all requests, also
+// for those that are not rendered: only a signature tells where a request ends.
+#pragma once
+#include <string_view>
+
+namespace tomales::rib {
+
+enum class Support {
+  Works,
+  NotYet,          ///< Named once, then ignored.
+  NotYetGeometry,  ///< The same, but something is missing from the picture.
+};
+
+/// `arguments` is a list of letters, one for each positional argument:
+///   f number   s string   h handle (a string, or a number that becomes one)   F, S array of numbers, strings
+///   2..9 that many numbers, bare or in brackets anywhere   m 16 numbers   b a Basis: name or 16 numbers
+///   ? what follows is given as a whole or left out
+struct Signature {
+  std::string_view name, arguments;
+  bool parameterList;
+  Support support;
+};
+
+/// Null: no such request.
+const Signature* findSignature(std::string_view name);
+
+}  // namespace tomales::rib

@@ -1,0 +1,11 @@
+#include "reyes/shader.h"
+
+namespace {
+void shade(const TmGrid* g) {
+  const tm::Batch b(g);
+  for (int i : b) b.output(i, b.Cs(i), b.Os(i));
+}
+}  // namespace
+
+extern const tm::Shader constantShader;
+const tm::Shader constantShader(TM_SURFACE, "constant", "Os Cs, no light", TM_KEEPS_OPACITY, shade, {});

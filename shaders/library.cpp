@@ -1,0 +1,15 @@
+#include "reyes/shader.h"
+
+extern const tm::Shader constantShader, matteShader, metalShader, plasticShader, paintedplasticShader,
+    defaultsurfaceShader, ambientlightShader, distantlightShader, pointlightShader, spotlightShader,
+    arealightShader, indirectlightShader, bumpyShader, noisybumpShader;
+
+const TmShaderLibrary* tomales_builtin_shaders(void) {
+  static const TmShader* const shaders[] = {
+      constantShader,       matteShader,         metalShader,        plasticShader,    paintedplasticShader,
+      defaultsurfaceShader, ambientlightShader,  distantlightShader, pointlightShader, spotlightShader,
+      arealightShader,      indirectlightShader, bumpyShader,        noisybumpShader};
+  static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders,
+                                          static_cast<int32_t>(sizeof shaders / sizeof *shaders)};
+  return &library;
+}
