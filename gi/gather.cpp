@@ -5,8 +5,9 @@
 
 namespace tomales {
 
-IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, int group, const vec3& position, const vec3& normal,
-                        uint32_t key, float pixelSize, const GatherSettings& settings, Stats& stats) {
+IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, int group, const vec3& position,
+                        const vec3& normal, uint32_t key, float pixelSize, const GatherSettings& settings,
+                        Stats& stats) {
   const HemisphereCells cells = hemisphereCells(settings.samples);
   const size_t count = static_cast<size_t>(cells.rings) * static_cast<size_t>(cells.sectors);
   HemisphereSamples samples{cells, {}, {}, normal, {}, {}, {}};
@@ -27,11 +28,14 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, int
     directions[i] = local.x * samples.tangent + local.y * samples.bitangent + local.z * normal;
     rays[i].direction = directions[i];
     hits[i] = scene.closest(rays[i], kMaskDiffuse);
-    distances[i] = hits[i].object < 0 ? kInfinity : hits[i].t;
+    distances[i] = hits[i].object < 0 ? kInfinity : std::max(0.0f, hits[i].t);
   }
   stats.rays.gather += static_cast<int64_t>(count);
   const ShadeContext context{RayKind::Diffuse, 1, settings.seed, 1, false};
   scene.shadeHits(rays, hits, keys, shading, context, radiance);
+  for (vec3& L : radiance)
+    if (!isFinite(L))
+      L = vec3(0.0f);  // one bad shader result would spread over the whole reach of the record
 
   samples.directions = directions, samples.radiance = radiance, samples.distances = distances;
   IrradianceRecord record = summarize(samples);

@@ -12,6 +12,7 @@ struct GatherSettings {
   int samples = 600;
   float maxDistance = 1e30f;
   uint32_t seed = 0;
+  bool operator==(const GatherSettings&) const = default;
 };
 
 /// `group`: the shade group that the rays leave (for the origin offset). `normal`: unit, on the side to gather from.

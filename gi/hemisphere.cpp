@@ -8,17 +8,21 @@ float tangentIntegral(float s) { return std::asin(std::sqrt(s)) - std::sqrt(s * 
 
 float fraction(int i, int count) { return static_cast<float>(i) / static_cast<float>(count); }
 
-// The gradients of Ward and Heckbert 1992, over pi. Cell (j, k) spans sin^2(theta) from j/M to (j+1)/M and phi from
-// 2 pi k/N to 2 pi (k+1)/N.
+// The gradients of Ward and Heckbert 1992, over pi. Cell (j, k) spans sin^2(theta) from j/M to (j+1)/M and
+// phi from 2 pi k/N to 2 pi (k+1)/N.
 struct Gradients {
   explicit Gradients(const HemisphereSamples& samples)
-      : s(samples), M(samples.cells.rings), N(samples.cells.sectors), sectorAngle(2 * kPi / static_cast<float>(N)) {}
+      : s(samples),
+        M(samples.cells.rings),
+        N(samples.cells.sectors),
+        sectorAngle(2 * kPi / static_cast<float>(N)) {}
 
   size_t cell(int j, int k) const { return static_cast<size_t>(j * N + k); }
   vec3 inPlane(float phi) const { return std::cos(phi) * s.tangent + std::sin(phi) * s.bitangent; }
 
-  // d/da of cos(theta - a) is sin(theta): a ray weighs tan(theta) about the axis a quarter turn ahead of its azimuth. The mean of
-  // tan(theta) over the cell stands for its value at the ray, which has no finite variance.
+  // d/da of cos(theta - a) is sin(theta): a ray weighs tan(theta) about the axis a quarter turn ahead of its
+  // azimuth. The mean of tan(theta) over the cell stands for its value at the ray, which has no finite
+  // variance.
   void rotation(vec3 gradient[3]) const {
     const float sectorMean = std::sin(0.5f * sectorAngle) / (0.5f * sectorAngle);
     for (int j = 0; j < M; ++j) {
@@ -30,11 +34,13 @@ struct Gradients {
     }
   }
 
-  // As the point moves, the wall between two cells sweeps over the hemisphere at a rate of one over the nearer distance, and
-  // swaps the radiance of one cell for the other's. `axis`: direction of motion that sweeps most, `area`: projected, per radian.
+  // As the point moves, the wall between two cells sweeps over the hemisphere at a rate of one over the
+  // nearer distance, and swaps the radiance of one cell for the other's. `axis`: direction of motion that
+  // sweeps most, `area`: projected, per radian.
   void wall(vec3 gradient[3], size_t from, size_t to, const vec3& axis, float area) const {
     const float distance = std::min(s.distances[from], s.distances[to]);
-    if (distance < kInfinity) add(gradient, axis * (area / (kPi * std::max(distance, 1e-9f))), s.radiance[to] - s.radiance[from]);
+    if (distance < kInfinity)
+      add(gradient, axis * (area / (kPi * std::max(distance, 1e-9f))), s.radiance[to] - s.radiance[from]);
   }
 
   void translation(vec3 gradient[3]) const {
@@ -42,7 +48,9 @@ struct Gradients {
       const float sin2 = fraction(j, M), sinInner = std::sqrt(sin2), sinOuter = std::sqrt(fraction(j + 1, M));
       for (int k = 0; k < N; ++k) {
         const float phi = sectorAngle * static_cast<float>(k);
-        if (j > 0) wall(gradient, cell(j - 1, k), cell(j, k), inPlane(phi + 0.5f * sectorAngle), sectorAngle * sinInner * (1 - sin2));
+        if (j > 0)
+          wall(gradient, cell(j - 1, k), cell(j, k), inPlane(phi + 0.5f * sectorAngle),
+               sectorAngle * sinInner * (1 - sin2));
         wall(gradient, cell(j, (k + N - 1) % N), cell(j, k), inPlane(phi + kPi / 2), sinOuter - sinInner);
       }
     }
@@ -61,7 +69,9 @@ struct Gradients {
 
 HemisphereCells hemisphereCells(int samples) {
   const int rings = std::max(1, static_cast<int>(std::lround(std::sqrt(static_cast<float>(samples) / kPi))));
-  return {rings, std::max(1, static_cast<int>(std::lround(static_cast<float>(samples) / static_cast<float>(rings))))};
+  return {
+      rings,
+      std::max(1, static_cast<int>(std::lround(static_cast<float>(samples) / static_cast<float>(rings))))};
 }
 
 vec3 hemisphereDirection(const HemisphereCells& cells, int ring, int sector, vec2 xi) {

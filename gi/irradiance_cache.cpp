@@ -5,14 +5,15 @@
 namespace tomales {
 namespace {
 
-constexpr float kMinPixels = 1.5f;               // R- of eq. 3
-constexpr float kMaxAngleTerm = 0.0151922470f;   // 1 - cos(alpha+), alpha+ = 10 degrees (eq. 4)
-constexpr float kBehindTolerance = 0.1f;         // of the validity radius
+constexpr float kMinPixels = 1.5f;              // R- of eq. 3
+constexpr float kMaxAngleTerm = 0.0151922470f;  // 1 - cos(alpha+), alpha+ = 10 degrees (eq. 4)
+constexpr float kBehindTolerance = 0.1f;        // of the validity radius
 constexpr int kMaxDepth = 24;
 constexpr int kNone = -1;
 
-// A record lives in the node whose size matches its validity radius, as in Ward et al. 1988. That radius depends on the
-// pixel size at the lookup (eq. 3), so a lookup prunes with the largest record size below a node instead.
+// A record lives in the node whose size matches its validity radius, as in Ward et al. 1988. That radius
+// depends on the pixel size at the lookup (eq. 3), so a lookup prunes with the largest record size below a
+// node instead.
 struct Node {
   float largest = 0;  // record size, of this node and all below
   int child[8] = {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
@@ -74,9 +75,11 @@ struct IrradianceCache::Impl {
   float size(const IrradianceRecord& r) const {
     return settings.errorFunction == ErrorFunction::Screen ? r.closest * 0.5f : r.harmonicMean;
   }
-  // Distance at which the error reaches 1: the denominator of eq. 3 over kappa. Ward's split sphere has the same limits.
+  // Distance at which the error reaches 1: the denominator of eq. 3 over kappa. Ward's split sphere has the
+  // same limits.
   float reach(float recordSize, float pixelSize) const {
-    const float radius = std::max(std::min(recordSize, settings.maxPixels * pixelSize), kMinPixels * pixelSize);
+    const float radius =
+        std::max(std::min(recordSize, settings.maxPixels * pixelSize), kMinPixels * pixelSize);
     return radius / settings.maxError;
   }
 
@@ -133,7 +136,8 @@ struct IrradianceCache::Impl {
     }
   }
 
-  void collect(int node, const Box& box, const vec3& x, const vec3& n, float pixelSize, std::vector<Candidate>& out) const {
+  void collect(int node, const Box& box, const vec3& x, const vec3& n, float pixelSize,
+               std::vector<Candidate>& out) const {
     const Node& here = nodes[static_cast<size_t>(node)];
     if (!box.touches(x, reach(here.largest, pixelSize))) return;
     collect(here.records, x, n, pixelSize, out);
@@ -158,11 +162,14 @@ struct IrradianceCache::Impl {
   }
 };
 
-IrradianceCache::IrradianceCache(const Bound3& bound, const CacheSettings& settings) : impl_(std::make_unique<Impl>()) {
+IrradianceCache::IrradianceCache(const Bound3& bound, const CacheSettings& settings)
+    : impl_(std::make_unique<Impl>()) {
   impl_->settings = settings;
-  impl_->root = bound.empty() ? Box{vec3(0.0f), 0.0f} : Box{bound.center(), 0.5001f * maxComponent(bound.size())};
+  impl_->root =
+      bound.empty() ? Box{vec3(0.0f), 0.0f} : Box{bound.center(), 0.5001f * maxComponent(bound.size())};
 }
 
+IrradianceCache::IrradianceCache(IrradianceCache&&) noexcept = default;
 IrradianceCache::~IrradianceCache() = default;
 
 void IrradianceCache::insert(const IrradianceRecord& record) {

@@ -28,6 +28,7 @@ struct CacheSettings {
   ErrorFunction errorFunction = ErrorFunction::Screen;
   float maxError = 1;              ///< kappa, eq. 2: records reach 1 / kappa as far. 0: every point is computed anew.
   float maxPixels = 10;            ///< R+ of eq. 3, in roots of the projected pixel area (Attribute "irradiance" "maxpixeldist")
+  bool operator==(const CacheSettings&) const = default;
 };
 
 struct IrradianceEstimate {
@@ -40,6 +41,7 @@ class IrradianceCache {
  public:
   /// `bound` should hold all records; what falls outside still works, only slower.
   IrradianceCache(const Bound3& bound, const CacheSettings& settings);
+  IrradianceCache(IrradianceCache&&) noexcept;
   ~IrradianceCache();
 
   void insert(const IrradianceRecord& record);

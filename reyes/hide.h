@@ -24,6 +24,7 @@ class SamplePattern {
 
  private:
   int count_, padded_;
+  uint32_t seed_;
   AlignedVector<float> x_, y_, time_;
 };
 

@@ -1,7 +1,7 @@
 // The C++ face of shader_api.h, and all that a shader needs to include: typed parameters, a batch that loops
 // over its active points, small vector maths and noise. Header only, C++17, no dependencies: plugins build
 // against the two installed headers alone. docs/shader_writing.md is the tutorial.
-//   a shader is   parameters at namespace scope, one function, one tm::Shader that names them
+//   a shader is   parameters at namespace scope, one function, one rsl::Shader that names them
 //   a plugin is   TM_SHADER_LIBRARY(shader, ...) once
 // Space and colour: as shader_api.h says. Threads: parameters and shaders are constant once the library is
 // loaded.
@@ -16,7 +16,7 @@
 
 #include "reyes/shader_api.h"
 
-namespace tm {
+namespace rsl {
 
 struct Vec3 {
   float x = 0, y = 0, z = 0;
@@ -207,7 +207,7 @@ class Vec3Array : public Array {
   operator TmVec3() const { return {data_.get(), data_.get() + stride_, data_.get() + 2 * stride_}; }
   operator TmConstVec3() const { return view(TmVec3(*this)); }
   Vec3 operator[](int i) const { return get(TmConstVec3(*this), i); }
-  void set(int i, Vec3 v) { tm::set(TmVec3(*this), i, v); }
+  void set(int i, Vec3 v) { rsl::set(TmVec3(*this), i, v); }
 };
 
 /// `for (int i : batch)` visits the active points. Services are one call for the whole batch: ask before the
@@ -298,9 +298,9 @@ class Batch {
   }
 };
 
-}  // namespace tm
+}  // namespace rsl
 
-/// Exports tm::Shader objects from a plugin.
+/// Exports rsl::Shader objects from a plugin.
 #define TM_SHADER_LIBRARY(...)                                                                       \
   extern "C" __attribute__((visibility("default"))) const TmShaderLibrary* tomales_shaders(void) {   \
     static const TmShader* const shaders[] = {__VA_ARGS__};                                          \

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kProbes = 4;        ///< Measuring lattice: kProbes x kProbes chords.
 constexpr int kMaxDepth = 48;     ///< Halvings of one patch; beyond, the piece is smaller than a float can name.
-constexpr int kMaxEyeSplits = 20; ///< Halvings of a piece that crosses the eye plane in view.
+constexpr int kMaxEyeSplits = 32; ///< Halvings of a piece that crosses the eye plane in view.
 constexpr float kRasterMargin_px = 1.0f;  ///< The hider may push borders out by half a pixel.
 
 /// Box in camera space around a rectangle, over the shutter, displacement included.

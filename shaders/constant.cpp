@@ -2,10 +2,10 @@
 
 namespace {
 void shade(const TmGrid* g) {
-  const tm::Batch b(g);
+  const rsl::Batch b(g);
   for (int i : b) b.output(i, b.Cs(i), b.Os(i));
 }
 }  // namespace
 
-extern const tm::Shader constantShader;
-const tm::Shader constantShader(TM_SURFACE, "constant", "Os Cs, no light", TM_KEEPS_OPACITY, shade, {});
+extern const rsl::Shader constantShader;
+const rsl::Shader constantShader(TM_SURFACE, "constant", "Os Cs, no light", TM_KEEPS_OPACITY, shade, {});

@@ -1,17 +1,17 @@
 #include "reyes/shader.h"
 
 namespace {
-tm::FloatParam intensity("intensity", 1, "scale");
-tm::ColorParam lightcolor("lightcolor", {1, 1, 1}, "colour");
-tm::PointParam from("from", {0, 0, 0}, "light travels from here");
-tm::PointParam to("to", {0, 0, 1}, "to here");
+rsl::FloatParam intensity("intensity", 1, "scale");
+rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "colour");
+rsl::PointParam from("from", {0, 0, 0}, "light travels from here");
+rsl::PointParam to("to", {0, 0, 1}, "to here");
 
 void shade(const TmGrid* g) {
-  const tm::Batch b(g);
+  const rsl::Batch b(g);
   for (int i : b) b.illuminate(i, from(g, i) - to(g, i), intensity(g, i) * lightcolor(g, i));
 }
 }  // namespace
 
-extern const tm::Shader distantlightShader;
-const tm::Shader distantlightShader(TM_LIGHT, "distantlight", "parallel light from infinity", TM_LIGHT_SOLAR,
-                                    shade, {&intensity, &lightcolor, &from, &to});
+extern const rsl::Shader distantlightShader;
+const rsl::Shader distantlightShader(TM_LIGHT, "distantlight", "parallel light from infinity", TM_LIGHT_SOLAR,
+                                     shade, {&intensity, &lightcolor, &from, &to});

@@ -1,6 +1,6 @@
 #include "reyes/shader.h"
 
-extern const tm::Shader constantShader, matteShader, metalShader, plasticShader, paintedplasticShader,
+extern const rsl::Shader constantShader, matteShader, metalShader, plasticShader, paintedplasticShader,
     defaultsurfaceShader, ambientlightShader, distantlightShader, pointlightShader, spotlightShader,
     arealightShader, indirectlightShader, bumpyShader, noisybumpShader;
 

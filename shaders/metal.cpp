@@ -1,18 +1,18 @@
 #include "reyes/shader.h"
 
 namespace {
-tm::FloatParam Ka("Ka", 1, "weight of ambient light");
-tm::FloatParam Ks("Ks", 1, "weight of highlights");
-tm::FloatParam roughness("roughness", 0.1f, "width of highlights");
+rsl::FloatParam Ka("Ka", 1, "weight of ambient light");
+rsl::FloatParam Ks("Ks", 1, "weight of highlights");
+rsl::FloatParam roughness("roughness", 0.1f, "width of highlights");
 
 void shade(const TmGrid* g) {
-  const tm::Batch b(g);
-  const tm::Vec3Array ambient = b.ambient();
-  const tm::Vec3Array specular = b.specular(b.facingNormals(), b.towardsViewer(), roughness);
+  const rsl::Batch b(g);
+  const rsl::Vec3Array ambient = b.ambient();
+  const rsl::Vec3Array specular = b.specular(b.facingNormals(), b.towardsViewer(), roughness);
   for (int i : b) b.output(i, b.Cs(i) * (Ka(g, i) * ambient[i] + Ks(g, i) * specular[i]), b.Os(i));
 }
 }  // namespace
 
-extern const tm::Shader metalShader;
-const tm::Shader metalShader(TM_SURFACE, "metal", "Os Cs (Ka ambient() + Ks specular(Nf, V, roughness))",
-                             TM_KEEPS_OPACITY, shade, {&Ka, &Ks, &roughness});
+extern const rsl::Shader metalShader;
+const rsl::Shader metalShader(TM_SURFACE, "metal", "Os Cs (Ka ambient() + Ks specular(Nf, V, roughness))",
+                              TM_KEEPS_OPACITY, shade, {&Ka, &Ks, &roughness});

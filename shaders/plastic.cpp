@@ -4,21 +4,21 @@
 
 namespace {
 struct Params {
-  tm::FloatParam Ka{"Ka", 1, "weight of ambient light"};
-  tm::FloatParam Kd{"Kd", 0.5f, "weight of diffuse light"};
-  tm::FloatParam Ks{"Ks", 0.5f, "weight of highlights"};
-  tm::FloatParam roughness{"roughness", 0.1f, "width of highlights"};
-  tm::ColorParam specularcolor{"specularcolor", {1, 1, 1}, "colour of highlights"};
+  rsl::FloatParam Ka{"Ka", 1, "weight of ambient light"};
+  rsl::FloatParam Kd{"Kd", 0.5f, "weight of diffuse light"};
+  rsl::FloatParam Ks{"Ks", 0.5f, "weight of highlights"};
+  rsl::FloatParam roughness{"roughness", 0.1f, "width of highlights"};
+  rsl::ColorParam specularcolor{"specularcolor", {1, 1, 1}, "colour of highlights"};
 };
 Params plain, painted;
-tm::StringParam texturename("texturename", "", "picture that multiplies Cs; none: plastic");
+rsl::StringParam texturename("texturename", "", "picture that multiplies Cs; none: plastic");
 
-void shadeWith(const tm::Batch& b, const Params& p, const tm::Vec3Array* paint) {
+void shadeWith(const rsl::Batch& b, const Params& p, const rsl::Vec3Array* paint) {
   const TmGrid* g = b.g;
-  const tm::Vec3Array Nf = b.facingNormals(), ambient = b.ambient(), diffuse = b.diffuse(Nf);
-  const tm::Vec3Array specular = b.specular(Nf, b.towardsViewer(), p.roughness);
+  const rsl::Vec3Array Nf = b.facingNormals(), ambient = b.ambient(), diffuse = b.diffuse(Nf);
+  const rsl::Vec3Array specular = b.specular(Nf, b.towardsViewer(), p.roughness);
   for (int i : b) {
-    const tm::Color base = paint ? b.Cs(i) * (*paint)[i] : b.Cs(i);
+    const rsl::Color base = paint ? b.Cs(i) * (*paint)[i] : b.Cs(i);
     b.output(i,
              base * (p.Ka(g, i) * ambient[i] + p.Kd(g, i) * diffuse[i]) +
                  p.Ks(g, i) * p.specularcolor(g, i) * specular[i],
@@ -26,23 +26,22 @@ void shadeWith(const tm::Batch& b, const Params& p, const tm::Vec3Array* paint) 
   }
 }
 
-void shadePlastic(const TmGrid* g) { shadeWith(tm::Batch(g), plain, nullptr); }
+void shadePlastic(const TmGrid* g) { shadeWith(rsl::Batch(g), plain, nullptr); }
 
 void shadePainted(const TmGrid* g) {
-  const tm::Batch b(g);
-  tm::Vec3Array paint(g);
+  const rsl::Batch b(g);
+  rsl::Vec3Array paint(g);
   const bool named = *texturename(g) != '\0';
   if (named) b.texture(texturename(g), paint);
   shadeWith(b, painted, named ? &paint : nullptr);
 }
 }  // namespace
 
-extern const tm::Shader plasticShader, paintedplasticShader;
-const tm::Shader plasticShader(
+extern const rsl::Shader plasticShader, paintedplasticShader;
+const rsl::Shader plasticShader(
     TM_SURFACE, "plastic",
     "Os (Cs (Ka ambient() + Kd diffuse(Nf)) + specularcolor Ks specular(Nf, V, roughness))", TM_KEEPS_OPACITY,
     shadePlastic, {&plain.Ka, &plain.Kd, &plain.Ks, &plain.roughness, &plain.specularcolor});
-const tm::Shader paintedplasticShader(TM_SURFACE, "paintedplastic", "plastic with Cs multiplied by a texture",
-                                      TM_KEEPS_OPACITY, shadePainted,
-                                      {&painted.Ka, &painted.Kd, &painted.Ks, &painted.roughness,
-                                       &painted.specularcolor, &texturename});
+const rsl::Shader paintedplasticShader(
+    TM_SURFACE, "paintedplastic", "plastic with Cs multiplied by a texture", TM_KEEPS_OPACITY, shadePainted,
+    {&painted.Ka, &painted.Kd, &painted.Ks, &painted.roughness, &painted.specularcolor, &texturename});

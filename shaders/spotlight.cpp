@@ -1,33 +1,34 @@
 #include "reyes/shader.h"
 
 namespace {
-tm::FloatParam intensity("intensity", 1, "scale: the light at distance 1 on the axis");
-tm::ColorParam lightcolor("lightcolor", {1, 1, 1}, "colour");
-tm::PointParam from("from", {0, 0, 0}, "position");
-tm::PointParam to("to", {0, 0, 1}, "a point on the axis");
-tm::FloatParam coneangle("coneangle", 0.523598776f, "half angle of the cone, radians");
-tm::FloatParam conedeltaangle("conedeltaangle", 0.0872664626f,
-                              "width of the soft edge inside the cone, radians");
-tm::FloatParam beamdistribution("beamdistribution", 2, "exponent of the falloff from the axis");
+rsl::FloatParam intensity("intensity", 1, "scale: the light at distance 1 on the axis");
+rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "colour");
+rsl::PointParam from("from", {0, 0, 0}, "position");
+rsl::PointParam to("to", {0, 0, 1}, "a point on the axis");
+rsl::FloatParam coneangle("coneangle", 0.523598776f, "half angle of the cone, radians");
+rsl::FloatParam conedeltaangle("conedeltaangle", 0.0872664626f,
+                               "width of the soft edge inside the cone, radians");
+rsl::FloatParam beamdistribution("beamdistribution", 2, "exponent of the falloff from the axis");
 
 // RISpec 3.2 appendix A: illuminate(from, axis, coneangle) with a soft edge.
 void shade(const TmGrid* g) {
-  const tm::Batch b(g);
+  const rsl::Batch b(g);
   for (int i : b) {
-    const tm::Vec3 L = from(g, i) - b.P(i), axis = tm::normalize(to(g, i) - from(g, i));
-    const float cosine = -tm::dot(tm::normalize(L), axis), outer = std::cos(coneangle(g, i));
+    const rsl::Vec3 L = from(g, i) - b.P(i), axis = rsl::normalize(to(g, i) - from(g, i));
+    const float cosine = -rsl::dot(rsl::normalize(L), axis), outer = std::cos(coneangle(g, i));
     if (cosine <= outer || cosine <= 0) {
       b.illuminate(i, L, {});
       continue;
     }
-    const float edge = tm::smoothstep(outer, std::cos(coneangle(g, i) - conedeltaangle(g, i)), cosine);
-    const float beam = std::pow(cosine, beamdistribution(g, i)) / std::max(tm::dot(L, L), 1e-20f);
+    const float edge = rsl::smoothstep(outer, std::cos(coneangle(g, i) - conedeltaangle(g, i)), cosine);
+    const float beam = std::pow(cosine, beamdistribution(g, i)) / std::max(rsl::dot(L, L), 1e-20f);
     b.illuminate(i, L, intensity(g, i) * edge * beam * lightcolor(g, i));
   }
 }
 }  // namespace
 
-extern const tm::Shader spotlightShader;
-const tm::Shader spotlightShader(TM_LIGHT, "spotlight", "light from a point into a soft-edged cone", 0, shade,
-                                 {&intensity, &lightcolor, &from, &to, &coneangle, &conedeltaangle,
-                                  &beamdistribution});
+extern const rsl::Shader spotlightShader;
+const rsl::Shader spotlightShader(TM_LIGHT, "spotlight", "light from a point into a soft-edged cone", 0,
+                                  shade,
+                                  {&intensity, &lightcolor, &from, &to, &coneangle, &conedeltaangle,
+                                   &beamdistribution});

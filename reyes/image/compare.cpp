@@ -70,10 +70,13 @@ vec3 colorAt(const float* pixel, const std::vector<int>& channels) {
 
 // Wang et al. 2004, an 11 x 11 Gaussian of sigma 1.5, on the luminance that an sRGB display of range [0,1]
 // would be given.
-double ssim(const Image& test, const Image& reference, const std::vector<int>& channels) {
+double ssim(const Image& test, const Image& reference) {
   constexpr float sigma = 1.5f, c1 = 0.01f * 0.01f, c2 = 0.03f * 0.03f;
-  const auto shown = [&](const float* p) { return encodeSrgb(luminance(colorAt(p, channels))); };
-  const Plane a = planeOf(test, shown), b = planeOf(reference, shown);
+  const auto shown = [](const Image& image) {
+    const std::vector<int> channels = colorChannels(image);
+    return planeOf(image, [&](const float* p) { return encodeSrgb(luminance(colorAt(p, channels))); });
+  };
+  const Plane a = shown(test), b = shown(reference);
   const Plane ma = blur(a, sigma, 5), mb = blur(b, sigma, 5);
   const Plane aa = blur(product(a, a), sigma, 5), bb = blur(product(b, b), sigma, 5),
               ab = blur(product(a, b), sigma, 5);
@@ -99,7 +102,8 @@ float hyab(const vec3& a, const vec3& b) {
   return std::abs(a.x - b.x) + std::sqrt((a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z));
 }
 
-std::array<Plane, 3> seenPlanes(const Image& image, const std::vector<int>& channels) {
+std::array<Plane, 3> seenPlanes(const Image& image) {
+  const std::vector<int> channels = colorChannels(image);
   const auto plane = [&](int axis) {
     return blur(
         planeOf(image, [&](const float* p) { return std::clamp(colorAt(p, channels)[axis], 0.0f, 1.0f); }),
@@ -112,8 +116,8 @@ std::array<Plane, 3> seenPlanes(const Image& image, const std::vector<int>& chan
 // Gaussian of one pixel where FLIP has contrast sensitivity, HyAB distance in L*a*b*, compressed by the power
 // 0.7 and scaled so that green against blue is 1. It has none of FLIP's edge and point detection, so its
 // numbers are not to be held against FLIP's.
-double flipLike(const Image& test, const Image& reference, const std::vector<int>& channels) {
-  const std::array<Plane, 3> a = seenPlanes(test, channels), b = seenPlanes(reference, channels);
+double flipLike(const Image& test, const Image& reference) {
+  const std::array<Plane, 3> a = seenPlanes(test), b = seenPlanes(reference);
   const float scale = std::pow(hyab(lab({0, 1, 0}), lab({0, 0, 1})), 0.7f);
   double sum = 0;
   for (size_t i = 0; i < a[0].v.size(); ++i) {
@@ -126,14 +130,15 @@ double flipLike(const Image& test, const Image& reference, const std::vector<int
 }  // namespace
 
 Comparison compare(const Image& test, const Image& reference) {
-  const std::vector<int> channels = colorChannels(reference);
+  const std::vector<int> inTest = colorChannels(test), inReference = colorChannels(reference);
+  const size_t channels = std::min(inTest.size(), inReference.size());
   Comparison out;
   double squares = 0, relativeSquares = 0, relative = 0;
   for (int y = 0; y < reference.height; ++y)
     for (int x = 0; x < reference.width; ++x) {
       bool different = false;
-      for (const int c : channels) {
-        const double t = test.at(x, y)[c], r = reference.at(x, y)[c], d = t - r;
+      for (size_t c = 0; c < channels; ++c) {
+        const double t = test.at(x, y)[inTest[c]], r = reference.at(x, y)[inReference[c]], d = t - r;
         squares += d * d;
         relativeSquares += d * d / (r * r + kRelativeFloor);
         relative += std::abs(d) / (r + kRelativeFloor);
@@ -142,26 +147,25 @@ Comparison compare(const Image& test, const Image& reference) {
       }
       out.differentPixels += different;
     }
-  const double n =
-      static_cast<double>(reference.width) * reference.height * static_cast<double>(channels.size());
+  const double n = static_cast<double>(reference.width) * reference.height * static_cast<double>(channels);
   if (n == 0) return out;
   out.rmse = std::sqrt(squares / n);
   out.relativeMse = relativeSquares / n;
   out.meanAbsoluteRelativeError = relative / n;
   out.psnr_dB = -20 * std::log10(out.rmse);
-  out.ssim = ssim(test, reference, channels);
-  out.flip = flipLike(test, reference, channels);
+  out.ssim = ssim(test, reference);
+  out.flip = flipLike(test, reference);
   return out;
 }
 
 Image differenceImage(const Image& test, const Image& reference) {
-  const std::vector<int> channels = colorChannels(reference);
+  const std::vector<int> inTest = colorChannels(test), inReference = colorChannels(reference);
   Image out{reference.width,   reference.height,  {"R", "G", "B"},        {},
             reference.originX, reference.originY, reference.displayWidth, reference.displayHeight};
   out.pixels.reserve(static_cast<size_t>(out.width) * static_cast<size_t>(out.height) * 3);
   for (int y = 0; y < out.height; ++y)
     for (int x = 0; x < out.width; ++x) {
-      const vec3 d = glm::abs(colorAt(test.at(x, y), channels) - colorAt(reference.at(x, y), channels));
+      const vec3 d = glm::abs(colorAt(test.at(x, y), inTest) - colorAt(reference.at(x, y), inReference));
       out.pixels.insert(out.pixels.end(), {d.x, d.y, d.z});
     }
   return out;

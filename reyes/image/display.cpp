@@ -44,7 +44,7 @@ void quantise(Image& image, const Quantize& q, float limit) {
 }
 
 // PNG wants colour that is not multiplied by alpha, and encodes that.
-void encodeSrgb(Image& image) {
+void encodeForScreen(Image& image) {
   const int alpha = image.channelIndex("A");
   for (size_t i = 0; i < image.pixels.size(); i += image.channels.size()) {
     const float a = alpha < 0 ? 1.0f : image.pixels[i + static_cast<size_t>(alpha)];
@@ -118,7 +118,7 @@ bool prepareIntegers(Image& image, FileFormat& format, const DisplayCall& displa
     q = Quantize{};
   }
   if (truth(display, "srgb") && !depth) {
-    encodeSrgb(image);
+    encodeForScreen(image);
     format.unassociatedAlpha = true;
   }
   const bool wide = q.one > 255 || q.max > 255;
@@ -176,7 +176,7 @@ bool writeImage(const std::string& path, const Image& image, bool srgb, Log& log
   }
   Image copy = image;
   if (format.type == SampleType::UInt8) {
-    if (srgb) encodeSrgb(copy);
+    if (srgb) encodeForScreen(copy);
     format.unassociatedAlpha = srgb;
     quantise(copy, Quantize{255, 0, 255, 0}, 255);
   }

@@ -29,13 +29,20 @@ std::optional<double> parseNumber(const std::string& word) {
 
 std::string describe(const Token& token) {
   switch (token.kind) {
-    case Token::Kind::End: return "the end of the file";
-    case Token::Kind::Number: return fmt::format("the number {}", token.number);
-    case Token::Kind::String: return fmt::format("the string \"{}\"", token.text.substr(0, 40));
-    case Token::Kind::Name: return fmt::format("the word {}", token.text.substr(0, 40));
-    case Token::Kind::Open: return "'['";
-    case Token::Kind::Close: return "']'";
-    case Token::Kind::Junk: return token.text;
+    case Token::Kind::End:
+      return "the end of the file";
+    case Token::Kind::Number:
+      return fmt::format("the number {}", token.number);
+    case Token::Kind::String:
+      return fmt::format("the string \"{}\"", token.text.substr(0, 40));
+    case Token::Kind::Name:
+      return fmt::format("the word {}", token.text.substr(0, 40));
+    case Token::Kind::Open:
+      return "'['";
+    case Token::Kind::Close:
+      return "']'";
+    case Token::Kind::Junk:
+      return token.text;
   }
   return "";
 }
@@ -98,7 +105,8 @@ void Lexer::readEscape() {
     ++line_;
   } else if (c >= '0' && c <= '7') {
     int code = c - '0';
-    for (int i = 0; i < 2 && stream_.peek() >= '0' && stream_.peek() <= '7'; ++i) code = code * 8 + (stream_.get() - '0');
+    for (int i = 0; i < 2 && stream_.peek() >= '0' && stream_.peek() <= '7'; ++i)
+      code = code * 8 + (stream_.get() - '0');
     token_.text += static_cast<char>(code);
   } else {
     const size_t at = kLetters.find(static_cast<char>(c));

@@ -1,4 +1,5 @@
-// Bytes -> tokens of ASCII RIB (RISpec 3.2 appendix C). Never fails: bytes that belong to no token come out as Junk.
+// Bytes -> tokens of ASCII RIB (RISpec 3.2 appendix C). Never fails: bytes that belong to no token come out
+// as Junk.
 #pragma once
 #include <string>
 

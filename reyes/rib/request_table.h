@@ -1,5 +1,5 @@
-// The signatures of every request of RISpec 3.2 and of PRMan's extensions. The parser needs them for all requests, also
-// for those that are not rendered: only a signature tells where a request ends.
+// The signatures of every request of RISpec 3.2 and of PRMan's extensions. The parser needs them for all
+// requests, also for those that are not rendered: only a signature tells where a request ends.
 #pragma once
 #include <string_view>
 

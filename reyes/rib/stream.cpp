@@ -22,7 +22,8 @@ struct ByteStream::Inflater {
   }
 };
 
-ByteStream::ByteStream(Source source) : source_(std::move(source)), raw_(std::make_unique<char[]>(kBufferSize)) {}
+ByteStream::ByteStream(Source source)
+    : source_(std::move(source)), raw_(std::make_unique<char[]>(kBufferSize)) {}
 ByteStream::~ByteStream() = default;
 
 std::unique_ptr<ByteStream> ByteStream::open(const std::string& path) {
@@ -33,17 +34,18 @@ std::unique_ptr<ByteStream> ByteStream::open(const std::string& path) {
   const std::shared_ptr<std::FILE> owner(file, [](std::FILE* f) {
     if (f != stdin) std::fclose(f);
   });
-  return std::unique_ptr<ByteStream>(
-      new ByteStream([owner](char* buffer, size_t size) { return std::fread(buffer, 1, size, owner.get()); }));
+  return std::unique_ptr<ByteStream>(new ByteStream(
+      [owner](char* buffer, size_t size) { return std::fread(buffer, 1, size, owner.get()); }));
 }
 
 std::unique_ptr<ByteStream> ByteStream::fromMemory(const std::string& text) {
-  return std::unique_ptr<ByteStream>(new ByteStream([&text, at = size_t{0}](char* buffer, size_t size) mutable {
-    const size_t n = std::min(size, text.size() - at);
-    std::memcpy(buffer, text.data() + at, n);
-    at += n;
-    return n;
-  }));
+  return std::unique_ptr<ByteStream>(
+      new ByteStream([&text, at = size_t{0}](char* buffer, size_t size) mutable {
+        const size_t n = std::min(size, text.size() - at);
+        std::memcpy(buffer, text.data() + at, n);
+        at += n;
+        return n;
+      }));
 }
 
 bool ByteStream::fill() {

@@ -1,5 +1,5 @@
-// Bytes of one RIB stream: a file, standard input or memory. Gzip is detected by its magic bytes (1f 8b) and unpacked on
-// the way. Threads: one reader.
+// Bytes of one RIB stream: a file, standard input or memory. Gzip is detected by its magic bytes (1f 8b) and
+// unpacked on the way. Threads: one reader.
 #pragma once
 #include <cstdio>
 #include <functional>

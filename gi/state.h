@@ -1,0 +1,55 @@
+// Private to gi: what GiServices holds, and the parts that it is made of.
+#pragma once
+#include "gi/services.h"
+
+namespace tomales {
+
+/// Everything that decides the value of an irradiance record, and how far it may be used.
+struct GatherPlan {
+  CacheSettings cache;
+  GatherSettings gather;
+  bool operator==(const GatherPlan&) const = default;
+};
+
+struct PreparedCache {
+  GatherPlan plan;
+  IrradianceCache cache;
+};
+
+struct GiState {
+  const Scene& scene;
+  const Camera& camera;
+  const RayScene& rays;
+  const ShadingSystem& shading;
+  const GiSettings settings;
+  Stats& stats;
+  std::vector<PreparedCache> caches;  ///< Written by fillCaches, frozen while shading.
+};
+
+/// The settings of an indirect light as this group sees them: the command line wins over the group's
+/// attributes, and those over the light.
+GatherPlan planFor(const GiState&, int group, const IndirectQuery&);
+
+/// Root of the area that a pixel projects onto the plane through P with unit normal n (approximate-gi
+/// section 4.5).
+float projectedPixelSize(const Camera&, const vec3& P, const vec3& n);
+
+/// Phase of the gather pass in which the nearest point of a pixel is considered: 0 is a lattice of stride 16,
+/// and each phase after it halves the area for each point, down to every pixel (quincunx first, then the rest
+/// of the finer lattice).
+constexpr int kLatticePhases = 9;
+int latticePhase(int x, int y);
+
+void fillCaches(GiState&, const DeepFrame&, const std::function<void(float)>& progress,
+                const std::atomic<bool>* cancelled);
+
+/// E and dominant directions into element i of a result.
+void store(const IndirectResult& out, int i, const vec3& E, const vec3 dominant[3]);
+
+// indirectDiffuse() in the two modes. Pre: the light may still bounce at these points.
+void interpolateIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N,
+                         const IndirectQuery&, const IndirectResult& out);
+void traceIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N,
+                   const IndirectQuery&, const ShadeContext&, int bounces, const IndirectResult& out);
+
+}  // namespace tomales

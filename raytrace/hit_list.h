@@ -1,0 +1,42 @@
+// Noun and pure functions: the intersections that one ray recorded around its origin, and what "An Approximate Global
+// Illumination System", section 4.3, makes of them. Knows nothing of Embree.
+// Threads: pure.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+namespace tomales {
+
+/// One intersection with a coarse polygon.
+struct PolygonHit {
+  float t = 0;         ///< From the ray's own origin; negative before it.
+  uint32_t group = 0;  ///< Shade group
+  uint32_t quad = 0;   ///< In its CoarseGroup
+  float u = 0, v = 0;  ///< In the quad
+  bool leaving = false;  ///< The ray goes to the side of the RISpec normal.
+};
+
+/// Any length: a fixed capacity would have to drop hits, and which ones matter is known only at the end.
+using HitList = std::vector<PolygonHit>;
+
+/// Hits closer together than this share of the offset may be one surface (see sameSurface); hits must be recorded up to
+/// recordingWindow() so that both halves of a pair at the offset are in the list.
+constexpr float kMergeShare = 0.05f;
+inline float mergeDistance(float offset) { return kMergeShare * offset; }
+inline float recordingWindow(float offset) { return (1 + kMergeShare) * offset; }
+
+/// By t; the rest of the order makes results independent of the traversal.
+void sortAlongRay(HitList& list);
+
+/// A ray that meets an edge of two polygons, or the diagonal of one, reports one surface twice. Surfaces of a closed shape
+/// alternate between entering and leaving, so two close hits in the same sense are one surface. The objects may
+/// differ: at the crease of two walls a ray leaves both, and neither shadows it.
+bool sameSurface(const PolygonHit& a, const PolygonHit& b, float distance);
+
+/// The hit that becomes the effective origin: the one closest to t = 0 within `offset`. -1: the origin stays.
+int effectiveOrigin(const HitList& sorted, float offset);
+
+/// The first hit after `origin` (-1: after t = 0) that is another surface, or -1.
+int nextHit(const HitList& sorted, int origin, float offset);
+
+}  // namespace tomales

@@ -1,0 +1,230 @@
+#include "raytrace/tessellate.h"
+
+#include "reyes/base/parallel.h"
+#include "reyes/dice.h"
+
+namespace tomales {
+namespace {
+
+constexpr float kPolygon_px = 8;
+constexpr float kTurn = 15 * kPi / 180;         ///< Radians between the normals at the ends of a polygon.
+constexpr float kEmitterTurn = 5 * kPi / 180;   ///< Brings the area of a sphere light within 0.2 %.
+constexpr int kProbes = 5;                      ///< Odd, so that a symmetrical wave is not met at its zeros.
+constexpr int kTile = 64;                       ///< Quads of one lattice along u or v: bounds what is diced at once.
+constexpr double kMostQuadsOfPatch = 1 << 22;
+
+struct Counts { int nu, nv; };
+
+bool displacesForRays(const Object& o) { return o.attributes->trace.displacements && o.attributes->displacement; }
+
+bool raysNeed(const Attributes& a) {
+  const Visibility& v = a.visibility;
+  return v.diffuse || v.specular || v.transmission || v.photon || a.areaLight >= 0;
+}
+
+float angleBetween(const vec3& a, const vec3& b) {
+  return std::acos(std::clamp(dot(normalizeOr(a, vec3(0)), normalizeOr(b, vec3(0))), -1.0f, 1.0f));
+}
+
+/// Longest lattice line of a patch, in pixels, and the most that the normal turns along one.
+struct LineFigures { float length_px = 0, turn = 0; };
+
+LineFigures linesOf(const Grid& g, const Camera& camera, int alongStride, int acrossStride) {
+  LineFigures out;
+  for (int line = 0; line <= kProbes; ++line) {
+    LineFigures sum;
+    for (int k = 0; k < kProbes; ++k) {
+      const int a = line * acrossStride + k * alongStride, b = a + alongStride;
+      const vec3 p = g.position(0, a), q = g.position(0, b);
+      // The pixel size by distance is defined all around the eye, unlike raster coordinates.
+      sum.length_px += glm::length(q - p) / std::max(camera.pixelSize(0.5f * (p + q)), 1e-20f);
+      sum.turn += angleBetween(g.normal(a), g.normal(b));
+    }
+    out.length_px = std::max(out.length_px, sum.length_px);
+    out.turn = std::max(out.turn, sum.turn);
+  }
+  return out;
+}
+
+bool mayBeSeen(const Object& o, uint32_t patch, const Camera& camera) {
+  const Bound3 bound = transformBound(o.cameraFromObject.at(o.keyTimes.front()), o.shape().bound(patch, UvRect{}));
+  return o.attributes->visibility.camera &&
+         !camera.outside(bound.grown(o.displacementBound), {0, 0, camera.xResolution(), camera.yResolution()});
+}
+
+class Tessellator {
+ public:
+  Tessellator(const Scene& scene, const Camera& camera, const ShadingSystem& shading, Log& log)
+      : scene_(scene), camera_(camera), shading_(shading), log_(log) {}
+
+  void addPatch(int object, uint32_t patch, CoarseGroup& out) const {
+    const auto [nu, nv] = countsFor(object, patch);
+    const auto at = [](int i, int n) { return static_cast<float>(i) / static_cast<float>(n); };
+    for (int j = 0; j < nv; j += kTile)
+      for (int i = 0; i < nu; i += kTile) {
+        const int i1 = std::min(i + kTile, nu), j1 = std::min(j + kTile, nv);
+        addTile(object, patch, {at(i, nu), at(i1, nu), at(j, nv), at(j1, nv)}, i1 - i, j1 - j, out);
+      }
+  }
+
+ private:
+  const Object& objectOf(int object) const { return scene_.objects[static_cast<size_t>(object)]; }
+
+  Counts countsFor(int object, uint32_t patch) const {
+    const Object& o = objectOf(object);
+    const bool displaced = displacesForRays(o);
+    if (o.shape().info(patch).planar && !displaced) return {1, 1};
+    const Grid probe = dice(scene_, object, patch, UvRect{}, kProbes, kProbes, 1);
+    const LineFigures u = linesOf(probe, camera_, 1, kProbes + 1), v = linesOf(probe, camera_, kProbes + 1, 1);
+    const Attributes& a = *o.attributes;
+    const float fineness = std::max(a.trace.tessellation, 1e-3f);
+    const float turn = (a.areaLight >= 0 ? kEmitterTurn : kTurn) / fineness;
+    // Displacement has no normals to judge by beforehand, so it keeps the pixel rate out of view too.
+    const bool byPixels = displaced || mayBeSeen(o, patch, camera_);
+    const float edge_px = kPolygon_px * std::sqrt(std::max(a.shadingRate, 1e-4f)) / fineness;
+    const auto count = [&](const LineFigures& f) {
+      return std::max({1.0, std::ceil(double{f.turn} / turn), byPixels ? std::ceil(double{f.length_px} / edge_px) : 0.0});
+    };
+    return limited(object, count(u), count(v));
+  }
+
+  Counts limited(int object, double nu, double nv) const {
+    if (!(nu * nv <= kMostQuadsOfPatch)) {
+      const double most = std::sqrt(kMostQuadsOfPatch), shrink = std::sqrt(kMostQuadsOfPatch / (nu * nv));
+      log_.report(Severity::Warning, "trace-tessellation", objectOf(object).where,
+                  fmt::format("{} asks for {:.0f} x {:.0f} polygons for ray tracing in one patch: limited to {:.0f}; "
+                              "lower Attribute \"trace\" \"tessellation\"",
+                              objectName(objectOf(object)), nu, nv, kMostQuadsOfPatch));
+      if (!(shrink > 0)) return {1, 1};
+      nu = std::clamp(nu * shrink, 1.0, most * most / std::max(1.0, nv * shrink));
+      nv = std::clamp(nv * shrink, 1.0, most * most / nu);
+    }
+    return {static_cast<int>(nu), static_cast<int>(nv)};
+  }
+
+  /// Dices at twice the rate: every second vertex is a corner, the others say how far the polygons are off.
+  void addTile(int object, uint32_t patch, const UvRect& rect, int nu, int nv, CoarseGroup& out) const {
+    Grid g = dice(scene_, object, patch, rect, 2 * nu, 2 * nv, 1);
+    if (displacesForRays(objectOf(object))) shading_.displace(g);
+    for (int i = 0; i < g.vertexCount(); ++i)
+      if (!isFinite(g.position(0, i))) {
+        log_.report(Severity::Warning, "trace-not-finite", objectOf(object).where,
+                    fmt::format("{} has points that are not finite: rays pass through that part",
+                                objectName(objectOf(object))));
+        return;
+      }
+    const auto first = static_cast<uint32_t>(out.P.size());
+    for (int j = 0; j <= nv; ++j)
+      for (int i = 0; i <= nu; ++i) {
+        const int k = 2 * j * (2 * nu + 1) + 2 * i;
+        out.P.push_back(g.position(0, k));
+        out.N.push_back(normalizeOr(g.normal(k), vec3(0)));
+      }
+    out.lattices.push_back({object, patch, rect, static_cast<uint32_t>(nu), static_cast<uint32_t>(nv),
+                            static_cast<uint32_t>(out.quads.size())});
+    const auto row = static_cast<uint32_t>(nu + 1);
+    for (int j = 0; j < nv; ++j)
+      for (int i = 0; i < nu; ++i) {
+        const uint32_t a = first + static_cast<uint32_t>(j) * row + static_cast<uint32_t>(i);
+        out.quads.push_back({a, a + 1, a + row + 1, a + row});
+        out.latticeOfQuad.push_back(static_cast<uint32_t>(out.lattices.size() - 1));
+        out.deviation = std::max(out.deviation, deviationOf(g, 2 * i, 2 * j));
+      }
+  }
+
+  /// Distance of the centre and the middles of the edges from the polygon with corner (i, j), across its plane: along the
+  /// plane a point may slide without leaving the surface.
+  static float deviationOf(const Grid& g, int i, int j) {
+    const int row = g.nu + 1, k = j * row + i;
+    const auto P = [&](int di, int dj) { return g.position(0, k + dj * row + di); };
+    const vec3 a = P(0, 0), b = P(2, 0), c = P(2, 2), d = P(0, 2);
+    const vec3 n = normalizeOr(cross(c - a, d - b), vec3(0));
+    const auto off = [&](const vec3& p, const vec3& q, const vec3& middle) {
+      return std::abs(dot(middle - 0.5f * (p + q), n));
+    };
+    return std::max({off(b, d, P(1, 1)), off(a, b, P(1, 0)), off(b, c, P(2, 1)), off(c, d, P(1, 2)), off(d, a, P(0, 1))});
+  }
+
+  const Scene& scene_;
+  const Camera& camera_;
+  const ShadingSystem& shading_;
+  Log& log_;
+};
+
+void append(CoarseGroup& to, const CoarseGroup& from) {
+  const auto vertex = static_cast<uint32_t>(to.P.size()), quad = static_cast<uint32_t>(to.quads.size());
+  const auto lattice = static_cast<uint32_t>(to.lattices.size());
+  to.P.insert(to.P.end(), from.P.begin(), from.P.end());
+  to.N.insert(to.N.end(), from.N.begin(), from.N.end());
+  for (const Quad& q : from.quads) to.quads.push_back({q[0] + vertex, q[1] + vertex, q[2] + vertex, q[3] + vertex});
+  for (const uint32_t l : from.latticeOfQuad) to.latticeOfQuad.push_back(l + lattice);
+  for (Lattice l : from.lattices) {
+    l.firstQuad += quad;
+    to.lattices.push_back(l);
+  }
+  to.deviation = std::max(to.deviation, from.deviation);
+}
+
+/// A run of patches of one object: what one thread tessellates at a time.
+struct Work { int object; uint32_t first, last; };
+
+std::vector<Work> workOf(const Scene& scene) {
+  constexpr uint32_t kPatchesAtOnce = 256;
+  std::vector<Work> work;
+  for (size_t i = 0; i < scene.objects.size(); ++i) {
+    if (!raysNeed(*scene.objects[i].attributes)) continue;
+    const uint32_t patches = scene.objects[i].shape().patchCount();
+    for (uint32_t p = 0; p < patches; p += kPatchesAtOnce)
+      work.push_back({static_cast<int>(i), p, std::min(p + kPatchesAtOnce, patches)});
+  }
+  return work;
+}
+
+float diagonalOf(const Object& o) {
+  Bound3 bound;
+  for (uint32_t p = 0; p < o.shape().patchCount(); ++p) bound.extend(o.shape().bound(p, UvRect{}));
+  const Bound3 camera = transformBound(o.cameraFromObject.at(o.keyTimes.front()), bound);
+  return camera.empty() ? 0.0f : glm::length(camera.size());
+}
+
+}  // namespace
+
+vec3 CoarseGroup::geometricNormal(uint32_t quad) const {
+  const vec3 n = cross(corner(quad, 2) - corner(quad, 0), corner(quad, 3) - corner(quad, 1));
+  return normalizeOr(flipsNormal ? -n : n, vec3(0, 0, -1));
+}
+
+vec2 CoarseGroup::patchParameters(uint32_t quad, float u, float v) const {
+  const Lattice& l = latticeOf(quad);
+  const uint32_t cell = quad - l.firstQuad;
+  const float fu = (static_cast<float>(cell % l.nu) + u) / static_cast<float>(l.nu);
+  const float fv = (static_cast<float>(cell / l.nu) + v) / static_cast<float>(l.nv);
+  return {lerp(l.rect.u0, l.rect.u1, fu), lerp(l.rect.v0, l.rect.v1, fv)};
+}
+
+size_t CoarseGroup::bytes() const {
+  return (P.capacity() + N.capacity()) * sizeof(vec3) + quads.capacity() * sizeof(Quad) +
+         latticeOfQuad.capacity() * sizeof(uint32_t) + lattices.capacity() * sizeof(Lattice);
+}
+
+std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, const ShadingSystem& shading, Log& log) {
+  const std::vector<Work> work = workOf(scene);
+  std::vector<CoarseGroup> pieces(work.size());
+  const Tessellator tessellator(scene, camera, shading, log);
+  parallelFor(work.size(), 1, [&](size_t begin, size_t end) {
+    for (size_t w = begin; w < end; ++w)
+      for (uint32_t p = work[w].first; p < work[w].last; ++p) tessellator.addPatch(work[w].object, p, pieces[w]);
+  });
+  std::vector<CoarseGroup> groups(scene.groups.size());
+  for (size_t w = 0; w < work.size(); ++w) {
+    const Object& o = scene.objects[static_cast<size_t>(work[w].object)];
+    CoarseGroup& group = groups[static_cast<size_t>(o.group)];
+    group.flipsNormal = o.flipsNormal;
+    if (work[w].first == 0) group.size = std::max(group.size, diagonalOf(o));
+    append(group, pieces[w]);
+    pieces[w] = {};
+  }
+  return groups;
+}
+
+}  // namespace tomales

@@ -1,0 +1,42 @@
+#include "reyes/hide/lattice.h"
+#include "reyes/hide/raster.h"
+#include "reyes/hide/resolve.h"
+
+namespace tomales {
+
+struct Hider::Impl {
+  const Scene& scene;
+  Camera camera;
+  SampleBuffer samples;
+  GridTable grids;
+};
+
+Hider::Hider(const Scene& scene, const Camera& camera, const SamplePattern& pattern, const PixelRect& rect)
+    : impl_(new Impl{scene, camera, SampleBuffer(pattern, rect), {}}) {}
+
+Hider::~Hider() = default;
+
+bool Hider::hidden(const Bound2& raster, float zMin) const {
+  // What is in the bound may reach out of it when its border is pushed.
+  const vec2 reach(kMaxReach_px + 1 / kLattice);
+  const SampleBuffer& s = impl_->samples;
+  return s.hides(s.touched(raster.lo - reach, raster.hi + reach), impl_->camera.depthKey(zMin));
+}
+
+void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
+  SampleBuffer& s = impl_->samples;
+  if (s.hides(s.touched(raster->bound.lo, raster->bound.hi), raster->dMin)) return;
+  const uint32_t firstCell = impl_->grids.add(raster);
+  const RasterJob job{*raster, impl_->grids, firstCell, impl_->camera.perspective(), s};
+  if (raster->grid->keyCount == 1)
+    rasterizeStill(job);
+  else
+    rasterizeMoving(job, shutterTimes(impl_->scene, *raster->grid));
+}
+
+DeepTile Hider::resolve() {
+  const std::unique_ptr<Impl> spent = std::move(impl_);
+  return resolveTile(spent->scene, spent->camera, spent->grids, spent->samples);
+}
+
+}  // namespace tomales

@@ -1,0 +1,67 @@
+// Correlated multi-jittered sampling (Kensler 2013): every cell of the xSamples by ySamples raster holds one sample, and
+// so does every column and row of the finer raster with count() columns and rows.
+#include <cfloat>
+#include <numeric>
+
+#include "reyes/base/rng.h"
+#include "reyes/hide.h"
+#include "reyes/hide/lattice.h"
+
+namespace tomales {
+namespace {
+
+constexpr int kPatterns = 256;
+
+std::vector<int> permutation(int count, uint32_t seed) {
+  std::vector<int> p(static_cast<size_t>(count));
+  std::iota(p.begin(), p.end(), 0);
+  for (int i = count - 1; i > 0; --i)
+    std::swap(p[static_cast<size_t>(i)],
+              p[hashCombine(seed, static_cast<uint32_t>(i)) % static_cast<uint32_t>(i + 1)]);
+  return p;
+}
+
+/// Position `inside` (0..1) of stratum `i` of n, on the lattice but never in another stratum.
+float placed(int i, int n, float inside) {
+  const float width = kLattice / static_cast<float>(n);
+  const float lo = std::ceil(static_cast<float>(i) * width), hi = std::ceil(static_cast<float>(i + 1) * width) - 1;
+  return std::clamp(std::round((static_cast<float>(i) + inside) * width), lo, std::max(lo, hi)) / kLattice;
+}
+
+}  // namespace
+
+SamplePattern::SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t seed)
+    : count_(xSamples * ySamples), padded_(tomales::padded(count_)), seed_(seed) {
+  const size_t size = static_cast<size_t>(kPatterns) * static_cast<size_t>(padded_);
+  // Padding repeats the corner of the pixel; the hider gives those lanes a depth that nothing beats.
+  x_.assign(size, 0), y_.assign(size, 0), time_.assign(size, 0);
+  for (int p = 0; p < kPatterns; ++p) {
+    const uint32_t name = hashCombine(seed, 0x70617474U, static_cast<uint32_t>(p));
+    const std::vector<int> column = permutation(ySamples, hash32(name ^ 1U));
+    const std::vector<int> row = permutation(xSamples, hash32(name ^ 2U));
+    const std::vector<int> moment = permutation(count_, hash32(name ^ 3U));
+    for (int s = 0; s < count_; ++s) {
+      const int i = s % xSamples, j = s / xSamples;
+      const auto random = [&](uint32_t dimension) {
+        return jitter ? unitFloat(hashCombine(name, static_cast<uint32_t>(s), dimension)) : 0.5f;
+      };
+      const size_t at = static_cast<size_t>(p) * static_cast<size_t>(padded_) + static_cast<size_t>(s);
+      const float inColumn = (static_cast<float>(column[static_cast<size_t>(j)]) + random(0)) / static_cast<float>(ySamples);
+      const float inRow = (static_cast<float>(row[static_cast<size_t>(i)]) + random(1)) / static_cast<float>(xSamples);
+      x_[at] = placed(i, xSamples, jitter ? inColumn : 0.5f);
+      y_[at] = placed(j, ySamples, jitter ? inRow : 0.5f);
+      time_[at] = std::min((static_cast<float>(moment[static_cast<size_t>(s)]) + random(2)) / static_cast<float>(count_),
+                           1 - FLT_EPSILON / 2);
+    }
+  }
+}
+
+int SamplePattern::patternOf(int x, int y) const {
+  return static_cast<int>(hashCombine(seed_, static_cast<uint32_t>(x), static_cast<uint32_t>(y)) % kPatterns);
+}
+
+const float* SamplePattern::x(int pattern) const { return x_.data() + static_cast<ptrdiff_t>(pattern) * padded_; }
+const float* SamplePattern::y(int pattern) const { return y_.data() + static_cast<ptrdiff_t>(pattern) * padded_; }
+const float* SamplePattern::time(int pattern) const { return time_.data() + static_cast<ptrdiff_t>(pattern) * padded_; }
+
+}  // namespace tomales

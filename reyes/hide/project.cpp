@@ -1,0 +1,90 @@
+// Grid -> raster space, with the borders that join a neighbour pushed out (docs/decisions/0003).
+#include "reyes/hide.h"
+#include "reyes/hide/lattice.h"
+
+namespace tomales {
+namespace {
+
+// A neighbour with edges twice as long has four times the sagitta of ours.
+constexpr float kReach = 4;
+constexpr float kMinReach_px = 2 / kLattice;
+
+/// One border of a grid as vertex indices: first + k * step for k in 0..count; the inner neighbour is `inward` away.
+struct Border {
+  PatchEdge edge;
+  int first, step, inward, count;
+};
+
+/// How far the border's curve may lie from its chord at vertex k, in pixels. The second difference of points h apart on
+/// a curve of curvature c is h^2 c, its sagitta h^2 c / 8.
+float sagitta_px(const Grid& g, const float* x, const float* y, const Border& b, int k) {
+  const int v = b.first + std::clamp(k, 1, std::max(1, b.count - 1)) * b.step;
+  if (b.count > 1) {
+    const vec2 bend{x[v - b.step] - 2 * x[v] + x[v + b.step], y[v - b.step] - 2 * y[v] + y[v + b.step]};
+    return glm::length(bend) / 8;
+  }
+  // A single chord says nothing of its curve, but the normals turn as the tangents do.
+  const int w = b.first;
+  const vec3 turn = normalizeOr(g.normal(v), vec3(0)) - normalizeOr(g.normal(w), vec3(0));
+  return glm::length(vec2(x[v] - x[w], y[v] - y[w])) * glm::length(turn) / 8;
+}
+
+void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, std::vector<vec2>& push) {
+  for (int k = 0; k <= b.count; ++k) {
+    const int v = b.first + k * b.step;
+    const vec2 outward{x[v] - x[v + b.inward], y[v] - y[v + b.inward]};
+    const float length = glm::length(outward);
+    if (!(length > 0)) continue;
+    const float reach = std::clamp(kReach * sagitta_px(g, x, y, b, k), kMinReach_px, kMaxReach_px);
+    push[static_cast<size_t>(v)] += outward * (reach / length);
+  }
+}
+
+void pushBorders(const Grid& g, float* x, float* y) {
+  if ((g.openEdges & kAllEdges) == kAllEdges) return;
+  const int row = g.nu + 1;
+  const Border borders[] = {{kEdgeU0, 0, row, 1, g.nv},
+                            {kEdgeU1, g.nu, row, -1, g.nv},
+                            {kEdgeV0, 0, 1, row, g.nu},
+                            {kEdgeV1, g.nv * row, 1, -row, g.nu}};
+  std::vector<vec2> push(static_cast<size_t>(g.vertexCount()), vec2(0));
+  for (const Border& b : borders)
+    if (!(g.openEdges & b.edge)) pushBorder(g, b, x, y, push);
+  for (size_t v = 0; v < push.size(); ++v) x[v] += push[v].x, y[v] += push[v].y;
+}
+
+}  // namespace
+
+std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene, const Camera& camera,
+                                          bool opaque) {
+  auto r = std::make_shared<RasterGrid>();
+  const Grid& g = *grid;
+  const Attributes& attributes = *scene.objects[static_cast<size_t>(g.object)].attributes;
+  r->grid = std::move(grid);
+  r->opaque = opaque;
+  r->matte = attributes.matte;
+  r->sides = attributes.sides;
+  r->smooth = attributes.interpolation == ShadingInterpolation::Smooth;
+  // The tail lets blocks of micropolygons be read across the end.
+  const size_t stride = static_cast<size_t>(g.stride()), size = stride * static_cast<size_t>(g.keyCount) + 2 * kLanes;
+  r->x.assign(size, 0), r->y.assign(size, 0), r->d.assign(size, 0);
+  r->dMin = kInfinity;
+  for (int key = 0; key < g.keyCount; ++key) {
+    const size_t base = stride * static_cast<size_t>(key);
+    float *x = r->x.data() + base, *y = r->y.data() + base, *d = r->d.data() + base;
+    for (int v = 0; v < g.vertexCount(); ++v) {
+      const vec3 p = g.position(key, v);
+      const vec2 at = camera.raster(p);
+      x[v] = at.x, y[v] = at.y, d[v] = camera.depthKey(p.z);
+    }
+    pushBorders(g, x, y);
+    for (int v = 0; v < g.vertexCount(); ++v) {
+      x[v] = snapToLattice(x[v]), y[v] = snapToLattice(y[v]);
+      r->bound.extend({x[v], y[v]});
+      r->dMin = std::min(r->dMin, d[v]);
+    }
+  }
+  return r;
+}
+
+}  // namespace tomales

@@ -1,0 +1,105 @@
+// Micropolygons against samples. Private to the hider.
+// A micropolygon abcd (a b over c d in (u,v)) is the triangles abc and bdc: the diagonal bc is fixed.
+// A sample is inside a triangle if it lies on the inner side of each edge. Every edge is evaluated from its
+// lexicographically smaller end, so both neighbours get the same value with opposite signs, and the value zero belongs
+// to the right of the edge seen from that end: as if every sample were moved by (e^2, -e) for an infinitesimal e.
+// Vertices of still grids and samples lie on a lattice (kLattice), which makes the values exact in float for
+// micropolygons up to about 4 px, so that a fan round a vertex neither misses a sample nor hits it twice.
+#pragma once
+#include "reyes/hide/lattice.h"
+#include "reyes/hide/samples.h"
+
+// Clones of a hot function vectorise only what is inlined into them.
+#define TOMALES_KERNEL __attribute__((always_inline))
+
+namespace tomales {
+
+/// What the loops need of a grid besides itself.
+struct RasterJob {
+  const RasterGrid& raster;
+  const GridTable& grids;
+  uint32_t firstCell;
+  bool perspective;
+  SampleBuffer& out;
+};
+
+/// Grids with one motion key.
+void rasterizeStill(const RasterJob& job);
+/// Grids with several: `keyTimes` of the shutter, 0..1.
+void rasterizeMoving(const RasterJob& job, const std::vector<float>& keyTimes);
+
+/// Sides 1: does the cell turn its RISpec normal away from the eye?
+inline bool turnedAway(const RasterJob& job, int a) {
+  const Grid& g = *job.raster.grid;
+  const int row = g.nu + 1;
+  const vec3 n = g.normal(a) + g.normal(a + 1) + g.normal(a + row) + g.normal(a + row + 1);
+  const vec3 p = g.position(0, a) + g.position(0, a + 1) + g.position(0, a + row) + g.position(0, a + row + 1);
+  return job.perspective ? dot(n, p) > 0 : n.z > 0;
+}
+
+/// Depth keys of kLanes samples that a micropolygon covers; kInfinity elsewhere.
+struct alignas(64) LaneDepths {
+  float d[kLanes];
+};
+
+/// Gives samples to a cell: nearest hit if opaque, one more layer otherwise. `first`: pixel * lanes + lane of the group.
+/// Returns true if the pixel's far depth may have changed.
+TOMALES_KERNEL inline bool merge(const RasterJob& job, const LaneDepths& hit, size_t first, uint32_t cell) {
+  float* depth = job.out.depth.data() + first;
+  uint32_t* owner = job.out.cell.data() + first;
+  if (!job.raster.opaque) {
+    for (int s = 0; s < kLanes; ++s)
+      if (hit.d[s] <= depth[s]) job.out.layers.push_back({static_cast<uint32_t>(first) + static_cast<uint32_t>(s), cell, hit.d[s]});
+    return false;
+  }
+  int nearer = 0, ties = 0;
+  for (int s = 0; s < kLanes; ++s) {
+    nearer |= hit.d[s] < depth[s];
+    ties |= hit.d[s] == depth[s];
+  }
+  if (ties)
+    for (int s = 0; s < kLanes; ++s)
+      if (hit.d[s] == depth[s] && job.grids.precedes(cell, owner[s])) owner[s] = cell;
+  if (!nearer) return false;
+  for (int s = 0; s < kLanes; ++s) {
+    const bool won = hit.d[s] < depth[s];
+    depth[s] = won ? hit.d[s] : depth[s];
+    owner[s] = won ? cell : owner[s];
+  }
+  return true;
+}
+
+/// The greatest depth of a pixel. Halving, because the order of a float reduction is not the compiler's to change.
+TOMALES_KERNEL inline float farthest(const float* depth, int lanes) {
+  alignas(64) float m[kLanes];
+  for (int s = 0; s < kLanes; ++s) m[s] = depth[s];
+  for (int g = kLanes; g < lanes; g += kLanes)
+    for (int s = 0; s < kLanes; ++s) m[s] = depth[g + s] > m[s] ? depth[g + s] : m[s];
+  for (int half = kLanes / 2; half > 0; half /= 2)
+    for (int s = 0; s < half; ++s) m[s] = m[s + half] > m[s] ? m[s + half] : m[s];
+  return m[0];
+}
+
+/// Calls cover(x, y, pattern, lane, LaneDepths&) for every group of lanes of the pixels that a cell's bound touches and
+/// that do not hide it yet, and merges.
+template <class Cover>
+TOMALES_KERNEL inline void forPixels(const RasterJob& job, const vec2& lo, const vec2& hi, float dMin,
+                                                     uint32_t cell, const Cover& cover) {
+  SampleBuffer& out = job.out;
+  const PixelRect pixels = out.touched(lo, hi);
+  for (int y = pixels.y0; y < pixels.y1; ++y)
+    for (int x = pixels.x0; x < pixels.x1; ++x) {
+      const size_t pixel = out.pixelIndex(x, y);
+      if (dMin > out.far[pixel]) continue;
+      const size_t first = pixel * static_cast<size_t>(out.lanes);
+      bool changed = false;
+      for (int g = 0; g < out.lanes; g += kLanes) {
+        LaneDepths hit;
+        cover(x, y, out.patternOf[pixel], g, hit);
+        changed |= merge(job, hit, first + static_cast<size_t>(g), cell);
+      }
+      if (changed) out.far[pixel] = farthest(out.depth.data() + first, out.lanes);
+    }
+}
+
+}  // namespace tomales

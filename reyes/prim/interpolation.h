@@ -1,0 +1,37 @@
+// Arithmetic that several primitives share. Private to the primitives.
+#pragma once
+#include <array>
+
+#include "reyes/prim.h"
+
+namespace tomales {
+
+/// Element numbers at a patch's corners (u,v) = (0,0), (1,0), (0,1), (1,1): RISpec's order.
+using Corners = std::array<uint32_t, 4>;
+
+/// Component c of point i goes to out[c * stride + i]. Weights are (1-u) and u, so that both sides of an edge that is
+/// walked in opposite directions add the same two products.
+void interpolateBilinear(const float* values, int width, const Corners& corners, int n, const float* u, const float* v,
+                         float* out, int stride);
+
+/// Repeats one element n times.
+void repeatElement(const float* element, int width, int n, float* out, int stride);
+
+/// Fills positions and derivatives, and normals as their cross product.
+void evaluateBilinear(const std::array<vec3, 4>& corners, int n, const float* u, const float* v, SurfacePoints out);
+
+/// Of the rectangle: four corners are the hull of a piece of a bilinear patch.
+Bound3 boundBilinear(const std::array<vec3, 4>& corners, const UvRect& rect);
+
+/// normals = dPdu x dPdv.
+void crossDerivatives(int n, SurfacePoints points);
+
+/// Covers the rounding of arithmetic on numbers as big as the coordinates of `whole`.
+Bound3 paddedForRounding(const Bound3& bound, const Bound3& whole);
+
+inline void setNormal(SurfacePoints points, int i, const vec3& normal) {
+  points.nx[i] = normal.x, points.ny[i] = normal.y, points.nz[i] = normal.z;
+}
+inline vec3 normalOf(SurfacePoints points, int i) { return {points.nx[i], points.ny[i], points.nz[i]}; }
+
+}  // namespace tomales

@@ -1,0 +1,48 @@
+// Surfaces of revolution about z: all seven RISpec quadrics (RISpec section 5.4) are one of these with a meridian.
+// Private to the primitives.
+#pragma once
+#include <array>
+
+#include "reyes/prim.h"
+
+namespace tomales {
+
+/// The meridian at parameter v, in the half-plane theta = 0 (a hyperboloid's has a y as well).
+struct Meridian {
+  static constexpr int kChunk = 128;
+  float x[kChunk], y[kChunk], z[kChunk];
+  float dx[kChunk], dy[kChunk], dz[kChunk];  ///< by v
+  float nx[kChunk], ny[kChunk], nz[kChunk];  ///< towards dPdu x dPdv for a positive sweep; never zero
+};
+
+/// sin and cos of whole turns * 2 pi, turn = offset + frac(scale * t): a closed sweep ends on the very bits it began with,
+/// and quarter turns are exact.
+void sinCosTurns(float offset, float scale, int n, const float* t, float* sine, float* cosine);
+
+class Revolution : public Prim {
+ public:
+  uint32_t patchCount() const override { return 1; }
+  PatchInfo info(uint32_t) const override { return {false, openEdges_}; }
+  Bound3 bound(uint32_t, const UvRect& rect) const override;
+  void evaluate(uint32_t, int n, const float* u, const float* v, SurfacePoints out) const override;
+  void interpolate(uint32_t, int index, int n, const float* u, const float* v, float* out, int stride) const override;
+
+ protected:
+  /// Throws PrimError for a sweep without area.
+  Revolution(float thetaMax_degrees, const ParamList& params, Problems& problems);
+
+  /// Fills n <= kChunk entries.
+  virtual void meridian(int n, const float* v, Meridian& out) const = 0;
+
+  /// Two points such that every meridian point between v0 and v1 lies, in (x,y) and in z, between them.
+  virtual std::array<vec3, 2> meridianHull(float v0, float v1) const = 0;
+
+  /// An edge that is a pole or that joins the opposite edge.
+  void close(int edges) { openEdges_ = static_cast<uint8_t>(openEdges_ & ~edges); }
+
+ private:
+  float sweep_turns_;
+  uint8_t openEdges_ = kAllEdges;
+};
+
+}  // namespace tomales

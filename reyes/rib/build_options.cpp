@@ -1,0 +1,225 @@
+// Options (RISpec 3.2 section 4.1). Values that make no picture are reported and leave the option as it was.
+#include <fmt/format.h>
+
+#include <climits>
+
+#include "reyes/rib/handlers.h"
+
+namespace tomales::rib {
+namespace {
+
+constexpr float kLargestImage = 32768;  // A side, in pixels; OpenEXR and TIFF readers stop about there.
+constexpr float kMostSamples = 256;     // A side of the sample lattice of a pixel.
+
+void reject(GraphicsState& s, const Request& r, const std::string& why) {
+  s.warn(r, "rib-option", why + "; the option is left as it was");
+}
+
+float clamped(GraphicsState& s, const Request& r, float value, float least, float most) {
+  const float out = std::clamp(value, least, most);
+  if (out != value) s.warn(r, "rib-clamped", fmt::format("{} is out of range, {} is used", value, out));
+  return out;
+}
+
+// RISpec: a resolution or aspect ratio of zero or less keeps the default.
+void format(GraphicsState& s, const Request& r) {
+  const std::vector<float>& a = r.args[0].numbers;
+  Options& o = s.globals.options;
+  if (a[0] > 0) o.xResolution = static_cast<int>(clamped(s, r, a[0], 1, kLargestImage));
+  if (a[1] > 0) o.yResolution = static_cast<int>(clamped(s, r, a[1], 1, kLargestImage));
+  if (a[2] > 0) o.pixelAspect = clamped(s, r, a[2], 1e-3f, 1e3f);
+}
+
+void frameAspectRatio(GraphicsState& s, const Request& r) {
+  const float aspect = r.args[0].number();
+  if (!(aspect > 1e-4f && aspect < 1e4f)) return reject(s, r, fmt::format("{} is no aspect ratio", aspect));
+  s.globals.options.frameAspect = aspect;
+}
+
+void screenWindow(GraphicsState& s, const Request& r) {
+  const std::vector<float>& a = r.args[0].numbers;
+  if (a[0] == a[1] || a[2] == a[3]) return reject(s, r, "the window is empty");
+  s.globals.options.screenWindow = std::array<float, 4>{a[0], a[1], a[2], a[3]};
+}
+
+void cropWindow(GraphicsState& s, const Request& r) {
+  std::array<float, 4> w;
+  for (size_t i = 0; i < 4; ++i) w[i] = clamped(s, r, r.args[0].numbers[i], 0, 1);
+  if (w[0] >= w[1] || w[2] >= w[3]) return reject(s, r, "the window is empty");
+  s.globals.options.cropWindow = w;
+}
+
+void projection(GraphicsState& s, const Request& r) {
+  if (s.world) return reject(s, r, "the camera cannot change after WorldBegin");
+  const std::string& kind = r.args[0].strings[0];
+  Options& o = s.globals.options;
+  if (kind == "perspective")
+    o.projection = ProjectionKind::Perspective;
+  else if (kind == "orthographic")
+    o.projection = ProjectionKind::Orthographic;
+  else if (kind == "null")
+    o.projection = ProjectionKind::Null;
+  else
+    reject(s, r, "unknown projection \"" + kind + "\"");
+  for (const Param& p : r.params) {
+    const float fov = p.number(90);
+    if (p.name != "fov")
+      s.warn(r, "rib-unsupported", "parameter \"" + p.name + "\" is not supported yet, ignored");
+    else if (fov > 0 && fov < 180)
+      o.fov_degrees = fov;
+    else
+      reject(s, r, fmt::format("a field of view of {} degrees", fov));
+  }
+  s.scope.ctm = Motion();
+}
+
+void clipping(GraphicsState& s, const Request& r) {
+  const std::vector<float>& a = r.args[0].numbers;
+  if (!(a[1] > a[0])) return reject(s, r, "the far plane is not beyond the near plane");
+  s.globals.options.nearClip = clamped(s, r, a[0], 1e-6f, 1e30f);  // RI_EPSILON, RI_INFINITY
+  s.globals.options.farClip = std::min(a[1], 1e30f);
+}
+
+void depthOfField(GraphicsState& s, const Request& r) {
+  Options& o = s.globals.options;
+  if (r.args.empty()) {
+    o.fStop = kInfinity;
+    return;
+  }
+  const std::vector<float>& a = r.args[0].numbers;
+  if (!(a[0] > 0 && a[1] > 0 && a[2] > 0)) return reject(s, r, "lens values must be positive");
+  o.fStop = a[0];
+  o.focalLength = a[1];
+  o.focalDistance = a[2];
+  if (a[0] < kInfinity)
+    s.warnOnce("DepthOfField", r, "rib-unsupported", "DepthOfField: defocus is not rendered yet; all is in focus");
+}
+
+void shutter(GraphicsState& s, const Request& r) {
+  const std::vector<float>& a = r.args[0].numbers;
+  if (a[1] < a[0]) return reject(s, r, "the shutter closes before it opens");
+  s.globals.options.shutterOpen = a[0];
+  s.globals.options.shutterClose = a[1];
+}
+
+void pixelSamples(GraphicsState& s, const Request& r) {
+  const auto samples = [&](float n) { return static_cast<int>(clamped(s, r, n, 1, kMostSamples)); };
+  s.globals.options.xSamples = samples(r.args[0].numbers[0]);
+  s.globals.options.ySamples = samples(r.args[0].numbers[1]);
+}
+
+void pixelFilter(GraphicsState& s, const Request& r) {
+  const std::vector<float>& width = r.args[1].numbers;
+  if (!(width[0] > 0 && width[1] > 0)) return reject(s, r, "filter widths must be positive");
+  s.globals.options.filter = r.args[0].strings[0];
+  s.globals.options.xFilterWidth = clamped(s, r, width[0], 1e-3f, 64);
+  s.globals.options.yFilterWidth = clamped(s, r, width[1], 1e-3f, 64);
+}
+
+void exposure(GraphicsState& s, const Request& r) {
+  const std::vector<float>& a = r.args[0].numbers;
+  if (!(a[1] > 0)) return reject(s, r, "gamma must be positive");
+  s.globals.options.exposureGain = a[0];
+  s.globals.options.exposureGamma = a[1];
+}
+
+void quantize(GraphicsState& s, const Request& r) {
+  const std::vector<float>& a = r.args[1].numbers;
+  const Quantize q{a[0], a[1], a[2], a[3]};
+  const std::string& type = r.args[0].strings[0];
+  if (type == "rgba" || type == "rgb") {
+    s.globals.options.rgbaQuantize = q;
+    s.globals.options.quantizeGiven = true;
+  } else if (type == "z") {
+    s.globals.options.depthQuantize = q;
+  } else {
+    reject(s, r, "quantization of \"" + type + "\" is not supported yet");
+  }
+}
+
+// RISpec 3.2: a leading '+' adds a display, any other replaces them all.
+void display(GraphicsState& s, const Request& r) {
+  DisplayCall call{r.args[0].strings[0], r.args[1].strings[0], r.args[2].strings[0], r.params, r.where};
+  const bool adds = !call.name.empty() && call.name[0] == '+';
+  if (adds)
+    call.name.erase(0, 1);
+  else
+    s.globals.options.displays.clear();
+  s.globals.options.displays.push_back(std::move(call));
+}
+
+void hider(GraphicsState& s, const Request& r) {
+  s.globals.options.hider = r.args[0].strings[0];
+  for (const Param& p : r.params)
+    if (p.name == "jitter")
+      s.globals.options.jitter = p.number(1) != 0;
+    else
+      s.warnOnce("hider:" + p.name, r, "rib-unsupported",
+                 "Hider: parameter \"" + p.name + "\" is not supported yet, ignored");
+}
+
+// '&' stands for the value so far, '@' for the built-in default, which is always searched.
+void searchPath(GraphicsState& s, const Param& p) {
+  std::string& path = s.globals.options.searchPaths[p.name];
+  std::string out;
+  for (const char c : p.strings[0]) {
+    if (c == '&')
+      out += path;
+    else if (c != '@')
+      out += c;
+  }
+  path = out;
+}
+
+// True if Tomales knows the option.
+bool knownOption(GraphicsState& s, const Request& r, const std::string& key, const Param& p) {
+  Options& o = s.globals.options;
+  const bool bucket = key == "limits:bucketsize";
+  if (key.starts_with("searchpath:") && !p.strings.empty()) {
+    searchPath(s, p);
+  } else if (bucket && p.ints.size() == 2) {
+    o.bucketWidth = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[0]), 1, 4096));
+    o.bucketHeight = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[1]), 1, 4096));
+  } else if (key == "limits:gridsize" && p.ints.size() == 1) {
+    o.gridSize = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[0]), 1, 65536));
+  } else {
+    return key.starts_with("user:");
+  }
+  return true;
+}
+
+void option(GraphicsState& s, const Request& r) {
+  const std::string& category = r.args[0].strings[0];
+  for (const Param& p : r.params) {
+    const std::string key = category + ":" + p.name;
+    s.globals.options.user[key] = p;
+    if (!knownOption(s, r, key, p))
+      s.warnOnce("Option " + key, r, "rib-unknown-option", "Option \"" + key + "\" has no effect here");
+  }
+}
+
+}  // namespace
+
+const HandlerTable& optionHandlers() {
+  static const HandlerTable table = {
+      {"Format", format},
+      {"FrameAspectRatio", frameAspectRatio},
+      {"ScreenWindow", screenWindow},
+      {"CropWindow", cropWindow},
+      {"Projection", projection},
+      {"Clipping", clipping},
+      {"DepthOfField", depthOfField},
+      {"Shutter", shutter},
+      {"PixelSamples", pixelSamples},
+      {"PixelFilter", pixelFilter},
+      {"Exposure", exposure},
+      {"Quantize", quantize},
+      {"Display", display},
+      {"Hider", hider},
+      {"Option", option},
+      {"Imager", [](GraphicsState& s, const Request& r) { s.globals.options.imager = makeShaderCall(s, r); }},
+  };
+  return table;
+}
+
+}  // namespace tomales::rib

@@ -1,0 +1,70 @@
+// Shaders and lights (RISpec 3.2 sections 4.2.3 to 4.2.6).
+#include "reyes/rib/handlers.h"
+
+namespace tomales::rib {
+namespace {
+
+bool tracesShadows(const GraphicsState& s, const Request& r) {
+  const Param* map = findParam(r.params, "shadowname");
+  return s.scope.lightsCastShadows || (map && !map->strings.empty() && map->strings[0] == "raytrace");
+}
+
+int addLight(GraphicsState& s, const Request& r, bool area) {
+  auto light = std::make_shared<LightCall>();
+  light->shader = makeShaderCall(s, r);
+  light->handle = r.args[1].strings[0];
+  light->area = area;
+  light->castsShadows = area || tracesShadows(s, r);
+  light->index = static_cast<int>(s.globals.lights.size());
+  s.globals.lights.push_back(light);
+  s.scope.edit().lights.push_back(light->index);
+  return light->index;
+}
+
+void areaLightSource(GraphicsState& s, const Request& r) {
+  const std::string& name = r.args[0].strings[0];
+  const bool ends = name.empty() || name == "null";
+  const int index = ends ? -1 : addLight(s, r, true);
+  s.scope.edit().areaLight = index;
+}
+
+// The latest light of that handle: RIB writers number anew in every frame.
+void illuminate(GraphicsState& s, const Request& r) {
+  const auto& lights = s.globals.lights;
+  const auto it = std::find_if(lights.rbegin(), lights.rend(),
+                               [&](const auto& light) { return light->handle == r.args[0].strings[0]; });
+  if (it == lights.rend()) {
+    s.warn(r, "rib-unknown-light", "no light has the handle \"" + r.args[0].strings[0] + "\"; ignored");
+    return;
+  }
+  std::vector<int>& on = s.scope.edit().lights;
+  std::erase(on, (*it)->index);
+  if (r.args[1].number() != 0) on.push_back((*it)->index);
+}
+
+}  // namespace
+
+ShaderCall makeShaderCall(const GraphicsState& s, const Request& r) {
+  return {r.args[0].strings[0], r.params, s.scope.ctm, r.where};
+}
+
+const HandlerTable& shaderHandlers() {
+  static const HandlerTable table = {
+      {"Surface",
+       [](GraphicsState& s, const Request& r) {
+         s.scope.edit().surface = std::make_shared<const ShaderCall>(makeShaderCall(s, r));
+       }},
+      {"Displacement",
+       [](GraphicsState& s, const Request& r) {
+         const std::string& name = r.args[0].strings[0];
+         const bool none = name.empty() || name == "null";
+         s.scope.edit().displacement = none ? nullptr : std::make_shared<const ShaderCall>(makeShaderCall(s, r));
+       }},
+      {"LightSource", [](GraphicsState& s, const Request& r) { addLight(s, r, false); }},
+      {"AreaLightSource", areaLightSource},
+      {"Illuminate", illuminate},
+  };
+  return table;
+}
+
+}  // namespace tomales::rib

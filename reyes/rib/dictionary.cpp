@@ -1,0 +1,160 @@
+#include "reyes/rib/dictionary.h"
+
+#include <charconv>
+#include <string_view>
+#include <vector>
+
+namespace tomales::rib {
+namespace {
+
+struct Standard {
+  const char *declaration, *names;
+};
+
+constexpr Standard kStandard[] = {
+    // Primitive variables (RISpec 3.2 table 5.1)
+    {"vertex point", "P"},
+    {"vertex hpoint", "Pw"},
+    {"vertex float", "Pz"},
+    {"varying normal", "N"},
+    {"uniform normal", "Np"},
+    {"varying color", "Cs Os"},
+    {"varying float", "s t width"},
+    {"varying float[2]", "st"},
+    {"constant float", "constantwidth"},
+    // Parameters of the standard shaders (RISpec 3.2 appendix A)
+    {"float",
+     "Ka Kd Ks Kr roughness intensity coneangle conedeltaangle beamdistribution amplitude mindistance "
+     "maxdistance distance km opacity samples"},
+    {"color", "lightcolor specularcolor background bgcolor color"},
+    {"point", "from to"},
+    {"string", "texturename shadowname mapname"},
+    // Camera, displays, hiders
+    {"float", "fov depthbias jitter dither minwidth"},
+    {"float[2]", "shutteropening exposure filterwidth"},
+    {"float[4]", "quantize"},
+    {"int[2]", "origin"},
+    {"string", "compression filter depthfilter type"},
+    // Category names go by "category:name"
+    {"int[2]", "limits:bucketsize bucket:orderorigin"},
+    {"int",
+     "limits:gridsize limits:texturememory limits:eyesplits limits:threads limits:brickmemory "
+     "limits:geocachememory limits:maxshadinggrids statistics:endofframe trace:maxdepth"},
+    {"color", "limits:othreshold limits:zthreshold"},
+    {"string",
+     "searchpath:archive searchpath:shader searchpath:texture searchpath:display searchpath:procedural "
+     "searchpath:resource bucket:order statistics:filename statistics:xmlfilename"},
+    {"float", "shadow:bias shadow:bias0 shadow:bias1 shutter:offset"},
+    {"string",
+     "identifier:name identifier:shadinggroup grouping:membership displacementbound:coordinatesystem "
+     "light:shadows indirect:surface photon:globalmap photon:causticmap photon:shadingmodel "
+     "dice:strategy trimcurve:sense shade:strategy shade:diffusehitmode shade:specularhitmode "
+     "shade:transmissionhitmode shade:camerahitmode"},
+    {"float",
+     "displacementbound:sphere trace:bias trace:offset trace:tessellation indirect:gain indirect:bleeding "
+     "irradiance:maxerror irradiance:maxpixeldist irradiance:shadingrate"},
+    {"color", "indirect:bleedingcolor"},
+    {"int",
+     "visibility:camera visibility:diffuse visibility:specular visibility:transmission visibility:photon "
+     "visibility:midpoint visibility:trace trace:displacements trace:samplemotion trace:maxdiffusedepth "
+     "trace:maxspeculardepth indirect:receive dice:rasterorient dice:binary dice:hair cull:hidden "
+     "cull:backfacing derivatives:centered derivatives:extrapolate photon:estimator irradiance:nsamples "
+     "stitch:enable sides:doubleshaded"},
+};
+
+constexpr std::pair<std::string_view, Storage> kStorages[] = {
+    {"constant", Storage::Constant},       {"uniform", Storage::Uniform},
+    {"varying", Storage::Varying},         {"vertex", Storage::Vertex},
+    {"facevarying", Storage::FaceVarying}, {"facevertex", Storage::FaceVarying}};
+constexpr std::pair<std::string_view, ValueType> kTypes[] = {
+    {"float", ValueType::Float},   {"int", ValueType::Integer},   {"integer", ValueType::Integer},
+    {"string", ValueType::String}, {"color", ValueType::Color},   {"point", ValueType::Point},
+    {"vector", ValueType::Vector}, {"normal", ValueType::Normal}, {"hpoint", ValueType::HPoint},
+    {"matrix", ValueType::Matrix}, {"mpoint", ValueType::Matrix}};
+
+template <class Table, class Value>
+bool lookUp(const Table& table, std::string_view word, Value& out) {
+  for (const auto& [name, value] : table)
+    if (name == word) return out = value, true;
+  return false;
+}
+
+std::vector<std::string_view> words(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  std::vector<std::string_view> out;
+  while ((text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size())), !text.empty())) {
+    out.push_back(text.substr(0, text.find_first_of(kBlanks)));
+    text.remove_prefix(out.back().size());
+  }
+  return out;
+}
+
+// Takes "[n]", with blanks anywhere, out of `text`.
+bool takeArrayLength(std::string& text, int& length) {
+  const size_t open = text.find('['), close = text.find(']');
+  if (open == std::string::npos && close == std::string::npos) return true;
+  if (open == std::string::npos || close == std::string::npos || close < open) return false;
+  const auto digits = words(std::string_view(text).substr(open + 1, close - open - 1));
+  if (digits.size() != 1) return false;
+  const auto [end, error] = std::from_chars(digits[0].data(), digits[0].data() + digits[0].size(), length);
+  const bool good = error == std::errc() && end == digits[0].data() + digits[0].size() && length >= 1 &&
+                    length <= Dictionary::kLongestArray;
+  text.replace(open, close - open + 1, " ");
+  return good;
+}
+
+// Reads class and type off the front; what is left over is the name.
+bool takeClassAndType(std::vector<std::string_view>& list, Declaration& d, bool& typed) {
+  const auto take = [&list](const auto& table, auto& value) {
+    const bool found = !list.empty() && lookUp(table, list[0], value);
+    if (found) list.erase(list.begin());
+    return found;
+  };
+  const bool classed = take(kStorages, d.storage);
+  typed = take(kTypes, d.type);
+  return classed || typed;
+}
+
+}  // namespace
+
+Dictionary::Dictionary() {
+  for (const Standard& s : kStandard)
+    for (const std::string_view name : words(s.names)) declare(std::string(name), s.declaration);
+}
+
+bool Dictionary::declare(const std::string& name, const std::string& declaration) {
+  std::string text = declaration;
+  Declaration d;
+  if (name.empty() || !takeArrayLength(text, d.arrayLength)) return false;
+  auto list = words(text);
+  bool typed = false;
+  if (!takeClassAndType(list, d, typed) || !list.empty()) return false;
+  names_[name] = d;
+  return true;
+}
+
+std::optional<Declaration> Dictionary::find(const std::string& token, const std::string& category,
+                                            std::string& name) const {
+  const auto declared = [&](const std::string& bare) -> const Declaration* {
+    auto it = category.empty() ? names_.end() : names_.find(category + ":" + bare);
+    if (it == names_.end()) it = names_.find(bare);
+    return it == names_.end() ? nullptr : &it->second;
+  };
+  if (const Declaration* d = declared(token)) {
+    name = token;
+    return *d;
+  }
+  std::string text = token;
+  Declaration d;
+  if (!takeArrayLength(text, d.arrayLength)) return std::nullopt;
+  auto list = words(text);
+  // A lone word is a name, even if a type is called the same.
+  bool typed = false;
+  if (list.size() < 2 || !takeClassAndType(list, d, typed) || list.size() != 1) return std::nullopt;
+  name = list[0];
+  const Declaration* known = typed ? nullptr : declared(name);
+  if (known) d = {d.storage, known->type, known->arrayLength};
+  return d;
+}
+
+}  // namespace tomales::rib

@@ -1,0 +1,37 @@
+// Declarations of parameter names: the standard ones, those of Declare, and inline ones.
+#pragma once
+#include <optional>
+#include <string>
+#include <unordered_map>
+
+#include "reyes/base/value.h"
+
+namespace tomales::rib {
+
+struct Declaration {
+  Storage storage = Storage::Uniform;
+  ValueType type = ValueType::Float;
+  int arrayLength = 1;
+};
+
+class Dictionary {
+ public:
+  static constexpr int kLongestArray = 1 << 16;
+
+  /// Holds the standard names of RISpec 3.2 and of the options and attributes that Tomales knows.
+  Dictionary();
+
+  /// `declaration`: "class type[n]", where class and type may each be missing. False: not understood.
+  bool declare(const std::string& name, const std::string& declaration);
+
+  /// Of the token of a parameter list: a declared name, or an inline declaration "class type[n] name". On
+  /// success `name` is the bare name. `category` is that of Option and Attribute ("visibility"), whose own
+  /// names come first.
+  std::optional<Declaration> find(const std::string& token, const std::string& category,
+                                  std::string& name) const;
+
+ private:
+  std::unordered_map<std::string, Declaration> names_;
+};
+
+}  // namespace tomales::rib

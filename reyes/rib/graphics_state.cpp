@@ -1,0 +1,117 @@
+#include "reyes/rib/graphics_state.h"
+
+#include <fmt/format.h>
+
+namespace tomales::rib {
+
+Attributes& Scope::edit() {
+  if (attributes.use_count() > 1) attributes = std::make_shared<Attributes>(*attributes);
+  return *attributes;
+}
+
+const char* blockName(Block block) {
+  static constexpr const char* kNames[] = {"Frame", "World", "Attribute", "Transform", "Solid"};
+  return kNames[static_cast<int>(block)];
+}
+
+void GraphicsState::begin(Block block, const SourceLoc& where) {
+  const bool saveGlobals = block == Block::Frame || block == Block::World;
+  if (!saveGlobals && stack_.size() >= kDeepest) {
+    ++tooDeep_;
+    log.report(Severity::Warning, "rib-nesting", where,
+               fmt::format("more than {} open blocks; {}Begin saves nothing", kDeepest, blockName(block)));
+    return;
+  }
+  stack_.push_back({block, where, scope, saveGlobals ? std::make_unique<Globals>(globals) : nullptr});
+}
+
+bool GraphicsState::isOpen(Block block) const {
+  return std::any_of(stack_.begin(), stack_.end(), [&](const Saved& s) { return s.block == block; });
+}
+
+bool GraphicsState::end(Block block, const SourceLoc& where) {
+  const bool global = block == Block::Frame || block == Block::World;
+  if (tooDeep_ > 0 && !global) {
+    --tooDeep_;
+    return true;
+  }
+  size_t at = stack_.size();
+  while (at > 0 && stack_[at - 1].block != block && (global || !stack_[at - 1].globals)) --at;
+  if (at == 0 || stack_[at - 1].block != block) {
+    log.report(Severity::Warning, "rib-unbalanced", where,
+               fmt::format("{0}End without {0}Begin, ignored", blockName(block)));
+    return false;
+  }
+  if (at < stack_.size())
+    log.report(Severity::Warning, "rib-unbalanced", where,
+               fmt::format("{}End closes {} open blocks, the innermost a {}Begin at {}", blockName(block),
+                           stack_.size() - at, blockName(stack_.back().block), stack_.back().where.text()));
+  if (global) tooDeep_ = 0;
+  Saved& saved = stack_[at - 1];
+  if (block == Block::Transform)
+    scope.ctm = std::move(saved.scope.ctm);
+  else
+    scope = std::move(saved.scope);
+  if (saved.globals) globals = std::move(*saved.globals);
+  stack_.resize(at - 1);
+  return true;
+}
+
+void GraphicsState::enterWorld(const SourceLoc& where) {
+  Motion camera = scope.ctm;
+  if (!isFinite(camera) || !isInvertible(camera)) {
+    log.report(Severity::Warning, "rib-camera", where, "the camera transformation cannot be inverted; identity is used");
+    camera = Motion();
+  }
+  const Motion worldFromCamera = inverse(camera);
+  const auto moved = [&](std::shared_ptr<const ShaderCall>& call) {
+    if (!call) return;
+    ShaderCall copy = *call;
+    copy.worldFromShader = worldFromCamera * copy.worldFromShader;
+    call = std::make_shared<const ShaderCall>(std::move(copy));
+  };
+  Attributes& attributes = scope.edit();
+  moved(attributes.surface);
+  moved(attributes.displacement);
+  for (auto& light : globals.lights) {
+    light = std::make_shared<LightCall>(*light);
+    light->shader.worldFromShader = worldFromCamera * light->shader.worldFromShader;
+  }
+  for (auto* systems : {&globals.coordinateSystems, &scope.coordinateSystems})
+    for (auto& [name, system] : *systems) system = worldFromCamera * system;
+  scope.ctm = Motion();
+  identity = Motion();
+  world = World{camera, {}, where};
+}
+
+void GraphicsState::warn(const Request& request, const char* code, const std::string& message) const {
+  log.report(Severity::Warning, code, request.where, request.name + ": " + message);
+}
+
+void GraphicsState::warnOnce(const std::string& key, const Request& request, const char* code,
+                             const std::string& message, Severity severity) {
+  if (said_.insert(key).second) log.report(severity, code, request.where, message);
+}
+
+bool isFinite(const Motion& m) {
+  return std::all_of(m.keys.begin(), m.keys.end(), [](const mat4& k) {
+    return std::all_of(&k[0][0], &k[0][0] + 16, [](float f) { return std::isfinite(f); });
+  });
+}
+
+// In double precision: the determinant of a scene in millimetres of a landscape overflows nothing, that of a scaled-down
+// one must not underflow.
+bool isInvertible(const Motion& m) {
+  return std::all_of(m.keys.begin(), m.keys.end(), [](const mat4& k) {
+    const double d = glm::determinant(glm::dmat4(k));
+    return std::isfinite(d) && d != 0;
+  });
+}
+
+Motion inverse(const Motion& m) {
+  Motion out{m.times, {}};
+  for (const mat4& k : m.keys) out.keys.push_back(mat4(glm::inverse(glm::dmat4(k))));
+  return out;
+}
+
+}  // namespace tomales::rib

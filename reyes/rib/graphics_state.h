@@ -1,0 +1,95 @@
+// The graphics state of RISpec 3.2 section 4, with its stacks. Spaces: the CTM, shader calls and named coordinate systems
+// are relative to camera space before WorldBegin, and to world space after it.
+#pragma once
+#include <set>
+
+#include "reyes/rib.h"
+
+namespace tomales::rib {
+
+/// What AttributeBegin saves.
+struct Scope {
+  std::shared_ptr<Attributes> attributes = std::make_shared<Attributes>();
+  Motion ctm;
+  Basis uBasis = bezierBasis(), vBasis = bezierBasis();
+  bool lightsCastShadows = false;                 ///< Attribute "light" "shadows": for lights that are made here.
+  std::map<std::string, Motion> coordinateSystems;  ///< ScopedCoordinateSystem
+
+  /// The attributes, no longer shared with anybody.
+  Attributes& edit();
+};
+
+/// ObjectBegin ... ObjectEnd: its requests, and the geometry of those that have been built for some instance.
+struct Master {
+  struct Shapes {
+    std::vector<PrimPtr> keys;
+    std::vector<float> times;
+    Basis uBasis, vBasis;  ///< Those that it was built with; the others see the values of the request only.
+  };
+  std::vector<Request> requests;
+  std::map<size_t, Shapes> shapes;  ///< By index of the request.
+};
+
+/// What FrameBegin and WorldBegin save besides.
+struct Globals {
+  Options options;
+  std::vector<std::shared_ptr<LightCall>> lights;
+  std::map<std::string, Motion> coordinateSystems;
+  std::map<std::string, std::shared_ptr<Master>> masters;
+};
+
+enum class Block { Frame, World, Attribute, Transform, Solid };
+const char* blockName(Block block);
+
+/// Between WorldBegin and WorldEnd.
+struct World {
+  Motion cameraFromWorld;
+  std::vector<Object> objects;
+  SourceLoc where;
+};
+
+class GraphicsState {
+ public:
+  static constexpr size_t kDeepest = 10000;
+
+  explicit GraphicsState(Log& messages) : log(messages) {}
+
+  Log& log;
+  Scope scope;
+  Globals globals;
+  std::optional<World> world;
+  Motion identity;  ///< What Identity sets: the CTM of the instance while an object is replayed.
+
+  void begin(Block block, const SourceLoc& where);
+  /// Restores what `begin` saved, closing forgotten blocks within. False: there is no such block here; nothing changed.
+  bool end(Block block, const SourceLoc& where);
+  bool isOpen(Block block) const;
+
+  /// From camera-relative to world-relative: CTM becomes the camera.
+  void enterWorld(const SourceLoc& where);
+  Motion cameraFromObject() const { return world ? world->cameraFromWorld * scope.ctm : scope.ctm; }
+
+  void warn(const Request& request, const char* code, const std::string& message) const;
+  /// Only for the first of all sites that share the key.
+  void warnOnce(const std::string& key, const Request& request, const char* code, const std::string& message,
+                Severity severity = Severity::Warning);
+
+ private:
+  struct Saved {
+    Block block;
+    SourceLoc where;
+    Scope scope;
+    std::unique_ptr<Globals> globals;
+  };
+  std::vector<Saved> stack_;
+  size_t tooDeep_ = 0;
+  std::set<std::string> said_;
+};
+
+bool isFinite(const Motion& m);
+/// False if some key cannot be inverted.
+bool isInvertible(const Motion& m);
+/// Pre: isInvertible(m).
+Motion inverse(const Motion& m);
+
+}  // namespace tomales::rib

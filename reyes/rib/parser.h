@@ -1,0 +1,46 @@
+// Tokens -> Requests. What comes out has the arguments that its signature says, and parameters that fit their
+// declarations; everything else has been reported with file and line, and skipped.
+#pragma once
+#include <optional>
+
+#include "reyes/rib.h"
+#include "reyes/rib/dictionary.h"
+#include "reyes/rib/lexer.h"
+#include "reyes/rib/request_table.h"
+
+namespace tomales::rib {
+
+class Parser {
+ public:
+  /// The dictionary outlives the parser: it belongs to the whole stream, archives included.
+  Parser(ByteStream& stream, std::string file, Dictionary& dictionary, Log& log);
+
+  /// The next good request; nothing at the end of the stream.
+  std::optional<Request> next();
+
+ private:
+  using Kind = Token::Kind;
+  bool at(Kind kind) const { return lexer_.peek().kind == kind; }
+  SourceLoc here() const { return {file_, lexer_.peek().line}; }
+  /// Reports what is wrong with the request; always false.
+  bool fail(const std::string& expected);
+  void skipToKnownRequest(bool reportUnknown);
+
+  bool readArguments(const Signature& signature);
+  bool readArgument(char letter);
+  bool readText(bool orNumber);
+  bool readNumbers(size_t count);
+  bool readArray(RibArg& out, RibArg::Kind kind);
+  bool readParameters(const std::string& category);
+  bool readValues(std::vector<double>& numbers, std::vector<std::string>& strings);
+  bool keepParameter(const std::string& token, const Declaration& d, Param& param,
+                     std::vector<double>& numbers, std::vector<std::string>& strings);
+
+  std::shared_ptr<const std::string> file_;
+  Lexer lexer_;
+  Dictionary& dictionary_;
+  Log& log_;
+  Request request_;
+};
+
+}  // namespace tomales::rib

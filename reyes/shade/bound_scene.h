@@ -1,0 +1,48 @@
+// What the constructor of ShadingSystem leaves: every shader of a scene, bound. Immutable while shading.
+#pragma once
+#include "reyes/shade.h"
+#include "reyes/shade/bound_shader.h"
+#include "reyes/shade/texture.h"
+
+namespace tomales {
+
+struct BoundLight {
+  BoundShaderPtr bound;
+  int index = -1;        ///< In Scene::lights.
+  int samples = 1;
+  bool shadows = false;
+  bool direct = true;    ///< Lights what the camera sees.
+  bool indirect = true;  ///< Lights what gather rays see.
+  IndirectQuery query;   ///< TM_LIGHT_INDIRECT alone.
+  bool can(TmCapability capability) const { return bound->can(capability); }
+};
+
+/// A primitive variable that takes the place of a shader parameter.
+struct Override { int param, primvarOffset; TmType type; };
+
+struct BoundGroup {
+  const ShadeGroup* group = nullptr;
+  std::string object;  ///< For messages.
+  BoundShaderPtr surface, indirectSurface;  ///< The second: for rays that hit it (Attribute "indirect" "surface").
+  BoundShaderPtr displacement;              ///< May be null.
+  std::vector<Override> surfaceOverrides, indirectOverrides, displacementOverrides;
+  std::vector<const BoundLight*> lights;
+  std::optional<IndirectQuery> indirect;
+  int CsOffset = -1, OsOffset = -1, sOffset = -1, tOffset = -1, primvarFloats = 0;
+};
+
+struct BoundScene {
+  BoundScene(const Scene& scene, ShaderRegistry& registry, Log& log, Stats& stats);
+
+  const Scene& scene;
+  Log& log;
+  Stats& stats;
+  const ShadeServices* services = nullptr;
+  Camera camera;
+  mat4 cameraFromWorld;
+  Textures textures;
+  std::vector<std::unique_ptr<const BoundLight>> lights;  ///< As Scene::lights; null: unknown shader.
+  std::vector<BoundGroup> groups;                         ///< As Scene::groups.
+};
+
+}  // namespace tomales

@@ -1,0 +1,102 @@
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "reyes/shade.h"
+
+namespace tomales {
+
+struct ShaderRegistry::Impl {
+  Log& log;
+  std::mutex mutex;  // over the two below: find() loads plugins while other frames bind
+  std::map<std::pair<int, std::string>, const TmShader*> shaders;
+  std::map<std::string, bool> plugins;  // by path: did it load
+
+  void refuse(const std::string& origin, const std::string& problem) {
+    const SourceLoc where{std::make_shared<const std::string>(origin), 0};
+    log.report(Severity::Missing, "shader-plugin", where, origin + ": " + problem);
+  }
+  bool add(const TmShaderLibrary* library, const std::string& origin);
+  bool load(const std::string& path);
+  const TmShader* known(const std::string& name, TmKind kind) const {
+    const auto it = shaders.find({kind, name});
+    return it == shaders.end() ? nullptr : it->second;
+  }
+};
+
+namespace {
+
+// A later release only appends fields (shader_api.h), so a larger struct of the same ABI starts with ours.
+template <class Versioned>
+bool matches(const Versioned* v) {
+  return v && v->abi == TM_SHADER_ABI && v->structBytes >= sizeof(Versioned);
+}
+
+std::string expected(const char* what) {
+  return fmt::format("{} is of another shader ABI than {}; compile it against the headers of this version", what, TM_SHADER_ABI);
+}
+
+}  // namespace
+
+bool ShaderRegistry::Impl::add(const TmShaderLibrary* library, const std::string& origin) {
+  if (!matches(library)) return refuse(origin, expected("the shader library")), false;
+  for (int32_t i = 0; i < library->count; ++i) {
+    const TmShader* shader = library->shaders[i];
+    if (matches(shader))
+      shaders[{shader->kind, shader->name}] = shader;
+    else
+      refuse(origin, expected(fmt::format("shader number {}", i + 1).c_str()));
+  }
+  return true;
+}
+
+// Plugins are never closed: a bound shader may outlive the registry.
+bool ShaderRegistry::Impl::load(const std::string& path) {
+  if (const auto it = plugins.find(path); it != plugins.end()) return it->second;
+  bool& loaded = plugins[path] = false;
+  void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!handle) return refuse(path, fmt::format("cannot be loaded: {}", dlerror())), false;
+  const auto function = reinterpret_cast<TmShadersFunction>(dlsym(handle, TM_SHADERS_SYMBOL));
+  if (!function) return refuse(path, "is not a shader plugin: it does not export " TM_SHADERS_SYMBOL), false;
+  return loaded = add(function(), path);
+}
+
+ShaderRegistry::ShaderRegistry(Log& log) : impl_(new Impl{log, {}, {}, {}}) {}
+ShaderRegistry::~ShaderRegistry() = default;
+
+bool ShaderRegistry::addLibrary(const TmShaderLibrary* library, const std::string& origin) {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->add(library, origin);
+}
+
+bool ShaderRegistry::loadPlugin(const std::string& path) {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->load(path);
+}
+
+const TmShader* ShaderRegistry::find(const std::string& name, TmKind kind, const std::string& searchPath) {
+  const std::lock_guard lock(impl_->mutex);
+  if (const TmShader* s = impl_->known(name, kind)) return s;
+  const std::string path = searchPath.empty() ? "." : searchPath;
+  for (size_t begin = 0; begin <= path.size();) {
+    const size_t end = std::min(path.find(':', begin), path.size());
+    std::string folder = path.substr(begin, end - begin);
+    if (folder.empty() || folder == "&" || folder == "@") folder = ".";
+    const std::filesystem::path file = std::filesystem::path(folder) / (name + ".so");
+    std::error_code none;
+    if (std::filesystem::is_regular_file(file, none) && impl_->load(file.string()))
+      if (const TmShader* s = impl_->known(name, kind)) return s;
+    begin = end + 1;
+  }
+  return nullptr;
+}
+
+std::vector<const TmShader*> ShaderRegistry::all() const {
+  const std::lock_guard lock(impl_->mutex);
+  std::vector<const TmShader*> out;
+  for (const auto& [key, shader] : impl_->shaders) out.push_back(shader);
+  return out;
+}
+
+}  // namespace tomales

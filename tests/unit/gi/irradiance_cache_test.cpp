@@ -1,0 +1,204 @@
+#include "gi/irradiance_cache.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "reyes/base/rng.h"
+
+namespace tomales {
+namespace {
+
+constexpr vec3 kUp{0, 0, 1};
+const Bound3 kBox{vec3(-1), vec3(1)};
+
+IrradianceRecord recordAt(const vec3& position, const vec3& E, float closest = 1, float pixelSize = 0.01f) {
+  IrradianceRecord r{};
+  r.position = position, r.normal = kUp, r.E = E;
+  for (vec3& d : r.dominant) d = kUp;
+  r.harmonicMean = r.closest = closest, r.pixelSize = pixelSize;
+  return r;
+}
+
+vec3 randomIn(uint32_t i, uint32_t salt) {
+  const auto number = [&](uint32_t axis) { return 2 * unitFloat(hashCombine(i, salt, axis)) - 1; };
+  return {number(0), number(1), number(2)};
+}
+
+vec3 tilted(float degrees) { return {std::sin(degrees * kPi / 180), 0, std::cos(degrees * kPi / 180)}; }
+
+float weightOfOne(const CacheSettings& settings, const IrradianceRecord& record, const vec3& x, const vec3& n,
+                  float pixelSize) {
+  IrradianceCache cache(kBox, settings);
+  cache.insert(record);
+  return cache.lookup(x, n, pixelSize).weight;
+}
+
+TEST(IrradianceCache, FindsNothingWhereItHasNoRecords) {
+  IrradianceCache cache(kBox, {});
+  EXPECT_EQ(cache.lookup({0, 0, 0}, kUp, 0.01f).weight, 0);
+  cache.insert(recordAt({0, 0, 0}, vec3(1)));
+  EXPECT_EQ(cache.lookup({0.5f, 0, 0}, kUp, 0.01f).weight, 0);
+}
+
+TEST(IrradianceCache, ScreenWeightsAreThoseOfEquations2To5) {
+  const CacheSettings one{ErrorFunction::Screen, 1};
+  // R_i / 2 = 0.05 lies between 1.5 and 10 pixels of 0.01.
+  EXPECT_NEAR(weightOfOne(one, recordAt(vec3(0), vec3(1), 0.1f), {0.02f, 0, 0}, kUp, 0.01f),
+              1 - 0.02f / 0.05f, 1e-5f);
+  // R+ = 10 pixels, measured at the lookup, limits a far record.
+  EXPECT_NEAR(weightOfOne(one, recordAt(vec3(0), vec3(1), 9), {0.02f, 0, 0}, kUp, 0.01f), 0.8f, 1e-5f);
+  EXPECT_NEAR(weightOfOne(one, recordAt(vec3(0), vec3(1), 9), {0.02f, 0, 0}, kUp, 0.004f), 0.5f, 1e-5f);
+  // R- = 1.5 pixels supports a record in a corner.
+  EXPECT_NEAR(weightOfOne(one, recordAt(vec3(0), vec3(1), 1e-4f), {0.003f, 0, 0}, kUp, 0.01f), 0.8f, 1e-5f);
+  // alpha+ = 10 degrees: the normal term is sin(a/2) / sin(5 degrees).
+  const float expected = 1 - std::sin(2 * kPi / 180) / std::sin(5 * kPi / 180);
+  EXPECT_NEAR(weightOfOne(one, recordAt(vec3(0), vec3(1)), vec3(0), tilted(4), 0.01f), expected, 1e-3f);
+  EXPECT_EQ(weightOfOne(one, recordAt(vec3(0), vec3(1)), vec3(0), tilted(10.1f), 0.01f), 0);
+  // The larger of both terms counts, times kappa.
+  EXPECT_NEAR(weightOfOne(one, recordAt(vec3(0), vec3(1), 9), {0.09f, 0, 0}, tilted(4), 0.01f), 0.1f, 1e-4f);
+  EXPECT_NEAR(
+      weightOfOne({ErrorFunction::Screen, 2}, recordAt(vec3(0), vec3(1), 9), {0.02f, 0, 0}, kUp, 0.01f), 0.6f,
+      1e-5f);
+}
+
+TEST(IrradianceCache, MaxPixelsReplacesTheTenOfEquation3) {
+  const CacheSettings four{ErrorFunction::Screen, 1, 4};
+  EXPECT_NEAR(weightOfOne(four, recordAt(vec3(0), vec3(1), 9), {0.02f, 0, 0}, kUp, 0.01f), 0.5f, 1e-5f);
+}
+
+TEST(IrradianceCache, KappaOfZeroReusesNothing) {
+  EXPECT_EQ(weightOfOne({ErrorFunction::Screen, 0}, recordAt(vec3(0), vec3(1)), vec3(0), kUp, 0.01f), 0);
+}
+
+TEST(IrradianceCache, WardWeightIsTheInverseOfTheSplitSphereError) {
+  const CacheSettings ward{ErrorFunction::Ward, 1};
+  const auto record = recordAt(vec3(0), vec3(1), 0.08f);
+  const float error = 0.02f / 0.08f + std::sqrt(1 - std::cos(20 * kPi / 180));
+  EXPECT_NEAR(weightOfOne(ward, record, {0, 0.02f, 0}, tilted(20), 0.01f), 1 / error - 1, 1e-3f);
+  EXPECT_EQ(weightOfOne(ward, record, {0, 0.079f, 0}, tilted(20), 0.01f), 0);
+}
+
+TEST(IrradianceCache, ARecordInFrontOfThePointIsNotUsedAndOneBesideItIs) {
+  for (const auto function : {ErrorFunction::Screen, ErrorFunction::Ward}) {
+    const auto record = recordAt(vec3(0), vec3(1));
+    EXPECT_EQ(weightOfOne({function, 1}, record, {0, 0, -0.03f}, kUp, 0.01f), 0);
+    EXPECT_GT(weightOfOne({function, 1}, record, {0, 0, 0.03f}, kUp, 0.01f), 0);
+    EXPECT_GT(weightOfOne({function, 1}, record, {0.03f, 0, 0}, kUp, 0.01f), 0);
+  }
+}
+
+TEST(IrradianceCache, AConstantFieldIsReproduced) {
+  for (const auto function : {ErrorFunction::Screen, ErrorFunction::Ward}) {
+    IrradianceCache cache(kBox, {function, 1});
+    for (uint32_t i = 0; i < 300; ++i) {
+      const vec3 p = randomIn(i, 1) * vec3(1, 1, 0);
+      cache.insert(recordAt(p, {0.5f, 0.25f, 2}, 1 + randomIn(i, 2).x, 0.05f));
+    }
+    int found = 0;
+    for (uint32_t i = 0; i < 200; ++i) {
+      const auto estimate = cache.lookup(randomIn(i, 3) * vec3(1, 1, 0), kUp, 0.05f);
+      if (estimate.weight == 0) continue;
+      ++found;
+      EXPECT_NEAR(estimate.E.x, 0.5f, 1e-6f);
+      EXPECT_NEAR(estimate.E.z, 2, 1e-5f);
+      EXPECT_NEAR(estimate.dominant[1].z, 1, 1e-6f);
+    }
+    EXPECT_GT(found, 150);
+  }
+}
+
+TEST(IrradianceCache, ALinearFieldWithExactGradientsIsReproduced) {
+  const vec3 slope{0.3f, -0.2f, 0};
+  const auto field = [&](const vec3& p) { return 2 + dot(slope, p); };
+  IrradianceCache cache(kBox, {});
+  for (uint32_t i = 0; i < 200; ++i) {
+    const vec3 p = randomIn(i, 4) * vec3(1, 1, 0);
+    auto record = recordAt(p, vec3(field(p)), 1, 0.03f);
+    for (vec3& g : record.translationGradient) g = slope;
+    cache.insert(record);
+  }
+  for (uint32_t i = 0; i < 100; ++i) {
+    const vec3 x = randomIn(i, 5) * vec3(1, 1, 0);
+    const auto estimate = cache.lookup(x, kUp, 0.03f);
+    if (estimate.weight > 0) EXPECT_NEAR(estimate.E.y, field(x), 1e-5f);
+  }
+}
+
+TEST(IrradianceCache, TheRotationGradientTurnsWithTheNormal) {
+  auto record = recordAt(vec3(0), vec3(1));
+  record.rotationGradient[0] = {0, 0.5f, 0};
+  IrradianceCache cache(kBox, {});
+  cache.insert(record);
+  const vec3 n = tilted(5);
+  EXPECT_NEAR(cache.lookup(vec3(0), n, 0.01f).E.x, 1 + 0.5f * n.x, 1e-6f);
+  EXPECT_NEAR(cache.lookup(vec3(0), n, 0.01f).E.y, 1, 1e-6f);
+}
+
+TEST(IrradianceCache, NoGradientMakesLightNegativeOrMoreThanDoublesIt) {
+  auto record = recordAt(vec3(0), {1, 0, 1}, 1, 0.01f);
+  for (vec3& g : record.translationGradient) g = {1e6f, 0, 0};
+  record.translationGradient[2] = {kInfinity, 0, 0};
+  IrradianceCache cache(kBox, {});
+  cache.insert(record);
+  for (float x = -0.09f; x < 0.1f; x += 0.01f) {
+    const vec3 E = cache.lookup({x, 0, 0}, kUp, 0.01f).E;
+    EXPECT_GE(E.x, 0);
+    EXPECT_LE(E.x, 2);
+    EXPECT_EQ(E.y, 0);
+    EXPECT_EQ(E.z, 1);
+  }
+}
+
+// What the tree must agree with: the weights of all records, one cache each.
+TEST(IrradianceCache, TheOctreeFindsEveryUsableRecordInsideAndOutsideItsBound) {
+  for (const auto function : {ErrorFunction::Screen, ErrorFunction::Ward}) {
+    const CacheSettings settings{function, 1};
+    IrradianceCache cache({vec3(-0.5f), vec3(0.5f)}, settings);
+    std::vector<IrradianceRecord> records;
+    for (uint32_t i = 0; i < 150; ++i) {
+      const float closest = std::pow(10.0f, 2 * randomIn(i, 6).x - 1);
+      const float pixelSize = 0.02f * (1.5f + randomIn(i, 7).x);
+      records.push_back(recordAt(randomIn(i, 8) * vec3(1, 1, 0.01f), vec3(1), closest, pixelSize));
+      cache.insert(records.back());
+    }
+    for (uint32_t i = 0; i < 40; ++i) {
+      const vec3 x = randomIn(i, 9) * vec3(1, 1, 0.01f);
+      const float pixelSize = 0.02f * (1.5f + randomIn(i, 10).x);
+      float expected = 0;
+      for (const auto& r : records) expected += weightOfOne(settings, r, x, kUp, pixelSize);
+      EXPECT_NEAR(cache.lookup(x, kUp, pixelSize).weight, expected, 1e-4f * (1 + expected));
+    }
+  }
+}
+
+TEST(IrradianceCache, TheShapeOfTheTreeLeavesNoTraceInALookup) {
+  IrradianceCache tight(kBox, {}), loose({vec3(-20), vec3(9)}, {}), flat(Bound3{}, {});
+  for (uint32_t i = 0; i < 500; ++i) {
+    const auto record = recordAt(randomIn(i, 11) * vec3(1, 1, 0), glm::abs(randomIn(i, 12)), 0.5f, 0.02f);
+    for (auto* cache : {&tight, &loose, &flat}) cache->insert(record);
+  }
+  for (uint32_t i = 0; i < 100; ++i) {
+    const vec3 x = randomIn(i, 13) * vec3(1, 1, 0);
+    const vec3 E = tight.lookup(x, kUp, 0.02f).E;
+    EXPECT_EQ(E, loose.lookup(x, kUp, 0.02f).E);
+    EXPECT_EQ(E, flat.lookup(x, kUp, 0.02f).E);
+  }
+}
+
+TEST(IrradianceCache, InterpolationIsContinuousWhereARecordEnds) {
+  for (const auto function : {ErrorFunction::Screen, ErrorFunction::Ward}) {
+    IrradianceCache cache(kBox, {function, 1});
+    cache.insert(recordAt({0, 0, 0}, vec3(1)));
+    cache.insert(recordAt({0.08f, 0, 0}, vec3(0)));
+    float last = cache.lookup({0, 0, 0}, kUp, 0.01f).E.x;
+    for (float x = 0.0002f; x < 0.17f; x += 0.0002f) {
+      const float E = cache.lookup({x, 0, 0}, kUp, 0.01f).E.x;
+      EXPECT_LT(std::abs(E - last), 0.03f) << x;
+      last = E;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tomales
