@@ -20,6 +20,7 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, int
   std::vector<uint32_t> keys(count);
   std::vector<vec3> directions(count), radiance;
   std::vector<float> distances(count);
+  int64_t adjusted = 0;
   for (size_t i = 0; i < count; ++i) {
     const int cell = static_cast<int>(i);
     keys[i] = hashCombine(key, static_cast<uint32_t>(i), settings.seed);
@@ -27,10 +28,13 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, int
     const vec3 local = hemisphereDirection(cells, cell / cells.sectors, cell % cells.sectors, xi);
     directions[i] = local.x * samples.tangent + local.y * samples.bitangent + local.z * normal;
     rays[i].direction = directions[i];
+    rays[i].offset = slantedOffset(ray.offset, local.z);
     hits[i] = scene.closest(rays[i], kMaskDiffuse);
     distances[i] = hits[i].object < 0 ? kInfinity : std::max(0.0f, hits[i].t);
+    adjusted += hits[i].adjusted;
   }
   stats.rays.gather += static_cast<int64_t>(count);
+  stats.rays.hitlistAdjusted += adjusted;
   const ShadeContext context{RayKind::Diffuse, 1, settings.seed, 1, false};
   scene.shadeHits(rays, hits, keys, shading, context, radiance);
   for (vec3& L : radiance)

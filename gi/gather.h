@@ -20,6 +20,10 @@ struct GatherSettings {
 IrradianceRecord gather(const RayScene& rays, const ShadingSystem& shading, int group, const vec3& position, const vec3& normal,
                         uint32_t key, float pixelSize, const GatherSettings& settings, Stats& stats);
 
+/// Hit-list distance of a ray at this cosine to the normal. Coarse and fine surface are up to `offset` apart along the normal, so
+/// a slanted ray meets the coarse one later; the floor keeps grazing rays from reaching through other objects.
+inline float slantedOffset(float offset, float cosine) { return offset / std::max(cosine, 0.25f); }
+
 /// Directions of a stratified cosine hemisphere of M x N cells (M rings of equal projected area, N sectors), as the lecture notes'
 /// estimator has them: cell (j, k) is sample j * N + k. Around +z.
 struct HemisphereCells { int rings, sectors; };

@@ -54,7 +54,8 @@ class GatherPass {
     for (size_t g = 0; g < cacheOfGroup_.size(); ++g) {
       const int group = static_cast<int>(g);
       const IndirectQuery* query = state_.shading.indirectQuery(group);
-      if (!query || !state_.scene.groups[g].attributes->indirect.receive) continue;
+      const Attributes& attributes = *state_.scene.groups[g].attributes;
+      if (!query || !attributes.indirect.receive || attributes.matte) continue;
       const GatherPlan plan = planFor(state_, group, *query);
       if (!(plan.cache.maxError > 0)) continue;
       size_t c = 0;

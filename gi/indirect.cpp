@@ -6,6 +6,8 @@ namespace tomales {
 namespace {
 
 constexpr size_t kRaysPerBatch = 4096;  // shaded together
+constexpr uint32_t kPathStream =
+    0x70617468U;  // keeps directions independent of the light samples at the same point
 
 vec3 unitNormal(const ShadePoints& points, TmConstVec3 N, int i) {
   return normalizeOr({N.x[i], N.y[i], N.z[i]}, points.facingNormal(i));
@@ -38,6 +40,7 @@ class PathBatches {
       const vec3 local = cosineHemisphere(sobol2(static_cast<uint32_t>(path), pointKey));
       ray.direction = local.x * tangent + local.y * bitangent + local.z * normal;
       rays_.push_back(ray);
+      rays_.back().offset = slantedOffset(ray.offset, local.z);
       keys_.push_back(hashCombine(pointKey, static_cast<uint32_t>(path)));
       sums_.push_back(&sum);
       if (rays_.size() == kRaysPerBatch) flush();
@@ -47,7 +50,11 @@ class PathBatches {
   void flush() {
     if (rays_.empty()) return;
     hits_.clear();
-    for (const Ray& ray : rays_) hits_.push_back(state_.rays.closest(ray, kMaskDiffuse));
+    int64_t adjusted = 0;
+    for (const Ray& ray : rays_) {
+      hits_.push_back(state_.rays.closest(ray, kMaskDiffuse));
+      adjusted += hits_.back().adjusted;
+    }
     state_.rays.shadeHits(rays_, hits_, keys_, state_.shading, context_, radiance_);
     for (size_t r = 0; r < rays_.size(); ++r) {
       if (!isFinite(radiance_[r])) continue;  // one bad shader result would cost the whole point
@@ -55,6 +62,7 @@ class PathBatches {
       for (int c = 0; c < 3; ++c) sums_[r]->directions[c] += radiance_[r][c] * rays_[r].direction;
     }
     state_.stats.rays.reference += static_cast<int64_t>(rays_.size());
+    state_.stats.rays.hitlistAdjusted += adjusted;
     rays_.clear(), keys_.clear(), sums_.clear();
   }
 

@@ -3,13 +3,6 @@
 #include "gi/state.h"
 
 namespace tomales {
-namespace {
-
-// Shadow rays end a little before the light: rounding must not let an emitter shadow itself.
-constexpr float kShadowEnd = 0.9999f;
-
-}  // namespace
-
 struct GiServices::Impl : GiState {};
 
 GiServices::GiServices(const Scene& scene, const Camera& camera, const RayScene& rays,
@@ -30,8 +23,9 @@ void GiServices::transmission(const ShadePoints& points, const uint8_t* active, 
     const vec3 arriving{light.x[i], light.y[i], light.z[i]}, path{toward.x[i], toward.y[i], toward.z[i]};
     const float length = glm::length(path);
     if (!active[i] || arriving == vec3(0.0f) || !(length > 0)) continue;
-    Ray ray{points.position(i), path / length, solar ? kInfinity : length * kShadowEnd};
+    Ray ray{points.position(i), path / length, solar ? kInfinity : length};
     impl_->rays.prepareOrigin(points.group(), ray.origin, ray);
+    ray.offset = slantedOffset(ray.offset, std::abs(dot(ray.direction, points.get3(kNgx, i))));
     const vec3 passed = arriving * impl_->rays.transmission(ray);
     light.x[i] = passed.x, light.y[i] = passed.y, light.z[i] = passed.z;
     ++traced;

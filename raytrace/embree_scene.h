@@ -10,19 +10,19 @@ namespace tomales {
 class EmbreeScene {
  public:
   /// Group i of `groups` (which must outlive this) is visible to rays of masks[i] and opaque if opaque[i].
-  EmbreeScene(const std::vector<CoarseGroup>& groups, const std::vector<uint32_t>& masks, const std::vector<bool>& opaque,
-              Log& log);
+  EmbreeScene(const std::vector<CoarseGroup>& groups, const std::vector<uint32_t>& masks,
+              const std::vector<bool>& opaque, Log& log);
   ~EmbreeScene();
 
   /// Nearest hit with ray.bias < t < ray.tMax; ray.offset plays no part.
   bool nearest(const Ray& ray, uint32_t mask, PolygonHit& hit) const;
 
-  /// One traversal: fills `list` with all hits at |t| <= window, unsorted, and `beyond` with the nearest after that.
-  /// False: nothing beyond before tMax.
+  /// One traversal: fills `list` with all hits at |t| <= window, unsorted, and `beyond` with the nearest
+  /// after that. False: nothing beyond before tMax.
   bool nearestBeyond(const Ray& ray, float window, uint32_t mask, HitList& list, PolygonHit& beyond) const;
 
-  /// True if something opaque lies in `window` < t < tMax, where window is negative for rays without a hit list, which
-  /// start at their bias. Else `list` has all hits from -window to tMax, unsorted.
+  /// True if something opaque lies in `window` < t < tMax, where window is negative for rays without a hit
+  /// list, which start at their bias. Else `list` has all hits from -window to tMax, unsorted.
   bool blockedBeyond(const Ray& ray, float window, uint32_t mask, HitList& list) const;
 
   size_t bytes() const;  ///< That Embree allocated.

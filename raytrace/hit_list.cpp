@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "reyes/base/math.h"
+
 namespace tomales {
 
 void sortAlongRay(HitList& list) {
@@ -16,24 +18,29 @@ bool sameSurface(const PolygonHit& a, const PolygonHit& b, float distance) {
   return a.leaving == b.leaving && std::abs(a.t - b.t) <= distance;
 }
 
-int effectiveOrigin(const HitList& sorted, float offset) {
+int effectiveOrigin(const HitList& sorted, const RayStart& start) {
+  float nearest = kInfinity;
+  for (const PolygonHit& hit : sorted) nearest = std::min(nearest, std::abs(hit.t));
+  if (!(nearest <= start.offset)) return -1;
+  const auto rank = [&](const PolygonHit& hit) {
+    return std::make_tuple(static_cast<int>(hit.group) != start.group, !hit.leaving, std::abs(hit.t));
+  };
   int best = -1;
-  float nearest = offset;
-  for (size_t i = 0; i < sorted.size(); ++i) {
-    const float distance = std::abs(sorted[i].t);
-    if (best < 0 ? distance <= nearest : distance < nearest) best = static_cast<int>(i), nearest = distance;
-  }
+  for (size_t i = 0; i < sorted.size(); ++i)
+    if (std::abs(sorted[i].t) <= nearest + start.rounding &&
+        (best < 0 || rank(sorted[i]) < rank(sorted[static_cast<size_t>(best)])))
+      best = static_cast<int>(i);
   return best;
 }
 
-int nextHit(const HitList& sorted, int origin, float offset) {
-  for (size_t i = static_cast<size_t>(origin + 1); i < sorted.size(); ++i) {
-    const bool after = origin < 0
-                           ? sorted[i].t > 0
-                           : !sameSurface(sorted[static_cast<size_t>(origin)], sorted[i], mergeDistance(offset));
-    if (after) return static_cast<int>(i);
-  }
-  return -1;
+int nextHit(const HitList& sorted, int origin, const RayStart& start) {
+  const auto follows = [&](const PolygonHit& hit) {
+    if (origin < 0) return hit.t > 0;
+    const PolygonHit& from = sorted[static_cast<size_t>(origin)];
+    return hit.t >= from.t - start.rounding && !sameSurface(from, hit, mergeDistance(start.offset));
+  };
+  const auto next = std::find_if(sorted.begin(), sorted.end(), follows);
+  return next == sorted.end() ? -1 : static_cast<int>(next - sorted.begin());
 }
 
 }  // namespace tomales

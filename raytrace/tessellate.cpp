@@ -1,5 +1,7 @@
 #include "raytrace/tessellate.h"
 
+#include <fmt/format.h>
+
 #include "reyes/base/parallel.h"
 #include "reyes/dice.h"
 
@@ -7,15 +9,19 @@ namespace tomales {
 namespace {
 
 constexpr float kPolygon_px = 8;
-constexpr float kTurn = 15 * kPi / 180;         ///< Radians between the normals at the ends of a polygon.
-constexpr float kEmitterTurn = 5 * kPi / 180;   ///< Brings the area of a sphere light within 0.2 %.
-constexpr int kProbes = 5;                      ///< Odd, so that a symmetrical wave is not met at its zeros.
-constexpr int kTile = 64;                       ///< Quads of one lattice along u or v: bounds what is diced at once.
+constexpr float kTurn = 15 * kPi / 180;        ///< Radians between the normals at the ends of a polygon.
+constexpr float kEmitterTurn = 5 * kPi / 180;  ///< Brings the area of a sphere light within 0.2 %.
+constexpr int kProbes = 5;                     ///< Odd, so that a symmetrical wave is not met at its zeros.
+constexpr int kTile = 64;  ///< Quads of one lattice along u or v: bounds what is diced at once.
 constexpr double kMostQuadsOfPatch = 1 << 22;
 
-struct Counts { int nu, nv; };
+struct Counts {
+  int nu, nv;
+};
 
-bool displacesForRays(const Object& o) { return o.attributes->trace.displacements && o.attributes->displacement; }
+bool displacesForRays(const Object& o) {
+  return o.attributes->trace.displacements && o.attributes->displacement;
+}
 
 bool raysNeed(const Attributes& a) {
   const Visibility& v = a.visibility;
@@ -27,7 +33,9 @@ float angleBetween(const vec3& a, const vec3& b) {
 }
 
 /// Longest lattice line of a patch, in pixels, and the most that the normal turns along one.
-struct LineFigures { float length_px = 0, turn = 0; };
+struct LineFigures {
+  float length_px = 0, turn = 0;
+};
 
 LineFigures linesOf(const Grid& g, const Camera& camera, int alongStride, int acrossStride) {
   LineFigures out;
@@ -47,9 +55,11 @@ LineFigures linesOf(const Grid& g, const Camera& camera, int alongStride, int ac
 }
 
 bool mayBeSeen(const Object& o, uint32_t patch, const Camera& camera) {
-  const Bound3 bound = transformBound(o.cameraFromObject.at(o.keyTimes.front()), o.shape().bound(patch, UvRect{}));
+  const Bound3 bound =
+      transformBound(o.cameraFromObject.at(o.keyTimes.front()), o.shape().bound(patch, UvRect{}));
   return o.attributes->visibility.camera &&
-         !camera.outside(bound.grown(o.displacementBound), {0, 0, camera.xResolution(), camera.yResolution()});
+         !camera.outside(bound.grown(o.displacementBound),
+                         {0, 0, camera.xResolution(), camera.yResolution()});
 }
 
 class Tessellator {
@@ -75,7 +85,8 @@ class Tessellator {
     const bool displaced = displacesForRays(o);
     if (o.shape().info(patch).planar && !displaced) return {1, 1};
     const Grid probe = dice(scene_, object, patch, UvRect{}, kProbes, kProbes, 1);
-    const LineFigures u = linesOf(probe, camera_, 1, kProbes + 1), v = linesOf(probe, camera_, kProbes + 1, 1);
+    const LineFigures u = linesOf(probe, camera_, 1, kProbes + 1),
+                      v = linesOf(probe, camera_, kProbes + 1, 1);
     const Attributes& a = *o.attributes;
     const float fineness = std::max(a.trace.tessellation, 1e-3f);
     const float turn = (a.areaLight >= 0 ? kEmitterTurn : kTurn) / fineness;
@@ -83,22 +94,20 @@ class Tessellator {
     const bool byPixels = displaced || mayBeSeen(o, patch, camera_);
     const float edge_px = kPolygon_px * std::sqrt(std::max(a.shadingRate, 1e-4f)) / fineness;
     const auto count = [&](const LineFigures& f) {
-      return std::max({1.0, std::ceil(double{f.turn} / turn), byPixels ? std::ceil(double{f.length_px} / edge_px) : 0.0});
+      const double n = std::max(double{f.turn} / turn, byPixels ? double{f.length_px} / edge_px : 0.0);
+      return std::isfinite(n) ? std::max(1.0, std::ceil(n)) : 1.0;
     };
     return limited(object, count(u), count(v));
   }
 
   Counts limited(int object, double nu, double nv) const {
-    if (!(nu * nv <= kMostQuadsOfPatch)) {
-      const double most = std::sqrt(kMostQuadsOfPatch), shrink = std::sqrt(kMostQuadsOfPatch / (nu * nv));
-      log_.report(Severity::Warning, "trace-tessellation", objectOf(object).where,
-                  fmt::format("{} asks for {:.0f} x {:.0f} polygons for ray tracing in one patch: limited to {:.0f}; "
-                              "lower Attribute \"trace\" \"tessellation\"",
-                              objectName(objectOf(object)), nu, nv, kMostQuadsOfPatch));
-      if (!(shrink > 0)) return {1, 1};
-      nu = std::clamp(nu * shrink, 1.0, most * most / std::max(1.0, nv * shrink));
-      nv = std::clamp(nv * shrink, 1.0, most * most / nu);
-    }
+    if (nu * nv <= kMostQuadsOfPatch) return {static_cast<int>(nu), static_cast<int>(nv)};
+    log_.report(Severity::Warning, "trace-tessellation", objectOf(object).where,
+                fmt::format("{} asks for {:.0f} x {:.0f} polygons for rays in one patch: limited to {:.0f}; "
+                            "lower Attribute \"trace\" \"tessellation\"",
+                            objectName(objectOf(object)), nu, nv, kMostQuadsOfPatch));
+    // Halving keeps the proportions until one side is a single polygon.
+    while (nu * nv > kMostQuadsOfPatch) (nu > nv ? nu : nv) = std::ceil(std::max(nu, nv) / 2);
     return {static_cast<int>(nu), static_cast<int>(nv)};
   }
 
@@ -132,8 +141,8 @@ class Tessellator {
       }
   }
 
-  /// Distance of the centre and the middles of the edges from the polygon with corner (i, j), across its plane: along the
-  /// plane a point may slide without leaving the surface.
+  /// Distance of the centre and the middles of the edges from the polygon with corner (i, j), across its
+  /// plane: along the plane a point may slide without leaving the surface.
   static float deviationOf(const Grid& g, int i, int j) {
     const int row = g.nu + 1, k = j * row + i;
     const auto P = [&](int di, int dj) { return g.position(0, k + dj * row + di); };
@@ -142,7 +151,8 @@ class Tessellator {
     const auto off = [&](const vec3& p, const vec3& q, const vec3& middle) {
       return std::abs(dot(middle - 0.5f * (p + q), n));
     };
-    return std::max({off(b, d, P(1, 1)), off(a, b, P(1, 0)), off(b, c, P(2, 1)), off(c, d, P(1, 2)), off(d, a, P(0, 1))});
+    return std::max(
+        {off(b, d, P(1, 1)), off(a, b, P(1, 0)), off(b, c, P(2, 1)), off(c, d, P(1, 2)), off(d, a, P(0, 1))});
   }
 
   const Scene& scene_;
@@ -156,7 +166,8 @@ void append(CoarseGroup& to, const CoarseGroup& from) {
   const auto lattice = static_cast<uint32_t>(to.lattices.size());
   to.P.insert(to.P.end(), from.P.begin(), from.P.end());
   to.N.insert(to.N.end(), from.N.begin(), from.N.end());
-  for (const Quad& q : from.quads) to.quads.push_back({q[0] + vertex, q[1] + vertex, q[2] + vertex, q[3] + vertex});
+  for (const Quad& q : from.quads)
+    to.quads.push_back({q[0] + vertex, q[1] + vertex, q[2] + vertex, q[3] + vertex});
   for (const uint32_t l : from.latticeOfQuad) to.latticeOfQuad.push_back(l + lattice);
   for (Lattice l : from.lattices) {
     l.firstQuad += quad;
@@ -166,7 +177,10 @@ void append(CoarseGroup& to, const CoarseGroup& from) {
 }
 
 /// A run of patches of one object: what one thread tessellates at a time.
-struct Work { int object; uint32_t first, last; };
+struct Work {
+  int object;
+  uint32_t first, last;
+};
 
 std::vector<Work> workOf(const Scene& scene) {
   constexpr uint32_t kPatchesAtOnce = 256;
@@ -207,13 +221,15 @@ size_t CoarseGroup::bytes() const {
          latticeOfQuad.capacity() * sizeof(uint32_t) + lattices.capacity() * sizeof(Lattice);
 }
 
-std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, const ShadingSystem& shading, Log& log) {
+std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, const ShadingSystem& shading,
+                                    Log& log) {
   const std::vector<Work> work = workOf(scene);
   std::vector<CoarseGroup> pieces(work.size());
   const Tessellator tessellator(scene, camera, shading, log);
   parallelFor(work.size(), 1, [&](size_t begin, size_t end) {
     for (size_t w = begin; w < end; ++w)
-      for (uint32_t p = work[w].first; p < work[w].last; ++p) tessellator.addPatch(work[w].object, p, pieces[w]);
+      for (uint32_t p = work[w].first; p < work[w].last; ++p)
+        tessellator.addPatch(work[w].object, p, pieces[w]);
   });
   std::vector<CoarseGroup> groups(scene.groups.size());
   for (size_t w = 0; w < work.size(); ++w) {

@@ -1,9 +1,10 @@
 // Verb: the objects of a scene -> coarse quadrilaterals for rays, merged by shade group.
 //   in     a frozen scene; displacement where trace:displacements asks for it
-//   out    vertices in current space at shutter open, quads, and the way back from a quad to object, patch and (u,v)
-//   never  depends on threads: the order is that of objects and patches
-// Rate: polygons of about 8 pixels (x sqrt(ShadingRate) / trace:tessellation) where the camera can see the object, and a
-// turn of the normal of at most 15 degrees (/ trace:tessellation) everywhere; flat patches are one exact quad.
+//   out    vertices in current space at shutter open, quads, and the way back from a quad to object, patch
+//   and (u,v) never  depends on threads: the order is that of objects and patches
+// Rate: polygons of about 8 pixels (x sqrt(ShadingRate) / trace:tessellation) where the camera can see the
+// object, and a turn of the normal of at most 15 degrees (/ trace:tessellation) everywhere; flat patches are
+// one exact quad.
 #pragma once
 #include <array>
 
@@ -30,8 +31,9 @@ struct CoarseGroup {
   std::vector<uint32_t> latticeOfQuad;
   std::vector<Lattice> lattices;
   bool flipsNormal = false;  ///< The RISpec side is opposite to dP/du x dP/dv.
-  float deviation = 0;       ///< Largest distance between a coarse polygon and the micropolygons that stand for it.
-  float size = 0;            ///< Diagonal of the largest object.
+  float deviation =
+      0;           ///< Largest distance between a coarse polygon and the micropolygons that stand for it.
+  float size = 0;  ///< Diagonal of the largest object.
 
   vec3 corner(uint32_t quad, int k) const { return P[quads[quad][static_cast<size_t>(k)]]; }
   vec3 geometricNormal(uint32_t quad) const;  ///< RISpec side, unit length.
@@ -41,6 +43,7 @@ struct CoarseGroup {
 };
 
 /// One for each of scene.groups; empty for what no ray may meet and no light is made of.
-std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, const ShadingSystem& shading, Log& log);
+std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, const ShadingSystem& shading,
+                                    Log& log);
 
 }  // namespace tomales

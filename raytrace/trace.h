@@ -16,6 +16,7 @@ struct Ray {
   float tMax = kInfinity;       ///< Hits at t >= tMax do not count.
   float offset = 0;             ///< Hit-list distance; 0 switches the algorithm off and uses `bias` alone.
   float bias = 0;               ///< Without a hit list: hits at t <= bias do not count.
+  int group = -1;               ///< Shade group that the ray leaves, -1: unknown. Settles which of two walls that meet is left.
 };
 
 struct Hit {
@@ -41,7 +42,7 @@ class RayScene {
   /// Fraction of light that passes from the origin to tMax, by the objects' opacities.
   vec3 transmission(const Ray& ray) const;
 
-  /// Offset and bias for rays that leave a point of this object at P: trace:offset and trace:bias, or by default more than the
+  /// Group, offset and bias for rays that leave a point of this object at P: trace:offset and trace:bias, or by default more than the
   /// largest distance between its coarse and its diced surface (displacement bound included).
   void prepareOrigin(int group, const vec3& P, Ray& ray) const;
 

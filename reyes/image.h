@@ -48,7 +48,7 @@ Image filterFrame(const DeepFrame& frame, const Options& options, const SampleOf
 void expose(Image& image, const Options& options);
 
 /// Writes one Display: picks channels by `display.mode`, type by `display.type` or the name's extension (.exr .tif .png),
-/// quantises (8-bit types: sRGB only for PNG previews asked for with `srgb`), to a temporary name, then renames.
+/// quantises (8-bit types: sRGB only where the Display's "string transfer" says so), to a temporary name, then renames.
 /// False: could not be written; reported to the log.
 bool writeDisplay(const Image& image, const DisplayCall& display, const Options& options, Log& log);
 bool writeImage(const std::string& path, const Image& image, bool srgb, Log& log);

@@ -54,6 +54,7 @@ void Scene::freeze() {
   std::multimap<const Attributes*, int> byAttributes;
   for (size_t i = 0; i < objects.size(); ++i) {
     Object& o = objects[i];
+    o.group = -1;
     o.cameraFromObject = cameraFromWorld * o.worldFromObject;
     o.keyTimes = keyTimesOf(o, o.cameraFromObject, options);
     const mat4 m = o.cameraFromObject.at(options.shutterOpen);

@@ -44,7 +44,7 @@ struct Scene {
   SourceLoc where;                             ///< Of WorldBegin.
 
   std::vector<ShadeGroup> groups;              ///< Filled by freeze().
-  /// Fills the derived fields above. Call once, when all objects and lights are in.
+  /// Fills the derived fields above. Call when all objects and lights are in, and again after changing attributes.
   void freeze();
 
   mat4 cameraFromWorldAtOpen() const { return cameraFromWorld.at(options.shutterOpen); }

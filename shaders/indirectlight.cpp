@@ -22,11 +22,13 @@ void shade(const TmGrid* g) {
   TmVec3 dominant[3] = {red, green, blue};
   g->call->indirectDiffuse(g->host, g, Nf, E, dominant);
   for (int i : b) {
-    const rsl::Vec3 L = rsl::get(dominant[g->sample], i), tint = intensity(g, i) * lightcolor(g, i);
-    // Eq. 6: all of E comes from L, so that diffuse(N) gives E back; grazing directions are held off the
-    // horizon.
-    const float Cl =
-        channel(E[i], g->sample) * channel(tint, g->sample) / std::max(0.01f, rsl::dot(Nf[i], L));
+    const rsl::Vec3 N = Nf[i], w = rsl::get(dominant[g->sample], i),
+                    tint = intensity(g, i) * lightcolor(g, i);
+    // A direction at the horizon or below (extrapolated from another point's hemisphere) is lifted just above
+    // it.
+    const rsl::Vec3 L = rsl::normalize(w + std::max(0.0f, 0.01f - rsl::dot(N, w)) * N);
+    // Eq. 6: all of E comes from L, so that diffuse(N) gives E back.
+    const float Cl = channel(E[i], g->sample) * channel(tint, g->sample) / std::max(1e-6f, rsl::dot(N, L));
     b.illuminate(i, L, {g->sample == 0 ? Cl : 0, g->sample == 1 ? Cl : 0, g->sample == 2 ? Cl : 0});
   }
 }

@@ -1,8 +1,22 @@
+#include "reyes/base/check.h"
 #include "reyes/hide/lattice.h"
 #include "reyes/hide/raster.h"
 #include "reyes/hide/resolve.h"
 
 namespace tomales {
+namespace {
+
+/// Key times of a grid as fractions of the shutter.
+std::vector<float> shutterTimes(const Scene& scene, const Grid& grid) {
+  if (grid.keyCount == 1) return {0};
+  std::vector<float> times = scene.objects[static_cast<size_t>(grid.object)].keyTimes;
+  CHECK_EQ(static_cast<int>(times.size()), grid.keyCount);
+  const float open = scene.options.shutterOpen, length = scene.options.shutterClose - open;
+  for (float& t : times) t = (t - open) / length;
+  return times;
+}
+
+}  // namespace
 
 struct Hider::Impl {
   const Scene& scene;
@@ -26,12 +40,12 @@ bool Hider::hidden(const Bound2& raster, float zMin) const {
 void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
   SampleBuffer& s = impl_->samples;
   if (s.hides(s.touched(raster->bound.lo, raster->bound.hi), raster->dMin)) return;
-  const uint32_t firstCell = impl_->grids.add(raster);
-  const RasterJob job{*raster, impl_->grids, firstCell, impl_->camera.perspective(), s};
+  const GridTable::Entry& entry = impl_->grids.add(raster, shutterTimes(impl_->scene, *raster->grid));
+  const RasterJob job{*raster, impl_->grids, entry.firstCell, entry.keyTimes, impl_->camera.perspective(), s};
   if (raster->grid->keyCount == 1)
     rasterizeStill(job);
   else
-    rasterizeMoving(job, shutterTimes(impl_->scene, *raster->grid));
+    rasterizeMoving(job);
 }
 
 DeepTile Hider::resolve() {

@@ -1,6 +1,5 @@
 // Correlated multi-jittered sampling (Kensler 2013): every cell of the xSamples by ySamples raster holds one sample, and
 // so does every column and row of the finer raster with count() columns and rows.
-#include <cfloat>
 #include <numeric>
 
 #include "reyes/base/rng.h"
@@ -10,7 +9,7 @@
 namespace tomales {
 namespace {
 
-constexpr int kPatterns = 256;
+constexpr uint32_t kPatterns = 256;
 
 std::vector<int> permutation(int count, uint32_t seed) {
   std::vector<int> p(static_cast<size_t>(count));
@@ -28,6 +27,30 @@ float placed(int i, int n, float inside) {
   return std::clamp(std::round((static_cast<float>(i) + inside) * width), lo, std::max(lo, hi)) / kLattice;
 }
 
+/// The number in stratum `i` of n: rounding must not carry it into the next.
+float within(int i, int n, float inside) {
+  const float count = static_cast<float>(n);
+  return std::min((static_cast<float>(i) + inside) / count, std::nextafter(static_cast<float>(i + 1) / count, 0.0f));
+}
+
+/// Which part of the shutter a cell samples: a shuffled Latin square, so that not only the pixel but each of its rows
+/// and columns sees the whole shutter, and what moves along x or y is blurred evenly.
+class Times {
+ public:
+  Times(int xSamples, int ySamples, uint32_t name)
+      : column_(permutation(xSamples, hash32(name ^ 3U))), row_(permutation(ySamples, hash32(name ^ 4U))),
+        coarse_(permutation(xSamples, hash32(name ^ 5U))) {}
+
+  int stratum(int i, int j) const {
+    const int fine = row_[static_cast<size_t>(j)], n = static_cast<int>(coarse_.size());
+    const int coarse = coarse_[static_cast<size_t>((column_[static_cast<size_t>(i)] + fine) % n)];
+    return coarse * static_cast<int>(row_.size()) + fine;
+  }
+
+ private:
+  std::vector<int> column_, row_, coarse_;
+};
+
 }  // namespace
 
 SamplePattern::SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t seed)
@@ -35,23 +58,22 @@ SamplePattern::SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t s
   const size_t size = static_cast<size_t>(kPatterns) * static_cast<size_t>(padded_);
   // Padding repeats the corner of the pixel; the hider gives those lanes a depth that nothing beats.
   x_.assign(size, 0), y_.assign(size, 0), time_.assign(size, 0);
-  for (int p = 0; p < kPatterns; ++p) {
-    const uint32_t name = hashCombine(seed, 0x70617474U, static_cast<uint32_t>(p));
-    const std::vector<int> column = permutation(ySamples, hash32(name ^ 1U));
-    const std::vector<int> row = permutation(xSamples, hash32(name ^ 2U));
-    const std::vector<int> moment = permutation(count_, hash32(name ^ 3U));
+  for (uint32_t p = 0; p < kPatterns; ++p) {
+    const uint32_t name = hashCombine(seed, 0x70617474U, p);
+    const std::vector<int> inColumn = permutation(ySamples, hash32(name ^ 1U));
+    const std::vector<int> inRow = permutation(xSamples, hash32(name ^ 2U));
+    const Times times(xSamples, ySamples, name);
     for (int s = 0; s < count_; ++s) {
       const int i = s % xSamples, j = s / xSamples;
       const auto random = [&](uint32_t dimension) {
         return jitter ? unitFloat(hashCombine(name, static_cast<uint32_t>(s), dimension)) : 0.5f;
       };
       const size_t at = static_cast<size_t>(p) * static_cast<size_t>(padded_) + static_cast<size_t>(s);
-      const float inColumn = (static_cast<float>(column[static_cast<size_t>(j)]) + random(0)) / static_cast<float>(ySamples);
-      const float inRow = (static_cast<float>(row[static_cast<size_t>(i)]) + random(1)) / static_cast<float>(xSamples);
-      x_[at] = placed(i, xSamples, jitter ? inColumn : 0.5f);
-      y_[at] = placed(j, ySamples, jitter ? inRow : 0.5f);
-      time_[at] = std::min((static_cast<float>(moment[static_cast<size_t>(s)]) + random(2)) / static_cast<float>(count_),
-                           1 - FLT_EPSILON / 2);
+      const float x = (static_cast<float>(inColumn[static_cast<size_t>(j)]) + random(0)) / static_cast<float>(ySamples);
+      const float y = (static_cast<float>(inRow[static_cast<size_t>(i)]) + random(1)) / static_cast<float>(xSamples);
+      x_[at] = placed(i, xSamples, jitter ? x : 0.5f);
+      y_[at] = placed(j, ySamples, jitter ? y : 0.5f);
+      time_[at] = within(times.stratum(i, j), count_, random(2));
     }
   }
 }

@@ -6,6 +6,8 @@
 // Vertices of still grids and samples lie on a lattice (kLattice), which makes the values exact in float for
 // micropolygons up to about 4 px, so that a fan round a vertex neither misses a sample nor hits it twice.
 #pragma once
+#include <bit>
+
 #include "reyes/hide/lattice.h"
 #include "reyes/hide/samples.h"
 
@@ -14,19 +16,24 @@
 
 namespace tomales {
 
+/// Far below the distance of two values that an edge function takes: `value > -kTiny` says `value >= 0`, as a number
+/// that a vector can choose, and survives threads that flush denormals.
+constexpr float kTiny = 1e-30f;
+
 /// What the loops need of a grid besides itself.
 struct RasterJob {
   const RasterGrid& raster;
   const GridTable& grids;
   uint32_t firstCell;
+  const std::vector<float>& keyTimes;  ///< Fractions of the shutter.
   bool perspective;
   SampleBuffer& out;
 };
 
 /// Grids with one motion key.
 void rasterizeStill(const RasterJob& job);
-/// Grids with several: `keyTimes` of the shutter, 0..1.
-void rasterizeMoving(const RasterJob& job, const std::vector<float>& keyTimes);
+/// Grids with several.
+void rasterizeMoving(const RasterJob& job);
 
 /// Sides 1: does the cell turn its RISpec normal away from the eye?
 inline bool turnedAway(const RasterJob& job, int a) {
@@ -53,6 +60,7 @@ TOMALES_KERNEL inline bool merge(const RasterJob& job, const LaneDepths& hit, si
     return false;
   }
   int nearer = 0, ties = 0;
+#pragma GCC unroll 1  // Else unrolled into scalars before it could become one vector.
   for (int s = 0; s < kLanes; ++s) {
     nearer |= hit.d[s] < depth[s];
     ties |= hit.d[s] == depth[s];
@@ -61,6 +69,7 @@ TOMALES_KERNEL inline bool merge(const RasterJob& job, const LaneDepths& hit, si
     for (int s = 0; s < kLanes; ++s)
       if (hit.d[s] == depth[s] && job.grids.precedes(cell, owner[s])) owner[s] = cell;
   if (!nearer) return false;
+#pragma GCC unroll 1
   for (int s = 0; s < kLanes; ++s) {
     const bool won = hit.d[s] < depth[s];
     depth[s] = won ? hit.d[s] : depth[s];
@@ -69,18 +78,24 @@ TOMALES_KERNEL inline bool merge(const RasterJob& job, const LaneDepths& hit, si
   return true;
 }
 
-/// The greatest depth of a pixel. Halving, because the order of a float reduction is not the compiler's to change.
+/// Integers in the order of floats, and back: the maximum of integers is a vector reduction without fast-math.
+inline int32_t ordered(float f) {
+  const int32_t bits = std::bit_cast<int32_t>(f);
+  return bits ^ ((bits >> 31) & 0x7fffffff);
+}
+inline float fromOrdered(int32_t i) { return std::bit_cast<float>(i ^ ((i >> 31) & 0x7fffffff)); }
+
+/// The greatest depth of a pixel.
 TOMALES_KERNEL inline float farthest(const float* depth, int lanes) {
-  alignas(64) float m[kLanes];
-  for (int s = 0; s < kLanes; ++s) m[s] = depth[s];
-  for (int g = kLanes; g < lanes; g += kLanes)
-    for (int s = 0; s < kLanes; ++s) m[s] = depth[g + s] > m[s] ? depth[g + s] : m[s];
-  for (int half = kLanes / 2; half > 0; half /= 2)
-    for (int s = 0; s < half; ++s) m[s] = m[s + half] > m[s] ? m[s + half] : m[s];
-  return m[0];
+  int32_t most = ordered(-kInfinity);
+  for (int g = 0; g < lanes; g += kLanes) {
+#pragma GCC unroll 1
+    for (int s = 0; s < kLanes; ++s) most = std::max(most, ordered(depth[g + s]));
+  }
+  return fromOrdered(most);
 }
 
-/// Calls cover(x, y, pattern, lane, LaneDepths&) for every group of lanes of the pixels that a cell's bound touches and
+/// Calls cover(x, y, offset of the samples in the pattern, LaneDepths&) for every group of lanes of the pixels that a cell's bound touches and
 /// that do not hide it yet, and merges.
 template <class Cover>
 TOMALES_KERNEL inline void forPixels(const RasterJob& job, const vec2& lo, const vec2& hi, float dMin,
@@ -95,7 +110,7 @@ TOMALES_KERNEL inline void forPixels(const RasterJob& job, const vec2& lo, const
       bool changed = false;
       for (int g = 0; g < out.lanes; g += kLanes) {
         LaneDepths hit;
-        cover(x, y, out.patternOf[pixel], g, hit);
+        cover(x, y, out.patternAt[pixel] + static_cast<size_t>(g), hit);
         changed |= merge(job, hit, first + static_cast<size_t>(g), cell);
       }
       if (changed) out.far[pixel] = farthest(out.depth.data() + first, out.lanes);

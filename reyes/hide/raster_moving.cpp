@@ -7,7 +7,7 @@ namespace {
 /// The corners a b c d of a micropolygon at two successive motion keys.
 struct MovingQuad {
   float x[2][4], y[2][4], d[2][4];
-  bool swapped[5];   ///< Of ab, bc, ca, bd, dc: the second end is the canonical one.
+  float order[5];  ///< Of ab, bc, ca, bd, dc: 1 if the first end is the canonical one, -1 if the second is.
   vec2 lo{kInfinity}, hi{-kInfinity};
   float dMin = kInfinity, dMax = -kInfinity;
 
@@ -22,7 +22,7 @@ struct MovingQuad {
         dMin = std::min(dMin, r.d[v]), dMax = std::max(dMax, r.d[v]);
       }
     const int ends[5][2] = {{0, 1}, {1, 2}, {2, 0}, {1, 3}, {3, 2}};
-    for (int e = 0; e < 5; ++e) swapped[e] = before(ends[e][1], ends[e][0]);
+    for (int e = 0; e < 5; ++e) order[e] = before(ends[e][1], ends[e][0]) ? -1.0f : 1.0f;
   }
 
   /// The order of edge ends must not change while they move, so it is that of the first key at which they differ.
@@ -32,10 +32,9 @@ struct MovingQuad {
   }
 };
 
-/// Part of the shutter between two motion keys; the last one includes its end.
+/// Part of the shutter between two motion keys.
 struct Interval {
   float begin, end;
-  bool last;
 };
 
 struct MovingVertex {
@@ -43,15 +42,18 @@ struct MovingVertex {
 };
 
 /// Twice the area of (p, q, sample), seen from the canonical end, positive if the sample is on the left of pq.
-TOMALES_KERNEL inline float edge(const MovingVertex& p, const MovingVertex& q, bool swapped, float x, float y) {
-  const float ox = swapped ? q.x : p.x, oy = swapped ? q.y : p.y;
+TOMALES_KERNEL inline float edge(const MovingVertex& p, const MovingVertex& q, float order, float x, float y) {
+  const float ox = order > 0 ? p.x : q.x, oy = order > 0 ? p.y : q.y;
   return (q.x - p.x) * (y - oy) - (q.y - p.y) * (x - ox);
 }
 
-/// Values 0 belong to the right of the edge seen from its canonical end.
-TOMALES_KERNEL inline bool inside(float value, bool swapped, bool mirrored) {
-  const bool left = swapped ? value >= 0 : value > 0;
-  return left != mirrored;
+/// `side`: 1 if the inside of pq is on its left, -1 on its right. Zero belongs to the right seen from the canonical end.
+TOMALES_KERNEL inline bool inside(float value, float order, float side) {
+  return value * side > (order * side > 0 ? 0.0f : -kTiny);
+}
+
+TOMALES_KERNEL inline float sideOf(const MovingVertex& p, const MovingVertex& q, const MovingVertex& r) {
+  return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x) < 0 ? -1.0f : 1.0f;
 }
 
 TOMALES_KERNEL inline void coverMoving(const MovingQuad& q, const Interval& when, float x0, float y0, const float* x,
@@ -59,48 +61,43 @@ TOMALES_KERNEL inline void coverMoving(const MovingQuad& q, const Interval& when
   const float inverse = 1.0f / (when.end - when.begin);
   for (int s = 0; s < kLanes; ++s) {
     const float px = x0 + x[s], py = y0 + y[s];
-    const bool now = (time[s] >= when.begin) & ((time[s] < when.end) | when.last);
     const float t = (time[s] - when.begin) * inverse;
     const auto at = [&](int c) TOMALES_KERNEL {
       return MovingVertex{q.x[0][c] + (q.x[1][c] - q.x[0][c]) * t, q.y[0][c] + (q.y[1][c] - q.y[0][c]) * t,
                           q.d[0][c] + (q.d[1][c] - q.d[0][c]) * t};
     };
     const MovingVertex a = at(0), b = at(1), c = at(2), d = at(3);
-    const float ab = edge(a, b, q.swapped[0], px, py), bc = edge(b, c, q.swapped[1], px, py);
-    const float ca = edge(c, a, q.swapped[2], px, py), bd = edge(b, d, q.swapped[3], px, py);
-    const float dc = edge(d, c, q.swapped[4], px, py);
-    const bool mirror0 = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) < 0;
-    const bool mirror1 = (d.x - b.x) * (c.y - b.y) - (d.y - b.y) * (c.x - b.x) < 0;
-    const bool in0 = inside(ab, q.swapped[0], mirror0) & inside(bc, q.swapped[1], mirror0) &
-                     inside(ca, q.swapped[2], mirror0);
-    const bool in1 = inside(bd, q.swapped[3], mirror1) & inside(dc, q.swapped[4], mirror1) &
-                     inside(-bc, !q.swapped[1], mirror1);
+    const float ab = edge(a, b, q.order[0], px, py), bc = edge(b, c, q.order[1], px, py);
+    const float ca = edge(c, a, q.order[2], px, py), bd = edge(b, d, q.order[3], px, py);
+    const float dc = edge(d, c, q.order[4], px, py);
+    const float side0 = sideOf(a, b, c), side1 = sideOf(b, d, c);
+    const bool in0 = inside(ab, q.order[0], side0) & inside(bc, q.order[1], side0) & inside(ca, q.order[2], side0);
+    const bool in1 = inside(bd, q.order[3], side1) & inside(dc, q.order[4], side1) & inside(-bc, -q.order[1], side1);
     const float d0 = (bc * a.d + ca * b.d + ab * c.d) / (ab + bc + ca);
     const float d1 = (dc * b.d - bc * d.d + bd * c.d) / (bd + dc - bc);
     float depth = in0 ? d0 : d1;
     depth = depth > q.dMin ? depth : q.dMin;
     depth = depth < q.dMax ? depth : q.dMax;
+    const bool now = (time[s] >= when.begin) & (time[s] < when.end);
     hit.d[s] = now & (in0 | in1) ? depth : kInfinity;
   }
 }
 
 }  // namespace
 
-TOMALES_HOT void rasterizeMoving(const RasterJob& job, const std::vector<float>& keyTimes) {
+TOMALES_HOT void rasterizeMoving(const RasterJob& job) {
   const RasterGrid& r = job.raster;
   const Grid& g = *r.grid;
-  const SamplePattern& pattern = job.out.pattern;
   for (int key = 0; key + 1 < g.keyCount; ++key) {
-    const size_t k = static_cast<size_t>(key);
-    const Interval when{keyTimes[k], keyTimes[k + 1], key + 2 == g.keyCount};
+    const Interval when{job.keyTimes[static_cast<size_t>(key)], job.keyTimes[static_cast<size_t>(key) + 1]};
     for (int cell = 0; cell < g.cellCount(); ++cell) {
       const int a = cell / g.nu * (g.nu + 1) + cell % g.nu;
       if (r.sides == 1 && turnedAway(job, a)) continue;
       const MovingQuad q(r, key, a);
       forPixels(job, q.lo, q.hi, q.dMin, job.firstCell + static_cast<uint32_t>(cell),
-                [&](int x, int y, int p, int lane, LaneDepths& hit) TOMALES_KERNEL {
-                  coverMoving(q, when, static_cast<float>(x), static_cast<float>(y), pattern.x(p) + lane,
-                              pattern.y(p) + lane, pattern.time(p) + lane, hit);
+                [&](int x, int y, size_t at, LaneDepths& hit) TOMALES_KERNEL {
+                  coverMoving(q, when, static_cast<float>(x), static_cast<float>(y), job.out.x + at, job.out.y + at,
+                              job.out.time + at, hit);
                 });
     }
   }

@@ -2,7 +2,6 @@
 
 #include <tuple>
 
-#include "reyes/base/check.h"
 #include "reyes/hide/facets.h"
 
 namespace tomales {
@@ -24,7 +23,7 @@ struct Sight {
 class TileBuilder {
  public:
   TileBuilder(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples)
-      : camera_(camera), grids_(grids), samples_(samples), facets_(scene, camera, grids, tile_), scene_(scene) {}
+      : camera_(camera), grids_(grids), samples_(samples), facets_(scene, camera, grids, tile_) {}
 
   DeepTile build() {
     tile_.rect = samples_.rect;
@@ -88,15 +87,14 @@ class TileBuilder {
 
   void setPosition(Fragment& fragment, size_t pixel, size_t begin, size_t end) const {
     const GridTable::Entry& entry = grids_.of(sightings_[begin].cell);
-    const std::vector<float> times = shutterTimes(scene_, entry.grid());
-    const int width = samples_.rect.width(), p = samples_.patternOf[pixel];
+    const int width = samples_.rect.width();
+    const size_t pattern = samples_.patternAt[pixel];
     const vec2 corner(samples_.rect.x0 + static_cast<int>(pixel) % width, samples_.rect.y0 + static_cast<int>(pixel) / width);
     vec2 sum(0);
     for (size_t i = begin; i < end; ++i) {
-      const uint32_t s = sightings_[i].lane;
-      const vec2 at = corner + vec2(samples_.pattern.x(p)[s], samples_.pattern.y(p)[s]);
-      sum += positionOnCell(*entry.raster, times, static_cast<int>(sightings_[i].cell - entry.firstCell), at,
-                            samples_.pattern.time(p)[s]);
+      const size_t s = pattern + sightings_[i].lane;
+      const vec2 at = corner + vec2(samples_.x[s], samples_.y[s]);
+      sum += positionOnCell(entry, static_cast<int>(sightings_[i].cell - entry.firstCell), at, samples_.time[s]);
     }
     const vec2 mean = sum * (255.0f / static_cast<float>(end - begin));
     fragment.u = static_cast<uint8_t>(std::lround(mean.x)), fragment.v = static_cast<uint8_t>(std::lround(mean.y));
@@ -107,7 +105,6 @@ class TileBuilder {
   SampleBuffer& samples_;
   DeepTile tile_;
   FacetTable facets_;
-  const Scene& scene_;
   size_t nextLayer_ = 0;
   std::vector<Sighting> sightings_;
   std::vector<Sight> sights_;
@@ -117,47 +114,6 @@ class TileBuilder {
 
 DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples) {
   return TileBuilder(scene, camera, grids, samples).build();
-}
-
-std::vector<float> shutterTimes(const Scene& scene, const Grid& grid) {
-  if (grid.keyCount == 1) return {0};
-  std::vector<float> times = scene.objects[static_cast<size_t>(grid.object)].keyTimes;
-  CHECK_EQ(static_cast<int>(times.size()), grid.keyCount);
-  const float open = scene.options.shutterOpen, length = scene.options.shutterClose - open;
-  for (float& t : times) t = (t - open) / length;
-  return times;
-}
-
-namespace {
-
-/// (u,v) of a point in triangle p q r whose corners have parameters at[0..2]; outside, the nearest is up to the caller.
-vec2 inTriangle(const vec2 p[3], const vec2 at[3], const vec2& x) {
-  const vec2 e = p[1] - p[0], f = p[2] - p[0], g = x - p[0];
-  const float area = e.x * f.y - e.y * f.x;
-  if (area == 0) return (at[0] + at[1] + at[2]) / 3.0f;
-  const float b = (g.x * f.y - g.y * f.x) / area, c = (e.x * g.y - e.y * g.x) / area;
-  return at[0] + (at[1] - at[0]) * b + (at[2] - at[0]) * c;
-}
-
-}  // namespace
-
-vec2 positionOnCell(const RasterGrid& raster, const std::vector<float>& keyTimes, int cell, vec2 at, float time) {
-  const Grid& g = *raster.grid;
-  const int row = g.nu + 1, a = cell / g.nu * row + cell % g.nu;
-  size_t key = 0;
-  while (key + 2 < keyTimes.size() && time >= keyTimes[key + 1]) ++key;
-  const size_t next = std::min(key + 1, keyTimes.size() - 1), stride = static_cast<size_t>(g.stride());
-  const float t = next > key ? (time - keyTimes[key]) / (keyTimes[next] - keyTimes[key]) : 0;
-  const auto corner = [&](int v) {
-    const size_t from = key * stride + static_cast<size_t>(v), to = next * stride + static_cast<size_t>(v);
-    return vec2(lerp(raster.x[from], raster.x[to], t), lerp(raster.y[from], raster.y[to], t));
-  };
-  const vec2 pa = corner(a), pb = corner(a + 1), pc = corner(a + row), pd = corner(a + row + 1);
-  const vec2 abc[3] = {pa, pb, pc}, abcUv[3] = {{0, 0}, {1, 0}, {0, 1}};
-  const vec2 dcb[3] = {pd, pc, pb}, dcbUv[3] = {{1, 1}, {0, 1}, {1, 0}};
-  vec2 uv = inTriangle(abc, abcUv, at);
-  if (uv.x + uv.y > 1) uv = inTriangle(dcb, dcbUv, at);
-  return glm::clamp(uv, vec2(0), vec2(1));
 }
 
 }  // namespace tomales

@@ -6,10 +6,7 @@ namespace tomales {
 
 DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples);
 
-/// Key times of a moving grid as fractions of the shutter.
-std::vector<float> shutterTimes(const Scene& scene, const Grid& grid);
-
 /// Where on a cell (its own (u,v), 0..1) a raster position lies at a time of the shutter, 0..1.
-vec2 positionOnCell(const RasterGrid& raster, const std::vector<float>& keyTimes, int cell, vec2 at, float time);
+vec2 positionOnCell(const GridTable::Entry& entry, int cell, vec2 at, float time);
 
 }  // namespace tomales

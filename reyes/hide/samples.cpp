@@ -4,11 +4,10 @@
 
 namespace tomales {
 
-uint32_t GridTable::add(const std::shared_ptr<const RasterGrid>& raster) {
-  const uint32_t first = cells_;
-  entries_.push_back({first, raster});
+const GridTable::Entry& GridTable::add(const std::shared_ptr<const RasterGrid>& raster, std::vector<float> keyTimes) {
+  entries_.push_back({cells_, raster, std::move(keyTimes)});
   cells_ += static_cast<uint32_t>(raster->grid->cellCount());
-  return first;
+  return entries_.back();
 }
 
 const GridTable::Entry& GridTable::of(uint32_t cell) const {
@@ -26,33 +25,24 @@ bool GridTable::precedes(uint32_t a, uint32_t b) const {
   return rank(a) < rank(b);
 }
 
-SampleBuffer::SampleBuffer(const SamplePattern& samplePattern, const PixelRect& pixels)
-    : rect(pixels), pattern(samplePattern), lanes(samplePattern.padded()) {
+SampleBuffer::SampleBuffer(const SamplePattern& pattern, const PixelRect& pixels)
+    : rect(pixels), lanes(pattern.padded()), x(pattern.x(0)), y(pattern.y(0)), time(pattern.time(0)) {
   const size_t count = static_cast<size_t>(rect.width()) * static_cast<size_t>(rect.height());
   const size_t width = static_cast<size_t>(lanes);
-  patternOf.reserve(count);
-  for (int y = rect.y0; y < rect.y1; ++y)
-    for (int x = rect.x0; x < rect.x1; ++x) patternOf.push_back(pattern.patternOf(x, y));
+  patternAt.reserve(count);
+  for (int row = rect.y0; row < rect.y1; ++row)
+    for (int column = rect.x0; column < rect.x1; ++column)
+      patternAt.push_back(static_cast<size_t>(pattern.patternOf(column, row)) * width);
   depth.assign(count * width, -kInfinity);
   for (size_t p = 0; p < count; ++p) std::fill_n(depth.data() + p * width, pattern.count(), kNothing);
   cell.assign(count * width, kNoCell);
   far.assign(count, kNothing);
 }
 
-PixelRect SampleBuffer::touched(const vec2& lo, const vec2& hi) const {
-  // Clamped while still float: a vertex near the eye plane may lie farther out than an int can tell.
-  const auto pixel = [](float v, int first, int end) {
-    return static_cast<int>(std::floor(std::clamp(v, static_cast<float>(first - 1), static_cast<float>(end))));
-  };
-  const PixelRect r{pixel(lo.x, rect.x0, rect.x1), pixel(lo.y, rect.y0, rect.y1),
-                    pixel(hi.x, rect.x0, rect.x1) + 1, pixel(hi.y, rect.y0, rect.y1) + 1};
-  return {std::max(r.x0, rect.x0), std::max(r.y0, rect.y0), std::min(r.x1, rect.x1), std::min(r.y1, rect.y1)};
-}
-
 bool SampleBuffer::hides(const PixelRect& pixels, float d) const {
-  for (int y = pixels.y0; y < pixels.y1; ++y)
-    for (int x = pixels.x0; x < pixels.x1; ++x)
-      if (!(far[pixelIndex(x, y)] < d)) return false;
+  for (int row = pixels.y0; row < pixels.y1; ++row)
+    for (int column = pixels.x0; column < pixels.x1; ++column)
+      if (!(far[pixelIndex(column, row)] < d)) return false;
   return true;
 }
 

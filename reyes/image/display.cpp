@@ -61,16 +61,25 @@ FileFormat formatOfType(const std::string& type) {
   return {"", SampleType::Float};
 }
 
-bool truth(const DisplayCall& display, const char* name) {
+/// A string parameter of a Display, in lower case; empty if it is not there.
+std::string text(const DisplayCall& display, const char* name) {
   const Param* p = findParam(display.params, name);
-  return p && p->number(0) != 0;
+  std::string value = p && !p->strings.empty() ? p->strings[0] : "";
+  for (char& c : value) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return value;
 }
 
 void warnAboutParams(const DisplayCall& display, Log& log) {
+  const auto warn = [&](const std::string& what) {
+    log.report(Severity::Warning, "display-parameter", display.where,
+               "Display \"" + display.name + "\": " + what + "; ignored");
+  };
   for (const Param& p : display.params)
-    if (p.name != "srgb" && p.name != "exrpixeltype")
-      log.report(Severity::Warning, "display-parameter", display.where,
-                 "Display \"" + display.name + "\": no parameter \"" + p.name + "\"; ignored");
+    if (p.name != "transfer" && p.name != "exrpixeltype") warn("no parameter \"" + p.name + "\"");
+  const std::string transfer = text(display, "transfer"), type = text(display, "exrpixeltype");
+  if (!transfer.empty() && transfer != "srgb" && transfer != "linear")
+    warn("no transfer \"" + transfer + "\"");
+  if (!type.empty() && type != "half" && type != "float") warn("no exrpixeltype \"" + type + "\"");
 }
 
 /// Decides file format, and the name where the Display leaves it open (RISpec's "ri.pic" has a format of no
@@ -88,9 +97,7 @@ FileFormat formatOf(const DisplayCall& display, std::string& path, Log& log) {
     format = {"openexr", SampleType::Float};
     path = std::filesystem::path(path).replace_extension(".exr").string();
   }
-  const Param* pixelType = findParam(display.params, "exrpixeltype");
-  if (format.name == "openexr" && pixelType && !pixelType->strings.empty() && pixelType->strings[0] == "half")
-    format.type = SampleType::Half;
+  if (format.name == "openexr" && text(display, "exrpixeltype") == "half") format.type = SampleType::Half;
   return format;
 }
 
@@ -117,7 +124,7 @@ bool prepareIntegers(Image& image, FileFormat& format, const DisplayCall& displa
                "Display \"" + display.name + "\": PNG holds no floating point numbers; quantised to 8 bits");
     q = Quantize{};
   }
-  if (truth(display, "srgb") && !depth) {
+  if (text(display, "transfer") == "srgb" && !depth) {
     encodeForScreen(image);
     format.unassociatedAlpha = true;
   }

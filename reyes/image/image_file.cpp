@@ -1,6 +1,7 @@
 #include "reyes/image/image_file.h"
 
 #include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cctype>
@@ -84,7 +85,7 @@ FileFormat formatOfExtension(const std::string& path) {
 bool writeFile(const std::string& path, const Image& image, const FileFormat& format, std::string& error) {
   const fs::path target(path);
   const fs::path temporary =
-      target.parent_path() / ("." + target.filename().string() + "." + std::to_string(::getpid()) + ".part");
+      target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid());
   std::error_code problem;
   if (!target.has_filename() || fs::is_directory(target, problem)) {
     error = "the name is that of a directory";

@@ -18,7 +18,8 @@ TOMALES_HOT void evaluatePositions(const float* c, int n, const float* u, const 
   }
 }
 
-TOMALES_HOT void evaluateDerivatives(const float* c, int n, const float* u, const float* v, float* du, float* dv) {
+TOMALES_HOT void evaluateDerivatives(const float* c, int n, const float* u, const float* v, float* du,
+                                     float* dv) {
   for (int i = 0; i < n; ++i) {
     const float t = u[i], s = 1 - t, b0 = s * s * s, b1 = 3 * s * s * t, b2 = 3 * s * t * t, b3 = t * t * t;
     const float d0 = 3 * s * s, d1 = 6 * s * t, d2 = 3 * t * t;
@@ -54,8 +55,8 @@ glm::dvec3 weighted(const BezierPatch& patch, const Weights& u, const Weights& v
   return sum;
 }
 
-/// The normal a little way towards the middle of the patch, where the derivatives are independent again. Double precision
-/// keeps the direction of the small derivative there.
+/// The normal a little way towards the middle of the patch, where the derivatives are independent again.
+/// Double precision keeps the direction of the small derivative there.
 vec3 normalNearby(const BezierPatch& patch, double u, double v) {
   for (double step : {1e-3, 1e-2, 1e-1}) {
     const double a = u + (0.5 - u) * step, b = v + (0.5 - v) * step;
@@ -79,7 +80,8 @@ double extentOf(const BezierPatch& patch) {
 /// Control values of the curve's piece over [t0, t1], in place at c, c + step, ... (blossoming).
 void restrictCurve(float* c, int step, float t0, float t1) {
   const auto blossom = [&](float r, float s, float t) {
-    const float a = lerp(c[0], c[step], r), b = lerp(c[step], c[2 * step], r), d = lerp(c[2 * step], c[3 * step], r);
+    const float a = lerp(c[0], c[step], r), b = lerp(c[step], c[2 * step], r),
+                d = lerp(c[2 * step], c[3 * step], r);
     return lerp(lerp(a, b, s), lerp(b, d, s), t);
   };
   const float piece[4] = {blossom(t0, t0, t0), blossom(t0, t0, t1), blossom(t0, t1, t1), blossom(t1, t1, t1)};
@@ -89,14 +91,17 @@ void restrictCurve(float* c, int step, float t0, float t1) {
 }  // namespace
 
 ToBezier bezierFrom(const Basis& basis) {
-  // Rows of RISpec's matrix are powers t^3, t^2, t, 1; Bezier control values follow from the power coefficients.
-  static constexpr double kBezierFromPower[4][4] = {{0, 0, 0, 1}, {0, 0, 1.0 / 3, 1}, {0, 1.0 / 3, 2.0 / 3, 1}, {1, 1, 1, 1}};
+  // Rows of RISpec's matrix are powers t^3, t^2, t, 1; Bezier control values follow from the power
+  // coefficients.
+  static constexpr double kBezierFromPower[4][4] = {
+      {0, 0, 0, 1}, {0, 0, 1.0 / 3, 1}, {0, 1.0 / 3, 2.0 / 3, 1}, {1, 1, 1, 1}};
   ToBezier out;
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) {
       double sum = 0;
       for (int k = 0; k < 4; ++k) sum += kBezierFromPower[i][k] * static_cast<double>(basis.matrix[k][j]);
-      // The named bases are twelfths; on exactly equal weights two patches agree exactly about the edge they share.
+      // The named bases are twelfths; on exactly equal weights two patches agree exactly about the edge they
+      // share.
       const double twelfths = std::round(12 * sum);
       out[i][j] = static_cast<float>(std::abs(12 * sum - twelfths) < 1e-5 ? twelfths / 12 : sum);
     }
@@ -104,10 +109,14 @@ ToBezier bezierFrom(const Basis& basis) {
 }
 
 BezierNet convertNet(const BezierNet& control, const ToBezier& u, const ToBezier& v) {
-  const auto weigh = [](const std::array<float, 4>& w, float a, float b, float c, float d) { return w[0] * a + w[1] * b + w[2] * c + w[3] * d; };
+  const auto weigh = [](const std::array<float, 4>& w, float a, float b, float c, float d) {
+    return w[0] * a + w[1] * b + w[2] * c + w[3] * d;
+  };
   BezierNet rows, out;
   for (int j = 0; j < 4; ++j)
-    for (int i = 0; i < 4; ++i) rows[4 * j + i] = weigh(u[i], control[4 * j], control[4 * j + 1], control[4 * j + 2], control[4 * j + 3]);
+    for (int i = 0; i < 4; ++i)
+      rows[4 * j + i] =
+          weigh(u[i], control[4 * j], control[4 * j + 1], control[4 * j + 2], control[4 * j + 3]);
   for (int j = 0; j < 4; ++j)
     for (int i = 0; i < 4; ++i) out[4 * j + i] = weigh(v[j], rows[i], rows[4 + i], rows[8 + i], rows[12 + i]);
   return out;
@@ -117,7 +126,8 @@ void evaluateNet(const BezierNet& net, int n, const float* u, const float* v, fl
   evaluatePositions(net.data(), n, u, v, p);
 }
 
-void evaluateNet(const BezierNet& net, int n, const float* u, const float* v, float* p, float* du, float* dv) {
+void evaluateNet(const BezierNet& net, int n, const float* u, const float* v, float* p, float* du,
+                 float* dv) {
   evaluatePositions(net.data(), n, u, v, p);
   evaluateDerivatives(net.data(), n, u, v, du, dv);
 }

@@ -7,7 +7,8 @@ namespace {
 
 using Point2 = glm::dvec2;
 
-/// Drops the axis along which the polygon is thinnest; counter-clockwise about the normal stays counter-clockwise.
+/// Drops the axis along which the polygon is thinnest; counter-clockwise about the normal stays
+/// counter-clockwise.
 std::vector<Point2> projected(const std::vector<vec3>& points, const glm::dvec3& normal) {
   const glm::dvec3 size = glm::abs(normal);
   const int axis = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
@@ -21,7 +22,9 @@ std::vector<Point2> projected(const std::vector<vec3>& points, const glm::dvec3&
 }
 
 /// Twice the signed area of triangle abc.
-double turn(const Point2& a, const Point2& b, const Point2& c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+double turn(const Point2& a, const Point2& b, const Point2& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
 
 bool allTurnsAtLeast(const std::vector<Point2>& p, double least) {
   for (size_t i = 0; i < p.size(); ++i)
@@ -101,7 +104,8 @@ glm::dvec3 newellNormal(const std::vector<vec3>& points) {
   glm::dvec3 normal(0);
   const glm::dvec3 origin = points.empty() ? glm::dvec3(0) : glm::dvec3(points[0]);
   for (size_t i = 0; i < points.size(); ++i)
-    normal += glm::cross(glm::dvec3(points[i]) - origin, glm::dvec3(points[(i + 1) % points.size()]) - origin);
+    normal +=
+        glm::cross(glm::dvec3(points[i]) - origin, glm::dvec3(points[(i + 1) % points.size()]) - origin);
   return normal;
 }
 

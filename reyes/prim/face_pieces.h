@@ -1,4 +1,5 @@
-// Cuts one polygon into quadrilaterals without adding a point on an edge other than its midpoint. Private to polygons.
+// Cuts one polygon into quadrilaterals without adding a point on an edge other than its midpoint. Private to
+// polygons.
 #pragma once
 #include <array>
 
@@ -6,14 +7,16 @@
 
 namespace tomales {
 
-/// Twice the area, towards the side from which the vertices run counter-clockwise in a right-handed space (M. Newell).
+/// Twice the area, towards the side from which the vertices run counter-clockwise in a right-handed space (M.
+/// Newell).
 glm::dvec3 newellNormal(const std::vector<vec3>& points);
 
-/// A convex part of a polygon, as positions in its list of points; an edge that is not the polygon's own is a diagonal.
+/// A convex part of a polygon, as positions in its list of points; an edge that is not the polygon's own is a
+/// diagonal.
 using Piece = std::vector<int>;
 
-/// Convex parts that cover the polygon: itself, or triangles (ear clipping: Meisters 1975). Never fails; where the
-/// polygon crosses itself the triangles overlap.
+/// Convex parts that cover the polygon: itself, or triangles (ear clipping: Meisters 1975). Never fails;
+/// where the polygon crosses itself the triangles overlap.
 std::vector<Piece> convexPieces(const std::vector<vec3>& points, const glm::dvec3& normal);
 
 /// True if every corner turns, and turns the same way.

@@ -17,7 +17,7 @@ struct Direction {
 
 struct Layout {
   Direction u, v;
-  uint32_t patches() const { return static_cast<uint32_t>(u.patches * v.patches); }
+  uint32_t patches() const { return static_cast<uint32_t>(u.patches) * static_cast<uint32_t>(v.patches); }
   size_t controls() const { return static_cast<size_t>(u.controls) * v.controls; }
   size_t corners() const { return static_cast<size_t>(u.corners()) * v.corners(); }
   PrimvarCounts counts() const { return {patches(), corners(), controls(), corners()}; }
@@ -38,7 +38,8 @@ struct Layout {
   /// The neighbour across an edge, around the mesh whether or not it is periodic.
   uint32_t neighbour(uint32_t patch, int du, int dv) const {
     const int i = static_cast<int>(patch) % u.patches, j = static_cast<int>(patch) / u.patches;
-    return static_cast<uint32_t>((j + dv + v.patches) % v.patches * u.patches + (i + du + u.patches) % u.patches);
+    return static_cast<uint32_t>((j + dv + v.patches) % v.patches * u.patches +
+                                 (i + du + u.patches) % u.patches);
   }
 };
 
@@ -46,24 +47,31 @@ struct Layout {
 Direction directionOf(const char* name, int controls, bool periodic, int span, int step) {
   if (step < 1) throw PrimError(fmt::format("the {} step of the basis is {}", name, step));
   if (controls < span)
-    throw PrimError(fmt::format("the mesh has {} control points along {}, and a patch needs {}", controls, name, span));
-  if (controls > 1 << 20) throw PrimError(fmt::format("the mesh has {} control points along {}", controls, name));
+    throw PrimError(
+        fmt::format("the mesh has {} control points along {}, and a patch needs {}", controls, name, span));
+  if (controls > 1 << 20)
+    throw PrimError(fmt::format("the mesh has {} control points along {}", controls, name));
   const int rest = periodic ? controls : controls - span;
   if (rest % step != 0)
-    throw PrimError(fmt::format("{} control points along {} are no whole number of patches with step {}", controls, name, step));
+    throw PrimError(fmt::format("{} control points along {} are no whole number of patches with step {}",
+                                controls, name, step));
   return {controls, step, periodic ? rest / step : rest / step + 1, periodic};
 }
 
 /// "Pz": heights over the parameter square (RISpec section 5.2).
 std::vector<vec3> takeHeights(const Param& heights, const Layout& mesh) {
   if (heights.floats.size() != mesh.controls())
-    throw PrimError(fmt::format("Pz has {} values where {} vertices need {} floats", heights.floats.size(), mesh.controls(), mesh.controls()));
-  const auto along = [](int i, const Direction& d) { return static_cast<float>(i) / static_cast<float>(d.periodic ? d.controls : d.controls - 1); };
+    throw PrimError(fmt::format("Pz has {} values where {} vertices need {} floats", heights.floats.size(),
+                                mesh.controls(), mesh.controls()));
+  const auto along = [](int i, const Direction& d) {
+    return static_cast<float>(i) / static_cast<float>(d.periodic ? d.controls : d.controls - 1);
+  };
   std::vector<vec3> points;
   for (int j = 0; j < mesh.v.controls; ++j)
     for (int i = 0; i < mesh.u.controls; ++i) {
       points.emplace_back(along(i, mesh.u), along(j, mesh.v), heights.floats[points.size()]);
-      if (!isFinite(points.back())) throw PrimError(fmt::format("Pz of vertex {} is not a finite number", points.size() - 1));
+      if (!isFinite(points.back()))
+        throw PrimError(fmt::format("Pz of vertex {} is not a finite number", points.size() - 1));
     }
   return points;
 }
@@ -77,19 +85,28 @@ class PatchMesh : public Prim {
  public:
   uint32_t patchCount() const override { return mesh_.patches(); }
 
-  void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su, float* sv) const override {
-    const float i = static_cast<float>(static_cast<int>(patch) % mesh_.u.patches), nu = static_cast<float>(mesh_.u.patches);
-    const float j = static_cast<float>(static_cast<int>(patch) / mesh_.u.patches), nv = static_cast<float>(mesh_.v.patches);
+  void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su,
+                         float* sv) const override {
+    const float i = static_cast<float>(static_cast<int>(patch) % mesh_.u.patches),
+                nu = static_cast<float>(mesh_.u.patches);
+    const float j = static_cast<float>(static_cast<int>(patch) / mesh_.u.patches),
+                nv = static_cast<float>(mesh_.v.patches);
     for (int k = 0; k < n; ++k) su[k] = (i + u[k]) / nu, sv[k] = (j + v[k]) / nv;
   }
 
-  void interpolate(uint32_t patch, int index, int n, const float* u, const float* v, float* out, int stride) const override {
+  void interpolate(uint32_t patch, int index, int n, const float* u, const float* v, float* out,
+                   int stride) const override {
     const Primvar& var = primvars_[static_cast<size_t>(index)];
     switch (var.storage) {
-      case Storage::Constant: return repeatElement(var.values.data(), var.width, n, out, stride);
-      case Storage::Uniform: return repeatElement(&var.values[patch * static_cast<size_t>(var.width)], var.width, n, out, stride);
-      case Storage::Vertex: return interpolateVertex(patch, var, n, u, v, out, stride);
-      default: return interpolateBilinear(var.values.data(), var.width, mesh_.cornersOf(patch), n, u, v, out, stride);
+      case Storage::Constant:
+        return repeatElement(var.values.data(), var.width, n, out, stride);
+      case Storage::Uniform:
+        return repeatElement(&var.values[patch * static_cast<size_t>(var.width)], var.width, n, out, stride);
+      case Storage::Vertex:
+        return interpolateVertex(patch, var, n, u, v, out, stride);
+      default:
+        return interpolateBilinear(var.values.data(), var.width, mesh_.cornersOf(patch), n, u, v, out,
+                                   stride);
     }
   }
 
@@ -97,15 +114,21 @@ class PatchMesh : public Prim {
   PatchMesh(const Layout& mesh, const ParamList& params, Problems& problems)
       : Prim(takePrimvars(params, mesh.counts(), problems)), mesh_(mesh) {}
 
-  virtual void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v, float* out,
-                                 int stride) const = 0;
+  virtual void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v,
+                                 float* out, int stride) const = 0;
 
-  /// An edge is closed if it is a point, or if it is the opposite edge of the patch next to it: in a mesh that is not
-  /// periodic but ends where it began, too. edge(patch, bit) lists its control points.
+  /// An edge is closed if it is a point, or if it is the opposite edge of the patch next to it: in a mesh
+  /// that is not periodic but ends where it began, too. edge(patch, bit) lists its control points.
   template <class EdgeOf>
   uint8_t findOpenEdges(uint32_t patch, const EdgeOf& edge) const {
-    struct Side { PatchEdge mine, theirs; int du, dv; };
-    static constexpr Side kSides[] = {{kEdgeU0, kEdgeU1, -1, 0}, {kEdgeU1, kEdgeU0, 1, 0}, {kEdgeV0, kEdgeV1, 0, -1}, {kEdgeV1, kEdgeV0, 0, 1}};
+    struct Side {
+      PatchEdge mine, theirs;
+      int du, dv;
+    };
+    static constexpr Side kSides[] = {{kEdgeU0, kEdgeU1, -1, 0},
+                                      {kEdgeU1, kEdgeU0, 1, 0},
+                                      {kEdgeV0, kEdgeV1, 0, -1},
+                                      {kEdgeV1, kEdgeV0, 0, 1}};
     int open = 0;
     for (const Side& side : kSides) {
       const auto mine = edge(patch, side.mine);
@@ -134,7 +157,9 @@ class BilinearMesh : public PatchMesh {
     return {isFlat(corners(patch)), findOpenEdges(patch, edge)};
   }
 
-  Bound3 bound(uint32_t patch, const UvRect& rect) const override { return boundBilinear(corners(patch), rect); }
+  Bound3 bound(uint32_t patch, const UvRect& rect) const override {
+    return boundBilinear(corners(patch), rect);
+  }
 
   void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const override {
     const std::array<vec3, 4> c = corners(patch);
@@ -146,8 +171,8 @@ class BilinearMesh : public PatchMesh {
   }
 
  protected:
-  void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v, float* out,
-                         int stride) const override {
+  void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v,
+                         float* out, int stride) const override {
     interpolateBilinear(var.values.data(), var.width, mesh_.cornersOf(patch), n, u, v, out, stride);
   }
 
@@ -167,17 +192,22 @@ class BilinearMesh : public PatchMesh {
 
 class BicubicMesh : public PatchMesh {
  public:
-  BicubicMesh(const Layout& mesh, const Basis& uBasis, const Basis& vBasis, const ParamList& params, Problems& problems)
+  BicubicMesh(const Layout& mesh, const Basis& uBasis, const Basis& vBasis, const ParamList& params,
+              Problems& problems)
       : PatchMesh(mesh, params, problems), uToBezier_(bezierFrom(uBasis)), vToBezier_(bezierFrom(vBasis)) {
     const std::vector<vec3> controls = takeControls(params, mesh, problems);
     patches_.reserve(mesh.patches());
     for (uint32_t patch = 0; patch < mesh.patches(); ++patch)
-      patches_.push_back({net(patch, &controls[0].x, 3), net(patch, &controls[0].y, 3), net(patch, &controls[0].z, 3)});
+      patches_.push_back(
+          {net(patch, &controls[0].x, 3), net(patch, &controls[0].y, 3), net(patch, &controls[0].z, 3)});
   }
 
   PatchInfo info(uint32_t patch) const override {
     const auto edge = [&](uint32_t p, PatchEdge bit) {
-      const int first = bit == kEdgeU1 ? 3 : bit == kEdgeV1 ? 12 : 0, step = bit == kEdgeU0 || bit == kEdgeU1 ? 4 : 1;
+      const int first = bit == kEdgeU1   ? 3
+                        : bit == kEdgeV1 ? 12
+                                         : 0,
+                step = bit == kEdgeU0 || bit == kEdgeU1 ? 4 : 1;
       std::array<vec3, 4> points;
       for (int k = 0; k < 4; ++k) {
         const int c = first + k * step;
@@ -188,24 +218,28 @@ class BicubicMesh : public PatchMesh {
     return {false, findOpenEdges(patch, edge)};
   }
 
-  Bound3 bound(uint32_t patch, const UvRect& rect) const override { return boundBicubic(patches_[patch], rect); }
+  Bound3 bound(uint32_t patch, const UvRect& rect) const override {
+    return boundBicubic(patches_[patch], rect);
+  }
 
   void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const override {
     evaluateBicubic(patches_[patch], n, u, v, out);
   }
 
  protected:
-  void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v, float* out,
-                         int stride) const override {
+  void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v,
+                         float* out, int stride) const override {
     for (int c = 0; c < var.width; ++c)
-      evaluateNet(net(patch, &var.values[static_cast<size_t>(c)], var.width), n, u, v, out + static_cast<ptrdiff_t>(c) * stride);
+      evaluateNet(net(patch, &var.values[static_cast<size_t>(c)], var.width), n, u, v,
+                  out + static_cast<ptrdiff_t>(c) * stride);
   }
 
  private:
   BezierNet net(uint32_t patch, const float* values, int width) const {
     BezierNet control;
     for (int l = 0; l < 4; ++l)
-      for (int k = 0; k < 4; ++k) control[4 * l + k] = values[mesh_.controlOf(patch, k, l) * static_cast<size_t>(width)];
+      for (int k = 0; k < 4; ++k)
+        control[4 * l + k] = values[mesh_.controlOf(patch, k, l) * static_cast<size_t>(width)];
     return convertNet(control, uToBezier_, vToBezier_);
   }
 
@@ -215,14 +249,16 @@ class BicubicMesh : public PatchMesh {
 
 }  // namespace
 
-PrimPtr makeBilinearPatchMesh(int nu, bool uPeriodic, int nv, bool vPeriodic, const ParamList& params, Problems& problems) {
+PrimPtr makeBilinearPatchMesh(int nu, bool uPeriodic, int nv, bool vPeriodic, const ParamList& params,
+                              Problems& problems) {
   const Layout mesh{directionOf("u", nu, uPeriodic, 2, 1), directionOf("v", nv, vPeriodic, 2, 1)};
   return std::make_shared<BilinearMesh>(mesh, params, problems);
 }
 
-PrimPtr makeBicubicPatchMesh(int nu, bool uPeriodic, const Basis& uBasis, int nv, bool vPeriodic, const Basis& vBasis,
-                             const ParamList& params, Problems& problems) {
-  const Layout mesh{directionOf("u", nu, uPeriodic, 4, uBasis.step), directionOf("v", nv, vPeriodic, 4, vBasis.step)};
+PrimPtr makeBicubicPatchMesh(int nu, bool uPeriodic, const Basis& uBasis, int nv, bool vPeriodic,
+                             const Basis& vBasis, const ParamList& params, Problems& problems) {
+  const Layout mesh{directionOf("u", nu, uPeriodic, 4, uBasis.step),
+                    directionOf("v", nv, vPeriodic, 4, vBasis.step)};
   return std::make_shared<BicubicMesh>(mesh, uBasis, vBasis, params, problems);
 }
 

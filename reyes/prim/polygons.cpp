@@ -1,9 +1,10 @@
-// Polygons as bilinear patches. A convex quadrilateral is one patch; every other face becomes quadrilaterals around the
-// centres of its convex pieces, which meet at the midpoints of the edges.
+// Polygons as bilinear patches. A convex quadrilateral is one patch; every other face becomes quadrilaterals
+// around the centres of its convex pieces, which meet at the midpoints of the edges.
 #include <fmt/format.h>
 
 #include <span>
 
+#include "reyes/prim/edges.h"
 #include "reyes/prim/face_pieces.h"
 #include "reyes/prim/interpolation.h"
 #include "reyes/prim/primvars.h"
@@ -11,8 +12,8 @@
 namespace tomales {
 namespace {
 
-/// Corners are numbered by face-vertex: the RIB's own first, then made points. Made point k is also vertex number
-/// (vertices of the RIB) + k.
+/// Corners are numbered by face-vertex: the RIB's own first, then made points. Made point k is also vertex
+/// number (vertices of the RIB) + k.
 struct QuadPatch {
   Corners corners;
   uint32_t face;
@@ -48,32 +49,14 @@ struct Decomposition {
   MadePoints made;
 };
 
-/// Knows which edges have one face only.
-class EdgeFaces {
- public:
-  EdgeFaces(const std::vector<int>& vertexCounts, const std::vector<int>& vertices) {
-    sides_.reserve(vertices.size());
-    size_t first = 0;
-    for (int count : vertexCounts) {
-      for (int k = 0; k < count; ++k) sides_.push_back(key(vertices[first + k], vertices[first + (k + 1) % count]));
-      first += static_cast<size_t>(count);
-    }
-    std::sort(sides_.begin(), sides_.end());
-  }
-  bool open(int a, int b) const {
-    const auto [first, last] = std::equal_range(sides_.begin(), sides_.end(), key(a, b));
-    return last - first < 2;
-  }
-
- private:
-  static uint64_t key(int a, int b) { return static_cast<uint64_t>(std::min(a, b)) << 32 | static_cast<uint32_t>(std::max(a, b)); }
-  std::vector<uint64_t> sides_;  // an edge as often as faces have it
-};
-
 class Decomposer {
  public:
-  Decomposer(const std::vector<int>& vertexCounts, const std::vector<int>& vertices, const std::vector<vec3>& positions)
-      : vertexCounts_(vertexCounts), vertices_(vertices), positions_(positions), edges_(vertexCounts, vertices) {}
+  Decomposer(const std::vector<int>& vertexCounts, const std::vector<int>& vertices,
+             const std::vector<vec3>& positions)
+      : vertexCounts_(vertexCounts),
+        vertices_(vertices),
+        positions_(positions),
+        edges_(vertexCounts, vertices) {}
 
   Decomposition run(Problems& problems) {
     uint32_t first = 0;
@@ -82,7 +65,9 @@ class Decomposer {
       dropped += !addFace(first, static_cast<uint32_t>(vertexCounts_[f]));
       first += static_cast<uint32_t>(vertexCounts_[f]);
     }
-    if (dropped) problems.push_back(fmt::format("{} of {} faces have no area; they were dropped", dropped, vertexCounts_.size()));
+    if (dropped)
+      problems.push_back(
+          fmt::format("{} of {} faces have no area; they were dropped", dropped, vertexCounts_.size()));
     return std::move(out_);
   }
 
@@ -97,7 +82,7 @@ class Decomposer {
       if (position(first + k) == position(next)) continue;
       // This corner's edge to the next one; the last of several equal vertices carries it.
       corner_.push_back(first + k), point_.push_back(position(first + k));
-      open_.push_back(edges_.open(vertices_[first + k], vertices_[next]));
+      open_.push_back(edges_.count(vertices_[first + k], vertices_[next]) < 2);
     }
   }
 
@@ -106,7 +91,8 @@ class Decomposer {
     const glm::dvec3 normal = point_.size() < 3 ? glm::dvec3(0) : newellNormal(point_);
     Bound3 box;
     for (const vec3& p : point_) box.extend(p);
-    const bool flatEnough = point_.size() >= 3 && glm::length(normal) > 1e-9 * glm::dot(box.size(), box.size());
+    const bool flatEnough =
+        point_.size() >= 3 && glm::length(normal) > 1e-9 * glm::dot(box.size(), box.size());
     out_.faces.push_back({vec3(0), true});
     if (!flatEnough) return false;
     const glm::dvec3 unit = glm::normalize(normal);
@@ -150,7 +136,8 @@ class Decomposer {
     const bool planar = n == 3 || out_.faces.back().planar;
     for (size_t k = 0; k < n; ++k) {
       const size_t before = (k + n - 1) % n, after = (k + 1) % n;
-      const uint8_t open = edgeBits(openBetween(piece[before], piece[k]), false, openBetween(piece[k], piece[after]), false);
+      const uint8_t open =
+          edgeBits(openBetween(piece[before], piece[k]), false, openBetween(piece[k], piece[after]), false);
       addQuad({at[k], middle[k], middle[before], center}, {planar, open});
     }
   }
@@ -167,8 +154,12 @@ class Decomposer {
 
 class Polygons : public Prim {
  public:
-  Polygons(Decomposition parts, std::vector<vec3> positions, std::vector<int> vertices, std::vector<Primvar> primvars)
-      : Prim(std::move(primvars)), parts_(std::move(parts)), positions_(std::move(positions)), vertices_(std::move(vertices)) {
+  Polygons(Decomposition parts, std::vector<vec3> positions, std::vector<int> vertices,
+           std::vector<Primvar> primvars)
+      : Prim(std::move(primvars)),
+        parts_(std::move(parts)),
+        positions_(std::move(positions)),
+        vertices_(std::move(vertices)) {
     addMadePoints();
   }
 
@@ -182,11 +173,13 @@ class Polygons : public Prim {
     evaluateBilinear(cornersOf(patch), n, u, v, out);
     const Face& face = parts_.faces[parts_.patches[patch].face];
     for (int i = 0; i < n; ++i)
-      if (face.planar || glm::length(normalOf(out, i)) <= 1e-6f * areaScale(out, i)) setNormal(out, i, face.normal);
+      if (face.planar || glm::length(normalOf(out, i)) <= 1e-6f * areaScale(out, i))
+        setNormal(out, i, face.normal);
   }
 
   /// RISpec section 5.1: the parameters of a polygon are its x and y.
-  void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su, float* sv) const override {
+  void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su,
+                         float* sv) const override {
     const std::array<vec3, 4> corners = cornersOf(patch);
     const float x[4] = {corners[0].x, corners[1].x, corners[2].x, corners[3].x};
     const float y[4] = {corners[0].y, corners[1].y, corners[2].y, corners[3].y};
@@ -194,14 +187,20 @@ class Polygons : public Prim {
     interpolateBilinear(y, 1, {0, 1, 2, 3}, n, u, v, sv, 0);
   }
 
-  void interpolate(uint32_t patch, int index, int n, const float* u, const float* v, float* out, int stride) const override {
+  void interpolate(uint32_t patch, int index, int n, const float* u, const float* v, float* out,
+                   int stride) const override {
     const Primvar& var = primvars_[static_cast<size_t>(index)];
     const QuadPatch& quad = parts_.patches[patch];
     switch (var.storage) {
-      case Storage::Constant: return repeatElement(var.values.data(), var.width, n, out, stride);
-      case Storage::Uniform: return repeatElement(&var.values[quad.face * static_cast<size_t>(var.width)], var.width, n, out, stride);
-      case Storage::FaceVarying: return interpolateBilinear(var.values.data(), var.width, quad.corners, n, u, v, out, stride);
-      default: return interpolateBilinear(var.values.data(), var.width, vertexNumbers(quad), n, u, v, out, stride);
+      case Storage::Constant:
+        return repeatElement(var.values.data(), var.width, n, out, stride);
+      case Storage::Uniform:
+        return repeatElement(&var.values[quad.face * static_cast<size_t>(var.width)], var.width, n, out,
+                             stride);
+      case Storage::FaceVarying:
+        return interpolateBilinear(var.values.data(), var.width, quad.corners, n, u, v, out, stride);
+      default:
+        return interpolateBilinear(var.values.data(), var.width, vertexNumbers(quad), n, u, v, out, stride);
     }
   }
 
@@ -213,14 +212,16 @@ class Polygons : public Prim {
 
   uint32_t vertexNumber(uint32_t faceVertex) const { return static_cast<uint32_t>(vertices_[faceVertex]); }
   Corners vertexNumbers(const QuadPatch& quad) const {
-    return {vertexNumber(quad.corners[0]), vertexNumber(quad.corners[1]), vertexNumber(quad.corners[2]), vertexNumber(quad.corners[3])};
+    return {vertexNumber(quad.corners[0]), vertexNumber(quad.corners[1]), vertexNumber(quad.corners[2]),
+            vertexNumber(quad.corners[3])};
   }
   std::array<vec3, 4> cornersOf(uint32_t patch) const {
     const Corners c = vertexNumbers(parts_.patches[patch]);
     return {positions_[c[0]], positions_[c[1]], positions_[c[2]], positions_[c[3]]};
   }
 
-  /// Appends a value for every made point to the positions and to the primvars that have one per vertex or face-vertex.
+  /// Appends a value for every made point to the positions and to the primvars that have one per vertex or
+  /// face-vertex.
   void addMadePoints() {
     const size_t count = parts_.made.count(), given = positions_.size();
     for (size_t k = 0; k < count; ++k) {
@@ -242,7 +243,8 @@ class Polygons : public Prim {
         const std::span<const uint32_t> from = parts_.made.sources(k);
         float sum = 0;
         for (uint32_t corner : from)
-          sum += var.values[(var.storage == Storage::FaceVarying ? corner : vertexNumber(corner)) * width + c];
+          sum +=
+              var.values[(var.storage == Storage::FaceVarying ? corner : vertexNumber(corner)) * width + c];
         var.values.push_back(sum / static_cast<float>(from.size()));
       }
   }
@@ -254,8 +256,8 @@ class Polygons : public Prim {
 
 }  // namespace
 
-PrimPtr makePolygons(const std::vector<int>& vertexCounts, const std::vector<int>& vertices, const ParamList& params,
-                     Problems& problems) {
+PrimPtr makePolygons(const std::vector<int>& vertexCounts, const std::vector<int>& vertices,
+                     const ParamList& params, Problems& problems) {
   const size_t used = requireFaces(vertexCounts, vertices);
   std::vector<vec3> positions = takePositions(params, used, false, problems);
   const PrimvarCounts counts{vertexCounts.size(), positions.size(), positions.size(), vertices.size()};

@@ -9,11 +9,16 @@ bool isPosition(const std::string& name) { return name == "P" || name == "Pw" ||
 
 size_t elementCount(Storage storage, const PrimvarCounts& counts) {
   switch (storage) {
-    case Storage::Constant: return 1;
-    case Storage::Uniform: return counts.uniform;
-    case Storage::Varying: return counts.varying;
-    case Storage::Vertex: return counts.vertex;
-    case Storage::FaceVarying: return counts.faceVarying;
+    case Storage::Constant:
+      return 1;
+    case Storage::Uniform:
+      return counts.uniform;
+    case Storage::Varying:
+      return counts.varying;
+    case Storage::Vertex:
+      return counts.vertex;
+    case Storage::FaceVarying:
+      return counts.faceVarying;
   }
   return 0;
 }
@@ -24,7 +29,8 @@ std::vector<float> floatsOf(const Param& param) {
 }
 
 /// Texture coordinates arrive as pairs but shaders know "s" and "t".
-void splitTextureCoordinates(const Param& param, const std::vector<float>& values, std::vector<Primvar>& out) {
+void splitTextureCoordinates(const Param& param, const std::vector<float>& values,
+                             std::vector<Primvar>& out) {
   for (int c = 0; c < 2; ++c) {
     Primvar half{c == 0 ? "s" : "t", param.storage, ValueType::Float, 1, {}};
     half.values.reserve(values.size() / 2);
@@ -33,17 +39,19 @@ void splitTextureCoordinates(const Param& param, const std::vector<float>& value
   }
 }
 
-void takePrimvar(const Param& param, const PrimvarCounts& counts, std::vector<Primvar>& out, Problems& problems) {
+void takePrimvar(const Param& param, const PrimvarCounts& counts, std::vector<Primvar>& out,
+                 Problems& problems) {
   if (param.type == ValueType::String) {
-    problems.push_back(fmt::format("{} is a string, which a surface cannot interpolate; it was dropped", param.name));
+    problems.push_back(
+        fmt::format("{} is a string, which a surface cannot interpolate; it was dropped", param.name));
     return;
   }
   std::vector<float> values = floatsOf(param);
   const size_t elements = elementCount(param.storage, counts);
   const size_t needed = elements * static_cast<size_t>(std::max(1, param.width()));
   if (values.size() != needed) {
-    problems.push_back(fmt::format("{} has {} values where {} elements need {} floats; it was dropped", param.name,
-                                   values.size(), elements, needed));
+    problems.push_back(fmt::format("{} has {} values where {} elements need {} floats; it was dropped",
+                                   param.name, values.size(), elements, needed));
     return;
   }
   if (param.name == "st" && param.width() == 2)
@@ -53,7 +61,8 @@ void takePrimvar(const Param& param, const PrimvarCounts& counts, std::vector<Pr
 }
 
 [[noreturn]] void wrongPositionCount(const char* name, size_t values, size_t vertices, size_t width) {
-  throw PrimError(fmt::format("{} has {} values where {} vertices need {} floats", name, values, vertices, vertices * width));
+  throw PrimError(fmt::format("{} has {} values where {} vertices need {} floats", name, values, vertices,
+                              vertices * width));
 }
 
 std::vector<vec3> dividedByWeight(const Param& param, Problems& problems) {
@@ -65,13 +74,15 @@ std::vector<vec3> dividedByWeight(const Param& param, Problems& problems) {
     points[i] = vec3(p[0], p[1], p[2]) / p[3];
     rational |= p[3] != param.floats[3];
   }
-  if (rational) problems.push_back("Pw has unequal weights; the surface was made from the divided control points");
+  if (rational)
+    problems.push_back("Pw has unequal weights; the surface was made from the divided control points");
   return points;
 }
 
 }  // namespace
 
-std::vector<Primvar> takePrimvars(const ParamList& params, const PrimvarCounts& counts, std::vector<std::string>& problems) {
+std::vector<Primvar> takePrimvars(const ParamList& params, const PrimvarCounts& counts,
+                                  std::vector<std::string>& problems) {
   std::vector<Primvar> out;
   for (const Param& param : params)
     if (!isPosition(param.name)) takePrimvar(param, counts, out, problems);
@@ -97,7 +108,8 @@ std::vector<vec3> takePositions(const ParamList& params, size_t least, bool exac
 
 void requireFinite(std::initializer_list<float> values, const char* what) {
   for (float value : values)
-    if (!std::isfinite(value)) throw PrimError(fmt::format("{} has a parameter that is not a finite number", what));
+    if (!std::isfinite(value))
+      throw PrimError(fmt::format("{} has a parameter that is not a finite number", what));
 }
 
 size_t requireFaces(const std::vector<int>& vertexCounts, const std::vector<int>& vertices) {

@@ -4,15 +4,15 @@
 
 namespace tomales {
 
-/// "P", or "Pw" divided by w: at least `least` points, exactly that many if `exact`. Throws PrimError if there are fewer,
-/// or if a coordinate is not finite.
+/// "P", or "Pw" divided by w: at least `least` points, exactly that many if `exact`. Throws PrimError if
+/// there are fewer, or if a coordinate is not finite.
 std::vector<vec3> takePositions(const ParamList& params, size_t least, bool exact, Problems& problems);
 
 /// Throws PrimError unless every value is finite; `what` begins the sentence.
 void requireFinite(std::initializer_list<float> values, const char* what);
 
-/// Face sizes and vertex indices as PointsPolygons and SubdivisionMesh give them: throws PrimError on a negative size or
-/// index and on sizes that do not add up. Returns 1 + the highest index.
+/// Face sizes and vertex indices as PointsPolygons and SubdivisionMesh give them: throws PrimError on a
+/// negative size or index and on sizes that do not add up. Returns 1 + the highest index.
 size_t requireFaces(const std::vector<int>& vertexCounts, const std::vector<int>& vertices);
 
 }  // namespace tomales

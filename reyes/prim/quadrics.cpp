@@ -15,8 +15,8 @@ void requireArea(bool area, const char* sentence) {
 /// A meridian that is an arc around (center, 0): sphere and torus.
 class ArcRevolution : public Revolution {
  public:
-  ArcRevolution(float center, float radius, double phi0_turns, double phi1_turns, float thetaMax_degrees, const ParamList& params,
-                Problems& problems)
+  ArcRevolution(float center, float radius, double phi0_turns, double phi1_turns, float thetaMax_degrees,
+                const ParamList& params, Problems& problems)
       : Revolution(thetaMax_degrees, params, problems),
         center_(center),
         radius_(radius),
@@ -43,7 +43,8 @@ class ArcRevolution : public Revolution {
   }
 
   std::array<vec3, 2> meridianHull(float v0, float v1) const override {
-    const double a = start_turns_ + static_cast<double>(range_turns_) * v0, b = start_turns_ + static_cast<double>(range_turns_) * v1;
+    const double a = start_turns_ + static_cast<double>(range_turns_) * v0,
+                 b = start_turns_ + static_cast<double>(range_turns_) * v1;
     const double lo = std::min(a, b), hi = std::max(a, b);
     Bound3 box;
     const auto extendAt = [&](double turn) {
@@ -56,7 +57,9 @@ class ArcRevolution : public Revolution {
   }
 
  private:
-  bool isPole(double turns) const { return std::abs(center_ + radius_ * std::cos(kTurn * turns)) < 1e-6 * std::abs(radius_); }
+  bool isPole(double turns) const {
+    return std::abs(center_ + radius_ * std::cos(kTurn * turns)) < 1e-6 * std::abs(radius_);
+  }
 
   float center_, radius_, start_turns_, range_turns_;
 };
@@ -64,7 +67,8 @@ class ArcRevolution : public Revolution {
 /// A meridian that is a straight line from a to b: cone, cylinder, disk and hyperboloid.
 class LineRevolution : public Revolution {
  public:
-  LineRevolution(const vec3& a, const vec3& b, float thetaMax_degrees, const ParamList& params, Problems& problems)
+  LineRevolution(const vec3& a, const vec3& b, float thetaMax_degrees, const ParamList& params,
+                 Problems& problems)
       : Revolution(thetaMax_degrees, params, problems), a_(a), b_(b) {
     if (a.x == 0 && a.y == 0) close(kEdgeV0);
     if (b.x == 0 && b.y == 0) close(kEdgeV1);
@@ -105,7 +109,8 @@ class LineRevolution : public Revolution {
 /// r = rmax sqrt(z / zmax).
 class Paraboloid : public Revolution {
  public:
-  Paraboloid(float rmax, float zmin, float zmax, float thetaMax_degrees, const ParamList& params, Problems& problems)
+  Paraboloid(float rmax, float zmin, float zmax, float thetaMax_degrees, const ParamList& params,
+             Problems& problems)
       : Revolution(thetaMax_degrees, params, problems), rmax_(rmax), zmin_(zmin), zmax_(zmax) {
     if (zmin == 0) close(kEdgeV0);
   }
@@ -141,7 +146,8 @@ double latitude_turns(float z, float radius) {
 
 }  // namespace
 
-PrimPtr makeSphere(float radius, float zmin, float zmax, float thetaMax_degrees, const ParamList& params, Problems& problems) {
+PrimPtr makeSphere(float radius, float zmin, float zmax, float thetaMax_degrees, const ParamList& params,
+                   Problems& problems) {
   requireFinite({radius, zmin, zmax}, "the sphere");
   requireArea(radius != 0, "the sphere's radius is 0");
   const double phi0 = latitude_turns(zmin, radius), phi1 = latitude_turns(zmax, radius);
@@ -149,44 +155,53 @@ PrimPtr makeSphere(float radius, float zmin, float zmax, float thetaMax_degrees,
   return std::make_shared<ArcRevolution>(0.0f, radius, phi0, phi1, thetaMax_degrees, params, problems);
 }
 
-PrimPtr makeTorus(float major, float minor, float phiMin_degrees, float phiMax_degrees, float thetaMax_degrees,
-                  const ParamList& params, Problems& problems) {
+PrimPtr makeTorus(float major, float minor, float phiMin_degrees, float phiMax_degrees,
+                  float thetaMax_degrees, const ParamList& params, Problems& problems) {
   requireFinite({major, minor, phiMin_degrees, phiMax_degrees}, "the torus");
   requireArea(minor != 0, "the torus's minor radius is 0");
   requireArea(phiMin_degrees != phiMax_degrees, "the torus's phimin and phimax are equal");
   const double range = std::clamp((static_cast<double>(phiMax_degrees) - phiMin_degrees) / 360, -1.0, 1.0);
   const double start = phiMin_degrees / 360.0;
-  return std::make_shared<ArcRevolution>(major, minor, start, start + range, thetaMax_degrees, params, problems);
+  return std::make_shared<ArcRevolution>(major, minor, start, start + range, thetaMax_degrees, params,
+                                         problems);
 }
 
-PrimPtr makeCone(float height, float radius, float thetaMax_degrees, const ParamList& params, Problems& problems) {
+PrimPtr makeCone(float height, float radius, float thetaMax_degrees, const ParamList& params,
+                 Problems& problems) {
   requireFinite({height, radius}, "the cone");
   requireArea(radius != 0, "the cone's radius is 0");
-  return std::make_shared<LineRevolution>(vec3(radius, 0, 0), vec3(0, 0, height), thetaMax_degrees, params, problems);
+  return std::make_shared<LineRevolution>(vec3(radius, 0, 0), vec3(0, 0, height), thetaMax_degrees, params,
+                                          problems);
 }
 
-PrimPtr makeDisk(float height, float radius, float thetaMax_degrees, const ParamList& params, Problems& problems) {
+PrimPtr makeDisk(float height, float radius, float thetaMax_degrees, const ParamList& params,
+                 Problems& problems) {
   requireFinite({height, radius}, "the disk");
   requireArea(radius != 0, "the disk's radius is 0");
-  return std::make_shared<LineRevolution>(vec3(radius, 0, height), vec3(0, 0, height), thetaMax_degrees, params, problems);
+  return std::make_shared<LineRevolution>(vec3(radius, 0, height), vec3(0, 0, height), thetaMax_degrees,
+                                          params, problems);
 }
 
-PrimPtr makeCylinder(float radius, float zmin, float zmax, float thetaMax_degrees, const ParamList& params, Problems& problems) {
+PrimPtr makeCylinder(float radius, float zmin, float zmax, float thetaMax_degrees, const ParamList& params,
+                     Problems& problems) {
   requireFinite({radius, zmin, zmax}, "the cylinder");
   requireArea(radius != 0, "the cylinder's radius is 0");
   requireArea(zmin != zmax, "the cylinder's zmin and zmax are equal");
-  return std::make_shared<LineRevolution>(vec3(radius, 0, zmin), vec3(radius, 0, zmax), thetaMax_degrees, params, problems);
+  return std::make_shared<LineRevolution>(vec3(radius, 0, zmin), vec3(radius, 0, zmax), thetaMax_degrees,
+                                          params, problems);
 }
 
-PrimPtr makeHyperboloid(const vec3& point1, const vec3& point2, float thetaMax_degrees, const ParamList& params,
-                        Problems& problems) {
+PrimPtr makeHyperboloid(const vec3& point1, const vec3& point2, float thetaMax_degrees,
+                        const ParamList& params, Problems& problems) {
   requireFinite({point1.x, point1.y, point1.z, point2.x, point2.y, point2.z}, "the hyperboloid");
   requireArea(point1 != point2, "the hyperboloid's two points are equal");
-  requireArea(point1.x != 0 || point1.y != 0 || point2.x != 0 || point2.y != 0, "both of the hyperboloid's points are on its axis");
+  requireArea(point1.x != 0 || point1.y != 0 || point2.x != 0 || point2.y != 0,
+              "both of the hyperboloid's points are on its axis");
   return std::make_shared<LineRevolution>(point1, point2, thetaMax_degrees, params, problems);
 }
 
-PrimPtr makeParaboloid(float rmax, float zmin, float zmax, float thetaMax_degrees, const ParamList& params, Problems& problems) {
+PrimPtr makeParaboloid(float rmax, float zmin, float zmax, float thetaMax_degrees, const ParamList& params,
+                       Problems& problems) {
   requireFinite({rmax, zmin, zmax}, "the paraboloid");
   requireArea(rmax != 0, "the paraboloid's radius is 0");
   requireArea(zmax != 0, "the paraboloid's zmax is 0");

@@ -1,5 +1,5 @@
-// Surfaces of revolution about z: all seven RISpec quadrics (RISpec section 5.4) are one of these with a meridian.
-// Private to the primitives.
+// Surfaces of revolution about z: all seven RISpec quadrics (RISpec section 5.4) are one of these with a
+// meridian. Private to the primitives.
 #pragma once
 #include <array>
 
@@ -15,8 +15,8 @@ struct Meridian {
   float nx[kChunk], ny[kChunk], nz[kChunk];  ///< towards dPdu x dPdv for a positive sweep; never zero
 };
 
-/// sin and cos of whole turns * 2 pi, turn = offset + frac(scale * t): a closed sweep ends on the very bits it began with,
-/// and quarter turns are exact.
+/// sin and cos of whole turns * 2 pi, turn = offset + frac(scale * t): a closed sweep ends on the very bits
+/// it began with, and quarter turns are exact.
 void sinCosTurns(float offset, float scale, int n, const float* t, float* sine, float* cosine);
 
 class Revolution : public Prim {
@@ -25,7 +25,8 @@ class Revolution : public Prim {
   PatchInfo info(uint32_t) const override { return {false, openEdges_}; }
   Bound3 bound(uint32_t, const UvRect& rect) const override;
   void evaluate(uint32_t, int n, const float* u, const float* v, SurfacePoints out) const override;
-  void interpolate(uint32_t, int index, int n, const float* u, const float* v, float* out, int stride) const override;
+  void interpolate(uint32_t, int index, int n, const float* u, const float* v, float* out,
+                   int stride) const override;
 
  protected:
   /// Throws PrimError for a sweep without area.

@@ -92,7 +92,8 @@ void depthOfField(GraphicsState& s, const Request& r) {
   o.focalLength = a[1];
   o.focalDistance = a[2];
   if (a[0] < kInfinity)
-    s.warnOnce("DepthOfField", r, "rib-unsupported", "DepthOfField: defocus is not rendered yet; all is in focus");
+    s.warnOnce("DepthOfField", r, "rib-unsupported",
+               "DepthOfField: defocus is not rendered yet; all is in focus");
 }
 
 void shutter(GraphicsState& s, const Request& r) {

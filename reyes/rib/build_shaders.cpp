@@ -58,7 +58,8 @@ const HandlerTable& shaderHandlers() {
        [](GraphicsState& s, const Request& r) {
          const std::string& name = r.args[0].strings[0];
          const bool none = name.empty() || name == "null";
-         s.scope.edit().displacement = none ? nullptr : std::make_shared<const ShaderCall>(makeShaderCall(s, r));
+         s.scope.edit().displacement =
+             none ? nullptr : std::make_shared<const ShaderCall>(makeShaderCall(s, r));
        }},
       {"LightSource", [](GraphicsState& s, const Request& r) { addLight(s, r, false); }},
       {"AreaLightSource", areaLightSource},

@@ -1,5 +1,5 @@
-// Transformations and named coordinate systems (RISpec 3.2 section 4.2.10). The CTM takes new transformations on its
-// right: the last one in the file is the first to be applied to a point.
+// Transformations and named coordinate systems (RISpec 3.2 section 4.2.10). The CTM takes new transformations
+// on its right: the last one in the file is the first to be applied to a point.
 #include <fmt/format.h>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -22,12 +22,14 @@ std::optional<mat4> perspective(float fov_degrees) {
   return mat4(vec4(1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0, 0, t, t), vec4(0, 0, -t, 0));
 }
 
-// Shifts points along b so that a turns by `angle` towards b: with n the unit vector perpendicular to b in their plane
-// and theta the angle between them, a + k (n.a) b stands at theta - angle where k = cot(theta - angle) - cot(theta).
+// Shifts points along b so that a turns by `angle` towards b: with n the unit vector perpendicular to b in
+// their plane and theta the angle between them, a + k (n.a) b stands at theta - angle where k = cot(theta -
+// angle) - cot(theta).
 std::optional<mat4> skew(const RibArg& r) {
   const vec3 a = normalizeOr(asVec3(r, 1), vec3(0)), b = normalizeOr(asVec3(r, 4), vec3(0));
   const vec3 n = normalizeOr(a - dot(a, b) * b, vec3(0));
-  const float theta = std::acos(std::clamp(dot(a, b), -1.0f, 1.0f)), left = theta - glm::radians(r.numbers[0]);
+  const float theta = std::acos(std::clamp(dot(a, b), -1.0f, 1.0f)),
+              left = theta - glm::radians(r.numbers[0]);
   if (b == vec3(0) || n == vec3(0) || !(left > 0 && left < kPi)) return std::nullopt;
   const float k = 1 / std::tan(left) - 1 / std::tan(theta);
   mat4 m(1);
@@ -70,12 +72,13 @@ mat4 asMatrix(const std::vector<float>& sixteen) {
 }
 
 bool isTransformation(std::string_view name) {
-  static constexpr std::string_view kNames[] = {"Identity", "Transform", "ConcatTransform", "Perspective",
-                                                "Translate", "Rotate", "Scale", "Skew"};
+  static constexpr std::string_view kNames[] = {"Identity",  "Transform", "ConcatTransform", "Perspective",
+                                                "Translate", "Rotate",    "Scale",           "Skew"};
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
-void applyTransformation(GraphicsState& s, const std::vector<const Request*>& keys, const std::vector<float>& times) {
+void applyTransformation(GraphicsState& s, const std::vector<const Request*>& keys,
+                         const std::vector<float>& times) {
   Motion motion{times, {}};
   for (const Request* r : keys) {
     const std::optional<mat4> m = matrixOf(*r);
@@ -92,7 +95,9 @@ void applyTransformation(GraphicsState& s, const std::vector<const Request*>& ke
 const HandlerTable& transformHandlers() {
   static const HandlerTable table = {
       {"CoordinateSystem",
-       [](GraphicsState& s, const Request& r) { s.globals.coordinateSystems[r.args[0].strings[0]] = s.scope.ctm; }},
+       [](GraphicsState& s, const Request& r) {
+         s.globals.coordinateSystems[r.args[0].strings[0]] = s.scope.ctm;
+       }},
       {"ScopedCoordinateSystem",
        [](GraphicsState& s, const Request& r) {
          const std::string& name = r.args[0].strings[0];

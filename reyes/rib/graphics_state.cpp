@@ -10,7 +10,7 @@ Attributes& Scope::edit() {
 }
 
 const char* blockName(Block block) {
-  static constexpr const char* kNames[] = {"Frame", "World", "Attribute", "Transform", "Solid"};
+  static constexpr const char* kNames[] = {"Frame", "World", "Attribute", "Transform", "Solid", "Instance"};
   return kNames[static_cast<int>(block)];
 }
 
@@ -36,7 +36,8 @@ bool GraphicsState::end(Block block, const SourceLoc& where) {
     return true;
   }
   size_t at = stack_.size();
-  while (at > 0 && stack_[at - 1].block != block && (global || !stack_[at - 1].globals)) --at;
+  const auto isWall = [](const Saved& s) { return s.globals || s.block == Block::Instance; };
+  while (at > 0 && stack_[at - 1].block != block && (global || !isWall(stack_[at - 1]))) --at;
   if (at == 0 || stack_[at - 1].block != block) {
     log.report(Severity::Warning, "rib-unbalanced", where,
                fmt::format("{0}End without {0}Begin, ignored", blockName(block)));
@@ -60,7 +61,8 @@ bool GraphicsState::end(Block block, const SourceLoc& where) {
 void GraphicsState::enterWorld(const SourceLoc& where) {
   Motion camera = scope.ctm;
   if (!isFinite(camera) || !isInvertible(camera)) {
-    log.report(Severity::Warning, "rib-camera", where, "the camera transformation cannot be inverted; identity is used");
+    log.report(Severity::Warning, "rib-camera", where,
+               "the camera transformation cannot be inverted; identity is used");
     camera = Motion();
   }
   const Motion worldFromCamera = inverse(camera);
@@ -99,8 +101,8 @@ bool isFinite(const Motion& m) {
   });
 }
 
-// In double precision: the determinant of a scene in millimetres of a landscape overflows nothing, that of a scaled-down
-// one must not underflow.
+// In double precision: the determinant of a scene in millimetres of a landscape overflows nothing, that of a
+// scaled-down one must not underflow.
 bool isInvertible(const Motion& m) {
   return std::all_of(m.keys.begin(), m.keys.end(), [](const mat4& k) {
     const double d = glm::determinant(glm::dmat4(k));

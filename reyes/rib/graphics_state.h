@@ -1,5 +1,5 @@
-// The graphics state of RISpec 3.2 section 4, with its stacks. Spaces: the CTM, shader calls and named coordinate systems
-// are relative to camera space before WorldBegin, and to world space after it.
+// The graphics state of RISpec 3.2 section 4, with its stacks. Spaces: the CTM, shader calls and named
+// coordinate systems are relative to camera space before WorldBegin, and to world space after it.
 #pragma once
 #include <set>
 
@@ -12,7 +12,7 @@ struct Scope {
   std::shared_ptr<Attributes> attributes = std::make_shared<Attributes>();
   Motion ctm;
   Basis uBasis = bezierBasis(), vBasis = bezierBasis();
-  bool lightsCastShadows = false;                 ///< Attribute "light" "shadows": for lights that are made here.
+  bool lightsCastShadows = false;  ///< Attribute "light" "shadows": for lights that are made here.
   std::map<std::string, Motion> coordinateSystems;  ///< ScopedCoordinateSystem
 
   /// The attributes, no longer shared with anybody.
@@ -38,7 +38,7 @@ struct Globals {
   std::map<std::string, std::shared_ptr<Master>> masters;
 };
 
-enum class Block { Frame, World, Attribute, Transform, Solid };
+enum class Block { Frame, World, Attribute, Transform, Solid, Instance };
 const char* blockName(Block block);
 
 /// Between WorldBegin and WorldEnd.
@@ -61,7 +61,8 @@ class GraphicsState {
   Motion identity;  ///< What Identity sets: the CTM of the instance while an object is replayed.
 
   void begin(Block block, const SourceLoc& where);
-  /// Restores what `begin` saved, closing forgotten blocks within. False: there is no such block here; nothing changed.
+  /// Restores what `begin` saved, closing forgotten blocks within. False: there is no such block here;
+  /// nothing changed.
   bool end(Block block, const SourceLoc& where);
   bool isOpen(Block block) const;
 

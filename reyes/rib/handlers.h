@@ -1,5 +1,5 @@
-// What each request does to the graphics state; one table for each chapter of RISpec 3.2. The requests that the scene
-// builder itself must know (blocks, motion, retained objects) are not here.
+// What each request does to the graphics state; one table for each chapter of RISpec 3.2. The requests that
+// the scene builder itself must know (blocks, motion, retained objects) are not here.
 #pragma once
 #include <string_view>
 #include <unordered_map>
@@ -19,14 +19,17 @@ const HandlerTable& transformHandlers();  ///< CoordinateSystem and its relative
 
 /// Transform, Translate, ...: one request for each time, all with the same name.
 bool isTransformation(std::string_view name);
-void applyTransformation(GraphicsState& state, const std::vector<const Request*>& keys, const std::vector<float>& times);
+void applyTransformation(GraphicsState& state, const std::vector<const Request*>& keys,
+                         const std::vector<float>& times);
 
 /// Sphere, Polygon, ...: throws PrimError if there is nothing to draw.
 bool isGeometry(std::string_view name);
 PrimPtr buildPrim(const Request& request, const Scope& scope, Problems& problems);
 
 // Shared by the handlers.
-inline vec3 asVec3(const RibArg& a, size_t at = 0) { return {a.numbers[at], a.numbers[at + 1], a.numbers[at + 2]}; }
+inline vec3 asVec3(const RibArg& a, size_t at = 0) {
+  return {a.numbers[at], a.numbers[at + 1], a.numbers[at + 2]};
+}
 mat4 asMatrix(const std::vector<float>& sixteen);
 ShaderCall makeShaderCall(const GraphicsState& state, const Request& request);
 

@@ -1,4 +1,5 @@
-// Scratch memory of one batch: aligned arrays that are all freed at once and kept for the next batch of the thread.
+// Scratch memory of one batch: aligned arrays that are all freed at once and kept for the next batch of the
+// thread.
 #pragma once
 #include <algorithm>
 #include <memory>
@@ -40,7 +41,8 @@ class Arena {
   size_t block_ = 0, used_ = 0;
 };
 
-/// An Arena of this thread for as long as it lives. Shading nests (a gather ray shades its hit), so a thread has a stack.
+/// An Arena of this thread for as long as it lives. Shading nests (a gather ray shades its hit), so a thread
+/// has a stack.
 class ArenaLease {
  public:
   ArenaLease() {

@@ -7,6 +7,8 @@
 namespace tomales {
 namespace {
 
+const ParamNames kLightParams{"lighting", "shadowname", "__nondiffuse", "__nonspecular"};
+
 std::string pathOf(const Options& options, const char* kind) {
   const auto it = options.searchPaths.find(kind);
   return it == options.searchPaths.end() ? std::string() : it->second;
@@ -29,10 +31,14 @@ IndirectQuery queryOf(const BoundShader& light) {
 class Binder {
  public:
   Binder(const Scene& scene, ShaderRegistry& registry, Log& log)
-      : scene_(scene), registry_(registry), log_(log), path_(pathOf(scene.options, "shader")),
+      : scene_(scene),
+        registry_(registry),
+        log_(log),
+        path_(pathOf(scene.options, "shader")),
         cameraFromWorld_(scene.cameraFromWorldAtOpen()) {}
 
-  BoundShaderPtr surface(const std::shared_ptr<const ShaderCall>& call, const SourceLoc& object, const std::string& user) {
+  BoundShaderPtr surface(const std::shared_ptr<const ShaderCall>& call, const SourceLoc& object,
+                         const std::string& user) {
     return cached(call, object, user, TM_SURFACE);
   }
   BoundShaderPtr displacement(const std::shared_ptr<const ShaderCall>& call, const std::string& user) {
@@ -48,8 +54,8 @@ class Binder {
   std::unique_ptr<const BoundLight> light(const LightCall& call, int index);
 
  private:
-  BoundShaderPtr cached(const std::shared_ptr<const ShaderCall>& call, const SourceLoc& object, const std::string& user,
-                        TmKind kind) {
+  BoundShaderPtr cached(const std::shared_ptr<const ShaderCall>& call, const SourceLoc& object,
+                        const std::string& user, TmKind kind) {
     if (!call) return bind(nullptr, object, user, kind);
     const auto [it, isNew] = bound_.try_emplace(call.get());
     if (isNew) it->second = bind(call.get(), call->where, user, kind);
@@ -65,18 +71,20 @@ class Binder {
   std::map<const ShaderCall*, BoundShaderPtr> bound_;
 };
 
-BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind) {
+BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, const std::string& user,
+                            TmKind kind) {
   const std::string name = call ? call->name : "defaultsurface";
   const TmShader* shader = registry_.find(name, kind, path_);
   const float open = scene_.options.shutterOpen;
   const mat4 currentFromShader = call ? cameraFromWorld_ * call->worldFromShader.at(open) : mat4(1.0f);
   if (shader) {
-    if (kind == TM_LIGHT)
-      return bindShader(*shader, call, where, user, currentFromShader, {"lighting", "shadowname"}, log_);
-    return bindShader(*shader, call, where, user, currentFromShader, {}, log_);
+    const bool isLight = kind == TM_LIGHT;
+    return bindShader(*shader, call, where, user, currentFromShader, isLight ? kLightParams : ParamNames{},
+                      log_);
   }
   const char* consequence = kind == TM_SURFACE ? "a magenta checker is rendered"
-                            : kind == TM_LIGHT ? "it casts no light" : "nothing is displaced";
+                            : kind == TM_LIGHT ? "it casts no light"
+                                               : "nothing is displaced";
   const char* kindName = kind == TM_SURFACE ? "surface" : kind == TM_LIGHT ? "light" : "displacement";
   log_.report(Severity::Missing, "shader-missing", where,
               fmt::format("{}: {} shader \"{}\" is unknown; {}", user, kindName, name, consequence));
@@ -84,28 +92,44 @@ BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, cons
   return bindShader(kSubstituteSurface, nullptr, where, user, currentFromShader, {}, log_);
 }
 
+/// Parameters that every light understands, whether or not its shader declares them.
+void setHostParams(BoundLight& light, const LightCall& call, Log& log) {
+  const ParamList& params = call.shader.params;
+  const auto number = [&](const char* name) {
+    const Param* p = findParam(params, name);
+    return p ? p->number(0) : light.bound->number(name, 0);
+  };
+  const auto text = [&](const char* name) {
+    const Param* p = findParam(params, name);
+    return p && !p->strings.empty() ? p->strings[0] : std::string();
+  };
+  const auto warn = [&](const char* code, const std::string& problem) {
+    log.report(Severity::Warning, code, call.shader.where, light.bound->user + ": " + problem);
+  };
+  light.nondiffuse = number("__nondiffuse") != 0, light.nonspecular = number("__nonspecular") != 0;
+  const std::string lighting = text("lighting"), shadows = text("shadowname");
+  light.direct = lighting != "indirect", light.indirect = lighting != "direct";
+  if (!lighting.empty() && lighting != "both" && light.direct && light.indirect)
+    warn("light-lighting",
+         fmt::format("lighting \"{}\" is none of both, direct, indirect; both is used", lighting));
+  if (!shadows.empty() && shadows != "raytrace" && !light.bound->find("shadowname"))
+    warn("light-shadow-map",
+         fmt::format("shadow map \"{}\" is ignored; only \"raytrace\" is supported", shadows));
+  if (call.area && !light.can(TM_LIGHT_AREA))
+    warn("light-area",
+         fmt::format("\"{}\" is not an area light; it shines without its geometry", call.shader.name));
+  if (!call.area && light.can(TM_LIGHT_AREA))
+    warn("light-area",
+         fmt::format("\"{}\" needs AreaLightSource and geometry; it casts no light", call.shader.name));
+}
+
 std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index) {
-  const std::string user = fmt::format("light \"{}\"", call.handle);
-  BoundShaderPtr bound = bind(&call.shader, call.shader.where, user, TM_LIGHT);
+  BoundShaderPtr bound =
+      bind(&call.shader, call.shader.where, fmt::format("light \"{}\"", call.handle), TM_LIGHT);
   if (!bound) return nullptr;
   auto light = std::make_unique<BoundLight>();
   light->bound = bound, light->index = index;
-  const auto warn = [&](const char* code, const std::string& problem) {
-    log_.report(Severity::Warning, code, call.shader.where, user + ": " + problem);
-  };
-  const auto text = [&](const char* name) {
-    const Param* p = findParam(call.shader.params, name);
-    return p && !p->strings.empty() ? p->strings[0] : std::string();
-  };
-  const std::string lighting = text("lighting"), shadows = text("shadowname");
-  light->direct = lighting != "indirect", light->indirect = lighting != "direct";
-  if (!lighting.empty() && lighting != "both" && lighting != "direct" && lighting != "indirect")
-    warn("light-lighting", fmt::format("lighting \"{}\" is none of both, direct, indirect; both is used", lighting));
-  if (!shadows.empty() && shadows != "raytrace" && !bound->find("shadowname"))
-    warn("light-shadow-map", fmt::format("shadow map \"{}\" is ignored; only \"raytrace\" is supported", shadows));
-  if (light->can(TM_LIGHT_AREA) != call.area)
-    warn("light-area", call.area ? fmt::format("\"{}\" is not an area light; its geometry casts no light", call.shader.name)
-                                 : fmt::format("\"{}\" needs AreaLightSource and geometry; it casts no light", call.shader.name));
+  setHostParams(*light, call, log_);
   const bool indirect = light->can(TM_LIGHT_INDIRECT);
   light->shadows = !indirect && (call.castsShadows || light->can(TM_LIGHT_SHADOWED));
   if (light->can(TM_LIGHT_AREA)) light->samples = std::max(1, static_cast<int>(bound->number("samples", 16)));
@@ -141,10 +165,15 @@ void findPrimvars(BoundGroup& g) {
 }  // namespace
 
 BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& st)
-    : scene(s), log(l), stats(st), camera(s.options), cameraFromWorld(s.cameraFromWorldAtOpen()),
+    : scene(s),
+      log(l),
+      stats(st),
+      camera(s.options),
+      cameraFromWorld(s.cameraFromWorldAtOpen()),
       textures(pathOf(s.options, "texture"), l, st) {
   Binder binder(scene, registry, log);
-  for (const auto& call : scene.lights) lights.push_back(binder.light(*call, static_cast<int>(lights.size())));
+  for (const auto& call : scene.lights)
+    lights.push_back(binder.light(*call, static_cast<int>(lights.size())));
   for (const ShadeGroup& group : scene.groups) {
     BoundGroup g;
     g.group = &group;

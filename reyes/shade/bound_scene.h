@@ -8,23 +8,28 @@ namespace tomales {
 
 struct BoundLight {
   BoundShaderPtr bound;
-  int index = -1;        ///< In Scene::lights.
+  int index = -1;  ///< In Scene::lights.
   int samples = 1;
   bool shadows = false;
-  bool direct = true;    ///< Lights what the camera sees.
-  bool indirect = true;  ///< Lights what gather rays see.
-  IndirectQuery query;   ///< TM_LIGHT_INDIRECT alone.
+  bool direct = true;                            ///< Lights what the camera sees.
+  bool indirect = true;                          ///< Lights what gather rays see.
+  bool nondiffuse = false, nonspecular = false;  ///< Left out by diffuse(), by specular().
+  IndirectQuery query;                           ///< TM_LIGHT_INDIRECT alone.
   bool can(TmCapability capability) const { return bound->can(capability); }
 };
 
 /// A primitive variable that takes the place of a shader parameter.
-struct Override { int param, primvarOffset; TmType type; };
+struct Override {
+  int param, primvarOffset;
+  TmType type;
+};
 
 struct BoundGroup {
   const ShadeGroup* group = nullptr;
   std::string object;  ///< For messages.
-  BoundShaderPtr surface, indirectSurface;  ///< The second: for rays that hit it (Attribute "indirect" "surface").
-  BoundShaderPtr displacement;              ///< May be null.
+  BoundShaderPtr surface,
+      indirectSurface;          ///< The second: for rays that hit it (Attribute "indirect" "surface").
+  BoundShaderPtr displacement;  ///< May be null.
   std::vector<Override> surfaceOverrides, indirectOverrides, displacementOverrides;
   std::vector<const BoundLight*> lights;
   std::optional<IndirectQuery> indirect;

@@ -9,20 +9,32 @@ namespace {
 
 int floatsOf(int32_t type) {
   switch (type) {
-    case TM_COLOR: case TM_POINT: case TM_VECTOR: case TM_NORMAL: return 3;
-    case TM_MATRIX: return 16;
-    case TM_STRING: return 0;
-    default: return 1;
+    case TM_COLOR:
+    case TM_POINT:
+    case TM_VECTOR:
+    case TM_NORMAL:
+      return 3;
+    case TM_MATRIX:
+      return 16;
+    case TM_STRING:
+      return 0;
+    default:
+      return 1;
   }
 }
 
 bool accepts(int32_t declared, ValueType given) {
   switch (declared) {
-    case TM_FLOAT: return given == ValueType::Float || given == ValueType::Integer;
-    case TM_COLOR: return given == ValueType::Color;
-    case TM_STRING: return given == ValueType::String;
-    case TM_MATRIX: return given == ValueType::Matrix;
-    default: return given == ValueType::Point || given == ValueType::Vector || given == ValueType::Normal;
+    case TM_FLOAT:
+      return given == ValueType::Float || given == ValueType::Integer;
+    case TM_COLOR:
+      return given == ValueType::Color;
+    case TM_STRING:
+      return given == ValueType::String;
+    case TM_MATRIX:
+      return given == ValueType::Matrix;
+    default:
+      return given == ValueType::Point || given == ValueType::Vector || given == ValueType::Normal;
   }
 }
 
@@ -60,10 +72,14 @@ void toCurrent(int32_t type, const mat4& currentFromShader, std::vector<float>& 
 
 vec3 transformAs(TmType type, const mat4& m, const vec3& v) {
   switch (type) {
-    case TM_POINT: return transformPoint(m, v);
-    case TM_VECTOR: return transformVector(m, v);
-    case TM_NORMAL: return glm::transpose(glm::inverse(mat3(m))) * v;
-    default: return v;
+    case TM_POINT:
+      return transformPoint(m, v);
+    case TM_VECTOR:
+      return transformVector(m, v);
+    case TM_NORMAL:
+      return glm::transpose(glm::inverse(mat3(m))) * v;
+    default:
+      return v;
   }
 }
 
@@ -88,10 +104,12 @@ std::string BoundShader::text(std::string_view name, const std::string& fallback
   return v && v->string ? v->string : fallback;
 }
 
-BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const SourceLoc& where, const std::string& user,
-                          const mat4& currentFromShader, std::initializer_list<std::string_view> hostParams, Log& log) {
+BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const SourceLoc& where,
+                          const std::string& user, const mat4& currentFromShader,
+                          const ParamNames& hostParams, Log& log) {
   auto bound = std::make_shared<BoundShader>();
-  bound->shader = &shader, bound->where = where, bound->user = user, bound->currentFromShader = currentFromShader;
+  bound->shader = &shader, bound->where = where, bound->user = user,
+  bound->currentFromShader = currentFromShader;
   const size_t n = static_cast<size_t>(shader.paramCount);
   bound->floats.resize(n), bound->strings.resize(n), bound->values.resize(n);
 
@@ -106,7 +124,8 @@ BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const 
     const size_t needed = decl.type == TM_STRING ? 1 : width;
     if (param && (!accepts(decl.type, param->type) || given(*param) < needed)) {
       warn("shader-parameter-type", fmt::format("parameter \"{}\" has a value of the wrong type or length; "
-                                                "its default is used", decl.name));
+                                                "its default is used",
+                                                decl.name));
       param = nullptr;
     }
     TmValue& value = bound->values[i];

@@ -1,6 +1,6 @@
-// A shader with its parameters resolved: defaults, what RIB gave, and points moved from shader to current space.
+// A shader with its parameters resolved: defaults, what RIB gave, and points moved from shader to current
+// space.
 #pragma once
-#include <initializer_list>
 
 #include "reyes/shader_api.h"
 #include "reyes/state.h"
@@ -9,8 +9,8 @@ namespace tomales {
 
 struct BoundShader {
   const TmShader* shader = nullptr;
-  SourceLoc where;            ///< Of the request, or of the object that has none.
-  std::string user;           ///< What it is bound for, in messages: an object or a light.
+  SourceLoc where;   ///< Of the request, or of the object that has none.
+  std::string user;  ///< What it is bound for, in messages: an object or a light.
   mat4 currentFromShader{1.0f};
   std::vector<TmValue> values;  ///< In the order of TmShader::params; they point into the arrays below.
 
@@ -25,10 +25,13 @@ struct BoundShader {
 };
 using BoundShaderPtr = std::shared_ptr<const BoundShader>;
 
-/// `call` may be null: all defaults. Reports parameters that the shader does not have, except `hostParams`, and values
-/// of a wrong type, which keep their defaults.
-BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const SourceLoc& where, const std::string& user,
-                          const mat4& currentFromShader, std::initializer_list<std::string_view> hostParams, Log& log);
+using ParamNames = std::vector<std::string_view>;
+
+/// `call` may be null: all defaults. Reports parameters that the shader does not have, except `hostParams`,
+/// and values of a wrong type, which keep their defaults.
+BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const SourceLoc& where,
+                          const std::string& user, const mat4& currentFromShader,
+                          const ParamNames& hostParams, Log& log);
 
 /// Points, vectors and normals (`type`) through a matrix; other types are left alone.
 vec3 transformAs(TmType type, const mat4& m, const vec3& v);

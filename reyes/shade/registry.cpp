@@ -34,7 +34,8 @@ bool matches(const Versioned* v) {
 }
 
 std::string expected(const char* what) {
-  return fmt::format("{} is of another shader ABI than {}; compile it against the headers of this version", what, TM_SHADER_ABI);
+  return fmt::format("{} is of another shader ABI than {}; compile it against the headers of this version",
+                     what, TM_SHADER_ABI);
 }
 
 }  // namespace

@@ -17,7 +17,14 @@ void shadeSubstitute(const TmGrid* g) {
 
 }  // namespace
 
-const TmShader kSubstituteSurface = {TM_SHADER_ABI, sizeof(TmShader), "(missing shader)", TM_SURFACE, 0, nullptr, 0,
-                                     shadeSubstitute, "stands in for a missing surface shader"};
+const TmShader kSubstituteSurface = {TM_SHADER_ABI,
+                                     sizeof(TmShader),
+                                     "(missing shader)",
+                                     TM_SURFACE,
+                                     0,
+                                     nullptr,
+                                     0,
+                                     shadeSubstitute,
+                                     "stands in for a missing surface shader"};
 
 }  // namespace tomales

@@ -20,7 +20,8 @@ Textures::Textures(const std::string& searchPath, Log& log, Stats& stats)
 
 Textures::~Textures() { OIIO::TextureSystem::destroy(impl_->system); }
 
-bool Textures::lookup(const TextureQuery& q, const SourceLoc& where, const std::string& user, TmVec3 out) const {
+bool Textures::lookup(const TextureQuery& q, const SourceLoc& where, const std::string& user,
+                      TmVec3 out) const {
   OIIO::TextureSystem& system = *impl_->system;
   OIIO::TextureSystem::Perthread* thread = system.get_perthread_info();
   OIIO::TextureSystem::TextureHandle* handle = system.get_texture_handle(OIIO::ustring(q.name), thread);

@@ -121,7 +121,9 @@ TEST(IrradianceCache, ALinearFieldWithExactGradientsIsReproduced) {
   for (uint32_t i = 0; i < 100; ++i) {
     const vec3 x = randomIn(i, 5) * vec3(1, 1, 0);
     const auto estimate = cache.lookup(x, kUp, 0.03f);
-    if (estimate.weight > 0) EXPECT_NEAR(estimate.E.y, field(x), 1e-5f);
+    if (estimate.weight > 0) {
+      EXPECT_NEAR(estimate.E.y, field(x), 1e-5f);
+    }
   }
 }
 

@@ -1,0 +1,175 @@
+#include "raytrace/embree_scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <atomic>
+#include <cstring>
+
+#include "reyes/base/parallel.h"
+
+namespace tomales {
+namespace {
+
+struct GeometryInfo {
+  bool opaque, flips;
+};
+
+/// What filters are given beside the hit. Embree hands back the address of its first member.
+struct Traversal {
+  RTCIntersectContext embree;
+  float shift = 0;  ///< Embree's t of the ray's own origin.
+  float window = 0;
+  float tMax = kInfinity;
+  HitList* list = nullptr;
+};
+static_assert(std::is_standard_layout_v<Traversal>);
+
+bool leaves(const vec3& direction, const vec3& normal, bool flips) {
+  return (dot(direction, normal) > 0) != flips;
+}
+
+PolygonHit hitOf(const RTCFilterFunctionNArguments& args, const Traversal& traversal) {
+  const vec3 direction(RTCRayN_dir_x(args.ray, 1, 0), RTCRayN_dir_y(args.ray, 1, 0),
+                       RTCRayN_dir_z(args.ray, 1, 0));
+  const vec3 normal(RTCHitN_Ng_x(args.hit, 1, 0), RTCHitN_Ng_y(args.hit, 1, 0), RTCHitN_Ng_z(args.hit, 1, 0));
+  const bool flips = static_cast<const GeometryInfo*>(args.geometryUserPtr)->flips;
+  return {RTCRayN_tfar(args.ray, 1, 0) - traversal.shift,
+          RTCHitN_geomID(args.hit, 1, 0),
+          RTCHitN_primID(args.hit, 1, 0),
+          RTCHitN_u(args.hit, 1, 0),
+          RTCHitN_v(args.hit, 1, 0),
+          leaves(direction, normal, flips)};
+}
+
+/// Records and rejects hits in the window, accepts those beyond.
+void recordNear(const RTCFilterFunctionNArguments* args) {
+  const auto& traversal = *reinterpret_cast<const Traversal*>(args->context);
+  if (!args->valid[0] || RTCRayN_tfar(args->ray, 1, 0) - traversal.shift > traversal.window) return;
+  traversal.list->push_back(hitOf(*args, traversal));
+  args->valid[0] = 0;
+}
+
+/// Accepts what is opaque beyond the window, which ends the traversal; records and rejects all else.
+void recordShadow(const RTCFilterFunctionNArguments* args) {
+  const auto& traversal = *reinterpret_cast<const Traversal*>(args->context);
+  if (!args->valid[0]) return;
+  const PolygonHit hit = hitOf(*args, traversal);
+  const bool counts = hit.t < traversal.tMax;
+  if (counts && hit.t > traversal.window && static_cast<const GeometryInfo*>(args->geometryUserPtr)->opaque)
+    return;
+  if (counts) traversal.list->push_back(hit);
+  args->valid[0] = 0;
+}
+
+/// Embree takes no negative tnear: the ray starts `shift` before its origin.
+RTCRay rayFrom(const Ray& ray, float shift, float tNear, uint32_t mask) {
+  const vec3 origin = ray.origin - shift * ray.direction;
+  RTCRay r{};
+  r.org_x = origin.x, r.org_y = origin.y, r.org_z = origin.z;
+  r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
+  r.tnear = tNear, r.tfar = ray.tMax + shift;
+  r.mask = mask;
+  return r;
+}
+
+Traversal traversalOf(RTCFilterFunctionN filter, float shift, float window, float tMax, HitList* list) {
+  Traversal t{{}, shift, window, tMax, list};
+  rtcInitIntersectContext(&t.embree);
+  t.embree.filter = filter;
+  return t;
+}
+
+}  // namespace
+
+struct EmbreeScene::Impl {
+  std::atomic<int64_t> bytes{0};
+  std::vector<GeometryInfo> info;
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+
+  static bool countBytes(void* self, ssize_t bytes, bool) {
+    static_cast<Impl*>(self)->bytes += bytes;
+    return true;
+  }
+
+  void attach(unsigned id, const CoarseGroup& group, uint32_t mask) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
+    // Embree reads 16 bytes at the last vertex too, so it gets a buffer of its own that it pads.
+    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                             sizeof(vec3), group.P.size());
+    if (vertices) std::memcpy(vertices, group.P.data(), group.P.size() * sizeof(vec3));
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, group.quads.data(), 0,
+                               sizeof(Quad), group.quads.size());
+    rtcSetGeometryMask(geometry, mask);
+    rtcSetGeometryUserData(geometry, &info[id]);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene, geometry, id);
+    rtcReleaseGeometry(geometry);
+  }
+
+  bool trace(const Ray& ray, float shift, float tNear, uint32_t mask, Traversal& traversal,
+             PolygonHit& out) const {
+    RTCRayHit r{rayFrom(ray, shift, tNear, mask), {}};
+    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene, &traversal.embree, &r);
+    const float t = r.ray.tfar - shift;
+    if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID || t >= ray.tMax) return false;
+    out = {t,
+           r.hit.geomID,
+           r.hit.primID,
+           r.hit.u,
+           r.hit.v,
+           leaves(ray.direction, {r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z}, info[r.hit.geomID].flips)};
+    return true;
+  }
+};
+
+EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const std::vector<uint32_t>& masks,
+                         const std::vector<bool>& opaque, Log& log)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->device = rtcNewDevice(nullptr);
+  rtcSetDeviceMemoryMonitorFunction(impl_->device, &Impl::countBytes, impl_.get());
+  impl_->scene = rtcNewScene(impl_->device);
+  rtcSetSceneFlags(impl_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
+                                                            RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+  for (size_t i = 0; i < groups.size(); ++i) impl_->info.push_back({opaque[i], groups[i].flipsNormal});
+  for (size_t i = 0; i < groups.size(); ++i)
+    if (!groups[i].quads.empty()) impl_->attach(static_cast<unsigned>(i), groups[i], masks[i]);
+  // With several threads the order of primitives in a leaf, and with it which of two hits at equal t is found
+  // first, would depend on their number.
+  const ThreadLimit one(1);
+  rtcCommitScene(impl_->scene);
+  if (rtcGetDeviceError(impl_->device) != RTC_ERROR_NONE)
+    log.report(Severity::Missing, "trace-embree", {},
+               "Embree could not build the scene for rays: they may miss objects");
+}
+
+EmbreeScene::~EmbreeScene() {
+  if (impl_->scene) rtcReleaseScene(impl_->scene);
+  if (impl_->device) rtcReleaseDevice(impl_->device);
+}
+
+bool EmbreeScene::nearest(const Ray& ray, uint32_t mask, PolygonHit& hit) const {
+  Traversal traversal = traversalOf(nullptr, 0, 0, ray.tMax, nullptr);
+  return impl_->trace(ray, 0, std::max(ray.bias, 0.0f), mask, traversal, hit);
+}
+
+bool EmbreeScene::nearestBeyond(const Ray& ray, float window, uint32_t mask, HitList& list,
+                                PolygonHit& beyond) const {
+  list.clear();
+  Traversal traversal = traversalOf(&recordNear, window, window, ray.tMax, &list);
+  return impl_->trace(ray, window, 0, mask, traversal, beyond);
+}
+
+bool EmbreeScene::blockedBeyond(const Ray& ray, float window, uint32_t mask, HitList& list) const {
+  list.clear();
+  const float shift = std::max(window, 0.0f);
+  Traversal traversal = traversalOf(&recordShadow, shift, window, ray.tMax, &list);
+  RTCRay r = rayFrom(ray, shift, window < 0 ? std::max(ray.bias, 0.0f) : 0.0f, mask);
+  rtcOccluded1(impl_->scene, &traversal.embree, &r);
+  return r.tfar < 0;
+}
+
+size_t EmbreeScene::bytes() const { return static_cast<size_t>(std::max<int64_t>(0, impl_->bytes)); }
+
+}  // namespace tomales

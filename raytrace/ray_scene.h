@@ -1,0 +1,22 @@
+// What RayScene is made of, shared by trace.cpp and hit_shade.cpp.
+#pragma once
+#include "raytrace/embree_scene.h"
+#include "raytrace/emitters.h"
+
+namespace tomales {
+
+struct RayScene::Impl {
+  Impl(const Scene& scene, const Camera& camera, const ShadingSystem& shading, bool hitList, Log& log);
+
+  Hit resolve(const PolygonHit& hit) const;
+  vec3 clearness(const PolygonHit& hit) const { return 1.0f - scene.groups[hit.group].attributes->opacity; }
+
+  const Scene& scene;
+  const bool hitList;
+  const std::vector<CoarseGroup> groups;
+  const EmbreeScene embree;
+  const Emitters emitters;
+  std::vector<float> displacementBounds;  ///< Of each group, where rays do not see the displacement.
+};
+
+}  // namespace tomales

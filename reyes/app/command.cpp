@@ -1,0 +1,154 @@
+#include "reyes/app/command.h"
+
+#include <CLI/CLI.hpp>
+
+#include "reyes/app/info.h"
+#include "reyes/app/render.h"
+
+namespace tomales {
+namespace {
+
+/// An option whose text must parse: stores the value or makes the usage error.
+template <class T, class Parse>
+CLI::Option* addParsed(CLI::App& app, const std::string& name, T& target, Parse parse,
+                       const std::string& form, const std::string& help) {
+  const auto take = [&target, parse, name, form](const std::string& text) {
+    const auto value = parse(text);
+    if (!value) throw CLI::ValidationError(name, "\"" + text + "\" is not of the form " + form);
+    target = *value;
+  };
+  return app.add_option_function<std::string>(name, take, help)->type_name(form);
+}
+
+std::optional<std::string> parseOutput(const std::string& text) {
+  return namesPicture(text) ? std::optional(text) : std::nullopt;
+}
+
+GiChoice giOrUsageError(const std::string& text) {
+  if (const auto choice = parseGi(text)) return *choice;
+  for (const char* later : {"radiosity", "atlas", "points"})
+    if (text == later)
+      throw CLI::ValidationError(
+          "--gi", "\"" + text + "\" is not available yet; use scene, none, gather or reference");
+  throw CLI::ValidationError("--gi", "\"" + text + "\" is none of scene, none, gather, reference");
+}
+
+void addPictureOptions(CLI::App& app, RenderSettings& s) {
+  addParsed(app, "-o", s.output, parseOutput, "FILE.exr|.tif|.png",
+            "Write here instead of to the first Display; # stands for the frame number. PNG: rgb, sRGB");
+  const auto format = [](const std::string& t) { return parsePair(t, 1, 65536); };
+  const auto pixelSamples = [](const std::string& t) { return parsePair(t, 1, 64); };
+  addParsed(app, "--format", s.format, format, "WxH", "Resolution in pixels");
+  addParsed(app, "--crop", s.crop, parseCrop, "X0,X1,Y0,Y1",
+            "Part of the frame, 0..1 from the top left, as RIB CropWindow");
+  addParsed(app, "--pixel-samples", s.pixelSamples, pixelSamples, "NxM", "Samples of a pixel");
+  app.add_option("--shading-rate", s.shadingRate, "Area of a micropolygon in pixels, for all objects")
+      ->check(CLI::Range(1e-3, 1e6));
+  addParsed(app, "--frames", s.frames, parseFrames, "1-10x2,15", "Only these frames");
+  app.add_option("--bucket-size", s.bucketSize, "Edge of a bucket in pixels")->check(CLI::Range(1, 4096));
+}
+
+void addLightOptions(CLI::App& app, RenderSettings& s) {
+  app.add_option_function<std::string>(
+         "--gi", [&s](const std::string& t) { s.gi = giOrUsageError(t); },
+         "Indirect light: scene (as the RIB says), none, gather, reference")
+      ->type_name("MODE");
+  app.add_option("--samples", s.samples,
+                 "Gather rays of an irradiance sample, or paths of a point for the reference")
+      ->check(CLI::Range(1, 1 << 20));
+  app.add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, 1000));
+  app.add_option("--max-error", s.maxError,
+                 "Error allowed in irradiance interpolation; 0 computes every point")
+      ->check(CLI::Range(0.0, 1e6));
+  app.add_option("--seed", s.seed, "Of all random numbers");
+  app.add_flag_callback(
+      "--no-hit-list", [&s] { s.hitList = false; }, "Rays leave surfaces by a bias alone");
+}
+
+void addRunOptions(CLI::App& app, RenderSettings& s) {
+  app.add_option("-t", s.threads, "Threads (default: all)")->check(CLI::Range(1, 4096));
+  app.add_option("--stats", s.statsFile, "Statistics as JSON")->type_name("FILE.json");
+  app.add_flag("--progress", s.progress, "Show progress: a bar on a terminal, else lines for render farms");
+  app.add_flag_callback(
+      "-q", [&s] { s.verbosity = Log::Verbosity::Quiet; }, "No warnings");
+  app.add_flag_callback(
+      "-v", [&s] { s.verbosity = Log::Verbosity::Verbose; }, "Say more");
+}
+
+/// Everything that the arguments may fill.
+struct Invocation {
+  RenderSettings render;
+  std::string first, second, difference;
+  bool json = false;
+};
+
+void buildRender(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand(
+      "render", "Render RIB files, taken as one stream; - is standard input (the default command)");
+  addPictureOptions(*c, in.render);
+  addLightOptions(*c, in.render);
+  addRunOptions(*c, in.render);
+  c->add_option("SCENE", in.render.files, "RIB files")->required();
+  c->callback([&] { code = renderCommand(in.render); });
+}
+
+void buildInfo(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand("info", "What is in a .rib, .exr, .tif, .png or shader .so file");
+  c->add_option("FILE", in.first)->required();
+  c->add_flag("--json", in.json, "As JSON");
+  c->callback([&] { code = infoCommand(in.first, in.json); });
+}
+
+void buildCompare(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand("compare", "How far a picture is from a reference");
+  c->add_option("A", in.first)->required();
+  c->add_option("B", in.second, "The reference")->required();
+  c->add_flag("--json", in.json, "As JSON");
+  addParsed(*c, "--diff", in.difference, parseOutput, "FILE.exr|.tif|.png",
+            "Write the absolute difference as a picture");
+  c->callback([&] { code = compareCommand(in.first, in.second, in.difference, in.json); });
+}
+
+bool namesCommand(const std::string& text) {
+  for (const char* name : {"render", "info", "compare", "-h", "--help", "--version"})
+    if (text == name) return true;
+  return false;
+}
+
+int parseAndRun(int argc, char** argv) {
+  CLI::App app("Tomales, a Reyes renderer with global illumination");
+  app.set_version_flag("--version", std::string("tomales ") + kVersion);
+  app.require_subcommand(1);
+  Invocation in;
+  int code = kDone;
+  buildRender(app, in, code);
+  buildInfo(app, in, code);
+  buildCompare(app, in, code);
+
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  in.render.commandLine = "tomales";
+  for (const std::string& a : arguments) in.render.commandLine += " " + a;
+  if (!arguments.empty() && !namesCommand(arguments.front())) arguments.insert(arguments.begin(), "render");
+  std::reverse(arguments.begin(), arguments.end());  // CLI11 takes a vector from its back
+  try {
+    app.parse(arguments);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? kDone : kUsage;
+  }
+  return code;
+}
+
+}  // namespace
+
+int run(int argc, char** argv) {
+  try {
+    return parseAndRun(argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::fputs("tomales: error: out of memory\n", stderr);
+  } catch (const std::exception& e) {
+    std::fputs((std::string("tomales: error: ") + e.what() + "\n").c_str(), stderr);
+  }
+  return kUnreadable;
+}
+
+}  // namespace tomales

@@ -1,0 +1,161 @@
+#include "reyes/app/info.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "reyes/app/render.h"
+#include "reyes/image.h"
+#include "reyes/rib.h"
+#include "reyes/shade.h"
+
+namespace tomales {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json sceneInfo(const Scene& scene) {
+  std::set<std::string> shaders;
+  int64_t patches = 0;
+  for (const Object& object : scene.objects) {
+    patches += object.shape().patchCount();
+    for (const auto& call : {object.attributes->surface, object.attributes->displacement})
+      if (call) shaders.insert(call->name);
+  }
+  for (const auto& light : scene.lights) shaders.insert(light->shader.name);
+  Json displays = Json::array();
+  for (const DisplayCall& d : scene.options.displays)
+    displays.push_back({{"name", d.name}, {"type", d.type}, {"mode", d.mode}});
+  return {{"frame", scene.options.frame},
+          {"resolution", {scene.options.xResolution, scene.options.yResolution}},
+          {"pixel_samples", {scene.options.xSamples, scene.options.ySamples}},
+          {"objects", scene.objects.size()},
+          {"patches", patches},
+          {"lights", scene.lights.size()},
+          {"shade_groups", scene.groups.size()},
+          {"shaders", shaders},
+          {"displays", displays}};
+}
+
+Json ribInfo(const std::string& file, Log& log) {
+  Json frames = Json::array();
+  RibSettings rib;
+  rib.onScene = [&](Scene&& scene) { frames.push_back(sceneInfo(scene)); };
+  readRib({file}, rib, log);
+  return {{"file", file}, {"kind", "rib"}, {"frames", frames}};
+}
+
+Json channelInfo(const Image& image, size_t channel) {
+  double sum = 0;
+  float low = kInfinity, high = -kInfinity;
+  int64_t finite = 0, strange = 0;
+  for (size_t i = channel; i < image.pixels.size(); i += image.channels.size()) {
+    const float v = image.pixels[i];
+    if (!std::isfinite(v)) {
+      ++strange;
+      continue;
+    }
+    low = std::min(low, v), high = std::max(high, v), sum += static_cast<double>(v), ++finite;
+  }
+  return {{"name", image.channels[channel]},
+          {"min", low},
+          {"max", high},
+          {"mean", finite > 0 ? sum / static_cast<double>(finite) : 0.0},
+          {"not_finite", strange}};
+}
+
+Json imageInfo(const std::string& file, Log& log) {
+  std::string error;
+  const std::optional<Image> image = readImage(file, error);
+  if (!image) {
+    log.report(Severity::Error, "image-read", {std::make_shared<std::string>(file), 0},
+               "cannot be read as a picture: " + error);
+    return {};
+  }
+  Json channels = Json::array();
+  for (size_t c = 0; c < image->channels.size(); ++c) channels.push_back(channelInfo(*image, c));
+  return {{"file", file},
+          {"kind", "image"},
+          {"size", {image->width, image->height}},
+          {"origin", {image->originX, image->originY}},
+          {"display_size", {image->displayWidth, image->displayHeight}},
+          {"channels", channels}};
+}
+
+Json paramInfo(const TmParamDecl& p) {
+  static constexpr const char* kTypes[] = {"float", "color", "point", "vector", "normal", "string", "matrix"};
+  static constexpr int kFloats[] = {1, 3, 3, 3, 3, 0, 16};
+  const bool known = p.type >= TM_FLOAT && p.type <= TM_MATRIX;
+  Json value = Json::array();
+  for (int i = 0; known && i < p.arrayLength * kFloats[p.type]; ++i)
+    value.push_back(p.floats ? p.floats[i] : 0.0f);
+  for (int i = 0; known && p.type == TM_STRING && p.strings && i < p.arrayLength; ++i)
+    value.push_back(p.strings[i]);
+  return {{"name", p.name},
+          {"type", known ? kTypes[p.type] : "?"},
+          {"default", value},
+          {"doc", p.doc ? p.doc : ""}};
+}
+
+Json shaderInfo(const TmShader& s) {
+  static constexpr const char* kKinds[] = {"surface", "displacement", "light", "volume", "imager"};
+  Json params = Json::array();
+  for (int i = 0; i < s.paramCount; ++i) params.push_back(paramInfo(s.params[i]));
+  return {{"name", s.name},
+          {"kind", s.kind >= 0 && s.kind <= TM_IMAGER ? kKinds[s.kind] : "?"},
+          {"doc", s.doc ? s.doc : ""},
+          {"parameters", params}};
+}
+
+Json pluginInfo(const std::string& file, Log& log) {
+  ShaderRegistry registry(log);
+  if (!registry.loadPlugin(std::filesystem::absolute(file).string())) {
+    log.report(Severity::Error, "plugin-read", {std::make_shared<std::string>(file), 0},
+               "is not a shader plugin of this version");
+    return {};
+  }
+  Json shaders = Json::array();
+  for (const TmShader* shader : registry.all()) shaders.push_back(shaderInfo(*shader));
+  return {{"file", file}, {"kind", "shaders"}, {"shaders", shaders}};
+}
+
+bool isScalarList(const Json& j) {
+  return j.is_array() && std::none_of(j.begin(), j.end(), [](const Json& e) { return e.is_structured(); });
+}
+
+/// One "name: value" a line, indented by depth.
+void printText(const Json& j, int depth) {
+  for (const auto& [key, value] : j.items()) {
+    const std::string indent(static_cast<size_t>(2 * depth), ' ');
+    if (value.is_structured() && !isScalarList(value)) {
+      std::puts(fmt::format("{}{}:", indent, j.is_array() ? "- " + key : key).c_str());
+      printText(value, depth + 1);
+    } else {
+      const std::string text = value.is_string() ? value.get<std::string>()
+                                                 : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+      std::puts(fmt::format("{}{}: {}", indent, key, text).c_str());
+    }
+  }
+}
+
+Json infoOf(const std::string& file, Log& log) {
+  if (namesPicture(file)) return imageInfo(file, log);
+  return std::filesystem::path(file).extension() == ".so" ? pluginInfo(file, log) : ribInfo(file, log);
+}
+
+}  // namespace
+
+int infoCommand(const std::string& file, bool json) {
+  Log log;
+  const Json info = infoOf(file, log);
+  if (json && !info.is_null())
+    std::puts(info.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+  else if (!info.is_null())
+    printText(info, 0);
+  return exitCodeOf(log);
+}
+
+}  // namespace tomales

@@ -1,0 +1,3 @@
+#include "reyes/app/command.h"
+
+int main(int argc, char** argv) { return tomales::run(argc, argv); }

@@ -1,0 +1,89 @@
+#include "reyes/app/overrides.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace tomales {
+namespace {
+
+/// Gives every object a changed copy of its attributes; objects that shared one keep sharing.
+template <class Change>
+void changeAttributes(Scene& scene, Change&& change) {
+  std::map<const Attributes*, std::shared_ptr<const Attributes>> changed;
+  for (Object& object : scene.objects) {
+    std::shared_ptr<const Attributes>& copy = changed[object.attributes.get()];
+    if (!copy) {
+      auto fresh = std::make_shared<Attributes>(*object.attributes);
+      change(*fresh);
+      copy = std::move(fresh);
+    }
+  }
+  // The originals stay alive until here, so that no copy can take the address of one.
+  for (Object& object : scene.objects) object.attributes = changed.at(object.attributes.get());
+  scene.freeze();
+}
+
+void addIndirectLight(Scene& scene) {
+  auto light = std::make_shared<LightCall>();
+  light->shader.name = "indirectlight";
+  light->shader.where = scene.where;
+  light->handle = "--gi";
+  light->index = static_cast<int>(scene.lights.size());
+  scene.lights.push_back(light);
+  changeAttributes(scene, [&](Attributes& a) { a.lights.push_back(light->index); });
+}
+
+/// -o replaces the first Display. PNG is for looking at: no alpha, and sRGB unless the scene's Exposure
+/// encodes already.
+void overrideOutput(Options& options, const std::string& output) {
+  if (options.displays.empty()) options.displays.emplace_back();
+  DisplayCall& display = options.displays.front();
+  display.name = withFrameNumber(output, options.frame);
+  display.type = "file";
+  std::string extension = std::filesystem::path(output).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (extension != ".png") return;
+  display.mode = "rgb";
+  if (options.exposureGamma == 1 && !findParam(display.params, "transfer")) {
+    Param transfer;
+    transfer.name = "transfer", transfer.type = ValueType::String, transfer.strings = {"sRGB"};
+    display.params.push_back(std::move(transfer));
+  }
+}
+
+}  // namespace
+
+bool hasIndirectLight(const Scene& scene) {
+  return std::any_of(scene.lights.begin(), scene.lights.end(),
+                     [](const auto& light) { return light->shader.name == "indirectlight"; });
+}
+
+GiMode giModeOf(GiChoice choice, const Scene& scene) {
+  switch (choice) {
+    case GiChoice::Gather:
+      return GiMode::Gather;
+    case GiChoice::Reference:
+      return GiMode::Reference;
+    case GiChoice::Scene:
+      return hasIndirectLight(scene) ? GiMode::Gather : GiMode::None;
+    default:
+      return GiMode::None;
+  }
+}
+
+void applyOverrides(Scene& scene, const RenderSettings& settings) {
+  Options& o = scene.options;
+  if (settings.format) o.xResolution = (*settings.format)[0], o.yResolution = (*settings.format)[1];
+  if (settings.crop) o.cropWindow = *settings.crop;
+  if (settings.pixelSamples)
+    o.xSamples = (*settings.pixelSamples)[0], o.ySamples = (*settings.pixelSamples)[1];
+  if (settings.bucketSize) o.bucketWidth = o.bucketHeight = *settings.bucketSize;
+  if (o.displays.empty()) o.displays.emplace_back();
+  if (!settings.output.empty()) overrideOutput(o, settings.output);
+  if (settings.shadingRate)
+    changeAttributes(scene, [&](Attributes& a) { a.shadingRate = *settings.shadingRate; });
+  const bool wantsIndirect = settings.gi == GiChoice::Gather || settings.gi == GiChoice::Reference;
+  if (wantsIndirect && !hasIndirectLight(scene)) addIndirectLight(scene);
+}
+
+}  // namespace tomales

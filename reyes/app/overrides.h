@@ -1,0 +1,17 @@
+// The command line's say over a scene that the reader has frozen.
+#pragma once
+#include "reyes/app/settings.h"
+#include "reyes/scene.h"
+
+namespace tomales {
+
+/// Applies format, crop, rates, buckets and output; adds an `indirectlight` where the mode wants one and the
+/// scene has none.
+void applyOverrides(Scene& scene, const RenderSettings& settings);
+
+bool hasIndirectLight(const Scene& scene);
+
+/// How a choice is carried out for this scene.
+GiMode giModeOf(GiChoice choice, const Scene& scene);
+
+}  // namespace tomales

@@ -1,0 +1,105 @@
+#include "reyes/app/render.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "reyes/app/frame_job.h"
+#include "reyes/app/interrupt.h"
+#include "reyes/app/overrides.h"
+#include "reyes/app/stats_json.h"
+#include "reyes/base/parallel.h"
+#include "reyes/rib.h"
+
+namespace tomales {
+namespace {
+
+class RenderRun {
+ public:
+  explicit RenderRun(const RenderSettings& settings)
+      : settings_(settings),
+        threads_(settings.threads),
+        log_(settings.verbosity),
+        start_(std::chrono::steady_clock::now()) {}
+
+  int run() {
+    RibSettings rib;
+    rib.onScene = [this](Scene&& scene) { takeScene(std::move(scene)); };
+    parse_.emplace(stats_, "parse");
+    const bool read = readRib(settings_.files, rib, log_);
+    parse_.reset();
+    if (read && scenes_ == 0 && !interrupted())
+      log_.report(Severity::Error, "no-world", {std::make_shared<std::string>(settings_.files.front()), 0},
+                  "nothing to render: no WorldBegin ... WorldEnd was found");
+    if (scenes_ > 0 && rendered_ == 0 && settings_.frames && !interrupted())
+      log_.report(Severity::Error, "no-frame", {std::make_shared<std::string>(settings_.files.front()), 0},
+                  "none of the frames that --frames names is in the scene");
+    flush();
+    if (const int code = interruptExitCode()) return code;
+    return !read ? std::max(exitCodeOf(log_), kUnreadable) : exitCodeOf(log_);
+  }
+
+ private:
+  void takeScene(Scene&& scene) {
+    parse_.reset();
+    ++scenes_;
+    if (wanted(scene) && !interrupted()) {
+      ++rendered_;
+      applyOverrides(scene, settings_);
+      warnAboutOverwriting(scene);
+      renderFrame(scene, settings_, stats_, log_, [this] { flush(); });
+      flush();
+    }
+    parse_.emplace(stats_, "parse");
+  }
+
+  bool wanted(const Scene& scene) const {
+    return !settings_.frames ||
+           std::binary_search(settings_.frames->begin(), settings_.frames->end(), scene.options.frame);
+  }
+
+  void warnAboutOverwriting(const Scene& scene) {
+    for (const DisplayCall& display : scene.options.displays)
+      if (!written_.insert(display.name).second)
+        log_.report(
+            Severity::Warning, "output-overwritten", display.where,
+            "\"" + display.name +
+                "\" of an earlier frame is written over; with -o, # in the name stands for the frame number");
+  }
+
+  void flush() {
+    const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start_;
+    writeStats(settings_, stats_, total.count(), log_);
+  }
+
+  const RenderSettings& settings_;
+  const ThreadLimit threads_;
+  Log log_;
+  Stats stats_;
+  const std::chrono::steady_clock::time_point start_;
+  std::optional<StageTimer> parse_;
+  std::set<std::string> written_;
+  int scenes_ = 0, rendered_ = 0;
+};
+
+}  // namespace
+
+ExitCode exitCodeOf(const Log& log) {
+  switch (log.worst()) {
+    case Severity::Output:
+      return kUnwritable;
+    case Severity::Error:
+      return kUnreadable;
+    case Severity::Missing:
+      return kIncomplete;
+    default:
+      return kDone;
+  }
+}
+
+int renderCommand(const RenderSettings& settings) {
+  catchInterrupts();
+  return RenderRun(settings).run();
+}
+
+}  // namespace tomales

@@ -1,0 +1,47 @@
+// What the command line asks for, and how its small languages are read. Knows no scene and no CLI library.
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gi/services.h"
+
+namespace tomales {
+
+constexpr const char* kVersion = "0.1.0";
+
+enum class GiChoice { Scene, None, Gather, Reference };
+
+struct RenderSettings {
+  std::vector<std::string> files;  ///< One RIB stream; "-" is standard input.
+  std::string output;              ///< Empty: the scene's Displays.
+  int threads = 0;                 ///< 0: as many as the machine has.
+  std::optional<std::array<int, 2>> format, pixelSamples;
+  std::optional<std::array<float, 4>> crop;  ///< xmin xmax ymin ymax, 0..1
+  std::optional<float> shadingRate;
+  std::optional<std::vector<int>> frames;  ///< Sorted. None: all.
+  GiChoice gi = GiChoice::Scene;
+  int samples = 0, bounces = 0;  ///< 0: as the scene's indirect light asks.
+  float maxError = -1;           ///< < 0: likewise.
+  uint32_t seed = 0;
+  std::optional<int> bucketSize;
+  bool hitList = true;
+  std::string statsFile;
+  bool progress = false;
+  Log::Verbosity verbosity = Log::Verbosity::Normal;
+  std::string commandLine;
+};
+
+// Each returns nothing when the text is not of its form.
+std::optional<std::array<int, 2>> parsePair(const std::string& text, int least, int most);  ///< "640x480"
+std::optional<std::array<float, 4>> parseCrop(const std::string& text);  ///< "0,0.5,0.25,1"
+std::optional<std::vector<int>> parseFrames(const std::string& text);    ///< "1-10x2,15"
+std::optional<GiChoice> parseGi(const std::string& text);
+
+/// Can a picture be written under this name?
+bool namesPicture(const std::string& path);
+/// Runs of '#' become the frame number, padded to their length.
+std::string withFrameNumber(const std::string& path, int frame);
+
+}  // namespace tomales

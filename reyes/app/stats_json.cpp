@@ -1,0 +1,109 @@
+#include "reyes/app/stats_json.h"
+
+#include <sys/resource.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "reyes/base/parallel.h"
+
+namespace tomales {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+int64_t peakResidentBytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss * int64_t{1024};
+}
+
+Json timesOf(const Stats& stats, double total_s) {
+  Json out{{"total", total_s}};
+  for (const auto& [name, figures] : stats.stages()) out[name] = figures.wall_s;
+  return out;
+}
+
+Json shadersOf(const Stats& stats) {
+  Json out = Json::object();
+  for (const auto& [name, f] : stats.byShader()) out[name] = {{"vertices", f.vertices}, {"time_s", f.time_s}};
+  return out;
+}
+
+Json warningsOf(const Log& log) {
+  static constexpr const char* kSeverity[] = {"info", "warning", "missing", "error", "output"};
+  Json out = Json::array();
+  for (const LogEntry& e : log.entries())
+    out.push_back({{"code", e.code},
+                   {"severity", kSeverity[static_cast<int>(e.severity)]},
+                   {"message", e.message},
+                   {"file", e.where.file ? *e.where.file : ""},
+                   {"line", e.where.line},
+                   {"count", e.count}});
+  return out;
+}
+
+Json countersOf(const Stats& s) {
+  const auto& [primitives, subpatches, grids, diced, visible, culled, eyeSplits] = s.geometry;
+  return {{"geometry",
+           {{"primitives", primitives.load()},
+            {"subpatches", subpatches.load()},
+            {"grids_diced", grids.load()},
+            {"micropolygons_diced", diced.load()},
+            {"micropolygons_visible", visible.load()},
+            {"culled", culled.load()},
+            {"eye_splits_given_up", eyeSplits.load()}}},
+          {"shade", {{"vertices_shaded", s.shade.verticesShaded.load()}, {"by_shader", shadersOf(s)}}},
+          {"rays",
+           {{"gather", s.rays.gather.load()},
+            {"transmission", s.rays.transmission.load()},
+            {"specular", s.rays.specular.load()},
+            {"photon", s.rays.photon.load()},
+            {"reference", s.rays.reference.load()},
+            {"hitlist_adjusted", s.rays.hitlistAdjusted.load()}}},
+          {"raytrace",
+           {{"coarse_polygons", s.raytrace.coarsePolygons.load()}, {"bytes", s.raytrace.bytes.load()}}},
+          {"irradiance_cache",
+           {{"samples", s.irradianceCache.samples.load()},
+            {"lookups", s.irradianceCache.lookups.load()},
+            {"interpolated", s.irradianceCache.interpolated.load()}}},
+          {"textures", {{"lookups", s.textures.lookups.load()}}}};
+}
+
+Json statsJson(const RenderSettings& settings, const Stats& stats, double total_s, const Log& log) {
+  Json out{{"version", kVersion},
+           {"command", settings.commandLine},
+           {"scene", settings.files.empty() ? "" : settings.files.front()},
+           {"threads", threadCount()},
+           {"time_s", timesOf(stats, total_s)},
+           {"cpu_s", processCpuSeconds()},
+           {"memory_bytes",
+            {{"peak_rss", peakResidentBytes()},
+             {"geometry", stats.memoryBytes.geometry.load()},
+             {"grids", stats.memoryBytes.grids.load()},
+             {"deep_frame", stats.memoryBytes.deepFrame.load()},
+             {"raytrace", stats.raytrace.bytes.load()}}}};
+  out.update(countersOf(stats));
+  out["warnings"] = warningsOf(log);
+  return out;
+}
+
+}  // namespace
+
+void writeStats(const RenderSettings& settings, const Stats& stats, double total_s, Log& log) {
+  if (settings.statsFile.empty()) return;
+  const std::string temporary = settings.statsFile + ".part";
+  // User input may hold bytes that are no UTF-8; they must not stop the report.
+  const std::string text =
+      statsJson(settings, stats, total_s, log).dump(2, ' ', false, Json::error_handler_t::replace);
+  std::ofstream file(temporary);
+  file << text << '\n';
+  file.close();
+  std::error_code problem;
+  if (file) std::filesystem::rename(temporary, settings.statsFile, problem);
+  if (!file || problem)
+    log.report(Severity::Output, "stats-write", {}, "\"" + settings.statsFile + "\" could not be written");
+}
+
+}  // namespace tomales

@@ -1,0 +1,14 @@
+// Stats and Log as the JSON object of --stats (docs/statistics are that object's keys).
+#pragma once
+#include <string>
+
+#include "reyes/app/settings.h"
+#include "reyes/base/stats.h"
+
+namespace tomales {
+
+/// Writes settings.statsFile, by way of a temporary name. `total_s`: wall time so far. Failure is reported to
+/// the log.
+void writeStats(const RenderSettings& settings, const Stats& stats, double total_s, Log& log);
+
+}  // namespace tomales

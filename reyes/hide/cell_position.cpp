@@ -1,0 +1,38 @@
+#include "reyes/hide/resolve.h"
+
+namespace tomales {
+namespace {
+
+/// (u,v) of a point in triangle p q r whose corners have parameters at[0..2]; outside, the nearest is up to the caller.
+vec2 inTriangle(const vec2 p[3], const vec2 at[3], const vec2& x) {
+  const vec2 e = p[1] - p[0], f = p[2] - p[0], g = x - p[0];
+  const float area = e.x * f.y - e.y * f.x;
+  if (area == 0) return (at[0] + at[1] + at[2]) / 3.0f;
+  const float b = (g.x * f.y - g.y * f.x) / area, c = (e.x * g.y - e.y * g.x) / area;
+  return at[0] + (at[1] - at[0]) * b + (at[2] - at[0]) * c;
+}
+
+}  // namespace
+
+vec2 positionOnCell(const GridTable::Entry& entry, int cell, vec2 at, float time) {
+  const Grid& g = entry.grid();
+  const RasterGrid& raster = *entry.raster;
+  const std::vector<float>& keyTimes = entry.keyTimes;
+  const int row = g.nu + 1, a = cell / g.nu * row + cell % g.nu;
+  size_t key = 0;
+  while (key + 2 < keyTimes.size() && time >= keyTimes[key + 1]) ++key;
+  const size_t next = std::min(key + 1, keyTimes.size() - 1), stride = static_cast<size_t>(g.stride());
+  const float t = next > key ? (time - keyTimes[key]) / (keyTimes[next] - keyTimes[key]) : 0;
+  const auto corner = [&](int v) {
+    const size_t from = key * stride + static_cast<size_t>(v), to = next * stride + static_cast<size_t>(v);
+    return vec2(lerp(raster.x[from], raster.x[to], t), lerp(raster.y[from], raster.y[to], t));
+  };
+  const vec2 pa = corner(a), pb = corner(a + 1), pc = corner(a + row), pd = corner(a + row + 1);
+  const vec2 abc[3] = {pa, pb, pc}, abcUv[3] = {{0, 0}, {1, 0}, {0, 1}};
+  const vec2 dcb[3] = {pd, pc, pb}, dcbUv[3] = {{1, 1}, {0, 1}, {1, 0}};
+  vec2 uv = inTriangle(abc, abcUv, at);
+  if (uv.x + uv.y > 1) uv = inTriangle(dcb, dcbUv, at);
+  return glm::clamp(uv, vec2(0), vec2(1));
+}
+
+}  // namespace tomales

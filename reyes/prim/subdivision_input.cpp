@@ -1,0 +1,42 @@
+#include "reyes/prim/subdivision_input.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tomales {
+
+void requireSubdividable(const std::vector<int>& vertexCounts, const std::vector<int>& vertices) {
+  size_t first = 0;
+  for (size_t f = 0; f < vertexCounts.size(); ++f) {
+    const size_t count = static_cast<size_t>(vertexCounts[f]);
+    if (count < 3 || count > 0xffff) throw PrimError(fmt::format("face {} has {} vertices", f, count));
+    std::vector<int> sorted(vertices.begin() + static_cast<ptrdiff_t>(first),
+                            vertices.begin() + static_cast<ptrdiff_t>(first + count));
+    std::sort(sorted.begin(), sorted.end());
+    if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end())
+      throw PrimError(fmt::format("face {} has vertex {} more than once", f, *twice));
+    first += count;
+  }
+}
+
+FaceVaryingChannel mergeFaceVarying(const Primvar& var, const std::vector<int>& vertices,
+                                    size_t vertexCount) {
+  const size_t width = static_cast<size_t>(var.width);
+  FaceVaryingChannel out;
+  std::vector<std::vector<int>> ofVertex(vertexCount);
+  for (size_t k = 0; k < vertices.size(); ++k) {
+    const float* value = &var.values[k * width];
+    std::vector<int>& known = ofVertex[static_cast<size_t>(vertices[k])];
+    const auto same = std::find_if(known.begin(), known.end(), [&](int i) {
+      return std::equal(value, value + width, &out.values[i * width]);
+    });
+    out.indices.push_back(same != known.end() ? *same : static_cast<int>(out.values.size() / width));
+    if (same != known.end()) continue;
+    known.push_back(out.indices.back());
+    out.values.insert(out.values.end(), value, value + width);
+  }
+  return out;
+}
+
+}  // namespace tomales

@@ -1,0 +1,20 @@
+// What a SubdivisionMesh's arrays must be before OpenSubdiv sees them. Private to the primitives.
+#pragma once
+#include "reyes/prim.h"
+
+namespace tomales {
+
+/// Throws PrimError for a face that OpenSubdiv would take on trust: too small, too big, or twice at one
+/// vertex. Sizes and indices have passed requireFaces.
+void requireSubdividable(const std::vector<int>& vertexCounts, const std::vector<int>& vertices);
+
+/// A face-varying primvar with the values that a vertex's faces agree about merged, so that it may be smooth
+/// there.
+struct FaceVaryingChannel {
+  std::vector<int> indices;  ///< By face-vertex.
+  std::vector<float> values;
+};
+
+FaceVaryingChannel mergeFaceVarying(const Primvar& var, const std::vector<int>& vertices, size_t vertexCount);
+
+}  // namespace tomales

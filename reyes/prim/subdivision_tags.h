@@ -1,0 +1,26 @@
+// The tags of a SubdivisionMesh, checked and sorted by what they act on. Private to the primitives.
+#pragma once
+#include "reyes/prim.h"
+#include "reyes/prim/edges.h"
+
+namespace tomales {
+
+struct MeshTags {
+  enum class Boundary { None, EdgeAndCorner, EdgeOnly };
+  enum class FaceVaryingBoundary { Linear, EdgeAndCorner, EdgeOnly, AlwaysSharp };
+
+  Boundary boundary = Boundary::None;  ///< Absent: faces at the boundary are not drawn (RISpec section 5.3).
+  FaceVaryingBoundary faceVarying = FaceVaryingBoundary::Linear;
+  bool propagateCorners = false;
+  std::vector<int> creaseEdges;  ///< Vertex pairs.
+  std::vector<float> creaseSharpness;
+  std::vector<int> corners;
+  std::vector<float> cornerSharpness;
+  std::vector<int> holes;  ///< Faces.
+};
+
+/// Drops a tag that makes no sense with a sentence; throws PrimError if the arrays do not add up.
+MeshTags readTags(const SubdivisionTags& tags, const EdgeFaces& edges, int faceCount, int vertexCount,
+                  Problems& problems);
+
+}  // namespace tomales

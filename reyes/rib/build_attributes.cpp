@@ -1,0 +1,168 @@
+// Attributes other than shaders (RISpec 3.2 section 4.2).
+#include <fmt/format.h>
+
+#include "reyes/rib/handlers.h"
+
+namespace tomales::rib {
+namespace {
+
+void reject(GraphicsState& s, const Request& r, const std::string& why) {
+  s.warn(r, "rib-attribute", why + "; the attribute is left as it was");
+}
+
+void textureCoordinates(GraphicsState& s, const Request& r) {
+  const std::vector<float>& a = r.args[0].numbers;
+  for (size_t i = 0; i < 4; ++i) s.scope.edit().textureCoordinates[i] = {a[2 * i], a[2 * i + 1]};
+}
+
+void shadingRate(GraphicsState& s, const Request& r) {
+  const float rate = r.args[0].number();
+  if (!(rate > 0)) return reject(s, r, fmt::format("{} is no area", rate));
+  s.scope.edit().shadingRate = std::clamp(rate, 1e-4f, 1e8f);
+}
+
+void shadingInterpolation(GraphicsState& s, const Request& r) {
+  const std::string& kind = r.args[0].strings[0];
+  if (kind != "constant" && kind != "smooth") return reject(s, r, "unknown interpolation \"" + kind + "\"");
+  s.scope.edit().interpolation =
+      kind == "smooth" ? ShadingInterpolation::Smooth : ShadingInterpolation::Constant;
+}
+
+void sides(GraphicsState& s, const Request& r) {
+  const float n = r.args[0].number();
+  if (n != 1 && n != 2) return reject(s, r, fmt::format("a surface has 1 or 2 sides, not {}", n));
+  s.scope.edit().sides = static_cast<int>(n);
+}
+
+// "lh" and "rh" name a handedness; what is stored is relative to that of the current coordinate system.
+// Camera space is left-handed, so a positive determinant means left.
+void orientation(GraphicsState& s, const Request& r) {
+  const std::string& kind = r.args[0].strings[0];
+  const mat4 m = s.cameraFromObject().keys.front();
+  const bool leftHanded = glm::determinant(mat3(m)) > 0;
+  if (kind == "outside" || kind == "inside")
+    s.scope.edit().insideOut = kind == "inside";
+  else if (kind == "lh" || kind == "rh")
+    s.scope.edit().insideOut = (kind == "lh") != leftHanded;
+  else
+    reject(s, r, "unknown orientation \"" + kind + "\"");
+}
+
+void basis(GraphicsState& s, const Request& r) {
+  const auto read = [&](const RibArg& matrix, const RibArg& step, Basis& out) {
+    static const std::unordered_map<std::string_view, Basis (*)()> kNamed = {{"bezier", bezierBasis},
+                                                                             {"b-spline", bsplineBasis},
+                                                                             {"catmull-rom", catmullRomBasis},
+                                                                             {"hermite", hermiteBasis},
+                                                                             {"power", powerBasis}};
+    Basis b = out;
+    if (matrix.kind == RibArg::Kind::Numbers) {
+      b.matrix = asMatrix(matrix.numbers);  // Basis::matrix[k] is row k, too.
+    } else if (const auto it = kNamed.find(matrix.strings[0]); it != kNamed.end()) {
+      b = it->second();
+    } else {
+      return reject(s, r, "unknown basis \"" + matrix.strings[0] + "\"");
+    }
+    b.step = static_cast<int>(std::clamp(step.number(), 0.0f, 5.0f));
+    if (b.step < 1 || b.step > 4) return reject(s, r, fmt::format("a basis step of {}", step.number()));
+    out = b;
+  };
+  read(r.args[0], r.args[1], s.scope.uBasis);
+  read(r.args[2], r.args[3], s.scope.vBasis);
+}
+
+vec3 color(const Param& p) {
+  return p.floats.size() == 3 ? vec3(p.floats[0], p.floats[1], p.floats[2]) : vec3(1);
+}
+
+using Setter = void (*)(Attributes&, const Param&);
+const std::unordered_map<std::string_view, Setter>& numberSetters() {
+  static const std::unordered_map<std::string_view, Setter> table = {
+      {"displacementbound:sphere",
+       [](Attributes& a, const Param& p) { a.displacementBound = std::max(0.0f, p.number(0)); }},
+      {"visibility:camera", [](Attributes& a, const Param& p) { a.visibility.camera = p.number(1) != 0; }},
+      {"visibility:diffuse", [](Attributes& a, const Param& p) { a.visibility.diffuse = p.number(1) != 0; }},
+      {"visibility:specular",
+       [](Attributes& a, const Param& p) { a.visibility.specular = p.number(1) != 0; }},
+      {"visibility:transmission",
+       [](Attributes& a, const Param& p) { a.visibility.transmission = p.number(1) != 0; }},
+      {"visibility:photon", [](Attributes& a, const Param& p) { a.visibility.photon = p.number(1) != 0; }},
+      {"trace:bias", [](Attributes& a, const Param& p) { a.trace.bias = p.number(0); }},
+      {"trace:offset", [](Attributes& a, const Param& p) { a.trace.offset = p.number(0); }},
+      {"trace:displacements",
+       [](Attributes& a, const Param& p) { a.trace.displacements = p.number(0) != 0; }},
+      {"trace:tessellation", [](Attributes& a, const Param& p) { a.trace.tessellation = p.number(1); }},
+      {"indirect:receive", [](Attributes& a, const Param& p) { a.indirect.receive = p.number(1) != 0; }},
+      {"indirect:gain", [](Attributes& a, const Param& p) { a.indirect.gain = p.number(1); }},
+      {"indirect:bleeding", [](Attributes& a, const Param& p) { a.indirect.bleeding = p.number(1); }},
+      {"indirect:bleedingcolor", [](Attributes& a, const Param& p) { a.indirect.bleedingColor = color(p); }},
+      {"irradiance:maxerror", [](Attributes& a, const Param& p) { a.irradianceMaxError = p.number(0); }},
+      {"irradiance:maxpixeldist",
+       [](Attributes& a, const Param& p) { a.irradianceMaxPixelDist = p.number(0); }},
+      {"dice:rasterorient", [](Attributes& a, const Param& p) { a.rasterOrient = p.number(1) != 0; }},
+  };
+  return table;
+}
+
+const std::unordered_map<std::string_view, Setter>& textSetters() {
+  static const std::unordered_map<std::string_view, Setter> table = {
+      {"identifier:name", [](Attributes& a, const Param& p) { a.name = p.strings[0]; }},
+      {"displacementbound:coordinatesystem",
+       [](Attributes& a, const Param& p) { a.displacementBoundSpace = p.strings[0]; }},
+      {"indirect:surface", [](Attributes& a, const Param& p) { a.indirect.surface = p.strings[0]; }},
+  };
+  return table;
+}
+
+// Photon and user attributes are read by name where they are used; all others have no effect.
+void attribute(GraphicsState& s, const Request& r) {
+  const std::string& category = r.args[0].strings[0];
+  for (const Param& p : r.params) {
+    const std::string key = category + ":" + p.name;
+    const bool text = p.type == ValueType::String;
+    const auto& setters = text ? textSetters() : numberSetters();
+    const bool empty = text ? p.strings.empty() : p.floats.empty() && p.ints.empty();
+    if (empty) {
+      reject(s, r, "\"" + key + "\" has no value");
+    } else if (const auto it = setters.find(key); it != setters.end()) {
+      it->second(s.scope.edit(), p);
+    } else if (key == "light:shadows") {
+      s.scope.lightsCastShadows = text ? p.strings[0] == "on" : p.number(0) != 0;
+    } else {
+      s.scope.edit().user[key] = p;
+      if (category != "user" && category != "photon")
+        s.warnOnce("Attribute " + key, r, "rib-unknown-attribute",
+                   "Attribute \"" + key + "\" has no effect here");
+    }
+  }
+}
+
+// Hints for renderers that cannot work without; ours bounds primitives itself.
+void acceptHint(GraphicsState&, const Request&) {}
+
+}  // namespace
+
+const HandlerTable& attributeHandlers() {
+  static const HandlerTable table = {
+      {"Attribute", attribute},
+      {"Color", [](GraphicsState& s, const Request& r) { s.scope.edit().color = asVec3(r.args[0]); }},
+      {"Opacity", [](GraphicsState& s, const Request& r) { s.scope.edit().opacity = asVec3(r.args[0]); }},
+      {"TextureCoordinates", textureCoordinates},
+      {"ShadingRate", shadingRate},
+      {"ShadingInterpolation", shadingInterpolation},
+      {"Matte", [](GraphicsState& s, const Request& r) { s.scope.edit().matte = r.args[0].number() != 0; }},
+      {"Sides", sides},
+      {"Orientation", orientation},
+      {"ReverseOrientation",
+       [](GraphicsState& s, const Request&) {
+         Attributes& a = s.scope.edit();
+         a.insideOut = !a.insideOut;
+       }},
+      {"Basis", basis},
+      {"Bound", acceptHint},
+      {"Detail", acceptHint},
+  };
+  return table;
+}
+
+}  // namespace tomales::rib

@@ -1,0 +1,177 @@
+// Geometry requests -> Prims (RISpec 3.2 section 5).
+#include <fmt/format.h>
+
+#include "reyes/rib/handlers.h"
+
+namespace tomales::rib {
+namespace {
+
+using Builder = PrimPtr (*)(const Request&, const Scope&, Problems&);
+
+/// The number of points that P (or Pw, Pz) brings.
+int pointCount(const Request& r) {
+  for (const Param& p : r.params)
+    if (p.name == "P" || p.name == "Pw" || p.name == "Pz")
+      return static_cast<int>(p.floats.size()) / p.width();
+  throw PrimError("it has no P");
+}
+
+std::vector<int> countUp(int n) {
+  std::vector<int> out(static_cast<size_t>(std::max(0, n)));
+  for (size_t i = 0; i < out.size(); ++i) out[i] = static_cast<int>(i);
+  return out;
+}
+
+PrimPtr polygon(const Request& r, const Scope&, Problems& problems) {
+  const int n = pointCount(r);
+  return makePolygons({n}, countUp(n), r.params, problems);
+}
+
+// Keeps the first loop of every polygon.
+PrimPtr outerLoops(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
+                   const std::vector<int>& vertices, const Request& r, Problems& problems) {
+  std::vector<int> outerCounts, outer;
+  size_t loop = 0, vertex = 0;
+  bool holes = false;
+  for (const int loops : loopCounts) {
+    holes |= loops > 1;
+    for (int i = 0; i < loops; ++i, ++loop) {
+      if (loop >= vertexCounts.size()) throw PrimError("it has fewer loops than it counts");
+      const int n = vertexCounts[loop];
+      if (n < 0 || static_cast<size_t>(n) > vertices.size() - vertex)
+        throw PrimError("it has fewer vertices than its loops count");
+      if (i == 0) {
+        outerCounts.push_back(n);
+        outer.insert(outer.end(), vertices.begin() + static_cast<long>(vertex),
+                     vertices.begin() + static_cast<long>(vertex) + n);
+      }
+      vertex += static_cast<size_t>(n);
+    }
+  }
+  if (holes) problems.push_back("holes in polygons are not supported yet: they are filled");
+  return makePolygons(outerCounts, outer, r.params, problems);
+}
+
+PrimPtr generalPolygon(const Request& r, const Scope&, Problems& problems) {
+  const std::vector<int> counts = r.args[0].ints();
+  return outerLoops({static_cast<int>(counts.size())}, counts, countUp(pointCount(r)), r, problems);
+}
+
+PrimPtr pointsGeneralPolygons(const Request& r, const Scope&, Problems& problems) {
+  return outerLoops(r.args[0].ints(), r.args[1].ints(), r.args[2].ints(), r, problems);
+}
+
+bool bicubic(const Request& r) {
+  const std::string& type = r.args[0].strings[0];
+  if (type != "bilinear" && type != "bicubic") throw PrimError("unknown patch type \"" + type + "\"");
+  return type == "bicubic";
+}
+
+PrimPtr patch(const Request& r, const Scope& s, Problems& problems) {
+  if (bicubic(r)) return makeBicubicPatchMesh(4, false, s.uBasis, 4, false, s.vBasis, r.params, problems);
+  return makeBilinearPatchMesh(2, false, 2, false, r.params, problems);
+}
+
+PrimPtr patchMesh(const Request& r, const Scope& s, Problems& problems) {
+  const auto periodic = [&](size_t i) {
+    const std::string& wrap = r.args[i].strings[0];
+    if (wrap != "periodic" && wrap != "nonperiodic") throw PrimError("unknown wrap \"" + wrap + "\"");
+    return wrap == "periodic";
+  };
+  const int nu = r.args[1].ints()[0], nv = r.args[3].ints()[0];
+  const bool uPeriodic = periodic(2), vPeriodic = periodic(4);
+  if (bicubic(r))
+    return makeBicubicPatchMesh(nu, uPeriodic, s.uBasis, nv, vPeriodic, s.vBasis, r.params, problems);
+  return makeBilinearPatchMesh(nu, uPeriodic, nv, vPeriodic, r.params, problems);
+}
+
+bool tagsAgree(const SubdivisionTags& t) {
+  size_t ints = 0, floats = 0;
+  for (size_t i = 0; i < t.argCounts.size(); ++i) {
+    if (t.argCounts[i] < 0) return false;
+    (i % 2 == 0 ? ints : floats) += static_cast<size_t>(t.argCounts[i]);
+  }
+  return t.argCounts.size() == 2 * t.names.size() && ints == t.ints.size() && floats == t.floats.size();
+}
+
+PrimPtr subdivisionMesh(const Request& r, const Scope&, Problems& problems) {
+  SubdivisionTags tags;
+  if (r.args.size() > 3) tags = {r.args[3].strings, r.args[4].ints(), r.args[5].ints(), r.args[6].numbers};
+  if (!tagsAgree(tags)) {
+    problems.push_back("the counts of its tags do not add up: all tags are ignored");
+    tags = {};
+  }
+  return makeSubdivisionMesh(r.args[0].strings[0], r.args[1].ints(), r.args[2].ints(), tags, r.params,
+                             problems);
+}
+
+template <size_t... I, class Make>
+PrimPtr quadric(Make make, std::index_sequence<I...>, const Request& r, Problems& problems) {
+  return make(r.args[0].numbers[I]..., r.params, problems);
+}
+template <size_t N, auto Make>
+PrimPtr quadric(const Request& r, const Scope&, Problems& problems) {
+  return quadric(Make, std::make_index_sequence<N>(), r, problems);
+}
+
+PrimPtr hyperboloid(const Request& r, const Scope&, Problems& problems) {
+  return makeHyperboloid(asVec3(r.args[0]), asVec3(r.args[0], 3), r.args[0].numbers[6], r.params, problems);
+}
+
+const std::unordered_map<std::string_view, Builder>& builders() {
+  static const std::unordered_map<std::string_view, Builder> table = {
+      {"Sphere", quadric<4, makeSphere>},
+      {"Cone", quadric<3, makeCone>},
+      {"Cylinder", quadric<4, makeCylinder>},
+      {"Hyperboloid", hyperboloid},
+      {"Paraboloid", quadric<4, makeParaboloid>},
+      {"Disk", quadric<3, makeDisk>},
+      {"Torus", quadric<5, makeTorus>},
+      {"Polygon", polygon},
+      {"GeneralPolygon", generalPolygon},
+      {"PointsPolygons",
+       [](const Request& r, const Scope&, Problems& problems) {
+         return makePolygons(r.args[0].ints(), r.args[1].ints(), r.params, problems);
+       }},
+      {"PointsGeneralPolygons", pointsGeneralPolygons},
+      {"Patch", patch},
+      {"PatchMesh", patchMesh},
+      {"SubdivisionMesh", subdivisionMesh},
+  };
+  return table;
+}
+
+bool allFinite(const std::vector<float>& v) {
+  return std::all_of(v.begin(), v.end(), [](float f) { return std::isfinite(f); });
+}
+
+/// The request without primitive variables that hold NaN or infinity. Throws if those are the shape itself.
+ParamList finiteParams(const ParamList& params, Problems& problems) {
+  ParamList out;
+  for (const Param& p : params) {
+    if (allFinite(p.floats))
+      out.push_back(p);
+    else if (p.name == "P" || p.name == "Pw" || p.name == "Pz")
+      throw PrimError(fmt::format("{} holds a value that is not finite", p.name));
+    else
+      problems.push_back(fmt::format("\"{}\" holds a value that is not finite: ignored", p.name));
+  }
+  return out;
+}
+
+}  // namespace
+
+bool isGeometry(std::string_view name) { return builders().contains(name); }
+
+PrimPtr buildPrim(const Request& r, const Scope& scope, Problems& problems) {
+  for (const RibArg& a : r.args)
+    if (!allFinite(a.numbers)) throw PrimError("an argument is not finite");
+  const Builder build = builders().at(r.name);
+  if (std::all_of(r.params.begin(), r.params.end(), [](const Param& p) { return allFinite(p.floats); }))
+    return build(r, scope, problems);
+  Request finite = r;
+  finite.params = finiteParams(r.params, problems);
+  return build(finite, scope, problems);
+}
+
+}  // namespace tomales::rib

@@ -1,0 +1,196 @@
+// The parts of the scene builder that make Objects: geometry, motion blocks, retained objects.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "reyes/rib/request_table.h"
+#include "reyes/rib/scene_builder.h"
+
+namespace tomales::rib {
+namespace {
+
+// Deeper nesting and longer replays than any scene needs: masters that name each other must not run forever.
+constexpr int kDeepestInstance = 16;
+constexpr size_t kLongestInstance = 1'000'000;
+
+bool increasing(const std::vector<float>& times) {
+  const auto finite = [](float t) { return std::isfinite(t); };
+  return !times.empty() && std::all_of(times.begin(), times.end(), finite) &&
+         std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
+}
+
+bool sameTopology(const Prim& a, const Prim& b) {
+  const auto alike = [](const Primvar& x, const Primvar& y) {
+    return x.name == y.name && x.storage == y.storage && x.values.size() == y.values.size();
+  };
+  return a.patchCount() == b.patchCount() && std::equal(a.primvars().begin(), a.primvars().end(),
+                                                        b.primvars().begin(), b.primvars().end(), alike);
+}
+
+bool sameBasis(const Basis& a, const Basis& b) { return a.step == b.step && a.matrix == b.matrix; }
+
+}  // namespace
+
+void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times) {
+  const Request& r = *keys[0];
+  if (!state_.world)
+    return state_.warnOnce("outside", r, "rib-outside-world",
+                           description(r) + ": geometry outside of WorldBegin and WorldEnd is ignored");
+  const Motion cameraFromObject = state_.cameraFromObject();
+  if (!isFinite(cameraFromObject) || !isInvertible(cameraFromObject)) {
+    state_.log.report(
+        Severity::Missing, "rib-object-dropped", r.where,
+        description(r) + ": its transformation is singular or not finite; the object is dropped");
+    return;
+  }
+  Master::Shapes shapes = shapesOf(keys, times);
+  if (shapes.keys.empty()) return;
+  Object object;
+  object.shapes = std::move(shapes.keys);
+  object.shapeTimes = std::move(shapes.times);
+  object.worldFromObject = state_.scope.ctm;
+  object.attributes = state_.scope.attributes;
+  object.where = r.where;
+  state_.world->objects.push_back(std::move(object));
+}
+
+Master::Shapes SceneBuilder::shapesOf(const Keys& keys, const std::vector<float>& times) {
+  if (!master_) return buildShapes(keys, times);
+  const Scope& scope = state_.scope;
+  const auto [it, fresh] = master_->shapes.try_emplace(masterRequest_);
+  Master::Shapes& shared = it->second;
+  if (fresh || !sameBasis(shared.uBasis, scope.uBasis) || !sameBasis(shared.vBasis, scope.vBasis))
+    shared = buildShapes(keys, times);
+  return shared;
+}
+
+Master::Shapes SceneBuilder::buildShapes(const Keys& keys, const std::vector<float>& times) {
+  Master::Shapes out{{}, times, state_.scope.uBasis, state_.scope.vBasis};
+  for (const Request* key : keys) {
+    PrimPtr prim = buildShape(*key);
+    if (!prim && out.keys.empty()) return out;
+    if (!prim || (!out.keys.empty() && !sameTopology(*out.keys[0], *prim))) {
+      state_.log.report(Severity::Warning, "rib-motion", key->where,
+                        description(*key) + ": its shapes over time differ in topology; it keeps the first");
+      out.keys.resize(1);
+      break;
+    }
+    out.keys.push_back(std::move(prim));
+  }
+  out.times.resize(out.keys.size());
+  return out;
+}
+
+PrimPtr SceneBuilder::buildShape(const Request& r) {
+  Problems problems;
+  PrimPtr prim;
+  try {
+    prim = buildPrim(r, state_.scope, problems);
+  } catch (const PrimError& e) {
+    state_.log.report(Severity::Missing, "rib-object-dropped", r.where,
+                      fmt::format("{}: {}; the object is dropped", description(r), e.what()));
+  }
+  if (prim && prim->patchCount() == 0) {
+    prim = nullptr;
+    problems.push_back("nothing is left to draw");
+  }
+  if (!problems.empty())
+    state_.log.report(Severity::Warning, "rib-primitive", r.where,
+                      fmt::format("{}: {}", description(r), fmt::join(problems, "; ")));
+  return prim;
+}
+
+std::string SceneBuilder::description(const Request& r) const {
+  const std::string& name = state_.scope.attributes->name;
+  return name.empty() ? r.name : r.name + " \"" + name + "\"";
+}
+
+void SceneBuilder::beginMotion(const Request& r) {
+  motion_ = MotionBlock{r, {}, masterRequest_};
+  if (increasing(r.args[0].numbers)) return;
+  state_.warn(r, "rib-motion", "times must be finite and increase; only the first key is used");
+  motion_->begin.args[0].numbers.resize(1, 0.0f);
+}
+
+void SceneBuilder::collectKey(const Request& r) {
+  motion_->keys.push_back(r);
+  if (motion_->keys.size() > motion_->begin.args[0].numbers.size())
+    motion_->keys.pop_back(), motion_->surplus = true;
+}
+
+void SceneBuilder::endMotion() {
+  const MotionBlock block = std::move(*motion_);
+  motion_.reset();
+  std::vector<float> times = block.begin.args[0].numbers;
+  if (block.surplus || block.keys.size() != times.size())
+    state_.warn(block.begin, "rib-motion",
+                fmt::format("{} times, but {} requests; those that match are used", times.size(),
+                            block.surplus ? "more" : "fewer"));
+  if (block.keys.empty()) return;
+  times.resize(block.keys.size());
+  const Request& first = block.keys[0];
+  Keys keys;
+  for (const Request& key : block.keys) keys.push_back(&key);
+  const bool moves =
+      keys.size() > 1 && std::all_of(keys.begin(), keys.end(), [](auto* k) { return usableArguments(*k); });
+  const size_t resume = std::exchange(masterRequest_, block.masterRequest);
+  if (moves && isTransformation(first.name)) {
+    applyTransformation(state_, keys, times);
+  } else if (moves && isGeometry(first.name)) {
+    addGeometry(keys, times);
+  } else {
+    const Signature* signature = findSignature(first.name);
+    if (moves && signature && signature->support == Support::Works)
+      state_.warn(first, "rib-motion", "does not move; its first value is used");
+    perform(first);
+  }
+  masterRequest_ = resume;
+}
+
+void SceneBuilder::endObject() {
+  const Recording done = std::move(*recording_);
+  recording_.reset();
+  state_.globals.masters[done.begin.args[0].strings[0]] = done.master;
+}
+
+// The instance's attributes apply, unless the master sets its own; what the master sets ends with the
+// instance.
+void SceneBuilder::instance(const Request& r) {
+  const auto it = state_.globals.masters.find(r.args[0].strings[0]);
+  if (it == state_.globals.masters.end()) {
+    state_.log.report(
+        Severity::Missing, "rib-unknown-object", r.where,
+        "ObjectInstance: no object has the handle \"" + r.args[0].strings[0] + "\"; nothing is drawn");
+    return;
+  }
+  if (instanceDepth_ >= kDeepestInstance)
+    return state_.warn(r, "rib-nesting",
+                       fmt::format("more than {} objects within objects; ignored", kDeepestInstance));
+  if (instanceDepth_ == 0) instanceBudget_ = kLongestInstance;
+
+  const std::shared_ptr<Master> master = it->second;
+  state_.begin(Block::Instance, r.where);
+  const Motion outerIdentity = std::exchange(state_.identity, state_.scope.ctm);
+  Master* const outer = std::exchange(master_, master.get());
+  const size_t outerRequest = masterRequest_;
+  ++instanceDepth_;
+  for (masterRequest_ = 0; masterRequest_ < master->requests.size() && instanceBudget_ > 0;
+       ++masterRequest_) {
+    --instanceBudget_;
+    step(master->requests[masterRequest_]);
+  }
+  if (motion_) {
+    state_.warn(motion_->begin, "rib-unbalanced", "MotionEnd is missing");
+    endMotion();
+  }
+  --instanceDepth_;
+  masterRequest_ = outerRequest;
+  master_ = outer;
+  state_.identity = outerIdentity;
+  state_.end(Block::Instance, r.where);
+  if (instanceDepth_ == 0 && instanceBudget_ == 0)
+    state_.warn(r, "rib-nesting",
+                fmt::format("stands for more than {} requests; the rest is ignored", kLongestInstance));
+}
+
+}  // namespace tomales::rib

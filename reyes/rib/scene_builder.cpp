@@ -1,0 +1,192 @@
+#include "reyes/rib/scene_builder.h"
+
+#include <fmt/format.h>
+
+#include "reyes/rib/request_table.h"
+
+namespace tomales::rib {
+namespace {
+
+const std::pair<std::string_view, Block> kBlocks[] = {
+    {"Attribute", Block::Attribute}, {"Transform", Block::Transform}, {"Solid", Block::Solid}};
+
+bool isBlockRequest(std::string_view name) { return name.ends_with("Begin") || name.ends_with("End"); }
+
+bool allowsInfinity(std::string_view name) {
+  static constexpr std::string_view kNames[] = {"Clipping", "DepthOfField", "Bound", "Detail", "ShadingRate"};
+  return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+}
+
+bool usable(const std::vector<float>& numbers, bool infinityToo) {
+  return std::all_of(numbers.begin(), numbers.end(),
+                     [&](float f) { return std::isfinite(f) || (infinityToo && !std::isnan(f)); });
+}
+
+}  // namespace
+
+bool usableArguments(const Request& r) {
+  return std::all_of(r.args.begin(), r.args.end(),
+                     [&](const RibArg& a) { return usable(a.numbers, allowsInfinity(r.name)); });
+}
+
+void SceneBuilder::request(const Request& r) {
+  if (recording_)
+    record(r);
+  else
+    step(r);
+}
+
+void SceneBuilder::record(const Request& r) {
+  if (r.name == "ObjectEnd") return endObject();
+  const bool leaves =
+      r.name == "WorldEnd" || r.name == "FrameEnd" || r.name == "WorldBegin" || r.name == "FrameBegin";
+  if (r.name == "ObjectBegin") return state_.warn(r, "rib-unbalanced", "inside another ObjectBegin, ignored");
+  if (!leaves) {
+    recording_->master->requests.push_back(r);
+    return;
+  }
+  state_.warn(recording_->begin, "rib-unbalanced", "ObjectEnd is missing");
+  endObject();
+  step(r);
+}
+
+// Takes the requests of motion blocks aside.
+void SceneBuilder::step(const Request& r) {
+  if (motion_ && r.name == "MotionEnd") return endMotion();
+  const bool leaves =
+      isBlockRequest(r.name) || (motion_ && !motion_->keys.empty() && motion_->keys[0].name != r.name);
+  if (motion_ && !leaves) return collectKey(r);
+  if (motion_) {
+    state_.warn(motion_->begin, "rib-motion", r.name + " at " + r.where.text() + " ends the block early");
+    endMotion();
+  }
+  perform(r);
+}
+
+void SceneBuilder::perform(const Request& r) {
+  if (isGeometry(r.name)) return addGeometry({&r}, {0.0f});
+  if (!usableArguments(r))
+    return state_.warn(r, "rib-not-finite", "an argument is not a finite number; ignored");
+  if (isTransformation(r.name)) return applyTransformation(state_, {&r}, {0.0f});
+  if (performBlock(r) || performHandler(r)) return;
+  const Signature* signature = findSignature(r.name);
+  const bool geometry = signature && signature->support == Support::NotYetGeometry;
+  state_.warnOnce(r.name, r, "rib-unsupported", r.name + " is not supported yet, ignored",
+                  geometry ? Severity::Missing : Severity::Warning);
+}
+
+bool SceneBuilder::performBlock(const Request& r) {
+  if (r.name == "version" || r.name == "Declare" || r.name == "ReadArchive") return true;  // the reader's
+  if (r.name == "ErrorHandler") {
+    if (r.args[0].strings[0] != "print")
+      state_.warnOnce(r.name, r, "rib-unsupported",
+                      "ErrorHandler: problems are always reported, and never abort");
+  } else if (r.name == "FrameBegin") {
+    if (state_.isOpen(Block::Frame))
+      endFrame(r.where);
+    else if (state_.world)
+      endUnclosedWorld(r.where);
+    state_.begin(Block::Frame, r.where);
+    state_.globals.options.frame = r.args[0].ints()[0];
+  } else if (r.name == "FrameEnd") {
+    endFrame(r.where);
+  } else if (r.name == "WorldBegin") {
+    beginWorld(r);
+  } else if (r.name == "WorldEnd") {
+    endWorld(r.where);
+  } else if (r.name == "MotionBegin") {
+    beginMotion(r);
+  } else if (r.name == "MotionEnd" || r.name == "ObjectEnd") {
+    state_.warn(r, "rib-unbalanced", "without its Begin, ignored");
+  } else if (r.name == "ObjectBegin") {
+    recording_ = Recording{.begin = r};
+  } else if (r.name == "ObjectInstance") {
+    instance(r);
+  } else {
+    const auto block = std::find_if(std::begin(kBlocks), std::end(kBlocks), [&](const auto& b) {
+      return r.name.starts_with(b.first) && isBlockRequest(r.name);
+    });
+    if (block == std::end(kBlocks)) return false;
+    if (r.name == "SolidBegin" && r.args[0].strings[0] != "primitive")
+      state_.warnOnce("Solid", r, "rib-unsupported",
+                      "solid operations are not supported yet: the parts are rendered whole");
+    if (r.name.ends_with("Begin"))
+      state_.begin(block->second, r.where);
+    else
+      state_.end(block->second, r.where);
+  }
+  return true;
+}
+
+bool SceneBuilder::performHandler(const Request& r) {
+  for (const HandlerTable* table :
+       {&attributeHandlers(), &shaderHandlers(), &transformHandlers(), &optionHandlers()}) {
+    const auto it = table->find(r.name);
+    if (it == table->end()) continue;
+    if (table == &optionHandlers() && state_.world && r.name != "Option" && r.name != "Imager")
+      state_.warn(r, "rib-late-option", "options belong before WorldBegin; it counts for this world only");
+    const auto good = [](const Param& p) { return usable(p.floats, true); };
+    if (std::all_of(r.params.begin(), r.params.end(), good)) {
+      it->second(state_, r);
+    } else {
+      state_.warn(r, "rib-not-finite", "parameters that hold NaN are ignored");
+      Request cleaned = r;
+      std::erase_if(cleaned.params, [&](const Param& p) { return !good(p); });
+      it->second(state_, cleaned);
+    }
+    return true;
+  }
+  return false;
+}
+
+void SceneBuilder::beginWorld(const Request& r) {
+  if (state_.world) return state_.warn(r, "rib-unbalanced", "inside another world, ignored");
+  state_.begin(Block::World, r.where);
+  state_.enterWorld(r.where);
+}
+
+void SceneBuilder::endWorld(const SourceLoc& where) {
+  if (!state_.world) {
+    state_.log.report(Severity::Warning, "rib-unbalanced", where, "WorldEnd without WorldBegin, ignored");
+    return;
+  }
+  Scene scene;
+  scene.options = state_.globals.options;
+  scene.cameraFromWorld = state_.world->cameraFromWorld;
+  scene.objects = std::move(state_.world->objects);
+  scene.lights = std::move(state_.globals.lights);
+  for (const auto& [name, system] : state_.globals.coordinateSystems)
+    scene.worldFromNamed[name] = system.at(scene.options.shutterOpen);
+  scene.where = state_.world->where;
+  state_.world.reset();
+  state_.identity = Motion();
+  state_.end(Block::World, where);
+  scene.freeze();
+  if (settings_.onScene) settings_.onScene(std::move(scene));
+}
+
+void SceneBuilder::endFrame(const SourceLoc& where) {
+  if (state_.world && state_.isOpen(Block::Frame)) endUnclosedWorld(where);
+  state_.end(Block::Frame, where);
+}
+
+void SceneBuilder::finish(const SourceLoc& where) {
+  if (recording_) {
+    state_.warn(recording_->begin, "rib-unbalanced", "ObjectEnd is missing");
+    endObject();
+  }
+  if (motion_) {
+    state_.warn(motion_->begin, "rib-unbalanced", "MotionEnd is missing");
+    endMotion();
+  }
+  if (state_.world) endUnclosedWorld(where);
+}
+
+void SceneBuilder::endUnclosedWorld(const SourceLoc& where) {
+  state_.log.report(Severity::Warning, "rib-unbalanced", where,
+                    "WorldEnd is missing for the world that begins at " + state_.world->where.text() +
+                        "; what there is is rendered");
+  endWorld(where);
+}
+
+}  // namespace tomales::rib

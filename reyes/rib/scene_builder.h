@@ -1,0 +1,69 @@
+// The RiSink that builds Scenes: blocks, motion, retained objects and the world are kept here; what single
+// requests do to the state is in handlers.h.
+#pragma once
+#include "reyes/rib/handlers.h"
+
+namespace tomales::rib {
+
+/// No NaN among the positional arguments, and no infinity where it has no meaning.
+bool usableArguments(const Request& request);
+
+class SceneBuilder : public RiSink {
+ public:
+  SceneBuilder(const RibSettings& settings, Log& log) : settings_(settings), state_(log) {}
+
+  void request(const Request& request) override;
+  /// The stream is over: renders a world whose WorldEnd is missing.
+  void finish(const SourceLoc& where);
+
+  const Options& options() const { return state_.globals.options; }
+
+ private:
+  using Keys = std::vector<const Request*>;
+  struct MotionBlock {
+    Request begin;
+    std::vector<Request> keys;
+    size_t masterRequest;
+    bool surplus = false;  ///< There were more requests than times.
+  };
+  struct Recording {
+    Request begin;
+    std::shared_ptr<Master> master = std::make_shared<Master>();
+  };
+
+  void record(const Request& request);
+  void step(const Request& request);
+  void perform(const Request& request);
+  bool performBlock(const Request& request);
+  bool performHandler(const Request& request);
+
+  void beginWorld(const Request& request);
+  void endWorld(const SourceLoc& where);
+  void endUnclosedWorld(const SourceLoc& where);
+  void endFrame(const SourceLoc& where);
+
+  void beginMotion(const Request& request);
+  void collectKey(const Request& request);
+  void endMotion();
+
+  void endObject();
+  void instance(const Request& request);
+
+  void addGeometry(const Keys& keys, const std::vector<float>& times);
+  /// From the master if it has them.
+  Master::Shapes shapesOf(const Keys& keys, const std::vector<float>& times);
+  Master::Shapes buildShapes(const Keys& keys, const std::vector<float>& times);
+  PrimPtr buildShape(const Request& request);
+  std::string description(const Request& request) const;
+
+  const RibSettings settings_;
+  GraphicsState state_;
+  std::optional<MotionBlock> motion_;
+  std::optional<Recording> recording_;
+  Master* master_ = nullptr;  ///< Of the instance that is being replayed,
+  size_t masterRequest_ = 0;  ///< and where in it.
+  int instanceDepth_ = 0;
+  size_t instanceBudget_ = 0;  ///< Requests that the outermost instance may still replay.
+};
+
+}  // namespace tomales::rib

@@ -1,0 +1,113 @@
+#include "reyes/shade/lights.h"
+
+#include "reyes/base/rng.h"
+#include "reyes/shade/batch.h"
+
+namespace tomales {
+namespace {
+
+bool applies(const BoundLight& light, const Batch& batch) {
+  if (batch.points == nullptr) return false;  // displacement shaders see no light
+  if (!(batch.context.kind == RayKind::Camera ? light.direct : light.indirect)) return false;
+  return !light.can(TM_LIGHT_INDIRECT) ||
+         (batch.context.indirect && batch.group.group->attributes->indirect.receive);
+}
+
+TmGrid lightGrid(Batch& batch, const BoundLight& light) {
+  TmGrid g = batch.tm;
+  g.params = light.bound->values.data();
+  g.L = batch.arena.vec3(g.count), g.Cl = batch.arena.vec3(g.count);
+  return g;
+}
+
+/// Points on the emitter for sample number g.sample. False: the light has no geometry.
+bool sampleEmitter(Batch& batch, const BoundLight& light, TmGrid& g, float* area) {
+  if (!batch.scene.services) return false;
+  float* xi0 = batch.arena.floats(g.count);
+  float* xi1 = batch.arena.floats(g.count);
+  for (int i = 0; i < g.count; ++i) {
+    const uint32_t stream =
+        hashCombine(batch.points->key(i), static_cast<uint32_t>(light.index), batch.context.seed);
+    const vec2 xi = sobol2(static_cast<uint32_t>(g.sample), stream);
+    xi0[i] = xi.x, xi1[i] = xi.y;
+  }
+  const TmVec3 Pl = batch.arena.vec3(g.count), Nl = batch.arena.vec3(g.count);
+  if (!batch.scene.services->sampleEmitter(light.index, g.count, xi0, xi1, Pl, Nl, area)) return false;
+  g.Pl = view(Pl), g.Nl = view(Nl);
+  for (int i = 0; i < g.count; ++i) set(g.L, i, get(g.Pl, i) - get(g.P, i));
+  return true;
+}
+
+/// Radiance of the emitter -> what one of its samples adds to E/pi at normal incidence: Cl cos(light) area /
+/// (pi d^2).
+void radianceToSample(const TmGrid& g, const float* area) {
+  for (int i = 0; i < g.count; ++i) {
+    const vec3 L = get(g.L, i);
+    const float d2 = dot(L, L), d = std::sqrt(d2);
+    const float cosLight = d > 0 ? -dot(get(g.Nl, i), L) / d : 0.0f;
+    // Rounding leaves points of the emitter's own plane slightly in front of it, at no distance at all.
+    const float weight =
+        cosLight > 1e-5f ? cosLight * area[i] / (kPi * d2 * static_cast<float>(g.samples)) : 0.0f;
+    set(g.Cl, i, weight > 0 ? get(g.Cl, i) * weight : vec3(0.0f));
+  }
+}
+
+}  // namespace
+
+void Lights::ambient(Batch& batch, const TmGrid& asking, TmVec3 out) {
+  for (int i = 0; i < asking.count; ++i)
+    if (asking.active[i]) set(out, i, vec3(0.0f));
+  for (const BoundLight* light : batch.group.lights) {
+    if (!light->can(TM_LIGHT_AMBIENT) || !applies(*light, batch)) continue;
+    const TmGrid g = lightGrid(batch, *light);
+    if (!batch.run(*light->bound, g)) continue;
+    for (int i = 0; i < g.count; ++i)
+      if (asking.active[i]) set(out, i, get(out, i) + get(g.Cl, i));
+  }
+}
+
+std::vector<LightSample>& Lights::samples(Batch& batch) {
+  if (!evaluated_) {
+    evaluated_ = true;
+    for (const BoundLight* light : batch.group.lights)
+      if (!light->can(TM_LIGHT_AMBIENT) && applies(*light, batch)) evaluate(batch, *light);
+  }
+  return samples_;
+}
+
+void Lights::evaluate(Batch& batch, const BoundLight& light) {
+  const bool area = light.can(TM_LIGHT_AREA);
+  const int n = area && batch.context.lightSamples > 0 ? batch.context.lightSamples : light.samples;
+  float* emitterArea = batch.arena.floats(batch.tm.count);
+  for (int s = 0; s < n; ++s) {
+    TmGrid g = lightGrid(batch, light);
+    g.sample = s, g.samples = n;
+    if (area && !sampleEmitter(batch, light, g, emitterArea)) return;
+    if (!batch.run(*light.bound, g)) return;
+    if (area) radianceToSample(g, emitterArea);
+    LightSample sample{&light, batch.arena.vec3(g.count), g.Cl, g.L, nullptr};
+    for (int i = 0; i < g.count; ++i) set(sample.L, i, normalizeOr(get(g.L, i), vec3(0.0f)));
+    if (light.shadows && batch.scene.services) {
+      sample.pending = batch.arena.bytes(g.count);
+      std::copy_n(g.active, g.count, sample.pending);
+    }
+    samples_.push_back(sample);
+  }
+}
+
+void Lights::shadow(Batch& batch, LightSample& sample, const uint8_t* want) const {
+  if (!sample.pending) return;
+  const int n = batch.tm.count;
+  uint8_t* trace = batch.arena.bytes(n);
+  bool any = false;
+  for (int i = 0; i < n; ++i) {
+    trace[i] = want[i] && sample.pending[i] && get(sample.Cl, i) != vec3(0.0f);
+    if (!trace[i]) continue;
+    sample.pending[i] = 0, any = true;
+  }
+  if (any)
+    batch.scene.services->transmission(*batch.points, trace, view(sample.toward),
+                                       sample.light->can(TM_LIGHT_SOLAR), batch.context, sample.Cl);
+}
+
+}  // namespace tomales

@@ -1,0 +1,46 @@
+#include "reyes/shade/spaces.h"
+
+namespace tomales {
+namespace {
+
+/// Raster units of one unit of the space, and of its origin.
+void rasterScale(const Batch& batch, Space::Kind kind, vec2& scale, vec2& origin) {
+  const Camera& camera = batch.scene.camera;
+  scale = vec2(1.0f), origin = vec2(0.0f);
+  if (kind == Space::Ndc) scale = {camera.xResolution(), camera.yResolution()};
+  if (kind != Space::Screen) return;
+  // Screen space is the image plane at z = 1 (orthographic: any), times the focal length.
+  const float focal =
+      camera.perspective() ? 1 / std::tan(batch.scene.scene.options.fov_degrees * kPi / 360) : 1.0f;
+  origin = camera.raster({0, 0, 1});
+  scale = (camera.raster({1, 1, 1}) - origin) / focal;
+}
+
+}  // namespace
+
+std::optional<Space> findSpace(const Batch& batch, const std::string& name) {
+  if (name == "object") return Space{Space::Linear, batch.group.group->cameraFromObject};
+  if (name == "shader") return Space{Space::Linear, batch.running->currentFromShader};
+  if (name == "raster") return Space{Space::Raster};
+  if (name == "NDC") return Space{Space::Ndc};
+  if (name == "screen") return Space{Space::Screen};
+  Space space;
+  if (!batch.scene.scene.cameraFromNamed(name, space.currentFromSpace)) return std::nullopt;
+  return space;
+}
+
+vec3 projectedFromCurrent(const Batch& batch, Space::Kind kind, const vec3& p) {
+  vec2 scale, origin;
+  rasterScale(batch, kind, scale, origin);
+  return {(batch.scene.camera.raster(p) - origin) / scale, p.z};
+}
+
+vec3 currentFromProjected(const Batch& batch, Space::Kind kind, const vec3& p) {
+  vec2 scale, origin;
+  rasterScale(batch, kind, scale, origin);
+  vec3 eye, direction;
+  batch.scene.camera.ray(vec2(p) * scale + origin, eye, direction);
+  return eye + direction * ((p.z - eye.z) / direction.z);
+}
+
+}  // namespace tomales

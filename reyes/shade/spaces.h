@@ -1,0 +1,25 @@
+// Named coordinate systems (RISpec 3.2, table 4.1) as seen from a running shader.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "reyes/shade/batch.h"
+#include "reyes/shader_api.h"
+
+namespace tomales {
+
+/// A space and its way to current. In the three projected spaces z stays camera-space depth: with RenderMan's
+/// default clipping planes (1e-6, 1e30) a projective depth would have no precision left.
+struct Space {
+  enum Kind { Linear, Raster, Ndc, Screen } kind = Linear;
+  mat4 currentFromSpace{1.0f};
+};
+
+/// Empty: no such space.
+std::optional<Space> findSpace(const Batch& batch, const std::string& name);
+
+/// Points only where the space is projected.
+vec3 projectedFromCurrent(const Batch& batch, Space::Kind kind, const vec3& p);
+vec3 currentFromProjected(const Batch& batch, Space::Kind kind, const vec3& p);
+
+}  // namespace tomales

@@ -1,0 +1,99 @@
+#include "reyes/shade/system.h"
+
+#include "reyes/shade/batch.h"
+#include "reyes/shade/substitute.h"
+
+namespace tomales {
+namespace {
+
+constexpr int kChunk =
+    256;  // points: a few hundred kB of light samples, so a chunk stays in the second-level cache
+
+void copyChunk(const ShadePoints& from, int begin, int end, ShadePoints& to) {
+  to.clear();
+  for (int i = begin; i < end; ++i) to.add(from.key(i));
+  for (int c = 0; c < from.channelCount(); ++c)
+    std::copy(from.channel(c) + begin, from.channel(c) + end, to.channel(c));
+}
+
+void clear(TmVec3 v, int n) {
+  for (int i = 0; i < n; ++i) set(v, i, vec3(0.0f));
+}
+
+/// A shader that threw leaves nothing worth showing; one that divides by zero leaves points to black out.
+void repair(Batch& batch, const BoundShader& shader, bool finished) {
+  const TmGrid& g = batch.tm;
+  if (!finished) {
+    clear(g.Ci, g.count), clear(g.Oi, g.count);
+    kSubstituteSurface.shade(&g);
+    return;
+  }
+  bool bad = false;
+  for (int i = 0; i < g.count; ++i) {
+    if (isFinite(get(g.Ci, i)) && isFinite(get(g.Oi, i))) continue;
+    bad = true;
+    if (!isFinite(get(g.Oi, i))) set(g.Oi, i, vec3(1.0f));
+    set(g.Ci, i, vec3(0.0f));
+  }
+  batch.running = &shader;
+  if (bad)
+    batch.report(Severity::Warning, "shader-not-finite", "returned NaN or infinity; such points are black");
+}
+
+}  // namespace
+
+ShadingSystem::ShadingSystem(const Scene& scene, ShaderRegistry& registry, const ShadeServices* services,
+                             Log& log, Stats& stats)
+    : impl_(new Impl(scene, registry, log, stats)) {
+  setServices(services);
+}
+
+ShadingSystem::~ShadingSystem() = default;
+
+void ShadingSystem::setServices(const ShadeServices* services) { impl_->services = services; }
+
+bool ShadingSystem::opaque(int group) const {
+  const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
+  return g.group->attributes->opacity == vec3(1.0f) && g.OsOffset < 0 && g.surface->can(TM_KEEPS_OPACITY);
+}
+
+void ShadingSystem::shade(const ShadePoints& points, const ShadeContext& context, ShadedPoints& out) const {
+  const BoundGroup& group = impl_->groups[static_cast<size_t>(points.group())];
+  const bool indirectHit = context.kind == RayKind::Diffuse && group.indirectSurface;
+  const BoundShader& shader = indirectHit ? *group.indirectSurface : *group.surface;
+  const int count = points.count();
+  out.resize(count);
+
+  const ShaderTimer timer(impl_->stats, shader, count);
+  ShadePoints chunk(points.group(), points.channelCount() - kFixedChannels);
+  for (int begin = 0; begin < count; begin += kChunk) {
+    copyChunk(points, begin, std::min(begin + kChunk, count), chunk);
+    ArenaLease arena;
+    Batch batch(*impl_, group, context, *arena);
+    batch.setPoints(chunk, shader, indirectHit ? group.indirectOverrides : group.surfaceOverrides, out,
+                    begin);
+    repair(batch, shader, batch.run(shader, batch.tm));
+  }
+  impl_->stats.shade.verticesShaded += count;
+}
+
+vec3 ShadingSystem::visibleEmission(int group) const {
+  const int index = impl_->groups[static_cast<size_t>(group)].group->attributes->areaLight;
+  if (index < 0 || index >= static_cast<int>(impl_->lights.size())) return vec3(0.0f);
+  const auto& light = impl_->lights[static_cast<size_t>(index)];
+  if (!light || !light->can(TM_LIGHT_AREA) || light->bound->number("visible", 1) == 0) return vec3(0.0f);
+  return light->bound->number("intensity", 1) * light->bound->color("lightcolor", vec3(1.0f));
+}
+
+const IndirectQuery* ShadingSystem::indirectQuery(int group) const {
+  const auto& query = impl_->groups[static_cast<size_t>(group)].indirect;
+  return query ? &*query : nullptr;
+}
+
+bool ShadingSystem::needsRays() const {
+  return std::any_of(impl_->lights.begin(), impl_->lights.end(), [](const auto& light) {
+    return light && (light->shadows || light->can(TM_LIGHT_AREA) || light->can(TM_LIGHT_INDIRECT));
+  });
+}
+
+}  // namespace tomales

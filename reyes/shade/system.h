@@ -1,0 +1,32 @@
+// What the parts of ShadingSystem share.
+#pragma once
+#include <chrono>
+
+#include "reyes/shade/bound_scene.h"
+
+namespace tomales {
+
+struct ShadingSystem::Impl : BoundScene {
+  using BoundScene::BoundScene;
+};
+
+/// Adds the time until its end to the figures of a shader.
+class ShaderTimer {
+ public:
+  ShaderTimer(Stats& stats, const BoundShader& shader, int vertices)
+      : stats_(stats), shader_(shader), vertices_(vertices), start_(Clock::now()) {}
+  ~ShaderTimer() {
+    stats_.addShader(shader_.shader->name, vertices_,
+                     std::chrono::duration<double>(Clock::now() - start_).count());
+  }
+  ShaderTimer(const ShaderTimer&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Stats& stats_;
+  const BoundShader& shader_;
+  const int vertices_;
+  const Clock::time_point start_;
+};
+
+}  // namespace tomales

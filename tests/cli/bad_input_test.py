@@ -1,0 +1,63 @@
+"""Bad scenes: the right exit code, a message with file:line, and never a crash or a hang."""
+import os
+import random
+
+from program import GOOD, Suite
+
+t = Suite()
+WORLD = 'Display "out.exr" "file" "rgba"\nFormat 16 16 1\nTranslate 0 0 4\nWorldBegin\n%s\nWorldEnd\n'
+
+# Nothing to read: exit 2.
+t.write("empty.rib", "")
+t.expect_run("an empty file", ["empty.rib"], 2, "empty.rib")
+t.expect_run("a file that is not there", ["absent.rib"], 2, "absent.rib")
+t.expect_run("a folder", ["."], 2)
+t.write("prose.rib", "Dear renderer,\nthis is not a scene.\n")
+t.expect_run("prose", ["prose.rib"], 2, "prose.rib")
+t.write("options.rib", "Format 16 16 1\n")
+t.expect_run("options without a world", ["options.rib"], 2, "options.rib")
+t.write("cut.rib.gz", b"\x1f\x8b\x08\x00\x00\x00\x00\x00")
+t.expect_run("a gzip header and nothing more", ["cut.rib.gz"], 2, "cut.rib.gz")
+
+# Junk and truncation end in some documented code, whatever it is.
+random.seed(1)
+for i in range(6):
+    t.write("junk.rib", random.randbytes(4000) if i % 2 else GOOD.encode() + random.randbytes(2000))
+    t.expect(t.run("junk.rib", "-q").returncode in (0, 2, 3), f"random bytes, number {i + 1}")
+for end in range(0, len(GOOD), 23):
+    t.write("cut.rib", GOOD[:end])
+    t.expect(t.run("cut.rib", "-q").returncode in (0, 2, 3), f"a scene cut after {end} bytes")
+
+# Errors inside a scene are repaired, and said with their line.
+t.write("request.rib", WORLD % "Spheer 1 -1 1 360\nSphere 1 -1 1 360")
+result = t.run("request.rib")
+t.expect("request.rib:5" in result.stderr and "Spheer" in result.stderr, "an unknown request is named with its line")
+t.expect((t.folder / "out.exr").exists(), "and the rest of the scene is rendered")
+t.write("filter.rib", 'PixelFilter "blurry" 2 2\n' + WORLD % "Sphere 1 -1 1 360")
+t.expect(t.run("filter.rib").returncode == 0, "an unknown filter does not stop a frame")
+
+# Something missing: the frame is complete, exit 3.
+t.write("archive.rib", WORLD % 'Sphere 1 -1 1 360\nReadArchive "nowhere.rib"')
+t.expect_run("a missing archive", ["archive.rib"], 3, "archive.rib:6", "nowhere.rib")
+t.write("shader.rib", WORLD % 'Surface "unobtainium"\nSphere 1 -1 1 360')
+t.expect_run("a missing shader", ["shader.rib"], 3, "shader.rib:5", "unobtainium")
+t.write("light.rib", WORLD % 'LightSource "nolight" 1\nSphere 1 -1 1 360')
+t.expect_run("a missing light shader", ["light.rib"], 3, "light.rib:5", "nolight")
+
+# Output that cannot be written: exit 4, before hours are spent on it.
+t.write("good.rib", GOOD)
+t.expect_run("-o into a folder that does not exist", ["good.rib", "-o", "no/where/a.exr"], 4, "no/where/a.exr")
+t.write("display.rib", GOOD.replace("good.exr", "no/where/b.exr"))
+t.expect_run("a Display in a folder that does not exist", ["display.rib"], 4, "display.rib:1", "no/where/b.exr")
+os.mkdir(t.folder / "taken.exr")
+t.expect_run("-o onto a folder", ["good.rib", "-o", "taken.exr"], 4, "taken.exr")
+t.expect_run("--stats into a folder that does not exist", ["good.rib", "--stats", "no/where.json"], 4, "no/where.json")
+t.expect(not [f for f in os.listdir(t.folder) if f.endswith(".part")], "no temporary file is left behind")
+
+# Plugins and pictures that are none.
+t.write("fake.so", "not a library")
+t.expect_run("a plugin that is no library", ["info", "fake.so"], 2, "fake.so")
+t.write("fake.exr", "not a picture")
+t.expect_run("a picture that is none", ["info", "fake.exr"], 2, "fake.exr")
+t.expect_run("comparing with a picture that is none", ["compare", "fake.exr", "fake.exr"], 2, "fake.exr")
+t.finish()

@@ -1,0 +1,51 @@
+"""Runs the renderer in a folder of its own and collects what did not go as a test expects."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+GOOD = """Display "good.exr" "file" "rgba"
+Format 24 24 1
+Projection "perspective" "fov" [40]
+Translate 0 0 4
+WorldBegin
+LightSource "distantlight" 1
+Surface "matte"
+Sphere 1 -1 1 360
+WorldEnd
+"""
+
+
+class Suite:
+    def __init__(self):
+        self.program = sys.argv[1]
+        self.failures = 0
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.temporary.name)
+
+    def write(self, name, content):
+        data = content if isinstance(content, bytes) else content.encode()
+        (self.folder / name).write_bytes(data)
+        return name
+
+    def run(self, *arguments, stdin=None):
+        return subprocess.run([self.program, *arguments], cwd=self.folder, input=stdin, capture_output=True,
+                              timeout=60, text=True, errors="replace")
+
+    def expect(self, condition, message):
+        print(("ok      " if condition else "FAILED  ") + message)
+        self.failures += not condition
+
+    def expect_run(self, what, arguments, code, *says, stdin=None):
+        """The exit code, and every text of `says` among the messages."""
+        result = self.run(*arguments, stdin=stdin)
+        missing = [s for s in says if s not in result.stdout + result.stderr]
+        good = result.returncode == code and not missing
+        self.expect(good, what)
+        if not good:
+            print(f"        exit {result.returncode}, expected {code}; not said: {missing}\n        {result.stderr[:600]}")
+        return result
+
+    def finish(self):
+        self.temporary.cleanup()
+        sys.exit(bool(self.failures))

@@ -1,0 +1,65 @@
+"""The command as its documentation has it: options, defaults, outputs and exit codes of good and wrong usage."""
+import json
+import signal
+import subprocess
+import sys
+import time
+
+from program import GOOD, Suite
+
+t = Suite()
+t.write("good.rib", GOOD)
+
+# Wrong usage: exit 1.
+for arguments in ([], ["render"], ["good.rib", "--frobnicate"], ["good.rib", "--memory-limit", "600M"], ["good.rib", "--resume"],
+                  ["good.rib", "--crop", "1,0,0,1"], ["good.rib", "--format", "640"], ["good.rib", "--frames", "9-1"],
+                  ["good.rib", "-t", "0"], ["good.rib", "-o", "a.jpg"], ["good.rib", "--gi", "magic"], ["compare", "good.rib"]):
+    t.expect_run("usage: " + " ".join(arguments), arguments, 1)
+t.expect_run("a method that is still to come says so", ["good.rib", "--gi", "atlas"], 1, "not available yet")
+t.expect_run("--version", ["--version"], 0, sys.argv[2])
+t.expect_run("--help", ["--help"], 0, "render", "info", "compare")
+
+# Rendering.
+t.expect_run("render is the default command", ["good.rib"], 0)
+t.expect((t.folder / "good.exr").exists(), "the Display of the scene is written")
+t.expect_run("standard input", ["-", "-o", "stdin.exr"], 0, stdin=GOOD)
+figures = json.loads(t.expect_run("compare --json", ["compare", "good.exr", "stdin.exr", "--json"], 0).stdout)
+t.expect(figures["max_error"] == 0 and figures["psnr_dB"] is None, "standard input gives the same picture, bit for bit")
+t.expect_run("compare --diff", ["compare", "good.exr", "stdin.exr", "--diff", "diff.png"], 0, "rmse")
+t.expect((t.folder / "diff.png").exists(), "the difference is written")
+t.write("plain.rib", GOOD.split("\n", 1)[1])
+t.expect_run("a scene without Display", ["plain.rib"], 0)
+t.expect((t.folder / "ri.exr").exists(), "writes ri.exr")
+
+# Frames.
+frames = "".join(f"FrameBegin {n}\n{GOOD}FrameEnd\n" for n in (1, 2, 3))
+t.write("frames.rib", frames)
+t.expect_run("--frames with numbered output", ["frames.rib", "--frames", "1-3x2", "-o", "f.###.exr"], 0)
+t.expect(sorted(p.name for p in t.folder.glob("f.*.exr")) == ["f.001.exr", "f.003.exr"], "writes those frames and no other")
+t.expect_run("frames over one name", ["frames.rib", "-o", "one.exr"], 0, "written over")
+t.expect_run("frames that are not there", ["frames.rib", "--frames", "8"], 2, "--frames")
+
+# Statistics and progress.
+result = t.expect_run("--stats and --progress", ["good.rib", "--stats", "s.json", "--progress", "-t", "1"], 0, "R90000  100%")
+stats = json.loads((t.folder / "s.json").read_text())
+for key in ("version", "command", "scene", "threads", "time_s", "cpu_s", "memory_bytes", "geometry", "shade", "rays", "warnings"):
+    t.expect(key in stats, f"statistics have {key}")
+t.expect(stats["threads"] == 1 and stats["geometry"]["micropolygons_visible"] > 0, "and hold plausible figures")
+t.expect(all(k in stats["time_s"] for k in ("total", "parse", "hide", "shade", "image")), "and the time of every stage")
+
+# info.
+info = json.loads(t.expect_run("info of a scene", ["info", "frames.rib", "--json"], 0).stdout)
+t.expect([f["frame"] for f in info["frames"]] == [1, 2, 3] and info["frames"][0]["objects"] == 1, "lists frames and objects")
+info = json.loads(t.expect_run("info of a picture", ["info", "good.exr", "--json"], 0).stdout)
+t.expect(info["size"] == [24, 24] and [c["name"] for c in info["channels"]] == ["R", "G", "B", "A"], "lists size and channels")
+
+# Interruption: finished buckets are written, the exit code tells.
+for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+    out = t.folder / f"cut{code}.exr"
+    process = subprocess.Popen([t.program, "good.rib", "-o", out.name, "--format", "3000x3000", "--stats", "cut.json", "-q", "-t", "1"],
+                               cwd=t.folder)
+    time.sleep(1.0)
+    process.send_signal(number)
+    t.expect(process.wait(timeout=120) == code, f"signal {int(number)} ends with {code}")
+    t.expect(out.exists() and json.loads((t.folder / "cut.json").read_text())["time_s"]["total"] > 0, "with a picture and statistics")
+t.finish()

@@ -1,0 +1,90 @@
+#include "reyes/app/overrides.h"
+
+#include <gtest/gtest.h>
+
+#include "reyes/rib.h"
+
+namespace tomales {
+namespace {
+
+const char* const kTwoSpheres =
+    "Display \"first.tif\" \"tiff\" \"rgba\"\n"
+    "Display \"+second.exr\" \"openexr\" \"rgb\"\n"
+    "WorldBegin\n"
+    "LightSource \"ambientlight\" 1\n"
+    "ShadingRate 2\nSphere 1 -1 1 360\nSphere 2 -2 2 360\n"
+    "ShadingRate 8\nSphere 1 -1 1 360\n"
+    "WorldEnd\n";
+
+Scene sceneOf(const std::string& rib) {
+  Log log(Log::Verbosity::Quiet);
+  Scene out;
+  RibSettings settings;
+  settings.onScene = [&](Scene&& scene) { out = std::move(scene); };
+  EXPECT_TRUE(readRibText(rib, "test.rib", settings, log));
+  return out;
+}
+
+TEST(Overrides, ShadingRateReachesEveryObjectAndSharingStays) {
+  Scene scene = sceneOf(kTwoSpheres);
+  ASSERT_EQ(scene.objects.size(), 3u);
+  RenderSettings settings;
+  settings.shadingRate = 4.0f;
+  applyOverrides(scene, settings);
+  for (const Object& object : scene.objects) {
+    EXPECT_EQ(object.attributes->shadingRate, 4);
+    ASSERT_LT(static_cast<size_t>(object.group), scene.groups.size());
+    EXPECT_EQ(scene.groups[static_cast<size_t>(object.group)].attributes, object.attributes);
+  }
+  EXPECT_EQ(scene.objects[0].attributes, scene.objects[1].attributes);
+}
+
+TEST(Overrides, OutputReplacesTheFirstDisplayAlone) {
+  Scene scene = sceneOf(kTwoSpheres);
+  RenderSettings settings;
+  settings.output = "shot.##.png";
+  scene.options.frame = 5;
+  applyOverrides(scene, settings);
+  ASSERT_EQ(scene.options.displays.size(), 2u);
+  EXPECT_EQ(scene.options.displays[0].name, "shot.05.png");
+  EXPECT_EQ(scene.options.displays[0].mode, "rgb");
+  EXPECT_EQ(scene.options.displays[1].type, "openexr");
+}
+
+TEST(Overrides, ASceneWithoutDisplayGetsTheDefaultOne) {
+  Scene scene = sceneOf("WorldBegin\nSphere 1 -1 1 360\nWorldEnd\n");
+  applyOverrides(scene, {});
+  EXPECT_EQ(scene.options.displays.size(), 1u);
+}
+
+TEST(Overrides, AGiModeAddsAnIndirectLightOnceAndOnlyWhereItIsMissing) {
+  Scene scene = sceneOf(kTwoSpheres);
+  RenderSettings settings;
+  EXPECT_EQ(giModeOf(GiChoice::Scene, scene), GiMode::None);
+  settings.gi = GiChoice::Gather;
+  applyOverrides(scene, settings);
+  applyOverrides(scene, settings);
+  ASSERT_EQ(scene.lights.size(), 2u);
+  EXPECT_TRUE(hasIndirectLight(scene));
+  EXPECT_EQ(scene.lights[1]->index, 1);
+  for (const Object& object : scene.objects) EXPECT_EQ(object.attributes->lights, (std::vector<int>{0, 1}));
+  EXPECT_EQ(giModeOf(GiChoice::Scene, scene), GiMode::Gather);
+  EXPECT_EQ(giModeOf(GiChoice::None, scene), GiMode::None);
+}
+
+TEST(Overrides, PictureSizesComeFromTheCommandLine) {
+  Scene scene = sceneOf(kTwoSpheres);
+  RenderSettings settings;
+  settings.format = {{320, 200}};
+  settings.crop = {{0.25f, 0.5f, 0, 1}};
+  settings.pixelSamples = {{3, 5}};
+  settings.bucketSize = 7;
+  applyOverrides(scene, settings);
+  EXPECT_EQ(scene.options.xResolution, 320);
+  EXPECT_EQ(scene.options.cropWindow[1], 0.5f);
+  EXPECT_EQ(scene.options.ySamples, 5);
+  EXPECT_EQ(scene.options.bucketHeight, 7);
+}
+
+}  // namespace
+}  // namespace tomales

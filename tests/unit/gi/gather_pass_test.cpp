@@ -1,0 +1,147 @@
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "reyes/base/parallel.h"
+#include "tests/unit/gi/fixture.h"
+
+namespace tomales {
+namespace {
+
+using namespace test;
+
+TEST(LatticePhase, EachPhaseIsALatticeTwiceAsDenseAsAllBeforeIt) {
+  std::map<int, int> pixels;
+  for (int y = -32; y < 32; ++y)
+    for (int x = -32; x < 32; ++x) ++pixels[latticePhase(x, y)];
+  ASSERT_EQ(pixels.size(), static_cast<size_t>(kLatticePhases));
+  int before = 0;
+  for (const auto& [phase, count] : pixels) {
+    EXPECT_EQ(count, phase == 0 ? 16 : before) << phase;
+    before += count;
+  }
+}
+
+TEST(LatticePhase, NeighboursOfAPhaseAreAsFarApartAsItsDensityAllows) {
+  for (int phase = 0; phase < kLatticePhases; ++phase) {
+    int nearest = 1 << 20;
+    for (int y = 0; y < 16; ++y)
+      for (int x = 0; x < 16; ++x)
+        for (int dy = -16; dy <= 16; ++dy)
+          for (int dx = -16; dx <= 16; ++dx)
+            if ((dx || dy) && latticePhase(x, y) == phase && latticePhase(x + dx, y + dy) == phase)
+              nearest = std::min(nearest, dx * dx + dy * dy);
+    EXPECT_EQ(nearest, phase == 0 ? 256 : 512 >> phase) << phase;
+  }
+}
+
+ParamList indirect(float samples, float maxError = 1) {
+  return {floatParam("samples", samples), floatParam("maxerror", maxError)};
+}
+
+TEST(GatherPass, CoversEveryPointOfTheFrameWithFarFewerRecords) {
+  World world(cornell(indirect(64)).scene);
+  const DeepFrame frame = frameOf(world, 16);
+  const auto services = world.use({});
+  services->gatherPass(frame, {}, nullptr);
+  const int64_t samples = world.stats.irradianceCache.samples;
+  EXPECT_LT(samples, 64 * 64 / 4);
+  EXPECT_GT(samples, 64 * 64 / 300);
+  EXPECT_EQ(world.stats.rays.gather, samples * 65);  // 64 asked for: 5 x 13 cells
+  indirectOf(*services, world, frame);
+  EXPECT_EQ(world.stats.irradianceCache.interpolated, world.stats.irradianceCache.lookups);
+  EXPECT_GT(world.stats.irradianceCache.lookups, 3000);
+  EXPECT_EQ(world.stats.rays.gather, samples * 65);
+}
+
+TEST(GatherPass, TheCacheDoesNotDependOnThreadsOrBuckets) {
+  World world(cornell(indirect(32)).scene);
+  std::vector<vec3> first;
+  for (const int threads : {1, 4})
+    for (const int bucket : {16, 13}) {
+      const ThreadLimit limit(threads);
+      const DeepFrame frame = frameOf(world, bucket);
+      const auto services = world.use({});
+      services->gatherPass(frame, {}, nullptr);
+      const std::vector<vec3> E = indirectOf(*services, world, frame);
+      if (first.empty()) first = E;
+      EXPECT_EQ(E, first) << threads << " threads, buckets of " << bucket;
+    }
+}
+
+TEST(GatherPass, ALargerKappaTakesMoreRecords) {
+  int64_t last = 0;
+  for (const float kappa : {0.5f, 1.0f, 2.0f}) {
+    World world(cornell(indirect(16)).scene);
+    const auto services = world.use({.maxError = kappa});
+    services->gatherPass(frameOf(world, 16), {}, nullptr);
+    EXPECT_GT(world.stats.irradianceCache.samples, last * 5 / 4) << kappa;
+    last = world.stats.irradianceCache.samples;
+  }
+}
+
+TEST(GatherPass, AKappaOfZeroGathersEveryPointWhileShading) {
+  World world(cornell(indirect(16), 16).scene);
+  const DeepFrame frame = frameOf(world, 16);
+  const auto services = world.use({.maxError = 0});
+  services->gatherPass(frame, {}, nullptr);
+  EXPECT_EQ(world.stats.irradianceCache.samples, 0);
+  indirectOf(*services, world, frame);
+  int64_t points = 0;
+  for (const DeepTile& tile : frame.tiles) points += static_cast<int64_t>(tile.fragments.size());
+  const HemisphereCells cells = hemisphereCells(16);
+  EXPECT_EQ(world.stats.rays.gather, points * cells.rings * cells.sectors);
+}
+
+TEST(GatherPass, InterpolatedLightAgreesWithTheReference) {
+  World world(cornell(indirect(256)).scene);
+  const DeepFrame frame = frameOf(world, 16);
+  auto services = world.use({.maxError = 2});
+  services->gatherPass(frame, {}, nullptr);
+  const std::vector<vec3> cached = indirectOf(*services, world, frame);
+  services = world.use({.mode = GiMode::Reference, .samples = 64, .seed = 7});
+  const std::vector<vec3> truth = indirectOf(*services, world, frame);
+  vec3 meanCached(0), meanTruth(0);
+  for (const vec3& E : cached) meanCached += E;
+  for (const vec3& E : truth) meanTruth += E;
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(meanCached[c] / meanTruth[c], 1, 0.02f) << c;
+  // Block means, so that the noise of the reference does not hide a bias: 8 x 8 pixels of 64 paths.
+  double error = 0;
+  for (size_t block = 0; block < 64; ++block) {
+    float a = 0, b = 0;
+    for (size_t k = 0; k < 64; ++k) {
+      const size_t i = (block / 8 * 8 + k / 8) * 64 + block % 8 * 8 + k % 8;
+      a += cached[i].y, b += truth[i].y;
+    }
+    if (b > 0) error += std::abs(a / b - 1) / 64;
+  }
+  EXPECT_LT(error, 0.05);
+}
+
+TEST(GatherPass, ReportsProgressAndObeysCancellation) {
+  World world(cornell(indirect(16)).scene);
+  const DeepFrame frame = frameOf(world, 16);
+  std::vector<float> heard;
+  auto services = world.use({});
+  services->gatherPass(
+      frame, [&](float f) { heard.push_back(f); }, nullptr);
+  EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
+  EXPECT_EQ(heard.back(), 1);
+
+  const int64_t before = world.stats.irradianceCache.samples;
+  std::atomic<bool> cancelled{true};
+  world.use({})->gatherPass(frame, {}, &cancelled);
+  EXPECT_EQ(world.stats.irradianceCache.samples, before);
+}
+
+TEST(GatherPass, AnEmptyOrInterruptedFrameIsNoTrouble) {
+  World world(cornell(indirect(16)).scene);
+  DeepFrame frame = frameOf(world, 16);
+  for (DeepTile& tile : frame.tiles) tile = {};
+  world.use({})->gatherPass(frame, {}, nullptr);
+  world.use({})->gatherPass(DeepFrame{}, {}, nullptr);
+  EXPECT_EQ(world.stats.irradianceCache.samples, 0);
+}
+
+}  // namespace
+}  // namespace tomales

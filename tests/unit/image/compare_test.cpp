@@ -1,0 +1,73 @@
+#include <gtest/gtest.h>
+
+#include "reyes/base/rng.h"
+#include "reyes/image.h"
+
+namespace tomales {
+namespace {
+
+Image grey(int width, int height, const std::vector<float>& values) {
+  Image image{width, height, {"R", "G", "B"}, {}, 0, 0, width, height};
+  for (const float v : values) image.pixels.insert(image.pixels.end(), 3, v);
+  return image;
+}
+Image noise(int size, float amplitude) {
+  std::vector<float> values;
+  for (int i = 0; i < size * size; ++i)
+    values.push_back(0.5f + amplitude * (unitFloat(hash32(static_cast<uint32_t>(i + 1))) - 0.5f));
+  return grey(size, size, values);
+}
+
+TEST(Compare, FiguresOfTwoPixelsAreThoseWorkedOutByHand) {
+  const Comparison c = compare(grey(2, 1, {0.5f, 0.25f}), grey(2, 1, {0.25f, 0.25f}));
+  EXPECT_NEAR(c.rmse, 0.25 / std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(c.relativeMse, 0.5 * 0.0625 / (0.0625 + 0.01), 1e-9);
+  EXPECT_NEAR(c.meanAbsoluteRelativeError, 0.5 * 0.25 / 0.26, 1e-9);
+  EXPECT_NEAR(c.maxError, 0.25, 1e-9);
+  EXPECT_NEAR(c.psnr_dB, -10 * std::log10(0.5 * 0.0625), 1e-9);
+  EXPECT_EQ(c.differentPixels, 1);
+}
+
+TEST(Compare, AnImageIsPerfectlyLikeItself) {
+  const Comparison c = compare(noise(32, 0.5f), noise(32, 0.5f));
+  EXPECT_EQ(c.rmse, 0);
+  EXPECT_EQ(c.flip, 0);
+  EXPECT_NEAR(c.ssim, 1, 1e-6);
+  EXPECT_EQ(c.differentPixels, 0);
+  EXPECT_TRUE(std::isinf(c.psnr_dB));
+}
+
+// Of two constant images only the luminance term of SSIM is left.
+TEST(Compare, SsimOfConstantsIsTheLuminanceTerm) {
+  const std::vector<float> one(400, 1.0f), zero(400, 0.0f);
+  EXPECT_NEAR(compare(grey(20, 20, zero), grey(20, 20, one)).ssim, 1e-4 / (1 + 1e-4), 1e-5);
+}
+
+TEST(Compare, MoreNoiseIsLessAlike) {
+  const Image reference = noise(48, 0.0f);
+  const Comparison a = compare(noise(48, 0.1f), reference), b = compare(noise(48, 0.4f), reference);
+  EXPECT_LT(a.rmse, b.rmse);
+  EXPECT_GT(a.ssim, b.ssim);
+  EXPECT_LT(a.flip, b.flip);
+}
+
+TEST(Compare, GreenAgainstBlueIsTheLargestPerceptualDifference) {
+  Image green = grey(8, 8, std::vector<float>(64, 0.0f)), blue = green;
+  for (size_t i = 0; i < green.pixels.size(); i += 3) green.pixels[i + 1] = 1, blue.pixels[i + 2] = 1;
+  EXPECT_NEAR(compare(green, blue).flip, 1, 1e-4);
+}
+
+TEST(Compare, AlphaAndDepthDoNotCountAndChannelsAreFoundByName) {
+  const Image plain = grey(1, 1, {0.5f});
+  const Image rich{1, 1, {"A", "B", "G", "R", "Z"}, {0.1f, 0.5f, 0.5f, 0.5f, kInfinity}, 0, 0, 1, 1};
+  EXPECT_EQ(compare(rich, plain).maxError, 0);
+  EXPECT_EQ(compare(plain, rich).maxError, 0);
+}
+
+TEST(Compare, DifferenceImageIsTheAbsoluteDifference) {
+  const Image d = differenceImage(grey(1, 1, {0.25f}), grey(1, 1, {0.75f}));
+  EXPECT_EQ(d.pixels, (std::vector<float>{0.5f, 0.5f, 0.5f}));
+}
+
+}  // namespace
+}  // namespace tomales

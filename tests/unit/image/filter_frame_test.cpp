@@ -1,0 +1,172 @@
+#include <gtest/gtest.h>
+
+#include "reyes/base/parallel.h"
+#include "reyes/base/rng.h"
+#include "reyes/image.h"
+
+namespace tomales {
+namespace {
+
+/// A frame of one tile whose layers each cover the samples of a mask in every pixel.
+struct Layer {
+  vec3 color, opacity;
+  float z;
+  uint64_t samples;
+  bool matte = false;
+};
+
+DeepFrame frameOf(const std::vector<Layer>& layers, int size, int margin, int samples) {
+  DeepFrame frame;
+  frame.crop = {0, 0, size, size};
+  frame.padded = {-margin, -margin, size + margin, size + margin};
+  frame.bucketWidth = frame.bucketHeight = size + 2 * margin;
+  frame.columns = frame.rows = 1;
+  frame.samplesPerPixel = samples;
+  DeepTile tile;
+  tile.rect = frame.padded;
+  const int count = static_cast<int>(layers.size());
+  tile.batches.emplace_back(0, 0);
+  tile.shaded.resize(1);
+  tile.shaded[0].resize(count);
+  for (int i = 0; i < count; ++i) {
+    const Layer& layer = layers[static_cast<size_t>(i)];
+    tile.batches[0].add(0);
+    tile.facets.push_back({0, {i, i, i, i}, layer.matte});
+    for (int c = 0; c < 3; ++c) {
+      tile.shaded[0].Ci[c][static_cast<size_t>(i)] = layer.color[c];
+      tile.shaded[0].Oi[c][static_cast<size_t>(i)] = layer.opacity[c];
+    }
+  }
+  for (int p = 0; p < tile.rect.width() * tile.rect.height(); ++p) {
+    tile.pixels.push_back({static_cast<uint32_t>(tile.fragments.size()), static_cast<uint32_t>(count)});
+    for (int i = 0; i < count; ++i)
+      tile.fragments.push_back({static_cast<uint32_t>(i), layers[static_cast<size_t>(i)].z,
+                                layers[static_cast<size_t>(i)].samples});
+  }
+  frame.tiles.push_back(std::move(tile));
+  return frame;
+}
+
+SampleOffsets jittered(int samples, int patterns) {
+  SampleOffsets out;
+  out.count = samples;
+  for (int p = 0; p < patterns; ++p) {
+    out.byPattern.emplace_back();
+    for (int s = 0; s < samples; ++s)
+      out.byPattern.back().push_back(sobol2(static_cast<uint32_t>(s), static_cast<uint32_t>(p)));
+  }
+  out.patternOf = [patterns](int x, int y) { return ((x * 7 + y * 13) % patterns + patterns) % patterns; };
+  return out;
+}
+
+Options filtered(const std::string& name, float width) {
+  Options options;
+  options.filter = name;
+  options.xFilterWidth = options.yFilterWidth = width;
+  return options;
+}
+
+TEST(FilterFrame, AConstantFrameStaysConstantUnderEveryFilter) {
+  const vec3 color(0.25f, 0.5f, 4.0f);
+  for (const char* name : {"box", "triangle", "gaussian", "catmull-rom", "separable-catmull-rom", "sinc",
+                           "mitchell", "blackman-harris", "lanczos", "disk"}) {
+    const DeepFrame frame = frameOf({{color, vec3(1.0f), 2, 0xffff}}, 5, 2, 16);
+    const Image image = filterFrame(frame, filtered(name, 4), jittered(16, 8));
+    for (int y = 0; y < 5; ++y)
+      for (int x = 0; x < 5; ++x) {
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.at(x, y)[c], color[c], 2e-5f * color[c]) << name;
+        EXPECT_NEAR(image.at(x, y)[3], 1, 2e-5f) << name;
+        EXPECT_EQ(image.at(x, y)[4], 2) << name;
+      }
+  }
+}
+
+TEST(FilterFrame, HalfCoverageUnderABoxIsHalfTheColourAndHalfTheAlpha) {
+  const DeepFrame frame = frameOf({{vec3(0.5f, 1, 2), vec3(1.0f), 3, 0b0011}}, 2, 0, 4);
+  const Image image = filterFrame(frame, filtered("box", 1), jittered(4, 4));
+  EXPECT_FLOAT_EQ(image.at(1, 1)[0], 0.25f);
+  EXPECT_FLOAT_EQ(image.at(1, 1)[2], 1.0f);
+  EXPECT_FLOAT_EQ(image.at(1, 1)[3], 0.5f);
+}
+
+TEST(FilterFrame, LayersOfOneOpacityCompositeToOneMinusClearnessToTheirNumber) {
+  for (const float a : {0.1f, 0.3f, 0.5f})
+    for (int n = 1; n <= 6; ++n) {
+      const std::vector<Layer> layers(static_cast<size_t>(n), {vec3(a), vec3(a), 1, 0xf});
+      const Image image = filterFrame(frameOf(layers, 1, 0, 4), filtered("box", 1), jittered(4, 4));
+      const float expected = 1 - std::pow(1 - a, static_cast<float>(n));
+      EXPECT_NEAR(image.at(0, 0)[3], expected, 1e-5f);
+      EXPECT_NEAR(image.at(0, 0)[0], expected, 1e-5f);
+    }
+}
+
+TEST(FilterFrame, OpacityOfEachChannelHidesItsOwnChannel) {
+  const DeepFrame frame =
+      frameOf({{vec3(0.0f), vec3(1, 0.5f, 0), 1, 1}, {vec3(1.0f), vec3(1.0f), 2, 1}}, 1, 0, 1);
+  const Image image = filterFrame(frame, filtered("box", 1), jittered(1, 1));
+  EXPECT_FLOAT_EQ(image.at(0, 0)[0], 0);
+  EXPECT_FLOAT_EQ(image.at(0, 0)[1], 0.5f);
+  EXPECT_FLOAT_EQ(image.at(0, 0)[2], 1);
+}
+
+TEST(FilterFrame, WhatLiesBehindSomethingOpaqueIsNotSeen) {
+  const DeepFrame frame =
+      frameOf({{vec3(0.5f), vec3(1.0f), 1, 1}, {vec3(100.0f), vec3(1.0f), 2, 3}}, 1, 0, 2);
+  const Image image = filterFrame(frame, filtered("box", 1), jittered(2, 1));
+  EXPECT_FLOAT_EQ(image.at(0, 0)[0], 0.5f * (0.5f + 100.0f));
+}
+
+TEST(FilterFrame, AMatteObjectHidesAndLeavesNeitherColourNorAlpha) {
+  const DeepFrame frame =
+      frameOf({{vec3(0.7f), vec3(1.0f), 1, 0b01, true}, {vec3(0.5f), vec3(1.0f), 2, 0b11}}, 1, 0, 2);
+  const Image image = filterFrame(frame, filtered("box", 1), jittered(2, 1));
+  EXPECT_FLOAT_EQ(image.at(0, 0)[0], 0.25f);
+  EXPECT_FLOAT_EQ(image.at(0, 0)[3], 0.5f);
+}
+
+TEST(FilterFrame, SamplesBeyondSixtyFourAreKeptApart) {
+  DeepFrame frame = frameOf(
+      {{vec3(1.0f), vec3(0.5f), 1, ~uint64_t{0}}, {vec3(3.0f), vec3(1.0f), 2, ~uint64_t{0}}}, 1, 0, 128);
+  frame.tiles[0].fragments[1].word = 1;
+  const Image image = filterFrame(frame, filtered("box", 1), jittered(128, 2));
+  EXPECT_FLOAT_EQ(image.at(0, 0)[0], 2);
+  EXPECT_FLOAT_EQ(image.at(0, 0)[3], 0.75f);
+}
+
+TEST(FilterFrame, SmoothFacetsAreBilinearInTheirFourPoints) {
+  DeepFrame frame = frameOf({{vec3(0.0f), vec3(1.0f), 1, 1}}, 1, 0, 1);
+  DeepTile& tile = frame.tiles[0];
+  tile.shaded[0].resize(4);
+  for (int i = 0; i < 4; ++i) {
+    tile.facets[0].point[i] = i;
+    tile.shaded[0].Ci[0][static_cast<size_t>(i)] = static_cast<float>(i);  // u + 2 v
+    for (auto& channel : tile.shaded[0].Oi) channel[static_cast<size_t>(i)] = 1;
+  }
+  tile.fragments[0].u = 51, tile.fragments[0].v = 102;
+  const Image image = filterFrame(frame, filtered("box", 1), jittered(1, 1));
+  EXPECT_NEAR(image.at(0, 0)[0], 0.2f + 2 * 0.4f, 1e-6f);
+}
+
+TEST(FilterFrame, EmptyPixelsAreBlackAndInfinitelyFar) {
+  const Image image = filterFrame(frameOf({}, 2, 1, 4), filtered("gaussian", 2), jittered(4, 4));
+  EXPECT_EQ(image.at(0, 0)[0], 0);
+  EXPECT_EQ(image.at(0, 0)[3], 0);
+  EXPECT_EQ(image.at(0, 0)[4], kInfinity);
+}
+
+TEST(FilterFrame, TilesThatAnInterruptionLeftEmptyAreBackground) {
+  DeepFrame frame = frameOf({{vec3(1.0f), vec3(1.0f), 1, 1}}, 2, 0, 1);
+  frame.tiles[0] = DeepTile{};
+  EXPECT_EQ(filterFrame(frame, filtered("box", 1), jittered(1, 1)).at(1, 1)[3], 0);
+}
+
+TEST(FilterFrame, ThreadsLeaveNoTrace) {
+  const DeepFrame frame =
+      frameOf({{vec3(0.3f), vec3(0.5f), 1, 0x5a5a}, {vec3(0.9f), vec3(1.0f), 2, 0x0ff0}}, 64, 2, 16);
+  const Image all = filterFrame(frame, filtered("mitchell", 4), jittered(16, 8));
+  const ThreadLimit one(1);
+  EXPECT_EQ(all.pixels, filterFrame(frame, filtered("mitchell", 4), jittered(16, 8)).pixels);
+}
+
+}  // namespace
+}  // namespace tomales

@@ -1,0 +1,194 @@
+#include "tests/unit/prim/support.h"
+
+namespace tomales {
+namespace {
+using namespace test;
+
+PrimPtr polygon(std::vector<float> p, Problems* problems = nullptr) {
+  Problems mine;
+  const int n = static_cast<int>(p.size() / 3);
+  std::vector<int> vertices;
+  for (int i = 0; i < n; ++i) vertices.push_back(i);
+  return makePolygons({n}, vertices, {positions(std::move(p))}, problems ? *problems : mine);
+}
+
+std::vector<float> flat(const std::vector<vec2>& outline, float z = 0) {
+  std::vector<float> p;
+  for (const vec2& q : outline) p.insert(p.end(), {q.x, q.y, z});
+  return p;
+}
+
+/// Every piece, and that all face the same way.
+void expectArea(const std::vector<vec2>& outline, double area) {
+  const PrimPtr prim = polygon(flat(outline));
+  EXPECT_NEAR(dicedArea(*prim, 1), area, 1e-6 * area);
+  for (uint32_t patch = 0; patch < prim->patchCount(); ++patch) {
+    EXPECT_TRUE(prim->info(patch).planar);
+    EXPECT_EQ(sampleAt(*prim, patch, 0.5f, 0.5f).n, vec3(0, 0, 1));
+    EXPECT_GT(cross(sampleAt(*prim, patch, 0.5f, 0.5f).du, sampleAt(*prim, patch, 0.5f, 0.5f).dv).z, 0);
+  }
+  expectSoundEverywhere(*prim);
+}
+
+TEST(Polygon, AConvexQuadIsOnePatchAlongItsFirstAndLastEdge) {
+  const PrimPtr prim = polygon({0, 0, 0, 2, 0, 0, 3, 3, 0, 0, 2, 0});
+  ASSERT_EQ(prim->patchCount(), 1u);
+  EXPECT_EQ(sampleAt(*prim, 0, 1, 0).p, vec3(2, 0, 0));
+  EXPECT_EQ(sampleAt(*prim, 0, 0, 1).p, vec3(0, 2, 0));
+  EXPECT_EQ(sampleAt(*prim, 0, 1, 1).p, vec3(3, 3, 0));
+  EXPECT_EQ(prim->info(0).openEdges, kAllEdges);
+  expectDerivativesOfPositions(*prim, 1e-3f);
+}
+
+TEST(Polygon, AreaIsExactForEveryShape) {
+  expectArea({{0, 0}, {1, 0}, {0, 1}}, 0.5);  // triangle
+  expectArea({{0, 0}, {4, 0}, {4, 3}, {1, 1}},
+             4 * 3 * 0.5 + 0.5 * std::abs(4 * 1 - 3 * 1));          // concave: an arrow head
+  expectArea({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}, 5);  // L
+  expectArea({{0, 0}, {5, 0}, {5, 3}, {4, 3}, {4, 1}, {3, 1}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}},
+             11);                                                   // comb
+  expectArea({{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}, 4);          // collinear vertex
+  expectArea({{0, 0}, {2, 0}, {2, 0}, {2, 2}, {0, 2}, {0, 0}}, 4);  // repeated vertices
+  expectArea({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}},
+             12);  // a hole by a bridge
+}
+
+TEST(Polygon, AreaOfARegular100GonIsExact) {
+  std::vector<vec2> outline;
+  for (int i = 0; i < 100; ++i)
+    outline.push_back({std::cos(2 * M_PI * i / 100), std::sin(2 * M_PI * i / 100)});
+  expectArea(outline, 50 * std::sin(2 * M_PI / 100));
+}
+
+TEST(Polygon, AreaOfAConcaveStarIsExact) {
+  std::vector<vec2> outline;
+  for (int i = 0; i < 20; ++i) {
+    const double r = i % 2 ? 0.3 : 1, a = 2 * M_PI * i / 20;
+    outline.push_back({r * std::cos(a), r * std::sin(a)});
+  }
+  expectArea(outline, 20 * 0.5 * 0.3 * std::sin(2 * M_PI / 20));
+}
+
+TEST(Polygon, ReversedOrderTurnsTheNormal) {
+  EXPECT_EQ(sampleAt(*polygon({0, 0, 0, 0, 1, 0, 1, 1, 0, 1, 0, 0}), 0, 0.3f, 0.3f).n, vec3(0, 0, -1));
+  EXPECT_EQ(sampleAt(*polygon({0, 0, 0, 0, 1, 0, 1, 0, 0}), 0, 0.3f, 0.3f).n, vec3(0, 0, -1));
+}
+
+TEST(Polygon, ParametersAreObjectSpaceXAndY) {
+  const PrimPtr prim = polygon({1, 5, 0, 3, 5, 2, 3, 9, 2, 1, 9, 0});
+  const float u = 0.25f, v = 0.5f;
+  float su, sv;
+  prim->surfaceParameters(0, 1, &u, &v, &su, &sv);
+  EXPECT_FLOAT_EQ(su, 1.5f);
+  EXPECT_FLOAT_EQ(sv, 7);
+}
+
+TEST(Polygon, AWarpedQuadIsNotPlanarAndHasItsOwnNormals) {
+  const PrimPtr prim = polygon({0, 0, 0, 1, 0, 0, 1, 1, 1, 0, 1, 0});
+  EXPECT_FALSE(prim->info(0).planar);
+  expectDerivativesOfPositions(*prim, 1e-3f);
+  expectBoundsContainTheSurface(*prim);
+}
+
+TEST(Polygon, EdgesBetweenFacesAndInsideThemAreClosed) {
+  Problems problems;  // a quad and a triangle that share edge 1-2
+  const PrimPtr prim = makePolygons({4, 3}, {0, 1, 2, 3, 1, 4, 2},
+                                    {positions({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0})}, problems);
+  ASSERT_EQ(prim->patchCount(), 4u);
+  EXPECT_EQ(prim->info(0).openEdges, kAllEdges & ~kEdgeU1);
+  EXPECT_EQ(prim->info(1).openEdges, kEdgeV0);            // at 1: to 4 is open, to 2 is shared
+  EXPECT_EQ(prim->info(2).openEdges, kEdgeV0 | kEdgeU0);  // at 4
+  EXPECT_EQ(prim->info(3).openEdges, kEdgeU0);            // at 2
+}
+
+TEST(Polygon, FacesThatShareAnEdgeAgreeOnItsPoints) {
+  Problems problems;
+  const std::vector<float> p = {0.1f, 0.2f, 0.3f, 1.7f, 0.1f, 0.9f,  1.3f, 1.1f, 0.2f, 0, 1,  0,
+                                2.9f, 0.3f, 0.7f, 2.1f, 1.4f, -0.3f, 0,    -1,   0.4f, 2, -1, 0.1f};
+  const PrimPtr prim = makePolygons({4, 4}, {0, 1, 2, 3, 1, 4, 5, 2}, {positions(p)}, problems);
+  for (int k = 0; k <= 16; ++k)
+    EXPECT_EQ(sampleAt(*prim, 0, 1, k / 16.0f).p, sampleAt(*prim, 1, 0, k / 16.0f).p);
+  // The opposite sense: two faces that both walk 0-1 first.
+  const PrimPtr mirrored = makePolygons({4, 4}, {0, 1, 2, 3, 1, 0, 6, 7}, {positions(p)}, problems);
+  for (int k = 0; k <= 16; ++k)
+    EXPECT_EQ(sampleAt(*mirrored, 0, k / 16.0f, 0).p, sampleAt(*mirrored, 1, 1 - k / 16.0f, 0).p);
+}
+
+TEST(Polygon, VaryingIsLinearAlongEdgesAndTheMeanAtTheCentre) {
+  Problems problems;
+  const PrimPtr prim = makePolygons(
+      {3}, {0, 1, 2},
+      {positions({0, 0, 0, 1, 0, 0, 0, 1, 0}), floats("k", Storage::Varying, ValueType::Float, {0, 3, 6}),
+       floats("f", Storage::FaceVarying, ValueType::Float, {3, 6, 9})},
+      problems);
+  EXPECT_FLOAT_EQ(primvarAt(*prim, 0, 0, 0, 0)[0], 0);
+  EXPECT_FLOAT_EQ(primvarAt(*prim, 0, 0, 1, 0)[0], 1.5f);
+  EXPECT_FLOAT_EQ(primvarAt(*prim, 0, 0, 1, 1)[0], 3);
+  EXPECT_FLOAT_EQ(primvarAt(*prim, 1, 1, 0, 0)[0], 6);
+  EXPECT_FLOAT_EQ(primvarAt(*prim, 2, 1, 1, 1)[0], 6);
+}
+
+TEST(Polygon, UniformAndFaceVaryingBelongToTheirFaceWhenOthersAreDropped) {
+  Problems problems;  // face 0 has no area
+  const PrimPtr prim =
+      makePolygons({3, 4}, {0, 1, 1, 0, 1, 2, 3},
+                   {positions({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}),
+                    floats("k", Storage::Uniform, ValueType::Float, {7, 8}),
+                    floats("f", Storage::FaceVarying, ValueType::Float, {0, 0, 0, 1, 2, 3, 4})},
+                   problems);
+  ASSERT_EQ(problems.size(), 1u);
+  ASSERT_EQ(prim->patchCount(), 1u);
+  EXPECT_EQ(primvarAt(*prim, 0, 0, 0.5f, 0.5f)[0], 8);
+  EXPECT_EQ(primvarAt(*prim, 0, 1, 1, 0)[0], 2);
+  EXPECT_EQ(primvarAt(*prim, 0, 1, 0, 1)[0], 4);
+}
+
+TEST(Polygon, WrongInputThrowsASentence) {
+  Problems problems;
+  EXPECT_EQ(errorOf([&] {
+              makePolygons({4}, {0, 1, 2, 7}, {positions({0, 0, 0, 1, 0, 0, 1})}, problems);
+            }),
+            "P has 7 values where 8 vertices need 24 floats");
+  EXPECT_NE(errorOf([&] { makePolygons({-3}, {0, 1, 2}, {positions({0, 0, 0})}, problems); }), "");
+  EXPECT_NE(errorOf([&] { makePolygons({3}, {0, -1, 2}, {positions({0, 0, 0})}, problems); }), "");
+  EXPECT_NE(errorOf([&] { makePolygons({4}, {0, 1, 2}, {positions({0, 0, 0})}, problems); }), "");
+  EXPECT_NE(errorOf([&] { makePolygons({}, {}, {}, problems); }), "");
+  EXPECT_NE(errorOf([&] { makePolygons({3}, {0, 1, 2}, {}, problems); }), "");
+  EXPECT_NE(errorOf([&] {
+              makePolygons({3}, {0, 1, 2}, {positions({0, 0, 0, 1, 0, 0, 0, NAN, 0})}, problems);
+            }),
+            "");
+}
+
+TEST(Polygon, DegenerateFacesAreDroppedWithASentence) {
+  for (const std::vector<float>& p : {std::vector<float>{0, 0, 0, 1, 1, 1},
+                                      {0, 0, 0, 1, 1, 1, 2, 2, 2},
+                                      {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}}) {
+    Problems problems;
+    EXPECT_EQ(polygon(p, &problems)->patchCount(), 0u);
+    EXPECT_EQ(problems.size(), 1u);
+  }
+}
+
+TEST(NastyPolygon, SelfCrossingAndSpiralsNeitherCrashNorHang) {
+  std::vector<vec2> pentagram, spiral;
+  for (int i = 0; i < 5; ++i) pentagram.push_back({std::cos(4 * M_PI * i / 5), std::sin(4 * M_PI * i / 5)});
+  for (int i = 0; i < 400; ++i) {
+    const double turn = (i < 200 ? i : 399 - i) / 30.0, r = turn + (i < 200 ? 1 : 0.7);
+    spiral.push_back({r * std::cos(turn), r * std::sin(turn)});
+  }
+  for (const auto& outline : {pentagram, spiral, std::vector<vec2>{{0, 0}, {2, 2}, {2, 0}, {0, 3}}}) {
+    const PrimPtr prim = polygon(flat(outline));
+    EXPECT_GT(prim->patchCount(), 0u);
+    expectSoundEverywhere(*prim);
+    expectBoundsContainTheSurface(*prim, 1000);
+  }
+}
+
+TEST(NastyPolygon, FarFromTheOriginAndTinyKeepsItsNormal) {
+  const PrimPtr prim = polygon({1000, 1000, 0, 1000.01f, 1000, 0, 1000.01f, 1000.01f, 0, 1000, 1000.01f, 0});
+  EXPECT_EQ(sampleAt(*prim, 0, 0.5f, 0.5f).n, vec3(0, 0, 1));
+}
+
+}  // namespace
+}  // namespace tomales

@@ -1,0 +1,123 @@
+#include "reyes/rib/lexer.h"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <cmath>
+#include <vector>
+
+namespace tomales::rib {
+namespace {
+
+using Kind = Token::Kind;
+
+std::vector<Token> tokens(const std::string& text) {
+  const auto stream = ByteStream::fromMemory(text);
+  std::vector<Token> out;
+  for (Lexer lexer(*stream); lexer.peek().kind != Kind::End; lexer.advance()) out.push_back(lexer.peek());
+  return out;
+}
+
+std::string gzip(const std::string& text) {
+  std::string out(text.size() + 100, '\0');
+  z_stream z{};
+  deflateInit2(&z, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
+  z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+  z.avail_in = static_cast<uInt>(text.size());
+  z.next_out = reinterpret_cast<Bytef*>(out.data());
+  z.avail_out = static_cast<uInt>(out.size());
+  deflate(&z, Z_FINISH);
+  out.resize(z.total_out);
+  deflateEnd(&z);
+  return out;
+}
+
+TEST(Lexer, ReadsNumbersInEveryWriting) {
+  const std::string text = "1 -2 +3 .5 -.5 4. 1e3 1E-3 +1.5e+2 007";
+  const double expected[] = {1, -2, 3, .5, -.5, 4, 1000, .001, 150, 7};
+  const auto list = tokens(text);
+  ASSERT_EQ(list.size(), std::size(expected));
+  for (size_t i = 0; i < list.size(); ++i) {
+    EXPECT_EQ(list[i].kind, Kind::Number) << i;
+    EXPECT_DOUBLE_EQ(list[i].number, expected[i]) << i;
+  }
+}
+
+TEST(Lexer, TakesNanInfAndOverflowAsNumbers) {
+  const auto list = tokens("nan -nan inf -inf Infinity 1e999 -1e999 1e-999");
+  ASSERT_EQ(list.size(), 8u);
+  for (const Token& t : list) EXPECT_EQ(t.kind, Kind::Number);
+  EXPECT_TRUE(std::isnan(list[0].number) && std::isnan(list[1].number));
+  for (const size_t i : {2, 4, 5}) EXPECT_EQ(list[i].number, HUGE_VAL) << i;
+  for (const size_t i : {3, 6}) EXPECT_EQ(list[i].number, -HUGE_VAL) << i;
+  EXPECT_EQ(list[7].number, 0);
+}
+
+TEST(Lexer, UnderstandsStringEscapes) {
+  const auto list = tokens(R"("a\"b" "\\" "x\ny" "\101\60" "" "q\z")");
+  ASSERT_EQ(list.size(), 6u);
+  const char* expected[] = {"a\"b", "\\", "x\ny", "A0", "", "qz"};
+  for (size_t i = 0; i < 6; ++i) EXPECT_EQ(list[i].text, expected[i]);
+}
+
+TEST(Lexer, SkipsCommentsAndCountsLines) {
+  const auto list = tokens("##RenderMan RIB-Structure 1.0\nColor # [ \"\n1 \"a\nb\" 2\r\n]");
+  ASSERT_EQ(list.size(), 5u);
+  const int lines[] = {2, 3, 3, 4, 5};
+  for (size_t i = 0; i < 5; ++i) EXPECT_EQ(list[i].line, lines[i]) << i;
+  EXPECT_EQ(list[0].text, "Color");
+  EXPECT_EQ(list[4].kind, Kind::Close);
+}
+
+TEST(Lexer, SeparatesBracketsFromNumbersWithoutBlanks) {
+  const auto list = tokens("[1 2]\"a\"[-3]");
+  ASSERT_EQ(list.size(), 8u);
+  EXPECT_EQ(list[2].number, 2);
+  EXPECT_EQ(list[4].text, "a");
+  EXPECT_EQ(list[6].number, -3);
+}
+
+TEST(Lexer, MakesOneTokenOfARunOfJunk) {
+  const auto list = tokens(std::string("A \x80\x81\x01\x02\xff B", 9));
+  ASSERT_EQ(list.size(), 3u);
+  EXPECT_EQ(list[1].kind, Kind::Junk);
+  EXPECT_EQ(list[2].text, "B");
+}
+
+TEST(Lexer, GivesUpOnStringsWithoutEndAndOnEndlessWords) {
+  EXPECT_EQ(tokens("\"abc")[0].kind, Kind::Junk);
+  EXPECT_EQ(tokens("\"" + std::string(2 << 20, 'x') + "\"")[0].kind, Kind::Junk);
+  const auto list = tokens(std::string(1 << 20, 'x') + " 1");
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_EQ(list[0].kind, Kind::Junk);
+  EXPECT_LT(list[0].text.size(), 100u);
+}
+
+TEST(ByteStream, UnpacksGzipAndConcatenatedGzip) {
+  std::string text;
+  for (int i = 0; i < 50000; ++i) text += std::to_string(i) + " ";
+  const auto list = tokens(gzip(text) + gzip("77"));
+  ASSERT_EQ(list.size(), 50001u);
+  EXPECT_EQ(list[49999].number, 49999);
+  EXPECT_EQ(list[50000].number, 77);
+}
+
+TEST(ByteStream, ReadsDamagedGzipUpToTheDamage) {
+  const std::string whole = gzip("1 2 3 4 5 6 7 8 9 10 11 12"), cut = whole.substr(0, whole.size() - 9);
+  const auto stream = ByteStream::fromMemory(cut);
+  Lexer lexer(*stream);
+  while (lexer.peek().kind != Kind::End) lexer.advance();
+  EXPECT_TRUE(stream->damaged());
+  const std::string badHeader = "\x1f\x8bgarbage that is no gzip";
+  const auto bad = ByteStream::fromMemory(badHeader);
+  EXPECT_EQ(bad->get(), ByteStream::kEnd);
+  EXPECT_TRUE(bad->damaged());
+}
+
+TEST(ByteStream, RefusesFoldersAndMissingFiles) {
+  EXPECT_EQ(ByteStream::open("/"), nullptr);
+  EXPECT_EQ(ByteStream::open("/no/such/file.rib"), nullptr);
+}
+
+}  // namespace
+}  // namespace tomales::rib

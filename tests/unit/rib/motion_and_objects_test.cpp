@@ -1,0 +1,198 @@
+// Motion blocks, retained objects, archives, geometry requests.
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "rib_test_tools.h"
+
+namespace tomales {
+namespace {
+
+const std::string kSphere = "Sphere 1 -1 1 360\n";
+
+TEST(Motion, MovesTransformations) {
+  const Reading r(
+      "Shutter 0 1" +
+      inWorld("MotionBegin [0 1] Translate 0 0 0 Translate 4 0 0 MotionEnd Scale 2 2 2 " + kSphere));
+  const vec3 p = transformPoint(r.object(0).worldFromObject.at(.25f), {1, 0, 0});
+  EXPECT_FLOAT_EQ(p.x, 3);
+}
+
+TEST(Motion, DeformsGeometry) {
+  const Reading r("Shutter 0 1" + inWorld("MotionBegin [0 1] Sphere 1 -1 1 360 Sphere 2 -2 2 360 MotionEnd"));
+  ASSERT_EQ(r.object(0).shapes.size(), 2u);
+  EXPECT_EQ(r.object(0).shapeTimes, (std::vector<float>{0, 1}));
+  const UvRect all;
+  EXPECT_GT(r.object(0).shapes[1]->bound(0, all).size().x,
+            1.9f * r.object(0).shapes[0]->bound(0, all).size().x);
+}
+
+TEST(Motion, KeepsTheFirstShapeWhereTopologiesDiffer) {
+  const Reading r(
+      inWorld("MotionBegin [0 1]\nPolygon \"P\" [0 0 0 1 0 0 0 1 0]\n"
+              "PointsPolygons [3 3] [0 1 2 0 2 3] \"P\" [0 0 0 1 0 0 0 1 0 5 5 5]\nMotionEnd"));
+  ASSERT_EQ(r.scene().objects.size(), 2u) << "different requests end the block: both are drawn";
+  const Reading s(
+      inWorld("MotionBegin [0 1]\nPointsPolygons [3] [0 1 2] \"P\" [0 0 0 1 0 0 0 1 0]\n"
+              "PointsPolygons [3 3] [0 1 2 0 2 3] \"P\" [0 0 0 1 0 0 0 1 0 5 5 5]\nMotionEnd"));
+  ASSERT_EQ(s.scene().objects.size(), 1u);
+  EXPECT_EQ(s.object(0).shapes.size(), 1u);
+  EXPECT_EQ(s.message("rib-motion").where.line, 4);
+}
+
+TEST(Motion, WithWrongTimesOrCountsUsesWhatFits) {
+  const Reading r(inWorld("MotionBegin [1 0] Translate 1 0 0 Translate 2 0 0 MotionEnd " + kSphere +
+                          "Identity MotionBegin [0 1] Translate 3 0 0 MotionEnd " + kSphere));
+  EXPECT_FALSE(r.object(0).worldFromObject.moving());
+  EXPECT_FLOAT_EQ(r.object(0).worldFromObject.at(0)[3].x, 1);
+  EXPECT_FLOAT_EQ(r.object(1).worldFromObject.at(0)[3].x, 3);
+  EXPECT_GE(r.log.count("rib-motion"), 2);
+}
+
+TEST(Motion, WithoutEndDoesNotSwallowTheScene) {
+  const Reading r(inWorld("MotionBegin [0 1] Translate 1 0 0 Translate 2 0 0 " + kSphere + kSphere));
+  ASSERT_EQ(r.scene().objects.size(), 2u);
+  EXPECT_TRUE(r.object(1).worldFromObject.moving());
+}
+
+TEST(Objects, ShareTheirGeometryAndTakeTheAttributesOfTheInstance) {
+  const Reading r(inWorld("ObjectBegin 1 " + kSphere + "AttributeBegin Color 0 0 1 Translate 0 1 0 " +
+                          kSphere +
+                          "AttributeEnd ObjectEnd Color 1 0 0 Translate 1 0 0 ObjectInstance 1 Color 0 1 0 "
+                          "Translate 1 0 0 ObjectInstance 1 " +
+                          kSphere));
+  ASSERT_EQ(r.scene().objects.size(), 5u);
+  EXPECT_EQ(&r.object(0).shape(), &r.object(2).shape());
+  EXPECT_EQ(&r.object(1).shape(), &r.object(3).shape());
+  EXPECT_EQ(r.attributes(0).color, vec3(1, 0, 0));
+  EXPECT_EQ(r.attributes(2).color, vec3(0, 1, 0));
+  EXPECT_EQ(r.attributes(1).color, vec3(0, 0, 1)) << "what the master sets wins";
+  EXPECT_EQ(r.attributes(3).color, vec3(0, 0, 1));
+  EXPECT_EQ(r.object(3).worldFromObject.at(0)[3], vec4(2, 1, 0, 1));
+  EXPECT_EQ(r.object(4).worldFromObject.at(0)[3], vec4(2, 0, 0, 1)) << "an instance leaves nothing behind";
+}
+
+TEST(Objects, KeepTheirPlaceOverIdentityAndTransformWithin) {
+  const Reading r(
+      inWorld("ObjectBegin 1 Identity " + kSphere + "ObjectEnd Translate 3 0 0 ObjectInstance 1"));
+  EXPECT_EQ(r.object(0).worldFromObject.at(0)[3], vec4(3, 0, 0, 1));
+}
+
+TEST(Objects, BuildPatchesAnewUnderAnotherBasis) {
+  std::string p;
+  for (int i = 0; i < 16; ++i) p += std::to_string(i % 4) + " " + std::to_string(i / 4) + " 0 ";
+  const Reading r(inWorld("ObjectBegin 1 Patch \"bicubic\" \"P\" [" + p +
+                          "] ObjectEnd ObjectInstance 1 "
+                          "Basis \"b-spline\" 1 \"b-spline\" 1 ObjectInstance 1 Basis [-1 3 -3 1 3 -6 3 0 -3 "
+                          "3 0 0 1 0 0 0] 3 \"bezier\" 3 ObjectInstance 1"));
+  const UvRect all;
+  const auto width = [&](size_t i) { return r.object(i).shape().bound(0, all).size().x; };
+  EXPECT_NEAR(width(0), 3, 1e-3);
+  EXPECT_LT(width(1), 2);
+  EXPECT_FLOAT_EQ(width(2), width(0)) << "the Bezier basis written out";
+}
+
+TEST(Objects, ThatNameEachOtherEnd) {
+  const Reading r(
+      inWorld("ObjectBegin 1 " + kSphere + "ObjectInstance 1 ObjectInstance 1 ObjectEnd ObjectInstance 1"));
+  EXPECT_GE(r.log.count("rib-nesting"), 1);
+  EXPECT_GE(r.scene().objects.size(), 1u);
+}
+
+TEST(Objects, ThatAreUnknownAreMissing) {
+  const Reading r(inWorld("ObjectInstance 5 " + kSphere));
+  EXPECT_EQ(r.message("rib-unknown-object").severity, Severity::Missing);
+  EXPECT_EQ(r.scene().objects.size(), 1u);
+}
+
+TEST(Geometry, IsBuiltFromEveryRequest) {
+  const std::string square = "\"P\" [0 0 0  1 0 0  1 1 0  0 1 0]";
+  const Reading r(
+      inWorld("Sphere 1 -1 1 360 Cone 1 1 360 Cylinder 1 0 1 360 Hyperboloid 1 0 0 1 0 1 360 "
+              "Paraboloid 1 0 1 360 Disk 0 1 360 Torus 2 1 0 360 360 Polygon " +
+              square + " GeneralPolygon [4] " + square + " PointsPolygons [4] [0 1 2 3] " + square +
+              " PointsGeneralPolygons [1] [4] [0 1 2 3] " + square +
+              " Patch \"bilinear\" \"P\" [0 0 0 1 0 0 0 1 0 1 1 0] PatchMesh \"bilinear\" 3 \"nonperiodic\" "
+              "2 \"nonperiodic\" "
+              "\"P\" [0 0 0 1 0 0 2 0 0 0 1 0 1 1 0 2 1 0] SubdivisionMesh \"catmull-clark\" [4] [0 1 2 3] "
+              "[\"interpolateboundary\"] [0 0] [] [] " +
+              square));
+  EXPECT_EQ(r.codes(), "");
+  ASSERT_EQ(r.scene().objects.size(), 14u);
+  EXPECT_EQ(r.object(12).shape().patchCount(), 2u);
+}
+
+TEST(Geometry, WithHolesIsFilledAndSaysSo) {
+  const Reading r(inWorld("GeneralPolygon [4 3] \"P\" [0 0 0 9 0 0 9 9 0 0 9 0  1 1 0 2 1 0 1 2 0]"));
+  EXPECT_EQ(r.scene().objects.size(), 1u);
+  EXPECT_NE(r.message("rib-primitive").message.find("holes"), std::string::npos);
+}
+
+class Archives : public testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::create_directories(folder_ + "/sub"); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::string write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ + "/" + name) << text;
+    return folder_ + "/" + name;
+  }
+  std::vector<Scene> read(const std::vector<std::string>& files) {
+    std::vector<Scene> scenes;
+    RibSettings settings;
+    settings.onScene = [&](Scene&& s) { scenes.push_back(std::move(s)); };
+    good_ = readRib(files, settings, log_);
+    return scenes;
+  }
+  const std::string folder_ = testing::TempDir() + "tomales_archives";
+  Log log_{Log::Verbosity::Quiet};
+  bool good_ = false;
+};
+
+TEST_F(Archives, AreFoundBesideTheFileThatReadsThem) {
+  write("sub/ball.rib", kSphere);
+  write("sub/scene.rib", "ReadArchive \"ball.rib\"\n");
+  const auto scenes = read({write("main.rib", inWorld("ReadArchive \"sub/scene.rib\""))});
+  EXPECT_EQ(scenes.at(0).objects.size(), 1u);
+  EXPECT_NE(scenes[0].objects[0].where.text().find("ball.rib:1"), std::string::npos);
+}
+
+TEST_F(Archives, AreFoundInTheSearchPath) {
+  write("sub/ball.rib", kSphere);
+  const auto scenes = read({write("main.rib", "Option \"searchpath\" \"archive\" \"/none:" + folder_ +
+                                                  "/sub\"" + inWorld("ReadArchive \"ball.rib\""))});
+  EXPECT_EQ(scenes.at(0).objects.size(), 1u);
+}
+
+TEST_F(Archives, ThatReadThemselvesAreStopped) {
+  write("a.rib", kSphere + "ReadArchive \"b.rib\"");
+  write("b.rib", "ReadArchive \"a.rib\"");
+  const auto scenes = read({write("main.rib", inWorld("ReadArchive \"a.rib\""))});
+  EXPECT_TRUE(good_);
+  EXPECT_EQ(scenes.at(0).objects.size(), 1u);
+  EXPECT_EQ(log_.count("rib-archive-recursion"), 1);
+}
+
+TEST_F(Archives, ThatAreMissingAreReportedAndTheRestIsRead) {
+  const auto scenes = read({write("main.rib", inWorld("ReadArchive \"none.rib\"\n" + kSphere))});
+  EXPECT_TRUE(good_);
+  EXPECT_EQ(scenes.at(0).objects.size(), 1u);
+  EXPECT_EQ(log_.worst(), Severity::Missing);
+  EXPECT_EQ(log_.entries()[0].where.line, 2);
+}
+
+TEST_F(Archives, SeveralFilesAreOneStream) {
+  const auto scenes = read({write("head.rib", "Format 12 12 1 Declare \"my\" \"float\"\n"),
+                            write("body.rib", inWorld("Surface \"x\" \"my\" 3 " + kSphere))});
+  EXPECT_EQ(scenes.at(0).options.xResolution, 12);
+  EXPECT_EQ(scenes[0].objects.at(0).attributes->surface->params.size(), 1u);
+}
+
+TEST_F(Archives, FilesThatCannotBeOpenedFailButTheOthersAreRead) {
+  const auto scenes = read({folder_ + "/none.rib", write("b.rib", inWorld(kSphere))});
+  EXPECT_FALSE(good_);
+  EXPECT_EQ(scenes.size(), 1u);
+  EXPECT_EQ(log_.worst(), Severity::Error);
+}
+
+}  // namespace
+}  // namespace tomales

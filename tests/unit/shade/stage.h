@@ -1,0 +1,160 @@
+// A scene of one object with hand-made points, and stand-ins for rays, so that every expected value can be
+// worked out on paper.
+#pragma once
+#include <gtest/gtest.h>
+
+#include "reyes/shade.h"
+
+namespace tomales {
+
+inline Param number(const std::string& name, float v) {
+  Param p;
+  p.name = name, p.floats = {v};
+  return p;
+}
+inline Param triple(const std::string& name, ValueType type, const vec3& v) {
+  Param p;
+  p.name = name, p.type = type, p.floats = {v.x, v.y, v.z};
+  return p;
+}
+inline Param color(const std::string& name, const vec3& v) { return triple(name, ValueType::Color, v); }
+inline Param point(const std::string& name, const vec3& v) { return triple(name, ValueType::Point, v); }
+inline Param text(const std::string& name, const std::string& v) {
+  Param p;
+  p.name = name, p.type = ValueType::String, p.strings = {v};
+  return p;
+}
+
+/// Geometry is never asked of it; only its primitive variables matter.
+class BlankPrim final : public Prim {
+ public:
+  explicit BlankPrim(std::vector<Primvar> primvars) : Prim(std::move(primvars)) {}
+  uint32_t patchCount() const override { return 1; }
+  PatchInfo info(uint32_t) const override { return {}; }
+  Bound3 bound(uint32_t, const UvRect&) const override { return {}; }
+  void evaluate(uint32_t, int, const float*, const float*, SurfacePoints) const override {}
+  void interpolate(uint32_t, int, int, const float*, const float*, float*, int) const override {}
+};
+
+/// Rays that are functions; unset ones leave everything as it is.
+class FakeServices final : public ShadeServices {
+ public:
+  std::function<float(const vec3& P, const vec3& toward)> visible;
+  std::function<void(float a, float b, vec3& P, vec3& N, float& area)> emitter;
+  vec3 E{0.0f}, dominant[3] = {vec3(0, 0, -1), vec3(0, 0, -1), vec3(0, 0, -1)};
+  mutable int shadowRays = 0, gathers = 0;
+  mutable std::vector<IndirectQuery> queries;
+
+  void transmission(const ShadePoints& points, const uint8_t* active, TmConstVec3 toward, bool solar,
+                    const ShadeContext&, TmVec3 light) const override {
+    lastSolar = solar;
+    for (int i = 0; i < points.count(); ++i) {
+      if (!active[i]) continue;
+      ++shadowRays;
+      const float v = visible ? visible(points.position(i), {toward.x[i], toward.y[i], toward.z[i]}) : 1.0f;
+      light.x[i] *= v, light.y[i] *= v, light.z[i] *= v;
+    }
+  }
+  bool sampleEmitter(int, int count, const float* a, const float* b, TmVec3 P, TmVec3 N,
+                     float* area) const override {
+    if (!emitter) return false;
+    for (int i = 0; i < count; ++i) {
+      vec3 p, n;
+      emitter(a[i], b[i], p, n, area[i]);
+      P.x[i] = p.x, P.y[i] = p.y, P.z[i] = p.z, N.x[i] = n.x, N.y[i] = n.y, N.z[i] = n.z;
+    }
+    return true;
+  }
+  void indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3,
+                       const IndirectQuery& query, const ShadeContext&, IndirectResult out) const override {
+    queries.push_back(query);
+    for (int i = 0; i < points.count(); ++i) {
+      if (!active[i]) continue;
+      ++gathers;
+      out.E.x[i] = E.x, out.E.y[i] = E.y, out.E.z[i] = E.z;
+      for (int k = 0; k < 3; ++k) {
+        TmVec3& d = out.dominant[k];
+        d.x[i] = dominant[k].x, d.y[i] = dominant[k].y, d.z[i] = dominant[k].z;
+      }
+    }
+  }
+  mutable bool lastSolar = false;
+};
+
+class Stage : public ::testing::Test {
+ protected:
+  Stage() : registry(log) { registry.addLibrary(tomales_builtin_shaders(), "built-in"); }
+
+  static SourceLoc at(int line) { return {std::make_shared<const std::string>("stage.rib"), line}; }
+  static ShaderCall call(const std::string& name, ParamList params, int line = 7) {
+    return {name, std::move(params), Motion::still(mat4(1.0f)), at(line)};
+  }
+  void surface(const std::string& name, ParamList params = {}) {
+    attributes.surface = std::make_shared<const ShaderCall>(call(name, std::move(params)));
+  }
+  void displacement(const std::string& name, ParamList params = {}) {
+    attributes.displacement = std::make_shared<const ShaderCall>(call(name, std::move(params), 8));
+  }
+  LightCall& light(const std::string& name, ParamList params = {}, bool area = false) {
+    auto l = std::make_shared<LightCall>();
+    l->shader = call(name, std::move(params), 5), l->handle = name, l->area = area;
+    l->index = static_cast<int>(scene.lights.size());
+    attributes.lights.push_back(l->index);
+    scene.lights.push_back(l);
+    return *l;
+  }
+  void primvar(const std::string& name, ValueType type) {
+    primvars.push_back({name, Storage::Varying, type, floatsPerValue(type), {}});
+  }
+
+  /// Freezes the scene around the one object.
+  ShadingSystem& system() {
+    if (shading) return *shading;
+    Object o;
+    attributes.name = "thing";
+    o.shapes = {std::make_shared<BlankPrim>(primvars)};
+    o.worldFromObject = worldFromObject;
+    o.attributes = std::make_shared<const Attributes>(attributes);
+    o.where = at(9);
+    scene.objects.push_back(o);
+    scene.freeze();
+    shading = std::make_unique<ShadingSystem>(scene, registry, &services, log, stats);
+    return *shading;
+  }
+
+  /// Points that face the eye unless told otherwise; u, v, s, t run over them.
+  ShadePoints points(const std::vector<vec3>& P, const vec3& N = vec3(0, 0, -1)) {
+    int floats = 0;
+    for (const Primvar& p : primvars) floats += p.width;
+    ShadePoints out(0, floats);
+    for (size_t k = 0; k < P.size(); ++k) {
+      const int i = out.add(static_cast<uint32_t>(1000 + k));
+      out.set3(kPx, i, P[k]), out.set3(kNx, i, N), out.set3(kNgx, i, N), out.set3(kIx, i, vec3(0, 0, 1));
+      out.channel(kU)[i] = out.channel(kS)[i] = static_cast<float>(k) / static_cast<float>(P.size());
+      out.channel(kV)[i] = out.channel(kT)[i] = 0.5f;
+    }
+    return out;
+  }
+  ShadedPoints shade(const ShadePoints& p, const ShadeContext& context = {}) {
+    ShadedPoints out;
+    system().shade(p, context, out);
+    return out;
+  }
+  vec3 shadeOne(const ShadeContext& context = {}) { return shade(points({vec3(0, 0, 5)}), context).color(0); }
+
+  Log log{Log::Verbosity::Quiet};
+  Stats stats;
+  ShaderRegistry registry;
+  Scene scene;
+  Attributes attributes;
+  std::vector<Primvar> primvars;
+  Motion worldFromObject;
+  FakeServices services;
+  std::unique_ptr<ShadingSystem> shading;
+};
+
+inline void expectColor(const vec3& is, const vec3& should, float tolerance = 1e-5f) {
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(is[k], should[k], tolerance) << "channel " << k;
+}
+
+}  // namespace tomales
