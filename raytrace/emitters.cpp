@@ -1,5 +1,7 @@
 #include "raytrace/emitters.h"
 
+#include <algorithm>
+
 namespace tomales {
 namespace {
 
@@ -17,18 +19,31 @@ void bilinear(const CoarseGroup& g, uint32_t quad, float u, float v, vec3& P, ve
 
 }  // namespace
 
+size_t Emitters::Cumulated::pick(double& x) const {
+  const double at = x * total();
+  const auto next = std::upper_bound(sums.begin() + 1, sums.end() - 1, at);
+  const auto k = static_cast<size_t>(next - sums.begin()) - 1;
+  const double part = sums[k + 1] - sums[k];
+  x = part > 0 ? std::clamp((at - sums[k]) / part, 0.0, 1.0) : 0.5;
+  return k;
+}
+
 Emitters::Emitters(const Scene& scene, const std::vector<CoarseGroup>& groups)
     : groups_(groups), lights_(scene.lights.size()) {
   for (uint32_t g = 0; g < groups.size(); ++g) {
     const int light = scene.groups[g].attributes->areaLight;
     if (light < 0 || light >= static_cast<int>(lights_.size())) continue;
     Light& out = lights_[static_cast<size_t>(light)];
-    if (out.cumulated_area.empty()) out.cumulated_area.push_back(0);
-    for (uint32_t quad = 0; quad < groups[g].quads.size(); ++quad) {
-      const float area = areaOf(groups[g], quad);
-      if (!(area > 0)) continue;
-      out.sources.push_back({g, quad});
-      out.cumulated_area.push_back(out.cumulated_area.back() + double{area});
+    for (const Lattice& lattice : groups[g].lattices) {
+      Source source{g, lattice.firstQuad, lattice.nu, {}, std::vector<Cumulated>(lattice.nv)};
+      for (uint32_t j = 0; j < lattice.nv; ++j) {
+        for (uint32_t i = 0; i < lattice.nu; ++i)
+          source.row[j].add(double{areaOf(groups[g], lattice.firstQuad + j * lattice.nu + i)});
+        source.rows.add(source.row[j].total());
+      }
+      if (!(source.rows.total() > 0)) continue;
+      out.areas.add(source.rows.total());
+      out.sources.push_back(std::move(source));
     }
   }
 }
@@ -38,18 +53,17 @@ bool Emitters::sample(int light, int count, const float* xi0, const float* xi1, 
   if (light < 0 || light >= static_cast<int>(lights_.size())) return false;
   const Light& l = lights_[static_cast<size_t>(light)];
   if (l.sources.empty()) return false;
-  const double total = l.cumulated_area.back();
   for (int i = 0; i < count; ++i) {
-    const double at = double{xi0[i]} * total;
-    const auto next = std::upper_bound(l.cumulated_area.begin() + 1, l.cumulated_area.end() - 1, at);
-    const auto k = static_cast<size_t>(next - l.cumulated_area.begin()) - 1;
-    const double quadArea = l.cumulated_area[k + 1] - l.cumulated_area[k];
-    const auto u = static_cast<float>(std::clamp((at - l.cumulated_area[k]) / quadArea, 0.0, 1.0));
-    const CoarseGroup& g = groups_[l.sources[k].group];
+    double u{xi0[i]}, v{xi1[i]};
+    const Source& source = l.sources[l.areas.pick(u)];
+    const size_t row = source.rows.pick(v), column = source.row[row].pick(u);
+    const auto quad = static_cast<uint32_t>(source.firstQuad + row * source.columns + column);
+    const CoarseGroup& g = groups_[source.group];
     vec3 p, normal;
-    bilinear(g, l.sources[k].quad, u, xi1[i], p, normal);
-    area[i] = static_cast<float>(double{glm::length(normal)} * total / quadArea);
-    normal = normalizeOr(g.flipsNormal ? -normal : normal, g.geometricNormal(l.sources[k].quad));
+    bilinear(g, quad, static_cast<float>(u), static_cast<float>(v), p, normal);
+    const double quadArea = source.row[row].sums[column + 1] - source.row[row].sums[column];
+    area[i] = quadArea > 0 ? static_cast<float>(double{glm::length(normal)} * l.areas.total() / quadArea) : 0.0f;
+    normal = normalizeOr(g.flipsNormal ? -normal : normal, g.geometricNormal(quad));
     P.x[i] = p.x, P.y[i] = p.y, P.z[i] = p.z;
     N.x[i] = normal.x, N.y[i] = normal.y, N.z[i] = normal.z;
   }

@@ -9,19 +9,30 @@ class Emitters {
  public:
   Emitters(const Scene& scene, const std::vector<CoarseGroup>& groups);
 
-  /// Meaning as ShadeServices::sampleEmitter. Within a quad points are bilinear, so stratified (xi0, xi1)
-  /// stay stratified; `area` is the Jacobian over the probability of the quad: the total area wherever quads
-  /// are parallelograms.
+  /// Meaning as ShadeServices::sampleEmitter. xi0 picks the lattice, xi1 its row and v, what is left of xi0 the
+  /// column and u, all by area: a continuous warp of the unit square over each lattice, so that stratified points
+  /// stay stratified. `area` is the Jacobian over the probability of the quad: the total area wherever quads are
+  /// parallelograms.
   bool sample(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N,
               float* area) const;
 
  private:
+  /// Sums from 0 of areas that a number in [0,1) picks from.
+  struct Cumulated {
+    std::vector<double> sums{0.0};
+    void add(double area) { sums.push_back(sums.back() + area); }
+    double total() const { return sums.back(); }
+    /// The part that x falls into; x becomes its place inside that part, [0,1].
+    size_t pick(double& x) const;
+  };
   struct Source {
-    uint32_t group, quad;
+    uint32_t group, firstQuad, columns;
+    Cumulated rows;
+    std::vector<Cumulated> row;  ///< quads of each row
   };
   struct Light {
     std::vector<Source> sources;
-    std::vector<double> cumulated_area;  ///< sources.size() + 1 values from 0.
+    Cumulated areas;
   };
   const std::vector<CoarseGroup>& groups_;
   std::vector<Light> lights_;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numeric>
 
 #include "raytrace/ray_scene.h"
@@ -16,13 +17,18 @@ vec3 bled(const vec3& color, const Attributes& a) {
   return glm::mix(vec3(luminance(color)), color, a.indirect.bleeding) * a.indirect.bleedingColor;
 }
 
-/// Hit indices by shade group, in the order of the hits.
-std::vector<std::vector<size_t>> byGroup(const Scene& scene, const std::vector<Hit>& hits) {
-  std::vector<std::vector<size_t>> out(scene.groups.size());
-  for (size_t i = 0; i < hits.size(); ++i)
-    if (hits[i].object >= 0)
-      out[static_cast<size_t>(scene.objects[static_cast<size_t>(hits[i].object)].group)].push_back(i);
-  return out;
+/// Indices of the hits, those of one shade group together, in the order of the hits inside it.
+std::vector<uint32_t> byGroup(const Scene& scene, const std::vector<Hit>& hits, std::vector<int>& group) {
+  std::vector<uint32_t> order;
+  order.reserve(hits.size());
+  group.assign(hits.size(), -1);
+  for (size_t i = 0; i < hits.size(); ++i) {
+    if (hits[i].object < 0) continue;
+    group[i] = scene.objects[static_cast<size_t>(hits[i].object)].group;
+    order.push_back(static_cast<uint32_t>(i));
+  }
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return group[a] < group[b]; });
+  return order;
 }
 
 /// Parameters and primitive variables are those of the true surface, place and normals those that the ray
@@ -44,20 +50,22 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
                          const ShadeContext& context, std::vector<vec3>& radiance) const {
   const Scene& scene = impl_->scene;
   radiance.assign(hits.size(), vec3(0));
-  const auto groups = byGroup(scene, hits);
+  std::vector<int> groupOf;
+  const std::vector<uint32_t> order = byGroup(scene, hits, groupOf);
   const bool diffuse = context.kind == RayKind::Diffuse;
   ShadedPoints shaded;
-  for (size_t g = 0; g < groups.size(); ++g) {
-    if (groups[g].empty()) continue;
-    const ShadeGroup& group = scene.groups[g];
-    ShadePoints points(static_cast<int>(g), primvarFloats(group));
-    points.reserve(static_cast<int>(groups[g].size()));
-    for (const size_t i : groups[g]) addPoint(scene, rays[i], hits[i], keys[i], points);
+  for (size_t first = 0, last = 0; first < order.size(); first = last) {
+    const int g = groupOf[order[first]];
+    while (last < order.size() && groupOf[order[last]] == g) ++last;
+    const ShadeGroup& group = scene.groups[static_cast<size_t>(g)];
+    ShadePoints points(g, primvarFloats(group));
+    points.reserve(static_cast<int>(last - first));
+    for (size_t k = first; k < last; ++k) addPoint(scene, rays[order[k]], hits[order[k]], keys[order[k]], points);
     shading.shade(points, context, shaded);
-    const vec3 emission = diffuse ? vec3(0) : shading.visibleEmission(static_cast<int>(g));
-    for (size_t k = 0; k < groups[g].size(); ++k) {
-      const size_t i = groups[g][k];
-      const vec3 color = shaded.color(static_cast<int>(k));
+    const vec3 emission = diffuse ? vec3(0) : shading.visibleEmission(g);
+    for (size_t k = first; k < last; ++k) {
+      const uint32_t i = order[k];
+      const vec3 color = shaded.color(static_cast<int>(k - first));
       const bool front = dot(rays[i].direction, hits[i].geometricNormal) < 0;
       radiance[i] = diffuse ? bled(color, *group.attributes) : color + (front ? emission : vec3(0));
     }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kPolygon_px = 8;
 constexpr float kTurn = 15 * kPi / 180;        ///< Radians between the normals at the ends of a polygon.
-constexpr float kEmitterTurn = 5 * kPi / 180;  ///< Brings the area of a sphere light within 0.2 %.
+constexpr float kEmitterTurn = 5 * kPi / 180;  ///< Brings the area of a sphere light within 0.5 %.
 constexpr int kProbes = 5;                     ///< Odd, so that a symmetrical wave is not met at its zeros.
 constexpr int kTile = 64;  ///< Quads of one lattice along u or v: bounds what is diced at once.
 constexpr double kMostQuadsOfPatch = 1 << 22;

@@ -33,7 +33,7 @@ bool traceable(const Ray& ray) {
   return isFinite(ray.origin) && isFinite(ray.direction) && ray.direction != vec3(0) && ray.tMax > 0;
 }
 
-/// Positions carry a few units in the last place of their distance from the eye.
+/// Positions are off by a few units in the last place of their distance from the eye.
 RayStart startOf(const Ray& ray) { return {ray.offset, 4e-7f * glm::length(ray.origin), ray.group}; }
 
 /// A list for each thread: no allocation once it has grown.

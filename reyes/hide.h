@@ -35,7 +35,8 @@ struct RasterGrid {
   bool matte = false;
   int sides = 2;
   bool smooth = false;          ///< ShadingInterpolation
-  AlignedVector<float> x, y, d; ///< Raster x, y and depth key (Camera::depthKey): keyCount * stride each; borders pushed out.
+  AlignedVector<float> x, y, d; ///< Raster x, y and depth key (Camera::depthKey): keyCount * stride each, then a tail to read blocks
+                                ///< across the end; borders pushed out.
   float dMin = 0;
   Bound2 bound;
 };
@@ -44,6 +45,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
 
 class Hider {
  public:
+  /// All but `rect` must outlive the Hider.
   Hider(const Scene& scene, const Camera& camera, const SamplePattern& pattern, const PixelRect& rect);
   ~Hider();
   /// True if every sample in the bound is already hidden by something opaque nearer than zMin (camera space).

@@ -8,6 +8,12 @@
 namespace tomales {
 namespace {
 
+constexpr const char* kExitCodes =
+    "Exit codes: 0 done; 1 wrong usage; 2 the scene could not be read; 3 the frame is complete but something "
+    "was missing and a\n"
+    "loud substitute was rendered; 4 output could not be written; 130, 143 interrupted, finished buckets "
+    "written.";
+
 /// An option whose text must parse: stores the value or makes the usage error.
 template <class T, class Parse>
 CLI::Option* addParsed(CLI::App& app, const std::string& name, T& target, Parse parse,
@@ -35,7 +41,9 @@ GiChoice giOrUsageError(const std::string& text) {
 
 void addPictureOptions(CLI::App& app, RenderSettings& s) {
   addParsed(app, "-o", s.output, parseOutput, "FILE.exr|.tif|.png",
-            "Write here instead of to the first Display; # stands for the frame number. PNG: rgb, sRGB");
+            "Write here instead of to the first Display; # stands for the frame number. PNG: rgb, sRGB. A "
+            "scene without Display writes "
+            "ri.exr");
   const auto format = [](const std::string& t) { return parsePair(t, 1, 65536); };
   const auto pixelSamples = [](const std::string& t) { return parsePair(t, 1, 64); };
   addParsed(app, "--format", s.format, format, "WxH", "Resolution in pixels");
@@ -118,6 +126,7 @@ bool namesCommand(const std::string& text) {
 int parseAndRun(int argc, char** argv) {
   CLI::App app("Tomales, a Reyes renderer with global illumination");
   app.set_version_flag("--version", std::string("tomales ") + kVersion);
+  app.footer(kExitCodes);
   app.require_subcommand(1);
   Invocation in;
   int code = kDone;

@@ -1,4 +1,4 @@
-// Stats and Log as the JSON object of --stats (docs/statistics are that object's keys).
+// Stats and Log as the JSON object of --stats. Keys may be added; farms rely on those that exist.
 #pragma once
 #include <string>
 

@@ -8,13 +8,13 @@
 namespace tomales {
 
 struct ThreadLimit::Impl {
-  tbb::global_control control;
+  explicit Impl(size_t threads) : control(tbb::global_control::max_allowed_parallelism, threads) {}
+  tbb::global_control control;  // registers its own address: never copy one
 };
 
 ThreadLimit::ThreadLimit(int threads) {
   if (threads > 0)
-    impl_ = std::make_unique<Impl>(tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                                        static_cast<size_t>(threads)));
+    impl_ = std::make_unique<Impl>(static_cast<size_t>(threads));
 }
 ThreadLimit::~ThreadLimit() = default;
 

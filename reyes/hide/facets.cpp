@@ -4,7 +4,8 @@
 
 namespace tomales {
 
-/// How a point reads a grid: its value is the mean over four vertices, its step along u the scaled difference of two sums.
+/// How a point reads a grid: its value is the mean over four vertices, its step along u the scaled difference
+/// of two sums.
 struct FacetTable::Stencil {
   int at[4];
   int uLo[2], uHi[2], vLo[2], vHi[2];
@@ -16,10 +17,16 @@ struct FacetTable::Stencil {
   }
   static Stencil vertex(const Grid& g, int vertex) {
     const int row = g.nu + 1, i = vertex % row, j = vertex / row;
-    const int i0 = std::max(i - 1, 0), i1 = std::min(i + 1, g.nu), j0 = std::max(j - 1, 0), j1 = std::min(j + 1, g.nv);
+    const int i0 = std::max(i - 1, 0), i1 = std::min(i + 1, g.nu), j0 = std::max(j - 1, 0),
+              j1 = std::min(j + 1, g.nv);
     const int uLo = j * row + i0, uHi = j * row + i1, vLo = j0 * row + i, vHi = j1 * row + i;
-    return {{vertex, vertex, vertex, vertex}, {uLo, uLo}, {uHi, uHi}, {vLo, vLo}, {vHi, vHi},
-            0.5f / static_cast<float>(i1 - i0), 0.5f / static_cast<float>(j1 - j0)};
+    return {{vertex, vertex, vertex, vertex},
+            {uLo, uLo},
+            {uHi, uHi},
+            {vLo, vLo},
+            {vHi, vHi},
+            0.5f / static_cast<float>(i1 - i0),
+            0.5f / static_cast<float>(j1 - j0)};
   }
 
   float mean(const float* f) const { return 0.25f * (f[at[0]] + f[at[1]] + f[at[2]] + f[at[3]]); }
@@ -46,7 +53,11 @@ int primvarFloats(const ShadeGroup& group) {
 }  // namespace
 
 FacetTable::FacetTable(const Scene& scene, const Camera& camera, const GridTable& grids, DeepTile& tile)
-    : scene_(scene), camera_(camera), grids_(grids), tile_(tile), facetOf_(grids.cellCount(), ~0U),
+    : scene_(scene),
+      camera_(camera),
+      grids_(grids),
+      tile_(tile),
+      facetOf_(grids.cellCount(), ~0U),
       batchOf_(scene.groups.size(), -1) {}
 
 uint32_t FacetTable::facetOf(uint32_t cell) {
@@ -79,7 +90,8 @@ int FacetTable::cornerPoint(const GridTable::Entry& entry, int batch, int vertex
   points.resize(static_cast<size_t>(g.vertexCount()), -1);
   int& point = points[static_cast<size_t>(vertex)];
   if (point < 0)
-    point = addPoint(g, batch, Stencil::vertex(g, vertex), hashCombine(g.name, static_cast<uint32_t>(vertex)));
+    point =
+        addPoint(g, batch, Stencil::vertex(g, vertex), hashCombine(g.name, static_cast<uint32_t>(vertex)));
   return point;
 }
 
@@ -105,7 +117,8 @@ int FacetTable::addPoint(const Grid& g, int batch, const Stencil& at, uint32_t k
   const vec3 shading(at.mean(g.N(0)), at.mean(g.N(1)), at.mean(g.N(2)));
   const vec3 toRiSide = dot(span, shading) < 0 ? -span : span;
   const vec3 N = normalizeOr(shading, normalizeOr(toRiSide, vec3(0, 0, -1)));
-  const float u = at.mean(g.u()), v = at.mean(g.v()), du = orOne(at.uStep(g.u())), dv = orOne(at.vStep(g.v()));
+  const float u = at.mean(g.u()), v = at.mean(g.v()), du = orOne(at.uStep(g.u())),
+              dv = orOne(at.vStep(g.v()));
   points.set3(kPx, i, P);
   points.set3(kNx, i, N);
   points.set3(kNgx, i, normalizeOr(toRiSide, N));

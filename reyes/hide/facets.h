@@ -21,9 +21,10 @@ class FacetTable {
   const Camera& camera_;
   const GridTable& grids_;
   DeepTile& tile_;
-  std::vector<uint32_t> facetOf_;                ///< A cell
-  std::vector<int> batchOf_;                     ///< A group, -1: none yet.
-  std::map<uint32_t, std::vector<int>> corners_; ///< Points of a grid's vertices, by its first cell, -1: none yet.
+  std::vector<uint32_t> facetOf_;  ///< A cell
+  std::vector<int> batchOf_;       ///< A group, -1: none yet.
+  std::map<uint32_t, std::vector<int>>
+      corners_;  ///< Points of a grid's vertices, by its first cell, -1: none yet.
 };
 
 }  // namespace tomales

@@ -1,5 +1,5 @@
-// Correlated multi-jittered sampling (Kensler 2013): every cell of the xSamples by ySamples raster holds one sample, and
-// so does every column and row of the finer raster with count() columns and rows.
+// Correlated multi-jittered sampling (Kensler 2013): every cell of the xSamples by ySamples raster holds one
+// sample, and so does every column and row of the finer raster with count() columns and rows.
 #include <numeric>
 
 #include "reyes/base/rng.h"
@@ -23,22 +23,25 @@ std::vector<int> permutation(int count, uint32_t seed) {
 /// Position `inside` (0..1) of stratum `i` of n, on the lattice but never in another stratum.
 float placed(int i, int n, float inside) {
   const float width = kLattice / static_cast<float>(n);
-  const float lo = std::ceil(static_cast<float>(i) * width), hi = std::ceil(static_cast<float>(i + 1) * width) - 1;
+  const float lo = std::ceil(static_cast<float>(i) * width),
+              hi = std::ceil(static_cast<float>(i + 1) * width) - 1;
   return std::clamp(std::round((static_cast<float>(i) + inside) * width), lo, std::max(lo, hi)) / kLattice;
 }
 
 /// The number in stratum `i` of n: rounding must not carry it into the next.
 float within(int i, int n, float inside) {
   const float count = static_cast<float>(n);
-  return std::min((static_cast<float>(i) + inside) / count, std::nextafter(static_cast<float>(i + 1) / count, 0.0f));
+  return std::min((static_cast<float>(i) + inside) / count,
+                  std::nextafter(static_cast<float>(i + 1) / count, 0.0f));
 }
 
-/// Which part of the shutter a cell samples: a shuffled Latin square, so that not only the pixel but each of its rows
-/// and columns sees the whole shutter, and what moves along x or y is blurred evenly.
+/// Which part of the shutter a cell samples: a shuffled Latin square, so that not only the pixel but each of
+/// its rows and columns sees the whole shutter, and what moves along x or y is blurred evenly.
 class Times {
  public:
   Times(int xSamples, int ySamples, uint32_t name)
-      : column_(permutation(xSamples, hash32(name ^ 3U))), row_(permutation(ySamples, hash32(name ^ 4U))),
+      : column_(permutation(xSamples, hash32(name ^ 3U))),
+        row_(permutation(ySamples, hash32(name ^ 4U))),
         coarse_(permutation(xSamples, hash32(name ^ 5U))) {}
 
   int stratum(int i, int j) const {
@@ -69,8 +72,10 @@ SamplePattern::SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t s
         return jitter ? unitFloat(hashCombine(name, static_cast<uint32_t>(s), dimension)) : 0.5f;
       };
       const size_t at = static_cast<size_t>(p) * static_cast<size_t>(padded_) + static_cast<size_t>(s);
-      const float x = (static_cast<float>(inColumn[static_cast<size_t>(j)]) + random(0)) / static_cast<float>(ySamples);
-      const float y = (static_cast<float>(inRow[static_cast<size_t>(i)]) + random(1)) / static_cast<float>(xSamples);
+      const float x =
+          (static_cast<float>(inColumn[static_cast<size_t>(j)]) + random(0)) / static_cast<float>(ySamples);
+      const float y =
+          (static_cast<float>(inRow[static_cast<size_t>(i)]) + random(1)) / static_cast<float>(xSamples);
       x_[at] = placed(i, xSamples, jitter ? x : 0.5f);
       y_[at] = placed(j, ySamples, jitter ? y : 0.5f);
       time_[at] = within(times.stratum(i, j), count_, random(2));
@@ -82,8 +87,14 @@ int SamplePattern::patternOf(int x, int y) const {
   return static_cast<int>(hashCombine(seed_, static_cast<uint32_t>(x), static_cast<uint32_t>(y)) % kPatterns);
 }
 
-const float* SamplePattern::x(int pattern) const { return x_.data() + static_cast<ptrdiff_t>(pattern) * padded_; }
-const float* SamplePattern::y(int pattern) const { return y_.data() + static_cast<ptrdiff_t>(pattern) * padded_; }
-const float* SamplePattern::time(int pattern) const { return time_.data() + static_cast<ptrdiff_t>(pattern) * padded_; }
+const float* SamplePattern::x(int pattern) const {
+  return x_.data() + static_cast<ptrdiff_t>(pattern) * padded_;
+}
+const float* SamplePattern::y(int pattern) const {
+  return y_.data() + static_cast<ptrdiff_t>(pattern) * padded_;
+}
+const float* SamplePattern::time(int pattern) const {
+  return time_.data() + static_cast<ptrdiff_t>(pattern) * padded_;
+}
 
 }  // namespace tomales

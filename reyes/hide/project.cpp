@@ -9,14 +9,15 @@ namespace {
 constexpr float kReach = 4;
 constexpr float kMinReach_px = 2 / kLattice;
 
-/// One border of a grid as vertex indices: first + k * step for k in 0..count; the inner neighbour is `inward` away.
+/// One border of a grid as vertex indices: first + k * step for k in 0..count; the inner neighbour is
+/// `inward` away.
 struct Border {
   PatchEdge edge;
   int first, step, inward, count;
 };
 
-/// How far the border's curve may lie from its chord at vertex k, in pixels. The second difference of points h apart on
-/// a curve of curvature c is h^2 c, its sagitta h^2 c / 8.
+/// How far the border's curve may lie from its chord at vertex k, in pixels. The second difference of points
+/// h apart on a curve of curvature c is h^2 c, its sagitta h^2 c / 8.
 float sagitta_px(const Grid& g, const float* x, const float* y, const Border& b, int k) {
   const int v = b.first + std::clamp(k, 1, std::max(1, b.count - 1)) * b.step;
   if (b.count > 1) {
@@ -55,8 +56,8 @@ void pushBorders(const Grid& g, float* x, float* y) {
 
 }  // namespace
 
-std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene, const Camera& camera,
-                                          bool opaque) {
+std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene,
+                                          const Camera& camera, bool opaque) {
   auto r = std::make_shared<RasterGrid>();
   const Grid& g = *grid;
   const Attributes& attributes = *scene.objects[static_cast<size_t>(g.object)].attributes;
@@ -66,7 +67,8 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
   r->sides = attributes.sides;
   r->smooth = attributes.interpolation == ShadingInterpolation::Smooth;
   // The tail lets blocks of micropolygons be read across the end.
-  const size_t stride = static_cast<size_t>(g.stride()), size = stride * static_cast<size_t>(g.keyCount) + 2 * kLanes;
+  const size_t stride = static_cast<size_t>(g.stride()),
+               size = stride * static_cast<size_t>(g.keyCount) + 2 * kLanes;
   r->x.assign(size, 0), r->y.assign(size, 0), r->d.assign(size, 0);
   r->dMin = kInfinity;
   for (int key = 0; key < g.keyCount; ++key) {

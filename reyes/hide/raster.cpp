@@ -18,11 +18,12 @@ struct EdgeBlock {
   }
 };
 
-/// kLanes micropolygons abcd that follow each other in the vertex order of a grid. The last of a row is no cell.
+/// kLanes micropolygons abcd that follow each other in the vertex order of a grid. That at the last vertex of
+/// a row is no cell.
 struct alignas(64) QuadBlock {
-  float x[4][kLanes], y[4][kLanes], d[4][kLanes];            ///< Corners
+  float x[4][kLanes], y[4][kLanes], d[4][kLanes];  ///< Corners
   EdgeBlock ab, ca, bd, dc, bc;
-  float fold[kLanes], foldLimit[kLanes];                     ///< The diagonal's value, seen from triangle bdc.
+  float fold[kLanes], foldLimit[kLanes];  ///< The diagonal's value, seen from triangle bdc.
   float gx0[kLanes], gy0[kLanes], gx1[kLanes], gy1[kLanes];  ///< Depth gradients of abc, bdc.
   float xMin[kLanes], xMax[kLanes], yMin[kLanes], yMax[kLanes], dMin[kLanes], dMax[kLanes];
 };
@@ -86,11 +87,12 @@ struct Edge {
 };
 
 /// Depth keys where quad i of the block covers the samples (x0 + x, y0 + y).
-TOMALES_KERNEL inline void cover(const QuadBlock& q, int i, float x0, float y0, const float* x, const float* y,
-                                                 LaneDepths& hit) {
+TOMALES_KERNEL inline void cover(const QuadBlock& q, int i, float x0, float y0, const float* x,
+                                 const float* y, LaneDepths& hit) {
   const Edge ab(q.ab, i), ca(q.ca, i), bd(q.bd, i), dc(q.dc, i), bc(q.bc, i);
-  const float fold = q.fold[i], foldLimit = q.foldLimit[i], bx = q.x[1][i], by = q.y[1][i], bDepth = q.d[1][i];
-  const float gx0 = q.gx0[i], gy0 = q.gy0[i], gx1 = q.gx1[i], gy1 = q.gy1[i], dMin = q.dMin[i], dMax = q.dMax[i];
+  const float fold = q.fold[i], foldLimit = q.foldLimit[i];
+  const float bx = q.x[1][i], by = q.y[1][i], bDepth = q.d[1][i], dMin = q.dMin[i], dMax = q.dMax[i];
+  const float gx0 = q.gx0[i], gy0 = q.gy0[i], gx1 = q.gx1[i], gy1 = q.gy1[i];
   for (int s = 0; s < kLanes; ++s) {
     const float px = x0 + x[s], py = y0 + y[s];
     const float diagonal = bc(px, py);
@@ -124,7 +126,8 @@ TOMALES_HOT void rasterizeStill(const RasterJob& job) {
       const uint32_t cell = job.firstCell + static_cast<uint32_t>(a / row * g.nu + u);
       forPixels(job, {q.xMin[i], q.yMin[i]}, {q.xMax[i], q.yMax[i]}, q.dMin[i], cell,
                 [&](int x, int y, size_t at, LaneDepths& hit) TOMALES_KERNEL {
-                  cover(q, i, static_cast<float>(x), static_cast<float>(y), job.out.x + at, job.out.y + at, hit);
+                  cover(q, i, static_cast<float>(x), static_cast<float>(y), job.out.x + at, job.out.y + at,
+                        hit);
                 });
     }
   }

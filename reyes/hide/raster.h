@@ -1,10 +1,11 @@
 // Micropolygons against samples. Private to the hider.
 // A micropolygon abcd (a b over c d in (u,v)) is the triangles abc and bdc: the diagonal bc is fixed.
 // A sample is inside a triangle if it lies on the inner side of each edge. Every edge is evaluated from its
-// lexicographically smaller end, so both neighbours get the same value with opposite signs, and the value zero belongs
-// to the right of the edge seen from that end: as if every sample were moved by (e^2, -e) for an infinitesimal e.
-// Vertices of still grids and samples lie on a lattice (kLattice), which makes the values exact in float for
-// micropolygons up to about 4 px, so that a fan round a vertex neither misses a sample nor hits it twice.
+// lexicographically smaller end, so both neighbours get the same value with opposite signs, and the value
+// zero belongs to the right of the edge seen from that end: as if every sample were moved by (e^2, -e) for an
+// infinitesimal e. Vertices of still grids and samples lie on a lattice (kLattice), which makes the values
+// exact in float for micropolygons up to about 4 px, so that a fan round a vertex neither misses a sample nor
+// hits it twice.
 #pragma once
 #include <bit>
 
@@ -16,8 +17,8 @@
 
 namespace tomales {
 
-/// Far below the distance of two values that an edge function takes: `value > -kTiny` says `value >= 0`, as a number
-/// that a vector can choose, and survives threads that flush denormals.
+/// Far below the distance of two values that an edge function takes: `value > -kTiny` says `value >= 0`, as a
+/// number that a vector can choose, and survives threads that flush denormals.
 constexpr float kTiny = 1e-30f;
 
 /// What the loops need of a grid besides itself.
@@ -40,7 +41,8 @@ inline bool turnedAway(const RasterJob& job, int a) {
   const Grid& g = *job.raster.grid;
   const int row = g.nu + 1;
   const vec3 n = g.normal(a) + g.normal(a + 1) + g.normal(a + row) + g.normal(a + row + 1);
-  const vec3 p = g.position(0, a) + g.position(0, a + 1) + g.position(0, a + row) + g.position(0, a + row + 1);
+  const vec3 p =
+      g.position(0, a) + g.position(0, a + 1) + g.position(0, a + row) + g.position(0, a + row + 1);
   return job.perspective ? dot(n, p) > 0 : n.z > 0;
 }
 
@@ -49,14 +51,15 @@ struct alignas(64) LaneDepths {
   float d[kLanes];
 };
 
-/// Gives samples to a cell: nearest hit if opaque, one more layer otherwise. `first`: pixel * lanes + lane of the group.
-/// Returns true if the pixel's far depth may have changed.
+/// Gives samples to a cell: nearest hit if opaque, one more layer otherwise. `first`: pixel * lanes + lane of
+/// the group. Returns true if the pixel's far depth may have changed.
 TOMALES_KERNEL inline bool merge(const RasterJob& job, const LaneDepths& hit, size_t first, uint32_t cell) {
   float* depth = job.out.depth.data() + first;
   uint32_t* owner = job.out.cell.data() + first;
   if (!job.raster.opaque) {
     for (int s = 0; s < kLanes; ++s)
-      if (hit.d[s] <= depth[s]) job.out.layers.push_back({static_cast<uint32_t>(first) + static_cast<uint32_t>(s), cell, hit.d[s]});
+      if (hit.d[s] <= depth[s])
+        job.out.layers.push_back({static_cast<uint32_t>(first) + static_cast<uint32_t>(s), cell, hit.d[s]});
     return false;
   }
   int nearer = 0, ties = 0;
@@ -78,7 +81,8 @@ TOMALES_KERNEL inline bool merge(const RasterJob& job, const LaneDepths& hit, si
   return true;
 }
 
-/// Integers in the order of floats, and back: the maximum of integers is a vector reduction without fast-math.
+/// Integers in the order of floats, and back: the maximum of integers is a vector reduction without
+/// fast-math.
 inline int32_t ordered(float f) {
   const int32_t bits = std::bit_cast<int32_t>(f);
   return bits ^ ((bits >> 31) & 0x7fffffff);
@@ -95,11 +99,11 @@ TOMALES_KERNEL inline float farthest(const float* depth, int lanes) {
   return fromOrdered(most);
 }
 
-/// Calls cover(x, y, offset of the samples in the pattern, LaneDepths&) for every group of lanes of the pixels that a cell's bound touches and
-/// that do not hide it yet, and merges.
+/// Calls cover(x, y, offset of the samples in the pattern, LaneDepths&) for every group of lanes of the
+/// pixels that a cell's bound touches and that do not hide it yet, and merges.
 template <class Cover>
 TOMALES_KERNEL inline void forPixels(const RasterJob& job, const vec2& lo, const vec2& hi, float dMin,
-                                                     uint32_t cell, const Cover& cover) {
+                                     uint32_t cell, const Cover& cover) {
   SampleBuffer& out = job.out;
   const PixelRect pixels = out.touched(lo, hi);
   for (int y = pixels.y0; y < pixels.y1; ++y)

@@ -25,7 +25,8 @@ struct MovingQuad {
     for (int e = 0; e < 5; ++e) order[e] = before(ends[e][1], ends[e][0]) ? -1.0f : 1.0f;
   }
 
-  /// The order of edge ends must not change while they move, so it is that of the first key at which they differ.
+  /// The order of edge ends must not change while they move, so it is that of the first key at which they
+  /// differ.
   bool before(int p, int q) const {
     const float a[4] = {x[0][p], y[0][p], x[1][p], y[1][p]}, b[4] = {x[0][q], y[0][q], x[1][q], y[1][q]};
     return std::lexicographical_compare(a, a + 4, b, b + 4);
@@ -41,13 +42,16 @@ struct MovingVertex {
   float x, y, d;
 };
 
-/// Twice the area of (p, q, sample), seen from the canonical end, positive if the sample is on the left of pq.
-TOMALES_KERNEL inline float edge(const MovingVertex& p, const MovingVertex& q, float order, float x, float y) {
+/// Twice the area of (p, q, sample), seen from the canonical end, positive if the sample is on the left of
+/// pq.
+TOMALES_KERNEL inline float edge(const MovingVertex& p, const MovingVertex& q, float order, float x,
+                                 float y) {
   const float ox = order > 0 ? p.x : q.x, oy = order > 0 ? p.y : q.y;
   return (q.x - p.x) * (y - oy) - (q.y - p.y) * (x - ox);
 }
 
-/// `side`: 1 if the inside of pq is on its left, -1 on its right. Zero belongs to the right seen from the canonical end.
+/// `side`: 1 if the inside of pq is on its left, -1 on its right. Zero belongs to the right seen from the
+/// canonical end.
 TOMALES_KERNEL inline bool inside(float value, float order, float side) {
   return value * side > (order * side > 0 ? 0.0f : -kTiny);
 }
@@ -56,8 +60,8 @@ TOMALES_KERNEL inline float sideOf(const MovingVertex& p, const MovingVertex& q,
   return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x) < 0 ? -1.0f : 1.0f;
 }
 
-TOMALES_KERNEL inline void coverMoving(const MovingQuad& q, const Interval& when, float x0, float y0, const float* x,
-                                       const float* y, const float* time, LaneDepths& hit) {
+TOMALES_KERNEL inline void coverMoving(const MovingQuad& q, const Interval& when, float x0, float y0,
+                                       const float* x, const float* y, const float* time, LaneDepths& hit) {
   const float inverse = 1.0f / (when.end - when.begin);
   for (int s = 0; s < kLanes; ++s) {
     const float px = x0 + x[s], py = y0 + y[s];
@@ -71,8 +75,10 @@ TOMALES_KERNEL inline void coverMoving(const MovingQuad& q, const Interval& when
     const float ca = edge(c, a, q.order[2], px, py), bd = edge(b, d, q.order[3], px, py);
     const float dc = edge(d, c, q.order[4], px, py);
     const float side0 = sideOf(a, b, c), side1 = sideOf(b, d, c);
-    const bool in0 = inside(ab, q.order[0], side0) & inside(bc, q.order[1], side0) & inside(ca, q.order[2], side0);
-    const bool in1 = inside(bd, q.order[3], side1) & inside(dc, q.order[4], side1) & inside(-bc, -q.order[1], side1);
+    const bool in0 =
+        inside(ab, q.order[0], side0) & inside(bc, q.order[1], side0) & inside(ca, q.order[2], side0);
+    const bool in1 =
+        inside(bd, q.order[3], side1) & inside(dc, q.order[4], side1) & inside(-bc, -q.order[1], side1);
     const float d0 = (bc * a.d + ca * b.d + ab * c.d) / (ab + bc + ca);
     const float d1 = (dc * b.d - bc * d.d + bd * c.d) / (bd + dc - bc);
     float depth = in0 ? d0 : d1;
@@ -96,8 +102,8 @@ TOMALES_HOT void rasterizeMoving(const RasterJob& job) {
       const MovingQuad q(r, key, a);
       forPixels(job, q.lo, q.hi, q.dMin, job.firstCell + static_cast<uint32_t>(cell),
                 [&](int x, int y, size_t at, LaneDepths& hit) TOMALES_KERNEL {
-                  coverMoving(q, when, static_cast<float>(x), static_cast<float>(y), job.out.x + at, job.out.y + at,
-                              job.out.time + at, hit);
+                  coverMoving(q, when, static_cast<float>(x), static_cast<float>(y), job.out.x + at,
+                              job.out.y + at, job.out.time + at, hit);
                 });
     }
   }

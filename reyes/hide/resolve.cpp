@@ -29,8 +29,9 @@ class TileBuilder {
     tile_.rect = samples_.rect;
     const size_t count = samples_.far.size();
     tile_.pixels.reserve(count);
-    std::sort(samples_.layers.begin(), samples_.layers.end(),
-              [](const Layer& a, const Layer& b) { return std::tie(a.sample, a.cell) < std::tie(b.sample, b.cell); });
+    std::sort(samples_.layers.begin(), samples_.layers.end(), [](const Layer& a, const Layer& b) {
+      return std::tie(a.sample, a.cell) < std::tie(b.sample, b.cell);
+    });
     for (size_t pixel = 0; pixel < count; ++pixel) addPixel(pixel);
     return std::move(tile_);
   }
@@ -45,7 +46,8 @@ class TileBuilder {
       if (a.cell != b.cell) return grids_.precedes(a.cell, b.cell);
       return a.fragment.word < b.fragment.word;
     });
-    tile_.pixels.push_back({static_cast<uint32_t>(tile_.fragments.size()), static_cast<uint32_t>(sights_.size())});
+    tile_.pixels.push_back(
+        {static_cast<uint32_t>(tile_.fragments.size()), static_cast<uint32_t>(sights_.size())});
     for (Sight& s : sights_) {
       s.fragment.facet = facets_.facetOf(s.cell);
       tile_.fragments.push_back(s.fragment);
@@ -59,14 +61,16 @@ class TileBuilder {
     for (uint32_t lane = 0; lane < lanes; ++lane)
       if (const uint32_t cell = samples_.cell[first + lane]; cell != kNoCell)
         sightings_.push_back({cell, lane, samples_.depth[first + lane]});
-    for (; nextLayer_ < samples_.layers.size() && samples_.layers[nextLayer_].sample < first + lanes; ++nextLayer_) {
+    for (; nextLayer_ < samples_.layers.size() && samples_.layers[nextLayer_].sample < first + lanes;
+         ++nextLayer_) {
       const Layer& l = samples_.layers[nextLayer_];
       const float d = samples_.depth[l.sample];
       if (l.d < d || (l.d == d && grids_.precedes(l.cell, samples_.cell[l.sample])))
         sightings_.push_back({l.cell, l.sample - static_cast<uint32_t>(first), l.d});
     }
-    std::sort(sightings_.begin(), sightings_.end(),
-              [](const Sighting& a, const Sighting& b) { return std::tie(a.cell, a.lane) < std::tie(b.cell, b.lane); });
+    std::sort(sightings_.begin(), sightings_.end(), [](const Sighting& a, const Sighting& b) {
+      return std::tie(a.cell, a.lane) < std::tie(b.cell, b.lane);
+    });
   }
 
   void mergeSightings(size_t pixel) {
@@ -89,15 +93,18 @@ class TileBuilder {
     const GridTable::Entry& entry = grids_.of(sightings_[begin].cell);
     const int width = samples_.rect.width();
     const size_t pattern = samples_.patternAt[pixel];
-    const vec2 corner(samples_.rect.x0 + static_cast<int>(pixel) % width, samples_.rect.y0 + static_cast<int>(pixel) / width);
+    const vec2 corner(samples_.rect.x0 + static_cast<int>(pixel) % width,
+                      samples_.rect.y0 + static_cast<int>(pixel) / width);
     vec2 sum(0);
     for (size_t i = begin; i < end; ++i) {
       const size_t s = pattern + sightings_[i].lane;
       const vec2 at = corner + vec2(samples_.x[s], samples_.y[s]);
-      sum += positionOnCell(entry, static_cast<int>(sightings_[i].cell - entry.firstCell), at, samples_.time[s]);
+      sum +=
+          positionOnCell(entry, static_cast<int>(sightings_[i].cell - entry.firstCell), at, samples_.time[s]);
     }
     const vec2 mean = sum * (255.0f / static_cast<float>(end - begin));
-    fragment.u = static_cast<uint8_t>(std::lround(mean.x)), fragment.v = static_cast<uint8_t>(std::lround(mean.y));
+    fragment.u = static_cast<uint8_t>(std::lround(mean.x)),
+    fragment.v = static_cast<uint8_t>(std::lround(mean.y));
   }
 
   const Camera& camera_;
@@ -112,7 +119,8 @@ class TileBuilder {
 
 }  // namespace
 
-DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples) {
+DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids,
+                     SampleBuffer& samples) {
   return TileBuilder(scene, camera, grids, samples).build();
 }
 

@@ -4,7 +4,8 @@
 
 namespace tomales {
 
-const GridTable::Entry& GridTable::add(const std::shared_ptr<const RasterGrid>& raster, std::vector<float> keyTimes) {
+const GridTable::Entry& GridTable::add(const std::shared_ptr<const RasterGrid>& raster,
+                                       std::vector<float> keyTimes) {
   entries_.push_back({cells_, raster, std::move(keyTimes)});
   cells_ += static_cast<uint32_t>(raster->grid->cellCount());
   return entries_.back();

@@ -1,5 +1,6 @@
 // The samples of one bucket, and the grids that compete for them. Private to the hider.
-// A micropolygon is named by its number among all cells inserted: the grid's first number plus its cell index.
+// A micropolygon is named by its number among all cells inserted: the grid's first number plus its cell
+// index.
 #pragma once
 #include <cfloat>
 
@@ -7,7 +8,7 @@
 
 namespace tomales {
 
-constexpr float kNothing = FLT_MAX;   ///< Depth key of a sample that nothing opaque covers.
+constexpr float kNothing = FLT_MAX;  ///< Depth key of a sample that nothing opaque covers.
 constexpr uint32_t kNoCell = ~0U;
 
 /// Grids in order of insertion.
@@ -45,9 +46,10 @@ struct SampleBuffer {
   int lanes;                      ///< Of a pixel, a multiple of kLanes.
   const float *x, *y, *time;      ///< Of all patterns.
   std::vector<size_t> patternAt;  ///< A pixel: where its samples begin in x, y and time.
-  AlignedVector<float> depth;     ///< A lane: key of the nearest opaque hit; -infinity in padding, which so never counts.
-  AlignedVector<uint32_t> cell;   ///< A lane: that hit.
-  AlignedVector<float> far;       ///< A pixel: the greatest depth of its lanes.
+  AlignedVector<float>
+      depth;  ///< A lane: key of the nearest opaque hit; -infinity in padding, which so never counts.
+  AlignedVector<uint32_t> cell;  ///< A lane: that hit.
+  AlignedVector<float> far;      ///< A pixel: the greatest depth of its lanes.
   std::vector<Layer> layers;
 
   size_t pixelIndex(int column, int row) const {
@@ -60,7 +62,8 @@ struct SampleBuffer {
       const float offset = v - static_cast<float>(first), size = static_cast<float>(end - first);
       return first - 1 + static_cast<int>(std::clamp(offset, -1.0f, size) + 1);
     };
-    return {std::max(floorWithin(lo.x, rect.x0, rect.x1), rect.x0), std::max(floorWithin(lo.y, rect.y0, rect.y1), rect.y0),
+    return {std::max(floorWithin(lo.x, rect.x0, rect.x1), rect.x0),
+            std::max(floorWithin(lo.y, rect.y0, rect.y1), rect.y0),
             std::min(floorWithin(hi.x, rect.x0, rect.x1) + 1, rect.x1),
             std::min(floorWithin(hi.y, rect.y0, rect.y1) + 1, rect.y1)};
   }

@@ -31,16 +31,8 @@ void Batch::setCommon(int count, const BoundShader& shader, const std::vector<Ov
   params_ = shader.values;
   for (const Override& o : overrides) {
     TmValue& value = params_[static_cast<size_t>(o.param)];
-    const int width = o.type == TM_FLOAT ? 1 : 3;
-    for (int k = 0; k < width; ++k) value.c[k] = primvar(o.primvarOffset + k);
+    for (int k = 0; k < o.width; ++k) value.c[k] = primvar(o.primvarOffset + k);
     value.step = 1;
-    if (o.type == TM_FLOAT || o.type == TM_COLOR) continue;
-    // Primitive variables are in object space.
-    const TmVec3 current = arena.vec3(count);
-    for (int i = 0; i < count; ++i)
-      set(current, i,
-          transformAs(o.type, group.group->cameraFromObject, get({value.c[0], value.c[1], value.c[2]}, i)));
-    value.c[0] = current.x, value.c[1] = current.y, value.c[2] = current.z;
   }
   tm.params = params_.data();
 

@@ -144,8 +144,7 @@ std::vector<Override> overridesOf(const BoundShader& bound, const std::vector<Pr
     const int width = decl.type == TM_FLOAT ? 1 : decl.type <= TM_NORMAL ? 3 : 0;
     int offset = 0;
     for (const Primvar& p : primvars) {
-      if (p.name == decl.name && p.width == width && decl.arrayLength == 1)
-        out.push_back({i, offset, static_cast<TmType>(decl.type)});
+      if (p.name == decl.name && p.width == width && decl.arrayLength == 1) out.push_back({i, offset, width});
       offset += p.width;
     }
   }

@@ -18,10 +18,10 @@ struct BoundLight {
   bool can(TmCapability capability) const { return bound->can(capability); }
 };
 
-/// A primitive variable that takes the place of a shader parameter.
+/// A primitive variable that takes the place of a shader parameter; whoever filled the points brought it to
+/// current space.
 struct Override {
-  int param, primvarOffset;
-  TmType type;
+  int param, primvarOffset, width;
 };
 
 struct BoundGroup {

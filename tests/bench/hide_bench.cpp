@@ -1,4 +1,5 @@
-// One core: a million micropolygons of about one pixel at 4 x 4 samples, in grids of 256 and buckets of 16 x 16.
+// One core: a million micropolygons of about one pixel at 4 x 4 samples, in grids of 256 and buckets of 16
+// x 16.
 #include <benchmark/benchmark.h>
 
 #include "tests/unit/hide/fixture.h"
@@ -20,7 +21,8 @@ struct Frame {
     world.freeze();
     if (keys > 1) world.scene.objects[0].keyTimes = {0, 1};
     for (int k = 0; k < kBuckets * kBuckets; ++k) {
-      const float x = static_cast<float>(k % kBuckets * kBucket), y = static_cast<float>(k / kBuckets * kBucket);
+      const float x = static_cast<float>(k % kBuckets * kBucket),
+                  y = static_cast<float>(k / kBuckets * kBucket);
       const Surface tilted = [=](float u, float v, int key) {
         const float across = x + 16 * u, down = y + 16 * v, shift = 4.0f * static_cast<float>(key);
         return at(across + 0.1f * down + 0.37f + shift, down - 0.1f * across + 0.21f, 10 + 0.01f * across);
@@ -81,8 +83,10 @@ BENCHMARK_CAPTURE(hide, still_opaque, 1, true, false, kConstant)->Unit(benchmark
 BENCHMARK_CAPTURE(hide, still_transparent, 1, false, false, kConstant)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(hide, moving_opaque, 2, true, false, kConstant)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(hide, still_opaque_and_resolve, 1, true, true, kConstant)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(hide, still_opaque_smooth_and_resolve, 1, true, true, kSmooth)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(hide, still_transparent_and_resolve, 1, false, true, kConstant)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(hide, still_opaque_smooth_and_resolve, 1, true, true, kSmooth)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(hide, still_transparent_and_resolve, 1, false, true, kConstant)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace tomales::test

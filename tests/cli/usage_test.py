@@ -3,7 +3,6 @@ import json
 import signal
 import subprocess
 import sys
-import time
 
 from program import GOOD, Suite
 
@@ -56,10 +55,10 @@ t.expect(info["size"] == [24, 24] and [c["name"] for c in info["channels"]] == [
 # Interruption: finished buckets are written, the exit code tells.
 for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
     out = t.folder / f"cut{code}.exr"
-    process = subprocess.Popen([t.program, "good.rib", "-o", out.name, "--format", "3000x3000", "--stats", "cut.json", "-q", "-t", "1"],
-                               cwd=t.folder)
-    time.sleep(1.0)
+    process = subprocess.Popen([t.program, "good.rib", "-o", out.name, "--format", "2000x2000", "--stats", "cut.json", "--progress",
+                                "-t", "1"], cwd=t.folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    process.stdout.readline()  # The first percent: it is under way.
     process.send_signal(number)
-    t.expect(process.wait(timeout=120) == code, f"signal {int(number)} ends with {code}")
+    t.expect(process.communicate(timeout=200) and process.returncode == code, f"signal {int(number)} ends with {code}")
     t.expect(out.exists() and json.loads((t.folder / "cut.json").read_text())["time_s"]["total"] > 0, "with a picture and statistics")
 t.finish()

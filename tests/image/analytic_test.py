@@ -21,7 +21,7 @@ def render(scene, *options):
     with tempfile.TemporaryDirectory() as folder:
         out = pathlib.Path(folder) / "out.exr"
         subprocess.run([tomales, "render", str(root / "scenes" / scene), "-o", str(out), "-q", *options], check=True)
-        return pixels(str(out))
+        return pixels(out)
 
 
 def rectangle_irradiance(point, normal, corners):

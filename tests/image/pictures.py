@@ -1,14 +1,38 @@
-"""Reading float pictures in tests with nothing but the standard library: uncompressed float TIFF, as `tomales -o x.tif` with
-Quantize 0 writes it, is more than we need; `oiiotool` (openimageio-tools) dumps pixels of any format as text."""
-import re
+"""Float pixels of a picture with nothing but the standard library: oiiotool (openimageio-tools, which the install step brings)
+turns any format into an uncompressed float TIFF, and that is simple to read."""
+import pathlib
+import struct
 import subprocess
+import tempfile
+
+
+def _tiff_fields(data):
+    """{tag: values} of the first directory of a little-endian TIFF."""
+    types = {1: "B", 3: "H", 4: "I"}
+    at = struct.unpack_from("<I", data, 4)[0]
+    fields = {}
+    for i in range(struct.unpack_from("<H", data, at)[0]):
+        tag, kind, count = struct.unpack_from("<HHI", data, at + 2 + 12 * i)
+        if kind not in types:
+            continue
+        layout = f"<{count}{types[kind]}"
+        where = at + 2 + 12 * i + 8
+        if struct.calcsize(layout) > 4:
+            where = struct.unpack_from("<I", data, where)[0]
+        fields[tag] = struct.unpack_from(layout, data, where)
+    return fields
 
 
 def pixels(path):
-    """{(x, y): (R, G, B, ...)} of an image file, by raster position."""
-    text = subprocess.run(["oiiotool", "-q", path, "--dumpdata"], capture_output=True, text=True, check=True).stdout
-    found = {}
-    for line in text.splitlines():
-        if m := re.match(r"\s*Pixel \((\d+), (\d+)\): (.*)", line):
-            found[int(m[1]), int(m[2])] = tuple(float(v) for v in m[3].split())
-    return found
+    """{(x, y): (R, G, B, ...)} of an image file; outside the data window of a crop it is black."""
+    with tempfile.TemporaryDirectory() as folder:
+        tiff = pathlib.Path(folder) / "float.tif"
+        subprocess.run(["oiiotool", "-q", str(path), "--croptofull", "-d", "float", "--compression", "none", "--scanline",
+                        "--planarconfig", "contig", "-o", str(tiff)], check=True)
+        data = tiff.read_bytes()
+    fields = _tiff_fields(data)
+    width, height, channels = fields[256][0], fields[257][0], fields[277][0]
+    raw = b"".join(data[o:o + n] for o, n in zip(fields[273], fields[279]))
+    values = struct.unpack(f"<{width * height * channels}f", raw[:4 * width * height * channels])
+    return {(i % width, i // width): values[i * channels:(i + 1) * channels]
+            for i in range(width * height)}

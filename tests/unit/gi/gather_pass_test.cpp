@@ -118,6 +118,59 @@ TEST(GatherPass, InterpolatedLightAgreesWithTheReference) {
   EXPECT_LT(error, 0.05);
 }
 
+// Four corners of one facet, far apart, in one bucket that sees all of the frame; `pixels` pixels see the
+// facet.
+DeepFrame frameOfOneFacet(const World& world, size_t pixels) {
+  DeepFrame frame = frameOf(world, 64);
+  DeepTile& tile = frame.tiles[0];
+  const auto backWall = std::find_if(tile.facets.begin(), tile.facets.end(), [&](const Facet& f) {
+    return tile.batches[static_cast<size_t>(f.batch)].position(f.point[0]).z > 4.19f;
+  });
+  const int last = tile.batches[static_cast<size_t>(backWall->batch)].count() - 1;
+  const Facet facet{backWall->batch, {0, last / 3, last * 2 / 3, last}};
+  tile.facets = {facet}, tile.fragments = {Fragment{0, 4.2f, 1}};
+  for (size_t i = 0; i < tile.pixels.size(); ++i) tile.pixels[i] = {0, i < pixels ? 1U : 0U};
+  return frame;
+}
+
+TEST(GatherPass, EveryCornerOfASmoothShadedFacetIsCoveredOnce) {
+  for (const size_t pixels : {1, 100}) {
+    World world(cornell(indirect(16)).scene);
+    world.use({})->gatherPass(frameOfOneFacet(world, pixels), {}, nullptr);
+    EXPECT_EQ(world.stats.irradianceCache.samples, 4) << pixels;
+  }
+}
+
+TEST(GatherPass, HoldoutsAndSurfacesThatDoNotReceiveAreLeftOut) {
+  for (const bool matte : {true, false}) {
+    Scene scene = cornell(indirect(16)).scene;
+    for (Object& o : scene.objects) {
+      auto attributes = std::make_shared<Attributes>(*o.attributes);
+      attributes->matte = matte, attributes->indirect.receive = matte;
+      o.attributes = attributes;
+    }
+    World world(scene);
+    world.use({})->gatherPass(frameOf(world, 16), {}, nullptr);
+    EXPECT_EQ(world.stats.irradianceCache.samples, 0);
+  }
+}
+
+TEST(GatherPass, AttributesOverrideTheLight) {
+  Scene scene = cornell(indirect(16)).scene;
+  int64_t samples[2];
+  for (const int tight : {0, 1}) {
+    for (Object& o : scene.objects) {
+      auto attributes = std::make_shared<Attributes>(*o.attributes);
+      if (tight) attributes->irradianceMaxPixelDist = 2.0f;
+      o.attributes = attributes;
+    }
+    World world(scene);
+    world.use({})->gatherPass(frameOf(world, 16), {}, nullptr);
+    samples[tight] = world.stats.irradianceCache.samples;
+  }
+  EXPECT_GT(samples[1], 5 * samples[0] / 4);
+}
+
 TEST(GatherPass, ReportsProgressAndObeysCancellation) {
   World world(cornell(indirect(16)).scene);
   const DeepFrame frame = frameOf(world, 16);

@@ -13,7 +13,7 @@ TEST(Coverage, OfAHalfPlaneIsItsAreaWithinTheErrorOfStratification) {
   w.add();
   w.freeze();
   const auto edge = [](float y) { return 20.3f + 0.27f * y; };
-  const auto g = makeGrid(0, 1, 30, 60, [&](float u, float v, int) { 
+  const auto g = makeGrid(0, 1, 30, 60, [&](float u, float v, int) {
     const float y = -1 + 66 * v;
     return at(lerp(-1, edge(y), u), y);
   });
@@ -25,7 +25,10 @@ TEST(Coverage, OfAHalfPlaneIsItsAreaWithinTheErrorOfStratification) {
     for (int x = 0; x < 64; ++x) {
       double area = 0;
       for (int k = 0; k < 512; ++k)
-        area += std::clamp(edge(static_cast<float>(y) + (static_cast<float>(k) + 0.5f) / 512) - static_cast<float>(x), 0.0f, 1.0f) / 512;
+        area += std::clamp(edge(static_cast<float>(y) + (static_cast<float>(k) + 0.5f) / 512) -
+                               static_cast<float>(x),
+                           0.0f, 1.0f) /
+                512;
       const double error = coverage(t, x, y, 64) - area;
       if (area == 0 || area == 1) {
         ASSERT_EQ(error, 0) << x << "," << y;
@@ -41,7 +44,8 @@ TEST(Coverage, OfAHalfPlaneIsItsAreaWithinTheErrorOfStratification) {
 /// A square lattice whose interior vertices are moved by up to `wobble` of a cell.
 Surface wobbly(int n, float wobble, float lo, float hi) {
   return [=](float u, float v, int) {
-    const int i = static_cast<int>(std::lround(u * static_cast<float>(n))), j = static_cast<int>(std::lround(v * static_cast<float>(n)));
+    const int i = static_cast<int>(std::lround(u * static_cast<float>(n))),
+              j = static_cast<int>(std::lround(v * static_cast<float>(n)));
     const uint32_t name = hashCombine(static_cast<uint32_t>(i), static_cast<uint32_t>(j));
     const float cell = (hi - lo) / static_cast<float>(n);
     const float dx = i == 0 || i == n ? 0 : wobble * (2 * unitFloat(hash32(name)) - 1);
@@ -93,11 +97,14 @@ TEST(Tessellation, GridsWithBitEqualBordersLeaveNoGapAndHitNoSampleTwice) {
   w.freeze();
   const SamplePattern pattern(4, 4, true, 9);
   const auto border = [](float v) { return 30.1f + 4 * std::sin(7 * v) * (v > 0 && v < 1 ? 1.0f : 0.0f); };
-  const auto left = makeGrid(0, 1, 9, 31, [&](float u, float v, int) { return at(lerp(4.25f, border(v), u), lerp(4.25f, 59.5f, v)); });
+  const auto left = makeGrid(0, 1, 9, 31, [&](float u, float v, int) {
+    return at(lerp(4.25f, border(v), u), lerp(4.25f, 59.5f, v));
+  });
   const auto right = makeGrid(0, 2, 13, 31, [&](float u, float v, int) {
     return at(u == 0 ? border(v) : lerp(border(v), 59.5f, u), lerp(4.25f, 59.5f, v));
   });
-  expectOneHitInside(hide(w, pattern, kFrame, {raster(w, left, false), raster(w, right, false)}), pattern, 4.25f, 59.5f);
+  expectOneHitInside(hide(w, pattern, kFrame, {raster(w, left, false), raster(w, right, false)}), pattern,
+                     4.25f, 59.5f);
 }
 
 /// Samples of the ring between two grids that join along an arc of radius 20, cut into 5 and into 8.
@@ -146,7 +153,8 @@ TEST(Crack, BordersReachOverByHalfAPixelAtMost) {
   World w;
   w.add();
   w.freeze();
-  const auto g = makeGrid(0, 1, 2, 2, [](float u, float v, int) { return at(10 + 10 * u + 20 * v * (1 - v) * u, 10 + 20 * v); });
+  const auto g = makeGrid(
+      0, 1, 2, 2, [](float u, float v, int) { return at(10 + 10 * u + 20 * v * (1 - v) * u, 10 + 20 * v); });
   g->openEdges = kEdgeU0 | kEdgeV0 | kEdgeV1;
   EXPECT_NEAR(raster(w, g)->bound.hi.x, 25.5f, 0.001f);
 }

@@ -16,9 +16,12 @@ struct Moving {
     world.freeze();
     world.scene.objects[0].keyTimes.clear();
     for (const float t : times) world.scene.objects[0].keyTimes.push_back(2 + 2 * t);
-    grid = makeGrid(0, 1, 3, 3, [&](float u, float v, int key) {
-      return at(10 + u + offset[static_cast<size_t>(key)], 10 + height * v);
-    }, static_cast<int>(times.size()));
+    grid = makeGrid(
+        0, 1, 3, 3,
+        [&](float u, float v, int key) {
+          return at(10 + u + offset[static_cast<size_t>(key)], 10 + height * v);
+        },
+        static_cast<int>(times.size()));
   }
 };
 
@@ -50,7 +53,8 @@ TEST(Motion, EverySampleMeetsTheSquareWhereItIsAtItsTime) {
   int covered = 0;
   forSamples(pattern, kRect, [&](int x, int y, int s, vec2 p, float time) {
     const float x0 = 10 + (time < 0.25f ? 24 * time : lerp(6, 2, (time - 0.25f) / 0.75f));
-    const float margin = std::min(std::min(std::abs(p.x - x0), std::abs(p.x - x0 - 1)), std::min(std::abs(p.y - 10), std::abs(p.y - 11)));
+    const float margin = std::min(std::min(std::abs(p.x - x0), std::abs(p.x - x0 - 1)),
+                                  std::min(std::abs(p.y - 10), std::abs(p.y - 11)));
     if (margin < 1e-4f) return;
     const bool in = p.x > x0 && p.x < x0 + 1 && p.y > 10 && p.y < 11;
     covered += in;
@@ -71,7 +75,8 @@ TEST(Motion, OfNothingGivesTheStillPicture) {
 
 TEST(Motion, InDepthChangesWhoIsInFront) {
   Moving m({0, 1}, {0, 0});
-  const auto mover = makeGrid(0, 1, 1, 1, [](float u, float v, int key) { return at(8 + 8 * u, 8 + 8 * v, key ? 3.0f : 1.0f); }, 2);
+  const auto mover = makeGrid(
+      0, 1, 1, 1, [](float u, float v, int key) { return at(8 + 8 * u, 8 + 8 * v, key ? 3.0f : 1.0f); }, 2);
   const auto still = makeGrid(0, 2, 1, 1, rectangle(8, 8, 16, 16, 2));
   const SamplePattern pattern(4, 4, true, 3);
   const DeepTile t = hide(m.world, pattern, {9, 9, 12, 12}, {raster(m.world, mover), raster(m.world, still)});
@@ -79,7 +84,9 @@ TEST(Motion, InDepthChangesWhoIsInFront) {
     if (std::abs(time - 0.5f) < 1e-4f) return;
     const DeepPixel& p = t.pixel(x, y);
     for (uint32_t k = 0; k < p.count; ++k) {
-      if (begin(t, p)[k].samples >> s & 1U) { ASSERT_EQ(begin(t, p)[k].z == 2, time > 0.5f); }
+      if (begin(t, p)[k].samples >> s & 1U) {
+        ASSERT_EQ(begin(t, p)[k].z == 2, time > 0.5f);
+      }
     }
   });
 }

@@ -25,11 +25,16 @@ struct Soup {
   std::shared_ptr<const RasterGrid> one(uint32_t name) const {
     const auto random = [&](uint32_t dimension) { return unitFloat(hashCombine(name, dimension)); };
     const float x = 60 * random(0) - 5, y = 60 * random(1) - 5, size = 5 + 25 * random(2), turn = random(3);
-    const float z = std::floor(3 * random(4)) + 1, slope = name % 3 ? 0 : random(5);  // Two thirds share three planes.
+    const float z = std::floor(3 * random(4)) + 1,
+                slope = name % 3 ? 0 : random(5);  // Two thirds share three planes.
     const float move = 6 * random(6);
-    const auto g = makeGrid(static_cast<int>(name % 3), hash32(name), 7, 9, [&](float u, float v, int key) {
-      return at(x + size * (u - turn * v) + move * static_cast<float>(key), y + size * (v + turn * u), z + slope * u);
-    }, name % 5 ? 1 : 2);
+    const auto g = makeGrid(
+        static_cast<int>(name % 3), hash32(name), 7, 9,
+        [&](float u, float v, int key) {
+          return at(x + size * (u - turn * v) + move * static_cast<float>(key), y + size * (v + turn * u),
+                    z + slope * u);
+        },
+        name % 5 ? 1 : 2);
     g->openEdges = static_cast<uint8_t>(name & 15U);
     return raster(world, g, name % 4 != 0);
   }
@@ -74,7 +79,8 @@ TEST(Resolve, DoesNotDependOnTheSizeOfBuckets) {
       for (int x0 = 0; x0 < 64; x0 += size) {
         const DeepTile part = hide(soup.world, pattern, {x0, y0, x0 + size, y0 + size}, soup.rasters);
         for (int y = y0; y < y0 + size; ++y)
-          for (int x = x0; x < x0 + size; ++x) ASSERT_EQ(seen(part, x, y), seen(whole, x, y)) << x << "," << y;
+          for (int x = x0; x < x0 + size; ++x)
+            ASSERT_EQ(seen(part, x, y), seen(whole, x, y)) << x << "," << y;
       }
 }
 
@@ -94,7 +100,8 @@ TEST(Resolve, MoreThanSixtyFourSamplesTakeSeveralWords) {
   w.add();
   w.freeze();
   const SamplePattern pattern(12, 9, true, 1);
-  const DeepTile t = hide(w, pattern, {0, 0, 4, 4}, {raster(w, makeGrid(0, 1, 1, 1, rectangle(-1, -1, 9, 9)))});
+  const DeepTile t =
+      hide(w, pattern, {0, 0, 4, 4}, {raster(w, makeGrid(0, 1, 1, 1, rectangle(-1, -1, 9, 9)))});
   for (const DeepPixel& p : t.pixels) {
     ASSERT_EQ(p.count, 2U);
     EXPECT_EQ(begin(t, p)[0].word, 0);
@@ -121,7 +128,8 @@ std::shared_ptr<Grid> oneCell() {
 }
 
 std::vector<Primvar> twoPrimvars() {
-  return {{"heat", Storage::Varying, ValueType::Float, 1, {}}, {"t", Storage::Varying, ValueType::Float, 1, {}}};
+  return {{"heat", Storage::Varying, ValueType::Float, 1, {}},
+          {"t", Storage::Varying, ValueType::Float, 1, {}}};
 }
 
 TEST(Resolve, ConstantShadingHasOnePointAtTheCentreOfAMicropolygon) {
@@ -158,7 +166,8 @@ TEST(Resolve, SmoothShadingSharesCornersAndKnowsThePlaceOnTheFacet) {
   smooth.interpolation = ShadingInterpolation::Smooth;
   w.add(smooth);
   w.freeze();
-  const DeepTile t = hide(w, SamplePattern(1, 1, false, 1), {0, 0, 12, 8}, {raster(w, makeGrid(0, 9, 3, 2, rectangle(0, 0, 12, 8)))});
+  const DeepTile t = hide(w, SamplePattern(1, 1, false, 1), {0, 0, 12, 8},
+                          {raster(w, makeGrid(0, 9, 3, 2, rectangle(0, 0, 12, 8)))});
   ASSERT_EQ(t.facets.size(), 6U);
   EXPECT_EQ(t.batches[0].count(), 12);
   const Fragment& f = *begin(t, t.pixel(5, 6));

@@ -1,8 +1,8 @@
 #include <OpenImageIO/imagebuf.h>
 
 #include <filesystem>
-#include <stdexcept>
 
+#include "reyes/shader.h"
 #include "tests/unit/shade/stage.h"
 
 namespace tomales {
@@ -20,6 +20,26 @@ TEST_F(Binding, AVaryingPrimitiveVariableOverridesTheParameterAndColour) {
   const ShadedPoints out = shade(p);
   expectColor(out.color(0), {0.25f, 0, 0});
   expectColor(out.color(1), {0, 6, 0});
+}
+
+// The dicer has already brought primitive variables to current space; moving them again would be wrong.
+TEST_F(Binding, APointAmongThePrimitiveVariablesArrivesAsThePointsHoldIt) {
+  static rsl::PointParam where("where", {0, 0, 0}, "a point");
+  static const rsl::Shader pointing(TM_SURFACE, "pointing", "", 0,
+                                    [](const TmGrid* g) {
+                                      for (int i : rsl::Batch(g))
+                                        rsl::Batch(g).output(i, where(g, i), {1, 1, 1});
+                                    },
+                                    {&where});
+  static const TmShader* const shaders[] = {pointing};
+  const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 1};
+  registry.addLibrary(&library, "test");
+  surface("pointing");
+  primvar("where", ValueType::Point);
+  worldFromObject.keys[0][3] = vec4(9, 9, 9, 1);
+  ShadePoints p = points({vec3(0, 0, 5)});
+  for (int k = 0; k < 3; ++k) p.primvar(k)[0] = static_cast<float>(k + 1);
+  expectColor(shade(p).color(0), {1, 2, 3});
 }
 
 TEST_F(Binding, OpaqueNeedsOpacityOneEverywhereAndAShaderThatKeepsIt) {
