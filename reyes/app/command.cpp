@@ -124,7 +124,7 @@ bool namesCommand(const std::string& text) {
 }
 
 int parseAndRun(int argc, char** argv) {
-  CLI::App app("Tomales, a Reyes renderer with global illumination");
+  CLI::App app("A Reyes renderer with global illumination", "tomales");
   app.set_version_flag("--version", std::string("tomales ") + kVersion);
   app.footer(kExitCodes);
   app.require_subcommand(1);

@@ -18,7 +18,7 @@ WorldEnd
 
 class Suite:
     def __init__(self):
-        self.program = sys.argv[1]
+        self.program = pathlib.Path(sys.argv[1]).resolve()
         self.failures = 0
         self.temporary = tempfile.TemporaryDirectory()
         self.folder = pathlib.Path(self.temporary.name)
