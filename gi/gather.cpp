@@ -5,16 +5,15 @@
 
 namespace tomales {
 
-IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, int group, const vec3& position,
-                        const vec3& normal, uint32_t key, float pixelSize, const GatherSettings& settings,
-                        Stats& stats) {
+IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point,
+                        const GatherSettings& settings, Stats& stats) {
   const HemisphereCells cells = hemisphereCells(settings.samples);
   const size_t count = static_cast<size_t>(cells.rings) * static_cast<size_t>(cells.sectors);
-  HemisphereSamples samples{cells, {}, {}, normal, {}, {}, {}};
-  orthonormalBasis(normal, samples.tangent, samples.bitangent);
+  HemisphereSamples samples{cells, {}, {}, point.normal, {}, {}, {}};
+  orthonormalBasis(point.normal, samples.tangent, samples.bitangent);
 
-  Ray ray{position, normal, settings.maxDistance};
-  scene.prepareOrigin(group, position, ray);
+  Ray ray{point.position, point.normal, settings.maxDistance};
+  scene.prepareOrigin(point.group, point.position, point.edgeLength, ray);
   std::vector<Ray> rays(count, ray);
   std::vector<Hit> hits(count);
   std::vector<uint32_t> keys(count);
@@ -23,10 +22,10 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, int
   int64_t adjusted = 0;
   for (size_t i = 0; i < count; ++i) {
     const int cell = static_cast<int>(i);
-    keys[i] = hashCombine(key, static_cast<uint32_t>(i), settings.seed);
+    keys[i] = hashCombine(point.key, static_cast<uint32_t>(i), settings.seed);
     const vec2 xi{unitFloat(hash32(keys[i] ^ 0x3c6ef372U)), unitFloat(hash32(keys[i] ^ 0xa54ff53aU))};
     const vec3 local = hemisphereDirection(cells, cell / cells.sectors, cell % cells.sectors, xi);
-    directions[i] = local.x * samples.tangent + local.y * samples.bitangent + local.z * normal;
+    directions[i] = local.x * samples.tangent + local.y * samples.bitangent + local.z * point.normal;
     rays[i].direction = directions[i];
     rays[i].offset = slantedOffset(ray.offset, local.z);
     hits[i] = scene.closest(rays[i], kMaskDiffuse);
@@ -43,8 +42,8 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, int
 
   samples.directions = directions, samples.radiance = radiance, samples.distances = distances;
   IrradianceRecord record = summarize(samples);
-  record.position = position;
-  record.pixelSize = pixelSize;
+  record.position = point.position;
+  record.pixelSize = point.pixelSize;
   return record;
 }
 

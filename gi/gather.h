@@ -15,10 +15,16 @@ struct GatherSettings {
   bool operator==(const GatherSettings&) const = default;
 };
 
-/// `group`: the shade group that the rays leave (for the origin offset). `normal`: unit, on the side to gather from.
-/// `key` names the point for random numbers.
-IrradianceRecord gather(const RayScene& rays, const ShadingSystem& shading, int group, const vec3& position, const vec3& normal,
-                        uint32_t key, float pixelSize, const GatherSettings& settings, Stats& stats);
+/// A point to gather at.
+struct GatherPoint {
+  int group;              ///< The shade group that the rays leave.
+  vec3 position, normal;  ///< normal: unit, on the side to gather from
+  uint32_t key;           ///< Names the point for random numbers.
+  float pixelSize;        ///< Root of the projected pixel area.
+  float edgeLength;       ///< Of its micropolygon, for the origin offset.
+};
+IrradianceRecord gather(const RayScene& rays, const ShadingSystem& shading, const GatherPoint& point,
+                        const GatherSettings& settings, Stats& stats);
 
 /// Hit-list distance of a ray at this cosine to the normal. Coarse and fine surface are up to `offset` apart along the normal, so
 /// a slanted ray meets the coarse one later; the floor keeps grazing rays from reaching through other objects.

@@ -19,12 +19,8 @@ struct PointRef {
 };
 using Phases = std::array<std::vector<PointRef>, kPhases>;
 
-// A point to gather at, fetched from the frame.
 struct Site {
-  vec3 position, normal;
-  float pixelSize;
-  uint32_t key;
-  int group;
+  GatherPoint point;
   size_t cache;
 };
 
@@ -116,11 +112,8 @@ class GatherPass {
   Site siteOf(const PointRef& ref) const {
     const ShadePoints& batch = batchOf(ref);
     const vec3 position = batch.position(ref.point), normal = batch.facingNormal(ref.point);
-    return {position,
-            normal,
-            projectedPixelSize(state_.camera, position, normal),
-            batch.key(ref.point),
-            batch.group(),
+    return {{batch.group(), position, normal, batch.key(ref.point), projectedPixelSize(state_.camera, position, normal),
+             batch.edgeLength(ref.point)},
             cacheOfGroup_[static_cast<size_t>(batch.group())]};
   }
 
@@ -146,10 +139,8 @@ class GatherPass {
     std::vector<uint8_t> covered(points.size());
     parallelFor(points.size(), kPointsPerSlice, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i) {
-        const Site site = siteOf(points[i]);
-        covered[i] =
-            state_.caches[site.cache].cache.lookup(site.position, site.normal, site.pixelSize).weight >=
-            kEnough;
+        const auto [p, cache] = siteOf(points[i]);
+        covered[i] = state_.caches[cache].cache.lookup(p.position, p.normal, p.pixelSize).weight >= kEnough;
       }
     });
     std::vector<Site> sites;
@@ -159,8 +150,7 @@ class GatherPass {
   }
 
   IrradianceRecord gatherAt(const Site& site) const {
-    return gather(state_.rays, state_.shading, site.group, site.position, site.normal, site.key,
-                  site.pixelSize, state_.caches[site.cache].plan.gather, state_.stats);
+    return gather(state_.rays, state_.shading, site.point, state_.caches[site.cache].plan.gather, state_.stats);
   }
 
   void report(float fractionOfPhase) const {

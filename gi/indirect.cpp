@@ -35,7 +35,7 @@ class PathBatches {
     const uint32_t pointKey =
         hashCombine(points_.key(i), state_.settings.seed, static_cast<uint32_t>(context_.depth));
     Ray ray{points_.position(i), normal, maxDistance_};
-    state_.rays.prepareOrigin(points_.group(), ray.origin, ray);
+    state_.rays.prepareOrigin(points_.group(), ray.origin, points_.edgeLength(i), ray);
     for (int path = 0; path < paths; ++path) {
       const vec3 local = cosineHemisphere(sobol2(static_cast<uint32_t>(path), pointKey));
       ray.direction = local.x * tangent + local.y * bitangent + local.z * normal;
@@ -128,8 +128,8 @@ void interpolateIndirect(const GiState& state, const ShadePoints& points, const 
       }
     }
     // Kept out of the cache: what other points find there must not depend on the order of shading.
-    const IrradianceRecord record = gather(state.rays, state.shading, points.group(), P, n, points.key(i),
-                                           pixelSize, plan.gather, state.stats);
+    const GatherPoint point{points.group(), P, n, points.key(i), pixelSize, points.edgeLength(i)};
+    const IrradianceRecord record = gather(state.rays, state.shading, point, plan.gather, state.stats);
     store(out, i, record.E, record.dominant);
   }
   state.stats.irradianceCache.lookups += lookups;

@@ -24,7 +24,7 @@ void GiServices::transmission(const ShadePoints& points, const uint8_t* active, 
     const float length = glm::length(path);
     if (!active[i] || arriving == vec3(0.0f) || !(length > 0)) continue;
     Ray ray{points.position(i), path / length, solar ? kInfinity : length};
-    impl_->rays.prepareOrigin(points.group(), ray.origin, ray);
+    impl_->rays.prepareOrigin(points.group(), ray.origin, points.edgeLength(i), ray);
     ray.offset = slantedOffset(ray.offset, std::abs(dot(ray.direction, points.get3(kNgx, i))));
     const vec3 passed = arriving * impl_->rays.transmission(ray);
     light.x[i] = passed.x, light.y[i] = passed.y, light.z[i] = passed.z;

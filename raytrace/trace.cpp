@@ -5,6 +5,9 @@
 namespace tomales {
 namespace {
 
+// A chord that turns the surface by 45 degrees lies at most a tenth of its length inside. Long micropolygons stand at
+// silhouettes, where dicing by raster size is coarse in space.
+constexpr float kChordShare = 0.1f;
 constexpr float kOffsetFactor = 1.5f;  ///< docs/decisions/0006-hit-list-offset.md
 constexpr float kOffsetEpsilon =
     1e-5f;                      ///< Of distance and size: rounding, where the coarse surface is exact.
@@ -119,13 +122,14 @@ vec3 RayScene::transmission(const Ray& ray) const {
   return clear;
 }
 
-void RayScene::prepareOrigin(int group, const vec3& P, Ray& ray) const {
+void RayScene::prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ray) const {
   const auto g = static_cast<size_t>(group);
   const auto& given = impl_->scene.groups[g].attributes->trace;
   const CoarseGroup& coarse = impl_->groups[g];
   const float scale = glm::length(P) + coarse.size;
   const float automatic =
-      kOffsetFactor * (coarse.deviation + impl_->displacementBounds[g]) + kOffsetEpsilon * scale;
+      kOffsetFactor * (coarse.deviation + impl_->displacementBounds[g] + kChordShare * edgeLength) +
+      kOffsetEpsilon * scale;
   ray.group = group;
   ray.offset = impl_->hitList ? std::max(given.offset.value_or(automatic), 0.0f) : 0.0f;
   ray.bias = given.bias.value_or(kBias * scale);

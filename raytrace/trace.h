@@ -42,9 +42,10 @@ class RayScene {
   /// Fraction of light that passes from the origin to tMax, by the objects' opacities.
   vec3 transmission(const Ray& ray) const;
 
-  /// Group, offset and bias for rays that leave a point of this object at P: trace:offset and trace:bias, or by default more than the
-  /// largest distance between its coarse and its diced surface (displacement bound included).
-  void prepareOrigin(int group, const vec3& P, Ray& ray) const;
+  /// Sets group, offset and bias of a ray that leaves P on a micropolygon of this group with edges no longer than `edgeLength`
+  /// (0: a point of the true surface): trace:offset and trace:bias, or by default more than the largest distance between the
+  /// coarse surface, the true one (displacement bound included) and the micropolygon.
+  void prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ray) const;
 
   /// Radiance at hits towards the ray origins. All hits of one call are shaded together, a batch for each shade group.
   /// `keys` name the hits for random numbers. radiance: count entries; misses get 0.

@@ -52,6 +52,11 @@ class ShadePoints {
     const vec3 n = get3(kNx, i);
     return dot(get3(kIx, i), get3(kNgx, i)) > 0 ? -n : n;
   }
+  /// Length of the longer edge of the micropolygon that the point stands for; 0 at ray hits.
+  float edgeLength(int i) const {
+    return std::max(glm::length(get3(kDpduX, i)) * std::abs(channel(kDu)[i]),
+                    glm::length(get3(kDpdvX, i)) * std::abs(channel(kDv)[i]));
+  }
   size_t bytes() const { return channels_.size() * channels_[0].capacity() * sizeof(float) + keys_.capacity() * sizeof(uint32_t); }
 
  private:

@@ -38,12 +38,6 @@ namespace {
 
 float orOne(float x) { return x != 0 ? x : 1.0f; }
 
-/// s and t of a surface without primitive variables of that name (RISpec 3.2, TextureCoordinates).
-vec2 textureCoordinates(const Attributes& attributes, float u, float v) {
-  const auto& c = attributes.textureCoordinates;
-  return (1 - v) * ((1 - u) * c[0] + u * c[1]) + v * ((1 - u) * c[2] + u * c[3]);
-}
-
 int primvarFloats(const ShadeGroup& group) {
   int n = 0;
   for (const Primvar& p : group.primvars) n += p.width;
@@ -75,13 +69,13 @@ Facet FacetTable::makeFacet(const GridTable::Entry& entry, int cell) {
   const int batch = batchOf(scene_.objects[static_cast<size_t>(g.object)].group);
   if (entry.raster->smooth) {
     const int row = g.nu + 1, a = cell / g.nu * row + cell % g.nu;
-    Facet facet{batch, {}};
+    Facet facet{batch, {}, entry.raster->matte};
     const int corner[4] = {a, a + 1, a + row, a + row + 1};
     for (int k = 0; k < 4; ++k) facet.point[k] = cornerPoint(entry, batch, corner[k]);
     return facet;
   }
   const int p = addPoint(g, batch, Stencil::cell(g, cell), hashCombine(g.name, static_cast<uint32_t>(cell)));
-  return {batch, {p, p, p, p}};
+  return {batch, {p, p, p, p}, entry.raster->matte};
 }
 
 int FacetTable::cornerPoint(const GridTable::Entry& entry, int batch, int vertex) {
@@ -126,7 +120,7 @@ int FacetTable::addPoint(const Grid& g, int batch, const Stencil& at, uint32_t k
   points.set3(kDpduX, i, uEdge / du);
   points.set3(kDpdvX, i, vEdge / dv);
   set(kU, u), set(kV, v), set(kDu, du), set(kDv, dv), set(kArea, glm::length(span));
-  const vec2 st = textureCoordinates(*group.attributes, u, v);
+  const vec2 st = group.attributes->textureAt(u, v);
   set(kS, st.x), set(kT, st.y);
   int offset = 0;
   for (const Primvar& p : group.primvars) {

@@ -83,7 +83,7 @@ struct World {
 
   Ray rayFrom(int object, const vec3& origin, const vec3& direction, float tMax = kInfinity) const {
     Ray ray{origin, glm::normalize(direction), tMax};
-    rays->prepareOrigin(scene.objects[static_cast<size_t>(object)].group, origin, ray);
+    rays->prepareOrigin(scene.objects[static_cast<size_t>(object)].group, origin, 0, ray);
     return ray;
   }
 
