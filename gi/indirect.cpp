@@ -41,7 +41,7 @@ class PathBatches {
       ray.direction = local.x * tangent + local.y * bitangent + local.z * normal;
       rays_.push_back(ray);
       rays_.back().offset = slantedOffset(ray.offset, local.z);
-      keys_.push_back(hashCombine(pointKey, static_cast<uint32_t>(path)));
+      names_.push_back({hashCombine(pointKey, static_cast<uint32_t>(path)), 0});
       sums_.push_back(&sum);
       if (rays_.size() == kRaysPerBatch) flush();
     }
@@ -55,7 +55,7 @@ class PathBatches {
       hits_.push_back(state_.rays.closest(ray, kMaskDiffuse));
       adjusted += hits_.back().adjusted;
     }
-    state_.rays.shadeHits(rays_, hits_, keys_, state_.shading, context_, radiance_);
+    state_.rays.shadeHits(rays_, hits_, names_, state_.shading, context_, radiance_);
     for (size_t r = 0; r < rays_.size(); ++r) {
       if (!isFinite(radiance_[r])) continue;  // one bad shader result would cost the whole point
       sums_[r]->radiance += radiance_[r];
@@ -63,7 +63,7 @@ class PathBatches {
     }
     state_.stats.rays.reference += static_cast<int64_t>(rays_.size());
     state_.stats.rays.hitlistAdjusted += adjusted;
-    rays_.clear(), keys_.clear(), sums_.clear();
+    rays_.clear(), names_.clear(), sums_.clear();
   }
 
  private:
@@ -74,7 +74,7 @@ class PathBatches {
   const ShadeContext context_;
   std::vector<Ray> rays_;
   std::vector<Hit> hits_;
-  std::vector<uint32_t> keys_;
+  std::vector<SampleName> names_;
   std::vector<PathSum*> sums_;
   std::vector<vec3> radiance_;
 };

@@ -33,8 +33,8 @@ std::vector<uint32_t> byGroup(const Scene& scene, const std::vector<Hit>& hits, 
 
 /// Parameters and primitive variables are those of the true surface, place and normals those that the ray
 /// met.
-void addPoint(const Scene& scene, const Ray& ray, const Hit& hit, uint32_t key, ShadePoints& points) {
-  const int i = points.add(key);
+void addPoint(const Scene& scene, const Ray& ray, const Hit& hit, SampleName name, ShadePoints& points) {
+  const int i = points.add(name);
   evaluatePoint(scene, hit.object, hit.patch, hit.u, hit.v, points, i);
   const vec3 I = ray.direction * hit.t;
   points.set3(kPx, i, ray.origin + I);
@@ -46,7 +46,7 @@ void addPoint(const Scene& scene, const Ray& ray, const Hit& hit, uint32_t key, 
 }  // namespace
 
 void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& hits,
-                         const std::vector<uint32_t>& keys, const ShadingSystem& shading,
+                         const std::vector<SampleName>& names, const ShadingSystem& shading,
                          const ShadeContext& context, std::vector<vec3>& radiance) const {
   const Scene& scene = impl_->scene;
   radiance.assign(hits.size(), vec3(0));
@@ -60,7 +60,7 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
     const ShadeGroup& group = scene.groups[static_cast<size_t>(g)];
     ShadePoints points(g, primvarFloats(group));
     points.reserve(static_cast<int>(last - first));
-    for (size_t k = first; k < last; ++k) addPoint(scene, rays[order[k]], hits[order[k]], keys[order[k]], points);
+    for (size_t k = first; k < last; ++k) addPoint(scene, rays[order[k]], hits[order[k]], names[order[k]], points);
     shading.shade(points, context, shaded);
     const vec3 emission = diffuse ? vec3(0) : shading.visibleEmission(g);
     for (size_t k = first; k < last; ++k) {

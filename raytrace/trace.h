@@ -48,8 +48,8 @@ class RayScene {
   void prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ray) const;
 
   /// Radiance at hits towards the ray origins. All hits of one call are shaded together, a batch for each shade group.
-  /// `keys` name the hits for random numbers. radiance: count entries; misses get 0.
-  void shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& hits, const std::vector<uint32_t>& keys,
+  /// `names` name the hits for random numbers. radiance: count entries; misses get 0.
+  void shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& hits, const std::vector<SampleName>& names,
                  const ShadingSystem& shading, const ShadeContext& context, std::vector<vec3>& radiance) const;
 
   /// The coarse polygons of area light `light`, for sampling (reyes/shade.h: sampleEmitter).

@@ -2,20 +2,27 @@
 
 namespace tomales {
 
-int ShadePoints::add(uint32_t key) {
+int ShadePoints::add(SampleName name) {
   const int index = count();
-  keys_.push_back(key);
-  if (static_cast<size_t>(index) >= channels_[0].size())
-    for (auto& c : channels_) c.resize(static_cast<size_t>(padded(std::max(index + 1, index + index / 2))), 0.0f);
+  names_.push_back(name);
+  if (index == capacity_) setCapacity(index + index / 2 + 1);
   return index;
 }
 
-void ShadePoints::reserve(int n) {
-  keys_.reserve(static_cast<size_t>(n));
-  for (auto& c : channels_) c.reserve(static_cast<size_t>(padded(n)));
+void ShadePoints::reserve(int points) {
+  names_.reserve(static_cast<size_t>(points));
+  if (points > capacity_) setCapacity(points);
 }
 
-void ShadePoints::clear() { keys_.clear(); }
+void ShadePoints::setCapacity(int points) {
+  const int wanted = padded(points);
+  AlignedVector<float> block(static_cast<size_t>(channels_) * static_cast<size_t>(wanted), 0.0f);
+  for (int c = 0; c < channels_; ++c) std::copy_n(channel(c), capacity_, block.data() + static_cast<size_t>(c) * static_cast<size_t>(wanted));
+  block_ = std::move(block);
+  capacity_ = wanted;
+}
+
+void ShadePoints::clear() { names_.clear(); }
 
 void ShadedPoints::resize(int count) {
   for (int k = 0; k < 3; ++k) {

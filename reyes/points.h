@@ -21,26 +21,34 @@ enum PointChannel : int {
   kFixedChannels
 };
 
+/// Names a point for random numbers: the same point must have the same name for any thread count, bucket size and crop.
+/// Points that share a key and differ in `sequence` draw successive parts of one low-discrepancy sequence, so that what is
+/// averaged over them (the rays of one irradiance record) is stratified as a whole.
+struct SampleName {
+  uint32_t key = 0, sequence = 0;
+};
+
 class ShadePoints {
  public:
   /// `group`: Scene::groups; `primvarFloats`: the sum of widths of the group's primvars.
-  ShadePoints(int group, int primvarFloats) : group_(group), channels_(static_cast<size_t>(kFixedChannels + primvarFloats)) {}
+  ShadePoints(int group, int primvarFloats) : group_(group), channels_(kFixedChannels + primvarFloats) {}
 
   int group() const { return group_; }
-  int count() const { return static_cast<int>(keys_.size()); }
-  int channelCount() const { return static_cast<int>(channels_.size()); }
+  int count() const { return static_cast<int>(names_.size()); }
+  int channelCount() const { return channels_; }
 
-  /// Appends a point and returns its index; channels are then set through `channel`. `key` names the point for random
-  /// numbers: the same point must have the same key for any thread count, bucket size and crop.
-  int add(uint32_t key);
+  /// Appends a point and returns its index; channels are then set through `channel`.
+  int add(SampleName name);
+  int add(uint32_t key) { return add(SampleName{key, 0}); }
   void reserve(int count);
   void clear();
 
-  float* channel(int c) { return channels_[static_cast<size_t>(c)].data(); }
-  const float* channel(int c) const { return channels_[static_cast<size_t>(c)].data(); }
+  float* channel(int c) { return block_.data() + static_cast<size_t>(c) * static_cast<size_t>(capacity_); }
+  const float* channel(int c) const { return block_.data() + static_cast<size_t>(c) * static_cast<size_t>(capacity_); }
   float* primvar(int offset) { return channel(kFixedChannels + offset); }
   const float* primvar(int offset) const { return channel(kFixedChannels + offset); }
-  uint32_t key(int i) const { return keys_[static_cast<size_t>(i)]; }
+  uint32_t key(int i) const { return names_[static_cast<size_t>(i)].key; }
+  SampleName name(int i) const { return names_[static_cast<size_t>(i)]; }
 
   vec3 get3(int c, int i) const { return {channel(c)[i], channel(c + 1)[i], channel(c + 2)[i]}; }
   void set3(int c, int i, const vec3& v) { channel(c)[i] = v.x, channel(c + 1)[i] = v.y, channel(c + 2)[i] = v.z; }
@@ -57,12 +65,15 @@ class ShadePoints {
     return std::max(glm::length(get3(kDpduX, i)) * std::abs(channel(kDu)[i]),
                     glm::length(get3(kDpdvX, i)) * std::abs(channel(kDv)[i]));
   }
-  size_t bytes() const { return channels_.size() * channels_[0].capacity() * sizeof(float) + keys_.capacity() * sizeof(uint32_t); }
+  size_t bytes() const { return block_.capacity() * sizeof(float) + names_.capacity() * sizeof(SampleName); }
 
  private:
-  int group_;
-  std::vector<AlignedVector<float>> channels_;  ///< Each padded(count()) long; the padding repeats zeros.
-  std::vector<uint32_t> keys_;
+  void setCapacity(int points);
+
+  int group_, channels_;
+  int capacity_ = 0;            ///< Points that the block has room for, a multiple of kLanes.
+  AlignedVector<float> block_;  ///< One array of capacity_ floats a channel; what lies beyond count() is finite.
+  std::vector<SampleName> names_;
 };
 
 /// Colour and opacity of a batch of shaded points, Ci premultiplied. Arrays are padded as ShadePoints' are.

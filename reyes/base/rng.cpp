@@ -1,14 +1,8 @@
 #include "reyes/base/rng.h"
 
-namespace tomales {
+#include <numeric>
 
-uint32_t reverseBits(uint32_t x) {
-  x = ((x >> 1) & 0x55555555U) | ((x & 0x55555555U) << 1);
-  x = ((x >> 2) & 0x33333333U) | ((x & 0x33333333U) << 2);
-  x = ((x >> 4) & 0x0f0f0f0fU) | ((x & 0x0f0f0f0fU) << 4);
-  x = ((x >> 8) & 0x00ff00ffU) | ((x & 0x00ff00ffU) << 8);
-  return (x >> 16) | (x << 16);
-}
+namespace tomales {
 
 namespace {
 
@@ -42,6 +36,14 @@ vec2 sobol2(uint32_t index, uint32_t seed) {
 
 float sobol1(uint32_t index, uint32_t seed) {
   return unitFloat(owenScramble(reverseBits(owenScramble(index, seed)), hash32(seed ^ 0x68bc21ebU)));
+}
+
+std::vector<int> permutation(int count, uint32_t seed) {
+  std::vector<int> p(static_cast<size_t>(count));
+  std::iota(p.begin(), p.end(), 0);
+  for (int i = count - 1; i > 0; --i)
+    std::swap(p[static_cast<size_t>(i)], p[hashCombine(seed, static_cast<uint32_t>(i)) % static_cast<uint32_t>(i + 1)]);
+  return p;
 }
 
 vec3 cosineHemisphere(vec2 xi) {

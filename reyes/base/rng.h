@@ -2,6 +2,8 @@
 // dimension, seed), so results never depend on the schedule of threads or buckets.
 // Threads: everything here is pure.
 #pragma once
+#include <vector>
+
 #include "reyes/base/math.h"
 
 namespace tomales {
@@ -22,7 +24,12 @@ uint32_t hashCombine(uint32_t a, uint32_t b, Rest... rest) {
 /// [0, 1): 24 bits, exactly representable.
 inline float unitFloat(uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24f; }
 
-uint32_t reverseBits(uint32_t x);
+inline uint32_t reverseBits(uint32_t x) {
+  x = ((x >> 1) & 0x55555555U) | ((x & 0x55555555U) << 1);
+  x = ((x >> 2) & 0x33333333U) | ((x & 0x33333333U) << 2);
+  x = ((x >> 4) & 0x0f0f0f0fU) | ((x & 0x0f0f0f0fU) << 4);
+  return __builtin_bswap32(x);
+}
 
 /// Nested uniform (Owen) scrambling of the bits of x by a hash (Laine and Karras 2011, constants of
 /// Burley 2020, "Practical hash-based Owen scrambling").
@@ -34,6 +41,9 @@ vec2 sobol2(uint32_t index, uint32_t seed);
 
 /// The one-dimensional companion: van der Corput, Owen-scrambled and shuffled.
 float sobol1(uint32_t index, uint32_t seed);
+
+/// A random order of 0 .. count-1.
+std::vector<int> permutation(int count, uint32_t seed);
 
 /// Direction of the hemisphere around +z with density cos(theta)/pi (Malley's method, concentric disk).
 vec3 cosineHemisphere(vec2 xi);

@@ -1,6 +1,5 @@
 // Correlated multi-jittered sampling (Kensler 2013): every cell of the xSamples by ySamples raster holds one
 // sample, and so does every column and row of the finer raster with count() columns and rows.
-#include <numeric>
 
 #include "reyes/base/rng.h"
 #include "reyes/hide.h"
@@ -10,15 +9,6 @@ namespace tomales {
 namespace {
 
 constexpr uint32_t kPatterns = 256;
-
-std::vector<int> permutation(int count, uint32_t seed) {
-  std::vector<int> p(static_cast<size_t>(count));
-  std::iota(p.begin(), p.end(), 0);
-  for (int i = count - 1; i > 0; --i)
-    std::swap(p[static_cast<size_t>(i)],
-              p[hashCombine(seed, static_cast<uint32_t>(i)) % static_cast<uint32_t>(i + 1)]);
-  return p;
-}
 
 /// Position `inside` (0..1) of stratum `i` of n, on the lattice but never in another stratum.
 float placed(int i, int n, float inside) {

@@ -26,9 +26,9 @@ bool sampleEmitter(Batch& batch, const BoundLight& light, TmGrid& g, float* area
   float* xi0 = batch.arena.floats(g.count);
   float* xi1 = batch.arena.floats(g.count);
   for (int i = 0; i < g.count; ++i) {
-    const uint32_t stream =
-        hashCombine(batch.points->key(i), static_cast<uint32_t>(light.index), batch.context.seed);
-    const vec2 xi = sobol2(static_cast<uint32_t>(g.sample), stream);
+    const SampleName name = batch.points->name(i);
+    const uint32_t stream = hashCombine(name.key, static_cast<uint32_t>(light.index), batch.context.seed);
+    const vec2 xi = sobol2(name.sequence * static_cast<uint32_t>(g.samples) + static_cast<uint32_t>(g.sample), stream);
     xi0[i] = xi.x, xi1[i] = xi.y;
   }
   const TmVec3 Pl = batch.arena.vec3(g.count), Nl = batch.arena.vec3(g.count);

@@ -11,7 +11,7 @@ constexpr int kChunk =
 
 void copyChunk(const ShadePoints& from, int begin, int end, ShadePoints& to) {
   to.clear();
-  for (int i = begin; i < end; ++i) to.add(from.key(i));
+  for (int i = begin; i < end; ++i) to.add(from.name(i));
   for (int c = 0; c < from.channelCount(); ++c)
     std::copy(from.channel(c) + begin, from.channel(c) + end, to.channel(c));
 }
