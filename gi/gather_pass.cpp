@@ -42,7 +42,7 @@ class GatherPass {
 
   bool isCancelled() const { return cancelled_ && cancelled_->load(std::memory_order_relaxed); }
 
-  // Groups whose indirect lights ask for the same share a cache. With kappa = 0 nothing could be reused.
+  // Groups whose indirect lights ask for the same share a cache. With maxerror 0 nothing could be reused.
   void prepareCaches() {
     state_.caches.clear();
     cacheOfGroup_.assign(state_.scene.groups.size(), kNoCache);
@@ -53,7 +53,7 @@ class GatherPass {
       const Attributes& attributes = *state_.scene.groups[g].attributes;
       if (!query || !attributes.indirect.receive || attributes.matte) continue;
       const GatherPlan plan = planFor(state_, group, *query);
-      if (!(plan.cache.maxError > 0)) continue;
+      if (!(plan.cache.kappa < kInfinity)) continue;
       size_t c = 0;
       while (c < state_.caches.size() && !(state_.caches[c].plan == plan)) ++c;
       if (c == state_.caches.size()) state_.caches.push_back({plan, IrradianceCache(bound, plan.cache)});

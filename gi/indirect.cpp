@@ -9,6 +9,10 @@ constexpr size_t kRaysPerBatch = 4096;  // shaded together
 constexpr uint32_t kPathStream =
     0x70617468U;  // keeps directions independent of the light samples at the same point
 
+// Ward's split sphere needs a = 1/4 for the error that the paper's function has at kappa = 1 (docs/gi.md), so that `maxerror`
+// means the same for both.
+constexpr float kWardKappa = 4;
+
 vec3 unitNormal(const ShadePoints& points, TmConstVec3 N, int i) {
   return normalizeOr({N.x[i], N.y[i], N.z[i]}, points.facingNormal(i));
 }
@@ -86,8 +90,10 @@ GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) 
   const GiSettings& settings = state.settings;
   GatherPlan plan;
   plan.cache.errorFunction = query.errorFunction == "ward" ? ErrorFunction::Ward : ErrorFunction::Screen;
-  plan.cache.maxError =
+  const float maxError =
       settings.maxError >= 0 ? settings.maxError : attributes.irradianceMaxError.value_or(query.maxError);
+  const float kappaAtOne = plan.cache.errorFunction == ErrorFunction::Ward ? kWardKappa : 1.0f;
+  plan.cache.kappa = maxError > 0 ? kappaAtOne / maxError : kInfinity;
   plan.cache.maxPixels = attributes.irradianceMaxPixelDist.value_or(plan.cache.maxPixels);
   plan.gather.samples = std::max(1, settings.samples > 0 ? settings.samples : query.samples);
   plan.gather.maxDistance = query.maxDistance;

@@ -80,7 +80,7 @@ struct IrradianceCache::Impl {
   float reach(float recordSize, float pixelSize) const {
     const float radius =
         std::max(std::min(recordSize, settings.maxPixels * pixelSize), kMinPixels * pixelSize);
-    return radius / settings.maxError;
+    return radius / settings.kappa;
   }
 
   void insert(uint32_t index) {
@@ -121,10 +121,10 @@ struct IrradianceCache::Impl {
     const float position = std::sqrt(distance2) / radius;
     const float angle = std::sqrt(std::max(0.0f, 1 - dot(n, r.normal)));
     if (settings.errorFunction == ErrorFunction::Screen) {
-      const float error = std::max(position, settings.maxError * angle / std::sqrt(kMaxAngleTerm));  // eq. 2
+      const float error = std::max(position, settings.kappa * angle / std::sqrt(kMaxAngleTerm));  // eq. 2
       return front * std::max(0.0f, 1 - error);                                                      // eq. 5
     }
-    const float error = position + settings.maxError * angle;
+    const float error = position + settings.kappa * angle;
     return front * std::max(0.0f, 1 / std::max(error, 1e-4f) - 1);
   }
 
@@ -175,14 +175,14 @@ IrradianceCache::~IrradianceCache() = default;
 void IrradianceCache::insert(const IrradianceRecord& record) {
   Impl& impl = *impl_;
   impl.records.push_back(record);
-  if (!(impl.settings.maxError > 0)) return;
+  if (!(impl.settings.kappa < kInfinity)) return;
   limitTranslation(impl.records.back(), impl.reach(impl.size(record), record.pixelSize));
   impl.insert(static_cast<uint32_t>(impl.records.size() - 1));
 }
 
 IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, float pixelSize) const {
   std::vector<Candidate> candidates;
-  if (impl_->settings.maxError > 0) {
+  if (impl_->settings.kappa < kInfinity) {
     impl_->collect(impl_->outside, x, normal, pixelSize, candidates);
     impl_->collect(0, impl_->root, x, normal, pixelSize, candidates);
   }

@@ -26,7 +26,7 @@ enum class ErrorFunction { Screen, Ward };
 
 struct CacheSettings {
   ErrorFunction errorFunction = ErrorFunction::Screen;
-  float maxError = 1;              ///< kappa, eq. 2: records reach 1 / kappa as far. 0: every point is computed anew.
+  float kappa = 1;                 ///< Eq. 2: records reach 1 / kappa as far. Infinite: nothing is ever reused.
   float maxPixels = 10;            ///< R+ of eq. 3, in roots of the projected pixel area (Attribute "irradiance" "maxpixeldist")
   bool operator==(const CacheSettings&) const = default;
 };

@@ -19,7 +19,7 @@ struct GiSettings {
   GiMode mode = GiMode::Gather;
   int samples = 0;        ///< Rays per record, or paths per point of the reference; 0: as the indirect light asks.
   int bounces = 0;        ///< 0: as the indirect light asks (1 by default).
-  float maxError = -1;    ///< kappa; < 0: as the indirect light asks.
+  float maxError = -1;    ///< As the `maxerror` of indirectlight; < 0: as the light asks.
   uint32_t seed = 0;
 };
 

@@ -69,18 +69,18 @@ TEST(GatherPass, TheCacheDoesNotDependOnThreadsOrBuckets) {
     }
 }
 
-TEST(GatherPass, ALargerKappaTakesMoreRecords) {
+TEST(GatherPass, ASmallerMaxErrorTakesMoreRecords) {
   int64_t last = 0;
-  for (const float kappa : {0.5f, 1.0f, 2.0f}) {
+  for (const float maxError : {2.0f, 1.0f, 0.5f}) {
     World world(cornell(indirect(16)).scene);
-    const auto services = world.use({.maxError = kappa});
+    const auto services = world.use({.maxError = maxError});
     services->gatherPass(frameOf(world, 16), {}, nullptr);
-    EXPECT_GT(world.stats.irradianceCache.samples, last * 5 / 4) << kappa;
+    EXPECT_GT(world.stats.irradianceCache.samples, last * 5 / 4) << maxError;
     last = world.stats.irradianceCache.samples;
   }
 }
 
-TEST(GatherPass, AKappaOfZeroGathersEveryPointWhileShading) {
+TEST(GatherPass, AMaxErrorOfZeroGathersEveryPointWhileShading) {
   World world(cornell(indirect(16), 16).scene);
   const DeepFrame frame = frameOf(world, 16);
   const auto services = world.use({.maxError = 0});
@@ -96,7 +96,7 @@ TEST(GatherPass, AKappaOfZeroGathersEveryPointWhileShading) {
 TEST(GatherPass, InterpolatedLightAgreesWithTheReference) {
   World world(cornell(indirect(256)).scene);
   const DeepFrame frame = frameOf(world, 16);
-  auto services = world.use({.maxError = 2});
+  auto services = world.use({.maxError = 0.5f});
   services->gatherPass(frame, {}, nullptr);
   const std::vector<vec3> cached = indirectOf(*services, world, frame);
   services = world.use({.mode = GiMode::Reference, .samples = 64, .seed = 7});

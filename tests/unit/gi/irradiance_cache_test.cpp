@@ -67,8 +67,8 @@ TEST(IrradianceCache, MaxPixelsReplacesTheTenOfEquation3) {
   EXPECT_NEAR(weightOfOne(four, recordAt(vec3(0), vec3(1), 9), {0.02f, 0, 0}, kUp, 0.01f), 0.5f, 1e-5f);
 }
 
-TEST(IrradianceCache, KappaOfZeroReusesNothing) {
-  EXPECT_EQ(weightOfOne({ErrorFunction::Screen, 0}, recordAt(vec3(0), vec3(1)), vec3(0), kUp, 0.01f), 0);
+TEST(IrradianceCache, AnInfiniteKappaReusesNothing) {
+  EXPECT_EQ(weightOfOne({ErrorFunction::Screen, kInfinity}, recordAt(vec3(0), vec3(1)), vec3(0), kUp, 0.01f), 0);
 }
 
 TEST(IrradianceCache, WardWeightIsTheInverseOfTheSplitSphereError) {

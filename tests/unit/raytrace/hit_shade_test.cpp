@@ -23,19 +23,19 @@ struct Sheets : World {
       rays_.push_back(
           {vec3(static_cast<float>(sheet) + 0.4f, 0.02f * static_cast<float>(i), 0), vec3(0, 0, 1)});
       hits.push_back(rays->closest(rays_.back(), kMaskDiffuse));
-      keys.push_back(i);
+      names.push_back({i, 0});
     }
   }
   std::vector<vec3> shade(RayKind kind) {
     ShadeContext context;
     context.kind = kind;
     std::vector<vec3> out;
-    rays->shadeHits(rays_, hits, keys, *shading, context, out);
+    rays->shadeHits(rays_, hits, names, *shading, context, out);
     return out;
   }
   std::vector<Ray> rays_;
   std::vector<Hit> hits;
-  std::vector<uint32_t> keys;
+  std::vector<SampleName> names;
 };
 
 TEST(ShadeHits, EveryRayGetsTheColorOfWhatItMet) {
