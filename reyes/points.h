@@ -35,6 +35,7 @@ class ShadePoints {
   int add(uint32_t key);
   void reserve(int count);
   void clear();
+  void shrink();  ///< Gives back what growing reserved beyond need.
 
   float* channel(int c) { return channels_[static_cast<size_t>(c)].data(); }
   const float* channel(int c) const { return channels_[static_cast<size_t>(c)].data(); }
