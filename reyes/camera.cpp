@@ -15,6 +15,10 @@ Camera::Camera(const Options& o)
   scale_ = {x / (w[1] - w[0]) * focal, -y / (w[3] - w[2]) * focal};
   offset_ = {-w[0] * x / (w[1] - w[0]), w[3] * y / (w[3] - w[2])};
   pixelSizeAtUnit_ = 1.0f / std::sqrt(std::abs(scale_.x * scale_.y));
+  if (perspective_ && o.fStop < kInfinity) {
+    lens_ = scale_ * (0.5f * o.focalLength / o.fStop);
+    focusKey_ = depthKey(o.focalDistance);
+  }
 
   const auto edge = [](float fraction, float shift, int resolution) {
     const float e = std::ceil(static_cast<float>(resolution) * fraction + shift);
@@ -27,18 +31,26 @@ Camera::Camera(const Options& o)
 bool Camera::rasterBound(const Bound3& b, Bound2& out) const {
   if (perspective_ && b.lo.z < near_) return false;
   out = {};
-  for (int i = 0; i < 8; ++i) out.extend(raster(b.corner(i)));
+  // For fixed x the reach to either side is convex in 1/z, so its extremes are at corners.
+  for (int i = 0; i < 8; ++i) {
+    const vec3 corner = b.corner(i);
+    const vec2 at = raster(corner), blur = glm::abs(defocus(depthKey(corner.z)));
+    out.extend(at - blur);
+    out.extend(at + blur);
+  }
   return true;
 }
 
 bool Camera::outside(const Bound3& b, const PixelRect& window) const {
   if (b.empty() || b.hi.z < near_ || b.lo.z > far_) return true;
   // raster_x >= x0  <=>  scale * x + (offset - x0) * z >= 0 for z > 0: a half space through the eye. The frustum is the
-  // intersection of four of them, so a box wholly outside one of them is wholly outside.
+  // intersection of four of them, so a box wholly outside one of them is wholly outside. Defocus adds up to
+  // lens * |z * focusKey + 1| on either side, which is convex in z: corners tell the most.
   const auto allNegative = [&](float scale, float constant, int axis, float sign) {
     for (int i = 0; i < 8; ++i) {
       const vec3 c = b.corner(i);
-      if (sign * (scale * c[axis] + constant * (perspective_ ? c.z : 1.0f)) >= 0) return false;
+      const float blur = std::abs(lens_[axis] * (c.z * focusKey_ + 1.0f));
+      if (sign * (scale * c[axis] + constant * (perspective_ ? c.z : 1.0f)) + blur >= 0) return false;
     }
     return true;
   };

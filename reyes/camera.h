@@ -27,12 +27,20 @@ class Camera {
   float depthKey(float z) const { return perspective_ ? -1.0f / z : z; }
   float zFromDepthKey(float key) const { return perspective_ ? -1.0f / key : key; }
 
-  /// Conservative raster bound of a camera-space box. False where it reaches nearer than `nearClip`
+  /// How far, in raster x and y, the rim of the lens moves what has this depth key; 0 on the focal plane, negative
+  /// nearer. Lens point l (unit disk) sees a point at raster + l * defocus(depthKey): exact for a thin lens, as
+  /// the line through the lens meets the focal plane there (RISpec 3.2 section 4.1.2, DepthOfField).
+  vec2 defocus(float key) const { return lens_ * (key - focusKey_); }
+  bool defocuses() const { return lens_ != vec2(0); }
+  vec2 lens() const { return lens_; }
+  float focusKey() const { return focusKey_; }
+
+  /// Conservative raster bound of a camera-space box, defocus included. False where it reaches nearer than `nearClip`
   /// under perspective: the box must be split or culled first.
   bool rasterBound(const Bound3& b, Bound2& out) const;
 
   /// True only if no point of the box can be seen through `window`: outside a side of the frustum, nearer than
-  /// `nearClip` or beyond `farClip`. Works for boxes that cross the eye plane.
+  /// `nearClip` or beyond `farClip`; defocus included. Works for boxes that cross the eye plane.
   bool outside(const Bound3& b, const PixelRect& window) const;
 
   /// Width in camera space of one pixel's footprint at p, seen face on; `size / |cos|` of the viewing angle along
@@ -51,6 +59,8 @@ class Camera {
   float near_, far_;
   vec2 scale_, offset_;  ///< raster = offset + scale * (x, y) [/ z]
   float pixelSizeAtUnit_;
+  vec2 lens_{0};       ///< Raster shift at the lens's rim for one unit of depth key; 0: a pinhole.
+  float focusKey_ = 0;
   PixelRect crop_;
 };
 

@@ -9,4 +9,9 @@ size_t DeepTile::bytes() const {
   return n;
 }
 
+void DeepTile::shrink() {
+  for (ShadePoints& b : batches) b.shrink();
+  facets.shrink_to_fit(), fragments.shrink_to_fit(), pixels.shrink_to_fit();
+}
+
 }  // namespace tomales

@@ -42,6 +42,8 @@ struct DeepTile {
     return pixels[static_cast<size_t>((y - rect.y0) * rect.width() + (x - rect.x0))];
   }
   size_t bytes() const;
+  /// Gives back what growing reserved beyond need.
+  void shrink();
 };
 
 struct DeepFrame {

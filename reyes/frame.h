@@ -2,6 +2,7 @@
 //   hideFrame    Scene -> DeepFrame     split, dice, displace, hide, bucket by bucket
 //   shadeFrame   DeepFrame -> DeepFrame surface and light shaders over visible points
 //   imageOf      DeepFrame -> Image     filter
+//   runImager    Image -> Image         imager shader; after exposure (RISpec imaging pipeline)
 #pragma once
 #include <atomic>
 #include <functional>
@@ -25,5 +26,6 @@ DeepFrame hideFrame(const Scene& scene, const ShadingSystem& shading, const Fram
 void shadeFrame(DeepFrame& frame, const Scene& scene, const ShadingSystem& shading, const ShadeContext& context,
                 const FrameControl& control, Stats& stats);
 Image imageOf(const DeepFrame& frame, const Scene& scene, const FrameControl& control, Stats& stats);
+void runImager(Image& image, const ShadingSystem& shading);
 
 }  // namespace tomales

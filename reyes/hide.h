@@ -21,11 +21,13 @@ class SamplePattern {
   const float* x(int pattern) const;              ///< In [0,1) inside the pixel; padded() floats.
   const float* y(int pattern) const;
   const float* time(int pattern) const;           ///< In [0,1) of the shutter.
+  const float* lensX(int pattern) const;          ///< In the unit disk, uniform by area.
+  const float* lensY(int pattern) const;
 
  private:
   int count_, padded_;
   uint32_t seed_;
-  AlignedVector<float> x_, y_, time_;
+  AlignedVector<float> x_, y_, time_, lensX_, lensY_;
 };
 
 /// Vertices of a grid in raster space, made once a grid by `project` and shared by the buckets.
@@ -35,10 +37,11 @@ struct RasterGrid {
   bool matte = false;
   int sides = 2;
   bool smooth = false;          ///< ShadingInterpolation
+  bool defocused = false;       ///< Some vertex moves visibly with the point of the lens.
   AlignedVector<float> x, y, d; ///< Raster x, y and depth key (Camera::depthKey): keyCount * stride each, then a tail to read blocks
                                 ///< across the end; borders pushed out.
   float dMin = 0;
-  Bound2 bound;
+  Bound2 bound;                 ///< Over the shutter and the lens.
 };
 /// Pre: every vertex lies in front of the eye.
 std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene, const Camera& camera, bool opaque);

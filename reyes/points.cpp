@@ -5,7 +5,7 @@ namespace tomales {
 int ShadePoints::add(SampleName name) {
   const int index = count();
   names_.push_back(name);
-  if (index == capacity_) setCapacity(index + index / 2 + 1);
+  if (index == capacity_) setCapacity(2 * index + 1);
   return index;
 }
 
@@ -14,10 +14,16 @@ void ShadePoints::reserve(int points) {
   if (points > capacity_) setCapacity(points);
 }
 
+void ShadePoints::shrink() {
+  if (padded(count()) < capacity_) setCapacity(count());
+  names_.shrink_to_fit();
+}
+
 void ShadePoints::setCapacity(int points) {
   const int wanted = padded(points);
   AlignedVector<float> block(static_cast<size_t>(channels_) * static_cast<size_t>(wanted), 0.0f);
-  for (int c = 0; c < channels_; ++c) std::copy_n(channel(c), capacity_, block.data() + static_cast<size_t>(c) * static_cast<size_t>(wanted));
+  for (int c = 0; c < channels_; ++c)
+    std::copy_n(channel(c), std::min(capacity_, wanted), block.data() + static_cast<size_t>(c) * static_cast<size_t>(wanted));
   block_ = std::move(block);
   capacity_ = wanted;
 }

@@ -42,6 +42,7 @@ class ShadePoints {
   int add(uint32_t key) { return add(SampleName{key, 0}); }
   void reserve(int count);
   void clear();
+  void shrink();  ///< Gives back what growing reserved beyond need.
 
   float* channel(int c) { return block_.data() + static_cast<size_t>(c) * static_cast<size_t>(capacity_); }
   const float* channel(int c) const { return block_.data() + static_cast<size_t>(c) * static_cast<size_t>(capacity_); }

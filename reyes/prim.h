@@ -3,6 +3,7 @@
 // evaluated from the same numbers.
 //   bound     a box that contains a rectangle of a patch
 //   evaluate  positions and derivatives at any points of a patch: dicing a lattice and shading a ray hit are one call
+//   facing    shapes that are drawn flat towards the eye, turned towards one
 //   never     knows a camera, an attribute or a shader
 // Space: everything is in object space. Threads: const members may be called concurrently.
 #pragma once
@@ -63,6 +64,12 @@ class Prim {
   virtual void interpolate(uint32_t patch, int index, int n, const float* u, const float* v, float* out,
                            int stride) const = 0;
 
+  /// The same shape turned towards an eye, for points and curves that face it: `eye` is a position if `perspective`,
+  /// else only the direction `forward`, in which it looks, counts. Null: the shape looks the same to every eye.
+  virtual std::shared_ptr<const Prim> facing(const vec3& /*eye*/, const vec3& /*forward*/, bool /*perspective*/) const {
+    return nullptr;
+  }
+
   /// Those other than P, in a fixed order. "st" arrives split into "s" and "t".
   const std::vector<Primvar>& primvars() const { return primvars_; }
 
@@ -94,6 +101,9 @@ PrimPtr makeTorus(float major, float minor, float phiMin_degrees, float phiMax_d
 /// Faces of any size and convexity, without holes. `vertexCounts` per face, `vertices` concatenated.
 /// Polygon is the same with one face. Degenerate faces (fewer than three distinct vertices) are dropped with a problem.
 PrimPtr makePolygons(const std::vector<int>& vertexCounts, const std::vector<int>& vertices, const ParamList&, Problems&);
+/// With holes: `loopCounts` loops per face, the first its outline; `vertexCounts` per loop. Holes may go either way.
+PrimPtr makeGeneralPolygons(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
+                            const std::vector<int>& vertices, const ParamList&, Problems&);
 
 /// A spline basis (rows as RISpec prints them, power-basis coefficients from control values) and its step.
 struct Basis { mat4 matrix; int step; };
@@ -106,6 +116,23 @@ Basis powerBasis();
 PrimPtr makeBilinearPatchMesh(int nu, bool uPeriodic, int nv, bool vPeriodic, const ParamList&, Problems&);
 PrimPtr makeBicubicPatchMesh(int nu, bool uPeriodic, const Basis& uBasis, int nv, bool vPeriodic, const Basis& vBasis,
                              const ParamList&, Problems&);
+
+/// One direction of a NuPatch: `knots` are controls + order numbers that never decrease; min to max is drawn.
+struct NurbsDirection {
+  int controls, order;
+  std::vector<float> knots;
+  float min, max;
+};
+/// Positions are "P", or "Pw" with weights above zero. Orders 2 to 32. u,v run from 0 to 1 over min..max.
+PrimPtr makeNuPatch(const NurbsDirection& u, const NurbsDirection& v, const ParamList&, Problems&);
+
+/// Disks: round, as wide as "constantwidth" or "width" says (1 if absent), facing "N" or else the eye. One patch each.
+PrimPtr makePoints(const ParamList&, Problems&);
+
+/// Ribbons, u across and v along, as wide as "width" or "constantwidth" says (1 if absent), with the normal "N" or else
+/// facing the eye. One patch a segment. `basis` is for cubic curves.
+PrimPtr makeCurves(bool cubic, const Basis& basis, const std::vector<int>& vertexCounts, bool periodic, const ParamList&,
+                   Problems&);
 
 /// Catmull-Clark by OpenSubdiv's limit surface. Tags as RIB gives them: per tag a name, {number of ints, number of floats}.
 struct SubdivisionTags {

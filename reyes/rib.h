@@ -1,4 +1,4 @@
-// Verb: text -> Scene. A streaming reader of RIB (ASCII; gzip is detected) in three steps that meet in the Request:
+// Verb: text -> Scene. A streaming reader of RIB (ASCII and binary; gzip is detected) in three steps that meet in the Request:
 //   lexer  bytes -> tokens       parser  tokens -> Request, checked against the request table       RiSink  takes Requests
 // Bad input is reported with file:line and the reader goes on at the next request.
 #pragma once
@@ -38,6 +38,8 @@ struct RibSettings {
   std::function<void(Scene&&)> onScene;
   std::vector<std::string> archivePath{"."};
   int maxArchiveDepth = 64;
+  bool allowSystem = false;       ///< System and Procedural "RunProgram" may start programs.
+  double programPatience_s = 60;  ///< The longest that a RunProgram may keep us waiting.
 };
 
 /// Reads files as one stream ("-" is standard input). False if any of them could not be opened or held no readable RIB
@@ -45,5 +47,16 @@ struct RibSettings {
 bool readRib(const std::vector<std::string>& files, const RibSettings& settings, Log& log);
 /// The same from memory; `name` stands for the file in messages.
 bool readRibText(const std::string& text, const std::string& name, const RibSettings& settings, Log& log);
+
+/// The requests as they are written: archives, conditions and programs are not followed. Returns as readRib.
+bool parseRib(const std::vector<std::string>& files, RiSink& sink, Log& log);
+bool parseRibText(const std::string& text, const std::string& name, RiSink& sink, Log& log);
+
+struct RibWriterSettings {
+  bool binary = false, gzip = false;
+  std::function<void(std::string_view)> write;  ///< Called with more of the file.
+};
+/// Writes requests, parameters with inline declarations; parsed again they are the same. Its destructor ends the file.
+std::unique_ptr<RiSink> makeRibWriter(const RibWriterSettings& settings);
 
 }  // namespace tomales

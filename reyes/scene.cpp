@@ -31,6 +31,14 @@ float largestScale(const mat4& m) {
   return std::max({glm::length(vec3(m[0])), glm::length(vec3(m[1])), glm::length(vec3(m[2]))});
 }
 
+// Points and curves turn to the eye as it stands when the shutter opens.
+void turnToEye(Object& o, const mat4& cameraFromObject, bool perspective) {
+  const mat4 objectFromCamera = glm::inverse(cameraFromObject);
+  const vec3 eye = transformPoint(objectFromCamera, vec3(0)), forward = transformVector(objectFromCamera, vec3(0, 0, 1));
+  for (PrimPtr& shape : o.shapes)
+    if (PrimPtr turned = shape->facing(eye, forward, perspective)) shape = std::move(turned);
+}
+
 }  // namespace
 
 bool Scene::cameraFromNamed(const std::string& name, mat4& out) const {
@@ -58,6 +66,7 @@ void Scene::freeze() {
     o.cameraFromObject = cameraFromWorld * o.worldFromObject;
     o.keyTimes = keyTimesOf(o, o.cameraFromObject, options);
     const mat4 m = o.cameraFromObject.at(options.shutterOpen);
+    turnToEye(o, m, options.projection == ProjectionKind::Perspective);
     o.flipsNormal = (glm::determinant(mat3(m)) < 0) != o.attributes->insideOut;
     mat4 cameraFromBoundSpace = m;
     if (o.attributes->displacementBoundSpace != "object")

@@ -21,7 +21,7 @@ struct ShadeContext {
   RayKind kind = RayKind::Camera;
   int depth = 0;               ///< Diffuse bounces between the eye and these points.
   uint32_t seed = 0;
-  int lightSamples = 0;        ///< Samples of each area light; 0: as many as the light asks for.
+  int lightSamples = 0;        ///< Samples of each area light and of the sky; 0: as many as the light asks for.
   bool indirect = true;        ///< Run indirect lights.
 };
 
@@ -75,6 +75,13 @@ class ShaderRegistry {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Consecutive pixels of one row after filtering and exposure, for the imager. Arrays are padded.
+struct ShadedPixels {
+  float x = 0, y = 0;  ///< Raster position of the centre of the first.
+  ShadedPoints colors;
+  AlignedVector<float> alpha;
+};
+
 class ShadingSystem {
  public:
   /// Binds every surface, displacement and light of the scene; reports unknown shaders and parameters with file:line.
@@ -90,6 +97,12 @@ class ShadingSystem {
   void displace(Grid& grid) const;
   /// Surface shader and lights over a batch of one group. `out` is resized.
   void shade(const ShadePoints& points, const ShadeContext& context, ShadedPoints& out) const;
+
+  /// Atmosphere between the eye and points that the camera sees, over their colours in place. No-op without one.
+  void atmosphere(const ShadePoints& points, ShadedPoints& out) const;
+  bool hasImager() const;
+  /// Imager shader, in place. No-op without one.
+  void image(ShadedPixels& pixels) const;
 
   /// Radiance that an emitter's front adds for camera and specular rays: Cl of its area light, 0 if none or `visible` 0.
   vec3 visibleEmission(int group) const;

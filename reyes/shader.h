@@ -265,6 +265,10 @@ class Batch {
   bool texture(const char* name, Vec3Array& out) const {
     return g->call->texture(g->host, g, name, 0, 3, g->s, g->t, out) != 0;
   }
+  /// Radiance of a latitude-longitude picture of the surroundings, in world space. Return: as texture().
+  bool environment(const char* name, TmConstVec3 direction, const float* width_radians, Vec3Array& out) const {
+    return g->call->environment(g->host, g, name, direction, width_radians, out) != 0;
+  }
   /// P in a named space (current space where the name is unknown).
   Vec3Array positionsIn(const char* space) const {
     return filled(

@@ -33,7 +33,9 @@ typedef enum TmCapability {
   TM_LIGHT_AREA = 1 << 3,     /* light: the host samples the geometry of an AreaLightSource and sets Pl, Nl, L */
   TM_LIGHT_INDIRECT = 1 << 4, /* light: brings indirect light; never run at the hits of gather rays */
   TM_LIGHT_SHADOWED = 1 << 5, /* light: the host traces a shadow ray along L for every sample */
-  TM_EMITS = 1 << 6           /* surface: adds emitted radiance of its own, beside light that it reflects */
+  TM_EMITS = 1 << 6,          /* surface: adds emitted radiance of its own, beside light that it reflects */
+  TM_LIGHT_SAMPLED = 1 << 7   /* light: asked for as many samples as its parameter `samples` says, with xi0 and xi1;
+                                 Cl is the share of one sample */
 } TmCapability;
 
 /* One declared parameter. Points, vectors, normals and matrices are given in shader space and arrive in current. */
@@ -82,6 +84,10 @@ typedef struct TmGrid {
 
   /* Imager shaders alone: alpha of the pixel, in and out. */
   float* alpha;
+
+  /* Lights with TM_LIGHT_SAMPLED alone: a point of [0,1)^2; those of all samples of a point are stratified. */
+  const float *xi0, *xi1;
+  float clip[2];               /* camera-space depths of the near and far clipping planes */
 } TmGrid;
 
 /* One sample of one light at every point of the batch. */
@@ -129,6 +135,12 @@ typedef struct TmServices {
 
   /* Tells the user once per shader and object; severity 1 warning, 2 missing (a substitute is rendered). */
   void (*report)(void* host, const TmGrid*, int32_t severity, const char* message);
+
+  /* Radiance of the latitude-longitude picture `name` towards `direction` (current space, any length), three channels.
+   * The picture stands in world space: +z at its top, +x at its left edge, +y a quarter to the right (RISpec 3.2,
+   * MakeLatLongEnvironment). width: angle to filter over, radians; NULL: a point. Returns as texture(). */
+  int32_t (*environment)(void* host, const TmGrid*, const char* name, TmConstVec3 direction, const float* width,
+                         TmVec3 out);
 } TmServices;
 
 typedef struct TmShader {

@@ -11,14 +11,40 @@ constexpr int kProbes = 4;        ///< Measuring lattice: kProbes x kProbes chor
 constexpr int kMaxDepth = 48;     ///< Halvings of one patch; beyond, the piece is smaller than a float can name.
 constexpr int kMaxEyeSplits = 32; ///< Halvings of a piece that crosses the eye plane in view.
 constexpr float kRasterMargin_px = 1.0f;  ///< The hider may push borders out by half a pixel.
+/// Pieces that one patch may visit: so many times those that cover the window once, and some for small windows. Only
+/// coordinates beyond float's precision or reach, which no halving makes small, come near it.
+constexpr double kLayersOfPatch = 64;
+constexpr double kLeastBudget = 1 << 16;
 
-/// Box in camera space around a rectangle, over the shutter, displacement included.
+/// Box in camera space around a rectangle, over the shutter, before displacement.
 Bound3 cameraBound(const Object& o, uint32_t patch, const UvRect& rect) {
   Bound3 object;
   for (const PrimPtr& shape : o.shapes) object.extend(shape->bound(patch, rect));
   Bound3 camera;
   for (const float t : o.keyTimes) camera.extend(transformBound(o.cameraFromObject.at(t), object));
-  return camera.grown(o.displacementBound);
+  return camera;
+}
+
+/// Raster length of the way that the middle of a rectangle goes over the shutter. Pre: it stays in front of the eye.
+float pathLength_px(const Object& o, const Camera& camera, uint32_t patch, const UvRect& rect) {
+  float length = 0;
+  vec2 last(0);
+  for (size_t k = 0; k < o.keyTimes.size(); ++k) {
+    size_t shape = 0;
+    while (shape + 1 < o.shapes.size() && o.shapeTimes[shape + 1] <= o.keyTimes[k]) ++shape;
+    const vec3 middle = o.shapes[shape]->bound(patch, rect).center();
+    const vec2 at = camera.raster(transformPoint(o.cameraFromObject.at(o.keyTimes[k]), middle));
+    if (k > 0) length += glm::length(at - last);
+    last = at;
+  }
+  return length;
+}
+
+/// The least diameter of the circle of confusion in a range of depths; 0 if the focal plane is among them.
+float leastBlur_px(const Camera& camera, float zMin, float zMax) {
+  if (!camera.defocuses()) return 0;
+  const vec2 a = camera.defocus(camera.depthKey(zMin)), b = camera.defocus(camera.depthKey(zMax));
+  return dot(a, b) <= 0 ? 0 : 2 * std::min(glm::length(a), glm::length(b)) / std::sqrt(2.0f);
 }
 
 std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
@@ -38,29 +64,42 @@ int cells(float length_px, float edge_px) {
 /// Splits the patches of one object.
 class Splitter {
  public:
+  /// Pieces that were left out because halving did not help.
+  struct GivenUp { int64_t atEye = 0, tooMany = 0; };
+
   Splitter(const Scene& scene, int object, const Camera& camera, const PixelRect& window, Stats& stats)
       : object_(scene.objects[static_cast<size_t>(object)]), index_(object), gridSize_(scene.options.gridSize),
         camera_(camera), window_(window), stats_(stats),
         edge_px_(std::sqrt(std::max(object_.attributes->shadingRate, 1e-4f))) {}
 
+  void splitPatch(uint32_t patch, std::vector<SubPatch>& out) {
+    const double window_px = static_cast<double>(window_.width()) * window_.height();
+    budget_ = static_cast<int64_t>(kLeastBudget + kLayersOfPatch * window_px / (double{edge_px_} * edge_px_ * gridSize_));
+    split(patch, UvRect{}, 0, 0, out);
+  }
+
+  const GivenUp& givenUp() const { return givenUp_; }
+
+ private:
   void split(uint32_t patch, const UvRect& rect, int depth, int eyeSplits, std::vector<SubPatch>& out) {
-    const Bound3 bound = cameraBound(object_, patch, rect);
+    if (budget_-- <= 0) {
+      ++givenUp_.tooMany;
+      return;
+    }
+    const Bound3 bare = cameraBound(object_, patch, rect), bound = bare.grown(object_.displacementBound);
     if (!isFinite(bound.lo) || !isFinite(bound.hi) || camera_.outside(bound, window_)) {
       ++stats_.geometry.culled;
       return;
     }
     Bound2 raster;
     if (!camera_.rasterBound(bound, raster)) {
-      if (eyeSplits == kMaxEyeSplits) {
-        ++stats_.geometry.eyeSplitsGivenUp;
-        return;
-      }
-      const PatchSize size = measure(object_, camera_, patch, rect);
-      recurse(patch, rect, size.u_length >= size.v_length, depth, eyeSplits + 1, out);
-      return;
+      // No halving shrinks a displacement bound: what it alone brings to the eye may lie anywhere in the window.
+      if (!camera_.rasterBound(bare, raster)) return splitAtEye(patch, rect, depth, eyeSplits, out);
+      raster = {{window_.x0, window_.y0}, {window_.x1, window_.y1}};
     }
     const PatchSize size = measure(object_, camera_, patch, rect);
-    const int nu = cells(size.u_px, edge_px_), nv = cells(size.v_px, edge_px_);
+    const float edge_px = edge_px_ * coarsening(patch, rect, bound);
+    const int nu = cells(size.u_px, edge_px), nv = cells(size.v_px, edge_px);
     if (static_cast<int64_t>(nu) * nv > gridSize_ && depth < kMaxDepth) {
       recurse(patch, rect, nu >= nv, depth, eyeSplits, out);
       return;
@@ -70,7 +109,26 @@ class Splitter {
     out.push_back({index_, patch, rect, std::min(nu, gridSize_), std::min(nv, gridSize_), raster, bound.lo.z});
   }
 
- private:
+  /// How much longer than the shading rate asks the edges may be: a micropolygon's width up to a quarter of the circle
+  /// of confusion, its area up to a quarter of the way it moves, by the factors of GeometricApproximation.
+  float coarsening(uint32_t patch, const UvRect& rect, const Bound3& bound) const {
+    const Attributes& a = *object_.attributes;
+    const float focus = a.focusFactor * leastBlur_px(camera_, std::max(bound.lo.z, camera_.nearClip()), bound.hi.z) / 4;
+    const bool moves = a.motionFactor > 0 && object_.keyTimes.size() > 1;
+    const float motion = moves ? a.motionFactor * pathLength_px(object_, camera_, patch, rect) / 4 : 0;
+    const float scale = std::max({1.0f, focus, std::sqrt(motion)});
+    return std::isfinite(scale) ? scale : 1.0f;
+  }
+
+  void splitAtEye(uint32_t patch, const UvRect& rect, int depth, int eyeSplits, std::vector<SubPatch>& out) {
+    if (eyeSplits == kMaxEyeSplits) {
+      ++givenUp_.atEye;
+      return;
+    }
+    const PatchSize size = measure(object_, camera_, patch, rect);
+    recurse(patch, rect, size.u_length >= size.v_length, depth, eyeSplits + 1, out);
+  }
+
   void recurse(uint32_t patch, const UvRect& rect, bool alongU, int depth, int eyeSplits, std::vector<SubPatch>& out) {
     const auto [a, b] = halves(rect, alongU);
     split(patch, a, depth + 1, eyeSplits, out);
@@ -83,7 +141,23 @@ class Splitter {
   const PixelRect& window_;
   Stats& stats_;
   const float edge_px_;
+  int64_t budget_ = 0;  ///< Pieces that the patch may still visit.
+  GivenUp givenUp_;
 };
+
+void report(const Splitter::GivenUp& givenUp, const Object& o, Stats& stats, Log& log) {
+  stats.geometry.eyeSplitsGivenUp += givenUp.atEye;
+  if (givenUp.atEye > 0)
+    log.report(Severity::Warning, "split-eye-plane", o.where,
+               fmt::format("{} passes through the eye: what lies nearer than the smallest piece is not drawn; "
+                           "set Clipping near by hand if it shows",
+                           objectName(o)));
+  if (givenUp.tooMany > 0)
+    log.report(Severity::Missing, "split-too-many", o.where,
+               fmt::format("{} cannot be cut into pieces of the size of a grid: its coordinates, its displacement bound "
+                           "or the magnification are too large; parts are not drawn",
+                           objectName(o)));
+}
 
 }  // namespace
 
@@ -140,13 +214,8 @@ std::vector<SubPatch> splitScene(const Scene& scene, const Camera& camera, const
   parallelFor(work.size(), 1, [&](size_t begin, size_t end) {
     for (size_t w = begin; w < end; ++w) {
       Splitter splitter(scene, work[w].object, camera, window, stats);
-      const int64_t before = stats.geometry.eyeSplitsGivenUp;
-      for (uint32_t p = work[w].first; p < work[w].last; ++p) splitter.split(p, UvRect{}, 0, 0, pieces[w]);
-      if (stats.geometry.eyeSplitsGivenUp > before)
-        log.report(Severity::Warning, "split-eye-plane", scene.objects[static_cast<size_t>(work[w].object)].where,
-                   fmt::format("{} passes through the eye: what lies nearer than the smallest piece is not drawn; "
-                               "set Clipping near by hand if it shows",
-                               objectName(scene.objects[static_cast<size_t>(work[w].object)])));
+      for (uint32_t p = work[w].first; p < work[w].last; ++p) splitter.splitPatch(p, pieces[w]);
+      report(splitter.givenUp(), scene.objects[static_cast<size_t>(work[w].object)], stats, log);
     }
   });
   std::vector<SubPatch> all;

@@ -15,16 +15,23 @@
 
 namespace tomales {
 
-/// A transformation that may move: keys at increasing times, linear between them, constant outside.
+/// A transformation that may move: keys at increasing times, constant outside. Between keys a rotation turns along its
+/// arc (the shorter one) and place, scale and shear are linear; where a mirror or a projection lies between, all is linear.
 struct Motion {
+  static constexpr float kLargestTurn = 0.17453293f;  ///< 10 degrees: a chord then leaves its circle by 0.4 % of the radius.
+
   std::vector<float> times{0.0f};
   std::vector<mat4> keys{mat4(1.0f)};
 
+  bool operator==(const Motion&) const = default;
   bool moving() const { return keys.size() > 1; }
   mat4 at(float time) const;
+  /// With keys in between, so that none turns by more than kLargestTurn from the one before: what follows (a product,
+  /// the vertices of a grid) moves in straight lines between keys.
+  Motion refined() const;
   static Motion still(const mat4& m) { return {{0.0f}, {m}}; }
 };
-/// a(t) * b(t), with a key at every key time of either.
+/// a(t) * b(t), with a key at every key time of either, refined.
 Motion operator*(const Motion& a, const Motion& b);
 
 /// One Surface, Displacement, LightSource, ... request.
@@ -33,6 +40,11 @@ struct ShaderCall {
   ParamList params;
   Motion worldFromShader;  ///< The CTM at the request: points among the parameters are given in that space.
   SourceLoc where;
+
+  /// Shades alike, wherever it is written.
+  bool operator==(const ShaderCall& o) const {
+    return name == o.name && params == o.params && worldFromShader == o.worldFromShader;
+  }
 };
 
 struct LightCall {
@@ -83,29 +95,46 @@ struct Options {
 
 enum class ShadingInterpolation { Constant, Smooth };
 
-struct Visibility { bool camera = true, diffuse = true, specular = true, transmission = true, photon = true; };
+struct Visibility {
+  bool camera = true, diffuse = true, specular = true, transmission = true, photon = true;
+  bool operator==(const Visibility&) const = default;
+};
 
 /// Immutable once a primitive refers to it; consecutive primitives share one.
 struct Attributes {
   vec3 color{1.0f}, opacity{1.0f};
   std::array<vec2, 4> textureCoordinates{vec2{0, 0}, vec2{1, 0}, vec2{0, 1}, vec2{1, 1}};
   float shadingRate = 1;                                    ///< px2 for one micropolygon
+  float motionFactor = 0, focusFactor = 1;                  ///< GeometricApproximation: coarser where blurred; 0: never
   ShadingInterpolation interpolation = ShadingInterpolation::Constant;
   bool matte = false;
   int sides = 2;
   bool insideOut = false;                                   ///< Orientation differs from "outside".
   std::string name;                                         ///< Attribute "identifier" "name"
-  std::shared_ptr<const ShaderCall> surface, displacement;  ///< null: the default surface; none
+  std::shared_ptr<const ShaderCall> surface, displacement, atmosphere;  ///< null: the default surface; none; none
   std::vector<int> lights;                                  ///< Indices in Scene::lights of those switched on.
   int areaLight = -1;                                       ///< This geometry emits for that light.
   float displacementBound = 0;                              ///< Radius in the space below.
   std::string displacementBoundSpace = "object";
   Visibility visibility;
-  struct { std::optional<float> bias, offset; bool displacements = false; float tessellation = 1; } trace;
-  struct { bool receive = true; float gain = 1, bleeding = 1; vec3 bleedingColor{1.0f}; std::string surface; } indirect;
+  struct Trace {
+    std::optional<float> bias, offset;
+    bool displacements = false;
+    float tessellation = 1;
+    bool operator==(const Trace&) const = default;
+  } trace;
+  struct Indirect {
+    bool receive = true;
+    float gain = 1, bleeding = 1;
+    vec3 bleedingColor{1.0f};
+    std::string surface;
+    bool operator==(const Indirect&) const = default;
+  } indirect;
   std::optional<float> irradianceMaxError, irradianceMaxPixelDist;
   bool rasterOrient = true;                                 ///< Attribute "dice" "rasterorient"
   std::map<std::string, Param> user;                        ///< "category:name" that shaders may read
+
+  bool operator==(const Attributes&) const = default;       ///< Shaders are compared by pointer.
 
   /// Standard texture coordinates at surface parameters (u, v), where no primitive variable gives them.
   vec2 textureAt(float u, float v) const {

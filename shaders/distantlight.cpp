@@ -12,6 +12,10 @@ void shade(const TmGrid* g) {
 }
 }  // namespace
 
-extern const rsl::Shader distantlightShader;
+extern const rsl::Shader distantlightShader, shadowdistantShader;
 const rsl::Shader distantlightShader(TM_LIGHT, "distantlight", "parallel light from infinity", TM_LIGHT_SOLAR,
                                      shade, {&intensity, &lightcolor, &from, &to});
+// The same parameters in the same order: they may serve two shaders.
+const rsl::Shader shadowdistantShader(TM_LIGHT, "shadowdistant",
+                                      "distantlight with shadows that `shadowname` asks for; always traced",
+                                      TM_LIGHT_SOLAR, shade, {&intensity, &lightcolor, &from, &to});

@@ -2,13 +2,18 @@
 
 extern const rsl::Shader constantShader, matteShader, metalShader, plasticShader, paintedplasticShader,
     defaultsurfaceShader, ambientlightShader, distantlightShader, pointlightShader, spotlightShader,
-    arealightShader, indirectlightShader, bumpyShader, noisybumpShader;
+    arealightShader, environmentlightShader, indirectlightShader, filterlightShader, shadowspotShader,
+    shadowpointShader, shadowdistantShader, shinymetalShader, fogShader, depthcueShader, backgroundShader,
+    clamptoalphaShader, bumpyShader, noisybumpShader;
 
 const TmShaderLibrary* tomales_builtin_shaders(void) {
   static const TmShader* const shaders[] = {
-      constantShader,       matteShader,         metalShader,        plasticShader,    paintedplasticShader,
-      defaultsurfaceShader, ambientlightShader,  distantlightShader, pointlightShader, spotlightShader,
-      arealightShader,      indirectlightShader, bumpyShader,        noisybumpShader};
+      constantShader,       matteShader,          metalShader,        plasticShader,
+      paintedplasticShader, defaultsurfaceShader, ambientlightShader, distantlightShader,
+      pointlightShader,     spotlightShader,      arealightShader,    environmentlightShader,
+      indirectlightShader,  filterlightShader,    shadowspotShader,   shadowpointShader,
+      shadowdistantShader,  shinymetalShader,     fogShader,          depthcueShader,
+      backgroundShader,     clamptoalphaShader,   bumpyShader,        noisybumpShader};
   static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders,
                                           static_cast<int32_t>(sizeof shaders / sizeof *shaders)};
   return &library;

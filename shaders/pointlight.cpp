@@ -14,6 +14,10 @@ void shade(const TmGrid* g) {
 }
 }  // namespace
 
-extern const rsl::Shader pointlightShader;
+extern const rsl::Shader pointlightShader, shadowpointShader;
 const rsl::Shader pointlightShader(TM_LIGHT, "pointlight", "light from a point, inverse square", 0, shade,
                                    {&intensity, &lightcolor, &from});
+// The same parameters in the same order: they may serve two shaders.
+const rsl::Shader shadowpointShader(TM_LIGHT, "shadowpoint",
+                                    "pointlight with shadows that `shadowname` asks for; always traced", 0,
+                                    shade, {&intensity, &lightcolor, &from});

@@ -27,8 +27,12 @@ void shade(const TmGrid* g) {
 }
 }  // namespace
 
-extern const rsl::Shader spotlightShader;
+extern const rsl::Shader spotlightShader, shadowspotShader;
 const rsl::Shader spotlightShader(TM_LIGHT, "spotlight", "light from a point into a soft-edged cone", 0,
                                   shade,
                                   {&intensity, &lightcolor, &from, &to, &coneangle, &conedeltaangle,
                                    &beamdistribution});
+// The same parameters in the same order: they may serve two shaders.
+const rsl::Shader shadowspotShader(
+    TM_LIGHT, "shadowspot", "spotlight with shadows that `shadowname` asks for; always traced", 0, shade,
+    {&intensity, &lightcolor, &from, &to, &coneangle, &conedeltaangle, &beamdistribution});

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "reyes/app/catrib.h"
 #include "reyes/app/info.h"
 #include "reyes/app/render.h"
 
@@ -77,6 +78,8 @@ void addRunOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("-t", s.threads, "Threads (default: all)")->check(CLI::Range(1, 4096));
   app.add_option("--stats", s.statsFile, "Statistics as JSON")->type_name("FILE.json");
   app.add_flag("--progress", s.progress, "Show progress: a bar on a terminal, else lines for render farms");
+  app.add_flag("--allow-system", s.allowSystem,
+               "System and Procedural \"RunProgram\" of the RIB may start programs");
   app.add_flag_callback(
       "-q", [&s] { s.verbosity = Log::Verbosity::Quiet; }, "No warnings");
   app.add_flag_callback(
@@ -86,6 +89,7 @@ void addRunOptions(CLI::App& app, RenderSettings& s) {
 /// Everything that the arguments may fill.
 struct Invocation {
   RenderSettings render;
+  CatribSettings catrib;
   std::string first, second, difference;
   bool json = false;
 };
@@ -117,8 +121,17 @@ void buildCompare(CLI::App& app, Invocation& in, int& code) {
   c->callback([&] { code = compareCommand(in.first, in.second, in.difference, in.json); });
 }
 
+void buildCatrib(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand("catrib", "Write RIB files as one, requests as they are, in another encoding");
+  c->add_option("IN", in.catrib.files, "RIB files of any encoding; - is standard input")->required();
+  c->add_option("-o", in.catrib.output, "Write here instead of to standard output")->type_name("FILE.rib");
+  c->add_flag("--binary", in.catrib.binary, "Binary RIB instead of ASCII");
+  c->add_flag("--gzip", in.catrib.gzip, "Compressed");
+  c->callback([&] { code = catribCommand(in.catrib); });
+}
+
 bool namesCommand(const std::string& text) {
-  for (const char* name : {"render", "info", "compare", "-h", "--help", "--version"})
+  for (const char* name : {"render", "info", "compare", "catrib", "-h", "--help", "--version"})
     if (text == name) return true;
   return false;
 }
@@ -133,6 +146,7 @@ int parseAndRun(int argc, char** argv) {
   buildRender(app, in, code);
   buildInfo(app, in, code);
   buildCompare(app, in, code);
+  buildCatrib(app, in, code);
 
   std::vector<std::string> arguments(argv + 1, argv + argc);
   in.render.commandLine = "tomales";

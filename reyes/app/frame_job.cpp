@@ -46,6 +46,7 @@ class FrameJob {
   void gather(const DeepFrame& frame) {
     if (!gathers() || interrupted()) return;
     const StageTimer timer(stats_, "gather");
+    warnAboutBounces();
     services_->gatherPass(frame, meter_.stage(0.3f, 0.7f), &interrupted());
   }
 
@@ -68,10 +69,8 @@ class FrameJob {
   void write(const DeepFrame& frame) {
     const StageTimer timer(stats_, "image");
     Image image = imageOf(frame, scene_, control(0.98f, 1), stats_);
-    if (scene_.options.imager)
-      log_.report(Severity::Warning, "imager", scene_.options.imager->where,
-                  "Imager \"" + scene_.options.imager->name + "\" is not supported yet; ignored");
     expose(image, scene_.options);
+    runImager(image, *shading_);
     for (const DisplayCall& display : scene_.options.displays)
       writeDisplay(image, display, scene_.options, log_);
     meter_.report(1);
@@ -79,6 +78,19 @@ class FrameJob {
 
  private:
   bool gathers() const { return mode_ == GiMode::Gather; }
+
+  void warnAboutBounces() const {
+    for (const auto& light : scene_.lights) {
+      const Param* bounces = findParam(light->shader.params, "bounces");
+      const float asked = settings_.bounces > 0 ? static_cast<float>(settings_.bounces)
+                          : bounces             ? bounces->number(0)
+                                                : 1.0f;
+      if (light->shader.name == "indirectlight" && asked > 1)
+        log_.report(Severity::Warning, "gather-bounces", light->shader.where,
+                    "light \"" + light->handle +
+                        "\": gathering follows one bounce; more are followed by --gi reference");
+    }
+  }
 
   FrameControl control(float begin, float end) {
     return {meter_.stage(begin, end), &interrupted(), settings_.seed};

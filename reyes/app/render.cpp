@@ -24,6 +24,7 @@ class RenderRun {
 
   int run() {
     RibSettings rib;
+    rib.allowSystem = settings_.allowSystem;
     rib.onScene = [this](Scene&& scene) { takeScene(std::move(scene)); };
     parse_.emplace(stats_, "parse");
     const bool read = readRib(settings_.files, rib, log_);

@@ -29,6 +29,7 @@ struct RenderSettings {
   bool hitList = true;
   std::string statsFile;
   bool progress = false;
+  bool allowSystem = false;  ///< The RIB may start programs.
   Log::Verbosity verbosity = Log::Verbosity::Normal;
   std::string commandLine;
 };

@@ -22,9 +22,13 @@ void Log::report(Severity severity, std::string_view code, const SourceLoc& wher
   const bool wanted = verbosity_ == Verbosity::Verbose || severity > Severity::Warning ||
                       (verbosity_ == Verbosity::Normal && severity == Severity::Warning);
   static constexpr const char* kNames[] = {"info", "warning", "missing", "error", "output error"};
-  if (wanted)
+  const int line = wanted ? ++lines_[entries_.back().code] : 0;
+  if (wanted && line <= kMostLinesOfCode)
     std::fprintf(stderr, "%s: %s: %s [%s]\n", where.text().c_str(), kNames[static_cast<int>(severity)],
                  message.c_str(), entries_.back().code.c_str());
+  if (line == kMostLinesOfCode + 1)
+    std::fprintf(stderr, "tomales: more of [%s] is not printed; the statistics have it\n",
+                 entries_.back().code.c_str());
 }
 
 std::vector<LogEntry> Log::entries() const {

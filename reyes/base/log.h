@@ -38,9 +38,11 @@ struct LogEntry {
 class Log {
  public:
   enum class Verbosity { Quiet, Normal, Verbose };
+  static constexpr int kMostLinesOfCode = 100;
   explicit Log(Verbosity verbosity = Verbosity::Normal) : verbosity_(verbosity) {}
 
-  /// Prints to stderr the first time that (code, where) reports, and counts after that.
+  /// Prints to stderr the first time that (code, where) reports, and counts after that. Of one code the first
+  /// kMostLinesOfCode sites are printed.
   void report(Severity severity, std::string_view code, const SourceLoc& where, const std::string& message);
 
   std::vector<LogEntry> entries() const;  ///< In order of first report.
@@ -52,6 +54,7 @@ class Log {
   const Verbosity verbosity_;
   mutable std::mutex mutex_;
   std::map<Key, size_t> index_;
+  std::map<std::string, int, std::less<>> lines_;  ///< Printed or withheld, of each code.
   std::vector<LogEntry> entries_;
 };
 

@@ -16,12 +16,16 @@ uint32_t laineKarras(uint32_t x, uint32_t seed) {
   return x;
 }
 
-// Second Sobol dimension: its direction numbers are the rows of Pascal's triangle modulo 2.
-uint32_t sobolSecond(uint32_t index) {
-  uint32_t result = 0;
-  for (uint32_t v = 1U << 31; index; index >>= 1, v ^= v >> 1)
-    if (index & 1U) result ^= v;
-  return result;
+// Second Sobol dimension, bits reversed. Its direction numbers are the rows of Pascal's triangle modulo 2, so
+// (Lucas) bit i of the result is the sum of all bits of the index whose number contains the bits of i: a sum
+// over supersets, one step for each of the five bits of a bit's number.
+uint32_t sobolSecondReversed(uint32_t x) {
+  x ^= (x >> 1) & 0x55555555U;
+  x ^= (x >> 2) & 0x33333333U;
+  x ^= (x >> 4) & 0x0f0f0f0fU;
+  x ^= (x >> 8) & 0x00ff00ffU;
+  x ^= x >> 16;
+  return x;
 }
 
 }  // namespace
@@ -30,8 +34,9 @@ uint32_t owenScramble(uint32_t x, uint32_t seed) { return reverseBits(laineKarra
 
 vec2 sobol2(uint32_t index, uint32_t seed) {
   const uint32_t shuffled = owenScramble(index, seed);
-  return {unitFloat(owenScramble(reverseBits(shuffled), hash32(seed ^ 0x9c8f2d35U))),
-          unitFloat(owenScramble(sobolSecond(shuffled), hash32(seed ^ 0x1b56c4e9U)))};
+  // Owen scrambling of a number that is known reversed: laineKarras works on reversed bits anyway.
+  return {unitFloat(reverseBits(laineKarras(shuffled, hash32(seed ^ 0x9c8f2d35U)))),
+          unitFloat(reverseBits(laineKarras(sobolSecondReversed(shuffled), hash32(seed ^ 0x1b56c4e9U))))};
 }
 
 float sobol1(uint32_t index, uint32_t seed) {

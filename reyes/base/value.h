@@ -30,6 +30,7 @@ struct Param {
   std::vector<int> ints;
   std::vector<std::string> strings;
 
+  bool operator==(const Param&) const = default;
   int width() const { return floatsPerValue(type) * arrayLength; }  ///< Floats in one element.
   float number(float fallback) const {
     return !floats.empty() ? floats[0] : !ints.empty() ? static_cast<float>(ints[0]) : fallback;

@@ -74,6 +74,9 @@ DeepTile hideBucket(const PixelRect& rect, const std::vector<uint32_t>& pieces, 
 
 DeepFrame hideFrame(const Scene& scene, const ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log) {
   const Camera camera(scene.options);
+  if (scene.options.fStop < kInfinity && !camera.perspective())
+    log.report(Severity::Warning, "defocus-orthographic", scene.where,
+               "DepthOfField needs a perspective projection: all is in focus");
   DeepFrame frame = layOut(scene, camera);
   const SamplePattern pattern = samplePattern(scene.options, control.seed);
   frame.samplesPerPixel = pattern.count();

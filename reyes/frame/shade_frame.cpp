@@ -27,6 +27,7 @@ void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading,
     shading.shade(points, context, out);
     const vec3 emission = shading.visibleEmission(points.group());
     if (maxComponent(emission) > 0) addVisibleEmission(points, emission, out);
+    shading.atmosphere(points, out);
   }
 }
 

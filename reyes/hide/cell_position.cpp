@@ -15,24 +15,27 @@ vec2 inTriangle(const vec2 p[3], const vec2 at[3], const vec2& x) {
 
 }  // namespace
 
-vec2 positionOnCell(const GridTable::Entry& entry, int cell, vec2 at, float time) {
+vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cell,
+                    const SamplePoint& sample) {
   const Grid& g = entry.grid();
   const RasterGrid& raster = *entry.raster;
   const std::vector<float>& keyTimes = entry.keyTimes;
   const int row = g.nu + 1, a = cell / g.nu * row + cell % g.nu;
+  const float time = sample.time;
   size_t key = 0;
   while (key + 2 < keyTimes.size() && time >= keyTimes[key + 1]) ++key;
   const size_t next = std::min(key + 1, keyTimes.size() - 1), stride = static_cast<size_t>(g.stride());
   const float t = next > key ? (time - keyTimes[key]) / (keyTimes[next] - keyTimes[key]) : 0;
   const auto corner = [&](int v) {
     const size_t from = key * stride + static_cast<size_t>(v), to = next * stride + static_cast<size_t>(v);
-    return vec2(lerp(raster.x[from], raster.x[to], t), lerp(raster.y[from], raster.y[to], t));
+    const vec2 at(lerp(raster.x[from], raster.x[to], t), lerp(raster.y[from], raster.y[to], t));
+    return raster.defocused ? at + sample.lens * camera.defocus(lerp(raster.d[from], raster.d[to], t)) : at;
   };
   const vec2 pa = corner(a), pb = corner(a + 1), pc = corner(a + row), pd = corner(a + row + 1);
   const vec2 abc[3] = {pa, pb, pc}, abcUv[3] = {{0, 0}, {1, 0}, {0, 1}};
   const vec2 dcb[3] = {pd, pc, pb}, dcbUv[3] = {{1, 1}, {0, 1}, {1, 0}};
-  vec2 uv = inTriangle(abc, abcUv, at);
-  if (uv.x + uv.y > 1) uv = inTriangle(dcb, dcbUv, at);
+  vec2 uv = inTriangle(abc, abcUv, sample.at);
+  if (uv.x + uv.y > 1) uv = inTriangle(dcb, dcbUv, sample.at);
   return glm::clamp(uv, vec2(0), vec2(1));
 }
 

@@ -36,6 +36,8 @@ struct FacetTable::Stencil {
 
 namespace {
 
+constexpr int kFirstPoints = 128;  ///< Room in a new batch; a bucket of 16 x 16 px often sees as many.
+
 float orOne(float x) { return x != 0 ? x : 1.0f; }
 
 int primvarFloats(const ShadeGroup& group) {
@@ -94,6 +96,7 @@ int FacetTable::batchOf(int group) {
   if (batch < 0) {
     batch = static_cast<int>(tile_.batches.size());
     tile_.batches.emplace_back(group, primvarFloats(scene_.groups[static_cast<size_t>(group)]));
+    tile_.batches.back().reserve(kFirstPoints);
   }
   return batch;
 }

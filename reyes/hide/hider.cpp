@@ -41,11 +41,11 @@ void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
   SampleBuffer& s = impl_->samples;
   if (s.hides(s.touched(raster->bound.lo, raster->bound.hi), raster->dMin)) return;
   const GridTable::Entry& entry = impl_->grids.add(raster, shutterTimes(impl_->scene, *raster->grid));
-  const RasterJob job{*raster, impl_->grids, entry.firstCell, entry.keyTimes, impl_->camera.perspective(), s};
-  if (raster->grid->keyCount == 1)
-    rasterizeStill(job);
+  const RasterJob job{*raster, impl_->grids, entry.firstCell, entry.keyTimes, impl_->camera, s};
+  if (raster->grid->keyCount > 1 || raster->defocused)
+    rasterizeBlurred(job);
   else
-    rasterizeMoving(job);
+    rasterizeStill(job);
 }
 
 DeepTile Hider::resolve() {

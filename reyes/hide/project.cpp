@@ -82,7 +82,10 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
     pushBorders(g, x, y);
     for (int v = 0; v < g.vertexCount(); ++v) {
       x[v] = snapToLattice(x[v]), y[v] = snapToLattice(y[v]);
-      r->bound.extend({x[v], y[v]});
+      const vec2 blur = glm::abs(camera.defocus(d[v]));
+      r->bound.extend(vec2(x[v], y[v]) - blur);
+      r->bound.extend(vec2(x[v], y[v]) + blur);
+      r->defocused |= std::max(blur.x, blur.y) > 1 / kLattice;
       r->dMin = std::min(r->dMin, d[v]);
     }
   }

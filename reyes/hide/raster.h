@@ -27,14 +27,15 @@ struct RasterJob {
   const GridTable& grids;
   uint32_t firstCell;
   const std::vector<float>& keyTimes;  ///< Fractions of the shutter.
-  bool perspective;
+  const Camera& camera;
   SampleBuffer& out;
 };
 
-/// Grids with one motion key.
+/// Grids with one motion key, in focus.
 void rasterizeStill(const RasterJob& job);
-/// Grids with several.
-void rasterizeMoving(const RasterJob& job);
+/// Grids that move or are out of focus: a sample meets the vertices where they are at its time through its
+/// point of the lens.
+void rasterizeBlurred(const RasterJob& job);
 
 /// Sides 1: does the cell turn its RISpec normal away from the eye?
 inline bool turnedAway(const RasterJob& job, int a) {
@@ -43,7 +44,7 @@ inline bool turnedAway(const RasterJob& job, int a) {
   const vec3 n = g.normal(a) + g.normal(a + 1) + g.normal(a + row) + g.normal(a + row + 1);
   const vec3 p =
       g.position(0, a) + g.position(0, a + 1) + g.position(0, a + row) + g.position(0, a + row + 1);
-  return job.perspective ? dot(n, p) > 0 : n.z > 0;
+  return job.camera.perspective() ? dot(n, p) > 0 : n.z > 0;
 }
 
 /// Depth keys of kLanes samples that a micropolygon covers; kInfinity elsewhere.
@@ -51,15 +52,18 @@ struct alignas(64) LaneDepths {
   float d[kLanes];
 };
 
-/// Gives samples to a cell: nearest hit if opaque, one more layer otherwise. `first`: pixel * lanes + lane of
-/// the group. Returns true if the pixel's far depth may have changed.
-TOMALES_KERNEL inline bool merge(const RasterJob& job, const LaneDepths& hit, size_t first, uint32_t cell) {
+/// Gives samples to a cell: nearest hit if opaque, one more layer otherwise. `lane`: the group's first of the
+/// pixel. Returns true if the pixel's far depth may have changed.
+TOMALES_KERNEL inline bool merge(const RasterJob& job, const LaneDepths& hit, size_t pixel, int lane,
+                                 uint32_t cell) {
+  const size_t first = pixel * static_cast<size_t>(job.out.lanes) + static_cast<size_t>(lane);
   float* depth = job.out.depth.data() + first;
   uint32_t* owner = job.out.cell.data() + first;
   if (!job.raster.opaque) {
     for (int s = 0; s < kLanes; ++s)
       if (hit.d[s] <= depth[s])
-        job.out.layers.push_back({static_cast<uint32_t>(first) + static_cast<uint32_t>(s), cell, hit.d[s]});
+        job.out.layers.push_back(
+            {static_cast<uint32_t>(pixel), cell, static_cast<uint32_t>(lane + s), hit.d[s]});
     return false;
   }
   int nearer = 0, ties = 0;
@@ -115,7 +119,7 @@ TOMALES_KERNEL inline void forPixels(const RasterJob& job, const vec2& lo, const
       for (int g = 0; g < out.lanes; g += kLanes) {
         LaneDepths hit;
         cover(x, y, out.patternAt[pixel] + static_cast<size_t>(g), hit);
-        changed |= merge(job, hit, first + static_cast<size_t>(g), cell);
+        changed |= merge(job, hit, pixel, g, cell);
       }
       if (changed) out.far[pixel] = farthest(out.depth.data() + first, out.lanes);
     }

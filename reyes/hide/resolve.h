@@ -6,7 +6,13 @@ namespace tomales {
 
 DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples);
 
-/// Where on a cell (its own (u,v), 0..1) a raster position lies at a time of the shutter, 0..1.
-vec2 positionOnCell(const GridTable::Entry& entry, int cell, vec2 at, float time);
+/// A sample: raster position, time of the shutter (0..1), point of the lens (unit disk).
+struct SamplePoint {
+  vec2 at;
+  float time;
+  vec2 lens;
+};
+/// Where on a cell (its own (u,v), 0..1) a sample meets it.
+vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
 
 }  // namespace tomales

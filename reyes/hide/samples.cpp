@@ -27,7 +27,13 @@ bool GridTable::precedes(uint32_t a, uint32_t b) const {
 }
 
 SampleBuffer::SampleBuffer(const SamplePattern& pattern, const PixelRect& pixels)
-    : rect(pixels), lanes(pattern.padded()), x(pattern.x(0)), y(pattern.y(0)), time(pattern.time(0)) {
+    : rect(pixels),
+      lanes(pattern.padded()),
+      x(pattern.x(0)),
+      y(pattern.y(0)),
+      time(pattern.time(0)),
+      lensX(pattern.lensX(0)),
+      lensY(pattern.lensY(0)) {
   const size_t count = static_cast<size_t>(rect.width()) * static_cast<size_t>(rect.height());
   const size_t width = static_cast<size_t>(lanes);
   patternAt.reserve(count);

@@ -34,8 +34,7 @@ class GridTable {
 
 /// Something transparent that covers a sample.
 struct Layer {
-  uint32_t sample;  ///< pixel * lanes + lane
-  uint32_t cell;
+  uint32_t pixel, cell, lane;
   float d;
 };
 
@@ -44,8 +43,8 @@ struct SampleBuffer {
 
   PixelRect rect;
   int lanes;                      ///< Of a pixel, a multiple of kLanes.
-  const float *x, *y, *time;      ///< Of all patterns.
-  std::vector<size_t> patternAt;  ///< A pixel: where its samples begin in x, y and time.
+  const float *x, *y, *time, *lensX, *lensY;  ///< Of all patterns.
+  std::vector<size_t> patternAt;  ///< A pixel: where its samples begin in x, y, time and lens.
   AlignedVector<float>
       depth;  ///< A lane: key of the nearest opaque hit; -infinity in padding, which so never counts.
   AlignedVector<uint32_t> cell;  ///< A lane: that hit.

@@ -2,29 +2,10 @@
 
 #include <numeric>
 
+#include "reyes/prim/planar.h"
+
 namespace tomales {
 namespace {
-
-using Point2 = glm::dvec2;
-
-/// Drops the axis along which the polygon is thinnest; counter-clockwise about the normal stays
-/// counter-clockwise.
-std::vector<Point2> projected(const std::vector<vec3>& points, const glm::dvec3& normal) {
-  const glm::dvec3 size = glm::abs(normal);
-  const int axis = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
-  const bool mirrored = normal[axis] < 0;
-  std::vector<Point2> out;
-  for (const vec3& p : points) {
-    const Point2 q(p[(axis + 1) % 3], p[(axis + 2) % 3]);
-    out.push_back(mirrored ? Point2(q.y, q.x) : q);
-  }
-  return out;
-}
-
-/// Twice the signed area of triangle abc.
-double turn(const Point2& a, const Point2& b, const Point2& c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
 
 bool allTurnsAtLeast(const std::vector<Point2>& p, double least) {
   for (size_t i = 0; i < p.size(); ++i)
@@ -40,10 +21,6 @@ bool goesAroundOnce(const std::vector<Point2>& p) {
     angle += std::atan2(a.x * b.y - a.y * b.x, glm::dot(a, b));
   }
   return angle < 3 * M_PI;
-}
-
-bool contains(const Point2& a, const Point2& b, const Point2& c, const Point2& p) {
-  return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
 }
 
 class EarClipper {
@@ -99,6 +76,18 @@ class EarClipper {
 };
 
 }  // namespace
+
+std::vector<Point2> projected(const std::vector<vec3>& points, const glm::dvec3& normal) {
+  const glm::dvec3 size = glm::abs(normal);
+  const int axis = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
+  const bool mirrored = normal[axis] < 0;
+  std::vector<Point2> out;
+  for (const vec3& p : points) {
+    const Point2 q(p[(axis + 1) % 3], p[(axis + 2) % 3]);
+    out.push_back(mirrored ? Point2(q.y, q.x) : q);
+  }
+  return out;
+}
 
 glm::dvec3 newellNormal(const std::vector<vec3>& points) {
   glm::dvec3 normal(0);

@@ -6,6 +6,7 @@
 
 #include "reyes/prim/edges.h"
 #include "reyes/prim/face_pieces.h"
+#include "reyes/prim/hole_bridges.h"
 #include "reyes/prim/interpolation.h"
 #include "reyes/prim/primvars.h"
 
@@ -51,32 +52,39 @@ struct Decomposition {
 
 class Decomposer {
  public:
-  Decomposer(const std::vector<int>& vertexCounts, const std::vector<int>& vertices,
-             const std::vector<vec3>& positions)
-      : vertexCounts_(vertexCounts),
+  /// A face is a run of loops: its outline and its holes.
+  Decomposer(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
+             const std::vector<int>& vertices, const std::vector<vec3>& positions)
+      : loopCounts_(loopCounts),
+        vertexCounts_(vertexCounts),
         vertices_(vertices),
         positions_(positions),
         edges_(vertexCounts, vertices) {}
 
   Decomposition run(Problems& problems) {
     uint32_t first = 0;
-    size_t dropped = 0;
-    for (size_t f = 0; f < vertexCounts_.size(); ++f) {
-      dropped += !addFace(first, static_cast<uint32_t>(vertexCounts_[f]));
-      first += static_cast<uint32_t>(vertexCounts_[f]);
+    size_t dropped = 0, loop = 0;
+    for (const int loops : loopCounts_) {
+      const std::span<const int> counts(&vertexCounts_[loop], static_cast<size_t>(loops));
+      dropped += !addFace(first, counts);
+      for (const int count : counts) first += static_cast<uint32_t>(count);
+      loop += counts.size();
     }
     if (dropped)
       problems.push_back(
-          fmt::format("{} of {} faces have no area; they were dropped", dropped, vertexCounts_.size()));
+          fmt::format("{} of {} faces have no area; they were dropped", dropped, loopCounts_.size()));
+    if (holesIgnored_)
+      problems.push_back(
+          fmt::format("{} holes lie outside of their polygon; they were ignored", holesIgnored_));
     return std::move(out_);
   }
 
  private:
   vec3 position(uint32_t faceVertex) const { return positions_[static_cast<size_t>(vertices_[faceVertex])]; }
 
-  /// The face's vertices without those that repeat the one before.
+  /// A loop's vertices without those that repeat the one before.
   void gather(uint32_t first, uint32_t count) {
-    corner_.clear(), point_.clear(), open_.clear();
+    loopStart_.push_back(static_cast<int>(corner_.size()));
     for (uint32_t k = 0; k < count; ++k) {
       const uint32_t next = first + (k + 1) % count;
       if (position(first + k) == position(next)) continue;
@@ -86,8 +94,37 @@ class Decomposer {
     }
   }
 
-  bool addFace(uint32_t first, uint32_t count) {
-    gather(first, count);
+  void gatherHoles(uint32_t first, std::span<const int> counts) {
+    for (const int count : counts) {
+      gather(first, static_cast<uint32_t>(count));
+      first += static_cast<uint32_t>(count);
+    }
+    loopStart_.push_back(static_cast<int>(corner_.size()));
+  }
+
+  int nextInLoop(int k) const {
+    const auto end = std::upper_bound(loopStart_.begin(), loopStart_.end(), k);
+    return k + 1 < *end ? k + 1 : *(end - 1);
+  }
+
+  /// Makes one closed walk of the loops. A bridge is never open.
+  void joinHoles(const glm::dvec3& normal) {
+    const BridgedOutline outline = bridgeHoles(point_, loopStart_, normal);
+    holesIgnored_ += static_cast<size_t>(outline.ignored);
+    std::vector<uint32_t> corner;
+    std::vector<vec3> point;
+    std::vector<char> open;
+    for (size_t k = 0; k < outline.order.size(); ++k) {
+      const int at = outline.order[k], to = outline.order[(k + 1) % outline.order.size()];
+      corner.push_back(corner_[at]), point.push_back(point_[at]);
+      open.push_back(nextInLoop(at) == to ? open_[at] : nextInLoop(to) == at ? open_[to] : 0);
+    }
+    corner_ = std::move(corner), point_ = std::move(point), open_ = std::move(open);
+  }
+
+  bool addFace(uint32_t first, std::span<const int> counts) {
+    corner_.clear(), point_.clear(), open_.clear(), loopStart_.clear();
+    gather(first, static_cast<uint32_t>(counts[0]));
     const glm::dvec3 normal = point_.size() < 3 ? glm::dvec3(0) : newellNormal(point_);
     Bound3 box;
     for (const vec3& p : point_) box.extend(p);
@@ -95,6 +132,10 @@ class Decomposer {
         point_.size() >= 3 && glm::length(normal) > 1e-9 * glm::dot(box.size(), box.size());
     out_.faces.push_back({vec3(0), true});
     if (!flatEnough) return false;
+    if (counts.size() > 1) {
+      gatherHoles(first + static_cast<uint32_t>(counts[0]), counts.subspan(1));
+      joinHoles(normal);
+    }
     const glm::dvec3 unit = glm::normalize(normal);
     out_.faces.back() = {vec3(unit), isPlanar(unit, glm::length(glm::dvec3(box.size())))};
     if (point_.size() == 4 && isStrictlyConvex(point_, normal))
@@ -142,14 +183,17 @@ class Decomposer {
     }
   }
 
+  const std::vector<int>& loopCounts_;
   const std::vector<int>& vertexCounts_;
   const std::vector<int>& vertices_;
   const std::vector<vec3>& positions_;
   const EdgeFaces edges_;
   Decomposition out_;
+  size_t holesIgnored_ = 0;
   std::vector<uint32_t> corner_;  // of the face at hand
   std::vector<vec3> point_;
-  std::vector<char> open_;  // edge from a corner to the next
+  std::vector<char> open_;      // edge from a corner to the next
+  std::vector<int> loopStart_;  // first corner of every loop, and the end
 };
 
 class Polygons : public Prim {
@@ -254,16 +298,32 @@ class Polygons : public Prim {
   std::vector<int> vertices_;
 };
 
+void requireLoops(const std::vector<int>& loopCounts, size_t loops) {
+  size_t total = 0;
+  for (size_t f = 0; f < loopCounts.size(); ++f) {
+    if (loopCounts[f] < 1) throw PrimError(fmt::format("face {} has {} loops", f, loopCounts[f]));
+    total += static_cast<size_t>(loopCounts[f]);
+  }
+  if (total != loops) throw PrimError(fmt::format("the faces need {} loops and {} are given", total, loops));
+}
+
 }  // namespace
+
+PrimPtr makeGeneralPolygons(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
+                            const std::vector<int>& vertices, const ParamList& params, Problems& problems) {
+  const size_t used = requireFaces(vertexCounts, vertices);
+  requireLoops(loopCounts, vertexCounts.size());
+  std::vector<vec3> positions = takePositions(params, used, false, problems);
+  const PrimvarCounts counts{loopCounts.size(), positions.size(), positions.size(), vertices.size()};
+  std::vector<Primvar> primvars = takePrimvars(params, counts, problems);
+  Decomposition parts = Decomposer(loopCounts, vertexCounts, vertices, positions).run(problems);
+  return std::make_shared<Polygons>(std::move(parts), std::move(positions), vertices, std::move(primvars));
+}
 
 PrimPtr makePolygons(const std::vector<int>& vertexCounts, const std::vector<int>& vertices,
                      const ParamList& params, Problems& problems) {
-  const size_t used = requireFaces(vertexCounts, vertices);
-  std::vector<vec3> positions = takePositions(params, used, false, problems);
-  const PrimvarCounts counts{vertexCounts.size(), positions.size(), positions.size(), vertices.size()};
-  std::vector<Primvar> primvars = takePrimvars(params, counts, problems);
-  Decomposition parts = Decomposer(vertexCounts, vertices, positions).run(problems);
-  return std::make_shared<Polygons>(std::move(parts), std::move(positions), vertices, std::move(primvars));
+  return makeGeneralPolygons(std::vector<int>(vertexCounts.size(), 1), vertexCounts, vertices, params,
+                             problems);
 }
 
 }  // namespace tomales

@@ -106,6 +106,18 @@ std::vector<vec3> takePositions(const ParamList& params, size_t least, bool exac
   return points;
 }
 
+std::vector<vec4> takeHomogeneous(const ParamList& params, size_t count) {
+  Problems unequalWeights;  // no problem here
+  const std::vector<vec3> points = takePositions(params, count, true, unequalWeights);
+  const Param* pw = findParam(params, "P") ? nullptr : findParam(params, "Pw");
+  std::vector<vec4> out;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const float weight = pw ? pw->floats[4 * i + 3] : 1.0f;
+    out.emplace_back(points[i] * weight, weight);
+  }
+  return out;
+}
+
 void requireFinite(std::initializer_list<float> values, const char* what) {
   for (float value : values)
     if (!std::isfinite(value))

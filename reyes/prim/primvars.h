@@ -8,6 +8,9 @@ namespace tomales {
 /// there are fewer, or if a coordinate is not finite.
 std::vector<vec3> takePositions(const ParamList& params, size_t least, bool exact, Problems& problems);
 
+/// "P" with weight 1, or "Pw" as it is: exactly `count` homogeneous points. Throws PrimError like takePositions.
+std::vector<vec4> takeHomogeneous(const ParamList& params, size_t count);
+
 /// Throws PrimError unless every value is finite; `what` begins the sentence.
 void requireFinite(std::initializer_list<float> values, const char* what);
 

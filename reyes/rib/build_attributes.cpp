@@ -21,6 +21,20 @@ void shadingRate(GraphicsState& s, const Request& r) {
   s.scope.edit().shadingRate = std::clamp(rate, 1e-4f, 1e8f);
 }
 
+// RISpec 3.2 section 4.2.9 knows "flatness", which no polygonal renderer after it asks for; the factors are PRMan's.
+void geometricApproximation(GraphicsState& s, const Request& r) {
+  const std::string& kind = r.args[0].strings[0];
+  const float value = r.args[1].number();
+  if (kind != "motionfactor" && kind != "focusfactor") {
+    s.warnOnce("GeometricApproximation " + kind, r, "rib-unsupported",
+               "GeometricApproximation \"" + kind + "\" is not supported, ignored");
+    return;
+  }
+  if (!(value >= 0)) return reject(s, r, fmt::format("\"{}\" cannot be {}", kind, value));
+  Attributes& a = s.scope.edit();
+  (kind == "motionfactor" ? a.motionFactor : a.focusFactor) = value;
+}
+
 void shadingInterpolation(GraphicsState& s, const Request& r) {
   const std::string& kind = r.args[0].strings[0];
   if (kind != "constant" && kind != "smooth") return reject(s, r, "unknown interpolation \"" + kind + "\"");
@@ -114,7 +128,7 @@ const std::unordered_map<std::string_view, Setter>& textSetters() {
   return table;
 }
 
-// Photon and user attributes are read by name where they are used; all others have no effect.
+// User attributes are read by name where they are used; all others have no effect.
 void attribute(GraphicsState& s, const Request& r) {
   const std::string& category = r.args[0].strings[0];
   for (const Param& p : r.params) {
@@ -130,7 +144,7 @@ void attribute(GraphicsState& s, const Request& r) {
       s.scope.lightsCastShadows = text ? p.strings[0] == "on" : p.number(0) != 0;
     } else {
       s.scope.edit().user[key] = p;
-      if (category != "user" && category != "photon")
+      if (category != "user")
         s.warnOnce("Attribute " + key, r, "rib-unknown-attribute",
                    "Attribute \"" + key + "\" has no effect here");
     }
@@ -149,6 +163,7 @@ const HandlerTable& attributeHandlers() {
       {"Opacity", [](GraphicsState& s, const Request& r) { s.scope.edit().opacity = asVec3(r.args[0]); }},
       {"TextureCoordinates", textureCoordinates},
       {"ShadingRate", shadingRate},
+      {"GeometricApproximation", geometricApproximation},
       {"ShadingInterpolation", shadingInterpolation},
       {"Matte", [](GraphicsState& s, const Request& r) { s.scope.edit().matte = r.args[0].number() != 0; }},
       {"Sides", sides},

@@ -1,6 +1,7 @@
 // Geometry requests -> Prims (RISpec 3.2 section 5).
 #include <fmt/format.h>
 
+#include "reyes/rib/geometry_builders.h"
 #include "reyes/rib/handlers.h"
 
 namespace tomales::rib {
@@ -27,38 +28,13 @@ PrimPtr polygon(const Request& r, const Scope&, Problems& problems) {
   return makePolygons({n}, countUp(n), r.params, problems);
 }
 
-// Keeps the first loop of every polygon.
-PrimPtr outerLoops(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
-                   const std::vector<int>& vertices, const Request& r, Problems& problems) {
-  std::vector<int> outerCounts, outer;
-  size_t loop = 0, vertex = 0;
-  bool holes = false;
-  for (const int loops : loopCounts) {
-    holes |= loops > 1;
-    for (int i = 0; i < loops; ++i, ++loop) {
-      if (loop >= vertexCounts.size()) throw PrimError("it has fewer loops than it counts");
-      const int n = vertexCounts[loop];
-      if (n < 0 || static_cast<size_t>(n) > vertices.size() - vertex)
-        throw PrimError("it has fewer vertices than its loops count");
-      if (i == 0) {
-        outerCounts.push_back(n);
-        outer.insert(outer.end(), vertices.begin() + static_cast<long>(vertex),
-                     vertices.begin() + static_cast<long>(vertex) + n);
-      }
-      vertex += static_cast<size_t>(n);
-    }
-  }
-  if (holes) problems.push_back("holes in polygons are not supported yet: they are filled");
-  return makePolygons(outerCounts, outer, r.params, problems);
-}
-
 PrimPtr generalPolygon(const Request& r, const Scope&, Problems& problems) {
   const std::vector<int> counts = r.args[0].ints();
-  return outerLoops({static_cast<int>(counts.size())}, counts, countUp(pointCount(r)), r, problems);
+  return makeGeneralPolygons({static_cast<int>(counts.size())}, counts, countUp(pointCount(r)), r.params, problems);
 }
 
 PrimPtr pointsGeneralPolygons(const Request& r, const Scope&, Problems& problems) {
-  return outerLoops(r.args[0].ints(), r.args[1].ints(), r.args[2].ints(), r, problems);
+  return makeGeneralPolygons(r.args[0].ints(), r.args[1].ints(), r.args[2].ints(), r.params, problems);
 }
 
 bool bicubic(const Request& r) {
@@ -136,6 +112,9 @@ const std::unordered_map<std::string_view, Builder>& builders() {
       {"PointsGeneralPolygons", pointsGeneralPolygons},
       {"Patch", patch},
       {"PatchMesh", patchMesh},
+      {"NuPatch", nuPatch},
+      {"Points", points},
+      {"Curves", curves},
       {"SubdivisionMesh", subdivisionMesh},
   };
   return table;

@@ -27,6 +27,23 @@ bool sameTopology(const Prim& a, const Prim& b) {
                                                         b.primvars().begin(), b.primvars().end(), alike);
 }
 
+// Writers leave these where an object has vanished: nothing is missing from the picture.
+bool isEmptyMesh(const Request& r) {
+  static constexpr std::string_view kMeshes[] = {"PointsPolygons", "PointsGeneralPolygons", "SubdivisionMesh"};
+  if (std::find(std::begin(kMeshes), std::end(kMeshes), r.name) == std::end(kMeshes)) return false;
+  return r.args[r.name == "SubdivisionMesh" ? 1 : 0].numbers.empty();
+}
+
+/// Surface "null": nobody sees the object, but it may emit.
+std::shared_ptr<Attributes> attributesOf(const Scope& scope) {
+  const std::shared_ptr<Attributes>& given = scope.attributes;
+  if (!given->surface || given->surface->name != "null") return given;
+  auto unseen = std::make_shared<Attributes>(*given);
+  unseen->surface = nullptr;
+  unseen->visibility = {false, false, false, false, false};
+  return unseen;
+}
+
 bool sameBasis(const Basis& a, const Basis& b) { return a.step == b.step && a.matrix == b.matrix; }
 
 }  // namespace
@@ -49,7 +66,9 @@ void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times
   object.shapes = std::move(shapes.keys);
   object.shapeTimes = std::move(shapes.times);
   object.worldFromObject = state_.scope.ctm;
-  object.attributes = state_.scope.attributes;
+  state_.scope.attributes = state_.attributes(state_.scope.attributes);
+  state_.scope.attributes = state_.attributes(state_.scope.attributes);
+  object.attributes = state_.attributes(attributesOf(state_.scope));
   object.where = r.where;
   state_.world->objects.push_back(std::move(object));
 }
@@ -82,6 +101,10 @@ Master::Shapes SceneBuilder::buildShapes(const Keys& keys, const std::vector<flo
 }
 
 PrimPtr SceneBuilder::buildShape(const Request& r) {
+  if (isEmptyMesh(r)) {
+    state_.log.report(Severity::Warning, "rib-empty-mesh", r.where, description(r) + ": it has no faces");
+    return nullptr;
+  }
   Problems problems;
   PrimPtr prim;
   try {

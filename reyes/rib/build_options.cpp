@@ -53,9 +53,9 @@ void projection(GraphicsState& s, const Request& r) {
   if (s.world) return reject(s, r, "the camera cannot change after WorldBegin");
   const std::string& kind = r.args[0].strings[0];
   Options& o = s.globals.options;
-  if (kind == "perspective")
+  if (kind == "perspective" || kind == "PxrPerspective" || kind == "PxrCamera")
     o.projection = ProjectionKind::Perspective;
-  else if (kind == "orthographic")
+  else if (kind == "orthographic" || kind == "PxrOrthographic")
     o.projection = ProjectionKind::Orthographic;
   else if (kind == "null")
     o.projection = ProjectionKind::Null;
@@ -91,9 +91,6 @@ void depthOfField(GraphicsState& s, const Request& r) {
   o.fStop = a[0];
   o.focalLength = a[1];
   o.focalDistance = a[2];
-  if (a[0] < kInfinity)
-    s.warnOnce("DepthOfField", r, "rib-unsupported",
-               "DepthOfField: defocus is not rendered yet; all is in focus");
 }
 
 void shutter(GraphicsState& s, const Request& r) {
@@ -159,17 +156,18 @@ void hider(GraphicsState& s, const Request& r) {
                  "Hider: parameter \"" + p.name + "\" is not supported yet, ignored");
 }
 
-// '&' stands for the value so far, '@' for the built-in default, which is always searched.
-void searchPath(GraphicsState& s, const Param& p) {
-  std::string& path = s.globals.options.searchPaths[p.name];
-  std::string out;
-  for (const char c : p.strings[0]) {
-    if (c == '&')
-      out += path;
-    else if (c != '@')
-      out += c;
+void searchPath(GraphicsState& s, const Request& r, const Param& p) {
+  if (p.name == "dirmap") {
+    s.globals.dirMap = readDirMap(p.strings);
+    return;
   }
-  path = out;
+  std::string& path = s.globals.options.searchPaths[p.name];
+  std::string unset, joined;
+  for (const std::string& folder : foldersOf(expandSearchPath(p.strings[0], path, unset)))
+    joined += (joined.empty() ? "" : ":") + mapped(folder, s.globals.dirMap);
+  path = joined;
+  if (!unset.empty())
+    s.warn(r, "rib-variable", "the environment has no " + unset + "; it stands for nothing in the search path");
 }
 
 // True if Tomales knows the option.
@@ -177,14 +175,14 @@ bool knownOption(GraphicsState& s, const Request& r, const std::string& key, con
   Options& o = s.globals.options;
   const bool bucket = key == "limits:bucketsize";
   if (key.starts_with("searchpath:") && !p.strings.empty()) {
-    searchPath(s, p);
+    searchPath(s, r, p);
   } else if (bucket && p.ints.size() == 2) {
     o.bucketWidth = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[0]), 1, 4096));
     o.bucketHeight = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[1]), 1, 4096));
   } else if (key == "limits:gridsize" && p.ints.size() == 1) {
     o.gridSize = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[0]), 1, 65536));
   } else {
-    return key.starts_with("user:");
+    return key.starts_with("user:") || key == "ribparse:varsubst";
   }
   return true;
 }

@@ -42,6 +42,12 @@ void illuminate(GraphicsState& s, const Request& r) {
   if (r.args[1].number() != 0) on.push_back((*it)->index);
 }
 
+std::shared_ptr<const ShaderCall> shaderOrNone(const GraphicsState& s, const Request& r) {
+  const std::string& name = r.args[0].strings[0];
+  if (name.empty() || name == "null") return nullptr;
+  return std::make_shared<const ShaderCall>(makeShaderCall(s, r));
+}
+
 }  // namespace
 
 ShaderCall makeShaderCall(const GraphicsState& s, const Request& r) {
@@ -52,15 +58,12 @@ const HandlerTable& shaderHandlers() {
   static const HandlerTable table = {
       {"Surface",
        [](GraphicsState& s, const Request& r) {
-         s.scope.edit().surface = std::make_shared<const ShaderCall>(makeShaderCall(s, r));
+         s.scope.edit().surface = s.shaders(std::make_shared<const ShaderCall>(makeShaderCall(s, r)));
        }},
       {"Displacement",
-       [](GraphicsState& s, const Request& r) {
-         const std::string& name = r.args[0].strings[0];
-         const bool none = name.empty() || name == "null";
-         s.scope.edit().displacement =
-             none ? nullptr : std::make_shared<const ShaderCall>(makeShaderCall(s, r));
-       }},
+       [](GraphicsState& s, const Request& r) { s.scope.edit().displacement = shaderOrNone(s, r); }},
+      {"Atmosphere",
+       [](GraphicsState& s, const Request& r) { s.scope.edit().atmosphere = shaderOrNone(s, r); }},
       {"LightSource", [](GraphicsState& s, const Request& r) { addLight(s, r, false); }},
       {"AreaLightSource", areaLightSource},
       {"Illuminate", illuminate},

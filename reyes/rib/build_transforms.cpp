@@ -48,6 +48,29 @@ std::optional<mat4> matrixOf(const Request& r) {
   return asMatrix(a.numbers);
 }
 
+// Rotate about one axis turns by its angles, whole turns too, which the matrices at the keys cannot tell.
+Motion spun(const std::vector<const Request*>& keys, Motion motion) {
+  constexpr float kMostPieces = 64;
+  const auto axis = [&](size_t k) { return normalizeOr(asVec3(keys[k]->args[0], 1), vec3(0)); };
+  for (size_t k = 0; k < keys.size(); ++k)
+    if (keys[k]->name != "Rotate" || axis(k) != axis(0)) return motion;
+  Motion out{{motion.times[0]}, {motion.keys[0]}};
+  for (size_t k = 1; k < keys.size(); ++k) {
+    const float from = keys[k - 1]->args[0].numbers[0], to = keys[k]->args[0].numbers[0];
+    const float pieces =
+        std::min(std::ceil(glm::radians(std::abs(to - from)) / Motion::kLargestTurn - 1e-3f), kMostPieces);
+    for (float i = 1; i < pieces; ++i) {
+      const float time = lerp(motion.times[k - 1], motion.times[k], i / pieces);
+      if (!(time > out.times.back() && time < motion.times[k])) continue;
+      out.times.push_back(time);
+      out.keys.push_back(glm::rotate(mat4(1), glm::radians(lerp(from, to, i / pieces)), axis(0)));
+    }
+    out.times.push_back(motion.times[k]);
+    out.keys.push_back(motion.keys[k]);
+  }
+  return out;
+}
+
 void coordSysTransform(GraphicsState& s, const Request& r) {
   const std::string& name = r.args[0].strings[0];
   for (const auto* systems : {&s.scope.coordinateSystems, &s.globals.coordinateSystems})
@@ -88,6 +111,7 @@ void applyTransformation(GraphicsState& s, const std::vector<const Request*>& ke
     }
     motion.keys.push_back(*m);
   }
+  motion = spun(keys, std::move(motion));
   const bool replaces = keys[0]->name == "Identity" || keys[0]->name == "Transform";
   s.scope.ctm = (replaces ? s.identity : s.scope.ctm) * motion;
 }

@@ -43,7 +43,7 @@ constexpr Standard kStandard[] = {
     {"color", "limits:othreshold limits:zthreshold"},
     {"string",
      "searchpath:archive searchpath:shader searchpath:texture searchpath:display searchpath:procedural "
-     "searchpath:resource bucket:order statistics:filename statistics:xmlfilename"},
+     "searchpath:resource searchpath:dirmap ribparse:varsubst bucket:order statistics:filename statistics:xmlfilename"},
     {"float", "shadow:bias shadow:bias0 shadow:bias1 shutter:offset"},
     {"string",
      "identifier:name identifier:shadinggroup grouping:membership displacementbound:coordinatesystem "

@@ -72,15 +72,23 @@ void GraphicsState::enterWorld(const SourceLoc& where) {
     copy.worldFromShader = worldFromCamera * copy.worldFromShader;
     call = std::make_shared<const ShaderCall>(std::move(copy));
   };
-  Attributes& attributes = scope.edit();
-  moved(attributes.surface);
-  moved(attributes.displacement);
+  const auto scopeMoved = [&](Scope& s) {
+    Attributes& a = s.edit();
+    moved(a.surface);
+    moved(a.displacement);
+    for (auto& [name, system] : s.coordinateSystems) system = worldFromCamera * system;
+  };
+  scopeMoved(scope);
+  for (auto& saved : globals.resources)
+    for (auto& [name, resource] : saved) {
+      scopeMoved(resource);
+      resource.ctm = worldFromCamera * resource.ctm;
+    }
   for (auto& light : globals.lights) {
     light = std::make_shared<LightCall>(*light);
     light->shader.worldFromShader = worldFromCamera * light->shader.worldFromShader;
   }
-  for (auto* systems : {&globals.coordinateSystems, &scope.coordinateSystems})
-    for (auto& [name, system] : *systems) system = worldFromCamera * system;
+  for (auto& [name, system] : globals.coordinateSystems) system = worldFromCamera * system;
   scope.ctm = Motion();
   identity = Motion();
   world = World{camera, {}, where};

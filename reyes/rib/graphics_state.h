@@ -4,6 +4,8 @@
 #include <set>
 
 #include "reyes/rib.h"
+#include "reyes/rib/intern.h"
+#include "reyes/rib/search_path.h"
 
 namespace tomales::rib {
 
@@ -36,6 +38,8 @@ struct Globals {
   std::vector<std::shared_ptr<LightCall>> lights;
   std::map<std::string, Motion> coordinateSystems;
   std::map<std::string, std::shared_ptr<Master>> masters;
+  std::vector<std::map<std::string, Scope>> resources{1};  ///< Outermost ResourceBegin first.
+  DirMap dirMap;
 };
 
 enum class Block { Frame, World, Attribute, Transform, Solid, Instance };
@@ -58,6 +62,8 @@ class GraphicsState {
   Scope scope;
   Globals globals;
   std::optional<World> world;
+  Interner<const ShaderCall> shaders;
+  Interner<Attributes> attributes;
   Motion identity;  ///< What Identity sets: the CTM of the instance while an object is replayed.
 
   void begin(Block block, const SourceLoc& where);

@@ -15,6 +15,7 @@ using HandlerTable = std::unordered_map<std::string_view, Handler>;
 const HandlerTable& optionHandlers();
 const HandlerTable& attributeHandlers();
 const HandlerTable& shaderHandlers();
+const HandlerTable& resourceHandlers();
 const HandlerTable& transformHandlers();  ///< CoordinateSystem and its relatives.
 
 /// Transform, Translate, ...: one request for each time, all with the same name.

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <climits>
 #include <cmath>
-#include <cstdlib>
-#include <limits>
-#include <optional>
+#include <string_view>
+#include <utility>
 
 namespace tomales::rib {
 namespace {
@@ -15,15 +14,8 @@ namespace {
 bool isBlank(int c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
 bool isWord(int c) { return c > ' ' && c < 0x7f && c != '"' && c != '[' && c != ']' && c != '#'; }
 
-std::optional<double> parseNumber(const std::string& word) {
-  const char* first = word.data() + (word[0] == '+' ? 1 : 0);
-  const char* last = word.data() + word.size();
-  double value = 0;
-  const auto [end, error] = std::from_chars(first, last, value);  // takes "inf" and "nan" in any case, too
-  if (end != last || end == first) return std::nullopt;
-  if (error == std::errc::result_out_of_range) return std::strtod(word.c_str(), nullptr);  // 0 or infinity
-  return value;
-}
+void append(std::vector<float>& out, const ScannedNumber& n) { out.push_back(n.narrow); }
+void append(std::vector<int>& out, const ScannedNumber& n) { out.push_back(toInt(n.wide)); }
 
 }  // namespace
 
@@ -32,7 +24,9 @@ std::string describe(const Token& token) {
     case Token::Kind::End:
       return "the end of the file";
     case Token::Kind::Number:
-      return fmt::format("the number {}", token.number);
+      return fmt::format("the number {}", token.number.wide);
+    case Token::Kind::Floats:
+      return fmt::format("an array of {} numbers", token.floats.size());
     case Token::Kind::String:
       return fmt::format("the string \"{}\"", token.text.substr(0, 40));
     case Token::Kind::Name:
@@ -47,12 +41,22 @@ std::string describe(const Token& token) {
   return "";
 }
 
+int toInt(double d) {
+  return std::isnan(d) ? 0 : static_cast<int>(std::lround(std::clamp<double>(d, -INT_MAX, INT_MAX)));
+}
+
 void Lexer::advance() {
+  while (!readToken()) {
+  }
+}
+
+bool Lexer::readToken() {
   skipBlanks();
   token_.line = line_;
   token_.text.clear();
   const int c = stream_.peek();
-  if (c == ByteStream::kEnd) {
+  if (c == 0377 && stream_.isProgram()) stream_.close();
+  if (c == ByteStream::kEnd || stream_.closed()) {
     token_.kind = Token::Kind::End;
   } else if (c == '"') {
     readString();
@@ -61,9 +65,62 @@ void Lexer::advance() {
     token_.kind = c == '[' ? Token::Kind::Open : Token::Kind::Close;
   } else if (isWord(c)) {
     readWord();
+  } else if (isBinary(c)) {
+    return readBinary();
   } else {
     readJunk();
   }
+  return true;
+}
+
+void Lexer::junk(std::string what) {
+  token_.kind = Token::Kind::Junk;
+  token_.text = std::move(what);
+}
+
+template <class T>
+void Lexer::appendToken(std::vector<T>& out) const {
+  if (token_.kind == Token::Kind::Number) return append(out, token_.number);
+  out.reserve(out.size() + token_.floats.size());
+  for (const float f : token_.floats) append(out, {f, f});
+}
+
+template <class T>
+void Lexer::takeNumber(std::vector<T>& out) {
+  appendToken(out);
+  advance();
+}
+template void Lexer::takeNumber(std::vector<float>& out);
+template void Lexer::takeNumber(std::vector<int>& out);
+
+template <class T>
+void Lexer::takeNumbers(std::vector<T>& out) {
+  for (; atNumbers(); advance()) {
+    appendToken(out);
+    takeWrittenNumbers(out);
+  }
+}
+template void Lexer::takeNumbers(std::vector<float>& out);
+template void Lexer::takeNumbers(std::vector<int>& out);
+
+// The everyday numbers that are whole in the buffer, without making tokens of them.
+template <class T>
+void Lexer::takeWrittenNumbers(std::vector<T>& out) {
+  const char *p = stream_.begin(), *const last = stream_.end();
+  int lines = 0;
+  ScannedNumber number;
+  for (const char* q = p; q < last;) {
+    if (isBlank(*q)) {
+      lines += *q++ == '\n';
+      continue;
+    }
+    q = scanEverydayNumber(q, last, number);
+    if (!q || q == last || !(isBlank(*q) || *q == ']')) break;
+    append(out, number);
+    line_ += std::exchange(lines, 0);
+    p = q;
+  }
+  stream_.skipTo(p);
 }
 
 void Lexer::skipBlanks() {
@@ -83,11 +140,8 @@ void Lexer::readString() {
   token_.kind = Token::Kind::String;
   stream_.get();
   for (int c = stream_.get(); c != '"'; c = stream_.get()) {
-    if (c == ByteStream::kEnd || token_.text.size() >= kLongestString) {
-      token_.kind = Token::Kind::Junk;
-      token_.text = "a string without closing quote";
-      return;
-    }
+    if (c == ByteStream::kEnd || token_.text.size() >= kLongestString)
+      return junk("a string without closing quote");
     if (c == '\n') ++line_;
     if (c == '\\')
       readEscape();
@@ -117,34 +171,27 @@ void Lexer::readEscape() {
 void Lexer::readWord() {
   bool tooLong = false;
   while (isWord(stream_.peek())) {
-    const char c = static_cast<char>(stream_.get());
-    if (token_.text.size() < kLongestWord)
-      token_.text += c;
-    else
-      tooLong = true;
+    const char *const first = stream_.begin(), *const last = std::find_if_not(first, stream_.end(), isWord);
+    tooLong |= token_.text.size() + static_cast<size_t>(last - first) > kLongestWord;
+    if (!tooLong) token_.text.append(first, last);
+    stream_.skipTo(last);
   }
-  const int c = token_.text[0];
-  const std::optional<double> number = parseNumber(token_.text);
-  if (tooLong) {
-    token_.kind = Token::Kind::Junk;
-    token_.text = fmt::format("a word longer than {} characters", kLongestWord);
-  } else if (number) {
+  if (tooLong) return junk(fmt::format("a word longer than {} characters", kLongestWord));
+  const char *const first = token_.text.data(), *const last = first + token_.text.size();
+  if (scanNumber(first, last, token_.number) == last)
     token_.kind = Token::Kind::Number;
-    token_.number = *number;
-  } else if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')) {
+  else if ((*first >= 'a' && *first <= 'z') || (*first >= 'A' && *first <= 'Z'))
     token_.kind = Token::Kind::Name;
-  } else {
-    token_.kind = Token::Kind::Junk;
-    token_.text = "\"" + token_.text.substr(0, 40) + "\", which is neither a number nor a name";
-  }
+  else
+    junk("\"" + token_.text.substr(0, 40) + "\", which is neither a number nor a name");
 }
 
 // A whole run at once: one token, one message.
 void Lexer::readJunk() {
   int c = stream_.peek();
-  token_.kind = Token::Kind::Junk;
-  token_.text = fmt::format("byte 0x{:02x}, which ASCII RIB does not use (binary RIB is not read)", c);
-  while (c != ByteStream::kEnd && !isWord(c) && !isBlank(c) && c != '"' && c != '[' && c != ']' && c != '#') {
+  junk(fmt::format("byte 0x{:02x}, which begins nothing in RIB", c));
+  while (c != ByteStream::kEnd && !isWord(c) && !isBlank(c) && !isBinary(c) && c != '"' && c != '[' &&
+         c != ']' && c != '#') {
     stream_.get();
     c = stream_.peek();
   }

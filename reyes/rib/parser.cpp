@@ -4,20 +4,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <climits>
-#include <cmath>
 
 namespace tomales::rib {
 namespace {
-
-float toFloat(double d) {
-  if (std::abs(d) > std::numeric_limits<float>::max()) return d > 0 ? kInfinity : -kInfinity;
-  return static_cast<float>(d);
-}
-
-int toInt(double d) {
-  return std::isnan(d) ? 0 : static_cast<int>(std::lround(std::clamp<double>(d, -INT_MAX, INT_MAX)));
-}
 
 // Binary junk is full of words; only these deserve a message each.
 bool looksLikeRequest(const std::string& word) {
@@ -74,7 +63,7 @@ void Parser::skipToKnownRequest(bool reportUnknown) {
 bool Parser::readArguments(const Signature& signature) {
   for (size_t i = 0; i < signature.arguments.size(); ++i) {
     if (signature.arguments[i] == '?') {
-      const bool given = at(Kind::Open) || at(Kind::Number);
+      const bool given = at(Kind::Open) || lexer_.atNumbers();
       if (!given) break;
     } else if (!readArgument(signature.arguments[i])) {
       return false;
@@ -117,7 +106,7 @@ bool Parser::readText(bool orNumber) {
   if (at(Kind::String))
     arg.strings.push_back(lexer_.peek().text);
   else if (orNumber && at(Kind::Number))
-    arg.strings.push_back(fmt::format("{}", lexer_.peek().number));
+    arg.strings.push_back(fmt::format("{}", lexer_.peek().number.wide));
   else
     return fail(orNumber ? "a handle" : "a string");
   lexer_.advance();
@@ -136,7 +125,10 @@ bool Parser::readNumbers(size_t count) {
     if (at(open ? Kind::Close : Kind::Open)) {
       open = !open;
     } else if (at(Kind::Number) && arg.numbers.size() < count) {
-      arg.numbers.push_back(toFloat(lexer_.peek().number));
+      arg.numbers.push_back(lexer_.peek().number.narrow);
+    } else if (at(Kind::Floats) && lexer_.peek().floats.size() <= count - arg.numbers.size()) {
+      const std::vector<float>& more = lexer_.peek().floats;
+      arg.numbers.insert(arg.numbers.end(), more.begin(), more.end());
     } else {
       return fail(arg.numbers.size() < count ? fmt::format("number {} of {}", arg.numbers.size() + 1, count)
                                              : "']'");
@@ -149,14 +141,14 @@ bool Parser::readNumbers(size_t count) {
 
 bool Parser::readArray(RibArg& out, RibArg::Kind kind) {
   out.kind = kind;
-  const bool wantsNumbers = kind == RibArg::Kind::Numbers;
-  const bool bracketed = at(Kind::Open);
+  const bool wantsNumbers = kind == RibArg::Kind::Numbers, bracketed = at(Kind::Open);
   if (bracketed) lexer_.advance();
-  for (; at(wantsNumbers ? Kind::Number : Kind::String); lexer_.advance()) {
-    if (wantsNumbers)
-      out.numbers.push_back(toFloat(lexer_.peek().number));
-    else
-      out.strings.push_back(lexer_.peek().text);
+  if (wantsNumbers && lexer_.atNumbers()) {
+    if (!bracketed) return lexer_.takeNumber(out.numbers), true;
+    lexer_.takeNumbers(out.numbers);
+  }
+  for (; !wantsNumbers && at(Kind::String); lexer_.advance()) {
+    out.strings.push_back(lexer_.peek().text);
     if (!bracketed) return lexer_.advance(), true;
   }
   if (!bracketed || !at(Kind::Close))
@@ -166,65 +158,63 @@ bool Parser::readArray(RibArg& out, RibArg::Kind kind) {
 }
 
 bool Parser::readParameters(const std::string& category) {
-  while (at(Kind::String)) {
-    const std::string token = lexer_.peek().text;
-    const SourceLoc where = here();
-    lexer_.advance();
-    std::vector<double> numbers;
-    std::vector<std::string> strings;
-    if (!readValues(numbers, strings)) return fail(fmt::format("a value of \"{}\"", token));
-    Param param;
-    const auto declaration = dictionary_.find(token, category, param.name);
-    if (declaration && keepParameter(token, *declaration, param, numbers, strings))
-      request_.params.push_back(std::move(param));
-    else if (!declaration)
-      log_.report(
-          Severity::Warning, "rib-undeclared", where,
-          fmt::format("{}: parameter \"{}\" is not declared; ignored", request_.name, token.substr(0, 80)));
-  }
+  while (at(Kind::String))
+    if (!readParameter(category)) return false;
   return true;
 }
 
-bool Parser::readValues(std::vector<double>& numbers, std::vector<std::string>& strings) {
+bool Parser::readParameter(const std::string& category) {
+  const std::string token = lexer_.peek().text;
+  const SourceLoc where = here();
+  Param param;
+  const auto declaration = dictionary_.find(token, category, param.name);
+  if (declaration) {
+    param.storage = declaration->storage;
+    param.type = declaration->type;
+    param.arrayLength = declaration->arrayLength;
+  }
+  lexer_.advance();
+  if (!readValues(param)) return fail(fmt::format("a value of \"{}\"", token));
+  if (!declaration)
+    log_.report(
+        Severity::Warning, "rib-undeclared", where,
+        fmt::format("{}: parameter \"{}\" is not declared; ignored", request_.name, token.substr(0, 80)));
+  else if (fitsDeclaration(token, param))
+    request_.params.push_back(std::move(param));
+  return true;
+}
+
+bool Parser::readValues(Param& param) {
   const bool bracketed = at(Kind::Open);
+  const auto readNumbers = [&](auto& out) { bracketed ? lexer_.takeNumbers(out) : lexer_.takeNumber(out); };
   if (bracketed) lexer_.advance();
-  for (; at(Kind::Number) || at(Kind::String); lexer_.advance()) {
-    if (at(Kind::Number))
-      numbers.push_back(lexer_.peek().number);
+  while (lexer_.atNumbers() || at(Kind::String)) {
+    if (at(Kind::String))
+      param.strings.push_back(lexer_.peek().text), lexer_.advance();
+    else if (param.type == ValueType::Integer)
+      readNumbers(param.ints);
     else
-      strings.push_back(lexer_.peek().text);
-    if (!bracketed) return lexer_.advance(), true;
+      readNumbers(param.floats);
+    if (!bracketed) return true;
   }
   if (!bracketed || !at(Kind::Close)) return false;
   lexer_.advance();
   return true;
 }
 
-bool Parser::keepParameter(const std::string& token, const Declaration& d, Param& param,
-                           std::vector<double>& numbers, std::vector<std::string>& strings) {
-  param.storage = d.storage;
-  param.type = d.type;
-  param.arrayLength = d.arrayLength;
-  const bool wantsStrings = d.type == ValueType::String;
-  const size_t count = wantsStrings ? strings.size() : numbers.size();
+bool Parser::fitsDeclaration(const std::string& token, const Param& param) const {
+  const bool wantsStrings = param.type == ValueType::String;
+  const size_t numbers = param.ints.size() + param.floats.size(), strings = param.strings.size();
+  const size_t count = wantsStrings ? strings : numbers;
+  const bool mixed = (wantsStrings ? numbers : strings) > 0;
   const auto width = static_cast<size_t>(param.width());
-  const bool mixed = wantsStrings ? !numbers.empty() : !strings.empty();
-  if (mixed || count % width != 0) {
-    log_.report(Severity::Warning, "rib-parameter", request_.where,
-                mixed
-                    ? fmt::format("{}: \"{}\" takes {}; the parameter is ignored", request_.name, token,
+  if (!mixed && count % width == 0) return true;
+  log_.report(Severity::Warning, "rib-parameter", request_.where,
+              mixed ? fmt::format("{}: \"{}\" takes {}; the parameter is ignored", request_.name, token,
                                   wantsStrings ? "strings, not numbers" : "numbers, not strings")
                     : fmt::format("{}: \"{}\" has {} values, not a multiple of {}; the parameter is ignored",
                                   request_.name, token, count, width));
-    return false;
-  }
-  if (wantsStrings)
-    param.strings = std::move(strings);
-  else if (d.type == ValueType::Integer)
-    std::transform(numbers.begin(), numbers.end(), std::back_inserter(param.ints), toInt);
-  else
-    std::transform(numbers.begin(), numbers.end(), std::back_inserter(param.floats), toFloat);
-  return true;
+  return false;
 }
 
 }  // namespace tomales::rib

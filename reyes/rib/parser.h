@@ -32,9 +32,10 @@ class Parser {
   bool readNumbers(size_t count);
   bool readArray(RibArg& out, RibArg::Kind kind);
   bool readParameters(const std::string& category);
-  bool readValues(std::vector<double>& numbers, std::vector<std::string>& strings);
-  bool keepParameter(const std::string& token, const Declaration& d, Param& param,
-                     std::vector<double>& numbers, std::vector<std::string>& strings);
+  bool readParameter(const std::string& category);
+  /// Numbers into `ints` or `floats`, by the parameter's type.
+  bool readValues(Param& param);
+  bool fitsDeclaration(const std::string& token, const Param& param) const;
 
   std::shared_ptr<const std::string> file_;
   Lexer lexer_;

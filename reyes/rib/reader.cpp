@@ -3,23 +3,24 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <sstream>
 
 #include "reyes/rib/parser.h"
+#include "reyes/rib/variables.h"
 
 namespace tomales::rib {
 namespace {
-namespace fs = std::filesystem;
-
-std::string canonical(const std::string& path) {
-  std::error_code error;
-  const fs::path out = fs::weakly_canonical(path, error);
-  return error ? path : out.string();
-}
 
 SourceLoc wholeFile(const std::string& name) { return {std::make_shared<const std::string>(name), 0}; }
 
 }  // namespace
+
+void declare(const Request& r, Dictionary& dictionary, Log& log) {
+  const std::string &name = r.args[0].strings[0], &declaration = r.args[1].strings[0];
+  if (!dictionary.declare(name, declaration))
+    log.report(Severity::Warning, "rib-declaration", r.where,
+               fmt::format("Declare: \"{}\" is no declaration of \"{}\"; ignored", declaration.substr(0, 80),
+                           name.substr(0, 80)));
+}
 
 bool Reader::readFile(const std::string& path) {
   const auto stream = ByteStream::open(path);
@@ -34,83 +35,93 @@ bool Reader::readText(const std::string& text, const std::string& name) {
 
 bool Reader::readTop(ByteStream& stream, const std::string& name) {
   last_ = wholeFile(name);
-  if (read(stream, name) > 0) return true;
+  std::error_code error;
+  const std::filesystem::path path = std::filesystem::weakly_canonical(name, error);
+  if (read(stream, name, error ? name : path.string(), std::filesystem::path(name).parent_path()) > 0)
+    return true;
   log_.report(Severity::Error, "rib-empty", wholeFile(name),
               "the file holds no RIB request that could be read");
   return false;
 }
 
-size_t Reader::read(ByteStream& stream, const std::string& name) {
-  open_.push_back(name);
+size_t Reader::read(ByteStream& stream, const std::string& name, const std::string& key,
+                    const std::string& folder) {
+  enter(key, folder);
   Parser parser(stream, name, dictionary_, log_);
   size_t count = 0;
   for (std::optional<Request> request = parser.next(); request; request = parser.next(), ++count)
     handle(*request);
   if (stream.damaged())
     log_.report(Severity::Missing, "rib-gzip", wholeFile(name),
-                "the compressed data is damaged; its readable part is used");
-  open_.pop_back();
+                "the compressed data is damaged or swells beyond measure; its readable part is used");
+  leave();
   return count;
+}
+
+void Reader::enter(const std::string& key, const std::string& folder) {
+  open_.push_back({key, folder, Conditions(log_, [this](const std::string& v) { return variable(v); }), {}});
+}
+
+void Reader::leave() {
+  if (open_.back().recording) {
+    report(Severity::Warning, "rib-unbalanced", open_.back().recording->begin, "ArchiveEnd is missing");
+    endRecording();
+  }
+  open_.back().conditions.finish();
+  open_.pop_back();
 }
 
 void Reader::handle(const Request& r) {
   last_ = r.where;
-  // The contents of an inline archive are for later.
-  if (r.name == "ArchiveBegin") ++inlineArchives_;
-  if (inlineArchives_ > 0) {
-    if (r.name == "ArchiveBegin")
-      log_.report(Severity::Missing, "rib-unsupported", r.where,
-                  "ArchiveBegin is not supported yet, its contents are ignored");
-    if (r.name == "ArchiveEnd") --inlineArchives_;
-    return;
-  }
-  if (r.name == "Declare") declare(r);
-  if (r.name == "ReadArchive") return readArchive(r);
+  Level& level = open_.back();
+  if (level.recording) return record(r);
+  if (level.conditions.take(r)) return;
+  if (mark_ != 0)
+    perform(substituted(r));
+  else
+    perform(r);
+}
+
+void Reader::perform(const Request& r) {
+  static const std::unordered_map<std::string_view, Performer> table = {
+      {"ReadArchive", &Reader::readArchive}, {"ArchiveBegin", &Reader::record},
+      {"ArchiveEnd", &Reader::record},       {"Procedural", &Reader::procedural},
+      {"Procedural2", &Reader::procedural2}, {"System", &Reader::system}};
+  if (const auto it = table.find(r.name); it != table.end()) return (this->*it->second)(r);
+  if (r.name == "Declare") declare(r, dictionary_, log_);
+  const Param* mark =
+      r.name == "Option" && r.args[0].strings[0] == "ribparse" ? findParam(r.params, "varsubst") : nullptr;
+  if (mark && !mark->strings.empty()) mark_ = mark->strings[0].empty() ? '\0' : mark->strings[0][0];
   builder_.request(r);
 }
 
-void Reader::declare(const Request& r) {
-  if (!dictionary_.declare(r.args[0].strings[0], r.args[1].strings[0]))
-    log_.report(Severity::Warning, "rib-declaration", r.where,
-                fmt::format("Declare: \"{}\" is no declaration of \"{}\"; ignored",
-                            r.args[1].strings[0].substr(0, 80), r.args[0].strings[0].substr(0, 80)));
+std::optional<std::string> Reader::variable(const std::string& name) const {
+  return findVariable(builder_.options(), builder_.attributes(), name);
 }
 
-void Reader::readArchive(const Request& r) {
-  const std::string& name = r.args[0].strings[0];
-  const std::string path = findArchive(name);
-  const auto stream = path.empty() ? nullptr : ByteStream::open(path);
-  const auto isSame = [&](const std::string& other) { return canonical(other) == canonical(path); };
-  const auto refuse = [&](Severity severity, const char* code, const std::string& why) {
-    log_.report(severity, code, r.where, fmt::format("ReadArchive \"{}\": {}", name.substr(0, 200), why));
+// Strings that are values; names of parameters stay.
+Request Reader::substituted(const Request& r) const {
+  Request out = r;
+  std::string unknown;
+  const auto find = [this](const std::string& name) -> std::optional<std::string> {
+    if (auto value = variable(name)) return value;
+    const char* environment = std::getenv(name.c_str());
+    return environment ? std::optional<std::string>(environment) : std::nullopt;
   };
-  if (!stream)
-    refuse(Severity::Missing, "rib-missing-archive",
-           "the file is missing or unreadable; nothing is read in its place");
-  else if (std::any_of(open_.begin(), open_.end(), isSame))
-    refuse(Severity::Warning, "rib-archive-recursion", "the archive reads itself; ignored");
-  else if (open_.size() > static_cast<size_t>(settings_.maxArchiveDepth))
-    refuse(Severity::Warning, "rib-archive-recursion",
-           fmt::format("more than {} archives within archives; ignored", settings_.maxArchiveDepth));
-  else if (read(*stream, path) == 0)
-    refuse(Severity::Missing, "rib-empty", "the archive holds no RIB request that could be read");
+  const auto replace = [&](std::vector<std::string>& strings) {
+    for (std::string& s : strings)
+      if (s.find(mark_) != std::string::npos) s = substitute(s, mark_, find, unknown);
+  };
+  for (RibArg& a : out.args) replace(a.strings);
+  for (Param& p : out.params) replace(p.strings);
+  if (!unknown.empty())
+    report(Severity::Warning, "rib-variable", r,
+           fmt::format("there is no variable {}; left as written", unknown));
+  return out;
 }
 
-// The search path first, then beside the file that reads, then where the caller says.
-std::string Reader::findArchive(const std::string& name) const {
-  std::vector<fs::path> folders;
-  const auto& paths = builder_.options().searchPaths;
-  if (const auto it = paths.find("archive"); it != paths.end()) {
-    std::istringstream list(it->second);
-    for (std::string folder; std::getline(list, folder, ':');)
-      if (!folder.empty()) folders.push_back(folder);
-  }
-  folders.push_back(fs::path(open_.back()).parent_path());
-  folders.insert(folders.end(), settings_.archivePath.begin(), settings_.archivePath.end());
-  std::error_code ignored;
-  for (const fs::path& folder : folders)
-    if (const fs::path path = folder / name; fs::is_regular_file(path, ignored)) return path.string();
-  return "";
+void Reader::report(Severity severity, const char* code, const Request& r, const std::string& what) const {
+  log_.report(severity, code, r.where, r.name + ": " + what);
 }
 
 }  // namespace tomales::rib

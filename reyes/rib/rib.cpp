@@ -1,8 +1,41 @@
 #include "reyes/rib.h"
 
+#include "reyes/rib/parser.h"
 #include "reyes/rib/reader.h"
 
 namespace tomales {
+namespace {
+
+/// Streams that share one dictionary.
+class PlainParse {
+ public:
+  PlainParse(RiSink& sink, Log& log) : sink_(sink), log_(log) {}
+
+  bool read(rib::ByteStream* stream, const std::string& name) {
+    const SourceLoc whole{std::make_shared<const std::string>(name), 0};
+    if (!stream) return log_.report(Severity::Error, "rib-open", whole, "the file cannot be opened"), false;
+    rib::Parser parser(*stream, name, dictionary_, log_);
+    bool any = false;
+    while (const std::optional<Request> request = parser.next()) {
+      any = true;
+      if (request->name == "Declare") rib::declare(*request, dictionary_, log_);
+      sink_.request(*request);
+    }
+    if (stream->damaged())
+      log_.report(Severity::Error, "rib-gzip", whole,
+                  "the compressed data is damaged or swells beyond measure");
+    if (!any)
+      log_.report(Severity::Error, "rib-empty", whole, "the file holds no RIB request that could be read");
+    return any && !stream->damaged();
+  }
+
+ private:
+  RiSink& sink_;
+  Log& log_;
+  rib::Dictionary dictionary_;
+};
+
+}  // namespace
 
 std::vector<int> RibArg::ints() const {
   std::vector<int> out;
@@ -25,6 +58,18 @@ bool readRibText(const std::string& text, const std::string& name, const RibSett
   const bool good = reader.readText(text, name);
   reader.finish();
   return good;
+}
+
+bool parseRib(const std::vector<std::string>& files, RiSink& sink, Log& log) {
+  PlainParse parse(sink, log);
+  bool good = true;
+  for (const std::string& file : files)
+    good = parse.read(rib::ByteStream::open(file).get(), file == "-" ? "standard input" : file) && good;
+  return good;
+}
+
+bool parseRibText(const std::string& text, const std::string& name, RiSink& sink, Log& log) {
+  return PlainParse(sink, log).read(rib::ByteStream::fromMemory(text).get(), name);
 }
 
 }  // namespace tomales

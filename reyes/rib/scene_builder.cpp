@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "reyes/rib/request_table.h"
+#include "reyes/rib/ris.h"
 
 namespace tomales::rib {
 namespace {
@@ -68,11 +69,28 @@ void SceneBuilder::perform(const Request& r) {
   if (!usableArguments(r))
     return state_.warn(r, "rib-not-finite", "an argument is not a finite number; ignored");
   if (isTransformation(r.name)) return applyTransformation(state_, {&r}, {0.0f});
+  if (isRis(r.name)) return performRis(r);
   if (performBlock(r) || performHandler(r)) return;
   const Signature* signature = findSignature(r.name);
   const bool geometry = signature && signature->support == Support::NotYetGeometry;
   state_.warnOnce(r.name, r, "rib-unsupported", r.name + " is not supported yet, ignored",
                   geometry ? Severity::Missing : Severity::Warning);
+}
+
+void SceneBuilder::performRis(const Request& r) {
+  const Translation translation = translateRis(r);
+  state_.warnOnce(r.name + " " + r.args[0].strings[0], r, "rib-substitute", translation.note, translation.severity);
+  for (const Request& request : translation.requests) perform(request);
+}
+
+float SceneBuilder::rasterArea(const std::vector<float>& b) const {
+  const Camera camera(options());
+  const float frame = static_cast<float>(camera.xResolution()) * static_cast<float>(camera.yResolution());
+  const Bound3 box = transformBound(state_.cameraFromObject().at(options().shutterOpen),
+                                    {{b[0], b[2], b[4]}, {b[1], b[3], b[5]}});
+  Bound2 raster;
+  if (!tomales::isFinite(box.lo) || !tomales::isFinite(box.hi) || !camera.rasterBound(box, raster) || raster.empty()) return frame;
+  return std::min(frame, (raster.hi.x - raster.lo.x) * (raster.hi.y - raster.lo.y));
 }
 
 bool SceneBuilder::performBlock(const Request& r) {
@@ -120,7 +138,7 @@ bool SceneBuilder::performBlock(const Request& r) {
 
 bool SceneBuilder::performHandler(const Request& r) {
   for (const HandlerTable* table :
-       {&attributeHandlers(), &shaderHandlers(), &transformHandlers(), &optionHandlers()}) {
+       {&attributeHandlers(), &shaderHandlers(), &transformHandlers(), &resourceHandlers(), &optionHandlers()}) {
     const auto it = table->find(r.name);
     if (it == table->end()) continue;
     if (table == &optionHandlers() && state_.world && r.name != "Option" && r.name != "Imager")

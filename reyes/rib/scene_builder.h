@@ -17,6 +17,10 @@ class SceneBuilder : public RiSink {
   void finish(const SourceLoc& where);
 
   const Options& options() const { return state_.globals.options; }
+  const Attributes& attributes() const { return *state_.scope.attributes; }
+  const DirMap& dirMap() const { return state_.globals.dirMap; }
+  /// Pixels that a box in object space (xmin xmax ymin ymax zmin zmax) may cover; the frame, if it is no finite one.
+  float rasterArea(const std::vector<float>& bound) const;
 
  private:
   using Keys = std::vector<const Request*>;
@@ -36,6 +40,7 @@ class SceneBuilder : public RiSink {
   void perform(const Request& request);
   bool performBlock(const Request& request);
   bool performHandler(const Request& request);
+  void performRis(const Request& request);
 
   void beginWorld(const Request& request);
   void endWorld(const SourceLoc& where);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <new>
 
 namespace tomales::rib {
 namespace {
@@ -14,7 +15,8 @@ constexpr size_t kBufferSize = 1 << 16;
 struct ByteStream::Inflater {
   z_stream z{};
   bool ready = false, memberEnded = false;
-  std::unique_ptr<char[]> out = std::make_unique<char[]>(kBufferSize);
+  size_t in = 0, out = 0;  ///< Bytes so far.
+  std::unique_ptr<char[]> buffer = std::make_unique<char[]>(kBufferSize);
 
   Inflater() { ready = inflateInit2(&z, 15 + 16) == Z_OK; }  // +16: the gzip wrapping only
   ~Inflater() {
@@ -48,38 +50,69 @@ std::unique_ptr<ByteStream> ByteStream::fromMemory(const std::string& text) {
       }));
 }
 
+std::unique_ptr<ByteStream> ByteStream::fromProgram(Source source) {
+  auto stream = std::unique_ptr<ByteStream>(new ByteStream(std::move(source)));
+  stream->isProgram_ = true;
+  return stream;
+}
+
 bool ByteStream::fill() {
+  if (closed_) return false;
   if (!inflater_) {
     const size_t n = source_(raw_.get(), kBufferSize);
     next_ = raw_.get();
     end_ = next_ + n;
-    const bool gzip = !started_ && n >= 2 && raw_[0] == '\x1f' && raw_[1] == '\x8b';
+    const bool isGzip = !started_ && n >= 2 && raw_[0] == '\x1f' && raw_[1] == '\x8b';
     started_ = true;
-    if (!gzip) return n > 0;
+    if (!isGzip) return n > 0;
     inflater_ = std::make_unique<Inflater>();
     inflater_->z.next_in = reinterpret_cast<Bytef*>(raw_.get());
     inflater_->z.avail_in = static_cast<uInt>(n);
+    inflater_->in = n;
   }
-  z_stream& z = inflater_->z;
-  z.next_out = reinterpret_cast<Bytef*>(inflater_->out.get());
+  return inflateMore();
+}
+
+bool ByteStream::inflateMore() {
+  Inflater& inflater = *inflater_;
+  z_stream& z = inflater.z;
+  z.next_out = reinterpret_cast<Bytef*>(inflater.buffer.get());
   z.avail_out = kBufferSize;
-  while (z.avail_out == kBufferSize && !damaged_ && inflater_->ready) {
+  while (z.avail_out == kBufferSize && !damaged_ && inflater.ready) {
     if (z.avail_in == 0) {
       z.next_in = reinterpret_cast<Bytef*>(raw_.get());
       z.avail_in = static_cast<uInt>(source_(raw_.get(), kBufferSize));
+      inflater.in += z.avail_in;
       if (z.avail_in == 0) {
-        damaged_ = !inflater_->memberEnded;
+        damaged_ = !inflater.memberEnded;
         break;
       }
     }
-    if (inflater_->memberEnded) inflateReset(&z);  // gzip files may be concatenated
+    if (inflater.memberEnded) inflateReset(&z);  // gzip files may be concatenated
     const int status = inflate(&z, Z_NO_FLUSH);
-    inflater_->memberEnded = status == Z_STREAM_END;
+    inflater.memberEnded = status == Z_STREAM_END;
     damaged_ = status != Z_OK && status != Z_STREAM_END && status != Z_BUF_ERROR;
   }
-  next_ = inflater_->out.get();
+  next_ = inflater.buffer.get();
   end_ = next_ + (kBufferSize - z.avail_out);
+  inflater.out += static_cast<size_t>(end_ - next_);
+  damaged_ |= inflater.out > kHarmless_bytes && inflater.out / kLargestRatio > inflater.in;
   return next_ < end_;
+}
+
+std::string gzip(std::string_view text) {
+  z_stream z{};
+  if (deflateInit2(&z, Z_DEFAULT_COMPRESSION, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY) != Z_OK)
+    throw std::bad_alloc();
+  std::string out(deflateBound(&z, text.size()), '\0');
+  z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+  z.avail_in = static_cast<uInt>(text.size());
+  z.next_out = reinterpret_cast<Bytef*>(out.data());
+  z.avail_out = static_cast<uInt>(out.size());
+  deflate(&z, Z_FINISH);
+  out.resize(z.total_out);
+  deflateEnd(&z);
+  return out;
 }
 
 }  // namespace tomales::rib

@@ -1,40 +1,59 @@
-// Bytes of one RIB stream: a file, standard input or memory. Gzip is detected by its magic bytes (1f 8b) and
-// unpacked on the way. Threads: one reader.
+// Bytes of one RIB stream: a file, standard input, memory or a program. Gzip is detected by its magic bytes
+// (1f 8b) and unpacked on the way. Threads: one reader.
 #pragma once
 #include <cstdio>
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace tomales::rib {
 
 class ByteStream {
  public:
+  using Source = std::function<size_t(char* buffer, size_t size)>;  ///< 0: the end
   static constexpr int kEnd = -1;
+  /// Compressed data that unpacks to more than the first, and to more than the second times its own size, is a
+  /// bomb.
+  static constexpr size_t kHarmless_bytes = size_t{64} << 20, kLargestRatio = 200;
 
   /// Null if `path` cannot be opened or is a folder; "-" is standard input.
   static std::unique_ptr<ByteStream> open(const std::string& path);
   /// `text` must outlive the stream.
   static std::unique_ptr<ByteStream> fromMemory(const std::string& text);
+  /// The answer of a program: the byte 0377 in place of a token closes it (RISpec 3.2 appendix C).
+  static std::unique_ptr<ByteStream> fromProgram(Source source);
   ~ByteStream();
 
   /// The next byte, or kEnd.
   int get() { return next_ < end_ || fill() ? static_cast<unsigned char>(*next_++) : kEnd; }
   int peek() { return next_ < end_ || fill() ? static_cast<unsigned char>(*next_) : kEnd; }
-  /// The compressed data broke off or made no sense; what came before it has been read.
+  /// What is buffered: at least one byte, if peek() gave one.
+  const char* begin() const { return next_; }
+  const char* end() const { return end_; }
+  /// Pre: begin() <= position <= end().
+  void skipTo(const char* position) { next_ = position; }
+
+  bool isProgram() const { return isProgram_; }
+  void close() { next_ = end_, closed_ = true; }
+  bool closed() const { return closed_; }
+  /// The compressed data broke off, made no sense or was a bomb; what came before it has been read.
   bool damaged() const { return damaged_; }
 
  private:
-  using Source = std::function<size_t(char* buffer, size_t size)>;  ///< 0: the end
   struct Inflater;
   explicit ByteStream(Source source);
   bool fill();
+  bool inflateMore();
 
   Source source_;
   std::unique_ptr<char[]> raw_;
   std::unique_ptr<Inflater> inflater_;
   const char *next_ = nullptr, *end_ = nullptr;
-  bool started_ = false, damaged_ = false;
+  bool started_ = false, damaged_ = false, isProgram_ = false, closed_ = false;
 };
+
+/// The text as one gzip member; members may be concatenated.
+std::string gzip(std::string_view text);
 
 }  // namespace tomales::rib

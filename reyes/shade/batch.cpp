@@ -25,6 +25,7 @@ void Batch::setCommon(int count, const BoundShader& shader, const std::vector<Ov
   tm.active = active;
   tm.call = &kServices, tm.host = this;
   tm.time = scene.scene.options.shutterOpen;
+  tm.clip[0] = scene.scene.options.nearClip, tm.clip[1] = scene.scene.options.farClip;
   lights = {};
   gathered.who = nullptr;
 
@@ -56,6 +57,31 @@ void Batch::setPoints(ShadePoints& p, const BoundShader& shader, const std::vect
   tm.du = p.channel(kDu), tm.dv = p.channel(kDv);
   tm.Ci = {out.Ci[0].data() + begin, out.Ci[1].data() + begin, out.Ci[2].data() + begin};
   tm.Oi = {out.Oi[0].data() + begin, out.Oi[1].data() + begin, out.Oi[2].data() + begin};
+}
+
+void Batch::setPixels(ShadedPixels& p, const BoundShader& shader) {
+  const int n = static_cast<int>(p.alpha.size());
+  setCommon(n, shader, {}, [](int) { return nullptr; });
+  const TmConstVec3 zero = constant(vec3(0.0f));
+  tm.P = arena.vec3(n), tm.N = arena.vec3(n);
+  for (int i = 0; i < n; ++i) set(tm.P, i, {p.x + static_cast<float>(i), p.y, 0});
+  tm.Ng = tm.I = tm.dPdu = tm.dPdv = zero;
+  tm.u = tm.v = tm.s = tm.t = tm.du = tm.dv = zero.x;
+  tm.Ci = {p.colors.Ci[0].data(), p.colors.Ci[1].data(), p.colors.Ci[2].data()};
+  tm.Oi = {p.colors.Oi[0].data(), p.colors.Oi[1].data(), p.colors.Oi[2].data()};
+  tm.alpha = p.alpha.data();
+}
+
+void Batch::blackOutNonFinite(const BoundShader& shader) {
+  bool bad = false;
+  for (int i = 0; i < tm.count; ++i) {
+    if (isFinite(get(tm.Ci, i)) && isFinite(get(tm.Oi, i))) continue;
+    bad = true;
+    if (!isFinite(get(tm.Oi, i))) set(tm.Oi, i, vec3(1.0f));
+    set(tm.Ci, i, vec3(0.0f));
+  }
+  running = &shader;
+  if (bad) report(Severity::Warning, "shader-not-finite", "returned NaN or infinity; such points are black");
 }
 
 bool Batch::run(const BoundShader& shader, const TmGrid& tmGrid) {

@@ -21,8 +21,13 @@ class Batch {
   /// Inputs and outputs of a displacement shader: motion key 0 of a grid.
   void setGrid(Grid& grid, const BoundShader& shader, const std::vector<Override>& overrides);
 
+  /// Inputs and outputs of an imager shader.
+  void setPixels(ShadedPixels& pixels, const BoundShader& shader);
+
   /// Calls the shader. False: it threw, which has been reported.
   bool run(const BoundShader& shader, const TmGrid& tmGrid);
+  /// Points where the shader returned NaN or infinity become opaque and black, with a warning.
+  void blackOutNonFinite(const BoundShader& shader);
   /// Once per shader and place of request.
   void report(Severity severity, const char* code, const std::string& problem) const;
 

@@ -7,23 +7,53 @@
 namespace tomales {
 namespace {
 
-const ParamNames kLightParams{"lighting", "shadowname", "__nondiffuse", "__nonspecular"};
+/// Names of shadow maps, of shadowpoint one for each direction.
+const ParamNames kShadowMaps{"shadowname", "sfpx", "sfnx", "sfpy", "sfny", "sfpz", "sfnz"};
+const ParamNames kLightParams{"lighting", "__nondiffuse", "__nonspecular", "shadowname", "sfpx",
+                              "sfnx",     "sfpy",         "sfny",          "sfpz",       "sfnz"};
 
 std::string pathOf(const Options& options, const char* kind) {
   const auto it = options.searchPaths.find(kind);
   return it == options.searchPaths.end() ? std::string() : it->second;
 }
 
-IndirectQuery queryOf(const BoundShader& light) {
+constexpr int kMostRays = 1 << 16;         ///< Of one irradiance sample,
+constexpr int kMostLightSamples = 1 << 12;  ///< of a light from one point:
+constexpr int kMostBounces = 1000;          ///< beyond these no picture changes any more.
+
+/// A count among the parameters of a light.
+int countOf(const BoundShader& light, const char* name, int fallback, int least, int most, Log& log) {
+  const float asked = light.number(name, static_cast<float>(fallback));
+  const auto used = static_cast<int>(std::clamp(asked, static_cast<float>(least), static_cast<float>(most)));
+  if (asked < static_cast<float>(least) || asked > static_cast<float>(most))
+    log.report(Severity::Warning, fmt::format("light-{}", name), light.where,
+               fmt::format("{}: {} {} is out of range; {} is used", light.user, name, asked, used));
+  return used;
+}
+
+void warnAboutUnsupported(const BoundShader& light, const IndirectQuery& q, Log& log) {
+  const auto warn = [&](const char* name, const std::string& value, const char* consequence) {
+    log.report(Severity::Warning, fmt::format("light-{}", name), light.where,
+               fmt::format("{}: {} \"{}\" is not supported; {}", light.user, name, value, consequence));
+  };
+  if (q.errorFunction != "screen" && q.errorFunction != "ward")
+    warn("errorfunction", q.errorFunction, "\"screen\" is used");
+  if (q.radiance != "shader") warn("radiance", q.radiance, "gather rays run the shaders");
+  if (!q.atlas.empty()) warn("atlas", q.atlas, "it is not read");
+  if (!q.subset.empty()) warn("subset", q.subset, "gather rays see all objects");
+}
+
+IndirectQuery queryOf(const BoundShader& light, Log& log) {
   IndirectQuery q;
-  q.samples = std::max(1, static_cast<int>(light.number("samples", static_cast<float>(q.samples))));
+  q.samples = countOf(light, "samples", q.samples, 1, kMostRays, log);
   q.maxError = light.number("maxerror", q.maxError);
   q.maxDistance = light.number("maxdist", q.maxDistance);
   q.errorFunction = light.text("errorfunction", q.errorFunction);
   q.radiance = light.text("radiance", q.radiance);
   q.atlas = light.text("atlas", q.atlas);
   q.subset = light.text("subset", q.subset);
-  q.bounces = std::max(0, static_cast<int>(light.number("bounces", static_cast<float>(q.bounces))));
+  q.bounces = countOf(light, "bounces", q.bounces, 0, kMostBounces, log);
+  warnAboutUnsupported(light, q, log);
   return q;
 }
 
@@ -41,8 +71,13 @@ class Binder {
                          const std::string& user) {
     return cached(call, object, user, TM_SURFACE);
   }
-  BoundShaderPtr displacement(const std::shared_ptr<const ShaderCall>& call, const std::string& user) {
-    return call ? cached(call, call->where, user, TM_DISPLACEMENT) : nullptr;
+  BoundShaderPtr optional(const std::shared_ptr<const ShaderCall>& call, const std::string& user,
+                          TmKind kind) {
+    return call ? cached(call, call->where, user, kind) : nullptr;
+  }
+  BoundShaderPtr imager(const std::optional<ShaderCall>& call, const std::string& user) {
+    const bool none = !call || call->name.empty() || call->name == "null";
+    return none ? nullptr : bind(&*call, call->where, user, TM_IMAGER);
   }
   /// Another surface by its bare name, in the space of the visible one.
   BoundShaderPtr indirectSurface(const Attributes& a, const SourceLoc& object, const std::string& user) {
@@ -82,12 +117,13 @@ BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, cons
     return bindShader(*shader, call, where, user, currentFromShader, isLight ? kLightParams : ParamNames{},
                       log_);
   }
-  const char* consequence = kind == TM_SURFACE ? "a magenta checker is rendered"
-                            : kind == TM_LIGHT ? "it casts no light"
-                                               : "nothing is displaced";
-  const char* kindName = kind == TM_SURFACE ? "surface" : kind == TM_LIGHT ? "light" : "displacement";
-  log_.report(Severity::Missing, "shader-missing", where,
-              fmt::format("{}: {} shader \"{}\" is unknown; {}", user, kindName, name, consequence));
+  static constexpr const char* kKinds[] = {"surface", "displacement", "light", "volume", "imager"};
+  static constexpr const char* kConsequences[] = {"a magenta checker is rendered", "nothing is displaced",
+                                                  "it casts no light", "the air is clear",
+                                                  "the picture stays as it is"};
+  log_.report(
+      Severity::Missing, "shader-missing", where,
+      fmt::format("{}: {} shader \"{}\" is unknown; {}", user, kKinds[kind], name, kConsequences[kind]));
   if (kind != TM_SURFACE) return nullptr;
   return bindShader(kSubstituteSurface, nullptr, where, user, currentFromShader, {}, log_);
 }
@@ -99,7 +135,7 @@ void setHostParams(BoundLight& light, const LightCall& call, Log& log) {
     const Param* p = findParam(params, name);
     return p ? p->number(0) : light.bound->number(name, 0);
   };
-  const auto text = [&](const char* name) {
+  const auto text = [&](std::string_view name) {
     const Param* p = findParam(params, name);
     return p && !p->strings.empty() ? p->strings[0] : std::string();
   };
@@ -107,14 +143,17 @@ void setHostParams(BoundLight& light, const LightCall& call, Log& log) {
     log.report(Severity::Warning, code, call.shader.where, light.bound->user + ": " + problem);
   };
   light.nondiffuse = number("__nondiffuse") != 0, light.nonspecular = number("__nonspecular") != 0;
-  const std::string lighting = text("lighting"), shadows = text("shadowname");
+  const std::string lighting = text("lighting");
   light.direct = lighting != "indirect", light.indirect = lighting != "direct";
   if (!lighting.empty() && lighting != "both" && light.direct && light.indirect)
     warn("light-lighting",
          fmt::format("lighting \"{}\" is none of both, direct, indirect; both is used", lighting));
-  if (!shadows.empty() && shadows != "raytrace" && !light.bound->find("shadowname"))
-    warn("light-shadow-map",
-         fmt::format("shadow map \"{}\" is ignored; only \"raytrace\" is supported", shadows));
+  for (const std::string_view name : kShadowMaps) {
+    const std::string map = text(name);
+    light.shadows = light.shadows || !map.empty();
+    if (!map.empty() && map != "raytrace")
+      warn("light-shadow-map", fmt::format("shadow map \"{}\" is not read; shadows are traced instead", map));
+  }
   if (call.area && !light.can(TM_LIGHT_AREA))
     warn("light-area",
          fmt::format("\"{}\" is not an area light; it shines without its geometry", call.shader.name));
@@ -123,18 +162,53 @@ void setHostParams(BoundLight& light, const LightCall& call, Log& log) {
          fmt::format("\"{}\" needs AreaLightSource and geometry; it casts no light", call.shader.name));
 }
 
+bool hasGeometry(const LightCall& call, const Scene& scene) {
+  return std::any_of(scene.groups.begin(), scene.groups.end(),
+                     [&](const ShadeGroup& g) { return g.attributes->areaLight == call.index; });
+}
+
 std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index) {
   BoundShaderPtr bound =
       bind(&call.shader, call.shader.where, fmt::format("light \"{}\"", call.handle), TM_LIGHT);
   if (!bound) return nullptr;
   auto light = std::make_unique<BoundLight>();
   light->bound = bound, light->index = index;
-  setHostParams(*light, call, log_);
   const bool indirect = light->can(TM_LIGHT_INDIRECT);
-  light->shadows = !indirect && (call.castsShadows || light->can(TM_LIGHT_SHADOWED));
-  if (light->can(TM_LIGHT_AREA)) light->samples = std::max(1, static_cast<int>(bound->number("samples", 16)));
-  if (indirect) light->samples = 3, light->query = queryOf(*bound);
+  light->shadows = call.castsShadows || light->can(TM_LIGHT_SHADOWED);
+  setHostParams(*light, call, log_);
+  if (call.area && light->can(TM_LIGHT_AREA) && !hasGeometry(call, scene_))
+    log_.report(Severity::Warning, "light-no-geometry", call.shader.where,
+                bound->user + ": no geometry follows the AreaLightSource; it casts no light");
+  light->shadows = light->shadows && !indirect;
+  if (light->can(TM_LIGHT_AREA) || light->can(TM_LIGHT_SAMPLED))
+    light->samples = countOf(*bound, "samples", 16, 1, kMostLightSamples, log_);
+  if (indirect) light->samples = 3, light->query = queryOf(*bound, log_);
   return light;
+}
+
+/// A light that filters an indirect light asks for the same light as its source. False: there is none.
+bool connectFilter(BoundLight& filter, const BoundScene& scene) {
+  const std::string source = filter.bound->text("source", "");
+  for (size_t i = scene.lights.size(); i-- > 0;) {
+    const BoundLight* light = scene.lights[i].get();
+    if (!light || scene.scene.lights[i]->handle != source) continue;
+    if (!light->can(TM_LIGHT_INDIRECT) || light->bound->find("source")) continue;
+    filter.query = light->query;
+    filter.sourceTint = light->bound->number("intensity", 1) * light->bound->color("lightcolor", vec3(1.0f));
+    return true;
+  }
+  scene.log.report(Severity::Missing, "light-source", filter.bound->where,
+                   fmt::format("{}: source \"{}\" is not the handle of an indirect light; it casts no light",
+                               filter.bound->user, source));
+  return false;
+}
+
+void connectFilters(BoundScene& scene) {
+  for (auto& light : scene.lights) {
+    if (!light || !light->can(TM_LIGHT_INDIRECT) || !light->bound->find("source")) continue;
+    auto filter = std::make_unique<BoundLight>(*light);
+    light = connectFilter(*filter, scene) ? std::move(filter) : nullptr;
+  }
 }
 
 std::vector<Override> overridesOf(const BoundShader& bound, const std::vector<Primvar>& primvars) {
@@ -173,6 +247,9 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
   Binder binder(scene, registry, log);
   for (const auto& call : scene.lights)
     lights.push_back(binder.light(*call, static_cast<int>(lights.size())));
+  connectFilters(*this);
+  pixels.group = &picture, pixels.object = "the picture";
+  imager = binder.imager(scene.options.imager, pixels.object);
   for (const ShadeGroup& group : scene.groups) {
     BoundGroup g;
     g.group = &group;
@@ -184,7 +261,8 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
     }
     g.surface = binder.surface(a.surface, where, g.object);
     g.indirectSurface = binder.indirectSurface(a, where, g.object);
-    g.displacement = binder.displacement(a.displacement, g.object);
+    g.displacement = binder.optional(a.displacement, g.object, TM_DISPLACEMENT);
+    g.atmosphere = binder.optional(a.atmosphere, g.object, TM_VOLUME);
     g.surfaceOverrides = overridesOf(*g.surface, group.primvars);
     if (g.indirectSurface) g.indirectOverrides = overridesOf(*g.indirectSurface, group.primvars);
     if (g.displacement) g.displacementOverrides = overridesOf(*g.displacement, group.primvars);

@@ -15,6 +15,7 @@ struct BoundLight {
   bool indirect = true;                          ///< Lights what gather rays see.
   bool nondiffuse = false, nonspecular = false;  ///< Left out by diffuse(), by specular().
   IndirectQuery query;                           ///< TM_LIGHT_INDIRECT alone.
+  vec3 sourceTint{1.0f};                         ///< Of the indirect light that this one filters.
   bool can(TmCapability capability) const { return bound->can(capability); }
 };
 
@@ -28,8 +29,8 @@ struct BoundGroup {
   const ShadeGroup* group = nullptr;
   std::string object;  ///< For messages.
   BoundShaderPtr surface,
-      indirectSurface;          ///< The second: for rays that hit it (Attribute "indirect" "surface").
-  BoundShaderPtr displacement;  ///< May be null.
+      indirectSurface;  ///< The second: for rays that hit it (Attribute "indirect" "surface").
+  BoundShaderPtr displacement, atmosphere;  ///< May be null.
   std::vector<Override> surfaceOverrides, indirectOverrides, displacementOverrides;
   std::vector<const BoundLight*> lights;
   std::optional<IndirectQuery> indirect;
@@ -48,6 +49,9 @@ struct BoundScene {
   Textures textures;
   std::vector<std::unique_ptr<const BoundLight>> lights;  ///< As Scene::lights; null: unknown shader.
   std::vector<BoundGroup> groups;                         ///< As Scene::groups.
+  BoundShaderPtr imager;                                  ///< May be null.
+  ShadeGroup picture{std::make_shared<const Attributes>(), mat4(1.0f), {}, -1};
+  BoundGroup pixels;  ///< Stands for the picture while the imager runs.
 };
 
 }  // namespace tomales

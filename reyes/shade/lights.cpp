@@ -20,9 +20,8 @@ TmGrid lightGrid(Batch& batch, const BoundLight& light) {
   return g;
 }
 
-/// Points on the emitter for sample number g.sample. False: the light has no geometry.
-bool sampleEmitter(Batch& batch, const BoundLight& light, TmGrid& g, float* area) {
-  if (!batch.scene.services) return false;
+/// Random numbers of sample number g.sample, by what the points are and never by their place in the batch.
+void drawSample(Batch& batch, const BoundLight& light, TmGrid& g) {
   float* xi0 = batch.arena.floats(g.count);
   float* xi1 = batch.arena.floats(g.count);
   for (int i = 0; i < g.count; ++i) {
@@ -31,8 +30,14 @@ bool sampleEmitter(Batch& batch, const BoundLight& light, TmGrid& g, float* area
     const vec2 xi = sobol2(name.sequence * static_cast<uint32_t>(g.samples) + static_cast<uint32_t>(g.sample), stream);
     xi0[i] = xi.x, xi1[i] = xi.y;
   }
+  g.xi0 = xi0, g.xi1 = xi1;
+}
+
+/// Points on the emitter. False: the light has no geometry.
+bool sampleEmitter(Batch& batch, const BoundLight& light, TmGrid& g, float* area) {
+  if (!batch.scene.services) return false;
   const TmVec3 Pl = batch.arena.vec3(g.count), Nl = batch.arena.vec3(g.count);
-  if (!batch.scene.services->sampleEmitter(light.index, g.count, xi0, xi1, Pl, Nl, area)) return false;
+  if (!batch.scene.services->sampleEmitter(light.index, g.count, g.xi0, g.xi1, Pl, Nl, area)) return false;
   g.Pl = view(Pl), g.Nl = view(Nl);
   for (int i = 0; i < g.count; ++i) set(g.L, i, get(g.Pl, i) - get(g.P, i));
   return true;
@@ -77,11 +82,13 @@ std::vector<LightSample>& Lights::samples(Batch& batch) {
 
 void Lights::evaluate(Batch& batch, const BoundLight& light) {
   const bool area = light.can(TM_LIGHT_AREA);
-  const int n = area && batch.context.lightSamples > 0 ? batch.context.lightSamples : light.samples;
+  const bool sampled = area || light.can(TM_LIGHT_SAMPLED);
+  const int n = sampled && batch.context.lightSamples > 0 ? batch.context.lightSamples : light.samples;
   float* emitterArea = batch.arena.floats(batch.tm.count);
   for (int s = 0; s < n; ++s) {
     TmGrid g = lightGrid(batch, light);
     g.sample = s, g.samples = n;
+    if (sampled) drawSample(batch, light, g);
     if (area && !sampleEmitter(batch, light, g, emitterArea)) return;
     if (!batch.run(*light.bound, g)) return;
     if (area) radianceToSample(g, emitterArea);

@@ -103,6 +103,26 @@ int32_t texture(void* host, const TmGrid* g, const char* name, int32_t channel, 
   return batch.scene.textures.lookup(query, batch.running->where, batch.running->user, out);
 }
 
+int32_t environment(void* host, const TmGrid* g, const char* name, TmConstVec3 direction, const float* angle,
+                    TmVec3 out) {
+  Batch& batch = batchOf(host);
+  const mat3 worldFromCurrent = glm::inverse(mat3(batch.scene.cameraFromWorld));
+  const int n = g->count;
+  float *s = batch.arena.floats(n), *t = batch.arena.floats(n);
+  float *width = batch.arena.floats(n), *height = batch.arena.floats(n);
+  forActive(g, [&](int i) {
+    const vec3 d = normalizeOr(worldFromCurrent * get(direction, i), vec3(0, 0, 1));
+    const float longitude = std::atan2(d.y, d.x) / (2 * kPi), across = std::sqrt(d.x * d.x + d.y * d.y);
+    s[i] = longitude < 0 ? longitude + 1 : longitude;
+    t[i] = std::atan2(across, d.z) / kPi;
+    if (!angle) return;
+    height[i] = std::min(1.0f, angle[i] / kPi);
+    width[i] = std::min(1.0f, angle[i] / (2 * kPi * std::max(across, 1e-6f)));
+  });
+  const TextureQuery query{name, 0, 3, n, g->active, s, t, width, height, true};
+  return batch.scene.textures.lookup(query, batch.running->where, batch.running->user, out);
+}
+
 void calculateNormal(void* host, const TmGrid* g, TmConstVec3 P, TmVec3 out) {
   const Batch& batch = batchOf(host);
   if (!batch.grid) return forActive(g, [&](int i) { set(out, i, get(g->N, i)); });
@@ -125,15 +145,17 @@ void transmission(void* host, const TmGrid* g, TmConstVec3 P, TmConstVec3 toward
   batch.scene.services->transmission(moved, g->active, toward, false, batch.context, out);
 }
 
-const IndirectQuery queryOf(const Batch& batch) {
-  IndirectQuery query = batch.group.indirect.value_or(IndirectQuery{});
+/// Null: no light is running, or not of this group.
+const BoundLight* runningLight(const Batch& batch) {
   for (const BoundLight* light : batch.group.lights)
-    if (light->bound.get() == batch.running) {
-      const float maxError =
-          batch.group.group->attributes->irradianceMaxError.value_or(light->query.maxError);
-      query = light->query;
-      query.maxError = maxError;
-    }
+    if (light->bound.get() == batch.running) return light;
+  return nullptr;
+}
+
+IndirectQuery queryOf(const Batch& batch, const BoundLight* light) {
+  if (!light) return batch.group.indirect.value_or(IndirectQuery{});
+  IndirectQuery query = light->query;
+  query.maxError = batch.group.group->attributes->irradianceMaxError.value_or(query.maxError);
   return query;
 }
 
@@ -156,8 +178,11 @@ void gather(Batch& batch, const TmGrid* g, TmConstVec3 N) {
   const auto& attribute = batch.group.group->attributes->indirect;
   if (!batch.points || !batch.scene.services || !batch.context.indirect || !attribute.receive) return;
   IndirectResult result{last.E, {last.dominant[0], last.dominant[1], last.dominant[2]}};
-  batch.scene.services->indirectDiffuse(*batch.points, g->active, N, queryOf(batch), batch.context, result);
-  forActive(g, [&](int i) { set(last.E, i, get(last.E, i) * attribute.gain); });
+  const BoundLight* light = runningLight(batch);
+  batch.scene.services->indirectDiffuse(*batch.points, g->active, N, queryOf(batch, light), batch.context,
+                                        result);
+  const vec3 gain = attribute.gain * (light ? light->sourceTint : vec3(1.0f));
+  forActive(g, [&](int i) { set(last.E, i, get(last.E, i) * gain); });
 }
 
 void indirectDiffuse(void* host, const TmGrid* g, TmConstVec3 N, TmVec3 out, TmVec3* dominant) {
@@ -177,7 +202,7 @@ void report(void* host, const TmGrid*, int32_t severity, const char* message) {
 }  // namespace
 
 const TmServices kServices = {
-    sizeof(TmServices), diffuse,      specular,        ambient, light, transform, texture,
-    calculateNormal,    transmission, indirectDiffuse, report};
+    sizeof(TmServices), diffuse,      specular,        ambient, light,      transform, texture,
+    calculateNormal,    transmission, indirectDiffuse, report,  environment};
 
 }  // namespace tomales

@@ -16,28 +16,11 @@ void copyChunk(const ShadePoints& from, int begin, int end, ShadePoints& to) {
     std::copy(from.channel(c) + begin, from.channel(c) + end, to.channel(c));
 }
 
-void clear(TmVec3 v, int n) {
-  for (int i = 0; i < n; ++i) set(v, i, vec3(0.0f));
-}
-
 /// A shader that threw leaves nothing worth showing; one that divides by zero leaves points to black out.
 void repair(Batch& batch, const BoundShader& shader, bool finished) {
-  const TmGrid& g = batch.tm;
-  if (!finished) {
-    clear(g.Ci, g.count), clear(g.Oi, g.count);
-    kSubstituteSurface.shade(&g);
-    return;
-  }
-  bool bad = false;
-  for (int i = 0; i < g.count; ++i) {
-    if (isFinite(get(g.Ci, i)) && isFinite(get(g.Oi, i))) continue;
-    bad = true;
-    if (!isFinite(get(g.Oi, i))) set(g.Oi, i, vec3(1.0f));
-    set(g.Ci, i, vec3(0.0f));
-  }
-  batch.running = &shader;
-  if (bad)
-    batch.report(Severity::Warning, "shader-not-finite", "returned NaN or infinity; such points are black");
+  if (finished) return batch.blackOutNonFinite(shader);
+  for (int i = 0; i < batch.tm.count; ++i) set(batch.tm.Ci, i, vec3(0.0f)), set(batch.tm.Oi, i, vec3(0.0f));
+  kSubstituteSurface.shade(&batch.tm);
 }
 
 }  // namespace

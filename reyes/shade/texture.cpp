@@ -35,6 +35,7 @@ bool Textures::lookup(const TextureQuery& q, const SourceLoc& where, const std::
   bool found = handle && system.good(handle);
   OIIO::TextureOpt options;
   options.firstchannel = q.channel;
+  if (q.latlong) options.swrap = OIIO::TextureOpt::WrapPeriodic, options.twrap = OIIO::TextureOpt::WrapClamp;
   float* const channels[3] = {out.x, out.y, out.z};
   const int n = std::min(q.channels, 3);
   int64_t lookups = 0;

@@ -15,6 +15,7 @@ struct TextureQuery {
   int count;
   const uint8_t* active;
   const float *s, *t, *width, *height;
+  bool latlong = false;  ///< The left and right edge join; beyond top and bottom lies the edge.
 };
 
 class Textures {

@@ -31,6 +31,26 @@ TEST(SamplePattern, EveryStratumOfEveryPatternHoldsOneSample) {
   }
 }
 
+TEST(SamplePattern, LensPointsFillTheUnitDiskEvenlyAndInEveryPattern) {
+  const SamplePattern p(4, 4, true, 3);
+  double rings[4] = {}, correlation[3] = {};
+  for (int k = 0; k < 256; ++k) {
+    int quadrants[4] = {};
+    for (int s = 0; s < 16; ++s) {
+      const float x = p.lensX(k)[s], y = p.lensY(k)[s], r2 = x * x + y * y;
+      ASSERT_LE(r2, 1.0f);
+      rings[std::min(3, static_cast<int>(r2 * 4))] += 1;
+      ++quadrants[(x + y < 0) + 2 * (x - y < 0)];  // The quarters of the square that the disk is bent from.
+      correlation[0] += x * (p.x(k)[s] - 0.5), correlation[1] += x * (p.time(k)[s] - 0.5);
+      correlation[2] += y * (p.y(k)[s] - 0.5);
+    }
+    for (const int n : quadrants) ASSERT_NEAR(n, 4, 2);
+  }
+  for (const double n : rings) EXPECT_NEAR(n, 1024, 96);
+  // Deviations 1/2 and 1/sqrt(12), over 4096 pairs: four standard deviations of the mean product.
+  for (const double c : correlation) EXPECT_NEAR(c / 4096, 0, 4 * 0.5 / std::sqrt(12.0) / 64);
+}
+
 TEST(SamplePattern, WithoutJitterSamplesSitAtCellCentres) {
   const SamplePattern p(4, 2, false, 7);
   for (int s = 0; s < 8; ++s) {

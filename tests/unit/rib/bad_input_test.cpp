@@ -26,9 +26,9 @@ TEST(BadInput, WithoutWorldEndRendersWhatThereIs) {
 }
 
 TEST(BadInput, JunkBetweenRequestsCostsNothingElse) {
-  const Reading r(inWorld(kSphere + std::string("\x80\x81\0 ]] 3 \"x\n", 12) + kSphere));
+  const Reading r(inWorld(kSphere + std::string("\xd1\xff\0 ]] 3 \"x\n", 12) + kSphere));
   EXPECT_EQ(r.scene().objects.size(), 1u) << "an unclosed string eats the rest";
-  const Reading s(inWorld(kSphere + std::string("\x80\x81\0 ]] 3 \"x\"\n", 13) + kSphere));
+  const Reading s(inWorld(kSphere + std::string("\xd1\xff\0 ]] 3 \"x\"\n", 13) + kSphere));
   EXPECT_EQ(s.scene().objects.size(), 2u);
   EXPECT_EQ(s.message("rib-junk").where.line, 3);
 }
@@ -130,7 +130,7 @@ TEST(BadInput, DeepNestingEndsWhereItBegan) {
 
 TEST(BadInput, UnsupportedRequestsAreNamedOnce) {
   const Reading r(inWorld(
-      "Atmosphere \"fog\"\nAtmosphere \"fog\"\nPoints \"P\" [0 0 0]\nPoints \"P\" [0 0 0]\n" + kSphere));
+      "Interior \"fog\"\nInterior \"fog\"\nBlobby 0 [] [] []\nBlobby 0 [] [] []\n" + kSphere));
   EXPECT_EQ(r.log.count("rib-unsupported"), 2);
   EXPECT_EQ(r.log.worst(), Severity::Missing);
   EXPECT_EQ(r.scene().objects.size(), 1u);

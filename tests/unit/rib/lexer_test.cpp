@@ -1,7 +1,6 @@
 #include "reyes/rib/lexer.h"
 
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <cmath>
 #include <vector>
@@ -18,20 +17,6 @@ std::vector<Token> tokens(const std::string& text) {
   return out;
 }
 
-std::string gzip(const std::string& text) {
-  std::string out(text.size() + 100, '\0');
-  z_stream z{};
-  deflateInit2(&z, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
-  z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-  z.avail_in = static_cast<uInt>(text.size());
-  z.next_out = reinterpret_cast<Bytef*>(out.data());
-  z.avail_out = static_cast<uInt>(out.size());
-  deflate(&z, Z_FINISH);
-  out.resize(z.total_out);
-  deflateEnd(&z);
-  return out;
-}
-
 TEST(Lexer, ReadsNumbersInEveryWriting) {
   const std::string text = "1 -2 +3 .5 -.5 4. 1e3 1E-3 +1.5e+2 007";
   const double expected[] = {1, -2, 3, .5, -.5, 4, 1000, .001, 150, 7};
@@ -39,7 +24,7 @@ TEST(Lexer, ReadsNumbersInEveryWriting) {
   ASSERT_EQ(list.size(), std::size(expected));
   for (size_t i = 0; i < list.size(); ++i) {
     EXPECT_EQ(list[i].kind, Kind::Number) << i;
-    EXPECT_DOUBLE_EQ(list[i].number, expected[i]) << i;
+    EXPECT_DOUBLE_EQ(list[i].number.wide, expected[i]) << i;
   }
 }
 
@@ -47,10 +32,10 @@ TEST(Lexer, TakesNanInfAndOverflowAsNumbers) {
   const auto list = tokens("nan -nan inf -inf Infinity 1e999 -1e999 1e-999");
   ASSERT_EQ(list.size(), 8u);
   for (const Token& t : list) EXPECT_EQ(t.kind, Kind::Number);
-  EXPECT_TRUE(std::isnan(list[0].number) && std::isnan(list[1].number));
-  for (const size_t i : {2, 4, 5}) EXPECT_EQ(list[i].number, HUGE_VAL) << i;
-  for (const size_t i : {3, 6}) EXPECT_EQ(list[i].number, -HUGE_VAL) << i;
-  EXPECT_EQ(list[7].number, 0);
+  EXPECT_TRUE(std::isnan(list[0].number.wide) && std::isnan(list[1].number.wide));
+  for (const size_t i : {2, 4, 5}) EXPECT_EQ(list[i].number.wide, HUGE_VAL) << i;
+  for (const size_t i : {3, 6}) EXPECT_EQ(list[i].number.wide, -HUGE_VAL) << i;
+  EXPECT_EQ(list[7].number.wide, 0);
 }
 
 TEST(Lexer, UnderstandsStringEscapes) {
@@ -72,13 +57,13 @@ TEST(Lexer, SkipsCommentsAndCountsLines) {
 TEST(Lexer, SeparatesBracketsFromNumbersWithoutBlanks) {
   const auto list = tokens("[1 2]\"a\"[-3]");
   ASSERT_EQ(list.size(), 8u);
-  EXPECT_EQ(list[2].number, 2);
+  EXPECT_EQ(list[2].number.wide, 2);
   EXPECT_EQ(list[4].text, "a");
-  EXPECT_EQ(list[6].number, -3);
+  EXPECT_EQ(list[6].number.wide, -3);
 }
 
 TEST(Lexer, MakesOneTokenOfARunOfJunk) {
-  const auto list = tokens(std::string("A \x80\x81\x01\x02\xff B", 9));
+  const auto list = tokens(std::string("A \xa7\xc7\x01\x02\xff B", 9));
   ASSERT_EQ(list.size(), 3u);
   EXPECT_EQ(list[1].kind, Kind::Junk);
   EXPECT_EQ(list[2].text, "B");
@@ -98,8 +83,8 @@ TEST(ByteStream, UnpacksGzipAndConcatenatedGzip) {
   for (int i = 0; i < 50000; ++i) text += std::to_string(i) + " ";
   const auto list = tokens(gzip(text) + gzip("77"));
   ASSERT_EQ(list.size(), 50001u);
-  EXPECT_EQ(list[49999].number, 49999);
-  EXPECT_EQ(list[50000].number, 77);
+  EXPECT_EQ(list[49999].number.wide, 49999);
+  EXPECT_EQ(list[50000].number.wide, 77);
 }
 
 TEST(ByteStream, ReadsDamagedGzipUpToTheDamage) {

@@ -130,8 +130,8 @@ TEST(Dictionary, TakesDeclarationsWithMissingParts) {
 }
 
 TEST(RequestTable, KnowsRequestsThatAreNotSupported) {
-  EXPECT_EQ(rib::findSignature("NuPatch")->support, rib::Support::NotYetGeometry);
-  EXPECT_EQ(rib::findSignature("Atmosphere")->support, rib::Support::NotYet);
+  EXPECT_EQ(rib::findSignature("Blobby")->support, rib::Support::NotYetGeometry);
+  EXPECT_EQ(rib::findSignature("Interior")->support, rib::Support::NotYet);
   EXPECT_EQ(rib::findSignature("NoSuchRequest"), nullptr);
   const Requests r(
       "NuPatch 4 3 [0 0 0 1 1 1 2] 0 1 3 3 [0 0 0 1 1 1] 0 1 \"Pw\" [0 0 0 1]\n"

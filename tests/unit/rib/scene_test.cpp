@@ -56,7 +56,7 @@ TEST(Options, DisplaysAddUpWithAPlusAndStartAnewWithout) {
 TEST(Options, SearchPathsKeepThePreviousValueForAnAmpersand) {
   const Reading r("Option \"searchpath\" \"texture\" [\"a\"] Option \"searchpath\" \"texture\" [\"b:&:@\"]" +
                   inWorld(""));
-  EXPECT_EQ(r.scene().options.searchPaths.at("texture"), "b:a:");
+  EXPECT_EQ(r.scene().options.searchPaths.at("texture"), "b:a");
 }
 
 TEST(Options, FrameEndRestoresOptionsAndAttributes) {
@@ -141,6 +141,7 @@ TEST(CoordinateSystems, ThatAreScopedEndWithTheirScope) {
 TEST(Attributes, AreReadFromEveryRequest) {
   const Reading r(
       inWorld(R"(Color .1 .2 .3 Opacity [.5 .5 .5] TextureCoordinates 0 0 2 0 0 2 2 2 ShadingRate 4
+    GeometricApproximation "motionfactor" 2 GeometricApproximation "focusfactor" .5
     ShadingInterpolation "smooth" Matte 1 Sides 1 Attribute "identifier" "name" "ball" Attribute "user" "float x" 3
     Attribute "displacementbound" "sphere" 2 "coordinatesystem" "world"
     Attribute "visibility" "camera" 0 "diffuse" 0 "specular" 0 "transmission" 0 "photon" 0
@@ -154,6 +155,7 @@ TEST(Attributes, AreReadFromEveryRequest) {
               a.textureCoordinates[3] == vec2(2, 2));
   EXPECT_TRUE(a.shadingRate == 4 && a.interpolation == ShadingInterpolation::Smooth && a.matte &&
               a.sides == 1);
+  EXPECT_TRUE(a.motionFactor == 2 && a.focusFactor == .5f);
   EXPECT_TRUE(a.name == "ball" && a.user.at("user:x").number(0) == 3);
   EXPECT_TRUE(a.displacementBound == 2 && a.displacementBoundSpace == "world");
   const Visibility& v = a.visibility;
@@ -221,6 +223,19 @@ TEST(Lights, CastShadowsWhenAskedTo) {
     AttributeBegin Attribute "light" "shadows" "on" LightSource "pointlight" 3 AttributeEnd LightSource "pointlight" 4)"));
   const bool expected[] = {true, false, true, false};
   for (size_t i = 0; i < 4; ++i) EXPECT_EQ(r.scene().lights.at(i)->castsShadows, expected[i]) << i;
+}
+
+TEST(Shaders, NullSurfaceIsSeenByNobodyUntilTheNextSurface) {
+  const Reading r(inWorld("AreaLightSource \"arealight\" 1 Surface \"null\" " + kSphere +
+                          "Surface \"matte\" Atmosphere \"fog\" \"distance\" 9 " + kSphere +
+                          "Atmosphere \"null\" " + kSphere));
+  const Visibility& v = r.attributes(0).visibility;
+  EXPECT_FALSE(v.camera || v.diffuse || v.specular || v.transmission || v.photon);
+  EXPECT_EQ(r.attributes(0).areaLight, 0);
+  EXPECT_TRUE(r.attributes(1).visibility.camera && r.attributes(1).surface->name == "matte");
+  ASSERT_TRUE(r.attributes(1).atmosphere);
+  EXPECT_EQ(r.attributes(1).atmosphere->name, "fog");
+  EXPECT_FALSE(r.attributes(2).atmosphere);
 }
 
 TEST(Lights, OfAreaBelongToTheGeometryThatFollows) {

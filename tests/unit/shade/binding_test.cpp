@@ -122,6 +122,30 @@ TEST_F(Binding, PaintedPlasticMultipliesByTheTextureAndAMissingOneIsMagenta) {
   std::filesystem::remove(path);
 }
 
+TEST_F(Binding, CountsOfLightsAreLimitedAndItIsSaid) {
+  light("indirectlight", {number("samples", 1e9f), number("bounces", -1e30f)});
+  ASSERT_TRUE(system().indirectQuery(0));
+  EXPECT_EQ(system().indirectQuery(0)->samples, 65536);
+  EXPECT_EQ(system().indirectQuery(0)->bounces, 0);
+  EXPECT_EQ(log.count("light-samples"), 1);
+  EXPECT_EQ(log.count("light-bounces"), 1);
+}
+
+TEST_F(Binding, WhatAnIndirectLightCannotDoIsSaidOnce) {
+  light("indirectlight", {text("errorfunction", "hessian"), text("radiance", "points"), text("atlas", "maps"),
+                          text("subset", "set")});
+  system();
+  for (const char* name : {"errorfunction", "radiance", "atlas", "subset"})
+    EXPECT_EQ(log.count(std::string("light-") + name), 1) << name;
+  EXPECT_EQ(log.entries().size(), 4u);
+}
+
+TEST_F(Binding, AnAreaLightWithoutGeometryIsReported) {
+  light("arealight", {}, true);
+  system();
+  EXPECT_EQ(log.count("light-no-geometry"), 1);
+}
+
 TEST_F(Binding, StatisticsCountEveryPointOnceByItsShader) {
   surface("constant");
   shade(points(std::vector<vec3>(300, vec3(0, 0, 5))));

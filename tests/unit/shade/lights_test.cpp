@@ -185,6 +185,20 @@ TEST_F(Lights, WithoutServicesLightIsUnshadowedAndAreaLightsAreDark) {
   expectColor(shadeOne(), vec3(1));
 }
 
+TEST_F(Lights, NamedShadowMapsAreTracedInsteadWithOneWarning) {
+  surface("matte");
+  services.visible = [](const vec3&, const vec3&) { return 0.25f; };
+  const auto to = point("to", {0, 0, 9});
+  light("shadowdistant", {to, text("shadowname", "sun.shd")});
+  light("shadowpoint", {number("intensity", 25), text("sfpx", "a.shd")});
+  light("shadowspot", {number("intensity", 25), to, text("shadowname", "raytrace")});
+  light("shadowspot", {number("intensity", 25), to});
+  expectColor(shadeOne(), vec3(3 * 0.25f + 1));
+  EXPECT_EQ(services.shadowRays, 3);
+  EXPECT_EQ(log.count("light-shadow-map"), 2);
+  EXPECT_TRUE(system().needsRays());
+}
+
 TEST_F(Lights, IndirectLightGivesItsIrradianceBackToDiffuse) {
   attributes.color = {0.5f, 0.25f, 1};
   services.E = {1, 2, 3};

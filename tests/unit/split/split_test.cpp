@@ -53,6 +53,76 @@ TEST(Split, RasterBoundsHoldEveryDicedVertex) {
   }
 }
 
+Scene outOfFocus(Scene scene) {
+  scene.options.fStop = 1, scene.options.focalLength = 0.8f, scene.options.focalDistance = 6;
+  return scene;
+}
+
+TEST(Split, RasterBoundsHoldEveryDicedVertexThroughAllOfTheLens) {
+  const Scene scene = outOfFocus(sceneOf({sphere(), quad(3, -0.7f)}, translation({0.4f, 0, 3.5f})));
+  const Camera camera(scene.options);
+  Stats stats;
+  for (const SubPatch& p : split(scene, stats)) {
+    const Grid g = dice(scene, p.object, p.patch, p.rect, p.nu, p.nv, 1);
+    for (int i = 0; i < g.vertexCount(); ++i)
+      for (const float rim : {-1.0f, 1.0f}) {
+        const vec3 P = g.position(0, i);
+        const vec2 r = camera.raster(P) + rim * camera.defocus(camera.depthKey(P.z));
+        EXPECT_TRUE(r.x >= p.raster.lo.x && r.x <= p.raster.hi.x && r.y >= p.raster.lo.y && r.y <= p.raster.hi.y);
+      }
+  }
+}
+
+TEST(Split, WhatOnlyItsBlurBringsIntoViewIsKept) {
+  // The frustum's side at z = 3 is at x = 1.73; the sphere begins at 2.1. The lens moves it by 0.2 (focus at 6).
+  const Scene sharp = sceneOf({sphere(0.2f)}, translation({2.3f, 0, 3}));
+  Stats stats;
+  EXPECT_TRUE(split(sharp, stats).empty());
+  Scene lens = outOfFocus(sharp);
+  EXPECT_TRUE(split(lens, stats).empty());
+  lens.options.fStop = 0.25f;  // Four times the lens: moved by 0.8.
+  EXPECT_FALSE(split(lens, stats).empty());
+}
+
+size_t micropolygons(const Scene& scene) {
+  Stats stats;
+  size_t n = 0;
+  for (const SubPatch& p : split(scene, stats)) n += static_cast<size_t>(p.nu) * static_cast<size_t>(p.nv);
+  return n;
+}
+
+Scene withFactors(Scene scene, float motion, float focus) {
+  auto attributes = std::make_shared<Attributes>(*scene.objects[0].attributes);
+  attributes->motionFactor = motion, attributes->focusFactor = focus;
+  scene.objects[0].attributes = attributes;
+  scene.freeze();
+  return scene;
+}
+
+TEST(Split, GeometricApproximationLeavesWhatIsStillAndSharpAlone) {
+  const Scene scene = sceneOf({sphere()}, translation({0, 0, 4}));
+  EXPECT_EQ(micropolygons(withFactors(scene, 0, 0)), micropolygons(withFactors(scene, 5, 5)));
+}
+
+TEST(Split, FocusFactorDicesWhatIsBlurredCoarser) {
+  Scene scene = sceneOf({sphere()}, translation({0, 0, 4}));
+  // Circle of confusion at z = 4: 128 / (2 tan 30) * lens diameter * |1/12 - 1/4| = 18.5 d; 32 px.
+  scene.options.fStop = 1, scene.options.focalDistance = 12, scene.options.focalLength = 32 / 18.475f;
+  const double sharp = static_cast<double>(micropolygons(withFactors(scene, 0, 0)));
+  // Edges of 8 px, the bounds of pieces letting some off.
+  EXPECT_LT(static_cast<double>(micropolygons(withFactors(scene, 0, 1))), sharp / 25);
+  EXPECT_GT(static_cast<double>(micropolygons(withFactors(scene, 0, 0.25f))), sharp / 10);
+}
+
+TEST(Split, MotionFactorDicesWhatMovesFarCoarser) {
+  Scene scene = sceneOf({sphere(0.3f)}, translation({0, 0, 4}));
+  scene.options.shutterClose = 1;
+  scene.objects[0].worldFromObject = {{0, 1}, {translation({-0.5f, 0, 4}), translation({0.5f, 0, 4})}};
+  // 128 / (2 tan 30) / 4 = 27.7 px: areas of 6.9 px2 with factor 1.
+  const double fine = static_cast<double>(micropolygons(withFactors(scene, 0, 1)));
+  EXPECT_NEAR(fine / static_cast<double>(micropolygons(withFactors(scene, 1, 1))), 6.9, 1.5);
+}
+
 TEST(Split, MicropolygonsAreNoLargerThanTheShadingRateAsks) {
   for (const float rate : {0.25f, 1.0f, 4.0f}) {
     const Scene scene = sceneOf({sphere()}, translation({0, 0, 4}), rate);
@@ -77,6 +147,28 @@ TEST(Split, AGroundPlaneThroughTheEyeEndsInFinitelyManyPieces) {
   EXPECT_GT(pieces.size(), 4u);
   EXPECT_LT(pieces.size(), 4000u);
   EXPECT_EQ(stats.geometry.eyeSplitsGivenUp, 0);
+}
+
+TEST(Split, AHugeDisplacementBoundLosesNothing) {
+  Scene scene = sceneOf({sphere()}, translation({0, 0, 4}), 1, 64);
+  scene.objects[0].displacementBound = 1e9f;
+  Stats stats;
+  double covered = 0;
+  for (const SubPatch& p : split(scene, stats)) covered += (p.rect.u1 - p.rect.u0) * (p.rect.v1 - p.rect.v0);
+  EXPECT_DOUBLE_EQ(covered, 1.0);
+}
+
+TEST(Split, WhatFloatsCannotResolveEndsAndIsReportedForItsObjectAlone) {
+  Scene scene = sceneOf({sphere(1e30f), sphere(0.5f)}, translation({0, 0, 4}), 1, 64);
+  const Camera camera(scene.options);
+  const auto file = std::make_shared<const std::string>("huge.rib");
+  scene.objects[0].where = {file, 1}, scene.objects[1].where = {file, 2};
+  Stats stats;
+  Log log(Log::Verbosity::Quiet);
+  const auto pieces = splitScene(scene, camera, camera.crop(), stats, log);
+  EXPECT_TRUE(std::any_of(pieces.begin(), pieces.end(), [](const SubPatch& p) { return p.object == 1; }));
+  ASSERT_FALSE(log.entries().empty());
+  for (const LogEntry& e : log.entries()) EXPECT_EQ(e.where.line, 1) << e.message;
 }
 
 TEST(Split, WhatLiesBehindTheEyeOrOutsideTheWindowIsCulled) {

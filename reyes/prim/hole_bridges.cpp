@@ -1,0 +1,114 @@
+// D. Eberly, "Triangulation by ear clipping" (2002), section 5: from the rightmost vertex of a hole a ray to
+// the right meets an edge, and near that edge there is a corner that the vertex sees.
+#include "reyes/prim/hole_bridges.h"
+
+#include <numeric>
+
+#include "reyes/prim/planar.h"
+
+namespace tomales {
+namespace {
+
+using Walk = std::vector<int>;
+
+class Bridger {
+ public:
+  Bridger(std::vector<Point2> points, Walk outline) : p_(std::move(points)), walk_(std::move(outline)) {}
+
+  /// The hole goes clockwise and begins with its rightmost vertex. False: it lies outside.
+  bool add(const Walk& hole) {
+    const int at = findCorner(p_[hole[0]]);
+    if (at < 0) return false;
+    Walk detour(hole);
+    detour.insert(detour.end(), {hole[0], walk_[at]});
+    walk_.insert(walk_.begin() + at + 1, detour.begin(), detour.end());
+    return true;
+  }
+
+  Walk walk() && { return std::move(walk_); }
+
+ private:
+  int size() const { return static_cast<int>(walk_.size()); }
+  const Point2& corner(int i) const { return p_[walk_[(i + size()) % size()]]; }
+
+  /// Position in the walk of a corner that m can be joined to; -1 if there is none.
+  int findCorner(const Point2& m) const {
+    double hit = kInfinity;
+    int edge = -1;
+    for (int i = 0; i < size(); ++i) {
+      const Point2 &a = corner(i), &b = corner(i + 1);
+      if (!(a.y <= m.y && m.y <= b.y && a.y < b.y))
+        continue;  // the inside is to the left of an edge that rises
+      const double x = a.x + (m.y - a.y) / (b.y - a.y) * (b.x - a.x);
+      if (x >= m.x && x < hit) hit = x, edge = i;
+    }
+    return edge < 0 ? -1 : nearestToRay(m, {hit, m.y}, edge);
+  }
+
+  /// Of the corners in the triangle between m, the hit and the hit edge's right end, the one that lies
+  /// nearest in angle to the ray hides all the others.
+  int nearestToRay(const Point2& m, const Point2& hit, int edge) const {
+    const int end = (corner(edge).x > corner(edge + 1).x ? edge : edge + 1) % size();
+    const Point2& far = corner(end);
+    int best = end;
+    for (int i = 0; i < size(); ++i) {
+      const Point2& p = corner(i);
+      const bool between = far.y < m.y ? contains(m, far, hit, p) : contains(m, hit, far, p);
+      if (between && p.x >= m.x && sees(i, m) &&
+          (best == end && !sees(end, m) ? true : before(m, p, corner(best))))
+        best = i;
+    }
+    return best;
+  }
+
+  /// Nearer in angle to the ray from m to the right; at the same angle, nearer.
+  static bool before(const Point2& m, const Point2& a, const Point2& b) {
+    const Point2 x = glm::abs(a - m), y = glm::abs(b - m);
+    const double slopes = x.y * y.x - y.y * x.x;
+    return slopes != 0 ? slopes < 0 : x.x < y.x;
+  }
+
+  /// m lies towards the inside from corner i: tells the copies of a corner apart that bridges have made.
+  bool sees(int i, const Point2& m) const {
+    const Point2 &a = corner(i - 1), &b = corner(i), &c = corner(i + 1);
+    const bool leftOfIn = turn(a, b, m) >= 0, leftOfOut = turn(b, c, m) >= 0;
+    return turn(a, b, c) >= 0 ? leftOfIn && leftOfOut : leftOfIn || leftOfOut;
+  }
+
+  const std::vector<Point2> p_;
+  Walk walk_;
+};
+
+double signedArea(const std::vector<Point2>& p, const Walk& loop) {
+  double area = 0;
+  for (size_t i = 1; i + 1 < loop.size(); ++i) area += turn(p[loop[0]], p[loop[i]], p[loop[i + 1]]);
+  return area;
+}
+
+}  // namespace
+
+BridgedOutline bridgeHoles(const std::vector<vec3>& points, const std::vector<int>& loopStarts,
+                           const glm::dvec3& normal) {
+  const std::vector<Point2> p = projected(points, normal);
+  std::vector<Walk> loops;
+  for (size_t k = 0; k + 1 < loopStarts.size(); ++k) {
+    Walk loop(static_cast<size_t>(loopStarts[k + 1] - loopStarts[k]));
+    std::iota(loop.begin(), loop.end(), loopStarts[k]);
+    const double area = signedArea(p, loop);
+    if (k && area == 0) continue;  // takes nothing away
+    if (k && area > 0) std::reverse(loop.begin(), loop.end());
+    const auto lefter = [&](int a, int b) { return p[a].x < p[b].x; };
+    if (k) std::rotate(loop.begin(), std::max_element(loop.begin(), loop.end(), lefter), loop.end());
+    loops.push_back(std::move(loop));
+  }
+  // From right to left, so that no later hole is in the way of a bridge.
+  std::stable_sort(loops.begin() + 1, loops.end(),
+                   [&](const Walk& a, const Walk& b) { return p[a[0]].x > p[b[0]].x; });
+  Bridger bridger(p, loops[0]);
+  BridgedOutline out;
+  for (size_t k = 1; k < loops.size(); ++k) out.ignored += !bridger.add(loops[k]);
+  out.order = std::move(bridger).walk();
+  return out;
+}
+
+}  // namespace tomales

@@ -1,0 +1,222 @@
+// Non-uniform rational B-spline surfaces (RISpec section 5.2): one patch a pair of knot intervals.
+#include <fmt/format.h>
+
+#include "reyes/prim/interpolation.h"
+#include "reyes/prim/nurbs.h"
+#include "reyes/prim/primvars.h"
+
+namespace tomales {
+namespace {
+
+/// A direction as it is drawn.
+struct Side {
+  int controls, order;
+  std::vector<BezierSpan> spans;
+  int segments() const { return controls - order + 1; }
+  int corners() const { return segments() + 1; }
+  int patches() const { return static_cast<int>(spans.size()); }
+  double weight(int span, int bezier, int control) const {
+    return spans[static_cast<size_t>(span)].weights[static_cast<size_t>(bezier * order + control)];
+  }
+  /// The whole range runs from 0 to 1.
+  float parameter(int span, float t) const {
+    const BezierSpan& s = spans[static_cast<size_t>(span)];
+    return (lerp(s.begin, s.end, t) - spans.front().begin) / (spans.back().end - spans.front().begin);
+  }
+  float alongSegment(int span, float t) const {
+    const BezierSpan& s = spans[static_cast<size_t>(span)];
+    return lerp(s.cornerFrom, s.cornerTo, t);
+  }
+};
+
+Side makeSide(const NurbsDirection& line, const char* name, Problems& problems) {
+  return {line.controls, line.order, bezierSpans(line, name, problems)};
+}
+
+PrimvarCounts countsOf(const Side& u, const Side& v) {
+  const auto product = [](int a, int b) { return static_cast<size_t>(a) * static_cast<size_t>(b); };
+  const size_t corners = product(u.corners(), v.corners());
+  return {product(u.segments(), v.segments()), corners, product(u.controls, v.controls), corners};
+}
+
+class NuPatch : public Prim {
+ public:
+  NuPatch(Side u, Side v, const ParamList& params, Problems& problems)
+      : Prim(takePrimvars(params, countsOf(u, v), problems)), u_(std::move(u)), v_(std::move(v)) {
+    controls_ = takeHomogeneous(params, static_cast<size_t>(u_.controls) * static_cast<size_t>(v_.controls));
+    for (uint32_t patch = 0; patch < patchCount(); ++patch)
+      convert(
+          patch, [&](size_t control) { return glm::dvec4(controls_[control]); }, nets_);
+    for (const vec4& h : nets_)
+      if (!(h.w > 0)) throw PrimError("its weights are not positive everywhere");
+    extent_ = wholeBound().size();
+  }
+
+  uint32_t patchCount() const override {
+    return static_cast<uint32_t>(u_.patches()) * static_cast<uint32_t>(v_.patches());
+  }
+  PatchInfo info(uint32_t patch) const override { return {false, findOpenEdges(patch)}; }
+  Bound3 bound(uint32_t patch, const UvRect& rect) const override { return boundRational(net(patch), rect); }
+
+  void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const override {
+    for (int i = 0; i < n; ++i) {
+      const RationalPoint s = evaluateRational(net(patch), u[i], v[i]);
+      out.px[i] = static_cast<float>(s.p.x), out.py[i] = static_cast<float>(s.p.y),
+      out.pz[i] = static_cast<float>(s.p.z);
+      out.dux[i] = static_cast<float>(s.du.x), out.duy[i] = static_cast<float>(s.du.y),
+      out.duz[i] = static_cast<float>(s.du.z);
+      out.dvx[i] = static_cast<float>(s.dv.x), out.dvy[i] = static_cast<float>(s.dv.y),
+      out.dvz[i] = static_cast<float>(s.dv.z);
+      setNormal(out, i, normalOf(patch, s, u[i], v[i]));
+    }
+  }
+
+  void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su,
+                         float* sv) const override {
+    for (int k = 0; k < n; ++k)
+      su[k] = u_.parameter(column(patch), u[k]), sv[k] = v_.parameter(row(patch), v[k]);
+  }
+
+  void interpolate(uint32_t patch, int index, int n, const float* u, const float* v, float* out,
+                   int stride) const override {
+    const Primvar& var = primvars_[static_cast<size_t>(index)];
+    switch (var.storage) {
+      case Storage::Constant:
+        return repeatElement(var.values.data(), var.width, n, out, stride);
+      case Storage::Uniform:
+        return repeatElement(&var.values[segmentNumber(patch) * static_cast<size_t>(var.width)], var.width, n,
+                             out, stride);
+      case Storage::Vertex:
+        return interpolateVertex(patch, var, n, u, v, out, stride);
+      default:
+        return interpolateCorners(patch, var, n, u, v, out, stride);
+    }
+  }
+
+ private:
+  int column(uint32_t patch) const { return static_cast<int>(patch) % u_.patches(); }
+  int row(uint32_t patch) const { return static_cast<int>(patch) / u_.patches(); }
+  int uSegment(uint32_t patch) const { return u_.spans[static_cast<size_t>(column(patch))].segment; }
+  int vSegment(uint32_t patch) const { return v_.spans[static_cast<size_t>(row(patch))].segment; }
+  size_t segmentNumber(uint32_t patch) const {
+    return static_cast<size_t>(vSegment(patch)) * u_.segments() + static_cast<size_t>(uSegment(patch));
+  }
+  RationalNet net(uint32_t patch) const {
+    return {&nets_[patch * static_cast<size_t>(u_.order * v_.order)], u_.order, v_.order};
+  }
+
+  /// Appends the Bezier controls of a patch; controlOf(number) is a homogeneous control of the whole.
+  template <class ControlOf>
+  void convert(uint32_t patch, const ControlOf& controlOf, std::vector<vec4>& out) const {
+    const size_t corner =
+        static_cast<size_t>(vSegment(patch)) * u_.controls + static_cast<size_t>(uSegment(patch));
+    for (int l = 0; l < v_.order; ++l)
+      for (int k = 0; k < u_.order; ++k) {
+        glm::dvec4 sum(0);
+        for (int j = 0; j < v_.order; ++j) {
+          glm::dvec4 along(0);
+          for (int i = 0; i < u_.order; ++i)
+            along +=
+                u_.weight(column(patch), k, i) * controlOf(corner + static_cast<size_t>(j * u_.controls + i));
+          sum += v_.weight(row(patch), l, j) * along;
+        }
+        out.push_back(vec4(sum));
+      }
+  }
+
+  Bound3 wholeBound() const {
+    Bound3 bound;
+    for (const vec4& h : nets_) bound.extend(vec3(h) / h.w);
+    return bound;
+  }
+
+  /// Where the derivatives do not span a plane: the normal a little way towards the middle, where they do.
+  vec3 normalOf(uint32_t patch, const RationalPoint& s, double u, double v) const {
+    const glm::dvec3 normal = glm::cross(s.du, s.dv);
+    const double degenerate = 1e-5 * glm::dot(glm::dvec3(extent_), glm::dvec3(extent_)) / patchCount();
+    if (glm::length(normal) > degenerate) return vec3(normal);
+    for (double step : {1e-3, 1e-2, 1e-1}) {
+      const RationalPoint near = evaluateRational(net(patch), u + (0.5 - u) * step, v + (0.5 - v) * step);
+      const glm::dvec3 n = glm::cross(near.du, near.dv);
+      if (glm::length(n) > 1e-6 * glm::length(near.du) * glm::length(near.dv)) return vec3(glm::normalize(n));
+    }
+    return {0, 0, 1};
+  }
+
+  std::vector<vec4> edge(uint32_t patch, PatchEdge bit) const {
+    const bool alongV = bit == kEdgeU0 || bit == kEdgeU1;
+    const int first = bit == kEdgeU1 ? u_.order - 1 : bit == kEdgeV1 ? u_.order * (v_.order - 1) : 0;
+    std::vector<vec4> points;
+    for (int k = 0; k < (alongV ? v_.order : u_.order); ++k)
+      points.push_back(net(patch).controls[first + k * (alongV ? u_.order : 1)]);
+    return points;
+  }
+
+  /// An edge is closed if it is a point, or if it is the opposite edge of the patch next to it, around the
+  /// surface whether or not it is meant to close: a NURBS has no other way to say so.
+  uint8_t findOpenEdges(uint32_t patch) const {
+    const auto patchAt = [&](int i, int j) {
+      return static_cast<uint32_t>((j + v_.patches()) % v_.patches() * u_.patches() +
+                                   (i + u_.patches()) % u_.patches());
+    };
+    const auto open = [&](PatchEdge mine, PatchEdge theirs, int du, int dv) {
+      const std::vector<vec4> points = edge(patch, mine);
+      const auto sameAsFirst = [&](const vec4& h) { return vec3(h) / h.w == vec3(points[0]) / points[0].w; };
+      if (std::all_of(points.begin(), points.end(), sameAsFirst)) return 0;
+      return points == edge(patchAt(column(patch) + du, row(patch) + dv), theirs) ? 0
+                                                                                  : static_cast<int>(mine);
+    };
+    return static_cast<uint8_t>(open(kEdgeU0, kEdgeU1, -1, 0) | open(kEdgeU1, kEdgeU0, 1, 0) |
+                                open(kEdgeV0, kEdgeV1, 0, -1) | open(kEdgeV1, kEdgeV0, 0, 1));
+  }
+
+  void interpolateCorners(uint32_t patch, const Primvar& var, int n, const float* u, const float* v,
+                          float* out, int stride) const {
+    const uint32_t width = static_cast<uint32_t>(u_.corners());
+    const uint32_t first =
+        static_cast<uint32_t>(vSegment(patch)) * width + static_cast<uint32_t>(uSegment(patch));
+    std::vector<float> along(static_cast<size_t>(2 * n));
+    for (int i = 0; i < n; ++i) {
+      along[static_cast<size_t>(i)] = u_.alongSegment(column(patch), u[i]);
+      along[static_cast<size_t>(n + i)] = v_.alongSegment(row(patch), v[i]);
+    }
+    interpolateBilinear(var.values.data(), var.width, {first, first + 1, first + width, first + width + 1}, n,
+                        along.data(), along.data() + n, out, stride);
+  }
+
+  /// Weighted like the positions, so that values stay where they are on the surface. Three components at a
+  /// time.
+  void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v,
+                         float* out, int stride) const {
+    for (int c = 0; c < var.width; c += 3) {
+      const int many = std::min(3, var.width - c);
+      const auto controlOf = [&](size_t control) {
+        glm::dvec4 h(0, 0, 0, controls_[control].w);
+        for (int k = 0; k < many; ++k)
+          h[k] = h.w * var.values[control * static_cast<size_t>(var.width) + static_cast<size_t>(c + k)];
+        return h;
+      };
+      std::vector<vec4> values;
+      convert(patch, controlOf, values);
+      for (int i = 0; i < n; ++i) {
+        const RationalPoint s = evaluateRational({values.data(), u_.order, v_.order}, u[i], v[i]);
+        for (int k = 0; k < many; ++k)
+          out[static_cast<ptrdiff_t>(c + k) * stride + i] = static_cast<float>(s.p[k]);
+      }
+    }
+  }
+
+  const Side u_, v_;
+  std::vector<vec4> controls_;
+  std::vector<vec4> nets_;  // Bezier controls, patch by patch
+  vec3 extent_;
+};
+
+}  // namespace
+
+PrimPtr makeNuPatch(const NurbsDirection& u, const NurbsDirection& v, const ParamList& params,
+                    Problems& problems) {
+  return std::make_shared<NuPatch>(makeSide(u, "u", problems), makeSide(v, "v", problems), params, problems);
+}
+
+}  // namespace tomales

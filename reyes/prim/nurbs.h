@@ -1,0 +1,37 @@
+// NURBS as rational Bezier pieces of any order. Private to NuPatch.
+#pragma once
+#include "reyes/prim.h"
+
+namespace tomales {
+
+constexpr int kHighestOrder = 32;
+
+/// A knot interval that is not empty, cut to the range that is drawn, as a piece of a Bezier curve.
+struct BezierSpan {
+  int segment;       ///< Empty intervals count too. Its controls are number segment, segment + 1, ... in all
+                     ///< `order`.
+  float begin, end;  ///< Knot values.
+  float cornerFrom, cornerTo;   ///< The same as fractions of the knot interval.
+  std::vector<double> weights;  ///< Row k of `order`: those of the controls in Bezier control k.
+};
+
+/// Checks one direction; throws PrimError if it is no B-spline. Spans that meet without a jump have the same
+/// weights, to the bit, where they meet.
+std::vector<BezierSpan> bezierSpans(const NurbsDirection& line, const char* name, Problems& problems);
+
+/// Homogeneous controls, u fastest; not owned.
+struct RationalNet {
+  const vec4* controls;
+  int uOrder, vOrder;
+};
+
+struct RationalPoint {
+  glm::dvec3 p, du, dv;
+};
+
+RationalPoint evaluateRational(const RationalNet& net, double u, double v);
+
+/// The controls of the piece over the rectangle contain it. Pre: weights are positive.
+Bound3 boundRational(const RationalNet& net, const UvRect& rect);
+
+}  // namespace tomales

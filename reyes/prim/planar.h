@@ -1,0 +1,24 @@
+// A polygon seen along its normal. Private to polygons.
+#pragma once
+#include <vector>
+
+#include "reyes/base/math.h"
+
+namespace tomales {
+
+using Point2 = glm::dvec2;
+
+/// Drops the axis along which the polygon is thinnest; counter-clockwise about the normal stays
+/// counter-clockwise.
+std::vector<Point2> projected(const std::vector<vec3>& points, const glm::dvec3& normal);
+
+/// Twice the signed area of triangle abc.
+inline double turn(const Point2& a, const Point2& b, const Point2& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+inline bool contains(const Point2& a, const Point2& b, const Point2& c, const Point2& p) {
+  return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
+}
+
+}  // namespace tomales

@@ -1,0 +1,27 @@
+// The conditions of IfBegin and ElseIf, and ${name} in strings.
+#pragma once
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace tomales::rib {
+
+/// The value of a variable; nothing if there is none of that name.
+using Variables = std::function<std::optional<std::string>(const std::string& name)>;
+
+struct ExpressionError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Every value is a string; one that reads as a number is compared, added and tested as that number. From the
+/// loosest:
+///   ||   &&   == != < <= > >= =~ (a pattern with * and ?)   + -   * /   ! -   and then
+///   1.5   'text'   word   $name   ${name}   $(expression)   (expression)   defined(name)   concat(a, b, ...)
+/// Throws ExpressionError.
+bool holds(const std::string& expression, const Variables& variables);
+
+/// Replaces MARK{name}. What has no value stays as it is, and is appended to `unknown`.
+std::string substitute(const std::string& text, char mark, const Variables& variables, std::string& unknown);
+
+}  // namespace tomales::rib

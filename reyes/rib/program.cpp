@@ -1,0 +1,121 @@
+#include "reyes/rib/program.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <thread>
+
+extern char** environ;
+
+namespace tomales::rib {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+// Its input is a socket, because writing to a closed socket can be told not to raise SIGPIPE.
+Program::Program(const std::string& command, std::string input, double patience_s)
+    : input_(std::move(input)), patience_s_(patience_s) {
+  int in[2], out[2];
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, in) != 0) {
+    startError_ = errno;
+    return;
+  }
+  if (pipe2(out, O_CLOEXEC) != 0) {
+    startError_ = errno;
+    close(in[0]), close(in[1]);
+    return;
+  }
+  toChild_ = in[0], fromChild_ = out[0];
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_adddup2(&files, in[1], STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&files, out[1], STDOUT_FILENO);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  std::string shell = "sh", option = "-c", text = command;
+  char* arguments[] = {shell.data(), option.data(), text.data(), nullptr};
+  startError_ = posix_spawn(&id_, "/bin/sh", &files, &attributes, arguments, environ);
+  if (startError_ != 0) id_ = -1;
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&files);
+  close(in[1]), close(out[1]);
+  if (input_.empty()) closeInput();
+}
+
+Program::~Program() {
+  closeInput();
+  if (fromChild_ >= 0) close(fromChild_);
+  if (id_ <= 0) return;
+  kill(-id_, SIGKILL);
+  while (waitpid(id_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+void Program::closeInput() {
+  if (toChild_ >= 0) close(toChild_);
+  toChild_ = -1;
+}
+
+void Program::writeInput() {
+  const ssize_t n =
+      send(toChild_, input_.data() + written_, input_.size() - written_, MSG_NOSIGNAL | MSG_DONTWAIT);
+  if (n > 0) written_ += static_cast<size_t>(n);
+  const bool broken = n < 0 && errno != EAGAIN && errno != EINTR;
+  if (broken || written_ == input_.size()) closeInput();
+}
+
+size_t Program::read(char* buffer, size_t size) {
+  while (id_ > 0 && fromChild_ >= 0 && !hung_) {
+    pollfd ends[] = {{fromChild_, POLLIN, 0}, {toChild_, POLLOUT, 0}};
+    const auto start = Clock::now();
+    const int ready = poll(ends, toChild_ >= 0 ? 2 : 1, static_cast<int>(patience_s_ * 1000) + 1);
+    patience_s_ -= secondsSince(start);
+    hung_ = ready == 0 || patience_s_ <= 0;
+    if (ready < 0 && errno != EINTR) break;
+    if (ready <= 0) continue;
+    if (ends[1].revents != 0) writeInput();
+    if (ends[0].revents == 0) continue;
+    const ssize_t n = ::read(fromChild_, buffer, size);
+    if (n > 0) return static_cast<size_t>(n);
+    if (n == 0 || errno != EINTR) break;
+  }
+  return 0;
+}
+
+std::string Program::finish() {
+  if (startError_ != 0) return fmt::format("could not be started: {}", std::strerror(startError_));
+  closeInput();
+  siginfo_t info{};
+  for (const auto start = Clock::now(); !hung_ && info.si_pid == 0;) {
+    waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT);
+    if (info.si_pid == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    hung_ = info.si_pid == 0 && secondsSince(start) > patience_s_;
+  }
+  if (info.si_pid == 0) return "did not answer in time and was killed";
+  kill(-id_, SIGKILL);  // what it has left running; it can be no other's group before the wait
+  int status = 0;
+  waitpid(id_, &status, 0);
+  id_ = -1;
+  if (WIFSIGNALED(status)) return fmt::format("died of signal {}", WTERMSIG(status));
+  if (WEXITSTATUS(status) == 127) return "does not exist";
+  return WEXITSTATUS(status) == 0 ? "" : fmt::format("failed with exit code {}", WEXITSTATUS(status));
+}
+
+}  // namespace tomales::rib

@@ -1,0 +1,109 @@
+// Archives: files that are read in place, and inline ones that are taken down and replayed.
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "reyes/rib/reader.h"
+
+namespace tomales::rib {
+namespace {
+
+namespace fs = std::filesystem;
+
+// More than any scene needs: archives that double each other must end in a minute, not in a year.
+constexpr size_t kBudget = 10'000'000, kFileCost = 10;
+
+std::string canonical(const std::string& path) {
+  std::error_code error;
+  const fs::path out = fs::weakly_canonical(path, error);
+  return error ? path : out.string();
+}
+
+}  // namespace
+
+void Reader::record(const Request& r) {
+  std::optional<Recording>& recording = open_.back().recording;
+  if (!recording && r.name == "ArchiveEnd")
+    return report(Severity::Warning, "rib-unbalanced", r, "without ArchiveBegin, ignored");
+  if (!recording) {
+    recording = Recording{r, {}};
+    return;
+  }
+  // Names that parameters had when the archive was taken down are resolved already; later ones need Declare
+  // too.
+  if (r.name == "Declare") declare(r, dictionary_, log_);
+  recording->depth += (r.name == "ArchiveBegin") - (r.name == "ArchiveEnd");
+  if (recording->depth == 0)
+    endRecording();
+  else
+    recording->requests.push_back(r);
+}
+
+void Reader::endRecording() {
+  Recording done = std::move(*open_.back().recording);
+  open_.back().recording.reset();
+  inlineArchives_[done.begin.args[0].strings[0]] = std::make_shared<const Requests>(std::move(done.requests));
+}
+
+void Reader::readArchiveNamed(const Request& r, const std::string& name) {
+  const auto it = inlineArchives_.find(name);
+  if (it == inlineArchives_.end()) return readArchiveFile(r, name);
+  const std::shared_ptr<const Requests> archive = it->second;  // it may be redefined by itself
+  replay(r, name, *archive);
+}
+
+void Reader::replay(const Request& r, const std::string& name, const Requests& archive) {
+  const std::string key = "inline archive " + name;
+  if (!mayEnter(r, key, 1)) return;
+  enter(key, std::string(open_.back().folder));
+  for (const Request& recorded : archive) {
+    if (budget_ == 0) break;
+    --budget_;
+    handle(recorded);
+  }
+  leave();
+}
+
+void Reader::readArchiveFile(const Request& r, const std::string& name) {
+  const std::string path = findArchive(name);
+  const auto stream = path.empty() ? nullptr : ByteStream::open(path);
+  const std::string quoted = "\"" + name.substr(0, 200) + "\" ";
+  if (!stream)
+    report(Severity::Missing, "rib-missing-archive", r,
+           quoted + "is missing or unreadable; nothing is read in its place");
+  else if (mayEnter(r, canonical(path), kFileCost) &&
+           read(*stream, path, canonical(path), fs::path(path).parent_path()) == 0)
+    report(Severity::Missing, "rib-empty", r, quoted + "holds no RIB request that could be read");
+}
+
+bool Reader::mayEnter(const Request& r, const std::string& key, size_t cost) {
+  if (open_.size() == 1) budget_ = kBudget;
+  const auto refuse = [&](const std::string& why) {
+    report(Severity::Warning, "rib-archive-recursion", r, why + "; ignored");
+    return false;
+  };
+  if (std::any_of(open_.begin(), open_.end(), [&](const Level& l) { return l.key == key; }))
+    return refuse("the archive reads itself");
+  if (open_.size() > static_cast<size_t>(settings_.maxArchiveDepth))
+    return refuse(fmt::format("more than {} archives within archives", settings_.maxArchiveDepth));
+  if (budget_ < cost)
+    return refuse(fmt::format("the outermost archive stands for more than {} requests", kBudget));
+  budget_ -= cost;
+  return true;
+}
+
+// The search path first, then beside the file that reads, then where the caller says.
+std::string Reader::findArchive(const std::string& written) const {
+  const std::string name = mapped(written, builder_.dirMap());
+  std::vector<std::string> folders;
+  const auto& paths = builder_.options().searchPaths;
+  if (const auto it = paths.find("archive"); it != paths.end()) folders = foldersOf(it->second);
+  folders.push_back(open_.back().folder);
+  folders.insert(folders.end(), settings_.archivePath.begin(), settings_.archivePath.end());
+  std::error_code ignored;
+  for (const fs::path folder : folders)
+    if (const fs::path path = folder / name; fs::is_regular_file(path, ignored)) return path.string();
+  return "";
+}
+
+}  // namespace tomales::rib

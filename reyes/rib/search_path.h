@@ -1,0 +1,23 @@
+// Option "searchpath" and "dirmap".
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+namespace tomales::rib {
+
+/// A search path as written -> folders with colons between. `&` is the previous value, `@` the built-in one
+/// (searched anyway, so it becomes nothing); $NAME, ${NAME} and a leading ~ come from the environment.
+/// Variables that are not set are appended to `unset`.
+std::string expandSearchPath(const std::string& written, const std::string& previous, std::string& unset);
+
+/// Zone, from, to. Only the zone "NFS", that of Unix, applies here.
+using DirMap = std::vector<std::array<std::string, 3>>;
+/// Of an array of triples, or of one string of the form ["zone" "from" "to"] ["zone" ...].
+DirMap readDirMap(const std::vector<std::string>& written);
+/// The name with its beginning replaced by the first entry that fits.
+std::string mapped(const std::string& name, const DirMap& map);
+
+std::vector<std::string> foldersOf(const std::string& searchPath);
+
+}  // namespace tomales::rib

@@ -1,0 +1,29 @@
+// background and clamptoalpha (RISpec 3.2, appendix A; PRMan).
+#include "reyes/shader.h"
+
+namespace {
+rsl::ColorParam background("background", {1, 1, 1}, "colour behind everything");
+rsl::ColorParam bgcolor("bgcolor", {1, 1, 1}, "other name of background; the two multiply");
+
+void shadeBackground(const TmGrid* g) {
+  for (int i : rsl::Batch(g)) {
+    const rsl::Color behind = background(g, i) * bgcolor(g, i);
+    rsl::set(g->Ci, i, rsl::get(g->Ci, i) + (1 - g->alpha[i]) * behind);
+    rsl::set(g->Oi, i, {1, 1, 1});
+    g->alpha[i] = 1;
+  }
+}
+
+void shadeClamp(const TmGrid* g) {
+  for (int i : rsl::Batch(g)) {
+    const rsl::Color c = rsl::get(g->Ci, i);
+    const float alpha = g->alpha[i];
+    rsl::set(g->Ci, i, {std::min(c.x, alpha), std::min(c.y, alpha), std::min(c.z, alpha)});
+  }
+}
+}  // namespace
+
+extern const rsl::Shader backgroundShader, clamptoalphaShader;
+const rsl::Shader backgroundShader(TM_IMAGER, "background", "a colour behind everything, alpha 1", 0,
+                                   shadeBackground, {&background, &bgcolor});
+const rsl::Shader clamptoalphaShader(TM_IMAGER, "clamptoalpha", "no colour above alpha", 0, shadeClamp, {});

@@ -1,0 +1,228 @@
+#include "tests/unit/prim/support.h"
+
+namespace tomales {
+namespace {
+using namespace test;
+
+const vec3 kEye(0.3f, 0.4f, -10);
+
+float noise(uint32_t i) { return 2 * unitFloat(hash32(i + 4321)) - 1; }
+
+std::vector<float> wiggle(int n) {
+  std::vector<float> p;
+  for (int i = 0; i < n; ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      p.push_back((axis == 0 ? i : 0) + noise(static_cast<uint32_t>(3 * i + axis)) * 0.6f);
+  return p;
+}
+
+Param width(Storage storage, std::vector<float> values) {
+  return floats(storage == Storage::Constant ? "constantwidth" : "width", storage, ValueType::Float,
+                std::move(values));
+}
+
+PrimPtr seen(const PrimPtr& prim) { return prim->facing(kEye, {0, 0, 1}, true); }
+
+PrimPtr curves(bool cubic, const Basis& basis, const std::vector<int>& counts, bool periodic,
+               ParamList params) {
+  Problems problems;
+  const PrimPtr prim = makeCurves(cubic, basis, counts, periodic, params, problems);
+  EXPECT_TRUE(problems.empty());
+  return prim;
+}
+
+std::vector<PrimPtr> manyCurves() {
+  const auto of = [](int n) { return positions(wiggle(n)); };
+  std::vector<float> up;
+  for (uint32_t i = 0; i < 18; ++i) up.push_back(i % 3 == 2 ? 1.0f : 0.4f * noise(i + 900));
+  const Param normals = floats("N", Storage::Vertex, ValueType::Normal, up);
+  return {seen(curves(true, bezierBasis(), {7, 4}, false,
+                      {of(11), width(Storage::Varying, {.1f, .2f, .3f, .1f, .2f})})),
+          seen(curves(true, bsplineBasis(), {6}, true,
+                      {of(6), width(Storage::Vertex, {.1f, .2f, .3f, .1f, .2f, .1f})})),
+          seen(curves(true, catmullRomBasis(), {6}, false, {of(6), width(Storage::Constant, {.1f})})),
+          seen(curves(false, bezierBasis(), {5, 2}, false,
+                      {of(7), width(Storage::Varying, {.1f, .2f, .3f, .1f, .2f, .1f, .1f})})),
+          seen(curves(false, bezierBasis(), {6}, true, {of(6), width(Storage::Constant, {.2f})})),
+          curves(true, bsplineBasis(), {6}, false, {of(6), normals, width(Storage::Constant, {.3f})}),
+          curves(true, hermiteBasis(), {6}, false, {of(6)})};
+}
+
+TEST(Curves, HaveRISpecsNumberOfSegments) {
+  const uint32_t expected[] = {3, 6, 3, 5, 6, 3, 2};
+  const std::vector<PrimPtr> all = manyCurves();
+  for (size_t k = 0; k < all.size(); ++k) EXPECT_EQ(all[k]->patchCount(), expected[k]) << k;
+}
+
+TEST(Curves, DerivativesAgreeWithFiniteDifferences) {
+  for (const PrimPtr& prim : manyCurves()) expectDerivativesOfPositions(*prim, 5e-3f);
+}
+
+TEST(Curves, BoundsContainTheRibbonAndItIsSoundEverywhere) {
+  for (const PrimPtr& prim : manyCurves()) {
+    expectBoundsContainTheSurface(*prim);
+    expectSoundEverywhere(*prim);
+  }
+}
+
+TEST(Curves, TheMiddleOfTheRibbonIsTheCurve) {
+  const std::vector<float> p = wiggle(6);
+  const PrimPtr prim = curves(true, bsplineBasis(), {6}, false, {positions(p)});
+  for (uint32_t k = 0; k < 1000; ++k) {
+    const uint32_t patch = k % 3;
+    const float t = unitFloat(hash32(k));
+    const double s = 1 - t, t2 = t * t, t3 = t2 * t;
+    const double w[4] = {s * s * s / 6, (3 * t3 - 6 * t2 + 4) / 6, (-3 * t3 + 3 * t2 + 3 * t + 1) / 6,
+                         t3 / 6};
+    glm::dvec3 expected(0);
+    for (size_t i = 0; i < 4; ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        expected[axis] += w[i] * p[3 * (patch + i) + static_cast<size_t>(axis)];
+    EXPECT_LT(glm::length(glm::dvec3(sampleAt(*prim, patch, 0.5f, t).p) - expected), 1e-5);
+  }
+}
+
+TEST(Curves, RibbonsAreAsWideAsTheySayAndFaceTheEye) {
+  const PrimPtr prim = manyCurves()[2];
+  for (uint32_t patch = 0; patch < 3; ++patch)
+    for (float v : {0.0f, 0.3f, 0.7f, 1.0f}) {
+      const Sample s = sampleAt(*prim, patch, 0.5f, v);
+      EXPECT_NEAR(glm::length(sampleAt(*prim, patch, 1, v).p - sampleAt(*prim, patch, 0, v).p), 0.1f, 1e-6f);
+      EXPECT_NEAR(dot(glm::normalize(s.du), glm::normalize(kEye - s.p)), 0, 1e-5f);
+      EXPECT_GT(dot(s.n, kEye - s.p), 0);
+    }
+}
+
+TEST(Curves, WithoutPerspectiveTheyFaceTheDirection) {
+  const PrimPtr prim = curves(false, bezierBasis(), {2}, false, {positions({0, 0, 0, 3, 0, 0})});
+  const Sample s = sampleAt(*prim->facing({5, 5, 5}, {0, 1, 0}, false), 0, 0.5f, 0.5f);
+  EXPECT_NEAR(glm::normalize(s.n).y, -1, 1e-6f);
+}
+
+TEST(Curves, OrientedRibbonsFaceTheirNormalAndNoEye) {
+  const PrimPtr prim = curves(
+      false, bezierBasis(), {2}, false,
+      {positions({0, 0, 0, 3, 0, 0}), floats("N", Storage::Varying, ValueType::Normal, {0, 1, 0, 0, 1, 0})});
+  EXPECT_EQ(prim->facing(kEye, {0, 0, 1}, true), nullptr);
+  EXPECT_EQ(glm::normalize(sampleAt(*prim, 0, 0.2f, 0.5f).n), vec3(0, 1, 0));
+  EXPECT_NEAR(dicedArea(*prim, 1), 3, 1e-6);
+}
+
+TEST(Curves, SegmentsMeetAtMitres) {
+  const PrimPtr prim = manyCurves()[3];
+  for (uint32_t patch = 0; patch < 3; ++patch)
+    for (float u : {0.0f, 0.5f, 1.0f})
+      EXPECT_LT(glm::length(sampleAt(*prim, patch, u, 1).p - sampleAt(*prim, patch + 1, u, 0).p), 1e-6f);
+  EXPECT_EQ(prim->info(0).openEdges, kAllEdges & ~kEdgeV1);
+  EXPECT_EQ(prim->info(1).openEdges, kEdgeU0 | kEdgeU1);
+  EXPECT_EQ(prim->info(4).openEdges, kAllEdges);
+}
+
+TEST(Curves, InterpolateEveryStorageAndRunAlongV) {
+  const PrimPtr prim = curves(false, bezierBasis(), {3, 2}, false,
+                              {positions(wiggle(5)), floats("k", Storage::Uniform, ValueType::Float, {7, 8}),
+                               floats("c", Storage::Varying, ValueType::Float, {0, 1, 3, 5, 7}),
+                               floats("e", Storage::Vertex, ValueType::Float, {0, 1, 3, 5, 7})});
+  EXPECT_EQ(primvarAt(*prim, 2, 0, 0.5f, 0.5f)[0], 8);
+  for (int index : {1, 2}) {
+    EXPECT_NEAR(primvarAt(*prim, 1, index, 0.1f, 0.5f)[0], 2, 1e-6f);
+    EXPECT_NEAR(primvarAt(*prim, 2, index, 0.1f, 1)[0], 7, 1e-6f);
+  }
+  const float u = 0.2f, v = 0.5f;
+  float su, sv;
+  prim->surfaceParameters(1, 1, &u, &v, &su, &sv);
+  EXPECT_EQ(su, u);
+  EXPECT_EQ(sv, 0.75f);
+}
+
+TEST(NastyCurves, DegenerateOnesAreSound) {
+  const auto sound = [](const PrimPtr& prim) { expectSoundEverywhere(*seen(prim)); };
+  sound(curves(true, bezierBasis(), {4}, false,
+               {positions({0, 0, 0, 0, 0, 0, 1, 1, 0, 1, 1, 0})}));                           // doubled ends
+  sound(curves(true, bezierBasis(), {4}, false, {positions(std::vector<float>(12, 1.0f))}));  // a point
+  sound(
+      curves(false, bezierBasis(), {3}, false, {positions({0, 0, 0, 1, 0, 0, 0, 0, 0})}));  // there and back
+  sound(curves(false, bezierBasis(), {2}, false,
+               {positions({kEye.x, kEye.y, 0, kEye.x, kEye.y, 5})}));  // along the view
+  sound(curves(false, bezierBasis(), {2}, false,
+               {positions({0, 0, 0, 1, 0, 0}), width(Storage::Constant, {0})}));
+}
+
+TEST(NastyCurves, WrongInputThrowsASentence) {
+  Problems problems;
+  const auto errorWith = [&](bool cubic, const Basis& basis, const std::vector<int>& counts,
+                             const ParamList& params) {
+    return errorOf([&] { makeCurves(cubic, basis, counts, false, params, problems); });
+  };
+  EXPECT_EQ(errorWith(false, bezierBasis(), {1}, {positions({0, 0, 0})}),
+            "curve 0 has 1 vertices, which make no whole number of segments");
+  EXPECT_NE(errorWith(true, bezierBasis(), {5}, {positions(wiggle(5))}), "");
+  EXPECT_NE(errorWith(true, {mat4(1.0f), 0}, {4}, {positions(wiggle(4))}), "");
+  EXPECT_NE(errorWith(false, bezierBasis(), {-2}, {positions(wiggle(2))}), "");
+  EXPECT_NE(errorWith(false, bezierBasis(), {}, {}), "");
+  EXPECT_NE(errorWith(false, bezierBasis(), {3}, {positions(wiggle(2))}), "");
+  EXPECT_NE(errorWith(false, bezierBasis(), {2}, {positions({0, 0, 0, NAN, 0, 0})}), "");
+  EXPECT_NE(errorWith(false, bezierBasis(), {2}, {positions(wiggle(2)), width(Storage::Constant, {-1})}), "");
+  EXPECT_NE(errorWith(false, bezierBasis(), {2}, {positions(wiggle(2)), width(Storage::Varying, {1, NAN})}),
+            "");
+}
+
+PrimPtr points(ParamList params) {
+  Problems problems;
+  const PrimPtr prim = makePoints(params, problems);
+  EXPECT_TRUE(problems.empty());
+  return prim;
+}
+
+TEST(Points, AreDisksOfTheirWidth) {
+  const PrimPtr prim = seen(points({positions(wiggle(3)), width(Storage::Varying, {1, 2, 0.5f})}));
+  ASSERT_EQ(prim->patchCount(), 3u);
+  EXPECT_NEAR(dicedArea(*prim, 64), M_PI / 4 * (1 + 4 + 0.25), 0.01);
+  expectSoundEverywhere(*prim);
+  expectBoundsContainTheSurface(*prim);
+  expectDerivativesOfPositions(*prim, 1e-3f);
+  const float radius[] = {0.5f, 1, 0.25f};
+  for (uint32_t patch = 0; patch < 3; ++patch) {
+    const vec3 center = sampleAt(*prim, patch, 0.5f, 0.5f).p;
+    for (float t : {0.0f, 0.3f, 0.8f})
+      EXPECT_NEAR(glm::length(sampleAt(*prim, patch, t, 1).p - center), radius[patch], 1e-5f);
+    EXPECT_LT(
+        glm::length(glm::normalize(sampleAt(*prim, patch, 0.2f, 0.9f).n) - glm::normalize(kEye - center)),
+        1e-5f);
+  }
+}
+
+TEST(Points, FaceTheirNormalIfTheyHaveOne) {
+  const PrimPtr prim = points({positions({0, 0, 0, 5, 0, 0}), width(Storage::Constant, {2}),
+                               floats("N", Storage::Varying, ValueType::Normal, {0, 2, 0, 1, 0, 0})});
+  EXPECT_EQ(prim->facing(kEye, {0, 0, 1}, true), nullptr);
+  EXPECT_EQ(sampleAt(*prim, 0, 0.3f, 0.3f).n, vec3(0, 1, 0));
+  EXPECT_EQ(sampleAt(*prim, 1, 0.3f, 0.3f).n, vec3(1, 0, 0));
+  EXPECT_NEAR(prim->bound(1, {}).size().x, 0, 1e-4f);
+  EXPECT_LT(prim->bound(0, {0.4f, 0.6f, 0.4f, 0.6f}).size().x, 0.45f);
+}
+
+TEST(Points, ValuesBelongToTheirPoint) {
+  const PrimPtr prim =
+      points({positions({0, 0, 0, 5, 0, 0}), floats("c", Storage::Varying, ValueType::Float, {3, 4}),
+              floats("k", Storage::Constant, ValueType::Float, {9})});
+  EXPECT_EQ(primvarAt(*prim, 1, 0, 0.2f, 0.3f)[0], 4);
+  EXPECT_EQ(primvarAt(*prim, 1, 1, 0.2f, 0.3f)[0], 9);
+}
+
+TEST(NastyPoints, WrongInputThrowsASentenceAndNoWidthIsSound) {
+  Problems problems;
+  const auto errorWith = [&](const ParamList& params) {
+    return errorOf([&] { makePoints(params, problems); });
+  };
+  EXPECT_NE(errorWith({}), "");
+  EXPECT_NE(errorWith({positions({})}), "");
+  EXPECT_NE(errorWith({positions({0, 0})}), "");
+  EXPECT_NE(errorWith({positions({0, 0, INFINITY})}), "");
+  EXPECT_NE(errorWith({positions({0, 0, 0}), width(Storage::Constant, {-1})}), "");
+  expectSoundEverywhere(*seen(points({positions({0, 0, 0}), width(Storage::Constant, {0})})));
+  expectSoundEverywhere(*seen(points({positions({kEye.x, kEye.y, kEye.z})})));
+}
+
+}  // namespace
+}  // namespace tomales

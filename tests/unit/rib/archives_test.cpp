@@ -1,0 +1,334 @@
+// Inline archives, procedurals, programs, conditions, variables, search paths and resources.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "reyes/rib/expression.h"
+#include "rib_test_tools.h"
+
+namespace tomales {
+namespace {
+
+const std::string kSphere = "Sphere 1 -1 1 360\n";
+
+/// As Reading, but programs are allowed and must answer at once.
+struct Trusting {
+  std::vector<Scene> scenes;
+  Log log{Log::Verbosity::Quiet};
+  explicit Trusting(const std::string& text) {
+    RibSettings settings;
+    settings.allowSystem = true;
+    settings.programPatience_s = 2;
+    settings.onScene = [this](Scene&& s) { scenes.push_back(std::move(s)); };
+    readRibText(text, "test.rib", settings, log);
+  }
+  size_t objects() const { return scenes.at(0).objects.size(); }
+};
+
+TEST(InlineArchive, IsReadWhereItIsCalledAndNotWhereItStands) {
+  const Reading r(inWorld("ArchiveBegin \"a\" Translate 1 0 0 " + kSphere +
+                          "ArchiveEnd\nReadArchive \"a\" ReadArchive \"a\""));
+  ASSERT_EQ(r.scene().objects.size(), 2u);
+  EXPECT_EQ(r.object(1).worldFromObject.at(0)[3].x, 2);
+  EXPECT_TRUE(r.log.entries().empty()) << r.codes();
+}
+
+TEST(InlineArchive, MayHoldArchivesAndBeRedefined) {
+  const Reading r(
+      inWorld("ArchiveBegin \"a\" ArchiveBegin \"b\" " + kSphere +
+              "ArchiveEnd ReadArchive \"b\" ArchiveEnd "
+              "ReadArchive \"a\" ReadArchive \"b\" ArchiveBegin \"a\" ArchiveEnd ReadArchive \"a\""));
+  EXPECT_EQ(r.scene().objects.size(), 2u);
+}
+
+TEST(InlineArchive, NeitherReadsItselfNorDoublesWithoutEnd) {
+  const Reading self(
+      inWorld("ArchiveBegin \"a\" " + kSphere + "ReadArchive \"a\" ArchiveEnd ReadArchive \"a\""));
+  EXPECT_EQ(self.scene().objects.size(), 1u);
+  EXPECT_EQ(self.log.count("rib-archive-recursion"), 1);
+  std::string text = "ArchiveBegin \"0\" ArchiveEnd\n";
+  for (int i = 1; i < 60; ++i) {
+    const std::string below = "ReadArchive \"" + std::to_string(i - 1) + "\" ";
+    text += "ArchiveBegin \"" + std::to_string(i) + "\" " + below + below + "ArchiveEnd\n";
+  }
+  const Reading bomb(inWorld(text + "ReadArchive \"59\"\n" + kSphere));
+  EXPECT_EQ(bomb.scene().objects.size(), 1u);
+  EXPECT_GE(bomb.log.count("rib-archive-recursion"), 1);
+}
+
+TEST(InlineArchive, WithoutEndIsReported) {
+  const Reading r(inWorld(kSphere) + "ArchiveBegin \"a\" " + kSphere);
+  EXPECT_EQ(r.message("rib-unbalanced").where.line, 5);
+  EXPECT_EQ(Reading("ArchiveEnd").log.count("rib-unbalanced"), 1);
+}
+
+TEST(Procedural, DelayedReadArchiveKeepsItsStateToItself) {
+  const Reading r(inWorld("ArchiveBegin \"a\" Translate 1 0 0 Color 1 0 0 " + kSphere +
+                          "ArchiveEnd Translate 0 5 0\n"
+                          "Procedural \"DelayedReadArchive\" [\"a\"] [-1 1 -1 1 -1 1]\n"
+                          "Procedural2 \"DelayedReadArchive2\" \"SimpleBound\" \"string filename\" [\"a\"] "
+                          "\"float[6] bound\" [-1 1 -1 1 -1 1]\n" +
+                          kSphere));
+  ASSERT_EQ(r.scene().objects.size(), 3u);
+  EXPECT_EQ(r.object(1).worldFromObject.at(0)[3], vec4(1, 5, 0, 1));
+  EXPECT_EQ(r.attributes(2).color, vec3(1));
+  EXPECT_TRUE(r.log.entries().empty()) << r.codes();
+}
+
+TEST(Procedural, BoundsThatAreNoBoxAndUnknownKindsAreReported) {
+  const Reading r(inWorld("ArchiveBegin \"a\" " + kSphere +
+                          "ArchiveEnd\n"
+                          "Procedural \"DelayedReadArchive\" [\"a\"] [nan 1 -1 1 -1 1]\nProcedural "
+                          "\"DynamicLoad\" [\"x\"] [0 1 0 1 0 1]"));
+  EXPECT_EQ(r.scene().objects.size(), 1u);
+  EXPECT_EQ(r.message("rib-bound").where.line, 4);
+  EXPECT_EQ(r.message("rib-unsupported").severity, Severity::Missing);
+}
+
+TEST(RunProgram, IsNotRunUnlessAllowed) {
+  const std::string file = testing::TempDir() + "tomales_must_not_exist";
+  const Reading r(inWorld("Procedural \"RunProgram\" [\"touch " + file +
+                          "\" \"\"] [0 1 0 1 0 1]\nSystem \"touch " + file + "\"\n" + kSphere));
+  EXPECT_FALSE(std::filesystem::exists(file));
+  EXPECT_EQ(r.log.count("rib-system"), 2);
+  EXPECT_EQ(r.log.worst(), Severity::Missing);
+  EXPECT_EQ(r.scene().objects.size(), 1u);
+}
+
+TEST(RunProgram, GetsDetailAndDataAndEndsWithItsMark) {
+  const Trusting r(
+      inWorld("Procedural \"RunProgram\" [\"read detail radius; echo \\\"Sphere $radius -1 1 360\\\"; printf "
+              "'\\\\377Sphere 1 -1 1 360'; sleep 100\" "
+              "\"2.5\"] [-1 1 -1 1 -1 1]\n" +
+              kSphere));
+  EXPECT_EQ(r.objects(), 2u);
+  EXPECT_TRUE(r.log.entries().empty()) << r.log.entries()[0].message;
+}
+
+TEST(RunProgram, ThatHangsDiesOrIsAbsentIsReported) {
+  for (const char* command : {"sleep 100", "exit 3", "kill -9 $$", "no_such_program_of_tomales", "true"}) {
+    const Trusting r(inWorld("\nProcedural \"RunProgram\" [\"" + std::string(command) +
+                             "\" \"\"] [0 1 0 1 0 1]\n" + kSphere));
+    EXPECT_EQ(r.objects(), 1u) << command;
+    EXPECT_EQ(r.log.count("rib-program"), 1) << command;
+    EXPECT_EQ(r.log.entries().at(0).where.line, 3);
+  }
+}
+
+TEST(System, RunsWhenAllowedAndReportsFailure) {
+  const Trusting r(inWorld("System \"true\"\nSystem \"exit 4\"\n"));
+  ASSERT_EQ(r.log.entries().size(), 1u);
+  EXPECT_NE(r.log.entries()[0].message.find("exit code 4"), std::string::npos);
+}
+
+bool isTrue(const std::string& expression) {
+  const std::map<std::string, std::string> values = {{"n", "3"}, {"name", "hero"}, {"Option:user:empty", ""}};
+  return rib::holds(expression, [&](const std::string& name) {
+    const auto it = values.find(name);
+    return it == values.end() ? std::nullopt : std::optional(it->second);
+  });
+}
+
+TEST(Expression, FollowsItsGrammar) {
+  for (const char* text : {"1",
+                           "$n == 3",
+                           "$n == 3.0",
+                           "$n > 2 && $n < 4",
+                           "1 + 2 * 3 == 7",
+                           "(1 + 2) * 3 == 9",
+                           "!0",
+                           "-1 < 0",
+                           "'a' < 'b'",
+                           "$name == 'hero'",
+                           "${name} == hero",
+                           "$name =~ 'h*o'",
+                           "$name =~ '?er?'",
+                           "defined(n)",
+                           "!defined(m)",
+                           "concat($name, '_', $n) == 'hero_3'",
+                           "$($n - 1) == 2",
+                           "0 || 1",
+                           "1e-3 < 1e+3",
+                           "6 / 4 == 1.5",
+                           "$Option:user:empty == ''",
+                           "true"})
+    EXPECT_TRUE(isTrue(text)) << text;
+  for (const char* text : {"0", "''", "false", "$n != 3", "$name =~ 'x*'", "1 && 0", "!$n"})
+    EXPECT_FALSE(isTrue(text)) << text;
+  for (const std::string& text : {std::string(""), std::string("1 +"), std::string("$m"), std::string("(1"),
+                                  std::string("1 2"), std::string("'a"), std::string("hero + 1"),
+                                  std::string("&"), std::string(100000, '('), std::string(100000, '!')})
+    EXPECT_THROW(isTrue(text), rib::ExpressionError) << text.substr(0, 20);
+}
+
+TEST(Conditional, ReadsTheFirstBranchThatHolds) {
+  const auto radii = [](const std::string& mode) {
+    const Reading r(
+        "Option \"user\" \"string mode\" \"" + mode + "\"\n" +
+        inWorld("IfBegin \"$mode == 'a'\" Color 1 0 0 IfBegin \"0\" Color 9 9 9 Else Opacity .5 .5 .5 IfEnd\n"
+                "ElseIf \"$user:mode == 'b'\" Color 2 0 0 ElseIf \"$Option:user:mode == 'b'\" Color 8 0 0 "
+                "Else Color 3 0 0 IfEnd\n" +
+                kSphere));
+    EXPECT_TRUE(r.log.entries().empty()) << r.codes();
+    return r.attributes(0).color.x + r.attributes(0).opacity.x;
+  };
+  EXPECT_EQ(radii("a"), 1.5f);
+  EXPECT_EQ(radii("b"), 3);
+  EXPECT_EQ(radii("c"), 4);
+}
+
+TEST(Conditional, SeesFrameAndAttributesInArchivesToo) {
+  const Reading r(
+      "FrameBegin 7 " +
+      inWorld(
+          "ArchiveBegin \"a\" IfBegin \"$Attribute:identifier:name =~ 'x*' && $Frame == 7\" " + kSphere +
+          "IfEnd ArchiveEnd ReadArchive \"a\" Attribute \"identifier\" \"name\" \"xy\" ReadArchive \"a\"") +
+      "FrameEnd");
+  EXPECT_EQ(r.scene().objects.size(), 1u);
+}
+
+TEST(Conditional, BadOnesAreFalseAndUnbalancedOnesEndWithTheFile) {
+  const Reading r("Else IfEnd\n" + inWorld("IfBegin \"1 +\"\n" + kSphere + "IfEnd\n" + kSphere) +
+                  "IfBegin \"1\"");
+  EXPECT_EQ(r.scene().objects.size(), 1u);
+  EXPECT_EQ(r.message("rib-condition").where.line, 3);
+  EXPECT_EQ(r.log.count("rib-unbalanced"), 3) << r.codes();
+}
+
+TEST(Variables, AreSubstitutedInStringsOnceAsked) {
+  setenv("TOMALES_TEST_FOLDER", "from_env", 1);
+  const Reading r(
+      "Display \"${shot}.exr\" \"file\" \"rgb\" Option \"user\" \"string shot\" \"s1\" Option \"ribparse\" "
+      "\"string varsubst\" \"$\"\n"
+      "Display \"+${shot}/${TOMALES_TEST_FOLDER}.exr\" \"file\" \"rgb\"\nDisplay \"+${nowhere}$\" \"file\" "
+      "\"rgb\"" +
+      inWorld(""));
+  const auto& displays = r.scene().options.displays;
+  ASSERT_EQ(displays.size(), 3u);
+  EXPECT_EQ(displays[0].name, "${shot}.exr");
+  EXPECT_EQ(displays[1].name, "s1/from_env.exr");
+  EXPECT_EQ(displays[2].name, "${nowhere}$");
+  EXPECT_EQ(r.message("rib-variable").where.line, 3);
+}
+
+TEST(SearchPath, KnowsTheEnvironmentAndPreviousValues) {
+  setenv("TOMALES_TEST_FOLDER", "/env", 1);
+  const Reading r(
+      "Option \"searchpath\" \"texture\" \"/a:@\" Option \"searchpath\" \"texture\" "
+      "\"&:$TOMALES_TEST_FOLDER/b:${TOMALES_TEST_FOLDER}\"" +
+      inWorld(""));
+  EXPECT_EQ(r.scene().options.searchPaths.at("texture"), "/a:/env/b:/env");
+}
+
+TEST(SearchPath, MapsFoldersOfTheZoneOfUnix) {
+  const std::string folder = testing::TempDir();
+  std::ofstream(folder + "mapped.rib") << kSphere;
+  const std::string map =
+      "Option \"searchpath\" \"string dirmap\" [\"[\\\"UNC\\\" \\\"/z/\\\" \\\"/no/\\\"] [\\\"NFS\\\" "
+      "\\\"/z/\\\" \\\"" +
+      folder + "\\\"]\"]\n";
+  EXPECT_EQ(Reading(map + inWorld("ReadArchive \"/z/mapped.rib\"")).scene().objects.size(), 1u);
+  EXPECT_EQ(Reading(map + "Option \"searchpath\" \"archive\" \"/z/\"" + inWorld("ReadArchive \"mapped.rib\""))
+                .scene()
+                .objects.size(),
+            1u);
+}
+
+TEST(Resource, RestoresAllOrSubsets) {
+  const std::string save =
+      "AttributeBegin Color 1 0 0 Translate 1 0 0 Matte 1 Sides 1 Resource \"r\" \"attributes\" \"string "
+      "operation\" \"save\" AttributeEnd\n";
+  const auto restored = [&](const std::string& subset) {
+    return Reading(inWorld(save + "Resource \"r\" \"attributes\" \"string operation\" \"restore\"" +
+                           (subset.empty() ? "" : " \"string subset\" \"" + subset + "\"") + "\n" + kSphere));
+  };
+  for (const char* subset : {"", "all", "shading", "transform", "hiding", "shading, hiding,transform"}) {
+    const Reading r = restored(subset);
+    const std::string name = subset;
+    const auto has = [&](const char* part) {
+      return name.empty() || name == "all" || name.find(part) != std::string::npos;
+    };
+    EXPECT_EQ(r.attributes(0).color.y, has("shading") ? 0 : 1) << name;
+    EXPECT_EQ(r.object(0).worldFromObject.at(0)[3].x, has("transform") ? 1 : 0) << name;
+    EXPECT_EQ(r.attributes(0).matte, has("hiding")) << name;
+  }
+}
+
+TEST(Resource, HasScopesOfItsOwnAndMovesIntoTheWorld) {
+  const Reading r(
+      "Translate 0 0 5 Resource \"c\" \"attributes\" \"string operation\" \"save\"" +
+      inWorld("ResourceBegin Resource \"r\" \"attributes\" \"string operation\" \"save\" ResourceEnd\n"
+              "Resource \"r\" \"attributes\" \"string operation\" \"restore\"\nResourceEnd\n"
+              "Translate 1 1 1 Resource \"c\" \"attributes\" \"string operation\" \"restore\"\n" +
+              kSphere));
+  EXPECT_EQ(r.log.count("rib-resource"), 1);
+  EXPECT_EQ(r.log.count("rib-unbalanced"), 1);
+  EXPECT_EQ(r.object(0).worldFromObject.at(0), mat4(1));
+}
+
+TEST(Interning, AlikeAttributesAreOneAndGroupTogether) {
+  std::string text;
+  for (int i = 0; i < 100; ++i)
+    text += "AttributeBegin Surface \"matte\" \"Kd\" .5\nColor " + std::to_string(i % 3) + " 0 0 " + kSphere +
+            "AttributeEnd\n";
+  const Reading r(inWorld(text));
+  EXPECT_EQ(r.scene().groups.size(), 3u);
+  EXPECT_EQ(r.object(0).attributes, r.object(99).attributes);
+  EXPECT_NE(r.object(0).attributes, r.object(1).attributes);
+}
+
+TEST(EmptyMesh, IsAWarningOnly) {
+  const Reading r(
+      inWorld("PointsPolygons [] [] \"P\" []\nSubdivisionMesh \"catmull-clark\" [] [] \"P\" []\n" + kSphere));
+  EXPECT_EQ(r.scene().objects.size(), 1u);
+  EXPECT_EQ(r.log.count("rib-empty-mesh"), 2);
+  EXPECT_EQ(r.log.worst(), Severity::Warning);
+}
+
+TEST(Ris, BxdfsBecomeStandardShaders) {
+  const Reading r(inWorld("Bxdf \"PxrDiffuse\" \"d\" \"color diffuseColor\" [.1 .2 .3] " + kSphere +
+                          "Bxdf \"PxrDiffuse\" \"e\" " + kSphere +
+                          "Bxdf \"PxrDisney\" \"f\" \"color baseColor\" [.4 .5 .6] \"float roughness\" .25 " +
+                          kSphere));
+  EXPECT_EQ(r.attributes(0).surface->name, "matte");
+  EXPECT_EQ(r.attributes(0).color, vec3(.1f, .2f, .3f));
+  EXPECT_EQ(r.attributes(2).surface->name, "plastic");
+  EXPECT_EQ(findParam(r.attributes(2).surface->params, "roughness")->number(0), .25f);
+  EXPECT_EQ(r.log.count("rib-substitute"), 2) << "once a name";
+}
+
+TEST(Ris, AreaLightsEmitAlongMinusZAndStaySwitchedOn) {
+  for (const char* kind : {"PxrRectLight", "PxrDiskLight", "PxrSphereLight"}) {
+    const Reading r(inWorld("Light \"" + std::string(kind) +
+                            "\" \"key\" \"float intensity\" 3 \"float exposure\" 2\n" + kSphere));
+    ASSERT_EQ(r.scene().lights.size(), 1u) << kind;
+    EXPECT_TRUE(r.scene().lights[0]->area);
+    EXPECT_EQ(findParam(r.scene().lights[0]->shader.params, "intensity")->number(0), 12);
+    EXPECT_EQ(r.attributes(0).areaLight, 0);
+    EXPECT_EQ(r.attributes(1).areaLight, -1);
+    EXPECT_EQ(r.attributes(1).lights, std::vector<int>{0});
+    if (kind == std::string("PxrSphereLight")) continue;
+    std::vector<float> x(12);
+    const float half = .5f;
+    r.object(0).shape().evaluate(
+        0, 1, &half, &half,
+        {&x[0], &x[1], &x[2], &x[3], &x[4], &x[5], &x[6], &x[7], &x[8], &x[9], &x[10], &x[11]});
+    EXPECT_LT(x[11], 0) << kind;
+  }
+}
+
+TEST(Ris, IntegratorsTurnIndirectLightOn) {
+  const Reading path(
+      "Integrator \"PxrPathTracer\" \"i\"" +
+      inWorld("Light \"PxrDomeLight\" \"sky\" \"string lightColorMap\" \"sky.exr\" " + kSphere));
+  ASSERT_EQ(path.scene().lights.size(), 2u);
+  EXPECT_EQ(path.scene().lights[0]->shader.name, "indirectlight");
+  EXPECT_EQ(path.scene().lights[1]->shader.name, "environmentlight");
+  EXPECT_TRUE(Reading("Integrator \"PxrDirectLighting\" \"i\"" + inWorld(kSphere)).scene().lights.empty());
+  EXPECT_EQ(Reading("Pattern \"PxrTexture\" \"t\" DisplayFilter \"F\" \"f\"" + inWorld(""))
+                .log.count("rib-substitute"),
+            2);
+}
+
+}  // namespace
+}  // namespace tomales

@@ -1,0 +1,72 @@
+#include "tests/unit/rib/rib_test_tools.h"
+
+namespace tomales {
+namespace {
+
+vec3 normalInTheMiddle(const Prim& prim, uint32_t patch) {
+  const float half = 0.5f;
+  float f[12];
+  prim.evaluate(patch, 1, &half, &half,
+                {f, f + 1, f + 2, f + 3, f + 4, f + 5, f + 6, f + 7, f + 8, f + 9, f + 10, f + 11});
+  return glm::normalize(vec3(f[9], f[10], f[11]));
+}
+
+TEST(Geometry, WithHolesLeavesThemOut) {
+  const Reading r(
+      inWorld("GeneralPolygon [4 3] \"P\" [0 0 0 9 0 0 9 9 0 0 9 0  1 1 0 2 1 0 1 2 0]\n"
+              "PointsGeneralPolygons [2] [4 3] [0 1 2 3 4 5 6] "
+              "\"P\" [0 0 0 9 0 0 9 9 0 0 9 0  1 1 0 2 1 0 1 2 0]"));
+  EXPECT_EQ(r.codes(), "");
+  ASSERT_EQ(r.scene().objects.size(), 2u);
+  EXPECT_EQ(r.object(0).shape().patchCount(), 21u);  // seven triangles of three
+}
+
+TEST(Geometry, NuPatchHasAPatchForEveryKnotInterval) {
+  const Reading r(
+      inWorld("NuPatch 3 2 [0 0 1 2 2] 0 2 2 2 [0 0 1 1] 0 1 \"P\" [0 0 0 1 0 0 2 0 0 0 1 0 1 1 0 2 1 0]"));
+  EXPECT_EQ(r.codes(), "");
+  EXPECT_EQ(r.object(0).shape().patchCount(), 2u);
+}
+
+TEST(Geometry, NuPatchThatIsNoneIsDroppedByName) {
+  const Reading r(
+      inWorld("NuPatch 3 2 [0 0 1] 0 2 2 2 [0 0 1 1] 0 1 \"P\" [0 0 0]\n"
+              "NuPatch 2 2 [] 0 1 2 2 [] 0 1 \"P\" []"));
+  EXPECT_EQ(r.log.count("rib-object-dropped"), 2);
+  EXPECT_TRUE(r.scene().objects.empty());
+}
+
+TEST(Geometry, CubicCurvesTakeTheBasisOfV) {
+  const Reading r(
+      inWorld("Basis \"bezier\" 3 \"b-spline\" 1\n"
+              "Curves \"cubic\" [6] \"nonperiodic\" \"constantwidth\" [0.1] "
+              "\"P\" [0 0 0 1 0 0 2 0 0 3 0 0 4 0 0 5 0 0]\n"
+              "Curves \"linear\" [2 2] \"nonperiodic\" \"width\" [1 2 3 4] \"P\" [0 0 0 1 0 0 0 1 0 1 1 0]"));
+  EXPECT_EQ(r.codes(), "");
+  EXPECT_EQ(r.object(0).shape().patchCount(), 3u);
+  EXPECT_EQ(r.object(1).shape().patchCount(), 2u);
+}
+
+TEST(Geometry, CurvesThatAreNoneAreDroppedByName) {
+  const Reading r(inWorld(
+      "Curves \"linear\" [1] \"nonperiodic\" \"P\" [0 0 0]\nCurves \"round\" [2] \"nonperiodic\" \"P\" "
+      "[0 0 0 1 0 0]\nCurves \"linear\" [2] \"around\" \"P\" [0 0 0 1 0 0]\nPoints \"P\" []"));
+  EXPECT_EQ(r.log.count("rib-object-dropped"), 4);
+}
+
+TEST(Geometry, PointsTurnToTheEyeThroughTheirTransformation) {
+  const std::string points = "Rotate 90 0 1 0 Points \"P\" [0 0 0] \"constantwidth\" [0.5]";
+  const Reading straight("Translate 0 0 5" + inWorld(points));
+  EXPECT_EQ(straight.codes(), "");
+  const Object& o = straight.object(0);
+  const vec3 inCamera = transformVector(o.cameraFromObject.at(0), normalInTheMiddle(o.shape(), 0));
+  EXPECT_NEAR(inCamera.z, -1, 1e-5f);
+  const Reading perspective("Projection \"perspective\" Translate 3 0 4" + inWorld(points));
+  const Object& p = perspective.object(0);
+  const vec3 towards = transformVector(p.cameraFromObject.at(0), normalInTheMiddle(p.shape(), 0));
+  EXPECT_NEAR(towards.x, -0.6f, 1e-5f);
+  EXPECT_NEAR(towards.z, -0.8f, 1e-5f);
+}
+
+}  // namespace
+}  // namespace tomales

@@ -1,0 +1,120 @@
+// Light from all around against closed forms: the irradiance of a sky of radiance L(w) over pi is the
+// cosine-weighted mean of L.
+#include <OpenImageIO/imagebuf.h>
+
+#include <filesystem>
+
+#include "tests/unit/shade/stage.h"
+
+namespace tomales {
+namespace {
+
+class Environment : public Stage {
+ protected:
+  ~Environment() override {
+    if (!path.empty()) std::filesystem::remove(path);
+  }
+
+  /// A map of the radiance that `sky` gives for world directions.
+  std::string writeMap(const std::function<vec3(const vec3&)>& sky) {
+    const int w = 256, h = 128;
+    OIIO::ImageBuf picture(OIIO::ImageSpec(w, h, 3, OIIO::TypeDesc::FLOAT));
+    for (int y = 0; y < h; ++y)
+      for (int x = 0; x < w; ++x) {
+        const float theta = kPi * (static_cast<float>(y) + 0.5f) / h,
+                    phi = 2 * kPi * (static_cast<float>(x) + 0.5f) / w;
+        const vec3 L =
+            sky({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
+        picture.setpixel(x, y, &L.x);
+      }
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    path = ::testing::TempDir() + "/tomales_sky_" + test->name() + ".exr";
+    EXPECT_TRUE(picture.write(path));
+    return path;
+  }
+  /// Radiance of one point with normal N under many samples.
+  vec3 litBy(const vec3& N, int samples = 1024) {
+    ShadeContext fine;
+    fine.lightSamples = samples;
+    ShadePoints p = points({vec3(0, 0, 5)}, N);
+    p.set3(kIx, 0, -N);
+    return shade(p, fine).color(0);
+  }
+  std::string path;
+};
+
+const std::vector<vec3> kNormals{{0, 0, -1}, {0, 1, 0}, {1, 0, 0}, {-0.6f, 0, 0.8f}, {0.48f, -0.6f, 0.64f}};
+
+TEST_F(Environment, UniformSkyGivesCsKdWithoutNoise) {
+  attributes.color = {0.5f, 0.25f, 1};
+  surface("matte", {number("Kd", 0.8f)});
+  light("environmentlight", {number("intensity", 2), color("lightcolor", {1, 0.5f, 0.25f})});
+  for (const vec3& N : kNormals)
+    expectColor(litBy(N, 16), attributes.color * 0.8f * 2.0f * vec3(1, 0.5f, 0.25f), 1e-5f);
+  EXPECT_TRUE(system().needsRays());
+}
+
+TEST_F(Environment, AsksForItsOwnNumberOfSamplesAndShadowsThemToInfinity) {
+  surface("matte");
+  light("environmentlight", {number("samples", 9)});
+  shadeOne();
+  EXPECT_EQ(services.shadowRays, 9);
+  EXPECT_TRUE(services.lastSolar);
+  ShadeContext gather;
+  gather.kind = RayKind::Diffuse, gather.lightSamples = 1;
+  shadeOne(gather);
+  EXPECT_EQ(services.shadowRays, 10);
+}
+
+TEST_F(Environment, AWallThatHidesHalfOfTheSkyTakesHalfOfTheLight) {
+  surface("matte");
+  light("environmentlight");
+  services.visible = [](const vec3&, const vec3& toward) { return toward.x > 0 ? 1.0f : 0.0f; };
+  EXPECT_NEAR(litBy({0, 0, -1}).x, 0.5f, 2e-3f);
+  // The half-space above a plane tilted by a: (1 + cos a) / 2 of the irradiance.
+  const float a = 0.7f;
+  services.visible = [a](const vec3&, const vec3& toward) {
+    return dot(toward, vec3(std::sin(a), 0, -std::cos(a))) > 0 ? 1.0f : 0.0f;
+  };
+  EXPECT_NEAR(litBy({0, 0, -1}).x, (1 + std::cos(a)) / 2, 3e-3f);
+}
+
+TEST_F(Environment, LinearSkyHasTheIrradianceOfItsClosedForm) {
+  surface("matte");
+  // E/pi of L = a + b.w is a + 2/3 b.N: the mean of w over the cosine-weighted hemisphere is 2/3 N.
+  const vec3 b(0.2f, 0.3f, 0.4f);
+  light("environmentlight",
+        {text("map", writeMap([b](const vec3& w) { return vec3(1, 2, 0.5f) + vec3(dot(b, w)); }))});
+  for (const vec3& N : kNormals) expectColor(litBy(N), vec3(1, 2, 0.5f) + vec3(2.0f / 3 * dot(b, N)), 3e-3f);
+  EXPECT_EQ(log.entries().size(), 0u);
+}
+
+TEST_F(Environment, TheMapStandsInTheWorldNotInTheCamera) {
+  surface("matte");
+  // The camera looks down the world's z axis: its +z is the world's -z, its y the world's -y.
+  scene.cameraFromWorld = Motion::still(mat4(1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1));
+  light("environmentlight",
+        {text("map", writeMap([](const vec3& w) { return vec3(1 + w.z, 1 + w.y, 1 + w.x); }))});
+  expectColor(litBy({0, 0, -1}), {5.0f / 3, 1, 1}, 3e-3f);
+  expectColor(litBy({0, -1, 0}), {1, 5.0f / 3, 1}, 3e-3f);
+  expectColor(litBy({1, 0, 0}), {1, 1, 5.0f / 3}, 3e-3f);
+}
+
+TEST_F(Environment, ShinyMetalMirrorsTheMapByTheReflectedDirection) {
+  surface("shinymetal",
+          {number("Kr", 0.5f), text("texturename", writeMap([](const vec3& w) { return vec3(1) + w; }))});
+  attributes.color = {1, 0.5f, 1};
+  ShadePoints p = points({vec3(0, 0, 5)}, glm::normalize(vec3(1, 0, -1)));
+  expectColor(shade(p).color(0), 0.5f * attributes.color * vec3(2, 1, 1), 2e-3f);  // I = +z, R = +x
+}
+
+TEST_F(Environment, AMissingMapIsMagentaAndReportedOnce) {
+  surface("matte");
+  light("environmentlight", {text("map", "absent.exr")});
+  expectColor(litBy({0, 0, -1}, 16), {1, 0, 1});
+  ASSERT_EQ(log.entries().size(), 1u);
+  EXPECT_EQ(log.worst(), Severity::Missing);
+}
+
+}  // namespace
+}  // namespace tomales
