@@ -9,6 +9,9 @@ class Emitters {
  public:
   Emitters(const Scene& scene, const std::vector<CoarseGroup>& groups);
 
+  /// False: no emitter of this light has any area.
+  bool shines(int light) const { return !lights_[static_cast<size_t>(light)].sources.empty(); }
+
   /// Meaning as ShadeServices::sampleEmitter. xi0 picks the lattice, xi1 its row and v, what is left of xi0 the
   /// column and u, all by area: a continuous warp of the unit square over each lattice, so that stratified points
   /// stay stratified. `area` is the Jacobian over the probability of the quad: the total area wherever quads are

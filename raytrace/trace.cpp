@@ -60,6 +60,10 @@ RayScene::Impl::Impl(const Scene& s, const Camera& camera, const ShadingSystem& 
       float& bound = displacementBounds[static_cast<size_t>(o.group)];
       bound = std::max(bound, o.displacementBound);
     }
+  for (const Object& o : scene.objects)
+    if (const int light = o.attributes->areaLight; light >= 0 && !emitters.shines(light))
+      log.report(Severity::Warning, "light-no-area", o.where,
+                 objectName(o) + ": the geometry of its area light has no area; it casts no light");
 }
 
 Hit RayScene::Impl::resolve(const PolygonHit& polygon) const {

@@ -100,13 +100,16 @@ class Splitter {
     const PatchSize size = measure(object_, camera_, patch, rect);
     const float edge_px = edge_px_ * coarsening(patch, rect, bound);
     const int nu = cells(size.u_px, edge_px), nv = cells(size.v_px, edge_px);
-    if (static_cast<int64_t>(nu) * nv > gridSize_ && depth < kMaxDepth) {
-      recurse(patch, rect, nu >= nv, depth, eyeSplits, out);
+    if (static_cast<int64_t>(nu) * nv > gridSize_) {
+      if (depth == kMaxDepth)
+        ++givenUp_.tooMany;
+      else
+        recurse(patch, rect, nu >= nv, depth, eyeSplits, out);
       return;
     }
     raster.lo -= vec2(kRasterMargin_px);
     raster.hi += vec2(kRasterMargin_px);
-    out.push_back({index_, patch, rect, std::min(nu, gridSize_), std::min(nv, gridSize_), raster, bound.lo.z});
+    out.push_back({index_, patch, rect, nu, nv, raster, bound.lo.z});
   }
 
   /// How much longer than the shading rate asks the edges may be: a micropolygon's width up to a quarter of the circle

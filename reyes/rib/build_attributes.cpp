@@ -100,7 +100,6 @@ const std::unordered_map<std::string_view, Setter>& numberSetters() {
        [](Attributes& a, const Param& p) { a.visibility.specular = p.number(1) != 0; }},
       {"visibility:transmission",
        [](Attributes& a, const Param& p) { a.visibility.transmission = p.number(1) != 0; }},
-      {"visibility:photon", [](Attributes& a, const Param& p) { a.visibility.photon = p.number(1) != 0; }},
       {"trace:bias", [](Attributes& a, const Param& p) { a.trace.bias = p.number(0); }},
       {"trace:offset", [](Attributes& a, const Param& p) { a.trace.offset = p.number(0); }},
       {"trace:displacements",

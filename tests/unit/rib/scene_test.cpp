@@ -144,7 +144,7 @@ TEST(Attributes, AreReadFromEveryRequest) {
     GeometricApproximation "motionfactor" 2 GeometricApproximation "focusfactor" .5
     ShadingInterpolation "smooth" Matte 1 Sides 1 Attribute "identifier" "name" "ball" Attribute "user" "float x" 3
     Attribute "displacementbound" "sphere" 2 "coordinatesystem" "world"
-    Attribute "visibility" "camera" 0 "diffuse" 0 "specular" 0 "transmission" 0 "photon" 0
+    Attribute "visibility" "camera" 0 "diffuse" 0 "specular" 0 "transmission" 0
     Attribute "trace" "bias" .1 "offset" .2 "displacements" 1 "tessellation" 3
     Attribute "indirect" "receive" 0 "gain" 2 "bleeding" 3 "bleedingcolor" [1 0 0] "surface" "simple"
     Attribute "irradiance" "maxerror" .3 "maxpixeldist" 9 Attribute "dice" "rasterorient" 0 )" +
@@ -159,7 +159,7 @@ TEST(Attributes, AreReadFromEveryRequest) {
   EXPECT_TRUE(a.name == "ball" && a.user.at("user:x").number(0) == 3);
   EXPECT_TRUE(a.displacementBound == 2 && a.displacementBoundSpace == "world");
   const Visibility& v = a.visibility;
-  EXPECT_FALSE(v.camera || v.diffuse || v.specular || v.transmission || v.photon);
+  EXPECT_FALSE(v.camera || v.diffuse || v.specular || v.transmission);
   EXPECT_TRUE(a.trace.bias == .1f && a.trace.offset == .2f && a.trace.displacements &&
               a.trace.tessellation == 3);
   EXPECT_TRUE(!a.indirect.receive && a.indirect.gain == 2 && a.indirect.bleeding == 3);
@@ -230,7 +230,7 @@ TEST(Shaders, NullSurfaceIsSeenByNobodyUntilTheNextSurface) {
                           "Surface \"matte\" Atmosphere \"fog\" \"distance\" 9 " + kSphere +
                           "Atmosphere \"null\" " + kSphere));
   const Visibility& v = r.attributes(0).visibility;
-  EXPECT_FALSE(v.camera || v.diffuse || v.specular || v.transmission || v.photon);
+  EXPECT_FALSE(v.camera || v.diffuse || v.specular || v.transmission);
   EXPECT_EQ(r.attributes(0).areaLight, 0);
   EXPECT_TRUE(r.attributes(1).visibility.camera && r.attributes(1).surface->name == "matte");
   ASSERT_TRUE(r.attributes(1).atmosphere);
