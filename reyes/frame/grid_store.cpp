@@ -30,8 +30,14 @@ std::shared_ptr<const RasterGrid> GridStore::make(const SubPatch& piece) {
       return nullptr;
     }
   auto raster = project(std::move(grid), scene_, camera_, shading_.opaque(o.group));
-  stats_.memoryBytes.grids += static_cast<int64_t>(raster->grid->bytes());
+  keepPeak(live_bytes_ += static_cast<int64_t>(raster->grid->bytes()));
   return raster;
+}
+
+void GridStore::keepPeak(int64_t bytes) {
+  Counter& peak = stats_.memoryBytes.grids;
+  for (int64_t seen = peak; bytes > seen && !peak.compare_exchange_weak(seen, bytes);) {
+  }
 }
 
 std::shared_ptr<const RasterGrid> GridStore::acquire(uint32_t i) {
@@ -48,7 +54,7 @@ void GridStore::release(uint32_t i) {
   Slot& slot = slots_[i];
   const std::lock_guard lock(slot.mutex);
   if (--slot.users > 0 || !slot.grid) return;
-  stats_.memoryBytes.grids -= static_cast<int64_t>(slot.grid->grid->bytes());
+  live_bytes_ -= static_cast<int64_t>(slot.grid->grid->bytes());
   slot.grid.reset();
 }
 

@@ -31,9 +31,11 @@ class GridStore {
     int users = 0;
   };
   std::shared_ptr<const RasterGrid> make(const SubPatch& piece);
+  void keepPeak(int64_t bytes);  ///< memory_bytes.grids is the most that was alive at once.
 
   std::vector<SubPatch> pieces_;
   std::vector<Slot> slots_;
+  Counter live_bytes_{0};
   const Scene& scene_;
   const Camera& camera_;
   const ShadingSystem& shading_;
