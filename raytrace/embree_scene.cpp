@@ -3,15 +3,26 @@
 #include <embree3/rtcore.h>
 
 #include <atomic>
-#include <cstring>
+#include <deque>
+#include <map>
+#include <tuple>
 
 #include "reyes/base/parallel.h"
 
 namespace tomales {
 namespace {
 
-struct GeometryInfo {
+/// The groups that rays treat alike share one Embree geometry: a geometry of its own for each would cost 65 kB, and a scene
+/// may have a group for every object.
+struct Geometry {
   bool opaque, flips;
+  std::vector<uint32_t> groupOfQuad;
+  const std::vector<uint32_t>* firstQuad;  ///< of each group, in its geometry
+
+  PolygonHit hit(float t, uint32_t primitive, float u, float v, bool leaving) const {
+    const uint32_t group = groupOfQuad[primitive];
+    return {t, group, primitive - (*firstQuad)[group], u, v, leaving};
+  }
 };
 
 /// What filters are given beside the hit. Embree hands back the address of its first member.
@@ -32,13 +43,9 @@ PolygonHit hitOf(const RTCFilterFunctionNArguments& args, const Traversal& trave
   const vec3 direction(RTCRayN_dir_x(args.ray, 1, 0), RTCRayN_dir_y(args.ray, 1, 0),
                        RTCRayN_dir_z(args.ray, 1, 0));
   const vec3 normal(RTCHitN_Ng_x(args.hit, 1, 0), RTCHitN_Ng_y(args.hit, 1, 0), RTCHitN_Ng_z(args.hit, 1, 0));
-  const bool flips = static_cast<const GeometryInfo*>(args.geometryUserPtr)->flips;
-  return {RTCRayN_tfar(args.ray, 1, 0) - traversal.shift,
-          RTCHitN_geomID(args.hit, 1, 0),
-          RTCHitN_primID(args.hit, 1, 0),
-          RTCHitN_u(args.hit, 1, 0),
-          RTCHitN_v(args.hit, 1, 0),
-          leaves(direction, normal, flips)};
+  const Geometry& geometry = *static_cast<const Geometry*>(args.geometryUserPtr);
+  return geometry.hit(RTCRayN_tfar(args.ray, 1, 0) - traversal.shift, RTCHitN_primID(args.hit, 1, 0),
+                      RTCHitN_u(args.hit, 1, 0), RTCHitN_v(args.hit, 1, 0), leaves(direction, normal, geometry.flips));
 }
 
 /// Records and rejects hits in the window, accepts those beyond.
@@ -55,7 +62,7 @@ void recordShadow(const RTCFilterFunctionNArguments* args) {
   if (!args->valid[0]) return;
   const PolygonHit hit = hitOf(*args, traversal);
   const bool counts = hit.t < traversal.tMax;
-  if (counts && hit.t > traversal.window && static_cast<const GeometryInfo*>(args->geometryUserPtr)->opaque)
+  if (counts && hit.t > traversal.window && static_cast<const Geometry*>(args->geometryUserPtr)->opaque)
     return;
   if (counts) traversal.list->push_back(hit);
   args->valid[0] = 0;
@@ -83,7 +90,8 @@ Traversal traversalOf(RTCFilterFunctionN filter, float shift, float window, floa
 
 struct EmbreeScene::Impl {
   std::atomic<int64_t> bytes{0};
-  std::vector<GeometryInfo> info;
+  std::vector<uint32_t> firstQuad;
+  std::deque<Geometry> geometries;  ///< By Embree's geomID; Embree keeps their addresses.
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
 
@@ -92,16 +100,29 @@ struct EmbreeScene::Impl {
     return true;
   }
 
-  void attach(unsigned id, const CoarseGroup& group, uint32_t mask) {
+  /// One geometry of the given groups. Embree pads the vertex buffer that it allocates, of which it reads 16 bytes at the last.
+  void attach(const std::vector<uint32_t>& members, const std::vector<CoarseGroup>& groups, uint32_t mask, bool opaque) {
+    size_t vertexCount = 0, quadCount = 0;
+    for (const uint32_t g : members) vertexCount += groups[g].P.size(), quadCount += groups[g].quads.size();
+    const auto id = static_cast<unsigned>(geometries.size());
+    Geometry& out = geometries.emplace_back(Geometry{opaque, groups[members.front()].flipsNormal, {}, &firstQuad});
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
-    // Embree reads 16 bytes at the last vertex too, so it gets a buffer of its own that it pads.
-    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                             sizeof(vec3), group.P.size());
-    if (vertices) std::memcpy(vertices, group.P.data(), group.P.size() * sizeof(vec3));
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, group.quads.data(), 0,
-                               sizeof(Quad), group.quads.size());
+    auto* vertices = static_cast<vec3*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), vertexCount));
+    auto* quads = static_cast<Quad*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, sizeof(Quad), quadCount));
+    uint32_t firstVertex = 0;
+    for (const uint32_t g : members) {
+      if (!vertices || !quads) break;  // out of memory: the device's error tells
+      firstQuad[g] = static_cast<uint32_t>(out.groupOfQuad.size());
+      out.groupOfQuad.insert(out.groupOfQuad.end(), groups[g].quads.size(), g);
+      vertices = std::copy(groups[g].P.begin(), groups[g].P.end(), vertices);
+      for (const Quad& q : groups[g].quads)
+        *quads++ = {q[0] + firstVertex, q[1] + firstVertex, q[2] + firstVertex, q[3] + firstVertex};
+      firstVertex += static_cast<uint32_t>(groups[g].P.size());
+    }
     rtcSetGeometryMask(geometry, mask);
-    rtcSetGeometryUserData(geometry, &info[id]);
+    rtcSetGeometryUserData(geometry, &out);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene, geometry, id);
     rtcReleaseGeometry(geometry);
@@ -114,12 +135,9 @@ struct EmbreeScene::Impl {
     rtcIntersect1(scene, &traversal.embree, &r);
     const float t = r.ray.tfar - shift;
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID || t >= ray.tMax) return false;
-    out = {t,
-           r.hit.geomID,
-           r.hit.primID,
-           r.hit.u,
-           r.hit.v,
-           leaves(ray.direction, {r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z}, info[r.hit.geomID].flips)};
+    const Geometry& geometry = geometries[r.hit.geomID];
+    out = geometry.hit(t, r.hit.primID, r.hit.u, r.hit.v,
+                       leaves(ray.direction, {r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z}, geometry.flips));
     return true;
   }
 };
@@ -132,9 +150,11 @@ EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const std::vect
   impl_->scene = rtcNewScene(impl_->device);
   rtcSetSceneFlags(impl_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
                                                             RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
-  for (size_t i = 0; i < groups.size(); ++i) impl_->info.push_back({opaque[i], groups[i].flipsNormal});
-  for (size_t i = 0; i < groups.size(); ++i)
-    if (!groups[i].quads.empty()) impl_->attach(static_cast<unsigned>(i), groups[i], masks[i]);
+  std::map<std::tuple<uint32_t, bool, bool>, std::vector<uint32_t>> alike;
+  for (uint32_t i = 0; i < groups.size(); ++i)
+    if (!groups[i].quads.empty()) alike[{masks[i], opaque[i], groups[i].flipsNormal}].push_back(i);
+  impl_->firstQuad.resize(groups.size());
+  for (const auto& [kind, members] : alike) impl_->attach(members, groups, std::get<0>(kind), std::get<1>(kind));
   // With several threads the order of primitives in a leaf, and with it which of two hits at equal t is found
   // first, would depend on their number.
   const ThreadLimit one(1);

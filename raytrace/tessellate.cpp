@@ -9,6 +9,7 @@ namespace tomales {
 namespace {
 
 constexpr float kPolygon_px = 8;
+constexpr float kLeastPolygon_px = 1.5f;  ///< No polygon is smaller for the sake of its turn: far objects need few.
 constexpr float kTurn = 15 * kPi / 180;        ///< Radians between the normals at the ends of a polygon.
 constexpr float kEmitterTurn = 5 * kPi / 180;  ///< Brings the area of a sphere light within 0.5 %.
 constexpr int kProbes = 5;                     ///< Odd, so that a symmetrical wave is not met at its zeros.
@@ -94,7 +95,9 @@ class Tessellator {
     const bool byPixels = displaced || mayBeSeen(o, patch, camera_);
     const float edge_px = kPolygon_px * std::sqrt(std::max(a.shadingRate, 1e-4f)) / fineness;
     const auto count = [&](const LineFigures& f) {
-      const double n = std::max(double{f.turn} / turn, byPixels ? double{f.length_px} / edge_px : 0.0);
+      double byTurn = double{f.turn} / turn;
+      if (a.areaLight < 0) byTurn = std::min(byTurn, double{f.length_px} / edge_px * (kPolygon_px / kLeastPolygon_px));
+      const double n = std::max(byTurn, byPixels ? double{f.length_px} / edge_px : 0.0);
       return std::isfinite(n) ? std::max(1.0, std::ceil(n)) : 1.0;
     };
     return limited(object, count(u), count(v));

@@ -3,8 +3,8 @@
 //   out    vertices in current space at shutter open, quads, and the way back from a quad to object, patch
 //   and (u,v) never  depends on threads: the order is that of objects and patches
 // Rate: polygons of about 8 pixels (x sqrt(ShadingRate) / trace:tessellation) where the camera can see the
-// object, and a turn of the normal of at most 15 degrees (/ trace:tessellation) everywhere; flat patches are
-// one exact quad.
+// object, and a turn of the normal of at most 15 degrees (/ trace:tessellation) everywhere, as long as
+// polygons are larger than 1.5 pixels; flat patches are one exact quad.
 #pragma once
 #include <array>
 
