@@ -7,12 +7,8 @@
 namespace tomales {
 namespace {
 using test::sceneOf;
+using test::sphere;
 using test::translation;
-
-PrimPtr sphere(float radius = 1) {
-  Problems problems;
-  return makeSphere(radius, -radius, radius, 360, {}, problems);
-}
 
 double area(const Grid& g) {
   double sum = 0;

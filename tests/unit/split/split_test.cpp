@@ -9,12 +9,9 @@
 namespace tomales {
 namespace {
 using test::sceneOf;
+using test::sphere;
 using test::translation;
 
-PrimPtr sphere(float radius = 1) {
-  Problems problems;
-  return makeSphere(radius, -radius, radius, 360, {}, problems);
-}
 PrimPtr quad(float size, float y) {
   Problems problems;
   Param P;

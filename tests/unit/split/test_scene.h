@@ -23,6 +23,11 @@ inline Scene sceneOf(std::vector<PrimPtr> prims, const mat4& cameraFromObject, f
   return scene;
 }
 
+inline PrimPtr sphere(float radius = 1) {
+  Problems problems;
+  return makeSphere(radius, -radius, radius, 360, {}, problems);
+}
+
 inline mat4 translation(const vec3& t) {
   mat4 m(1.0f);
   m[3] = vec4(t, 1);
