@@ -2,6 +2,8 @@
 set(THREADS_PREFER_PTHREAD_FLAG ON)
 find_package(Threads REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 find_package(glm REQUIRED)
 find_package(fmt 9 CONFIG REQUIRED)
 find_package(TBB 2021 CONFIG REQUIRED COMPONENTS tbb)

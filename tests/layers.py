@@ -28,6 +28,7 @@ THIRD_PARTY = {
     "tbb/": ["reyes/base/parallel.cpp"],
     "nlohmann/": ["reyes/app/"],
     "CLI/": ["reyes/app/"],
+    "zstd.h": ["reyes/base/chunk_file.cpp"],
     "zlib.h": ["reyes/rib/stream.cpp"],
 }
 

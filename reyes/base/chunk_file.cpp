@@ -1,0 +1,196 @@
+#include "reyes/base/chunk_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zstd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <utility>
+
+namespace tomales {
+namespace {
+
+constexpr uint32_t kByteOrder = 0x01020304;
+constexpr char kEnd[9] = "TOMALESX";
+constexpr int kCompression = 1;  // zstd's fastest gets most of what floats have to give
+constexpr uint64_t kMostChunkBytes = uint64_t{1} << 30;
+
+struct Preamble {
+  char kind[8];
+  uint32_t version, byteOrder;
+};
+struct Entry {
+  uint64_t offset;
+  uint32_t stored, size;
+};
+struct Footer {
+  Entry directory;
+  char end[8];
+};
+static_assert(sizeof(Preamble) == 16 && sizeof(Entry) == 16 && sizeof(Footer) == 24);
+
+}  // namespace
+
+struct ChunkWriter::Impl {
+  std::string path, temporary;
+  std::FILE* file = nullptr;
+  uint64_t offset = 0;
+  std::vector<Entry> entries;
+  Bytes packed;
+  std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> zstd{ZSTD_createCCtx(), &ZSTD_freeCCtx};
+
+  void write(const void* data, size_t size) {
+    if (std::fwrite(data, 1, size, file) != size) fail();
+    offset += size;
+  }
+  [[noreturn]] void fail() const {
+    throw FileError(fmt::format("\"{}\" cannot be written: {}", path, std::strerror(errno)));
+  }
+  /// Where the bytes went.
+  Entry writeFrame(std::span<const std::byte> bytes) {
+    if (bytes.size() > kMostChunkBytes) throw FileError(fmt::format("\"{}\": a chunk of {} bytes is too large", path, bytes.size()));
+    packed.resize(ZSTD_compressBound(bytes.size()));
+    ZSTD_CCtx_setParameter(zstd.get(), ZSTD_c_compressionLevel, kCompression);
+    ZSTD_CCtx_setParameter(zstd.get(), ZSTD_c_checksumFlag, 1);
+    const size_t stored = ZSTD_compress2(zstd.get(), packed.data(), packed.size(), bytes.data(), bytes.size());
+    if (ZSTD_isError(stored)) throw FileError(fmt::format("\"{}\" cannot be compressed: {}", path, ZSTD_getErrorName(stored)));
+    const Entry entry{offset, static_cast<uint32_t>(stored), static_cast<uint32_t>(bytes.size())};
+    write(packed.data(), stored);
+    return entry;
+  }
+};
+
+ChunkWriter::ChunkWriter(const std::string& path, const char (&kind)[9], uint32_t version) : impl_(new Impl) {
+  impl_->path = path;
+  impl_->temporary = fmt::format("{}.{}.part", path, ::getpid());
+  impl_->file = std::fopen(impl_->temporary.c_str(), "wb");
+  if (!impl_->file) impl_->fail();
+  Preamble preamble{{}, version, kByteOrder};
+  std::memcpy(preamble.kind, kind, sizeof preamble.kind);
+  impl_->write(&preamble, sizeof preamble);
+}
+
+ChunkWriter::ChunkWriter(ChunkWriter&&) noexcept = default;
+
+ChunkWriter::~ChunkWriter() {
+  if (!impl_ || !impl_->file) return;
+  std::fclose(impl_->file);
+  ::unlink(impl_->temporary.c_str());
+}
+
+uint32_t ChunkWriter::add(std::span<const std::byte> bytes) {
+  impl_->entries.push_back(impl_->writeFrame(bytes));
+  return count() - 1;
+}
+
+uint32_t ChunkWriter::count() const { return static_cast<uint32_t>(impl_->entries.size()); }
+
+void ChunkWriter::finish(std::span<const std::byte> header) {
+  Impl& w = *impl_;
+  w.entries.push_back(w.writeFrame(header));
+  Footer footer{w.writeFrame(std::as_bytes(std::span(w.entries))), {}};
+  std::memcpy(footer.end, kEnd, sizeof footer.end);
+  w.write(&footer, sizeof footer);
+  const bool flushed = std::fflush(w.file) == 0 && ::fsync(::fileno(w.file)) == 0;
+  const bool closed = std::fclose(std::exchange(w.file, nullptr)) == 0;
+  if (flushed && closed && std::rename(w.temporary.c_str(), w.path.c_str()) == 0) return;
+  const int error = errno;
+  ::unlink(w.temporary.c_str());
+  errno = error;
+  w.fail();
+}
+
+struct ChunkReader::Impl {
+  std::string path;
+  int file = -1;
+  uint64_t bytes = 0;
+  std::vector<Entry> entries;  ///< Without the header.
+  Bytes header;
+
+  ~Impl() {
+    if (file >= 0) ::close(file);
+  }
+  [[noreturn]] void fail(const std::string& problem) const { throw FileError(fmt::format("\"{}\" {}", path, problem)); }
+
+  void readAt(uint64_t offset, void* to, size_t size) const {
+    auto* out = static_cast<char*>(to);
+    while (size > 0) {
+      const ssize_t got = ::pread(file, out, size, static_cast<off_t>(offset));
+      if (got < 0 && errno == EINTR) continue;
+      if (got <= 0) fail("is truncated");
+      out += got, offset += static_cast<uint64_t>(got), size -= static_cast<size_t>(got);
+    }
+  }
+
+  Bytes unpack(const Entry& e) const {
+    if (e.offset > bytes || e.stored > bytes - e.offset || e.size > kMostChunkBytes) fail("is damaged: a chunk lies outside of it");
+    Bytes stored(e.stored), out(e.size);
+    readAt(e.offset, stored.data(), stored.size());
+    const size_t size = ZSTD_decompress(out.data(), out.size(), stored.data(), stored.size());
+    if (ZSTD_isError(size)) fail(fmt::format("is damaged: {}", ZSTD_getErrorName(size)));
+    if (size != e.size) fail("is damaged: a chunk is too short");
+    return out;
+  }
+
+  void readDirectory() {
+    Footer footer;
+    if (bytes < sizeof(Preamble) + sizeof(Footer)) fail("is truncated");
+    readAt(bytes - sizeof footer, &footer, sizeof footer);
+    if (std::memcmp(footer.end, kEnd, sizeof footer.end) != 0) fail("is truncated: its end is missing");
+    const Bytes directory = unpack(footer.directory);
+    if (directory.empty() || directory.size() % sizeof(Entry) != 0) fail("is damaged: its directory does not fit");
+    entries.resize(directory.size() / sizeof(Entry));
+    std::memcpy(entries.data(), directory.data(), directory.size());
+    header = unpack(entries.back());
+    entries.pop_back();
+  }
+};
+
+ChunkReader::ChunkReader(const std::string& path, const char (&kind)[9], uint32_t version) : impl_(new Impl) {
+  impl_->path = path;
+  impl_->file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  struct stat status;
+  if (impl_->file < 0 || ::fstat(impl_->file, &status) != 0) impl_->fail(fmt::format("cannot be read: {}", std::strerror(errno)));
+  if (!S_ISREG(status.st_mode)) impl_->fail("is not a file");
+  impl_->bytes = static_cast<uint64_t>(status.st_size);
+  Preamble preamble{};
+  if (impl_->bytes >= sizeof preamble) impl_->readAt(0, &preamble, sizeof preamble);
+  if (std::memcmp(preamble.kind, kind, sizeof preamble.kind) != 0) impl_->fail("is a file of another kind");
+  if (preamble.byteOrder != kByteOrder) impl_->fail("has another byte order");
+  if (preamble.version != version)
+    impl_->fail(fmt::format("has version {}; this program reads version {}", preamble.version, version));
+  impl_->readDirectory();
+}
+
+ChunkReader::~ChunkReader() = default;
+ChunkReader::ChunkReader(ChunkReader&&) noexcept = default;
+const std::string& ChunkReader::path() const { return impl_->path; }
+uint32_t ChunkReader::count() const { return static_cast<uint32_t>(impl_->entries.size()); }
+const Bytes& ChunkReader::header() const { return impl_->header; }
+uint64_t ChunkReader::fileBytes() const { return impl_->bytes; }
+
+Bytes ChunkReader::read(uint32_t chunk) const {
+  if (chunk >= count()) impl_->fail(fmt::format("has no chunk {}", chunk));
+  return impl_->unpack(impl_->entries[chunk]);
+}
+
+void ByteWriter::append(const void* data, size_t size) {
+  const size_t end = bytes.size();
+  bytes.resize(end + size);
+  if (size > 0) std::memcpy(bytes.data() + end, data, size);
+}
+
+void ByteReader::copyTo(void* to, size_t count, size_t size) {
+  if (count > bytes_.size() / size) fail();
+  if (count == 0) return;
+  std::memcpy(to, bytes_.data(), count * size);
+  bytes_ = bytes_.subspan(count * size);
+}
+
+void ByteReader::fail() const { throw FileError(fmt::format("\"{}\" is damaged: it ends too early", path_)); }
+
+}  // namespace tomales

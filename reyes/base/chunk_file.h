@@ -1,0 +1,119 @@
+// A file of numbered chunks that can be read one by one: point clouds, brick maps and whatever else is larger than memory.
+//   8 bytes    what is in it ("TMPOINTS"), 4 bytes version, 4 bytes 0x01020304 in the writer's byte order
+//   chunks     one after the other, each a zstd frame with its checksum
+//   header     one more chunk: what a reader needs to know first
+//   directory  8 bytes offset, 4 bytes stored size, 4 bytes size of every chunk, the header last; itself a zstd frame
+//   footer     8 bytes offset of the directory, 4 bytes its stored size, 4 bytes its size, "TOMALESX"
+// Numbers are little-endian. A file under its final name is whole: the writer works on a temporary one.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace tomales {
+
+/// Says in a sentence what is wrong with which file.
+struct FileError : std::runtime_error { using std::runtime_error::runtime_error; };
+
+using Bytes = std::vector<std::byte>;
+
+/// Threads: one writer is used by one thread.
+class ChunkWriter {
+ public:
+  /// `kind`: eight characters. Throws FileError.
+  ChunkWriter(const std::string& path, const char (&kind)[9], uint32_t version);
+  ~ChunkWriter();  ///< Removes what was not finished.
+  ChunkWriter(ChunkWriter&&) noexcept;
+
+  /// Returns the number of the chunk. Throws FileError (a full disk).
+  uint32_t add(std::span<const std::byte> bytes);
+  uint32_t count() const;
+  /// Writes the header and the directory, and gives the file its name. Throws FileError.
+  void finish(std::span<const std::byte> header);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Threads: const members may be called concurrently.
+class ChunkReader {
+ public:
+  /// Throws FileError: missing, foreign, another version, truncated, or damaged.
+  ChunkReader(const std::string& path, const char (&kind)[9], uint32_t version);
+  ~ChunkReader();
+  ChunkReader(ChunkReader&&) noexcept;
+
+  const std::string& path() const;
+  uint32_t count() const;             ///< Of chunks, without the header.
+  const Bytes& header() const;
+  Bytes read(uint32_t chunk) const;   ///< Throws FileError.
+  uint64_t fileBytes() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Plain values and arrays, one after the other.
+class ByteWriter {
+ public:
+  template <class T>
+  void put(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    append(&value, sizeof(T));
+  }
+  template <class T>
+  void put(const std::vector<T>& values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    put(static_cast<uint64_t>(values.size()));
+    append(values.data(), sizeof(T) * values.size());
+  }
+  void put(const std::string& text) {
+    put(static_cast<uint64_t>(text.size()));
+    append(text.data(), text.size());
+  }
+
+  Bytes bytes;
+
+ private:
+  void append(const void* data, size_t size);
+};
+
+/// Reads what ByteWriter wrote; throws FileError where it ends too early.
+class ByteReader {
+ public:
+  ByteReader(std::span<const std::byte> bytes, std::string path) : bytes_(bytes), path_(std::move(path)) {}
+
+  template <class T>
+  T get() {
+    static_assert(std::is_trivially_copyable_v<T>);
+    T value;
+    copyTo(&value, 1, sizeof(T));
+    return value;
+  }
+  template <class T>
+  std::vector<T> getVector() {
+    const auto count = get<uint64_t>();
+    if (count > bytes_.size() / sizeof(T)) fail();
+    std::vector<T> values(static_cast<size_t>(count));
+    copyTo(values.data(), values.size(), sizeof(T));
+    return values;
+  }
+  std::string getString() {
+    const std::vector<char> text = getVector<char>();
+    return {text.begin(), text.end()};
+  }
+
+ private:
+  void copyTo(void* to, size_t count, size_t size);
+  [[noreturn]] void fail() const;
+  std::span<const std::byte> bytes_;
+  std::string path_;
+};
+
+}  // namespace tomales
