@@ -201,30 +201,47 @@ PatchSize measure(const Object& o, const Camera& camera, uint32_t patch, const U
   return size;
 }
 
-std::vector<SubPatch> splitScene(const Scene& scene, const Camera& camera, const PixelRect& window, Stats& stats, Log& log) {
-  struct Work { int object; uint32_t first, last; };
-  constexpr uint32_t kPatchesAtOnce = 64;
-  std::vector<Work> work;
-  for (size_t i = 0; i < scene.objects.size(); ++i) {
-    const Object& o = scene.objects[i];
-    if (!o.attributes->visibility.camera) continue;
-    ++stats.geometry.primitives;
-    const uint32_t patches = o.shape().patchCount();
-    for (uint32_t p = 0; p < patches; p += kPatchesAtOnce)
-      work.push_back({static_cast<int>(i), p, std::min(p + kPatchesAtOnce, patches)});
-  }
-  std::vector<std::vector<SubPatch>> pieces(work.size());
-  parallelFor(work.size(), 1, [&](size_t begin, size_t end) {
-    for (size_t w = begin; w < end; ++w) {
-      Splitter splitter(scene, work[w].object, camera, window, stats);
-      for (uint32_t p = work[w].first; p < work[w].last; ++p) splitter.splitPatch(p, pieces[w]);
-      report(splitter.givenUp(), scene.objects[static_cast<size_t>(work[w].object)], stats, log);
+std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
+                                  float margin, const Camera& camera, const PixelRect& window) {
+  Bound3 bound;
+  for (const float t : keyTimes) bound.extend(transformBound(cameraFromObject.at(t), box));
+  bound = bound.grown(margin);
+  const Placement anywhere{{{window.x0, window.y0}, {window.x1, window.y1}}, -kInfinity};
+  if (!isFinite(bound.lo) || !isFinite(bound.hi)) return anywhere;  // one bad patch must not take its neighbours along
+  if (camera.outside(bound, window)) return std::nullopt;
+  Placement out{{}, bound.lo.z};
+  if (!camera.rasterBound(bound, out.raster)) out.raster = anywhere.raster;
+  out.raster.lo -= vec2(kRasterMargin_px);
+  out.raster.hi += vec2(kRasterMargin_px);
+  return out;
+}
+
+std::vector<SubPatch> splitPatches(const Scene& scene, int object, uint32_t first, uint32_t last, const Camera& camera,
+                                   const PixelRect& window, Stats& stats, Log& log) {
+  std::vector<SubPatch> pieces;
+  Splitter splitter(scene, object, camera, window, stats);
+  for (uint32_t p = first; p < last; ++p) splitter.splitPatch(p, pieces);
+  report(splitter.givenUp(), scene.objects[static_cast<size_t>(object)], stats, log);
+  stats.geometry.subpatches += static_cast<int64_t>(pieces.size());
+  return pieces;
+}
+
+PatchTree::PatchTree(const std::vector<PrimPtr>& shapes) : patchCount_(shapes.front()->patchCount()) {
+  std::vector<Bound3> boxes((patchCount_ + kLeaf - 1) / kLeaf);
+  parallelFor(boxes.size(), 1, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const auto first = static_cast<uint32_t>(i) * kLeaf;
+      for (uint32_t p = first; p < std::min(first + kLeaf, patchCount_); ++p)
+        for (const PrimPtr& shape : shapes) boxes[i].extend(shape->bound(p, UvRect{}));
     }
   });
-  std::vector<SubPatch> all;
-  for (auto& p : pieces) all.insert(all.end(), p.begin(), p.end());
-  stats.geometry.subpatches += static_cast<int64_t>(all.size());
-  return all;
+  levels_.push_back(std::move(boxes));
+  while (levels_.back().size() > 1) {
+    const std::vector<Bound3>& below = levels_.back();
+    std::vector<Bound3> above((below.size() + kFan - 1) / kFan);
+    for (size_t i = 0; i < below.size(); ++i) above[i / kFan].extend(below[i]);
+    levels_.push_back(std::move(above));
+  }
 }
 
 }  // namespace tomales

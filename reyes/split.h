@@ -1,7 +1,10 @@
 // Verb: Scene -> sub-patches small enough to dice, each with its raster bound. Bound, cull, judge, halve; a piece that
-// crosses the eye plane is halved until its parts lie on one side. One pass over the whole frame; depends on the camera
-// and on ShadingRate, never on buckets, crop or threads.
+// crosses the eye plane is halved until its parts lie on one side. Depends on the camera and on ShadingRate, never on
+// buckets, crop or threads.
+// Threads: pure but for the counters and the log.
 #pragma once
+#include <optional>
+
 #include "reyes/base/stats.h"
 #include "reyes/scene.h"
 
@@ -17,8 +20,38 @@ struct SubPatch {
   float zMin;       ///< Nearest camera z, likewise.
 };
 
-/// `window`: raster pixels that have samples; what lies wholly outside is culled. Order: by object, then by place.
-std::vector<SubPatch> splitScene(const Scene& scene, const Camera& camera, const PixelRect& window, Stats& stats, Log& log);
+/// Where something may be seen, over the shutter, displacement and defocus included.
+struct Placement {
+  Bound2 raster;
+  float zMin;  ///< Camera space.
+};
+
+/// Of a box in the space of `cameraFromObject`, at `keyTimes`, that displacement may leave by `margin` (camera space).
+/// `window`: raster pixels that have samples. Nothing: no point of it can be seen there.
+std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
+                                  float margin, const Camera& camera, const PixelRect& window);
+
+/// Splits patches first .. last-1 of an object; what lies wholly outside the window is culled. Order: by patch, then by
+/// place.
+std::vector<SubPatch> splitPatches(const Scene& scene, int object, uint32_t first, uint32_t last, const Camera& camera,
+                                   const PixelRect& window, Stats& stats, Log& log);
+
+/// Boxes in object space of all that an object's shapes are over time, by runs of patches: level 0 has a box for each run of
+/// kLeaf patches, a level above one for kFan boxes below, the last a single one. Instances share it.
+class PatchTree {
+ public:
+  static constexpr uint32_t kLeaf = 64, kFan = 16;
+  explicit PatchTree(const std::vector<PrimPtr>& shapes);
+
+  uint32_t top() const { return static_cast<uint32_t>(levels_.size()) - 1; }
+  uint32_t count(uint32_t level) const { return static_cast<uint32_t>(levels_[level].size()); }
+  const Bound3& box(uint32_t level, uint32_t index) const { return levels_[level][index]; }
+  uint32_t patchCount() const { return patchCount_; }
+
+ private:
+  uint32_t patchCount_;
+  std::vector<std::vector<Bound3>> levels_;
+};
 
 /// Lengths in camera space of a rectangle's longest u and v lines, and the raster lengths when the camera sees it:
 /// what dicing and ray tessellation choose their rates from.

@@ -2,6 +2,7 @@
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 
@@ -37,14 +38,16 @@ void parallelFor(size_t count, size_t grain, const std::function<void(size_t, si
   const size_t chunks = (count + grain - 1) / grain;
   [[maybe_unused]] char start, end;
   TOMALES_TSAN(__tsan_release(&start));
-  tbb::parallel_for(
-      size_t{0}, chunks,
-      [&](size_t c) {
-        TOMALES_TSAN(__tsan_acquire(&start));
-        body(c * grain, std::min(count, (c + 1) * grain));
-        TOMALES_TSAN(__tsan_release(&end));
-      },
-      tbb::simple_partitioner());
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(
+        size_t{0}, chunks,
+        [&](size_t c) {
+          TOMALES_TSAN(__tsan_acquire(&start));
+          body(c * grain, std::min(count, (c + 1) * grain));
+          TOMALES_TSAN(__tsan_release(&end));
+        },
+        tbb::simple_partitioner());
+  });
   TOMALES_TSAN(__tsan_acquire(&end));
 }
 

@@ -8,7 +8,8 @@
 namespace tomales {
 
 /// Calls body(begin, end) over [0, count) in chunks of at most `grain`, on all threads of the pool.
-/// The chunks are [k*grain, (k+1)*grain): they never depend on the number of threads.
+/// The chunks are [k*grain, (k+1)*grain): they never depend on the number of threads. While it waits, the caller takes
+/// up chunks of this loop alone, so that it may hold a lock that other loops ask for.
 void parallelFor(size_t count, size_t grain, const std::function<void(size_t begin, size_t end)>& body);
 
 /// Limits the pool for as long as it lives. 0: as many as the machine has.

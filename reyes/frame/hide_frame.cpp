@@ -1,6 +1,6 @@
 #include "reyes/base/parallel.h"
 #include "reyes/frame.h"
-#include "reyes/frame/grid_store.h"
+#include "reyes/frame/hide_node.h"
 #include "reyes/frame/sampling.h"
 
 namespace tomales {
@@ -30,44 +30,16 @@ DeepFrame layOut(const Scene& scene, const Camera& camera) {
   return frame;
 }
 
-/// For every bucket, the pieces whose raster bound touches it, nearest first.
-std::vector<std::vector<uint32_t>> sortIntoBuckets(const DeepFrame& frame, GridStore& store) {
-  std::vector<std::vector<uint32_t>> buckets(frame.tiles.size());
-  const auto index = [](float raster, int origin, int size, int count) {
-    const float i = std::floor((raster - static_cast<float>(origin)) / static_cast<float>(size));
-    return static_cast<int>(std::clamp(i, 0.0f, static_cast<float>(count - 1)));
-  };
-  for (uint32_t i = 0; i < store.size(); ++i) {
-    const Bound2& b = store.piece(i).raster;
-    if (b.hi.x < static_cast<float>(frame.padded.x0) || b.hi.y < static_cast<float>(frame.padded.y0) ||
-        b.lo.x > static_cast<float>(frame.padded.x1) || b.lo.y > static_cast<float>(frame.padded.y1))
-      continue;
-    const int c0 = index(b.lo.x, frame.padded.x0, frame.bucketWidth, frame.columns);
-    const int c1 = index(b.hi.x, frame.padded.x0, frame.bucketWidth, frame.columns);
-    const int r0 = index(b.lo.y, frame.padded.y0, frame.bucketHeight, frame.rows);
-    const int r1 = index(b.hi.y, frame.padded.y0, frame.bucketHeight, frame.rows);
-    for (int r = r0; r <= r1; ++r)
-      for (int c = c0; c <= c1; ++c) {
-        buckets[static_cast<size_t>(r * frame.columns + c)].push_back(i);
-        store.addUser(i);
-      }
-  }
-  for (auto& bucket : buckets)
-    std::stable_sort(bucket.begin(), bucket.end(),
-                     [&](uint32_t a, uint32_t b) { return store.piece(a).zMin < store.piece(b).zMin; });
-  return buckets;
-}
-
-DeepTile hideBucket(const PixelRect& rect, const std::vector<uint32_t>& pieces, GridStore& store, const Scene& scene,
-                    const Camera& camera, const SamplePattern& pattern) {
-  Hider hider(scene, camera, pattern, rect);
-  for (const uint32_t i : pieces) {
-    const SubPatch& piece = store.piece(i);
-    if (!hider.hidden(piece.raster, piece.zMin))
-      if (const auto grid = store.acquire(i)) hider.insert(grid);
-    store.release(i);
-  }
-  return hider.resolve();
+DeepTile hideBucket(size_t bucket, const PixelRect& rect, const NodeList& nodes, const HideContext& context,
+                    const SamplePattern& pattern) {
+  Hider hider(context.scene, context.camera, pattern, rect);
+  NodeQueue queue;
+  for (HideNode* node : nodes.in(bucket)) queue.push(node);
+  while (HideNode* node = queue.pop())
+    if (!hider.hidden(node->raster(), node->zMin())) node->visit(bucket, queue, hider);
+  DeepTile tile = hider.resolve();
+  for (HideNode* node : nodes.in(bucket)) node->release(bucket);
+  return tile;
 }
 
 }  // namespace
@@ -81,8 +53,9 @@ DeepFrame hideFrame(const Scene& scene, const ShadingSystem& shading, const Fram
   const SamplePattern pattern = samplePattern(scene.options, control.seed);
   frame.samplesPerPixel = pattern.count();
 
-  GridStore store(splitScene(scene, camera, frame.padded, stats, log), scene, camera, shading, stats, log);
-  const auto buckets = sortIntoBuckets(frame, store);
+  const BucketGrid buckets(frame);
+  HideContext context{scene, camera, shading, buckets, stats, log};
+  const NodeList nodes(nodesOfScene(context), buckets.all(), buckets);
   std::atomic<size_t> done{0};
   std::atomic<bool> skipped{false};
   parallelFor(frame.tiles.size(), 1, [&](size_t begin, size_t end) {
@@ -94,7 +67,7 @@ DeepFrame hideFrame(const Scene& scene, const ShadingSystem& shading, const Fram
         tile.pixels.resize(static_cast<size_t>(rect.width() * rect.height()));
         continue;
       }
-      tile = hideBucket(rect, buckets[i], store, scene, camera, pattern);
+      tile = hideBucket(i, rect, nodes, context, pattern);
       stats.geometry.micropolygonsVisible += static_cast<int64_t>(tile.facets.size());
       stats.memoryBytes.deepFrame += static_cast<int64_t>(tile.bytes());
       if (control.progress) control.progress(static_cast<float>(++done) / static_cast<float>(frame.tiles.size()));

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "reyes/base/parallel.h"
 #include "reyes/dice.h"
 #include "tests/unit/split/test_scene.h"
 
@@ -19,10 +18,19 @@ PrimPtr quad(float size, float y) {
   P.floats = {-size, y, -size, size, y, -size, -size, y, size, size, y, size};
   return makeBilinearPatchMesh(2, false, 2, false, {P}, problems);
 }
+std::vector<SubPatch> split(const Scene& scene, Stats& stats, Log& log) {
+  const Camera camera(scene.options);
+  std::vector<SubPatch> all;
+  for (int o = 0; o < static_cast<int>(scene.objects.size()); ++o) {
+    const uint32_t patches = scene.objects[static_cast<size_t>(o)].shape().patchCount();
+    const auto pieces = splitPatches(scene, o, 0, patches, camera, camera.crop(), stats, log);
+    all.insert(all.end(), pieces.begin(), pieces.end());
+  }
+  return all;
+}
 std::vector<SubPatch> split(const Scene& scene, Stats& stats) {
   Log log(Log::Verbosity::Quiet);
-  const Camera camera(scene.options);
-  return splitScene(scene, camera, camera.crop(), stats, log);
+  return split(scene, stats, log);
 }
 
 TEST(Split, PiecesOfAPatchCoverItOnceWhenAllOfItIsInView) {
@@ -157,12 +165,11 @@ TEST(Split, AHugeDisplacementBoundLosesNothing) {
 
 TEST(Split, WhatFloatsCannotResolveEndsAndIsReportedForItsObjectAlone) {
   Scene scene = sceneOf({sphere(1e30f), sphere(0.5f)}, translation({0, 0, 4}), 1, 64);
-  const Camera camera(scene.options);
   const auto file = std::make_shared<const std::string>("huge.rib");
   scene.objects[0].where = {file, 1}, scene.objects[1].where = {file, 2};
   Stats stats;
   Log log(Log::Verbosity::Quiet);
-  const auto pieces = splitScene(scene, camera, camera.crop(), stats, log);
+  const auto pieces = split(scene, stats, log);
   EXPECT_TRUE(std::any_of(pieces.begin(), pieces.end(), [](const SubPatch& p) { return p.object == 1; }));
   ASSERT_FALSE(log.entries().empty());
   for (const LogEntry& e : log.entries()) EXPECT_EQ(e.where.line, 1) << e.message;
@@ -174,16 +181,10 @@ TEST(Split, WhatLiesBehindTheEyeOrOutsideTheWindowIsCulled) {
   EXPECT_TRUE(split(sceneOf({sphere()}, translation({20, 0, 4})), stats).empty());
 }
 
-TEST(Split, DoesNotDependOnThreadsOrCrop) {
+TEST(Split, DoesNotDependOnTheCrop) {
   Scene scene = sceneOf({sphere(), quad(3, -0.7f), sphere(0.3f)}, translation({0, 0, 4}));
   Stats stats;
   const auto whole = split(scene, stats);
-  {
-    const ThreadLimit one(1);
-    const auto again = split(scene, stats);
-    ASSERT_EQ(whole.size(), again.size());
-    for (size_t i = 0; i < whole.size(); ++i) EXPECT_EQ(whole[i].rect.u0, again[i].rect.u0);
-  }
   scene.options.cropWindow = {0.4f, 0.6f, 0.4f, 0.6f};
   const auto cropped = split(scene, stats);
   EXPECT_LT(cropped.size(), whole.size());
@@ -191,6 +192,41 @@ TEST(Split, DoesNotDependOnThreadsOrCrop) {
     EXPECT_TRUE(std::any_of(whole.begin(), whole.end(), [&](const SubPatch& w) {
       return w.object == c.object && w.rect.u0 == c.rect.u0 && w.rect.u1 == c.rect.u1 && w.rect.v0 == c.rect.v0 && w.nu == c.nu && w.nv == c.nv;
     }));
+}
+
+TEST(PatchTree, BoxesOfEveryLevelHoldThePatchesBelow) {
+  std::vector<Param> params(1);
+  params[0].name = "P", params[0].type = ValueType::Point, params[0].storage = Storage::Vertex;
+  const int n = 61;  // 3600 patches: 57 leaves, 4 boxes of leaves, 1.
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i)
+      for (const float x : {static_cast<float>(i), static_cast<float>(j), static_cast<float>(i * j % 7)})
+        params[0].floats.push_back(x);
+  Problems problems;
+  const PrimPtr mesh = makeBilinearPatchMesh(n, false, n, false, params, problems);
+  const PatchTree tree({mesh});
+  ASSERT_EQ(tree.top(), 2u);
+  EXPECT_EQ(tree.count(0), 57u);
+  EXPECT_EQ(tree.count(2), 1u);
+  const auto holds = [](const Bound3& out, const Bound3& in) {
+    return glm::all(glm::lessThanEqual(out.lo, in.lo)) && glm::all(glm::greaterThanEqual(out.hi, in.hi));
+  };
+  for (uint32_t p = 0; p < tree.patchCount(); ++p)
+    for (uint32_t level = 0, index = p / PatchTree::kLeaf; level <= tree.top(); ++level, index /= PatchTree::kFan)
+      EXPECT_TRUE(holds(tree.box(level, index), mesh->bound(p, UvRect{})));
+}
+
+TEST(PlaceBox, ACrossedEyePlaneIsTheWholeWindowAndWhatIsBehindIsNowhere) {
+  const Scene scene = sceneOf({sphere()}, mat4(1.0f));
+  const Camera camera(scene.options);
+  const auto place = [&](float z) {
+    return placeBox({vec3(-1), vec3(1)}, Motion::still(translation({0, 0, z})), {0.0f}, 0, camera, camera.crop());
+  };
+  EXPECT_FALSE(place(-3).has_value());
+  ASSERT_TRUE(place(0).has_value());
+  EXPECT_LE(place(0)->raster.lo.x, 0);
+  EXPECT_GE(place(0)->raster.hi.y, 128);
+  EXPECT_FLOAT_EQ(place(5)->zMin, 4);
 }
 
 }  // namespace

@@ -1,0 +1,94 @@
+// What a bucket meets on its way from the nearest to the farthest: geometry that is opened into smaller nodes by the first
+// bucket that does not hide it (an object, a run of its patches), and pieces, which are diced instead. Each is dropped when
+// the last bucket that its bound touches is done, whether or not that bucket ever saw it (docs/decisions/0008).
+// Threads: visit and release of different buckets are concurrent.
+#pragma once
+#include <mutex>
+#include <queue>
+
+#include "reyes/frame/bucket_grid.h"
+#include "reyes/hide.h"
+#include "reyes/shade.h"
+#include "reyes/split.h"
+
+namespace tomales {
+
+/// Shared by all nodes of a frame, which it outlives.
+struct HideContext {
+  const Scene& scene;
+  const Camera& camera;
+  const ShadingSystem& shading;
+  const BucketGrid& buckets;
+  Stats& stats;
+  Log& log;
+  Counter liveGrids_bytes{0};
+};
+
+class NodeQueue;
+
+class HideNode {
+ public:
+  HideNode(const Placement& place, const BucketRange& range) : place_(place), range_(range) {}
+  virtual ~HideNode() = default;
+  HideNode(const HideNode&) = delete;
+
+  const Bound2& raster() const { return place_.raster; }
+  float zMin() const { return place_.zMin; }
+  const BucketRange& range() const { return range_; }
+
+  /// For a bucket in range() that does not hide it: puts what it is made of into the queue or the hider.
+  virtual void visit(size_t bucket, NodeQueue& queue, Hider& hider) = 0;
+  /// The bucket is resolved. Once for every bucket in range().
+  virtual void release(size_t bucket) = 0;
+
+ private:
+  Placement place_;
+  BucketRange range_;
+};
+using HideNodes = std::vector<std::unique_ptr<HideNode>>;
+
+/// Nearest first; among equals, in the order of arrival.
+class NodeQueue {
+ public:
+  void push(HideNode* node) { queue_.push({node->zMin(), next_++, node}); }
+  HideNode* pop() {
+    if (queue_.empty()) return nullptr;
+    HideNode* node = queue_.top().node;
+    queue_.pop();
+    return node;
+  }
+
+ private:
+  struct Entry {
+    float zMin;
+    uint32_t order;
+    HideNode* node;
+    bool operator<(const Entry& o) const { return zMin != o.zMin ? zMin > o.zMin : order > o.order; }
+  };
+  std::priority_queue<Entry> queue_;
+  uint32_t next_ = 0;
+};
+
+/// Nodes, and for every bucket of a range those that touch it.
+class NodeList {
+ public:
+  NodeList(HideNodes nodes, const BucketRange& range, const BucketGrid& buckets);
+  const std::vector<HideNode*>& in(size_t bucket) const { return lists_[indexOf(bucket)]; }
+
+ private:
+  size_t indexOf(size_t bucket) const {
+    return static_cast<size_t>((buckets_.row(bucket) - range_.r0) * range_.columns() + buckets_.column(bucket) - range_.c0);
+  }
+  const HideNodes nodes_;
+  const BucketRange range_;
+  const BucketGrid& buckets_;
+  std::vector<std::vector<HideNode*>> lists_;
+};
+
+/// A node for every object that the camera may see.
+HideNodes nodesOfScene(HideContext& context);
+
+/// The most that was alive at once.
+void keepPeak(Counter& peak, int64_t now);
+
+}  // namespace tomales
