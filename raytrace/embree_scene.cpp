@@ -18,6 +18,7 @@ struct Geometry {
   bool opaque, flips;
   std::vector<uint32_t> groupOfQuad;
   const std::vector<uint32_t>* firstQuad;  ///< of each group, in its geometry
+  const std::vector<CoarseGroup>* groups;
 
   PolygonHit hit(float t, uint32_t primitive, float u, float v, bool leaving) const {
     const uint32_t group = groupOfQuad[primitive];
@@ -68,6 +69,15 @@ void recordShadow(const RTCFilterFunctionNArguments* args) {
   args->valid[0] = 0;
 }
 
+/// Rejects hits that trim curves have cut away. Embree asks it before the filters of a traversal.
+void rejectTrimmed(const RTCFilterFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  const Geometry& geometry = *static_cast<const Geometry*>(args->geometryUserPtr);
+  const PolygonHit hit =
+      geometry.hit(0, RTCHitN_primID(args->hit, 1, 0), RTCHitN_u(args->hit, 1, 0), RTCHitN_v(args->hit, 1, 0), false);
+  if (!(*geometry.groups)[hit.group].keeps(hit.quad, hit.u, hit.v)) args->valid[0] = 0;
+}
+
 /// Embree takes no negative tnear: the ray starts `shift` before its origin.
 RTCRay rayFrom(const Ray& ray, float shift, float tNear, uint32_t mask) {
   const vec3 origin = ray.origin - shift * ray.direction;
@@ -105,7 +115,7 @@ struct EmbreeScene::Impl {
     size_t vertexCount = 0, quadCount = 0;
     for (const uint32_t g : members) vertexCount += groups[g].P.size(), quadCount += groups[g].quads.size();
     const auto id = static_cast<unsigned>(geometries.size());
-    Geometry& out = geometries.emplace_back(Geometry{opaque, groups[members.front()].flipsNormal, {}, &firstQuad});
+    Geometry& out = geometries.emplace_back(Geometry{opaque, groups[members.front()].flipsNormal, {}, &firstQuad, &groups});
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
     auto* vertices = static_cast<vec3*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), vertexCount));
@@ -123,6 +133,10 @@ struct EmbreeScene::Impl {
     }
     rtcSetGeometryMask(geometry, mask);
     rtcSetGeometryUserData(geometry, &out);
+    if (groups[members.front()].trimmed) {
+      rtcSetGeometryIntersectFilterFunction(geometry, rejectTrimmed);
+      rtcSetGeometryOccludedFilterFunction(geometry, rejectTrimmed);
+    }
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene, geometry, id);
     rtcReleaseGeometry(geometry);
@@ -150,9 +164,9 @@ EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const std::vect
   impl_->scene = rtcNewScene(impl_->device);
   rtcSetSceneFlags(impl_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
                                                             RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
-  std::map<std::tuple<uint32_t, bool, bool>, std::vector<uint32_t>> alike;
+  std::map<std::tuple<uint32_t, bool, bool, bool>, std::vector<uint32_t>> alike;
   for (uint32_t i = 0; i < groups.size(); ++i)
-    if (!groups[i].quads.empty()) alike[{masks[i], opaque[i], groups[i].flipsNormal}].push_back(i);
+    if (!groups[i].quads.empty()) alike[{masks[i], opaque[i], groups[i].flipsNormal, groups[i].trimmed}].push_back(i);
   impl_->firstQuad.resize(groups.size());
   for (const auto& [kind, members] : alike) impl_->attach(members, groups, std::get<0>(kind), std::get<1>(kind));
   // With several threads the order of primitives in a leaf, and with it which of two hits at equal t is found

@@ -62,7 +62,8 @@ bool Emitters::sample(int light, int count, const float* xi0, const float* xi1, 
     vec3 p, normal;
     bilinear(g, quad, static_cast<float>(u), static_cast<float>(v), p, normal);
     const double quadArea = source.row[row].sums[column + 1] - source.row[row].sums[column];
-    area[i] = quadArea > 0 ? static_cast<float>(double{glm::length(normal)} * l.areas.total() / quadArea) : 0.0f;
+    area[i] = quadArea > 0 && g.keeps(quad, static_cast<float>(u), static_cast<float>(v))
+                  ? static_cast<float>(double{glm::length(normal)} * l.areas.total() / quadArea) : 0.0f;
     normal = normalizeOr(g.flipsNormal ? -normal : normal, g.geometricNormal(quad));
     P.x[i] = p.x, P.y[i] = p.y, P.z[i] = p.z;
     N.x[i] = normal.x, N.y[i] = normal.y, N.z[i] = normal.z;

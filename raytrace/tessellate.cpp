@@ -116,6 +116,9 @@ class Tessellator {
 
   /// Dices at twice the rate: every second vertex is a corner, the others say how far the polygons are off.
   void addTile(int object, uint32_t patch, const UvRect& rect, int nu, int nv, CoarseGroup& out) const {
+    const Prim& prim = objectOf(object).shape();
+    const Kept keptOfTile = prim.kept(patch, rect);
+    if (keptOfTile == Kept::None) return;
     Grid g = dice(scene_, object, patch, rect, 2 * nu, 2 * nv, 1);
     if (displacesForRays(objectOf(object))) shading_.displace(g);
     for (int i = 0; i < g.vertexCount(); ++i)
@@ -133,15 +136,29 @@ class Tessellator {
         out.N.push_back(normalizeOr(g.normal(k), vec3(0)));
       }
     out.lattices.push_back({object, patch, rect, static_cast<uint32_t>(nu), static_cast<uint32_t>(nv),
-                            static_cast<uint32_t>(out.quads.size())});
+                            static_cast<uint32_t>(out.quads.size()),
+                            keptOfTile == Kept::All ? nullptr : &prim});
+    out.trimmed |= keptOfTile != Kept::All;
     const auto row = static_cast<uint32_t>(nu + 1);
     for (int j = 0; j < nv; ++j)
       for (int i = 0; i < nu; ++i) {
         const uint32_t a = first + static_cast<uint32_t>(j) * row + static_cast<uint32_t>(i);
-        out.quads.push_back({a, a + 1, a + row + 1, a + row});
         out.latticeOfQuad.push_back(static_cast<uint32_t>(out.lattices.size() - 1));
+        if (!leavesQuad(g, 2 * i, 2 * j)) {
+          out.quads.push_back({a, a, a, a});  // Without area, neither rays nor light know it.
+          continue;
+        }
+        out.quads.push_back({a, a + 1, a + row + 1, a + row});
         out.deviation = std::max(out.deviation, deviationOf(g, 2 * i, 2 * j));
       }
+  }
+
+  /// Do trim curves leave some of the polygon whose first cell is (i, j)?
+  static bool leavesQuad(const Grid& g, int i, int j) {
+    const auto gone = [&](int du, int dv) {
+      return g.kept[static_cast<size_t>((j + dv) * g.nu + i + du)] == Kept::None;
+    };
+    return g.kept.empty() || !(gone(0, 0) && gone(1, 0) && gone(0, 1) && gone(1, 1));
   }
 
   /// Distance of the centre and the middles of the edges from the polygon with corner (i, j), across its
@@ -176,6 +193,7 @@ void append(CoarseGroup& to, const CoarseGroup& from) {
     l.firstQuad += quad;
     to.lattices.push_back(l);
   }
+  to.trimmed |= from.trimmed;
   to.deviation = std::max(to.deviation, from.deviation);
 }
 

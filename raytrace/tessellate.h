@@ -19,6 +19,7 @@ struct Lattice {
   UvRect rect;
   uint32_t nu = 1, nv = 1;
   uint32_t firstQuad = 0;
+  const Prim* trim = nullptr;  ///< Asked what trim curves leave; null: nothing is cut.
 };
 
 /// Corners (0,0), (1,0), (1,1), (0,1) of the quad's own unit square.
@@ -30,6 +31,7 @@ struct CoarseGroup {
   std::vector<Quad> quads;
   std::vector<uint32_t> latticeOfQuad;
   std::vector<Lattice> lattices;
+  bool trimmed = false;      ///< Trim curves cut some quad.
   bool flipsNormal = false;  ///< The RISpec side is opposite to dP/du x dP/dv.
   float deviation =
       0;           ///< Largest distance between a coarse polygon and the micropolygons that stand for it.
@@ -39,6 +41,12 @@ struct CoarseGroup {
   vec3 geometricNormal(uint32_t quad) const;  ///< RISpec side, unit length.
   const Lattice& latticeOf(uint32_t quad) const { return lattices[latticeOfQuad[quad]]; }
   vec2 patchParameters(uint32_t quad, float u, float v) const;
+  /// Do trim curves leave this point of a quad?
+  bool keeps(uint32_t quad, float u, float v) const {
+    const Lattice& l = latticeOf(quad);
+    const vec2 at = l.trim ? patchParameters(quad, u, v) : vec2(0);
+    return !l.trim || l.trim->keeps(l.patch, at.x, at.y);
+  }
   size_t bytes() const;
 };
 

@@ -75,6 +75,18 @@ uint8_t openEdgesOf(const PatchInfo& info, const UvRect& r) {
   return static_cast<uint8_t>(touched & info.openEdges);
 }
 
+/// Each cell with some of its surroundings: the hider asks for points a little way off a cell (hide/trim.cpp).
+std::vector<Kept> keptOfCells(const Prim& prim, const Grid& g) {
+  if (prim.kept(g.patch, g.rect) == Kept::All) return {};
+  constexpr float kMargin = 0.25f;
+  std::vector<Kept> out(static_cast<size_t>(g.cellCount()));
+  for (int cell = 0; cell < g.cellCount(); ++cell) {
+    const vec2 lo = g.onPatch(cell, vec2(-kMargin)), hi = g.onPatch(cell, vec2(1 + kMargin));
+    out[static_cast<size_t>(cell)] = prim.kept(g.patch, {lo.x, hi.x, lo.y, hi.y});
+  }
+  return out;
+}
+
 /// Offset of the primvar `name` among the group's floats, or -1.
 int offsetOf(const std::vector<Primvar>& primvars, std::string_view name) {
   int offset = 0;
@@ -98,6 +110,7 @@ Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, in
   g.allocate(nu, nv, keys, floats);
   g.openEdges = openEdgesOf(prim.info(patch), rect);
   g.name = nameOf(object, patch, rect, nu, nv);
+  g.kept = keptOfCells(prim, g);
 
   const int n = g.vertexCount();
   AlignedVector<float> u(static_cast<size_t>(g.stride())), v(u.size());

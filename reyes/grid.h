@@ -15,6 +15,7 @@ struct Grid {
   int keyCount = 1;         ///< Motion keys of P (times: Object::keyTimes).
   uint8_t openEdges = 0;    ///< PatchEdge bits: edges of the grid that end the surface; the rest join a neighbour.
   bool displaced = false;
+  std::vector<Kept> kept;   ///< What trim curves leave of each cell and its surroundings; empty: everything.
   uint32_t name = 0;        ///< Stable name of the grid for random numbers.
 
   int vertexCount() const { return (nu + 1) * (nv + 1); }
@@ -33,6 +34,11 @@ struct Grid {
   float* primvar(int offset) { return at(keyCount * 3 + 5 + offset); }
   const float* primvar(int offset) const { return at(keyCount * 3 + 5 + offset); }
 
+  /// Position on the patch of a point of a cell, given in the cell's own (u,v), 0..1.
+  vec2 onPatch(int cell, const vec2& at) const {
+    return {lerp(rect.u0, rect.u1, (static_cast<float>(cell % nu) + at.x) / static_cast<float>(nu)),
+            lerp(rect.v0, rect.v1, (static_cast<float>(cell / nu) + at.y) / static_cast<float>(nv))};
+  }
   vec3 position(int key, int vertex) const { return {P(key, 0)[vertex], P(key, 1)[vertex], P(key, 2)[vertex]}; }
   vec3 normal(int vertex) const { return {N(0)[vertex], N(1)[vertex], N(2)[vertex]}; }
 

@@ -42,6 +42,8 @@ struct RasterGrid {
                                 ///< across the end; borders pushed out.
   float dMin = 0;
   Bound2 bound;                 ///< Over the shutter and the lens.
+  const Prim* trim = nullptr;   ///< Asked what trim curves leave of Grid::kept cells; null: nothing is cut.
+  float trimReach_px = 0;       ///< What is left reaches this much farther, to meet what a neighbour leaves.
 };
 /// Pre: every vertex lies in front of the eye.
 std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene, const Camera& camera, bool opaque);

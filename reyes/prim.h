@@ -4,6 +4,7 @@
 //   bound     a box that contains a rectangle of a patch
 //   evaluate  positions and derivatives at any points of a patch: dicing a lattice and shading a ray hit are one call
 //   facing    shapes that are drawn flat towards the eye, turned towards one
+//   kept      what trim curves leave
 //   never     knows a camera, an attribute or a shader
 // Space: everything is in object space. Threads: const members may be called concurrently.
 #pragma once
@@ -26,6 +27,9 @@ struct PatchInfo {
   bool planar = false;            ///< Flat, with straight edges: two triangles are exact.
   uint8_t openEdges = kAllEdges;  ///< Edges that end the surface; the others have a neighbour to join without cracks.
 };
+
+/// How much of something trim curves leave.
+enum class Kept : uint8_t { All, Part, None };
 
 /// What evaluate() fills: structure of arrays, each at least n long.
 struct SurfacePoints {
@@ -69,6 +73,11 @@ class Prim {
   virtual std::shared_ptr<const Prim> facing(const vec3& /*eye*/, const vec3& /*forward*/, bool /*perspective*/) const {
     return nullptr;
   }
+
+  /// What trim curves leave of a rectangle, which may reach beyond the patch; `Part` if in doubt.
+  virtual Kept kept(uint32_t /*patch*/, const UvRect& /*rect*/) const { return Kept::All; }
+  /// Do trim curves leave this point?
+  virtual bool keeps(uint32_t /*patch*/, float /*u*/, float /*v*/) const { return true; }
 
   /// Those other than P, in a fixed order. "st" arrives split into "s" and "t".
   const std::vector<Primvar>& primvars() const { return primvars_; }
@@ -122,9 +131,22 @@ struct NurbsDirection {
   int controls, order;
   std::vector<float> knots;
   float min, max;
+  bool operator==(const NurbsDirection&) const = default;
+};
+/// A rational B-spline curve in the parameter plane of a NuPatch; `controls` are (u w, v w, w), with weights above zero.
+struct TrimCurve {
+  NurbsDirection line;
+  std::vector<vec3> controls;
+  bool operator==(const TrimCurve&) const = default;
+};
+/// Loops of curves that follow each other. A point is inside if a ray from it crosses them an odd number of times.
+struct TrimLoops {
+  std::vector<std::vector<TrimCurve>> loops;
+  bool keepsInside = false;  ///< Else the inside is cut away.
+  bool operator==(const TrimLoops&) const = default;
 };
 /// Positions are "P", or "Pw" with weights above zero. Orders 2 to 32. u,v run from 0 to 1 over min..max.
-PrimPtr makeNuPatch(const NurbsDirection& u, const NurbsDirection& v, const ParamList&, Problems&);
+PrimPtr makeNuPatch(const NurbsDirection& u, const NurbsDirection& v, const TrimLoops&, const ParamList&, Problems&);
 
 /// Disks: round, as wide as "constantwidth" or "width" says (1 if absent), facing "N" or else the eye. One patch each.
 PrimPtr makePoints(const ParamList&, Problems&);

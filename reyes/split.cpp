@@ -87,7 +87,8 @@ class Splitter {
       return;
     }
     const Bound3 bare = cameraBound(object_, patch, rect), bound = bare.grown(object_.displacementBound);
-    if (!isFinite(bound.lo) || !isFinite(bound.hi) || camera_.outside(bound, window_)) {
+    if (!isFinite(bound.lo) || !isFinite(bound.hi) || camera_.outside(bound, window_) ||
+        object_.shape().kept(patch, rect) == Kept::None) {
       ++stats_.geometry.culled;
       return;
     }

@@ -3,8 +3,7 @@
 namespace tomales {
 namespace {
 
-/// (u,v) of a point in triangle p q r whose corners have parameters at[0..2]; outside, the nearest is up to
-/// the caller.
+/// (u,v) of a point in triangle p q r whose corners have parameters at[0..2].
 vec2 inTriangle(const vec2 p[3], const vec2 at[3], const vec2& x) {
   const vec2 e = p[1] - p[0], f = p[2] - p[0], g = x - p[0];
   const float area = e.x * f.y - e.y * f.x;
@@ -36,7 +35,7 @@ vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cel
   const vec2 dcb[3] = {pd, pc, pb}, dcbUv[3] = {{1, 1}, {0, 1}, {1, 0}};
   vec2 uv = inTriangle(abc, abcUv, sample.at);
   if (uv.x + uv.y > 1) uv = inTriangle(dcb, dcbUv, sample.at);
-  return glm::clamp(uv, vec2(0), vec2(1));
+  return uv;
 }
 
 }  // namespace tomales

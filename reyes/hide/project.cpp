@@ -8,6 +8,7 @@ namespace {
 // A neighbour with edges twice as long has four times the sagitta of ours.
 constexpr float kReach = 4;
 constexpr float kMinReach_px = 2 / kLattice;
+constexpr float kTrimReach = 2;  // The reach is tried along x and y only, and trim curves run aslant.
 
 /// One border of a grid as vertex indices: first + k * step for k in 0..count; the inner neighbour is
 /// `inward` away.
@@ -28,6 +29,28 @@ float sagitta_px(const Grid& g, const float* x, const float* y, const Border& b,
   const int w = b.first;
   const vec3 turn = normalizeOr(g.normal(v), vec3(0)) - normalizeOr(g.normal(w), vec3(0));
   return glm::length(vec2(x[v] - x[w], y[v] - y[w])) * glm::length(turn) / 8;
+}
+
+float deviationAlong(const Grid& g, const float* x, const float* y, const Border& line) {
+  float most = 0;
+  for (int k = 0; k <= line.count; ++k) most = std::max(most, sagitta_px(g, x, y, line, k));
+  return most;
+}
+
+/// How far the surface's points may lie from where the grid's cells put them, in pixels: the sagitta along u and v, and
+/// the fold of a twisted cell.
+float deviation_px(const Grid& g, const float* x, const float* y) {
+  const int row = g.nu + 1;
+  float most = 0;
+  for (int j = 0; j <= g.nv; ++j)
+    most = std::max(most, deviationAlong(g, x, y, {kEdgeV0, j * row, 1, row, g.nu}));
+  for (int i = 0; i <= g.nu; ++i) most = std::max(most, deviationAlong(g, x, y, {kEdgeU0, i, row, 1, g.nv}));
+  for (int j = 0; j < g.nv; ++j)
+    for (int i = 0; i < g.nu; ++i) {
+      const int a = j * row + i, b = a + 1, c = a + row, d = c + 1;
+      most = std::max(most, glm::length(vec2(x[a] - x[b] - x[c] + x[d], y[a] - y[b] - y[c] + y[d])) / 4);
+    }
+  return most;
 }
 
 void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, std::vector<vec2>& push) {
@@ -66,6 +89,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
   r->matte = attributes.matte;
   r->sides = attributes.sides;
   r->smooth = attributes.interpolation == ShadingInterpolation::Smooth;
+  if (!g.kept.empty()) r->trim = &scene.objects[static_cast<size_t>(g.object)].shape();
   // The tail lets blocks of micropolygons be read across the end.
   const size_t stride = static_cast<size_t>(g.stride()),
                size = stride * static_cast<size_t>(g.keyCount) + 2 * kLanes;
@@ -79,6 +103,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
       const vec2 at = camera.raster(p);
       x[v] = at.x, y[v] = at.y, d[v] = camera.depthKey(p.z);
     }
+    if (r->trim) r->trimReach_px = std::max(r->trimReach_px, kMinReach_px + kTrimReach * deviation_px(g, x, y));
     pushBorders(g, x, y);
     for (int v = 0; v < g.vertexCount(); ++v) {
       x[v] = snapToLattice(x[v]), y[v] = snapToLattice(y[v]);
@@ -89,6 +114,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
       r->dMin = std::min(r->dMin, d[v]);
     }
   }
+  r->trimReach_px = std::min(r->trimReach_px, kMaxReach_px);
   return r;
 }
 

@@ -123,11 +123,14 @@ TOMALES_HOT void rasterizeStill(const RasterJob& job) {
       if (u == g.nu) continue;
       if (!(q.xMin[i] < right && q.xMax[i] >= left && q.yMin[i] < bottom && q.yMax[i] >= top)) continue;
       if (r.sides == 1 && turnedAway(job, a)) continue;
+      const Kept kept = keptOf(job, a / row * g.nu + u);
+      if (kept == Kept::None) continue;
       const uint32_t cell = job.firstCell + static_cast<uint32_t>(a / row * g.nu + u);
       forPixels(job, {q.xMin[i], q.yMin[i]}, {q.xMax[i], q.yMax[i]}, q.dMin[i], cell,
                 [&](int x, int y, size_t at, LaneDepths& hit) TOMALES_KERNEL {
                   cover(q, i, static_cast<float>(x), static_cast<float>(y), job.out.x + at, job.out.y + at,
                         hit);
+                  if (kept == Kept::Part) cutAway(job, cell, x, y, at, hit);
                 });
     }
   }

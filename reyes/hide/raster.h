@@ -85,6 +85,13 @@ TOMALES_KERNEL inline bool merge(const RasterJob& job, const LaneDepths& hit, si
   return true;
 }
 
+/// Takes away what trim curves cut from a cell: hits of samples from `lane` on in the pattern of pixel (x, y).
+void cutAway(const RasterJob& job, uint32_t cell, int x, int y, size_t lane, LaneDepths& hit);
+/// What trim curves leave of a cell of the job's grid.
+inline Kept keptOf(const RasterJob& job, int cell) {
+  return job.raster.trim ? job.raster.grid->kept[static_cast<size_t>(cell)] : Kept::All;
+}
+
 /// Integers in the order of floats, and back: the maximum of integers is a vector reduction without
 /// fast-math.
 inline int32_t ordered(float f) {

@@ -117,11 +117,15 @@ TOMALES_KERNEL inline void rasterizeBetween(const RasterJob& job, int key, const
   for (int cell = 0; cell < g.cellCount(); ++cell) {
     const int a = cell / g.nu * (g.nu + 1) + cell % g.nu;
     if (r.sides == 1 && turnedAway(job, a)) continue;
+    const Kept kept = keptOf(job, cell);
+    if (kept == Kept::None) continue;
     const BlurredQuad<B> q(r, job.camera, key, a);
     forPixels(job, q.lo, q.hi, q.dMin, job.firstCell + static_cast<uint32_t>(cell),
               [&](int x, int y, size_t at, LaneDepths& hit) TOMALES_KERNEL {
                 coverBlurred(q, when, job.camera, job.out, static_cast<float>(x), static_cast<float>(y), at,
                              hit);
+                if (kept == Kept::Part)
+                  cutAway(job, job.firstCell + static_cast<uint32_t>(cell), x, y, at, hit);
               });
   }
 }

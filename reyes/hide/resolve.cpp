@@ -101,7 +101,7 @@ class TileBuilder {
       const SamplePoint sample{corner + vec2(samples_.x[s], samples_.y[s]),
                                samples_.time[s],
                                {samples_.lensX[s], samples_.lensY[s]}};
-      sum += positionOnCell(entry, camera_, cell, sample);
+      sum += glm::clamp(positionOnCell(entry, camera_, cell, sample), vec2(0), vec2(1));
     }
     const vec2 mean = sum * (255.0f / static_cast<float>(std::popcount(fragment.samples)));
     fragment.u = static_cast<uint8_t>(std::lround(mean.x)),

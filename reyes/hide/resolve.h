@@ -12,7 +12,7 @@ struct SamplePoint {
   float time;
   vec2 lens;
 };
-/// Where on a cell (its own (u,v), 0..1) a sample meets it.
+/// Where on a cell (its own (u,v), 0..1) a sample meets it; beyond, where it meets the plane of one of its triangles.
 vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
 
 }  // namespace tomales

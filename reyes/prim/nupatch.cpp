@@ -1,9 +1,12 @@
 // Non-uniform rational B-spline surfaces (RISpec section 5.2): one patch a pair of knot intervals.
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "reyes/prim/interpolation.h"
 #include "reyes/prim/nurbs.h"
 #include "reyes/prim/primvars.h"
+#include "reyes/prim/trim_region.h"
 
 namespace tomales {
 namespace {
@@ -41,8 +44,11 @@ PrimvarCounts countsOf(const Side& u, const Side& v) {
 
 class NuPatch : public Prim {
  public:
-  NuPatch(Side u, Side v, const ParamList& params, Problems& problems)
-      : Prim(takePrimvars(params, countsOf(u, v), problems)), u_(std::move(u)), v_(std::move(v)) {
+  NuPatch(Side u, Side v, std::optional<TrimRegion> trim, const ParamList& params, Problems& problems)
+      : Prim(takePrimvars(params, countsOf(u, v), problems)),
+        u_(std::move(u)),
+        v_(std::move(v)),
+        trim_(std::move(trim)) {
     controls_ = takeHomogeneous(params, static_cast<size_t>(u_.controls) * static_cast<size_t>(v_.controls));
     for (uint32_t patch = 0; patch < patchCount(); ++patch)
       convert(
@@ -75,6 +81,15 @@ class NuPatch : public Prim {
                          float* sv) const override {
     for (int k = 0; k < n; ++k)
       su[k] = u_.parameter(column(patch), u[k]), sv[k] = v_.parameter(row(patch), v[k]);
+  }
+
+  Kept kept(uint32_t patch, const UvRect& r) const override {
+    if (!trim_) return Kept::All;
+    return trim_->kept({u_.parameter(column(patch), r.u0), v_.parameter(row(patch), r.v0)},
+                       {u_.parameter(column(patch), r.u1), v_.parameter(row(patch), r.v1)});
+  }
+  bool keeps(uint32_t patch, float u, float v) const override {
+    return !trim_ || trim_->keeps({u_.parameter(column(patch), u), v_.parameter(row(patch), v)});
   }
 
   void interpolate(uint32_t patch, int index, int n, const float* u, const float* v, float* out,
@@ -207,6 +222,7 @@ class NuPatch : public Prim {
   }
 
   const Side u_, v_;
+  const std::optional<TrimRegion> trim_;
   std::vector<vec4> controls_;
   std::vector<vec4> nets_;  // Bezier controls, patch by patch
   vec3 extent_;
@@ -214,9 +230,20 @@ class NuPatch : public Prim {
 
 }  // namespace
 
-PrimPtr makeNuPatch(const NurbsDirection& u, const NurbsDirection& v, const ParamList& params,
-                    Problems& problems) {
-  return std::make_shared<NuPatch>(makeSide(u, "u", problems), makeSide(v, "v", problems), params, problems);
+PrimPtr makeNuPatch(const NurbsDirection& u, const NurbsDirection& v, const TrimLoops& trim,
+                    const ParamList& params, Problems& problems) {
+  Side uSide = makeSide(u, "u", problems), vSide = makeSide(v, "v", problems);
+  std::optional<TrimRegion> region;
+  if (!trim.loops.empty()) {
+    const vec2 begin(uSide.spans.front().begin, vSide.spans.front().begin);
+    const vec2 end(uSide.spans.back().end, vSide.spans.back().end);
+    try {
+      region.emplace(trim, begin, end, problems);
+    } catch (const PrimError& e) {
+      problems.push_back(fmt::format("it is not trimmed: {}", e.what()));
+    }
+  }
+  return std::make_shared<NuPatch>(std::move(uSide), std::move(vSide), std::move(region), params, problems);
 }
 
 }  // namespace tomales

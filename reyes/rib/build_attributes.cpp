@@ -85,6 +85,12 @@ void basis(GraphicsState& s, const Request& r) {
   read(r.args[2], r.args[3], s.scope.vBasis);
 }
 
+// It names the side that is cut away.
+void trimSense(GraphicsState& s, const Request& r, const std::string& sense) {
+  if (sense != "inside" && sense != "outside") return reject(s, r, "the sense of trim curves is \"inside\" or \"outside\"");
+  s.scope.trim = std::make_shared<TrimLoops>(TrimLoops{s.scope.trim->loops, sense == "outside"});
+}
+
 vec3 color(const Param& p) {
   return p.floats.size() == 3 ? vec3(p.floats[0], p.floats[1], p.floats[2]) : vec3(1);
 }
@@ -139,6 +145,8 @@ void attribute(GraphicsState& s, const Request& r) {
       reject(s, r, "\"" + key + "\" has no value");
     } else if (const auto it = setters.find(key); it != setters.end()) {
       it->second(s.scope.edit(), p);
+    } else if (key == "trimcurve:sense") {
+      trimSense(s, r, text ? p.strings[0] : "");
     } else if (key == "light:shadows") {
       s.scope.lightsCastShadows = text ? p.strings[0] == "on" : p.number(0) != 0;
     } else {
@@ -173,6 +181,7 @@ const HandlerTable& attributeHandlers() {
          a.insideOut = !a.insideOut;
        }},
       {"Basis", basis},
+      {"TrimCurve", trimCurve},
       {"Bound", acceptHint},
       {"Detail", acceptHint},
   };

@@ -12,8 +12,8 @@ NurbsDirection nurbsDirection(const Request& r, size_t first) {
 
 }  // namespace
 
-PrimPtr nuPatch(const Request& r, const Scope&, Problems& problems) {
-  return makeNuPatch(nurbsDirection(r, 0), nurbsDirection(r, 5), r.params, problems);
+PrimPtr nuPatch(const Request& r, const Scope& s, Problems& problems) {
+  return makeNuPatch(nurbsDirection(r, 0), nurbsDirection(r, 5), *s.trim, r.params, problems);
 }
 
 PrimPtr points(const Request& r, const Scope&, Problems& problems) { return makePoints(r.params, problems); }

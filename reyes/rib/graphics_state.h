@@ -14,6 +14,7 @@ struct Scope {
   std::shared_ptr<Attributes> attributes = std::make_shared<Attributes>();
   Motion ctm;
   Basis uBasis = bezierBasis(), vBasis = bezierBasis();
+  std::shared_ptr<const TrimLoops> trim = std::make_shared<TrimLoops>();  ///< Attribute "trimcurve" is part of it.
   bool lightsCastShadows = false;  ///< Attribute "light" "shadows": for lights that are made here.
   std::map<std::string, Motion> coordinateSystems;  ///< ScopedCoordinateSystem
 
@@ -26,7 +27,8 @@ struct Master {
   struct Shapes {
     std::vector<PrimPtr> keys;
     std::vector<float> times;
-    Basis uBasis, vBasis;  ///< Those that it was built with; the others see the values of the request only.
+    Basis uBasis, vBasis;
+    std::shared_ptr<const TrimLoops> trim;  ///< Those that it was built with; the others see the values of the request only.
   };
   std::vector<Request> requests;
   std::map<size_t, Shapes> shapes;  ///< By index of the request.

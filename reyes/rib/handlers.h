@@ -27,6 +27,9 @@ void applyTransformation(GraphicsState& state, const std::vector<const Request*>
 bool isGeometry(std::string_view name);
 PrimPtr buildPrim(const Request& request, const Scope& scope, Problems& problems);
 
+/// TrimCurve: the loops that cut the NuPatches after it, none if it is empty.
+void trimCurve(GraphicsState& state, const Request& request);
+
 // Shared by the handlers.
 inline vec3 asVec3(const RibArg& a, size_t at = 0) {
   return {a.numbers[at], a.numbers[at + 1], a.numbers[at + 2]};

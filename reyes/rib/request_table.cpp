@@ -138,7 +138,7 @@ constexpr Signature kTable[] = {
     {"SubdivisionMesh", "sFF?SFFF", kParams, kWorks},
     {"HierarchicalSubdivisionMesh", "sFF?SFFFS", kParams, kGeometry},
     {"NuPatch", "ffFffffFff", kParams, kWorks},
-    {"TrimCurve", "FFFFFFFFF", kNone, kNotYet},
+    {"TrimCurve", "FFFFFFFFF", kNone, kWorks},
     {"Points", "", kParams, kWorks},
     {"Curves", "sFs", kParams, kWorks},
     {"Blobby", "fFFS", kParams, kGeometry},

@@ -1,64 +1,9 @@
 // Closed bodies in front of nothing: a sample inside the silhouette that sees nothing looks through a crack.
-#include <gtest/gtest.h>
-
-#include <bit>
-
-#include "reyes/frame.h"
-#include "reyes/rib.h"
-
-extern const TmShaderLibrary* tomales_builtin_shaders(void);
+#include "tests/unit/frame/hidden_body.h"
 
 namespace tomales {
 namespace {
-
-DeepFrame hide(const std::string& body, const std::string& options = {}) {
-  Log log(Log::Verbosity::Quiet);
-  Stats stats;
-  std::vector<Scene> scenes;
-  RibSettings settings;
-  settings.onScene = [&](Scene&& s) { scenes.push_back(std::move(s)); };
-  readRibText(
-      "Format 128 128 1 PixelSamples 6 6 PixelFilter \"box\" 1 1 Projection \"perspective\" \"fov\" 40 "
-      "Clipping 0.1 100 " +
-          options + " Translate 0 0 3.2 Rotate 25 1 0.3 0.1 WorldBegin " + body + " WorldEnd",
-      "crack.rib", settings, log);
-  ShaderRegistry registry(log);
-  registry.addLibrary(tomales_builtin_shaders(), "built-in");
-  const ShadingSystem shading(scenes.at(0), registry, nullptr, log, stats);
-  DeepFrame frame = hideFrame(scenes[0], shading, {}, stats, log);
-  for (const LogEntry& e : log.entries()) ADD_FAILURE() << e.code;
-  return frame;
-}
-
-int covered(const DeepFrame& frame, int x, int y) {
-  const DeepTile& tile = frame.tileAt(x, y);
-  const DeepPixel& p = tile.pixel(x, y);
-  int n = 0;
-  for (uint32_t k = 0; k < p.count; ++k) n += std::popcount(tile.fragments[p.first + k].samples);
-  return n;
-}
-
-struct Holes {
-  int inside_px = 0, samples = 0;
-};
-
-/// A pixel lies inside the silhouette if all within `margin` pixels of it are at least half covered: where
-/// blur spreads the silhouette by that much to either side, coverage is whole again.
-Holes holes(const DeepFrame& frame, int margin = 2) {
-  Holes found;
-  const PixelRect& r = frame.crop;
-  const auto inside = [&](int x, int y) {
-    for (int dy = -margin; dy <= margin; ++dy)
-      for (int dx = -margin; dx <= margin; ++dx)
-        if (!r.contains(x + dx, y + dy) || 2 * covered(frame, x + dx, y + dy) < frame.samplesPerPixel)
-          return false;
-    return true;
-  };
-  for (int y = r.y0; y < r.y1; ++y)
-    for (int x = r.x0; x < r.x1; ++x)
-      if (inside(x, y)) ++found.inside_px, found.samples += frame.samplesPerPixel - covered(frame, x, y);
-  return found;
-}
+using namespace test;
 
 constexpr const char* kSphere = "Sphere 1 -1 1 360";
 constexpr const char* kTorus = "Torus 0.75 0.3 0 360 360";

@@ -26,11 +26,12 @@ std::vector<float> randomControls(int nu, int nv) {
 struct Surface {
   NurbsDirection u, v;
   std::vector<float> pw;
+  TrimLoops trim{};
   PrimPtr make(ParamList more = {}) const {
     Problems problems;
     ParamList params = rationalControls(pw);
     params.insert(params.end(), more.begin(), more.end());
-    const PrimPtr prim = makeNuPatch(u, v, params, problems);
+    const PrimPtr prim = makeNuPatch(u, v, trim, params, problems);
     EXPECT_TRUE(problems.empty());
     return prim;
   }
@@ -221,7 +222,7 @@ TEST(NastyNuPatch, WrongInputThrowsASentence) {
   const ParamList square = {positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0})};
   Problems problems;
   const auto errorWith = [&](const NurbsDirection& u, const ParamList& params) {
-    return errorOf([&] { makeNuPatch(u, good, params, problems); });
+    return errorOf([&] { makeNuPatch(u, good, {}, params, problems); });
   };
   EXPECT_EQ(errorWith(good, square), "");
   EXPECT_EQ(errorWith({2, 2, {0, 0, 1}, 0, 1}, square),
@@ -245,7 +246,7 @@ TEST(NastyNuPatch, AJumpAtAFullKnotIsOpenAndARangeTooLongIsCut) {
   const NurbsDirection jump{4, 2, {0, 0, 1, 1, 2, 2}, 0, 9}, v{2, 2, {0, 0, 1, 1}, 0, 1};
   Problems problems;
   const PrimPtr prim = makeNuPatch(
-      jump, v, {positions({0, 0, 0, 1, 0, 0, 5, 0, 0, 6, 0, 0, 0, 1, 0, 1, 1, 0, 5, 1, 0, 6, 1, 0})},
+      jump, v, {}, {positions({0, 0, 0, 1, 0, 0, 5, 0, 0, 6, 0, 0, 0, 1, 0, 1, 1, 0, 5, 1, 0, 6, 1, 0})},
       problems);
   EXPECT_EQ(problems.size(), 1u);
   ASSERT_EQ(prim->patchCount(), 2u);

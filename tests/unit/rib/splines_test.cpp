@@ -36,6 +36,40 @@ TEST(Geometry, NuPatchThatIsNoneIsDroppedByName) {
   EXPECT_TRUE(r.scene().objects.empty());
 }
 
+constexpr const char* kTriangleTrim = "TrimCurve [1] [2] [0 0 1 2 3 3] [0] [3] [4] [0.2 0.8 0.8 0.2] [0.2 0.2 0.8 0.2] [1 1 1 1]\n";
+constexpr const char* kUnitNuPatch = "NuPatch 2 2 [0 0 1 1] 0 1 2 2 [0 0 1 1] 0 1 \"P\" [0 0 0 1 0 0 0 1 0 1 1 0]\n";
+
+TEST(Geometry, TrimCurvesBelongToTheAttributesAndTheirSenseIsTheSideCutAway) {
+  const std::string trim = kTriangleTrim, patch = kUnitNuPatch;
+  const Reading r(inWorld("AttributeBegin " + trim + patch + "Attribute \"trimcurve\" \"sense\" [\"outside\"] " + patch +
+                          "AttributeEnd " + patch + trim + "TrimCurve [] [] [] [] [] [] [] [] []" + patch));
+  EXPECT_EQ(r.codes(), "");
+  ASSERT_EQ(r.scene().objects.size(), 4u);
+  const bool inside[4] = {false, true, true, true}, outside[4] = {true, false, true, true};
+  for (size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(r.object(i).shape().keeps(0, 0.6f, 0.4f), inside[i]) << i;
+    EXPECT_EQ(r.object(i).shape().keeps(0, 0.4f, 0.6f), outside[i]) << i;
+  }
+}
+
+TEST(Geometry, InstancesAreTrimmedByTheCurvesAroundThem) {
+  const std::string trim = kTriangleTrim, patch = kUnitNuPatch;
+  const Reading r(inWorld("ObjectBegin \"a\" " + patch + "ObjectEnd ObjectInstance \"a\" " + trim + "ObjectInstance \"a\""));
+  ASSERT_EQ(r.scene().objects.size(), 2u);
+  EXPECT_TRUE(r.object(0).shape().keeps(0, 0.6f, 0.4f));
+  EXPECT_FALSE(r.object(1).shape().keeps(0, 0.6f, 0.4f));
+}
+
+TEST(Geometry, TrimCurvesWhoseArraysDoNotAgreeAreLeftOutWithAWarning) {
+  const std::string patch = kUnitNuPatch;
+  const Reading r(inWorld("TrimCurve [1] [2] [0 0 1 2 3 3] [0] [3] [4] [0.2 0.8] [0.2 0.2 0.8 0.2] [1 1 1 1]\n" + patch +
+                          "TrimCurve [-1] [2] [] [] [] [] [] [] []\nTrimCurve [1] [2] [] [] [] [1e9] [] [] []\n"
+                          "Attribute \"trimcurve\" \"sense\" [\"both\"]\n"));
+  EXPECT_EQ(r.log.count("rib-trim"), 3);
+  EXPECT_EQ(r.log.count("rib-attribute"), 1);
+  EXPECT_TRUE(r.object(0).shape().keeps(0, 0.6f, 0.4f));
+}
+
 TEST(Geometry, CubicCurvesTakeTheBasisOfV) {
   const Reading r(
       inWorld("Basis \"bezier\" 3 \"b-spline\" 1\n"

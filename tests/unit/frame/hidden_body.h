@@ -1,0 +1,66 @@
+// Bodies in front of nothing, hidden: which samples see something.
+#pragma once
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "reyes/frame.h"
+#include "reyes/rib.h"
+
+extern const TmShaderLibrary* tomales_builtin_shaders(void);
+
+namespace tomales::test {
+
+// Sides 1: else what shows through a crack is the far side of the body, not the background.
+constexpr const char* kSeenAskew = "Sides 1 Translate 0 0 3.2 Rotate 25 1 0.3 0.1 ";
+
+inline DeepFrame hide(const std::string& body, const std::string& options = {}, const std::string& placed = kSeenAskew) {
+  Log log(Log::Verbosity::Quiet);
+  Stats stats;
+  std::vector<Scene> scenes;
+  RibSettings settings;
+  settings.onScene = [&](Scene&& s) { scenes.push_back(std::move(s)); };
+  readRibText(
+      "Format 128 128 1 PixelSamples 6 6 PixelFilter \"box\" 1 1 Projection \"perspective\" \"fov\" 40 "
+      "Clipping 0.1 100 " +
+          options + " " + placed + "WorldBegin " + body + " WorldEnd",
+      "body.rib", settings, log);
+  ShaderRegistry registry(log);
+  registry.addLibrary(tomales_builtin_shaders(), "built-in");
+  const ShadingSystem shading(scenes.at(0), registry, nullptr, log, stats);
+  DeepFrame frame = hideFrame(scenes[0], shading, {}, stats, log);
+  for (const LogEntry& e : log.entries()) ADD_FAILURE() << e.code << ": " << e.message;
+  return frame;
+}
+
+inline int covered(const DeepFrame& frame, int x, int y) {
+  const DeepTile& tile = frame.tileAt(x, y);
+  const DeepPixel& p = tile.pixel(x, y);
+  int n = 0;
+  for (uint32_t k = 0; k < p.count; ++k) n += std::popcount(tile.fragments[p.first + k].samples);
+  return n;
+}
+
+struct Holes {
+  int inside_px = 0, samples = 0;
+};
+
+/// A pixel lies inside the silhouette if all within `margin` pixels of it are at least half covered: where
+/// blur spreads the silhouette by that much to either side, coverage is whole again.
+inline Holes holes(const DeepFrame& frame, int margin = 2) {
+  Holes found;
+  const PixelRect& r = frame.crop;
+  const auto inside = [&](int x, int y) {
+    for (int dy = -margin; dy <= margin; ++dy)
+      for (int dx = -margin; dx <= margin; ++dx)
+        if (!r.contains(x + dx, y + dy) || 2 * covered(frame, x + dx, y + dy) < frame.samplesPerPixel)
+          return false;
+    return true;
+  };
+  for (int y = r.y0; y < r.y1; ++y)
+    for (int x = r.x0; x < r.x1; ++x)
+      if (inside(x, y)) ++found.inside_px, found.samples += frame.samplesPerPixel - covered(frame, x, y);
+  return found;
+}
+
+}  // namespace tomales::test
