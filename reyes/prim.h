@@ -156,11 +156,13 @@ PrimPtr makePoints(const ParamList&, Problems&);
 PrimPtr makeCurves(bool cubic, const Basis& basis, const std::vector<int>& vertexCounts, bool periodic, const ParamList&,
                    Problems&);
 
-/// Catmull-Clark by OpenSubdiv's limit surface. Tags as RIB gives them: per tag a name, {number of ints, number of floats}.
+/// Schemes "catmull-clark", "loop" (triangles only) and "bilinear" by OpenSubdiv's limit surface. Tags as
+/// HierarchicalSubdivisionMesh gives them: per tag a name and {number of ints, number of floats, number of strings}.
 struct SubdivisionTags {
   std::vector<std::string> names;
   std::vector<int> argCounts, ints;
   std::vector<float> floats;
+  std::vector<std::string> strings;
 };
 PrimPtr makeSubdivisionMesh(const std::string& scheme, const std::vector<int>& vertexCounts, const std::vector<int>& vertices,
                             const SubdivisionTags& tags, const ParamList&, Problems&);

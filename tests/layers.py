@@ -23,7 +23,7 @@ SHADER_HEADERS = {"reyes/shader_api", "reyes/shader"}
 # Each third-party library is included by the units named here and nowhere else.
 THIRD_PARTY = {
     "embree3/": ["raytrace/embree_scene.cpp"],
-    "opensubdiv/": ["reyes/prim/subdivision_mesh.cpp"],
+    "opensubdiv/": ["reyes/prim/subdivision_"],
     "OpenImageIO/": ["reyes/shade/texture.cpp", "reyes/image/image_file.cpp"],
     "tbb/": ["reyes/base/parallel.cpp"],
     "nlohmann/": ["reyes/app/"],

@@ -49,6 +49,13 @@ void repeatElement(const float* element, int width, int n, float* out, int strid
   for (int c = 0; c < width; ++c) std::fill_n(out + static_cast<ptrdiff_t>(c) * stride, n, element[c]);
 }
 
+bool repeatIfEven(const Primvar& var, size_t uniform, int n, float* out, int stride) {
+  if (var.storage != Storage::Constant && var.storage != Storage::Uniform) return false;
+  const size_t element = var.storage == Storage::Uniform ? uniform : 0;
+  repeatElement(&var.values[element * static_cast<size_t>(var.width)], var.width, n, out, stride);
+  return true;
+}
+
 void evaluateBilinear(const std::array<vec3, 4>& corners, int n, const float* u, const float* v,
                       SurfacePoints out) {
   float* const p[3] = {out.px, out.py, out.pz};

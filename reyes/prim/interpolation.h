@@ -17,6 +17,10 @@ void interpolateBilinear(const float* values, int width, const Corners& corners,
 /// Repeats one element n times.
 void repeatElement(const float* element, int width, int n, float* out, int stride);
 
+/// True if the primvar has one value all over a patch (storage constant, or uniform: then that of element `uniform`),
+/// which now fills `out`.
+bool repeatIfEven(const Primvar& var, size_t uniform, int n, float* out, int stride);
+
 /// Fills positions and derivatives, and normals as their cross product.
 void evaluateBilinear(const std::array<vec3, 4>& corners, int n, const float* u, const float* v,
                       SurfacePoints out);
@@ -30,6 +34,11 @@ void crossDerivatives(int n, SurfacePoints points);
 /// Covers the rounding of arithmetic on numbers as big as the coordinates of `whole`.
 Bound3 paddedForRounding(const Bound3& bound, const Bound3& whole);
 
+inline void setFrame(SurfacePoints points, int i, const vec3& p, const vec3& du, const vec3& dv) {
+  points.px[i] = p.x, points.py[i] = p.y, points.pz[i] = p.z;
+  points.dux[i] = du.x, points.duy[i] = du.y, points.duz[i] = du.z;
+  points.dvx[i] = dv.x, points.dvy[i] = dv.y, points.dvz[i] = dv.z;
+}
 inline void setNormal(SurfacePoints points, int i, const vec3& normal) {
   points.nx[i] = normal.x, points.ny[i] = normal.y, points.nz[i] = normal.z;
 }

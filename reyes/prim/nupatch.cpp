@@ -95,17 +95,11 @@ class NuPatch : public Prim {
   void interpolate(uint32_t patch, int index, int n, const float* u, const float* v, float* out,
                    int stride) const override {
     const Primvar& var = primvars_[static_cast<size_t>(index)];
-    switch (var.storage) {
-      case Storage::Constant:
-        return repeatElement(var.values.data(), var.width, n, out, stride);
-      case Storage::Uniform:
-        return repeatElement(&var.values[segmentNumber(patch) * static_cast<size_t>(var.width)], var.width, n,
-                             out, stride);
-      case Storage::Vertex:
-        return interpolateVertex(patch, var, n, u, v, out, stride);
-      default:
-        return interpolateCorners(patch, var, n, u, v, out, stride);
-    }
+    if (repeatIfEven(var, segmentNumber(patch), n, out, stride)) return;
+    if (var.storage == Storage::Vertex)
+      interpolateVertex(patch, var, n, u, v, out, stride);
+    else
+      interpolateCorners(patch, var, n, u, v, out, stride);
   }
 
  private:

@@ -91,9 +91,7 @@ void Revolution::evaluate(uint32_t, int n, const float* u, const float* v, Surfa
 void Revolution::interpolate(uint32_t, int index, int n, const float* u, const float* v, float* out,
                              int stride) const {
   const Primvar& var = primvars_[static_cast<size_t>(index)];
-  if (var.storage == Storage::Constant || var.storage == Storage::Uniform)
-    repeatElement(var.values.data(), var.width, n, out, stride);
-  else
+  if (!repeatIfEven(var, 0, n, out, stride))
     interpolateBilinear(var.values.data(), var.width, {0, 1, 2, 3}, n, u, v, out, stride);
 }
 

@@ -6,11 +6,12 @@
 
 namespace tomales {
 
-void requireSubdividable(const std::vector<int>& vertexCounts, const std::vector<int>& vertices) {
+void requireSubdividable(size_t largest, const std::vector<int>& vertexCounts, const std::vector<int>& vertices) {
   size_t first = 0;
   for (size_t f = 0; f < vertexCounts.size(); ++f) {
     const size_t count = static_cast<size_t>(vertexCounts[f]);
-    if (count < 3 || count > 0xffff) throw PrimError(fmt::format("face {} has {} vertices", f, count));
+    if (count < 3 || count > largest)
+      throw PrimError(fmt::format("face {} has {} vertices, where 3 to {} will do", f, count, largest));
     std::vector<int> sorted(vertices.begin() + static_cast<ptrdiff_t>(first),
                             vertices.begin() + static_cast<ptrdiff_t>(first + count));
     std::sort(sorted.begin(), sorted.end());

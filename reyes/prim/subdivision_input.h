@@ -4,9 +4,9 @@
 
 namespace tomales {
 
-/// Throws PrimError for a face that OpenSubdiv would take on trust: too small, too big, or twice at one
-/// vertex. Sizes and indices have passed requireFaces.
-void requireSubdividable(const std::vector<int>& vertexCounts, const std::vector<int>& vertices);
+/// Throws PrimError for a face that OpenSubdiv would take on trust: too small, of more than `largest` vertices, or twice
+/// at one vertex. Sizes and indices have passed requireFaces.
+void requireSubdividable(size_t largest, const std::vector<int>& vertexCounts, const std::vector<int>& vertices);
 
 /// A face-varying primvar with the values that a vertex's faces agree about merged, so that it may be smooth
 /// there.

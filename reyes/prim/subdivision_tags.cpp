@@ -11,6 +11,7 @@ struct Tag {
   const std::string& name;
   std::span<const int> ints;
   std::span<const float> floats;
+  std::span<const std::string> strings;
 };
 
 class TagReader {
@@ -28,6 +29,8 @@ class TagReader {
       out.propagateCorners = !tag.ints.empty() && tag.ints[0] != 0;
       return;
     }
+    if (tag.name == "smoothtriangles") return readSmoothTriangles(tag);
+    if (tag.name == "creasemethod") return readCreaseMethod(tag);
     problems_.push_back(fmt::format("tag \"{}\" is not supported; it was ignored", tag.name));
   }
 
@@ -84,8 +87,8 @@ class TagReader {
     return false;
   }
 
-  /// The argument of a boundary tag: 1 if there is none, -1 (and a sentence) if it is out of range.
-  int boundaryArgument(const Tag& tag, int highest) {
+  /// The argument of a tag with one: 1 if there is none, -1 (and a sentence) if it is out of range.
+  int choice(const Tag& tag, int highest) {
     const int given = tag.ints.empty() ? 1 : tag.ints[0];
     if (given >= 0 && given <= highest) return given;
     problems_.push_back(fmt::format("tag \"{}\" has no value {}; it was ignored", tag.name, given));
@@ -95,13 +98,26 @@ class TagReader {
   void readBoundary(const Tag& tag) {
     using B = MeshTags::Boundary;
     static constexpr B kMeaning[] = {B::None, B::EdgeAndCorner, B::EdgeOnly};
-    if (const int k = boundaryArgument(tag, 2); k >= 0) out.boundary = kMeaning[k];
+    if (const int k = choice(tag, 2); k >= 0) out.boundary = kMeaning[k];
   }
 
   void readFaceVaryingBoundary(const Tag& tag) {
     using B = MeshTags::FaceVaryingBoundary;
     static constexpr B kMeaning[] = {B::Linear, B::EdgeAndCorner, B::EdgeOnly, B::AlwaysSharp};
-    if (const int k = boundaryArgument(tag, 3); k >= 0) out.faceVarying = kMeaning[k];
+    if (const int k = choice(tag, 3); k >= 0) out.faceVarying = kMeaning[k];
+  }
+
+  /// 1: the weights of every face; 2: those for triangles.
+  void readSmoothTriangles(const Tag& tag) {
+    if (const int k = choice(tag, 2); k >= 0) out.smoothTriangles = k == 2;
+  }
+
+  void readCreaseMethod(const Tag& tag) {
+    const std::string method = tag.strings.empty() ? "" : tag.strings[0];
+    if (method != "normal" && method != "chaikin")
+      return problems_.push_back(
+          fmt::format("tag \"creasemethod\" has no method \"{}\"; it was ignored", method));
+    out.chaikin = method == "chaikin";
   }
 
   const EdgeFaces& edges_;
@@ -113,20 +129,26 @@ class TagReader {
 
 MeshTags readTags(const SubdivisionTags& tags, const EdgeFaces& edges, int faceCount, int vertexCount,
                   Problems& problems) {
-  if (tags.argCounts.size() != 2 * tags.names.size())
+  if (tags.argCounts.size() != 3 * tags.names.size())
     throw PrimError(fmt::format("{} tags need {} argument counts and {} are given", tags.names.size(),
-                                2 * tags.names.size(), tags.argCounts.size()));
+                                3 * tags.names.size(), tags.argCounts.size()));
   TagReader reader(edges, faceCount, vertexCount, problems);
   std::span<const int> ints(tags.ints);
   std::span<const float> floats(tags.floats);
+  std::span<const std::string> strings(tags.strings);
+  const auto take = [&](auto& from, int count, const std::string& name) {
+    if (count < 0 || static_cast<size_t>(count) > from.size())
+      throw PrimError(fmt::format("tag \"{}\" asks for {} arguments where {} are left", name, count, from.size()));
+    const auto taken = from.first(static_cast<size_t>(count));
+    from = from.subspan(static_cast<size_t>(count));
+    return taken;
+  };
   for (size_t t = 0; t < tags.names.size(); ++t) {
-    const int intCount = tags.argCounts[2 * t], floatCount = tags.argCounts[2 * t + 1];
-    if (intCount < 0 || floatCount < 0 || static_cast<size_t>(intCount) > ints.size() ||
-        static_cast<size_t>(floatCount) > floats.size())
-      throw PrimError(fmt::format("tag \"{}\" asks for {} integers and {} floats, more than are given",
-                                  tags.names[t], intCount, floatCount));
-    reader.read({tags.names[t], ints.first(intCount), floats.first(floatCount)});
-    ints = ints.subspan(intCount), floats = floats.subspan(floatCount);
+    const std::string& name = tags.names[t];
+    const int* counts = &tags.argCounts[3 * t];
+    const auto theInts = take(ints, counts[0], name);
+    const auto theFloats = take(floats, counts[1], name);
+    reader.read({name, theInts, theFloats, take(strings, counts[2], name)});
   }
   return std::move(reader.out);
 }

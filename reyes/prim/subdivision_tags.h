@@ -12,6 +12,8 @@ struct MeshTags {
   Boundary boundary = Boundary::None;  ///< Absent: faces at the boundary are not drawn (RISpec section 5.3).
   FaceVaryingBoundary faceVarying = FaceVaryingBoundary::Linear;
   bool propagateCorners = false;
+  bool smoothTriangles = false;  ///< Catmull-Clark only: other weights for triangles (Stam and Loop 2003's problem).
+  bool chaikin = false;          ///< Sharpness of a crease is smoothed along it (DeRose et al. 1998, section 4).
   std::vector<int> creaseEdges;  ///< Vertex pairs.
   std::vector<float> creaseSharpness;
   std::vector<int> corners;

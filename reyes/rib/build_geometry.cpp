@@ -61,18 +61,32 @@ PrimPtr patchMesh(const Request& r, const Scope& s, Problems& problems) {
   return makeBilinearPatchMesh(nu, uPeriodic, nv, vPeriodic, r.params, problems);
 }
 
+/// Three argument counts a tag where SubdivisionMesh gives two.
+std::vector<int> withoutStrings(const std::vector<int>& pairs) {
+  std::vector<int> out;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    out.push_back(pairs[i]);
+    if (i % 2 == 1) out.push_back(0);
+  }
+  return out;
+}
+
 bool tagsAgree(const SubdivisionTags& t) {
-  size_t ints = 0, floats = 0;
+  size_t sums[3] = {0, 0, 0};
   for (size_t i = 0; i < t.argCounts.size(); ++i) {
     if (t.argCounts[i] < 0) return false;
-    (i % 2 == 0 ? ints : floats) += static_cast<size_t>(t.argCounts[i]);
+    sums[i % 3] += static_cast<size_t>(t.argCounts[i]);
   }
-  return t.argCounts.size() == 2 * t.names.size() && ints == t.ints.size() && floats == t.floats.size();
+  return t.argCounts.size() == 3 * t.names.size() && sums[0] == t.ints.size() && sums[1] == t.floats.size() &&
+         sums[2] == t.strings.size();
 }
 
 PrimPtr subdivisionMesh(const Request& r, const Scope&, Problems& problems) {
   SubdivisionTags tags;
-  if (r.args.size() > 3) tags = {r.args[3].strings, r.args[4].ints(), r.args[5].ints(), r.args[6].numbers};
+  if (r.args.size() > 7)
+    tags = {r.args[3].strings, r.args[4].ints(), r.args[5].ints(), r.args[6].numbers, r.args[7].strings};
+  else if (r.args.size() > 3)
+    tags = {r.args[3].strings, withoutStrings(r.args[4].ints()), r.args[5].ints(), r.args[6].numbers, {}};
   if (!tagsAgree(tags)) {
     problems.push_back("the counts of its tags do not add up: all tags are ignored");
     tags = {};
@@ -116,6 +130,7 @@ const std::unordered_map<std::string_view, Builder>& builders() {
       {"Points", points},
       {"Curves", curves},
       {"SubdivisionMesh", subdivisionMesh},
+      {"HierarchicalSubdivisionMesh", subdivisionMesh},
   };
   return table;
 }

@@ -136,7 +136,7 @@ constexpr Signature kTable[] = {
     {"Patch", "s", kParams, kWorks},
     {"PatchMesh", "sfsfs", kParams, kWorks},
     {"SubdivisionMesh", "sFF?SFFF", kParams, kWorks},
-    {"HierarchicalSubdivisionMesh", "sFF?SFFFS", kParams, kGeometry},
+    {"HierarchicalSubdivisionMesh", "sFF?SFFFS", kParams, kWorks},
     {"NuPatch", "ffFffffFff", kParams, kWorks},
     {"TrimCurve", "FFFFFFFFF", kNone, kWorks},
     {"Points", "", kParams, kWorks},

@@ -23,7 +23,7 @@ struct Mesh {
             const std::vector<float>& values = {}) {
     tags.names.push_back(name);
     tags.argCounts.insert(tags.argCounts.end(),
-                          {static_cast<int>(ints.size()), static_cast<int>(values.size())});
+                          {static_cast<int>(ints.size()), static_cast<int>(values.size()), 0});
     tags.ints.insert(tags.ints.end(), ints.begin(), ints.end());
     tags.floats.insert(tags.floats.end(), values.begin(), values.end());
     return *this;
@@ -255,16 +255,18 @@ TEST(NastyMesh, WrongTopologyThrowsASentence) {
   EXPECT_NE(error({{4}, {0, 1, 2, -1}, square, {}}), "");
   EXPECT_NE(error({{-4}, {0, 1, 2, 3}, square, {}}), "");
   EXPECT_NE(error({{5}, {0, 1, 2, 3}, square, {}}), "");
-  EXPECT_EQ(error({{2, 4}, {0, 1, 0, 1, 2, 3}, square, {}}), "face 0 has 2 vertices");
+  EXPECT_EQ(error({{2, 4}, {0, 1, 0, 1, 2, 3}, square, {}}), "face 0 has 2 vertices, where 3 to 65535 will do");
   EXPECT_EQ(error({{4}, {0, 1, 1, 3}, square, {}}), "face 0 has vertex 1 more than once");
   EXPECT_NE(error({{}, {}, square, {}}), "");
   Mesh loop = cube();
   loop.scheme = "loop";
-  EXPECT_EQ(error(loop), "subdivision scheme \"loop\" is not supported");
+  EXPECT_EQ(error(loop), "face 0 has 4 vertices, where 3 to 3 will do");
+  loop.scheme = "doo-sabin";
+  EXPECT_EQ(error(loop), "subdivision scheme \"doo-sabin\" is not supported");
   Mesh tags = cube();
-  tags.tags = {{"hole"}, {5, 0}, {1}, {}};
+  tags.tags = {{"hole"}, {5, 0, 0}, {1}, {}, {}};
   EXPECT_NE(error(tags), "");
-  tags.tags = {{"hole"}, {1}, {1}, {}};
+  tags.tags = {{"hole"}, {1}, {1}, {}, {}};
   EXPECT_NE(error(tags), "");
 }
 

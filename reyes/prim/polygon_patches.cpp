@@ -1,0 +1,165 @@
+#include "reyes/prim/polygon_patches.h"
+
+#include <fmt/format.h>
+
+#include "reyes/prim/edges.h"
+#include "reyes/prim/face_pieces.h"
+#include "reyes/prim/hole_bridges.h"
+
+namespace tomales {
+namespace {
+
+class Decomposer {
+ public:
+  Decomposer(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
+             const std::vector<int>& vertices, const std::vector<vec3>& positions)
+      : loopCounts_(loopCounts),
+        vertexCounts_(vertexCounts),
+        vertices_(vertices),
+        positions_(positions),
+        edges_(vertexCounts, vertices) {}
+
+  Decomposition run(Problems& problems) {
+    uint32_t first = 0;
+    size_t dropped = 0, loop = 0;
+    for (const int loops : loopCounts_) {
+      const std::span<const int> counts(&vertexCounts_[loop], static_cast<size_t>(loops));
+      dropped += !addFace(first, counts);
+      for (const int count : counts) first += static_cast<uint32_t>(count);
+      loop += counts.size();
+    }
+    if (dropped)
+      problems.push_back(
+          fmt::format("{} of {} faces have no area; they were dropped", dropped, loopCounts_.size()));
+    if (holesIgnored_)
+      problems.push_back(
+          fmt::format("{} holes lie outside of their polygon; they were ignored", holesIgnored_));
+    return std::move(out_);
+  }
+
+ private:
+  vec3 position(uint32_t faceVertex) const { return positions_[static_cast<size_t>(vertices_[faceVertex])]; }
+
+  /// A loop's vertices without those that repeat the one before.
+  void gather(uint32_t first, uint32_t count) {
+    loopStart_.push_back(static_cast<int>(corner_.size()));
+    for (uint32_t k = 0; k < count; ++k) {
+      const uint32_t next = first + (k + 1) % count;
+      if (position(first + k) == position(next)) continue;
+      // This corner's edge to the next one; the last of several equal vertices carries it.
+      corner_.push_back(first + k), point_.push_back(position(first + k));
+      open_.push_back(edges_.count(vertices_[first + k], vertices_[next]) < 2);
+    }
+  }
+
+  void gatherHoles(uint32_t first, std::span<const int> counts) {
+    for (const int count : counts) {
+      gather(first, static_cast<uint32_t>(count));
+      first += static_cast<uint32_t>(count);
+    }
+    loopStart_.push_back(static_cast<int>(corner_.size()));
+  }
+
+  int nextInLoop(int k) const {
+    const auto end = std::upper_bound(loopStart_.begin(), loopStart_.end(), k);
+    return k + 1 < *end ? k + 1 : *(end - 1);
+  }
+
+  /// Makes one closed walk of the loops. A bridge is never open.
+  void joinHoles(const glm::dvec3& normal) {
+    const BridgedOutline outline = bridgeHoles(point_, loopStart_, normal);
+    holesIgnored_ += static_cast<size_t>(outline.ignored);
+    std::vector<uint32_t> corner;
+    std::vector<vec3> point;
+    std::vector<char> open;
+    for (size_t k = 0; k < outline.order.size(); ++k) {
+      const int at = outline.order[k], to = outline.order[(k + 1) % outline.order.size()];
+      corner.push_back(corner_[at]), point.push_back(point_[at]);
+      open.push_back(nextInLoop(at) == to ? open_[at] : nextInLoop(to) == at ? open_[to] : 0);
+    }
+    corner_ = std::move(corner), point_ = std::move(point), open_ = std::move(open);
+  }
+
+  bool addFace(uint32_t first, std::span<const int> counts) {
+    corner_.clear(), point_.clear(), open_.clear(), loopStart_.clear();
+    gather(first, static_cast<uint32_t>(counts[0]));
+    const glm::dvec3 normal = point_.size() < 3 ? glm::dvec3(0) : newellNormal(point_);
+    Bound3 box;
+    for (const vec3& p : point_) box.extend(p);
+    const bool flatEnough =
+        point_.size() >= 3 && glm::length(normal) > 1e-9 * glm::dot(box.size(), box.size());
+    out_.faces.push_back({vec3(0), true});
+    if (!flatEnough) return false;
+    if (counts.size() > 1) {
+      gatherHoles(first + static_cast<uint32_t>(counts[0]), counts.subspan(1));
+      joinHoles(normal);
+    }
+    const glm::dvec3 unit = glm::normalize(normal);
+    out_.faces.back() = {vec3(unit), isPlanar(unit, glm::length(glm::dvec3(box.size())))};
+    if (point_.size() == 4 && isStrictlyConvex(point_, normal))
+      addQuad({corner_[0], corner_[1], corner_[3], corner_[2]},
+              {out_.faces.back().planar, edgeBits(open_[3], open_[1], open_[0], open_[2])});
+    else
+      for (const Piece& piece : convexPieces(point_, normal)) addPiece(piece);
+    return true;
+  }
+
+  bool isPlanar(const glm::dvec3& unit, double size) const {
+    for (const vec3& p : point_)
+      if (std::abs(glm::dot(glm::dvec3(p - point_[0]), unit)) > 1e-6 * size) return false;
+    return true;
+  }
+
+  static uint8_t edgeBits(bool u0, bool u1, bool v0, bool v1) {
+    return static_cast<uint8_t>(u0 * kEdgeU0 | u1 * kEdgeU1 | v0 * kEdgeV0 | v1 * kEdgeV1);
+  }
+
+  void addQuad(const Corners& corners, const PatchInfo& info) {
+    out_.patches.push_back({corners, static_cast<uint32_t>(out_.faces.size() - 1), info});
+  }
+
+  /// The number that a mean of face-vertices gets.
+  uint32_t make(std::span<const uint32_t> from) {
+    out_.made.add(from);
+    return static_cast<uint32_t>(vertices_.size() + out_.made.count() - 1);
+  }
+
+  bool openBetween(int a, int b) const { return (a + 1) % static_cast<int>(corner_.size()) == b && open_[a]; }
+
+  void addPiece(const Piece& piece) {
+    const size_t n = piece.size();
+    std::vector<uint32_t> at, middle;
+    for (int k : piece) at.push_back(corner_[k]);
+    for (size_t k = 0; k < n; ++k) middle.push_back(make(std::array{at[k], at[(k + 1) % n]}));
+    const uint32_t center = make(at);
+    const bool planar = n == 3 || out_.faces.back().planar;
+    for (size_t k = 0; k < n; ++k) {
+      const size_t before = (k + n - 1) % n, after = (k + 1) % n;
+      const uint8_t open =
+          edgeBits(openBetween(piece[before], piece[k]), false, openBetween(piece[k], piece[after]), false);
+      addQuad({at[k], middle[k], middle[before], center}, {planar, open});
+    }
+  }
+
+  const std::vector<int>& loopCounts_;
+  const std::vector<int>& vertexCounts_;
+  const std::vector<int>& vertices_;
+  const std::vector<vec3>& positions_;
+  const EdgeFaces edges_;
+  Decomposition out_;
+  size_t holesIgnored_ = 0;
+  std::vector<uint32_t> corner_;  // of the face at hand
+  std::vector<vec3> point_;
+  std::vector<char> open_;      // edge from a corner to the next
+  std::vector<int> loopStart_;  // first corner of every loop, and the end
+};
+
+}  // namespace
+
+Decomposition decompose(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
+                        const std::vector<int>& vertices, const std::vector<vec3>& positions,
+                        Problems& problems) {
+  return Decomposer(loopCounts, vertexCounts, vertices, positions).run(problems);
+}
+
+}  // namespace tomales

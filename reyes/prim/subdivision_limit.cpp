@@ -1,0 +1,107 @@
+#include "reyes/prim/subdivision_limit.h"
+
+#include <optional>
+
+#include "reyes/prim/bicubic.h"
+#include "reyes/prim/interpolation.h"
+#include "reyes/prim/sampled_bound.h"
+
+namespace tomales {
+namespace {
+
+namespace Bfr = OpenSubdiv::Bfr;
+
+/// A face in a regular neighbourhood is one patch of a uniform B-spline (control points u fastest), which has
+/// a faster way to be evaluated and tighter bounds. Next to a boundary or a crease Bfr repeats control points
+/// for those that are not there; such faces stay with it.
+std::optional<BezierPatch> asBicubic(const Limit& limit) {
+  constexpr int kControls = 16;
+  if (!limit.surface.IsRegular() || limit.surface.IsLinear() ||
+      limit.surface.GetNumControlPoints() != kControls)
+    return {};
+  std::array<int, kControls> index;
+  limit.surface.GetControlPointIndices(index.data());
+  std::sort(index.begin(), index.end());
+  if (std::adjacent_find(index.begin(), index.end()) != index.end()) return {};
+  static const ToBezier kToBezier = bezierFrom(bsplineBasis());
+  BezierPatch patch;
+  for (int axis = 0; axis < 3; ++axis) {
+    BezierNet controls;
+    for (int k = 0; k < kControls; ++k) controls[k] = limit.points[static_cast<size_t>(3 * k + axis)];
+    patch[axis] = convertNet(controls, kToBezier, kToBezier);
+  }
+  return patch;
+}
+
+struct Frame {
+  vec3 p, du, dv;
+};
+
+Frame frameAt(const Limit& limit, const FaceMap& map, float u, float v) {
+  const vec2 at = map.at(u, v), byU = map.byU(v), byV = map.byV(u);
+  vec3 p, ds, dt;
+  limit.surface.Evaluate(&at.x, limit.points.data(), 3, &p.x, &ds.x, &dt.x);
+  return {p, byU.x * ds + byU.y * dt, byV.x * ds + byV.y * dt};
+}
+
+/// The cross product of the derivatives; where they are dependent, that of a place a little nearer to the
+/// middle.
+vec3 normalAt(const Limit& limit, const FaceMap& map, float u, float v, const Frame& frame) {
+  const auto normal = [](const Frame& f) { return cross(f.du, f.dv); };
+  const auto independent = [&](const Frame& f) {
+    return glm::length(normal(f)) > 1e-4f * glm::length(f.du) * glm::length(f.dv);
+  };
+  if (independent(frame)) return normal(frame);
+  for (float step : {1e-3f, 1e-2f, 1e-1f}) {
+    const Frame nearby = frameAt(limit, map, lerp(u, 0.5f, step), lerp(v, 0.5f, step));
+    if (independent(nearby)) return normal(nearby);
+  }
+  return {0, 0, 1};
+}
+
+}  // namespace
+
+Bfr::SurfaceFactory::Options limitOptions() {
+  constexpr int kLevel = 8;
+  return Bfr::SurfaceFactory::Options().SetApproxLevelSmooth(kLevel).SetApproxLevelSharp(kLevel);
+}
+
+FaceMap::FaceMap(const Bfr::Surface<float>& surface, int corner) {
+  const Bfr::Parameterization parameters = surface.GetParameterization();
+  if (parameters.GetType() == Bfr::Parameterization::TRI) {
+    static constexpr vec2 kCorners[] = {{0, 0}, {1, 0}, {0, 1}};
+    const vec2 here = kCorners[corner], next = kCorners[(corner + 1) % 3], last = kCorners[(corner + 2) % 3];
+    const vec2 center(1 / 3.0f);
+    origin_ = here, alongU_ = 0.5f * (next - here), alongV_ = 0.5f * (last - here);
+    twist_ = center - here - alongU_ - alongV_;
+  } else if (parameters.HasSubFaces()) {
+    const float zero[2] = {0, 0}, one[2] = {1, 1};
+    vec2 to;
+    parameters.ConvertNormalizedSubFaceToCoord(corner, zero, &origin_.x);
+    parameters.ConvertNormalizedSubFaceToCoord(corner, one, &to.x);
+    alongU_.x = alongV_.y = to.x - origin_.x;
+  }
+}
+
+void evaluateLimit(const Limit& limit, const FaceMap& map, int n, const float* u, const float* v,
+                   SurfacePoints out) {
+  if (const auto bicubic = asBicubic(limit)) return evaluateBicubic(*bicubic, n, u, v, out);
+  for (int i = 0; i < n; ++i) {
+    const Frame f = frameAt(limit, map, u[i], v[i]);
+    setFrame(out, i, f.p, f.du, f.dv);
+    setNormal(out, i, normalAt(limit, map, u[i], v[i], f));
+  }
+}
+
+Bound3 boundLimit(const Limit& limit, const FaceMap& map, const UvRect& rect, const Bound3& hull) {
+  if (const auto bicubic = asBicubic(limit)) return boundBicubic(*bicubic, rect);
+  const Bound3 sampled = boundOfSamples(rect, [&](float u, float v) {
+    const vec2 at = map.at(u, v);
+    vec3 p;
+    limit.surface.Evaluate(&at.x, limit.points.data(), 3, &p.x);
+    return p;
+  });
+  return paddedForRounding({glm::max(hull.lo, sampled.lo), glm::min(hull.hi, sampled.hi)}, hull);
+}
+
+}  // namespace tomales

@@ -1,0 +1,52 @@
+// The limit surface of one face of a SubdivisionMesh by OpenSubdiv's Bfr, which evaluates it from the coarse mesh.
+// Private to the primitives.
+#pragma once
+#include <opensubdiv/bfr/refinerSurfaceFactory.h>
+#include <opensubdiv/bfr/surface.h>
+#include <opensubdiv/bfr/surfaceFactoryCache.h>
+
+#include <mutex>
+#include <shared_mutex>
+
+#include "reyes/prim.h"
+
+namespace tomales {
+
+using LimitFactory = OpenSubdiv::Bfr::RefinerSurfaceFactory<OpenSubdiv::Bfr::SurfaceFactoryCacheThreaded<
+    std::shared_mutex, std::shared_lock<std::shared_mutex>, std::unique_lock<std::shared_mutex>>>;
+
+/// So accurate that only in the 2^-8th part of a face next to an irregular vertex what is drawn is an approximation.
+OpenSubdiv::Bfr::SurfaceFactory::Options limitOptions();
+
+/// One face's surface and its values, ready to evaluate.
+struct Limit {
+  OpenSubdiv::Bfr::Surface<float> surface;
+  std::vector<float> points;
+
+  void prepare(const float* meshValues, int width) {
+    points.resize(static_cast<size_t>(surface.GetNumPatchPoints()) * static_cast<size_t>(width));
+    surface.PreparePatchPoints(meshValues, width, points.data(), width);
+  }
+};
+
+/// From a patch's unit square to the coordinates of its face. A patch is a whole quadrilateral, or one corner's share of
+/// a face of another size: the quadrilateral of the corner, the middles of its two edges and the centre.
+class FaceMap {
+ public:
+  FaceMap(const OpenSubdiv::Bfr::Surface<float>& surface, int corner);
+  vec2 at(float u, float v) const { return origin_ + u * alongU_ + v * alongV_ + u * v * twist_; }
+  vec2 byU(float v) const { return alongU_ + v * twist_; }
+  vec2 byV(float u) const { return alongV_ + u * twist_; }
+
+ private:
+  vec2 origin_{0, 0}, alongU_{1, 0}, alongV_{0, 1}, twist_{0, 0};
+};
+
+/// Of positions: `limit` holds three values a point.
+void evaluateLimit(const Limit& limit, const FaceMap& map, int n, const float* u, const float* v, SurfacePoints out);
+
+/// An irregular piece lies in the box of its samples and in `hull`, that of the face's control points, whose weights
+/// are positive.
+Bound3 boundLimit(const Limit& limit, const FaceMap& map, const UvRect& rect, const Bound3& hull);
+
+}  // namespace tomales
