@@ -16,6 +16,7 @@ struct RayScene::Impl {
   const std::vector<CoarseGroup> groups;
   const EmbreeScene embree;
   const Emitters emitters;
+  bool moves = false;                     ///< Some polygon does.
   std::vector<float> displacementBounds;  ///< Of each group, where rays do not see the displacement.
 };
 

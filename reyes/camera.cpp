@@ -16,7 +16,8 @@ Camera::Camera(const Options& o)
   offset_ = {-w[0] * x / (w[1] - w[0]), w[3] * y / (w[3] - w[2])};
   pixelSizeAtUnit_ = 1.0f / std::sqrt(std::abs(scale_.x * scale_.y));
   if (perspective_ && o.fStop < kInfinity) {
-    lens_ = scale_ * (0.5f * o.focalLength / o.fStop);
+    const float stretch = std::sqrt(o.dofAspect);
+    lens_ = scale_ * (0.5f * o.focalLength / o.fStop) * vec2(stretch, 1 / stretch);
     focusKey_ = depthKey(o.focalDistance);
   }
 

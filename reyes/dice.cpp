@@ -101,13 +101,20 @@ int offsetOf(const std::vector<Primvar>& primvars, std::string_view name) {
 
 Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, int keys) {
   const Object& o = scene.objects[static_cast<size_t>(object)];
+  const std::vector<float> times(o.keyTimes.begin(), o.keyTimes.begin() + keys);
+  return dice(scene, object, patch, rect, nu, nv, {times, o.cameraFromObject});
+}
+
+Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, const DiceKeys& keys) {
+  const Object& o = scene.objects[static_cast<size_t>(object)];
+  const int keyCount = static_cast<int>(keys.times.size());
   const Prim& prim = o.shape();
   int floats = 0;
   for (const Primvar& p : prim.primvars()) floats += p.width;
 
   Grid g;
   g.object = object, g.patch = patch, g.rect = rect;
-  g.allocate(nu, nv, keys, floats);
+  g.allocate(nu, nv, keyCount, floats);
   g.openEdges = openEdgesOf(prim.info(patch), rect);
   g.name = nameOf(object, patch, rect, nu, nv);
   g.kept = keptOfCells(prim, g);
@@ -125,9 +132,10 @@ Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, in
     }
 
   Evaluated e(n);
-  for (int key = 0; key < keys; ++key) {
-    const float time = o.keyTimes[static_cast<size_t>(key)];
-    const mat4 m = o.cameraFromObject.at(time);
+  for (int key = 0; key < keyCount; ++key) {
+    const float time = keys.times[static_cast<size_t>(key)];
+    const mat4 m = keys.currentFromObject.at(time);
+    if (keyCount > 1) g.turns.push_back(mat3(m) * glm::inverse(mat3(keys.currentFromObject.at(keys.times.front()))));
     evaluateAt(o, time, patch, n, u.data(), v.data(), e);
     for (int i = 0; i < n; ++i) {
       const vec3 p = transformPoint(m, e.get(0, i));

@@ -14,14 +14,14 @@ namespace tomales {
 /// Positions of the samples of every pixel: one of 256 precomputed stratified patterns, chosen by a hash of the pixel.
 class SamplePattern {
  public:
-  SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t seed);
+  SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t seed, const Aperture& aperture = {});
   int count() const { return count_; }
   int padded() const { return padded_; }
   int patternOf(int x, int y) const;              ///< 0..255
   const float* x(int pattern) const;              ///< In [0,1) inside the pixel; padded() floats.
   const float* y(int pattern) const;
   const float* time(int pattern) const;           ///< In [0,1) of the shutter.
-  const float* lensX(int pattern) const;          ///< In the unit disk, uniform by area.
+  const float* lensX(int pattern) const;          ///< In the unit disk, over the aperture.
   const float* lensY(int pattern) const;
 
  private:

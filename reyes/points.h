@@ -18,6 +18,8 @@ enum PointChannel : int {
   kDpduX, kDpduY, kDpduZ, kDpdvX, kDpdvY, kDpdvZ,  ///< by the shader's u and v
   kU, kV, kS, kT, kDu, kDv,
   kArea,                   ///< of the micropolygon, or of the ray's footprint
+  kTime,                   ///< the part of the shutter, 0..1, at which it is seen, itself at its place at shutter open; negative: all of it
+  kDriftX, kDriftY, kDriftZ,  ///< how far deformation takes it over the shutter (ShadeGroup::currentFromOpen does the rest)
   kFixedChannels
 };
 

@@ -63,6 +63,13 @@ struct DisplayCall {
 
 enum class ProjectionKind { Orthographic, Perspective, Null };
 
+/// Hider "aperture": a regular polygon inscribed in the lens. Fewer than three sides: a disk.
+struct Aperture {
+  float sides = 0, angle_degrees = 0;  ///< Counterclockwise in the picture; at 0 a corner points right.
+  float roundness = 0;                 ///< 1: its sides are arcs of the lens's rim; -1: bent inwards as much.
+  float density = 0;                   ///< 1: dark in the middle, -1: dark at the rim, linearly in between.
+};
+
 struct Quantize { float one = 255, min = 0, max = 255, dither = 0.5f; };
 
 struct Options {
@@ -75,7 +82,11 @@ struct Options {
   float fov_degrees = 90;
   float nearClip = 1e-6f, farClip = 1e30f;                 ///< RI_EPSILON, RI_INFINITY
   float shutterOpen = 0, shutterClose = 0;
+  float shutterOffset = 0;                                 ///< Added to the times of motion blocks as they are read.
+  bool sampleMotion = true;                                ///< Hider "samplemotion": the camera sees things move.
   float fStop = kInfinity, focalLength = 1, focalDistance = 1;
+  Aperture aperture;
+  float dofAspect = 1;                                     ///< Width over height of the circle of confusion.
   int xSamples = 2, ySamples = 2;
   std::string filter = "gaussian";
   float xFilterWidth = 2, yFilterWidth = 2;
@@ -120,6 +131,7 @@ struct Attributes {
   struct Trace {
     std::optional<float> bias, offset;
     bool displacements = false;
+    bool sampleMotion = false;  ///< Rays from here see things move.
     float tessellation = 1;
     bool operator==(const Trace&) const = default;
   } trace;

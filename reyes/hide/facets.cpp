@@ -38,6 +38,17 @@ namespace {
 
 constexpr int kFirstPoints = 128;  ///< Room in a new batch; a bucket of 16 x 16 px often sees as many.
 
+/// What is left of the way from the first key of a grid to its last, once the motion of the transformation is undone.
+template <class Mean>
+vec3 driftOf(const Scene& scene, const Grid& g, const vec3& P, const Mean& mean) {
+  const Object& o = scene.objects[static_cast<size_t>(g.object)];
+  if (g.keyCount == 1 || o.shapes.size() == 1) return vec3(0);
+  const int last = g.keyCount - 1;
+  const vec3 there(mean(g.P(last, 0)), mean(g.P(last, 1)), mean(g.P(last, 2)));
+  const mat4 openFromLast = o.cameraFromObject.at(o.keyTimes.front()) * glm::inverse(o.cameraFromObject.at(o.keyTimes.back()));
+  return transformPoint(openFromLast, there) - P;
+}
+
 float orOne(float x) { return x != 0 ? x : 1.0f; }
 
 int primvarFloats(const ShadeGroup& group) {
@@ -123,6 +134,8 @@ int FacetTable::addPoint(const Grid& g, int batch, const Stencil& at, uint32_t k
   points.set3(kDpduX, i, uEdge / du);
   points.set3(kDpdvX, i, vEdge / dv);
   set(kU, u), set(kV, v), set(kDu, du), set(kDv, dv), set(kArea, glm::length(span));
+  set(kTime, -1);
+  points.set3(kDriftX, i, driftOf(scene_, g, P, [&](const float* f) { return at.mean(f); }));
   const vec2 st = group.attributes->textureAt(u, v);
   set(kS, st.x), set(kT, st.y);
   int offset = 0;

@@ -148,12 +148,20 @@ void display(GraphicsState& s, const Request& r) {
 
 void hider(GraphicsState& s, const Request& r) {
   s.globals.options.hider = r.args[0].strings[0];
+  Options& o = s.globals.options;
   for (const Param& p : r.params)
     if (p.name == "jitter")
-      s.globals.options.jitter = p.number(1) != 0;
+      o.jitter = p.number(1) != 0;
+    else if (p.name == "samplemotion")
+      o.sampleMotion = p.number(1) != 0;
+    else if (p.name == "dofaspect" && p.number(1) > 0)
+      o.dofAspect = clamped(s, r, p.number(1), 0.01f, 100);
+    else if (p.name == "aperture" && p.floats.size() == 4)
+      o.aperture = {clamped(s, r, p.floats[0], 0, 64), p.floats[1], clamped(s, r, p.floats[2], -1, 1),
+                    clamped(s, r, p.floats[3], -1, 1)};
     else
       s.warnOnce("hider:" + p.name, r, "rib-unsupported",
-                 "Hider: parameter \"" + p.name + "\" is not supported yet, ignored");
+                 "Hider: parameter \"" + p.name + "\" is not supported or has no such value, ignored");
 }
 
 void searchPath(GraphicsState& s, const Request& r, const Param& p) {
@@ -179,6 +187,8 @@ bool knownOption(GraphicsState& s, const Request& r, const std::string& key, con
   } else if (bucket && p.ints.size() == 2) {
     o.bucketWidth = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[0]), 1, 4096));
     o.bucketHeight = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[1]), 1, 4096));
+  } else if (key == "shutter:offset") {
+    o.shutterOffset = p.number(0);
   } else if (key == "limits:gridsize" && p.ints.size() == 1) {
     o.gridSize = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[0]), 1, 65536));
   } else {

@@ -30,7 +30,9 @@ constexpr Standard kStandard[] = {
     {"point", "from to"},
     {"string", "texturename shadowname mapname"},
     // Camera, displays, hiders
-    {"float", "fov depthbias jitter dither minwidth"},
+    {"float", "fov depthbias jitter dither minwidth dofaspect"},
+    {"float[4]", "aperture"},
+    {"int", "samplemotion"},
     {"float[2]", "shutteropening exposure filterwidth"},
     {"float[4]", "quantize"},
     {"int[2]", "origin"},

@@ -92,7 +92,7 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
     if (area && !sampleEmitter(batch, light, g, emitterArea)) return;
     if (!batch.run(*light.bound, g)) return;
     if (area) radianceToSample(g, emitterArea);
-    LightSample sample{&light, batch.arena.vec3(g.count), g.Cl, g.L, nullptr};
+    LightSample sample{&light, batch.arena.vec3(g.count), g.Cl, g.L, {light.can(TM_LIGHT_SOLAR), s, n}, nullptr};
     for (int i = 0; i < g.count; ++i) set(sample.L, i, normalizeOr(get(g.L, i), vec3(0.0f)));
     if (light.shadows && batch.scene.services) {
       sample.pending = batch.arena.bytes(g.count);
@@ -113,8 +113,7 @@ void Lights::shadow(Batch& batch, LightSample& sample, const uint8_t* want) cons
     sample.pending[i] = 0, any = true;
   }
   if (any)
-    batch.scene.services->transmission(*batch.points, trace, view(sample.toward),
-                                       sample.light->can(TM_LIGHT_SOLAR), batch.context, sample.Cl);
+    batch.scene.services->transmission(*batch.points, trace, view(sample.toward), sample.rays, batch.context, sample.Cl);
 }
 
 }  // namespace tomales

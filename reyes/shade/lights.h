@@ -4,7 +4,7 @@
 #pragma once
 #include <vector>
 
-#include "reyes/shader_api.h"
+#include "reyes/shade.h"
 
 namespace tomales {
 
@@ -16,6 +16,7 @@ struct LightSample {
   TmVec3 L;          ///< Unit, from P to the light.
   TmVec3 Cl;         ///< Divided by the number of samples; multiplied by transmission where `pending` is 0.
   TmVec3 toward;     ///< L at full length: what a shadow ray travels.
+  ShadowRays rays;   ///< Which they are.
   uint8_t* pending;  ///< 1: a shadow ray is still to be traced. Null: the light casts no shadows.
 };
 

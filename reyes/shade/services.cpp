@@ -142,7 +142,7 @@ void transmission(void* host, const TmGrid* g, TmConstVec3 P, TmConstVec3 toward
   if (!batch.points || !batch.scene.services) return;
   ShadePoints moved = *batch.points;
   forActive(g, [&](int i) { moved.set3(kPx, i, get(P, i)); });
-  batch.scene.services->transmission(moved, g->active, toward, false, batch.context, out);
+  batch.scene.services->transmission(moved, g->active, toward, {}, batch.context, out);
 }
 
 /// Null: no light is running, or not of this group.
