@@ -56,8 +56,12 @@ std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
   return {a, b};
 }
 
-int cells(float length_px, float edge_px) {
-  const float n = std::ceil(length_px / edge_px);
+/// Cells along `length_px`: fewer where blur lets edges grow by `coarsening`, but then never so few that a patch that closes on
+/// itself collapses.
+int cells(float length_px, float edge_px, float coarsening) {
+  constexpr float kLeastOfCoarse = 4;
+  const float fine = std::ceil(length_px / edge_px), coarse = std::ceil(length_px / (edge_px * coarsening));
+  const float n = std::max(coarse, std::min(fine, kLeastOfCoarse));
   return n >= 1.0f ? static_cast<int>(std::min(n, 65536.0f)) : 1;
 }
 
@@ -99,8 +103,8 @@ class Splitter {
       raster = {{window_.x0, window_.y0}, {window_.x1, window_.y1}};
     }
     const PatchSize size = measure(object_, camera_, patch, rect);
-    const float edge_px = edge_px_ * coarsening(patch, rect, bound);
-    const int nu = cells(size.u_px, edge_px), nv = cells(size.v_px, edge_px);
+    const float blur = coarsening(patch, rect, bound);
+    const int nu = cells(size.u_px, edge_px_, blur), nv = cells(size.v_px, edge_px_, blur);
     if (static_cast<int64_t>(nu) * nv > gridSize_) {
       if (depth == kMaxDepth)
         ++givenUp_.tooMany;

@@ -119,6 +119,17 @@ TEST(Split, FocusFactorDicesWhatIsBlurredCoarser) {
   EXPECT_GT(static_cast<double>(micropolygons(withFactors(scene, 0, 0.25f))), sharp / 10);
 }
 
+TEST(Split, ASmallBallFarOutOfFocusKeepsAShape) {
+  Scene scene = sceneOf({sphere(0.05f)}, translation({0, 0, 12}));
+  scene.options.fStop = 0.1f, scene.options.focalDistance = 2, scene.options.focalLength = 0.2f;
+  Stats stats;
+  scene.freeze();
+  for (const SubPatch& p : split(scene, stats)) {
+    EXPECT_GE(p.nu, 3);
+    EXPECT_GE(p.nv, 2);
+  }
+}
+
 TEST(Split, MotionFactorDicesWhatMovesFarCoarser) {
   Scene scene = sceneOf({sphere(0.3f)}, translation({0, 0, 4}));
   scene.options.shutterClose = 1;
