@@ -120,7 +120,7 @@ TEST(Split, FocusFactorDicesWhatIsBlurredCoarser) {
 }
 
 TEST(Split, ASmallBallFarOutOfFocusKeepsAShape) {
-  Scene scene = sceneOf({sphere(0.05f)}, translation({0, 0, 12}));
+  Scene scene = sceneOf({sphere(0.15f)}, translation({0, 0, 12}));
   scene.options.fStop = 0.1f, scene.options.focalDistance = 2, scene.options.focalLength = 0.2f;
   Stats stats;
   scene.freeze();
