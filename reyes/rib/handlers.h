@@ -13,6 +13,7 @@ using Handler = void (*)(GraphicsState&, const Request&);
 using HandlerTable = std::unordered_map<std::string_view, Handler>;
 
 const HandlerTable& optionHandlers();
+const HandlerTable& displayHandlers();
 const HandlerTable& attributeHandlers();
 const HandlerTable& shaderHandlers();
 const HandlerTable& resourceHandlers();
