@@ -82,6 +82,7 @@ class ShadePoints {
 /// Colour and opacity of a batch of shaded points, Ci premultiplied. Arrays are padded as ShadePoints' are.
 struct ShadedPoints {
   AlignedVector<float> Ci[3], Oi[3];
+  std::vector<AlignedVector<float>> variables;  ///< As FrameOutput::variables; empty where nobody stores them.
   void resize(int count);
   vec3 color(int i) const { return {Ci[0][static_cast<size_t>(i)], Ci[1][static_cast<size_t>(i)], Ci[2][static_cast<size_t>(i)]}; }
   vec3 opacity(int i) const { return {Oi[0][static_cast<size_t>(i)], Oi[1][static_cast<size_t>(i)], Oi[2][static_cast<size_t>(i)]}; }

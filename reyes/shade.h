@@ -23,6 +23,7 @@ struct ShadeContext {
   uint32_t seed = 0;
   int lightSamples = 0;        ///< Samples of each area light and of the sky; 0: as many as the light asks for.
   bool indirect = true;        ///< Run indirect lights.
+  bool variables = false;      ///< Store what outputOf(options) lists.
 };
 
 /// Parameters of an indirect light (docs/gi.md), bound from the calling `indirectlight`.

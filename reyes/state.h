@@ -56,10 +56,22 @@ struct LightCall {
 };
 
 struct DisplayCall {
-  std::string name = "ri.pic", type = "file", mode = "rgba";  ///< mode: "rgb", "rgba", "rgbaz", "z", ...
+  std::string name = "ri.pic", type = "file", mode = "rgba";  ///< mode: "rgb", "rgbaz", "z", or names: "Ci,a,z,diffuse"
   ParamList params;
   SourceLoc where;
 };
+
+/// DisplayChannel: a variable that Displays may name.
+struct ChannelCall {
+  std::string name;
+  ValueType type = ValueType::Color;
+  ParamList params;
+  SourceLoc where;
+};
+
+/// Depth of a pixel, of the samples that see something opaque: the least, the greatest, the mean; or the least of the
+/// means of each sample's two nearest surfaces (Woo 1992), the far clipping plane standing in for a second.
+enum class DepthFilter { Min, Max, Average, Midpoint };
 
 enum class ProjectionKind { Orthographic, Perspective, Null };
 
@@ -70,7 +82,7 @@ struct Aperture {
   float density = 0;                   ///< 1: dark in the middle, -1: dark at the rim, linearly in between.
 };
 
-struct Quantize { float one = 255, min = 0, max = 255, dither = 0.5f; };
+struct Quantize { float one = 255, min = 0, max = 255, dither = 0.5f, zero = 0; };
 
 struct Options {
   int xResolution = 640, yResolution = 480;
@@ -94,6 +106,10 @@ struct Options {
   Quantize rgbaQuantize{}, depthQuantize{0, 0, 0, 0};
   bool quantizeGiven = false;                              ///< The RIB said Quantize; else the file's type decides.
   std::vector<DisplayCall> displays;                       ///< Empty: the default Display.
+  std::map<std::string, ChannelCall> channels;             ///< By name.
+  DepthFilter depthFilter = DepthFilter::Min;
+  vec3 opaqueThreshold{0.996f};                            ///< Limits "othreshold": what is behind is not visible.
+  vec3 depthThreshold{1.0f};                               ///< Limits "zthreshold": what is clearer has no depth.
   std::optional<ShaderCall> imager;
   int bucketWidth = 16, bucketHeight = 16;
   int gridSize = 256;                                      ///< Most micropolygons in a grid.

@@ -36,7 +36,10 @@ constexpr Standard kStandard[] = {
     {"float[2]", "shutteropening exposure filterwidth"},
     {"float[4]", "quantize"},
     {"int[2]", "origin"},
-    {"string", "compression filter depthfilter type"},
+    {"string", "compression filter depthfilter type source exrpixeltype exrcompression transfer lightgroup __group"},
+    {"float", "fill"},
+    {"float[8]", "chromaticities"},
+    {"int", "tiled multipart"},
     // Category names go by "category:name"
     {"int[2]", "limits:bucketsize bucket:orderorigin"},
     {"int",

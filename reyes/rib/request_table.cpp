@@ -63,7 +63,7 @@ constexpr Signature kTable[] = {
     {"Imager", "s", kParams, kWorks},
     {"Quantize", "s4", kNone, kWorks},
     {"Display", "sss", kParams, kWorks},
-    {"DisplayChannel", "s", kParams, kNotYet},
+    {"DisplayChannel", "s", kParams, kWorks},
     {"Hider", "s", kParams, kWorks},
     {"Integrator", "ss", kParams, kWorks},
     {"DisplayFilter", "ss", kParams, kWorks},

@@ -59,11 +59,13 @@ void radianceToSample(const TmGrid& g, const float* area) {
 
 }  // namespace
 
+void Lights::restrictTo(const std::string* group) { group_ = group; }
+
 void Lights::ambient(Batch& batch, const TmGrid& asking, TmVec3 out) {
   for (int i = 0; i < asking.count; ++i)
     if (asking.active[i]) set(out, i, vec3(0.0f));
   for (const BoundLight* light : batch.group.lights) {
-    if (!light->can(TM_LIGHT_AMBIENT) || !applies(*light, batch)) continue;
+    if (!light->can(TM_LIGHT_AMBIENT) || !applies(*light, batch) || (group_ && light->group != *group_)) continue;
     const TmGrid g = lightGrid(batch, *light);
     if (!batch.run(*light->bound, g)) continue;
     for (int i = 0; i < g.count; ++i)
@@ -77,7 +79,12 @@ std::vector<LightSample>& Lights::samples(Batch& batch) {
     for (const BoundLight* light : batch.group.lights)
       if (!light->can(TM_LIGHT_AMBIENT) && applies(*light, batch)) evaluate(batch, *light);
   }
-  return samples_;
+  if (!group_) return samples_;
+  // Copies share the arrays: what has been traced for one is traced for all.
+  chosen_.clear();
+  for (const LightSample& s : samples_)
+    if (s.light->group == *group_) chosen_.push_back(s);
+  return chosen_;
 }
 
 void Lights::evaluate(Batch& batch, const BoundLight& light) {

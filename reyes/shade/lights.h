@@ -2,6 +2,7 @@
 // Shadow rays are traced later still, sample by sample, for the points on whose side of the surface the
 // sample turns out to be.
 #pragma once
+#include <string>
 #include <vector>
 
 #include "reyes/shade.h"
@@ -22,6 +23,8 @@ struct LightSample {
 
 class Lights {
  public:
+  /// From now on only lights of this group count; null: all.
+  void restrictTo(const std::string* group);
   /// Sum of the ambient lights at the active points of `asking`.
   void ambient(Batch& batch, const TmGrid& asking, TmVec3 out);
   /// All samples of all lights that have a direction, in the order of Attributes::lights. Unshadowed until
@@ -33,7 +36,8 @@ class Lights {
  private:
   void evaluate(Batch& batch, const BoundLight& light);
   bool evaluated_ = false;
-  std::vector<LightSample> samples_;
+  std::vector<LightSample> samples_, chosen_;  ///< All; those of group_.
+  const std::string* group_ = nullptr;
 };
 
 }  // namespace tomales

@@ -60,6 +60,26 @@ TEST(Options, AreReadFromEveryRequest) {
   EXPECT_TRUE(o.fov_degrees == 45 && o.frame == 7);
 }
 
+TEST(Options, DisplayChannelsAreTypedByTheirNameAndHidersHaveDepthFilters) {
+  const Reading r(R"(DisplayChannel "varying color diffuse" DisplayChannel "varying normal Nn" "string source" "N" "string filter" "zmin"
+    Hider "hidden" "string depthfilter" "midpoint" Option "limits" "color zthreshold" [0.5 0.5 0.5])" + inWorld(""));
+  const Options& o = r.scene().options;
+  EXPECT_EQ(r.codes(), "");
+  EXPECT_EQ(o.channels.at("diffuse").type, ValueType::Color);
+  EXPECT_EQ(o.channels.at("Nn").type, ValueType::Normal);
+  EXPECT_EQ(o.channels.at("Nn").params.size(), 2u);
+  EXPECT_EQ(o.depthFilter, DepthFilter::Midpoint);
+  EXPECT_EQ(o.depthThreshold, vec3(0.5f));
+}
+
+TEST(Options, WhatNoPictureHoldsIsNoChannel) {
+  const Reading r(R"(DisplayChannel "varying matrix m"
+    DisplayChannel "plain"
+    Hider "hidden" "string depthfilter" "median")" + inWorld(""));
+  EXPECT_EQ(r.scene().options.channels.size(), 1u);
+  EXPECT_EQ(r.log.entries().size(), 3u);
+}
+
 TEST(Options, DisplaysAddUpWithAPlusAndStartAnewWithout) {
   const Reading r(
       "Display \"a\" \"file\" \"rgb\" Display \"b\" \"tiff\" \"rgba\" Display \"+c\" \"file\" \"z\"" +
