@@ -4,8 +4,9 @@ namespace tomales {
 namespace {
 
 constexpr int kDeepest = 20;              ///< Halvings of the root cell.
-constexpr int kExtraLevels = 3;           ///< For cells with more than one sheet.
+constexpr int kExtraLevels = 3;           ///< For cells with more than one sheet or a crease.
 constexpr double kCellsOfFeature = 3;     ///< A leaf alone shows with this many cells across.
+constexpr double kLeastCosine = 0.5;      ///< Between normals of a cell and their mean.
 constexpr double kRounding = 1e-9;        ///< Of sums of leaves' values.
 constexpr size_t kMostCells = 4'000'000;  ///< About a gigabyte while it is made.
 
@@ -38,6 +39,15 @@ dvec3 outwardAt(const BlobField& field, const dvec3& p) {
   const dvec3 falls = -field.at(p).gradient;
   const double length = glm::length(falls);
   return length > 0 ? falls / length : dvec3(0, 0, 1);
+}
+
+/// The surface turns by less than about two right angles in the cell: lines towards it meet it once.
+bool isFlatEnough(const std::vector<dvec3>& crossings, const BlobField& field) {
+  dvec3 mean(0);
+  for (const dvec3& p : crossings) mean += outwardAt(field, p);
+  for (const dvec3& p : crossings)
+    if (glm::dot(outwardAt(field, p), mean) < kLeastCosine * glm::length(mean)) return false;
+  return true;
 }
 
 class Contourer {
@@ -81,11 +91,12 @@ class Contourer {
     out_.complete &= !full;
     const double wanted = field.feature() / kCellsOfFeature, side = unit_ * cells_[index].size;
     if (cells_[index].size == 1 || side <= wanted || full) {
-      const uint8_t inside = cornersInside(cells_[index], field);
-      if (isOneSheet(inside) || side * (1 << kExtraLevels) <= wanted || cells_[index].size == 1 || full) {
-        cells_[index].inside = inside;
-        return makeVertex(index, field);
-      }
+      cells_[index].inside = cornersInside(cells_[index], field);
+      const std::vector<dvec3> crossings = crossingsOf(cells_[index], field);
+      const bool simple = isOneSheet(cells_[index].inside) && isFlatEnough(crossings, field);
+      if (simple || side * (1 << kExtraLevels) <= wanted || cells_[index].size == 1 || full)
+        return makeVertex(index, crossings, field);
+      cells_[index].inside = 0;
     }
     const uint32_t first = static_cast<uint32_t>(cells_.size());
     cells_[index].firstChild = first;
@@ -98,23 +109,29 @@ class Contourer {
     for (uint32_t k = 0; k < 8; ++k) refine(first + k, field);
   }
 
-  /// In the middle of where the cell's edges meet the surface, then moved onto it.
-  void makeVertex(uint32_t index, const BlobField& field) {
-    Cell& cell = cells_[index];
-    dvec3 sum(0);
-    int crossings = 0;
+  /// About where the surface meets the cell's edges.
+  std::vector<dvec3> crossingsOf(const Cell& cell, const BlobField& field) const {
+    std::vector<dvec3> out;
     for (int a = 0; a < 8; ++a)
       for (int axis = 0; axis < 3; ++axis) {
         const int b = a | 1 << axis;
         if (b == a || !((cell.inside >> a ^ cell.inside >> b) & 1)) continue;
         const dvec3 p = position(cornerOf(cell, a)), q = position(cornerOf(cell, b));
         const double f = field.at(p).value - kBlobSurface, g = field.at(q).value - kBlobSurface;
-        sum += p + (q - p) * (f / (f - g)), ++crossings;
+        out.push_back(p + (q - p) * (f / (f - g)));
       }
+    return out;
+  }
+
+  /// In the middle of the crossings, then moved onto the surface.
+  void makeVertex(uint32_t index, const std::vector<dvec3>& crossings, const BlobField& field) {
+    Cell& cell = cells_[index];
+    dvec3 sum(0);
+    for (const dvec3& p : crossings) sum += p;
     // A cell without a crossing of its own has a vertex too: a smaller neighbour may see one on their common edge.
     const Box box = boxOf(cell);
-    const dvec3 start = crossings ? sum / static_cast<double>(crossings) : 0.5 * (box.lo + box.hi);
-    const double reach = unit_ * cell.size;
+    const dvec3 start = crossings.empty() ? 0.5 * (box.lo + box.hi) : sum / static_cast<double>(crossings.size());
+    const double reach = 2 * unit_ * cell.size;
     const dvec3 outward = outwardAt(field, start);
     const dvec3 p = start + meetSurface(field, start, outward, reach).value_or(0) * outward;
     cell.vertex = static_cast<int32_t>(out_.vertices.size());

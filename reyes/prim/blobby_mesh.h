@@ -26,7 +26,7 @@ struct BlobMesh {
 };
 
 /// Dual contouring (Ju et al. 2002) of an octree that is as fine as the field's features, and finer where a cell meets
-/// more than one sheet. Closed. Details smaller than a third of the least leaf there may be missed.
+/// more than one sheet or a crease. Closed. Details smaller than a third of the least leaf there may be missed.
 BlobMesh contour(const BlobField& field, const Box& box);
 
 /// The t nearest to 0 in [-reach, reach] where p + t * outward meets the surface, if there is one.

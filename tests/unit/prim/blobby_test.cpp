@@ -122,7 +122,7 @@ TEST(Blobby, EveryOperationIsWhatItsNameSays) {
     atRandomPoints(*prim, [&](const Sample& s) {
       off += !(std::abs(k.field(ballAt(s.p, a), ballAt(s.p, b), ballAt(s.p, c)) - 0.421875) < 5e-6);
     });
-    EXPECT_EQ(off, 0) << k.code[0];
+    EXPECT_EQ(off, 0) << k.code[0] << " after " << k.code.size();
     const Enclosed enclosed = enclosedBy(*prim, 3);
     EXPECT_GT(enclosed.volume, 0) << k.code[0];
     EXPECT_LT(glm::length(enclosed.gap), 1e-4) << k.code[0];
