@@ -141,7 +141,7 @@ constexpr Signature kTable[] = {
     {"TrimCurve", "FFFFFFFFF", kNone, kWorks},
     {"Points", "", kParams, kWorks},
     {"Curves", "sFs", kParams, kWorks},
-    {"Blobby", "fFFS", kParams, kGeometry},
+    {"Blobby", "fFFS", kParams, kWorks},
     {"Volume", "s6F", kParams, kGeometry},
     {"Geometry", "s", kParams, kGeometry},
     {"Procedural", "sS6", kNone, kWorks},
