@@ -6,6 +6,8 @@
 namespace tomales {
 namespace {
 
+constexpr size_t kManyGrids = 4096;
+
 /// Key times of a grid as fractions of the shutter.
 std::vector<float> shutterTimes(const Scene& scene, const Grid& grid) {
   if (grid.keyCount == 1) return {0};
@@ -23,6 +25,14 @@ struct Hider::Impl {
   Camera camera;
   SampleBuffer samples;
   GridTable grids;
+  size_t enough = kManyGrids;
+
+  /// Grids that no sample sees any more make room, now and then.
+  void dropUnseen() {
+    if (grids.size() < enough) return;
+    grids.keepOnly(samples.seen());
+    enough = std::max(kManyGrids, 2 * grids.size());
+  }
 };
 
 Hider::Hider(const Scene& scene, const Camera& camera, const SamplePattern& pattern, const PixelRect& rect)
@@ -40,6 +50,7 @@ bool Hider::hidden(const Bound2& raster, float zMin) const {
 void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
   SampleBuffer& s = impl_->samples;
   if (s.hides(s.touched(raster->bound.lo, raster->bound.hi), raster->dMin)) return;
+  impl_->dropUnseen();
   const GridTable::Entry& entry = impl_->grids.add(raster, shutterTimes(impl_->scene, *raster->grid));
   const RasterJob job{*raster, impl_->grids, entry.firstCell, entry.keyTimes, impl_->camera, s};
   if (raster->grid->keyCount > 1 || raster->defocused)

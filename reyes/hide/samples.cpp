@@ -17,6 +17,13 @@ const GridTable::Entry& GridTable::of(uint32_t cell) const {
   return *(after - 1);
 }
 
+void GridTable::keepOnly(const std::vector<uint32_t>& cells) {
+  std::erase_if(entries_, [&](const Entry& e) {
+    const auto first = std::lower_bound(cells.begin(), cells.end(), e.firstCell);
+    return first == cells.end() || *first >= e.firstCell + static_cast<uint32_t>(e.grid().cellCount());
+  });
+}
+
 bool GridTable::precedes(uint32_t a, uint32_t b) const {
   const auto rank = [this](uint32_t cell) {
     const Entry& e = of(cell);
@@ -44,6 +51,14 @@ SampleBuffer::SampleBuffer(const SamplePattern& pattern, const PixelRect& pixels
   for (size_t p = 0; p < count; ++p) std::fill_n(depth.data() + p * width, pattern.count(), kNothing);
   cell.assign(count * width, kNoCell);
   far.assign(count, kNothing);
+}
+
+std::vector<uint32_t> SampleBuffer::seen() const {
+  std::vector<uint32_t> out;
+  std::copy_if(cell.begin(), cell.end(), std::back_inserter(out), [](uint32_t c) { return c != kNoCell; });
+  for (const Layer& layer : layers) out.push_back(layer.cell);
+  std::sort(out.begin(), out.end());
+  return out;
 }
 
 bool SampleBuffer::hides(const PixelRect& pixels, float d) const {

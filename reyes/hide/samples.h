@@ -23,6 +23,9 @@ class GridTable {
 
   const Entry& add(const std::shared_ptr<const RasterGrid>& raster, std::vector<float> keyTimes);
   const Entry& of(uint32_t cell) const;
+  /// Forgets every grid that has none of these cells. Pre: sorted.
+  void keepOnly(const std::vector<uint32_t>& cells);
+  size_t size() const { return entries_.size(); }
   uint32_t cellCount() const { return cells_; }
   /// Decides between equal depths: by name, never by pointer or order of insertion.
   bool precedes(uint32_t a, uint32_t b) const;
@@ -66,6 +69,8 @@ struct SampleBuffer {
             std::min(floorWithin(hi.x, rect.x0, rect.x1) + 1, rect.x1),
             std::min(floorWithin(hi.y, rect.y0, rect.y1) + 1, rect.y1)};
   }
+  /// All cells that some sample sees, sorted.
+  std::vector<uint32_t> seen() const;
   /// Is every sample of the pixels nearer than depth key d?
   bool hides(const PixelRect& pixels, float d) const;
 };
