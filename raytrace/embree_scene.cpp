@@ -16,14 +16,23 @@ namespace {
 /// may have a group for every object.
 struct Geometry {
   bool opaque, flips;
-  std::vector<uint32_t> groupOfQuad;
-  const std::vector<uint32_t>* firstQuad;  ///< of each group, in its geometry
-  const std::vector<CoarseGroup>* groups;
+  const CoarseGroup* meshes;                         ///< All groups, or the one master.
+  std::vector<uint32_t> meshOfQuad;                  ///< Empty: all belong to the first.
+  const std::vector<uint32_t>* firstQuad = nullptr;  ///< of each mesh, in its geometry
 
-  PolygonHit hit(float t, uint32_t primitive, float u, float v, bool leaving) const {
-    const uint32_t group = groupOfQuad[primitive];
-    return {t, group, primitive - (*firstQuad)[group], u, v, leaving};
+  struct Place { uint32_t mesh, quad; };
+  Place place(uint32_t primitive) const {
+    if (meshOfQuad.empty()) return {0, primitive};
+    const uint32_t mesh = meshOfQuad[primitive];
+    return {mesh, primitive - (*firstQuad)[mesh]};
   }
+};
+
+/// Instances come behind the geometries in the order of Embree's IDs.
+struct Instances {
+  uint32_t firstId = 0;
+  std::vector<uint32_t> group;
+  std::vector<bool> opaque;
 };
 
 /// What filters are given beside the hit. Embree hands back the address of its first member.
@@ -33,6 +42,15 @@ struct Traversal {
   float window = 0;
   float tMax = kInfinity;
   HitList* list = nullptr;
+  const Instances* instances = nullptr;
+
+  PolygonHit hit(const Geometry& geometry, float t, uint32_t instanceId, uint32_t primitive, float u, float v,
+                 bool leaving) const {
+    const auto [mesh, quad] = geometry.place(primitive);
+    if (instanceId == RTC_INVALID_GEOMETRY_ID) return {t, mesh, quad, u, v, leaving};
+    const uint32_t i = instanceId - instances->firstId;
+    return {t, instances->group[i], quad, u, v, leaving, static_cast<int>(i)};
+  }
 };
 static_assert(std::is_standard_layout_v<Traversal>);
 
@@ -45,8 +63,14 @@ PolygonHit hitOf(const RTCFilterFunctionNArguments& args, const Traversal& trave
                        RTCRayN_dir_z(args.ray, 1, 0));
   const vec3 normal(RTCHitN_Ng_x(args.hit, 1, 0), RTCHitN_Ng_y(args.hit, 1, 0), RTCHitN_Ng_z(args.hit, 1, 0));
   const Geometry& geometry = *static_cast<const Geometry*>(args.geometryUserPtr);
-  return geometry.hit(RTCRayN_tfar(args.ray, 1, 0) - traversal.shift, RTCHitN_primID(args.hit, 1, 0),
-                      RTCHitN_u(args.hit, 1, 0), RTCHitN_v(args.hit, 1, 0), leaves(direction, normal, geometry.flips));
+  return traversal.hit(geometry, RTCRayN_tfar(args.ray, 1, 0) - traversal.shift, RTCHitN_instID(args.hit, 1, 0, 0),
+                       RTCHitN_primID(args.hit, 1, 0), RTCHitN_u(args.hit, 1, 0), RTCHitN_v(args.hit, 1, 0),
+                       leaves(direction, normal, geometry.flips));
+}
+
+bool isOpaque(const RTCFilterFunctionNArguments& args, const Traversal& traversal, const PolygonHit& hit) {
+  return hit.instance >= 0 ? traversal.instances->opaque[static_cast<size_t>(hit.instance)]
+                           : static_cast<const Geometry*>(args.geometryUserPtr)->opaque;
 }
 
 /// Records and rejects hits in the window, accepts those beyond.
@@ -63,8 +87,7 @@ void recordShadow(const RTCFilterFunctionNArguments* args) {
   if (!args->valid[0]) return;
   const PolygonHit hit = hitOf(*args, traversal);
   const bool counts = hit.t < traversal.tMax;
-  if (counts && hit.t > traversal.window && static_cast<const Geometry*>(args->geometryUserPtr)->opaque)
-    return;
+  if (counts && hit.t > traversal.window && isOpaque(*args, traversal, hit)) return;
   if (counts) traversal.list->push_back(hit);
   args->valid[0] = 0;
 }
@@ -73,9 +96,8 @@ void recordShadow(const RTCFilterFunctionNArguments* args) {
 void rejectTrimmed(const RTCFilterFunctionNArguments* args) {
   if (!args->valid[0]) return;
   const Geometry& geometry = *static_cast<const Geometry*>(args->geometryUserPtr);
-  const PolygonHit hit =
-      geometry.hit(0, RTCHitN_primID(args->hit, 1, 0), RTCHitN_u(args->hit, 1, 0), RTCHitN_v(args->hit, 1, 0), false);
-  if (!(*geometry.groups)[hit.group].keeps(hit.quad, hit.u, hit.v)) args->valid[0] = 0;
+  const auto [mesh, quad] = geometry.place(RTCHitN_primID(args->hit, 1, 0));
+  if (!geometry.meshes[mesh].keeps(quad, RTCHitN_u(args->hit, 1, 0), RTCHitN_v(args->hit, 1, 0))) args->valid[0] = 0;
 }
 
 /// Embree takes no negative tnear: the ray starts `shift` before its origin.
@@ -89,8 +111,9 @@ RTCRay rayFrom(const Ray& ray, float shift, float tNear, uint32_t mask) {
   return r;
 }
 
-Traversal traversalOf(RTCFilterFunctionN filter, float shift, float window, float tMax, HitList* list) {
-  Traversal t{{}, shift, window, tMax, list};
+Traversal traversalOf(RTCFilterFunctionN filter, float shift, float window, float tMax, HitList* list,
+                      const Instances& instances) {
+  Traversal t{{}, shift, window, tMax, list, &instances};
   rtcInitIntersectContext(&t.embree);
   t.embree.filter = filter;
   return t;
@@ -99,9 +122,14 @@ Traversal traversalOf(RTCFilterFunctionN filter, float shift, float window, floa
 }  // namespace
 
 struct EmbreeScene::Impl {
+  explicit Impl(const SharedShapes& s) : shapes(s) {}
+
+  const SharedShapes& shapes;
   std::atomic<int64_t> bytes{0};
   std::vector<uint32_t> firstQuad;
   std::deque<Geometry> geometries;  ///< By Embree's geomID; Embree keeps their addresses.
+  std::deque<Geometry> masters;
+  Instances instances;
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
 
@@ -110,13 +138,19 @@ struct EmbreeScene::Impl {
     return true;
   }
 
+  RTCScene newScene() const {
+    RTCScene out = rtcNewScene(device);
+    rtcSetSceneFlags(out, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+    return out;
+  }
+
   /// One geometry of the given groups. Embree pads the vertex buffer that it allocates, of which it reads 16 bytes at the last.
   void attach(const std::vector<uint32_t>& members, const std::vector<CoarseGroup>& groups, uint32_t mask, bool opaque) {
     const size_t steps = groups[members.front()].laterP.size() + 1;
     size_t vertexCount = 0, quadCount = 0;
     for (const uint32_t g : members) vertexCount += groups[g].P.size(), quadCount += groups[g].quads.size();
     const auto id = static_cast<unsigned>(geometries.size());
-    Geometry& out = geometries.emplace_back(Geometry{opaque, groups[members.front()].flipsNormal, {}, &firstQuad, &groups});
+    Geometry& out = geometries.emplace_back(Geometry{opaque, groups[members.front()].flipsNormal, groups.data(), {}, &firstQuad});
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
     rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(steps));
     std::vector<vec3*> vertices;
@@ -128,8 +162,8 @@ struct EmbreeScene::Impl {
     uint32_t firstVertex = 0;
     for (const uint32_t g : members) {
       if (!vertices.back() || !quads) break;  // out of memory: the device's error tells
-      firstQuad[g] = static_cast<uint32_t>(out.groupOfQuad.size());
-      out.groupOfQuad.insert(out.groupOfQuad.end(), groups[g].quads.size(), g);
+      firstQuad[g] = static_cast<uint32_t>(out.meshOfQuad.size());
+      out.meshOfQuad.insert(out.meshOfQuad.end(), groups[g].quads.size(), g);
       for (size_t step = 0; step < steps; ++step) {
         const std::vector<vec3>& P = step == 0 ? groups[g].P : groups[g].laterP[step - 1];
         vertices[step] = std::copy(P.begin(), P.end(), vertices[step]);
@@ -139,14 +173,54 @@ struct EmbreeScene::Impl {
       firstVertex += static_cast<uint32_t>(groups[g].P.size());
     }
     rtcSetGeometryMask(geometry, mask);
-    rtcSetGeometryUserData(geometry, &out);
-    if (groups[members.front()].trimmed) {
-      rtcSetGeometryIntersectFilterFunction(geometry, rejectTrimmed);
-      rtcSetGeometryOccludedFilterFunction(geometry, rejectTrimmed);
-    }
+    if (groups[members.front()].trimmed) cutTrimmed(geometry);
+    attach(scene, geometry, id, &out);
+  }
+
+  static void cutTrimmed(RTCGeometry geometry) {
+    rtcSetGeometryIntersectFilterFunction(geometry, rejectTrimmed);
+    rtcSetGeometryOccludedFilterFunction(geometry, rejectTrimmed);
+  }
+
+  static void attach(RTCScene to, RTCGeometry geometry, unsigned id, void* user) {
+    rtcSetGeometryUserData(geometry, user);
     rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(scene, geometry, id);
+    rtcAttachGeometryByID(to, geometry, id);
     rtcReleaseGeometry(geometry);
+  }
+
+  /// The polygons of a master lie in its own buffers: Embree asks for 16 readable bytes at the last vertex.
+  RTCScene sceneOf(const CoarseGroup& mesh) {
+    RTCScene out = newScene();
+    Geometry& described = masters.emplace_back(Geometry{true, mesh.flipsNormal, &mesh, {}});
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
+    auto* vertices = static_cast<vec3*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), mesh.P.size()));
+    if (vertices) std::copy(mesh.P.begin(), mesh.P.end(), vertices);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, mesh.quads.data(), 0, sizeof(Quad),
+                               mesh.quads.size());
+    if (mesh.trimmed) cutTrimmed(geometry);
+    attach(out, geometry, 0, &described);
+    rtcCommitScene(out);
+    return out;
+  }
+
+  void attachInstances(const std::vector<uint32_t>& groupOf, const std::vector<uint32_t>& masks,
+                       const std::vector<bool>& opaque) {
+    std::vector<RTCScene> scenes;
+    for (const CoarseGroup& mesh : shapes.masters) scenes.push_back(sceneOf(mesh));
+    instances.firstId = static_cast<uint32_t>(geometries.size());
+    for (size_t i = 0; i < shapes.instances.size(); ++i) {
+      const CoarseInstance& instance = shapes.instances[i];
+      RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+      rtcSetGeometryInstancedScene(geometry, scenes[instance.master]);
+      rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &instance.cameraFromObject[0][0]);
+      rtcSetGeometryMask(geometry, masks[groupOf[i]]);
+      attach(scene, geometry, instances.firstId + static_cast<uint32_t>(i), nullptr);
+      instances.group.push_back(groupOf[i]);
+      instances.opaque.push_back(opaque[groupOf[i]]);
+    }
+    for (RTCScene s : scenes) rtcReleaseScene(s);  // the instances hold it
   }
 
   bool trace(const Ray& ray, float shift, float tNear, uint32_t mask, Traversal& traversal,
@@ -156,21 +230,24 @@ struct EmbreeScene::Impl {
     rtcIntersect1(scene, &traversal.embree, &r);
     const float t = r.ray.tfar - shift;
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID || t >= ray.tMax) return false;
-    const Geometry& geometry = geometries[r.hit.geomID];
-    out = geometry.hit(t, r.hit.primID, r.hit.u, r.hit.v,
-                       leaves(ray.direction, {r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z}, geometry.flips));
+    const uint32_t instance = r.hit.instID[0];
+    const CoarseInstance* placed =
+        instance != RTC_INVALID_GEOMETRY_ID ? &shapes.instances[instance - instances.firstId] : nullptr;
+    const Geometry& geometry = placed ? masters[placed->master] : geometries[r.hit.geomID];
+    const vec3 normal(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z);
+    out = traversal.hit(geometry, t, instance, r.hit.primID, r.hit.u, r.hit.v,
+                        leaves(ray.direction, placed ? placed->normals * normal : normal, geometry.flips));
     return true;
   }
 };
 
-EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const std::vector<uint32_t>& masks,
+EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const SharedShapes& shapes,
+                         const std::vector<uint32_t>& groupOf, const std::vector<uint32_t>& masks,
                          const std::vector<bool>& opaque, Log& log)
-    : impl_(std::make_unique<Impl>()) {
+    : impl_(std::make_unique<Impl>(shapes)) {
   impl_->device = rtcNewDevice(nullptr);
   rtcSetDeviceMemoryMonitorFunction(impl_->device, &Impl::countBytes, impl_.get());
-  impl_->scene = rtcNewScene(impl_->device);
-  rtcSetSceneFlags(impl_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
-                                                            RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+  impl_->scene = impl_->newScene();
   std::map<std::tuple<uint32_t, bool, bool, bool, size_t>, std::vector<uint32_t>> alike;
   for (uint32_t i = 0; i < groups.size(); ++i) {
     const CoarseGroup& g = groups[i];
@@ -181,6 +258,7 @@ EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const std::vect
   // With several threads the order of primitives in a leaf, and with it which of two hits at equal t is found
   // first, would depend on their number.
   const ThreadLimit one(1);
+  impl_->attachInstances(groupOf, masks, opaque);
   rtcCommitScene(impl_->scene);
   if (rtcGetDeviceError(impl_->device) != RTC_ERROR_NONE)
     log.report(Severity::Missing, "trace-embree", {},
@@ -193,21 +271,21 @@ EmbreeScene::~EmbreeScene() {
 }
 
 bool EmbreeScene::nearest(const Ray& ray, uint32_t mask, PolygonHit& hit) const {
-  Traversal traversal = traversalOf(nullptr, 0, 0, ray.tMax, nullptr);
+  Traversal traversal = traversalOf(nullptr, 0, 0, ray.tMax, nullptr, impl_->instances);
   return impl_->trace(ray, 0, std::max(ray.bias, 0.0f), mask, traversal, hit);
 }
 
 bool EmbreeScene::nearestBeyond(const Ray& ray, float window, uint32_t mask, HitList& list,
                                 PolygonHit& beyond) const {
   list.clear();
-  Traversal traversal = traversalOf(&recordNear, window, window, ray.tMax, &list);
+  Traversal traversal = traversalOf(&recordNear, window, window, ray.tMax, &list, impl_->instances);
   return impl_->trace(ray, window, 0, mask, traversal, beyond);
 }
 
 bool EmbreeScene::blockedBeyond(const Ray& ray, float window, uint32_t mask, HitList& list) const {
   list.clear();
   const float shift = std::max(window, 0.0f);
-  Traversal traversal = traversalOf(&recordShadow, shift, window, ray.tMax, &list);
+  Traversal traversal = traversalOf(&recordShadow, shift, window, ray.tMax, &list, impl_->instances);
   RTCRay r = rayFrom(ray, shift, window < 0 ? std::max(ray.bias, 0.0f) : 0.0f, mask);
   rtcOccluded1(impl_->scene, &traversal.embree, &r);
   return r.tfar < 0;

@@ -1,7 +1,8 @@
-// The only user of Embree: coarse quads in a BVH, and the two traversals that the hit list needs.
+// The only user of Embree: coarse quads in a BVH of two levels (instances), and the two traversals that the hit list needs.
 // Space: current. Threads: const members may be called concurrently.
 #pragma once
 #include "raytrace/hit_list.h"
+#include "raytrace/shared_shapes.h"
 #include "raytrace/tessellate.h"
 #include "raytrace/trace.h"
 
@@ -9,9 +10,10 @@ namespace tomales {
 
 class EmbreeScene {
  public:
-  /// Group i of `groups` (which must outlive this) is visible to rays of masks[i] and opaque if opaque[i].
-  EmbreeScene(const std::vector<CoarseGroup>& groups, const std::vector<uint32_t>& masks,
-              const std::vector<bool>& opaque, Log& log);
+  /// What belongs to shade group i is visible to rays of masks[i] and opaque if opaque[i]; groupOf: of each instance.
+  /// `shapes` must outlive this.
+  EmbreeScene(const std::vector<CoarseGroup>& groups, const SharedShapes& shapes, const std::vector<uint32_t>& groupOf,
+              const std::vector<uint32_t>& masks, const std::vector<bool>& opaque, Log& log);
   ~EmbreeScene();
 
   /// Nearest hit with ray.bias < t < ray.tMax; ray.offset plays no part.

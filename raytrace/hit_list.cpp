@@ -10,7 +10,7 @@ namespace tomales {
 
 void sortAlongRay(HitList& list) {
   std::sort(list.begin(), list.end(), [](const PolygonHit& a, const PolygonHit& b) {
-    return std::tie(a.t, a.group, a.quad) < std::tie(b.t, b.group, b.quad);
+    return std::tie(a.t, a.group, a.instance, a.quad) < std::tie(b.t, b.group, b.instance, b.quad);
   });
 }
 

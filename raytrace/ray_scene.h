@@ -13,7 +13,8 @@ struct RayScene::Impl {
 
   const Scene& scene;
   const bool hitList;
-  const std::vector<CoarseGroup> groups;
+  const SharedShapes shapes;
+  const std::vector<CoarseGroup> groups;  ///< Without what is in `shapes`, but for deviation and size.
   const EmbreeScene embree;
   const Emitters emitters;
   bool moves = false;                     ///< Some polygon does.

@@ -21,15 +21,6 @@ struct Counts {
   int nu, nv;
 };
 
-bool displacesForRays(const Object& o) {
-  return o.attributes->trace.displacements && o.attributes->displacement;
-}
-
-bool raysNeed(const Attributes& a) {
-  const Visibility& v = a.visibility;
-  return v.diffuse || v.specular || v.transmission || v.photon || a.areaLight >= 0;
-}
-
 float angleBetween(const vec3& a, const vec3& b) {
   return std::acos(std::clamp(dot(normalizeOr(a, vec3(0)), normalizeOr(b, vec3(0))), -1.0f, 1.0f));
 }
@@ -215,16 +206,11 @@ struct Work {
   uint32_t first, last;
 };
 
-std::vector<Work> workOf(const Scene& scene) {
+void addWork(const Scene& scene, size_t object, std::vector<Work>& work) {
   constexpr uint32_t kPatchesAtOnce = 256;
-  std::vector<Work> work;
-  for (size_t i = 0; i < scene.objects.size(); ++i) {
-    if (!raysNeed(*scene.objects[i].attributes)) continue;
-    const uint32_t patches = scene.objects[i].shape().patchCount();
-    for (uint32_t p = 0; p < patches; p += kPatchesAtOnce)
-      work.push_back({static_cast<int>(i), p, std::min(p + kPatchesAtOnce, patches)});
-  }
-  return work;
+  const uint32_t patches = scene.objects[object].shape().patchCount();
+  for (uint32_t p = 0; p < patches; p += kPatchesAtOnce)
+    work.push_back({static_cast<int>(object), p, std::min(p + kPatchesAtOnce, patches)});
 }
 
 float diagonalOf(const Object& o) {
@@ -232,6 +218,19 @@ float diagonalOf(const Object& o) {
   for (uint32_t p = 0; p < o.shape().patchCount(); ++p) bound.extend(o.shape().bound(p, UvRect{}));
   const Bound3 camera = transformBound(o.cameraFromObject.at(o.keyTimes.front()), bound);
   return camera.empty() ? 0.0f : glm::length(camera.size());
+}
+
+/// A part for each piece of work.
+std::vector<CoarseGroup> tessellateAll(const Scene& scene, const Camera& camera, const ShadingSystem& shading,
+                                       const std::vector<Work>& work, Log& log) {
+  std::vector<CoarseGroup> pieces(work.size());
+  const Tessellator tessellator(scene, camera, shading, log);
+  parallelFor(work.size(), 1, [&](size_t begin, size_t end) {
+    for (size_t w = begin; w < end; ++w)
+      for (uint32_t p = work[w].first; p < work[w].last; ++p)
+        tessellator.addPatch(work[w].object, p, pieces[w]);
+  });
+  return pieces;
 }
 
 }  // namespace
@@ -261,16 +260,21 @@ size_t CoarseGroup::bytes() const {
          latticeOfQuad.capacity() * sizeof(uint32_t) + lattices.capacity() * sizeof(Lattice);
 }
 
+bool displacesForRays(const Object& o) {
+  return o.attributes->trace.displacements && o.attributes->displacement;
+}
+
+bool raysNeed(const Attributes& a) {
+  const Visibility& v = a.visibility;
+  return v.diffuse || v.specular || v.transmission || v.photon || a.areaLight >= 0;
+}
+
 std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, const ShadingSystem& shading,
-                                    Log& log) {
-  const std::vector<Work> work = workOf(scene);
-  std::vector<CoarseGroup> pieces(work.size());
-  const Tessellator tessellator(scene, camera, shading, log);
-  parallelFor(work.size(), 1, [&](size_t begin, size_t end) {
-    for (size_t w = begin; w < end; ++w)
-      for (uint32_t p = work[w].first; p < work[w].last; ++p)
-        tessellator.addPatch(work[w].object, p, pieces[w]);
-  });
+                                    Log& log, const std::vector<bool>& elsewhere) {
+  std::vector<Work> work;
+  for (size_t i = 0; i < scene.objects.size(); ++i)
+    if (raysNeed(*scene.objects[i].attributes) && (elsewhere.empty() || !elsewhere[i])) addWork(scene, i, work);
+  std::vector<CoarseGroup> pieces = tessellateAll(scene, camera, shading, work, log);
   std::vector<CoarseGroup> groups(scene.groups.size());
   for (size_t w = 0; w < work.size(); ++w) {
     const Object& o = scene.objects[static_cast<size_t>(work[w].object)];
@@ -281,6 +285,17 @@ std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, co
     pieces[w] = {};
   }
   return groups;
+}
+
+CoarseGroup tessellateObject(const Scene& scene, const Camera& camera, const ShadingSystem& shading, int object, Log& log) {
+  std::vector<Work> work;
+  addWork(scene, static_cast<size_t>(object), work);
+  const Object& o = scene.objects[static_cast<size_t>(object)];
+  CoarseGroup out;
+  out.flipsNormal = o.flipsNormal;
+  out.size = diagonalOf(o);
+  for (const CoarseGroup& piece : tessellateAll(scene, camera, shading, work, log)) append(out, piece);
+  return out;
 }
 
 }  // namespace tomales

@@ -52,8 +52,13 @@ struct CoarseGroup {
   size_t bytes() const;
 };
 
-/// One for each of scene.groups; empty for what no ray may meet and no light is made of.
+/// One for each of scene.groups; empty for what no ray may meet and no light is made of, and for objects that are `elsewhere`.
 std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, const ShadingSystem& shading,
-                                    Log& log);
+                                    Log& log, const std::vector<bool>& elsewhere = {});
+/// One object alone.
+CoarseGroup tessellateObject(const Scene& scene, const Camera& camera, const ShadingSystem& shading, int object, Log& log);
+
+bool raysNeed(const Attributes& attributes);       ///< Some ray may meet it, or a light is made of it.
+bool displacesForRays(const Object& object);
 
 }  // namespace tomales

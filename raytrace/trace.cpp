@@ -32,6 +32,20 @@ std::vector<bool> opaqueOf(const Scene& scene) {
   return opaque;
 }
 
+std::vector<CoarseGroup> coarseGroups(const Scene& scene, const Camera& camera, const ShadingSystem& shading,
+                                      const SharedShapes& shapes, Log& log) {
+  std::vector<CoarseGroup> groups = tessellate(scene, camera, shading, log, shapes.shared);
+  addFigures(shapes, scene, groups);
+  return groups;
+}
+
+std::vector<uint32_t> groupsOfInstances(const Scene& scene, const SharedShapes& shapes) {
+  std::vector<uint32_t> groups;
+  for (const CoarseInstance& instance : shapes.instances)
+    groups.push_back(static_cast<uint32_t>(scene.objects[static_cast<size_t>(instance.object)].group));
+  return groups;
+}
+
 bool traceable(const Ray& ray) {
   return isFinite(ray.origin) && isFinite(ray.direction) && ray.direction != vec3(0) && ray.tMax > 0;
 }
@@ -51,8 +65,9 @@ RayScene::Impl::Impl(const Scene& s, const Camera& camera, const ShadingSystem& 
                      Log& log)
     : scene(s),
       hitList(useHitList),
-      groups(tessellate(s, camera, shading, log)),
-      embree(groups, masksOf(s), opaqueOf(s), log),
+      shapes(shareShapes(s, camera, shading, log)),
+      groups(coarseGroups(s, camera, shading, shapes, log)),
+      embree(groups, shapes, groupsOfInstances(s, shapes), masksOf(s), opaqueOf(s), log),
       emitters(s, groups),
       displacementBounds(groups.size(), 0.0f) {
   for (const Object& o : scene.objects)
@@ -68,22 +83,30 @@ RayScene::Impl::Impl(const Scene& s, const Camera& camera, const ShadingSystem& 
 }
 
 Hit RayScene::Impl::resolve(const PolygonHit& polygon) const {
-  const CoarseGroup& g = groups[polygon.group];
+  const CoarseInstance* instance =
+      polygon.instance >= 0 ? &shapes.instances[static_cast<size_t>(polygon.instance)] : nullptr;
+  const CoarseGroup& g = instance ? shapes.masters[instance->master] : groups[polygon.group];
   const Quad& q = g.quads[polygon.quad];
   const Lattice& l = g.latticeOf(polygon.quad);
   const vec2 uv = g.patchParameters(polygon.quad, polygon.u, polygon.v);
-  const vec3 geometric = g.geometricNormal(polygon.quad);
-  const vec3 normal = glm::mix(glm::mix(g.N[q[0]], g.N[q[1]], polygon.u),
-                               glm::mix(g.N[q[3]], g.N[q[2]], polygon.u), polygon.v);
-  return {polygon.t, l.object, l.patch, uv.x, uv.y, normalizeOr(normal, geometric), geometric, false,
-          g.pointOn(polygon.quad, polygon.u, polygon.v)};
+  vec3 geometric = g.geometricNormal(polygon.quad);
+  vec3 normal = glm::mix(glm::mix(g.N[q[0]], g.N[q[1]], polygon.u), glm::mix(g.N[q[3]], g.N[q[2]], polygon.u), polygon.v);
+  vec3 atOpen = g.pointOn(polygon.quad, polygon.u, polygon.v);
+  if (instance) {
+    geometric = normalizeOr(instance->normals * geometric, geometric);
+    normal = instance->normals * normal;
+    atOpen = transformPoint(instance->cameraFromObject, atOpen);
+  }
+  const int object = instance ? instance->object : l.object;
+  return {polygon.t, object, l.patch, uv.x, uv.y, normalizeOr(normal, geometric), geometric, false, atOpen};
 }
 
 RayScene::RayScene(const Scene& scene, const Camera& camera, const ShadingSystem& shading, bool hitList,
                    Stats& stats, Log& log)
     : impl_(std::make_unique<Impl>(scene, camera, shading, hitList, log)) {
   size_t polygons = 0, bytes = impl_->embree.bytes();
-  for (const CoarseGroup& g : impl_->groups) polygons += g.quads.size(), bytes += g.bytes();
+  for (const auto* meshes : {&impl_->groups, &impl_->shapes.masters})
+    for (const CoarseGroup& g : *meshes) polygons += g.quads.size(), bytes += g.bytes();
   stats.raytrace.coarsePolygons += static_cast<int64_t>(polygons);
   stats.raytrace.bytes += static_cast<int64_t>(bytes);
 }

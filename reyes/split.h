@@ -45,6 +45,7 @@ class PatchTree {
   static constexpr uint32_t kLeaf = 64, kFan = 16;
   explicit PatchTree(const std::vector<PrimPtr>& shapes);
 
+  uint32_t patchCount() const { return static_cast<uint32_t>(order_.size()); }
   uint32_t top() const { return static_cast<uint32_t>(levels_.size()) - 1; }
   uint32_t count(uint32_t level) const { return static_cast<uint32_t>(levels_[level].size()); }
   const Bound3& box(uint32_t level, uint32_t index) const { return levels_[level][index]; }

@@ -34,6 +34,7 @@ class BucketGrid {
     return {index(b.lo.x - x0, width_, columns_), index(b.hi.x - x0, width_, columns_), index(b.lo.y - y0, height_, rows_),
             index(b.hi.y - y0, height_, rows_)};
   }
+  BucketRange only(size_t bucket) const { return {column(bucket), column(bucket), row(bucket), row(bucket)}; }
   int column(size_t bucket) const { return static_cast<int>(bucket) % columns_; }
   int row(size_t bucket) const { return static_cast<int>(bucket) / columns_; }
 

@@ -35,7 +35,7 @@ DeepTile hideBucket(size_t bucket, const PixelRect& rect, const NodeList& nodes,
   Hider hider(context.scene, context.camera, pattern, rect);
   NodeQueue queue;
   for (HideNode* node : nodes.in(bucket)) queue.push(node);
-  while (HideNode* node = queue.pop())
+  while (const auto node = queue.pop())
     if (!hider.hidden(node->raster(), node->zMin())) node->visit(bucket, queue, hider);
   DeepTile tile = hider.resolve();
   for (HideNode* node : nodes.in(bucket)) node->release(bucket);

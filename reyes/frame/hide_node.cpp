@@ -8,16 +8,24 @@
 namespace tomales {
 namespace {
 
-/// Opened by the first bucket that asks what is in it.
+/// Patches for each pixel from which small nodes are opened anew by every bucket: far more of them would wait for the next row
+/// of buckets than can be seen.
+constexpr float kDense = 4, kSmall_px = 32;
+
+/// Opened by the first bucket that asks what is in it, and shared; or, if `transient`, by each bucket for itself.
 class OpeningNode : public HideNode {
  public:
-  OpeningNode(HideContext& context, const Placement& place, const BucketRange& range)
-      : HideNode(place, range), context_(context), users_(range.count()) {}
+  OpeningNode(HideContext& context, const Placement& place, const BucketRange& range, bool transient)
+      : HideNode(place, range), context_(context), transient_(transient || range.count() == 1), users_(range.count()) {}
 
   void visit(size_t bucket, NodeQueue& queue, Hider&) final {
+    if (transient_) {
+      for (auto& node : open(context_.buckets.only(bucket))) queue.push(std::shared_ptr<HideNode>(std::move(node)));
+      return;
+    }
     const std::lock_guard lock(mutex_);
     if (!inside_) {
-      inside_ = std::make_unique<NodeList>(open(), range(), context_.buckets);
+      inside_ = std::make_unique<NodeList>(open(range()), range(), context_.buckets);
       for (const size_t done : doneBefore_)
         for (HideNode* node : inside_->in(done)) node->release(done);
       doneBefore_.clear();
@@ -26,6 +34,7 @@ class OpeningNode : public HideNode {
   }
 
   void release(size_t bucket) final {
+    if (transient_) return;
     const std::lock_guard lock(mutex_);
     if (!inside_)
       doneBefore_.push_back(bucket);
@@ -35,10 +44,12 @@ class OpeningNode : public HideNode {
   }
 
  protected:
-  virtual HideNodes open() = 0;
+  /// What is in it and touches the given buckets.
+  virtual HideNodes open(const BucketRange& within) = 0;
   HideContext& context_;
 
  private:
+  const bool transient_;
   std::mutex mutex_;
   std::unique_ptr<NodeList> inside_;
   std::vector<size_t> doneBefore_;  ///< Buckets that were done before it was opened.
@@ -66,19 +77,28 @@ class PatchesNode : public OpeningNode {
  private:
   PatchesNode(HideContext& context, const Placement& place, const BucketRange& range, int object, Tree tree, uint32_t level,
               uint32_t index)
-      : OpeningNode(context, place, range), object_(object), tree_(std::move(tree)), level_(level), index_(index) {}
+      : OpeningNode(context, place, range, isDense(place.raster, *tree, level)), object_(object), tree_(std::move(tree)),
+        level_(level), index_(index) {}
 
-  HideNodes open() override {
+  static bool isDense(const Bound2& b, const PatchTree& tree, uint32_t level) {
+    const vec2 size = b.hi - b.lo;
+    double patches = PatchTree::kLeaf;
+    for (uint32_t k = 0; k < level; ++k) patches *= PatchTree::kFan;
+    patches = std::min(patches, static_cast<double>(tree.patchCount()));
+    return std::max(size.x, size.y) <= kSmall_px && patches >= double{kDense * size.x * size.y};
+  }
+
+  HideNodes open(const BucketRange& within) override {
     HideNodes out;
     if (level_ > 0) {
       const uint32_t first = index_ * PatchTree::kFan, last = std::min(first + PatchTree::kFan, tree_->count(level_ - 1));
       for (uint32_t i = first; i < last; ++i)
-        if (auto node = make(context_, object_, tree_, level_ - 1, i, range())) out.push_back(std::move(node));
+        if (auto node = make(context_, object_, tree_, level_ - 1, i, within)) out.push_back(std::move(node));
       return out;
     }
     for (const SubPatch& piece : splitPatches(context_.scene, object_, tree_->patches(index_), context_.camera,
                                               context_.buckets.window(), context_.stats, context_.log)) {
-      const BucketRange touched = range() & context_.buckets.touched(piece.raster);
+      const BucketRange touched = within & context_.buckets.touched(piece.raster);
       if (!touched.empty()) out.push_back(std::make_unique<PieceNode>(context_, piece, touched));
     }
     return out;

@@ -51,10 +51,16 @@ using HideNodes = std::vector<std::unique_ptr<HideNode>>;
 /// Nearest first; among equals, in the order of arrival.
 class NodeQueue {
  public:
-  void push(HideNode* node) { queue_.push({node->zMin(), next_++, node}); }
-  HideNode* pop() {
+  /// For nodes that somebody else keeps, and for those that end when they have been visited.
+  void push(HideNode* node) { push(std::shared_ptr<HideNode>(std::shared_ptr<void>(), node)); }
+  void push(std::shared_ptr<HideNode> node) {
+    const float zMin = node->zMin();
+    queue_.push({zMin, next_++, std::move(node)});
+  }
+  /// Null: it is empty.
+  std::shared_ptr<HideNode> pop() {
     if (queue_.empty()) return nullptr;
-    HideNode* node = queue_.top().node;
+    std::shared_ptr<HideNode> node = queue_.top().node;
     queue_.pop();
     return node;
   }
@@ -63,7 +69,7 @@ class NodeQueue {
   struct Entry {
     float zMin;
     uint32_t order;
-    HideNode* node;
+    std::shared_ptr<HideNode> node;
     bool operator<(const Entry& o) const { return zMin != o.zMin ? zMin > o.zMin : order > o.order; }
   };
   std::priority_queue<Entry> queue_;

@@ -19,12 +19,7 @@ std::shared_ptr<const RasterGrid> PieceNode::acquire() {
 
 void PieceNode::release(size_t) {
   const std::lock_guard lock(mutex_);
-  if (--users_ == 0) drop();
-}
-
-void PieceNode::drop() {
-  if (grid_) context_.liveGrids_bytes -= static_cast<int64_t>(grid_->grid->bytes());
-  grid_.reset();
+  if (--users_ == 0) grid_.reset();
 }
 
 std::shared_ptr<const RasterGrid> PieceNode::makeGrid() const {
@@ -49,8 +44,10 @@ std::shared_ptr<const RasterGrid> PieceNode::makeGrid() const {
   // Midpoints need what lies behind what is opaque.
   const bool hides = context_.shading.opaque(o.group) && context_.scene.options.depthFilter != DepthFilter::Midpoint;
   auto raster = project(std::move(grid), context_.scene, context_.camera, hides);
-  keepPeak(stats.memoryBytes.grids, context_.liveGrids_bytes += static_cast<int64_t>(raster->grid->bytes()));
-  return raster;
+  const auto bytes = static_cast<int64_t>(raster->grid->bytes());
+  keepPeak(stats.memoryBytes.grids, context_.liveGrids_bytes += bytes);
+  // Hiders keep grids longer than nodes do.
+  return {raster.get(), [raster, bytes, &live = context_.liveGrids_bytes](const RasterGrid*) { live -= bytes; }};
 }
 
 }  // namespace tomales

@@ -8,7 +8,6 @@ class PieceNode : public HideNode {
  public:
   PieceNode(HideContext& context, const SubPatch& piece, const BucketRange& range)
       : HideNode({piece.raster, piece.zMin}, range), context_(context), piece_(piece), users_(range.count()) {}
-  ~PieceNode() override { drop(); }
 
   void visit(size_t bucket, NodeQueue& queue, Hider& hider) override;
   void release(size_t bucket) override;
@@ -17,7 +16,6 @@ class PieceNode : public HideNode {
   /// Null: it cannot be hidden (a vertex at or behind the eye).
   std::shared_ptr<const RasterGrid> acquire();
   std::shared_ptr<const RasterGrid> makeGrid() const;
-  void drop();
 
   HideContext& context_;
   const SubPatch piece_;

@@ -6,6 +6,8 @@
 namespace tomales {
 namespace {
 
+constexpr size_t kManyGrids = 4096;
+
 /// Key times of a grid as fractions of the shutter; none if it is still.
 std::vector<float> shutterTimes(const Scene& scene, const Grid& grid) {
   if (grid.keyCount == 1) return {};
@@ -23,6 +25,14 @@ struct Hider::Impl {
   Camera camera;
   SampleBuffer samples;
   GridTable grids;
+  size_t enough = kManyGrids;
+
+  /// Grids that no sample sees any more make room, now and then.
+  void dropUnseen() {
+    if (grids.held() < enough) return;
+    grids.keepOnly(samples.seen());
+    enough = std::max(kManyGrids, 2 * grids.held());
+  }
 };
 
 Hider::Hider(const Scene& scene, const Camera& camera, const SamplePattern& pattern, const PixelRect& rect)
@@ -41,6 +51,7 @@ void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
   SampleBuffer& s = impl_->samples;
   const PixelRect pixels = s.touched(raster->bound.lo, raster->bound.hi);
   if (s.hides(pixels, raster->dMin)) return;
+  impl_->dropUnseen();
   const GridTable::Entry& entry = impl_->grids.add(raster, shutterTimes(impl_->scene, *raster->grid));
   const RasterJob job{*raster, impl_->grids, entry.firstCell, entry.keyTimes, impl_->camera, s};
   if (raster->blur) {

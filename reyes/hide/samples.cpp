@@ -8,7 +8,18 @@ const GridTable::Entry& GridTable::add(const std::shared_ptr<const RasterGrid>& 
   const uint32_t first = cellCount(), cells = static_cast<uint32_t>(raster->grid->cellCount());
   entryOfPage_.resize(entryOfPage_.size() + (cells + kPage - 1) / kPage, static_cast<uint32_t>(entries_.size()));
   entries_.push_back({first, raster, std::move(keyTimes)});
+  ++held_;
   return entries_.back();
+}
+
+void GridTable::keepOnly(const std::vector<uint32_t>& cells) {
+  for (Entry& e : entries_) {
+    if (!e.raster) continue;
+    const auto first = std::lower_bound(cells.begin(), cells.end(), e.firstCell);
+    if (first != cells.end() && *first < e.firstCell + static_cast<uint32_t>(e.grid().cellCount())) continue;
+    e.raster.reset();
+    --held_;
+  }
 }
 
 bool GridTable::precedes(uint32_t a, uint32_t b) const {
@@ -57,6 +68,14 @@ void SampleBuffer::showBlur() {
       lensY[p * width + s] = pattern_.lensY(at)[s] * lens_.y;
     }
   }
+}
+
+std::vector<uint32_t> SampleBuffer::seen() const {
+  std::vector<uint32_t> out;
+  std::copy_if(cell.begin(), cell.end(), std::back_inserter(out), [](uint32_t c) { return c != kNoCell; });
+  for (const Film& film : films.list) out.push_back(film.cell);
+  std::sort(out.begin(), out.end());
+  return out;
 }
 
 bool SampleBuffer::hides(const PixelRect& pixels, float d) const {

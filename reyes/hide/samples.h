@@ -17,7 +17,7 @@ class GridTable {
  public:
   struct Entry {
     uint32_t firstCell;
-    std::shared_ptr<const RasterGrid> raster;
+    std::shared_ptr<const RasterGrid> raster;  ///< Null: let go of.
     std::vector<float> keyTimes;  ///< Fractions of the shutter; none for a still grid.
     const Grid& grid() const { return *raster->grid; }
   };
@@ -26,6 +26,9 @@ class GridTable {
   const Entry& of(uint32_t cell) const { return entries_[entryOfPage_[cell / kPage]]; }
   const std::vector<Entry>& entries() const { return entries_; }
   uint32_t cellCount() const { return static_cast<uint32_t>(entryOfPage_.size()) * kPage; }  ///< Numbers in use, gaps included.
+  /// Lets go of every grid that has none of these cells. Pre: sorted.
+  void keepOnly(const std::vector<uint32_t>& cells);
+  size_t held() const { return held_; }  ///< Grids not let go of.
   /// Decides between equal depths: by name, never by pointer or order of insertion.
   bool precedes(uint32_t a, uint32_t b) const;
 
@@ -33,6 +36,7 @@ class GridTable {
   static constexpr uint32_t kPage = 16;  ///< Numbers of a grid begin at multiples of this.
   std::vector<Entry> entries_;
   std::vector<uint32_t> entryOfPage_;
+  size_t held_ = 0;
 };
 
 /// Arrays have a lane for each sample: those of a pixel stand together, padded to `lanes`. Padding hides everything.
@@ -71,6 +75,8 @@ struct SampleBuffer {
             std::min(floorWithin(hi.x, rect.x0, rect.x1) + 1, rect.x1),
             std::min(floorWithin(hi.y, rect.y0, rect.y1) + 1, rect.y1)};
   }
+  /// All cells that some sample sees, sorted.
+  std::vector<uint32_t> seen() const;
   /// Is every sample of the pixels nearer than depth key d?
   bool hides(const PixelRect& pixels, float d) const;
 
