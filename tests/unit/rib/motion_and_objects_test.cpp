@@ -1,4 +1,6 @@
 // Motion blocks, retained objects, archives, geometry requests.
+#include <unistd.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
