@@ -30,6 +30,8 @@ class SamplePattern {
   AlignedVector<float> x_, y_, time_, lensX_, lensY_;
 };
 
+struct BlurBounds;
+
 /// Vertices of a grid in raster space, made once a grid by `project` and shared by the buckets.
 struct RasterGrid {
   std::shared_ptr<const Grid> grid;
@@ -38,6 +40,7 @@ struct RasterGrid {
   int sides = 2;
   bool smooth = false;          ///< ShadingInterpolation
   bool defocused = false;       ///< Some vertex moves visibly with the point of the lens.
+  std::shared_ptr<const BlurBounds> blur;  ///< Null if still and in focus.
   AlignedVector<float> x, y, d; ///< Raster x, y and depth key (Camera::depthKey): keyCount * stride each, then a tail to read blocks
                                 ///< across the end; borders pushed out.
   float dMin = 0;

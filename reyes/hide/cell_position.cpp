@@ -28,7 +28,7 @@ vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cel
   const auto corner = [&](int v) {
     const size_t from = key * stride + static_cast<size_t>(v), to = next * stride + static_cast<size_t>(v);
     const vec2 at(lerp(raster.x[from], raster.x[to], t), lerp(raster.y[from], raster.y[to], t));
-    return raster.defocused ? at + sample.lens * camera.defocus(lerp(raster.d[from], raster.d[to], t)) : at;
+    return raster.defocused ? at + sample.lens * (lerp(raster.d[from], raster.d[to], t) - camera.focusKey()) : at;
   };
   const vec2 pa = corner(a), pb = corner(a + 1), pc = corner(a + row), pd = corner(a + row + 1);
   const vec2 abc[3] = {pa, pb, pc}, abcUv[3] = {{0, 0}, {1, 0}, {0, 1}};

@@ -26,7 +26,7 @@ struct Hider::Impl {
 };
 
 Hider::Hider(const Scene& scene, const Camera& camera, const SamplePattern& pattern, const PixelRect& rect)
-    : impl_(new Impl{scene, camera, SampleBuffer(pattern, rect), {}}) {}
+    : impl_(new Impl{scene, camera, SampleBuffer(pattern, camera, rect), {}}) {}
 
 Hider::~Hider() = default;
 
@@ -39,13 +39,17 @@ bool Hider::hidden(const Bound2& raster, float zMin) const {
 
 void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
   SampleBuffer& s = impl_->samples;
-  if (s.hides(s.touched(raster->bound.lo, raster->bound.hi), raster->dMin)) return;
+  const PixelRect pixels = s.touched(raster->bound.lo, raster->bound.hi);
+  if (s.hides(pixels, raster->dMin)) return;
   const GridTable::Entry& entry = impl_->grids.add(raster, shutterTimes(impl_->scene, *raster->grid));
   const RasterJob job{*raster, impl_->grids, entry.firstCell, entry.keyTimes, impl_->camera, s};
-  if (raster->grid->keyCount > 1 || raster->defocused)
+  if (raster->blur) {
+    s.showBlur();
     rasterizeBlurred(job);
-  else
+  } else {
     rasterizeStill(job);
+  }
+  s.settle(pixels);
 }
 
 DeepTile Hider::resolve() {

@@ -1,5 +1,5 @@
 // Grid -> raster space, with the borders that join a neighbour pushed out (docs/decisions/0003).
-#include "reyes/hide.h"
+#include "reyes/hide/blur_bounds.h"
 #include "reyes/hide/lattice.h"
 
 namespace tomales {
@@ -115,6 +115,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
     }
   }
   r->trimReach_px = std::min(r->trimReach_px, kMaxReach_px);
+  if (g.keyCount > 1 || r->defocused) r->blur = boundBlur(*r, camera);
   return r;
 }
 

@@ -6,12 +6,16 @@ namespace tomales {
 
 DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples);
 
-/// A sample: raster position, time of the shutter (0..1), point of the lens (unit disk).
+/// A sample: raster position, time of the shutter (0..1), point of the lens (as SampleBuffer has it).
 struct SamplePoint {
   vec2 at;
   float time;
   vec2 lens;
 };
+inline SamplePoint samplePoint(const SampleBuffer& s, size_t lane) {
+  if (s.time.empty()) return {{s.x[lane], s.y[lane]}, 0, vec2(0)};
+  return {{s.x[lane], s.y[lane]}, s.time[lane], {s.lensX[lane], s.lensY[lane]}};
+}
 /// Where on a cell (its own (u,v), 0..1) a sample meets it; beyond, where it meets the plane of one of its triangles.
 vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
 
