@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "reyes/base/simd.h"
+
 namespace tomales {
 
 /// The samples of a pixel, up to 64, that one transparent micropolygon covers.
@@ -16,16 +18,20 @@ struct Film {
 
 struct Films {
   std::vector<Film> list;
-  std::vector<float> depths;
+  std::vector<float> depths;  ///< The first `depthCount` are in use.
+  size_t depthCount = 0;
 
-  void clear() { list.clear(), depths.clear(); }
-
-  /// Samples arrive in order of their lanes.
-  void add(uint32_t pixel, uint32_t cell, uint32_t lane, float depth) {
-    const bool joins = !list.empty() && list.back().pixel == pixel && list.back().cell == cell && list.back().word == lane / 64;
-    if (!joins) list.push_back({pixel, cell, static_cast<uint32_t>(depths.size()), lane / 64, 0});
-    list.back().samples |= uint64_t{1} << (lane % 64);
-    depths.push_back(depth);
+  /// Where the depths of the next samples go; there is room for a vector of them.
+  float* next() {
+    if (depths.size() < depthCount + kLanes) depths.resize(2 * depths.size() + kLanes);
+    return depths.data() + depthCount;
+  }
+  /// Notes samples, as bits of a word of the pixel, whose depths are at next(). A cell's samples arrive in order.
+  void add(uint32_t pixel, uint32_t cell, uint32_t word, uint64_t samples) {
+    const bool joins = !list.empty() && list.back().pixel == pixel && list.back().cell == cell && list.back().word == word;
+    if (!joins) list.push_back({pixel, cell, static_cast<uint32_t>(depthCount), word, 0});
+    list.back().samples |= samples;
+    depthCount += static_cast<size_t>(std::popcount(samples));
   }
 };
 

@@ -252,7 +252,11 @@ class Descent {
     float& before = out.depth[lane];
     if (depth > before) return;
     const uint32_t pixel = out.pixelOf[lane / kLanes];
-    if (!job_.raster.opaque) return out.films.add(pixel, cell, lane - pixel * static_cast<uint32_t>(out.lanes), depth);
+    if (!job_.raster.opaque) {
+      const uint32_t s = lane - pixel * static_cast<uint32_t>(out.lanes);
+      *out.films.next() = depth;
+      return out.films.add(pixel, cell, s / 64, uint64_t{1} << (s % 64));
+    }
     if (depth == before) return settleTies(job_, lane, 1, cell);
     before = depth, out.cell[lane] = cell, out.nearer[pixel] = 1;
   }

@@ -166,12 +166,8 @@ HWY_INLINE void film(const RasterJob& job, const Quad& quad, size_t pixel, uint3
   for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) {
     const Reach r = reachOf(job, quad, first + g, cell, kept);
     if (hn::AllFalse(kF, r.mask)) continue;
-    HWY_ALIGN float depths[kLanes];
-    hn::Store(r.depth, kF, depths);
-    for (uint64_t left = bitsOf(r.mask); left; left &= left - 1) {
-      const int s = std::countr_zero(left);
-      out.films.add(static_cast<uint32_t>(pixel), cell, static_cast<uint32_t>(g) + static_cast<uint32_t>(s), depths[s]);
-    }
+    hn::StoreU(hn::Compress(r.depth, r.mask), kF, out.films.next());
+    out.films.add(static_cast<uint32_t>(pixel), cell, static_cast<uint32_t>(g / 64), bitsOf(r.mask) << (g % 64));
   }
 }
 

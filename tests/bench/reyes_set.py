@@ -131,7 +131,7 @@ def transparent_spheres():
         return (f'Opacity [0.15 0.15 0.15]\nSurface "plastic"\nTranslate {x:.4f} {y:.4f} {z:.4f}\n'
                 f"Sphere {r:.4f} {-r:.4f} {r:.4f} 360\n")
 
-    return frame(scattered(rng, 300, (0.5, 1.2), body), samples=4)
+    return frame(scattered(rng, 300, (0.3, 0.7), body), samples=4)
 
 
 def moving_spheres(samples, width, height):
