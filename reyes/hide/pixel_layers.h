@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace tomales {
@@ -14,10 +15,6 @@ struct Sight {
   float d;              ///< Of the nearest of its samples.
   const float* depths;  ///< Opaque: a depth key for each of the word's 64 samples. Else one for each of `samples`.
   bool opaque;
-
-  float depthOf(int sample) const {
-    return depths[opaque ? sample : std::popcount(samples & ((uint64_t{1} << sample) - 1))];
-  }
 };
 
 class PixelLayers {
@@ -28,16 +25,7 @@ class PixelLayers {
   template <class Nearer>
   void order(std::vector<Sight>& sights, const Nearer& nearer) {
     if (inOrder(sights)) return;
-    lists_.assign(words_ * 64, {});
-    next_.assign(words_ * 64, 0);
-    for (uint32_t k = 0; k < sights.size(); ++k)
-      for (uint64_t left = sights[k].samples; left; left &= left - 1) {
-        const int s = std::countr_zero(left);
-        lists_[sights[k].word * 64 + static_cast<size_t>(s)].push_back({sights[k].depthOf(s), k});
-      }
-    for (auto& list : lists_)
-      // Equal depths keep the order of the sights, which no schedule changes.
-      std::stable_sort(list.begin(), list.end(), [](const Layer& a, const Layer& b) { return a.d < b.d; });
+    listLayers(sights);
     merged_.clear();
     while (takeNearest(sights, nearer)) {
     }
@@ -49,49 +37,86 @@ class PixelLayers {
     float d;
     uint32_t sight;
   };
+  /// What is left of the layers of a sample, nearest first: layers_[next .. end).
+  struct Queue {
+    uint32_t next, end;
+    uint32_t sample;  ///< 64 * word + bit
+  };
 
-  bool inOrder(const std::vector<Sight>& sights) {
-    words_ = 0;
-    for (const Sight& s : sights) words_ = std::max(words_, size_t{s.word} + 1);
-    last_.assign(words_ * 64, -std::numeric_limits<float>::infinity());
-    for (const Sight& sight : sights) {
-      float* last = last_.data() + size_t{sight.word} * 64;
-      int k = 0;
-      for (uint64_t left = sight.samples; left; left &= left - 1, ++k) {
-        const int s = std::countr_zero(left);
-        const float d = sight.depths[sight.opaque ? s : k];
-        if (d < last[s]) return false;
-        last[s] = d;
-      }
+  template <class F>
+  static void forSamples(const Sight& sight, const F& f) {
+    int k = 0;
+    for (uint64_t left = sight.samples; left; left &= left - 1, ++k) {
+      const int bit = std::countr_zero(left);
+      f(size_t{sight.word} * 64 + static_cast<size_t>(bit), sight.depths[sight.opaque ? bit : k]);
     }
-    return true;
+  }
+
+  /// Also counts the layers of each sample.
+  bool inOrder(const std::vector<Sight>& sights) {
+    size_t words = 0;
+    for (const Sight& s : sights) words = std::max(words, size_t{s.word} + 1);
+    last_.assign(words * 64, -std::numeric_limits<float>::infinity());
+    counts_.assign(words * 64, 0);
+    bool ordered = true;
+    for (const Sight& sight : sights)
+      forSamples(sight, [&](size_t sample, float d) {
+        ordered &= d >= last_[sample];
+        last_[sample] = d;
+        ++counts_[sample];
+      });
+    return ordered;
+  }
+
+  void listLayers(const std::vector<Sight>& sights) {
+    queues_.clear();
+    uint32_t total = 0;
+    for (uint32_t sample = 0; sample < counts_.size(); ++sample) {
+      if (counts_[sample] > 0) queues_.push_back({total, total, sample});
+      const uint32_t count = counts_[sample];
+      counts_[sample] = static_cast<uint32_t>(queues_.size()) - 1;  // From here on: its queue.
+      total += count;
+    }
+    layers_.resize(total);
+    // Nearly sorted already. Equal depths keep the order of the sights, which no schedule changes.
+    for (uint32_t k = 0; k < sights.size(); ++k)
+      forSamples(sights[k], [&](size_t sample, float d) {
+        Queue& queue = queues_[counts_[sample]];
+        uint32_t at = queue.end++;
+        for (; at > queue.next && layers_[at - 1].d > d; --at) layers_[at] = layers_[at - 1];
+        layers_[at] = {d, k};
+      });
   }
 
   template <class Nearer>
   bool takeNearest(const std::vector<Sight>& sights, const Nearer& nearer) {
-    Sight best{};
-    uint32_t bestSight = 0;
-    bool found = false;
-    for (size_t lane = 0; lane < lists_.size(); ++lane) {
-      if (next_[lane] == lists_[lane].size()) continue;
-      const Layer& layer = lists_[lane][next_[lane]];
-      Sight sight = sights[layer.sight];
-      sight.d = layer.d;
-      if (!found || nearer(sight, best)) best = sight, bestSight = layer.sight, found = true;
+    Layer front{std::numeric_limits<float>::infinity(), ~0U};
+    for (const Queue& q : queues_) {
+      if (q.next == q.end) continue;
+      const Layer& layer = layers_[q.next];
+      const bool tie = layer.d == front.d && front.sight != ~0U && layer.sight != front.sight;
+      if (layer.d < front.d || front.sight == ~0U || (tie && nearer(at(sights, layer), at(sights, front)))) front = layer;
     }
-    if (!found) return false;
-    best.samples = 0;
-    for (size_t lane = size_t{best.word} * 64; lane < size_t{best.word} * 64 + 64; ++lane)
-      if (next_[lane] < lists_[lane].size() && lists_[lane][next_[lane]].sight == bestSight)
-        ++next_[lane], best.samples |= uint64_t{1} << (lane % 64);
-    merged_.push_back(best);
+    if (front.sight == ~0U) return false;
+    Sight taken = at(sights, front);
+    taken.samples = 0;
+    for (Queue& q : queues_)
+      if (q.next < q.end && layers_[q.next].sight == front.sight)
+        ++q.next, taken.samples |= uint64_t{1} << (q.sample % 64);
+    merged_.push_back(taken);
     return true;
   }
 
-  size_t words_ = 0;
+  static Sight at(const std::vector<Sight>& sights, const Layer& layer) {
+    Sight sight = sights[layer.sight];
+    sight.d = layer.d;
+    return sight;
+  }
+
   std::vector<float> last_;
-  std::vector<std::vector<Layer>> lists_;  ///< A sample
-  std::vector<size_t> next_;
+  std::vector<uint32_t> counts_;
+  std::vector<Layer> layers_;
+  std::vector<Queue> queues_;
   std::vector<Sight> merged_;
 };
 

@@ -71,7 +71,8 @@ void pushBorders(const Grid& g, float* x, float* y) {
                             {kEdgeU1, g.nu, row, -1, g.nv},
                             {kEdgeV0, 0, 1, row, g.nu},
                             {kEdgeV1, g.nv * row, 1, -row, g.nu}};
-  std::vector<vec2> push(static_cast<size_t>(g.vertexCount()), vec2(0));
+  static thread_local std::vector<vec2> push;
+  push.assign(static_cast<size_t>(g.vertexCount()), vec2(0));
   for (const Border& b : borders)
     if (!(g.openEdges & b.edge)) pushBorder(g, b, x, y, push);
   for (size_t v = 0; v < push.size(); ++v) x[v] += push[v].x, y[v] += push[v].y;
