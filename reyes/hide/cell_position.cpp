@@ -23,7 +23,7 @@ vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cel
   const float time = sample.time;
   size_t key = 0;
   while (key + 2 < keyTimes.size() && time >= keyTimes[key + 1]) ++key;
-  const size_t next = std::min(key + 1, keyTimes.size() - 1), stride = static_cast<size_t>(g.stride());
+  const size_t next = keyTimes.empty() ? 0 : key + 1, stride = static_cast<size_t>(g.stride());
   const float t = next > key ? (time - keyTimes[key]) / (keyTimes[next] - keyTimes[key]) : 0;
   const auto corner = [&](int v) {
     const size_t from = key * stride + static_cast<size_t>(v), to = next * stride + static_cast<size_t>(v);

@@ -6,9 +6,9 @@
 namespace tomales {
 namespace {
 
-/// Key times of a grid as fractions of the shutter.
+/// Key times of a grid as fractions of the shutter; none if it is still.
 std::vector<float> shutterTimes(const Scene& scene, const Grid& grid) {
-  if (grid.keyCount == 1) return {0};
+  if (grid.keyCount == 1) return {};
   std::vector<float> times = scene.objects[static_cast<size_t>(grid.object)].keyTimes;
   CHECK_EQ(static_cast<int>(times.size()), grid.keyCount);
   const float open = scene.options.shutterOpen, length = scene.options.shutterClose - open;

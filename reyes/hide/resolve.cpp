@@ -12,7 +12,8 @@ namespace {
 /// What outlives a tile: the memory of its lists.
 struct Scratch {
   std::vector<uint32_t> filmsOfPixel, firstFilm;
-  std::vector<Sight> sights;
+  std::vector<Sight> sights, sorted;
+  std::vector<uint64_t> keys;
   PixelLayers layers;
 };
 
@@ -58,7 +59,7 @@ class TileBuilder {
       if (a.cell != b.cell) return grids_.precedes(a.cell, b.cell);
       return a.word < b.word;
     };
-    if (!sortByRank()) std::sort(sights_.begin(), sights_.end(), nearer);
+    if (!sortByRank() && !sortByKey()) std::sort(sights_.begin(), sights_.end(), nearer);
     if (films) scratch_.layers.order(sights_, nearer);
     tile_.pixels.push_back({static_cast<uint32_t>(tile_.fragments.size()), static_cast<uint32_t>(sights_.size())});
     for (const Sight& s : sights_) {
@@ -87,13 +88,38 @@ class TileBuilder {
     return true;
   }
 
+  /// Sorts many sights by depth as integers; false, and nothing done, if depths are equal.
+  bool sortByKey() {
+    std::vector<uint64_t>& keys = scratch_.keys;
+    keys.clear();
+    for (uint32_t i = 0; i < sights_.size(); ++i) {
+      const uint32_t bits = std::bit_cast<uint32_t>(sights_[i].d + 0.0f);  // -0 is 0
+      const uint32_t ordered = bits >> 31 ? ~bits : bits | 0x80000000U;
+      keys.push_back(uint64_t{ordered} << 32 | i);
+    }
+    std::sort(keys.begin(), keys.end());
+    for (size_t i = 1; i < keys.size(); ++i)
+      if (keys[i] >> 32 == keys[i - 1] >> 32) return false;
+    scratch_.sorted.clear();
+    for (const uint64_t key : keys) scratch_.sorted.push_back(sights_[key & 0xffffffffU]);
+    sights_.swap(scratch_.sorted);
+    return true;
+  }
+
   void seeFilms(size_t pixel) {
     const size_t first = pixel * static_cast<size_t>(samples_.lanes);
+    const bool open = sights_.empty();
     for (uint32_t k = scratch_.firstFilm[pixel]; k < scratch_.firstFilm[pixel + 1]; ++k) {
       const Film& film = samples_.films.list[scratch_.filmsOfPixel[k]];
       float* depths = samples_.films.depths.data() + film.firstDepth;
-      // What an opaque surface hides is closed up.
       Sight sight{film.cell, film.word, 0, kInfinity, depths, false};
+      if (open) {
+        sight.samples = film.samples;
+        sight.d = *std::min_element(depths, depths + std::popcount(film.samples));
+        sights_.push_back(sight);
+        continue;
+      }
+      // What an opaque surface hides is closed up.
       int kept = 0, k0 = 0;
       for (uint64_t left = film.samples; left; left &= left - 1, ++k0) {
         const size_t lane = first + size_t{64} * film.word + static_cast<size_t>(std::countr_zero(left));

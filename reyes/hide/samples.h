@@ -18,7 +18,7 @@ class GridTable {
   struct Entry {
     uint32_t firstCell;
     std::shared_ptr<const RasterGrid> raster;
-    std::vector<float> keyTimes;  ///< Fractions of the shutter; one for a still grid.
+    std::vector<float> keyTimes;  ///< Fractions of the shutter; none for a still grid.
     const Grid& grid() const { return *raster->grid; }
   };
 
