@@ -44,15 +44,16 @@ class Evaluated {
   float* data_;
 };
 
-/// Evaluates a deforming object at `time`: linear between the two shapes around it.
-void evaluateAt(const Object& o, float time, uint32_t patch, int n, const float* u, const float* v, Evaluated& out) {
+/// A deforming object at `time`: linear between the two shapes around it. evaluate(prim, points) fills n points.
+template <class Evaluate>
+void evaluateAt(const Object& o, float time, int n, Evaluated& out, const Evaluate& evaluate) {
   size_t k = 0;
   while (k + 1 < o.shapeTimes.size() && o.shapeTimes[k + 1] <= time) ++k;
-  o.shapes[k]->evaluate(patch, n, u, v, out.view());
+  evaluate(*o.shapes[k], out.view());
   if (k + 1 >= o.shapes.size() || time <= o.shapeTimes[k]) return;
   const float t = (time - o.shapeTimes[k]) / (o.shapeTimes[k + 1] - o.shapeTimes[k]);
   Evaluated next(n);
-  o.shapes[k + 1]->evaluate(patch, n, u, v, next.view());
+  evaluate(*o.shapes[k + 1], next.view());
   out.blend(next, t);
 }
 
@@ -145,12 +146,19 @@ Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, in
       v[static_cast<size_t>(k)] = at(rect.v0, rect.v1, j, nv);
     }
 
+  const bool whole = rect.u0 == 0 && rect.u1 == 1 && rect.v0 == 0 && rect.v1 == 1;
+  const auto vertices = [&](const Prim& shape, SurfacePoints out) {
+    if (whole)
+      shape.evaluateLattice(patch, nu, nv, u.data(), v.data(), out);
+    else
+      shape.evaluate(patch, n, u.data(), v.data(), out);
+  };
   Evaluated e(n);
   for (int key = 0; key < keyCount; ++key) {
     const float time = keys.times[static_cast<size_t>(key)];
     const mat4 m = keys.currentFromObject.at(time);
     if (keyCount > 1) g.turns.push_back(mat3(m) * glm::inverse(mat3(keys.currentFromObject.at(keys.times.front()))));
-    evaluateAt(o, time, patch, n, u.data(), v.data(), e);
+    evaluateAt(o, time, n, e, vertices);
     for (int i = 0; i < n; ++i) {
       const vec3 p = transformPoint(m, e.get(0, i));
       g.P(key, 0)[i] = p.x, g.P(key, 1)[i] = p.y, g.P(key, 2)[i] = p.z;
@@ -186,7 +194,7 @@ void evaluatePoint(const Scene& scene, int object, uint32_t patch, float u, floa
   const mat3 normals = normalMatrix(o, m);
 
   Evaluated e(1);
-  evaluateAt(o, time, patch, 1, &u, &v, e);
+  evaluateAt(o, time, 1, e, [&](const Prim& shape, SurfacePoints out) { shape.evaluate(patch, 1, &u, &v, out); });
   const vec3 geometric = normalizeOr(normals * e.get(9, 0), vec3(0, 0, -1));
   batch.set3(kPx, index, transformPoint(m, e.get(0, 0)));
   batch.set3(kNgx, index, geometric);

@@ -56,10 +56,16 @@ class Prim {
   virtual uint32_t patchCount() const = 0;
   virtual PatchInfo info(uint32_t patch) const = 0;
 
-  /// Contains every point of the rectangle (conservative).
+  /// Contains every point of the rectangle (conservative), and the vertices of any lattice over a whole patch.
   virtual Bound3 bound(uint32_t patch, const UvRect& rect) const = 0;
 
   virtual void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const = 0;
+
+  /// The vertices of a lattice of nu x nv over a whole patch, rows along u. Like evaluate(), except that a small round
+  /// shape pushes them outward, so that its few polygons have the area of what they stand for.
+  virtual void evaluateLattice(uint32_t patch, int nu, int nv, const float* u, const float* v, SurfacePoints out) const {
+    evaluate(patch, (nu + 1) * (nv + 1), u, v, out);
+  }
 
   /// Surface parameters u,v as shaders see them: over the whole primitive, 0..1 (a polygon: object-space x,y).
   virtual void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su, float* sv) const;
@@ -148,13 +154,17 @@ struct TrimLoops {
 /// Positions are "P", or "Pw" with weights above zero. Orders 2 to 32. u,v run from 0 to 1 over min..max.
 PrimPtr makeNuPatch(const NurbsDirection& u, const NurbsDirection& v, const TrimLoops&, const ParamList&, Problems&);
 
-/// Disks: round, as wide as "constantwidth" or "width" says (1 if absent), facing "N" or else the eye. One patch each.
+/// Disks: round, as wide as "constantwidth" or "width" says (1 if absent), facing "N" or else the eye; spheres if "type"
+/// is "sphere". One patch each.
 PrimPtr makePoints(const ParamList&, Problems&);
 
 /// Ribbons, u across and v along, as wide as "width" or "constantwidth" says (1 if absent), with the normal "N" or else
 /// facing the eye. One patch a segment. `basis` is for cubic curves.
 PrimPtr makeCurves(bool cubic, const Basis& basis, const std::vector<int>& vertexCounts, bool periodic, const ParamList&,
                    Problems&);
+
+/// Newell's teapot, 3.15 high, on z = 0 with its spout towards x. Primvars run over every patch alike.
+PrimPtr makeTeapot(const ParamList&, Problems&);
 
 /// The surface where a field that leaves and operations on them make is 27/64. `code` and `floats` as RIB gives them
 /// (reyes/prim/blobby_code.h); varying and vertex primvars have a value for each leaf and blend.

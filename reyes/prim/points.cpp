@@ -1,9 +1,11 @@
-// Particles as disks (RISpec 3.2, Points).
+// Particles as disks or spheres (RISpec 3.2, Points).
 #include <fmt/format.h>
 
 #include "reyes/prim/facing.h"
 #include "reyes/prim/interpolation.h"
 #include "reyes/prim/primvars.h"
+#include "reyes/prim/revolution.h"
+#include "reyes/prim/sampled_bound.h"
 
 namespace tomales {
 namespace {
@@ -20,6 +22,32 @@ struct DiskPoint {
   }
 };
 
+/// Area of the polygon that a lattice of nu x nv makes of the unit disk: half a sine for each of its sides.
+double latticeDiskArea(int nu, int nv) {
+  const auto quarter = [](int n) {
+    double area = 0, last = -M_PI / 4;
+    for (int k = 1; k <= n; ++k) {
+      const double angle = std::asin((2.0 * k / n - 1) / std::sqrt(2.0));
+      area += std::sin(angle - last) / 2;
+      last = angle;
+    }
+    return area;
+  };
+  return 2 * (quarter(nu) + quarter(nv));
+}
+
+/// Of the trapezoids that a lattice of nu meridians and nv zones makes of the unit sphere.
+double latticeSphereArea(int nu, int nv) {
+  double area = 0;
+  for (int k = 0; k < nv; ++k) {
+    const double low = M_PI * (static_cast<double>(k) / nv - 0.5), high = low + M_PI / nv;
+    const double chord = std::sin(M_PI / nu), a = chord * std::cos(low), b = chord * std::cos(high);
+    const double depth = std::cos(M_PI / nu) * (std::cos(low) - std::cos(high)), rise = std::sin(high) - std::sin(low);
+    area += nu * (a + b) * std::hypot(depth, rise);
+  }
+  return area;
+}
+
 struct Disk {
   vec3 center, normal, tangent, bitangent;  ///< Right-handed in this order: tangent, bitangent, normal.
   float radius;
@@ -30,14 +58,57 @@ class PointCloud : public Prim {
   PointCloud(std::vector<vec3> points, std::vector<Primvar> primvars)
       : Prim(std::move(primvars)), points_(std::move(points)), width_(widthOf(primvars_)) {}
 
+  uint32_t patchCount() const override { return static_cast<uint32_t>(points_.size()); }
+
+  void evaluateLattice(uint32_t patch, int nu, int nv, const float* u, const float* v, SurfacePoints out) const override {
+    evaluate(patch, (nu + 1) * (nv + 1), u, v, out);
+    const auto more = static_cast<float>(std::clamp(inflation(nu, nv) - 1, 0.0, double{kMostInflation} - 1));
+    const vec3 center = points_[patch];
+    for (int i = 0; i < (nu + 1) * (nv + 1); ++i) {
+      out.px[i] += more * (out.px[i] - center.x);
+      out.py[i] += more * (out.py[i] - center.y);
+      out.pz[i] += more * (out.pz[i] - center.z);
+    }
+  }
+
+  void interpolate(uint32_t patch, int index, int n, const float*, const float*, float* out,
+                   int stride) const override {
+    const Primvar& var = primvars_[static_cast<size_t>(index)];
+    if (!repeatIfEven(var, 0, n, out, stride))
+      repeatElement(&var.values[patch * static_cast<size_t>(var.width)], var.width, n, out, stride);
+  }
+
+ protected:
+  static constexpr float kMostInflation = 1.5f;
+
+  /// Of the radius, so that the lattice's polygons have the shape's area.
+  virtual double inflation(int nu, int nv) const = 0;
+
+  /// bound() of a whole patch contains every lattice over it.
+  Bound3 boundInflated(uint32_t patch, const UvRect& r, Bound3 bound) const {
+    const vec3 center = points_[patch];
+    if (r.u0 <= 0 && r.u1 >= 1 && r.v0 <= 0 && r.v1 >= 1)
+      bound = {center + kMostInflation * (bound.lo - center), center + kMostInflation * (bound.hi - center)};
+    return paddedForRounding(bound, bound);
+  }
+
+  float radiusOf(uint32_t patch) const { return 0.5f * width_.values[width_.values.size() > 1 ? patch : 0]; }
+
+  std::vector<vec3> points_;
+  Primvar width_;
+};
+
+class Disks : public PointCloud {
+ public:
+  using PointCloud::PointCloud;
+
   std::shared_ptr<const Prim> facing(const vec3& eye, const vec3& forward, bool perspective) const override {
     if (normalsOf(primvars_)) return nullptr;
-    auto turned = std::make_shared<PointCloud>(*this);
+    auto turned = std::make_shared<Disks>(*this);
     turned->eye_ = {eye, forward, perspective};
     return turned;
   }
 
-  uint32_t patchCount() const override { return static_cast<uint32_t>(points_.size()); }
   PatchInfo info(uint32_t) const override { return {}; }
 
   Bound3 bound(uint32_t patch, const UvRect& r) const override {
@@ -53,7 +124,7 @@ class PointCloud : public Prim {
     Bound3 bound;
     for (int k = 0; k < 4; ++k)
       bound.extend(disk.center + disk.radius * (x[k & 1] * disk.tangent + y[k >> 1] * disk.bitangent));
-    return paddedForRounding(bound, bound);
+    return boundInflated(patch, r, bound);
   }
 
   void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const override {
@@ -65,26 +136,18 @@ class PointCloud : public Prim {
       const DiskPoint d(2 * u[i] - 1, 2 * v[i] - 1);
       const vec3 p = disk.center + onDisk(d.x, d.y), du = onDisk(2 * d.xByA, 2 * d.yByA),
                  dv = onDisk(2 * d.xByB, 2 * d.yByB);
-      out.px[i] = p.x, out.py[i] = p.y, out.pz[i] = p.z;
-      out.dux[i] = du.x, out.duy[i] = du.y, out.duz[i] = du.z;
-      out.dvx[i] = dv.x, out.dvy[i] = dv.y, out.dvz[i] = dv.z;
+      setFrame(out, i, p, du, dv);
       setNormal(out, i, disk.normal);
     }
   }
 
-  void interpolate(uint32_t patch, int index, int n, const float*, const float*, float* out,
-                   int stride) const override {
-    const Primvar& var = primvars_[static_cast<size_t>(index)];
-    const bool perPoint = var.storage != Storage::Constant && var.storage != Storage::Uniform;
-    repeatElement(&var.values[perPoint ? patch * static_cast<size_t>(var.width) : 0], var.width, n, out,
-                  stride);
-  }
+  double inflation(int nu, int nv) const override { return std::sqrt(M_PI / latticeDiskArea(nu, nv)); }
 
  private:
   Disk diskOf(uint32_t patch) const {
     Disk disk;
     disk.center = points_[patch];
-    disk.radius = 0.5f * width_.values[width_.values.size() > 1 ? patch : 0];
+    disk.radius = radiusOf(patch);
     const Primvar* given = normalsOf(primvars_);
     const float* n =
         given ? &given->values[given->values.size() > 3 ? 3 * static_cast<size_t>(patch) : 0] : nullptr;
@@ -93,10 +156,59 @@ class PointCloud : public Prim {
     return disk;
   }
 
-  std::vector<vec3> points_;
-  Primvar width_;
   Eye eye_;
 };
+
+/// u around z, v from pole to pole.
+class Spheres : public PointCloud {
+ public:
+  using PointCloud::PointCloud;
+
+  PatchInfo info(uint32_t) const override { return {false, 0}; }
+
+  Bound3 bound(uint32_t patch, const UvRect& r) const override {
+    const Bound3 sampled = boundOfSamples(r, [&](float u, float v) {
+      vec3 outward, byU, byV;
+      frame(u, v, outward, byU, byV);
+      return points_[patch] + radiusOf(patch) * outward;
+    });
+    const Bound3 whole = Bound3{points_[patch], points_[patch]}.grown(radiusOf(patch));
+    return boundInflated(patch, r, {glm::max(whole.lo, sampled.lo), glm::min(whole.hi, sampled.hi)});
+  }
+
+  void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const override {
+    const float radius = radiusOf(patch);
+    for (int i = 0; i < n; ++i) {
+      vec3 outward, byU, byV;
+      frame(u[i], v[i], outward, byU, byV);
+      setFrame(out, i, points_[patch] + radius * outward, radius * byU, radius * byV);
+      setNormal(out, i, outward);
+    }
+  }
+
+ protected:
+  double inflation(int nu, int nv) const override { return std::sqrt(4 * M_PI / latticeSphereArea(nu, nv)); }
+
+ private:
+  static void frame(float u, float v, vec3& outward, vec3& byU, vec3& byV) {
+    float sinU, cosU, sinV, cosV;
+    sinCosTurns(0, 1, 1, &u, &sinU, &cosU);
+    sinCosTurns(-0.25f, 0.5f, 1, &v, &sinV, &cosV);
+    outward = {cosV * cosU, cosV * sinU, sinV};
+    byU = 2 * kPi * vec3(-outward.y, outward.x, 0);
+    byV = kPi * vec3(-sinV * cosU, -sinV * sinU, cosV);
+  }
+};
+
+bool wantsSpheres(const ParamList& params, Problems& problems) {
+  const Param* type = findParam(params, "type");
+  const std::string name = type && !type->strings.empty() ? type->strings[0] : "particle";
+  if (name == "blobby") problems.push_back("points of type \"blobby\" do not flow together: they are spheres");
+  const bool spheres = name == "sphere" || name == "blobby";
+  if (!spheres && name != "particle" && name != "disk")
+    problems.push_back(fmt::format("points of type \"{}\" are not supported: they are disks", name));
+  return spheres;
+}
 
 }  // namespace
 
@@ -120,7 +232,11 @@ const Primvar* normalsOf(const std::vector<Primvar>& primvars) {
 PrimPtr makePoints(const ParamList& params, Problems& problems) {
   std::vector<vec3> points = takePositions(params, 1, false, problems);
   const size_t n = points.size();
-  return std::make_shared<PointCloud>(std::move(points), takePrimvars(params, {1, n, n, n}, problems));
+  ParamList others = params;
+  std::erase_if(others, [](const Param& p) { return p.name == "type"; });
+  std::vector<Primvar> primvars = takePrimvars(others, {1, n, n, n}, problems);
+  if (wantsSpheres(params, problems)) return std::make_shared<Spheres>(std::move(points), std::move(primvars));
+  return std::make_shared<Disks>(std::move(points), std::move(primvars));
 }
 
 }  // namespace tomales

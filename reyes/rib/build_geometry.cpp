@@ -99,6 +99,11 @@ PrimPtr blobby(const Request& r, const Scope&, Problems& problems) {
   return makeBlobby(r.args[0].ints()[0], r.args[1].ints(), r.args[2].numbers, r.params, problems);
 }
 
+PrimPtr geometry(const Request& r, const Scope&, Problems& problems) {
+  if (r.args[0].strings[0] != "teapot") throw PrimError("there is no geometry \"" + r.args[0].strings[0] + "\"");
+  return makeTeapot(r.params, problems);
+}
+
 template <size_t... I, class Make>
 PrimPtr quadric(Make make, std::index_sequence<I...>, const Request& r, Problems& problems) {
   return make(r.args[0].numbers[I]..., r.params, problems);
@@ -136,6 +141,7 @@ const std::unordered_map<std::string_view, Builder>& builders() {
       {"SubdivisionMesh", subdivisionMesh},
       {"HierarchicalSubdivisionMesh", subdivisionMesh},
       {"Blobby", blobby},
+      {"Geometry", geometry},
   };
   return table;
 }

@@ -143,7 +143,7 @@ constexpr Signature kTable[] = {
     {"Curves", "sFs", kParams, kWorks},
     {"Blobby", "fFFS", kParams, kWorks},
     {"Volume", "s6F", kParams, kGeometry},
-    {"Geometry", "s", kParams, kGeometry},
+    {"Geometry", "s", kParams, kWorks},
     {"Procedural", "sS6", kNone, kWorks},
     {"Procedural2", "ss", kParams, kWorks},
     // External resources

@@ -192,6 +192,60 @@ TEST(Points, AreDisksOfTheirWidth) {
   }
 }
 
+/// Of the polygons that a lattice over a patch makes.
+double latticeArea(const Prim& prim, uint32_t patch, int nu, int nv) {
+  std::vector<float> u, v;
+  for (int j = 0; j <= nv; ++j)
+    for (int i = 0; i <= nu; ++i) u.push_back(static_cast<float>(i) / nu), v.push_back(static_cast<float>(j) / nv);
+  std::vector<float> f[12];
+  for (auto& array : f) array.resize(u.size());
+  prim.evaluateLattice(patch, nu, nv, u.data(), v.data(),
+                       {f[0].data(), f[1].data(), f[2].data(), f[3].data(), f[4].data(), f[5].data(), f[6].data(),
+                        f[7].data(), f[8].data(), f[9].data(), f[10].data(), f[11].data()});
+  const auto at = [&](int i, int j) {
+    const size_t k = static_cast<size_t>(j * (nu + 1) + i);
+    const glm::dvec3 p(f[0][k], f[1][k], f[2][k]);
+    const Bound3 bound = prim.bound(patch, {});
+    EXPECT_TRUE(p == glm::clamp(p, glm::dvec3(bound.lo), glm::dvec3(bound.hi)));
+    return p;
+  };
+  double area = 0;
+  for (int j = 0; j < nv; ++j)
+    for (int i = 0; i < nu; ++i)
+      area += glm::length(glm::cross(at(i + 1, j + 1) - at(i, j), at(i, j + 1) - at(i + 1, j))) / 2;
+  return area;
+}
+
+TEST(Points, FewPolygonsHaveTheAreaOfTheDiskTheyStandFor) {
+  const PrimPtr prim = seen(points({positions({1, 2, 3}), width(Storage::Constant, {0.5f})}));
+  for (int nu = 1; nu < 6; ++nu)
+    for (int nv = 1; nv < 6; ++nv) EXPECT_NEAR(latticeArea(*prim, 0, nu, nv), M_PI / 16, 1e-6) << nu << ' ' << nv;
+}
+
+TEST(Points, OfTypeSphereAreSpheres) {
+  Param type;
+  type.name = "type", type.storage = Storage::Constant, type.type = ValueType::String, type.strings = {"sphere"};
+  const PrimPtr prim = points({positions({1, 2, 3, 0, 0, 0}), width(Storage::Vertex, {0.5f, 4}), type});
+  EXPECT_EQ(prim->facing(kEye, {0, 0, 1}, true), nullptr);
+  expectSoundEverywhere(*prim);
+  expectBoundsContainTheSurface(*prim);
+  expectDerivativesOfPositions(*prim, 1e-3f);
+  for (const float t : {0.0f, 0.2f, 0.7f, 1.0f})
+    EXPECT_NEAR(glm::length(sampleAt(*prim, 1, t, 0.3f * t).p), 2, 1e-6f);
+  expectAreaAtSecondOrder(*points({positions({1, 2, 3}), width(Storage::Constant, {2}), type}), 4 * M_PI);
+  for (const int n : {3, 5, 9}) EXPECT_NEAR(latticeArea(*prim, 0, n, n - 1), M_PI / 4, 1e-6) << n;
+}
+
+TEST(Points, OfOtherTypesSayWhatTheyAre) {
+  for (const char* name : {"patch", "blobby", "wrong"}) {
+    Param type;
+    type.name = "type", type.storage = Storage::Constant, type.type = ValueType::String, type.strings = {name};
+    Problems problems;
+    EXPECT_EQ(makePoints({positions({0, 0, 0}), type}, problems)->patchCount(), 1u);
+    EXPECT_EQ(problems.size(), 1u);
+  }
+}
+
 TEST(Points, FaceTheirNormalIfTheyHaveOne) {
   const PrimPtr prim = points({positions({0, 0, 0, 5, 0, 0}), width(Storage::Constant, {2}),
                                floats("N", Storage::Varying, ValueType::Normal, {0, 2, 0, 1, 0, 0})});

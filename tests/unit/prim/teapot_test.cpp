@@ -1,0 +1,52 @@
+#include "tests/unit/prim/support.h"
+
+namespace tomales {
+namespace {
+using namespace test;
+
+TEST(Teapot, StandsOnTheGroundAndHasItsSize) {
+  Problems problems;
+  const PrimPtr prim = makeTeapot({floats("k", Storage::Constant, ValueType::Float, {3})}, problems);
+  EXPECT_TRUE(problems.empty());
+  ASSERT_EQ(prim->patchCount(), 32u);
+  Bound3 box;
+  glm::dvec3 area(0);
+  double volume = 0;
+  const int side = 16;
+  for (uint32_t patch = 0; patch < 32; ++patch)
+    for (int j = 0; j < side; ++j)
+      for (int i = 0; i < side; ++i) {
+        const auto p = [&](int a, int b) {
+          const vec3 q = sampleAt(*prim, patch, static_cast<float>(i + a) / side, static_cast<float>(j + b) / side).p;
+          box.extend(q);
+          return glm::dvec3(q);
+        };
+        const glm::dvec3 a = p(0, 0), b = p(1, 0), c = p(1, 1), d = p(0, 1), n = 0.5 * glm::cross(c - a, d - b);
+        area += n, volume += glm::dot(0.25 * (a + b + c + d), n) / 3;
+      }
+  EXPECT_LT(glm::length(box.lo - vec3(-3, -2, 0)), 0.02f);
+  EXPECT_LT(glm::length(box.hi - vec3(3.434f, 2, 3.15f)), 0.02f);
+  EXPECT_NEAR(area.y, 0, 1e-4);  // the two halves mirror each other, both with their outside out
+  EXPECT_GT(volume, 20);         // about a cylinder of radius 2 and height 2
+  EXPECT_LT(volume, 28);
+  for (uint32_t patch = 0; patch < 4; ++patch) {
+    const Sample s = sampleAt(*prim, 4 + patch, 0.5f, 0.5f);  // the body's wall
+    EXPECT_GT(dot(s.n, vec3(s.p.x, s.p.y, 0)), 0);
+  }
+  EXPECT_EQ(primvarAt(*prim, 31, 0, 0.5f, 0.5f)[0], 3);
+  expectSoundEverywhere(*prim);
+  expectBoundsContainTheSurface(*prim);
+}
+
+TEST(Teapot, IsOpenOnlyWhereItsPartsEnd) {
+  Problems problems;
+  const PrimPtr prim = makeTeapot({}, problems);
+  int open = 0;
+  for (uint32_t patch = 0; patch < 32; ++patch)
+    for (int bit = 0; bit < 4; ++bit) open += prim->info(patch).openEdges >> bit & 1;
+  // Four quarters of the rim's inner edge and of the lid's lower one; two halves of both ends of handle and spout.
+  EXPECT_EQ(open, 16);
+}
+
+}  // namespace
+}  // namespace tomales
