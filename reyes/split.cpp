@@ -9,7 +9,11 @@ namespace {
 
 constexpr int kProbes = 4;        ///< Measuring lattice: kProbes x kProbes chords.
 constexpr int kMaxDepth = 48;     ///< Halvings of one patch; beyond, the piece is smaller than a float can name.
-constexpr int kMaxEyeSplits = 32; ///< Halvings of a piece that crosses the eye plane in view.
+/// A bound that is so many times larger than the lines on its piece does not shrink with it: it is rounding, or the circle
+/// in which a ribbon may turn. From some depth on points measured on the piece say where it is, or nothing near the eye would
+/// ever be culled.
+constexpr float kSlack = 8;
+constexpr int kSlackDepth = 8;
 constexpr float kRasterMargin_px = 1.0f;  ///< The hider may push borders out by half a pixel.
 /// Pieces that one patch may visit: so many times those that cover the window once, and some for small windows. Only
 /// coordinates beyond float's precision or reach, which no halving makes small, come near it.
@@ -75,42 +79,60 @@ class Splitter {
   void splitPatch(uint32_t patch, std::vector<SubPatch>& out) {
     const double window_px = static_cast<double>(window_.width()) * window_.height();
     budget_ = static_cast<int64_t>(kLeastBudget + kLayersOfPatch * window_px / (double{edge_px_} * edge_px_ * gridSize_));
-    split(patch, UvRect{}, 0, 0, out);
+    split(patch, UvRect{}, 0, out);
   }
 
   const GivenUp& givenUp() const { return givenUp_; }
 
  private:
-  void split(uint32_t patch, const UvRect& rect, int depth, int eyeSplits, std::vector<SubPatch>& out) {
+  void split(uint32_t patch, const UvRect& rect, int depth, std::vector<SubPatch>& out) {
     if (budget_-- <= 0) {
       ++givenUp_.tooMany;
       return;
     }
-    const Bound3 bare = cameraBound(object_, patch, rect), bound = bare.grown(object_.displacementBound);
-    if (!isFinite(bound.lo) || !isFinite(bound.hi) || camera_.outside(bound, window_) ||
-        object_.shape().kept(patch, rect) == Kept::None) {
+    Bound3 bare = cameraBound(object_, patch, rect);
+    if (cannotBeSeen(bare) || object_.shape().kept(patch, rect) == Kept::None) {
       ++stats_.geometry.culled;
       return;
     }
-    Bound2 raster;
-    if (!camera_.rasterBound(bound, raster)) {
-      // No halving shrinks a displacement bound: what it alone brings to the eye may lie anywhere in the window.
-      if (!camera_.rasterBound(bare, raster)) return splitAtEye(patch, rect, depth, eyeSplits, out);
-      raster = {{window_.x0, window_.y0}, {window_.x1, window_.y1}};
-    }
     const PatchSize size = measure(object_, camera_, patch, rect);
+    const bool still = object_.keyTimes.size() == 1;
+    const float reach = size.u_length + size.v_length;
+    if (still && depth >= kSlackDepth && glm::length(bare.size()) > kSlack * reach) {
+      bare = size.probes.grown(reach);
+      if (cannotBeSeen(bare)) return;
+    }
+    const Bound3 bound = bare.grown(object_.displacementBound);
+    const bool crossesNear = crosses(bare);
     const float edge_px = edge_px_ * coarsening(patch, rect, bound);
     const int nu = cells(size.u_px, edge_px), nv = cells(size.v_px, edge_px);
-    if (static_cast<int64_t>(nu) * nv > gridSize_) {
-      if (depth == kMaxDepth)
-        ++givenUp_.tooMany;
-      else
-        recurse(patch, rect, nu >= nv, depth, eyeSplits, out);
-      return;
+    if (static_cast<int64_t>(nu) * nv <= gridSize_) {
+      // What moves through the near plane does so however small it is; it is seen while it stays in front.
+      if (crossesNear && !still) ++givenUp_.atEye;
+      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound), bound.lo.z, crossesNear});
+    } else if (depth == kMaxDepth) {
+      ++(bound.lo.z < glm::length(bound.size()) ? givenUp_.atEye : givenUp_.tooMany);
+    } else {
+      const bool alongU = crossesNear ? size.u_length >= size.v_length : nu >= nv;
+      const auto [a, b] = halves(rect, alongU);
+      split(patch, a, depth + 1, out);
+      split(patch, b, depth + 1, out);
     }
-    raster.lo -= vec2(kRasterMargin_px);
-    raster.hi += vec2(kRasterMargin_px);
-    out.push_back({index_, patch, rect, nu, nv, raster, bound.lo.z});
+  }
+
+  bool cannotBeSeen(const Bound3& bare) const {
+    const Bound3 bound = bare.grown(object_.displacementBound);
+    return !isFinite(bound.lo) || !isFinite(bound.hi) || camera_.outside(bound, window_);
+  }
+  /// No halving shrinks a displacement bound: what it alone brings to the near plane does not count.
+  bool crosses(const Bound3& bare) const { return camera_.perspective() && bare.lo.z < camera_.nearClip(); }
+
+  /// Of what lies beyond the near plane.
+  Bound2 rasterOf(Bound3 bound) const {
+    if (camera_.perspective()) bound.lo.z = std::max(bound.lo.z, camera_.nearClip());
+    Bound2 raster;
+    camera_.rasterBound(bound, raster);
+    return {raster.lo - vec2(kRasterMargin_px), raster.hi + vec2(kRasterMargin_px)};
   }
 
   /// How much longer than the shading rate asks the edges may be: a micropolygon's width up to a quarter of the circle
@@ -122,21 +144,6 @@ class Splitter {
     const float motion = moves ? a.motionFactor * pathLength_px(object_, camera_, patch, rect) / 4 : 0;
     const float scale = std::max({1.0f, focus, std::sqrt(motion)});
     return std::isfinite(scale) ? scale : 1.0f;
-  }
-
-  void splitAtEye(uint32_t patch, const UvRect& rect, int depth, int eyeSplits, std::vector<SubPatch>& out) {
-    if (eyeSplits == kMaxEyeSplits) {
-      ++givenUp_.atEye;
-      return;
-    }
-    const PatchSize size = measure(object_, camera_, patch, rect);
-    recurse(patch, rect, size.u_length >= size.v_length, depth, eyeSplits + 1, out);
-  }
-
-  void recurse(uint32_t patch, const UvRect& rect, bool alongU, int depth, int eyeSplits, std::vector<SubPatch>& out) {
-    const auto [a, b] = halves(rect, alongU);
-    split(patch, a, depth + 1, eyeSplits, out);
-    split(patch, b, depth + 1, eyeSplits, out);
   }
 
   const Object& object_;
@@ -153,8 +160,8 @@ void report(const Splitter::GivenUp& givenUp, const Object& o, Stats& stats, Log
   stats.geometry.eyeSplitsGivenUp += givenUp.atEye;
   if (givenUp.atEye > 0)
     log.report(Severity::Warning, "split-eye-plane", o.where,
-               fmt::format("{} passes through the eye: what lies nearer than the smallest piece is not drawn; "
-                           "set Clipping near by hand if it shows",
+               fmt::format("{} passes through the eye: what lies too near there, at any time, is not drawn; set "
+                           "Clipping near by hand if it shows",
                            objectName(o)));
   if (givenUp.tooMany > 0)
     log.report(Severity::Missing, "split-too-many", o.where,
@@ -178,12 +185,13 @@ PatchSize measure(const Object& o, const Camera& camera, uint32_t patch, const U
   const mat4 m = o.cameraFromObject.at(o.keyTimes.front());
   vec3 p[kCount];
   vec2 raster[kCount];
+  PatchSize size;
   for (int k = 0; k < kCount; ++k) {
     p[k] = transformPoint(m, {data[0][k], data[1][k], data[2][k]});
+    size.probes.extend(p[k]);
     const vec3 inFront(p[k].x, p[k].y, std::max(p[k].z, camera.nearClip()));
     raster[k] = camera.perspective() ? camera.raster(inFront) : camera.raster(p[k]);
   }
-  PatchSize size{0, 0, 0, 0};
   const bool rasterOrient = o.attributes->rasterOrient;
   for (int line = 0; line < kRow; ++line) {
     float du_px = 0, dv_px = 0, du = 0, dv = 0;

@@ -99,7 +99,8 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
     const size_t base = stride * static_cast<size_t>(key);
     float *x = r->x.data() + base, *y = r->y.data() + base, *d = r->d.data() + base;
     for (int v = 0; v < g.vertexCount(); ++v) {
-      const vec3 p = g.position(key, v);
+      vec3 p = g.position(key, v);
+      if (!camera.seeable(p)) p = vec3(0, 0, camera.nearClip());  // of cells that nobody sees
       const vec2 at = camera.raster(p);
       x[v] = at.x, y[v] = at.y, d[v] = camera.depthKey(p.z);
     }
@@ -107,6 +108,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
     pushBorders(g, x, y);
     for (int v = 0; v < g.vertexCount(); ++v) {
       x[v] = snapToLattice(x[v]), y[v] = snapToLattice(y[v]);
+      if (!camera.seeable(g.position(key, v))) continue;
       const vec2 blur = glm::abs(camera.defocus(d[v]));
       r->bound.extend(vec2(x[v], y[v]) - blur);
       r->bound.extend(vec2(x[v], y[v]) + blur);

@@ -89,7 +89,8 @@ TOMALES_KERNEL inline bool merge(const RasterJob& job, const LaneDepths& hit, si
 void cutAway(const RasterJob& job, uint32_t cell, int x, int y, size_t lane, LaneDepths& hit);
 /// What trim curves leave of a cell of the job's grid.
 inline Kept keptOf(const RasterJob& job, int cell) {
-  return job.raster.trim ? job.raster.grid->kept[static_cast<size_t>(cell)] : Kept::All;
+  const std::vector<Kept>& kept = job.raster.grid->kept;
+  return kept.empty() ? Kept::All : kept[static_cast<size_t>(cell)];
 }
 
 /// Integers in the order of floats, and back: the maximum of integers is a vector reduction without
