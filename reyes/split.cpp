@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <bit>
+
 #include "reyes/base/parallel.h"
 
 namespace tomales {
@@ -60,9 +62,10 @@ std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
   return {a, b};
 }
 
-int cells(float length_px, float edge_px) {
+int cells(float length_px, float edge_px, bool binary) {
   const float n = std::ceil(length_px / edge_px);
-  return n >= 1.0f ? static_cast<int>(std::min(n, 65536.0f)) : 1;
+  const int count = n >= 1.0f ? static_cast<int>(std::min(n, 65536.0f)) : 1;
+  return binary ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(count))) : count;
 }
 
 /// Splits the patches of one object.
@@ -105,7 +108,8 @@ class Splitter {
     const Bound3 bound = bare.grown(object_.displacementBound);
     const bool crossesNear = crosses(bare);
     const float edge_px = edge_px_ * coarsening(patch, rect, bound);
-    const int nu = cells(size.u_px, edge_px), nv = cells(size.v_px, edge_px);
+    const bool binary = object_.attributes->binaryDice;
+    const int nu = cells(size.u_px, edge_px, binary), nv = cells(size.v_px, edge_px, binary);
     if (static_cast<int64_t>(nu) * nv <= gridSize_) {
       // What moves through the near plane does so however small it is; it is seen while it stays in front.
       if (crossesNear && !still) ++givenUp_.atEye;
