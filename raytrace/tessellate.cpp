@@ -37,8 +37,10 @@ LineFigures linesOf(const Grid& g, const Camera& camera, int alongStride, int ac
     for (int k = 0; k < kProbes; ++k) {
       const int a = line * acrossStride + k * alongStride, b = a + alongStride;
       const vec3 p = g.position(0, a), q = g.position(0, b);
-      // The pixel size by distance is defined all around the eye, unlike raster coordinates.
-      sum.length_px += glm::length(q - p) / std::max(camera.pixelSize(0.5f * (p + q)), 1e-20f);
+      // The pixel size by distance is defined all around the eye, unlike raster coordinates. A chord past the eye counts as
+      // if it were half its length away: it fills the view whatever it is cut into.
+      const float pixel = std::max(camera.pixelSize(0.5f * (p + q)), camera.pixelSize(0.5f * (q - p)));
+      sum.length_px += glm::length(q - p) / std::max(pixel, 1e-20f);
       sum.turn += angleBetween(g.normal(a), g.normal(b));
     }
     out.length_px = std::max(out.length_px, sum.length_px);

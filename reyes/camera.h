@@ -18,6 +18,8 @@ class Camera {
   float nearClip() const { return near_; }
   float farClip() const { return far_; }
 
+  /// Finite, and not nearer than the near plane: `raster` is defined and so is the depth key.
+  bool seeable(const vec3& p) const { return isFinite(p) && !(perspective_ && p.z < near_); }
   /// Raster x, y. Pre: p.z > 0 under perspective.
   vec2 raster(const vec3& p) const {
     const float w = perspective_ ? 1.0f / p.z : 1.0f;

@@ -48,7 +48,7 @@ struct RasterGrid {
   const Prim* trim = nullptr;   ///< Asked what trim curves leave of Grid::kept cells; null: nothing is cut.
   float trimReach_px = 0;       ///< What is left reaches this much farther, to meet what a neighbour leaves.
 };
-/// Pre: every vertex lies in front of the eye.
+/// Pre: every vertex of a cell that Grid::kept keeps is Camera::seeable.
 std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene, const Camera& camera, bool opaque);
 
 class Hider {

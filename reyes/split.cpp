@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <numeric>
 
 #include "reyes/base/parallel.h"
@@ -10,7 +11,11 @@ namespace tomales {
 namespace {
 
 constexpr int kMaxDepth = 48;     ///< Halvings of one patch; beyond, the piece is smaller than a float can name.
-constexpr int kMaxEyeSplits = 32; ///< Halvings of a piece that crosses the eye plane in view.
+/// A bound that is so many times larger than the lines on its piece does not shrink with it: it is rounding, or the circle
+/// in which a ribbon may turn. From some depth on points measured on the piece say where it is, or nothing near the eye would
+/// ever be culled.
+constexpr float kSlack = 8;
+constexpr int kSlackDepth = 8;
 constexpr float kRasterMargin_px = 1.0f;  ///< The hider may push borders out by half a pixel.
 /// Pieces that one patch may visit: so many times those that cover the window once, and some for small windows. Only
 /// coordinates beyond float's precision or reach, which no halving makes small, come near it.
@@ -58,12 +63,13 @@ std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
 }
 
 /// Cells along `length_px`: fewer where blur lets edges grow by `coarsening`, but then never so few that a patch that closes on
-/// itself collapses.
-int cells(float length_px, float edge_px, float coarsening) {
+/// itself collapses. Binary: a power of two.
+int cells(float length_px, float edge_px, float coarsening, bool binary) {
   constexpr float kLeastOfCoarse = 4;
   const float fine = std::ceil(length_px / edge_px), coarse = std::ceil(length_px / (edge_px * coarsening));
   const float n = std::max(coarse, std::min(fine, kLeastOfCoarse));
-  return n >= 1.0f ? static_cast<int>(std::min(n, 65536.0f)) : 1;
+  const int count = n >= 1.0f ? static_cast<int>(std::min(n, 65536.0f)) : 1;
+  return binary ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(count))) : count;
 }
 
 /// Splits the patches of one object.
@@ -80,42 +86,61 @@ class Splitter {
   void splitPatch(uint32_t patch, std::vector<SubPatch>& out) {
     const double window_px = static_cast<double>(window_.width()) * window_.height();
     budget_ = static_cast<int64_t>(kLeastBudget + kLayersOfPatch * window_px / (double{edge_px_} * edge_px_ * gridSize_));
-    split(patch, UvRect{}, 0, 0, out);
+    split(patch, UvRect{}, 0, out);
   }
 
   const GivenUp& givenUp() const { return givenUp_; }
 
  private:
-  void split(uint32_t patch, const UvRect& rect, int depth, int eyeSplits, std::vector<SubPatch>& out) {
+  void split(uint32_t patch, const UvRect& rect, int depth, std::vector<SubPatch>& out) {
     if (budget_-- <= 0) {
       ++givenUp_.tooMany;
       return;
     }
-    const Bound3 bare = cameraBound(object_, patch, rect), bound = bare.grown(object_.displacementBound);
-    if (!isFinite(bound.lo) || !isFinite(bound.hi) || camera_.outside(bound, window_) ||
-        object_.shape().kept(patch, rect) == Kept::None) {
+    Bound3 bare = cameraBound(object_, patch, rect);
+    if (cannotBeSeen(bare) || object_.shape().kept(patch, rect) == Kept::None) {
       ++stats_.geometry.culled;
       return;
     }
-    Bound2 raster;
-    if (!camera_.rasterBound(bound, raster)) {
-      // No halving shrinks a displacement bound: what it alone brings to the eye may lie anywhere in the window.
-      if (!camera_.rasterBound(bare, raster)) return splitAtEye(patch, rect, depth, eyeSplits, out);
-      raster = {{window_.x0, window_.y0}, {window_.x1, window_.y1}};
-    }
     const PatchSize size = measure(object_, camera_, patch, rect);
-    const float blur = coarsening(patch, rect, bound);
-    const int nu = cells(size.u_px, edge_px_, blur), nv = cells(size.v_px, edge_px_, blur);
-    if (static_cast<int64_t>(nu) * nv > gridSize_) {
-      if (depth == kMaxDepth)
-        ++givenUp_.tooMany;
-      else
-        recurse(patch, rect, nu >= nv, depth, eyeSplits, out);
-      return;
+    const bool still = object_.keyTimes.size() == 1;
+    const float reach = size.u_length + size.v_length;
+    if (still && depth >= kSlackDepth && glm::length(bare.size()) > kSlack * reach) {
+      bare = size.probes.grown(reach);
+      if (cannotBeSeen(bare)) return;
     }
-    raster.lo -= vec2(kRasterMargin_px);
-    raster.hi += vec2(kRasterMargin_px);
-    out.push_back({index_, patch, rect, nu, nv, raster, bound.lo.z});
+    const Bound3 bound = bare.grown(object_.displacementBound);
+    const bool crossesNear = crosses(bare);
+    const float blur = coarsening(patch, rect, bound);
+    const bool binary = object_.attributes->binaryDice;
+    const int nu = cells(size.u_px, edge_px_, blur, binary), nv = cells(size.v_px, edge_px_, blur, binary);
+    if (static_cast<int64_t>(nu) * nv <= gridSize_) {
+      // What moves through the near plane does so however small it is; it is seen while it stays in front.
+      if (crossesNear && !still) ++givenUp_.atEye;
+      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound), bound.lo.z, crossesNear});
+    } else if (depth == kMaxDepth) {
+      ++(bound.lo.z < glm::length(bound.size()) ? givenUp_.atEye : givenUp_.tooMany);
+    } else {
+      const bool alongU = crossesNear ? size.u_length >= size.v_length : nu >= nv;
+      const auto [a, b] = halves(rect, alongU);
+      split(patch, a, depth + 1, out);
+      split(patch, b, depth + 1, out);
+    }
+  }
+
+  bool cannotBeSeen(const Bound3& bare) const {
+    const Bound3 bound = bare.grown(object_.displacementBound);
+    return !isFinite(bound.lo) || !isFinite(bound.hi) || camera_.outside(bound, window_);
+  }
+  /// No halving shrinks a displacement bound: what it alone brings to the near plane does not count.
+  bool crosses(const Bound3& bare) const { return camera_.perspective() && bare.lo.z < camera_.nearClip(); }
+
+  /// Of what lies beyond the near plane.
+  Bound2 rasterOf(Bound3 bound) const {
+    if (camera_.perspective()) bound.lo.z = std::max(bound.lo.z, camera_.nearClip());
+    Bound2 raster;
+    camera_.rasterBound(bound, raster);
+    return {raster.lo - vec2(kRasterMargin_px), raster.hi + vec2(kRasterMargin_px)};
   }
 
   /// How much longer than the shading rate asks the edges may be: a micropolygon's width up to a quarter of the circle
@@ -127,21 +152,6 @@ class Splitter {
     const float motion = moves ? a.motionFactor * pathLength_px(object_, camera_, patch, rect) / 4 : 0;
     const float scale = std::max({1.0f, focus, std::sqrt(motion)});
     return std::isfinite(scale) ? scale : 1.0f;
-  }
-
-  void splitAtEye(uint32_t patch, const UvRect& rect, int depth, int eyeSplits, std::vector<SubPatch>& out) {
-    if (eyeSplits == kMaxEyeSplits) {
-      ++givenUp_.atEye;
-      return;
-    }
-    const PatchSize size = measure(object_, camera_, patch, rect);
-    recurse(patch, rect, size.u_length >= size.v_length, depth, eyeSplits + 1, out);
-  }
-
-  void recurse(uint32_t patch, const UvRect& rect, bool alongU, int depth, int eyeSplits, std::vector<SubPatch>& out) {
-    const auto [a, b] = halves(rect, alongU);
-    split(patch, a, depth + 1, eyeSplits, out);
-    split(patch, b, depth + 1, eyeSplits, out);
   }
 
   const Object& object_;
@@ -158,8 +168,8 @@ void report(const Splitter::GivenUp& givenUp, const Object& o, Stats& stats, Log
   stats.geometry.eyeSplitsGivenUp += givenUp.atEye;
   if (givenUp.atEye > 0)
     log.report(Severity::Warning, "split-eye-plane", o.where,
-               fmt::format("{} passes through the eye: what lies nearer than the smallest piece is not drawn; "
-                           "set Clipping near by hand if it shows",
+               fmt::format("{} passes through the eye: what lies too near there, at any time, is not drawn; set "
+                           "Clipping near by hand if it shows",
                            objectName(o)));
   if (givenUp.tooMany > 0)
     log.report(Severity::Missing, "split-too-many", o.where,
@@ -187,12 +197,13 @@ PatchSize measureLattice(const Object& o, const Camera& camera, uint32_t patch, 
   const mat4 m = o.cameraFromObject.at(o.keyTimes.front());
   vec3 p[kCount];
   vec2 raster[kCount];
+  PatchSize size;
   for (int k = 0; k < kCount; ++k) {
     p[k] = transformPoint(m, {data[0][k], data[1][k], data[2][k]});
+    size.probes.extend(p[k]);
     const vec3 inFront(p[k].x, p[k].y, std::max(p[k].z, camera.nearClip()));
     raster[k] = camera.perspective() ? camera.raster(inFront) : camera.raster(p[k]);
   }
-  PatchSize size{0, 0, 0, 0};
   const bool rasterOrient = o.attributes->rasterOrient;
   for (int line = 0; line < kRow; ++line) {
     float du_px = 0, dv_px = 0, du = 0, dv = 0;

@@ -1,5 +1,5 @@
 // Verb: Scene -> sub-patches small enough to dice, each with its raster bound. Bound, cull, judge, halve; a piece that
-// crosses the eye plane is halved until its parts lie on one side. Depends on the camera and on ShadingRate, never on
+// crosses the near plane is halved until its micropolygons are small there. Depends on the camera and on ShadingRate, never on
 // buckets, crop or threads.
 // Threads: pure but for the counters and the log.
 #pragma once
@@ -19,6 +19,7 @@ struct SubPatch {
   int nu, nv;
   Bound2 raster;    ///< Conservative, over the shutter, displacement included.
   float zMin;       ///< Nearest camera z, likewise.
+  bool crossesNear = false;  ///< Some of it lies nearer than the near plane, and micropolygons there are to be left out.
 };
 
 /// Where something may be seen, over the shutter, displacement and defocus included.
@@ -62,7 +63,10 @@ class PatchTree {
 
 /// Lengths in camera space of a rectangle's longest u and v lines, and the raster lengths when the camera sees it:
 /// what dicing and ray tessellation choose their rates from.
-struct PatchSize { float u_px, v_px, u_length, v_length; };
+struct PatchSize {
+  float u_px = 0, v_px = 0, u_length = 0, v_length = 0;
+  Bound3 probes;  ///< Around the points that were measured, in camera space.
+};
 PatchSize measure(const Object& object, const Camera& camera, uint32_t patch, const UvRect& rect);
 
 }  // namespace tomales

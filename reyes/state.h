@@ -160,6 +160,7 @@ struct Attributes {
   } indirect;
   std::optional<float> irradianceMaxError, irradianceMaxPixelDist;
   bool rasterOrient = true;                                 ///< Attribute "dice" "rasterorient"
+  bool binaryDice = false;                                  ///< Attribute "dice" "binary": counts are powers of two.
   std::map<std::string, Param> user;                        ///< "category:name" that shaders may read
 
   bool operator==(const Attributes&) const = default;       ///< Shaders are compared by pointer.

@@ -31,16 +31,11 @@ std::shared_ptr<const RasterGrid> PieceNode::makeGrid() const {
   ++stats.geometry.gridsDiced;
   stats.geometry.micropolygonsDiced += grid->cellCount();
 
-  for (int key = 0; key < grid->keyCount; ++key)
-    for (int i = 0; i < grid->vertexCount(); ++i) {
-      const vec3 p = grid->position(key, i);
-      if (isFinite(p) && !(context_.camera.perspective() && p.z < context_.camera.nearClip())) continue;
-      context_.log.report(Severity::Warning, "grid-behind-eye", o.where,
-                          fmt::format("{}: a displaced vertex is not finite or lies behind the eye; that grid is left out (is "
-                                      "displacementbound too small?)",
-                                      objectName(o)));
-      return nullptr;
-    }
+  if (leaveOutUnseeable(*grid) && !piece_.crossesNear)
+    context_.log.report(Severity::Warning, "grid-behind-eye", o.where,
+                        fmt::format("{}: displaced vertices are not finite or lie behind the eye; the micropolygons there are "
+                                    "left out (is displacementbound too small?)",
+                                    objectName(o)));
   // Midpoints need what lies behind what is opaque.
   const bool hides = context_.shading.opaque(o.group) && context_.scene.options.depthFilter != DepthFilter::Midpoint;
   auto raster = project(std::move(grid), context_.scene, context_.camera, hides);
@@ -48,6 +43,23 @@ std::shared_ptr<const RasterGrid> PieceNode::makeGrid() const {
   keepPeak(stats.memoryBytes.grids, context_.liveGrids_bytes += bytes);
   // Hiders keep grids longer than nodes do.
   return {raster.get(), [raster, bytes, &live = context_.liveGrids_bytes](const RasterGrid*) { live -= bytes; }};
+}
+
+bool PieceNode::leaveOutUnseeable(Grid& g) const {
+  const int row = g.nu + 1;
+  bool any = false;
+  for (int v = 0; v < g.vertexCount(); ++v) {
+    bool good = true;
+    for (int key = 0; key < g.keyCount; ++key) good &= context_.camera.seeable(g.position(key, v));
+    if (good) continue;
+    any = true;
+    g.kept.resize(static_cast<size_t>(g.cellCount()), Kept::All);
+    const int i = v % row, j = v / row;
+    for (int cj = std::max(j - 1, 0); cj <= std::min(j, g.nv - 1); ++cj)
+      for (int ci = std::max(i - 1, 0); ci <= std::min(i, g.nu - 1); ++ci)
+        g.kept[static_cast<size_t>(cj * g.nu + ci)] = Kept::None;
+  }
+  return any;
 }
 
 }  // namespace tomales

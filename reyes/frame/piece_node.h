@@ -13,9 +13,10 @@ class PieceNode : public HideNode {
   void release(size_t bucket) override;
 
  private:
-  /// Null: it cannot be hidden (a vertex at or behind the eye).
   std::shared_ptr<const RasterGrid> acquire();
   std::shared_ptr<const RasterGrid> makeGrid() const;
+  /// Takes away the cells with vertices that are nearer than the near plane at some key or not finite. True if there are.
+  bool leaveOutUnseeable(Grid& grid) const;
 
   HideContext& context_;
   const SubPatch piece_;

@@ -5,6 +5,7 @@
 namespace tomales {
 namespace {
 
+constexpr float kLeastSlant = 0.05f;  // Faces seen edge on.
 // A neighbour with edges twice as long has four times the sagitta of ours.
 constexpr float kReach = 4;
 constexpr float kMinReach_px = 2 / kLattice;
@@ -53,6 +54,14 @@ float deviation_px(const Grid& g, const float* x, const float* y) {
   return most;
 }
 
+/// The sine of the angle between a direction and the border at vertex k.
+float slantOf(const vec2& direction, const float* x, const float* y, const Border& b, int k) {
+  const int before = b.first + std::max(k - 1, 0) * b.step, after = b.first + std::min(k + 1, b.count) * b.step;
+  const vec2 along{x[after] - x[before], y[after] - y[before]};
+  const float length = glm::length(along);
+  return length > 0 ? std::abs(along.x * direction.y - along.y * direction.x) / length : 1.0f;
+}
+
 void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, std::vector<vec2>& push) {
   for (int k = 0; k <= b.count; ++k) {
     const int v = b.first + k * b.step;
@@ -60,7 +69,9 @@ void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, 
     const float length = glm::length(outward);
     if (!(length > 0)) continue;
     const float reach = std::clamp(kReach * sagitta_px(g, x, y, b, k), kMinReach_px, kMaxReach_px);
-    push[static_cast<size_t>(v)] += outward * (reach / length);
+    // Along the lattice, so that the other borders stay where they are, until the border itself has moved by as much.
+    const float slant = std::max(slantOf(outward / length, x, y, b, k), kLeastSlant);
+    push[static_cast<size_t>(v)] += outward * (std::min(reach / slant, kMaxReach_px) / length);
   }
 }
 
@@ -100,7 +111,8 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
     const size_t base = stride * static_cast<size_t>(key);
     float *x = r->x.data() + base, *y = r->y.data() + base, *d = r->d.data() + base;
     for (int v = 0; v < g.vertexCount(); ++v) {
-      const vec3 p = g.position(key, v);
+      vec3 p = g.position(key, v);
+      if (!camera.seeable(p)) p = vec3(0, 0, camera.nearClip());  // of cells that nobody sees
       const vec2 at = camera.raster(p);
       x[v] = at.x, y[v] = at.y, d[v] = camera.depthKey(p.z);
     }
@@ -108,6 +120,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
     pushBorders(g, x, y);
     for (int v = 0; v < g.vertexCount(); ++v) {
       x[v] = snapToLattice(x[v]), y[v] = snapToLattice(y[v]);
+      if (!camera.seeable(g.position(key, v))) continue;
       const vec2 blur = glm::abs(camera.defocus(d[v]));
       r->bound.extend(vec2(x[v], y[v]) - blur);
       r->bound.extend(vec2(x[v], y[v]) + blur);

@@ -37,7 +37,8 @@ bool turnedAway(const RasterJob& job, int a);
 
 /// What trim curves leave of a cell of the job's grid.
 inline Kept keptOf(const RasterJob& job, int cell) {
-  return job.raster.trim ? job.raster.grid->kept[static_cast<size_t>(cell)] : Kept::All;
+  const std::vector<Kept>& kept = job.raster.grid->kept;
+  return kept.empty() ? Kept::All : kept[static_cast<size_t>(cell)];
 }
 /// Do trim curves leave the part of a cell that a sample meets? Pre: the cell covers it.
 bool keepsSample(const RasterJob& job, uint32_t cell, size_t lane);

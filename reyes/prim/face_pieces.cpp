@@ -23,55 +23,99 @@ bool goesAroundOnce(const std::vector<Point2>& p) {
   return angle < 3 * M_PI;
 }
 
+/// Points by place, about one a cell, so that a small triangle meets few of them.
+class PointGrid {
+ public:
+  explicit PointGrid(const std::vector<Point2>& p) : p_(p), lo_(p.at(0)) {
+    Point2 hi = lo_;
+    for (const Point2& q : p) lo_ = glm::min(lo_, q), hi = glm::max(hi, q);
+    side_ = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(p.size()))), 1, 1024);
+    const Point2 size = hi - lo_;
+    scale_ = {size.x > 0 ? side_ / size.x : 0, size.y > 0 ? side_ / size.y : 0};
+    cells_.resize(static_cast<size_t>(side_) * static_cast<size_t>(side_));
+    for (size_t i = 0; i < p.size(); ++i) cellOf(p[i]).push_back(static_cast<int>(i));
+  }
+
+  void remove(int i) { std::erase(cellOf(p_[static_cast<size_t>(i)]), i); }
+
+  /// Does any point satisfy a condition that only those in the box can?
+  template <class Condition>
+  bool any(const Point2& lo, const Point2& hi, const Condition& condition) const {
+    for (int row = index(lo, 1); row <= index(hi, 1); ++row)
+      for (int column = index(lo, 0); column <= index(hi, 0); ++column)
+        for (const int i : cells_[static_cast<size_t>(row * side_ + column)])
+          if (condition(p_[static_cast<size_t>(i)])) return true;
+    return false;
+  }
+
+ private:
+  int index(const Point2& q, int axis) const {
+    return std::clamp(static_cast<int>((q[axis] - lo_[axis]) * scale_[axis]), 0, side_ - 1);
+  }
+  std::vector<int>& cellOf(const Point2& q) {
+    return cells_[static_cast<size_t>(index(q, 1) * side_ + index(q, 0))];
+  }
+
+  const std::vector<Point2>& p_;
+  Point2 lo_, scale_;
+  int side_;
+  std::vector<std::vector<int>> cells_;
+};
+
 class EarClipper {
  public:
-  explicit EarClipper(std::vector<Point2> points) : p_(std::move(points)), left_(p_.size()) {
-    std::iota(left_.begin(), left_.end(), 0);
+  explicit EarClipper(std::vector<Point2> points)
+      : p_(std::move(points)), left_(p_), count_(p_.size()), before_(p_.size()), after_(p_.size()) {
+    for (size_t i = 0; i < count_; ++i)
+      before_[i] = static_cast<int>((i + count_ - 1) % count_), after_[i] = static_cast<int>((i + 1) % count_);
   }
 
   std::vector<Piece> clip() {
-    while (left_.size() > 3) cut(findEar());
-    if (area(0) != 0) pieces_.push_back(left_);
+    while (count_ > 3) cut(findEar());
+    if (area(next_) != 0) pieces_.push_back({before(next_), next_, after(next_)});
     return std::move(pieces_);
   }
 
  private:
-  int neighbour(size_t i, size_t step) const { return left_[(i + step) % left_.size()]; }
-  int before(size_t i) const { return neighbour(i, left_.size() - 1); }
-  int after(size_t i) const { return neighbour(i, 1); }
-  double area(size_t i) const { return turn(p_[before(i)], p_[left_[i]], p_[after(i)]); }
+  int before(int i) const { return before_[static_cast<size_t>(i)]; }
+  int after(int i) const { return after_[static_cast<size_t>(i)]; }
+  const Point2& at(int i) const { return p_[static_cast<size_t>(i)]; }
+  double area(int i) const { return turn(at(before(i)), at(i), at(after(i))); }
 
-  bool isEar(size_t i) const {
-    const Point2 &a = p_[before(i)], &b = p_[left_[i]], &c = p_[after(i)];
-    for (int other : left_) {
-      const Point2& p = p_[other];
-      if (p != a && p != b && p != c && contains(a, b, c, p)) return false;
-    }
-    return true;
+  bool isEar(int i) const {
+    const Point2 &a = at(before(i)), &b = at(i), &c = at(after(i));
+    return !left_.any(glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), [&](const Point2& p) {
+      return p != a && p != b && p != c && contains(a, b, c, p);
+    });
   }
 
   /// The first true ear after the last one cut; failing that a corner without area, failing that the biggest.
-  size_t findEar() const {
-    const size_t n = left_.size();
-    for (size_t k = 0; k < n; ++k)
-      if (const size_t i = (next_ + k) % n; area(i) > 0 && isEar(i)) return i;
-    size_t best = 0;
-    for (size_t i = 0; i < n; ++i) {
+  int findEar() const {
+    int i = next_;
+    for (size_t k = 0; k < count_; ++k, i = after(i))
+      if (area(i) > 0 && isEar(i)) return i;
+    int best = next_;
+    for (size_t k = 0; k < count_; ++k, i = after(i)) {
       if (area(i) == 0) return i;
       if (area(i) > area(best)) best = i;
     }
     return best;
   }
 
-  void cut(size_t i) {
-    if (area(i) != 0) pieces_.push_back({before(i), left_[i], after(i)});
-    left_.erase(left_.begin() + static_cast<ptrdiff_t>(i));
-    next_ = i;
+  void cut(int i) {
+    if (area(i) != 0) pieces_.push_back({before(i), i, after(i)});
+    left_.remove(i);
+    after_[static_cast<size_t>(before(i))] = after(i);
+    before_[static_cast<size_t>(after(i))] = before(i);
+    next_ = after(i);
+    --count_;
   }
 
-  std::vector<Point2> p_;
-  Piece left_;
-  size_t next_ = 0;
+  const std::vector<Point2> p_;
+  PointGrid left_;
+  size_t count_;
+  std::vector<int> before_, after_;  ///< Of those that are left.
+  int next_ = 0;
   std::vector<Piece> pieces_;
 };
 

@@ -31,7 +31,7 @@ void restoreGeometryModification(Scope& to, const Scope& from) {
   Attributes& a = to.edit();
   const Attributes& b = *from.attributes;
   a.displacement = b.displacement, a.displacementBound = b.displacementBound;
-  a.displacementBoundSpace = b.displacementBoundSpace, a.rasterOrient = b.rasterOrient;
+  a.displacementBoundSpace = b.displacementBoundSpace, a.rasterOrient = b.rasterOrient, a.binaryDice = b.binaryDice;
 }
 
 void restoreGeometryDefinition(Scope& to, const Scope& from) {

@@ -17,8 +17,40 @@ constexpr const char* kBumpy =
     "Displacement \"noisybump\" \"float Km\" [0.1] \"float frequency\" [3] \"float octaves\" [2] Sphere 0.9 "
     "-0.9 0.9 360";
 
+constexpr const char* kNurbsSphere =
+    "NuPatch 9 3 [0 0 0 1 1 2 2 3 3 4 4 4] 0 4 5 3 [0 0 0 1 1 2 2 2] 0 2 \"Pw\" ["
+    "0 0 -1 1 0 0 -0.707107 0.707107 0 0 -1 1 0 0 -0.707107 0.707107 0 0 -1 1 0 0 -0.707107 0.707107 "
+    "0 0 -1 1 0 0 -0.707107 0.707107 0 0 -1 1 0.707107 0 -0.707107 0.707107 0.5 0.5 -0.5 0.5 0 "
+    "0.707107 -0.707107 0.707107 -0.5 0.5 -0.5 0.5 -0.707107 0 -0.707107 0.707107 -0.5 -0.5 -0.5 0.5 "
+    "0 -0.707107 -0.707107 0.707107 0.5 -0.5 -0.5 0.5 0.707107 0 -0.707107 0.707107 1 0 0 1 0.707107 "
+    "0.707107 0 0.707107 0 1 0 1 -0.707107 0.707107 0 0.707107 -1 0 0 1 -0.707107 -0.707107 0 "
+    "0.707107 0 -1 0 1 0.707107 -0.707107 0 0.707107 1 0 0 1 0.707107 0 0.707107 0.707107 0.5 0.5 0.5 "
+    "0.5 0 0.707107 0.707107 0.707107 -0.5 0.5 0.5 0.5 -0.707107 0 0.707107 0.707107 -0.5 -0.5 0.5 "
+    "0.5 0 -0.707107 0.707107 0.707107 0.5 -0.5 0.5 0.5 0.707107 0 0.707107 0.707107 0 0 1 1 0 0 "
+    "0.707107 0.707107 0 0 1 1 0 0 0.707107 0.707107 0 0 1 1 0 0 0.707107 0.707107 0 0 1 1 0 0 "
+    "0.707107 0.707107 0 0 1 1 "
+    "]";
+constexpr const char* kDisplace =
+    "Attribute \"displacementbound\" \"float sphere\" [0.12] "
+    "Displacement \"noisybump\" \"float Km\" [0.1] \"float frequency\" [3] \"float octaves\" [2] ";
+/// An octahedron whose faces are triangles, and a prism over a concave outline: every edge joins faces of different rates.
+constexpr const char* kOctahedron =
+    "PointsPolygons [3 3 3 3 3 3 3 3] [0 2 4 2 1 4 1 3 4 3 0 4 2 0 5 1 2 5 3 1 5 0 3 5] "
+    "\"P\" [1 0 0 -1 0 0 0 1 0 0 -1 0 0 0 1 0 0 -1]";
+constexpr const char* kPrism =
+    "Translate -0.2 0 0 PointsPolygons [6 6 4 4 4 4 4 4] [0 5 4 3 2 1 6 7 8 9 10 11 0 1 7 6 1 2 8 7 2 3 9 8 3 4 10 9 4 5 11 10 5 0 "
+    "6 11] \"P\" [-0.8 -0.8 -0.7 0.8 -0.8 -0.7 0.8 -0.1 -0.7 0.2 0 -0.7 0.2 0.8 -0.7 -0.8 0.8 -0.7 "
+    "-0.8 -0.8 0.7 0.8 -0.8 0.7 0.8 -0.1 0.7 0.2 0 0.7 0.2 0.8 0.7 -0.8 0.8 0.7]";
+constexpr const char* kSplineTorus =
+    "Basis \"b-spline\" 1 \"b-spline\" 1 PatchMesh \"bicubic\" 4 \"periodic\" 4 \"periodic\" \"P\" ["
+    "1.4 0 0 0 1.4 0 -1.4 0 0 0 -1.4 0 0.9 0 0.7 0 0.9 0.7 -0.9 0 0.7 0 -0.9 0.7 "
+    "0.3 0 0 0 0.3 0 -0.3 0 0 0 -0.3 0 0.9 0 -0.7 0 0.9 -0.7 -0.9 0 -0.7 0 -0.9 -0.7]";
+const std::string kBumpyCube = std::string(kDisplace) + kCube, kBumpyTorus = std::string(kDisplace) + kTorus,
+                  kBumpyNurbs = std::string(kDisplace) + kNurbsSphere;
+
 struct Body {
-  const char *name, *rib;
+  const char* name;
+  std::string rib;
 };
 class Crack : public testing::TestWithParam<Body> {};
 
@@ -56,7 +88,11 @@ TEST_P(Crack, NoneWhenItMovesOrIsOutOfFocus) {
 
 INSTANTIATE_TEST_SUITE_P(Bodies, Crack,
                          testing::Values(Body{"Sphere", kSphere}, Body{"Torus", kTorus},
-                                         Body{"SubdivisionCube", kCube}, Body{"DisplacedSphere", kBumpy}),
+                                         Body{"SubdivisionCube", kCube}, Body{"DisplacedSphere", kBumpy},
+                                         Body{"NurbsSphere", kNurbsSphere}, Body{"BSplineTorus", kSplineTorus},
+                                         Body{"Octahedron", kOctahedron}, Body{"ConcavePrism", kPrism},
+                                         Body{"DisplacedSubdivision", kBumpyCube},
+                                         Body{"DisplacedTorus", kBumpyTorus}, Body{"DisplacedNurbs", kBumpyNurbs}),
                          [](const auto& p) { return p.param.name; });
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <numeric>
 
 #include "reyes/dice.h"
@@ -166,6 +167,61 @@ TEST(Split, AGroundPlaneThroughTheEyeEndsInFinitelyManyPieces) {
   EXPECT_GT(pieces.size(), 4u);
   EXPECT_LT(pieces.size(), 4000u);
   EXPECT_EQ(stats.geometry.eyeSplitsGivenUp, 0);
+}
+
+TEST(Split, AHugeGroundPlaneBelowTheEyeIsWhole) {
+  const Scene scene = sceneOf({quad(1e5f, -1)}, mat4(1.0f));
+  Stats stats;
+  Log log(Log::Verbosity::Quiet);
+  const std::vector<SubPatch> pieces = split(scene, stats, log);
+  EXPECT_LT(log.worst(), Severity::Missing);
+  // What a ray from the eye meets lies in one piece.
+  const Camera camera(scene.options);
+  for (const vec2& r : {vec2(64.5f, 127.5f), vec2(3, 100), vec2(90, 70), vec2(64, 65)}) {
+    vec3 origin, direction;
+    camera.ray(r, origin, direction);
+    const vec3 p = direction * (-1 / direction.y);
+    const float u = 0.5f * (p.x / 1e5f + 1), v = 0.5f * (p.z / 1e5f + 1);
+    const auto holds = [&](const SubPatch& s) { return s.rect.u0 <= u && u <= s.rect.u1 && s.rect.v0 <= v && v <= s.rect.v1; };
+    EXPECT_TRUE(std::any_of(pieces.begin(), pieces.end(), holds)) << r.x << ' ' << r.y;
+  }
+}
+
+TEST(Split, ASurfaceThroughTheNearPlaneNeedsFewPieces) {
+  Scene scene = sceneOf({sphere()}, translation({0, 0, 5}));
+  scene.options.nearClip = 4.5f;
+  Stats stats;
+  Log log(Log::Verbosity::Quiet);
+  const std::vector<SubPatch> pieces = split(scene, stats, log);
+  EXPECT_TRUE(log.entries().empty());
+  EXPECT_LT(pieces.size(), 100u);
+  EXPECT_TRUE(std::any_of(pieces.begin(), pieces.end(), [](const SubPatch& p) { return p.crossesNear; }));
+}
+
+Scene withDicing(Scene scene, bool binary, bool rasterOrient) {
+  auto attributes = std::make_shared<Attributes>(*scene.objects[0].attributes);
+  attributes->binaryDice = binary, attributes->rasterOrient = rasterOrient;
+  scene.objects[0].attributes = std::move(attributes);
+  return scene;
+}
+
+TEST(Split, BinaryDicingMakesPowersOfTwo) {
+  Stats stats;
+  for (const SubPatch& p : split(withDicing(sceneOf({sphere()}, translation({0, 0, 4})), true, true), stats)) {
+    EXPECT_TRUE(std::has_single_bit(static_cast<unsigned>(p.nu)) && std::has_single_bit(static_cast<unsigned>(p.nv)));
+    EXPECT_LE(p.nu * p.nv, 256);
+  }
+}
+
+TEST(Split, WithoutRasterOrientAForeshortenedPatchIsDicedAsIfItFacedTheEye) {
+  Stats stats;
+  const auto cells = [&](bool rasterOrient) {
+    int64_t n = 0;
+    for (const SubPatch& p : split(withDicing(sceneOf({quad(1, -0.2f)}, translation({0, 0, 8})), false, rasterOrient), stats))
+      n += int64_t{p.nu} * p.nv;
+    return n;
+  };
+  EXPECT_GT(cells(false), 4 * cells(true));
 }
 
 TEST(Split, AHugeDisplacementBoundLosesNothing) {
