@@ -162,7 +162,7 @@ BuiltBricks writeBrickMap(const PointCloud& cloud, const BrickSettings& settings
   BuiltBricks built = buildBricks(cloud, settings, [&](const Brick& brick) { file.add(pack(brick)); });
   ByteWriter header;
   header.put(static_cast<uint32_t>(cloud.channels.size()));
-  for (const PointChannel& c : cloud.channels) {
+  for (const CloudChannel& c : cloud.channels) {
     header.put(c.name);
     header.put(static_cast<int32_t>(c.width));
   }

@@ -16,7 +16,7 @@ class BrickMap {
   /// Throws FileError. The cache must outlive the map.
   BrickMap(const std::string& path, BrickCache& cache);
 
-  const std::vector<PointChannel>& channels() const { return channels_; }
+  const std::vector<CloudChannel>& channels() const { return channels_; }
   int width() const { return width_; }  ///< Floats of one lookup.
   const BrickTree& tree() const { return tree_; }
   uint64_t fileBytes() const { return file_.fileBytes(); }
@@ -37,7 +37,7 @@ class BrickMap {
   ChunkReader file_;
   BrickCache& cache_;
   uint32_t id_;
-  std::vector<PointChannel> channels_;
+  std::vector<CloudChannel> channels_;
   int width_ = 0;
   BrickTree tree_;
 };

@@ -66,6 +66,8 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
     r.direction = scratch.directions[i] =
         local.x * samples.tangent + local.y * samples.bitangent + local.z * point.normal;
     r.offset = slantedOffset(ray.offset, local.z);
+    // A cell of a cosine-weighted hemisphere has the solid angle pi / (n cos).
+    r.spread = 1 / std::sqrt(static_cast<float>(count) * std::max(local.z, 0.05f));
     scratch.names[i] = {key, number};
     const Hit& hit = scratch.hits[i] = scene.closest(r, kMaskDiffuse);
     scratch.distances[i] = hit.object < 0 ? kInfinity : std::max(0.0f, hit.t);
@@ -73,7 +75,7 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
   }
   stats.rays.gather += static_cast<int64_t>(count);
   stats.rays.hitlistAdjusted += adjusted;
-  const ShadeContext context{RayKind::Diffuse, 1, settings.seed, 1, false};
+  const ShadeContext context{RayKind::Diffuse, 1, settings.seed, 1, false, settings.light};
   scene.shadeHits(scratch.rays, scratch.hits, scratch.names, shading, context, scratch.radiance);
   for (vec3& L : scratch.radiance)
     if (!isFinite(L))

@@ -4,13 +4,13 @@ namespace tomales {
 
 int PointCloud::width() const {
   int sum = 0;
-  for (const PointChannel& c : channels) sum += c.width;
+  for (const CloudChannel& c : channels) sum += c.width;
   return sum;
 }
 
 int PointCloud::offsetOf(const std::string& channel) const {
   int offset = 0;
-  for (const PointChannel& c : channels) {
+  for (const CloudChannel& c : channels) {
     if (c.name == channel) return offset;
     offset += c.width;
   }

@@ -10,14 +10,14 @@
 
 namespace tomales {
 
-struct PointChannel {
+struct CloudChannel {
   std::string name;
   int width = 1;  ///< Floats of one point.
-  bool operator==(const PointChannel&) const = default;
+  bool operator==(const CloudChannel&) const = default;
 };
 
 struct PointCloud {
-  std::vector<PointChannel> channels;
+  std::vector<CloudChannel> channels;
   std::vector<vec3> position;
   std::vector<vec3> normal;   ///< Unit; zero: a point of a volume, a sphere.
   std::vector<float> radius;  ///< Of the disk or sphere; 0: infinitesimal.

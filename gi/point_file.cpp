@@ -40,7 +40,7 @@ uint64_t spread(uint64_t x) {
 
 }  // namespace
 
-PointFileWriter::PointFileWriter(const std::string& path, const std::vector<PointChannel>& channels)
+PointFileWriter::PointFileWriter(const std::string& path, const std::vector<CloudChannel>& channels)
     : file_(path, kKind, kVersion) {
   pending_.channels = channels;
   if (pending_.width() > kMostWidth) throw FileError(fmt::format("\"{}\": more than {} floats a point", path, kMostWidth));
@@ -72,7 +72,7 @@ void PointFileWriter::finish() {
   flush();
   ByteWriter header;
   header.put(static_cast<uint32_t>(pending_.channels.size()));
-  for (const PointChannel& c : pending_.channels) {
+  for (const CloudChannel& c : pending_.channels) {
     header.put(c.name);
     header.put(static_cast<int32_t>(c.width));
   }

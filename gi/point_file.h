@@ -11,10 +11,10 @@ namespace tomales {
 
 class PointFileWriter {
  public:
-  static constexpr size_t kChunkPoints = 1 << 16;
+  static constexpr size_t kChunkPoints = 1 << 14;
 
   /// Throws FileError, as every member.
-  PointFileWriter(const std::string& path, const std::vector<PointChannel>& channels);
+  PointFileWriter(const std::string& path, const std::vector<CloudChannel>& channels);
   void add(const vec3& P, const vec3& N, float radius, const float* values);
   size_t count() const { return written_ + pending_.count(); }
   void finish();
@@ -30,7 +30,7 @@ class PointFileWriter {
 class PointFile {
  public:
   explicit PointFile(const std::string& path);  ///< Throws FileError.
-  const std::vector<PointChannel>& channels() const { return channels_; }
+  const std::vector<CloudChannel>& channels() const { return channels_; }
   uint64_t count() const { return count_; }
   Bound3 bound() const;
   size_t chunkCount() const { return bounds_.size(); }
@@ -41,7 +41,7 @@ class PointFile {
 
  private:
   ChunkReader file_;
-  std::vector<PointChannel> channels_;
+  std::vector<CloudChannel> channels_;
   uint64_t count_ = 0;
   std::vector<Bound3> bounds_;
 };

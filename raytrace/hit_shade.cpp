@@ -41,6 +41,7 @@ void addPoint(const Scene& scene, const Ray& ray, const Hit& hit, SampleName nam
   points.set3(kNx, i, hit.normal);
   points.set3(kNgx, i, hit.geometricNormal);
   points.set3(kIx, i, I);
+  if (const float radius = ray.spread * hit.t; radius > 0) points.channel(kArea)[i] = kPi * radius * radius;
 }
 
 }  // namespace

@@ -130,6 +130,11 @@ struct Attributes {
     std::string surface;
     bool operator==(const Indirect&) const = default;
   } indirect;
+  struct Photon {
+    std::string globalMap, causticMap;                      ///< Names of the maps that this geometry shares; "": chosen for it.
+    std::string shadingModel = "matte";
+    bool operator==(const Photon&) const = default;
+  } photon;
   std::optional<float> irradianceMaxError, irradianceMaxPixelDist;
   bool rasterOrient = true;                                 ///< Attribute "dice" "rasterorient"
   std::map<std::string, Param> user;                        ///< "category:name" that shaders may read

@@ -31,6 +31,7 @@ class Lights {
 
  private:
   void evaluate(Batch& batch, const BoundLight& light);
+  void substitute(Batch& batch);
   bool evaluated_ = false;
   std::vector<LightSample> samples_;
 };
