@@ -87,6 +87,8 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
     r.offset = slantedOffset(ray.offset, local.z);
     r.time = times(i);
     if (r.time > 0) r.origin = scene.placeAt(point.group, point.position, point.drift, r.time);
+    // A cell of a cosine-weighted hemisphere has the solid angle pi / (n cos).
+    r.spread = 1 / std::sqrt(static_cast<float>(count) * std::max(local.z, 0.05f));
     scratch.names[i] = {key, number};
     const Hit& hit = scratch.hits[i] = scene.closest(r, kMaskDiffuse);
     scratch.distances[i] = hit.object < 0 ? kInfinity : std::max(0.0f, hit.t);
@@ -94,7 +96,8 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
   }
   stats.rays.gather += static_cast<int64_t>(count);
   stats.rays.hitlistAdjusted += adjusted;
-  const ShadeContext context{RayKind::Diffuse, 1, settings.seed, 1, false};
+  ShadeContext context{RayKind::Diffuse, 1, settings.seed, 1, false};
+  context.light = settings.light;
   scene.shadeHits(scratch.rays, scratch.hits, scratch.names, shading, context, scratch.radiance);
   for (vec3& L : scratch.radiance)
     if (!isFinite(L))

@@ -12,6 +12,7 @@ struct GatherSettings {
   int samples = 600;
   float maxDistance = 1e30f;
   uint32_t seed = 0;
+  Illumination light = Illumination::Lights;  ///< Of what the rays hit.
   bool operator==(const GatherSettings&) const = default;
 };
 

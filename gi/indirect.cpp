@@ -99,6 +99,7 @@ GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) 
   plan.gather.samples = std::max(1, settings.samples > 0 ? settings.samples : query.samples);
   plan.gather.maxDistance = query.maxDistance;
   plan.gather.seed = settings.seed;
+  if (settings.mode == GiMode::Atlas) plan.gather.light = Illumination::Stored;
   return plan;
 }
 

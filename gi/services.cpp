@@ -7,6 +7,8 @@ namespace tomales {
 namespace {
 
 constexpr int kTimesOfLight = 16;  ///< Least number of times that the shadows of one light see, over all its samples.
+/// Modes that answer from the irradiance cache.
+bool interpolates(GiMode mode) { return mode == GiMode::Gather || mode == GiMode::Atlas; }
 
 }  // namespace
 
@@ -14,13 +16,13 @@ struct GiServices::Impl : GiState {};
 
 GiServices::GiServices(const Scene& scene, const Camera& camera, const RayScene& rays,
                        const ShadingSystem& shading, const GiSettings& settings, Stats& stats)
-    : impl_(new Impl{{scene, camera, rays, shading, settings, stats, {}}}) {}
+    : impl_(new Impl{{scene, camera, rays, shading, settings, stats, nullptr, {}}}) {}
 
 GiServices::~GiServices() = default;
 
 void GiServices::gatherPass(const DeepFrame& frame, const std::function<void(float)>& progress,
                             const std::atomic<bool>* cancelled) {
-  if (impl_->settings.mode == GiMode::Gather) fillCaches(*impl_, frame, progress, cancelled);
+  if (interpolates(impl_->settings.mode)) fillCaches(*impl_, frame, progress, cancelled);
 }
 
 void GiServices::transmission(const ShadePoints& points, const uint8_t* active, TmConstVec3 toward,
@@ -54,16 +56,30 @@ bool GiServices::sampleEmitter(int light, int count, const float* xi0, const flo
   return impl_->rays.sampleEmitter(light, count, xi0, xi1, P, N, area);
 }
 
+void GiServices::setAtlas(std::unique_ptr<const IrradianceAtlas> atlas) { impl_->atlas = std::move(atlas); }
+
+void GiServices::reportAtlas(Stats& stats) const {
+  if (impl_->atlas) impl_->atlas->report(stats);
+}
+
+void GiServices::storedIrradiance(const ShadePoints& points, const uint8_t* active, TmVec3 E) const {
+  for (int i = 0; i < points.count(); ++i) {
+    if (!active[i]) continue;
+    const float radius = std::sqrt(points.channel(kArea)[i] / kPi);
+    const vec3 e = impl_->atlas ? impl_->atlas->irradianceOverPi(points.group(), points.position(i), points.facingNormal(i), radius)
+                                : vec3(0.0f);
+    E.x[i] = e.x, E.y[i] = e.y, E.z[i] = e.z;
+  }
+}
+
 void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                                  const IndirectQuery& query, const ShadeContext& context,
                                  IndirectResult out) const {
   const GiSettings& settings = impl_->settings;
   const int asked = settings.bounces > 0 ? settings.bounces : query.bounces;
-  const int bounces = settings.mode == GiMode::None     ? 0
-                      : settings.mode == GiMode::Gather ? std::min(asked, 1)
-                                                        : asked;
+  const int bounces = settings.mode == GiMode::None ? 0 : interpolates(settings.mode) ? std::min(asked, 1) : asked;
   if (context.depth < bounces) {
-    if (settings.mode == GiMode::Gather) return interpolateIndirect(*impl_, points, active, N, query, out);
+    if (interpolates(settings.mode)) return interpolateIndirect(*impl_, points, active, N, query, out);
     return traceIndirect(*impl_, points, active, N, query, context, bounces, out);
   }
   for (int i = 0; i < points.count(); ++i) {

@@ -1,6 +1,7 @@
 // Composer: the ShadeServices that rays and global illumination stand behind (injected by reyes/app), and the gather pass
 // that fills the irradiance cache from the deep frame buffer before anything is shaded.
 #pragma once
+#include "gi/atlas.h"
 #include "gi/gather.h"
 #include "reyes/deep.h"
 
@@ -12,6 +13,7 @@ namespace tomales {
 enum class GiMode {
   None,       ///< Direct light only: indirect lights give nothing.
   Gather,     ///< One bounce, shaded hits, irradiance caching.
+  Atlas,      ///< All bounces: gather rays look up the irradiance that photons left in brick maps; irradiance caching.
   Reference,  ///< Brute-force path tracing of the same transport: unbiased for diffuse surfaces.
 };
 
@@ -29,6 +31,10 @@ class GiServices final : public ShadeServices {
              const GiSettings& settings, Stats& stats);
   ~GiServices() override;
 
+  /// What gather rays look up in GiMode::Atlas; before the gather pass.
+  void setAtlas(std::unique_ptr<const IrradianceAtlas> atlas);
+  void reportAtlas(Stats& stats) const;  ///< After the last lookup.
+
   /// Fills the irradiance cache for every point that a shaded frame will ask about, coarse to fine. Records of one level are
   /// frozen before the next reads them, and their order is that of the pixels, so the cache does not depend on threads or buckets.
   void gatherPass(const DeepFrame& frame, const std::function<void(float)>& progress, const std::atomic<bool>* cancelled);
@@ -36,6 +42,7 @@ class GiServices final : public ShadeServices {
   void transmission(const ShadePoints&, const uint8_t* active, TmConstVec3 toward, const ShadowRays&, const ShadeContext&,
                     TmVec3 light) const override;
   bool sampleEmitter(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N, float* area) const override;
+  void storedIrradiance(const ShadePoints&, const uint8_t* active, TmVec3 E) const override;
   void indirectDiffuse(const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&, const ShadeContext&,
                        IndirectResult out) const override;
 

@@ -23,6 +23,7 @@ struct GiState {
   const ShadingSystem& shading;
   const GiSettings settings;
   Stats& stats;
+  std::unique_ptr<const IrradianceAtlas> atlas;  ///< GiMode::Atlas alone.
   std::vector<PreparedCache> caches;  ///< Written by fillCaches, frozen while shading.
 };
 

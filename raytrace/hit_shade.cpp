@@ -55,6 +55,7 @@ void addPoint(const Scene& scene, const Ray& ray, const Hit& hit, SampleName nam
   points.set3(kIx, i, I);
   points.channel(kTime)[i] = ray.time;
   if (ray.time > 0) bringToOpen(scene, ray, hit, points, i);
+  if (const float radius = ray.spread * hit.t; radius > 0) points.channel(kArea)[i] = kPi * radius * radius;
 }
 
 }  // namespace

@@ -16,6 +16,14 @@ enum class RayKind : uint8_t {
   Diffuse,   ///< Hits of gather rays: direct light, diffuse component only, no emission of area lights (approximate-gi 4.1, 4.2).
 };
 
+/// What a batch is lit by.
+enum class Illumination : uint8_t {
+  Lights,  ///< Those of the scene.
+  Stored,  ///< ShadeServices::storedIrradiance alone, as one light along the normal.
+  Unit,    ///< E/pi = 1 everywhere, likewise: what comes back is the diffuse reflectance.
+  None,    ///< Nothing: what comes back is emitted.
+};
+
 /// Why and how a batch is being shaded.
 struct ShadeContext {
   RayKind kind = RayKind::Camera;
@@ -24,6 +32,7 @@ struct ShadeContext {
   int lightSamples = 0;        ///< Samples of each area light and of the sky; 0: as many as the light asks for.
   bool indirect = true;        ///< Run indirect lights.
   bool variables = false;      ///< Store what outputOf(options) lists.
+  Illumination light = Illumination::Lights;
 };
 
 /// Parameters of an indirect light (docs/gi.md), bound from the calling `indirectlight`.
@@ -60,9 +69,23 @@ class ShadeServices {
   /// the area it stands for (total area for a uniform sample). Returns false if the light has no geometry.
   virtual bool sampleEmitter(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N, float* area_out) const = 0;
 
+  /// E/pi that an earlier pass stored around each point; kArea of the points is what to average over. Zero where there is none.
+  virtual void storedIrradiance(const ShadePoints& points, const uint8_t* active, TmVec3 E) const;
+
   /// Indirect diffuse light on the side of N.
   virtual void indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N, const IndirectQuery& query,
                                const ShadeContext& context, IndirectResult out) const = 0;
+};
+
+/// Where a light is, as far as one can tell without asking it.
+enum class LightKind { None, Ambient, Point, Distant, Sky, Area, Indirect };
+
+/// A light shader alone, at points that nothing shades: how photons learn what it sends where. Current space.
+struct LightProbe {
+  std::vector<vec3> P, N;    ///< In: points to be lit, with their normals.
+  std::vector<vec3> Pl, Nl;  ///< In, for LightKind::Area alone: points on the emitter.
+  std::vector<vec3> L;       ///< Out: from P to the light.
+  std::vector<vec3> Cl;      ///< Out: E/pi at normal incidence; for LightKind::Area the radiance of the emitter.
 };
 
 /// Shaders by name: built-ins and plugins come through the same table.
@@ -117,6 +140,13 @@ class ShadingSystem {
   /// The indirect light switched on for a group, if any: what the gather pass must prepare.
   const IndirectQuery* indirectQuery(int group) const;
   bool needsRays() const;  ///< Some light or shader will trace.
+
+  LightKind lightKind(int light) const;  ///< None: its shader is missing, or it lights only what the camera sees.
+  void probe(int light, LightProbe& probe) const;
+  /// Radiance that a LightKind::Sky sends from infinity in a direction (current space, unit) that points to it.
+  vec3 skyRadiance(int light, const vec3& direction) const;
+  /// Does the surface of a group add radiance of its own?
+  bool emits(int group) const;
 
  private:
   struct Impl;

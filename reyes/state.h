@@ -158,6 +158,11 @@ struct Attributes {
     std::string surface;
     bool operator==(const Indirect&) const = default;
   } indirect;
+  struct Photon {
+    std::string globalMap, causticMap;                      ///< Names of the maps that this geometry shares; "": chosen for it.
+    std::string shadingModel = "matte";
+    bool operator==(const Photon&) const = default;
+  } photon;
   std::optional<float> irradianceMaxError, irradianceMaxPixelDist;
   bool rasterOrient = true;                                 ///< Attribute "dice" "rasterorient"
   bool binaryDice = false;                                  ///< Attribute "dice" "binary": counts are powers of two.

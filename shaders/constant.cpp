@@ -8,4 +8,4 @@ void shade(const TmGrid* g) {
 }  // namespace
 
 extern const rsl::Shader constantShader;
-const rsl::Shader constantShader(TM_SURFACE, "constant", "Os Cs, no light", TM_KEEPS_OPACITY, shade, {});
+const rsl::Shader constantShader(TM_SURFACE, "constant", "Os Cs, no light", TM_KEEPS_OPACITY | TM_EMITS, shade, {});

@@ -33,11 +33,11 @@ std::optional<std::string> parseOutput(const std::string& text) {
 
 GiChoice giOrUsageError(const std::string& text) {
   if (const auto choice = parseGi(text)) return *choice;
-  for (const char* later : {"radiosity", "atlas", "points"})
+  for (const char* later : {"radiosity", "points"})
     if (text == later)
       throw CLI::ValidationError(
-          "--gi", "\"" + text + "\" is not available yet; use scene, none, gather or reference");
-  throw CLI::ValidationError("--gi", "\"" + text + "\" is none of scene, none, gather, reference");
+          "--gi", "\"" + text + "\" is not available yet; use scene, none, gather, atlas or reference");
+  throw CLI::ValidationError("--gi", "\"" + text + "\" is none of scene, none, gather, atlas, reference");
 }
 
 void addPictureOptions(CLI::App& app, RenderSettings& s) {
@@ -60,7 +60,7 @@ void addPictureOptions(CLI::App& app, RenderSettings& s) {
 void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option_function<std::string>(
          "--gi", [&s](const std::string& t) { s.gi = giOrUsageError(t); },
-         "Indirect light: scene (as the RIB says), none, gather, reference")
+         "Indirect light: scene (as the RIB says), none, gather, atlas, reference")
       ->type_name("MODE");
   app.add_option("--samples", s.samples,
                  "Gather rays of an irradiance sample, or paths of a point for the reference")
@@ -69,6 +69,9 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--max-error", s.maxError,
                  "Error allowed in irradiance interpolation; 0 computes every point")
       ->check(CLI::Range(0.0, 1e6));
+  app.add_option("--photons", s.photons, "Photons to emit for --gi atlas")->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
+  app.add_option("--atlas", s.atlasFolder, "Folder of brick maps: used if they are there, else made and kept")->type_name("FOLDER");
+  app.add_option("--brick-cache", s.brickCacheBytes, "Memory for bricks (default 10M)")->transform(CLI::AsSizeValue(false));
   app.add_option("--seed", s.seed, "Of all random numbers");
   app.add_flag_callback(
       "--no-hit-list", [&s] { s.hitList = false; }, "Rays leave surfaces by a bias alone");

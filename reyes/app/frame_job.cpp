@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "reyes/app/atlas_job.h"
 #include "reyes/app/interrupt.h"
 #include "reyes/app/overrides.h"
 #include "reyes/app/progress.h"
@@ -41,6 +42,7 @@ class FrameJob {
     const GiSettings gi{mode_, settings_.samples, settings_.bounces, settings_.maxError, settings_.seed};
     services_ = std::make_unique<GiServices>(scene_, camera_, *rays_, *shading_, gi, stats_);
     shading_->setServices(services_.get());
+    if (mode_ == GiMode::Atlas) services_->setAtlas(prepareAtlas(scene_, *rays_, *shading_, settings_, stats_, log_));
   }
 
   void gather(const DeepFrame& frame) {
@@ -64,6 +66,7 @@ class FrameJob {
       shadeControl.cancelled = nullptr;
     }
     shadeFrame(frame, scene_, *shading_, context, shadeControl, stats_);
+    if (services_) services_->reportAtlas(stats_);
   }
 
   void write(const DeepFrame& frame) {
@@ -73,9 +76,10 @@ class FrameJob {
   }
 
  private:
-  bool gathers() const { return mode_ == GiMode::Gather; }
+  bool gathers() const { return mode_ == GiMode::Gather || mode_ == GiMode::Atlas; }
 
   void warnAboutBounces() const {
+    if (mode_ == GiMode::Atlas) return;
     for (const auto& light : scene_.lights) {
       const Param* bounces = findParam(light->shader.params, "bounces");
       const float asked = settings_.bounces > 0 ? static_cast<float>(settings_.bounces)

@@ -58,14 +58,24 @@ bool hasIndirectLight(const Scene& scene) {
                      [](const auto& light) { return light->shader.name == "indirectlight"; });
 }
 
+/// indirectlight "string radiance" "atlas"
+bool asksForAtlas(const Scene& scene) {
+  return std::any_of(scene.lights.begin(), scene.lights.end(), [](const auto& light) {
+    const Param* radiance = findParam(light->shader.params, "radiance");
+    return light->shader.name == "indirectlight" && radiance && !radiance->strings.empty() && radiance->strings[0] == "atlas";
+  });
+}
+
 GiMode giModeOf(GiChoice choice, const Scene& scene) {
   switch (choice) {
     case GiChoice::Gather:
       return GiMode::Gather;
     case GiChoice::Reference:
       return GiMode::Reference;
+    case GiChoice::Atlas:
+      return GiMode::Atlas;
     case GiChoice::Scene:
-      return hasIndirectLight(scene) ? GiMode::Gather : GiMode::None;
+      return !hasIndirectLight(scene) ? GiMode::None : asksForAtlas(scene) ? GiMode::Atlas : GiMode::Gather;
     default:
       return GiMode::None;
   }
@@ -82,7 +92,7 @@ void applyOverrides(Scene& scene, const RenderSettings& settings) {
   if (!settings.output.empty()) overrideOutput(o, settings.output);
   if (settings.shadingRate)
     changeAttributes(scene, [&](Attributes& a) { a.shadingRate = *settings.shadingRate; });
-  const bool wantsIndirect = settings.gi == GiChoice::Gather || settings.gi == GiChoice::Reference;
+  const bool wantsIndirect = settings.gi != GiChoice::Scene && settings.gi != GiChoice::None;
   if (wantsIndirect && !hasIndirectLight(scene)) addIndirectLight(scene);
 }
 

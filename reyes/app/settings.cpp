@@ -75,6 +75,7 @@ std::optional<GiChoice> parseGi(const std::string& text) {
   if (text == "scene") return GiChoice::Scene;
   if (text == "none") return GiChoice::None;
   if (text == "gather") return GiChoice::Gather;
+  if (text == "atlas") return GiChoice::Atlas;
   if (text == "reference") return GiChoice::Reference;
   return std::nullopt;
 }

@@ -11,7 +11,7 @@ namespace tomales {
 
 constexpr const char* kVersion = "0.1.0";
 
-enum class GiChoice { Scene, None, Gather, Reference };
+enum class GiChoice { Scene, None, Gather, Atlas, Reference };
 
 struct RenderSettings {
   std::vector<std::string> files;  ///< One RIB stream; "-" is standard input.
@@ -25,6 +25,9 @@ struct RenderSettings {
   int samples = 0, bounces = 0;  ///< 0: as the scene's indirect light asks.
   float maxError = -1;           ///< < 0: likewise.
   uint32_t seed = 0;
+  int64_t photons = 1'000'000;     ///< To emit for --gi atlas.
+  std::string atlasFolder;         ///< Brick maps to use, or to make; empty: made in a temporary folder.
+  size_t brickCacheBytes = BrickCache::kDefaultBytes;
   std::optional<int> bucketSize;
   bool hitList = true;
   std::string statsFile;

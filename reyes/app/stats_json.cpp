@@ -44,6 +44,10 @@ Json warningsOf(const Log& log) {
   return out;
 }
 
+double hitRate(int64_t lookups, int64_t misses) {
+  return lookups > 0 ? 1 - static_cast<double>(misses) / static_cast<double>(lookups) : 0.0;
+}
+
 Json countersOf(const Stats& s) {
   const auto& [primitives, subpatches, grids, diced, visible, culled, eyeSplits] = s.geometry;
   return {{"geometry",
@@ -68,6 +72,17 @@ Json countersOf(const Stats& s) {
            {{"samples", s.irradianceCache.samples.load()},
             {"lookups", s.irradianceCache.lookups.load()},
             {"interpolated", s.irradianceCache.interpolated.load()}}},
+          {"photons",
+           {{"emitted", s.photons.emitted.load()},
+            {"stored", s.photons.stored.load()},
+            {"groups", s.photons.groups.load()}}},
+          {"bricks",
+           {{"total", s.bricks.total.load()},
+            {"lookups", s.bricks.lookups.load()},
+            {"misses", s.bricks.misses.load()},
+            {"hit_rate", hitRate(s.bricks.lookups, s.bricks.misses)},
+            {"cache_bytes", s.bricks.cacheBytes.load()},
+            {"bytes_on_disk", s.bricks.bytesOnDisk.load()}}},
           {"textures", {{"lookups", s.textures.lookups.load()}}}};
 }
 

@@ -87,7 +87,9 @@ class ByteWriter {
 /// Reads what ByteWriter wrote; throws FileError where it ends too early.
 class ByteReader {
  public:
-  ByteReader(std::span<const std::byte> bytes, std::string path) : bytes_(bytes), path_(std::move(path)) {}
+  /// The bytes must outlive the reader.
+  ByteReader(const Bytes& bytes, std::string path) : bytes_(bytes), path_(std::move(path)) {}
+  ByteReader(Bytes&&, std::string) = delete;
 
   template <class T>
   T get() {

@@ -106,6 +106,7 @@ const std::unordered_map<std::string_view, Setter>& numberSetters() {
        [](Attributes& a, const Param& p) { a.visibility.specular = p.number(1) != 0; }},
       {"visibility:transmission",
        [](Attributes& a, const Param& p) { a.visibility.transmission = p.number(1) != 0; }},
+      {"visibility:photon", [](Attributes& a, const Param& p) { a.visibility.photon = p.number(1) != 0; }},
       {"trace:bias", [](Attributes& a, const Param& p) { a.trace.bias = p.number(0); }},
       {"trace:offset", [](Attributes& a, const Param& p) { a.trace.offset = p.number(0); }},
       {"trace:displacements",
@@ -130,6 +131,9 @@ const std::unordered_map<std::string_view, Setter>& textSetters() {
       {"identifier:name", [](Attributes& a, const Param& p) { a.name = p.strings[0]; }},
       {"displacementbound:coordinatesystem",
        [](Attributes& a, const Param& p) { a.displacementBoundSpace = p.strings[0]; }},
+      {"photon:globalmap", [](Attributes& a, const Param& p) { a.photon.globalMap = p.strings[0]; }},
+      {"photon:causticmap", [](Attributes& a, const Param& p) { a.photon.causticMap = p.strings[0]; }},
+      {"photon:shadingmodel", [](Attributes& a, const Param& p) { a.photon.shadingModel = p.strings[0]; }},
       {"indirect:surface", [](Attributes& a, const Param& p) { a.indirect.surface = p.strings[0]; }},
   };
   return table;

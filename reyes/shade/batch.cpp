@@ -59,6 +59,24 @@ void Batch::setPoints(ShadePoints& p, const BoundShader& shader, const std::vect
   tm.Oi = {out.Oi[0].data() + begin, out.Oi[1].data() + begin, out.Oi[2].data() + begin};
 }
 
+void Batch::setLit(const LightProbe& probe, const BoundShader& shader) {
+  const int n = static_cast<int>(probe.P.size());
+  setCommon(n, shader, {}, [](int) { return nullptr; });
+  const TmConstVec3 zero = constant(vec3(0.0f));
+  const auto copy = [&](const std::vector<vec3>& from) {
+    const TmVec3 to = arena.vec3(n);
+    for (int i = 0; i < n; ++i) set(to, i, from[static_cast<size_t>(i)]);
+    return to;
+  };
+  tm.P = copy(probe.P), tm.N = copy(probe.N);
+  tm.Ng = view(tm.N);
+  tm.I = tm.dPdu = tm.dPdv = zero;
+  tm.u = tm.v = tm.s = tm.t = tm.du = tm.dv = zero.x;
+  if (!probe.Pl.empty()) tm.Pl = view(copy(probe.Pl)), tm.Nl = view(copy(probe.Nl));
+  tm.L = arena.vec3(n), tm.Cl = arena.vec3(n);
+  tm.sample = 0, tm.samples = 1;
+}
+
 void Batch::setPixels(ShadedPixels& p, const BoundShader& shader) {
   const int n = static_cast<int>(p.alpha.size());
   setCommon(n, shader, {}, [](int) { return nullptr; });

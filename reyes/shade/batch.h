@@ -25,6 +25,8 @@ class Batch {
   /// Inputs and outputs of a displacement shader: motion key 0 of a grid.
   void setGrid(Grid& grid, const BoundShader& shader, const std::vector<Override>& overrides);
 
+  /// Inputs of a light shader: points that nothing shades.
+  void setLit(const LightProbe& probe, const BoundShader& shader);
   /// Inputs and outputs of an imager shader.
   void setPixels(ShadedPixels& pixels, const BoundShader& shader);
 

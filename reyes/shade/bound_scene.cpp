@@ -38,7 +38,7 @@ void warnAboutUnsupported(const BoundShader& light, const IndirectQuery& q, Log&
   };
   if (q.errorFunction != "screen" && q.errorFunction != "ward")
     warn("errorfunction", q.errorFunction, "\"screen\" is used");
-  if (q.radiance != "shader") warn("radiance", q.radiance, "gather rays run the shaders");
+  if (q.radiance != "shader" && q.radiance != "atlas") warn("radiance", q.radiance, "gather rays run the shaders");
   if (!q.atlas.empty()) warn("atlas", q.atlas, "it is not read");
   if (!q.subset.empty()) warn("subset", q.subset, "gather rays see all objects");
 }
@@ -249,6 +249,18 @@ void warnAboutUnwritten(const FrameOutput& output, const BoundScene& scene) {
 
 }  // namespace
 
+namespace {
+
+/// Its shader never runs.
+BoundShaderPtr storedLight() {
+  static const TmShader shader{TM_SHADER_ABI, sizeof(TmShader), "stored irradiance", TM_LIGHT, 0, nullptr, 0, nullptr, ""};
+  auto bound = std::make_shared<BoundShader>();
+  bound->shader = &shader;
+  return bound;
+}
+
+}  // namespace
+
 BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& st)
     : scene(s),
       log(l),
@@ -261,6 +273,7 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
   for (const auto& call : scene.lights)
     lights.push_back(binder.light(*call, static_cast<int>(lights.size())));
   connectFilters(*this);
+  stored.bound = storedLight();
   pixels.group = &picture, pixels.object = "the picture";
   imager = binder.imager(scene.options.imager, pixels.object);
   for (const ShadeGroup& group : scene.groups) {

@@ -51,6 +51,7 @@ struct BoundScene {
   mat4 cameraFromWorld;
   Textures textures;
   std::vector<std::unique_ptr<const BoundLight>> lights;  ///< As Scene::lights; null: unknown shader.
+  BoundLight stored;                                      ///< Stands for all lights where Illumination is not Lights.
   std::vector<BoundGroup> groups;                         ///< As Scene::groups.
   BoundShaderPtr imager;                                  ///< May be null.
   ShadeGroup picture{std::make_shared<const Attributes>(), mat4(1.0f), {}, -1};

@@ -8,6 +8,7 @@ namespace {
 
 bool applies(const BoundLight& light, const Batch& batch) {
   if (batch.points == nullptr) return false;  // displacement shaders see no light
+  if (batch.context.light != Illumination::Lights) return false;
   if (!(batch.context.kind == RayKind::Camera ? light.direct : light.indirect)) return false;
   return !light.can(TM_LIGHT_INDIRECT) ||
          (batch.context.indirect && batch.group.group->attributes->indirect.receive);
@@ -76,6 +77,7 @@ void Lights::ambient(Batch& batch, const TmGrid& asking, TmVec3 out) {
 std::vector<LightSample>& Lights::samples(Batch& batch) {
   if (!evaluated_) {
     evaluated_ = true;
+    if (batch.points && batch.context.light != Illumination::Lights) substitute(batch);
     for (const BoundLight* light : batch.group.lights)
       if (!light->can(TM_LIGHT_AMBIENT) && applies(*light, batch)) evaluate(batch, *light);
   }
@@ -85,6 +87,19 @@ std::vector<LightSample>& Lights::samples(Batch& batch) {
   for (const LightSample& s : samples_)
     if (s.light->group == *group_) chosen_.push_back(s);
   return chosen_;
+}
+
+/// One light along the normal in place of all.
+void Lights::substitute(Batch& batch) {
+  if (batch.context.light == Illumination::None) return;
+  const TmVec3 L = batch.arena.vec3(batch.tm.count), Cl = batch.arena.vec3(batch.tm.count);
+  for (int i = 0; i < batch.tm.count; ++i) {
+    set(L, i, batch.points->facingNormal(i));
+    set(Cl, i, vec3(batch.context.light == Illumination::Unit ? 1.0f : 0.0f));
+  }
+  if (batch.context.light == Illumination::Stored && batch.scene.services)
+    batch.scene.services->storedIrradiance(*batch.points, batch.tm.active, Cl);
+  samples_.push_back({&batch.scene.stored, L, Cl, L, nullptr});
 }
 
 void Lights::evaluate(Batch& batch, const BoundLight& light) {

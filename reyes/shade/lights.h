@@ -35,6 +35,7 @@ class Lights {
 
  private:
   void evaluate(Batch& batch, const BoundLight& light);
+  void substitute(Batch& batch);
   bool evaluated_ = false;
   std::vector<LightSample> samples_, chosen_;  ///< All; those of group_.
   const std::string* group_ = nullptr;

@@ -1,0 +1,58 @@
+// Composer: the irradiance atlas (irradiance-atlas 4). Photons, irradiance points and brick maps of a scene, one file for each group
+// of objects, in a folder; and the lookup behind gather rays.
+//   FOLDER/photons/NAME.ptc  ->  FOLDER/irradiance/NAME.ptc  ->  FOLDER/NAME.bkm
+// Groups are named by Attribute "photon" "globalmap"; what has no name is shared out by size among "scene0", "scene1", ...
+// Files are in world space, so that another camera can use them. Irradiance in files is E in W/m2.
+#pragma once
+#include <filesystem>
+
+#include "gi/brick_map.h"
+#include "gi/photon_irradiance.h"
+#include "gi/photons.h"
+
+namespace tomales {
+
+struct AtlasSettings {
+  PhotonSettings photons;
+  PhotonIrradianceSettings irradiance;
+  BrickSettings bricks{0.03f};                ///< maxError: a share of the map's mean irradiance (the paper's is absolute)
+  size_t mostPhotonBytes = 256 << 20;         ///< That the photons of one unnamed group are expected to take.
+};
+
+/// For each of Scene::groups, the name of its map.
+std::vector<std::string> mapNames(const Scene& scene, const AtlasSettings& settings);
+
+using AtlasProgress = std::function<void(float)>;
+
+/// Photons into FOLDER, one file a map. Throws FileError.
+PhotonFigures writePhotons(const std::filesystem::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
+                           const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log);
+/// One photon map -> irradiance points. Throws FileError.
+void writeIrradiance(const std::filesystem::path& photons, const std::filesystem::path& out, const PhotonIrradianceSettings& settings);
+/// Irradiance points -> brick map; its maxError is relative to their mean. Throws FileError.
+BuiltBricks writeIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out, BrickSettings settings);
+
+/// All three for a scene. Throws FileError.
+void writeAtlas(const std::filesystem::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
+                const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log);
+
+/// The brick maps of a folder. Threads: lookups are concurrent.
+class IrradianceAtlas {
+ public:
+  /// Maps that are missing are black, with a warning: nothing was lit there. Throws FileError where one is damaged.
+  IrradianceAtlas(const std::filesystem::path& folder, const Scene& scene, const AtlasSettings& settings, size_t cacheBytes, Log& log);
+
+  /// E/pi at P (current space) on the side of N, over a radius; 0 where there is nothing.
+  vec3 irradianceOverPi(int group, const vec3& P, const vec3& N, float radius) const;
+  void report(Stats& stats) const;  ///< Bricks, lookups, misses, bytes.
+
+ private:
+  mutable BrickCache cache_;
+  mat4 worldFromCurrent_;
+  float worldFromCurrentScale_;
+  std::vector<std::unique_ptr<const BrickMap>> maps_;
+  std::vector<const BrickMap*> mapOfGroup_;  ///< Null: no photon came there.
+  Log& log_;
+};
+
+}  // namespace tomales

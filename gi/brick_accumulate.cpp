@@ -1,0 +1,97 @@
+#include "gi/brick_accumulate.h"
+
+#include <utility>
+
+namespace tomales {
+namespace {
+
+/// Six sides of a box and a few between: more directions than that in one voxel are foliage or noise.
+constexpr int kMostLayers = 8;
+
+}  // namespace
+
+void BrickAccumulator::clear() {
+  head_.fill(-1);
+  layers_.clear(), data_.clear();
+}
+
+int32_t BrickAccumulator::findLayer(int voxel, const vec3& direction, bool& merged) const {
+  const bool oriented = direction != vec3(0.0f);
+  int32_t best = -1;
+  float bestCosine = -2;
+  int count = 0;
+  for (int32_t l = head_[static_cast<size_t>(voxel)]; l >= 0; l = layers_[static_cast<size_t>(l)].next, ++count) {
+    const vec3 mean = normalizeOr(layers_[static_cast<size_t>(l)].normal, vec3(0.0f));
+    const float cosine = oriented == (mean != vec3(0.0f)) ? (oriented ? dot(mean, direction) : 1.0f) : -1.0f;
+    if (cosine > bestCosine) best = l, bestCosine = cosine;
+  }
+  if (bestCosine >= kLayerCosine) return best;
+  merged = count == kMostLayers;
+  return merged ? best : -1;
+}
+
+int32_t BrickAccumulator::add(int voxel, const LayerSum& sum, const float* data) {
+  bool merged = false;
+  int32_t l = findLayer(voxel, normalizeOr(sum.normal, vec3(0.0f)), merged);
+  if (l < 0) {
+    l = static_cast<int32_t>(layers_.size());
+    layers_.push_back(sum);
+    layers_.back().next = std::exchange(head_[static_cast<size_t>(voxel)], l);
+    data_.insert(data_.end(), data, data + width_);
+    return l;
+  }
+  LayerSum& layer = layers_[static_cast<size_t>(l)];
+  layer.normal += sum.normal;
+  layer.weight += sum.weight;
+  layer.incoherent |= merged | sum.incoherent;
+  float* to = data_.data() + l * width_;
+  for (int k = 0; k < width_; ++k) to[k] += data[k];
+  return l;
+}
+
+float BrickAccumulator::addChild(const BrickAccumulator& child, int octant) {
+  constexpr int half = kBrickWidth / 2;
+  const auto width = static_cast<size_t>(width_);
+  const size_t firstNew = layers_.size();  // the octants of a brick share no voxel, so all that is added to is new
+  std::vector<float> least, most;
+  float spread = 0;
+  for (int z = 0; z < kBrickWidth; ++z)
+    for (int y = 0; y < kBrickWidth; ++y)
+      for (int x = 0; x < kBrickWidth; ++x) {
+        const int to = voxelIndex((octant & 1 ? half : 0) + x / 2, (octant & 2 ? half : 0) + y / 2,
+                                  (octant & 4 ? half : 0) + z / 2);
+        for (int32_t l = child.head_[static_cast<size_t>(voxelIndex(x, y, z))]; l >= 0;
+             l = child.layers_[static_cast<size_t>(l)].next) {
+          const LayerSum& sum = child.layers_[static_cast<size_t>(l)];
+          const float* data = child.data_.data() + static_cast<size_t>(l) * width;
+          const auto into = static_cast<size_t>(add(to, sum, data)) - firstNew;
+          if (layers_[into + firstNew].incoherent) spread = kInfinity;
+          if (least.size() < (into + 1) * width) least.resize((into + 1) * width, kInfinity), most.resize((into + 1) * width, -kInfinity);
+          for (size_t k = 0; k < width; ++k) {
+            const float mean = data[k] / sum.weight;
+            float &lo = least[into * width + k], &hi = most[into * width + k];
+            lo = std::min(lo, mean), hi = std::max(hi, mean);
+            spread = std::max(spread, hi - lo);
+          }
+        }
+      }
+  return spread;
+}
+
+Brick BrickAccumulator::finish() const {
+  Brick brick;
+  brick.layers.reserve(layers_.size());
+  brick.data.reserve(data_.size());
+  for (size_t v = 0; v < kBrickVoxels; ++v) {
+    brick.first[v] = static_cast<uint16_t>(brick.layers.size());
+    for (int32_t l = head_[v]; l >= 0; l = layers_[static_cast<size_t>(l)].next) {
+      const LayerSum& sum = layers_[static_cast<size_t>(l)];
+      brick.layers.push_back({normalizeOr(sum.normal, vec3(0.0f)), sum.incoherent});
+      for (int k = 0; k < width_; ++k) brick.data.push_back(data_[static_cast<size_t>(l * width_ + k)] / sum.weight);
+    }
+  }
+  brick.first[kBrickVoxels] = static_cast<uint16_t>(brick.layers.size());
+  return brick;
+}
+
+}  // namespace tomales

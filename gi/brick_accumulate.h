@@ -1,0 +1,39 @@
+// A brick while data are added: sums and weights, not yet means. Private to gi.
+#pragma once
+#include "gi/brick.h"
+
+namespace tomales {
+
+/// What one layer of a voxel has been given so far.
+struct LayerSum {
+  vec3 normal{0.0f};  ///< Sum of weight * normal.
+  float weight = 0;
+  int32_t next = -1;  ///< Another layer of the same voxel.
+  bool incoherent = false;
+};
+
+class BrickAccumulator {
+ public:
+  explicit BrickAccumulator(int width) : width_(width) { clear(); }
+  void clear();
+
+  /// Adds to the layer of the voxel that faces as `sum` does, or to a new one. `data`: sums, times the weight already.
+  /// Returns the layer.
+  int32_t add(int voxel, const LayerSum& sum, const float* data);
+
+  /// Box-filters `child` into octant `octant`. Returns the largest spread of the child's means over any of its
+  /// groups of 2x2x2 voxels, layer by layer; infinite where layers had to be merged that face apart.
+  float addChild(const BrickAccumulator& child, int octant);
+
+  Brick finish() const;
+
+ private:
+  int32_t findLayer(int voxel, const vec3& direction, bool& merged) const;
+
+  int width_;
+  std::array<int32_t, kBrickVoxels> head_;
+  std::vector<LayerSum> layers_;
+  std::vector<float> data_;
+};
+
+}  // namespace tomales

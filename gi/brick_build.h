@@ -1,0 +1,28 @@
+// Verb: point cloud -> bricks and their octree (irradiance-atlas 3.2), with one brick of each level in memory at a time (6.1).
+// What differs from the paper: a point is its disk's box, cut by its plane, and weighs by its area, so that a voxel holds the mean
+// over the surface in it; and coarse voxels too keep a layer for every direction (docs/decisions/0011-brick-layers.md).
+// Deterministic: depends on the order of points, not on threads.
+#pragma once
+#include <functional>
+
+#include "gi/brick.h"
+#include "gi/point_cloud.h"
+
+namespace tomales {
+
+struct BrickSettings {
+  float maxError = 0.002f;      ///< Bricks whose 2x2x2 groups of voxels vary less are left out, in units of the data.
+  int maxDepth = 15;            ///< Levels below the root.
+  float radiusScale = 1;
+  bool ignoreNormals = false;   ///< Volume data: every point is a sphere.
+};
+
+struct BuiltBricks {
+  BrickTree tree;
+  int eliminated = 0;  ///< Bricks left out because their parents say the same.
+};
+
+/// Hands every brick that is kept to `store`, in the order of the nodes. A cloud without points makes a tree without nodes.
+BuiltBricks buildBricks(const PointCloud& cloud, const BrickSettings& settings, const std::function<void(const Brick&)>& store);
+
+}  // namespace tomales

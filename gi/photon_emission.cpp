@@ -1,0 +1,220 @@
+#include "gi/photon_emission.h"
+
+#include "reyes/base/rng.h"
+
+namespace tomales {
+namespace {
+
+constexpr int kRows = 64, kColumns = 128;  ///< Cells of equal solid angle on the sphere of directions.
+constexpr double kCellSolidAngle = 4 * double{kPi} / (kRows * kColumns);
+constexpr int kProbes = 4;                 ///< In each cell
+constexpr int kGrid = 128;                 ///< Cells along the side of a distant light's square
+constexpr uint32_t kSecondPair = 0x70686f74U;
+/// Share of the brightest cell that cells where no probe saw light are given: a beam between the probes is not lost.
+constexpr double kFloor = 1e-3;
+
+vec3 sphereDirection(size_t cell, vec2 at) {
+  const auto row = static_cast<float>(cell / kColumns), column = static_cast<float>(cell % kColumns);
+  const float z = 1 - 2 * (row + at.y) / kRows, phi = 2 * kPi * (column + at.x) / kColumns;
+  const float r = std::sqrt(std::max(0.0f, 1 - z * z));
+  return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
+/// Places in a cell: the corners of a smaller square.
+vec2 probePlace(int probe) { return {probe & 1 ? 0.75f : 0.25f, probe & 2 ? 0.75f : 0.25f}; }
+
+Distribution withFloor(const std::vector<double>& weights) {
+  const double floor = kFloor * *std::max_element(weights.begin(), weights.end());
+  Distribution out;
+  for (const double w : weights) out.add(w < 0 ? 0 : std::max(w, floor));
+  return out;
+}
+
+vec2 concentricDisk(vec2 xi) {
+  const float r = std::sqrt(xi.x), phi = 2 * kPi * xi.y;
+  return {r * std::cos(phi), r * std::sin(phi)};
+}
+
+}  // namespace
+
+PhotonTarget::PhotonTarget(const Scene& scene) {
+  for (const Object& o : scene.objects) {
+    if (!o.attributes->visibility.photon) continue;
+    for (uint32_t patch = 0; patch < o.shape().patchCount(); ++patch) {
+      objects.push_back(transformBound(o.cameraFromObject.keys.front(), o.shape().bound(patch, {})).grown(o.displacementBound));
+      bound.extend(objects.back());
+    }
+  }
+  if (bound.empty()) bound = {vec3(-1), vec3(1)};
+}
+
+PhotonSource::PhotonSource(int light, const ShadingSystem& shading, const RayScene& rays, const PhotonTarget& target)
+    : light_(light), shading_(shading), rays_(rays), kind_(shading.lightKind(light)), center_(target.center()), radius_(target.radius()) {
+  if (kind_ == LightKind::Point) surveyPoint();
+  if (kind_ == LightKind::Distant) surveyDistant(target);
+  if (kind_ == LightKind::Sky) surveySky();
+  if (kind_ == LightKind::Area) surveyArea();
+}
+
+void PhotonSource::surveyPoint() {
+  LightProbe where{{center_}, {vec3(0, 0, 1)}, {}, {}, {}, {}};
+  shading_.probe(light_, where);
+  position_ = center_ + where.L[0];
+  const vec3 toScene = center_ - position_;
+  const float distance = glm::length(toScene);
+  // Outside the scene's sphere, only the cone to it counts, wider by a cell.
+  const float least = distance > radius_ ? std::cos(std::min(kPi, std::asin(radius_ / distance) + 0.06f)) : -2.0f;
+  LightProbe probe;
+  std::vector<double> weights(kRows * kColumns, -1.0);
+  std::vector<size_t> cells;
+  for (size_t c = 0; c < weights.size(); ++c) {
+    if (dot(sphereDirection(c, vec2(0.5f)), normalizeOr(toScene, vec3(0))) < least) continue;
+    cells.push_back(c);
+    for (int k = 0; k < kProbes; ++k) {
+      const vec3 d = sphereDirection(c, probePlace(k));
+      probe.P.push_back(position_ + d), probe.N.push_back(-d);
+    }
+  }
+  shading_.probe(light_, probe);
+  for (size_t i = 0; i < cells.size(); ++i) {
+    double sum = 0;
+    for (size_t k = 0; k < kProbes; ++k) sum += double{luminance(probe.Cl[i * kProbes + k])};
+    weights[cells[i]] = sum / kProbes;
+    power_ += sum / kProbes * double{kPi} * kCellSolidAngle;
+  }
+  if (power_ > 0) cells_ = withFloor(weights);
+}
+
+void PhotonSource::surveyDistant(const PhotonTarget& target) {
+  LightProbe probe{{center_}, {vec3(0, 0, 1)}, {}, {}, {}, {}};
+  shading_.probe(light_, probe);
+  direction_ = normalizeOr(-probe.L[0], vec3(0, 0, 1));
+  vec3 tangent, bitangent;
+  orthonormalBasis(direction_, tangent, bitangent);
+  // The shadow of every object's box on the square: nothing is sent to where there is nothing.
+  std::vector<double> weights(kGrid * kGrid, 0.0);
+  const auto cellAt = [&](float along) {
+    return std::clamp(static_cast<int>((along / radius_ + 1) * 0.5f * kGrid), 0, kGrid - 1);
+  };
+  for (const Bound3& b : target.objects) {
+    Bound2 shadow;
+    for (int k = 0; k < 8; ++k) {
+      const vec3 off = b.corner(k) - center_;
+      shadow.extend(vec2(dot(off, tangent), dot(off, bitangent)));
+    }
+    for (int y = cellAt(shadow.lo.y); y <= cellAt(shadow.hi.y); ++y)
+      std::fill_n(weights.begin() + y * kGrid + cellAt(shadow.lo.x), cellAt(shadow.hi.x) - cellAt(shadow.lo.x) + 1, 1.0);
+  }
+  for (const double w : weights) cells_.add(w);
+  const double cellArea = std::pow(2 * double{radius_} / kGrid, 2);
+  power_ = double{luminance(probe.Cl[0])} * double{kPi} * cellArea * cells_.total();
+}
+
+void PhotonSource::surveySky() {
+  std::vector<double> weights;
+  double sum = 0;
+  for (size_t c = 0; c < kRows * kColumns; ++c) {
+    double radiance = 0;
+    for (int k = 0; k < kProbes; ++k) radiance += double{luminance(shading_.skyRadiance(light_, sphereDirection(c, probePlace(k))))};
+    weights.push_back(radiance / kProbes);
+    sum += radiance / kProbes;
+  }
+  power_ = sum * kCellSolidAngle * double{kPi * radius_ * radius_};
+  if (power_ > 0) cells_ = withFloor(weights);
+}
+
+void PhotonSource::surveyArea() {
+  std::vector<EmittedPhoton> photons(256);
+  emit(0, 0, photons);
+  for (const EmittedPhoton& p : photons) power_ += double{luminance(p.power)} / static_cast<double>(photons.size());
+}
+
+void PhotonSource::emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>& out) const {
+  // Two pairs of one photon: each stratified over all photons of the light, unrelated to the other.
+  const uint32_t stream = hashCombine(seed, static_cast<uint32_t>(light_));
+  std::vector<vec2> a, b;
+  for (uint32_t i = 0; i < out.size(); ++i) {
+    a.push_back(sobol2(first + i, stream));
+    b.push_back(sobol2(first + i, hashCombine(stream, kSecondPair)));
+  }
+  if (kind_ == LightKind::Point) emitFromPoint(a, out);
+  if (kind_ == LightKind::Distant) emitFromDistance(a, out);
+  if (kind_ == LightKind::Sky) emitFromSky(a, b, out);
+  if (kind_ == LightKind::Area) emitFromArea(a, b, out);
+}
+
+void PhotonSource::emitFromPoint(const std::vector<vec2>& a, std::vector<EmittedPhoton>& out) const {
+  LightProbe probe;
+  std::vector<double> density;
+  for (size_t i = 0; i < out.size(); ++i) {
+    double x{a[i].x};
+    const size_t cell = cells_.pick(x);
+    out[i].origin = position_;
+    out[i].direction = sphereDirection(cell, {static_cast<float>(x), a[i].y});
+    density.push_back(cells_.weight(cell) / (cells_.total() * kCellSolidAngle));
+    probe.P.push_back(position_ + out[i].direction), probe.N.push_back(-out[i].direction);
+  }
+  shading_.probe(light_, probe);  // intensity I = E r^2, one unit away
+  for (size_t i = 0; i < out.size(); ++i) out[i].power = probe.Cl[i] * kPi / static_cast<float>(density[i]);
+}
+
+void PhotonSource::emitFromDistance(const std::vector<vec2>& a, std::vector<EmittedPhoton>& out) const {
+  vec3 tangent, bitangent;
+  orthonormalBasis(direction_, tangent, bitangent);
+  LightProbe probe;
+  const float side = 2 * radius_ / kGrid;
+  for (size_t i = 0; i < out.size(); ++i) {
+    double x{a[i].x};
+    const size_t cell = cells_.pick(x);
+    const vec2 at = side * vec2(static_cast<float>(cell % kGrid) + static_cast<float>(x), static_cast<float>(cell / kGrid) + a[i].y) -
+                    vec2(radius_);
+    out[i].origin = center_ + at.x * tangent + at.y * bitangent - 1.01f * radius_ * direction_;
+    out[i].direction = direction_;
+    probe.P.push_back(out[i].origin), probe.N.push_back(-direction_);
+  }
+  shading_.probe(light_, probe);
+  const float area = side * side * static_cast<float>(cells_.total());
+  for (size_t i = 0; i < out.size(); ++i) out[i].power = probe.Cl[i] * kPi * area;
+}
+
+void PhotonSource::emitFromSky(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const {
+  for (size_t i = 0; i < out.size(); ++i) {
+    double x{a[i].x};
+    const size_t cell = cells_.pick(x);
+    const vec3 toSky = sphereDirection(cell, {static_cast<float>(x), a[i].y});
+    vec3 tangent, bitangent;
+    orthonormalBasis(toSky, tangent, bitangent);
+    const vec2 at = radius_ * concentricDisk(b[i]);
+    const auto density = static_cast<float>(cells_.weight(cell) / (cells_.total() * kCellSolidAngle));
+    out[i] = {center_ + at.x * tangent + at.y * bitangent + 1.01f * radius_ * toSky, -toSky,
+              shading_.skyRadiance(light_, toSky) * (kPi * radius_ * radius_ / density)};
+  }
+}
+
+void PhotonSource::emitFromArea(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const {
+  const size_t n = out.size();
+  std::vector<float> xi0(n), xi1(n), area(n), place[3], normal[3];
+  for (auto* v : {place, normal})
+    for (int k = 0; k < 3; ++k) v[k].resize(n);
+  for (size_t i = 0; i < n; ++i) xi0[i] = a[i].x, xi1[i] = a[i].y;
+  const TmVec3 P{place[0].data(), place[1].data(), place[2].data()}, N{normal[0].data(), normal[1].data(), normal[2].data()};
+  if (!rays_.sampleEmitter(light_, static_cast<int>(n), xi0.data(), xi1.data(), P, N, area.data())) {
+    std::fill(out.begin(), out.end(), EmittedPhoton{vec3(0), vec3(0, 0, 1), vec3(0)});
+    return;
+  }
+  LightProbe probe;
+  for (size_t i = 0; i < n; ++i) {
+    const vec3 Nl(N.x[i], N.y[i], N.z[i]), local = cosineHemisphere(b[i]);
+    vec3 tangent, bitangent;
+    orthonormalBasis(Nl, tangent, bitangent);
+    out[i].origin = vec3(P.x[i], P.y[i], P.z[i]);
+    out[i].direction = local.x * tangent + local.y * bitangent + local.z * Nl;
+    probe.Pl.push_back(out[i].origin), probe.Nl.push_back(Nl);
+    probe.P.push_back(out[i].origin + out[i].direction), probe.N.push_back(-out[i].direction);
+  }
+  shading_.probe(light_, probe);
+  // A Lambertian emitter of radiance L sends pi L from each unit of area.
+  for (size_t i = 0; i < n; ++i) out[i].power = probe.Cl[i] * kPi * area[i];
+}
+
+}  // namespace tomales

@@ -1,0 +1,24 @@
+// Verb: photons -> irradiance disks (irradiance-atlas 4). The irradiance at photons from the nearest of them that lie on the same
+// surface, and from the same search the area that each stands for.
+// Irradiance: `irradiance` of the result is E in W/m2, not E/pi.
+// Threads: uses the pool; the result does not depend on it.
+#pragma once
+#include "gi/point_cloud.h"
+
+namespace tomales {
+
+struct PhotonIrradianceSettings {
+  int nearest = 50;  ///< The paper's.
+  int every = 4;     ///< One estimate for so many neighbouring photons (Christensen 1999, "Faster photon map global illumination").
+  float maxRadius = kInfinity;
+};
+
+/// `photons` needs a channel "power" of three floats (W), and normals. The result has the channel "irradiance"; its disks overlap enough
+/// to cover the surface. No photons make an empty cloud.
+PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& settings);
+
+/// Share of a disk that a straight border leaves, by how far the centroid of what is left lies from the centre, in radii: 1 at 0, 1/2
+/// at 4/(3 pi). What photons near the border of a surface are short of.
+float coveredShare(float centroidDistance);
+
+}  // namespace tomales

@@ -1,0 +1,75 @@
+#include "gi/photon_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace tomales {
+namespace {
+
+constexpr uint32_t kLeaf = 16;
+constexpr float kSameSide = 0.5f;       ///< Photons of surfaces turned away by more than 60 degrees do not count.
+constexpr float kAlongNormal = 15.0f;   ///< A photon off the plane looks four times as far.
+
+}  // namespace
+
+PhotonTree::PhotonTree(const PointCloud& photons) : order_(photons.count()) {
+  std::iota(order_.begin(), order_.end(), 0u);
+  build(0, static_cast<uint32_t>(order_.size()), 0, photons);
+  position_.reserve(order_.size()), normal_.reserve(order_.size());
+  for (const uint32_t i : order_) position_.push_back(photons.position[i]), normal_.push_back(photons.normal[i]);
+}
+
+void PhotonTree::build(uint32_t begin, uint32_t end, uint32_t node, const PointCloud& photons) {
+  if (end - begin <= kLeaf) return;
+  Bound3 bound;
+  for (uint32_t i = begin; i < end; ++i) bound.extend(photons.position[order_[i]]);
+  const vec3 size = bound.size();
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const uint32_t middle = begin + (end - begin) / 2;
+  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](uint32_t a, uint32_t b) {
+    const float pa = photons.position[a][axis], pb = photons.position[b][axis];
+    return pa != pb ? pa < pb : a < b;
+  });
+  if (splits_.size() <= node) splits_.resize(node + 1);
+  splits_[node] = {photons.position[order_[middle]][axis], axis};
+  build(begin, middle, 2 * node + 1, photons);
+  build(middle, end, 2 * node + 2, photons);
+}
+
+void PhotonTree::nearest(const vec3& P, const vec3& N, size_t most, float radius, std::vector<NearPhoton>& heap) const {
+  struct Range {
+    uint32_t begin, end, node;
+    float distance2;
+  };
+  heap.clear();
+  float limit = radius * radius;
+  std::array<Range, 64> stack;
+  size_t depth = 0;
+  stack[depth++] = {0, static_cast<uint32_t>(order_.size()), 0, 0};
+  while (depth > 0) {
+    Range r = stack[--depth];
+    if (r.distance2 > limit) continue;
+    while (r.end - r.begin > kLeaf) {
+      const Split& split = splits_[r.node];
+      const uint32_t middle = r.begin + (r.end - r.begin) / 2;
+      const float d = P[split.axis] - split.at;
+      const Range low{r.begin, middle, 2 * r.node + 1, r.distance2}, high{middle, r.end, 2 * r.node + 2, r.distance2};
+      Range& far = stack[depth++];
+      far = d < 0 ? high : low;
+      far.distance2 = std::max(r.distance2, d * d);
+      r = d < 0 ? low : high;
+    }
+    for (uint32_t i = r.begin; i < r.end; ++i) {
+      const vec3 off = position_[i] - P;
+      const float along = dot(off, N), distance2 = dot(off, off) + kAlongNormal * along * along;
+      if (distance2 > limit || dot(normal_[i], N) < kSameSide) continue;
+      heap.push_back({distance2, i});
+      std::push_heap(heap.begin(), heap.end());
+      if (heap.size() > most) std::pop_heap(heap.begin(), heap.end()), heap.pop_back();
+      if (heap.size() == most) limit = heap.front().distance2;
+    }
+  }
+}
+
+}  // namespace tomales

@@ -1,0 +1,40 @@
+// A balanced kd-tree over photons. Private to gi.
+// Threads: built by one; searches are concurrent.
+#pragma once
+#include "gi/point_cloud.h"
+
+namespace tomales {
+
+struct NearPhoton {
+  float distance2;  ///< Squared; along the normal it counts four times (a disk, not a sphere).
+  uint32_t photon;  ///< In the order of the tree.
+  bool operator<(const NearPhoton& o) const {
+    return distance2 != o.distance2 ? distance2 < o.distance2 : photon < o.photon;
+  }
+};
+
+class PhotonTree {
+ public:
+  explicit PhotonTree(const PointCloud& photons);
+
+  /// The order of the tree: neighbours in it are neighbours in space.
+  const std::vector<uint32_t>& order() const { return order_; }
+  const vec3& position(uint32_t i) const { return position_[i]; }
+  const vec3& normal(uint32_t i) const { return normal_[i]; }
+
+  /// The `most` nearest photons within `radius` that face as `N` does, as a heap with the farthest in front.
+  void nearest(const vec3& P, const vec3& N, size_t most, float radius, std::vector<NearPhoton>& heap) const;
+
+ private:
+  struct Split {
+    float at;
+    int axis;
+  };
+  void build(uint32_t begin, uint32_t end, uint32_t node, const PointCloud& photons);
+
+  std::vector<uint32_t> order_;
+  std::vector<vec3> position_, normal_;
+  std::vector<Split> splits_;  ///< Node n has children 2n + 1 and 2n + 2; each halves its range.
+};
+
+}  // namespace tomales

@@ -1,0 +1,214 @@
+#include "gi/photons.h"
+
+#include <numeric>
+
+#include "gi/photon_emission.h"
+#include "gi/state.h"
+#include "reyes/base/parallel.h"
+#include "reyes/base/rng.h"
+
+namespace tomales {
+namespace {
+
+constexpr size_t kPhotonsPerTask = 2048, kTasksPerWave = 64;
+constexpr uint32_t kBounceStream = 0x626f756eU;
+
+struct Path {
+  Ray ray;
+  vec3 power;
+  uint32_t number;
+  int depth = 0;
+};
+
+struct Scratch {
+  std::vector<Ray> rays;
+  std::vector<Hit> hits;
+  std::vector<SampleName> names;
+  std::vector<vec3> lit, dark;
+};
+
+/// Reflection and refraction at a smooth dielectric.
+vec3 dielectric(const vec3& d, const vec3& towards, bool entering, float index, float xi) {
+  const float eta = entering ? 1 / index : index, cosine = -dot(d, towards);
+  const float k = 1 - eta * eta * (1 - cosine * cosine);
+  const vec3 mirrored = d + 2 * cosine * towards;
+  if (k < 0) return mirrored;
+  const float inside = std::sqrt(k);
+  const float rs = (eta * cosine - inside) / (eta * cosine + inside), rp = (cosine - eta * inside) / (cosine + eta * inside);
+  return xi < 0.5f * (rs * rs + rp * rp) ? mirrored : eta * d + (eta * cosine - inside) * towards;
+}
+
+class Tracer {
+ public:
+  Tracer(const Scene& scene, const RayScene& rays, const ShadingSystem& shading, const PhotonSettings& settings)
+      : scene_(scene), rays_(rays), shading_(shading), settings_(settings) {
+    for (const ShadeGroup& g : scene.groups) models_.push_back(photonModelOf(*g.attributes));
+  }
+
+  void trace(const PhotonSource& source, uint32_t first, size_t count, float share, std::vector<StoredPhoton>& out) const {
+    std::vector<EmittedPhoton> emitted(count);
+    source.emit(first, settings_.seed, emitted);
+    const uint32_t stream = hashCombine(settings_.seed, static_cast<uint32_t>(source.light()), kBounceStream);
+    std::vector<Path> paths;
+    for (size_t i = 0; i < count; ++i) {
+      const EmittedPhoton& e = emitted[i];
+      if (!(maxComponent(e.power) > 0) || !isFinite(e.power)) continue;
+      Ray ray{e.origin, e.direction};
+      ray.bias = kEmitterBias * (1 + glm::length(e.origin));
+      paths.push_back({ray, e.power * share, first + static_cast<uint32_t>(i)});
+    }
+    Scratch scratch;
+    while (!paths.empty()) step(paths, stream, scratch, out);
+  }
+
+ private:
+  static constexpr float kEmitterBias = 1e-4f;
+
+  /// Every path to its next surface; those that end there leave the list.
+  void step(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const {
+    s.rays.clear(), s.hits.clear(), s.names.clear();
+    for (const Path& path : paths) {
+      s.rays.push_back(path.ray);
+      s.hits.push_back(rays_.closest(path.ray, kMaskPhoton));
+      s.names.push_back({hashCombine(stream, path.number, static_cast<uint32_t>(path.depth)), 0});
+    }
+    reflectances(s);
+    size_t kept = 0;
+    for (size_t i = 0; i < paths.size(); ++i) {
+      if (s.hits[i].object < 0) continue;
+      Path path = paths[i];
+      if (bounce(path, s.hits[i], s.lit[i], stream, out)) paths[kept++] = path;
+    }
+    paths.resize(kept);
+  }
+
+  /// Diffuse reflectance at every hit: what comes back of E/pi = 1, less what is emitted.
+  void reflectances(Scratch& s) const {
+    ShadeContext context{RayKind::Diffuse, 1, settings_.seed, 1, false};
+    context.light = Illumination::Unit;
+    rays_.shadeHits(s.rays, s.hits, s.names, shading_, context, s.lit);
+    const bool emitters = std::any_of(s.hits.begin(), s.hits.end(), [&](const Hit& h) {
+      return h.object >= 0 && shading_.emits(groupOf(h));
+    });
+    if (!emitters) return;
+    context.light = Illumination::None;
+    rays_.shadeHits(s.rays, s.hits, s.names, shading_, context, s.dark);
+    for (size_t i = 0; i < s.lit.size(); ++i) s.lit[i] -= s.dark[i];
+  }
+
+  int groupOf(const Hit& hit) const { return scene_.objects[static_cast<size_t>(hit.object)].group; }
+
+  bool bounce(Path& path, const Hit& hit, const vec3& reflectance, uint32_t stream, std::vector<StoredPhoton>& out) const {
+    const int group = groupOf(hit);
+    const Attributes& attributes = *scene_.groups[static_cast<size_t>(group)].attributes;
+    const vec3 P = path.ray.origin + hit.t * path.ray.direction, d = path.ray.direction;
+    const bool front = dot(d, hit.geometricNormal) < 0;
+    const vec3 N = front ? hit.normal : -hit.normal;
+    const uint32_t name = hashCombine(stream, static_cast<uint32_t>(path.depth));
+    const float xi = sobol1(path.number, hashCombine(name, 1u));
+    vec3 direction, passed;
+    switch (const PhotonModel model = models_[static_cast<size_t>(group)]) {
+      case PhotonModel::Matte:
+      case PhotonModel::Translucent: {
+        out.push_back({P, N, path.power, group, path.depth});
+        passed = isFinite(reflectance) ? glm::clamp(reflectance, 0.0f, 1.0f) : vec3(0);
+        const bool through = model == PhotonModel::Translucent && sobol1(path.number, hashCombine(name, 2u)) < 0.5f;
+        const vec3 side = through ? -N : N, local = cosineHemisphere(sobol2(path.number, name));
+        vec3 tangent, bitangent;
+        orthonormalBasis(side, tangent, bitangent);
+        direction = local.x * tangent + local.y * bitangent + local.z * side;
+        break;
+      }
+      case PhotonModel::Chrome:
+        passed = attributes.color, direction = d - 2 * dot(d, N) * N;
+        break;
+      case PhotonModel::Transparent:
+        passed = attributes.color, direction = d;
+        break;
+      default:
+        passed = attributes.color;
+        direction = dielectric(d, N, front, model == PhotonModel::Water ? 1.33f : 1.5f, sobol1(path.number, hashCombine(name, 2u)));
+    }
+    if (++path.depth >= settings_.maxDepth) return false;
+    // Surviving photons keep the power that they came with, so that all that are stored weigh about the same.
+    const vec3 power = path.power * passed;
+    const float survival = std::min(1.0f, maxComponent(power) / maxComponent(path.power));
+    if (!(xi < survival)) return false;
+    path.power = power / survival;
+    path.ray = {P, normalizeOr(direction, N)};
+    rays_.prepareOrigin(group, P, 0, path.ray);
+    path.ray.offset = slantedOffset(path.ray.offset, std::abs(dot(path.ray.direction, N)));
+    return true;
+  }
+
+  const Scene& scene_;
+  const RayScene& rays_;
+  const ShadingSystem& shading_;
+  const PhotonSettings& settings_;
+  std::vector<PhotonModel> models_;
+};
+
+std::vector<PhotonSource> sourcesOf(const Scene& scene, const RayScene& rays, const ShadingSystem& shading, Log& log) {
+  const PhotonTarget target(scene);
+  std::vector<PhotonSource> sources;
+  for (const auto& light : scene.lights) {
+    const LightKind kind = shading.lightKind(light->index);
+    if (kind == LightKind::None || kind == LightKind::Indirect) continue;
+    if (kind == LightKind::Ambient) {
+      log.report(Severity::Warning, "photons-ambient", light->shader.where,
+                 "light \"" + light->handle + "\" comes from nowhere: it emits no photons");
+      continue;
+    }
+    PhotonSource source(light->index, shading, rays, target);
+    if (source.power() > 0) sources.push_back(std::move(source));
+  }
+  return sources;
+}
+
+}  // namespace
+
+PhotonModel photonModelOf(const Attributes& attributes) {
+  const std::string& m = attributes.photon.shadingModel;
+  return m == "chrome"        ? PhotonModel::Chrome
+         : m == "glass"       ? PhotonModel::Glass
+         : m == "water"       ? PhotonModel::Water
+         : m == "transparent" ? PhotonModel::Transparent
+         : m == "translucent" ? PhotonModel::Translucent
+                              : PhotonModel::Matte;
+}
+
+PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const ShadingSystem& shading, const PhotonSettings& settings,
+                           const std::function<void(const StoredPhoton&)>& store,
+                           const std::function<void(float)>& progress, Stats& stats, Log& log) {
+  const std::vector<PhotonSource> sources = sourcesOf(scene, rays, shading, log);
+  const double total = std::accumulate(sources.begin(), sources.end(), 0.0,
+                                       [](double sum, const PhotonSource& s) { return sum + s.power(); });
+  if (sources.empty())
+    log.report(Severity::Warning, "photons-no-light", scene.where, "no light of the scene emits photons: indirect light is black");
+  const Tracer tracer(scene, rays, shading, settings);
+  PhotonFigures figures;
+  for (const PhotonSource& source : sources) {
+    const auto count = static_cast<size_t>(std::max(1.0, std::round(static_cast<double>(settings.emit) * source.power() / total)));
+    const float share = 1 / static_cast<float>(count);
+    for (size_t wave = 0; wave < count; wave += kPhotonsPerTask * kTasksPerWave) {
+      const size_t end = std::min(count, wave + kPhotonsPerTask * kTasksPerWave);
+      std::vector<std::vector<StoredPhoton>> stored((end - wave + kPhotonsPerTask - 1) / kPhotonsPerTask);
+      parallelFor(stored.size(), 1, [&](size_t begin, size_t last) {
+        for (size_t task = begin; task < last; ++task) {
+          const size_t first = wave + task * kPhotonsPerTask;
+          tracer.trace(source, static_cast<uint32_t>(first), std::min(kPhotonsPerTask, end - first), share, stored[task]);
+        }
+      });
+      for (const auto& photons : stored) {
+        for (const StoredPhoton& p : photons) store(p);
+        figures.stored += static_cast<int64_t>(photons.size());
+      }
+      if (progress) progress(static_cast<float>(figures.emitted + static_cast<int64_t>(end)) / static_cast<float>(settings.emit));
+    }
+    figures.emitted += static_cast<int64_t>(count);
+  }
+  stats.rays.photon += figures.emitted;
+  return figures;
+}
+
+}  // namespace tomales

@@ -1,0 +1,41 @@
+// Verb: photons from the lights through the scene (irradiance-atlas 4). Each photon that arrives on a diffuse surface is stored; what
+// goes on is decided by Russian roulette, so that powers stay even.
+// Power: W. Space: current. Same photons for any number of threads.
+#pragma once
+#include <functional>
+
+#include "raytrace/trace.h"
+
+namespace tomales {
+
+struct PhotonSettings {
+  int64_t emit = 1'000'000;  ///< Of all lights together.
+  int maxDepth = 10;         ///< Most surfaces that a photon may arrive at.
+  uint32_t seed = 0;
+};
+
+struct StoredPhoton {
+  vec3 P, N;   ///< N: unit, towards the side that the photon came from.
+  vec3 power;
+  int group;   ///< Of Scene::groups
+  int depth;   ///< 0: straight from a light.
+};
+
+struct PhotonFigures { int64_t emitted = 0, stored = 0; };
+
+/// `store` is called by one thread at a time, in an order that no thread decides. A scene without light gives nothing, with a warning.
+PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const ShadingSystem& shading, const PhotonSettings& settings,
+                           const std::function<void(const StoredPhoton&)>& store,
+                           const std::function<void(float)>& progress, Stats& stats, Log& log);
+
+/// Attribute "photon" "shadingmodel": what a surface does to photons.
+enum class PhotonModel {
+  Matte,        ///< Diffuse, by the surface shader: stored.
+  Translucent,  ///< Likewise, and half of it goes through.
+  Chrome,       ///< Mirrors, tinted by the object's colour.
+  Glass, Water, ///< Reflects and refracts by Fresnel's law (index 1.5, 1.33).
+  Transparent,  ///< Passes straight on, tinted.
+};
+PhotonModel photonModelOf(const Attributes& attributes);
+
+}  // namespace tomales

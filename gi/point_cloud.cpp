@@ -1,0 +1,36 @@
+#include "gi/point_cloud.h"
+
+namespace tomales {
+
+int PointCloud::width() const {
+  int sum = 0;
+  for (const CloudChannel& c : channels) sum += c.width;
+  return sum;
+}
+
+int PointCloud::offsetOf(const std::string& channel) const {
+  int offset = 0;
+  for (const CloudChannel& c : channels) {
+    if (c.name == channel) return offset;
+    offset += c.width;
+  }
+  return -1;
+}
+
+void PointCloud::add(const vec3& P, const vec3& N, float r, const float* values) {
+  position.push_back(P), normal.push_back(N), radius.push_back(r);
+  data.insert(data.end(), values, values + width());
+}
+
+void PointCloud::reserve(size_t points) {
+  position.reserve(points), normal.reserve(points), radius.reserve(points);
+  data.reserve(points * static_cast<size_t>(width()));
+}
+
+Bound3 PointCloud::bound() const {
+  Bound3 b;
+  for (const vec3& p : position) b.extend(p);
+  return b;
+}
+
+}  // namespace tomales

@@ -1,0 +1,37 @@
+// Noun: a point cloud. Oriented disks with any channels of data: photons, irradiance points and baked surfaces alike.
+//   position, normal, radius of every point, then `width()` floats of data, channel after channel
+// Space: world, unless a file's header says otherwise (PRMan's bake3d "coordsystem"). Over reyes/base alone.
+// Threads: plain data.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "reyes/base/math.h"
+
+namespace tomales {
+
+struct CloudChannel {
+  std::string name;
+  int width = 1;  ///< Floats of one point.
+  bool operator==(const CloudChannel&) const = default;
+};
+
+struct PointCloud {
+  std::vector<CloudChannel> channels;
+  std::vector<vec3> position;
+  std::vector<vec3> normal;   ///< Unit; zero: a point of a volume, a sphere.
+  std::vector<float> radius;  ///< Of the disk or sphere; 0: infinitesimal.
+  std::vector<float> data;    ///< width() floats a point.
+
+  size_t count() const { return position.size(); }
+  int width() const;
+  /// First float of a channel among the width() of a point, -1: there is none.
+  int offsetOf(const std::string& channel) const;
+  const float* at(size_t point) const { return data.data() + point * static_cast<size_t>(width()); }
+  /// `values`: width() floats.
+  void add(const vec3& P, const vec3& N, float r, const float* values);
+  void reserve(size_t points);
+  Bound3 bound() const;  ///< Of the positions.
+};
+
+}  // namespace tomales

@@ -1,0 +1,146 @@
+#include "gi/point_file.h"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+namespace tomales {
+namespace {
+
+constexpr char kKind[9] = "TMPOINTS";
+constexpr uint32_t kVersion = 1;
+constexpr int kMostWidth = 256;
+
+/// Octahedral: 1 / 65534 of a quadrant fine. 0 is no normal.
+uint32_t packNormal(const vec3& n) {
+  if (n == vec3(0.0f)) return 0;
+  const vec3 a = n / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+  vec2 o(a.x, a.y);
+  if (a.z < 0) o = (vec2(1) - glm::abs(vec2(a.y, a.x))) * vec2(a.x < 0 ? -1.0f : 1.0f, a.y < 0 ? -1.0f : 1.0f);
+  const auto pack = [](float v) { return static_cast<uint32_t>(std::lround(v * 32767.0f) + 32768); };
+  return pack(o.x) << 16 | pack(o.y);
+}
+
+vec3 unpackNormal(uint32_t packed) {
+  if (packed == 0) return vec3(0.0f);
+  const auto part = [](uint32_t v) { return (static_cast<float>(v & 0xffff) - 32768.0f) / 32767.0f; };
+  vec3 n(part(packed >> 16), part(packed), 0);
+  n.z = 1 - std::abs(n.x) - std::abs(n.y);
+  const float fold = std::max(-n.z, 0.0f);
+  n.x += n.x >= 0 ? -fold : fold, n.y += n.y >= 0 ? -fold : fold;
+  return normalizeOr(n, vec3(0, 0, 1));
+}
+
+/// Every third bit of a number, from 21 bits.
+uint64_t spread(uint64_t x) {
+  x = (x | x << 32) & 0x001f00000000ffffULL, x = (x | x << 16) & 0x001f0000ff0000ffULL;
+  x = (x | x << 8) & 0x100f00f00f00f00fULL, x = (x | x << 4) & 0x10c30c30c30c30c3ULL;
+  return (x | x << 2) & 0x1249249249249249ULL;
+}
+
+}  // namespace
+
+PointFileWriter::PointFileWriter(const std::string& path, const std::vector<CloudChannel>& channels)
+    : file_(path, kKind, kVersion) {
+  pending_.channels = channels;
+  if (pending_.width() > kMostWidth) throw FileError(fmt::format("\"{}\": more than {} floats a point", path, kMostWidth));
+}
+
+void PointFileWriter::add(const vec3& P, const vec3& N, float radius, const float* values) {
+  pending_.add(P, N, radius, values);
+  if (pending_.count() == kChunkPoints) flush();
+}
+
+void PointFileWriter::flush() {
+  if (pending_.count() == 0) return;
+  std::vector<uint32_t> normals;
+  for (const vec3& n : pending_.normal) normals.push_back(packNormal(n));
+  ByteWriter w;
+  w.put(pending_.position);
+  w.put(normals);
+  w.put(pending_.radius);
+  w.put(pending_.data);
+  file_.add(w.bytes);
+  bounds_.push_back(pending_.bound());
+  written_ += pending_.count();
+  PointCloud empty;
+  empty.channels = pending_.channels;
+  pending_ = std::move(empty);
+}
+
+void PointFileWriter::finish() {
+  flush();
+  ByteWriter header;
+  header.put(static_cast<uint32_t>(pending_.channels.size()));
+  for (const CloudChannel& c : pending_.channels) {
+    header.put(c.name);
+    header.put(static_cast<int32_t>(c.width));
+  }
+  header.put(static_cast<uint64_t>(written_));
+  header.put(bounds_);
+  file_.finish(header.bytes);
+}
+
+PointFile::PointFile(const std::string& path) : file_(path, kKind, kVersion) {
+  ByteReader r(file_.header(), path);
+  const auto channelCount = r.get<uint32_t>();
+  int width = 0;
+  for (uint32_t i = 0; i < channelCount; ++i) {
+    std::string name = r.getString();
+    channels_.push_back({std::move(name), r.get<int32_t>()});
+    if (channels_.back().width < 1 || channels_.back().width > kMostWidth - width)
+      throw FileError(fmt::format("\"{}\": its channels are too many or damaged", path));
+    width += channels_.back().width;
+  }
+  count_ = r.get<uint64_t>();
+  bounds_ = r.getVector<Bound3>();
+  if (bounds_.size() != file_.count()) throw FileError(fmt::format("\"{}\" is damaged: its chunks do not add up", path));
+}
+
+Bound3 PointFile::bound() const {
+  Bound3 b;
+  for (const Bound3& chunk : bounds_) b.extend(chunk);
+  return b;
+}
+
+void PointFile::read(size_t chunk, PointCloud& to) const {
+  const Bytes bytes = file_.read(static_cast<uint32_t>(chunk));
+  ByteReader r(bytes, file_.path());
+  if (to.channels.empty()) to.channels = channels_;
+  const auto positions = r.getVector<vec3>();
+  const auto normals = r.getVector<uint32_t>();
+  const auto radii = r.getVector<float>();
+  const auto data = r.getVector<float>();
+  const size_t n = positions.size();
+  if (normals.size() != n || radii.size() != n || data.size() != n * static_cast<size_t>(to.width()))
+    throw FileError(fmt::format("\"{}\" is damaged: a chunk does not add up", file_.path()));
+  to.position.insert(to.position.end(), positions.begin(), positions.end());
+  for (const uint32_t p : normals) to.normal.push_back(unpackNormal(p));
+  to.radius.insert(to.radius.end(), radii.begin(), radii.end());
+  to.data.insert(to.data.end(), data.begin(), data.end());
+}
+
+PointCloud PointFile::readAll() const {
+  PointCloud cloud;
+  cloud.channels = channels_;
+  for (size_t i = 0; i < chunkCount(); ++i) read(i, cloud);
+  return cloud;
+}
+
+void writePointFile(const PointCloud& cloud, const std::string& path) {
+  const Bound3 bound = cloud.bound();
+  const float scale = static_cast<float>((1 << 21) - 1) / std::max(maxComponent(bound.size()), 1e-30f);
+  std::vector<uint64_t> code(cloud.count());
+  for (size_t i = 0; i < code.size(); ++i) {
+    const vec3 p = (cloud.position[i] - bound.lo) * scale;
+    code[i] = spread(static_cast<uint64_t>(p.x)) | spread(static_cast<uint64_t>(p.y)) << 1 | spread(static_cast<uint64_t>(p.z)) << 2;
+  }
+  std::vector<uint32_t> order(cloud.count());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return code[a] != code[b] ? code[a] < code[b] : a < b; });
+  PointFileWriter file(path, cloud.channels);
+  for (const uint32_t i : order) file.add(cloud.position[i], cloud.normal[i], cloud.radius[i], cloud.at(i));
+  file.finish();
+}
+
+}  // namespace tomales

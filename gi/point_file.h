@@ -1,0 +1,52 @@
+// Noun: a point cloud on disk (.ptc), the one container for photons, irradiance points and baked data. Written as a stream and read
+// chunk by chunk, so that neither ever needs the whole cloud in memory.
+//   header   channels, the count of points, their bound, and the bound of every chunk
+//   chunk    at most kChunkPoints points: positions, normals (octahedral, 2 x 16 bits; 0: none), radii, data
+// Threads: a reader may be shared; a writer belongs to one thread.
+#pragma once
+#include "gi/point_cloud.h"
+#include "reyes/base/chunk_file.h"
+
+namespace tomales {
+
+class PointFileWriter {
+ public:
+  static constexpr size_t kChunkPoints = 1 << 14;
+
+  /// Throws FileError, as every member.
+  PointFileWriter(const std::string& path, const std::vector<CloudChannel>& channels);
+  void add(const vec3& P, const vec3& N, float radius, const float* values);
+  size_t count() const { return written_ + pending_.count(); }
+  void finish();
+
+ private:
+  void flush();
+  ChunkWriter file_;
+  PointCloud pending_;
+  size_t written_ = 0;
+  std::vector<Bound3> bounds_;
+};
+
+class PointFile {
+ public:
+  explicit PointFile(const std::string& path);  ///< Throws FileError.
+  const std::vector<CloudChannel>& channels() const { return channels_; }
+  uint64_t count() const { return count_; }
+  Bound3 bound() const;
+  size_t chunkCount() const { return bounds_.size(); }
+  const Bound3& chunkBound(size_t chunk) const { return bounds_[chunk]; }
+  void read(size_t chunk, PointCloud& to) const;  ///< Appends; throws FileError.
+  PointCloud readAll() const;
+  uint64_t fileBytes() const { return file_.fileBytes(); }
+
+ private:
+  ChunkReader file_;
+  std::vector<CloudChannel> channels_;
+  uint64_t count_ = 0;
+  std::vector<Bound3> bounds_;
+};
+
+/// Along a Morton curve, so that chunks are compact in space. Throws FileError.
+void writePointFile(const PointCloud& cloud, const std::string& path);
+
+}  // namespace tomales

@@ -1,0 +1,69 @@
+#include "reyes/app/atlas_job.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+
+namespace tomales {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the scene's indirect light says; empty where nothing.
+const Param* indirectParam(const Scene& scene, const char* name) {
+  for (const auto& light : scene.lights)
+    if (light->shader.name == "indirectlight")
+      if (const Param* p = findParam(light->shader.params, name)) return p;
+  return nullptr;
+}
+
+std::string folderOf(const RenderSettings& settings, const Scene& scene) {
+  if (!settings.atlasFolder.empty()) return settings.atlasFolder;
+  const Param* p = indirectParam(scene, "atlas");
+  return p && !p->strings.empty() ? p->strings[0] : std::string();
+}
+
+bool hasMaps(const fs::path& folder) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".bkm") return true;
+  return false;
+}
+
+/// Gone with everything in it at the end. An open map keeps its file readable.
+struct TemporaryFolder {
+  fs::path path = fs::temp_directory_path() / ("tomales_atlas_" + std::to_string(::getpid()));
+  ~TemporaryFolder() {
+    std::error_code error;
+    fs::remove_all(path, error);
+  }
+};
+
+}  // namespace
+
+AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene) {
+  AtlasSettings out;
+  out.photons.emit = settings.photons;
+  out.photons.seed = settings.seed;
+  const Param* bounces = indirectParam(scene, "bounces");
+  if (bounces) out.photons.maxDepth = std::max(1, static_cast<int>(bounces->number(10)));
+  if (settings.bounces > 0) out.photons.maxDepth = settings.bounces;
+  return out;
+}
+
+std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
+                                                    const RenderSettings& settings, Stats& stats, Log& log) {
+  const AtlasSettings atlas = atlasSettings(settings, scene);
+  const TemporaryFolder temporary;
+  const std::string given = folderOf(settings, scene);
+  const fs::path folder = given.empty() ? temporary.path : fs::path(given);
+  try {
+    if (!hasMaps(folder)) writeAtlas(folder, scene, rays, shading, atlas, {}, stats, log);
+    return std::make_unique<const IrradianceAtlas>(folder, scene, atlas, settings.brickCacheBytes, log);
+  } catch (const FileError& e) {
+    log.report(Severity::Missing, "atlas", {}, std::string(e.what()) + ": rendered without indirect light");
+    return nullptr;
+  }
+}
+
+}  // namespace tomales

@@ -1,0 +1,59 @@
+// Lights and surfaces as photons see them: asked alone, outside the shading of any object.
+#include "reyes/shade/batch.h"
+#include "reyes/shade/system.h"
+
+namespace tomales {
+
+void ShadeServices::storedIrradiance(const ShadePoints& points, const uint8_t* active, TmVec3 E) const {
+  for (int i = 0; i < points.count(); ++i)
+    if (active[i]) set(E, i, vec3(0.0f));
+}
+
+LightKind ShadingSystem::lightKind(int light) const {
+  const auto& l = impl_->lights[static_cast<size_t>(light)];
+  if (!l || !l->indirect) return LightKind::None;
+  if (l->can(TM_LIGHT_INDIRECT)) return LightKind::Indirect;
+  if (l->can(TM_LIGHT_AMBIENT)) return LightKind::Ambient;
+  if (l->can(TM_LIGHT_AREA)) return LightKind::Area;
+  if (l->can(TM_LIGHT_SOLAR)) return l->can(TM_LIGHT_SAMPLED) ? LightKind::Sky : LightKind::Distant;
+  return LightKind::Point;
+}
+
+void ShadingSystem::probe(int light, LightProbe& probe) const {
+  const BoundShader& shader = *impl_->lights[static_cast<size_t>(light)]->bound;
+  const ShadeContext context;
+  ArenaLease arena;
+  Batch batch(*impl_, impl_->pixels, context, *arena);
+  batch.setLit(probe, shader);
+  const size_t n = probe.P.size();
+  if (!probe.Pl.empty())
+    for (size_t i = 0; i < n; ++i) set(batch.tm.L, static_cast<int>(i), probe.Pl[i] - probe.P[i]);
+  const bool finished = batch.run(shader, batch.tm);
+  probe.L.assign(n, vec3(0.0f)), probe.Cl.assign(n, vec3(0.0f));
+  for (size_t i = 0; finished && i < n; ++i) {
+    const vec3 L = get(batch.tm.L, static_cast<int>(i)), Cl = get(batch.tm.Cl, static_cast<int>(i));
+    if (isFinite(L) && isFinite(Cl)) probe.L[i] = L, probe.Cl[i] = glm::max(Cl, vec3(0.0f));
+  }
+}
+
+vec3 ShadingSystem::skyRadiance(int light, const vec3& direction) const {
+  const BoundShader& sky = *impl_->lights[static_cast<size_t>(light)]->bound;
+  const vec3 scale = sky.number("intensity", 1) * sky.color("lightcolor", vec3(1.0f));
+  const std::string map = sky.text("map", "");
+  if (map.empty()) return scale;
+  const ShadeContext context;
+  ArenaLease arena;
+  Batch batch(*impl_, impl_->pixels, context, *arena);
+  batch.setLit({{vec3(0.0f)}, {direction}, {}, {}, {}, {}}, sky);
+  batch.running = &sky;
+  const TmVec3 out = batch.arena.vec3(1);
+  kServices.environment(&batch, &batch.tm, map.c_str(), view(batch.tm.N), nullptr, out);
+  return scale * get(out, 0);
+}
+
+bool ShadingSystem::emits(int group) const {
+  const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
+  return (g.indirectSurface ? g.indirectSurface : g.surface)->can(TM_EMITS);
+}
+
+}  // namespace tomales

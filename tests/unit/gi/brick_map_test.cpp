@@ -1,0 +1,159 @@
+// Brick maps of surfaces whose data are known at every point.
+#include "gi/brick_map.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "reyes/base/rng.h"
+
+namespace tomales {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct BrickMaps : ::testing::Test {
+  const fs::path folder = fs::temp_directory_path() / ("tomales_bricks_" + std::to_string(::getpid()));
+  const std::string path = (folder / "a.bkm").string();
+  BrickCache cache;
+  BrickMaps() { fs::create_directories(folder); }
+  ~BrickMaps() override { fs::remove_all(folder); }
+};
+
+/// Points of a unit square at height z facing up or down, with one float of data.
+template <class Value>
+void addSquare(PointCloud& cloud, int side, float z, float up, const Value& value) {
+  if (cloud.channels.empty()) cloud.channels = {{"value", 1}};
+  for (int j = 0; j < side; ++j)
+    for (int i = 0; i < side; ++i) {
+      const float x = (static_cast<float>(i) + 0.5f) / static_cast<float>(side), y = (static_cast<float>(j) + 0.5f) / static_cast<float>(side);
+      const float v = value(x, y);
+      cloud.add({x, y, z}, {0, 0, up}, 0.8f / static_cast<float>(side), &v);
+    }
+}
+
+float lookedUp(const BrickMap& map, const vec3& P, const vec3& N, float radius) {
+  float v = -1;
+  return map.lookup(P, N, radius, &v) ? v : -1;
+}
+
+TEST_F(BrickMaps, AConstantNeedsOneBrickAndIsFoundEverywhere) {
+  PointCloud cloud;
+  addSquare(cloud, 64, 0.3f, 1, [](float, float) { return 2.5f; });
+  const BuiltBricks built = writeBrickMap(cloud, {}, path);
+  EXPECT_EQ(built.tree.nodes.size(), 1u);
+  EXPECT_GT(built.eliminated, 10);
+  const BrickMap map(path, cache);
+  for (int i = 0; i < 100; ++i) {
+    const vec2 at = sobol2(static_cast<uint32_t>(i), 1);
+    EXPECT_FLOAT_EQ(lookedUp(map, {at.x, at.y, 0.3f}, {0, 0, 1}, 0.01f), 2.5f);
+  }
+}
+
+TEST_F(BrickMaps, ALinearFunctionComesBackWithinHalfAVoxel) {
+  PointCloud cloud;
+  addSquare(cloud, 128, 0, 1, [](float x, float y) { return x + 2 * y; });
+  writeBrickMap(cloud, {0.0001f}, path);
+  const BrickMap map(path, cache);
+  for (int i = 0; i < 200; ++i) {
+    const vec2 at = 0.1f + 0.8f * sobol2(static_cast<uint32_t>(i), 1);
+    EXPECT_NEAR(lookedUp(map, {at.x, at.y, 0}, {0, 0, 1}, 0.005f), at.x + 2 * at.y, 0.006f);
+  }
+}
+
+TEST_F(BrickMaps, AWideLookupIsTheMeanAndReadsFewBricks) {
+  PointCloud cloud;
+  addSquare(cloud, 256, 0, 1, [](float x, float) { return std::sin(60 * x) > 0 ? 1.0f : 0.0f; });
+  const BuiltBricks built = writeBrickMap(cloud, {}, path);
+  const BrickMap map(path, cache);
+  EXPECT_NEAR(lookedUp(map, {0.5f, 0.5f, 0}, {0, 0, 1}, 0.25f), 0.5f, 0.1f);
+  EXPECT_LE(cache.misses(), 9);
+  EXPECT_GT(built.tree.nodes.size(), 50u);
+}
+
+TEST_F(BrickMaps, TwoSidesOfALeafDoNotMix) {
+  PointCloud cloud;
+  addSquare(cloud, 64, 0, 1, [](float, float) { return 1.0f; });
+  addSquare(cloud, 64, 0, -1, [](float, float) { return 0.0f; });
+  writeBrickMap(cloud, {}, path);
+  const BrickMap map(path, cache);
+  for (const float radius : {0.001f, 0.01f, 0.1f, 1.0f}) {
+    EXPECT_FLOAT_EQ(lookedUp(map, {0.4f, 0.6f, 0}, {0, 0, 1}, radius), 1.0f) << radius;
+    EXPECT_FLOAT_EQ(lookedUp(map, {0.4f, 0.6f, 0}, {0, 0, -1}, radius), 0.0f) << radius;
+  }
+}
+
+TEST_F(BrickMaps, NothingFacesALookupFromTheSide) {
+  PointCloud cloud;
+  addSquare(cloud, 16, 0, 1, [](float, float) { return 1.0f; });
+  writeBrickMap(cloud, {}, path);
+  const BrickMap map(path, cache);
+  EXPECT_EQ(lookedUp(map, {0.5f, 0.5f, 0}, {1, 0, 0}, 0.1f), -1);
+  EXPECT_EQ(lookedUp(map, {0.5f, 0.5f, 0}, vec3(0), 0.1f), 1);
+  EXPECT_EQ(lookedUp(map, {50, 50, 0}, {0, 0, 1}, 0.1f), -1);
+}
+
+TEST_F(BrickMaps, LevelsBlendWithoutAStep) {
+  PointCloud cloud;
+  addSquare(cloud, 128, 0, 1, [](float x, float y) { return std::sin(20 * x) * std::cos(14 * y); });
+  writeBrickMap(cloud, {}, path);
+  const BrickMap map(path, cache);
+  float previous = lookedUp(map, {0.43f, 0.57f, 0}, {0, 0, 1}, 0.002f);
+  for (float radius = 0.002f; radius < 0.5f; radius *= 1.01f) {
+    const float v = lookedUp(map, {0.43f, 0.57f, 0}, {0, 0, 1}, radius);
+    EXPECT_NEAR(v, previous, 0.03f) << radius;
+    previous = v;
+  }
+}
+
+TEST_F(BrickMaps, TheCacheStaysInItsBudgetAndChangesNoResult) {
+  PointCloud cloud;
+  addSquare(cloud, 256, 0, 1, [](float x, float y) { return std::sin(90 * x) * std::sin(70 * y); });
+  writeBrickMap(cloud, {}, path);
+  BrickCache none(0), small(200'000);
+  const BrickMap a(path, none), b(path, small), c(path, cache);
+  for (int i = 0; i < 500; ++i) {
+    const vec2 at = sobol2(static_cast<uint32_t>(i), 7);
+    const float expected = lookedUp(c, {at.x, at.y, 0}, {0, 0, 1}, 0.003f);
+    EXPECT_EQ(lookedUp(a, {at.x, at.y, 0}, {0, 0, 1}, 0.003f), expected);
+    EXPECT_EQ(lookedUp(b, {at.x, at.y, 0}, {0, 0, 1}, 0.003f), expected);
+    EXPECT_LE(small.bytes(), 200'000u);
+  }
+  EXPECT_EQ(none.misses(), none.lookups());
+  EXPECT_EQ(none.bytes(), 0u);
+  EXPECT_LT(cache.misses(), small.misses());
+}
+
+TEST_F(BrickMaps, AnEmptyCloudAndASinglePointMakeMaps) {
+  PointCloud cloud;
+  cloud.channels = {{"value", 1}};
+  writeBrickMap(cloud, {}, path);
+  EXPECT_EQ(lookedUp(BrickMap(path, cache), vec3(0), {0, 0, 1}, 1), -1);
+  const float v = 3;
+  cloud.add({1, 2, 3}, {0, 0, 1}, 0.5f, &v);
+  writeBrickMap(cloud, {}, path);
+  EXPECT_EQ(lookedUp(BrickMap(path, cache), {1, 2, 3}, {0, 0, 1}, 0.1f), 3);
+}
+
+TEST_F(BrickMaps, ADamagedFileIsAnErrorAndNeverOtherData) {
+  PointCloud cloud;
+  addSquare(cloud, 8, 0, 1, [](float x, float) { return x; });
+  writeBrickMap(cloud, {}, path);
+  const float expected = lookedUp(BrickMap(path, cache), {0.3f, 0.3f, 0}, {0, 0, 1}, 0.01f);
+  std::ifstream in(path, std::ios::binary);
+  const std::string whole((std::istreambuf_iterator<char>(in)), {});
+  for (size_t i = 0; i < whole.size(); i += 3) {
+    std::string flipped = whole;
+    flipped[i] = static_cast<char>(flipped[i] ^ (1 << (i % 8)));
+    std::ofstream(path, std::ios::binary | std::ios::trunc) << flipped;
+    BrickCache fresh;
+    try {
+      EXPECT_EQ(lookedUp(BrickMap(path, fresh), {0.3f, 0.3f, 0}, {0, 0, 1}, 0.01f), expected) << "byte " << i;
+    } catch (const FileError&) {
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tomales

@@ -1,0 +1,126 @@
+#include "gi/photon_irradiance.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "gi/photon_tree.h"
+#include "gi/point_file.h"
+#include "reyes/base/rng.h"
+
+namespace tomales {
+namespace {
+
+/// `count` photons of equal power over the unit square at height z: irradiance `E` everywhere.
+void addSquare(PointCloud& photons, uint32_t count, float z, const vec3& N, const vec3& E, uint32_t seed) {
+  photons.channels = {{"power", 3}};
+  const vec3 power = E / static_cast<float>(count);
+  for (uint32_t i = 0; i < count; ++i) {
+    const vec2 at(unitFloat(hashCombine(seed, i, 0u)), unitFloat(hashCombine(seed, i, 1u)));
+    photons.add({at.x, at.y, z}, N, 0, &power.x);
+  }
+}
+
+bool inMiddle(const vec3& p) { return p.x > 0.2f && p.x < 0.8f && p.y > 0.2f && p.y < 0.8f; }
+
+TEST(PhotonIrradiance, UniformPhotonsGiveTheirIrradiance) {
+  PointCloud photons;
+  addSquare(photons, 40000, 0, {0, 0, 1}, {1, 2, 3}, 5);
+  const PointCloud out = estimateIrradiance(photons, {});
+  ASSERT_EQ(out.count(), 10000u);
+  vec3 sum(0.0f);
+  int count = 0;
+  for (size_t i = 0; i < out.count(); ++i)
+    if (inMiddle(out.position[i])) sum += vec3(out.at(i)[0], out.at(i)[1], out.at(i)[2]), ++count;
+  EXPECT_NEAR(sum.x / static_cast<float>(count), 1, 0.02);
+  EXPECT_NEAR(sum.z / static_cast<float>(count), 3, 0.06);
+}
+
+TEST(PhotonIrradiance, BordersAreNotDark) {
+  PointCloud photons;
+  addSquare(photons, 40000, 0, {0, 0, 1}, vec3(1), 9);
+  const PointCloud out = estimateIrradiance(photons, {});
+  float edge = 0, corner = 0;
+  int edges = 0, corners = 0;
+  for (size_t i = 0; i < out.count(); ++i) {
+    const vec3 p = out.position[i];
+    if (p.x < 0.005f && p.y > 0.1f && p.y < 0.9f) edge += out.at(i)[0], ++edges;
+    if (p.x < 0.02f && p.y < 0.02f) corner += out.at(i)[0], ++corners;
+  }
+  ASSERT_GT(edges, 20);
+  ASSERT_GT(corners, 1);
+  EXPECT_NEAR(edge / static_cast<float>(edges), 1, 0.1);  // 0.5 without the correction
+  EXPECT_NEAR(corner / static_cast<float>(corners), 1, 0.4);
+}
+
+TEST(PhotonIrradiance, WallsBehindAndBesideDoNotCount) {
+  PointCloud photons;
+  addSquare(photons, 20000, 0, {0, 0, 1}, vec3(1), 1);
+  addSquare(photons, 20000, -0.001f, {0, 0, -1}, vec3(5), 2);
+  for (const PointCloud out = estimateIrradiance(photons, {}); size_t i : {out.count() / 8, out.count() / 3, out.count() / 2})
+    EXPECT_NEAR(out.at(i)[0], out.normal[i].z > 0 ? 1 : 5, out.normal[i].z > 0 ? 0.6 : 3);
+}
+
+TEST(PhotonIrradiance, DisksCoverTheAreaOfTheirSurface) {
+  PointCloud photons;
+  addSquare(photons, 10000, 0, {0, 0, 1}, vec3(1), 3);
+  const PointCloud out = estimateIrradiance(photons, {});
+  double area = 0;
+  for (const float r : out.radius) area += double{kPi * r * r};
+  EXPECT_NEAR(area, 1.6 * 1.6, 0.2);  // their overlap
+}
+
+TEST(PhotonIrradiance, CoveredShareIsThatOfACircularSegment) {
+  EXPECT_NEAR(coveredShare(0), 1, 1e-3);
+  EXPECT_NEAR(coveredShare(4 / (3 * kPi)), 0.5, 1e-4);
+  EXPECT_NEAR(coveredShare(0.99f), 0, 0.01);
+}
+
+TEST(PhotonTree, FindsTheSamePhotonsAsABruteForceSearch) {
+  PointCloud photons;
+  addSquare(photons, 3000, 0, {0, 0, 1}, vec3(1), 11);
+  const PhotonTree tree(photons);
+  std::vector<NearPhoton> heap;
+  for (uint32_t q = 0; q < 50; ++q) {
+    const vec3 P(unitFloat(hash32(q)), unitFloat(hash32(q + 1000)), 0.01f);
+    tree.nearest(P, {0, 0, 1}, 20, kInfinity, heap);
+    std::vector<NearPhoton> all;
+    for (uint32_t i = 0; i < 3000; ++i) {
+      const vec3 off = tree.position(i) - P;
+      all.push_back({dot(off, off) + 15.0f * off.z * off.z, i});
+    }
+    std::sort(all.begin(), all.end()), std::sort(heap.begin(), heap.end());
+    ASSERT_EQ(heap.size(), 20u);
+    for (size_t i = 0; i < heap.size(); ++i) EXPECT_EQ(heap[i].photon, all[i].photon);
+  }
+}
+
+TEST(PointFile, ComesBackAsItWasWritten) {
+  const auto path = std::filesystem::temp_directory_path() / ("tomales_points_" + std::to_string(::getpid()) + ".ptc");
+  PointCloud cloud;
+  cloud.channels = {{"irradiance", 3}, {"area", 1}};
+  for (uint32_t i = 0; i < 70000; ++i) {
+    const vec2 xi = sobol2(i, 3);
+    const float values[4] = {xi.x, xi.y, 1, 2};
+    cloud.add({xi.x, xi.y, xi.x * xi.y}, i % 7 ? cosineHemisphere(xi) : vec3(0), 0.01f, values);
+  }
+  writePointFile(cloud, path.string());
+  const PointFile file(path.string());
+  EXPECT_EQ(file.count(), 70000u);
+  EXPECT_EQ(file.chunkCount(), 5u);
+  EXPECT_EQ(file.channels(), cloud.channels);
+  const PointCloud back = file.readAll();
+  ASSERT_EQ(back.count(), cloud.count());
+  for (size_t i = 0; i < back.count(); ++i) {
+    EXPECT_EQ(back.position[i].x, back.at(i)[0]);
+    const vec2 xi(back.at(i)[0], back.at(i)[1]);
+    if (back.normal[i] != vec3(0)) {
+      ASSERT_GT(dot(back.normal[i], cosineHemisphere(xi)), 0.999999f);
+    }
+  }
+  EXPECT_LT(file.chunkBound(1).size().x, 0.7f);  // a part of the curve, not all over
+  std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace tomales

@@ -1,0 +1,156 @@
+// Photons in scenes of which the light at every point is known.
+#include "gi/photons.h"
+
+#include <gtest/gtest.h>
+
+#include "gi/atlas.h"
+#include "gi/point_file.h"
+#include "reyes/base/parallel.h"
+#include "tests/unit/gi/fixture.h"
+
+namespace tomales {
+namespace {
+
+using namespace test;
+namespace fs = std::filesystem;
+
+// Inside a sphere, a light in the middle gives pi I / R^2 everywhere, and all bounces together 1 / (1 - rho) times that.
+constexpr float kRadius = 2, kAlbedo = 0.5f, kIntensity = 3;
+constexpr double kPower = 4 * double{kPi} * double{kPi} * double{kIntensity};
+
+Scene insideOfASphere(const std::string& model = "matte") {
+  SceneBuilder b;
+  b.light("pointlight", {floatParam("intensity", kIntensity), pointParam("from", {0.3f, 0, 0.5f})});
+  b.light("indirectlight", {});
+  b.sphere(kRadius, vec3(kAlbedo), {0, 0, 0.5f});
+  auto attributes = std::make_shared<Attributes>(*b.scene.objects[0].attributes);
+  attributes->photon.shadingModel = model;
+  b.scene.objects[0].attributes = attributes;
+  return b.scene;
+}
+
+std::vector<StoredPhoton> traced(World& world, const PhotonSettings& settings) {
+  const auto services = world.use({.mode = GiMode::None});
+  std::vector<StoredPhoton> out;
+  tracePhotons(world.scene, world.rays, world.shading, settings, [&](const StoredPhoton& p) { out.push_back(p); }, {}, world.stats, world.log);
+  return out;
+}
+
+double powerOf(const std::vector<StoredPhoton>& photons) {
+  double sum = 0;
+  for (const StoredPhoton& p : photons) sum += double{p.power.y};
+  return sum;
+}
+
+TEST(Photons, AllThatALightSendsIntoAClosedSphereArrives) {
+  World world(insideOfASphere());
+  EXPECT_NEAR(powerOf(traced(world, {20000, 1})), kPower, 0.002 * kPower);
+}
+
+TEST(Photons, StoredPowerIsTheGeometricSeriesOfTheAlbedo) {
+  World world(insideOfASphere());
+  EXPECT_NEAR(powerOf(traced(world, {200000, 40})), kPower / (1 - double{kAlbedo}), 0.005 * kPower / (1 - double{kAlbedo}));
+}
+
+TEST(Photons, RouletteKeepsPowersEven) {
+  World world(insideOfASphere());
+  const std::vector<StoredPhoton> photons = traced(world, {20000, 10});
+  const auto [least, most] = std::minmax_element(photons.begin(), photons.end(),
+                                                 [](const auto& a, const auto& b) { return a.power.y < b.power.y; });
+  EXPECT_LT(most->power.y, 1.02f * least->power.y);
+}
+
+TEST(Photons, AreTheSameForAnyNumberOfThreads) {
+  World world(insideOfASphere());
+  const auto withThreads = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return traced(world, {10000, 5});
+  };
+  const auto a = withThreads(1), b = withThreads(3);
+  ASSERT_EQ(a.size(), b.size());
+  for (size_t i = 0; i < a.size(); ++i) EXPECT_TRUE(a[i].P == b[i].P && a[i].power == b[i].power) << i;
+}
+
+TEST(Photons, AMirrorStoresNothing) {
+  World world(insideOfASphere("chrome"));
+  EXPECT_TRUE(traced(world, {1000, 5}).empty());
+}
+
+TEST(Photons, ADistantLightIsAimedAtTheObjectsAlone) {
+  SceneBuilder b;
+  b.light("distantlight", {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {0, 0, 1})});
+  for (const float x : {-5.0f, 5.0f})  // one unit of area each, far apart
+    b.quad({x, 0, 5}, {x + 1, 0, 5}, {x + 1, 1, 5}, {x, 1, 5}, vec3(0.5f));
+  World world(b.scene);
+  const std::vector<StoredPhoton> photons = traced(world, {20000, 1});
+  EXPECT_GT(photons.size(), 14000u);  // at random over the square, 300 would arrive
+  EXPECT_NEAR(powerOf(photons), 2 * double{kPi} * 2, 0.02 * 4 * double{kPi});
+}
+
+TEST(Photons, ASkyGivesAFloorPiTimesItsRadiance) {
+  SceneBuilder b;
+  b.light("environmentlight", {floatParam("intensity", 1.5f)});
+  b.quad({-1, -1, 5}, {1, -1, 5}, {1, 1, 5}, {-1, 1, 5}, vec3(0));
+  World world(b.scene);
+  EXPECT_NEAR(powerOf(traced(world, {100000, 1})), 2 * 4 * 1.5 * double{kPi}, 0.03 * 12 * double{kPi});  // both sides
+}
+
+TEST(Photons, ASceneWithoutLightSaysSo) {
+  SceneBuilder b;
+  b.sphere(1, vec3(1), {0, 0, 4});
+  World world(b.scene);
+  EXPECT_TRUE(traced(world, {1000, 5}).empty());
+  EXPECT_EQ(world.log.count("photons-no-light"), 1);
+}
+
+struct Atlas : ::testing::Test {
+  const fs::path folder = fs::temp_directory_path() / ("tomales_atlas_test_" + std::to_string(::getpid()));
+  ~Atlas() override { fs::remove_all(folder); }
+};
+
+TEST_F(Atlas, GivesTheIntegratingSphereItsLight) {
+  World world(insideOfASphere());
+  const auto services = world.use({.mode = GiMode::Atlas});
+  AtlasSettings settings;
+  settings.photons = {200000, 30};
+  writeAtlas(folder, world.scene, world.rays, world.shading, settings, {}, world.stats, world.log);
+  services->setAtlas(std::make_unique<IrradianceAtlas>(folder, world.scene, settings, 1 << 20, world.log));
+  ShadePoints points(0, 0);
+  for (uint32_t i = 0; i < 6; ++i) {
+    const vec3 d = glm::normalize(vec3(static_cast<float>(i) - 2.5f, 0.5f, 1));
+    const int k = points.add(i + 1);
+    points.set3(kPx, k, vec3(0, 0, 0.5f) + kRadius * d);
+    points.set3(kNx, k, d), points.set3(kNgx, k, d), points.set3(kIx, k, d);
+  }
+  IndirectQuery query;
+  query.samples = 1000;
+  // What the walls receive, all bounces, times their albedo.
+  const float expected = kAlbedo * kIntensity / (kRadius * kRadius) / (1 - kAlbedo);
+  // The coarse sphere that rays see costs 1 %, the estimate from the nearest photons another.
+  for (const vec3& E : indirectAt(*services, points, query)) EXPECT_NEAR(E.x, expected, 0.03f * expected);
+}
+
+TEST_F(Atlas, AMissingMapIsBlackAndNamed) {
+  World world(insideOfASphere());
+  const IrradianceAtlas atlas(folder, world.scene, {}, 1 << 20, world.log);
+  EXPECT_EQ(atlas.irradianceOverPi(0, {0, 0, 2.5f}, {0, 0, -1}, 0.1f), vec3(0));
+  EXPECT_EQ(world.log.count("atlas-no-map-scene0"), 1);
+}
+
+TEST_F(Atlas, GroupsShareAFileAsTheyAreNamedAndBySize) {
+  SceneBuilder b;
+  b.sphere(1, vec3(1), {0, 0, 4});
+  b.sphere(1, vec3(0.9f), {3, 0, 4});
+  b.sphere(1, vec3(0.8f), {6, 0, 4});
+  auto named = std::make_shared<Attributes>(*b.scene.objects[2].attributes);
+  named->photon.globalMap = "car";
+  b.scene.objects[2].attributes = named;
+  b.scene.freeze();
+  EXPECT_EQ(mapNames(b.scene, {}), (std::vector<std::string>{"scene0", "scene0", "car"}));
+  AtlasSettings small;
+  small.mostPhotonBytes = 30 << 20;  // less than half of what a million photons take
+  EXPECT_EQ(mapNames(b.scene, small), (std::vector<std::string>{"scene0", "scene1", "car"}));
+}
+
+}  // namespace
+}  // namespace tomales
