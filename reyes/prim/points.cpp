@@ -93,6 +93,7 @@ class PointCloud : public Prim {
     return disk;
   }
 
+  size_t shapeBytes() const override { return bytesOf(points_) + bytesOf(width_.values); }
   std::vector<vec3> points_;
   Primvar width_;
   Eye eye_;

@@ -1,4 +1,6 @@
 // Motion blocks, retained objects, archives, geometry requests.
+#include <unistd.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -148,7 +150,7 @@ class Archives : public testing::Test {
     good_ = readRib(files, settings, log_);
     return scenes;
   }
-  const std::string folder_ = testing::TempDir() + "tomales_archives";
+  const std::string folder_ = testing::TempDir() + "tomales_archives" + std::to_string(getpid());
   Log log_{Log::Verbosity::Quiet};
   bool good_ = false;
 };
