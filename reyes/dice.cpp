@@ -78,9 +78,9 @@ void transformPrimvar(const Primvar& p, const mat4& m, const mat3& normals, int 
     }
 }
 
-uint32_t nameOf(int object, uint32_t patch, const UvRect& r, int nu, int nv) {
+uint32_t nameOf(uint32_t object, uint32_t patch, const UvRect& r, int nu, int nv) {
   const auto bits = [](float f) { return __builtin_bit_cast(uint32_t, f); };
-  return hashCombine(static_cast<uint32_t>(object), patch, bits(r.u0), bits(r.u1), bits(r.v0), bits(r.v1),
+  return hashCombine(object, patch, bits(r.u0), bits(r.u1), bits(r.v0), bits(r.v1),
                      static_cast<uint32_t>(nu), static_cast<uint32_t>(nv));
 }
 
@@ -130,7 +130,7 @@ Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, in
   g.object = object, g.patch = patch, g.rect = rect;
   g.allocate(nu, nv, keyCount, floats);
   g.openEdges = openEdgesOf(prim.info(patch), rect);
-  g.name = nameOf(object, patch, rect, nu, nv);
+  g.name = nameOf(o.name, patch, rect, nu, nv);
   g.kept = keptOfCells(prim, g);
 
   const int n = g.vertexCount();

@@ -23,7 +23,8 @@ struct FrameControl {
   uint32_t seed = 0;
 };
 
-DeepFrame hideFrame(const Scene& scene, const ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log);
+/// Opens the scene's procedurals as buckets come to them, and drops their geometry behind the last.
+DeepFrame hideFrame(Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log);
 void shadeFrame(DeepFrame& frame, const Scene& scene, const ShadingSystem& shading, const ShadeContext& context,
                 const FrameControl& control, Stats& stats);
 Image imageOf(const DeepFrame& frame, const Scene& scene, const FrameControl& control, Stats& stats);

@@ -2,6 +2,12 @@
 
 namespace tomales {
 
+size_t Prim::bytes() const {
+  size_t bytes = sizeof(*this) + shapeBytes();
+  for (const Primvar& p : primvars_) bytes += sizeof(p) + p.values.capacity() * sizeof(float);
+  return bytes;
+}
+
 void Prim::surfaceParameters(uint32_t, int n, const float* u, const float* v, float* su, float* sv) const {
   std::copy_n(u, n, su);
   std::copy_n(v, n, sv);

@@ -85,11 +85,18 @@ class Prim {
   /// Do trim curves leave this point?
   virtual bool keeps(uint32_t /*patch*/, float /*u*/, float /*v*/) const { return true; }
 
+  /// Memory that it holds, near enough.
+  size_t bytes() const;
+
   /// Those other than P, in a fixed order. "st" arrives split into "s" and "t".
   const std::vector<Primvar>& primvars() const { return primvars_; }
 
  protected:
   explicit Prim(std::vector<Primvar> primvars) : primvars_(std::move(primvars)) {}
+  /// Beside its primvars.
+  virtual size_t shapeBytes() const { return 0; }
+  template <class T>
+  static size_t bytesOf(const std::vector<T>& v) { return v.capacity() * sizeof(T); }
   std::vector<Primvar> primvars_;
 };
 using PrimPtr = std::shared_ptr<const Prim>;

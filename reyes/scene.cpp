@@ -1,6 +1,7 @@
 #include "reyes/scene.h"
 
-#include <tuple>
+#include "reyes/base/parallel.h"
+#include "reyes/base/rng.h"
 
 namespace tomales {
 namespace {
@@ -11,16 +12,17 @@ bool sameLayout(const std::vector<Primvar>& a, const std::vector<Primvar>& b) {
   });
 }
 
-// Key times inside the shutter, its opening first. Still, or a closed shutter: that one time.
-std::vector<float> keyTimesOf(const Object& o, const Motion& cameraFromObject, const Options& options) {
+// Key times inside the shutter, its opening first. Still, or a closed shutter: that one time. shapeTimes: empty if it keeps its
+// shape.
+std::vector<float> keyTimesOf(const std::vector<float>& shapeTimes, const Motion& cameraFromObject, const Options& options) {
   std::vector<float> times{options.shutterOpen};
   const bool open = options.sampleMotion && options.shutterClose > options.shutterOpen;
-  if (open && (cameraFromObject.moving() || o.shapes.size() > 1)) {
+  if (open && (cameraFromObject.moving() || !shapeTimes.empty())) {
     const auto keep = [&](float t) {
       if (t > options.shutterOpen && t < options.shutterClose) times.push_back(t);
     };
     if (cameraFromObject.moving()) std::for_each(cameraFromObject.times.begin(), cameraFromObject.times.end(), keep);
-    if (o.shapes.size() > 1) std::for_each(o.shapeTimes.begin(), o.shapeTimes.end(), keep);
+    std::for_each(shapeTimes.begin(), shapeTimes.end(), keep);
     times.push_back(options.shutterClose);
     std::sort(times.begin(), times.end());
     times.erase(std::unique(times.begin(), times.end()), times.end());
@@ -64,39 +66,104 @@ bool Scene::cameraFromNamed(const std::string& name, mat4& out) const {
   return true;
 }
 
+float Scene::displacementBoundOf(const Attributes& a, const mat4& cameraFromObject) const {
+  if (!a.displacement) return 0;
+  mat4 cameraFromBoundSpace = cameraFromObject;
+  if (a.displacementBoundSpace != "object") cameraFromNamed(a.displacementBoundSpace, cameraFromBoundSpace);
+  return a.displacementBound * largestScale(cameraFromBoundSpace);
+}
+
+void Scene::derive(Object& o) const {
+  o.cameraFromObject = cameraFromWorld * o.worldFromObject;
+  o.keyTimes = keyTimesOf(o.shapes.size() > 1 ? o.shapeTimes : std::vector<float>(), o.cameraFromObject, options);
+  const mat4 m = o.cameraFromObject.at(options.shutterOpen);
+  o.currentFromObject = heldCamera(o.worldFromObject, options.shutterOpen, m);
+  turnToEye(o, m, options.projection == ProjectionKind::Perspective);
+  o.flipsNormal = (glm::determinant(mat3(m)) < 0) != o.attributes->insideOut;
+  o.displacementBound = displacementBoundOf(*o.attributes, m);
+}
+
+void Scene::derive(Procedural& p) const {
+  p.cameraFromObject = cameraFromWorld * p.worldFromObject;
+  p.keyTimes = keyTimesOf({}, p.cameraFromObject, options);
+  p.displacementBound = displacementBoundOf(*p.attributes, p.cameraFromObject.at(options.shutterOpen));
+}
+
+void Scene::findGroup(Object& o, int index) {
+  const mat4 m = o.cameraFromObject.at(options.shutterOpen);
+  const Motion currentFromOpen =
+      o.currentFromObject.moving() ? o.currentFromObject * Motion::still(glm::inverse(m)) : Motion();
+  o.group = -1;
+  const auto [begin, end] = groupsByAttributes_.equal_range(o.attributes.get());
+  for (auto it = begin; it != end && o.group < 0; ++it) {
+    const ShadeGroup& g = groups[static_cast<size_t>(it->second)];
+    if (g.cameraFromObject == m && g.currentFromOpen == currentFromOpen && sameLayout(g.primvars, o.shape().primvars())) o.group = it->second;
+  }
+  if (o.group >= 0) return;
+  o.group = static_cast<int>(groups.size());
+  groupsByAttributes_.emplace(o.attributes.get(), o.group);
+  ShadeGroup g{o.attributes, m, {}, index, currentFromOpen};
+  for (const Primvar& p : o.shape().primvars()) g.primvars.push_back({p.name, p.storage, p.type, p.width, {}});
+  groups.push_back(std::move(g));
+}
+
 void Scene::freeze() {
   groups.clear();
-  // Requests share one Attributes until something changes, so a look back at equal pointers finds the group fast.
-  std::multimap<const Attributes*, int> byAttributes;
+  groupsByAttributes_.clear();
   for (size_t i = 0; i < objects.size(); ++i) {
-    Object& o = objects[i];
-    o.group = -1;
-    o.cameraFromObject = cameraFromWorld * o.worldFromObject;
-    o.keyTimes = keyTimesOf(o, o.cameraFromObject, options);
-    const mat4 m = o.cameraFromObject.at(options.shutterOpen);
-    o.currentFromObject = heldCamera(o.worldFromObject, options.shutterOpen, m);
-    turnToEye(o, m, options.projection == ProjectionKind::Perspective);
-    o.flipsNormal = (glm::determinant(mat3(m)) < 0) != o.attributes->insideOut;
-    mat4 cameraFromBoundSpace = m;
-    if (o.attributes->displacementBoundSpace != "object")
-      cameraFromNamed(o.attributes->displacementBoundSpace, cameraFromBoundSpace);
-    o.displacementBound = o.attributes->displacement ? o.attributes->displacementBound * largestScale(cameraFromBoundSpace) : 0;
+    derive(objects[i]);
+    objects[i].name = static_cast<uint32_t>(i);
+    findGroup(objects[i], static_cast<int>(i));
+  }
+  for (size_t i = 0; i < procedurals.size(); ++i) {
+    derive(procedurals[i]);
+    procedurals[i].name = hashCombine(0x70726f63U, static_cast<uint32_t>(i));
+  }
+}
 
-    const auto [begin, end] = byAttributes.equal_range(o.attributes.get());
-    for (auto it = begin; it != end && o.group < 0; ++it) {
-      const ShadeGroup& g = groups[static_cast<size_t>(it->second)];
-      const Object& example = objects[static_cast<size_t>(g.exampleObject)];
-      if (example.currentFromObject == o.currentFromObject && sameLayout(g.primvars, o.shape().primvars())) o.group = it->second;
-    }
-    if (o.group < 0) {
-      o.group = static_cast<int>(groups.size());
-      byAttributes.emplace(o.attributes.get(), o.group);
-      ShadeGroup g{o.attributes, m, {}, static_cast<int>(i)};
-      if (o.currentFromObject.moving()) g.currentFromOpen = o.currentFromObject * Motion::still(glm::inverse(m));
-      for (const Primvar& p : o.shape().primvars()) g.primvars.push_back({p.name, p.storage, p.type, p.width, {}});
-      groups.push_back(std::move(g));
+Expansion Scene::opened(const Procedural& procedural) const {
+  Expansion out = procedural.open();
+  uint32_t number = 0;
+  for (Object& o : out.objects) derive(o), o.name = hashCombine(procedural.name, number++);
+  for (Procedural& p : out.procedurals) derive(p), p.name = hashCombine(procedural.name, number++);
+  return out;
+}
+
+int Scene::add(Object object) {
+  int index = static_cast<int>(objects.size());
+  if (!dropped_.empty()) index = dropped_.back(), dropped_.pop_back();
+  findGroup(object, index);
+  if (index == static_cast<int>(objects.size()))
+    objects.push_back(std::move(object));
+  else
+    objects[static_cast<size_t>(index)] = std::move(object);
+  return index;
+}
+
+void Scene::drop(int object) {
+  objects[static_cast<size_t>(object)] = {};
+  dropped_.push_back(object);
+}
+
+void Scene::open(const std::function<bool(const Attributes&)>& wanted) {
+  std::vector<Procedural> kept;
+  while (!procedurals.empty()) {
+    const auto rest = std::stable_partition(procedurals.begin(), procedurals.end(),
+                                            [&](const Procedural& p) { return !wanted(*p.attributes); });
+    std::vector<Procedural> now(std::make_move_iterator(rest), std::make_move_iterator(procedurals.end()));
+    kept.insert(kept.end(), std::make_move_iterator(procedurals.begin()), std::make_move_iterator(rest));
+    procedurals.clear();
+    std::vector<Expansion> expansions(now.size());
+    parallelFor(now.size(), 1, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) expansions[i] = opened(now[i]);
+    });
+    for (Expansion& e : expansions) {
+      for (Object& o : e.objects) add(std::move(o));
+      procedurals.insert(procedurals.end(), std::make_move_iterator(e.procedurals.begin()),
+                         std::make_move_iterator(e.procedurals.end()));
     }
   }
+  procedurals = std::move(kept);
 }
 
 std::string objectName(const Object& object) {

@@ -1,8 +1,11 @@
 // Noun: everything that one WorldBegin/WorldEnd describes, frozen. Owns the geometry.
-// Threads: immutable once freeze() has run.
+// Threads: once freeze() has run, it changes by add() and drop() alone, which one thread may call while others use the objects and
+// groups that they know of.
 #pragma once
+#include <functional>
 #include <map>
 
+#include "reyes/base/stable_vector.h"
 #include "reyes/camera.h"
 #include "reyes/prim.h"
 
@@ -24,6 +27,7 @@ struct Object {
   float displacementBound = 0;   ///< Camera space.
   bool flipsNormal = false;      ///< cameraFromObject mirrors, or Orientation is inside (not both).
   int group = -1;                ///< Its ShadeGroup.
+  uint32_t name = 0;             ///< For random numbers: the same for any order in which procedurals are opened.
 
   const Prim& shape() const { return *shapes.front(); }
 };
@@ -37,22 +41,66 @@ struct ShadeGroup {
   Motion currentFromOpen{};       ///< Takes places of the group at shutter open to where they are at a time, the camera held still.
 };
 
+struct Expansion;
+
+/// Geometry that is described when somebody needs it (RISpec 3.2 section 5.10).
+struct Procedural {
+  Bound3 bound;  ///< Object space.
+  Motion worldFromObject;
+  std::shared_ptr<const Attributes> attributes;
+  SourceLoc where;
+  /// Describes it, anew with each call. May be called from several threads.
+  std::function<Expansion()> open;
+
+  // Filled by Scene::freeze().
+  Motion cameraFromObject;
+  std::vector<float> keyTimes;
+  float displacementBound = 0;
+  uint32_t name = 0;
+};
+
+/// What a procedural stands for: more of them, perhaps.
+struct Expansion {
+  std::vector<Object> objects;
+  std::vector<Procedural> procedurals;
+};
+
 struct Scene {
   Options options;
   Motion cameraFromWorld;
-  std::vector<Object> objects;
+  StableVector<Object> objects;
+  std::vector<Procedural> procedurals;         ///< Not opened yet.
   std::vector<std::shared_ptr<LightCall>> lights;
   std::map<std::string, mat4> worldFromNamed;  ///< CoordinateSystem
   SourceLoc where;                             ///< Of WorldBegin.
 
-  std::vector<ShadeGroup> groups;              ///< Filled by freeze().
+  StableVector<ShadeGroup> groups;             ///< Filled by freeze() and add().
   /// Fills the derived fields above. Call when all objects and lights are in, and again after changing attributes.
   void freeze();
 
   bool shutterIsOpen() const { return options.shutterClose > options.shutterOpen; }  ///< Else nothing is blurred.
+  /// Opens a procedural; what comes out has its derived fields but for its groups. Changes nothing here.
+  Expansion opened(const Procedural& procedural) const;
+  /// An object of opened(): its index, and its group. ShadingSystem::bindNewGroups comes next.
+  int add(Object object);
+  /// Forgets the shapes of an object of add() that nobody needs any more.
+  void drop(int object);
+  /// Replaces procedurals that are wanted by what they stand for, those within included. Before any object is used.
+  void open(const std::function<bool(const Attributes&)>& wanted);
+
   mat4 cameraFromWorldAtOpen() const { return cameraFromWorld.at(options.shutterOpen); }
   /// "current" from a named space (camera, current, world, or a CoordinateSystem). False: unknown.
   bool cameraFromNamed(const std::string& name, mat4& out) const;
+
+ private:
+  void derive(Object& object) const;
+  void derive(Procedural& procedural) const;
+  void findGroup(Object& object, int index);
+  float displacementBoundOf(const Attributes& attributes, const mat4& cameraFromObject) const;
+
+  /// Requests share one Attributes until something changes, so a look back at equal pointers finds the group fast.
+  std::multimap<const Attributes*, int> groupsByAttributes_;
+  std::vector<int> dropped_;  ///< Indices that may be used again.
 };
 
 /// cameraFromObject at one time, and the shape to evaluate at a key time: linear between shapes is left to the grid.

@@ -122,6 +122,9 @@ class ShadingSystem {
   /// Services may arrive after construction (they need the ray scene, which needs displacement).
   void setServices(const ShadeServices* services);
 
+  /// After Scene::add(). One thread at a time; others may use the groups that they know of meanwhile.
+  void bindNewGroups();
+
   /// Does a group hide what is behind it (Os = 1 everywhere and a shader that keeps opacity)?
   bool opaque(int group) const;
   /// Runs the displacement shader of the grid's object, in place; recomputes N. No-op without one.

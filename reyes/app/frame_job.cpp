@@ -17,7 +17,7 @@ constexpr int kMostReferenceLightSamples = 256, kReferenceLightSamples = 64;
 
 class FrameJob {
  public:
-  FrameJob(const Scene& scene, const RenderSettings& settings, Stats& stats, Log& log)
+  FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, Log& log)
       : scene_(scene),
         settings_(settings),
         stats_(stats),
@@ -28,6 +28,7 @@ class FrameJob {
         meter_(settings.progress) {
     registry_.addLibrary(tomales_builtin_shaders(), "built-in");
     shading_ = std::make_unique<ShadingSystem>(scene, registry_, nullptr, log, stats);
+    if (traces()) openForRays();
   }
 
   DeepFrame hide() {
@@ -36,7 +37,7 @@ class FrameJob {
   }
 
   void prepareRays() {
-    if (mode_ == GiMode::None && !shading_->needsRays()) return;
+    if (!traces()) return;
     const StageTimer timer(stats_, "raytrace");
     rays_ = std::make_unique<RayScene>(scene_, camera_, *shading_, settings_.hitList, stats_, log_);
     const GiSettings gi{mode_, settings_.samples, settings_.bounces, settings_.maxError, settings_.seed};
@@ -76,6 +77,17 @@ class FrameJob {
   }
 
  private:
+  bool traces() const { return mode_ != GiMode::None || shading_->needsRays(); }
+
+  /// A ray may go anywhere, so what rays may meet is read before the first of them, on screen or not, and kept.
+  void openForRays() {
+    scene_.open([](const Attributes& a) {
+      const Visibility& v = a.visibility;
+      return v.diffuse || v.specular || v.transmission || v.photon;
+    });
+    shading_->bindNewGroups();
+  }
+
   bool gathers() const { return mode_ == GiMode::Gather || mode_ == GiMode::Atlas; }
 
   void warnAboutBounces() const {
@@ -106,7 +118,7 @@ class FrameJob {
     return std::min(samples, kMostReferenceLightSamples);
   }
 
-  const Scene& scene_;
+  Scene& scene_;
   const RenderSettings& settings_;
   Stats& stats_;
   Log& log_;
@@ -136,7 +148,7 @@ bool displaysHaveFolders(const Options& options, Log& log) {
 
 }  // namespace
 
-void renderFrame(const Scene& scene, const RenderSettings& settings, Stats& stats, Log& log,
+void renderFrame(Scene& scene, const RenderSettings& settings, Stats& stats, Log& log,
                  const std::function<void()>& afterStage) {
   if (!displaysHaveFolders(scene.options, log)) return;
   checkDisplays(scene.options, log);

@@ -6,9 +6,9 @@
 
 namespace tomales {
 
-/// Renders a scene that overrides have been applied to, and writes its Displays. Everything that goes wrong
-/// is in the log.
-void renderFrame(const Scene& scene, const RenderSettings& settings, Stats& stats, Log& log,
+/// Renders a scene that overrides have been applied to, and writes its Displays; its procedurals are opened on the way. Everything
+/// that goes wrong is in the log.
+void renderFrame(Scene& scene, const RenderSettings& settings, Stats& stats, Log& log,
                  const std::function<void()>& afterStage);
 
 }  // namespace tomales

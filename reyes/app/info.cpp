@@ -33,6 +33,7 @@ Json sceneInfo(const Scene& scene) {
           {"resolution", {scene.options.xResolution, scene.options.yResolution}},
           {"pixel_samples", {scene.options.xSamples, scene.options.ySamples}},
           {"objects", scene.objects.size()},
+          {"procedurals", scene.procedurals.size()},
           {"patches", patches},
           {"lights", scene.lights.size()},
           {"shade_groups", scene.groups.size()},

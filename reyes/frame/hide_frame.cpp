@@ -44,7 +44,7 @@ DeepTile hideBucket(size_t bucket, const PixelRect& rect, const NodeList& nodes,
 
 }  // namespace
 
-DeepFrame hideFrame(const Scene& scene, const ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log) {
+DeepFrame hideFrame(Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log) {
   const Camera camera(scene.options);
   if (scene.options.fStop < kInfinity && !camera.perspective())
     log.report(Severity::Warning, "defocus-orthographic", scene.where,

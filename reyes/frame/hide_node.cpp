@@ -2,6 +2,7 @@
 
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "reyes/frame/piece_node.h"
 
@@ -16,7 +17,7 @@ constexpr float kDense = 4, kSmall_px = 32;
 class OpeningNode : public HideNode {
  public:
   OpeningNode(HideContext& context, const Placement& place, const BucketRange& range, bool transient)
-      : HideNode(place, range), context_(context), transient_(transient || range.count() == 1), users_(range.count()) {}
+      : HideNode(place, range), context_(context), transient_(transient), users_(range.count()) {}
 
   void visit(size_t bucket, NodeQueue& queue, Hider&) final {
     if (transient_) {
@@ -40,10 +41,15 @@ class OpeningNode : public HideNode {
       doneBefore_.push_back(bucket);
     else
       for (HideNode* node : inside_->in(bucket)) node->release(bucket);
-    if (--users_ == 0) inside_.reset();
+    if (--users_ > 0) return;
+    const bool opened = inside_ != nullptr;
+    inside_.reset();
+    if (opened) close();
   }
 
  protected:
+  /// The last bucket is done with what open() gave.
+  virtual void close() {}
   /// What is in it and touches the given buckets.
   virtual HideNodes open(const BucketRange& within) = 0;
   HideContext& context_;
@@ -77,7 +83,7 @@ class PatchesNode : public OpeningNode {
  private:
   PatchesNode(HideContext& context, const Placement& place, const BucketRange& range, int object, Tree tree, uint32_t level,
               uint32_t index)
-      : OpeningNode(context, place, range, isDense(place.raster, *tree, level)), object_(object), tree_(std::move(tree)),
+      : OpeningNode(context, place, range, range.count() == 1 || isDense(place.raster, *tree, level)), object_(object), tree_(std::move(tree)),
         level_(level), index_(index) {}
 
   static bool isDense(const Bound2& b, const PatchTree& tree, uint32_t level) {
@@ -109,6 +115,76 @@ class PatchesNode : public OpeningNode {
   const uint32_t level_, index_;
 };
 
+/// Nodes of the objects that the camera may see; instances share a tree.
+class ObjectNodes {
+ public:
+  ObjectNodes(HideContext& context, const BucketRange& within) : context_(context), within_(within) {}
+  void add(int object, HideNodes& out) {
+    const Object& o = context_.scene.objects[static_cast<size_t>(object)];
+    if (!o.attributes->visibility.camera) return;
+    ++context_.stats.geometry.primitives;
+    auto& tree = trees_[o.shapes];
+    if (!tree) tree = std::make_shared<const PatchTree>(o.shapes);
+    if (auto node = PatchesNode::make(context_, object, tree, tree->top(), 0, within_)) out.push_back(std::move(node));
+  }
+
+ private:
+  HideContext& context_;
+  const BucketRange within_;
+  std::map<std::vector<PrimPtr>, std::shared_ptr<const PatchTree>> trees_;
+};
+
+int64_t bytesOf(const std::set<PrimPtr>& shapes) {
+  size_t bytes = 0;
+  for (const PrimPtr& shape : shapes) bytes += shape->bytes();
+  return static_cast<int64_t>(bytes);
+}
+
+class ProceduralNode : public OpeningNode {
+ public:
+  static std::unique_ptr<HideNode> make(HideContext& context, const Procedural& procedural, const BucketRange& outer) {
+    const Procedural& p = procedural;
+    const auto place =
+        placeBox(p.bound, p.cameraFromObject, p.keyTimes, p.displacementBound, context.camera, context.buckets.window());
+    const BucketRange range = place ? outer & context.buckets.touched(place->raster) : BucketRange{};
+    if (range.empty()) return nullptr;
+    return std::unique_ptr<HideNode>(new ProceduralNode(context, *place, range, p));
+  }
+
+ private:
+  ProceduralNode(HideContext& context, const Placement& place, const BucketRange& range, const Procedural& procedural)
+      : OpeningNode(context, place, range, false), procedural_(procedural) {}
+
+  HideNodes open(const BucketRange& within) override {
+    Expansion inside = context_.scene.opened(procedural_);
+    std::set<PrimPtr> shapes;
+    for (const Object& o : inside.objects) shapes.insert(o.shapes.begin(), o.shapes.end());
+    bytes_ = bytesOf(shapes);
+    keepPeak(context_.stats.memoryBytes.geometry, context_.liveGeometry_bytes += bytes_);
+    {
+      const std::lock_guard lock(context_.growth);
+      for (Object& o : inside.objects) objects_.push_back(context_.scene.add(std::move(o)));
+      context_.shading.bindNewGroups();
+    }
+    HideNodes out;
+    ObjectNodes nodes(context_, within);
+    for (const int object : objects_) nodes.add(object, out);
+    for (const Procedural& p : inside.procedurals)
+      if (auto node = make(context_, p, within)) out.push_back(std::move(node));
+    return out;
+  }
+
+  void close() override {
+    context_.liveGeometry_bytes -= bytes_;
+    const std::lock_guard lock(context_.growth);
+    for (const int object : objects_) context_.scene.drop(object);
+  }
+
+  const Procedural procedural_;
+  std::vector<int> objects_;
+  int64_t bytes_ = 0;
+};
+
 }  // namespace
 
 NodeList::NodeList(HideNodes nodes, const BucketRange& range, const BucketGrid& buckets)
@@ -128,16 +204,16 @@ NodeList::NodeList(HideNodes nodes, const BucketRange& range, const BucketGrid& 
 
 HideNodes nodesOfScene(HideContext& context) {
   HideNodes out;
-  std::map<std::vector<PrimPtr>, std::shared_ptr<const PatchTree>> trees;
+  ObjectNodes nodes(context, context.buckets.all());
+  std::set<PrimPtr> shapes;
   for (size_t i = 0; i < context.scene.objects.size(); ++i) {
     const Object& o = context.scene.objects[i];
-    if (!o.attributes->visibility.camera) continue;
-    ++context.stats.geometry.primitives;
-    auto& tree = trees[o.shapes];
-    if (!tree) tree = std::make_shared<const PatchTree>(o.shapes);
-    if (auto node = PatchesNode::make(context, static_cast<int>(i), tree, tree->top(), 0, context.buckets.all()))
-      out.push_back(std::move(node));
+    shapes.insert(o.shapes.begin(), o.shapes.end());
+    nodes.add(static_cast<int>(i), out);
   }
+  keepPeak(context.stats.memoryBytes.geometry, context.liveGeometry_bytes += bytesOf(shapes));
+  for (const Procedural& p : context.scene.procedurals)
+    if (auto node = ProceduralNode::make(context, p, context.buckets.all())) out.push_back(std::move(node));
   return out;
 }
 

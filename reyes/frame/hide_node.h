@@ -1,5 +1,5 @@
 // What a bucket meets on its way from the nearest to the farthest: geometry that is opened into smaller nodes by the first
-// bucket that does not hide it (an object, a run of its patches), and pieces, which are diced instead. Each is dropped when
+// bucket that does not hide it (a procedural, an object, a run of its patches), and pieces, which are diced instead. Each is dropped when
 // the last bucket that its bound touches is done, whether or not that bucket ever saw it (docs/decisions/0008).
 // Threads: visit and release of different buckets are concurrent.
 #pragma once
@@ -16,13 +16,14 @@ namespace tomales {
 
 /// Shared by all nodes of a frame, which it outlives.
 struct HideContext {
-  const Scene& scene;
+  Scene& scene;
   const Camera& camera;
-  const ShadingSystem& shading;
+  ShadingSystem& shading;
   const BucketGrid& buckets;
   Stats& stats;
   Log& log;
-  Counter liveGrids_bytes{0};
+  Counter liveGrids_bytes{0}, liveGeometry_bytes{0};
+  std::mutex growth{};  ///< Of the scene and its shaders.
 };
 
 class NodeQueue;
@@ -96,7 +97,7 @@ class NodeList {
   std::vector<size_t> end_;         ///< Of a bucket's entries; they begin where those of the one before end.
 };
 
-/// A node for every object that the camera may see.
+/// A node for every object and procedural that the camera may see.
 HideNodes nodesOfScene(HideContext& context);
 
 /// The most that was alive at once.

@@ -146,8 +146,7 @@ FacetTable::FacetTable(const Scene& scene, const Camera& camera, const GridTable
       camera_(camera),
       grids_(grids),
       tile_(tile),
-      facetOf_(grids.cellCount(), ~0U),
-      batchOf_(scene.groups.size(), -1) {}
+      facetOf_(grids.cellCount(), ~0U) {}
 
 uint32_t FacetTable::facetOf(uint32_t cell) {
   uint32_t& facet = facetOf_[cell];
@@ -182,7 +181,10 @@ int FacetTable::cornerPoint(const GridTable::Entry& entry, int batch, int vertex
 }
 
 int FacetTable::batchOf(int group) {
-  int& batch = batchOf_[static_cast<size_t>(group)];
+  // Groups may be added while the bucket is being hidden.
+  const auto g = static_cast<size_t>(group);
+  if (g >= batchOf_.size()) batchOf_.resize(g + 1, -1);
+  int& batch = batchOf_[g];
   if (batch < 0) {
     batch = static_cast<int>(wishes_.size());
     wishes_.push_back({group, {}});

@@ -245,6 +245,7 @@ class Curves : public Prim {
     }
   }
 
+  size_t shapeBytes() const override { return bytesOf(segments_) + bytesOf(centers_) + bytesOf(normals_) + bytesOf(mitres_); }
   bool cubic_;
   ToBezier toBezier_;
   std::vector<Segment> segments_;

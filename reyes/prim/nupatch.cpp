@@ -215,6 +215,7 @@ class NuPatch : public Prim {
     }
   }
 
+  size_t shapeBytes() const override { return bytesOf(controls_) + bytesOf(nets_); }
   const Side u_, v_;
   const std::optional<TrimRegion> trim_;
   std::vector<vec4> controls_;

@@ -181,6 +181,7 @@ class BilinearMesh : public PatchMesh {
     return std::abs(dot(normal, c[1] - c[0])) <= 1e-6f * glm::length(c[3] - c[0]);
   }
 
+  size_t shapeBytes() const override { return bytesOf(points_); }
   std::vector<vec3> points_;
 };
 
@@ -237,6 +238,7 @@ class BicubicMesh : public PatchMesh {
     return convertNet(control, uToBezier_, vToBezier_);
   }
 
+  size_t shapeBytes() const override { return bytesOf(patches_); }
   const ToBezier uToBezier_, vToBezier_;
   std::vector<BezierPatch> patches_;
 };

@@ -94,6 +94,8 @@ class PointCloud : public Prim {
 
   float radiusOf(uint32_t patch) const { return 0.5f * width_.values[width_.values.size() > 1 ? patch : 0]; }
 
+  size_t shapeBytes() const override { return bytesOf(points_) + bytesOf(width_.values); }
+
   std::vector<vec3> points_;
   Primvar width_;
 };

@@ -96,6 +96,7 @@ class Polygons : public Prim {
       }
   }
 
+  size_t shapeBytes() const override { return bytesOf(parts_.faces) + bytesOf(parts_.patches) + bytesOf(positions_) + bytesOf(vertices_); }
   Decomposition parts_;
   std::vector<vec3> positions_;
   std::vector<int> vertices_;

@@ -29,6 +29,10 @@ void display(GraphicsState& s, const Request& r) {
     call.name.erase(0, 1);
   else
     s.globals.options.displays.clear();
+  if (call.name.find_last_not_of("./") == std::string::npos) {  // "", ".", "..": the extension would be all of the name
+    s.warn(r, "rib-display", "\"" + call.name + "\" names no file; ri.pic, the default of RenderMan, is used");
+    call.name = DisplayCall().name;
+  }
   s.globals.options.displays.push_back(std::move(call));
 }
 

@@ -77,6 +77,7 @@ void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times
 Master::Shapes SceneBuilder::shapesOf(const Keys& keys, const std::vector<float>& times) {
   if (!master_) return buildShapes(keys, times);
   const Scope& scope = state_.scope;
+  const std::lock_guard lock(master_->mutex);
   const auto [it, fresh] = master_->shapes.try_emplace(masterRequest_);
   Master::Shapes& shared = it->second;
   if (fresh || !sameBasis(shared.uBasis, scope.uBasis) || !sameBasis(shared.vBasis, scope.vBasis) ||
@@ -128,6 +129,29 @@ PrimPtr SceneBuilder::buildShape(const Request& r) {
 std::string SceneBuilder::description(const Request& r) const {
   const std::string& name = state_.scope.attributes->name;
   return name.empty() ? r.name : r.name + " \"" + name + "\"";
+}
+
+bool SceneBuilder::takesProcedurals() const {
+  return state_.world && !recording_ && !master_ && !motion_ && !state_.isOpen(Block::Solid);
+}
+
+void SceneBuilder::addProcedural(const std::vector<float>& b, std::function<Expansion()> open, const SourceLoc& where) {
+  Procedural p;
+  p.bound = {{b[0], b[2], b[4]}, {b[1], b[3], b[5]}};
+  p.worldFromObject = state_.scope.ctm;
+  p.attributes = state_.scope.attributes = state_.attributes(state_.scope.attributes);
+  p.where = where;
+  p.open = std::move(open);
+  state_.world->procedurals.push_back(std::move(p));
+}
+
+SceneBuilder::Surroundings SceneBuilder::surroundings() const {
+  return {state_.globals, {state_.world->cameraFromWorld, {}, {}, state_.world->where}};
+}
+
+Expansion SceneBuilder::takeExpansion() {
+  if (recording_ || motion_) finish(recording_ ? recording_->begin.where : motion_->begin.where);
+  return {std::move(state_.world->objects), std::move(state_.world->procedurals)};
 }
 
 void SceneBuilder::beginMotion(const Request& r) {

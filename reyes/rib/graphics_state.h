@@ -1,6 +1,7 @@
 // The graphics state of RISpec 3.2 section 4, with its stacks. Spaces: the CTM, shader calls and named
 // coordinate systems are relative to camera space before WorldBegin, and to world space after it.
 #pragma once
+#include <mutex>
 #include <set>
 
 #include "reyes/rib.h"
@@ -32,6 +33,7 @@ struct Master {
   };
   std::vector<Request> requests;
   std::map<size_t, Shapes> shapes;  ///< By index of the request.
+  std::mutex mutex;                 ///< Of the shapes: procedurals are opened by several threads.
 };
 
 /// What FrameBegin and WorldBegin save besides.
@@ -51,6 +53,7 @@ const char* blockName(Block block);
 struct World {
   Motion cameraFromWorld;
   std::vector<Object> objects;
+  std::vector<Procedural> procedurals;
   SourceLoc where;
 };
 

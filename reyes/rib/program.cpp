@@ -28,8 +28,7 @@ double secondsSince(Clock::time_point start) {
 }  // namespace
 
 // Its input is a socket, because writing to a closed socket can be told not to raise SIGPIPE.
-Program::Program(const std::string& command, std::string input, double patience_s)
-    : input_(std::move(input)), patience_s_(patience_s) {
+Program::Program(const std::string& command) {
   int in[2], out[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, in) != 0) {
     startError_ = errno;
@@ -56,7 +55,11 @@ Program::Program(const std::string& command, std::string input, double patience_
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&files);
   close(in[1]), close(out[1]);
-  if (input_.empty()) closeInput();
+}
+
+void Program::ask(std::string text, double patience_s) {
+  input_ = std::move(text), written_ = 0;
+  patience_s_ = patience_s;
 }
 
 Program::~Program() {
@@ -78,14 +81,15 @@ void Program::writeInput() {
       send(toChild_, input_.data() + written_, input_.size() - written_, MSG_NOSIGNAL | MSG_DONTWAIT);
   if (n > 0) written_ += static_cast<size_t>(n);
   const bool broken = n < 0 && errno != EAGAIN && errno != EINTR;
-  if (broken || written_ == input_.size()) closeInput();
+  if (broken) closeInput();
 }
 
 size_t Program::read(char* buffer, size_t size) {
   while (id_ > 0 && fromChild_ >= 0 && !hung_) {
     pollfd ends[] = {{fromChild_, POLLIN, 0}, {toChild_, POLLOUT, 0}};
     const auto start = Clock::now();
-    const int ready = poll(ends, toChild_ >= 0 ? 2 : 1, static_cast<int>(patience_s_ * 1000) + 1);
+    const bool writing = toChild_ >= 0 && written_ < input_.size();
+    const int ready = poll(ends, writing ? 2 : 1, static_cast<int>(patience_s_ * 1000) + 1);
     patience_s_ -= secondsSince(start);
     hung_ = ready == 0 || patience_s_ <= 0;
     if (ready < 0 && errno != EINTR) break;
@@ -116,6 +120,24 @@ std::string Program::finish() {
   if (WIFSIGNALED(status)) return fmt::format("died of signal {}", WTERMSIG(status));
   if (WEXITSTATUS(status) == 127) return "does not exist";
   return WEXITSTATUS(status) == 0 ? "" : fmt::format("failed with exit code {}", WEXITSTATUS(status));
+}
+
+std::unique_ptr<Program> ProgramPool::take(const std::string& command) {
+  {
+    const std::lock_guard lock(mutex_);
+    auto& idle = idle_[command];
+    if (!idle.empty()) {
+      auto program = std::move(idle.back());
+      idle.pop_back();
+      return program;
+    }
+  }
+  return std::make_unique<Program>(command);
+}
+
+void ProgramPool::giveBack(const std::string& command, std::unique_ptr<Program> program) {
+  const std::lock_guard lock(mutex_);
+  idle_[command].push_back(std::move(program));
 }
 
 }  // namespace tomales::rib

@@ -1,19 +1,26 @@
-// A program of the user's, run by the shell: its input is one text, its output is read as it comes. Whatever
+// A program of the user's, run by the shell: it is asked by lines of text, its output is read as it comes. Whatever
 // becomes of it, it ends with this object: its whole process group is killed.
 #pragma once
 #include <sys/types.h>
 
+#include <map>
+#include <memory>
+#include <mutex>
 #include <string>
+#include <vector>
 
 namespace tomales::rib {
 
 class Program {
  public:
-  /// `patience_s`: the longest total time that read() waits for it.
-  Program(const std::string& command, std::string input, double patience_s);
+  explicit Program(const std::string& command);
   ~Program();
   Program(const Program&) = delete;
 
+  /// `patience_s`: the longest total time that read() waits for the answer.
+  void ask(std::string text, double patience_s);
+  /// There will be no more questions: the end of its input.
+  void closeInput();
   /// 0: it has closed its output, or patience is over.
   size_t read(char* buffer, size_t size);
   /// Pre: read() gave 0. Waits for its end with the patience that is left. Empty, or what went wrong with it.
@@ -21,14 +28,25 @@ class Program {
 
  private:
   void writeInput();
-  void closeInput();
 
   pid_t id_ = -1;
   int toChild_ = -1, fromChild_ = -1, startError_ = 0;
   std::string input_;
   size_t written_ = 0;
-  double patience_s_;
+  double patience_s_ = 0;
   bool hung_ = false;
+};
+
+/// Programs that have answered wait here for the next question, so that each is started once, or once for each thread that
+/// needs it at the same time. Threads: concurrent.
+class ProgramPool {
+ public:
+  std::unique_ptr<Program> take(const std::string& command);
+  void giveBack(const std::string& command, std::unique_ptr<Program> program);
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::vector<std::unique_ptr<Program>>> idle_;
 };
 
 }  // namespace tomales::rib

@@ -12,6 +12,14 @@ namespace {
 
 SourceLoc wholeFile(const std::string& name) { return {std::make_shared<const std::string>(name), 0}; }
 
+/// More than what AttributeBegin saves.
+bool changesSurroundings(std::string_view name) {
+  static constexpr std::string_view kNames[] = {"Declare",    "ObjectEnd",       "Option",    "CoordinateSystem",
+                                                "LightSource", "AreaLightSource", "Light",     "Resource",
+                                                "ResourceBegin", "ResourceEnd",   "WorldBegin", "WorldEnd"};
+  return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+}
+
 }  // namespace
 
 void declare(const Request& r, Dictionary& dictionary, Log& log) {
@@ -59,6 +67,7 @@ size_t Reader::read(ByteStream& stream, const std::string& name, const std::stri
 }
 
 void Reader::enter(const std::string& key, const std::string& folder) {
+  surroundings_.reset();
   open_.push_back({key, folder, Conditions(log_, [this](const std::string& v) { return variable(v); }), {}});
 }
 
@@ -69,6 +78,7 @@ void Reader::leave() {
   }
   open_.back().conditions.finish();
   open_.pop_back();
+  surroundings_.reset();
 }
 
 void Reader::handle(const Request& r) {
@@ -88,6 +98,7 @@ void Reader::perform(const Request& r) {
       {"ArchiveEnd", &Reader::record},       {"Procedural", &Reader::procedural},
       {"Procedural2", &Reader::procedural2}, {"System", &Reader::system}};
   if (const auto it = table.find(r.name); it != table.end()) return (this->*it->second)(r);
+  if (changesSurroundings(r.name)) surroundings_.reset();
   if (r.name == "Declare") declare(r, dictionary_, log_);
   const Param* mark =
       r.name == "Option" && r.args[0].strings[0] == "ribparse" ? findParam(r.params, "varsubst") : nullptr;

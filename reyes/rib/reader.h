@@ -1,8 +1,11 @@
 // Files, archives, programs and memory -> requests -> scene builder. One Reader is one RIB stream, however
 // many files it is made of.
 #pragma once
+#include <atomic>
+
 #include "reyes/rib/conditions.h"
 #include "reyes/rib/dictionary.h"
+#include "reyes/rib/program.h"
 #include "reyes/rib/scene_builder.h"
 #include "reyes/rib/stream.h"
 
@@ -13,7 +16,8 @@ void declare(const Request& request, Dictionary& dictionary, Log& log);
 
 class Reader {
  public:
-  Reader(const RibSettings& settings, Log& log) : settings_(settings), log_(log), builder_(settings, log) {}
+  Reader(const RibSettings& settings, Log& log)
+      : settings_(settings), log_(log), builder_(settings, log), programs_(std::make_shared<ProgramPool>()) {}
 
   /// False, and reported, if it cannot be opened or holds no request.
   bool readFile(const std::string& path);
@@ -22,6 +26,7 @@ class Reader {
 
  private:
   using Requests = std::vector<Request>;
+  using InlineArchives = std::map<std::string, std::shared_ptr<const Requests>>;
   using Performer = void (Reader::*)(const Request&);
 
   /// Between ArchiveBegin and ArchiveEnd.
@@ -36,6 +41,21 @@ class Reader {
     Conditions conditions;
     std::optional<Recording> recording;
   };
+
+  /// What a procedural must know of the stream around it, shared by neighbours.
+  struct Surroundings {
+    RibSettings settings;
+    Log& log;
+    Dictionary dictionary;
+    InlineArchives archives;
+    char mark;
+    std::vector<std::string> keys;  ///< Of the archives that it stands in.
+    std::string folder;
+    SceneBuilder::Surroundings builder;
+    std::shared_ptr<ProgramPool> programs;
+  };
+  /// For a procedural: stands where `place` is.
+  Reader(const Surroundings& around, const SceneBuilder::Place& place, std::shared_ptr<std::atomic<size_t>> budget);
 
   bool readTop(ByteStream& stream, const std::string& name);
   /// The number of good requests.
@@ -57,14 +77,21 @@ class Reader {
   void replay(const Request& request, const std::string& name, const Requests& archive);
   /// False, and reported: it would read itself, or is too deep or too much.
   bool mayEnter(const Request& request, const std::string& key, size_t cost);
+  static std::shared_ptr<std::atomic<size_t>> newBudget();
+  bool spend(size_t cost);
   /// Empty: nowhere.
   std::string findArchive(const std::string& name) const;
 
   // Procedurals and System (reader_programs.cpp)
   void procedural(const Request& request);
   void procedural2(const Request& request);
-  void delayedArchive(const Request& request, const std::string& name, const std::vector<float>& bound);
+  /// Now, or as a Procedural of the scene when its bound is needed.
+  void later(const Request& request, const std::vector<float>& bound, void (Reader::*readNow)(const Request&));
+  std::shared_ptr<const Surroundings> surroundings();
+  void delayedArchive(const Request& request);
   void runProgram(const Request& request);
+  /// False, and reported: it is not allowed, or not known.
+  bool canRead(const Request& request, const std::string& kind, const std::string& what) const;
   void system(const Request& request);
   bool allowed(const Request& request, const std::string& command) const;
   void perform(const char* blockName, const SourceLoc& where);
@@ -74,8 +101,12 @@ class Reader {
   Dictionary dictionary_;
   SceneBuilder builder_;
   std::vector<Level> open_;  ///< Outermost first.
-  std::map<std::string, std::shared_ptr<const Requests>> inlineArchives_;
-  size_t budget_ = 0;  ///< What the outermost archive may still cost: one a request that is replayed.
+  InlineArchives inlineArchives_;
+  /// What the outermost archive or procedural may still cost: one a request that is replayed. Procedurals within share it.
+  std::shared_ptr<std::atomic<size_t>> budget_;
+  bool inProcedural_ = false;
+  std::shared_ptr<ProgramPool> programs_;
+  std::shared_ptr<const Surroundings> surroundings_;  ///< Null: they have changed.
   char mark_ = 0;      ///< Of variables in strings; 0: there are none.
   SourceLoc last_;
 };

@@ -42,6 +42,7 @@ void Reader::record(const Request& r) {
 void Reader::endRecording() {
   Recording done = std::move(*open_.back().recording);
   open_.back().recording.reset();
+  surroundings_.reset();
   inlineArchives_[done.begin.args[0].strings[0]] = std::make_shared<const Requests>(std::move(done.requests));
 }
 
@@ -57,8 +58,7 @@ void Reader::replay(const Request& r, const std::string& name, const Requests& a
   if (!mayEnter(r, key, 1)) return;
   enter(key, std::string(open_.back().folder));
   for (const Request& recorded : archive) {
-    if (budget_ == 0) break;
-    --budget_;
+    if (!spend(1)) break;
     handle(recorded);
   }
   leave();
@@ -76,8 +76,10 @@ void Reader::readArchiveFile(const Request& r, const std::string& name) {
     report(Severity::Missing, "rib-empty", r, quoted + "holds no RIB request that could be read");
 }
 
+std::shared_ptr<std::atomic<size_t>> Reader::newBudget() { return std::make_shared<std::atomic<size_t>>(kBudget); }
+
 bool Reader::mayEnter(const Request& r, const std::string& key, size_t cost) {
-  if (open_.size() == 1) budget_ = kBudget;
+  if (open_.size() == 1 && !inProcedural_) budget_ = newBudget();
   const auto refuse = [&](const std::string& why) {
     report(Severity::Warning, "rib-archive-recursion", r, why + "; ignored");
     return false;
@@ -86,10 +88,17 @@ bool Reader::mayEnter(const Request& r, const std::string& key, size_t cost) {
     return refuse("the archive reads itself");
   if (open_.size() > static_cast<size_t>(settings_.maxArchiveDepth))
     return refuse(fmt::format("more than {} archives within archives", settings_.maxArchiveDepth));
-  if (budget_ < cost)
+  if (!spend(cost))
     return refuse(fmt::format("the outermost archive stands for more than {} requests", kBudget));
-  budget_ -= cost;
   return true;
+}
+
+// Several threads may spend it: never below nothing.
+bool Reader::spend(size_t cost) {
+  size_t left = *budget_;
+  while (left >= cost && !budget_->compare_exchange_weak(left, left - cost)) {
+  }
+  return left >= cost;
 }
 
 // The search path first, then beside the file that reads, then where the caller says.

@@ -1,4 +1,5 @@
-// Procedural, Procedural2 and System. Procedurals are expanded where they stand, not when their bound is met.
+// Procedural, Procedural2 and System. A procedural is read when its bound is needed, by a Reader of its own that has the state of
+// the place where it stands.
 #include <fmt/format.h>
 
 #include "reyes/rib/program.h"
@@ -22,35 +23,74 @@ bool isBox(const std::vector<float>& b) {
 
 }  // namespace
 
+Reader::Reader(const Surroundings& around, const SceneBuilder::Place& place, std::shared_ptr<std::atomic<size_t>> budget)
+    : settings_(around.settings), log_(around.log), dictionary_(around.dictionary),
+      builder_(around.settings, around.log, around.builder, place), inlineArchives_(around.archives), budget_(std::move(budget)),
+      inProcedural_(true), programs_(around.programs), mark_(around.mark) {
+  for (const std::string& key : around.keys) enter(key, around.folder);
+}
+
+std::shared_ptr<const Reader::Surroundings> Reader::surroundings() {
+  if (surroundings_) return surroundings_;
+  std::vector<std::string> keys;
+  for (const Level& level : open_) keys.push_back(level.key);
+  surroundings_ = std::make_shared<const Surroundings>(Surroundings{settings_, log_, dictionary_, inlineArchives_, mark_,
+                                                                    std::move(keys), open_.back().folder,
+                                                                    builder_.surroundings(), programs_});
+  return surroundings_;
+}
+
 void Reader::procedural(const Request& r) {
   const std::string& kind = r.args[0].strings[0];
   const std::vector<std::string>& data = r.args[1].strings;
-  if (kind == "DelayedReadArchive" && !data.empty())
-    delayedArchive(r, data[0], r.args[2].numbers);
-  else if (kind == "RunProgram" && !data.empty())
-    runProgram(r);
-  else
-    report(Severity::Missing, "rib-unsupported", r,
-           fmt::format("\"{}\" with {} arguments is not supported; nothing is drawn in its place", kind,
-                       data.size()));
+  if (!canRead(r, kind, data.empty() ? "" : data[0])) return;
+  later(r, r.args[2].numbers, kind.starts_with("Run") ? &Reader::runProgram : &Reader::delayedArchive);
 }
 
+// The subdivide function and the function that bounds it, then parameters: the data of the first under other names.
 void Reader::procedural2(const Request& r) {
-  const std::string& kind = r.args[0].strings[0];
-  const std::string file = text(r.params, "filename");
+  const std::string &kind = r.args[0].strings[0], &bounding = r.args[1].strings[0];
+  const bool program = kind == "RunProgram2";
   const Param* bound = findParam(r.params, "bound");
-  if (kind == "DelayedReadArchive2" && !file.empty())
-    delayedArchive(r, file, bound ? bound->floats : std::vector<float>());
-  else
-    report(Severity::Missing, "rib-unsupported", r,
-           fmt::format("\"{}\" {}; nothing is drawn in its place", kind,
-                       kind == "DelayedReadArchive2" ? "names no file" : "is not supported"));
+  Request plain{"Procedural", {}, {}, r.where};
+  const auto strings = [](std::vector<std::string> s) { return RibArg{RibArg::Kind::Strings, {}, std::move(s)}; };
+  plain.args.push_back({RibArg::Kind::String, {}, {program ? "RunProgram" : kind == "DelayedReadArchive2" ? "DelayedReadArchive" : kind}});
+  std::vector<std::string> data{text(r.params, program ? "programname" : "filename")};
+  if (program) data.push_back(text(r.params, "data"));
+  plain.args.push_back(strings(std::move(data)));
+  plain.args.push_back({RibArg::Kind::Numbers, bound ? bound->floats : std::vector<float>(), {}});
+  if (bounding != "SimpleBound")
+    report(Severity::Warning, "rib-bound", r, fmt::format("\"{}\" is not supported: it is read without a bound", bounding));
+  procedural(plain);
 }
 
-void Reader::delayedArchive(const Request& r, const std::string& name, const std::vector<float>& bound) {
+bool Reader::canRead(const Request& r, const std::string& kind, const std::string& what) const {
+  const bool program = kind == "RunProgram";
+  if (!program && kind != "DelayedReadArchive")
+    report(Severity::Missing, "rib-unsupported", r, fmt::format("\"{}\" is not supported; nothing is drawn in its place", kind));
+  else if (what.empty())
+    report(Severity::Missing, "rib-unsupported", r,
+           fmt::format("\"{}\" names no {}; nothing is drawn in its place", kind, program ? "program" : "file"));
+  else
+    return !program || allowed(r, what);
+  return false;
+}
+
+void Reader::later(const Request& r, const std::vector<float>& bound, void (Reader::*readNow)(const Request&)) {
   if (!isBox(bound)) report(Severity::Warning, "rib-bound", r, "its bound is no box; it is read without");
+  const bool isFinite = std::all_of(bound.begin(), bound.end(), [](float f) { return std::isfinite(f); });
+  if (!isBox(bound) || !isFinite || !builder_.takesProcedurals()) return (this->*readNow)(r);
+  auto budget = inProcedural_ || open_.size() > 1 ? budget_ : newBudget();
+  builder_.addProcedural(bound, [r, readNow, around = surroundings(), place = builder_.place(), budget] {
+    Reader reader(*around, place, budget);
+    (reader.*readNow)(r);
+    return reader.builder_.takeExpansion();
+  }, r.where);
+}
+
+void Reader::delayedArchive(const Request& r) {
   perform("AttributeBegin", r.where);
-  readArchiveNamed(r, name);
+  readArchiveNamed(r, r.args[1].strings[0]);
   perform("AttributeEnd", r.where);
 }
 
@@ -66,23 +106,21 @@ bool Reader::allowed(const Request& r, const std::string& command) const {
   return settings_.allowSystem;
 }
 
-// RISpec 3.2 section 5.10: one line of detail and data in, RIB out, closed by 0377. Each request has a
-// process of its own, whose input ends after that line.
+// RISpec 3.2 section 5.10: one line of detail and data in, RIB out, closed by 0377; then the program waits for the next line.
 void Reader::runProgram(const Request& r) {
   const std::vector<std::string>& call = r.args[1].strings;
-  if (!allowed(r, call[0])) return;
   const std::string name = "output of " + call[0];
   if (!mayEnter(r, fmt::format("{}: program {}", open_.size(), call[0]), kProgramCost)) return;
-  const float detail = builder_.rasterArea(r.args[2].numbers);
-  Program program(call[0], fmt::format("{:g} {}\n", detail, call.size() > 1 ? call[1] : ""),
-                  settings_.programPatience_s);
-  const auto stream = ByteStream::fromProgram([&](char* b, size_t n) { return program.read(b, n); });
+  const float detail = isBox(r.args[2].numbers) ? builder_.rasterArea(r.args[2].numbers) : kInfinity;
+  auto program = programs_->take(call[0]);
+  program->ask(fmt::format("{:g} {}\n", detail, call.size() > 1 ? call[1] : ""), settings_.programPatience_s);
+  const auto stream = ByteStream::fromProgram([&](char* b, size_t n) { return program->read(b, n); });
   perform("AttributeBegin", r.where);
   const size_t count =
       read(*stream, name, fmt::format("{}: program", open_.size()), std::string(open_.back().folder));
   perform("AttributeEnd", r.where);
-  if (stream->closed()) return;
-  const std::string trouble = program.finish();
+  if (stream->closed()) return programs_->giveBack(call[0], std::move(program));
+  const std::string trouble = program->finish();
   if (!trouble.empty() || count == 0)
     report(Severity::Missing, "rib-program", r,
            fmt::format("\"{}\" {}; what it wrote before is used", call[0].substr(0, 200),
@@ -92,7 +130,9 @@ void Reader::runProgram(const Request& r) {
 void Reader::system(const Request& r) {
   const std::string& command = r.args[0].strings[0];
   if (!allowed(r, command)) return;
-  Program program(command, "", kSystemPatience_s);
+  Program program(command);
+  program.ask("", kSystemPatience_s);
+  program.closeInput();
   char buffer[4096];
   for (size_t n = program.read(buffer, sizeof buffer); n > 0; n = program.read(buffer, sizeof buffer))
     std::fwrite(buffer, 1, n, stderr);

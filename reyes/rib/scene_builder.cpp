@@ -30,6 +30,14 @@ bool usableArguments(const Request& r) {
                      [&](const RibArg& a) { return usable(a.numbers, allowsInfinity(r.name)); });
 }
 
+SceneBuilder::SceneBuilder(const RibSettings& settings, Log& log, const Surroundings& around, const Place& place)
+    : settings_(settings), state_(log), inProcedural_(true) {
+  state_.scope = place.scope;
+  state_.identity = place.identity;
+  state_.globals = around.globals;
+  state_.world = around.world;
+}
+
 void SceneBuilder::request(const Request& r) {
   if (recording_)
     record(r);
@@ -69,12 +77,25 @@ void SceneBuilder::perform(const Request& r) {
   if (!usableArguments(r))
     return state_.warn(r, "rib-not-finite", "an argument is not a finite number; ignored");
   if (isTransformation(r.name)) return applyTransformation(state_, {&r}, {0.0f});
+  if (inProcedural_ && refuse(r)) return;
   if (isRis(r.name)) return performRis(r);
   if (performBlock(r) || performHandler(r)) return;
   const Signature* signature = findSignature(r.name);
   const bool geometry = signature && signature->support == Support::NotYetGeometry;
   state_.warnOnce(r.name, r, "rib-unsupported", r.name + " is not supported yet, ignored",
                   geometry ? Severity::Missing : Severity::Warning);
+}
+
+// Whoever else is lit by a light must know it before the first bucket.
+bool SceneBuilder::refuse(const Request& r) {
+  static constexpr std::string_view kFrame[] = {"FrameBegin", "FrameEnd", "WorldBegin", "WorldEnd"};
+  static constexpr std::string_view kLights[] = {"LightSource", "AreaLightSource", "Light"};
+  const auto among = [&](const auto& names) { return std::find(std::begin(names), std::end(names), r.name) != std::end(names); };
+  if (among(kFrame)) return state_.warn(r, "rib-unbalanced", "inside a procedural, ignored"), true;
+  if (!among(kLights)) return false;
+  state_.warnOnce("procedural " + r.name, r, "rib-procedural-light",
+                  r.name + " inside a procedural is ignored: lights are read with the world", Severity::Missing);
+  return true;
 }
 
 void SceneBuilder::performRis(const Request& r) {
@@ -173,7 +194,8 @@ void SceneBuilder::endWorld(const SourceLoc& where) {
   Scene scene;
   scene.options = state_.globals.options;
   scene.cameraFromWorld = state_.world->cameraFromWorld;
-  scene.objects = std::move(state_.world->objects);
+  for (Object& o : state_.world->objects) scene.objects.push_back(std::move(o));
+  scene.procedurals = std::move(state_.world->procedurals);
   scene.lights = std::move(state_.globals.lights);
   for (const auto& [name, system] : state_.globals.coordinateSystems)
     scene.worldFromNamed[name] = system.at(scene.options.shutterOpen);

@@ -12,9 +12,31 @@ class SceneBuilder : public RiSink {
  public:
   SceneBuilder(const RibSettings& settings, Log& log) : settings_(settings), state_(log) {}
 
+  /// What all that is inside a world has in common; what is being drawn where, besides.
+  struct Surroundings {
+    Globals globals;
+    World world;
+  };
+  struct Place {
+    Scope scope;
+    Motion identity;
+  };
+  /// For what a procedural stands for: a world of its own, with the state of another.
+  SceneBuilder(const RibSettings& settings, Log& log, const Surroundings& around, const Place& place);
+
   void request(const Request& request) override;
   /// The stream is over: renders a world whose WorldEnd is missing.
   void finish(const SourceLoc& where);
+
+  /// Here geometry may be left for later.
+  bool takesProcedurals() const;
+  /// Pre: takesProcedurals(), and the bound is a box.
+  void addProcedural(const std::vector<float>& bound, std::function<Expansion()> open, const SourceLoc& where);
+  /// Pre: inside a world.
+  Surroundings surroundings() const;
+  Place place() const { return {state_.scope, state_.identity}; }
+  /// What a procedural stands for. The builder is spent.
+  Expansion takeExpansion();
 
   const Options& options() const { return state_.globals.options; }
   const Attributes& attributes() const { return *state_.scope.attributes; }
@@ -38,6 +60,8 @@ class SceneBuilder : public RiSink {
   void record(const Request& request);
   void step(const Request& request);
   void perform(const Request& request);
+  /// True, and reported: it has no place in a procedural.
+  bool refuse(const Request& request);
   bool performBlock(const Request& request);
   bool performHandler(const Request& request);
   void performRis(const Request& request);
@@ -68,6 +92,7 @@ class SceneBuilder : public RiSink {
   Master* master_ = nullptr;  ///< Of the instance that is being replayed,
   size_t masterRequest_ = 0;  ///< and where in it.
   int instanceDepth_ = 0;
+  const bool inProcedural_ = false;
   size_t instanceBudget_ = 0;  ///< Requests that the outermost instance may still replay.
 };
 

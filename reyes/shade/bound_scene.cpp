@@ -57,6 +57,8 @@ IndirectQuery queryOf(const BoundShader& light, Log& log) {
   return q;
 }
 
+}  // namespace
+
 /// Binds requests; groups that share a request share its shader, so that each problem is told once.
 class Binder {
  public:
@@ -128,6 +130,8 @@ BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, cons
   return bindShader(kSubstituteSurface, nullptr, where, user, currentFromShader, {}, log_);
 }
 
+namespace {
+
 /// Parameters that every light understands, whether or not its shader declares them.
 void setHostParams(BoundLight& light, const LightCall& call, Log& log) {
   const ParamList& params = call.shader.params;
@@ -168,6 +172,8 @@ bool hasGeometry(const LightCall& call, const Scene& scene) {
                      [&](const ShadeGroup& g) { return g.attributes->areaLight == call.index; });
 }
 
+}  // namespace
+
 std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index) {
   BoundShaderPtr bound =
       bind(&call.shader, call.shader.where, fmt::format("light \"{}\"", call.handle), TM_LIGHT);
@@ -186,6 +192,8 @@ std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index
   if (indirect) light->samples = 3, light->query = queryOf(*bound, log_);
   return light;
 }
+
+namespace {
 
 /// A light that filters an indirect light asks for the same light as its source. False: there is none.
 bool connectFilter(BoundLight& filter, const BoundScene& scene) {
@@ -268,43 +276,51 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
       camera(s.options),
       cameraFromWorld(s.cameraFromWorldAtOpen()),
       textures(pathOf(s.options, "texture"), l, st) {
-  Binder binder(scene, registry, log);
-  const FrameOutput output = outputOf(scene.options);
+  output_ = outputOf(scene.options);
+  binder_ = std::make_unique<Binder>(scene, registry, log);
   for (const auto& call : scene.lights)
-    lights.push_back(binder.light(*call, static_cast<int>(lights.size())));
+    lights.push_back(binder_->light(*call, static_cast<int>(lights.size())));
   connectFilters(*this);
   stored.bound = storedLight();
   pixels.group = &picture, pixels.object = "the picture";
-  imager = binder.imager(scene.options.imager, pixels.object);
-  for (const ShadeGroup& group : scene.groups) {
-    BoundGroup g;
-    g.group = &group;
-    const Attributes& a = *group.attributes;
-    SourceLoc where;
-    if (group.exampleObject >= 0) {
-      const Object& o = scene.objects[static_cast<size_t>(group.exampleObject)];
-      g.object = objectName(o), where = o.where;
-    }
-    g.surface = binder.surface(a.surface, where, g.object);
-    g.indirectSurface = binder.indirectSurface(a, where, g.object);
-    g.displacement = binder.optional(a.displacement, g.object, TM_DISPLACEMENT);
-    g.atmosphere = binder.optional(a.atmosphere, g.object, TM_VOLUME);
-    g.surfaceOverrides = overridesOf(*g.surface, group.primvars);
-    if (g.indirectSurface) g.indirectOverrides = overridesOf(*g.indirectSurface, group.primvars);
-    if (g.displacement) g.displacementOverrides = overridesOf(*g.displacement, group.primvars);
-    findPrimvars(g);
-    for (int index : a.lights)
-      if (index >= 0 && index < static_cast<int>(lights.size()) && lights[static_cast<size_t>(index)])
-        g.lights.push_back(lights[static_cast<size_t>(index)].get());
-    for (const BoundLight* light : g.lights)
-      if (light->can(TM_LIGHT_INDIRECT) && a.indirect.receive && !g.indirect) {
-        g.indirect = light->query;
-        if (a.irradianceMaxError) g.indirect->maxError = *a.irradianceMaxError;
-      }
-    g.variables = bindVariables(output, g);
-    groups.push_back(std::move(g));
+  imager = binder_->imager(scene.options.imager, pixels.object);
+  bindNewGroups();
+  warnAboutUnwritten(output_, *this);
+}
+
+BoundScene::~BoundScene() = default;
+
+void BoundScene::bindNewGroups() {
+  while (groups.size() < scene.groups.size()) groups.push_back(bound(scene.groups[groups.size()]));
+}
+
+BoundGroup BoundScene::bound(const ShadeGroup& group) const {
+  BoundGroup g;
+  g.group = &group;
+  const Attributes& a = *group.attributes;
+  SourceLoc where;
+  if (group.exampleObject >= 0) {
+    const Object& o = scene.objects[static_cast<size_t>(group.exampleObject)];
+    g.object = objectName(o), where = o.where;
   }
-  warnAboutUnwritten(output, *this);
+  g.surface = binder_->surface(a.surface, where, g.object);
+  g.indirectSurface = binder_->indirectSurface(a, where, g.object);
+  g.displacement = binder_->optional(a.displacement, g.object, TM_DISPLACEMENT);
+  g.atmosphere = binder_->optional(a.atmosphere, g.object, TM_VOLUME);
+  g.surfaceOverrides = overridesOf(*g.surface, group.primvars);
+  if (g.indirectSurface) g.indirectOverrides = overridesOf(*g.indirectSurface, group.primvars);
+  if (g.displacement) g.displacementOverrides = overridesOf(*g.displacement, group.primvars);
+  findPrimvars(g);
+  for (int index : a.lights)
+    if (index >= 0 && index < static_cast<int>(lights.size()) && lights[static_cast<size_t>(index)])
+      g.lights.push_back(lights[static_cast<size_t>(index)].get());
+  for (const BoundLight* light : g.lights)
+    if (light->can(TM_LIGHT_INDIRECT) && a.indirect.receive && !g.indirect) {
+      g.indirect = light->query;
+      if (a.irradianceMaxError) g.indirect->maxError = *a.irradianceMaxError;
+    }
+  g.variables = bindVariables(output_, g);
+  return g;
 }
 
 }  // namespace tomales

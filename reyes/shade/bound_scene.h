@@ -40,8 +40,13 @@ struct BoundGroup {
   int CsOffset = -1, OsOffset = -1, sOffset = -1, tOffset = -1, primvarFloats = 0;
 };
 
+class Binder;
+
 struct BoundScene {
   BoundScene(const Scene& scene, ShaderRegistry& registry, Log& log, Stats& stats);
+  ~BoundScene();
+  /// Groups of the scene that are not bound yet.
+  void bindNewGroups();
 
   const Scene& scene;
   Log& log;
@@ -52,10 +57,15 @@ struct BoundScene {
   Textures textures;
   std::vector<std::unique_ptr<const BoundLight>> lights;  ///< As Scene::lights; null: unknown shader.
   BoundLight stored;                                      ///< Stands for all lights where Illumination is not Lights.
-  std::vector<BoundGroup> groups;                         ///< As Scene::groups.
+  StableVector<BoundGroup> groups;                        ///< As Scene::groups.
   BoundShaderPtr imager;                                  ///< May be null.
   ShadeGroup picture{std::make_shared<const Attributes>(), mat4(1.0f), {}, -1};
   BoundGroup pixels;  ///< Stands for the picture while the imager runs.
+
+ private:
+  BoundGroup bound(const ShadeGroup& group) const;
+  std::unique_ptr<Binder> binder_;
+  FrameOutput output_;
 };
 
 }  // namespace tomales

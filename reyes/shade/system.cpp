@@ -35,6 +35,8 @@ ShadingSystem::~ShadingSystem() = default;
 
 void ShadingSystem::setServices(const ShadeServices* services) { impl_->services = services; }
 
+void ShadingSystem::bindNewGroups() { impl_->bindNewGroups(); }
+
 bool ShadingSystem::opaque(int group) const {
   const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
   return g.group->attributes->opacity == vec3(1.0f) && g.OsOffset < 0 && g.surface->can(TM_KEEPS_OPACITY);

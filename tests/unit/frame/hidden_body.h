@@ -27,7 +27,7 @@ inline DeepFrame hide(const std::string& body, const std::string& options = {}, 
       "body.rib", settings, log);
   ShaderRegistry registry(log);
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
-  const ShadingSystem shading(scenes.at(0), registry, nullptr, log, stats);
+  ShadingSystem shading(scenes.at(0), registry, nullptr, log, stats);
   DeepFrame frame = hideFrame(scenes[0], shading, {}, stats, log);
   for (const LogEntry& e : log.entries()) ADD_FAILURE() << e.code << ": " << e.message;
   return frame;

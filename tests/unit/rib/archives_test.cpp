@@ -1,8 +1,11 @@
 // Inline archives, procedurals, programs, conditions, variables, search paths and resources.
+#include <unistd.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
+#include "reyes/base/parallel.h"
 #include "reyes/rib/expression.h"
 #include "rib_test_tools.h"
 
@@ -19,7 +22,7 @@ struct Trusting {
     RibSettings settings;
     settings.allowSystem = true;
     settings.programPatience_s = 2;
-    settings.onScene = [this](Scene&& s) { scenes.push_back(std::move(s)); };
+    settings.onScene = [this](Scene&& s) { scenes.push_back(opened(std::move(s))); };
     readRibText(text, "test.rib", settings, log);
   }
   size_t objects() const { return scenes.at(0).objects.size(); }
@@ -69,9 +72,10 @@ TEST(Procedural, DelayedReadArchiveKeepsItsStateToItself) {
                           "Procedural2 \"DelayedReadArchive2\" \"SimpleBound\" \"string filename\" [\"a\"] "
                           "\"float[6] bound\" [-1 1 -1 1 -1 1]\n" +
                           kSphere));
-  ASSERT_EQ(r.scene().objects.size(), 3u);
+  ASSERT_EQ(r.scene().objects.size(), 3u);  // what is opened comes last
+  EXPECT_EQ(r.attributes(0).color, vec3(1));
   EXPECT_EQ(r.object(1).worldFromObject.at(0)[3], vec4(1, 5, 0, 1));
-  EXPECT_EQ(r.attributes(2).color, vec3(1));
+  EXPECT_EQ(r.object(2).worldFromObject.at(0)[3], vec4(1, 5, 0, 1));
   EXPECT_TRUE(r.log.entries().empty()) << r.codes();
 }
 
@@ -83,6 +87,58 @@ TEST(Procedural, BoundsThatAreNoBoxAndUnknownKindsAreReported) {
   EXPECT_EQ(r.scene().objects.size(), 1u);
   EXPECT_EQ(r.message("rib-bound").where.line, 4);
   EXPECT_EQ(r.message("rib-unsupported").severity, Severity::Missing);
+}
+
+TEST(Procedural, SeesTheStreamAsItWasWhereItStands) {
+  const Reading r(inWorld("ArchiveBegin \"a\" Sphere 2 -2 2 360 ArchiveEnd Declare \"k\" \"constant float\"\n"
+                          "Procedural \"DelayedReadArchive\" [\"a\"] [-1 1 -1 1 -1 1]\n"
+                          "ArchiveBegin \"a\" Cone 1 1 360 Cone 1 1 360 ArchiveEnd\n"
+                          "Procedural \"DelayedReadArchive\" [\"a\"] [-1 1 -1 1 -1 1]\n"));
+  ASSERT_EQ(r.scene().objects.size(), 3u);
+  EXPECT_NEAR(r.object(0).shape().bound(0, {}).hi.z, 2, 1e-5);
+}
+
+TEST(Procedural, ThatReadsItselfOrDoublesWithoutEndEnds) {
+  const std::string bound = "[-1 1 -1 1 -1 1]\n";
+  const Reading self(inWorld("ArchiveBegin \"a\" " + kSphere + "Procedural \"DelayedReadArchive\" [\"a\"] " + bound +
+                             "ArchiveEnd Procedural \"DelayedReadArchive\" [\"a\"] " + bound));
+  EXPECT_EQ(self.scene().objects.size(), 1u);
+  EXPECT_EQ(self.log.count("rib-archive-recursion"), 1);
+}
+
+TEST(Procedural, LightsAndWorldsInsideAreRefused) {
+  const Reading r(inWorld("ArchiveBegin \"a\" LightSource \"pointlight\" 1 WorldEnd WorldBegin " + kSphere +
+                          "ArchiveEnd Procedural \"DelayedReadArchive\" [\"a\"] [-1 1 -1 1 -1 1]\n"));
+  EXPECT_EQ(r.scene().objects.size(), 1u);
+  EXPECT_TRUE(r.scene().lights.empty());
+  EXPECT_EQ(r.log.count("rib-procedural-light"), 1);
+  EXPECT_EQ(r.log.count("rib-unbalanced"), 2);
+}
+
+TEST(RunProgram, IsStartedOnceForManyCalls) {
+  const std::string starts = testing::TempDir() + "tomales_starts_" + std::to_string(getpid());
+  const std::string call = "Procedural2 \"RunProgram2\" \"SimpleBound\" \"string programname\" [\"echo >> " + starts +
+                           "; while read detail radius; do echo Sphere $radius -1 1 360; printf '\\\\377'; done\" ] "
+                           "\"string data\" [\"";
+  std::string text;
+  for (int i = 1; i <= 5; ++i) text += call + std::to_string(i) + "\"] \"float[6] bound\" [0 1 0 1 0 1]\n";
+  {
+    std::vector<Scene> scenes;
+    Log log(Log::Verbosity::Quiet);
+    RibSettings settings;
+    settings.allowSystem = true;
+    settings.programPatience_s = 10;
+    settings.onScene = [&](Scene&& s) {
+      const ThreadLimit one(1);
+      scenes.push_back(opened(std::move(s)));
+    };
+    readRibText(inWorld(text), "test.rib", settings, log);
+    ASSERT_EQ(scenes.at(0).objects.size(), 5u) << (log.entries().empty() ? "" : log.entries()[0].message);
+    EXPECT_TRUE(log.entries().empty());
+  }
+  std::ifstream file(starts);
+  EXPECT_EQ(std::count(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>(), '\n'), 1);
+  std::filesystem::remove(starts);
 }
 
 TEST(RunProgram, IsNotRunUnlessAllowed) {
@@ -232,6 +288,14 @@ TEST(SearchPath, MapsFoldersOfTheZoneOfUnix) {
                 .scene()
                 .objects.size(),
             1u);
+}
+
+TEST(Display, WithoutANameWritesTheDefault) {
+  for (const char* name : {"", ".", "+.."}) {
+    const Reading r("Display \"" + std::string(name) + "\" \"file\" \"rgb\"" + inWorld(""));
+    EXPECT_EQ(r.scene().options.displays.at(0).name, "ri.pic");
+    EXPECT_EQ(r.log.count("rib-display"), 1) << name;
+  }
 }
 
 TEST(Resource, RestoresAllOrSubsets) {

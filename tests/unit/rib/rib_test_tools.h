@@ -7,6 +7,13 @@
 
 namespace tomales {
 
+/// With all that its procedurals stand for.
+inline Scene opened(Scene&& scene) {
+  scene.open([](const Attributes&) { return true; });
+  return std::move(scene);
+}
+
+
 /// All scenes of a text, and what the log says about it.
 struct Reading {
   std::vector<Scene> scenes;
@@ -16,7 +23,7 @@ struct Reading {
   explicit Reading(const std::string& text, std::vector<std::string> archivePath = {"."}) {
     RibSettings settings;
     settings.archivePath = std::move(archivePath);
-    settings.onScene = [this](Scene&& s) { scenes.push_back(std::move(s)); };
+    settings.onScene = [this](Scene&& s) { scenes.push_back(opened(std::move(s))); };
     good = readRibText(text, "test.rib", settings, log);
   }
   const Scene& scene() const { return scenes.at(0); }
