@@ -130,7 +130,7 @@ TEST(Dictionary, TakesDeclarationsWithMissingParts) {
 }
 
 TEST(RequestTable, KnowsRequestsThatAreNotSupported) {
-  EXPECT_EQ(rib::findSignature("Blobby")->support, rib::Support::NotYetGeometry);
+  EXPECT_EQ(rib::findSignature("Volume")->support, rib::Support::NotYetGeometry);
   EXPECT_EQ(rib::findSignature("Interior")->support, rib::Support::NotYet);
   EXPECT_EQ(rib::findSignature("NoSuchRequest"), nullptr);
   const Requests r(

@@ -102,5 +102,25 @@ TEST(Geometry, PointsTurnToTheEyeThroughTheirTransformation) {
   EXPECT_NEAR(towards.z, -0.8f, 1e-5f);
 }
 
+TEST(Shapes, BlobbyTeapotAndHierarchicalMeshAreRead) {
+  const Reading r(inWorld(
+      "Blobby 2 [1001 0 1000 16 5 0 1] [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 .1] [\"\"] \"varying float k\" [1 2]\n"
+      "Geometry \"teapot\"\n"
+      "HierarchicalSubdivisionMesh \"catmull-clark\" [4] [0 1 2 3] [\"interpolateboundary\" \"creasemethod\"] [1 0 0 0 0 1]"
+      " [1] [] [\"chaikin\"] \"P\" [0 0 0 1 0 0 1 1 0 0 1 0]\n"
+      "SubdivisionMesh \"loop\" [3] [0 1 2] [\"interpolateboundary\"] [0 0] [] [] \"P\" [0 0 0 1 0 0 1 1 0]"));
+  ASSERT_EQ(r.scene().objects.size(), 4u);
+  EXPECT_GT(r.object(0).shape().patchCount(), 6u);
+  EXPECT_EQ(r.object(1).shape().patchCount(), 32u);
+  EXPECT_EQ(r.object(2).shape().patchCount(), 1u);
+  EXPECT_EQ(r.object(3).shape().patchCount(), 3u);
+  EXPECT_TRUE(r.log.entries().empty());
+}
+
+TEST(Shapes, GeometryOfAnotherNameIsMissing) {
+  const Reading r(inWorld("Geometry \"bunny\"\n"));
+  EXPECT_EQ(r.log.count("rib-object-dropped"), 1);
+}
+
 }  // namespace
 }  // namespace tomales
