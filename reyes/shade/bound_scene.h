@@ -2,6 +2,7 @@
 #pragma once
 #include "reyes/shade.h"
 #include "reyes/shade/bound_shader.h"
+#include "reyes/shade/shadow_map.h"
 #include "reyes/shade/texture.h"
 #include "reyes/shade/variables.h"
 
@@ -50,6 +51,7 @@ struct BoundScene {
   Camera camera;
   mat4 cameraFromWorld;
   Textures textures;
+  ShadowMaps shadowMaps;
   std::vector<std::unique_ptr<const BoundLight>> lights;  ///< As Scene::lights; null: unknown shader.
   std::vector<BoundGroup> groups;                         ///< As Scene::groups.
   BoundShaderPtr imager;                                  ///< May be null.
