@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 #include "reyes/base/stats.h"
+#include "reyes/camera.h"
 #include "reyes/deep.h"
 #include "reyes/output.h"
 
@@ -27,6 +28,7 @@ class PixelFilter {
   /// Unknown names fall back to gaussian and say so through `known`.
   PixelFilter(const std::string& name, float xWidth, float yWidth, bool* known = nullptr);
   float operator()(float x, float y) const;   ///< Offset from the pixel centre, in pixels.
+  bool hasNegativeLobes() const;
   int reachX() const, reachY() const;         ///< Whole pixels beyond its own that a pixel's filter touches.
  private:
   int kind_;
@@ -40,6 +42,20 @@ struct SampleOffsets {
   std::function<int(int x, int y)> patternOf;
 };
 
+/// How far the samples of a deep pixel may be merged: those within `depth` of their distance, those that together are no
+/// more opaque than `opacity`.
+struct DeepMerge {
+  float depth = 1e-3f, opacity = 1.0f / 512;
+  bool opacityOnly = false;  ///< AR AG AB Z ZBack instead of R G B A Z ZBack.
+};
+
+/// Rows of deep pixels: how many samples each has, then their floats, nearest first.
+struct DeepRows {
+  int x0 = 0, y0 = 0, width = 0, height = 0;
+  std::vector<uint32_t> counts;
+  std::vector<float> values;
+};
+
 /// Filters the crop window of a shaded frame, some rows at a time. Floats of a pixel are those of outputOf(options): R G B A Z
 /// first; colour premultiplied, linear, before exposure; Z by Options::depthFilter, infinite where nothing opaque was hit.
 /// The sums run in a fixed order (rows, columns, fragments), so that buckets, bands and threads leave no trace.
@@ -50,6 +66,7 @@ class FrameFilter {
   ~FrameFilter();
   Image shape() const;                  ///< Of the whole: no pixels.
   Image rows(int y0, int y1) const;     ///< Raster rows [y0, y1) of the crop window.
+  DeepRows deepRows(int y0, int y1, const DeepMerge& merge) const;  ///< The same, before exposure.
 
  private:
   struct Impl;
@@ -65,22 +82,34 @@ bool checkDisplays(const Options& options, Log& log);
 /// Applies exposure to colour and alpha-independent gamma, per Options.
 void expose(Image& image, const Options& options);
 
+/// Where a picture was taken from: kept by shadow maps and deep files. Screen space has x and y in [-1, 1], y up.
+struct View {
+  mat4 cameraFromWorld{1.0f}, screenFromWorld{1.0f};
+};
+View viewOf(const Camera& camera, const mat4& cameraFromWorld);
+
 /// The file of one Display: picks its floats, encodes, quantises and writes band after band to a temporary name; the last
 /// step renames. Type by `display.type` or the name's extension (.exr .tif .png); 8-bit types are sRGB only where the
 /// Display's "string transfer" says so. Failures are reported to the log, once.
 class DisplayFile {
  public:
   /// `shape`: a picture without pixels. `output`: outputOf(options); `index`: of the Display.
-  DisplayFile(const Image& shape, const FrameOutput& output, size_t index, const Options& options, Log& log);
+  DisplayFile(const Image& shape, const FrameOutput& output, size_t index, const Options& options, Log& log,
+              const View& view = {});
   ~DisplayFile();
   /// The next rows from the top, 64 or a multiple, but for the last. False: it cannot be written.
   bool write(const Image& rows);
+  /// Deep Displays are written by these instead.
+  std::optional<DeepMerge> deep() const;
+  bool write(const DeepRows& rows);
   bool close();
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+/// MakeShadow: what a Display has written serves as it is, so that this checks and copies it.
+bool makeShadow(const std::string& picture, const std::string& map, const SourceLoc& where, Log& log);
 /// A whole picture at once.
 bool writeDisplay(const Image& image, const DisplayCall& display, const Options& options, Log& log);
 bool writeImage(const std::string& path, const Image& image, bool srgb, Log& log);

@@ -36,6 +36,8 @@ class RiSink {
 struct RibSettings {
   /// Called at every WorldEnd with the frozen scene, in stream order.
   std::function<void(Scene&&)> onScene;
+  /// MakeShadow: what earlier worlds have written becomes a map for later ones. Empty: the request is not supported.
+  std::function<void(const std::string& picture, const std::string& map, const SourceLoc& where)> onMakeShadow;
   std::vector<std::string> archivePath{"."};
   int maxArchiveDepth = 64;
   bool allowSystem = false;       ///< System and Procedural "RunProgram" may start programs.

@@ -105,6 +105,13 @@ typedef struct TmLightSample {
 typedef enum TmLightChoice { TM_DIRECT_LIGHT = 1, TM_INDIRECT_LIGHT = 2 } TmLightChoice;
 typedef enum TmTransformKind { TM_AS_POINT = 0, TM_AS_VECTOR = 1, TM_AS_NORMAL = 2 } TmTransformKind;
 
+/* How a shadow map is looked up. */
+typedef struct TmShadowLookup {
+  float bias;                  /* depth that an occluder must be nearer to the light by; negative: the scene's, or as needed */
+  float blur, width;           /* added region as a fraction of the map; scale of the micropolygon's own region */
+  int32_t samples;
+} TmShadowLookup;
+
 /* What a shader may ask of the renderer. Every call works on the whole batch and obeys `active`. */
 typedef struct TmServices {
   uint32_t structBytes;
@@ -150,6 +157,10 @@ typedef struct TmServices {
 
   /* diffuse() of some lights: which is TM_DIRECT_LIGHT, TM_INDIRECT_LIGHT or their sum. */
   void (*diffuseOf)(void* host, const TmGrid*, int32_t which, TmConstVec3 N, TmVec3 out);
+
+  /* RISpec shadow(): the share of light that what is in shadow map `name` blocks at P, 1: all; colours from deep maps. 0 outside
+   * the map, for "raytrace", and where the map cannot be read (the renderer traces those shadows itself). */
+  void (*shadow)(void* host, const TmGrid*, const char* name, TmConstVec3 P, const TmShadowLookup*, TmVec3 out);
 } TmServices;
 
 typedef struct TmShader {

@@ -1,9 +1,12 @@
-#include "reyes/shader.h"
+#include "shaders/shadow.h"
 
 namespace {
 rsl::FloatParam intensity("intensity", 1, "scale: the light at distance 1");
 rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "colour");
 rsl::PointParam from("from", {0, 0, 0}, "position");
+ShadowParams shadow;
+rsl::StringParam sfpx("sfpx", "", "shadow map towards +x"), sfnx("sfnx", "", "towards -x"), sfpy("sfpy", "", "towards +y"),
+    sfny("sfny", "", "towards -y"), sfpz("sfpz", "", "towards +z"), sfnz("sfnz", "", "towards -z");
 
 void shade(const TmGrid* g) {
   const rsl::Batch b(g);
@@ -12,12 +15,22 @@ void shade(const TmGrid* g) {
     b.illuminate(i, L, intensity(g, i) * lightcolor(g, i) / std::max(rsl::dot(L, L), 1e-20f));
   }
 }
+
+// Outside its own pyramid a map blocks nothing, so that each point is dimmed by the one that sees it.
+void shadeShadowed(const TmGrid* g) {
+  shade(g);
+  for (const rsl::StringParam* map : {&shadow.shadowname, &sfpx, &sfnx, &sfpy, &sfny, &sfpz, &sfnz})
+    shadow.dim(rsl::Batch(g), (*map)(g));
+}
 }  // namespace
 
 extern const rsl::Shader pointlightShader, shadowpointShader;
 const rsl::Shader pointlightShader(TM_LIGHT, "pointlight", "light from a point, inverse square", 0, shade,
                                    {&intensity, &lightcolor, &from});
-// The same parameters in the same order: they may serve two shaders.
+// The same parameters at the same places: they may serve two shaders.
 const rsl::Shader shadowpointShader(TM_LIGHT, "shadowpoint",
-                                    "pointlight with shadows that `shadowname` asks for; always traced", 0,
-                                    shade, {&intensity, &lightcolor, &from});
+                                    "pointlight with shadows: traced, or of a shadow map for each direction", 0,
+                                    shadeShadowed,
+                                    {&intensity, &lightcolor, &from, &shadow.shadowname, &shadow.samples,
+                                     &shadow.blur, &shadow.width, &shadow.shadowbias, &sfpx, &sfnx, &sfpy, &sfny,
+                                     &sfpz, &sfnz});

@@ -1,4 +1,4 @@
-#include "reyes/shader.h"
+#include "shaders/shadow.h"
 
 namespace {
 rsl::FloatParam intensity("intensity", 1, "scale: the light at distance 1 on the axis");
@@ -9,6 +9,7 @@ rsl::FloatParam coneangle("coneangle", 0.523598776f, "half angle of the cone, ra
 rsl::FloatParam conedeltaangle("conedeltaangle", 0.0872664626f,
                                "width of the soft edge inside the cone, radians");
 rsl::FloatParam beamdistribution("beamdistribution", 2, "exponent of the falloff from the axis");
+ShadowParams shadow;
 
 // RISpec 3.2 appendix A: illuminate(from, axis, coneangle) with a soft edge.
 void shade(const TmGrid* g) {
@@ -25,6 +26,11 @@ void shade(const TmGrid* g) {
     b.illuminate(i, L, intensity(g, i) * edge * beam * lightcolor(g, i));
   }
 }
+
+void shadeShadowed(const TmGrid* g) {
+  shade(g);
+  shadow.dim(rsl::Batch(g), shadow.shadowname(g));
+}
 }  // namespace
 
 extern const rsl::Shader spotlightShader, shadowspotShader;
@@ -32,7 +38,9 @@ const rsl::Shader spotlightShader(TM_LIGHT, "spotlight", "light from a point int
                                   shade,
                                   {&intensity, &lightcolor, &from, &to, &coneangle, &conedeltaangle,
                                    &beamdistribution});
-// The same parameters in the same order: they may serve two shaders.
-const rsl::Shader shadowspotShader(
-    TM_LIGHT, "shadowspot", "spotlight with shadows that `shadowname` asks for; always traced", 0, shade,
-    {&intensity, &lightcolor, &from, &to, &coneangle, &conedeltaangle, &beamdistribution});
+// The same parameters at the same places: they may serve two shaders.
+const rsl::Shader shadowspotShader(TM_LIGHT, "shadowspot", "spotlight with shadows: traced, or of a shadow map", 0,
+                                   shadeShadowed,
+                                   {&intensity, &lightcolor, &from, &to, &coneangle, &conedeltaangle,
+                                    &beamdistribution, &shadow.shadowname, &shadow.samples, &shadow.blur,
+                                    &shadow.width, &shadow.shadowbias});

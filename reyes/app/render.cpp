@@ -9,6 +9,7 @@
 #include "reyes/app/overrides.h"
 #include "reyes/app/stats_json.h"
 #include "reyes/base/parallel.h"
+#include "reyes/image.h"
 #include "reyes/rib.h"
 
 namespace tomales {
@@ -26,6 +27,9 @@ class RenderRun {
     RibSettings rib;
     rib.allowSystem = settings_.allowSystem;
     rib.onScene = [this](Scene&& scene) { takeScene(std::move(scene)); };
+    rib.onMakeShadow = [this](const std::string& picture, const std::string& map, const SourceLoc& where) {
+      if (!interrupted()) makeShadow(picture, map, where, log_);
+    };
     parse_.emplace(stats_, "parse");
     const bool read = readRib(settings_.files, rib, log_);
     parse_.reset();

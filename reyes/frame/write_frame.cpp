@@ -10,16 +10,24 @@ void writeFrame(const DeepFrame& frame, const Scene& scene, const ShadingSystem&
   const FrameOutput output = outputOf(options);
   const SamplePattern pattern = samplePattern(options, control.seed);
   const SampleOffsets offsets = sampleOffsets(pattern);
+  const View view = viewOf(Camera(options), scene.cameraFromWorldAtOpen());
   const FrameFilter filter(frame, options, offsets);
   std::vector<std::unique_ptr<DisplayFile>> files;
   for (size_t i = 0; i < options.displays.size(); ++i)
     if (options.displays[i].type != "null")
-      files.push_back(std::make_unique<DisplayFile>(filter.shape(), output, i, options, log));
+      files.push_back(std::make_unique<DisplayFile>(filter.shape(), output, i, options, log, view));
   for (int y = frame.crop.y0; y < frame.crop.y1; y += kBandRows) {
-    Image band = filter.rows(y, std::min(y + kBandRows, frame.crop.y1));
+    const int end = std::min(y + kBandRows, frame.crop.y1);
+    Image band = filter.rows(y, end);
     expose(band, options);
     runImager(band, shading);
-    for (const auto& file : files) file->write(band);
+    for (const auto& file : files) {
+      const std::optional<DeepMerge> merge = file->deep();
+      if (merge)
+        file->write(filter.deepRows(y, end, *merge));
+      else
+        file->write(band);
+    }
     if (control.progress)
       control.progress(static_cast<float>(y - frame.crop.y0) / static_cast<float>(frame.crop.height()));
   }

@@ -53,6 +53,7 @@ Compositor::Compositor(const FrameOutput& output, const Options& options, int sa
       seen_(static_cast<size_t>(samples + 63) / 64),
       clear_(seen_.size() * 64),
       samples_(clear_.size()),
+      batchOf_(clear_.size()),
       sampleValues_(clear_.size() * static_cast<size_t>(width())),
       facetValues_(extras_.size()) {}
 
@@ -116,9 +117,16 @@ void Compositor::resolveStack(const DeepTile& tile, const DeepPixel& pixel, Reso
   for (uint32_t i = 0; i < pixel.count; ++i) {
     const Fragment& f = tile.fragments[pixel.first + i];
     if (!hasDepth(facetShade(tile, f))) continue;
+    const Facet& facet = tile.facets[f.facet];
+    // Neighbours on one surface reach over each other (docs/decisions/0003) and are no second one.
+    const float overlap = tile.batches[static_cast<size_t>(facet.batch)].edgeLength(facet.point[0]);
     for (uint64_t left = f.samples; left; left &= left - 1) {
-      Contribution& s = samples_[sampleOf(f, left)];
-      (s.z == kInfinity ? s.z : s.zSecond) = std::min(s.z == kInfinity ? s.z : s.zSecond, f.z);
+      const size_t sample = sampleOf(f, left);
+      Contribution& s = samples_[sample];
+      if (s.z == kInfinity)
+        s.z = f.z, batchOf_[sample] = facet.batch;
+      else if (facet.batch != batchOf_[sample] || f.z > s.z + overlap)
+        s.zSecond = std::min(s.zSecond, f.z);
     }
   }
   const Fragment* extrasOfFragment = nullptr;

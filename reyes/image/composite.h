@@ -68,6 +68,7 @@ class Compositor {
   std::vector<uint64_t> seen_;          ///< Samples that any fragment covers.
   std::vector<vec3> clear_;             ///< Of every sample, while layers() runs.
   std::vector<Contribution> samples_;   ///< Of every sample, while a stack is resolved,
+  std::vector<int> batchOf_;            ///< where their z is from,
   std::vector<float> sampleValues_;     ///< and their values.
   std::vector<float> facetValues_;
 };

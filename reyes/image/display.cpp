@@ -43,6 +43,7 @@ void encodeForScreen(Image& image) {
 
 FileFormat formatOfType(const std::string& type) {
   if (type == "openexr" || type == "exr") return {"openexr", SampleType::Float};
+  if (type == "shadow" || type == "zfile" || type == "deepshad" || type == "deepexr") return {"openexr", SampleType::Float};
   if (type == "tiff" || type == "tif") return {"tiff", SampleType::UInt8};
   if (type == "png") return {"png", SampleType::UInt8};
   return {"", SampleType::Float};
@@ -158,13 +159,23 @@ void expose(Image& image, const Options& options) {
   }
 }
 
+Metadata matrix(const char* name, const mat4& m) {
+  // RenderMan's matrices act on rows from the right and are stored by rows: that is glm's storage.
+  return {name, "", std::vector<float>(&m[0][0], &m[0][0] + 16)};
+}
+
 struct DisplayFile::Impl {
-  Impl(const Image& whole, const FrameOutput& output, size_t index, const Options& o, Log& l)
+  Impl(const Image& whole, const FrameOutput& output, size_t index, const Options& o, Log& l, const View& view)
       : display(o.displays[index]), options(o), log(l), path(display.name), selection(output.displays[index]) {
     warnAboutParams(display, log);
     format = formatOf(display, path, log);
     shape = whole;
     shape.channels.clear(), shape.pixels.clear();
+    if (writesDeep(display)) openDeep();
+    if (writesDeep(display) || writesShadowMap(display)) {
+      format.metadata.push_back(matrix("worldtocamera", view.cameraFromWorld));
+      format.metadata.push_back(matrix("worldtoscreen", view.screenFromWorld));
+    }
     const std::vector<std::string> names = output.names();
     for (const SelectedFloat& f : selection) {
       const Channel& channel = output.channels[static_cast<size_t>(f.channel)];
@@ -176,6 +187,20 @@ struct DisplayFile::Impl {
     }
     const bool good = format.name == "openexr" || prepareIntegers();
     if (good) file = std::make_unique<PictureFile>(path, shape, format);
+  }
+
+  void openDeep() {
+    format.deep = true, format.tile = 0, format.multipart = false, format.compression.clear();
+    format.precise = {"Z", "ZBack"};
+    merge.opacityOnly = display.type == "deepshad";
+    if (const Param* p = findParam(display.params, "mergedepth")) merge.depth = std::max(0.0f, p->number(0));
+    if (const Param* p = findParam(display.params, "mergeopacity")) merge.opacity = std::max(0.0f, p->number(0));
+    shape.channels = merge.opacityOnly ? std::vector<std::string>{"AR", "AG", "AB", "Z", "ZBack"}
+                                       : std::vector<std::string>{"R", "G", "B", "A", "Z", "ZBack"};
+    if (PixelFilter(options.filter, 2, 2).hasNegativeLobes())
+      log.report(Severity::Warning, "display-deep-filter", display.where,
+                 "Display \"" + display.name + "\": no deep pixel holds the negative lobes of " + options.filter +
+                     "; a box of one pixel is used");
   }
 
   /// Fits the type of an integer format to Quantize. False: the format cannot hold what is asked for.
@@ -231,6 +256,8 @@ struct DisplayFile::Impl {
     return file->write(out) || report();
   }
 
+  bool write(const DeepRows& rows) { return file && (file->write(rows) || report()); }
+
   bool report() {
     log.report(Severity::Output, "image-write", display.where, "\"" + path + "\" could not be written: " + file->error());
     file.reset();
@@ -248,13 +275,19 @@ struct DisplayFile::Impl {
   std::vector<bool> depth;
   std::vector<Quantize> quantizers;  ///< Empty: floats are written.
   bool screen = false;
+  DeepMerge merge;
   std::unique_ptr<PictureFile> file;  ///< Null: failed, and reported.
 };
 
-DisplayFile::DisplayFile(const Image& shape, const FrameOutput& output, size_t index, const Options& options, Log& log)
-    : impl_(new Impl(shape, output, index, options, log)) {}
+DisplayFile::DisplayFile(const Image& shape, const FrameOutput& output, size_t index, const Options& options, Log& log,
+                         const View& view)
+    : impl_(new Impl(shape, output, index, options, log, view)) {}
 DisplayFile::~DisplayFile() = default;
 bool DisplayFile::write(const Image& rows) { return impl_->write(rows); }
+bool DisplayFile::write(const DeepRows& rows) { return impl_->write(rows); }
+std::optional<DeepMerge> DisplayFile::deep() const {
+  return writesDeep(impl_->display) ? std::optional(impl_->merge) : std::nullopt;
+}
 bool DisplayFile::close() { return impl_->file && (impl_->file->close() || impl_->report()); }
 
 bool writeDisplay(const Image& image, const DisplayCall& display, const Options& options, Log& log) {
@@ -262,6 +295,25 @@ bool writeDisplay(const Image& image, const DisplayCall& display, const Options&
   one.displays = {display};
   DisplayFile file(image, outputOf(one, &log), 0, one, log);
   return file.write(image) && file.close();
+}
+
+View viewOf(const Camera& camera, const mat4& cameraFromWorld) {
+  const vec2 size(camera.xResolution(), camera.yResolution());
+  const vec2 center = camera.raster({0, 0, 1}), scale = camera.raster({1, 1, 1}) - center;
+  const vec2 toScreen(2 / size.x, -2 / size.y), origin = center * toScreen + vec2(-1, 1), stretch = scale * toScreen;
+  mat4 screenFromCamera(1.0f);
+  screenFromCamera[0][0] = stretch.x, screenFromCamera[1][1] = stretch.y;
+  const int last = camera.perspective() ? 2 : 3;  // what x and y are divided by: z, or nothing
+  screenFromCamera[last][0] = origin.x, screenFromCamera[last][1] = origin.y;
+  if (camera.perspective()) screenFromCamera[2][3] = 1, screenFromCamera[3][3] = 0, screenFromCamera[3][2] = -camera.nearClip();
+  return {cameraFromWorld, screenFromCamera * cameraFromWorld};
+}
+
+bool makeShadow(const std::string& picture, const std::string& map, const SourceLoc& where, Log& log) {
+  std::string error;
+  if (copyShadowMap(picture, map, error)) return true;
+  log.report(Severity::Missing, "make-shadow", where, "MakeShadow: no map \"" + map + "\" was made of \"" + picture + "\": " + error);
+  return false;
 }
 
 bool writeImage(const std::string& path, const Image& image, bool srgb, Log& log) {

@@ -69,11 +69,20 @@ float disk(float x, float y, float xWidth, float yWidth) {
   return u * u + v * v <= 1 ? 1.0f : 0.0f;
 }
 
+// The transform of a disk (Airy's amplitude 2 J1(x) / x), first zero at 1.22 pixels as of the finest circle that pixels hold;
+// windowed like sinc's lobes by that of the whole width.
+float airy(float r) { return r < 1e-3f ? 1.0f : 2 * std::cyl_bessel_jf(1, kPi * r) / (kPi * r); }
+float bessel(float x, float y, float xWidth, float yWidth) {
+  const float u = 2 * x / xWidth, v = 2 * y / yWidth, edge = std::sqrt(u * u + v * v);
+  constexpr float kFirstZero = 1.219669891f;
+  return edge >= 1 ? 0.0f : airy(std::sqrt(x * x + y * y)) * airy(kFirstZero * edge);
+}
+
 struct Named {
   const char* name;
   Kernel kernel;
 };
-constexpr std::array<Named, 10> kFilters = {{{"gaussian", gaussian},
+constexpr std::array<Named, 11> kFilters = {{{"gaussian", gaussian},
                                              {"box", box},
                                              {"triangle", triangle},
                                              {"catmull-rom", catmullRom},
@@ -82,6 +91,7 @@ constexpr std::array<Named, 10> kFilters = {{{"gaussian", gaussian},
                                              {"mitchell", mitchell},
                                              {"blackman-harris", blackmanHarris},
                                              {"lanczos", lanczos},
+                                             {"bessel", bessel},
                                              {"disk", disk}}};
 
 // Narrower than a pixel would miss every sample of some pixels; the upper limit bounds memory against a
@@ -105,6 +115,12 @@ float PixelFilter::operator()(float x, float y) const {
   const bool inside =
       x >= -0.5f * xWidth_ && x < 0.5f * xWidth_ && y >= -0.5f * yWidth_ && y < 0.5f * yWidth_;
   return inside ? kFilters[static_cast<size_t>(kind_)].kernel(x, y, xWidth_, yWidth_) : 0.0f;
+}
+
+bool PixelFilter::hasNegativeLobes() const {
+  static constexpr std::string_view kNames[] = {"catmull-rom", "separable-catmull-rom", "sinc", "mitchell", "lanczos", "bessel"};
+  const std::string_view name = kFilters[static_cast<size_t>(kind_)].name;
+  return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
 int PixelFilter::reachX() const { return reach(xWidth_); }

@@ -1,10 +1,8 @@
 // Contributions -> pixels, some rows at a time.
-#include <map>
-
 #include "reyes/base/parallel.h"
 #include "reyes/image.h"
 #include "reyes/image/composite.h"
-#include "reyes/image/weights.h"
+#include "reyes/image/deep_rows.h"
 
 namespace tomales {
 namespace {
@@ -33,15 +31,6 @@ struct Reduction {
   int to = 0, width = 1;
   float fill = 0;
 };
-
-/// Calls body(cell, pixel) for every pixel of `rows` whose samples reach pixel (x, y).
-template <class Body>
-void forNeighbours(const ResolvedRows& rows, const WeightTable& weights, const SampleOffsets& samples, int x, int y,
-                   const Body& body) {
-  for (int sy = std::max(y - weights.reachY, rows.rect.y0); sy < std::min(y + weights.reachY + 1, rows.rect.y1); ++sy)
-    for (int sx = std::max(x - weights.reachX, rows.rect.x0); sx < std::min(x + weights.reachX + 1, rows.rect.x1); ++sx)
-      body(weights.cell(samples.patternOf(sx, sy), sx - x, sy - y), rows.index(sx, sy));
-}
 
 }  // namespace
 
@@ -88,7 +77,7 @@ struct FrameFilter::Impl {
   void filter(const ResolvedRows& rows, const Pass& pass, int x, int y, std::vector<float>& sums, float* out) const {
     float total = 0, covered = 0;
     sums.assign(pass.floats.size(), 0.0f);
-    forNeighbours(rows, pass.weights, samples, x, y, [&](size_t cell, size_t pixel) {
+    forNeighbours(rows.rect, pass.weights, samples, x, y, [&](size_t cell, size_t pixel) {
       total += pass.weights.sum(cell);
       for (size_t i = rows.first[pixel]; i < rows.first[pixel + 1]; ++i) {
         const Contribution& c = rows.contributions[i];
@@ -108,7 +97,7 @@ struct FrameFilter::Impl {
     float weight = 0, best = 0;
     float* to = out + r.to;
     std::fill_n(to, r.width, r.fill);
-    forNeighbours(rows, r.weights, samples, x, y, [&](size_t cell, size_t pixel) {
+    forNeighbours(rows.rect, r.weights, samples, x, y, [&](size_t cell, size_t pixel) {
       for (size_t i = rows.first[pixel]; i < rows.first[pixel + 1]; ++i) {
         const Contribution& c = rows.contributions[i];
         const float w = r.weights.sum(cell, c.samples, c.word), *value = rows.value(i) + r.from;
@@ -187,6 +176,10 @@ Image FrameFilter::rows(int y0, int y1) const {
       }
   });
   return image;
+}
+
+DeepRows FrameFilter::deepRows(int y0, int y1, const DeepMerge& merge) const {
+  return tomales::deepRows(impl_->frame, impl_->options, impl_->samples, merge, y0, y1);
 }
 
 Image filterFrame(const DeepFrame& frame, const Options& options, const SampleOffsets& samples) {

@@ -1,5 +1,6 @@
 #include "reyes/image/image_file.h"
 
+#include <OpenImageIO/deepdata.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -55,6 +56,7 @@ OIIO::ImageSpec specOf(const Image& image, const std::vector<std::string>& chann
   spec.x = image.originX, spec.y = image.originY;
   spec.full_width = image.displayWidth > 0 ? image.displayWidth : image.width;
   spec.full_height = image.displayHeight > 0 ? image.displayHeight : image.height;
+  spec.deep = format.deep;
   if (format.tile > 0) spec.tile_width = spec.tile_height = format.tile;
   if (format.type == SampleType::Half)
     for (size_t c = 0; c < channels.size(); ++c) {
@@ -62,7 +64,8 @@ OIIO::ImageSpec specOf(const Image& image, const std::vector<std::string>& chann
       spec.channelformats.push_back(precise ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::HALF);
     }
   if (format.unassociatedAlpha) spec.attribute("oiio:UnassociatedAlpha", 1);
-  const std::string best = format.name == "tiff" ? "lzw" : "zip";
+  // Readers in use take deep files as scanlines of ZIPS alone.
+  const std::string best = format.name == "tiff" ? "lzw" : format.deep ? "zips" : "zip";
   spec.attribute("compression", format.compression.empty() ? best : format.compression);
   spec.attribute("Software", "Tomales");
   setMetadata(format, spec);
@@ -130,6 +133,21 @@ struct PictureFile::Impl {
     return checked(out->write_scanlines(y0, y1, 0, type, pixels));
   }
 
+  bool write(const DeepRows& rows) {
+    OIIO::DeepData deep;
+    const OIIO::ImageSpec spec = specOf(shape, shape.channels, format);
+    std::vector<OIIO::TypeDesc> types;
+    spec.get_channelformats(types);
+    deep.init(static_cast<int64_t>(rows.counts.size()), spec.nchannels, types, spec.channelnames);
+    deep.set_all_samples(rows.counts);
+    size_t value = 0;
+    for (size_t pixel = 0; pixel < rows.counts.size(); ++pixel)
+      for (uint32_t sample = 0; sample < rows.counts[pixel]; ++sample)
+        for (int c = 0; c < spec.nchannels; ++c)
+          deep.set_deep_value(static_cast<int64_t>(pixel), c, static_cast<int>(sample), rows.values[value++]);
+    return checked(out->write_deep_scanlines(rows.y0, rows.y0 + rows.height, 0, deep));
+  }
+
   // A part cannot be opened before the one before it is complete.
   bool writeParts() {
     std::vector<std::string> names;
@@ -195,8 +213,28 @@ PictureFile::~PictureFile() {
 }
 
 bool PictureFile::write(const Image& rows) { return !impl_->failed && impl_->write(rows); }
+bool PictureFile::write(const DeepRows& rows) { return !impl_->failed && impl_->write(rows); }
 bool PictureFile::close() { return impl_->close(); }
 const std::string& PictureFile::error() const { return impl_->problem; }
+
+bool copyShadowMap(const std::string& from, const std::string& to, std::string& error) {
+  {
+    const auto in = OIIO::ImageInput::open(from);
+    float matrix[16];
+    if (!in) return error = OIIO::geterror(), false;
+    if (in->spec().channelindex("Z") < 0 || !in->spec().getattribute("worldtocamera", OIIO::TypeMatrix44, matrix))
+      return error = "it is no shadow map: depth or the matrices of its camera are missing", false;
+  }
+  const fs::path target(to), temporary = target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid());
+  std::error_code problem;
+  if (fs::equivalent(from, target, problem)) return true;
+  fs::copy_file(from, temporary, fs::copy_options::overwrite_existing, problem);
+  if (!problem) fs::rename(temporary, target, problem);
+  if (!problem) return true;
+  error = problem.message();
+  fs::remove(temporary, problem);
+  return false;
+}
 
 std::optional<Image> readImage(const std::string& path, std::string& error) {
   const auto in = OIIO::ImageInput::open(path);

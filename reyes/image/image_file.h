@@ -19,6 +19,7 @@ struct FileFormat {
   bool unassociatedAlpha = false;       ///< Colour has been divided by alpha.
   std::string compression = {};         ///< Empty: the format's best lossless one.
   int tile = 0;                         ///< Side of a tile; 0: scanlines.
+  bool deep = false;                    ///< OpenEXR: a list of samples in every pixel.
   bool multipart = false;               ///< OpenEXR: one part for each layer; the picture is held until it is complete.
   std::vector<std::string> precise = {};///< Channels that stay float in a file of halves.
   std::vector<Metadata> metadata = {};
@@ -36,6 +37,7 @@ class PictureFile {
   ~PictureFile();
   /// The next rows from the top; all calls but the last with a multiple of kBandRows. False: error() says why.
   bool write(const Image& rows);
+  bool write(const DeepRows& rows);
   bool close();
   const std::string& error() const;
 
@@ -43,6 +45,9 @@ class PictureFile {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Copies a shadow map to a temporary name, then renames. False: it is none, or cannot be copied.
+bool copyShadowMap(const std::string& from, const std::string& to, std::string& error);
 
 /// IEC 61966-2-1 transfer of one linear value, clamped to [0,1].
 float encodeSrgb(float linear);

@@ -147,7 +147,7 @@ bool knownOption(GraphicsState& s, const Request& r, const std::string& key, con
   } else if (key == "limits:zthreshold" && p.floats.size() == 3) {
     o.depthThreshold = {p.floats[0], p.floats[1], p.floats[2]};
   } else {
-    return key.starts_with("user:") || key == "ribparse:varsubst";
+    return key.starts_with("user:") || key.starts_with("shadow:bias") || key == "ribparse:varsubst";
   }
   return true;
 }

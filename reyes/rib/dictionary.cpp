@@ -25,10 +25,10 @@ constexpr Standard kStandard[] = {
     // Parameters of the standard shaders (RISpec 3.2 appendix A)
     {"float",
      "Ka Kd Ks Kr roughness intensity coneangle conedeltaangle beamdistribution amplitude mindistance "
-     "maxdistance distance km opacity samples"},
+     "maxdistance distance km opacity samples blur shadowbias"},
     {"color", "lightcolor specularcolor background bgcolor color"},
     {"point", "from to"},
-    {"string", "texturename shadowname mapname"},
+    {"string", "texturename shadowname mapname sfpx sfnx sfpy sfny sfpz sfnz"},
     // Camera, displays, hiders
     {"float", "fov depthbias jitter dither minwidth dofaspect"},
     {"float[4]", "aperture"},
@@ -37,7 +37,7 @@ constexpr Standard kStandard[] = {
     {"float[4]", "quantize"},
     {"int[2]", "origin"},
     {"string", "compression filter depthfilter type source exrpixeltype exrcompression transfer lightgroup __group"},
-    {"float", "fill"},
+    {"float", "fill mergedepth mergeopacity"},
     {"float[8]", "chromaticities"},
     {"int", "tiled multipart"},
     // Category names go by "category:name"

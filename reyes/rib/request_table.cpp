@@ -151,7 +151,7 @@ constexpr Signature kTable[] = {
     {"MakeBump", "sssss2", kParams, kNotYet},
     {"MakeLatLongEnvironment", "sss2", kParams, kNotYet},
     {"MakeCubeFaceEnvironment", "sssssssfs2", kParams, kNotYet},
-    {"MakeShadow", "ss", kParams, kNotYet},
+    {"MakeShadow", "ss", kParams, kWorks},
     {"MakeBrickMap", "Ss", kParams, kNotYet},
     {"MakeOcclusion", "Ss", kParams, kNotYet},
     {"MakeTexture3D", "ss", kParams, kNotYet},

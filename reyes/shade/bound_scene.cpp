@@ -62,8 +62,9 @@ IndirectQuery queryOf(const BoundShader& light, Log& log) {
 /// Binds requests; groups that share a request share its shader, so that each problem is told once.
 class Binder {
  public:
-  Binder(const Scene& scene, ShaderRegistry& registry, Log& log)
+  Binder(const Scene& scene, ShaderRegistry& registry, const ShadowMaps& shadowMaps, Log& log)
       : scene_(scene),
+        shadowMaps_(shadowMaps),
         registry_(registry),
         log_(log),
         path_(pathOf(scene.options, "shader")),
@@ -101,6 +102,7 @@ class Binder {
   BoundShaderPtr bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind);
 
   const Scene& scene_;
+  const ShadowMaps& shadowMaps_;
   ShaderRegistry& registry_;
   Log& log_;
   const std::string path_;
@@ -133,7 +135,7 @@ BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, cons
 namespace {
 
 /// Parameters that every light understands, whether or not its shader declares them.
-void setHostParams(BoundLight& light, const LightCall& call, Log& log) {
+void setHostParams(BoundLight& light, const LightCall& call, const ShadowMaps& maps, Log& log) {
   const ParamList& params = call.shader.params;
   const auto number = [&](const char* name) {
     const Param* p = findParam(params, name);
@@ -155,9 +157,12 @@ void setHostParams(BoundLight& light, const LightCall& call, Log& log) {
          fmt::format("lighting \"{}\" is none of both, direct, indirect; both is used", lighting));
   for (const std::string_view name : kShadowMaps) {
     const std::string map = text(name);
-    light.shadows = light.shadows || !map.empty();
-    if (!map.empty() && map != "raytrace")
-      warn("light-shadow-map", fmt::format("shadow map \"{}\" is not read; shadows are traced instead", map));
+    if (map.empty()) continue;
+    const bool traced = map == "raytrace";
+    if (!traced && !light.bound->find(name))
+      warn("light-shadow-map", fmt::format("its shader reads no shadow map \"{}\"; shadows are traced instead", map));
+    const bool mapped = !traced && light.bound->find(name) && maps.find(map, call.shader.where, light.bound->user);
+    light.shadows = light.shadows || !mapped;
   }
   if (call.area && !light.can(TM_LIGHT_AREA))
     warn("light-area",
@@ -182,7 +187,7 @@ std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index
   light->bound = bound, light->index = index;
   const bool indirect = light->can(TM_LIGHT_INDIRECT);
   light->shadows = call.castsShadows || light->can(TM_LIGHT_SHADOWED);
-  setHostParams(*light, call, log_);
+  setHostParams(*light, call, shadowMaps_, log_);
   if (call.area && light->can(TM_LIGHT_AREA) && !hasGeometry(call, scene_))
     log_.report(Severity::Warning, "light-no-geometry", call.shader.where,
                 bound->user + ": no geometry follows the AreaLightSource; it casts no light");
@@ -275,9 +280,10 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
       stats(st),
       camera(s.options),
       cameraFromWorld(s.cameraFromWorldAtOpen()),
-      textures(pathOf(s.options, "texture"), l, st) {
+      textures(pathOf(s.options, "texture"), l, st),
+      shadowMaps(pathOf(s.options, "texture"), l) {
   output_ = outputOf(scene.options);
-  binder_ = std::make_unique<Binder>(scene, registry, log);
+  binder_ = std::make_unique<Binder>(scene, registry, shadowMaps, log);
   for (const auto& call : scene.lights)
     lights.push_back(binder_->light(*call, static_cast<int>(lights.size())));
   connectFilters(*this);

@@ -2,6 +2,7 @@
 #pragma once
 #include "reyes/shade.h"
 #include "reyes/shade/bound_shader.h"
+#include "reyes/shade/shadow_map.h"
 #include "reyes/shade/texture.h"
 #include "reyes/shade/variables.h"
 
@@ -55,6 +56,7 @@ struct BoundScene {
   Camera camera;
   mat4 cameraFromWorld;
   Textures textures;
+  ShadowMaps shadowMaps;
   std::vector<std::unique_ptr<const BoundLight>> lights;  ///< As Scene::lights; null: unknown shader.
   BoundLight stored;                                      ///< Stands for all lights where Illumination is not Lights.
   StableVector<BoundGroup> groups;                        ///< As Scene::groups.

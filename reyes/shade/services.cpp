@@ -1,6 +1,7 @@
 // The functions behind TmServices.
 #include <cstring>
 
+#include "reyes/base/rng.h"
 #include "reyes/shade/batch.h"
 #include "reyes/shade/spaces.h"
 
@@ -153,6 +154,38 @@ void transmission(void* host, const TmGrid* g, TmConstVec3 P, TmConstVec3 toward
   batch.scene.services->transmission(moved, g->active, toward, {}, batch.context, out);
 }
 
+/// Of a lookup that leaves it open: Option "shadow" "bias", or a random one between "bias0" and "bias1"; negative: as needed.
+float shadowBias(const Options& options, uint32_t name) {
+  const auto number = [&](const char* key) -> const Param* {
+    const auto it = options.user.find(key);
+    return it == options.user.end() ? nullptr : &it->second;
+  };
+  if (const Param* bias = number("shadow:bias")) return bias->number(-1);
+  const Param *low = number("shadow:bias0"), *high = number("shadow:bias1");
+  return low && high ? lerp(low->number(0), high->number(0), unitFloat(name)) : -1.0f;
+}
+
+void shadow(void* host, const TmGrid* g, const char* name, TmConstVec3 P, const TmShadowLookup* lookup, TmVec3 out) {
+  const Batch& batch = batchOf(host);
+  fill(g, out, vec3(0.0f));
+  if (!batch.points || std::string_view(name) == "raytrace") return;
+  const ShadowMap* map = batch.scene.shadowMaps.find(name, batch.running->where, batch.running->user);
+  if (!map) return;
+  const mat4 worldFromCurrent = glm::inverse(batch.scene.cameraFromWorld);
+  forActive(g, [&](int i) {
+    const ShadePoints& p = *batch.points;
+    const auto edge = [&](int tangent, const float* step) {
+      return transformVector(worldFromCurrent, p.get3(tangent, i) * step[i]);
+    };
+    const ShadowReceiver receiver{transformPoint(worldFromCurrent, get(P, i)),
+                                  transformAs(TM_NORMAL, worldFromCurrent, p.get3(kNgx, i)), edge(kDpduX, g->du),
+                                  edge(kDpdvX, g->dv)};
+    const uint32_t seed = hashCombine(p.key(i), p.name(i).sequence, batch.context.seed);
+    const float bias = lookup->bias < 0 ? shadowBias(batch.scene.scene.options, seed) : lookup->bias;
+    set(out, i, map->shadow(receiver, {bias, lookup->blur, lookup->width, lookup->samples, seed}));
+  });
+}
+
 /// Null: no light is running, or not of this group.
 const BoundLight* runningLight(const Batch& batch) {
   for (const BoundLight* light : batch.group.lights)
@@ -211,6 +244,6 @@ void report(void* host, const TmGrid*, int32_t severity, const char* message) {
 
 const TmServices kServices = {
     sizeof(TmServices), diffuse,      specular,        ambient, light,      transform, texture,
-    calculateNormal,    transmission, indirectDiffuse, report,  environment, diffuseOf};
+    calculateNormal,    transmission, indirectDiffuse, report,  environment, diffuseOf, shadow};
 
 }  // namespace tomales

@@ -6,7 +6,8 @@ namespace tomales {
 namespace {
 
 const char* const kNames[] = {"box",  "triangle", "gaussian",        "catmull-rom", "separable-catmull-rom",
-                              "sinc", "mitchell", "blackman-harris", "lanczos",     "disk"};
+                              "sinc", "mitchell", "blackman-harris", "lanczos",     "disk",
+                              "bessel"};
 
 double integral(const PixelFilter& filter, double halfWidth) {
   const int n = 400;

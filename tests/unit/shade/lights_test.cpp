@@ -185,7 +185,7 @@ TEST_F(Lights, WithoutServicesLightIsUnshadowedAndAreaLightsAreDark) {
   expectColor(shadeOne(), vec3(1));
 }
 
-TEST_F(Lights, NamedShadowMapsAreTracedInsteadWithOneWarning) {
+TEST_F(Lights, ShadowsOfMapsThatCannotBeReadAreTraced) {
   surface("matte");
   services.visible = [](const vec3&, const vec3&) { return 0.25f; };
   const auto to = point("to", {0, 0, 9});
@@ -195,7 +195,7 @@ TEST_F(Lights, NamedShadowMapsAreTracedInsteadWithOneWarning) {
   light("shadowspot", {number("intensity", 25), to});
   expectColor(shadeOne(), vec3(3 * 0.25f + 1));
   EXPECT_EQ(services.shadowRays, 3);
-  EXPECT_EQ(log.count("light-shadow-map"), 2);
+  EXPECT_EQ(log.count("shadow-map sun.shd") + log.count("shadow-map a.shd"), 2);
   EXPECT_TRUE(system().needsRays());
 }
 

@@ -1,0 +1,146 @@
+// Layers of the samples around a pixel -> a short list of depths. What lies at one depth is a share of the filtered pixel;
+// as in deep shadow maps (Lokovic and Veach 2000) the shares, front to back, say how much light is left behind each depth.
+#include "reyes/base/parallel.h"
+#include "reyes/image/deep_rows.h"
+
+namespace tomales {
+namespace {
+
+constexpr int kBandRows = 16;
+constexpr float kNothingLeft = 1e-5f;
+
+/// One layer of some samples of one pixel.
+struct Layer {
+  uint64_t samples;
+  uint16_t word;
+  float z;
+  vec3 color, coverage;  ///< Times the share of light that passes what lies before.
+};
+
+/// What a layer adds to the pixel that is being filtered.
+struct Share {
+  float z;
+  vec3 color, coverage;
+};
+
+struct LayeredRows {
+  PixelRect rect;
+  std::vector<Layer> layers;
+  std::vector<size_t> first{0};
+};
+
+LayeredRows layersOf(const DeepFrame& frame, const FrameOutput& output, const Options& options, const PixelRect& rect) {
+  LayeredRows rows{rect, {}, {0}};
+  Compositor compositor(output, options, frame.samplesPerPixel);
+  for (int y = rect.y0; y < rect.y1; ++y)
+    for (int x = rect.x0; x < rect.x1; ++x) {
+      if (const DeepTile* tile = finishedTile(frame, x, y))
+        compositor.layers(*tile, tile->pixel(x, y), [&](const Fragment& f, const FacetShade& s, uint64_t samples, const vec3& clear) {
+          if (s.coverage == vec3(0.0f) && s.color == vec3(0.0f)) return;  // a holdout
+          rows.layers.push_back({samples, f.word, f.z, clear * s.color, clear * s.coverage});
+        });
+      rows.first.push_back(rows.layers.size());
+    }
+  return rows;
+}
+
+/// Shares -> samples: those near each other in depth, or too faint to matter, become one.
+class Merger {
+ public:
+  Merger(const DeepMerge& merge, DeepRows& out) : merge_(merge), out_(out) {}
+
+  void pixel(std::vector<Share>& shares) {
+    std::stable_sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) { return a.z < b.z; });
+    before_ = vec3(0.0f);
+    open_ = false;
+    count_ = 0;
+    for (const Share& s : shares) {
+      if (open_ && !joins(s)) close();
+      if (!open_) start_ = s.z, color_ = coverage_ = vec3(0.0f), open_ = true;
+      end_ = s.z, color_ += s.color, coverage_ += s.coverage;
+    }
+    if (open_) close();
+    out_.counts.push_back(count_);
+  }
+
+ private:
+  bool joins(const Share& s) const {
+    if (s.z - start_ <= merge_.depth * std::abs(start_)) return true;
+    const float last = 1 - meanOf(before_ + coverage_);
+    return meanOf(coverage_ + s.coverage) <= merge_.opacity || last < kNothingLeft;
+  }
+
+  // A share of the pixel, seen through what is left by the shares before it.
+  void close() {
+    const auto through = [](float share, float before) { return share / std::max(1 - before, kNothingLeft); };
+    const float alphaBefore = meanOf(before_);
+    vec3 opacity;
+    for (int k = 0; k < 3; ++k) opacity[k] = std::min(through(coverage_[k], before_[k]), 1.0f);
+    const float alpha = std::min(through(meanOf(coverage_), alphaBefore), 1.0f);
+    if (merge_.opacityOnly)
+      out_.values.insert(out_.values.end(), {opacity.x, opacity.y, opacity.z, start_, end_});
+    else
+      out_.values.insert(out_.values.end(), {through(color_.x, alphaBefore), through(color_.y, alphaBefore),
+                                             through(color_.z, alphaBefore), alpha, start_, end_});
+    before_ += coverage_;
+    open_ = false;
+    ++count_;
+  }
+
+  const DeepMerge merge_;
+  DeepRows& out_;
+  vec3 before_, color_, coverage_;
+  float start_ = 0, end_ = 0;
+  bool open_ = false;
+  uint32_t count_ = 0;
+};
+
+}  // namespace
+
+DeepRows deepRows(const DeepFrame& frame, const Options& options, const SampleOffsets& samples, const DeepMerge& merge, int y0,
+                  int y1) {
+  Options plain = options;
+  plain.displays.clear();
+  const FrameOutput output = outputOf(plain);
+  bool negative = false;
+  const PixelFilter asked(options.filter, options.xFilterWidth, options.yFilterWidth);
+  negative = asked.hasNegativeLobes();
+  const WeightTable weights(negative ? PixelFilter("box", 1, 1) : asked, samples);
+  const int width = frame.crop.width();
+  const auto bands = static_cast<size_t>((y1 - y0 + kBandRows - 1) / kBandRows);
+  std::vector<DeepRows> parts(bands);
+  parallelFor(bands, 1, [&](size_t begin, size_t end) {
+    for (size_t band = begin; band < end; ++band) {
+      const int first = y0 + static_cast<int>(band) * kBandRows, last = std::min(first + kBandRows, y1);
+      const PixelRect& padded = frame.padded;
+      const LayeredRows rows = layersOf(frame, output, plain,
+                                        {padded.x0, std::max(padded.y0, first - weights.reachY), padded.x1,
+                                         std::min(padded.y1, last + weights.reachY)});
+      Merger merger(merge, parts[band]);
+      std::vector<Share> shares;
+      for (int y = first; y < last; ++y)
+        for (int x = frame.crop.x0; x < frame.crop.x1; ++x) {
+          float total = 0;
+          shares.clear();
+          forNeighbours(rows.rect, weights, samples, x, y, [&](size_t cell, size_t pixel) {
+            total += weights.sum(cell);
+            for (size_t i = rows.first[pixel]; i < rows.first[pixel + 1]; ++i) {
+              const Layer& l = rows.layers[i];
+              const float w = weights.sum(cell, l.samples, l.word);
+              if (w > 0) shares.push_back({l.z, w * l.color, w * l.coverage});
+            }
+          });
+          for (Share& s : shares) s.color /= total, s.coverage /= total;
+          merger.pixel(shares);
+        }
+    }
+  });
+  DeepRows out{frame.crop.x0, y0, width, y1 - y0, {}, {}};
+  for (const DeepRows& part : parts) {
+    out.counts.insert(out.counts.end(), part.counts.begin(), part.counts.end());
+    out.values.insert(out.values.end(), part.values.begin(), part.values.end());
+  }
+  return out;
+}
+
+}  // namespace tomales

@@ -1,0 +1,169 @@
+#include "reyes/shade/shadow_map.h"
+
+#include <OpenImageIO/deepdata.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "reyes/base/rng.h"
+
+namespace tomales {
+namespace {
+
+bool matrixOf(const OIIO::ImageSpec& spec, const char* name, mat4& out) {
+  float m[16];
+  // RenderMan's matrices act on rows from the right and are stored by rows: that is glm's storage.
+  if (!spec.getattribute(name, OIIO::TypeMatrix44, m)) return false;
+  out = glm::make_mat4(m);
+  return true;
+}
+
+vec2 project(const mat4& ndcFromWorld, const vec3& p) {
+  const vec4 h = ndcFromWorld * vec4(p, 1);
+  return vec2(h) / h.w;
+}
+
+}  // namespace
+
+std::unique_ptr<const ShadowMap> ShadowMap::read(const std::string& path, std::string& error) {
+  const auto in = OIIO::ImageInput::open(path);
+  if (!in) return error = OIIO::geterror(), nullptr;
+  const OIIO::ImageSpec& spec = in->spec();
+  auto map = std::make_unique<ShadowMap>();
+  const auto channel = [&](const char* name) { return spec.channelindex(name); };
+  if (channel("Z") < 0 || !matrixOf(spec, "worldtocamera", map->cameraFromWorld_) ||
+      !matrixOf(spec, "worldtoscreen", map->ndcFromWorld_))
+    return error = "it is no shadow map: depth or the matrices of its camera are missing", nullptr;
+  map->cameraNormalFromWorld_ = glm::transpose(glm::inverse(mat3(map->cameraFromWorld_)));
+  map->width_ = spec.full_width, map->height_ = spec.full_height;
+  map->x0_ = spec.x, map->y0_ = spec.y, map->columns_ = spec.width, map->rows_ = spec.height;
+  const mat4 ndcFromCamera = map->ndcFromWorld_ * glm::inverse(map->cameraFromWorld_);
+  map->perspective_ = std::abs(ndcFromCamera[2][3]) > 1e-6f * std::abs(ndcFromCamera[3][3]);
+  if (!spec.deep) {
+    const int z = channel("Z");
+    map->depth_.resize(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height));
+    if (!in->read_image(0, 0, z, z + 1, OIIO::TypeDesc::FLOAT, map->depth_.data())) return error = in->geterror(), nullptr;
+    return map;
+  }
+  OIIO::DeepData deep;
+  if (!in->read_native_deep_image(0, 0, deep)) return error = in->geterror(), nullptr;
+  const int z = channel("Z"), back = channel("ZBack") < 0 ? z : channel("ZBack"), alpha = channel("A");
+  const int opacity[3] = {channel("AR"), channel("AG"), channel("AB")};
+  map->first_.push_back(0);
+  for (int64_t pixel = 0; pixel < deep.pixels(); ++pixel) {
+    vec3 clear(1.0f);
+    for (int s = 0; s < deep.samples(pixel); ++s) {
+      Step step{deep.deep_value(pixel, z, s), deep.deep_value(pixel, back, s), clear, clear};
+      for (int k = 0; k < 3; ++k)
+        step.after[k] *= 1 - deep.deep_value(pixel, opacity[k] < 0 ? alpha : opacity[k], s);
+      clear = step.after;
+      map->steps_.push_back(step);
+    }
+    map->first_.push_back(map->steps_.size());
+  }
+  return map;
+}
+
+vec3 ShadowMap::blocked(int x, int y, float z) const {
+  const int column = x - x0_, row = y - y0_;
+  if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return vec3(0.0f);
+  const size_t texel = static_cast<size_t>(row) * static_cast<size_t>(columns_) + static_cast<size_t>(column);
+  if (!depth_.empty()) return vec3(depth_[texel] < z ? 1.0f : 0.0f);
+  const Step *begin = steps_.data() + first_[texel], *end = steps_.data() + first_[texel + 1];
+  const Step* beyond = std::upper_bound(begin, end, z, [](float at, const Step& s) { return at < s.z; });
+  if (beyond == begin) return vec3(0.0f);
+  const Step& s = beyond[-1];
+  const float t = z >= s.zBack ? 1.0f : (z - s.z) / (s.zBack - s.z);
+  return vec3(1.0f) - glm::mix(s.before, s.after, t);
+}
+
+/// A receiver as the map's camera sees it.
+struct ShadowMap::View {
+  vec3 P, N;           ///< Camera space.
+  vec2 at, u, v;       ///< Texels: its place, its edges.
+  float texel;         ///< Size of a texel at its depth.
+  vec2 center, scale;  ///< texel = center + scale (x, y) [/ z]
+  bool perspective;
+
+  /// Depth of the receiver's plane where the ray of a texel position meets it, or of P where that leaves `reach`.
+  float depth(const vec2& texelAt, float reach) const {
+    const vec2 xy = (texelAt - center) / scale;
+    float z = P.z;
+    if (perspective) {
+      const float along = dot(N, vec3(xy, 1));
+      if (along != 0) z = dot(N, P) / along;
+    } else if (N.z != 0) {
+      z = P.z - (N.x * (xy.x - P.x) + N.y * (xy.y - P.y)) / N.z;
+    }
+    return std::clamp(std::isfinite(z) ? z : P.z, P.z - reach, P.z + reach);
+  }
+};
+
+vec3 ShadowMap::shadow(const ShadowReceiver& r, const ShadowLookup& lookup) const {
+  const vec4 h = ndcFromWorld_ * vec4(r.P, 1);
+  const auto texelOf = [this](const vec2& ndc) {
+    return vec2(0.5f * (ndc.x + 1) * static_cast<float>(width_), 0.5f * (1 - ndc.y) * static_cast<float>(height_));
+  };
+  View view{transformPoint(cameraFromWorld_, r.P), cameraNormalFromWorld_ * r.N, {}, {}, {}, 0, {}, {}, perspective_};
+  if (!(h.w > 0) || view.P.z <= 0 || std::abs(h.x) > h.w || std::abs(h.y) > h.w) return vec3(0.0f);
+  view.at = texelOf(vec2(h) / h.w);
+  const auto edge = [&](const vec3& e) {
+    const vec2 moved = texelOf(project(ndcFromWorld_, r.P + e)) - view.at;
+    return std::isfinite(moved.x + moved.y) ? lookup.width * moved : vec2(0.0f);
+  };
+  view.u = edge(r.edgeU), view.v = edge(r.edgeV);
+  const mat4 worldFromCamera = glm::inverse(cameraFromWorld_);
+  const auto texelOfCamera = [&](const vec3& p) { return texelOf(project(ndcFromWorld_, transformPoint(worldFromCamera, p))); };
+  view.center = texelOfCamera({0, 0, 1}), view.scale = texelOfCamera({1, 1, 1}) - view.center;
+  view.texel = (perspective_ ? view.P.z : 1) / std::min(std::abs(view.scale.x), std::abs(view.scale.y));
+
+  // Never less than a texel: nobody wants to see them.
+  const vec2 square = vec2(1.0f) + lookup.blur * vec2(width_, height_);
+  const float steepest = 8;  // beyond that slope the plane says nothing about its surroundings
+  const float extent = 1 + 0.5f * (glm::length(view.u) + glm::length(view.v) + glm::length(square));
+  const float reach = steepest * view.texel * extent;
+  vec3 sum(0.0f);
+  const int n = std::max(1, lookup.samples);
+  for (int k = 0; k < n; ++k) {
+    const vec2 xi = sobol2(static_cast<uint32_t>(k), lookup.seed) - vec2(0.5f);
+    const vec2 at = view.at + xi * square + xi.x * view.u + xi.y * view.v;
+    const vec2 middle = glm::floor(at) + vec2(0.5f);
+    const float z = view.depth(middle, reach);
+    float bias = lookup.bias;
+    if (bias < 0) {
+      // The map holds the nearest depth within a texel.
+      const float slope = std::abs(view.depth(middle + vec2(0.5f, 0), reach) - z) + std::abs(view.depth(middle + vec2(0, 0.5f), reach) - z);
+      bias = 1.5f * slope + 0.05f * view.texel + 1e-5f * view.P.z;
+    }
+    sum += blocked(static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)), z - bias);
+  }
+  return sum / static_cast<float>(n);
+}
+
+const ShadowMap* ShadowMaps::find(const std::string& name, const SourceLoc& where, const std::string& user) const {
+  const std::lock_guard lock(mutex_);
+  const auto [it, isNew] = maps_.try_emplace(name);
+  if (!isNew) return it->second.get();
+  namespace fs = std::filesystem;
+  std::error_code none;
+  std::string path = name, error;
+  for (size_t begin = 0; fs::path(name).is_relative() && begin <= searchPath_.size();) {
+    const size_t end = std::min(searchPath_.find(':', begin), searchPath_.size());
+    const fs::path candidate = fs::path(searchPath_.substr(begin, end - begin)) / name;
+    if (fs::is_regular_file(candidate, none)) {
+      path = candidate.string();
+      break;
+    }
+    begin = end + 1;
+  }
+  it->second = ShadowMap::read(path, error);
+  if (!it->second)
+    log_.report(Severity::Missing, fmt::format("shadow-map {}", name), where,
+                fmt::format("{}: shadow map \"{}\" cannot be read ({}); shadows are traced instead", user, name,
+                            error.empty() ? "not found" : error));
+  return it->second.get();
+}
+
+}  // namespace tomales
