@@ -6,25 +6,35 @@ rsl::FloatParam frequency("frequency", 1, "lumps for each unit of `space`");
 rsl::FloatParam octaves("octaves", 4, "layers, each twice as fine and half as high");
 rsl::StringParam space("space", "shader", "the noise stands still in this space");
 
-// Octaves weigh 1/2, 1/4, ... of their sum, so Km bounds the displacement.
-float fractalNoise(rsl::Vec3 p, int count) {
-  float sum = 0, weights = 0;
-  for (int k = 0; k < count; ++k) {
-    const float weight = std::ldexp(1.0f, -k);
-    sum += weight * rsl::signedNoise(p * std::ldexp(1.0f, k));
-    weights += weight;
+struct Octave {
+  float scale, weight;  ///< 2^k, 2^-k
+  float number;         ///< k
+};
+
+/// One layer over all points, inactive ones too: sum += weight * noise where the point has that layer. `octave` is a copy,
+/// or each store might change it.
+RSL_HOT void addOctave(const Octave octave, int n, TmConstVec3 p, const float* counts, float* sum, float* weights) {
+  for (int i = 0; i < n; ++i) {
+    const float weight = octave.number < counts[i] ? octave.weight : 0.0f;
+    sum[i] += weight * rsl::signedNoise(rsl::Vec3{p.x[i], p.y[i], p.z[i]} * octave.scale);
+    weights[i] += weight;
   }
-  return weights > 0 ? sum / weights : 0;
 }
 
+// Octaves weigh 1/2, 1/4, ... of their sum, so Km bounds the displacement.
 void shade(const TmGrid* g) {
   const rsl::Batch b(g);
-  const rsl::Vec3Array p = b.positionsIn(space(g));
-  rsl::Array amount(g);
+  rsl::Vec3Array p = b.positionsIn(space(g));
+  rsl::Array amount(g), counts(g), sum(g), weights(g);
+  float most = 0;
   for (int i : b) {
-    const int count = static_cast<int>(rsl::clamp(octaves(g, i), 0, 16));
-    amount[i] = Km(g, i) * fractalNoise(p[i] * frequency(g, i), count);
+    p.set(i, p[i] * frequency(g, i));
+    counts[i] = std::trunc(rsl::clamp(octaves(g, i), 0, 16));
+    most = std::max(most, counts[i]);
   }
+  for (float k = 0; k < most; ++k)
+    addOctave({std::exp2(k), std::exp2(-k), k}, g->count, p, counts.data(), sum.data(), weights.data());
+  for (int i : b) amount[i] = weights[i] > 0 ? Km(g, i) * (sum[i] / weights[i]) : 0.0f;
   b.displace(amount);
 }
 }  // namespace

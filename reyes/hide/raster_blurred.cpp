@@ -201,11 +201,20 @@ class Descent {
  public:
   Descent(const RasterJob& job, int key) : job_(job), bounds_(*job.raster.blur), key_(key), focus_(job.camera.focusKey()) {}
 
+  /// In bands of pixel rows, so that lists stay short in large buckets.
   void run(const Interval& when) {
-    const size_t top = bounds_.levels.size() - 1;
-    const BlurBox& box = bounds_.box(key_, bounds_.levels[top], 0, 0);
     const PixelRect pixels = job_.out.touched(job_.raster.bound.lo, job_.raster.bound.hi);
-    const size_t most = static_cast<size_t>(pixels.width() * pixels.height() * job_.out.lanes);
+    const int rowLanes = std::max(1, pixels.width() * job_.out.lanes), rows = std::max(1, kMostLanes / rowLanes);
+    for (int y = pixels.y0; y < pixels.y1; y += rows)
+      runBand(when, {pixels.x0, y, pixels.x1, std::min(y + rows, pixels.y1)});
+  }
+
+ private:
+  static constexpr int kMostLanes = 1 << 16;
+
+  void runBand(const Interval& when, const PixelRect& pixels) {
+    const size_t top = bounds_.levels.size() - 1, most = static_cast<size_t>(pixels.width() * pixels.height() * job_.out.lanes);
+    const BlurBox& box = bounds_.box(key_, bounds_.levels[top], 0, 0);
     stack_ = &SieveStack::ofThread(bounds_.levels.size(), most);
     SampleList list = stack_->push(most);
     sieveBucket<B>(job_.out, pixels, when, Box<B>(box, focus_), box.dMin, list);
@@ -213,7 +222,6 @@ class Descent {
     stack_->pop(most);
   }
 
- private:
   void descend(size_t level, int i, int j, const SampleList& samples) {
     if (samples.count == 0) return;
     if (level == 0) return meet(i, j, samples);

@@ -137,12 +137,18 @@ class TileBuilder {
     const GridTable::Entry& entry = grids_.of(cellNumber);
     const int cell = static_cast<int>(cellNumber - entry.firstCell);
     const size_t first = pixel * static_cast<size_t>(samples_.lanes) + size_t{64} * fragment.word;
-    vec2 sum(0);
+    const bool blurred = entry.raster->blur != nullptr;
+    // The corners of what is still and in focus are the same for all samples: ask once, at their mean place.
+    vec2 places(0), positions(0);
     for (uint64_t left = fragment.samples; left != 0; left &= left - 1) {
       const SamplePoint sample = samplePoint(samples_, first + static_cast<size_t>(std::countr_zero(left)));
-      sum += glm::clamp(positionOnCell(entry, camera_, cell, sample), vec2(0), vec2(1));
+      places += sample.at;
+      if (blurred) positions += glm::clamp(positionOnCell(entry, camera_, cell, sample), vec2(0), vec2(1));
     }
-    const vec2 mean = sum * (255.0f / static_cast<float>(std::popcount(fragment.samples)));
+    const float share = 1 / static_cast<float>(std::popcount(fragment.samples));
+    if (!blurred)
+      positions = glm::clamp(positionOnCell(entry, camera_, cell, {places * share, 0, vec2(0)}), vec2(0), vec2(1));
+    const vec2 mean = positions * (blurred ? 255 * share : 255.0f);
     fragment.u = static_cast<uint8_t>(std::lround(mean.x)), fragment.v = static_cast<uint8_t>(std::lround(mean.y));
   }
 

@@ -70,9 +70,9 @@ TEST(Resolve, DoesNotDependOnTheOrderOfGrids) {
   }
 }
 
-TEST(Resolve, DoesNotDependOnTheSizeOfBuckets) {
+void expectNoTraceOfBuckets(int samples) {
   Soup soup;
-  const SamplePattern pattern(4, 4, true, 1);
+  const SamplePattern pattern(samples, samples, true, 1);
   const DeepTile whole = hide(soup.world, pattern, {0, 0, 64, 64}, soup.rasters);
   for (const int size : {8, 16})
     for (int y0 = 0; y0 < 64; y0 += size)
@@ -83,6 +83,11 @@ TEST(Resolve, DoesNotDependOnTheSizeOfBuckets) {
             ASSERT_EQ(seen(part, x, y), seen(whole, x, y)) << x << "," << y;
       }
 }
+
+TEST(Resolve, DoesNotDependOnTheSizeOfBuckets) { expectNoTraceOfBuckets(4); }
+
+// The whole frame as one bucket is more samples than are sieved at once.
+TEST(Resolve, DoesNotDependOnTheSizeOfBucketsWithManySamples) { expectNoTraceOfBuckets(9); }
 
 TEST(Resolve, EveryFragmentOfAPixelIsNearestFirstAndHasItsOwnSamples) {
   Soup soup;
