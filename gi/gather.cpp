@@ -94,7 +94,8 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
   }
   stats.rays.gather += static_cast<int64_t>(count);
   stats.rays.hitlistAdjusted += adjusted;
-  const ShadeContext context{RayKind::Diffuse, 1, settings.seed, 1, false};
+  ShadeContext context{RayKind::Diffuse, 1, settings.seed, 1, false};
+  context.diffuseLimit = context.specularLimit = 0;  // the diffuse component of direct light alone
   scene.shadeHits(scratch.rays, scratch.hits, scratch.names, shading, context, scratch.radiance);
   for (vec3& L : scratch.radiance)
     if (!isFinite(L))

@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "reyes/shade/batch.h"
+#include "reyes/shade/ray_services.h"
 #include "reyes/shade/spaces.h"
 
 namespace tomales {
@@ -137,12 +138,7 @@ void calculateNormal(void* host, const TmGrid* g, TmConstVec3 P, TmVec3 out) {
 }
 
 void transmission(void* host, const TmGrid* g, TmConstVec3 P, TmConstVec3 toward, TmVec3 out) {
-  const Batch& batch = batchOf(host);
-  fill(g, out, vec3(1.0f));
-  if (!batch.points || !batch.scene.services) return;
-  ShadePoints moved = *batch.points;
-  forActive(g, [&](int i) { moved.set3(kPx, i, get(P, i)); });
-  batch.scene.services->transmission(moved, g->active, toward, {}, batch.context, out);
+  transmissionWith(host, g, P, toward, nullptr, out);
 }
 
 /// Null: no light is running, or not of this group.
@@ -203,6 +199,7 @@ void report(void* host, const TmGrid*, int32_t severity, const char* message) {
 
 const TmServices kServices = {
     sizeof(TmServices), diffuse,      specular,        ambient, light,      transform, texture,
-    calculateNormal,    transmission, indirectDiffuse, report,  environment};
+    calculateNormal,    transmission, indirectDiffuse, report,  environment,
+    traceRays,          gatherRays,   occlusion,       transmissionWith, rayInfo, rayLabel};
 
 }  // namespace tomales

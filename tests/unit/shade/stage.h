@@ -55,6 +55,12 @@ class FakeServices final : public ShadeServices {
       light.x[i] *= v, light.y[i] *= v, light.z[i] *= v;
     }
   }
+  void trace(const ShadePoints& points, const uint8_t* active, TmConstVec3, TmConstVec3, const RayQuery&, const ShadeContext&,
+             const RayResult& result) const override {
+    for (int i = 0; i < points.count(); ++i)
+      if (active[i] && result.distance) result.distance[i] = kInfinity;
+  }
+  float emitterReach(int) const override { return 0; }
   bool sampleEmitter(int, int count, const float* a, const float* b, TmVec3 P, TmVec3 N,
                      float* area) const override {
     if (!emitter) return false;
