@@ -43,6 +43,13 @@ std::vector<vec3> shaded(const World& world, const ShadePoints& points, const Sh
   return colors;
 }
 
+template <class Edit>
+RayQuery asking(const Edit& edit) {
+  RayQuery query;
+  edit(query);
+  return query;
+}
+
 /// One ray from P along `direction`, from an object of group 0.
 struct Answer {
   float distance = 0;
@@ -102,7 +109,7 @@ TEST(RayCalls, AnEmitterThatAMirrorShowsCountsOnce) {
     const float is = shaded(world, points)[0].x;
     EXPECT_TRUE(is == 3 || is == 0) << is;
     // One of its sides shines, and diffuse rays leave it to direct light.
-    const float other = traceOne(*services, {0, 0, 1}, {0, 1, 0}, {.kind = RayKind::Diffuse}).color.x;
+    const float other = traceOne(*services, {0, 0, 1}, {0, 1, 0}, asking([&](RayQuery& q) { q.kind = RayKind::Diffuse; })).color.x;
     EXPECT_EQ(other, 0);
   }
 }
@@ -133,7 +140,7 @@ TEST(RayCalls, LightPassesLayersByTheProductOfTheirClearness) {
       services->transmission(points, &active, {&toward.x, &toward.y, &toward.z}, {}, {}, {&light.x, &light.y, &light.z});
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(light[c], std::pow(0.8f - 0.2f * static_cast<float>(c), static_cast<float>(through)), 1e-5f);
       // A ray that brings colour goes through them too.
-      const Answer a = traceOne(*services, {0.3f, 0, 0.1f}, {0, 1, 0}, {.maxDistance = toward.y, .mode = HitMode::Primitive});
+      const Answer a = traceOne(*services, {0.3f, 0, 0.1f}, {0, 1, 0}, asking([&](RayQuery& q) { q.maxDistance = toward.y; q.mode = HitMode::Primitive; }));
       for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(1 - a.opacity[c], std::pow(0.8f - 0.2f * static_cast<float>(c), static_cast<float>(through)), 1e-5f);
       EXPECT_LT(glm::length(a.color - a.opacity), 1e-5f) << "white layers: what covers is what shines";
@@ -196,15 +203,15 @@ TEST(RayCalls, SubsetsAndSidesAndDistanceChooseWhatIsMet) {
   const vec3 P(0.2f, 0, 0.1f), up(0, 1, 0);
   const auto distance = [&](const RayQuery& q) { return traceOne(*services, P, up, q).distance; };
   EXPECT_NEAR(distance({}), 1, 1e-5f);
-  EXPECT_NEAR(distance({.subset = "far"}), 2, 1e-5f);
-  EXPECT_NEAR(distance({.subset = "all", .excludeSubset = "near"}), 2, 1e-5f);
-  EXPECT_NEAR(distance({.subset = "near, far"}), 1, 1e-5f);
-  EXPECT_EQ(distance({.subset = "fa"}), kInfinity);
-  EXPECT_EQ(distance({.maxDistance = 0.9f}), kInfinity);
-  const float front = distance({.sides = HitSides::Front}), back = distance({.sides = HitSides::Back});
+  EXPECT_NEAR(distance(asking([&](RayQuery& q) { q.subset = "far"; })), 2, 1e-5f);
+  EXPECT_NEAR(distance(asking([&](RayQuery& q) { q.subset = "all"; q.excludeSubset = "near"; })), 2, 1e-5f);
+  EXPECT_NEAR(distance(asking([&](RayQuery& q) { q.subset = "near, far"; })), 1, 1e-5f);
+  EXPECT_EQ(distance(asking([&](RayQuery& q) { q.subset = "fa"; })), kInfinity);
+  EXPECT_EQ(distance(asking([&](RayQuery& q) { q.maxDistance = 0.9f; })), kInfinity);
+  const float front = distance(asking([&](RayQuery& q) { q.sides = HitSides::Front; })), back = distance(asking([&](RayQuery& q) { q.sides = HitSides::Back; }));
   EXPECT_NEAR(std::min(front, back), 1, 1e-5f);
   EXPECT_NEAR(std::max(front, back), 2, 1e-5f);
-  EXPECT_LT(glm::length(traceOne(*services, P, up, {.subset = "far"}).place - vec3(0.2f, 2, 0.1f)), 1e-5f);
+  EXPECT_LT(glm::length(traceOne(*services, P, up, asking([&](RayQuery& q) { q.subset = "far"; })).place - vec3(0.2f, 2, 0.1f)), 1e-5f);
 }
 
 TEST(RayCalls, DepthIsLimitedByTheObjectsOnTheWay) {

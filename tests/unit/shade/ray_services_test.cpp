@@ -82,12 +82,12 @@ TEST_F(RayServices, WideRaysAreDiffuseAndNarrowOnesSpecular) {
   for (const float angle : {0.0f, 0.17f, 0.18f}) {
     options.coneAngle = angle;
     mean(Ask::Trace, 1);
-    EXPECT_EQ(services.rays.back().kind, angle > 0.175f ? RayKind::Diffuse : RayKind::Specular);
+    EXPECT_EQ(services.asked.back().kind, angle > 0.175f ? RayKind::Diffuse : RayKind::Specular);
   }
   options.label = "here", options.subset = "a", options.excludeSubset = "b", options.hitSides = TM_HIT_BACK;
   options.hitMode = TM_HIT_PRIMITIVE, options.bias = 0.5f, options.maxDistance = 7;
   mean(Ask::Trace, 1);
-  const RayQuery& q = services.rays.back();
+  const RayQuery& q = services.asked.back();
   EXPECT_TRUE(q.label == "here" && q.subset == "a" && q.excludeSubset == "b" && q.sides == HitSides::Back &&
               q.mode == HitMode::Primitive && q.bias == 0.5f && q.maxDistance == 7);
 }
