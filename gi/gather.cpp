@@ -98,6 +98,7 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
   stats.rays.hitlistAdjusted += adjusted;
   ShadeContext context{RayKind::Diffuse, 1, settings.seed, 1, false};
   context.light = settings.light;
+  context.diffuseLimit = context.specularLimit = 0;  // the diffuse component of direct light alone
   scene.shadeHits(scratch.rays, scratch.hits, scratch.names, shading, context, scratch.radiance);
   for (vec3& L : scratch.radiance)
     if (!isFinite(L))

@@ -151,7 +151,8 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
   // again.
   const int paths = context.depth > 0 ? 1 : planFor(state, points.group(), query).gather.samples;
   const int depth = context.depth + 1;
-  const ShadeContext hitContext{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
+  ShadeContext hitContext{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
+  hitContext.diffuseLimit = hitContext.specularLimit = 0;  // bounces are those of indirectDiffuse() alone
   PathBatches batches(state, points, N, query.maxDistance, hitContext);
   std::vector<PathSum> sums;
   for (int i = 0; i < points.count(); ++i)

@@ -1,7 +1,8 @@
 #include "gi/services.h"
 
+#include <numeric>
+
 #include "gi/state.h"
-#include "reyes/base/rng.h"
 
 namespace tomales {
 namespace {
@@ -28,27 +29,42 @@ void GiServices::gatherPass(const DeepFrame& frame, const std::function<void(flo
 void GiServices::transmission(const ShadePoints& points, const uint8_t* active, TmConstVec3 toward,
                               const ShadowRays& rays, const ShadeContext& context, TmVec3 light) const {
   const RayScene& scene = impl_->rays;
+  const Attributes& own = *impl_->scene.groups[static_cast<size_t>(points.group())].attributes;
   const int times = scene.samplesTime(points.group()) && context.kind == RayKind::Camera
                         ? std::max(1, kTimesOfLight / rays.samples)
                         : 1;
-  int64_t traced = 0;
+  const RayFilter filter = rays.query ? filterOf(scene, *rays.query, own) : filterOf(scene, {}, own);
+  std::vector<Ray> shadowRays;
+  std::vector<SampleName> names;
+  std::vector<int> pointOf;
   for (int i = 0; i < points.count(); ++i) {
     const vec3 arriving{light.x[i], light.y[i], light.z[i]}, path{toward.x[i], toward.y[i], toward.z[i]};
     const float length = glm::length(path);
     if (!active[i] || arriving == vec3(0.0f) || !(length > 0)) continue;
-    vec3 passed(0);
+    pointOf.push_back(i);
     for (int k = 0; k < times; ++k) {
       const int strata = rays.samples * times, stratum = rays.sample * times + k;
       Ray ray{points.position(i), path / length, rays.solar ? kInfinity : length};
       aim(scene, points, i, rayTime(scene, points, i, stratum, strata, context.seed), ray);
       ray.offset = slantedOffset(ray.offset, std::abs(dot(ray.direction, points.get3(kNgx, i))));
-      passed += scene.transmission(ray);
+      if (rays.query) setBias(*rays.query, ray);
+      ray.filter = filter.passesAll() ? nullptr : &filter;
+      shadowRays.push_back(ray), names.push_back(points.name(i));
     }
-    passed *= arriving / static_cast<float>(times);
-    light.x[i] = passed.x, light.y[i] = passed.y, light.z[i] = passed.z;
-    traced += times;
   }
-  impl_->stats.rays.transmission += traced;
+  const std::vector<vec3> clear = scene.transmission(shadowRays, names, impl_->shading, context);
+  for (size_t p = 0; p < pointOf.size(); ++p) {
+    const auto first = clear.begin() + static_cast<ptrdiff_t>(p) * times;
+    const vec3 share = std::accumulate(first, first + times, vec3(0)) / static_cast<float>(times);
+    const int i = pointOf[p];
+    light.x[i] *= share.x, light.y[i] *= share.y, light.z[i] *= share.z;
+  }
+  impl_->stats.rays.transmission += static_cast<int64_t>(shadowRays.size());
+}
+
+void GiServices::trace(const ShadePoints& points, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction, const RayQuery& query,
+                       const ShadeContext& context, const RayResult& result) const {
+  traceForShader(*impl_, points, active, P, direction, query, context, result);
 }
 
 bool GiServices::sampleEmitter(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N,
@@ -71,6 +87,8 @@ void GiServices::storedIrradiance(const ShadePoints& points, const uint8_t* acti
     E.x[i] = e.x, E.y[i] = e.y, E.z[i] = e.z;
   }
 }
+
+float GiServices::emitterReach(int light) const { return impl_->rays.emitterReach(light); }
 
 void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                                  const IndirectQuery& query, const ShadeContext& context,

@@ -41,8 +41,11 @@ class GiServices final : public ShadeServices {
 
   void transmission(const ShadePoints&, const uint8_t* active, TmConstVec3 toward, const ShadowRays&, const ShadeContext&,
                     TmVec3 light) const override;
+  void trace(const ShadePoints&, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction, const RayQuery&, const ShadeContext&,
+             const RayResult&) const override;
   bool sampleEmitter(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N, float* area) const override;
   void storedIrradiance(const ShadePoints&, const uint8_t* active, TmVec3 E) const override;
+  float emitterReach(int light) const override;
   void indirectDiffuse(const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&, const ShadeContext&,
                        IndirectResult out) const override;
 

@@ -51,6 +51,15 @@ float rayTime(const RayScene&, const ShadePoints&, int i, int number, int count,
 /// Moves the start of a ray to where the point is at that time, keeping its end if it has one, and prepares it.
 void aim(const RayScene&, const ShadePoints&, int i, float time, Ray&);
 
+/// What the rays of a call in a shader of an object with these attributes may meet.
+RayFilter filterOf(const RayScene&, const RayQuery&, const Attributes&);
+/// A bias that the shader gives takes the place of the hit list.
+void setBias(const RayQuery&, Ray&);
+
+/// ShadeServices::trace().
+void traceForShader(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction, const RayQuery&,
+                    const ShadeContext&, const RayResult&);
+
 /// E and dominant directions into element i of a result.
 void store(const IndirectResult& out, int i, const vec3& E, const vec3 dominant[3]);
 

@@ -43,6 +43,7 @@ struct Traversal {
   float tMax = kInfinity;
   HitList* list = nullptr;
   const Instances* instances = nullptr;
+  const RayFilter* filter = nullptr;
 
   PolygonHit hit(const Geometry& geometry, float t, uint32_t instanceId, uint32_t primitive, float u, float v,
                  bool leaving) const {
@@ -73,10 +74,23 @@ bool isOpaque(const RTCFilterFunctionNArguments& args, const Traversal& traversa
                            : static_cast<const Geometry*>(args.geometryUserPtr)->opaque;
 }
 
+/// Rejects what the ray does not see. True: nothing is left to do.
+bool rejected(const RTCFilterFunctionNArguments* args, const Traversal& traversal) {
+  if (!args->valid[0]) return true;
+  if (!traversal.filter) return false;
+  const PolygonHit hit = hitOf(*args, traversal);
+  if (!traversal.filter->passes(hit.group, hit.leaving)) args->valid[0] = 0;
+  return !args->valid[0];
+}
+
+void rejectUnseen(const RTCFilterFunctionNArguments* args) {
+  rejected(args, *reinterpret_cast<const Traversal*>(args->context));
+}
+
 /// Records and rejects hits in the window, accepts those beyond.
 void recordNear(const RTCFilterFunctionNArguments* args) {
   const auto& traversal = *reinterpret_cast<const Traversal*>(args->context);
-  if (!args->valid[0] || RTCRayN_tfar(args->ray, 1, 0) - traversal.shift > traversal.window) return;
+  if (rejected(args, traversal) || RTCRayN_tfar(args->ray, 1, 0) - traversal.shift > traversal.window) return;
   traversal.list->push_back(hitOf(*args, traversal));
   args->valid[0] = 0;
 }
@@ -84,7 +98,7 @@ void recordNear(const RTCFilterFunctionNArguments* args) {
 /// Accepts what is opaque beyond the window, which ends the traversal; records and rejects all else.
 void recordShadow(const RTCFilterFunctionNArguments* args) {
   const auto& traversal = *reinterpret_cast<const Traversal*>(args->context);
-  if (!args->valid[0]) return;
+  if (rejected(args, traversal)) return;
   const PolygonHit hit = hitOf(*args, traversal);
   const bool counts = hit.t < traversal.tMax;
   if (counts && hit.t > traversal.window && isOpaque(*args, traversal, hit)) return;
@@ -111,9 +125,9 @@ RTCRay rayFrom(const Ray& ray, float shift, float tNear, uint32_t mask) {
   return r;
 }
 
-Traversal traversalOf(RTCFilterFunctionN filter, float shift, float window, float tMax, HitList* list,
+Traversal traversalOf(RTCFilterFunctionN filter, float shift, float window, const Ray& ray, HitList* list,
                       const Instances& instances) {
-  Traversal t{{}, shift, window, tMax, list, &instances};
+  Traversal t{{}, shift, window, ray.tMax, list, &instances, ray.filter};
   rtcInitIntersectContext(&t.embree);
   t.embree.filter = filter;
   return t;
@@ -271,21 +285,21 @@ EmbreeScene::~EmbreeScene() {
 }
 
 bool EmbreeScene::nearest(const Ray& ray, uint32_t mask, PolygonHit& hit) const {
-  Traversal traversal = traversalOf(nullptr, 0, 0, ray.tMax, nullptr, impl_->instances);
+  Traversal traversal = traversalOf(ray.filter ? &rejectUnseen : nullptr, 0, 0, ray, nullptr, impl_->instances);
   return impl_->trace(ray, 0, std::max(ray.bias, 0.0f), mask, traversal, hit);
 }
 
 bool EmbreeScene::nearestBeyond(const Ray& ray, float window, uint32_t mask, HitList& list,
                                 PolygonHit& beyond) const {
   list.clear();
-  Traversal traversal = traversalOf(&recordNear, window, window, ray.tMax, &list, impl_->instances);
+  Traversal traversal = traversalOf(&recordNear, window, window, ray, &list, impl_->instances);
   return impl_->trace(ray, window, 0, mask, traversal, beyond);
 }
 
 bool EmbreeScene::blockedBeyond(const Ray& ray, float window, uint32_t mask, HitList& list) const {
   list.clear();
   const float shift = std::max(window, 0.0f);
-  Traversal traversal = traversalOf(&recordShadow, shift, window, ray.tMax, &list, impl_->instances);
+  Traversal traversal = traversalOf(&recordShadow, shift, window, ray, &list, impl_->instances);
   RTCRay r = rayFrom(ray, shift, window < 0 ? std::max(ray.bias, 0.0f) : 0.0f, mask);
   rtcOccluded1(impl_->scene, &traversal.embree, &r);
   return r.tfar < 0;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "reyes/dice.h"
+
 namespace tomales {
 namespace {
 
@@ -29,7 +31,7 @@ size_t Emitters::Cumulated::pick(double& x) const {
 }
 
 Emitters::Emitters(const Scene& scene, const std::vector<CoarseGroup>& groups)
-    : groups_(groups), lights_(scene.lights.size()) {
+    : scene_(scene), groups_(groups), lights_(scene.lights.size()) {
   for (uint32_t g = 0; g < groups.size(); ++g) {
     const int light = scene.groups[g].attributes->areaLight;
     if (light < 0 || light >= static_cast<int>(lights_.size())) continue;
@@ -48,6 +50,22 @@ Emitters::Emitters(const Scene& scene, const std::vector<CoarseGroup>& groups)
   }
 }
 
+void Emitters::place(const Source& source, uint32_t quad, float u, float v, vec3& P, vec3& normal) const {
+  const CoarseGroup& g = groups_[source.group];
+  const Lattice& lattice = g.latticeOf(quad);
+  const Object& o = scene_.objects[static_cast<size_t>(lattice.object)];
+  const bool displaced = o.attributes->trace.displacements && o.attributes->displacement;
+  if (displaced || o.shape().info(lattice.patch).planar) return bilinear(g, quad, u, v, P, normal);
+  const vec2 uv = g.patchParameters(quad, u, v);
+  const TrueSurface s = surfaceAt(scene_, lattice.object, lattice.patch, uv.x, uv.y);
+  P = s.P;
+  const vec2 size((lattice.rect.u1 - lattice.rect.u0) / static_cast<float>(lattice.nu),
+                  (lattice.rect.v1 - lattice.rect.v0) / static_cast<float>(lattice.nv));
+  const float area = glm::length(cross(s.dPdu, s.dPdv)) * size.x * size.y;
+  normal = area * normalizeOr(g.flipsNormal ? -s.normal : s.normal, vec3(0));
+  if (normal == vec3(0)) bilinear(g, quad, u, v, P, normal);
+}
+
 bool Emitters::sample(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N,
                       float* area) const {
   if (light < 0 || light >= static_cast<int>(lights_.size())) return false;
@@ -60,7 +78,7 @@ bool Emitters::sample(int light, int count, const float* xi0, const float* xi1, 
     const auto quad = static_cast<uint32_t>(source.firstQuad + row * source.columns + column);
     const CoarseGroup& g = groups_[source.group];
     vec3 p, normal;
-    bilinear(g, quad, static_cast<float>(u), static_cast<float>(v), p, normal);
+    place(source, quad, static_cast<float>(u), static_cast<float>(v), p, normal);
     const double quadArea = source.row[row].sums[column + 1] - source.row[row].sums[column];
     area[i] = quadArea > 0 && g.keeps(quad, static_cast<float>(u), static_cast<float>(v))
                   ? static_cast<float>(double{glm::length(normal)} * l.areas.total() / quadArea) : 0.0f;

@@ -1,4 +1,6 @@
-// Points on area lights: the coarse quads of all objects that emit for a light, in proportion to area.
+// Points on area lights: places of the true surface, chosen by the coarse quads of all objects that emit for a light in proportion to
+// area, and weighted so that any surface shines as much as it does, not as its polygons would. Where rays see displacement the
+// polygons stand for the surface.
 // Space: current. Threads: const members may be called concurrently.
 #pragma once
 #include "raytrace/tessellate.h"
@@ -37,6 +39,10 @@ class Emitters {
     std::vector<Source> sources;
     Cumulated areas;
   };
+  /// Position and d/du x d/dv by the quad's own parameters.
+  void place(const Source& source, uint32_t quad, float u, float v, vec3& P, vec3& normal) const;
+
+  const Scene& scene_;
   const std::vector<CoarseGroup>& groups_;
   std::vector<Light> lights_;
 };

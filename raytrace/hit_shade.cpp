@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include "raytrace/ray_scene.h"
@@ -10,6 +11,20 @@ namespace {
 int primvarFloats(const ShadeGroup& group) {
   return std::accumulate(group.primvars.begin(), group.primvars.end(), 0,
                          [](int sum, const Primvar& p) { return sum + p.width; });
+}
+
+/// Of a primitive variable among the floats of a point; -1: there is none.
+int primvarOffset(const std::vector<Primvar>& primvars, std::string_view name) {
+  int offset = 0;
+  for (const Primvar& p : primvars) {
+    if (p.name == name) return offset;
+    offset += p.width;
+  }
+  return -1;
+}
+
+int widthOf(const std::vector<Primvar>& primvars, std::string_view name) {
+  return std::find_if(primvars.begin(), primvars.end(), [&](const Primvar& p) { return p.name == name; })->width;
 }
 
 /// The light that a ray brings back where its hit is on the indirect diet of Attribute "indirect".
@@ -58,13 +73,77 @@ void addPoint(const Scene& scene, const Ray& ray, const Hit& hit, SampleName nam
   if (const float radius = ray.spread * hit.t; radius > 0) points.channel(kArea)[i] = kPi * radius * radius;
 }
 
+HitMode modeOf(const Attributes& a, RayKind kind) {
+  if (kind == RayKind::Transmission) return a.transmissionHitMode;
+  return kind == RayKind::Diffuse ? a.diffuseHitMode : a.specularHitMode;
+}
+
+/// Cs and Os of a point: its primitive variable's or its attribute's.
+vec3 primitiveColor(const ShadeGroup& group, const ShadePoints& points, int i, std::string_view name, const vec3& attribute) {
+  const int offset = primvarOffset(group.primvars, name);
+  return offset < 0 ? attribute : vec3(points.primvar(offset)[i], points.primvar(offset + 1)[i], points.primvar(offset + 2)[i]);
+}
+
+/// Value i of an output that hits can tell. False: there is no such value.
+bool readOutput(const ShadeGroup& group, const ShadePoints& points, int i, const std::string& name, const HitAnswers& answers,
+                uint32_t hit, vec3& out) {
+  static const std::map<std::string_view, int> kVectors = {
+      {"P", kPx}, {"N", kNx}, {"Ng", kNgx}, {"I", kIx}, {"dPdu", kDpduX}, {"dPdv", kDpdvX}};
+  static const std::map<std::string_view, int> kNumbers = {{"u", kU}, {"v", kV}, {"s", kS}, {"t", kT}};
+  const size_t colon = name.find(':');
+  const std::string_view what = std::string_view(name).substr(0, colon), key = std::string_view(name).substr(colon + 1);
+  if (name == "surface:Ci" || name == "surface:Oi") {
+    out = name == "surface:Ci" ? answers.color[hit] : answers.opacity[hit];
+  } else if (what == "primitive") {
+    const auto vector = kVectors.find(key);
+    const auto number = kNumbers.find(key);
+    const int offset = primvarOffset(group.primvars, key);
+    if (vector != kVectors.end())
+      out = points.get3(vector->second, i);
+    else if (number != kNumbers.end())
+      out = vec3(points.channel(number->second)[i]);
+    else if (key == "Cs" || key == "Os")
+      out = primitiveColor(group, points, i, key, key == "Cs" ? group.attributes->color : group.attributes->opacity);
+    else if (offset >= 0)
+      for (int k = 0; k < 3; ++k) out[k] = points.primvar(offset + std::min(k, widthOf(group.primvars, key) - 1))[i];
+    else
+      return false;
+  } else if (what == "attribute") {
+    const auto it = group.attributes->user.find(std::string(key));
+    if (it == group.attributes->user.end()) return false;
+    for (size_t k = 0; k < 3; ++k)
+      out[static_cast<int>(k)] = it->second.floats.size() == 3 ? it->second.floats[k] : it->second.number(0);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void tell(const ShadeGroup& group, const ShadePoints& points, int i, uint32_t hit, HitAnswers& answers) {
+  for (const RayOutput& output : answers.outputs) {
+    vec3 value(0);
+    if (!readOutput(group, points, i, output.name, answers, hit, value)) continue;
+    for (int k = 0; k < output.floats; ++k) output.c[k][answers.elements[hit]] = value[k];
+  }
+}
+
 }  // namespace
 
 void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& hits,
                          const std::vector<SampleName>& names, const ShadingSystem& shading,
                          const ShadeContext& context, std::vector<vec3>& radiance) const {
+  HitAnswers answers;
+  answers.mode = HitMode::Shader;
+  std::swap(answers.color, radiance);
+  shadeHits(rays, hits, names, shading, context, answers);
+  std::swap(answers.color, radiance);
+}
+
+void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& hits,
+                         const std::vector<SampleName>& names, const ShadingSystem& shading,
+                         const ShadeContext& context, HitAnswers& answers) const {
   const Scene& scene = impl_->scene;
-  radiance.assign(hits.size(), vec3(0));
+  answers.color.assign(hits.size(), vec3(0)), answers.opacity.assign(hits.size(), vec3(0));
   std::vector<int> groupOf;
   const std::vector<uint32_t> order = byGroup(scene, hits, groupOf);
   const bool diffuse = context.kind == RayKind::Diffuse;
@@ -73,17 +152,22 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
     const int g = groupOf[order[first]];
     while (last < order.size() && groupOf[order[last]] == g) ++last;
     const ShadeGroup& group = scene.groups[static_cast<size_t>(g)];
+    const Attributes& attributes = *group.attributes;
     ShadePoints points(g, primvarFloats(group));
     points.reserve(static_cast<int>(last - first));
     for (size_t k = first; k < last; ++k) addPoint(scene, rays[order[k]], hits[order[k]], names[order[k]], points);
-    shading.shade(points, context, shaded);
+    const bool shades = answers.wantsColor && answers.mode.value_or(modeOf(attributes, context.kind)) == HitMode::Shader;
+    if (shades) shading.shade(points, context, shaded);
     const vec3 emission = diffuse ? vec3(0) : shading.visibleEmission(g);
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = order[k];
       const int p = static_cast<int>(k - first);
-      const vec3 color = shaded.color(p);
+      const vec3 opacity = shades ? shaded.opacity(p) : primitiveColor(group, points, p, "Os", attributes.opacity);
+      const vec3 color = shades ? shaded.color(p) : opacity * primitiveColor(group, points, p, "Cs", attributes.color);
       const bool front = dot(points.get3(kIx, p), points.get3(kNgx, p)) < 0;
-      radiance[i] = diffuse ? bled(color, *group.attributes) : color + (front ? emission : vec3(0));
+      answers.opacity[i] = opacity;
+      answers.color[i] = diffuse ? bled(color, attributes) : color + (front ? emission : vec3(0));
+      tell(group, points, p, i, answers);
     }
   }
 }

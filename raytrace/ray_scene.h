@@ -1,23 +1,38 @@
 // What RayScene is made of, shared by trace.cpp and hit_shade.cpp.
 #pragma once
+#include <map>
+#include <mutex>
+
 #include "raytrace/embree_scene.h"
 #include "raytrace/emitters.h"
 
 namespace tomales {
 
+inline bool traceable(const Ray& ray) {
+  return isFinite(ray.origin) && isFinite(ray.direction) && ray.direction != vec3(0) && ray.tMax > 0;
+}
+
+/// Positions are off by a few units in the last place of their distance from the eye.
+inline RayStart startOf(const Ray& ray) { return {ray.offset, 4e-7f * glm::length(ray.origin), ray.group}; }
+
 struct RayScene::Impl {
   Impl(const Scene& scene, const Camera& camera, const ShadingSystem& shading, bool hitList, Log& log);
 
   Hit resolve(const PolygonHit& hit) const;
+  /// Is the opacity of the whole group that of its attributes?
+  bool knowsOpacity(uint32_t group) const { return opacityIsConstant[group]; }
   vec3 clearness(const PolygonHit& hit) const { return 1.0f - scene.groups[hit.group].attributes->opacity; }
 
   const Scene& scene;
   const bool hitList;
   const SharedShapes shapes;
   const std::vector<CoarseGroup> groups;  ///< Without what is in `shapes`, but for deviation and size.
+  const std::vector<bool> opacityIsConstant;
   const EmbreeScene embree;
   const Emitters emitters;
   bool moves = false;                     ///< Some polygon does.
+  mutable std::mutex subsetsMutex;
+  mutable std::map<std::pair<std::string, std::string>, std::vector<uint8_t>> subsets;
   std::vector<float> displacementBounds;  ///< Of each group, where rays do not see the displacement.
 };
 

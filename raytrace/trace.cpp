@@ -12,8 +12,6 @@ constexpr float kOffsetFactor = 1.5f;  ///< docs/decisions/0006-hit-list-offset.
 constexpr float kOffsetEpsilon =
     1e-5f;                      ///< Of distance and size: rounding, where the coarse surface is exact.
 constexpr float kBias = 1e-4f;  ///< The same for rays without a hit list.
-constexpr float kFarEnd =
-    1e-4f;  ///< Share of a shadow ray that ends before the light, not to meet its surface.
 
 std::vector<uint32_t> masksOf(const Scene& scene) {
   std::vector<uint32_t> masks;
@@ -25,10 +23,21 @@ std::vector<uint32_t> masksOf(const Scene& scene) {
   return masks;
 }
 
-std::vector<bool> opaqueOf(const Scene& scene) {
+/// Neither a primitive variable nor a shader that shadow rays ask says otherwise.
+std::vector<bool> constantOpacityOf(const Scene& scene, const ShadingSystem& shading) {
+  std::vector<bool> constant;
+  for (const ShadeGroup& g : scene.groups) {
+    const bool varies = std::any_of(g.primvars.begin(), g.primvars.end(), [](const Primvar& p) { return p.name == "Os"; });
+    const bool asks = g.attributes->transmissionHitMode == HitMode::Shader;
+    constant.push_back(!varies && (!asks || shading.keepsOpacity(static_cast<int>(constant.size()))));
+  }
+  return constant;
+}
+
+std::vector<bool> opaqueOf(const Scene& scene, const std::vector<bool>& constant) {
   std::vector<bool> opaque;
   for (const ShadeGroup& g : scene.groups)
-    opaque.push_back(glm::all(glm::greaterThanEqual(g.attributes->opacity, vec3(1))));
+    opaque.push_back(constant[opaque.size()] && glm::all(glm::greaterThanEqual(g.attributes->opacity, vec3(1))));
   return opaque;
 }
 
@@ -46,13 +55,6 @@ std::vector<uint32_t> groupsOfInstances(const Scene& scene, const SharedShapes& 
   return groups;
 }
 
-bool traceable(const Ray& ray) {
-  return isFinite(ray.origin) && isFinite(ray.direction) && ray.direction != vec3(0) && ray.tMax > 0;
-}
-
-/// Positions are off by a few units in the last place of their distance from the eye.
-RayStart startOf(const Ray& ray) { return {ray.offset, 4e-7f * glm::length(ray.origin), ray.group}; }
-
 /// A list for each thread: no allocation once it has grown.
 HitList& scratchList() {
   thread_local HitList list;
@@ -67,7 +69,8 @@ RayScene::Impl::Impl(const Scene& s, const Camera& camera, const ShadingSystem& 
       hitList(useHitList),
       shapes(shareShapes(s, camera, shading, log)),
       groups(coarseGroups(s, camera, shading, shapes, log)),
-      embree(groups, shapes, groupsOfInstances(s, shapes), masksOf(s), opaqueOf(s), log),
+      opacityIsConstant(constantOpacityOf(s, shading)),
+      embree(groups, shapes, groupsOfInstances(s, shapes), masksOf(s), opaqueOf(s, opacityIsConstant), log),
       emitters(s, groups),
       displacementBounds(groups.size(), 0.0f) {
   for (const Object& o : scene.objects)
@@ -129,28 +132,6 @@ Hit RayScene::closest(const Ray& ray, RayMask mask) const {
   return out;
 }
 
-vec3 RayScene::transmission(const Ray& ray) const {
-  if (!traceable(ray)) return vec3(1);
-  Ray shortened = ray;
-  shortened.tMax *= 1 - kFarEnd;
-  HitList& list = scratchList();
-  const bool offsetting = ray.offset > 0;
-  const float window = offsetting ? recordingWindow(ray.offset) : -1.0f;
-  if (impl_->embree.blockedBeyond(shortened, window, kMaskTransmission, list)) return vec3(0);
-  sortAlongRay(list);
-  const RayStart start = startOf(ray);
-  const int origin = offsetting ? effectiveOrigin(list, start) : -1, first = nextHit(list, origin, start);
-  vec3 clear(1);
-  for (size_t i = static_cast<size_t>(first); first >= 0 && i < list.size(); ++i) {
-    // An edge shared by two quads counts once; far hits are as far apart as their rounding.
-    const bool again =
-        i > static_cast<size_t>(first) &&
-        sameSurface(list[i - 1], list[i], std::max(mergeDistance(ray.offset), 1e-6f * list[i].t));
-    if (!again) clear *= glm::clamp(impl_->clearness(list[i]), 0.0f, 1.0f);
-  }
-  return clear;
-}
-
 void RayScene::prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ray) const {
   const auto g = static_cast<size_t>(group);
   const auto& given = impl_->scene.groups[g].attributes->trace;
@@ -164,6 +145,25 @@ void RayScene::prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ra
   ray.bias = given.bias.value_or(kBias * scale);
 }
 
+const std::vector<uint8_t>* RayScene::groupsIn(const std::string& subset, const std::string& exclude) const {
+  if (subset.empty() && exclude.empty()) return nullptr;
+  const std::lock_guard lock(impl_->subsetsMutex);
+  const auto [it, isNew] = impl_->subsets.try_emplace({subset, exclude});
+  const auto inOneOf = [](const Attributes& a, const std::string& sets) {
+    return std::any_of(a.membership.begin(), a.membership.end(), [&](const std::string& set) {
+      for (size_t at = sets.find(set); at != std::string::npos; at = sets.find(set, at + 1)) {
+        const auto ends = [&](size_t i) { return i >= sets.size() || sets[i] == ',' || sets[i] == ' '; };
+        if ((at == 0 || ends(at - 1)) && ends(at + set.size())) return true;
+      }
+      return false;
+    });
+  };
+  if (isNew)
+    for (const ShadeGroup& g : impl_->scene.groups)
+      it->second.push_back((subset.empty() || inOneOf(*g.attributes, subset)) && !inOneOf(*g.attributes, exclude));
+  return &it->second;
+}
+
 bool RayScene::samplesTime(int group) const {
   return impl_->moves && impl_->scene.groups[static_cast<size_t>(group)].attributes->trace.sampleMotion;
 }
@@ -174,6 +174,13 @@ vec3 RayScene::placeAt(int group, const vec3& atOpen, const vec3& drift, float t
   if (!impl_->moves || time == 0 || !g.currentFromOpen.moving()) return drifted;
   const Options& o = impl_->scene.options;
   return transformPoint(g.currentFromOpen.at(lerp(o.shutterOpen, o.shutterClose, time)), drifted);
+}
+
+float RayScene::emitterReach(int light) const {
+  float reach = 0;
+  for (size_t g = 0; g < impl_->groups.size(); ++g)
+    if (impl_->scene.groups[g].attributes->areaLight == light) reach = std::max(reach, kOffsetFactor * impl_->groups[g].deviation);
+  return reach;
 }
 
 bool RayScene::sampleEmitter(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N,

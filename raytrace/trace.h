@@ -9,9 +9,21 @@
 // objects with Attribute "trace" "samplemotion" 1 are given times; all others see the scene at shutter open.
 // Space: current (camera space at shutter open). Threads: const members may be called concurrently.
 #pragma once
+#include <optional>
+
 #include "reyes/shade.h"
 
 namespace tomales {
+
+/// What a ray may meet besides what its mask says.
+struct RayFilter {
+  const std::vector<uint8_t>* groups = nullptr;  ///< 1 for each shade group that it sees; null: all
+  HitSides sides = HitSides::Both;
+  bool passesAll() const { return !groups && sides == HitSides::Both; }
+  bool passes(uint32_t group, bool leaving) const {
+    return (!groups || (*groups)[group]) && (sides == HitSides::Both || leaving == (sides == HitSides::Back));
+  }
+};
 
 struct Ray {
   vec3 origin, direction;       ///< direction: unit length
@@ -21,6 +33,7 @@ struct Ray {
   float spread = 0;             ///< Radius of the ray's footprint for each unit of t (half the width of its differential).
   int group = -1;               ///< Shade group that the ray leaves, -1: unknown. Settles which of two walls that meet is left.
   float time = 0;               ///< Part of the shutter, 0..1.
+  const RayFilter* filter = nullptr;  ///< Null: all pass.
 };
 
 struct Hit {
@@ -34,6 +47,15 @@ struct Hit {
   vec3 atOpen{0};               ///< Where the point that was met is when the shutter opens; normals are those of that time too.
 };
 
+/// Asked and told of a list of hits.
+struct HitAnswers {
+  std::optional<HitMode> mode;              ///< Empty: as the object's attributes say for this kind of ray.
+  bool wantsColor = true;                   ///< Else hits are not shaded.
+  std::vector<RayOutput> outputs;           ///< Element i belongs to hit i; those of misses are left alone.
+  std::vector<int> elements;                ///< Which element of the outputs belongs to each hit.
+  std::vector<vec3> color, opacity;         ///< Misses: 0.
+};
+
 /// Which rays see an object; bits of Attributes::visibility.
 enum RayMask : uint32_t { kMaskDiffuse = 1, kMaskSpecular = 2, kMaskTransmission = 4, kMaskPhoton = 8 };
 
@@ -44,8 +66,15 @@ class RayScene {
   ~RayScene();
 
   Hit closest(const Ray& ray, RayMask mask) const;
-  /// Fraction of light that passes from the origin to tMax, by the objects' opacities.
-  vec3 transmission(const Ray& ray) const;
+  /// Fraction of light that passes from each origin to tMax. What hides all is met first and ends the ray; the opacity of the rest is
+  /// the object's and its primitive variable's, or its shader's (Attribute "shade" "transmissionhitmode"), whose points are shaded
+  /// together. `names` as in shadeHits.
+  std::vector<vec3> transmission(const std::vector<Ray>& rays, const std::vector<SampleName>& names, const ShadingSystem& shading,
+                                 const ShadeContext& context) const;
+
+  /// Which groups have a member in one of the sets of `subset` (all, if empty) and none in those of `exclude`. Sets are separated by
+  /// commas or spaces. Null: all. Stays valid.
+  const std::vector<uint8_t>* groupsIn(const std::string& subset, const std::string& exclude) const;
 
   /// Sets group, offset and bias of a ray that leaves P on a micropolygon of this group with edges no longer than `edgeLength`
   /// (0: a point of the true surface): trace:offset and trace:bias, or by default more than the largest distance between the
@@ -61,12 +90,17 @@ class RayScene {
   /// `names` name the hits for random numbers. radiance: count entries; misses get 0.
   void shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& hits, const std::vector<SampleName>& names,
                  const ShadingSystem& shading, const ShadeContext& context, std::vector<vec3>& radiance) const;
+  /// The same with all that hits can tell.
+  void shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& hits, const std::vector<SampleName>& names,
+                 const ShadingSystem& shading, const ShadeContext& context, HitAnswers& answers) const;
 
-  /// The coarse polygons of area light `light`, for sampling (reyes/shade.h: sampleEmitter).
+  /// The surface of area light `light` (reyes/shade.h: sampleEmitter, emitterReach).
+  float emitterReach(int light) const;
   bool sampleEmitter(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N, float* area) const;
 
+  struct Impl;  ///< raytrace/ray_scene.h
+
  private:
-  struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 

@@ -186,17 +186,24 @@ Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, in
   return g;
 }
 
+TrueSurface surfaceAt(const Scene& scene, int object, uint32_t patch, float u, float v) {
+  const Object& o = scene.objects[static_cast<size_t>(object)];
+  const mat4& m = scene.groups[static_cast<size_t>(o.group)].cameraFromObject;
+  Evaluated e(1);
+  evaluateAt(o, o.keyTimes.front(), 1, e, [&](const Prim& shape, SurfacePoints out) { shape.evaluate(patch, 1, &u, &v, out); });
+  return {transformPoint(m, e.get(0, 0)), transformVector(m, e.get(3, 0)), transformVector(m, e.get(6, 0)),
+          normalMatrix(o, m) * e.get(9, 0)};
+}
+
 void evaluatePoint(const Scene& scene, int object, uint32_t patch, float u, float v, ShadePoints& batch, int index) {
   const Object& o = scene.objects[static_cast<size_t>(object)];
   const Prim& prim = o.shape();
-  const float time = o.keyTimes.front();
   const mat4& m = scene.groups[static_cast<size_t>(o.group)].cameraFromObject;
   const mat3 normals = normalMatrix(o, m);
 
-  Evaluated e(1);
-  evaluateAt(o, time, 1, e, [&](const Prim& shape, SurfacePoints out) { shape.evaluate(patch, 1, &u, &v, out); });
-  const vec3 geometric = normalizeOr(normals * e.get(9, 0), vec3(0, 0, -1));
-  batch.set3(kPx, index, transformPoint(m, e.get(0, 0)));
+  const TrueSurface surface = surfaceAt(scene, object, patch, u, v);
+  const vec3 geometric = normalizeOr(surface.normal, vec3(0, 0, -1));
+  batch.set3(kPx, index, surface.P);
   batch.set3(kNgx, index, geometric);
   batch.set3(kNx, index, geometric);
 
@@ -205,8 +212,8 @@ void evaluatePoint(const Scene& scene, int object, uint32_t patch, float u, floa
   float su[3], sv[3];
   prim.surfaceParameters(patch, 3, us, vs, su, sv);
   const float dsu = (su[1] - su[0]) / (us[1] - us[0]), dsv = (sv[2] - sv[0]) / (vs[2] - vs[0]);
-  batch.set3(kDpduX, index, transformVector(m, e.get(3, 0)) / (dsu != 0 ? dsu : 1.0f));
-  batch.set3(kDpdvX, index, transformVector(m, e.get(6, 0)) / (dsv != 0 ? dsv : 1.0f));
+  batch.set3(kDpduX, index, surface.dPdu / (dsu != 0 ? dsu : 1.0f));
+  batch.set3(kDpdvX, index, surface.dPdv / (dsv != 0 ? dsv : 1.0f));
   batch.channel(kU)[index] = su[0];
   batch.channel(kV)[index] = sv[0];
   batch.channel(kDu)[index] = 0;

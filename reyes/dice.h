@@ -21,6 +21,13 @@ Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, in
 /// keys: how many of the object's keyTimes to evaluate, as the camera sees them (all, or 1 for shutter open).
 Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, int keys);
 
+/// A point of the true surface at shutter open, in current space; derivatives by the patch's own u and v.
+struct TrueSurface {
+  vec3 P, dPdu, dPdv;
+  vec3 normal;  ///< RISpec side, not normalised; 0 where it is not defined.
+};
+TrueSurface surfaceAt(const Scene& scene, int object, uint32_t patch, float u, float v);
+
 /// Fills one shading point at patch position (u, v): a ray hit. P and normals are evaluated on the true surface;
 /// the caller may overwrite them. `primvarFloats` of the batch must be the object's.
 void evaluatePoint(const Scene& scene, int object, uint32_t patch, float u, float v, ShadePoints& batch, int index);

@@ -4,6 +4,7 @@
 // Threads: after construction, every const member may be called concurrently.
 #pragma once
 #include <functional>
+#include <optional>
 
 #include "reyes/base/stats.h"
 #include "reyes/grid.h"
@@ -14,6 +15,8 @@ namespace tomales {
 enum class RayKind : uint8_t {
   Camera,    ///< Visible micropolygons: the whole shader.
   Diffuse,   ///< Hits of gather rays: direct light, diffuse component only, no emission of area lights (approximate-gi 4.1, 4.2).
+  Specular,  ///< Hits of reflected and refracted rays: the whole shader, and the emission of area lights.
+  Transmission,  ///< What shadow rays pass through: opacity alone, no light.
 };
 
 /// What a batch is lit by.
@@ -23,6 +26,7 @@ enum class Illumination : uint8_t {
   Unit,    ///< E/pi = 1 everywhere, likewise: what comes back is the diffuse reflectance.
   None,    ///< Nothing: what comes back is emitted.
 };
+enum class HitSides : uint8_t { Both, Front, Back };
 
 /// Why and how a batch is being shaded.
 struct ShadeContext {
@@ -33,6 +37,35 @@ struct ShadeContext {
   bool indirect = true;        ///< Run indirect lights.
   bool variables = false;      ///< Store what outputOf(options) lists.
   Illumination light = Illumination::Lights;
+  int specularDepth = 0;       ///< Specular bounces between the eye and these points.
+  int diffuseLimit = 1 << 20, specularLimit = 1 << 20;  ///< Depths at which no ray follows, set by the objects on the way.
+  std::string label{};         ///< Of the ray that came here.
+};
+
+/// What one set of rays of a shader's call asks.
+struct RayQuery {
+  RayKind kind = RayKind::Specular;
+  float maxDistance = 1e30f;
+  float bias = -1;                 ///< < 0: as the object's attributes say.
+  std::string label, subset, excludeSubset;
+  HitSides sides = HitSides::Both;
+  std::optional<HitMode> mode;     ///< Empty: as the attributes of what is met say.
+  float opacityThreshold = 1;      ///< A ray goes on behind what is transparent until this much is covered.
+  int number = 0, count = 1;       ///< These are rays `number` of `count` from each point.
+};
+
+/// A value of what a ray met, by its RSL gather() name, into `floats` (1 or 3) arrays of the caller.
+struct RayOutput {
+  std::string name;
+  int floats = 1;
+  float* c[3] = {nullptr, nullptr, nullptr};
+};
+
+/// Arrays for count() points; null pointers: not wanted.
+struct RayResult {
+  float* distance = nullptr;       ///< kInfinity: nothing was met, and no output set.
+  TmVec3 color{}, opacity{};       ///< Of all that the ray went through.
+  std::vector<RayOutput> outputs;  ///< Of the first hit.
 };
 
 /// Parameters of an indirect light (docs/gi.md), bound from the calling `indirectlight`.
@@ -53,6 +86,7 @@ struct IndirectResult {
 struct ShadowRays {
   bool solar = false;
   int sample = 0, samples = 1;
+  const RayQuery* query = nullptr;  ///< Of transmission() in a shader.
 };
 
 /// The seam to ray tracing and GI (implemented in gi/services, injected by reyes/app). Batched; obeys `active`.
@@ -65,12 +99,18 @@ class ShadeServices {
   virtual void transmission(const ShadePoints& points, const uint8_t* active, TmConstVec3 toward, const ShadowRays& rays,
                             const ShadeContext& context, TmVec3 light) const = 0;
 
+  /// One ray from P along the unit `direction` for each active point. Where the depth of rays is exhausted, none is traced.
+  virtual void trace(const ShadePoints& points, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction,
+                     const RayQuery& query, const ShadeContext& context, const RayResult& result) const = 0;
+
   /// A point on area light `light` for each xi in [0,1)^2, uniform in area after weighting: position, unit normal (RISpec side) and
   /// the area it stands for (total area for a uniform sample). Returns false if the light has no geometry.
   virtual bool sampleEmitter(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N, float* area_out) const = 0;
 
   /// E/pi that an earlier pass stored around each point; kArea of the points is what to average over. Zero where there is none.
   virtual void storedIrradiance(const ShadePoints& points, const uint8_t* active, TmVec3 E) const;
+  /// How far in front of the samples of an area light something that stands for it in rays may be: shadow rays end before that.
+  virtual float emitterReach(int light) const = 0;
 
   /// Indirect diffuse light on the side of N.
   virtual void indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N, const IndirectQuery& query,
@@ -127,6 +167,8 @@ class ShadingSystem {
 
   /// Does a group hide what is behind it (Os = 1 everywhere and a shader that keeps opacity)?
   bool opaque(int group) const;
+  /// Does its shader leave Oi = Os?
+  bool keepsOpacity(int group) const;
   /// Runs the displacement shader of the grid's object, in place; recomputes N. No-op without one.
   void displace(Grid& grid) const;
   /// Surface shader and lights over a batch of one group. `out` is resized.

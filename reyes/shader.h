@@ -43,6 +43,18 @@ inline Vec3 normalize(Vec3 a) {
 /// RISpec faceforward with Nref = Ng: N on the side of the surface that I arrives at.
 inline Vec3 faceforward(Vec3 N, Vec3 I, Vec3 Ng) { return dot(I, Ng) > 0 ? -N : N; }
 inline Vec3 reflect(Vec3 I, Vec3 N) { return I - 2 * dot(I, N) * N; }
+/// I and N of unit length, N against I; eta: index of refraction before over behind. Total reflection: zero (RISpec 15.3).
+inline Vec3 refract(Vec3 I, Vec3 N, float eta) {
+  const float c = -dot(I, N), k = 1 - eta * eta * (1 - c * c);
+  return k < 0 ? Vec3{} : eta * I + (eta * c - std::sqrt(k)) * N;
+}
+/// Share of unpolarised light that is reflected where refract() would refract.
+inline float fresnel(Vec3 I, Vec3 N, float eta) {
+  const float c = std::min(1.0f, std::abs(dot(I, N))), k = 1 - eta * eta * (1 - c * c);
+  if (k <= 0) return 1;
+  const float t = std::sqrt(k), s = (eta * c - t) / (eta * c + t), p = (c - eta * t) / (c + eta * t);
+  return 0.5f * (s * s + p * p);
+}
 
 inline float clamp(float x, float lo, float hi) { return std::min(std::max(x, lo), hi); }
 inline float mix(float a, float b, float t) { return a + (b - a) * t; }
@@ -241,6 +253,8 @@ class Vec3Array : public Array {
   void set(int i, Vec3 v) { rsl::set(TmVec3(*this), i, v); }
 };
 
+inline TmRayOptions defaultRays() { return TM_RAY_DEFAULTS; }
+
 /// `for (int i : batch)` visits the active points. Services are one call for the whole batch: ask before the
 /// loop.
 class Batch {
@@ -304,6 +318,51 @@ class Batch {
   bool environment(const char* name, TmConstVec3 direction, const float* width_radians, Vec3Array& out) const {
     return g->call->environment(g->host, g, name, direction, width_radians, out) != 0;
   }
+  /// Colour along rays from P; see TmServices::trace.
+  Vec3Array trace(TmConstVec3 direction, const TmRayOptions& options = defaultRays()) const {
+    return filled([&](TmVec3 out) { g->call->trace(g->host, g, view(g->P), direction, &options, out, nullptr); });
+  }
+  /// How far rays from P go; 1e30 where they meet nothing.
+  Array traceDistance(TmConstVec3 direction, const TmRayOptions& options = defaultRays()) const {
+    Array out(g);
+    g->call->trace(g->host, g, view(g->P), direction, &options, TmVec3{}, out.data());
+    return out;
+  }
+  /// Light that passes from P to P + toward.
+  Vec3Array transmission(TmConstVec3 toward, const TmRayOptions& options = defaultRays()) const {
+    return filled([&](TmVec3 out) { g->call->transmissionWith(g->host, g, view(g->P), toward, &options, out); });
+  }
+  /// Share of the hemisphere (or cone) around N that is covered.
+  Array occlusion(TmConstVec3 N, const TmRayOptions& options) const {
+    Array out(g);
+    g->call->occlusion(g->host, g, view(g->P), N, &options, out.data(), TmVec3{});
+    return out;
+  }
+  /// Mean radiance that arrives from the hemisphere (or cone) around N: rays for every point, nothing interpolated.
+  Vec3Array incoming(TmConstVec3 N, const TmRayOptions& options) const {
+    Array covered(g);
+    return filled([&](TmVec3 out) { g->call->occlusion(g->host, g, view(g->P), N, &options, covered.data(), out); });
+  }
+  /// Ray `ray` of options.samples around an axis; false when there are no more.
+  bool gather(TmConstVec3 axis, const TmRayOptions& options, int ray, std::vector<uint8_t>& hit,
+              std::initializer_list<TmRayOutput> outputs) const {
+    hit.assign(static_cast<size_t>(g->padded), 0);
+    return g->call->gather(g->host, g, view(g->P), axis, &options, ray, hit.data(), outputs.begin(),
+                           static_cast<int32_t>(outputs.size())) != 0;
+  }
+  bool isShadowRay() const {
+    Vec3Array type(g);
+    g->call->rayInfo(g->host, g, "type", type);
+    for (int i : *this) return type[i].x == 3;
+    return false;
+  }
+  int rayDepth() const {
+    Vec3Array depth(g);
+    g->call->rayInfo(g->host, g, "depth", depth);
+    for (int i : *this) return static_cast<int>(depth[i].x);
+    return 0;
+  }
+
   /// P in a named space (current space where the name is unknown).
   Vec3Array positionsIn(const char* space) const {
     return filled(

@@ -39,8 +39,9 @@ typedef enum TmCapability {
   TM_LIGHT_INDIRECT = 1 << 4, /* light: brings indirect light; never run at the hits of gather rays */
   TM_LIGHT_SHADOWED = 1 << 5, /* light: the host traces a shadow ray along L for every sample */
   TM_EMITS = 1 << 6,          /* surface: adds emitted radiance of its own, beside light that it reflects */
-  TM_LIGHT_SAMPLED = 1 << 7   /* light: asked for as many samples as its parameter `samples` says, with xi0 and xi1;
+  TM_LIGHT_SAMPLED = 1 << 7,  /* light: asked for as many samples as its parameter `samples` says, with xi0 and xi1;
                                  Cl is the share of one sample */
+  TM_TRACES = 1 << 8         /* surface, light: calls trace(), gather(), occlusion() or transmission() */
 } TmCapability;
 
 /* One declared parameter. Points, vectors, normals and matrices are given in shader space and arrive in current. */
@@ -103,6 +104,38 @@ typedef struct TmLightSample {
 } TmLightSample;
 
 typedef enum TmLightChoice { TM_DIRECT_LIGHT = 1, TM_INDIRECT_LIGHT = 2 } TmLightChoice;
+
+typedef enum TmHitSides { TM_HIT_BOTH = 0, TM_HIT_FRONT = 1, TM_HIT_BACK = 2 } TmHitSides;
+typedef enum TmHitMode { TM_HIT_DEFAULT = 0, TM_HIT_PRIMITIVE = 1, TM_HIT_SHADER = 2 } TmHitMode;
+
+/* How rays are shot. Start from TM_RAY_DEFAULTS. Directions are stratified over the rays of a point and reproducible. */
+typedef struct TmRayOptions {
+  uint32_t structBytes;
+  int32_t samples;             /* rays a point */
+  float coneAngle;             /* half angle around the axis, radians, up to pi/2; 0: all along it */
+  int32_t uniform;             /* 1: evenly over the cone's solid angle; 0: by the cosine with its axis */
+  float bias;                  /* hits nearer do not count; < 0: as the object's attributes say */
+  float maxDistance;
+  float sampleBase;            /* share of its micropolygon, 0..1, that the rays of a point start from */
+  const char *label;           /* seen by rayLabel() at what they meet; NULL: "" */
+  const char *subset, *excludeSubset; /* sets of Attribute "grouping" "membership", by commas or spaces; NULL: all, none */
+  int32_t hitSides, hitMode;   /* TmHitSides; TmHitMode, default: as the attributes of what is met say */
+  float opacityThreshold;      /* rays go on behind what is transparent until this much is covered */
+  float falloff;               /* occlusion(): what is met at distance d counts exp(-falloff d), or with */
+  int32_t falloffMode;         /* mode 1 (1 - d / maxDistance)^falloff; falloff 0: wholly */
+} TmRayOptions;
+
+#define TM_RAY_DEFAULTS \
+  { sizeof(TmRayOptions), 1, 0, 0, -1, 1e30f, 0, 0, 0, 0, TM_HIT_BOTH, TM_HIT_DEFAULT, 1, 0, 0 }
+
+/* One value of each ray of gather(): "surface:Ci", "surface:Oi", "primitive:" P, N, Ng, I, dPdu, dPdv, u, v, s, t, Cs, Os or a
+ * primitive variable, "attribute:category:name", "ray:origin", "ray:direction", "ray:length". Numbers fill c[0], triples all. */
+typedef struct TmRayOutput {
+  const char* name;
+  int32_t floats;              /* 1 or 3 */
+  float* c[3];
+} TmRayOutput;
+
 typedef enum TmTransformKind { TM_AS_POINT = 0, TM_AS_VECTOR = 1, TM_AS_NORMAL = 2 } TmTransformKind;
 
 /* How a shadow map is looked up. */
@@ -161,6 +194,28 @@ typedef struct TmServices {
   /* RISpec shadow(): the share of light that what is in shadow map `name` blocks at P, 1: all; colours from deep maps. 0 outside
    * the map, for "raytrace", and where the map cannot be read (the renderer traces those shadows itself). */
   void (*shadow)(void* host, const TmGrid*, const char* name, TmConstVec3 P, const TmShadowLookup*, TmVec3 out);
+
+  /* Ray tracing. Shaders that call these have TM_TRACES. `options` may be NULL. Narrow cones (up to 10 degrees) shoot specular rays,
+   * wide ones diffuse rays: Attribute "visibility" and the depth limits of "trace" tell them apart. */
+
+  /* Mean colour that the rays bring, through what is transparent, and the least distance to what they meet (1e30: nothing). Either
+   * may be NULL (x NULL). */
+  void (*trace)(void* host, const TmGrid*, TmConstVec3 P, TmConstVec3 direction, const TmRayOptions* options, TmVec3 color,
+                float* distance);
+  /* Ray number `ray` of options->samples of each active point, around `axis`: hit[i] says whether it met anything, and outputs are set
+   * where it did ("ray:" values everywhere). Returns 0 when there are no more. */
+  int32_t (*gather)(void* host, const TmGrid*, TmConstVec3 P, TmConstVec3 axis, const TmRayOptions* options, int32_t ray, uint8_t* hit,
+                    const TmRayOutput* outputs, int32_t outputCount);
+  /* Share of the cone around N that is covered, and (unless x is NULL) the mean radiance that arrives from it. coneAngle 0: the whole
+   * hemisphere. */
+  void (*occlusion)(void* host, const TmGrid*, TmConstVec3 P, TmConstVec3 N, const TmRayOptions* options, float* covered, TmVec3 radiance);
+  /* transmission() with options; several samples spread over a cone. */
+  void (*transmissionWith)(void* host, const TmGrid*, TmConstVec3 P, TmConstVec3 toward, const TmRayOptions* options, TmVec3 out);
+  /* Of the ray that came to these points: "type" (0 camera, 1 diffuse, 2 specular, 3 transmission), "depth", "diffusedepth",
+   * "speculardepth" into x; "origin", "direction" into all, "length" into x. Returns 0: no such name. */
+  int32_t (*rayInfo)(void* host, const TmGrid*, const char* name, TmVec3 out);
+  /* Its label. */
+  const char* (*rayLabel)(void* host, const TmGrid*);
 } TmServices;
 
 typedef struct TmShader {

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -112,6 +113,7 @@ struct Options {
   vec3 depthThreshold{1.0f};                               ///< Limits "zthreshold": what is clearer has no depth.
   std::optional<ShaderCall> imager;
   int bucketWidth = 16, bucketHeight = 16;
+  int maxRayDepth = 10;                                    ///< Bounces of any kind.
   int gridSize = 256;                                      ///< Most micropolygons in a grid.
   std::string hider = "hidden";
   bool jitter = true;
@@ -121,6 +123,9 @@ struct Options {
 };
 
 enum class ShadingInterpolation { Constant, Smooth };
+
+/// What a ray learns of a hit: its shader's result, or the colour and opacity of the primitive alone.
+enum class HitMode : uint8_t { Shader, Primitive };
 
 struct Visibility {
   bool camera = true, diffuse = true, specular = true, transmission = true, photon = true;
@@ -138,6 +143,8 @@ struct Attributes {
   int sides = 2;
   bool insideOut = false;                                   ///< Orientation differs from "outside".
   std::string name;                                         ///< Attribute "identifier" "name"
+  std::set<std::string> membership;                         ///< Attribute "grouping" "membership": the sets it is in
+  HitMode diffuseHitMode = HitMode::Shader, specularHitMode = HitMode::Shader, transmissionHitMode = HitMode::Shader;
   std::shared_ptr<const ShaderCall> surface, displacement, atmosphere;  ///< null: the default surface; none; none
   std::vector<int> lights;                                  ///< Indices in Scene::lights of those switched on.
   int areaLight = -1;                                       ///< This geometry emits for that light.
@@ -148,6 +155,8 @@ struct Attributes {
     std::optional<float> bias, offset;
     bool displacements = false;
     bool sampleMotion = false;  ///< Rays from here see things move.
+    int maxDiffuseDepth = 1, maxSpecularDepth = 2;  ///< Bounces that follow one from here, beyond none that an earlier object allows.
+    std::string subset;                             ///< Attribute "grouping" "tracesubset": what rays from here see; empty: all
     float tessellation = 1;
     bool operator==(const Trace&) const = default;
   } trace;

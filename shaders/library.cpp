@@ -4,7 +4,7 @@ extern const rsl::Shader constantShader, matteShader, metalShader, plasticShader
     defaultsurfaceShader, ambientlightShader, distantlightShader, pointlightShader, spotlightShader,
     arealightShader, environmentlightShader, indirectlightShader, filterlightShader, shadowspotShader,
     shadowpointShader, shadowdistantShader, shinymetalShader, fogShader, depthcueShader, backgroundShader,
-    clamptoalphaShader, bumpyShader, noisybumpShader;
+    clamptoalphaShader, bumpyShader, noisybumpShader, mirrorShader, glassShader, occlusionlightShader;
 
 const TmShaderLibrary* tomales_builtin_shaders(void) {
   static const TmShader* const shaders[] = {
@@ -13,7 +13,8 @@ const TmShaderLibrary* tomales_builtin_shaders(void) {
       pointlightShader,     spotlightShader,      arealightShader,    environmentlightShader,
       indirectlightShader,  filterlightShader,    shadowspotShader,   shadowpointShader,
       shadowdistantShader,  shinymetalShader,     fogShader,          depthcueShader,
-      backgroundShader,     clamptoalphaShader,   bumpyShader,        noisybumpShader};
+      backgroundShader,     clamptoalphaShader,   bumpyShader,        noisybumpShader,
+      mirrorShader,         glassShader,          occlusionlightShader};
   static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders,
                                           static_cast<int32_t>(sizeof shaders / sizeof *shaders)};
   return &library;

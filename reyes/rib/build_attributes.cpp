@@ -95,6 +95,24 @@ vec3 color(const Param& p) {
   return p.floats.size() == 3 ? vec3(p.floats[0], p.floats[1], p.floats[2]) : vec3(1);
 }
 
+// "a,b" replaces the sets, "+a,b" joins and "-a,b" leaves them.
+void editMembership(std::set<std::string>& sets, std::string_view text) {
+  const bool joins = text.starts_with('+'), leaves = text.starts_with('-');
+  if (joins || leaves)
+    text.remove_prefix(1);
+  else
+    sets.clear();
+  while (!text.empty()) {
+    const size_t end = std::min(text.find_first_of(", "), text.size());
+    if (end > 0 && leaves) sets.erase(std::string(text.substr(0, end)));
+    if (end > 0 && !leaves) sets.emplace(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
+
+// "cache" looks into files that the scene may not have; its shader knows as much.
+HitMode hitMode(const Param& p) { return p.strings[0] == "primitive" ? HitMode::Primitive : HitMode::Shader; }
+
 using Setter = void (*)(Attributes&, const Param&);
 const std::unordered_map<std::string_view, Setter>& numberSetters() {
   static const std::unordered_map<std::string_view, Setter> table = {
@@ -112,6 +130,10 @@ const std::unordered_map<std::string_view, Setter>& numberSetters() {
       {"trace:displacements",
        [](Attributes& a, const Param& p) { a.trace.displacements = p.number(0) != 0; }},
       {"trace:samplemotion", [](Attributes& a, const Param& p) { a.trace.sampleMotion = p.number(0) != 0; }},
+      {"trace:maxdiffusedepth",
+       [](Attributes& a, const Param& p) { a.trace.maxDiffuseDepth = static_cast<int>(std::clamp(p.number(1), 0.0f, 1000.0f)); }},
+      {"trace:maxspeculardepth",
+       [](Attributes& a, const Param& p) { a.trace.maxSpecularDepth = static_cast<int>(std::clamp(p.number(2), 0.0f, 1000.0f)); }},
       {"trace:tessellation", [](Attributes& a, const Param& p) { a.trace.tessellation = p.number(1); }},
       {"indirect:receive", [](Attributes& a, const Param& p) { a.indirect.receive = p.number(1) != 0; }},
       {"indirect:gain", [](Attributes& a, const Param& p) { a.indirect.gain = p.number(1); }},
@@ -134,6 +156,11 @@ const std::unordered_map<std::string_view, Setter>& textSetters() {
       {"photon:globalmap", [](Attributes& a, const Param& p) { a.photon.globalMap = p.strings[0]; }},
       {"photon:causticmap", [](Attributes& a, const Param& p) { a.photon.causticMap = p.strings[0]; }},
       {"photon:shadingmodel", [](Attributes& a, const Param& p) { a.photon.shadingModel = p.strings[0]; }},
+      {"grouping:membership", [](Attributes& a, const Param& p) { editMembership(a.membership, p.strings[0]); }},
+      {"grouping:tracesubset", [](Attributes& a, const Param& p) { a.trace.subset = p.strings[0]; }},
+      {"shade:diffusehitmode", [](Attributes& a, const Param& p) { a.diffuseHitMode = hitMode(p); }},
+      {"shade:specularhitmode", [](Attributes& a, const Param& p) { a.specularHitMode = hitMode(p); }},
+      {"shade:transmissionhitmode", [](Attributes& a, const Param& p) { a.transmissionHitMode = hitMode(p); }},
       {"indirect:surface", [](Attributes& a, const Param& p) { a.indirect.surface = p.strings[0]; }},
   };
   return table;

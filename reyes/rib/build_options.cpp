@@ -138,6 +138,8 @@ bool knownOption(GraphicsState& s, const Request& r, const std::string& key, con
   } else if (bucket && p.ints.size() == 2) {
     o.bucketWidth = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[0]), 1, 4096));
     o.bucketHeight = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[1]), 1, 4096));
+  } else if (key == "trace:maxdepth") {
+    o.maxRayDepth = static_cast<int>(clamped(s, r, p.number(10), 0, 1000));
   } else if (key == "shutter:offset") {
     o.shutterOffset = p.number(0);
   } else if (key == "limits:gridsize" && p.ints.size() == 1) {

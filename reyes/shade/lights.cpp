@@ -8,8 +8,8 @@ namespace {
 
 bool applies(const BoundLight& light, const Batch& batch) {
   if (batch.points == nullptr) return false;  // displacement shaders see no light
-  if (batch.context.light != Illumination::Lights) return false;
-  if (!(batch.context.kind == RayKind::Camera ? light.direct : light.indirect)) return false;
+  if (batch.context.light != Illumination::Lights || batch.context.kind == RayKind::Transmission) return false;
+  if (!(batch.context.kind == RayKind::Diffuse ? light.indirect : light.direct)) return false;
   return !light.can(TM_LIGHT_INDIRECT) ||
          (batch.context.indirect && batch.group.group->attributes->indirect.receive);
 }
@@ -42,6 +42,14 @@ bool sampleEmitter(Batch& batch, const BoundLight& light, TmGrid& g, float* area
   g.Pl = view(Pl), g.Nl = view(Nl);
   for (int i = 0; i < g.count; ++i) set(g.L, i, get(g.Pl, i) - get(g.P, i));
   return true;
+}
+
+/// To points in front of those on the emitter, where nothing of its own is in the way.
+TmVec3 beforeEmitter(Batch& batch, const TmGrid& g, float reach) {
+  if (reach == 0) return g.L;
+  const TmVec3 toward = batch.arena.vec3(g.count);
+  for (int i = 0; i < g.count; ++i) set(toward, i, get(g.L, i) + reach * get(g.Nl, i));
+  return toward;
 }
 
 /// Radiance of the emitter -> what one of its samples adds to E/pi at normal incidence: Cl cos(light) area /
@@ -117,6 +125,7 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
     LightSample sample{&light, batch.arena.vec3(g.count), g.Cl, g.L, {light.can(TM_LIGHT_SOLAR), s, n}, nullptr};
     for (int i = 0; i < g.count; ++i) set(sample.L, i, normalizeOr(get(g.L, i), vec3(0.0f)));
     if (light.shadows && batch.scene.services) {
+      if (area) sample.toward = beforeEmitter(batch, g, batch.scene.services->emitterReach(light.index));
       sample.pending = batch.arena.bytes(g.count);
       std::copy_n(g.active, g.count, sample.pending);
     }

@@ -3,6 +3,7 @@
 
 #include "reyes/base/rng.h"
 #include "reyes/shade/batch.h"
+#include "reyes/shade/ray_services.h"
 #include "reyes/shade/spaces.h"
 
 namespace tomales {
@@ -146,12 +147,7 @@ void calculateNormal(void* host, const TmGrid* g, TmConstVec3 P, TmVec3 out) {
 }
 
 void transmission(void* host, const TmGrid* g, TmConstVec3 P, TmConstVec3 toward, TmVec3 out) {
-  const Batch& batch = batchOf(host);
-  fill(g, out, vec3(1.0f));
-  if (!batch.points || !batch.scene.services) return;
-  ShadePoints moved = *batch.points;
-  forActive(g, [&](int i) { moved.set3(kPx, i, get(P, i)); });
-  batch.scene.services->transmission(moved, g->active, toward, {}, batch.context, out);
+  transmissionWith(host, g, P, toward, nullptr, out);
 }
 
 /// Of a lookup that leaves it open: Option "shadow" "bias", or a random one between "bias0" and "bias1"; negative: as needed.
@@ -244,6 +240,7 @@ void report(void* host, const TmGrid*, int32_t severity, const char* message) {
 
 const TmServices kServices = {
     sizeof(TmServices), diffuse,      specular,        ambient, light,      transform, texture,
-    calculateNormal,    transmission, indirectDiffuse, report,  environment, diffuseOf, shadow};
+    calculateNormal,    transmission, indirectDiffuse, report,  environment, diffuseOf, shadow,
+    traceRays,          gatherRays,   occlusion,       transmissionWith, rayInfo, rayLabel};
 
 }  // namespace tomales

@@ -42,6 +42,10 @@ bool ShadingSystem::opaque(int group) const {
   return g.group->attributes->opacity == vec3(1.0f) && g.OsOffset < 0 && g.surface->can(TM_KEEPS_OPACITY);
 }
 
+bool ShadingSystem::keepsOpacity(int group) const {
+  return impl_->groups[static_cast<size_t>(group)].surface->can(TM_KEEPS_OPACITY);
+}
+
 void ShadingSystem::shade(const ShadePoints& points, const ShadeContext& context, ShadedPoints& out) const {
   const BoundGroup& group = impl_->groups[static_cast<size_t>(points.group())];
   const bool indirectHit = context.kind == RayKind::Diffuse && group.indirectSurface;
@@ -81,8 +85,8 @@ const IndirectQuery* ShadingSystem::indirectQuery(int group) const {
 
 bool ShadingSystem::needsRays() const {
   return std::any_of(impl_->lights.begin(), impl_->lights.end(), [](const auto& light) {
-    return light && (light->shadows || light->can(TM_LIGHT_AREA) || light->can(TM_LIGHT_INDIRECT));
-  });
+    return light && (light->shadows || light->can(TM_LIGHT_AREA) || light->can(TM_LIGHT_INDIRECT) || light->can(TM_TRACES));
+  }) || std::any_of(impl_->groups.begin(), impl_->groups.end(), [](const BoundGroup& g) { return g.surface->can(TM_TRACES); });
 }
 
 }  // namespace tomales

@@ -35,10 +35,10 @@ TEST(TrimmedForRays, RaysPassThroughTheHoleAndMeetTheRest) {
         const bool there = inHole(at) == keepsInside;
         const Ray ray{vec3(at, 2), {0, 0, 1}, 5};
         EXPECT_EQ(world.rays->closest(ray, kMaskDiffuse).object >= 0, there) << at.x << ' ' << at.y;
-        EXPECT_EQ(world.rays->transmission(ray), vec3(there ? 0.0f : 1.0f));
+        EXPECT_EQ(world.transmission(ray), vec3(there ? 0.0f : 1.0f));
         // With a hit list, from the surface itself.
         const Ray own = world.rayFrom(self, vec3(at, 4), {0, 0, -1}, 3);
-        EXPECT_EQ(world.rays->transmission(own), vec3(1));
+        EXPECT_EQ(world.transmission(own), vec3(1));
       }
     }
 }

@@ -87,6 +87,10 @@ struct World {
     return ray;
   }
 
+  vec3 transmission(const Ray& ray) const {
+    return rays->transmission({ray}, {SampleName{}}, *shading, ShadeContext{})[0];
+  }
+
   Log log{Log::Verbosity::Quiet};
   Stats stats;
   Scene scene;

@@ -13,6 +13,26 @@ void expectNear(const vec3& a, const vec3& b, float tolerance = 1e-5f) {
       << a.x << " " << a.y << " " << a.z << " against " << b.x << " " << b.y << " " << b.z;
 }
 
+TEST(Attributes, OfRaysAreRead) {
+  const Reading r(R"(
+    Option "trace" "int maxdepth" [3]
+    WorldBegin
+      Attribute "grouping" "string membership" ["a,b"]
+      Attribute "grouping" "string membership" ["+c"]
+      Attribute "grouping" "string membership" ["-a"]
+      Attribute "grouping" "string tracesubset" ["b"]
+      Attribute "trace" "int maxdiffusedepth" [4] "int maxspeculardepth" [5]
+      Attribute "shade" "string diffusehitmode" ["primitive"] "string transmissionhitmode" ["shader"]
+      Sphere 1 -1 1 360
+    WorldEnd)");
+  const Attributes& a = r.attributes(0);
+  EXPECT_EQ(r.scene().options.maxRayDepth, 3);
+  EXPECT_EQ(a.membership, (std::set<std::string>{"b", "c"}));
+  EXPECT_TRUE(a.trace.subset == "b" && a.trace.maxDiffuseDepth == 4 && a.trace.maxSpecularDepth == 5);
+  EXPECT_TRUE(a.diffuseHitMode == HitMode::Primitive && a.transmissionHitMode == HitMode::Shader);
+  EXPECT_EQ(r.codes(), "");
+}
+
 TEST(Options, OfTheHiderShapeTheLensAndTheOffsetShiftsMotion) {
   const Reading r(R"(
     Shutter 10 11 Option "shutter" "float offset" [10]

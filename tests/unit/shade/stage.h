@@ -40,6 +40,8 @@ class BlankPrim final : public Prim {
 class FakeServices final : public ShadeServices {
  public:
   std::function<float(const vec3& P, const vec3& toward)> visible;
+  std::function<float(const vec3& P, const vec3& direction)> met;  ///< Distance
+  mutable std::vector<RayQuery> asked;
   std::function<void(float a, float b, vec3& P, vec3& N, float& area)> emitter;
   vec3 E{0.0f}, dominant[3] = {vec3(0, 0, -1), vec3(0, 0, -1), vec3(0, 0, -1)};
   mutable int shadowRays = 0, gathers = 0;
@@ -55,6 +57,14 @@ class FakeServices final : public ShadeServices {
       light.x[i] *= v, light.y[i] *= v, light.z[i] *= v;
     }
   }
+  void trace(const ShadePoints& points, const uint8_t* active, TmConstVec3 P, TmConstVec3 d, const RayQuery& query, const ShadeContext&,
+             const RayResult& result) const override {
+    asked.push_back(query);
+    for (int i = 0; i < points.count(); ++i)
+      if (active[i] && result.distance)
+        result.distance[i] = met ? met({P.x[i], P.y[i], P.z[i]}, {d.x[i], d.y[i], d.z[i]}) : kInfinity;
+  }
+  float emitterReach(int) const override { return 0; }
   bool sampleEmitter(int, int count, const float* a, const float* b, TmVec3 P, TmVec3 N,
                      float* area) const override {
     if (!emitter) return false;

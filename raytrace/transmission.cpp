@@ -1,0 +1,72 @@
+// Light that passes through what stands between two points.
+#include "raytrace/ray_scene.h"
+
+namespace tomales {
+namespace {
+
+constexpr float kFarEnd = 1e-4f;  ///< Share of a shadow ray that ends before the light, not to meet its surface.
+
+/// The surfaces that one ray goes through, in order.
+struct Layers {
+  bool blocked = false;
+  std::vector<PolygonHit> hits;
+};
+
+Layers layersOf(const RayScene::Impl& scene, const Ray& ray) {
+  thread_local HitList list;
+  Ray shortened = ray;
+  shortened.tMax *= 1 - kFarEnd;
+  const bool offsetting = ray.offset > 0;
+  const float window = offsetting ? recordingWindow(ray.offset) : -1.0f;
+  Layers out{scene.embree.blockedBeyond(shortened, window, kMaskTransmission, list), {}};
+  if (out.blocked) return out;
+  sortAlongRay(list);
+  const RayStart start = startOf(ray);
+  const int origin = offsetting ? effectiveOrigin(list, start) : -1, first = nextHit(list, origin, start);
+  for (size_t i = static_cast<size_t>(first); first >= 0 && i < list.size(); ++i) {
+    // An edge shared by two quads counts once; far hits are as far apart as their rounding.
+    const bool again =
+        i > static_cast<size_t>(first) &&
+        sameSurface(list[i - 1], list[i], std::max(mergeDistance(ray.offset), 1e-6f * list[i].t));
+    if (!again) out.hits.push_back(list[i]);
+  }
+  return out;
+}
+
+/// Hits whose opacity is not that of their attributes, to be asked all at once.
+struct Asked {
+  std::vector<size_t> rayOf;
+  std::vector<Ray> rays;
+  std::vector<Hit> hits;
+  std::vector<SampleName> names;
+};
+
+}  // namespace
+
+std::vector<vec3> RayScene::transmission(const std::vector<Ray>& rays, const std::vector<SampleName>& names,
+                                         const ShadingSystem& shading, const ShadeContext& context) const {
+  std::vector<vec3> clear(rays.size(), vec3(1));
+  Asked asked;
+  for (size_t r = 0; r < rays.size(); ++r) {
+    if (!traceable(rays[r])) continue;
+    const Layers layers = layersOf(*impl_, rays[r]);
+    if (layers.blocked) clear[r] = vec3(0);
+    for (const PolygonHit& hit : layers.hits)
+      if (impl_->knowsOpacity(hit.group)) clear[r] *= glm::clamp(impl_->clearness(hit), 0.0f, 1.0f);
+    if (clear[r] == vec3(0)) continue;
+    for (const PolygonHit& hit : layers.hits) {
+      if (impl_->knowsOpacity(hit.group)) continue;
+      asked.rayOf.push_back(r), asked.rays.push_back(rays[r]);
+      asked.hits.push_back(impl_->resolve(hit)), asked.names.push_back(names[r]);
+    }
+  }
+  if (asked.hits.empty()) return clear;
+  ShadeContext inside = context;
+  inside.kind = RayKind::Transmission;
+  HitAnswers answers;
+  shadeHits(asked.rays, asked.hits, asked.names, shading, inside, answers);
+  for (size_t k = 0; k < asked.hits.size(); ++k) clear[asked.rayOf[k]] *= 1.0f - glm::clamp(answers.opacity[k], 0.0f, 1.0f);
+  return clear;
+}
+
+}  // namespace tomales
