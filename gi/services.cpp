@@ -1,5 +1,7 @@
 #include "gi/services.h"
 
+#include <utility>
+
 #include "gi/state.h"
 
 namespace tomales {
@@ -7,7 +9,11 @@ struct GiServices::Impl : GiState {};
 
 GiServices::GiServices(const Scene& scene, const Camera& camera, const RayScene& rays,
                        const ShadingSystem& shading, const GiSettings& settings, Stats& stats)
-    : impl_(new Impl{{scene, camera, rays, shading, settings, stats, {}}}) {}
+    : GiServices(scene, camera, [tools = RayTools{&rays, &shading}] { return &tools; }, shading, settings, stats) {}
+
+GiServices::GiServices(const Scene& scene, const Camera& camera, RaySource rays, const ShadingSystem& shading,
+                       const GiSettings& settings, Stats& stats)
+    : impl_(new Impl{{scene, camera, std::move(rays), shading, settings, stats, {}, {}, false}}) {}
 
 GiServices::~GiServices() = default;
 
@@ -16,17 +22,27 @@ void GiServices::gatherPass(const DeepFrame& frame, const std::function<void(flo
   if (impl_->settings.mode == GiMode::Gather) fillCaches(*impl_, frame, progress, cancelled);
 }
 
+const std::vector<PreparedCache>& GiServices::caches() const { return impl_->caches; }
+std::vector<PreparedCache> GiServices::takeCaches() { return std::exchange(impl_->caches, {}); }
+void GiServices::useCaches(std::vector<PreparedCache> caches) {
+  impl_->caches = std::move(caches);
+  impl_->cachesGiven = !impl_->caches.empty();
+}
+void GiServices::useEmitters(EmitterTable emitters) { impl_->emitters.emplace(std::move(emitters)); }
+
 void GiServices::transmission(const ShadePoints& points, const uint8_t* active, TmConstVec3 toward,
                               bool solar, const ShadeContext&, TmVec3 light) const {
+  const RayTools* tools = impl_->rays();
+  if (!tools) return;
   int64_t traced = 0;
   for (int i = 0; i < points.count(); ++i) {
     const vec3 arriving{light.x[i], light.y[i], light.z[i]}, path{toward.x[i], toward.y[i], toward.z[i]};
     const float length = glm::length(path);
     if (!active[i] || arriving == vec3(0.0f) || !(length > 0)) continue;
     Ray ray{points.position(i), path / length, solar ? kInfinity : length};
-    impl_->rays.prepareOrigin(points.group(), ray.origin, points.edgeLength(i), ray);
+    tools->rays->prepareOrigin(points.group(), ray.origin, points.edgeLength(i), ray);
     ray.offset = slantedOffset(ray.offset, std::abs(dot(ray.direction, points.get3(kNgx, i))));
-    const vec3 passed = arriving * impl_->rays.transmission(ray);
+    const vec3 passed = arriving * tools->rays->transmission(ray);
     light.x[i] = passed.x, light.y[i] = passed.y, light.z[i] = passed.z;
     ++traced;
   }
@@ -35,7 +51,9 @@ void GiServices::transmission(const ShadePoints& points, const uint8_t* active, 
 
 bool GiServices::sampleEmitter(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N,
                                float* area) const {
-  return impl_->rays.sampleEmitter(light, count, xi0, xi1, P, N, area);
+  if (impl_->emitters) return impl_->emitters->sample(light, count, xi0, xi1, P, N, area);
+  const RayTools* tools = impl_->rays();
+  return tools && tools->rays->emitters().sample(light, count, xi0, xi1, P, N, area);
 }
 
 void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
@@ -47,7 +65,7 @@ void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* activ
                       : settings.mode == GiMode::Gather ? std::min(asked, 1)
                                                         : asked;
   if (context.depth < bounces) {
-    if (settings.mode == GiMode::Gather) return interpolateIndirect(*impl_, points, active, N, query, out);
+    if (settings.mode == GiMode::Gather) return interpolateIndirect(*impl_, points, active, N, query, context, out);
     return traceIndirect(*impl_, points, active, N, query, context, bounces, out);
   }
   for (int i = 0; i < points.count(); ++i) {

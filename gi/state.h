@@ -4,26 +4,16 @@
 
 namespace tomales {
 
-/// Everything that decides the value of an irradiance record, and how far it may be used.
-struct GatherPlan {
-  CacheSettings cache;
-  GatherSettings gather;
-  bool operator==(const GatherPlan&) const = default;
-};
-
-struct PreparedCache {
-  GatherPlan plan;
-  IrradianceCache cache;
-};
-
 struct GiState {
   const Scene& scene;
   const Camera& camera;
-  const RayScene& rays;
+  const RaySource rays;
   const ShadingSystem& shading;
   const GiSettings settings;
   Stats& stats;
   std::vector<PreparedCache> caches;  ///< Written by fillCaches, frozen while shading.
+  std::optional<Emitters> emitters;   ///< Known without rays.
+  bool cachesGiven = false;           ///< Not gathered for this very frame.
 };
 
 /// The settings of an indirect light as this group sees them: the command line wins over the group's
@@ -48,7 +38,7 @@ void store(const IndirectResult& out, int i, const vec3& E, const vec3 dominant[
 
 // indirectDiffuse() in the two modes. Pre: the light may still bounce at these points.
 void interpolateIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N,
-                         const IndirectQuery&, const IndirectResult& out);
+                         const IndirectQuery&, const ShadeContext&, const IndirectResult& out);
 void traceIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N,
                    const IndirectQuery&, const ShadeContext&, int bounces, const IndirectResult& out);
 

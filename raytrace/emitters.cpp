@@ -5,16 +5,37 @@
 namespace tomales {
 namespace {
 
-float areaOf(const CoarseGroup& g, uint32_t quad) {
-  const vec3 a = g.corner(quad, 0), b = g.corner(quad, 1), c = g.corner(quad, 2), d = g.corner(quad, 3);
+using Corners = std::array<vec3, 4>;
+
+float areaOf(const Corners& q) {
+  const auto& [a, b, c, d] = q;
   return 0.5f * (glm::length(cross(b - a, d - a)) + glm::length(cross(d - c, b - c)));
 }
 
 /// Position and d/du x d/dv of the bilinear quad.
-void bilinear(const CoarseGroup& g, uint32_t quad, float u, float v, vec3& P, vec3& normal) {
-  const vec3 a = g.corner(quad, 0), b = g.corner(quad, 1), c = g.corner(quad, 2), d = g.corner(quad, 3);
+void bilinear(const Corners& q, float u, float v, vec3& P, vec3& normal) {
+  const auto& [a, b, c, d] = q;
   P = glm::mix(glm::mix(a, b, u), glm::mix(d, c, u), v);
   normal = cross(glm::mix(b - a, c - d, v), glm::mix(d - a, c - b, u));
+}
+
+EmitterLattice latticeOf(const CoarseGroup& g, const Lattice& lattice) {
+  EmitterLattice out{lattice.nu, lattice.nv, g.flipsNormal, {}, {}, lattice.trim ? &g : nullptr, lattice.firstQuad};
+  for (uint32_t quad = lattice.firstQuad; quad < lattice.firstQuad + lattice.nu * lattice.nv; ++quad) {
+    out.quads.push_back({g.corner(quad, 0), g.corner(quad, 1), g.corner(quad, 2), g.corner(quad, 3)});
+    out.normals.push_back(g.geometricNormal(quad));
+  }
+  return out;
+}
+
+EmitterTable tableOf(const Scene& scene, const std::vector<CoarseGroup>& groups) {
+  EmitterTable table(scene.lights.size());
+  for (size_t g = 0; g < groups.size(); ++g) {
+    const int light = scene.groups[g].attributes->areaLight;
+    if (light < 0 || light >= static_cast<int>(table.size())) continue;
+    for (const Lattice& lattice : groups[g].lattices) table[static_cast<size_t>(light)].push_back(latticeOf(groups[g], lattice));
+  }
+  return table;
 }
 
 }  // namespace
@@ -28,24 +49,21 @@ size_t Emitters::Cumulated::pick(double& x) const {
   return k;
 }
 
-Emitters::Emitters(const Scene& scene, const std::vector<CoarseGroup>& groups)
-    : groups_(groups), lights_(scene.lights.size()) {
-  for (uint32_t g = 0; g < groups.size(); ++g) {
-    const int light = scene.groups[g].attributes->areaLight;
-    if (light < 0 || light >= static_cast<int>(lights_.size())) continue;
-    Light& out = lights_[static_cast<size_t>(light)];
-    for (const Lattice& lattice : groups[g].lattices) {
-      Source source{g, lattice.firstQuad, lattice.nu, {}, std::vector<Cumulated>(lattice.nv)};
-      for (uint32_t j = 0; j < lattice.nv; ++j) {
-        for (uint32_t i = 0; i < lattice.nu; ++i)
-          source.row[j].add(double{areaOf(groups[g], lattice.firstQuad + j * lattice.nu + i)});
+Emitters::Emitters(const Scene& scene, const std::vector<CoarseGroup>& groups) : Emitters(tableOf(scene, groups)) {}
+
+Emitters::Emitters(EmitterTable table) : table_(std::move(table)), lights_(table_.size()) {
+  for (size_t light = 0; light < table_.size(); ++light)
+    for (uint32_t l = 0; l < table_[light].size(); ++l) {
+      const EmitterLattice& lattice = table_[light][l];
+      Source source{l, {}, std::vector<Cumulated>(lattice.rows)};
+      for (uint32_t j = 0; j < lattice.rows; ++j) {
+        for (uint32_t i = 0; i < lattice.columns; ++i) source.row[j].add(double{areaOf(lattice.quads[j * lattice.columns + i])});
         source.rows.add(source.row[j].total());
       }
       if (!(source.rows.total() > 0)) continue;
-      out.areas.add(source.rows.total());
-      out.sources.push_back(std::move(source));
+      lights_[light].areas.add(source.rows.total());
+      lights_[light].sources.push_back(std::move(source));
     }
-  }
 }
 
 bool Emitters::sample(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N,
@@ -57,14 +75,15 @@ bool Emitters::sample(int light, int count, const float* xi0, const float* xi1, 
     double u{xi0[i]}, v{xi1[i]};
     const Source& source = l.sources[l.areas.pick(u)];
     const size_t row = source.rows.pick(v), column = source.row[row].pick(u);
-    const auto quad = static_cast<uint32_t>(source.firstQuad + row * source.columns + column);
-    const CoarseGroup& g = groups_[source.group];
+    const EmitterLattice& lattice = table_[static_cast<size_t>(light)][source.lattice];
+    const size_t quad = row * lattice.columns + column;
     vec3 p, normal;
-    bilinear(g, quad, static_cast<float>(u), static_cast<float>(v), p, normal);
+    bilinear(lattice.quads[quad], static_cast<float>(u), static_cast<float>(v), p, normal);
     const double quadArea = source.row[row].sums[column + 1] - source.row[row].sums[column];
-    area[i] = quadArea > 0 && g.keeps(quad, static_cast<float>(u), static_cast<float>(v))
-                  ? static_cast<float>(double{glm::length(normal)} * l.areas.total() / quadArea) : 0.0f;
-    normal = normalizeOr(g.flipsNormal ? -normal : normal, g.geometricNormal(quad));
+    const bool there = !lattice.trimmed || lattice.trimmed->keeps(lattice.firstQuad + static_cast<uint32_t>(quad),
+                                                                  static_cast<float>(u), static_cast<float>(v));
+    area[i] = quadArea > 0 && there ? static_cast<float>(double{glm::length(normal)} * l.areas.total() / quadArea) : 0.0f;
+    normal = normalizeOr(lattice.flipsNormal ? -normal : normal, lattice.normals[quad]);
     P.x[i] = p.x, P.y[i] = p.y, P.z[i] = p.z;
     N.x[i] = normal.x, N.y[i] = normal.y, N.z[i] = normal.z;
   }

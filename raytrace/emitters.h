@@ -5,9 +5,23 @@
 
 namespace tomales {
 
+/// Rows of quads that shine, and all that sampling needs of them.
+struct EmitterLattice {
+  uint32_t columns = 0, rows = 0;
+  bool flipsNormal = false;                ///< The shining side is opposite to d/du x d/dv.
+  std::vector<std::array<vec3, 4>> quads;  ///< Corners as CoarseGroup's, rows * columns.
+  std::vector<vec3> normals;               ///< Unit, of the shining side.
+  const CoarseGroup* trimmed = nullptr;    ///< Trim curves cut it: they are asked for every point,
+  uint32_t firstQuad = 0;                  ///< by the number of the quad there.
+};
+/// Of every light of a scene.
+using EmitterTable = std::vector<std::vector<EmitterLattice>>;
+
 class Emitters {
  public:
   Emitters(const Scene& scene, const std::vector<CoarseGroup>& groups);
+  explicit Emitters(EmitterTable table);
+  const EmitterTable& table() const { return table_; }
 
   /// False: no emitter of this light has any area.
   bool shines(int light) const { return !lights_[static_cast<size_t>(light)].sources.empty(); }
@@ -29,7 +43,7 @@ class Emitters {
     size_t pick(double& x) const;
   };
   struct Source {
-    uint32_t group, firstQuad, columns;
+    uint32_t lattice;
     Cumulated rows;
     std::vector<Cumulated> row;  ///< quads of each row
   };
@@ -37,7 +51,7 @@ class Emitters {
     std::vector<Source> sources;
     Cumulated areas;
   };
-  const std::vector<CoarseGroup>& groups_;
+  EmitterTable table_;
   std::vector<Light> lights_;
 };
 

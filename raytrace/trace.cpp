@@ -139,9 +139,6 @@ void RayScene::prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ra
   ray.bias = given.bias.value_or(kBias * scale);
 }
 
-bool RayScene::sampleEmitter(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N,
-                             float* area) const {
-  return impl_->emitters.sample(light, count, xi0, xi1, P, N, area);
-}
+const Emitters& RayScene::emitters() const { return impl_->emitters; }
 
 }  // namespace tomales

@@ -32,6 +32,8 @@ struct Hit {
 /// Which rays see an object; bits of Attributes::visibility.
 enum RayMask : uint32_t { kMaskDiffuse = 1, kMaskSpecular = 2, kMaskTransmission = 4, kMaskPhoton = 8 };
 
+class Emitters;
+
 class RayScene {
  public:
   /// Tessellates every object that some ray may see. Displaces with `shading` where trace:displacements asks for it.
@@ -52,8 +54,8 @@ class RayScene {
   void shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& hits, const std::vector<SampleName>& names,
                  const ShadingSystem& shading, const ShadeContext& context, std::vector<vec3>& radiance) const;
 
-  /// The coarse polygons of area light `light`, for sampling (reyes/shade.h: sampleEmitter).
-  bool sampleEmitter(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N, float* area) const;
+  /// The coarse polygons of area lights.
+  const Emitters& emitters() const;
 
  private:
   struct Impl;

@@ -22,9 +22,31 @@ struct FrameControl {
   uint32_t seed = 0;
 };
 
+/// Where hidden tiles go, from any thread.
+struct TileSink {
+  std::function<bool(size_t tile)> has;               ///< It is there already and need not be hidden. Empty: none is.
+  std::function<void(size_t tile, DeepTile&&)> take;
+};
+
+/// Where tiles to shade come from, from any thread.
+struct TileSource {
+  std::function<bool(size_t index, DeepTile& tile)> load;      ///< False: the tile is left out of the picture.
+  std::function<void(size_t index, DeepTile& tile)> finished;  ///< Shaded, its points still there. May be empty.
+};
+
+/// The buckets of a frame, nothing in them.
+DeepFrame layOutFrame(const Scene& scene);
+/// False: cancelled, some tiles were not hidden.
+bool hideTiles(const DeepFrame& layout, const Scene& scene, const ShadingSystem& shading, const FrameControl& control,
+               Stats& stats, Log& log, const TileSink& sink);
 DeepFrame hideFrame(const Scene& scene, const ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log);
 void shadeFrame(DeepFrame& frame, const Scene& scene, const ShadingSystem& shading, const ShadeContext& context,
                 const FrameControl& control, Stats& stats);
+/// The tiles that the picture of frame.crop needs, in bucket order.
+std::vector<uint32_t> tilesOf(const DeepFrame& frame, const Options& options);
+/// Loads, shades and strips of their points the tiles that the picture of frame.crop needs.
+void shadeTiles(DeepFrame& frame, const TileSource& source, const Scene& scene, const ShadingSystem& shading,
+                const ShadeContext& context, const FrameControl& control, Stats& stats);
 Image imageOf(const DeepFrame& frame, const Scene& scene, const FrameControl& control, Stats& stats);
 void runImager(Image& image, const ShadingSystem& shading);
 

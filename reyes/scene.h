@@ -52,7 +52,9 @@ struct Scene {
   bool cameraFromNamed(const std::string& name, mat4& out) const;
 };
 
-/// cameraFromObject at one time, and the shape to evaluate at a key time: linear between shapes is left to the grid.
+/// False: read from a .dfb, which leaves shapes out.
+inline bool hasGeometry(const Scene& scene) { return scene.objects.empty() || !scene.objects.front().shapes.empty(); }
+
 std::string objectName(const Object& object);  ///< identifier name, or "object at FILE:LINE"
 
 }  // namespace tomales

@@ -8,6 +8,7 @@
 #include "reyes/base/stats.h"
 #include "reyes/grid.h"
 #include "reyes/points.h"
+#include "reyes/ray_answers.h"
 
 namespace tomales {
 
@@ -23,6 +24,8 @@ struct ShadeContext {
   uint32_t seed = 0;
   int lightSamples = 0;        ///< Samples of each area light and of the sky; 0: as many as the light asks for.
   bool indirect = true;        ///< Run indirect lights.
+  RayAnswers* answers = nullptr;  ///< Of this batch: asked before rays are traced. Null: all are traced.
+  int chunk = 0;               ///< Set by ShadingSystem: which part of the batch is being shaded.
 };
 
 /// Parameters of an indirect light (docs/gi.md), bound from the calling `indirectlight`.

@@ -85,6 +85,7 @@ struct Options {
   std::vector<DisplayCall> displays;                       ///< Empty: the default Display.
   std::optional<ShaderCall> imager;
   int bucketWidth = 16, bucketHeight = 16;
+  std::string bucketOrder = "horizontal";                 ///< Option "bucket" "order": reyes/frame/bucket_order.h
   int gridSize = 256;                                      ///< Most micropolygons in a grid.
   std::string hider = "hidden";
   bool jitter = true;

@@ -1,13 +1,60 @@
-// One frame through every stage: rays and global illumination are built if the scene asks for them.
+// One frame through the stages, in the order of its members; rays and global illumination are built if the scene asks for them.
 #pragma once
+#include "reyes/app/progress.h"
 #include "reyes/app/settings.h"
 #include "reyes/base/stats.h"
-#include "reyes/scene.h"
+#include "reyes/frame.h"
 
 namespace tomales {
 
-/// Renders a scene that overrides have been applied to, and writes its Displays. Everything that goes wrong
-/// is in the log.
+class FrameJob {
+ public:
+  /// Pre: overrides have been applied to the scene. Everything that goes wrong is in the log.
+  FrameJob(const Scene& scene, const RenderSettings& settings, Stats& stats, Log& log);
+  ~FrameJob();
+
+  DeepFrame hide();
+  /// The same, tile by tile. False: interrupted.
+  bool hide(const DeepFrame& layout, const TileSink& sink);
+  /// Rays against the scene itself.
+  void prepareRays();
+  /// Rays against what `rays` brings when the first is wanted: for scenes without geometry.
+  void prepareRays(RaySource rays);
+  void gather(const DeepFrame& frame);
+  void shade(DeepFrame& frame);
+  /// The tiles that frame.crop needs, one by one from `source`.
+  void shade(DeepFrame& frame, const TileSource& source);
+  void write(const DeepFrame& frame);
+
+  bool gathers() const { return mode_ == GiMode::Gather; }
+  GiSettings giSettings() const;
+  GiServices* services() { return services_.get(); }
+  ShadingSystem& shading() { return *shading_; }
+  FrameControl control(float begin, float end);
+
+ private:
+  void warnAboutBounces() const;
+  int referenceLightSamples() const;
+  ShadeContext shadeContext() const;
+
+  const Scene& scene_;
+  const RenderSettings& settings_;
+  Stats& stats_;
+  Log& log_;
+  const GiMode mode_;
+  const Camera camera_;
+  ShaderRegistry registry_;
+  ProgressMeter meter_;
+  std::unique_ptr<ShadingSystem> shading_;
+  std::unique_ptr<RayScene> rays_;
+  std::unique_ptr<GiServices> services_;
+};
+
+/// Hours of rendering must not end at a folder that never existed. False: reported.
+bool displaysHaveFolders(const Options& options, Log& log);
+bool hasFolder(const std::string& file, const SourceLoc& where, Log& log);
+
+/// Renders the scene and writes its Displays.
 void renderFrame(const Scene& scene, const RenderSettings& settings, Stats& stats, Log& log,
                  const std::function<void()>& afterStage);
 

@@ -26,6 +26,10 @@ struct RenderSettings {
   float maxError = -1;           ///< < 0: likewise.
   uint32_t seed = 0;
   std::optional<int> bucketSize;
+  std::vector<std::string> edits;  ///< RIB files of changes to a shot.
+  std::string irradiance;          ///< An .icf to shade with.
+  bool appendIrradiance = false;   ///< And to gather into what it leaves uncovered.
+  bool resume = false;
   bool hitList = true;
   std::string statsFile;
   bool progress = false;

@@ -1,5 +1,6 @@
 #include "reyes/base/parallel.h"
 #include "reyes/frame.h"
+#include "reyes/frame/bucket_order.h"
 #include "reyes/frame/sampling.h"
 
 namespace tomales {
@@ -24,7 +25,9 @@ void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading,
       for (auto& o : out.Oi) std::fill(o.begin(), o.end(), 1.0f);
       continue;
     }
-    shading.shade(points, context, out);
+    ShadeContext batchContext = context;
+    if (b < tile.answers.size()) batchContext.answers = &tile.answers[b];
+    shading.shade(points, batchContext, out);
     const vec3 emission = shading.visibleEmission(points.group());
     if (maxComponent(emission) > 0) addVisibleEmission(points, emission, out);
     shading.atmosphere(points, out);
@@ -50,6 +53,34 @@ void shadeFrame(DeepFrame& frame, const Scene& scene, const ShadingSystem& shadi
     }
   });
   if (skipped) frame.complete = false;
+}
+
+void shadeTiles(DeepFrame& frame, const TileSource& source, const Scene& scene, const ShadingSystem& shading,
+                const ShadeContext& context, const FrameControl& control, Stats& stats) {
+  const std::vector<uint32_t> needed = tilesOf(frame, scene.options);
+  std::atomic<size_t> done{0};
+  parallelInOrder(needed.size(), [&](size_t i) {
+    if (control.cancelled && *control.cancelled) return;
+    DeepTile& tile = frame.tiles[needed[i]];
+    if (source.load(needed[i], tile)) shadeTile(tile, scene, shading, context);
+    if (source.finished) source.finished(needed[i], tile);
+    tile.forgetPoints();
+    stats.memoryBytes.deepFrame += static_cast<int64_t>(tile.bytes());
+    if (control.progress) control.progress(static_cast<float>(++done) / static_cast<float>(needed.size()));
+  });
+  if (control.cancelled && *control.cancelled) frame.complete = false;
+}
+
+std::vector<uint32_t> tilesOf(const DeepFrame& frame, const Options& options) {
+  const PixelFilter filter(options.filter, options.xFilterWidth, options.yFilterWidth);
+  const PixelRect& c = frame.crop;
+  const PixelRect seen{c.x0 - filter.reachX(), c.y0 - filter.reachY(), c.x1 + filter.reachX(), c.y1 + filter.reachY()};
+  std::vector<uint32_t> out;
+  for (const uint32_t i : bucketOrder(options.bucketOrder, frame.columns, frame.rows)) {
+    const PixelRect& r = frame.tiles[i].rect;
+    if (r.x0 < seen.x1 && r.x1 > seen.x0 && r.y0 < seen.y1 && r.y1 > seen.y0) out.push_back(i);
+  }
+  return out;
 }
 
 Image imageOf(const DeepFrame& frame, const Scene& scene, const FrameControl& control, Stats&) {

@@ -181,6 +181,13 @@ bool knownOption(GraphicsState& s, const Request& r, const std::string& key, con
     o.bucketHeight = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[1]), 1, 4096));
   } else if (key == "limits:gridsize" && p.ints.size() == 1) {
     o.gridSize = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[0]), 1, 65536));
+  } else if (key == "bucket:order" && p.strings.size() == 1) {
+    static const std::set<std::string> orders = {"horizontal", "vertical", "zigzag-x", "zigzag-y",
+                                                 "spacefill",  "spiral",   "random"};
+    if (orders.contains(p.strings[0]))
+      o.bucketOrder = p.strings[0];
+    else
+      s.warn(r, "rib-bucket-order", "no bucket order \"" + p.strings[0] + "\"; \"" + o.bucketOrder + "\" is used");
   } else {
     return key.starts_with("user:") || key == "ribparse:varsubst";
   }

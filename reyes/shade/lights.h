@@ -13,6 +13,7 @@ struct BoundLight;
 
 struct LightSample {
   const BoundLight* light;
+  int number;        ///< Of the light's samples.
   TmVec3 L;          ///< Unit, from P to the light.
   TmVec3 Cl;         ///< Divided by the number of samples; multiplied by transmission where `pending` is 0.
   TmVec3 toward;     ///< L at full length: what a shadow ray travels.
@@ -30,6 +31,7 @@ class Lights {
   void shadow(Batch& batch, LightSample& sample, const uint8_t* want) const;
 
  private:
+  void shadowFromAnswers(Batch& batch, LightSample& sample, const uint8_t* want) const;
   void evaluate(Batch& batch, const BoundLight& light);
   bool evaluated_ = false;
   std::vector<LightSample> samples_;
