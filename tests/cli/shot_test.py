@@ -106,7 +106,9 @@ suite.expect_run("edits that fit nothing are named", ["shade", "direct.dfb", "--
                  'no object is named "nobody"', 'no light has the handle "none"', "Sphere changes more than shading")
 
 # Geometry that is gone is missed only where rays are needed.
-(suite.folder / "gone.rib").write_text(DIRECT)
+(suite.folder / "gone.rib").write_text('Option "bucket" "string order" ["spiral"]\n' + DIRECT)
+suite.run("render", "gone.rib", "-o", "spiral.exr", "-q")
+expect_same("buckets in a spiral give the same bits", "direct.exr", "spiral.exr")
 suite.run("hide", "gone.rib", "-o", "gone.dfb", "-q")
 (suite.folder / "gone.rib").unlink()
 suite.expect_run("without its RIB a shot that needs rays says so", ["shade", "gone.dfb", "-o", "gone.exr"], 3, "is gone or has changed")
