@@ -26,6 +26,7 @@ struct FrameControl {
 struct TileSink {
   std::function<bool(size_t tile)> has;               ///< It is there already and need not be hidden. Empty: none is.
   std::function<void(size_t tile, DeepTile&&)> take;
+  std::function<std::optional<DeepTile>(size_t tile)> find;  ///< What an interrupted run has left of it. May be empty.
 };
 
 /// Where tiles to shade come from, from any thread.
@@ -44,6 +45,8 @@ void shadeFrame(DeepFrame& frame, const Scene& scene, const ShadingSystem& shadi
                 const FrameControl& control, Stats& stats);
 /// The tiles that the picture of frame.crop needs, in bucket order.
 std::vector<uint32_t> tilesOf(const DeepFrame& frame, const Options& options);
+/// Surface shaders, lights and atmosphere over the points of a tile.
+void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading, const ShadeContext& context);
 /// Loads, shades and strips of their points the tiles that the picture of frame.crop needs.
 void shadeTiles(DeepFrame& frame, const TileSource& source, const Scene& scene, const ShadingSystem& shading,
                 const ShadeContext& context, const FrameControl& control, Stats& stats);

@@ -116,6 +116,10 @@ void buildRender(CLI::App& app, Invocation& in, int& code) {
   addPictureOptions(*c, in.render);
   addLightOptions(*c, in.render);
   addRunOptions(*c, in.render);
+  c->add_flag("--resume", in.render.resume, "Keep finished buckets beside the picture until it is written, and use those of an interrupted run");
+  c->add_option("--irradiance", in.render.irradiance, "Indirect light from these records instead of a gather pass")->type_name("SHOT.icf");
+  c->add_flag("--irradiance-append", in.render.appendIrradiance, "Gather where those records leave points uncovered");
+  addParsed(*c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M", "Shade and drop buckets one by one when the frame would need more");
   c->add_option("SCENE", in.render.files, "RIB files")->required();
   c->callback([&] { code = renderCommand(in.render); });
 }

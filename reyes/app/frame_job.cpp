@@ -29,14 +29,9 @@ FrameJob::FrameJob(const Scene& scene, const RenderSettings& settings, Stats& st
 
 FrameJob::~FrameJob() = default;
 
-DeepFrame FrameJob::hide() {
-  const StageTimer timer(stats_, "hide");
-  return hideFrame(scene_, *shading_, control(0.0f, gathers() ? 0.3f : 0.5f), stats_, log_);
-}
-
 bool FrameJob::hide(const DeepFrame& layout, const TileSink& sink) {
   const StageTimer timer(stats_, "hide");
-  return hideTiles(layout, scene_, *shading_, control(0, 1), stats_, log_, sink);
+  return hideTiles(layout, scene_, *shading_, control(0, gathers() ? 0.3f : 0.5f), stats_, log_, sink);
 }
 
 void FrameJob::prepareRays() {
@@ -81,6 +76,11 @@ void FrameJob::shade(DeepFrame& frame) {
     shadeControl.cancelled = nullptr;
   }
   shadeFrame(frame, scene_, *shading_, context, shadeControl, stats_);
+}
+
+void FrameJob::shadeTile(DeepTile& tile) const {
+  tomales::shadeTile(tile, scene_, *shading_, shadeContext());
+  tile.forgetPoints();
 }
 
 void FrameJob::shade(DeepFrame& frame, const TileSource& source) {
@@ -138,20 +138,6 @@ bool displaysHaveFolders(const Options& options, Log& log) {
   bool all = true;
   for (const DisplayCall& display : options.displays) all = hasFolder(display.name, display.where, log) && all;
   return all;
-}
-
-void renderFrame(const Scene& scene, const RenderSettings& settings, Stats& stats, Log& log,
-                 const std::function<void()>& afterStage) {
-  if (!displaysHaveFolders(scene.options, log)) return;
-  FrameJob job(scene, settings, stats, log);
-  DeepFrame frame = job.hide();
-  afterStage();
-  job.prepareRays();
-  job.gather(frame);
-  afterStage();
-  job.shade(frame);
-  afterStage();
-  job.write(frame);
 }
 
 }  // namespace tomales

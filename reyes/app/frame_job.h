@@ -13,8 +13,7 @@ class FrameJob {
   FrameJob(const Scene& scene, const RenderSettings& settings, Stats& stats, Log& log);
   ~FrameJob();
 
-  DeepFrame hide();
-  /// The same, tile by tile. False: interrupted.
+  /// Tile by tile. False: interrupted.
   bool hide(const DeepFrame& layout, const TileSink& sink);
   /// Rays against the scene itself.
   void prepareRays();
@@ -22,6 +21,8 @@ class FrameJob {
   void prepareRays(RaySource rays);
   void gather(const DeepFrame& frame);
   void shade(DeepFrame& frame);
+  /// One tile, as soon as it is hidden; its points are dropped.
+  void shadeTile(DeepTile& tile) const;
   /// The tiles that frame.crop needs, one by one from `source`.
   void shade(DeepFrame& frame, const TileSource& source);
   void write(const DeepFrame& frame);
@@ -53,9 +54,5 @@ class FrameJob {
 /// Hours of rendering must not end at a folder that never existed. False: reported.
 bool displaysHaveFolders(const Options& options, Log& log);
 bool hasFolder(const std::string& file, const SourceLoc& where, Log& log);
-
-/// Renders the scene and writes its Displays.
-void renderFrame(const Scene& scene, const RenderSettings& settings, Stats& stats, Log& log,
-                 const std::function<void()>& afterStage);
 
 }  // namespace tomales

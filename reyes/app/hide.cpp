@@ -35,6 +35,9 @@ void hideToFile(const Scene& scene, int world, const RenderSettings& settings, S
     log.report(Severity::Output, "dfb-write", {}, "\"" + path + "\" could not be written: " + why);
   };
   if (!hasFolder(path, {}, log)) return;
+  const PixelRect crop = Camera(scene.options).crop();
+  if (int64_t{crop.width()} * crop.height() / (int64_t{scene.options.bucketWidth} * scene.options.bucketHeight) >= kMostTiles)
+    return unwritten("there are too many buckets; use --bucket-size or --crop");
   Shot shot{scene, layOutFrame(scene), settings.seed, sourcesOf(settings.files), std::filesystem::current_path().string(), world};
   std::string error;
   const auto file = DfbWriter::create(path, shot, settings.resume, error);
@@ -48,7 +51,7 @@ void hideToFile(const Scene& scene, int world, const RenderSettings& settings, S
   const TileSink sink{[&](size_t tile) { return full || file->has(tile); },
                       [&](size_t index, DeepTile&& tile) {
                         if (!file->write(index, tile)) full = true;
-                      }};
+                      }, {}};
   const bool complete = job.hide(shot.frame, sink);
   if (full) return unwritten(file->error() + "; finished buckets are in \"" + file->temporary() + "\", and --resume adds the others");
   if (!complete)

@@ -4,10 +4,10 @@
 #include <optional>
 #include <set>
 
-#include "reyes/app/frame_job.h"
 #include "reyes/app/hide.h"
 #include "reyes/app/interrupt.h"
 #include "reyes/app/overrides.h"
+#include "reyes/app/render_frame.h"
 #include "reyes/app/stats_json.h"
 #include "reyes/base/parallel.h"
 #include "reyes/rib.h"
@@ -106,9 +106,7 @@ ExitCode exitCodeOf(const Log& log) {
 
 int renderCommand(const RenderSettings& settings) {
   catchInterrupts();
-  const auto job = [](const Scene& scene, int, const RenderSettings& s, Stats& stats, Log& log,
-                      const std::function<void()>& afterStage) { renderFrame(scene, s, stats, log, afterStage); };
-  return RenderRun(settings, job).run();
+  return RenderRun(settings, renderFrame).run();
 }
 
 int hideCommand(const RenderSettings& settings) {

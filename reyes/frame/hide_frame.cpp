@@ -56,7 +56,8 @@ bool hideTiles(const DeepFrame& layout, const Scene& scene, const ShadingSystem&
       return;
     }
     if (!sink.has || !sink.has(index)) {
-      DeepTile tile = hideBucket(index, layout.tiles[index].rect, nodes, context, pattern);
+      std::optional<DeepTile> found = sink.find ? sink.find(index) : std::nullopt;
+      DeepTile tile = found ? std::move(*found) : hideBucket(index, layout.tiles[index].rect, nodes, context, pattern);
       stats.geometry.micropolygonsVisible += static_cast<int64_t>(tile.facets.size());
       stats.memoryBytes.deepFrame += static_cast<int64_t>(tile.bytes());
       sink.take(index, std::move(tile));
@@ -69,7 +70,7 @@ bool hideTiles(const DeepFrame& layout, const Scene& scene, const ShadingSystem&
 
 DeepFrame hideFrame(const Scene& scene, const ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log) {
   DeepFrame frame = layOutFrame(scene);
-  const TileSink sink{{}, [&](size_t i, DeepTile&& tile) { frame.tiles[i] = std::move(tile); }};
+  const TileSink sink{{}, [&](size_t i, DeepTile&& tile) { frame.tiles[i] = std::move(tile); }, {}};
   const DeepFrame layout = frame;
   frame.complete = hideTiles(layout, scene, shading, control, stats, log, sink);
   return frame;

@@ -14,6 +14,8 @@ void addVisibleEmission(const ShadePoints& points, const vec3& emission, ShadedP
   }
 }
 
+}  // namespace
+
 void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading, const ShadeContext& context) {
   tile.shaded.resize(tile.batches.size());
   for (size_t b = 0; b < tile.batches.size(); ++b) {
@@ -33,8 +35,6 @@ void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading,
     shading.atmosphere(points, out);
   }
 }
-
-}  // namespace
 
 void shadeFrame(DeepFrame& frame, const Scene& scene, const ShadingSystem& shading, const ShadeContext& context,
                 const FrameControl& control, Stats&) {

@@ -167,4 +167,21 @@ for attempt in range(3):
 suite.expect_run("a run after kill -9", ["hide", "direct.rib", "-o", "killed.dfb", "--resume"], 0)
 suite.run("shade", "killed.dfb", "-o", "killed.exr", "-q")
 expect_same("gives the same bits", "direct.exr", "killed.exr")
+for attempt in range(3):
+    killed = subprocess.Popen([suite.program, "render", "indirect.rib", "-o", "resumed.exr", "--resume", "-q", "-t", "2"], cwd=suite.folder)
+    time.sleep(random.uniform(0.0, 0.3))
+    killed.kill()
+    killed.wait()
+suite.expect_run("a render after kill -9", ["render", "indirect.rib", "-o", "resumed.exr", "--resume"], 0)
+expect_same("gives the same bits too", "indirect.exr", "resumed.exr")
+suite.expect(not list(suite.folder.glob("resumed.exr.dfb*")), "and leaves no buckets behind")
+
+# Less memory, and records from a file: the same bits.
+suite.expect_run("a memory limit is obeyed and said so", ["render", "direct.rib", "-o", "small.exr", "--memory-limit", "1K", "-v"], 0, "points dropped")
+expect_same("a frame that is shaded bucket by bucket has the same bits", "direct.exr", "small.exr")
+suite.run("render", "indirect.rib", "-o", "given.exr", "--irradiance", "indirect.icf", "--stats", "given.json", "-q")
+expect_same("a render with records from a file has the same bits", "indirect.exr", "given.exr")
+suite.run("render", "indirect.rib", "-o", "given.exr", "--irradiance", "indirect.icf", "--irradiance-append", "--stats", "given.json", "-q")
+suite.expect(json.loads((suite.folder / "given.json").read_text())["irradiance_cache"]["samples"] == 0, "nothing is appended where all is covered")
+suite.expect_run("a frame beyond memory is refused", ["render", "direct.rib", "-o", "huge.exr", "--format", "65536x65536"], 4, "--crop")
 suite.finish()
