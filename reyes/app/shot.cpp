@@ -128,9 +128,10 @@ void ShotJob::gatherIrradiance() {
   prepareLight();
   const RayTools* tools = world_->tools();
   if (!tools) return;
-  DeepFrame frame = loadAll();
+  const bool whole = job_->gathers();  // the gather pass walks over all of the frame; shadows need one bucket at a time
+  DeepFrame frame = whole ? loadAll() : shot_.frame;
   job_->gather(frame);
-  const bool written = recordAnswers(frame, *out);
+  const bool written = recordAnswers(frame, !whole, *out);
   IrradianceShot shot{interrupted() ? 0 : file_->shotSum(), job_->giSettings(), shot_.scene.cameraFromWorldAtOpen(), {},
                       tools->rays->emitters().table()};
   shot.caches = job_->services()->takeCaches();
@@ -138,10 +139,11 @@ void ShotJob::gatherIrradiance() {
 }
 
 // Shades the picture once, for the rays that this takes.
-bool ShotJob::recordAnswers(DeepFrame& frame, IcfWriter& out) {
+bool ShotJob::recordAnswers(DeepFrame& frame, bool loading, IcfWriter& out) {
   const StageTimer timer(stats_, "answers");
   std::atomic<bool> good{true};
-  const auto startRecording = [](size_t, DeepTile& tile) {
+  const auto startRecording = [&](size_t index, DeepTile& tile) {
+    if (loading && !load(index, tile)) return false;
     tile.answers.assign(tile.batches.size(), RayAnswers{true, {}, {}});
     return true;
   };

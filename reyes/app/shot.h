@@ -23,7 +23,7 @@ class ShotJob {
   void prepareLight();
   DeepFrame loadAll();
   bool load(size_t index, DeepTile& tile);
-  bool recordAnswers(DeepFrame& frame, IcfWriter& out);
+  bool recordAnswers(DeepFrame& frame, bool loading, IcfWriter& out);
 
   std::unique_ptr<DfbFile> file_;
   RenderSettings settings_;

@@ -30,7 +30,7 @@ Illuminate "lamp" 1
 Attribute "identifier" "name" ["ball"]
 Surface "plastic" "Ks" [0.4] "roughness" [0.2]
 Color [0.9 0.3 0.2]
-Displacement "noisybump" "Km" [0.05] "frequency" [3]
+Displacement "noisybump" "float Km" [0.05] "float frequency" [3]
 Attribute "displacementbound" "sphere" [0.1]
 Sphere 1 -1 1 360
 Attribute "identifier" "name" ["floor"]
