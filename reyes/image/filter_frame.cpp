@@ -195,7 +195,8 @@ Image filterFrame(const DeepFrame& frame, const Options& options, const SampleOf
 
 vec2 filterReach(const Options& options) {
   vec2 reach(0.0f);
-  for (const Channel& channel : outputOf(options).channels) {
+  const FrameOutput output = outputOf(options);
+  for (const Channel& channel : output.channels) {
     const Sampling& s = channel.sampling;
     const PixelFilter filter(s.reduce == Reduce::Filter ? s.filter : "box", s.xWidth, s.yWidth);
     reach = glm::max(reach, vec2(filter.reachX(), filter.reachY()));
