@@ -112,7 +112,7 @@ TEST_P(UglyGeometry, GoesThroughEveryStage) {
   settings.onScene = [&](Scene&& s) { scenes.push_back(std::move(s)); };
   ASSERT_TRUE(readRib({GetParam().string()}, settings, log));
   ASSERT_EQ(scenes.size(), 1u);
-  const Scene& scene = scenes[0];
+  Scene& scene = scenes[0];
 
   Stats unused;
   Log unheard(Log::Verbosity::Quiet);
@@ -125,7 +125,7 @@ TEST_P(UglyGeometry, GoesThroughEveryStage) {
 
   ShaderRegistry registry(log);
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
-  const ShadingSystem shading(scene, registry, nullptr, log, stats);
+  ShadingSystem shading(scene, registry, nullptr, log, stats);
   expectPictureFinite(scene, shading, stats, log);
   expectRaysFinite(scene, shading, stats, log);
 }
