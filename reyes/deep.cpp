@@ -16,7 +16,7 @@ void DeepTile::shrink() {
 
 void DeepTile::forgetPoints() {
   for (Facet& facet : facets) facet.edge = edgeOf(facet);
-  batches = {};
+  for (ShadePoints& batch : batches) batch = ShadePoints(batch.group(), 0);
 }
 
 void DeepFrame::layOutTiles() {

@@ -46,7 +46,8 @@ struct DeepTile {
   }
   /// Length of its longer edge.
   float edgeOf(const Facet& facet) const {
-    return batches.empty() ? facet.edge : batches[static_cast<size_t>(facet.batch)].edgeLength(facet.point[0]);
+    const ShadePoints& batch = batches[static_cast<size_t>(facet.batch)];
+    return batch.count() > 0 ? batch.edgeLength(facet.point[0]) : facet.edge;
   }
   size_t bytes() const;
   /// Gives back what growing reserved beyond need.
