@@ -23,8 +23,9 @@ Shot smallShot() {
       ShaderCall{"plastic", {{"Ks", Storage::Uniform, ValueType::Float, 1, {0.5f}, {}, {}}}, {}, {}});
   Object object;
   object.attributes = attributes, object.where = {std::make_shared<std::string>("a.rib"), 12}, object.group = 0;
-  shot.scene.objects = {object, object};
-  shot.scene.groups = {{attributes, mat4(2.0f), {{"s", Storage::Vertex, ValueType::Float, 1, {}}}, 1}};
+  shot.scene.objects.push_back(object), shot.scene.objects.push_back(object);
+  attributes->membership = {"toys"};
+  shot.scene.groups.push_back({attributes, mat4(2.0f), {{"s", Storage::Vertex, ValueType::Float, 1, {}}}, 1});
   shot.scene.lights = {std::make_shared<LightCall>(LightCall{{"pointlight", {}, {}, {}}, "key", false, true, 0})};
   shot.scene.worldFromNamed["table"] = mat4(3.0f);
   shot.frame.crop = shot.frame.padded = {0, 0, 4, 2};
@@ -88,6 +89,7 @@ TEST_F(Dfb, HoldsWhatShadingNeedsOfTheScene) {
   EXPECT_EQ(*a.surface, *smallShot().scene.groups[0].attributes->surface);
   EXPECT_EQ(s.scene.groups[0].cameraFromObject, mat4(2.0f));
   EXPECT_EQ(s.scene.groups[0].primvars.at(0).name, "s");
+  EXPECT_TRUE(s.scene.groups[0].attributes->membership.contains("toys"));
   ASSERT_EQ(s.scene.objects.size(), 1u);
   EXPECT_EQ(objectName(s.scene.objects[0]), objectName(smallShot().scene.objects[1]));
   EXPECT_FALSE(hasGeometry(s.scene));
