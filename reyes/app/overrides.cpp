@@ -91,7 +91,7 @@ void applyOverrides(Scene& scene, const RenderSettings& settings) {
     o.xSamples = (*settings.pixelSamples)[0], o.ySamples = (*settings.pixelSamples)[1];
   if (settings.bucketSize) o.bucketWidth = o.bucketHeight = *settings.bucketSize;
   if (o.displays.empty()) o.displays.emplace_back();
-  if (!settings.output.empty()) overrideOutput(o, settings.output);
+  if (namesPicture(settings.output)) overrideOutput(o, settings.output);  // else it is a .dfb or .icf
   if (settings.shadingRate)
     changeAttributes(scene, [&](Attributes& a) { a.shadingRate = *settings.shadingRate; });
   const bool wantsIndirect = settings.gi != GiChoice::Scene && settings.gi != GiChoice::None;

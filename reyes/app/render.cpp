@@ -69,12 +69,15 @@ class RenderRun {
   }
 
   void warnAboutOverwriting(const Scene& scene) {
-    for (const DisplayCall& display : scene.options.displays)
-      if (!written_.insert(display.name).second)
-        log_.report(
-            Severity::Warning, "output-overwritten", display.where,
-            "\"" + display.name +
-                "\" of an earlier frame is written over; with -o, # in the name stands for the frame number");
+    if (!settings_.output.empty() && !namesPicture(settings_.output))
+      return warnAboutOverwriting(withFrameNumber(settings_.output, scene.options.frame), scene.where);
+    for (const DisplayCall& display : scene.options.displays) warnAboutOverwriting(display.name, display.where);
+  }
+
+  void warnAboutOverwriting(const std::string& file, const SourceLoc& where) {
+    if (written_.insert(file).second) return;
+    log_.report(Severity::Warning, "output-overwritten", where,
+                "\"" + file + "\" of an earlier frame is written over; with -o, # in the name stands for the frame number");
   }
 
   void flush() {
