@@ -25,6 +25,8 @@ class Camera {
   }
   /// A depth that grows with distance and is linear in raster space: -1/z under perspective, z otherwise.
   float depthKey(float z) const { return perspective_ ? -1.0f / z : z; }
+  /// The least key of what is no nearer than z and not clipped, also where z lies behind the eye.
+  float leastDepthKey(float z) const { return perspective_ ? -1.0f / std::max(z, near_) : z; }
   float zFromDepthKey(float key) const { return perspective_ ? -1.0f / key : key; }
 
   /// How far, in raster x and y, the rim of the lens moves what has this depth key; 0 on the focal plane, negative

@@ -36,6 +36,7 @@ struct RasterGrid {
   bool opaque = true;           ///< Hides what is behind it.
   bool matte = false;
   int sides = 2;
+  bool inSolid = false;         ///< Its hits are crossings for reyes/hide/solids.cpp, and hide nothing before.
   bool smooth = false;          ///< ShadingInterpolation
   bool defocused = false;       ///< Some vertex moves visibly with the point of the lens.
   AlignedVector<float> x, y, d; ///< Raster x, y and depth key (Camera::depthKey): keyCount * stride each, then a tail to read blocks
@@ -45,8 +46,9 @@ struct RasterGrid {
   const Prim* trim = nullptr;   ///< Asked what trim curves leave of Grid::kept cells; null: nothing is cut.
   float trimReach_px = 0;       ///< What is left reaches this much farther, to meet what a neighbour leaves.
 };
-/// Pre: every vertex lies in front of the eye.
-std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene, const Camera& camera, bool opaque);
+/// Pre: every vertex lies in front of the eye. zMin: nearest camera z of the solid that the grid belongs to.
+std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene, const Camera& camera, bool opaque,
+                                          float zMin = kInfinity);
 
 class Hider {
  public:

@@ -73,15 +73,19 @@ void Scene::freeze() {
       cameraFromNamed(o.attributes->displacementBoundSpace, cameraFromBoundSpace);
     o.displacementBound = o.attributes->displacement ? o.attributes->displacementBound * largestScale(cameraFromBoundSpace) : 0;
 
+    o.subtracted = o.solid >= 0 && solids[static_cast<size_t>(o.solid)].subtracted(o.solidBlock);
+
     const auto [begin, end] = byAttributes.equal_range(o.attributes.get());
     for (auto it = begin; it != end && o.group < 0; ++it) {
       const ShadeGroup& g = groups[static_cast<size_t>(it->second)];
-      if (g.cameraFromObject == m && sameLayout(g.primvars, o.shape().primvars())) o.group = it->second;
+      if (g.solid == (o.solid >= 0) && g.subtracted == o.subtracted && g.cameraFromObject == m &&
+          sameLayout(g.primvars, o.shape().primvars()))
+        o.group = it->second;
     }
     if (o.group < 0) {
       o.group = static_cast<int>(groups.size());
       byAttributes.emplace(o.attributes.get(), o.group);
-      ShadeGroup g{o.attributes, m, {}, static_cast<int>(i)};
+      ShadeGroup g{o.attributes, m, {}, static_cast<int>(i), o.solid >= 0, o.subtracted};
       for (const Primvar& p : o.shape().primvars()) g.primvars.push_back({p.name, p.storage, p.type, p.width, {}});
       groups.push_back(std::move(g));
     }

@@ -5,6 +5,7 @@
 
 #include "reyes/camera.h"
 #include "reyes/prim.h"
+#include "reyes/solid.h"
 
 namespace tomales {
 
@@ -16,29 +17,36 @@ struct Object {
   Motion worldFromObject;
   std::shared_ptr<const Attributes> attributes;
   SourceLoc where;
+  int solid = -1;                ///< In Scene::solids: part of the surface of
+  int solidBlock = -1;           ///< this primitive of it.
 
   // Filled by Scene::freeze().
   Motion cameraFromObject;       ///< Over the shutter; one key when nothing moves.
   std::vector<float> keyTimes;   ///< Union of transformation and deformation keys inside the shutter; front() is its opening.
   float displacementBound = 0;   ///< Camera space.
   bool flipsNormal = false;      ///< cameraFromObject mirrors, or Orientation is inside (not both).
+  bool subtracted = false;       ///< Its solid lies on the side of its normals, which are turned for shading.
   int group = -1;                ///< Its ShadeGroup.
 
   const Prim& shape() const { return *shapes.front(); }
 };
 
-/// Objects whose points may be shaded together: the same attributes, transformation and primvar names.
+/// Objects whose points may be shaded together: the same attributes, transformation and primvar names, and alike in or
+/// outside of solids.
 struct ShadeGroup {
   std::shared_ptr<const Attributes> attributes;
   mat4 cameraFromObject{1.0f};
   std::vector<Primvar> primvars;  ///< Layout only: name, storage, type, width; no values.
   int exampleObject = -1;         ///< Some object of the group, for messages.
+  bool solid = false;             ///< Parts of solids.
+  bool subtracted = false;        ///< As Object::subtracted.
 };
 
 struct Scene {
   Options options;
   Motion cameraFromWorld;
   std::vector<Object> objects;
+  std::vector<Solid> solids;
   std::vector<std::shared_ptr<LightCall>> lights;
   std::map<std::string, mat4> worldFromNamed;  ///< CoordinateSystem
   SourceLoc where;                             ///< Of WorldBegin.

@@ -52,8 +52,9 @@ class PatchesNode : public OpeningNode {
   static std::unique_ptr<HideNode> make(HideContext& context, int object, Tree tree, uint32_t level, uint32_t index,
                                         const BucketRange& outer) {
     const Object& o = context.scene.objects[static_cast<size_t>(object)];
-    const auto place = placeBox(tree->box(level, index), o.cameraFromObject, o.keyTimes, o.displacementBound, context.camera,
+    auto place = placeBox(tree->box(level, index), o.cameraFromObject, o.keyTimes, o.displacementBound, context.camera,
                                 context.buckets.window());
+    if (place && o.solid >= 0) place->zMin = context.zMinOfSolid[static_cast<size_t>(o.solid)];
     const BucketRange range = place ? outer & context.buckets.touched(place->raster) : BucketRange{};
     if (range.empty()) {
       ++context.stats.geometry.culled;
@@ -76,8 +77,9 @@ class PatchesNode : public OpeningNode {
       return out;
     }
     const uint32_t first = index_ * PatchTree::kLeaf, last = std::min(first + PatchTree::kLeaf, tree_->patchCount());
-    for (const SubPatch& piece : splitPatches(context_.scene, object_, first, last, context_.camera, context_.buckets.window(),
-                                              context_.stats, context_.log)) {
+    for (SubPatch& piece : splitPatches(context_.scene, object_, first, last, context_.camera, context_.buckets.window(),
+                                        context_.stats, context_.log)) {
+      if (context_.scene.objects[static_cast<size_t>(object_)].solid >= 0) piece.zMin = zMin();
       const BucketRange touched = range() & context_.buckets.touched(piece.raster);
       if (!touched.empty()) out.push_back(std::make_unique<PieceNode>(context_, piece, touched));
     }
@@ -102,14 +104,25 @@ NodeList::NodeList(HideNodes nodes, const BucketRange& range, const BucketGrid& 
 }
 
 HideNodes nodesOfScene(HideContext& context) {
-  HideNodes out;
+  const std::vector<Object>& objects = context.scene.objects;
   std::map<std::vector<PrimPtr>, std::shared_ptr<const PatchTree>> trees;
-  for (size_t i = 0; i < context.scene.objects.size(); ++i) {
-    const Object& o = context.scene.objects[i];
-    if (!o.attributes->visibility.camera) continue;
-    ++context.stats.geometry.primitives;
+  const auto takesPart = [](const Object& o) { return o.attributes->visibility.camera || o.solid >= 0; };
+  context.zMinOfSolid.assign(context.scene.solids.size(), kInfinity);
+  for (const Object& o : objects) {
+    if (!takesPart(o)) continue;
     auto& tree = trees[o.shapes];
     if (!tree) tree = std::make_shared<const PatchTree>(o.shapes);
+    if (o.solid < 0) continue;
+    float& zMin = context.zMinOfSolid[static_cast<size_t>(o.solid)];
+    if (const auto place = placeBox(tree->box(tree->top(), 0), o.cameraFromObject, o.keyTimes, o.displacementBound,
+                                    context.camera, context.buckets.window()))
+      zMin = std::min(zMin, place->zMin);
+  }
+  HideNodes out;
+  for (size_t i = 0; i < objects.size(); ++i) {
+    if (!takesPart(objects[i])) continue;
+    ++context.stats.geometry.primitives;
+    const auto& tree = trees[objects[i].shapes];
     if (auto node = PatchesNode::make(context, static_cast<int>(i), tree, tree->top(), 0, context.buckets.all()))
       out.push_back(std::move(node));
   }

@@ -22,6 +22,8 @@ struct HideContext {
   Stats& stats;
   Log& log;
   Counter liveGrids_bytes{0};
+  /// Of each solid the nearest camera z. What it shows depends on all its pieces, so none may be passed over before all are.
+  std::vector<float> zMinOfSolid{};
 };
 
 class NodeQueue;

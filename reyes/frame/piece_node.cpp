@@ -46,7 +46,7 @@ std::shared_ptr<const RasterGrid> PieceNode::makeGrid() const {
                                       objectName(o)));
       return nullptr;
     }
-  auto raster = project(std::move(grid), context_.scene, context_.camera, context_.shading.opaque(o.group));
+  auto raster = project(std::move(grid), context_.scene, context_.camera, context_.shading.opaque(o.group), zMin());
   keepPeak(stats.memoryBytes.grids, context_.liveGrids_bytes += static_cast<int64_t>(raster->grid->bytes()));
   return raster;
 }

@@ -14,8 +14,14 @@ vec2 inTriangle(const vec2 p[3], const vec2 at[3], const vec2& x) {
 
 }  // namespace
 
-vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cell,
-                    const SamplePoint& sample) {
+SamplePoint samplePoint(const SampleBuffer& samples, size_t pixel, uint32_t lane) {
+  const int width = samples.rect.width(), row = static_cast<int>(pixel) / width;
+  const vec2 corner(samples.rect.x0 + static_cast<int>(pixel) % width, samples.rect.y0 + row);
+  const size_t s = samples.patternAt[pixel] + lane;
+  return {corner + vec2(samples.x[s], samples.y[s]), samples.time[s], {samples.lensX[s], samples.lensY[s]}};
+}
+
+SeenCell seenCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample) {
   const Grid& g = entry.grid();
   const RasterGrid& raster = *entry.raster;
   const std::vector<float>& keyTimes = entry.keyTimes;
@@ -28,9 +34,16 @@ vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cel
   const auto corner = [&](int v) {
     const size_t from = key * stride + static_cast<size_t>(v), to = next * stride + static_cast<size_t>(v);
     const vec2 at(lerp(raster.x[from], raster.x[to], t), lerp(raster.y[from], raster.y[to], t));
-    return raster.defocused ? at + sample.lens * camera.defocus(lerp(raster.d[from], raster.d[to], t)) : at;
+    const float d = lerp(raster.d[from], raster.d[to], t);
+    return vec3(raster.defocused ? at + sample.lens * camera.defocus(d) : at, d);
   };
-  const vec2 pa = corner(a), pb = corner(a + 1), pc = corner(a + row), pd = corner(a + row + 1);
+  return {corner(a), corner(a + 1), corner(a + row), corner(a + row + 1)};
+}
+
+vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cell,
+                    const SamplePoint& sample) {
+  const SeenCell seen = seenCell(entry, camera, cell, sample);
+  const vec2 pa(seen.a), pb(seen.b), pc(seen.c), pd(seen.d);
   const vec2 abc[3] = {pa, pb, pc}, abcUv[3] = {{0, 0}, {1, 0}, {0, 1}};
   const vec2 dcb[3] = {pd, pc, pb}, dcbUv[3] = {{1, 1}, {0, 1}, {1, 0}};
   vec2 uv = inTriangle(abc, abcUv, sample.at);

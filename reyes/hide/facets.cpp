@@ -111,7 +111,8 @@ int FacetTable::addPoint(const Grid& g, int batch, const Stencil& at, uint32_t k
   const vec3 uEdge(at.uStep(x), at.uStep(y), at.uStep(z)), vEdge(at.vStep(x), at.vStep(y), at.vStep(z));
   // For a cell this is half the cross product of the diagonals: its area, exactly so where it is flat.
   const vec3 span = cross(uEdge, vEdge);
-  const vec3 shading(at.mean(g.N(0)), at.mean(g.N(1)), at.mean(g.N(2)));
+  const float side = group.subtracted ? -1.0f : 1.0f;
+  const vec3 shading = side * vec3(at.mean(g.N(0)), at.mean(g.N(1)), at.mean(g.N(2)));
   const vec3 toRiSide = dot(span, shading) < 0 ? -span : span;
   const vec3 N = normalizeOr(shading, normalizeOr(toRiSide, vec3(0, 0, -1)));
   const float u = at.mean(g.u()), v = at.mean(g.v()), du = orOne(at.uStep(g.u())),

@@ -59,6 +59,13 @@ TOMALES_KERNEL inline bool merge(const RasterJob& job, const LaneDepths& hit, si
   const size_t first = pixel * static_cast<size_t>(job.out.lanes) + static_cast<size_t>(lane);
   float* depth = job.out.depth.data() + first;
   uint32_t* owner = job.out.cell.data() + first;
+  if (job.raster.inSolid) {
+    for (int s = 0; s < kLanes; ++s)
+      if (hit.d[s] < kInfinity && depth[s] > -kInfinity)
+        job.out.crossings.push_back(
+            {static_cast<uint32_t>(pixel), cell, static_cast<uint32_t>(lane + s), hit.d[s]});
+    return false;
+  }
   if (!job.raster.opaque) {
     for (int s = 0; s < kLanes; ++s)
       if (hit.d[s] <= depth[s])
@@ -117,6 +124,7 @@ TOMALES_KERNEL inline void forPixels(const RasterJob& job, const vec2& lo, const
                                      uint32_t cell, const Cover& cover) {
   SampleBuffer& out = job.out;
   const PixelRect pixels = out.touched(lo, hi);
+  if (job.raster.inSolid) dMin = job.raster.dMin;
   for (int y = pixels.y0; y < pixels.y1; ++y)
     for (int x = pixels.x0; x < pixels.x1; ++x) {
       const size_t pixel = out.pixelIndex(x, y);

@@ -91,17 +91,12 @@ class TileBuilder {
   void setPosition(Sight& sight, size_t pixel) const {
     Fragment& fragment = sight.fragment;
     const GridTable::Entry& entry = grids_.of(sight.cell);
-    const int cell = static_cast<int>(sight.cell - entry.firstCell), width = samples_.rect.width();
-    const size_t pattern = samples_.patternAt[pixel] + size_t{64} * fragment.word;
-    const vec2 corner(samples_.rect.x0 + static_cast<int>(pixel) % width,
-                      samples_.rect.y0 + static_cast<int>(pixel) / width);
+    const int cell = static_cast<int>(sight.cell - entry.firstCell);
     vec2 sum(0);
     for (uint64_t left = fragment.samples; left != 0; left &= left - 1) {
-      const size_t s = pattern + static_cast<size_t>(std::countr_zero(left));
-      const SamplePoint sample{corner + vec2(samples_.x[s], samples_.y[s]),
-                               samples_.time[s],
-                               {samples_.lensX[s], samples_.lensY[s]}};
-      sum += glm::clamp(positionOnCell(entry, camera_, cell, sample), vec2(0), vec2(1));
+      const auto lane = static_cast<uint32_t>(64 * fragment.word + std::countr_zero(left));
+      const vec2 at = positionOnCell(entry, camera_, cell, samplePoint(samples_, pixel, lane));
+      sum += glm::clamp(at, vec2(0), vec2(1));
     }
     const vec2 mean = sum * (255.0f / static_cast<float>(std::popcount(fragment.samples)));
     fragment.u = static_cast<uint8_t>(std::lround(mean.x)),

@@ -12,6 +12,12 @@ struct SamplePoint {
   float time;
   vec2 lens;
 };
+SamplePoint samplePoint(const SampleBuffer& samples, size_t pixel, uint32_t lane);
+/// Corners a b c d of a cell where a sample meets it: raster x and y, depth key.
+struct SeenCell {
+  vec3 a, b, c, d;
+};
+SeenCell seenCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
 /// Where on a cell (its own (u,v), 0..1) a sample meets it; beyond, where it meets the plane of one of its triangles.
 vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
 

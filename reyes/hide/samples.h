@@ -50,6 +50,7 @@ struct SampleBuffer {
   AlignedVector<uint32_t> cell;  ///< A lane: that hit.
   AlignedVector<float> far;      ///< A pixel: the greatest depth of its lanes.
   std::vector<Layer> layers;
+  std::vector<Layer> crossings;  ///< Everything of solids that covers a sample, however deep.
 
   size_t pixelIndex(int column, int row) const {
     return static_cast<size_t>((row - rect.y0) * (rect.x1 - rect.x0) + (column - rect.x0));

@@ -71,6 +71,7 @@ void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times
   state_.scope.attributes = state_.attributes(state_.scope.attributes);
   object.attributes = state_.attributes(attributesOf(state_.scope));
   object.where = r.where;
+  placeInSolid(state_, object);
   state_.world->objects.push_back(std::move(object));
 }
 

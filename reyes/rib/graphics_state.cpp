@@ -91,7 +91,7 @@ void GraphicsState::enterWorld(const SourceLoc& where) {
   for (auto& [name, system] : globals.coordinateSystems) system = worldFromCamera * system;
   scope.ctm = Motion();
   identity = Motion();
-  world = World{camera, {}, where};
+  world = World{camera, {}, {}, where};
 }
 
 void GraphicsState::warn(const Request& request, const char* code, const std::string& message) const {

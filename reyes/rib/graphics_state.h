@@ -17,6 +17,7 @@ struct Scope {
   std::shared_ptr<const TrimLoops> trim = std::make_shared<TrimLoops>();  ///< Attribute "trimcurve" is part of it.
   bool lightsCastShadows = false;  ///< Attribute "light" "shadows": for lights that are made here.
   std::map<std::string, Motion> coordinateSystems;  ///< ScopedCoordinateSystem
+  int solid = -1, solidBlock = -1;  ///< In World::solids: the SolidBegin around, if any.
 
   /// The attributes, no longer shared with anybody.
   Attributes& edit();
@@ -51,6 +52,7 @@ const char* blockName(Block block);
 struct World {
   Motion cameraFromWorld;
   std::vector<Object> objects;
+  std::vector<Solid> solids;
   SourceLoc where;
 };
 

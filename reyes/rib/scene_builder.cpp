@@ -125,13 +125,12 @@ bool SceneBuilder::performBlock(const Request& r) {
       return r.name.starts_with(b.first) && isBlockRequest(r.name);
     });
     if (block == std::end(kBlocks)) return false;
-    if (r.name == "SolidBegin" && r.args[0].strings[0] != "primitive")
-      state_.warnOnce("Solid", r, "rib-unsupported",
-                      "solid operations are not supported yet: the parts are rendered whole");
+    if (r.name == "SolidEnd") endSolid(state_, r);
     if (r.name.ends_with("Begin"))
       state_.begin(block->second, r.where);
     else
       state_.end(block->second, r.where);
+    if (r.name == "SolidBegin") beginSolid(state_, r);
   }
   return true;
 }
@@ -172,6 +171,7 @@ void SceneBuilder::endWorld(const SourceLoc& where) {
   scene.options = state_.globals.options;
   scene.cameraFromWorld = state_.world->cameraFromWorld;
   scene.objects = std::move(state_.world->objects);
+  scene.solids = std::move(state_.world->solids);
   scene.lights = std::move(state_.globals.lights);
   for (const auto& [name, system] : state_.globals.coordinateSystems)
     scene.worldFromNamed[name] = system.at(scene.options.shutterOpen);
