@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "reyes/base/parallel.h"
+#include "reyes/base/rng.h"
 
 namespace tomales {
 namespace {
@@ -16,6 +17,7 @@ namespace {
 /// may have a group for every object.
 struct Geometry {
   bool opaque, flips;
+  DetailShare detail;
   std::vector<uint32_t> groupOfQuad;
   const std::vector<uint32_t>* firstQuad;  ///< of each group, in its geometry
   const std::vector<CoarseGroup>* groups;
@@ -33,6 +35,7 @@ struct Traversal {
   float window = 0;
   float tMax = kInfinity;
   HitList* list = nullptr;
+  float level = 0;  ///< The ray's number for levels of detail.
 };
 static_assert(std::is_standard_layout_v<Traversal>);
 
@@ -69,10 +72,23 @@ void recordShadow(const RTCFilterFunctionNArguments* args) {
   args->valid[0] = 0;
 }
 
-/// Rejects hits that trim curves have cut away. Embree asks it before the filters of a traversal.
-void rejectTrimmed(const RTCFilterFunctionNArguments* args) {
+/// Records and rejects every hit.
+void recordAll(const RTCFilterFunctionNArguments* args) {
+  const auto& traversal = *reinterpret_cast<const Traversal*>(args->context);
+  if (!args->valid[0]) return;
+  traversal.list->push_back(hitOf(*args, traversal));
+  args->valid[0] = 0;
+}
+
+/// Rejects hits that trim curves have cut away, and levels of detail that the ray does not see. Embree asks it before the
+/// filters of a traversal.
+void rejectUnseen(const RTCFilterFunctionNArguments* args) {
   if (!args->valid[0]) return;
   const Geometry& geometry = *static_cast<const Geometry*>(args->geometryUserPtr);
+  if (!geometry.detail.contains(reinterpret_cast<const Traversal*>(args->context)->level)) {
+    args->valid[0] = 0;
+    return;
+  }
   const PolygonHit hit =
       geometry.hit(0, RTCHitN_primID(args->hit, 1, 0), RTCHitN_u(args->hit, 1, 0), RTCHitN_v(args->hit, 1, 0), false);
   if (!(*geometry.groups)[hit.group].keeps(hit.quad, hit.u, hit.v)) args->valid[0] = 0;
@@ -89,19 +105,14 @@ RTCRay rayFrom(const Ray& ray, float shift, float tNear, uint32_t mask) {
   return r;
 }
 
-Traversal traversalOf(RTCFilterFunctionN filter, float shift, float window, float tMax, HitList* list) {
-  Traversal t{{}, shift, window, tMax, list};
-  rtcInitIntersectContext(&t.embree);
-  t.embree.filter = filter;
-  return t;
-}
-
 }  // namespace
 
 struct EmbreeScene::Impl {
+  const std::vector<CoarseGroup>& groups;
+  bool fades = false;  ///< Some group does.
   std::atomic<int64_t> bytes{0};
-  std::vector<uint32_t> firstQuad;
-  std::deque<Geometry> geometries;  ///< By Embree's geomID; Embree keeps their addresses.
+  std::vector<uint32_t> firstQuad{};
+  std::deque<Geometry> geometries{};  ///< By Embree's geomID; Embree keeps their addresses.
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
 
@@ -110,12 +121,29 @@ struct EmbreeScene::Impl {
     return true;
   }
 
+  float levelOf(const Ray& ray) const {
+    if (!fades) return 0;
+    uint32_t name = 0;
+    for (const vec3& v : {ray.origin, ray.direction})
+      for (int axis = 0; axis < 3; ++axis) name = hashCombine(name, __builtin_bit_cast(uint32_t, v[axis]));
+    const DetailShare from = ray.group >= 0 ? groups[static_cast<size_t>(ray.group)].detail : DetailShare{};
+    return std::min(lerp(from.lo, from.hi, unitFloat(name)), 0x1.fffffep-1f);
+  }
+
+  Traversal traversalOf(const Ray& ray, RTCFilterFunctionN filter, float shift, float window, HitList* list) const {
+    Traversal t{{}, shift, window, ray.tMax, list, levelOf(ray)};
+    rtcInitIntersectContext(&t.embree);
+    t.embree.filter = filter;
+    return t;
+  }
+
   /// One geometry of the given groups. Embree pads the vertex buffer that it allocates, of which it reads 16 bytes at the last.
-  void attach(const std::vector<uint32_t>& members, const std::vector<CoarseGroup>& groups, uint32_t mask, bool opaque) {
+  void attach(const std::vector<uint32_t>& members, uint32_t mask, bool opaque) {
     size_t vertexCount = 0, quadCount = 0;
     for (const uint32_t g : members) vertexCount += groups[g].P.size(), quadCount += groups[g].quads.size();
     const auto id = static_cast<unsigned>(geometries.size());
-    Geometry& out = geometries.emplace_back(Geometry{opaque, groups[members.front()].flipsNormal, {}, &firstQuad, &groups});
+    Geometry& out = geometries.emplace_back(Geometry{
+        opaque, groups[members.front()].flipsNormal, groups[members.front()].detail, {}, &firstQuad, &groups});
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
     auto* vertices = static_cast<vec3*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), vertexCount));
@@ -133,9 +161,10 @@ struct EmbreeScene::Impl {
     }
     rtcSetGeometryMask(geometry, mask);
     rtcSetGeometryUserData(geometry, &out);
-    if (groups[members.front()].trimmed) {
-      rtcSetGeometryIntersectFilterFunction(geometry, rejectTrimmed);
-      rtcSetGeometryOccludedFilterFunction(geometry, rejectTrimmed);
+    const CoarseGroup& like = groups[members.front()];
+    if (like.trimmed || !like.detail.whole()) {
+      rtcSetGeometryIntersectFilterFunction(geometry, rejectUnseen);
+      rtcSetGeometryOccludedFilterFunction(geometry, rejectUnseen);
     }
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene, geometry, id);
@@ -157,18 +186,22 @@ struct EmbreeScene::Impl {
 };
 
 EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const std::vector<uint32_t>& masks,
-                         const std::vector<bool>& opaque, Log& log)
-    : impl_(std::make_unique<Impl>()) {
+                         const std::vector<bool>& opaque, bool solids, Log& log)
+    : impl_(new Impl{groups}) {
   impl_->device = rtcNewDevice(nullptr);
   rtcSetDeviceMemoryMonitorFunction(impl_->device, &Impl::countBytes, impl_.get());
   impl_->scene = rtcNewScene(impl_->device);
   rtcSetSceneFlags(impl_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
                                                             RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
-  std::map<std::tuple<uint32_t, bool, bool, bool>, std::vector<uint32_t>> alike;
-  for (uint32_t i = 0; i < groups.size(); ++i)
-    if (!groups[i].quads.empty()) alike[{masks[i], opaque[i], groups[i].flipsNormal, groups[i].trimmed}].push_back(i);
+  std::map<std::tuple<uint32_t, bool, bool, bool, float, float>, std::vector<uint32_t>> alike;
+  for (uint32_t i = 0; i < groups.size(); ++i) {
+    const CoarseGroup& g = groups[i];
+    impl_->fades |= !g.detail.whole();
+    if (!g.quads.empty() && g.solid == solids)
+      alike[{masks[i], opaque[i], g.flipsNormal, g.trimmed, g.detail.lo, g.detail.hi}].push_back(i);
+  }
   impl_->firstQuad.resize(groups.size());
-  for (const auto& [kind, members] : alike) impl_->attach(members, groups, std::get<0>(kind), std::get<1>(kind));
+  for (const auto& [kind, members] : alike) impl_->attach(members, std::get<0>(kind), std::get<1>(kind));
   // With several threads the order of primitives in a leaf, and with it which of two hits at equal t is found
   // first, would depend on their number.
   const ThreadLimit one(1);
@@ -184,24 +217,33 @@ EmbreeScene::~EmbreeScene() {
 }
 
 bool EmbreeScene::nearest(const Ray& ray, uint32_t mask, PolygonHit& hit) const {
-  Traversal traversal = traversalOf(nullptr, 0, 0, ray.tMax, nullptr);
+  Traversal traversal = impl_->traversalOf(ray, nullptr, 0, 0, nullptr);
   return impl_->trace(ray, 0, std::max(ray.bias, 0.0f), mask, traversal, hit);
 }
 
 bool EmbreeScene::nearestBeyond(const Ray& ray, float window, uint32_t mask, HitList& list,
                                 PolygonHit& beyond) const {
   list.clear();
-  Traversal traversal = traversalOf(&recordNear, window, window, ray.tMax, &list);
+  Traversal traversal = impl_->traversalOf(ray, &recordNear, window, window, &list);
   return impl_->trace(ray, window, 0, mask, traversal, beyond);
 }
 
 bool EmbreeScene::blockedBeyond(const Ray& ray, float window, uint32_t mask, HitList& list) const {
   list.clear();
   const float shift = std::max(window, 0.0f);
-  Traversal traversal = traversalOf(&recordShadow, shift, window, ray.tMax, &list);
+  Traversal traversal = impl_->traversalOf(ray, &recordShadow, shift, window, &list);
   RTCRay r = rayFrom(ray, shift, window < 0 ? std::max(ray.bias, 0.0f) : 0.0f, mask);
   rtcOccluded1(impl_->scene, &traversal.embree, &r);
   return r.tfar < 0;
+}
+
+void EmbreeScene::all(const Ray& ray, float window, HitList& list) const {
+  list.clear();
+  Ray line = ray;
+  line.tMax = kInfinity;
+  Traversal traversal = impl_->traversalOf(line, &recordAll, window, 0, &list);
+  RTCRay r = rayFrom(line, window, 0, ~0U);
+  rtcOccluded1(impl_->scene, &traversal.embree, &r);
 }
 
 size_t EmbreeScene::bytes() const { return static_cast<size_t>(std::max<int64_t>(0, impl_->bytes)); }

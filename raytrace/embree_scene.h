@@ -9,9 +9,11 @@ namespace tomales {
 
 class EmbreeScene {
  public:
-  /// Group i of `groups` (which must outlive this) is visible to rays of masks[i] and opaque if opaque[i].
+  /// Group i of `groups` (which must outlive this) is visible to rays of masks[i] and opaque if opaque[i]. Holds those that
+  /// are parts of solids, or all others. Of groups that fade a ray sees those that have its number in their share: a hash of the
+  /// ray, within the share of what it leaves, so that one level of detail does not shadow another in its place.
   EmbreeScene(const std::vector<CoarseGroup>& groups, const std::vector<uint32_t>& masks,
-              const std::vector<bool>& opaque, Log& log);
+              const std::vector<bool>& opaque, bool solids, Log& log);
   ~EmbreeScene();
 
   /// Nearest hit with ray.bias < t < ray.tMax; ray.offset plays no part.
@@ -24,6 +26,9 @@ class EmbreeScene {
   /// True if something opaque lies in `window` < t < tMax, where window is negative for rays without a hit
   /// list, which start at their bias. Else `list` has all hits from -window to tMax, unsorted.
   bool blockedBeyond(const Ray& ray, float window, uint32_t mask, HitList& list) const;
+
+  /// Fills `list` with all hits at t >= -window, however far, unsorted.
+  void all(const Ray& ray, float window, HitList& list) const;
 
   size_t bytes() const;  ///< That Embree allocated.
 

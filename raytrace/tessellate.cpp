@@ -129,11 +129,12 @@ class Tessellator {
         return;
       }
     const auto first = static_cast<uint32_t>(out.P.size());
+    const float side = objectOf(object).subtracted ? -1.0f : 1.0f;
     for (int j = 0; j <= nv; ++j)
       for (int i = 0; i <= nu; ++i) {
         const int k = 2 * j * (2 * nu + 1) + 2 * i;
         out.P.push_back(g.position(0, k));
-        out.N.push_back(normalizeOr(g.normal(k), vec3(0)));
+        out.N.push_back(side * normalizeOr(g.normal(k), vec3(0)));
       }
     out.lattices.push_back({object, patch, rect, static_cast<uint32_t>(nu), static_cast<uint32_t>(nv),
                             static_cast<uint32_t>(out.quads.size()),
@@ -207,7 +208,8 @@ std::vector<Work> workOf(const Scene& scene) {
   constexpr uint32_t kPatchesAtOnce = 256;
   std::vector<Work> work;
   for (size_t i = 0; i < scene.objects.size(); ++i) {
-    if (!raysNeed(*scene.objects[i].attributes)) continue;
+    // What no ray may see still cuts its solid.
+    if (scene.objects[i].solid < 0 && !raysNeed(*scene.objects[i].attributes)) continue;
     const uint32_t patches = scene.objects[i].shape().patchCount();
     for (uint32_t p = 0; p < patches; p += kPatchesAtOnce)
       work.push_back({static_cast<int>(i), p, std::min(p + kPatchesAtOnce, patches)});
@@ -253,10 +255,14 @@ std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, co
         tessellator.addPatch(work[w].object, p, pieces[w]);
   });
   std::vector<CoarseGroup> groups(scene.groups.size());
+  for (size_t g = 0; g < groups.size(); ++g) {
+    groups[g].detail = scene.groups[g].attributes->detail;
+    groups[g].solid = scene.groups[g].solid;
+  }
   for (size_t w = 0; w < work.size(); ++w) {
     const Object& o = scene.objects[static_cast<size_t>(work[w].object)];
     CoarseGroup& group = groups[static_cast<size_t>(o.group)];
-    group.flipsNormal = o.flipsNormal;
+    group.flipsNormal = o.flipsNormal != o.subtracted;
     if (work[w].first == 0) group.size = std::max(group.size, diagonalOf(o));
     append(group, pieces[w]);
     pieces[w] = {};

@@ -23,11 +23,12 @@ class SamplePattern {
   const float* time(int pattern) const;           ///< In [0,1) of the shutter.
   const float* lensX(int pattern) const;          ///< In the unit disk, uniform by area.
   const float* lensY(int pattern) const;
+  const float* detail(int pattern) const;         ///< In [0,1): what DetailShare divides; those of a pixel are stratified.
 
  private:
   int count_, padded_;
   uint32_t seed_;
-  AlignedVector<float> x_, y_, time_, lensX_, lensY_;
+  AlignedVector<float> x_, y_, time_, lensX_, lensY_, detail_;
 };
 
 /// Vertices of a grid in raster space, made once a grid by `project` and shared by the buckets.
@@ -36,6 +37,8 @@ struct RasterGrid {
   bool opaque = true;           ///< Hides what is behind it.
   bool matte = false;
   int sides = 2;
+  DetailShare detail;           ///< Only samples of this share see it.
+  bool clipped = false;         ///< Some vertex is cut off by the near or far plane or a ClippingPlane.
   bool inSolid = false;         ///< Its hits are crossings for reyes/hide/solids.cpp, and hide nothing before.
   bool smooth = false;          ///< ShadingInterpolation
   bool defocused = false;       ///< Some vertex moves visibly with the point of the lens.

@@ -81,13 +81,18 @@ class Splitter {
   const GivenUp& givenUp() const { return givenUp_; }
 
  private:
+  /// Solids are cut off where their surface is known, not before.
+  bool outside(const Bound3& bound) const {
+    return object_.solid < 0 ? camera_.outside(bound, window_) : camera_.outsideWindow(bound, window_);
+  }
+
   void split(uint32_t patch, const UvRect& rect, int depth, int eyeSplits, std::vector<SubPatch>& out) {
     if (budget_-- <= 0) {
       ++givenUp_.tooMany;
       return;
     }
     const Bound3 bare = cameraBound(object_, patch, rect), bound = bare.grown(object_.displacementBound);
-    if (!isFinite(bound.lo) || !isFinite(bound.hi) || camera_.outside(bound, window_) ||
+    if (!isFinite(bound.lo) || !isFinite(bound.hi) || outside(bound) ||
         object_.shape().kept(patch, rect) == Kept::None) {
       ++stats_.geometry.culled;
       return;
@@ -203,13 +208,13 @@ PatchSize measure(const Object& o, const Camera& camera, uint32_t patch, const U
 }
 
 std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
-                                  float margin, const Camera& camera, const PixelRect& window) {
+                                  float margin, const Camera& camera, const PixelRect& window, bool clipped) {
   Bound3 bound;
   for (const float t : keyTimes) bound.extend(transformBound(cameraFromObject.at(t), box));
   bound = bound.grown(margin);
   const Placement anywhere{{{window.x0, window.y0}, {window.x1, window.y1}}, -kInfinity};
   if (!isFinite(bound.lo) || !isFinite(bound.hi)) return anywhere;  // one bad patch must not take its neighbours along
-  if (camera.outside(bound, window)) return std::nullopt;
+  if (clipped ? camera.outside(bound, window) : camera.outsideWindow(bound, window)) return std::nullopt;
   Placement out{{}, bound.lo.z};
   if (!camera.rasterBound(bound, out.raster)) out.raster = anywhere.raster;
   out.raster.lo -= vec2(kRasterMargin_px);

@@ -27,9 +27,9 @@ struct Placement {
 };
 
 /// Of a box in the space of `cameraFromObject`, at `keyTimes`, that displacement may leave by `margin` (camera space).
-/// `window`: raster pixels that have samples. Nothing: no point of it can be seen there.
+/// `window`: raster pixels that have samples. Nothing: no point of it can be seen there; not `clipped`: no line meets it there.
 std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
-                                  float margin, const Camera& camera, const PixelRect& window);
+                                  float margin, const Camera& camera, const PixelRect& window, bool clipped = true);
 
 /// Splits patches first .. last-1 of an object; what lies wholly outside the window is culled. Order: by patch, then by
 /// place.

@@ -53,7 +53,7 @@ class PatchesNode : public OpeningNode {
                                         const BucketRange& outer) {
     const Object& o = context.scene.objects[static_cast<size_t>(object)];
     auto place = placeBox(tree->box(level, index), o.cameraFromObject, o.keyTimes, o.displacementBound, context.camera,
-                                context.buckets.window());
+                          context.buckets.window(), o.solid < 0);
     if (place && o.solid >= 0) place->zMin = context.zMinOfSolid[static_cast<size_t>(o.solid)];
     const BucketRange range = place ? outer & context.buckets.touched(place->raster) : BucketRange{};
     if (range.empty()) {
@@ -115,7 +115,7 @@ HideNodes nodesOfScene(HideContext& context) {
     if (o.solid < 0) continue;
     float& zMin = context.zMinOfSolid[static_cast<size_t>(o.solid)];
     if (const auto place = placeBox(tree->box(tree->top(), 0), o.cameraFromObject, o.keyTimes, o.displacementBound,
-                                    context.camera, context.buckets.window()))
+                                    context.camera, context.buckets.window(), false))
       zMin = std::min(zMin, place->zMin);
   }
   HideNodes out;

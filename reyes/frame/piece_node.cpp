@@ -39,7 +39,7 @@ std::shared_ptr<const RasterGrid> PieceNode::makeGrid() const {
   for (int key = 0; key < grid->keyCount; ++key)
     for (int i = 0; i < grid->vertexCount(); ++i) {
       const vec3 p = grid->position(key, i);
-      if (isFinite(p) && !(context_.camera.perspective() && p.z < context_.camera.nearClip())) continue;
+      if (isFinite(p) && !(context_.camera.perspective() && p.z < context_.camera.eyePlane())) continue;
       context_.log.report(Severity::Warning, "grid-behind-eye", o.where,
                           fmt::format("{}: a displaced vertex is not finite or lies behind the eye; that grid is left out (is "
                                       "displacementbound too small?)",

@@ -90,6 +90,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
   r->matte = attributes.matte;
   r->inSolid = object.solid >= 0;
   r->sides = r->inSolid ? 2 : attributes.sides;
+  r->detail = attributes.detail;
   r->smooth = attributes.interpolation == ShadingInterpolation::Smooth;
   if (!g.kept.empty()) r->trim = &scene.objects[static_cast<size_t>(g.object)].shape();
   // The tail lets blocks of micropolygons be read across the end.
@@ -104,6 +105,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
       const vec3 p = g.position(key, v);
       const vec2 at = camera.raster(p);
       x[v] = at.x, y[v] = at.y, d[v] = camera.depthKey(p.z);
+      r->clipped |= !r->inSolid && camera.clips(p);
     }
     if (r->trim) r->trimReach_px = std::max(r->trimReach_px, kMinReach_px + kTrimReach * deviation_px(g, x, y));
     pushBorders(g, x, y);

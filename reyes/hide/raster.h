@@ -92,6 +92,10 @@ TOMALES_KERNEL inline bool merge(const RasterJob& job, const LaneDepths& hit, si
   return true;
 }
 
+/// Takes away hits of samples, from `lane` on in the pattern of pixel (x, y), that the level of detail or clipping planes
+/// keep from seeing the grid.
+void askSamples(const RasterJob& job, int x, int y, size_t lane, LaneDepths& hit);
+
 /// Takes away what trim curves cut from a cell: hits of samples from `lane` on in the pattern of pixel (x, y).
 void cutAway(const RasterJob& job, uint32_t cell, int x, int y, size_t lane, LaneDepths& hit);
 /// What trim curves leave of a cell of the job's grid.
@@ -125,6 +129,7 @@ TOMALES_KERNEL inline void forPixels(const RasterJob& job, const vec2& lo, const
   SampleBuffer& out = job.out;
   const PixelRect pixels = out.touched(lo, hi);
   if (job.raster.inSolid) dMin = job.raster.dMin;
+  const bool asks = job.raster.clipped || !job.raster.detail.whole();
   for (int y = pixels.y0; y < pixels.y1; ++y)
     for (int x = pixels.x0; x < pixels.x1; ++x) {
       const size_t pixel = out.pixelIndex(x, y);
@@ -133,7 +138,9 @@ TOMALES_KERNEL inline void forPixels(const RasterJob& job, const vec2& lo, const
       bool changed = false;
       for (int g = 0; g < out.lanes; g += kLanes) {
         LaneDepths hit;
-        cover(x, y, out.patternAt[pixel] + static_cast<size_t>(g), hit);
+        const size_t at = out.patternAt[pixel] + static_cast<size_t>(g);
+        cover(x, y, at, hit);
+        if (asks) askSamples(job, x, y, at, hit);
         changed |= merge(job, hit, pixel, g, cell);
       }
       if (changed) out.far[pixel] = farthest(out.depth.data() + first, out.lanes);

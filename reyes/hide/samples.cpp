@@ -33,7 +33,8 @@ SampleBuffer::SampleBuffer(const SamplePattern& pattern, const PixelRect& pixels
       y(pattern.y(0)),
       time(pattern.time(0)),
       lensX(pattern.lensX(0)),
-      lensY(pattern.lensY(0)) {
+      lensY(pattern.lensY(0)),
+      detail(pattern.detail(0)) {
   const size_t count = static_cast<size_t>(rect.width()) * static_cast<size_t>(rect.height());
   const size_t width = static_cast<size_t>(lanes);
   patternAt.reserve(count);

@@ -43,7 +43,7 @@ struct SampleBuffer {
 
   PixelRect rect;
   int lanes;                      ///< Of a pixel, a multiple of kLanes.
-  const float *x, *y, *time, *lensX, *lensY;  ///< Of all patterns.
+  const float *x, *y, *time, *lensX, *lensY, *detail;  ///< Of all patterns.
   std::vector<size_t> patternAt;  ///< A pixel: where its samples begin in x, y, time and lens.
   AlignedVector<float>
       depth;  ///< A lane: key of the nearest opaque hit; -infinity in padding, which so never counts.

@@ -75,10 +75,11 @@ class SolidResolver {
       if (visible(line[b.crossing].at, b.entering) && compete(line[b.crossing].at)) return;
   }
 
-  /// The surface of a solid has an outside by itself, whatever way its primitives are turned.
+  /// The surface of a solid has an outside by itself, whatever way its primitives are turned. It is whole before it is clipped.
   bool visible(const Layer& l, bool entering) const {
     const Attributes& a = *objectOf(l.cell).attributes;
-    return a.visibility.camera && (entering || a.sides == 2);
+    const SamplePoint sample = samplePoint(samples_, l.pixel, l.lane);
+    return a.visibility.camera && (entering || a.sides == 2) && !camera_.clips(sample.at, sample.lens, l.d);
   }
 
   /// True: it hides all behind it.

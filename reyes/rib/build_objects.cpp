@@ -61,6 +61,7 @@ void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times
         description(r) + ": its transformation is singular or not finite; the object is dropped");
     return;
   }
+  if (state_.scope.attributes->detail.empty()) return;  // another level of detail is there
   Master::Shapes shapes = shapesOf(keys, times);
   if (shapes.keys.empty()) return;
   Object object;

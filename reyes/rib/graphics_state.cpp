@@ -23,6 +23,9 @@ void GraphicsState::begin(Block block, const SourceLoc& where) {
     return;
   }
   stack_.push_back({block, where, scope, saveGlobals ? std::make_unique<Globals>(globals) : nullptr});
+  if (block == Block::Transform) return;
+  scope.detail.range.reset();
+  scope.detail.left = scope.attributes->detail;
 }
 
 bool GraphicsState::isOpen(Block block) const {

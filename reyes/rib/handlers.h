@@ -16,6 +16,7 @@ const HandlerTable& optionHandlers();
 const HandlerTable& attributeHandlers();
 const HandlerTable& shaderHandlers();
 const HandlerTable& resourceHandlers();
+const HandlerTable& detailHandlers();
 const HandlerTable& transformHandlers();  ///< CoordinateSystem and its relatives.
 
 /// Transform, Translate, ...: one request for each time, all with the same name.

@@ -14,7 +14,8 @@ const std::pair<std::string_view, Block> kBlocks[] = {
 bool isBlockRequest(std::string_view name) { return name.ends_with("Begin") || name.ends_with("End"); }
 
 bool allowsInfinity(std::string_view name) {
-  static constexpr std::string_view kNames[] = {"Clipping", "DepthOfField", "Bound", "Detail", "ShadingRate"};
+  static constexpr std::string_view kNames[] = {"Clipping", "DepthOfField", "Bound",
+                                                "Detail",   "DetailRange",  "ShadingRate"};
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
@@ -137,7 +138,7 @@ bool SceneBuilder::performBlock(const Request& r) {
 
 bool SceneBuilder::performHandler(const Request& r) {
   for (const HandlerTable* table :
-       {&attributeHandlers(), &shaderHandlers(), &transformHandlers(), &resourceHandlers(), &optionHandlers()}) {
+       {&attributeHandlers(), &shaderHandlers(), &detailHandlers(), &transformHandlers(), &resourceHandlers(), &optionHandlers()}) {
     const auto it = table->find(r.name);
     if (it == table->end()) continue;
     if (table == &optionHandlers() && state_.world && r.name != "Option" && r.name != "Imager")
