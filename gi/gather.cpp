@@ -31,6 +31,24 @@ class CellJitter {
   std::vector<int> height_, angle_;
 };
 
+/// When each ray is shot: equal strata of the shutter in an order that has nothing to do with the cells.
+class RayTimes {
+ public:
+  RayTimes(const RayScene& scene, const GatherPoint& point, size_t count, uint32_t key) : fixed_(std::max(point.time, 0.0f)), key_(key) {
+    if (point.time < 0 && scene.samplesTime(point.group)) strata_ = permutation(static_cast<int>(count), key ^ 0x74696d65U);
+  }
+  float operator()(size_t ray) const {
+    if (strata_.empty()) return fixed_;
+    const float inside = unitFloat(hashCombine(key_, static_cast<uint32_t>(ray), 0x74696d65U));
+    return std::min((static_cast<float>(strata_[ray]) + inside) / static_cast<float>(strata_.size()), 0x1.fffffep-1f);
+  }
+
+ private:
+  float fixed_;
+  uint32_t key_;
+  std::vector<int> strata_;
+};
+
 /// Kept by each thread from one record to the next. Gather rays shade without indirect light, so gathering
 /// never nests.
 struct Scratch {
@@ -57,6 +75,7 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
   scratch.directions.resize(count), scratch.distances.resize(count);
   const uint32_t key = hashCombine(point.key, settings.seed);
   const CellJitter jitter(cells, key);
+  const RayTimes times(scene, point, count, key);
   int64_t adjusted = 0;
   for (size_t i = 0; i < count; ++i) {
     const int ring = static_cast<int>(i) / cells.sectors, sector = static_cast<int>(i) % cells.sectors;
@@ -66,6 +85,8 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
     r.direction = scratch.directions[i] =
         local.x * samples.tangent + local.y * samples.bitangent + local.z * point.normal;
     r.offset = slantedOffset(ray.offset, local.z);
+    r.time = times(i);
+    if (r.time > 0) r.origin = scene.placeAt(point.group, point.position, point.drift, r.time);
     scratch.names[i] = {key, number};
     const Hit& hit = scratch.hits[i] = scene.closest(r, kMaskDiffuse);
     scratch.distances[i] = hit.object < 0 ? kInfinity : std::max(0.0f, hit.t);

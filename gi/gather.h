@@ -22,6 +22,8 @@ struct GatherPoint {
   uint32_t key;           ///< Names the point for random numbers.
   float pixelSize;        ///< Root of the projected pixel area.
   float edgeLength;       ///< Of its micropolygon, for the origin offset.
+  vec3 drift{0};          ///< As kDriftX.
+  float time = -1;        ///< As kTime.
 };
 IrradianceRecord gather(const RayScene& rays, const ShadingSystem& shading, const GatherPoint& point,
                         const GatherSettings& settings, Stats& stats);

@@ -113,7 +113,7 @@ class GatherPass {
     const ShadePoints& batch = batchOf(ref);
     const vec3 position = batch.position(ref.point), normal = batch.facingNormal(ref.point);
     return {{batch.group(), position, normal, batch.key(ref.point), projectedPixelSize(state_.camera, position, normal),
-             batch.edgeLength(ref.point)},
+             batch.edgeLength(ref.point), batch.get3(kDriftX, ref.point), batch.channel(kTime)[ref.point]},
             cacheOfGroup_[static_cast<size_t>(batch.group())]};
   }
 

@@ -38,13 +38,14 @@ class PathBatches {
     orthonormalBasis(normal, tangent, bitangent);
     const uint32_t pointKey =
         hashCombine(points_.key(i), state_.settings.seed, static_cast<uint32_t>(context_.depth));
-    Ray ray{points_.position(i), normal, maxDistance_};
-    state_.rays.prepareOrigin(points_.group(), ray.origin, points_.edgeLength(i), ray);
     for (int path = 0; path < paths; ++path) {
+      Ray ray{points_.position(i), normal};
+      aim(state_.rays, points_, i, rayTime(state_.rays, points_, i, path, paths, state_.settings.seed), ray);
+      ray.tMax = maxDistance_;
       const vec3 local = cosineHemisphere(sobol2(static_cast<uint32_t>(path), pointKey));
       ray.direction = local.x * tangent + local.y * bitangent + local.z * normal;
+      ray.offset = slantedOffset(ray.offset, local.z);
       rays_.push_back(ray);
-      rays_.back().offset = slantedOffset(ray.offset, local.z);
       names_.push_back({hashCombine(pointKey, static_cast<uint32_t>(path)), 0});
       sums_.push_back(&sum);
       if (rays_.size() == kRaysPerBatch) flush();
@@ -134,7 +135,7 @@ void interpolateIndirect(const GiState& state, const ShadePoints& points, const 
       }
     }
     // Kept out of the cache: what other points find there must not depend on the order of shading.
-    const GatherPoint point{points.group(), P, n, points.key(i), pixelSize, points.edgeLength(i)};
+    const GatherPoint point{points.group(), P, n, points.key(i), pixelSize, points.edgeLength(i), points.get3(kDriftX, i), points.channel(kTime)[i]};
     const IrradianceRecord record = gather(state.rays, state.shading, point, plan.gather, state.stats);
     store(out, i, record.E, record.dominant);
   }

@@ -1,8 +1,15 @@
 #include "gi/services.h"
 
 #include "gi/state.h"
+#include "reyes/base/rng.h"
 
 namespace tomales {
+namespace {
+
+constexpr int kTimesOfLight = 16;  ///< Least number of times that the shadows of one light see, over all its samples.
+
+}  // namespace
+
 struct GiServices::Impl : GiState {};
 
 GiServices::GiServices(const Scene& scene, const Camera& camera, const RayScene& rays,
@@ -17,18 +24,27 @@ void GiServices::gatherPass(const DeepFrame& frame, const std::function<void(flo
 }
 
 void GiServices::transmission(const ShadePoints& points, const uint8_t* active, TmConstVec3 toward,
-                              bool solar, const ShadeContext&, TmVec3 light) const {
+                              const ShadowRays& rays, const ShadeContext& context, TmVec3 light) const {
+  const RayScene& scene = impl_->rays;
+  const int times = scene.samplesTime(points.group()) && context.kind == RayKind::Camera
+                        ? std::max(1, kTimesOfLight / rays.samples)
+                        : 1;
   int64_t traced = 0;
   for (int i = 0; i < points.count(); ++i) {
     const vec3 arriving{light.x[i], light.y[i], light.z[i]}, path{toward.x[i], toward.y[i], toward.z[i]};
     const float length = glm::length(path);
     if (!active[i] || arriving == vec3(0.0f) || !(length > 0)) continue;
-    Ray ray{points.position(i), path / length, solar ? kInfinity : length};
-    impl_->rays.prepareOrigin(points.group(), ray.origin, points.edgeLength(i), ray);
-    ray.offset = slantedOffset(ray.offset, std::abs(dot(ray.direction, points.get3(kNgx, i))));
-    const vec3 passed = arriving * impl_->rays.transmission(ray);
+    vec3 passed(0);
+    for (int k = 0; k < times; ++k) {
+      const int strata = rays.samples * times, stratum = rays.sample * times + k;
+      Ray ray{points.position(i), path / length, rays.solar ? kInfinity : length};
+      aim(scene, points, i, rayTime(scene, points, i, stratum, strata, context.seed), ray);
+      ray.offset = slantedOffset(ray.offset, std::abs(dot(ray.direction, points.get3(kNgx, i))));
+      passed += scene.transmission(ray);
+    }
+    passed *= arriving / static_cast<float>(times);
     light.x[i] = passed.x, light.y[i] = passed.y, light.z[i] = passed.z;
-    ++traced;
+    traced += times;
   }
   impl_->stats.rays.transmission += traced;
 }

@@ -33,7 +33,7 @@ class GiServices final : public ShadeServices {
   /// frozen before the next reads them, and their order is that of the pixels, so the cache does not depend on threads or buckets.
   void gatherPass(const DeepFrame& frame, const std::function<void(float)>& progress, const std::atomic<bool>* cancelled);
 
-  void transmission(const ShadePoints&, const uint8_t* active, TmConstVec3 toward, bool solar, const ShadeContext&,
+  void transmission(const ShadePoints&, const uint8_t* active, TmConstVec3 toward, const ShadowRays&, const ShadeContext&,
                     TmVec3 light) const override;
   bool sampleEmitter(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N, float* area) const override;
   void indirectDiffuse(const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&, const ShadeContext&,

@@ -43,6 +43,13 @@ int latticePhase(int x, int y);
 void fillCaches(GiState&, const DeepFrame&, const std::function<void(float)>& progress,
                 const std::atomic<bool>* cancelled);
 
+/// When ray `number` of the `count` that leave a point is shot: the point's own time, or a stratified one if it is seen over the
+/// whole shutter and its object samples motion. Successive points of one SampleName continue each other's sequence.
+float rayTime(const RayScene&, const ShadePoints&, int i, int number, int count, uint32_t seed);
+
+/// Moves the start of a ray to where the point is at that time, keeping its end if it has one, and prepares it.
+void aim(const RayScene&, const ShadePoints&, int i, float time, Ray&);
+
 /// E and dominant directions into element i of a result.
 void store(const IndirectResult& out, int i, const vec3& E, const vec3 dominant[3]);
 

@@ -100,7 +100,7 @@ RTCRay rayFrom(const Ray& ray, float shift, float tNear, uint32_t mask) {
   RTCRay r{};
   r.org_x = origin.x, r.org_y = origin.y, r.org_z = origin.z;
   r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
-  r.tnear = tNear, r.tfar = ray.tMax + shift;
+  r.tnear = tNear, r.tfar = ray.tMax + shift, r.time = ray.time;
   r.mask = mask;
   return r;
 }
@@ -139,22 +139,29 @@ struct EmbreeScene::Impl {
 
   /// One geometry of the given groups. Embree pads the vertex buffer that it allocates, of which it reads 16 bytes at the last.
   void attach(const std::vector<uint32_t>& members, uint32_t mask, bool opaque) {
+    const size_t steps = groups[members.front()].laterP.size() + 1;
     size_t vertexCount = 0, quadCount = 0;
     for (const uint32_t g : members) vertexCount += groups[g].P.size(), quadCount += groups[g].quads.size();
     const auto id = static_cast<unsigned>(geometries.size());
     Geometry& out = geometries.emplace_back(Geometry{
         opaque, groups[members.front()].flipsNormal, groups[members.front()].detail, {}, &firstQuad, &groups});
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
-    auto* vertices = static_cast<vec3*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), vertexCount));
+    rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(steps));
+    std::vector<vec3*> vertices;
+    for (unsigned step = 0; step < steps; ++step)
+      vertices.push_back(static_cast<vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT3,
+                                                                    sizeof(vec3), vertexCount)));
     auto* quads = static_cast<Quad*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, sizeof(Quad), quadCount));
     uint32_t firstVertex = 0;
     for (const uint32_t g : members) {
-      if (!vertices || !quads) break;  // out of memory: the device's error tells
+      if (!vertices.back() || !quads) break;  // out of memory: the device's error tells
       firstQuad[g] = static_cast<uint32_t>(out.groupOfQuad.size());
       out.groupOfQuad.insert(out.groupOfQuad.end(), groups[g].quads.size(), g);
-      vertices = std::copy(groups[g].P.begin(), groups[g].P.end(), vertices);
+      for (size_t step = 0; step < steps; ++step) {
+        const std::vector<vec3>& P = step == 0 ? groups[g].P : groups[g].laterP[step - 1];
+        vertices[step] = std::copy(P.begin(), P.end(), vertices[step]);
+      }
       for (const Quad& q : groups[g].quads)
         *quads++ = {q[0] + firstVertex, q[1] + firstVertex, q[2] + firstVertex, q[3] + firstVertex};
       firstVertex += static_cast<uint32_t>(groups[g].P.size());
@@ -193,12 +200,12 @@ EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const std::vect
   impl_->scene = rtcNewScene(impl_->device);
   rtcSetSceneFlags(impl_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
                                                             RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
-  std::map<std::tuple<uint32_t, bool, bool, bool, float, float>, std::vector<uint32_t>> alike;
+  std::map<std::tuple<uint32_t, bool, bool, bool, size_t, float, float>, std::vector<uint32_t>> alike;
   for (uint32_t i = 0; i < groups.size(); ++i) {
     const CoarseGroup& g = groups[i];
     impl_->fades |= !g.detail.whole();
     if (!g.quads.empty() && g.solid == solids)
-      alike[{masks[i], opaque[i], g.flipsNormal, g.trimmed, g.detail.lo, g.detail.hi}].push_back(i);
+      alike[{masks[i], opaque[i], g.flipsNormal, g.trimmed, g.laterP.size(), g.detail.lo, g.detail.hi}].push_back(i);
   }
   impl_->firstQuad.resize(groups.size());
   for (const auto& [kind, members] : alike) impl_->attach(members, std::get<0>(kind), std::get<1>(kind));

@@ -31,6 +31,18 @@ std::vector<uint32_t> byGroup(const Scene& scene, const std::vector<Hit>& hits, 
   return order;
 }
 
+/// A hit later than shutter open is shaded as all else is: the surface stands where it was then, and the ray comes to it as it
+/// came to the moved one. Drift is whatever takes it from there to where the ray met it.
+void bringToOpen(const Scene& scene, const Ray& ray, const Hit& hit, ShadePoints& points, int i) {
+  const ShadeGroup& group = scene.groups[static_cast<size_t>(points.group())];
+  const float shutter = lerp(scene.options.shutterOpen, scene.options.shutterClose, ray.time);
+  const mat4 openFromNow = glm::inverse(group.currentFromOpen.at(shutter));
+  const vec3 I = points.get3(kIx, i);
+  points.set3(kIx, i, glm::length(I) * normalizeOr(transformVector(openFromNow, I), I));
+  points.set3(kDriftX, i, (transformPoint(openFromNow, points.position(i)) - hit.atOpen) / ray.time);
+  points.set3(kPx, i, hit.atOpen);
+}
+
 /// Parameters and primitive variables are those of the true surface, place and normals those that the ray
 /// met.
 void addPoint(const Scene& scene, const Ray& ray, const Hit& hit, SampleName name, ShadePoints& points) {
@@ -41,6 +53,8 @@ void addPoint(const Scene& scene, const Ray& ray, const Hit& hit, SampleName nam
   points.set3(kNx, i, hit.normal);
   points.set3(kNgx, i, hit.geometricNormal);
   points.set3(kIx, i, I);
+  points.channel(kTime)[i] = ray.time;
+  if (ray.time > 0) bringToOpen(scene, ray, hit, points, i);
 }
 
 }  // namespace
@@ -65,8 +79,9 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
     const vec3 emission = diffuse ? vec3(0) : shading.visibleEmission(g);
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = order[k];
-      const vec3 color = shaded.color(static_cast<int>(k - first));
-      const bool front = dot(rays[i].direction, hits[i].geometricNormal) < 0;
+      const int p = static_cast<int>(k - first);
+      const vec3 color = shaded.color(p);
+      const bool front = dot(points.get3(kIx, p), points.get3(kNgx, p)) < 0;
       radiance[i] = diffuse ? bled(color, *group.attributes) : color + (front ? emission : vec3(0));
     }
   }

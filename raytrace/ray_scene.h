@@ -23,6 +23,7 @@ struct RayScene::Impl {
   const EmbreeScene embree;
   const SolidHits solids;
   const Emitters emitters;
+  bool moves = false;                     ///< Some polygon does.
   std::vector<float> displacementBounds;  ///< Of each group, where rays do not see the displacement.
 };
 

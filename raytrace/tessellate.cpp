@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "raytrace/ray_times.h"
 #include "reyes/base/parallel.h"
 #include "reyes/dice.h"
 
@@ -66,7 +67,7 @@ bool mayBeSeen(const Object& o, uint32_t patch, const Camera& camera) {
 class Tessellator {
  public:
   Tessellator(const Scene& scene, const Camera& camera, const ShadingSystem& shading, Log& log)
-      : scene_(scene), camera_(camera), shading_(shading), log_(log) {}
+      : scene_(scene), camera_(camera), shading_(shading), log_(log), times_(rayTimes(scene)) {}
 
   void addPatch(int object, uint32_t patch, CoarseGroup& out) const {
     const auto [nu, nv] = countsFor(object, patch);
@@ -116,29 +117,29 @@ class Tessellator {
 
   /// Dices at twice the rate: every second vertex is a corner, the others say how far the polygons are off.
   void addTile(int object, uint32_t patch, const UvRect& rect, int nu, int nv, CoarseGroup& out) const {
-    const Prim& prim = objectOf(object).shape();
-    const Kept keptOfTile = prim.kept(patch, rect);
+    const Object& o = objectOf(object);
+    const Kept keptOfTile = o.shape().kept(patch, rect);
     if (keptOfTile == Kept::None) return;
-    Grid g = dice(scene_, object, patch, rect, 2 * nu, 2 * nv, 1);
-    if (displacesForRays(objectOf(object))) shading_.displace(g);
-    for (int i = 0; i < g.vertexCount(); ++i)
-      if (!isFinite(g.position(0, i))) {
-        log_.report(Severity::Warning, "trace-not-finite", objectOf(object).where,
-                    fmt::format("{} has points that are not finite: rays pass through that part",
-                                objectName(objectOf(object))));
-        return;
-      }
+    Grid g = dice(scene_, object, patch, rect, 2 * nu, 2 * nv, {times_[static_cast<size_t>(o.group)], o.currentFromObject});
+    if (displacesForRays(o)) shading_.displace(g);
+    if (!isFiniteGrid(g)) {
+      log_.report(Severity::Warning, "trace-not-finite", o.where,
+                  fmt::format("{} has points that are not finite: rays pass through that part", objectName(o)));
+      return;
+    }
     const auto first = static_cast<uint32_t>(out.P.size());
-    const float side = objectOf(object).subtracted ? -1.0f : 1.0f;
+    const float side = o.subtracted ? -1.0f : 1.0f;
+    out.laterP.resize(static_cast<size_t>(g.keyCount) - 1);
     for (int j = 0; j <= nv; ++j)
       for (int i = 0; i <= nu; ++i) {
         const int k = 2 * j * (2 * nu + 1) + 2 * i;
         out.P.push_back(g.position(0, k));
         out.N.push_back(side * normalizeOr(g.normal(k), vec3(0)));
+        for (int key = 1; key < g.keyCount; ++key) out.laterP[static_cast<size_t>(key) - 1].push_back(g.position(key, k));
       }
     out.lattices.push_back({object, patch, rect, static_cast<uint32_t>(nu), static_cast<uint32_t>(nv),
                             static_cast<uint32_t>(out.quads.size()),
-                            keptOfTile == Kept::All ? nullptr : &prim});
+                            keptOfTile == Kept::All ? nullptr : &o.shape()});
     out.trimmed |= keptOfTile != Kept::All;
     const auto row = static_cast<uint32_t>(nu + 1);
     for (int j = 0; j < nv; ++j)
@@ -150,7 +151,7 @@ class Tessellator {
           continue;
         }
         out.quads.push_back({a, a + 1, a + row + 1, a + row});
-        out.deviation = std::max(out.deviation, deviationOf(g, 2 * i, 2 * j));
+        for (int key = 0; key < g.keyCount; ++key) out.deviation = std::max(out.deviation, deviationOf(g, key, 2 * i, 2 * j));
       }
   }
 
@@ -162,11 +163,18 @@ class Tessellator {
     return g.kept.empty() || !(gone(0, 0) && gone(1, 0) && gone(0, 1) && gone(1, 1));
   }
 
+  static bool isFiniteGrid(const Grid& g) {
+    for (int key = 0; key < g.keyCount; ++key)
+      for (int i = 0; i < g.vertexCount(); ++i)
+        if (!isFinite(g.position(key, i))) return false;
+    return true;
+  }
+
   /// Distance of the centre and the middles of the edges from the polygon with corner (i, j), across its
   /// plane: along the plane a point may slide without leaving the surface.
-  static float deviationOf(const Grid& g, int i, int j) {
+  static float deviationOf(const Grid& g, int key, int i, int j) {
     const int row = g.nu + 1, k = j * row + i;
-    const auto P = [&](int di, int dj) { return g.position(0, k + dj * row + di); };
+    const auto P = [&](int di, int dj) { return g.position(key, k + dj * row + di); };
     const vec3 a = P(0, 0), b = P(2, 0), c = P(2, 2), d = P(0, 2);
     const vec3 n = normalizeOr(cross(c - a, d - b), vec3(0));
     const auto off = [&](const vec3& p, const vec3& q, const vec3& middle) {
@@ -180,6 +188,7 @@ class Tessellator {
   const Camera& camera_;
   const ShadingSystem& shading_;
   Log& log_;
+  const std::vector<std::vector<float>> times_;  ///< Of each group
 };
 
 void append(CoarseGroup& to, const CoarseGroup& from) {
@@ -187,6 +196,9 @@ void append(CoarseGroup& to, const CoarseGroup& from) {
   const auto lattice = static_cast<uint32_t>(to.lattices.size());
   to.P.insert(to.P.end(), from.P.begin(), from.P.end());
   to.N.insert(to.N.end(), from.N.begin(), from.N.end());
+  to.laterP.resize(from.laterP.size());
+  for (size_t k = 0; k < from.laterP.size(); ++k)
+    to.laterP[k].insert(to.laterP[k].end(), from.laterP[k].begin(), from.laterP[k].end());
   for (const Quad& q : from.quads)
     to.quads.push_back({q[0] + vertex, q[1] + vertex, q[2] + vertex, q[3] + vertex});
   for (const uint32_t l : from.latticeOfQuad) to.latticeOfQuad.push_back(l + lattice);
@@ -231,6 +243,11 @@ vec3 CoarseGroup::geometricNormal(uint32_t quad) const {
   return normalizeOr(flipsNormal ? -n : n, vec3(0, 0, -1));
 }
 
+vec3 CoarseGroup::pointOn(uint32_t quad, float u, float v) const {
+  const vec3 a = corner(quad, 0), b = corner(quad, 1), c = corner(quad, 2), d = corner(quad, 3);
+  return u + v <= 1 ? a + u * (b - a) + v * (d - a) : c + (1 - u) * (d - c) + (1 - v) * (b - c);
+}
+
 vec2 CoarseGroup::patchParameters(uint32_t quad, float u, float v) const {
   const Lattice& l = latticeOf(quad);
   const uint32_t cell = quad - l.firstQuad;
@@ -240,7 +257,9 @@ vec2 CoarseGroup::patchParameters(uint32_t quad, float u, float v) const {
 }
 
 size_t CoarseGroup::bytes() const {
-  return (P.capacity() + N.capacity()) * sizeof(vec3) + quads.capacity() * sizeof(Quad) +
+  size_t vertices = P.capacity() + N.capacity();
+  for (const auto& later : laterP) vertices += later.capacity();
+  return vertices * sizeof(vec3) + quads.capacity() * sizeof(Quad) +
          latticeOfQuad.capacity() * sizeof(uint32_t) + lattices.capacity() * sizeof(Lattice);
 }
 
@@ -264,7 +283,7 @@ std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, co
     CoarseGroup& group = groups[static_cast<size_t>(o.group)];
     group.flipsNormal = o.flipsNormal != o.subtracted;
     if (work[w].first == 0) group.size = std::max(group.size, diagonalOf(o));
-    append(group, pieces[w]);
+    if (!pieces[w].P.empty()) append(group, pieces[w]);
     pieces[w] = {};
   }
   return groups;

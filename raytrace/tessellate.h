@@ -1,6 +1,6 @@
 // Verb: the objects of a scene -> coarse quadrilaterals for rays, merged by shade group.
 //   in     a frozen scene; displacement where trace:displacements asks for it
-//   out    vertices in current space at shutter open, quads, and the way back from a quad to object, patch
+//   out    vertices in current space at the motion keys of raytrace/ray_times.h, quads, and the way back from a quad to object, patch
 //   and (u,v) never  depends on threads: the order is that of objects and patches
 // Rate: polygons of about 8 pixels (x sqrt(ShadingRate) / trace:tessellation) where the camera can see the
 // object, and a turn of the normal of at most 15 degrees (/ trace:tessellation) everywhere, as long as
@@ -27,7 +27,8 @@ using Quad = std::array<uint32_t, 4>;
 
 /// All coarse polygons of one shade group.
 struct CoarseGroup {
-  std::vector<vec3> P, N;  ///< N: RISpec side, unit length.
+  std::vector<vec3> P, N;  ///< At shutter open. N: RISpec side, unit length.
+  std::vector<std::vector<vec3>> laterP;  ///< P at the motion keys after that, which divide the shutter equally.
   std::vector<Quad> quads;
   std::vector<uint32_t> latticeOfQuad;
   std::vector<Lattice> lattices;
@@ -41,6 +42,7 @@ struct CoarseGroup {
 
   vec3 corner(uint32_t quad, int k) const { return P[quads[quad][static_cast<size_t>(k)]]; }
   vec3 geometricNormal(uint32_t quad) const;  ///< RISpec side, unit length.
+  vec3 pointOn(uint32_t quad, float u, float v) const;  ///< On the two triangles that rays meet, cut from corner 1 to 3.
   const Lattice& latticeOf(uint32_t quad) const { return lattices[latticeOfQuad[quad]]; }
   vec2 patchParameters(uint32_t quad, float u, float v) const;
   /// Do trim curves leave this point of a quad?

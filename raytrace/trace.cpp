@@ -67,6 +67,7 @@ RayScene::Impl::Impl(const Scene& s, const Camera& camera, const ShadingSystem& 
       float& bound = displacementBounds[static_cast<size_t>(o.group)];
       bound = std::max(bound, o.displacementBound);
     }
+  moves = std::any_of(groups.begin(), groups.end(), [](const CoarseGroup& g) { return !g.laterP.empty(); });
   for (const Object& o : scene.objects)
     if (const int light = o.attributes->areaLight; light >= 0 && !emitters.shines(light))
       log.report(Severity::Warning, "light-no-area", o.where,
@@ -102,7 +103,8 @@ Hit RayScene::Impl::resolve(const PolygonHit& polygon) const {
   const vec3 geometric = g.geometricNormal(polygon.quad);
   const vec3 normal = glm::mix(glm::mix(g.N[q[0]], g.N[q[1]], polygon.u),
                                glm::mix(g.N[q[3]], g.N[q[2]], polygon.u), polygon.v);
-  return {polygon.t, l.object, l.patch, uv.x, uv.y, normalizeOr(normal, geometric), geometric, false};
+  return {polygon.t, l.object, l.patch, uv.x, uv.y, normalizeOr(normal, geometric), geometric, false,
+          g.pointOn(polygon.quad, polygon.u, polygon.v)};
 }
 
 RayScene::RayScene(const Scene& scene, const Camera& camera, const ShadingSystem& shading, bool hitList,
@@ -179,6 +181,18 @@ void RayScene::prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ra
   ray.group = group;
   ray.offset = impl_->hitList ? std::max(given.offset.value_or(automatic), 0.0f) : 0.0f;
   ray.bias = given.bias.value_or(kBias * scale);
+}
+
+bool RayScene::samplesTime(int group) const {
+  return impl_->moves && impl_->scene.groups[static_cast<size_t>(group)].attributes->trace.sampleMotion;
+}
+
+vec3 RayScene::placeAt(int group, const vec3& atOpen, const vec3& drift, float time) const {
+  const ShadeGroup& g = impl_->scene.groups[static_cast<size_t>(group)];
+  const vec3 drifted = atOpen + time * drift;
+  if (!impl_->moves || time == 0 || !g.currentFromOpen.moving()) return drifted;
+  const Options& o = impl_->scene.options;
+  return transformPoint(g.currentFromOpen.at(lerp(o.shutterOpen, o.shutterClose, time)), drifted);
 }
 
 bool RayScene::sampleEmitter(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N,

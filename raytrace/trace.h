@@ -5,6 +5,8 @@
 //   3 the recorded hit closest to the origin, if any, is the new origin
 //   4 the next hit after that is the answer
 // One traversal: an Embree filter function records and rejects hits inside the offset and accepts the first beyond.
+// Motion: rays see objects move, but not the camera, and area lights stand where they are when the shutter opens. Only rays from
+// objects with Attribute "trace" "samplemotion" 1 are given times; all others see the scene at shutter open.
 // Space: current (camera space at shutter open). Threads: const members may be called concurrently.
 #pragma once
 #include "reyes/shade.h"
@@ -17,6 +19,7 @@ struct Ray {
   float offset = 0;             ///< Hit-list distance; 0 switches the algorithm off and uses `bias` alone.
   float bias = 0;               ///< Without a hit list: hits at t <= bias do not count.
   int group = -1;               ///< Shade group that the ray leaves, -1: unknown. Settles which of two walls that meet is left.
+  float time = 0;               ///< Part of the shutter, 0..1.
 };
 
 struct Hit {
@@ -27,6 +30,7 @@ struct Hit {
   vec3 normal{0};               ///< Of the coarse surface, RISpec side, interpolated, unit length.
   vec3 geometricNormal{0};      ///< Of the coarse polygon, RISpec side, unit length.
   bool adjusted = false;        ///< The origin was moved to a recorded hit.
+  vec3 atOpen{0};               ///< Where the point that was met is when the shutter opens; normals are those of that time too.
 };
 
 /// Which rays see an object; bits of Attributes::visibility.
@@ -46,6 +50,11 @@ class RayScene {
   /// (0: a point of the true surface): trace:offset and trace:bias, or by default more than the largest distance between the
   /// coarse surface, the true one (displacement bound included) and the micropolygon.
   void prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ray) const;
+
+  /// Do rays from points of this group meet anything that moves?
+  bool samplesTime(int group) const;
+  /// Where a point of this group is at a time of the shutter, of which place at shutter open and drift (kDriftX) are known.
+  vec3 placeAt(int group, const vec3& atOpen, const vec3& drift, float time) const;
 
   /// Radiance at hits towards the ray origins. All hits of one call are shaded together, a batch for each shade group.
   /// `names` name the hits for random numbers. radiance: count entries; misses get 0.

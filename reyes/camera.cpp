@@ -17,7 +17,8 @@ Camera::Camera(const Options& o)
   offset_ = {-w[0] * x / (w[1] - w[0]), w[3] * y / (w[3] - w[2])};
   pixelSizeAtUnit_ = 1.0f / std::sqrt(std::abs(scale_.x * scale_.y));
   if (perspective_ && o.fStop < kInfinity) {
-    lens_ = scale_ * (0.5f * o.focalLength / o.fStop);
+    const float stretch = std::sqrt(o.dofAspect);
+    lens_ = scale_ * (0.5f * o.focalLength / o.fStop) * vec2(stretch, 1 / stretch);
     focusKey_ = depthKey(o.focalDistance);
   }
 
@@ -49,7 +50,7 @@ bool Camera::clips(const vec3& p) const {
 
 bool Camera::clips(const vec2& at, const vec2& lens, float key) const {
   const float z = zFromDepthKey(key);
-  const vec2 p = (at - lens * defocus(key) - offset_) / scale_;
+  const vec2 p = (at - lens * (key - focusKey_) - offset_) / scale_;
   return clips(vec3(perspective_ ? p * z : p, z));
 }
 

@@ -25,7 +25,8 @@ class Camera {
   }
   /// Near and far clipping and clipping planes: is a point cut off? Not tested against the window.
   bool clips(const vec3& p) const;
-  /// The same for what a sample at raster position `at` meets at a depth key, through point `lens` of the lens.
+  /// The same for what a sample at raster position `at` meets at a depth key, through the point of the lens that shifts by `lens`
+  /// what has a key of focusKey() + 1.
   bool clips(const vec2& at, const vec2& lens, float key) const;
   /// Nothing nearer can be projected: half as far as the near clipping plane, so that what this one cuts can be diced.
   float eyePlane() const { return 0.5f * near_; }

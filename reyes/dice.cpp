@@ -5,13 +5,20 @@
 namespace tomales {
 namespace {
 
-/// Object-space results of Prim::evaluate for n points; a single point (a ray hit) stays off the heap.
+/// Object-space results of Prim::evaluate for n points; memory is kept by the thread.
 class Evaluated {
  public:
   explicit Evaluated(int n) : stride_(n == 1 ? 1 : static_cast<size_t>(padded(n))) {
-    if (n > 1) many_.resize(stride_ * 12);
+    if (n > 1) {
+      many_.swap(spare());
+      many_.resize(std::max(many_.size(), stride_ * 12));
+    }
     data_ = n > 1 ? many_.data() : one_;
   }
+  ~Evaluated() {
+    if (many_.size() > spare().size()) many_.swap(spare());
+  }
+  Evaluated(const Evaluated&) = delete;
   SurfacePoints view() {
     const auto a = [this](size_t i) { return data_ + i * stride_; };
     return {a(0), a(1), a(2), a(3), a(4), a(5), a(6), a(7), a(8), a(9), a(10), a(11)};
@@ -25,6 +32,12 @@ class Evaluated {
   }
 
  private:
+  /// Memory that a thread keeps from grid to grid.
+  static AlignedVector<float>& spare() {
+    static thread_local AlignedVector<float> memory;
+    return memory;
+  }
+
   size_t stride_;
   float one_[12] = {};
   AlignedVector<float> many_;
@@ -101,19 +114,27 @@ int offsetOf(const std::vector<Primvar>& primvars, std::string_view name) {
 
 Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, int keys) {
   const Object& o = scene.objects[static_cast<size_t>(object)];
+  const std::vector<float> times(o.keyTimes.begin(), o.keyTimes.begin() + keys);
+  return dice(scene, object, patch, rect, nu, nv, {times, o.cameraFromObject});
+}
+
+Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, const DiceKeys& keys) {
+  const Object& o = scene.objects[static_cast<size_t>(object)];
+  const int keyCount = static_cast<int>(keys.times.size());
   const Prim& prim = o.shape();
   int floats = 0;
   for (const Primvar& p : prim.primvars()) floats += p.width;
 
   Grid g;
   g.object = object, g.patch = patch, g.rect = rect;
-  g.allocate(nu, nv, keys, floats);
+  g.allocate(nu, nv, keyCount, floats);
   g.openEdges = openEdgesOf(prim.info(patch), rect);
   g.name = nameOf(object, patch, rect, nu, nv);
   g.kept = keptOfCells(prim, g);
 
   const int n = g.vertexCount();
-  AlignedVector<float> u(static_cast<size_t>(g.stride())), v(u.size());
+  static thread_local AlignedVector<float> u, v;
+  u.resize(static_cast<size_t>(g.stride())), v.resize(u.size());
   // The last vertex is the rectangle's own number, so that neighbours evaluate the same one.
   const auto at = [](float a, float b, int i, int count) {
     return i == count ? b : a + (b - a) * (static_cast<float>(i) / static_cast<float>(count));
@@ -125,9 +146,10 @@ Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, in
     }
 
   Evaluated e(n);
-  for (int key = 0; key < keys; ++key) {
-    const float time = o.keyTimes[static_cast<size_t>(key)];
-    const mat4 m = o.cameraFromObject.at(time);
+  for (int key = 0; key < keyCount; ++key) {
+    const float time = keys.times[static_cast<size_t>(key)];
+    const mat4 m = keys.currentFromObject.at(time);
+    if (keyCount > 1) g.turns.push_back(mat3(m) * glm::inverse(mat3(keys.currentFromObject.at(keys.times.front()))));
     evaluateAt(o, time, patch, n, u.data(), v.data(), e);
     for (int i = 0; i < n; ++i) {
       const vec3 p = transformPoint(m, e.get(0, i));

@@ -11,7 +11,14 @@
 
 namespace tomales {
 
-/// keys: how many of the object's keyTimes to evaluate (all, or 1 for ray tracing at shutter open).
+/// When and where vertices are evaluated: a motion key for each time.
+struct DiceKeys {
+  const std::vector<float>& times;
+  const Motion& currentFromObject;
+};
+
+Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, const DiceKeys& at);
+/// keys: how many of the object's keyTimes to evaluate, as the camera sees them (all, or 1 for shutter open).
 Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, int keys);
 
 /// Fills one shading point at patch position (u, v): a ray hit. P and normals are evaluated on the true surface;

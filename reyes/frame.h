@@ -3,6 +3,7 @@
 //   shadeFrame   DeepFrame -> DeepFrame surface and light shaders over visible points
 //   imageOf      DeepFrame -> Image     filter
 //   runImager    Image -> Image         imager shader; after exposure (RISpec imaging pipeline)
+//   writeFrame   DeepFrame -> files     the last three and every Display, a band of rows at a time
 #pragma once
 #include <atomic>
 #include <functional>
@@ -27,5 +28,7 @@ void shadeFrame(DeepFrame& frame, const Scene& scene, const ShadingSystem& shadi
                 const FrameControl& control, Stats& stats);
 Image imageOf(const DeepFrame& frame, const Scene& scene, const FrameControl& control, Stats& stats);
 void runImager(Image& image, const ShadingSystem& shading);
+/// What cannot be written is reported; the other Displays are written all the same.
+void writeFrame(const DeepFrame& frame, const Scene& scene, const ShadingSystem& shading, const FrameControl& control, Log& log);
 
 }  // namespace tomales

@@ -16,6 +16,7 @@ struct Grid {
   uint8_t openEdges = 0;    ///< PatchEdge bits: edges of the grid that end the surface; the rest join a neighbour.
   bool displaced = false;
   std::vector<Kept> kept;   ///< What trim curves leave of each cell and its surroundings; empty: everything.
+  std::vector<mat3> turns;  ///< Linear part of the motion from key 0 to each key.
   uint32_t name = 0;        ///< Stable name of the grid for random numbers.
 
   int vertexCount() const { return (nu + 1) * (nv + 1); }

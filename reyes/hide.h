@@ -14,14 +14,14 @@ namespace tomales {
 /// Positions of the samples of every pixel: one of 256 precomputed stratified patterns, chosen by a hash of the pixel.
 class SamplePattern {
  public:
-  SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t seed);
+  SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t seed, const Aperture& aperture = {});
   int count() const { return count_; }
   int padded() const { return padded_; }
   int patternOf(int x, int y) const;              ///< 0..255
   const float* x(int pattern) const;              ///< In [0,1) inside the pixel; padded() floats.
   const float* y(int pattern) const;
   const float* time(int pattern) const;           ///< In [0,1) of the shutter.
-  const float* lensX(int pattern) const;          ///< In the unit disk, uniform by area.
+  const float* lensX(int pattern) const;          ///< In the unit disk, over the aperture.
   const float* lensY(int pattern) const;
   const float* detail(int pattern) const;         ///< In [0,1): what DetailShare divides; those of a pixel are stratified.
 
@@ -30,6 +30,8 @@ class SamplePattern {
   uint32_t seed_;
   AlignedVector<float> x_, y_, time_, lensX_, lensY_, detail_;
 };
+
+struct BlurBounds;
 
 /// Vertices of a grid in raster space, made once a grid by `project` and shared by the buckets.
 struct RasterGrid {
@@ -42,6 +44,7 @@ struct RasterGrid {
   bool inSolid = false;         ///< Its hits are crossings for reyes/hide/solids.cpp, and hide nothing before.
   bool smooth = false;          ///< ShadingInterpolation
   bool defocused = false;       ///< Some vertex moves visibly with the point of the lens.
+  std::shared_ptr<const BlurBounds> blur;  ///< Null if still and in focus.
   AlignedVector<float> x, y, d; ///< Raster x, y and depth key (Camera::depthKey): keyCount * stride each, then a tail to read blocks
                                 ///< across the end; borders pushed out.
   float dMin = 0;

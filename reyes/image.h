@@ -3,6 +3,7 @@
 #include <functional>
 #include "reyes/base/stats.h"
 #include "reyes/deep.h"
+#include "reyes/output.h"
 
 namespace tomales {
 
@@ -39,17 +40,48 @@ struct SampleOffsets {
   std::function<int(int x, int y)> patternOf;
 };
 
-/// Filters every pixel of the crop window. Channels R G B A Z; colour premultiplied, linear, before exposure.
-/// Z is the nearest camera-space depth, infinite where nothing was hit. The sum runs in a fixed order (rows, columns,
-/// fragments), so that buckets and threads leave no trace.
+/// Filters the crop window of a shaded frame, some rows at a time. Floats of a pixel are those of outputOf(options): R G B A Z
+/// first; colour premultiplied, linear, before exposure; Z by Options::depthFilter, infinite where nothing opaque was hit.
+/// The sums run in a fixed order (rows, columns, fragments), so that buckets, bands and threads leave no trace.
+/// All arguments must outlive it.
+class FrameFilter {
+ public:
+  FrameFilter(const DeepFrame& frame, const Options& options, const SampleOffsets& samples);
+  ~FrameFilter();
+  Image shape() const;                  ///< Of the whole: no pixels.
+  Image rows(int y0, int y1) const;     ///< Raster rows [y0, y1) of the crop window.
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 Image filterFrame(const DeepFrame& frame, const Options& options, const SampleOffsets& samples);
+
+/// Whole pixels beyond the crop window that some channel's filter touches.
+vec2 filterReach(const Options& options);
+/// Reports displays, channels and filters that are not understood. False: some filter is unknown.
+bool checkDisplays(const Options& options, Log& log);
 
 /// Applies exposure to colour and alpha-independent gamma, per Options.
 void expose(Image& image, const Options& options);
 
-/// Writes one Display: picks channels by `display.mode`, type by `display.type` or the name's extension (.exr .tif .png),
-/// quantises (8-bit types: sRGB only where the Display's "string transfer" says so), to a temporary name, then renames.
-/// False: could not be written; reported to the log.
+/// The file of one Display: picks its floats, encodes, quantises and writes band after band to a temporary name; the last
+/// step renames. Type by `display.type` or the name's extension (.exr .tif .png); 8-bit types are sRGB only where the
+/// Display's "string transfer" says so. Failures are reported to the log, once.
+class DisplayFile {
+ public:
+  /// `shape`: a picture without pixels. `output`: outputOf(options); `index`: of the Display.
+  DisplayFile(const Image& shape, const FrameOutput& output, size_t index, const Options& options, Log& log);
+  ~DisplayFile();
+  /// The next rows from the top, 64 or a multiple, but for the last. False: it cannot be written.
+  bool write(const Image& rows);
+  bool close();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+/// A whole picture at once.
 bool writeDisplay(const Image& image, const DisplayCall& display, const Options& options, Log& log);
 bool writeImage(const std::string& path, const Image& image, bool srgb, Log& log);
 std::optional<Image> readImage(const std::string& path, std::string& error);

@@ -18,6 +18,8 @@ enum PointChannel : int {
   kDpduX, kDpduY, kDpduZ, kDpdvX, kDpdvY, kDpdvZ,  ///< by the shader's u and v
   kU, kV, kS, kT, kDu, kDv,
   kArea,                   ///< of the micropolygon, or of the ray's footprint
+  kTime,                   ///< the part of the shutter, 0..1, at which it is seen, itself at its place at shutter open; negative: all of it
+  kDriftX, kDriftY, kDriftZ,  ///< how far deformation takes it over the shutter (ShadeGroup::currentFromOpen does the rest)
   kFixedChannels
 };
 
@@ -80,6 +82,7 @@ class ShadePoints {
 /// Colour and opacity of a batch of shaded points, Ci premultiplied. Arrays are padded as ShadePoints' are.
 struct ShadedPoints {
   AlignedVector<float> Ci[3], Oi[3];
+  std::vector<AlignedVector<float>> variables;  ///< As FrameOutput::variables; empty where nobody stores them.
   void resize(int count);
   vec3 color(int i) const { return {Ci[0][static_cast<size_t>(i)], Ci[1][static_cast<size_t>(i)], Ci[2][static_cast<size_t>(i)]}; }
   vec3 opacity(int i) const { return {Oi[0][static_cast<size_t>(i)], Oi[1][static_cast<size_t>(i)], Oi[2][static_cast<size_t>(i)]}; }

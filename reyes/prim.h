@@ -156,6 +156,11 @@ PrimPtr makePoints(const ParamList&, Problems&);
 PrimPtr makeCurves(bool cubic, const Basis& basis, const std::vector<int>& vertexCounts, bool periodic, const ParamList&,
                    Problems&);
 
+/// The surface where a field that leaves and operations on them make is 27/64. `code` and `floats` as RIB gives them
+/// (reyes/prim/blobby_code.h); varying and vertex primvars have a value for each leaf and blend.
+PrimPtr makeBlobby(int leafCount, const std::vector<int>& code, const std::vector<float>& floats, const ParamList&,
+                   Problems&);
+
 /// Schemes "catmull-clark", "loop" (triangles only) and "bilinear" by OpenSubdiv's limit surface. Tags as
 /// HierarchicalSubdivisionMesh gives them: per tag a name and {number of ints, number of floats, number of strings}.
 struct SubdivisionTags {

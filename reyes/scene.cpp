@@ -14,7 +14,8 @@ bool sameLayout(const std::vector<Primvar>& a, const std::vector<Primvar>& b) {
 // Key times inside the shutter, its opening first. Still, or a closed shutter: that one time.
 std::vector<float> keyTimesOf(const Object& o, const Motion& cameraFromObject, const Options& options) {
   std::vector<float> times{options.shutterOpen};
-  if (options.shutterClose > options.shutterOpen && (cameraFromObject.moving() || o.shapes.size() > 1)) {
+  const bool open = options.sampleMotion && options.shutterClose > options.shutterOpen;
+  if (open && (cameraFromObject.moving() || o.shapes.size() > 1)) {
     const auto keep = [&](float t) {
       if (t > options.shutterOpen && t < options.shutterClose) times.push_back(t);
     };
@@ -29,6 +30,13 @@ std::vector<float> keyTimesOf(const Object& o, const Motion& cameraFromObject, c
 
 float largestScale(const mat4& m) {
   return std::max({glm::length(vec3(m[0])), glm::length(vec3(m[1])), glm::length(vec3(m[2]))});
+}
+
+// Motion in the frame of the camera at shutter open, where `m` is the place of the object. Not the camera's own motion at that
+// time, which may lie between two keys: what stands still must not be a rounding away from where the camera sees it.
+Motion heldCamera(const Motion& worldFromObject, float open, const mat4& m) {
+  if (!worldFromObject.moving()) return Motion::still(m);
+  return Motion::still(m * glm::inverse(worldFromObject.at(open))) * worldFromObject;
 }
 
 // Points and curves turn to the eye as it stands when the shutter opens.
@@ -66,6 +74,7 @@ void Scene::freeze() {
     o.cameraFromObject = cameraFromWorld * o.worldFromObject;
     o.keyTimes = keyTimesOf(o, o.cameraFromObject, options);
     const mat4 m = o.cameraFromObject.at(options.shutterOpen);
+    o.currentFromObject = heldCamera(o.worldFromObject, options.shutterOpen, m);
     turnToEye(o, m, options.projection == ProjectionKind::Perspective);
     o.flipsNormal = (glm::determinant(mat3(m)) < 0) != o.attributes->insideOut;
     mat4 cameraFromBoundSpace = m;
@@ -78,14 +87,17 @@ void Scene::freeze() {
     const auto [begin, end] = byAttributes.equal_range(o.attributes.get());
     for (auto it = begin; it != end && o.group < 0; ++it) {
       const ShadeGroup& g = groups[static_cast<size_t>(it->second)];
-      if (g.solid == (o.solid >= 0) && g.subtracted == o.subtracted && g.cameraFromObject == m &&
+      const Object& example = objects[static_cast<size_t>(g.exampleObject)];
+      if (g.solid == (o.solid >= 0) && g.subtracted == o.subtracted && example.currentFromObject == o.currentFromObject &&
           sameLayout(g.primvars, o.shape().primvars()))
         o.group = it->second;
     }
     if (o.group < 0) {
       o.group = static_cast<int>(groups.size());
       byAttributes.emplace(o.attributes.get(), o.group);
-      ShadeGroup g{o.attributes, m, {}, static_cast<int>(i), o.solid >= 0, o.subtracted};
+      ShadeGroup g{o.attributes, m, {}, static_cast<int>(i)};
+      g.solid = o.solid >= 0, g.subtracted = o.subtracted;
+      if (o.currentFromObject.moving()) g.currentFromOpen = o.currentFromObject * Motion::still(glm::inverse(m));
       for (const Primvar& p : o.shape().primvars()) g.primvars.push_back({p.name, p.storage, p.type, p.width, {}});
       groups.push_back(std::move(g));
     }

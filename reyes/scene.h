@@ -22,6 +22,7 @@ struct Object {
 
   // Filled by Scene::freeze().
   Motion cameraFromObject;       ///< Over the shutter; one key when nothing moves.
+  Motion currentFromObject;      ///< The same with the camera held where it is at shutter open: the motion that rays see.
   std::vector<float> keyTimes;   ///< Union of transformation and deformation keys inside the shutter; front() is its opening.
   float displacementBound = 0;   ///< Camera space.
   bool flipsNormal = false;      ///< cameraFromObject mirrors, or Orientation is inside (not both).
@@ -31,13 +32,14 @@ struct Object {
   const Prim& shape() const { return *shapes.front(); }
 };
 
-/// Objects whose points may be shaded together: the same attributes, transformation and primvar names, and alike in or
+/// Objects whose points may be shaded together: the same attributes, transformation, motion and primvar names, and alike in or
 /// outside of solids.
 struct ShadeGroup {
   std::shared_ptr<const Attributes> attributes;
   mat4 cameraFromObject{1.0f};
   std::vector<Primvar> primvars;  ///< Layout only: name, storage, type, width; no values.
   int exampleObject = -1;         ///< Some object of the group, for messages.
+  Motion currentFromOpen{};       ///< Takes places of the group at shutter open to where they are at a time, the camera held still.
   bool solid = false;             ///< Parts of solids.
   bool subtracted = false;        ///< As Object::subtracted.
 };
@@ -55,6 +57,7 @@ struct Scene {
   /// Fills the derived fields above. Call when all objects and lights are in, and again after changing attributes.
   void freeze();
 
+  bool shutterIsOpen() const { return options.shutterClose > options.shutterOpen; }  ///< Else nothing is blurred.
   mat4 cameraFromWorldAtOpen() const { return cameraFromWorld.at(options.shutterOpen); }
   /// "current" from a named space (camera, current, world, or a CoordinateSystem). False: unknown.
   bool cameraFromNamed(const std::string& name, mat4& out) const;

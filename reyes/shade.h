@@ -23,6 +23,7 @@ struct ShadeContext {
   uint32_t seed = 0;
   int lightSamples = 0;        ///< Samples of each area light and of the sky; 0: as many as the light asks for.
   bool indirect = true;        ///< Run indirect lights.
+  bool variables = false;      ///< Store what outputOf(options) lists.
 };
 
 /// Parameters of an indirect light (docs/gi.md), bound from the calling `indirectlight`.
@@ -39,13 +40,20 @@ struct IndirectResult {
   TmVec3 dominant[3];  ///< Unit; for red, green, blue. Null pointers: not wanted.
 };
 
+/// Which shadow rays of a light: sample `sample` of `samples`, towards a point or (solar) to infinity.
+struct ShadowRays {
+  bool solar = false;
+  int sample = 0, samples = 1;
+};
+
 /// The seam to ray tracing and GI (implemented in gi/services, injected by reyes/app). Batched; obeys `active`.
 class ShadeServices {
  public:
   virtual ~ShadeServices() = default;
 
-  /// Multiplies `light` by the fraction that arrives at each point from P + toward (solar: from infinity along it).
-  virtual void transmission(const ShadePoints& points, const uint8_t* active, TmConstVec3 toward, bool solar,
+  /// Multiplies `light` by the fraction that arrives at each point from P + toward (solar: from infinity along it). Where things
+  /// move, it is the mean over the times at which the points are seen.
+  virtual void transmission(const ShadePoints& points, const uint8_t* active, TmConstVec3 toward, const ShadowRays& rays,
                             const ShadeContext& context, TmVec3 light) const = 0;
 
   /// A point on area light `light` for each xi in [0,1)^2, uniform in area after weighting: position, unit normal (RISpec side) and

@@ -97,7 +97,7 @@ inline float noise(Vec3 p) { return 0.5f + 0.5f * signedNoise(p); }
 /// same file.
 class Param {
  public:
-  Param(const char* name, TmType type, std::vector<float> floats, const char* string, const char* doc)
+  Param(const char* name, int32_t type, std::vector<float> floats, const char* string, const char* doc)
       : floats_(std::move(floats)), string_(string), decl_{name, type, 1, floats_.data(), &string_, doc} {}
   Param(const Param&) = delete;
 
@@ -141,6 +141,24 @@ class StringParam : public Param {
       : Param(name, TM_STRING, {}, value, doc) {}
   const char* operator()(const TmGrid* g) const { return value(g).string; }
 };
+
+/// An output parameter: stored, and so worth computing, only where a Display asks for its name.
+template <int32_t type, class T>
+class Output : public Param {
+ public:
+  Output(const char* name, const char* doc) : Param(name, type | TM_OUTPUT, {0, 0, 0}, "", doc) {}
+  bool wanted(const TmGrid* g) const { return value(g).step == 1; }
+  /// Pre: wanted.
+  void set(const TmGrid* g, int i, const T& v) const {
+    const float* from = reinterpret_cast<const float*>(&v);
+    for (size_t k = 0; k < sizeof(T) / sizeof(float); ++k) const_cast<float*>(value(g).c[k])[i] = from[k];
+  }
+};
+using FloatOutput = Output<TM_FLOAT, float>;
+using ColorOutput = Output<TM_COLOR, Color>;
+using PointOutput = Output<TM_POINT, Vec3>;
+using VectorOutput = Output<TM_VECTOR, Vec3>;
+using NormalOutput = Output<TM_NORMAL, Vec3>;
 
 /// A shader as the renderer sees it.
 class Shader {
@@ -255,6 +273,10 @@ class Batch {
   }
   Vec3Array diffuse(TmConstVec3 N) const {
     return filled([&](TmVec3 out) { g->call->diffuse(g->host, g, N, out); });
+  }
+  /// The part of diffuse(N) that TM_DIRECT_LIGHT or TM_INDIRECT_LIGHT brings; lights are evaluated once for all.
+  Vec3Array diffuseOf(TmLightChoice which, TmConstVec3 N) const {
+    return filled([&](TmVec3 out) { g->call->diffuseOf(g->host, g, which, N, out); });
   }
   Vec3Array specular(TmConstVec3 N, TmConstVec3 V, const FloatParam& roughness) const {
     Array r(g);

@@ -25,6 +25,11 @@ typedef struct TmConstVec3 { const float *x, *y, *z; } TmConstVec3;  /* the same
 typedef enum TmKind { TM_SURFACE = 0, TM_DISPLACEMENT = 1, TM_LIGHT = 2, TM_VOLUME = 3, TM_IMAGER = 4 } TmKind;
 typedef enum TmType { TM_FLOAT = 0, TM_COLOR, TM_POINT, TM_VECTOR, TM_NORMAL, TM_STRING, TM_MATRIX } TmType;
 
+/* Added to the type of a TmParamDecl: an output parameter, of float, color, point, vector or normal. Where a Display wants
+ * the variable of this name, TmValue::step is 1 and c[k] may be written for active points (cast const away; a colour
+ * premultiplied by opacity, as Ci is); elsewhere step is 0 and nothing may be written. */
+#define TM_OUTPUT 0x100
+
 /* What a shader declares about itself, so that the core shades no more than needed. */
 typedef enum TmCapability {
   TM_KEEPS_OPACITY = 1 << 0,  /* surface: Oi = Os always, so an object with Os = 1 hides what is behind it */
@@ -41,7 +46,7 @@ typedef enum TmCapability {
 /* One declared parameter. Points, vectors, normals and matrices are given in shader space and arrive in current. */
 typedef struct TmParamDecl {
   const char* name;
-  int32_t type;                /* TmType */
+  int32_t type;                /* TmType, and TM_OUTPUT */
   int32_t arrayLength;         /* 1 for a single value */
   const float* floats;         /* the default, arrayLength values; NULL is all zero */
   const char* const* strings;  /* the default of a string parameter */
@@ -97,6 +102,7 @@ typedef struct TmLightSample {
   int32_t isIndirect, nondiffuse, nonspecular;
 } TmLightSample;
 
+typedef enum TmLightChoice { TM_DIRECT_LIGHT = 1, TM_INDIRECT_LIGHT = 2 } TmLightChoice;
 typedef enum TmTransformKind { TM_AS_POINT = 0, TM_AS_VECTOR = 1, TM_AS_NORMAL = 2 } TmTransformKind;
 
 /* What a shader may ask of the renderer. Every call works on the whole batch and obeys `active`. */
@@ -141,6 +147,9 @@ typedef struct TmServices {
    * MakeLatLongEnvironment). width: angle to filter over, radians; NULL: a point. Returns as texture(). */
   int32_t (*environment)(void* host, const TmGrid*, const char* name, TmConstVec3 direction, const float* width,
                          TmVec3 out);
+
+  /* diffuse() of some lights: which is TM_DIRECT_LIGHT, TM_INDIRECT_LIGHT or their sum. */
+  void (*diffuseOf)(void* host, const TmGrid*, int32_t which, TmConstVec3 N, TmVec3 out);
 } TmServices;
 
 typedef struct TmShader {

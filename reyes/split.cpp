@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
 #include "reyes/base/parallel.h"
 
 namespace tomales {
 namespace {
 
-constexpr int kProbes = 4;        ///< Measuring lattice: kProbes x kProbes chords.
 constexpr int kMaxDepth = 48;     ///< Halvings of one patch; beyond, the piece is smaller than a float can name.
 constexpr int kMaxEyeSplits = 32; ///< Halvings of a piece that crosses the eye plane in view.
 constexpr float kRasterMargin_px = 1.0f;  ///< The hider may push borders out by half a pixel.
@@ -56,8 +57,12 @@ std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
   return {a, b};
 }
 
-int cells(float length_px, float edge_px) {
-  const float n = std::ceil(length_px / edge_px);
+/// Cells along `length_px`: fewer where blur lets edges grow by `coarsening`, but then never so few that a patch that closes on
+/// itself collapses.
+int cells(float length_px, float edge_px, float coarsening) {
+  constexpr float kLeastOfCoarse = 4;
+  const float fine = std::ceil(length_px / edge_px), coarse = std::ceil(length_px / (edge_px * coarsening));
+  const float n = std::max(coarse, std::min(fine, kLeastOfCoarse));
   return n >= 1.0f ? static_cast<int>(std::min(n, 65536.0f)) : 1;
 }
 
@@ -104,8 +109,8 @@ class Splitter {
       raster = {{window_.x0, window_.y0}, {window_.x1, window_.y1}};
     }
     const PatchSize size = measure(object_, camera_, patch, rect);
-    const float edge_px = edge_px_ * coarsening(patch, rect, bound);
-    const int nu = cells(size.u_px, edge_px), nv = cells(size.v_px, edge_px);
+    const float blur = coarsening(patch, rect, bound);
+    const int nu = cells(size.u_px, edge_px_, blur), nv = cells(size.v_px, edge_px_, blur);
     if (static_cast<int64_t>(nu) * nv > gridSize_) {
       if (depth == kMaxDepth)
         ++givenUp_.tooMany;
@@ -170,7 +175,11 @@ void report(const Splitter::GivenUp& givenUp, const Object& o, Stats& stats, Log
 
 }  // namespace
 
-PatchSize measure(const Object& o, const Camera& camera, uint32_t patch, const UvRect& r) {
+namespace {
+
+/// Longest lines along u and v of the lattice of kProbes x kProbes chords.
+template <int kProbes>
+PatchSize measureLattice(const Object& o, const Camera& camera, uint32_t patch, const UvRect& r) {
   constexpr int kRow = kProbes + 1, kCount = kRow * kRow;
   float u[kCount], v[kCount], data[12][kCount];
   for (int j = 0, k = 0; j < kRow; ++j)
@@ -207,6 +216,13 @@ PatchSize measure(const Object& o, const Camera& camera, uint32_t patch, const U
   return size;
 }
 
+}  // namespace
+
+PatchSize measure(const Object& o, const Camera& camera, uint32_t patch, const UvRect& r) {
+  // The lines of a flat patch are straight, and the longest is one of its edges.
+  return o.shape().info(patch).planar ? measureLattice<1>(o, camera, patch, r) : measureLattice<4>(o, camera, patch, r);
+}
+
 std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
                                   float margin, const Camera& camera, const PixelRect& window, bool clipped) {
   Bound3 bound;
@@ -222,25 +238,55 @@ std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObj
   return out;
 }
 
-std::vector<SubPatch> splitPatches(const Scene& scene, int object, uint32_t first, uint32_t last, const Camera& camera,
+std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<const uint32_t> patches, const Camera& camera,
                                    const PixelRect& window, Stats& stats, Log& log) {
   std::vector<SubPatch> pieces;
   Splitter splitter(scene, object, camera, window, stats);
-  for (uint32_t p = first; p < last; ++p) splitter.splitPatch(p, pieces);
+  for (const uint32_t p : patches) splitter.splitPatch(p, pieces);
   report(splitter.givenUp(), scene.objects[static_cast<size_t>(object)], stats, log);
   stats.geometry.subpatches += static_cast<int64_t>(pieces.size());
   return pieces;
 }
 
-PatchTree::PatchTree(const std::vector<PrimPtr>& shapes) : patchCount_(shapes.front()->patchCount()) {
-  std::vector<Bound3> boxes((patchCount_ + kLeaf - 1) / kLeaf);
-  parallelFor(boxes.size(), 1, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) {
-      const auto first = static_cast<uint32_t>(i) * kLeaf;
-      for (uint32_t p = first; p < std::min(first + kLeaf, patchCount_); ++p)
-        for (const PrimPtr& shape : shapes) boxes[i].extend(shape->bound(p, UvRect{}));
-    }
+namespace {
+
+/// Bits of x, two apart.
+uint32_t spread(uint32_t x) {
+  x = (x | (x << 16)) & 0x030000ffU;
+  x = (x | (x << 8)) & 0x0300f00fU;
+  x = (x | (x << 4)) & 0x030c30c3U;
+  return (x | (x << 2)) & 0x09249249U;
+}
+
+/// Place on Morton's curve of a point of a box, 10 bits an axis.
+uint32_t placeOnCurve(const vec3& p, const Bound3& box) {
+  const auto axis = [&](int k) {
+    const float size = box.hi[k] - box.lo[k], at = size > 0 ? (p[k] - box.lo[k]) / size : 0;
+    return static_cast<uint32_t>(at >= 0 ? std::min(at * 1024, 1023.0f) : 0.0f);  // NaN: 0
+  };
+  return spread(axis(0)) | spread(axis(1)) << 1 | spread(axis(2)) << 2;
+}
+
+}  // namespace
+
+PatchTree::PatchTree(const std::vector<PrimPtr>& shapes) : order_(shapes.front()->patchCount()) {
+  std::vector<Bound3> ofPatch(order_.size());
+  parallelFor(ofPatch.size(), kLeaf, [&](size_t begin, size_t end) {
+    for (size_t p = begin; p < end; ++p)
+      for (const PrimPtr& shape : shapes) ofPatch[p].extend(shape->bound(static_cast<uint32_t>(p), UvRect{}));
   });
+  std::iota(order_.begin(), order_.end(), 0U);
+  if (order_.size() > kLeaf) {
+    Bound3 all;
+    for (const Bound3& b : ofPatch)
+      if (isFinite(b.lo) && isFinite(b.hi)) all.extend(b);
+    std::vector<std::pair<uint32_t, uint32_t>> places(order_.size());
+    for (uint32_t p = 0; p < places.size(); ++p) places[p] = {placeOnCurve(ofPatch[p].center(), all), p};
+    std::sort(places.begin(), places.end());
+    for (size_t k = 0; k < places.size(); ++k) order_[k] = places[k].second;
+  }
+  std::vector<Bound3> boxes((order_.size() + kLeaf - 1) / kLeaf);
+  for (size_t k = 0; k < order_.size(); ++k) boxes[k / kLeaf].extend(ofPatch[order_[k]]);
   levels_.push_back(std::move(boxes));
   while (levels_.back().size() > 1) {
     const std::vector<Bound3>& below = levels_.back();

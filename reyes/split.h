@@ -4,6 +4,7 @@
 // Threads: pure but for the counters and the log.
 #pragma once
 #include <optional>
+#include <span>
 
 #include "reyes/base/stats.h"
 #include "reyes/scene.h"
@@ -31,13 +32,14 @@ struct Placement {
 std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
                                   float margin, const Camera& camera, const PixelRect& window, bool clipped = true);
 
-/// Splits patches first .. last-1 of an object; what lies wholly outside the window is culled. Order: by patch, then by
-/// place.
-std::vector<SubPatch> splitPatches(const Scene& scene, int object, uint32_t first, uint32_t last, const Camera& camera,
+/// Splits some patches of an object; what lies wholly outside the window is culled. Order: as given,
+/// then by place.
+std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<const uint32_t> patches, const Camera& camera,
                                    const PixelRect& window, Stats& stats, Log& log);
 
-/// Boxes in object space of all that an object's shapes are over time, by runs of patches: level 0 has a box for each run of
-/// kLeaf patches, a level above one for kFan boxes below, the last a single one. Instances share it.
+/// Boxes in object space of all that an object's shapes are over time. Patches are put in order along a curve that fills
+/// space, so that a run of them is compact, however a model scatters them: level 0 has a box for each run of kLeaf patches, a
+/// level above one for kFan boxes below, the last a single one. Instances share it.
 class PatchTree {
  public:
   static constexpr uint32_t kLeaf = 64, kFan = 16;
@@ -46,10 +48,14 @@ class PatchTree {
   uint32_t top() const { return static_cast<uint32_t>(levels_.size()) - 1; }
   uint32_t count(uint32_t level) const { return static_cast<uint32_t>(levels_[level].size()); }
   const Bound3& box(uint32_t level, uint32_t index) const { return levels_[level][index]; }
-  uint32_t patchCount() const { return patchCount_; }
+  /// The patches in a box of level 0.
+  std::span<const uint32_t> patches(uint32_t index) const {
+    const size_t first = size_t{index} * kLeaf;
+    return std::span(order_).subspan(first, std::min<size_t>(kLeaf, order_.size() - first));
+  }
 
  private:
-  uint32_t patchCount_;
+  std::vector<uint32_t> order_;
   std::vector<std::vector<Bound3>> levels_;
 };
 

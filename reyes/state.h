@@ -56,14 +56,33 @@ struct LightCall {
 };
 
 struct DisplayCall {
-  std::string name = "ri.pic", type = "file", mode = "rgba";  ///< mode: "rgb", "rgba", "rgbaz", "z", ...
+  std::string name = "ri.pic", type = "file", mode = "rgba";  ///< mode: "rgb", "rgbaz", "z", or names: "Ci,a,z,diffuse"
   ParamList params;
   SourceLoc where;
 };
 
+/// DisplayChannel: a variable that Displays may name.
+struct ChannelCall {
+  std::string name;
+  ValueType type = ValueType::Color;
+  ParamList params;
+  SourceLoc where;
+};
+
+/// Depth of a pixel, of the samples that see something opaque: the least, the greatest, the mean; or the least of the
+/// means of each sample's two nearest surfaces (Woo 1992), the far clipping plane standing in for a second.
+enum class DepthFilter { Min, Max, Average, Midpoint };
+
 enum class ProjectionKind { Orthographic, Perspective, Null };
 
-struct Quantize { float one = 255, min = 0, max = 255, dither = 0.5f; };
+/// Hider "aperture": a regular polygon inscribed in the lens. Fewer than three sides: a disk.
+struct Aperture {
+  float sides = 0, angle_degrees = 0;  ///< Counterclockwise in the picture; at 0 a corner points right.
+  float roundness = 0;                 ///< 1: its sides are arcs of the lens's rim; -1: bent inwards as much.
+  float density = 0;                   ///< 1: dark in the middle, -1: dark at the rim, linearly in between.
+};
+
+struct Quantize { float one = 255, min = 0, max = 255, dither = 0.5f, zero = 0; };
 
 struct Options {
   int xResolution = 640, yResolution = 480;
@@ -75,7 +94,11 @@ struct Options {
   float fov_degrees = 90;
   float nearClip = 1e-6f, farClip = 1e30f;                 ///< RI_EPSILON, RI_INFINITY
   float shutterOpen = 0, shutterClose = 0;
+  float shutterOffset = 0;                                 ///< Added to the times of motion blocks as they are read.
+  bool sampleMotion = true;                                ///< Hider "samplemotion": the camera sees things move.
   float fStop = kInfinity, focalLength = 1, focalDistance = 1;
+  Aperture aperture;
+  float dofAspect = 1;                                     ///< Width over height of the circle of confusion.
   int xSamples = 2, ySamples = 2;
   std::string filter = "gaussian";
   float xFilterWidth = 2, yFilterWidth = 2;
@@ -83,6 +106,10 @@ struct Options {
   Quantize rgbaQuantize{}, depthQuantize{0, 0, 0, 0};
   bool quantizeGiven = false;                              ///< The RIB said Quantize; else the file's type decides.
   std::vector<DisplayCall> displays;                       ///< Empty: the default Display.
+  std::map<std::string, ChannelCall> channels;             ///< By name.
+  DepthFilter depthFilter = DepthFilter::Min;
+  vec3 opaqueThreshold{0.996f};                            ///< Limits "othreshold": what is behind is not visible.
+  vec3 depthThreshold{1.0f};                               ///< Limits "zthreshold": what is clearer has no depth.
   std::optional<ShaderCall> imager;
   int bucketWidth = 16, bucketHeight = 16;
   int gridSize = 256;                                      ///< Most micropolygons in a grid.
@@ -133,6 +160,7 @@ struct Attributes {
   struct Trace {
     std::optional<float> bias, offset;
     bool displacements = false;
+    bool sampleMotion = false;  ///< Rays from here see things move.
     float tessellation = 1;
     bool operator==(const Trace&) const = default;
   } trace;

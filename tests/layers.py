@@ -29,6 +29,7 @@ THIRD_PARTY = {
     "nlohmann/": ["reyes/app/"],
     "CLI/": ["reyes/app/"],
     "zstd.h": ["reyes/base/chunk_file.cpp"],
+    "hwy/": ["reyes/hide/vector.h"],
     "zlib.h": ["reyes/rib/stream.cpp"],
 }
 

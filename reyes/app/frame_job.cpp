@@ -68,11 +68,7 @@ class FrameJob {
 
   void write(const DeepFrame& frame) {
     const StageTimer timer(stats_, "image");
-    Image image = imageOf(frame, scene_, control(0.98f, 1), stats_);
-    expose(image, scene_.options);
-    runImager(image, *shading_);
-    for (const DisplayCall& display : scene_.options.displays)
-      writeDisplay(image, display, scene_.options, log_);
+    writeFrame(frame, scene_, *shading_, control(0.98f, 1), log_);
     meter_.report(1);
   }
 
@@ -139,6 +135,7 @@ bool displaysHaveFolders(const Options& options, Log& log) {
 void renderFrame(const Scene& scene, const RenderSettings& settings, Stats& stats, Log& log,
                  const std::function<void()>& afterStage) {
   if (!displaysHaveFolders(scene.options, log)) return;
+  checkDisplays(scene.options, log);
   FrameJob job(scene, settings, stats, log);
   DeepFrame frame = job.hide();
   afterStage();

@@ -88,7 +88,10 @@ Json imageInfo(const std::string& file, Log& log) {
 Json paramInfo(const TmParamDecl& p) {
   static constexpr const char* kTypes[] = {"float", "color", "point", "vector", "normal", "string", "matrix"};
   static constexpr int kFloats[] = {1, 3, 3, 3, 3, 0, 16};
-  const bool known = p.type >= TM_FLOAT && p.type <= TM_MATRIX;
+  const int32_t type = p.type & ~TM_OUTPUT;
+  const bool known = type >= TM_FLOAT && type <= TM_MATRIX, output = type != p.type;
+  if (output)
+    return {{"name", p.name}, {"type", known ? std::string("output ") + kTypes[type] : "?"}, {"doc", p.doc ? p.doc : ""}};
   Json value = Json::array();
   for (int i = 0; known && i < p.arrayLength * kFloats[p.type]; ++i)
     value.push_back(p.floats ? p.floats[i] : 0.0f);

@@ -3,6 +3,7 @@
 // the same bits in every width, so dispatch never changes a picture (docs/decisions/0005).
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <new>
 #include <vector>
 
@@ -25,8 +26,15 @@ struct CacheAligned {
   CacheAligned() = default;
   template <class U>
   CacheAligned(const CacheAligned<U>&) {}
-  T* allocate(size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{64})); }
-  void deallocate(T* p, size_t) { ::operator delete(p, std::align_val_t{64}); }
+  // Aligned by hand: glibc's aligned allocation takes no part in its caches of freed blocks, and grids come and go by millions.
+  T* allocate(size_t n) {
+    void* block = ::operator new(n * sizeof(T) + kLine);
+    void** aligned = reinterpret_cast<void**>((reinterpret_cast<uintptr_t>(block) + kLine) & ~(kLine - 1));
+    aligned[-1] = block;
+    return reinterpret_cast<T*>(aligned);
+  }
+  void deallocate(T* p, size_t) { ::operator delete(reinterpret_cast<void**>(p)[-1]); }
+  static constexpr uintptr_t kLine = 64;
   bool operator==(const CacheAligned&) const { return true; }
 };
 template <class T>

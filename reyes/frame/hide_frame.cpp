@@ -8,12 +8,12 @@ namespace {
 
 DeepFrame layOut(const Scene& scene, const Camera& camera) {
   const Options& o = scene.options;
-  const PixelFilter filter(o.filter, o.xFilterWidth, o.yFilterWidth);
+  const vec2 reach = filterReach(o);
+  const int reachX = static_cast<int>(reach.x), reachY = static_cast<int>(reach.y);
   DeepFrame frame;
   frame.crop = camera.crop();
   // Samples beyond the crop window are computed too, so that crops join into the full frame (RISpec 3.2 section 4.1.1).
-  frame.padded = {frame.crop.x0 - filter.reachX(), frame.crop.y0 - filter.reachY(), frame.crop.x1 + filter.reachX(),
-                  frame.crop.y1 + filter.reachY()};
+  frame.padded = {frame.crop.x0 - reachX, frame.crop.y0 - reachY, frame.crop.x1 + reachX, frame.crop.y1 + reachY};
   frame.bucketWidth = std::max(1, o.bucketWidth);
   frame.bucketHeight = std::max(1, o.bucketHeight);
   frame.columns = (frame.padded.width() + frame.bucketWidth - 1) / frame.bucketWidth;

@@ -1,6 +1,7 @@
 #include "reyes/frame/hide_node.h"
 
 #include <map>
+#include <numeric>
 
 #include "reyes/frame/piece_node.h"
 
@@ -76,9 +77,8 @@ class PatchesNode : public OpeningNode {
         if (auto node = make(context_, object_, tree_, level_ - 1, i, range())) out.push_back(std::move(node));
       return out;
     }
-    const uint32_t first = index_ * PatchTree::kLeaf, last = std::min(first + PatchTree::kLeaf, tree_->patchCount());
-    for (SubPatch& piece : splitPatches(context_.scene, object_, first, last, context_.camera, context_.buckets.window(),
-                                        context_.stats, context_.log)) {
+    for (SubPatch& piece : splitPatches(context_.scene, object_, tree_->patches(index_), context_.camera,
+                                              context_.buckets.window(), context_.stats, context_.log)) {
       if (context_.scene.objects[static_cast<size_t>(object_)].solid >= 0) piece.zMin = zMin();
       const BucketRange touched = range() & context_.buckets.touched(piece.raster);
       if (!touched.empty()) out.push_back(std::make_unique<PieceNode>(context_, piece, touched));
@@ -94,13 +94,18 @@ class PatchesNode : public OpeningNode {
 }  // namespace
 
 NodeList::NodeList(HideNodes nodes, const BucketRange& range, const BucketGrid& buckets)
-    : nodes_(std::move(nodes)), range_(range), buckets_(buckets), lists_(static_cast<size_t>(range.count())) {
-  for (const auto& node : nodes_) {
-    const BucketRange& r = node->range();
+    : nodes_(std::move(nodes)), range_(range), buckets_(buckets), end_(static_cast<size_t>(range.count()) + 1) {
+  const auto forBuckets = [&](const HideNode& node, const auto& f) {
+    const BucketRange& r = node.range();
     for (int row = r.r0; row <= r.r1; ++row)
       for (int column = r.c0; column <= r.c1; ++column)
-        lists_[static_cast<size_t>((row - range_.r0) * range_.columns() + column - range_.c0)].push_back(node.get());
-  }
+        f(static_cast<size_t>((row - range_.r0) * range_.columns() + column - range_.c0));
+  };
+  for (const auto& node : nodes_) forBuckets(*node, [&](size_t list) { ++end_[list + 1]; });
+  std::partial_sum(end_.begin(), end_.end(), end_.begin());
+  entries_.resize(end_.back());
+  // Filling moves each list's end, kept one place early, to where it belongs.
+  for (const auto& node : nodes_) forBuckets(*node, [&](size_t list) { entries_[end_[list]++] = node.get(); });
 }
 
 HideNodes nodesOfScene(HideContext& context) {

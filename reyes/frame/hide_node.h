@@ -5,6 +5,7 @@
 #pragma once
 #include <mutex>
 #include <queue>
+#include <span>
 
 #include "reyes/frame/bucket_grid.h"
 #include "reyes/hide.h"
@@ -75,7 +76,10 @@ class NodeQueue {
 class NodeList {
  public:
   NodeList(HideNodes nodes, const BucketRange& range, const BucketGrid& buckets);
-  const std::vector<HideNode*>& in(size_t bucket) const { return lists_[indexOf(bucket)]; }
+  std::span<HideNode* const> in(size_t bucket) const {
+    const size_t list = indexOf(bucket), first = list > 0 ? end_[list - 1] : 0;
+    return std::span(entries_).subspan(first, end_[list] - first);
+  }
 
  private:
   size_t indexOf(size_t bucket) const {
@@ -84,7 +88,8 @@ class NodeList {
   const HideNodes nodes_;
   const BucketRange range_;
   const BucketGrid& buckets_;
-  std::vector<std::vector<HideNode*>> lists_;
+  std::vector<HideNode*> entries_;  ///< Of bucket after bucket of the range.
+  std::vector<size_t> end_;         ///< Of a bucket's entries; they begin where those of the one before end.
 };
 
 /// A node for every object that the camera may see.

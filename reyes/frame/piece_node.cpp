@@ -46,7 +46,9 @@ std::shared_ptr<const RasterGrid> PieceNode::makeGrid() const {
                                       objectName(o)));
       return nullptr;
     }
-  auto raster = project(std::move(grid), context_.scene, context_.camera, context_.shading.opaque(o.group), zMin());
+  // Midpoints need what lies behind what is opaque.
+  const bool hides = context_.shading.opaque(o.group) && context_.scene.options.depthFilter != DepthFilter::Midpoint;
+  auto raster = project(std::move(grid), context_.scene, context_.camera, hides, zMin());
   keepPeak(stats.memoryBytes.grids, context_.liveGrids_bytes += static_cast<int64_t>(raster->grid->bytes()));
   return raster;
 }

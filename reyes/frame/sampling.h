@@ -6,7 +6,7 @@
 namespace tomales {
 
 inline SamplePattern samplePattern(const Options& o, uint32_t seed) {
-  return SamplePattern(std::max(1, o.xSamples), std::max(1, o.ySamples), o.jitter, seed);
+  return SamplePattern(std::max(1, o.xSamples), std::max(1, o.ySamples), o.jitter, seed, o.aperture);
 }
 
 inline SampleOffsets sampleOffsets(const SamplePattern& pattern) {

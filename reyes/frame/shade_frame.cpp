@@ -1,6 +1,7 @@
 #include "reyes/base/parallel.h"
 #include "reyes/frame.h"
 #include "reyes/frame/sampling.h"
+#include "reyes/output.h"
 
 namespace tomales {
 namespace {
@@ -13,15 +14,22 @@ void addVisibleEmission(const ShadePoints& points, const vec3& emission, ShadedP
   }
 }
 
-void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading, const ShadeContext& context) {
+/// Opaque and black: what needs no shader.
+void leaveBlack(int count, ShadedPoints& out) {
+  out.resize(count);
+  for (auto& o : out.Oi) std::fill(o.begin(), o.end(), 1.0f);
+}
+
+void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading, const ShadeContext& context,
+               bool wantsColor) {
   tile.shaded.resize(tile.batches.size());
   for (size_t b = 0; b < tile.batches.size(); ++b) {
     const ShadePoints& points = tile.batches[b];
     ShadedPoints& out = tile.shaded[b];
-    if (scene.groups[static_cast<size_t>(points.group())].attributes->matte) {
-      // A holdout is opaque to the hider and black in the picture; imageOf gives it no alpha.
-      out.resize(points.count());
-      for (auto& o : out.Oi) std::fill(o.begin(), o.end(), 1.0f);
+    // A holdout is opaque to the hider and black in the picture; filtering gives it no alpha.
+    const bool matte = scene.groups[static_cast<size_t>(points.group())].attributes->matte;
+    if (matte || (!wantsColor && shading.opaque(points.group()))) {
+      leaveBlack(points.count(), out);
       continue;
     }
     shading.shade(points, context, out);
@@ -37,6 +45,9 @@ void shadeFrame(DeepFrame& frame, const Scene& scene, const ShadingSystem& shadi
                 const FrameControl& control, Stats&) {
   std::atomic<size_t> done{0};
   std::atomic<bool> skipped{false};
+  const bool wantsColor = outputOf(scene.options).shades;
+  ShadeContext stored = context;
+  stored.variables = true;
   parallelFor(frame.tiles.size(), 1, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       DeepTile& tile = frame.tiles[i];
@@ -45,7 +56,7 @@ void shadeFrame(DeepFrame& frame, const Scene& scene, const ShadingSystem& shadi
         std::fill(tile.pixels.begin(), tile.pixels.end(), DeepPixel{});
         continue;
       }
-      shadeTile(tile, scene, shading, context);
+      shadeTile(tile, scene, shading, stored, wantsColor);
       if (control.progress) control.progress(static_cast<float>(++done) / static_cast<float>(frame.tiles.size()));
     }
   });

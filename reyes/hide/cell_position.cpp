@@ -14,13 +14,6 @@ vec2 inTriangle(const vec2 p[3], const vec2 at[3], const vec2& x) {
 
 }  // namespace
 
-SamplePoint samplePoint(const SampleBuffer& samples, size_t pixel, uint32_t lane) {
-  const int width = samples.rect.width(), row = static_cast<int>(pixel) / width;
-  const vec2 corner(samples.rect.x0 + static_cast<int>(pixel) % width, samples.rect.y0 + row);
-  const size_t s = samples.patternAt[pixel] + lane;
-  return {corner + vec2(samples.x[s], samples.y[s]), samples.time[s], {samples.lensX[s], samples.lensY[s]}};
-}
-
 SeenCell seenCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample) {
   const Grid& g = entry.grid();
   const RasterGrid& raster = *entry.raster;
@@ -29,13 +22,13 @@ SeenCell seenCell(const GridTable::Entry& entry, const Camera& camera, int cell,
   const float time = sample.time;
   size_t key = 0;
   while (key + 2 < keyTimes.size() && time >= keyTimes[key + 1]) ++key;
-  const size_t next = std::min(key + 1, keyTimes.size() - 1), stride = static_cast<size_t>(g.stride());
+  const size_t next = keyTimes.empty() ? 0 : key + 1, stride = static_cast<size_t>(g.stride());
   const float t = next > key ? (time - keyTimes[key]) / (keyTimes[next] - keyTimes[key]) : 0;
   const auto corner = [&](int v) {
     const size_t from = key * stride + static_cast<size_t>(v), to = next * stride + static_cast<size_t>(v);
     const vec2 at(lerp(raster.x[from], raster.x[to], t), lerp(raster.y[from], raster.y[to], t));
     const float d = lerp(raster.d[from], raster.d[to], t);
-    return vec3(raster.defocused ? at + sample.lens * camera.defocus(d) : at, d);
+    return vec3(raster.defocused ? at + sample.lens * (d - camera.focusKey()) : at, d);
   };
   return {corner(a), corner(a + 1), corner(a + row), corner(a + row + 1)};
 }
@@ -49,6 +42,13 @@ vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cel
   vec2 uv = inTriangle(abc, abcUv, sample.at);
   if (uv.x + uv.y > 1) uv = inTriangle(dcb, dcbUv, sample.at);
   return uv;
+}
+
+float depthOnCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample) {
+  const SeenCell seen = seenCell(entry, camera, cell, sample);
+  const vec2 uv = positionOnCell(entry, camera, cell, sample);
+  if (uv.x + uv.y <= 1) return seen.a.z + (seen.b.z - seen.a.z) * uv.x + (seen.c.z - seen.a.z) * uv.y;
+  return seen.d.z + (seen.c.z - seen.d.z) * (1 - uv.x) + (seen.b.z - seen.d.z) * (1 - uv.y);
 }
 
 }  // namespace tomales

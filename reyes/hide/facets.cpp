@@ -3,47 +3,140 @@
 #include "reyes/base/rng.h"
 
 namespace tomales {
-
-/// How a point reads a grid: its value is the mean over four vertices, its step along u the scaled difference
-/// of two sums.
-struct FacetTable::Stencil {
-  int at[4];
-  int uLo[2], uHi[2], vLo[2], vHi[2];
-  float uScale, vScale;
-
-  static Stencil cell(const Grid& g, int cell) {
-    const int row = g.nu + 1, a = cell / g.nu * row + cell % g.nu, b = a + 1, c = a + row, d = c + 1;
-    return {{a, b, c, d}, {a, c}, {b, d}, {a, b}, {c, d}, 0.5f, 0.5f};
-  }
-  static Stencil vertex(const Grid& g, int vertex) {
-    const int row = g.nu + 1, i = vertex % row, j = vertex / row;
-    const int i0 = std::max(i - 1, 0), i1 = std::min(i + 1, g.nu), j0 = std::max(j - 1, 0),
-              j1 = std::min(j + 1, g.nv);
-    const int uLo = j * row + i0, uHi = j * row + i1, vLo = j0 * row + i, vHi = j1 * row + i;
-    return {{vertex, vertex, vertex, vertex},
-            {uLo, uLo},
-            {uHi, uHi},
-            {vLo, vLo},
-            {vHi, vHi},
-            0.5f / static_cast<float>(i1 - i0),
-            0.5f / static_cast<float>(j1 - j0)};
-  }
-
-  float mean(const float* f) const { return 0.25f * (f[at[0]] + f[at[1]] + f[at[2]] + f[at[3]]); }
-  float uStep(const float* f) const { return uScale * ((f[uHi[0]] - f[uLo[0]]) + (f[uHi[1]] - f[uLo[1]])); }
-  float vStep(const float* f) const { return vScale * ((f[vHi[0]] - f[vLo[0]]) + (f[vHi[1]] - f[vLo[1]])); }
-};
-
 namespace {
 
-constexpr int kFirstPoints = 128;  ///< Room in a new batch; a bucket of 16 x 16 px often sees as many.
+/// Differences at a vertex: centred, one-sided at the border, of the length of one micropolygon.
+struct VertexSteps {
+  int uLo, uHi, vLo, vHi;
+  float uScale, vScale;
 
-float orOne(float x) { return x != 0 ? x : 1.0f; }
+  VertexSteps(const Grid& g, int vertex) {
+    const int row = g.nu + 1, i = vertex % row, j = vertex / row;
+    const int i0 = std::max(i - 1, 0), i1 = std::min(i + 1, g.nu), j0 = std::max(j - 1, 0), j1 = std::min(j + 1, g.nv);
+    uLo = j * row + i0, uHi = j * row + i1, vLo = j0 * row + i, vHi = j1 * row + i;
+    uScale = 1 / static_cast<float>(i1 - i0), vScale = 1 / static_cast<float>(j1 - j0);
+  }
+  float uStep(const float* f) const { return uScale * (f[uHi] - f[uLo]); }
+  float vStep(const float* f) const { return vScale * (f[vHi] - f[vLo]); }
+};
+
+/// What is left of the way from the first key of a grid to its last, once the motion of the transformation is undone.
+template <class Mean>
+vec3 driftOf(const Scene& scene, const Grid& g, const Mean& mean) {
+  const Object& o = scene.objects[static_cast<size_t>(g.object)];
+  if (g.keyCount == 1 || o.shapes.size() == 1) return vec3(0);
+  const int last = g.keyCount - 1;
+  const vec3 here(mean(g.P(0, 0)), mean(g.P(0, 1)), mean(g.P(0, 2)));
+  const vec3 there(mean(g.P(last, 0)), mean(g.P(last, 1)), mean(g.P(last, 2)));
+  const mat4 openFromLast = o.cameraFromObject.at(o.keyTimes.front()) * glm::inverse(o.cameraFromObject.at(o.keyTimes.back()));
+  return transformPoint(openFromLast, there) - here;
+}
+
+/// What is read of the grids, kLanes points at a time.
+struct alignas(64) Gathered {
+  float P[3][kLanes], N[3][kLanes];
+  float uEdge[3][kLanes], vEdge[3][kLanes];  ///< Of P, one micropolygon long.
+  float u[kLanes], v[kLanes], du[kLanes], dv[kLanes];
+
+  void readVertex(const Grid& g, int vertex, int i) {
+    const VertexSteps steps(g, vertex);
+    for (int axis = 0; axis < 3; ++axis) {
+      const float* p = g.P(0, axis);
+      P[axis][i] = p[vertex], uEdge[axis][i] = steps.uStep(p), vEdge[axis][i] = steps.vStep(p);
+      N[axis][i] = g.N(axis)[vertex];
+    }
+    u[i] = g.u()[vertex], v[i] = g.v()[vertex];
+    du[i] = steps.uStep(g.u()), dv[i] = steps.vStep(g.v());
+  }
+
+  /// The centre of the cell whose first vertex is `a`.
+  void readCell(const Grid& g, int a, int i) {
+    const int c = a + g.nu + 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float* p = g.P(0, axis);
+      meanAndSteps(p[a], p[a + 1], p[c], p[c + 1], P[axis][i], uEdge[axis][i], vEdge[axis][i]);
+      const float* n = g.N(axis);
+      N[axis][i] = 0.25f * (n[a] + n[a + 1] + n[c] + n[c + 1]);
+    }
+    float unused;
+    meanAndSteps(g.u()[a], g.u()[a + 1], g.u()[c], g.u()[c + 1], u[i], du[i], unused);
+    meanAndSteps(g.v()[a], g.v()[a + 1], g.v()[c], g.v()[c + 1], v[i], unused, dv[i]);
+  }
+
+ private:
+  static void meanAndSteps(float a, float b, float c, float d, float& mean, float& uStep, float& vStep) {
+    mean = 0.25f * (a + b + c + d), uStep = 0.5f * ((b - a) + (d - c)), vStep = 0.5f * ((c - a) + (d - b));
+  }
+};
+
+/// The fixed channels of kLanes points from `first` on; texture coordinates are the caller's.
+struct PointBlock {
+  float* channel[kFixedChannels];
+
+  PointBlock(ShadePoints& points, int first) {
+    for (int c = 0; c < kFixedChannels; ++c) channel[c] = points.channel(c) + first;
+  }
+};
+
+inline float reciprocalLength(float length2) {
+  return length2 > 0.0f && length2 < kInfinity ? 1.0f / std::sqrt(length2) : 0.0f;
+}
+
+/// No branches: all lanes of a vector take both ways.
+TOMALES_HOT void derive(const Gathered& g, bool perspective, const PointBlock& out) {
+  for (int i = 0; i < kLanes; ++i) {
+    const float ux = g.uEdge[0][i], uy = g.uEdge[1][i], uz = g.uEdge[2][i];
+    const float vx = g.vEdge[0][i], vy = g.vEdge[1][i], vz = g.vEdge[2][i];
+    // For a cell this is half the cross product of the diagonals: its area, exactly so where it is flat.
+    const float sx = uy * vz - uz * vy, sy = uz * vx - ux * vz, sz = ux * vy - uy * vx;
+    const float nx = g.N[0][i], ny = g.N[1][i], nz = g.N[2][i];
+    const float span2 = sx * sx + sy * sy + sz * sz;
+    const float toRiSide = sx * nx + sy * ny + sz * nz < 0 ? -1.0f : 1.0f;
+    const float perSpan = toRiSide * reciprocalLength(span2);
+    const float perNormal = reciprocalLength(nx * nx + ny * ny + nz * nz);
+    const bool flat = perSpan == 0, noNormal = perNormal == 0;
+    // A direction that is missing is taken from the other normal, and if both are, from the eye.
+    const float gx = sx * perSpan, gy = sy * perSpan, gz = sz * perSpan;
+    const float hx = nx * perNormal, hy = ny * perNormal, hz = nz * perNormal;
+    const float ex = 0, ey = 0, ez = -1;
+    const float Nx = noNormal ? (flat ? ex : gx) : hx, Ny = noNormal ? (flat ? ey : gy) : hy,
+                Nz = noNormal ? (flat ? ez : gz) : hz;
+    const float du = g.du[i] != 0 ? g.du[i] : 1.0f, dv = g.dv[i] != 0 ? g.dv[i] : 1.0f;
+    out.channel[kPx][i] = g.P[0][i], out.channel[kPy][i] = g.P[1][i], out.channel[kPz][i] = g.P[2][i];
+    out.channel[kNx][i] = Nx, out.channel[kNy][i] = Ny, out.channel[kNz][i] = Nz;
+    out.channel[kNgx][i] = flat ? Nx : gx, out.channel[kNgy][i] = flat ? Ny : gy, out.channel[kNgz][i] = flat ? Nz : gz;
+    out.channel[kIx][i] = perspective ? g.P[0][i] : 0.0f;
+    out.channel[kIy][i] = perspective ? g.P[1][i] : 0.0f;
+    out.channel[kIz][i] = perspective ? g.P[2][i] : 1.0f;
+    out.channel[kDpduX][i] = ux / du, out.channel[kDpduY][i] = uy / du, out.channel[kDpduZ][i] = uz / du;
+    out.channel[kDpdvX][i] = vx / dv, out.channel[kDpdvY][i] = vy / dv, out.channel[kDpdvZ][i] = vz / dv;
+    out.channel[kU][i] = g.u[i], out.channel[kV][i] = g.v[i];
+    out.channel[kDu][i] = du, out.channel[kDv][i] = dv;
+    out.channel[kArea][i] = std::sqrt(span2);
+  }
+}
 
 int primvarFloats(const ShadeGroup& group) {
   int n = 0;
   for (const Primvar& p : group.primvars) n += p.width;
   return n;
+}
+
+/// s and t of points without primitive variables of that name.
+void setTextureCoordinates(const ShadeGroup& group, ShadePoints& points) {
+  const Attributes& a = *group.attributes;
+  const float *u = points.channel(kU), *v = points.channel(kV);
+  float *s = points.channel(kS), *t = points.channel(kT);
+  for (int i = 0; i < points.count(); ++i) {
+    const vec2 st = a.textureAt(u[i], v[i]);
+    s[i] = st.x, t[i] = st.y;
+  }
+  int offset = 0;
+  for (const Primvar& p : group.primvars) {
+    if (p.name == "s") std::copy_n(points.primvar(offset), points.count(), s);
+    if (p.name == "t") std::copy_n(points.primvar(offset), points.count(), t);
+    offset += p.width;
+  }
 }
 
 }  // namespace
@@ -76,64 +169,75 @@ Facet FacetTable::makeFacet(const GridTable::Entry& entry, int cell) {
     for (int k = 0; k < 4; ++k) facet.point[k] = cornerPoint(entry, batch, corner[k]);
     return facet;
   }
-  const int p = addPoint(g, batch, Stencil::cell(g, cell), hashCombine(g.name, static_cast<uint32_t>(cell)));
+  const int p = wish(batch, entry, cell, false);
   return {batch, {p, p, p, p}, entry.raster->matte};
 }
 
 int FacetTable::cornerPoint(const GridTable::Entry& entry, int batch, int vertex) {
-  const Grid& g = entry.grid();
   std::vector<int>& points = corners_[entry.firstCell];
-  points.resize(static_cast<size_t>(g.vertexCount()), -1);
+  points.resize(static_cast<size_t>(entry.grid().vertexCount()), -1);
   int& point = points[static_cast<size_t>(vertex)];
-  if (point < 0)
-    point =
-        addPoint(g, batch, Stencil::vertex(g, vertex), hashCombine(g.name, static_cast<uint32_t>(vertex)));
+  if (point < 0) point = wish(batch, entry, vertex, true);
   return point;
 }
 
 int FacetTable::batchOf(int group) {
   int& batch = batchOf_[static_cast<size_t>(group)];
   if (batch < 0) {
-    batch = static_cast<int>(tile_.batches.size());
-    tile_.batches.emplace_back(group, primvarFloats(scene_.groups[static_cast<size_t>(group)]));
-    tile_.batches.back().reserve(kFirstPoints);
+    batch = static_cast<int>(wishes_.size());
+    wishes_.push_back({group, {}});
   }
   return batch;
 }
 
-int FacetTable::addPoint(const Grid& g, int batch, const Stencil& at, uint32_t key) {
-  ShadePoints& points = tile_.batches[static_cast<size_t>(batch)];
-  const ShadeGroup& group = scene_.groups[static_cast<size_t>(points.group())];
-  const int i = points.add(key);
-  const auto set = [&](int channel, float value) { points.channel(channel)[i] = value; };
-  const float *x = g.P(0, 0), *y = g.P(0, 1), *z = g.P(0, 2);
-  const vec3 P(at.mean(x), at.mean(y), at.mean(z));
-  const vec3 uEdge(at.uStep(x), at.uStep(y), at.uStep(z)), vEdge(at.vStep(x), at.vStep(y), at.vStep(z));
-  // For a cell this is half the cross product of the diagonals: its area, exactly so where it is flat.
-  const vec3 span = cross(uEdge, vEdge);
-  const float side = group.subtracted ? -1.0f : 1.0f;
-  const vec3 shading = side * vec3(at.mean(g.N(0)), at.mean(g.N(1)), at.mean(g.N(2)));
-  const vec3 toRiSide = dot(span, shading) < 0 ? -span : span;
-  const vec3 N = normalizeOr(shading, normalizeOr(toRiSide, vec3(0, 0, -1)));
-  const float u = at.mean(g.u()), v = at.mean(g.v()), du = orOne(at.uStep(g.u())),
-              dv = orOne(at.vStep(g.v()));
-  points.set3(kPx, i, P);
-  points.set3(kNx, i, N);
-  points.set3(kNgx, i, normalizeOr(toRiSide, N));
-  points.set3(kIx, i, camera_.incident(P));
-  points.set3(kDpduX, i, uEdge / du);
-  points.set3(kDpdvX, i, vEdge / dv);
-  set(kU, u), set(kV, v), set(kDu, du), set(kDv, dv), set(kArea, glm::length(span));
-  const vec2 st = group.attributes->textureAt(u, v);
-  set(kS, st.x), set(kT, st.y);
-  int offset = 0;
-  for (const Primvar& p : group.primvars) {
-    for (int k = 0; k < p.width; ++k) points.primvar(offset + k)[i] = at.mean(g.primvar(offset + k));
-    if (p.name == "s") set(kS, points.primvar(offset)[i]);
-    if (p.name == "t") set(kT, points.primvar(offset)[i]);
-    offset += p.width;
+int FacetTable::wish(int batch, const GridTable::Entry& entry, int index, bool vertex) {
+  std::vector<Wish>& list = wishes_[static_cast<size_t>(batch)].list;
+  list.push_back({static_cast<uint32_t>(&entry - grids_.entries().data()), index, vertex});
+  return static_cast<int>(list.size()) - 1;
+}
+
+void FacetTable::makePoints() {
+  tile_.batches.reserve(wishes_.size());
+  for (const Wishes& wishes : wishes_) {
+    const ShadeGroup& group = scene_.groups[static_cast<size_t>(wishes.group)];
+    ShadePoints& points = tile_.batches.emplace_back(wishes.group, primvarFloats(group));
+    points.reserve(static_cast<int>(wishes.list.size()));
+    fill(wishes, points);
+    setTextureCoordinates(group, points);
   }
-  return i;
+}
+
+void FacetTable::fill(const Wishes& wishes, ShadePoints& points) const {
+  Gathered gathered{};
+  const bool subtracted = scene_.groups[static_cast<size_t>(wishes.group)].subtracted;
+  const int count = static_cast<int>(wishes.list.size()), floats = points.channelCount() - kFixedChannels;
+  for (int first = 0; first < count; first += kLanes) {
+    const int lanes = std::min(kLanes, count - first);
+    for (int i = 0; i < lanes; ++i) {
+      const Wish& w = wishes.list[static_cast<size_t>(first + i)];
+      const Grid& g = grids_.entries()[w.entry].grid();
+      points.add(hashCombine(g.name, static_cast<uint32_t>(w.index)));
+      points.channel(kTime)[first + i] = -1;
+      if (w.vertex) {
+        gathered.readVertex(g, w.index, i);
+        for (int k = 0; k < floats; ++k) points.primvar(k)[first + i] = g.primvar(k)[w.index];
+        points.set3(kDriftX, first + i, driftOf(scene_, g, [&](const float* f) { return f[w.index]; }));
+      } else {
+        const int a = w.index / g.nu * (g.nu + 1) + w.index % g.nu, c = a + g.nu + 1;
+        gathered.readCell(g, a, i);
+        points.set3(kDriftX, first + i,
+                    driftOf(scene_, g, [&](const float* f) { return 0.25f * (f[a] + f[a + 1] + f[c] + f[c + 1]); }));
+        for (int k = 0; k < floats; ++k) {
+          const float* f = g.primvar(k);
+          points.primvar(k)[first + i] = 0.25f * (f[a] + f[a + 1] + f[c] + f[c + 1]);
+        }
+      }
+    }
+    if (subtracted)
+      for (auto& axis : gathered.N)
+        for (float& n : axis) n = -n;
+    derive(gathered, camera_.perspective(), PointBlock(points, first));
+  }
 }
 
 }  // namespace tomales

@@ -7,9 +7,9 @@
 namespace tomales {
 namespace {
 
-/// Key times of a grid as fractions of the shutter.
+/// Key times of a grid as fractions of the shutter; none if it is still.
 std::vector<float> shutterTimes(const Scene& scene, const Grid& grid) {
-  if (grid.keyCount == 1) return {0};
+  if (grid.keyCount == 1) return {};
   std::vector<float> times = scene.objects[static_cast<size_t>(grid.object)].keyTimes;
   CHECK_EQ(static_cast<int>(times.size()), grid.keyCount);
   const float open = scene.options.shutterOpen, length = scene.options.shutterClose - open;
@@ -27,7 +27,7 @@ struct Hider::Impl {
 };
 
 Hider::Hider(const Scene& scene, const Camera& camera, const SamplePattern& pattern, const PixelRect& rect)
-    : impl_(new Impl{scene, camera, SampleBuffer(pattern, rect), {}}) {}
+    : impl_(new Impl{scene, camera, SampleBuffer(pattern, camera, rect), {}}) {}
 
 Hider::~Hider() = default;
 
@@ -40,13 +40,17 @@ bool Hider::hidden(const Bound2& raster, float zMin) const {
 
 void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
   SampleBuffer& s = impl_->samples;
-  if (s.hides(s.touched(raster->bound.lo, raster->bound.hi), raster->dMin)) return;
+  const PixelRect pixels = s.touched(raster->bound.lo, raster->bound.hi);
+  if (s.hides(pixels, raster->dMin)) return;
   const GridTable::Entry& entry = impl_->grids.add(raster, shutterTimes(impl_->scene, *raster->grid));
   const RasterJob job{*raster, impl_->grids, entry.firstCell, entry.keyTimes, impl_->camera, s};
-  if (raster->grid->keyCount > 1 || raster->defocused)
+  if (raster->blur) {
+    s.showBlur();
     rasterizeBlurred(job);
-  else
+  } else {
     rasterizeStill(job);
+  }
+  s.settle(pixels);
 }
 
 DeepTile Hider::resolve() {

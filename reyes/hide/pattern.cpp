@@ -3,6 +3,7 @@
 
 #include "reyes/base/rng.h"
 #include "reyes/hide.h"
+#include "reyes/hide/aperture.h"
 #include "reyes/hide/lattice.h"
 
 namespace tomales {
@@ -44,24 +45,15 @@ class Times {
   std::vector<int> column_, row_, coarse_;
 };
 
-/// Unit square to unit disk; areas keep their ratios and strata their shapes (Shirley and Chiu 1997).
-vec2 concentric(const vec2& square) {
-  const vec2 p = 2.0f * square - 1.0f;
-  if (p == vec2(0)) return p;
-  const bool wide = std::abs(p.x) > std::abs(p.y);
-  const float r = wide ? p.x : p.y;
-  const float angle = wide ? kPi / 4 * (p.y / p.x) : kPi / 2 - kPi / 4 * (p.x / p.y);
-  return r * vec2(std::cos(angle), std::sin(angle));
-}
-
 }  // namespace
 
-SamplePattern::SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t seed)
+SamplePattern::SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t seed, const Aperture& aperture)
     : count_(xSamples * ySamples), padded_(tomales::padded(count_)), seed_(seed) {
   const size_t size = static_cast<size_t>(kPatterns) * static_cast<size_t>(padded_);
   // Padding repeats the corner of the pixel; the hider gives those lanes a depth that nothing beats.
   x_.assign(size, 0), y_.assign(size, 0), time_.assign(size, 0), lensX_.assign(size, 0),
       lensY_.assign(size, 0), detail_.assign(size, 0);
+  const ApertureShape throughAperture(aperture);
   for (uint32_t p = 0; p < kPatterns; ++p) {
     const uint32_t name = hashCombine(seed, 0x70617474U, p);
     const std::vector<int> inColumn = permutation(ySamples, hash32(name ^ 1U));
@@ -84,7 +76,7 @@ SamplePattern::SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t s
       y_[at] = placed(j, ySamples, jitter ? y : 0.5f);
       time_[at] = within(times.stratum(i, j), count_, random(2));
       const int stratum = throughLens[static_cast<size_t>(s)];
-      const vec2 lens = concentric(
+      const vec2 lens = throughAperture(
           {within(stratum % xSamples, xSamples, random(3)), within(stratum / xSamples, ySamples, random(4))});
       lensX_[at] = lens.x, lensY_[at] = lens.y;
       detail_[at] = within(ofDetail[static_cast<size_t>(s)], count_, random(5));

@@ -1,5 +1,5 @@
 // Grid -> raster space, with the borders that join a neighbour pushed out (docs/decisions/0003).
-#include "reyes/hide.h"
+#include "reyes/hide/blur_bounds.h"
 #include "reyes/hide/lattice.h"
 
 namespace tomales {
@@ -71,7 +71,8 @@ void pushBorders(const Grid& g, float* x, float* y) {
                             {kEdgeU1, g.nu, row, -1, g.nv},
                             {kEdgeV0, 0, 1, row, g.nu},
                             {kEdgeV1, g.nv * row, 1, -row, g.nu}};
-  std::vector<vec2> push(static_cast<size_t>(g.vertexCount()), vec2(0));
+  static thread_local std::vector<vec2> push;
+  push.assign(static_cast<size_t>(g.vertexCount()), vec2(0));
   for (const Border& b : borders)
     if (!(g.openEdges & b.edge)) pushBorder(g, b, x, y, push);
   for (size_t v = 0; v < push.size(); ++v) x[v] += push[v].x, y[v] += push[v].y;
@@ -119,6 +120,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
     }
   }
   r->trimReach_px = std::min(r->trimReach_px, kMaxReach_px);
+  if (g.keyCount > 1 || r->defocused) r->blur = boundBlur(*r, camera);
   return r;
 }
 

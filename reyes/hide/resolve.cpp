@@ -1,122 +1,165 @@
 #include "reyes/hide/resolve.h"
 
 #include <bit>
-#include <tuple>
+#include <numeric>
 
 #include "reyes/hide/facets.h"
+#include "reyes/hide/pixel_layers.h"
 
 namespace tomales {
 namespace {
 
-/// All samples of a pixel, up to 64, that see one cell.
-struct Sight {
-  uint32_t cell;
-  Fragment fragment;
-  float d;
+/// What outlives a tile: the memory of its lists.
+struct Scratch {
+  std::vector<uint32_t> filmsOfPixel, firstFilm;
+  std::vector<Sight> sights, sorted;
+  std::vector<uint64_t> keys;
+  PixelLayers layers;
 };
 
 class TileBuilder {
  public:
-  TileBuilder(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples)
-      : camera_(camera), grids_(grids), samples_(samples), facets_(scene, camera, grids, tile_) {}
+  TileBuilder(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples, Scratch& scratch)
+      : camera_(camera), grids_(grids), samples_(samples), scratch_(scratch), sights_(scratch.sights),
+        facets_(scene, camera, grids, tile_) {}
 
   DeepTile build() {
     tile_.rect = samples_.rect;
     const size_t count = samples_.far.size();
     tile_.pixels.reserve(count);
-    // Within a pixel by cell: what a fragment is made of stands together.
-    std::sort(samples_.layers.begin(), samples_.layers.end(), [](const Layer& p, const Layer& q) {
-      return std::tie(p.pixel, p.cell, p.lane) < std::tie(q.pixel, q.cell, q.lane);
-    });
+    sortFilms(count);
     for (size_t pixel = 0; pixel < count; ++pixel) addPixel(pixel);
+    facets_.makePoints();
     tile_.shrink();
     return std::move(tile_);
   }
 
  private:
+  /// Counts, then places: films of a pixel stand together, in order of insertion.
+  void sortFilms(size_t pixels) {
+    const std::vector<Film>& films = samples_.films.list;
+    std::vector<uint32_t>& first = scratch_.firstFilm;
+    first.assign(pixels + 1, 0);
+    for (const Film& f : films) ++first[f.pixel + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    scratch_.filmsOfPixel.resize(films.size());
+    for (uint32_t i = 0; i < films.size(); ++i) scratch_.filmsOfPixel[first[films[i].pixel]++] = i;
+    for (size_t p = pixels; p > 0; --p) first[p] = first[p - 1];
+    first[0] = 0;
+  }
+
   void addPixel(size_t pixel) {
     sights_.clear();
-    seeOpaque(pixel);
-    seeLayers(pixel);
+    collectOpaque(samples_, pixel, sights_);
+    const bool films = scratch_.firstFilm[pixel] < scratch_.firstFilm[pixel + 1];
+    if (films) seeFilms(pixel);
     // Nearest first; equal depths in an order that no schedule changes.
-    std::sort(sights_.begin(), sights_.end(), [this](const Sight& a, const Sight& b) {
+    const auto nearer = [this](const Sight& a, const Sight& b) {
       if (a.d != b.d) return a.d < b.d;
       if (a.cell != b.cell) return grids_.precedes(a.cell, b.cell);
-      return a.fragment.word < b.fragment.word;
-    });
-    tile_.pixels.push_back(
-        {static_cast<uint32_t>(tile_.fragments.size()), static_cast<uint32_t>(sights_.size())});
-    for (Sight& s : sights_) {
-      s.fragment.z = camera_.zFromDepthKey(s.d);
-      if (grids_.of(s.cell).raster->smooth) setPosition(s, pixel);
-      s.fragment.facet = facets_.facetOf(s.cell);
-      tile_.fragments.push_back(s.fragment);
+      return a.word < b.word;
+    };
+    if (!sortByRank() && !sortByKey()) std::sort(sights_.begin(), sights_.end(), nearer);
+    if (films) scratch_.layers.order(sights_, nearer);
+    tile_.pixels.push_back({static_cast<uint32_t>(tile_.fragments.size()), static_cast<uint32_t>(sights_.size())});
+    for (const Sight& s : sights_) {
+      Fragment f{facets_.facetOf(s.cell), camera_.zFromDepthKey(s.d), s.samples, static_cast<uint16_t>(s.word)};
+      if (grids_.of(s.cell).raster->smooth) setPosition(f, s.cell, pixel);
+      tile_.fragments.push_back(f);
     }
   }
 
-  void seeOpaque(size_t pixel) {
+  /// Sorts a few sights by depth without a branch that depends on it; false, and nothing done, if they are many or depths
+  /// are equal.
+  bool sortByRank() {
+    constexpr size_t kFew = 12;
+    const size_t n = sights_.size();
+    if (n > kFew) return false;
+    Sight sorted[kFew];
+    uint32_t taken = 0;
+    for (size_t i = 0; i < n; ++i) {
+      uint32_t rank = 0;
+      for (size_t k = 0; k < n; ++k) rank += sights_[k].d < sights_[i].d;
+      sorted[rank] = sights_[i];
+      taken |= 1U << rank;
+    }
+    if (taken != (1U << n) - 1) return false;
+    std::copy_n(sorted, n, sights_.begin());
+    return true;
+  }
+
+  /// Sorts many sights by depth as integers; false, and nothing done, if depths are equal.
+  bool sortByKey() {
+    std::vector<uint64_t>& keys = scratch_.keys;
+    keys.clear();
+    for (uint32_t i = 0; i < sights_.size(); ++i) {
+      const uint32_t bits = std::bit_cast<uint32_t>(sights_[i].d + 0.0f);  // -0 is 0
+      const uint32_t ordered = bits >> 31 ? ~bits : bits | 0x80000000U;
+      keys.push_back(uint64_t{ordered} << 32 | i);
+    }
+    std::sort(keys.begin(), keys.end());
+    for (size_t i = 1; i < keys.size(); ++i)
+      if (keys[i] >> 32 == keys[i - 1] >> 32) return false;
+    scratch_.sorted.clear();
+    for (const uint64_t key : keys) scratch_.sorted.push_back(sights_[key & 0xffffffffU]);
+    sights_.swap(scratch_.sorted);
+    return true;
+  }
+
+  void seeFilms(size_t pixel) {
     const size_t first = pixel * static_cast<size_t>(samples_.lanes);
-    const uint32_t lanes = static_cast<uint32_t>(samples_.lanes);
-    for (uint32_t lane = 0; lane < lanes; ++lane) {
-      const uint32_t cell = samples_.cell[first + lane];
-      if (cell == kNoCell) continue;
-      const auto it = std::find_if(sights_.rbegin(), sights_.rend(), [&](const Sight& s) {
-        return s.cell == cell && s.fragment.word == lane / 64;
-      });
-      see(it != sights_.rend() ? *it : newSight(cell, lane), lane, samples_.depth[first + lane]);
+    const bool open = sights_.empty();
+    for (uint32_t k = scratch_.firstFilm[pixel]; k < scratch_.firstFilm[pixel + 1]; ++k) {
+      const Film& film = samples_.films.list[scratch_.filmsOfPixel[k]];
+      float* depths = samples_.films.depths.data() + film.firstDepth;
+      Sight sight{film.cell, film.word, 0, kInfinity, depths, false};
+      if (open) {
+        sight.samples = film.samples;
+        sight.d = *std::min_element(depths, depths + std::popcount(film.samples));
+        sights_.push_back(sight);
+        continue;
+      }
+      // What an opaque surface hides is closed up.
+      int kept = 0, k0 = 0;
+      for (uint64_t left = film.samples; left; left &= left - 1, ++k0) {
+        const size_t lane = first + size_t{64} * film.word + static_cast<size_t>(std::countr_zero(left));
+        const float d = depths[k0], opaque = samples_.depth[lane];
+        if (d > opaque || (d == opaque && !grids_.precedes(film.cell, samples_.cell[lane]))) continue;
+        depths[kept++] = d;
+        sight.samples |= left & (~left + 1);
+        sight.d = std::min(sight.d, d);
+      }
+      if (kept > 0) sights_.push_back(sight);
     }
   }
 
-  void seeLayers(size_t pixel) {
-    const size_t first = pixel * static_cast<size_t>(samples_.lanes);
-    for (; nextLayer_ < samples_.layers.size() && samples_.layers[nextLayer_].pixel == pixel; ++nextLayer_) {
-      const Layer& l = samples_.layers[nextLayer_];
-      const float d = samples_.depth[first + l.lane];
-      if (l.d > d || (l.d == d && !grids_.precedes(l.cell, samples_.cell[first + l.lane]))) continue;
-      const bool known =
-          !sights_.empty() && sights_.back().cell == l.cell && sights_.back().fragment.word == l.lane / 64;
-      see(known ? sights_.back() : newSight(l.cell, l.lane), l.lane, l.d);
-    }
-  }
-
-  Sight& newSight(uint32_t cell, uint32_t lane) {
-    return sights_.emplace_back(Sight{cell, {0, 0, 0, static_cast<uint16_t>(lane / 64)}, kInfinity});
-  }
-
-  static void see(Sight& sight, uint32_t lane, float d) {
-    sight.fragment.samples |= uint64_t{1} << (lane % 64);
-    sight.d = std::min(sight.d, d);
-  }
-
-  void setPosition(Sight& sight, size_t pixel) const {
-    Fragment& fragment = sight.fragment;
-    const GridTable::Entry& entry = grids_.of(sight.cell);
-    const int cell = static_cast<int>(sight.cell - entry.firstCell);
+  void setPosition(Fragment& fragment, uint32_t cellNumber, size_t pixel) const {
+    const GridTable::Entry& entry = grids_.of(cellNumber);
+    const int cell = static_cast<int>(cellNumber - entry.firstCell);
+    const size_t first = pixel * static_cast<size_t>(samples_.lanes) + size_t{64} * fragment.word;
     vec2 sum(0);
     for (uint64_t left = fragment.samples; left != 0; left &= left - 1) {
-      const auto lane = static_cast<uint32_t>(64 * fragment.word + std::countr_zero(left));
-      const vec2 at = positionOnCell(entry, camera_, cell, samplePoint(samples_, pixel, lane));
-      sum += glm::clamp(at, vec2(0), vec2(1));
+      const SamplePoint sample = samplePoint(samples_, first + static_cast<size_t>(std::countr_zero(left)));
+      sum += glm::clamp(positionOnCell(entry, camera_, cell, sample), vec2(0), vec2(1));
     }
     const vec2 mean = sum * (255.0f / static_cast<float>(std::popcount(fragment.samples)));
-    fragment.u = static_cast<uint8_t>(std::lround(mean.x)),
-    fragment.v = static_cast<uint8_t>(std::lround(mean.y));
+    fragment.u = static_cast<uint8_t>(std::lround(mean.x)), fragment.v = static_cast<uint8_t>(std::lround(mean.y));
   }
 
   const Camera& camera_;
   const GridTable& grids_;
   SampleBuffer& samples_;
+  Scratch& scratch_;
+  std::vector<Sight>& sights_;
   DeepTile tile_;
   FacetTable facets_;
-  size_t nextLayer_ = 0;
-  std::vector<Sight> sights_;
 };
 
 }  // namespace
 
-DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids,
-                     SampleBuffer& samples) {
-  return TileBuilder(scene, camera, grids, samples).build();
+DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples) {
+  static thread_local Scratch scratch;
+  return TileBuilder(scene, camera, grids, samples, scratch).build();
 }
 
 }  // namespace tomales

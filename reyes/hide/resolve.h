@@ -6,18 +6,23 @@ namespace tomales {
 
 DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples);
 
-/// A sample: raster position, time of the shutter (0..1), point of the lens (unit disk).
+/// A sample: raster position, time of the shutter (0..1), point of the lens (as SampleBuffer has it).
 struct SamplePoint {
   vec2 at;
   float time;
   vec2 lens;
 };
-SamplePoint samplePoint(const SampleBuffer& samples, size_t pixel, uint32_t lane);
+inline SamplePoint samplePoint(const SampleBuffer& s, size_t lane) {
+  if (s.time.empty()) return {{s.x[lane], s.y[lane]}, 0, vec2(0)};
+  return {{s.x[lane], s.y[lane]}, s.time[lane], {s.lensX[lane], s.lensY[lane]}};
+}
 /// Corners a b c d of a cell where a sample meets it: raster x and y, depth key.
 struct SeenCell {
   vec3 a, b, c, d;
 };
 SeenCell seenCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
+/// Depth key of a cell where a sample meets it.
+float depthOnCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
 /// Where on a cell (its own (u,v), 0..1) a sample meets it; beyond, where it meets the plane of one of its triangles.
 vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
 

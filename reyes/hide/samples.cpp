@@ -4,17 +4,11 @@
 
 namespace tomales {
 
-const GridTable::Entry& GridTable::add(const std::shared_ptr<const RasterGrid>& raster,
-                                       std::vector<float> keyTimes) {
-  entries_.push_back({cells_, raster, std::move(keyTimes)});
-  cells_ += static_cast<uint32_t>(raster->grid->cellCount());
+const GridTable::Entry& GridTable::add(const std::shared_ptr<const RasterGrid>& raster, std::vector<float> keyTimes) {
+  const uint32_t first = cellCount(), cells = static_cast<uint32_t>(raster->grid->cellCount());
+  entryOfPage_.resize(entryOfPage_.size() + (cells + kPage - 1) / kPage, static_cast<uint32_t>(entries_.size()));
+  entries_.push_back({first, raster, std::move(keyTimes)});
   return entries_.back();
-}
-
-const GridTable::Entry& GridTable::of(uint32_t cell) const {
-  const auto after = std::upper_bound(entries_.begin(), entries_.end(), cell,
-                                      [](uint32_t c, const Entry& e) { return c < e.firstCell; });
-  return *(after - 1);
 }
 
 bool GridTable::precedes(uint32_t a, uint32_t b) const {
@@ -26,25 +20,43 @@ bool GridTable::precedes(uint32_t a, uint32_t b) const {
   return rank(a) < rank(b);
 }
 
-SampleBuffer::SampleBuffer(const SamplePattern& pattern, const PixelRect& pixels)
-    : rect(pixels),
-      lanes(pattern.padded()),
-      x(pattern.x(0)),
-      y(pattern.y(0)),
-      time(pattern.time(0)),
-      lensX(pattern.lensX(0)),
-      lensY(pattern.lensY(0)),
-      detail(pattern.detail(0)) {
+SampleBuffer::SampleBuffer(const SamplePattern& pattern, const Camera& camera, const PixelRect& pixels)
+    : rect(pixels), lanes(pattern.padded()), pattern_(pattern), lens_(camera.lens()) {
   const size_t count = static_cast<size_t>(rect.width()) * static_cast<size_t>(rect.height());
-  const size_t width = static_cast<size_t>(lanes);
-  patternAt.reserve(count);
-  for (int row = rect.y0; row < rect.y1; ++row)
-    for (int column = rect.x0; column < rect.x1; ++column)
-      patternAt.push_back(static_cast<size_t>(pattern.patternOf(column, row)) * width);
-  depth.assign(count * width, -kInfinity);
-  for (size_t p = 0; p < count; ++p) std::fill_n(depth.data() + p * width, pattern.count(), kNothing);
+  const size_t width = static_cast<size_t>(lanes), samples = static_cast<size_t>(pattern.count());
+  x.resize(count * width), y.resize(count * width);
+  depth.assign(count * width, kNothing);
   cell.assign(count * width, kNoCell);
   far.assign(count, kNothing);
+  nearer.assign(count, 0);
+  patternAt_.reserve(count), pixelOf.reserve(count * width / kLanes);
+  for (int row = rect.y0, p = 0; row < rect.y1; ++row)
+    for (int column = rect.x0; column < rect.x1; ++column, ++p) {
+      const int at = pattern.patternOf(column, row);
+      patternAt_.push_back(at);
+      pixelOf.insert(pixelOf.end(), width / kLanes, static_cast<uint32_t>(p));
+      const size_t first = static_cast<size_t>(p) * width;
+      const float *fromX = pattern.x(at), *fromY = pattern.y(at);
+      for (size_t s = 0; s < width; ++s) {
+        x[first + s] = static_cast<float>(column) + fromX[s];
+        y[first + s] = static_cast<float>(row) + fromY[s];
+      }
+      std::fill_n(depth.data() + first + samples, width - samples, -kInfinity);
+    }
+}
+
+void SampleBuffer::showBlur() {
+  if (!time.empty()) return;
+  time.resize(x.size()), lensX.resize(x.size()), lensY.resize(x.size());
+  const size_t width = static_cast<size_t>(lanes);
+  for (size_t p = 0; p < patternAt_.size(); ++p) {
+    const int at = patternAt_[p];
+    std::copy_n(pattern_.time(at), width, time.data() + p * width);
+    for (size_t s = 0; s < width; ++s) {
+      lensX[p * width + s] = pattern_.lensX(at)[s] * lens_.x;
+      lensY[p * width + s] = pattern_.lensY(at)[s] * lens_.y;
+    }
+  }
 }
 
 bool SampleBuffer::hides(const PixelRect& pixels, float d) const {

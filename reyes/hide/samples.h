@@ -5,6 +5,7 @@
 #include <cfloat>
 
 #include "reyes/hide.h"
+#include "reyes/hide/films.h"
 
 namespace tomales {
 
@@ -17,40 +18,51 @@ class GridTable {
   struct Entry {
     uint32_t firstCell;
     std::shared_ptr<const RasterGrid> raster;
-    std::vector<float> keyTimes;  ///< Fractions of the shutter; one for a still grid.
+    std::vector<float> keyTimes;  ///< Fractions of the shutter; none for a still grid.
     const Grid& grid() const { return *raster->grid; }
   };
 
   const Entry& add(const std::shared_ptr<const RasterGrid>& raster, std::vector<float> keyTimes);
-  const Entry& of(uint32_t cell) const;
-  uint32_t cellCount() const { return cells_; }
+  const Entry& of(uint32_t cell) const { return entries_[entryOfPage_[cell / kPage]]; }
+  const std::vector<Entry>& entries() const { return entries_; }
+  uint32_t cellCount() const { return static_cast<uint32_t>(entryOfPage_.size()) * kPage; }  ///< Numbers in use, gaps included.
   /// Decides between equal depths: by name, never by pointer or order of insertion.
   bool precedes(uint32_t a, uint32_t b) const;
 
  private:
+  static constexpr uint32_t kPage = 16;  ///< Numbers of a grid begin at multiples of this.
   std::vector<Entry> entries_;
-  uint32_t cells_ = 0;
+  std::vector<uint32_t> entryOfPage_;
 };
 
-/// Something transparent that covers a sample.
-struct Layer {
-  uint32_t pixel, cell, lane;
-  float d;
-};
-
+/// Arrays have a lane for each sample: those of a pixel stand together, padded to `lanes`. Padding hides everything.
 struct SampleBuffer {
-  SampleBuffer(const SamplePattern& pattern, const PixelRect& rect);
+  SampleBuffer(const SamplePattern& pattern, const Camera& camera, const PixelRect& rect);
 
   PixelRect rect;
-  int lanes;                      ///< Of a pixel, a multiple of kLanes.
-  const float *x, *y, *time, *lensX, *lensY, *detail;  ///< Of all patterns.
-  std::vector<size_t> patternAt;  ///< A pixel: where its samples begin in x, y, time and lens.
-  AlignedVector<float>
-      depth;  ///< A lane: key of the nearest opaque hit; -infinity in padding, which so never counts.
-  AlignedVector<uint32_t> cell;  ///< A lane: that hit.
-  AlignedVector<float> far;      ///< A pixel: the greatest depth of its lanes.
-  std::vector<Layer> layers;
-  std::vector<Layer> crossings;  ///< Everything of solids that covers a sample, however deep.
+  int lanes;                       ///< Of a pixel, a multiple of kLanes.
+  AlignedVector<float> x, y;       ///< Raster position.
+  AlignedVector<float> time;       ///< Fraction of the shutter; this and the lens are empty before showBlur().
+  AlignedVector<float> lensX, lensY;  ///< Raster shift of what has a depth key of Camera::focusKey() + 1.
+  AlignedVector<float> depth;      ///< Key of the nearest opaque hit; -infinity in padding, which so never counts.
+  AlignedVector<uint32_t> cell;    ///< That hit.
+  std::vector<uint32_t> pixelOf;   ///< Of kLanes lanes.
+  AlignedVector<float> far;        ///< A pixel: no less than the greatest depth of its lanes.
+  std::vector<uint8_t> nearer;     ///< A pixel: 1 if depths changed since `far` was computed.
+  Films films;
+  Films crossings;                 ///< Everything of solids that covers a sample, however deep.
+
+  /// Makes times and lens positions: the first grid that moves or is out of focus asks for them.
+  void showBlur();
+  /// What DetailShare divides, of a lane.
+  float detail(size_t lane) const {
+    const size_t width = static_cast<size_t>(lanes);
+    return pattern_.detail(patternAt_[lane / width])[lane % width];
+  }
+  /// Where transparent grids, and solids, note what they cover.
+  Films& filmsOf(const RasterGrid& raster) { return raster.inSolid ? crossings : films; }
+  /// Brings `far` up to date.
+  void settle(const PixelRect& pixels);
 
   size_t pixelIndex(int column, int row) const {
     return static_cast<size_t>((row - rect.y0) * (rect.x1 - rect.x0) + (column - rect.x0));
@@ -69,6 +81,15 @@ struct SampleBuffer {
   }
   /// Is every sample of the pixels nearer than depth key d?
   bool hides(const PixelRect& pixels, float d) const;
+
+ private:
+  const SamplePattern& pattern_;
+  const vec2 lens_;
+  std::vector<int> patternAt_;  ///< A pixel
 };
+
+struct Sight;
+/// Appends what the samples of a pixel see of opaque surfaces.
+void collectOpaque(const SampleBuffer& samples, size_t pixel, std::vector<Sight>& sights);
 
 }  // namespace tomales

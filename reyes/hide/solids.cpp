@@ -13,9 +13,12 @@ namespace {
 constexpr float kSlackOfCell = 4e-3f;
 constexpr float kRounding = 1e-6f;
 
+/// A sample that a cell covers.
 struct Crossing {
-  Layer at;
+  uint32_t lane;  ///< In SampleBuffer
   int solid;
+  float d;
+  uint32_t cell;
 };
 
 class SolidResolver {
@@ -38,60 +41,62 @@ class SolidResolver {
 
   std::vector<Crossing> sorted() {
     std::vector<Crossing> all;
-    all.reserve(samples_.crossings.size());
-    for (const Layer& l : samples_.crossings) all.push_back({l, objectOf(l.cell).solid});
-    samples_.crossings = {};
+    for (const Film& film : samples_.crossings.list) {
+      const float* depth = samples_.crossings.depths.data() + film.firstDepth;
+      const uint32_t first = film.pixel * static_cast<uint32_t>(samples_.lanes) + 64 * film.word;
+      for (uint64_t left = film.samples; left; left &= left - 1)
+        all.push_back({first + static_cast<uint32_t>(std::countr_zero(left)), objectOf(film.cell).solid, *depth++, film.cell});
+    }
     std::sort(all.begin(), all.end(), [this](const Crossing& p, const Crossing& q) {
-      const auto key = [](const Crossing& c) { return std::make_tuple(c.at.pixel, c.at.lane, c.solid, c.at.d); };
-      return key(p) != key(q) ? key(p) < key(q) : grids_.precedes(p.at.cell, q.at.cell);
+      const auto key = [](const Crossing& c) { return std::tie(c.lane, c.solid, c.d); };
+      return key(p) != key(q) ? key(p) < key(q) : grids_.precedes(p.cell, q.cell);
     });
     return all;
   }
 
-  static bool sameLine(const Crossing& p, const Crossing& q) {
-    return std::tie(p.at.pixel, p.at.lane, p.solid) == std::tie(q.at.pixel, q.at.lane, q.solid);
-  }
+  static bool sameLine(const Crossing& p, const Crossing& q) { return p.lane == q.lane && p.solid == q.solid; }
 
-  SolidCrossing crossing(const Layer& l) const {
-    const GridTable::Entry& entry = grids_.of(l.cell);
-    const Object& o = objectOf(l.cell);
-    const SeenCell s =
-        seenCell(entry, camera_, static_cast<int>(l.cell - entry.firstCell), samplePoint(samples_, l.pixel, l.lane));
+  SolidCrossing crossing(const Crossing& c) const {
+    const GridTable::Entry& entry = grids_.of(c.cell);
+    const Object& o = objectOf(c.cell);
+    const SeenCell s = seenCell(entry, camera_, static_cast<int>(c.cell - entry.firstCell), samplePoint(samples_, c.lane));
     const vec2 ad(s.d - s.a), bc(s.c - s.b);
     // Raster y runs down: what turns clockwise from u to v as seen has dPdu x dPdv towards the eye.
     const bool leaving = (ad.x * bc.y - ad.y * bc.x < 0) != o.flipsNormal;
     const float extent = std::max({s.a.z, s.b.z, s.c.z, s.d.z}) - std::min({s.a.z, s.b.z, s.c.z, s.d.z});
-    const float rounding = kRounding * std::abs(l.d);
-    return {o.solidBlock, leaving, l.d, extent + rounding, kSlackOfCell * extent + rounding};
+    const float rounding = kRounding * std::abs(c.d);
+    return {o.solidBlock, leaving, c.d, extent + rounding, kSlackOfCell * extent + rounding};
   }
 
   void resolveLine(std::span<const Crossing> line) {
     crossings_.clear();
-    for (const Crossing& c : line) crossings_.push_back(crossing(c.at));
+    for (const Crossing& c : line) crossings_.push_back(crossing(c));
     const int solid = line.front().solid;
     const auto walk = walks_.try_emplace(solid, scene_.solids[static_cast<size_t>(solid)]).first;
     walk->second.boundaries(crossings_, boundaries_);
     for (const SolidBoundary& b : boundaries_)
-      if (visible(line[b.crossing].at, b.entering) && compete(line[b.crossing].at)) return;
+      if (visible(line[b.crossing], b.entering) && compete(line[b.crossing])) return;
   }
 
   /// The surface of a solid has an outside by itself, whatever way its primitives are turned. It is whole before it is clipped.
-  bool visible(const Layer& l, bool entering) const {
-    const Attributes& a = *objectOf(l.cell).attributes;
-    const SamplePoint sample = samplePoint(samples_, l.pixel, l.lane);
-    return a.visibility.camera && (entering || a.sides == 2) && !camera_.clips(sample.at, sample.lens, l.d);
+  bool visible(const Crossing& c, bool entering) const {
+    const Attributes& a = *objectOf(c.cell).attributes;
+    const SamplePoint sample = samplePoint(samples_, c.lane);
+    return a.visibility.camera && (entering || a.sides == 2) && !camera_.clips(sample.at, sample.lens, c.d);
   }
 
   /// True: it hides all behind it.
-  bool compete(const Layer& l) {
-    const size_t lane = l.pixel * static_cast<size_t>(samples_.lanes) + l.lane;
-    float& depth = samples_.depth[lane];
-    if (!grids_.of(l.cell).raster->opaque) {
-      samples_.layers.push_back(l);
+  bool compete(const Crossing& c) {
+    float& depth = samples_.depth[c.lane];
+    if (c.d > depth) return false;
+    if (!grids_.of(c.cell).raster->opaque) {
+      const uint32_t lanes = static_cast<uint32_t>(samples_.lanes), s = c.lane % lanes;
+      *samples_.films.next() = c.d;
+      samples_.films.add(c.lane / lanes, c.cell, s / 64, uint64_t{1} << (s % 64));
       return false;
     }
-    uint32_t& owner = samples_.cell[lane];
-    if (l.d < depth || (l.d == depth && grids_.precedes(l.cell, owner))) depth = l.d, owner = l.cell;
+    uint32_t& owner = samples_.cell[c.lane];
+    if (c.d < depth || grids_.precedes(c.cell, owner)) depth = c.d, owner = c.cell;
     return true;
   }
 
@@ -107,7 +112,7 @@ class SolidResolver {
 }  // namespace
 
 void resolveSolids(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples) {
-  if (!samples.crossings.empty()) SolidResolver(scene, camera, grids, samples).resolve();
+  if (!samples.crossings.list.empty()) SolidResolver(scene, camera, grids, samples).resolve();
 }
 
 }  // namespace tomales

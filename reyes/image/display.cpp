@@ -6,41 +6,28 @@
 namespace tomales {
 namespace {
 
-/// The channels of `mode`, in its order. Empty: it names one that does not exist.
-std::vector<std::string> channelsOf(const std::string& mode) {
-  std::vector<std::string> out;
-  for (const char c : mode) {
-    if (std::string("rgbaz").find(c) == std::string::npos) return {};
-    out.emplace_back(1, static_cast<char>(c - 'a' + 'A'));
-  }
-  return out;
+// RISpec 3.2 section 4.1.7: round(zero + value (one - zero) + dither random), clamped. Random numbers are named by pixel and
+// channel.
+float quantised(float value, const Quantize& q, float limit, uint32_t name) {
+  const float noisy = std::floor(q.zero + (q.one - q.zero) * value + q.dither * (2 * unitFloat(name) - 1) + 0.5f);
+  const float low = std::max(q.min, 0.0f);
+  return noisy > low ? std::min(noisy, std::min(q.max, limit)) : low;  // NaN becomes the minimum
 }
 
-Image pick(const Image& image, const std::vector<std::string>& channels) {
-  Image out = image;
-  out.channels = channels;
-  out.pixels.clear();
-  std::vector<int> from;
-  for (const std::string& name : channels) from.push_back(image.channelIndex(name));
-  for (size_t i = 0; i < image.pixels.size(); i += image.channels.size())
-    for (const int c : from) out.pixels.push_back(c < 0 ? 0.0f : image.pixels[i + static_cast<size_t>(c)]);
-  return out;
-}
-
-// RISpec 3.2 section 4.1.7: round(one * value + dither * random), clamped. Random numbers are named by pixel
-// and channel.
-void quantise(Image& image, const Quantize& q, float limit) {
-  const float low = std::max(q.min, 0.0f), high = std::min(q.max, limit);
-  const int channels = image.channelCount();
+void quantise(Image& image, const std::vector<Quantize>& quantizers, float limit) {
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
-      for (int c = 0; c < channels; ++c) {
-        float& v = image.at(x, y)[c];
+      for (size_t c = 0; c < image.channels.size(); ++c) {
         const uint32_t name = hashCombine(static_cast<uint32_t>(x + image.originX),
                                           static_cast<uint32_t>(y + image.originY), static_cast<uint32_t>(c));
-        const float noisy = std::floor(q.one * v + q.dither * (2 * unitFloat(name) - 1) + 0.5f);
-        v = noisy > low ? std::min(noisy, high) : low;  // NaN becomes the minimum
+        float& v = image.at(x, y)[c];
+        v = quantised(v, quantizers[c], limit, name);
       }
+}
+
+float exposed(float value, float gain, float gamma) {
+  value *= gain;
+  return gamma == 1 ? value : std::pow(std::max(value, 0.0f), 1 / gamma);
 }
 
 // PNG wants colour that is not multiplied by alpha, and encodes that.
@@ -69,17 +56,70 @@ std::string text(const DisplayCall& display, const char* name) {
   return value;
 }
 
+constexpr std::string_view kCompressions[] = {"none", "rle", "zip", "zips", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
+constexpr std::string_view kHeader = "exrheader_";
+
+bool knowsParam(const std::string& name) {
+  static constexpr std::string_view kNames[] = {"transfer",    "exrpixeltype", "type",     "compression", "exrcompression",
+                                                "tiled",       "multipart",    "quantize", "dither",      "filter",
+                                                "filterwidth", "exposure",     "origin",   "chromaticities", "mergedepth",
+                                                "mergeopacity"};
+  return name.starts_with(kHeader) || std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+}
+
+std::string compressionOf(const DisplayCall& display) {
+  const std::string plain = text(display, "compression");
+  return plain.empty() ? text(display, "exrcompression") : plain;
+}
+
+std::string pixelTypeOf(const DisplayCall& display) {
+  const std::string exr = text(display, "exrpixeltype");
+  return exr.empty() ? text(display, "type") : exr;
+}
+
 void warnAboutParams(const DisplayCall& display, Log& log) {
   const auto warn = [&](const std::string& what) {
     log.report(Severity::Warning, "display-parameter", display.where,
                "Display \"" + display.name + "\": " + what + "; ignored");
   };
   for (const Param& p : display.params)
-    if (p.name != "transfer" && p.name != "exrpixeltype") warn("no parameter \"" + p.name + "\"");
-  const std::string transfer = text(display, "transfer"), type = text(display, "exrpixeltype");
+    if (!knowsParam(p.name)) warn("no parameter \"" + p.name + "\"");
+  const std::string transfer = text(display, "transfer"), type = pixelTypeOf(display), compression = compressionOf(display);
   if (!transfer.empty() && transfer != "srgb" && transfer != "linear")
     warn("no transfer \"" + transfer + "\"");
-  if (!type.empty() && type != "half" && type != "float") warn("no exrpixeltype \"" + type + "\"");
+  if (!type.empty() && type != "half" && type != "float") warn("no pixel type \"" + type + "\"");
+  if (!compression.empty() &&
+      std::find(std::begin(kCompressions), std::end(kCompressions), compression) == std::end(kCompressions))
+    warn("no compression \"" + compression + "\"");
+}
+
+std::vector<Metadata> metadataOf(const DisplayCall& display) {
+  // Linear light of the primaries of Rec. 709 and sRGB, unless the Display says otherwise.
+  Metadata primaries{"chromaticities", "", {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f}};
+  if (const Param* p = findParam(display.params, "chromaticities"); p && p->floats.size() == 8) primaries.numbers = p->floats;
+  std::vector<Metadata> out{primaries};
+  for (const Param& p : display.params) {
+    if (!p.name.starts_with(kHeader)) continue;
+    Metadata m{p.name.substr(kHeader.size()), p.strings.empty() ? "" : p.strings[0], p.floats};
+    for (const int i : p.ints) m.numbers.push_back(static_cast<float>(i));
+    out.push_back(std::move(m));
+  }
+  return out;
+}
+
+bool flag(const DisplayCall& display, const char* name) {
+  const Param* p = findParam(display.params, name);
+  return p && p->number(0) != 0;
+}
+
+void setExr(const DisplayCall& display, FileFormat& format) {
+  if (pixelTypeOf(display) == "half") format.type = SampleType::Half;
+  const std::string compression = compressionOf(display);
+  if (std::find(std::begin(kCompressions), std::end(kCompressions), compression) != std::end(kCompressions))
+    format.compression = compression;
+  if (flag(display, "tiled")) format.tile = PictureFile::kBandRows;
+  format.multipart = flag(display, "multipart");
+  format.metadata = metadataOf(display);
 }
 
 /// Decides file format, and the name where the Display leaves it open (RISpec's "ri.pic" has a format of no
@@ -97,49 +137,8 @@ FileFormat formatOf(const DisplayCall& display, std::string& path, Log& log) {
     format = {"openexr", SampleType::Float};
     path = std::filesystem::path(path).replace_extension(".exr").string();
   }
-  if (format.name == "openexr" && text(display, "exrpixeltype") == "half") format.type = SampleType::Half;
+  if (format.name == "openexr") setExr(display, format);
   return format;
-}
-
-std::vector<std::string> channelsToWrite(const DisplayCall& display, Log& log) {
-  std::vector<std::string> channels = channelsOf(display.mode);
-  if (!channels.empty()) return channels;
-  log.report(Severity::Warning, "display-mode", display.where,
-             "Display \"" + display.name + "\": no channels \"" + display.mode + "\"; rgba is written");
-  return channelsOf("rgba");
-}
-
-/// Fits type and pixels of an integer format to Quantize. False: the format cannot hold what is asked for.
-bool prepareIntegers(Image& image, FileFormat& format, const DisplayCall& display, const Options& options,
-                     Log& log) {
-  const bool depth = image.channelIndex("Z") >= 0;
-  Quantize q = depth && image.channels.size() == 1 ? options.depthQuantize : options.rgbaQuantize;
-  if ((depth && image.channels.size() > 1) || q.one <= 0) {
-    if (format.name == "tiff") {
-      format.type = SampleType::Float;
-      return true;
-    }
-    if (depth) return false;
-    log.report(Severity::Warning, "display-quantize", display.where,
-               "Display \"" + display.name + "\": PNG holds no floating point numbers; quantised to 8 bits");
-    q = Quantize{};
-  }
-  if (text(display, "transfer") == "srgb" && !depth) {
-    encodeForScreen(image);
-    format.unassociatedAlpha = true;
-  }
-  const bool wide = q.one > 255 || q.max > 255;
-  format.type = wide ? SampleType::UInt16 : SampleType::UInt8;
-  quantise(image, q, wide ? 65535.0f : 255.0f);
-  return true;
-}
-
-bool writeReporting(const std::string& path, const Image& image, const FileFormat& format,
-                    const SourceLoc& where, Log& log) {
-  std::string error;
-  if (writeFile(path, image, format, error)) return true;
-  log.report(Severity::Output, "image-write", where, "\"" + path + "\" could not be written: " + error);
-  return false;
 }
 
 }  // namespace
@@ -154,24 +153,115 @@ void expose(Image& image, const Options& options) {
     const int channel = image.channelIndex(name);
     for (size_t i = static_cast<size_t>(channel); channel >= 0 && i < image.pixels.size();
          i += image.channels.size()) {
-      float& v = image.pixels[i];
-      v *= options.exposureGain;
-      if (options.exposureGamma != 1) v = std::pow(std::max(v, 0.0f), 1 / options.exposureGamma);
+      image.pixels[i] = exposed(image.pixels[i], options.exposureGain, options.exposureGamma);
     }
   }
 }
 
-bool writeDisplay(const Image& image, const DisplayCall& display, const Options& options, Log& log) {
-  warnAboutParams(display, log);
-  std::string path = display.name;
-  FileFormat format = formatOf(display, path, log);
-  Image picked = pick(image, channelsToWrite(display, log));
-  if (format.name != "openexr" && !prepareIntegers(picked, format, display, options, log)) {
-    log.report(Severity::Output, "display-depth", display.where,
-               "\"" + path + "\" could not be written: PNG holds no depth; use OpenEXR or TIFF");
+struct DisplayFile::Impl {
+  Impl(const Image& whole, const FrameOutput& output, size_t index, const Options& o, Log& l)
+      : display(o.displays[index]), options(o), log(l), path(display.name), selection(output.displays[index]) {
+    warnAboutParams(display, log);
+    format = formatOf(display, path, log);
+    shape = whole;
+    shape.channels.clear(), shape.pixels.clear();
+    const std::vector<std::string> names = output.names();
+    for (const SelectedFloat& f : selection) {
+      const Channel& channel = output.channels[static_cast<size_t>(f.channel)];
+      from.push_back(whole.channelIndex(names[static_cast<size_t>(channel.first + f.component)]));
+      shape.channels.push_back(f.name);
+      depth.push_back(channel.kind == ChannelKind::Depth);
+      // Depth and position lose their meaning in half floats.
+      if (depth.back() || channel.type == ValueType::Point) format.precise.push_back(f.name);
+    }
+    const bool good = format.name == "openexr" || prepareIntegers();
+    if (good) file = std::make_unique<PictureFile>(path, shape, format);
+  }
+
+  /// Fits the type of an integer format to Quantize. False: the format cannot hold what is asked for.
+  bool prepareIntegers() {
+    const bool anyDepth = std::find(depth.begin(), depth.end(), true) != depth.end();
+    const bool mixed = anyDepth && std::find(depth.begin(), depth.end(), false) != depth.end();
+    bool floats = mixed, wide = false;
+    for (size_t i = 0; i < selection.size(); ++i) {
+      Quantize q = selection[i].encoding.quantize.value_or(depth[i] ? options.depthQuantize : options.rgbaQuantize);
+      floats = floats || q.one <= 0, wide = wide || q.one > 255 || q.max > 255;
+      quantizers.push_back(q);
+    }
+    if (floats && format.name == "tiff") {
+      quantizers.clear();
+      format.type = SampleType::Float;
+      return true;
+    }
+    if (floats && anyDepth) {
+      log.report(Severity::Output, "display-depth", display.where,
+                 "\"" + path + "\" could not be written: PNG holds no depth; use OpenEXR or TIFF");
+      return false;
+    }
+    if (floats) {
+      log.report(Severity::Warning, "display-quantize", display.where,
+                 "Display \"" + display.name + "\": PNG holds no floating point numbers; quantised to 8 bits");
+      quantizers.assign(selection.size(), Quantize{});
+      wide = false;
+    }
+    screen = text(display, "transfer") == "srgb" && !anyDepth;
+    format.unassociatedAlpha = screen;
+    format.type = wide ? SampleType::UInt16 : SampleType::UInt8;
+    return true;
+  }
+
+  Image picked(const Image& rows) const {
+    Image out = shape;
+    out.originY = rows.originY, out.height = rows.height;
+    out.pixels.reserve(rows.pixels.size() / rows.channels.size() * from.size());
+    for (size_t i = 0; i < rows.pixels.size(); i += rows.channels.size())
+      for (size_t c = 0; c < from.size(); ++c) {
+        const float v = from[c] < 0 ? 0.0f : rows.pixels[i + static_cast<size_t>(from[c])];
+        const auto& exposure = selection[c].encoding.exposure;
+        out.pixels.push_back(exposure && !depth[c] ? exposed(v, (*exposure)[0], (*exposure)[1]) : v);
+      }
+    return out;
+  }
+
+  bool write(const Image& rows) {
+    if (!file) return false;
+    Image out = picked(rows);
+    if (screen) encodeForScreen(out);
+    if (!quantizers.empty()) quantise(out, quantizers, format.type == SampleType::UInt16 ? 65535.0f : 255.0f);
+    return file->write(out) || report();
+  }
+
+  bool report() {
+    log.report(Severity::Output, "image-write", display.where, "\"" + path + "\" could not be written: " + file->error());
+    file.reset();
     return false;
   }
-  return writeReporting(path, picked, format, display.where, log);
+
+  const DisplayCall display;
+  const Options& options;
+  Log& log;
+  std::string path;
+  const Selection selection;
+  FileFormat format;
+  Image shape;
+  std::vector<int> from;    ///< Index of every float in a pixel of the frame's picture; -1: it is not there.
+  std::vector<bool> depth;
+  std::vector<Quantize> quantizers;  ///< Empty: floats are written.
+  bool screen = false;
+  std::unique_ptr<PictureFile> file;  ///< Null: failed, and reported.
+};
+
+DisplayFile::DisplayFile(const Image& shape, const FrameOutput& output, size_t index, const Options& options, Log& log)
+    : impl_(new Impl(shape, output, index, options, log)) {}
+DisplayFile::~DisplayFile() = default;
+bool DisplayFile::write(const Image& rows) { return impl_->write(rows); }
+bool DisplayFile::close() { return impl_->file && (impl_->file->close() || impl_->report()); }
+
+bool writeDisplay(const Image& image, const DisplayCall& display, const Options& options, Log& log) {
+  Options one = options;
+  one.displays = {display};
+  DisplayFile file(image, outputOf(one, &log), 0, one, log);
+  return file.write(image) && file.close();
 }
 
 bool writeImage(const std::string& path, const Image& image, bool srgb, Log& log) {
@@ -185,9 +275,12 @@ bool writeImage(const std::string& path, const Image& image, bool srgb, Log& log
   if (format.type == SampleType::UInt8) {
     if (srgb) encodeForScreen(copy);
     format.unassociatedAlpha = srgb;
-    quantise(copy, Quantize{255, 0, 255, 0}, 255);
+    quantise(copy, std::vector<Quantize>(copy.channels.size(), Quantize{255, 0, 255, 0}), 255);
   }
-  return writeReporting(path, copy, format, {}, log);
+  PictureFile file(path, copy, format);
+  if (file.write(copy) && file.close()) return true;
+  log.report(Severity::Output, "image-write", {}, "\"" + path + "\" could not be written: " + file.error());
+  return false;
 }
 
 }  // namespace tomales

@@ -6,17 +6,43 @@ namespace tomales {
 
 enum class SampleType { Half, Float, UInt8, UInt16 };
 
+/// Something that a file says about itself.
+struct Metadata {
+  std::string name;
+  std::string text;            ///< Or else
+  std::vector<float> numbers;  ///< 16 of them: a matrix.
+};
+
 struct FileFormat {
   std::string name;                     ///< "openexr", "tiff", "png"
   SampleType type = SampleType::Float;  ///< Integer types: pixels hold integers already, 0..255 or 0..65535.
   bool unassociatedAlpha = false;       ///< Colour has been divided by alpha.
+  std::string compression = {};         ///< Empty: the format's best lossless one.
+  int tile = 0;                         ///< Side of a tile; 0: scanlines.
+  bool multipart = false;               ///< OpenEXR: one part for each layer; the picture is held until it is complete.
+  std::vector<std::string> precise = {};///< Channels that stay float in a file of halves.
+  std::vector<Metadata> metadata = {};
 };
 
 /// Format of a file by its name's extension; empty name: none that can be written.
 FileFormat formatOfExtension(const std::string& path);
 
-/// To a temporary name in the same directory, then renamed. False: nothing was left behind, `error` says why.
-bool writeFile(const std::string& path, const Image& image, const FileFormat& format, std::string& error);
+/// A picture on its way to a temporary name in the same directory; close() renames. What is not closed leaves nothing behind.
+class PictureFile {
+ public:
+  static constexpr int kBandRows = 64;
+
+  PictureFile(const std::string& path, const Image& shape, const FileFormat& format);
+  ~PictureFile();
+  /// The next rows from the top; all calls but the last with a multiple of kBandRows. False: error() says why.
+  bool write(const Image& rows);
+  bool close();
+  const std::string& error() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 /// IEC 61966-2-1 transfer of one linear value, clamped to [0,1].
 float encodeSrgb(float linear);

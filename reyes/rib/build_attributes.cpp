@@ -110,6 +110,7 @@ const std::unordered_map<std::string_view, Setter>& numberSetters() {
       {"trace:offset", [](Attributes& a, const Param& p) { a.trace.offset = p.number(0); }},
       {"trace:displacements",
        [](Attributes& a, const Param& p) { a.trace.displacements = p.number(0) != 0; }},
+      {"trace:samplemotion", [](Attributes& a, const Param& p) { a.trace.sampleMotion = p.number(0) != 0; }},
       {"trace:tessellation", [](Attributes& a, const Param& p) { a.trace.tessellation = p.number(1); }},
       {"indirect:receive", [](Attributes& a, const Param& p) { a.indirect.receive = p.number(1) != 0; }},
       {"indirect:gain", [](Attributes& a, const Param& p) { a.indirect.gain = p.number(1); }},

@@ -95,6 +95,10 @@ PrimPtr subdivisionMesh(const Request& r, const Scope&, Problems& problems) {
                              problems);
 }
 
+PrimPtr blobby(const Request& r, const Scope&, Problems& problems) {
+  return makeBlobby(r.args[0].ints()[0], r.args[1].ints(), r.args[2].numbers, r.params, problems);
+}
+
 template <size_t... I, class Make>
 PrimPtr quadric(Make make, std::index_sequence<I...>, const Request& r, Problems& problems) {
   return make(r.args[0].numbers[I]..., r.params, problems);
@@ -131,6 +135,7 @@ const std::unordered_map<std::string_view, Builder>& builders() {
       {"Curves", curves},
       {"SubdivisionMesh", subdivisionMesh},
       {"HierarchicalSubdivisionMesh", subdivisionMesh},
+      {"Blobby", blobby},
   };
   return table;
 }

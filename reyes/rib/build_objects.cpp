@@ -134,6 +134,7 @@ std::string SceneBuilder::description(const Request& r) const {
 
 void SceneBuilder::beginMotion(const Request& r) {
   motion_ = MotionBlock{r, {}, masterRequest_};
+  for (float& time : motion_->begin.args[0].numbers) time += state_.globals.options.shutterOffset;
   if (increasing(r.args[0].numbers)) return;
   state_.warn(r, "rib-motion", "times must be finite and increase; only the first key is used");
   motion_->begin.args[0].numbers.resize(1, 0.0f);

@@ -15,12 +15,6 @@ void reject(GraphicsState& s, const Request& r, const std::string& why) {
   s.warn(r, "rib-option", why + "; the option is left as it was");
 }
 
-float clamped(GraphicsState& s, const Request& r, float value, float least, float most) {
-  const float out = std::clamp(value, least, most);
-  if (out != value) s.warn(r, "rib-clamped", fmt::format("{} is out of range, {} is used", value, out));
-  return out;
-}
-
 // RISpec: a resolution or aspect ratio of zero or less keeps the default.
 void format(GraphicsState& s, const Request& r) {
   const std::vector<float>& a = r.args[0].numbers;
@@ -138,41 +132,6 @@ void exposure(GraphicsState& s, const Request& r) {
   s.globals.options.exposureGamma = a[1];
 }
 
-void quantize(GraphicsState& s, const Request& r) {
-  const std::vector<float>& a = r.args[1].numbers;
-  const Quantize q{a[0], a[1], a[2], a[3]};
-  const std::string& type = r.args[0].strings[0];
-  if (type == "rgba" || type == "rgb") {
-    s.globals.options.rgbaQuantize = q;
-    s.globals.options.quantizeGiven = true;
-  } else if (type == "z") {
-    s.globals.options.depthQuantize = q;
-  } else {
-    reject(s, r, "quantization of \"" + type + "\" is not supported yet");
-  }
-}
-
-// RISpec 3.2: a leading '+' adds a display, any other replaces them all.
-void display(GraphicsState& s, const Request& r) {
-  DisplayCall call{r.args[0].strings[0], r.args[1].strings[0], r.args[2].strings[0], r.params, r.where};
-  const bool adds = !call.name.empty() && call.name[0] == '+';
-  if (adds)
-    call.name.erase(0, 1);
-  else
-    s.globals.options.displays.clear();
-  s.globals.options.displays.push_back(std::move(call));
-}
-
-void hider(GraphicsState& s, const Request& r) {
-  s.globals.options.hider = r.args[0].strings[0];
-  for (const Param& p : r.params)
-    if (p.name == "jitter")
-      s.globals.options.jitter = p.number(1) != 0;
-    else
-      s.warnOnce("hider:" + p.name, r, "rib-unsupported",
-                 "Hider: parameter \"" + p.name + "\" is not supported yet, ignored");
-}
-
 void searchPath(GraphicsState& s, const Request& r, const Param& p) {
   if (p.name == "dirmap") {
     s.globals.dirMap = readDirMap(p.strings);
@@ -196,8 +155,14 @@ bool knownOption(GraphicsState& s, const Request& r, const std::string& key, con
   } else if (bucket && p.ints.size() == 2) {
     o.bucketWidth = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[0]), 1, 4096));
     o.bucketHeight = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[1]), 1, 4096));
+  } else if (key == "shutter:offset") {
+    o.shutterOffset = p.number(0);
   } else if (key == "limits:gridsize" && p.ints.size() == 1) {
     o.gridSize = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[0]), 1, 65536));
+  } else if (key == "limits:othreshold" && p.floats.size() == 3) {
+    o.opaqueThreshold = {p.floats[0], p.floats[1], p.floats[2]};
+  } else if (key == "limits:zthreshold" && p.floats.size() == 3) {
+    o.depthThreshold = {p.floats[0], p.floats[1], p.floats[2]};
   } else {
     return key.starts_with("user:") || key == "ribparse:varsubst";
   }
@@ -216,6 +181,12 @@ void option(GraphicsState& s, const Request& r) {
 
 }  // namespace
 
+float clamped(GraphicsState& s, const Request& r, float value, float least, float most) {
+  const float out = std::clamp(value, least, most);
+  if (out != value) s.warn(r, "rib-clamped", fmt::format("{} is out of range, {} is used", value, out));
+  return out;
+}
+
 const HandlerTable& optionHandlers() {
   static const HandlerTable table = {
       {"Format", format},
@@ -231,9 +202,6 @@ const HandlerTable& optionHandlers() {
       {"PixelSamples", pixelSamples},
       {"PixelFilter", pixelFilter},
       {"Exposure", exposure},
-      {"Quantize", quantize},
-      {"Display", display},
-      {"Hider", hider},
       {"Option", option},
       {"Imager", [](GraphicsState& s, const Request& r) { s.globals.options.imager = makeShaderCall(s, r); }},
   };

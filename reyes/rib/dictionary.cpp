@@ -30,11 +30,16 @@ constexpr Standard kStandard[] = {
     {"point", "from to"},
     {"string", "texturename shadowname mapname"},
     // Camera, displays, hiders
-    {"float", "fov depthbias jitter dither minwidth"},
+    {"float", "fov depthbias jitter dither minwidth dofaspect"},
+    {"float[4]", "aperture"},
+    {"int", "samplemotion"},
     {"float[2]", "shutteropening exposure filterwidth"},
     {"float[4]", "quantize"},
     {"int[2]", "origin"},
-    {"string", "compression filter depthfilter type"},
+    {"string", "compression filter depthfilter type source exrpixeltype exrcompression transfer lightgroup __group"},
+    {"float", "fill"},
+    {"float[8]", "chromaticities"},
+    {"int", "tiled multipart"},
     // Category names go by "category:name"
     {"int[2]", "limits:bucketsize bucket:orderorigin"},
     {"int",

@@ -13,6 +13,7 @@ using Handler = void (*)(GraphicsState&, const Request&);
 using HandlerTable = std::unordered_map<std::string_view, Handler>;
 
 const HandlerTable& optionHandlers();
+const HandlerTable& displayHandlers();
 const HandlerTable& attributeHandlers();
 const HandlerTable& shaderHandlers();
 const HandlerTable& resourceHandlers();
@@ -42,6 +43,8 @@ inline vec3 asVec3(const RibArg& a, size_t at = 0) {
   return {a.numbers[at], a.numbers[at + 1], a.numbers[at + 2]};
 }
 mat4 asMatrix(const std::vector<float>& sixteen);
+/// Says so where it changes the value.
+float clamped(GraphicsState& state, const Request& request, float value, float least, float most);
 ShaderCall makeShaderCall(const GraphicsState& state, const Request& request);
 
 }  // namespace tomales::rib

@@ -138,10 +138,12 @@ bool SceneBuilder::performBlock(const Request& r) {
 
 bool SceneBuilder::performHandler(const Request& r) {
   for (const HandlerTable* table :
-       {&attributeHandlers(), &shaderHandlers(), &detailHandlers(), &transformHandlers(), &resourceHandlers(), &optionHandlers()}) {
+       {&attributeHandlers(), &shaderHandlers(), &detailHandlers(), &transformHandlers(), &resourceHandlers(), &optionHandlers(),
+        &displayHandlers()}) {
     const auto it = table->find(r.name);
     if (it == table->end()) continue;
-    if (table == &optionHandlers() && state_.world && r.name != "Option" && r.name != "Imager")
+    const bool option = table == &optionHandlers() || table == &displayHandlers();
+    if (option && state_.world && r.name != "Option" && r.name != "Imager")
       state_.warn(r, "rib-late-option", "options belong before WorldBegin; it counts for this world only");
     const auto good = [](const Param& p) { return usable(p.floats, true); };
     if (std::all_of(r.params.begin(), r.params.end(), good)) {

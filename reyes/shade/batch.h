@@ -18,6 +18,10 @@ class Batch {
   /// Inputs of a surface shader from points, outputs of `count` floats from element `begin`.
   void setPoints(ShadePoints& points, const BoundShader& shader, const std::vector<Override>& overrides,
                  ShadedPoints& out, int begin);
+  /// After setPoints: the shader's outputs are stored in `out` from `begin`.
+  void openOutputs(const std::vector<BoundVariable>& variables, ShadedPoints& out, int begin) {
+    tomales::openOutputs(variables, out, begin, params_);
+  }
   /// Inputs and outputs of a displacement shader: motion key 0 of a grid.
   void setGrid(Grid& grid, const BoundShader& shader, const std::vector<Override>& overrides);
 

@@ -9,7 +9,7 @@ namespace {
 
 /// Names of shadow maps, of shadowpoint one for each direction.
 const ParamNames kShadowMaps{"shadowname", "sfpx", "sfnx", "sfpy", "sfny", "sfpz", "sfnz"};
-const ParamNames kLightParams{"lighting", "__nondiffuse", "__nonspecular", "shadowname", "sfpx",
+const ParamNames kLightParams{"lighting", "__nondiffuse", "__nonspecular", "__group", "lightgroup", "shadowname", "sfpx",
                               "sfnx",     "sfpy",         "sfny",          "sfpz",       "sfnz"};
 
 std::string pathOf(const Options& options, const char* kind) {
@@ -143,6 +143,7 @@ void setHostParams(BoundLight& light, const LightCall& call, Log& log) {
     log.report(Severity::Warning, code, call.shader.where, light.bound->user + ": " + problem);
   };
   light.nondiffuse = number("__nondiffuse") != 0, light.nonspecular = number("__nonspecular") != 0;
+  light.group = !text("__group").empty() ? text("__group") : !text("lightgroup").empty() ? text("lightgroup") : call.handle;
   const std::string lighting = text("lighting");
   light.direct = lighting != "indirect", light.indirect = lighting != "direct";
   if (!lighting.empty() && lighting != "both" && light.direct && light.indirect)
@@ -215,6 +216,7 @@ std::vector<Override> overridesOf(const BoundShader& bound, const std::vector<Pr
   std::vector<Override> out;
   for (int i = 0; i < bound.shader->paramCount; ++i) {
     const TmParamDecl& decl = bound.shader->params[i];
+    if (isOutput(decl)) continue;
     const int width = decl.type == TM_FLOAT ? 1 : decl.type <= TM_NORMAL ? 3 : 0;
     int offset = 0;
     for (const Primvar& p : primvars) {
@@ -235,6 +237,16 @@ void findPrimvars(BoundGroup& g) {
   }
 }
 
+void warnAboutUnwritten(const FrameOutput& output, const BoundScene& scene) {
+  for (size_t i = 0; i < output.variables.size(); ++i) {
+    const Variable& v = output.variables[i];
+    const auto writes = [&](const BoundGroup& g) { return g.variables[i].from != BoundVariable::From::Nothing; };
+    if (std::any_of(scene.groups.begin(), scene.groups.end(), writes)) continue;
+    scene.log.report(Severity::Warning, fmt::format("channel-unwritten {}", v.source), v.where,
+                     fmt::format("no shader and no surface of this frame has an output \"{}\"; the channel holds {}", v.source, v.fill));
+  }
+}
+
 }  // namespace
 
 BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& st)
@@ -245,6 +257,7 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
       cameraFromWorld(s.cameraFromWorldAtOpen()),
       textures(pathOf(s.options, "texture"), l, st) {
   Binder binder(scene, registry, log);
+  const FrameOutput output = outputOf(scene.options);
   for (const auto& call : scene.lights)
     lights.push_back(binder.light(*call, static_cast<int>(lights.size())));
   connectFilters(*this);
@@ -275,8 +288,10 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
         g.indirect = light->query;
         if (a.irradianceMaxError) g.indirect->maxError = *a.irradianceMaxError;
       }
+    g.variables = bindVariables(output, g);
     groups.push_back(std::move(g));
   }
+  warnAboutUnwritten(output, *this);
 }
 
 }  // namespace tomales

@@ -3,6 +3,7 @@
 #include "reyes/shade.h"
 #include "reyes/shade/bound_shader.h"
 #include "reyes/shade/texture.h"
+#include "reyes/shade/variables.h"
 
 namespace tomales {
 
@@ -15,6 +16,7 @@ struct BoundLight {
   bool indirect = true;                          ///< Lights what gather rays see.
   bool nondiffuse = false, nonspecular = false;  ///< Left out by diffuse(), by specular().
   IndirectQuery query;                           ///< TM_LIGHT_INDIRECT alone.
+  std::string group;                             ///< Light parameter "__group" or "lightgroup"; else the handle.
   vec3 sourceTint{1.0f};                         ///< Of the indirect light that this one filters.
   bool can(TmCapability capability) const { return bound->can(capability); }
 };
@@ -34,6 +36,7 @@ struct BoundGroup {
   std::vector<Override> surfaceOverrides, indirectOverrides, displacementOverrides;
   std::vector<const BoundLight*> lights;
   std::optional<IndirectQuery> indirect;
+  std::vector<BoundVariable> variables;  ///< As FrameOutput::variables.
   int CsOffset = -1, OsOffset = -1, sOffset = -1, tOffset = -1, primvarFloats = 0;
 };
 

@@ -89,6 +89,14 @@ const TmValue* BoundShader::find(std::string_view name) const {
   return nullptr;
 }
 
+int BoundShader::output(std::string_view name, ValueType type) const {
+  for (int i = 0; i < shader->paramCount; ++i)
+    if (shader->params[i].name == name && isOutput(shader->params[i]) &&
+        accepts(shader->params[i].type & ~TM_OUTPUT, type))
+      return i;
+  return -1;
+}
+
 float BoundShader::number(std::string_view name, float fallback) const {
   const TmValue* v = find(name);
   return v && v->c[0] ? v->c[0][0] : fallback;
@@ -121,6 +129,10 @@ BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const 
     const TmParamDecl& decl = shader.params[i];
     const size_t width = static_cast<size_t>(floatsOf(decl.type)) * static_cast<size_t>(decl.arrayLength);
     const Param* param = call ? findParam(call->params, decl.name) : nullptr;
+    if (param && isOutput(decl)) {
+      warn("shader-parameter-output", fmt::format("\"{}\" is an output; what is given is ignored", decl.name));
+      param = nullptr;
+    }
     const size_t needed = decl.type == TM_STRING ? 1 : width;
     if (param && (!accepts(decl.type, param->type) || given(*param) < needed)) {
       warn("shader-parameter-type", fmt::format("parameter \"{}\" has a value of the wrong type or length; "
@@ -130,6 +142,7 @@ BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const 
     }
     TmValue& value = bound->values[i];
     value = {{nullptr, nullptr, nullptr}, 0, decl.arrayLength, nullptr};
+    if (isOutput(decl)) continue;
     if (decl.type == TM_STRING) {
       const char* fallback = decl.strings && decl.strings[0] ? decl.strings[0] : "";
       bound->strings[i] = param ? param->strings[0] : fallback;

@@ -16,6 +16,8 @@ struct BoundShader {
 
   bool can(TmCapability capability) const { return (shader->capabilities & capability) != 0; }
   const TmValue* find(std::string_view name) const;
+  /// Of the output parameter of that name, in TmShader::params; -1: none.
+  int output(std::string_view name, ValueType type) const;
   float number(std::string_view name, float fallback) const;
   vec3 color(std::string_view name, const vec3& fallback) const;
   std::string text(std::string_view name, const std::string& fallback) const;
@@ -24,6 +26,8 @@ struct BoundShader {
   std::vector<std::string> strings;
 };
 using BoundShaderPtr = std::shared_ptr<const BoundShader>;
+
+inline bool isOutput(const TmParamDecl& decl) { return (decl.type & TM_OUTPUT) != 0; }
 
 using ParamNames = std::vector<std::string_view>;
 

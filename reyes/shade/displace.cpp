@@ -24,14 +24,16 @@ void derivatives(const Grid& g, TmVec3 dPdu, TmVec3 dPdv) {
     }
 }
 
-/// Applies P - before to the later motion keys; returns the longest displacement.
+/// Applies P - before to the later motion keys, turned as the object turns; returns the longest displacement.
 float moveLaterKeys(Grid& g, TmConstVec3 before) {
   float longest2 = 0;
   for (int i = 0; i < g.vertexCount(); ++i) {
     const vec3 offset = g.position(0, i) - get(before, i);
     longest2 = std::max(longest2, dot(offset, offset));
-    for (int key = 1; key < g.keyCount; ++key)
-      for (int axis = 0; axis < 3; ++axis) g.P(key, axis)[i] += offset[axis];
+    for (int key = 1; key < g.keyCount; ++key) {
+      const vec3 turned = g.turns.empty() ? offset : g.turns[static_cast<size_t>(key)] * offset;
+      for (int axis = 0; axis < 3; ++axis) g.P(key, axis)[i] += turned[axis];
+    }
   }
   return std::sqrt(longest2);
 }

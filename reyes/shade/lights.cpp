@@ -59,11 +59,13 @@ void radianceToSample(const TmGrid& g, const float* area) {
 
 }  // namespace
 
+void Lights::restrictTo(const std::string* group) { group_ = group; }
+
 void Lights::ambient(Batch& batch, const TmGrid& asking, TmVec3 out) {
   for (int i = 0; i < asking.count; ++i)
     if (asking.active[i]) set(out, i, vec3(0.0f));
   for (const BoundLight* light : batch.group.lights) {
-    if (!light->can(TM_LIGHT_AMBIENT) || !applies(*light, batch)) continue;
+    if (!light->can(TM_LIGHT_AMBIENT) || !applies(*light, batch) || (group_ && light->group != *group_)) continue;
     const TmGrid g = lightGrid(batch, *light);
     if (!batch.run(*light->bound, g)) continue;
     for (int i = 0; i < g.count; ++i)
@@ -77,7 +79,12 @@ std::vector<LightSample>& Lights::samples(Batch& batch) {
     for (const BoundLight* light : batch.group.lights)
       if (!light->can(TM_LIGHT_AMBIENT) && applies(*light, batch)) evaluate(batch, *light);
   }
-  return samples_;
+  if (!group_) return samples_;
+  // Copies share the arrays: what has been traced for one is traced for all.
+  chosen_.clear();
+  for (const LightSample& s : samples_)
+    if (s.light->group == *group_) chosen_.push_back(s);
+  return chosen_;
 }
 
 void Lights::evaluate(Batch& batch, const BoundLight& light) {
@@ -92,7 +99,7 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
     if (area && !sampleEmitter(batch, light, g, emitterArea)) return;
     if (!batch.run(*light.bound, g)) return;
     if (area) radianceToSample(g, emitterArea);
-    LightSample sample{&light, batch.arena.vec3(g.count), g.Cl, g.L, nullptr};
+    LightSample sample{&light, batch.arena.vec3(g.count), g.Cl, g.L, {light.can(TM_LIGHT_SOLAR), s, n}, nullptr};
     for (int i = 0; i < g.count; ++i) set(sample.L, i, normalizeOr(get(g.L, i), vec3(0.0f)));
     if (light.shadows && batch.scene.services) {
       sample.pending = batch.arena.bytes(g.count);
@@ -113,8 +120,7 @@ void Lights::shadow(Batch& batch, LightSample& sample, const uint8_t* want) cons
     sample.pending[i] = 0, any = true;
   }
   if (any)
-    batch.scene.services->transmission(*batch.points, trace, view(sample.toward),
-                                       sample.light->can(TM_LIGHT_SOLAR), batch.context, sample.Cl);
+    batch.scene.services->transmission(*batch.points, trace, view(sample.toward), sample.rays, batch.context, sample.Cl);
 }
 
 }  // namespace tomales

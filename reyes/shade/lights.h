@@ -2,9 +2,10 @@
 // Shadow rays are traced later still, sample by sample, for the points on whose side of the surface the
 // sample turns out to be.
 #pragma once
+#include <string>
 #include <vector>
 
-#include "reyes/shader_api.h"
+#include "reyes/shade.h"
 
 namespace tomales {
 
@@ -16,11 +17,14 @@ struct LightSample {
   TmVec3 L;          ///< Unit, from P to the light.
   TmVec3 Cl;         ///< Divided by the number of samples; multiplied by transmission where `pending` is 0.
   TmVec3 toward;     ///< L at full length: what a shadow ray travels.
+  ShadowRays rays;   ///< Which they are.
   uint8_t* pending;  ///< 1: a shadow ray is still to be traced. Null: the light casts no shadows.
 };
 
 class Lights {
  public:
+  /// From now on only lights of this group count; null: all.
+  void restrictTo(const std::string* group);
   /// Sum of the ambient lights at the active points of `asking`.
   void ambient(Batch& batch, const TmGrid& asking, TmVec3 out);
   /// All samples of all lights that have a direction, in the order of Attributes::lights. Unshadowed until
@@ -32,7 +36,8 @@ class Lights {
  private:
   void evaluate(Batch& batch, const BoundLight& light);
   bool evaluated_ = false;
-  std::vector<LightSample> samples_;
+  std::vector<LightSample> samples_, chosen_;  ///< All; those of group_.
+  const std::string* group_ = nullptr;
 };
 
 }  // namespace tomales

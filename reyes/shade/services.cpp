@@ -20,15 +20,16 @@ void fill(const TmGrid* g, TmVec3 out, const vec3& v) {
 }
 
 /// Sums weight(i, L, N) * Cl over the light samples on the side of N (RISpec 15.6: illuminance(P, N, PI/2)).
-template <class Weight>
-void sumOverLights(Batch& batch, const TmGrid* g, TmConstVec3 N, bool BoundLight::*leftOut, TmVec3 out,
+/// of the lights that count.
+template <class Counts, class Weight>
+void sumOverLights(Batch& batch, const TmGrid* g, TmConstVec3 N, const Counts& counts, TmVec3 out,
                    const Weight& weight) {
   const TmVec3 n = batch.arena.vec3(g->count);
   forActive(g, [&](int i) { set(n, i, normalizeOr(get(N, i), vec3(0.0f))); });
   fill(g, out, vec3(0.0f));
   uint8_t* facing = batch.arena.bytes(g->count);
   for (LightSample& sample : batch.lights.samples(batch)) {
-    if (sample.light->*leftOut) continue;
+    if (!counts(*sample.light)) continue;
     std::fill_n(facing, g->count, uint8_t{0});
     forActive(g, [&](int i) { facing[i] = dot(get(n, i), get(sample.L, i)) > 0; });
     batch.lights.shadow(batch, sample, facing);
@@ -37,16 +38,23 @@ void sumOverLights(Batch& batch, const TmGrid* g, TmConstVec3 N, bool BoundLight
   }
 }
 
+void diffuseOf(void* host, const TmGrid* g, int32_t which, TmConstVec3 N, TmVec3 out) {
+  const auto counts = [which](const BoundLight& light) {
+    return !light.nondiffuse && (which & (light.can(TM_LIGHT_INDIRECT) ? TM_INDIRECT_LIGHT : TM_DIRECT_LIGHT)) != 0;
+  };
+  sumOverLights(batchOf(host), g, N, counts, out, [](int, const vec3& L, const vec3& n) { return dot(L, n); });
+}
+
 void diffuse(void* host, const TmGrid* g, TmConstVec3 N, TmVec3 out) {
-  sumOverLights(batchOf(host), g, N, &BoundLight::nondiffuse, out,
-                [](int, const vec3& L, const vec3& n) { return dot(L, n); });
+  diffuseOf(host, g, TM_DIRECT_LIGHT | TM_INDIRECT_LIGHT, N, out);
 }
 
 // The exponent is PRMan's 8/roughness, not RISpec's 1/roughness (docs/decisions/0004).
 void specular(void* host, const TmGrid* g, TmConstVec3 N, TmConstVec3 V, const float* roughness, TmVec3 out) {
   Batch& batch = batchOf(host);
   if (batch.context.kind == RayKind::Diffuse) return fill(g, out, vec3(0.0f));
-  sumOverLights(batch, g, N, &BoundLight::nonspecular, out, [&](int i, const vec3& L, const vec3& n) {
+  const auto counts = [](const BoundLight& light) { return !light.nonspecular; };
+  sumOverLights(batch, g, N, counts, out, [&](int i, const vec3& L, const vec3& n) {
     const vec3 H = normalizeOr(L + normalizeOr(get(V, i), vec3(0.0f)), vec3(0.0f));
     return std::pow(std::max(0.0f, dot(n, H)), 8 / std::max(roughness[i], 1e-6f));
   });
@@ -142,7 +150,7 @@ void transmission(void* host, const TmGrid* g, TmConstVec3 P, TmConstVec3 toward
   if (!batch.points || !batch.scene.services) return;
   ShadePoints moved = *batch.points;
   forActive(g, [&](int i) { moved.set3(kPx, i, get(P, i)); });
-  batch.scene.services->transmission(moved, g->active, toward, false, batch.context, out);
+  batch.scene.services->transmission(moved, g->active, toward, {}, batch.context, out);
 }
 
 /// Null: no light is running, or not of this group.
@@ -203,6 +211,6 @@ void report(void* host, const TmGrid*, int32_t severity, const char* message) {
 
 const TmServices kServices = {
     sizeof(TmServices), diffuse,      specular,        ambient, light,      transform, texture,
-    calculateNormal,    transmission, indirectDiffuse, report,  environment};
+    calculateNormal,    transmission, indirectDiffuse, report,  environment, diffuseOf};
 
 }  // namespace tomales

@@ -46,6 +46,8 @@ void ShadingSystem::shade(const ShadePoints& points, const ShadeContext& context
   const BoundShader& shader = indirectHit ? *group.indirectSurface : *group.surface;
   const int count = points.count();
   out.resize(count);
+  const bool variables = context.variables && !group.variables.empty();
+  if (variables) allocateVariables(group.variables, count, out);
 
   const ShaderTimer timer(impl_->stats, shader, count);
   ShadePoints chunk(points.group(), points.channelCount() - kFixedChannels);
@@ -55,7 +57,9 @@ void ShadingSystem::shade(const ShadePoints& points, const ShadeContext& context
     Batch batch(*impl_, group, context, *arena);
     batch.setPoints(chunk, shader, indirectHit ? group.indirectOverrides : group.surfaceOverrides, out,
                     begin);
+    if (variables) batch.openOutputs(group.variables, out, begin);
     repair(batch, shader, batch.run(shader, batch.tm));
+    if (variables) storeVariables(group.variables, batch, shader, out, begin);
   }
   impl_->stats.shade.verticesShaded += count;
 }

@@ -31,6 +31,13 @@ whole = render("cornell/cornell.rib", *small, "-t", "1")
 expect_same(whole, render("cornell/cornell.rib", *small, "-t", "2"), "two threads against one, with GI")
 for size in ("8", "64"):
     expect_same(whole, render("cornell/cornell.rib", *small, "--bucket-size", size), f"buckets of {size} against 16, with GI")
+channels = render("displays/channels.rib")
+if len(next(iter(channels.values()))) < 30:
+    failures.append("channels")
+    print("FAILED  channels are missing")
+expect_same(channels, render("displays/channels.rib", "--bucket-size", "40", "-t", "1"), "one thread and large buckets, all channels")
+expect_same(channels, render("displays/channels.rib", "--crop", "0.25,0.75,0.5,1"), "a crop window, all channels",
+            lambda x, y: 80 <= x < 240 and y >= 120)
 direct = render("cornell/cornell.rib", *small, "--gi", "none")
 crop = render("cornell/cornell.rib", *small, "--gi", "none", "--crop", "0.25,0.75,0.5,1")
 expect_same(direct, crop, "a crop window against the whole frame", lambda x, y: 24 <= x < 72 and y >= 48)

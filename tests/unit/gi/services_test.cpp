@@ -109,12 +109,12 @@ TEST(GiServices, TransmissionIsBlockedByTheBallAndNotByTheLightBehindIt) {
   const std::vector<uint8_t> active{1, 1, 1, 0};
   const TmConstVec3 toward{zero.data(), zero.data(), z.data()};
   const TmVec3 out{light.data(), green.data(), blue.data()};
-  services->transmission(points, active.data(), toward, false, {}, out);
+  services->transmission(points, active.data(), toward, {}, {}, out);
   EXPECT_EQ(light[0], 0);     // behind the ball
   EXPECT_EQ(light[1], 0.5f);  // beside it
   EXPECT_EQ(light[2], 0.5f);  // before it
   light[2] = 0.5f;
-  services->transmission(points, active.data(), toward, true, {}, out);
+  services->transmission(points, active.data(), toward, {.solar = true}, {}, out);
   EXPECT_EQ(light[2], 0);  // solar: the ray has no end
   EXPECT_EQ(light[3], 0.5f);
   EXPECT_EQ(green[1], 0.25f);

@@ -67,6 +67,48 @@ TEST(Depth, InterpenetratingSurfacesAreSortedSampleBySample) {
   });
 }
 
+/// Transparent sheets that cross each other within pixels, one of them moving, before an opaque one.
+TEST(Depth, FilmsThatCrossAreInOrderForEverySample) {
+  World w;
+  w.scene.options.shutterClose = 1;
+  for (int k = 0; k < 4; ++k) w.add();
+  w.freeze();
+  w.scene.objects[2].keyTimes = {0, 1};
+  const float slopes[] = {1.3f, -0.9f, 0.4f, 0}, starts[] = {20, 36, 24, 60};
+  const auto depthAt = [&](int sheet, const vec2& p, float time) {
+    return starts[sheet] + slopes[sheet] * p.x + (sheet == 2 ? 9 * time : 0);
+  };
+  Rasters sheets;
+  for (int k = 0; k < 4; ++k) {
+    const Surface sheet = [&, k](float u, float v, int key) {
+      const vec2 p = vec2(-2) + 20.0f * vec2(u, v);
+      return at(p.x, p.y, depthAt(k, p, static_cast<float>(key)));
+    };
+    sheets.push_back(raster(w, makeGrid(k, static_cast<uint32_t>(k), 12, 11, sheet, k == 2 ? 2 : 1), k == 3));
+  }
+  const SamplePattern pattern(9, 9, true, 1);
+  const DeepTile t = hide(w, pattern, kRect, sheets);
+  int changes = 0;
+  forSamples(pattern, kRect, [&](int x, int y, int s, vec2 p, float time) {
+    const DeepPixel& pixel = t.pixel(x, y);
+    float last = 0;
+    for (uint32_t k = 0; k < pixel.count; ++k) {
+      const Fragment& f = begin(t, pixel)[k];
+      ASSERT_GE(f.z, begin(t, pixel)[k > 0 ? k - 1 : 0].z);
+      if (f.word != s / 64 || !(f.samples >> (s % 64) & 1U)) continue;
+      int sheet = 0;
+      while (groupOf(t, f) != w.scene.objects[static_cast<size_t>(sheet)].group) ++sheet;
+      const float z = depthAt(sheet, p, time);
+      ASSERT_GE(z, last - 0.01f) << p.x << " " << p.y << " at " << time;
+      ASSERT_GE(z, f.z - 0.01f);
+      changes += sheet == 0 && last > 0;
+      last = z;
+    }
+    ASSERT_EQ(hits(t, x, y, s), 4);
+  });
+  EXPECT_GT(changes, 1000);
+}
+
 TEST(Depth, UnderPerspectiveIsThatOfThePlane) {
   Options o;
   o.xResolution = o.yResolution = 16;

@@ -145,6 +145,39 @@ TEST_F(Display, DepthInPngIsRefused) {
   EXPECT_EQ(log_.count("display-depth"), 1);
 }
 
+TEST_F(Display, TilesPartsAndCompressionsKeepEveryBit) {
+  Image large{150, 130, {"R", "G", "B", "A", "Z"}, {}, 3, 5, 200, 200};
+  for (int i = 0; i < 150 * 130 * 5; ++i) large.pixels.push_back(static_cast<float>(i % 977) / 977);
+  for (const char* option : {"tiled", "multipart"}) {
+    Param p, compression;
+    p.name = option, p.type = ValueType::Integer, p.ints = {1};
+    compression.name = "compression", compression.type = ValueType::String, compression.strings = {"piz"};
+    ASSERT_TRUE(writeDisplay(large, {path("a.exr"), "openexr", "rgba", {p, compression}, {}}, options_, log_)) << option;
+    const Image back = read("a.exr");
+    EXPECT_EQ(back.originX, 3);
+    for (int i = 0; i < 150 * 130; ++i) ASSERT_EQ(back.pixels[static_cast<size_t>(4 * i)], large.pixels[static_cast<size_t>(5 * i)]);
+  }
+  EXPECT_EQ(log_.entries().size(), 0u);
+}
+
+TEST_F(Display, AChannelMayBeExposedAndQuantisedOnItsOwn) {
+  Param exposure, quantize, dither;
+  exposure.name = "exposure", exposure.floats = {2, 1};
+  quantize.name = "quantize", quantize.floats = {100, 200, 0, 255};
+  ASSERT_TRUE(writeDisplay(gradient(), {path("a.tif"), "tiff", "rgb", {exposure, quantize}, {}}, options_, log_));
+  EXPECT_FLOAT_EQ(read("a.tif").at(1, 0)[0], std::round(100 + 100 * 2.0f / 7) / 255);
+}
+
+TEST_F(Display, AFileThatIsNotFinishedLeavesNothing) {
+  {
+    Options one = options_;
+    one.displays.push_back({path("a.exr"), "openexr", "rgb", {}, {}});
+    DisplayFile file(gradient(), outputOf(one), 0, one, log_);
+    EXPECT_TRUE(file.write(gradient()));
+  }
+  EXPECT_EQ(filesLeft(), 0u);
+}
+
 TEST_F(Display, UnknownModesAndParametersWarnAndWriteRgba) {
   Param odd;
   odd.name = "sparkle";

@@ -160,6 +160,92 @@ TEST(FilterFrame, TilesThatAnInterruptionLeftEmptyAreBackground) {
   EXPECT_EQ(filterFrame(frame, filtered("box", 1), jittered(1, 1)).at(1, 1)[3], 0);
 }
 
+/// Options with one Display of float channel "x"; `filter` of Channel.
+Options showing(const std::string& filter, float fill = 0, ValueType type = ValueType::Float) {
+  Options o = filtered("box", 1);
+  Param f, value;
+  f.name = "filter", f.type = ValueType::String, f.strings = {filter};
+  value.name = "fill", value.floats = {fill};
+  o.channels["x"] = {"x", type, {f, value}, {}};
+  o.displays.push_back({"a.exr", "openexr", "x", {}, {}});
+  return o;
+}
+
+/// Two surfaces side by side in every pixel, at depths 1 and 2, on a quarter and a half of the samples.
+DeepFrame twoSurfaces(float near, float far) {
+  DeepFrame frame = frameOf({{vec3(0.2f), vec3(1.0f), 1, 0b0001}, {vec3(0.4f), vec3(1.0f), 2, 0b0110}}, 1, 0, 4);
+  frame.tiles[0].shaded[0].variables = {{near, far}};
+  return frame;
+}
+
+TEST(FilterFrame, AVariableIsFilteredOrTakenOfOneSurface) {
+  const DeepFrame frame = twoSurfaces(8, 4);
+  const SampleOffsets samples = jittered(4, 4);
+  EXPECT_FLOAT_EQ(filterFrame(frame, showing("box"), samples).at(0, 0)[5], (8 + 2 * 4) / 4.0f);
+  EXPECT_FLOAT_EQ(filterFrame(frame, showing("box", 16), samples).at(0, 0)[5], (8 + 2 * 4 + 16) / 4.0f);
+  EXPECT_EQ(filterFrame(frame, showing("zmin"), samples).at(0, 0)[5], 8);
+  EXPECT_EQ(filterFrame(frame, showing("zmax"), samples).at(0, 0)[5], 4);
+  EXPECT_EQ(filterFrame(frame, showing("min"), samples).at(0, 0)[5], 4);
+  EXPECT_EQ(filterFrame(frame, showing("max"), samples).at(0, 0)[5], 8);
+  EXPECT_FLOAT_EQ(filterFrame(frame, showing("average"), samples).at(0, 0)[5], (8 + 2 * 4) / 3.0f);
+}
+
+TEST(FilterFrame, EmptyPixelsHoldTheFill) {
+  DeepFrame frame = frameOf({}, 1, 0, 4);
+  for (const char* filter : {"box", "zmin", "average"})
+    EXPECT_EQ(filterFrame(frame, showing(filter, 3), jittered(4, 4)).at(0, 0)[5], 3) << filter;
+}
+
+TEST(FilterFrame, ColoursAreCompositedAndOtherVariablesAreOfTheNearestSurface) {
+  DeepFrame frame = frameOf({{vec3(0.2f), vec3(0.25f), 1, 1}, {vec3(0.4f), vec3(1.0f), 2, 1}}, 1, 0, 1);
+  frame.tiles[0].shaded[0].variables.assign(3, {1, 10});
+  const SampleOffsets samples = jittered(1, 1);
+  EXPECT_FLOAT_EQ(filterFrame(frame, showing("box", 0, ValueType::Color), samples).at(0, 0)[6], 1 + 0.75f * 10);
+  EXPECT_EQ(filterFrame(frame, showing("box", 0, ValueType::Normal), samples).at(0, 0)[6], 1);
+}
+
+TEST(FilterFrame, AMatteObjectLeavesNoVariable) {
+  DeepFrame frame = frameOf({{vec3(0.7f), vec3(1.0f), 1, 1, true}}, 1, 0, 1);
+  frame.tiles[0].shaded[0].variables.assign(3, {9});
+  EXPECT_EQ(filterFrame(frame, showing("box", 0, ValueType::Color), jittered(1, 1)).at(0, 0)[5], 0);
+  EXPECT_EQ(filterFrame(frame, showing("zmin", 2), jittered(1, 1)).at(0, 0)[5], 2);
+}
+
+TEST(FilterFrame, DepthFiltersLookAtWhatIsOpaque) {
+  const std::vector<Layer> layers{{vec3(0.1f), vec3(0.5f), 1, 0b01},
+                                  {vec3(0.2f), vec3(1.0f), 2, 0b01},
+                                  {vec3(0.2f), vec3(1.0f), 3, 0b11},
+                                  {vec3(0.2f), vec3(1.0f), 5, 0b11}};
+  const auto depth = [&](DepthFilter filter, float threshold) {
+    Options o = filtered("box", 1);
+    o.depthFilter = filter, o.depthThreshold = vec3(threshold);
+    return filterFrame(frameOf(layers, 1, 0, 2), o, jittered(2, 2)).at(0, 0)[4];
+  };
+  EXPECT_EQ(depth(DepthFilter::Min, 1), 2);
+  EXPECT_EQ(depth(DepthFilter::Min, 0.5f), 1);
+  EXPECT_EQ(depth(DepthFilter::Max, 1), 3);
+  EXPECT_EQ(depth(DepthFilter::Average, 1), 2.5f);
+  EXPECT_EQ(depth(DepthFilter::Midpoint, 1), 2.5f);  // of 2 and 3; the other sample's is 4
+}
+
+TEST(FilterFrame, TheMidpointOfASingleSurfaceAndTheFarPlane) {
+  Options o = filtered("box", 1);
+  o.depthFilter = DepthFilter::Midpoint, o.farClip = 100;
+  EXPECT_EQ(filterFrame(frameOf({{vec3(0.1f), vec3(1.0f), 2, 1}}, 1, 0, 1), o, jittered(1, 1)).at(0, 0)[4], 51);
+}
+
+TEST(FilterFrame, BandsOfRowsAreThePicture) {
+  const DeepFrame frame = frameOf({{vec3(0.3f), vec3(0.5f), 1, 0x5a5a}, {vec3(0.9f), vec3(1.0f), 2, 0x0ff0}}, 20, 2, 16);
+  const Options options = filtered("mitchell", 4);
+  const SampleOffsets samples = jittered(16, 8);
+  const FrameFilter filter(frame, options, samples);
+  std::vector<float> bands = filter.rows(0, 7).pixels;
+  const Image rest = filter.rows(7, 20);
+  EXPECT_EQ(rest.originY, 7);
+  bands.insert(bands.end(), rest.pixels.begin(), rest.pixels.end());
+  EXPECT_EQ(bands, filterFrame(frame, options, samples).pixels);
+}
+
 TEST(FilterFrame, ThreadsLeaveNoTrace) {
   const DeepFrame frame =
       frameOf({{vec3(0.3f), vec3(0.5f), 1, 0x5a5a}, {vec3(0.9f), vec3(1.0f), 2, 0x0ff0}}, 64, 2, 16);

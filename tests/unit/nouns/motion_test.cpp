@@ -99,5 +99,19 @@ TEST(Motion, KeyTimesOutsideTheShutterAreNotDiced) {
   EXPECT_EQ(scene.objects[0].keyTimes.back(), 1);
 }
 
+TEST(Motion, WithoutSamplemotionTheCameraSeesTheOpeningOfTheShutter) {
+  Scene scene;
+  scene.options.shutterClose = 1, scene.options.sampleMotion = false;
+  Problems problems;
+  Object o;
+  o.shapes = {makeSphere(1, -1, 1, 360, {}, problems)};
+  o.worldFromObject = {{0, 1}, {mat4(1), glm::translate(mat4(1), vec3(1, 0, 0))}};
+  o.attributes = std::make_shared<Attributes>();
+  scene.objects.push_back(o);
+  scene.freeze();
+  EXPECT_EQ(scene.objects[0].keyTimes, std::vector<float>{0});
+  EXPECT_TRUE(scene.objects[0].currentFromObject.moving()) << "rays may still see it move";
+}
+
 }  // namespace
 }  // namespace tomales

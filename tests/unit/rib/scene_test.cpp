@@ -13,6 +13,22 @@ void expectNear(const vec3& a, const vec3& b, float tolerance = 1e-5f) {
       << a.x << " " << a.y << " " << a.z << " against " << b.x << " " << b.y << " " << b.z;
 }
 
+TEST(Options, OfTheHiderShapeTheLensAndTheOffsetShiftsMotion) {
+  const Reading r(R"(
+    Shutter 10 11 Option "shutter" "float offset" [10]
+    Hider "hidden" "float[4] aperture" [6 15 0.5 -0.25] "float dofaspect" [2] "int samplemotion" [0]
+    WorldBegin
+      MotionBegin [0 1] Translate 0 0 0 Translate 1 0 0 MotionEnd
+      Attribute "trace" "int samplemotion" [1]
+      Sphere 1 -1 1 360
+    WorldEnd)");
+  const Options& o = r.scenes.at(0).options;
+  EXPECT_TRUE(o.aperture.sides == 6 && o.aperture.angle_degrees == 15 && o.aperture.roundness == 0.5f &&
+              o.aperture.density == -0.25f && o.dofAspect == 2 && !o.sampleMotion);
+  EXPECT_EQ(r.scenes[0].objects[0].worldFromObject.times, (std::vector<float>{10, 11}));
+  EXPECT_TRUE(r.scenes[0].objects[0].attributes->trace.sampleMotion);
+}
+
 TEST(Scene, HasTheDefaultsOfRISpec) {
   const Reading r(inWorld(""));
   ASSERT_EQ(r.scenes.size(), 1u);
@@ -42,6 +58,26 @@ TEST(Options, AreReadFromEveryRequest) {
   EXPECT_TRUE(o.gridSize == 64 && o.searchPaths.at("shader") == "a:b" && o.user.at("user:x").number(0) == 3);
   EXPECT_TRUE(o.imager && o.imager->name == "background" && o.projection == ProjectionKind::Perspective);
   EXPECT_TRUE(o.fov_degrees == 45 && o.frame == 7);
+}
+
+TEST(Options, DisplayChannelsAreTypedByTheirNameAndHidersHaveDepthFilters) {
+  const Reading r(R"(DisplayChannel "varying color diffuse" DisplayChannel "varying normal Nn" "string source" "N" "string filter" "zmin"
+    Hider "hidden" "string depthfilter" "midpoint" Option "limits" "color zthreshold" [0.5 0.5 0.5])" + inWorld(""));
+  const Options& o = r.scene().options;
+  EXPECT_EQ(r.codes(), "");
+  EXPECT_EQ(o.channels.at("diffuse").type, ValueType::Color);
+  EXPECT_EQ(o.channels.at("Nn").type, ValueType::Normal);
+  EXPECT_EQ(o.channels.at("Nn").params.size(), 2u);
+  EXPECT_EQ(o.depthFilter, DepthFilter::Midpoint);
+  EXPECT_EQ(o.depthThreshold, vec3(0.5f));
+}
+
+TEST(Options, WhatNoPictureHoldsIsNoChannel) {
+  const Reading r(R"(DisplayChannel "varying matrix m"
+    DisplayChannel "plain"
+    Hider "hidden" "string depthfilter" "median")" + inWorld(""));
+  EXPECT_EQ(r.scene().options.channels.size(), 1u);
+  EXPECT_EQ(r.log.entries().size(), 3u);
 }
 
 TEST(Options, DisplaysAddUpWithAPlusAndStartAnewWithout) {

@@ -45,9 +45,9 @@ class FakeServices final : public ShadeServices {
   mutable int shadowRays = 0, gathers = 0;
   mutable std::vector<IndirectQuery> queries;
 
-  void transmission(const ShadePoints& points, const uint8_t* active, TmConstVec3 toward, bool solar,
+  void transmission(const ShadePoints& points, const uint8_t* active, TmConstVec3 toward, const ShadowRays& rays,
                     const ShadeContext&, TmVec3 light) const override {
-    lastSolar = solar;
+    lastSolar = rays.solar;
     for (int i = 0; i < points.count(); ++i) {
       if (!active[i]) continue;
       ++shadowRays;

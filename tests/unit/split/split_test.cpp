@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "reyes/dice.h"
 #include "tests/unit/split/test_scene.h"
 
@@ -22,8 +24,9 @@ std::vector<SubPatch> split(const Scene& scene, Stats& stats, Log& log) {
   const Camera camera(scene.options);
   std::vector<SubPatch> all;
   for (int o = 0; o < static_cast<int>(scene.objects.size()); ++o) {
-    const uint32_t patches = scene.objects[static_cast<size_t>(o)].shape().patchCount();
-    const auto pieces = splitPatches(scene, o, 0, patches, camera, camera.crop(), stats, log);
+    std::vector<uint32_t> patches(scene.objects[static_cast<size_t>(o)].shape().patchCount());
+    std::iota(patches.begin(), patches.end(), 0U);
+    const auto pieces = splitPatches(scene, o, patches, camera, camera.crop(), stats, log);
     all.insert(all.end(), pieces.begin(), pieces.end());
   }
   return all;
@@ -119,6 +122,17 @@ TEST(Split, FocusFactorDicesWhatIsBlurredCoarser) {
   EXPECT_GT(static_cast<double>(micropolygons(withFactors(scene, 0, 0.25f))), sharp / 10);
 }
 
+TEST(Split, ASmallBallFarOutOfFocusKeepsAShape) {
+  Scene scene = sceneOf({sphere(0.15f)}, translation({0, 0, 12}));
+  scene.options.fStop = 0.1f, scene.options.focalDistance = 2, scene.options.focalLength = 0.2f;
+  Stats stats;
+  scene.freeze();
+  for (const SubPatch& p : split(scene, stats)) {
+    EXPECT_GE(p.nu, 3);
+    EXPECT_GE(p.nv, 2);
+  }
+}
+
 TEST(Split, MotionFactorDicesWhatMovesFarCoarser) {
   Scene scene = sceneOf({sphere(0.3f)}, translation({0, 0, 4}));
   scene.options.shutterClose = 1;
@@ -211,9 +225,18 @@ TEST(PatchTree, BoxesOfEveryLevelHoldThePatchesBelow) {
   const auto holds = [](const Bound3& out, const Bound3& in) {
     return glm::all(glm::lessThanEqual(out.lo, in.lo)) && glm::all(glm::greaterThanEqual(out.hi, in.hi));
   };
-  for (uint32_t p = 0; p < tree.patchCount(); ++p)
-    for (uint32_t level = 0, index = p / PatchTree::kLeaf; level <= tree.top(); ++level, index /= PatchTree::kFan)
-      EXPECT_TRUE(holds(tree.box(level, index), mesh->bound(p, UvRect{})));
+  std::vector<int> found(mesh->patchCount());
+  float longest = 0;
+  for (uint32_t leaf = 0; leaf < tree.count(0); ++leaf) {
+    for (const uint32_t p : tree.patches(leaf)) {
+      ++found[p];
+      for (uint32_t level = 0, index = leaf; level <= tree.top(); ++level, index /= PatchTree::kFan)
+        EXPECT_TRUE(holds(tree.box(level, index), mesh->bound(p, UvRect{})));
+    }
+    longest += std::max(tree.box(0, leaf).size().x, tree.box(0, leaf).size().y) / 57;
+  }
+  for (const int times : found) EXPECT_EQ(times, 1);
+  EXPECT_LT(longest, 30);  // Row by row a leaf is 60 long.
 }
 
 TEST(PlaceBox, ACrossedEyePlaneIsTheWholeWindowAndWhatIsBehindIsNowhere) {

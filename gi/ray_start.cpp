@@ -1,0 +1,28 @@
+// Where and when rays leave points that may move.
+#include "gi/state.h"
+#include "reyes/base/rng.h"
+
+namespace tomales {
+
+float rayTime(const RayScene& rays, const ShadePoints& points, int i, int number, int count, uint32_t seed) {
+  constexpr uint32_t kTimeStream = 0x74696d65U;  // keeps times independent of the directions at the same point
+  const float own = points.channel(kTime)[i];
+  if (own >= 0) return own;
+  if (!rays.samplesTime(points.group())) return 0;
+  const SampleName name = points.name(i);
+  const uint32_t index = name.sequence * static_cast<uint32_t>(count) + static_cast<uint32_t>(number);
+  return sobol1(index, hashCombine(name.key, kTimeStream, seed));
+}
+
+void aim(const RayScene& rays, const ShadePoints& points, int i, float time, Ray& ray) {
+  const vec3 end = ray.origin + ray.tMax * ray.direction;
+  ray.time = time;
+  if (time > 0) ray.origin = rays.placeAt(points.group(), ray.origin, points.get3(kDriftX, i), time);
+  if (time > 0 && ray.tMax < 1e30f) {
+    ray.tMax = glm::length(end - ray.origin);
+    ray.direction = normalizeOr(end - ray.origin, ray.direction);
+  }
+  rays.prepareOrigin(points.group(), ray.origin, points.edgeLength(i), ray);
+}
+
+}  // namespace tomales

@@ -1,0 +1,34 @@
+// Boxes around the micropolygons of a grid that moves or is out of focus, around 2 x 2 of them, 4 x 4 and so on: each is
+// told by where it is at one time, seen through one point of the lens, so that it stays as small as its micropolygons are,
+// however far they are blurred. Private to the hider.
+#pragma once
+#include "reyes/hide.h"
+
+namespace tomales {
+
+/// At fraction t between two motion keys, through lens shift l (SampleBuffer::lensX, lensY), all of it lies within `reach` of
+/// center + t * step, moved by l * (d + t * dStep - Camera::focusKey()).
+struct BlurBox {
+  float x, y, d;              ///< Centre at the first key.
+  float xStep, yStep, dStep;  ///< Way to its place at the second.
+  float xReach, yReach;       ///< With a margin for rounding (docs/decisions/0012).
+  float dMin;                 ///< Nearest depth key at either.
+};
+
+struct BlurBounds {
+  struct Level {
+    int columns, rows;
+    size_t first;  ///< In the boxes of a segment; box (i, j) is first + j * columns + i.
+  };
+  std::vector<Level> levels;   ///< levels[0]: one micropolygon a box; the last: one box.
+  size_t boxesPerSegment = 0;
+  std::vector<BlurBox> boxes;  ///< A segment lies between two motion keys; a still grid has one.
+
+  const BlurBox& box(int segment, const Level& level, int i, int j) const {
+    return boxes[static_cast<size_t>(segment) * boxesPerSegment + level.first + static_cast<size_t>(j * level.columns + i)];
+  }
+};
+
+std::shared_ptr<const BlurBounds> boundBlur(const RasterGrid& raster, const Camera& camera);
+
+}  // namespace tomales

@@ -1,0 +1,250 @@
+// Micropolygons that stand still and are in focus, against the samples of the pixels that they touch: kLanes samples of a
+// pixel at a time. Compiled for several vector widths and chosen when first called (docs/decisions/0011); the operations are
+// the same in all of them, and none is fused, so the bits are too.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "reyes/hide/raster_still.cpp"
+#include "reyes/hide/vector.h"  // Includes this file again for each target.
+
+#include "reyes/hide/raster.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tomales {
+namespace HWY_NAMESPACE {
+namespace {
+
+/// Coefficients of kLanes edges: inside where dx * (y - oy) - dy * (x - ox) > limit.
+struct EdgeBlock {
+  float ox[kLanes], oy[kLanes], dx[kLanes], dy[kLanes], limit[kLanes];
+
+  /// From p to q with the inside on the left if `side` is 1, on the right if -1.
+  HWY_INLINE void set(int i, float px, float py, float qx, float qy, float side) {
+    const bool swapped = (qx < px) | ((qx == px) & (qy < py));
+    ox[i] = swapped ? qx : px;
+    oy[i] = swapped ? qy : py;
+    dx[i] = side * (qx - px);
+    dy[i] = side * (qy - py);
+    limit[i] = (swapped ? -side : side) > 0 ? 0.0f : -kTiny;
+  }
+};
+
+/// kLanes micropolygons abcd that follow each other in the vertex order of a grid. That at the last vertex of
+/// a row is no cell.
+struct alignas(64) QuadBlock {
+  float x[4][kLanes], y[4][kLanes], d[4][kLanes];  ///< Corners
+  EdgeBlock ab, ca, bd, dc, bc;
+  float fold[kLanes], foldLimit[kLanes];  ///< The diagonal's value, seen from triangle bdc.
+  float gx0[kLanes], gy0[kLanes], gx1[kLanes], gy1[kLanes];  ///< Depth gradients of abc, bdc.
+  float xMin[kLanes], xMax[kLanes], yMin[kLanes], yMax[kLanes], dMin[kLanes], dMax[kLanes];
+};
+
+HWY_INLINE void loadCorners(float to[4][kLanes], const float* from, int row) {
+  std::copy_n(from, kLanes, to[0]);
+  std::copy_n(from + 1, kLanes, to[1]);
+  std::copy_n(from + row, kLanes, to[2]);
+  std::copy_n(from + row + 1, kLanes, to[3]);
+}
+
+HWY_INLINE void setBounds(const float v[4][kLanes], float* lo, float* hi) {
+  for (int i = 0; i < kLanes; ++i) {
+    const float lo01 = v[0][i] < v[1][i] ? v[0][i] : v[1][i], lo23 = v[2][i] < v[3][i] ? v[2][i] : v[3][i];
+    const float hi01 = v[0][i] < v[1][i] ? v[1][i] : v[0][i], hi23 = v[2][i] < v[3][i] ? v[3][i] : v[2][i];
+    lo[i] = lo01 < lo23 ? lo01 : lo23;
+    hi[i] = hi01 > hi23 ? hi01 : hi23;
+  }
+}
+
+HWY_INLINE void setTriangles(QuadBlock& q) {
+  for (int i = 0; i < kLanes; ++i) {
+    const float ax = q.x[0][i], bx = q.x[1][i], cx = q.x[2][i], dx = q.x[3][i];
+    const float ay = q.y[0][i], by = q.y[1][i], cy = q.y[2][i], dy = q.y[3][i];
+    const float ad = q.d[0][i], bd = q.d[1][i], cd = q.d[2][i], dd = q.d[3][i];
+    const float area0 = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
+    const float area1 = (dx - bx) * (cy - by) - (dy - by) * (cx - bx);
+    const float side0 = area0 > 0 ? 1.0f : -1.0f, side1 = area1 > 0 ? 1.0f : -1.0f;
+    q.ab.set(i, ax, ay, bx, by, side0);
+    q.bc.set(i, bx, by, cx, cy, side0);
+    q.ca.set(i, cx, cy, ax, ay, side0);
+    q.bd.set(i, bx, by, dx, dy, side1);
+    q.dc.set(i, dx, dy, cx, cy, side1);
+    q.fold[i] = -side0 * side1;
+    q.foldLimit[i] = (q.bc.limit[i] < 0 ? -1.0f : 1.0f) * q.fold[i] > 0 ? 0.0f : -kTiny;
+    // A triangle without area has no inside.
+    q.ab.limit[i] = area0 == 0 ? FLT_MAX : q.ab.limit[i];
+    q.bd.limit[i] = area1 == 0 ? FLT_MAX : q.bd.limit[i];
+    const float inverse0 = 1.0f / (area0 == 0 ? 1.0f : area0), inverse1 = 1.0f / (area1 == 0 ? 1.0f : area1);
+    q.gx0[i] = ((bd - ad) * (cy - ay) - (cd - ad) * (by - ay)) * inverse0;
+    q.gy0[i] = ((cd - ad) * (bx - ax) - (bd - ad) * (cx - ax)) * inverse0;
+    q.gx1[i] = ((dd - bd) * (cy - by) - (cd - bd) * (dy - by)) * inverse1;
+    q.gy1[i] = ((cd - bd) * (dx - bx) - (dd - bd) * (cx - bx)) * inverse1;
+  }
+}
+
+HWY_INLINE void setUp(QuadBlock& q, const RasterGrid& r, int first, int row) {
+  loadCorners(q.x, r.x.data() + first, row);
+  loadCorners(q.y, r.y.data() + first, row);
+  loadCorners(q.d, r.d.data() + first, row);
+  setBounds(q.x, q.xMin, q.xMax);
+  setBounds(q.y, q.yMin, q.yMax);
+  setBounds(q.d, q.dMin, q.dMax);
+  setTriangles(q);
+}
+
+struct Edge {
+  Floats ox, oy, dx, dy, limit;
+  Edge(const EdgeBlock& b, int i)
+      : ox(all(b.ox[i])), oy(all(b.oy[i])), dx(all(b.dx[i])), dy(all(b.dy[i])), limit(all(b.limit[i])) {}
+  HWY_INLINE Floats at(Floats x, Floats y) const {
+    return hn::Sub(hn::Mul(dx, hn::Sub(y, oy)), hn::Mul(dy, hn::Sub(x, ox)));
+  }
+  HWY_INLINE Mask holds(Floats x, Floats y) const { return hn::Gt(at(x, y), limit); }
+};
+
+/// One micropolygon, ready to be asked about samples.
+class Quad {
+ public:
+  Quad(const QuadBlock& q, int i)
+      : ab_(q.ab, i), ca_(q.ca, i), bd_(q.bd, i), dc_(q.dc, i), bc_(q.bc, i), fold_(all(q.fold[i])),
+        foldLimit_(all(q.foldLimit[i])), bx_(all(q.x[1][i])), by_(all(q.y[1][i])), bDepth_(all(q.d[1][i])),
+        dMin_(all(q.dMin[i])), dMax_(all(q.dMax[i])), gx0_(all(q.gx0[i])), gy0_(all(q.gy0[i])), gx1_(all(q.gx1[i])),
+        gy1_(all(q.gy1[i])) {}
+
+  /// Which samples are covered, and their depth keys.
+  HWY_INLINE Mask covers(Floats x, Floats y, Floats& depth) const {
+    const Floats diagonal = bc_.at(x, y);
+    const Mask in0 = hn::And(hn::And(ab_.holds(x, y), ca_.holds(x, y)), hn::Gt(diagonal, bc_.limit));
+    const Mask in1 =
+        hn::And(hn::And(bd_.holds(x, y), dc_.holds(x, y)), hn::Gt(hn::Mul(fold_, diagonal), foldLimit_));
+    const Floats gx = hn::IfThenElse(in0, gx0_, gx1_), gy = hn::IfThenElse(in0, gy0_, gy1_);
+    const Floats d =
+        hn::Add(hn::Add(bDepth_, hn::Mul(gx, hn::Sub(x, bx_))), hn::Mul(gy, hn::Sub(y, by_)));
+    // Never outside the cell, or culling by dMin would depend on rounding.
+    depth = hn::Min(hn::Max(d, dMin_), dMax_);
+    return hn::Or(in0, in1);
+  }
+
+ private:
+  Edge ab_, ca_, bd_, dc_, bc_;
+  Floats fold_, foldLimit_, bx_, by_, bDepth_, dMin_, dMax_, gx0_, gy0_, gx1_, gy1_;
+};
+
+/// A vector of samples that a cell covers, no farther than what is opaque there.
+struct Reach {
+  Mask mask;
+  Floats depth, before;  ///< Depth keys of the cell, and of what was nearest.
+};
+
+HWY_INLINE Reach reachOf(const RasterJob& job, const Quad& quad, size_t lane, uint32_t cell, Kept kept) {
+  const SampleBuffer& out = job.out;
+  Reach r;
+  const Mask in = quad.covers(hn::Load(kF, out.x.data() + lane), hn::Load(kF, out.y.data() + lane), r.depth);
+  r.before = hn::Load(kF, out.depth.data() + lane);
+  // A solid is decided by all of it; padding still covers nothing.
+  const Mask reaches = job.raster.inSolid ? hn::Gt(r.before, all(-kInfinity)) : hn::Le(r.depth, r.before);
+  r.mask = hn::And(in, reaches);
+  if (HWY_UNLIKELY(kept == Kept::Part) && !hn::AllFalse(kF, r.mask)) {
+    const uint64_t left = keptLanes(job, cell, lane, bitsOf(r.mask));
+    r.mask = hn::LoadMaskBits(kF, reinterpret_cast<const uint8_t*>(&left));
+  }
+  return r;
+}
+
+/// Gives the samples from `lane` on to an opaque cell that covers them nearer than what they had.
+HWY_INLINE bool claim(const RasterJob& job, const Quad& quad, size_t lane, uint32_t cell, Kept kept) {
+  SampleBuffer& out = job.out;
+  const Reach r = reachOf(job, quad, lane, cell, kept);
+  if (hn::AllFalse(kF, r.mask)) return false;
+  const Mask ties = hn::And(r.mask, hn::Eq(r.depth, r.before));
+  if (!hn::AllFalse(kF, ties)) settleTies(job, lane, bitsOf(ties), cell);
+  const Mask won = hn::And(r.mask, hn::Lt(r.depth, r.before));
+  hn::BlendedStore(r.depth, won, kF, out.depth.data() + lane);
+  hn::BlendedStore(hn::Set(kU, cell), hn::RebindMask(kU, won), kU, out.cell.data() + lane);
+  return true;
+}
+
+/// Notes which samples of a pixel a transparent cell covers in front of what is opaque.
+HWY_INLINE void film(const RasterJob& job, const Quad& quad, size_t pixel, uint32_t cell, Kept kept) {
+  SampleBuffer& out = job.out;
+  Films& films = out.filmsOf(job.raster);
+  const size_t first = pixel * static_cast<size_t>(out.lanes), lanes = static_cast<size_t>(out.lanes);
+  for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) {
+    const Reach r = reachOf(job, quad, first + g, cell, kept);
+    if (hn::AllFalse(kF, r.mask)) continue;
+    hn::StoreU(hn::Compress(r.depth, r.mask), kF, films.next());
+    films.add(static_cast<uint32_t>(pixel), cell, static_cast<uint32_t>(g / 64), bitsOf(r.mask) << (g % 64));
+  }
+}
+
+template <bool kOpaque>
+HWY_INLINE void rasterizeCell(const RasterJob& job, const QuadBlock& q, int i, uint32_t cell, Kept kept) {
+  SampleBuffer& out = job.out;
+  const PixelRect pixels = out.touched({q.xMin[i], q.yMin[i]}, {q.xMax[i], q.yMax[i]});
+  const Quad quad(q, i);
+  const size_t lanes = static_cast<size_t>(out.lanes);
+  const float dMin = job.raster.inSolid ? job.raster.dMin : q.dMin[i];
+  for (int y = pixels.y0; y < pixels.y1; ++y)
+    for (int x = pixels.x0; x < pixels.x1; ++x) {
+      const size_t pixel = out.pixelIndex(x, y);
+      if (dMin > out.far[pixel]) continue;
+      if constexpr (kOpaque) {
+        bool changed = false;
+        for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) changed |= claim(job, quad, pixel * lanes + g, cell, kept);
+        out.nearer[pixel] |= static_cast<uint8_t>(changed);
+      } else {
+        film(job, quad, pixel, cell, kept);
+      }
+    }
+}
+
+void rasterize(const RasterJob& job) {
+  const RasterGrid& r = job.raster;
+  const Grid& g = *r.grid;
+  const int row = g.nu + 1, end = g.nv * row;
+  const PixelRect& rect = job.out.rect;
+  const float left = static_cast<float>(rect.x0), right = static_cast<float>(rect.x1);
+  const float top = static_cast<float>(rect.y0), bottom = static_cast<float>(rect.y1);
+  QuadBlock q;
+  for (int k = 0; k < end; k += kLanes) {
+    setUp(q, r, k, row);
+    for (int i = 0; i < std::min(kLanes, end - k); ++i) {
+      const int a = k + i, u = a % row;
+      if (u == g.nu) continue;
+      if (!(q.xMin[i] < right && q.xMax[i] >= left && q.yMin[i] < bottom && q.yMax[i] >= top)) continue;
+      if (r.sides == 1 && turnedAway(job, a)) continue;
+      const int index = a / row * g.nu + u;
+      const Kept kept = keptOf(job, index);
+      if (kept == Kept::None) continue;
+      const uint32_t cell = job.firstCell + static_cast<uint32_t>(index);
+      if (r.opaque && !r.inSolid)
+        rasterizeCell<true>(job, q, i, cell, kept);
+      else
+        rasterizeCell<false>(job, q, i, cell, kept);
+    }
+  }
+}
+
+void settlePixels(SampleBuffer& s, const PixelRect& pixels) {
+  const size_t lanes = static_cast<size_t>(s.lanes);
+  for (int y = pixels.y0; y < pixels.y1; ++y)
+    for (int x = pixels.x0; x < pixels.x1; ++x) {
+      const size_t pixel = s.pixelIndex(x, y);
+      if (!s.nearer[pixel]) continue;
+      Floats most = all(-kInfinity);
+      for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) most = hn::Max(most, hn::Load(kF, s.depth.data() + pixel * lanes + g));
+      s.far[pixel] = hn::GetLane(hn::MaxOfLanes(kF, most));
+      s.nearer[pixel] = 0;
+    }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace tomales
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tomales {
+HWY_EXPORT(rasterize);
+HWY_EXPORT(settlePixels);
+void rasterizeStill(const RasterJob& job) { HWY_DYNAMIC_DISPATCH(rasterize)(job); }
+void SampleBuffer::settle(const PixelRect& pixels) { HWY_DYNAMIC_DISPATCH(settlePixels)(*this, pixels); }
+}  // namespace tomales
+#endif

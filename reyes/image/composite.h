@@ -1,0 +1,101 @@
+// Private to reyes/image: what the samples of a pixel see. Fragments of one pixel -> contributions, each the final value of some
+// samples, so that a pixel is composited once and not once for every neighbour whose filter touches it.
+#pragma once
+#include "reyes/deep.h"
+#include "reyes/output.h"
+
+namespace tomales {
+
+/// One float of a contribution beyond R G B A.
+struct ExtraFloat {
+  int channel, component;  ///< In FrameOutput::channels.
+  int variable;            ///< In ShadedPoints::variables.
+  bool composited;
+  float fill;
+};
+
+struct Contribution {
+  uint64_t samples;
+  uint16_t word;
+  float nearest;              ///< Depth of what it sees first.
+  float z = kInfinity;        ///< Of the first surface that is opaque enough to have depth (Options::depthThreshold),
+  float zSecond = kInfinity;  ///< and of the second.
+};
+
+/// Contributions of the pixels of some rows; those of pixel i are [first[i], first[i + 1]).
+struct ResolvedRows {
+  PixelRect rect;
+  int width;                   ///< Floats of a contribution: R G B A, then the extra floats.
+  std::vector<Contribution> contributions;
+  std::vector<float> values;   ///< `width` each.
+  std::vector<size_t> first{0};
+  size_t index(int x, int y) const {
+    return static_cast<size_t>(y - rect.y0) * static_cast<size_t>(rect.width()) + static_cast<size_t>(x - rect.x0);
+  }
+  const float* value(size_t contribution) const { return values.data() + contribution * static_cast<size_t>(width); }
+};
+
+/// What a fragment shows: coverage is its opacity, or 0 where it is matte.
+struct FacetShade {
+  vec3 color, opacity, coverage;
+};
+
+/// Keeps scratch memory; one a thread.
+class Compositor {
+ public:
+  Compositor(const FrameOutput& output, const Options& options, int samples);
+
+  int width() const { return 4 + static_cast<int>(extras_.size()); }
+  const std::vector<ExtraFloat>& extras() const { return extras_; }
+
+  /// Appends the contributions of one pixel.
+  void resolve(const DeepTile& tile, const DeepPixel& pixel, ResolvedRows& out);
+
+  /// Front to back, for what is not hidden: visit(fragment, shade, samples, clear), with the share of light that passes what
+  /// lies before these samples of it.
+  template <class Visit>
+  void layers(const DeepTile& tile, const DeepPixel& pixel, const Visit& visit);
+
+ private:
+  bool disjoint(const Fragment* begin, const Fragment* end);
+  bool hasDepth(const FacetShade& shade) const;
+  void extraValues(const DeepTile& tile, const Fragment& fragment, float* out) const;
+  void resolveEach(const DeepTile& tile, const Fragment* begin, const Fragment* end, ResolvedRows& out);
+  void resolveStack(const DeepTile& tile, const DeepPixel& pixel, ResolvedRows& out);
+
+  const Options& options_;
+  std::vector<ExtraFloat> extras_;
+  std::vector<uint64_t> seen_;          ///< Samples that any fragment covers.
+  std::vector<vec3> clear_;             ///< Of every sample, while layers() runs.
+  std::vector<Contribution> samples_;   ///< Of every sample, while a stack is resolved,
+  std::vector<float> sampleValues_;     ///< and their values.
+  std::vector<float> facetValues_;
+};
+
+FacetShade facetShade(const DeepTile& tile, const Fragment& fragment);
+
+inline int lowestBit(uint64_t mask) { return __builtin_ctzll(mask); }
+inline float meanOf(const vec3& v) { return (v.x + v.y + v.z) / 3; }
+
+template <class Visit>
+void Compositor::layers(const DeepTile& tile, const DeepPixel& pixel, const Visit& visit) {
+  const Fragment* begin = tile.fragments.data() + pixel.first;
+  const Fragment* end = begin + pixel.count;
+  if (disjoint(begin, end)) {
+    for (const Fragment* f = begin; f != end; ++f) visit(*f, facetShade(tile, *f), f->samples, vec3(1.0f));
+    return;
+  }
+  std::fill(clear_.begin(), clear_.end(), vec3(1.0f));
+  const vec3 hidden = vec3(1.0f) - options_.opaqueThreshold;
+  for (const Fragment* f = begin; f != end; ++f) {
+    const FacetShade shade = facetShade(tile, *f);
+    for (uint64_t left = f->samples; left; left &= left - 1) {
+      vec3& clear = clear_[static_cast<size_t>(f->word) * 64 + static_cast<size_t>(lowestBit(left))];
+      if (clear.x <= hidden.x && clear.y <= hidden.y && clear.z <= hidden.z) continue;
+      visit(*f, shade, left & (~left + 1), clear);
+      clear *= vec3(1.0f) - shade.opacity;
+    }
+  }
+}
+
+}  // namespace tomales

@@ -1,0 +1,21 @@
+// The arrays of a Blobby request -> its field. Private to Blobby.
+#pragma once
+#include "reyes/prim.h"
+#include "reyes/prim/blobby_field.h"
+
+namespace tomales {
+
+struct BlobProgram {
+  BlobField field;
+  Box box;           ///< Outside of it the field is constant.
+  size_t leafCount;  ///< Those that a primitive variable has values for: a leaf's number is its place among them.
+};
+
+/// Codes (PRMan): leaves 1000 constant, 1001 ellipsoid, 1002 segment; operations 0 add, 1 multiply, 2 maximum, 3 minimum
+/// (a count and operands), 4 divide, 5 subtract (two operands), 6 negate, 7 identity (one). Operands are numbers of earlier
+/// codes. Leaves that cannot be made (1003 repelling plane, 1004 plugin) count as 0 everywhere, with a sentence. Throws
+/// PrimError if the arrays do not fit each other.
+BlobProgram readBlobProgram(const std::vector<int>& code, const std::vector<float>& floats,
+                            Problems& problems);
+
+}  // namespace tomales

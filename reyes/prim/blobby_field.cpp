@@ -1,0 +1,183 @@
+#include "reyes/prim/blobby_field.h"
+
+namespace tomales {
+namespace {
+
+dvec3 awayFromSegment(const BlobLeaf& leaf, const dvec3& q) {
+  const dvec3 along = leaf.to - leaf.from;
+  const double length2 = glm::dot(along, along);
+  const double t = length2 > 0 ? std::clamp(glm::dot(q - leaf.from, along) / length2, 0.0, 1.0) : 0.0;
+  return q - (leaf.from + t * along);
+}
+
+double fallOff(double distance) {
+  const double rest = std::max(0.0, 1 - distance * distance);
+  return rest * rest * rest;
+}
+
+FieldPoint leafAt(const BlobLeaf& leaf, const dvec3& p) {
+  const dvec3 away = awayFromSegment(leaf, leaf.axes * p + leaf.origin) / leaf.radius;
+  const double rest = 1 - glm::dot(away, away);
+  if (rest <= 0) return {};
+  return {rest * rest * rest, -6 * rest * rest / leaf.radius * (away * leaf.axes)};
+}
+
+FieldRange leafOver(const BlobLeaf& leaf, const Box& box) {
+  const dvec3 center = 0.5 * (box.lo + box.hi), half = 0.5 * (box.hi - box.lo);
+  dvec3 reach(0);
+  for (int k = 0; k < 3; ++k) reach += glm::abs(leaf.axes[k]) * half[k];
+  const double d = glm::length(awayFromSegment(leaf, leaf.axes * center + leaf.origin)), r = glm::length(reach);
+  return {fallOff((d + r) / leaf.radius), fallOff(std::max(0.0, d - r) / leaf.radius)};
+}
+
+FieldPoint apply(BlobOp op, std::span<const uint32_t> operands, const std::vector<FieldPoint>& values) {
+  FieldPoint out = values[operands[0]];
+  for (const uint32_t k : operands.subspan(1)) {
+    const FieldPoint& x = values[k];
+    switch (op) {
+      case BlobOp::Add: out = {out.value + x.value, out.gradient + x.gradient}; break;
+      case BlobOp::Multiply:
+        out = {out.value * x.value, out.gradient * x.value + x.gradient * out.value};
+        break;
+      case BlobOp::Maximum: if (x.value > out.value) out = x; break;
+      case BlobOp::Minimum: if (x.value < out.value) out = x; break;
+      case BlobOp::Subtract: out = {out.value - x.value, out.gradient - x.gradient}; break;
+      case BlobOp::Divide:
+        if (x.value == 0) return {};
+        out = {out.value / x.value, (out.gradient - out.value / x.value * x.gradient) / x.value};
+        break;
+      default: break;
+    }
+  }
+  return op == BlobOp::Negate ? FieldPoint{-out.value, -out.gradient} : out;
+}
+
+FieldRange multiply(const FieldRange& a, const FieldRange& b) {
+  const auto [lo, hi] = std::minmax({a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi});
+  return {lo, hi};
+}
+
+FieldRange applyToRanges(BlobOp op, std::span<const uint32_t> operands, const std::vector<FieldRange>& ranges) {
+  FieldRange out = ranges[operands[0]];
+  for (const uint32_t k : operands.subspan(1)) {
+    const FieldRange& x = ranges[k];
+    switch (op) {
+      case BlobOp::Add: out = {out.lo + x.lo, out.hi + x.hi}; break;
+      case BlobOp::Multiply: out = multiply(out, x); break;
+      case BlobOp::Maximum: out = {std::max(out.lo, x.lo), std::max(out.hi, x.hi)}; break;
+      case BlobOp::Minimum: out = {std::min(out.lo, x.lo), std::min(out.hi, x.hi)}; break;
+      case BlobOp::Subtract: out = {out.lo - x.hi, out.hi - x.lo}; break;
+      case BlobOp::Divide:
+        if (x.lo <= 0 && x.hi >= 0) return {-HUGE_VAL, HUGE_VAL};
+        out = multiply(out, {1 / x.hi, 1 / x.lo});
+        break;
+      default: break;
+    }
+  }
+  return op == BlobOp::Negate ? FieldRange{-out.hi, -out.lo} : out;
+}
+
+}  // namespace
+
+double BlobLeaf::feature() const {
+  const glm::dmat3 rows = glm::transpose(axes);
+  double steepest = 0;
+  for (int k = 0; k < 3; ++k) steepest = std::max({steepest, glm::length(axes[k]), glm::length(rows[k])});
+  return radius / steepest;
+}
+
+void BlobField::addOperation(BlobOp op, std::span<const uint32_t> operands) {
+  code_.push_back({op, static_cast<uint32_t>(operands_.size()), static_cast<uint32_t>(operands.size()), 0});
+  operands_.insert(operands_.end(), operands.begin(), operands.end());
+}
+
+const std::vector<FieldPoint>& BlobField::run(const dvec3& p) const {
+  thread_local std::vector<FieldPoint> values;
+  values.clear();
+  for (const Instruction& i : code_)
+    values.push_back(i.op == BlobOp::Constant ? FieldPoint{i.constant, dvec3(0)}
+                     : i.op == BlobOp::Leaf   ? leafAt((*leaves_)[i.first], p)
+                                              : apply(i.op, operandsOf(i), values));
+  return values;
+}
+
+FieldPoint BlobField::at(const dvec3& p) const { return run(p).back(); }
+
+std::vector<FieldRange> BlobField::rangesOver(const Box& box) const {
+  std::vector<FieldRange> ranges;
+  ranges.reserve(code_.size());
+  for (const Instruction& i : code_)
+    ranges.push_back(i.op == BlobOp::Constant ? FieldRange{i.constant, i.constant}
+                     : i.op == BlobOp::Leaf   ? leafOver((*leaves_)[i.first], box)
+                                              : applyToRanges(i.op, operandsOf(i), ranges));
+  return ranges;
+}
+
+/// Without terms that are 0 and without those that lose to another all over the box: at() returns the same bits.
+std::vector<uint32_t> BlobField::neededOperands(const Instruction& i, const std::vector<FieldRange>& ranges) const {
+  const std::span<const uint32_t> all = operandsOf(i);
+  std::vector<uint32_t> needed;
+  const FieldRange whole = applyToRanges(i.op, all, ranges);
+  for (const uint32_t k : all) {
+    const FieldRange& x = ranges[k];
+    const bool idle = (i.op == BlobOp::Add && x.lo == 0 && x.hi == 0) || (i.op == BlobOp::Maximum && x.hi < whole.lo) ||
+                      (i.op == BlobOp::Minimum && x.lo > whole.hi);
+    if (!idle) needed.push_back(k);
+  }
+  return needed;
+}
+
+uint32_t BlobField::copyTo(BlobField& out, uint32_t index, const std::vector<FieldRange>& ranges,
+                           std::vector<int>& copied) const {
+  if (copied[index] >= 0) return static_cast<uint32_t>(copied[index]);
+  const Instruction& i = code_[index];
+  const FieldRange& range = ranges[index];
+  if (range.lo == range.hi) {
+    out.addConstant(range.lo);
+  } else if (i.op == BlobOp::Leaf) {
+    out.addLeaf(i.first);
+  } else {
+    std::vector<uint32_t> operands = neededOperands(i, ranges);
+    for (uint32_t& k : operands) k = copyTo(out, k, ranges, copied);
+    out.addOperation(i.op, operands);
+  }
+  copied[index] = static_cast<int>(out.code_.size() - 1);
+  return static_cast<uint32_t>(copied[index]);
+}
+
+BlobField BlobField::within(const Box& box) const {
+  BlobField out(*this);
+  out.code_.clear(), out.operands_.clear();
+  std::vector<int> copied(code_.size(), -1);
+  copyTo(out, static_cast<uint32_t>(code_.size() - 1), rangesOver(box), copied);
+  out.code_.shrink_to_fit(), out.operands_.shrink_to_fit();
+  return out;
+}
+
+std::vector<double> BlobField::leafWeights(const dvec3& p) const {
+  const std::vector<FieldPoint>& values = run(p);
+  std::vector<double> weights(leaves_->size(), 0.0);
+  std::vector<char> counts(code_.size(), 0);  // the field depends on it
+  counts.back() = 1;
+  for (size_t index = code_.size(); index-- > 0;) {
+    const Instruction& i = code_[index];
+    if (!counts[index] || i.op == BlobOp::Constant) continue;
+    if (i.op == BlobOp::Leaf) {
+      weights[i.first] = values[index].value;
+      continue;
+    }
+    const bool chooses = i.op == BlobOp::Maximum || i.op == BlobOp::Minimum;
+    for (const uint32_t k : operandsOf(i))
+      if (!chooses || values[k].value == values[index].value) counts[k] = 1;
+  }
+  return weights;
+}
+
+double BlobField::feature() const {
+  double least = HUGE_VAL;
+  for (const Instruction& i : code_)
+    if (i.op == BlobOp::Leaf) least = std::min(least, (*leaves_)[i.first].feature());
+  return least;
+}
+
+}  // namespace tomales

@@ -1,0 +1,83 @@
+// The function whose level set a Blobby is: leaves that fall off with distance, combined by arithmetic. Private to Blobby.
+// Space: the object's; double precision throughout, so that a zero along a line is good to float's last bit.
+#pragma once
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "reyes/base/math.h"
+
+namespace tomales {
+
+using glm::dvec3;
+
+/// The surface is where the field is this; it is larger inside. A lone ellipsoid of radius 1 shows at radius 1/2.
+constexpr double kBlobSurface = 0.421875;
+
+struct Box {
+  dvec3 lo, hi;
+};
+
+/// (1 - d^2)^3 for d < 1, else 0, where d is the distance from a segment, a point if its ends are equal, in the leaf's
+/// own space, by `radius`.
+struct BlobLeaf {
+  glm::dmat3 axes;  ///< Leaf space from the object's, with `origin`.
+  dvec3 origin;
+  dvec3 from, to;
+  double radius;
+
+  double feature() const;  ///< Least distance over which it falls from 1 to 0.
+};
+
+enum class BlobOp : uint8_t { Constant, Leaf, Add, Multiply, Maximum, Minimum, Divide, Subtract, Negate, Identity };
+
+struct FieldPoint {
+  double value = 0;
+  dvec3 gradient{0};
+};
+struct FieldRange {
+  double lo, hi;
+};
+
+/// A program: every instruction uses the results of earlier ones, and the last is the field.
+class BlobField {
+ public:
+  explicit BlobField(std::vector<BlobLeaf> leaves)
+      : leaves_(std::make_shared<const std::vector<BlobLeaf>>(std::move(leaves))) {}
+
+  void addConstant(double value) { code_.push_back({BlobOp::Constant, 0, 0, value}); }
+  void addLeaf(uint32_t leaf) { code_.push_back({BlobOp::Leaf, leaf, 0, 0}); }
+  void addOperation(BlobOp op, std::span<const uint32_t> operands);
+
+  FieldPoint at(const dvec3& p) const;
+  FieldRange over(const Box& box) const { return rangesOver(box).back(); }
+
+  /// The same function inside of the box, without what it does not need there.
+  BlobField within(const Box& box) const;
+
+  /// What each leaf has to do with the field at p: its value if the field depends on it there.
+  std::vector<double> leafWeights(const dvec3& p) const;
+
+  /// The least feature() of the leaves that it uses; infinite if it uses none.
+  double feature() const;
+
+ private:
+  struct Instruction {
+    BlobOp op;
+    uint32_t first, count;  ///< In operands_; a leaf's number is `first`.
+    double constant;
+  };
+
+  std::span<const uint32_t> operandsOf(const Instruction& i) const { return {operands_.data() + i.first, i.count}; }
+  const std::vector<FieldPoint>& run(const dvec3& p) const;
+  std::vector<FieldRange> rangesOver(const Box& box) const;
+  std::vector<uint32_t> neededOperands(const Instruction& i, const std::vector<FieldRange>& ranges) const;
+  uint32_t copyTo(BlobField& out, uint32_t index, const std::vector<FieldRange>& ranges,
+                  std::vector<int>& copied) const;
+
+  std::shared_ptr<const std::vector<BlobLeaf>> leaves_;
+  std::vector<Instruction> code_;
+  std::vector<uint32_t> operands_;
+};
+
+}  // namespace tomales

@@ -1,0 +1,141 @@
+#include "reyes/shade/variables.h"
+
+#include "reyes/shade/batch.h"
+
+namespace tomales {
+namespace {
+
+using From = BoundVariable::From;
+constexpr std::string_view kLightGroup = "lightgroup:";
+
+struct Standard {
+  std::string_view name;
+  From from;
+  int channel;
+  int width = 3;
+};
+constexpr Standard kStandard[] = {
+    {"P", From::Channel, kPx},       {"N", From::Channel, kNx},       {"Ng", From::Channel, kNgx},
+    {"I", From::Channel, kIx},       {"dPdu", From::Channel, kDpduX}, {"dPdv", From::Channel, kDpdvX},
+    {"u", From::Channel, kU, 1},        {"v", From::Channel, kV, 1},        {"s", From::Channel, kS, 1},
+    {"t", From::Channel, kT, 1},        {"du", From::Channel, kDu, 1},      {"dv", From::Channel, kDv, 1},
+    {"Cs", From::Color, 0},          {"albedo", From::Color, 0},      {"Os", From::Opacity, 0},
+    {"Oi", From::Opacity, 0},        {"normal", From::Normal, 0}};
+
+void find(const Variable& wanted, const BoundGroup& group, BoundVariable& out) {
+  if (const int output = group.surface->output(wanted.source, wanted.type); output >= 0) {
+    out.from = From::Output, out.index = output;
+    return;
+  }
+  if (wanted.source.starts_with(kLightGroup) && out.width == 3) {
+    out.from = From::LightGroup, out.lights = wanted.source.substr(kLightGroup.size());
+    return;
+  }
+  for (const Standard& s : kStandard)
+    if (s.name == wanted.source && s.width == out.width) {
+      out.from = s.from, out.index = s.channel;
+      return;
+    }
+  int offset = kFixedChannels;
+  for (const Primvar& p : group.group->primvars) {
+    if (p.name == wanted.source && p.width == out.width) out.from = From::Channel, out.index = offset;
+    offset += p.width;
+  }
+}
+
+/// Pre: three floats wide.
+TmVec3 destination(const BoundVariable& v, ShadedPoints& out, int begin) {
+  const auto array = [&](int k) { return out.variables[static_cast<size_t>(v.first + k)].data() + begin; };
+  return {array(0), array(1), array(2)};
+}
+
+void copyChannel(const BoundVariable& v, const Batch& batch, ShadedPoints& out, int begin) {
+  for (int k = 0; k < v.width; ++k)
+    std::copy_n(batch.points->channel(v.index + k), batch.tm.count,
+                out.variables[static_cast<size_t>(v.first + k)].begin() + begin);
+}
+
+/// Runs of the shader under some of the lights.
+class LightGroups {
+ public:
+  LightGroups(Batch& batch, const BoundShader& shader) : batch_(batch), shader_(shader) {}
+
+  void store(const std::string& group, TmVec3 to) {
+    if (!unlit_.x) unlit_ = run("");
+    const bool rest = group.empty();
+    const TmVec3 lit = rest ? unlit_ : run(group);
+    for (int i = 0; i < batch_.tm.count; ++i) set(to, i, get(lit, i) - (rest ? vec3(0.0f) : get(unlit_, i)));
+  }
+
+ private:
+  TmVec3 run(const std::string& group) {
+    const int n = batch_.tm.count;
+    TmGrid g = batch_.tm;
+    std::vector<TmValue> params(g.params, g.params + shader_.shader->paramCount);
+    for (size_t i = 0; i < params.size(); ++i)
+      if (isOutput(shader_.shader->params[i])) params[i].step = 0;
+    g.params = params.data();
+    g.Ci = batch_.arena.vec3(n), g.Oi = batch_.arena.vec3(n);
+    batch_.lights.restrictTo(&group);
+    if (!batch_.run(shader_, g)) g.Ci = batch_.arena.vec3(n);
+    batch_.lights.restrictTo(nullptr);
+    return g.Ci;
+  }
+
+  Batch& batch_;
+  const BoundShader& shader_;
+  TmVec3 unlit_{};
+};
+
+}  // namespace
+
+std::vector<BoundVariable> bindVariables(const FrameOutput& output, const BoundGroup& group) {
+  std::vector<BoundVariable> out;
+  for (const Variable& wanted : output.variables) {
+    BoundVariable v;
+    v.first = wanted.first, v.width = floatsPerValue(wanted.type), v.fill = wanted.fill;
+    find(wanted, group, v);
+    out.push_back(std::move(v));
+  }
+  return out;
+}
+
+void allocateVariables(const std::vector<BoundVariable>& variables, int count, ShadedPoints& out) {
+  out.variables.clear();
+  for (const BoundVariable& v : variables)
+    for (int k = 0; k < v.width; ++k) out.variables.emplace_back(static_cast<size_t>(padded(count)), v.fill);
+}
+
+void openOutputs(const std::vector<BoundVariable>& variables, ShadedPoints& out, int begin, std::vector<TmValue>& params) {
+  for (const BoundVariable& v : variables) {
+    if (v.from != From::Output) continue;
+    TmValue& value = params[static_cast<size_t>(v.index)];
+    for (int k = 0; k < v.width; ++k) value.c[k] = out.variables[static_cast<size_t>(v.first + k)].data() + begin;
+    value.step = 1;
+  }
+}
+
+void storeVariables(const std::vector<BoundVariable>& variables, Batch& batch, const BoundShader& shader, ShadedPoints& out,
+                    int begin) {
+  LightGroups groups(batch, shader);
+  for (const BoundVariable& v : variables) {
+    const int n = batch.tm.count;
+    const auto each = [&](const auto& value) {
+      const TmVec3 to = destination(v, out, begin);
+      for (int i = 0; i < n; ++i) set(to, i, value(i));
+    };
+    if (v.from == From::Channel) copyChannel(v, batch, out, begin);
+    // Premultiplied, as every colour that is composited.
+    if (v.from == From::Color) each([&](int i) { return get(batch.tm.Cs, i) * get(batch.tm.Oi, i); });
+    if (v.from == From::Opacity) each([&](int i) { return get(batch.tm.Oi, i); });
+    if (v.from == From::Normal) each([&](int i) { return normalizeOr(batch.points->facingNormal(i), vec3(0.0f)); });
+    if (v.from == From::LightGroup) groups.store(v.lights, destination(v, out, begin));
+    for (int k = 0; k < v.width; ++k)
+      for (int i = begin; i < begin + n; ++i) {
+        float& value = out.variables[static_cast<size_t>(v.first + k)][static_cast<size_t>(i)];
+        if (!std::isfinite(value)) value = 0;
+      }
+  }
+}
+
+}  // namespace tomales

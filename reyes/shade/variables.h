@@ -1,0 +1,34 @@
+// What Displays ask of a surface beside its colour and opacity: outputs of the shader, geometry, light groups.
+#pragma once
+#include "reyes/output.h"
+#include "reyes/points.h"
+#include "reyes/shade/bound_shader.h"
+
+namespace tomales {
+
+class Batch;
+struct BoundGroup;
+
+/// Where a group finds one of FrameOutput::variables.
+struct BoundVariable {
+  enum class From { Nothing, Channel, Color, Opacity, Normal, Output, LightGroup } from = From::Nothing;
+  int index = 0;        ///< Channel: of ShadePoints. Output: of TmShader::params.
+  std::string lights;   ///< LightGroup: its name; empty: what no light brings.
+  int first = 0, width = 1;  ///< In ShadedPoints::variables.
+  float fill = 0;
+};
+
+/// An output of the surface shader goes before all else of that name.
+std::vector<BoundVariable> bindVariables(const FrameOutput& output, const BoundGroup& group);
+
+/// Makes room, filled with what stands where nobody writes.
+void allocateVariables(const std::vector<BoundVariable>& variables, int count, ShadedPoints& out);
+/// Before the shader runs: its outputs go to elements from `begin`.
+void openOutputs(const std::vector<BoundVariable>& variables, ShadedPoints& out, int begin, std::vector<TmValue>& params);
+/// After it has run: everything else. Runs it again for light groups, on the same light samples: a group's share is what the
+/// shader makes of its lights alone, less what it makes of none, so that all groups and "" add up to Ci wherever Ci is
+/// linear in light.
+void storeVariables(const std::vector<BoundVariable>& variables, Batch& batch, const BoundShader& shader, ShadedPoints& out,
+                    int begin);
+
+}  // namespace tomales

@@ -1,0 +1,216 @@
+#include "tests/unit/prim/support.h"
+
+namespace tomales {
+namespace {
+using namespace test;
+
+constexpr int kAdd = 0, kMultiply = 1, kMaximum = 2, kMinimum = 3, kDivide = 4, kSubtract = 5, kNegate = 6,
+              kIdentity = 7, kConstant = 1000, kEllipsoid = 1001, kSegment = 1002;
+
+PrimPtr blobby(int leaves, const std::vector<int>& code, const std::vector<float>& numbers, ParamList params = {}) {
+  Problems problems;
+  const PrimPtr prim = makeBlobby(leaves, code, numbers, params, problems);
+  EXPECT_TRUE(problems.empty());
+  return prim;
+}
+
+/// Sixteen floats as RIB has them: scaled, then moved.
+std::vector<float> ball(const vec3& center, const vec3& scale = vec3(1)) {
+  return {scale.x, 0, 0, 0, 0, scale.y, 0, 0, 0, 0, scale.z, 0, center.x, center.y, center.z, 1};
+}
+std::vector<float> joined(std::initializer_list<std::vector<float>> lists) {
+  std::vector<float> out;
+  for (const auto& list : lists) out.insert(out.end(), list.begin(), list.end());
+  return out;
+}
+
+/// The fall-off by its definition.
+double fall(double distance) { return distance < 1 ? std::pow(1 - distance * distance, 3) : 0; }
+double ballAt(const vec3& p, const vec3& center, const vec3& scale = vec3(1)) {
+  return fall(glm::length(glm::dvec3(p - center) / glm::dvec3(scale)));
+}
+
+/// Calls check(sample) at 1000 random points.
+template <class Check>
+void atRandomPoints(const Prim& prim, const Check& check) {
+  for (uint32_t k = 0; k < 1000; ++k)
+    check(sampleAt(prim, k % prim.patchCount(), unitFloat(hashCombine(k, 1u)), unitFloat(hashCombine(k, 2u))));
+}
+
+/// Of what the diced quadrilaterals enclose (Gauss), and whether they enclose anything: the sum of area vectors.
+struct Enclosed {
+  double volume = 0;
+  glm::dvec3 gap{0};
+};
+Enclosed enclosedBy(const Prim& prim, int side) {
+  Enclosed out;
+  for (uint32_t patch = 0; patch < prim.patchCount(); ++patch)
+    for (int j = 0; j < side; ++j)
+      for (int i = 0; i < side; ++i) {
+        const auto p = [&](int a, int b) {
+          return glm::dvec3(sampleAt(prim, patch, static_cast<float>(i + a) / side, static_cast<float>(j + b) / side).p);
+        };
+        const glm::dvec3 a = p(0, 0), b = p(1, 0), c = p(1, 1), d = p(0, 1), area = 0.5 * glm::cross(c - a, d - b);
+        out.gap += area;
+        out.volume += glm::dot(0.25 * (a + b + c + d), area) / 3;
+      }
+  return out;
+}
+
+TEST(Blobby, ALoneEllipsoidIsAnEllipsoidOfHalfItsSize) {
+  const vec3 center(3, -1, 2), scale(2, 1, 0.5f);
+  const PrimPtr prim = blobby(1, {kEllipsoid, 0}, ball(center, scale));
+  atRandomPoints(*prim, [&](const Sample& s) {
+    const vec3 q = (s.p - center) / scale;
+    EXPECT_NEAR(glm::length(q), 0.5f, 5e-6f * 0.5f * 2);
+    const vec3 normal = glm::normalize(q / scale);
+    EXPECT_GT(dot(glm::normalize(s.n), normal), 1 - 1e-6f);
+    EXPECT_LT(std::abs(dot(normal, s.du)) + std::abs(dot(normal, s.dv)), 1e-4f);
+    EXPECT_GE(dot(cross(s.du, s.dv), normal), 0);
+  });
+  expectSoundEverywhere(*prim);
+  expectBoundsContainTheSurface(*prim);
+  expectDerivativesOfPositions(*prim, 1e-4f);
+}
+
+TEST(Blobby, AreaAndVolumeOfASphereConvergeAtSecondOrder) {
+  const PrimPtr prim = blobby(1, {kEllipsoid, 0}, ball(vec3(0), vec3(2)));
+  const double area = 4 * M_PI, volume = area / 3;
+  const double coarse = std::abs(dicedArea(*prim, 2) - area), fine = std::abs(dicedArea(*prim, 8) - area);
+  EXPECT_LT(fine, coarse / 12);
+  EXPECT_LT(fine, 1e-3 * area);
+  const double before = std::abs(enclosedBy(*prim, 2).volume - volume), after = std::abs(enclosedBy(*prim, 8).volume - volume);
+  EXPECT_LT(after, before / 12);
+  EXPECT_LT(after, 2e-3 * volume);
+  EXPECT_LT(glm::length(enclosedBy(*prim, 3).gap), 1e-5 * area);
+}
+
+TEST(Blobby, ASegmentIsACapsuleOfHalfItsRadius) {
+  const PrimPtr prim = blobby(1, {kSegment, 0}, joined({{-1, 0, 0, 2, 0, 0, 0.8f}, ball({0, 5, 0})}));
+  atRandomPoints(*prim, [](const Sample& s) {
+    EXPECT_NEAR(glm::length(s.p - vec3(std::clamp(s.p.x, -1.0f, 2.0f), 5, 0)), 0.4f, 1e-5f);
+  });
+  EXPECT_NEAR(dicedArea(*prim, 8), 2 * M_PI * 0.4 * 3 + 4 * M_PI * 0.16, 5e-3);
+}
+
+TEST(Blobby, EveryOperationIsWhatItsNameSays) {
+  const vec3 a(0, 0, 0), b(0.6f, 0.1f, 0), c(0.2f, 0.5f, 0.3f);
+  const std::vector<float> numbers = joined({ball(a), ball(b), ball(c), {0.3f}});
+  const std::vector<int> leaves = {kEllipsoid, 0, kEllipsoid, 16, kEllipsoid, 32, kConstant, 48};
+  struct Case {
+    std::vector<int> code;
+    double (*field)(double, double, double);
+  };
+  const Case cases[] = {
+      {{kAdd, 3, 0, 1, 2}, [](double x, double y, double z) { return x + y + z; }},
+      {{kMultiply, 2, 0, 1}, [](double x, double y, double) { return x * y; }},
+      {{kMaximum, 3, 0, 1, 2}, [](double x, double y, double z) { return std::max({x, y, z}); }},
+      {{kMinimum, 2, 0, 2}, [](double x, double, double z) { return std::min(x, z); }},
+      {{kDivide, 0, 3}, [](double x, double, double) { return x / double{0.3f}; }},
+      {{kSubtract, 0, 2}, [](double x, double, double z) { return x - z; }},
+      {{kNegate, 1, kAdd, 2, 0, 4}, [](double x, double y, double) { return x - y; }},
+      {{kIdentity, 1}, [](double, double y, double) { return y; }},
+      {{kAdd, 2, 0, 1, kAdd, 2, 1, 2, kMaximum, 2, 4, 5},
+       [](double x, double y, double z) { return std::max(x + y, y + z); }},
+  };
+  for (const Case& k : cases) {
+    std::vector<int> code = leaves;
+    code.insert(code.end(), k.code.begin(), k.code.end());
+    const PrimPtr prim = blobby(4, code, numbers);
+    ASSERT_GT(prim->patchCount(), 5u);
+    int off = 0;
+    atRandomPoints(*prim, [&](const Sample& s) {
+      off += !(std::abs(k.field(ballAt(s.p, a), ballAt(s.p, b), ballAt(s.p, c)) - 0.421875) < 5e-6);
+    });
+    EXPECT_EQ(off, 0) << k.code[0] << " after " << k.code.size();
+    const Enclosed enclosed = enclosedBy(*prim, 3);
+    EXPECT_GT(enclosed.volume, 0) << k.code[0];
+    EXPECT_LT(glm::length(enclosed.gap), 1e-4) << k.code[0];
+    expectSoundEverywhere(*prim);
+  }
+}
+
+TEST(Blobby, LeavesOfManySizesCloseTheirSurface) {
+  // From 1 to 1/64, each touching the one before: cells of seven sizes next to each other.
+  std::vector<int> code;
+  std::vector<float> numbers;
+  float x = 0, size = 1;
+  for (int k = 0; k < 7; ++k, x += 0.5f * size, size *= 0.5f) {
+    code.insert(code.end(), {kEllipsoid, 16 * k});
+    numbers = joined({numbers, ball({x, 0.1f * size, 0}, vec3(size))});
+  }
+  code.insert(code.end(), {kAdd, 7, 0, 1, 2, 3, 4, 5, 6});
+  const PrimPtr prim = blobby(7, code, numbers);
+  EXPECT_LT(prim->patchCount(), 5000u);
+  const Enclosed enclosed = enclosedBy(*prim, 2);
+  EXPECT_LT(glm::length(enclosed.gap), 1e-4);
+  EXPECT_GT(enclosed.volume, 4.0 / 3 * M_PI / 8);
+  expectBoundsContainTheSurface(*prim);
+}
+
+TEST(Blobby, ValuesOfLeavesBlendByTheirShareOfTheField) {
+  const vec3 a(-0.3f, 0, 0), b(0.3f, 0, 0);
+  ParamList params = {floats("k", Storage::Varying, ValueType::Float, {1, 3}),
+                      floats("Cs", Storage::Vertex, ValueType::Color, {1, 0, 0, 0, 0, 1}),
+                      floats("c", Storage::Constant, ValueType::Float, {7})};
+  const PrimPtr sum = blobby(2, {kEllipsoid, 0, kEllipsoid, 16, kAdd, 2, 0, 1}, joined({ball(a), ball(b)}), params);
+  const PrimPtr larger =
+      blobby(2, {kEllipsoid, 0, kEllipsoid, 16, kMaximum, 2, 0, 1}, joined({ball(a), ball(b)}), params);
+  for (uint32_t patch = 0; patch < sum->patchCount(); ++patch) {
+    const vec3 p = sampleAt(*sum, patch, 0.3f, 0.6f).p;
+    const double x = ballAt(p, a), y = ballAt(p, b);
+    EXPECT_NEAR(primvarAt(*sum, patch, 0, 0.3f, 0.6f)[0], (x + 3 * y) / (x + y), 1e-4);
+    EXPECT_NEAR(primvarAt(*sum, patch, 1, 0.3f, 0.6f)[2], y / (x + y), 1e-4);
+    EXPECT_EQ(primvarAt(*sum, patch, 2, 0.3f, 0.6f)[0], 7);
+  }
+  for (uint32_t patch = 0; patch < larger->patchCount(); ++patch) {
+    const vec3 p = sampleAt(*larger, patch, 0.3f, 0.6f).p;
+    EXPECT_EQ(primvarAt(*larger, patch, 0, 0.3f, 0.6f)[0], p.x < 0 ? 1 : 3);
+  }
+}
+
+TEST(NastyBlobby, ArraysThatDoNotFitThrowASentence) {
+  Problems problems;
+  const auto errorWith = [&](const std::vector<int>& code, const std::vector<float>& numbers) {
+    return errorOf([&] { makeBlobby(1, code, numbers, {}, problems); });
+  };
+  EXPECT_EQ(errorWith({}, {}), "it has no operations and no leaves");
+  EXPECT_EQ(errorWith({kEllipsoid}, {}), "its list of codes ends in the middle of an operation");
+  EXPECT_NE(errorWith({kEllipsoid, 1}, ball(vec3(0))), "");
+  EXPECT_NE(errorWith({kEllipsoid, -1}, ball(vec3(0))), "");
+  EXPECT_NE(errorWith({kEllipsoid, 0, kAdd, 2, 0, 1}, ball(vec3(0))), "");  // of itself
+  EXPECT_NE(errorWith({kEllipsoid, 0, kAdd, -1}, ball(vec3(0))), "");
+  EXPECT_NE(errorWith({kEllipsoid, 0, kNegate, 5}, ball(vec3(0))), "");
+  EXPECT_EQ(errorWith({99}, {}), "there is no operation or leaf 99");
+  EXPECT_EQ(errorWith({kConstant, 0}, {1}), "it has no leaf of any size");
+}
+
+TEST(NastyBlobby, WhatHasNoSurfaceIsEmptyAndWhatIsUnknownIsNamed) {
+  EXPECT_EQ(blobby(2, {kEllipsoid, 0, kConstant, 16, kMultiply, 2, 0, 1}, joined({ball(vec3(0)), {0.1f}}))->patchCount(),
+            0u);
+  EXPECT_EQ(blobby(2, {kEllipsoid, 0, kConstant, 16, kDivide, 0, 1}, joined({ball(vec3(0)), {0}}))->patchCount(), 0u);
+  Problems problems;
+  EXPECT_GT(makeBlobby(2, {kEllipsoid, 0, 1003, 0, 16, kAdd, 2, 0, 1}, joined({ball(vec3(0)), {1, 1, 1, 1}}), {}, problems)
+                ->patchCount(),
+            0u);
+  EXPECT_EQ(problems.size(), 1u);
+  problems.clear();
+  makeBlobby(3, {kEllipsoid, 0, kEllipsoid, 16, kAdd, 2, 0, 1}, joined({ball(vec3(0)), ball(vec3(1), {1, 0, 1})}), {}, problems);
+  EXPECT_EQ(problems.size(), 2u);  // a flat leaf; two leaves where three are announced
+}
+
+TEST(NastyBlobby, ExtremeScalesAndOverlapsAreSound) {
+  for (const float scale : {1e-6f, 1e6f}) {
+    const PrimPtr prim = blobby(1, {kEllipsoid, 0}, ball(vec3(scale), vec3(scale)));
+    expectSoundEverywhere(*prim);
+    EXPECT_NEAR(dicedArea(*prim, 4) / scale / scale, M_PI, 0.02);
+  }
+  expectSoundEverywhere(*blobby(2, {kEllipsoid, 0, kEllipsoid, 0, kAdd, 2, 0, 1}, ball(vec3(0), {1, 0.05f, 1})));
+  // A thousandth as thick as wide: its cells would be too many, which it says.
+  Problems problems;
+  makeBlobby(1, {kEllipsoid, 0}, ball(vec3(0), {1, 1e-3f, 1}), {}, problems);
+  EXPECT_EQ(problems.size(), 1u);
+}
+
+}  // namespace
+}  // namespace tomales
