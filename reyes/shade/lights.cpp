@@ -107,7 +107,7 @@ void Lights::substitute(Batch& batch) {
   }
   if (batch.context.light == Illumination::Stored && batch.scene.services)
     batch.scene.services->storedIrradiance(*batch.points, batch.tm.active, Cl);
-  samples_.push_back({&batch.scene.stored, L, Cl, L, nullptr});
+  samples_.push_back({&batch.scene.stored, L, Cl, L, {}, nullptr});
 }
 
 void Lights::evaluate(Batch& batch, const BoundLight& light) {

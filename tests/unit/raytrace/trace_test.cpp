@@ -353,7 +353,7 @@ TEST(Instances, HitListOffsetsAndOpacityAreThoseOfTheirOwnAttributes) {
   const Hit hit = world.rays->closest(ray, kMaskDiffuse);
   EXPECT_EQ(hit.object, 1);
   EXPECT_NEAR(hit.t, 1, 0.03f);
-  EXPECT_NEAR(world.rays->transmission(ray).x, 0.75f * 0.75f, 1e-5f);
+  EXPECT_NEAR(world.transmission(ray).x, 0.75f * 0.75f, 1e-5f);
   EXPECT_EQ(world.rays->closest({vec3(0, 0, 6.5f), vec3(0, 0, 1)}, kMaskDiffuse).object, -1);
   EXPECT_EQ(world.rays->closest({vec3(0, 0, 6.5f), vec3(0, 0, 1)}, kMaskSpecular).object, 2);
   const Hit through = world.rays->closest({vec3(0.1f, 0.1f, 0), vec3(0, 0, 1)}, kMaskDiffuse);
