@@ -37,7 +37,10 @@ Emitters::Emitters(const Scene& scene, const std::vector<CoarseGroup>& groups)
     if (light < 0 || light >= static_cast<int>(lights_.size())) continue;
     Light& out = lights_[static_cast<size_t>(light)];
     for (const Lattice& lattice : groups[g].lattices) {
-      Source source{g, lattice.firstQuad, lattice.nu, {}, std::vector<Cumulated>(lattice.nv)};
+      const Object& o = scene.objects[static_cast<size_t>(lattice.object)];
+      const bool displaced = o.attributes->trace.displacements && o.attributes->displacement;
+      Source source{g, lattice.firstQuad, lattice.nu, displaced || o.shape().info(lattice.patch).planar, {},
+                    std::vector<Cumulated>(lattice.nv)};
       for (uint32_t j = 0; j < lattice.nv; ++j) {
         for (uint32_t i = 0; i < lattice.nu; ++i)
           source.row[j].add(double{areaOf(groups[g], lattice.firstQuad + j * lattice.nu + i)});
@@ -52,10 +55,8 @@ Emitters::Emitters(const Scene& scene, const std::vector<CoarseGroup>& groups)
 
 void Emitters::place(const Source& source, uint32_t quad, float u, float v, vec3& P, vec3& normal) const {
   const CoarseGroup& g = groups_[source.group];
+  if (source.exact) return bilinear(g, quad, u, v, P, normal);
   const Lattice& lattice = g.latticeOf(quad);
-  const Object& o = scene_.objects[static_cast<size_t>(lattice.object)];
-  const bool displaced = o.attributes->trace.displacements && o.attributes->displacement;
-  if (displaced || o.shape().info(lattice.patch).planar) return bilinear(g, quad, u, v, P, normal);
   const vec2 uv = g.patchParameters(quad, u, v);
   const TrueSurface s = surfaceAt(scene_, lattice.object, lattice.patch, uv.x, uv.y);
   P = s.P;

@@ -32,6 +32,7 @@ class Emitters {
   };
   struct Source {
     uint32_t group, firstQuad, columns;
+    bool exact;                  ///< The quads are the surface: it is flat, or displaced for rays.
     Cumulated rows;
     std::vector<Cumulated> row;  ///< quads of each row
   };

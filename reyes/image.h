@@ -42,6 +42,18 @@ struct SampleOffsets {
   std::function<int(int x, int y)> patternOf;
 };
 
+/// Where a picture was taken from: kept by shadow maps and deep files. Screen space has x and y in [-1, 1], y up.
+struct View {
+  mat4 cameraFromWorld{1.0f}, screenFromWorld{1.0f};
+};
+
+/// What Cryptomatte calls things; by Scene::groups.
+struct MatteNames {
+  std::vector<std::string> objects, materials;
+};
+
+View viewOf(const Camera& camera, const mat4& cameraFromWorld);
+
 /// How far the samples of a deep pixel may be merged: those within `depth` of their distance, those that together are no
 /// more opaque than `opacity`.
 struct DeepMerge {
@@ -62,7 +74,7 @@ struct DeepRows {
 /// All arguments must outlive it.
 class FrameFilter {
  public:
-  FrameFilter(const DeepFrame& frame, const Options& options, const SampleOffsets& samples);
+  FrameFilter(const DeepFrame& frame, const Options& options, const SampleOffsets& samples, const MatteNames& names = {});
   ~FrameFilter();
   Image shape() const;                  ///< Of the whole: no pixels.
   Image rows(int y0, int y1) const;     ///< Raster rows [y0, y1) of the crop window.
@@ -82,12 +94,6 @@ bool checkDisplays(const Options& options, Log& log);
 /// Applies exposure to colour and alpha-independent gamma, per Options.
 void expose(Image& image, const Options& options);
 
-/// Where a picture was taken from: kept by shadow maps and deep files. Screen space has x and y in [-1, 1], y up.
-struct View {
-  mat4 cameraFromWorld{1.0f}, screenFromWorld{1.0f};
-};
-View viewOf(const Camera& camera, const mat4& cameraFromWorld);
-
 /// The file of one Display: picks its floats, encodes, quantises and writes band after band to a temporary name; the last
 /// step renames. Type by `display.type` or the name's extension (.exr .tif .png); 8-bit types are sRGB only where the
 /// Display's "string transfer" says so. Failures are reported to the log, once.
@@ -95,7 +101,7 @@ class DisplayFile {
  public:
   /// `shape`: a picture without pixels. `output`: outputOf(options); `index`: of the Display.
   DisplayFile(const Image& shape, const FrameOutput& output, size_t index, const Options& options, Log& log,
-              const View& view = {});
+              const View& view = {}, const MatteNames& names = {});
   ~DisplayFile();
   /// The next rows from the top, 64 or a multiple, but for the last. False: it cannot be written.
   bool write(const Image& rows);

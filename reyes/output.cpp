@@ -11,6 +11,7 @@ namespace {
 /// Variables that every surface has (RISpec 3.2 table 12.1), and two for denoisers.
 const std::map<std::string, ValueType, std::less<>> kStandard = {
     {"Ci", ValueType::Color},   {"Oi", ValueType::Color},     {"Cs", ValueType::Color},   {"Os", ValueType::Color},
+    {"cryptoobject", ValueType::Color}, {"cryptomaterial", ValueType::Color},
     {"a", ValueType::Float},    {"alpha", ValueType::Float},  {"z", ValueType::Float},    {"P", ValueType::Point},
     {"N", ValueType::Normal},   {"Ng", ValueType::Normal},    {"I", ValueType::Vector},   {"dPdu", ValueType::Vector},
     {"dPdv", ValueType::Vector}, {"u", ValueType::Float},     {"v", ValueType::Float},    {"s", ValueType::Float},
@@ -129,6 +130,8 @@ class Planner {
 
   static std::string floatName(const std::string& name, const Channel& c, int component) {
     static constexpr const char *kColor[] = {"R", "G", "B"}, *kVector[] = {"X", "Y", "Z"};
+    static constexpr const char* kRanks[] = {"R", "G", "B", "A"};
+    if (isMatte(c.kind)) return fmt::format("{}{:02}.{}", matteLayer(c.kind), component / 4, kRanks[component % 4]);
     if (name == "Ci") return kColor[component];
     if (name == "a" || name == "alpha") return "A";
     if (name == "z") return "Z";
@@ -168,6 +171,8 @@ class Planner {
   static ChannelKind kindOf(const std::string& source) {
     if (source == "Ci") return ChannelKind::Color;
     if (source == "a" || source == "alpha") return ChannelKind::Alpha;
+    if (source == "cryptoobject") return ChannelKind::Objects;
+    if (source == "cryptomaterial") return ChannelKind::Materials;
     return source == "z" ? ChannelKind::Depth : ChannelKind::Variable;
   }
 

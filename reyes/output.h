@@ -28,7 +28,12 @@ struct Variable {
   SourceLoc where;     ///< The request that asks for it.
 };
 
-enum class ChannelKind : uint8_t { Color, Alpha, Depth, Variable };
+/// Objects, Materials: Cryptomatte, six ranks of id and coverage.
+enum class ChannelKind : uint8_t { Color, Alpha, Depth, Variable, Objects, Materials };
+inline bool isMatte(ChannelKind kind) { return kind == ChannelKind::Objects || kind == ChannelKind::Materials; }
+/// Names of Cryptomatte layers.
+inline const char* matteLayer(ChannelKind kind) { return kind == ChannelKind::Objects ? "CryptoObject" : "CryptoMaterial"; }
+
 
 struct Channel {
   std::string name;
@@ -39,7 +44,7 @@ struct Channel {
   Sampling sampling;
   float fill = 0;           ///< Of samples that see nothing.
   int first = 0;            ///< Its first float in a pixel of the frame's picture.
-  int width() const { return floatsPerValue(type); }
+  int width() const { return isMatte(kind) ? 12 : floatsPerValue(type); }
 };
 
 /// What a Display or DisplayChannel asks to be done to values on their way to the file.

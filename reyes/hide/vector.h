@@ -2,9 +2,9 @@
 // when first called. Include it first in a .cpp that defines HWY_TARGET_INCLUDE. Private to the hider.
 // No operation here may be fused (MulAdd) and no sum may cross lanes, so that all widths give the same bits.
 
-// Each target costs a compilation; these leave SSE2, AVX2 and AVX-512.
+// Each target costs a compilation; these leave SSE4, AVX2, AVX-512 and, for older CPUs, what the compiler makes of loops.
 #ifndef HWY_DISABLED_TARGETS
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #endif
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>

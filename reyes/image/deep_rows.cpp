@@ -9,40 +9,11 @@ namespace {
 constexpr int kBandRows = 16;
 constexpr float kNothingLeft = 1e-5f;
 
-/// One layer of some samples of one pixel.
-struct Layer {
-  uint64_t samples;
-  uint16_t word;
-  float z;
-  vec3 color, coverage;  ///< Times the share of light that passes what lies before.
-};
-
 /// What a layer adds to the pixel that is being filtered.
 struct Share {
   float z;
   vec3 color, coverage;
 };
-
-struct LayeredRows {
-  PixelRect rect;
-  std::vector<Layer> layers;
-  std::vector<size_t> first{0};
-};
-
-LayeredRows layersOf(const DeepFrame& frame, const FrameOutput& output, const Options& options, const PixelRect& rect) {
-  LayeredRows rows{rect, {}, {0}};
-  Compositor compositor(output, options, frame.samplesPerPixel);
-  for (int y = rect.y0; y < rect.y1; ++y)
-    for (int x = rect.x0; x < rect.x1; ++x) {
-      if (const DeepTile* tile = finishedTile(frame, x, y))
-        compositor.layers(*tile, tile->pixel(x, y), [&](const Fragment& f, const FacetShade& s, uint64_t samples, const vec3& clear) {
-          if (s.coverage == vec3(0.0f) && s.color == vec3(0.0f)) return;  // a holdout
-          rows.layers.push_back({samples, f.word, f.z, clear * s.color, clear * s.coverage});
-        });
-      rows.first.push_back(rows.layers.size());
-    }
-  return rows;
-}
 
 /// Shares -> samples: those near each other in depth, or too faint to matter, become one.
 class Merger {
@@ -97,25 +68,38 @@ class Merger {
 
 }  // namespace
 
+LayeredRows layersOf(const DeepFrame& frame, const Options& options, int y0, int y1) {
+  const PixelRect& padded = frame.padded;
+  LayeredRows rows{{padded.x0, std::max(padded.y0, y0), padded.x1, std::min(padded.y1, y1)}, {}, {0}};
+  Compositor compositor(FrameOutput{}, options, frame.samplesPerPixel);
+  for (int y = rows.rect.y0; y < rows.rect.y1; ++y)
+    for (int x = rows.rect.x0; x < rows.rect.x1; ++x) {
+      if (const DeepTile* tile = finishedTile(frame, x, y))
+        compositor.layers(*tile, tile->pixel(x, y), [&](const Fragment& f, const FacetShade& s, uint64_t samples, const vec3& clear) {
+          if (s.coverage == vec3(0.0f) && s.color == vec3(0.0f)) return;  // a holdout
+          const int group = tile->batches[static_cast<size_t>(tile->facets[f.facet].batch)].group();
+          rows.layers.push_back({samples, f.word, group, f.z, clear * s.color, clear * s.coverage});
+        });
+      rows.first.push_back(rows.layers.size());
+    }
+  return rows;
+}
+
+PixelFilter positiveFilter(const Options& options) {
+  const PixelFilter asked(options.filter, options.xFilterWidth, options.yFilterWidth);
+  return asked.hasNegativeLobes() ? PixelFilter("box", 1, 1) : asked;
+}
+
 DeepRows deepRows(const DeepFrame& frame, const Options& options, const SampleOffsets& samples, const DeepMerge& merge, int y0,
                   int y1) {
-  Options plain = options;
-  plain.displays.clear();
-  const FrameOutput output = outputOf(plain);
-  bool negative = false;
-  const PixelFilter asked(options.filter, options.xFilterWidth, options.yFilterWidth);
-  negative = asked.hasNegativeLobes();
-  const WeightTable weights(negative ? PixelFilter("box", 1, 1) : asked, samples);
+  const WeightTable weights(positiveFilter(options), samples);
   const int width = frame.crop.width();
   const auto bands = static_cast<size_t>((y1 - y0 + kBandRows - 1) / kBandRows);
   std::vector<DeepRows> parts(bands);
   parallelFor(bands, 1, [&](size_t begin, size_t end) {
     for (size_t band = begin; band < end; ++band) {
       const int first = y0 + static_cast<int>(band) * kBandRows, last = std::min(first + kBandRows, y1);
-      const PixelRect& padded = frame.padded;
-      const LayeredRows rows = layersOf(frame, output, plain,
-                                        {padded.x0, std::max(padded.y0, first - weights.reachY), padded.x1,
-                                         std::min(padded.y1, last + weights.reachY)});
+      const LayeredRows rows = layersOf(frame, options, first - weights.reachY, last + weights.reachY);
       Merger merger(merge, parts[band]);
       std::vector<Share> shares;
       for (int y = first; y < last; ++y)

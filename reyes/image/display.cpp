@@ -1,7 +1,7 @@
 #include <filesystem>
 
 #include "reyes/base/rng.h"
-#include "reyes/image/image_file.h"
+#include "reyes/image/cryptomatte.h"
 
 namespace tomales {
 namespace {
@@ -165,7 +165,8 @@ Metadata matrix(const char* name, const mat4& m) {
 }
 
 struct DisplayFile::Impl {
-  Impl(const Image& whole, const FrameOutput& output, size_t index, const Options& o, Log& l, const View& view)
+  Impl(const Image& whole, const FrameOutput& output, size_t index, const Options& o, Log& l, const View& view,
+       const MatteNames& names)
       : display(o.displays[index]), options(o), log(l), path(display.name), selection(output.displays[index]) {
     warnAboutParams(display, log);
     format = formatOf(display, path, log);
@@ -176,17 +177,33 @@ struct DisplayFile::Impl {
       format.metadata.push_back(matrix("worldtocamera", view.cameraFromWorld));
       format.metadata.push_back(matrix("worldtoscreen", view.screenFromWorld));
     }
-    const std::vector<std::string> names = output.names();
+    const std::vector<std::string> floats = output.names();
     for (const SelectedFloat& f : selection) {
       const Channel& channel = output.channels[static_cast<size_t>(f.channel)];
-      from.push_back(whole.channelIndex(names[static_cast<size_t>(channel.first + f.component)]));
+      from.push_back(whole.channelIndex(floats[static_cast<size_t>(channel.first + f.component)]));
       shape.channels.push_back(f.name);
       depth.push_back(channel.kind == ChannelKind::Depth);
-      // Depth and position lose their meaning in half floats.
-      if (depth.back() || channel.type == ValueType::Point) format.precise.push_back(f.name);
+      // Depth, position and ids lose their meaning in half floats.
+      if (depth.back() || channel.type == ValueType::Point || isMatte(channel.kind)) format.precise.push_back(f.name);
     }
-    const bool good = format.name == "openexr" || prepareIntegers();
+    bool good = format.name == "openexr" || prepareIntegers();
+    for (const Channel& c : output.channels)
+      if (isMatte(c.kind) && std::any_of(selection.begin(), selection.end(), [&](const SelectedFloat& f) {
+            return &output.channels[static_cast<size_t>(f.channel)] == &c;
+          }))
+        good = addMatte(c.kind, names) && good;
     if (good) file = std::make_unique<PictureFile>(path, shape, format);
+  }
+
+  bool addMatte(ChannelKind kind, const MatteNames& names) {
+    if (format.name != "openexr") {
+      log.report(Severity::Output, "display-matte", display.where,
+                 "\"" + path + "\" could not be written: Cryptomatte needs OpenEXR");
+      return false;
+    }
+    for (Metadata& m : cryptoMetadata(matteLayer(kind), kind == ChannelKind::Objects ? names.objects : names.materials))
+      format.metadata.push_back(std::move(m));
+    return true;
   }
 
   void openDeep() {
@@ -280,8 +297,8 @@ struct DisplayFile::Impl {
 };
 
 DisplayFile::DisplayFile(const Image& shape, const FrameOutput& output, size_t index, const Options& options, Log& log,
-                         const View& view)
-    : impl_(new Impl(shape, output, index, options, log, view)) {}
+                         const View& view, const MatteNames& names)
+    : impl_(new Impl(shape, output, index, options, log, view, names)) {}
 DisplayFile::~DisplayFile() = default;
 bool DisplayFile::write(const Image& rows) { return impl_->write(rows); }
 bool DisplayFile::write(const DeepRows& rows) { return impl_->write(rows); }

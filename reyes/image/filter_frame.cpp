@@ -2,6 +2,7 @@
 #include "reyes/base/parallel.h"
 #include "reyes/image.h"
 #include "reyes/image/composite.h"
+#include "reyes/image/cryptomatte.h"
 #include "reyes/image/deep_rows.h"
 
 namespace tomales {
@@ -35,7 +36,8 @@ struct Reduction {
 }  // namespace
 
 struct FrameFilter::Impl {
-  Impl(const DeepFrame& f, const Options& o, const SampleOffsets& s) : frame(f), options(o), samples(s), output(outputOf(o)) {
+  Impl(const DeepFrame& f, const Options& o, const SampleOffsets& s, const MatteNames& n)
+      : frame(f), options(o), samples(s), names(n), output(outputOf(o)) {
     addPass({Reduce::Filter, o.filter, o.xFilterWidth, o.yFilterWidth}).floats = {{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {3, 3, 0}};
     const Compositor compositor(output, options, frame.samplesPerPixel);
     const std::vector<ExtraFloat>& extras = compositor.extras();
@@ -141,6 +143,7 @@ struct FrameFilter::Impl {
   const DeepFrame& frame;
   const Options& options;
   const SampleOffsets& samples;
+  const MatteNames names;
   const FrameOutput output;
   std::vector<Sampling> passSamplings;
   std::vector<Pass> passes;
@@ -148,8 +151,8 @@ struct FrameFilter::Impl {
   int reachY = 0;
 };
 
-FrameFilter::FrameFilter(const DeepFrame& frame, const Options& options, const SampleOffsets& samples)
-    : impl_(new Impl(frame, options, samples)) {}
+FrameFilter::FrameFilter(const DeepFrame& frame, const Options& options, const SampleOffsets& samples, const MatteNames& names)
+    : impl_(new Impl(frame, options, samples, names)) {}
 FrameFilter::~FrameFilter() = default;
 
 Image FrameFilter::shape() const {
@@ -175,6 +178,10 @@ Image FrameFilter::rows(int y0, int y1) const {
         out[4] = impl_->depth(resolved, x, y);
       }
   });
+  for (const Channel& c : impl_->output.channels)
+    if (isMatte(c.kind))
+      cryptomatte(impl_->frame, impl_->options, impl_->samples,
+                  c.kind == ChannelKind::Objects ? impl_->names.objects : impl_->names.materials, c.first, image);
   return image;
 }
 
@@ -188,7 +195,8 @@ Image filterFrame(const DeepFrame& frame, const Options& options, const SampleOf
 
 vec2 filterReach(const Options& options) {
   vec2 reach(0.0f);
-  for (const Channel& channel : outputOf(options).channels) {
+  const FrameOutput output = outputOf(options);
+  for (const Channel& channel : output.channels) {
     const Sampling& s = channel.sampling;
     const PixelFilter filter(s.reduce == Reduce::Filter ? s.filter : "box", s.xWidth, s.yWidth);
     reach = glm::max(reach, vec2(filter.reachX(), filter.reachY()));

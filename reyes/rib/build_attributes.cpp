@@ -184,7 +184,8 @@ void attribute(GraphicsState& s, const Request& r) {
       s.scope.lightsCastShadows = text ? p.strings[0] == "on" : p.number(0) != 0;
     } else {
       s.scope.edit().user[key] = p;
-      if (category != "user")
+      // Cryptomatte reads the second (reyes/frame/write_frame.cpp).
+      if (category != "user" && key != "identifier:shadinggroup")
         s.warnOnce("Attribute " + key, r, "rib-unknown-attribute",
                    "Attribute \"" + key + "\" has no effect here");
     }

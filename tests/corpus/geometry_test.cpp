@@ -53,7 +53,7 @@ void expectPatchSound(const Prim& prim, uint32_t patch) {
 void expectGridsSound(const Scene& scene, int object, uint32_t patch, Stats& stats, Log& log) {
   const Camera camera(scene.options);
   const std::vector<SubPatch> pieces =
-      splitPatches(scene, object, patch, patch + 1, camera, {0, 0, camera.xResolution(), camera.yResolution()}, stats, log);
+      splitPatches(scene, object, std::span(&patch, 1), camera, {0, 0, camera.xResolution(), camera.yResolution()}, stats, log);
   for (size_t k = 0; k < std::min<size_t>(pieces.size(), kMostPieces); ++k) {
     const SubPatch& p = pieces[k];
     const int keys = static_cast<int>(scene.objects[static_cast<size_t>(object)].keyTimes.size());
@@ -71,7 +71,7 @@ void expectGridsSound(const Scene& scene, int object, uint32_t patch, Stats& sta
   }
 }
 
-void expectPictureFinite(const Scene& scene, const ShadingSystem& shading, Stats& stats, Log& log) {
+void expectPictureFinite(Scene& scene, ShadingSystem& shading, Stats& stats, Log& log) {
   DeepFrame frame = hideFrame(scene, shading, {}, stats, log);
   shadeFrame(frame, scene, shading, {}, {}, stats);
   int unsound = 0;
@@ -112,7 +112,7 @@ TEST_P(UglyGeometry, GoesThroughEveryStage) {
   settings.onScene = [&](Scene&& s) { scenes.push_back(std::move(s)); };
   ASSERT_TRUE(readRib({GetParam().string()}, settings, log));
   ASSERT_EQ(scenes.size(), 1u);
-  const Scene& scene = scenes[0];
+  Scene& scene = scenes[0];
 
   Stats unused;
   Log unheard(Log::Verbosity::Quiet);
@@ -125,7 +125,7 @@ TEST_P(UglyGeometry, GoesThroughEveryStage) {
 
   ShaderRegistry registry(log);
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
-  const ShadingSystem shading(scene, registry, nullptr, log, stats);
+  ShadingSystem shading(scene, registry, nullptr, log, stats);
   expectPictureFinite(scene, shading, stats, log);
   expectRaysFinite(scene, shading, stats, log);
 }

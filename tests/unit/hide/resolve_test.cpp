@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include "reyes/base/rng.h"
 #include "tests/unit/hide/tile.h"
@@ -88,6 +89,34 @@ TEST(Resolve, DoesNotDependOnTheSizeOfBuckets) { expectNoTraceOfBuckets(4); }
 
 // The whole frame as one bucket is more samples than are sieved at once.
 TEST(Resolve, DoesNotDependOnTheSizeOfBucketsWithManySamples) { expectNoTraceOfBuckets(9); }
+
+/// Lets Highway choose among some of the vector widths only, while it lives.
+class Widths {
+ public:
+  explicit Widths(int64_t targets) {
+    hwy::SetSupportedTargetsForTest(targets);
+    hwy::GetChosenTarget().Update(targets);
+  }
+  ~Widths() {
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().DeInit();
+  }
+};
+
+TEST(Resolve, HasTheSameBitsForEveryVectorWidth) {
+  Soup soup;
+  const SamplePattern pattern(5, 5, true, 1);
+  const PixelRect rect{0, 0, 64, 64};
+  const DeepTile widest = hide(soup.world, pattern, rect, soup.rasters);
+  const int64_t supported = hwy::SupportedTargets();
+  for (const int64_t target : {HWY_EMU128, HWY_SSE4, HWY_AVX2, HWY_AVX3}) {
+    if (!(supported & target)) continue;  // One for each that is compiled: reyes/hide/vector.h
+    const Widths one(target);
+    const DeepTile tile = hide(soup.world, pattern, rect, soup.rasters);
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 64; ++x) ASSERT_EQ(seen(tile, x, y), seen(widest, x, y)) << hwy::TargetName(target) << " " << x << "," << y;
+  }
+}
 
 TEST(Resolve, EveryFragmentOfAPixelIsNearestFirstAndHasItsOwnSamples) {
   Soup soup;

@@ -18,8 +18,9 @@ Options showing(const std::string& mode, ParamList params = {}) {
 }
 
 std::string names(const Options& o, Log& log) {
+  const FrameOutput output = outputOf(o, &log);
   std::string out;
-  for (const SelectedFloat& f : outputOf(o, &log).displays.at(0)) out += f.name + " ";
+  for (const SelectedFloat& f : output.displays.at(0)) out += f.name + " ";
   return out;
 }
 
