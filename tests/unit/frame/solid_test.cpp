@@ -98,6 +98,21 @@ TEST(Solids, ADifferenceShowsTheFarSideOfWhatItTakesAway) {
   });
 }
 
+TEST(Solids, AreWholeInProceduralsThatAreOpenedOnDemand) {
+  const std::string hollow = solid("difference", kBall + moved("0 0 -1", primitive("Sphere 0.5 -0.5 0.5 360")));
+  const std::string lens = solid("intersection", moved("-0.5 0 0", kBall) + moved("0.5 0 0", kBall));
+  const auto scene = [&](const std::string& first, const std::string& second) {
+    return measure(hideRib(world("ArchiveBegin \"hollow\" " + hollow + " ArchiveEnd ArchiveBegin \"lens\" " + lens + " ArchiveEnd " +
+                                 moved("-1 1 0", lens) + moved("-1 -1 0", first) + moved("1 0 0", second))));
+  };
+  const auto procedural = [](const std::string& name) {
+    return " Procedural \"DelayedReadArchive\" [\"" + name + "\"] [-1 1 -1 1 -1.5 1]";
+  };
+  const Measured read = scene(hollow, lens), opened = scene(procedural("hollow"), procedural("lens"));
+  EXPECT_NEAR(opened.area, read.area, 1e-9);
+  EXPECT_NEAR(opened.volume, read.volume, 1e-6);
+}
+
 TEST(Solids, AUnionHasNoSurfacesInside) {
   const DeepFrame f = hideRib(world("Opacity 0.5 0.5 0.5 " + solid("union", moved("-0.4 0 0", kBall) + moved("0.4 0 0", kBall))));
   EXPECT_EQ(surfaces(f, 0, 0), 2);

@@ -89,6 +89,33 @@ TEST(SolidsForRays, ARayLeavesTheirSurfaceWithoutMeetingIt) {
   EXPECT_EQ(w.rays->closest(w.rayFrom(1, vec3(0, 0, -0.5f), vec3(1, 0, -0.3f)), kMaskDiffuse).object, 1);
 }
 
+TEST(SolidsForRays, PartsThatShareAShapeAreCutNevertheless) {
+  World w;
+  const PrimPtr sheet = waves();
+  w.add(sheet, translation({0, 0, 5})), w.add(sheet, translation({0, 0, 6}));
+  Solid solid;
+  solid.add(SolidOperation::Union, -1);
+  for (Object& o : w.scene.objects) o.solid = 0, o.solidBlock = solid.add(SolidOperation::Primitive, 0);
+  w.scene.solids.push_back(solid);
+  w.build();
+  // What lies before the sheets is inside: the whole ends at the second.
+  EXPECT_EQ(w.rays->closest({vec3(0.1f, 0.1f, 0), vec3(0, 0, 1)}, kMaskDiffuse).object, 1);
+}
+
+TEST(SolidsForRays, AreSeenBySidesAndGroupsAsOtherSurfacesAre) {
+  Balls w(SolidOperation::Difference, vec3(0, 0, -1), 0.5f);
+  w.build();
+  Ray ray{vec3(0, 0, -5), vec3(0, 0, 1)};
+  RayFilter filter;
+  ray.filter = &filter;
+  filter.sides = HitSides::Back;
+  EXPECT_NEAR(w.rays->closest(ray, kMaskDiffuse).t, 6, 0.01f);
+  std::vector<uint8_t> none(w.scene.groups.size(), 0);
+  filter = {&none, HitSides::Both};
+  EXPECT_EQ(w.rays->closest(ray, kMaskDiffuse).object, -1);
+  EXPECT_EQ(w.transmission(ray), vec3(1));
+}
+
 /// Two balls in one place that fade into each other, a quarter and three quarters.
 struct Fading : World {
   Fading() {
@@ -109,6 +136,22 @@ TEST(DetailForRays, EachRaySeesOneLevelInTheShareOfSamples) {
     hits += hit.object >= 0, first += hit.object == 0;
   }
   EXPECT_EQ(hits, 4000);
+  EXPECT_NEAR(first / 4000.0, 0.25, 0.02);
+}
+
+TEST(DetailForRays, LevelsThatShareAShapeFadeToo) {
+  World w;
+  const PrimPtr sheet = waves();
+  w.attributes.detail = {0, 0.25f};
+  w.add(sheet, translation({0, 0, 5}));
+  w.attributes.detail = {0.25f, 1};
+  w.add(sheet, translation({0, 0, 6}));
+  w.build();
+  int first = 0;
+  for (uint32_t k = 0; k < 4000; ++k) {
+    const vec3 origin(unitFloat(hash32(2 * k)) - 0.5f, unitFloat(hash32(2 * k + 1)) - 0.5f, 0);
+    first += w.rays->closest({origin, vec3(0, 0, 1)}, kMaskDiffuse).object == 0;
+  }
   EXPECT_NEAR(first / 4000.0, 0.25, 0.02);
 }
 
