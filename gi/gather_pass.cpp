@@ -44,7 +44,6 @@ class GatherPass {
 
   // Groups whose indirect lights ask for the same share a cache. With maxerror 0 nothing could be reused.
   void prepareCaches() {
-    state_.caches.clear();
     cacheOfGroup_.assign(state_.scene.groups.size(), kNoCache);
     const Bound3 bound = frameBound();
     for (size_t g = 0; g < cacheOfGroup_.size(); ++g) {
@@ -121,6 +120,8 @@ class GatherPass {
   // insertion.
   void refine(const std::vector<PointRef>& points) {
     const std::vector<Site> sites = uncovered(points);
+    if (!sites.empty() && !tools_) tools_ = gatherTools(state_);
+    if (sites.empty() || !tools_) return report(1);
     std::vector<IrradianceRecord> records(sites.size());
     size_t done = 0;
     for (; done < sites.size() && !isCancelled(); done = std::min(done + kPointsPerSlice, sites.size())) {
@@ -150,7 +151,7 @@ class GatherPass {
   }
 
   IrradianceRecord gatherAt(const Site& site) const {
-    return gather(state_.rays, state_.shading, site.point, state_.caches[site.cache].plan.gather, state_.stats);
+    return gather(*tools_->rays, *tools_->shading, site.point, state_.caches[site.cache].plan.gather, state_.stats);
   }
 
   void report(float fractionOfPhase) const {
@@ -159,6 +160,7 @@ class GatherPass {
 
   GiState& state_;
   const DeepFrame& frame_;
+  const RayTools* tools_ = nullptr;
   std::vector<size_t> cacheOfGroup_;
   const std::function<void(float)>* progress_ = nullptr;
   const std::atomic<bool>* cancelled_ = nullptr;

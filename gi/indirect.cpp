@@ -1,5 +1,6 @@
 // The two answers to indirectDiffuse(): interpolated from the irradiance cache, and path traced.
 #include "gi/state.h"
+#include "reyes/base/checksum.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
@@ -27,9 +28,9 @@ struct PathSum {
 // The hemisphere of each active point, one cosine-weighted ray a path, in batches large enough to shade well.
 class PathBatches {
  public:
-  PathBatches(const GiState& state, const ShadePoints& points, TmConstVec3 N, float maxDistance,
+  PathBatches(const GiState& state, const RayTools& tools, const ShadePoints& points, TmConstVec3 N, float maxDistance,
               const ShadeContext& hitContext)
-      : state_(state), points_(points), N_(N), maxDistance_(maxDistance), context_(hitContext) {}
+      : state_(state), tools_(tools), points_(points), N_(N), maxDistance_(maxDistance), context_(hitContext) {}
 
   void add(PathSum& sum, int paths) {
     const int i = sum.point;
@@ -40,7 +41,7 @@ class PathBatches {
         hashCombine(points_.key(i), state_.settings.seed, static_cast<uint32_t>(context_.depth));
     for (int path = 0; path < paths; ++path) {
       Ray ray{points_.position(i), normal};
-      aim(state_.rays, points_, i, rayTime(state_.rays, points_, i, path, paths, state_.settings.seed), ray);
+      aim(*tools_.rays, points_, i, rayTime(*tools_.rays, points_, i, path, paths, state_.settings.seed), ray);
       ray.tMax = maxDistance_;
       const vec3 local = cosineHemisphere(sobol2(static_cast<uint32_t>(path), pointKey));
       ray.direction = local.x * tangent + local.y * bitangent + local.z * normal;
@@ -57,10 +58,10 @@ class PathBatches {
     hits_.clear();
     int64_t adjusted = 0;
     for (const Ray& ray : rays_) {
-      hits_.push_back(state_.rays.closest(ray, kMaskDiffuse));
+      hits_.push_back(tools_.rays->closest(ray, kMaskDiffuse));
       adjusted += hits_.back().adjusted;
     }
-    state_.rays.shadeHits(rays_, hits_, names_, state_.shading, context_, radiance_);
+    tools_.rays->shadeHits(rays_, hits_, names_, *tools_.shading, context_, radiance_);
     for (size_t r = 0; r < rays_.size(); ++r) {
       if (!isFinite(radiance_[r])) continue;  // one bad shader result would cost the whole point
       sums_[r]->radiance += radiance_[r];
@@ -73,6 +74,7 @@ class PathBatches {
 
  private:
   const GiState& state_;
+  const RayTools& tools_;
   const ShadePoints& points_;
   const TmConstVec3 N_;
   const float maxDistance_;
@@ -84,7 +86,35 @@ class PathBatches {
   std::vector<vec3> radiance_;
 };
 
+IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, const GatherSettings& settings,
+                              RayAnswers* answers) {
+  const struct {
+    vec3 position, normal;
+    uint32_t key, seed;
+    int group, samples;
+    float maxDistance, time;
+    vec3 drift;
+    uint32_t light;
+  } asked{point.position,   point.normal,         point.key,  settings.seed, point.group,
+          settings.samples, settings.maxDistance, point.time, point.drift,   static_cast<uint32_t>(settings.light)};
+  const uint64_t name = answers ? checksum(std::as_bytes(std::span(&asked, 1))) : 0;
+  if (answers)
+    if (const auto it = answers->indirect.find(name); it != answers->indirect.end()) return it->second;
+  const RayTools* tools = gatherTools(state);
+  if (!tools) return {vec3(0.0f), point.normal, point.normal, point.normal};
+  const IrradianceRecord record = gather(*tools->rays, *tools->shading, point, settings, state.stats);
+  const IndirectAnswer answer{record.E, record.dominant[0], record.dominant[1], record.dominant[2]};
+  if (answers && answers->recording) answers->indirect[name] = answer;
+  return answer;
+}
+
 }  // namespace
+
+const RayTools* gatherTools(const GiState& state) {
+  const RayTools* tools = state.rays();
+  if (tools && state.atlasSource) std::call_once(state.atlasOnce, [&] { state.atlas = state.atlasSource(); });
+  return tools;
+}
 
 GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) {
   const Attributes& attributes = *state.scene.groups[static_cast<size_t>(group)].attributes;
@@ -117,10 +147,13 @@ void store(const IndirectResult& out, int i, const vec3& E, const vec3 dominant[
 }
 
 void interpolateIndirect(const GiState& state, const ShadePoints& points, const uint8_t* active,
-                         TmConstVec3 N, const IndirectQuery& query, const IndirectResult& out) {
+                         TmConstVec3 N, const IndirectQuery& query, const ShadeContext& context,
+                         const IndirectResult& out) {
   const GatherPlan plan = planFor(state, points.group(), query);
-  const auto prepared = std::find_if(state.caches.begin(), state.caches.end(),
-                                     [&](const PreparedCache& c) { return c.plan == plan; });
+  auto prepared = std::find_if(state.caches.begin(), state.caches.end(),
+                               [&](const PreparedCache& c) { return c.plan == plan; });
+  // Records that were given serve even where a light has since been edited to ask for others.
+  if (prepared == state.caches.end() && state.cachesGiven && plan.cache.kappa < kInfinity) prepared = state.caches.begin();
   int64_t lookups = 0, interpolated = 0;
   for (int i = 0; i < points.count(); ++i) {
     if (!active[i]) continue;
@@ -137,8 +170,8 @@ void interpolateIndirect(const GiState& state, const ShadePoints& points, const 
     }
     // Kept out of the cache: what other points find there must not depend on the order of shading.
     const GatherPoint point{points.group(), P, n, points.key(i), pixelSize, points.edgeLength(i), points.get3(kDriftX, i), points.channel(kTime)[i]};
-    const IrradianceRecord record = gather(state.rays, state.shading, point, plan.gather, state.stats);
-    store(out, i, record.E, record.dominant);
+    const IndirectAnswer answer = gatherOrRecall(state, point, plan.gather, context.answers);
+    store(out, i, answer[0], &answer[1]);
   }
   state.stats.irradianceCache.lookups += lookups;
   state.stats.irradianceCache.interpolated += interpolated;
@@ -147,13 +180,15 @@ void interpolateIndirect(const GiState& state, const ShadePoints& points, const 
 void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                    const IndirectQuery& query, const ShadeContext& context, int bounces,
                    const IndirectResult& out) {
+  const RayTools* tools = state.rays();
+  if (!tools) return;
   // Paths branch at the eye's points alone; a hit continues because its own shader asks for indirect light
   // again.
   const int paths = context.depth > 0 ? 1 : planFor(state, points.group(), query).gather.samples;
   const int depth = context.depth + 1;
   ShadeContext hitContext{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
   hitContext.diffuseLimit = hitContext.specularLimit = 0;  // bounces are those of indirectDiffuse() alone
-  PathBatches batches(state, points, N, query.maxDistance, hitContext);
+  PathBatches batches(state, *tools, points, N, query.maxDistance, hitContext);
   std::vector<PathSum> sums;
   for (int i = 0; i < points.count(); ++i)
     if (active[i]) sums.push_back({i});

@@ -67,6 +67,7 @@ void limitTranslation(IrradianceRecord& r, float radius) {
 
 struct IrradianceCache::Impl {
   CacheSettings settings;
+  Bound3 bound;
   Box root;
   std::vector<Node> nodes{Node{}};
   std::vector<uint32_t> outside;  // records beyond the root box
@@ -165,11 +166,13 @@ struct IrradianceCache::Impl {
 IrradianceCache::IrradianceCache(const Bound3& bound, const CacheSettings& settings)
     : impl_(std::make_unique<Impl>()) {
   impl_->settings = settings;
+  impl_->bound = bound;
   impl_->root =
       bound.empty() ? Box{vec3(0.0f), 0.0f} : Box{bound.center(), 0.5001f * maxComponent(bound.size())};
 }
 
 IrradianceCache::IrradianceCache(IrradianceCache&&) noexcept = default;
+IrradianceCache& IrradianceCache::operator=(IrradianceCache&&) noexcept = default;
 IrradianceCache::~IrradianceCache() = default;
 
 void IrradianceCache::insert(const IrradianceRecord& record) {
@@ -178,6 +181,11 @@ void IrradianceCache::insert(const IrradianceRecord& record) {
   if (!(impl.settings.kappa < kInfinity)) return;
   limitTranslation(impl.records.back(), impl.reach(impl.size(record), record.pixelSize));
   impl.insert(static_cast<uint32_t>(impl.records.size() - 1));
+}
+
+void IrradianceCache::restore(const IrradianceRecord& record) {
+  impl_->records.push_back(record);
+  if (impl_->settings.kappa < kInfinity) impl_->insert(static_cast<uint32_t>(impl_->records.size() - 1));
 }
 
 IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, float pixelSize) const {
@@ -190,5 +198,6 @@ IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, fl
 }
 
 const std::vector<IrradianceRecord>& IrradianceCache::records() const { return impl_->records; }
+const Bound3& IrradianceCache::bound() const { return impl_->bound; }
 
 }  // namespace tomales

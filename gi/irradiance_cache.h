@@ -42,12 +42,16 @@ class IrradianceCache {
   /// `bound` should hold all records; what falls outside still works, only slower.
   IrradianceCache(const Bound3& bound, const CacheSettings& settings);
   IrradianceCache(IrradianceCache&&) noexcept;
+  IrradianceCache& operator=(IrradianceCache&&) noexcept;
   ~IrradianceCache();
 
   void insert(const IrradianceRecord& record);
+  /// One of records() of an earlier cache with these settings: goes in as it is.
+  void restore(const IrradianceRecord& record);
   /// Weighted mean of the extrapolated records (eq. 5, 7). pixelSize: root of the projected pixel area at x.
   IrradianceEstimate lookup(const vec3& x, const vec3& normal, float pixelSize) const;
   const std::vector<IrradianceRecord>& records() const;
+  const Bound3& bound() const;
 
  private:
   struct Impl;

@@ -1,5 +1,6 @@
 #include "gi/photon_emission.h"
 
+#include "raytrace/emitters.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
@@ -198,7 +199,7 @@ void PhotonSource::emitFromArea(const std::vector<vec2>& a, const std::vector<ve
     for (int k = 0; k < 3; ++k) v[k].resize(n);
   for (size_t i = 0; i < n; ++i) xi0[i] = a[i].x, xi1[i] = a[i].y;
   const TmVec3 P{place[0].data(), place[1].data(), place[2].data()}, N{normal[0].data(), normal[1].data(), normal[2].data()};
-  if (!rays_.sampleEmitter(light_, static_cast<int>(n), xi0.data(), xi1.data(), P, N, area.data())) {
+  if (!rays_.emitters().sample(light_, static_cast<int>(n), xi0.data(), xi1.data(), P, N, area.data())) {
     std::fill(out.begin(), out.end(), EmittedPhoton{vec3(0), vec3(0, 0, 1), vec3(0)});
     return;
   }

@@ -30,11 +30,11 @@ bool isTooDeep(const ShadeContext& hit, const Options& options) {
 }
 
 /// Goes on behind the hit as a ray that leaves it.
-Ray behind(const RayScene& scene, const Ray& ray, const Hit& hit, int group) {
+Ray behind(const RayScene& scene, const Ray& ray, const Hit& hit) {
   Ray on = ray;
   on.origin = ray.origin + hit.t * ray.direction;
   on.tMax = ray.tMax - hit.t;
-  scene.prepareOrigin(group, on.origin, 0, on);
+  scene.prepareOrigin(scene.groupOf(hit), on.origin, 0, on);
   on.offset = slantedOffset(on.offset, std::abs(dot(ray.direction, hit.geometricNormal)));
   return on;
 }
@@ -42,8 +42,8 @@ Ray behind(const RayScene& scene, const Ray& ray, const Hit& hit, int group) {
 /// The rays of one call, layer by layer.
 class ShaderRays {
  public:
-  ShaderRays(const GiState& state, const RayQuery& query, const ShadeContext& hitContext, const RayResult& result)
-      : state_(state), query_(query), context_(hitContext), result_(result) {}
+  ShaderRays(const GiState& state, const RayTools& tools, const RayQuery& query, const ShadeContext& hitContext, const RayResult& result)
+      : state_(state), tools_(tools), query_(query), context_(hitContext), result_(result) {}
 
   void add(int element, const Ray& ray, SampleName name) {
     rays_.push_back(ray), names_.push_back(name), elements_.push_back(element), clear_.push_back(vec3(1));
@@ -56,7 +56,7 @@ class ShaderRays {
       answers_.mode = query_.mode, answers_.wantsColor = wantsColor || asksForSurface(), answers_.elements = elements_;
       answers_.outputs = layer == 0 ? result_.outputs : std::vector<RayOutput>{};
       if (answers_.wantsColor || !answers_.outputs.empty())
-        state_.rays.shadeHits(rays_, hits_, names_, state_.shading, context_, answers_);
+        tools_.rays->shadeHits(rays_, hits_, names_, *tools_.shading, context_, answers_);
       if (layer == 0) setDistances();
       if (wantsColor) addLayer();
     }
@@ -67,7 +67,7 @@ class ShaderRays {
     const RayMask mask = query_.kind == RayKind::Diffuse ? kMaskDiffuse : kMaskSpecular;
     hits_.clear();
     for (const Ray& ray : rays_) {
-      hits_.push_back(state_.rays.closest(ray, mask));
+      hits_.push_back(tools_.rays->closest(ray, mask));
       state_.stats.rays.hitlistAdjusted += hits_.back().adjusted;
     }
     (query_.kind == RayKind::Diffuse ? state_.stats.rays.gather : state_.stats.rays.specular) += static_cast<int64_t>(rays_.size());
@@ -94,7 +94,7 @@ class ShaderRays {
       if (result_.color.x) result_.color.x[i] += color.x, result_.color.y[i] += color.y, result_.color.z[i] += color.z;
       if (result_.opacity.x) result_.opacity.x[i] = 1 - clear.x, result_.opacity.y[i] = 1 - clear.y, result_.opacity.z[i] = 1 - clear.z;
       if (covers(clear, query_) || hit.t >= rays_[r].tMax) continue;
-      rays_[kept] = behind(state_.rays, rays_[r], hit, state_.scene.objects[static_cast<size_t>(hit.object)].group);
+      rays_[kept] = behind(*tools_.rays, rays_[r], hit);
       elements_[kept] = i, clear_[kept] = clear;
       names_[kept] = {hashCombine(names_[r].key, 0x6c617965U), names_[r].sequence};
       ++kept;
@@ -103,6 +103,7 @@ class ShaderRays {
   }
 
   const GiState& state_;
+  const RayTools& tools_;
   const RayQuery& query_;
   const ShadeContext context_;
   const RayResult& result_;
@@ -139,13 +140,15 @@ void traceForShader(const GiState& state, const ShadePoints& points, const uint8
   const Attributes& own = *state.scene.groups[static_cast<size_t>(points.group())].attributes;
   const ShadeContext hitContext = contextOfHits(own, query, context);
   if (context.kind == RayKind::Transmission || isTooDeep(hitContext, state.scene.options)) return;
-  const RayFilter filter = filterOf(state.rays, query, own);
-  ShaderRays rays(state, query, hitContext, result);
+  const RayTools* tools = state.rays();
+  if (!tools) return;
+  const RayFilter filter = filterOf(*tools->rays, query, own);
+  ShaderRays rays(state, *tools, query, hitContext, result);
   for (int i = 0; i < points.count(); ++i) {
     const vec3 d{direction.x[i], direction.y[i], direction.z[i]};
     if (!active[i] || d == vec3(0)) continue;
     Ray ray{{P.x[i], P.y[i], P.z[i]}, d};
-    aim(state.rays, points, i, rayTime(state.rays, points, i, query.number, query.count, context.seed), ray);
+    aim(*tools->rays, points, i, rayTime(*tools->rays, points, i, query.number, query.count, context.seed), ray);
     ray.tMax = query.maxDistance;
     ray.offset = slantedOffset(ray.offset, std::abs(dot(d, points.get3(kNgx, i))));
     setBias(query, ray);

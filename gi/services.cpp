@@ -1,6 +1,7 @@
 #include "gi/services.h"
 
 #include <numeric>
+#include <utility>
 
 #include "gi/state.h"
 
@@ -17,7 +18,11 @@ struct GiServices::Impl : GiState {};
 
 GiServices::GiServices(const Scene& scene, const Camera& camera, const RayScene& rays,
                        const ShadingSystem& shading, const GiSettings& settings, Stats& stats)
-    : impl_(new Impl{{scene, camera, rays, shading, settings, stats, nullptr, {}}}) {}
+    : GiServices(scene, camera, [tools = RayTools{&rays, &shading}] { return &tools; }, shading, settings, stats) {}
+
+GiServices::GiServices(const Scene& scene, const Camera& camera, RaySource rays, const ShadingSystem& shading,
+                       const GiSettings& settings, Stats& stats)
+    : impl_(new Impl{{scene, camera, std::move(rays), shading, settings, stats, nullptr, {}, {}, false}}) {}
 
 GiServices::~GiServices() = default;
 
@@ -26,9 +31,19 @@ void GiServices::gatherPass(const DeepFrame& frame, const std::function<void(flo
   if (interpolates(impl_->settings.mode)) fillCaches(*impl_, frame, progress, cancelled);
 }
 
+const std::vector<PreparedCache>& GiServices::caches() const { return impl_->caches; }
+std::vector<PreparedCache> GiServices::takeCaches() { return std::exchange(impl_->caches, {}); }
+void GiServices::useCaches(std::vector<PreparedCache> caches) {
+  impl_->caches = std::move(caches);
+  impl_->cachesGiven = !impl_->caches.empty();
+}
+void GiServices::useEmitters(EmitterTable emitters) { impl_->emitters.emplace(std::move(emitters)); }
+
 void GiServices::transmission(const ShadePoints& points, const uint8_t* active, TmConstVec3 toward,
                               const ShadowRays& rays, const ShadeContext& context, TmVec3 light) const {
-  const RayScene& scene = impl_->rays;
+  const RayTools* tools = impl_->rays();
+  if (!tools) return;
+  const RayScene& scene = *tools->rays;
   const Attributes& own = *impl_->scene.groups[static_cast<size_t>(points.group())].attributes;
   const int times = scene.samplesTime(points.group()) && context.kind == RayKind::Camera
                         ? std::max(1, kTimesOfLight / rays.samples)
@@ -52,7 +67,7 @@ void GiServices::transmission(const ShadePoints& points, const uint8_t* active, 
       shadowRays.push_back(ray), names.push_back(points.name(i));
     }
   }
-  const std::vector<vec3> clear = scene.transmission(shadowRays, names, impl_->shading, context);
+  const std::vector<vec3> clear = scene.transmission(shadowRays, names, *tools->shading, context);
   for (size_t p = 0; p < pointOf.size(); ++p) {
     const auto first = clear.begin() + static_cast<ptrdiff_t>(p) * times;
     const vec3 share = std::accumulate(first, first + times, vec3(0)) / static_cast<float>(times);
@@ -69,10 +84,14 @@ void GiServices::trace(const ShadePoints& points, const uint8_t* active, TmConst
 
 bool GiServices::sampleEmitter(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N,
                                float* area) const {
-  return impl_->rays.sampleEmitter(light, count, xi0, xi1, P, N, area);
+  if (impl_->emitters) return impl_->emitters->sample(light, count, xi0, xi1, P, N, area);
+  const RayTools* tools = impl_->rays();
+  return tools && tools->rays->emitters().sample(light, count, xi0, xi1, P, N, area);
 }
 
 void GiServices::setAtlas(std::unique_ptr<const IrradianceAtlas> atlas) { impl_->atlas = std::move(atlas); }
+
+void GiServices::setAtlasSource(AtlasSource source) { impl_->atlasSource = std::move(source); }
 
 void GiServices::reportAtlas(Stats& stats) const {
   if (impl_->atlas) impl_->atlas->report(stats);
@@ -88,7 +107,11 @@ void GiServices::storedIrradiance(const ShadePoints& points, const uint8_t* acti
   }
 }
 
-float GiServices::emitterReach(int light) const { return impl_->rays.emitterReach(light); }
+float GiServices::emitterReach(int light) const {
+  if (impl_->emitters) return impl_->emitters->reach(light);
+  const RayTools* tools = impl_->rays();
+  return tools ? tools->rays->emitters().reach(light) : 0.0f;
+}
 
 void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                                  const IndirectQuery& query, const ShadeContext& context,
@@ -97,7 +120,7 @@ void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* activ
   const int asked = settings.bounces > 0 ? settings.bounces : query.bounces;
   const int bounces = settings.mode == GiMode::None ? 0 : interpolates(settings.mode) ? std::min(asked, 1) : asked;
   if (context.depth < bounces) {
-    if (interpolates(settings.mode)) return interpolateIndirect(*impl_, points, active, N, query, out);
+    if (interpolates(settings.mode)) return interpolateIndirect(*impl_, points, active, N, query, context, out);
     return traceIndirect(*impl_, points, active, N, query, context, bounces, out);
   }
   for (int i = 0; i < points.count(); ++i) {

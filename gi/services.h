@@ -3,6 +3,7 @@
 #pragma once
 #include "gi/atlas.h"
 #include "gi/gather.h"
+#include "raytrace/emitters.h"
 #include "reyes/deep.h"
 
 #include <atomic>
@@ -25,19 +26,53 @@ struct GiSettings {
   uint32_t seed = 0;
 };
 
+/// Everything that decides the value of an irradiance record, and how far it may be used.
+struct GatherPlan {
+  CacheSettings cache;
+  GatherSettings gather;
+  bool operator==(const GatherPlan&) const = default;
+};
+
+struct PreparedCache {
+  GatherPlan plan;
+  IrradianceCache cache;
+};
+
+/// What it takes to answer a ray.
+struct RayTools {
+  const RayScene* rays;
+  const ShadingSystem* shading;  ///< Of the scene that the rays meet.
+};
+/// Asked when the first ray is wanted, from any thread: a shot from a file may never need its geometry. Null: there is no
+/// geometry to be had, which has been reported; rays then meet nothing.
+using RaySource = std::function<const RayTools*()>;
+using AtlasSource = std::function<std::unique_ptr<const IrradianceAtlas>()>;
+
 class GiServices final : public ShadeServices {
  public:
   GiServices(const Scene& scene, const Camera& camera, const RayScene& rays, const ShadingSystem& shading,
+             const GiSettings& settings, Stats& stats);
+  GiServices(const Scene& scene, const Camera& camera, RaySource rays, const ShadingSystem& shading,
              const GiSettings& settings, Stats& stats);
   ~GiServices() override;
 
   /// What gather rays look up in GiMode::Atlas; before the gather pass.
   void setAtlas(std::unique_ptr<const IrradianceAtlas> atlas);
+  /// Or brought when the first point has to be gathered, from any thread.
+  void setAtlasSource(AtlasSource source);
   void reportAtlas(Stats& stats) const;  ///< After the last lookup.
 
   /// Fills the irradiance cache for every point that a shaded frame will ask about, coarse to fine. Records of one level are
   /// frozen before the next reads them, and their order is that of the pixels, so the cache does not depend on threads or buckets.
   void gatherPass(const DeepFrame& frame, const std::function<void(float)>& progress, const std::atomic<bool>* cancelled);
+
+  /// What gatherPass has left; frozen while shading.
+  const std::vector<PreparedCache>& caches() const;
+  std::vector<PreparedCache> takeCaches();  ///< Leaves none.
+  /// Instead of a gather pass, or before one: which then gathers only what these records leave uncovered.
+  void useCaches(std::vector<PreparedCache> caches);
+  /// So that area lights can be sampled without geometry.
+  void useEmitters(EmitterTable emitters);
 
   void transmission(const ShadePoints&, const uint8_t* active, TmConstVec3 toward, const ShadowRays&, const ShadeContext&,
                     TmVec3 light) const override;

@@ -2,30 +2,27 @@
 #pragma once
 #include "gi/services.h"
 
+#include <mutex>
+
 namespace tomales {
-
-/// Everything that decides the value of an irradiance record, and how far it may be used.
-struct GatherPlan {
-  CacheSettings cache;
-  GatherSettings gather;
-  bool operator==(const GatherPlan&) const = default;
-};
-
-struct PreparedCache {
-  GatherPlan plan;
-  IrradianceCache cache;
-};
 
 struct GiState {
   const Scene& scene;
   const Camera& camera;
-  const RayScene& rays;
+  const RaySource rays;
   const ShadingSystem& shading;
   const GiSettings settings;
   Stats& stats;
-  std::unique_ptr<const IrradianceAtlas> atlas;  ///< GiMode::Atlas alone.
+  mutable std::unique_ptr<const IrradianceAtlas> atlas;  ///< GiMode::Atlas alone.
   std::vector<PreparedCache> caches;  ///< Written by fillCaches, frozen while shading.
+  std::optional<Emitters> emitters;   ///< Known without rays.
+  bool cachesGiven = false;           ///< Not gathered for this very frame.
+  AtlasSource atlasSource{};          ///< May be empty.
+  mutable std::once_flag atlasOnce{};
 };
+
+/// What it takes to gather, the atlas included; null as RaySource says.
+const RayTools* gatherTools(const GiState&);
 
 /// The settings of an indirect light as this group sees them: the command line wins over the group's
 /// attributes, and those over the light.
@@ -65,7 +62,7 @@ void store(const IndirectResult& out, int i, const vec3& E, const vec3 dominant[
 
 // indirectDiffuse() in the two modes. Pre: the light may still bounce at these points.
 void interpolateIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N,
-                         const IndirectQuery&, const IndirectResult& out);
+                         const IndirectQuery&, const ShadeContext&, const IndirectResult& out);
 void traceIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N,
                    const IndirectQuery&, const ShadeContext&, int bounces, const IndirectResult& out);
 

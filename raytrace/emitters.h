@@ -7,9 +7,31 @@
 
 namespace tomales {
 
+/// Rows of quads that shine, and all that sampling needs of them.
+struct EmitterLattice {
+  uint32_t columns = 0, rows = 0;
+  bool flipsNormal = false;                ///< The shining side is opposite to d/du x d/dv.
+  std::vector<std::array<vec3, 4>> quads;  ///< Corners as CoarseGroup's, rows * columns.
+  std::vector<vec3> normals;               ///< Unit, of the shining side.
+  bool curved = false;                     ///< The quads stand for another surface.
+  const CoarseGroup* surface = nullptr;    ///< Asked for every point where it is curved or trim curves cut it; else null.
+  uint32_t firstQuad = 0;                  ///< Number of the first quad there.
+};
+struct EmitterLight {
+  std::vector<EmitterLattice> lattices;
+  float reach = 0;                         ///< ShadeServices::emitterReach
+};
+/// Of every light of a scene.
+using EmitterTable = std::vector<EmitterLight>;
+
 class Emitters {
  public:
   Emitters(const Scene& scene, const std::vector<CoarseGroup>& groups);
+  /// Pre: no lattice asks a surface.
+  explicit Emitters(EmitterTable table);
+  const EmitterTable& table() const { return table_; }
+
+  float reach(int light) const;
 
   /// False: no emitter of this light has any area.
   bool shines(int light) const { return !lights_[static_cast<size_t>(light)].sources.empty(); }
@@ -31,8 +53,7 @@ class Emitters {
     size_t pick(double& x) const;
   };
   struct Source {
-    uint32_t group, firstQuad, columns;
-    bool exact;                  ///< The quads are the surface: it is flat, or displaced for rays.
+    uint32_t lattice;
     Cumulated rows;
     std::vector<Cumulated> row;  ///< quads of each row
   };
@@ -41,10 +62,10 @@ class Emitters {
     Cumulated areas;
   };
   /// Position and d/du x d/dv by the quad's own parameters.
-  void place(const Source& source, uint32_t quad, float u, float v, vec3& P, vec3& normal) const;
+  void place(const EmitterLattice& lattice, size_t quad, float u, float v, vec3& P, vec3& normal) const;
 
-  const Scene& scene_;
-  const std::vector<CoarseGroup>& groups_;
+  const Scene* scene_ = nullptr;
+  EmitterTable table_;
   std::vector<Light> lights_;
 };
 

@@ -143,6 +143,8 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
                          const std::vector<SampleName>& names, const ShadingSystem& shading,
                          const ShadeContext& context, HitAnswers& answers) const {
   const Scene& scene = impl_->scene;
+  ShadeContext hitContext = context;
+  hitContext.answers = nullptr;  // they are those of the points that the rays leave
   answers.color.assign(hits.size(), vec3(0)), answers.opacity.assign(hits.size(), vec3(0));
   std::vector<int> groupOf;
   const std::vector<uint32_t> order = byGroup(scene, hits, groupOf);
@@ -157,7 +159,7 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
     points.reserve(static_cast<int>(last - first));
     for (size_t k = first; k < last; ++k) addPoint(scene, rays[order[k]], hits[order[k]], names[order[k]], points);
     const bool shades = answers.wantsColor && answers.mode.value_or(modeOf(attributes, context.kind)) == HitMode::Shader;
-    if (shades) shading.shade(points, context, shaded);
+    if (shades) shading.shade(points, hitContext, shaded);
     const vec3 emission = diffuse ? vec3(0) : shading.visibleEmission(g);
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = order[k];

@@ -54,6 +54,9 @@ struct CoarseGroup {
   size_t bytes() const;
 };
 
+/// Rays keep away from a coarse surface by so much of its deviation: docs/decisions/0006-hit-list-offset.md
+constexpr float kOffsetFactor = 1.5f;
+
 /// One for each of scene.groups; empty for what no ray may meet and no light is made of, and for objects that are `elsewhere`.
 std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, const ShadingSystem& shading,
                                     Log& log, const std::vector<bool>& elsewhere = {});

@@ -8,7 +8,6 @@ namespace {
 // A chord that turns the surface by 45 degrees lies at most a tenth of its length inside. Long micropolygons stand at
 // silhouettes, where dicing by raster size is coarse in space.
 constexpr float kChordShare = 0.1f;
-constexpr float kOffsetFactor = 1.5f;  ///< docs/decisions/0006-hit-list-offset.md
 constexpr float kOffsetEpsilon =
     1e-5f;                      ///< Of distance and size: rounding, where the coarse surface is exact.
 constexpr float kBias = 1e-4f;  ///< The same for rays without a hit list.
@@ -209,16 +208,10 @@ vec3 RayScene::placeAt(int group, const vec3& atOpen, const vec3& drift, float t
   return transformPoint(g.currentFromOpen.at(lerp(o.shutterOpen, o.shutterClose, time)), drifted);
 }
 
-float RayScene::emitterReach(int light) const {
-  float reach = 0;
-  for (size_t g = 0; g < impl_->groups.size(); ++g)
-    if (impl_->scene.groups[g].attributes->areaLight == light) reach = std::max(reach, kOffsetFactor * impl_->groups[g].deviation);
-  return reach;
-}
+const Emitters& RayScene::emitters() const { return impl_->emitters; }
 
-bool RayScene::sampleEmitter(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N,
-                             float* area) const {
-  return impl_->emitters.sample(light, count, xi0, xi1, P, N, area);
-}
+const Scene& RayScene::scene() const { return impl_->scene; }
+
+int RayScene::groupOf(const Hit& hit) const { return impl_->scene.objects[static_cast<size_t>(hit.object)].group; }
 
 }  // namespace tomales

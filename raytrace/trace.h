@@ -59,6 +59,8 @@ struct HitAnswers {
 /// Which rays see an object; bits of Attributes::visibility.
 enum RayMask : uint32_t { kMaskDiffuse = 1, kMaskSpecular = 2, kMaskTransmission = 4, kMaskPhoton = 8 };
 
+class Emitters;
+
 class RayScene {
  public:
   /// Tessellates every object that some ray may see. Displaces with `shading` where trace:displacements asks for it.
@@ -94,9 +96,11 @@ class RayScene {
   void shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& hits, const std::vector<SampleName>& names,
                  const ShadingSystem& shading, const ShadeContext& context, HitAnswers& answers) const;
 
-  /// The surface of area light `light` (reyes/shade.h: sampleEmitter, emitterReach).
-  float emitterReach(int light) const;
-  bool sampleEmitter(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N, float* area) const;
+  /// The surfaces of area lights.
+  const Emitters& emitters() const;
+
+  const Scene& scene() const;
+  int groupOf(const Hit& hit) const;  ///< Pre: something was hit.
 
   struct Impl;  ///< raytrace/ray_scene.h
 

@@ -14,4 +14,21 @@ void DeepTile::shrink() {
   facets.shrink_to_fit(), fragments.shrink_to_fit(), pixels.shrink_to_fit();
 }
 
+void DeepTile::forgetPoints() {
+  for (Facet& facet : facets) facet.edge = edgeOf(facet);
+  for (ShadePoints& batch : batches) batch = ShadePoints(batch.group(), 0);
+}
+
+void DeepFrame::layOutTiles() {
+  tiles.resize(static_cast<size_t>(columns) * static_cast<size_t>(rows));
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      PixelRect& r = tiles[static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column)].rect;
+      r.x0 = padded.x0 + column * bucketWidth;
+      r.y0 = padded.y0 + row * bucketHeight;
+      r.x1 = std::min(r.x0 + bucketWidth, padded.x1);
+      r.y1 = std::min(r.y0 + bucketHeight, padded.y1);
+    }
+}
+
 }  // namespace tomales

@@ -5,6 +5,7 @@
 //                           1--* DeepPixel 1--* Fragment --> Facet --> shade point(s)
 #pragma once
 #include "reyes/points.h"
+#include "reyes/ray_answers.h"
 #include "reyes/scene.h"
 
 namespace tomales {
@@ -15,6 +16,7 @@ struct Facet {
   int batch;      ///< In DeepTile::batches.
   int point[4];
   bool matte = false;  ///< Attributes::matte: hides what is behind it and leaves no colour and no alpha.
+  float edge = 0;      ///< Left of its points by DeepTile::forgetPoints: ask edgeOf.
 };
 
 /// What the samples of one pixel see of one facet.
@@ -37,14 +39,25 @@ struct DeepTile {
   std::vector<Fragment> fragments;
   std::vector<DeepPixel> pixels;      ///< rect.width() * rect.height(), rows from the top.
   std::vector<ShadedPoints> shaded;   ///< Filled by the shade pass, one a batch.
+  std::vector<RayAnswers> answers;    ///< One a batch, of an earlier shade pass; or none.
 
   const DeepPixel& pixel(int x, int y) const {
     return pixels[static_cast<size_t>((y - rect.y0) * rect.width() + (x - rect.x0))];
   }
+  /// Length of its longer edge.
+  float edgeOf(const Facet& facet) const {
+    const ShadePoints& batch = batches[static_cast<size_t>(facet.batch)];
+    return batch.count() > 0 ? batch.edgeLength(facet.point[0]) : facet.edge;
+  }
   size_t bytes() const;
   /// Gives back what growing reserved beyond need.
   void shrink();
+  /// Keeps what filtering needs of a shaded tile: all but the points.
+  void forgetPoints();
 };
+
+/// Of a frame; 32768 x 32768 pixels in buckets of 8 x 8.
+constexpr int64_t kMostTiles = int64_t{1} << 24;
 
 struct DeepFrame {
   PixelRect crop;       ///< Pixels to write.
@@ -54,6 +67,8 @@ struct DeepFrame {
   bool complete = true; ///< False: interrupted, some tiles are empty.
   std::vector<DeepTile> tiles;  ///< columns * rows, rows from the top.
 
+  /// Makes columns * rows empty tiles, each with its rectangle.
+  void layOutTiles();
   const DeepTile& tileAt(int x, int y) const {
     return tiles[static_cast<size_t>((y - padded.y0) / bucketHeight * columns + (x - padded.x0) / bucketWidth)];
   }

@@ -54,6 +54,12 @@ bool readRibText(const std::string& text, const std::string& name, const RibSett
 bool parseRib(const std::vector<std::string>& files, RiSink& sink, Log& log);
 bool parseRibText(const std::string& text, const std::string& name, RiSink& sink, Log& log);
 
+/// Changes a scene that is hidden already: Surface, Atmosphere, Color, Illuminate and Attribute go to the objects that the last
+/// Attribute "identifier" "name" has named (none: all), LightSource to the light of that handle, Exposure, Imager and Quantize to
+/// the frame. A shader that stays the same keeps the parameters that are not given. Other requests are ignored with a
+/// warning. False as readRib.
+bool editScene(const std::vector<std::string>& files, Scene& scene, Log& log);
+
 struct RibWriterSettings {
   bool binary = false, gzip = false;
   std::function<void(std::string_view)> write;  ///< Called with more of the file.

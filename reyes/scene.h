@@ -113,7 +113,9 @@ struct Scene {
   std::vector<int> dropped_;  ///< Indices that may be used again.
 };
 
-/// cameraFromObject at one time, and the shape to evaluate at a key time: linear between shapes is left to the grid.
+/// False: read from a .dfb, which leaves shapes out.
+inline bool hasGeometry(const Scene& scene) { return scene.objects.empty() || !scene.objects.front().shapes.empty(); }
+
 std::string objectName(const Object& object);  ///< identifier name, or "object at FILE:LINE"
 
 }  // namespace tomales

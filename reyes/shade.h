@@ -9,6 +9,7 @@
 #include "reyes/base/stats.h"
 #include "reyes/grid.h"
 #include "reyes/points.h"
+#include "reyes/ray_answers.h"
 
 namespace tomales {
 
@@ -40,6 +41,8 @@ struct ShadeContext {
   int specularDepth = 0;       ///< Specular bounces between the eye and these points.
   int diffuseLimit = 1 << 20, specularLimit = 1 << 20;  ///< Depths at which no ray follows, set by the objects on the way.
   std::string label{};         ///< Of the ray that came here.
+  RayAnswers* answers = nullptr;  ///< Of this batch: asked before shadow and gather rays are traced. Null: all are traced.
+  int chunk = 0;               ///< Set by ShadingSystem: which part of the batch is being shaded.
 };
 
 /// What one set of rays of a shader's call asks.

@@ -28,7 +28,8 @@ THIRD_PARTY = {
     "tbb/": ["reyes/base/parallel.cpp"],
     "nlohmann/": ["reyes/app/"],
     "CLI/": ["reyes/app/"],
-    "zstd.h": ["reyes/base/chunk_file.cpp"],
+    "zstd.h": ["reyes/base/chunk_file.cpp", "reyes/base/record_file.cpp"],
+    "xxhash.h": ["reyes/base/checksum.cpp"],
     "hwy/": ["reyes/hide/vector.h"],
     "zlib.h": ["reyes/rib/stream.cpp"],
 }

@@ -6,6 +6,7 @@
 #include "reyes/app/catrib.h"
 #include "reyes/app/info.h"
 #include "reyes/app/render.h"
+#include "reyes/app/shade.h"
 
 namespace tomales {
 namespace {
@@ -28,6 +29,13 @@ CLI::Option* addParsed(CLI::App& app, const std::string& name, T& target, Parse 
   return app.add_option_function<std::string>(name, take, help)->type_name(form);
 }
 
+/// Files of our own, by extension.
+auto parseNamed(const char* extension) {
+  return [extension](const std::string& text) {
+    return text.ends_with(extension) && text != extension ? std::optional(text) : std::nullopt;
+  };
+}
+
 std::optional<std::string> parseOutput(const std::string& text) {
   return namesPicture(text) ? std::optional(text) : std::nullopt;
 }
@@ -41,20 +49,28 @@ GiChoice giOrUsageError(const std::string& text) {
   throw CLI::ValidationError("--gi", "\"" + text + "\" is none of scene, none, gather, atlas, reference");
 }
 
-void addPictureOptions(CLI::App& app, RenderSettings& s) {
+void addOutput(CLI::App& app, RenderSettings& s) {
   addParsed(app, "-o", s.output, parseOutput, "FILE.exr|.tif|.png",
             "Write here instead of to the first Display; # stands for the frame number. PNG: rgb, sRGB. A "
             "scene without Display writes "
             "ri.exr");
+}
+
+void addCrop(CLI::App& app, RenderSettings& s) {
+  addParsed(app, "--crop", s.crop, parseCrop, "X0,X1,Y0,Y1",
+            "Part of the frame, 0..1 from the top left, as RIB CropWindow");
+}
+
+void addPictureOptions(CLI::App& app, RenderSettings& s) {
   const auto format = [](const std::string& t) { return parsePair(t, 1, 65536); };
   const auto pixelSamples = [](const std::string& t) { return parsePair(t, 1, 64); };
   addParsed(app, "--format", s.format, format, "WxH", "Resolution in pixels");
-  addParsed(app, "--crop", s.crop, parseCrop, "X0,X1,Y0,Y1",
-            "Part of the frame, 0..1 from the top left, as RIB CropWindow");
+  addCrop(app, s);
   addParsed(app, "--pixel-samples", s.pixelSamples, pixelSamples, "NxM", "Samples of a pixel");
   app.add_option("--shading-rate", s.shadingRate, "Area of a micropolygon in pixels, for all objects")
       ->check(CLI::Range(1e-3, 1e6));
   addParsed(app, "--frames", s.frames, parseFrames, "1-10x2,15", "Only these frames");
+  app.add_option("--seed", s.seed, "Of all random numbers");
   app.add_option("--bucket-size", s.bucketSize, "Edge of a bucket in pixels")->check(CLI::Range(1, 4096));
 }
 
@@ -73,7 +89,6 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--photons", s.photons, "Photons to emit for --gi atlas")->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
   app.add_option("--atlas", s.atlasFolder, "Folder of brick maps: used if they are there, else made and kept")->type_name("FOLDER");
   app.add_option("--brick-cache", s.brickCacheBytes, "Memory for bricks (default 10M)")->transform(CLI::AsSizeValue(false));
-  app.add_option("--seed", s.seed, "Of all random numbers");
   app.add_flag_callback(
       "--no-hit-list", [&s] { s.hitList = false; }, "Rays leave surfaces by a bias alone");
 }
@@ -104,15 +119,58 @@ struct Invocation {
 void buildRender(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c = app.add_subcommand(
       "render", "Render RIB files, taken as one stream; - is standard input (the default command)");
+  addOutput(*c, in.render);
   addPictureOptions(*c, in.render);
   addLightOptions(*c, in.render);
   addRunOptions(*c, in.render);
+  c->add_flag("--resume", in.render.resume, "Keep finished buckets beside the picture until it is written, and use those of an interrupted run");
+  c->add_option("--irradiance", in.render.irradiance, "Indirect light from these records instead of a gather pass")->type_name("SHOT.icf");
+  c->add_flag("--irradiance-append", in.render.appendIrradiance, "Gather where those records leave points uncovered");
+  addParsed(*c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M", "Shade and drop buckets one by one when the frame would need more");
   c->add_option("SCENE", in.render.files, "RIB files")->required();
   c->callback([&] { code = renderCommand(in.render); });
 }
 
+void buildHide(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand("hide", "Geometry to a deep frame buffer of visible micropolygons");
+  addParsed(*c, "-o", in.render.output, parseNamed(".dfb"), "SHOT.dfb", "Write here; # stands for the frame number")->required();
+  addPictureOptions(*c, in.render);
+  addLightOptions(*c, in.render);
+  addRunOptions(*c, in.render);
+  c->add_flag("--resume", in.render.resume, "Keep the buckets that an interrupted run has finished");
+  c->add_option("SCENE", in.render.files, "RIB files")->required();
+  c->callback([&] { code = hideCommand(in.render); });
+}
+
+void addShotOptions(CLI::App& app, RenderSettings& s) {
+  app.add_option("--edit", s.edits, "Changes to shaders, lights and attributes: RIB requests after Attribute \"identifier\" \"name\"")
+      ->type_name("EDIT.rib");
+  app.add_option("SHOT", s.files, "A deep frame buffer")->required()->expected(1)->type_name("SHOT.dfb");
+}
+
+void buildGather(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand("gather", "A shot's irradiance cache, and all else that its rays say");
+  addParsed(*c, "-o", in.render.output, parseNamed(".icf"), "SHOT.icf", "Write here")->required();
+  c->add_option("--irradiance", in.render.irradiance, "Start from these records and add what they leave uncovered")->type_name("OTHER.icf");
+  addLightOptions(*c, in.render);
+  addRunOptions(*c, in.render);
+  addShotOptions(*c, in.render);
+  c->callback([&] { code = gatherCommand(in.render); });
+}
+
+void buildShade(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand("shade", "The picture of a shot, without hiding it again");
+  addOutput(*c, in.render);
+  c->add_option("--irradiance", in.render.irradiance, "Indirect light and shadows of tomales gather: no rays are traced")->type_name("SHOT.icf");
+  addCrop(*c, in.render);
+  addLightOptions(*c, in.render);
+  addRunOptions(*c, in.render);
+  addShotOptions(*c, in.render);
+  c->callback([&] { code = shadeCommand(in.render); });
+}
+
 void buildInfo(CLI::App& app, Invocation& in, int& code) {
-  CLI::App* c = app.add_subcommand("info", "What is in a .rib, .exr, .tif, .png or shader .so file");
+  CLI::App* c = app.add_subcommand("info", "What is in a .rib, .dfb, .icf, .exr, .tif, .png or shader .so file");
   c->add_option("FILE", in.first)->required();
   c->add_flag("--json", in.json, "As JSON");
   c->callback([&] { code = infoCommand(in.first, in.json); });
@@ -174,7 +232,8 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
 }
 
 bool namesCommand(const std::string& text) {
-  for (const char* name : {"render", "info", "compare", "catrib", "photons", "irradiance", "brickmake", "view", "-h", "--help", "--version"})
+  for (const char* name : {"render", "hide", "gather", "shade", "photons", "irradiance", "brickmake", "view", "info", "compare",
+                           "catrib", "-h", "--help", "--version"})
     if (text == name) return true;
   return false;
 }
@@ -187,6 +246,9 @@ int parseAndRun(int argc, char** argv) {
   Invocation in;
   int code = kDone;
   buildRender(app, in, code);
+  buildHide(app, in, code);
+  buildGather(app, in, code);
+  buildShade(app, in, code);
   buildInfo(app, in, code);
   buildCompare(app, in, code);
   buildCatrib(app, in, code);

@@ -1,14 +1,65 @@
-// One frame through every stage: rays and global illumination are built if the scene asks for them.
+// One frame through the stages, in the order of its members; rays and global illumination are built if the scene asks for them.
 #pragma once
+#include "reyes/app/progress.h"
 #include "reyes/app/settings.h"
 #include "reyes/base/stats.h"
-#include "reyes/scene.h"
+#include "reyes/frame.h"
 
 namespace tomales {
 
-/// Renders a scene that overrides have been applied to, and writes its Displays; its procedurals are opened on the way. Everything
-/// that goes wrong is in the log.
-void renderFrame(Scene& scene, const RenderSettings& settings, Stats& stats, Log& log,
-                 const std::function<void()>& afterStage);
+class FrameJob {
+ public:
+  /// Pre: overrides have been applied to the scene. Everything that goes wrong is in the log.
+  FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, Log& log);
+  ~FrameJob();
+
+  /// Reads all procedurals that are still closed. Before `hide` where tiles leave it one by one, in a file or shaded: it then finds no
+  /// shade groups on its way.
+  void openAll();
+  /// Tile by tile; opens what it needs. False: interrupted.
+  bool hide(const DeepFrame& layout, const TileSink& sink);
+  /// Rays against the scene itself.
+  void prepareRays();
+  /// Rays against what `rays` brings when the first is wanted: for scenes without geometry.
+  void prepareRays(RaySource rays);
+  void gather(const DeepFrame& frame);
+  void shade(DeepFrame& frame);
+  /// One tile, as soon as it is hidden; its points are dropped.
+  void shadeTile(DeepTile& tile) const;
+  /// The tiles that frame.crop needs, one by one from `source`.
+  void shade(DeepFrame& frame, const TileSource& source);
+  void write(const DeepFrame& frame);
+
+  bool gathers() const { return mode_ == GiMode::Gather || mode_ == GiMode::Atlas; }
+  GiMode mode() const { return mode_; }
+  GiSettings giSettings() const;
+  GiServices* services() { return services_.get(); }
+  ShadingSystem& shading() { return *shading_; }
+  FrameControl control(float begin, float end);
+
+ private:
+  bool traces() const { return mode_ != GiMode::None || shading_->needsRays(); }
+  /// A ray may go anywhere, so what rays may meet is read before the first of them, on screen or not, and kept.
+  void open(const std::function<bool(const Attributes&)>& wanted);
+  void warnAboutBounces() const;
+  int referenceLightSamples() const;
+  ShadeContext shadeContext() const;
+
+  Scene& scene_;
+  const RenderSettings& settings_;
+  Stats& stats_;
+  Log& log_;
+  const GiMode mode_;
+  const Camera camera_;
+  ShaderRegistry registry_;
+  ProgressMeter meter_;
+  std::unique_ptr<ShadingSystem> shading_;
+  std::unique_ptr<RayScene> rays_;
+  std::unique_ptr<GiServices> services_;
+};
+
+/// Hours of rendering must not end at a folder that never existed. False: reported.
+bool displaysHaveFolders(const Options& options, Log& log);
+bool hasFolder(const std::string& file, const SourceLoc& where, Log& log);
 
 }  // namespace tomales

@@ -8,8 +8,10 @@
 #include <set>
 
 #include "gi/brick_map.h"
+#include "gi/icf.h"
 #include "gi/point_file.h"
 #include "reyes/app/render.h"
+#include "reyes/dfb.h"
 #include "reyes/image.h"
 #include "reyes/rib.h"
 #include "reyes/shade.h"
@@ -128,6 +130,70 @@ Json pluginInfo(const std::string& file, Log& log) {
   return {{"file", file}, {"kind", "shaders"}, {"shaders", shaders}};
 }
 
+void unreadable(const std::string& file, const char* kind, const std::string& error, Log& log) {
+  log.report(Severity::Error, "file-read", {std::make_shared<std::string>(file), 0},
+             fmt::format("cannot be read as {}: {}", kind, error));
+}
+
+Json dfbInfo(const std::string& file, Log& log) {
+  std::string error;
+  const auto dfb = DfbFile::open(file, error);
+  if (!dfb) return unreadable(file, "a deep frame buffer", error, log), Json{};
+  const Shot& shot = dfb->shot();
+  int64_t points = 0, facets = 0, fragments = 0;
+  for (size_t i = 0; i < shot.frame.tiles.size(); ++i) {
+    const auto tile = dfb->tile(i, error);
+    if (!tile) return unreadable(file, "a deep frame buffer", error, log), Json{};
+    for (const ShadePoints& batch : tile->batches) points += batch.count();
+    facets += static_cast<int64_t>(tile->facets.size()), fragments += static_cast<int64_t>(tile->fragments.size());
+  }
+  Json sources = Json::array(), lights = Json::array(), objects = Json::array();
+  for (const SourceFile& source : shot.sources) sources.push_back(source.path);
+  for (const auto& light : shot.scene.lights) lights.push_back({{"handle", light->handle}, {"shader", light->shader.name}});
+  std::set<std::string> names;
+  for (const ShadeGroup& group : shot.scene.groups)
+    if (!group.attributes->name.empty()) names.insert(group.attributes->name);
+  const PixelRect& crop = shot.frame.crop;
+  return {{"file", file},
+          {"kind", "dfb"},
+          {"bytes", dfb->size()},
+          {"shot", fmt::format("{:016x}", dfb->shotSum())},
+          {"frame", shot.scene.options.frame},
+          {"resolution", {shot.scene.options.xResolution, shot.scene.options.yResolution}},
+          {"crop", {crop.x0, crop.y0, crop.x1, crop.y1}},
+          {"samples_per_pixel", shot.frame.samplesPerPixel},
+          {"bucket", {shot.frame.bucketWidth, shot.frame.bucketHeight}},
+          {"buckets", shot.frame.tiles.size()},
+          {"micropolygons_visible", facets},
+          {"points", points},
+          {"fragments", fragments},
+          {"shade_groups", shot.scene.groups.size()},
+          {"names", names},
+          {"lights", lights},
+          {"sources", sources}};
+}
+
+Json icfInfo(const std::string& file, Log& log) {
+  std::string error;
+  const auto icf = IcfFile::open(file, error);
+  if (!icf) return unreadable(file, "an irradiance cache", error, log), Json{};
+  Json caches = Json::array();
+  for (const PreparedCache& c : icf->shot().caches) {
+    vec3 mean(0.0f);
+    for (const IrradianceRecord& r : c.cache.records()) mean += r.E / static_cast<float>(c.cache.records().size());
+    caches.push_back({{"records", c.cache.records().size()},
+                      {"error_function", c.plan.cache.errorFunction == ErrorFunction::Ward ? "ward" : "screen"},
+                      {"kappa", c.plan.cache.kappa},
+                      {"samples", c.plan.gather.samples},
+                      {"mean_irradiance_over_pi", {mean.x, mean.y, mean.z}}});
+  }
+  return {{"file", file},
+          {"kind", "icf"},
+          {"bytes", icf->size()},
+          {"shot", fmt::format("{:016x}", icf->shot().shot)},
+          {"caches", caches}};
+}
+
 bool isScalarList(const Json& j) {
   return j.is_array() && std::none_of(j.begin(), j.end(), [](const Json& e) { return e.is_structured(); });
 }
@@ -192,6 +258,8 @@ Json infoOf(const std::string& file, Log& log) {
   if (const auto extension = std::filesystem::path(file).extension(); extension == ".ptc" || extension == ".bkm")
     return ownInfo(file, extension == ".ptc" ? pointsInfo : bricksInfo, log);
   if (namesPicture(file)) return imageInfo(file, log);
+  if (file.ends_with(".dfb")) return dfbInfo(file, log);
+  if (file.ends_with(".icf")) return icfInfo(file, log);
   return std::filesystem::path(file).extension() == ".so" ? pluginInfo(file, log) : ribInfo(file, log);
 }
 

@@ -10,17 +10,19 @@ namespace {
 template <class Change>
 void changeAttributes(Scene& scene, Change&& change) {
   std::map<const Attributes*, std::shared_ptr<const Attributes>> changed;
-  for (Object& object : scene.objects) {
-    std::shared_ptr<const Attributes>& copy = changed[object.attributes.get()];
-    if (!copy) {
-      auto fresh = std::make_shared<Attributes>(*object.attributes);
-      change(*fresh);
-      copy = std::move(fresh);
-    }
-  }
+  const auto copyOf = [&](const std::shared_ptr<const Attributes>& original) {
+    std::shared_ptr<const Attributes>& copy = changed[original.get()];
+    if (copy) return;
+    auto fresh = std::make_shared<Attributes>(*original);
+    change(*fresh);
+    copy = std::move(fresh);
+  };
+  for (const Object& object : scene.objects) copyOf(object.attributes);
+  for (const ShadeGroup& group : scene.groups) copyOf(group.attributes);
   // The originals stay alive until here, so that no copy can take the address of one.
   for (Object& object : scene.objects) object.attributes = changed.at(object.attributes.get());
-  scene.freeze();
+  for (ShadeGroup& group : scene.groups) group.attributes = changed.at(group.attributes.get());
+  if (hasGeometry(scene)) scene.freeze();
 }
 
 void addIndirectLight(Scene& scene) {

@@ -4,9 +4,10 @@
 #include <optional>
 #include <set>
 
-#include "reyes/app/frame_job.h"
+#include "reyes/app/hide.h"
 #include "reyes/app/interrupt.h"
 #include "reyes/app/overrides.h"
+#include "reyes/app/render_frame.h"
 #include "reyes/app/stats_json.h"
 #include "reyes/base/parallel.h"
 #include "reyes/image.h"
@@ -17,8 +18,12 @@ namespace {
 
 class RenderRun {
  public:
-  explicit RenderRun(const RenderSettings& settings)
+  /// `job` takes a frame and the number of its scene in the stream.
+  using Job = std::function<void(Scene&, int world, const RenderSettings&, Stats&, Log&, const std::function<void()>& afterStage)>;
+
+  RenderRun(const RenderSettings& settings, Job job)
       : settings_(settings),
+        job_(std::move(job)),
         threads_(settings.threads),
         log_(settings.verbosity),
         start_(std::chrono::steady_clock::now()) {}
@@ -52,7 +57,7 @@ class RenderRun {
       ++rendered_;
       applyOverrides(scene, settings_);
       warnAboutOverwriting(scene);
-      renderFrame(scene, settings_, stats_, log_, [this] { flush(); });
+      job_(scene, scenes_ - 1, settings_, stats_, log_, [this] { flush(); });
       flush();
     }
     parse_.emplace(stats_, "parse");
@@ -78,6 +83,7 @@ class RenderRun {
   }
 
   const RenderSettings& settings_;
+  const Job job_;
   const ThreadLimit threads_;
   Log log_;
   Stats stats_;
@@ -104,7 +110,14 @@ ExitCode exitCodeOf(const Log& log) {
 
 int renderCommand(const RenderSettings& settings) {
   catchInterrupts();
-  return RenderRun(settings).run();
+  return RenderRun(settings, renderFrame).run();
+}
+
+int hideCommand(const RenderSettings& settings) {
+  catchInterrupts();
+  const auto job = [](Scene& scene, int world, const RenderSettings& s, Stats& stats, Log& log,
+                      const std::function<void()>&) { hideToFile(scene, world, s, stats, log); };
+  return RenderRun(settings, job).run();
 }
 
 }  // namespace tomales

@@ -7,6 +7,8 @@ namespace tomales {
 enum ExitCode { kDone = 0, kUsage = 1, kUnreadable = 2, kIncomplete = 3, kUnwritable = 4 };
 
 int renderCommand(const RenderSettings& settings);
+/// The same stream, to a .dfb for each frame.
+int hideCommand(const RenderSettings& settings);
 
 /// The exit code that a log stands for.
 ExitCode exitCodeOf(const Log& log);

@@ -71,6 +71,16 @@ std::optional<std::vector<int>> parseFrames(const std::string& text) {
   return out;
 }
 
+std::optional<int64_t> parseBytes(const std::string& text) {
+  const std::string units = "KMGT";
+  const size_t unit = text.empty() ? std::string::npos : units.find(text.back());
+  int64_t value = 0;
+  if (!number(std::string_view(text).substr(0, text.size() - (unit != std::string::npos)), value) || value < 1) return std::nullopt;
+  const int shift = unit == std::string::npos ? 0 : 10 * (static_cast<int>(unit) + 1);
+  if (value > (std::numeric_limits<int64_t>::max() >> shift)) return std::nullopt;
+  return value << shift;
+}
+
 std::optional<GiChoice> parseGi(const std::string& text) {
   if (text == "scene") return GiChoice::Scene;
   if (text == "none") return GiChoice::None;

@@ -29,6 +29,11 @@ struct RenderSettings {
   std::string atlasFolder;         ///< Brick maps to use, or to make; empty: made in a temporary folder.
   size_t brickCacheBytes = BrickCache::kDefaultBytes;
   std::optional<int> bucketSize;
+  std::vector<std::string> edits;  ///< RIB files of changes to a shot.
+  std::string irradiance;          ///< An .icf to shade with.
+  bool appendIrradiance = false;   ///< And to gather into what it leaves uncovered.
+  bool resume = false;
+  std::optional<int64_t> memoryLimit;  ///< Bytes.
   bool hitList = true;
   std::string statsFile;
   bool progress = false;
@@ -41,6 +46,7 @@ struct RenderSettings {
 std::optional<std::array<int, 2>> parsePair(const std::string& text, int least, int most);  ///< "640x480"
 std::optional<std::array<float, 4>> parseCrop(const std::string& text);  ///< "0,0.5,0.25,1"
 std::optional<std::vector<int>> parseFrames(const std::string& text);    ///< "1-10x2,15"
+std::optional<int64_t> parseBytes(const std::string& text);             ///< "600M", "2G", "1000000"
 std::optional<GiChoice> parseGi(const std::string& text);
 
 /// Can a picture be written under this name?

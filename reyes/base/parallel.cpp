@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 
 // oneTBB is not built for ThreadSanitizer, which therefore does not see that a loop starts after what its caller wrote and
 // ends before what its caller reads: tell it.
@@ -49,6 +50,11 @@ void parallelFor(size_t count, size_t grain, const std::function<void(size_t, si
         tbb::simple_partitioner());
   });
   TOMALES_TSAN(__tsan_acquire(&end));
+}
+
+void parallelInOrder(size_t count, const std::function<void(size_t)>& body) {
+  std::atomic<size_t> next{0};
+  parallelFor(count, 1, [&](size_t, size_t) { body(next++); });
 }
 
 }  // namespace tomales

@@ -12,6 +12,9 @@ namespace tomales {
 /// up chunks of this loop alone, so that it may hold a lock that other loops ask for.
 void parallelFor(size_t count, size_t grain, const std::function<void(size_t begin, size_t end)>& body);
 
+/// Calls body(i) for every i of [0, count) on all threads; no call starts before those of smaller i have started.
+void parallelInOrder(size_t count, const std::function<void(size_t i)>& body);
+
 /// Limits the pool for as long as it lives. 0: as many as the machine has.
 class ThreadLimit {
  public:

@@ -1,34 +1,11 @@
 #include "reyes/base/parallel.h"
 #include "reyes/frame.h"
+#include "reyes/frame/bucket_order.h"
 #include "reyes/frame/hide_node.h"
 #include "reyes/frame/sampling.h"
 
 namespace tomales {
 namespace {
-
-DeepFrame layOut(const Scene& scene, const Camera& camera) {
-  const Options& o = scene.options;
-  const vec2 reach = filterReach(o);
-  const int reachX = static_cast<int>(reach.x), reachY = static_cast<int>(reach.y);
-  DeepFrame frame;
-  frame.crop = camera.crop();
-  // Samples beyond the crop window are computed too, so that crops join into the full frame (RISpec 3.2 section 4.1.1).
-  frame.padded = {frame.crop.x0 - reachX, frame.crop.y0 - reachY, frame.crop.x1 + reachX, frame.crop.y1 + reachY};
-  frame.bucketWidth = std::max(1, o.bucketWidth);
-  frame.bucketHeight = std::max(1, o.bucketHeight);
-  frame.columns = (frame.padded.width() + frame.bucketWidth - 1) / frame.bucketWidth;
-  frame.rows = (frame.padded.height() + frame.bucketHeight - 1) / frame.bucketHeight;
-  frame.tiles.resize(static_cast<size_t>(frame.columns) * static_cast<size_t>(frame.rows));
-  for (int row = 0; row < frame.rows; ++row)
-    for (int column = 0; column < frame.columns; ++column) {
-      PixelRect& r = frame.tiles[static_cast<size_t>(row * frame.columns + column)].rect;
-      r.x0 = frame.padded.x0 + column * frame.bucketWidth;
-      r.y0 = frame.padded.y0 + row * frame.bucketHeight;
-      r.x1 = std::min(r.x0 + frame.bucketWidth, frame.padded.x1);
-      r.y1 = std::min(r.y0 + frame.bucketHeight, frame.padded.y1);
-    }
-  return frame;
-}
 
 DeepTile hideBucket(size_t bucket, const PixelRect& rect, const NodeList& nodes, const HideContext& context,
                     const SamplePattern& pattern) {
@@ -37,43 +14,65 @@ DeepTile hideBucket(size_t bucket, const PixelRect& rect, const NodeList& nodes,
   for (HideNode* node : nodes.in(bucket)) queue.push(node);
   while (const auto node = queue.pop())
     if (!hider.hidden(node->raster(), node->zMin())) node->visit(bucket, queue, hider);
-  DeepTile tile = hider.resolve();
-  for (HideNode* node : nodes.in(bucket)) node->release(bucket);
-  return tile;
+  return hider.resolve();
 }
 
 }  // namespace
 
-DeepFrame hideFrame(Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log) {
+DeepFrame layOutFrame(const Scene& scene) {
+  const Options& o = scene.options;
+  const vec2 reach = filterReach(o);
+  const int reachX = static_cast<int>(reach.x), reachY = static_cast<int>(reach.y);
+  DeepFrame frame;
+  frame.crop = Camera(o).crop();
+  // Samples beyond the crop window are computed too, so that crops join into the full frame (RISpec 3.2 section 4.1.1).
+  frame.padded = {frame.crop.x0 - reachX, frame.crop.y0 - reachY, frame.crop.x1 + reachX, frame.crop.y1 + reachY};
+  frame.bucketWidth = std::max(1, o.bucketWidth);
+  frame.bucketHeight = std::max(1, o.bucketHeight);
+  frame.columns = (frame.padded.width() + frame.bucketWidth - 1) / frame.bucketWidth;
+  frame.rows = (frame.padded.height() + frame.bucketHeight - 1) / frame.bucketHeight;
+  frame.samplesPerPixel = samplePattern(o, 0).count();
+  frame.layOutTiles();
+  return frame;
+}
+
+bool hideTiles(const DeepFrame& layout, Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log,
+               const TileSink& sink) {
   const Camera camera(scene.options);
   if (scene.options.fStop < kInfinity && !camera.perspective())
     log.report(Severity::Warning, "defocus-orthographic", scene.where,
                "DepthOfField needs a perspective projection: all is in focus");
-  DeepFrame frame = layOut(scene, camera);
   const SamplePattern pattern = samplePattern(scene.options, control.seed);
-  frame.samplesPerPixel = pattern.count();
-
-  const BucketGrid buckets(frame);
+  const BucketGrid buckets(layout);
   HideContext context{scene, camera, shading, buckets, stats, log};
   const NodeList nodes(nodesOfScene(context), buckets.all(), buckets);
+  const std::vector<uint32_t> order = bucketOrder(scene.options.bucketOrder, layout.columns, layout.rows);
   std::atomic<size_t> done{0};
   std::atomic<bool> skipped{false};
-  parallelFor(frame.tiles.size(), 1, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) {
-      DeepTile& tile = frame.tiles[i];
-      const PixelRect rect = tile.rect;
-      if (control.cancelled && *control.cancelled) {
-        skipped = true;
-        tile.pixels.resize(static_cast<size_t>(rect.width() * rect.height()));
-        continue;
-      }
-      tile = hideBucket(i, rect, nodes, context, pattern);
+  parallelInOrder(order.size(), [&](size_t i) {
+    const size_t index = order[i];
+    if (control.cancelled && *control.cancelled) {
+      skipped = true;
+      return;
+    }
+    if (!sink.has || !sink.has(index)) {
+      std::optional<DeepTile> found = sink.find ? sink.find(index) : std::nullopt;
+      DeepTile tile = found ? std::move(*found) : hideBucket(index, layout.tiles[index].rect, nodes, context, pattern);
       stats.geometry.micropolygonsVisible += static_cast<int64_t>(tile.facets.size());
       stats.memoryBytes.deepFrame += static_cast<int64_t>(tile.bytes());
-      if (control.progress) control.progress(static_cast<float>(++done) / static_cast<float>(frame.tiles.size()));
+      sink.take(index, std::move(tile));
     }
+    for (HideNode* node : nodes.in(index)) node->release(index);
+    if (control.progress) control.progress(static_cast<float>(++done) / static_cast<float>(order.size()));
   });
-  frame.complete = !skipped;
+  return !skipped;
+}
+
+DeepFrame hideFrame(Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log) {
+  DeepFrame frame = layOutFrame(scene);
+  const TileSink sink{{}, [&](size_t i, DeepTile&& tile) { frame.tiles[i] = std::move(tile); }, {}};
+  const DeepFrame layout = frame;
+  frame.complete = hideTiles(layout, scene, shading, control, stats, log, sink);
   return frame;
 }
 

@@ -1,5 +1,6 @@
 #include "reyes/base/parallel.h"
 #include "reyes/frame.h"
+#include "reyes/frame/bucket_order.h"
 #include "reyes/frame/sampling.h"
 #include "reyes/output.h"
 
@@ -20,8 +21,10 @@ void leaveBlack(int count, ShadedPoints& out) {
   for (auto& o : out.Oi) std::fill(o.begin(), o.end(), 1.0f);
 }
 
-void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading, const ShadeContext& context,
-               bool wantsColor) {
+}  // namespace
+
+void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading, const ShadeContext& context) {
+  const bool wantsColor = outputOf(scene.options).shades;
   tile.shaded.resize(tile.batches.size());
   for (size_t b = 0; b < tile.batches.size(); ++b) {
     const ShadePoints& points = tile.batches[b];
@@ -32,22 +35,20 @@ void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading,
       leaveBlack(points.count(), out);
       continue;
     }
-    shading.shade(points, context, out);
+    ShadeContext batchContext = context;
+    batchContext.variables = true;
+    if (b < tile.answers.size()) batchContext.answers = &tile.answers[b];
+    shading.shade(points, batchContext, out);
     const vec3 emission = shading.visibleEmission(points.group());
     if (maxComponent(emission) > 0) addVisibleEmission(points, emission, out);
     shading.atmosphere(points, out);
   }
 }
 
-}  // namespace
-
 void shadeFrame(DeepFrame& frame, const Scene& scene, const ShadingSystem& shading, const ShadeContext& context,
                 const FrameControl& control, Stats&) {
   std::atomic<size_t> done{0};
   std::atomic<bool> skipped{false};
-  const bool wantsColor = outputOf(scene.options).shades;
-  ShadeContext stored = context;
-  stored.variables = true;
   parallelFor(frame.tiles.size(), 1, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       DeepTile& tile = frame.tiles[i];
@@ -56,11 +57,40 @@ void shadeFrame(DeepFrame& frame, const Scene& scene, const ShadingSystem& shadi
         std::fill(tile.pixels.begin(), tile.pixels.end(), DeepPixel{});
         continue;
       }
-      shadeTile(tile, scene, shading, stored, wantsColor);
+      shadeTile(tile, scene, shading, context);
       if (control.progress) control.progress(static_cast<float>(++done) / static_cast<float>(frame.tiles.size()));
     }
   });
   if (skipped) frame.complete = false;
+}
+
+void shadeTiles(DeepFrame& frame, const TileSource& source, const Scene& scene, const ShadingSystem& shading,
+                const ShadeContext& context, const FrameControl& control, Stats& stats) {
+  const std::vector<uint32_t> needed = tilesOf(frame, scene.options);
+  std::atomic<size_t> done{0};
+  parallelInOrder(needed.size(), [&](size_t i) {
+    if (control.cancelled && *control.cancelled) return;
+    DeepTile& tile = frame.tiles[needed[i]];
+    if (source.load(needed[i], tile)) shadeTile(tile, scene, shading, context);
+    if (source.finished) source.finished(needed[i], tile);
+    tile.forgetPoints();
+    stats.memoryBytes.deepFrame += static_cast<int64_t>(tile.bytes());
+    if (control.progress) control.progress(static_cast<float>(++done) / static_cast<float>(needed.size()));
+  });
+  if (control.cancelled && *control.cancelled) frame.complete = false;
+}
+
+std::vector<uint32_t> tilesOf(const DeepFrame& frame, const Options& options) {
+  const vec2 reach = filterReach(options);
+  const int reachX = static_cast<int>(reach.x), reachY = static_cast<int>(reach.y);
+  const PixelRect& c = frame.crop;
+  const PixelRect seen{c.x0 - reachX, c.y0 - reachY, c.x1 + reachX, c.y1 + reachY};
+  std::vector<uint32_t> out;
+  for (const uint32_t i : bucketOrder(options.bucketOrder, frame.columns, frame.rows)) {
+    const PixelRect& r = frame.tiles[i].rect;
+    if (r.x0 < seen.x1 && r.x1 > seen.x0 && r.y0 < seen.y1 && r.y1 > seen.y0) out.push_back(i);
+  }
+  return out;
 }
 
 Image imageOf(const DeepFrame& frame, const Scene& scene, const FrameControl& control, Stats&) {

@@ -119,7 +119,7 @@ void Compositor::resolveStack(const DeepTile& tile, const DeepPixel& pixel, Reso
     if (!hasDepth(facetShade(tile, f))) continue;
     const Facet& facet = tile.facets[f.facet];
     // Neighbours on one surface reach over each other (docs/decisions/0003) and are no second one.
-    const float overlap = tile.batches[static_cast<size_t>(facet.batch)].edgeLength(facet.point[0]);
+    const float overlap = tile.edgeOf(facet);
     for (uint64_t left = f.samples; left; left &= left - 1) {
       const size_t sample = sampleOf(f, left);
       Contribution& s = samples_[sample];

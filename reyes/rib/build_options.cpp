@@ -165,6 +165,13 @@ bool knownOption(GraphicsState& s, const Request& r, const std::string& key, con
     o.opaqueThreshold = {p.floats[0], p.floats[1], p.floats[2]};
   } else if (key == "limits:zthreshold" && p.floats.size() == 3) {
     o.depthThreshold = {p.floats[0], p.floats[1], p.floats[2]};
+  } else if (key == "bucket:order" && p.strings.size() == 1) {
+    static const std::set<std::string> orders = {"horizontal", "vertical", "zigzag-x", "zigzag-y",
+                                                 "spacefill",  "spiral",   "random"};
+    if (orders.contains(p.strings[0]))
+      o.bucketOrder = p.strings[0];
+    else
+      s.warn(r, "rib-bucket-order", "no bucket order \"" + p.strings[0] + "\"; \"" + o.bucketOrder + "\" is used");
   } else {
     return key.starts_with("user:") || key.starts_with("shadow:bias") || key == "ribparse:varsubst";
   }

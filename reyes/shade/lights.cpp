@@ -1,5 +1,6 @@
 #include "reyes/shade/lights.h"
 
+#include "reyes/base/checksum.h"
 #include "reyes/base/rng.h"
 #include "reyes/shade/batch.h"
 
@@ -64,6 +65,38 @@ void radianceToSample(const TmGrid& g, const float* area) {
         cosLight > 1e-5f ? cosLight * area[i] / (kPi * d2 * static_cast<float>(g.samples)) : 0.0f;
     set(g.Cl, i, weight > 0 ? get(g.Cl, i) * weight : vec3(0.0f));
   }
+}
+
+uint64_t sumOf(TmConstVec3 toward, int n, const ShadowRays& rays) {
+  uint64_t sum = 2 * static_cast<uint64_t>(rays.samples) + rays.solar;
+  for (const float* axis : {toward.x, toward.y, toward.z}) sum = 31 * sum + checksum(std::as_bytes(std::span(axis, static_cast<size_t>(n))));
+  return sum;
+}
+
+/// Fills `passed` where the answer is known and clears `unknown` there.
+void recall(const ShadowAnswer& answer, int n, uint8_t* unknown, TmVec3 passed) {
+  if (answer.passed.size() != static_cast<size_t>(n)) return;
+  auto part = answer.parts.begin();
+  for (int i = 0; i < n; ++i) {
+    const uint8_t p = answer.passed[static_cast<size_t>(i)];
+    if (p == ShadowAnswer::Unknown || (p == ShadowAnswer::Part && part == answer.parts.end())) continue;
+    set(passed, i, p == ShadowAnswer::Everything ? vec3(1.0f) : p == ShadowAnswer::Part ? *part++ : vec3(0.0f));
+    unknown[i] = 0;
+  }
+}
+
+ShadowAnswer answerOf(TmVec3 passed, const uint8_t* traced, int n, uint64_t asked) {
+  ShadowAnswer answer{asked, {}, {}};
+  for (int i = 0; i < n; ++i) {
+    const vec3 p = get(passed, i);
+    const bool part = p != vec3(0.0f) && p != vec3(1.0f);
+    answer.passed.push_back(!traced[i]       ? ShadowAnswer::Unknown
+                            : part           ? ShadowAnswer::Part
+                            : p == vec3(1.0f) ? ShadowAnswer::Everything
+                                              : ShadowAnswer::Nothing);
+    if (traced[i] && part) answer.parts.push_back(p);
+  }
+  return answer;
 }
 
 }  // namespace
@@ -143,8 +176,33 @@ void Lights::shadow(Batch& batch, LightSample& sample, const uint8_t* want) cons
     if (!trace[i]) continue;
     sample.pending[i] = 0, any = true;
   }
-  if (any)
+  if (any && batch.context.answers)
+    shadowFromAnswers(batch, sample, trace);
+  else if (any)
     batch.scene.services->transmission(*batch.points, trace, view(sample.toward), sample.rays, batch.context, sample.Cl);
+}
+
+// What no answer is known of is traced. When answers are being recorded that is every point, wherever the shader looks and
+// however bright the light: intensities, cones and surfaces may then change without a ray.
+void Lights::shadowFromAnswers(Batch& batch, LightSample& sample, const uint8_t* want) const {
+  RayAnswers& answers = *batch.context.answers;
+  const int n = batch.tm.count;
+  const uint64_t asked = sumOf(view(sample.toward), n, sample.rays);
+  const ShadowQuestion question{batch.context.chunk, sample.light->index, sample.rays.sample};
+  const TmVec3 passed = batch.arena.vec3(n);
+  uint8_t* unknown = batch.arena.bytes(n);
+  std::copy_n(answers.recording ? batch.tm.active : want, n, unknown);
+  const auto known = answers.shadows.find(question);
+  if (known != answers.shadows.end() && known->second.asked == asked)
+    recall(known->second, n, unknown, passed);
+  if (std::any_of(unknown, unknown + n, [](uint8_t u) { return u != 0; })) {
+    for (int i = 0; i < n; ++i)
+      if (unknown[i]) set(passed, i, vec3(1.0f));
+    batch.scene.services->transmission(*batch.points, unknown, view(sample.toward), sample.rays, batch.context, passed);
+    if (answers.recording) answers.shadows[question] = answerOf(passed, unknown, n, asked);
+  }
+  for (int i = 0; i < n; ++i)
+    if (want[i]) set(sample.Cl, i, get(sample.Cl, i) * get(passed, i));
 }
 
 }  // namespace tomales

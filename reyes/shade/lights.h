@@ -34,6 +34,7 @@ class Lights {
   void shadow(Batch& batch, LightSample& sample, const uint8_t* want) const;
 
  private:
+  void shadowFromAnswers(Batch& batch, LightSample& sample, const uint8_t* want) const;
   void evaluate(Batch& batch, const BoundLight& light);
   void substitute(Batch& batch);
   bool evaluated_ = false;

@@ -60,7 +60,9 @@ void ShadingSystem::shade(const ShadePoints& points, const ShadeContext& context
   for (int begin = 0; begin < count; begin += kChunk) {
     copyChunk(points, begin, std::min(begin + kChunk, count), chunk);
     ArenaLease arena;
-    Batch batch(*impl_, group, context, *arena);
+    ShadeContext chunkContext = context;
+    chunkContext.chunk = begin / kChunk;
+    Batch batch(*impl_, group, chunkContext, *arena);
     batch.setPoints(chunk, shader, indirectHit ? group.indirectOverrides : group.surfaceOverrides, out,
                     begin);
     if (variables) batch.openOutputs(group.variables, out, begin);

@@ -49,5 +49,12 @@ TEST(GiChoice, HasFourNames) {
   EXPECT_FALSE(parseGi("Gather"));
 }
 
+TEST(Settings, BytesMayHaveAUnit) {
+  EXPECT_EQ(parseBytes("1000"), 1000);
+  EXPECT_EQ(parseBytes("600M"), int64_t{600} << 20);
+  EXPECT_EQ(parseBytes("2G"), int64_t{2} << 30);
+  for (const char* text : {"", "M", "-1", "0", "1.5G", "9999999999T", "12Q"}) EXPECT_FALSE(parseBytes(text)) << text;
+}
+
 }  // namespace
 }  // namespace tomales

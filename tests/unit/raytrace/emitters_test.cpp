@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "reyes/base/rng.h"
+#include "raytrace/emitters.h"
 #include "world.h"
 
 namespace tomales::test {
@@ -22,7 +23,7 @@ Samples sample(const World& world, int light, int count) {
     const vec2 xi = sobol2(static_cast<uint32_t>(i), 11);
     xi0[i] = xi.x, xi1[i] = xi.y;
   }
-  EXPECT_TRUE(world.rays->sampleEmitter(light, count, xi0.data(), xi1.data(),
+  EXPECT_TRUE(world.rays->emitters().sample(light, count, xi0.data(), xi1.data(),
                                         {data[0].data(), data[1].data(), data[2].data()},
                                         {data[3].data(), data[4].data(), data[5].data()}, out.area.data()));
   for (size_t i = 0; i < n; ++i) {
@@ -102,7 +103,7 @@ TEST(Emitters, ALightWithoutGeometryHasNoSamples) {
   world.build();
   float x = 0.5f, out[7];
   for (const int light : {none, 1, -1, 2})
-    EXPECT_FALSE(world.rays->sampleEmitter(light, 1, &x, &x, {out, out + 1, out + 2},
+    EXPECT_FALSE(world.rays->emitters().sample(light, 1, &x, &x, {out, out + 1, out + 2},
                                            {out + 3, out + 4, out + 5}, out + 6));
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "reyes/base/rng.h"
+#include "raytrace/emitters.h"
 #include "world.h"
 
 namespace tomales::test {
@@ -52,7 +53,7 @@ TEST(TrimmedForRays, ALampShinesWithItsTrimmedArea) {
   std::vector<float> xi0, xi1, data[6], area(kCount);
   for (auto& d : data) d.resize(kCount);
   for (uint32_t i = 0; i < kCount; ++i) xi0.push_back(sobol2(i, 11).x), xi1.push_back(sobol2(i, 11).y);
-  ASSERT_TRUE(world.rays->sampleEmitter(0, kCount, xi0.data(), xi1.data(), {data[0].data(), data[1].data(), data[2].data()},
+  ASSERT_TRUE(world.rays->emitters().sample(0, kCount, xi0.data(), xi1.data(), {data[0].data(), data[1].data(), data[2].data()},
                                         {data[3].data(), data[4].data(), data[5].data()}, area.data()));
   double mean = 0;
   for (size_t i = 0; i < kCount; ++i) {

@@ -1,0 +1,170 @@
+#include "gi/icf.h"
+
+#include "reyes/base/pack.h"
+
+namespace tomales {
+
+// Found by the structures' namespace, so they cannot stand in the unnamed one. The structured bindings stop the compiler at a structure that has gained a field which its list lacks.
+template <class A>
+void fields(A& a, IrradianceRecord& x) {
+  auto& [position, normal, E, rotation, translation, dominant, harmonicMean, closest, pixelSize] = x;
+  each(a, position, normal, E, rotation, translation, dominant, harmonicMean, closest, pixelSize);
+}
+
+template <class A>
+void fields(A& a, GatherPlan& x) {
+  auto& [cache, gather] = x;
+  auto& [errorFunction, kappa, maxPixels] = cache;
+  auto& [samples, maxDistance, seed, light] = gather;
+  each(a, errorFunction, kappa, maxPixels, samples, maxDistance, seed, light);
+}
+
+template <class A>
+void fields(A& a, EmitterLattice& x) {
+  auto& [columns, rows, flips, quads, normals, curved, surface, firstQuad] = x;
+  each(a, columns, rows, flips, quads, normals);
+}
+
+template <class A>
+void fields(A& a, EmitterLight& x) {
+  auto& [lattices, reach] = x;
+  each(a, lattices, reach);
+}
+
+template <class A>
+void fields(A& a, GiSettings& x) {
+  auto& [mode, samples, bounces, maxError, seed] = x;
+  each(a, mode, samples, bounces, maxError, seed);
+}
+
+template <class A>
+void fields(A& a, ShadowQuestion& x) {
+  auto& [chunk, light, sample] = x;
+  each(a, chunk, light, sample);
+}
+
+template <class A>
+void fields(A& a, ShadowAnswer& x) {
+  auto& [asked, passed, parts] = x;
+  each(a, asked, passed, parts);
+}
+
+template <class A>
+void fields(A& a, RayAnswers& x) {
+  auto& [recording, shadows, indirect] = x;
+  each(a, shadows, indirect);
+}
+
+namespace {
+
+constexpr RecordName kShotRecord{1, 0};
+constexpr uint32_t kAnswerRecords = 2;
+
+/// A cache as it is stored: the tree follows from the records.
+struct StoredCache {
+  GatherPlan plan;
+  Bound3 bound;
+  std::vector<IrradianceRecord> records;
+};
+
+struct StoredShot {
+  uint64_t shot = 0;
+  GiSettings settings;
+  mat4 cameraFromWorld{1.0f};
+  std::vector<StoredCache> caches;
+  std::optional<EmitterTable> emitters;
+};
+
+template <class A>
+void fields(A& a, StoredCache& x) {
+  each(a, x.plan, x.bound.lo, x.bound.hi, x.records);
+}
+
+template <class A>
+void fields(A& a, StoredShot& x) {
+  auto& [shot, settings, cameraFromWorld, caches, emitters] = x;
+  each(a, shot, settings, cameraFromWorld, caches, emitters);
+}
+
+RecordFileKind icfKind() {
+  SchemaSum schema;
+  schema.add(schemaOf<StoredShot>()), schema.add(schemaOf<RayAnswers>());
+  return {"TomalICF", 1, schema.sum};
+}
+
+bool consistent(const StoredShot& stored) {
+  for (const auto& light : stored.emitters.value_or(EmitterTable{}))
+    for (const EmitterLattice& l : light.lattices) {
+      const uint64_t quads = uint64_t{l.columns} * l.rows;
+      if (l.quads.size() != quads || l.normals.size() != quads) return false;
+    }
+  return true;
+}
+
+}  // namespace
+
+std::unique_ptr<IcfWriter> IcfWriter::create(const std::string& path, std::string& error) {
+  auto records = RecordWriter::create(path, icfKind(), false, error);
+  return records ? std::unique_ptr<IcfWriter>(new IcfWriter(std::move(records))) : nullptr;
+}
+
+bool IcfWriter::writeAnswers(size_t tile, const std::vector<RayAnswers>& answers) {
+  return records_->write({kAnswerRecords, static_cast<uint32_t>(tile)}, pack(answers));
+}
+
+bool IcfWriter::finish(const IrradianceShot& shot) {
+  StoredShot stored{shot.shot, shot.settings, shot.cameraFromWorld, {}, shot.emitters};
+  const auto asksSurface = [](const EmitterLattice& l) { return l.surface != nullptr; };
+  for (const auto& light : shot.emitters.value_or(EmitterTable{}))
+    if (std::any_of(light.lattices.begin(), light.lattices.end(), asksSurface)) stored.emitters.reset();
+  for (const PreparedCache& c : shot.caches) stored.caches.push_back({c.plan, c.cache.bound(), c.cache.records()});
+  return records_->write(kShotRecord, pack(stored)) && records_->finish();
+}
+
+std::unique_ptr<IcfFile> IcfFile::open(const std::string& path, std::string& error) {
+  std::unique_ptr<IcfFile> file(new IcfFile);
+  file->records_ = RecordFile::open(path, icfKind(), error);
+  const auto packed = file->records_ ? file->records_->read(kShotRecord, error) : std::nullopt;
+  if (!packed) return nullptr;
+  StoredShot stored;
+  if (!unpack(*packed, stored) || !consistent(stored)) {
+    error = "its description is damaged";
+    return nullptr;
+  }
+  file->shot_ = {stored.shot, stored.settings, stored.cameraFromWorld, {}, std::move(stored.emitters)};
+  for (const StoredCache& c : stored.caches) {
+    IrradianceCache& cache = file->shot_.caches.emplace_back(PreparedCache{c.plan, {c.bound, c.plan.cache}}).cache;
+    for (const IrradianceRecord& record : c.records) cache.restore(record);
+  }
+  return file;
+}
+
+std::optional<std::vector<RayAnswers>> IcfFile::answers(size_t tile, std::string& error) const {
+  const RecordName name{kAnswerRecords, static_cast<uint32_t>(tile)};
+  std::vector<RayAnswers> out;
+  if (!records_->has(name)) return out;
+  const auto packed = records_->read(name, error);
+  if (!packed) return std::nullopt;
+  if (unpack(*packed, out)) return out;
+  error = "a bucket is damaged";
+  return std::nullopt;
+}
+
+void moveToCamera(IrradianceShot& shot, const mat4& cameraFromWorld) {
+  if (shot.cameraFromWorld == cameraFromWorld) return;
+  const mat4 m = cameraFromWorld * glm::inverse(shot.cameraFromWorld);
+  const auto turn = [&](vec3& v) { v = transformVector(m, v); };
+  for (PreparedCache& prepared : shot.caches) {
+    IrradianceCache moved(transformBound(m, prepared.cache.bound()), prepared.plan.cache);
+    for (IrradianceRecord r : prepared.cache.records()) {
+      r.position = transformPoint(m, r.position);
+      turn(r.normal);
+      for (int c = 0; c < 3; ++c) turn(r.rotationGradient[c]), turn(r.translationGradient[c]), turn(r.dominant[c]);
+      moved.restore(r);
+    }
+    prepared.cache = std::move(moved);
+  }
+  shot.cameraFromWorld = cameraFromWorld;
+}
+
+}  // namespace tomales

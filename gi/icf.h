@@ -1,0 +1,49 @@
+// Noun and file: the irradiance cache of a shot (.icf, docs/dfb.md), and what rays answered when it was shaded. With it a
+// .dfb is shaded without a ray: indirect light comes from the records, shadows and emitters from the answers.
+// Threads: answers may be written and read concurrently.
+#pragma once
+#include "gi/services.h"
+#include "reyes/base/record_file.h"
+
+namespace tomales {
+
+/// All but the answers.
+struct IrradianceShot {
+  uint64_t shot = 0;  ///< DfbFile::shotSum() of the shot that the answers belong to; 0: none do.
+  GiSettings settings;
+  mat4 cameraFromWorld{1.0f};
+  std::vector<PreparedCache> caches;  ///< In camera space.
+  std::optional<EmitterTable> emitters;  ///< None: curved or cut by trim curves, so that they need their geometry.
+};
+
+class IcfWriter {
+ public:
+  static std::unique_ptr<IcfWriter> create(const std::string& path, std::string& error);
+  bool writeAnswers(size_t tile, const std::vector<RayAnswers>& answers);
+  bool finish(const IrradianceShot& shot);
+  std::string error() const { return records_->error(); }
+
+ private:
+  explicit IcfWriter(std::unique_ptr<RecordWriter> records) : records_(std::move(records)) {}
+  std::unique_ptr<RecordWriter> records_;
+};
+
+class IcfFile {
+ public:
+  static std::unique_ptr<IcfFile> open(const std::string& path, std::string& error);
+  IrradianceShot takeShot() { return std::move(shot_); }
+  const IrradianceShot& shot() const { return shot_; }
+  /// One a batch; empty: the file has none. Nothing: damaged.
+  std::optional<std::vector<RayAnswers>> answers(size_t tile, std::string& error) const;
+  uint64_t size() const { return records_->size(); }
+
+ private:
+  IcfFile() = default;
+  std::unique_ptr<RecordFile> records_;
+  IrradianceShot shot_;
+};
+
+/// Moves records to the camera of another frame; the same bits if it is the same.
+void moveToCamera(IrradianceShot& shot, const mat4& cameraFromWorld);
+
+}  // namespace tomales

@@ -1,0 +1,37 @@
+// The geometry behind a shot, for rays: read again from its RIB when a ray is first wanted, which for most re-shading is never.
+#pragma once
+#include <mutex>
+
+#include "reyes/app/settings.h"
+#include "reyes/base/stats.h"
+#include "reyes/dfb.h"
+
+namespace tomales {
+
+class RayWorld {
+ public:
+  /// `shot` as it is to be shaded: its attributes, lights and options are those that rays meet.
+  RayWorld(const Shot& shot, const RenderSettings& settings, Stats& stats, Log& log);
+  ~RayWorld();
+
+  /// Null: the RIB is gone or has changed, which is reported. Threads: any; all wait for the first.
+  const RayTools* tools();
+  /// What hits ask for light and shadows.
+  void setServices(const ShadeServices* services) { services_ = services; }
+
+ private:
+  struct Built;
+  std::unique_ptr<Built> build();
+  bool sourcesAreUnchanged() const;
+  void dress(Scene& scene) const;
+
+  const Shot& shot_;
+  const RenderSettings& settings_;
+  Stats& stats_;
+  Log& log_;
+  const ShadeServices* services_ = nullptr;
+  std::once_flag once_;
+  std::unique_ptr<Built> built_;
+};
+
+}  // namespace tomales

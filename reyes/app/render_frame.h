@@ -1,0 +1,14 @@
+// `tomales render`, one frame of it: the stages in one process, in as much memory as it may take.
+#pragma once
+#include "reyes/app/settings.h"
+#include "reyes/base/stats.h"
+#include "reyes/scene.h"
+
+namespace tomales {
+
+/// Renders scene number `world` of the stream, overrides applied, and writes its Displays. Everything that goes wrong is in
+/// the log.
+void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats& stats, Log& log,
+                 const std::function<void()>& afterStage);
+
+}  // namespace tomales

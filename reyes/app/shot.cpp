@@ -1,0 +1,158 @@
+#include "reyes/app/shot.h"
+
+#include <atomic>
+
+#include "reyes/app/atlas_job.h"
+#include "reyes/app/interrupt.h"
+#include "reyes/app/overrides.h"
+#include "reyes/base/parallel.h"
+#include "reyes/rib.h"
+
+namespace tomales {
+namespace {
+
+SourceLoc wholeFile(const std::string& path) { return {std::make_shared<std::string>(path), 0}; }
+
+}  // namespace
+
+std::unique_ptr<ShotJob> ShotJob::open(const RenderSettings& settings, Stats& stats, Log& log) {
+  std::string error;
+  auto file = DfbFile::open(settings.files.front(), error);
+  if (!file) {
+    log.report(Severity::Error, "dfb-read", wholeFile(settings.files.front()), "cannot be read as a deep frame buffer: " + error);
+    return nullptr;
+  }
+  std::unique_ptr<ShotJob> job(new ShotJob(std::move(file), settings, stats, log));
+  return job->edit() && job->openIrradiance() ? std::move(job) : nullptr;
+}
+
+ShotJob::ShotJob(std::unique_ptr<DfbFile> file, const RenderSettings& settings, Stats& stats, Log& log)
+    : file_(std::move(file)), settings_(settings), stats_(stats), log_(log), shot_(file_->shot()) {
+  settings_.seed = shot_.seed;
+}
+
+bool ShotJob::edit() {
+  if (!settings_.edits.empty() && !editScene(settings_.edits, shot_.scene, log_)) return false;
+  applyOverrides(shot_.scene, settings_);
+  if (settings_.crop) {
+    const PixelRect asked = Camera(shot_.scene.options).crop(), &whole = shot_.frame.crop;
+    shot_.frame.crop = {std::max(asked.x0, whole.x0), std::max(asked.y0, whole.y0), std::min(asked.x1, whole.x1),
+                        std::min(asked.y1, whole.y1)};
+  }
+  if (shot_.frame.crop.width() > 0 && shot_.frame.crop.height() > 0) return true;
+  log_.report(Severity::Error, "shot-crop", {}, "the shot has no pixels inside --crop");
+  return false;
+}
+
+bool ShotJob::openIrradiance() {
+  if (settings_.irradiance.empty()) return true;
+  std::string error;
+  irradiance_ = IcfFile::open(settings_.irradiance, error);
+  if (!irradiance_) {
+    log_.report(Severity::Error, "icf-read", wholeFile(settings_.irradiance), "cannot be read as an irradiance cache: " + error);
+    return false;
+  }
+  if (irradiance_->shot().shot != file_->shotSum())
+    log_.report(Severity::Warning, "icf-shot", wholeFile(settings_.irradiance),
+                "was gathered for another shot: its irradiance is used, its shadows are not");
+  return true;
+}
+
+void ShotJob::prepareLight() {
+  world_ = std::make_unique<RayWorld>(shot_, settings_, stats_, log_);
+  job_ = std::make_unique<FrameJob>(shot_.scene, settings_, stats_, log_);
+  job_->prepareRays([this] { return world_->tools(); });
+  world_->setServices(job_->services());
+  if (job_->mode() == GiMode::Atlas)
+    job_->services()->setAtlasSource([this] {
+      const RayTools& tools = *world_->tools();
+      return prepareAtlas(tools.rays->scene(), *tools.rays, *tools.shading, settings_, stats_, log_);
+    });
+  if (!irradiance_) return;
+  IrradianceShot given = irradiance_->takeShot();
+  if (given.emitters && given.shot == file_->shotSum()) job_->services()->useEmitters(std::move(*given.emitters));
+  moveToCamera(given, shot_.scene.cameraFromWorldAtOpen());
+  job_->services()->useCaches(std::move(given.caches));
+}
+
+bool ShotJob::load(size_t index, DeepTile& tile) {
+  std::string error;
+  auto loaded = file_->tile(index, error);
+  if (!loaded) {
+    log_.report(Severity::Error, "dfb-bucket", wholeFile(settings_.files.front()),
+                "bucket " + std::to_string(index) + " is left out of the picture: " + error);
+    return false;
+  }
+  tile = std::move(*loaded);
+  if (!irradiance_ || irradiance_->shot().shot != file_->shotSum()) return true;
+  if (auto answers = irradiance_->answers(index, error)) {
+    tile.answers = std::move(*answers);
+  } else {
+    log_.report(Severity::Error, "icf-bucket", wholeFile(settings_.irradiance),
+                "the shadows of bucket " + std::to_string(index) + " are traced anew: " + error);
+  }
+  return true;
+}
+
+DeepFrame ShotJob::loadAll() {
+  DeepFrame frame = shot_.frame;
+  parallelInOrder(frame.tiles.size(), [&](size_t i) { load(i, frame.tiles[i]); });
+  return frame;
+}
+
+void ShotJob::shadePicture() {
+  if (!displaysHaveFolders(shot_.scene.options, log_)) return;
+  checkDisplays(shot_.scene.options, log_);
+  prepareLight();
+  if (job_->gathers() && (!irradiance_ || settings_.appendIrradiance)) {
+    DeepFrame frame = loadAll();
+    job_->gather(frame);
+    job_->shade(frame);
+    return job_->write(frame);
+  }
+  DeepFrame frame = shot_.frame;
+  job_->shade(frame, {[this](size_t index, DeepTile& tile) { return load(index, tile); }, {}});
+  if (!frame.complete)
+    log_.report(Severity::Warning, "interrupted", {}, "interrupted: finished buckets are written");
+  job_->write(frame);
+}
+
+void ShotJob::gatherIrradiance() {
+  const auto unwritten = [&](const std::string& why) {
+    log_.report(Severity::Output, "icf-write", {}, "\"" + settings_.output + "\" could not be written: " + why);
+  };
+  if (!hasFolder(settings_.output, {}, log_)) return;
+  std::string error;
+  const auto out = IcfWriter::create(settings_.output, error);
+  if (!out) return unwritten(error);
+  prepareLight();
+  const RayTools* tools = world_->tools();
+  if (!tools) return;
+  const bool whole = job_->gathers();  // the gather pass walks over all of the frame; shadows need one bucket at a time
+  DeepFrame frame = whole ? loadAll() : shot_.frame;
+  job_->gather(frame);
+  const bool written = recordAnswers(frame, !whole, *out);
+  IrradianceShot shot{interrupted() ? 0 : file_->shotSum(), job_->giSettings(), shot_.scene.cameraFromWorldAtOpen(), {},
+                      tools->rays->emitters().table()};
+  shot.caches = job_->services()->takeCaches();
+  if (!written || !out->finish(shot)) unwritten(out->error());
+}
+
+// Shades the picture once, for the rays that this takes.
+bool ShotJob::recordAnswers(DeepFrame& frame, bool loading, IcfWriter& out) {
+  const StageTimer timer(stats_, "answers");
+  std::atomic<bool> good{true};
+  const auto startRecording = [&](size_t index, DeepTile& tile) {
+    if (loading && !load(index, tile)) return false;
+    tile.answers.assign(tile.batches.size(), RayAnswers{true, {}, {}});
+    return true;
+  };
+  const auto store = [&](size_t index, DeepTile& tile) {
+    if (!out.writeAnswers(index, tile.answers)) good = false;
+    tile = DeepTile{tile.rect, {}, {}, {}, {}, {}, {}};
+  };
+  job_->shade(frame, {startRecording, store});
+  return good;
+}
+
+}  // namespace tomales

@@ -1,0 +1,36 @@
+// Noun: what rays answered when the points of a batch were shaded, so that shading them again traces none. An answer is
+// found by what was asked (the point, the way to the light), so a light that has moved finds none and is traced anew.
+// Threads: one batch is shaded by one thread.
+#pragma once
+#include <array>
+#include <compare>
+#include <map>
+#include <vector>
+
+#include "reyes/base/math.h"
+
+namespace tomales {
+
+/// One sample of one light, as seen by one run of the shader over part of a batch.
+struct ShadowQuestion {
+  int chunk, light, sample;
+  auto operator<=>(const ShadowQuestion&) const = default;
+};
+
+struct ShadowAnswer {
+  enum Passed : uint8_t { Unknown, Everything, Nothing, Part };
+  uint64_t asked = 0;           ///< Sum of the ways to the light.
+  std::vector<uint8_t> passed;  ///< Passed, of every point.
+  std::vector<vec3> parts;      ///< Of the points that have Part, in order: the fraction.
+};
+
+/// E/pi and the dominant directions for red, green and blue.
+using IndirectAnswer = std::array<vec3, 4>;
+
+struct RayAnswers {
+  bool recording = false;
+  std::map<ShadowQuestion, ShadowAnswer> shadows;
+  std::map<uint64_t, IndirectAnswer> indirect;  ///< Of points that the irradiance cache does not serve.
+};
+
+}  // namespace tomales
