@@ -39,13 +39,13 @@ std::vector<double> boxAreas(const Scene& scene) {
   return areas;
 }
 
+}  // namespace
+
 float meanOf(const PointCloud& cloud) {
   double sum = 0;
   for (const float v : cloud.data) sum += double{v};
   return cloud.data.empty() ? 0.0f : static_cast<float>(sum / static_cast<double>(cloud.data.size()));
 }
-
-}  // namespace
 
 std::vector<std::string> mapNames(const Scene& scene, const AtlasSettings& settings) {
   std::vector<double> areas = boxAreas(scene);

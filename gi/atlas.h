@@ -22,6 +22,9 @@ struct AtlasSettings {
 /// For each of Scene::groups, the name of its map.
 std::vector<std::string> mapNames(const Scene& scene, const AtlasSettings& settings);
 
+/// Of all floats of a cloud; 0 if it is empty.
+float meanOf(const PointCloud& cloud);
+
 using AtlasProgress = std::function<void(float)>;
 
 /// Photons into FOLDER, one file a map. Throws FileError.

@@ -10,6 +10,7 @@ namespace {
 // Chance alone moves the centroid of 50 photons by 0.09 radii on average; from there on a border is believed in gradually.
 constexpr float kChanceEnds = 0.18f, kBorderBegins = 0.34f;
 constexpr float kOverlap = 1.6f;  ///< Radius of a disk over that of the area it stands for: few gaps between random disks.
+constexpr float kMostOfMap = 0.05f;
 constexpr size_t kEstimatesPerTask = 256;
 
 /// A circular segment of half angle theta: its area over pi, and the distance of its centroid, in radii.
@@ -22,6 +23,18 @@ struct Estimate {
   vec3 irradiance;
   float radius;
 };
+
+/// Of the disk that stands for `every` of `count` photons on an area.
+float diskRadius(float area, size_t count, int every) {
+  return kOverlap * std::sqrt(area * static_cast<float>(every) / (kPi * static_cast<float>(std::max<size_t>(count, 1))));
+}
+
+/// By the nearest few alone: where photons are rare, those that the search has to reach for lie on other surfaces, and the disk must
+/// not reach there. Pre: sorted.
+float nearRadius(const std::vector<NearPhoton>& photons, int every) {
+  const size_t few = std::min(photons.size(), 2 * static_cast<size_t>(every));
+  return diskRadius(kPi * photons[few - 1].distance2, few, every);
+}
 
 Estimate estimate(const PointCloud& photons, const PhotonTree& tree, int power, uint32_t at,
                   const PhotonIrradianceSettings& settings, std::vector<NearPhoton>& heap) {
@@ -43,8 +56,7 @@ Estimate estimate(const PointCloud& photons, const PhotonTree& tree, int power, 
   const float distance = glm::length(centroid - dot(centroid, N) * N) / std::sqrt(r2);
   const float belief = glm::smoothstep(kChanceEnds, kBorderBegins, distance);
   const float area = kPi * r2 * glm::mix(1.0f, coveredShare(distance), belief);
-  const float share = static_cast<float>(settings.every) / static_cast<float>(std::max<size_t>(inside, 1));
-  return {sum / area, kOverlap * std::sqrt(area * share / kPi)};
+  return {sum / area, std::min(diskRadius(area, inside, settings.every), nearRadius(heap, settings.every))};
 }
 
 }  // namespace
@@ -58,7 +70,9 @@ float coveredShare(float centroidDistance) {
   return segment(hi).x;
 }
 
-PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& settings) {
+PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& given) {
+  PhotonIrradianceSettings settings = given;
+  if (!(settings.maxRadius > 0)) settings.maxRadius = kMostOfMap * glm::length(photons.bound().size());
   PointCloud out;
   out.channels = {{"irradiance", 3}};
   if (photons.count() == 0) return out;

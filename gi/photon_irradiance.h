@@ -10,7 +10,7 @@ namespace tomales {
 struct PhotonIrradianceSettings {
   int nearest = 50;  ///< The paper's.
   int every = 4;     ///< One estimate for so many neighbouring photons (Christensen 1999, "Faster photon map global illumination").
-  float maxRadius = kInfinity;
+  float maxRadius = 0;  ///< Photons farther away do not count, however few there are; 0: a twentieth of the map's diagonal.
 };
 
 /// `photons` needs a channel "power" of three floats (W), and normals. The result has the channel "irradiance"; its disks overlap enough

@@ -103,7 +103,7 @@ class Tracer {
     const Attributes& attributes = *scene_.groups[static_cast<size_t>(group)].attributes;
     const vec3 P = path.ray.origin + hit.t * path.ray.direction, d = path.ray.direction;
     const bool front = dot(d, hit.geometricNormal) < 0;
-    const vec3 N = front ? hit.normal : -hit.normal;
+    const vec3 N = front ? hit.normal : -hit.normal, Ng = front ? hit.geometricNormal : -hit.geometricNormal;
     const uint32_t name = hashCombine(stream, static_cast<uint32_t>(path.depth));
     const float xi = sobol1(path.number, hashCombine(name, 1u));
     vec3 direction, passed;
@@ -113,7 +113,8 @@ class Tracer {
         out.push_back({P, N, path.power, group, path.depth});
         passed = isFinite(reflectance) ? glm::clamp(reflectance, 0.0f, 1.0f) : vec3(0);
         const bool through = model == PhotonModel::Translucent && sobol1(path.number, hashCombine(name, 2u)) < 0.5f;
-        const vec3 side = through ? -N : N, local = cosineHemisphere(sobol2(path.number, name));
+        // Around the interpolated normal some photons would go into the polygon, and be caught in what it bounds.
+        const vec3 side = through ? -Ng : Ng, local = cosineHemisphere(sobol2(path.number, name));
         vec3 tangent, bitangent;
         orthonormalBasis(side, tangent, bitangent);
         direction = local.x * tangent + local.y * bitangent + local.z * side;

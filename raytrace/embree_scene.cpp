@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "reyes/base/parallel.h"
+#include "reyes/base/rng.h"
 
 namespace tomales {
 namespace {
@@ -16,8 +17,9 @@ namespace {
 /// may have a group for every object.
 struct Geometry {
   bool opaque, flips;
+  DetailShare detail;
   const CoarseGroup* meshes;                         ///< All groups, or the one master.
-  std::vector<uint32_t> meshOfQuad;                  ///< Empty: all belong to the first.
+  std::vector<uint32_t> meshOfQuad{};                ///< Empty: all belong to the first.
   const std::vector<uint32_t>* firstQuad = nullptr;  ///< of each mesh, in its geometry
 
   struct Place { uint32_t mesh, quad; };
@@ -44,6 +46,7 @@ struct Traversal {
   HitList* list = nullptr;
   const Instances* instances = nullptr;
   const RayFilter* filter = nullptr;
+  float level = 0;  ///< The ray's number for levels of detail.
 
   PolygonHit hit(const Geometry& geometry, float t, uint32_t instanceId, uint32_t primitive, float u, float v,
                  bool leaving) const {
@@ -106,12 +109,23 @@ void recordShadow(const RTCFilterFunctionNArguments* args) {
   args->valid[0] = 0;
 }
 
-/// Rejects hits that trim curves have cut away. Embree asks it before the filters of a traversal.
-void rejectTrimmed(const RTCFilterFunctionNArguments* args) {
+/// Records and rejects every hit.
+void recordAll(const RTCFilterFunctionNArguments* args) {
+  const auto& traversal = *reinterpret_cast<const Traversal*>(args->context);
+  if (!args->valid[0]) return;
+  traversal.list->push_back(hitOf(*args, traversal));
+  args->valid[0] = 0;
+}
+
+/// Rejects hits that trim curves have cut away, and levels of detail that the ray does not see. Embree asks it before the
+/// filters of a traversal.
+void rejectAbsent(const RTCFilterFunctionNArguments* args) {
   if (!args->valid[0]) return;
   const Geometry& geometry = *static_cast<const Geometry*>(args->geometryUserPtr);
   const auto [mesh, quad] = geometry.place(RTCHitN_primID(args->hit, 1, 0));
-  if (!geometry.meshes[mesh].keeps(quad, RTCHitN_u(args->hit, 1, 0), RTCHitN_v(args->hit, 1, 0))) args->valid[0] = 0;
+  if (!geometry.detail.contains(reinterpret_cast<const Traversal*>(args->context)->level) ||
+      !geometry.meshes[mesh].keeps(quad, RTCHitN_u(args->hit, 1, 0), RTCHitN_v(args->hit, 1, 0)))
+    args->valid[0] = 0;
 }
 
 /// Embree takes no negative tnear: the ray starts `shift` before its origin.
@@ -125,20 +139,14 @@ RTCRay rayFrom(const Ray& ray, float shift, float tNear, uint32_t mask) {
   return r;
 }
 
-Traversal traversalOf(RTCFilterFunctionN filter, float shift, float window, const Ray& ray, HitList* list,
-                      const Instances& instances) {
-  Traversal t{{}, shift, window, ray.tMax, list, &instances, ray.filter};
-  rtcInitIntersectContext(&t.embree);
-  t.embree.filter = filter;
-  return t;
-}
-
 }  // namespace
 
 struct EmbreeScene::Impl {
-  explicit Impl(const SharedShapes& s) : shapes(s) {}
+  Impl(const std::vector<CoarseGroup>& g, const SharedShapes& s) : groups(g), shapes(s) {}
 
+  const std::vector<CoarseGroup>& groups;
   const SharedShapes& shapes;
+  bool fades = false;  ///< Some group does.
   std::atomic<int64_t> bytes{0};
   std::vector<uint32_t> firstQuad;
   std::deque<Geometry> geometries;  ///< By Embree's geomID; Embree keeps their addresses.
@@ -158,13 +166,30 @@ struct EmbreeScene::Impl {
     return out;
   }
 
+  float levelOf(const Ray& ray) const {
+    if (!fades) return 0;
+    uint32_t name = 0;
+    for (const vec3& v : {ray.origin, ray.direction})
+      for (int axis = 0; axis < 3; ++axis) name = hashCombine(name, __builtin_bit_cast(uint32_t, v[axis]));
+    const DetailShare from = ray.group >= 0 ? groups[static_cast<size_t>(ray.group)].detail : DetailShare{};
+    return std::min(lerp(from.lo, from.hi, unitFloat(name)), 0x1.fffffep-1f);
+  }
+
+  Traversal traversalOf(const Ray& ray, RTCFilterFunctionN filter, float shift, float window, HitList* list) const {
+    Traversal t{{}, shift, window, ray.tMax, list, &instances, ray.filter, levelOf(ray)};
+    rtcInitIntersectContext(&t.embree);
+    t.embree.filter = filter;
+    return t;
+  }
+
   /// One geometry of the given groups. Embree pads the vertex buffer that it allocates, of which it reads 16 bytes at the last.
-  void attach(const std::vector<uint32_t>& members, const std::vector<CoarseGroup>& groups, uint32_t mask, bool opaque) {
-    const size_t steps = groups[members.front()].laterP.size() + 1;
+  void attach(const std::vector<uint32_t>& members, uint32_t mask, bool opaque) {
+    const CoarseGroup& like = groups[members.front()];
+    const size_t steps = like.laterP.size() + 1;
     size_t vertexCount = 0, quadCount = 0;
     for (const uint32_t g : members) vertexCount += groups[g].P.size(), quadCount += groups[g].quads.size();
     const auto id = static_cast<unsigned>(geometries.size());
-    Geometry& out = geometries.emplace_back(Geometry{opaque, groups[members.front()].flipsNormal, groups.data(), {}, &firstQuad});
+    Geometry& out = geometries.emplace_back(Geometry{opaque, like.flipsNormal, like.detail, groups.data(), {}, &firstQuad});
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
     rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(steps));
     std::vector<vec3*> vertices;
@@ -187,13 +212,13 @@ struct EmbreeScene::Impl {
       firstVertex += static_cast<uint32_t>(groups[g].P.size());
     }
     rtcSetGeometryMask(geometry, mask);
-    if (groups[members.front()].trimmed) cutTrimmed(geometry);
+    if (like.trimmed || !like.detail.whole()) filterAbsent(geometry);
     attach(scene, geometry, id, &out);
   }
 
-  static void cutTrimmed(RTCGeometry geometry) {
-    rtcSetGeometryIntersectFilterFunction(geometry, rejectTrimmed);
-    rtcSetGeometryOccludedFilterFunction(geometry, rejectTrimmed);
+  static void filterAbsent(RTCGeometry geometry) {
+    rtcSetGeometryIntersectFilterFunction(geometry, rejectAbsent);
+    rtcSetGeometryOccludedFilterFunction(geometry, rejectAbsent);
   }
 
   static void attach(RTCScene to, RTCGeometry geometry, unsigned id, void* user) {
@@ -206,14 +231,14 @@ struct EmbreeScene::Impl {
   /// The polygons of a master lie in its own buffers: Embree asks for 16 readable bytes at the last vertex.
   RTCScene sceneOf(const CoarseGroup& mesh) {
     RTCScene out = newScene();
-    Geometry& described = masters.emplace_back(Geometry{true, mesh.flipsNormal, &mesh, {}});
+    Geometry& described = masters.emplace_back(Geometry{true, mesh.flipsNormal, {}, &mesh});
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
     auto* vertices = static_cast<vec3*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), mesh.P.size()));
     if (vertices) std::copy(mesh.P.begin(), mesh.P.end(), vertices);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, mesh.quads.data(), 0, sizeof(Quad),
                                mesh.quads.size());
-    if (mesh.trimmed) cutTrimmed(geometry);
+    if (mesh.trimmed) filterAbsent(geometry);
     attach(out, geometry, 0, &described);
     rtcCommitScene(out);
     return out;
@@ -257,18 +282,20 @@ struct EmbreeScene::Impl {
 
 EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const SharedShapes& shapes,
                          const std::vector<uint32_t>& groupOf, const std::vector<uint32_t>& masks,
-                         const std::vector<bool>& opaque, Log& log)
-    : impl_(std::make_unique<Impl>(shapes)) {
+                         const std::vector<bool>& opaque, bool solids, Log& log)
+    : impl_(std::make_unique<Impl>(groups, shapes)) {
   impl_->device = rtcNewDevice(nullptr);
   rtcSetDeviceMemoryMonitorFunction(impl_->device, &Impl::countBytes, impl_.get());
   impl_->scene = impl_->newScene();
-  std::map<std::tuple<uint32_t, bool, bool, bool, size_t>, std::vector<uint32_t>> alike;
+  std::map<std::tuple<uint32_t, bool, bool, bool, size_t, float, float>, std::vector<uint32_t>> alike;
   for (uint32_t i = 0; i < groups.size(); ++i) {
     const CoarseGroup& g = groups[i];
-    if (!g.quads.empty()) alike[{masks[i], opaque[i], g.flipsNormal, g.trimmed, g.laterP.size()}].push_back(i);
+    impl_->fades |= !g.detail.whole();
+    if (!g.quads.empty() && g.solid == solids)
+      alike[{masks[i], opaque[i], g.flipsNormal, g.trimmed, g.laterP.size(), g.detail.lo, g.detail.hi}].push_back(i);
   }
   impl_->firstQuad.resize(groups.size());
-  for (const auto& [kind, members] : alike) impl_->attach(members, groups, std::get<0>(kind), std::get<1>(kind));
+  for (const auto& [kind, members] : alike) impl_->attach(members, std::get<0>(kind), std::get<1>(kind));
   // With several threads the order of primitives in a leaf, and with it which of two hits at equal t is found
   // first, would depend on their number.
   const ThreadLimit one(1);
@@ -285,24 +312,33 @@ EmbreeScene::~EmbreeScene() {
 }
 
 bool EmbreeScene::nearest(const Ray& ray, uint32_t mask, PolygonHit& hit) const {
-  Traversal traversal = traversalOf(ray.filter ? &rejectUnseen : nullptr, 0, 0, ray, nullptr, impl_->instances);
+  Traversal traversal = impl_->traversalOf(ray, ray.filter ? &rejectUnseen : nullptr, 0, 0, nullptr);
   return impl_->trace(ray, 0, std::max(ray.bias, 0.0f), mask, traversal, hit);
 }
 
 bool EmbreeScene::nearestBeyond(const Ray& ray, float window, uint32_t mask, HitList& list,
                                 PolygonHit& beyond) const {
   list.clear();
-  Traversal traversal = traversalOf(&recordNear, window, window, ray, &list, impl_->instances);
+  Traversal traversal = impl_->traversalOf(ray, &recordNear, window, window, &list);
   return impl_->trace(ray, window, 0, mask, traversal, beyond);
 }
 
 bool EmbreeScene::blockedBeyond(const Ray& ray, float window, uint32_t mask, HitList& list) const {
   list.clear();
   const float shift = std::max(window, 0.0f);
-  Traversal traversal = traversalOf(&recordShadow, shift, window, ray, &list, impl_->instances);
+  Traversal traversal = impl_->traversalOf(ray, &recordShadow, shift, window, &list);
   RTCRay r = rayFrom(ray, shift, window < 0 ? std::max(ray.bias, 0.0f) : 0.0f, mask);
   rtcOccluded1(impl_->scene, &traversal.embree, &r);
   return r.tfar < 0;
+}
+
+void EmbreeScene::all(const Ray& ray, float window, HitList& list) const {
+  list.clear();
+  Ray line = ray;
+  line.tMax = kInfinity;
+  Traversal traversal = impl_->traversalOf(line, &recordAll, window, 0, &list);
+  RTCRay r = rayFrom(line, window, 0, ~0U);
+  rtcOccluded1(impl_->scene, &traversal.embree, &r);
 }
 
 size_t EmbreeScene::bytes() const { return static_cast<size_t>(std::max<int64_t>(0, impl_->bytes)); }

@@ -10,10 +10,12 @@ namespace tomales {
 
 class EmbreeScene {
  public:
-  /// What belongs to shade group i is visible to rays of masks[i] and opaque if opaque[i]; groupOf: of each instance.
-  /// `shapes` must outlive this.
+  /// What belongs to shade group i is visible to rays of masks[i] and opaque if opaque[i]; groupOf: of each instance. Holds
+  /// the groups that are parts of solids, or all others and the instances. `groups` and `shapes` must outlive this.
+  /// Of groups that fade a ray sees those that have its number in their share: a hash of the ray, within the share of what it
+  /// leaves, so that one level of detail does not shadow another in its place.
   EmbreeScene(const std::vector<CoarseGroup>& groups, const SharedShapes& shapes, const std::vector<uint32_t>& groupOf,
-              const std::vector<uint32_t>& masks, const std::vector<bool>& opaque, Log& log);
+              const std::vector<uint32_t>& masks, const std::vector<bool>& opaque, bool solids, Log& log);
   ~EmbreeScene();
 
   /// Nearest hit with ray.bias < t < ray.tMax; ray.offset plays no part.
@@ -26,6 +28,9 @@ class EmbreeScene {
   /// True if something opaque lies in `window` < t < tMax, where window is negative for rays without a hit
   /// list, which start at their bias. Else `list` has all hits from -window to tMax, unsorted.
   bool blockedBeyond(const Ray& ray, float window, uint32_t mask, HitList& list) const;
+
+  /// Fills `list` with all hits at t >= -window, however far, unsorted.
+  void all(const Ray& ray, float window, HitList& list) const;
 
   size_t bytes() const;  ///< That Embree allocated.
 

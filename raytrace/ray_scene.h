@@ -5,6 +5,7 @@
 
 #include "raytrace/embree_scene.h"
 #include "raytrace/emitters.h"
+#include "raytrace/solid_hits.h"
 
 namespace tomales {
 
@@ -21,6 +22,9 @@ struct RayScene::Impl {
   Hit resolve(const PolygonHit& hit) const;
   /// Is the opacity of the whole group that of its attributes?
   bool knowsOpacity(uint32_t group) const { return opacityIsConstant[group]; }
+  /// Adds the surfaces of solids to what a traversal of all else has found: those up to `window` to the list, and the nearest
+  /// after that, if it is nearer than `beyond`. Returns whether there is a `beyond`.
+  bool addSolids(const Ray& ray, float window, uint32_t mask, HitList& list, bool found, PolygonHit& beyond) const;
   vec3 clearness(const PolygonHit& hit) const { return 1.0f - scene.groups[hit.group].attributes->opacity; }
 
   const Scene& scene;
@@ -28,7 +32,10 @@ struct RayScene::Impl {
   const SharedShapes shapes;
   const std::vector<CoarseGroup> groups;  ///< Without what is in `shapes`, but for deviation and size.
   const std::vector<bool> opacityIsConstant;
+  const std::vector<uint32_t> masks;
+  const std::vector<bool> opaque;
   const EmbreeScene embree;
+  const SolidHits solids;
   const Emitters emitters;
   bool moves = false;                     ///< Some polygon does.
   mutable std::mutex subsetsMutex;

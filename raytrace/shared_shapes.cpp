@@ -12,8 +12,8 @@ bool isAffine(const mat4& m) { return m[0].w == 0 && m[1].w == 0 && m[2].w == 0 
 
 bool mayShare(const Object& o) {
   const Attributes& a = *o.attributes;
-  return raysNeed(a) && o.shapes.size() == 1 && !o.cameraFromObject.moving() && a.areaLight < 0 &&
-         !displacesForRays(o) && o.shape().patchCount() > kFewPatches && isAffine(o.cameraFromObject.keys.front());
+  return raysNeed(a) && o.shapes.size() == 1 && !o.cameraFromObject.moving() && a.areaLight < 0 && o.solid < 0 &&
+         a.detail.whole() && !displacesForRays(o) && o.shape().patchCount() > kFewPatches && isAffine(o.cameraFromObject.keys.front());
 }
 
 /// Largest factor by which lengths grow, from above: the Frobenius norm, exact within sqrt(3).

@@ -1,6 +1,7 @@
 // Objects that share their shapes (ObjectInstance) are tessellated once, in object space, as finely as the one of them that
 // looks largest asks.
-// Not shared: what moves, emits, or is displaced for rays, because each such object has polygons of its own.
+// Not shared: what moves, emits, or is displaced for rays, because each such object has polygons of its own; parts of solids and
+// what fades into another level of detail.
 // Threads: immutable once made.
 #pragma once
 #include "raytrace/tessellate.h"

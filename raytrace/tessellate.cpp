@@ -121,12 +121,13 @@ class Tessellator {
       return;
     }
     const auto first = static_cast<uint32_t>(out.P.size());
+    const float side = o.subtracted ? -1.0f : 1.0f;
     out.laterP.resize(static_cast<size_t>(g.keyCount) - 1);
     for (int j = 0; j <= nv; ++j)
       for (int i = 0; i <= nu; ++i) {
         const int k = 2 * j * (2 * nu + 1) + 2 * i;
         out.P.push_back(g.position(0, k));
-        out.N.push_back(normalizeOr(g.normal(k), vec3(0)));
+        out.N.push_back(side * normalizeOr(g.normal(k), vec3(0)));
         for (int key = 1; key < g.keyCount; ++key) out.laterP[static_cast<size_t>(key) - 1].push_back(g.position(key, k));
       }
     out.lattices.push_back({object, patch, rect, static_cast<uint32_t>(nu), static_cast<uint32_t>(nv),
@@ -274,14 +275,21 @@ bool raysNeed(const Attributes& a) {
 std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, const ShadingSystem& shading,
                                     Log& log, const std::vector<bool>& elsewhere) {
   std::vector<Work> work;
-  for (size_t i = 0; i < scene.objects.size(); ++i)
-    if (raysNeed(*scene.objects[i].attributes) && (elsewhere.empty() || !elsewhere[i])) addWork(scene, i, work);
+  for (size_t i = 0; i < scene.objects.size(); ++i) {
+    // What no ray may see still cuts its solid.
+    const bool needed = scene.objects[i].solid >= 0 || raysNeed(*scene.objects[i].attributes);
+    if (needed && (elsewhere.empty() || !elsewhere[i])) addWork(scene, i, work);
+  }
   std::vector<CoarseGroup> pieces = tessellateAll(scene, camera, shading, work, log);
   std::vector<CoarseGroup> groups(scene.groups.size());
+  for (size_t g = 0; g < groups.size(); ++g) {
+    groups[g].detail = scene.groups[g].attributes->detail;
+    groups[g].solid = scene.groups[g].solid;
+  }
   for (size_t w = 0; w < work.size(); ++w) {
     const Object& o = scene.objects[static_cast<size_t>(work[w].object)];
     CoarseGroup& group = groups[static_cast<size_t>(o.group)];
-    group.flipsNormal = o.flipsNormal;
+    group.flipsNormal = o.flipsNormal != o.subtracted;
     if (work[w].first == 0) group.size = std::max(group.size, diagonalOf(o));
     if (!pieces[w].P.empty()) append(group, pieces[w]);
     pieces[w] = {};

@@ -33,6 +33,8 @@ struct CoarseGroup {
   std::vector<uint32_t> latticeOfQuad;
   std::vector<Lattice> lattices;
   bool trimmed = false;      ///< Trim curves cut some quad.
+  DetailShare detail;        ///< Rays of other shares pass through.
+  bool solid = false;        ///< Parts of solids: what rays meet is decided in solid_hits.h.
   bool flipsNormal = false;  ///< The RISpec side is opposite to dP/du x dP/dv.
   float deviation =
       0;           ///< Largest distance between a coarse polygon and the micropolygons that stand for it.

@@ -54,8 +54,12 @@ std::vector<uint32_t> groupsOfInstances(const Scene& scene, const SharedShapes& 
   return groups;
 }
 
-/// A list for each thread: no allocation once it has grown.
+/// Lists for each thread: no allocation once they have grown.
 HitList& scratchList() {
+  thread_local HitList list;
+  return list;
+}
+HitList& scratchSurfaces() {
   thread_local HitList list;
   return list;
 }
@@ -69,7 +73,10 @@ RayScene::Impl::Impl(const Scene& s, const Camera& camera, const ShadingSystem& 
       shapes(shareShapes(s, camera, shading, log)),
       groups(coarseGroups(s, camera, shading, shapes, log)),
       opacityIsConstant(constantOpacityOf(s, shading)),
-      embree(groups, shapes, groupsOfInstances(s, shapes), masksOf(s), opaqueOf(s, opacityIsConstant), log),
+      masks(masksOf(s)),
+      opaque(opaqueOf(s, opacityIsConstant)),
+      embree(groups, shapes, groupsOfInstances(s, shapes), masks, opaque, false, log),
+      solids(s, groups, masks, log),
       emitters(s, groups),
       displacementBounds(groups.size(), 0.0f) {
   for (const Object& o : scene.objects)
@@ -82,6 +89,27 @@ RayScene::Impl::Impl(const Scene& s, const Camera& camera, const ShadingSystem& 
     if (const int light = o.attributes->areaLight; light >= 0 && !emitters.shines(light))
       log.report(Severity::Warning, "light-no-area", o.where,
                  objectName(o) + ": the geometry of its area light has no area; it casts no light");
+  for (const Object& o : scene.objects)
+    if (o.solid >= 0 && o.attributes->areaLight >= 0)
+      log.report(Severity::Warning, "light-in-solid", o.where,
+                 objectName(o) + ": part of a solid and of an area light: it shines from the whole of its surface, also from "
+                                 "where the solid takes it away");
+}
+
+bool RayScene::Impl::addSolids(const Ray& ray, float window, uint32_t mask, HitList& list, bool found,
+                               PolygonHit& beyond) const {
+  if (solids.none()) return found;
+  HitList& surfaces = scratchSurfaces();
+  solids.surfaces(ray, window, mask, surfaces);
+  for (const PolygonHit& s : surfaces) {
+    if (s.t <= window) {
+      list.push_back(s);
+      continue;
+    }
+    if (!found || s.t < beyond.t) beyond = s;
+    return true;
+  }
+  return found;
 }
 
 Hit RayScene::Impl::resolve(const PolygonHit& polygon) const {
@@ -106,7 +134,7 @@ Hit RayScene::Impl::resolve(const PolygonHit& polygon) const {
 RayScene::RayScene(const Scene& scene, const Camera& camera, const ShadingSystem& shading, bool hitList,
                    Stats& stats, Log& log)
     : impl_(std::make_unique<Impl>(scene, camera, shading, hitList, log)) {
-  size_t polygons = 0, bytes = impl_->embree.bytes();
+  size_t polygons = 0, bytes = impl_->embree.bytes() + impl_->solids.bytes();
   for (const auto* meshes : {&impl_->groups, &impl_->shapes.masters})
     for (const CoarseGroup& g : *meshes) polygons += g.quads.size(), bytes += g.bytes();
   stats.raytrace.coarsePolygons += static_cast<int64_t>(polygons);
@@ -118,9 +146,14 @@ RayScene::~RayScene() = default;
 Hit RayScene::closest(const Ray& ray, RayMask mask) const {
   if (!traceable(ray)) return {};
   PolygonHit hit;
-  if (!(ray.offset > 0)) return impl_->embree.nearest(ray, mask, hit) ? impl_->resolve(hit) : Hit{};
   HitList& list = scratchList();
-  const bool beyond = impl_->embree.nearestBeyond(ray, recordingWindow(ray.offset), mask, list, hit);
+  if (!(ray.offset > 0)) {
+    const bool found = impl_->embree.nearest(ray, mask, hit);
+    return impl_->addSolids(ray, std::max(ray.bias, 0.0f), mask, list, found, hit) ? impl_->resolve(hit) : Hit{};
+  }
+  const float window = recordingWindow(ray.offset);
+  const bool beyond =
+      impl_->addSolids(ray, window, mask, list, impl_->embree.nearestBeyond(ray, window, mask, list, hit), hit);
   sortAlongRay(list);
   const RayStart start = startOf(ray);
   const int origin = effectiveOrigin(list, start), next = nextHit(list, origin, start);

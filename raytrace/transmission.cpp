@@ -6,6 +6,19 @@ namespace {
 
 constexpr float kFarEnd = 1e-4f;  ///< Share of a shadow ray that ends before the light, not to meet its surface.
 
+/// Adds the surfaces of solids to the list; false if one is opaque beyond the window.
+bool addSolids(const RayScene::Impl& scene, const Ray& ray, float window, HitList& list) {
+  if (scene.solids.none()) return true;
+  thread_local HitList surfaces;
+  scene.solids.surfaces(ray, std::max(window, 0.0f), kMaskTransmission, surfaces);
+  for (const PolygonHit& s : surfaces) {
+    if (window < 0 && s.t <= ray.bias) continue;
+    if (s.t > window && scene.opaque[s.group]) return false;
+    list.push_back(s);
+  }
+  return true;
+}
+
 /// The surfaces that one ray goes through, in order.
 struct Layers {
   bool blocked = false;
@@ -18,7 +31,9 @@ Layers layersOf(const RayScene::Impl& scene, const Ray& ray) {
   shortened.tMax *= 1 - kFarEnd;
   const bool offsetting = ray.offset > 0;
   const float window = offsetting ? recordingWindow(ray.offset) : -1.0f;
-  Layers out{scene.embree.blockedBeyond(shortened, window, kMaskTransmission, list), {}};
+  Layers out;
+  out.blocked =
+      scene.embree.blockedBeyond(shortened, window, kMaskTransmission, list) || !addSolids(scene, shortened, window, list);
   if (out.blocked) return out;
   sortAlongRay(list);
   const RayStart start = startOf(ray);

@@ -4,7 +4,8 @@ namespace tomales {
 
 Camera::Camera(const Options& o)
     : xResolution_(o.xResolution), yResolution_(o.yResolution),
-      perspective_(o.projection == ProjectionKind::Perspective), near_(o.nearClip), far_(o.farClip) {
+      perspective_(o.projection == ProjectionKind::Perspective), near_(o.nearClip), far_(o.farClip),
+      planes_(o.clippingPlanes) {
   const float x = static_cast<float>(xResolution_), y = static_cast<float>(yResolution_);
   const float aspect = o.frameAspect.value_or(x * o.pixelAspect / y);
   // fov spans the smaller image dimension: screen space is +-1 along it (RISpec 3.2 section 4.1.2).
@@ -30,7 +31,7 @@ Camera::Camera(const Options& o)
 }
 
 bool Camera::rasterBound(const Bound3& b, Bound2& out) const {
-  if (perspective_ && b.lo.z < near_) return false;
+  if (perspective_ && b.lo.z < eyePlane()) return false;
   out = {};
   // For fixed x the reach to either side is convex in 1/z, so its extremes are at corners.
   for (int i = 0; i < 8; ++i) {
@@ -42,8 +43,28 @@ bool Camera::rasterBound(const Bound3& b, Bound2& out) const {
   return true;
 }
 
+bool Camera::clips(const vec3& p) const {
+  return p.z < near_ || p.z > far_ ||
+         std::any_of(planes_.begin(), planes_.end(), [&](const vec4& plane) { return dot(plane, vec4(p, 1)) > 0; });
+}
+
+bool Camera::clips(const vec2& at, const vec2& lens, float key) const {
+  const float z = zFromDepthKey(key);
+  const vec2 p = (at - lens * (key - focusKey_) - offset_) / scale_;
+  return clips(vec3(perspective_ ? p * z : p, z));
+}
+
 bool Camera::outside(const Bound3& b, const PixelRect& window) const {
-  if (b.empty() || b.hi.z < near_ || b.lo.z > far_) return true;
+  const auto beyond = [&](const vec4& plane) {
+    // The corner that lies least to the side that is cut off.
+    const vec3 least(plane.x > 0 ? b.lo.x : b.hi.x, plane.y > 0 ? b.lo.y : b.hi.y, plane.z > 0 ? b.lo.z : b.hi.z);
+    return dot(plane, vec4(least, 1)) > 0;
+  };
+  return b.lo.z > far_ || std::any_of(planes_.begin(), planes_.end(), beyond) || outsideWindow(b, window);
+}
+
+bool Camera::outsideWindow(const Bound3& b, const PixelRect& window) const {
+  if (b.empty() || b.hi.z < near_) return true;
   // raster_x >= x0  <=>  scale * x + (offset - x0) * z >= 0 for z > 0: a half space through the eye. The frustum is the
   // intersection of four of them, so a box wholly outside one of them is wholly outside. Defocus adds up to
   // lens * |z * focusKey + 1| on either side, which is convex in z: corners tell the most.

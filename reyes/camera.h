@@ -18,15 +18,24 @@ class Camera {
   float nearClip() const { return near_; }
   float farClip() const { return far_; }
 
-  /// Finite, and not nearer than the near plane: `raster` is defined and so is the depth key.
-  bool seeable(const vec3& p) const { return isFinite(p) && !(perspective_ && p.z < near_); }
+  /// What is nearer cannot be diced: half as far as the near plane, so that what that one cuts can be.
+  float eyePlane() const { return 0.5f * near_; }
+  /// Finite, and not nearer than the eye plane: `raster` is defined and so is the depth key.
+  bool seeable(const vec3& p) const { return isFinite(p) && !(perspective_ && p.z < eyePlane()); }
   /// Raster x, y. Pre: p.z > 0 under perspective.
   vec2 raster(const vec3& p) const {
     const float w = perspective_ ? 1.0f / p.z : 1.0f;
     return {offset_.x + scale_.x * p.x * w, offset_.y + scale_.y * p.y * w};
   }
+  /// Near and far clipping and clipping planes: is a point cut off? Not tested against the window.
+  bool clips(const vec3& p) const;
+  /// The same for what a sample at raster position `at` meets at a depth key, through the point of the lens that shifts by `lens`
+  /// what has a key of focusKey() + 1.
+  bool clips(const vec2& at, const vec2& lens, float key) const;
   /// A depth that grows with distance and is linear in raster space: -1/z under perspective, z otherwise.
   float depthKey(float z) const { return perspective_ ? -1.0f / z : z; }
+  /// The least key of what is no nearer than z and not clipped, also where z lies behind the eye.
+  float leastDepthKey(float z) const { return perspective_ ? -1.0f / std::max(z, near_) : z; }
   float zFromDepthKey(float key) const { return perspective_ ? -1.0f / key : key; }
 
   /// How far, in raster x and y, the rim of the lens moves what has this depth key; 0 on the focal plane, negative
@@ -37,13 +46,15 @@ class Camera {
   vec2 lens() const { return lens_; }
   float focusKey() const { return focusKey_; }
 
-  /// Conservative raster bound of a camera-space box, defocus included. False where it reaches nearer than `nearClip`
+  /// Conservative raster bound of a camera-space box, defocus included. False where it reaches nearer than `eyePlane`
   /// under perspective: the box must be split or culled first.
   bool rasterBound(const Bound3& b, Bound2& out) const;
 
   /// True only if no point of the box can be seen through `window`: outside a side of the frustum, nearer than
-  /// `nearClip` or beyond `farClip`; defocus included. Works for boxes that cross the eye plane.
+  /// `nearClip`, beyond `farClip` or a clipping plane; defocus included. Works for boxes that cross the eye plane.
   bool outside(const Bound3& b, const PixelRect& window) const;
+  /// The same but for `farClip` and clipping planes: what a line through the window does not meet.
+  bool outsideWindow(const Bound3& b, const PixelRect& window) const;
 
   /// Width in camera space of one pixel's footprint at p, seen face on; `size / |cos|` of the viewing angle along
   /// the slope gives the projected area of approximate-gi section 4.5.
@@ -64,6 +75,7 @@ class Camera {
   vec2 lens_{0};       ///< Raster shift at the lens's rim for one unit of depth key; 0: a pinhole.
   float focusKey_ = 0;
   PixelRect crop_;
+  std::vector<vec4> planes_;
 };
 
 }  // namespace tomales

@@ -23,11 +23,12 @@ class SamplePattern {
   const float* time(int pattern) const;           ///< In [0,1) of the shutter.
   const float* lensX(int pattern) const;          ///< In the unit disk, over the aperture.
   const float* lensY(int pattern) const;
+  const float* detail(int pattern) const;         ///< In [0,1): what DetailShare divides; those of a pixel are stratified.
 
  private:
   int count_, padded_;
   uint32_t seed_;
-  AlignedVector<float> x_, y_, time_, lensX_, lensY_;
+  AlignedVector<float> x_, y_, time_, lensX_, lensY_, detail_;
 };
 
 struct BlurBounds;
@@ -38,6 +39,9 @@ struct RasterGrid {
   bool opaque = true;           ///< Hides what is behind it.
   bool matte = false;
   int sides = 2;
+  DetailShare detail;           ///< Only samples of this share see it.
+  bool clipped = false;         ///< Some vertex is cut off by the near or far plane or a ClippingPlane.
+  bool inSolid = false;         ///< Its hits are crossings for reyes/hide/solids.cpp, and hide nothing before.
   bool smooth = false;          ///< ShadingInterpolation
   bool defocused = false;       ///< Some vertex moves visibly with the point of the lens.
   std::shared_ptr<const BlurBounds> blur;  ///< Null if still and in focus.
@@ -48,8 +52,10 @@ struct RasterGrid {
   const Prim* trim = nullptr;   ///< Asked what trim curves leave of Grid::kept cells; null: nothing is cut.
   float trimReach_px = 0;       ///< What is left reaches this much farther, to meet what a neighbour leaves.
 };
-/// Pre: every vertex of a cell that Grid::kept keeps is Camera::seeable.
-std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene, const Camera& camera, bool opaque);
+/// Pre: every vertex of a cell that Grid::kept keeps is Camera::seeable. zMin: nearest camera z of the solid that the grid
+/// belongs to.
+std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene, const Camera& camera, bool opaque,
+                                          float zMin = kInfinity);
 
 class Hider {
  public:

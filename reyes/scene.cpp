@@ -90,6 +90,7 @@ void Scene::derive(Procedural& p) const {
 }
 
 void Scene::findGroup(Object& o, int index) {
+  o.subtracted = o.solid >= 0 && solids[static_cast<size_t>(o.solid)].subtracted(o.solidBlock);
   const mat4 m = o.cameraFromObject.at(options.shutterOpen);
   const Motion currentFromOpen =
       o.currentFromObject.moving() ? o.currentFromObject * Motion::still(glm::inverse(m)) : Motion();
@@ -97,12 +98,14 @@ void Scene::findGroup(Object& o, int index) {
   const auto [begin, end] = groupsByAttributes_.equal_range(o.attributes.get());
   for (auto it = begin; it != end && o.group < 0; ++it) {
     const ShadeGroup& g = groups[static_cast<size_t>(it->second)];
-    if (g.cameraFromObject == m && g.currentFromOpen == currentFromOpen && sameLayout(g.primvars, o.shape().primvars())) o.group = it->second;
+    if (g.solid == (o.solid >= 0) && g.subtracted == o.subtracted && g.cameraFromObject == m &&
+        g.currentFromOpen == currentFromOpen && sameLayout(g.primvars, o.shape().primvars()))
+      o.group = it->second;
   }
   if (o.group >= 0) return;
   o.group = static_cast<int>(groups.size());
   groupsByAttributes_.emplace(o.attributes.get(), o.group);
-  ShadeGroup g{o.attributes, m, {}, index, currentFromOpen};
+  ShadeGroup g{o.attributes, m, {}, index, currentFromOpen, o.solid >= 0, o.subtracted};
   for (const Primvar& p : o.shape().primvars()) g.primvars.push_back({p.name, p.storage, p.type, p.width, {}});
   groups.push_back(std::move(g));
 }
@@ -127,6 +130,17 @@ Expansion Scene::opened(const Procedural& procedural) const {
   for (Object& o : out.objects) derive(o), o.name = hashCombine(procedural.name, number++);
   for (Procedural& p : out.procedurals) derive(p), p.name = hashCombine(procedural.name, number++);
   return out;
+}
+
+std::vector<int> Scene::add(Expansion& expansion) {
+  const int firstSolid = static_cast<int>(solids.size());
+  for (Solid& s : expansion.solids) solids.push_back(std::move(s));
+  std::vector<int> added;
+  for (Object& o : expansion.objects) {
+    if (o.solid >= 0) o.solid += firstSolid;
+    added.push_back(add(std::move(o)));
+  }
+  return added;
 }
 
 int Scene::add(Object object) {
@@ -158,7 +172,7 @@ void Scene::open(const std::function<bool(const Attributes&)>& wanted) {
       for (size_t i = begin; i < end; ++i) expansions[i] = opened(now[i]);
     });
     for (Expansion& e : expansions) {
-      for (Object& o : e.objects) add(std::move(o));
+      add(e);
       procedurals.insert(procedurals.end(), std::make_move_iterator(e.procedurals.begin()),
                          std::make_move_iterator(e.procedurals.end()));
     }

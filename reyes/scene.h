@@ -8,6 +8,7 @@
 #include "reyes/base/stable_vector.h"
 #include "reyes/camera.h"
 #include "reyes/prim.h"
+#include "reyes/solid.h"
 
 namespace tomales {
 
@@ -19,6 +20,8 @@ struct Object {
   Motion worldFromObject;
   std::shared_ptr<const Attributes> attributes;
   SourceLoc where;
+  int solid = -1;                ///< In Scene::solids: part of the surface of
+  int solidBlock = -1;           ///< this primitive of it.
 
   // Filled by Scene::freeze().
   Motion cameraFromObject;       ///< Over the shutter; one key when nothing moves.
@@ -26,19 +29,23 @@ struct Object {
   std::vector<float> keyTimes;   ///< Union of transformation and deformation keys inside the shutter; front() is its opening.
   float displacementBound = 0;   ///< Camera space.
   bool flipsNormal = false;      ///< cameraFromObject mirrors, or Orientation is inside (not both).
+  bool subtracted = false;       ///< Its solid lies on the side of its normals, which are turned for shading.
   int group = -1;                ///< Its ShadeGroup.
   uint32_t name = 0;             ///< For random numbers: the same for any order in which procedurals are opened.
 
   const Prim& shape() const { return *shapes.front(); }
 };
 
-/// Objects whose points may be shaded together: the same attributes, transformation, motion and primvar names.
+/// Objects whose points may be shaded together: the same attributes, transformation, motion and primvar names, and alike in or
+/// outside of solids.
 struct ShadeGroup {
   std::shared_ptr<const Attributes> attributes;
   mat4 cameraFromObject{1.0f};
   std::vector<Primvar> primvars;  ///< Layout only: name, storage, type, width; no values.
   int exampleObject = -1;         ///< Some object of the group, for messages.
   Motion currentFromOpen{};       ///< Takes places of the group at shutter open to where they are at a time, the camera held still.
+  bool solid = false;             ///< Parts of solids.
+  bool subtracted = false;        ///< As Object::subtracted.
 };
 
 struct Expansion;
@@ -63,12 +70,14 @@ struct Procedural {
 struct Expansion {
   std::vector<Object> objects;
   std::vector<Procedural> procedurals;
+  std::vector<Solid> solids{};  ///< Those that Object::solid counts.
 };
 
 struct Scene {
   Options options;
   Motion cameraFromWorld;
   StableVector<Object> objects;
+  StableVector<Solid> solids;
   std::vector<Procedural> procedurals;         ///< Not opened yet.
   std::vector<std::shared_ptr<LightCall>> lights;
   std::map<std::string, mat4> worldFromNamed;  ///< CoordinateSystem
@@ -81,8 +90,8 @@ struct Scene {
   bool shutterIsOpen() const { return options.shutterClose > options.shutterOpen; }  ///< Else nothing is blurred.
   /// Opens a procedural; what comes out has its derived fields but for its groups. Changes nothing here.
   Expansion opened(const Procedural& procedural) const;
-  /// An object of opened(): its index, and its group. ShadingSystem::bindNewGroups comes next.
-  int add(Object object);
+  /// Takes the objects of opened(), and their solids, and finds their groups: their indices. ShadingSystem::bindNewGroups comes next.
+  std::vector<int> add(Expansion& expansion);
   /// Forgets the shapes of an object of add() that nobody needs any more.
   void drop(int object);
   /// Replaces procedurals that are wanted by what they stand for, those within included. Before any object is used.
@@ -95,6 +104,7 @@ struct Scene {
  private:
   void derive(Object& object) const;
   void derive(Procedural& procedural) const;
+  int add(Object object);
   void findGroup(Object& object, int index);
   float displacementBoundOf(const Attributes& attributes, const mat4& cameraFromObject) const;
 

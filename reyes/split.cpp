@@ -110,18 +110,18 @@ class Splitter {
       if (cannotBeSeen(bare)) return;
     }
     const Bound3 bound = bare.grown(object_.displacementBound);
-    const bool crossesNear = crosses(bare);
+    const bool crossesEye = crosses(bare);
     const float blur = coarsening(patch, rect, bound);
     const bool binary = object_.attributes->binaryDice;
     const int nu = cells(size.u_px, edge_px_, blur, binary), nv = cells(size.v_px, edge_px_, blur, binary);
     if (static_cast<int64_t>(nu) * nv <= gridSize_) {
-      // What moves through the near plane does so however small it is; it is seen while it stays in front.
-      if (crossesNear && !still) ++givenUp_.atEye;
-      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound), bound.lo.z, crossesNear});
+      // What moves through the eye plane does so however small it is; it is seen while it stays in front.
+      if (crossesEye && !still) ++givenUp_.atEye;
+      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound), bound.lo.z, crossesEye});
     } else if (depth == kMaxDepth) {
       ++(bound.lo.z < glm::length(bound.size()) ? givenUp_.atEye : givenUp_.tooMany);
     } else {
-      const bool alongU = crossesNear ? size.u_length >= size.v_length : nu >= nv;
+      const bool alongU = crossesEye ? size.u_length >= size.v_length : nu >= nv;
       const auto [a, b] = halves(rect, alongU);
       split(patch, a, depth + 1, out);
       split(patch, b, depth + 1, out);
@@ -130,10 +130,12 @@ class Splitter {
 
   bool cannotBeSeen(const Bound3& bare) const {
     const Bound3 bound = bare.grown(object_.displacementBound);
-    return !isFinite(bound.lo) || !isFinite(bound.hi) || camera_.outside(bound, window_);
+    if (!isFinite(bound.lo) || !isFinite(bound.hi)) return true;
+    // Solids are cut off where their surface is known, not before.
+    return object_.solid < 0 ? camera_.outside(bound, window_) : camera_.outsideWindow(bound, window_);
   }
-  /// No halving shrinks a displacement bound: what it alone brings to the near plane does not count.
-  bool crosses(const Bound3& bare) const { return camera_.perspective() && bare.lo.z < camera_.nearClip(); }
+  /// No halving shrinks a displacement bound: what it alone brings to the eye plane does not count.
+  bool crosses(const Bound3& bare) const { return camera_.perspective() && bare.lo.z < camera_.eyePlane(); }
 
   /// Of what lies beyond the near plane.
   Bound2 rasterOf(Bound3 bound) const {
@@ -230,13 +232,13 @@ PatchSize measure(const Object& o, const Camera& camera, uint32_t patch, const U
 }
 
 std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
-                                  float margin, const Camera& camera, const PixelRect& window) {
+                                  float margin, const Camera& camera, const PixelRect& window, bool clipped) {
   Bound3 bound;
   for (const float t : keyTimes) bound.extend(transformBound(cameraFromObject.at(t), box));
   bound = bound.grown(margin);
   const Placement anywhere{{{window.x0, window.y0}, {window.x1, window.y1}}, -kInfinity};
   if (!isFinite(bound.lo) || !isFinite(bound.hi)) return anywhere;  // one bad patch must not take its neighbours along
-  if (camera.outside(bound, window)) return std::nullopt;
+  if (clipped ? camera.outside(bound, window) : camera.outsideWindow(bound, window)) return std::nullopt;
   Placement out{{}, bound.lo.z};
   if (!camera.rasterBound(bound, out.raster)) out.raster = anywhere.raster;
   out.raster.lo -= vec2(kRasterMargin_px);

@@ -19,7 +19,7 @@ struct SubPatch {
   int nu, nv;
   Bound2 raster;    ///< Conservative, over the shutter, displacement included.
   float zMin;       ///< Nearest camera z, likewise.
-  bool crossesNear = false;  ///< Some of it lies nearer than the near plane, and micropolygons there are to be left out.
+  bool crossesEye = false;  ///< Some of it lies nearer than Camera::eyePlane, and micropolygons there are to be left out.
 };
 
 /// Where something may be seen, over the shutter, displacement and defocus included.
@@ -29,9 +29,9 @@ struct Placement {
 };
 
 /// Of a box in the space of `cameraFromObject`, at `keyTimes`, that displacement may leave by `margin` (camera space).
-/// `window`: raster pixels that have samples. Nothing: no point of it can be seen there.
+/// `window`: raster pixels that have samples. Nothing: no point of it can be seen there; not `clipped`: no line meets it there.
 std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
-                                  float margin, const Camera& camera, const PixelRect& window);
+                                  float margin, const Camera& camera, const PixelRect& window, bool clipped = true);
 
 /// Splits some patches of an object; what lies wholly outside the window is culled. Order: as given,
 /// then by place.

@@ -118,6 +118,8 @@ struct Options {
   int gridSize = 256;                                      ///< Most micropolygons in a grid.
   std::string hider = "hidden";
   bool jitter = true;
+  float relativeDetail = 1;                                ///< Factor of every level-of-detail ruler.
+  std::vector<vec4> clippingPlanes;                        ///< Camera space: a point p with dot(plane, (p, 1)) > 0 is not seen.
   int frame = 0;
   std::map<std::string, std::string> searchPaths;          ///< "archive", "texture", "shader", "display", ...
   std::map<std::string, Param> user;                       ///< "category:name" of options that shaders may read
@@ -133,6 +135,16 @@ struct Visibility {
   bool operator==(const Visibility&) const = default;
 };
 
+/// The part of 0..1 at which something is there: each sample and each ray has a number there, so that levels of detail that
+/// fade into each other divide them without overlap.
+struct DetailShare {
+  float lo = 0, hi = 1;
+  bool operator==(const DetailShare&) const = default;
+  bool whole() const { return lo <= 0 && hi >= 1; }
+  bool empty() const { return !(lo < hi); }
+  bool contains(float x) const { return x >= lo && x < hi; }
+};
+
 /// Immutable once a primitive refers to it; consecutive primitives share one.
 struct Attributes {
   vec3 color{1.0f}, opacity{1.0f};
@@ -142,6 +154,7 @@ struct Attributes {
   ShadingInterpolation interpolation = ShadingInterpolation::Constant;
   bool matte = false;
   int sides = 2;
+  DetailShare detail;                                       ///< Detail and DetailRange
   bool insideOut = false;                                   ///< Orientation differs from "outside".
   std::string name;                                         ///< Attribute "identifier" "name"
   std::set<std::string> membership;                         ///< Attribute "grouping" "membership": the sets it is in

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "reyes/app/atlas_commands.h"
 #include "reyes/app/catrib.h"
 #include "reyes/app/info.h"
 #include "reyes/app/render.h"
@@ -108,6 +109,9 @@ void addRunOptions(CLI::App& app, RenderSettings& s) {
 struct Invocation {
   RenderSettings render;
   CatribSettings catrib;
+  IrradianceCommand irradiance;
+  BrickmakeCommand brickmake;
+  ViewCommand view;
   std::string first, second, difference;
   bool json = false;
 };
@@ -191,8 +195,45 @@ void buildCatrib(CLI::App& app, Invocation& in, int& code) {
   c->callback([&] { code = catribCommand(in.catrib); });
 }
 
+void buildAtlas(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* photons = app.add_subcommand("photons", "Photon maps of a scene, one file for each group of objects");
+  photons->add_option("-o", in.render.output, "Folder to write to")->required()->type_name("FOLDER");
+  addLightOptions(*photons, in.render);
+  addRunOptions(*photons, in.render);
+  photons->add_option("SCENE", in.render.files, "RIB files")->required();
+  photons->callback([&] { code = photonsCommand(in.render); });
+
+  CLI::App* irradiance = app.add_subcommand("irradiance", "Irradiance (W/m2) and area at photons: point clouds of disks");
+  irradiance->add_option("FILES", in.irradiance.inputs, "Photon maps, or folders of them")->required();
+  irradiance->add_option("-o", in.irradiance.output, "Folder to write to")->required()->type_name("FOLDER");
+  irradiance->add_option("--nearest", in.irradiance.settings.nearest, "Photons of one estimate")->check(CLI::Range(2, 100000));
+  irradiance->add_option("--every", in.irradiance.settings.every, "One estimate for so many photons")->check(CLI::Range(1, 100000));
+  irradiance->callback([&] { code = irradianceCommand(in.irradiance); });
+
+  CLI::App* bricks = app.add_subcommand("brickmake", "Brick maps of point clouds");
+  bricks->add_option("FILES", in.brickmake.inputs, "Point clouds, or folders of them")->required();
+  bricks->add_option("-o", in.brickmake.output, "FILE.bkm for all, or a folder for one each")->required();
+  bricks->add_option("--maxerror", in.brickmake.settings.maxError, "Variation that needs no finer bricks")->check(CLI::Range(0.0, 1e9));
+  bricks->add_flag("--relative", in.brickmake.relative, "maxerror is a share of the mean of the data");
+  bricks->add_option("--maxdepth", in.brickmake.settings.maxDepth, "Most levels below the first")->check(CLI::Range(0, 20));
+  bricks->add_option("--radiusscale", in.brickmake.settings.radiusScale, "Scale of the points' radii")->check(CLI::Range(1e-3, 1e3));
+  bricks->add_flag("--ignorenormals", in.brickmake.settings.ignoreNormals, "The data fill a volume");
+  bricks->callback([&] { code = brickmakeCommand(in.brickmake); });
+
+  CLI::App* view = app.add_subcommand("view", "A picture of a point cloud, photon map or brick map");
+  view->add_option("FILE", in.view.input)->required();
+  addParsed(*view, "-o", in.view.output, parseOutput, "FILE.png|.exr|.tif", "The picture");
+  view->add_option("--channel", in.view.channel, "Channel to show; also normal, radius (default: the first)");
+  view->add_option("--level", in.view.level, "Level of a brick map, 0 the coarsest (default: the finest)");
+  view->add_option("--camera", in.view.camera, "Look with the camera of this RIB file")->type_name("SCENE.rib");
+  view->add_option("--gain", in.view.gain, "Multiplies the values (default: so that they can be seen)");
+  addParsed(*view, "--format", in.view.size, [](const std::string& t) { return parsePair(t, 1, 16384); }, "WxH", "Resolution in pixels");
+  view->callback([&] { code = viewCommand(in.view); });
+}
+
 bool namesCommand(const std::string& text) {
-  for (const char* name : {"render", "hide", "gather", "shade", "info", "compare", "catrib", "-h", "--help", "--version"})
+  for (const char* name : {"render", "hide", "gather", "shade", "photons", "irradiance", "brickmake", "view", "info", "compare",
+                           "catrib", "-h", "--help", "--version"})
     if (text == name) return true;
   return false;
 }
@@ -211,6 +252,7 @@ int parseAndRun(int argc, char** argv) {
   buildInfo(app, in, code);
   buildCompare(app, in, code);
   buildCatrib(app, in, code);
+  buildAtlas(app, in, code);
 
   std::vector<std::string> arguments(argv + 1, argv + argc);
   in.render.commandLine = "tomales";

@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "gi/brick_map.h"
 #include "gi/icf.h"
+#include "gi/point_file.h"
 #include "reyes/app/render.h"
 #include "reyes/dfb.h"
 #include "reyes/image.h"
@@ -211,7 +213,50 @@ void printText(const Json& j, int depth) {
   }
 }
 
+Json channelsOf(const std::vector<CloudChannel>& channels) {
+  Json out = Json::array();
+  for (const CloudChannel& c : channels) out.push_back({{"name", c.name}, {"floats", c.width}});
+  return out;
+}
+
+Json pointsInfo(const std::string& file) {
+  const PointFile points(file);
+  const Bound3 b = points.bound();
+  return {{"file", file},
+          {"kind", "points"},
+          {"points", points.count()},
+          {"channels", channelsOf(points.channels())},
+          {"bound", {{"min", {b.lo.x, b.lo.y, b.lo.z}}, {"max", {b.hi.x, b.hi.y, b.hi.z}}}},
+          {"chunks", points.chunkCount()},
+          {"bytes", points.fileBytes()}};
+}
+
+Json bricksInfo(const std::string& file) {
+  BrickCache cache;
+  const BrickMap map(file, cache);
+  const BrickCube& c = map.tree().cube;
+  return {{"file", file},
+          {"kind", "bricks"},
+          {"bricks", map.tree().nodes.size()},
+          {"levels", map.tree().nodes.empty() ? 0 : map.tree().deepest + 1},
+          {"channels", channelsOf(map.channels())},
+          {"cube", {{"corner", {c.lo.x, c.lo.y, c.lo.z}}, {"size", c.size}}},
+          {"bytes", map.fileBytes()}};
+}
+
+/// Files of our own that say themselves what is wrong with them.
+Json ownInfo(const std::string& file, Json (*infoOfKind)(const std::string&), Log& log) {
+  try {
+    return infoOfKind(file);
+  } catch (const FileError& e) {
+    log.report(Severity::Error, "file", {}, e.what());
+    return {};
+  }
+}
+
 Json infoOf(const std::string& file, Log& log) {
+  if (const auto extension = std::filesystem::path(file).extension(); extension == ".ptc" || extension == ".bkm")
+    return ownInfo(file, extension == ".ptc" ? pointsInfo : bricksInfo, log);
   if (namesPicture(file)) return imageInfo(file, log);
   if (file.ends_with(".dfb")) return dfbInfo(file, log);
   if (file.ends_with(".icf")) return icfInfo(file, log);

@@ -67,11 +67,14 @@ class PatchesNode : public OpeningNode {
  public:
   using Tree = std::shared_ptr<const PatchTree>;
 
+  /// zOfSolid: the nearest of the solid that the object is a part of. What that shows depends on all its pieces, so none may be
+  /// passed over before all are.
   static std::unique_ptr<HideNode> make(HideContext& context, int object, Tree tree, uint32_t level, uint32_t index,
-                                        const BucketRange& outer) {
+                                        const BucketRange& outer, float zOfSolid) {
     const Object& o = context.scene.objects[static_cast<size_t>(object)];
-    const auto place = placeBox(tree->box(level, index), o.cameraFromObject, o.keyTimes, o.displacementBound, context.camera,
-                                context.buckets.window());
+    auto place = placeBox(tree->box(level, index), o.cameraFromObject, o.keyTimes, o.displacementBound, context.camera,
+                          context.buckets.window(), o.solid < 0);
+    if (place && o.solid >= 0) place->zMin = zOfSolid;
     const BucketRange range = place ? outer & context.buckets.touched(place->raster) : BucketRange{};
     if (range.empty()) {
       ++context.stats.geometry.culled;
@@ -99,11 +102,13 @@ class PatchesNode : public OpeningNode {
     if (level_ > 0) {
       const uint32_t first = index_ * PatchTree::kFan, last = std::min(first + PatchTree::kFan, tree_->count(level_ - 1));
       for (uint32_t i = first; i < last; ++i)
-        if (auto node = make(context_, object_, tree_, level_ - 1, i, within)) out.push_back(std::move(node));
+        if (auto node = make(context_, object_, tree_, level_ - 1, i, within, zMin())) out.push_back(std::move(node));
       return out;
     }
-    for (const SubPatch& piece : splitPatches(context_.scene, object_, tree_->patches(index_), context_.camera,
-                                              context_.buckets.window(), context_.stats, context_.log)) {
+    const bool isSolid = context_.scene.objects[static_cast<size_t>(object_)].solid >= 0;
+    for (SubPatch& piece : splitPatches(context_.scene, object_, tree_->patches(index_), context_.camera,
+                                        context_.buckets.window(), context_.stats, context_.log)) {
+      if (isSolid) piece.zMin = zMin();
       const BucketRange touched = within & context_.buckets.touched(piece.raster);
       if (!touched.empty()) out.push_back(std::make_unique<PieceNode>(context_, piece, touched));
     }
@@ -115,24 +120,35 @@ class PatchesNode : public OpeningNode {
   const uint32_t level_, index_;
 };
 
-/// Nodes of the objects that the camera may see; instances share a tree.
-class ObjectNodes {
- public:
-  ObjectNodes(HideContext& context, const BucketRange& within) : context_(context), within_(within) {}
-  void add(int object, HideNodes& out) {
-    const Object& o = context_.scene.objects[static_cast<size_t>(object)];
-    if (!o.attributes->visibility.camera) return;
-    ++context_.stats.geometry.primitives;
-    auto& tree = trees_[o.shapes];
+/// Nodes of those of the objects that the camera may see or that cut what it may see; instances share a tree. Pre: the objects
+/// hold all parts of their solids.
+HideNodes nodesOf(HideContext& context, const std::vector<int>& objects, const BucketRange& within) {
+  std::map<std::vector<PrimPtr>, std::shared_ptr<const PatchTree>> trees;
+  std::map<int, float> zOfSolid;
+  const auto objectAt = [&](int i) -> const Object& { return context.scene.objects[static_cast<size_t>(i)]; };
+  std::vector<int> seen;
+  for (const int i : objects) {
+    const Object& o = objectAt(i);
+    if (o.solid < 0 && !o.attributes->visibility.camera) continue;
+    seen.push_back(i);
+    auto& tree = trees[o.shapes];
     if (!tree) tree = std::make_shared<const PatchTree>(o.shapes);
-    if (auto node = PatchesNode::make(context_, object, tree, tree->top(), 0, within_)) out.push_back(std::move(node));
+    if (o.solid < 0) continue;
+    float& z = zOfSolid.try_emplace(o.solid, kInfinity).first->second;
+    if (const auto place = placeBox(tree->box(tree->top(), 0), o.cameraFromObject, o.keyTimes, o.displacementBound,
+                                    context.camera, context.buckets.window(), false))
+      z = std::min(z, place->zMin);
   }
-
- private:
-  HideContext& context_;
-  const BucketRange within_;
-  std::map<std::vector<PrimPtr>, std::shared_ptr<const PatchTree>> trees_;
-};
+  HideNodes out;
+  for (const int i : seen) {
+    ++context.stats.geometry.primitives;
+    const Object& o = objectAt(i);
+    const auto& tree = trees[o.shapes];
+    const float z = o.solid >= 0 ? zOfSolid[o.solid] : -kInfinity;
+    if (auto node = PatchesNode::make(context, i, tree, tree->top(), 0, within, z)) out.push_back(std::move(node));
+  }
+  return out;
+}
 
 int64_t bytesOf(const std::set<PrimPtr>& shapes) {
   size_t bytes = 0;
@@ -163,12 +179,10 @@ class ProceduralNode : public OpeningNode {
     keepPeak(context_.stats.memoryBytes.geometry, context_.liveGeometry_bytes += bytes_);
     {
       const std::lock_guard lock(context_.growth);
-      for (Object& o : inside.objects) objects_.push_back(context_.scene.add(std::move(o)));
+      objects_ = context_.scene.add(inside);
       context_.shading.bindNewGroups();
     }
-    HideNodes out;
-    ObjectNodes nodes(context_, within);
-    for (const int object : objects_) nodes.add(object, out);
+    HideNodes out = nodesOf(context_, objects_, within);
     for (const Procedural& p : inside.procedurals)
       if (auto node = make(context_, p, within)) out.push_back(std::move(node));
     return out;
@@ -203,14 +217,11 @@ NodeList::NodeList(HideNodes nodes, const BucketRange& range, const BucketGrid& 
 }
 
 HideNodes nodesOfScene(HideContext& context) {
-  HideNodes out;
-  ObjectNodes nodes(context, context.buckets.all());
+  std::vector<int> objects(context.scene.objects.size());
+  std::iota(objects.begin(), objects.end(), 0);
   std::set<PrimPtr> shapes;
-  for (size_t i = 0; i < context.scene.objects.size(); ++i) {
-    const Object& o = context.scene.objects[i];
-    shapes.insert(o.shapes.begin(), o.shapes.end());
-    nodes.add(static_cast<int>(i), out);
-  }
+  for (const Object& o : context.scene.objects) shapes.insert(o.shapes.begin(), o.shapes.end());
+  HideNodes out = nodesOf(context, objects, context.buckets.all());
   keepPeak(context.stats.memoryBytes.geometry, context.liveGeometry_bytes += bytesOf(shapes));
   for (const Procedural& p : context.scene.procedurals)
     if (auto node = ProceduralNode::make(context, p, context.buckets.all())) out.push_back(std::move(node));

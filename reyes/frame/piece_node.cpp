@@ -31,14 +31,14 @@ std::shared_ptr<const RasterGrid> PieceNode::makeGrid() const {
   ++stats.geometry.gridsDiced;
   stats.geometry.micropolygonsDiced += grid->cellCount();
 
-  if (leaveOutUnseeable(*grid) && !piece_.crossesNear)
+  if (leaveOutUnseeable(*grid) && !piece_.crossesEye)
     context_.log.report(Severity::Warning, "grid-behind-eye", o.where,
                         fmt::format("{}: displaced vertices are not finite or lie behind the eye; the micropolygons there are "
                                     "left out (is displacementbound too small?)",
                                     objectName(o)));
   // Midpoints need what lies behind what is opaque.
   const bool hides = context_.shading.opaque(o.group) && context_.scene.options.depthFilter != DepthFilter::Midpoint;
-  auto raster = project(std::move(grid), context_.scene, context_.camera, hides);
+  auto raster = project(std::move(grid), context_.scene, context_.camera, hides, zMin());
   const auto bytes = static_cast<int64_t>(raster->grid->bytes());
   keepPeak(stats.memoryBytes.grids, context_.liveGrids_bytes += bytes);
   // Hiders keep grids longer than nodes do.

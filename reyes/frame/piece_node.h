@@ -15,7 +15,7 @@ class PieceNode : public HideNode {
  private:
   std::shared_ptr<const RasterGrid> acquire();
   std::shared_ptr<const RasterGrid> makeGrid() const;
-  /// Takes away the cells with vertices that are nearer than the near plane at some key or not finite. True if there are.
+  /// Takes away the cells with vertices that are nearer than the eye plane at some key or not finite. True if there are.
   bool leaveOutUnseeable(Grid& grid) const;
 
   HideContext& context_;

@@ -14,8 +14,7 @@ vec2 inTriangle(const vec2 p[3], const vec2 at[3], const vec2& x) {
 
 }  // namespace
 
-vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cell,
-                    const SamplePoint& sample) {
+SeenCell seenCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample) {
   const Grid& g = entry.grid();
   const RasterGrid& raster = *entry.raster;
   const std::vector<float>& keyTimes = entry.keyTimes;
@@ -28,14 +27,28 @@ vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cel
   const auto corner = [&](int v) {
     const size_t from = key * stride + static_cast<size_t>(v), to = next * stride + static_cast<size_t>(v);
     const vec2 at(lerp(raster.x[from], raster.x[to], t), lerp(raster.y[from], raster.y[to], t));
-    return raster.defocused ? at + sample.lens * (lerp(raster.d[from], raster.d[to], t) - camera.focusKey()) : at;
+    const float d = lerp(raster.d[from], raster.d[to], t);
+    return vec3(raster.defocused ? at + sample.lens * (d - camera.focusKey()) : at, d);
   };
-  const vec2 pa = corner(a), pb = corner(a + 1), pc = corner(a + row), pd = corner(a + row + 1);
+  return {corner(a), corner(a + 1), corner(a + row), corner(a + row + 1)};
+}
+
+vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cell,
+                    const SamplePoint& sample) {
+  const SeenCell seen = seenCell(entry, camera, cell, sample);
+  const vec2 pa(seen.a), pb(seen.b), pc(seen.c), pd(seen.d);
   const vec2 abc[3] = {pa, pb, pc}, abcUv[3] = {{0, 0}, {1, 0}, {0, 1}};
   const vec2 dcb[3] = {pd, pc, pb}, dcbUv[3] = {{1, 1}, {0, 1}, {1, 0}};
   vec2 uv = inTriangle(abc, abcUv, sample.at);
   if (uv.x + uv.y > 1) uv = inTriangle(dcb, dcbUv, sample.at);
   return uv;
+}
+
+float depthOnCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample) {
+  const SeenCell seen = seenCell(entry, camera, cell, sample);
+  const vec2 uv = positionOnCell(entry, camera, cell, sample);
+  if (uv.x + uv.y <= 1) return seen.a.z + (seen.b.z - seen.a.z) * uv.x + (seen.c.z - seen.a.z) * uv.y;
+  return seen.d.z + (seen.c.z - seen.d.z) * (1 - uv.x) + (seen.b.z - seen.d.z) * (1 - uv.y);
 }
 
 }  // namespace tomales

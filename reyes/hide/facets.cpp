@@ -211,6 +211,7 @@ void FacetTable::makePoints() {
 
 void FacetTable::fill(const Wishes& wishes, ShadePoints& points) const {
   Gathered gathered{};
+  const bool subtracted = scene_.groups[static_cast<size_t>(wishes.group)].subtracted;
   const int count = static_cast<int>(wishes.list.size()), floats = points.channelCount() - kFixedChannels;
   for (int first = 0; first < count; first += kLanes) {
     const int lanes = std::min(kLanes, count - first);
@@ -234,6 +235,9 @@ void FacetTable::fill(const Wishes& wishes, ShadePoints& points) const {
         }
       }
     }
+    if (subtracted)
+      for (auto& axis : gathered.N)
+        for (float& n : axis) n = -n;
     derive(gathered, camera_.perspective(), PointBlock(points, first));
   }
 }

@@ -2,6 +2,7 @@
 #include "reyes/hide/lattice.h"
 #include "reyes/hide/raster.h"
 #include "reyes/hide/resolve.h"
+#include "reyes/hide/solids.h"
 
 namespace tomales {
 namespace {
@@ -44,7 +45,7 @@ bool Hider::hidden(const Bound2& raster, float zMin) const {
   // What is in the bound may reach out of it when its border is pushed.
   const vec2 reach(kMaxReach_px + 1 / kLattice);
   const SampleBuffer& s = impl_->samples;
-  return s.hides(s.touched(raster.lo - reach, raster.hi + reach), impl_->camera.depthKey(zMin));
+  return s.hides(s.touched(raster.lo - reach, raster.hi + reach), impl_->camera.leastDepthKey(zMin));
 }
 
 void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
@@ -65,6 +66,7 @@ void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
 
 DeepTile Hider::resolve() {
   const std::unique_ptr<Impl> spent = std::move(impl_);
+  resolveSolids(spent->scene, spent->camera, spent->grids, spent->samples);
   return resolveTile(spent->scene, spent->camera, spent->grids, spent->samples);
 }
 

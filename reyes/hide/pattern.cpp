@@ -52,7 +52,7 @@ SamplePattern::SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t s
   const size_t size = static_cast<size_t>(kPatterns) * static_cast<size_t>(padded_);
   // Padding repeats the corner of the pixel; the hider gives those lanes a depth that nothing beats.
   x_.assign(size, 0), y_.assign(size, 0), time_.assign(size, 0), lensX_.assign(size, 0),
-      lensY_.assign(size, 0);
+      lensY_.assign(size, 0), detail_.assign(size, 0);
   const ApertureShape throughAperture(aperture);
   for (uint32_t p = 0; p < kPatterns; ++p) {
     const uint32_t name = hashCombine(seed, 0x70617474U, p);
@@ -61,6 +61,7 @@ SamplePattern::SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t s
     const Times times(xSamples, ySamples, name);
     // Which stratum of the lens a sample looks through has nothing to do with its place or time.
     const std::vector<int> throughLens = permutation(count_, hash32(name ^ 6U));
+    const std::vector<int> ofDetail = permutation(count_, hash32(name ^ 7U));
     for (int s = 0; s < count_; ++s) {
       const int i = s % xSamples, j = s / xSamples;
       const auto random = [&](uint32_t dimension) {
@@ -78,6 +79,7 @@ SamplePattern::SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t s
       const vec2 lens = throughAperture(
           {within(stratum % xSamples, xSamples, random(3)), within(stratum / xSamples, ySamples, random(4))});
       lensX_[at] = lens.x, lensY_[at] = lens.y;
+      detail_[at] = within(ofDetail[static_cast<size_t>(s)], count_, random(5));
     }
   }
 }
@@ -100,6 +102,10 @@ const float* SamplePattern::lensX(int pattern) const {
 }
 const float* SamplePattern::lensY(int pattern) const {
   return lensY_.data() + static_cast<ptrdiff_t>(pattern) * padded_;
+}
+
+const float* SamplePattern::detail(int pattern) const {
+  return detail_.data() + static_cast<ptrdiff_t>(pattern) * padded_;
 }
 
 }  // namespace tomales

@@ -92,21 +92,24 @@ void pushBorders(const Grid& g, float* x, float* y) {
 }  // namespace
 
 std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene,
-                                          const Camera& camera, bool opaque) {
+                                          const Camera& camera, bool opaque, float zMin) {
   auto r = std::make_shared<RasterGrid>();
   const Grid& g = *grid;
-  const Attributes& attributes = *scene.objects[static_cast<size_t>(g.object)].attributes;
+  const Object& object = scene.objects[static_cast<size_t>(g.object)];
+  const Attributes& attributes = *object.attributes;
   r->grid = std::move(grid);
   r->opaque = opaque;
   r->matte = attributes.matte;
-  r->sides = attributes.sides;
+  r->inSolid = object.solid >= 0;
+  r->sides = r->inSolid ? 2 : attributes.sides;
+  r->detail = attributes.detail;
   r->smooth = attributes.interpolation == ShadingInterpolation::Smooth;
   if (!g.kept.empty()) r->trim = &scene.objects[static_cast<size_t>(g.object)].shape();
   // The tail lets blocks of micropolygons be read across the end.
   const size_t stride = static_cast<size_t>(g.stride()),
                size = stride * static_cast<size_t>(g.keyCount) + 2 * kLanes;
   r->x.assign(size, 0), r->y.assign(size, 0), r->d.assign(size, 0);
-  r->dMin = kInfinity;
+  r->dMin = r->inSolid && zMin < kInfinity ? camera.leastDepthKey(zMin) : kInfinity;
   for (int key = 0; key < g.keyCount; ++key) {
     const size_t base = stride * static_cast<size_t>(key);
     float *x = r->x.data() + base, *y = r->y.data() + base, *d = r->d.data() + base;
@@ -115,6 +118,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
       if (!camera.seeable(p)) p = vec3(0, 0, camera.nearClip());  // of cells that nobody sees
       const vec2 at = camera.raster(p);
       x[v] = at.x, y[v] = at.y, d[v] = camera.depthKey(p.z);
+      r->clipped |= !r->inSolid && camera.clips(p);
     }
     if (r->trim) r->trimReach_px = std::max(r->trimReach_px, kMinReach_px + kTrimReach * deviation_px(g, x, y));
     pushBorders(g, x, y);

@@ -35,12 +35,13 @@ void rasterizeBlurred(const RasterJob& job);
 /// Sides 1: does the cell turn its RISpec normal away from the eye?
 bool turnedAway(const RasterJob& job, int a);
 
-/// What trim curves leave of a cell of the job's grid.
+/// What trim curves, clipping and levels of detail leave of a cell of the job's grid.
 inline Kept keptOf(const RasterJob& job, int cell) {
-  const std::vector<Kept>& kept = job.raster.grid->kept;
-  return kept.empty() ? Kept::All : kept[static_cast<size_t>(cell)];
+  const std::vector<Kept>& given = job.raster.grid->kept;
+  const Kept kept = given.empty() ? Kept::All : given[static_cast<size_t>(cell)];
+  return kept == Kept::All && (job.raster.clipped || !job.raster.detail.whole()) ? Kept::Part : kept;
 }
-/// Do trim curves leave the part of a cell that a sample meets? Pre: the cell covers it.
+/// Do they leave the part of a cell that a sample meets? Pre: the cell covers it.
 bool keepsSample(const RasterJob& job, uint32_t cell, size_t lane);
 /// The same for the lanes of a mask that counts from `firstLane`.
 uint64_t keptLanes(const RasterJob& job, uint32_t cell, size_t firstLane, uint64_t lanes);

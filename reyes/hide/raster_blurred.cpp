@@ -217,7 +217,7 @@ class Descent {
     const BlurBox& box = bounds_.box(key_, bounds_.levels[top], 0, 0);
     stack_ = &SieveStack::ofThread(bounds_.levels.size(), most);
     SampleList list = stack_->push(most);
-    sieveBucket<B>(job_.out, pixels, when, Box<B>(box, focus_), box.dMin, list);
+    sieveBucket<B>(job_.out, pixels, when, Box<B>(box, focus_), job_.raster.inSolid ? job_.raster.dMin : box.dMin, list);
     descend(top, 0, 0, list);
     stack_->pop(most);
   }
@@ -258,12 +258,13 @@ class Descent {
   void give(uint32_t lane, float depth, uint32_t cell) {
     SampleBuffer& out = job_.out;
     float& before = out.depth[lane];
-    if (depth > before) return;
+    if (depth > before && !job_.raster.inSolid) return;
     const uint32_t pixel = out.pixelOf[lane / kLanes];
-    if (!job_.raster.opaque) {
+    if (!job_.raster.opaque || job_.raster.inSolid) {
+      Films& films = out.filmsOf(job_.raster);
       const uint32_t s = lane - pixel * static_cast<uint32_t>(out.lanes);
-      *out.films.next() = depth;
-      return out.films.add(pixel, cell, s / 64, uint64_t{1} << (s % 64));
+      *films.next() = depth;
+      return films.add(pixel, cell, s / 64, uint64_t{1} << (s % 64));
     }
     if (depth == before) return settleTies(job_, lane, 1, cell);
     before = depth, out.cell[lane] = cell, out.nearer[pixel] = 1;

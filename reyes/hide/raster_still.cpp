@@ -138,7 +138,9 @@ HWY_INLINE Reach reachOf(const RasterJob& job, const Quad& quad, size_t lane, ui
   Reach r;
   const Mask in = quad.covers(hn::Load(kF, out.x.data() + lane), hn::Load(kF, out.y.data() + lane), r.depth);
   r.before = hn::Load(kF, out.depth.data() + lane);
-  r.mask = hn::And(in, hn::Le(r.depth, r.before));
+  // A solid is decided by all of it; padding still covers nothing.
+  const Mask reaches = job.raster.inSolid ? hn::Gt(r.before, all(-kInfinity)) : hn::Le(r.depth, r.before);
+  r.mask = hn::And(in, reaches);
   if (HWY_UNLIKELY(kept == Kept::Part) && !hn::AllFalse(kF, r.mask)) {
     const uint64_t left = keptLanes(job, cell, lane, bitsOf(r.mask));
     r.mask = hn::LoadMaskBits(kF, reinterpret_cast<const uint8_t*>(&left));
@@ -162,12 +164,13 @@ HWY_INLINE bool claim(const RasterJob& job, const Quad& quad, size_t lane, uint3
 /// Notes which samples of a pixel a transparent cell covers in front of what is opaque.
 HWY_INLINE void film(const RasterJob& job, const Quad& quad, size_t pixel, uint32_t cell, Kept kept) {
   SampleBuffer& out = job.out;
+  Films& films = out.filmsOf(job.raster);
   const size_t first = pixel * static_cast<size_t>(out.lanes), lanes = static_cast<size_t>(out.lanes);
   for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) {
     const Reach r = reachOf(job, quad, first + g, cell, kept);
     if (hn::AllFalse(kF, r.mask)) continue;
-    hn::StoreU(hn::Compress(r.depth, r.mask), kF, out.films.next());
-    out.films.add(static_cast<uint32_t>(pixel), cell, static_cast<uint32_t>(g / 64), bitsOf(r.mask) << (g % 64));
+    hn::StoreU(hn::Compress(r.depth, r.mask), kF, films.next());
+    films.add(static_cast<uint32_t>(pixel), cell, static_cast<uint32_t>(g / 64), bitsOf(r.mask) << (g % 64));
   }
 }
 
@@ -177,10 +180,11 @@ HWY_INLINE void rasterizeCell(const RasterJob& job, const QuadBlock& q, int i, u
   const PixelRect pixels = out.touched({q.xMin[i], q.yMin[i]}, {q.xMax[i], q.yMax[i]});
   const Quad quad(q, i);
   const size_t lanes = static_cast<size_t>(out.lanes);
+  const float dMin = job.raster.inSolid ? job.raster.dMin : q.dMin[i];
   for (int y = pixels.y0; y < pixels.y1; ++y)
     for (int x = pixels.x0; x < pixels.x1; ++x) {
       const size_t pixel = out.pixelIndex(x, y);
-      if (q.dMin[i] > out.far[pixel]) continue;
+      if (dMin > out.far[pixel]) continue;
       if constexpr (kOpaque) {
         bool changed = false;
         for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) changed |= claim(job, quad, pixel * lanes + g, cell, kept);
@@ -210,7 +214,7 @@ void rasterize(const RasterJob& job) {
       const Kept kept = keptOf(job, index);
       if (kept == Kept::None) continue;
       const uint32_t cell = job.firstCell + static_cast<uint32_t>(index);
-      if (r.opaque)
+      if (r.opaque && !r.inSolid)
         rasterizeCell<true>(job, q, i, cell, kept);
       else
         rasterizeCell<false>(job, q, i, cell, kept);

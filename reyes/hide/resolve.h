@@ -16,6 +16,13 @@ inline SamplePoint samplePoint(const SampleBuffer& s, size_t lane) {
   if (s.time.empty()) return {{s.x[lane], s.y[lane]}, 0, vec2(0)};
   return {{s.x[lane], s.y[lane]}, s.time[lane], {s.lensX[lane], s.lensY[lane]}};
 }
+/// Corners a b c d of a cell where a sample meets it: raster x and y, depth key.
+struct SeenCell {
+  vec3 a, b, c, d;
+};
+SeenCell seenCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
+/// Depth key of a cell where a sample meets it.
+float depthOnCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
 /// Where on a cell (its own (u,v), 0..1) a sample meets it; beyond, where it meets the plane of one of its triangles.
 vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
 

@@ -73,7 +73,8 @@ void SampleBuffer::showBlur() {
 std::vector<uint32_t> SampleBuffer::seen() const {
   std::vector<uint32_t> out;
   std::copy_if(cell.begin(), cell.end(), std::back_inserter(out), [](uint32_t c) { return c != kNoCell; });
-  for (const Film& film : films.list) out.push_back(film.cell);
+  for (const Films* covered : {&films, &crossings})
+    for (const Film& film : covered->list) out.push_back(film.cell);
   std::sort(out.begin(), out.end());
   return out;
 }

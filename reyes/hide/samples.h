@@ -54,9 +54,17 @@ struct SampleBuffer {
   AlignedVector<float> far;        ///< A pixel: no less than the greatest depth of its lanes.
   std::vector<uint8_t> nearer;     ///< A pixel: 1 if depths changed since `far` was computed.
   Films films;
+  Films crossings;                 ///< Everything of solids that covers a sample, however deep.
 
   /// Makes times and lens positions: the first grid that moves or is out of focus asks for them.
   void showBlur();
+  /// What DetailShare divides, of a lane.
+  float detail(size_t lane) const {
+    const size_t width = static_cast<size_t>(lanes);
+    return pattern_.detail(patternAt_[lane / width])[lane % width];
+  }
+  /// Where transparent grids, and solids, note what they cover.
+  Films& filmsOf(const RasterGrid& raster) { return raster.inSolid ? crossings : films; }
   /// Brings `far` up to date.
   void settle(const PixelRect& pixels);
 
@@ -75,7 +83,7 @@ struct SampleBuffer {
             std::min(floorWithin(hi.x, rect.x0, rect.x1) + 1, rect.x1),
             std::min(floorWithin(hi.y, rect.y0, rect.y1) + 1, rect.y1)};
   }
-  /// All cells that some sample sees, sorted.
+  /// All cells that some sample sees or, of solids, may see, sorted.
   std::vector<uint32_t> seen() const;
   /// Is every sample of the pixels nearer than depth key d?
   bool hides(const PixelRect& pixels, float d) const;

@@ -217,7 +217,6 @@ const HandlerTable& attributeHandlers() {
       {"Basis", basis},
       {"TrimCurve", trimCurve},
       {"Bound", acceptHint},
-      {"Detail", acceptHint},
   };
   return table;
 }

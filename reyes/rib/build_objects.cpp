@@ -61,6 +61,7 @@ void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times
         description(r) + ": its transformation is singular or not finite; the object is dropped");
     return;
   }
+  if (state_.scope.attributes->detail.empty()) return;  // another level of detail is there
   Master::Shapes shapes = shapesOf(keys, times);
   if (shapes.keys.empty()) return;
   Object object;
@@ -68,9 +69,9 @@ void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times
   object.shapeTimes = std::move(shapes.times);
   object.worldFromObject = state_.scope.ctm;
   state_.scope.attributes = state_.attributes(state_.scope.attributes);
-  state_.scope.attributes = state_.attributes(state_.scope.attributes);
   object.attributes = state_.attributes(attributesOf(state_.scope));
   object.where = r.where;
+  placeInSolid(state_, object);
   state_.world->objects.push_back(std::move(object));
 }
 
@@ -136,6 +137,7 @@ bool SceneBuilder::takesProcedurals() const {
 }
 
 void SceneBuilder::addProcedural(const std::vector<float>& b, std::function<Expansion()> open, const SourceLoc& where) {
+  if (state_.scope.attributes->detail.empty()) return;  // another level of detail is there
   Procedural p;
   p.bound = {{b[0], b[2], b[4]}, {b[1], b[3], b[5]}};
   p.worldFromObject = state_.scope.ctm;
@@ -146,12 +148,12 @@ void SceneBuilder::addProcedural(const std::vector<float>& b, std::function<Expa
 }
 
 SceneBuilder::Surroundings SceneBuilder::surroundings() const {
-  return {state_.globals, {state_.world->cameraFromWorld, {}, {}, state_.world->where}};
+  return {state_.globals, {state_.world->cameraFromWorld, {}, {}, {}, state_.world->where}};
 }
 
 Expansion SceneBuilder::takeExpansion() {
   if (recording_ || motion_) finish(recording_ ? recording_->begin.where : motion_->begin.where);
-  return {std::move(state_.world->objects), std::move(state_.world->procedurals)};
+  return {std::move(state_.world->objects), std::move(state_.world->procedurals), std::move(state_.world->solids)};
 }
 
 void SceneBuilder::beginMotion(const Request& r) {

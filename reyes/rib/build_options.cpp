@@ -74,6 +74,23 @@ void clipping(GraphicsState& s, const Request& r) {
   s.globals.options.farClip = std::min(a[1], 1e30f);
 }
 
+// RISpec 3.2 section 4.1.2: what lies on the side that the normal points to is clipped. Given in the space of the request.
+void clippingPlane(GraphicsState& s, const Request& r) {
+  const RibArg& a = r.args[0];
+  const mat4 m = s.cameraFromObject().at(s.globals.options.shutterOpen);
+  const mat3 linear(m);
+  if (asVec3(a, 3) == vec3(0) || glm::determinant(linear) == 0) return reject(s, r, "the plane has no normal");
+  const vec3 point = transformPoint(m, asVec3(a));
+  const vec3 normal = normalizeOr(glm::transpose(glm::inverse(linear)) * asVec3(a, 3), vec3(0, 0, 1));
+  s.globals.options.clippingPlanes.emplace_back(normal, -dot(normal, point));
+}
+
+void relativeDetail(GraphicsState& s, const Request& r) {
+  const float factor = r.args[0].number();
+  if (!(factor >= 0)) return reject(s, r, fmt::format("{} is no factor", factor));
+  s.globals.options.relativeDetail = factor;
+}
+
 void depthOfField(GraphicsState& s, const Request& r) {
   Options& o = s.globals.options;
   if (r.args.empty()) {
@@ -187,6 +204,8 @@ const HandlerTable& optionHandlers() {
       {"CropWindow", cropWindow},
       {"Projection", projection},
       {"Clipping", clipping},
+      {"ClippingPlane", clippingPlane},
+      {"RelativeDetail", relativeDetail},
       {"DepthOfField", depthOfField},
       {"Shutter", shutter},
       {"PixelSamples", pixelSamples},

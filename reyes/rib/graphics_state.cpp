@@ -23,6 +23,9 @@ void GraphicsState::begin(Block block, const SourceLoc& where) {
     return;
   }
   stack_.push_back({block, where, scope, saveGlobals ? std::make_unique<Globals>(globals) : nullptr});
+  if (block == Block::Transform) return;
+  scope.detail.range.reset();
+  scope.detail.left = scope.attributes->detail;
 }
 
 bool GraphicsState::isOpen(Block block) const {
@@ -91,7 +94,7 @@ void GraphicsState::enterWorld(const SourceLoc& where) {
   for (auto& [name, system] : globals.coordinateSystems) system = worldFromCamera * system;
   scope.ctm = Motion();
   identity = Motion();
-  world = World{camera, {}, {}, where};
+  world = World{camera, {}, {}, {}, where};
 }
 
 void GraphicsState::warn(const Request& request, const char* code, const std::string& message) const {

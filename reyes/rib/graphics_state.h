@@ -10,6 +10,14 @@
 
 namespace tomales::rib {
 
+/// Detail and DetailRange (RISpec 3.2 section 4.2.8) as far as they are not yet in Attributes::detail.
+struct DetailState {
+  float ruler_px2 = kInfinity;                ///< Size of the Detail box in the picture.
+  std::optional<std::array<float, 4>> range;  ///< DetailRange since the innermost block began.
+  DetailShare divided;  ///< What ranges divide among them: what was left when the block of the ruler began,
+  DetailShare left;     ///< and when the innermost block did.
+};
+
 /// What AttributeBegin saves.
 struct Scope {
   std::shared_ptr<Attributes> attributes = std::make_shared<Attributes>();
@@ -18,6 +26,8 @@ struct Scope {
   std::shared_ptr<const TrimLoops> trim = std::make_shared<TrimLoops>();  ///< Attribute "trimcurve" is part of it.
   bool lightsCastShadows = false;  ///< Attribute "light" "shadows": for lights that are made here.
   std::map<std::string, Motion> coordinateSystems;  ///< ScopedCoordinateSystem
+  DetailState detail;
+  int solid = -1, solidBlock = -1;  ///< In World::solids: the SolidBegin around, if any.
 
   /// The attributes, no longer shared with anybody.
   Attributes& edit();
@@ -54,6 +64,7 @@ struct World {
   Motion cameraFromWorld;
   std::vector<Object> objects;
   std::vector<Procedural> procedurals;
+  std::vector<Solid> solids;
   SourceLoc where;
 };
 

@@ -17,6 +17,7 @@ const HandlerTable& displayHandlers();
 const HandlerTable& attributeHandlers();
 const HandlerTable& shaderHandlers();
 const HandlerTable& resourceHandlers();
+const HandlerTable& detailHandlers();
 const HandlerTable& transformHandlers();  ///< CoordinateSystem and its relatives.
 
 /// Transform, Translate, ...: one request for each time, all with the same name.
@@ -30,6 +31,12 @@ PrimPtr buildPrim(const Request& request, const Scope& scope, Problems& problems
 
 /// TrimCurve: the loops that cut the NuPatches after it, none if it is empty.
 void trimCurve(GraphicsState& state, const Request& request);
+// Solids: what SolidBegin and SolidEnd do besides saving the attributes. Begin is called inside the new block, end while
+// it still stands.
+void beginSolid(GraphicsState& state, const Request& request);
+void endSolid(GraphicsState& state, const Request& request);
+/// Makes an object part of the solid that is open, if any.
+void placeInSolid(GraphicsState& state, Object& object);
 
 // Shared by the handlers.
 inline vec3 asVec3(const RibArg& a, size_t at = 0) {

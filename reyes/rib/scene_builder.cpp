@@ -14,7 +14,8 @@ const std::pair<std::string_view, Block> kBlocks[] = {
 bool isBlockRequest(std::string_view name) { return name.ends_with("Begin") || name.ends_with("End"); }
 
 bool allowsInfinity(std::string_view name) {
-  static constexpr std::string_view kNames[] = {"Clipping", "DepthOfField", "Bound", "Detail", "ShadingRate"};
+  static constexpr std::string_view kNames[] = {"Clipping", "DepthOfField", "Bound",
+                                                "Detail",   "DetailRange",  "ShadingRate"};
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
@@ -148,20 +149,19 @@ bool SceneBuilder::performBlock(const Request& r) {
       return r.name.starts_with(b.first) && isBlockRequest(r.name);
     });
     if (block == std::end(kBlocks)) return false;
-    if (r.name == "SolidBegin" && r.args[0].strings[0] != "primitive")
-      state_.warnOnce("Solid", r, "rib-unsupported",
-                      "solid operations are not supported yet: the parts are rendered whole");
+    if (r.name == "SolidEnd") endSolid(state_, r);
     if (r.name.ends_with("Begin"))
       state_.begin(block->second, r.where);
     else
       state_.end(block->second, r.where);
+    if (r.name == "SolidBegin") beginSolid(state_, r);
   }
   return true;
 }
 
 bool SceneBuilder::performHandler(const Request& r) {
   for (const HandlerTable* table :
-       {&attributeHandlers(), &shaderHandlers(), &transformHandlers(), &resourceHandlers(), &optionHandlers(),
+       {&attributeHandlers(), &shaderHandlers(), &detailHandlers(), &transformHandlers(), &resourceHandlers(), &optionHandlers(),
         &displayHandlers()}) {
     const auto it = table->find(r.name);
     if (it == table->end()) continue;
@@ -197,6 +197,7 @@ void SceneBuilder::endWorld(const SourceLoc& where) {
   scene.options = state_.globals.options;
   scene.cameraFromWorld = state_.world->cameraFromWorld;
   for (Object& o : state_.world->objects) scene.objects.push_back(std::move(o));
+  for (Solid& s : state_.world->solids) scene.solids.push_back(std::move(s));
   scene.procedurals = std::move(state_.world->procedurals);
   scene.lights = std::move(state_.globals.lights);
   for (const auto& [name, system] : state_.globals.coordinateSystems)

@@ -14,17 +14,14 @@ namespace tomales::test {
 // Sides 1: else what shows through a crack is the far side of the body, not the background.
 constexpr const char* kSeenAskew = "Sides 1 Translate 0 0 3.2 Rotate 25 1 0.3 0.1 ";
 
-inline DeepFrame hide(const std::string& body, const std::string& options = {}, const std::string& placed = kSeenAskew) {
+/// Every message of the log fails the test.
+inline DeepFrame hideRib(const std::string& rib) {
   Log log(Log::Verbosity::Quiet);
   Stats stats;
   std::vector<Scene> scenes;
   RibSettings settings;
   settings.onScene = [&](Scene&& s) { scenes.push_back(std::move(s)); };
-  readRibText(
-      "Format 128 128 1 PixelSamples 6 6 PixelFilter \"box\" 1 1 Projection \"perspective\" \"fov\" 40 "
-      "Clipping 0.1 100 " +
-          options + " " + placed + "WorldBegin " + body + " WorldEnd",
-      "body.rib", settings, log);
+  readRibText(rib, "body.rib", settings, log);
   ShaderRegistry registry(log);
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
   ShadingSystem shading(scenes.at(0), registry, nullptr, log, stats);
@@ -33,11 +30,25 @@ inline DeepFrame hide(const std::string& body, const std::string& options = {}, 
   return frame;
 }
 
-inline int covered(const DeepFrame& frame, int x, int y) {
+inline DeepFrame hide(const std::string& body, const std::string& options = {}, const std::string& placed = kSeenAskew) {
+  return hideRib(
+      "Format 128 128 1 PixelSamples 6 6 PixelFilter \"box\" 1 1 Projection \"perspective\" \"fov\" 40 "
+      "Clipping 0.1 100 " +
+      options + " " + placed + "WorldBegin " + body + " WorldEnd");
+}
+
+/// Calls f(tile, fragment) for the fragments of a pixel, nearest first.
+template <class F>
+void forFragments(const DeepFrame& frame, int x, int y, const F& f) {
   const DeepTile& tile = frame.tileAt(x, y);
   const DeepPixel& p = tile.pixel(x, y);
+  for (uint32_t k = 0; k < p.count; ++k) f(tile, tile.fragments[p.first + k]);
+}
+
+/// Samples of a pixel that see something, those that see through it counted again for each further surface.
+inline int covered(const DeepFrame& frame, int x, int y) {
   int n = 0;
-  for (uint32_t k = 0; k < p.count; ++k) n += std::popcount(tile.fragments[p.first + k].samples);
+  forFragments(frame, x, y, [&](const DeepTile&, const Fragment& f) { n += std::popcount(f.samples); });
   return n;
 }
 

@@ -71,6 +71,22 @@ TEST(Photons, AreTheSameForAnyNumberOfThreads) {
   for (size_t i = 0; i < a.size(); ++i) EXPECT_TRUE(a[i].P == b[i].P && a[i].power == b[i].power) << i;
 }
 
+TEST(Photons, NoneComesIntoAClosedBody) {
+  SceneBuilder b;
+  b.light("pointlight", {floatParam("intensity", 3), pointParam("from", {0, 0, 0})});
+  b.sphere(4, vec3(0.8f), {0, 0, 0});
+  b.sphere(0.5f, vec3(0.8f), {0, 0, 2});
+  World world(b.scene);
+  int onBall = 0, inside = 0;
+  for (const StoredPhoton& p : traced(world, {50000, 10})) {
+    const vec3 off = p.P - vec3(0, 0, 2);
+    if (glm::length(off) > 1) continue;
+    ++onBall, inside += dot(off, p.N) < 0;
+  }
+  EXPECT_GT(onBall, 1000);
+  EXPECT_EQ(inside, 0);
+}
+
 TEST(Photons, AMirrorStoresNothing) {
   World world(insideOfASphere("chrome"));
   EXPECT_TRUE(traced(world, {1000, 5}).empty());

@@ -216,6 +216,24 @@ TEST(Resolve, SmoothShadingSharesCornersAndKnowsThePlaceOnTheFacet) {
   EXPECT_EQ(f.v, std::lround(255 * 2.5f / 4));
 }
 
+TEST(Resolve, StillHasTheGridsOfSolidsWhenThoseThatNobodySeesAreLetGoOf) {
+  World w;
+  w.add(), w.add();
+  Solid solid;
+  solid.add(SolidOperation::Union, -1);
+  w.scene.objects[0].solid = 0, w.scene.objects[0].solidBlock = solid.add(SolidOperation::Primitive, 0);
+  w.scene.solids.push_back(solid);
+  w.freeze();
+  Rasters rasters = {raster(w, makeGrid(0, 1, 2, 2, rectangle(0, 0, 4, 4, 1))), raster(w, makeGrid(0, 2, 2, 2, rectangle(4, 0, 0, 4, 2)))};
+  // Each hides the one before.
+  for (uint32_t k = 0; k < 6000; ++k)
+    rasters.push_back(raster(w, makeGrid(1, 3 + k, 1, 1, rectangle(4, 0, 8, 4, 10 - 0.001f * static_cast<float>(k)))));
+  const DeepTile t = hide(w, SamplePattern(2, 2, true, 1), {0, 0, 8, 4}, rasters);
+  ASSERT_EQ(t.pixel(1, 1).count, 1U);
+  EXPECT_EQ(begin(t, t.pixel(1, 1))->z, 1);
+  EXPECT_NEAR(begin(t, t.pixel(6, 1))->z, 4.001f, 1e-3f);
+}
+
 TEST(Resolve, FacesTheGeometricNormalAsTheShadingNormal) {
   World w;
   w.add({}, twoPrimvars());

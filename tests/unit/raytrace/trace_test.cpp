@@ -294,18 +294,6 @@ TEST(Closest, GivesTheSameBitsForAnyNumberOfThreads) {
   }
 }
 
-/// A wavy sheet over -1..1 in x and y.
-PrimPtr waves() {
-  std::vector<float> values;
-  for (int j = 0; j <= 8; ++j)
-    for (int i = 0; i <= 8; ++i) {
-      const float x = static_cast<float>(i) / 4 - 1, y = static_cast<float>(j) / 4 - 1;
-      values.insert(values.end(), {x, y, 0.2f * std::sin(4 * x) * std::cos(3 * y)});
-    }
-  Problems problems;
-  return makeBilinearPatchMesh(9, false, 9, false, {floatsParam("P", ValueType::Point, Storage::Vertex, values)}, problems);
-}
-
 TEST(Instances, AreMetWhereObjectsOfTheirOwnAreAndOnTheSameSide) {
   mat4 turned = translation({-1.5f, 0, 5}), mirrored = translation({1.5f, 0.3f, 6}), squeezed = translation({0, 2, 7});
   turned[0] = {0.8f, 0, 0.6f, 0}, turned[2] = {-0.6f, 0, 0.8f, 0};

@@ -33,6 +33,18 @@ inline PrimPtr parallelogram(const vec3& o, const vec3& u, const vec3& v) {
                                {floatsParam("P", ValueType::Point, Storage::Vertex, values)}, problems);
 }
 
+/// A wavy sheet over -1..1 in x and y, of as many patches as instances share.
+inline PrimPtr waves() {
+  std::vector<float> values;
+  for (int j = 0; j <= 8; ++j)
+    for (int i = 0; i <= 8; ++i) {
+      const float x = static_cast<float>(i) / 4 - 1, y = static_cast<float>(j) / 4 - 1;
+      values.insert(values.end(), {x, y, 0.2f * std::sin(4 * x) * std::cos(3 * y)});
+    }
+  Problems problems;
+  return makeBilinearPatchMesh(9, false, 9, false, {floatsParam("P", ValueType::Point, Storage::Vertex, values)}, problems);
+}
+
 inline std::shared_ptr<const ShaderCall> shader(const std::string& name, ParamList params = {}) {
   return std::make_shared<ShaderCall>(ShaderCall{name, std::move(params), Motion{}, {}});
 }

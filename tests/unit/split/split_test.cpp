@@ -195,7 +195,18 @@ TEST(Split, ASurfaceThroughTheNearPlaneNeedsFewPieces) {
   const std::vector<SubPatch> pieces = split(scene, stats, log);
   EXPECT_TRUE(log.entries().empty());
   EXPECT_LT(pieces.size(), 100u);
-  EXPECT_TRUE(std::any_of(pieces.begin(), pieces.end(), [](const SubPatch& p) { return p.crossesNear; }));
+  EXPECT_TRUE(std::any_of(pieces.begin(), pieces.end(), [](const SubPatch& p) { return p.zMin < 4.5f; }));
+  EXPECT_FALSE(std::any_of(pieces.begin(), pieces.end(), [](const SubPatch& p) { return p.crossesEye; })) << "the hider cuts it";
+}
+
+TEST(Split, ASurfaceThroughTheEyeNeedsFewPieces) {
+  const Scene scene = sceneOf({quad(1, -1e-5f)}, mat4(1.0f), 1, 16);
+  Stats stats;
+  Log log(Log::Verbosity::Quiet);
+  const std::vector<SubPatch> pieces = split(scene, stats, log);
+  EXPECT_TRUE(log.entries().empty());
+  EXPECT_LT(pieces.size(), 1000u);
+  EXPECT_TRUE(std::any_of(pieces.begin(), pieces.end(), [](const SubPatch& p) { return p.crossesEye; }));
 }
 
 Scene withDicing(Scene scene, bool binary, bool rasterOrient) {

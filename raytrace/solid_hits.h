@@ -1,0 +1,33 @@
+// What rays meet of solids (SolidBegin ... SolidEnd): everything of them along the whole line, resolved by reyes/solid.h as the
+// hider does for samples (docs/decisions/0030-solids.md). Space: current. Threads: const members may be called concurrently.
+#pragma once
+#include <optional>
+
+#include "raytrace/embree_scene.h"
+
+namespace tomales {
+
+class SolidHits {
+ public:
+  /// All but `log` must outlive this. `masks`: which rays see a group.
+  SolidHits(const Scene& scene, const std::vector<CoarseGroup>& groups, const std::vector<uint32_t>& masks, Log& log);
+
+  bool none() const { return !embree_; }
+  /// The surfaces of the solids at -window <= t < ray.tMax that the ray, of `mask`, sees, by t; bias and offset play no part.
+  void surfaces(const Ray& ray, float window, uint32_t mask, HitList& out) const;
+  size_t bytes() const { return embree_ ? embree_->bytes() : 0; }
+
+ private:
+  void resolve(std::span<const PolygonHit> hits, const Ray& ray, uint32_t mask, HitList& out) const;
+  const Object& objectOf(const PolygonHit& hit) const {
+    return scene_.objects[static_cast<size_t>(groups_[hit.group].latticeOf(hit.quad).object)];
+  }
+
+  const Scene& scene_;
+  const std::vector<CoarseGroup>& groups_;
+  const std::vector<uint32_t>& masks_;
+  const SharedShapes noShapes_{};
+  std::optional<EmbreeScene> embree_;
+};
+
+}  // namespace tomales

@@ -1,0 +1,166 @@
+#include "reyes/app/atlas_commands.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "gi/point_file.h"
+#include "gi/point_picture.h"
+#include "reyes/app/atlas_job.h"
+#include "reyes/app/overrides.h"
+#include "reyes/app/render.h"
+#include "reyes/app/stats_json.h"
+#include "reyes/base/parallel.h"
+#include "reyes/rib.h"
+
+namespace tomales {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Runs `work`; what it throws is an error of `severity`.
+template <class Work>
+void guarded(Log& log, Severity severity, const Work& work) {
+  try {
+    work();
+  } catch (const FileError& e) {
+    log.report(severity, "file", {}, e.what());
+  } catch (const fs::filesystem_error& e) {
+    log.report(severity, "file", {}, e.what());
+  }
+}
+
+/// Folders stand for the point clouds in them.
+std::vector<fs::path> pointFiles(const std::vector<std::string>& inputs) {
+  std::vector<fs::path> out;
+  for (const std::string& input : inputs) {
+    if (!fs::is_directory(input)) {
+      out.emplace_back(input);
+      continue;
+    }
+    for (const auto& entry : fs::directory_iterator(input))
+      if (entry.path().extension() == ".ptc") out.push_back(entry.path());
+  }
+  std::sort(out.begin(), out.end());
+  if (out.empty()) throw FileError("there is no point cloud (.ptc) to read");
+  return out;
+}
+
+void makeFolder(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder)) throw FileError(fmt::format("folder \"{}\" cannot be made: {}", folder, error.message()));
+}
+
+/// The first frame of RIB files, ready to be traced.
+std::optional<Scene> firstScene(const RenderSettings& settings, Log& log) {
+  std::optional<Scene> scene;
+  RibSettings rib;
+  rib.allowSystem = settings.allowSystem;
+  rib.onScene = [&](Scene&& s) {
+    if (!scene) scene = std::move(s);
+  };
+  const bool read = readRib(settings.files, rib, log);
+  if (read && !scene) log.report(Severity::Error, "no-world", {}, "no WorldBegin ... WorldEnd was found");
+  if (!read) scene.reset();
+  return scene;
+}
+
+void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, Log& log) {
+  applyOverrides(scene, settings);
+  scene.open([](const Attributes& a) { return a.visibility.photon; });
+  ShaderRegistry registry(log);
+  registry.addLibrary(tomales_builtin_shaders(), "built-in");
+  ShadingSystem shading(scene, registry, nullptr, log, stats);
+  const Camera camera(scene.options);
+  const RayScene rays(scene, camera, shading, settings.hitList, stats, log);
+  const StageTimer timer(stats, "photons");
+  const PhotonFigures figures =
+      writePhotons(settings.output, scene, rays, shading, atlasSettings(settings, scene), {}, stats, log);
+  if (settings.verbosity != Log::Verbosity::Quiet)
+    fmt::print("{} photons emitted, {} stored in {}\n", figures.emitted, figures.stored, settings.output);
+}
+
+}  // namespace
+
+int photonsCommand(const RenderSettings& settings) {
+  const ThreadLimit threads(settings.threads);
+  const auto start = std::chrono::steady_clock::now();
+  Log log(settings.verbosity);
+  Stats stats;
+  guarded(log, Severity::Output, [&] {
+    if (std::optional<Scene> scene = firstScene(settings, log)) tracePhotonsOf(*scene, settings, stats, log);
+  });
+  writeStats(settings, stats, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), log);
+  return exitCodeOf(log);
+}
+
+int irradianceCommand(const IrradianceCommand& command) {
+  Log log;
+  guarded(log, Severity::Error, [&] {
+    makeFolder(command.output);
+    for (const fs::path& file : pointFiles(command.inputs))
+      writeIrradiance(file, fs::path(command.output) / file.filename(), command.settings);
+  });
+  return exitCodeOf(log);
+}
+
+int brickmakeCommand(const BrickmakeCommand& command) {
+  Log log;
+  guarded(log, Severity::Error, [&] {
+    const std::vector<fs::path> files = pointFiles(command.inputs);
+    const bool one = fs::path(command.output).extension() == ".bkm";
+    if (!one) makeFolder(command.output);
+    const auto make = [&](const PointCloud& cloud, const fs::path& out) {
+      BrickSettings settings = command.settings;
+      if (command.relative) settings.maxError *= meanOf(cloud);
+      const BuiltBricks built = writeBrickMap(cloud, settings, out.string());
+      fmt::print("{}: {} points, {} bricks, {} left out, {} levels\n", out.string(), cloud.count(), built.tree.nodes.size(),
+                 built.eliminated, built.tree.deepest + 1);
+    };
+    PointCloud all;
+    for (const fs::path& file : files) {
+      if (!one) {
+        make(PointFile(file.string()).readAll(), fs::path(command.output) / file.filename().replace_extension(".bkm"));
+        continue;
+      }
+      const PointFile part(file.string());
+      if (!all.channels.empty() && all.channels != part.channels())
+        throw FileError(fmt::format("\"{}\" has other channels than the files before", file.string()));
+      all.channels = part.channels();
+      for (size_t i = 0; i < part.chunkCount(); ++i) part.read(i, all);
+    }
+    if (one) make(all, command.output);
+  });
+  return exitCodeOf(log);
+}
+
+int viewCommand(const ViewCommand& command) {
+  Log log;
+  guarded(log, Severity::Error, [&] {
+    PointPictureSettings settings{command.size[0], command.size[1], command.channel, command.gain, {}};
+    std::optional<Scene> scene;
+    std::optional<Camera> camera;
+    if (!command.camera.empty()) {
+      RenderSettings look;
+      look.files = {command.camera};
+      scene = firstScene(look, log);
+      if (!scene) return;
+      scene->options.xResolution = command.size[0], scene->options.yResolution = command.size[1];
+      camera.emplace(scene->options);
+      settings.project = [&](const vec3& p) -> std::optional<vec3> {
+        const vec3 at = transformPoint(scene->cameraFromWorldAtOpen(), p);
+        if (camera->perspective() && at.z < camera->nearClip()) return std::nullopt;
+        return vec3(camera->raster(at), at.z);
+      };
+    }
+    BrickCache cache;
+    const bool bricks = fs::path(command.input).extension() == ".bkm";
+    const PointCloud cloud =
+        bricks ? voxelsOf(BrickMap(command.input, cache), command.level) : PointFile(command.input).readAll();
+    writeImage(command.output, pictureOf(cloud, settings), fs::path(command.output).extension() == ".png", log);
+  });
+  return exitCodeOf(log);
+}
+
+}  // namespace tomales

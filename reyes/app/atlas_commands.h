@@ -1,0 +1,33 @@
+// tomales photons, irradiance, brickmake, view: the irradiance atlas pass by pass (docs/gi.md).
+#pragma once
+#include "reyes/app/settings.h"
+
+namespace tomales {
+
+/// settings.files -> photon maps in settings.output, one file a group.
+int photonsCommand(const RenderSettings& settings);
+
+struct IrradianceCommand {
+  std::vector<std::string> inputs;  ///< Photon maps, or folders of them.
+  std::string output;               ///< A folder.
+  PhotonIrradianceSettings settings;
+};
+int irradianceCommand(const IrradianceCommand& command);
+
+struct BrickmakeCommand {
+  std::vector<std::string> inputs;  ///< Point clouds, or folders of them.
+  std::string output;               ///< FILE.bkm for all, or a folder for one each.
+  BrickSettings settings;
+  bool relative = false;            ///< maxError is a share of the mean of the data.
+};
+int brickmakeCommand(const BrickmakeCommand& command);
+
+struct ViewCommand {
+  std::string input, output, channel, camera;  ///< camera: a RIB file whose camera looks; empty: an overview.
+  int level = -1;
+  float gain = 0;
+  std::array<int, 2> size{640, 480};
+};
+int viewCommand(const ViewCommand& command);
+
+}  // namespace tomales
