@@ -82,12 +82,18 @@ void fields(A& a, Options& x) {
          shutterOpen, shutterClose, shutterOffset, sampleMotion, fStop, focalLength, focalDistance, aperture, dofAspect, xSamples,
          ySamples, filter, xFilterWidth, yFilterWidth, exposureGain, exposureGamma, rgbaQuantize, depthQuantize, quantizeGiven,
          displays, channels, depthFilter, opaqueThreshold, depthThreshold, imager, bucketWidth, bucketHeight, bucketOrder,
-         maxRayDepth, gridSize, hider, jitter, frame, searchPaths, user] = x;
+         maxRayDepth, gridSize, hider, jitter, relativeDetail, clippingPlanes, frame, searchPaths, user] = x;
   each(a, xResolution, yResolution, pixelAspect, frameAspect, screenWindow, cropWindow, projection, fov, nearClip, farClip,
        shutterOpen, shutterClose, shutterOffset, sampleMotion, fStop, focalLength, focalDistance, aperture, dofAspect, xSamples,
        ySamples, filter, xFilterWidth, yFilterWidth, exposureGain, exposureGamma, rgbaQuantize, depthQuantize, quantizeGiven,
        displays, channels, depthFilter, opaqueThreshold, depthThreshold, imager, bucketWidth, bucketHeight, bucketOrder,
-       maxRayDepth, gridSize, hider, jitter, frame, searchPaths, user);
+       maxRayDepth, gridSize, hider, jitter, relativeDetail, clippingPlanes, frame, searchPaths, user);
+}
+
+template <class A>
+void fields(A& a, DetailShare& x) {
+  auto& [lo, hi] = x;
+  each(a, lo, hi);
 }
 
 template <class A>
@@ -116,11 +122,11 @@ void fields(A& a, Attributes::Photon& x) {
 
 template <class A>
 void fields(A& a, Attributes& x) {
-  auto& [color, opacity, textureCoordinates, shadingRate, motionFactor, focusFactor, interpolation, matte, sides, insideOut,
+  auto& [color, opacity, textureCoordinates, shadingRate, motionFactor, focusFactor, interpolation, matte, sides, detail, insideOut,
          name, membership, diffuseHitMode, specularHitMode, transmissionHitMode, surface, displacement, atmosphere, lights,
          areaLight, displacementBound, displacementBoundSpace, visibility, trace, indirect, photon, irradianceMaxError,
          irradianceMaxPixelDist, rasterOrient, binaryDice, user] = x;
-  each(a, color, opacity, textureCoordinates, shadingRate, motionFactor, focusFactor, interpolation, matte, sides, insideOut,
+  each(a, color, opacity, textureCoordinates, shadingRate, motionFactor, focusFactor, interpolation, matte, sides, detail, insideOut,
        name, membership, diffuseHitMode, specularHitMode, transmissionHitMode, surface, displacement, atmosphere, lights,
        areaLight, displacementBound, displacementBoundSpace, visibility, trace, indirect, photon, irradianceMaxError,
        irradianceMaxPixelDist, rasterOrient, binaryDice, user);
@@ -134,8 +140,8 @@ void fields(A& a, Primvar& x) {
 
 template <class A>
 void fields(A& a, ShadeGroup& x) {
-  auto& [attributes, cameraFromObject, primvars, exampleObject, currentFromOpen] = x;
-  each(a, attributes, cameraFromObject, primvars, exampleObject, currentFromOpen);
+  auto& [attributes, cameraFromObject, primvars, exampleObject, currentFromOpen, solid, subtracted] = x;
+  each(a, attributes, cameraFromObject, primvars, exampleObject, currentFromOpen, solid, subtracted);
 }
 
 /// Packs what `withoutGeometry` leaves; its private members serve geometry alone, so that no structured binding guards this list.
