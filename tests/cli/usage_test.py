@@ -10,7 +10,7 @@ t = Suite()
 t.write("good.rib", GOOD)
 
 # Wrong usage: exit 1.
-for arguments in ([], ["render"], ["good.rib", "--frobnicate"], ["good.rib", "--memory-limit", "much"], ["good.rib", "--resume=7"],
+for arguments in ([], ["render"], ["good.rib", "--frobnicate"], ["good.rib", "--memory-limit", "much"],
                   ["good.rib", "--crop", "1,0,0,1"], ["good.rib", "--format", "640"], ["good.rib", "--frames", "9-1"],
                   ["good.rib", "-t", "0"], ["good.rib", "-o", "a.jpg"], ["good.rib", "--gi", "magic"], ["compare", "good.rib"]):
     t.expect_run("usage: " + " ".join(arguments), arguments, 1)
