@@ -155,7 +155,10 @@ int Scene::add(Object object) {
 }
 
 void Scene::drop(int object) {
-  objects[static_cast<size_t>(object)] = {};
+  Object& o = objects[static_cast<size_t>(object)];
+  Object rest;  // whoever walks over all objects still learns what it was, and that no ray meets it
+  rest.attributes = o.attributes, rest.where = o.where, rest.group = o.group;
+  o = std::move(rest);
   dropped_.push_back(object);
 }
 

@@ -12,9 +12,8 @@ MatteNames matteNames(const Scene& scene) {
     const auto shading = a.user.find("identifier:shadinggroup");
     const bool given = shading != a.user.end() && !shading->second.strings.empty();
     out.materials.push_back(given ? shading->second.strings[0] : a.surface ? a.surface->name : "defaultsurface");
-    const Object* example = group.exampleObject < 0 ? nullptr : &scene.objects[static_cast<size_t>(group.exampleObject)];
-    const bool named = !a.name.empty() || !example || !example->attributes;  // what hiding has dropped has none
-    out.objects.push_back(named ? a.name : objectName(*example));
+    const bool named = !a.name.empty() || group.exampleObject < 0;
+    out.objects.push_back(named ? a.name : objectName(scene.objects[static_cast<size_t>(group.exampleObject)]));
   }
   return out;
 }
