@@ -1,5 +1,5 @@
 // What rays meet of solids (SolidBegin ... SolidEnd): everything of them along the whole line, resolved by reyes/solid.h as the
-// hider does for samples (docs/decisions/0030-solids.md). Space: current. Threads: const members may be called concurrently.
+// hider does for samples (docs/decisions/0032-solids.md). Space: current. Threads: const members may be called concurrently.
 #pragma once
 #include <optional>
 
