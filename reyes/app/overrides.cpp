@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 namespace tomales {
 namespace {
@@ -54,6 +55,24 @@ void overrideOutput(Options& options, const std::string& output) {
 }
 
 }  // namespace
+
+void dropDisplays(Options& options, Log& log) {
+  const auto isWindow = [](const DisplayCall& d) { return d.type == "framebuffer" || d.type == "it" || d.type == "windows" || d.type == "x11"; };
+  const bool someFile = std::any_of(options.displays.begin(), options.displays.end(), [&](const DisplayCall& d) { return !isWindow(d); });
+  std::set<std::string> files;
+  std::erase_if(options.displays, [&](const DisplayCall& d) {
+    if (someFile && isWindow(d)) {
+      log.report(Severity::Warning, "display-window", d.where,
+                 "Display \"" + d.name + "\" of type " + d.type + ": there are no windows; left out beside the file");
+      return true;
+    }
+    const std::string path = std::filesystem::path(d.name).lexically_normal().string();
+    if (files.insert(namesPicture(path) ? path : path + " " + d.type).second) return false;
+    log.report(Severity::Warning, "display-twice", d.where,
+               "Display \"" + d.name + "\" would write over an earlier Display of this frame; left out");
+    return true;
+  });
+}
 
 bool hasIndirectLight(const Scene& scene) {
   return std::any_of(scene.lights.begin(), scene.lights.end(),

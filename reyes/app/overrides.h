@@ -9,6 +9,9 @@ namespace tomales {
 /// scene has none.
 void applyOverrides(Scene& scene, const RenderSettings& settings);
 
+/// Leaves out, with a message, Displays that would write over an earlier one's file, and windows beside files.
+void dropDisplays(Options& options, Log& log);
+
 bool hasIndirectLight(const Scene& scene);
 
 /// How a choice is carried out for this scene.

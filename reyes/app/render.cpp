@@ -56,6 +56,7 @@ class RenderRun {
     if (wanted(scene) && !interrupted()) {
       ++rendered_;
       applyOverrides(scene, settings_);
+      dropDisplays(scene.options, log_);
       warnAboutOverwriting(scene);
       job_(scene, scenes_ - 1, settings_, stats_, log_, [this] { flush(); });
       flush();

@@ -86,5 +86,26 @@ TEST(Overrides, PictureSizesComeFromTheCommandLine) {
   EXPECT_EQ(scene.options.bucketHeight, 7);
 }
 
+TEST(Overrides, ADisplayNeverWritesOverAnotherOfItsFrame) {
+  Options options;
+  for (const auto& [name, type] : std::vector<std::pair<std::string, std::string>>{
+           {"a.tif", "file"}, {"a.tif", "framebuffer"}, {"./a.tif", "tiff"}, {"b", "openexr"}, {"b", "zfile"}}) {
+    options.displays.emplace_back();
+    options.displays.back().name = name, options.displays.back().type = type;
+  }
+  Log log(Log::Verbosity::Quiet);
+  dropDisplays(options, log);
+  ASSERT_EQ(options.displays.size(), 3u);
+  EXPECT_EQ(options.displays[1].type, "openexr");
+  EXPECT_EQ(log.count("display-window"), 1);
+  EXPECT_EQ(log.count("display-twice"), 1);
+
+  Options window;
+  window.displays.emplace_back();
+  window.displays.back().type = "framebuffer";
+  dropDisplays(window, log);
+  EXPECT_EQ(window.displays.size(), 1u);  // else there would be no picture at all
+}
+
 }  // namespace
 }  // namespace tomales
