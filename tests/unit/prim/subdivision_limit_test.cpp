@@ -43,6 +43,7 @@ class FarLimit {
     refiner_->RefineAdaptive(Far::TopologyRefiner::AdaptiveOptions(kDeepest));
     Far::PatchTableFactory::Options tableOptions(kDeepest);
     tableOptions.SetEndCapType(Far::PatchTableFactory::Options::ENDCAP_GREGORY_BASIS);
+    tableOptions.SetPatchPrecision<double>();
     table_.reset(Far::PatchTableFactory::Create(*refiner_, tableOptions));
     map_ = std::make_unique<Far::PatchMap>(*table_);
     refine(cage);
