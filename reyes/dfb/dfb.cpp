@@ -17,16 +17,16 @@ RecordFileKind dfbKind() {
   return {"TomalDFB", 1, schema.sum};
 }
 
-/// One stub for each group, so that messages still name an object and its place.
+/// One empty object for each group, so that messages still name an object and its place.
 Scene withoutGeometry(const Scene& scene) {
   Scene out;
   out.options = scene.options, out.cameraFromWorld = scene.cameraFromWorld, out.lights = scene.lights;
   out.worldFromNamed = scene.worldFromNamed, out.where = scene.where, out.groups = scene.groups;
   for (ShadeGroup& group : out.groups) {
-    Object stub;
-    if (group.exampleObject >= 0) stub.where = scene.objects[static_cast<size_t>(group.exampleObject)].where;
+    Object empty;
+    if (group.exampleObject >= 0) empty.where = scene.objects[static_cast<size_t>(group.exampleObject)].where;
     group.exampleObject = static_cast<int>(out.objects.size());
-    out.objects.push_back(std::move(stub));
+    out.objects.push_back(std::move(empty));
   }
   return out;
 }
