@@ -40,9 +40,16 @@ vec3 dielectric(const vec3& d, const vec3& towards, bool entering, float index, 
 
 class Tracer {
  public:
-  Tracer(const Scene& scene, const RayScene& rays, const ShadingSystem& shading, const PhotonSettings& settings)
+  Tracer(const Scene& scene, const RayScene& rays, const ShadingSystem& shading, const PhotonSettings& settings, Log& log)
       : scene_(scene), rays_(rays), shading_(shading), settings_(settings) {
-    for (const ShadeGroup& g : scene.groups) models_.push_back(photonModelOf(*g.attributes));
+    for (const ShadeGroup& g : scene.groups) {
+      const std::string& name = g.attributes->photon.shadingModel;
+      const std::optional<PhotonModel> model = photonModel(name);
+      if (!model)
+        log.report(Severity::Warning, "photons-model-" + name, scene.where,
+                   "photon shadingmodel \"" + name + "\" is not known; matte is used");
+      models_.push_back(model.value_or(PhotonModel::Matte));
+    }
   }
 
   void trace(const PhotonSource& source, uint32_t first, size_t count, float share, std::vector<StoredPhoton>& out) const {
@@ -168,14 +175,13 @@ std::vector<PhotonSource> sourcesOf(const Scene& scene, const RayScene& rays, co
 
 }  // namespace
 
-PhotonModel photonModelOf(const Attributes& attributes) {
-  const std::string& m = attributes.photon.shadingModel;
-  return m == "chrome"        ? PhotonModel::Chrome
-         : m == "glass"       ? PhotonModel::Glass
-         : m == "water"       ? PhotonModel::Water
-         : m == "transparent" ? PhotonModel::Transparent
-         : m == "translucent" ? PhotonModel::Translucent
-                              : PhotonModel::Matte;
+std::optional<PhotonModel> photonModel(const std::string& name) {
+  static constexpr std::pair<std::string_view, PhotonModel> kModels[] = {
+      {"matte", PhotonModel::Matte}, {"translucent", PhotonModel::Translucent}, {"chrome", PhotonModel::Chrome},
+      {"glass", PhotonModel::Glass}, {"water", PhotonModel::Water},             {"transparent", PhotonModel::Transparent}};
+  for (const auto& [known, model] : kModels)
+    if (known == name) return model;
+  return std::nullopt;
 }
 
 PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const ShadingSystem& shading, const PhotonSettings& settings,
@@ -186,7 +192,7 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
                                        [](double sum, const PhotonSource& s) { return sum + s.power(); });
   if (sources.empty())
     log.report(Severity::Warning, "photons-no-light", scene.where, "no light of the scene emits photons: indirect light is black");
-  const Tracer tracer(scene, rays, shading, settings);
+  const Tracer tracer(scene, rays, shading, settings, log);
   PhotonFigures figures;
   for (const PhotonSource& source : sources) {
     const auto count = static_cast<size_t>(std::max(1.0, std::round(static_cast<double>(settings.emit) * source.power() / total)));

@@ -3,6 +3,8 @@
 // Power: W. Space: current. Same photons for any number of threads.
 #pragma once
 #include <functional>
+#include <optional>
+#include <string>
 
 #include "raytrace/trace.h"
 
@@ -36,6 +38,7 @@ enum class PhotonModel {
   Glass, Water, ///< Reflects and refracts by Fresnel's law (index 1.5, 1.33).
   Transparent,  ///< Passes straight on, tinted.
 };
-PhotonModel photonModelOf(const Attributes& attributes);
+/// Empty: there is no such model.
+std::optional<PhotonModel> photonModel(const std::string& name);
 
 }  // namespace tomales

@@ -51,22 +51,13 @@ EmitterTable tableOf(const Scene& scene, const std::vector<CoarseGroup>& groups)
 
 }  // namespace
 
-size_t Emitters::Cumulated::pick(double& x) const {
-  const double at = x * total();
-  const auto next = std::upper_bound(sums.begin() + 1, sums.end() - 1, at);
-  const auto k = static_cast<size_t>(next - sums.begin()) - 1;
-  const double part = sums[k + 1] - sums[k];
-  x = part > 0 ? std::clamp((at - sums[k]) / part, 0.0, 1.0) : 0.5;
-  return k;
-}
-
 Emitters::Emitters(const Scene& scene, const std::vector<CoarseGroup>& groups) : Emitters(tableOf(scene, groups)) { scene_ = &scene; }
 
 Emitters::Emitters(EmitterTable table) : table_(std::move(table)), lights_(table_.size()) {
   for (size_t light = 0; light < table_.size(); ++light)
     for (uint32_t l = 0; l < table_[light].lattices.size(); ++l) {
       const EmitterLattice& lattice = table_[light].lattices[l];
-      Source source{l, {}, std::vector<Cumulated>(lattice.rows)};
+      Source source{l, {}, std::vector<Distribution>(lattice.rows)};
       for (uint32_t j = 0; j < lattice.rows; ++j) {
         for (uint32_t i = 0; i < lattice.columns; ++i) source.row[j].add(double{areaOf(lattice.quads[j * lattice.columns + i])});
         source.rows.add(source.row[j].total());
@@ -109,7 +100,7 @@ bool Emitters::sample(int light, int count, const float* xi0, const float* xi1, 
     const size_t quad = row * lattice.columns + column;
     vec3 p, normal;
     place(lattice, quad, static_cast<float>(u), static_cast<float>(v), p, normal);
-    const double quadArea = source.row[row].sums[column + 1] - source.row[row].sums[column];
+    const double quadArea = source.row[row].weight(column);
     const bool there = !lattice.surface || lattice.surface->keeps(lattice.firstQuad + static_cast<uint32_t>(quad),
                                                                   static_cast<float>(u), static_cast<float>(v));
     area[i] = quadArea > 0 && there ? static_cast<float>(double{glm::length(normal)} * l.areas.total() / quadArea) : 0.0f;

@@ -4,6 +4,7 @@
 // Space: current. Threads: const members may be called concurrently.
 #pragma once
 #include "raytrace/tessellate.h"
+#include "reyes/base/distribution.h"
 
 namespace tomales {
 
@@ -44,22 +45,14 @@ class Emitters {
               float* area) const;
 
  private:
-  /// Sums from 0 of areas that a number in [0,1) picks from.
-  struct Cumulated {
-    std::vector<double> sums{0.0};
-    void add(double area) { sums.push_back(sums.back() + area); }
-    double total() const { return sums.back(); }
-    /// The part that x falls into; x becomes its place inside that part, [0,1].
-    size_t pick(double& x) const;
-  };
   struct Source {
     uint32_t lattice;
-    Cumulated rows;
-    std::vector<Cumulated> row;  ///< quads of each row
+    Distribution rows;
+    std::vector<Distribution> row;  ///< quads of each row
   };
   struct Light {
     std::vector<Source> sources;
-    Cumulated areas;
+    Distribution areas;
   };
   /// Position and d/du x d/dv by the quad's own parameters.
   void place(const EmitterLattice& lattice, size_t quad, float u, float v, vec3& P, vec3& normal) const;

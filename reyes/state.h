@@ -182,7 +182,7 @@ struct Attributes {
     bool operator==(const Indirect&) const = default;
   } indirect;
   struct Photon {
-    std::string globalMap, causticMap;                      ///< Names of the maps that this geometry shares; "": chosen for it.
+    std::string globalMap;                                  ///< Name of the map that this geometry shares; "": chosen for it.
     std::string shadingModel = "matte";
     bool operator==(const Photon&) const = default;
   } photon;

@@ -116,8 +116,8 @@ void fields(A& a, Attributes::Indirect& x) {
 
 template <class A>
 void fields(A& a, Attributes::Photon& x) {
-  auto& [globalMap, causticMap, shadingModel] = x;
-  each(a, globalMap, causticMap, shadingModel);
+  auto& [globalMap, shadingModel] = x;
+  each(a, globalMap, shadingModel);
 }
 
 template <class A>

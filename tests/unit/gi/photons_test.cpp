@@ -92,6 +92,12 @@ TEST(Photons, AMirrorStoresNothing) {
   EXPECT_TRUE(traced(world, {1000, 5}).empty());
 }
 
+TEST(Photons, AModelThatIsNotKnownIsNamedAndMatte) {
+  World world(insideOfASphere("velvet"));
+  EXPECT_FALSE(traced(world, {1000, 5}).empty());
+  EXPECT_EQ(world.log.count("photons-model-velvet"), 1);
+}
+
 TEST(Photons, ADistantLightIsAimedAtTheObjectsAlone) {
   SceneBuilder b;
   b.light("distantlight", {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {0, 0, 1})});
