@@ -21,6 +21,9 @@ constexpr float kRasterMargin_px = 1.0f;  ///< The hider may push borders out by
 /// coordinates beyond float's precision or reach, which no halving makes small, come near it.
 constexpr double kLayersOfPatch = 64;
 constexpr double kLeastBudget = 1 << 16;
+/// Lazily, a patch is halved so often, and what then has so many grids or more is a coarse piece.
+constexpr int kHalvingsAtOnce = 6;
+constexpr int64_t kGridsOfCoarse = 64;
 
 /// Box in camera space around a rectangle, over the shutter, before displacement.
 Bound3 cameraBound(const Object& o, uint32_t patch, const UvRect& rect) {
@@ -78,15 +81,20 @@ class Splitter {
   /// Pieces that were left out because halving did not help.
   struct GivenUp { int64_t atEye = 0, tooMany = 0; };
 
-  Splitter(const Scene& scene, int object, const Camera& camera, const PixelRect& window, Stats& stats)
+  Splitter(const Scene& scene, int object, const Camera& camera, const PixelRect& window, Stats& stats, Splitting splitting)
       : object_(scene.objects[static_cast<size_t>(object)]), index_(object), gridSize_(scene.options.gridSize),
-        camera_(camera), window_(window), stats_(stats),
+        camera_(camera), window_(window), stats_(stats), lazily_(splitting == Splitting::Lazily),
         edge_px_(std::sqrt(std::max(object_.attributes->shadingRate, 1e-4f))) {}
 
   void splitPatch(uint32_t patch, std::vector<SubPatch>& out) {
     const double window_px = static_cast<double>(window_.width()) * window_.height();
     budget_ = static_cast<int64_t>(kLeastBudget + kLayersOfPatch * window_px / (double{edge_px_} * edge_px_ * gridSize_));
     split(patch, UvRect{}, 0, out);
+  }
+  void splitPiece(const SubPatch& coarse, std::vector<SubPatch>& out) {
+    start_ = coarse.depth;
+    budget_ = kGridsOfCoarse + static_cast<int64_t>(kLayersOfPatch) * gridsOf(coarse.nu, coarse.nv);
+    split(coarse.patch, coarse.rect, coarse.depth, out);
   }
 
   const GivenUp& givenUp() const { return givenUp_; }
@@ -117,7 +125,12 @@ class Splitter {
     if (static_cast<int64_t>(nu) * nv <= gridSize_) {
       // What moves through the eye plane does so however small it is; it is seen while it stays in front.
       if (crossesEye && !still) ++givenUp_.atEye;
-      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound), bound.lo.z, crossesEye});
+      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound), bound.lo.z, crossesEye, depth, false});
+    } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && gridsOf(nu, nv) >= kGridsOfCoarse && !crossesEye &&
+               glm::length(bare.size()) <= kSlack * reach) {
+      // Halving shrinks such a piece and its bound as it should, so that its grids can be foretold.
+      budget_ -= gridsOf(nu, nv);
+      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound), bound.lo.z, crossesEye, depth, true});
     } else if (depth == kMaxDepth) {
       ++(bound.lo.z < glm::length(bound.size()) ? givenUp_.atEye : givenUp_.tooMany);
     } else {
@@ -127,6 +140,8 @@ class Splitter {
       split(patch, b, depth + 1, out);
     }
   }
+
+  int64_t gridsOf(int nu, int nv) const { return static_cast<int64_t>(nu) * nv / gridSize_; }
 
   bool cannotBeSeen(const Bound3& bare) const {
     const Bound3 bound = bare.grown(object_.displacementBound);
@@ -161,7 +176,9 @@ class Splitter {
   const Camera& camera_;
   const PixelRect& window_;
   Stats& stats_;
+  const bool lazily_;
   const float edge_px_;
+  int start_ = 0;       ///< Depth of what is being split.
   int64_t budget_ = 0;  ///< Pieces that the patch may still visit.
   GivenUp givenUp_;
 };
@@ -246,14 +263,33 @@ std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObj
   return out;
 }
 
-std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<const uint32_t> patches, const Camera& camera,
-                                   const PixelRect& window, Stats& stats, Log& log) {
+namespace {
+
+/// split(splitter, pieces) does it; the rest is the same for patches and pieces.
+template <class Split>
+std::vector<SubPatch> piecesBy(Splitter splitter, const Object& object, Stats& stats, Log& log, const Split& split) {
   std::vector<SubPatch> pieces;
-  Splitter splitter(scene, object, camera, window, stats);
-  for (const uint32_t p : patches) splitter.splitPatch(p, pieces);
-  report(splitter.givenUp(), scene.objects[static_cast<size_t>(object)], stats, log);
-  stats.geometry.subpatches += static_cast<int64_t>(pieces.size());
+  split(splitter, pieces);
+  report(splitter.givenUp(), object, stats, log);
+  stats.geometry.subpatches += std::count_if(pieces.begin(), pieces.end(), [](const SubPatch& p) { return !p.coarse; });
   return pieces;
+}
+
+}  // namespace
+
+std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<const uint32_t> patches, const Camera& camera,
+                                   const PixelRect& window, Stats& stats, Log& log, Splitting splitting) {
+  return piecesBy(Splitter(scene, object, camera, window, stats, splitting), scene.objects[static_cast<size_t>(object)], stats, log,
+                  [&](Splitter& splitter, std::vector<SubPatch>& out) {
+                    for (const uint32_t p : patches) splitter.splitPatch(p, out);
+                  });
+}
+
+std::vector<SubPatch> splitPiece(const Scene& scene, const SubPatch& coarse, const Camera& camera, const PixelRect& window,
+                                 Stats& stats, Log& log) {
+  return piecesBy(Splitter(scene, coarse.object, camera, window, stats, Splitting::Lazily),
+                  scene.objects[static_cast<size_t>(coarse.object)], stats, log,
+                  [&](Splitter& splitter, std::vector<SubPatch>& out) { splitter.splitPiece(coarse, out); });
 }
 
 namespace {

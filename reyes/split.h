@@ -20,6 +20,8 @@ struct SubPatch {
   Bound2 raster;    ///< Conservative, over the shutter, displacement included.
   float zMin;       ///< Nearest camera z, likewise.
   bool crossesEye = false;  ///< Some of it lies nearer than Camera::eyePlane, and micropolygons there are to be left out.
+  int depth = 0;            ///< Halvings of its patch.
+  bool coarse = false;      ///< Too large for a grid: splitPiece() goes on with it.
 };
 
 /// Where something may be seen, over the shutter, displacement and defocus included.
@@ -33,10 +35,16 @@ struct Placement {
 std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
                                   float margin, const Camera& camera, const PixelRect& window, bool clipped = true);
 
+/// Whether a patch of very many pieces is split at once, or left in coarse pieces where that is safe: a frame's pieces all at once
+/// would take memory in proportion to its area.
+enum class Splitting : uint8_t { Wholly, Lazily };
 /// Splits some patches of an object; what lies wholly outside the window is culled. Order: as given,
 /// then by place.
 std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<const uint32_t> patches, const Camera& camera,
-                                   const PixelRect& window, Stats& stats, Log& log);
+                                   const PixelRect& window, Stats& stats, Log& log, Splitting splitting = Splitting::Wholly);
+/// The next pieces of a coarse one, lazily. In the end they are those of splitting wholly.
+std::vector<SubPatch> splitPiece(const Scene& scene, const SubPatch& coarse, const Camera& camera, const PixelRect& window,
+                                 Stats& stats, Log& log);
 
 /// Boxes in object space of all that an object's shapes are over time. Patches are put in order along a curve that fills
 /// space, so that a run of them is compact, however a model scatters them: level 0 has a box for each run of kLeaf patches, a

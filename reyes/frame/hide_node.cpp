@@ -62,6 +62,38 @@ class OpeningNode : public HideNode {
   int users_;
 };
 
+/// Of those pieces that touch the buckets. zMin: of what they are made of; what a solid shows depends on all of it.
+HideNodes nodesOfPieces(HideContext& context, std::vector<SubPatch> pieces, float zMin, const BucketRange& within);
+
+/// A piece of very many grids.
+class CoarseNode : public OpeningNode {
+ public:
+  CoarseNode(HideContext& context, const SubPatch& piece, const BucketRange& range)
+      : OpeningNode(context, {piece.raster, piece.zMin}, range, range.count() == 1), piece_(piece) {}
+
+ private:
+  HideNodes open(const BucketRange& within) override {
+    return nodesOfPieces(
+        context_, splitPiece(context_.scene, piece_, context_.camera, context_.buckets.window(), context_.stats, context_.log), zMin(), within);
+  }
+
+  const SubPatch piece_;
+};
+
+HideNodes nodesOfPieces(HideContext& context, std::vector<SubPatch> pieces, float zMin, const BucketRange& within) {
+  HideNodes out;
+  for (SubPatch& piece : pieces) {
+    if (context.scene.objects[static_cast<size_t>(piece.object)].solid >= 0) piece.zMin = zMin;
+    const BucketRange touched = within & context.buckets.touched(piece.raster);
+    if (touched.empty()) continue;
+    if (piece.coarse)
+      out.push_back(std::make_unique<CoarseNode>(context, piece, touched));
+    else
+      out.push_back(std::make_unique<PieceNode>(context, piece, touched));
+  }
+  return out;
+}
+
 /// A box of an object's PatchTree.
 class PatchesNode : public OpeningNode {
  public:
@@ -105,14 +137,10 @@ class PatchesNode : public OpeningNode {
         if (auto node = make(context_, object_, tree_, level_ - 1, i, within, zMin())) out.push_back(std::move(node));
       return out;
     }
-    const bool isSolid = context_.scene.objects[static_cast<size_t>(object_)].solid >= 0;
-    for (SubPatch& piece : splitPatches(context_.scene, object_, tree_->patches(index_), context_.camera,
-                                        context_.buckets.window(), context_.stats, context_.log)) {
-      if (isSolid) piece.zMin = zMin();
-      const BucketRange touched = within & context_.buckets.touched(piece.raster);
-      if (!touched.empty()) out.push_back(std::make_unique<PieceNode>(context_, piece, touched));
-    }
-    return out;
+    return nodesOfPieces(context_,
+                         splitPatches(context_.scene, object_, tree_->patches(index_), context_.camera, context_.buckets.window(),
+                                      context_.stats, context_.log, Splitting::Lazily),
+                         zMin(), within);
   }
 
   const int object_;

@@ -62,6 +62,37 @@ TEST(Split, RasterBoundsHoldEveryDicedVertex) {
   }
 }
 
+TEST(Split, SplittingLazilyEndsInTheSamePieces) {
+  Scene scene = sceneOf({sphere(), quad(3, -0.7f)}, translation({0.4f, 0, 3.5f}));
+  scene.options.xResolution = scene.options.yResolution = 2048;
+  scene.freeze();
+  const Camera camera(scene.options);
+  Stats stats;
+  Log log(Log::Verbosity::Quiet);
+  const auto isCoarse = [](const SubPatch& p) { return p.coarse; };
+  const auto place = [](const SubPatch& p) { return std::make_tuple(p.object, p.patch, p.rect.u0, p.rect.v0, p.rect.u1, p.rect.v1, p.nu, p.nv); };
+  for (int object = 0; object < 2; ++object) {
+    const uint32_t patch = 0;
+    std::vector<SubPatch> whole = splitPatches(scene, object, {&patch, 1}, camera, camera.crop(), stats, log);
+    std::vector<SubPatch> lazy = splitPatches(scene, object, {&patch, 1}, camera, camera.crop(), stats, log, Splitting::Lazily);
+    EXPECT_GT(std::count_if(lazy.begin(), lazy.end(), isCoarse), 0);
+    EXPECT_LT(lazy.size(), whole.size() / 4);
+    for (auto coarse = lazy.end(); (coarse = std::find_if(lazy.begin(), lazy.end(), isCoarse)) != lazy.end();) {
+      const SubPatch piece = *coarse;
+      lazy.erase(coarse);
+      for (const SubPatch& p : splitPiece(scene, piece, camera, camera.crop(), stats, log)) {
+        EXPECT_GE(p.zMin, piece.zMin - 1e-4f);
+        lazy.push_back(p);
+      }
+    }
+    std::vector<decltype(place(whole[0]))> a, b;
+    for (const SubPatch& p : whole) a.push_back(place(p));
+    for (const SubPatch& p : lazy) b.push_back(place(p));
+    std::sort(a.begin(), a.end()), std::sort(b.begin(), b.end());
+    EXPECT_EQ(a, b);
+  }
+}
+
 Scene outOfFocus(Scene scene) {
   scene.options.fStop = 1, scene.options.focalLength = 0.8f, scene.options.focalDistance = 6;
   return scene;
