@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 
+#include "reyes/app/empty_frame.h"
 #include "reyes/app/hide.h"
 #include "reyes/app/interrupt.h"
 #include "reyes/app/overrides.h"
@@ -58,7 +59,9 @@ class RenderRun {
       applyOverrides(scene, settings_);
       dropDisplays(scene.options, log_);
       warnAboutOverwriting(scene);
+      const int64_t seenBefore = stats_.geometry.micropolygonsVisible;
       job_(scene, scenes_ - 1, settings_, stats_, log_, [this] { flush(); });
+      if (stats_.geometry.micropolygonsVisible == seenBefore && !settings_.resume && !interrupted()) explainEmptyFrame(scene, log_);
       flush();
     }
     parse_.emplace(stats_, "parse");

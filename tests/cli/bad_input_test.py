@@ -42,6 +42,17 @@ t.expect_run("a huge displacement bound", ["bound.rib"], 0)
 t.write("samples.rib", WORLD % 'LightSource "indirectlight" 1 "float samples" [1e9]\nLightSource "distantlight" 2\nSphere .1 -.1 .1 360')
 t.expect_run("a thousand million rays", ["samples.rib"], 0, "samples.rib:5", "65536 is used")
 
+# Nothing to be seen: the frame is what the scene asks for, but hardly what its author wanted.
+for what, change, says in (("behind the camera", ("0 0 4", "0 0 -4"), "behind the camera"),
+                           ("beyond the far plane", ("Translate", "Clipping 0.1 2\nTranslate"), "far clipping plane"),
+                           ("out of view", ("0 0 4", "9 0 4"), "outside the view"), ("hidden", ("matte", "null"), "is hidden"),
+                           ("not there", ("Sphere", "#"), "no geometry")):
+    t.write("empty.rib", GOOD.replace(*change))
+    t.expect_run("a scene whose geometry is " + what, ["empty.rib"], 0, "nothing is to be seen", says)
+t.write("good.rib", GOOD)
+result = t.expect_run("a crop without anything in it", ["good.rib", "--crop", "0,0.1,0,0.1"], 0)
+t.expect("nothing" not in result.stderr, "is no reason for a warning")
+
 # Something missing: the frame is complete, exit 3.
 t.write("archive.rib", WORLD % 'Sphere 1 -1 1 360\nReadArchive "nowhere.rib"')
 t.expect_run("a missing archive", ["archive.rib"], 3, "archive.rib:6", "nowhere.rib")
@@ -51,7 +62,6 @@ t.write("light.rib", WORLD % 'LightSource "nolight" 1\nSphere 1 -1 1 360')
 t.expect_run("a missing light shader", ["light.rib"], 3, "light.rib:5", "nolight")
 
 # Output that cannot be written: exit 4, before hours are spent on it.
-t.write("good.rib", GOOD)
 t.expect_run("-o into a folder that does not exist", ["good.rib", "-o", "no/where/a.exr"], 4, "no/where/a.exr")
 t.write("display.rib", GOOD.replace("good.exr", "no/where/b.exr"))
 t.expect_run("a Display in a folder that does not exist", ["display.rib"], 4, "display.rib:1", "no/where/b.exr")
