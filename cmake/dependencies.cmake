@@ -12,6 +12,7 @@ find_package(CLI11 CONFIG REQUIRED)
 find_package(nlohmann_json 3 CONFIG REQUIRED)
 find_package(embree 3.13 REQUIRED)
 find_package(hwy 1 CONFIG REQUIRED)
+find_package(OpenEXR 3 CONFIG REQUIRED)
 
 # libosd-dev's CMake package stops the configuration over static libraries that it does not contain, so the
 # shared library is named by hand; elsewhere the package's own configuration serves.

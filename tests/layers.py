@@ -24,7 +24,9 @@ SHADER_HEADERS = {"reyes/shader_api", "reyes/shader"}
 THIRD_PARTY = {
     "embree3/": ["raytrace/embree_scene.cpp"],
     "opensubdiv/": ["reyes/prim/subdivision_"],
-    "OpenImageIO/": ["reyes/shade/texture.cpp", "reyes/shade/shadow_map.cpp", "reyes/image/image_file.cpp"],
+    "OpenImageIO/": ["reyes/pictures/module.cpp"],
+    "OpenEXR/": ["reyes/image/exr_file.cpp"],
+    "Imath": ["reyes/image/exr_file.cpp"],
     "tbb/": ["reyes/base/parallel.cpp"],
     "nlohmann/": ["reyes/app/"],
     "CLI/": ["reyes/app/"],

@@ -20,7 +20,7 @@ struct FileFormat {
   std::string compression = {};         ///< Empty: the format's best lossless one.
   int tile = 0;                         ///< Side of a tile; 0: scanlines.
   bool deep = false;                    ///< OpenEXR: a list of samples in every pixel.
-  bool multipart = false;               ///< OpenEXR: one part for each layer; the picture is held until it is complete.
+  bool multipart = false;               ///< OpenEXR: one part for each layer.
   std::vector<std::string> precise = {};///< Channels that stay float in a file of halves.
   std::vector<Metadata> metadata = {};
 };

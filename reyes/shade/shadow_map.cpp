@@ -1,23 +1,28 @@
 #include "reyes/shade/shadow_map.h"
 
-#include <OpenImageIO/deepdata.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "reyes/base/rng.h"
+#include "reyes/pictures.h"
 
 namespace tomales {
 namespace {
 
-bool matrixOf(const OIIO::ImageSpec& spec, const char* name, mat4& out) {
+bool matrixOf(const PictureReader& in, const char* name, mat4& out) {
   float m[16];
   // RenderMan's matrices act on rows from the right and are stored by rows: that is glm's storage.
-  if (!spec.getattribute(name, OIIO::TypeMatrix44, m)) return false;
+  if (!in.matrix(name, m)) return false;
   out = glm::make_mat4(m);
   return true;
+}
+
+int channelOf(const PictureShape& shape, const char* name) {
+  const auto it = std::find(shape.channels.begin(), shape.channels.end(), name);
+  return it == shape.channels.end() ? -1 : static_cast<int>(it - shape.channels.begin());
 }
 
 vec2 project(const mat4& ndcFromWorld, const vec3& p) {
@@ -28,36 +33,40 @@ vec2 project(const mat4& ndcFromWorld, const vec3& p) {
 }  // namespace
 
 std::unique_ptr<const ShadowMap> ShadowMap::read(const std::string& path, std::string& error) {
-  const auto in = OIIO::ImageInput::open(path);
-  if (!in) return error = OIIO::geterror(), nullptr;
-  const OIIO::ImageSpec& spec = in->spec();
+  const auto in = openPicture(path, error);
+  if (!in) return nullptr;
+  const PictureShape& shape = in->shape();
   auto map = std::make_unique<ShadowMap>();
-  const auto channel = [&](const char* name) { return spec.channelindex(name); };
-  if (channel("Z") < 0 || !matrixOf(spec, "worldtocamera", map->cameraFromWorld_) ||
-      !matrixOf(spec, "worldtoscreen", map->ndcFromWorld_))
+  const auto channel = [&](const char* name) { return channelOf(shape, name); };
+  if (channel("Z") < 0 || !matrixOf(*in, "worldtocamera", map->cameraFromWorld_) ||
+      !matrixOf(*in, "worldtoscreen", map->ndcFromWorld_))
     return error = "it is no shadow map: depth or the matrices of its camera are missing", nullptr;
   map->cameraNormalFromWorld_ = glm::transpose(glm::inverse(mat3(map->cameraFromWorld_)));
-  map->width_ = spec.full_width, map->height_ = spec.full_height;
-  map->x0_ = spec.x, map->y0_ = spec.y, map->columns_ = spec.width, map->rows_ = spec.height;
+  map->width_ = shape.fullWidth, map->height_ = shape.fullHeight;
+  map->x0_ = shape.x, map->y0_ = shape.y, map->columns_ = shape.width, map->rows_ = shape.height;
   const mat4 ndcFromCamera = map->ndcFromWorld_ * glm::inverse(map->cameraFromWorld_);
   map->perspective_ = std::abs(ndcFromCamera[2][3]) > 1e-6f * std::abs(ndcFromCamera[3][3]);
-  if (!spec.deep) {
+  if (!in->deep()) {
     const int z = channel("Z");
-    map->depth_.resize(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height));
-    if (!in->read_image(0, 0, z, z + 1, OIIO::TypeDesc::FLOAT, map->depth_.data())) return error = in->geterror(), nullptr;
+    map->depth_.resize(static_cast<size_t>(shape.width) * static_cast<size_t>(shape.height));
+    if (!in->read(z, z + 1, map->depth_.data())) return error = in->error(), nullptr;
     return map;
   }
-  OIIO::DeepData deep;
-  if (!in->read_native_deep_image(0, 0, deep)) return error = in->geterror(), nullptr;
+  std::vector<uint32_t> counts;
+  std::vector<float> values;
+  if (!in->readDeep(counts, values)) return error = in->error(), nullptr;
   const int z = channel("Z"), back = channel("ZBack") < 0 ? z : channel("ZBack"), alpha = channel("A");
   const int opacity[3] = {channel("AR"), channel("AG"), channel("AB")};
   map->first_.push_back(0);
-  for (int64_t pixel = 0; pixel < deep.pixels(); ++pixel) {
+  const float* sample = values.data();
+  for (const uint32_t count : counts) {
     vec3 clear(1.0f);
-    for (int s = 0; s < deep.samples(pixel); ++s) {
-      Step step{deep.deep_value(pixel, z, s), deep.deep_value(pixel, back, s), clear, clear};
-      for (int k = 0; k < 3; ++k)
-        step.after[k] *= 1 - deep.deep_value(pixel, opacity[k] < 0 ? alpha : opacity[k], s);
+    for (uint32_t s = 0; s < count; ++s, sample += shape.channels.size()) {
+      Step step{sample[z], sample[back], clear, clear};
+      for (int k = 0; k < 3; ++k) {
+        const int c = opacity[k] < 0 ? alpha : opacity[k];
+        if (c >= 0) step.after[k] *= 1 - sample[c];
+      }
       clear = step.after;
       map->steps_.push_back(step);
     }

@@ -1,5 +1,5 @@
 // Shadow maps for shaders: pictures of depth, or of opacity over depth, that a Display of type "shadow", "zfile" or "deepshad"
-// has left. OpenImageIO lives behind this file. Threads: concurrent lookups are safe.
+// has left. Threads: concurrent lookups are safe.
 #pragma once
 #include <map>
 #include <memory>

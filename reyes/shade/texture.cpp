@@ -1,7 +1,9 @@
 #include "reyes/shade/texture.h"
 
-#include <OpenImageIO/texture.h>
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <mutex>
 
 #ifdef TOMALES_SANITIZED
 // OpenImageIO 2.4 frees a TextureSystem through a base class of another size; the report would end every
@@ -13,46 +15,35 @@ extern "C" const char* __asan_default_options() { return "new_delete_type_mismat
 namespace tomales {
 
 struct Textures::Impl {
-  OIIO::TextureSystem* system;
+  const std::string searchPath;
   Log& log;
   Stats& stats;
+  std::once_flag opened{};
+  std::unique_ptr<TextureCache> cache{};  ///< Null: `problem` says why.
+  std::string problem{};
+
+  bool lookup(const TextureQuery& query, TmVec3 out, std::string& error) {
+    std::call_once(opened, [this] {
+      if (const PictureLibrary* library = pictureLibrary(problem)) cache = library->textures(searchPath);
+    });
+    if (!cache) return error = problem, false;
+    int64_t lookups = 0;
+    const bool found = cache->lookup(query, out, lookups, error);
+    stats.textures.lookups += lookups;
+    return found;
+  }
 };
 
-Textures::Textures(const std::string& searchPath, Log& log, Stats& stats)
-    : impl_(new Impl{OIIO::TextureSystem::create(false), log, stats}) {
-  impl_->system->attribute("searchpath", searchPath);
-  impl_->system->attribute("automip", 1);  // pictures that no one ran maketx on
-  impl_->system->attribute("autotile", 64);
-}
+Textures::Textures(const std::string& searchPath, Log& log, Stats& stats) : impl_(new Impl{searchPath, log, stats}) {}
+Textures::~Textures() = default;
 
-Textures::~Textures() { OIIO::TextureSystem::destroy(impl_->system, true); }
-
-bool Textures::lookup(const TextureQuery& q, const SourceLoc& where, const std::string& user,
-                      TmVec3 out) const {
-  OIIO::TextureSystem& system = *impl_->system;
-  OIIO::TextureSystem::Perthread* thread = system.get_perthread_info();
-  OIIO::TextureSystem::TextureHandle* handle = system.get_texture_handle(OIIO::ustring(q.name), thread);
-  bool found = handle && system.good(handle);
-  OIIO::TextureOpt options;
-  options.firstchannel = q.channel;
-  if (q.latlong) options.swrap = OIIO::TextureOpt::WrapPeriodic, options.twrap = OIIO::TextureOpt::WrapClamp;
+bool Textures::lookup(const TextureQuery& q, const SourceLoc& where, const std::string& user, TmVec3 out) const {
+  std::string error;
+  if (impl_->lookup(q, out, error)) return true;
   float* const channels[3] = {out.x, out.y, out.z};
-  const int n = std::min(q.channels, 3);
-  int64_t lookups = 0;
-  for (int i = 0; i < q.count && found; ++i) {
-    if (!q.active[i]) continue;
-    float texel[3] = {0, 0, 0};
-    found = system.texture(handle, thread, options, q.s[i], q.t[i], q.width[i], 0, 0, q.height[i], n, texel);
-    for (int k = 0; k < n; ++k) channels[k][i] = texel[k];
-    ++lookups;
-  }
-  impl_->stats.textures.lookups += lookups;
-  const std::string error = system.geterror();
-  if (found) return true;
-
   for (int i = 0; i < q.count; ++i)
     if (q.active[i])
-      for (int k = 0; k < n; ++k) channels[k][i] = k == 1 ? 0.0f : 1.0f;
+      for (int k = 0; k < std::min(q.channels, 3); ++k) channels[k][i] = k == 1 ? 0.0f : 1.0f;
   impl_->log.report(Severity::Missing, fmt::format("texture-missing {}", q.name), where,
                     fmt::format("{}: texture \"{}\" cannot be read ({}); magenta is used", user, q.name,
                                 error.empty() ? "not found" : error));

@@ -1,22 +1,12 @@
-// Pictures for shaders; OpenImageIO lives behind this file. Threads: concurrent lookups are safe.
+// Pictures for shaders. Threads: concurrent lookups are safe.
 #pragma once
 #include <memory>
 
 #include "reyes/base/log.h"
 #include "reyes/base/stats.h"
-#include "reyes/shader_api.h"
+#include "reyes/pictures.h"
 
 namespace tomales {
-
-/// Which texels a batch asks for: (s[i], t[i]) over a box of (width, height), all in 0..1 of the picture.
-struct TextureQuery {
-  const char* name;
-  int channel, channels;
-  int count;
-  const uint8_t* active;
-  const float *s, *t, *width, *height;
-  bool latlong = false;  ///< The left and right edge join; beyond top and bottom lies the edge.
-};
 
 class Textures {
  public:
