@@ -11,11 +11,12 @@ namespace tomales {
 
 /// One positional argument.
 struct RibArg {
-  enum class Kind { Number, String, Numbers, Strings } kind = Kind::Number;
-  std::vector<float> numbers;
-  std::vector<std::string> strings;
+  enum class Kind { Number, Integer, String, Numbers, Integers, Strings } kind = Kind::Number;
+  std::vector<float> numbers{};
+  std::vector<std::string> strings{};
+  std::vector<int> integers{};  ///< Exact up to 2^31; what is written as no integer is rounded, NaN is INT_MIN.
   float number() const { return numbers.empty() ? 0.0f : numbers[0]; }
-  std::vector<int> ints() const;
+  int integer() const { return integers.empty() ? 0 : integers[0]; }
 };
 
 /// A complete request: its positional arguments as the request table orders them, then its parameter list.

@@ -3,11 +3,12 @@
 
 namespace {
 rsl::ColorParam background("background", {1, 1, 1}, "colour behind everything");
-rsl::ColorParam bgcolor("bgcolor", {1, 1, 1}, "other name of background; the two multiply");
+rsl::ColorParam bgcolor("bgcolor", {1, 1, 1}, "other name of background; all multiply");
+rsl::ColorParam color("color", {1, 1, 1}, "the same");
 
 void shadeBackground(const TmGrid* g) {
   for (int i : rsl::Batch(g)) {
-    const rsl::Color behind = background(g, i) * bgcolor(g, i);
+    const rsl::Color behind = background(g, i) * bgcolor(g, i) * color(g, i);
     rsl::set(g->Ci, i, rsl::get(g->Ci, i) + (1 - g->alpha[i]) * behind);
     rsl::set(g->Oi, i, {1, 1, 1});
     g->alpha[i] = 1;
@@ -25,5 +26,5 @@ void shadeClamp(const TmGrid* g) {
 
 extern const rsl::Shader backgroundShader, clamptoalphaShader;
 const rsl::Shader backgroundShader(TM_IMAGER, "background", "a colour behind everything, alpha 1", 0,
-                                   shadeBackground, {&background, &bgcolor});
+                                   shadeBackground, {&background, &bgcolor, &color});
 const rsl::Shader clamptoalphaShader(TM_IMAGER, "clamptoalpha", "no colour above alpha", 0, shadeClamp, {});

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <set>
 
+#include "reyes/output.h"
+
 namespace tomales {
 namespace {
 
@@ -36,11 +38,14 @@ void addIndirectLight(Scene& scene) {
   changeAttributes(scene, [&](Attributes& a) { a.lights.push_back(light->index); });
 }
 
-/// -o replaces the first Display. PNG is for looking at: no alpha, and sRGB unless the scene's Exposure
+bool isMap(const DisplayCall& d) { return writesShadowMap(d) || d.type == "deepshad"; }
+
+/// -o replaces the first Display that is no map for later frames; a frame of such maps alone keeps them all. PNG is for looking at: no alpha, and sRGB unless the scene's Exposure
 /// encodes already.
 void overrideOutput(Options& options, const std::string& output) {
-  if (options.displays.empty()) options.displays.emplace_back();
-  DisplayCall& display = options.displays.front();
+  const auto first = std::find_if_not(options.displays.begin(), options.displays.end(), isMap);
+  if (first == options.displays.end()) return;
+  DisplayCall& display = *first;
   display.name = withFrameNumber(output, options.frame);
   display.type = "file";
   std::string extension = std::filesystem::path(output).extension().string();

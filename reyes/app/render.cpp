@@ -45,6 +45,9 @@ class RenderRun {
     if (scenes_ > 0 && rendered_ == 0 && settings_.frames && !interrupted())
       log_.report(Severity::Error, "no-frame", {std::make_shared<std::string>(settings_.files.front()), 0},
                   "none of the frames that --frames names is in the scene");
+    if (rendered_ > 0 && namesPicture(settings_.output) && !outputUsed_)
+      log_.report(Severity::Output, "output-unused", {std::make_shared<std::string>(settings_.output), 0},
+                  "not written: -o takes the place of a picture, and the Displays of the scene are all maps");
     flush();
     if (const int code = interruptExitCode()) return code;
     return !read ? std::max(exitCodeOf(log_), kUnreadable) : exitCodeOf(log_);
@@ -75,7 +78,10 @@ class RenderRun {
   void warnAboutOverwriting(const Scene& scene) {
     if (!settings_.output.empty() && !namesPicture(settings_.output))
       return warnAboutOverwriting(withFrameNumber(settings_.output, scene.options.frame), scene.where);
-    for (const DisplayCall& display : scene.options.displays) warnAboutOverwriting(display.name, display.where);
+    for (const DisplayCall& display : scene.options.displays) {
+      warnAboutOverwriting(display.name, display.where);
+      outputUsed_ |= display.name == withFrameNumber(settings_.output, scene.options.frame);
+    }
   }
 
   void warnAboutOverwriting(const std::string& file, const SourceLoc& where) {
@@ -98,6 +104,7 @@ class RenderRun {
   std::optional<StageTimer> parse_;
   std::set<std::string> written_;
   int scenes_ = 0, rendered_ = 0;
+  bool outputUsed_ = false;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "reyes/rib/handlers.h"
+#include "reyes/rib/refusals.h"
 
 namespace tomales::rib {
 namespace {
@@ -18,7 +19,15 @@ void textureCoordinates(GraphicsState& s, const Request& r) {
 void shadingRate(GraphicsState& s, const Request& r) {
   const float rate = r.args[0].number();
   if (!(rate > 0)) return reject(s, r, fmt::format("{} is no area", rate));
-  s.scope.edit().shadingRate = std::clamp(rate, 1e-4f, 1e8f);
+  s.scope.shadingRate = std::clamp(rate, 1e-4f, 1e8f);
+  s.scope.edit().shadingRate = s.scope.shadingRate * s.scope.relativeShadingRate;
+}
+
+// PRMan: factors of ShadingRate that multiply down the blocks, until one is reset.
+void relativeShadingRate(GraphicsState& s, const Request& r, float factor, bool resets) {
+  if (!(factor > 0)) return reject(s, r, fmt::format("{} is no factor", factor));
+  s.scope.relativeShadingRate = std::clamp(resets ? factor : factor * s.scope.relativeShadingRate, 1e-4f, 1e4f);
+  s.scope.edit().shadingRate = s.scope.shadingRate * s.scope.relativeShadingRate;
 }
 
 // RISpec 3.2 section 4.2.9 knows "flatness", which no polygonal renderer after it asks for; the factors are PRMan's.
@@ -27,7 +36,7 @@ void geometricApproximation(GraphicsState& s, const Request& r) {
   const float value = r.args[1].number();
   if (kind != "motionfactor" && kind != "focusfactor") {
     s.warnOnce("GeometricApproximation " + kind, r, "rib-unsupported",
-               "GeometricApproximation \"" + kind + "\" is not supported, ignored");
+               "GeometricApproximation \"" + kind + "\" is not supported: ShadingRate alone says how fine; ignored");
     return;
   }
   if (!(value >= 0)) return reject(s, r, fmt::format("\"{}\" cannot be {}", kind, value));
@@ -77,8 +86,8 @@ void basis(GraphicsState& s, const Request& r) {
     } else {
       return reject(s, r, "unknown basis \"" + matrix.strings[0] + "\"");
     }
-    b.step = static_cast<int>(std::clamp(step.number(), 0.0f, 5.0f));
-    if (b.step < 1 || b.step > 4) return reject(s, r, fmt::format("a basis step of {}", step.number()));
+    b.step = step.integer();
+    if (b.step < 1 || b.step > 4) return reject(s, r, fmt::format("a basis step of {}", b.step));
     out = b;
   };
   read(r.args[0], r.args[1], s.scope.uBasis);
@@ -110,6 +119,12 @@ void editMembership(std::set<std::string>& sets, std::string_view text) {
   }
 }
 
+// Until PRMan 12: what shadow rays see, and how they find its opacity.
+void transmission(Attributes& a, const Param& p) {
+  a.visibility.transmission = p.strings[0] != "transparent";
+  a.transmissionHitMode = p.strings[0] == "shader" ? HitMode::Shader : HitMode::Primitive;
+}
+
 // "cache" looks into files that the scene may not have; its shader knows as much.
 HitMode hitMode(const Param& p) { return p.strings[0] == "primitive" ? HitMode::Primitive : HitMode::Shader; }
 
@@ -124,6 +139,8 @@ const std::unordered_map<std::string_view, Setter>& numberSetters() {
        [](Attributes& a, const Param& p) { a.visibility.specular = p.number(1) != 0; }},
       {"visibility:transmission",
        [](Attributes& a, const Param& p) { a.visibility.transmission = p.number(1) != 0; }},
+      {"visibility:trace",  // until PRMan 12
+       [](Attributes& a, const Param& p) { a.visibility.diffuse = a.visibility.specular = p.number(1) != 0; }},
       {"visibility:photon", [](Attributes& a, const Param& p) { a.visibility.photon = p.number(1) != 0; }},
       {"trace:bias", [](Attributes& a, const Param& p) { a.trace.bias = p.number(0); }},
       {"trace:offset", [](Attributes& a, const Param& p) { a.trace.offset = p.number(0); }},
@@ -151,6 +168,7 @@ const std::unordered_map<std::string_view, Setter>& numberSetters() {
 const std::unordered_map<std::string_view, Setter>& textSetters() {
   static const std::unordered_map<std::string_view, Setter> table = {
       {"identifier:name", [](Attributes& a, const Param& p) { a.name = p.strings[0]; }},
+      {"visibility:transmission", transmission},
       {"displacementbound:coordinatesystem",
        [](Attributes& a, const Param& p) { a.displacementBoundSpace = p.strings[0]; }},
       {"photon:globalmap", [](Attributes& a, const Param& p) { a.photon.globalMap = p.strings[0]; }},
@@ -179,6 +197,8 @@ void attribute(GraphicsState& s, const Request& r) {
       it->second(s.scope.edit(), p);
     } else if (key == "trimcurve:sense") {
       trimSense(s, r, text ? p.strings[0] : "");
+    } else if (key == "shade:relativeshadingrate" || key == "shade:resetrelativeshadingrate") {
+      relativeShadingRate(s, r, p.number(1), key == "shade:resetrelativeshadingrate");
     } else if (key == "light:shadows") {
       s.scope.lightsCastShadows = text ? p.strings[0] == "on" : p.number(0) != 0;
     } else {
@@ -186,7 +206,7 @@ void attribute(GraphicsState& s, const Request& r) {
       // Cryptomatte reads the second (reyes/frame/write_frame.cpp).
       if (category != "user" && key != "identifier:shadinggroup")
         s.warnOnce("Attribute " + key, r, "rib-unknown-attribute",
-                   "Attribute \"" + key + "\" has no effect here");
+                   "Attribute \"" + key + "\" has no effect here" + reasonFor("Attribute " + key));
     }
   }
 }

@@ -3,9 +3,16 @@
 
 #include "reyes/rib/dictionary.h"
 #include "reyes/rib/handlers.h"
+#include "reyes/rib/refusals.h"
 
 namespace tomales::rib {
 namespace {
+
+Param floats(const char* name, std::vector<float> values) {
+  Param p;
+  p.name = name, p.arrayLength = static_cast<int>(values.size()), p.floats = std::move(values);
+  return p;
+}
 
 void quantize(GraphicsState& s, const Request& r) {
   const std::vector<float>& a = r.args[1].numbers;
@@ -17,8 +24,30 @@ void quantize(GraphicsState& s, const Request& r) {
   } else if (type == "z") {
     s.globals.options.depthQuantize = q;
   } else {
-    s.warn(r, "rib-option", "quantization of \"" + type + "\" is not supported yet; ignored");
+    s.globals.quantized[type] = {floats("quantize", {0, q.one, q.min, q.max}), floats("dither", {q.dither})};
   }
+}
+
+const Dictionary& standardNames() {
+  static const Dictionary dictionary;
+  return dictionary;
+}
+
+// A type that a picture holds: nothing otherwise.
+std::optional<ValueType> channelType(const Declaration& d) {
+  const ValueType type = d.type == ValueType::Integer ? ValueType::Float : d.type;
+  const bool fits = d.arrayLength == 1 && floatsPerValue(type) <= 3 && type != ValueType::String;
+  return fits ? std::optional(type) : std::nullopt;
+}
+
+// BMRT and Aqsis: a mode "float name" declares the variable that it shows.
+void declareChannel(GraphicsState& s, DisplayCall& call) {
+  std::string name;
+  const auto declaration = standardNames().find(call.mode, "", name);
+  const auto type = declaration ? channelType(*declaration) : std::nullopt;
+  if (!type || name == call.mode) return;
+  s.globals.options.channels.try_emplace(name, ChannelCall{name, *type, {}, call.where});
+  call.mode = name;
 }
 
 // RISpec 3.2: a leading '+' adds a display, any other replaces them all.
@@ -33,17 +62,20 @@ void display(GraphicsState& s, const Request& r) {
     s.warn(r, "rib-display", "\"" + call.name + "\" names no file; ri.pic, the default of RenderMan, is used");
     call.name = DisplayCall().name;
   }
+  declareChannel(s, call);
+  if (const auto it = s.globals.quantized.find(call.mode); it != s.globals.quantized.end() && !findParam(call.params, "quantize"))
+    call.params.insert(call.params.end(), it->second.begin(), it->second.end());
   s.globals.options.displays.push_back(std::move(call));
 }
 
 // "class type name": the type is that of the variable, the class tells nothing.
 void displayChannel(GraphicsState& s, const Request& r) {
-  static const Dictionary standard;
   ChannelCall call{"", ValueType::Color, r.params, r.where};
   const std::string& token = r.args[0].strings[0];
-  if (const auto declaration = standard.find(token, "", call.name)) {
-    call.type = declaration->type == ValueType::Integer ? ValueType::Float : declaration->type;
-    if (declaration->arrayLength != 1 || floatsPerValue(call.type) > 3 || call.type == ValueType::String)
+  if (const auto declaration = standardNames().find(token, "", call.name)) {
+    const auto type = channelType(*declaration);
+    call.type = type.value_or(call.type);
+    if (!type)
       return s.warn(r, "rib-channel", fmt::format("\"{}\" is of a type that no picture holds; ignored", token));
   } else {
     call.name = token;
@@ -69,6 +101,8 @@ void depthFilter(GraphicsState& s, const Request& r, const std::string& name) {
 void hider(GraphicsState& s, const Request& r) {
   Options& o = s.globals.options;
   o.hider = r.args[0].strings[0];
+  if (o.hider != "hidden" && o.hider != "stochastic")
+    s.warnOnce("hider " + o.hider, r, "rib-unsupported", "Hider \"" + o.hider + "\" is not supported" + reasonFor("Hider " + o.hider));
   for (const Param& p : r.params)
     if (p.name == "jitter")
       o.jitter = p.number(1) != 0;
@@ -83,7 +117,7 @@ void hider(GraphicsState& s, const Request& r) {
       depthFilter(s, r, p.strings[0]);
     else
       s.warnOnce("hider:" + p.name, r, "rib-unsupported",
-                 "Hider: parameter \"" + p.name + "\" is not supported or has no such value, ignored");
+                 "Hider: parameter \"" + p.name + "\" is not supported or has no such value, ignored" + reasonFor("Hider:" + p.name));
 }
 
 }  // namespace

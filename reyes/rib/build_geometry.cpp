@@ -29,12 +29,12 @@ PrimPtr polygon(const Request& r, const Scope&, Problems& problems) {
 }
 
 PrimPtr generalPolygon(const Request& r, const Scope&, Problems& problems) {
-  const std::vector<int> counts = r.args[0].ints();
+  const std::vector<int>& counts = r.args[0].integers;
   return makeGeneralPolygons({static_cast<int>(counts.size())}, counts, countUp(pointCount(r)), r.params, problems);
 }
 
 PrimPtr pointsGeneralPolygons(const Request& r, const Scope&, Problems& problems) {
-  return makeGeneralPolygons(r.args[0].ints(), r.args[1].ints(), r.args[2].ints(), r.params, problems);
+  return makeGeneralPolygons(r.args[0].integers, r.args[1].integers, r.args[2].integers, r.params, problems);
 }
 
 bool bicubic(const Request& r) {
@@ -54,7 +54,7 @@ PrimPtr patchMesh(const Request& r, const Scope& s, Problems& problems) {
     if (wrap != "periodic" && wrap != "nonperiodic") throw PrimError("unknown wrap \"" + wrap + "\"");
     return wrap == "periodic";
   };
-  const int nu = r.args[1].ints()[0], nv = r.args[3].ints()[0];
+  const int nu = r.args[1].integer(), nv = r.args[3].integer();
   const bool uPeriodic = periodic(2), vPeriodic = periodic(4);
   if (bicubic(r))
     return makeBicubicPatchMesh(nu, uPeriodic, s.uBasis, nv, vPeriodic, s.vBasis, r.params, problems);
@@ -84,19 +84,19 @@ bool tagsAgree(const SubdivisionTags& t) {
 PrimPtr subdivisionMesh(const Request& r, const Scope&, Problems& problems) {
   SubdivisionTags tags;
   if (r.args.size() > 7)
-    tags = {r.args[3].strings, r.args[4].ints(), r.args[5].ints(), r.args[6].numbers, r.args[7].strings};
+    tags = {r.args[3].strings, r.args[4].integers, r.args[5].integers, r.args[6].numbers, r.args[7].strings};
   else if (r.args.size() > 3)
-    tags = {r.args[3].strings, withoutStrings(r.args[4].ints()), r.args[5].ints(), r.args[6].numbers, {}};
+    tags = {r.args[3].strings, withoutStrings(r.args[4].integers), r.args[5].integers, r.args[6].numbers, {}};
   if (!tagsAgree(tags)) {
     problems.push_back("the counts of its tags do not add up: all tags are ignored");
     tags = {};
   }
-  return makeSubdivisionMesh(r.args[0].strings[0], r.args[1].ints(), r.args[2].ints(), tags, r.params,
+  return makeSubdivisionMesh(r.args[0].strings[0], r.args[1].integers, r.args[2].integers, tags, r.params,
                              problems);
 }
 
 PrimPtr blobby(const Request& r, const Scope&, Problems& problems) {
-  return makeBlobby(r.args[0].ints()[0], r.args[1].ints(), r.args[2].numbers, r.params, problems);
+  return makeBlobby(r.args[0].integer(), r.args[1].integers, r.args[2].numbers, r.params, problems);
 }
 
 PrimPtr geometry(const Request& r, const Scope&, Problems& problems) {
@@ -130,7 +130,7 @@ const std::unordered_map<std::string_view, Builder>& builders() {
       {"GeneralPolygon", generalPolygon},
       {"PointsPolygons",
        [](const Request& r, const Scope&, Problems& problems) {
-         return makePolygons(r.args[0].ints(), r.args[1].ints(), r.params, problems);
+         return makePolygons(r.args[0].integers, r.args[1].integers, r.params, problems);
        }},
       {"PointsGeneralPolygons", pointsGeneralPolygons},
       {"Patch", patch},

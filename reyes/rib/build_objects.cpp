@@ -32,7 +32,7 @@ bool isEmptyMesh(const Request& r) {
   static constexpr std::string_view kMeshes[] = {"PointsPolygons", "PointsGeneralPolygons", "SubdivisionMesh",
                                                   "HierarchicalSubdivisionMesh"};
   if (std::find(std::begin(kMeshes), std::end(kMeshes), r.name) == std::end(kMeshes)) return false;
-  return r.args[r.name.ends_with("SubdivisionMesh") ? 1 : 0].numbers.empty();
+  return r.args[r.name.ends_with("SubdivisionMesh") ? 1 : 0].integers.empty();
 }
 
 /// Surface "null": nobody sees the object, but it may emit.

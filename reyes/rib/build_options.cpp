@@ -4,6 +4,7 @@
 #include <climits>
 
 #include "reyes/rib/handlers.h"
+#include "reyes/rib/refusals.h"
 
 namespace tomales::rib {
 namespace {
@@ -58,7 +59,7 @@ void projection(GraphicsState& s, const Request& r) {
   for (const Param& p : r.params) {
     const float fov = p.number(90);
     if (p.name != "fov")
-      s.warn(r, "rib-unsupported", "parameter \"" + p.name + "\" is not supported yet, ignored");
+      s.warn(r, "rib-unsupported", "parameter \"" + p.name + "\" is not supported, ignored");
     else if (fov > 0 && fov < 180)
       o.fov_degrees = fov;
     else
@@ -184,7 +185,7 @@ void option(GraphicsState& s, const Request& r) {
     const std::string key = category + ":" + p.name;
     s.globals.options.user[key] = p;
     if (!knownOption(s, r, key, p))
-      s.warnOnce("Option " + key, r, "rib-unknown-option", "Option \"" + key + "\" has no effect here");
+      s.warnOnce("Option " + key, r, "rib-unknown-option", "Option \"" + key + "\" has no effect here" + reasonFor("Option " + key));
   }
 }
 

@@ -24,6 +24,7 @@ void restoreShading(Scope& to, const Scope& from) {
   a.shadingRate = b.shadingRate, a.interpolation = b.interpolation, a.indirect = b.indirect,
   a.trace = b.trace;
   a.irradianceMaxError = b.irradianceMaxError, a.irradianceMaxPixelDist = b.irradianceMaxPixelDist;
+  to.shadingRate = from.shadingRate, to.relativeShadingRate = from.relativeShadingRate;
   to.lightsCastShadows = from.lightsCastShadows;
 }
 

@@ -6,7 +6,7 @@ namespace {
 
 NurbsDirection nurbsDirection(const Request& r, size_t first) {
   const auto number = [&](size_t k) { return r.args[first + k].numbers[0]; };
-  return {r.args[first].ints()[0], r.args[first + 1].ints()[0], r.args[first + 2].numbers, number(3),
+  return {r.args[first].integer(), r.args[first + 1].integer(), r.args[first + 2].numbers, number(3),
           number(4)};
 }
 
@@ -22,7 +22,7 @@ PrimPtr curves(const Request& r, const Scope& s, Problems& problems) {
   const std::string &type = r.args[0].strings[0], &wrap = r.args[2].strings[0];
   if (type != "linear" && type != "cubic") throw PrimError("unknown type of curve \"" + type + "\"");
   if (wrap != "periodic" && wrap != "nonperiodic") throw PrimError("unknown wrap \"" + wrap + "\"");
-  return makeCurves(type == "cubic", s.vBasis, r.args[1].ints(), wrap == "periodic", r.params, problems);
+  return makeCurves(type == "cubic", s.vBasis, r.args[1].integers, wrap == "periodic", r.params, problems);
 }
 
 }  // namespace tomales::rib

@@ -12,26 +12,28 @@ class Arrays {
   explicit Arrays(const Request& r) : request_(r) {}
 
   /// The next `n` values of array k.
-  std::vector<float> take(size_t k, size_t n) {
-    const std::vector<float>& all = request_.args[k].numbers;
+  std::vector<float> take(size_t k, size_t n) { return take(request_.args[k].numbers, k, n); }
+  size_t takeCount(size_t k) {
+    const int n = take(request_.args[k].integers, k, 1)[0];
+    if (n < 0 || n > 1'000'000) throw PrimError(fmt::format("array {} holds the count {}", k + 1, n));
+    return static_cast<size_t>(n);
+  }
+  bool allTaken() const {
+    for (size_t k = 0; k < 9; ++k)
+      if (used_[k] < request_.args[k].numbers.size() + request_.args[k].integers.size()) return false;
+    return true;
+  }
+
+ private:
+  template <class T>
+  std::vector<T> take(const std::vector<T>& all, size_t k, size_t n) {
     if (n > all.size() - used_[k])
       throw PrimError(fmt::format("array {} has {} values, too few for its curves", k + 1, all.size()));
     const auto first = all.begin() + static_cast<ptrdiff_t>(used_[k]);
     used_[k] += n;
     return {first, first + static_cast<ptrdiff_t>(n)};
   }
-  size_t takeCount(size_t k) {
-    const float n = take(k, 1)[0];
-    if (!(n >= 0 && n <= 1e6f)) throw PrimError(fmt::format("array {} holds the count {}", k + 1, n));
-    return static_cast<size_t>(n);
-  }
-  bool allTaken() const {
-    for (size_t k = 0; k < 9; ++k)
-      if (used_[k] < request_.args[k].numbers.size()) return false;
-    return true;
-  }
 
- private:
   const Request& request_;
   size_t used_[9] = {};
 };
@@ -53,7 +55,7 @@ void trimCurve(GraphicsState& s, const Request& r) {
   TrimLoops trim{{}, s.scope.trim->keepsInside};
   Arrays arrays(r);
   try {
-    trim.loops.resize(r.args[0].numbers.size());
+    trim.loops.resize(r.args[0].integers.size());
     for (auto& loop : trim.loops)
       for (size_t left = arrays.takeCount(0); left > 0; --left) loop.push_back(takeCurve(arrays));
     if (!arrays.allTaken()) s.warn(r, "rib-trim", "some arrays have more values than its curves need");

@@ -15,12 +15,14 @@ class Conditions {
   /// The file is over.
   void finish();
 
+  /// False: in a branch that is not read.
+  bool reads() const { return levels_.empty() || levels_.back().reads; }
+
  private:
   struct Level {
     SourceLoc where;
     bool reads, settled;  ///< settled: a branch has been read, or none is to be.
   };
-  bool reads() const { return levels_.empty() || levels_.back().reads; }
   bool conditionHolds(const Request& request) const;
 
   Log& log_;

@@ -138,6 +138,22 @@ bool Dictionary::declare(const std::string& name, const std::string& declaration
   return true;
 }
 
+bool Dictionary::setColorSamples(std::vector<float> rgbOfSamples) {
+  const size_t n = rgbOfSamples.size() / 3;
+  if (rgbOfSamples.size() % 3 != 0 || n > static_cast<size_t>(kMostColorSamples)) return false;
+  rgbOfSamples_ = std::move(rgbOfSamples);
+  return true;
+}
+
+std::vector<float> Dictionary::rgb(const std::vector<float>& colors) const {
+  const size_t n = rgbOfSamples_.size() / 3;
+  if (n == 0) return colors;
+  std::vector<float> out(colors.size() / n * 3, 0.0f);
+  for (size_t i = 0; i < colors.size() / n * n; ++i)
+    for (size_t c = 0; c < 3; ++c) out[i / n * 3 + c] += colors[i] * rgbOfSamples_[i % n * 3 + c];
+  return out;
+}
+
 std::optional<Declaration> Dictionary::find(const std::string& token, const std::string& category,
                                             std::string& name) const {
   const auto declared = [&](const std::string& bare) -> const Declaration* {

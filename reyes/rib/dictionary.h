@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "reyes/base/value.h"
 
@@ -16,7 +17,7 @@ struct Declaration {
 
 class Dictionary {
  public:
-  static constexpr int kLongestArray = 1 << 16;
+  static constexpr int kLongestArray = 1 << 16, kMostColorSamples = 64;
 
   /// Holds the standard names of RISpec 3.2 and of the options and attributes that Tomales knows.
   Dictionary();
@@ -30,7 +31,16 @@ class Dictionary {
   std::optional<Declaration> find(const std::string& token, const std::string& category,
                                   std::string& name) const;
 
+  /// ColorSamples (RISpec 3.2 section 4.1.6): a row of red, green and blue for each number of a color; empty: they are those three.
+  /// False: the matrix is none.
+  bool setColorSamples(std::vector<float> rgbOfSamples);
+  int colorSamples() const { return rgbOfSamples_.empty() ? 3 : static_cast<int>(rgbOfSamples_.size() / 3); }
+  /// The colors of the stream as red, green and blue. Pre: a multiple of colorSamples().
+  std::vector<float> rgb(const std::vector<float>& colors) const;
+  bool hasColorSamples() const { return !rgbOfSamples_.empty(); }
+
  private:
+  std::vector<float> rgbOfSamples_;
   std::unordered_map<std::string, Declaration> names_;
 };
 

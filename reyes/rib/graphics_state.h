@@ -24,6 +24,7 @@ struct Scope {
   Motion ctm;
   Basis uBasis = bezierBasis(), vBasis = bezierBasis();
   std::shared_ptr<const TrimLoops> trim = std::make_shared<TrimLoops>();  ///< Attribute "trimcurve" is part of it.
+  float shadingRate = 1, relativeShadingRate = 1;  ///< Their product is in the attributes.
   bool lightsCastShadows = false;  ///< Attribute "light" "shadows": for lights that are made here.
   std::map<std::string, Motion> coordinateSystems;  ///< ScopedCoordinateSystem
   DetailState detail;
@@ -54,6 +55,7 @@ struct Globals {
   std::map<std::string, std::shared_ptr<Master>> masters;
   std::vector<std::map<std::string, Scope>> resources{1};  ///< Outermost ResourceBegin first.
   DirMap dirMap;
+  std::map<std::string, ParamList> quantized;  ///< Quantize of a variable: parameters of the Displays that show it.
 };
 
 enum class Block { Frame, World, Attribute, Transform, Solid, Instance };

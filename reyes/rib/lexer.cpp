@@ -42,7 +42,8 @@ std::string describe(const Token& token) {
 }
 
 int toInt(double d) {
-  return std::isnan(d) ? 0 : static_cast<int>(std::lround(std::clamp<double>(d, -INT_MAX, INT_MAX)));
+  if (d > INT_MIN && d < INT_MAX && d == static_cast<int>(d)) return static_cast<int>(d);
+  return std::isnan(d) ? INT_MIN : static_cast<int>(std::lround(std::clamp<double>(d, INT_MIN, INT_MAX)));
 }
 
 void Lexer::advance() {

@@ -24,7 +24,7 @@ struct Token {
 /// For messages: "the number 3", "a string \"...\"", "the end of the file".
 std::string describe(const Token& token);
 
-/// Rounded and clamped; 0 for NaN.
+/// Rounded and clamped; INT_MIN for NaN.
 int toInt(double d);
 
 class Lexer {

@@ -28,9 +28,8 @@ std::optional<Request> Parser::next() {
     const Signature* signature = at(Kind::Name) ? findSignature(lexer_.peek().text) : nullptr;
     if (!signature) {
       if (!at(Kind::Name))
-        log_.report(Severity::Warning, "rib-junk", here(),
-                    "a request was expected, but here is " + describe(lexer_.peek()) +
-                        "; skipped up to the next request");
+        warn("rib-junk", here(),
+             "a request was expected, but here is " + describe(lexer_.peek()) + "; skipped up to the next request");
       skipToKnownRequest(at(Kind::Name));
       continue;
     }
@@ -42,10 +41,14 @@ std::optional<Request> Parser::next() {
   return std::nullopt;
 }
 
+void Parser::warn(const char* code, const SourceLoc& where, const std::string& message) const {
+  if (!muted_) log_.report(Severity::Warning, code, where, message);
+}
+
 bool Parser::fail(const std::string& expected) {
-  log_.report(Severity::Warning, "rib-arguments", here(),
-              fmt::format("{} (line {}): {} was expected, but here is {}; the request is ignored",
-                          request_.name, request_.where.line, expected, describe(lexer_.peek())));
+  warn("rib-arguments", here(),
+       fmt::format("{} (line {}): {} was expected, but here is {}; the request is ignored", request_.name,
+                   request_.where.line, expected, describe(lexer_.peek())));
   return false;
 }
 
@@ -54,8 +57,7 @@ void Parser::skipToKnownRequest(bool reportUnknown) {
     if (!at(Kind::Name)) continue;
     if (findSignature(lexer_.peek().text)) return;
     if (reportUnknown || looksLikeRequest(lexer_.peek().text))
-      log_.report(Severity::Warning, "rib-unknown-request", here(),
-                  fmt::format("unknown request {}, ignored", lexer_.peek().text.substr(0, 40)));
+      warn("rib-unknown-request", here(), fmt::format("unknown request {}, ignored", lexer_.peek().text.substr(0, 40)));
     reportUnknown = false;
   }
 }
@@ -83,9 +85,11 @@ bool Parser::readArgument(char letter) {
     case 'h':
       return readText(true);
     case 'F':
-      return readArray(request_.args.emplace_back(), RibArg::Kind::Numbers);
+      return readArray(RibArg::Kind::Numbers);
+    case 'I':
+      return readArray(RibArg::Kind::Integers);
     case 'S':
-      return readArray(request_.args.emplace_back(), RibArg::Kind::Strings);
+      return readArray(RibArg::Kind::Strings);
     case 'b':
       return at(Kind::String) ? readText(false) : readNumbers(16);
     case 'm':
@@ -94,13 +98,17 @@ bool Parser::readArgument(char letter) {
       if (!readNumbers(1)) return false;
       request_.args.back().kind = RibArg::Kind::Number;
       return true;
+    case 'i':
+      return readInteger();
+    case 'c':
+      return readNumbers(static_cast<size_t>(dictionary_.colorSamples()));
     default:
       return readNumbers(static_cast<size_t>(letter - '0'));
   }
 }
 
 bool Parser::readText(bool orNumber) {
-  RibArg arg{RibArg::Kind::String, {}, {}};
+  RibArg arg{RibArg::Kind::String};
   const bool bracketed = at(Kind::Open);
   if (bracketed) lexer_.advance();
   if (at(Kind::String))
@@ -119,7 +127,7 @@ bool Parser::readText(bool orNumber) {
 // Writers disagree on where the brackets of fixed-size arguments go ("Rotate 30 [0 1 0]"), so they may be
 // anywhere.
 bool Parser::readNumbers(size_t count) {
-  RibArg arg{RibArg::Kind::Numbers, {}, {}};
+  RibArg arg{RibArg::Kind::Numbers};
   bool open = false;
   while (arg.numbers.size() < count || open) {
     if (at(open ? Kind::Close : Kind::Open)) {
@@ -139,13 +147,26 @@ bool Parser::readNumbers(size_t count) {
   return true;
 }
 
-bool Parser::readArray(RibArg& out, RibArg::Kind kind) {
-  out.kind = kind;
-  const bool wantsNumbers = kind == RibArg::Kind::Numbers, bracketed = at(Kind::Open);
+bool Parser::readInteger() {
+  RibArg arg{RibArg::Kind::Integer};
+  const bool bracketed = at(Kind::Open);
+  if (bracketed) lexer_.advance();
+  if (lexer_.atNumbers()) lexer_.takeNumber(arg.integers);
+  if (arg.integers.size() != 1) return fail("an integer");
+  if (bracketed && !at(Kind::Close)) return fail("']'");
+  if (bracketed) lexer_.advance();
+  request_.args.push_back(std::move(arg));
+  return true;
+}
+
+bool Parser::readArray(RibArg::Kind kind) {
+  RibArg& out = request_.args.emplace_back(RibArg{kind});
+  const bool wantsNumbers = kind != RibArg::Kind::Strings, bracketed = at(Kind::Open);
   if (bracketed) lexer_.advance();
   if (wantsNumbers && lexer_.atNumbers()) {
-    if (!bracketed) return lexer_.takeNumber(out.numbers), true;
-    lexer_.takeNumbers(out.numbers);
+    const auto take = [&](auto& list) { bracketed ? lexer_.takeNumbers(list) : lexer_.takeNumber(list); };
+    kind == RibArg::Kind::Integers ? take(out.integers) : take(out.numbers);
+    if (!bracketed) return true;
   }
   for (; !wantsNumbers && at(Kind::String); lexer_.advance()) {
     out.strings.push_back(lexer_.peek().text);
@@ -176,9 +197,8 @@ bool Parser::readParameter(const std::string& category) {
   lexer_.advance();
   if (!readValues(param)) return fail(fmt::format("a value of \"{}\"", token));
   if (!declaration)
-    log_.report(
-        Severity::Warning, "rib-undeclared", where,
-        fmt::format("{}: parameter \"{}\" is not declared; ignored", request_.name, token.substr(0, 80)));
+    warn("rib-undeclared", where,
+         fmt::format("{}: parameter \"{}\" is not declared; ignored", request_.name, token.substr(0, 80)));
   else if (fitsDeclaration(token, param))
     request_.params.push_back(std::move(param));
   return true;
@@ -207,13 +227,14 @@ bool Parser::fitsDeclaration(const std::string& token, const Param& param) const
   const size_t numbers = param.ints.size() + param.floats.size(), strings = param.strings.size();
   const size_t count = wantsStrings ? strings : numbers;
   const bool mixed = (wantsStrings ? numbers : strings) > 0;
-  const auto width = static_cast<size_t>(param.width());
+  const bool color = param.type == ValueType::Color;
+  const auto width = static_cast<size_t>(color ? dictionary_.colorSamples() * param.arrayLength : param.width());
   if (!mixed && count % width == 0) return true;
-  log_.report(Severity::Warning, "rib-parameter", request_.where,
-              mixed ? fmt::format("{}: \"{}\" takes {}; the parameter is ignored", request_.name, token,
-                                  wantsStrings ? "strings, not numbers" : "numbers, not strings")
-                    : fmt::format("{}: \"{}\" has {} values, not a multiple of {}; the parameter is ignored",
-                                  request_.name, token, count, width));
+  warn("rib-parameter", request_.where,
+       mixed ? fmt::format("{}: \"{}\" takes {}; the parameter is ignored", request_.name, token,
+                           wantsStrings ? "strings, not numbers" : "numbers, not strings")
+             : fmt::format("{}: \"{}\" has {} values, not a multiple of {}; the parameter is ignored", request_.name,
+                           token, count, width));
   return false;
 }
 

@@ -17,11 +17,14 @@ class Parser {
 
   /// The next good request; nothing at the end of the stream.
   std::optional<Request> next();
+  /// In a branch of a condition that is not read, other renderers may be spoken to: nothing is wrong with what they understand.
+  void mute(bool muted) { muted_ = muted; }
 
  private:
   using Kind = Token::Kind;
   bool at(Kind kind) const { return lexer_.peek().kind == kind; }
   SourceLoc here() const { return {file_, lexer_.peek().line}; }
+  void warn(const char* code, const SourceLoc& where, const std::string& message) const;
   /// Reports what is wrong with the request; always false.
   bool fail(const std::string& expected);
   void skipToKnownRequest(bool reportUnknown);
@@ -30,7 +33,8 @@ class Parser {
   bool readArgument(char letter);
   bool readText(bool orNumber);
   bool readNumbers(size_t count);
-  bool readArray(RibArg& out, RibArg::Kind kind);
+  bool readInteger();
+  bool readArray(RibArg::Kind kind);
   bool readParameters(const std::string& category);
   bool readParameter(const std::string& category);
   /// Numbers into `ints` or `floats`, by the parameter's type.
@@ -42,6 +46,7 @@ class Parser {
   Dictionary& dictionary_;
   Log& log_;
   Request request_;
+  bool muted_ = false;
 };
 
 }  // namespace tomales::rib

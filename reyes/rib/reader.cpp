@@ -23,6 +23,12 @@ bool changesSurroundings(std::string_view name) {
 }  // namespace
 
 void declare(const Request& r, Dictionary& dictionary, Log& log) {
+  if (r.name == "ColorSamples") {
+    if (r.args[0].numbers.size() != r.args[1].numbers.size() || !dictionary.setColorSamples(r.args[0].numbers))
+      log.report(Severity::Warning, "rib-option", r.where,
+                 fmt::format("ColorSamples: two matrices of 3 times up to {} numbers are needed; ignored", Dictionary::kMostColorSamples));
+  }
+  if (r.name != "Declare") return;
   const std::string &name = r.args[0].strings[0], &declaration = r.args[1].strings[0];
   if (!dictionary.declare(name, declaration))
     log.report(Severity::Warning, "rib-declaration", r.where,
@@ -57,8 +63,11 @@ size_t Reader::read(ByteStream& stream, const std::string& name, const std::stri
   enter(key, folder);
   Parser parser(stream, name, dictionary_, log_);
   size_t count = 0;
-  for (std::optional<Request> request = parser.next(); request; request = parser.next(), ++count)
+  for (std::optional<Request> request = parser.next(); request; request = parser.next(), ++count) {
+    if (dictionary_.hasColorSamples()) *request = withRgb(std::move(*request));
     handle(*request);
+    parser.mute(!open_.back().conditions.reads());
+  }
   if (stream.damaged())
     log_.report(Severity::Missing, "rib-gzip", wholeFile(name),
                 "the compressed data is damaged or swells beyond measure; its readable part is used");
@@ -99,7 +108,7 @@ void Reader::perform(const Request& r) {
       {"Procedural2", &Reader::procedural2}, {"System", &Reader::system}};
   if (const auto it = table.find(r.name); it != table.end()) return (this->*it->second)(r);
   if (changesSurroundings(r.name)) surroundings_.reset();
-  if (r.name == "Declare") declare(r, dictionary_, log_);
+  declare(r, dictionary_, log_);
   const Param* mark =
       r.name == "Option" && r.args[0].strings[0] == "ribparse" ? findParam(r.params, "varsubst") : nullptr;
   if (mark && !mark->strings.empty()) mark_ = mark->strings[0].empty() ? '\0' : mark->strings[0][0];
@@ -108,6 +117,13 @@ void Reader::perform(const Request& r) {
 
 std::optional<std::string> Reader::variable(const std::string& name) const {
   return findVariable(builder_.options(), builder_.attributes(), name);
+}
+
+Request Reader::withRgb(Request r) const {
+  if (r.name == "Color" || r.name == "Opacity") r.args[0].numbers = dictionary_.rgb(r.args[0].numbers);
+  for (Param& p : r.params)
+    if (p.type == ValueType::Color) p.floats = dictionary_.rgb(p.floats);
+  return r;
 }
 
 // Strings that are values; names of parameters stay.

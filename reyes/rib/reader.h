@@ -11,7 +11,7 @@
 
 namespace tomales::rib {
 
-/// Declare. Reports what is no declaration.
+/// Declare and ColorSamples: what the parser must know. Reports what is none.
 void declare(const Request& request, Dictionary& dictionary, Log& log);
 
 class Reader {
@@ -66,6 +66,7 @@ class Reader {
   void perform(const Request& request);
   std::optional<std::string> variable(const std::string& name) const;
   Request substituted(const Request& request) const;
+  Request withRgb(Request request) const;
   void report(Severity severity, const char* code, const Request& request, const std::string& what) const;
 
   // Archives (reader_archives.cpp)

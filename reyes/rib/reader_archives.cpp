@@ -31,7 +31,7 @@ void Reader::record(const Request& r) {
   }
   // Names that parameters had when the archive was taken down are resolved already; later ones need Declare
   // too.
-  if (r.name == "Declare") declare(r, dictionary_, log_);
+  declare(r, dictionary_, log_);
   recording->depth += (r.name == "ArchiveBegin") - (r.name == "ArchiveEnd");
   if (recording->depth == 0)
     endRecording();

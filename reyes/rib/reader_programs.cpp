@@ -52,7 +52,7 @@ void Reader::procedural2(const Request& r) {
   const std::string &kind = r.args[0].strings[0], &bounding = r.args[1].strings[0];
   const bool program = kind == "RunProgram2";
   const Param* bound = findParam(r.params, "bound");
-  Request plain{"Procedural", {}, {}, r.where};
+  Request plain{r.name, {}, {}, r.where};
   const auto strings = [](std::vector<std::string> s) { return RibArg{RibArg::Kind::Strings, {}, std::move(s)}; };
   plain.args.push_back({RibArg::Kind::String, {}, {program ? "RunProgram" : kind == "DelayedReadArchive2" ? "DelayedReadArchive" : kind}});
   std::vector<std::string> data{text(r.params, program ? "programname" : "filename")};

@@ -12,7 +12,9 @@ enum class Support {
 };
 
 /// `arguments` is a list of letters, one for each positional argument:
-///   f number   s string   h handle (a string, or a number that becomes one)   F, S array of numbers, strings
+///   f number   i integer   s string   h handle (a string, or a number that becomes one)
+///   F, I, S array of numbers, integers, strings
+///   c a color: as many numbers as ColorSamples says, else 3
 ///   2..9 that many numbers, bare or in brackets anywhere   m 16 numbers   b a Basis: name or 16 numbers
 ///   ? what follows is given as a whole or left out
 struct Signature {

@@ -18,7 +18,7 @@ class PlainParse {
     bool any = false;
     while (const std::optional<Request> request = parser.next()) {
       any = true;
-      if (request->name == "Declare") rib::declare(*request, dictionary_, log_);
+      rib::declare(*request, dictionary_, log_);
       sink_.request(*request);
     }
     if (stream->damaged())
@@ -36,14 +36,6 @@ class PlainParse {
 };
 
 }  // namespace
-
-std::vector<int> RibArg::ints() const {
-  std::vector<int> out;
-  out.reserve(numbers.size());
-  for (const float f : numbers)
-    out.push_back(std::abs(f) < 2147483648.0f ? static_cast<int>(std::lround(f)) : -1);
-  return out;
-}
 
 bool readRib(const std::vector<std::string>& files, const RibSettings& settings, Log& log) {
   rib::Reader reader(settings, log);

@@ -9,7 +9,7 @@
 namespace tomales::rib {
 namespace {
 
-RibArg numbers(std::vector<float> n) { return {RibArg::Kind::Numbers, std::move(n), {}}; }
+RibArg numbers(std::vector<float> n) { return {RibArg::Kind::Numbers, std::move(n)}; }
 RibArg string(const std::string& s) { return {RibArg::Kind::String, {}, {s}}; }
 
 Param param(const std::string& name, ValueType type, std::vector<float> floats) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "reyes/rib/refusals.h"
 #include "reyes/rib/request_table.h"
 #include "reyes/rib/ris.h"
 
@@ -40,10 +41,19 @@ SceneBuilder::SceneBuilder(const RibSettings& settings, Log& log, const Surround
 }
 
 void SceneBuilder::request(const Request& r) {
+  if (isEdit(r)) return;
   if (recording_)
     record(r);
   else
     step(r);
+}
+
+bool SceneBuilder::isEdit(const Request& r) {
+  const bool begins = r.name.starts_with("Edit") && r.name.ends_with("Begin"), ends = r.name.starts_with("Edit") && !begins;
+  if (openEdits_ == 0 && !begins && !ends) return false;
+  if (openEdits_ == 0) state_.warnOnce(r.name, r, "rib-unsupported", r.name + " is not supported, ignored" + reasonFor(r.name));
+  openEdits_ = std::max(0, openEdits_ + begins - ends);
+  return true;
 }
 
 void SceneBuilder::record(const Request& r) {
@@ -83,7 +93,7 @@ void SceneBuilder::perform(const Request& r) {
   if (performBlock(r) || performHandler(r)) return;
   const Signature* signature = findSignature(r.name);
   const bool geometry = signature && signature->support == Support::NotYetGeometry;
-  state_.warnOnce(r.name, r, "rib-unsupported", r.name + " is not supported yet, ignored",
+  state_.warnOnce(r.name, r, "rib-unsupported", r.name + " is not supported, ignored" + reasonFor(r.name),
                   geometry ? Severity::Missing : Severity::Warning);
 }
 
@@ -116,7 +126,7 @@ float SceneBuilder::rasterArea(const std::vector<float>& b) const {
 }
 
 bool SceneBuilder::performBlock(const Request& r) {
-  if (r.name == "version" || r.name == "Declare" || r.name == "ReadArchive") return true;  // the reader's
+  if (r.name == "version" || r.name == "Declare" || r.name == "ColorSamples" || r.name == "ReadArchive") return true;  // the reader's
   if (r.name == "ErrorHandler") {
     if (r.args[0].strings[0] != "print")
       state_.warnOnce(r.name, r, "rib-unsupported",
@@ -127,7 +137,7 @@ bool SceneBuilder::performBlock(const Request& r) {
     else if (state_.world)
       endUnclosedWorld(r.where);
     state_.begin(Block::Frame, r.where);
-    state_.globals.options.frame = r.args[0].ints()[0];
+    state_.globals.options.frame = r.args[0].integer();
   } else if (r.name == "FrameEnd") {
     endFrame(r.where);
   } else if (r.name == "WorldBegin") {

@@ -57,6 +57,8 @@ class SceneBuilder : public RiSink {
     std::shared_ptr<Master> master = std::make_shared<Master>();
   };
 
+  /// True, and once reported: it belongs to the edits of re-rendering.
+  bool isEdit(const Request& request);
   void record(const Request& request);
   void step(const Request& request);
   void perform(const Request& request);
@@ -93,6 +95,7 @@ class SceneBuilder : public RiSink {
   size_t masterRequest_ = 0;  ///< and where in it.
   int instanceDepth_ = 0;
   const bool inProcedural_ = false;
+  int openEdits_ = 0;
   size_t instanceBudget_ = 0;  ///< Requests that the outermost instance may still replay.
 };
 

@@ -156,10 +156,14 @@ class Writer : public RiSink {
     switch (a.kind) {
       case RibArg::Kind::Number:
         return encoding_->number(out_, a.number());
+      case RibArg::Kind::Integer:
+        return encoding_->integer(out_, a.integer());
       case RibArg::Kind::String:
         return encoding_->string(out_, a.strings[0]);
       case RibArg::Kind::Numbers:
         return encoding_->floats(out_, a.numbers);
+      case RibArg::Kind::Integers:
+        return integers(a.integers);
       case RibArg::Kind::Strings:
         return strings(a.strings);
     }
@@ -171,11 +175,14 @@ class Writer : public RiSink {
     encoding_->token(out_, inlined ? declarationOf(p) + p.name : p.name);
     if (p.type == ValueType::String) return strings(p.strings);
     if (p.type != ValueType::Integer) return encoding_->floats(out_, p.floats);
-    out_ += " [";
-    for (const int i : p.ints) encoding_->integer(out_, i);
-    out_ += "]";
+    integers(p.ints);
   }
 
+  void integers(const std::vector<int>& list) {
+    out_ += " [";
+    for (const int i : list) encoding_->integer(out_, i);
+    out_ += "]";
+  }
   void strings(const std::vector<std::string>& list) {
     out_ += " [";
     for (const std::string& s : list) encoding_->string(out_, s);

@@ -61,4 +61,10 @@ for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
     process.send_signal(number)
     t.expect(process.communicate(timeout=200) and process.returncode == code, f"signal {int(number)} ends with {code}")
     t.expect(out.exists() and json.loads((t.folder / "cut.json").read_text())["time_s"]["total"] > 0, "with a picture and statistics")
+# -o takes the place of the picture, not of the maps that later frames need.
+t.write("maps.rib", 'FrameBegin 1 Display "key.z" "zfile" "z"\n' + GOOD.split("\n", 1)[1] + "FrameEnd\nFrameBegin 2\n" + GOOD + "FrameEnd\n")
+t.expect_run("-o with a frame of maps before", ["maps.rib", "-o", "picture.exr"], 0)
+t.expect((t.folder / "key.z").exists() and (t.folder / "picture.exr").exists(), "the map and the picture are both there")
+t.write("map.rib", 'Display "key.z" "zfile" "z"\n' + GOOD.split("\n", 1)[1])
+t.expect_run("-o without a picture to take the place of", ["map.rib", "-o", "other.exr"], 4, "other.exr")
 t.finish()

@@ -243,6 +243,12 @@ TEST(Conditional, SeesFrameAndAttributesInArchivesToo) {
   EXPECT_EQ(r.scene().objects.size(), 1u);
 }
 
+TEST(Conditional, BranchesThatAreNotReadMaySpeakToOthers) {
+  const Reading r(inWorld("IfBegin \"0\" Spheer 1 Sphere 1 \"nope\" 2 Color 1 IfBegin \"1\" Cubic IfEnd Else " + kSphere + "Spheer IfEnd\nCuboid"));
+  EXPECT_EQ(r.scene().objects.size(), 1u);
+  EXPECT_EQ(r.codes(), "rib-unknown-request@3 rib-unknown-request@4 ");
+}
+
 TEST(Conditional, BadOnesAreFalseAndUnbalancedOnesEndWithTheFile) {
   const Reading r("Else IfEnd\n" + inWorld("IfBegin \"1 +\"\n" + kSphere + "IfEnd\n" + kSphere) +
                   "IfBegin \"1\"");

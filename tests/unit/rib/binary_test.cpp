@@ -49,6 +49,7 @@ void expectSame(const std::vector<Request>& a, const std::vector<Request>& b) {
       EXPECT_EQ(a[i].args[k].kind, b[i].args[k].kind);
       EXPECT_TRUE(same(a[i].args[k].numbers, b[i].args[k].numbers));
       EXPECT_EQ(a[i].args[k].strings, b[i].args[k].strings);
+      EXPECT_EQ(a[i].args[k].integers, b[i].args[k].integers);
     }
     ASSERT_EQ(a[i].params.size(), b[i].params.size());
     for (size_t k = 0; k < a[i].params.size(); ++k) {

@@ -1,3 +1,5 @@
+#include <climits>
+
 #include "rib_test_tools.h"
 
 namespace tomales {
@@ -139,6 +141,13 @@ TEST(RequestTable, KnowsRequestsThatAreNotSupported) {
       "\"box\" 1 1");
   EXPECT_EQ(r.list.size(), 3u);
   EXPECT_TRUE(r.log.entries().empty());
+}
+
+TEST(Parser, KeepsIntegersExact) {
+  const Requests r("PointsPolygons [3] [16777217 2147483647 -2147483648 2.6 nan] \"P\" [] FrameBegin 16777217 Patch 1");
+  ASSERT_EQ(r.list.size(), 2u);
+  EXPECT_EQ(r.list[0].args[1].integers, (std::vector<int>{16777217, INT_MAX, INT_MIN, 3, INT_MIN}));
+  EXPECT_EQ(r.list[1].args[0].integer(), 16777217);
 }
 
 }  // namespace

@@ -305,5 +305,60 @@ TEST(Lights, OfAreaBelongToTheGeometryThatFollows) {
   EXPECT_EQ(r.attributes(2).areaLight, -1);
 }
 
+TEST(ShadingRate, IsMultipliedByRelativeRatesDownTheBlocks) {
+  const Reading r(inWorld("ShadingRate 2 Attribute \"shade\" \"float relativeshadingrate\" 3 Sphere 1 -1 1 360\n"
+                          "AttributeBegin ShadingRate 5 Attribute \"shade\" \"float relativeshadingrate\" 2 Sphere 1 -1 1 360 AttributeEnd\n"
+                          "Attribute \"shade\" \"float resetrelativeshadingrate\" .5 Sphere 1 -1 1 360\n"
+                          "Attribute \"shade\" \"float relativeshadingrate\" 0 Sphere 1 -1 1 360"));
+  EXPECT_EQ(r.attributes(0).shadingRate, 6);
+  EXPECT_EQ(r.attributes(1).shadingRate, 30);
+  EXPECT_EQ(r.attributes(2).shadingRate, 1);
+  EXPECT_EQ(r.attributes(3).shadingRate, 1);
+  EXPECT_EQ(r.codes(), "rib-attribute@5 ");
+}
+
+TEST(Visibility, UnderstandsTheNamesOfOldScenes) {
+  const Reading r(inWorld("Attribute \"visibility\" \"int trace\" 0 \"string transmission\" \"transparent\" Sphere 1 -1 1 360\n"
+                          "Attribute \"visibility\" \"string transmission\" \"Os\" Sphere 1 -1 1 360\n"
+                          "Attribute \"visibility\" \"string transmission\" \"shader\" Sphere 1 -1 1 360"));
+  EXPECT_FALSE(r.attributes(0).visibility.diffuse || r.attributes(0).visibility.specular || r.attributes(0).visibility.transmission);
+  EXPECT_TRUE(r.attributes(1).visibility.transmission);
+  EXPECT_EQ(r.attributes(1).transmissionHitMode, HitMode::Primitive);
+  EXPECT_EQ(r.attributes(2).transmissionHitMode, HitMode::Shader);
+  EXPECT_TRUE(r.log.entries().empty()) << r.codes();
+}
+
+TEST(ColorSamples, MakeRedGreenAndBlueOfOtherColors) {
+  const Reading r("ColorSamples [1 0 0  0 .5 .5] [1 0 0  0 1 1]\n" +
+                  inWorld("Color .25 .5 Surface \"plastic\" \"color specularcolor\" [0 1]\n"
+                          "Polygon \"P\" [0 0 0 1 0 0 0 1 0] \"Cs\" [1 0 0 1 1 1]\n"
+                          "ColorSamples [] [] Color 1 2 3 Sphere 1 -1 1 360\nColorSamples [1] [1]"));
+  EXPECT_EQ(r.attributes(0).color, vec3(.25f, .25f, .25f));
+  EXPECT_EQ(findParam(r.attributes(0).surface->params, "specularcolor")->floats, (std::vector<float>{0, .5f, .5f}));
+  std::vector<float> corners = r.object(0).shape().primvars().at(0).values;
+  corners.resize(9);  // those of points that triangles are cut at follow
+  EXPECT_EQ(corners, (std::vector<float>{1, 0, 0, 0, .5f, .5f, 1, .5f, .5f}));
+  EXPECT_EQ(r.attributes(1).color, vec3(1, 2, 3));
+  EXPECT_EQ(r.codes(), "rib-option@6 ");
+}
+
+TEST(Edits, AreLeftOutAsAWhole) {
+  const Reading r(inWorld("EditBegin \"attribute\" Color 1 0 0 EditAttributeBegin \"x\" Color 0 1 0 EditAttributeEnd Color 0 0 1 EditEnd\n"
+                          "Sphere 1 -1 1 360 EditWorldEnd"));
+  EXPECT_EQ(r.attributes(0).color, vec3(1));
+  EXPECT_EQ(r.log.count("rib-unsupported"), 2) << r.codes();
+}
+
+TEST(Display, MayDeclareWhatItShowsAndQuantizeMayNameIt) {
+  const Reading r("Quantize \"mask\" 100 0 100 .25 Display \"a.tif\" \"tiff\" \"varying float mask\" Display \"+b.tif\" \"tiff\" \"Ci\"" +
+                  inWorld(""));
+  const Options& o = r.scene().options;
+  EXPECT_EQ(o.displays[0].mode, "mask");
+  EXPECT_EQ(o.channels.at("mask").type, ValueType::Float);
+  EXPECT_EQ(findParam(o.displays[0].params, "quantize")->floats, (std::vector<float>{0, 100, 0, 100}));
+  EXPECT_EQ(findParam(o.displays[0].params, "dither")->floats, std::vector<float>{.25f});
+  EXPECT_TRUE(o.displays[1].params.empty());
+}
+
 }  // namespace
 }  // namespace tomales
