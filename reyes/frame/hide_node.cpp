@@ -81,15 +81,13 @@ class CoarseNode : public OpeningNode {
 };
 
 HideNodes nodesOfPieces(HideContext& context, std::vector<SubPatch> pieces, float zMin, const BucketRange& within) {
-  HideNodes out;
-  for (SubPatch& piece : pieces) {
+  for (SubPatch& piece : pieces)
     if (context.scene.objects[static_cast<size_t>(piece.object)].solid >= 0) piece.zMin = zMin;
-    const BucketRange touched = within & context.buckets.touched(piece.raster);
-    if (touched.empty()) continue;
-    if (piece.coarse)
-      out.push_back(std::make_unique<CoarseNode>(context, piece, touched));
-    else
-      out.push_back(std::make_unique<PieceNode>(context, piece, touched));
+  const auto coarse = std::stable_partition(pieces.begin(), pieces.end(), [](const SubPatch& p) { return !p.coarse; });
+  HideNodes out = pieceNodes(context, {pieces.begin(), coarse}, within);
+  for (auto piece = coarse; piece != pieces.end(); ++piece) {
+    const BucketRange touched = within & context.buckets.touched(piece->raster);
+    if (!touched.empty()) out.push_back(std::make_unique<CoarseNode>(context, *piece, touched));
   }
   return out;
 }

@@ -2,43 +2,72 @@
 
 #include <fmt/format.h>
 
+#include <compare>
+#include <map>
+
 #include "reyes/dice.h"
 
 namespace tomales {
 
-void PieceNode::visit(size_t, NodeQueue&, Hider& hider) {
-  if (const auto grid = acquire()) hider.insert(grid);
+namespace {
+
+constexpr int kSmall_cells = 64;  ///< Pieces with fewer share a node,
+constexpr int kBlock_buckets = 4;  ///< if they begin in the same square of buckets.
+
+/// Large pieces stand alone.
+struct Neighbourhood {
+  int row, column, alone;
+  auto operator<=>(const Neighbourhood&) const = default;
+};
+
+}  // namespace
+
+PieceNode::PieceNode(HideContext& context, std::vector<SubPatch> pieces, const Placement& place, const BucketRange& range)
+    : HideNode(place, range), context_(context), users_(range.count()) {
+  std::stable_sort(pieces.begin(), pieces.end(), [](const SubPatch& a, const SubPatch& b) { return a.zMin < b.zMin; });
+  pieces_.reserve(pieces.size());
+  for (const SubPatch& piece : pieces) pieces_.push_back({piece, range & context.buckets.touched(piece.raster)});
 }
 
-std::shared_ptr<const RasterGrid> PieceNode::acquire() {
+void PieceNode::visit(size_t bucket, NodeQueue&, Hider& hider) {
+  const int column = context_.buckets.column(bucket), row = context_.buckets.row(bucket);
+  for (Piece& piece : pieces_) {
+    const BucketRange& r = piece.range;
+    if (column < r.c0 || column > r.c1 || row < r.r0 || row > r.r1) continue;
+    if (pieces_.size() > 1 && hider.hidden(piece.patch.raster, piece.patch.zMin)) continue;
+    if (const auto grid = acquire(piece)) hider.insert(grid);
+  }
+}
+
+std::shared_ptr<const RasterGrid> PieceNode::acquire(Piece& piece) {
   const std::lock_guard lock(mutex_);
-  if (!made_) grid_ = makeGrid();
-  made_ = true;
-  return grid_;
+  if (!piece.made) piece.grid = makeGrid(piece.patch);
+  piece.made = true;
+  return piece.grid;
 }
 
 void PieceNode::release(size_t) {
   const std::lock_guard lock(mutex_);
-  if (--users_ == 0) grid_.reset();
+  if (--users_ == 0) pieces_.clear();
 }
 
-std::shared_ptr<const RasterGrid> PieceNode::makeGrid() const {
-  const Object& o = context_.scene.objects[static_cast<size_t>(piece_.object)];
+std::shared_ptr<const RasterGrid> PieceNode::makeGrid(const SubPatch& piece) const {
+  const Object& o = context_.scene.objects[static_cast<size_t>(piece.object)];
   auto grid = std::make_shared<Grid>(
-      dice(context_.scene, piece_.object, piece_.patch, piece_.rect, piece_.nu, piece_.nv, static_cast<int>(o.keyTimes.size())));
+      dice(context_.scene, piece.object, piece.patch, piece.rect, piece.nu, piece.nv, static_cast<int>(o.keyTimes.size())));
   context_.shading.displace(*grid);
   Stats& stats = context_.stats;
   ++stats.geometry.gridsDiced;
   stats.geometry.micropolygonsDiced += grid->cellCount();
 
-  if (leaveOutUnseeable(*grid) && !piece_.crossesEye)
+  if (leaveOutUnseeable(*grid) && !piece.crossesEye)
     context_.log.report(Severity::Warning, "grid-behind-eye", o.where,
                         fmt::format("{}: displaced vertices are not finite or lie behind the eye; the micropolygons there are "
                                     "left out (is displacementbound too small?)",
                                     objectName(o)));
   // Midpoints need what lies behind what is opaque.
   const bool hides = context_.shading.opaque(o.group) && context_.scene.options.depthFilter != DepthFilter::Midpoint;
-  auto raster = project(std::move(grid), context_.scene, context_.camera, hides, zMin());
+  auto raster = project(std::move(grid), context_.scene, context_.camera, hides, piece.zMin);
   const auto bytes = static_cast<int64_t>(raster->grid->bytes());
   keepPeak(stats.memoryBytes.grids, context_.liveGrids_bytes += bytes);
   // Hiders keep grids longer than nodes do.
@@ -60,6 +89,28 @@ bool PieceNode::leaveOutUnseeable(Grid& g) const {
         g.kept[static_cast<size_t>(cj * g.nu + ci)] = Kept::None;
   }
   return any;
+}
+
+HideNodes pieceNodes(HideContext& context, std::span<const SubPatch> pieces, const BucketRange& within) {
+  std::map<Neighbourhood, std::vector<SubPatch>> together;
+  int alone = 0;
+  for (const SubPatch& piece : pieces) {
+    const BucketRange touched = within & context.buckets.touched(piece.raster);
+    if (touched.empty()) continue;
+    const bool small = piece.nu * piece.nv < kSmall_cells;
+    together[{touched.r0 / kBlock_buckets, touched.c0 / kBlock_buckets, small ? 0 : ++alone}].push_back(piece);
+  }
+  HideNodes out;
+  for (auto& [where, group] : together) {
+    Placement place{{}, kInfinity};
+    for (const SubPatch& piece : group) {
+      place.raster.extend(piece.raster.lo), place.raster.extend(piece.raster.hi);
+      place.zMin = std::min(place.zMin, piece.zMin);
+    }
+    const BucketRange range = within & context.buckets.touched(place.raster);
+    out.push_back(std::make_unique<PieceNode>(context, std::move(group), place, range));
+  }
+  return out;
 }
 
 }  // namespace tomales

@@ -1,4 +1,4 @@
-// A piece that one grid can hold: diced by the first bucket that does not hide it, and shared by those that it touches.
+// Pieces that a grid each can hold: diced by the first bucket that does not hide them, and shared by those that they touch.
 #pragma once
 #include "reyes/frame/hide_node.h"
 
@@ -6,24 +6,30 @@ namespace tomales {
 
 class PieceNode : public HideNode {
  public:
-  PieceNode(HideContext& context, const SubPatch& piece, const BucketRange& range)
-      : HideNode({piece.raster, piece.zMin}, range), context_(context), piece_(piece), users_(range.count()) {}
+  PieceNode(HideContext& context, std::vector<SubPatch> pieces, const Placement& place, const BucketRange& range);
 
   void visit(size_t bucket, NodeQueue& queue, Hider& hider) override;
   void release(size_t bucket) override;
 
  private:
-  std::shared_ptr<const RasterGrid> acquire();
-  std::shared_ptr<const RasterGrid> makeGrid() const;
+  struct Piece {
+    SubPatch patch;
+    BucketRange range;
+    std::shared_ptr<const RasterGrid> grid{};
+    bool made = false;
+  };
+  std::shared_ptr<const RasterGrid> acquire(Piece& piece);
+  std::shared_ptr<const RasterGrid> makeGrid(const SubPatch& piece) const;
   /// Takes away the cells with vertices that are nearer than the eye plane at some key or not finite. True if there are.
   bool leaveOutUnseeable(Grid& grid) const;
 
   HideContext& context_;
-  const SubPatch piece_;
+  std::vector<Piece> pieces_;  ///< Nearest first.
   std::mutex mutex_;
-  std::shared_ptr<const RasterGrid> grid_;
-  bool made_ = false;
   int users_;
 };
+
+/// A node for each large piece, and one for small ones that lie close together: most of what a tiny piece costs would be its node.
+HideNodes pieceNodes(HideContext& context, std::span<const SubPatch> pieces, const BucketRange& within);
 
 }  // namespace tomales
