@@ -66,7 +66,7 @@ void cryptomatte(const DeepFrame& frame, const Options& options, const SampleOff
       for (int x = band.originX; x < band.originX + band.width; ++x) {
         shares.clear();
         float total = 0;
-        forNeighbours(rows.rect, weights, samples, x, y, [&](size_t cell, size_t pixel) {
+        forNeighbours(rows.rect, weights, samples, x, y, [&](const WeightTable::Cell& cell, size_t pixel) {
           total += weights.sum(cell);
           for (size_t i = rows.first[pixel]; i < rows.first[pixel + 1]; ++i) {
             const Layer& l = rows.layers[i];

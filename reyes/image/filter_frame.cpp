@@ -76,22 +76,35 @@ struct FrameFilter::Impl {
     return rows;
   }
 
-  void filter(const ResolvedRows& rows, const Pass& pass, int x, int y, std::vector<float>& sums, float* out) const {
-    float total = 0, covered = 0;
-    sums.assign(pass.floats.size(), 0.0f);
-    forNeighbours(rows.rect, pass.weights, samples, x, y, [&](size_t cell, size_t pixel) {
-      total += pass.weights.sum(cell);
-      for (size_t i = rows.first[pixel]; i < rows.first[pixel + 1]; ++i) {
-        const Contribution& c = rows.contributions[i];
-        const float weight = pass.weights.sum(cell, c.samples, c.word), *value = rows.value(i);
-        covered += weight;
-        for (size_t k = 0; k < sums.size(); ++k) sums[k] += weight * value[pass.floats[k].from];
+  /// What the samples around bring to each pixel of a block: the floats of a pass, the weight of all samples, and that of
+  /// those which see something. For each pixel by rows, columns and fragments.
+  PixelSums sumsOf(const ResolvedRows& rows, const Pass& pass, const PixelRect& block) const {
+    const size_t floats = pass.floats.size();
+    PixelSums sums(pass.weights, block, static_cast<int>(floats) + 2);
+    std::vector<float> everything(static_cast<size_t>(sums.width())), seen(everything.size());
+    AlignedVector<float> weights(static_cast<size_t>(pass.weights.places()));
+    everything[floats] = seen[floats + 1] = 1;
+    size_t pixel = 0;
+    for (int y = rows.rect.y0; y < rows.rect.y1; ++y)
+      for (int x = rows.rect.x0; x < rows.rect.x1; ++x, ++pixel) {
+        const int pattern = samples.patternOf(x, y);
+        sums.add(x, y, pass.weights.sums(pattern), everything.data());
+        for (size_t i = rows.first[pixel]; i < rows.first[pixel + 1]; ++i) {
+          const Contribution& c = rows.contributions[i];
+          pass.weights.sums(pattern, c.samples, c.word, weights.data());
+          for (size_t k = 0; k < floats; ++k) seen[k] = rows.value(i)[pass.floats[k].from];
+          sums.add(x, y, weights.data(), seen.data());
+        }
       }
-    });
-    for (size_t k = 0; k < sums.size(); ++k) {
+    return sums;
+  }
+
+  void filter(const PixelSums& sums, const Pass& pass, int x, int y, float* out) const {
+    const float *sum = sums.of(x, y), total = sum[pass.floats.size()], covered = sum[pass.floats.size() + 1];
+    for (size_t k = 0; k < pass.floats.size(); ++k) {
       const Pass::Float& f = pass.floats[k];
-      const float sum = f.fill == 0 ? sums[k] : sums[k] + f.fill * (total - covered);
-      out[f.to] = total != 0 ? sum / total : f.fill;
+      const float filled = f.fill == 0 ? sum[k] : sum[k] + f.fill * (total - covered);
+      out[f.to] = total != 0 ? filled / total : f.fill;
     }
   }
 
@@ -99,7 +112,7 @@ struct FrameFilter::Impl {
     float weight = 0, best = 0;
     float* to = out + r.to;
     std::fill_n(to, r.width, r.fill);
-    forNeighbours(rows.rect, r.weights, samples, x, y, [&](size_t cell, size_t pixel) {
+    forNeighbours(rows.rect, r.weights, samples, x, y, [&](const WeightTable::Cell& cell, size_t pixel) {
       for (size_t i = rows.first[pixel]; i < rows.first[pixel + 1]; ++i) {
         const Contribution& c = rows.contributions[i];
         const float w = r.weights.sum(cell, c.samples, c.word), *value = rows.value(i) + r.from;
@@ -169,11 +182,15 @@ Image FrameFilter::rows(int y0, int y1) const {
   parallelFor(static_cast<size_t>(image.height), kBandRows, [&](size_t begin, size_t end) {
     const int first = y0 + static_cast<int>(begin), last = y0 + static_cast<int>(end);
     const ResolvedRows resolved = impl_->resolve(first, last);
-    std::vector<float> sums;
-    for (int y = first; y < last; ++y)
-      for (int x = crop.x0; x < crop.x1; ++x) {
+    const PixelRect block{crop.x0, first, crop.x1, last};
+    for (const Pass& pass : impl_->passes) {
+      const PixelSums sums = impl_->sumsOf(resolved, pass, block);
+      for (int y = block.y0; y < block.y1; ++y)
+        for (int x = block.x0; x < block.x1; ++x) impl_->filter(sums, pass, x, y, image.at(x - crop.x0, y - y0));
+    }
+    for (int y = block.y0; y < block.y1; ++y)
+      for (int x = block.x0; x < block.x1; ++x) {
         float* out = image.at(x - crop.x0, y - y0);
-        for (const Pass& pass : impl_->passes) impl_->filter(resolved, pass, x, y, sums, out);
         for (const Reduction& r : impl_->reductions) impl_->reduce(resolved, r, x, y, out);
         out[4] = impl_->depth(resolved, x, y);
       }

@@ -5,39 +5,77 @@
 
 namespace tomales {
 
-/// Filter weights of every sample of a pixel at (dx, dy) from the pixel that is being filtered.
+/// Weights that the samples of a pixel have for the pixels around it which they reach.
 class WeightTable {
  public:
   WeightTable(const PixelFilter& filter, const SampleOffsets& samples)
-      : reachX(filter.reachX()), reachY(filter.reachY()), count_(static_cast<size_t>(samples.count)) {
-    for (const std::vector<vec2>& offsets : samples.byPattern)
+      : reachX(filter.reachX()), reachY(filter.reachY()), cells_((2 * reachX + 1) * (2 * reachY + 1)), stride_(padded(cells_)),
+        count_(samples.count) {
+    const size_t perPattern = static_cast<size_t>(count_ * stride_);
+    weights_.resize(samples.byPattern.size() * perPattern);
+    sums_.resize(samples.byPattern.size() * static_cast<size_t>(stride_));
+    for (size_t p = 0; p < samples.byPattern.size(); ++p)
       for (int dy = -reachY; dy <= reachY; ++dy)
         for (int dx = -reachX; dx <= reachX; ++dx) {
+          const auto [pattern, place] = cell(static_cast<int>(p), dx, dy);
           float sum = 0;
-          for (const vec2& o : offsets) {
-            weights_.push_back(filter(static_cast<float>(dx) + o.x - 0.5f, static_cast<float>(dy) + o.y - 0.5f));
-            sum += weights_.back();
+          for (size_t s = 0; s < samples.byPattern[p].size(); ++s) {
+            const vec2& o = samples.byPattern[p][s];
+            const float w = filter(static_cast<float>(dx) + o.x - 0.5f, static_cast<float>(dy) + o.y - 0.5f);
+            weights_[p * perPattern + s * static_cast<size_t>(stride_) + static_cast<size_t>(place)] = w;
+            sum += w;
           }
-          sums_.push_back(sum);
+          sums_[p * static_cast<size_t>(stride_) + static_cast<size_t>(place)] = sum;
         }
   }
 
+  /// A pattern, seen from one of the pixels that it reaches.
+  struct Cell {
+    int pattern, place;
+  };
   const int reachX, reachY;
-  size_t cell(int pattern, int dx, int dy) const {
-    const int columns = 2 * reachX + 1, rows = 2 * reachY + 1;
-    return static_cast<size_t>((pattern * rows + dy + reachY) * columns + dx + reachX);
-  }
-  float sum(size_t cell) const { return sums_[cell]; }
-  float sum(size_t cell, uint64_t mask, uint16_t word) const {
-    const float* w = weights_.data() + cell * count_ + static_cast<size_t>(word) * 64;
+  /// (dx, dy): from the pixel that is being filtered to the one that has the pattern.
+  Cell cell(int pattern, int dx, int dy) const { return {pattern, (reachY - dy) * (2 * reachX + 1) + reachX - dx}; }
+  float sum(const Cell& cell) const { return sums(cell.pattern)[cell.place]; }
+  float sum(const Cell& cell, uint64_t mask, uint16_t word) const {
+    const float* w = of(cell.pattern, word) + cell.place;
     float sum = 0;
-    for (; mask; mask &= mask - 1) sum += w[lowestBit(mask)];
+    for (; mask; mask &= mask - 1) sum += w[lowestBit(mask) * stride_];
     return sum;
   }
 
+  /// All cells of a pattern at once, by rows, padded: places(), then zeros.
+  int places() const { return stride_; }
+  const float* sums(int pattern) const { return sums_.data() + static_cast<ptrdiff_t>(pattern) * stride_; }
+  /// Some samples' sums for each, as sum() has them.
+  void sums(int pattern, uint64_t mask, uint16_t word, float* out) const;
+
  private:
-  size_t count_;
-  std::vector<float> weights_, sums_;
+  const float* of(int pattern, uint16_t word) const {
+    return weights_.data() + (static_cast<ptrdiff_t>(pattern) * count_ + ptrdiff_t{64} * word) * stride_;
+  }
+  int cells_, stride_, count_;
+  AlignedVector<float> weights_, sums_;
+};
+
+/// Weighted sums of floats for the pixels of a block, to which the samples of pixels in and around it bring theirs.
+class PixelSums {
+ public:
+  static constexpr int kWide = 8;  ///< Floats of a pixel are padded to a multiple.
+  PixelSums(const WeightTable& weights, const PixelRect& block, int floats);
+  int width() const { return width_; }
+  /// What samples of pixel (x, y) see, width() floats; a weight for each place, as WeightTable::sums() has them.
+  void add(int x, int y, const float* weights, const float* values);
+  const float* of(int x, int y) const { return const_cast<PixelSums*>(this)->at(x, y); }
+
+ private:
+  float* at(int x, int y) {
+    return sums_.data() + (static_cast<ptrdiff_t>(y - block_.y0) * block_.width() + x - block_.x0) * width_;
+  }
+  const WeightTable& weights_;
+  const PixelRect block_;
+  const int width_;
+  AlignedVector<float> sums_;
 };
 
 /// Calls body(cell, pixel) for every pixel of `rect` whose samples reach pixel (x, y); `pixel` counts along its rows.
