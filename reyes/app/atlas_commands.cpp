@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "gi/point_file.h"
+#include "gi/ply.h"
 #include "gi/point_picture.h"
 #include "reyes/app/atlas_job.h"
 #include "reyes/app/overrides.h"
@@ -159,6 +159,25 @@ int viewCommand(const ViewCommand& command) {
     const PointCloud cloud =
         bricks ? voxelsOf(BrickMap(command.input, cache), command.level) : PointFile(command.input).readAll();
     writeImage(command.output, pictureOf(cloud, settings), fs::path(command.output).extension() == ".png", log);
+  });
+  return exitCodeOf(log);
+}
+
+int convertCommand(const ConvertCommand& command) {
+  Log log;
+  guarded(log, Severity::Error, [&] {
+    const fs::path from = fs::path(command.input).extension(), to = fs::path(command.output).extension();
+    if (from == ".ptc" && to == ".ply") {
+      writePly(PointFile(command.input), command.output);
+    } else if (from == ".ply" && to == ".ptc") {
+      const PlyFigures figures = convertPly(command.input, command.output, command.radius);
+      if (figures.dropped > 0)
+        log.report(Severity::Warning, "ply-points", {},
+                   fmt::format("\"{}\": {} of {} points are not finite or have a negative radius; dropped", command.input,
+                               figures.dropped, figures.points + figures.dropped));
+    } else {
+      throw FileError("point clouds are converted from .ptc to .ply, or from .ply to .ptc");
+    }
   });
   return exitCodeOf(log);
 }

@@ -1,4 +1,4 @@
-// tomales photons, irradiance, brickmake, view: the irradiance atlas pass by pass (docs/gi.md).
+// tomales photons, irradiance, brickmake, view, convert: the irradiance atlas pass by pass (docs/gi.md).
 #pragma once
 #include "reyes/app/settings.h"
 
@@ -29,5 +29,11 @@ struct ViewCommand {
   std::array<int, 2> size{640, 480};
 };
 int viewCommand(const ViewCommand& command);
+
+struct ConvertCommand {
+  std::string input, output;  ///< One .ptc, the other .ply.
+  float radius = 0;           ///< Of points that name none.
+};
+int convertCommand(const ConvertCommand& command);
 
 }  // namespace tomales

@@ -112,6 +112,7 @@ struct Invocation {
   IrradianceCommand irradiance;
   BrickmakeCommand brickmake;
   ViewCommand view;
+  ConvertCommand convert;
   std::string first, second, difference;
   bool json = false;
 };
@@ -231,10 +232,16 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   view->add_option("--gain", in.view.gain, "Multiplies the values (default: so that they can be seen)");
   addParsed(*view, "--format", in.view.size, [](const std::string& t) { return parsePair(t, 1, 16384); }, "WxH", "Resolution in pixels");
   view->callback([&] { code = viewCommand(in.view); });
+
+  CLI::App* convert = app.add_subcommand("convert", "Point clouds from and to PLY, for other programs");
+  convert->add_option("IN", in.convert.input, "FILE.ptc or FILE.ply")->required();
+  convert->add_option("OUT", in.convert.output, "FILE.ply or FILE.ptc")->required();
+  convert->add_option("--radius", in.convert.radius, "Of points that name none (default: 0)")->check(CLI::Range(0.0, 1e9));
+  convert->callback([&] { code = convertCommand(in.convert); });
 }
 
 bool namesCommand(const std::string& text) {
-  for (const char* name : {"render", "hide", "gather", "shade", "photons", "irradiance", "brickmake", "view", "info", "compare",
+  for (const char* name : {"render", "hide", "gather", "shade", "photons", "irradiance", "brickmake", "view", "convert", "info", "compare",
                            "catrib", "-h", "--help", "--version"})
     if (text == name) return true;
   return false;
