@@ -129,8 +129,9 @@ class Splitter {
     } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && gridsOf(nu, nv) >= kGridsOfCoarse && !crossesEye &&
                glm::length(bare.size()) <= kSlack * reach) {
       // Halving shrinks such a piece and its bound as it should, so that its grids can be foretold.
-      budget_ -= gridsOf(nu, nv);
-      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound), bound.lo.z, crossesEye, depth, true});
+      const Bound2 raster = rasterOf(bound);
+      budget_ -= std::min(gridsOf(nu, nv), gridsInView(raster));
+      out.push_back({index_, patch, rect, nu, nv, raster, bound.lo.z, crossesEye, depth, true});
     } else if (depth == kMaxDepth) {
       ++(bound.lo.z < glm::length(bound.size()) ? givenUp_.atEye : givenUp_.tooMany);
     } else {
@@ -142,6 +143,12 @@ class Splitter {
   }
 
   int64_t gridsOf(int nu, int nv) const { return static_cast<int64_t>(nu) * nv / gridSize_; }
+  /// That a layer of surface over what the window shows of `raster` takes.
+  int64_t gridsInView(const Bound2& raster) const {
+    const vec2 lo = glm::max(raster.lo, vec2(window_.x0, window_.y0)), hi = glm::min(raster.hi, vec2(window_.x1, window_.y1));
+    const vec2 size = glm::max(hi - lo, vec2(0));
+    return 1 + static_cast<int64_t>(double{size.x} * size.y / (double{edge_px_} * edge_px_ * gridSize_));
+  }
 
   bool cannotBeSeen(const Bound3& bare) const {
     const Bound3 bound = bare.grown(object_.displacementBound);
