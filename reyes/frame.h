@@ -19,7 +19,7 @@ using Progress = std::function<void(float fraction)>;
 
 struct FrameControl {
   Progress progress;
-  const std::atomic<bool>* cancelled = nullptr;  ///< Set from a signal handler: finish running buckets and return.
+  const std::atomic<bool>* cancelled = nullptr;  ///< Set from a signal handler: give up running buckets and return.
   uint32_t seed = 0;
 };
 

@@ -81,9 +81,10 @@ class Splitter {
   /// Pieces that were left out because halving did not help.
   struct GivenUp { int64_t atEye = 0, tooMany = 0; };
 
-  Splitter(const Scene& scene, int object, const Camera& camera, const PixelRect& window, Stats& stats, Splitting splitting)
+  Splitter(const Scene& scene, int object, const Camera& camera, const PixelRect& window, Stats& stats, Splitting splitting,
+           StopFlag stop)
       : object_(scene.objects[static_cast<size_t>(object)]), index_(object), gridSize_(scene.options.gridSize),
-        camera_(camera), window_(window), stats_(stats), lazily_(splitting == Splitting::Lazily),
+        camera_(camera), window_(window), stats_(stats), lazily_(splitting == Splitting::Lazily), stop_(stop),
         edge_px_(std::sqrt(std::max(object_.attributes->shadingRate, 1e-4f))) {}
 
   void splitPatch(uint32_t patch, std::vector<SubPatch>& out) {
@@ -101,6 +102,7 @@ class Splitter {
 
  private:
   void split(uint32_t patch, const UvRect& rect, int depth, std::vector<SubPatch>& out) {
+    if (stop_ && stop_->load(std::memory_order_relaxed)) return;
     if (budget_-- <= 0) {
       ++givenUp_.tooMany;
       return;
@@ -184,6 +186,7 @@ class Splitter {
   const PixelRect& window_;
   Stats& stats_;
   const bool lazily_;
+  const StopFlag stop_;
   const float edge_px_;
   int start_ = 0;       ///< Depth of what is being split.
   int64_t budget_ = 0;  ///< Pieces that the patch may still visit.
@@ -285,16 +288,16 @@ std::vector<SubPatch> piecesBy(Splitter splitter, const Object& object, Stats& s
 }  // namespace
 
 std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<const uint32_t> patches, const Camera& camera,
-                                   const PixelRect& window, Stats& stats, Log& log, Splitting splitting) {
-  return piecesBy(Splitter(scene, object, camera, window, stats, splitting), scene.objects[static_cast<size_t>(object)], stats, log,
+                                   const PixelRect& window, Stats& stats, Log& log, Splitting splitting, StopFlag stop) {
+  return piecesBy(Splitter(scene, object, camera, window, stats, splitting, stop), scene.objects[static_cast<size_t>(object)], stats, log,
                   [&](Splitter& splitter, std::vector<SubPatch>& out) {
                     for (const uint32_t p : patches) splitter.splitPatch(p, out);
                   });
 }
 
 std::vector<SubPatch> splitPiece(const Scene& scene, const SubPatch& coarse, const Camera& camera, const PixelRect& window,
-                                 Stats& stats, Log& log) {
-  return piecesBy(Splitter(scene, coarse.object, camera, window, stats, Splitting::Lazily),
+                                 Stats& stats, Log& log, StopFlag stop) {
+  return piecesBy(Splitter(scene, coarse.object, camera, window, stats, Splitting::Lazily, stop),
                   scene.objects[static_cast<size_t>(coarse.object)], stats, log,
                   [&](Splitter& splitter, std::vector<SubPatch>& out) { splitter.splitPiece(coarse, out); });
 }
@@ -320,10 +323,10 @@ uint32_t placeOnCurve(const vec3& p, const Bound3& box) {
 
 }  // namespace
 
-PatchTree::PatchTree(const std::vector<PrimPtr>& shapes) : order_(shapes.front()->patchCount()) {
+PatchTree::PatchTree(const std::vector<PrimPtr>& shapes, StopFlag stop) : order_(shapes.front()->patchCount()) {
   std::vector<Bound3> ofPatch(order_.size());
   parallelFor(ofPatch.size(), kLeaf, [&](size_t begin, size_t end) {
-    for (size_t p = begin; p < end; ++p)
+    for (size_t p = begin; p < end && !(stop && *stop); ++p)
       for (const PrimPtr& shape : shapes) ofPatch[p].extend(shape->bound(static_cast<uint32_t>(p), UvRect{}));
   });
   std::iota(order_.begin(), order_.end(), 0U);

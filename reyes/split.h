@@ -3,6 +3,7 @@
 // buckets, crop or threads.
 // Threads: pure but for the counters and the log.
 #pragma once
+#include <atomic>
 #include <optional>
 #include <span>
 
@@ -38,13 +39,17 @@ std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObj
 /// Whether a patch of very many pieces is split at once, or left in coarse pieces where that is safe: a frame's pieces all at once
 /// would take memory in proportion to its area.
 enum class Splitting : uint8_t { Wholly, Lazily };
+/// Set from elsewhere: what is going on may end at once, with any result. Null: never.
+using StopFlag = const std::atomic<bool>*;
+
 /// Splits some patches of an object; what lies wholly outside the window is culled. Order: as given,
 /// then by place.
 std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<const uint32_t> patches, const Camera& camera,
-                                   const PixelRect& window, Stats& stats, Log& log, Splitting splitting = Splitting::Wholly);
+                                   const PixelRect& window, Stats& stats, Log& log, Splitting splitting = Splitting::Wholly,
+                                   StopFlag stop = nullptr);
 /// The next pieces of a coarse one, lazily. In the end they are those of splitting wholly.
 std::vector<SubPatch> splitPiece(const Scene& scene, const SubPatch& coarse, const Camera& camera, const PixelRect& window,
-                                 Stats& stats, Log& log);
+                                 Stats& stats, Log& log, StopFlag stop = nullptr);
 
 /// Boxes in object space of all that an object's shapes are over time. Patches are put in order along a curve that fills
 /// space, so that a run of them is compact, however a model scatters them: level 0 has a box for each run of kLeaf patches, a
@@ -52,7 +57,7 @@ std::vector<SubPatch> splitPiece(const Scene& scene, const SubPatch& coarse, con
 class PatchTree {
  public:
   static constexpr uint32_t kLeaf = 64, kFan = 16;
-  explicit PatchTree(const std::vector<PrimPtr>& shapes);
+  explicit PatchTree(const std::vector<PrimPtr>& shapes, StopFlag stop = nullptr);
 
   uint32_t patchCount() const { return static_cast<uint32_t>(order_.size()); }
   uint32_t top() const { return static_cast<uint32_t>(levels_.size()) - 1; }

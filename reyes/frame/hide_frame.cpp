@@ -7,13 +7,15 @@
 namespace tomales {
 namespace {
 
-DeepTile hideBucket(size_t bucket, const PixelRect& rect, const NodeList& nodes, const HideContext& context,
+/// Nothing: cancelled on the way.
+std::optional<DeepTile> hideBucket(size_t bucket, const PixelRect& rect, const NodeList& nodes, const HideContext& context,
                     const SamplePattern& pattern) {
   Hider hider(context.scene, context.camera, pattern, rect);
   NodeQueue queue;
   for (HideNode* node : nodes.in(bucket)) queue.push(node);
-  while (const auto node = queue.pop())
+  while (const auto node = context.isCancelled() ? nullptr : queue.pop())
     if (!hider.hidden(node->raster(), node->zMin())) node->visit(bucket, queue, hider);
+  if (context.isCancelled()) return {};
   return hider.resolve();
 }
 
@@ -44,23 +46,24 @@ bool hideTiles(const DeepFrame& layout, Scene& scene, ShadingSystem& shading, co
                "DepthOfField needs a perspective projection: all is in focus");
   const SamplePattern pattern = samplePattern(scene.options, control.seed);
   const BucketGrid buckets(layout);
-  HideContext context{scene, camera, shading, buckets, stats, log};
+  HideContext context{scene, camera, shading, buckets, stats, log, control.cancelled};
   const NodeList nodes(nodesOfScene(context), buckets.all(), buckets);
   const std::vector<uint32_t> order = bucketOrder(scene.options.bucketOrder, layout.columns, layout.rows);
   std::atomic<size_t> done{0};
   std::atomic<bool> skipped{false};
   parallelInOrder(order.size(), [&](size_t i) {
     const size_t index = order[i];
-    if (control.cancelled && *control.cancelled) {
-      skipped = true;
-      return;
-    }
     if (!sink.has || !sink.has(index)) {
-      std::optional<DeepTile> found = sink.find ? sink.find(index) : std::nullopt;
-      DeepTile tile = found ? std::move(*found) : hideBucket(index, layout.tiles[index].rect, nodes, context, pattern);
-      stats.geometry.micropolygonsVisible += static_cast<int64_t>(tile.facets.size());
-      stats.memoryBytes.deepFrame += static_cast<int64_t>(tile.bytes());
-      sink.take(index, std::move(tile));
+      std::optional<DeepTile> tile;
+      if (sink.find && !context.isCancelled()) tile = sink.find(index);
+      if (!tile) tile = hideBucket(index, layout.tiles[index].rect, nodes, context, pattern);
+      if (!tile) {
+        skipped = true;
+        return;
+      }
+      stats.geometry.micropolygonsVisible += static_cast<int64_t>(tile->facets.size());
+      stats.memoryBytes.deepFrame += static_cast<int64_t>(tile->bytes());
+      sink.take(index, std::move(*tile));
     }
     for (HideNode* node : nodes.in(index)) node->release(index);
     if (control.progress) control.progress(static_cast<float>(++done) / static_cast<float>(order.size()));

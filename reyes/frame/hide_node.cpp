@@ -73,8 +73,10 @@ class CoarseNode : public OpeningNode {
 
  private:
   HideNodes open(const BucketRange& within) override {
-    return nodesOfPieces(
-        context_, splitPiece(context_.scene, piece_, context_.camera, context_.buckets.window(), context_.stats, context_.log), zMin(), within);
+    return nodesOfPieces(context_,
+                         splitPiece(context_.scene, piece_, context_.camera, context_.buckets.window(), context_.stats, context_.log,
+                                    context_.cancelled),
+                         zMin(), within);
   }
 
   const SubPatch piece_;
@@ -137,7 +139,7 @@ class PatchesNode : public OpeningNode {
     }
     return nodesOfPieces(context_,
                          splitPatches(context_.scene, object_, tree_->patches(index_), context_.camera, context_.buckets.window(),
-                                      context_.stats, context_.log, Splitting::Lazily),
+                                      context_.stats, context_.log, Splitting::Lazily, context_.cancelled),
                          zMin(), within);
   }
 
@@ -158,7 +160,7 @@ HideNodes nodesOf(HideContext& context, const std::vector<int>& objects, const B
     if (o.solid < 0 && !o.attributes->visibility.camera) continue;
     seen.push_back(i);
     auto& tree = trees[o.shapes];
-    if (!tree) tree = std::make_shared<const PatchTree>(o.shapes);
+    if (!tree) tree = std::make_shared<const PatchTree>(o.shapes, context.cancelled);
     if (o.solid < 0) continue;
     float& z = zOfSolid.try_emplace(o.solid, kInfinity).first->second;
     if (const auto place = placeBox(tree->box(tree->top(), 0), o.cameraFromObject, o.keyTimes, o.displacementBound,

@@ -22,8 +22,11 @@ struct HideContext {
   const BucketGrid& buckets;
   Stats& stats;
   Log& log;
+  StopFlag cancelled = nullptr;
   Counter liveGrids_bytes{0}, liveGeometry_bytes{0};
   std::mutex growth{};  ///< Of the scene and its shaders.
+
+  bool isCancelled() const { return cancelled && *cancelled; }
 };
 
 class NodeQueue;

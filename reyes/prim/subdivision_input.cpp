@@ -21,6 +21,20 @@ void requireSubdividable(size_t largest, const std::vector<int>& vertexCounts, c
   }
 }
 
+/// OpenSubdiv's weights of the limit around a vertex are as many as the square of its corners: here 250 MB.
+std::optional<Crowd> crowdBeyondMeasure(const std::vector<int>& vertexCounts, const std::vector<int>& vertices, size_t vertexCount) {
+  constexpr size_t kMost = 8192;
+  std::vector<size_t> corners(vertexCount);
+  size_t first = 0;
+  for (const int count : vertexCounts) {
+    for (int k = 0; k < count; ++k) corners[static_cast<size_t>(vertices[first + k])] += static_cast<size_t>(count) - 2;
+    first += static_cast<size_t>(count);
+  }
+  const auto most = std::find_if(corners.begin(), corners.end(), [](size_t n) { return n > kMost; });
+  if (most == corners.end()) return {};
+  return Crowd{static_cast<int>(most - corners.begin()), *most};
+}
+
 FaceVaryingChannel mergeFaceVarying(const Primvar& var, const std::vector<int>& vertices,
                                     size_t vertexCount) {
   const size_t width = static_cast<size_t>(var.width);

@@ -1,8 +1,5 @@
 #include "reyes/prim/subdivision_limit.h"
 
-#include <optional>
-
-#include "reyes/prim/bicubic.h"
 #include "reyes/prim/interpolation.h"
 #include "reyes/prim/sampled_bound.h"
 
@@ -11,8 +8,35 @@ namespace {
 
 namespace Bfr = OpenSubdiv::Bfr;
 
-/// A face in a regular neighbourhood is one patch of a uniform B-spline (control points u fastest), which has
-/// a faster way to be evaluated and tighter bounds. Next to a boundary or a crease Bfr repeats control points
+struct Frame {
+  vec3 p, du, dv;
+};
+
+Frame frameAt(const FaceAt& face, const FaceMap& map, float u, float v) {
+  const vec2 byU = map.byU(v), byV = map.byV(u);
+  vec3 ds, dt;
+  const vec3 p = face(map.at(u, v), &ds, &dt);
+  return {p, byU.x * ds + byU.y * dt, byV.x * ds + byV.y * dt};
+}
+
+/// The cross product of the derivatives; where they are dependent, that of a place a little nearer to the
+/// middle.
+vec3 normalAt(const FaceAt& face, const FaceMap& map, float u, float v, const Frame& frame) {
+  const auto normal = [](const Frame& f) { return cross(f.du, f.dv); };
+  const auto independent = [&](const Frame& f) {
+    return glm::length(normal(f)) > 1e-4f * glm::length(f.du) * glm::length(f.dv);
+  };
+  if (independent(frame)) return normal(frame);
+  for (float step : {1e-3f, 1e-2f, 1e-1f}) {
+    const Frame nearby = frameAt(face, map, lerp(u, 0.5f, step), lerp(v, 0.5f, step));
+    if (independent(nearby)) return normal(nearby);
+  }
+  return {0, 0, 1};
+}
+
+}  // namespace
+
+/// Control points of a uniform B-spline, u fastest. Next to a boundary or a crease Bfr repeats control points
 /// for those that are not there; such faces stay with it.
 std::optional<BezierPatch> asBicubic(const Limit& limit) {
   constexpr int kControls = 16;
@@ -33,74 +57,39 @@ std::optional<BezierPatch> asBicubic(const Limit& limit) {
   return patch;
 }
 
-struct Frame {
-  vec3 p, du, dv;
-};
-
-Frame frameAt(const Limit& limit, const FaceMap& map, float u, float v) {
-  const vec2 at = map.at(u, v), byU = map.byU(v), byV = map.byV(u);
-  vec3 p, ds, dt;
-  limit.surface.Evaluate(&at.x, limit.points.data(), 3, &p.x, &ds.x, &dt.x);
-  return {p, byU.x * ds + byU.y * dt, byV.x * ds + byV.y * dt};
-}
-
-/// The cross product of the derivatives; where they are dependent, that of a place a little nearer to the
-/// middle.
-vec3 normalAt(const Limit& limit, const FaceMap& map, float u, float v, const Frame& frame) {
-  const auto normal = [](const Frame& f) { return cross(f.du, f.dv); };
-  const auto independent = [&](const Frame& f) {
-    return glm::length(normal(f)) > 1e-4f * glm::length(f.du) * glm::length(f.dv);
-  };
-  if (independent(frame)) return normal(frame);
-  for (float step : {1e-3f, 1e-2f, 1e-1f}) {
-    const Frame nearby = frameAt(limit, map, lerp(u, 0.5f, step), lerp(v, 0.5f, step));
-    if (independent(nearby)) return normal(nearby);
-  }
-  return {0, 0, 1};
-}
-
-}  // namespace
-
 Bfr::SurfaceFactory::Options limitOptions() {
   constexpr int kLevel = 8;
   return Bfr::SurfaceFactory::Options().SetApproxLevelSmooth(kLevel).SetApproxLevelSharp(kLevel);
 }
 
-FaceMap::FaceMap(const Bfr::Surface<float>& surface, int corner) {
-  const Bfr::Parameterization parameters = surface.GetParameterization();
-  if (parameters.GetType() == Bfr::Parameterization::TRI) {
+FaceMap::FaceMap(const Bfr::Parameterization& face, int corner) {
+  if (face.GetType() == Bfr::Parameterization::TRI) {
     static constexpr vec2 kCorners[] = {{0, 0}, {1, 0}, {0, 1}};
     const vec2 here = kCorners[corner], next = kCorners[(corner + 1) % 3], last = kCorners[(corner + 2) % 3];
     const vec2 center(1 / 3.0f);
     origin_ = here, alongU_ = 0.5f * (next - here), alongV_ = 0.5f * (last - here);
     twist_ = center - here - alongU_ - alongV_;
-  } else if (parameters.HasSubFaces()) {
+  } else if (face.HasSubFaces()) {
     const float zero[2] = {0, 0}, one[2] = {1, 1};
     vec2 to;
-    parameters.ConvertNormalizedSubFaceToCoord(corner, zero, &origin_.x);
-    parameters.ConvertNormalizedSubFaceToCoord(corner, one, &to.x);
+    face.ConvertNormalizedSubFaceToCoord(corner, zero, &origin_.x);
+    face.ConvertNormalizedSubFaceToCoord(corner, one, &to.x);
     alongU_.x = alongV_.y = to.x - origin_.x;
   }
 }
 
-void evaluateLimit(const Limit& limit, const FaceMap& map, int n, const float* u, const float* v,
-                   SurfacePoints out) {
-  if (const auto bicubic = asBicubic(limit)) return evaluateBicubic(*bicubic, n, u, v, out);
+void evaluateFace(const FaceAt& face, const FaceMap& map, int n, const float* u, const float* v,
+                  SurfacePoints out) {
   for (int i = 0; i < n; ++i) {
-    const Frame f = frameAt(limit, map, u[i], v[i]);
+    const Frame f = frameAt(face, map, u[i], v[i]);
     setFrame(out, i, f.p, f.du, f.dv);
-    setNormal(out, i, normalAt(limit, map, u[i], v[i], f));
+    setNormal(out, i, normalAt(face, map, u[i], v[i], f));
   }
 }
 
-Bound3 boundLimit(const Limit& limit, const FaceMap& map, const UvRect& rect, const Bound3& hull) {
-  if (const auto bicubic = asBicubic(limit)) return boundBicubic(*bicubic, rect);
-  const Bound3 sampled = boundOfSamples(rect, [&](float u, float v) {
-    const vec2 at = map.at(u, v);
-    vec3 p;
-    limit.surface.Evaluate(&at.x, limit.points.data(), 3, &p.x);
-    return p;
-  });
+Bound3 boundFace(const FaceAt& face, const FaceMap& map, const UvRect& rect, const Bound3& hull) {
+  const Bound3 sampled =
+      boundOfSamples(rect, [&](float u, float v) { return face(map.at(u, v), nullptr, nullptr); });
   return paddedForRounding({glm::max(hull.lo, sampled.lo), glm::min(hull.hi, sampled.hi)}, hull);
 }
 

@@ -5,10 +5,12 @@
 #include <opensubdiv/bfr/surface.h>
 #include <opensubdiv/bfr/surfaceFactoryCache.h>
 
+#include <functional>
 #include <mutex>
+#include <optional>
 #include <shared_mutex>
 
-#include "reyes/prim.h"
+#include "reyes/prim/bicubic.h"
 
 namespace tomales {
 
@@ -29,11 +31,16 @@ struct Limit {
   }
 };
 
+/// A face in a regular neighbourhood is one bicubic patch, which has a faster way to be evaluated and tighter bounds. Pre:
+/// `limit` holds positions.
+std::optional<BezierPatch> asBicubic(const Limit& limit);
+
 /// From a patch's unit square to the coordinates of its face. A patch is a whole quadrilateral, or one corner's share of
 /// a face of another size: the quadrilateral of the corner, the middles of its two edges and the centre.
 class FaceMap {
  public:
-  FaceMap(const OpenSubdiv::Bfr::Surface<float>& surface, int corner);
+  FaceMap() = default;  ///< The same coordinates.
+  FaceMap(const OpenSubdiv::Bfr::Parameterization& face, int corner);
   vec2 at(float u, float v) const { return origin_ + u * alongU_ + v * alongV_ + u * v * twist_; }
   vec2 byU(float v) const { return alongU_ + v * twist_; }
   vec2 byV(float u) const { return alongV_ + u * twist_; }
@@ -42,11 +49,12 @@ class FaceMap {
   vec2 origin_{0, 0}, alongU_{1, 0}, alongV_{0, 1}, twist_{0, 0};
 };
 
-/// Of positions: `limit` holds three values a point.
-void evaluateLimit(const Limit& limit, const FaceMap& map, int n, const float* u, const float* v, SurfacePoints out);
+/// A face's position at its own coordinates; its derivatives by these, unless they are null.
+using FaceAt = std::function<vec3(const vec2& at, vec3* ds, vec3* dt)>;
 
-/// An irregular piece lies in the box of its samples and in `hull`, that of the face's control points, whose weights
-/// are positive.
-Bound3 boundLimit(const Limit& limit, const FaceMap& map, const UvRect& rect, const Bound3& hull);
+void evaluateFace(const FaceAt& face, const FaceMap& map, int n, const float* u, const float* v, SurfacePoints out);
+
+/// A piece lies in the box of its samples and in `hull`, that of control points, whose weights are positive.
+Bound3 boundFace(const FaceAt& face, const FaceMap& map, const UvRect& rect, const Bound3& hull);
 
 }  // namespace tomales

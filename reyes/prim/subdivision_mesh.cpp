@@ -1,14 +1,31 @@
-// Subdivision surfaces (RISpec section 5.3). A patch is a quadrilateral face, or one corner's share of a face of another
-// size.
+// Subdivision surfaces (RISpec section 5.3). A patch is a quadrilateral face, or one corner's share of a face
+// of another size.
+#include <fmt/format.h>
+
+#include <atomic>
+#include <optional>
+
 #include "reyes/prim/interpolation.h"
 #include "reyes/prim/primvars.h"
+#include "reyes/prim/subdivision_crowded.h"
 #include "reyes/prim/subdivision_limit.h"
-#include "reyes/prim/subdivision_topology.h"
 
 namespace tomales {
 namespace {
 
 namespace Far = OpenSubdiv::Far;
+
+/// With what every question about it needs.
+struct PositionLimit : Limit {
+  std::optional<BezierPatch> bicubic;
+  Bound3 hull;  ///< Of the control points.
+};
+
+/// Tells meshes apart, also from those that are gone.
+uint64_t nextId() {
+  static std::atomic<uint64_t> last{0};
+  return ++last;
+}
 
 class SubdivisionMesh : public Prim {
  public:
@@ -16,12 +33,18 @@ class SubdivisionMesh : public Prim {
       : Prim(std::move(primvars)),
         positions_(mesh.positions),
         refiner_(makeRefiner(mesh)),
-        factory_(*refiner_, limitOptions()) {
+        factory_(*refiner_, limitOptions()),
+        crowded_(mesh, refiner_->GetLevel(0), facesWithSurface()),
+        crowdedPositions_(crowded_.refine(&positions_[0].x, 3)) {
+    for (const vec3& p : positions_) hull_.extend(p);
     size_t channel = 0;
     for (Primvar& var : primvars_) {
       const bool faceVarying = var.storage == Storage::FaceVarying;
       channelOf_.push_back(faceVarying ? static_cast<int>(channel) : -1);
       if (faceVarying) var.values = mesh.channels[channel++].values;
+      const bool smooth = faceVarying || var.storage == Storage::Vertex;
+      crowdedValues_.push_back(smooth ? crowded_.refine(var.values.data(), var.width, channelOf_.back())
+                                      : CrowdedFaces::Values{});
     }
     for (int face = 0; face < refiner_->GetLevel(0).GetNumFaces(); ++face) addPatches(face);
   }
@@ -30,15 +53,19 @@ class SubdivisionMesh : public Prim {
   PatchInfo info(uint32_t patch) const override { return {false, patches_[patch].openEdges}; }
 
   Bound3 bound(uint32_t patch, const UvRect& rect) const override {
-    const Limit limit = limitOf(patches_[patch].face);
-    Bound3 hull;
-    limit.surface.BoundControlPointsFromMesh(&positions_[0].x, 3, &hull.lo.x, &hull.hi.x);
-    return boundLimit(limit, FaceMap(limit.surface, patches_[patch].corner), rect, hull);
+    const Patch& p = patches_[patch];
+    if (crowded_.has(p.face)) return boundFace(crowdedAt(p), mapOfCrowded(p), rect, hull_);
+    const PositionLimit& limit = positionsOf(p.face);
+    return limit.bicubic ? boundBicubic(*limit.bicubic, rect)
+                         : boundFace(limitAt(limit), mapOf(p), rect, limit.hull);
   }
 
   void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const override {
-    const Limit limit = limitOf(patches_[patch].face);
-    evaluateLimit(limit, FaceMap(limit.surface, patches_[patch].corner), n, u, v, out);
+    const Patch& p = patches_[patch];
+    if (crowded_.has(p.face)) return evaluateFace(crowdedAt(p), mapOfCrowded(p), n, u, v, out);
+    const PositionLimit& limit = positionsOf(p.face);
+    if (limit.bicubic) return evaluateBicubic(*limit.bicubic, n, u, v, out);
+    evaluateFace(limitAt(limit), mapOf(p), n, u, v, out);
   }
 
   void interpolate(uint32_t patch, int index, int n, const float* u, const float* v, float* out,
@@ -54,21 +81,83 @@ class SubdivisionMesh : public Prim {
   void addPatches(int face);
   bool isOpen(int face, int edgeOfFace) const;
 
-  Limit limitOf(int face) const {
-    Limit limit;
-    factory_.InitVertexSurface(face, &limit.surface);
-    limit.prepare(&positions_[0].x, 3);
-    return limit;
+  std::vector<int> facesWithSurface() const {
+    std::vector<int> faces;
+    for (int face = 0; face < refiner_->GetLevel(0).GetNumFaces(); ++face)
+      if (factory_.FaceHasLimitSurface(face)) faces.push_back(face);
+    return faces;
   }
 
-  /// OpenSubdiv does not say what its topology and its table of patches take: about as much as 400 bytes a patch.
-  size_t shapeBytes() const override { return bytesOf(positions_) + bytesOf(patches_) + patches_.size() * 400; }
+  FaceMap mapOf(const Patch& p) const { return {factory_.GetFaceParameterization(p.face), p.corner}; }
+  /// Far knows a corner's share of a face by its own coordinates already, and triangles whole.
+  FaceMap mapOfCrowded(const Patch& p) const {
+    return factory_.GetSchemeType() == OpenSubdiv::Sdc::SCHEME_LOOP ? mapOf(p) : FaceMap();
+  }
+
+  FaceAt crowdedAt(const Patch& p) const {
+    return [this, p](const vec2& at, vec3* ds, vec3* dt) {
+      vec3 position;
+      crowded_.evaluate(crowdedPositions_, p.face, p.corner, at.x, at.y, &position.x, ds ? &ds->x : nullptr,
+                        dt ? &dt->x : nullptr);
+      return position;
+    };
+  }
+  static FaceAt limitAt(const PositionLimit& limit) {
+    return [&limit](const vec2& at, vec3* ds, vec3* dt) {
+      vec3 position;
+      if (ds && dt)
+        limit.surface.Evaluate(&at.x, limit.points.data(), 3, &position.x, &ds->x, &dt->x);
+      else
+        limit.surface.Evaluate(&at.x, limit.points.data(), 3, &position.x);
+      return position;
+    };
+  }
+
+  const PositionLimit& positionsOf(int face) const;
+
+  /// OpenSubdiv does not say what its topology and its table of patches take: about as much as 400 bytes a
+  /// patch.
+  size_t shapeBytes() const override {
+    size_t bytes = bytesOf(positions_) + bytesOf(patches_) + patches_.size() * 400 + crowded_.bytes() +
+                   bytesOf(crowdedPositions_.points);
+    for (const auto& values : crowdedValues_) bytes += bytesOf(values.points);
+    return bytes;
+  }
+  const uint64_t id_ = nextId();
   const std::vector<vec3> positions_;
   const Refiner refiner_;
   const LimitFactory factory_;
-  std::vector<int> channelOf_;  // by primvar: its face-varying channel or -1
+  const CrowdedFaces crowded_;
+  const CrowdedFaces::Values crowdedPositions_;
+  std::vector<CrowdedFaces::Values> crowdedValues_;  // by primvar
+  Bound3 hull_;                                      // of all positions
+  std::vector<int> channelOf_;                       // by primvar: its face-varying channel or -1
   std::vector<Patch> patches_;
 };
+
+/// Splitting asks for bound and points of one face again and again, and dicing does so at every key: each
+/// thread keeps what it prepared last. The result is good until the thread has asked for that many other
+/// faces.
+const PositionLimit& SubdivisionMesh::positionsOf(int face) const {
+  struct Kept {
+    uint64_t mesh = 0;
+    int face = -1;
+    std::unique_ptr<PositionLimit> limit;  // Bfr's surfaces do not survive a second initialisation
+  };
+  constexpr size_t kKept = 4;
+  static thread_local std::array<Kept, kKept> kept;
+  static thread_local size_t oldest = 0;
+  for (const Kept& k : kept)
+    if (k.mesh == id_ && k.face == face) return *k.limit;
+  auto limit = std::make_unique<PositionLimit>();
+  factory_.InitVertexSurface(face, &limit->surface);
+  limit->prepare(&positions_[0].x, 3);
+  limit->surface.BoundControlPoints(limit->points.data(), 3, &limit->hull.lo.x, &limit->hull.hi.x);
+  limit->bicubic = asBicubic(*limit);
+  Kept& place = kept[oldest++ % kKept];
+  place = {id_, face, std::move(limit)};
+  return *place.limit;
+}
 
 bool SubdivisionMesh::isOpen(int face, int edgeOfFace) const {
   const Far::TopologyLevel& level = refiner_->GetLevel(0);
@@ -97,19 +186,33 @@ void SubdivisionMesh::interpolate(uint32_t patch, int index, int n, const float*
   const Primvar& var = primvars_[static_cast<size_t>(index)];
   const int face = patches_[patch].face;
   if (repeatIfEven(var, static_cast<size_t>(face), n, out, stride)) return;
+  const Patch& p = patches_[patch];
+  std::vector<float> element(static_cast<size_t>(var.width));
+  const auto put = [&](int i) {
+    for (int c = 0; c < var.width; ++c)
+      out[static_cast<ptrdiff_t>(c) * stride + i] = element[static_cast<size_t>(c)];
+  };
+  if (crowded_.has(face) && var.storage != Storage::Varying) {
+    const FaceMap map = mapOfCrowded(p);
+    for (int i = 0; i < n; ++i) {
+      const vec2 at = map.at(u[i], v[i]);
+      crowded_.evaluate(crowdedValues_[static_cast<size_t>(index)], face, p.corner, at.x, at.y,
+                        element.data(), nullptr, nullptr);
+      put(i);
+    }
+    return;
+  }
   Limit limit;
   if (var.storage == Storage::Vertex) factory_.InitVertexSurface(face, &limit.surface);
   if (var.storage == Storage::Varying) factory_.InitVaryingSurface(face, &limit.surface);
   if (var.storage == Storage::FaceVarying)
     factory_.InitFaceVaryingSurface(face, &limit.surface, channelOf_[static_cast<size_t>(index)]);
   limit.prepare(var.values.data(), var.width);
-  const FaceMap map(limit.surface, patches_[patch].corner);
-  std::vector<float> element(static_cast<size_t>(var.width));
+  const FaceMap map(limit.surface.GetParameterization(), p.corner);
   for (int i = 0; i < n; ++i) {
     const vec2 at = map.at(u[i], v[i]);
     limit.surface.Evaluate(&at.x, limit.points.data(), var.width, element.data());
-    for (int c = 0; c < var.width; ++c)
-      out[static_cast<ptrdiff_t>(c) * stride + i] = element[static_cast<size_t>(c)];
+    put(i);
   }
 }
 
@@ -130,6 +233,13 @@ PrimPtr makeSubdivisionMesh(const std::string& scheme, const std::vector<int>& v
   for (const Primvar& var : primvars)
     if (var.storage == Storage::FaceVarying)
       mesh.channels.push_back(mergeFaceVarying(var, vertices, vertexCount));
+  if (const auto crowd = crowdBeyondMeasure(vertexCounts, vertices, vertexCount)) {
+    problems.push_back(
+        fmt::format("vertex {} has {} corners of faces around it, too many to be smooth: the mesh is drawn "
+                    "as scheme \"bilinear\"",
+                    crowd->vertex, crowd->corners));
+    mesh.scheme = OpenSubdiv::Sdc::SCHEME_BILINEAR;
+  }
   auto prim = std::make_shared<SubdivisionMesh>(mesh, std::move(primvars));
   if (prim->patchCount() == 0)
     problems.push_back(

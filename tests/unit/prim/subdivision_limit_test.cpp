@@ -152,13 +152,66 @@ TEST(SubdivisionLimit, OfTrianglesUnderCatmullClarkIsFars) {
   EXPECT_LT(errors.derivative, 1e-4);
 }
 
-TEST(SubdivisionLimit, LoopsIsFars) {
-  // An octahedron with a pyramid on one face: valences 3 to 5; its boundary is a triangle left out.
-  const Cage cage = {{3, 3, 3, 3, 3, 3, 3, 3, 3},
-                     {0, 1, 2, 0, 2, 3, 0, 3, 4, 5, 2, 1, 5, 3, 2, 5, 4, 3, 5, 1, 6, 1, 4, 6, 4, 5, 6},
-                     {0, 0, 1, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0, 0, 0, -1, 1, -1, -1},
-                     {1, 2, 2, 3},
-                     {10, 1.5f}};
+/// A cap of one face with `sides` corners, and a wall of quadrilaterals that leads to a pole where they meet.
+Cage drumCage(int sides) {
+  Cage cage;
+  cage.counts.push_back(sides);
+  for (int k = 0; k < sides; ++k) cage.vertices.push_back(k);
+  cage.points.clear();
+  for (const float height : {0.0f, 1.0f})
+    for (int k = 0; k < sides; ++k) {
+      const float angle = 2 * kPi * static_cast<float>(k) / static_cast<float>(sides);
+      cage.points.insert(cage.points.end(), {std::cos(angle), std::sin(angle), height + 0.2f * std::cos(3 * angle)});
+    }
+  cage.points.insert(cage.points.end(), {0, 0, 1.5f});
+  for (int k = 0; k < sides; ++k) {
+    const int next = (k + 1) % sides;
+    cage.counts.push_back(4);
+    cage.vertices.insert(cage.vertices.end(), {next, k, sides + k, sides + next});
+    cage.counts.push_back(3);
+    cage.vertices.insert(cage.vertices.end(), {sides + k, 2 * sides, sides + next});
+  }
+  return cage;
+}
+
+TEST(SubdivisionLimit, OfFacesInACrowdIsFars) {
+  constexpr int kSides = 70;
+  const Cage cage = drumCage(kSides);
+  const PrimPtr prim = meshOf(cage, "catmull-clark");
+  ASSERT_EQ(prim->patchCount(), kSides + 4u * kSides);
+  const FarLimit reference(cage, Sdc::SCHEME_CATMARK);
+  Errors errors;
+  for (int k = 0; k < kPoints; ++k) {
+    const auto patch = static_cast<uint32_t>(k) % prim->patchCount();
+    const float u = random(k, 1), v = random(k, 2);
+    const bool whole = patch >= kSides && (patch - kSides) % 4 == 0;
+    const float scale = whole ? 1 : 0.5f;
+    const Sample far = reference.at(static_cast<int>(patch), u, v);
+    errors.add(sampleAt(*prim, patch, u, v), {far.p, scale * far.du, scale * far.dv, {}}, 2);
+  }
+  EXPECT_LT(errors.position, 1e-5);
+  EXPECT_LT(errors.derivative, 1e-4);
+}
+
+TEST(SubdivisionLimit, OfAPoleOfManyFacesIsHalsteads) {
+  // (n^2 V + 4 sum E + sum F) / (n (n + 5)) of the mesh subdivided once (Halstead et al. 1993); here the mesh is flat but
+  // for the pole, at height 1, so that only the weights of V, of edge points and of face points count.
+  for (const int n : {8, 60, 300}) {
+    Cage cage;
+    cage.points = {0, 0, 1};
+    for (int k = 0; k < n; ++k) {
+      const double angle = 2 * M_PI * k / n;
+      cage.points.insert(cage.points.end(), {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0});
+      cage.counts.push_back(3);
+      cage.vertices.insert(cage.vertices.end(), {0, 1 + k, 1 + (k + 1) % n});
+    }
+    const double face = 1.0 / 3, edge = (1 + 2 * face) / 4, vertex = (n - 2.0) / n + face / n;
+    const double height = (n * n * vertex + 4 * n * edge + n * face) / (n * (n + 5.0));
+    EXPECT_NEAR(sampleAt(*meshOf(cage, "catmull-clark"), 0, 0, 0).p.z, height, 3e-5) << n;  // sums of n floats
+  }
+}
+
+void expectLoopIsFars(const Cage& cage) {
   const PrimPtr prim = meshOf(cage, "loop");
   ASSERT_EQ(prim->patchCount(), 3 * cage.counts.size());
   const FarLimit reference(cage, Sdc::SCHEME_LOOP);
@@ -178,6 +231,29 @@ TEST(SubdivisionLimit, LoopsIsFars) {
   }
   EXPECT_LT(errors.position, 1e-5);
   EXPECT_LT(errors.derivative, 1e-4);
+}
+
+TEST(SubdivisionLimit, LoopsIsFars) {
+  // An octahedron with a pyramid on one face: valences 3 to 5; its boundary is a triangle left out.
+  expectLoopIsFars({{3, 3, 3, 3, 3, 3, 3, 3, 3},
+                     {0, 1, 2, 0, 2, 3, 0, 3, 4, 5, 2, 1, 5, 3, 2, 5, 4, 3, 5, 1, 6, 1, 4, 6, 4, 5, 6},
+                     {0, 0, 1, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0, 0, 0, -1, 1, -1, -1},
+                     {1, 2, 2, 3},
+                     {10, 1.5f}});
+}
+
+TEST(SubdivisionLimit, LoopsInACrowdIsFars) {
+  constexpr int kSides = 60;
+  Cage cage;
+  cage.points = {0, 0, 1, 0, 0, -1};
+  for (int k = 0; k < kSides; ++k) {
+    const float angle = 2 * kPi * static_cast<float>(k) / kSides;
+    cage.points.insert(cage.points.end(), {std::cos(angle), std::sin(angle), 0.2f * std::cos(3 * angle)});
+    const int here = 2 + k, next = 2 + (k + 1) % kSides;
+    cage.counts.insert(cage.counts.end(), {3, 3});
+    cage.vertices.insert(cage.vertices.end(), {0, here, next, 1, next, here});
+  }
+  expectLoopIsFars(cage);
 }
 
 }  // namespace

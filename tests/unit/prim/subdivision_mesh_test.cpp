@@ -242,6 +242,55 @@ TEST(SubdivisionMesh, InterpolatesEveryStorage) {
   EXPECT_EQ(primvarAt(*prim, 5, 3, 0.5f, 0)[0], 5);
 }
 
+/// n quadrilaterals around a vertex at the origin, closed by nothing.
+Mesh fan(int n) {
+  Mesh mesh;
+  std::vector<float> p = {0, 0, 0};
+  for (int k = 0; k < 2 * n; ++k) {
+    const float angle = kPi * static_cast<float>(k) / static_cast<float>(n);
+    p.insert(p.end(), {std::cos(angle), std::sin(angle), static_cast<float>(k % 3)});
+  }
+  for (int k = 0; k < n; ++k) {
+    mesh.counts.push_back(4);
+    mesh.vertices.insert(mesh.vertices.end(), {0, 1 + 2 * k, 2 + 2 * k, 1 + (2 * k + 2) % (2 * n)});
+  }
+  mesh.params = {positions(p)};
+  return mesh.tag("interpolateboundary", {1});
+}
+
+TEST(SubdivisionMesh, PrimvarsOfFacesInACrowdFollowTheSurface) {
+  // The heights of the vertices as variables: they are where the surface is.
+  Mesh mesh = fan(80).tag("facevaryinginterpolateboundary", {1});
+  const std::vector<float> p = mesh.params[0].floats;
+  std::vector<float> heights, ofFaces;
+  for (size_t k = 2; k < p.size(); k += 3) heights.push_back(p[k]);
+  for (const int v : mesh.vertices) ofFaces.push_back(heights[static_cast<size_t>(v)]);
+  mesh.params.push_back(floats("a", Storage::Vertex, ValueType::Float, heights));
+  mesh.params.push_back(floats("b", Storage::FaceVarying, ValueType::Float, ofFaces));
+  mesh.params.push_back(floats("c", Storage::Varying, ValueType::Float, heights));
+  const PrimPtr prim = mesh.make();
+  for (uint32_t patch = 0; patch < prim->patchCount(); patch += 7)
+    for (const float u : {0.0f, 0.3f, 1.0f})
+      for (const float v : {0.1f, 0.9f}) {
+        const float z = sampleAt(*prim, patch, u, v).p.z;
+        EXPECT_NEAR(primvarAt(*prim, patch, 0, u, v)[0], z, 1e-5f);
+        EXPECT_NEAR(primvarAt(*prim, patch, 1, u, v)[0], z, 1e-5f);
+        const int* corner = &mesh.vertices[patch * size_t{4}];
+        const auto at = [&](int k) { return heights[static_cast<size_t>(corner[k])]; };
+        EXPECT_NEAR(primvarAt(*prim, patch, 2, u, v)[0], lerp(lerp(at(0), at(1), u), lerp(at(3), at(2), u), v), 1e-5f);
+      }
+}
+
+TEST(SubdivisionMesh, BoundsOfFacesInACrowdContainTheSurface) { expectBoundsContainTheSurface(*fan(80).make()); }
+
+TEST(SubdivisionMesh, CrowdsBeyondMeasureAreDrawnAsTheCage) {
+  Mesh mesh = fan(5000);
+  const PrimPtr prim = mesh.make();
+  ASSERT_EQ(mesh.problems.size(), 1u);
+  EXPECT_NE(mesh.problems[0].find("vertex 0"), std::string::npos) << mesh.problems[0];
+  EXPECT_EQ(sampleAt(*prim, 0, 1, 1).p.z, 1);
+}
+
 TEST(SubdivisionMesh, BilinearSchemeIsTheCageItself) {
   Mesh mesh = cube();
   mesh.scheme = "bilinear";

@@ -48,6 +48,19 @@ TEST(Split, PiecesOfAPatchCoverItOnceWhenAllOfItIsInView) {
   EXPECT_DOUBLE_EQ(covered, 1.0);
 }
 
+TEST(Split, EndsWhenToldToStop) {
+  const Scene scene = sceneOf({sphere()}, translation({0, 0, 4}));
+  const Camera camera(scene.options);
+  const uint32_t patch = 0;
+  Stats stats;
+  Log log(Log::Verbosity::Quiet);
+  std::atomic<bool> stop{false};
+  const auto count = [&] { return splitPatches(scene, 0, std::span(&patch, 1), camera, camera.crop(), stats, log, Splitting::Wholly, &stop).size(); };
+  EXPECT_GT(count(), 0u);
+  stop = true;
+  EXPECT_EQ(count(), 0u);
+}
+
 TEST(Split, RasterBoundsHoldEveryDicedVertex) {
   const Scene scene = sceneOf({sphere(), quad(3, -0.7f)}, translation({0.4f, 0, 3.5f}));
   const Camera camera(scene.options);

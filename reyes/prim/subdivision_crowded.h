@@ -1,0 +1,49 @@
+// The limit surface of faces in a crowd: next to a vertex of many faces, or with many vertices of their own.
+// Bfr refines the neighbourhood of each face by itself, which around a vertex of N faces takes N^3 steps;
+// here all of them are refined together, once. Private to the primitives.
+#pragma once
+#include <opensubdiv/far/patchMap.h>
+#include <opensubdiv/far/patchTable.h>
+#include <opensubdiv/far/ptexIndices.h>
+
+#include "reyes/prim/subdivision_topology.h"
+
+namespace tomales {
+
+class CrowdedFaces {
+ public:
+  /// Values at all points that the patches of the crowd have.
+  struct Values {
+    int width = 0, faceVaryingChannel = -1;
+    std::vector<float> points;
+  };
+
+  /// Those of `candidates` that are in a crowd. The mesh is refined for them alone; without any, nothing is
+  /// made.
+  CrowdedFaces(const Coarse& mesh, const OpenSubdiv::Far::TopologyLevel& level,
+               const std::vector<int>& candidates);
+
+  bool has(int face) const { return std::binary_search(faces_.begin(), faces_.end(), face); }
+
+  /// Of `width` floats each: by vertex, or of a face-varying channel.
+  Values refine(const float* meshValues, int width, int faceVaryingChannel = -1) const;
+
+  /// At a point of the face, or of a corner's share of it: the coordinates of Far's ptex faces. `byU` and
+  /// `byV` may be null.
+  void evaluate(const Values& values, int face, int corner, float u, float v, float* value, float* byU,
+                float* byV) const;
+
+  size_t bytes() const;
+
+ private:
+  bool isCrowd(const OpenSubdiv::Far::TopologyLevel& level, int face) const;
+
+  std::vector<int> faces_;  // in order
+  Refiner refiner_;
+  std::unique_ptr<const OpenSubdiv::Far::PatchTable> table_;
+  std::unique_ptr<const OpenSubdiv::Far::PatchMap> map_;
+  std::unique_ptr<const OpenSubdiv::Far::PtexIndices> ptex_;
+  int regularSize_ = 4;
+};
+
+}  // namespace tomales
