@@ -41,7 +41,7 @@ struct RibSettings {
   std::function<void(const std::string& picture, const std::string& map, const SourceLoc& where)> onMakeShadow;
   std::vector<std::string> archivePath{"."};
   int maxArchiveDepth = 64;
-  bool allowSystem = false;       ///< System and Procedural "RunProgram" may start programs.
+  bool allowSystem = false;       ///< System and Procedural "RunProgram" may start programs, "DynamicLoad" load plugins.
   double programPatience_s = 60;  ///< The longest that a RunProgram may keep us waiting.
 };
 

@@ -98,7 +98,7 @@ void addRunOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--stats", s.statsFile, "Statistics as JSON")->type_name("FILE.json");
   app.add_flag("--progress", s.progress, "Show progress: a bar on a terminal, else lines for render farms");
   app.add_flag("--allow-system", s.allowSystem,
-               "System and Procedural \"RunProgram\" of the RIB may start programs");
+               "System and Procedural \"RunProgram\" of the RIB may start programs, \"DynamicLoad\" plugins");
   app.add_flag_callback(
       "-q", [&s] { s.verbosity = Log::Verbosity::Quiet; }, "No warnings");
   app.add_flag_callback(

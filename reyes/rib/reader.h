@@ -5,7 +5,9 @@
 
 #include "reyes/rib/conditions.h"
 #include "reyes/rib/dictionary.h"
+#include "reyes/rib/plugin.h"
 #include "reyes/rib/program.h"
+#include "reyes/rib/ri_calls.h"
 #include "reyes/rib/scene_builder.h"
 #include "reyes/rib/stream.h"
 
@@ -17,7 +19,7 @@ void declare(const Request& request, Dictionary& dictionary, Log& log);
 class Reader {
  public:
   Reader(const RibSettings& settings, Log& log)
-      : settings_(settings), log_(log), builder_(settings, log), programs_(std::make_shared<ProgramPool>()) {}
+      : settings_(settings), log_(log), builder_(settings, log), programs_(std::make_shared<ProgramPool>()), plugins_(std::make_shared<PluginPool>()) {}
 
   /// False, and reported, if it cannot be opened or holds no request.
   bool readFile(const std::string& path);
@@ -53,6 +55,7 @@ class Reader {
     std::string folder;
     SceneBuilder::Surroundings builder;
     std::shared_ptr<ProgramPool> programs;
+    std::shared_ptr<PluginPool> plugins;
   };
   /// For a procedural: stands where `place` is.
   Reader(const Surroundings& around, const SceneBuilder::Place& place, std::shared_ptr<std::atomic<size_t>> budget);
@@ -80,14 +83,14 @@ class Reader {
   bool mayEnter(const Request& request, const std::string& key, size_t cost);
   static std::shared_ptr<std::atomic<size_t>> newBudget();
   bool spend(size_t cost);
-  /// Empty: nowhere.
-  std::string findArchive(const std::string& name) const;
+  /// Along Option "searchpath" of that category. Empty: nowhere.
+  std::string findFile(const std::string& name, const char* category) const;
 
   // Procedurals and System (reader_programs.cpp)
   void procedural(const Request& request);
   void procedural2(const Request& request);
   /// Now, or as a Procedural of the scene when its bound is needed.
-  void later(const Request& request, const std::vector<float>& bound, void (Reader::*readNow)(const Request&));
+  void later(const Request& request, const std::function<void(Reader&)>& readNow);
   std::shared_ptr<const Surroundings> surroundings();
   void delayedArchive(const Request& request);
   void runProgram(const Request& request);
@@ -96,6 +99,11 @@ class Reader {
   void system(const Request& request);
   bool allowed(const Request& request, const std::string& command) const;
   void perform(const char* blockName, const SourceLoc& where);
+
+  // Plugins (reader_plugins.cpp)
+  void dynamicLoad(const Request& request);
+  void callPlugin(const Request& request, const std::string& name, const std::function<void(float)>& subdivide);
+  void takeCall(const RiCall& call);
 
   const RibSettings settings_;
   Log& log_;
@@ -107,6 +115,7 @@ class Reader {
   std::shared_ptr<std::atomic<size_t>> budget_;
   bool inProcedural_ = false;
   std::shared_ptr<ProgramPool> programs_;
+  std::shared_ptr<PluginPool> plugins_;
   std::shared_ptr<const Surroundings> surroundings_;  ///< Null: they have changed.
   char mark_ = 0;      ///< Of variables in strings; 0: there are none.
   SourceLoc last_;

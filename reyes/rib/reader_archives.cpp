@@ -65,7 +65,7 @@ void Reader::replay(const Request& r, const std::string& name, const Requests& a
 }
 
 void Reader::readArchiveFile(const Request& r, const std::string& name) {
-  const std::string path = findArchive(name);
+  const std::string path = findFile(name, "archive");
   const auto stream = path.empty() ? nullptr : ByteStream::open(path);
   const std::string quoted = "\"" + name.substr(0, 200) + "\" ";
   if (!stream)
@@ -102,11 +102,11 @@ bool Reader::spend(size_t cost) {
 }
 
 // The search path first, then beside the file that reads, then where the caller says.
-std::string Reader::findArchive(const std::string& written) const {
+std::string Reader::findFile(const std::string& written, const char* category) const {
   const std::string name = mapped(written, builder_.dirMap());
   std::vector<std::string> folders;
   const auto& paths = builder_.options().searchPaths;
-  if (const auto it = paths.find("archive"); it != paths.end()) folders = foldersOf(it->second);
+  if (const auto it = paths.find(category); it != paths.end()) folders = foldersOf(it->second);
   folders.push_back(open_.back().folder);
   folders.insert(folders.end(), settings_.archivePath.begin(), settings_.archivePath.end());
   std::error_code ignored;

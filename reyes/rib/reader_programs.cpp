@@ -26,7 +26,7 @@ bool isBox(const std::vector<float>& b) {
 Reader::Reader(const Surroundings& around, const SceneBuilder::Place& place, std::shared_ptr<std::atomic<size_t>> budget)
     : settings_(around.settings), log_(around.log), dictionary_(around.dictionary),
       builder_(around.settings, around.log, around.builder, place), inlineArchives_(around.archives), budget_(std::move(budget)),
-      inProcedural_(true), programs_(around.programs), mark_(around.mark) {
+      inProcedural_(true), programs_(around.programs), plugins_(around.plugins), mark_(around.mark) {
   for (const std::string& key : around.keys) enter(key, around.folder);
 }
 
@@ -36,7 +36,7 @@ std::shared_ptr<const Reader::Surroundings> Reader::surroundings() {
   for (const Level& level : open_) keys.push_back(level.key);
   surroundings_ = std::make_shared<const Surroundings>(Surroundings{settings_, log_, dictionary_, inlineArchives_, mark_,
                                                                     std::move(keys), open_.back().folder,
-                                                                    builder_.surroundings(), programs_});
+                                                                    builder_.surroundings(), programs_, plugins_});
   return surroundings_;
 }
 
@@ -44,19 +44,20 @@ void Reader::procedural(const Request& r) {
   const std::string& kind = r.args[0].strings[0];
   const std::vector<std::string>& data = r.args[1].strings;
   if (!canRead(r, kind, data.empty() ? "" : data[0])) return;
-  later(r, r.args[2].numbers, kind.starts_with("Run") ? &Reader::runProgram : &Reader::delayedArchive);
+  const auto read = kind == "RunProgram" ? &Reader::runProgram : kind == "DynamicLoad" ? &Reader::dynamicLoad : &Reader::delayedArchive;
+  later(r, [r, read](Reader& reader) { (reader.*read)(r); });
 }
 
 // The subdivide function and the function that bounds it, then parameters: the data of the first under other names.
 void Reader::procedural2(const Request& r) {
   const std::string &kind = r.args[0].strings[0], &bounding = r.args[1].strings[0];
-  const bool program = kind == "RunProgram2";
+  const bool program = kind == "RunProgram2", plugin = kind == "DynamicLoad2";
   const Param* bound = findParam(r.params, "bound");
   Request plain{r.name, {}, {}, r.where};
   const auto strings = [](std::vector<std::string> s) { return RibArg{RibArg::Kind::Strings, {}, std::move(s)}; };
-  plain.args.push_back({RibArg::Kind::String, {}, {program ? "RunProgram" : kind == "DelayedReadArchive2" ? "DelayedReadArchive" : kind}});
-  std::vector<std::string> data{text(r.params, program ? "programname" : "filename")};
-  if (program) data.push_back(text(r.params, "data"));
+  plain.args.push_back({RibArg::Kind::String, {}, {kind.ends_with('2') ? kind.substr(0, kind.size() - 1) : kind}});
+  std::vector<std::string> data{text(r.params, program ? "programname" : plugin ? "dsoname" : "filename")};
+  if (program || plugin) data.push_back(text(r.params, "data"));
   plain.args.push_back(strings(std::move(data)));
   plain.args.push_back({RibArg::Kind::Numbers, bound ? bound->floats : std::vector<float>(), {}});
   if (bounding != "SimpleBound")
@@ -65,25 +66,26 @@ void Reader::procedural2(const Request& r) {
 }
 
 bool Reader::canRead(const Request& r, const std::string& kind, const std::string& what) const {
-  const bool program = kind == "RunProgram";
-  if (!program && kind != "DelayedReadArchive")
+  const bool program = kind == "RunProgram", plugin = kind == "DynamicLoad";
+  if (!program && !plugin && kind != "DelayedReadArchive")
     report(Severity::Missing, "rib-unsupported", r, fmt::format("\"{}\" is not supported; nothing is drawn in its place", kind));
   else if (what.empty())
     report(Severity::Missing, "rib-unsupported", r,
-           fmt::format("\"{}\" names no {}; nothing is drawn in its place", kind, program ? "program" : "file"));
+           fmt::format("\"{}\" names no {}; nothing is drawn in its place", kind, program ? "program" : plugin ? "plugin" : "file"));
   else
-    return !program || allowed(r, what);
+    return !(program || plugin) || allowed(r, what);
   return false;
 }
 
-void Reader::later(const Request& r, const std::vector<float>& bound, void (Reader::*readNow)(const Request&)) {
+void Reader::later(const Request& r, const std::function<void(Reader&)>& readNow) {
+  const std::vector<float>& bound = r.args[2].numbers;
   if (!isBox(bound)) report(Severity::Warning, "rib-bound", r, "its bound is no box; it is read without");
   const bool isFinite = std::all_of(bound.begin(), bound.end(), [](float f) { return std::isfinite(f); });
-  if (!isBox(bound) || !isFinite || !builder_.takesProcedurals()) return (this->*readNow)(r);
+  if (!isBox(bound) || !isFinite || !builder_.takesProcedurals()) return readNow(*this);
   auto budget = inProcedural_ || open_.size() > 1 ? budget_ : newBudget();
-  builder_.addProcedural(bound, [r, readNow, around = surroundings(), place = builder_.place(), budget] {
+  builder_.addProcedural(bound, [readNow, around = surroundings(), place = builder_.place(), budget] {
     Reader reader(*around, place, budget);
-    (reader.*readNow)(r);
+    readNow(reader);
     return reader.builder_.takeExpansion();
   }, r.where);
 }
@@ -101,7 +103,7 @@ void Reader::perform(const char* blockName, const SourceLoc& where) {
 bool Reader::allowed(const Request& r, const std::string& command) const {
   if (!settings_.allowSystem)
     report(Severity::Missing, "rib-system", r,
-           fmt::format("\"{}\" is not run, because programs are not allowed (--allow-system)",
+           fmt::format("\"{}\" is not run, because programs and plugins of scenes are not allowed (--allow-system)",
                        command.substr(0, 200)));
   return settings_.allowSystem;
 }

@@ -83,7 +83,7 @@ TEST(Procedural, BoundsThatAreNoBoxAndUnknownKindsAreReported) {
   const Reading r(inWorld("ArchiveBegin \"a\" " + kSphere +
                           "ArchiveEnd\n"
                           "Procedural \"DelayedReadArchive\" [\"a\"] [nan 1 -1 1 -1 1]\nProcedural "
-                          "\"DynamicLoad\" [\"x\"] [0 1 0 1 0 1]"));
+                          "\"DynamicLode\" [\"x\"] [0 1 0 1 0 1]"));
   EXPECT_EQ(r.scene().objects.size(), 1u);
   EXPECT_EQ(r.message("rib-bound").where.line, 4);
   EXPECT_EQ(r.message("rib-unsupported").severity, Severity::Missing);

@@ -1,0 +1,29 @@
+// Procedural "DynamicLoad": a shared library in the classic form, ConvertParameters, Subdivide and Free (reyes/ri.h).
+#pragma once
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "reyes/ri.h"
+
+namespace tomales::rib {
+
+struct Plugin {
+  RtPointer (*convertParameters)(char*) = nullptr;
+  void (*subdivide)(RtPointer, RtFloat) = nullptr;
+  void (*free)(RtPointer) = nullptr;
+  std::string trouble;  ///< Why it cannot be used; empty: it can.
+};
+
+/// Libraries stay in memory once they are loaded: procedurals keep pointers to their functions. Threads: concurrent.
+class PluginPool {
+ public:
+  const Plugin& load(const std::string& path);
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, Plugin> plugins_;
+};
+
+}  // namespace tomales::rib

@@ -1,0 +1,68 @@
+// Procedural "DynamicLoad". What a plugin calls is taken down first and read after it has returned: its code runs alone, ours need not be
+// ready to be entered again, and what it says before it fails is kept.
+#include <fmt/format.h>
+
+#include "reyes/rib/reader.h"
+
+namespace tomales::rib {
+namespace {
+
+constexpr size_t kPluginCost = 10;
+
+}  // namespace
+
+void Reader::dynamicLoad(const Request& r) {
+  const std::vector<std::string>& call = r.args[1].strings;
+  const auto missing = [&](const std::string& why) {
+    report(Severity::Missing, "rib-plugin", r, fmt::format("plugin \"{}\" {}; nothing is drawn in its place", call[0].substr(0, 200), why));
+  };
+  std::string path = findFile(call[0], "procedural");
+  if (path.empty()) path = findFile(call[0] + ".so", "procedural");
+  if (path.empty()) return missing("is not found (Option \"searchpath\" \"procedural\")");
+  const Plugin& plugin = plugins_->load(path);
+  if (!plugin.trouble.empty()) return missing(plugin.trouble);
+  std::string text = call.size() > 1 ? call[1] : "";
+  callPlugin(r, call[0], [&](float detail) {
+    const std::unique_ptr<void, void (*)(RtPointer)> data(plugin.convertParameters(text.data()), plugin.free);
+    plugin.subdivide(data.get(), detail);
+  });
+}
+
+void Reader::callPlugin(const Request& r, const std::string& name, const std::function<void(float)>& subdivide) {
+  const std::string key = fmt::format("{}: plugin {}", open_.size(), name);
+  if (!mayEnter(r, key, kPluginCost)) return;
+  const std::vector<float>& bound = r.args[2].numbers;
+  const float detail = bound.size() == 6 ? builder_.rasterArea(bound) : kInfinity;
+  const SceneBuilder::Place place = builder_.place();
+  std::vector<RiCall> calls;
+  std::string trouble;
+  try {
+    const std::lock_guard alone(pluginMutex());
+    recordRiCalls({dictionary_, place.scope.uBasis.step, place.scope.vBasis.step, r.where}, log_, [&] { subdivide(detail); }, calls);
+  } catch (const std::exception& e) {
+    trouble = fmt::format("failed: {}", e.what());
+  } catch (...) {
+    trouble = "failed";
+  }
+  perform("AttributeBegin", r.where);
+  enter(key, std::string(open_.back().folder));
+  for (const RiCall& call : calls) {
+    if (!spend(1)) break;
+    takeCall(call);
+  }
+  leave();
+  perform("AttributeEnd", r.where);
+  if (!trouble.empty())
+    report(Severity::Missing, "rib-plugin", r, fmt::format("plugin \"{}\" {}; what it called before is used", name.substr(0, 200), trouble));
+  else if (calls.empty())
+    report(Severity::Warning, "rib-plugin", r, fmt::format("plugin \"{}\" called nothing", name.substr(0, 200)));
+}
+
+void Reader::takeCall(const RiCall& call) {
+  if (!call.procedural) return handle(dictionary_.hasColorSamples() ? withRgb(call.request) : call.request);
+  later(call.request, [r = call.request, own = *call.procedural](Reader& reader) {
+    reader.callPlugin(r, r.args[0].strings[0], [&own](float detail) { own.subdivide(own.data.get(), detail); });
+  });
+}
+
+}  // namespace tomales::rib
