@@ -33,8 +33,8 @@ void fields(A& a, EmitterLight& x) {
 
 template <class A>
 void fields(A& a, GiSettings& x) {
-  auto& [mode, samples, bounces, maxError, seed] = x;
-  each(a, mode, samples, bounces, maxError, seed);
+  auto& [mode, samples, bounces, maxError, seed, errorFunction] = x;
+  each(a, mode, samples, bounces, maxError, seed, errorFunction);
 }
 
 template <class A>

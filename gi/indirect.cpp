@@ -120,7 +120,7 @@ GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) 
   const Attributes& attributes = *state.scene.groups[static_cast<size_t>(group)].attributes;
   const GiSettings& settings = state.settings;
   GatherPlan plan;
-  plan.cache.errorFunction = query.errorFunction == "ward" ? ErrorFunction::Ward : ErrorFunction::Screen;
+  plan.cache.errorFunction = settings.errorFunction.value_or(query.errorFunction == "ward" ? ErrorFunction::Ward : ErrorFunction::Screen);
   const float maxError =
       settings.maxError >= 0 ? settings.maxError : attributes.irradianceMaxError.value_or(query.maxError);
   const float kappaAtOne = plan.cache.errorFunction == ErrorFunction::Ward ? kWardKappa : 1.0f;

@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 
 namespace tomales {
 
@@ -24,6 +25,7 @@ struct GiSettings {
   int bounces = 0;        ///< 0: as the indirect light asks (1 by default).
   float maxError = -1;    ///< As the `maxerror` of indirectlight; < 0: as the light asks.
   uint32_t seed = 0;
+  std::optional<ErrorFunction> errorFunction{};  ///< None: as the light asks.
 };
 
 /// Everything that decides the value of an irradiance record, and how far it may be used.

@@ -36,6 +36,7 @@ struct ShadeContext {
   uint32_t seed = 0;
   int lightSamples = 0;        ///< Samples of each area light and of the sky; 0: as many as the light asks for.
   bool indirect = true;        ///< Run indirect lights.
+  bool direct = true;          ///< Run the others where the eye looks.
   bool variables = false;      ///< Store what outputOf(options) lists.
   Illumination light = Illumination::Lights;
   int specularDepth = 0;       ///< Specular bounces between the eye and these points.

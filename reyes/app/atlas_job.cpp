@@ -44,7 +44,7 @@ struct TemporaryFolder {
 AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene) {
   AtlasSettings out;
   out.photons.emit = settings.photons;
-  out.photons.seed = settings.seed;
+  out.photons.seed = lightSeedOf(settings);
   const Param* bounces = indirectParam(scene, "bounces");
   if (bounces) out.photons.maxDepth = std::max(1, static_cast<int>(bounces->number(10)));
   if (settings.bounces > 0) out.photons.maxDepth = settings.bounces;

@@ -4,6 +4,8 @@
 
 #include "reyes/app/atlas_commands.h"
 #include "reyes/app/catrib.h"
+#include "reyes/app/chart.h"
+#include "reyes/app/chart_sweeps.h"
 #include "reyes/app/info.h"
 #include "reyes/app/render.h"
 #include "reyes/app/shade.h"
@@ -86,6 +88,9 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--max-error", s.maxError,
                  "Error allowed in irradiance interpolation; 0 computes every point")
       ->check(CLI::Range(0.0, 1e6));
+  addParsed(app, "--error-function", s.errorFunction, parseErrorFunction, "screen|ward", "How far an irradiance record may be used");
+  app.add_flag_callback("--indirect-only", [&s] { s.direct = false; }, "Leave out direct light where the eye looks");
+  app.add_option("--light-seed", s.lightSeed, "Of the random numbers of light alone");
   app.add_option("--photons", s.photons, "Photons to emit for --gi atlas")->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
   app.add_option("--atlas", s.atlasFolder, "Folder of brick maps: used if they are there, else made and kept")->type_name("FOLDER");
   app.add_option("--brick-cache", s.brickCacheBytes, "Memory for bricks (default 10M)")->transform(CLI::AsSizeValue(false));
@@ -113,6 +118,7 @@ struct Invocation {
   BrickmakeCommand brickmake;
   ViewCommand view;
   ConvertCommand convert;
+  ChartSettings chart;
   std::string first, second, difference;
   bool json = false;
 };
@@ -240,8 +246,24 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   convert->callback([&] { code = convertCommand(in.convert); });
 }
 
+void buildChart(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand("chart", "A page that shows what error a second and a megabyte buy on a scene, for every method");
+  ChartSettings& s = in.chart;
+  addParsed(*c, "-o", s.output, parseNamed(".html"), "FILE.html", "Write here, and the figures to FILE.json")->required();
+  c->add_option("--sweep", s.sweep, "What to vary: " + chartSweepNames())
+      ->check([](const std::string& name) { return chartSweep(name) ? std::string() : "none of " + chartSweepNames(); });
+  addParsed(*c, "--budget", s.budget_s, parseSeconds, "10m", "Wall time, as 90s, 10m or 2h (default 10m)");
+  addParsed(*c, "--format", s.format, [](const std::string& t) { return parsePair(t, 1, 65536); }, "WxH", "Resolution in pixels");
+  c->add_option("--batches", s.batches, "Most independent pictures that make the reference")->check(CLI::Range(2, 10000));
+  c->add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, 1000));
+  c->add_option("-t", s.threads, "Threads of each rendering (default: all)")->check(CLI::Range(1, 4096));
+  c->add_option("--cache", s.folder, "Keep what has been measured here (default: the user's cache)")->type_name("FOLDER");
+  c->add_option("SCENE", s.files, "RIB files")->required()->check(CLI::ExistingFile);
+  c->callback([&] { code = chartCommand(in.chart); });
+}
+
 bool namesCommand(const std::string& text) {
-  for (const char* name : {"render", "hide", "gather", "shade", "photons", "irradiance", "brickmake", "view", "convert", "info", "compare",
+  for (const char* name : {"render", "hide", "gather", "shade", "photons", "irradiance", "brickmake", "view", "convert", "info", "compare", "chart",
                            "catrib", "-h", "--help", "--version"})
     if (text == name) return true;
   return false;
@@ -260,6 +282,7 @@ int parseAndRun(int argc, char** argv) {
   buildShade(app, in, code);
   buildInfo(app, in, code);
   buildCompare(app, in, code);
+  buildChart(app, in, code);
   buildCatrib(app, in, code);
   buildAtlas(app, in, code);
 

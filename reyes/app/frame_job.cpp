@@ -62,7 +62,7 @@ void FrameJob::prepareRays(RaySource rays) {
 }
 
 GiSettings FrameJob::giSettings() const {
-  return {mode_, settings_.samples, settings_.bounces, settings_.maxError, settings_.seed};
+  return {mode_, settings_.samples, settings_.bounces, settings_.maxError, lightSeedOf(settings_), settings_.errorFunction};
 }
 
 void FrameJob::gather(const DeepFrame& frame) {
@@ -74,7 +74,8 @@ void FrameJob::gather(const DeepFrame& frame) {
 
 ShadeContext FrameJob::shadeContext() const {
   ShadeContext context;
-  context.seed = settings_.seed;
+  context.seed = lightSeedOf(settings_);
+  context.direct = settings_.direct;
   context.lightSamples = mode_ == GiMode::Reference ? referenceLightSamples() : 0;
   return context;
 }

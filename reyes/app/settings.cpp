@@ -90,6 +90,20 @@ std::optional<GiChoice> parseGi(const std::string& text) {
   return std::nullopt;
 }
 
+std::optional<ErrorFunction> parseErrorFunction(const std::string& text) {
+  if (text == "screen") return ErrorFunction::Screen;
+  if (text == "ward") return ErrorFunction::Ward;
+  return std::nullopt;
+}
+
+std::optional<double> parseSeconds(const std::string& text) {
+  const std::string units = "smh";
+  const size_t unit = text.empty() ? std::string::npos : units.find(text.back());
+  double value = 0;
+  if (!number(std::string_view(text).substr(0, text.size() - (unit != std::string::npos)), value) || !(value > 0)) return std::nullopt;
+  return value * std::array{1, 60, 3600}[unit == std::string::npos ? 0 : unit];
+}
+
 bool namesPicture(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));

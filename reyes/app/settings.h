@@ -24,7 +24,10 @@ struct RenderSettings {
   GiChoice gi = GiChoice::Scene;
   int samples = 0, bounces = 0;  ///< 0: as the scene's indirect light asks.
   float maxError = -1;           ///< < 0: likewise.
+  std::optional<ErrorFunction> errorFunction;  ///< None: likewise.
+  bool direct = true;            ///< False: the picture shows what indirect lights bring, and nothing else.
   uint32_t seed = 0;
+  std::optional<uint32_t> lightSeed;  ///< Of the random numbers of light alone; none: seed.
   int64_t photons = 1'000'000;     ///< To emit for --gi atlas.
   std::string atlasFolder;         ///< Brick maps to use, or to make; empty: made in a temporary folder.
   size_t brickCacheBytes = BrickCache::kDefaultBytes;
@@ -42,12 +45,16 @@ struct RenderSettings {
   std::string commandLine;
 };
 
+inline uint32_t lightSeedOf(const RenderSettings& settings) { return settings.lightSeed.value_or(settings.seed); }
+
 // Each returns nothing when the text is not of its form.
 std::optional<std::array<int, 2>> parsePair(const std::string& text, int least, int most);  ///< "640x480"
 std::optional<std::array<float, 4>> parseCrop(const std::string& text);  ///< "0,0.5,0.25,1"
 std::optional<std::vector<int>> parseFrames(const std::string& text);    ///< "1-10x2,15"
 std::optional<int64_t> parseBytes(const std::string& text);             ///< "600M", "2G", "1000000"
 std::optional<GiChoice> parseGi(const std::string& text);
+std::optional<ErrorFunction> parseErrorFunction(const std::string& text);
+std::optional<double> parseSeconds(const std::string& text);  ///< "90", "90s", "10m", "2h"
 
 /// Can a picture be written under this name?
 bool namesPicture(const std::string& path);

@@ -11,8 +11,8 @@ bool applies(const BoundLight& light, const Batch& batch) {
   if (batch.points == nullptr) return false;  // displacement shaders see no light
   if (batch.context.light != Illumination::Lights || batch.context.kind == RayKind::Transmission) return false;
   if (!(batch.context.kind == RayKind::Diffuse ? light.indirect : light.direct)) return false;
-  return !light.can(TM_LIGHT_INDIRECT) ||
-         (batch.context.indirect && batch.group.group->attributes->indirect.receive);
+  if (!light.can(TM_LIGHT_INDIRECT)) return batch.context.direct || batch.context.kind != RayKind::Camera;
+  return batch.context.indirect && batch.group.group->attributes->indirect.receive;
 }
 
 TmGrid lightGrid(Batch& batch, const BoundLight& light) {

@@ -1,0 +1,52 @@
+// Runs this program as child processes, so that CPU time and memory are those of one rendering, and remembers what it has measured.
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tomales {
+
+/// What one rendering cost, and its picture.
+struct Run {
+  std::vector<std::string> arguments;  ///< After those of the laboratory.
+  std::string picture;                 ///< Linear EXR, in the laboratory's folder.
+  double cpu_s = 0, wall_s = 0;        ///< User and system; of the whole process.
+  double peakBytes = 0;                ///< Resident.
+  int64_t records = 0;                 ///< Of the irradiance cache.
+  bool recalled = false;               ///< Measured by an earlier process.
+};
+
+struct LabSettings {
+  std::string folder;                  ///< Of pictures and figures; made if missing.
+  std::vector<std::string> scene;      ///< RIB files of every run.
+  std::vector<std::string> arguments;  ///< Of every run.
+  double budget_s = 600;
+};
+
+/// A measurement is named by the contents of the program, the scene and the files that it names, and by the arguments, so that an
+/// interrupted chart finds what it has done, and a changed scene finds nothing. Threads: one.
+class Lab {
+ public:
+  explicit Lab(LabSettings settings);
+  /// From memory, or from a child. Nothing if the child fails, is interrupted or would outlive the budget; why() then says so.
+  std::optional<Run> run(const std::vector<std::string>& arguments);
+  const std::string& why() const { return why_; }
+  double secondsLeft() const;
+  double secondsUsed() const;
+
+ private:
+  std::optional<Run> recall(const std::string& stem, const std::vector<std::string>& arguments) const;
+  bool remember(const std::string& stem, const Run& run) const;
+
+  const LabSettings settings_;
+  const uint64_t contents_;
+  const std::chrono::steady_clock::time_point start_;
+  std::string why_;
+};
+
+/// Sum over the contents of these files and of all files that they name in strings, archives included.
+uint64_t contentsOf(const std::vector<std::string>& files);
+
+}  // namespace tomales

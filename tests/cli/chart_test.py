@@ -1,0 +1,110 @@
+"""tomales chart: a page that stands alone, figures beside it, and nothing measured twice."""
+import html.parser
+import json
+import re
+import shutil
+import signal
+import subprocess
+import time
+import xml.etree.ElementTree
+
+from program import Suite
+
+SCENE = """Format 24 24 1
+PixelSamples 2 2
+Projection "perspective" "fov" [40]
+Translate 0 0 4
+WorldBegin
+LightSource "indirectlight" 1 "samples" [32]
+LightSource "pointlight" 2 "from" [2 3 -3] "intensity" [12]
+Surface "matte"
+Sphere 1 -1 1 360
+Polygon "P" [-3 -1 -3 -3 -1 3 3 -1 3 3 -1 -3]
+WorldEnd
+"""
+
+
+class Page(html.parser.HTMLParser):
+    """Which tags are left open, where links lead, what is loaded from elsewhere."""
+
+    VOID = {"meta", "img", "br"}
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.ids, self.links, self.loads, self.wrong = [], set(), [], [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        values = dict(attributes)
+        if tag not in self.VOID:
+            self.open.append(tag)
+        self.ids.add(values.get("id"))
+        if tag == "a":
+            self.links.append(values["href"])
+        self.loads += [values[k] for k in ("src", "srcset", "data") if k in values]
+
+    def handle_startendtag(self, tag, attributes):
+        pass
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.wrong.append(tag)
+
+
+suite = Suite()
+suite.write("scene.rib", SCENE)
+chart = ["chart", "scene.rib", "-o", "report.html", "--sweep", "samples", "--cache", "cache", "--budget", "60s", "--batches", "2"]
+
+
+def measured():
+    return len(list((suite.folder / "cache").glob("????????????????.json")))
+
+
+first = subprocess.Popen([suite.program, *chart], cwd=suite.folder, stderr=subprocess.PIPE, text=True)
+while measured() < 2 and first.poll() is None:
+    time.sleep(0.02)
+first.send_signal(signal.SIGINT)
+first.communicate(timeout=60)
+suite.expect(first.returncode == 130, f"an interrupted chart ends as one ({first.returncode})")
+kept = measured()
+suite.expect(2 <= kept < 9, f"and keeps what was measured ({kept})")
+
+suite.expect_run("a tiny chart", chart, 0, "reference, batch 2")
+suite.expect(measured() == 9, "measures what is left: a trial, two batches, six settings")
+report = json.loads((suite.folder / "report.json").read_text())
+points = report["points"]
+suite.expect(len(points) == 6, "every setting is in the figures")
+errors = [p["mean_absolute_relative_error"] for p in points]
+suite.expect(all(e > 0 for e in errors) and errors[-1] < errors[0] / 3, f"more rays, less error: {errors}")
+suite.expect(all(p["cpu_s"] > 0 and p["peak_bytes"] > 1e6 for p in points), "every setting has a cost")
+suite.expect(report["reference"]["noise_floor"] < errors[0], "the reference is quieter than the worst")
+suite.expect(any(p["best_in_time"] for p in points), "some point is on the Pareto front")
+
+text = (suite.folder / "report.html").read_text()
+page = Page(text)
+suite.expect(not page.wrong and not page.open, f"tags are closed: {page.wrong} {page.open}")
+suite.expect(not re.search(r"https?:|@import|url\(|<script|<link", text), "nothing comes from a network")
+suite.expect(all(s.startswith("data:image/png;base64,iVBOR") for s in page.loads) and len(page.loads) == 13, "thumbnails and error maps are inside")
+broken = [link for link in page.links if link.lstrip("#") not in page.ids and link != "report.json"]
+suite.expect(not broken, f"links lead somewhere: {broken}")
+drawings = [xml.etree.ElementTree.fromstring(s) for s in re.findall(r"<svg.*?</svg>", text, re.S)]
+suite.expect(len(drawings) == 4, "two plots, each for wide and narrow windows")
+for drawing in drawings:
+    width, height = (float(v) for v in drawing.get("viewBox").split()[2:])
+    circles = [e for e in drawing.iter() if e.tag == "circle"]
+    inside = all(0 < float(c.get("cx")) < width and 0 < float(c.get("cy")) < height for c in circles)
+    suite.expect(len(circles) == 6 and inside and all(c.find("title").text for c in circles), "its points are inside and say what they are")
+
+before = {f: f.stat().st_mtime_ns for f in (suite.folder / "cache").glob("*.exr")}
+suite.expect_run("the same chart again", chart, 0, "recalled")
+again = json.loads((suite.folder / "report.json").read_text())["points"]
+suite.expect(all(p["recalled"] for p in again), "recalls everything")
+suite.expect(all(f.stat().st_mtime_ns == t for f, t in before.items()), "and renders nothing anew")
+suite.expect_run("a sweep that does not exist", chart[:4] + ["--sweep", "beauty"], 1, "shadingrate")
+suite.expect_run("a scene that does not exist", ["chart", "no.rib", "-o", "report.html"], 1, "no.rib")
+
+if browser := shutil.which("chromium"):  # looks, where there is something to look with
+    seen = subprocess.run([browser, "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", (suite.folder / "report.html").as_uri()],
+                          capture_output=True, text=True, timeout=120).stdout
+    suite.expect(seen.count("<circle") == 24, "a browser shows the same")
+suite.finish()
