@@ -113,13 +113,14 @@ int offsetOf(const std::vector<Primvar>& primvars, std::string_view name) {
 
 }  // namespace
 
-Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, int keys) {
+Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, int keys, Pool* pool) {
   const Object& o = scene.objects[static_cast<size_t>(object)];
   const std::vector<float> times(o.keyTimes.begin(), o.keyTimes.begin() + keys);
-  return dice(scene, object, patch, rect, nu, nv, {times, o.cameraFromObject});
+  return dice(scene, object, patch, rect, nu, nv, {times, o.cameraFromObject}, pool);
 }
 
-Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, const DiceKeys& keys) {
+Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, const DiceKeys& keys,
+          Pool* pool) {
   const Object& o = scene.objects[static_cast<size_t>(object)];
   const int keyCount = static_cast<int>(keys.times.size());
   const Prim& prim = o.shape();
@@ -128,7 +129,7 @@ Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, in
 
   Grid g;
   g.object = object, g.patch = patch, g.rect = rect;
-  g.allocate(nu, nv, keyCount, floats);
+  g.allocate(nu, nv, keyCount, floats, pool);
   g.openEdges = openEdgesOf(prim.info(patch), rect);
   g.name = nameOf(o.name, patch, rect, nu, nv);
   g.kept = keptOfCells(prim, g);

@@ -17,9 +17,11 @@ struct DiceKeys {
   const Motion& currentFromObject;
 };
 
-Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, const DiceKeys& at);
-/// keys: how many of the object's keyTimes to evaluate, as the camera sees them (all, or 1 for shutter open).
-Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, int keys);
+Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, const DiceKeys& at,
+          Pool* pool = nullptr);
+/// pool: where the vertices are kept. keys: how many of the object's keyTimes to evaluate, as the camera sees them (all, or 1 for shutter open).
+Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, int keys,
+          Pool* pool = nullptr);
 
 /// A point of the true surface at shutter open, in current space; derivatives by the patch's own u and v.
 struct TrueSurface {

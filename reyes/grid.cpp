@@ -2,9 +2,9 @@
 
 namespace tomales {
 
-void Grid::allocate(int cellsU, int cellsV, int keys, int primvarFloats) {
+void Grid::allocate(int cellsU, int cellsV, int keys, int primvarFloats, Pool* pool) {
   nu = cellsU, nv = cellsV, keyCount = keys;
-  block_.assign(static_cast<size_t>(stride()) * static_cast<size_t>(keys * 3 + 5 + primvarFloats), 0.0f);
+  block_ = PooledVector<float>(static_cast<size_t>(stride()) * static_cast<size_t>(keys * 3 + 5 + primvarFloats), 0.0f, pool);
 }
 
 void calculateNormals(const Grid& g, bool flip, float* nx, float* ny, float* nz) {

@@ -2,7 +2,7 @@
 // aligned block. Vertex (i, j) has index j * (nu+1) + i, micropolygon (i, j) index j * nu + i.
 // A grid is diced once, shared by the buckets that its bound touches, and freed after the last of them.
 #pragma once
-#include "reyes/base/simd.h"
+#include "reyes/base/pool.h"
 #include "reyes/scene.h"
 
 namespace tomales {
@@ -43,14 +43,13 @@ struct Grid {
   vec3 position(int key, int vertex) const { return {P(key, 0)[vertex], P(key, 1)[vertex], P(key, 2)[vertex]}; }
   vec3 normal(int vertex) const { return {N(0)[vertex], N(1)[vertex], N(2)[vertex]}; }
 
-  /// Sets the sizes and allocates `keys` positions, the normal, u, v and `primvarFloats` arrays.
-  void allocate(int nu, int nv, int keys, int primvarFloats);
-  size_t bytes() const { return block_.capacity() * sizeof(float) + sizeof(Grid); }
+  /// Sets the sizes and allocates `keys` positions, the normal, u, v and `primvarFloats` arrays, in a pool if one is given.
+  void allocate(int nu, int nv, int keys, int primvarFloats, Pool* pool = nullptr);
 
  private:
   float* at(int array) { return block_.data() + static_cast<size_t>(array) * static_cast<size_t>(stride()); }
   const float* at(int array) const { return block_.data() + static_cast<size_t>(array) * static_cast<size_t>(stride()); }
-  AlignedVector<float> block_;
+  PooledVector<float> block_;
 };
 
 /// Unit normals of the surface that the vertices of motion key 0 span, by centred differences, one-sided at the border;

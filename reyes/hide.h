@@ -45,7 +45,7 @@ struct RasterGrid {
   bool smooth = false;          ///< ShadingInterpolation
   bool defocused = false;       ///< Some vertex moves visibly with the point of the lens.
   std::shared_ptr<const BlurBounds> blur;  ///< Null if still and in focus.
-  AlignedVector<float> x, y, d; ///< Raster x, y and depth key (Camera::depthKey): keyCount * stride each, then a tail to read blocks
+  PooledVector<float> x, y, d;  ///< Raster x, y and depth key (Camera::depthKey): keyCount * stride each, then a tail to read blocks
                                 ///< across the end; borders pushed out.
   float dMin = 0;
   Bound2 bound;                 ///< Over the shutter and the lens.
@@ -53,9 +53,9 @@ struct RasterGrid {
   float trimReach_px = 0;       ///< What is left reaches this much farther, to meet what a neighbour leaves.
 };
 /// Pre: every vertex of a cell that Grid::kept keeps is Camera::seeable. zMin: nearest camera z of the solid that the grid
-/// belongs to.
+/// belongs to. pool: where it is kept.
 std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene, const Camera& camera, bool opaque,
-                                          float zMin = kInfinity);
+                                          float zMin = kInfinity, const std::shared_ptr<Pool>& pool = nullptr);
 
 class Hider {
  public:

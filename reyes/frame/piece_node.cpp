@@ -48,13 +48,18 @@ std::shared_ptr<const RasterGrid> PieceNode::acquire(Piece& piece) {
 
 void PieceNode::release(size_t) {
   const std::lock_guard lock(mutex_);
-  if (--users_ == 0) pieces_.clear();
+  if (--users_ > 0) return;
+  pieces_.clear();
+  pool_.reset();
 }
 
-std::shared_ptr<const RasterGrid> PieceNode::makeGrid(const SubPatch& piece) const {
+std::shared_ptr<const RasterGrid> PieceNode::makeGrid(const SubPatch& piece) {
   const Object& o = context_.scene.objects[static_cast<size_t>(piece.object)];
-  auto grid = std::make_shared<Grid>(
-      dice(context_.scene, piece.object, piece.patch, piece.rect, piece.nu, piece.nv, static_cast<int>(o.keyTimes.size())));
+  if (!pool_) pool_ = makePool();
+  const size_t before = pool_->bytes();
+  auto grid = std::allocate_shared<Grid>(
+      KeepingPool<Grid>(pool_),
+      dice(context_.scene, piece.object, piece.patch, piece.rect, piece.nu, piece.nv, static_cast<int>(o.keyTimes.size()), pool_.get()));
   context_.shading.displace(*grid);
   Stats& stats = context_.stats;
   ++stats.geometry.gridsDiced;
@@ -67,11 +72,20 @@ std::shared_ptr<const RasterGrid> PieceNode::makeGrid(const SubPatch& piece) con
                                     objectName(o)));
   // Midpoints need what lies behind what is opaque.
   const bool hides = context_.shading.opaque(o.group) && context_.scene.options.depthFilter != DepthFilter::Midpoint;
-  auto raster = project(std::move(grid), context_.scene, context_.camera, hides, piece.zMin);
-  const auto bytes = static_cast<int64_t>(raster->grid->bytes());
-  keepPeak(stats.memoryBytes.grids, context_.liveGrids_bytes += bytes);
-  // Hiders keep grids longer than nodes do.
-  return {raster.get(), [raster, bytes, &live = context_.liveGrids_bytes](const RasterGrid*) { live -= bytes; }};
+  auto raster = project(std::move(grid), context_.scene, context_.camera, hides, piece.zMin, pool_);
+  keepPeak(stats.memoryBytes.grids, context_.liveGrids_bytes += static_cast<int64_t>(pool_->bytes() - before));
+  return raster;
+}
+
+std::shared_ptr<Pool> PieceNode::makePool() const {
+  // A vertex takes a dozen floats without motion and primitive variables, and a grid about as much as this without vertices.
+  constexpr size_t kVertex_bytes = 48, kGrid_bytes = 768, kMost_bytes = 65536;
+  size_t bytes = 0;
+  for (const Piece& p : pieces_) bytes += kGrid_bytes + kVertex_bytes * static_cast<size_t>(padded((p.patch.nu + 1) * (p.patch.nv + 1)));
+  return {new Pool(std::min(bytes, kMost_bytes)), [&live = context_.liveGrids_bytes](const Pool* pool) {
+            live -= static_cast<int64_t>(pool->bytes());
+            delete pool;
+          }};
 }
 
 bool PieceNode::leaveOutUnseeable(Grid& g) const {

@@ -19,13 +19,15 @@ class PieceNode : public HideNode {
     bool made = false;
   };
   std::shared_ptr<const RasterGrid> acquire(Piece& piece);
-  std::shared_ptr<const RasterGrid> makeGrid(const SubPatch& piece) const;
+  std::shared_ptr<const RasterGrid> makeGrid(const SubPatch& piece);
+  std::shared_ptr<Pool> makePool() const;
   /// Takes away the cells with vertices that are nearer than the eye plane at some key or not finite. True if there are.
   bool leaveOutUnseeable(Grid& grid) const;
 
   HideContext& context_;
   std::vector<Piece> pieces_;  ///< Nearest first.
   std::mutex mutex_;
+  std::shared_ptr<Pool> pool_;  ///< Of the grids. Hiders keep them longer than nodes do.
   int users_;
 };
 

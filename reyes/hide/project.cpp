@@ -92,8 +92,9 @@ void pushBorders(const Grid& g, float* x, float* y) {
 }  // namespace
 
 std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene,
-                                          const Camera& camera, bool opaque, float zMin) {
-  auto r = std::make_shared<RasterGrid>();
+                                          const Camera& camera, bool opaque, float zMin,
+                                          const std::shared_ptr<Pool>& pool) {
+  auto r = pool ? std::allocate_shared<RasterGrid>(KeepingPool<RasterGrid>(pool)) : std::make_shared<RasterGrid>();
   const Grid& g = *grid;
   const Object& object = scene.objects[static_cast<size_t>(g.object)];
   const Attributes& attributes = *object.attributes;
@@ -108,7 +109,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
   // The tail lets blocks of micropolygons be read across the end.
   const size_t stride = static_cast<size_t>(g.stride()),
                size = stride * static_cast<size_t>(g.keyCount) + 2 * kLanes;
-  r->x.assign(size, 0), r->y.assign(size, 0), r->d.assign(size, 0);
+  for (PooledVector<float>* axis : {&r->x, &r->y, &r->d}) *axis = PooledVector<float>(size, 0.0f, pool.get());
   r->dMin = r->inSolid && zMin < kInfinity ? camera.leastDepthKey(zMin) : kInfinity;
   for (int key = 0; key < g.keyCount; ++key) {
     const size_t base = stride * static_cast<size_t>(key);

@@ -139,8 +139,9 @@ class Curves : public Prim {
   }
 
   void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const override {
+    Cross c{};
     for (int i = 0; i < n; ++i) {
-      const Cross c = crossAt(patch, v[i]);
+      if (i == 0 || v[i] != v[i - 1]) c = crossAt(patch, v[i]);  // lattices run across the ribbon
       const float x = u[i] - 0.5f;
       const vec3 p = c.center + x * c.width * c.side, du = c.width * c.side,
                  dv = c.slope + x * (c.widthSlope * c.side + c.width * c.sideSlope);
