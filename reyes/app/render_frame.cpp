@@ -155,8 +155,8 @@ void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats&
   }
   if (settings.memoryLimit)
     log.report(Severity::Info, "memory-limit", {},
-               streams ? "--memory-limit: the picture was made row by row, and the buckets of earlier rows dropped"
-                       : fmt::format("--memory-limit: {} of {} buckets were kept in a file", file.spilled(), layout.tileCount()));
+               streams ? "--memory-limit: the picture is made row by row, and the buckets of earlier rows are dropped"
+                       : fmt::format("--memory-limit: {} of {} buckets rest in a file", file.spilled(), layout.tileCount()));
   if (!interrupted() && log.worst() != Severity::Output) file.forget();
 }
 
