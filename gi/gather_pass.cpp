@@ -1,5 +1,6 @@
-#include <array>
 #include <bit>
+#include <mutex>
+#include <optional>
 #include <unordered_set>
 
 #include "gi/state.h"
@@ -14,27 +15,40 @@ constexpr int kPhases = kLatticePhases + kLastPhases;
 constexpr float kEnough = 0.05f;  // sum of weights below which a point gets its own record
 constexpr size_t kPointsPerSlice = 256;
 
-struct PointRef {
-  int tile, batch, point;
-};
-using Phases = std::array<std::vector<PointRef>, kPhases>;
-
 struct Site {
   GatherPoint point;
   size_t cache;
+  int x, y;  ///< The pixel that sees it.
 };
 
+/// One bit for every point of a frame.
+class PointBits {
+ public:
+  /// points[t]: of tile t.
+  explicit PointBits(const std::vector<uint32_t>& points) : first_(points.size() + 1) {
+    for (size_t t = 0; t < points.size(); ++t) first_[t + 1] = first_[t] + (points[t] + 63) / 64;  // no two tiles share a word
+    words_.resize(first_.back());
+  }
+  /// Sets a bit. False: it was set.
+  bool set(size_t tile, size_t point) {
+    uint64_t &word = words_[first_[tile] + point / 64], bit = uint64_t{1} << point % 64;
+    return !(word & bit) && (word |= bit);
+  }
+
+ private:
+  std::vector<size_t> first_;
+  std::vector<uint64_t> words_;
+};
+
+/// Goes over the tiles once in every phase, so that they need not be in memory.
 class GatherPass {
  public:
-  GatherPass(GiState& state, const DeepFrame& frame) : state_(state), frame_(frame) {}
+  GatherPass(GiState& state, const DeepFrame& layout, const TileReader& tiles) : state_(state), layout_(layout), tiles_(tiles) {}
 
   void run(const std::function<void(float)>& progress, const std::atomic<bool>* cancelled) {
     progress_ = &progress, cancelled_ = cancelled;
-    prepareCaches();
-    if (state_.caches.empty()) return;
-    const Phases phases = collect();
-    for (phase_ = 0; phase_ < kPhases && !isCancelled(); ++phase_)
-      refine(phases[static_cast<size_t>(phase_)]);
+    if (!prepareCaches()) return;
+    for (phase_ = 0; phase_ < kPhases && !isCancelled(); ++phase_) gatherAt(uncovered());
   }
 
  private:
@@ -42,84 +56,110 @@ class GatherPass {
 
   bool isCancelled() const { return cancelled_ && cancelled_->load(std::memory_order_relaxed); }
 
-  // Groups whose indirect lights ask for the same share a cache. With maxerror 0 nothing could be reused.
-  void prepareCaches() {
+  // Groups whose indirect lights ask for the same share a cache. With maxerror 0 nothing could be reused. False: no group asks.
+  bool prepareCaches() {
     cacheOfGroup_.assign(state_.scene.groups.size(), kNoCache);
-    const Bound3 bound = frameBound();
+    std::vector<std::pair<size_t, GatherPlan>> plans;
     for (size_t g = 0; g < cacheOfGroup_.size(); ++g) {
       const int group = static_cast<int>(g);
       const IndirectQuery* query = state_.shading.indirectQuery(group);
       const Attributes& attributes = *state_.scene.groups[g].attributes;
       if (!query || !attributes.indirect.receive || attributes.matte) continue;
       const GatherPlan plan = planFor(state_, group, *query);
-      if (!(plan.cache.kappa < kInfinity)) continue;
+      if (plan.cache.kappa < kInfinity) plans.emplace_back(g, plan);
+    }
+    if (plans.empty()) return false;
+    const Bound3 bound = measureFrame();
+    for (const auto& [group, plan] : plans) {
       size_t c = 0;
       while (c < state_.caches.size() && !(state_.caches[c].plan == plan)) ++c;
       if (c == state_.caches.size()) state_.caches.push_back({plan, IrradianceCache(bound, plan.cache)});
-      cacheOfGroup_[g] = c;
+      cacheOfGroup_[group] = c;
     }
+    return true;
   }
 
-  Bound3 frameBound() const {
+  Bound3 measureFrame() {
+    std::vector<uint32_t> points(layout_.tileCount());
     Bound3 bound;
-    for (const DeepTile& tile : frame_.tiles)
-      for (const ShadePoints& batch : tile.batches)
-        for (int i = 0; i < batch.count(); ++i) bound.extend(batch.position(i));
+    std::mutex merging;
+    parallelFor(points.size(), 1, [&](size_t t, size_t) {
+      const auto tile = isCancelled() ? nullptr : tiles_(t);
+      if (!tile) return;
+      Bound3 here;
+      for (const ShadePoints& batch : tile->batches) {
+        points[t] += static_cast<uint32_t>(batch.count());
+        for (int i = 0; i < batch.count(); ++i) here.extend(batch.position(i));
+      }
+      const std::lock_guard lock(merging);
+      bound.extend(here);
+    });
+    seen_.emplace(points);
     return bound;
   }
 
-  // In the order of pixels, whatever the buckets are. A point that several pixels or buckets see counts where
-  // it comes first.
-  Phases collect() const {
-    Phases phases;
-    for (int y = frame_.padded.y0; y < frame_.padded.y1; ++y)
-      for (int x = frame_.padded.x0; x < frame_.padded.x1; ++x) collectPixel(x, y, phases);
-    std::unordered_set<uint64_t> seen;
-    for (auto& phase : phases)
-      std::erase_if(phase, [&](const PointRef& ref) {
-        const ShadePoints& batch = batchOf(ref);
-        return !seen.insert(static_cast<uint64_t>(batch.group()) << 32 | batch.key(ref.point)).second;
-      });
-    return phases;
+  // Points of this phase that the records of earlier ones leave without, in the order of pixels, whatever the buckets are. A
+  // point that several pixels or buckets see counts where it comes first.
+  std::vector<Site> uncovered() {
+    std::vector<Site> sites;
+    std::mutex merging;
+    parallelFor(layout_.tileCount(), 1, [&](size_t t, size_t) {
+      const auto tile = isCancelled() ? nullptr : tiles_(t);
+      if (!tile) return;
+      std::vector<Site> here;
+      collectTile(t, *tile, here);
+      const std::lock_guard lock(merging);
+      sites.insert(sites.end(), here.begin(), here.end());
+    });
+    std::stable_sort(sites.begin(), sites.end(), [](const Site& a, const Site& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+    std::erase_if(sites, [&](const Site& s) {
+      return !sites_.insert(static_cast<uint64_t>(s.point.group) << 32 | s.point.key).second;
+    });
+    return sites;
   }
 
-  void collectPixel(int x, int y, Phases& phases) const {
-    const DeepTile& tile = frame_.tileAt(x, y);
-    if (tile.pixels.empty()) return;  // the frame was interrupted
-    const int tileIndex = static_cast<int>(&tile - frame_.tiles.data());
-    const DeepPixel& pixel = tile.pixel(x, y);
-    bool first = true;
-    for (uint32_t f = pixel.first; f < pixel.first + pixel.count; ++f) {
-      const Facet& facet = tile.facets[tile.fragments[f].facet];
-      const ShadePoints& batch = tile.batches[static_cast<size_t>(facet.batch)];
-      if (cacheOfGroup_[static_cast<size_t>(batch.group())] == kNoCache) continue;
-      for (int corner = 0; corner < 4; ++corner) {
-        const int point = facet.point[corner];
-        if (corner > 0 && point == facet.point[0]) continue;
-        const int phase = first ? latticePhase(x, y)
-                                : kLatticePhases + static_cast<int>(hash32(batch.key(point)) % kLastPhases);
-        phases[static_cast<size_t>(phase)].push_back({tileIndex, facet.batch, point});
-        first = false;
+  void collectTile(size_t t, const DeepTile& tile, std::vector<Site>& out) {
+    std::vector<size_t> firstOfBatch{0};
+    for (const ShadePoints& batch : tile.batches) firstOfBatch.push_back(firstOfBatch.back() + static_cast<size_t>(batch.count()));
+    const auto consider = [&](const Facet& facet, int point, int x, int y) {
+      const auto b = static_cast<size_t>(facet.batch);
+      if (!seen_->set(t, firstOfBatch[b] + static_cast<size_t>(point))) return;
+      const Site site = siteOf(tile.batches[b], point, x, y);
+      const GatherPoint& p = site.point;
+      if (state_.caches[site.cache].cache.lookup(p.position, p.normal, p.pixelSize).weight < kEnough) out.push_back(site);
+    };
+    for (int y = tile.rect.y0; y < tile.rect.y1; ++y)
+      for (int x = tile.rect.x0; x < tile.rect.x1; ++x) {
+        const int latticed = latticePhase(x, y);
+        if (phase_ < kLatticePhases && phase_ != latticed) continue;
+        const DeepPixel& pixel = tile.pixel(x, y);
+        bool first = true;
+        for (uint32_t f = pixel.first; f < pixel.first + pixel.count; ++f) {
+          const Facet& facet = tile.facets[tile.fragments[f].facet];
+          const ShadePoints& batch = tile.batches[static_cast<size_t>(facet.batch)];
+          if (cacheOfGroup_[static_cast<size_t>(batch.group())] == kNoCache) continue;
+          for (int corner = 0; corner < 4; ++corner) {
+            const int point = facet.point[corner];
+            if (corner > 0 && point == facet.point[0]) continue;
+            const int phase =
+                first ? latticed : kLatticePhases + static_cast<int>(hash32(batch.key(point)) % kLastPhases);
+            if (phase == phase_) consider(facet, point, x, y);
+            first = false;
+          }
+          if (phase_ < kLatticePhases) break;  // its first point alone
+        }
       }
-    }
   }
 
-  const ShadePoints& batchOf(const PointRef& ref) const {
-    return frame_.tiles[static_cast<size_t>(ref.tile)].batches[static_cast<size_t>(ref.batch)];
+  Site siteOf(const ShadePoints& batch, int point, int x, int y) const {
+    const vec3 position = batch.position(point), normal = batch.facingNormal(point);
+    return {{batch.group(), position, normal, batch.key(point), projectedPixelSize(state_.camera, position, normal),
+             batch.edgeLength(point), batch.get3(kDriftX, point), batch.channel(kTime)[point]},
+            cacheOfGroup_[static_cast<size_t>(batch.group())], x, y};
   }
 
-  Site siteOf(const PointRef& ref) const {
-    const ShadePoints& batch = batchOf(ref);
-    const vec3 position = batch.position(ref.point), normal = batch.facingNormal(ref.point);
-    return {{batch.group(), position, normal, batch.key(ref.point), projectedPixelSize(state_.camera, position, normal),
-             batch.edgeLength(ref.point), batch.get3(kDriftX, ref.point), batch.channel(kTime)[ref.point]},
-            cacheOfGroup_[static_cast<size_t>(batch.group())]};
-  }
-
-  // One phase: which points the records of earlier phases leave without, their records, and only then the
-  // insertion.
-  void refine(const std::vector<PointRef>& points) {
-    const std::vector<Site> sites = uncovered(points);
+  // The records of a phase are inserted when all have been made.
+  void gatherAt(const std::vector<Site>& sites) {
     if (!sites.empty() && !tools_) tools_ = gatherTools(state_);
     if (sites.empty() || !tools_) return report(1);
     std::vector<IrradianceRecord> records(sites.size());
@@ -136,20 +176,6 @@ class GatherPass {
     report(1);
   }
 
-  std::vector<Site> uncovered(const std::vector<PointRef>& points) const {
-    std::vector<uint8_t> covered(points.size());
-    parallelFor(points.size(), kPointsPerSlice, [&](size_t begin, size_t end) {
-      for (size_t i = begin; i < end; ++i) {
-        const auto [p, cache] = siteOf(points[i]);
-        covered[i] = state_.caches[cache].cache.lookup(p.position, p.normal, p.pixelSize).weight >= kEnough;
-      }
-    });
-    std::vector<Site> sites;
-    for (size_t i = 0; i < points.size(); ++i)
-      if (!covered[i]) sites.push_back(siteOf(points[i]));
-    return sites;
-  }
-
   IrradianceRecord gatherAt(const Site& site) const {
     return gather(*tools_->rays, *tools_->shading, site.point, state_.caches[site.cache].plan.gather, state_.stats);
   }
@@ -159,9 +185,12 @@ class GatherPass {
   }
 
   GiState& state_;
-  const DeepFrame& frame_;
+  const DeepFrame& layout_;
+  const TileReader& tiles_;
   const RayTools* tools_ = nullptr;
   std::vector<size_t> cacheOfGroup_;
+  std::optional<PointBits> seen_;
+  std::unordered_set<uint64_t> sites_;  ///< That have a record.
   const std::function<void(float)>* progress_ = nullptr;
   const std::atomic<bool>* cancelled_ = nullptr;
   int phase_ = 0;
@@ -176,9 +205,9 @@ int latticePhase(int x, int y) {
   return 1 + 2 * (3 - level) + (x & y & half ? 0 : 1);
 }
 
-void fillCaches(GiState& state, const DeepFrame& frame, const std::function<void(float)>& progress,
+void fillCaches(GiState& state, const DeepFrame& layout, const TileReader& tiles, const std::function<void(float)>& progress,
                 const std::atomic<bool>* cancelled) {
-  GatherPass(state, frame).run(progress, cancelled);
+  GatherPass(state, layout, tiles).run(progress, cancelled);
 }
 
 }  // namespace tomales

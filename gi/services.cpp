@@ -26,9 +26,9 @@ GiServices::GiServices(const Scene& scene, const Camera& camera, RaySource rays,
 
 GiServices::~GiServices() = default;
 
-void GiServices::gatherPass(const DeepFrame& frame, const std::function<void(float)>& progress,
+void GiServices::gatherPass(const DeepFrame& layout, const TileReader& tiles, const std::function<void(float)>& progress,
                             const std::atomic<bool>* cancelled) {
-  if (interpolates(impl_->settings.mode)) fillCaches(*impl_, frame, progress, cancelled);
+  if (interpolates(impl_->settings.mode)) fillCaches(*impl_, layout, tiles, progress, cancelled);
 }
 
 const std::vector<PreparedCache>& GiServices::caches() const { return impl_->caches; }

@@ -66,7 +66,9 @@ class GiServices final : public ShadeServices {
 
   /// Fills the irradiance cache for every point that a shaded frame will ask about, coarse to fine. Records of one level are
   /// frozen before the next reads them, and their order is that of the pixels, so the cache does not depend on threads or buckets.
-  void gatherPass(const DeepFrame& frame, const std::function<void(float)>& progress, const std::atomic<bool>* cancelled);
+  /// Reads the tiles again in every phase.
+  void gatherPass(const DeepFrame& layout, const TileReader& tiles, const std::function<void(float)>& progress,
+                  const std::atomic<bool>* cancelled);
 
   /// What gatherPass has left; frozen while shading.
   const std::vector<PreparedCache>& caches() const;

@@ -38,7 +38,7 @@ float projectedPixelSize(const Camera&, const vec3& P, const vec3& n);
 constexpr int kLatticePhases = 9;
 int latticePhase(int x, int y);
 
-void fillCaches(GiState&, const DeepFrame&, const std::function<void(float)>& progress,
+void fillCaches(GiState&, const DeepFrame& layout, const TileReader&, const std::function<void(float)>& progress,
                 const std::atomic<bool>* cancelled);
 
 /// When ray `number` of the `count` that leave a point is shot: the point's own time, or a stratified one if it is seen over the

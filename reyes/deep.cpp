@@ -19,16 +19,33 @@ void DeepTile::forgetPoints() {
   for (ShadePoints& batch : batches) batch = ShadePoints(batch.group(), 0);
 }
 
-void DeepFrame::layOutTiles() {
-  tiles.resize(static_cast<size_t>(columns) * static_cast<size_t>(rows));
-  for (int row = 0; row < rows; ++row)
-    for (int column = 0; column < columns; ++column) {
-      PixelRect& r = tiles[static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column)].rect;
-      r.x0 = padded.x0 + column * bucketWidth;
-      r.y0 = padded.y0 + row * bucketHeight;
-      r.x1 = std::min(r.x0 + bucketWidth, padded.x1);
-      r.y1 = std::min(r.y0 + bucketHeight, padded.y1);
-    }
+PixelRect DeepFrame::rectOf(size_t tile) const {
+  const int x0 = padded.x0 + static_cast<int>(tile % static_cast<size_t>(columns)) * bucketWidth;
+  const int y0 = padded.y0 + static_cast<int>(tile / static_cast<size_t>(columns)) * bucketHeight;
+  return {x0, y0, std::min(x0 + bucketWidth, padded.x1), std::min(y0 + bucketHeight, padded.y1)};
+}
+
+void DeepFrame::hold(int first, int last) {
+  const auto width = static_cast<size_t>(columns);
+  const int heldTo = firstRow + static_cast<int>(width > 0 ? tiles.size() / width : 0);
+  std::vector<DeepTile> now(width * static_cast<size_t>(last - first));
+  for (size_t i = 0; i < now.size(); ++i) {
+    const size_t index = i + width * static_cast<size_t>(first);
+    const int row = static_cast<int>(index / width);
+    if (row >= firstRow && row < heldTo)
+      now[i] = std::move(tile(index));
+    else
+      now[i].rect = rectOf(index);
+  }
+  tiles = std::move(now);
+  firstRow = first;
+}
+
+TileReader readerOf(const DeepFrame& frame) {
+  return [&frame](size_t index) {
+    const DeepTile& tile = frame.tiles[index];
+    return tile.pixels.empty() ? nullptr : std::shared_ptr<const DeepTile>(std::shared_ptr<void>(), &tile);
+  };
 }
 
 }  // namespace tomales

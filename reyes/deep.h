@@ -4,6 +4,9 @@
 //   DeepFrame 1--* DeepTile 1--* ShadePoints (one batch a shade group)
 //                           1--* DeepPixel 1--* Fragment --> Facet --> shade point(s)
 #pragma once
+#include <functional>
+#include <memory>
+
 #include "reyes/points.h"
 #include "reyes/ray_answers.h"
 #include "reyes/scene.h"
@@ -65,13 +68,25 @@ struct DeepFrame {
   int bucketWidth = 16, bucketHeight = 16, columns = 0, rows = 0;
   int samplesPerPixel = 1;
   bool complete = true; ///< False: interrupted, some tiles are empty.
-  std::vector<DeepTile> tiles;  ///< columns * rows, rows from the top.
+  std::vector<DeepTile> tiles;  ///< Of some rows of buckets, from the top: all of them, a band that moves down the frame, or none.
+  int firstRow = 0;     ///< Of those.
 
-  /// Makes columns * rows empty tiles, each with its rectangle.
-  void layOutTiles();
+  /// Tiles are numbered by rows from the top, held or not.
+  size_t tileCount() const { return static_cast<size_t>(columns) * static_cast<size_t>(rows); }
+  PixelRect rectOf(size_t tile) const;
+  int rowOf(int y) const { return (y - padded.y0) / bucketHeight; }
+  /// Rows [first, last) of buckets; tiles that were held stay, others are empty.
+  void hold(int first, int last);
+  void holdAll() { hold(0, rows); }
+  DeepTile& tile(size_t index) { return tiles[index - static_cast<size_t>(firstRow) * static_cast<size_t>(columns)]; }
   const DeepTile& tileAt(int x, int y) const {
-    return tiles[static_cast<size_t>((y - padded.y0) / bucketHeight * columns + (x - padded.x0) / bucketWidth)];
+    return tiles[static_cast<size_t>((rowOf(y) - firstRow) * columns + (x - padded.x0) / bucketWidth)];
   }
 };
+
+/// The tiles of a frame, wherever they rest. From any thread; null: it has not been hidden.
+using TileReader = std::function<std::shared_ptr<const DeepTile>(size_t tile)>;
+/// Of a frame that holds all of them, which it must outlive.
+TileReader readerOf(const DeepFrame& frame);
 
 }  // namespace tomales

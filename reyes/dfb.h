@@ -17,7 +17,7 @@ struct SourceFile {
 /// What a .dfb holds besides the tiles.
 struct Shot {
   Scene scene;      ///< From a file: `objects` has one for every group, without shape; freeze() must not be called.
-  DeepFrame frame;  ///< Layout; tiles have their rectangles only.
+  DeepFrame frame;  ///< Layout, without tiles.
   uint32_t seed = 0;
   std::vector<SourceFile> sources;  ///< The RIB stream, in order.
   std::string folder;  ///< Where the program ran: relative names start there.

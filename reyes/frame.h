@@ -1,12 +1,12 @@
 // Composer: the order of the Reyes stages. Each function is a pass that reads one noun and leaves the next.
-//   hideFrame    Scene -> DeepFrame     split, dice, displace, hide, bucket by bucket
-//   shadeFrame   DeepFrame -> DeepFrame surface and light shaders over visible points
-//   imageOf      DeepFrame -> Image     filter
-//   runImager    Image -> Image         imager shader; after exposure (RISpec imaging pipeline)
-//   writeFrame   DeepFrame -> files     the last three and every Display, a band of rows at a time
+//   FrameHider   Scene -> DeepTile      split, dice, displace, hide, bucket by bucket
+//   shadeTiles   DeepTile -> DeepTile   surface and light shaders over visible points
+//   writeFrame   DeepFrame -> files     filter, expose, imager shader (in this order: RISpec imaging pipeline), every Display; a band of
+//                                       rows at a time, for which it asks for the tiles that it needs
 #pragma once
 #include <atomic>
 #include <functional>
+#include <span>
 
 #include "reyes/deep.h"
 #include "reyes/image.h"
@@ -30,32 +30,50 @@ struct TileSink {
   std::function<std::optional<DeepTile>(size_t tile)> find;  ///< What an interrupted run has left of it. May be empty.
 };
 
-/// Where tiles to shade come from, from any thread.
-struct TileSource {
-  std::function<bool(size_t index, DeepTile& tile)> load;      ///< False: the tile is left out of the picture.
-  std::function<void(size_t index, DeepTile& tile)> finished;  ///< Shaded, its points still there. May be empty.
+/// Tiles on their way through the shaders, from any thread.
+struct ShadeSteps {
+  std::function<bool(size_t index, DeepTile& tile)> load;    ///< False: it is passed over.
+  std::function<void(size_t index, DeepTile&& tile)> take;  ///< Shaded, its points still there.
 };
 
-/// The buckets of a frame, nothing in them.
+/// The buckets of a frame, holding none.
 DeepFrame layOutFrame(const Scene& scene);
-/// Opens the scene's procedurals as buckets come to them, and drops their geometry behind the last. Where tiles leave before the
-/// last is hidden, groups that are found on the way are missed: open all procedurals first. False: cancelled, some tiles were
-/// not hidden.
+
+/// Hides the buckets of a frame, some at a time.
+class FrameHider {
+ public:
+  /// Everything must outlive it. Opens the scene's procedurals as buckets come to them, and drops their geometry behind the last.
+  /// Where tiles leave before the last is hidden, groups that are found on the way are missed by what lists all of them: open
+  /// all procedurals first.
+  FrameHider(const DeepFrame& layout, Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log);
+  ~FrameHider();
+  /// Each bucket once, in any order. False: cancelled, some were not hidden.
+  bool hide(std::span<const uint32_t> buckets, const TileSink& sink);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+/// All, in the scene's bucket order.
 bool hideTiles(const DeepFrame& layout, Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log,
                const TileSink& sink);
 DeepFrame hideFrame(Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log);
-void shadeFrame(DeepFrame& frame, const Scene& scene, const ShadingSystem& shading, const ShadeContext& context,
-                const FrameControl& control, Stats& stats);
+
 /// The tiles that the picture of frame.crop needs, in bucket order.
 std::vector<uint32_t> tilesOf(const DeepFrame& frame, const Options& options);
 /// Surface shaders, lights and atmosphere over the points of a tile.
 void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading, const ShadeContext& context);
-/// Loads, shades and strips of their points the tiles that the picture of frame.crop needs.
-void shadeTiles(DeepFrame& frame, const TileSource& source, const Scene& scene, const ShadingSystem& shading,
-                const ShadeContext& context, const FrameControl& control, Stats& stats);
-Image imageOf(const DeepFrame& frame, const Scene& scene, const FrameControl& control, Stats& stats);
+/// Starts them in the order given. False: cancelled.
+bool shadeTiles(std::span<const uint32_t> tiles, const ShadeSteps& steps, const Scene& scene, const ShadingSystem& shading,
+                const ShadeContext& context, const FrameControl& control);
+
 void runImager(Image& image, const ShadingSystem& shading);
-/// What cannot be written is reported; the other Displays are written all the same.
-void writeFrame(const DeepFrame& frame, const Scene& scene, const ShadingSystem& shading, const FrameControl& control, Log& log);
+
+/// Puts shaded tiles into frame.tile(i). Empty ones are left out of the picture.
+using TileFill = std::function<void(std::span<const uint32_t> tiles)>;
+/// Asks for the tiles that the next rows of the picture need, each once and in rows from the top, and forgets those that no
+/// row needs any more. What cannot be written is reported; the other Displays are written all the same.
+void writeFrame(DeepFrame& frame, const TileFill& fill, const Scene& scene, const ShadingSystem& shading, const FrameControl& control,
+                Stats& stats, Log& log);
 
 }  // namespace tomales

@@ -65,11 +65,11 @@ GiSettings FrameJob::giSettings() const {
   return {mode_, settings_.samples, settings_.bounces, settings_.maxError, lightSeedOf(settings_), settings_.errorFunction};
 }
 
-void FrameJob::gather(const DeepFrame& frame) {
+void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
   if (!gathers() || interrupted()) return;
   const StageTimer timer(stats_, "gather");
   warnAboutBounces();
-  services_->gatherPass(frame, meter_.stage(0.3f, 0.7f), &interrupted());
+  services_->gatherPass(layout, tiles, meter_.stage(0.3f, 0.7f), &interrupted());
 }
 
 ShadeContext FrameJob::shadeContext() const {
@@ -80,35 +80,66 @@ ShadeContext FrameJob::shadeContext() const {
   return context;
 }
 
-void FrameJob::shade(DeepFrame& frame) {
+bool FrameJob::shade(std::span<const uint32_t> tiles, const ShadeSteps& steps) {
   const StageTimer timer(stats_, "shade");
+  return shadeTiles(tiles, steps, scene_, *shading_, shadeContext(), {{}, &interrupted(), settings_.seed});
+}
+
+void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<DeepTile>(size_t tile)>& load) {
   ShadeContext context = shadeContext();
-  FrameControl shadeControl = control(gathers() ? 0.7f : 0.5f, 0.98f);
-  if (interrupted()) {
+  const bool cut = interrupted();
+  if (cut) {
     // What is hidden is worth its light; a second signal ends this too.
     log_.report(Severity::Warning, "interrupted", {},
                 "interrupted: finished buckets are shaded with direct light and written");
     context.indirect = false;
-    shadeControl.cancelled = nullptr;
   }
-  shadeFrame(frame, scene_, *shading_, context, shadeControl, stats_);
+  DeepFrame frame = layout;
+  const float begin = gathers() ? 0.7f : 0.5f;
+  size_t shaded = 0;
+  bool complete = true;
+  finish(frame, [&](std::span<const uint32_t> tiles) {
+    const StageTimer timer(stats_, "shade");
+    const auto share = [&](size_t done) {
+      return begin + (0.99f - begin) * static_cast<float>(done) / static_cast<float>(frame.tileCount());
+    };
+    const ShadeSteps steps{[&](size_t index, DeepTile& tile) {
+                             auto loaded = load(index);
+                             if (loaded) tile = std::move(*loaded);
+                             return loaded.has_value();
+                           },
+                           [&](size_t index, DeepTile&& tile) {
+                             tile.forgetPoints();
+                             frame.tile(index) = std::move(tile);
+                           }};
+    const FrameControl control{meter_.stage(share(shaded), share(shaded + tiles.size())), cut ? nullptr : &interrupted(), settings_.seed};
+    complete = shadeTiles(tiles, steps, scene_, *shading_, context, control) && complete;
+    shaded += tiles.size();
+  });
+  if (!complete) log_.report(Severity::Warning, "interrupted", {}, "interrupted: finished buckets are written");
+}
+
+void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::optional<DeepTile>(size_t tile)>& find,
+                            const std::function<void(size_t tile, const DeepTile&)>& keep) {
+  DeepFrame frame = layout;
+  FrameHider hider(layout, scene_, *shading_, control(0, 0.99f), stats_, log_);
+  const TileSink sink{{}, [&](size_t index, DeepTile&& tile) {
+                        keep(index, tile);
+                        tomales::shadeTile(tile, scene_, *shading_, shadeContext());
+                        tile.forgetPoints();
+                        frame.tile(index) = std::move(tile);
+                      }, find};
+  bool complete = true;
+  finish(frame, [&](std::span<const uint32_t> tiles) {
+    const StageTimer timer(stats_, "hide");
+    complete = hider.hide(tiles, sink) && complete;
+  });
+  if (!complete) log_.report(Severity::Warning, "interrupted", {}, "interrupted: finished buckets are written");
+}
+
+void FrameJob::finish(DeepFrame& frame, const TileFill& fill) {
+  writeFrame(frame, fill, scene_, *shading_, {{}, &interrupted(), settings_.seed}, stats_, log_);
   if (services_) services_->reportAtlas(stats_);
-}
-
-void FrameJob::shadeTile(DeepTile& tile) const {
-  tomales::shadeTile(tile, scene_, *shading_, shadeContext());
-  tile.forgetPoints();
-}
-
-void FrameJob::shade(DeepFrame& frame, const TileSource& source) {
-  const StageTimer timer(stats_, "shade");
-  shadeTiles(frame, source, scene_, *shading_, shadeContext(), control(gathers() ? 0.7f : 0.0f, 0.98f), stats_);
-  if (services_) services_->reportAtlas(stats_);
-}
-
-void FrameJob::write(const DeepFrame& frame) {
-  const StageTimer timer(stats_, "image");
-  writeFrame(frame, scene_, *shading_, control(0.98f, 1), log_);
   meter_.report(1);
 }
 

@@ -16,19 +16,21 @@ class FrameJob {
   /// Reads all procedurals that are still closed. Before `hide` where tiles leave it one by one, in a file or shaded: it then finds no
   /// shade groups on its way.
   void openAll();
-  /// Tile by tile; opens what it needs. False: interrupted.
+  /// All buckets; opens what it needs. False: interrupted.
   bool hide(const DeepFrame& layout, const TileSink& sink);
   /// Rays against the scene itself.
   void prepareRays();
   /// Rays against what `rays` brings when the first is wanted: for scenes without geometry.
   void prepareRays(RaySource rays);
-  void gather(const DeepFrame& frame);
-  void shade(DeepFrame& frame);
-  /// One tile, as soon as it is hidden; its points are dropped.
-  void shadeTile(DeepTile& tile) const;
-  /// The tiles that frame.crop needs, one by one from `source`.
-  void shade(DeepFrame& frame, const TileSource& source);
-  void write(const DeepFrame& frame);
+  void gather(const DeepFrame& layout, const TileReader& tiles);
+  /// Some tiles. False: interrupted.
+  bool shade(std::span<const uint32_t> tiles, const ShadeSteps& steps);
+  /// The picture, of tiles that are shaded as its rows need them. They must not be interrupted any more if hiding was.
+  void write(const DeepFrame& layout, const std::function<std::optional<DeepTile>(size_t tile)>& load);
+  /// The picture, of tiles that are hidden and shaded as its rows need them. `find`: what an interrupted run has left; `keep`: what
+  /// this one leaves.
+  void hideAndWrite(const DeepFrame& layout, const std::function<std::optional<DeepTile>(size_t tile)>& find,
+                    const std::function<void(size_t tile, const DeepTile&)>& keep);
 
   bool gathers() const { return mode_ == GiMode::Gather || mode_ == GiMode::Atlas; }
   GiMode mode() const { return mode_; }
@@ -44,6 +46,7 @@ class FrameJob {
   void warnAboutBounces() const;
   int referenceLightSamples() const;
   ShadeContext shadeContext() const;
+  void finish(DeepFrame& frame, const TileFill& fill);
 
   Scene& scene_;
   const RenderSettings& settings_;

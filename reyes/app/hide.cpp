@@ -46,7 +46,7 @@ void hideToFile(Scene& scene, int world, const RenderSettings& settings, Stats& 
   if (!file) return unwritten(error);
   if (settings.resume)
     log.report(Severity::Info, "resume", {},
-               fmt::format("{} of {} buckets were finished before", file->tilesKept(), shot.frame.tiles.size()));
+               fmt::format("{} of {} buckets were finished before", file->tilesKept(), shot.frame.tileCount()));
 
   std::atomic<bool> full{false};
   const TileSink sink{[&](size_t tile) { return full || file->has(tile); },

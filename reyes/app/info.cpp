@@ -141,7 +141,7 @@ Json dfbInfo(const std::string& file, Log& log) {
   if (!dfb) return unreadable(file, "a deep frame buffer", error, log), Json{};
   const Shot& shot = dfb->shot();
   int64_t points = 0, facets = 0, fragments = 0;
-  for (size_t i = 0; i < shot.frame.tiles.size(); ++i) {
+  for (size_t i = 0; i < shot.frame.tileCount(); ++i) {
     const auto tile = dfb->tile(i, error);
     if (!tile) return unreadable(file, "a deep frame buffer", error, log), Json{};
     for (const ShadePoints& batch : tile->batches) points += batch.count();
@@ -163,7 +163,7 @@ Json dfbInfo(const std::string& file, Log& log) {
           {"crop", {crop.x0, crop.y0, crop.x1, crop.y1}},
           {"samples_per_pixel", shot.frame.samplesPerPixel},
           {"bucket", {shot.frame.bucketWidth, shot.frame.bucketHeight}},
-          {"buckets", shot.frame.tiles.size()},
+          {"buckets", shot.frame.tileCount()},
           {"micropolygons_visible", facets},
           {"points", points},
           {"fragments", fragments},

@@ -5,11 +5,12 @@
 #include "reyes/app/atlas_job.h"
 #include "reyes/app/interrupt.h"
 #include "reyes/app/overrides.h"
-#include "reyes/base/parallel.h"
 #include "reyes/rib.h"
 
 namespace tomales {
 namespace {
+
+constexpr int64_t kTilesInMemory_bytes = int64_t{1} << 31;  ///< Others are read anew by every pass.
 
 SourceLoc wholeFile(const std::string& path) { return {std::make_shared<std::string>(path), 0}; }
 
@@ -76,46 +77,33 @@ void ShotJob::prepareLight() {
   job_->services()->useCaches(std::move(given.caches));
 }
 
-bool ShotJob::load(size_t index, DeepTile& tile) {
+std::optional<DeepTile> ShotJob::load(size_t index) {
   std::string error;
-  auto loaded = file_->tile(index, error);
-  if (!loaded) {
+  auto tile = file_->tile(index, error);
+  if (!tile) {
     log_.report(Severity::Error, "dfb-bucket", wholeFile(settings_.files.front()),
                 "bucket " + std::to_string(index) + " is left out of the picture: " + error);
-    return false;
+    return tile;
   }
-  tile = std::move(*loaded);
-  if (!irradiance_ || irradiance_->shot().shot != file_->shotSum()) return true;
+  if (!irradiance_ || irradiance_->shot().shot != file_->shotSum()) return tile;
   if (auto answers = irradiance_->answers(index, error)) {
-    tile.answers = std::move(*answers);
+    tile->answers = std::move(*answers);
   } else {
     log_.report(Severity::Error, "icf-bucket", wholeFile(settings_.irradiance),
                 "the shadows of bucket " + std::to_string(index) + " are traced anew: " + error);
   }
-  return true;
-}
-
-DeepFrame ShotJob::loadAll() {
-  DeepFrame frame = shot_.frame;
-  parallelInOrder(frame.tiles.size(), [&](size_t i) { load(i, frame.tiles[i]); });
-  return frame;
+  return tile;
 }
 
 void ShotJob::shadePicture() {
   if (!displaysHaveFolders(shot_.scene.options, log_)) return;
   checkDisplays(shot_.scene.options, log_);
   prepareLight();
-  if (job_->gathers() && (!irradiance_ || settings_.appendIrradiance)) {
-    DeepFrame frame = loadAll();
-    job_->gather(frame);
-    job_->shade(frame);
-    return job_->write(frame);
-  }
-  DeepFrame frame = shot_.frame;
-  job_->shade(frame, {[this](size_t index, DeepTile& tile) { return load(index, tile); }, {}});
-  if (!frame.complete)
-    log_.report(Severity::Warning, "interrupted", {}, "interrupted: finished buckets are written");
-  job_->write(frame);
+  const auto load = [this](size_t index) { return this->load(index); };
+  if (!job_->gathers() || (irradiance_ && !settings_.appendIrradiance)) return job_->write(shot_.frame, load);
+  TileStore tiles(shot_.frame.tileCount(), kTilesInMemory_bytes, load);
+  job_->gather(shot_.frame, tiles.reader());
+  job_->write(shot_.frame, [&](size_t index) { return tiles.take(index); });
 }
 
 void ShotJob::gatherIrradiance() {
@@ -129,10 +117,9 @@ void ShotJob::gatherIrradiance() {
   prepareLight();
   const RayTools* tools = world_->tools();
   if (!tools) return;
-  const bool whole = job_->gathers();  // the gather pass walks over all of the frame; shadows need one bucket at a time
-  DeepFrame frame = whole ? loadAll() : shot_.frame;
-  job_->gather(frame);
-  const bool written = recordAnswers(frame, !whole, *out);
+  TileStore tiles(shot_.frame.tileCount(), kTilesInMemory_bytes, [this](size_t index) { return load(index); });
+  job_->gather(shot_.frame, tiles.reader());
+  const bool written = recordAnswers(tiles, *out);
   IrradianceShot shot{interrupted() ? 0 : file_->shotSum(), job_->giSettings(), shot_.scene.cameraFromWorldAtOpen(), {},
                       tools->rays->emitters().table()};
   shot.caches = job_->services()->takeCaches();
@@ -140,19 +127,20 @@ void ShotJob::gatherIrradiance() {
 }
 
 // Shades the picture once, for the rays that this takes.
-bool ShotJob::recordAnswers(DeepFrame& frame, bool loading, IcfWriter& out) {
+bool ShotJob::recordAnswers(TileStore& tiles, IcfWriter& out) {
   const StageTimer timer(stats_, "answers");
   std::atomic<bool> good{true};
   const auto startRecording = [&](size_t index, DeepTile& tile) {
-    if (loading && !load(index, tile)) return false;
+    auto loaded = tiles.take(index);
+    if (!loaded) return false;
+    tile = std::move(*loaded);
     tile.answers.assign(tile.batches.size(), RayAnswers{true, {}, {}});
     return true;
   };
-  const auto store = [&](size_t index, DeepTile& tile) {
+  const auto store = [&](size_t index, DeepTile&& tile) {
     if (!out.writeAnswers(index, tile.answers)) good = false;
-    tile = DeepTile{tile.rect, {}, {}, {}, {}, {}, {}};
   };
-  job_->shade(frame, {startRecording, store});
+  job_->shade(tilesOf(shot_.frame, shot_.scene.options), {startRecording, store});
   return good;
 }
 

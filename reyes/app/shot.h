@@ -3,6 +3,7 @@
 #include "gi/icf.h"
 #include "reyes/app/frame_job.h"
 #include "reyes/app/ray_world.h"
+#include "reyes/app/tile_store.h"
 
 namespace tomales {
 
@@ -21,9 +22,9 @@ class ShotJob {
   bool edit();
   bool openIrradiance();
   void prepareLight();
-  DeepFrame loadAll();
-  bool load(size_t index, DeepTile& tile);
-  bool recordAnswers(DeepFrame& frame, bool loading, IcfWriter& out);
+  /// Nothing: its bucket is damaged, which is reported.
+  std::optional<DeepTile> load(size_t index);
+  bool recordAnswers(TileStore& tiles, IcfWriter& out);
 
   std::unique_ptr<DfbFile> file_;
   RenderSettings settings_;

@@ -48,7 +48,7 @@ std::unique_ptr<DfbWriter> DfbWriter::create(const std::string& path, const Shot
   std::unique_ptr<DfbWriter> writer(new DfbWriter(std::move(records)));
   const auto kept = writer->records_->read(kShotRecord);
   if (kept == packed) {
-    for (size_t i = 0; i < shot.frame.tiles.size(); ++i) writer->kept_ += writer->has(i);
+    for (size_t i = 0; i < shot.frame.tileCount(); ++i) writer->kept_ += writer->has(i);
     return writer;
   }
   if ((!kept || writer->records_->restart()) && writer->records_->write(kShotRecord, packed)) return writer;
@@ -78,7 +78,6 @@ std::unique_ptr<DfbFile> DfbFile::open(const std::string& path, std::string& err
     return nullptr;
   }
   file->shotSum_ = checksum(*packed);
-  file->shot_.frame.layOutTiles();
   return file;
 }
 

@@ -166,10 +166,10 @@ void fields(A& a, SourceFile& x) {
   each(a, path, sum);
 }
 
-/// The rectangles of tiles follow from the rest.
+/// A layout alone: tiles are records of their own.
 template <class A>
 void fields(A& a, DeepFrame& x) {
-  auto& [crop, padded, bucketWidth, bucketHeight, columns, rows, samplesPerPixel, complete, tiles] = x;
+  auto& [crop, padded, bucketWidth, bucketHeight, columns, rows, samplesPerPixel, complete, tiles, firstRow] = x;
   each(a, crop, padded, bucketWidth, bucketHeight, columns, rows, samplesPerPixel, complete);
 }
 

@@ -34,47 +34,67 @@ DeepFrame layOutFrame(const Scene& scene) {
   frame.columns = (frame.padded.width() + frame.bucketWidth - 1) / frame.bucketWidth;
   frame.rows = (frame.padded.height() + frame.bucketHeight - 1) / frame.bucketHeight;
   frame.samplesPerPixel = samplePattern(o, 0).count();
-  frame.layOutTiles();
   return frame;
 }
 
-bool hideTiles(const DeepFrame& layout, Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log,
-               const TileSink& sink) {
-  const Camera camera(scene.options);
-  if (scene.options.fStop < kInfinity && !camera.perspective())
-    log.report(Severity::Warning, "defocus-orthographic", scene.where,
-               "DepthOfField needs a perspective projection: all is in focus");
-  const SamplePattern pattern = samplePattern(scene.options, control.seed);
-  const BucketGrid buckets(layout);
-  HideContext context{scene, camera, shading, buckets, stats, log, control.cancelled};
-  const NodeList nodes(nodesOfScene(context), buckets.all(), buckets);
-  const std::vector<uint32_t> order = bucketOrder(scene.options.bucketOrder, layout.columns, layout.rows);
-  std::atomic<size_t> done{0};
-  std::atomic<bool> skipped{false};
-  parallelInOrder(order.size(), [&](size_t i) {
-    const size_t index = order[i];
+struct FrameHider::Impl {
+  Impl(const DeepFrame& frame, Scene& scene, ShadingSystem& shading, const FrameControl& c, Stats& stats, Log& log)
+      : layout(frame), control(c), camera(scene.options), pattern(samplePattern(scene.options, c.seed)), buckets(frame),
+        context{scene, camera, shading, buckets, stats, log, c.cancelled}, nodes(nodesOfScene(context), buckets.all(), buckets) {}
+
+  /// False: cancelled.
+  bool hide(size_t index, const TileSink& sink) {
     if (!sink.has || !sink.has(index)) {
       std::optional<DeepTile> tile;
       if (sink.find && !context.isCancelled()) tile = sink.find(index);
-      if (!tile) tile = hideBucket(index, layout.tiles[index].rect, nodes, context, pattern);
-      if (!tile) {
-        skipped = true;
-        return;
-      }
-      stats.geometry.micropolygonsVisible += static_cast<int64_t>(tile->facets.size());
-      stats.memoryBytes.deepFrame += static_cast<int64_t>(tile->bytes());
+      if (!tile) tile = hideBucket(index, layout.rectOf(index), nodes, context, pattern);
+      if (!tile) return false;
+      context.stats.geometry.micropolygonsVisible += static_cast<int64_t>(tile->facets.size());
+      context.stats.memoryBytes.deepFrame += static_cast<int64_t>(tile->bytes());
       sink.take(index, std::move(*tile));
     }
     for (HideNode* node : nodes.in(index)) node->release(index);
-    if (control.progress) control.progress(static_cast<float>(++done) / static_cast<float>(order.size()));
+    if (control.progress) control.progress(static_cast<float>(++done) / static_cast<float>(layout.tileCount()));
+    return true;
+  }
+
+  const DeepFrame& layout;
+  const FrameControl control;
+  const Camera camera;
+  const SamplePattern pattern;
+  const BucketGrid buckets;
+  HideContext context;
+  const NodeList nodes;
+  std::atomic<size_t> done{0};
+};
+
+FrameHider::FrameHider(const DeepFrame& layout, Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log)
+    : impl_(new Impl(layout, scene, shading, control, stats, log)) {
+  if (scene.options.fStop < kInfinity && !impl_->camera.perspective())
+    log.report(Severity::Warning, "defocus-orthographic", scene.where,
+               "DepthOfField needs a perspective projection: all is in focus");
+}
+FrameHider::~FrameHider() = default;
+
+bool FrameHider::hide(std::span<const uint32_t> tiles, const TileSink& sink) {
+  std::atomic<bool> skipped{false};
+  parallelInOrder(tiles.size(), [&](size_t i) {
+    if (!impl_->hide(tiles[i], sink)) skipped = true;
   });
   return !skipped;
 }
 
+bool hideTiles(const DeepFrame& layout, Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log,
+               const TileSink& sink) {
+  FrameHider hider(layout, scene, shading, control, stats, log);
+  return hider.hide(bucketOrder(scene.options.bucketOrder, layout.columns, layout.rows), sink);
+}
+
 DeepFrame hideFrame(Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log) {
-  DeepFrame frame = layOutFrame(scene);
+  const DeepFrame layout = layOutFrame(scene);
+  DeepFrame frame = layout;
+  frame.holdAll();
   const TileSink sink{{}, [&](size_t i, DeepTile&& tile) { frame.tiles[i] = std::move(tile); }, {}};
-  const DeepFrame layout = frame;
   frame.complete = hideTiles(layout, scene, shading, control, stats, log, sink);
   return frame;
 }

@@ -1,7 +1,6 @@
 #include "reyes/base/parallel.h"
 #include "reyes/frame.h"
 #include "reyes/frame/bucket_order.h"
-#include "reyes/frame/sampling.h"
 #include "reyes/output.h"
 
 namespace tomales {
@@ -45,39 +44,23 @@ void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading,
   }
 }
 
-void shadeFrame(DeepFrame& frame, const Scene& scene, const ShadingSystem& shading, const ShadeContext& context,
-                const FrameControl& control, Stats&) {
+bool shadeTiles(std::span<const uint32_t> tiles, const ShadeSteps& steps, const Scene& scene, const ShadingSystem& shading,
+                const ShadeContext& context, const FrameControl& control) {
   std::atomic<size_t> done{0};
   std::atomic<bool> skipped{false};
-  parallelFor(frame.tiles.size(), 1, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) {
-      DeepTile& tile = frame.tiles[i];
-      if (control.cancelled && *control.cancelled) {
-        skipped = true;
-        std::fill(tile.pixels.begin(), tile.pixels.end(), DeepPixel{});
-        continue;
-      }
-      shadeTile(tile, scene, shading, context);
-      if (control.progress) control.progress(static_cast<float>(++done) / static_cast<float>(frame.tiles.size()));
+  parallelInOrder(tiles.size(), [&](size_t i) {
+    if (control.cancelled && *control.cancelled) {
+      skipped = true;
+      return;
     }
+    DeepTile tile;
+    if (steps.load(tiles[i], tile)) {
+      shadeTile(tile, scene, shading, context);
+      steps.take(tiles[i], std::move(tile));
+    }
+    if (control.progress) control.progress(static_cast<float>(++done) / static_cast<float>(tiles.size()));
   });
-  if (skipped) frame.complete = false;
-}
-
-void shadeTiles(DeepFrame& frame, const TileSource& source, const Scene& scene, const ShadingSystem& shading,
-                const ShadeContext& context, const FrameControl& control, Stats& stats) {
-  const std::vector<uint32_t> needed = tilesOf(frame, scene.options);
-  std::atomic<size_t> done{0};
-  parallelInOrder(needed.size(), [&](size_t i) {
-    if (control.cancelled && *control.cancelled) return;
-    DeepTile& tile = frame.tiles[needed[i]];
-    if (source.load(needed[i], tile)) shadeTile(tile, scene, shading, context);
-    if (source.finished) source.finished(needed[i], tile);
-    tile.forgetPoints();
-    stats.memoryBytes.deepFrame += static_cast<int64_t>(tile.bytes());
-    if (control.progress) control.progress(static_cast<float>(++done) / static_cast<float>(needed.size()));
-  });
-  if (control.cancelled && *control.cancelled) frame.complete = false;
+  return !skipped;
 }
 
 std::vector<uint32_t> tilesOf(const DeepFrame& frame, const Options& options) {
@@ -87,15 +70,10 @@ std::vector<uint32_t> tilesOf(const DeepFrame& frame, const Options& options) {
   const PixelRect seen{c.x0 - reachX, c.y0 - reachY, c.x1 + reachX, c.y1 + reachY};
   std::vector<uint32_t> out;
   for (const uint32_t i : bucketOrder(options.bucketOrder, frame.columns, frame.rows)) {
-    const PixelRect& r = frame.tiles[i].rect;
+    const PixelRect r = frame.rectOf(i);
     if (r.x0 < seen.x1 && r.x1 > seen.x0 && r.y0 < seen.y1 && r.y1 > seen.y0) out.push_back(i);
   }
   return out;
-}
-
-Image imageOf(const DeepFrame& frame, const Scene& scene, const FrameControl& control, Stats&) {
-  const SamplePattern pattern = samplePattern(scene.options, control.seed);
-  return filterFrame(frame, scene.options, sampleOffsets(pattern));
 }
 
 }  // namespace tomales

@@ -18,10 +18,37 @@ MatteNames matteNames(const Scene& scene) {
   return out;
 }
 
+/// Keeps in a frame the tiles that some rows of pixels need, and has those filled that come in below.
+class MovingBand {
+ public:
+  MovingBand(DeepFrame& frame, const TileFill& fill, const Options& options)
+      : frame_(frame), fill_(fill), reach_(static_cast<int>(filterReach(options).y)), needed_(tilesOf(frame, options)) {
+    std::sort(needed_.begin(), needed_.end());
+    frame.hold(0, 0);
+  }
+
+  void moveTo(int y0, int y1) {
+    const int first = frame_.rowOf(std::max(y0 - reach_, frame_.padded.y0));
+    const int last = frame_.rowOf(std::min(y1 + reach_, frame_.padded.y1) - 1) + 1;
+    frame_.hold(first, last);
+    const auto from = needed_.begin() + static_cast<std::ptrdiff_t>(filled_);
+    const auto to = std::lower_bound(from, needed_.end(), static_cast<uint32_t>(last * frame_.columns));
+    filled_ = static_cast<size_t>(to - needed_.begin());
+    fill_({from, to});
+  }
+
+ private:
+  DeepFrame& frame_;
+  const TileFill& fill_;
+  const int reach_;
+  std::vector<uint32_t> needed_;
+  size_t filled_ = 0;
+};
+
 }  // namespace
 
-void writeFrame(const DeepFrame& frame, const Scene& scene, const ShadingSystem& shading, const FrameControl& control,
-                Log& log) {
+void writeFrame(DeepFrame& frame, const TileFill& fill, const Scene& scene, const ShadingSystem& shading, const FrameControl& control,
+                Stats& stats, Log& log) {
   constexpr int kBandRows = 64;  // a multiple of the rows of a tile (image.h)
   const Options& options = scene.options;
   const FrameOutput output = outputOf(options);
@@ -29,6 +56,7 @@ void writeFrame(const DeepFrame& frame, const Scene& scene, const ShadingSystem&
   const SampleOffsets offsets = sampleOffsets(pattern);
   const MatteNames names = matteNames(scene);
   const View view = viewOf(Camera(options), scene.cameraFromWorldAtOpen());
+  MovingBand tiles(frame, fill, options);
   const FrameFilter filter(frame, options, offsets, names);
   std::vector<std::unique_ptr<DisplayFile>> files;
   for (size_t i = 0; i < options.displays.size(); ++i)
@@ -36,6 +64,8 @@ void writeFrame(const DeepFrame& frame, const Scene& scene, const ShadingSystem&
       files.push_back(std::make_unique<DisplayFile>(filter.shape(), output, i, options, log, view, names));
   for (int y = frame.crop.y0; y < frame.crop.y1; y += kBandRows) {
     const int end = std::min(y + kBandRows, frame.crop.y1);
+    tiles.moveTo(y, end);
+    const StageTimer timer(stats, "image");
     Image band = filter.rows(y, end);
     expose(band, options);
     runImager(band, shading);
@@ -46,9 +76,9 @@ void writeFrame(const DeepFrame& frame, const Scene& scene, const ShadingSystem&
       else
         file->write(band);
     }
-    if (control.progress)
-      control.progress(static_cast<float>(y - frame.crop.y0) / static_cast<float>(frame.crop.height()));
+    if (control.progress) control.progress(static_cast<float>(end - frame.crop.y0) / static_cast<float>(frame.crop.height()));
   }
+  const StageTimer timer(stats, "image");
   for (const auto& file : files) file->close();
 }
 

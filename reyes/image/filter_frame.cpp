@@ -8,7 +8,7 @@
 namespace tomales {
 namespace {
 
-constexpr int kBandRows = 16;
+constexpr int kBlockRows = 16, kBlockColumns = 256;  ///< Pixels that are filtered at a time; their contributions are in memory.
 
 /// The floats of a pixel that share a filter.
 struct Pass {
@@ -48,8 +48,9 @@ struct FrameFilter::Impl {
       else if (extras[e].component == 0)
         addReduction(channel, 4 + e);
     }
-    for (const Pass& p : passes) reachY = std::max(reachY, p.weights.reachY);
-    for (const Reduction& r : reductions) reachY = std::max(reachY, r.weights.reachY);
+    const auto reach = [this](const WeightTable& w) { reachX = std::max(reachX, w.reachX), reachY = std::max(reachY, w.reachY); };
+    for (const Pass& p : passes) reach(p.weights);
+    for (const Reduction& r : reductions) reach(r.weights);
   }
 
   Pass& addPass(const Sampling& s) {
@@ -63,10 +64,11 @@ struct FrameFilter::Impl {
     r.from = from, r.to = channel.first, r.width = channel.width(), r.fill = channel.fill;
   }
 
-  ResolvedRows resolve(int y0, int y1) const {
+  ResolvedRows resolve(const PixelRect& block) const {
     Compositor compositor(output, options, frame.samplesPerPixel);
-    ResolvedRows rows{{frame.padded.x0, std::max(frame.padded.y0, y0 - reachY), frame.padded.x1,
-                       std::min(frame.padded.y1, y1 + reachY)},
+    const PixelRect& p = frame.padded;
+    ResolvedRows rows{{std::max(p.x0, block.x0 - reachX), std::max(p.y0, block.y0 - reachY), std::min(p.x1, block.x1 + reachX),
+                       std::min(p.y1, block.y1 + reachY)},
                       compositor.width(), {}, {}};
     for (int y = rows.rect.y0; y < rows.rect.y1; ++y)
       for (int x = rows.rect.x0; x < rows.rect.x1; ++x) {
@@ -161,7 +163,7 @@ struct FrameFilter::Impl {
   std::vector<Sampling> passSamplings;
   std::vector<Pass> passes;
   std::vector<Reduction> reductions;
-  int reachY = 0;
+  int reachX = 0, reachY = 0;
 };
 
 FrameFilter::FrameFilter(const DeepFrame& frame, const Options& options, const SampleOffsets& samples, const MatteNames& names)
@@ -179,10 +181,12 @@ Image FrameFilter::rows(int y0, int y1) const {
   Image image = shape();
   image.originY = y0, image.height = y1 - y0;
   image.pixels.resize(static_cast<size_t>(image.width) * static_cast<size_t>(image.height) * image.channels.size());
-  parallelFor(static_cast<size_t>(image.height), kBandRows, [&](size_t begin, size_t end) {
-    const int first = y0 + static_cast<int>(begin), last = y0 + static_cast<int>(end);
-    const ResolvedRows resolved = impl_->resolve(first, last);
-    const PixelRect block{crop.x0, first, crop.x1, last};
+  const auto across = static_cast<size_t>((crop.width() + kBlockColumns - 1) / kBlockColumns);
+  const auto down = static_cast<size_t>((image.height + kBlockRows - 1) / kBlockRows);
+  parallelFor(across * down, 1, [&](size_t begin, size_t) {
+    const int x0 = crop.x0 + static_cast<int>(begin % across) * kBlockColumns, top = y0 + static_cast<int>(begin / across) * kBlockRows;
+    const PixelRect block{x0, top, std::min(x0 + kBlockColumns, crop.x1), std::min(top + kBlockRows, y1)};
+    const ResolvedRows resolved = impl_->resolve(block);
     for (const Pass& pass : impl_->passes) {
       const PixelSums sums = impl_->sumsOf(resolved, pass, block);
       for (int y = block.y0; y < block.y1; ++y)

@@ -177,7 +177,7 @@ expect_same("gives the same bits too", "indirect.exr", "resumed.exr")
 suite.expect(not list(suite.folder.glob("resumed.exr.dfb*")), "and leaves no buckets behind")
 
 # Less memory, and records from a file: the same bits.
-suite.expect_run("a memory limit is obeyed and said so", ["render", "direct.rib", "-o", "small.exr", "--memory-limit", "1K", "-v"], 0, "points dropped")
+suite.expect_run("a memory limit is obeyed and said so", ["render", "direct.rib", "-o", "small.exr", "--memory-limit", "1K", "-v"], 0, "row by row")
 expect_same("a frame that is shaded bucket by bucket has the same bits", "direct.exr", "small.exr")
 suite.run("render", "indirect.rib", "-o", "given.exr", "--irradiance", "indirect.icf", "--stats", "given.json", "-q")
 expect_same("a render with records from a file has the same bits", "indirect.exr", "given.exr")

@@ -73,9 +73,9 @@ void expectGridsSound(const Scene& scene, int object, uint32_t patch, Stats& sta
 
 void expectPictureFinite(Scene& scene, ShadingSystem& shading, Stats& stats, Log& log) {
   DeepFrame frame = hideFrame(scene, shading, {}, stats, log);
-  shadeFrame(frame, scene, shading, {}, {}, stats);
   int unsound = 0;
-  for (const DeepTile& tile : frame.tiles) {
+  for (DeepTile& tile : frame.tiles) {
+    shadeTile(tile, scene, shading, {});
     for (const Fragment& f : tile.fragments) unsound += !std::isfinite(f.z);
     for (const ShadePoints& points : tile.batches)
       for (int channel = 0; channel < kFixedChannels; ++channel)

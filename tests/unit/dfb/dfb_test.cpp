@@ -30,13 +30,12 @@ Shot smallShot() {
   shot.scene.worldFromNamed["table"] = mat4(3.0f);
   shot.frame.crop = shot.frame.padded = {0, 0, 4, 2};
   shot.frame.bucketWidth = shot.frame.bucketHeight = 2, shot.frame.columns = 2, shot.frame.rows = 1;
-  shot.frame.layOutTiles();
   shot.seed = 5, shot.sources = {{"/a.rib", 99}}, shot.folder = "/tmp", shot.world = 2;
   return shot;
 }
 
 DeepTile smallTile(const DeepFrame& frame, size_t index) {
-  DeepTile tile{frame.tiles[index].rect, {}, {}, {}, {}, {}, {}};
+  DeepTile tile{frame.rectOf(index), {}, {}, {}, {}, {}, {}};
   tile.pixels.resize(4);
   if (index > 0) return tile;
   ShadePoints points(0, 1);
@@ -98,7 +97,7 @@ TEST_F(Dfb, HoldsWhatShadingNeedsOfTheScene) {
   EXPECT_EQ(s.seed, 5u);
   EXPECT_EQ(s.sources, smallShot().sources);
   EXPECT_EQ(s.world, 2);
-  EXPECT_EQ(s.frame.tiles.at(1).rect.x0, 2);
+  EXPECT_EQ(s.frame.rectOf(1).x0, 2);
 }
 
 TEST_F(Dfb, HoldsTilesBitForBit) {

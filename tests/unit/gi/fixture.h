@@ -146,6 +146,10 @@ inline DeepFrame frameOf(const World& world, int bucket) {
   return frame;
 }
 
+inline void gatherFrame(GiServices& services, const DeepFrame& frame) {
+  services.gatherPass(frame, readerOf(frame), {}, nullptr);
+}
+
 /// indirectDiffuse() at every point of a batch, on the side of the eye.
 inline std::vector<vec3> indirectAt(const GiServices& services, const ShadePoints& points,
                                     const IndirectQuery& query, const ShadeContext& context = {}) {

@@ -43,7 +43,7 @@ TEST(GatherPass, CoversEveryPointOfTheFrameWithFarFewerRecords) {
   World world(cornell(indirect(64)).scene);
   const DeepFrame frame = frameOf(world, 16);
   const auto services = world.use({});
-  services->gatherPass(frame, {}, nullptr);
+  gatherFrame(*services, frame);
   const int64_t samples = world.stats.irradianceCache.samples;
   EXPECT_LT(samples, 64 * 64 / 4);
   EXPECT_GT(samples, 64 * 64 / 300);
@@ -62,7 +62,7 @@ TEST(GatherPass, TheCacheDoesNotDependOnThreadsOrBuckets) {
       const ThreadLimit limit(threads);
       const DeepFrame frame = frameOf(world, bucket);
       const auto services = world.use({});
-      services->gatherPass(frame, {}, nullptr);
+      gatherFrame(*services, frame);
       const std::vector<vec3> E = indirectOf(*services, world, frame);
       if (first.empty()) first = E;
       EXPECT_EQ(E, first) << threads << " threads, buckets of " << bucket;
@@ -74,7 +74,7 @@ TEST(GatherPass, ASmallerMaxErrorTakesMoreRecords) {
   for (const float maxError : {2.0f, 1.0f, 0.5f}) {
     World world(cornell(indirect(16)).scene);
     const auto services = world.use({.maxError = maxError});
-    services->gatherPass(frameOf(world, 16), {}, nullptr);
+    gatherFrame(*services, frameOf(world, 16));
     EXPECT_GT(world.stats.irradianceCache.samples, last * 5 / 4) << maxError;
     last = world.stats.irradianceCache.samples;
   }
@@ -84,7 +84,7 @@ TEST(GatherPass, AMaxErrorOfZeroGathersEveryPointWhileShading) {
   World world(cornell(indirect(16), 16).scene);
   const DeepFrame frame = frameOf(world, 16);
   const auto services = world.use({.maxError = 0});
-  services->gatherPass(frame, {}, nullptr);
+  gatherFrame(*services, frame);
   EXPECT_EQ(world.stats.irradianceCache.samples, 0);
   indirectOf(*services, world, frame);
   int64_t points = 0;
@@ -97,7 +97,7 @@ TEST(GatherPass, InterpolatedLightAgreesWithTheReference) {
   World world(cornell(indirect(256)).scene);
   const DeepFrame frame = frameOf(world, 16);
   auto services = world.use({.maxError = 0.5f});
-  services->gatherPass(frame, {}, nullptr);
+  gatherFrame(*services, frame);
   const std::vector<vec3> cached = indirectOf(*services, world, frame);
   services = world.use({.mode = GiMode::Reference, .samples = 64, .seed = 7});
   const std::vector<vec3> truth = indirectOf(*services, world, frame);
@@ -136,7 +136,7 @@ DeepFrame frameOfOneFacet(const World& world, size_t pixels) {
 TEST(GatherPass, EveryCornerOfASmoothShadedFacetIsCoveredOnce) {
   for (const size_t pixels : {1, 100}) {
     World world(cornell(indirect(16)).scene);
-    world.use({})->gatherPass(frameOfOneFacet(world, pixels), {}, nullptr);
+    gatherFrame(*world.use({}), frameOfOneFacet(world, pixels));
     EXPECT_EQ(world.stats.irradianceCache.samples, 4) << pixels;
   }
 }
@@ -150,7 +150,7 @@ TEST(GatherPass, HoldoutsAndSurfacesThatDoNotReceiveAreLeftOut) {
       o.attributes = attributes;
     }
     World world(scene);
-    world.use({})->gatherPass(frameOf(world, 16), {}, nullptr);
+    gatherFrame(*world.use({}), frameOf(world, 16));
     EXPECT_EQ(world.stats.irradianceCache.samples, 0);
   }
 }
@@ -165,7 +165,7 @@ TEST(GatherPass, AttributesOverrideTheLight) {
       o.attributes = attributes;
     }
     World world(scene);
-    world.use({})->gatherPass(frameOf(world, 16), {}, nullptr);
+    gatherFrame(*world.use({}), frameOf(world, 16));
     samples[tight] = world.stats.irradianceCache.samples;
   }
   EXPECT_GT(samples[1], 5 * samples[0] / 4);
@@ -176,14 +176,13 @@ TEST(GatherPass, ReportsProgressAndObeysCancellation) {
   const DeepFrame frame = frameOf(world, 16);
   std::vector<float> heard;
   auto services = world.use({});
-  services->gatherPass(
-      frame, [&](float f) { heard.push_back(f); }, nullptr);
+  services->gatherPass(frame, readerOf(frame), [&](float f) { heard.push_back(f); }, nullptr);
   EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
   EXPECT_EQ(heard.back(), 1);
 
   const int64_t before = world.stats.irradianceCache.samples;
   std::atomic<bool> cancelled{true};
-  world.use({})->gatherPass(frame, {}, &cancelled);
+  world.use({})->gatherPass(frame, readerOf(frame), {}, &cancelled);
   EXPECT_EQ(world.stats.irradianceCache.samples, before);
 }
 
@@ -191,8 +190,8 @@ TEST(GatherPass, AnEmptyOrInterruptedFrameIsNoTrouble) {
   World world(cornell(indirect(16)).scene);
   DeepFrame frame = frameOf(world, 16);
   for (DeepTile& tile : frame.tiles) tile = {};
-  world.use({})->gatherPass(frame, {}, nullptr);
-  world.use({})->gatherPass(DeepFrame{}, {}, nullptr);
+  gatherFrame(*world.use({}), frame);
+  gatherFrame(*world.use({}), DeepFrame{});
   EXPECT_EQ(world.stats.irradianceCache.samples, 0);
 }
 

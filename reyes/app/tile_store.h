@@ -1,0 +1,57 @@
+// The hidden buckets of a frame between the passes that read them: in memory as far as a budget goes, the others in a file.
+// Threads: any, but a bucket's own by one at a time.
+#pragma once
+#include <atomic>
+#include <optional>
+
+#include "reyes/deep.h"
+
+namespace tomales {
+
+class TileStore {
+ public:
+  /// Where tiles rest that are not in memory. `load` gives nothing for those that are not there.
+  using Load = std::function<std::optional<DeepTile>(size_t tile)>;
+  TileStore(size_t tiles, int64_t budget_bytes, Load load)
+      : load_(std::move(load)), budget_bytes_(budget_bytes), kept_(tiles) {}
+
+  /// False: it would not fit, and has to be where `load` finds it.
+  bool keep(size_t index, DeepTile& tile) {
+    const auto bytes = static_cast<int64_t>(tile.bytes());
+    if ((held_bytes_ += bytes) > budget_bytes_) {
+      held_bytes_ -= bytes;
+      return false;
+    }
+    kept_[index] = std::make_shared<DeepTile>(std::move(tile));
+    return true;
+  }
+
+  /// To look at; null: it is nowhere.
+  std::shared_ptr<const DeepTile> read(size_t index) {
+    if (kept_[index]) return kept_[index];
+    std::optional<DeepTile> tile = load_(index);
+    if (!tile) return nullptr;
+    if (keep(index, *tile)) return kept_[index];
+    return std::make_shared<const DeepTile>(std::move(*tile));
+  }
+  TileReader reader() {
+    return [this](size_t index) { return read(index); };
+  }
+
+  /// For good: it is forgotten here.
+  std::optional<DeepTile> take(size_t index) {
+    if (!kept_[index]) return load_(index);
+    DeepTile tile = std::move(*kept_[index]);
+    kept_[index].reset();
+    held_bytes_ -= static_cast<int64_t>(tile.bytes());
+    return tile;
+  }
+
+ private:
+  const Load load_;
+  const int64_t budget_bytes_;
+  std::atomic<int64_t> held_bytes_{0};
+  std::vector<std::shared_ptr<DeepTile>> kept_;
+};
+
+}  // namespace tomales

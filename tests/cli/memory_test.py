@@ -1,0 +1,74 @@
+"""Frames that are made row by row, or that rest in a file, have the bits of frames in memory, and memory does not grow with their
+area."""
+import json
+import subprocess
+
+from program import Suite
+
+SCENE = """Display "picture.exr" "openexr" "rgba"
+Display "+deep.exr" "deepexr" "rgba"
+Display "+names.exr" "openexr" "CryptoObject"
+DisplayChannel "color direct" "string source" ["lightgroup:key"]
+DisplayChannel "normal N" "string filter" ["catmull-rom"] "float[2] filterwidth" [6 6]
+Display "+more.exr" "openexr" "direct,N,z"
+Option "bucket" "string order" ["%s"]
+Option "limits" "int[2] bucketsize" [%s]
+Format 70 50 1
+PixelSamples 2 2
+PixelFilter "%s" 3 3
+Projection "perspective" "fov" [40]
+Translate 0 0 5
+WorldBegin
+LightSource "distantlight" "key" "string __group" ["key"] "from" [1 3 -3] "to" [0 0 0]
+%s
+Surface "matte"
+Attribute "identifier" "name" ["floor"]
+Polygon "P" [-4 -1 -4 -4 -1 4 4 -1 4 4 -1 -4]
+Attribute "identifier" "name" ["glass"]
+Opacity [0.4 0.5 0.6]
+ShadingInterpolation "smooth"
+Sphere 1 -1 1 360
+WorldEnd
+"""
+INDIRECT = 'LightSource "indirectlight" "gi" "float samples" [32]'
+FILES = ("picture.exr", "more.exr", "names.exr", "deep.exr")
+suite = Suite()
+
+
+def pictures():
+    """What is in them; not their bytes, which hold dates."""
+    out = []
+    for name in FILES:
+        dump = "--dumpdata" if name == "deep.exr" else "--hash"
+        dumped = subprocess.run(["oiiotool", dump, "--info", "-v", name], cwd=suite.folder, capture_output=True, text=True)
+        suite.expect(dumped.returncode == 0 and ("SHA-1" in dumped.stdout or "Pixel" in dumped.stdout), f"{name} was written " + dumped.stderr[-200:])
+        out.append(dumped.stdout)
+    return out
+
+
+for light in ("", INDIRECT):
+    kind = "a frame with indirect light" if light else "a frame"
+    suite.write("scene.rib", SCENE % ("horizontal", "16 16", "gaussian", light))
+    suite.expect_run(f"{kind} in memory", ["scene.rib", "-v"], 0)
+    whole = pictures()
+    for order, size in (("horizontal", "16 16"), ("vertical", "7 5"), ("zigzag-x", "16 16"), ("zigzag-y", "9 16"), ("spacefill", "16 16"),
+                        ("spiral", "16 11"), ("random", "16 16")):
+        suite.write("scene.rib", SCENE % (order, size, "gaussian", light))
+        says = "buckets rest in a file" if light else "row by row"
+        suite.expect_run(f"{kind}, {order}, with little memory", ["scene.rib", "--memory-limit", "1K", "-v", "-t", "3"], 0, says)
+        suite.expect(pictures() == whole, f"has the same bits in buckets {size}, {order}")
+    suite.expect(not [f for f in suite.folder.iterdir() if ".part" in f.name], "no file is left behind")
+
+# A picture four times as wide and high takes little more memory.
+suite.write("large.rib", SCENE[SCENE.index("Option"):].replace("Format 70 50 1\nPixelSamples 2 2", "PixelSamples 1 1") % ("horizontal", "16 16", "gaussian", ""))
+
+
+def peak(size):
+    suite.expect_run(f"a frame of {size}", ["large.rib", "-o", "large.exr", "--format", size, "--memory-limit", "1M", "--stats", "s.json", "-t", "2"], 0)
+    return json.loads((suite.folder / "s.json").read_text())["memory_bytes"]["peak_rss"] / 1e6
+
+
+small, large = peak("400x400"), peak("1600x1600")
+print(f"        {small:.0f} MB, {large:.0f} MB")
+suite.expect(large < small + 60, "sixteen times the area takes less than 60 MB more")
+suite.finish()
