@@ -1,4 +1,5 @@
-// Curves as they come in RIB (RISpec 3.2, Curves): every segment is a cubic Bezier curve with a width. Private to the primitives.
+// Curves as they come in RIB (RISpec 3.2, Curves): every segment is a cubic Bezier curve with a width.
+// Private to the primitives.
 #pragma once
 #include <array>
 
@@ -37,17 +38,22 @@ struct CurveSegment {
 class CurveSegments {
  public:
   /// Throws PrimError like makeCurves().
-  CurveSegments(bool cubic, const Basis& basis, const std::vector<int>& vertexCounts, bool periodic, const ParamList& params,
-                Problems& problems);
+  CurveSegments(bool cubic, const Basis& basis, const std::vector<int>& vertexCounts, bool periodic,
+                const ParamList& params, Problems& problems);
 
   uint32_t count() const { return static_cast<uint32_t>(segments_.size()); }
   const CurveSegment& operator[](size_t k) const { return segments_[k]; }
 
   /// Position and width.
   const Cubic<vec4>& line(size_t k) const { return lines_[k]; }
-  /// Along a segment, not normalised, and its slope by v; never zero for a segment with a length. At a vertex of a polyline it is
-  /// the mean of two directions, so that neighbours meet.
+  /// Along a segment, not normalised, and its slope by v; never zero for a segment with a length. At a vertex
+  /// of a polyline it is the mean of two directions, so that neighbours meet.
   void direction(size_t k, float v, vec3& along, vec3& slope) const;
+  bool cubic() const { return cubic_; }
+  /// Of a polyline: a segment's unit direction (0 if it has no length), and at its ends the means with its
+  /// neighbours'.
+  vec3 chord(size_t k) const;
+  const std::array<vec3, 2>& mitres(size_t k) const { return mitres_[k]; }
   /// A primvar's first three components along each segment.
   std::vector<Cubic<vec3>> along(const Primvar& var) const;
 
@@ -61,8 +67,8 @@ class CurveSegments {
 
  private:
   std::vector<Cubic<vec3>> along(const Primvar& var, const float* values) const;
-  Cubic<float> componentAlong(const Primvar& var, const float* values, int component, const CurveSegment& s) const;
-  vec3 chordOf(size_t k) const;
+  Cubic<float> componentAlong(const Primvar& var, const float* values, int component,
+                              const CurveSegment& s) const;
   void findMitres();
 
   bool cubic_;

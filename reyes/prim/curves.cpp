@@ -8,7 +8,8 @@ namespace {
 
 class Ribbons : public Prim {
  public:
-  explicit Ribbons(CurveSegments segments) : Prim(std::move(segments.primvars)), segments_(std::move(segments)) {
+  explicit Ribbons(CurveSegments segments)
+      : Prim(std::move(segments.primvars)), segments_(std::move(segments)) {
     if (const Primvar* normals = normalsOf(primvars_)) normals_ = segments_.along(*normals);
   }
 
