@@ -169,6 +169,9 @@ PrimPtr makePoints(const ParamList&, Problems&);
 /// facing the eye. One patch a segment. `basis` is for cubic curves.
 PrimPtr makeCurves(bool cubic, const Basis& basis, const std::vector<int>& vertexCounts, bool periodic, const ParamList&,
                    Problems&);
+/// The same as tubes: u around. Loose ends wider than 0 are closed by flat disks, patches that follow the segments.
+PrimPtr makeTubes(bool cubic, const Basis& basis, const std::vector<int>& vertexCounts, bool periodic, const ParamList&,
+                  Problems&);
 
 /// Newell's teapot, 3.15 high, on z = 0 with its spout towards x. Primvars run over every patch alike.
 PrimPtr makeTeapot(const ParamList&, Problems&);

@@ -201,6 +201,8 @@ void attribute(GraphicsState& s, const Request& r) {
       trimSense(s, r, text ? p.strings[0] : "");
     } else if (key == "shade:relativeshadingrate" || key == "shade:resetrelativeshadingrate") {
       relativeShadingRate(s, r, p.number(1), key == "shade:resetrelativeshadingrate");
+    } else if (key == "dice:roundcurve") {
+      s.scope.roundCurves = p.number(0) != 0;
     } else if (key == "light:shadows") {
       s.scope.lightsCastShadows = text ? p.strings[0] == "on" : p.number(0) != 0;
     } else {

@@ -62,7 +62,7 @@ constexpr Standard kStandard[] = {
     {"int",
      "visibility:camera visibility:diffuse visibility:specular visibility:transmission visibility:photon "
      "visibility:midpoint visibility:trace trace:displacements trace:samplemotion trace:maxdiffusedepth "
-     "trace:maxspeculardepth indirect:receive dice:rasterorient dice:binary dice:hair cull:hidden "
+     "trace:maxspeculardepth indirect:receive dice:rasterorient dice:binary dice:hair dice:roundcurve cull:hidden "
      "cull:backfacing derivatives:centered derivatives:extrapolate photon:estimator irradiance:nsamples "
      "stitch:enable sides:doubleshaded"},
 };

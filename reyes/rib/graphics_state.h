@@ -26,6 +26,7 @@ struct Scope {
   Basis uBasis = bezierBasis(), vBasis = bezierBasis();
   std::shared_ptr<const TrimLoops> trim = std::make_shared<TrimLoops>();  ///< Attribute "trimcurve" is part of it.
   float shadingRate = 1, relativeShadingRate = 1;  ///< Their product is in the attributes.
+  bool roundCurves = false;        ///< Attribute "dice" "roundcurve"
   bool lightsCastShadows = false;  ///< Attribute "light" "shadows": for lights that are made here.
   std::map<std::string, Motion> coordinateSystems;  ///< ScopedCoordinateSystem
   DetailState detail;
@@ -41,6 +42,7 @@ struct Master {
     std::vector<PrimPtr> keys;
     std::vector<float> times;
     Basis uBasis, vBasis;
+    bool roundCurves;
     std::shared_ptr<const TrimLoops> trim;  ///< Those that it was built with; the others see the values of the request only.
   };
   std::vector<Request> requests;
