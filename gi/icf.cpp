@@ -26,9 +26,15 @@ void fields(A& a, EmitterLattice& x) {
 }
 
 template <class A>
+void fields(A& a, EmitterShape& x) {
+  auto& [kind, center, u, v, normal] = x;
+  each(a, kind, center, u, v, normal);
+}
+
+template <class A>
 void fields(A& a, EmitterLight& x) {
-  auto& [lattices, reach] = x;
-  each(a, lattices, reach);
+  auto& [shapes, lattices, reach] = x;
+  each(a, shapes, lattices, reach);
 }
 
 template <class A>

@@ -41,7 +41,10 @@ typedef enum TmCapability {
   TM_EMITS = 1 << 6,          /* surface: adds emitted radiance of its own, beside light that it reflects */
   TM_LIGHT_SAMPLED = 1 << 7,  /* light: asked for as many samples as its parameter `samples` says, with xi0 and xi1;
                                  Cl is the share of one sample */
-  TM_TRACES = 1 << 8         /* surface, light: calls trace(), gather(), occlusion() or transmission() */
+  TM_TRACES = 1 << 8,        /* surface, light: calls trace(), gather(), occlusion() or transmission() */
+  TM_LIGHT_SKY = 1 << 9      /* light, with TM_LIGHT_SOLAR: all around, at infinity. The host chooses L, by the brightness of the
+                                latitude-longitude picture that its parameter `map` names and by the cosine, parameter
+                                `samples` times; Cl is the radiance from there */
 } TmCapability;
 
 /* One declared parameter. Points, vectors, normals and matrices are given in shader space and arrive in current. */
@@ -216,6 +219,17 @@ typedef struct TmServices {
   int32_t (*rayInfo)(void* host, const TmGrid*, const char* name, TmVec3 out);
   /* Its label. */
   const char* (*rayLabel)(void* host, const TmGrid*);
+
+  /* Multiple importance sampling of a surface's own lobe f (the cosine included, over pi less), as specular() does it. With m =
+   * lobeSamples() and p(L) the density over solid angle with which the surface draws L, the highlight is the sum of
+   *   f(L) Cl / (1 + (m p(L) / d)^2)    over light(): d of lightDensity(), or wholly where that is 0
+   *   f(L) Cl                           over m directions of its own: Cl of lightAlong()
+   * lightDensity: 0 where lightAlong() would not find the light. lightAlong: L unit length, sample number 0..m-1, density p(L), 0 for
+   * none. stratified: numbers in [0,1) for sample number `sample`. */
+  void (*lightDensity)(void* host, const TmGrid*, int32_t index, float* out);
+  void (*lightAlong)(void* host, const TmGrid*, TmConstVec3 L, const float* density, int32_t sample, int32_t samples, TmVec3 Cl);
+  int32_t (*lobeSamples)(void* host, const TmGrid*);
+  void (*stratified)(void* host, const TmGrid*, int32_t sample, int32_t samples, float* xi0, float* xi1);
 } TmServices;
 
 typedef struct TmShader {

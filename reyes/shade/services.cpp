@@ -3,6 +3,7 @@
 
 #include "reyes/base/rng.h"
 #include "reyes/shade/batch.h"
+#include "reyes/shade/lobe.h"
 #include "reyes/shade/ray_services.h"
 #include "reyes/shade/spaces.h"
 
@@ -49,17 +50,6 @@ void diffuseOf(void* host, const TmGrid* g, int32_t which, TmConstVec3 N, TmVec3
 
 void diffuse(void* host, const TmGrid* g, TmConstVec3 N, TmVec3 out) {
   diffuseOf(host, g, TM_DIRECT_LIGHT | TM_INDIRECT_LIGHT, N, out);
-}
-
-// The exponent is PRMan's 8/roughness, not RISpec's 1/roughness (docs/decisions/0004).
-void specular(void* host, const TmGrid* g, TmConstVec3 N, TmConstVec3 V, const float* roughness, TmVec3 out) {
-  Batch& batch = batchOf(host);
-  if (batch.context.kind == RayKind::Diffuse) return fill(g, out, vec3(0.0f));
-  const auto counts = [](const BoundLight& light) { return !light.nonspecular; };
-  sumOverLights(batch, g, N, counts, out, [&](int i, const vec3& L, const vec3& n) {
-    const vec3 H = normalizeOr(L + normalizeOr(get(V, i), vec3(0.0f)), vec3(0.0f));
-    return std::pow(std::max(0.0f, dot(n, H)), 8 / std::max(roughness[i], 1e-6f));
-  });
 }
 
 void ambient(void* host, const TmGrid* g, TmVec3 out) {
@@ -122,12 +112,11 @@ int32_t environment(void* host, const TmGrid* g, const char* name, TmConstVec3 d
   float *width = batch.arena.floats(n), *height = batch.arena.floats(n);
   forActive(g, [&](int i) {
     const vec3 d = normalizeOr(worldFromCurrent * get(direction, i), vec3(0, 0, 1));
-    const float longitude = std::atan2(d.y, d.x) / (2 * kPi), across = std::sqrt(d.x * d.x + d.y * d.y);
-    s[i] = longitude < 0 ? longitude + 1 : longitude;
-    t[i] = std::atan2(across, d.z) / kPi;
+    const vec2 st = latLong(d);
+    s[i] = st.x, t[i] = st.y;
     if (!angle) return;
     height[i] = std::min(1.0f, angle[i] / kPi);
-    width[i] = std::min(1.0f, angle[i] / (2 * kPi * std::max(across, 1e-6f)));
+    width[i] = std::min(1.0f, angle[i] / (2 * kPi * std::max(std::sqrt(d.x * d.x + d.y * d.y), 1e-6f)));
   });
   const TextureQuery query{name, 0, 3, n, g->active, s, t, width, height, true};
   return batch.scene.textures.lookup(query, batch.running->where, batch.running->user, out);
@@ -241,6 +230,7 @@ void report(void* host, const TmGrid*, int32_t severity, const char* message) {
 const TmServices kServices = {
     sizeof(TmServices), diffuse,      specular,        ambient, light,      transform, texture,
     calculateNormal,    transmission, indirectDiffuse, report,  environment, diffuseOf, shadow,
-    traceRays,          gatherRays,   occlusion,       transmissionWith, rayInfo, rayLabel};
+    traceRays,          gatherRays,   occlusion,       transmissionWith, rayInfo, rayLabel,
+    lightDensity,       lightAlong,   lobeSamples,     stratified};
 
 }  // namespace tomales
