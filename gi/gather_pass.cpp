@@ -141,7 +141,8 @@ class GatherPass {
     parallelFor(points.size(), kPointsPerSlice, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i) {
         const auto [p, cache] = siteOf(points[i]);
-        covered[i] = state_.caches[cache].cache.lookup(p.position, p.normal, p.pixelSize).weight >= kEnough;
+        const IrradianceEstimate known = state_.caches[cache].cache.lookup(p.position, p.normal, p.pixelSize);
+        covered[i] = known.weight >= kEnough && !known.disputed;
       }
     });
     std::vector<Site> sites;
