@@ -1,11 +1,14 @@
 #include "gi/gather.h"
 
-#include "gi/hemisphere.h"
+#include "gi/hessian.h"
 #include "gi/layers.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
 namespace {
+
+/// At `maxerror` 1, in squared pixels: about as many records as the paper's function (docs/gi.md).
+constexpr float kHessianTolerance = 4;
 
 /// Where in each cell its ray goes: correlated multi-jitter (Kensler 2013). The columns of a ring take
 /// different heights in their cells and the rings of a sector different angles, so both projections are
@@ -111,6 +114,11 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
   IrradianceRecord record = summarize(samples);
   record.position = point.position;
   record.pixelSize = point.pixelSize;
+  if (settings.curvature) {
+    const IrradianceCurvature curvature = curvatureOf(samples);
+    std::copy_n(curvature.gradient, 3, record.translationGradient);
+    record.smoothRadius = hessianRadius(curvature, luminance(record.E), point.pixelSize, kHessianTolerance);
+  }
   return record;
 }
 

@@ -126,7 +126,8 @@ class GatherPass {
       if (!seen_->set(t, firstOfBatch[b] + static_cast<size_t>(point))) return;
       const Site site = siteOf(tile.batches[b], point, x, y);
       const GatherPoint& p = site.point;
-      if (state_.caches[site.cache].cache.lookup(p.position, p.normal, p.pixelSize).weight < kEnough) out.push_back(site);
+      const IrradianceEstimate known = state_.caches[site.cache].cache.lookup(p.position, p.normal, p.pixelSize);
+      if (known.weight < kEnough || known.disputed) out.push_back(site);
     };
     for (int y = tile.rect.y0; y < tile.rect.y1; ++y)
       for (int x = tile.rect.x0; x < tile.rect.x1; ++x) {

@@ -15,6 +15,12 @@ constexpr uint32_t kPathStream =
 // means the same for both.
 constexpr float kWardKappa = 4;
 
+constexpr float kHessianMaxPixels = 40;  // it knows where light is even
+
+ErrorFunction errorFunctionNamed(const std::string& name) {
+  return name == "ward" ? ErrorFunction::Ward : name == "hessian" ? ErrorFunction::Hessian : ErrorFunction::Screen;
+}
+
 vec3 unitNormal(const ShadePoints& points, TmConstVec3 N, int i) {
   return normalizeOr({N.x[i], N.y[i], N.z[i]}, points.facingNormal(i));
 }
@@ -116,12 +122,13 @@ GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) 
   const Attributes& attributes = *state.scene.groups[static_cast<size_t>(group)].attributes;
   const GiSettings& settings = state.settings;
   GatherPlan plan;
-  plan.cache.errorFunction = settings.errorFunction.value_or(query.errorFunction == "ward" ? ErrorFunction::Ward : ErrorFunction::Screen);
+  plan.cache.errorFunction = settings.errorFunction.value_or(errorFunctionNamed(query.errorFunction));
+  plan.gather.curvature = plan.cache.errorFunction == ErrorFunction::Hessian;
   const float maxError =
       settings.maxError >= 0 ? settings.maxError : attributes.irradianceMaxError.value_or(query.maxError);
   const float kappaAtOne = plan.cache.errorFunction == ErrorFunction::Ward ? kWardKappa : 1.0f;
   plan.cache.kappa = maxError > 0 ? kappaAtOne / maxError : kInfinity;
-  plan.cache.maxPixels = attributes.irradianceMaxPixelDist.value_or(plan.cache.maxPixels);
+  plan.cache.maxPixels = attributes.irradianceMaxPixelDist.value_or(plan.gather.curvature ? kHessianMaxPixels : plan.cache.maxPixels);
   plan.gather.samples = std::max(1, settings.samples > 0 ? settings.samples : query.samples);
   plan.gather.maxDistance = query.maxDistance;
   plan.gather.seed = settings.seed;

@@ -35,7 +35,7 @@ void warnAboutUnsupported(const BoundShader& light, const IndirectQuery& q, Log&
     log.report(Severity::Warning, fmt::format("light-{}", name), light.where,
                fmt::format("{}: {} \"{}\" is not supported; {}", light.user, name, value, consequence));
   };
-  if (q.errorFunction != "screen" && q.errorFunction != "ward")
+  if (q.errorFunction != "screen" && q.errorFunction != "ward" && q.errorFunction != "hessian")
     warn("errorfunction", q.errorFunction, "\"screen\" is used");
   if (q.radiance != "shader" && q.radiance != "atlas") warn("radiance", q.radiance, "gather rays run the shaders");
   if (!q.atlas.empty()) warn("atlas", q.atlas, "it is not read");
