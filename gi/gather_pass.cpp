@@ -142,7 +142,7 @@ class GatherPass {
       for (size_t i = begin; i < end; ++i) {
         const auto [p, cache] = siteOf(points[i]);
         const IrradianceEstimate known = state_.caches[cache].cache.lookup(p.position, p.normal, p.pixelSize);
-        covered[i] = known.weight >= kEnough && !known.disputed;
+        covered[i] = known.weight >= kEnough && (!known.disputed || state_.cachesGiven);  // what was given is appended to, not refined
       }
     });
     std::vector<Site> sites;
