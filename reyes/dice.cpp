@@ -5,6 +5,41 @@
 namespace tomales {
 namespace {
 
+/// Three arrays.
+template <class T>
+struct Triple {
+  T *x, *y, *z;
+};
+
+/// In the order of glm's product, so that one point is moved to the same bits.
+TOMALES_HOT void transformAffine(const mat4& m, int n, Triple<const float> from, Triple<float> to) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const float x = from.x[i], y = from.y[i], z = from.z[i];
+    to.x[i] = (m[0][0] * x + m[1][0] * y) + (m[2][0] * z + m[3][0]);
+    to.y[i] = (m[0][1] * x + m[1][1] * y) + (m[2][1] * z + m[3][1]);
+    to.z[i] = (m[0][2] * x + m[1][2] * y) + (m[2][2] * z + m[3][2]);
+  }
+}
+
+void transformPoints(const mat4& m, int n, Triple<const float> from, Triple<float> to) {
+  if (m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] == 1) return transformAffine(m, n, from, to);
+  for (int i = 0; i < n; ++i) {
+    const vec3 p = transformPoint(m, {from.x[i], from.y[i], from.z[i]});
+    to.x[i] = p.x, to.y[i] = p.y, to.z[i] = p.z;
+  }
+}
+
+TOMALES_HOT void transformDirections(const mat3& m, int n, Triple<const float> from, Triple<float> to) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const float x = from.x[i], y = from.y[i], z = from.z[i];
+    to.x[i] = m[0][0] * x + m[1][0] * y + m[2][0] * z;
+    to.y[i] = m[0][1] * x + m[1][1] * y + m[2][1] * z;
+    to.z[i] = m[0][2] * x + m[1][2] * y + m[2][2] * z;
+  }
+}
+
 /// Object-space results of Prim::evaluate for n points; memory is kept by the thread.
 class Evaluated {
  public:
@@ -26,6 +61,10 @@ class Evaluated {
   vec3 get(size_t first, int i) const {
     const float* x = data_ + first * stride_ + i;
     return {x[0], x[stride_], x[2 * stride_]};
+  }
+  Triple<const float> triple(size_t first) const {
+    const float* x = data_ + first * stride_;
+    return {x, x + stride_, x + 2 * stride_};
   }
   void blend(const Evaluated& next, float t) {
     for (size_t i = 0; i < stride_ * 12; ++i) data_[i] = lerp(data_[i], next.data_[i], t);
@@ -141,11 +180,12 @@ Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, in
   const auto at = [](float a, float b, int i, int count) {
     return i == count ? b : a + (b - a) * (static_cast<float>(i) / static_cast<float>(count));
   };
-  for (int j = 0, k = 0; j <= nv; ++j)
-    for (int i = 0; i <= nu; ++i, ++k) {
-      u[static_cast<size_t>(k)] = at(rect.u0, rect.u1, i, nu);
-      v[static_cast<size_t>(k)] = at(rect.v0, rect.v1, j, nv);
-    }
+  for (int i = 0; i <= nu; ++i) u[static_cast<size_t>(i)] = at(rect.u0, rect.u1, i, nu);
+  for (int j = 0; j <= nv; ++j) {
+    const int first = j * (nu + 1);
+    if (j > 0) std::copy_n(u.data(), nu + 1, u.data() + first);
+    std::fill_n(v.data() + first, nu + 1, at(rect.v0, rect.v1, j, nv));
+  }
 
   const bool whole = rect.u0 == 0 && rect.u1 == 1 && rect.v0 == 0 && rect.v1 == 1;
   const auto vertices = [&](const Prim& shape, SurfacePoints out) {
@@ -160,16 +200,10 @@ Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, in
     const mat4 m = keys.currentFromObject.at(time);
     if (keyCount > 1) g.turns.push_back(mat3(m) * glm::inverse(mat3(keys.currentFromObject.at(keys.times.front()))));
     evaluateAt(o, time, n, e, vertices);
-    for (int i = 0; i < n; ++i) {
-      const vec3 p = transformPoint(m, e.get(0, i));
-      g.P(key, 0)[i] = p.x, g.P(key, 1)[i] = p.y, g.P(key, 2)[i] = p.z;
-    }
+    transformPoints(m, n, e.triple(0), {g.P(key, 0), g.P(key, 1), g.P(key, 2)});
     if (key == 0) {
       const mat3 normals = normalMatrix(o, m);
-      for (int i = 0; i < n; ++i) {
-        const vec3 normal = normals * e.get(9, i);
-        g.N(0)[i] = normal.x, g.N(1)[i] = normal.y, g.N(2)[i] = normal.z;
-      }
+      transformDirections(normals, n, e.triple(9), {g.N(0), g.N(1), g.N(2)});
       int offset = 0;
       for (size_t k = 0; k < prim.primvars().size(); ++k) {
         const Primvar& p = prim.primvars()[k];
