@@ -45,7 +45,8 @@ class Ribbons : public Prim {
                  dv = c.slope + x * (c.widthSlope * c.side + c.width * c.sideSlope);
       setFrame(out, i, p, du, dv);
       const vec3 normal = cross(du, dv);
-      setNormal(out, i, glm::length(normal) > 1e-6f * glm::length(du) * glm::length(dv) ? normal : c.up);
+      const bool turns = dot(normal, normal) > 1e-12f * dot(du, du) * dot(dv, dv);
+      setNormal(out, i, turns ? normal : normalizeOr(c.up - c.side * dot(c.side, c.up), vec3(0, 0, 1)));
     }
   }
 
@@ -63,7 +64,7 @@ class Ribbons : public Prim {
   }
 
  private:
-  /// The ribbon's cross section: unit vectors `side` and, towards where it faces, `up`; slopes are by v.
+  /// The ribbon's cross section: the unit vector `side`, and `up`, towards where it faces; slopes are by v.
   struct Cross {
     vec3 center, slope, side, sideSlope, up;
     float width, widthSlope;
@@ -74,13 +75,13 @@ class Ribbons : public Prim {
     const vec4 value = valueAt(line, v), slope = slopeAt(line, v);
     Cross c{vec3(value), vec3(slope), {}, {}, {}, value.w, slope.w};
     const bool oriented = !normals_.empty();
-    const vec3 up = oriented ? valueAt(normals_[patch], v) : eye_.towards(c.center);
+    const vec3 up = c.up = oriented ? valueAt(normals_[patch], v) : eye_.towards(c.center);
     const vec3 upSlope = oriented ? slopeAt(normals_[patch], v) : eye_.perspective ? -c.slope : vec3(0);
     vec3 along, alongSlope;
     segments_.direction(patch, v, along, alongSlope);
     const vec3 across = cross(along, up), acrossSlope = cross(alongSlope, up) + cross(along, upSlope);
-    const float length = glm::length(across);
-    if (length > 1e-6f * glm::length(along) * glm::length(up)) {
+    if (dot(across, across) > 1e-12f * dot(along, along) * dot(up, up)) {
+      const float length = glm::length(across);
       c.side = across / length;
       c.sideSlope = (acrossSlope - c.side * dot(c.side, acrossSlope)) / length;
     } else {  // seen along its own direction
@@ -88,7 +89,6 @@ class Ribbons : public Prim {
       orthonormalBasis(normalizeOr(up, vec3(0, 0, 1)), c.side, other);
       c.sideSlope = vec3(0);
     }
-    c.up = normalizeOr(up - c.side * dot(c.side, up), vec3(0, 0, 1));
     return c;
   }
 
