@@ -74,8 +74,8 @@ class PictureLibrary {
   virtual std::unique_ptr<PictureReader> open(const std::string& path, std::string& error) const = 0;
   virtual std::unique_ptr<PictureWriter> create(const std::string& path, const PictureShape& shape, const PictureFormat& format,
                                                 std::string& error) const = 0;
-  /// `searchPath`: colon-separated folders.
-  virtual std::unique_ptr<TextureCache> textures(const std::string& searchPath) const = 0;
+  /// `searchPath`: colon-separated folders. `cache_MB`: of tiles in memory.
+  virtual std::unique_ptr<TextureCache> textures(const std::string& searchPath, float cache_MB) const = 0;
 };
 
 /// Loads the module. Null: it cannot be loaded; `error` says why.

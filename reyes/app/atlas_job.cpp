@@ -59,7 +59,7 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
   const fs::path folder = given.empty() ? temporary.path : fs::path(given);
   try {
     if (!hasMaps(folder)) writeAtlas(folder, scene, rays, shading, atlas, {}, stats, log);
-    return std::make_unique<const IrradianceAtlas>(folder, scene, atlas, settings.brickCacheBytes, log);
+    return std::make_unique<const IrradianceAtlas>(folder, scene, atlas, brickCacheBytes(settings), log);
   } catch (const FileError& e) {
     log.report(Severity::Missing, "atlas", {}, std::string(e.what()) + ": rendered without indirect light");
     return nullptr;

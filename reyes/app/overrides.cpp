@@ -107,8 +107,18 @@ GiMode giModeOf(GiChoice choice, const Scene& scene) {
   }
 }
 
+/// If the scene does not ask for less.
+void limitTextures(Options& options, int64_t limit_bytes) {
+  Param& p = options.user["limits:texturememory"];
+  const float most_KB = static_cast<float>(textureShare(limit_bytes)) / 1024;
+  const float asked_KB = p.number(most_KB);
+  p = {};
+  p.name = "texturememory", p.floats = {std::min(asked_KB, most_KB)};
+}
+
 void applyOverrides(Scene& scene, const RenderSettings& settings) {
   Options& o = scene.options;
+  if (settings.memoryLimit) limitTextures(o, *settings.memoryLimit);
   if (settings.format) o.xResolution = (*settings.format)[0], o.yResolution = (*settings.format)[1];
   if (settings.crop) o.cropWindow = *settings.crop;
   if (settings.pixelSamples)

@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <atomic>
-#include <filesystem>
-#include <mutex>
 
 #include "gi/icf.h"
+#include "reyes/app/bucket_file.h"
 #include "reyes/app/frame_job.h"
-#include "reyes/app/hide.h"
 #include "reyes/app/interrupt.h"
 #include "reyes/app/tile_store.h"
+#include "reyes/base/process.h"
 
 namespace tomales {
 namespace {
@@ -44,67 +42,25 @@ bool fitsMemory(const Scene& scene, const DeepFrame& layout, Log& log) {
   return false;
 }
 
-/// Hidden buckets in a file beside the picture: with --resume all of them, those of an interrupted run among them; else those that
-/// memory does not hold, in a file that is gone when the program is.
-class BucketFile {
- public:
-  BucketFile(const Scene& scene, int world, const RenderSettings& settings, Log& log)
-      : picture_(scene.options.displays.front().name), layout_(layOutFrame(scene)), log_(log), resumes_(settings.resume) {
-    if (!resumes_) return;
-    const Shot shot{scene, layout_, settings.seed, sourcesOf(settings.files), std::filesystem::current_path().string(), world};
-    std::string error;
-    file_ = DfbWriter::create(picture_ + ".dfb", shot, true, error);
-    if (!file_)
-      log.report(Severity::Warning, "resume", {}, "buckets cannot be kept for --resume: " + error);
-    else
-      log.report(Severity::Info, "resume", {}, fmt::format("{} of {} buckets were finished before", file_->tilesKept(), layout_.tileCount()));
-  }
+/// For hidden buckets: what --memory-limit leaves beside what is in memory now and what caches may grow to.
+int64_t tileBudget(const RenderSettings& settings) {
+  if (!settings.memoryLimit) return kUsualLimit;
+  const int64_t caches = textureShare(*settings.memoryLimit) + static_cast<int64_t>(brickCacheBytes(settings));
+  return std::max<int64_t>(0, *settings.memoryLimit - residentBytes() - caches);
+}
 
-  std::optional<DeepTile> tile(size_t index) const { return file_ ? file_->tile(index) : std::nullopt; }
-
-  void keepForResume(size_t index, const DeepTile& tile) {
-    if (resumes_ && file_ && !file_->has(index) && !file_->write(index, tile))
-      log_.report(Severity::Warning, "resume", {}, "buckets cannot be kept for --resume: " + file_->error());
-  }
-
-  void spill(size_t index, const DeepTile& tile) {
-    std::string error;
-    {
-      const std::lock_guard lock(opening_);
-      if (!file_) file_ = openUnnamed(error);
-    }
-    if (!file_ || (!file_->has(index) && !file_->write(index, tile)))
-      log_.report(Severity::Output, "spill", {},
-                  "the frame's buckets do not fit into memory, nor into a file beside \"" + picture_ + "\", and some are left out: " +
-                      (file_ ? file_->error() : error));
-    ++spilled_;
-  }
-  int64_t spilled() const { return spilled_; }
-
-  /// The picture is written: nothing is left to resume.
-  void forget() {
-    std::error_code problem;
-    if (file_) std::filesystem::remove(file_->temporary(), problem);
-  }
-
- private:
-  std::unique_ptr<DfbWriter> openUnnamed(std::string& error) const {
-    Shot layoutAlone;
-    layoutAlone.frame = layout_;
-    auto file = DfbWriter::create(fmt::format("{}.{}.dfb", picture_, ::getpid()), layoutAlone, false, error);
-    std::error_code problem;
-    if (file) std::filesystem::remove(file->temporary(), problem);
-    return file;
-  }
-
-  const std::string picture_;
-  const DeepFrame layout_;
-  Log& log_;
-  const bool resumes_;
-  std::mutex opening_;
-  std::unique_ptr<DfbWriter> file_;
-  std::atomic<int64_t> spilled_{0};
-};
+void reportMemory(int64_t limit, const std::string& done, const Stats& stats, Log& log) {
+  const auto MB = [](int64_t bytes) { return static_cast<double>(bytes) / 1e6; };
+  log.report(Severity::Info, "memory-limit", {},
+             fmt::format("--memory-limit: {}; textures get {:.0f} MB at most; {:.0f} MB were used at the peak", done,
+                         MB(textureShare(limit)), MB(peakResidentBytes())));
+  if (peakResidentBytes() > limit)
+    log.report(Severity::Warning, "memory-exceeded", {},
+               fmt::format("--memory-limit {:.0f} MB cannot be kept, {:.0f} MB were used: besides the program itself geometry took {:.1f} MB, grids {:.1f}, what rays "
+                           "meet {:.1f}",
+                           MB(limit), MB(peakResidentBytes()), MB(stats.memoryBytes.geometry), MB(stats.memoryBytes.grids),
+                           MB(stats.raytrace.bytes)));
+}
 
 /// False: the file cannot be read, which is reported.
 bool useIrradiance(const Scene& scene, const RenderSettings& settings, GiServices& services, Log& log) {
@@ -130,22 +86,22 @@ void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats&
   checkDisplays(scene.options, log);
   FrameJob job(scene, settings, stats, log);
   const bool given = !settings.irradiance.empty(), gathers = job.gathers() && (!given || settings.appendIrradiance);
-  const int64_t limit_bytes = settings.memoryLimit.value_or(kUsualLimit);
-  const bool streams = !gathers && pixelsOf(scene) * (bytesOfTilePixel(scene) + kBytesOfPoints) > limit_bytes;
+  const int64_t budget_bytes = tileBudget(settings);
+  const bool streams = !gathers && pixelsOf(scene) * (bytesOfTilePixel(scene) + kBytesOfPoints) > budget_bytes;
 
   if (streams || given || settings.resume) job.openAll();
   BucketFile file(scene, world, settings, log);
-  const auto find = [&](size_t i) { return file.tile(i); };
+  const std::function<std::optional<DeepTile>(size_t)> find = [&](size_t i) { return file.tile(i); };
   if (streams || given) job.prepareRays();
   if (given && job.services() && !useIrradiance(scene, settings, *job.services(), log)) return;
   if (streams) {
     job.hideAndWrite(layout, find, [&](size_t i, const DeepTile& tile) { file.keepForResume(i, tile); });
   } else {
-    TileStore store(layout.tileCount(), limit_bytes, find);
+    TileStore store(layout.tileCount(), budget_bytes, find);
     const TileSink sink{{}, [&](size_t i, DeepTile&& tile) {
                           file.keepForResume(i, tile);
                           if (!store.keep(i, tile)) file.spill(i, tile);
-                        }, find};
+                        }, settings.resume ? find : nullptr};
     job.hide(layout, sink);
     afterStage();
     if (!given) job.prepareRays();
@@ -154,9 +110,10 @@ void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats&
     job.write(layout, [&](size_t i) { return store.take(i); });
   }
   if (settings.memoryLimit)
-    log.report(Severity::Info, "memory-limit", {},
-               streams ? "--memory-limit: the picture is made row by row, and the buckets of earlier rows are dropped"
-                       : fmt::format("--memory-limit: {} of {} buckets rest in a file", file.spilled(), layout.tileCount()));
+    reportMemory(*settings.memoryLimit,
+                 streams ? "the picture was made row by row, and the buckets of earlier rows were dropped"
+                         : fmt::format("{} of {} buckets rested in a file", file.spilled(), layout.tileCount()),
+                 stats, log);
   if (!interrupted() && log.worst() != Severity::Output) file.forget();
 }
 

@@ -7,6 +7,8 @@
 namespace tomales {
 namespace {
 
+constexpr int64_t kLeastCache = 1 << 20;
+
 constexpr size_t kMostFrames = 1000000;
 
 template <class T>
@@ -103,6 +105,13 @@ std::optional<double> parseSeconds(const std::string& text) {
   double value = 0;
   if (!number(std::string_view(text).substr(0, text.size() - (unit != std::string::npos)), value) || !(value > 0)) return std::nullopt;
   return value * std::array{1, 60, 3600}[unit == std::string::npos ? 0 : unit];
+}
+
+int64_t textureShare(int64_t memoryLimit) { return std::max(kLeastCache, memoryLimit / 4); }
+
+size_t brickCacheBytes(const RenderSettings& settings) {
+  if (!settings.memoryLimit) return settings.brickCacheBytes;
+  return std::min(settings.brickCacheBytes, static_cast<size_t>(std::max(kLeastCache, *settings.memoryLimit / 8)));
 }
 
 bool namesPicture(const std::string& path) {

@@ -56,6 +56,10 @@ std::optional<GiChoice> parseGi(const std::string& text);
 std::optional<ErrorFunction> parseErrorFunction(const std::string& text);
 std::optional<double> parseSeconds(const std::string& text);  ///< "90", "90s", "10m", "2h"
 
+/// Shares of --memory-limit: for textures a quarter, for bricks --brick-cache but no more than an eighth; at least 1 MB each.
+int64_t textureShare(int64_t memoryLimit);
+size_t brickCacheBytes(const RenderSettings& settings);
+
 /// Can a picture be written under this name?
 bool namesPicture(const std::string& path);
 /// Runs of '#' become the frame number, padded to their length.

@@ -1,23 +1,16 @@
 #include "reyes/app/stats_json.h"
 
-#include <sys/resource.h>
-
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "reyes/base/parallel.h"
+#include "reyes/base/process.h"
 
 namespace tomales {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-int64_t peakResidentBytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss * int64_t{1024};
-}
 
 Json timesOf(const Stats& stats, double total_s) {
   Json out{{"total", total_s}};

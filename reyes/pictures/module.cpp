@@ -69,8 +69,9 @@ OIIO::ImageSpec specOf(const PictureShape& shape, const PictureFormat& format) {
 
 class Cache : public TextureCache {
  public:
-  explicit Cache(const std::string& searchPath) : system_(OIIO::TextureSystem::create(false)) {
+  Cache(const std::string& searchPath, float cache_MB) : system_(OIIO::TextureSystem::create(false)) {
     system_->attribute("searchpath", searchPath);
+    system_->attribute("max_memory_MB", cache_MB);
     system_->attribute("automip", 1);  // pictures that no one ran maketx on
     system_->attribute("autotile", 64);
   }
@@ -114,8 +115,8 @@ class Library : public PictureLibrary {
     if (!out->open(path, specOf(shape, format))) return error = out->geterror(), nullptr;
     return std::make_unique<Writer>(std::move(out), format.type);
   }
-  std::unique_ptr<TextureCache> textures(const std::string& searchPath) const override {
-    return std::make_unique<Cache>(searchPath);
+  std::unique_ptr<TextureCache> textures(const std::string& searchPath, float cache_MB) const override {
+    return std::make_unique<Cache>(searchPath, cache_MB);
   }
 };
 

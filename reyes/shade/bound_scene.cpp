@@ -17,6 +17,13 @@ std::string pathOf(const Options& options, const char* kind) {
   return it == options.searchPaths.end() ? std::string() : it->second;
 }
 
+/// Option "limits" "texturememory", in kilobytes.
+float textureCache_MB(const Options& options) {
+  constexpr float kUsual_KB = 1 << 20;
+  const auto it = options.user.find("limits:texturememory");
+  return (it == options.user.end() ? kUsual_KB : std::max(1.0f, it->second.number(kUsual_KB))) / 1024;
+}
+
 constexpr int kMostRays = 1 << 16;  ///< Of one irradiance sample.
 constexpr int kMostBounces = 1000;  ///< Beyond these no picture changes any more.
 
@@ -288,7 +295,7 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
       stats(st),
       camera(s.options),
       cameraFromWorld(s.cameraFromWorldAtOpen()),
-      textures(pathOf(s.options, "texture"), l, st),
+      textures(pathOf(s.options, "texture"), textureCache_MB(s.options), l, st),
       shadowMaps(pathOf(s.options, "texture"), l) {
   output_ = outputOf(scene.options);
   binder_ = std::make_unique<Binder>(scene, registry, textures, shadowMaps, log);

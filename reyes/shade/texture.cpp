@@ -16,6 +16,7 @@ namespace tomales {
 
 struct Textures::Impl {
   const std::string searchPath;
+  const float cache_MB;
   Log& log;
   Stats& stats;
   std::once_flag opened{};
@@ -24,7 +25,7 @@ struct Textures::Impl {
 
   bool lookup(const TextureQuery& query, TmVec3 out, std::string& error) {
     std::call_once(opened, [this] {
-      if (const PictureLibrary* library = pictureLibrary(problem)) cache = library->textures(searchPath);
+      if (const PictureLibrary* library = pictureLibrary(problem)) cache = library->textures(searchPath, cache_MB);
     });
     if (!cache) return error = problem, false;
     int64_t lookups = 0;
@@ -34,7 +35,8 @@ struct Textures::Impl {
   }
 };
 
-Textures::Textures(const std::string& searchPath, Log& log, Stats& stats) : impl_(new Impl{searchPath, log, stats}) {}
+Textures::Textures(const std::string& searchPath, float cache_MB, Log& log, Stats& stats)
+    : impl_(new Impl{searchPath, cache_MB, log, stats}) {}
 Textures::~Textures() = default;
 
 bool Textures::lookup(const TextureQuery& q, const SourceLoc& where, const std::string& user, TmVec3 out) const {

@@ -11,7 +11,7 @@ namespace tomales {
 class Textures {
  public:
   /// `searchPath`: colon-separated folders.
-  Textures(const std::string& searchPath, Log& log, Stats& stats);
+  Textures(const std::string& searchPath, float cache_MB, Log& log, Stats& stats);
   ~Textures();
   /// Fills out.x (and y, z for three channels). False: unreadable, reported, `out` is magenta.
   bool lookup(const TextureQuery& query, const SourceLoc& where, const std::string& user, TmVec3 out) const;

@@ -1,0 +1,36 @@
+// Hidden buckets in a file beside the picture: with --resume all of them, those of an interrupted run among them; else those that
+// memory does not hold, in a file that is gone when the program is. Threads: any.
+#pragma once
+#include <atomic>
+#include <mutex>
+
+#include "reyes/app/settings.h"
+#include "reyes/dfb.h"
+
+namespace tomales {
+
+class BucketFile {
+ public:
+  BucketFile(const Scene& scene, int world, const RenderSettings& settings, Log& log);
+
+  std::optional<DeepTile> tile(size_t index) const { return file_ ? file_->tile(index) : std::nullopt; }
+  /// Without --resume, nothing.
+  void keepForResume(size_t index, const DeepTile& tile);
+  void spill(size_t index, const DeepTile& tile);
+  int64_t spilled() const { return spilled_; }
+  /// The picture is written: nothing is left to resume.
+  void forget();
+
+ private:
+  std::unique_ptr<DfbWriter> openUnnamed(std::string& error) const;
+
+  const std::string picture_;
+  const DeepFrame layout_;
+  Log& log_;
+  const bool resumes_;
+  std::mutex opening_;
+  std::unique_ptr<DfbWriter> file_;
+  std::atomic<int64_t> spilled_{0};
+};
+
+}  // namespace tomales

@@ -1,0 +1,11 @@
+// What this process takes of the machine.
+#pragma once
+#include <cstdint>
+
+namespace tomales {
+
+/// Memory in bytes: now, and the most that there ever was.
+int64_t residentBytes();
+int64_t peakResidentBytes();
+
+}  // namespace tomales
