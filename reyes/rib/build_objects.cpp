@@ -13,6 +13,16 @@ namespace {
 constexpr int kDeepestInstance = 16;
 constexpr size_t kLongestInstance = 1'000'000;
 
+// Squares of distances, and their products with areas, must fit floats.
+constexpr float kFarthest = 1e12f;
+
+float largestElement(const Motion& m) {
+  float out = 0;
+  for (const mat4& key : m.keys)
+    for (int i = 0; i < 16; ++i) out = std::max(out, std::abs((&key[0][0])[i]));
+  return out;
+}
+
 bool increasing(const std::vector<float>& times) {
   const auto finite = [](float t) { return std::isfinite(t); };
   return !times.empty() && std::all_of(times.begin(), times.end(), finite) &&
@@ -64,6 +74,12 @@ void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times
   if (state_.scope.attributes->detail.empty()) return;  // another level of detail is there
   Master::Shapes shapes = shapesOf(keys, times);
   if (shapes.keys.empty()) return;
+  if (const float reach = largestElement(cameraFromObject) * std::max(1.0f, shapes.reach); !(reach < kFarthest)) {
+    state_.log.report(Severity::Missing, "rib-object-dropped", r.where,
+                      fmt::format("{}: it may reach {:g} from the camera, and floats are no good beyond {:g}; the object is dropped",
+                                  description(r), reach, kFarthest));
+    return;
+  }
   Object object;
   object.shapes = std::move(shapes.keys);
   object.shapeTimes = std::move(shapes.times);
@@ -88,8 +104,9 @@ Master::Shapes SceneBuilder::shapesOf(const Keys& keys, const std::vector<float>
 }
 
 Master::Shapes SceneBuilder::buildShapes(const Keys& keys, const std::vector<float>& times) {
-  Master::Shapes out{{}, times, state_.scope.uBasis, state_.scope.vBasis, state_.scope.roundCurves, state_.scope.trim};
+  Master::Shapes out{{}, times, state_.scope.uBasis, state_.scope.vBasis, state_.scope.roundCurves, state_.scope.trim, 0};
   for (const Request* key : keys) {
+    out.reach = std::max(out.reach, reachOf(*key));
     PrimPtr prim = buildShape(*key);
     if (!prim && out.keys.empty()) return out;
     if (!prim || (!out.keys.empty() && !sameTopology(*out.keys[0], *prim))) {
@@ -192,7 +209,7 @@ void SceneBuilder::endMotion() {
     addGeometry(keys, times);
   } else {
     const Signature* signature = findSignature(first.name);
-    if (moves && signature && signature->support == Support::Works)
+    if (moves && signature && signature->support != Support::NotYet)
       state_.warn(first, "rib-motion", "does not move; its first value is used");
     perform(first);
   }
@@ -216,8 +233,8 @@ void SceneBuilder::instance(const Request& r) {
     return;
   }
   if (instanceDepth_ >= kDeepestInstance)
-    return state_.warn(r, "rib-nesting",
-                       fmt::format("more than {} objects within objects; ignored", kDeepestInstance));
+    return state_.log.report(Severity::Missing, "rib-nesting", r.where,
+                             fmt::format("ObjectInstance: more than {} objects within objects; ignored", kDeepestInstance));
   if (instanceDepth_ == 0) instanceBudget_ = kLongestInstance;
 
   const std::shared_ptr<Master> master = it->second;
@@ -241,8 +258,8 @@ void SceneBuilder::instance(const Request& r) {
   state_.identity = outerIdentity;
   state_.end(Block::Instance, r.where);
   if (instanceDepth_ == 0 && instanceBudget_ == 0)
-    state_.warn(r, "rib-nesting",
-                fmt::format("stands for more than {} requests; the rest is ignored", kLongestInstance));
+    state_.log.report(Severity::Missing, "rib-nesting", r.where,
+                      fmt::format("ObjectInstance: stands for more than {} requests; the rest is ignored", kLongestInstance));
 }
 
 }  // namespace tomales::rib

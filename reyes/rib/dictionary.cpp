@@ -140,7 +140,8 @@ bool Dictionary::declare(const std::string& name, const std::string& declaration
   auto list = words(text);
   bool typed = false;
   if (!takeClassAndType(list, d, typed) || !list.empty()) return false;
-  names_[name] = d;
+  if (names_.use_count() > 1) names_ = std::make_shared<Names>(*names_);
+  (*names_)[name] = d;
   return true;
 }
 
@@ -163,9 +164,9 @@ std::vector<float> Dictionary::rgb(const std::vector<float>& colors) const {
 std::optional<Declaration> Dictionary::find(const std::string& token, const std::string& category,
                                             std::string& name) const {
   const auto declared = [&](const std::string& bare) -> const Declaration* {
-    auto it = category.empty() ? names_.end() : names_.find(category + ":" + bare);
-    if (it == names_.end()) it = names_.find(bare);
-    return it == names_.end() ? nullptr : &it->second;
+    auto it = category.empty() ? names_->end() : names_->find(category + ":" + bare);
+    if (it == names_->end()) it = names_->find(bare);
+    return it == names_->end() ? nullptr : &it->second;
   };
   if (const Declaration* d = declared(token)) {
     name = token;

@@ -1,5 +1,6 @@
 // Declarations of parameter names: the standard ones, those of Declare, and inline ones.
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -42,7 +43,9 @@ class Dictionary {
 
  private:
   std::vector<float> rgbOfSamples_;
-  std::unordered_map<std::string, Declaration> names_;
+  using Names = std::unordered_map<std::string, Declaration>;
+  /// Every procedural keeps a copy of the dictionary; few of them declare anything.
+  std::shared_ptr<Names> names_ = std::make_shared<Names>();
 };
 
 }  // namespace tomales::rib

@@ -41,14 +41,17 @@ std::optional<Request> Parser::next() {
   return std::nullopt;
 }
 
-void Parser::warn(const char* code, const SourceLoc& where, const std::string& message) const {
-  if (!muted_) log_.report(Severity::Warning, code, where, message);
+void Parser::warn(const char* code, const SourceLoc& where, const std::string& message, Severity severity) const {
+  if (!muted_) log_.report(severity, code, where, message);
 }
 
 bool Parser::fail(const std::string& expected) {
+  const Support support = findSignature(request_.name)->support;
+  const bool missing = support == Support::Draws || support == Support::NotYetGeometry;
   warn("rib-arguments", here(),
        fmt::format("{} (line {}): {} was expected, but here is {}; the request is ignored", request_.name,
-                   request_.where.line, expected, describe(lexer_.peek())));
+                   request_.where.line, expected, describe(lexer_.peek())),
+       missing ? Severity::Missing : Severity::Warning);
   return false;
 }
 

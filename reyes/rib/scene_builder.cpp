@@ -240,7 +240,7 @@ void SceneBuilder::finish(const SourceLoc& where) {
 }
 
 void SceneBuilder::endUnclosedWorld(const SourceLoc& where) {
-  state_.log.report(Severity::Warning, "rib-unbalanced", where,
+  state_.log.report(Severity::Missing, "rib-unbalanced", where,
                     "WorldEnd is missing for the world that begins at " + state_.world->where.text() +
                         "; what there is is rendered");
   endWorld(where);
