@@ -22,6 +22,7 @@ Display "x.exr" "openexr" "rgb"
 {camera}
 WorldBegin
 """
+BALL = "CropWindow 0.3 0.7 0.08 0.3\n"
 
 
 def area(samples, shape, intensity, extra=""):
@@ -42,13 +43,13 @@ FLOOR = 'Patch "bilinear" "P" [-9 -1 -9  -9 -1 9  9 -1 -9  9 -1 9]\n'
 
 
 def cornell_lamp(n, extra=""):
-    """The wall and ceiling beside the lamp of a Cornell box."""
-    return (HEAD.format(fov=38, camera="Translate 0 0 2.6") + area(n, rectangle(0, 0.98, 0, 0.3), 16, extra) + """Surface "matte"
+    """A ball close below the lamp of a Cornell box, and the wall behind it."""
+    return (BALL + HEAD.format(fov=38, camera="Translate 0 0 2.6") + area(n, rectangle(0, 0.98, 0, 0.3), 16, extra) + """Surface "matte"
 Polygon "P" [-1 1 -1  1 1 -1  1 1 1  -1 1 1]
 Polygon "P" [-1 -1 1  -1 1 1  1 1 1  1 -1 1]
 Polygon "P" [-1 -1 -1  -1 -1 1  1 -1 1  1 -1 -1]
 TransformBegin
-Translate 0 0.4 0
+Translate 0 0.6 0
 Sphere 0.3 -0.3 0.3 360
 TransformEnd
 WorldEnd
@@ -76,7 +77,7 @@ def glossy(half, roughness):
 
 
 SCENES = {
-    "Cornell, around the lamp": (cornell_lamp, 16),
+    "Cornell, a ball close to the lamp": (cornell_lamp, 16),
     "sphere lamp, near": (lamp_shape('Translate 0.5 0 0\nSphere 0.4 -0.4 0.4 360'), 16),
     "disk lamp, near": (lamp_shape('Translate 0.3 0.3 0\nRotate 90 1 0 0\nDisk 0 0.6 360'), 16),
     "sun and sky map": (sky, 64),
