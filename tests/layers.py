@@ -24,7 +24,7 @@ SHADER_HEADERS = {"reyes/shader_api", "reyes/shader"}
 THIRD_PARTY = {
     "embree3/": ["raytrace/embree_scene.cpp"],
     "opensubdiv/": ["reyes/prim/subdivision_"],
-    "OpenImageIO/": ["reyes/pictures/module.cpp"],
+    "OpenImageIO/": ["reyes/pictures/"],
     "OpenEXR/": ["reyes/image/exr_file.cpp"],
     "Imath": ["reyes/image/exr_file.cpp"],
     "tbb/": ["reyes/base/parallel.cpp"],

@@ -108,6 +108,13 @@ GiMode giModeOf(GiChoice choice, const Scene& scene) {
 }
 
 void applyOverrides(Scene& scene, const RenderSettings& settings) {
+  if (settings.textureMemory) {
+    Param kilobytes;
+    kilobytes.name = "texturememory", kilobytes.type = ValueType::Float;
+    kilobytes.floats = {static_cast<float>(*settings.textureMemory >> 10)};
+    scene.options.user["limits:texturememory"] = kilobytes;
+  }
+  if (!settings.textureCache.empty()) scene.options.searchPaths["texturecache"] = settings.textureCache;
   Options& o = scene.options;
   if (settings.format) o.xResolution = (*settings.format)[0], o.yResolution = (*settings.format)[1];
   if (settings.crop) o.cropWindow = *settings.crop;

@@ -2,6 +2,7 @@
 // Shadow rays are traced later still, sample by sample, for the points on whose side of the surface the
 // sample turns out to be.
 #pragma once
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct LightSample {
   TmVec3 toward;     ///< L at full length: what a shadow ray travels.
   ShadowRays rays;   ///< Which they are.
   uint8_t* pending;  ///< 1: a shadow ray is still to be traced. Null: the light casts no shadows.
+  TmVec3 far{};      ///< L at full length, for points and their neighbours.
+  const TmValue* params = nullptr;  ///< Of this run of its shader, outputs included.
+  const float *nondiffuse = nullptr, *nonspecular = nullptr;  ///< Its outputs of that name.
 };
 
 class Lights {
@@ -38,6 +42,7 @@ class Lights {
   void evaluate(Batch& batch, const BoundLight& light);
   void substitute(Batch& batch);
   bool evaluated_ = false;
+  std::deque<std::vector<TmValue>> params_;
   std::vector<LightSample> samples_, chosen_;  ///< All; those of group_.
   const std::string* group_ = nullptr;
 };
