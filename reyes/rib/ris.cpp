@@ -58,14 +58,42 @@ struct Bxdf {
   const char* roughness;  ///< Null: none.
 };
 
+constexpr float kReflections = 1;  // RIS mirrors the scene in everything
+
+void addDisney(const Request& r, ParamList& params) {
+  static constexpr std::pair<const char*, const char*> names[] = {
+      {"metallic", "metallic"}, {"specular", "specular"}, {"specularTint", "speculartint"}, {"sheen", "sheen"},
+      {"sheenTint", "sheentint"}, {"clearcoat", "clearcoat"}, {"clearcoatGloss", "clearcoatgloss"}};
+  for (const auto& [theirs, ours] : names)
+    if (findParam(r.params, theirs)) params.push_back(param(ours, ValueType::Float, {number(r, theirs, 0)}));
+  if (findParam(r.params, "emitColor")) params.push_back(param("emission", ValueType::Color, color(r, "emitColor", 0)));
+  params.push_back(param("reflections", ValueType::Float, {kReflections}));
+}
+
+/// Its specular lobe is given by the colour that it reflects at normal incidence: a bright one is a metal's.
+void addPxrSurface(const Request& r, std::vector<float>& base, ParamList& params) {
+  const auto mean = [](const std::vector<float>& c) { return (c[0] + c[1] + c[2]) / 3; };
+  const std::vector<float> face = color(r, "specularFaceColor", 0), glow = color(r, "glowColor", 1);
+  const float diffuse = number(r, "diffuseGain", 1), reflected = mean(face), coat = mean(color(r, "clearcoatFaceColor", 0));
+  constexpr float kMetal = 0.3f, kUnit = 0.08f;  // disney's specular 1 reflects kUnit
+  const bool metal = reflected > kMetal;
+  for (size_t k = 0; k < 3; ++k) base[k] = metal ? face[k] : diffuse * base[k];
+  params.push_back(param("metallic", ValueType::Float, {metal ? 1.0f : 0.0f}));
+  params.push_back(param("specular", ValueType::Float, {metal ? 0.0f : reflected / kUnit}));
+  if (coat > 0) params.push_back(param("clearcoat", ValueType::Float, {std::min(1.0f, coat / 0.04f)}));
+  if (const float gain = number(r, "glowGain", 0); gain > 0)
+    params.push_back(param("emission", ValueType::Color, {gain * glow[0], gain * glow[1], gain * glow[2]}));
+  if (reflected > 0 || coat > 0) params.push_back(param("reflections", ValueType::Float, {kReflections}));
+}
+
 Translation bxdf(const Request& r) {
   static const std::unordered_map<std::string_view, Bxdf> table = {
       {"PxrDiffuse", {"matte", "diffuseColor", 0.5f, nullptr}},
       {"PxrLMDiffuse", {"matte", "frontColor", 0.5f, nullptr}},
       {"PxrConstant", {"constant", "emitColor", 1, nullptr}},
-      {"PxrDisney", {"plastic", "baseColor", 0.5f, "roughness"}},
-      {"PxrSurface", {"plastic", "diffuseColor", 0.5f, "specularRoughness"}},
-      {"PxrLayerSurface", {"plastic", "diffuseColor", 0.5f, "specularRoughness"}}};
+      {"PxrDisney", {"disney", "baseColor", 0.5f, "roughness"}},
+      {"PxrSurface", {"disney", "diffuseColor", 0.5f, "specularRoughness"}},
+      {"PxrLayerSurface", {"disney", "diffuseColor", 0.5f, "specularRoughness"}}};
   const auto it = table.find(r.args[0].strings[0]);
   const bool known = it != table.end();
   const Bxdf b = known ? it->second : Bxdf{"matte", "diffuseColor", 0.5f, nullptr};
@@ -74,8 +102,13 @@ Translation bxdf(const Request& r) {
   if (b.roughness && findParam(r.params, b.roughness))
     params.push_back(
         param("roughness", ValueType::Float, {std::clamp(number(r, b.roughness, 0.1f), 0.001f, 1.0f)}));
+  std::vector<float> base = color(r, named, b.grey);
+  if (r.args[0].strings[0] == "PxrDisney")
+    addDisney(r, params);
+  else if (std::string_view(b.shader) == "disney")
+    addPxrSurface(r, base, params);
   return {Script(r)
-              .say("Color", {numbers(color(r, named, b.grey))})
+              .say("Color", {numbers(base)})
               .say("Surface", {string(b.shader)}, params)
               .list(),
           standsIn(r, b.shader), known ? Severity::Warning : Severity::Missing};

@@ -362,7 +362,7 @@ TEST(Ris, BxdfsBecomeStandardShaders) {
                           kSphere));
   EXPECT_EQ(r.attributes(0).surface->name, "matte");
   EXPECT_EQ(r.attributes(0).color, vec3(.1f, .2f, .3f));
-  EXPECT_EQ(r.attributes(2).surface->name, "plastic");
+  EXPECT_EQ(r.attributes(2).surface->name, "disney");
   EXPECT_EQ(findParam(r.attributes(2).surface->params, "roughness")->number(0), .25f);
   EXPECT_EQ(r.log.count("rib-substitute"), 2) << "once a name";
 }
