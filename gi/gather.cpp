@@ -1,10 +1,14 @@
 #include "gi/gather.h"
 
-#include "gi/hemisphere.h"
+#include "gi/hessian.h"
+#include "gi/layers.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
 namespace {
+
+/// At `maxerror` 1, in squared pixels: about as many records as the paper's function (docs/gi.md).
+constexpr float kHessianTolerance = 4;
 
 /// Where in each cell its ray goes: correlated multi-jitter (Kensler 2013). The columns of a ring take
 /// different heights in their cells and the rings of a sector different angles, so both projections are
@@ -52,9 +56,9 @@ class RayTimes {
 /// Kept by each thread from one record to the next. Gather rays shade without indirect light, so gathering
 /// never nests.
 struct Scratch {
-  std::vector<Ray> rays;
+  RayLayers layers;
   std::vector<Hit> hits;
-  std::vector<SampleName> names;
+  HitAnswers answers;
   std::vector<vec3> directions, radiance;
   std::vector<float> distances;
 };
@@ -71,17 +75,16 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
   thread_local Scratch scratch;
   Ray ray{point.position, point.normal, settings.maxDistance};
   scene.prepareOrigin(point.group, point.position, point.edgeLength, ray);
-  scratch.rays.assign(count, ray), scratch.hits.resize(count), scratch.names.resize(count);
-  scratch.directions.resize(count), scratch.distances.resize(count);
+  scratch.layers = {};
+  scratch.directions.resize(count), scratch.distances.resize(count), scratch.radiance.assign(count, vec3(0));
   const uint32_t key = hashCombine(point.key, settings.seed);
   const CellJitter jitter(cells, key);
   const RayTimes times(scene, point, count, key);
-  int64_t adjusted = 0;
   for (size_t i = 0; i < count; ++i) {
     const int ring = static_cast<int>(i) / cells.sectors, sector = static_cast<int>(i) % cells.sectors;
     const auto number = static_cast<uint32_t>(i);
     const vec3 local = hemisphereDirection(cells, ring, sector, jitter(ring, sector, number));
-    Ray& r = scratch.rays[i];
+    Ray r = ray;
     r.direction = scratch.directions[i] =
         local.x * samples.tangent + local.y * samples.bitangent + local.z * point.normal;
     r.offset = slantedOffset(ray.offset, local.z);
@@ -89,26 +92,33 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
     if (r.time > 0) r.origin = scene.placeAt(point.group, point.position, point.drift, r.time);
     // A cell of a cosine-weighted hemisphere has the solid angle pi / (n cos).
     r.spread = 1 / std::sqrt(static_cast<float>(count) * std::max(local.z, 0.05f));
-    scratch.names[i] = {key, number};
-    const Hit& hit = scratch.hits[i] = scene.closest(r, kMaskDiffuse);
-    scratch.distances[i] = hit.object < 0 ? kInfinity : std::max(0.0f, hit.t);
-    adjusted += hit.adjusted;
+    scratch.layers.add(static_cast<int>(i), r, {key, number});
   }
-  stats.rays.gather += static_cast<int64_t>(count);
-  stats.rays.hitlistAdjusted += adjusted;
   ShadeContext context{RayKind::Diffuse, 1, settings.seed, 1, false};
   context.light = settings.light;
-  context.diffuseLimit = context.specularLimit = 0;  // the diffuse component of direct light alone
-  scene.shadeHits(scratch.rays, scratch.hits, scratch.names, shading, context, scratch.radiance);
-  for (vec3& L : scratch.radiance)
-    if (!isFinite(L))
-      L = vec3(0.0f);  // one bad shader result would spread over the whole reach of the record
+  context.diffuseLimit = 0;  // of direct light the diffuse component alone; mirrors and glass show what they show
+  scratch.answers.mode = HitMode::Shader;
+  for (int layer = 0; layer < kMostLayers && !scratch.layers.rays.empty(); ++layer) {
+    stats.rays.hitlistAdjusted += scratch.layers.meet(scene, kMaskDiffuse, scratch.hits);
+    stats.rays.gather += static_cast<int64_t>(scratch.hits.size());
+    for (size_t i = 0; layer == 0 && i < count; ++i)
+      scratch.distances[i] = scratch.hits[i].object < 0 ? kInfinity : std::max(0.0f, scratch.hits[i].t);
+    scene.shadeHits(scratch.layers.rays, scratch.hits, scratch.layers.names, shading, context, scratch.answers);
+    scratch.layers.goOn(scene, scratch.hits, scratch.answers, 1, [&](int cell, const vec3& radiance, const vec3&) {
+      scratch.radiance[static_cast<size_t>(cell)] += radiance;
+    });
+  }
 
   samples.directions = scratch.directions, samples.radiance = scratch.radiance,
   samples.distances = scratch.distances;
   IrradianceRecord record = summarize(samples);
   record.position = point.position;
   record.pixelSize = point.pixelSize;
+  if (settings.curvature) {
+    const IrradianceCurvature curvature = curvatureOf(samples);
+    std::copy_n(curvature.gradient, 3, record.translationGradient);
+    record.smoothRadius = hessianRadius(curvature, luminance(record.E), point.pixelSize, kHessianTolerance);
+  }
   return record;
 }
 

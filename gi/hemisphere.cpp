@@ -85,15 +85,17 @@ IrradianceRecord summarize(const HemisphereSamples& s) {
   IrradianceRecord record{};
   record.normal = s.normal;
   record.closest = kInfinity;
-  float inverseDistances = 0;
+  float inverseDistances = 0, squares = 0;
   for (size_t i = 0; i < s.directions.size(); ++i) {
     record.E += s.radiance[i];
+    squares += luminance(s.radiance[i]) * luminance(s.radiance[i]);
     for (int c = 0; c < 3; ++c) record.dominant[c] += s.directions[i] * s.radiance[i][c];
     record.closest = std::min(record.closest, s.distances[i]);
     inverseDistances += 1 / std::max(s.distances[i], 1e-9f);
   }
   const float count = static_cast<float>(s.directions.size());
   record.E /= count;
+  record.noise = std::sqrt(std::max(0.0f, squares / count - luminance(record.E) * luminance(record.E)) / count);
   record.harmonicMean = inverseDistances > 0 ? count / inverseDistances : kInfinity;
   for (vec3& d : record.dominant) d = normalizeOr(d, s.normal);
   const Gradients gradients(s);

@@ -25,7 +25,13 @@ struct Request {
   std::vector<RibArg> args;
   ParamList params;
   SourceLoc where;
+  /// Parameters of type string that name outputs of Patterns ("handle:output"), and the type that they stand in for ("reference color c").
+  std::vector<std::pair<std::string, ValueType>> references{};
 };
+
+inline bool isReference(const Request& request, std::string_view name) {
+  return std::any_of(request.references.begin(), request.references.end(), [&](const auto& r) { return r.first == name; });
+}
 
 /// The seam behind the parser: the scene builder, a recorder, a writer.
 class RiSink {

@@ -42,9 +42,12 @@ typedef enum TmCapability {
   TM_LIGHT_SAMPLED = 1 << 7,  /* light: asked for as many samples as its parameter `samples` says, with xi0 and xi1;
                                  Cl is the share of one sample */
   TM_TRACES = 1 << 8,        /* surface, light, volume: calls trace(), gather(), occlusion() or transmission() */
-  TM_DERIVATIVES = 1 << 9,   /* surface: looks pictures up at s, t or at primitive variables, or asks for derivatives of those:
+  TM_LIGHT_SKY = 1 << 9,     /* light, with TM_LIGHT_SOLAR: all around, at infinity. The host chooses L, by the brightness of the
+                                latitude-longitude picture that its parameter `map` names and by the cosine, parameter
+                                `samples` times; Cl is the radiance from there */
+  TM_DERIVATIVES = 1 << 10,   /* surface: looks pictures up at s, t or at primitive variables, or asks for derivatives of those:
                                 the host keeps how they change over a micropolygon */
-  TM_NEIGHBOURS = 1 << 10    /* surface: asks for derivatives of what it has computed, or looks pictures up at such places: the
+  TM_NEIGHBOURS = 1 << 11    /* surface: asks for derivatives of what it has computed, or looks pictures up at such places: the
                                 host shades four points around each point as well, so that differences are centred. The batch
                                 holds them after the points themselves; light and rays are asked for the points alone */
 } TmCapability;
@@ -264,6 +267,17 @@ typedef struct TmServices {
   int32_t (*rayInfo)(void* host, const TmGrid*, const char* name, TmVec3 out);
   /* Its label. */
   const char* (*rayLabel)(void* host, const TmGrid*);
+
+  /* Multiple importance sampling of a surface's own lobe f (the cosine included, over pi less), as specular() does it. With m =
+   * lobeSamples() and p(L) the density over solid angle with which the surface draws L, the highlight is the sum of
+   *   f(L) Cl / (1 + (m p(L) / d)^2)    over light(): d of lightDensity(), or wholly where that is 0
+   *   f(L) Cl                           over m directions of its own: Cl of lightAlong()
+   * lightDensity: 0 where lightAlong() would not find the light. lightAlong: L unit length, sample number 0..m-1, density p(L), 0 for
+   * none. stratified: numbers in [0,1) for sample number `sample`. */
+  void (*lightDensity)(void* host, const TmGrid*, int32_t index, float* out);
+  void (*lightAlong)(void* host, const TmGrid*, TmConstVec3 L, const float* density, int32_t sample, int32_t samples, TmVec3 Cl);
+  int32_t (*lobeSamples)(void* host, const TmGrid*);
+  void (*stratified)(void* host, const TmGrid*, int32_t sample, int32_t samples, float* xi0, float* xi1);
 
   /* Derivative by u (direction 0) or v (1) of a value at every point: centred differences, one-sided at the border of a grid. Knows
    * u, v, s, t, P, N and primitive variables with TM_DERIVATIVES, all values with TM_NEIGHBOURS and in displacements. */

@@ -88,7 +88,7 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--max-error", s.maxError,
                  "Error allowed in irradiance interpolation; 0 computes every point")
       ->check(CLI::Range(0.0, 1e6));
-  addParsed(app, "--error-function", s.errorFunction, parseErrorFunction, "screen|ward", "How far an irradiance record may be used");
+  addParsed(app, "--error-function", s.errorFunction, parseErrorFunction, "screen|ward|hessian", "How far an irradiance record may be used");
   app.add_flag_callback("--indirect-only", [&s] { s.direct = false; }, "Leave out direct light where the eye looks");
   app.add_option("--light-seed", s.lightSeed, "Of the random numbers of light alone");
   app.add_option("--photons", s.photons, "Photons to emit for --gi atlas")->check(CLI::Range(int64_t{1}, int64_t{1} << 40));

@@ -82,13 +82,13 @@ Master::Shapes SceneBuilder::shapesOf(const Keys& keys, const std::vector<float>
   const auto [it, fresh] = master_->shapes.try_emplace(masterRequest_);
   Master::Shapes& shared = it->second;
   if (fresh || !sameBasis(shared.uBasis, scope.uBasis) || !sameBasis(shared.vBasis, scope.vBasis) ||
-      *shared.trim != *scope.trim)
+      shared.roundCurves != scope.roundCurves || *shared.trim != *scope.trim)
     shared = buildShapes(keys, times);
   return shared;
 }
 
 Master::Shapes SceneBuilder::buildShapes(const Keys& keys, const std::vector<float>& times) {
-  Master::Shapes out{{}, times, state_.scope.uBasis, state_.scope.vBasis, state_.scope.trim};
+  Master::Shapes out{{}, times, state_.scope.uBasis, state_.scope.vBasis, state_.scope.roundCurves, state_.scope.trim};
   for (const Request* key : keys) {
     PrimPtr prim = buildShape(*key);
     if (!prim && out.keys.empty()) return out;

@@ -38,7 +38,7 @@ void restoreGeometryModification(Scope& to, const Scope& from) {
 void restoreGeometryDefinition(Scope& to, const Scope& from) {
   Attributes& a = to.edit();
   a.textureCoordinates = from.attributes->textureCoordinates, a.insideOut = from.attributes->insideOut;
-  to.uBasis = from.uBasis, to.vBasis = from.vBasis;
+  to.uBasis = from.uBasis, to.vBasis = from.vBasis, to.roundCurves = from.roundCurves;
 }
 
 void restoreHiding(Scope& to, const Scope& from) {

@@ -62,7 +62,7 @@ constexpr Standard kStandard[] = {
     {"int",
      "visibility:camera visibility:diffuse visibility:specular visibility:transmission visibility:photon "
      "visibility:midpoint visibility:trace trace:displacements trace:samplemotion trace:maxdiffusedepth "
-     "trace:maxspeculardepth indirect:receive dice:rasterorient dice:binary dice:hair cull:hidden "
+     "trace:maxspeculardepth indirect:receive dice:rasterorient dice:binary dice:hair dice:roundcurve cull:hidden "
      "cull:backfacing derivatives:centered derivatives:extrapolate photon:estimator irradiance:nsamples "
      "stitch:enable sides:doubleshaded"},
 };
@@ -100,6 +100,10 @@ bool takeArrayLength(std::string& text, int& length) {
   if (open == std::string::npos && close == std::string::npos) return true;
   if (open == std::string::npos || close == std::string::npos || close < open) return false;
   const auto digits = words(std::string_view(text).substr(open + 1, close - open - 1));
+  if (digits.empty()) {
+    text.replace(open, close - open + 1, " ");
+    return true;
+  }
   if (digits.size() != 1) return false;
   const auto [end, error] = std::from_chars(digits[0].data(), digits[0].data() + digits[0].size(), length);
   const bool good = error == std::errc() && end == digits[0].data() + digits[0].size() && length >= 1 &&
@@ -115,6 +119,8 @@ bool takeClassAndType(std::vector<std::string_view>& list, Declaration& d, bool&
     if (found) list.erase(list.begin());
     return found;
   };
+  d.reference = !list.empty() && list[0] == "reference";
+  if (d.reference) list.erase(list.begin());
   const bool classed = take(kStorages, d.storage);
   typed = take(kTypes, d.type);
   return classed || typed;
@@ -174,7 +180,7 @@ std::optional<Declaration> Dictionary::find(const std::string& token, const std:
   if (list.size() < 2 || !takeClassAndType(list, d, typed) || list.size() != 1) return std::nullopt;
   name = list[0];
   const Declaration* known = typed ? nullptr : declared(name);
-  if (known) d = {d.storage, known->type, known->arrayLength};
+  if (known) d = {d.storage, known->type, known->arrayLength, d.reference};
   return d;
 }
 

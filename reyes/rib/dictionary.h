@@ -13,6 +13,7 @@ struct Declaration {
   Storage storage = Storage::Uniform;
   ValueType type = ValueType::Float;
   int arrayLength = 1;
+  bool reference = false;  ///< "reference color c": a string that stands in for a value of the type.
 };
 
 class Dictionary {
@@ -22,7 +23,7 @@ class Dictionary {
   /// Holds the standard names of RISpec 3.2 and of the options and attributes that Tomales knows.
   Dictionary();
 
-  /// `declaration`: "class type[n]", where class and type may each be missing. False: not understood.
+  /// `declaration`: "class type[n]", where class and type may each be missing, and n: then it is 1. False: not understood.
   bool declare(const std::string& name, const std::string& declaration);
 
   /// Of the token of a parameter list: a declared name, or an inline declaration "class type[n] name". On

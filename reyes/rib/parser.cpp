@@ -191,17 +191,28 @@ bool Parser::readParameter(const std::string& category) {
   const auto declaration = dictionary_.find(token, category, param.name);
   if (declaration) {
     param.storage = declaration->storage;
-    param.type = declaration->type;
+    param.type = declaration->reference ? ValueType::String : declaration->type;
     param.arrayLength = declaration->arrayLength;
   }
   lexer_.advance();
   if (!readValues(param)) return fail(fmt::format("a value of \"{}\"", token));
-  if (!declaration)
+  if (!declaration && token.starts_with("__"))
+    keepPrivate(token, std::move(param));
+  else if (!declaration)
     warn("rib-undeclared", where,
          fmt::format("{}: parameter \"{}\" is not declared; ignored", request_.name, token.substr(0, 80)));
-  else if (fitsDeclaration(token, param))
+  else if (fitsDeclaration(token, param)) {
+    if (declaration->reference) request_.references.emplace_back(param.name, declaration->type);
     request_.params.push_back(std::move(param));
+  }
   return true;
+}
+
+// Bridges from modellers leave marks for themselves: "__instanceid".
+void Parser::keepPrivate(const std::string& token, Param param) {
+  param.name = token;
+  param.type = param.strings.empty() ? ValueType::Float : ValueType::String;
+  if (param.strings.empty() || param.floats.empty()) request_.params.push_back(std::move(param));
 }
 
 bool Parser::readValues(Param& param) {

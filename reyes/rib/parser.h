@@ -37,6 +37,7 @@ class Parser {
   bool readArray(RibArg::Kind kind);
   bool readParameters(const std::string& category);
   bool readParameter(const std::string& category);
+  void keepPrivate(const std::string& token, Param param);
   /// Numbers into `ints` or `floats`, by the parameter's type.
   bool readValues(Param& param);
   bool fitsDeclaration(const std::string& token, const Param& param) const;

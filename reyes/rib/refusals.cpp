@@ -42,7 +42,7 @@ const std::unordered_map<std::string_view, const char*>& reasons() {
       {"MakeTexture3D", "tomales brickmake makes brick maps"},
       {"MakeOcclusion", "MakeShadow makes one map of one picture"},
       {"Hider photon", "tomales photons writes photon maps; the picture is rendered as by \"hidden\""},
-      {"Hider raytrace", "the picture is rendered as by \"hidden\""},
+      {"Hider raytrace", "the picture is rendered as by \"hidden\", with maxsamples (at most 64) for PixelSamples"},
       {"Hider bake", "the picture is rendered as by \"hidden\", and bakes nothing"},
       {"Hider null", "the picture is rendered as by \"hidden\"; Display type \"null\" writes none"},
       {"Hider paint", "the picture is rendered as by \"hidden\""},

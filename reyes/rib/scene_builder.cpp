@@ -110,9 +110,11 @@ bool SceneBuilder::refuse(const Request& r) {
 }
 
 void SceneBuilder::performRis(const Request& r) {
-  const Translation translation = translateRis(r);
-  state_.warnOnce(r.name + " " + r.args[0].strings[0], r, "rib-substitute", translation.note, translation.severity);
+  const Translation translation = translateRis(r, state_.globals.patterns);
+  for (const Note& note : translation.notes) state_.warnOnce(note.key, note.where, note.code, note.text, note.severity);
+  const size_t lights = state_.globals.lights.size();
   for (const Request& request : translation.requests) perform(request);
+  for (size_t i = lights; i < state_.globals.lights.size(); ++i) state_.switchOnEverywhere(state_.globals.lights[i]->index);
 }
 
 float SceneBuilder::rasterArea(const std::vector<float>& b) const {

@@ -10,16 +10,15 @@ namespace {
 /// Names of shadow maps, of shadowpoint one for each direction.
 const ParamNames kShadowMaps{"shadowname", "sfpx", "sfnx", "sfpy", "sfny", "sfpz", "sfnz"};
 const ParamNames kLightParams{"lighting", "__nondiffuse", "__nonspecular", "__group", "lightgroup", "__category", "shadowname", "sfpx",
-                              "sfnx",     "sfpy",         "sfny",          "sfpz",       "sfnz"};
+                              "sfnx",     "sfpy",         "sfny",          "sfpz",       "sfnz",     "shadowvariance"};
 
 std::string pathOf(const Options& options, const char* kind) {
   const auto it = options.searchPaths.find(kind);
   return it == options.searchPaths.end() ? std::string() : it->second;
 }
 
-constexpr int kMostRays = 1 << 16;         ///< Of one irradiance sample,
-constexpr int kMostLightSamples = 1 << 12;  ///< of a light from one point:
-constexpr int kMostBounces = 1000;          ///< beyond these no picture changes any more.
+constexpr int kMostRays = 1 << 16;  ///< Of one irradiance sample.
+constexpr int kMostBounces = 1000;  ///< Beyond these no picture changes any more.
 
 /// A count among the parameters of a light.
 int countOf(const BoundShader& light, const char* name, int fallback, int least, int most, Log& log) {
@@ -36,7 +35,7 @@ void warnAboutUnsupported(const BoundShader& light, const IndirectQuery& q, Log&
     log.report(Severity::Warning, fmt::format("light-{}", name), light.where,
                fmt::format("{}: {} \"{}\" is not supported; {}", light.user, name, value, consequence));
   };
-  if (q.errorFunction != "screen" && q.errorFunction != "ward")
+  if (q.errorFunction != "screen" && q.errorFunction != "ward" && q.errorFunction != "hessian")
     warn("errorfunction", q.errorFunction, "\"screen\" is used");
   if (q.radiance != "shader" && q.radiance != "atlas") warn("radiance", q.radiance, "gather rays run the shaders");
   if (!q.atlas.empty()) warn("atlas", q.atlas, "it is not read");
@@ -62,8 +61,9 @@ IndirectQuery queryOf(const BoundShader& light, Log& log) {
 /// Binds requests; groups that share a request share its shader, so that each problem is told once.
 class Binder {
  public:
-  Binder(const Scene& scene, ShaderRegistry& registry, const ShadowMaps& shadowMaps, Log& log)
+  Binder(const Scene& scene, ShaderRegistry& registry, const Textures& textures, const ShadowMaps& shadowMaps, Log& log)
       : scene_(scene),
+        textures_(textures),
         shadowMaps_(shadowMaps),
         registry_(registry),
         log_(log),
@@ -102,6 +102,7 @@ class Binder {
   BoundShaderPtr bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind);
 
   const Scene& scene_;
+  const Textures& textures_;
   const ShadowMaps& shadowMaps_;
   ShaderRegistry& registry_;
   Log& log_;
@@ -148,6 +149,7 @@ void setHostParams(BoundLight& light, const LightCall& call, const ShadowMaps& m
   const auto warn = [&](const char* code, const std::string& problem) {
     log.report(Severity::Warning, code, call.shader.where, light.bound->user + ": " + problem);
   };
+  light.shadowVariance = std::max(0.0f, number("shadowvariance"));
   light.nondiffuse = number("__nondiffuse") != 0, light.nonspecular = number("__nonspecular") != 0;
   light.group = !text("__group").empty() ? text("__group") : !text("lightgroup").empty() ? text("lightgroup") : call.handle;
   light.category = !text("__category").empty() ? text("__category") : light.bound->text("__category", "");
@@ -193,7 +195,13 @@ std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index
     log_.report(Severity::Warning, "light-no-geometry", call.shader.where,
                 bound->user + ": no geometry follows the AreaLightSource; it casts no light");
   light->shadows = light->shadows && !indirect;
-  if (light->can(TM_LIGHT_AREA) || light->can(TM_LIGHT_SAMPLED))
+  if (light->can(TM_LIGHT_SKY)) {
+    const std::string picture = bound->text("map", "");
+    light->sky = picture.empty() ? std::make_shared<const Sky>()
+                                 : std::make_shared<const Sky>(textures_, picture, bound->where, bound->user,
+                                                               glm::inverse(mat3(cameraFromWorld_)));
+  }
+  if (light->can(TM_LIGHT_AREA) || light->can(TM_LIGHT_SKY) || light->can(TM_LIGHT_SAMPLED))
     light->samples = countOf(*bound, "samples", 16, 1, kMostLightSamples, log_);
   if (indirect) light->samples = 3, light->query = queryOf(*bound, log_);
   return light;
@@ -307,7 +315,7 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
       textures({pathOf(s.options, "texture"), pathOf(s.options, "texturecache"), textureMemoryOf(s.options)}, l, st),
       shadowMaps(pathOf(s.options, "texture"), l) {
   output_ = outputOf(scene.options);
-  binder_ = std::make_unique<Binder>(scene, registry, shadowMaps, log);
+  binder_ = std::make_unique<Binder>(scene, registry, textures, shadowMaps, log);
   for (const auto& call : scene.lights)
     lights.push_back(binder_->light(*call, static_cast<int>(lights.size())));
   connectFilters(*this);

@@ -121,18 +121,6 @@ void diffuse(void* host, const TmGrid* g, TmConstVec3 N, TmVec3 out) {
   diffuseOf(host, g, TM_DIRECT_LIGHT | TM_INDIRECT_LIGHT, N, out);
 }
 
-// The exponent is PRMan's 8/roughness unless Option "shade" "specular" asks for RISpec's 1/roughness (docs/decisions/0004).
-void specular(void* host, const TmGrid* g, TmConstVec3 N, TmConstVec3 V, const float* roughness, TmVec3 out) {
-  Batch& batch = batchOf(host);
-  if (batch.context.kind == RayKind::Diffuse) return fill(g, out, vec3(0.0f));
-  const auto counts = [](const BoundLight& light) { return !light.nonspecular; };
-  const float sharpness = batch.scene.specularSharpness;
-  sumOverLights(batch, g, N, counts, out, [&](int i, const LightSample& s, const vec3& L, const vec3& n) {
-    const vec3 H = normalizeOr(L + normalizeOr(get(V, i), vec3(0.0f)), vec3(0.0f));
-    return shareOf(s.nonspecular, i) * std::pow(std::max(0.0f, dot(n, H)), sharpness / std::max(roughness[i], 1e-6f));
-  });
-}
-
 void ambient(void* host, const TmGrid* g, TmVec3 out) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, g);

@@ -6,7 +6,6 @@ namespace tomales {
 
 void diffuse(void* host, const TmGrid*, TmConstVec3 N, TmVec3 out);
 void diffuseOf(void* host, const TmGrid*, int32_t which, TmConstVec3 N, TmVec3 out);
-void specular(void* host, const TmGrid*, TmConstVec3 N, TmConstVec3 V, const float* roughness, TmVec3 out);
 void ambient(void* host, const TmGrid*, TmVec3 out);
 int32_t light(void* host, const TmGrid*, int32_t index, TmLightSample* out);
 int32_t illuminance(void* host, const TmGrid*, TmIlluminance*);

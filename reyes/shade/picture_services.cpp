@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "reyes/shade/primary.h"
+#include "reyes/shade/sky.h"
 
 namespace tomales {
 namespace {
@@ -60,11 +61,10 @@ int32_t lookUpLatLong(Batch& batch, const TmGrid* g, const char* name, const TmT
   float* zero = batch.arena.floats(n);
   forActive(g, [&](int i) {
     const vec3 d = normalizeOr(worldFromCurrent * get(direction, i), vec3(0, 0, 1));
-    const float longitude = std::atan2(d.y, d.x) / (2 * kPi), across = std::sqrt(d.x * d.x + d.y * d.y);
-    s[i] = longitude < 0 ? longitude + 1 : longitude;
-    t[i] = std::atan2(across, d.z) / kPi;
+    const vec2 st = latLong(d);
+    s[i] = st.x, t[i] = st.y;
     tv[i] = std::min(1.0f, angle[i] / kPi);
-    su[i] = std::min(1.0f, angle[i] / (2 * kPi * std::max(across, 1e-6f)));
+    su[i] = std::min(1.0f, angle[i] / (2 * kPi * std::max(std::sqrt(d.x * d.x + d.y * d.y), 1e-6f)));
   });
   TextureQuery query = queryOf(g, name, options);
   query.s = s, query.t = t, query.su = su, query.tu = zero, query.sv = zero, query.tv = tv;

@@ -5,6 +5,7 @@
 #include "reyes/shade/messages.h"
 #include "reyes/shade/picture_services.h"
 #include "reyes/shade/primary.h"
+#include "reyes/shade/lobe.h"
 #include "reyes/shade/ray_services.h"
 #include "reyes/shade/spaces.h"
 
@@ -83,6 +84,7 @@ const TmServices kServices = {
     sizeof(TmServices), diffuse,      specular,        ambient, light,      transform, texture,
     calculateNormal,    transmission, indirectDiffuse, report,  environment, diffuseOf, shadow,
     traceRays,          gatherRays,   occlusion,       transmissionWith, rayInfo, rayLabel,
+    lightDensity,       lightAlong,   lobeSamples,     stratified,
     derivative,         textureWith,  environmentWith, illuminance, ask,   textureInfo};
 
 }  // namespace tomales
