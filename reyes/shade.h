@@ -179,6 +179,8 @@ class ShadingSystem {
 
   /// Does a group hide what is behind it (Os = 1 everywhere and a shader that keeps opacity)?
   bool opaque(int group) const;
+  /// Does a shader of the group ask how values change over the surface (ShadePoints::hasSteps)?
+  bool wantsSteps(int group) const;
   /// Does its shader leave Oi = Os?
   bool keepsOpacity(int group) const;
   /// Runs the displacement shader of the grid's object, in place; recomputes N. No-op without one.

@@ -36,7 +36,7 @@ constexpr Standard kStandard[] = {
     {"float[2]", "shutteropening exposure filterwidth"},
     {"float[4]", "quantize"},
     {"int[2]", "origin"},
-    {"string", "compression filter depthfilter type source exrpixeltype exrcompression transfer lightgroup __group"},
+    {"string", "compression filter depthfilter type source exrpixeltype exrcompression transfer lightgroup __group __category"},
     {"float", "fill mergedepth mergeopacity"},
     {"float[8]", "chromaticities"},
     {"int", "tiled multipart"},
@@ -48,7 +48,7 @@ constexpr Standard kStandard[] = {
     {"color", "limits:othreshold limits:zthreshold"},
     {"string",
      "searchpath:archive searchpath:shader searchpath:texture searchpath:display searchpath:procedural "
-     "searchpath:resource searchpath:dirmap ribparse:varsubst bucket:order statistics:filename statistics:xmlfilename"},
+     "searchpath:resource searchpath:texturecache shade:specular searchpath:dirmap ribparse:varsubst bucket:order statistics:filename statistics:xmlfilename"},
     {"float", "shadow:bias shadow:bias0 shadow:bias1 shutter:offset"},
     {"string",
      "identifier:name identifier:shadinggroup grouping:membership grouping:tracesubset displacementbound:coordinatesystem "

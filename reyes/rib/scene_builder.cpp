@@ -154,8 +154,8 @@ bool SceneBuilder::performBlock(const Request& r) {
     recording_ = Recording{.begin = r};
   } else if (r.name == "ObjectInstance") {
     instance(r);
-  } else if (r.name == "MakeShadow") {
-    if (settings_.onMakeShadow) settings_.onMakeShadow(r.args[0].strings[0], r.args[1].strings[0], r.where);
+  } else if (r.name.starts_with("Make") && findSignature(r.name)->support == Support::Works) {
+    if (settings_.onMake) settings_.onMake(r);
   } else {
     const auto block = std::find_if(std::begin(kBlocks), std::end(kBlocks), [&](const auto& b) {
       return r.name.starts_with(b.first) && isBlockRequest(r.name);

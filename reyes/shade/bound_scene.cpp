@@ -9,19 +9,12 @@ namespace {
 
 /// Names of shadow maps, of shadowpoint one for each direction.
 const ParamNames kShadowMaps{"shadowname", "sfpx", "sfnx", "sfpy", "sfny", "sfpz", "sfnz"};
-const ParamNames kLightParams{"lighting", "__nondiffuse", "__nonspecular", "__group", "lightgroup", "shadowname", "sfpx",
+const ParamNames kLightParams{"lighting", "__nondiffuse", "__nonspecular", "__group", "lightgroup", "__category", "shadowname", "sfpx",
                               "sfnx",     "sfpy",         "sfny",          "sfpz",       "sfnz",     "shadowvariance"};
 
 std::string pathOf(const Options& options, const char* kind) {
   const auto it = options.searchPaths.find(kind);
   return it == options.searchPaths.end() ? std::string() : it->second;
-}
-
-/// Option "limits" "texturememory", in kilobytes.
-float textureCache_MB(const Options& options) {
-  constexpr float kUsual_KB = 1 << 20;
-  const auto it = options.user.find("limits:texturememory");
-  return (it == options.user.end() ? kUsual_KB : std::max(1.0f, it->second.number(kUsual_KB))) / 1024;
 }
 
 constexpr int kMostRays = 1 << 16;  ///< Of one irradiance sample.
@@ -159,6 +152,7 @@ void setHostParams(BoundLight& light, const LightCall& call, const ShadowMaps& m
   light.shadowVariance = std::max(0.0f, number("shadowvariance"));
   light.nondiffuse = number("__nondiffuse") != 0, light.nonspecular = number("__nonspecular") != 0;
   light.group = !text("__group").empty() ? text("__group") : !text("lightgroup").empty() ? text("lightgroup") : call.handle;
+  light.category = !text("__category").empty() ? text("__category") : light.bound->text("__category", "");
   const std::string lighting = text("lighting");
   light.direct = lighting != "indirect", light.indirect = lighting != "direct";
   if (!lighting.empty() && lighting != "both" && light.direct && light.indirect)
@@ -279,6 +273,27 @@ void warnAboutUnwritten(const FrameOutput& output, const BoundScene& scene) {
 
 namespace {
 
+const Param* optionOf(const Options& options, const char* key) {
+  const auto it = options.user.find(key);
+  return it == options.user.end() ? nullptr : &it->second;
+}
+
+/// docs/decisions/0004.
+float specularSharpnessOf(const Options& options, Log& log) {
+  const Param* convention = optionOf(options, "shade:specular");
+  const std::string name = convention && !convention->strings.empty() ? convention->strings[0] : "prman";
+  if (name != "prman" && name != "rispec")
+    log.report(Severity::Warning, "option-specular", {},
+               "Option \"shade\" \"specular\" \"" + name + "\" is neither \"prman\" nor \"rispec\"; \"prman\" is used");
+  return name == "rispec" ? 1.0f : 8.0f;
+}
+
+/// Option "limits" "texturememory" is in KB.
+int64_t textureMemoryOf(const Options& options) {
+  const Param* limit = optionOf(options, "limits:texturememory");
+  return limit ? static_cast<int64_t>(std::max(1.0f, limit->number(0))) << 10 : TextureSettings{}.memory_bytes;
+}
+
 /// Its shader never runs.
 BoundShaderPtr storedLight() {
   static const TmShader shader{TM_SHADER_ABI, sizeof(TmShader), "stored irradiance", TM_LIGHT, 0, nullptr, 0, nullptr, ""};
@@ -295,7 +310,8 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
       stats(st),
       camera(s.options),
       cameraFromWorld(s.cameraFromWorldAtOpen()),
-      textures(pathOf(s.options, "texture"), textureCache_MB(s.options), l, st),
+      specularSharpness(specularSharpnessOf(s.options, l)),
+      textures({pathOf(s.options, "texture"), pathOf(s.options, "texturecache"), textureMemoryOf(s.options)}, l, st),
       shadowMaps(pathOf(s.options, "texture"), l) {
   output_ = outputOf(scene.options);
   binder_ = std::make_unique<Binder>(scene, registry, textures, shadowMaps, log);
@@ -328,6 +344,8 @@ BoundGroup BoundScene::bound(const ShadeGroup& group) const {
   g.indirectSurface = binder_->indirectSurface(a, where, g.object);
   g.displacement = binder_->optional(a.displacement, g.object, TM_DISPLACEMENT);
   g.atmosphere = binder_->optional(a.atmosphere, g.object, TM_VOLUME);
+  g.interior = binder_->optional(a.interior, g.object, TM_VOLUME);
+  g.exterior = binder_->optional(a.exterior, g.object, TM_VOLUME);
   g.surfaceOverrides = overridesOf(*g.surface, group.primvars);
   if (g.indirectSurface) g.indirectOverrides = overridesOf(*g.indirectSurface, group.primvars);
   if (g.displacement) g.displacementOverrides = overridesOf(*g.displacement, group.primvars);

@@ -22,6 +22,7 @@ struct BoundLight {
   bool nondiffuse = false, nonspecular = false;  ///< Left out by diffuse(), by specular().
   IndirectQuery query;                           ///< TM_LIGHT_INDIRECT alone.
   std::string group;                             ///< Light parameter "__group" or "lightgroup"; else the handle.
+  std::string category;                          ///< Light parameter "__category": names by commas.
   std::shared_ptr<const Sky> sky;                ///< TM_LIGHT_SKY alone.
   vec3 sourceTint{1.0f};                         ///< Of the indirect light that this one filters.
   bool can(TmCapability capability) const { return bound->can(capability); }
@@ -38,7 +39,7 @@ struct BoundGroup {
   std::string object;  ///< For messages.
   BoundShaderPtr surface,
       indirectSurface;  ///< The second: for rays that hit it (Attribute "indirect" "surface").
-  BoundShaderPtr displacement, atmosphere;  ///< May be null.
+  BoundShaderPtr displacement, atmosphere, interior, exterior;  ///< May be null.
   std::vector<Override> surfaceOverrides, indirectOverrides, displacementOverrides;
   std::vector<const BoundLight*> lights;
   std::optional<IndirectQuery> indirect;
@@ -60,6 +61,7 @@ struct BoundScene {
   const ShadeServices* services = nullptr;
   Camera camera;
   mat4 cameraFromWorld;
+  float specularSharpness;  ///< Over roughness, the exponent of specular().
   Textures textures;
   ShadowMaps shadowMaps;
   std::vector<std::unique_ptr<const BoundLight>> lights;  ///< As Scene::lights; null: unknown shader.

@@ -3,6 +3,7 @@
 #include "reyes/base/checksum.h"
 #include "reyes/base/rng.h"
 #include "reyes/shade/batch.h"
+#include "reyes/shade/primary.h"
 
 namespace tomales {
 namespace {
@@ -15,11 +16,35 @@ bool applies(const BoundLight& light, const Batch& batch) {
   return batch.context.indirect && batch.group.group->attributes->indirect.receive;
 }
 
+/// Of the points, without neighbours; what the light brings has room for those.
 TmGrid lightGrid(Batch& batch, const BoundLight& light) {
-  TmGrid g = batch.tm;
+  TmGrid g = *Primary(batch, &batch.tm).grid();
   g.params = light.bound->values.data();
-  g.L = batch.arena.vec3(g.count), g.Cl = batch.arena.vec3(g.count);
+  g.L = batch.arena.vec3(batch.tm.count), g.Cl = batch.arena.vec3(batch.tm.count);
   return g;
+}
+
+/// Gives the outputs of a light room, so that lightsource() can read them.
+void openOutputs(Batch& batch, const BoundShader& light, std::vector<TmValue>& params) {
+  for (size_t i = 0; i < params.size(); ++i) {
+    if (!isOutput(light.shader->params[i])) continue;
+    const int width = (light.shader->params[i].type & ~TM_OUTPUT) == TM_FLOAT ? 1 : 3;
+    for (int k = 0; k < width; ++k) params[i].c[k] = batch.arena.floats(batch.tm.count);
+    params[i].step = 1;
+  }
+}
+
+/// What is not finite is dark: the fault is the light's, not that of the surface that asks.
+void darkenNonFinite(Batch& batch, const BoundShader& light, const TmGrid& g) {
+  bool bad = false;
+  for (int i = 0; i < g.count; ++i) {
+    if (isFinite(get(g.Cl, i)) && isFinite(get(g.L, i))) continue;
+    set(g.Cl, i, vec3(0)), set(g.L, i, vec3(0)), bad = true;
+  }
+  if (!bad) return;
+  const BoundShader* caller = std::exchange(batch.running, &light);
+  batch.report(Severity::Warning, "shader-not-finite", "returned NaN or infinity; it casts no light there");
+  batch.running = caller;
 }
 
 /// Random numbers of sample number g.sample, by what the points are and never by their place in the batch.
@@ -170,13 +195,13 @@ std::vector<LightSample>& Lights::samples(Batch& batch) {
 void Lights::substitute(Batch& batch) {
   if (batch.context.light == Illumination::None) return;
   const TmVec3 L = batch.arena.vec3(batch.tm.count), Cl = batch.arena.vec3(batch.tm.count);
-  for (int i = 0; i < batch.tm.count; ++i) {
+  for (int i = 0; i < batch.points->count(); ++i) {
     set(L, i, batch.points->facingNormal(i));
     set(Cl, i, vec3(batch.context.light == Illumination::Unit ? 1.0f : 0.0f));
   }
   if (batch.context.light == Illumination::Stored && batch.scene.services)
     batch.scene.services->storedIrradiance(*batch.points, batch.tm.active, Cl);
-  samples_.push_back({&batch.scene.stored, L, Cl, L, {}, nullptr});
+  samples_.push_back({&batch.scene.stored, L, Cl, L, {}, nullptr, 0, nullptr, nullptr, L});
 }
 
 void Lights::evaluate(Batch& batch, const BoundLight& light) {
@@ -184,9 +209,11 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
   const int n = samplesOf(light, batch);
   ShadowTally* tally = nullptr;
   if (light.shadowVariance > 0 && n > 1)
-    tally = &tallies_.emplace_back(ShadowTally{batch.arena.floats(batch.tm.count), batch.arena.vec3(batch.tm.count)});
+    tally = &tallies_.emplace_back(ShadowTally{batch.arena.floats(batch.points->count()), batch.arena.vec3(batch.points->count())});
   for (int s = 0; s < n; ++s) {
     TmGrid g = lightGrid(batch, light);
+    openOutputs(batch, *light.bound, params_.emplace_back(light.bound->values));
+    g.params = params_.back().data();
     g.sample = s, g.samples = n;
     EmitterPoints points{};
     if (area || sky || light.can(TM_LIGHT_SAMPLED)) drawSample(batch, light, g);
@@ -194,11 +221,14 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
     if (area && !sampleEmitter(batch, light, g, points)) return;
     if (sky) sampleSky(batch, light, g, points);
     if (!batch.run(*light.bound, g)) return;
+    darkenNonFinite(batch, *light.bound, g);
     if (area || sky) {
       for (int i = 0; i < g.count; ++i) points.density[i] *= static_cast<float>(n), points.meetDensity[i] *= static_cast<float>(n);
       radianceToSample(g, points.density);
     }
-    LightSample sample{&light, batch.arena.vec3(g.count), g.Cl, g.L, {light.can(TM_LIGHT_SOLAR), s, n}, nullptr, s, points.meetDensity, tally};
+    LightSample sample{&light, batch.arena.vec3(batch.tm.count), g.Cl, g.L, {light.can(TM_LIGHT_SOLAR), s, n}, nullptr, s, points.meetDensity, tally, g.L, g.params};
+    if (const int k = light.bound->output("__nondiffuse", ValueType::Float); k >= 0) sample.nondiffuse = g.params[k].c[0];
+    if (const int k = light.bound->output("__nonspecular", ValueType::Float); k >= 0) sample.nonspecular = g.params[k].c[0];
     for (int i = 0; i < g.count; ++i) set(sample.L, i, normalizeOr(get(g.L, i), vec3(0.0f)));
     if (light.shadows && batch.scene.services) {
       if (area) sample.toward = beforeEmitter(batch, g, batch.scene.services->emitterReach(light.index));
@@ -257,7 +287,7 @@ void Lights::alongOne(Batch& batch, const BoundLight& light, const LobeDirection
 
 void Lights::shadow(Batch& batch, LightSample& sample, const uint8_t* want) const {
   if (!sample.pending) return;
-  const int n = batch.tm.count;
+  const int n = batch.points->count();
   uint8_t* trace = batch.arena.bytes(n);
   bool any = false;
   for (int i = 0; i < n; ++i) {
@@ -292,7 +322,7 @@ void Lights::transmit(Batch& batch, const LightSample& sample, const uint8_t* wa
 // however bright the light: intensities, cones and surfaces may then change without a ray.
 void Lights::transmitFromAnswers(Batch& batch, const LightSample& sample, const uint8_t* want, TmVec3 passed) const {
   RayAnswers& answers = *batch.context.answers;
-  const int n = batch.tm.count;
+  const int n = batch.points->count();
   const uint64_t asked = sumOf(view(sample.toward), n, sample.rays);
   const ShadowQuestion question{batch.context.chunk, sample.light->index, sample.question};
   uint8_t* unknown = batch.arena.bytes(n);

@@ -29,6 +29,9 @@ struct LightSample {
   int question = 0;  ///< Name of its shadow rays among those of the light (ray_answers.h).
   const float* density = nullptr;  ///< Over solid angle, of all samples of the light together, where along() finds it too; else 0, null: nowhere.
   ShadowTally* tally = nullptr;    ///< Null: every shadow ray is traced.
+  TmVec3 far{};      ///< L at full length, for points and their neighbours.
+  const TmValue* params = nullptr;  ///< Of this run of its shader, outputs included.
+  const float *nondiffuse = nullptr, *nonspecular = nullptr;  ///< Its outputs of that name.
 };
 
 /// Unit directions that a surface has drawn itself: one of `samples` for each point. density: over solid angle; 0: none.
@@ -65,6 +68,7 @@ class Lights {
   template <class Body>
   void forEachWithExtent(Batch& batch, const Body& body) const;
   bool evaluated_ = false;
+  std::deque<std::vector<TmValue>> params_;
   int lobes_ = 0;  ///< That along() was given.
   std::deque<ShadowTally> tallies_;
   std::vector<LightSample> samples_, chosen_;  ///< All; those of group_.

@@ -1,19 +1,12 @@
 #include "reyes/shade/lobe.h"
 
 #include "reyes/base/rng.h"
+#include "reyes/shade/primary.h"
 
 namespace tomales {
 namespace {
 
 constexpr uint32_t kLobeStream = 0x6c6f6265U;
-
-Batch& batchOf(void* host) { return *static_cast<Batch*>(host); }
-
-template <class Body>
-void forActive(const TmGrid* g, const Body& body) {
-  for (int i = 0; i < g->count; ++i)
-    if (g->active[i]) body(i);
-}
 
 /// The lobe of RISpec 15.6, (N.H)^e, with the exponent of docs/decisions/0004. Directions are drawn by H with density
 /// (e + 1) / 2 pi cos^e.
@@ -48,7 +41,7 @@ class Highlight {
     forActive(g, [&](int i) {
       set(out, i, vec3(0.0f));
       lobes_[static_cast<size_t>(i)] = {normalizeOr(get(N, i), vec3(0.0f)), normalizeOr(get(V, i), vec3(0.0f)),
-                                        8 / std::max(roughness[i], 1e-6f)};
+                                        batch.scene.specularSharpness / std::max(roughness[i], 1e-6f)};
     });
   }
 
@@ -61,7 +54,8 @@ class Highlight {
         const vec3 L = get(sample.L, i);
         const float of = sample.density ? sample.density[i] : 0.0f;
         const float other = of > 0 ? static_cast<float>(drawn_) * lobe.density(L) / of : 0.0f;
-        add(i, get(sample.Cl, i) * (lobe.value(L) / (1 + other * other)));
+        const float share = sample.nonspecular ? 1 - sample.nonspecular[i] : 1.0f;
+        add(i, get(sample.Cl, i) * (share * lobe.value(L) / (1 + other * other)));
       });
     }
   }
@@ -106,23 +100,29 @@ class Highlight {
 void specular(void* host, const TmGrid* g, TmConstVec3 N, TmConstVec3 V, const float* roughness, TmVec3 out) {
   Batch& batch = batchOf(host);
   if (batch.context.kind == RayKind::Diffuse) return forActive(g, [&](int i) { set(out, i, vec3(0.0f)); });
-  Highlight highlight(batch, g, N, V, roughness, out);
+  const Primary primary(batch, g);
+  Highlight highlight(batch, primary.grid(), N, V, roughness, out);
   highlight.addLightSamples();
   highlight.addLobeSamples();
+  primary.spread(out);
 }
 
-void lightDensity(void* host, const TmGrid* g, int32_t index, float* out) {
+void lightDensity(void* host, const TmGrid* all, int32_t index, float* out) {
   Batch& batch = batchOf(host);
+  const Primary primary(batch, all);
+  const TmGrid* g = primary.grid();
   const std::vector<LightSample>& samples = batch.lights.samples(batch);
   const bool exists = index >= 0 && index < static_cast<int32_t>(samples.size());
   const float* density = exists ? samples[static_cast<size_t>(index)].density : nullptr;
   forActive(g, [&](int i) { out[i] = density ? density[i] : 0.0f; });
+  primary.spread(out);
 }
 
 void lightAlong(void* host, const TmGrid* g, TmConstVec3 L, const float* density, int32_t sample, int32_t samples, TmVec3 Cl) {
   Batch& batch = batchOf(host);
   forActive(g, [&](int i) { set(Cl, i, vec3(0.0f)); });
   batch.lights.along(batch, {L, density, sample, samples}, Cl);
+  Primary(batch, g).spread(Cl);
 }
 
 // Half as many as of the light: twice as many win little where the lobe is narrow, and cost something where it is wide (docs/performance.md).
@@ -131,7 +131,7 @@ int32_t lobeSamples(void* host, const TmGrid*) { return (batchOf(host).lights.mo
 void stratified(void* host, const TmGrid* g, int32_t sample, int32_t samples, float* xi0, float* xi1) {
   const Batch& batch = batchOf(host);
   forActive(g, [&](int i) {
-    const SampleName name = batch.points ? batch.points->name(i) : SampleName{};
+    const SampleName name = batch.points ? batch.points->name(i % batch.points->count()) : SampleName{};
     const vec2 xi = sobol2(name.sequence * static_cast<uint32_t>(samples) + static_cast<uint32_t>(sample),
                            hashCombine(name.key, kLobeStream, batch.context.seed));
     xi0[i] = xi.x, xi1[i] = xi.y;
