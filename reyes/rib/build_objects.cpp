@@ -16,10 +16,11 @@ constexpr size_t kLongestInstance = 1'000'000;
 // Squares of distances, and their products with areas, must fit floats.
 constexpr float kFarthest = 1e12f;
 
-float largestElement(const Motion& m) {
+/// How far from the camera a point of the object may be that lies within `reach` of its own origin.
+float farthest(const Motion& cameraFromObject, float reach) {
   float out = 0;
-  for (const mat4& key : m.keys)
-    for (int i = 0; i < 16; ++i) out = std::max(out, std::abs((&key[0][0])[i]));
+  for (const mat4& m : cameraFromObject.keys)
+    out = std::max(out, glm::length(vec3(m[3])) + reach * (glm::length(vec3(m[0])) + glm::length(vec3(m[1])) + glm::length(vec3(m[2]))));
   return out;
 }
 
@@ -74,7 +75,7 @@ void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times
   if (state_.scope.attributes->detail.empty()) return;  // another level of detail is there
   Master::Shapes shapes = shapesOf(keys, times);
   if (shapes.keys.empty()) return;
-  if (const float reach = largestElement(cameraFromObject) * std::max(1.0f, shapes.reach); !(reach < kFarthest)) {
+  if (const float reach = farthest(cameraFromObject, shapes.reach); !(reach < kFarthest)) {
     state_.log.report(Severity::Missing, "rib-object-dropped", r.where,
                       fmt::format("{}: it may reach {:g} from the camera, and floats are no good beyond {:g}; the object is dropped",
                                   description(r), reach, kFarthest));

@@ -50,9 +50,8 @@ for k in range(0, len(binary), 7):
         t.expect(False, f"binary RIB broken at byte {k}: exit {code}")
 
 # Numbers.
-limited("a picture that no machine holds", "huge.rib", "WorldEnd\n", 0)
 t.write("huge.rib", HEAD.replace("16 16 1", "1e9 1e9 1") + DOT + "\nWorldEnd\n")
-t.expect_run("a Format of 1e18 pixels", ["huge.rib"], 4, "huge.rib:1", "32768 is used", "million pixels")
+t.expect_run("a Format of 1e18 pixels", ["huge.rib", "--crop", "0,.001,0,.001"], 0, "huge.rib:1", "32768 is used")
 for number in ("nan", "inf", "-inf", "1e999", "1e38", "99999999999999999999", "1e-45", "-0"):
     limited(f"{number} everywhere", "number.rib", f"""Sphere 1 -1 1 360
 AttributeBegin Translate {number} 0 0 Rotate {number} 0 1 0 Scale {number} {number} {number} {DOT} AttributeEnd
