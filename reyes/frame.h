@@ -71,9 +71,11 @@ void runImager(Image& image, const ShadingSystem& shading);
 
 /// Puts shaded tiles into frame.tile(i). Empty ones are left out of the picture.
 using TileFill = std::function<void(std::span<const uint32_t> tiles)>;
+/// Sees the rows that go to the Displays. May be empty.
+using RowViewer = std::function<void(const Image& rows)>;
 /// Asks for the tiles that the next rows of the picture need, each once and in rows from the top, and forgets those that no
 /// row needs any more. What cannot be written is reported; the other Displays are written all the same.
-void writeFrame(DeepFrame& frame, const TileFill& fill, const Scene& scene, const ShadingSystem& shading, const FrameControl& control,
-                Stats& stats, Log& log);
+void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer, const Scene& scene, const ShadingSystem& shading,
+                const FrameControl& control, Stats& stats, Log& log);
 
 }  // namespace tomales

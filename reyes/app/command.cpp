@@ -113,6 +113,21 @@ void addRunOptions(CLI::App& app, RenderSettings& s) {
       "-v", [&s] { s.verbosity = Log::Verbosity::Verbose; }, "Say more");
 }
 
+void addWatching(CLI::App& app, RenderSettings& s) {
+  app.add_flag("--preview{127.0.0.1:14158}", s.preview, "Show rows as they are made, in a tev viewer that listens there (--preview=HOST:PORT)");
+  app.add_option_function<std::vector<std::string>>(
+         "--pixel",
+         [&s](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) {
+             const auto pixel = parsePixel(text);
+             if (!pixel) throw CLI::ValidationError("--pixel", "\"" + text + "\" is not of the form X,Y");
+             s.pixels.push_back(*pixel);
+           }
+         },
+         "Print what the samples of a pixel see; may be given again")
+      ->expected(1)->take_all()->type_name("X,Y");
+}
+
 /// Everything that the arguments may fill.
 struct Invocation {
   RenderSettings render;
@@ -133,6 +148,7 @@ void buildRender(CLI::App& app, Invocation& in, int& code) {
   addPictureOptions(*c, in.render);
   addLightOptions(*c, in.render);
   addRunOptions(*c, in.render);
+  addWatching(*c, in.render);
   c->add_flag("--resume", in.render.resume, "Keep finished buckets beside the picture until it is written, and use those of an interrupted run");
   c->add_option("--irradiance", in.render.irradiance, "Indirect light from these records instead of a gather pass")->type_name("SHOT.icf");
   c->add_flag("--irradiance-append", in.render.appendIrradiance, "Gather where those records leave points uncovered");
@@ -175,6 +191,7 @@ void buildShade(CLI::App& app, Invocation& in, int& code) {
   addCrop(*c, in.render);
   addLightOptions(*c, in.render);
   addRunOptions(*c, in.render);
+  addWatching(*c, in.render);
   addShotOptions(*c, in.render);
   c->callback([&] { code = shadeCommand(in.render); });
 }

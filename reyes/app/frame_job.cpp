@@ -7,6 +7,8 @@
 #include "reyes/app/atlas_job.h"
 #include "reyes/app/interrupt.h"
 #include "reyes/app/overrides.h"
+#include "reyes/app/pixel_report.h"
+#include "reyes/app/preview.h"
 
 namespace tomales {
 namespace {
@@ -108,10 +110,7 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
                              if (loaded) tile = std::move(*loaded);
                              return loaded.has_value();
                            },
-                           [&](size_t index, DeepTile&& tile) {
-                             tile.forgetPoints();
-                             frame.tile(index) = std::move(tile);
-                           }};
+                           [&](size_t index, DeepTile&& tile) { place(index, std::move(tile), frame); }};
     const FrameControl control{meter_.stage(share(shaded), share(shaded + tiles.size())), cut ? nullptr : &interrupted(), settings_.seed};
     complete = shadeTiles(tiles, steps, scene_, *shading_, context, control) && complete;
     shaded += tiles.size();
@@ -126,8 +125,7 @@ void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::op
   const TileSink sink{{}, [&](size_t index, DeepTile&& tile) {
                         keep(index, tile);
                         tomales::shadeTile(tile, scene_, *shading_, shadeContext());
-                        tile.forgetPoints();
-                        frame.tile(index) = std::move(tile);
+                        place(index, std::move(tile), frame);
                       }, find};
   bool complete = true;
   finish(frame, [&](std::span<const uint32_t> tiles) {
@@ -137,8 +135,18 @@ void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::op
   if (!complete) log_.report(Severity::Warning, "interrupted", {}, "interrupted: finished buckets are written");
 }
 
+void FrameJob::place(size_t index, DeepTile&& tile, DeepFrame& frame) const {
+  for (const auto& [x, y] : settings_.pixels)
+    if (tile.rect.contains(x, y)) std::fputs(pixelReport(tile, x, y, frame.samplesPerPixel, scene_).c_str(), stdout);
+  tile.forgetPoints();
+  frame.tile(index) = std::move(tile);
+}
+
 void FrameJob::finish(DeepFrame& frame, const TileFill& fill) {
-  writeFrame(frame, fill, scene_, *shading_, {{}, &interrupted(), settings_.seed}, stats_, log_);
+  std::optional<Preview> preview;
+  if (!settings_.preview.empty()) preview.emplace(settings_.preview, scene_.options.displays.front().name, frame, log_);
+  const RowViewer viewer = preview ? [&](const Image& rows) { preview->show(rows); } : RowViewer{};
+  writeFrame(frame, fill, viewer, scene_, *shading_, {{}, &interrupted(), settings_.seed}, stats_, log_);
   if (services_) services_->reportAtlas(stats_);
   meter_.report(1);
 }

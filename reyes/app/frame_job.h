@@ -46,6 +46,8 @@ class FrameJob {
   void warnAboutBounces() const;
   int referenceLightSamples() const;
   ShadeContext shadeContext() const;
+  /// A shaded tile, for the rows of the picture.
+  void place(size_t index, DeepTile&& tile, DeepFrame& frame) const;
   void finish(DeepFrame& frame, const TileFill& fill);
 
   Scene& scene_;

@@ -87,7 +87,8 @@ void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats&
   FrameJob job(scene, settings, stats, log);
   const bool given = !settings.irradiance.empty(), gathers = job.gathers() && (!given || settings.appendIrradiance);
   const int64_t budget_bytes = tileBudget(settings);
-  const bool streams = !gathers && pixelsOf(scene) * (bytesOfTilePixel(scene) + kBytesOfPoints) > budget_bytes;
+  const bool large = pixelsOf(scene) * (bytesOfTilePixel(scene) + kBytesOfPoints) > budget_bytes;
+  const bool streams = !gathers && (large || !settings.preview.empty());  // a preview wants the first rows first
 
   if (streams || given || settings.resume) job.openAll();
   BucketFile file(scene, world, settings, log);

@@ -54,6 +54,13 @@ std::optional<std::array<int, 2>> parsePair(const std::string& text, int least, 
   return out;
 }
 
+std::optional<std::array<int, 2>> parsePixel(const std::string& text) {
+  const auto parts = split(text, ',');
+  std::array<int, 2> out;
+  if (parts.size() != 2 || !number(parts[0], out[0]) || !number(parts[1], out[1])) return std::nullopt;
+  return out;
+}
+
 std::optional<std::array<float, 4>> parseCrop(const std::string& text) {
   const auto parts = split(text, ',');
   std::array<float, 4> c{};

@@ -42,6 +42,8 @@ struct RenderSettings {
   bool hitList = true;
   std::string statsFile;
   bool progress = false;
+  std::string preview;  ///< host:port of a viewer; empty: none.
+  std::vector<std::array<int, 2>> pixels;  ///< To explain.
   bool allowSystem = false;  ///< The RIB may start programs.
   Log::Verbosity verbosity = Log::Verbosity::Normal;
   std::string commandLine;
@@ -51,6 +53,7 @@ inline uint32_t lightSeedOf(const RenderSettings& settings) { return settings.li
 
 // Each returns nothing when the text is not of its form.
 std::optional<std::array<int, 2>> parsePair(const std::string& text, int least, int most);  ///< "640x480"
+std::optional<std::array<int, 2>> parsePixel(const std::string& text);  ///< "120,80"
 std::optional<std::array<float, 4>> parseCrop(const std::string& text);  ///< "0,0.5,0.25,1"
 std::optional<std::vector<int>> parseFrames(const std::string& text);    ///< "1-10x2,15"
 std::optional<int64_t> parseBytes(const std::string& text);             ///< "600M", "2G", "1000000"

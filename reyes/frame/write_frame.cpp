@@ -47,8 +47,8 @@ class MovingBand {
 
 }  // namespace
 
-void writeFrame(DeepFrame& frame, const TileFill& fill, const Scene& scene, const ShadingSystem& shading, const FrameControl& control,
-                Stats& stats, Log& log) {
+void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer, const Scene& scene, const ShadingSystem& shading,
+                const FrameControl& control, Stats& stats, Log& log) {
   constexpr int kBandRows = 64;  // a multiple of the rows of a tile (image.h)
   const Options& options = scene.options;
   const FrameOutput output = outputOf(options);
@@ -69,6 +69,7 @@ void writeFrame(DeepFrame& frame, const TileFill& fill, const Scene& scene, cons
     Image band = filter.rows(y, end);
     expose(band, options);
     runImager(band, shading);
+    if (viewer) viewer(band);
     for (const auto& file : files) {
       const std::optional<DeepMerge> merge = file->deep();
       if (merge)

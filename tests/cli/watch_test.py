@@ -1,0 +1,117 @@
+"""Looking at a frame while it is made: --preview in a viewer of the tev protocol, --pixel; and frames that are interrupted and
+resumed row by row."""
+import re
+import signal
+import socket
+import struct
+import subprocess
+import threading
+import time
+
+from program import GOOD, Suite
+
+t = Suite()
+t.write("good.rib", GOOD.replace("Format 24 24 1", "Format 90 150 1").replace("Sphere", 'Attribute "identifier" "name" ["ball"] Color [0.8 0.4 0.2]\nSphere'))
+
+
+def text(data, at):
+    end = data.index(b"\0", at)
+    return data[at:end].decode(), end + 1
+
+
+class Viewer(threading.Thread):
+    """Puts together what arrives."""
+
+    def __init__(self, reads=True):
+        super().__init__(daemon=True)
+        self.server = socket.create_server(("127.0.0.1", 0))
+        self.address = "127.0.0.1:%d" % self.server.getsockname()[1]
+        self.reads, self.name, self.pixels, self.updates = reads, None, {}, 0
+        self.start()
+
+    def run(self):
+        connection, _ = self.server.accept()
+        data = b""
+        while self.reads and (part := connection.recv(1 << 16)):
+            data += part
+            while len(data) >= 4 and len(data) >= (size := struct.unpack_from("<I", data)[0]):
+                self.take(data[:size])
+                data = data[size:]
+        if not self.reads:
+            time.sleep(60)
+
+    def take(self, packet):
+        kind, (name, at) = packet[4], text(packet, 6)
+        if kind == 4:
+            self.name = name
+            self.width, self.height, self.channels = struct.unpack_from("<3i", packet, at)
+            return
+        assert kind == 6 and name == self.name
+        self.updates += 1
+        (channels,), at = struct.unpack_from("<i", packet, at), at + 4
+        names = []
+        for _ in range(channels):
+            one, at = text(packet, at)
+            names.append(one)
+        assert names == ["R", "G", "B", "A"]
+        x, y, width, height = struct.unpack_from("<4i", packet, at)
+        offsets = struct.unpack_from(f"<{channels}q", packet, at + 16)
+        strides = struct.unpack_from(f"<{channels}q", packet, at + 16 + 8 * channels)
+        floats = struct.unpack_from(f"<{width * height * channels}f", packet, at + 16 + 16 * channels)
+        for i in range(width * height):
+            self.pixels[x + i % width, y + i // width] = tuple(floats[offsets[c] + i * strides[c]] for c in range(channels))
+
+
+viewer = Viewer()
+t.expect_run("a render with a viewer", ["good.rib", "-o", "seen.exr", f"--preview={viewer.address}"], 0)
+viewer.join(10)
+t.expect(viewer.name == "seen.exr" and (viewer.width, viewer.height, viewer.channels) == (90, 150, 4), "the viewer knows the picture")
+t.expect(viewer.updates >= 3 and len(viewer.pixels) == 90 * 150, "and got all of it, piece by piece")
+dump = subprocess.run(["oiiotool", "--dumpdata", "--info", "-v", "seen.exr"], cwd=t.folder, capture_output=True, text=True).stdout
+dumped = {(int(x), int(y)): tuple(float(v) for v in rest.split()) for x, y, rest in re.findall(r"Pixel \((\d+), (\d+)\): ([^\n]*)", dump)}
+wrong = sum(any(abs(a - b) > 1e-5 for a, b in zip(viewer.pixels.get(at, (9,) * 4), value)) for at, value in dumped.items())
+t.expect(len(dumped) == 90 * 150 and wrong == 0, "which is what the file holds")
+t.run("good.rib", "-o", "unseen.exr", "-q")
+t.expect_run("the picture is the same without", ["compare", "seen.exr", "unseen.exr"], 0, "different_pixels               0")
+t.expect_run("a crop has its own corner", ["good.rib", "-o", "crop.exr", "--crop", "0.5,1,0.5,1", f"--preview={(part := Viewer()).address}"], 0)
+part.join(10)
+t.expect(len(part.pixels) == 45 * 75 and (0, 0) in part.pixels, "which is that of the viewer's picture")
+
+closed = socket.create_server(("127.0.0.1", 0))
+port = closed.getsockname()[1]
+closed.close()
+t.expect_run("nobody listens", ["good.rib", "-o", "alone.exr", f"--preview=127.0.0.1:{port}"], 0, "nobody listens")
+t.expect_run("no such host", ["good.rib", "-o", "alone.exr", "--preview=no.host.invalid:1"], 0, "nobody listens")
+deaf = Viewer(reads=False)
+start = time.time()
+t.expect_run("a viewer that does not read", ["good.rib", "-o", "deaf.exr", "--format", "1200x1200", "--pixel-samples", "1x1", f"--preview={deaf.address}"], 0)
+t.expect_run("has not changed the picture", ["info", "deaf.exr"], 0)
+
+# What a pixel sees.
+seen = t.expect_run("--pixel", ["good.rib", "-o", "seen.exr", "--pixel", "45,75", "--pixel", "0,0"], 0, "pixel 45,75: 4 samples see",
+                    "pixel 0,0: 4 samples see 0 micropolygons", '"ball" (', "good.rib:9", "matte", "Oi 1 1 1")
+depth = float(re.search(r"z ([0-9.]+)", seen.stdout)[1])
+mean = [float(v) for v in re.search(r"75: .*?mean of its samples: (\S+) (\S+) (\S+)", seen.stdout, re.S).groups()]
+t.expect(abs(depth - 3) < 0.01, f"at its depth ({depth})")
+t.expect(all(abs(a - b) < 0.02 for a, b in zip(mean, dumped[45, 75])), f"and nearly the colour of the picture ({mean}, {dumped[45, 75][:3]})")
+t.expect_run("--pixel that is none", ["good.rib", "--pixel", "12"], 1, "X,Y")
+t.run("hide", "good.rib", "-o", "good.dfb", "-q")
+again = t.expect_run("--pixel of a shot", ["shade", "good.dfb", "-o", "again.exr", "--pixel", "45,75"], 0, '"ball" (', "good.rib:9")
+t.expect(mean == [float(v) for v in re.search(r"mean of its samples: (\S+) (\S+) (\S+)", again.stdout).groups()], "sees the same")
+
+# Row by row, interrupted, and taken up again.
+for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGKILL, -9)):
+    line = ["good.rib", "-o", f"cut{code}.exr", "--format", "500x500", "--memory-limit", "1M", "--resume", "-t", "2"]
+    process = subprocess.Popen([t.program, *line, "--progress", "-q"], cwd=t.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    for _ in range(20):
+        process.stdout.readline()
+    process.send_signal(number)
+    process.communicate(timeout=200)
+    t.expect(process.returncode == code, f"signal {int(number)} ends with {code}")
+    t.expect((t.folder / f"cut{code}.exr").exists() == (number != signal.SIGKILL), "with what is finished in a picture, if it can")
+    kept = t.expect_run("--resume", line + ["-v"], 0, "buckets were finished before")
+    t.expect(int(re.search(r"(\d+) of \d+ buckets were finished", kept.stderr)[1]) >= 100, "finds finished buckets")
+    t.run("good.rib", "-o", "whole.exr", "--format", "500x500", "-q")
+    t.expect_run("and gives the same bits", ["compare", f"cut{code}.exr", "whole.exr"], 0, "different_pixels               0")
+t.expect(not list(t.folder.glob("*.dfb.part")), "no buckets are left behind")
+t.finish()
