@@ -18,7 +18,7 @@ constexpr int64_t kBytesOfTilePixel = 64;   ///< Of a shaded tile without its po
 constexpr int64_t kBytesOfPoints = 192;     ///< and of its points; all for shading rate 1.
 constexpr int64_t kBytesOfBucket = 96;      ///< Of lists of what is where.
 constexpr int64_t kRowsInMemory = 128;      ///< Of pixels, while a picture is made row by row.
-constexpr int64_t kUsualLimit = int64_t{1} << 31;
+constexpr int64_t kUsualLimit = int64_t{1} << 30;
 
 int64_t pixelsOf(const Scene& scene) {
   const PixelRect crop = Camera(scene.options).crop();
