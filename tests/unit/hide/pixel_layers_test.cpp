@@ -1,0 +1,73 @@
+#include "reyes/hide/pixel_layers.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "reyes/base/rng.h"
+
+namespace tomales {
+namespace {
+
+bool nearer(const Sight& a, const Sight& b) { return a.d != b.d ? a.d < b.d : a.cell < b.cell; }
+
+/// Sights of 70 samples at random depths, few enough different ones that some are equal.
+struct Crossing {
+  std::vector<std::vector<float>> depths;
+  std::vector<Sight> sights;
+  explicit Crossing(uint32_t seed) {
+    for (uint32_t cell = 0; cell < 40; ++cell) {
+      const uint32_t word = cell % 5 == 0;
+      const uint64_t lanes = uint64_t{hashCombine(seed, cell, 1U)} << 32 | hashCombine(seed, cell, 2U);
+      const uint64_t samples = word ? lanes & 0x3f : lanes;
+      if (samples == 0) continue;
+      std::vector<float>& d = depths.emplace_back();
+      for (int k = 0; k < std::popcount(samples); ++k)
+        d.push_back(static_cast<float>(hashCombine(seed, cell, 3U, static_cast<uint32_t>(k)) % 50));
+      sights.push_back({cell, word, samples, *std::min_element(d.begin(), d.end()), nullptr, false});
+    }
+    for (size_t i = 0; i < sights.size(); ++i) sights[i].depths = depths[i].data();
+    std::sort(sights.begin(), sights.end(), nearer);
+  }
+};
+
+/// Depth of the k-th sample of a mask among those of a sight.
+float depthAt(const Sight& s, const std::vector<Sight>& given, uint64_t bit) {
+  const auto it = std::find_if(given.begin(), given.end(), [&](const Sight& g) { return g.cell == s.cell; });
+  return it->depths[std::popcount(it->samples & (bit - 1))];
+}
+
+TEST(PixelLayers, EverySampleSeesEachOfItsLayersOnceAndNearestFirst) {
+  for (uint32_t seed = 0; seed < 20; ++seed) {
+    const Crossing given(seed);
+    std::vector<Sight> ordered = given.sights;
+    PixelLayers layers;
+    layers.order(ordered, nearer);
+    std::vector<float> last(128, -1);
+    std::vector<uint64_t> seen(40);
+    for (const Sight& s : ordered) {
+      EXPECT_EQ(seen[s.cell] & s.samples, 0U);
+      seen[s.cell] |= s.samples;
+      for (uint64_t left = s.samples; left; left &= left - 1) {
+        const uint64_t bit = left & (~left + 1);
+        float& before = last[s.word * 64 + static_cast<uint32_t>(std::countr_zero(left))];
+        const float d = depthAt(s, given.sights, bit);
+        EXPECT_LE(before, d);
+        EXPECT_LE(s.d, d);
+        before = d;
+      }
+    }
+    for (const Sight& s : given.sights) EXPECT_EQ(seen[s.cell], s.samples);
+  }
+}
+
+TEST(PixelLayers, WhatIsInOrderStaysWhole) {
+  const float near[2] = {1, 2}, far[2] = {3, 4};
+  std::vector<Sight> sights{{7, 0, 0b11, 1, near, false}, {8, 0, 0b11, 3, far, false}};
+  PixelLayers().order(sights, nearer);
+  ASSERT_EQ(sights.size(), 2U);
+  EXPECT_EQ(sights[0].samples, 0b11U);
+}
+
+}  // namespace
+}  // namespace tomales

@@ -1,0 +1,59 @@
+#include "reyes/image/weights.h"
+
+#include <gtest/gtest.h>
+
+#include "reyes/base/rng.h"
+
+namespace tomales {
+namespace {
+
+SampleOffsets offsets(int count) {
+  SampleOffsets out{count, {}, [](int x, int y) { return (x + 2 * y) & 3; }};
+  for (uint32_t p = 0; p < 4; ++p) {
+    auto& positions = out.byPattern.emplace_back();
+    for (uint32_t s = 0; s < static_cast<uint32_t>(count); ++s)
+      positions.emplace_back(unitFloat(hashCombine(p, s, 0U)), unitFloat(hashCombine(p, s, 1U)));
+  }
+  return out;
+}
+
+TEST(Weights, AllPlacesAtOnceAreThoseAskedForOneByOneBitForBit) {
+  const SampleOffsets samples = offsets(80);
+  const WeightTable table(PixelFilter("mitchell", 3.5f, 2), samples);
+  AlignedVector<float> sums(static_cast<size_t>(table.places()));
+  for (const uint16_t word : {uint16_t{0}, uint16_t{1}}) {
+    const uint64_t mask = word == 0 ? 0xf0f3'0000'1234'5679U : 0x0000'0000'0000'a5c3U;
+    table.sums(2, mask, word, sums.data());
+    for (int dy = -table.reachY; dy <= table.reachY; ++dy)
+      for (int dx = -table.reachX; dx <= table.reachX; ++dx) {
+        const WeightTable::Cell cell = table.cell(2, dx, dy);
+        EXPECT_EQ(sums[static_cast<size_t>(cell.place)], table.sum(cell, mask, word));
+      }
+  }
+}
+
+TEST(Weights, WhatIsScatteredIsWhatAPixelWouldGather) {
+  const SampleOffsets samples = offsets(16);
+  const WeightTable table(PixelFilter("gaussian", 3, 3), samples);
+  const PixelRect block{4, 3, 11, 8}, around{3, 2, 12, 9};
+  PixelSums scattered(table, block, 3);
+  std::vector<float> values(static_cast<size_t>(scattered.width()));
+  const auto valueAt = [](int x, int y, int k) { return unitFloat(hashCombine(static_cast<uint32_t>(x), static_cast<uint32_t>(y), static_cast<uint32_t>(k))); };
+  for (int y = around.y0; y < around.y1; ++y)
+    for (int x = around.x0; x < around.x1; ++x) {
+      for (int k = 0; k < 3; ++k) values[static_cast<size_t>(k)] = valueAt(x, y, k);
+      scattered.add(x, y, table.sums(samples.patternOf(x, y)), values.data());
+    }
+  for (int y = block.y0; y < block.y1; ++y)
+    for (int x = block.x0; x < block.x1; ++x) {
+      float gathered[3] = {};
+      forNeighbours(around, table, samples, x, y, [&](const WeightTable::Cell& cell, size_t pixel) {
+        const int sx = around.x0 + static_cast<int>(pixel) % around.width(), sy = around.y0 + static_cast<int>(pixel) / around.width();
+        for (int k = 0; k < 3; ++k) gathered[k] += table.sum(cell) * valueAt(sx, sy, k);
+      });
+      for (int k = 0; k < 3; ++k) EXPECT_EQ(scattered.of(x, y)[k], gathered[k]);
+    }
+}
+
+}  // namespace
+}  // namespace tomales
