@@ -1,10 +1,16 @@
 #include "gi/gather.h"
 
-#include "gi/hemisphere.h"
+#include "gi/hessian.h"
+#include "gi/layers.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
 namespace {
+
+/// At `maxerror` 1, in squared pixels: about as many records as the paper's function (docs/gi.md).
+constexpr float kHessianTolerance = 4;
+constexpr float kContrast = 4;  ///< Between neighbours of a cell, in means of the hemisphere: a small bright source.
+constexpr int kMostSplit = 8;
 
 /// Where in each cell its ray goes: correlated multi-jitter (Kensler 2013). The columns of a ring take
 /// different heights in their cells and the rings of a sector different angles, so both projections are
@@ -52,63 +58,153 @@ class RayTimes {
 /// Kept by each thread from one record to the next. Gather rays shade without indirect light, so gathering
 /// never nests.
 struct Scratch {
-  std::vector<Ray> rays;
+  RayLayers layers;
   std::vector<Hit> hits;
-  std::vector<SampleName> names;
-  std::vector<vec3> directions, radiance;
+  HitAnswers answers;
+  std::vector<vec3> directions, radiance, fine;
   std::vector<float> distances;
+};
+
+/// Where light changes fast: cells whose neighbours differ by more than kContrast times the mean. A cell's own ray has no say, so
+/// that choosing cells for more rays leaves the estimate unbiased.
+std::vector<int> contrastCells(const HemisphereCells& cells, std::span<const vec3> radiance) {
+  const int M = cells.rings, N = cells.sectors;
+  const auto light = [&](int j, int k) { return luminance(radiance[static_cast<size_t>(j * N + (k + N) % N)]); };
+  float mean = 0;
+  for (const vec3& L : radiance) mean += luminance(L) / static_cast<float>(radiance.size());
+  std::vector<int> out;
+  for (int j = 0; j < M; ++j)
+    for (int k = 0; k < N; ++k) {
+      float least = kInfinity, most = 0;
+      for (int ring = std::max(j - 1, 0); ring <= std::min(j + 1, M - 1); ++ring)
+        for (int side = -1; side <= 1; ++side) {
+          if (ring == j && side == 0) continue;
+          least = std::min(least, light(ring, k + side)), most = std::max(most, light(ring, k + side));
+        }
+      if (most - least > kContrast * mean) out.push_back(j * N + k);
+    }
+  return out;
+}
+
+/// The rays of one record.
+class Hemisphere {
+ public:
+  Hemisphere(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point, const GatherSettings& settings)
+      : scene_(scene),
+        shading_(shading),
+        point_(point),
+        settings_(settings),
+        cells_(hemisphereCells(settings.samples)),
+        count_(static_cast<size_t>(cells_.rings) * static_cast<size_t>(cells_.sectors)),
+        key_(hashCombine(point.key, settings.seed)),
+        times_(scene, point, count_, key_) {
+    orthonormalBasis(point.normal, tangent_, bitangent_);
+    scene.prepareOrigin(point.group, point.position, point.edgeLength, first_);
+  }
+
+  HemisphereSamples trace(Stats& stats) {
+    const CellJitter jitter(cells_, key_);
+    scratch_.directions.clear();
+    for (size_t i = 0; i < count_; ++i) {
+      const int ring = static_cast<int>(i) / cells_.sectors, sector = static_cast<int>(i) % cells_.sectors;
+      add(static_cast<int>(i), static_cast<int>(i), jitter(ring, sector, static_cast<uint32_t>(i)), count_);
+      scratch_.directions.push_back(scratch_.layers.rays.back().direction);
+    }
+    scratch_.distances.assign(count_, kInfinity);
+    shade(stats, scratch_.radiance);
+    refine(stats);
+    return {cells_, tangent_, bitangent_, point_.normal, scratch_.directions, scratch_.radiance, scratch_.distances};
+  }
+
+ private:
+  void add(int element, int cell, const vec2& xi, size_t raysOfHemisphere) {
+    const vec3 local = hemisphereDirection(cells_, cell / cells_.sectors, cell % cells_.sectors, xi);
+    Ray r = first_;
+    r.direction = local.x * tangent_ + local.y * bitangent_ + local.z * point_.normal;
+    r.offset = slantedOffset(first_.offset, local.z);
+    r.time = times_(static_cast<size_t>(cell));
+    if (r.time > 0) r.origin = scene_.placeAt(point_.group, point_.position, point_.drift, r.time);
+    // A cell of a cosine-weighted hemisphere has the solid angle pi / (n cos).
+    r.spread = 1 / std::sqrt(static_cast<float>(raysOfHemisphere) * std::max(local.z, 0.05f));
+    scratch_.layers.add(element, r, {key_, number_++});
+  }
+
+  /// What the added rays see, by their elements; of the first rays also how far.
+  void shade(Stats& stats, std::vector<vec3>& radiance) {
+    const size_t elements = scratch_.layers.rays.size();
+    radiance.assign(elements, vec3(0));
+    ShadeContext context{RayKind::Diffuse, 1, settings_.seed, 1, false};
+    context.light = settings_.light;
+    context.diffuseLimit = 0;  // of direct light the diffuse component alone; mirrors and glass show what they show
+    scratch_.answers.mode = HitMode::Shader;
+    for (int layer = 0; layer < kMostLayers && !scratch_.layers.rays.empty(); ++layer) {
+      stats.rays.hitlistAdjusted += scratch_.layers.meet(scene_, kMaskDiffuse, scratch_.hits);
+      stats.rays.gather += static_cast<int64_t>(scratch_.hits.size());
+      for (size_t i = 0; layer == 0 && &radiance == &scratch_.radiance && i < elements; ++i)
+        if (scratch_.hits[i].object >= 0) scratch_.distances[i] = std::max(0.0f, scratch_.hits[i].t);
+      scene_.shadeHits(scratch_.layers.rays, scratch_.hits, scratch_.layers.names, shading_, context, scratch_.answers);
+      scratch_.layers.goOn(scene_, scratch_.hits, scratch_.answers, 1,
+                           [&](int element, const vec3& seen, const vec3&) { radiance[static_cast<size_t>(element)] += seen; });
+    }
+  }
+
+  /// Up to half as many rays again, in strata of the cells where light changes fast.
+  void refine(Stats& stats) {
+    const std::vector<int> chosen = contrastCells(cells_, scratch_.radiance);
+    if (chosen.empty()) return;
+    const int split = std::min(kMostSplit, static_cast<int>(std::sqrt(0.5f * static_cast<float>(count_) / static_cast<float>(chosen.size()))));
+    if (split < 2) return;
+    scratch_.layers = {};
+    const int strata = split * split;
+    for (size_t c = 0; c < chosen.size(); ++c)
+      for (int s = 0; s < strata; ++s) {
+        const uint32_t name = hashCombine(key_, number_, 0x66696e65U);
+        const vec2 inside{unitFloat(hash32(name)), unitFloat(hash32(name ^ 0x9e3779b9U))};
+        add(static_cast<int>(c) * strata + s, chosen[c], (vec2(s / split, s % split) + inside) / static_cast<float>(split),
+            count_ * static_cast<size_t>(strata));
+      }
+    shade(stats, scratch_.fine);
+    for (size_t c = 0; c < chosen.size(); ++c) {
+      vec3& L = scratch_.radiance[static_cast<size_t>(chosen[c])];
+      for (int s = 0; s < strata; ++s) L += scratch_.fine[c * static_cast<size_t>(strata) + static_cast<size_t>(s)];
+      L /= static_cast<float>(strata + 1);
+    }
+  }
+
+  static Scratch& emptyScratch() {
+    thread_local Scratch scratch;
+    scratch.layers = {};
+    return scratch;
+  }
+
+  const RayScene& scene_;
+  const ShadingSystem& shading_;
+  const GatherPoint& point_;
+  const GatherSettings& settings_;
+  const HemisphereCells cells_;
+  const size_t count_;
+  const uint32_t key_;
+  const RayTimes times_;
+  Ray first_{point_.position, point_.normal, settings_.maxDistance};
+  vec3 tangent_, bitangent_;
+  uint32_t number_ = 0;
+  Scratch& scratch_ = emptyScratch();
 };
 
 }  // namespace
 
 IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point,
                         const GatherSettings& settings, Stats& stats) {
-  const HemisphereCells cells = hemisphereCells(settings.samples);
-  const size_t count = static_cast<size_t>(cells.rings) * static_cast<size_t>(cells.sectors);
-  HemisphereSamples samples{cells, {}, {}, point.normal, {}, {}, {}};
-  orthonormalBasis(point.normal, samples.tangent, samples.bitangent);
-
-  thread_local Scratch scratch;
-  Ray ray{point.position, point.normal, settings.maxDistance};
-  scene.prepareOrigin(point.group, point.position, point.edgeLength, ray);
-  scratch.rays.assign(count, ray), scratch.hits.resize(count), scratch.names.resize(count);
-  scratch.directions.resize(count), scratch.distances.resize(count);
-  const uint32_t key = hashCombine(point.key, settings.seed);
-  const CellJitter jitter(cells, key);
-  const RayTimes times(scene, point, count, key);
-  int64_t adjusted = 0;
-  for (size_t i = 0; i < count; ++i) {
-    const int ring = static_cast<int>(i) / cells.sectors, sector = static_cast<int>(i) % cells.sectors;
-    const auto number = static_cast<uint32_t>(i);
-    const vec3 local = hemisphereDirection(cells, ring, sector, jitter(ring, sector, number));
-    Ray& r = scratch.rays[i];
-    r.direction = scratch.directions[i] =
-        local.x * samples.tangent + local.y * samples.bitangent + local.z * point.normal;
-    r.offset = slantedOffset(ray.offset, local.z);
-    r.time = times(i);
-    if (r.time > 0) r.origin = scene.placeAt(point.group, point.position, point.drift, r.time);
-    // A cell of a cosine-weighted hemisphere has the solid angle pi / (n cos).
-    r.spread = 1 / std::sqrt(static_cast<float>(count) * std::max(local.z, 0.05f));
-    scratch.names[i] = {key, number};
-    const Hit& hit = scratch.hits[i] = scene.closest(r, kMaskDiffuse);
-    scratch.distances[i] = hit.object < 0 ? kInfinity : std::max(0.0f, hit.t);
-    adjusted += hit.adjusted;
-  }
-  stats.rays.gather += static_cast<int64_t>(count);
-  stats.rays.hitlistAdjusted += adjusted;
-  ShadeContext context{RayKind::Diffuse, 1, settings.seed, 1, false};
-  context.light = settings.light;
-  context.diffuseLimit = context.specularLimit = 0;  // the diffuse component of direct light alone
-  scene.shadeHits(scratch.rays, scratch.hits, scratch.names, shading, context, scratch.radiance);
-  for (vec3& L : scratch.radiance)
-    if (!isFinite(L))
-      L = vec3(0.0f);  // one bad shader result would spread over the whole reach of the record
-
-  samples.directions = scratch.directions, samples.radiance = scratch.radiance,
-  samples.distances = scratch.distances;
+  Hemisphere hemisphere(scene, shading, point, settings);
+  const HemisphereSamples samples = hemisphere.trace(stats);
   IrradianceRecord record = summarize(samples);
   record.position = point.position;
   record.pixelSize = point.pixelSize;
+  if (settings.curvature) {
+    const IrradianceCurvature curvature = curvatureOf(samples);
+    std::copy_n(curvature.gradient, 3, record.translationGradient);
+    record.smoothRadius = hessianRadius(curvature, luminance(record.E), point.pixelSize, kHessianTolerance);
+  }
   return record;
 }
 

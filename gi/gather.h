@@ -13,6 +13,7 @@ struct GatherSettings {
   float maxDistance = 1e30f;
   uint32_t seed = 0;
   Illumination light = Illumination::Lights;  ///< Of what the rays hit.
+  bool curvature = false;                     ///< Fill smoothRadius, and gradients that see occlusion.
   bool operator==(const GatherSettings&) const = default;
 };
 

@@ -123,10 +123,13 @@ class GatherPass {
     for (const ShadePoints& batch : tile.batches) firstOfBatch.push_back(firstOfBatch.back() + static_cast<size_t>(batch.count()));
     const auto consider = [&](const Facet& facet, int point, int x, int y) {
       const auto b = static_cast<size_t>(facet.batch);
-      if (!seen_->set(t, firstOfBatch[b] + static_cast<size_t>(point))) return;
+      // Of the lattice every pixel asks, and later every point once, in a phase that is its own: so it does not matter which tiles see it.
+      if (phase_ >= kLatticePhases && !seen_->set(t, firstOfBatch[b] + static_cast<size_t>(point))) return;
       const Site site = siteOf(tile.batches[b], point, x, y);
       const GatherPoint& p = site.point;
-      if (state_.caches[site.cache].cache.lookup(p.position, p.normal, p.pixelSize).weight < kEnough) out.push_back(site);
+      const IrradianceEstimate known = state_.caches[site.cache].cache.lookup(p.position, p.normal, p.pixelSize);
+      // What was given is appended to, not refined.
+      if (known.weight < kEnough || (known.disputed && !state_.cachesGiven)) out.push_back(site);
     };
     for (int y = tile.rect.y0; y < tile.rect.y1; ++y)
       for (int x = tile.rect.x0; x < tile.rect.x1; ++x) {

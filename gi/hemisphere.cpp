@@ -67,6 +67,22 @@ struct Gradients {
 
 }  // namespace
 
+namespace {
+
+// Within strata: what neighbours along a ring differ by.
+float noiseOf(const HemisphereSamples& s) {
+  const size_t N = static_cast<size_t>(s.cells.sectors), count = s.radiance.size();
+  float squares = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const size_t next = (i + 1) % N == 0 ? i + 1 - N : i + 1;
+    const float step = luminance(s.radiance[i]) - luminance(s.radiance[next]);
+    squares += step * step;
+  }
+  return std::sqrt(0.5f * squares) / static_cast<float>(count);
+}
+
+}  // namespace
+
 HemisphereCells hemisphereCells(int samples) {
   const int rings = std::max(1, static_cast<int>(std::lround(std::sqrt(static_cast<float>(samples) / kPi))));
   return {
@@ -94,6 +110,7 @@ IrradianceRecord summarize(const HemisphereSamples& s) {
   }
   const float count = static_cast<float>(s.directions.size());
   record.E /= count;
+  record.noise = noiseOf(s);
   record.harmonicMean = inverseDistances > 0 ? count / inverseDistances : kInfinity;
   for (vec3& d : record.dominant) d = normalizeOr(d, s.normal);
   const Gradients gradients(s);

@@ -16,7 +16,7 @@ struct HemisphereSamples {
   std::span<const float> distances;  ///< infinite: missed
 };
 
-/// Fills E, gradients, dominant directions, harmonicMean, closest and normal; position and pixelSize are the
+/// Fills E, noise, gradients, dominant directions, harmonicMean, closest and normal; position and pixelSize are the
 /// caller's.
 IrradianceRecord summarize(const HemisphereSamples& samples);
 

@@ -7,16 +7,16 @@ namespace tomales {
 // Found by the structures' namespace, so they cannot stand in the unnamed one. The structured bindings stop the compiler at a structure that has gained a field which its list lacks.
 template <class A>
 void fields(A& a, IrradianceRecord& x) {
-  auto& [position, normal, E, rotation, translation, dominant, harmonicMean, closest, pixelSize] = x;
-  each(a, position, normal, E, rotation, translation, dominant, harmonicMean, closest, pixelSize);
+  auto& [position, normal, E, rotation, translation, dominant, harmonicMean, closest, smoothRadius, noise, limit, pixelSize] = x;
+  each(a, position, normal, E, rotation, translation, dominant, harmonicMean, closest, smoothRadius, noise, limit, pixelSize);
 }
 
 template <class A>
 void fields(A& a, GatherPlan& x) {
   auto& [cache, gather] = x;
   auto& [errorFunction, kappa, maxPixels] = cache;
-  auto& [samples, maxDistance, seed, light] = gather;
-  each(a, errorFunction, kappa, maxPixels, samples, maxDistance, seed, light);
+  auto& [samples, maxDistance, seed, light, curvature] = gather;
+  each(a, errorFunction, kappa, maxPixels, samples, maxDistance, seed, light, curvature);
 }
 
 template <class A>
@@ -26,9 +26,15 @@ void fields(A& a, EmitterLattice& x) {
 }
 
 template <class A>
+void fields(A& a, EmitterShape& x) {
+  auto& [kind, center, u, v, normal] = x;
+  each(a, kind, center, u, v, normal);
+}
+
+template <class A>
 void fields(A& a, EmitterLight& x) {
-  auto& [lattices, reach] = x;
-  each(a, lattices, reach);
+  auto& [shapes, lattices, reach] = x;
+  each(a, shapes, lattices, reach);
 }
 
 template <class A>

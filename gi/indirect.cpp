@@ -1,4 +1,5 @@
 // The two answers to indirectDiffuse(): interpolated from the irradiance cache, and path traced.
+#include "gi/layers.h"
 #include "gi/state.h"
 #include "reyes/base/checksum.h"
 #include "reyes/base/rng.h"
@@ -13,6 +14,12 @@ constexpr uint32_t kPathStream =
 // Ward's split sphere needs a = 1/4 for the error that the paper's function has at kappa = 1 (docs/gi.md), so that `maxerror`
 // means the same for both.
 constexpr float kWardKappa = 4;
+
+constexpr float kHessianMaxPixels = 40;  // it knows where light is even
+
+ErrorFunction errorFunctionNamed(const std::string& name) {
+  return name == "ward" ? ErrorFunction::Ward : name == "hessian" ? ErrorFunction::Hessian : ErrorFunction::Screen;
+}
 
 vec3 unitNormal(const ShadePoints& points, TmConstVec3 N, int i) {
   return normalizeOr({N.x[i], N.y[i], N.z[i]}, points.facingNormal(i));
@@ -46,30 +53,26 @@ class PathBatches {
       const vec3 local = cosineHemisphere(sobol2(static_cast<uint32_t>(path), pointKey));
       ray.direction = local.x * tangent + local.y * bitangent + local.z * normal;
       ray.offset = slantedOffset(ray.offset, local.z);
-      rays_.push_back(ray);
-      names_.push_back({hashCombine(pointKey, static_cast<uint32_t>(path)), 0});
-      sums_.push_back(&sum);
-      if (rays_.size() == kRaysPerBatch) flush();
+      layers_.add(static_cast<int>(sums_.size()), ray, {hashCombine(pointKey, static_cast<uint32_t>(path)), 0});
+      sums_.push_back(&sum), directions_.push_back(ray.direction);
+      if (sums_.size() == kRaysPerBatch) flush();
     }
   }
 
   void flush() {
-    if (rays_.empty()) return;
-    hits_.clear();
-    int64_t adjusted = 0;
-    for (const Ray& ray : rays_) {
-      hits_.push_back(tools_.rays->closest(ray, kMaskDiffuse));
-      adjusted += hits_.back().adjusted;
+    HitAnswers answers;
+    answers.mode = HitMode::Shader;
+    for (int layer = 0; layer < kMostLayers && !layers_.rays.empty(); ++layer) {
+      state_.stats.rays.hitlistAdjusted += layers_.meet(*tools_.rays, kMaskDiffuse, hits_);
+      state_.stats.rays.reference += static_cast<int64_t>(layers_.rays.size());
+      tools_.rays->shadeHits(layers_.rays, hits_, layers_.names, *tools_.shading, context_, answers);
+      layers_.goOn(*tools_.rays, hits_, answers, 1, [&](int path, const vec3& radiance, const vec3&) {
+        const auto p = static_cast<size_t>(path);
+        sums_[p]->radiance += radiance;
+        for (int c = 0; c < 3; ++c) sums_[p]->directions[c] += radiance[c] * directions_[p];
+      });
     }
-    tools_.rays->shadeHits(rays_, hits_, names_, *tools_.shading, context_, radiance_);
-    for (size_t r = 0; r < rays_.size(); ++r) {
-      if (!isFinite(radiance_[r])) continue;  // one bad shader result would cost the whole point
-      sums_[r]->radiance += radiance_[r];
-      for (int c = 0; c < 3; ++c) sums_[r]->directions[c] += radiance_[r][c] * rays_[r].direction;
-    }
-    state_.stats.rays.reference += static_cast<int64_t>(rays_.size());
-    state_.stats.rays.hitlistAdjusted += adjusted;
-    rays_.clear(), names_.clear(), sums_.clear();
+    layers_ = {}, sums_.clear(), directions_.clear();
   }
 
  private:
@@ -79,11 +82,10 @@ class PathBatches {
   const TmConstVec3 N_;
   const float maxDistance_;
   const ShadeContext context_;
-  std::vector<Ray> rays_;
+  RayLayers layers_;
   std::vector<Hit> hits_;
-  std::vector<SampleName> names_;
-  std::vector<PathSum*> sums_;
-  std::vector<vec3> radiance_;
+  std::vector<PathSum*> sums_;    ///< Of each path since the last flush,
+  std::vector<vec3> directions_;  ///< and where it left.
 };
 
 IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, const GatherSettings& settings,
@@ -120,12 +122,13 @@ GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) 
   const Attributes& attributes = *state.scene.groups[static_cast<size_t>(group)].attributes;
   const GiSettings& settings = state.settings;
   GatherPlan plan;
-  plan.cache.errorFunction = settings.errorFunction.value_or(query.errorFunction == "ward" ? ErrorFunction::Ward : ErrorFunction::Screen);
+  plan.cache.errorFunction = settings.errorFunction.value_or(errorFunctionNamed(query.errorFunction));
+  plan.gather.curvature = plan.cache.errorFunction == ErrorFunction::Hessian;
   const float maxError =
       settings.maxError >= 0 ? settings.maxError : attributes.irradianceMaxError.value_or(query.maxError);
   const float kappaAtOne = plan.cache.errorFunction == ErrorFunction::Ward ? kWardKappa : 1.0f;
   plan.cache.kappa = maxError > 0 ? kappaAtOne / maxError : kInfinity;
-  plan.cache.maxPixels = attributes.irradianceMaxPixelDist.value_or(plan.cache.maxPixels);
+  plan.cache.maxPixels = attributes.irradianceMaxPixelDist.value_or(plan.gather.curvature ? kHessianMaxPixels : plan.cache.maxPixels);
   plan.gather.samples = std::max(1, settings.samples > 0 ? settings.samples : query.samples);
   plan.gather.maxDistance = query.maxDistance;
   plan.gather.seed = settings.seed;
@@ -187,7 +190,7 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
   const int paths = context.depth > 0 ? 1 : planFor(state, points.group(), query).gather.samples;
   const int depth = context.depth + 1;
   ShadeContext hitContext{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
-  hitContext.diffuseLimit = hitContext.specularLimit = 0;  // bounces are those of indirectDiffuse() alone
+  hitContext.diffuseLimit = 0;  // bounces are those of indirectDiffuse() alone; mirrors reflect as deep as their objects allow
   PathBatches batches(state, *tools, points, N, query.maxDistance, hitContext);
   std::vector<PathSum> sums;
   for (int i = 0; i < points.count(); ++i)

@@ -8,6 +8,8 @@ namespace {
 constexpr float kMinPixels = 1.5f;              // R- of eq. 3
 constexpr float kMaxAngleTerm = 0.0151922470f;  // 1 - cos(alpha+), alpha+ = 10 degrees (eq. 4)
 constexpr float kBehindTolerance = 0.1f;        // of the validity radius
+constexpr float kDispute = 0.1f;              // relative difference of extrapolated values, at kappa 1, that is no longer smooth
+constexpr float kNoiseMargin = 3;             // standard errors
 constexpr int kMaxDepth = 24;
 constexpr int kNone = -1;
 
@@ -74,7 +76,14 @@ struct IrradianceCache::Impl {
   std::vector<IrradianceRecord> records;
 
   float size(const IrradianceRecord& r) const {
-    return settings.errorFunction == ErrorFunction::Screen ? r.closest * 0.5f : r.harmonicMean;
+    switch (settings.errorFunction) {
+      case ErrorFunction::Ward:
+        return r.harmonicMean;
+      case ErrorFunction::Hessian:
+        return std::min(r.smoothRadius, r.closest * settings.kappa);
+      default:
+        return r.closest * 0.5f;
+    }
   }
   // Distance at which the error reaches 1: the denominator of eq. 3 over kappa. Ward's split sphere has the
   // same limits.
@@ -100,6 +109,25 @@ struct IrradianceCache::Impl {
     }
   }
 
+  bool differ(const vec3& a, const vec3& b, float noise) const {
+    const float tolerance = settings.errorFunction == ErrorFunction::Ward ? 4 * kDispute : kDispute;  // as kappa counts there
+    return std::abs(luminance(a) - luminance(b)) > tolerance / settings.kappa * std::max(luminance(a), luminance(b)) + kNoiseMargin * noise;
+  }
+
+  // Of an extrapolated value: gradients are as noisy as E over the mean distance of what is seen.
+  static float noiseAt(const IrradianceRecord& r, float distance) { return r.noise * (1 + distance / r.harmonicMean); }
+
+  // The new record knows E at its place, which older ones have been guessing, and they at theirs.
+  void settleDisputes(uint32_t index) {
+    IrradianceRecord& fresh = records[index];
+    for (const Candidate& candidate : candidatesAt(fresh.position, fresh.normal, fresh.pixelSize)) {
+      IrradianceRecord& old = records[candidate.record];
+      const float distance = glm::length(fresh.position - old.position), fromOld = noiseAt(old, distance), fromFresh = noiseAt(fresh, distance);
+      if (differ(extrapolate(old, fresh.position, fresh.normal), fresh.E, fromOld + fresh.noise)) old.limit = std::min(old.limit, distance);
+      if (differ(extrapolate(fresh, old.position, old.normal), old.E, fromFresh + old.noise)) fresh.limit = std::min(fresh.limit, distance);
+    }
+  }
+
   int descend(int node, int i) {
     const int child = nodes[static_cast<size_t>(node)].child[i];
     if (child != kNone) return child;
@@ -111,7 +139,7 @@ struct IrradianceCache::Impl {
 
   // Smooth down to 0 where the record stops being used, so that interpolation has no seams.
   float weight(const IrradianceRecord& r, const vec3& x, const vec3& n, float pixelSize) const {
-    const float radius = reach(size(r), pixelSize);
+    const float radius = std::min(reach(size(r), pixelSize), r.limit);
     const vec3 step = x - r.position;
     const float distance2 = dot(step, step);
     if (!(distance2 < radius * radius)) return 0;
@@ -121,7 +149,7 @@ struct IrradianceCache::Impl {
     const float front = 1 - std::max(0.0f, behind);
     const float position = std::sqrt(distance2) / radius;
     const float angle = std::sqrt(std::max(0.0f, 1 - dot(n, r.normal)));
-    if (settings.errorFunction == ErrorFunction::Screen) {
+    if (settings.errorFunction != ErrorFunction::Ward) {
       const float error = std::max(position, settings.kappa * angle / std::sqrt(kMaxAngleTerm));  // eq. 2
       return front * std::max(0.0f, 1 - error);                                                      // eq. 5
     }
@@ -146,14 +174,22 @@ struct IrradianceCache::Impl {
       if (here.child[i] != kNone) collect(here.child[i], box.child(i), x, n, pixelSize, out);
   }
 
-  // Sums run in the order of the records, so that the shape of the tree leaves no trace.
-  IrradianceEstimate blend(std::vector<Candidate>& candidates, const vec3& x, const vec3& n) const {
-    std::sort(candidates.begin(), candidates.end(),
-              [](const Candidate& a, const Candidate& b) { return a.record < b.record; });
+  // In the order of the records, so that the shape of the tree leaves no trace.
+  std::vector<Candidate> candidatesAt(const vec3& x, const vec3& n, float pixelSize) const {
+    std::vector<Candidate> out;
+    collect(outside, x, n, pixelSize, out);
+    collect(0, root, x, n, pixelSize, out);
+    std::sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) { return a.record < b.record; });
+    return out;
+  }
+
+  IrradianceEstimate blend(const std::vector<Candidate>& candidates, const vec3& x, const vec3& n) const {
     IrradianceEstimate out{vec3(0.0f), {vec3(0.0f), vec3(0.0f), vec3(0.0f)}};
     for (const Candidate& candidate : candidates) {
       const IrradianceRecord& r = records[candidate.record];
-      out.E += candidate.weight * extrapolate(r, x, n);
+      const vec3 E = extrapolate(r, x, n);
+      out.disputed |= candidate.weight > 0 && &candidate != &candidates.front() && differ(E, out.E / out.weight, 2 * noiseAt(r, glm::length(x - r.position)));
+      out.E += candidate.weight * E;
       for (int c = 0; c < 3; ++c) out.dominant[c] += candidate.weight * r.dominant[c];  // eq. 7
       out.weight += candidate.weight;
     }
@@ -180,6 +216,7 @@ void IrradianceCache::insert(const IrradianceRecord& record) {
   impl.records.push_back(record);
   if (!(impl.settings.kappa < kInfinity)) return;
   limitTranslation(impl.records.back(), impl.reach(impl.size(record), record.pixelSize));
+  impl.settleDisputes(static_cast<uint32_t>(impl.records.size() - 1));
   impl.insert(static_cast<uint32_t>(impl.records.size() - 1));
 }
 
@@ -189,12 +226,8 @@ void IrradianceCache::restore(const IrradianceRecord& record) {
 }
 
 IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, float pixelSize) const {
-  std::vector<Candidate> candidates;
-  if (impl_->settings.kappa < kInfinity) {
-    impl_->collect(impl_->outside, x, normal, pixelSize, candidates);
-    impl_->collect(0, impl_->root, x, normal, pixelSize, candidates);
-  }
-  return impl_->blend(candidates, x, normal);
+  if (!(impl_->settings.kappa < kInfinity)) return impl_->blend({}, x, normal);
+  return impl_->blend(impl_->candidatesAt(x, normal, pixelSize), x, normal);
 }
 
 const std::vector<IrradianceRecord>& IrradianceCache::records() const { return impl_->records; }

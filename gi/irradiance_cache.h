@@ -19,10 +19,17 @@ struct IrradianceRecord {
   vec3 dominant[3];                ///< unit; for red, green, blue (eq. 7)
   float harmonicMean;              ///< of distances to what the rays hit; Ward's R
   float closest;                   ///< least of them; the paper's R_i
+  float smoothRadius;              ///< within which E is nearly linear (ErrorFunction::Hessian alone)
+  float noise;                     ///< standard error of the luminance of E, at most
+  float limit = kInfinity;         ///< beyond which neighbours have shown it to be wrong
   float pixelSize;                 ///< root of the projected pixel area at the record, for R+ and R- (eq. 3)
 };
 
-enum class ErrorFunction { Screen, Ward };
+enum class ErrorFunction {
+  Screen,   ///< approximate-gi eq. 2 to 5
+  Ward,     ///< Split sphere.
+  Hessian,  ///< Schwarzhaupt, Jensen, Jarosz 2012
+};
 
 struct CacheSettings {
   ErrorFunction errorFunction = ErrorFunction::Screen;
@@ -35,6 +42,7 @@ struct IrradianceEstimate {
   vec3 E;
   vec3 dominant[3];
   float weight = 0;                ///< Sum of weights; 0: nothing usable was found.
+  bool disputed = false;           ///< Records differ by more than their noise explains.
 };
 
 class IrradianceCache {
@@ -45,6 +53,7 @@ class IrradianceCache {
   IrradianceCache& operator=(IrradianceCache&&) noexcept;
   ~IrradianceCache();
 
+  /// A record that is off at the place of a new one, by more than noise explains, ends before it; and the new one before the old.
   void insert(const IrradianceRecord& record);
   /// One of records() of an earlier cache with these settings: goes in as it is.
   void restore(const IrradianceRecord& record);

@@ -1,13 +1,10 @@
 // Rays that shaders ask for: one from each point of a batch, their hits shaded together.
+#include "gi/layers.h"
 #include "gi/state.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
 namespace {
-
-constexpr int kMostLayers = 64;  ///< Transparent surfaces that one ray goes through.
-
-bool covers(const vec3& clear, const RayQuery& query) { return maxComponent(clear) <= 1 - std::min(query.opacityThreshold, 0.9999f); }
 
 /// Depths and limits of the points that such rays meet: an object's limit counts from its own depth, and never lifts an earlier one.
 ShadeContext contextOfHits(const Attributes& own, const RayQuery& query, const ShadeContext& context) {
@@ -25,18 +22,8 @@ ShadeContext contextOfHits(const Attributes& own, const RayQuery& query, const S
 }
 
 bool isTooDeep(const ShadeContext& hit, const Options& options) {
-  return hit.kind == RayKind::Transmission || hit.depth > hit.diffuseLimit || hit.specularDepth > hit.specularLimit ||
-         hit.depth + hit.specularDepth > options.maxRayDepth;
-}
-
-/// Goes on behind the hit as a ray that leaves it.
-Ray behind(const RayScene& scene, const Ray& ray, const Hit& hit) {
-  Ray on = ray;
-  on.origin = ray.origin + hit.t * ray.direction;
-  on.tMax = ray.tMax - hit.t;
-  scene.prepareOrigin(scene.groupOf(hit), on.origin, 0, on);
-  on.offset = slantedOffset(on.offset, std::abs(dot(ray.direction, hit.geometricNormal)));
-  return on;
+  const bool past = hit.kind == RayKind::Diffuse ? hit.depth > hit.diffuseLimit : hit.specularDepth > hit.specularLimit;
+  return past || hit.kind == RayKind::Transmission || hit.depth + hit.specularDepth > options.maxRayDepth;
 }
 
 /// The rays of one call, layer by layer.
@@ -45,32 +32,28 @@ class ShaderRays {
   ShaderRays(const GiState& state, const RayTools& tools, const RayQuery& query, const ShadeContext& hitContext, const RayResult& result)
       : state_(state), tools_(tools), query_(query), context_(hitContext), result_(result) {}
 
-  void add(int element, const Ray& ray, SampleName name) {
-    rays_.push_back(ray), names_.push_back(name), elements_.push_back(element), clear_.push_back(vec3(1));
-  }
+  void add(int element, const Ray& ray, SampleName name) { layers_.add(element, ray, name); }
 
   void trace() {
     const bool wantsColor = result_.color.x || result_.opacity.x;
-    for (int layer = 0; layer < (wantsColor ? kMostLayers : 1) && !rays_.empty(); ++layer) {
+    for (int layer = 0; layer < (wantsColor ? kMostLayers : 1) && !layers_.rays.empty(); ++layer) {
       meet();
-      answers_.mode = query_.mode, answers_.wantsColor = wantsColor || asksForSurface(), answers_.elements = elements_;
+      answers_.mode = query_.mode, answers_.wantsColor = wantsColor || asksForSurface(), answers_.elements = layers_.elements;
       answers_.outputs = layer == 0 ? result_.outputs : std::vector<RayOutput>{};
       if (answers_.wantsColor || !answers_.outputs.empty())
-        tools_.rays->shadeHits(rays_, hits_, names_, *tools_.shading, context_, answers_);
+        tools_.rays->shadeHits(layers_.rays, hits_, layers_.names, *tools_.shading, context_, answers_);
       if (layer == 0) setDistances();
-      if (wantsColor) addLayer();
+      if (wantsColor)
+        layers_.goOn(*tools_.rays, hits_, answers_, query_.opacityThreshold,
+                     [&](int i, const vec3& color, const vec3& clear) { add(i, color, clear); });
     }
   }
 
  private:
   void meet() {
-    const RayMask mask = query_.kind == RayKind::Diffuse ? kMaskDiffuse : kMaskSpecular;
-    hits_.clear();
-    for (const Ray& ray : rays_) {
-      hits_.push_back(tools_.rays->closest(ray, mask));
-      state_.stats.rays.hitlistAdjusted += hits_.back().adjusted;
-    }
-    (query_.kind == RayKind::Diffuse ? state_.stats.rays.gather : state_.stats.rays.specular) += static_cast<int64_t>(rays_.size());
+    const bool diffuse = query_.kind == RayKind::Diffuse;
+    state_.stats.rays.hitlistAdjusted += layers_.meet(*tools_.rays, diffuse ? kMaskDiffuse : kMaskSpecular, hits_);
+    (diffuse ? state_.stats.rays.gather : state_.stats.rays.specular) += static_cast<int64_t>(layers_.rays.size());
   }
 
   bool asksForSurface() const {
@@ -79,27 +62,12 @@ class ShaderRays {
 
   void setDistances() {
     if (!result_.distance) return;
-    for (size_t r = 0; r < rays_.size(); ++r) result_.distance[elements_[r]] = hits_[r].object < 0 ? kInfinity : std::max(hits_[r].t, 0.0f);
+    for (size_t r = 0; r < hits_.size(); ++r) result_.distance[layers_.elements[r]] = hits_[r].object < 0 ? kInfinity : std::max(hits_[r].t, 0.0f);
   }
 
-  /// Adds what was met to what the rays have brought, and keeps those that go on.
-  void addLayer() {
-    size_t kept = 0;
-    for (size_t r = 0; r < rays_.size(); ++r) {
-      const Hit hit = hits_[r];
-      if (hit.object < 0) continue;
-      const int i = elements_[r];
-      const vec3 color = isFinite(answers_.color[r]) ? clear_[r] * answers_.color[r] : vec3(0);
-      const vec3 clear = clear_[r] * (1.0f - glm::clamp(answers_.opacity[r], 0.0f, 1.0f));
-      if (result_.color.x) result_.color.x[i] += color.x, result_.color.y[i] += color.y, result_.color.z[i] += color.z;
-      if (result_.opacity.x) result_.opacity.x[i] = 1 - clear.x, result_.opacity.y[i] = 1 - clear.y, result_.opacity.z[i] = 1 - clear.z;
-      if (covers(clear, query_) || hit.t >= rays_[r].tMax) continue;
-      rays_[kept] = behind(*tools_.rays, rays_[r], hit);
-      elements_[kept] = i, clear_[kept] = clear;
-      names_[kept] = {hashCombine(names_[r].key, 0x6c617965U), names_[r].sequence};
-      ++kept;
-    }
-    rays_.resize(kept), names_.resize(kept), elements_.resize(kept), clear_.resize(kept);
+  void add(int i, const vec3& color, const vec3& clear) {
+    if (result_.color.x) result_.color.x[i] += color.x, result_.color.y[i] += color.y, result_.color.z[i] += color.z;
+    if (result_.opacity.x) result_.opacity.x[i] = 1 - clear.x, result_.opacity.y[i] = 1 - clear.y, result_.opacity.z[i] = 1 - clear.z;
   }
 
   const GiState& state_;
@@ -107,11 +75,8 @@ class ShaderRays {
   const RayQuery& query_;
   const ShadeContext context_;
   const RayResult& result_;
-  std::vector<Ray> rays_;
+  RayLayers layers_;
   std::vector<Hit> hits_;
-  std::vector<SampleName> names_;
-  std::vector<int> elements_;
-  std::vector<vec3> clear_;
   HitAnswers answers_;
 };
 

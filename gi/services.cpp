@@ -14,7 +14,14 @@ bool interpolates(GiMode mode) { return mode == GiMode::Gather || mode == GiMode
 
 }  // namespace
 
-struct GiServices::Impl : GiState {};
+struct GiServices::Impl : GiState {
+  /// Null: neither a file nor geometry tells of them.
+  const Emitters* knownEmitters() const {
+    if (emitters) return &*emitters;
+    const RayTools* tools = rays();
+    return tools ? &tools->rays->emitters() : nullptr;
+  }
+};
 
 GiServices::GiServices(const Scene& scene, const Camera& camera, const RayScene& rays,
                        const ShadingSystem& shading, const GiSettings& settings, Stats& stats)
@@ -82,11 +89,14 @@ void GiServices::trace(const ShadePoints& points, const uint8_t* active, TmConst
   traceForShader(*impl_, points, active, P, direction, query, context, result);
 }
 
-bool GiServices::sampleEmitter(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N,
-                               float* area) const {
-  if (impl_->emitters) return impl_->emitters->sample(light, count, xi0, xi1, P, N, area);
-  const RayTools* tools = impl_->rays();
-  return tools && tools->rays->emitters().sample(light, count, xi0, xi1, P, N, area);
+bool GiServices::sampleEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1, const EmitterPoints& out) const {
+  const Emitters* emitters = impl_->knownEmitters();
+  return emitters && emitters->sampleFrom(light, count, from, xi0, xi1, out);
+}
+
+void GiServices::meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction, const EmitterPoints& out) const {
+  if (const Emitters* emitters = impl_->knownEmitters()) return emitters->meet(light, count, from, direction, out);
+  std::fill_n(out.density, count, 0.0f);
 }
 
 void GiServices::setAtlas(std::unique_ptr<const IrradianceAtlas> atlas) { impl_->atlas = std::move(atlas); }
@@ -108,9 +118,8 @@ void GiServices::storedIrradiance(const ShadePoints& points, const uint8_t* acti
 }
 
 float GiServices::emitterReach(int light) const {
-  if (impl_->emitters) return impl_->emitters->reach(light);
-  const RayTools* tools = impl_->rays();
-  return tools ? tools->rays->emitters().reach(light) : 0.0f;
+  const Emitters* emitters = impl_->knownEmitters();
+  return emitters ? emitters->reach(light) : 0.0f;
 }
 
 void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,

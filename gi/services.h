@@ -82,7 +82,8 @@ class GiServices final : public ShadeServices {
                     TmVec3 light) const override;
   void trace(const ShadePoints&, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction, const RayQuery&, const ShadeContext&,
              const RayResult&) const override;
-  bool sampleEmitter(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N, float* area) const override;
+  bool sampleEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1, const EmitterPoints& out) const override;
+  void meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction, const EmitterPoints& out) const override;
   void storedIrradiance(const ShadePoints&, const uint8_t* active, TmVec3 E) const override;
   float emitterReach(int light) const override;
   void indirectDiffuse(const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&, const ShadeContext&,

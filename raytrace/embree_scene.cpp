@@ -49,11 +49,11 @@ struct Traversal {
   float level = 0;  ///< The ray's number for levels of detail.
 
   PolygonHit hit(const Geometry& geometry, float t, uint32_t instanceId, uint32_t primitive, float u, float v,
-                 bool leaving) const {
+                 bool leaving, const vec3& normal) const {
     const auto [mesh, quad] = geometry.place(primitive);
-    if (instanceId == RTC_INVALID_GEOMETRY_ID) return {t, mesh, quad, u, v, leaving};
+    if (instanceId == RTC_INVALID_GEOMETRY_ID) return {t, mesh, quad, u, v, leaving, -1, normal};
     const uint32_t i = instanceId - instances->firstId;
-    return {t, instances->group[i], quad, u, v, leaving, static_cast<int>(i)};
+    return {t, instances->group[i], quad, u, v, leaving, static_cast<int>(i), normal};
   }
 };
 static_assert(std::is_standard_layout_v<Traversal>);
@@ -69,7 +69,7 @@ PolygonHit hitOf(const RTCFilterFunctionNArguments& args, const Traversal& trave
   const Geometry& geometry = *static_cast<const Geometry*>(args.geometryUserPtr);
   return traversal.hit(geometry, RTCRayN_tfar(args.ray, 1, 0) - traversal.shift, RTCHitN_instID(args.hit, 1, 0, 0),
                        RTCHitN_primID(args.hit, 1, 0), RTCHitN_u(args.hit, 1, 0), RTCHitN_v(args.hit, 1, 0),
-                       leaves(direction, normal, geometry.flips));
+                       leaves(direction, normal, geometry.flips), normal);
 }
 
 bool isOpaque(const RTCFilterFunctionNArguments& args, const Traversal& traversal, const PolygonHit& hit) {
@@ -275,7 +275,7 @@ struct EmbreeScene::Impl {
     const Geometry& geometry = placed ? masters[placed->master] : geometries[r.hit.geomID];
     const vec3 normal(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z);
     out = traversal.hit(geometry, t, instance, r.hit.primID, r.hit.u, r.hit.v,
-                        leaves(ray.direction, placed ? placed->normals * normal : normal, geometry.flips));
+                        leaves(ray.direction, placed ? placed->normals * normal : normal, geometry.flips), normal);
     return true;
   }
 };

@@ -37,6 +37,56 @@ EmitterLattice latticeOf(const Scene& scene, const CoarseGroup& g, const Lattice
   return out;
 }
 
+bool near(float a, float b) { return std::abs(a - b) <= 1e-5f * std::max(std::abs(a), std::abs(b)); }
+
+/// A sphere or disk that its object's transformation leaves round.
+std::optional<EmitterShape> roundShape(const Scene& scene, int object) {
+  const Object& o = scene.objects[static_cast<size_t>(object)];
+  const std::optional<RoundShape> round = o.shape().round();
+  if (!round || displacesForRays(o)) return std::nullopt;
+  const mat4 m = o.cameraFromObject.at(o.keyTimes.front());
+  const bool isSphere = round->axis == vec3(0);
+  vec3 tangent, bitangent;
+  orthonormalBasis(isSphere ? vec3(0, 0, 1) : round->axis, tangent, bitangent);
+  EmitterShape out{isSphere ? EmitterShape::Kind::Sphere : EmitterShape::Kind::Disk, transformPoint(m, round->center),
+                   transformVector(m, round->radius * tangent), transformVector(m, round->radius * bitangent)};
+  const vec3 w = transformVector(m, round->radius * cross(tangent, bitangent));
+  const float r = glm::length(out.u);
+  const auto square = [r](const vec3& a, const vec3& b) { return std::abs(dot(a, b)) <= 1e-5f * r * r; };
+  if (!(r > 0) || !near(r, glm::length(out.v)) || !square(out.u, out.v)) return std::nullopt;
+  const TrueSurface s = surfaceAt(scene, object, 0, 0.5f, 0.5f);
+  out.normal = normalizeOr(s.normal, vec3(0));
+  if (!isSphere) return out;
+  const bool even = near(r, glm::length(w)) && square(out.u, w) && square(out.v, w);
+  return even && dot(s.normal, s.P - out.center) > 0 ? std::optional(out) : std::nullopt;
+}
+
+std::optional<EmitterShape> rectangle(const EmitterLattice& lattice) {
+  if (lattice.surface || lattice.quads.size() != 1) return std::nullopt;
+  const auto& [a, b, c, d] = lattice.quads[0];
+  const EmitterShape out{EmitterShape::Kind::Rectangle, 0.5f * (a + c), 0.5f * (b - a), 0.5f * (d - a), lattice.normals[0]};
+  const float u = glm::length(out.u), v = glm::length(out.v);
+  const bool straight = glm::length(a + c - b - d) <= 1e-5f * (u + v) && std::abs(dot(out.u, out.v)) <= 1e-5f * u * v;
+  return u > 0 && v > 0 && straight ? std::optional(out) : std::nullopt;
+}
+
+void addEmitters(const Scene& scene, const CoarseGroup& group, EmitterLight& out) {
+  int round = -1;  // the last object that was
+  for (const Lattice& lattice : group.lattices) {
+    if (lattice.object == round) continue;
+    if (const auto shape = roundShape(scene, lattice.object)) {
+      out.shapes.push_back(*shape);
+      round = lattice.object;
+      continue;
+    }
+    EmitterLattice quads = latticeOf(scene, group, lattice);
+    if (const auto shape = rectangle(quads))
+      out.shapes.push_back(*shape);
+    else
+      out.lattices.push_back(std::move(quads));
+  }
+}
+
 EmitterTable tableOf(const Scene& scene, const std::vector<CoarseGroup>& groups) {
   EmitterTable table(scene.lights.size());
   for (size_t g = 0; g < groups.size(); ++g) {
@@ -44,17 +94,27 @@ EmitterTable tableOf(const Scene& scene, const std::vector<CoarseGroup>& groups)
     if (light < 0 || light >= static_cast<int>(table.size())) continue;
     EmitterLight& out = table[static_cast<size_t>(light)];
     out.reach = std::max(out.reach, kOffsetFactor * groups[g].deviation);
-    for (const Lattice& lattice : groups[g].lattices) out.lattices.push_back(latticeOf(scene, groups[g], lattice));
+    addEmitters(scene, groups[g], out);
   }
   return table;
 }
+
+void put(const EmitterPoints& out, int i, const vec3& P, const vec3& N, double density, bool meets) {
+  out.P.x[i] = P.x, out.P.y[i] = P.y, out.P.z[i] = P.z;
+  out.N.x[i] = N.x, out.N.y[i] = N.y, out.N.z[i] = N.z;
+  out.density[i] = static_cast<float>(density);
+  if (out.meetDensity) out.meetDensity[i] = meets ? out.density[i] : 0.0f;
+}
+
+vec3 at(TmConstVec3 v, int i) { return {v.x[i], v.y[i], v.z[i]}; }
 
 }  // namespace
 
 Emitters::Emitters(const Scene& scene, const std::vector<CoarseGroup>& groups) : Emitters(tableOf(scene, groups)) { scene_ = &scene; }
 
 Emitters::Emitters(EmitterTable table) : table_(std::move(table)), lights_(table_.size()) {
-  for (size_t light = 0; light < table_.size(); ++light)
+  for (size_t light = 0; light < table_.size(); ++light) {
+    for (const EmitterShape& shape : table_[light].shapes) lights_[light].areas.add(double{shape.area()});
     for (uint32_t l = 0; l < table_[light].lattices.size(); ++l) {
       const EmitterLattice& lattice = table_[light].lattices[l];
       Source source{l, {}, std::vector<Distribution>(lattice.rows)};
@@ -66,6 +126,7 @@ Emitters::Emitters(EmitterTable table) : table_(std::move(table)), lights_(table
       lights_[light].areas.add(source.rows.total());
       lights_[light].sources.push_back(std::move(source));
     }
+  }
 }
 
 void Emitters::place(const EmitterLattice& from, size_t k, float u, float v, vec3& P, vec3& normal) const {
@@ -83,30 +144,76 @@ void Emitters::place(const EmitterLattice& from, size_t k, float u, float v, vec
   if (normal == vec3(0)) bilinear(from.quads[k], u, v, P, normal);
 }
 
-float Emitters::reach(int light) const {
-  return light >= 0 && light < static_cast<int>(table_.size()) ? table_[static_cast<size_t>(light)].reach : 0.0f;
+float Emitters::reach(int light) const { return known(light) ? given(light).reach : 0.0f; }
+
+Emitters::AreaPoint Emitters::onLattice(const EmitterLight& light, const Source& source, double u, double v) const {
+  const EmitterLattice& lattice = light.lattices[source.lattice];
+  const size_t row = source.rows.pick(v), column = source.row[row].pick(u);
+  const size_t quad = row * lattice.columns + column;
+  AreaPoint out;
+  vec3 normal;
+  place(lattice, quad, static_cast<float>(u), static_cast<float>(v), out.P, normal);
+  const double quadArea = source.row[row].weight(column);
+  const bool there = !lattice.surface || lattice.surface->keeps(lattice.firstQuad + static_cast<uint32_t>(quad),
+                                                                static_cast<float>(u), static_cast<float>(v));
+  if (quadArea > 0 && there) out.area = double{glm::length(normal)} * source.rows.total() / quadArea;
+  out.N = normalizeOr(lattice.flipsNormal ? -normal : normal, lattice.normals[quad]);
+  return out;
+}
+
+bool Emitters::sampleFrom(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1, const EmitterPoints& out) const {
+  if (!shines(light)) return false;
+  const EmitterLight& emitters = given(light);
+  const Light& l = sources(light);
+  for (int i = 0; i < count; ++i) {
+    double u{xi0[i]};
+    const size_t pick = l.areas.pick(u);
+    const double share = l.areas.weight(pick) / l.areas.total();
+    const vec3 eye = at(from, i);
+    if (pick < emitters.shapes.size()) {
+      const SeenPoint p = sampleSolidAngle(emitters.shapes[pick], eye, {static_cast<float>(u), xi1[i]});
+      put(out, i, p.P, p.N, share * double{p.density}, true);
+      continue;
+    }
+    const AreaPoint p = onLattice(emitters, l.sources[pick - emitters.shapes.size()], u, double{xi1[i]});
+    put(out, i, p.P, p.N, p.area > 0 ? share * solidAngleDensity(eye, p.P, p.N, 1 / p.area) : 0, false);
+  }
+  return true;
+}
+
+void Emitters::meet(int light, int count, TmConstVec3 from, TmConstVec3 direction, const EmitterPoints& out) const {
+  for (int i = 0; i < count; ++i) {
+    const vec3 eye = at(from, i);
+    float nearest = kInfinity;
+    put(out, i, eye, vec3(0), 0, true);
+    for (size_t s = 0; known(light) && s < given(light).shapes.size(); ++s) {
+      const SeenPoint p = tomales::meet(given(light).shapes[s], eye, at(direction, i));
+      const float distance = p.density > 0 ? glm::length(p.P - eye) : kInfinity;
+      if (!(distance < nearest)) continue;
+      nearest = distance;
+      put(out, i, p.P, p.N, sources(light).areas.weight(s) / sources(light).areas.total() * double{p.density}, true);
+    }
+  }
 }
 
 bool Emitters::sample(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N,
                       float* area) const {
-  if (light < 0 || light >= static_cast<int>(lights_.size())) return false;
-  const Light& l = lights_[static_cast<size_t>(light)];
-  if (l.sources.empty()) return false;
+  if (!shines(light)) return false;
+  const EmitterLight& emitters = given(light);
+  const Light& l = sources(light);
   for (int i = 0; i < count; ++i) {
-    double u{xi0[i]}, v{xi1[i]};
-    const Source& source = l.sources[l.areas.pick(u)];
-    const size_t row = source.rows.pick(v), column = source.row[row].pick(u);
-    const EmitterLattice& lattice = table_[static_cast<size_t>(light)].lattices[source.lattice];
-    const size_t quad = row * lattice.columns + column;
-    vec3 p, normal;
-    place(lattice, quad, static_cast<float>(u), static_cast<float>(v), p, normal);
-    const double quadArea = source.row[row].weight(column);
-    const bool there = !lattice.surface || lattice.surface->keeps(lattice.firstQuad + static_cast<uint32_t>(quad),
-                                                                  static_cast<float>(u), static_cast<float>(v));
-    area[i] = quadArea > 0 && there ? static_cast<float>(double{glm::length(normal)} * l.areas.total() / quadArea) : 0.0f;
-    normal = normalizeOr(lattice.flipsNormal ? -normal : normal, lattice.normals[quad]);
-    P.x[i] = p.x, P.y[i] = p.y, P.z[i] = p.z;
-    N.x[i] = normal.x, N.y[i] = normal.y, N.z[i] = normal.z;
+    double u{xi0[i]};
+    const size_t pick = l.areas.pick(u);
+    AreaPoint p;
+    if (pick < emitters.shapes.size()) {
+      const SeenPoint onShape = sampleArea(emitters.shapes[pick], {static_cast<float>(u), xi1[i]});
+      p = {onShape.P, onShape.N, 1 / double{onShape.density}};
+    } else {
+      p = onLattice(emitters, l.sources[pick - emitters.shapes.size()], u, double{xi1[i]});
+    }
+    area[i] = static_cast<float>(p.area * l.areas.total() / l.areas.weight(pick));
+    P.x[i] = p.P.x, P.y[i] = p.P.y, P.z[i] = p.P.z;
+    N.x[i] = p.N.x, N.y[i] = p.N.y, N.z[i] = p.N.z;
   }
   return true;
 }

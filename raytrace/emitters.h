@@ -1,8 +1,9 @@
-// Points on area lights: places of the true surface, chosen by the coarse quads of all objects that emit for a light in proportion to
-// area, and weighted so that any surface shines as much as it does, not as its polygons would. Where rays see displacement the
-// polygons stand for the surface.
+// Points on area lights. Rectangles, disks and spheres are sampled by solid angle (emitter_shapes.h). All else is by area: places of
+// the true surface, chosen by the coarse quads of all objects that emit for a light in proportion to area, and weighted so that any
+// surface shines as much as it does, not as its polygons would. Where rays see displacement the polygons stand for the surface.
 // Space: current. Threads: const members may be called concurrently.
 #pragma once
+#include "raytrace/emitter_shapes.h"
 #include "raytrace/tessellate.h"
 #include "reyes/base/distribution.h"
 
@@ -19,6 +20,7 @@ struct EmitterLattice {
   uint32_t firstQuad = 0;                  ///< Number of the first quad there.
 };
 struct EmitterLight {
+  std::vector<EmitterShape> shapes;
   std::vector<EmitterLattice> lattices;
   float reach = 0;                         ///< ShadeServices::emitterReach
 };
@@ -35,9 +37,14 @@ class Emitters {
   float reach(int light) const;
 
   /// False: no emitter of this light has any area.
-  bool shines(int light) const { return !lights_[static_cast<size_t>(light)].sources.empty(); }
+  bool shines(int light) const { return known(light) && sources(light).areas.count() > 0; }
 
-  /// Meaning as ShadeServices::sampleEmitter. xi0 picks the lattice, xi1 its row and v, what is left of xi0 the
+  /// As ShadeServices::sampleEmitter. xi0 picks the emitter.
+  bool sampleFrom(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1, const EmitterPoints& out) const;
+  /// As ShadeServices::meetEmitter.
+  void meet(int light, int count, TmConstVec3 from, TmConstVec3 direction, const EmitterPoints& out) const;
+
+  /// Points of the light as a whole, wherever they are seen from. xi0 picks the lattice, xi1 its row and v, what is left of xi0 the
   /// column and u, all by area: a continuous warp of the unit square over each lattice, so that stratified points
   /// stay stratified. `area` is the Jacobian over the probability of the quad: the total area wherever quads are
   /// parallelograms.
@@ -51,9 +58,18 @@ class Emitters {
     std::vector<Distribution> row;  ///< quads of each row
   };
   struct Light {
-    std::vector<Source> sources;
-    Distribution areas;
+    Distribution areas;             ///< Shapes come first.
+    std::vector<Source> sources;    ///< Lattices with area.
   };
+  struct AreaPoint {
+    vec3 P{0}, N{0};
+    double area = 0;                ///< That it stands for; 0: trimmed away
+  };
+  bool known(int light) const { return light >= 0 && light < static_cast<int>(lights_.size()); }
+  const EmitterLight& given(int light) const { return table_[static_cast<size_t>(light)]; }
+  const Light& sources(int light) const { return lights_[static_cast<size_t>(light)]; }
+  /// On lattice `source`, if it were the whole light.
+  AreaPoint onLattice(const EmitterLight& light, const Source& source, double u, double v) const;
   /// Position and d/du x d/dv by the quad's own parameters.
   void place(const EmitterLattice& lattice, size_t quad, float u, float v, vec3& P, vec3& normal) const;
 

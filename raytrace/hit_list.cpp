@@ -4,8 +4,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "reyes/base/math.h"
-
 namespace tomales {
 
 void sortAlongRay(HitList& list) {

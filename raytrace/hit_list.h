@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "reyes/base/math.h"
+
 namespace tomales {
 
 /// One intersection with a coarse polygon.
@@ -15,6 +17,7 @@ struct PolygonHit {
   float u = 0, v = 0;    ///< In the quad
   bool leaving = false;  ///< The ray goes to the side of the RISpec normal.
   int instance = -1;     ///< In SharedShapes::instances, -1: none.
+  vec3 normal{0};        ///< Of the polygon, along d/du x d/dv, any length; of an instance in the space of its master.
 };
 
 /// Any length: a fixed capacity would have to drop hits, and which ones matter is known only at the end.

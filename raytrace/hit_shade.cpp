@@ -8,6 +8,8 @@
 namespace tomales {
 namespace {
 
+constexpr float kLeastSpread = 5e-4f;  ///< Radius of the footprint of a ray that has none, for each unit of its length: about a pixel.
+
 int primvarFloats(const ShadeGroup& group) {
   return std::accumulate(group.primvars.begin(), group.primvars.end(), 0,
                          [](int sum, const Primvar& p) { return sum + p.width; });
@@ -70,7 +72,9 @@ void addPoint(const Scene& scene, const Ray& ray, const Hit& hit, SampleName nam
   points.set3(kIx, i, I);
   points.channel(kTime)[i] = ray.time;
   if (ray.time > 0) bringToOpen(scene, ray, hit, points, i);
-  if (const float radius = ray.spread * hit.t; radius > 0) points.channel(kArea)[i] = kPi * radius * radius;
+  const float radius = ray.spread * hit.t;
+  if (radius > 0) points.channel(kArea)[i] = kPi * radius * radius;
+  if (points.hasSteps()) evaluateSteps(scene, hit.object, hit.patch, hit.u, hit.v, std::max(radius, kLeastSpread * hit.t), points, i);
 }
 
 HitMode modeOf(const Attributes& a, RayKind kind) {
@@ -155,7 +159,7 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
     while (last < order.size() && groupOf[order[last]] == g) ++last;
     const ShadeGroup& group = scene.groups[static_cast<size_t>(g)];
     const Attributes& attributes = *group.attributes;
-    ShadePoints points(g, primvarFloats(group));
+    ShadePoints points(g, primvarFloats(group), shading.wantsSteps(g));
     points.reserve(static_cast<int>(last - first));
     for (size_t k = first; k < last; ++k) addPoint(scene, rays[order[k]], hits[order[k]], names[order[k]], points);
     const bool shades = answers.wantsColor && answers.mode.value_or(modeOf(attributes, context.kind)) == HitMode::Shader;

@@ -19,7 +19,7 @@ inline RayStart startOf(const Ray& ray) { return {ray.offset, 4e-7f * glm::lengt
 struct RayScene::Impl {
   Impl(const Scene& scene, const Camera& camera, const ShadingSystem& shading, bool hitList, Log& log);
 
-  Hit resolve(const PolygonHit& hit) const;
+  Hit resolve(const Ray& ray, const PolygonHit& hit) const;
   /// Is the opacity of the whole group that of its attributes?
   bool knowsOpacity(uint32_t group) const { return opacityIsConstant[group]; }
   /// Adds the surfaces of solids to what a traversal of all else has found: those up to `window` to the list, and the nearest

@@ -112,20 +112,24 @@ bool RayScene::Impl::addSolids(const Ray& ray, float window, uint32_t mask, HitL
   return found;
 }
 
-Hit RayScene::Impl::resolve(const PolygonHit& polygon) const {
+Hit RayScene::Impl::resolve(const Ray& ray, const PolygonHit& polygon) const {
   const CoarseInstance* instance =
       polygon.instance >= 0 ? &shapes.instances[static_cast<size_t>(polygon.instance)] : nullptr;
   const CoarseGroup& g = instance ? shapes.masters[instance->master] : groups[polygon.group];
   const Quad& q = g.quads[polygon.quad];
   const Lattice& l = g.latticeOf(polygon.quad);
   const vec2 uv = g.patchParameters(polygon.quad, polygon.u, polygon.v);
-  vec3 geometric = g.geometricNormal(polygon.quad);
+  vec3 geometric = normalizeOr(g.flipsNormal ? -polygon.normal : polygon.normal, vec3(0, 0, -1));
   vec3 normal = glm::mix(glm::mix(g.N[q[0]], g.N[q[1]], polygon.u), glm::mix(g.N[q[3]], g.N[q[2]], polygon.u), polygon.v);
-  vec3 atOpen = g.pointOn(polygon.quad, polygon.u, polygon.v);
+  vec3 atOpen = ray.origin + polygon.t * ray.direction;
+  if (ray.time > 0) {
+    geometric = g.geometricNormal(polygon.quad);
+    atOpen = g.pointOn(polygon.quad, polygon.u, polygon.v);
+    if (instance) atOpen = transformPoint(instance->cameraFromObject, atOpen);
+  }
   if (instance) {
     geometric = normalizeOr(instance->normals * geometric, geometric);
     normal = instance->normals * normal;
-    atOpen = transformPoint(instance->cameraFromObject, atOpen);
   }
   const int object = instance ? instance->object : l.object;
   return {polygon.t, object, l.patch, uv.x, uv.y, normalizeOr(normal, geometric), geometric, false, atOpen};
@@ -149,7 +153,7 @@ Hit RayScene::closest(const Ray& ray, RayMask mask) const {
   HitList& list = scratchList();
   if (!(ray.offset > 0)) {
     const bool found = impl_->embree.nearest(ray, mask, hit);
-    return impl_->addSolids(ray, std::max(ray.bias, 0.0f), mask, list, found, hit) ? impl_->resolve(hit) : Hit{};
+    return impl_->addSolids(ray, std::max(ray.bias, 0.0f), mask, list, found, hit) ? impl_->resolve(ray, hit) : Hit{};
   }
   const float window = recordingWindow(ray.offset);
   const bool beyond =
@@ -159,7 +163,7 @@ Hit RayScene::closest(const Ray& ray, RayMask mask) const {
   const int origin = effectiveOrigin(list, start), next = nextHit(list, origin, start);
   if (next >= 0) hit = list[static_cast<size_t>(next)];
   Hit out;
-  if (next >= 0 ? hit.t < ray.tMax : beyond) out = impl_->resolve(hit);
+  if (next >= 0 ? hit.t < ray.tMax : beyond) out = impl_->resolve(ray, hit);
   out.adjusted = origin >= 0;
   return out;
 }

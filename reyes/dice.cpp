@@ -5,6 +5,41 @@
 namespace tomales {
 namespace {
 
+/// Three arrays.
+template <class T>
+struct Triple {
+  T *x, *y, *z;
+};
+
+/// In the order of glm's product, so that one point is moved to the same bits.
+TOMALES_HOT void transformAffine(const mat4& m, int n, Triple<const float> from, Triple<float> to) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const float x = from.x[i], y = from.y[i], z = from.z[i];
+    to.x[i] = (m[0][0] * x + m[1][0] * y) + (m[2][0] * z + m[3][0]);
+    to.y[i] = (m[0][1] * x + m[1][1] * y) + (m[2][1] * z + m[3][1]);
+    to.z[i] = (m[0][2] * x + m[1][2] * y) + (m[2][2] * z + m[3][2]);
+  }
+}
+
+void transformPoints(const mat4& m, int n, Triple<const float> from, Triple<float> to) {
+  if (m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] == 1) return transformAffine(m, n, from, to);
+  for (int i = 0; i < n; ++i) {
+    const vec3 p = transformPoint(m, {from.x[i], from.y[i], from.z[i]});
+    to.x[i] = p.x, to.y[i] = p.y, to.z[i] = p.z;
+  }
+}
+
+TOMALES_HOT void transformDirections(const mat3& m, int n, Triple<const float> from, Triple<float> to) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const float x = from.x[i], y = from.y[i], z = from.z[i];
+    to.x[i] = m[0][0] * x + m[1][0] * y + m[2][0] * z;
+    to.y[i] = m[0][1] * x + m[1][1] * y + m[2][1] * z;
+    to.z[i] = m[0][2] * x + m[1][2] * y + m[2][2] * z;
+  }
+}
+
 /// Object-space results of Prim::evaluate for n points; memory is kept by the thread.
 class Evaluated {
  public:
@@ -26,6 +61,10 @@ class Evaluated {
   vec3 get(size_t first, int i) const {
     const float* x = data_ + first * stride_ + i;
     return {x[0], x[stride_], x[2 * stride_]};
+  }
+  Triple<const float> triple(size_t first) const {
+    const float* x = data_ + first * stride_;
+    return {x, x + stride_, x + 2 * stride_};
   }
   void blend(const Evaluated& next, float t) {
     for (size_t i = 0; i < stride_ * 12; ++i) data_[i] = lerp(data_[i], next.data_[i], t);
@@ -141,11 +180,12 @@ Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, in
   const auto at = [](float a, float b, int i, int count) {
     return i == count ? b : a + (b - a) * (static_cast<float>(i) / static_cast<float>(count));
   };
-  for (int j = 0, k = 0; j <= nv; ++j)
-    for (int i = 0; i <= nu; ++i, ++k) {
-      u[static_cast<size_t>(k)] = at(rect.u0, rect.u1, i, nu);
-      v[static_cast<size_t>(k)] = at(rect.v0, rect.v1, j, nv);
-    }
+  for (int i = 0; i <= nu; ++i) u[static_cast<size_t>(i)] = at(rect.u0, rect.u1, i, nu);
+  for (int j = 0; j <= nv; ++j) {
+    const int first = j * (nu + 1);
+    if (j > 0) std::copy_n(u.data(), nu + 1, u.data() + first);
+    std::fill_n(v.data() + first, nu + 1, at(rect.v0, rect.v1, j, nv));
+  }
 
   const bool whole = rect.u0 == 0 && rect.u1 == 1 && rect.v0 == 0 && rect.v1 == 1;
   const auto vertices = [&](const Prim& shape, SurfacePoints out) {
@@ -160,16 +200,10 @@ Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, in
     const mat4 m = keys.currentFromObject.at(time);
     if (keyCount > 1) g.turns.push_back(mat3(m) * glm::inverse(mat3(keys.currentFromObject.at(keys.times.front()))));
     evaluateAt(o, time, n, e, vertices);
-    for (int i = 0; i < n; ++i) {
-      const vec3 p = transformPoint(m, e.get(0, i));
-      g.P(key, 0)[i] = p.x, g.P(key, 1)[i] = p.y, g.P(key, 2)[i] = p.z;
-    }
+    transformPoints(m, n, e.triple(0), {g.P(key, 0), g.P(key, 1), g.P(key, 2)});
     if (key == 0) {
       const mat3 normals = normalMatrix(o, m);
-      for (int i = 0; i < n; ++i) {
-        const vec3 normal = normals * e.get(9, i);
-        g.N(0)[i] = normal.x, g.N(1)[i] = normal.y, g.N(2)[i] = normal.z;
-      }
+      transformDirections(normals, n, e.triple(9), {g.N(0), g.N(1), g.N(2)});
       int offset = 0;
       for (size_t k = 0; k < prim.primvars().size(); ++k) {
         const Primvar& p = prim.primvars()[k];
@@ -196,6 +230,40 @@ TrueSurface surfaceAt(const Scene& scene, int object, uint32_t patch, float u, f
           normalMatrix(o, m) * e.get(9, 0)};
 }
 
+namespace {
+
+/// The shader's parameters at a place of a patch, and how they run along it: patches of one mesh share a parameter square.
+struct ShaderParameters {
+  float u, v, perU, perV;
+
+  ShaderParameters(const Prim& prim, uint32_t patch, float u0, float v0) {
+    const float us[3] = {u0, u0 < 0.5f ? u0 + 0.5f : u0 - 0.5f, u0}, vs[3] = {v0, v0, v0 < 0.5f ? v0 + 0.5f : v0 - 0.5f};
+    float su[3], sv[3];
+    prim.surfaceParameters(patch, 3, us, vs, su, sv);
+    const float dsu = (su[1] - su[0]) / (us[1] - us[0]), dsv = (sv[2] - sv[0]) / (vs[2] - vs[0]);
+    u = su[0], v = sv[0], perU = dsu != 0 ? dsu : 1.0f, perV = dsv != 0 ? dsv : 1.0f;
+  }
+};
+
+/// All primitive variables at one place, current space.
+void primvarsAt(const Prim& prim, uint32_t patch, float u, float v, const mat4& m, const mat3& normals, AlignedVector<float>& out) {
+  out.clear();
+  for (size_t k = 0; k < prim.primvars().size(); ++k) {
+    const Primvar& p = prim.primvars()[k];
+    const size_t first = out.size();
+    out.resize(first + static_cast<size_t>(p.width));
+    prim.interpolate(patch, static_cast<int>(k), 1, &u, &v, out.data() + first, 1);
+    transformPrimvar(p, m, normals, 1, out.data() + first, 1);
+  }
+}
+
+vec3 tripleAt(const AlignedVector<float>& values, int offset) {
+  const float* v = values.data() + offset;
+  return {v[0], v[1], v[2]};
+}
+
+}  // namespace
+
 void evaluatePoint(const Scene& scene, int object, uint32_t patch, float u, float v, ShadePoints& batch, int index) {
   const Object& o = scene.objects[static_cast<size_t>(object)];
   const Prim& prim = o.shape();
@@ -208,34 +276,58 @@ void evaluatePoint(const Scene& scene, int object, uint32_t patch, float u, floa
   batch.set3(kNgx, index, geometric);
   batch.set3(kNx, index, geometric);
 
-  // Derivatives by the shader's parameters: patches of one mesh share a parameter square, so ask how it runs along this one.
-  const float us[3] = {u, u < 0.5f ? u + 0.5f : u - 0.5f, u}, vs[3] = {v, v, v < 0.5f ? v + 0.5f : v - 0.5f};
-  float su[3], sv[3];
-  prim.surfaceParameters(patch, 3, us, vs, su, sv);
-  const float dsu = (su[1] - su[0]) / (us[1] - us[0]), dsv = (sv[2] - sv[0]) / (vs[2] - vs[0]);
-  batch.set3(kDpduX, index, surface.dPdu / (dsu != 0 ? dsu : 1.0f));
-  batch.set3(kDpdvX, index, surface.dPdv / (dsv != 0 ? dsv : 1.0f));
-  batch.channel(kU)[index] = su[0];
-  batch.channel(kV)[index] = sv[0];
+  const ShaderParameters shader(prim, patch, u, v);
+  batch.set3(kDpduX, index, surface.dPdu / shader.perU);
+  batch.set3(kDpdvX, index, surface.dPdv / shader.perV);
+  batch.channel(kU)[index] = shader.u;
+  batch.channel(kV)[index] = shader.v;
   batch.channel(kDu)[index] = 0;
   batch.channel(kDv)[index] = 0;
   batch.channel(kArea)[index] = 0;
 
   AlignedVector<float> values;
-  int offset = 0;
-  for (size_t k = 0; k < prim.primvars().size(); ++k) {
-    const Primvar& p = prim.primvars()[k];
-    values.resize(static_cast<size_t>(p.width));
-    prim.interpolate(patch, static_cast<int>(k), 1, &u, &v, values.data(), 1);
-    transformPrimvar(p, m, normals, 1, values.data(), 1);
-    for (int c = 0; c < p.width; ++c) batch.primvar(offset + c)[index] = values[static_cast<size_t>(c)];
-    if (p.name == "N") batch.set3(kNx, index, normalizeOr({values[0], values[1], values[2]}, geometric));
-    offset += p.width;
-  }
-  const vec2 st = o.attributes->textureAt(su[0], sv[0]);
+  primvarsAt(prim, patch, u, v, m, normals, values);
+  for (int c = 0; c < static_cast<int>(values.size()); ++c) batch.primvar(c)[index] = values[static_cast<size_t>(c)];
+  if (const int n = offsetOf(prim.primvars(), "N"); n >= 0) batch.set3(kNx, index, normalizeOr(tripleAt(values, n), geometric));
+  const vec2 st = o.attributes->textureAt(shader.u, shader.v);
   const int s = offsetOf(prim.primvars(), "s"), t = offsetOf(prim.primvars(), "t");
   batch.channel(kS)[index] = s >= 0 ? batch.primvar(s)[index] : st.x;
   batch.channel(kT)[index] = t >= 0 ? batch.primvar(t)[index] : st.y;
+}
+
+void evaluateSteps(const Scene& scene, int object, uint32_t patch, float u, float v, float radius, ShadePoints& batch, int index) {
+  constexpr float kWidest = 0.25f;  // of a patch: its end is never passed on both sides
+  const Object& o = scene.objects[static_cast<size_t>(object)];
+  const Prim& prim = o.shape();
+  const mat4& m = scene.groups[static_cast<size_t>(o.group)].cameraFromObject;
+  const mat3 normals = normalMatrix(o, m);
+  const ShaderParameters here(prim, patch, u, v);
+  const int N = offsetOf(prim.primvars(), "N"), s = offsetOf(prim.primvars(), "s"), t = offsetOf(prim.primvars(), "t");
+  const auto normalAt = [&](float pu, float pv, const AlignedVector<float>& values) {
+    return normalizeOr(N >= 0 ? tripleAt(values, N) : surfaceAt(scene, object, patch, pu, pv).normal, vec3(0));
+  };
+  AlignedVector<float> values, moved;
+  primvarsAt(prim, patch, u, v, m, normals, values);
+  const vec3 normal = normalAt(u, v, values);
+  for (const bool alongV : {false, true}) {
+    const float edge = glm::length(batch.get3(alongV ? kDpdvX : kDpduX, index)), per = std::abs(alongV ? here.perV : here.perU);
+    const float patchStep = edge * per > 0 ? std::clamp(2 * radius / (edge * per), 1e-6f, kWidest) : kWidest;
+    const float at = alongV ? v : u, sign = at + patchStep <= 1 ? 1.0f : -1.0f;
+    const float pu = alongV ? u : u + sign * patchStep, pv = alongV ? v + sign * patchStep : v;
+    primvarsAt(prim, patch, pu, pv, m, normals, moved);
+    const auto put = [&](int value, float change) { batch.step(value, alongV)[index] = sign * change; };
+    const vec3 turned = normalAt(pu, pv, moved) - normal;
+    for (int axis = 0; axis < 3; ++axis) put(kStepN + axis, turned[axis]);
+    for (int c = 0; c < static_cast<int>(values.size()); ++c) {
+      const auto k = static_cast<size_t>(c);
+      put(kStepPrimvars + c, moved[k] - values[k]);
+    }
+    const ShaderParameters there(prim, patch, pu, pv);
+    const vec2 st = o.attributes->textureAt(there.u, there.v) - o.attributes->textureAt(here.u, here.v);
+    put(kStepS, s >= 0 ? moved[static_cast<size_t>(s)] - values[static_cast<size_t>(s)] : st.x);
+    put(kStepT, t >= 0 ? moved[static_cast<size_t>(t)] - values[static_cast<size_t>(t)] : st.y);
+    batch.channel(alongV ? kDv : kDu)[index] = patchStep * per;
+  }
 }
 
 }  // namespace tomales

@@ -23,6 +23,10 @@ enum PointChannel : int {
   kFixedChannels
 };
 
+/// What may change from one micropolygon to the next, as a batch with steps holds it: two arrays for each, the change along the
+/// whole of a micropolygon's u edge and of its v edge. Primitive variables follow.
+enum PointStep : int { kStepN = 0, kStepS = 3, kStepT = 4, kStepPrimvars = 5 };
+
 /// Names a point for random numbers: the same point must have the same name for any thread count, bucket size and crop.
 /// Points that share a key and differ in `sequence` draw successive parts of one low-discrepancy sequence, so that what is
 /// averaged over them (the rays of one irradiance record) is stratified as a whole.
@@ -32,12 +36,18 @@ struct SampleName {
 
 class ShadePoints {
  public:
-  /// `group`: Scene::groups; `primvarFloats`: the sum of widths of the group's primvars.
-  ShadePoints(int group, int primvarFloats) : group_(group), channels_(kFixedChannels + primvarFloats) {}
+  /// `group`: Scene::groups; `primvarFloats`: the sum of widths of the group's primvars; `steps`: for shaders that ask how values
+  /// change over the surface.
+  ShadePoints(int group, int primvarFloats, bool steps = false)
+      : group_(group),
+        primvarFloats_(primvarFloats),
+        channels_(kFixedChannels + primvarFloats + (steps ? 2 * (kStepPrimvars + primvarFloats) : 0)) {}
 
   int group() const { return group_; }
   int count() const { return static_cast<int>(names_.size()); }
   int channelCount() const { return channels_; }
+  int primvarFloats() const { return primvarFloats_; }
+  bool hasSteps() const { return channels_ > kFixedChannels + primvarFloats_; }
 
   /// Appends a point and returns its index; channels are then set through `channel`.
   int add(SampleName name);
@@ -50,6 +60,9 @@ class ShadePoints {
   const float* channel(int c) const { return block_.data() + static_cast<size_t>(c) * static_cast<size_t>(capacity_); }
   float* primvar(int offset) { return channel(kFixedChannels + offset); }
   const float* primvar(int offset) const { return channel(kFixedChannels + offset); }
+  /// Pre: hasSteps(). `value`: PointStep; `v`: along v instead of u.
+  float* step(int value, bool v) { return channel(stepChannel(value, v)); }
+  const float* step(int value, bool v) const { return channel(stepChannel(value, v)); }
   uint32_t key(int i) const { return names_[static_cast<size_t>(i)].key; }
   SampleName name(int i) const { return names_[static_cast<size_t>(i)]; }
 
@@ -72,8 +85,11 @@ class ShadePoints {
 
  private:
   void setCapacity(int points);
+  int stepChannel(int value, bool v) const {
+    return kFixedChannels + primvarFloats_ + (v ? kStepPrimvars + primvarFloats_ : 0) + value;
+  }
 
-  int group_, channels_;
+  int group_, primvarFloats_, channels_;
   int capacity_ = 0;            ///< Points that the block has room for, a multiple of kLanes.
   AlignedVector<float> block_;  ///< One array of capacity_ floats a channel; what lies beyond count() is finite.
   std::vector<SampleName> names_;

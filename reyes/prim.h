@@ -9,6 +9,7 @@
 // Space: everything is in object space. Threads: const members may be called concurrently.
 #pragma once
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -49,6 +50,13 @@ struct Primvar {
   std::vector<float> values;
 };
 
+/// A whole sphere, or a whole flat disk.
+struct RoundShape {
+  vec3 center;
+  float radius;
+  vec3 axis;  ///< Of a disk; 0: a sphere
+};
+
 class Prim {
  public:
   virtual ~Prim() = default;
@@ -73,6 +81,9 @@ class Prim {
   /// Interpolates primvars()[index]: component c of point i goes to out[c * stride + i].
   virtual void interpolate(uint32_t patch, int index, int n, const float* u, const float* v, float* out,
                            int stride) const = 0;
+
+  /// What shape it is as a whole, if it is that simple.
+  virtual std::optional<RoundShape> round() const { return std::nullopt; }
 
   /// The same shape turned towards an eye, for points and curves that face it: `eye` is a position if `perspective`,
   /// else only the direction `forward`, in which it looks, counts. Null: the shape looks the same to every eye.
@@ -169,6 +180,9 @@ PrimPtr makePoints(const ParamList&, Problems&);
 /// facing the eye. One patch a segment. `basis` is for cubic curves.
 PrimPtr makeCurves(bool cubic, const Basis& basis, const std::vector<int>& vertexCounts, bool periodic, const ParamList&,
                    Problems&);
+/// The same as tubes: u around. Loose ends wider than 0 are closed by flat disks, patches that follow the segments.
+PrimPtr makeTubes(bool cubic, const Basis& basis, const std::vector<int>& vertexCounts, bool periodic, const ParamList&,
+                  Problems&);
 
 /// Newell's teapot, 3.15 high, on z = 0 with its spout towards x. Primvars run over every patch alike.
 PrimPtr makeTeapot(const ParamList&, Problems&);

@@ -25,7 +25,13 @@ struct Request {
   std::vector<RibArg> args;
   ParamList params;
   SourceLoc where;
+  /// Parameters of type string that name outputs of Patterns ("handle:output"), and the type that they stand in for ("reference color c").
+  std::vector<std::pair<std::string, ValueType>> references{};
 };
+
+inline bool isReference(const Request& request, std::string_view name) {
+  return std::any_of(request.references.begin(), request.references.end(), [&](const auto& r) { return r.first == name; });
+}
 
 /// The seam behind the parser: the scene builder, a recorder, a writer.
 class RiSink {
@@ -37,8 +43,8 @@ class RiSink {
 struct RibSettings {
   /// Called at every WorldEnd with the frozen scene, in stream order.
   std::function<void(Scene&&)> onScene;
-  /// MakeShadow: what earlier worlds have written becomes a map for later ones. Empty: the request is not supported.
-  std::function<void(const std::string& picture, const std::string& map, const SourceLoc& where)> onMakeShadow;
+  /// MakeTexture, MakeShadow and their kin: what earlier worlds have written becomes a map for later ones. Empty: they do nothing.
+  std::function<void(const Request&)> onMake;
   std::vector<std::string> archivePath{"."};
   int maxArchiveDepth = 64;
   bool allowSystem = false;       ///< System and Procedural "RunProgram" may start programs, "DynamicLoad" load plugins.

@@ -46,6 +46,7 @@ struct ShadeGroup {
   Motion currentFromOpen{};       ///< Takes places of the group at shutter open to where they are at a time, the camera held still.
   bool solid = false;             ///< Parts of solids.
   bool subtracted = false;        ///< As Object::subtracted.
+  bool steps = false;             ///< Its points have steps (reyes/points.h): set by whoever knows the shaders.
 };
 
 struct Expansion;

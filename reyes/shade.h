@@ -86,6 +86,13 @@ struct IndirectResult {
   TmVec3 dominant[3];  ///< Unit; for red, green, blue. Null pointers: not wanted.
 };
 
+/// Points of area lights, as others see them. Arrays of one length.
+struct EmitterPoints {
+  TmVec3 P, N;         ///< N: unit, RISpec side.
+  float* density;      ///< With which samples fall there, over solid angle; 0: nothing shines from there.
+  float* meetDensity;  ///< The same where meetEmitter() finds them too; else 0.
+};
+
 /// Which shadow rays of a light: sample `sample` of `samples`, towards a point or (solar) to infinity.
 struct ShadowRays {
   bool solar = false;
@@ -107,9 +114,10 @@ class ShadeServices {
   virtual void trace(const ShadePoints& points, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction,
                      const RayQuery& query, const ShadeContext& context, const RayResult& result) const = 0;
 
-  /// A point on area light `light` for each xi in [0,1)^2, uniform in area after weighting: position, unit normal (RISpec side) and
-  /// the area it stands for (total area for a uniform sample). Returns false if the light has no geometry.
-  virtual bool sampleEmitter(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N, float* area_out) const = 0;
+  /// A point on area light `light` for each xi in [0,1)^2, as seen from `from`. Returns false if the light has no geometry.
+  virtual bool sampleEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1, const EmitterPoints& out) const = 0;
+  /// The nearest point that shines along each unit direction, of those emitters of the light whose shape is simple.
+  virtual void meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction, const EmitterPoints& out) const = 0;
 
   /// E/pi that an earlier pass stored around each point; kArea of the points is what to average over. Zero where there is none.
   virtual void storedIrradiance(const ShadePoints& points, const uint8_t* active, TmVec3 E) const;
@@ -171,6 +179,8 @@ class ShadingSystem {
 
   /// Does a group hide what is behind it (Os = 1 everywhere and a shader that keeps opacity)?
   bool opaque(int group) const;
+  /// Does a shader of the group ask how values change over the surface (ShadePoints::hasSteps)?
+  bool wantsSteps(int group) const;
   /// Does its shader leave Oi = Os?
   bool keepsOpacity(int group) const;
   /// Runs the displacement shader of the grid's object, in place; recomputes N. No-op without one.

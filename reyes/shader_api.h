@@ -41,7 +41,15 @@ typedef enum TmCapability {
   TM_EMITS = 1 << 6,          /* surface: adds emitted radiance of its own, beside light that it reflects */
   TM_LIGHT_SAMPLED = 1 << 7,  /* light: asked for as many samples as its parameter `samples` says, with xi0 and xi1;
                                  Cl is the share of one sample */
-  TM_TRACES = 1 << 8         /* surface, light: calls trace(), gather(), occlusion() or transmission() */
+  TM_TRACES = 1 << 8,        /* surface, light, volume: calls trace(), gather(), occlusion() or transmission() */
+  TM_LIGHT_SKY = 1 << 9,     /* light, with TM_LIGHT_SOLAR: all around, at infinity. The host chooses L, by the brightness of the
+                                latitude-longitude picture that its parameter `map` names and by the cosine, parameter
+                                `samples` times; Cl is the radiance from there */
+  TM_DERIVATIVES = 1 << 10,   /* surface: looks pictures up at s, t or at primitive variables, or asks for derivatives of those:
+                                the host keeps how they change over a micropolygon */
+  TM_NEIGHBOURS = 1 << 11    /* surface: asks for derivatives of what it has computed, or looks pictures up at such places: the
+                                host shades four points around each point as well, so that differences are centred. The batch
+                                holds them after the points themselves; light and rays are asked for the points alone */
 } TmCapability;
 
 /* One declared parameter. Points, vectors, normals and matrices are given in shader space and arrive in current. */
@@ -55,7 +63,8 @@ typedef struct TmParamDecl {
 } TmParamDecl;
 
 /* One bound parameter: component k of point i is c[k][i * step]. step 0: uniform; 1: varying (a primitive
- * variable of the same name overrides the parameter). Arrays and matrices are uniform: c[0][0..]. */
+ * variable of the same name overrides the parameter). Arrays are uniform: element e of component k is c[k][e * components], and
+ * matrices are 16 floats of c[0] in RenderMan's order (points are rows, the translation comes last). */
 typedef struct TmValue {
   const float* c[3];
   int32_t step;
@@ -94,6 +103,9 @@ typedef struct TmGrid {
   /* Lights with TM_LIGHT_SAMPLED alone: a point of [0,1)^2; those of all samples of a point are stratified. */
   const float *xi0, *xi1;
   float clip[2];               /* camera-space depths of the near and far clipping planes */
+
+  float dtime;                 /* how long the shutter is open */
+  TmConstVec3 dPdtime;         /* surface: where P goes per unit of time; 0 where nothing moves */
 } TmGrid;
 
 /* One sample of one light at every point of the batch. */
@@ -136,6 +148,44 @@ typedef struct TmRayOutput {
   float* c[3];
 } TmRayOutput;
 
+/* Whose value ask() looks for. Parameters and outputs by name; "__shadername" is a shader's own name. */
+typedef enum TmWhom {
+  TM_OF_SURFACE = 0, TM_OF_DISPLACEMENT = 1, TM_OF_ATMOSPHERE = 2,
+  TM_OF_INCIDENT = 3,          /* the volume shader on the side of the surface that I arrives at (Exterior, Interior) */
+  TM_OF_OPPOSITE = 4,          /* and that on the other side */
+  TM_OF_LIGHT = 5,             /* a light: TmIlluminance::light */
+  TM_OF_ATTRIBUTES = 6,        /* "Ri:ShadingRate", "user:name", "category:name" (rispec-table section 4) */
+  TM_OF_OPTIONS = 7,           /* "Format", "Shutter", "Clipping", "Frame", "user:name", "category:name" */
+  TM_OF_RENDERER = 8           /* "renderer", "version" (four numbers), "versionstring" */
+} TmWhom;
+
+/* illuminance(): start with next = 0 and call until 0 is returned. */
+typedef struct TmIlluminance {
+  uint32_t structBytes;
+  int32_t next;
+  const char* category;        /* "", NULL: all lights; "a,b": one of these; "-a": without; "a&-b" (parameter __category of lights) */
+  TmConstVec3 axis;            /* x NULL: from all around; else from the cone of half angle `angle` around it */
+  float angle;
+  int32_t light;               /* out, and all below: for ask() */
+  TmConstVec3 L;               /* from P to the light, of full length; unit length where it is at infinity */
+  TmConstVec3 Cl;              /* shadowed, divided by the number of samples */
+  const uint8_t* lit;          /* 1: active, and the sample comes from the cone */
+  int32_t isIndirect, nondiffuse, nonspecular;
+} TmIlluminance;
+
+/* How texture() and environment() look up (rispec-table section 10). Start from TM_TEXTURE_DEFAULTS. */
+typedef struct TmTextureLookup {
+  uint32_t structBytes;
+  int32_t channel, channels;   /* the first, and 1 or 3 */
+  float fill;                  /* of channels that the picture lacks */
+  const char* filter;          /* NULL: "box" */
+  float sblur, tblur;          /* added to the region, as a fraction of the picture */
+  float swidth, twidth;        /* scale of the region; 0: a point */
+  int32_t samples;             /* environment(), of "raytrace": rays */
+} TmTextureLookup;
+
+#define TM_TEXTURE_DEFAULTS { sizeof(TmTextureLookup), 0, 3, 0, 0, 0, 0, 1, 1, 1 }
+
 typedef enum TmTransformKind { TM_AS_POINT = 0, TM_AS_VECTOR = 1, TM_AS_NORMAL = 2 } TmTransformKind;
 
 /* How a shadow map is looked up. */
@@ -168,7 +218,8 @@ typedef struct TmServices {
   int32_t (*texture)(void* host, const TmGrid*, const char* name, int32_t channel, int32_t channels, const float* s,
                      const float* t, TmVec3 out);
 
-  /* RISpec calculatenormal(): normal of the batch's surface if its points were at P. Displacement batches only; elsewhere copies N. */
+  /* RISpec calculatenormal(): normal of the batch's surface if its points were at P. Elsewhere than in displacements it takes
+   * TM_NEIGHBOURS, or copies N. */
   void (*calculateNormal)(void* host, const TmGrid*, TmConstVec3 P, TmVec3 out);
 
   /* Fraction of light that travels from P along `toward` to its tip (1: clear). Rays use the hit-list origin offset. */
@@ -216,6 +267,33 @@ typedef struct TmServices {
   int32_t (*rayInfo)(void* host, const TmGrid*, const char* name, TmVec3 out);
   /* Its label. */
   const char* (*rayLabel)(void* host, const TmGrid*);
+
+  /* Multiple importance sampling of a surface's own lobe f (the cosine included, over pi less), as specular() does it. With m =
+   * lobeSamples() and p(L) the density over solid angle with which the surface draws L, the highlight is the sum of
+   *   f(L) Cl / (1 + (m p(L) / d)^2)    over light(): d of lightDensity(), or wholly where that is 0
+   *   f(L) Cl                           over m directions of its own: Cl of lightAlong()
+   * lightDensity: 0 where lightAlong() would not find the light. lightAlong: L unit length, sample number 0..m-1, density p(L), 0 for
+   * none. stratified: numbers in [0,1) for sample number `sample`. */
+  void (*lightDensity)(void* host, const TmGrid*, int32_t index, float* out);
+  void (*lightAlong)(void* host, const TmGrid*, TmConstVec3 L, const float* density, int32_t sample, int32_t samples, TmVec3 Cl);
+  int32_t (*lobeSamples)(void* host, const TmGrid*);
+  void (*stratified)(void* host, const TmGrid*, int32_t sample, int32_t samples, float* xi0, float* xi1);
+
+  /* Derivative by u (direction 0) or v (1) of a value at every point: centred differences, one-sided at the border of a grid. Knows
+   * u, v, s, t, P, N and primitive variables with TM_DERIVATIVES, all values with TM_NEIGHBOURS and in displacements. */
+  void (*derivative)(void* host, const TmGrid*, int32_t direction, const float* value, float* out);
+  /* texture() with options: over the parallelogram that the micropolygon covers in (s, t). `lookup` may be NULL. */
+  int32_t (*textureWith)(void* host, const TmGrid*, const char* name, const TmTextureLookup* lookup, const float* s, const float* t,
+                         TmVec3 out);
+  /* environment() with options, over the cone that the micropolygon sees in `direction`; "raytrace" traces rays. */
+  int32_t (*environmentWith)(void* host, const TmGrid*, const char* name, const TmTextureLookup* lookup, TmConstVec3 direction, TmVec3 out);
+  /* RISpec illuminance(). Ambient lights are not listed. The arrays live until the shader returns. */
+  int32_t (*illuminance)(void* host, const TmGrid*, TmIlluminance*);
+  /* A value of something else: `type` is the TmType, `out` as a parameter of this shader (it lives until the shader returns).
+   * Returns 0 if there is no such value. `light` counts for TM_OF_LIGHT alone; negative: the light that is running. */
+  int32_t (*ask)(void* host, const TmGrid*, int32_t whom, int32_t light, const char* name, int32_t* type, TmValue* out);
+  /* RISpec textureinfo(): "exists", "resolution", "type", "channels", "bitsperchannel", "viewingmatrix", "projectionmatrix". */
+  int32_t (*textureInfo)(void* host, const TmGrid*, const char* name, const char* what, int32_t* type, TmValue* out);
 } TmServices;
 
 typedef struct TmShader {

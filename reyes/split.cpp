@@ -65,12 +65,12 @@ std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
   return {a, b};
 }
 
-/// Cells along `length_px`: fewer where blur lets edges grow by `coarsening`, but then never so few that a patch that closes on
-/// itself collapses. Binary: a power of two.
-int cells(float length_px, float edge_px, float coarsening, bool binary) {
+/// Cells along `length_px`: fewer where blur lets edges grow by `coarsening`, but never so few, `least`, that the shape collapses. Binary: a power
+/// of two.
+int cells(float length_px, int least, float edge_px, float coarsening, bool binary) {
   constexpr float kLeastOfCoarse = 4;
   const float fine = std::ceil(length_px / edge_px), coarse = std::ceil(length_px / (edge_px * coarsening));
-  const float n = std::max(coarse, std::min(fine, kLeastOfCoarse));
+  const float n = std::max({coarse, std::min(fine, kLeastOfCoarse), static_cast<float>(least)});
   const int count = n >= 1.0f ? static_cast<int>(std::min(n, 65536.0f)) : 1;
   return binary ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(count))) : count;
 }
@@ -123,7 +123,7 @@ class Splitter {
     const bool crossesEye = crosses(bare);
     const float blur = coarsening(patch, rect, bound);
     const bool binary = object_.attributes->binaryDice;
-    const int nu = cells(size.u_px, edge_px_, blur, binary), nv = cells(size.v_px, edge_px_, blur, binary);
+    const int nu = cells(size.u_px, size.uLeast, edge_px_, blur, binary), nv = cells(size.v_px, size.vLeast, edge_px_, blur, binary);
     if (static_cast<int64_t>(nu) * nv <= gridSize_) {
       // What moves through the eye plane does so however small it is; it is seen while it stays in front.
       if (crossesEye && !still) ++givenUp_.atEye;
@@ -211,6 +211,9 @@ void report(const Splitter::GivenUp& givenUp, const Object& o, Stats& stats, Log
 
 namespace {
 
+/// Chords that a line takes, however short it is, to enclose something: it bends round (a meridian), or closes on itself (a parallel).
+int leastCells(float length, float endToEnd) { return endToEnd < 0.3f * length ? 6 : endToEnd < 0.8f * length ? 4 : 1; }
+
 /// Longest lines along u and v of the lattice of kProbes x kProbes chords.
 template <int kProbes>
 PatchSize measureLattice(const Object& o, const Camera& camera, uint32_t patch, const UvRect& r) {
@@ -247,6 +250,9 @@ PatchSize measureLattice(const Object& o, const Camera& camera, uint32_t patch, 
     }
     size.u_px = std::max(size.u_px, du_px), size.v_px = std::max(size.v_px, dv_px);
     size.u_length = std::max(size.u_length, du), size.v_length = std::max(size.v_length, dv);
+    const int u0 = line * kRow, v0 = line;
+    size.uLeast = std::max(size.uLeast, leastCells(du, glm::length(p[u0 + kProbes] - p[u0])));
+    size.vLeast = std::max(size.vLeast, leastCells(dv, glm::length(p[v0 + kProbes * kRow] - p[v0])));
   }
   return size;
 }

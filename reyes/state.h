@@ -160,6 +160,7 @@ struct Attributes {
   std::set<std::string> membership;                         ///< Attribute "grouping" "membership": the sets it is in
   HitMode diffuseHitMode = HitMode::Shader, specularHitMode = HitMode::Shader, transmissionHitMode = HitMode::Shader;
   std::shared_ptr<const ShaderCall> surface, displacement, atmosphere;  ///< null: the default surface; none; none
+  std::shared_ptr<const ShaderCall> interior, exterior;     ///< Of what rays cross that leave the surface inwards, outwards.
   std::vector<int> lights;                                  ///< Indices in Scene::lights of those switched on.
   int areaLight = -1;                                       ///< This geometry emits for that light.
   float displacementBound = 0;                              ///< Radius in the space below.

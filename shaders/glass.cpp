@@ -12,7 +12,8 @@ float etaAt(const rsl::Batch& b, int i) {
   return enters ? 1 / eta(b.g, i) : eta(b.g, i);
 }
 
-// Seen through other glass or in mirrors, reflections weaker than this are left out: else rays double at every surface.
+// Seen through other glass or in mirrors, reflections weaker than this are left out, and their share is seen through the glass too: else
+// rays double at every surface.
 constexpr float kLeastMirroring = 0.2f;
 
 void shade(const TmGrid* g) {
@@ -23,7 +24,8 @@ void shade(const TmGrid* g) {
   for (int i : b) {
     const rsl::Vec3 I = rsl::normalize(b.I(i)), N = b.facingNormal(i);
     mirroring[i] = rsl::fresnel(I, N, etaAt(b, i));
-    if (direct || mirroring[i] > kLeastMirroring) R.set(i, rsl::reflect(I, N));
+    if (!direct && mirroring[i] < kLeastMirroring) mirroring[i] = 0;
+    if (mirroring[i] > 0) R.set(i, rsl::reflect(I, N));
     T.set(i, rsl::refract(I, N, etaAt(b, i)));
   }
   const rsl::Vec3Array mirrored = b.trace(R), through = b.trace(T);

@@ -19,12 +19,12 @@ def unit_of(path):
     return next((p for p in prefixes if p in rank), None)
 
 
-SHADER_HEADERS = {"reyes/shader_api", "reyes/shader"}
+SHADER_HEADERS = {"reyes/shader_api", "reyes/shader", "reyes/shadenoise", "reyes/shadeops", "reyes/sl"}
 # Each third-party library is included by the units named here and nowhere else.
 THIRD_PARTY = {
     "embree3/": ["raytrace/embree_scene.cpp"],
     "opensubdiv/": ["reyes/prim/subdivision_"],
-    "OpenImageIO/": ["reyes/pictures/module.cpp"],
+    "OpenImageIO/": ["reyes/pictures/"],
     "OpenEXR/": ["reyes/image/exr_file.cpp"],
     "Imath": ["reyes/image/exr_file.cpp"],
     "tbb/": ["reyes/base/parallel.cpp"],

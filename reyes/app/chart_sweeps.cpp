@@ -47,7 +47,7 @@ std::vector<ChartSweep> allSweeps() {
   const std::string tessellation = std::string(kPrelude) + "Attribute \"trace\" \"float tessellation\" {}";
   return {
       {"gi", "methods of indirect light", {"--indirect-only"}, kTraced, "--light-seed", true,
-       {gatherCurve("screen"), gatherCurve("ward"), atlasCurve(),
+       {gatherCurve("screen"), gatherCurve("ward"), gatherCurve("hessian"), atlasCurve(),
         varied("reference", kTraced, "--samples", {"4", "16", "64", "256"})}},
       {"maxerror", "error allowed in irradiance interpolation", {"--indirect-only"}, kTraced, "--light-seed", true,
        {varied("gather", kGather, "--max-error", {"8", "4", "2", "1", "0.5", "0.25"})}},

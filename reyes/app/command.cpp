@@ -88,7 +88,7 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--max-error", s.maxError,
                  "Error allowed in irradiance interpolation; 0 computes every point")
       ->check(CLI::Range(0.0, 1e6));
-  addParsed(app, "--error-function", s.errorFunction, parseErrorFunction, "screen|ward", "How far an irradiance record may be used");
+  addParsed(app, "--error-function", s.errorFunction, parseErrorFunction, "screen|ward|hessian", "How far an irradiance record may be used");
   app.add_flag_callback("--indirect-only", [&s] { s.direct = false; }, "Leave out direct light where the eye looks");
   app.add_option("--light-seed", s.lightSeed, "Of the random numbers of light alone");
   app.add_option("--photons", s.photons, "Photons to emit for --gi atlas")->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
@@ -102,6 +102,9 @@ void addRunOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("-t", s.threads, "Threads (default: all)")->check(CLI::Range(1, 4096));
   app.add_option("--stats", s.statsFile, "Statistics as JSON")->type_name("FILE.json");
   app.add_flag("--progress", s.progress, "Show progress: a bar on a terminal, else lines for render farms");
+  addParsed(app, "--texture-memory", s.textureMemory, parseBytes, "600M", "Memory for tiles of pictures (default 1G)");
+  app.add_option("--texture-cache", s.textureCache, "Where converted pictures are kept (default: $TOMALES_TEXTURE_CACHE, or the user's cache folder)")
+      ->type_name("FOLDER");
   app.add_flag("--allow-system", s.allowSystem,
                "System and Procedural \"RunProgram\" of the RIB may start programs, \"DynamicLoad\" plugins");
   app.add_flag_callback(

@@ -21,6 +21,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+const char* nameOf(ErrorFunction function) {
+  return function == ErrorFunction::Ward ? "ward" : function == ErrorFunction::Hessian ? "hessian" : "screen";
+}
+
 Json sceneInfo(const Scene& scene) {
   std::set<std::string> shaders;
   int64_t patches = 0;
@@ -182,7 +186,7 @@ Json icfInfo(const std::string& file, Log& log) {
     vec3 mean(0.0f);
     for (const IrradianceRecord& r : c.cache.records()) mean += r.E / static_cast<float>(c.cache.records().size());
     caches.push_back({{"records", c.cache.records().size()},
-                      {"error_function", c.plan.cache.errorFunction == ErrorFunction::Ward ? "ward" : "screen"},
+                      {"error_function", nameOf(c.plan.cache.errorFunction)},
                       {"kappa", c.plan.cache.kappa},
                       {"samples", c.plan.gather.samples},
                       {"mean_irradiance_over_pi", {mean.x, mean.y, mean.z}}});

@@ -107,6 +107,13 @@ GiMode giModeOf(GiChoice choice, const Scene& scene) {
   }
 }
 
+/// What renderers of old made do with is no use to anybody: 64 MB are the least that a scene may ask for.
+void raiseTextureMemory(Options& options) {
+  constexpr float kLeast_KB = 1 << 16;
+  const auto it = options.user.find("limits:texturememory");
+  if (it != options.user.end()) it->second.floats = {std::max(kLeast_KB, it->second.number(0))};
+}
+
 /// If the scene does not ask for less.
 void limitTextures(Options& options, int64_t limit_bytes) {
   Param& p = options.user["limits:texturememory"];
@@ -117,6 +124,14 @@ void limitTextures(Options& options, int64_t limit_bytes) {
 }
 
 void applyOverrides(Scene& scene, const RenderSettings& settings) {
+  raiseTextureMemory(scene.options);
+  if (settings.textureMemory) {
+    Param kilobytes;
+    kilobytes.name = "texturememory", kilobytes.type = ValueType::Float;
+    kilobytes.floats = {static_cast<float>(*settings.textureMemory >> 10)};
+    scene.options.user["limits:texturememory"] = kilobytes;
+  }
+  if (!settings.textureCache.empty()) scene.options.searchPaths["texturecache"] = settings.textureCache;
   Options& o = scene.options;
   if (settings.memoryLimit) limitTextures(o, *settings.memoryLimit);
   if (settings.format) o.xResolution = (*settings.format)[0], o.yResolution = (*settings.format)[1];

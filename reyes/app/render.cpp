@@ -7,6 +7,7 @@
 #include "reyes/app/empty_frame.h"
 #include "reyes/app/hide.h"
 #include "reyes/app/interrupt.h"
+#include "reyes/app/make.h"
 #include "reyes/app/overrides.h"
 #include "reyes/app/render_frame.h"
 #include "reyes/app/stats_json.h"
@@ -33,8 +34,8 @@ class RenderRun {
     RibSettings rib;
     rib.allowSystem = settings_.allowSystem;
     rib.onScene = [this](Scene&& scene) { takeScene(std::move(scene)); };
-    rib.onMakeShadow = [this](const std::string& picture, const std::string& map, const SourceLoc& where) {
-      if (!interrupted()) makeShadow(picture, map, where, log_);
+    rib.onMake = [this](const Request& request) {
+      if (!interrupted()) performMake(request, log_);
     };
     parse_.emplace(stats_, "parse");
     const bool read = readRib(settings_.files, rib, log_);

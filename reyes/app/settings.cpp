@@ -102,6 +102,7 @@ std::optional<GiChoice> parseGi(const std::string& text) {
 std::optional<ErrorFunction> parseErrorFunction(const std::string& text) {
   if (text == "screen") return ErrorFunction::Screen;
   if (text == "ward") return ErrorFunction::Ward;
+  if (text == "hessian") return ErrorFunction::Hessian;
   return std::nullopt;
 }
 

@@ -37,6 +37,8 @@ struct RenderSettings {
   bool appendIrradiance = false;   ///< And to gather into what it leaves uncovered.
   bool resume = false;
   std::optional<int64_t> memoryLimit;  ///< Bytes.
+  std::optional<int64_t> textureMemory;  ///< Bytes.
+  std::string textureCache;
   bool hitList = true;
   std::string statsFile;
   bool progress = false;

@@ -76,7 +76,12 @@ Json countersOf(const Stats& s) {
             {"hit_rate", hitRate(s.bricks.lookups, s.bricks.misses)},
             {"cache_bytes", s.bricks.cacheBytes.load()},
             {"bytes_on_disk", s.bricks.bytesOnDisk.load()}}},
-          {"textures", {{"lookups", s.textures.lookups.load()}}}};
+          {"textures",
+           {{"lookups", s.textures.lookups.load()},
+            {"tile_requests", s.textures.tileRequests.load()},
+            {"tile_misses", s.textures.tileMisses.load()},
+            {"hit_rate", hitRate(s.textures.tileRequests, s.textures.tileMisses)},
+            {"bytes_read", s.textures.bytesRead.load()}}}};
 }
 
 Json statsJson(const RenderSettings& settings, const Stats& stats, double total_s, const Log& log) {

@@ -123,11 +123,11 @@ void fields(A& a, Attributes::Photon& x) {
 template <class A>
 void fields(A& a, Attributes& x) {
   auto& [color, opacity, textureCoordinates, shadingRate, motionFactor, focusFactor, interpolation, matte, sides, detail, insideOut,
-         name, membership, diffuseHitMode, specularHitMode, transmissionHitMode, surface, displacement, atmosphere, lights,
+         name, membership, diffuseHitMode, specularHitMode, transmissionHitMode, surface, displacement, atmosphere, interior, exterior, lights,
          areaLight, displacementBound, displacementBoundSpace, visibility, trace, indirect, photon, irradianceMaxError,
          irradianceMaxPixelDist, rasterOrient, binaryDice, user] = x;
   each(a, color, opacity, textureCoordinates, shadingRate, motionFactor, focusFactor, interpolation, matte, sides, detail, insideOut,
-       name, membership, diffuseHitMode, specularHitMode, transmissionHitMode, surface, displacement, atmosphere, lights,
+       name, membership, diffuseHitMode, specularHitMode, transmissionHitMode, surface, displacement, atmosphere, interior, exterior, lights,
        areaLight, displacementBound, displacementBoundSpace, visibility, trace, indirect, photon, irradianceMaxError,
        irradianceMaxPixelDist, rasterOrient, binaryDice, user);
 }
@@ -140,8 +140,8 @@ void fields(A& a, Primvar& x) {
 
 template <class A>
 void fields(A& a, ShadeGroup& x) {
-  auto& [attributes, cameraFromObject, primvars, exampleObject, currentFromOpen, solid, subtracted] = x;
-  each(a, attributes, cameraFromObject, primvars, exampleObject, currentFromOpen, solid, subtracted);
+  auto& [attributes, cameraFromObject, primvars, exampleObject, currentFromOpen, solid, subtracted, steps] = x;
+  each(a, attributes, cameraFromObject, primvars, exampleObject, currentFromOpen, solid, subtracted, steps);
 }
 
 /// Packs what `withoutGeometry` leaves; its private members serve geometry alone, so that no structured binding guards this list.

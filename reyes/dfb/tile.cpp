@@ -47,10 +47,11 @@ void pixels(A& a, std::vector<DeepPixel>& x) {
 
 template <class A>
 void batch(A& a, ShadePoints& x) {
-  int group = x.group(), primvarFloats = x.channelCount() - kFixedChannels;
+  int group = x.group(), primvarFloats = x.primvarFloats();
+  bool steps = x.hasSteps();
   std::vector<SampleName> names;
   for (int i = 0; i < x.count(); ++i) names.push_back(x.name(i));
-  each(a, group, primvarFloats);
+  each(a, group, primvarFloats, steps);
   columns(a, names, &SampleName::key, &SampleName::sequence);
   if constexpr (kIsSchema<A>) {
     a.add(kFixedChannels);
@@ -58,8 +59,8 @@ void batch(A& a, ShadePoints& x) {
     const size_t bytes = names.size() * sizeof(float);
     if constexpr (kUnpacks<A>) {
       if (primvarFloats < 0 || static_cast<size_t>(primvarFloats) > a.bytes.size()) return void(a.damaged = true);
-      if (bytes * static_cast<size_t>(kFixedChannels + primvarFloats) > a.bytes.size()) return void(a.damaged = true);
-      x = ShadePoints(group, primvarFloats);
+      x = ShadePoints(group, primvarFloats, steps);
+      if (bytes * static_cast<size_t>(x.channelCount()) > a.bytes.size()) return void(a.damaged = true);
       x.reserve(static_cast<int>(names.size()));
       for (const SampleName& name : names) x.add(name);
     }

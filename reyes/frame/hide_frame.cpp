@@ -40,7 +40,9 @@ DeepFrame layOutFrame(const Scene& scene) {
 struct FrameHider::Impl {
   Impl(const DeepFrame& frame, Scene& scene, ShadingSystem& shading, const FrameControl& c, Stats& stats, Log& log)
       : layout(frame), control(c), camera(scene.options), pattern(samplePattern(scene.options, c.seed)), buckets(frame),
-        context{scene, camera, shading, buckets, stats, log, c.cancelled}, nodes(nodesOfScene(context), buckets.all(), buckets) {}
+        context{scene, camera, shading, buckets, stats, log, c.cancelled}, nodes(nodesOfScene(context), buckets.all(), buckets) {
+    markSteps(scene, shading, 0);
+  }
 
   /// False: cancelled.
   bool hide(size_t index, const TileSink& sink) {

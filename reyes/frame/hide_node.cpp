@@ -207,8 +207,10 @@ class ProceduralNode : public OpeningNode {
     keepPeak(context_.stats.memoryBytes.geometry, context_.liveGeometry_bytes += bytes_);
     {
       const std::lock_guard lock(context_.growth);
+      const size_t known = context_.scene.groups.size();
       objects_ = context_.scene.add(inside);
       context_.shading.bindNewGroups();
+      markSteps(context_.scene, context_.shading, known);
     }
     HideNodes out = nodesOf(context_, objects_, within);
     for (const Procedural& p : inside.procedurals)

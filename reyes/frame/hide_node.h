@@ -29,6 +29,11 @@ struct HideContext {
   bool isCancelled() const { return cancelled && *cancelled; }
 };
 
+/// Notes of groups from `first` on whether their shaders want steps.
+inline void markSteps(Scene& scene, const ShadingSystem& shading, size_t first) {
+  for (size_t i = first; i < scene.groups.size(); ++i) scene.groups[i].steps = shading.wantsSteps(static_cast<int>(i));
+}
+
 class NodeQueue;
 
 class HideNode {

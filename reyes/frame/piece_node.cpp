@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <compare>
-#include <map>
+#include <algorithm>
+#include <array>
 
 #include "reyes/dice.h"
 
@@ -14,19 +14,25 @@ namespace {
 constexpr int kSmall_cells = 64;  ///< Pieces with fewer share a node,
 constexpr int kBlock_buckets = 4;  ///< if they begin in the same square of buckets.
 
-/// Large pieces stand alone.
-struct Neighbourhood {
-  int row, column, alone;
-  auto operator<=>(const Neighbourhood&) const = default;
+TOMALES_HOT bool allSeeable(const Grid& g, int key, const Camera& camera) {
+  const float *x = g.P(key, 0), *y = g.P(key, 1), *z = g.P(key, 2);
+  int unseeable = 0;
+  for (int v = 0, count = g.vertexCount(); v < count; ++v) unseeable |= !camera.seeable({x[v], y[v], z[v]});
+  return unseeable == 0;
+}
+
+struct Neighbour {
+  int row, column;  ///< Of a square of buckets.
+  const SubPatch* piece;
+  bool operator<(const Neighbour& o) const { return row != o.row ? row < o.row : column < o.column; }
 };
 
 }  // namespace
 
-PieceNode::PieceNode(HideContext& context, std::vector<SubPatch> pieces, const Placement& place, const BucketRange& range)
+PieceNode::PieceNode(HideContext& context, std::span<const SubPatch* const> pieces, const Placement& place, const BucketRange& range)
     : HideNode(place, range), context_(context), users_(range.count()) {
-  std::stable_sort(pieces.begin(), pieces.end(), [](const SubPatch& a, const SubPatch& b) { return a.zMin < b.zMin; });
   pieces_.reserve(pieces.size());
-  for (const SubPatch& piece : pieces) pieces_.push_back({piece, range & context.buckets.touched(piece.raster)});
+  for (const SubPatch* piece : pieces) pieces_.push_back({*piece, range & context.buckets.touched(piece->raster)});
 }
 
 void PieceNode::visit(size_t bucket, NodeQueue&, Hider& hider) {
@@ -59,7 +65,7 @@ std::shared_ptr<const RasterGrid> PieceNode::makeGrid(const SubPatch& piece) {
   const size_t before = pool_->bytes();
   auto grid = std::allocate_shared<Grid>(
       KeepingPool<Grid>(pool_),
-      dice(context_.scene, piece.object, piece.patch, piece.rect, piece.nu, piece.nv, static_cast<int>(o.keyTimes.size()), pool_.get()));
+      dice(context_.scene, piece.object, piece.patch, piece.rect, piece.nu, piece.nv, {o.keyTimes, o.cameraFromObject}, pool_.get()));
   context_.shading.displace(*grid);
   Stats& stats = context_.stats;
   ++stats.geometry.gridsDiced;
@@ -89,6 +95,9 @@ std::shared_ptr<Pool> PieceNode::makePool() const {
 }
 
 bool PieceNode::leaveOutUnseeable(Grid& g) const {
+  bool all = true;
+  for (int key = 0; key < g.keyCount; ++key) all &= allSeeable(g, key, context_.camera);
+  if (all) return false;
   const int row = g.nu + 1;
   bool any = false;
   for (int v = 0; v < g.vertexCount(); ++v) {
@@ -106,23 +115,29 @@ bool PieceNode::leaveOutUnseeable(Grid& g) const {
 }
 
 HideNodes pieceNodes(HideContext& context, std::span<const SubPatch> pieces, const BucketRange& within) {
-  std::map<Neighbourhood, std::vector<SubPatch>> together;
-  int alone = 0;
+  HideNodes out;
+  std::vector<Neighbour> small;
   for (const SubPatch& piece : pieces) {
     const BucketRange touched = within & context.buckets.touched(piece.raster);
     if (touched.empty()) continue;
-    const bool small = piece.nu * piece.nv < kSmall_cells;
-    together[{touched.r0 / kBlock_buckets, touched.c0 / kBlock_buckets, small ? 0 : ++alone}].push_back(piece);
+    if (piece.nu * piece.nv < kSmall_cells)
+      small.push_back({touched.r0 / kBlock_buckets, touched.c0 / kBlock_buckets, &piece});
+    else
+      out.push_back(std::make_unique<PieceNode>(context, std::array{&piece}, Placement{piece.raster, piece.zMin}, touched));
   }
-  HideNodes out;
-  for (auto& [where, group] : together) {
+  std::stable_sort(small.begin(), small.end());
+  std::vector<const SubPatch*> together;
+  for (auto begin = small.begin(), end = begin; begin != small.end(); begin = end) {
+    end = std::upper_bound(begin, small.end(), *begin);
+    together.clear();
     Placement place{{}, kInfinity};
-    for (const SubPatch& piece : group) {
-      place.raster.extend(piece.raster.lo), place.raster.extend(piece.raster.hi);
-      place.zMin = std::min(place.zMin, piece.zMin);
+    for (const Neighbour& n : std::span(begin, end)) {
+      together.push_back(n.piece);
+      place.raster.extend(n.piece->raster.lo), place.raster.extend(n.piece->raster.hi);
+      place.zMin = std::min(place.zMin, n.piece->zMin);
     }
-    const BucketRange range = within & context.buckets.touched(place.raster);
-    out.push_back(std::make_unique<PieceNode>(context, std::move(group), place, range));
+    std::stable_sort(together.begin(), together.end(), [](const SubPatch* a, const SubPatch* b) { return a->zMin < b->zMin; });
+    out.push_back(std::make_unique<PieceNode>(context, together, place, within & context.buckets.touched(place.raster)));
   }
   return out;
 }

@@ -6,7 +6,8 @@ namespace tomales {
 
 class PieceNode : public HideNode {
  public:
-  PieceNode(HideContext& context, std::vector<SubPatch> pieces, const Placement& place, const BucketRange& range);
+  /// Pieces: nearest first.
+  PieceNode(HideContext& context, std::span<const SubPatch* const> pieces, const Placement& place, const BucketRange& range);
 
   void visit(size_t bucket, NodeQueue& queue, Hider& hider) override;
   void release(size_t bucket) override;
@@ -25,7 +26,7 @@ class PieceNode : public HideNode {
   bool leaveOutUnseeable(Grid& grid) const;
 
   HideContext& context_;
-  std::vector<Piece> pieces_;  ///< Nearest first.
+  std::vector<Piece> pieces_;
   std::mutex mutex_;
   std::shared_ptr<Pool> pool_;  ///< Of the grids. Hiders keep them longer than nodes do.
   int users_;

@@ -5,20 +5,64 @@
 namespace tomales {
 namespace {
 
+inline float reciprocalLength(float length2) {
+  return length2 > 0.0f && length2 < kInfinity ? 1.0f / std::sqrt(length2) : 0.0f;
+}
+
 /// Differences at a vertex: centred, one-sided at the border, of the length of one micropolygon.
 struct VertexSteps {
-  int uLo, uHi, vLo, vHi;
+  int at, uLo, uHi, vLo, vHi;
   float uScale, vScale;
 
-  VertexSteps(const Grid& g, int vertex) {
+  VertexSteps(const Grid& g, int vertex) : at(vertex) {
     const int row = g.nu + 1, i = vertex % row, j = vertex / row;
     const int i0 = std::max(i - 1, 0), i1 = std::min(i + 1, g.nu), j0 = std::max(j - 1, 0), j1 = std::min(j + 1, g.nv);
     uLo = j * row + i0, uHi = j * row + i1, vLo = j0 * row + i, vHi = j1 * row + i;
     uScale = 1 / static_cast<float>(i1 - i0), vScale = 1 / static_cast<float>(j1 - j0);
   }
+  float mean(const float* f) const { return f[at]; }
   float uStep(const float* f) const { return uScale * (f[uHi] - f[uLo]); }
   float vStep(const float* f) const { return vScale * (f[vHi] - f[vLo]); }
 };
+
+/// Differences along a cell, the mean of both its sides.
+struct CellSteps {
+  int a, b, c, d;
+
+  CellSteps(const Grid& g, int cell) : a(cell / g.nu * (g.nu + 1) + cell % g.nu), b(a + 1), c(a + g.nu + 1), d(c + 1) {}
+  float mean(const float* f) const { return 0.25f * (f[a] + f[b] + f[c] + f[d]); }
+  float uStep(const float* f) const { return 0.5f * ((f[b] - f[a]) + (f[d] - f[c])); }
+  float vStep(const float* f) const { return 0.5f * ((f[c] - f[a]) + (f[d] - f[b])); }
+};
+
+/// Steps of point i, whose fixed channels are filled. Texture coordinates without primitive variables are bilinear in u, v.
+template <class Steps>
+void addSteps(const Scene& scene, const Grid& g, const Steps& steps, ShadePoints& points, int i) {
+  const ShadeGroup& group = scene.groups[static_cast<size_t>(points.group())];
+  const auto put = [&](int value, float u, float v) { points.step(value, false)[i] = u, points.step(value, true)[i] = v; };
+  // N as the grid has it may be of any length; that of a shaded point is 1.
+  vec3 n;
+  for (int axis = 0; axis < 3; ++axis) n[axis] = steps.mean(g.N(axis));
+  const float sign = group.subtracted ? -1.0f : 1.0f, scale = sign * reciprocalLength(dot(n, n));
+  for (int axis = 0; axis < 3; ++axis) put(kStepN + axis, scale * steps.uStep(g.N(axis)), scale * steps.vStep(g.N(axis)));
+  const auto& c = group.attributes->textureCoordinates;
+  const float u = points.channel(kU)[i], v = points.channel(kV)[i];
+  const vec2 alongU = glm::mix(c[1] - c[0], c[3] - c[2], v), alongV = glm::mix(c[2] - c[0], c[3] - c[1], u);
+  const vec2 su = alongU * steps.uStep(g.u()) + alongV * steps.uStep(g.v());
+  const vec2 sv = alongU * steps.vStep(g.u()) + alongV * steps.vStep(g.v());
+  put(kStepS, su.x, sv.x), put(kStepT, su.y, sv.y);
+  int offset = 0;
+  for (const Primvar& p : group.primvars) {
+    for (int k = 0; k < p.width; ++k) {
+      const float* f = g.primvar(offset + k);
+      const float uStep = steps.uStep(f), vStep = steps.vStep(f);
+      put(kStepPrimvars + offset + k, uStep, vStep);
+      if (p.name == "s") put(kStepS, uStep, vStep);
+      if (p.name == "t") put(kStepT, uStep, vStep);
+    }
+    offset += p.width;
+  }
+}
 
 /// What is left of the way from the first key of a grid to its last, once the motion of the transformation is undone.
 template <class Mean>
@@ -77,10 +121,6 @@ struct PointBlock {
     for (int c = 0; c < kFixedChannels; ++c) channel[c] = points.channel(c) + first;
   }
 };
-
-inline float reciprocalLength(float length2) {
-  return length2 > 0.0f && length2 < kInfinity ? 1.0f / std::sqrt(length2) : 0.0f;
-}
 
 /// No branches: all lanes of a vector take both ways.
 TOMALES_HOT void derive(const Gathered& g, bool perspective, const PointBlock& out) {
@@ -202,7 +242,7 @@ void FacetTable::makePoints() {
   tile_.batches.reserve(wishes_.size());
   for (const Wishes& wishes : wishes_) {
     const ShadeGroup& group = scene_.groups[static_cast<size_t>(wishes.group)];
-    ShadePoints& points = tile_.batches.emplace_back(wishes.group, primvarFloats(group));
+    ShadePoints& points = tile_.batches.emplace_back(wishes.group, primvarFloats(group), group.steps);
     points.reserve(static_cast<int>(wishes.list.size()));
     fill(wishes, points);
     setTextureCoordinates(group, points);
@@ -212,7 +252,7 @@ void FacetTable::makePoints() {
 void FacetTable::fill(const Wishes& wishes, ShadePoints& points) const {
   Gathered gathered{};
   const bool subtracted = scene_.groups[static_cast<size_t>(wishes.group)].subtracted;
-  const int count = static_cast<int>(wishes.list.size()), floats = points.channelCount() - kFixedChannels;
+  const int count = static_cast<int>(wishes.list.size()), floats = points.primvarFloats();
   for (int first = 0; first < count; first += kLanes) {
     const int lanes = std::min(kLanes, count - first);
     for (int i = 0; i < lanes; ++i) {
@@ -239,6 +279,14 @@ void FacetTable::fill(const Wishes& wishes, ShadePoints& points) const {
       for (auto& axis : gathered.N)
         for (float& n : axis) n = -n;
     derive(gathered, camera_.perspective(), PointBlock(points, first));
+    for (int i = 0; points.hasSteps() && i < lanes; ++i) {
+      const Wish& w = wishes.list[static_cast<size_t>(first + i)];
+      const Grid& g = grids_.entries()[w.entry].grid();
+      if (w.vertex)
+        addSteps(scene_, g, VertexSteps(g, w.index), points, first + i);
+      else
+        addSteps(scene_, g, CellSteps(g, w.index), points, first + i);
+    }
   }
 }
 

@@ -1,10 +1,10 @@
 // Front to back, sample by sample. Private to the hider.
 #pragma once
-#include <algorithm>
-#include <bit>
 #include <cstdint>
-#include <limits>
+#include <functional>
 #include <vector>
+
+#include "reyes/base/simd.h"
 
 namespace tomales {
 
@@ -19,104 +19,41 @@ struct Sight {
 
 class PixelLayers {
  public:
+  using Nearer = std::function<bool(const Sight&, const Sight&)>;
   /// Cuts sights where surfaces pass through each other within a pixel, so that the list is nearest first for every sample:
   /// again and again the nearest sight that any sample has in front, for all samples that have it in front. Pre and post:
   /// in the order of `nearer`.
-  template <class Nearer>
-  void order(std::vector<Sight>& sights, const Nearer& nearer) {
-    if (inOrder(sights)) return;
-    listLayers(sights);
-    merged_.clear();
-    while (takeNearest(sights, nearer)) {
-    }
-    sights.swap(merged_);
-  }
+  void order(std::vector<Sight>& sights, const Nearer& nearer);
 
- private:
   struct Layer {
     float d;
     uint32_t sight;
   };
-  /// What is left of the layers of a sample, nearest first: layers_[next .. end).
-  struct Queue {
-    uint32_t next, end;
-    uint32_t sample;  ///< 64 * word + bit
+  /// What is left of the layers of each sample that has any, nearest first: layers[next .. end). Padded to kLanes.
+  struct Queues {
+    AlignedVector<float> d;          ///< Of the layer in front; infinity: none is left.
+    AlignedVector<uint32_t> sight;   ///< Of the same.
+    std::vector<uint32_t> next, end;
+    std::vector<uint32_t> sample;    ///< 64 * word + bit
+    std::vector<Layer> layers;
+
+    void resize(size_t queues);
+    void show(size_t queue) {
+      const bool any = next[queue] < end[queue];
+      d[queue] = any ? layers[next[queue]].d : kNone_d;
+      sight[queue] = any ? layers[next[queue]].sight : kNone;
+    }
   };
+  static constexpr float kNone_d = __builtin_inff();
+  static constexpr uint32_t kNone = ~0U;
 
-  template <class F>
-  static void forSamples(const Sight& sight, const F& f) {
-    int k = 0;
-    for (uint64_t left = sight.samples; left; left &= left - 1, ++k) {
-      const int bit = std::countr_zero(left);
-      f(size_t{sight.word} * 64 + static_cast<size_t>(bit), sight.depths[sight.opaque ? bit : k]);
-    }
-  }
-
-  /// Also counts the layers of each sample.
-  bool inOrder(const std::vector<Sight>& sights) {
-    size_t words = 0;
-    for (const Sight& s : sights) words = std::max(words, size_t{s.word} + 1);
-    last_.assign(words * 64, -std::numeric_limits<float>::infinity());
-    counts_.assign(words * 64, 0);
-    bool ordered = true;
-    for (const Sight& sight : sights)
-      forSamples(sight, [&](size_t sample, float d) {
-        ordered &= d >= last_[sample];
-        last_[sample] = d;
-        ++counts_[sample];
-      });
-    return ordered;
-  }
-
-  void listLayers(const std::vector<Sight>& sights) {
-    queues_.clear();
-    uint32_t total = 0;
-    for (uint32_t sample = 0; sample < counts_.size(); ++sample) {
-      if (counts_[sample] > 0) queues_.push_back({total, total, sample});
-      const uint32_t count = counts_[sample];
-      counts_[sample] = static_cast<uint32_t>(queues_.size()) - 1;  // From here on: its queue.
-      total += count;
-    }
-    layers_.resize(total);
-    // Nearly sorted already. Equal depths keep the order of the sights, which no schedule changes.
-    for (uint32_t k = 0; k < sights.size(); ++k)
-      forSamples(sights[k], [&](size_t sample, float d) {
-        Queue& queue = queues_[counts_[sample]];
-        uint32_t at = queue.end++;
-        for (; at > queue.next && layers_[at - 1].d > d; --at) layers_[at] = layers_[at - 1];
-        layers_[at] = {d, k};
-      });
-  }
-
-  template <class Nearer>
-  bool takeNearest(const std::vector<Sight>& sights, const Nearer& nearer) {
-    Layer front{std::numeric_limits<float>::infinity(), ~0U};
-    for (const Queue& q : queues_) {
-      if (q.next == q.end) continue;
-      const Layer& layer = layers_[q.next];
-      const bool tie = layer.d == front.d && front.sight != ~0U && layer.sight != front.sight;
-      if (layer.d < front.d || front.sight == ~0U || (tie && nearer(at(sights, layer), at(sights, front)))) front = layer;
-    }
-    if (front.sight == ~0U) return false;
-    Sight taken = at(sights, front);
-    taken.samples = 0;
-    for (Queue& q : queues_)
-      if (q.next < q.end && layers_[q.next].sight == front.sight)
-        ++q.next, taken.samples |= uint64_t{1} << (q.sample % 64);
-    merged_.push_back(taken);
-    return true;
-  }
-
-  static Sight at(const std::vector<Sight>& sights, const Layer& layer) {
-    Sight sight = sights[layer.sight];
-    sight.d = layer.d;
-    return sight;
-  }
+ private:
+  bool inOrder(const std::vector<Sight>& sights);
+  void listLayers(const std::vector<Sight>& sights);
 
   std::vector<float> last_;
   std::vector<uint32_t> counts_;
-  std::vector<Layer> layers_;
-  std::vector<Queue> queues_;
+  Queues queues_;
   std::vector<Sight> merged_;
 };
 

@@ -89,6 +89,64 @@ void pushBorders(const Grid& g, float* x, float* y) {
   for (size_t v = 0; v < push.size(); ++v) x[v] += push[v].x, y[v] += push[v].y;
 }
 
+/// Of a grid at one key, in camera space.
+struct Vertices {
+  const float *x, *y, *z;
+  int count;
+  vec3 at(int v) const { return {x[v], y[v], z[v]}; }
+};
+
+/// Are all seeable? Those that are not belong to cells that nobody sees, and go where they do no harm.
+TOMALES_HOT bool toRaster(const Vertices& from, const Camera& camera, float* __restrict x, float* __restrict y, float* __restrict d) {
+  const vec3 harmless(0, 0, camera.nearClip());
+  int unseeable = 0;
+  for (int v = 0; v < from.count; ++v) {
+    const vec3 given = from.at(v);
+    const bool good = camera.seeable(given);
+    unseeable |= !good;
+    const vec3 p(good ? given.x : harmless.x, good ? given.y : harmless.y, good ? given.z : harmless.z);
+    const vec2 at = camera.raster(p);
+    x[v] = at.x, y[v] = at.y, d[v] = camera.depthKey(p.z);
+  }
+  return unseeable == 0;
+}
+
+TOMALES_HOT bool allBetween(const Vertices& from, float near, float far) {
+  int beyond = 0;
+  for (int v = 0; v < from.count; ++v) beyond |= !(from.z[v] >= near && from.z[v] <= far);
+  return beyond == 0;
+}
+
+bool anyClipped(const Vertices& from, const Camera& camera, bool planes) {
+  if (!planes && allBetween(from, camera.nearClip(), camera.farClip())) return false;
+  for (int v = 0; v < from.count; ++v)
+    if (const vec3 p = from.at(v); camera.seeable(p) && camera.clips(p)) return true;
+  return false;
+}
+
+TOMALES_HOT void snap(float* __restrict x, float* __restrict y, int count) {
+  for (int v = 0; v < count; ++v) x[v] = snapToLattice(x[v]), y[v] = snapToLattice(y[v]);
+}
+
+/// Bounds of vertices in focus. Lanes of a vector keep their own, which the compiler cannot do for one running minimum.
+TOMALES_HOT void extendBy(const float* x, const float* y, const float* d, int count, RasterGrid& r) {
+  float lo[3][kLanes], hi[2][kLanes];
+  for (int i = 0; i < kLanes; ++i) lo[0][i] = lo[1][i] = lo[2][i] = kInfinity, hi[0][i] = hi[1][i] = -kInfinity;
+  const auto take = [&](int v, int i) {
+    lo[0][i] = x[v] < lo[0][i] ? x[v] : lo[0][i], hi[0][i] = x[v] > hi[0][i] ? x[v] : hi[0][i];
+    lo[1][i] = y[v] < lo[1][i] ? y[v] : lo[1][i], hi[1][i] = y[v] > hi[1][i] ? y[v] : hi[1][i];
+    lo[2][i] = d[v] < lo[2][i] ? d[v] : lo[2][i];
+  };
+  int first = 0;
+  for (; first + kLanes <= count; first += kLanes)
+    for (int i = 0; i < kLanes; ++i) take(first + i, i);
+  for (int i = 0; first + i < count; ++i) take(first + i, i);
+  for (int i = 0; i < kLanes; ++i) {
+    r.bound.lo = glm::min(r.bound.lo, vec2(lo[0][i], lo[1][i])), r.bound.hi = glm::max(r.bound.hi, vec2(hi[0][i], hi[1][i]));
+    r.dMin = std::min(r.dMin, lo[2][i]);
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene,
@@ -114,17 +172,17 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
   for (int key = 0; key < g.keyCount; ++key) {
     const size_t base = stride * static_cast<size_t>(key);
     float *x = r->x.data() + base, *y = r->y.data() + base, *d = r->d.data() + base;
-    for (int v = 0; v < g.vertexCount(); ++v) {
-      vec3 p = g.position(key, v);
-      if (!camera.seeable(p)) p = vec3(0, 0, camera.nearClip());  // of cells that nobody sees
-      const vec2 at = camera.raster(p);
-      x[v] = at.x, y[v] = at.y, d[v] = camera.depthKey(p.z);
-      r->clipped |= !r->inSolid && camera.clips(p);
-    }
+    const Vertices vertices{g.P(key, 0), g.P(key, 1), g.P(key, 2), g.vertexCount()};
+    const bool allSeeable = toRaster(vertices, camera, x, y, d);
+    if (!r->inSolid) r->clipped |= anyClipped(vertices, camera, !scene.options.clippingPlanes.empty());
     if (r->trim) r->trimReach_px = std::max(r->trimReach_px, kMinReach_px + kTrimReach * deviation_px(g, x, y));
     pushBorders(g, x, y);
+    snap(x, y, g.vertexCount());
+    if (allSeeable && !camera.defocuses()) {
+      extendBy(x, y, d, g.vertexCount(), *r);
+      continue;
+    }
     for (int v = 0; v < g.vertexCount(); ++v) {
-      x[v] = snapToLattice(x[v]), y[v] = snapToLattice(y[v]);
       if (!camera.seeable(g.position(key, v))) continue;
       const vec2 blur = glm::abs(camera.defocus(d[v]));
       r->bound.extend(vec2(x[v], y[v]) - blur);

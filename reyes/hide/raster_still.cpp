@@ -5,6 +5,8 @@
 #define HWY_TARGET_INCLUDE "reyes/hide/raster_still.cpp"
 #include "reyes/hide/vector.h"  // Includes this file again for each target.
 
+#include <bit>
+
 #include "reyes/hide/raster.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -79,14 +81,25 @@ HWY_INLINE void setTriangles(QuadBlock& q) {
   }
 }
 
-HWY_INLINE void setUp(QuadBlock& q, const RasterGrid& r, int first, int row) {
+/// Corners and bounds of the micropolygons from `first` on, and which of them touch the bucket; if any does, their edges too.
+HWY_INLINE uint64_t setUp(QuadBlock& q, const RasterGrid& r, int first, int row, const PixelRect& bucket) {
   loadCorners(q.x, r.x.data() + first, row);
   loadCorners(q.y, r.y.data() + first, row);
-  loadCorners(q.d, r.d.data() + first, row);
   setBounds(q.x, q.xMin, q.xMax);
   setBounds(q.y, q.yMin, q.yMax);
+  const Floats left = all(static_cast<float>(bucket.x0)), right = all(static_cast<float>(bucket.x1));
+  const Floats top = all(static_cast<float>(bucket.y0)), bottom = all(static_cast<float>(bucket.y1));
+  uint64_t touching = 0;
+  for (size_t g = 0; g < kLanes; g += hn::Lanes(kF)) {
+    const Mask inX = hn::And(hn::Lt(hn::Load(kF, q.xMin + g), right), hn::Ge(hn::Load(kF, q.xMax + g), left));
+    const Mask inY = hn::And(hn::Lt(hn::Load(kF, q.yMin + g), bottom), hn::Ge(hn::Load(kF, q.yMax + g), top));
+    touching |= bitsOf(hn::And(inX, inY)) << g;
+  }
+  if (touching == 0) return 0;
+  loadCorners(q.d, r.d.data() + first, row);
   setBounds(q.d, q.dMin, q.dMax);
   setTriangles(q);
+  return touching;
 }
 
 struct Edge {
@@ -178,9 +191,10 @@ template <bool kOpaque>
 HWY_INLINE void rasterizeCell(const RasterJob& job, const QuadBlock& q, int i, uint32_t cell, Kept kept) {
   SampleBuffer& out = job.out;
   const PixelRect pixels = out.touched({q.xMin[i], q.yMin[i]}, {q.xMax[i], q.yMax[i]});
-  const Quad quad(q, i);
   const size_t lanes = static_cast<size_t>(out.lanes);
   const float dMin = job.raster.inSolid ? job.raster.dMin : q.dMin[i];
+  if (out.hides(pixels, dMin)) return;
+  const Quad quad(q, i);
   for (int y = pixels.y0; y < pixels.y1; ++y)
     for (int x = pixels.x0; x < pixels.x1; ++x) {
       const size_t pixel = out.pixelIndex(x, y);
@@ -199,16 +213,13 @@ void rasterize(const RasterJob& job) {
   const RasterGrid& r = job.raster;
   const Grid& g = *r.grid;
   const int row = g.nu + 1, end = g.nv * row;
-  const PixelRect& rect = job.out.rect;
-  const float left = static_cast<float>(rect.x0), right = static_cast<float>(rect.x1);
-  const float top = static_cast<float>(rect.y0), bottom = static_cast<float>(rect.y1);
   QuadBlock q;
   for (int k = 0; k < end; k += kLanes) {
-    setUp(q, r, k, row);
-    for (int i = 0; i < std::min(kLanes, end - k); ++i) {
-      const int a = k + i, u = a % row;
+    uint64_t left = setUp(q, r, k, row, job.out.rect);
+    for (; left; left &= left - 1) {
+      const int i = std::countr_zero(left), a = k + i, u = a % row;
+      if (a >= end) break;
       if (u == g.nu) continue;
-      if (!(q.xMin[i] < right && q.xMax[i] >= left && q.yMin[i] < bottom && q.yMax[i] >= top)) continue;
       if (r.sides == 1 && turnedAway(job, a)) continue;
       const int index = a / row * g.nu + u;
       const Kept kept = keptOf(job, index);

@@ -15,6 +15,26 @@ struct Scratch {
   std::vector<Sight> sights, sorted;
   std::vector<uint64_t> keys;
   PixelLayers layers;
+  std::vector<Facet> facets;
+  std::vector<Fragment> fragments;
+};
+
+/// Lends an empty list memory, and takes it back for a copy that has no more than it needs.
+template <class T>
+class Lent {
+ public:
+  Lent(std::vector<T>& list, std::vector<T>& memory) : list_(list), memory_(memory) {
+    list_.swap(memory_);
+    list_.clear();
+  }
+  ~Lent() {
+    memory_.assign(list_.begin(), list_.end());
+    list_.swap(memory_);
+  }
+  Lent(const Lent&) = delete;
+
+ private:
+  std::vector<T>&list_, &memory_;
 };
 
 class TileBuilder {
@@ -28,7 +48,11 @@ class TileBuilder {
     const size_t count = samples_.far.size();
     tile_.pixels.reserve(count);
     sortFilms(count);
-    for (size_t pixel = 0; pixel < count; ++pixel) addPixel(pixel);
+    {
+      const Lent facets(tile_.facets, scratch_.facets);
+      const Lent fragments(tile_.fragments, scratch_.fragments);
+      for (size_t pixel = 0; pixel < count; ++pixel) addPixel(pixel);
+    }
     facets_.makePoints();
     tile_.shrink();
     return std::move(tile_);

@@ -67,6 +67,11 @@ bool Compositor::disjoint(const Fragment* begin, const Fragment* end) {
   return !overlap;
 }
 
+void Compositor::shadeAll(const DeepTile& tile, const DeepPixel& pixel) {
+  shades_.clear();
+  for (uint32_t i = 0; i < pixel.count; ++i) shades_.push_back(facetShade(tile, tile.fragments[pixel.first + i]));
+}
+
 bool Compositor::hasDepth(const FacetShade& shade) const {
   const vec3 &o = shade.opacity, &least = options_.depthThreshold;
   return o.x >= least.x && o.y >= least.y && o.z >= least.z;
@@ -114,9 +119,10 @@ void Compositor::resolveStack(const DeepTile& tile, const DeepPixel& pixel, Reso
   };
   for (Contribution& s : samples_) s = {0, 0, kInfinity};
   std::fill(sampleValues_.begin(), sampleValues_.end(), 0.0f);
+  shadeAll(tile, pixel);
   for (uint32_t i = 0; i < pixel.count; ++i) {
     const Fragment& f = tile.fragments[pixel.first + i];
-    if (!hasDepth(facetShade(tile, f))) continue;
+    if (!hasDepth(shades_[i])) continue;
     const Facet& facet = tile.facets[f.facet];
     // Neighbours on one surface reach over each other (docs/decisions/0003) and are no second one.
     const float overlap = tile.edgeOf(facet);
@@ -130,7 +136,7 @@ void Compositor::resolveStack(const DeepTile& tile, const DeepPixel& pixel, Reso
     }
   }
   const Fragment* extrasOfFragment = nullptr;
-  layers(tile, pixel, [&](const Fragment& f, const FacetShade& shade, uint64_t bit, const vec3& clear) {
+  walk(tile, pixel, [&](const Fragment& f, const FacetShade& shade, uint64_t bit, const vec3& clear) {
     const size_t sample = sampleOf(f, bit);
     float* value = sampleValues_.data() + sample * stride;
     const bool first = samples_[sample].nearest == kInfinity;

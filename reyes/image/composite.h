@@ -54,10 +54,17 @@ class Compositor {
   /// Front to back, for what is not hidden: visit(fragment, shade, samples, clear), with the share of light that passes what
   /// lies before these samples of it.
   template <class Visit>
-  void layers(const DeepTile& tile, const DeepPixel& pixel, const Visit& visit);
+  void layers(const DeepTile& tile, const DeepPixel& pixel, const Visit& visit) {
+    shadeAll(tile, pixel);
+    walk(tile, pixel, visit);
+  }
 
  private:
   bool disjoint(const Fragment* begin, const Fragment* end);
+  void shadeAll(const DeepTile& tile, const DeepPixel& pixel);
+  /// layers(), after shadeAll().
+  template <class Visit>
+  void walk(const DeepTile& tile, const DeepPixel& pixel, const Visit& visit);
   bool hasDepth(const FacetShade& shade) const;
   void extraValues(const DeepTile& tile, const Fragment& fragment, float* out) const;
   void resolveEach(const DeepTile& tile, const Fragment* begin, const Fragment* end, ResolvedRows& out);
@@ -66,6 +73,7 @@ class Compositor {
   const Options& options_;
   std::vector<ExtraFloat> extras_;
   std::vector<uint64_t> seen_;          ///< Samples that any fragment covers.
+  std::vector<FacetShade> shades_;      ///< Of every fragment of a pixel.
   std::vector<vec3> clear_;             ///< Of every sample, while layers() runs.
   std::vector<Contribution> samples_;   ///< Of every sample, while a stack is resolved,
   std::vector<int> batchOf_;            ///< where their z is from,
@@ -79,17 +87,17 @@ inline int lowestBit(uint64_t mask) { return __builtin_ctzll(mask); }
 inline float meanOf(const vec3& v) { return (v.x + v.y + v.z) / 3; }
 
 template <class Visit>
-void Compositor::layers(const DeepTile& tile, const DeepPixel& pixel, const Visit& visit) {
+void Compositor::walk(const DeepTile& tile, const DeepPixel& pixel, const Visit& visit) {
   const Fragment* begin = tile.fragments.data() + pixel.first;
   const Fragment* end = begin + pixel.count;
   if (disjoint(begin, end)) {
-    for (const Fragment* f = begin; f != end; ++f) visit(*f, facetShade(tile, *f), f->samples, vec3(1.0f));
+    for (const Fragment* f = begin; f != end; ++f) visit(*f, shades_[static_cast<size_t>(f - begin)], f->samples, vec3(1.0f));
     return;
   }
   std::fill(clear_.begin(), clear_.end(), vec3(1.0f));
   const vec3 hidden = vec3(1.0f) - options_.opaqueThreshold;
   for (const Fragment* f = begin; f != end; ++f) {
-    const FacetShade shade = facetShade(tile, *f);
+    const FacetShade& shade = shades_[static_cast<size_t>(f - begin)];
     for (uint64_t left = f->samples; left; left &= left - 1) {
       vec3& clear = clear_[static_cast<size_t>(f->word) * 64 + static_cast<size_t>(lowestBit(left))];
       if (clear.x <= hidden.x && clear.y <= hidden.y && clear.z <= hidden.z) continue;

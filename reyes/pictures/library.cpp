@@ -24,6 +24,11 @@ const PictureLibrary* pictureLibrary(std::string& error) {
   return loaded.library;
 }
 
+bool makeTexture(const TextureRecipe& recipe, std::string& error) {
+  const PictureLibrary* library = pictureLibrary(error);
+  return library && library->makeTexture(recipe, error);
+}
+
 std::unique_ptr<PictureReader> openPicture(const std::string& path, std::string& error) {
   const PictureLibrary* library = pictureLibrary(error);
   return library ? library->open(path, error) : nullptr;

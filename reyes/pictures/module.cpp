@@ -1,11 +1,11 @@
-// The module over OpenImageIO: all that includes it.
+// The module over OpenImageIO: with its neighbours in this folder, all that includes it.
 #include <OpenImageIO/deepdata.h>
 #include <OpenImageIO/imageio.h>
-#include <OpenImageIO/texture.h>
 
 #include <algorithm>
 
-#include "reyes/pictures.h"
+#include "reyes/pictures/convert.h"
+#include "reyes/pictures/textures.h"
 
 namespace tomales {
 namespace {
@@ -67,40 +67,6 @@ OIIO::ImageSpec specOf(const PictureShape& shape, const PictureFormat& format) {
   return spec;
 }
 
-class Cache : public TextureCache {
- public:
-  Cache(const std::string& searchPath, float cache_MB) : system_(OIIO::TextureSystem::create(false)) {
-    system_->attribute("searchpath", searchPath);
-    system_->attribute("max_memory_MB", cache_MB);
-    system_->attribute("automip", 1);  // pictures that no one ran maketx on
-    system_->attribute("autotile", 64);
-  }
-  ~Cache() override { OIIO::TextureSystem::destroy(system_, true); }
-
-  bool lookup(const TextureQuery& q, TmVec3 out, int64_t& lookups, std::string& error) override {
-    OIIO::TextureSystem::Perthread* thread = system_->get_perthread_info();
-    OIIO::TextureSystem::TextureHandle* handle = system_->get_texture_handle(OIIO::ustring(q.name), thread);
-    bool found = handle && system_->good(handle);
-    OIIO::TextureOpt options;
-    options.firstchannel = q.channel;
-    if (q.latlong) options.swrap = OIIO::TextureOpt::WrapPeriodic, options.twrap = OIIO::TextureOpt::WrapClamp;
-    float* const channels[3] = {out.x, out.y, out.z};
-    const int n = std::min(q.channels, 3);
-    for (int i = 0; i < q.count && found; ++i) {
-      if (!q.active[i]) continue;
-      float texel[3] = {0, 0, 0};
-      found = system_->texture(handle, thread, options, q.s[i], q.t[i], q.width[i], 0, 0, q.height[i], n, texel);
-      for (int k = 0; k < n; ++k) channels[k][i] = texel[k];
-      ++lookups;
-    }
-    error = system_->geterror();
-    return found;
-  }
-
- private:
-  OIIO::TextureSystem* const system_;
-};
-
 class Library : public PictureLibrary {
  public:
   std::unique_ptr<PictureReader> open(const std::string& path, std::string& error) const override {
@@ -115,9 +81,8 @@ class Library : public PictureLibrary {
     if (!out->open(path, specOf(shape, format))) return error = out->geterror(), nullptr;
     return std::make_unique<Writer>(std::move(out), format.type);
   }
-  std::unique_ptr<TextureCache> textures(const std::string& searchPath, float cache_MB) const override {
-    return std::make_unique<Cache>(searchPath, cache_MB);
-  }
+  std::unique_ptr<TextureCache> textures(const TextureSettings& settings) const override { return makeTextureCache(settings); }
+  bool makeTexture(const TextureRecipe& recipe, std::string& error) const override { return convert(recipe, error); }
 };
 
 }  // namespace

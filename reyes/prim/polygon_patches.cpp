@@ -96,7 +96,9 @@ class Decomposer {
     }
     const glm::dvec3 unit = glm::normalize(normal);
     out_.faces.back() = {vec3(unit), isPlanar(unit, glm::length(glm::dvec3(box.size())))};
-    if (point_.size() == 4 && isStrictlyConvex(point_, normal))
+    if (point_.size() == 3)
+      addPiece({0, 1, 2});
+    else if (point_.size() == 4 && isStrictlyConvex(point_, normal))
       addQuad({corner_[0], corner_[1], corner_[3], corner_[2]},
               {out_.faces.back().planar, edgeBits(open_[3], open_[1], open_[0], open_[2])});
     else
@@ -128,7 +130,8 @@ class Decomposer {
 
   void addPiece(const Piece& piece) {
     const size_t n = piece.size();
-    std::vector<uint32_t> at, middle;
+    std::vector<uint32_t>&at = at_, &middle = middle_;
+    at.clear(), middle.clear();
     for (int k : piece) at.push_back(corner_[k]);
     for (size_t k = 0; k < n; ++k) middle.push_back(make(std::array{at[k], at[(k + 1) % n]}));
     const uint32_t center = make(at);
@@ -152,6 +155,7 @@ class Decomposer {
   std::vector<vec3> point_;
   std::vector<char> open_;      // edge from a corner to the next
   std::vector<int> loopStart_;  // first corner of every loop, and the end
+  std::vector<uint32_t> at_, middle_;  // of the piece at hand
 };
 
 }  // namespace

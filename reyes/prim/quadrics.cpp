@@ -27,6 +27,12 @@ class ArcRevolution : public Revolution {
     if (isPole(phi1_turns)) close(kEdgeV1);
   }
 
+  std::optional<RoundShape> round() const override {
+    const bool poleToPole = isPole(start_turns_) && isPole(start_turns_ + range_turns_) && std::abs(range_turns_) == 0.5f;
+    if (center_ != 0 || !poleToPole || !isClosed()) return std::nullopt;
+    return RoundShape{vec3(0), std::abs(radius_), vec3(0)};
+  }
+
  protected:
   void meridian(int n, const float* v, Meridian& m) const override {
     sinCosTurns(start_turns_, range_turns_, n, v, m.nz, m.nx);
@@ -72,6 +78,12 @@ class LineRevolution : public Revolution {
       : Revolution(thetaMax_degrees, params, problems), a_(a), b_(b) {
     if (a.x == 0 && a.y == 0) close(kEdgeV0);
     if (b.x == 0 && b.y == 0) close(kEdgeV1);
+  }
+
+  std::optional<RoundShape> round() const override {
+    const bool disk = a_.z == b_.z && b_.x == 0 && b_.y == 0;
+    if (!disk || !isClosed()) return std::nullopt;
+    return RoundShape{b_, glm::length(vec2(a_)), vec3(0, 0, 1)};
   }
 
  protected:

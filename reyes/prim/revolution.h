@@ -38,6 +38,8 @@ class Revolution : public Prim {
   /// Two points such that every meridian point between v0 and v1 lies, in (x,y) and in z, between them.
   virtual std::array<vec3, 2> meridianHull(float v0, float v1) const = 0;
 
+  bool isClosed() const { return std::abs(sweep_turns_) == 1; }
+
   /// An edge that is a pole or that joins the opposite edge.
   void close(int edges) { openEdges_ = static_cast<uint8_t>(openEdges_ & ~edges); }
 

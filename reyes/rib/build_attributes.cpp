@@ -141,6 +141,8 @@ const std::unordered_map<std::string_view, Setter>& numberSetters() {
        [](Attributes& a, const Param& p) { a.visibility.transmission = p.number(1) != 0; }},
       {"visibility:trace",  // until PRMan 12
        [](Attributes& a, const Param& p) { a.visibility.diffuse = a.visibility.specular = p.number(1) != 0; }},
+      {"visibility:indirect",  // of the RIS era
+       [](Attributes& a, const Param& p) { a.visibility.diffuse = a.visibility.specular = p.number(1) != 0; }},
       {"visibility:photon", [](Attributes& a, const Param& p) { a.visibility.photon = p.number(1) != 0; }},
       {"trace:bias", [](Attributes& a, const Param& p) { a.trace.bias = p.number(0); }},
       {"trace:offset", [](Attributes& a, const Param& p) { a.trace.offset = p.number(0); }},
@@ -199,6 +201,8 @@ void attribute(GraphicsState& s, const Request& r) {
       trimSense(s, r, text ? p.strings[0] : "");
     } else if (key == "shade:relativeshadingrate" || key == "shade:resetrelativeshadingrate") {
       relativeShadingRate(s, r, p.number(1), key == "shade:resetrelativeshadingrate");
+    } else if (key == "dice:roundcurve") {
+      s.scope.roundCurves = p.number(0) != 0;
     } else if (key == "light:shadows") {
       s.scope.lightsCastShadows = text ? p.strings[0] == "on" : p.number(0) != 0;
     } else {

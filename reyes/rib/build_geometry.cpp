@@ -166,6 +166,18 @@ ParamList finiteParams(const ParamList& params, Problems& problems) {
 
 }  // namespace
 
+float reachOf(const Request& r) {
+  static constexpr std::string_view kShape[] = {"P", "Pw", "Pz", "width", "constantwidth"};
+  float reach = 0;
+  const auto extend = [&reach](const std::vector<float>& list) {
+    for (const float f : list) reach = std::max(reach, std::abs(f));
+  };
+  for (const RibArg& a : r.args) extend(a.numbers);
+  for (const Param& p : r.params)
+    if (std::find(std::begin(kShape), std::end(kShape), p.name) != std::end(kShape)) extend(p.floats);
+  return reach;
+}
+
 bool isGeometry(std::string_view name) { return builders().contains(name); }
 
 PrimPtr buildPrim(const Request& r, const Scope& scope, Problems& problems) {

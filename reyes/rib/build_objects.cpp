@@ -13,6 +13,17 @@ namespace {
 constexpr int kDeepestInstance = 16;
 constexpr size_t kLongestInstance = 1'000'000;
 
+// Squares of distances, and their products with areas, must fit floats.
+constexpr float kFarthest = 1e12f;
+
+/// How far from the camera a point of the object may be that lies within `reach` of its own origin.
+float farthest(const Motion& cameraFromObject, float reach) {
+  float out = 0;
+  for (const mat4& m : cameraFromObject.keys)
+    out = std::max(out, glm::length(vec3(m[3])) + reach * (glm::length(vec3(m[0])) + glm::length(vec3(m[1])) + glm::length(vec3(m[2]))));
+  return out;
+}
+
 bool increasing(const std::vector<float>& times) {
   const auto finite = [](float t) { return std::isfinite(t); };
   return !times.empty() && std::all_of(times.begin(), times.end(), finite) &&
@@ -64,6 +75,12 @@ void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times
   if (state_.scope.attributes->detail.empty()) return;  // another level of detail is there
   Master::Shapes shapes = shapesOf(keys, times);
   if (shapes.keys.empty()) return;
+  if (const float reach = farthest(cameraFromObject, shapes.reach); !(reach < kFarthest)) {
+    state_.log.report(Severity::Missing, "rib-object-dropped", r.where,
+                      fmt::format("{}: it may reach {:g} from the camera, and floats are no good beyond {:g}; the object is dropped",
+                                  description(r), reach, kFarthest));
+    return;
+  }
   Object object;
   object.shapes = std::move(shapes.keys);
   object.shapeTimes = std::move(shapes.times);
@@ -82,14 +99,15 @@ Master::Shapes SceneBuilder::shapesOf(const Keys& keys, const std::vector<float>
   const auto [it, fresh] = master_->shapes.try_emplace(masterRequest_);
   Master::Shapes& shared = it->second;
   if (fresh || !sameBasis(shared.uBasis, scope.uBasis) || !sameBasis(shared.vBasis, scope.vBasis) ||
-      *shared.trim != *scope.trim)
+      shared.roundCurves != scope.roundCurves || *shared.trim != *scope.trim)
     shared = buildShapes(keys, times);
   return shared;
 }
 
 Master::Shapes SceneBuilder::buildShapes(const Keys& keys, const std::vector<float>& times) {
-  Master::Shapes out{{}, times, state_.scope.uBasis, state_.scope.vBasis, state_.scope.trim};
+  Master::Shapes out{{}, times, state_.scope.uBasis, state_.scope.vBasis, state_.scope.roundCurves, state_.scope.trim, 0};
   for (const Request* key : keys) {
+    out.reach = std::max(out.reach, reachOf(*key));
     PrimPtr prim = buildShape(*key);
     if (!prim && out.keys.empty()) return out;
     if (!prim || (!out.keys.empty() && !sameTopology(*out.keys[0], *prim))) {
@@ -192,7 +210,7 @@ void SceneBuilder::endMotion() {
     addGeometry(keys, times);
   } else {
     const Signature* signature = findSignature(first.name);
-    if (moves && signature && signature->support == Support::Works)
+    if (moves && signature && signature->support != Support::NotYet)
       state_.warn(first, "rib-motion", "does not move; its first value is used");
     perform(first);
   }
@@ -216,8 +234,8 @@ void SceneBuilder::instance(const Request& r) {
     return;
   }
   if (instanceDepth_ >= kDeepestInstance)
-    return state_.warn(r, "rib-nesting",
-                       fmt::format("more than {} objects within objects; ignored", kDeepestInstance));
+    return state_.log.report(Severity::Missing, "rib-nesting", r.where,
+                             fmt::format("ObjectInstance: more than {} objects within objects; ignored", kDeepestInstance));
   if (instanceDepth_ == 0) instanceBudget_ = kLongestInstance;
 
   const std::shared_ptr<Master> master = it->second;
@@ -241,8 +259,8 @@ void SceneBuilder::instance(const Request& r) {
   state_.identity = outerIdentity;
   state_.end(Block::Instance, r.where);
   if (instanceDepth_ == 0 && instanceBudget_ == 0)
-    state_.warn(r, "rib-nesting",
-                fmt::format("stands for more than {} requests; the rest is ignored", kLongestInstance));
+    state_.log.report(Severity::Missing, "rib-nesting", r.where,
+                      fmt::format("ObjectInstance: stands for more than {} requests; the rest is ignored", kLongestInstance));
 }
 
 }  // namespace tomales::rib

@@ -20,7 +20,7 @@ void restoreShading(Scope& to, const Scope& from) {
   Attributes& a = to.edit();
   const Attributes& b = *from.attributes;
   a.color = b.color, a.opacity = b.opacity, a.surface = b.surface, a.lights = b.lights,
-  a.areaLight = b.areaLight;
+  a.areaLight = b.areaLight, a.interior = b.interior, a.exterior = b.exterior;
   a.shadingRate = b.shadingRate, a.interpolation = b.interpolation, a.indirect = b.indirect,
   a.trace = b.trace;
   a.irradianceMaxError = b.irradianceMaxError, a.irradianceMaxPixelDist = b.irradianceMaxPixelDist;
@@ -38,7 +38,7 @@ void restoreGeometryModification(Scope& to, const Scope& from) {
 void restoreGeometryDefinition(Scope& to, const Scope& from) {
   Attributes& a = to.edit();
   a.textureCoordinates = from.attributes->textureCoordinates, a.insideOut = from.attributes->insideOut;
-  to.uBasis = from.uBasis, to.vBasis = from.vBasis;
+  to.uBasis = from.uBasis, to.vBasis = from.vBasis, to.roundCurves = from.roundCurves;
 }
 
 void restoreHiding(Scope& to, const Scope& from) {

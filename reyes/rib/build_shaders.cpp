@@ -64,6 +64,8 @@ const HandlerTable& shaderHandlers() {
        [](GraphicsState& s, const Request& r) { s.scope.edit().displacement = shaderOrNone(s, r); }},
       {"Atmosphere",
        [](GraphicsState& s, const Request& r) { s.scope.edit().atmosphere = shaderOrNone(s, r); }},
+      {"Interior", [](GraphicsState& s, const Request& r) { s.scope.edit().interior = shaderOrNone(s, r); }},
+      {"Exterior", [](GraphicsState& s, const Request& r) { s.scope.edit().exterior = shaderOrNone(s, r); }},
       {"LightSource", [](GraphicsState& s, const Request& r) { addLight(s, r, false); }},
       {"AreaLightSource", areaLightSource},
       {"Illuminate", illuminate},

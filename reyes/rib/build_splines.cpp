@@ -22,7 +22,9 @@ PrimPtr curves(const Request& r, const Scope& s, Problems& problems) {
   const std::string &type = r.args[0].strings[0], &wrap = r.args[2].strings[0];
   if (type != "linear" && type != "cubic") throw PrimError("unknown type of curve \"" + type + "\"");
   if (wrap != "periodic" && wrap != "nonperiodic") throw PrimError("unknown wrap \"" + wrap + "\"");
-  return makeCurves(type == "cubic", s.vBasis, r.args[1].integers, wrap == "periodic", r.params, problems);
+  // Ribbons that have a normal of their own cannot be round.
+  const bool round = s.roundCurves && !findParam(r.params, "N");
+  return (round ? makeTubes : makeCurves)(type == "cubic", s.vBasis, r.args[1].integers, wrap == "periodic", r.params, problems);
 }
 
 }  // namespace tomales::rib

@@ -36,7 +36,7 @@ constexpr Standard kStandard[] = {
     {"float[2]", "shutteropening exposure filterwidth"},
     {"float[4]", "quantize"},
     {"int[2]", "origin"},
-    {"string", "compression filter depthfilter type source exrpixeltype exrcompression transfer lightgroup __group"},
+    {"string", "compression filter depthfilter type source exrpixeltype exrcompression transfer lightgroup __group __category"},
     {"float", "fill mergedepth mergeopacity"},
     {"float[8]", "chromaticities"},
     {"int", "tiled multipart"},
@@ -48,7 +48,7 @@ constexpr Standard kStandard[] = {
     {"color", "limits:othreshold limits:zthreshold"},
     {"string",
      "searchpath:archive searchpath:shader searchpath:texture searchpath:display searchpath:procedural "
-     "searchpath:resource searchpath:dirmap ribparse:varsubst bucket:order statistics:filename statistics:xmlfilename"},
+     "searchpath:resource searchpath:texturecache shade:specular searchpath:dirmap ribparse:varsubst bucket:order statistics:filename statistics:xmlfilename"},
     {"float", "shadow:bias shadow:bias0 shadow:bias1 shutter:offset"},
     {"string",
      "identifier:name identifier:shadinggroup grouping:membership grouping:tracesubset displacementbound:coordinatesystem "
@@ -62,7 +62,7 @@ constexpr Standard kStandard[] = {
     {"int",
      "visibility:camera visibility:diffuse visibility:specular visibility:transmission visibility:photon "
      "visibility:midpoint visibility:trace trace:displacements trace:samplemotion trace:maxdiffusedepth "
-     "trace:maxspeculardepth indirect:receive dice:rasterorient dice:binary dice:hair cull:hidden "
+     "trace:maxspeculardepth indirect:receive dice:rasterorient dice:binary dice:hair dice:roundcurve cull:hidden "
      "cull:backfacing derivatives:centered derivatives:extrapolate photon:estimator irradiance:nsamples "
      "stitch:enable sides:doubleshaded"},
 };
@@ -100,6 +100,10 @@ bool takeArrayLength(std::string& text, int& length) {
   if (open == std::string::npos && close == std::string::npos) return true;
   if (open == std::string::npos || close == std::string::npos || close < open) return false;
   const auto digits = words(std::string_view(text).substr(open + 1, close - open - 1));
+  if (digits.empty()) {
+    text.replace(open, close - open + 1, " ");
+    return true;
+  }
   if (digits.size() != 1) return false;
   const auto [end, error] = std::from_chars(digits[0].data(), digits[0].data() + digits[0].size(), length);
   const bool good = error == std::errc() && end == digits[0].data() + digits[0].size() && length >= 1 &&
@@ -115,6 +119,8 @@ bool takeClassAndType(std::vector<std::string_view>& list, Declaration& d, bool&
     if (found) list.erase(list.begin());
     return found;
   };
+  d.reference = !list.empty() && list[0] == "reference";
+  if (d.reference) list.erase(list.begin());
   const bool classed = take(kStorages, d.storage);
   typed = take(kTypes, d.type);
   return classed || typed;
@@ -134,7 +140,8 @@ bool Dictionary::declare(const std::string& name, const std::string& declaration
   auto list = words(text);
   bool typed = false;
   if (!takeClassAndType(list, d, typed) || !list.empty()) return false;
-  names_[name] = d;
+  if (names_.use_count() > 1) names_ = std::make_shared<Names>(*names_);
+  (*names_)[name] = d;
   return true;
 }
 
@@ -157,9 +164,9 @@ std::vector<float> Dictionary::rgb(const std::vector<float>& colors) const {
 std::optional<Declaration> Dictionary::find(const std::string& token, const std::string& category,
                                             std::string& name) const {
   const auto declared = [&](const std::string& bare) -> const Declaration* {
-    auto it = category.empty() ? names_.end() : names_.find(category + ":" + bare);
-    if (it == names_.end()) it = names_.find(bare);
-    return it == names_.end() ? nullptr : &it->second;
+    auto it = category.empty() ? names_->end() : names_->find(category + ":" + bare);
+    if (it == names_->end()) it = names_->find(bare);
+    return it == names_->end() ? nullptr : &it->second;
   };
   if (const Declaration* d = declared(token)) {
     name = token;
@@ -174,7 +181,7 @@ std::optional<Declaration> Dictionary::find(const std::string& token, const std:
   if (list.size() < 2 || !takeClassAndType(list, d, typed) || list.size() != 1) return std::nullopt;
   name = list[0];
   const Declaration* known = typed ? nullptr : declared(name);
-  if (known) d = {d.storage, known->type, known->arrayLength};
+  if (known) d = {d.storage, known->type, known->arrayLength, d.reference};
   return d;
 }
 

@@ -1,5 +1,6 @@
 // Declarations of parameter names: the standard ones, those of Declare, and inline ones.
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -13,6 +14,7 @@ struct Declaration {
   Storage storage = Storage::Uniform;
   ValueType type = ValueType::Float;
   int arrayLength = 1;
+  bool reference = false;  ///< "reference color c": a string that stands in for a value of the type.
 };
 
 class Dictionary {
@@ -22,7 +24,7 @@ class Dictionary {
   /// Holds the standard names of RISpec 3.2 and of the options and attributes that Tomales knows.
   Dictionary();
 
-  /// `declaration`: "class type[n]", where class and type may each be missing. False: not understood.
+  /// `declaration`: "class type[n]", where class and type may each be missing, and n: then it is 1. False: not understood.
   bool declare(const std::string& name, const std::string& declaration);
 
   /// Of the token of a parameter list: a declared name, or an inline declaration "class type[n] name". On
@@ -41,7 +43,9 @@ class Dictionary {
 
  private:
   std::vector<float> rgbOfSamples_;
-  std::unordered_map<std::string, Declaration> names_;
+  using Names = std::unordered_map<std::string, Declaration>;
+  /// Every procedural keeps a copy of the dictionary; few of them declare anything.
+  std::shared_ptr<Names> names_ = std::make_shared<Names>();
 };
 
 }  // namespace tomales::rib

@@ -97,13 +97,21 @@ void GraphicsState::enterWorld(const SourceLoc& where) {
   world = World{camera, {}, {}, {}, where};
 }
 
+void GraphicsState::switchOnEverywhere(int light) {
+  const auto switchOn = [light](Scope& s) {
+    if (const auto& on = s.attributes->lights; std::find(on.begin(), on.end(), light) == on.end()) s.edit().lights.push_back(light);
+  };
+  switchOn(scope);
+  for (Saved& saved : stack_) switchOn(saved.scope);
+}
+
 void GraphicsState::warn(const Request& request, const char* code, const std::string& message) const {
   log.report(Severity::Warning, code, request.where, request.name + ": " + message);
 }
 
-void GraphicsState::warnOnce(const std::string& key, const Request& request, const char* code,
+void GraphicsState::warnOnce(const std::string& key, const SourceLoc& where, const char* code,
                              const std::string& message, Severity severity) {
-  if (said_.insert(key).second) log.report(severity, code, request.where, message);
+  if (said_.insert(key).second) log.report(severity, code, where, message);
 }
 
 bool isFinite(const Motion& m) {

@@ -6,6 +6,7 @@
 
 #include "reyes/rib.h"
 #include "reyes/rib/intern.h"
+#include "reyes/rib/ris.h"
 #include "reyes/rib/search_path.h"
 
 namespace tomales::rib {
@@ -25,6 +26,7 @@ struct Scope {
   Basis uBasis = bezierBasis(), vBasis = bezierBasis();
   std::shared_ptr<const TrimLoops> trim = std::make_shared<TrimLoops>();  ///< Attribute "trimcurve" is part of it.
   float shadingRate = 1, relativeShadingRate = 1;  ///< Their product is in the attributes.
+  bool roundCurves = false;        ///< Attribute "dice" "roundcurve"
   bool lightsCastShadows = false;  ///< Attribute "light" "shadows": for lights that are made here.
   std::map<std::string, Motion> coordinateSystems;  ///< ScopedCoordinateSystem
   DetailState detail;
@@ -40,7 +42,9 @@ struct Master {
     std::vector<PrimPtr> keys;
     std::vector<float> times;
     Basis uBasis, vBasis;
+    bool roundCurves;
     std::shared_ptr<const TrimLoops> trim;  ///< Those that it was built with; the others see the values of the request only.
+    float reach;                            ///< reachOf() the requests.
   };
   std::vector<Request> requests;
   std::map<size_t, Shapes> shapes;  ///< By index of the request.
@@ -55,6 +59,7 @@ struct Globals {
   std::map<std::string, std::shared_ptr<Master>> masters;
   std::vector<std::map<std::string, Scope>> resources{1};  ///< Outermost ResourceBegin first.
   DirMap dirMap;
+  Patterns patterns;
   std::map<std::string, ParamList> quantized;  ///< Quantize of a variable: parameters of the Displays that show it.
 };
 
@@ -90,14 +95,20 @@ class GraphicsState {
   bool end(Block block, const SourceLoc& where);
   bool isOpen(Block block) const;
 
+  /// Here, and when the blocks around have ended: lights of the RIS era.
+  void switchOnEverywhere(int light);
   /// From camera-relative to world-relative: CTM becomes the camera.
   void enterWorld(const SourceLoc& where);
   Motion cameraFromObject() const { return world ? world->cameraFromWorld * scope.ctm : scope.ctm; }
 
   void warn(const Request& request, const char* code, const std::string& message) const;
   /// Only for the first of all sites that share the key.
-  void warnOnce(const std::string& key, const Request& request, const char* code, const std::string& message,
+  void warnOnce(const std::string& key, const SourceLoc& where, const char* code, const std::string& message,
                 Severity severity = Severity::Warning);
+  void warnOnce(const std::string& key, const Request& request, const char* code, const std::string& message,
+                Severity severity = Severity::Warning) {
+    warnOnce(key, request.where, code, message, severity);
+  }
 
  private:
   struct Saved {

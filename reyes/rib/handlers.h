@@ -29,6 +29,9 @@ void applyTransformation(GraphicsState& state, const std::vector<const Request*>
 bool isGeometry(std::string_view name);
 PrimPtr buildPrim(const Request& request, const Scope& scope, Problems& problems);
 
+/// No point of the shape is farther from its origin, by any coordinate; perhaps none is as far.
+float reachOf(const Request& request);
+
 /// TrimCurve: the loops that cut the NuPatches after it, none if it is empty.
 void trimCurve(GraphicsState& state, const Request& request);
 // Solids: what SolidBegin and SolidEnd do besides saving the attributes. Begin is called inside the new block, end while

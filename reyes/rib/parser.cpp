@@ -41,14 +41,17 @@ std::optional<Request> Parser::next() {
   return std::nullopt;
 }
 
-void Parser::warn(const char* code, const SourceLoc& where, const std::string& message) const {
-  if (!muted_) log_.report(Severity::Warning, code, where, message);
+void Parser::warn(const char* code, const SourceLoc& where, const std::string& message, Severity severity) const {
+  if (!muted_) log_.report(severity, code, where, message);
 }
 
 bool Parser::fail(const std::string& expected) {
+  const Support support = findSignature(request_.name)->support;
+  const bool missing = support == Support::Draws || support == Support::NotYetGeometry;
   warn("rib-arguments", here(),
        fmt::format("{} (line {}): {} was expected, but here is {}; the request is ignored", request_.name,
-                   request_.where.line, expected, describe(lexer_.peek())));
+                   request_.where.line, expected, describe(lexer_.peek())),
+       missing ? Severity::Missing : Severity::Warning);
   return false;
 }
 
@@ -191,17 +194,28 @@ bool Parser::readParameter(const std::string& category) {
   const auto declaration = dictionary_.find(token, category, param.name);
   if (declaration) {
     param.storage = declaration->storage;
-    param.type = declaration->type;
+    param.type = declaration->reference ? ValueType::String : declaration->type;
     param.arrayLength = declaration->arrayLength;
   }
   lexer_.advance();
   if (!readValues(param)) return fail(fmt::format("a value of \"{}\"", token));
-  if (!declaration)
+  if (!declaration && token.starts_with("__"))
+    keepPrivate(token, std::move(param));
+  else if (!declaration)
     warn("rib-undeclared", where,
          fmt::format("{}: parameter \"{}\" is not declared; ignored", request_.name, token.substr(0, 80)));
-  else if (fitsDeclaration(token, param))
+  else if (fitsDeclaration(token, param)) {
+    if (declaration->reference) request_.references.emplace_back(param.name, declaration->type);
     request_.params.push_back(std::move(param));
+  }
   return true;
+}
+
+// Bridges from modellers leave marks for themselves: "__instanceid".
+void Parser::keepPrivate(const std::string& token, Param param) {
+  param.name = token;
+  param.type = param.strings.empty() ? ValueType::Float : ValueType::String;
+  if (param.strings.empty() || param.floats.empty()) request_.params.push_back(std::move(param));
 }
 
 bool Parser::readValues(Param& param) {

@@ -24,7 +24,7 @@ class Parser {
   using Kind = Token::Kind;
   bool at(Kind kind) const { return lexer_.peek().kind == kind; }
   SourceLoc here() const { return {file_, lexer_.peek().line}; }
-  void warn(const char* code, const SourceLoc& where, const std::string& message) const;
+  void warn(const char* code, const SourceLoc& where, const std::string& message, Severity severity = Severity::Warning) const;
   /// Reports what is wrong with the request; always false.
   bool fail(const std::string& expected);
   void skipToKnownRequest(bool reportUnknown);
@@ -37,6 +37,7 @@ class Parser {
   bool readArray(RibArg::Kind kind);
   bool readParameters(const std::string& category);
   bool readParameter(const std::string& category);
+  void keepPrivate(const std::string& token, Param param);
   /// Numbers into `ints` or `floats`, by the parameter's type.
   bool readValues(Param& param);
   bool fitsDeclaration(const std::string& token, const Param& param) const;

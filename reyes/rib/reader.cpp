@@ -70,7 +70,7 @@ size_t Reader::read(ByteStream& stream, const std::string& name, const std::stri
   }
   if (stream.damaged())
     log_.report(Severity::Missing, "rib-gzip", wholeFile(name),
-                "the compressed data is damaged or swells beyond measure; its readable part is used");
+                "the compressed data is " + stream.damage() + "; what comes before is used");
   leave();
   return count;
 }

@@ -81,7 +81,7 @@ std::shared_ptr<std::atomic<size_t>> Reader::newBudget() { return std::make_shar
 bool Reader::mayEnter(const Request& r, const std::string& key, size_t cost) {
   if (open_.size() == 1 && !inProcedural_) budget_ = newBudget();
   const auto refuse = [&](const std::string& why) {
-    report(Severity::Warning, "rib-archive-recursion", r, why + "; ignored");
+    report(Severity::Missing, "rib-archive-recursion", r, why + "; ignored");
     return false;
   };
   if (std::any_of(open_.begin(), open_.end(), [&](const Level& l) { return l.key == key; }))

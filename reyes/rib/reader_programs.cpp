@@ -8,6 +8,8 @@
 namespace tomales::rib {
 namespace {
 
+// Of a procedural within another, or within an archive: it keeps its surroundings in memory until it is opened.
+constexpr size_t kProceduralCost = 20;
 constexpr size_t kProgramCost = 1000;
 constexpr double kSystemPatience_s = 3600;
 
@@ -83,6 +85,8 @@ void Reader::later(const Request& r, const std::function<void(Reader&)>& readNow
   const bool isFinite = std::all_of(bound.begin(), bound.end(), [](float f) { return std::isfinite(f); });
   if (!isBox(bound) || !isFinite || !builder_.takesProcedurals()) return readNow(*this);
   auto budget = inProcedural_ || open_.size() > 1 ? budget_ : newBudget();
+  if (budget == budget_ && !spend(kProceduralCost))
+    return report(Severity::Missing, "rib-archive-recursion", r, "procedurals within procedurals or archives stand for too much; ignored");
   builder_.addProcedural(bound, [readNow, around = surroundings(), place = builder_.place(), budget] {
     Reader reader(*around, place, budget);
     readNow(reader);

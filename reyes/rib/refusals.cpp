@@ -6,7 +6,7 @@
 namespace tomales::rib {
 namespace {
 
-constexpr const char *kVolumes = "nothing is shaded inside of objects; Atmosphere shades what lies before the camera",
+constexpr const char *kVolumes = "nothing is drawn inside of objects; Interior shades what rays bring through them, Atmosphere shades what lies before the camera",
                      *kVisiblePoints = "there are no shaders of visible points; Atmosphere shades what lies before the camera",
                      *kEdits = "edits are files of their own, for tomales shade --edit; all up to its End is left out",
                      *kCaches = "caches are as large as they need to be", *kHair = "curves are diced like all else",
@@ -21,8 +21,6 @@ constexpr const char *kVolumes = "nothing is shaded inside of objects; Atmospher
 
 const std::unordered_map<std::string_view, const char*>& reasons() {
   static const std::unordered_map<std::string_view, const char*> table = {
-      {"Interior", kVolumes},
-      {"Exterior", kVolumes},
       {"VPInterior", kVisiblePoints},
       {"VPExterior", kVisiblePoints},
       {"VPAtmosphere", kVisiblePoints},
@@ -40,15 +38,11 @@ const std::unordered_map<std::string_view, const char*>& reasons() {
       {"EditWorldEnd", "there is no EditWorldBegin"},
       {"PixelVariance", kAdaptive},
       {"GeometricRepresentation", "geometry is always drawn as surfaces"},
-      {"MakeTexture", "textures are read as they are: name the picture itself"},
-      {"MakeBump", "textures are read as they are: name the picture itself"},
-      {"MakeLatLongEnvironment", "environments are read as they are: name the picture itself"},
-      {"MakeCubeFaceEnvironment", "environments are latitude-longitude pictures here"},
       {"MakeBrickMap", "tomales brickmake does it"},
       {"MakeTexture3D", "tomales brickmake makes brick maps"},
       {"MakeOcclusion", "MakeShadow makes one map of one picture"},
       {"Hider photon", "tomales photons writes photon maps; the picture is rendered as by \"hidden\""},
-      {"Hider raytrace", "the picture is rendered as by \"hidden\""},
+      {"Hider raytrace", "the picture is rendered as by \"hidden\", with maxsamples (at most 64) for PixelSamples"},
       {"Hider bake", "the picture is rendered as by \"hidden\", and bakes nothing"},
       {"Hider null", "the picture is rendered as by \"hidden\"; Display type \"null\" writes none"},
       {"Hider paint", "the picture is rendered as by \"hidden\""},
@@ -67,7 +61,7 @@ const std::unordered_map<std::string_view, const char*>& reasons() {
       {"Option limits:brickmemory", "tomales --brick-cache sets it"},
       {"Option bucket:orderorigin", "spirals begin in the middle"},
       {"Option trace:specularthreshold", "rays wider than 10 degrees are diffuse"},
-      {"Option shutter:clampmotion", "dPdtime is not computed"},
+      {"Option shutter:clampmotion", "dPdtime is that of the open shutter"},
       {"Option shading:checknans", "what is no number is always reported"},
       {"Option hair:minwidth", "thin curves keep their width"},
       {"Attribute cull:hidden", "what nothing sees is never shaded, nor baked"},

@@ -7,6 +7,7 @@ namespace tomales::rib {
 
 enum class Support {
   Works,
+  Draws,           ///< The same; without it something is missing from the picture.
   NotYet,          ///< Named once, then ignored.
   NotYetGeometry,  ///< The same, but something is missing from the picture.
 };

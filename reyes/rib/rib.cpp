@@ -23,7 +23,7 @@ class PlainParse {
     }
     if (stream->damaged())
       log_.report(Severity::Error, "rib-gzip", whole,
-                  "the compressed data is damaged or swells beyond measure");
+                  "the compressed data is " + stream->damage());
     if (!any)
       log_.report(Severity::Error, "rib-empty", whole, "the file holds no RIB request that could be read");
     return any && !stream->damaged();

@@ -2,178 +2,67 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <unordered_map>
+
+#include "reyes/rib/ris_parts.h"
 
 namespace tomales::rib {
 namespace {
 
-RibArg numbers(std::vector<float> n) { return {RibArg::Kind::Numbers, std::move(n)}; }
-RibArg string(const std::string& s) { return {RibArg::Kind::String, {}, {s}}; }
+using Translator = Translation (*)(const Request&, Patterns&);
 
-Param param(const std::string& name, ValueType type, std::vector<float> floats) {
-  Param p;
-  p.name = name, p.type = type, p.floats = std::move(floats);
-  return p;
-}
-Param param(const std::string& name, const std::string& value) {
-  Param p;
-  p.name = name, p.type = ValueType::String, p.strings = {value};
-  return p;
-}
-
-float number(const Request& r, const char* name, float fallback) {
-  const Param* p = findParam(r.params, name);
-  return p ? p->number(fallback) : fallback;
-}
-std::vector<float> color(const Request& r, const char* name, float grey) {
-  const Param* p = findParam(r.params, name);
-  return p && p->floats.size() == 3 ? p->floats : std::vector<float>(3, grey);
-}
-
-/// Requests at the place of `from`.
-class Script {
- public:
-  explicit Script(const Request& from) : from_(from) {}
-  Script& say(const char* name, std::vector<RibArg> args = {}, ParamList params = {}) {
-    list_.push_back({name, std::move(args), std::move(params), from_.where});
-    return *this;
-  }
-  std::vector<Request> list() { return std::move(list_); }
-
- private:
-  const Request& from_;
-  std::vector<Request> list_;
-};
-
-std::string standsIn(const Request& r, const std::string& substitute) {
-  return fmt::format("{} \"{}\" is not available: {} stands in for it", r.name, r.args[0].strings[0],
-                     substitute);
-}
-
-struct Bxdf {
-  const char *shader, *color;
-  float grey;             ///< The default of that colour,
-  const char* roughness;  ///< Null: none.
-};
-
-Translation bxdf(const Request& r) {
-  static const std::unordered_map<std::string_view, Bxdf> table = {
-      {"PxrDiffuse", {"matte", "diffuseColor", 0.5f, nullptr}},
-      {"PxrLMDiffuse", {"matte", "frontColor", 0.5f, nullptr}},
-      {"PxrConstant", {"constant", "emitColor", 1, nullptr}},
-      {"PxrDisney", {"plastic", "baseColor", 0.5f, "roughness"}},
-      {"PxrSurface", {"plastic", "diffuseColor", 0.5f, "specularRoughness"}},
-      {"PxrLayerSurface", {"plastic", "diffuseColor", 0.5f, "specularRoughness"}}};
-  const auto it = table.find(r.args[0].strings[0]);
-  const bool known = it != table.end();
-  const Bxdf b = known ? it->second : Bxdf{"matte", "diffuseColor", 0.5f, nullptr};
-  const char* named = findParam(r.params, b.color) ? b.color : "diffuseColor";
-  ParamList params;
-  if (b.roughness && findParam(r.params, b.roughness))
-    params.push_back(
-        param("roughness", ValueType::Float, {std::clamp(number(r, b.roughness, 0.1f), 0.001f, 1.0f)}));
-  return {Script(r)
-              .say("Color", {numbers(color(r, named, b.grey))})
-              .say("Surface", {string(b.shader)}, params)
-              .list(),
-          standsIn(r, b.shader), known ? Severity::Warning : Severity::Missing};
-}
-
-ParamList emission(const Request& r) {
-  const float intensity = number(r, "intensity", 1) * std::exp2(number(r, "exposure", 0));
-  return {param("intensity", ValueType::Float, {intensity}),
-          param("lightcolor", ValueType::Color, color(r, "lightColor", 1))};
-}
-
-// A black emitter in a scope of its own, which leaves its light switched on.
-Translation areaLight(const Request& r, const char* shape, std::vector<RibArg> args, ParamList params) {
-  const RibArg handle = string(r.args[1].strings[0]);
-  Script script(r);
-  script.say("AttributeBegin").say("AreaLightSource", {string("arealight"), handle}, emission(r));
-  script.say("Surface", {string("constant")}).say("Color", {numbers({0, 0, 0})});
-  script.say(shape, std::move(args), std::move(params)).say("AttributeEnd");
-  script.say("Illuminate", {handle, {RibArg::Kind::Number, {1}, {}}});
-  return {script.list(), standsIn(r, "arealight")};
-}
-
-// They all shine along -z, so the normals of the shapes do. A unit square, and diameters of one.
-Translation rectLight(const Request& r) {
-  const std::vector<float> corners{.5f, -.5f, 0, -.5f, -.5f, 0, .5f, .5f, 0, -.5f, .5f, 0};
-  Param p = param("P", ValueType::Point, corners);
-  p.storage = Storage::Vertex;
-  return areaLight(r, "Patch", {string("bilinear")}, {p});
-}
-Translation sphereLight(const Request& r) {
-  return areaLight(r, "Sphere", {numbers({.5f, -.5f, .5f, 360})}, {});
-}
-Translation diskLight(const Request& r) { return areaLight(r, "Disk", {numbers({0, .5f, -360})}, {}); }
-
-Translation lightSource(const Request& r, const char* shader, ParamList more) {
-  ParamList params = emission(r);
-  params.insert(params.end(), more.begin(), more.end());
-  return {Script(r).say("LightSource", {string(shader), string(r.args[1].strings[0])}, params).list(),
-          standsIn(r, shader)};
-}
-Translation distantLight(const Request& r) {
-  return lightSource(r, "distantlight",
-                     {param("from", ValueType::Point, {0, 0, 0}), param("to", ValueType::Point, {0, 0, -1})});
-}
-Translation domeLight(const Request& r) {
-  const Param* map = findParam(r.params, "lightColorMap");
-  const bool mapped = map && !map->strings.empty() && !map->strings[0].empty();
-  return lightSource(r, "environmentlight", mapped ? ParamList{param("map", map->strings[0])} : ParamList{});
-}
-
-Translation light(const Request& r) {
-  static const std::unordered_map<std::string_view, Translation (*)(const Request&)> table = {
-      {"PxrRectLight", rectLight}, {"PxrSphereLight", sphereLight},   {"PxrDiskLight", diskLight},
-      {"PxrDomeLight", domeLight}, {"PxrDistantLight", distantLight}, {"PxrEnvDayLight", domeLight}};
-  const auto it = table.find(r.args[0].strings[0]);
-  if (it != table.end()) return it->second(r);
-  return {
-      {},
-      fmt::format("Light \"{}\" is not available and has no substitute: it is dark", r.args[0].strings[0]),
-      Severity::Missing};
-}
-
-Translation integrator(const Request& r) {
+// A path of length 1 is direct light alone (PRMan 19 to 22: maxPathLength).
+Translation integrator(const Request& r, Patterns&) {
   const std::string& name = r.args[0].strings[0];
-  if (name == "PxrDirectLighting") return {{}, standsIn(r, "direct light of the scene's own lights")};
+  if (name == "PxrDirectLighting") return {{}, {standsIn(r, "direct light of the scene's own lights")}};
   ParamList params;
-  if (const Param* bounces = findParam(r.params, "maxIndirectBounces"))
-    params.push_back(param("bounces", ValueType::Float, {bounces->number(1)}));
-  return {
-      Script(r).say("LightSource", {string("indirectlight"), string("Integrator " + name)}, params).list(),
-      standsIn(r, "indirectlight"), name == "PxrPathTracer" ? Severity::Warning : Severity::Missing};
+  const Param *bounces = findParam(r.params, "maxIndirectBounces"), *length = findParam(r.params, "maxPathLength");
+  const float most = bounces ? bounces->number(1) : length ? length->number(2) - 1 : 1;
+  if (bounces || length) params.push_back(param("bounces", ValueType::Float, {most}));
+  const Severity severity = name == "PxrPathTracer" ? Severity::Warning : Severity::Missing;
+  if (most < 1) return {{}, {standsIn(r, "direct light alone", severity)}};
+  return {Script(r).say("LightSource", {string("indirectlight"), string("Integrator " + name)}, params).list(),
+          {standsIn(r, "indirectlight", severity)}};
 }
 
-Translation ignored(const Request& r) {
-  return {{}, fmt::format("{} \"{}\" is not available: ignored", r.name, r.args[0].strings[0])};
-}
-Translation pattern(const Request& r) {
-  return {{},
-          fmt::format("Pattern \"{}\" is not available: what is connected to it keeps its default",
-                      r.args[0].strings[0])};
-}
-Translation camera(const Request&) {
-  return {{},
-          "Camera: the one camera is that of Projection and WorldBegin; its name and parameters are ignored"};
+Translation ignored(const Request& r, Patterns&) { return {{}, {note(r, "is not available: ignored")}}; }
+
+Translation pattern(const Request& r, Patterns& patterns) {
+  patterns[r.args[1].strings[0]] = r;
+  return {};  // what refers to it says what becomes of it
 }
 
-const std::unordered_map<std::string_view, Translation (*)(const Request&)>& translators() {
-  static const std::unordered_map<std::string_view, Translation (*)(const Request&)> table = {
-      {"Bxdf", bxdf},       {"Light", light},           {"Integrator", integrator}, {"Pattern", pattern},
-      {"Camera", camera},   {"DisplayFilter", ignored}, {"SampleFilter", ignored},  {"LightFilter", ignored},
+Translation camera(const Request& r, Patterns&) {
+  return {{}, {{"Camera", "Camera: the one camera is that of Projection and WorldBegin; its name and parameters are ignored", r.where}}};
+}
+
+const std::unordered_map<std::string_view, Translator>& translators() {
+  static const std::unordered_map<std::string_view, Translator> table = {
+      {"Bxdf", [](const Request& r, Patterns& patterns) { return risBxdf(r, patterns); }},
+      {"Light", [](const Request& r, Patterns&) { return risLight(r); }},
+      {"Integrator", integrator},
+      {"Pattern", pattern},
+      {"Camera", camera},
+      {"DisplayFilter", ignored},
+      {"SampleFilter", ignored},
+      {"LightFilter", ignored},
       {"Displace", ignored}};
   return table;
 }
 
 }  // namespace
 
+Note note(const Request& r, const std::string& what, Severity severity) {
+  const std::string name = fmt::format("{} \"{}\"", r.name, r.args[0].strings[0]);
+  return {name, name + " " + what, r.where, severity};
+}
+
+Note standsIn(const Request& r, const std::string& substitute, Severity severity) {
+  return note(r, "is not available: " + substitute + " stands in for it", severity);
+}
+
 bool isRis(std::string_view name) { return translators().contains(name); }
 
-Translation translateRis(const Request& r) { return translators().at(r.name)(r); }
+Translation translateRis(const Request& r, Patterns& patterns) { return translators().at(r.name)(r, patterns); }
 
 }  // namespace tomales::rib

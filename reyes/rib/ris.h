@@ -4,14 +4,24 @@
 
 namespace tomales::rib {
 
+/// What stands in for what; said once for each key.
+struct Note {
+  std::string key, text;
+  SourceLoc where;
+  Severity severity = Severity::Warning;
+  const char* code = "rib-substitute";
+};
+
 struct Translation {
   std::vector<Request> requests;
-  std::string note;  ///< What stands in for what.
-  Severity severity = Severity::Warning;
+  std::vector<Note> notes;
 };
+
+/// Pattern requests by handle: the parameters of others refer to their outputs.
+using Patterns = std::map<std::string, Request>;
 
 bool isRis(std::string_view name);
 /// Pre: isRis(request.name).
-Translation translateRis(const Request& request);
+Translation translateRis(const Request& request, Patterns& patterns);
 
 }  // namespace tomales::rib

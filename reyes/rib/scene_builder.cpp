@@ -110,9 +110,11 @@ bool SceneBuilder::refuse(const Request& r) {
 }
 
 void SceneBuilder::performRis(const Request& r) {
-  const Translation translation = translateRis(r);
-  state_.warnOnce(r.name + " " + r.args[0].strings[0], r, "rib-substitute", translation.note, translation.severity);
+  const Translation translation = translateRis(r, state_.globals.patterns);
+  for (const Note& note : translation.notes) state_.warnOnce(note.key, note.where, note.code, note.text, note.severity);
+  const size_t lights = state_.globals.lights.size();
   for (const Request& request : translation.requests) perform(request);
+  for (size_t i = lights; i < state_.globals.lights.size(); ++i) state_.switchOnEverywhere(state_.globals.lights[i]->index);
 }
 
 float SceneBuilder::rasterArea(const std::vector<float>& b) const {
@@ -152,8 +154,8 @@ bool SceneBuilder::performBlock(const Request& r) {
     recording_ = Recording{.begin = r};
   } else if (r.name == "ObjectInstance") {
     instance(r);
-  } else if (r.name == "MakeShadow") {
-    if (settings_.onMakeShadow) settings_.onMakeShadow(r.args[0].strings[0], r.args[1].strings[0], r.where);
+  } else if (r.name.starts_with("Make") && findSignature(r.name)->support == Support::Works) {
+    if (settings_.onMake) settings_.onMake(r);
   } else {
     const auto block = std::find_if(std::begin(kBlocks), std::end(kBlocks), [&](const auto& b) {
       return r.name.starts_with(b.first) && isBlockRequest(r.name);
@@ -238,7 +240,7 @@ void SceneBuilder::finish(const SourceLoc& where) {
 }
 
 void SceneBuilder::endUnclosedWorld(const SourceLoc& where) {
-  state_.log.report(Severity::Warning, "rib-unbalanced", where,
+  state_.log.report(Severity::Missing, "rib-unbalanced", where,
                     "WorldEnd is missing for the world that begins at " + state_.world->where.text() +
                         "; what there is is rendered");
   endWorld(where);

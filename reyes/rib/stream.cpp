@@ -100,6 +100,12 @@ bool ByteStream::inflateMore() {
   return next_ < end_;
 }
 
+std::string ByteStream::damage() const {
+  if (inflater_->out <= kHarmless_bytes) return "damaged or cut off";
+  return "a bomb or damaged: it swells beyond " + std::to_string(kHarmless_bytes >> 20) + " MiB and " + std::to_string(kLargestRatio) +
+         " times its size";
+}
+
 std::string gzip(std::string_view text) {
   z_stream z{};
   if (deflateInit2(&z, Z_DEFAULT_COMPRESSION, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY) != Z_OK)

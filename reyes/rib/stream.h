@@ -39,6 +39,8 @@ class ByteStream {
   bool closed() const { return closed_; }
   /// The compressed data broke off, made no sense or was a bomb; what came before it has been read.
   bool damaged() const { return damaged_; }
+  /// Which of these. Pre: damaged().
+  std::string damage() const;
 
  private:
   struct Inflater;

@@ -120,14 +120,16 @@ class Binary : public Encoding {
   std::unordered_map<std::string, uint32_t> tokens_;
 };
 
-std::string declarationOf(const Param& p) {
+std::string declarationOf(const Param& p, ValueType type) {
   static constexpr const char* kStorages[] = {"constant", "uniform", "varying", "vertex", "facevarying"};
   static constexpr const char* kTypes[] = {"float",  "int",    "string", "color", "point",
                                            "vector", "normal", "hpoint", "matrix"};
   const std::string length = p.arrayLength == 1 ? "" : fmt::format("[{}]", p.arrayLength);
-  return fmt::format("{} {}{} ", kStorages[static_cast<int>(p.storage)], kTypes[static_cast<int>(p.type)],
+  return fmt::format("{} {}{} ", kStorages[static_cast<int>(p.storage)], kTypes[static_cast<int>(type)],
                      length);
 }
+
+std::string declarationOf(const Param& p) { return declarationOf(p, p.type); }
 
 class Writer : public RiSink {
  public:
@@ -144,7 +146,7 @@ class Writer : public RiSink {
   void request(const Request& r) override {
     encoding_->name(out_, r.name);
     for (const RibArg& a : r.args) argument(a);
-    for (const Param& p : r.params) parameter(p);
+    for (const Param& p : r.params) parameter(p, r);
     encoding_->endOfRequest(out_);
     if (out_.size() > kBlock) flush();
   }
@@ -170,9 +172,12 @@ class Writer : public RiSink {
   }
 
   // A name with blanks or brackets cannot be declared inline: its Declare is among the requests.
-  void parameter(const Param& p) {
+  void parameter(const Param& p, const Request& r) {
     const bool inlined = p.name.find_first_of(" \t\r\n[]") == std::string::npos;
-    encoding_->token(out_, inlined ? declarationOf(p) + p.name : p.name);
+    const auto reference = std::find_if(r.references.begin(), r.references.end(), [&](const auto& f) { return f.first == p.name; });
+    encoding_->token(out_, !inlined                          ? p.name
+                           : reference == r.references.end() ? declarationOf(p) + p.name
+                                                             : "reference " + declarationOf(p, reference->second) + p.name);
     if (p.type == ValueType::String) return strings(p.strings);
     if (p.type != ValueType::Integer) return encoding_->floats(out_, p.floats);
     integers(p.ints);

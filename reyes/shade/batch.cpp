@@ -18,15 +18,18 @@ TmConstVec3 Batch::constant(const vec3& v) {
 void Batch::setCommon(int count, const BoundShader& shader, const std::vector<Override>& overrides,
                       const std::function<const float*(int)>& primvar) {
   tm = {};
+  own = &shader;
   tm.structBytes = sizeof(TmGrid);
   tm.count = count, tm.padded = padded(count);
   uint8_t* active = arena.bytes(tm.padded);
   std::fill_n(active, count, uint8_t{1});
   tm.active = active;
   tm.call = &kServices, tm.host = this;
-  tm.time = scene.scene.options.shutterOpen;
+  const Options& options = scene.scene.options;
+  tm.time = options.shutterOpen, tm.dtime = options.shutterClose - options.shutterOpen;
   tm.clip[0] = scene.scene.options.nearClip, tm.clip[1] = scene.scene.options.farClip;
   lights = {};
+  stencil = {}, wide_.reset();
   gathered.who = nullptr;
 
   params_ = shader.values;
@@ -47,16 +50,65 @@ void Batch::setCommon(int count, const BoundShader& shader, const std::vector<Ov
 
 void Batch::setPoints(ShadePoints& p, const BoundShader& shader, const std::vector<Override>& overrides,
                       ShadedPoints& out, int begin) {
+  const bool wide = shader.can(TM_NEIGHBOURS) && p.hasSteps();
+  std::optional<Widened> neighbours;
+  if (wide) neighbours = widened(p, context.kind == RayKind::Camera && !scene.camera.perspective(), arena);
+  ShadePoints& all = wide ? neighbours->points : p;
+  setCommon(all.count(), shader, overrides, [&](int offset) { return all.primvar(offset); });
   points = &p;
-  setCommon(p.count(), shader, overrides, [&](int offset) { return p.primvar(offset); });
-  tm.P = {p.channel(kPx), p.channel(kPy), p.channel(kPz)};
-  tm.N = {p.channel(kNx), p.channel(kNy), p.channel(kNz)};
-  tm.Ng = p.vec(kNgx), tm.I = p.vec(kIx);
-  tm.dPdu = p.vec(kDpduX), tm.dPdv = p.vec(kDpdvX);
-  tm.u = p.channel(kU), tm.v = p.channel(kV), tm.s = p.channel(kS), tm.t = p.channel(kT);
-  tm.du = p.channel(kDu), tm.dv = p.channel(kDv);
+  tm.P = {all.channel(kPx), all.channel(kPy), all.channel(kPz)};
+  tm.N = {all.channel(kNx), all.channel(kNy), all.channel(kNz)};
+  tm.Ng = all.vec(kNgx), tm.I = all.vec(kIx);
+  tm.dPdu = all.vec(kDpduX), tm.dPdv = all.vec(kDpdvX);
+  tm.u = all.channel(kU), tm.v = all.channel(kV), tm.s = all.channel(kS), tm.t = all.channel(kT);
+  tm.du = all.channel(kDu), tm.dv = all.channel(kDv);
+  tm.dPdtime = velocity();
   tm.Ci = {out.Ci[0].data() + begin, out.Ci[1].data() + begin, out.Ci[2].data() + begin};
   tm.Oi = {out.Oi[0].data() + begin, out.Oi[1].data() + begin, out.Oi[2].data() + begin};
+  if (!wide) return;
+  tm.Ci = arena.vec3(tm.count), tm.Oi = arena.vec3(tm.count);
+  wide_ = std::move(neighbours), stencil = wide_->stencil;
+}
+
+TmConstVec3 Batch::velocity() {
+  const Motion& motion = group.group->currentFromOpen;
+  if (tm.dtime <= 0) {
+    const float* zero = arena.floats(tm.count);
+    return {zero, zero, zero};
+  }
+  const TmVec3 out = arena.vec3(tm.count);
+  const int n = points->count();
+  const mat4 atClose = motion.at(scene.scene.options.shutterClose);
+  for (int i = 0; i < tm.count; ++i) {
+    const vec3 P = get(tm.P, i), end = P + points->get3(kDriftX, i % n);
+    set(out, i, ((motion.moving() ? transformPoint(atClose, end) : end) - P) / tm.dtime);
+  }
+  return view(out);
+}
+
+void Batch::openOutputs(const std::vector<BoundVariable>& variables, ShadedPoints& out, int begin) {
+  for (const BoundVariable& v : variables) {
+    if (v.from != BoundVariable::From::Output) continue;
+    TmValue& value = params_[static_cast<size_t>(v.index)];
+    for (int k = 0; k < v.width; ++k) {
+      float* to = out.variables[static_cast<size_t>(v.first + k)].data() + begin;
+      if (hasNeighbours()) std::fill_n(to = arena.floats(tm.count), tm.count, v.fill);
+      value.c[k] = to;
+    }
+    value.step = 1;
+  }
+}
+
+void Batch::closeOutputs(const std::vector<BoundVariable>& variables, ShadedPoints& out, int begin) {
+  if (!hasNeighbours()) return;
+  const int n = points->count();
+  for (int k = 0; k < 3; ++k) {
+    std::copy_n(k == 0 ? tm.Ci.x : k == 1 ? tm.Ci.y : tm.Ci.z, n, out.Ci[k].data() + begin);
+    std::copy_n(k == 0 ? tm.Oi.x : k == 1 ? tm.Oi.y : tm.Oi.z, n, out.Oi[k].data() + begin);
+  }
+  for (const BoundVariable& v : variables)
+    for (int k = 0; v.from == BoundVariable::From::Output && k < v.width; ++k)
+      std::copy_n(params_[static_cast<size_t>(v.index)].c[k], n, out.variables[static_cast<size_t>(v.first + k)].data() + begin);
 }
 
 void Batch::setLit(const LightProbe& probe, const BoundShader& shader) {
@@ -70,7 +122,7 @@ void Batch::setLit(const LightProbe& probe, const BoundShader& shader) {
   };
   tm.P = copy(probe.P), tm.N = copy(probe.N);
   tm.Ng = view(tm.N);
-  tm.I = tm.dPdu = tm.dPdv = zero;
+  tm.I = tm.dPdu = tm.dPdv = tm.dPdtime = zero;
   tm.u = tm.v = tm.s = tm.t = tm.du = tm.dv = zero.x;
   if (!probe.Pl.empty()) tm.Pl = view(copy(probe.Pl)), tm.Nl = view(copy(probe.Nl));
   tm.L = arena.vec3(n), tm.Cl = arena.vec3(n);
@@ -83,16 +135,58 @@ void Batch::setPixels(ShadedPixels& p, const BoundShader& shader) {
   const TmConstVec3 zero = constant(vec3(0.0f));
   tm.P = arena.vec3(n), tm.N = arena.vec3(n);
   for (int i = 0; i < n; ++i) set(tm.P, i, {p.x + static_cast<float>(i), p.y, 0});
-  tm.Ng = tm.I = tm.dPdu = tm.dPdv = zero;
+  tm.Ng = tm.I = tm.dPdu = tm.dPdv = tm.dPdtime = zero;
   tm.u = tm.v = tm.s = tm.t = tm.du = tm.dv = zero.x;
   tm.Ci = {p.colors.Ci[0].data(), p.colors.Ci[1].data(), p.colors.Ci[2].data()};
   tm.Oi = {p.colors.Oi[0].data(), p.colors.Oi[1].data(), p.colors.Oi[2].data()};
   tm.alpha = p.alpha.data();
 }
 
+void Batch::answer(const std::vector<float>& numbers, const std::string& text, TmType type, int32_t& typeOut, TmValue& out) {
+  const int width = type == TM_FLOAT || type == TM_STRING ? 1 : type == TM_MATRIX ? 16 : 3;
+  float* values = arena.floats(std::max(static_cast<int>(numbers.size()), width));
+  std::copy(numbers.begin(), numbers.end(), values);
+  typeOut = type;
+  out = {{values, width == 3 ? values + 1 : nullptr, width == 3 ? values + 2 : nullptr},
+         0,
+         type == TM_STRING ? 1 : std::max(1, static_cast<int>(numbers.size()) / width),
+         type == TM_STRING ? answers_.emplace_back(text).c_str() : nullptr};
+}
+
+bool Batch::stepsOf(const TmGrid* g, bool alongV, const float* value, float* out) const {
+  const int n = g->count;
+  const float *parameter = alongV ? g->v : g->u, *size = alongV ? g->dv : g->du;
+  if (stencil && n == tm.count) {
+    for (int i = 0; i < n; ++i) {
+      const float step = stencil.difference(alongV, parameter, i);
+      out[i] = step != 0 ? stencil.difference(alongV, value, i) * size[i] / step : 0.0f;
+    }
+    return true;
+  }
+  if (!points) return false;
+  const ShadePoints& p = *points;
+  const auto is = [&](const float* known) { return known == value || std::equal(known, known + n, value); };
+  const auto take = [&](const float* steps) { return std::copy_n(steps, n, out), true; };
+  if (is(g->u)) return alongV ? (std::fill_n(out, n, 0.0f), true) : take(g->du);
+  if (is(g->v)) return alongV ? take(g->dv) : (std::fill_n(out, n, 0.0f), true);
+  for (int k = 0; k < 3; ++k) {
+    if (!is(p.channel(kPx + k))) continue;
+    for (int i = 0; i < n; ++i) out[i] = p.channel((alongV ? kDpdvX : kDpduX) + k)[i] * size[i];
+    return true;
+  }
+  if (!p.hasSteps()) return false;
+  if (is(p.channel(kS))) return take(p.step(kStepS, alongV));
+  if (is(p.channel(kT))) return take(p.step(kStepT, alongV));
+  for (int k = 0; k < 3; ++k)
+    if (is(p.channel(kNx + k))) return take(p.step(kStepN + k, alongV));
+  for (int k = 0; k < p.primvarFloats(); ++k)
+    if (is(p.primvar(k))) return take(p.step(kStepPrimvars + k, alongV));
+  return false;
+}
+
 void Batch::blackOutNonFinite(const BoundShader& shader) {
   bool bad = false;
-  for (int i = 0; i < tm.count; ++i) {
+  for (int i = 0; i < (points ? points->count() : tm.count); ++i) {
     if (isFinite(get(tm.Ci, i)) && isFinite(get(tm.Oi, i))) continue;
     bad = true;
     if (!isFinite(get(tm.Oi, i))) set(tm.Oi, i, vec3(1.0f));

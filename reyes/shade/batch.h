@@ -5,6 +5,7 @@
 #include "reyes/shade/arena.h"
 #include "reyes/shade/bound_scene.h"
 #include "reyes/shade/lights.h"
+#include "reyes/shade/neighbours.h"
 
 namespace tomales {
 
@@ -15,13 +16,14 @@ class Batch {
   Batch(const BoundScene& scene, const BoundGroup& group, const ShadeContext& context, Arena& arena);
   Batch(const Batch&) = delete;
 
-  /// Inputs of a surface shader from points, outputs of `count` floats from element `begin`.
+  /// Inputs of a surface or volume shader from points, outputs of `count` floats from element `begin`. Adds neighbours where the
+  /// shader wants them and the points have steps.
   void setPoints(ShadePoints& points, const BoundShader& shader, const std::vector<Override>& overrides,
                  ShadedPoints& out, int begin);
   /// After setPoints: the shader's outputs are stored in `out` from `begin`.
-  void openOutputs(const std::vector<BoundVariable>& variables, ShadedPoints& out, int begin) {
-    tomales::openOutputs(variables, out, begin, params_);
-  }
+  void openOutputs(const std::vector<BoundVariable>& variables, ShadedPoints& out, int begin);
+  /// After the shader has run: what it has left for the points, without neighbours, is in `out`.
+  void closeOutputs(const std::vector<BoundVariable>& variables, ShadedPoints& out, int begin);
   /// Inputs and outputs of a displacement shader: motion key 0 of a grid.
   void setGrid(Grid& grid, const BoundShader& shader, const std::vector<Override>& overrides);
 
@@ -30,10 +32,16 @@ class Batch {
   /// Inputs and outputs of an imager shader.
   void setPixels(ShadedPixels& pixels, const BoundShader& shader);
 
+  /// How a value changes over each micropolygon, along u or v: by the neighbours, or because the host knows the value. False: it does
+  /// not, and `out` is left alone. Inactive points hold anything.
+  bool stepsOf(const TmGrid* g, bool alongV, const float* value, float* out) const;
+
   /// Calls the shader. False: it threw, which has been reported.
   bool run(const BoundShader& shader, const TmGrid& tmGrid);
   /// Points where the shader returned NaN or infinity become opaque and black, with a warning.
   void blackOutNonFinite(const BoundShader& shader);
+  /// Fills in a value that lives as long as the batch: `type` is what the numbers (or the text) are.
+  void answer(const std::vector<float>& numbers, const std::string& text, TmType type, int32_t& typeOut, TmValue& out);
   /// Once per shader and place of request.
   void report(Severity severity, const char* code, const std::string& problem) const;
 
@@ -42,9 +50,11 @@ class Batch {
   const ShadeContext& context;
   Arena& arena;
   TmGrid tm{};
-  const ShadePoints* points = nullptr;  ///< Null while displacing.
+  const ShadePoints* points = nullptr;  ///< Null while displacing. Those that are shaded: tm may hold their neighbours as well.
+  Stencil stencil;                      ///< Unset: no neighbours.
   const Grid* grid = nullptr;           ///< Null while shading.
   const BoundShader* running = nullptr;
+  const BoundShader* own = nullptr;     ///< What the batch has been set for; `running` is another while lights are evaluated.
   Lights lights;
 
   /// The last indirect gather: an indirect light runs once a colour channel and asks for the same three
@@ -59,7 +69,11 @@ class Batch {
   void setCommon(int count, const BoundShader& shader, const std::vector<Override>& overrides,
                  const std::function<const float*(int offset)>& primvar);
   TmConstVec3 constant(const vec3& v);
+  TmConstVec3 velocity();
+  bool hasNeighbours() const { return points && tm.count > points->count(); }
   std::vector<TmValue> params_;
+  std::optional<Widened> wide_;
+  std::deque<std::string> answers_;
 };
 
 inline TmConstVec3 view(TmVec3 v) { return {v.x, v.y, v.z}; }

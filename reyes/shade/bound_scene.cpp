@@ -9,24 +9,16 @@ namespace {
 
 /// Names of shadow maps, of shadowpoint one for each direction.
 const ParamNames kShadowMaps{"shadowname", "sfpx", "sfnx", "sfpy", "sfny", "sfpz", "sfnz"};
-const ParamNames kLightParams{"lighting", "__nondiffuse", "__nonspecular", "__group", "lightgroup", "shadowname", "sfpx",
-                              "sfnx",     "sfpy",         "sfny",          "sfpz",       "sfnz"};
+const ParamNames kLightParams{"lighting", "__nondiffuse", "__nonspecular", "__group", "lightgroup", "__category", "shadowname", "sfpx",
+                              "sfnx",     "sfpy",         "sfny",          "sfpz",       "sfnz",     "shadowvariance"};
 
 std::string pathOf(const Options& options, const char* kind) {
   const auto it = options.searchPaths.find(kind);
   return it == options.searchPaths.end() ? std::string() : it->second;
 }
 
-/// Option "limits" "texturememory", in kilobytes.
-float textureCache_MB(const Options& options) {
-  constexpr float kUsual_KB = 1 << 20;
-  const auto it = options.user.find("limits:texturememory");
-  return (it == options.user.end() ? kUsual_KB : std::max(1.0f, it->second.number(kUsual_KB))) / 1024;
-}
-
-constexpr int kMostRays = 1 << 16;         ///< Of one irradiance sample,
-constexpr int kMostLightSamples = 1 << 12;  ///< of a light from one point:
-constexpr int kMostBounces = 1000;          ///< beyond these no picture changes any more.
+constexpr int kMostRays = 1 << 16;  ///< Of one irradiance sample.
+constexpr int kMostBounces = 1000;  ///< Beyond these no picture changes any more.
 
 /// A count among the parameters of a light.
 int countOf(const BoundShader& light, const char* name, int fallback, int least, int most, Log& log) {
@@ -43,7 +35,7 @@ void warnAboutUnsupported(const BoundShader& light, const IndirectQuery& q, Log&
     log.report(Severity::Warning, fmt::format("light-{}", name), light.where,
                fmt::format("{}: {} \"{}\" is not supported; {}", light.user, name, value, consequence));
   };
-  if (q.errorFunction != "screen" && q.errorFunction != "ward")
+  if (q.errorFunction != "screen" && q.errorFunction != "ward" && q.errorFunction != "hessian")
     warn("errorfunction", q.errorFunction, "\"screen\" is used");
   if (q.radiance != "shader" && q.radiance != "atlas") warn("radiance", q.radiance, "gather rays run the shaders");
   if (!q.atlas.empty()) warn("atlas", q.atlas, "it is not read");
@@ -69,8 +61,9 @@ IndirectQuery queryOf(const BoundShader& light, Log& log) {
 /// Binds requests; groups that share a request share its shader, so that each problem is told once.
 class Binder {
  public:
-  Binder(const Scene& scene, ShaderRegistry& registry, const ShadowMaps& shadowMaps, Log& log)
+  Binder(const Scene& scene, ShaderRegistry& registry, const Textures& textures, const ShadowMaps& shadowMaps, Log& log)
       : scene_(scene),
+        textures_(textures),
         shadowMaps_(shadowMaps),
         registry_(registry),
         log_(log),
@@ -109,6 +102,7 @@ class Binder {
   BoundShaderPtr bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind);
 
   const Scene& scene_;
+  const Textures& textures_;
   const ShadowMaps& shadowMaps_;
   ShaderRegistry& registry_;
   Log& log_;
@@ -155,8 +149,10 @@ void setHostParams(BoundLight& light, const LightCall& call, const ShadowMaps& m
   const auto warn = [&](const char* code, const std::string& problem) {
     log.report(Severity::Warning, code, call.shader.where, light.bound->user + ": " + problem);
   };
+  light.shadowVariance = std::max(0.0f, number("shadowvariance"));
   light.nondiffuse = number("__nondiffuse") != 0, light.nonspecular = number("__nonspecular") != 0;
   light.group = !text("__group").empty() ? text("__group") : !text("lightgroup").empty() ? text("lightgroup") : call.handle;
+  light.category = !text("__category").empty() ? text("__category") : light.bound->text("__category", "");
   const std::string lighting = text("lighting");
   light.direct = lighting != "indirect", light.indirect = lighting != "direct";
   if (!lighting.empty() && lighting != "both" && light.direct && light.indirect)
@@ -199,7 +195,13 @@ std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index
     log_.report(Severity::Warning, "light-no-geometry", call.shader.where,
                 bound->user + ": no geometry follows the AreaLightSource; it casts no light");
   light->shadows = light->shadows && !indirect;
-  if (light->can(TM_LIGHT_AREA) || light->can(TM_LIGHT_SAMPLED))
+  if (light->can(TM_LIGHT_SKY)) {
+    const std::string picture = bound->text("map", "");
+    light->sky = picture.empty() ? std::make_shared<const Sky>()
+                                 : std::make_shared<const Sky>(textures_, picture, bound->where, bound->user,
+                                                               glm::inverse(mat3(cameraFromWorld_)));
+  }
+  if (light->can(TM_LIGHT_AREA) || light->can(TM_LIGHT_SKY) || light->can(TM_LIGHT_SAMPLED))
     light->samples = countOf(*bound, "samples", 16, 1, kMostLightSamples, log_);
   if (indirect) light->samples = 3, light->query = queryOf(*bound, log_);
   return light;
@@ -271,6 +273,27 @@ void warnAboutUnwritten(const FrameOutput& output, const BoundScene& scene) {
 
 namespace {
 
+const Param* optionOf(const Options& options, const char* key) {
+  const auto it = options.user.find(key);
+  return it == options.user.end() ? nullptr : &it->second;
+}
+
+/// docs/decisions/0004.
+float specularSharpnessOf(const Options& options, Log& log) {
+  const Param* convention = optionOf(options, "shade:specular");
+  const std::string name = convention && !convention->strings.empty() ? convention->strings[0] : "prman";
+  if (name != "prman" && name != "rispec")
+    log.report(Severity::Warning, "option-specular", {},
+               "Option \"shade\" \"specular\" \"" + name + "\" is neither \"prman\" nor \"rispec\"; \"prman\" is used");
+  return name == "rispec" ? 1.0f : 8.0f;
+}
+
+/// Option "limits" "texturememory" is in KB.
+int64_t textureMemoryOf(const Options& options) {
+  const Param* limit = optionOf(options, "limits:texturememory");
+  return limit ? static_cast<int64_t>(std::max(1.0f, limit->number(0))) << 10 : TextureSettings{}.memory_bytes;
+}
+
 /// Its shader never runs.
 BoundShaderPtr storedLight() {
   static const TmShader shader{TM_SHADER_ABI, sizeof(TmShader), "stored irradiance", TM_LIGHT, 0, nullptr, 0, nullptr, ""};
@@ -287,10 +310,11 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
       stats(st),
       camera(s.options),
       cameraFromWorld(s.cameraFromWorldAtOpen()),
-      textures(pathOf(s.options, "texture"), textureCache_MB(s.options), l, st),
+      specularSharpness(specularSharpnessOf(s.options, l)),
+      textures({pathOf(s.options, "texture"), pathOf(s.options, "texturecache"), textureMemoryOf(s.options)}, l, st),
       shadowMaps(pathOf(s.options, "texture"), l) {
   output_ = outputOf(scene.options);
-  binder_ = std::make_unique<Binder>(scene, registry, shadowMaps, log);
+  binder_ = std::make_unique<Binder>(scene, registry, textures, shadowMaps, log);
   for (const auto& call : scene.lights)
     lights.push_back(binder_->light(*call, static_cast<int>(lights.size())));
   connectFilters(*this);
@@ -320,6 +344,8 @@ BoundGroup BoundScene::bound(const ShadeGroup& group) const {
   g.indirectSurface = binder_->indirectSurface(a, where, g.object);
   g.displacement = binder_->optional(a.displacement, g.object, TM_DISPLACEMENT);
   g.atmosphere = binder_->optional(a.atmosphere, g.object, TM_VOLUME);
+  g.interior = binder_->optional(a.interior, g.object, TM_VOLUME);
+  g.exterior = binder_->optional(a.exterior, g.object, TM_VOLUME);
   g.surfaceOverrides = overridesOf(*g.surface, group.primvars);
   if (g.indirectSurface) g.indirectOverrides = overridesOf(*g.indirectSurface, group.primvars);
   if (g.displacement) g.displacementOverrides = overridesOf(*g.displacement, group.primvars);

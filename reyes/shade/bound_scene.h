@@ -3,10 +3,13 @@
 #include "reyes/shade.h"
 #include "reyes/shade/bound_shader.h"
 #include "reyes/shade/shadow_map.h"
+#include "reyes/shade/sky.h"
 #include "reyes/shade/texture.h"
 #include "reyes/shade/variables.h"
 
 namespace tomales {
+
+constexpr int kMostLightSamples = 1 << 12;  ///< Of one light from one point.
 
 struct BoundLight {
   BoundShaderPtr bound;
@@ -15,9 +18,12 @@ struct BoundLight {
   bool shadows = false;
   bool direct = true;                            ///< Lights what the camera sees.
   bool indirect = true;                          ///< Lights what gather rays see.
+  float shadowVariance = 0;                      ///< Of the share of light that passes: what its shadow rays may leave; 0: all are traced.
   bool nondiffuse = false, nonspecular = false;  ///< Left out by diffuse(), by specular().
   IndirectQuery query;                           ///< TM_LIGHT_INDIRECT alone.
   std::string group;                             ///< Light parameter "__group" or "lightgroup"; else the handle.
+  std::string category;                          ///< Light parameter "__category": names by commas.
+  std::shared_ptr<const Sky> sky;                ///< TM_LIGHT_SKY alone.
   vec3 sourceTint{1.0f};                         ///< Of the indirect light that this one filters.
   bool can(TmCapability capability) const { return bound->can(capability); }
 };
@@ -33,7 +39,7 @@ struct BoundGroup {
   std::string object;  ///< For messages.
   BoundShaderPtr surface,
       indirectSurface;  ///< The second: for rays that hit it (Attribute "indirect" "surface").
-  BoundShaderPtr displacement, atmosphere;  ///< May be null.
+  BoundShaderPtr displacement, atmosphere, interior, exterior;  ///< May be null.
   std::vector<Override> surfaceOverrides, indirectOverrides, displacementOverrides;
   std::vector<const BoundLight*> lights;
   std::optional<IndirectQuery> indirect;
@@ -55,6 +61,7 @@ struct BoundScene {
   const ShadeServices* services = nullptr;
   Camera camera;
   mat4 cameraFromWorld;
+  float specularSharpness;  ///< Over roughness, the exponent of specular().
   Textures textures;
   ShadowMaps shadowMaps;
   std::vector<std::unique_ptr<const BoundLight>> lights;  ///< As Scene::lights; null: unknown shader.

@@ -90,6 +90,8 @@ void Batch::setGrid(Grid& g, const BoundShader& shader, const std::vector<Overri
   tm.s = group.sOffset < 0 ? s : g.primvar(group.sOffset);
   tm.t = group.tOffset < 0 ? t : g.primvar(group.tOffset);
   tm.du = du, tm.dv = dv;
+  tm.dPdtime = constant(vec3(0));
+  stencil = stencilOf(g, arena);
 }
 
 void ShadingSystem::displace(Grid& grid) const {

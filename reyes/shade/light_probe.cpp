@@ -15,7 +15,8 @@ LightKind ShadingSystem::lightKind(int light) const {
   if (l->can(TM_LIGHT_INDIRECT)) return LightKind::Indirect;
   if (l->can(TM_LIGHT_AMBIENT)) return LightKind::Ambient;
   if (l->can(TM_LIGHT_AREA)) return LightKind::Area;
-  if (l->can(TM_LIGHT_SOLAR)) return l->can(TM_LIGHT_SAMPLED) ? LightKind::Sky : LightKind::Distant;
+  if (l->can(TM_LIGHT_SKY)) return LightKind::Sky;
+  if (l->can(TM_LIGHT_SOLAR)) return l->can(TM_LIGHT_SAMPLED) ? LightKind::None : LightKind::Distant;
   return LightKind::Point;
 }
 
@@ -38,17 +39,12 @@ void ShadingSystem::probe(int light, LightProbe& probe) const {
 
 vec3 ShadingSystem::skyRadiance(int light, const vec3& direction) const {
   const BoundShader& sky = *impl_->lights[static_cast<size_t>(light)]->bound;
-  const vec3 scale = sky.number("intensity", 1) * sky.color("lightcolor", vec3(1.0f));
-  const std::string map = sky.text("map", "");
-  if (map.empty()) return scale;
   const ShadeContext context;
   ArenaLease arena;
   Batch batch(*impl_, impl_->pixels, context, *arena);
   batch.setLit({{vec3(0.0f)}, {direction}, {}, {}, {}, {}}, sky);
-  batch.running = &sky;
-  const TmVec3 out = batch.arena.vec3(1);
-  kServices.environment(&batch, &batch.tm, map.c_str(), view(batch.tm.N), nullptr, out);
-  return scale * get(out, 0);
+  set(batch.tm.L, 0, direction);
+  return batch.run(sky, batch.tm) ? get(batch.tm.Cl, 0) : vec3(0.0f);
 }
 
 bool ShadingSystem::emits(int group) const {

@@ -3,6 +3,7 @@
 #include "reyes/base/checksum.h"
 #include "reyes/base/rng.h"
 #include "reyes/shade/batch.h"
+#include "reyes/shade/primary.h"
 
 namespace tomales {
 namespace {
@@ -15,11 +16,35 @@ bool applies(const BoundLight& light, const Batch& batch) {
   return batch.context.indirect && batch.group.group->attributes->indirect.receive;
 }
 
+/// Of the points, without neighbours; what the light brings has room for those.
 TmGrid lightGrid(Batch& batch, const BoundLight& light) {
-  TmGrid g = batch.tm;
+  TmGrid g = *Primary(batch, &batch.tm).grid();
   g.params = light.bound->values.data();
-  g.L = batch.arena.vec3(g.count), g.Cl = batch.arena.vec3(g.count);
+  g.L = batch.arena.vec3(batch.tm.count), g.Cl = batch.arena.vec3(batch.tm.count);
   return g;
+}
+
+/// Gives the outputs of a light room, so that lightsource() can read them.
+void openOutputs(Batch& batch, const BoundShader& light, std::vector<TmValue>& params) {
+  for (size_t i = 0; i < params.size(); ++i) {
+    if (!isOutput(light.shader->params[i])) continue;
+    const int width = (light.shader->params[i].type & ~TM_OUTPUT) == TM_FLOAT ? 1 : 3;
+    for (int k = 0; k < width; ++k) params[i].c[k] = batch.arena.floats(batch.tm.count);
+    params[i].step = 1;
+  }
+}
+
+/// What is not finite is dark: the fault is the light's, not that of the surface that asks.
+void darkenNonFinite(Batch& batch, const BoundShader& light, const TmGrid& g) {
+  bool bad = false;
+  for (int i = 0; i < g.count; ++i) {
+    if (isFinite(get(g.Cl, i)) && isFinite(get(g.L, i))) continue;
+    set(g.Cl, i, vec3(0)), set(g.L, i, vec3(0)), bad = true;
+  }
+  if (!bad) return;
+  const BoundShader* caller = std::exchange(batch.running, &light);
+  batch.report(Severity::Warning, "shader-not-finite", "returned NaN or infinity; it casts no light there");
+  batch.running = caller;
 }
 
 /// Random numbers of sample number g.sample, by what the points are and never by their place in the batch.
@@ -35,13 +60,46 @@ void drawSample(Batch& batch, const BoundLight& light, TmGrid& g) {
   g.xi0 = xi0, g.xi1 = xi1;
 }
 
+bool hasExtent(const BoundLight& light) { return light.can(TM_LIGHT_AREA) || light.can(TM_LIGHT_SKY); }
+
+int samplesOf(const BoundLight& light, const Batch& batch) {
+  const bool sampled = hasExtent(light) || light.can(TM_LIGHT_SAMPLED);
+  return sampled && batch.context.lightSamples > 0 ? batch.context.lightSamples : light.samples;
+}
+
+EmitterPoints emitterPoints(Batch& batch, TmGrid& g) {
+  const int n = g.count;
+  const EmitterPoints points{batch.arena.vec3(n), batch.arena.vec3(n), batch.arena.floats(n), batch.arena.floats(n)};
+  g.Pl = view(points.P), g.Nl = view(points.N);
+  return points;
+}
+
 /// Points on the emitter. False: the light has no geometry.
-bool sampleEmitter(Batch& batch, const BoundLight& light, TmGrid& g, float* area) {
+bool sampleEmitter(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPoints& points) {
   if (!batch.scene.services) return false;
-  const TmVec3 Pl = batch.arena.vec3(g.count), Nl = batch.arena.vec3(g.count);
-  if (!batch.scene.services->sampleEmitter(light.index, g.count, g.xi0, g.xi1, Pl, Nl, area)) return false;
-  g.Pl = view(Pl), g.Nl = view(Nl);
+  if (!batch.scene.services->sampleEmitter(light.index, g.count, view(g.P), g.xi0, g.xi1, points)) return false;
   for (int i = 0; i < g.count; ++i) set(g.L, i, get(g.Pl, i) - get(g.P, i));
+  return true;
+}
+
+void sampleSky(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPoints& points) {
+  for (int i = 0; i < g.count; ++i) {
+    set(g.L, i, light.sky->sample(batch.points->facingNormal(i), {g.xi0[i], g.xi1[i]}, points.density[i]));
+    points.meetDensity[i] = points.density[i];
+  }
+}
+
+/// Where directions from the points meet the light, and how likely its own samples are there. False: nothing can be met.
+bool meetLight(Batch& batch, const BoundLight& light, TmGrid& g, const LobeDirections& lobe, const EmitterPoints& points) {
+  for (int i = 0; i < g.count; ++i) set(g.L, i, get(lobe.L, i));
+  if (light.can(TM_LIGHT_AREA)) {
+    if (!batch.scene.services) return false;
+    batch.scene.services->meetEmitter(light.index, g.count, view(g.P), lobe.L, points);
+    for (int i = 0; i < g.count; ++i)
+      if (points.density[i] > 0) set(g.L, i, get(g.Pl, i) - get(g.P, i));
+    return true;
+  }
+  for (int i = 0; i < g.count; ++i) points.density[i] = light.sky->density(batch.points->facingNormal(i), get(g.L, i));
   return true;
 }
 
@@ -53,18 +111,21 @@ TmVec3 beforeEmitter(Batch& batch, const TmGrid& g, float reach) {
   return toward;
 }
 
-/// Radiance of the emitter -> what one of its samples adds to E/pi at normal incidence: Cl cos(light) area /
-/// (pi d^2).
-void radianceToSample(const TmGrid& g, const float* area) {
+/// Radiance -> what one of its samples adds to E/pi at normal incidence. density: over solid angle, of all samples together.
+void radianceToSample(const TmGrid& g, const float* density) {
   for (int i = 0; i < g.count; ++i) {
-    const vec3 L = get(g.L, i);
-    const float d2 = dot(L, L), d = std::sqrt(d2);
-    const float cosLight = d > 0 ? -dot(get(g.Nl, i), L) / d : 0.0f;
-    // Rounding leaves points of the emitter's own plane slightly in front of it, at no distance at all.
-    const float weight =
-        cosLight > 1e-5f ? cosLight * area[i] / (kPi * d2 * static_cast<float>(g.samples)) : 0.0f;
+    const float weight = density[i] > 0 ? 1 / (kPi * density[i]) : 0.0f;
     set(g.Cl, i, weight > 0 ? get(g.Cl, i) * weight : vec3(0.0f));
   }
+}
+
+// Visibility estimated from shadow rays is never quite certain: half a ray of each outcome is added, so that a few equal answers do not
+// pass for no variance at all.
+bool settled(const ShadowTally& tally, int i, float maxVariance) {
+  const float n = tally.traced[i];
+  if (n < 4) return false;
+  const vec3 p = (get(tally.passed, i) + 0.5f) / (n + 1);
+  return maxComponent(p * (1.0f - p)) <= maxVariance * n;
 }
 
 uint64_t sumOf(TmConstVec3 toward, int n, const ShadowRays& rays) {
@@ -134,28 +195,40 @@ std::vector<LightSample>& Lights::samples(Batch& batch) {
 void Lights::substitute(Batch& batch) {
   if (batch.context.light == Illumination::None) return;
   const TmVec3 L = batch.arena.vec3(batch.tm.count), Cl = batch.arena.vec3(batch.tm.count);
-  for (int i = 0; i < batch.tm.count; ++i) {
+  for (int i = 0; i < batch.points->count(); ++i) {
     set(L, i, batch.points->facingNormal(i));
     set(Cl, i, vec3(batch.context.light == Illumination::Unit ? 1.0f : 0.0f));
   }
   if (batch.context.light == Illumination::Stored && batch.scene.services)
     batch.scene.services->storedIrradiance(*batch.points, batch.tm.active, Cl);
-  samples_.push_back({&batch.scene.stored, L, Cl, L, {}, nullptr});
+  samples_.push_back({&batch.scene.stored, L, Cl, L, {}, nullptr, 0, nullptr, nullptr, L});
 }
 
 void Lights::evaluate(Batch& batch, const BoundLight& light) {
-  const bool area = light.can(TM_LIGHT_AREA);
-  const bool sampled = area || light.can(TM_LIGHT_SAMPLED);
-  const int n = sampled && batch.context.lightSamples > 0 ? batch.context.lightSamples : light.samples;
-  float* emitterArea = batch.arena.floats(batch.tm.count);
+  const bool area = light.can(TM_LIGHT_AREA), sky = light.can(TM_LIGHT_SKY);
+  const int n = samplesOf(light, batch);
+  ShadowTally* tally = nullptr;
+  if (light.shadowVariance > 0 && n > 1)
+    tally = &tallies_.emplace_back(ShadowTally{batch.arena.floats(batch.points->count()), batch.arena.vec3(batch.points->count())});
   for (int s = 0; s < n; ++s) {
     TmGrid g = lightGrid(batch, light);
+    openOutputs(batch, *light.bound, params_.emplace_back(light.bound->values));
+    g.params = params_.back().data();
     g.sample = s, g.samples = n;
-    if (sampled) drawSample(batch, light, g);
-    if (area && !sampleEmitter(batch, light, g, emitterArea)) return;
+    EmitterPoints points{};
+    if (area || sky || light.can(TM_LIGHT_SAMPLED)) drawSample(batch, light, g);
+    if (area || sky) points = emitterPoints(batch, g);
+    if (area && !sampleEmitter(batch, light, g, points)) return;
+    if (sky) sampleSky(batch, light, g, points);
     if (!batch.run(*light.bound, g)) return;
-    if (area) radianceToSample(g, emitterArea);
-    LightSample sample{&light, batch.arena.vec3(g.count), g.Cl, g.L, {light.can(TM_LIGHT_SOLAR), s, n}, nullptr};
+    darkenNonFinite(batch, *light.bound, g);
+    if (area || sky) {
+      for (int i = 0; i < g.count; ++i) points.density[i] *= static_cast<float>(n), points.meetDensity[i] *= static_cast<float>(n);
+      radianceToSample(g, points.density);
+    }
+    LightSample sample{&light, batch.arena.vec3(batch.tm.count), g.Cl, g.L, {light.can(TM_LIGHT_SOLAR), s, n}, nullptr, s, points.meetDensity, tally, g.L, g.params};
+    if (const int k = light.bound->output("__nondiffuse", ValueType::Float); k >= 0) sample.nondiffuse = g.params[k].c[0];
+    if (const int k = light.bound->output("__nonspecular", ValueType::Float); k >= 0) sample.nonspecular = g.params[k].c[0];
     for (int i = 0; i < g.count; ++i) set(sample.L, i, normalizeOr(get(g.L, i), vec3(0.0f)));
     if (light.shadows && batch.scene.services) {
       if (area) sample.toward = beforeEmitter(batch, g, batch.scene.services->emitterReach(light.index));
@@ -166,43 +239,100 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
   }
 }
 
+template <class Body>
+void Lights::forEachWithExtent(Batch& batch, const Body& body) const {
+  for (const BoundLight* light : batch.group.lights)
+    if (hasExtent(*light) && !light->nonspecular && applies(*light, batch) && (!group_ || light->group == *group_)) body(*light);
+}
+
+int Lights::mostSamples(Batch& batch) const {
+  int most = 0;
+  forEachWithExtent(batch, [&](const BoundLight& light) { most = std::max(most, samplesOf(light, batch)); });
+  return most;
+}
+
+void Lights::along(Batch& batch, const LobeDirections& lobe, TmVec3 Cl) {
+  forEachWithExtent(batch, [&](const BoundLight& light) { alongOne(batch, light, lobe, Cl); });
+  ++lobes_;
+}
+
+void Lights::alongOne(Batch& batch, const BoundLight& light, const LobeDirections& lobe, TmVec3 Cl) {
+  TmGrid g = lightGrid(batch, light);
+  g.sample = lobe.sample, g.samples = lobe.samples;
+  const EmitterPoints points = emitterPoints(batch, g);
+  if (!meetLight(batch, light, g, lobe, points)) return;
+  uint8_t* met = batch.arena.bytes(g.count);
+  for (int i = 0; i < g.count; ++i) met[i] = g.active[i] && lobe.density[i] > 0 && points.density[i] > 0;
+  if (std::none_of(met, met + g.count, [](uint8_t m) { return m != 0; })) return;
+  g.active = met;
+  if (!batch.run(*light.bound, g)) return;
+  const auto own = static_cast<float>(samplesOf(light, batch)), drawn = static_cast<float>(lobe.samples);
+  for (int i = 0; i < g.count; ++i) {
+    if (!met[i]) continue;
+    const float a = own * points.density[i], b = drawn * lobe.density[i];
+    points.density[i] = (a * a + b * b) / b;  // the power heuristic's weight of b, over b
+  }
+  radianceToSample(g, points.density);
+  // Questions of own samples are below the limit of their number.
+  LightSample sample{&light, g.L, g.Cl, g.L, {light.can(TM_LIGHT_SOLAR), lobe.sample, lobe.samples}, nullptr, kMostLightSamples + lobes_};
+  if (light.shadows && batch.scene.services) {
+    if (light.can(TM_LIGHT_AREA)) sample.toward = beforeEmitter(batch, g, batch.scene.services->emitterReach(light.index));
+    sample.pending = batch.arena.bytes(g.count);
+    std::copy_n(met, g.count, sample.pending);
+    shadow(batch, sample, met);
+  }
+  for (int i = 0; i < g.count; ++i)
+    if (met[i]) set(Cl, i, get(Cl, i) + get(g.Cl, i));
+}
+
 void Lights::shadow(Batch& batch, LightSample& sample, const uint8_t* want) const {
   if (!sample.pending) return;
-  const int n = batch.tm.count;
+  const int n = batch.points->count();
   uint8_t* trace = batch.arena.bytes(n);
   bool any = false;
   for (int i = 0; i < n; ++i) {
-    trace[i] = want[i] && sample.pending[i] && get(sample.Cl, i) != vec3(0.0f);
-    if (!trace[i]) continue;
-    sample.pending[i] = 0, any = true;
+    if (!want[i] || !sample.pending[i] || get(sample.Cl, i) == vec3(0.0f)) continue;
+    sample.pending[i] = 0;
+    if (sample.tally && settled(*sample.tally, i, sample.light->shadowVariance))
+      set(sample.Cl, i, get(sample.Cl, i) * get(sample.tally->passed, i) / sample.tally->traced[i]);
+    else
+      trace[i] = 1, any = true;
   }
-  if (any && batch.context.answers)
-    shadowFromAnswers(batch, sample, trace);
-  else if (any)
-    batch.scene.services->transmission(*batch.points, trace, view(sample.toward), sample.rays, batch.context, sample.Cl);
+  if (!any) return;
+  const TmVec3 passed = batch.arena.vec3(n);
+  for (int i = 0; i < n; ++i) set(passed, i, vec3(1.0f));
+  if (batch.context.answers)
+    transmitFromAnswers(batch, sample, trace, passed);
+  else
+    transmit(batch, sample, trace, passed);
+  for (int i = 0; i < n; ++i) {
+    if (!trace[i]) continue;
+    set(sample.Cl, i, get(sample.Cl, i) * get(passed, i));
+    if (!sample.tally) continue;
+    sample.tally->traced[i] += 1;
+    set(sample.tally->passed, i, get(sample.tally->passed, i) + get(passed, i));
+  }
+}
+
+void Lights::transmit(Batch& batch, const LightSample& sample, const uint8_t* want, TmVec3 passed) const {
+  batch.scene.services->transmission(*batch.points, want, view(sample.toward), sample.rays, batch.context, passed);
 }
 
 // What no answer is known of is traced. When answers are being recorded that is every point, wherever the shader looks and
 // however bright the light: intensities, cones and surfaces may then change without a ray.
-void Lights::shadowFromAnswers(Batch& batch, LightSample& sample, const uint8_t* want) const {
+void Lights::transmitFromAnswers(Batch& batch, const LightSample& sample, const uint8_t* want, TmVec3 passed) const {
   RayAnswers& answers = *batch.context.answers;
-  const int n = batch.tm.count;
+  const int n = batch.points->count();
   const uint64_t asked = sumOf(view(sample.toward), n, sample.rays);
-  const ShadowQuestion question{batch.context.chunk, sample.light->index, sample.rays.sample};
-  const TmVec3 passed = batch.arena.vec3(n);
+  const ShadowQuestion question{batch.context.chunk, sample.light->index, sample.question};
   uint8_t* unknown = batch.arena.bytes(n);
   std::copy_n(answers.recording ? batch.tm.active : want, n, unknown);
   const auto known = answers.shadows.find(question);
   if (known != answers.shadows.end() && known->second.asked == asked)
     recall(known->second, n, unknown, passed);
-  if (std::any_of(unknown, unknown + n, [](uint8_t u) { return u != 0; })) {
-    for (int i = 0; i < n; ++i)
-      if (unknown[i]) set(passed, i, vec3(1.0f));
-    batch.scene.services->transmission(*batch.points, unknown, view(sample.toward), sample.rays, batch.context, passed);
-    if (answers.recording) answers.shadows[question] = answerOf(passed, unknown, n, asked);
-  }
-  for (int i = 0; i < n; ++i)
-    if (want[i]) set(sample.Cl, i, get(sample.Cl, i) * get(passed, i));
+  if (std::none_of(unknown, unknown + n, [](uint8_t u) { return u != 0; })) return;
+  transmit(batch, sample, unknown, passed);
+  if (answers.recording) answers.shadows[question] = answerOf(passed, unknown, n, asked);
 }
 
 }  // namespace tomales

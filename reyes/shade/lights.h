@@ -2,6 +2,7 @@
 // Shadow rays are traced later still, sample by sample, for the points on whose side of the surface the
 // sample turns out to be.
 #pragma once
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,12 @@ namespace tomales {
 class Batch;
 struct BoundLight;
 
+/// What the shadow rays of one light have brought so far, at each point.
+struct ShadowTally {
+  float* traced;  ///< Number of them
+  TmVec3 passed;  ///< Their sum
+};
+
 struct LightSample {
   const BoundLight* light;
   TmVec3 L;          ///< Unit, from P to the light.
@@ -19,6 +26,19 @@ struct LightSample {
   TmVec3 toward;     ///< L at full length: what a shadow ray travels.
   ShadowRays rays;   ///< Which they are.
   uint8_t* pending;  ///< 1: a shadow ray is still to be traced. Null: the light casts no shadows.
+  int question = 0;  ///< Name of its shadow rays among those of the light (ray_answers.h).
+  const float* density = nullptr;  ///< Over solid angle, of all samples of the light together, where along() finds it too; else 0, null: nowhere.
+  ShadowTally* tally = nullptr;    ///< Null: every shadow ray is traced.
+  TmVec3 far{};      ///< L at full length, for points and their neighbours.
+  const TmValue* params = nullptr;  ///< Of this run of its shader, outputs included.
+  const float *nondiffuse = nullptr, *nonspecular = nullptr;  ///< Its outputs of that name.
+};
+
+/// Unit directions that a surface has drawn itself: one of `samples` for each point. density: over solid angle; 0: none.
+struct LobeDirections {
+  TmConstVec3 L;
+  const float* density;
+  int sample, samples;
 };
 
 class Lights {
@@ -30,14 +50,27 @@ class Lights {
   /// All samples of all lights that have a direction, in the order of Attributes::lights. Unshadowed until
   /// `shadow`.
   std::vector<LightSample>& samples(Batch& batch);
-  /// Traces what is pending at the points of `want`.
+  /// Traces what is pending at the points of `want`, but for those whose light passes to an accuracy that the light is content with.
   void shadow(Batch& batch, LightSample& sample, const uint8_t* want) const;
 
+  /// Adds what lights with an extent send along the given directions, shadowed, as samples by the power heuristic: with a the density
+  /// of the light's own samples there and b that of those given, radiance / pi * b / (a^2 + b^2).
+  void along(Batch& batch, const LobeDirections& lobe, TmVec3 Cl);
+  /// Of the lights that along() may find, the largest number of samples; 0: there are none.
+  int mostSamples(Batch& batch) const;
+
  private:
-  void shadowFromAnswers(Batch& batch, LightSample& sample, const uint8_t* want) const;
+  void transmit(Batch& batch, const LightSample& sample, const uint8_t* want, TmVec3 passed) const;
+  void transmitFromAnswers(Batch& batch, const LightSample& sample, const uint8_t* want, TmVec3 passed) const;
   void evaluate(Batch& batch, const BoundLight& light);
+  void alongOne(Batch& batch, const BoundLight& light, const LobeDirections& lobe, TmVec3 Cl);
   void substitute(Batch& batch);
+  template <class Body>
+  void forEachWithExtent(Batch& batch, const Body& body) const;
   bool evaluated_ = false;
+  std::deque<std::vector<TmValue>> params_;
+  int lobes_ = 0;  ///< That along() was given.
+  std::deque<ShadowTally> tallies_;
   std::vector<LightSample> samples_, chosen_;  ///< All; those of group_.
   const std::string* group_ = nullptr;
 };

@@ -5,6 +5,8 @@
 #include <string_view>
 
 #include "reyes/base/rng.h"
+#include "reyes/shade/primary.h"
+#include "reyes/shade/volumes.h"
 
 namespace tomales {
 namespace {
@@ -12,14 +14,6 @@ namespace {
 constexpr float kSpecularCone = 10 * kPi / 180;  ///< trace:specularthreshold of rispec-table 3.2: wider rays are diffuse.
 constexpr float kFar = 1e30f;                    ///< RI_INFINITY: the distance to nothing
 constexpr uint32_t kConeStream = 0x636f6e65U, kBaseStream = 0x62617365U;
-
-Batch& batchOf(void* host) { return *static_cast<Batch*>(host); }
-
-template <class Body>
-void forActive(const TmGrid* g, const Body& body) {
-  for (int i = 0; i < g->count; ++i)
-    if (g->active[i]) body(i);
-}
 
 /// The caller's options, as many as it knows of.
 TmRayOptions optionsOf(const TmRayOptions* given) {
@@ -110,10 +104,12 @@ float weightOf(const TmRayOptions& o, float distance) {
 
 }  // namespace
 
-void traceRays(void* host, const TmGrid* g, TmConstVec3 P, TmConstVec3 direction, const TmRayOptions* given, TmVec3 color, float* distance) {
+void traceRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 direction, const TmRayOptions* given, TmVec3 color, float* distance) {
   Batch& batch = batchOf(host);
+  const Primary primary(batch, all);
+  const TmGrid* g = primary.grid();
   const TmRayOptions options = optionsOf(given);
-  forActive(g, [&](int i) {
+  forActive(all, [&](int i) {
     if (color.x) set(color, i, vec3(0));
     if (distance) distance[i] = kFar;
   });
@@ -122,20 +118,24 @@ void traceRays(void* host, const TmGrid* g, TmConstVec3 P, TmConstVec3 direction
   RayQuery query = queryOf(options);
   RayResult result;
   result.distance = batch.arena.floats(g->count);
-  if (color.x) result.color = batch.arena.vec3(g->count);
+  if (color.x) result.color = batch.arena.vec3(g->count), result.opacity = batch.arena.vec3(g->count);
   for (; query.number < options.samples; ++query.number) {
     cone.aim(P, direction, query.number);
     batch.scene.services->trace(*batch.points, g->active, cone.origin(), cone.direction(), query, batch.context, result);
+    if (color.x) crossVolumes(batch, g, cone.origin(), cone.direction(), result.distance, result.color, result.opacity);
     forActive(g, [&](int i) {
       if (color.x) set(color, i, get(color, i) + get(result.color, i) / static_cast<float>(options.samples));
       if (distance) distance[i] = std::min(distance[i], result.distance[i]);
     });
   }
+  primary.spread(color), primary.spread(distance);
 }
 
-int32_t gatherRays(void* host, const TmGrid* g, TmConstVec3 P, TmConstVec3 axis, const TmRayOptions* given, int32_t ray, uint8_t* hit,
+int32_t gatherRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 axis, const TmRayOptions* given, int32_t ray, uint8_t* hit,
                    const TmRayOutput* outputs, int32_t outputCount) {
   Batch& batch = batchOf(host);
+  const Primary primary(batch, all);
+  const TmGrid* g = primary.grid();
   const TmRayOptions options = optionsOf(given);
   if (ray < 0 || ray >= options.samples || !traces(batch)) return 0;
   Cone cone(batch, g, options);
@@ -163,14 +163,19 @@ int32_t gatherRays(void* host, const TmGrid* g, TmConstVec3 P, TmConstVec3 axis,
       for (int k = 0; k < o->floats; ++k) o->c[k][i] = value[k];
     }
   });
+  primary.spread(hit);
+  for (const TmRayOutput& o : std::span(outputs, static_cast<size_t>(outputCount)))
+    for (int k = 0; k < o.floats; ++k) primary.spread(o.c[k]);
   return 1;
 }
 
-void occlusion(void* host, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions* given, float* covered, TmVec3 radiance) {
+void occlusion(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 N, const TmRayOptions* given, float* covered, TmVec3 radiance) {
   Batch& batch = batchOf(host);
+  const Primary primary(batch, all);
+  const TmGrid* g = primary.grid();
   TmRayOptions options = optionsOf(given);
   if (options.coneAngle == 0) options.coneAngle = kPi / 2;
-  forActive(g, [&](int i) {
+  forActive(all, [&](int i) {
     covered[i] = 0;
     if (radiance.x) set(radiance, i, vec3(0));
   });
@@ -189,12 +194,15 @@ void occlusion(void* host, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const 
       if (radiance.x) set(radiance, i, get(radiance, i) + share * get(result.color, i));
     });
   }
+  primary.spread(covered), primary.spread(radiance);
 }
 
-void transmissionWith(void* host, const TmGrid* g, TmConstVec3 P, TmConstVec3 toward, const TmRayOptions* given, TmVec3 out) {
+void transmissionWith(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 toward, const TmRayOptions* given, TmVec3 out) {
   Batch& batch = batchOf(host);
+  const Primary primary(batch, all);
+  const TmGrid* g = primary.grid();
   const TmRayOptions options = optionsOf(given);
-  forActive(g, [&](int i) { set(out, i, vec3(1)); });
+  forActive(all, [&](int i) { set(out, i, vec3(1)); });
   if (!traces(batch) || batch.context.kind == RayKind::Transmission) return;
   Cone cone(batch, g, options);
   const RayQuery query = queryOf(options, RayKind::Transmission);
@@ -212,6 +220,7 @@ void transmissionWith(void* host, const TmGrid* g, TmConstVec3 P, TmConstVec3 to
     forActive(g, [&](int i) { set(sum, i, get(sum, i) + get(clear, i)); });
   }
   forActive(g, [&](int i) { set(out, i, get(sum, i) / static_cast<float>(options.samples)); });
+  primary.spread(out);
 }
 
 int32_t rayInfo(void* host, const TmGrid* g, const char* name, TmVec3 out) {

@@ -42,6 +42,12 @@ bool ShadingSystem::opaque(int group) const {
   return g.group->attributes->opacity == vec3(1.0f) && g.OsOffset < 0 && g.surface->can(TM_KEEPS_OPACITY);
 }
 
+bool ShadingSystem::wantsSteps(int group) const {
+  const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
+  const auto wants = [](const BoundShaderPtr& s) { return s && (s->can(TM_DERIVATIVES) || s->can(TM_NEIGHBOURS)); };
+  return wants(g.surface) || wants(g.indirectSurface);
+}
+
 bool ShadingSystem::keepsOpacity(int group) const {
   return impl_->groups[static_cast<size_t>(group)].surface->can(TM_KEEPS_OPACITY);
 }
@@ -56,7 +62,7 @@ void ShadingSystem::shade(const ShadePoints& points, const ShadeContext& context
   if (variables) allocateVariables(group.variables, count, out);
 
   const ShaderTimer timer(impl_->stats, shader, count);
-  ShadePoints chunk(points.group(), points.channelCount() - kFixedChannels);
+  ShadePoints chunk(points.group(), points.primvarFloats(), points.hasSteps());
   for (int begin = 0; begin < count; begin += kChunk) {
     copyChunk(points, begin, std::min(begin + kChunk, count), chunk);
     ArenaLease arena;
@@ -67,6 +73,7 @@ void ShadingSystem::shade(const ShadePoints& points, const ShadeContext& context
                     begin);
     if (variables) batch.openOutputs(group.variables, out, begin);
     repair(batch, shader, batch.run(shader, batch.tm));
+    batch.closeOutputs(variables ? group.variables : std::vector<BoundVariable>{}, out, begin);
     if (variables) storeVariables(group.variables, batch, shader, out, begin);
   }
   impl_->stats.shade.verticesShaded += count;

@@ -15,19 +15,21 @@ extern "C" const char* __asan_default_options() { return "new_delete_type_mismat
 namespace tomales {
 
 struct Textures::Impl {
-  const std::string searchPath;
-  const float cache_MB;
+  const TextureSettings settings;
   Log& log;
   Stats& stats;
   std::once_flag opened{};
   std::unique_ptr<TextureCache> cache{};  ///< Null: `problem` says why.
   std::string problem{};
 
-  bool lookup(const TextureQuery& query, TmVec3 out, std::string& error) {
+  TextureCache* open() {
     std::call_once(opened, [this] {
-      if (const PictureLibrary* library = pictureLibrary(problem)) cache = library->textures(searchPath, cache_MB);
+      if (const PictureLibrary* library = pictureLibrary(problem)) cache = library->textures(settings);
     });
-    if (!cache) return error = problem, false;
+    return cache.get();
+  }
+  bool lookup(const TextureQuery& query, TmVec3 out, std::string& error) {
+    if (!open()) return error = problem, false;
     int64_t lookups = 0;
     const bool found = cache->lookup(query, out, lookups, error);
     stats.textures.lookups += lookups;
@@ -35,9 +37,18 @@ struct Textures::Impl {
   }
 };
 
-Textures::Textures(const std::string& searchPath, float cache_MB, Log& log, Stats& stats)
-    : impl_(new Impl{searchPath, cache_MB, log, stats}) {}
-Textures::~Textures() = default;
+Textures::Textures(const TextureSettings& settings, Log& log, Stats& stats) : impl_(new Impl{settings, log, stats}) {}
+
+Textures::~Textures() {
+  if (!impl_->cache) return;
+  const TextureFigures figures = impl_->cache->figures();
+  auto& s = impl_->stats.textures;
+  s.tileRequests += figures.tileRequests, s.tileMisses += figures.tileMisses, s.bytesRead += figures.bytesRead;
+}
+
+bool Textures::info(const std::string& name, const std::string& what, std::vector<float>& numbers, std::string& text) const {
+  return impl_->open() && impl_->cache->info(name, what, numbers, text);
+}
 
 bool Textures::lookup(const TextureQuery& q, const SourceLoc& where, const std::string& user, TmVec3 out) const {
   std::string error;

@@ -10,11 +10,12 @@ namespace tomales {
 
 class Textures {
  public:
-  /// `searchPath`: colon-separated folders.
-  Textures(const std::string& searchPath, float cache_MB, Log& log, Stats& stats);
+  Textures(const TextureSettings& settings, Log& log, Stats& stats);
   ~Textures();
   /// Fills out.x (and y, z for three channels). False: unreadable, reported, `out` is magenta.
   bool lookup(const TextureQuery& query, const SourceLoc& where, const std::string& user, TmVec3 out) const;
+  /// TextureCache::info; nothing is reported.
+  bool info(const std::string& name, const std::string& what, std::vector<float>& numbers, std::string& text) const;
 
  private:
   struct Impl;

@@ -51,7 +51,7 @@ TmVec3 destination(const BoundVariable& v, ShadedPoints& out, int begin) {
 
 void copyChannel(const BoundVariable& v, const Batch& batch, ShadedPoints& out, int begin) {
   for (int k = 0; k < v.width; ++k)
-    std::copy_n(batch.points->channel(v.index + k), batch.tm.count,
+    std::copy_n(batch.points->channel(v.index + k), batch.points->count(),
                 out.variables[static_cast<size_t>(v.first + k)].begin() + begin);
 }
 
@@ -64,7 +64,7 @@ class LightGroups {
     if (!unlit_.x) unlit_ = run("");
     const bool rest = group.empty();
     const TmVec3 lit = rest ? unlit_ : run(group);
-    for (int i = 0; i < batch_.tm.count; ++i) set(to, i, get(lit, i) - (rest ? vec3(0.0f) : get(unlit_, i)));
+    for (int i = 0; i < batch_.points->count(); ++i) set(to, i, get(lit, i) - (rest ? vec3(0.0f) : get(unlit_, i)));
   }
 
  private:
@@ -106,20 +106,11 @@ void allocateVariables(const std::vector<BoundVariable>& variables, int count, S
     for (int k = 0; k < v.width; ++k) out.variables.emplace_back(static_cast<size_t>(padded(count)), v.fill);
 }
 
-void openOutputs(const std::vector<BoundVariable>& variables, ShadedPoints& out, int begin, std::vector<TmValue>& params) {
-  for (const BoundVariable& v : variables) {
-    if (v.from != From::Output) continue;
-    TmValue& value = params[static_cast<size_t>(v.index)];
-    for (int k = 0; k < v.width; ++k) value.c[k] = out.variables[static_cast<size_t>(v.first + k)].data() + begin;
-    value.step = 1;
-  }
-}
-
 void storeVariables(const std::vector<BoundVariable>& variables, Batch& batch, const BoundShader& shader, ShadedPoints& out,
                     int begin) {
   LightGroups groups(batch, shader);
   for (const BoundVariable& v : variables) {
-    const int n = batch.tm.count;
+    const int n = batch.points->count();
     const auto each = [&](const auto& value) {
       const TmVec3 to = destination(v, out, begin);
       for (int i = 0; i < n; ++i) set(to, i, value(i));

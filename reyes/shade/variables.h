@@ -23,8 +23,6 @@ std::vector<BoundVariable> bindVariables(const FrameOutput& output, const BoundG
 
 /// Makes room, filled with what stands where nobody writes.
 void allocateVariables(const std::vector<BoundVariable>& variables, int count, ShadedPoints& out);
-/// Before the shader runs: its outputs go to elements from `begin`.
-void openOutputs(const std::vector<BoundVariable>& variables, ShadedPoints& out, int begin, std::vector<TmValue>& params);
 /// After it has run: everything else. Runs it again for light groups, on the same light samples: a group's share is what the
 /// shader makes of its lights alone, less what it makes of none, so that all groups and "" add up to Ci wherever Ci is
 /// linear in light.

@@ -1,4 +1,5 @@
 """Runs the renderer in a folder of its own and collects what did not go as a test expects."""
+import os
 import pathlib
 import subprocess
 import sys
@@ -30,7 +31,8 @@ class Suite:
 
     def run(self, *arguments, stdin=None):
         return subprocess.run([self.program, *arguments], cwd=self.folder, input=stdin, capture_output=True,
-                              timeout=60, text=True, errors="replace")
+                              timeout=60, text=True, errors="replace",
+                              env={**os.environ, "TOMALES_TEXTURE_CACHE": str(self.folder / "textures")})
 
     def expect(self, condition, message):
         print(("ok      " if condition else "FAILED  ") + message)

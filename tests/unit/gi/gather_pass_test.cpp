@@ -47,11 +47,13 @@ TEST(GatherPass, CoversEveryPointOfTheFrameWithFarFewerRecords) {
   const int64_t samples = world.stats.irradianceCache.samples;
   EXPECT_LT(samples, 64 * 64 / 4);
   EXPECT_GT(samples, 64 * 64 / 300);
-  EXPECT_EQ(world.stats.rays.gather, samples * 65);  // 64 asked for: 5 x 13 cells
+  const int64_t rays = world.stats.rays.gather;
+  EXPECT_GE(rays, samples * 65);  // 64 asked for: 5 x 13 cells
+  EXPECT_LE(rays, samples * 65 * 3 / 2) << "up to half as many more where light changes fast";
   indirectOf(*services, world, frame);
   EXPECT_EQ(world.stats.irradianceCache.interpolated, world.stats.irradianceCache.lookups);
   EXPECT_GT(world.stats.irradianceCache.lookups, 3000);
-  EXPECT_EQ(world.stats.rays.gather, samples * 65);
+  EXPECT_EQ(world.stats.rays.gather, rays);
 }
 
 TEST(GatherPass, TheCacheDoesNotDependOnThreadsOrBuckets) {
@@ -90,7 +92,8 @@ TEST(GatherPass, AMaxErrorOfZeroGathersEveryPointWhileShading) {
   int64_t points = 0;
   for (const DeepTile& tile : frame.tiles) points += static_cast<int64_t>(tile.fragments.size());
   const HemisphereCells cells = hemisphereCells(16);
-  EXPECT_EQ(world.stats.rays.gather, points * cells.rings * cells.sectors);
+  EXPECT_GE(world.stats.rays.gather, points * cells.rings * cells.sectors);
+  EXPECT_LE(world.stats.rays.gather, points * cells.rings * cells.sectors * 3 / 2);
 }
 
 TEST(GatherPass, InterpolatedLightAgreesWithTheReference) {

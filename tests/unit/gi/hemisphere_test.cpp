@@ -1,4 +1,5 @@
 #include "gi/hemisphere.h"
+#include "gi/hessian.h"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +17,12 @@ struct Seen {
 };
 using World = std::function<Seen(const vec3& origin, const vec3& direction)>;
 
-IrradianceRecord look(const World& world, const vec3& origin, const vec3& normal, int count,
-                      uint32_t seed = 1) {
+struct Curved {
+  IrradianceRecord record;
+  IrradianceCurvature curvature;
+};
+
+Curved lookTwice(const World& world, const vec3& origin, const vec3& normal, int count, uint32_t seed) {
   const HemisphereCells cells = hemisphereCells(count);
   HemisphereSamples s{cells, {}, {}, normal, {}, {}, {}};
   orthonormalBasis(normal, s.tangent, s.bitangent);
@@ -32,8 +37,14 @@ IrradianceRecord look(const World& world, const vec3& origin, const vec3& normal
       radiance.push_back(seen.radiance), distances.push_back(seen.distance);
     }
   s.directions = directions, s.radiance = radiance, s.distances = distances;
-  return summarize(s);
+  return {summarize(s), curvatureOf(s)};
 }
+
+IrradianceRecord look(const World& world, const vec3& origin, const vec3& normal, int count, uint32_t seed = 1) {
+  return lookTwice(world, origin, normal, count, seed).record;
+}
+
+Curved lookCurved(const World& world, int count, uint32_t seed) { return lookTwice(world, vec3(0), {0, 0, 1}, count, seed); }
 
 // E/pi by a midpoint rule, fine enough to differentiate.
 double exactE(const World& world, const vec3& origin, const vec3& normal) {
@@ -198,6 +209,35 @@ TEST(Hemisphere, GradientsTurnWithTheFrame) {
   EXPECT_LT(glm::length(back - a.translationGradient[0]), 0.1f * glm::length(a.translationGradient[0]));
   EXPECT_LT(glm::length(glm::transpose(turn) * b.rotationGradient[0] - a.rotationGradient[0]),
             0.03f * glm::length(a.rotationGradient[0]));
+}
+
+// Second differences of the exact E/pi.
+vec3 exactHessian(const World& world, float step) {
+  const auto E = [&](float x, float y) { return exactE(world, {x, y, 0}, kUp); };
+  const double h2 = static_cast<double>(step) * static_cast<double>(step), middle = E(0, 0);
+  return {(E(step, 0) + E(-step, 0) - 2 * middle) / h2, (E(step, step) + E(-step, -step) - E(step, -step) - E(-step, step)) / (4 * h2),
+          (E(0, step) + E(0, -step) - 2 * middle) / h2};
+}
+
+TEST(Hemisphere, TheHessianIsTheSecondDerivativeOfE) {
+  for (const World& world : {World(smoothCeiling), World(patchBelowCeiling)}) {
+    const vec3 exact = exactHessian(world, 0.1f);
+    vec3 mean(0);
+    constexpr int kTries = 8;
+    for (uint32_t seed = 0; seed < kTries; ++seed) {
+      const Curved seen = lookCurved(world, 6000, seed);
+      mean += vec3(seen.curvature.xx, seen.curvature.xy, seen.curvature.yy) / static_cast<float>(kTries);
+      EXPECT_NEAR(seen.curvature.gradient[0].x, seen.record.translationGradient[0].x, 0.03f);
+      EXPECT_NEAR(seen.curvature.gradient[0].y, seen.record.translationGradient[0].y, 0.03f);
+    }
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c], exact[c], 0.12f * glm::length(exact)) << c;
+  }
+}
+
+TEST(Hemisphere, ALightThatFillsTheHemisphereHasNoHessian) {
+  const Curved seen = lookCurved([](const vec3&, const vec3&) { return Seen{vec3(1), 2}; }, 600, 1);
+  EXPECT_NEAR(seen.curvature.xx, 0, 1e-4f);
+  EXPECT_GT(hessianRadius(seen.curvature, 1, 0.1f, 1), 2);
 }
 
 }  // namespace

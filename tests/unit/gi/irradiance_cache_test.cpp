@@ -202,5 +202,35 @@ TEST(IrradianceCache, InterpolationIsContinuousWhereARecordEnds) {
   }
 }
 
+TEST(IrradianceCache, ARecordThatIsWrongAtANewOneEndsBeforeIt) {
+  IrradianceCache cache(kBox, {});
+  cache.insert(recordAt(vec3(0), vec3(1)));
+  cache.insert(recordAt({0.05f, 0, 0}, vec3(2)));
+  EXPECT_FLOAT_EQ(cache.records()[0].limit, 0.05f);
+  EXPECT_FLOAT_EQ(cache.records()[1].limit, 0.05f);
+  EXPECT_NEAR(cache.lookup({-0.04f, 0, 0}, kUp, 0.01f).E.x, 1, 1e-5f) << "the new one would still reach here";
+  EXPECT_NEAR(cache.lookup({0.051f, 0, 0}, kUp, 0.01f).E.x, 2, 1e-5f);
+}
+
+TEST(IrradianceCache, NoiseIsNoDispute) {
+  IrradianceCache cache(kBox, {});
+  IrradianceRecord a = recordAt(vec3(0), vec3(1)), b = recordAt({0.05f, 0, 0}, vec3(1.5f));
+  a.noise = b.noise = 0.1f;
+  cache.insert(a), cache.insert(b);
+  EXPECT_EQ(cache.records()[0].limit, kInfinity);
+  const IrradianceEstimate between = cache.lookup({0.02f, 0, 0}, kUp, 0.01f);
+  EXPECT_FALSE(between.disputed);
+  EXPECT_GT(between.E.x, 1.1f);
+}
+
+TEST(IrradianceCache, TheHessianReachesAsFarAsLightIsSmoothButNotPastWhatItSees) {
+  const CacheSettings hessian{ErrorFunction::Hessian, 1, 40};
+  IrradianceRecord r = recordAt(vec3(0), vec3(1), 0.5f);
+  r.smoothRadius = 0.2f;
+  EXPECT_NEAR(weightOfOne(hessian, r, {0.05f, 0, 0}, kUp, 0.01f), 0.75f, 1e-5f);
+  r.closest = 0.1f;
+  EXPECT_NEAR(weightOfOne(hessian, r, {0.05f, 0, 0}, kUp, 0.01f), 0.5f, 1e-5f);
+}
+
 }  // namespace
 }  // namespace tomales

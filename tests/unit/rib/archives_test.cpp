@@ -367,15 +367,17 @@ TEST(Ris, BxdfsBecomeStandardShaders) {
   EXPECT_EQ(r.log.count("rib-substitute"), 2) << "once a name";
 }
 
-TEST(Ris, AreaLightsEmitAlongMinusZAndStaySwitchedOn) {
+TEST(Ris, AreaLightsEmitAlongTheirZAndStaySwitchedOn) {
   for (const char* kind : {"PxrRectLight", "PxrDiskLight", "PxrSphereLight"}) {
-    const Reading r(inWorld("Light \"" + std::string(kind) +
-                            "\" \"key\" \"float intensity\" 3 \"float exposure\" 2\n" + kSphere));
+    const Reading r(inWorld("Attribute \"visibility\" \"int camera\" 0 \"int indirect\" 0 Light \"" + std::string(kind) +
+                            "\" \"key\" \"float intensity\" 3 \"float exposure\" 2 \"__instanceid\" [\"k\"]\n" + kSphere));
     ASSERT_EQ(r.scene().lights.size(), 1u) << kind;
     EXPECT_TRUE(r.scene().lights[0]->area);
     EXPECT_EQ(findParam(r.scene().lights[0]->shader.params, "intensity")->number(0), 12);
     EXPECT_EQ(r.attributes(0).areaLight, 0);
+    EXPECT_FALSE(r.attributes(0).visibility.camera || r.attributes(0).visibility.transmission || r.attributes(0).visibility.diffuse);
     EXPECT_EQ(r.attributes(1).areaLight, -1);
+    EXPECT_TRUE(r.attributes(1).visibility.transmission);
     EXPECT_EQ(r.attributes(1).lights, std::vector<int>{0});
     if (kind == std::string("PxrSphereLight")) continue;
     std::vector<float> x(12);
@@ -383,11 +385,27 @@ TEST(Ris, AreaLightsEmitAlongMinusZAndStaySwitchedOn) {
     r.object(0).shape().evaluate(
         0, 1, &half, &half,
         {&x[0], &x[1], &x[2], &x[3], &x[4], &x[5], &x[6], &x[7], &x[8], &x[9], &x[10], &x[11]});
-    EXPECT_LT(x[11], 0) << kind;
+    EXPECT_GT(x[11], 0) << kind;
   }
 }
 
+TEST(Ris, LightsOutlastTheirBlock) {
+  const Reading r(inWorld("AttributeBegin AttributeBegin Light \"PxrDistantLight\" \"sun\" " + kSphere + "AttributeEnd " + kSphere +
+                          "Illuminate \"sun\" 0 " + kSphere + "AttributeEnd " + kSphere));
+  for (const size_t i : {0u, 1u, 3u}) EXPECT_EQ(r.attributes(i).lights, std::vector<int>{0}) << i;
+  EXPECT_TRUE(r.attributes(2).lights.empty());
+}
+
 TEST(Ris, IntegratorsTurnIndirectLightOn) {
+  const auto bounces = [](const std::string& params) {
+    const Reading r("Integrator \"PxrPathTracer\" \"i\" " + params + inWorld(kSphere));
+    const Param* p = r.scene().lights.empty() ? nullptr : findParam(r.scene().lights[0]->shader.params, "bounces");
+    return r.scene().lights.empty() ? 0.0f : p ? p->number(0) : -1.0f;
+  };
+  EXPECT_EQ(bounces(""), -1) << "that of indirectlight";
+  EXPECT_EQ(bounces("\"int maxPathLength\" 4"), 3);
+  EXPECT_EQ(bounces("\"int maxPathLength\" 1"), 0) << "direct light alone";
+  EXPECT_EQ(bounces("\"int maxIndirectBounces\" 2"), 2);
   const Reading path(
       "Integrator \"PxrPathTracer\" \"i\"" +
       inWorld("Light \"PxrDomeLight\" \"sky\" \"string lightColorMap\" \"sky.exr\" " + kSphere));
@@ -395,9 +413,37 @@ TEST(Ris, IntegratorsTurnIndirectLightOn) {
   EXPECT_EQ(path.scene().lights[0]->shader.name, "indirectlight");
   EXPECT_EQ(path.scene().lights[1]->shader.name, "environmentlight");
   EXPECT_TRUE(Reading("Integrator \"PxrDirectLighting\" \"i\"" + inWorld(kSphere)).scene().lights.empty());
-  EXPECT_EQ(Reading("Pattern \"PxrTexture\" \"t\" DisplayFilter \"F\" \"f\"" + inWorld(""))
-                .log.count("rib-substitute"),
-            2);
+  EXPECT_EQ(Reading("Hider \"raytrace\" \"int maxsamples\" 256 \"int incremental\" 1" + inWorld("")).scene().options.xSamples, 8);
+}
+
+TEST(Ris, ReferencesAreFollowedToPatternsThatHaveASubstitute) {
+  const Reading r(inWorld(
+      "Pattern \"PxrTexture\" \"wood\" \"string filename\" \"wood.tif\" Pattern \"PxrChecker\" \"board\" \"color colorA\" [1 0 0]\n"
+      "Pattern \"PxrPrimvar\" \"own\" \"string varname\" \"Cs\"\nPattern \"PxrFractal\" \"noise\"\n"
+      "Bxdf \"PxrDiffuse\" \"a\" \"reference color diffuseColor\" \"wood:resultRGB\" " + kSphere +
+      "Bxdf \"PxrDisney\" \"b\" \"reference color baseColor\" [\"board:resultRGB\"] \"int[] x\" [] " + kSphere +
+      "Color .2 .3 .4 Bxdf \"PxrDiffuse\" \"c\" \"reference color diffuseColor\" \"own:resultRGB\" " + kSphere +
+      "Bxdf \"PxrDiffuse\" \"d\" \"reference color diffuseColor\" \"noise:resultRGB\" " + kSphere +
+      "Bxdf \"PxrDiffuse\" \"e\" \"reference color diffuseColor\" \"nowhere:resultRGB\" " + kSphere));
+  EXPECT_EQ(r.attributes(0).surface->name, "paintedplastic");
+  EXPECT_EQ(findParam(r.attributes(0).surface->params, "texturename")->strings[0], "wood.tif");
+  EXPECT_EQ(r.attributes(1).color, vec3(.5f, 0, 0));
+  EXPECT_EQ(r.attributes(2).color, vec3(.2f, .3f, .4f));
+  EXPECT_EQ(r.attributes(3).color, vec3(.5f));
+  EXPECT_EQ(r.log.count("rib-reference"), 1);
+  EXPECT_EQ(r.message("rib-reference").where.line, 9);
+  // Two Bxdfs and four patterns.
+  EXPECT_EQ(r.log.count("rib-substitute"), 2 + 4) << r.codes();
+}
+
+TEST(Ris, MetalsMirrorAndGlassRefracts) {
+  const Reading r(inWorld("Bxdf \"PxrDisney\" \"m\" \"float metallic\" 1 \"color baseColor\" [1 .5 0] " + kSphere +
+                          "Bxdf \"PxrSurface\" \"s\" \"float diffuseGain\" 0 \"color specularEdgeColor\" [.9 .8 .7] " + kSphere +
+                          "Bxdf \"PxrGlass\" \"g\" \"float ior\" 1.3 " + kSphere));
+  EXPECT_EQ(r.attributes(0).surface->name, "shinymetal");
+  EXPECT_EQ(r.attributes(0).color, vec3(1, .5f, 0));
+  EXPECT_EQ(r.attributes(1).color, vec3(.9f, .8f, .7f));
+  EXPECT_EQ(r.attributes(2).surface->name, "glass");
 }
 
 }  // namespace

@@ -130,7 +130,7 @@ TEST(BadInput, DeepNestingEndsWhereItBegan) {
 
 TEST(BadInput, UnsupportedRequestsAreNamedOnce) {
   const Reading r(inWorld(
-      "Interior \"fog\"\nInterior \"fog\"\nVolume \"box\" [0 1 0 1 0 1] [0 0 0]\nVolume \"box\" [0 1 0 1 0 1] [0 0 0]\n" + kSphere));
+      "VPAtmosphere \"fog\"\nVPAtmosphere \"fog\"\nVolume \"box\" [0 1 0 1 0 1] [0 0 0]\nVolume \"box\" [0 1 0 1 0 1] [0 0 0]\n" + kSphere));
   EXPECT_EQ(r.log.count("rib-unsupported"), 2);
   EXPECT_EQ(r.log.worst(), Severity::Missing);
   EXPECT_EQ(r.scene().objects.size(), 1u);

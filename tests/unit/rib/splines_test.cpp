@@ -70,6 +70,16 @@ TEST(Geometry, TrimCurvesWhoseArraysDoNotAgreeAreLeftOutWithAWarning) {
   EXPECT_TRUE(r.object(0).shape().keeps(0, 0.6f, 0.4f));
 }
 
+TEST(Geometry, RoundCurvesAreTubesUnlessTheyHaveNormals) {
+  const std::string line = "Curves \"linear\" [2] \"nonperiodic\" \"P\" [0 0 0 1 0 0]";
+  const Reading r(inWorld("Attribute \"dice\" \"roundcurve\" [1]\n" + line + "\n" + line + " \"varying normal N\" [0 0 1 0 0 1]\n" +
+                          "Attribute \"dice\" \"roundcurve\" [0]\n" + line));
+  EXPECT_EQ(r.codes(), "");
+  EXPECT_EQ(r.object(0).shape().patchCount(), 3u);  // with two disks
+  EXPECT_EQ(r.object(1).shape().patchCount(), 1u);
+  EXPECT_EQ(r.object(2).shape().patchCount(), 1u);
+}
+
 TEST(Geometry, CubicCurvesTakeTheBasisOfV) {
   const Reading r(
       inWorld("Basis \"bezier\" 3 \"b-spline\" 1\n"

@@ -132,7 +132,7 @@ TEST_F(Binding, CountsOfLightsAreLimitedAndItIsSaid) {
 }
 
 TEST_F(Binding, WhatAnIndirectLightCannotDoIsSaidOnce) {
-  light("indirectlight", {text("errorfunction", "hessian"), text("radiance", "points"), text("atlas", "maps"),
+  light("indirectlight", {text("errorfunction", "guess"), text("radiance", "points"), text("atlas", "maps"),
                           text("subset", "set")});
   system();
   for (const char* name : {"errorfunction", "radiance", "atlas", "subset"})

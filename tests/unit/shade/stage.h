@@ -65,15 +65,22 @@ class FakeServices final : public ShadeServices {
         result.distance[i] = met ? met({P.x[i], P.y[i], P.z[i]}, {d.x[i], d.y[i], d.z[i]}) : kInfinity;
   }
   float emitterReach(int) const override { return 0; }
-  bool sampleEmitter(int, int count, const float* a, const float* b, TmVec3 P, TmVec3 N,
-                     float* area) const override {
+  bool sampleEmitter(int, int count, TmConstVec3 from, const float* a, const float* b, const EmitterPoints& out) const override {
     if (!emitter) return false;
     for (int i = 0; i < count; ++i) {
       vec3 p, n;
-      emitter(a[i], b[i], p, n, area[i]);
-      P.x[i] = p.x, P.y[i] = p.y, P.z[i] = p.z, N.x[i] = n.x, N.y[i] = n.y, N.z[i] = n.z;
+      float area = 0;
+      emitter(a[i], b[i], p, n, area);
+      const vec3 path = p - vec3(from.x[i], from.y[i], from.z[i]);
+      const float cosine = -dot(n, glm::normalize(path));
+      out.P.x[i] = p.x, out.P.y[i] = p.y, out.P.z[i] = p.z, out.N.x[i] = n.x, out.N.y[i] = n.y, out.N.z[i] = n.z;
+      out.density[i] = cosine > 1e-5f ? dot(path, path) / (cosine * area) : 0.0f;
+      out.meetDensity[i] = 0;
     }
     return true;
+  }
+  void meetEmitter(int, int count, TmConstVec3, TmConstVec3, const EmitterPoints& out) const override {
+    std::fill_n(out.density, count, 0.0f);
   }
   void indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3,
                        const IndirectQuery& query, const ShadeContext&, IndirectResult out) const override {

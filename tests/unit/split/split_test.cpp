@@ -48,6 +48,15 @@ TEST(Split, PiecesOfAPatchCoverItOnceWhenAllOfItIsInView) {
   EXPECT_DOUBLE_EQ(covered, 1.0);
 }
 
+TEST(Split, ClosedShapesKeepAShapeHoweverSmall) {
+  const Scene scene = sceneOf({sphere(1e-3f)}, translation({0, 0, 4}));
+  Stats stats;
+  const std::vector<SubPatch> pieces = split(scene, stats);
+  ASSERT_EQ(pieces.size(), 1u);
+  EXPECT_GE(pieces[0].nu, 6);
+  EXPECT_GE(pieces[0].nv, 4);
+}
+
 TEST(Split, EndsWhenToldToStop) {
   const Scene scene = sceneOf({sphere()}, translation({0, 0, 4}));
   const Camera camera(scene.options);

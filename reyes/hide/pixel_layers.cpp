@@ -1,0 +1,131 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "reyes/hide/pixel_layers.cpp"
+#include "reyes/hide/vector.h"  // Includes this file again for each target.
+
+#include <algorithm>
+#include <bit>
+
+#include "reyes/hide/pixel_layers.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tomales {
+namespace HWY_NAMESPACE {
+namespace {
+
+using Queues = PixelLayers::Queues;
+
+/// Calls f(queue) for the lanes of a mask that counts from `first`.
+template <class F>
+HWY_INLINE void forLanes(Mask mask, size_t first, const F& f) {
+  for (uint64_t left = bitsOf(mask); left; left &= left - 1) f(first + static_cast<size_t>(std::countr_zero(left)));
+}
+
+void merge(Queues& q, const std::vector<Sight>& sights, const PixelLayers::Nearer& nearer, std::vector<Sight>& merged) {
+  const size_t lanes = q.d.size();
+  const auto at = [&](uint32_t sight, float d) {
+    Sight out = sights[sight];
+    out.d = d;
+    return out;
+  };
+  for (;;) {
+    Floats least = all(PixelLayers::kNone_d);
+    for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) least = hn::Min(least, hn::Load(kF, q.d.data() + g));
+    const float d = hn::GetLane(hn::MinOfLanes(kF, least));
+    if (d == PixelLayers::kNone_d) return;
+    uint32_t front = PixelLayers::kNone;
+    for (size_t g = 0; g < lanes; g += hn::Lanes(kF))
+      forLanes(hn::Eq(hn::Load(kF, q.d.data() + g), all(d)), g, [&](size_t queue) {
+        const uint32_t sight = q.sight[queue];
+        if (sight != front && (front == PixelLayers::kNone || nearer(at(sight, d), at(front, d)))) front = sight;
+      });
+    Sight taken = at(front, d);
+    taken.samples = 0;
+    for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) {
+      const auto same = hn::Eq(hn::Load(kU, q.sight.data() + g), hn::Set(kU, front));
+      forLanes(hn::RebindMask(kF, same), g, [&](size_t queue) {
+        taken.samples |= uint64_t{1} << (q.sample[queue] % 64);
+        ++q.next[queue];
+        q.show(queue);
+      });
+    }
+    merged.push_back(taken);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace tomales
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tomales {
+namespace {
+
+/// Calls f(sample, depth) for the samples of a sight.
+template <class F>
+void forSamples(const Sight& sight, const F& f) {
+  int k = 0;
+  for (uint64_t left = sight.samples; left; left &= left - 1, ++k) {
+    const int bit = std::countr_zero(left);
+    f(size_t{sight.word} * 64 + static_cast<size_t>(bit), sight.depths[sight.opaque ? bit : k]);
+  }
+}
+
+}  // namespace
+
+void PixelLayers::Queues::resize(size_t queues) {
+  const auto lanes = static_cast<size_t>(padded(static_cast<int>(queues)));
+  d.assign(lanes, kNone_d), sight.assign(lanes, kNone);
+  next.resize(queues), end.resize(queues), sample.resize(queues);
+}
+
+/// Also counts the layers of each sample.
+bool PixelLayers::inOrder(const std::vector<Sight>& sights) {
+  size_t words = 0;
+  for (const Sight& s : sights) words = std::max(words, size_t{s.word} + 1);
+  last_.assign(words * 64, -kNone_d);
+  counts_.assign(words * 64, 0);
+  bool ordered = true;
+  for (const Sight& sight : sights)
+    forSamples(sight, [&](size_t sample, float d) {
+      ordered &= d >= last_[sample];
+      last_[sample] = d;
+      ++counts_[sample];
+    });
+  return ordered;
+}
+
+void PixelLayers::listLayers(const std::vector<Sight>& sights) {
+  queues_.resize(static_cast<size_t>(std::count_if(counts_.begin(), counts_.end(), [](uint32_t n) { return n > 0; })));
+  uint32_t total = 0;
+  for (uint32_t sample = 0, queue = 0; sample < counts_.size(); ++sample) {
+    const uint32_t count = counts_[sample];
+    counts_[sample] = queue;  // From here on: its queue.
+    if (count == 0) continue;
+    queues_.next[queue] = queues_.end[queue] = total, queues_.sample[queue] = sample;
+    total += count, ++queue;
+  }
+  std::vector<Layer>& layers = queues_.layers;
+  layers.resize(total);
+  // Nearly sorted already. Equal depths keep the order of the sights, which no schedule changes.
+  for (uint32_t k = 0; k < sights.size(); ++k)
+    forSamples(sights[k], [&](size_t sample, float d) {
+      const uint32_t queue = counts_[sample];
+      uint32_t at = queues_.end[queue]++;
+      for (; at > queues_.next[queue] && layers[at - 1].d > d; --at) layers[at] = layers[at - 1];
+      layers[at] = {d, k};
+    });
+  for (size_t queue = 0; queue < queues_.next.size(); ++queue) queues_.show(queue);
+}
+
+HWY_EXPORT(merge);
+void PixelLayers::order(std::vector<Sight>& sights, const Nearer& nearer) {
+  if (inOrder(sights)) return;
+  listLayers(sights);
+  merged_.clear();
+  HWY_DYNAMIC_DISPATCH(merge)(queues_, sights, nearer, merged_);
+  sights.swap(merged_);
+}
+
+}  // namespace tomales
+#endif

@@ -1,0 +1,210 @@
+#include "reyes/pictures/textures.h"
+
+#include <OpenImageIO/texture.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <set>
+#include <shared_mutex>
+
+#include "reyes/pictures/convert.h"
+
+namespace tomales {
+namespace {
+
+namespace fs = std::filesystem;
+using Handle = OIIO::TextureSystem::TextureHandle;
+using Thread = OIIO::TextureSystem::Perthread;
+
+std::string cacheFolderOf(const TextureSettings& settings) {
+  if (!settings.cacheFolder.empty()) return settings.cacheFolder;
+  if (const char* own = std::getenv("TOMALES_TEXTURE_CACHE")) return own;
+  if (const char* cache = std::getenv("XDG_CACHE_HOME")) return std::string(cache) + "/tomales/textures";
+  const char* home = std::getenv("HOME");
+  return (home ? std::string(home) + "/.cache" : fs::temp_directory_path().string()) + "/tomales/textures";
+}
+
+/// Where the number of a tile stands in a name; npos: nowhere.
+size_t tileMark(const std::string& name, size_t& length) {
+  for (const std::string_view mark : {"<UDIM>", "_MAPID_"})
+    if (const size_t at = name.find(mark); at != std::string::npos) return length = mark.size(), at;
+  return std::string::npos;
+}
+
+/// A picture by the name that shaders call it, open.
+struct Picture {
+  std::map<int, Handle*> tiles;  ///< By UDIM number; 0: the one.
+  bool tiled = false;
+  std::string error;             ///< Why there is none.
+};
+
+OIIO::TextureOpt optionsOf(const TextureQuery& q) {
+  using Opt = OIIO::TextureOpt;
+  Opt o;
+  o.firstchannel = q.channel, o.fill = q.fill;
+  o.swidth = q.sWidth, o.twidth = q.tWidth, o.sblur = q.sBlur, o.tblur = q.tBlur;
+  const std::string_view filter = q.filter ? q.filter : "";
+  const bool straight = filter.empty() || filter == "box" || filter == "disk" || filter == "lerp";
+  o.interpmode = straight ? Opt::InterpBilinear : Opt::InterpSmartBicubic;
+  if (q.sWidth == 0 && q.tWidth == 0 && q.sBlur == 0 && q.tBlur == 0) o.mipmode = Opt::MipModeNoMIP, o.interpmode = Opt::InterpClosest;
+  if (q.latlong) o.swrap = Opt::WrapPeriodic, o.twrap = Opt::WrapClamp;
+  return o;
+}
+
+class Cache : public TextureCache {
+ public:
+  explicit Cache(const TextureSettings& settings);
+  ~Cache() override { OIIO::TextureSystem::destroy(system, true); }
+  bool lookup(const TextureQuery& query, TmVec3 out, int64_t& lookups, std::string& error) override;
+  bool info(const std::string& name, const std::string& what, std::vector<float>& numbers, std::string& text) override;
+  TextureFigures figures() const override;
+
+ private:
+  const Picture& picture(std::string_view name) {
+    {
+      const std::shared_lock lock(mutex);
+      if (const auto it = pictures.find(name); it != pictures.end()) return *it->second;
+    }
+    // One conversion at a time: others who want this picture wait for it, and there are few.
+    const std::unique_lock lock(mutex);
+    auto& slot = pictures[std::string(name)];
+    if (!slot) slot = open(std::string(name));
+    return *slot;
+  }
+
+  /// As it is found along the search path; empty: nowhere.
+  std::string find(const std::string& name) const {
+    std::error_code none;
+    if (fs::path(name).is_absolute()) return fs::is_regular_file(name, none) ? name : "";
+    const std::string& path = settings.searchPath;
+    for (size_t begin = 0; begin <= path.size();) {
+      const size_t end = std::min(path.find(':', begin), path.size());
+      const fs::path file = fs::path(path.substr(begin, end - begin)) / name;
+      if (fs::is_regular_file(file, none)) return file.string();
+      begin = end + 1;
+    }
+    return fs::is_regular_file(name, none) ? name : "";
+  }
+
+  std::unique_ptr<const Picture> open(const std::string& name) {
+    auto picture = std::make_unique<Picture>();
+    size_t length = 0;
+    const size_t mark = tileMark(name, length);
+    picture->tiled = mark != std::string::npos;
+    constexpr int kFirst = 1001, kLast = 1100;
+    for (int tile = kFirst; picture->tiled && tile <= kLast; ++tile)
+      add(std::string(name).replace(mark, length, std::to_string(tile)), tile, *picture);
+    if (!picture->tiled) add(name, 0, *picture);
+    if (picture->tiles.empty() && picture->error.empty()) picture->error = "not found";
+    return picture;
+  }
+
+  void add(const std::string& name, int tile, Picture& picture) {
+    const std::string found = find(name);
+    if (found.empty()) return;
+    std::string error;
+    const std::string file = tiledFile(found, cacheFolder, error);
+    Handle* handle = file.empty() ? nullptr : system->get_texture_handle(OIIO::ustring(file));
+    if (handle && system->good(handle))
+      picture.tiles[tile] = handle;
+    else
+      picture.error = error.empty() ? system->geterror() : error;
+  }
+
+  OIIO::TextureSystem* const system = OIIO::TextureSystem::create(false);
+  const TextureSettings settings;
+  const std::string cacheFolder;
+  std::shared_mutex mutex;  ///< Over pictures.
+  std::map<std::string, std::unique_ptr<const Picture>, std::less<>> pictures;
+};
+
+Cache::Cache(const TextureSettings& s) : settings(s), cacheFolder(cacheFolderOf(s)) {
+  system->attribute("max_memory_MB", static_cast<float>(settings.memory_bytes) / (1 << 20));
+  system->attribute("automip", 1);  // pictures of a cache folder that cannot be written
+  system->attribute("autotile", 64);
+}
+
+TextureFigures Cache::figures() const {
+  TextureFigures f;
+  int misses = 0;
+  system->getattribute("stat:find_tile_calls", OIIO::TypeDesc::INT64, &f.tileRequests);
+  system->getattribute("stat:tiles_created", OIIO::TypeDesc::INT, &misses);
+  system->getattribute("stat:bytes_read", OIIO::TypeDesc::INT64, &f.bytesRead);
+  f.tileMisses = misses;
+  return f;
+}
+
+bool Cache::lookup(const TextureQuery& q, TmVec3 out, int64_t& lookups, std::string& error) {
+  const Picture& known = picture(q.name);
+  Thread* thread = system->get_perthread_info();
+  OIIO::TextureOpt options = optionsOf(q);
+  float* const channels[3] = {out.x, out.y, out.z};
+  const int n = std::clamp(q.channels, 1, 3);
+  bool found = !known.tiles.empty() && known.error.empty();
+  for (int i = 0; i < q.count && found; ++i) {
+    if (!q.active[i]) continue;
+    float texel[3] = {q.fill, q.fill, q.fill};
+    float s = std::isfinite(q.s[i]) ? q.s[i] : 0, t = std::isfinite(q.t[i]) ? q.t[i] : 0;
+    Handle* handle = nullptr;
+    if (known.tiled) {
+      const float column = std::floor(s), row = std::floor(t);
+      const auto tile = column >= 0 && column < 10 && row >= 0 && row < 10
+                            ? known.tiles.find(1001 + static_cast<int>(column) + 10 * static_cast<int>(row))
+                            : known.tiles.end();
+      if (tile != known.tiles.end()) handle = tile->second, s -= column, t -= row;
+    } else {
+      handle = known.tiles.begin()->second;
+    }
+    const auto edge = [&](const float* e) { return e && std::isfinite(e[i]) ? e[i] : 0.0f; };
+    if (handle) {
+      found = system->texture(handle, thread, options, s, t, edge(q.su), edge(q.tu), edge(q.sv), edge(q.tv), n, texel);
+      ++lookups;
+    }
+    for (int k = 0; k < n; ++k) channels[k][i] = texel[k];
+  }
+  if (!found) error = known.error.empty() ? system->geterror() : known.error;
+  return found;
+}
+
+bool Cache::info(const std::string& name, const std::string& what, std::vector<float>& numbers, std::string& text) {
+  const Picture& known = picture(name);
+  const bool there = !known.tiles.empty();
+  numbers.clear(), text.clear();
+  if (what == "exists") return numbers = {there ? 1.0f : 0.0f}, true;
+  if (!there) return false;
+  Handle* handle = known.tiles.begin()->second;
+  const auto get = [&](const char* fact, OIIO::TypeDesc type, void* to) {
+    return system->get_texture_info(handle, nullptr, 0, OIIO::ustring(fact), type, to);
+  };
+  const auto matrix = [&](const char* fact) { return numbers.resize(16), get(fact, OIIO::TypeMatrix44, numbers.data()); };
+  if (what == "viewingmatrix") return matrix("worldtocamera");
+  if (what == "projectionmatrix") return matrix("worldtoscreen");
+  if (what == "resolution") {
+    int size[2] = {0, 0};
+    const bool good = get("resolution", OIIO::TypeDesc(OIIO::TypeDesc::INT, 2), size);
+    return numbers = {static_cast<float>(size[0]), static_cast<float>(size[1])}, good;
+  }
+  if (what == "channels" || what == "bitsperchannel") {
+    int value = 0;
+    const bool good = get(what == "channels" ? "channels" : "oiio:BitsPerSample", OIIO::TypeInt, &value) ||
+                      (what != "channels" && get("cachedpixeltype", OIIO::TypeInt, &value) &&
+                       (value = static_cast<int>(8 * OIIO::TypeDesc(static_cast<OIIO::TypeDesc::BASETYPE>(value)).size()), true));
+    return numbers = {static_cast<float>(value)}, good;
+  }
+  if (what != "type" && what != "textureformat") return false;
+  const char* format = nullptr;
+  if (!get("textureformat", OIIO::TypeString, &format)) return false;
+  const std::string_view kind = format;
+  text = what == "textureformat" ? format : kind == "Shadow" ? "shadow" : kind.find("Env") != kind.npos ? "environment" : "texture";
+  return true;
+}
+
+}  // namespace
+
+std::unique_ptr<TextureCache> makeTextureCache(const TextureSettings& settings) { return std::make_unique<Cache>(settings); }
+
+}  // namespace tomales

@@ -1,0 +1,114 @@
+// Materials of the RIS era and the patterns that feed them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "reyes/rib/ris_parts.h"
+
+namespace tomales::rib {
+namespace {
+
+/// Where a plug-in keeps what ours know. Null: it has no such parameter.
+struct Bxdf {
+  const char* color;
+  float grey;  ///< The default of that colour.
+  const char *roughness, *diffuseGain, *metallic;
+  bool shiny, emits;
+};
+constexpr Bxdf kMatte{"diffuseColor", 0.5f, nullptr, nullptr, nullptr, false, false};
+
+const std::unordered_map<std::string_view, Bxdf>& bxdfs() {
+  static const std::unordered_map<std::string_view, Bxdf> table = {
+      {"PxrDiffuse", kMatte},
+      {"PxrLMDiffuse", {"frontColor", 0.5f, nullptr, nullptr, nullptr, false, false}},
+      {"PxrConstant", {"emitColor", 1, nullptr, nullptr, nullptr, false, true}},
+      {"PxrDisney", {"baseColor", 0.5f, "roughness", nullptr, "metallic", true, false}},
+      {"PxrDisneyBsdf", {"baseColor", 0.5f, "roughness", nullptr, "metallic", true, false}},
+      {"PxrSurface", {"diffuseColor", 0.18f, "specularRoughness", "diffuseGain", nullptr, true, false}},
+      {"PxrLayerSurface", {"diffuseColor", 0.18f, "specularRoughness", "diffuseGain", nullptr, true, false}}};
+  return table;
+}
+
+/// What a reference to a pattern is worth.
+struct Source {
+  std::vector<float> color;  ///< Empty: none.
+  std::string texture;
+  bool own = false;  ///< Cs of the primitive.
+  std::vector<Note> notes;
+};
+
+std::vector<float> mean(const std::vector<float>& a, const std::vector<float>& b) {
+  return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
+}
+
+/// "handle:output"
+Source follow(const Request& r, const char* name, const Patterns& patterns) {
+  const std::string reference = text(r, name);
+  const auto it = patterns.find(reference.substr(0, reference.find(':')));
+  if (it == patterns.end()) {
+    Note none = note(r, fmt::format("refers to a pattern \"{}\", which there is not: \"{}\" keeps its default", reference, name));
+    none.key += " " + reference, none.code = "rib-reference";
+    return {{}, "", false, {none}};
+  }
+  const Request& pattern = it->second;
+  const std::string& kind = pattern.args[0].strings[0];
+  const std::string variable = text(pattern, "varname") + text(pattern, "variable");
+  if (kind == "PxrTexture" && !text(pattern, "filename").empty())
+    return {{1, 1, 1}, text(pattern, "filename"), false, {standsIn(pattern, "paintedplastic with its picture")}};
+  if (kind == "PxrChecker")
+    return {mean(color(pattern, "colorA", 1), color(pattern, "colorB", 0)), "", false, {standsIn(pattern, "the mean of its colours")}};
+  if ((kind == "PxrPrimvar" || kind == "PxrVariable") && (variable == "Cs" || variable == "Ci"))
+    return {{}, "", true, {standsIn(pattern, "Cs")}};
+  return {{}, "", false, {note(pattern, "is not available: what is connected to it keeps its default")}};
+}
+
+Source baseColor(const Request& r, const Bxdf& b, const Patterns& patterns) {
+  const char* name = findParam(r.params, b.color) ? b.color : "diffuseColor";
+  if (isReference(r, name)) {
+    Source source = follow(r, name, patterns);
+    if (source.color.empty() && !source.own) source.color = std::vector<float>(3, b.grey);
+    return source;
+  }
+  return {color(r, name, b.grey), "", false, {}};
+}
+
+/// References to numbers keep the default; those of colours have been followed.
+void noteReferences(const Request& r, const Bxdf& b, const Patterns& patterns, std::vector<Note>& notes) {
+  for (const auto& [name, type] : r.references)
+    if (name != b.color && name != "diffuseColor")
+      for (Note& n : follow(r, name.c_str(), patterns).notes)
+        if (n.text.find("stands in") == std::string::npos) notes.push_back(std::move(n));
+}
+
+}  // namespace
+
+Translation risBxdf(const Request& r, const Patterns& patterns) {
+  const std::string& name = r.args[0].strings[0];
+  if (name == "PxrGlass")
+    return {Script(r).say("Surface", {string("glass")}, {param("eta", ValueType::Float, {number(r, "ior", 1.5f)})}).list(), {standsIn(r, "glass")}};
+  const auto it = bxdfs().find(name);
+  const Bxdf b = it == bxdfs().end() ? kMatte : it->second;
+  Source base = baseColor(r, b, patterns);
+  const bool metal = (b.metallic && number(r, b.metallic, 0) > 0.5f) || (b.diffuseGain && number(r, b.diffuseGain, 1) <= 0);
+  ParamList params;
+  if (b.roughness && findParam(r.params, b.roughness))
+    params.push_back(param("roughness", ValueType::Float, {std::clamp(number(r, b.roughness, 0.1f), 0.001f, 1.0f)}));
+  std::string shader = b.emits ? "constant" : metal ? "shinymetal" : b.shiny ? "plastic" : "matte";
+  if (metal) params.push_back(param("texturename", "raytrace"));
+  if (metal && b.diffuseGain) base.color = color(r, "specularEdgeColor", 1);
+  if (!base.texture.empty() && !metal) {
+    shader = "paintedplastic";
+    params.push_back(param("texturename", base.texture));
+    if (!b.shiny) params.push_back(param("Ks", ValueType::Float, {0})), params.push_back(param("Kd", ValueType::Float, {1}));
+  }
+  Script script(r);
+  if (!base.own) script.say("Color", {numbers(base.color)});
+  script.say("Surface", {string(shader)}, params);
+  std::vector<Note> notes{standsIn(r, shader, it == bxdfs().end() ? Severity::Missing : Severity::Warning)};
+  notes.insert(notes.end(), base.notes.begin(), base.notes.end());
+  noteReferences(r, b, patterns, notes);
+  return {script.list(), std::move(notes)};
+}
+
+}  // namespace tomales::rib

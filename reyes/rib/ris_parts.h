@@ -1,0 +1,56 @@
+// What the translations of RIS requests share. Private to them.
+#pragma once
+#include "reyes/rib/ris.h"
+
+namespace tomales::rib {
+
+inline RibArg numbers(std::vector<float> n) { return {RibArg::Kind::Numbers, std::move(n)}; }
+inline RibArg string(const std::string& s) { return {RibArg::Kind::String, {}, {s}}; }
+
+inline Param param(const std::string& name, ValueType type, std::vector<float> floats) {
+  Param p;
+  p.name = name, p.type = type, p.floats = std::move(floats);
+  return p;
+}
+inline Param param(const std::string& name, const std::string& value) {
+  Param p;
+  p.name = name, p.type = ValueType::String, p.strings = {value};
+  return p;
+}
+
+inline float number(const Request& r, const char* name, float fallback) {
+  const Param* p = findParam(r.params, name);
+  return p ? p->number(fallback) : fallback;
+}
+inline std::vector<float> color(const Request& r, const char* name, float grey) {
+  const Param* p = findParam(r.params, name);
+  return p && p->floats.size() == 3 ? p->floats : std::vector<float>(3, grey);
+}
+inline std::string text(const Request& r, const char* name) {
+  const Param* p = findParam(r.params, name);
+  return p && !p->strings.empty() ? p->strings[0] : "";
+}
+
+/// Requests at the place of `from`.
+class Script {
+ public:
+  explicit Script(const Request& from) : from_(from) {}
+  Script& say(const char* name, std::vector<RibArg> args = {}, ParamList params = {}) {
+    list_.push_back({name, std::move(args), std::move(params), from_.where});
+    return *this;
+  }
+  std::vector<Request> list() { return std::move(list_); }
+
+ private:
+  const Request& from_;
+  std::vector<Request> list_;
+};
+
+/// About a plug-in: `what` ends the sentence that its request and name begin.
+Note note(const Request& request, const std::string& what, Severity severity = Severity::Warning);
+Note standsIn(const Request& request, const std::string& substitute, Severity severity = Severity::Warning);
+
+Translation risBxdf(const Request& request, const Patterns& patterns);
+Translation risLight(const Request& request);
+
+}  // namespace tomales::rib

@@ -1,0 +1,219 @@
+#include "reyes/shade/light_services.h"
+
+#include <cstring>
+
+#include "reyes/base/rng.h"
+#include "reyes/shade/primary.h"
+
+namespace tomales {
+namespace {
+
+void fill(const TmGrid* g, TmVec3 out, const vec3& v) {
+  forActive(g, [&](int i) { set(out, i, v); });
+}
+
+/// The share of a light that a kind of reflection sees at a point, by the light's outputs __nondiffuse and __nonspecular.
+float shareOf(const float* without, int i) { return without ? 1 - without[i] : 1.0f; }
+
+/// Sums weight(i, sample, L, N) * Cl over the light samples on the side of N (RISpec 15.6: illuminance(P, N, PI/2)), of the lights
+/// that count.
+template <class Counts, class Weight>
+void sumOverLights(Batch& batch, const TmGrid* all, TmConstVec3 N, const Counts& counts, TmVec3 out, const Weight& weight) {
+  const Primary primary(batch, all);
+  const TmGrid* g = primary.grid();
+  const TmVec3 n = batch.arena.vec3(g->count);
+  forActive(g, [&](int i) { set(n, i, normalizeOr(get(N, i), vec3(0.0f))); });
+  fill(g, out, vec3(0.0f));
+  uint8_t* facing = batch.arena.bytes(g->count);
+  for (LightSample& sample : batch.lights.samples(batch)) {
+    if (!counts(*sample.light)) continue;
+    std::fill_n(facing, g->count, uint8_t{0});
+    forActive(g, [&](int i) { facing[i] = dot(get(n, i), get(sample.L, i)) > 0; });
+    batch.lights.shadow(batch, sample, facing);
+    for (int i = 0; i < g->count; ++i)
+      if (facing[i]) set(out, i, get(out, i) + get(sample.Cl, i) * weight(i, sample, get(sample.L, i), get(n, i)));
+  }
+  primary.spread(out);
+}
+
+/// Of a lookup that leaves it open: Option "shadow" "bias", or a random one between "bias0" and "bias1"; negative: as needed.
+float shadowBias(const Options& options, uint32_t name) {
+  const auto number = [&](const char* key) -> const Param* {
+    const auto it = options.user.find(key);
+    return it == options.user.end() ? nullptr : &it->second;
+  };
+  if (const Param* bias = number("shadow:bias")) return bias->number(-1);
+  const Param *low = number("shadow:bias0"), *high = number("shadow:bias1");
+  return low && high ? lerp(low->number(0), high->number(0), unitFloat(name)) : -1.0f;
+}
+
+/// Null: no light is running, or not of this group.
+const BoundLight* runningLight(const Batch& batch) {
+  for (const BoundLight* light : batch.group.lights)
+    if (light->bound.get() == batch.running) return light;
+  return nullptr;
+}
+
+IndirectQuery queryOf(const Batch& batch, const BoundLight* light) {
+  if (!light) return batch.group.indirect.value_or(IndirectQuery{});
+  IndirectQuery query = light->query;
+  query.maxError = batch.group.group->attributes->irradianceMaxError.value_or(query.maxError);
+  return query;
+}
+
+void gather(Batch& batch, const TmGrid* g, TmConstVec3 N) {
+  auto& last = batch.gathered;
+  const size_t bytes = static_cast<size_t>(g->count) * sizeof(float);
+  if (last.who == batch.running && std::equal(g->active, g->active + g->count, last.active) &&
+      !std::memcmp(last.N.x, N.x, bytes) && !std::memcmp(last.N.y, N.y, bytes) &&
+      !std::memcmp(last.N.z, N.z, bytes))
+    return;
+  last.who = batch.running;
+  last.active = batch.arena.bytes(g->count);
+  std::copy_n(g->active, g->count, last.active);
+  last.N = batch.arena.vec3(g->count), last.E = batch.arena.vec3(g->count);
+  for (TmVec3& d : last.dominant) d = batch.arena.vec3(g->count);
+  for (int i = 0; i < g->count; ++i) {
+    set(last.N, i, get(N, i));
+    for (const TmVec3& d : last.dominant) set(d, i, get(N, i));
+  }
+  const auto& attribute = batch.group.group->attributes->indirect;
+  if (!batch.points || !batch.scene.services || !batch.context.indirect || !attribute.receive) return;
+  IndirectResult result{last.E, {last.dominant[0], last.dominant[1], last.dominant[2]}};
+  const BoundLight* light = runningLight(batch);
+  batch.scene.services->indirectDiffuse(*batch.points, g->active, N, queryOf(batch, light), batch.context,
+                                        result);
+  const vec3 gain = attribute.gain * (light ? light->sourceTint : vec3(1.0f));
+  forActive(g, [&](int i) { set(last.E, i, get(last.E, i) * gain); });
+}
+
+bool matchesTerm(std::string_view categories, std::string_view term) {
+  const bool excludes = term.starts_with('-');
+  if (excludes) term.remove_prefix(1);
+  bool has = false;
+  for (size_t begin = 0; begin <= categories.size();) {
+    const size_t end = std::min(categories.find(',', begin), categories.size());
+    has = has || categories.substr(begin, end - begin) == term;
+    begin = end + 1;
+  }
+  return has != excludes;
+}
+
+/// Points that see a sample within the cone of an illuminance statement.
+const uint8_t* litPoints(Batch& batch, const TmGrid* g, const TmIlluminance& cone, const LightSample& sample) {
+  uint8_t* lit = batch.arena.bytes(batch.tm.count);
+  const float least = std::cos(cone.angle);
+  forActive(g, [&](int i) { lit[i] = !cone.axis.x || dot(normalizeOr(get(cone.axis, i), vec3(0)), get(sample.L, i)) >= least; });
+  return lit;
+}
+
+}  // namespace
+
+void diffuseOf(void* host, const TmGrid* g, int32_t which, TmConstVec3 N, TmVec3 out) {
+  const auto counts = [which](const BoundLight& light) {
+    return !light.nondiffuse && (which & (light.can(TM_LIGHT_INDIRECT) ? TM_INDIRECT_LIGHT : TM_DIRECT_LIGHT)) != 0;
+  };
+  sumOverLights(batchOf(host), g, N, counts, out,
+                [](int i, const LightSample& s, const vec3& L, const vec3& n) { return shareOf(s.nondiffuse, i) * dot(L, n); });
+}
+
+void diffuse(void* host, const TmGrid* g, TmConstVec3 N, TmVec3 out) {
+  diffuseOf(host, g, TM_DIRECT_LIGHT | TM_INDIRECT_LIGHT, N, out);
+}
+
+void ambient(void* host, const TmGrid* g, TmVec3 out) {
+  Batch& batch = batchOf(host);
+  const Primary primary(batch, g);
+  batch.lights.ambient(batch, *primary.grid(), out);
+  primary.spread(out);
+}
+
+int32_t light(void* host, const TmGrid* g, int32_t index, TmLightSample* out) {
+  Batch& batch = batchOf(host);
+  std::vector<LightSample>& samples = batch.lights.samples(batch);
+  if (index < 0 || index >= static_cast<int32_t>(samples.size())) return 0;
+  LightSample& sample = samples[static_cast<size_t>(index)];
+  const Primary primary(batch, g);
+  batch.lights.shadow(batch, sample, primary.grid()->active);
+  primary.spread(sample.L), primary.spread(sample.Cl);
+  *out = {view(sample.L), view(sample.Cl), sample.light->can(TM_LIGHT_INDIRECT), sample.light->nondiffuse,
+          sample.light->nonspecular};
+  return 1;
+}
+
+bool inCategory(std::string_view categories, std::string_view expression) {
+  if (expression.empty()) return true;
+  for (size_t begin = 0; begin <= expression.size();) {
+    const size_t end = std::min(expression.find_first_of(",|", begin), expression.size());
+    const std::string_view alternative = expression.substr(begin, end - begin);
+    bool all = true;
+    for (size_t at = 0; at <= alternative.size();) {
+      const size_t stop = std::min(alternative.find('&', at), alternative.size());
+      all = all && matchesTerm(categories, alternative.substr(at, stop - at));
+      at = stop + 1;
+    }
+    if (all) return true;
+    begin = end + 1;
+  }
+  return false;
+}
+
+int32_t illuminance(void* host, const TmGrid* g, TmIlluminance* query) {
+  Batch& batch = batchOf(host);
+  std::vector<LightSample>& samples = batch.lights.samples(batch);
+  const std::string_view category = query->category ? query->category : "";
+  auto next = static_cast<size_t>(std::max(query->next, 0));
+  while (next < samples.size() && !inCategory(samples[next].light->category, category)) ++next;
+  if (next >= samples.size()) return 0;
+  LightSample& sample = samples[next];
+  const Primary primary(batch, g);
+  const uint8_t* lit = litPoints(batch, primary.grid(), *query, sample);
+  batch.lights.shadow(batch, sample, lit);
+  const bool distant = sample.light->can(TM_LIGHT_SOLAR) || sample.light->can(TM_LIGHT_INDIRECT);
+  const TmVec3 L = distant ? sample.L : sample.far;
+  primary.spread(L), primary.spread(sample.Cl), primary.spread(const_cast<uint8_t*>(lit));
+  query->next = static_cast<int32_t>(next) + 1, query->light = static_cast<int32_t>(next);
+  query->L = view(L), query->Cl = view(sample.Cl), query->lit = lit;
+  query->isIndirect = sample.light->can(TM_LIGHT_INDIRECT);
+  query->nondiffuse = sample.light->nondiffuse, query->nonspecular = sample.light->nonspecular;
+  return 1;
+}
+
+void shadow(void* host, const TmGrid* all, const char* name, TmConstVec3 P, const TmShadowLookup* lookup, TmVec3 out) {
+  const Batch& batch = batchOf(host);
+  const Primary primary(batch, all);
+  const TmGrid* g = primary.grid();
+  fill(all, out, vec3(0.0f));
+  if (!batch.points || std::string_view(name) == "raytrace") return;
+  const ShadowMap* map = batch.scene.shadowMaps.find(name, batch.running->where, batch.running->user);
+  if (!map) return;
+  const mat4 worldFromCurrent = glm::inverse(batch.scene.cameraFromWorld);
+  forActive(g, [&](int i) {
+    const ShadePoints& p = *batch.points;
+    const auto edge = [&](int tangent, const float* step) {
+      return transformVector(worldFromCurrent, p.get3(tangent, i) * step[i]);
+    };
+    const ShadowReceiver receiver{transformPoint(worldFromCurrent, get(P, i)),
+                                  transformAs(TM_NORMAL, worldFromCurrent, p.get3(kNgx, i)), edge(kDpduX, g->du),
+                                  edge(kDpdvX, g->dv)};
+    const uint32_t seed = hashCombine(p.key(i), p.name(i).sequence, batch.context.seed);
+    const float bias = lookup->bias < 0 ? shadowBias(batch.scene.scene.options, seed) : lookup->bias;
+    set(out, i, map->shadow(receiver, {bias, lookup->blur, lookup->width, lookup->samples, seed}));
+  });
+  primary.spread(out);
+}
+
+void indirectDiffuse(void* host, const TmGrid* all, TmConstVec3 N, TmVec3 out, TmVec3* dominant) {
+  Batch& batch = batchOf(host);
+  const Primary primary(batch, all);
+  const TmGrid* g = primary.grid();
+  gather(batch, g, N);
+  forActive(g, [&](int i) {
+    set(out, i, get(batch.gathered.E, i));
+    for (int k = 0; dominant && k < 3; ++k) set(dominant[k], i, get(batch.gathered.dominant[k], i));
+  });
+  primary.spread(out);
+  for (int k = 0; dominant && k < 3; ++k) primary.spread(dominant[k]);
+}
+
+}  // namespace tomales

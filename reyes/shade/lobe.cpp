@@ -1,0 +1,141 @@
+#include "reyes/shade/lobe.h"
+
+#include "reyes/base/rng.h"
+#include "reyes/shade/primary.h"
+
+namespace tomales {
+namespace {
+
+constexpr uint32_t kLobeStream = 0x6c6f6265U;
+
+/// The lobe of RISpec 15.6, (N.H)^e, with the exponent of docs/decisions/0004. Directions are drawn by H with density
+/// (e + 1) / 2 pi cos^e.
+struct BlinnLobe {
+  vec3 N, V;
+  float exponent;
+
+  float value(const vec3& L) const {
+    const vec3 H = normalizeOr(L + V, vec3(0.0f));
+    return std::pow(std::max(0.0f, dot(N, H)), exponent);
+  }
+  vec3 draw(const vec2& xi) const {
+    const float cosine = std::pow(1 - xi.x, 1 / (exponent + 1)), sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
+    vec3 tangent, bitangent;
+    orthonormalBasis(N, tangent, bitangent);
+    const vec3 H = sine * std::cos(2 * kPi * xi.y) * tangent + sine * std::sin(2 * kPi * xi.y) * bitangent + cosine * N;
+    return 2 * dot(V, H) * H - V;
+  }
+  /// Over solid angle; 0: never drawn.
+  float density(const vec3& L) const {
+    const vec3 H = normalizeOr(L + V, vec3(0.0f));
+    const float cosine = dot(N, H), along = dot(V, H);
+    return cosine > 0 && along > 0 ? (exponent + 1) / (2 * kPi) * std::pow(cosine, exponent) / (4 * along) : 0.0f;
+  }
+};
+
+class Highlight {
+ public:
+  Highlight(Batch& batch, const TmGrid* g, TmConstVec3 N, TmConstVec3 V, const float* roughness, TmVec3 out)
+      : batch_(batch), g_(g), out_(out), lobes_(static_cast<size_t>(g->count)), side_(batch.arena.bytes(g->count)),
+        drawn_(lobeSamples(&batch, g)) {
+    forActive(g, [&](int i) {
+      set(out, i, vec3(0.0f));
+      lobes_[static_cast<size_t>(i)] = {normalizeOr(get(N, i), vec3(0.0f)), normalizeOr(get(V, i), vec3(0.0f)),
+                                        batch.scene.specularSharpness / std::max(roughness[i], 1e-6f)};
+    });
+  }
+
+  void addLightSamples() {
+    for (LightSample& sample : batch_.lights.samples(batch_)) {
+      if (sample.light->nonspecular) continue;
+      chooseSide(view(sample.L));
+      batch_.lights.shadow(batch_, sample, side_);
+      forSide([&](int i, const BlinnLobe& lobe) {
+        const vec3 L = get(sample.L, i);
+        const float of = sample.density ? sample.density[i] : 0.0f;
+        const float other = of > 0 ? static_cast<float>(drawn_) * lobe.density(L) / of : 0.0f;
+        const float share = sample.nonspecular ? 1 - sample.nonspecular[i] : 1.0f;
+        add(i, get(sample.Cl, i) * (share * lobe.value(L) / (1 + other * other)));
+      });
+    }
+  }
+
+  void addLobeSamples() {
+    const int n = g_->count;
+    float *xi0 = batch_.arena.floats(n), *xi1 = batch_.arena.floats(n), *density = batch_.arena.floats(n);
+    const TmVec3 L = batch_.arena.vec3(n), Cl = batch_.arena.vec3(n);
+    for (int k = 0; k < drawn_; ++k) {
+      stratified(&batch_, g_, k, drawn_, xi0, xi1);
+      forActive(g_, [&](int i) { set(L, i, lobes_[static_cast<size_t>(i)].draw({xi0[i], xi1[i]})); });
+      chooseSide(view(L));
+      forActive(g_, [&](int i) { density[i] = side_[i] ? lobes_[static_cast<size_t>(i)].density(get(L, i)) : 0.0f; });
+      lightAlong(&batch_, g_, view(L), density, k, drawn_, Cl);
+      forSide([&](int i, const BlinnLobe& lobe) { add(i, get(Cl, i) * lobe.value(get(L, i))); });
+    }
+  }
+
+ private:
+  /// Light counts on the side of N alone: illuminance(P, N, PI/2).
+  void chooseSide(TmConstVec3 L) {
+    forActive(g_, [&](int i) { side_[i] = dot(lobes_[static_cast<size_t>(i)].N, get(L, i)) > 0; });
+  }
+  template <class Body>
+  void forSide(const Body& body) const {
+    forActive(g_, [&](int i) {
+      if (side_[i]) body(i, lobes_[static_cast<size_t>(i)]);
+    });
+  }
+  void add(int i, const vec3& light) { set(out_, i, get(out_, i) + light); }
+
+  Batch& batch_;
+  const TmGrid* g_;
+  TmVec3 out_;
+  std::vector<BlinnLobe> lobes_;
+  uint8_t* side_;
+  const int drawn_;
+};
+
+}  // namespace
+
+void specular(void* host, const TmGrid* g, TmConstVec3 N, TmConstVec3 V, const float* roughness, TmVec3 out) {
+  Batch& batch = batchOf(host);
+  if (batch.context.kind == RayKind::Diffuse) return forActive(g, [&](int i) { set(out, i, vec3(0.0f)); });
+  const Primary primary(batch, g);
+  Highlight highlight(batch, primary.grid(), N, V, roughness, out);
+  highlight.addLightSamples();
+  highlight.addLobeSamples();
+  primary.spread(out);
+}
+
+void lightDensity(void* host, const TmGrid* all, int32_t index, float* out) {
+  Batch& batch = batchOf(host);
+  const Primary primary(batch, all);
+  const TmGrid* g = primary.grid();
+  const std::vector<LightSample>& samples = batch.lights.samples(batch);
+  const bool exists = index >= 0 && index < static_cast<int32_t>(samples.size());
+  const float* density = exists ? samples[static_cast<size_t>(index)].density : nullptr;
+  forActive(g, [&](int i) { out[i] = density ? density[i] : 0.0f; });
+  primary.spread(out);
+}
+
+void lightAlong(void* host, const TmGrid* g, TmConstVec3 L, const float* density, int32_t sample, int32_t samples, TmVec3 Cl) {
+  Batch& batch = batchOf(host);
+  forActive(g, [&](int i) { set(Cl, i, vec3(0.0f)); });
+  batch.lights.along(batch, {L, density, sample, samples}, Cl);
+  Primary(batch, g).spread(Cl);
+}
+
+// Half as many as of the light: twice as many win little where the lobe is narrow, and cost something where it is wide (docs/performance.md).
+int32_t lobeSamples(void* host, const TmGrid*) { return (batchOf(host).lights.mostSamples(batchOf(host)) + 1) / 2; }
+
+void stratified(void* host, const TmGrid* g, int32_t sample, int32_t samples, float* xi0, float* xi1) {
+  const Batch& batch = batchOf(host);
+  forActive(g, [&](int i) {
+    const SampleName name = batch.points ? batch.points->name(i % batch.points->count()) : SampleName{};
+    const vec2 xi = sobol2(name.sequence * static_cast<uint32_t>(samples) + static_cast<uint32_t>(sample),
+                           hashCombine(name.key, kLobeStream, batch.context.seed));
+    xi0[i] = xi.x, xi1[i] = xi.y;
+  });
+}
+
+}  // namespace tomales

@@ -1,0 +1,172 @@
+#include "reyes/shade/messages.h"
+
+#include <string_view>
+
+#include "reyes/shade/primary.h"
+
+namespace tomales {
+namespace {
+
+TmType typeOf(const Param& p) {
+  switch (p.type) {
+    case ValueType::Color: return TM_COLOR;
+    case ValueType::Point: return TM_POINT;
+    case ValueType::Vector: return TM_VECTOR;
+    case ValueType::Normal: return TM_NORMAL;
+    case ValueType::Matrix: return TM_MATRIX;
+    case ValueType::String: return TM_STRING;
+    default: return TM_FLOAT;
+  }
+}
+
+int32_t tell(Batch& batch, const Param& p, int32_t* type, TmValue* out) {
+  std::vector<float> numbers = p.floats;
+  numbers.insert(numbers.end(), p.ints.begin(), p.ints.end());
+  batch.answer(numbers, p.strings.empty() ? "" : p.strings.front(), typeOf(p), *type, *out);
+  return 1;
+}
+
+int32_t tell(Batch& batch, std::vector<float> numbers, TmType as, int32_t* type, TmValue* out) {
+  batch.answer(numbers, "", as, *type, *out);
+  return 1;
+}
+
+/// A parameter of a shader, as the values of one run have it. Outputs that nobody stores have no value.
+int32_t tell(const BoundShader* shader, const TmValue* values, std::string_view name, int32_t* type, TmValue* out) {
+  if (!shader) return 0;
+  if (name == "__shadername") {
+    *type = TM_STRING, *out = {{nullptr, nullptr, nullptr}, 0, 1, shader->shader->name};
+    return 1;
+  }
+  for (int i = 0; i < shader->shader->paramCount; ++i) {
+    const TmParamDecl& decl = shader->shader->params[i];
+    if (decl.name != name || (isOutput(decl) && !values[i].c[0])) continue;
+    *type = decl.type & ~TM_OUTPUT, *out = values[i];
+    return 1;
+  }
+  return 0;
+}
+
+int32_t tell(const BoundShaderPtr& shader, std::string_view name, int32_t* type, TmValue* out) {
+  return shader ? tell(shader.get(), shader->values.data(), name, type, out) : 0;
+}
+
+int32_t tellAttribute(Batch& batch, std::string_view name, int32_t* type, TmValue* out) {
+  const Attributes& a = *batch.group.group->attributes;
+  if (name.starts_with("Ri:")) name.remove_prefix(3);
+  const auto number = [&](float x) { return tell(batch, {x}, TM_FLOAT, type, out); };
+  const auto color = [&](const vec3& c) { return tell(batch, {c.x, c.y, c.z}, TM_COLOR, type, out); };
+  if (name == "ShadingRate") return number(a.shadingRate);
+  if (name == "Matte") return number(a.matte);
+  if (name == "Sides") return number(static_cast<float>(a.sides));
+  if (name == "Color") return color(a.color);
+  if (name == "Opacity") return color(a.opacity);
+  if (name == "ShadingInterpolation" || name == "Orientation" || name == "identifier:name") {
+    const std::string text = name == "identifier:name" ? a.name
+                             : name == "Orientation"   ? (a.insideOut ? "inside" : "outside")
+                             : a.interpolation == ShadingInterpolation::Smooth ? "smooth"
+                                                                               : "constant";
+    return batch.answer({}, text, TM_STRING, *type, *out), 1;
+  }
+  if (name == "DetailRange") return tell(batch, {a.detail.lo, a.detail.hi}, TM_FLOAT, type, out);
+  if (name == "TextureCoordinates") {
+    std::vector<float> st;
+    for (const vec2& c : a.textureCoordinates) st.insert(st.end(), {c.x, c.y});
+    return tell(batch, st, TM_FLOAT, type, out);
+  }
+  if (name == "displacementbound:sphere") return number(a.displacementBound);
+  if (name == "trace:maxdiffusedepth") return number(static_cast<float>(a.trace.maxDiffuseDepth));
+  if (name == "trace:maxspeculardepth") return number(static_cast<float>(a.trace.maxSpecularDepth));
+  if (name == "trace:bias") return number(a.trace.bias.value_or(0));
+  const std::map<std::string_view, bool> visible = {{"visibility:camera", a.visibility.camera}, {"visibility:diffuse", a.visibility.diffuse},
+                                                    {"visibility:specular", a.visibility.specular},
+                                                    {"visibility:transmission", a.visibility.transmission},
+                                                    {"visibility:photon", a.visibility.photon}};
+  if (const auto it = visible.find(name); it != visible.end()) return number(it->second);
+  const auto it = a.user.find(std::string(name));
+  return it == a.user.end() ? 0 : tell(batch, it->second, type, out);
+}
+
+int32_t tellOption(Batch& batch, std::string_view name, int32_t* type, TmValue* out) {
+  const Options& o = batch.scene.scene.options;
+  if (name.starts_with("Ri:")) name.remove_prefix(3);
+  const auto numbers = [&](std::vector<float> n) { return tell(batch, std::move(n), TM_FLOAT, type, out); };
+  if (name == "Format") return numbers({static_cast<float>(o.xResolution), static_cast<float>(o.yResolution), o.pixelAspect});
+  if (name == "Shutter") return numbers({o.shutterOpen, o.shutterClose});
+  if (name == "Clipping") return numbers({o.nearClip, o.farClip});
+  if (name == "CropWindow") return numbers({o.cropWindow.begin(), o.cropWindow.end()});
+  if (name == "PixelSamples") return numbers({static_cast<float>(o.xSamples), static_cast<float>(o.ySamples)});
+  if (name == "Frame") return numbers({static_cast<float>(o.frame)});
+  const auto it = o.user.find(std::string(name));
+  return it == o.user.end() ? 0 : tell(batch, it->second, type, out);
+}
+
+int32_t tellRenderer(Batch& batch, std::string_view name, int32_t* type, TmValue* out) {
+  if (name == "renderer") return batch.answer({}, "Tomales", TM_STRING, *type, *out), 1;
+  if (name == "versionstring") return batch.answer({}, TOMALES_VERSION, TM_STRING, *type, *out), 1;
+  if (name != "version") return 0;
+  std::vector<float> version(4, 0.0f);
+  const std::string_view text = TOMALES_VERSION;
+  for (size_t part = 0, begin = 0; part < 4 && begin < text.size(); ++part) {
+    for (; begin < text.size() && text[begin] != '.'; ++begin) version[part] = 10 * version[part] + static_cast<float>(text[begin] - '0');
+    ++begin;
+  }
+  return tell(batch, version, TM_FLOAT, type, out);
+}
+
+/// Incident and opposite volumes change from point to point with the side that is seen: strings and arrays are those of the first.
+int32_t tellVolume(Batch& batch, const TmGrid* g, bool incident, std::string_view name, int32_t* type, TmValue* out) {
+  TmValue side[2];
+  int32_t types[2] = {-1, -1};
+  const bool has[2] = {tell(batch.group.exterior, name, &types[0], &side[0]) != 0, tell(batch.group.interior, name, &types[1], &side[1]) != 0};
+  const auto inside = [&](int i) { return (dot(get(g->I, i), get(g->Ng, i)) > 0) == incident; };
+  int first = 0;
+  while (first + 1 < g->count && !g->active[first]) ++first;
+  const int chosen = inside(first);
+  if (!has[chosen]) return 0;
+  *type = types[chosen], *out = side[chosen];
+  if (!has[!chosen] || types[0] != types[1] || !side[0].c[0] || side[0].length != 1 || *type == TM_MATRIX) return 1;
+  for (int k = 0; k < 3 && side[0].c[k]; ++k) {
+    float* values = batch.arena.floats(g->count);
+    for (int i = 0; i < g->count; ++i) values[i] = side[inside(i)].c[k][0];
+    out->c[k] = values;
+  }
+  out->step = 1;
+  return 1;
+}
+
+}  // namespace
+
+int32_t ask(void* host, const TmGrid* g, int32_t whom, int32_t light, const char* name, int32_t* type, TmValue* out) {
+  Batch& batch = batchOf(host);
+  const BoundGroup& group = batch.group;
+  const auto kindIs = [&](TmKind kind) { return batch.own && batch.own->shader->kind == kind; };
+  switch (whom) {
+    case TM_OF_SURFACE:
+      return kindIs(TM_SURFACE) ? tell(batch.own, batch.tm.params, name, type, out) : tell(group.surface, name, type, out);
+    case TM_OF_DISPLACEMENT:
+      return kindIs(TM_DISPLACEMENT) ? tell(batch.own, batch.tm.params, name, type, out) : tell(group.displacement, name, type, out);
+    case TM_OF_ATMOSPHERE:
+      return tell(group.atmosphere, name, type, out);
+    case TM_OF_INCIDENT:
+    case TM_OF_OPPOSITE:
+      return tellVolume(batch, g, whom == TM_OF_INCIDENT, name, type, out);
+    case TM_OF_LIGHT: {
+      if (light < 0) return tell(batch.running, g->params, name, type, out);
+      const auto& samples = batch.lights.samples(batch);
+      if (light >= static_cast<int32_t>(samples.size()) || !samples[static_cast<size_t>(light)].params) return 0;
+      const LightSample& sample = samples[static_cast<size_t>(light)];
+      return tell(sample.light->bound.get(), sample.params, name, type, out);
+    }
+    case TM_OF_ATTRIBUTES:
+      return tellAttribute(batch, name, type, out);
+    case TM_OF_OPTIONS:
+      return tellOption(batch, name, type, out);
+    case TM_OF_RENDERER:
+      return tellRenderer(batch, name, type, out);
+    default:
+      return 0;
+  }
+}
+
+}  // namespace tomales

@@ -1,0 +1,127 @@
+#include "reyes/shade/picture_services.h"
+
+#include <string_view>
+
+#include "reyes/shade/primary.h"
+#include "reyes/shade/sky.h"
+
+namespace tomales {
+namespace {
+
+/// The caller's options, as many as it knows of.
+TmTextureLookup optionsOf(const TmTextureLookup* given) {
+  TmTextureLookup options = TM_TEXTURE_DEFAULTS;
+  if (given) std::copy_n(reinterpret_cast<const char*>(given), std::min<size_t>(given->structBytes, sizeof options), reinterpret_cast<char*>(&options));
+  return options;
+}
+
+TextureQuery queryOf(const TmGrid* g, const char* name, const TmTextureLookup& o) {
+  TextureQuery q;
+  q.name = name;
+  q.channel = o.channel, q.channels = o.channels == 1 ? 1 : 3, q.fill = o.fill, q.filter = o.filter;
+  q.sWidth = o.swidth, q.tWidth = o.twidth, q.sBlur = o.sblur, q.tBlur = o.tblur;
+  q.count = g->count, q.active = g->active;
+  return q;
+}
+
+int32_t lookUp(const Batch& batch, const TextureQuery& query, TmVec3 out) {
+  return batch.scene.textures.lookup(query, batch.running->where, batch.running->user, out);
+}
+
+/// Angle that the micropolygon of a point subtends for what it mirrors: twice that from the eye (a flat mirror keeps it; the
+/// factor covers what curvature adds where its normals are not known).
+float angleSeen(const TmGrid* g, int i) {
+  const float edge = std::max(glm::length(get(g->dPdu, i)) * std::abs(g->du[i]), glm::length(get(g->dPdv, i)) * std::abs(g->dv[i]));
+  const float distance = glm::length(get(g->I, i));
+  return distance > 0 ? std::min(2 * edge / distance, kPi) : 0.0f;
+}
+
+/// Angle by which a direction turns over the micropolygon of each point.
+void turnOf(const Batch& batch, const TmGrid* g, TmConstVec3 direction, float* angle, Arena& arena) {
+  const float* axes[3] = {direction.x, direction.y, direction.z};
+  float* step = arena.floats(g->count);
+  float* sum[2] = {arena.floats(g->count), arena.floats(g->count)};
+  for (const bool alongV : {false, true})
+    for (const float* axis : axes) {
+      if (!batch.stepsOf(g, alongV, axis, step)) return forActive(g, [&](int i) { angle[i] = angleSeen(g, i); });
+      forActive(g, [&](int i) { sum[alongV][i] += step[i] * step[i]; });
+    }
+  forActive(g, [&](int i) {
+    const float length = glm::length(get(direction, i));
+    angle[i] = length > 0 ? std::min(std::sqrt(std::max(sum[0][i], sum[1][i])) / length, kPi) : 0.0f;
+  });
+}
+
+/// The picture stands in world space, +z at its top.
+int32_t lookUpLatLong(Batch& batch, const TmGrid* g, const char* name, const TmTextureLookup& options, TmConstVec3 direction,
+                      const float* angle, TmVec3 out) {
+  const mat3 worldFromCurrent = glm::inverse(mat3(batch.scene.cameraFromWorld));
+  const int n = g->count;
+  float *s = batch.arena.floats(n), *t = batch.arena.floats(n), *su = batch.arena.floats(n), *tv = batch.arena.floats(n);
+  float* zero = batch.arena.floats(n);
+  forActive(g, [&](int i) {
+    const vec3 d = normalizeOr(worldFromCurrent * get(direction, i), vec3(0, 0, 1));
+    const vec2 st = latLong(d);
+    s[i] = st.x, t[i] = st.y;
+    tv[i] = std::min(1.0f, angle[i] / kPi);
+    su[i] = std::min(1.0f, angle[i] / (2 * kPi * std::max(std::sqrt(d.x * d.x + d.y * d.y), 1e-6f)));
+  });
+  TextureQuery query = queryOf(g, name, options);
+  query.s = s, query.t = t, query.su = su, query.tu = zero, query.sv = zero, query.tv = tv;
+  query.latlong = true;
+  return lookUp(batch, query, out);
+}
+
+}  // namespace
+
+int32_t textureWith(void* host, const TmGrid* g, const char* name, const TmTextureLookup* given, const float* s, const float* t, TmVec3 out) {
+  Batch& batch = batchOf(host);
+  TextureQuery query = queryOf(g, name, optionsOf(given));
+  query.s = s, query.t = t;
+  float* steps[4];
+  for (float*& step : steps) step = batch.arena.floats(g->count);
+  const bool known = batch.stepsOf(g, false, s, steps[0]) && batch.stepsOf(g, false, t, steps[1]) &&
+                     batch.stepsOf(g, true, s, steps[2]) && batch.stepsOf(g, true, t, steps[3]);
+  if (known)
+    query.su = steps[0], query.tu = steps[1], query.sv = steps[2], query.tv = steps[3];
+  else if (batch.points && (batch.points->hasSteps() || !(batch.running->can(TM_DERIVATIVES) || batch.running->can(TM_NEIGHBOURS))))
+    batch.report(Severity::Warning, "shader-footprint",
+                 "looks a picture up at places that it has computed, without TM_NEIGHBOURS (or at s, t without TM_DERIVATIVES); it is not filtered");
+  return lookUp(batch, query, out);
+}
+
+int32_t texture(void* host, const TmGrid* g, const char* name, int32_t channel, int32_t channels, const float* s, const float* t, TmVec3 out) {
+  TmTextureLookup lookup = TM_TEXTURE_DEFAULTS;
+  lookup.channel = channel, lookup.channels = channels;
+  return textureWith(host, g, name, &lookup, s, t, out);
+}
+
+int32_t environment(void* host, const TmGrid* g, const char* name, TmConstVec3 direction, const float* angle, TmVec3 out) {
+  Batch& batch = batchOf(host);
+  return lookUpLatLong(batch, g, name, TM_TEXTURE_DEFAULTS, direction, angle ? angle : batch.arena.floats(g->count), out);
+}
+
+int32_t environmentWith(void* host, const TmGrid* g, const char* name, const TmTextureLookup* given, TmConstVec3 direction, TmVec3 out) {
+  Batch& batch = batchOf(host);
+  const TmTextureLookup options = optionsOf(given);
+  if (std::string_view(name) == "raytrace") {
+    TmRayOptions rays = TM_RAY_DEFAULTS;
+    rays.samples = options.samples, rays.coneAngle = std::min(options.sblur, 1.0f) * kPi;
+    g->call->trace(host, g, view(g->P), direction, &rays, out, nullptr);
+    return 1;
+  }
+  float* angle = batch.arena.floats(g->count);
+  turnOf(batch, g, direction, angle, batch.arena);
+  return lookUpLatLong(batch, g, name, options, direction, angle, out);
+}
+
+int32_t textureInfo(void* host, const TmGrid*, const char* name, const char* what, int32_t* type, TmValue* out) {
+  Batch& batch = batchOf(host);
+  std::vector<float> numbers;
+  std::string text;
+  if (!batch.scene.textures.info(name, what, numbers, text)) return 0;
+  batch.answer(numbers, text, numbers.size() == 16 ? TM_MATRIX : numbers.empty() ? TM_STRING : TM_FLOAT, *type, *out);
+  return 1;
+}
+
+}  // namespace tomales

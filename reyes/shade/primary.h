@@ -1,0 +1,37 @@
+// Light and rays are asked for the points of a batch alone: their neighbours, which serve derivatives, share the answers.
+#pragma once
+#include "reyes/shade/batch.h"
+
+namespace tomales {
+
+class Primary {
+ public:
+  Primary(const Batch& batch, const TmGrid* g) : all_(g), grid_(*g) {
+    if (!batch.points || g->count <= batch.points->count()) return;
+    grid_.count = batch.points->count(), grid_.padded = padded(grid_.count);
+  }
+  const TmGrid* grid() const { return &grid_; }
+
+  /// Copies what was answered to the active neighbours. Null arrays are left alone.
+  template <class T>
+  void spread(T* out) const {
+    if (!out) return;
+    for (int i = grid_.count; i < all_->count; ++i)
+      if (all_->active[i]) out[i] = out[i % grid_.count];
+  }
+  void spread(TmVec3 out) const { spread(out.x), spread(out.y), spread(out.z); }
+
+ private:
+  const TmGrid* all_;
+  TmGrid grid_;
+};
+
+template <class Body>
+void forActive(const TmGrid* g, const Body& body) {
+  for (int i = 0; i < g->count; ++i)
+    if (g->active[i]) body(i);
+}
+
+inline Batch& batchOf(void* host) { return *static_cast<Batch*>(host); }
+
+}  // namespace tomales

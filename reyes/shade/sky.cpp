@@ -1,0 +1,90 @@
+#include "reyes/shade/sky.h"
+
+#include "reyes/base/rng.h"
+
+namespace tomales {
+namespace {
+
+constexpr int kRows = 512, kColumns = 1024;  ///< A cell is a third of a degree high: the sun is half a degree wide.
+constexpr float kPictureShare = 0.5f;
+constexpr float kLeastCosine = 1e-3f;  ///< Keeps what one sample brings finite.
+
+float center(int i, int count) { return (static_cast<float>(i) + 0.5f) / static_cast<float>(count); }
+/// Solid angle for each unit of (s, t).
+float solidAngleAt(float t) { return 2 * kPi * kPi * std::sin(kPi * t); }
+
+float cosineDensity(const vec3& N, const vec3& L) { return dot(N, L) > 0 ? std::max(dot(N, L), kLeastCosine) / kPi : 0.0f; }
+
+vec3 cosineDirection(const vec3& N, const vec2& xi) {
+  vec3 tangent, bitangent;
+  orthonormalBasis(N, tangent, bitangent);
+  const vec3 local = cosineHemisphere(xi);
+  return normalizeOr(local.x * tangent + local.y * bitangent + std::max(local.z, kLeastCosine) * N, N);
+}
+
+}  // namespace
+
+vec2 latLong(const vec3& d) {
+  const float longitude = std::atan2(d.y, d.x) / (2 * kPi);
+  return {longitude < 0 ? longitude + 1 : longitude, std::atan2(std::sqrt(d.x * d.x + d.y * d.y), d.z) / kPi};
+}
+
+vec3 latLongDirection(const vec2& st) {
+  const float phi = 2 * kPi * st.x, theta = kPi * st.y;
+  return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+}
+
+Sky::Sky(const Textures& textures, const std::string& picture, const SourceLoc& where, const std::string& user,
+         const mat3& worldFromCurrent)
+    : worldFromCurrent_(worldFromCurrent) {
+  // Twice as wide as a cell: what a direction in the cell sees of its neighbours counts too.
+  const AlignedVector<float> width(kColumns, 2.0f / kColumns), height(kColumns, 2.0f / kRows);
+  AlignedVector<float> s(kColumns), t(kColumns), rgb[3];
+  for (auto& c : rgb) c.resize(kColumns);
+  const AlignedVector<uint8_t> active(kColumns, uint8_t{1});
+  for (int i = 0; i < kColumns; ++i) s[static_cast<size_t>(i)] = center(i, kColumns);
+  bool read = true;
+  for (int j = 0; j < kRows && read; ++j) {
+    std::fill(t.begin(), t.end(), center(j, kRows));
+    TextureQuery query{picture.c_str()};
+    query.count = kColumns, query.active = active.data(), query.s = s.data(), query.t = t.data();
+    query.su = width.data(), query.tv = height.data(), query.latlong = true;
+    read = textures.lookup(query, where, user, {rgb[0].data(), rgb[1].data(), rgb[2].data()});
+    Distribution& row = row_.emplace_back();
+    for (size_t i = 0; i < kColumns; ++i) {
+      const float light = luminance({rgb[0][i], rgb[1][i], rgb[2][i]}) * solidAngleAt(center(j, kRows));
+      row.add(light > 0 && std::isfinite(light) ? double{light} : 0.0);
+    }
+    rows_.add(row.total());
+  }
+  if (!read || !(rows_.total() > 0)) row_.clear();
+}
+
+vec3 Sky::sample(const vec3& N, vec2 xi, float& density) const {
+  const float share = row_.empty() ? 0 : kPictureShare;
+  vec3 L;
+  if (xi.x < share) {
+    double s{xi.x / share}, t{xi.y};
+    const size_t j = rows_.pick(t), i = row_[j].pick(s);
+    L = latLongDirection({(static_cast<float>(i) + static_cast<float>(s)) / kColumns, (static_cast<float>(j) + static_cast<float>(t)) / kRows});
+    L = normalizeOr(glm::transpose(worldFromCurrent_) * L, N);
+  } else {
+    L = cosineDirection(N, {(xi.x - share) / (1 - share), xi.y});
+  }
+  density = this->density(N, L);
+  return L;
+}
+
+float Sky::density(const vec3& N, const vec3& L) const {
+  const float byCosine = cosineDensity(N, L);
+  return row_.empty() ? byCosine : kPictureShare * pictureDensity(L) + (1 - kPictureShare) * byCosine;
+}
+
+float Sky::pictureDensity(const vec3& L) const {
+  const vec2 st = latLong(worldFromCurrent_ * L);
+  const auto cell = [](float x, int count) { return static_cast<size_t>(std::clamp(static_cast<int>(x * static_cast<float>(count)), 0, count - 1)); };
+  const double share = row_[cell(st.y, kRows)].weight(cell(st.x, kColumns)) / rows_.total();
+  return static_cast<float>(share * kRows * kColumns / std::max(double{solidAngleAt(st.y)}, 1e-9));
+}
+
+}  // namespace tomales

@@ -1,0 +1,40 @@
+// Where a light that is all around, at infinity, is sampled: half by the brightness of its picture, half by the cosine with the normal;
+// without a picture by the cosine alone. A bright sun of a few texels is found by as many samples as it is worth.
+// Space: current. Threads: const members may be called concurrently.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "reyes/base/distribution.h"
+#include "reyes/base/math.h"
+#include "reyes/base/simd.h"
+#include "reyes/shade/texture.h"
+
+namespace tomales {
+
+/// Latitude-longitude pictures (RISpec 3.2, MakeLatLongEnvironment): +z of the world at the top, +x at the left edge, +y a quarter to
+/// the right. s and t in 0..1, t downwards.
+vec2 latLong(const vec3& worldDirection);
+vec3 latLongDirection(const vec2& st);
+
+class Sky {
+ public:
+  /// The same from everywhere.
+  Sky() = default;
+  /// `picture` in world space; what cannot be read is reported, and even.
+  Sky(const Textures& textures, const std::string& picture, const SourceLoc& where, const std::string& user,
+      const mat3& worldFromCurrent);
+
+  /// A unit direction to light a point with unit normal N by; density over solid angle.
+  vec3 sample(const vec3& N, vec2 xi, float& density) const;
+  float density(const vec3& N, const vec3& L) const;
+
+ private:
+  float pictureDensity(const vec3& L) const;
+
+  Distribution rows_;
+  std::vector<Distribution> row_;  ///< Cells of each; none: no picture.
+  mat3 worldFromCurrent_{1.0f};
+};
+
+}  // namespace tomales

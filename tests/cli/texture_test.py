@@ -1,0 +1,62 @@
+"""Pictures on surfaces: filtered where small, made by RIB requests, loud where broken."""
+import json
+import struct
+import zlib
+
+from program import Suite
+
+suite = Suite()
+
+
+def png(name, size, texel):
+    rows = b"".join(b"\0" + b"".join(bytes(texel(x, y)) for x in range(size)) for y in range(size))
+    chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    header = struct.pack(">IIBBBBB", size, size, 8, 2, 0, 0, 0)
+    return suite.write(name, b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def scene(name, texture, before="", coordinates="", surface=None):
+    surface = surface or f'Surface "paintedplastic" "Kd" [0] "Ks" [0] "Ka" [1] "texturename" ["{texture}"]'
+    return suite.write(name + ".rib", f"""{before}
+Display "{name}.exr" "file" "rgba"
+Format 32 32 1
+Projection "orthographic"
+WorldBegin
+LightSource "ambientlight" 1
+{surface}
+Translate 0 0 5
+Patch "bilinear" "P" [-2 -2 0  2 -2 0  -2 2 0  2 2 0] {coordinates}
+WorldEnd
+""")
+
+
+def red(name):
+    info = json.loads(suite.run("info", "--json", name + ".exr").stdout)
+    return next(c for c in info["channels"] if c["name"] == "R")
+
+
+grain = png("grain.png", 512, lambda x, y: (255 * ((x + y) % 2),) * 3)
+suite.expect_run("a fine checker renders", [scene("st", "grain.png")], 0)
+suite.expect(abs(red("st")["mean"] - 0.5) < 0.01 and red("st")["max"] - red("st")["min"] < 0.05,
+             "texels finer than pixels are averaged by the standard s and t")
+suite.expect_run("and by primitive variables", [scene("own", "grain.png", coordinates='"st" [0.1 0.2  0.9 0.1  0.2 0.8  0.8 0.9]')], 0)
+suite.expect(red("own")["max"] - red("own")["min"] < 0.05, "texels are averaged by s and t of the primitive")
+suite.expect(len(list((suite.folder / "textures").rglob("*.tx"))) == 1, "one conversion serves both")
+
+suite.expect_run("MakeTexture makes what a later world reads",
+                 [scene("made", "made.tex", 'MakeTexture "grain.png" "made.tex" "periodic" "periodic" "box" 1 1')], 0)
+suite.expect((suite.folder / "made.tex").exists(), "the file is there under its own name")
+suite.expect_run("a picture that is not there cannot be made into a texture",
+                 [scene("none", "grain.png", 'MakeTexture "absent.png" "b.tex" "black" "black" "box" 1 1')], 3, "MakeTexture", "absent.png")
+suite.expect_run("six faces make an environment", [scene("cube", "cube.env", 'MakeCubeFaceEnvironment '
+                 + '"grain.png" ' * 6 + '"cube.env" 90 "box" 1 1')], 0)
+suite.expect_run("a wrong filter and wrap mode are named",
+                 [scene("odd", "o.tex", 'MakeTexture "grain.png" "o.tex" "round" "black" "star" 1 1')], 0, '"round"', '"star"')
+
+data = (suite.folder / grain).read_bytes()
+suite.write("cut.png", data[:len(data) // 2])
+suite.expect_run("a truncated picture is loud and says where", [scene("cut", "cut.png")], 3, "cut.png", "cut.rib:7", "magenta")
+suite.expect_run("a missing one too", [scene("absent", "absent.png")], 3, "absent.png", "absent.rib:7", "magenta")
+suite.expect_run("little memory changes no picture", ["--texture-memory", "1M", scene("small", "grain.png")], 0)
+suite.expect(red("small") == red("st"), "the same texels")
+suite.finish()

@@ -1,0 +1,61 @@
+"""Scenes on which irradiance caches are known to fail: the cache against a gather at every point, indirect light alone.
+
+irradiance_cache_test.py TOMALES [SIZE SAMPLES [ARGUMENTS...]]: larger and finer, it makes the table of docs/gi.md.
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+FOLDER = pathlib.Path(__file__).parent
+sys.path.insert(0, str(FOLDER.parent / "image"))
+from pictures import pixels  # noqa: E402
+
+# Most that the mean and the 99th percentile of the relative error, and the share of black pixels that get light, may be at the size and
+# with the rays of the test: 40 x 40 pixels of up to 6 cm, so that the wall of 2 cm is thinner than the least reach of a record.
+LIMITS = {
+    "box_ball": (0.04, 0.25, 0.001),
+    "bumps": (0.035, 0.2, 0.001),
+    "contact": (0.055, 0.6, 0.001),
+    "grazing": (0.03, 0.15, 0.001),
+    "hot_spot": (0.28, 1.1, 0.2),
+    "lamp_slot": (0.05, 0.35, 0.001),
+    "thin_blades": (0.05, 0.3, 0.001),
+    "thin_wall": (0.03, 0.3, 0.03),
+}
+FLOOR = 0.01
+
+tomales = pathlib.Path(sys.argv[1]).resolve()
+size, samples = (sys.argv[2], sys.argv[3]) if len(sys.argv) > 3 else ("40", "200")
+extra = sys.argv[4:]
+
+
+def render(folder, scene, *arguments):
+    out = folder / "picture.exr"
+    subprocess.run([tomales, "render", FOLDER / "irradiance_cache" / f"{scene}.rib", "-q", "--gi", "gather", "--indirect-only", "--format",
+                    f"{size}x{size}", "--pixel-samples", "2x2", "-o", out, "--stats", folder / "stats.json", *arguments], check=True, timeout=3000)
+    records = json.loads((folder / "stats.json").read_text())["irradiance_cache"]["samples"]
+    return pixels(out), records
+
+
+def errors(picture, truth):
+    """Sorted; of all colours of all pixels that have light, and of those that have none what they were given."""
+    lit = [abs(p - t) / (t + FLOOR) for xy, color in truth.items() for p, t in zip(picture[xy][:3], color[:3]) if max(color[:3]) > 0]
+    dark = [max(picture[xy][:3]) for xy, color in truth.items() if max(color[:3]) == 0]
+    return sorted(lit), sorted(dark)
+
+
+failures = 0
+with tempfile.TemporaryDirectory() as name:
+    for scene, (mean_limit, p99_limit, leak_limit) in LIMITS.items():
+        truth, _ = render(pathlib.Path(name), scene, "--max-error", "0", "--samples", str(2 * int(samples)), "--light-seed", "1")
+        picture, records = render(pathlib.Path(name), scene, "--samples", samples, *extra)
+        lit, dark = errors(picture, truth)
+        mean, p99 = sum(lit) / len(lit), lit[int(0.99 * len(lit))]
+        leaks = sum(d > 1e-4 for d in dark) / max(len(dark), 1)
+        good = extra or (mean < mean_limit and p99 < p99_limit and leaks < leak_limit)
+        failures += not good
+        print(f"{'ok     ' if good else 'FAILED '} {scene:<12} {records:6} records, mean {100 * mean:5.2f} %, p99 {100 * p99:5.1f} %, "
+              f"dark pixels that got light {100 * leaks:.2f} %", flush=True)
+sys.exit(bool(failures))
