@@ -1,0 +1,61 @@
+"""Disks that fill up, folders that vanish, files that are cut: a clear message, the documented exit code, and what was finished is
+kept. (Flipped bytes: unit tests of Dfb and RecordFiles, every one of them; shot_test.py, killed runs.)"""
+import resource
+import shutil
+import signal
+import subprocess
+
+from program import GOOD, Suite
+
+t = Suite()
+LIT = GOOD.replace("LightSource", 'LightSource "indirectlight" 2 "float samples" [16]\nLightSource', 1).replace("Sphere", "Sphere 1 -1 1 360\nPolygon \"P\" [-3 -1 -3 -3 -1 3 3 -1 3 3 -1 -3]\nSphere", 1)
+t.write("lit.rib", LIT.replace("Format 24 24 1", "Format 120 120 1"))
+t.write("good.rib", GOOD)
+
+
+def limited(size, *arguments):
+    """With files of no more than `size` bytes: as on a full disk."""
+    def limit():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+    return subprocess.run([t.program, *arguments], cwd=t.folder, capture_output=True, text=True, preexec_fn=limit, timeout=60)
+
+
+def expect_said(result, code, what, *says):
+    t.expect(result.returncode == code and all(s in result.stderr for s in says), f"{what} (exit {result.returncode}) {result.stderr[-200:] if result.returncode != code else ''}")
+
+
+expect_said(limited(3000, "good.rib", "--format", "300x300", "-o", "full.exr"), 4, "a disk too full for the picture", "full.exr", "could not be written")
+t.expect(not list(t.folder.glob("*full.exr*")), "leaves nothing half-written")
+expect_said(limited(30000, "lit.rib", "-o", "spill.exr", "--memory-limit", "1K"), 4, "a disk too full for the buckets that do not fit into memory",
+            "do not fit into memory", "some are left out")
+expect_said(limited(30000, "lit.rib", "-o", "resume.exr", "--resume"), 4, "a disk too full for buckets and picture", "resume.exr", "could not be written")
+t.expect((t.folder / "resume.exr.dfb.part").exists(), "keeps the buckets that were finished")
+t.expect_run("for a run with more room", ["lit.rib", "-o", "resume.exr", "--resume", "-v"], 0, "buckets were finished before")
+t.run("hide", "good.rib", "-o", "good.dfb", "-q")
+expect_said(limited(100, "gather", "good.dfb", "-o", "good.icf"), 4, "a disk too full for records", "good.icf", "could not be written")
+
+# A folder that vanishes while the frame is made.
+(t.folder / "gone").mkdir()
+process = subprocess.Popen([t.program, "good.rib", "-o", "gone/a.exr", "--format", "700x700", "--progress", "-t", "1"], cwd=t.folder,
+                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+process.stdout.readline()
+shutil.rmtree(t.folder / "gone")
+_, said = process.communicate(timeout=100)
+t.expect(process.returncode == 4 and "gone/a.exr" in said, "a folder that vanishes on the way " + said[-200:])
+
+# Cut files of ours.
+whole = (t.folder / "good.dfb").read_bytes()
+for end in (0, 7, 31, 32, 200, len(whole) // 2, len(whole) - 1):
+    t.write("cut.dfb", whole[:end])
+    t.expect_run(f"a .dfb of {end} bytes", ["shade", "cut.dfb", "-o", "cut.exr"], 2, "cut.dfb")
+t.write("newer.dfb", whole[:8] + b"\xff" + whole[9:])
+t.expect_run("a .dfb of another version", ["shade", "newer.dfb", "-o", "cut.exr"], 2, "newer.dfb")
+
+# A channel that nobody writes, and a deep picture that no machine holds.
+t.write("aov.rib", 'Display "a.exr" "file" "rgba"\nDisplay "+b.exr" "file" "color nobody"\n' + GOOD.split("\n", 1)[1])
+t.expect_run("a channel that no shader writes", ["aov.rib"], 0, "aov.rib:2", "nobody")
+t.expect((t.folder / "b.exr").exists(), "is written with its fill")
+t.write("deep.rib", 'Display "deep.exr" "deepexr" "rgba"\n' + GOOD.split("\n", 1)[1])
+t.expect_run("a deep picture beyond all memory", ["deep.rib", "--format", "65536x65536"], 4, "--crop")
+t.finish()
