@@ -22,6 +22,8 @@ class Decomposer {
   Decomposition run(Problems& problems) {
     uint32_t first = 0;
     size_t dropped = 0, loop = 0;
+    out_.faces.reserve(loopCounts_.size());
+    out_.patches.reserve(loopCounts_.size());
     for (const int loops : loopCounts_) {
       const std::span<const int> counts(&vertexCounts_[loop], static_cast<size_t>(loops));
       dropped += !addFace(first, counts);
@@ -117,7 +119,7 @@ class Decomposer {
   }
 
   void addQuad(const Corners& corners, const PatchInfo& info) {
-    out_.patches.push_back({corners, static_cast<uint32_t>(out_.faces.size() - 1), info});
+    out_.patches.add({corners, static_cast<uint32_t>(out_.faces.size() - 1), info});
   }
 
   /// The number that a mean of face-vertices gets.

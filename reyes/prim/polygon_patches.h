@@ -15,6 +15,31 @@ struct QuadPatch {
   PatchInfo info;
 };
 
+/// While all faces are quadrilaterals of one patch, two bytes a patch are kept: the corners of patch k are the four face-vertices of
+/// face k.
+class QuadPatches {
+ public:
+  size_t size() const { return patches_.empty() ? plain_.size() : patches_.size(); }
+  QuadPatch operator[](size_t k) const { return patches_.empty() ? plainPatch(k, plain_[k]) : patches_[k]; }
+  void reserve(size_t n) { plain_.reserve(n); }
+  void add(const QuadPatch& patch) {
+    const QuadPatch plain = plainPatch(plain_.size(), patch.info);
+    if (patches_.empty() && plain.face == patch.face && plain.corners == patch.corners) return plain_.push_back(patch.info);
+    for (size_t k = 0; k < plain_.size(); ++k) patches_.push_back(plainPatch(k, plain_[k]));
+    plain_ = {};
+    patches_.push_back(patch);
+  }
+  size_t bytes() const { return patches_.capacity() * sizeof(QuadPatch) + plain_.capacity() * sizeof(PatchInfo); }
+
+ private:
+  static QuadPatch plainPatch(size_t k, const PatchInfo& info) {
+    const auto first = static_cast<uint32_t>(4 * k);
+    return {{first, first + 1, first + 3, first + 2}, static_cast<uint32_t>(k), info};
+  }
+  std::vector<QuadPatch> patches_;  ///< Empty, or all of them.
+  std::vector<PatchInfo> plain_;
+};
+
 struct Face {
   vec3 normal;
   bool planar;
@@ -40,7 +65,7 @@ class MadePoints {
 
 struct Decomposition {
   std::vector<Face> faces;  ///< By RIB face.
-  std::vector<QuadPatch> patches;
+  QuadPatches patches;
   MadePoints made;
 };
 

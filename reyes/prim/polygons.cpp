@@ -45,7 +45,7 @@ class Polygons : public Prim {
   void interpolate(uint32_t patch, int index, int n, const float* u, const float* v, float* out,
                    int stride) const override {
     const Primvar& var = primvars_[static_cast<size_t>(index)];
-    const QuadPatch& quad = parts_.patches[patch];
+    const QuadPatch quad = parts_.patches[patch];
     if (repeatIfEven(var, quad.face, n, out, stride)) return;
     const Corners corners = var.storage == Storage::FaceVarying ? quad.corners : vertexNumbers(quad);
     interpolateBilinear(var.values.data(), var.width, corners, n, u, v, out, stride);
@@ -96,7 +96,7 @@ class Polygons : public Prim {
       }
   }
 
-  size_t shapeBytes() const override { return bytesOf(parts_.faces) + bytesOf(parts_.patches) + bytesOf(positions_) + bytesOf(vertices_); }
+  size_t shapeBytes() const override { return bytesOf(parts_.faces) + parts_.patches.bytes() + bytesOf(positions_) + bytesOf(vertices_); }
   Decomposition parts_;
   std::vector<vec3> positions_;
   std::vector<int> vertices_;

@@ -20,8 +20,14 @@ void reject(GraphicsState& s, const Request& r, const std::string& why) {
 void format(GraphicsState& s, const Request& r) {
   const std::vector<float>& a = r.args[0].numbers;
   Options& o = s.globals.options;
-  if (a[0] > 0) o.xResolution = static_cast<int>(clamped(s, r, a[0], 1, kLargestImage));
-  if (a[1] > 0) o.yResolution = static_cast<int>(clamped(s, r, a[1], 1, kLargestImage));
+  if (a[0] > kLargestImage || a[1] > kLargestImage) {
+    s.log.report(Severity::Missing, "rib-option", r.where,
+                 fmt::format("Format: {} x {} is more than the {} pixels that a picture may have on a side; {} x {} stays", a[0], a[1],
+                             kLargestImage, o.xResolution, o.yResolution));
+    return;
+  }
+  if (a[0] > 0) o.xResolution = std::max(1, static_cast<int>(a[0]));
+  if (a[1] > 0) o.yResolution = std::max(1, static_cast<int>(a[1]));
   if (a[2] > 0) o.pixelAspect = clamped(s, r, a[2], 1e-3f, 1e3f);
 }
 

@@ -27,8 +27,10 @@ void shrink(Scene& scene) {
   o.bucketWidth = o.bucketHeight = kResolution;
   o.xFilterWidth = o.yFilterWidth = 1;
   o.gridSize = std::clamp(o.gridSize, 16, 256);
-  if (scene.objects.size() > kMostObjects) scene.objects.resize(kMostObjects);
-  std::erase_if(scene.objects, [](const Object& object) { return object.shape().patchCount() > kMostPatches; });
+  StableVector<Object> few;
+  for (Object& object : scene.objects)
+    if (few.size() < kMostObjects && object.shape().patchCount() <= kMostPatches) few.push_back(std::move(object));
+  scene.objects = std::move(few);
   for (Object& object : scene.objects) {
     auto a = std::make_shared<Attributes>(*object.attributes);
     a->shadingRate = std::max(a->shadingRate, 4.0f);
@@ -46,7 +48,7 @@ void goThroughTheStages(Scene scene, Log& log) {
   Stats stats;
   ShaderRegistry registry(log);
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
-  const ShadingSystem shading(scene, registry, nullptr, log, stats);
+  ShadingSystem shading(scene, registry, nullptr, log, stats);
   hideFrame(scene, shading, {}, stats, log);
   const RayScene rays(scene, Camera(scene.options), shading, true, stats, log);
   rays.closest({vec3(0), vec3(0, 0, 1)}, kMaskDiffuse);
