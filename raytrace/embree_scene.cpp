@@ -19,12 +19,13 @@ struct Geometry {
   bool opaque, flips;
   DetailShare detail;
   const CoarseGroup* meshes;                         ///< All groups, or the one master.
-  std::vector<uint32_t> meshOfQuad{};                ///< Empty: all belong to the first.
+  uint32_t onlyMesh = 0;
+  std::vector<uint32_t> meshOfQuad{};                ///< Empty: all belong to onlyMesh.
   const std::vector<uint32_t>* firstQuad = nullptr;  ///< of each mesh, in its geometry
 
   struct Place { uint32_t mesh, quad; };
   Place place(uint32_t primitive) const {
-    if (meshOfQuad.empty()) return {0, primitive};
+    if (meshOfQuad.empty()) return {onlyMesh, primitive};
     const uint32_t mesh = meshOfQuad[primitive];
     return {mesh, primitive - (*firstQuad)[mesh]};
   }
@@ -182,16 +183,36 @@ struct EmbreeScene::Impl {
     return t;
   }
 
-  /// One geometry of the given groups. Embree pads the vertex buffer that it allocates, of which it reads 16 bytes at the last.
+  /// One geometry of the given groups.
   void attach(const std::vector<uint32_t>& members, uint32_t mask, bool opaque) {
     const CoarseGroup& like = groups[members.front()];
-    const size_t steps = like.laterP.size() + 1;
+    const auto id = static_cast<unsigned>(geometries.size());
+    Geometry& out = geometries.emplace_back(Geometry{opaque, like.flipsNormal, like.detail, groups.data(), members.front(), {}, &firstQuad});
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
+    rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(like.laterP.size() + 1));
+    if (members.size() == 1)
+      share(geometry, like);
+    else
+      copy(geometry, members, out.meshOfQuad);
+    rtcSetGeometryMask(geometry, mask);
+    if (like.trimmed || !like.detail.whole()) filterAbsent(geometry);
+    attach(scene, geometry, id, &out);
+  }
+
+  static const std::vector<vec3>& positions(const CoarseGroup& g, size_t step) { return step == 0 ? g.P : g.laterP[step - 1]; }
+
+  static void share(RTCGeometry geometry, const CoarseGroup& g) {
+    for (unsigned step = 0; step <= g.laterP.size(); ++step)
+      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT3, positions(g, step).data(), 0, sizeof(vec3),
+                                 positions(g, step).size());
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, g.quads.data(), 0, sizeof(Quad), g.quads.size());
+  }
+
+  /// Embree pads the vertex buffer that it allocates, of which it reads 16 bytes at the last.
+  void copy(RTCGeometry geometry, const std::vector<uint32_t>& members, std::vector<uint32_t>& meshOfQuad) {
+    const size_t steps = groups[members.front()].laterP.size() + 1;
     size_t vertexCount = 0, quadCount = 0;
     for (const uint32_t g : members) vertexCount += groups[g].P.size(), quadCount += groups[g].quads.size();
-    const auto id = static_cast<unsigned>(geometries.size());
-    Geometry& out = geometries.emplace_back(Geometry{opaque, like.flipsNormal, like.detail, groups.data(), {}, &firstQuad});
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
-    rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(steps));
     std::vector<vec3*> vertices;
     for (unsigned step = 0; step < steps; ++step)
       vertices.push_back(static_cast<vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT3,
@@ -199,21 +220,16 @@ struct EmbreeScene::Impl {
     auto* quads = static_cast<Quad*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, sizeof(Quad), quadCount));
     uint32_t firstVertex = 0;
+    meshOfQuad.reserve(quadCount);
     for (const uint32_t g : members) {
       if (!vertices.back() || !quads) break;  // out of memory: the device's error tells
-      firstQuad[g] = static_cast<uint32_t>(out.meshOfQuad.size());
-      out.meshOfQuad.insert(out.meshOfQuad.end(), groups[g].quads.size(), g);
-      for (size_t step = 0; step < steps; ++step) {
-        const std::vector<vec3>& P = step == 0 ? groups[g].P : groups[g].laterP[step - 1];
-        vertices[step] = std::copy(P.begin(), P.end(), vertices[step]);
-      }
+      firstQuad[g] = static_cast<uint32_t>(meshOfQuad.size());
+      meshOfQuad.insert(meshOfQuad.end(), groups[g].quads.size(), g);
+      for (size_t step = 0; step < steps; ++step) vertices[step] = std::copy(positions(groups[g], step).begin(), positions(groups[g], step).end(), vertices[step]);
       for (const Quad& q : groups[g].quads)
         *quads++ = {q[0] + firstVertex, q[1] + firstVertex, q[2] + firstVertex, q[3] + firstVertex};
       firstVertex += static_cast<uint32_t>(groups[g].P.size());
     }
-    rtcSetGeometryMask(geometry, mask);
-    if (like.trimmed || !like.detail.whole()) filterAbsent(geometry);
-    attach(scene, geometry, id, &out);
   }
 
   static void filterAbsent(RTCGeometry geometry) {
@@ -231,7 +247,7 @@ struct EmbreeScene::Impl {
   /// The polygons of a master lie in its own buffers: Embree asks for 16 readable bytes at the last vertex.
   RTCScene sceneOf(const CoarseGroup& mesh) {
     RTCScene out = newScene();
-    Geometry& described = masters.emplace_back(Geometry{true, mesh.flipsNormal, {}, &mesh});
+    Geometry& described = masters.emplace_back(Geometry{true, mesh.flipsNormal, {}, &mesh, 0, {}, nullptr});
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
     auto* vertices = static_cast<vec3*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), mesh.P.size()));

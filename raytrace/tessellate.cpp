@@ -203,6 +203,20 @@ void append(CoarseGroup& to, const CoarseGroup& from) {
   to.deviation = std::max(to.deviation, from.deviation);
 }
 
+/// Gives back what growing reserved beyond need; Embree reads 16 bytes at the last position.
+void fit(CoarseGroup& g) {
+  const auto exactly = [](std::vector<vec3>& v, size_t spare) {
+    std::vector<vec3> out;
+    out.reserve(v.size() + spare);
+    out.assign(v.begin(), v.end());
+    v = std::move(out);
+  };
+  if (g.P.empty()) return;
+  exactly(g.P, 1), exactly(g.N, 0);
+  for (std::vector<vec3>& later : g.laterP) exactly(later, 1);
+  g.quads.shrink_to_fit(), g.latticeOfQuad.shrink_to_fit(), g.lattices.shrink_to_fit();
+}
+
 /// A run of patches of one object: what one thread tessellates at a time.
 struct Work {
   int object;
@@ -294,6 +308,7 @@ std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, co
     if (!pieces[w].P.empty()) append(group, pieces[w]);
     pieces[w] = {};
   }
+  for (CoarseGroup& group : groups) fit(group);
   return groups;
 }
 

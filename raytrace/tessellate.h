@@ -27,7 +27,7 @@ using Quad = std::array<uint32_t, 4>;
 
 /// All coarse polygons of one shade group.
 struct CoarseGroup {
-  std::vector<vec3> P, N;  ///< At shutter open. N: RISpec side, unit length.
+  std::vector<vec3> P, N;  ///< At shutter open. N: RISpec side, unit length. Behind P, and P of later keys, lie at least 4 more readable bytes.
   std::vector<std::vector<vec3>> laterP;  ///< P at the motion keys after that, which divide the shutter equally.
   std::vector<Quad> quads;
   std::vector<uint32_t> latticeOfQuad;

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "tests/unit/shade/stage.h"
 
 namespace tomales {
@@ -115,6 +117,23 @@ TEST_F(AreaLight, IrradianceOfARectangleIsTheClosedFormAtNinePoints) {
                                  P[static_cast<size_t>(i)], {0, 0, -1});
     EXPECT_NEAR(out.color(i).x, E, 0.01 * E) << "point " << i;
   }
+}
+
+TEST_F(AreaLight, StopsTracingShadowsWhereTheirMeanIsKnownWellEnough) {
+  surface("matte");
+  light("arealight", {number("samples", 64), number("shadowvariance", 0.002f)}, true);
+  rectangle({0, 0, 1});
+  const auto visible = [](const vec3& P, const vec3& toward) { return (P + toward).x > 0.3f ? 0.0f : 1.0f; };
+  const ShadePoints clear = points({vec3(0, 0, 5)});
+  const float open = shade(clear).color(0).x;
+  const int inTheOpen = std::exchange(services.shadowRays, 0);
+  services.visible = visible;
+  const float penumbra = shade(clear).color(0).x;
+  EXPECT_LT(inTheOpen, 24);                      // 0.5 / (n + 1) (1 - 0.5 / (n + 1)) / n < 0.002 at n = 16
+  EXPECT_GT(services.shadowRays, 2 * inTheOpen);
+  ShadeContext fine;
+  fine.lightSamples = 4096;
+  EXPECT_NEAR(penumbra / open, shade(clear, fine).color(0).x / open, 3 * std::sqrt(0.002f));
 }
 
 TEST_F(AreaLight, EmitsFromTheSideOfItsNormalOnly) {
