@@ -191,6 +191,10 @@ PrimPtr makeTeapot(const ParamList&, Problems&);
 /// (reyes/prim/blobby_code.h); varying and vertex primvars have a value for each leaf and blend.
 PrimPtr makeBlobby(int leafCount, const std::vector<int>& code, const std::vector<float>& floats, const ParamList&,
                    Problems&);
+/// A later key of a moving one: the mesh of `first` goes where its leaves go, and from there onto the new surface. If `first` is no
+/// Blobby of as many leaves: makeBlobby().
+PrimPtr makeBlobbyKey(const Prim& first, int leafCount, const std::vector<int>& code, const std::vector<float>& floats,
+                      const ParamList&, Problems&);
 
 /// Schemes "catmull-clark", "loop" (triangles only) and "bilinear" by OpenSubdiv's limit surface. Tags as
 /// HierarchicalSubdivisionMesh gives them: per tag a name and {number of ints, number of floats, number of strings}.

@@ -65,12 +65,17 @@ std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
   return {a, b};
 }
 
-/// Cells along `length_px`: fewer where blur lets edges grow by `coarsening`, but never so few, `least`, that the shape collapses. Binary: a power
-/// of two.
-int cells(float length_px, int least, float edge_px, float coarsening, bool binary) {
+/// How far a chord may leave its arc, at any shading rate: a silhouette's error (docs/decisions/0034).
+constexpr float kFlat_px = 0.25f;
+
+/// Cells along `length_px`: fewer where blur lets edges grow by `coarsening`, but never so few, `least`, that the shape collapses, and
+/// so many that chords are flat. Binary: a power of two.
+int cells(float length_px, int least, float bend_px, float edge_px, float coarsening, bool binary) {
   constexpr float kLeastOfCoarse = 4;
+  // A line that a quarter of it leaves by `bend_px` as a second difference: its n-th part bulges by 2 bend / n^2.
+  const float flat = std::min(std::ceil(std::sqrt(2 * bend_px / (kFlat_px * coarsening))), 64.0f);
   const float fine = std::ceil(length_px / edge_px), coarse = std::ceil(length_px / (edge_px * coarsening));
-  const float n = std::max({coarse, std::min(fine, kLeastOfCoarse), static_cast<float>(least)});
+  const float n = std::max({coarse, std::min(fine, kLeastOfCoarse), static_cast<float>(least), flat});
   const int count = n >= 1.0f ? static_cast<int>(std::min(n, 65536.0f)) : 1;
   return binary ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(count))) : count;
 }
@@ -123,7 +128,7 @@ class Splitter {
     const bool crossesEye = crosses(bare);
     const float blur = coarsening(patch, rect, bound);
     const bool binary = object_.attributes->binaryDice;
-    const int nu = cells(size.u_px, size.uLeast, edge_px_, blur, binary), nv = cells(size.v_px, size.vLeast, edge_px_, blur, binary);
+    const int nu = cells(size.u_px, size.uLeast, size.uBend_px, edge_px_, blur, binary), nv = cells(size.v_px, size.vLeast, size.vBend_px, edge_px_, blur, binary);
     if (static_cast<int64_t>(nu) * nv <= gridSize_) {
       // What moves through the eye plane does so however small it is; it is seen while it stays in front.
       if (crossesEye && !still) ++givenUp_.atEye;
@@ -214,6 +219,15 @@ namespace {
 /// Chords that a line takes, however short it is, to enclose something: it bends round (a meridian), or closes on itself (a parallel).
 int leastCells(float length, float endToEnd) { return endToEnd < 0.3f * length ? 6 : endToEnd < 0.8f * length ? 4 : 1; }
 
+/// The part of a second difference that lies across the line; what lies along it is mere speed.
+float bend(const vec2& before, const vec2& at, const vec2& after) {
+  const vec2 along = after - before, second = after - 2.0f * at + before;
+  const float length = glm::length(along);
+  if (!(length > 1e-3f * glm::length(second))) return glm::length(second);  // there and back
+  const float across = std::abs(along.x * second.y - along.y * second.x) / length;
+  return std::isfinite(across) ? across : 0;
+}
+
 /// Longest lines along u and v of the lattice of kProbes x kProbes chords.
 template <int kProbes>
 PatchSize measureLattice(const Object& o, const Camera& camera, uint32_t patch, const UvRect& r) {
@@ -246,6 +260,10 @@ PatchSize measureLattice(const Object& o, const Camera& camera, uint32_t patch, 
       dv += lv;
       // Without rasterorient a micropolygon is as large as if it faced the camera (rispec-table 4, dice:rasterorient).
       du_px += rasterOrient ? glm::length(raster[a + 1] - raster[a]) : lu / camera.pixelSize(p[a]);
+      if (k > 0) {
+        size.uBend_px = std::max(size.uBend_px, bend(raster[a - 1], raster[a], raster[a + 1]));
+        size.vBend_px = std::max(size.vBend_px, bend(raster[b - kRow], raster[b], raster[b + kRow]));
+      }
       dv_px += rasterOrient ? glm::length(raster[b + kRow] - raster[b]) : lv / camera.pixelSize(p[b]);
     }
     size.u_px = std::max(size.u_px, du_px), size.v_px = std::max(size.v_px, dv_px);

@@ -38,13 +38,16 @@ SurfacePoint pointOn(const BlobField& field, const Way& way) {
 class Blobby : public Prim {
  public:
   Blobby(const BlobField& field, BlobMesh mesh, std::vector<Primvar> primvars)
-      : Prim(std::move(primvars)), mesh_(std::move(mesh)) {
+      : Prim(std::move(primvars)), field_(field), mesh_(std::move(mesh)) {
     fields_.reserve(mesh_.quads.size());
     for (uint32_t patch = 0; patch < patchCount(); ++patch) {
       const Bound3 hull = hullOf(patch, {});
       fields_.push_back(field.within({hull.lo, hull.hi}));
     }
   }
+
+  size_t leafCount() const { return field_.leafCount(); }
+  BlobMesh carriedTo(const BlobField& moved) const { return carriedMesh(mesh_, field_, moved); }
 
   uint32_t patchCount() const override { return static_cast<uint32_t>(mesh_.quads.size()); }
   PatchInfo info(uint32_t) const override { return {false, 0}; }
@@ -113,22 +116,46 @@ class Blobby : public Prim {
     return boundBilinear(corners, rect).grown(reach);
   }
 
+  const BlobField field_;
   const BlobMesh mesh_;
   std::vector<BlobField> fields_;  // by patch
 };
 
 }  // namespace
 
-PrimPtr makeBlobby(int leafCount, const std::vector<int>& code, const std::vector<float>& floats,
-                   const ParamList& params, Problems& problems) {
-  const BlobProgram program = readBlobProgram(code, floats, problems);
+namespace {
+
+/// With what it was made from.
+struct Read {
+  BlobProgram program;
+  std::vector<Primvar> primvars;
+};
+
+Read readBlobby(int leafCount, const std::vector<int>& code, const std::vector<float>& floats, const ParamList& params,
+                Problems& problems) {
+  BlobProgram program = readBlobProgram(code, floats, problems);
   if (static_cast<size_t>(std::max(0, leafCount)) != program.leafCount)
     problems.push_back(fmt::format("it announces {} leaves and has {}", leafCount, program.leafCount));
   const size_t n = program.leafCount;
-  std::vector<Primvar> primvars = takePrimvars(params, {1, n, n, n}, problems);
-  BlobMesh mesh = contour(program.field, program.box);
+  return {std::move(program), takePrimvars(params, {1, n, n, n}, problems)};
+}
+
+}  // namespace
+
+PrimPtr makeBlobby(int leafCount, const std::vector<int>& code, const std::vector<float>& floats,
+                   const ParamList& params, Problems& problems) {
+  Read read = readBlobby(leafCount, code, floats, params, problems);
+  BlobMesh mesh = contour(read.program.field, read.program.box);
   if (!mesh.complete) problems.push_back("its leaves are so many and small that details of its shape may be missed");
-  return std::make_shared<Blobby>(program.field, std::move(mesh), std::move(primvars));
+  return std::make_shared<Blobby>(read.program.field, std::move(mesh), std::move(read.primvars));
+}
+
+PrimPtr makeBlobbyKey(const Prim& first, int leafCount, const std::vector<int>& code, const std::vector<float>& floats,
+                      const ParamList& params, Problems& problems) {
+  Read read = readBlobby(leafCount, code, floats, params, problems);
+  const auto* blobby = dynamic_cast<const Blobby*>(&first);
+  if (!blobby || blobby->leafCount() != read.program.leafCount) return makeBlobby(leafCount, code, floats, params, problems);
+  return std::make_shared<Blobby>(read.program.field, blobby->carriedTo(read.program.field), std::move(read.primvars));
 }
 
 }  // namespace tomales

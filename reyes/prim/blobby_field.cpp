@@ -3,11 +3,15 @@
 namespace tomales {
 namespace {
 
-dvec3 awayFromSegment(const BlobLeaf& leaf, const dvec3& q) {
+/// Of the point nearest to q: 0 at its beginning, 1 at its end.
+double placeOnSegment(const BlobLeaf& leaf, const dvec3& q) {
   const dvec3 along = leaf.to - leaf.from;
   const double length2 = glm::dot(along, along);
-  const double t = length2 > 0 ? std::clamp(glm::dot(q - leaf.from, along) / length2, 0.0, 1.0) : 0.0;
-  return q - (leaf.from + t * along);
+  return length2 > 0 ? std::clamp(glm::dot(q - leaf.from, along) / length2, 0.0, 1.0) : 0.0;
+}
+
+dvec3 awayFromSegment(const BlobLeaf& leaf, const dvec3& q) {
+  return q - (leaf.from + placeOnSegment(leaf, q) * (leaf.to - leaf.from));
 }
 
 double fallOff(double distance) {
@@ -171,6 +175,26 @@ std::vector<double> BlobField::leafWeights(const dvec3& p) const {
       if (!chooses || values[k].value == values[index].value) counts[k] = 1;
   }
   return weights;
+}
+
+size_t BlobField::leavesUsed() const {
+  return static_cast<size_t>(std::count_if(code_.begin(), code_.end(), [](const Instruction& i) { return i.op == BlobOp::Leaf; }));
+}
+
+dvec3 BlobField::carried(const dvec3& p, const BlobField& other) const {
+  const std::vector<double> weights = leafWeights(p);
+  dvec3 sum(0);
+  double total = 0;
+  for (size_t k = 0; k < weights.size(); ++k) {
+    if (!(weights[k] > 0)) continue;
+    const BlobLeaf &a = (*leaves_)[k], &b = (*other.leaves_)[k];
+    const double t = placeOnSegment(a, a.axes * p + a.origin);
+    const dvec3 away = a.axes * p + a.origin - (a.from + t * (a.to - a.from));
+    const dvec3 there = b.from + t * (b.to - b.from) + b.radius / a.radius * away;
+    sum += weights[k] * (glm::inverse(b.axes) * (there - b.origin));
+    total += weights[k];
+  }
+  return total > 0 ? sum / total : p;
 }
 
 double BlobField::feature() const {

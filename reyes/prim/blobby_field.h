@@ -49,6 +49,9 @@ class BlobField {
   void addLeaf(uint32_t leaf) { code_.push_back({BlobOp::Leaf, leaf, 0, 0}); }
   void addOperation(BlobOp op, std::span<const uint32_t> operands);
 
+  /// How many leaves it still has (within()).
+  size_t leavesUsed() const;
+  size_t leafCount() const { return leaves_->size(); }
   FieldPoint at(const dvec3& p) const;
   FieldRange over(const Box& box) const { return rangesOver(box).back(); }
 
@@ -57,6 +60,9 @@ class BlobField {
 
   /// What each leaf has to do with the field at p: its value if the field depends on it there.
   std::vector<double> leafWeights(const dvec3& p) const;
+
+  /// Where the leaves take p if they become those of `other`, of as many leaves: the mean of their motions by leafWeights().
+  dvec3 carried(const dvec3& p, const BlobField& other) const;
 
   /// The least feature() of the leaves that it uses; infinite if it uses none.
   double feature() const;

@@ -93,7 +93,7 @@ class Contourer {
     if (cells_[index].size == 1 || side <= wanted || full) {
       cells_[index].inside = cornersInside(cells_[index], field);
       const std::vector<dvec3> crossings = crossingsOf(cells_[index], field);
-      const bool simple = isOneSheet(cells_[index].inside) && isFlatEnough(crossings, field);
+      const bool simple = isOneSheet(cells_[index].inside) && isFlatEnough(crossings, field) && !hidesGap(cells_[index], field);
       if (simple || side * (1 << kExtraLevels) <= wanted || cells_[index].size == 1 || full)
         return makeVertex(index, crossings, field);
       cells_[index].inside = 0;
@@ -107,6 +107,21 @@ class Contourer {
       cells_.push_back(child);
     }
     for (uint32_t k = 0; k < 8; ++k) refine(first + k, field);
+  }
+
+  /// An edge leaves what is inside and comes back, or the other way round: leaves nearly touch. Both cells at an edge ask the same.
+  bool hidesGap(const Cell& cell, const BlobField& field) const {
+    constexpr int kStretches = 4;
+    if (field.leavesUsed() < 2) return false;
+    for (int a = 0; a < 8; ++a)
+      for (int axis = 0; axis < 3; ++axis) {
+        const int b = a | 1 << axis;
+        if (b == a || (cell.inside >> a ^ cell.inside >> b) & 1) continue;
+        const dvec3 p = position(cornerOf(cell, a)), q = position(cornerOf(cell, b));
+        for (int k = 1; k < kStretches; ++k)
+          if ((field.at(p + (q - p) * (static_cast<double>(k) / kStretches)).value > kBlobSurface) != (cell.inside >> a & 1)) return true;
+      }
+    return false;
   }
 
   /// About where the surface meets the cell's edges.
@@ -227,6 +242,18 @@ std::optional<double> meetSurface(const BlobField& field, const dvec3& p, const 
     ((value > 0) == inside ? near : far) = t;
   }
   return t;
+}
+
+BlobMesh carriedMesh(const BlobMesh& mesh, const BlobField& field, const BlobField& moved) {
+  BlobMesh out = mesh;
+  for (BlobVertex& v : out.vertices) {
+    const dvec3 start = field.carried(v.position, moved), gradient = moved.at(start).gradient;
+    const double steepness = glm::length(gradient);
+    const dvec3 outward = steepness > 0 ? -gradient / steepness : dvec3(v.outward);
+    const dvec3 p = start + meetSurface(moved, start, outward, v.reach).value_or(0) * outward;
+    v.position = vec3(p), v.outward = vec3(outwardAt(moved, p));
+  }
+  return out;
 }
 
 BlobMesh contour(const BlobField& field, const Box& box) { return Contourer(field, box).run(); }

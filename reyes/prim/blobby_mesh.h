@@ -29,6 +29,9 @@ struct BlobMesh {
 /// more than one sheet or a crease. Closed. Details smaller than a third of the least leaf there may be missed.
 BlobMesh contour(const BlobField& field, const Box& box);
 
+/// The same quadrilaterals around another field, whose leaves are those of `field` moved.
+BlobMesh carriedMesh(const BlobMesh& mesh, const BlobField& field, const BlobField& moved);
+
 /// The t nearest to 0 in [-reach, reach] where p + t * outward meets the surface, if there is one.
 std::optional<double> meetSurface(const BlobField& field, const dvec3& p, const dvec3& outward, double reach);
 

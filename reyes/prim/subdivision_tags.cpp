@@ -31,6 +31,9 @@ class TagReader {
     }
     if (tag.name == "smoothtriangles") return readSmoothTriangles(tag);
     if (tag.name == "creasemethod") return readCreaseMethod(tag);
+    if (tag.name == "vertexedit" || tag.name == "edgeedit" || tag.name == "faceedit")
+      return problems_.push_back(fmt::format("\"{}\" [{}] \"{}\": hierarchical edits are not applied, OpenSubdiv 3 has none; the surface is that of the "
+                                             "coarse mesh there", tag.name, fmt::join(tag.ints, " "), fmt::join(tag.strings, "\" \"")));
     problems_.push_back(fmt::format("tag \"{}\" is not supported; it was ignored", tag.name));
   }
 

@@ -98,6 +98,9 @@ PrimPtr subdivisionMesh(const Request& r, const Scope&, Problems& problems) {
 PrimPtr blobby(const Request& r, const Scope&, Problems& problems) {
   return makeBlobby(r.args[0].integer(), r.args[1].integers, r.args[2].numbers, r.params, problems);
 }
+PrimPtr blobbyKey(const Prim& first, const Request& r, Problems& problems) {
+  return makeBlobbyKey(first, r.args[0].integer(), r.args[1].integers, r.args[2].numbers, r.params, problems);
+}
 
 PrimPtr geometry(const Request& r, const Scope&, Problems& problems) {
   if (r.args[0].strings[0] != "teapot") throw PrimError("there is no geometry \"" + r.args[0].strings[0] + "\"");
@@ -180,15 +183,18 @@ float reachOf(const Request& r) {
 
 bool isGeometry(std::string_view name) { return builders().contains(name); }
 
-PrimPtr buildPrim(const Request& r, const Scope& scope, Problems& problems) {
+PrimPtr buildPrim(const Request& r, const Scope& scope, const Prim* first, Problems& problems) {
   for (const RibArg& a : r.args)
     if (!allFinite(a.numbers)) throw PrimError("an argument is not finite");
-  const Builder build = builders().at(r.name);
+  const auto build = [&](const Request& request) {
+    if (first && r.name == "Blobby") return blobbyKey(*first, request, problems);
+    return builders().at(r.name)(request, scope, problems);
+  };
   if (std::all_of(r.params.begin(), r.params.end(), [](const Param& p) { return allFinite(p.floats); }))
-    return build(r, scope, problems);
+    return build(r);
   Request finite = r;
   finite.params = finiteParams(r.params, problems);
-  return build(finite, scope, problems);
+  return build(finite);
 }
 
 }  // namespace tomales::rib

@@ -108,7 +108,7 @@ Master::Shapes SceneBuilder::buildShapes(const Keys& keys, const std::vector<flo
   Master::Shapes out{{}, times, state_.scope.uBasis, state_.scope.vBasis, state_.scope.roundCurves, state_.scope.trim, 0};
   for (const Request* key : keys) {
     out.reach = std::max(out.reach, reachOf(*key));
-    PrimPtr prim = buildShape(*key);
+    PrimPtr prim = buildShape(*key, out.keys.empty() ? nullptr : out.keys[0].get());
     if (!prim && out.keys.empty()) return out;
     if (!prim || (!out.keys.empty() && !sameTopology(*out.keys[0], *prim))) {
       state_.log.report(Severity::Warning, "rib-motion", key->where,
@@ -122,7 +122,7 @@ Master::Shapes SceneBuilder::buildShapes(const Keys& keys, const std::vector<flo
   return out;
 }
 
-PrimPtr SceneBuilder::buildShape(const Request& r) {
+PrimPtr SceneBuilder::buildShape(const Request& r, const Prim* first) {
   if (isEmptyMesh(r)) {
     state_.log.report(Severity::Warning, "rib-empty-mesh", r.where, description(r) + ": it has no faces");
     return nullptr;
@@ -130,7 +130,7 @@ PrimPtr SceneBuilder::buildShape(const Request& r) {
   Problems problems;
   PrimPtr prim;
   try {
-    prim = buildPrim(r, state_.scope, problems);
+    prim = buildPrim(r, state_.scope, first, problems);
   } catch (const PrimError& e) {
     state_.log.report(Severity::Missing, "rib-object-dropped", r.where,
                       fmt::format("{}: {}; the object is dropped", description(r), e.what()));

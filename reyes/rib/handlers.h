@@ -27,7 +27,7 @@ void applyTransformation(GraphicsState& state, const std::vector<const Request*>
 
 /// Sphere, Polygon, ...: throws PrimError if there is nothing to draw.
 bool isGeometry(std::string_view name);
-PrimPtr buildPrim(const Request& request, const Scope& scope, Problems& problems);
+PrimPtr buildPrim(const Request& request, const Scope& scope, const Prim* first, Problems& problems);
 
 /// No point of the shape is farther from its origin, by any coordinate; perhaps none is as far.
 float reachOf(const Request& request);

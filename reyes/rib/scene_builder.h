@@ -84,7 +84,8 @@ class SceneBuilder : public RiSink {
   /// From the master if it has them.
   Master::Shapes shapesOf(const Keys& keys, const std::vector<float>& times);
   Master::Shapes buildShapes(const Keys& keys, const std::vector<float>& times);
-  PrimPtr buildShape(const Request& request);
+  /// `first`: the shape at the first key of motion, if it is not that itself.
+  PrimPtr buildShape(const Request& request, const Prim* first);
   std::string description(const Request& request) const;
 
   const RibSettings settings_;

@@ -57,6 +57,40 @@ Enclosed enclosedBy(const Prim& prim, int side) {
   return out;
 }
 
+TEST(Blobby, LeavesOfAMaximumThatNearlyTouchStayApart) {
+  // Two fingers of the width 0.8, 0.9 from axis to axis: a gap of 0.1, less than half a cell.
+  const vec3 a(-0.45f, 0, 0), b(0.45f, 0.1f, 0), scale(0.8f, 1.6f, 0.8f);
+  const PrimPtr prim = blobby(2, {kEllipsoid, 0, kEllipsoid, 16, kMaximum, 2, 0, 1}, joined({ball(a, scale), ball(b, scale)}));
+  atRandomPoints(*prim, [&](const Sample& s) { EXPECT_NEAR(std::max(ballAt(s.p, a, scale), ballAt(s.p, b, scale)), 27.0 / 64, 1e-5); });
+  const double one = 4 / 3.0 * M_PI * 0.4 * 0.8 * 0.4;
+  EXPECT_NEAR(enclosedBy(*prim, 8).volume, 2 * one, 0.01 * one);
+}
+
+TEST(Blobby, AKeyOfMotionIsTheNewSurfaceOnTheMeshOfTheFirst) {
+  const std::vector<int> code = {kEllipsoid, 0, kEllipsoid, 16, kSegment, 32, kAdd, 3, 0, 1, 2};
+  const auto numbers = [](const vec3& at, const vec3& scale, const vec3& end) {
+    return joined({ball(vec3(-0.4f, 0, 0)), ball(at, scale), {0, 0, 0, end.x, end.y, end.z, 0.7f}, ball(vec3(0, 1.8f, 0))});
+  };
+  const vec3 at(0.45f, 0.15f, 0.1f), scale(1.1f, 1, 1), end(0.6f, 0.2f, 0);  // neither parts nor merges
+  Problems problems;
+  const PrimPtr first = blobby(3, code, numbers({0.5f, 0, 0}, vec3(1), {0.5f, 0, 0}));
+  const PrimPtr key = makeBlobbyKey(*first, 3, code, numbers(at, scale, end), {}, problems);
+  EXPECT_TRUE(problems.empty());
+  ASSERT_EQ(key->patchCount(), first->patchCount());
+  atRandomPoints(*key, [&](const Sample& s) {
+    const vec3 q = s.p - vec3(0, 1.8f, 0);
+    const float t = std::clamp(dot(q, end) / dot(end, end), 0.0f, 1.0f);
+    EXPECT_NEAR(ballAt(s.p, {-0.4f, 0, 0}) + ballAt(s.p, at, scale) + fall(glm::length(q - t * end) / 0.7), 27.0 / 64, 1e-5);
+  });
+  // Moved as a whole it is moved as a whole.
+  const auto still = [](const vec3& by) { return joined({ball(by), ball(vec3(0.8f, 0, 0) + by)}); };
+  const std::vector<int> two = {kEllipsoid, 0, kEllipsoid, 16, kAdd, 2, 0, 1};
+  const vec3 by(1, 2, 3);
+  const PrimPtr here = blobby(2, two, still(vec3(0))), there = makeBlobbyKey(*here, 2, two, still(by), {}, problems);
+  for (uint32_t patch = 0; patch < here->patchCount(); patch += 5)
+    EXPECT_LT(glm::length(sampleAt(*there, patch, 0.3f, 0.6f).p - sampleAt(*here, patch, 0.3f, 0.6f).p - by), 1e-5f);
+}
+
 TEST(Blobby, ALoneEllipsoidIsAnEllipsoidOfHalfItsSize) {
   const vec3 center(3, -1, 2), scale(2, 1, 0.5f);
   const PrimPtr prim = blobby(1, {kEllipsoid, 0}, ball(center, scale));
