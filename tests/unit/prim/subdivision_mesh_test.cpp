@@ -291,6 +291,16 @@ TEST(SubdivisionMesh, CrowdsBeyondMeasureAreDrawnAsTheCage) {
   EXPECT_EQ(sampleAt(*prim, 0, 1, 1).p.z, 1);
 }
 
+TEST(SubdivisionMesh, EveryHierarchicalEditIsNamed) {
+  Mesh mesh = cube();
+  mesh.tags = {{"vertexedit", "faceedit"}, {3, 1, 2, 2, 0, 1}, {0, 1, 2, 5, 3}, {0.5f}, {"P", "add", "hole"}};
+  const PrimPtr prim = mesh.make();
+  ASSERT_EQ(prim->patchCount(), 6u);
+  ASSERT_EQ(mesh.problems.size(), 2u);
+  EXPECT_EQ(mesh.problems[0].find("\"vertexedit\" [0 1 2] \"P\" \"add\": "), 0u) << mesh.problems[0];
+  EXPECT_EQ(mesh.problems[1].find("\"faceedit\" [5 3] \"hole\": "), 0u) << mesh.problems[1];
+}
+
 TEST(SubdivisionMesh, BilinearSchemeIsTheCageItself) {
   Mesh mesh = cube();
   mesh.scheme = "bilinear";
