@@ -9,6 +9,7 @@
 #include "reyes/app/info.h"
 #include "reyes/app/render.h"
 #include "reyes/app/shade.h"
+#include "reyes/app/shadetest.h"
 
 namespace tomales {
 namespace {
@@ -132,6 +133,7 @@ void addWatching(CLI::App& app, RenderSettings& s) {
 struct Invocation {
   RenderSettings render;
   CatribSettings catrib;
+  ShadetestCommand shadetest;
   IrradianceCommand irradiance;
   BrickmakeCommand brickmake;
   ViewCommand view;
@@ -213,6 +215,14 @@ void buildCompare(CLI::App& app, Invocation& in, int& code) {
   c->callback([&] { code = compareCommand(in.first, in.second, in.difference, in.json); });
 }
 
+void buildShadetest(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand("shadetest", "One surface, displacement or light shader over a grid: time and values");
+  c->add_option("SHADER", in.shadetest.shader, "A name, or a plugin .so")->required();
+  addParsed(*c, "--grid", in.shadetest.grid, [](const std::string& t) { return parsePair(t, 2, 4096); }, "NxM", "Points along u and v (default 64x64)");
+  addParsed(*c, "-o", in.shadetest.output, parseOutput, "FILE.exr|.tif|.png", "Picture of Ci");
+  c->callback([&] { code = shadetestCommand(in.shadetest); });
+}
+
 void buildCatrib(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c = app.add_subcommand("catrib", "Write RIB files as one, requests as they are, in another encoding");
   c->add_option("IN", in.catrib.files, "RIB files of any encoding; - is standard input")->required();
@@ -284,7 +294,7 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
 
 bool namesCommand(const std::string& text) {
   for (const char* name : {"render", "hide", "gather", "shade", "photons", "irradiance", "brickmake", "view", "convert", "info", "compare", "chart",
-                           "catrib", "-h", "--help", "--version"})
+                           "catrib", "shadetest", "-h", "--help", "--version"})
     if (text == name) return true;
   return false;
 }
@@ -304,6 +314,7 @@ int parseAndRun(int argc, char** argv) {
   buildCompare(app, in, code);
   buildChart(app, in, code);
   buildCatrib(app, in, code);
+  buildShadetest(app, in, code);
   buildAtlas(app, in, code);
 
   std::vector<std::string> arguments(argv + 1, argv + argc);

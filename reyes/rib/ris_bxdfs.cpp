@@ -81,6 +81,23 @@ void noteReferences(const Request& r, const Bxdf& b, const Patterns& patterns, s
         if (n.text.find("stands in") == std::string::npos) notes.push_back(std::move(n));
 }
 
+/// What `disney` takes over from its namesake. PxrSurface tells of its specular lobe by the colour at normal incidence, of which
+/// disney's 1 is 0.08. RIS mirrors the scene in metals and coats.
+void addDisney(const Request& r, bool metal, ParamList& params) {
+  const auto add = [&](const char* name, float value) { params.push_back(param(name, ValueType::Float, {value})); };
+  static constexpr std::pair<const char*, const char*> same[] = {
+      {"specular", "specular"}, {"specularTint", "speculartint"}, {"sheen", "sheen"}, {"sheenTint", "sheentint"},
+      {"clearcoat", "clearcoat"}, {"clearcoatGloss", "clearcoatgloss"}};
+  for (const auto& [theirs, ours] : same)
+    if (findParam(r.params, theirs)) add(ours, number(r, theirs, 0));
+  if (const Param* metallic = findParam(r.params, "metallic"); metallic || metal) add("metallic", metallic ? metallic->number(0) : 1);
+  if (findParam(r.params, "specularFaceColor")) {
+    const std::vector<float> face = color(r, "specularFaceColor", 0);
+    add("specular", (face[0] + face[1] + face[2]) / (3 * 0.08f));
+  }
+  if (metal || number(r, "clearcoat", 0) > 0) add("reflections", 1);
+}
+
 }  // namespace
 
 Translation risBxdf(const Request& r, const Patterns& patterns) {
@@ -94,13 +111,15 @@ Translation risBxdf(const Request& r, const Patterns& patterns) {
   ParamList params;
   if (b.roughness && findParam(r.params, b.roughness))
     params.push_back(param("roughness", ValueType::Float, {std::clamp(number(r, b.roughness, 0.1f), 0.001f, 1.0f)}));
-  std::string shader = b.emits ? "constant" : metal ? "shinymetal" : b.shiny ? "plastic" : "matte";
-  if (metal) params.push_back(param("texturename", "raytrace"));
+  std::string shader = b.emits ? "constant" : b.shiny ? "disney" : "matte";
+  if (b.shiny) addDisney(r, metal, params);
   if (metal && b.diffuseGain) base.color = color(r, "specularEdgeColor", 1);
-  if (!base.texture.empty() && !metal) {
+  if (b.shiny && !base.texture.empty()) {
+    params.push_back(param("texturename", base.texture));
+  } else if (!base.texture.empty()) {
     shader = "paintedplastic";
     params.push_back(param("texturename", base.texture));
-    if (!b.shiny) params.push_back(param("Ks", ValueType::Float, {0})), params.push_back(param("Kd", ValueType::Float, {1}));
+    params.push_back(param("Ks", ValueType::Float, {0})), params.push_back(param("Kd", ValueType::Float, {1}));
   }
   Script script(r);
   if (!base.own) script.say("Color", {numbers(base.color)});

@@ -84,7 +84,7 @@ int32_t textureWith(void* host, const TmGrid* g, const char* name, const TmTextu
                      batch.stepsOf(g, true, s, steps[2]) && batch.stepsOf(g, true, t, steps[3]);
   if (known)
     query.su = steps[0], query.tu = steps[1], query.sv = steps[2], query.tv = steps[3];
-  else if (batch.points && (batch.points->hasSteps() || !(batch.running->can(TM_DERIVATIVES) || batch.running->can(TM_NEIGHBOURS))))
+  else if (batch.points && batch.running->shader->kind != TM_LIGHT && (batch.points->hasSteps() || !(batch.running->can(TM_DERIVATIVES) || batch.running->can(TM_NEIGHBOURS))))
     batch.report(Severity::Warning, "shader-footprint",
                  "looks a picture up at places that it has computed, without TM_NEIGHBOURS (or at s, t without TM_DERIVATIVES); it is not filtered");
   return lookUp(batch, query, out);

@@ -362,7 +362,7 @@ TEST(Ris, BxdfsBecomeStandardShaders) {
                           kSphere));
   EXPECT_EQ(r.attributes(0).surface->name, "matte");
   EXPECT_EQ(r.attributes(0).color, vec3(.1f, .2f, .3f));
-  EXPECT_EQ(r.attributes(2).surface->name, "plastic");
+  EXPECT_EQ(r.attributes(2).surface->name, "disney");
   EXPECT_EQ(findParam(r.attributes(2).surface->params, "roughness")->number(0), .25f);
   EXPECT_EQ(r.log.count("rib-substitute"), 2) << "once a name";
 }
@@ -440,7 +440,9 @@ TEST(Ris, MetalsMirrorAndGlassRefracts) {
   const Reading r(inWorld("Bxdf \"PxrDisney\" \"m\" \"float metallic\" 1 \"color baseColor\" [1 .5 0] " + kSphere +
                           "Bxdf \"PxrSurface\" \"s\" \"float diffuseGain\" 0 \"color specularEdgeColor\" [.9 .8 .7] " + kSphere +
                           "Bxdf \"PxrGlass\" \"g\" \"float ior\" 1.3 " + kSphere));
-  EXPECT_EQ(r.attributes(0).surface->name, "shinymetal");
+  EXPECT_EQ(r.attributes(0).surface->name, "disney");
+  EXPECT_EQ(findParam(r.attributes(0).surface->params, "metallic")->number(0), 1);
+  EXPECT_EQ(findParam(r.attributes(1).surface->params, "reflections")->number(0), 1);
   EXPECT_EQ(r.attributes(0).color, vec3(1, .5f, 0));
   EXPECT_EQ(r.attributes(1).color, vec3(.9f, .8f, .7f));
   EXPECT_EQ(r.attributes(2).surface->name, "glass");
