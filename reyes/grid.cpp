@@ -15,18 +15,26 @@ void calculateNormals(const Grid& g, bool flip, float* nx, float* ny, float* nz)
     const vec3 dv = P(i, std::min(j + 1, g.nv)) - P(i, std::max(j - 1, 0));
     return flip ? cross(dv, du) : cross(du, dv);
   };
+  bool any = false;
   for (int j = 0; j <= g.nv; ++j)
     for (int i = 0; i <= g.nu; ++i) {
-      vec3 n = differences(i, j);
-      // A pole has no dP/du of its own: step inwards until there is one.
-      for (int step = 1; dot(n, n) == 0.0f && step <= std::max(g.nu, g.nv); ++step) {
+      const vec3 n = differences(i, j);
+      const int k = j * row + i;
+      nx[k] = n.x, ny[k] = n.y, nz[k] = n.z;
+      any |= dot(n, n) != 0.0f;
+    }
+  for (int j = 0; j <= g.nv; ++j)
+    for (int i = 0; i <= g.nu; ++i) {
+      const int k = j * row + i;
+      vec3 n(nx[k], ny[k], nz[k]);
+      // A pole has no dP/du of its own: step inwards until there is one. A line has none anywhere.
+      for (int step = 1; any && dot(n, n) == 0.0f && step <= std::max(g.nu, g.nv); ++step) {
         const int inward_i = i + (i < g.nu / 2 ? 1 : -1) * std::min(step, g.nu / 2);
         const int inward_j = j + (j < g.nv / 2 ? 1 : -1) * std::min(step, g.nv / 2);
         n = differences(std::clamp(i, 0, g.nu), std::clamp(inward_j, 0, g.nv));
         if (dot(n, n) == 0.0f) n = differences(std::clamp(inward_i, 0, g.nu), std::clamp(inward_j, 0, g.nv));
       }
       n = normalizeOr(n, vec3(0, 0, -1));
-      const int k = j * row + i;
       nx[k] = n.x, ny[k] = n.y, nz[k] = n.z;
     }
 }

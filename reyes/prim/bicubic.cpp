@@ -1,5 +1,8 @@
 #include "reyes/prim/bicubic.h"
 
+#include <algorithm>
+#include <optional>
+
 #include "reyes/base/simd.h"
 #include "reyes/prim/interpolation.h"
 
@@ -53,6 +56,17 @@ glm::dvec3 weighted(const BezierPatch& patch, const Weights& u, const Weights& v
   for (int axis = 0; axis < 3; ++axis)
     for (int k = 0; k < 16; ++k) sum[axis] += u[k % 4] * v[k / 4] * patch[axis][k];
   return sum;
+}
+
+/// All control points on a line: there is no normal anywhere.
+bool isLine(const BezierPatch& patch) {
+  const auto control = [&](int k) { return glm::dvec3(patch[0][k], patch[1][k], patch[2][k]); };
+  glm::dvec3 along(0);
+  for (int k = 1; k < 16; ++k)
+    if (const glm::dvec3 step = control(k) - control(0); glm::length(step) > glm::length(along)) along = step;
+  for (int k = 1; k < 16; ++k)
+    if (glm::length(glm::cross(along, control(k) - control(0))) > 1e-9 * glm::dot(along, along)) return false;
+  return true;
 }
 
 /// The normal a little way towards the middle of the patch, where the derivatives are independent again.
@@ -139,8 +153,12 @@ void evaluateBicubic(const BezierPatch& patch, int n, const float* u, const floa
   crossDerivatives(n, out);
   const double extent = extentOf(patch);
   const float degenerate = static_cast<float>(1e-5 * extent * extent);
-  for (int i = 0; i < n; ++i)
-    if (!(glm::length(normalOf(out, i)) > degenerate)) setNormal(out, i, normalNearby(patch, u[i], v[i]));
+  std::optional<bool> line;
+  for (int i = 0; i < n; ++i) {
+    if (glm::length(normalOf(out, i)) > degenerate) continue;
+    if (!line) line = isLine(patch);
+    setNormal(out, i, *line ? vec3(0, 0, 1) : normalNearby(patch, u[i], v[i]));
+  }
 }
 
 Bound3 boundBicubic(const BezierPatch& patch, const UvRect& rect) {
