@@ -102,6 +102,7 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
 void addRunOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("-t", s.threads, "Threads (default: all)")->check(CLI::Range(1, 4096));
   app.add_option("--stats", s.statsFile, "Statistics as JSON")->type_name("FILE.json");
+  app.add_flag("--profile-shaders", s.profileShaders, "Points and time of each shader, at the end");
   app.add_flag("--progress", s.progress, "Show progress: a bar on a terminal, else lines for render farms");
   addParsed(app, "--texture-memory", s.textureMemory, parseBytes, "600M", "Memory for tiles of pictures (default 1G)");
   app.add_option("--texture-cache", s.textureCache, "Where converted pictures are kept (default: $TOMALES_TEXTURE_CACHE, or the user's cache folder)")

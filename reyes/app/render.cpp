@@ -50,6 +50,7 @@ class RenderRun {
       log_.report(Severity::Output, "output-unused", {std::make_shared<std::string>(settings_.output), 0},
                   "not written: -o takes the place of a picture, and the Displays of the scene are all maps");
     flush();
+    if (settings_.profileShaders) printShaderProfile(stats_);
     if (const int code = interruptExitCode()) return code;
     return !read ? std::max(exitCodeOf(log_), kUnreadable) : exitCodeOf(log_);
   }

@@ -41,6 +41,7 @@ struct RenderSettings {
   std::string textureCache;
   bool hitList = true;
   std::string statsFile;
+  bool profileShaders = false;     ///< Say at the end what each shader has cost.
   bool progress = false;
   std::string preview;  ///< host:port of a viewer; empty: none.
   std::vector<std::array<int, 2>> pixels;  ///< To explain.

@@ -1,5 +1,9 @@
 #include "reyes/app/stats_json.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -103,6 +107,16 @@ Json statsJson(const RenderSettings& settings, const Stats& stats, double total_
 }
 
 }  // namespace
+
+void printShaderProfile(const Stats& stats) {
+  const auto byName = stats.byShader();
+  std::vector<std::pair<std::string, Stats::ShaderFigures>> shaders(byName.begin(), byName.end());
+  std::stable_sort(shaders.begin(), shaders.end(), [](const auto& a, const auto& b) { return a.second.time_s > b.second.time_s; });
+  std::puts(fmt::format("{:<24}{:>14}{:>12}{:>14}", "shader", "points", "seconds", "ns a point").c_str());
+  for (const auto& [name, f] : shaders)
+    std::puts(fmt::format("{:<24}{:>14}{:>12.3f}{:>14.0f}", name, f.vertices, f.time_s,
+                          f.vertices > 0 ? 1e9 * f.time_s / static_cast<double>(f.vertices) : 0.0).c_str());
+}
 
 void writeStats(const RenderSettings& settings, const Stats& stats, double total_s, Log& log) {
   if (settings.statsFile.empty()) return;

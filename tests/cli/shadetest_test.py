@@ -1,7 +1,7 @@
 """One shader over a grid: what it says of values that are known, and of shaders that there are not."""
 import re
 
-from program import Suite
+from program import GOOD, Suite
 
 t = Suite()
 
@@ -21,4 +21,6 @@ t.expect(0 < figure(bump, "longest displacement")[0] <= 0.1, "stays within its K
 t.expect_run("an unknown name", ["shadetest", "nosuch"], 2, "nosuch")
 t.expect_run("a file that is no plugin", ["shadetest", t.write("no.so", "text")], 3, "no.so")
 t.expect_run("a grid of one point", ["shadetest", "matte", "--grid", "1x1"], 1)
+profile = t.expect_run("--profile-shaders", [t.write("good.rib", GOOD), "--profile-shaders"], 0, "matte", "ns a point")
+t.expect(int(re.search(r"^matte +(\d+) ", profile.stdout, re.MULTILINE)[1]) > 0, "counts the points of matte")
 t.finish()
