@@ -54,6 +54,7 @@ struct FromPool {
   }
   bool operator==(const FromPool&) const = default;
   using propagate_on_container_move_assignment = std::true_type;
+  FromPool select_on_container_copy_construction() const { return {}; }  ///< Copies stand on their own.
   Pool* pool;
 };
 template <class T>

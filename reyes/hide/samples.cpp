@@ -12,11 +12,26 @@ const GridTable::Entry& GridTable::add(const std::shared_ptr<const RasterGrid>& 
   return entries_.back();
 }
 
+namespace {
+
+/// A small grid shares the memory of its neighbours (reyes/base/pool.h), and would hold it as long as it is seen.
+std::shared_ptr<const RasterGrid> onItsOwn(const std::shared_ptr<const RasterGrid>& shared) {
+  if (!shared->x.get_allocator().pool || shared->blur) return shared;
+  auto own = std::make_shared<RasterGrid>(*shared);
+  own->grid = std::make_shared<const Grid>(*shared->grid);
+  return own;
+}
+
+}  // namespace
+
 void GridTable::keepOnly(const std::vector<uint32_t>& cells) {
   for (Entry& e : entries_) {
     if (!e.raster) continue;
     const auto first = std::lower_bound(cells.begin(), cells.end(), e.firstCell);
-    if (first != cells.end() && *first < e.firstCell + static_cast<uint32_t>(e.grid().cellCount())) continue;
+    if (first != cells.end() && *first < e.firstCell + static_cast<uint32_t>(e.grid().cellCount())) {
+      e.raster = onItsOwn(e.raster);
+      continue;
+    }
     e.raster.reset();
     --held_;
   }

@@ -26,7 +26,7 @@ class GridTable {
   const Entry& of(uint32_t cell) const { return entries_[entryOfPage_[cell / kPage]]; }
   const std::vector<Entry>& entries() const { return entries_; }
   uint32_t cellCount() const { return static_cast<uint32_t>(entryOfPage_.size()) * kPage; }  ///< Numbers in use, gaps included.
-  /// Lets go of every grid that has none of these cells. Pre: sorted.
+  /// Lets go of every grid that has none of these cells, and keeps copies of the rest where it would keep others' memory too. Pre: sorted.
   void keepOnly(const std::vector<uint32_t>& cells);
   size_t held() const { return held_; }  ///< Grids not let go of.
   /// Decides between equal depths: by name, never by pointer or order of insertion.
