@@ -1,16 +1,32 @@
 #include <dlfcn.h>
 
+#include <filesystem>
+
 #include "reyes/pictures.h"
 
 namespace tomales {
+namespace {
+
+/// Beside the program, as built, or in lib, as installed; else where the loader looks, by the run path of the program (CMakeLists.txt). A
+/// sanitizer's loader looks with its own run path.
+void* openModule() {
+  const std::filesystem::path name = "libtomales_openimageio.so";
+  std::error_code none;
+  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
+  for (const auto& path : {folder / name, folder / ".." / "lib" / name, name})
+    if (path == name || std::filesystem::exists(path, none))
+      if (void* handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL)) return handle;
+  return nullptr;
+}
+
+}  // namespace
 
 const PictureLibrary* pictureLibrary(std::string& error) {
   struct Loaded {
     const PictureLibrary* library = nullptr;
     std::string error;
     Loaded() {
-      // Found by the run path of the program (CMakeLists.txt), and never closed: textures are in use until the end.
-      void* handle = dlopen("libtomales_openimageio.so", RTLD_LAZY | RTLD_LOCAL);
+      void* handle = openModule();  // never closed: textures are in use until the end
       using Function = const PictureLibrary* (*)();
       const auto function = handle ? reinterpret_cast<Function>(dlsym(handle, "tomalesPictureLibrary")) : nullptr;
       if (function)

@@ -88,8 +88,10 @@ CrowdedFaces::Values CrowdedFaces::refine(const float* meshValues, int width, in
     }
     if (local == 0) continue;
     Component target = from(refined);
-    const Far::StencilTable* stencils = faceVarying ? table_->GetLocalPointFaceVaryingStencilTable(channel)
-                                                    : table_->GetLocalPointStencilTable();
+    // Without <float> Far casts down to a class that its tables are not of.
+    const Far::StencilTableReal<float>* stencils = faceVarying
+                                                       ? table_->GetLocalPointFaceVaryingStencilTable<float>(channel)
+                                                       : table_->GetLocalPointStencilTable<float>();
     stencils->UpdateValues(from(0), target);
   }
   return out;
