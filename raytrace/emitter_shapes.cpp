@@ -163,10 +163,18 @@ struct PlanePoint {
   double u = 0, v = 0;
   bool seen = false;
 };
+/// Points of the emitter itself, its back above all, lie on either side of its plane by rounding: they must not see half the sky shine.
+bool behind(const EmitterShape& flat, const vec3& from) {
+  constexpr double kRounding = 5e-6;
+  const dvec3 center = flat.center;
+  const double reach = glm::length(dvec3(from)) + glm::length(center) + glm::length(dvec3(flat.u)) + glm::length(dvec3(flat.v));
+  return !(dot(dvec3(from) - center, dvec3(flat.normal)) > kRounding * reach);
+}
+
 PlanePoint planePoint(const EmitterShape& flat, const vec3& from, const dvec3& direction) {
   const dvec3 d = dvec3(flat.center) - dvec3(from), n = flat.normal, u = flat.u, v = flat.v;
   const double facing = -dot(direction, n);
-  if (!(facing > kLeastCosine) || !(dot(d, n) < 0)) return {};
+  if (!(facing > kLeastCosine) || behind(flat, from)) return {};
   const dvec3 P = direction * (-dot(d, n) / facing) - d;
   return {P, dot(P, u) / dot(u, u), dot(P, v) / dot(v, v), true};
 }
@@ -175,7 +183,6 @@ SeenPoint onFlat(const EmitterShape& flat, const dvec3& fromCenter, double densi
   return {vec3(dvec3(flat.center) + fromCenter), flat.normal, static_cast<float>(density)};
 }
 
-bool behind(const EmitterShape& flat, const vec3& from) { return !(dot(dvec3(from) - dvec3(flat.center), dvec3(flat.normal)) > 0); }
 
 /// Rounding must not lose the whole shape, nor a wrong solid angle brighten it: far or edge-on shapes are sampled by area.
 bool isSmall(double solidAngle) { return !(solidAngle > kLeastSolidAngle); }

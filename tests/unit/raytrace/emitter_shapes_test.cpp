@@ -35,6 +35,19 @@ TEST(EmitterShapes, AFaceOfACubeSeenFromItsMiddleFillsASixthOfTheSphere) {
   EXPECT_NEAR(1 / p.density, 4 * kPi / 6, 1e-5f);
 }
 
+TEST(EmitterShapes, ThePlaneOfALampIsDarkOnWhicheverSideRoundingPutsItsPoints) {
+  for (const Kind kind : {Kind::Rectangle, Kind::Disk}) {
+    const EmitterShape lamp = tilted(kind);
+    for (uint32_t i = 0; i < 200; ++i) {
+      const vec2 at = sobol2(i, 3) * 1.4f - 0.7f;
+      const vec3 P = lamp.center + at.x * lamp.u + at.y * lamp.v + 1e-6f * (sobol1(i, 4) - 0.5f) * lamp.normal;
+      EXPECT_EQ(sampleSolidAngle(lamp, P, sobol2(i, 5)).density, 0);
+      EXPECT_EQ(meet(lamp, P, -lamp.normal).density, 0);
+    }
+    EXPECT_GT(sampleSolidAngle(lamp, lamp.center + 1e-3f * lamp.normal, {0.5f, 0.5f}).density, 0);
+  }
+}
+
 TEST(EmitterShapes, ASphereFillsItsCone) {
   const EmitterShape s{Kind::Sphere, {0, 0, 2}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   EXPECT_NEAR(1 / sampleSolidAngle(s, vec3(0), {0.3f, 0.8f}).density, 2 * kPi * (1 - std::sqrt(0.75f)), 1e-5f);
