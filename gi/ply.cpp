@@ -92,6 +92,7 @@ class PlyReader {
   }
 
   void skip(const Element& element) {
+    if (element.properties.empty()) return;  // however many: they take no bytes
     for (uint64_t i = 0; i < element.count; ++i)
       for (const Property& p : element.properties) {
         const double count = p.length ? number(*p.length) : 1;
@@ -247,30 +248,34 @@ std::string headerOf(const PointFile& cloud) {
   return h + "end_header\n";
 }
 
+void writeRows(const PointFile& cloud, size_t chunk, std::ofstream& out) {
+  PointCloud points;
+  cloud.read(chunk, points);
+  std::vector<float> rows;
+  for (size_t i = 0; i < points.count(); ++i) {
+    const vec3 p = points.position[i], n = points.normal[i];
+    rows.insert(rows.end(), {p.x, p.y, p.z, n.x, n.y, n.z, points.radius[i]});
+    rows.insert(rows.end(), points.at(i), points.at(i) + points.width());
+  }
+  out.write(reinterpret_cast<const char*>(rows.data()), static_cast<std::streamsize>(rows.size() * sizeof(float)));
+}
+
 }  // namespace
 
 void writePly(const PointFile& cloud, const std::string& path) {
   const std::string part = path + ".part";
-  std::ofstream out(part, std::ios::binary);
-  out << headerOf(cloud);
-  std::vector<float> row;
-  for (size_t chunk = 0; chunk < cloud.chunkCount() && out; ++chunk) {
-    PointCloud points;
-    cloud.read(chunk, points);
-    row.clear();
-    for (size_t i = 0; i < points.count(); ++i) {
-      const vec3 p = points.position[i], n = points.normal[i];
-      row.insert(row.end(), {p.x, p.y, p.z, n.x, n.y, n.z, points.radius[i]});
-      row.insert(row.end(), points.at(i), points.at(i) + points.width());
-    }
-    out.write(reinterpret_cast<const char*>(row.data()), static_cast<std::streamsize>(row.size() * sizeof(float)));
-  }
-  out.close();
   std::error_code error;
-  if (out) std::filesystem::rename(part, path, error);
-  if (!out || error) {
+  try {
+    std::ofstream out(part, std::ios::binary);
+    out << headerOf(cloud);
+    for (size_t chunk = 0; chunk < cloud.chunkCount() && out; ++chunk) writeRows(cloud, chunk, out);
+    out.close();
+    if (!out) fail(path, "cannot be written");
+    std::filesystem::rename(part, path, error);
+    if (error) fail(path, "cannot be written: " + error.message());
+  } catch (const FileError&) {
     std::filesystem::remove(part, error);
-    fail(path, "cannot be written");
+    throw;
   }
 }
 

@@ -66,7 +66,9 @@ class RenderRun {
       warnAboutOverwriting(scene);
       const int64_t seenBefore = stats_.geometry.micropolygonsVisible;
       job_(scene, scenes_ - 1, settings_, stats_, log_, [this] { flush(); });
-      if (stats_.geometry.micropolygonsVisible == seenBefore && !settings_.resume && !interrupted()) explainEmptyFrame(scene, log_);
+      if (stats_.geometry.micropolygonsVisible == seenBefore && !settings_.resume && !interrupted() &&
+          log_.worst() < Severity::Error)  // else it may have been refused
+        explainEmptyFrame(scene, log_);
       flush();
     }
     parse_.emplace(stats_, "parse");

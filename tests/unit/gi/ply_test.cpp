@@ -68,6 +68,13 @@ TEST_F(Ply, AsciiOfAnotherProgramKeepsItsColours) {
   EXPECT_EQ(cloud.data, (std::vector<float>{1, 0.2f, 0, 9, 0, 0, 1, 8}));
 }
 
+TEST_F(Ply, AnyNumberOfElementsWithoutPropertiesIsSkippedAtOnce) {
+  const PointCloud cloud = read(
+      "ply\nformat ascii 1.0\nelement nothing 18446744073709551615\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+      "end_header\n1 2 3\n");
+  EXPECT_EQ(cloud.count(), 1u);
+}
+
 TEST_F(Ply, BigEndianNumbersAreTurned) {
   std::string text = "ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty short z\nend_header\n";
   text += std::string("\x3f\x80\x00\x00\xc0\x00\x00\x00\x01\x02", 10);
