@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "raytrace/coarse_rate.h"
 #include "raytrace/ray_times.h"
 #include "reyes/base/parallel.h"
 #include "reyes/dice.h"
@@ -14,10 +15,10 @@ constexpr int kTile = 64;  ///< Quads of one lattice along u or v: bounds what i
 class Tessellator {
  public:
   Tessellator(const Scene& scene, const Camera& camera, const ShadingSystem& shading, Log& log)
-      : scene_(scene), shading_(shading), log_(log), rate_(scene, camera, log), times_(rayTimes(scene)) {}
+      : scene_(scene), camera_(camera), shading_(shading), log_(log), times_(rayTimes(scene)) {}
 
   void addPatch(int object, uint32_t patch, CoarseGroup& out) const {
-    const auto [nu, nv] = rate_.coarse(object, patch);
+    const auto [nu, nv] = coarseRate(scene_, camera_, object, patch, log_);
     const auto at = [](int i, int n) { return static_cast<float>(i) / static_cast<float>(n); };
     for (int j = 0; j < nv; j += kTile)
       for (int i = 0; i < nu; i += kTile) {
@@ -99,9 +100,9 @@ class Tessellator {
   }
 
   const Scene& scene_;
+  const Camera& camera_;
   const ShadingSystem& shading_;
   Log& log_;
-  const TessellationRate rate_;
   const std::vector<std::vector<float>> times_;  ///< Of each group
 };
 
@@ -196,6 +197,10 @@ size_t CoarseGroup::bytes() const {
   for (const auto& later : laterP) vertices += later.capacity();
   return vertices * sizeof(vec3) + quads.capacity() * sizeof(Quad) +
          latticeOfQuad.capacity() * sizeof(uint32_t) + lattices.capacity() * sizeof(Lattice);
+}
+
+bool displacesForRays(const Object& o) {
+  return o.attributes->trace.displacements && o.attributes->displacement;
 }
 
 bool raysNeed(const Attributes& a) {

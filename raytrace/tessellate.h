@@ -1,13 +1,13 @@
 // Verb: the objects of a scene -> coarse quadrilaterals for rays, merged by shade group.
 //   in     a frozen scene; displacement where trace:displacements asks for it
 //   out    vertices in current space at the motion keys of raytrace/ray_times.h, quads, and the way back from a quad to object, patch
-//   and (u,v)
-//   and (u,v)
-//   never  depends on threads: the order is that of objects and patches
+//   and (u,v) never  depends on threads: the order is that of objects and patches
+// Rate: polygons of about 8 pixels (x sqrt(ShadingRate) / trace:tessellation) where the camera can see the
+// object, and a turn of the normal of at most 15 degrees (/ trace:tessellation) everywhere, as long as
+// polygons are larger than 1.5 pixels; flat patches are one exact quad.
 #pragma once
 #include <array>
 
-#include "raytrace/tessellation_rate.h"
 #include "reyes/shade.h"
 
 namespace tomales {
@@ -64,5 +64,6 @@ std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, co
 CoarseGroup tessellateObject(const Scene& scene, const Camera& camera, const ShadingSystem& shading, int object, Log& log);
 
 bool raysNeed(const Attributes& attributes);       ///< Some ray may meet it, or a light is made of it.
+bool displacesForRays(const Object& object);
 
 }  // namespace tomales

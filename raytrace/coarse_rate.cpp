@@ -1,7 +1,8 @@
-#include "raytrace/tessellation_rate.h"
+#include "raytrace/coarse_rate.h"
 
 #include <fmt/format.h>
 
+#include "raytrace/tessellate.h"
 #include "reyes/dice.h"
 
 namespace tomales {
@@ -50,24 +51,31 @@ bool mayBeSeen(const Object& o, uint32_t patch, const Camera& camera) {
                          {0, 0, camera.xResolution(), camera.yResolution()});
 }
 
-}  // namespace
-
-bool displacesForRays(const Object& o) {
-  return o.attributes->trace.displacements && o.attributes->displacement;
+CoarseRate limited(const Object& o, double nu, double nv, Log& log) {
+  if (nu * nv <= kMostQuadsOfPatch) return {static_cast<int>(nu), static_cast<int>(nv)};
+  log.report(Severity::Warning, "trace-tessellation", o.where,
+             fmt::format("{} asks for {:.0f} x {:.0f} polygons for rays in one patch: limited to {:.0f}; "
+                         "lower Attribute \"trace\" \"tessellation\"",
+                         objectName(o), nu, nv, kMostQuadsOfPatch));
+  // Halving keeps the proportions until one side is a single polygon.
+  while (nu * nv > kMostQuadsOfPatch) (nu > nv ? nu : nv) = std::ceil(std::max(nu, nv) / 2);
+  return {static_cast<int>(nu), static_cast<int>(nv)};
 }
 
-TessellationRate::Counts TessellationRate::coarse(int object, uint32_t patch) const {
-  const Object& o = scene_.objects[static_cast<size_t>(object)];
+}  // namespace
+
+CoarseRate coarseRate(const Scene& scene, const Camera& camera, int object, uint32_t patch, Log& log) {
+  const Object& o = scene.objects[static_cast<size_t>(object)];
   const bool displaced = displacesForRays(o);
   if (o.shape().info(patch).planar && !displaced) return {1, 1};
-  const Grid probe = dice(scene_, object, patch, UvRect{}, kProbes, kProbes, 1);
-  const LineFigures u = linesOf(probe, camera_, 1, kProbes + 1),
-                    v = linesOf(probe, camera_, kProbes + 1, 1);
+  const Grid probe = dice(scene, object, patch, UvRect{}, kProbes, kProbes, 1);
+  const LineFigures u = linesOf(probe, camera, 1, kProbes + 1),
+                    v = linesOf(probe, camera, kProbes + 1, 1);
   const Attributes& a = *o.attributes;
   const float fineness = std::max(a.trace.tessellation, 1e-3f);
   const float turn = (a.areaLight >= 0 ? kEmitterTurn : kTurn) / fineness;
   // Displacement has no normals to judge by beforehand, so it keeps the pixel rate out of view too.
-  const bool byPixels = displaced || mayBeSeen(o, patch, camera_);
+  const bool byPixels = displaced || mayBeSeen(o, patch, camera);
   const float edge_px = kPolygon_px * std::sqrt(std::max(a.shadingRate, 1e-4f)) / fineness;
   const auto count = [&](const LineFigures& f) {
     double byTurn = double{f.turn} / turn;
@@ -75,18 +83,7 @@ TessellationRate::Counts TessellationRate::coarse(int object, uint32_t patch) co
     const double n = std::max(byTurn, byPixels ? double{f.length_px} / edge_px : 0.0);
     return std::isfinite(n) ? std::max(1.0, std::ceil(n)) : 1.0;
   };
-  return limited(object, count(u), count(v));
-}
-
-TessellationRate::Counts TessellationRate::limited(int object, double nu, double nv) const {
-  if (nu * nv <= kMostQuadsOfPatch) return {static_cast<int>(nu), static_cast<int>(nv)};
-  log_.report(Severity::Warning, "trace-tessellation", scene_.objects[static_cast<size_t>(object)].where,
-              fmt::format("{} asks for {:.0f} x {:.0f} polygons for rays in one patch: limited to {:.0f}; "
-                          "lower Attribute \"trace\" \"tessellation\"",
-                          objectName(scene_.objects[static_cast<size_t>(object)]), nu, nv, kMostQuadsOfPatch));
-  // Halving keeps the proportions until one side is a single polygon.
-  while (nu * nv > kMostQuadsOfPatch) (nu > nv ? nu : nv) = std::ceil(std::max(nu, nv) / 2);
-  return {static_cast<int>(nu), static_cast<int>(nv)};
+  return limited(o, count(u), count(v), log);
 }
 
 }  // namespace tomales
