@@ -3,7 +3,7 @@
     tests/bench/peers.py build/release/tomales [--size 256] [--rooms cornell interior] [--programs tomales povray cycles] [--json out.json]
 
 Debian's packages: povray blender time python3-numpy python3-openimageio. One thread each. Seconds: user and system time above the same program's
-render of direct light alone. Error: mean |test - truth| / (truth + 1 % of the mean) of the indirect light, over the pixels that see one shape;
+render of direct light alone (of Cycles, which has no use for direct light alone: above its start). Error: mean |test - truth| / (truth + 1 % of the mean) of the indirect light, over the pixels that see one shape;
 the truth is ours of many samples, and how far the other programs' own best is from it is printed first, a check on the physics.
 """
 import argparse
@@ -105,11 +105,10 @@ def measure(bench, bounces, who, truth_samples):
             image, cpu, memory = bench.povray(radiosity(*setting, min(bounces, 20)))
             add("POV-Ray radiosity", "count {} error_bound {} nearest_count {}".format(*setting), image - direct, cpu - direct_cpu, memory)
     if "cycles" in who:
-        _, _, direct_cpu, _ = bench.cycles(16, 0)
-        _, _, start_cpu, _ = bench.cycles(1, 0)
+        start_cpu = bench.cycles(1, 0)[2]
         for samples in (16, 64, 256):
             _, indirect, cpu, memory = bench.cycles(samples, bounces)
-            add("Cycles", f"{samples} samples", indirect, cpu - start_cpu - (direct_cpu - start_cpu) * samples / 16, memory)
+            add("Cycles", f"{samples} samples", indirect, cpu - start_cpu, memory)
     return rows
 
 
