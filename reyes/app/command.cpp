@@ -4,8 +4,9 @@
 
 #include "reyes/app/atlas_commands.h"
 #include "reyes/app/catrib.h"
-#include "reyes/app/chart.h"
-#include "reyes/app/chart_sweeps.h"
+#include "reyes/app/chart/chart.h"
+#include "reyes/app/chart/stability.h"
+#include "reyes/app/chart/sweeps.h"
 #include "reyes/app/info.h"
 #include "reyes/app/render.h"
 #include "reyes/app/shade.h"
@@ -140,6 +141,7 @@ struct Invocation {
   ViewCommand view;
   ConvertCommand convert;
   ChartSettings chart;
+  bool stability = false;
   std::string first, second, difference;
   bool json = false;
 };
@@ -283,14 +285,15 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
   addParsed(*c, "-o", s.output, parseNamed(".html"), "FILE.html", "Write here, and the figures to FILE.json")->required();
   c->add_option("--sweep", s.sweep, "What to vary: " + chartSweepNames())
       ->check([](const std::string& name) { return chartSweep(name) ? std::string() : "none of " + chartSweepNames(); });
+  c->add_flag("--stability", in.stability, "SCENEs are laboratory scenes with a knob (docs/chart.md), or folders of them: error against the knob");
   addParsed(*c, "--budget", s.budget_s, parseSeconds, "10m", "Wall time, as 90s, 10m or 2h (default 10m)");
   addParsed(*c, "--format", s.format, [](const std::string& t) { return parsePair(t, 1, 65536); }, "WxH", "Resolution in pixels");
   c->add_option("--batches", s.batches, "Most independent pictures that make the reference")->check(CLI::Range(2, 10000));
   c->add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, 1000));
   c->add_option("-t", s.threads, "Threads of each rendering (default: all)")->check(CLI::Range(1, 4096));
   c->add_option("--cache", s.folder, "Keep what has been measured here (default: the user's cache)")->type_name("FOLDER");
-  c->add_option("SCENE", s.files, "RIB files")->required()->check(CLI::ExistingFile);
-  c->callback([&] { code = chartCommand(in.chart); });
+  c->add_option("SCENE", s.files, "RIB files")->required()->check(CLI::ExistingPath);
+  c->callback([&] { code = in.stability ? stabilityCommand(in.chart) : chartCommand(in.chart); });
 }
 
 bool namesCommand(const std::string& text) {
