@@ -84,7 +84,7 @@ def check(path, folder):
     share = differing(base, render(moved(text, "Translate 300 -200 500", "Translate -300 200 -500"), folder, "far"))
     verdict(name, "far from the origin", share < 0.02, f"{100 * share:.2f} % of the pixels differ")
     if not any(reason.search(text) for reason in (FALLS_OFF, IN_UNITS, ON_SCREEN)):
-        for k in (0.01, 1000):
+        for k in (0.01, 1000) if every_check else (1000,):
             share = differing(base, render(scaled(text, k), folder, f"scaled_{k}"))
             verdict(name, f"{k} times as large", share < 0.02, f"{100 * share:.2f} % of the pixels differ")
     if every_check:
