@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "reyes/base/parallel.h"
+#include "reyes/split/measure.h"
 
 namespace tomales {
 namespace {
@@ -92,21 +93,23 @@ class Splitter {
         camera_(camera), window_(window), stats_(stats), lazily_(splitting == Splitting::Lazily), stop_(stop),
         edge_px_(std::sqrt(std::max(object_.attributes->shadingRate, 1e-4f))) {}
 
-  void splitPatch(uint32_t patch, std::vector<SubPatch>& out) {
+  /// size: what measure() says of the whole patch.
+  void splitPatch(uint32_t patch, const PatchSize& size, std::vector<SubPatch>& out) {
     const double window_px = static_cast<double>(window_.width()) * window_.height();
     budget_ = static_cast<int64_t>(kLeastBudget + kLayersOfPatch * window_px / (double{edge_px_} * edge_px_ * gridSize_));
-    split(patch, UvRect{}, 0, out);
+    split(patch, UvRect{}, 0, &size, out);
   }
   void splitPiece(const SubPatch& coarse, std::vector<SubPatch>& out) {
     start_ = coarse.depth;
     budget_ = kGridsOfCoarse + static_cast<int64_t>(kLayersOfPatch) * gridsOf(coarse.nu, coarse.nv);
-    split(coarse.patch, coarse.rect, coarse.depth, out);
+    split(coarse.patch, coarse.rect, coarse.depth, nullptr, out);
   }
 
   const GivenUp& givenUp() const { return givenUp_; }
 
  private:
-  void split(uint32_t patch, const UvRect& rect, int depth, std::vector<SubPatch>& out) {
+  /// measured: null if nobody has yet.
+  void split(uint32_t patch, const UvRect& rect, int depth, const PatchSize* measured, std::vector<SubPatch>& out) {
     if (stop_ && stop_->load(std::memory_order_relaxed)) return;
     if (budget_-- <= 0) {
       ++givenUp_.tooMany;
@@ -117,7 +120,7 @@ class Splitter {
       ++stats_.geometry.culled;
       return;
     }
-    const PatchSize size = measure(object_, camera_, patch, rect);
+    const PatchSize size = measured ? *measured : measure(object_, camera_, patch, rect);
     const bool still = object_.keyTimes.size() == 1;
     const float reach = size.u_length + size.v_length;
     if (still && depth >= kSlackDepth && glm::length(bare.size()) > kSlack * reach) {
@@ -144,8 +147,8 @@ class Splitter {
     } else {
       const bool alongU = crossesEye ? size.u_length >= size.v_length : nu >= nv;
       const auto [a, b] = halves(rect, alongU);
-      split(patch, a, depth + 1, out);
-      split(patch, b, depth + 1, out);
+      split(patch, a, depth + 1, nullptr, out);
+      split(patch, b, depth + 1, nullptr, out);
     }
   }
 
@@ -214,74 +217,6 @@ void report(const Splitter::GivenUp& givenUp, const Object& o, Stats& stats, Log
 
 }  // namespace
 
-namespace {
-
-/// Chords that a line takes, however short it is, to enclose something: it bends round (a meridian), or closes on itself (a parallel).
-int leastCells(float length, float endToEnd) { return endToEnd < 0.3f * length ? 6 : endToEnd < 0.8f * length ? 4 : 1; }
-
-/// The part of a second difference that lies across the line; what lies along it is mere speed.
-float bend(const vec2& before, const vec2& at, const vec2& after) {
-  const vec2 along = after - before, second = after - 2.0f * at + before;
-  const float length = glm::length(along);
-  if (!(length > 1e-3f * glm::length(second))) return glm::length(second);  // there and back
-  const float across = std::abs(along.x * second.y - along.y * second.x) / length;
-  return std::isfinite(across) ? across : 0;
-}
-
-/// Longest lines along u and v of the lattice of kProbes x kProbes chords.
-template <int kProbes>
-PatchSize measureLattice(const Object& o, const Camera& camera, uint32_t patch, const UvRect& r) {
-  constexpr int kRow = kProbes + 1, kCount = kRow * kRow;
-  float u[kCount], v[kCount], data[12][kCount];
-  for (int j = 0, k = 0; j < kRow; ++j)
-    for (int i = 0; i < kRow; ++i, ++k) {
-      u[k] = lerp(r.u0, r.u1, static_cast<float>(i) / kProbes);
-      v[k] = lerp(r.v0, r.v1, static_cast<float>(j) / kProbes);
-    }
-  o.shape().evaluate(patch, kCount, u, v,
-                     {data[0], data[1], data[2], data[3], data[4], data[5], data[6], data[7], data[8], data[9], data[10], data[11]});
-  const mat4 m = o.cameraFromObject.at(o.keyTimes.front());
-  vec3 p[kCount];
-  vec2 raster[kCount];
-  PatchSize size;
-  for (int k = 0; k < kCount; ++k) {
-    p[k] = transformPoint(m, {data[0][k], data[1][k], data[2][k]});
-    size.probes.extend(p[k]);
-    const vec3 inFront(p[k].x, p[k].y, std::max(p[k].z, camera.nearClip()));
-    raster[k] = camera.perspective() ? camera.raster(inFront) : camera.raster(p[k]);
-  }
-  const bool rasterOrient = o.attributes->rasterOrient;
-  for (int line = 0; line < kRow; ++line) {
-    float du_px = 0, dv_px = 0, du = 0, dv = 0;
-    for (int k = 0; k < kProbes; ++k) {
-      const int a = line * kRow + k, b = k * kRow + line;
-      const float lu = glm::length(p[a + 1] - p[a]), lv = glm::length(p[b + kRow] - p[b]);
-      du += lu;
-      dv += lv;
-      // Without rasterorient a micropolygon is as large as if it faced the camera (rispec-table 4, dice:rasterorient).
-      du_px += rasterOrient ? glm::length(raster[a + 1] - raster[a]) : lu / camera.pixelSize(p[a]);
-      if (k > 0) {
-        size.uBend_px = std::max(size.uBend_px, bend(raster[a - 1], raster[a], raster[a + 1]));
-        size.vBend_px = std::max(size.vBend_px, bend(raster[b - kRow], raster[b], raster[b + kRow]));
-      }
-      dv_px += rasterOrient ? glm::length(raster[b + kRow] - raster[b]) : lv / camera.pixelSize(p[b]);
-    }
-    size.u_px = std::max(size.u_px, du_px), size.v_px = std::max(size.v_px, dv_px);
-    size.u_length = std::max(size.u_length, du), size.v_length = std::max(size.v_length, dv);
-    const int u0 = line * kRow, v0 = line;
-    size.uLeast = std::max(size.uLeast, leastCells(du, glm::length(p[u0 + kProbes] - p[u0])));
-    size.vLeast = std::max(size.vLeast, leastCells(dv, glm::length(p[v0 + kProbes * kRow] - p[v0])));
-  }
-  return size;
-}
-
-}  // namespace
-
-PatchSize measure(const Object& o, const Camera& camera, uint32_t patch, const UvRect& r) {
-  // The lines of a flat patch are straight, and the longest is one of its edges.
-  return o.shape().info(patch).planar ? measureLattice<1>(o, camera, patch, r) : measureLattice<4>(o, camera, patch, r);
-}
-
 std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
                                   float margin, const Camera& camera, const PixelRect& window, bool clipped) {
   Bound3 bound;
@@ -315,7 +250,8 @@ std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<con
                                    const PixelRect& window, Stats& stats, Log& log, Splitting splitting, StopFlag stop) {
   return piecesBy(Splitter(scene, object, camera, window, stats, splitting, stop), scene.objects[static_cast<size_t>(object)], stats, log,
                   [&](Splitter& splitter, std::vector<SubPatch>& out) {
-                    for (const uint32_t p : patches) splitter.splitPatch(p, out);
+                    const std::vector<PatchSize> sizes = measureWhole(scene.objects[static_cast<size_t>(object)], camera, patches);
+                    for (size_t i = 0; i < patches.size(); ++i) splitter.splitPatch(patches[i], sizes[i], out);
                   });
 }
 
