@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "gi/brick_map.h"
+#include "gi/brick_file.h"
 #include "gi/icf.h"
 #include "gi/point_file.h"
 #include "reyes/app/render.h"
@@ -236,8 +236,7 @@ Json pointsInfo(const std::string& file) {
 }
 
 Json bricksInfo(const std::string& file) {
-  BrickCache cache;
-  const BrickMap map(file, cache);
+  const BrickFile map(file);
   const BrickCube& c = map.tree().cube;
   return {{"file", file},
           {"kind", "bricks"},

@@ -1,13 +1,17 @@
-// How large a rectangle of a patch is: the lines of a lattice of probes over it, chord by chord. Patches are measured sixteen at a
-// time, a vector of them at each step, since most scenes with many patches have small ones.
-#include "reyes/split/measure.h"
+// Lines of a lattice of probes over a rectangle are measured chord by chord. Whole patches are measured sixteen at a time, a vector of them
+// at each step: most scenes with many patches have small ones.
+#include "reyes/split/rate.h"
 
+#include <bit>
 #include <cmath>
 
 #include "reyes/base/simd.h"
 
 namespace tomales {
 namespace {
+
+/// How far a chord may leave its arc, at any shading rate: a silhouette's error (docs/decisions/0034).
+constexpr float kFlat_px = 0.25f;
 
 /// Probes of kPatches patches; point k of all of them stands together. Rows of points run along u.
 template <int kProbesT, int kPatchesT>
@@ -20,11 +24,11 @@ struct Lattice {
 /// PatchSize of kPatches patches.
 template <int kPatches>
 struct Sizes {
-  struct Direction {
-    alignas(64) float length_px[kPatches], length[kPatches], bend_px[kPatches];
+  struct Line {
+    alignas(64) float px[kPatches], length[kPatches], bend_px[kPatches];
     alignas(64) int least[kPatches];
   };
-  Direction u, v;
+  Line u, v;
   alignas(64) float lo[3][kPatches], hi[3][kPatches];
 };
 
@@ -43,7 +47,7 @@ inline int leastCells(float length, float endToEnd) { return endToEnd < 0.3f * l
 /// The line of points first, first + step, ...; where it is longer than what `out` has, that grows.
 template <class L>
 [[gnu::always_inline]] inline void measureLine(const L& __restrict at, int first, int step, const Camera& camera, bool asSeen,
-                                               typename Sizes<L::kPatches>::Direction& __restrict out) {
+                                               typename Sizes<L::kPatches>::Line& __restrict out) {
   constexpr int n = L::kPatches;
   float length_px[n] = {}, length[n] = {}, chord[n];
   for (int k = 0; k < L::kProbes; ++k) {
@@ -72,7 +76,7 @@ template <class L>
     const int least = leastCells(length[i], std::sqrt(dx * dx + dy * dy + dz * dz));
     out.least[i] = out.least[i] < least ? least : out.least[i];
     out.length[i] = out.length[i] < length[i] ? length[i] : out.length[i];
-    out.length_px[i] = out.length_px[i] < length_px[i] ? length_px[i] : out.length_px[i];
+    out.px[i] = out.px[i] < length_px[i] ? length_px[i] : out.px[i];
   }
 }
 
@@ -113,9 +117,8 @@ template <class L>
   boundPoints(at.x, out.lo[0], out.hi[0]);
   boundPoints(at.y, out.lo[1], out.hi[1]);
   boundPoints(at.z, out.lo[2], out.hi[2]);
-  for (auto* direction : {&out.u, &out.v})
-    for (int i = 0; i < L::kPatches; ++i)
-      direction->length_px[i] = direction->length[i] = direction->bend_px[i] = 0, direction->least[i] = 1;
+  for (auto* longest : {&out.u, &out.v})
+    for (int i = 0; i < L::kPatches; ++i) longest->px[i] = longest->length[i] = longest->bend_px[i] = 0, longest->least[i] = 1;
   for (int line = 0; line < L::kRow; ++line) {
     measureLine(at, line * L::kRow, 1, camera, asSeen, out.u);
     measureLine(at, line, L::kRow, camera, asSeen, out.v);
@@ -155,7 +158,8 @@ void measureSome(const Object& o, const Camera& camera, int count, const PatchAt
   measureHot(at, o.cameraFromObject.at(o.keyTimes.front()), camera, o.attributes->rasterOrient, sizes);
   for (int i = 0; i < count; ++i) {
     const auto &su = sizes.u, &sv = sizes.v;
-    put(i, PatchSize{su.length_px[i], sv.length_px[i], su.length[i], sv.length[i], su.least[i], sv.least[i], su.bend_px[i], sv.bend_px[i],
+    put(i, PatchSize{{su.px[i], su.length[i], su.least[i], su.bend_px[i]},
+                     {sv.px[i], sv.length[i], sv.least[i], sv.bend_px[i]},
                      {{sizes.lo[0][i], sizes.lo[1][i], sizes.lo[2][i]}, {sizes.hi[0][i], sizes.hi[1][i], sizes.hi[2][i]}}});
   }
 }
@@ -194,6 +198,16 @@ PatchSize measure(const Object& o, const Camera& camera, uint32_t patch, const U
   else
     measureSome<kCurvedProbes, 1>(o, camera, 1, patchAt, r, put);
   return size;
+}
+
+int cells(const LineSize& line, float edge_px, float coarsening, bool binary) {
+  constexpr float kLeastOfCoarse = 4;
+  // A line that a quarter of it leaves by `bend_px` as a second difference: its n-th part bulges by 2 bend / n^2.
+  const float flat = std::min(std::ceil(std::sqrt(2 * line.bend_px / (kFlat_px * coarsening))), 64.0f);
+  const float fine = std::ceil(line.px / edge_px), coarse = std::ceil(line.px / (edge_px * coarsening));
+  const float n = std::max({coarse, std::min(fine, kLeastOfCoarse), static_cast<float>(line.least), flat});
+  const int count = n >= 1.0f ? static_cast<int>(std::min(n, 65536.0f)) : 1;
+  return binary ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(count))) : count;
 }
 
 }  // namespace tomales

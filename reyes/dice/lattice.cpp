@@ -1,0 +1,158 @@
+#include "reyes/base/rng.h"
+#include "reyes/dice/evaluated.h"
+
+namespace tomales {
+namespace {
+
+/// In the order of glm's product, so that one point is moved to the same bits.
+TOMALES_HOT void transformAffine(const mat4& m, int n, Triple<const float> from, Triple<float> to) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const float x = from.x[i], y = from.y[i], z = from.z[i];
+    to.x[i] = (m[0][0] * x + m[1][0] * y) + (m[2][0] * z + m[3][0]);
+    to.y[i] = (m[0][1] * x + m[1][1] * y) + (m[2][1] * z + m[3][1]);
+    to.z[i] = (m[0][2] * x + m[1][2] * y) + (m[2][2] * z + m[3][2]);
+  }
+}
+
+void transformPoints(const mat4& m, int n, Triple<const float> from, Triple<float> to) {
+  if (m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] == 1) return transformAffine(m, n, from, to);
+  for (int i = 0; i < n; ++i) {
+    const vec3 p = transformPoint(m, {from.x[i], from.y[i], from.z[i]});
+    to.x[i] = p.x, to.y[i] = p.y, to.z[i] = p.z;
+  }
+}
+
+TOMALES_HOT void transformDirections(const mat3& m, int n, Triple<const float> from, Triple<float> to) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const float x = from.x[i], y = from.y[i], z = from.z[i];
+    to.x[i] = m[0][0] * x + m[1][0] * y + m[2][0] * z;
+    to.y[i] = m[0][1] * x + m[1][1] * y + m[2][1] * z;
+    to.z[i] = m[0][2] * x + m[1][2] * y + m[2][2] * z;
+  }
+}
+
+uint32_t nameOf(uint32_t object, uint32_t patch, const UvRect& r, int nu, int nv) {
+  const auto bits = [](float f) { return __builtin_bit_cast(uint32_t, f); };
+  return hashCombine(object, patch, bits(r.u0), bits(r.u1), bits(r.v0), bits(r.v1),
+                     static_cast<uint32_t>(nu), static_cast<uint32_t>(nv));
+}
+
+uint8_t openEdgesOf(const PatchInfo& info, const UvRect& r) {
+  const int touched = (r.u0 <= 0 ? kEdgeU0 : 0) | (r.u1 >= 1 ? kEdgeU1 : 0) | (r.v0 <= 0 ? kEdgeV0 : 0) | (r.v1 >= 1 ? kEdgeV1 : 0);
+  return static_cast<uint8_t>(touched & info.openEdges);
+}
+
+/// Each cell with some of its surroundings: the hider asks for points a little way off a cell (hide/trim.cpp).
+std::vector<Kept> keptOfCells(const Prim& prim, const Grid& g) {
+  const auto whole = [&](const PatchPiece& p) { return prim.kept(p.patch, p.rect) == Kept::All; };
+  if (std::all_of(g.pieces.begin(), g.pieces.end(), whole)) return {};
+  constexpr float kMargin = 0.25f;
+  std::vector<Kept> out(static_cast<size_t>(g.cellNumbers()));
+  for (int cell = 0; cell < g.cellNumbers(); ++cell) {
+    const vec2 lo = g.onPatch(cell, vec2(-kMargin)), hi = g.onPatch(cell, vec2(1 + kMargin));
+    out[static_cast<size_t>(cell)] = prim.kept(g.pieces[static_cast<size_t>(g.pieceOfCell(cell))].patch, {lo.x, hi.x, lo.y, hi.y});
+  }
+  return out;
+}
+
+bool isWhole(const UvRect& r) { return r.u0 == 0 && r.u1 == 1 && r.v0 == 0 && r.v1 == 1; }
+
+/// Where a lattice of nu x nv over a rectangle lies on its patch, rows along u.
+void latticeOver(const UvRect& rect, int nu, int nv, float* u, float* v) {
+  // The last vertex is the rectangle's own number, so that neighbours evaluate the same one.
+  const auto at = [](float a, float b, int i, int count) {
+    return i == count ? b : a + (b - a) * (static_cast<float>(i) / static_cast<float>(count));
+  };
+  for (int i = 0; i <= nu; ++i) u[i] = at(rect.u0, rect.u1, i, nu);
+  for (int j = 0; j <= nv; ++j) {
+    const int first = j * (nu + 1);
+    if (j > 0) std::copy_n(u, nu + 1, u + first);
+    std::fill_n(v + first, nu + 1, at(rect.v0, rect.v1, j, nv));
+  }
+}
+
+}  // namespace
+
+Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, int keys) {
+  const Object& o = scene.objects[static_cast<size_t>(object)];
+  const std::vector<float> times(o.keyTimes.begin(), o.keyTimes.begin() + keys);
+  return dice(scene, object, patch, rect, nu, nv, {times, o.cameraFromObject});
+}
+
+Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, const DiceKeys& keys) {
+  const PatchPiece piece{patch, rect};
+  return dice(scene, object, {&piece, 1}, nu, nv, keys);
+}
+
+Grid dice(const Scene& scene, int object, std::span<const PatchPiece> pieces, int nu, int nv, const DiceKeys& keys, Pool* pool) {
+  const Object& o = scene.objects[static_cast<size_t>(object)];
+  const int keyCount = static_cast<int>(keys.times.size());
+  const Prim& prim = o.shape();
+  int floats = 0;
+  for (const Primvar& p : prim.primvars()) floats += p.width;
+
+  Grid g;
+  g.object = object;
+  g.pieces.clear();
+  g.pieces.reserve(pieces.size());
+  for (const PatchPiece& p : pieces)
+    g.pieces.push_back({p, openEdgesOf(prim.info(p.patch), p.rect), nameOf(o.name, p.patch, p.rect, nu, nv)});
+  g.allocate(nu, nv, keyCount, floats, pool);
+  g.kept = keptOfCells(prim, g);
+
+  const int n = g.vertexCount(), ofPiece = g.verticesOfPiece();
+  static thread_local AlignedVector<float> u, v;
+  u.resize(static_cast<size_t>(padded(ofPiece))), v.resize(u.size());
+  UvRect laid{0, 0, 0, 0};  // u and v are for this
+  /// f(piece, number of its first vertex), with u and v for the piece.
+  const auto forPieces = [&](const auto& f) {
+    int first = 0;
+    for (const Grid::Piece& p : g.pieces) {
+      if (p.rect.u0 != laid.u0 || p.rect.u1 != laid.u1 || p.rect.v0 != laid.v0 || p.rect.v1 != laid.v1)
+        latticeOver(laid = p.rect, nu, nv, u.data(), v.data());
+      f(p, first);
+      first += ofPiece;
+    }
+  };
+  const auto vertices = [&](const Prim& shape, Evaluated& out) {
+    forPieces([&](const Grid::Piece& p, int first) {
+      if (isWhole(p.rect))
+        shape.evaluateLattice(p.patch, nu, nv, u.data(), v.data(), out.view(first));
+      else
+        shape.evaluate(p.patch, ofPiece, u.data(), v.data(), out.view(first));
+    });
+  };
+  Evaluated e(n);
+  for (int key = 0; key < keyCount; ++key) {
+    const float time = keys.times[static_cast<size_t>(key)];
+    const mat4 m = keys.currentFromObject.at(time);
+    if (keyCount > 1) g.turns.push_back(mat3(m) * glm::inverse(mat3(keys.currentFromObject.at(keys.times.front()))));
+    evaluateAt(o, time, n, e, vertices);
+    transformPoints(m, n, e.triple(0), {g.P(key, 0), g.P(key, 1), g.P(key, 2)});
+    if (key == 0) {
+      const mat3 normals = normalMatrix(o, m);
+      transformDirections(normals, n, e.triple(9), {g.N(0), g.N(1), g.N(2)});
+      int offset = 0;
+      for (size_t k = 0; k < prim.primvars().size(); ++k) {
+        const Primvar& p = prim.primvars()[k];
+        forPieces([&](const Grid::Piece& piece, int first) {
+          prim.interpolate(piece.patch, static_cast<int>(k), ofPiece, u.data(), v.data(), g.primvar(offset) + first, g.stride());
+        });
+        transformPrimvar(p, m, normals, n, g.primvar(offset), g.stride());
+        offset += p.width;
+      }
+    }
+  }
+  forPieces([&](const Grid::Piece& p, int first) {
+    prim.surfaceParameters(p.patch, ofPiece, u.data(), v.data(), g.u() + first, g.v() + first);
+  });
+
+  // A normal that the user gives is the shading normal (RISpec 5.2); the geometric one is still measured from P.
+  if (const int offset = offsetOf(prim.primvars(), "N"); offset >= 0)
+    for (int axis = 0; axis < 3; ++axis) std::copy_n(g.primvar(offset + axis), n, g.N(axis));
+  return g;
+}
+
+}  // namespace tomales
