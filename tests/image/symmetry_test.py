@@ -112,7 +112,10 @@ for scene in sorted((root / "scenes").rglob("*.rib")):
     content = scene.read_text(errors="replace")
     if only not in str(scene) or content.count("WorldBegin") != 1 or "Projection" not in content or NEEDS_PLUGINS.search(content):
         continue
-    os.chdir(scene.parent)
     with tempfile.TemporaryDirectory() as where:
+        os.chdir(where)  # pictures that a scene names stay here
+        for beside in scene.parent.iterdir():
+            (pathlib.Path(where) / beside.name).symlink_to(beside)
         check(scene, pathlib.Path(where))
+        os.chdir(root)
 sys.exit(bool(failures))
