@@ -96,8 +96,8 @@ TEST(Polygon, EdgesBetweenFacesAndInsideThemAreClosed) {
                                     {positions({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0})}, problems);
   ASSERT_EQ(prim->patchCount(), 2u);
   EXPECT_EQ(prim->info(0).openEdges, kAllEdges & ~kEdgeU1);
-  // From its shortest side, 1-2 or 1-4, to the corner across; the edge at the corner ends nothing that could gape.
-  EXPECT_EQ(prim->info(1).openEdges, kEdgeU1 | kEdgeU0 | kEdgeV1);
+  // From 1-4 to corner 2; 2-1 is shared, and the edge at the corner has no length that could gape.
+  EXPECT_EQ(prim->info(1).openEdges, kEdgeV0 | kEdgeU1 | kEdgeV1);
 }
 
 TEST(Polygon, FacesThatShareAnEdgeAgreeOnItsPoints) {
