@@ -68,7 +68,7 @@ void addSteps(const Scene& scene, const Grid& g, const Steps& steps, ShadePoints
 template <class Mean>
 vec3 driftOf(const Scene& scene, const Grid& g, const Mean& mean) {
   const Object& o = scene.objects[static_cast<size_t>(g.object)];
-  if (g.keyCount == 1 || o.shapes.size() == 1) return vec3(0);
+  if (o.shapes.size() == 1) return vec3(0);
   const int last = g.keyCount - 1;
   const vec3 here(mean(g.P(0, 0)), mean(g.P(0, 1)), mean(g.P(0, 2)));
   const vec3 there(mean(g.P(last, 0)), mean(g.P(last, 1)), mean(g.P(last, 2)));
@@ -186,38 +186,56 @@ FacetTable::FacetTable(const Scene& scene, const Camera& camera, const GridTable
       camera_(camera),
       grids_(grids),
       tile_(tile),
-      facetOf_(grids.cellCount(), ~0U) {}
+      seen_(grids.cellCount(), 0),
+      facetOf_(grids.cellCount()) {}
 
-uint32_t FacetTable::facetOf(uint32_t cell) {
-  uint32_t& facet = facetOf_[cell];
-  if (facet == ~0U) {
-    facet = static_cast<uint32_t>(tile_.facets.size());
-    const GridTable::Entry& entry = grids_.of(cell);
-    tile_.facets.push_back(makeFacet(entry, static_cast<int>(cell - entry.firstCell)));
+void FacetTable::make() {
+  tile_.facets.reserve(static_cast<size_t>(std::count(seen_.begin(), seen_.end(), 1)));
+  for (uint32_t entry = 0; entry < grids_.entries().size(); ++entry)
+    if (grids_.entries()[entry].raster) makeFacets(entry);
+  tile_.batches.reserve(wishes_.size());
+  for (const Wishes& wishes : wishes_) {
+    const ShadeGroup& group = scene_.groups[static_cast<size_t>(wishes.group)];
+    ShadePoints& points = tile_.batches.emplace_back(wishes.group, primvarFloats(group), group.steps);
+    points.reserve(static_cast<int>(wishes.list.size()));
+    fill(wishes, points);
+    setTextureCoordinates(group, points);
   }
-  return facet;
 }
 
-Facet FacetTable::makeFacet(const GridTable::Entry& entry, int cell) {
+void FacetTable::makeFacets(uint32_t number) {
+  const GridTable::Entry& entry = grids_.entries()[number];
   const Grid& g = entry.grid();
-  const int batch = batchOf(scene_.objects[static_cast<size_t>(g.object)].group);
-  if (entry.raster->smooth) {
-    const int row = g.nu + 1, a = cell / g.nu * row + cell % g.nu;
-    Facet facet{batch, {}, entry.raster->matte};
-    const int corner[4] = {a, a + 1, a + row, a + row + 1};
-    for (int k = 0; k < 4; ++k) facet.point[k] = cornerPoint(entry, batch, corner[k]);
-    return facet;
+  const uint8_t* seen = seen_.data() + entry.firstCell;
+  const int cells = g.cellCount();
+  int cell = static_cast<int>(std::find(seen, seen + cells, 1) - seen);
+  if (cell == cells) return;
+  const int batch = batchOf(scene_.objects[static_cast<size_t>(g.object)].group), row = g.nu + 1;
+  std::vector<Wish>& list = wishes_[static_cast<size_t>(batch)].list;
+  const auto wish = [&](int index) {
+    list.push_back({number, index});
+    return static_cast<int>(list.size()) - 1;
+  };
+  const auto corner = [&](int vertex) {
+    int& point = corners_[static_cast<size_t>(vertex)];
+    if (point < 0) point = wish(vertex);
+    return point;
+  };
+  const bool smooth = entry.raster->smooth;
+  if (smooth) corners_.assign(static_cast<size_t>(g.vertexCount()), -1);
+  for (; cell < cells; ++cell) {
+    if (!seen[cell]) continue;
+    facetOf_[entry.firstCell + static_cast<uint32_t>(cell)] = static_cast<uint32_t>(tile_.facets.size());
+    Facet& facet = tile_.facets.emplace_back();
+    facet.batch = batch, facet.matte = entry.raster->matte;
+    if (smooth) {
+      const int a = cell / g.nu * row + cell % g.nu;
+      const int vertices[4] = {a, a + 1, a + row, a + row + 1};
+      for (int k = 0; k < 4; ++k) facet.point[k] = corner(vertices[k]);
+    } else {
+      std::fill_n(facet.point, 4, wish(cell));
+    }
   }
-  const int p = wish(batch, entry, cell, false);
-  return {batch, {p, p, p, p}, entry.raster->matte};
-}
-
-int FacetTable::cornerPoint(const GridTable::Entry& entry, int batch, int vertex) {
-  std::vector<int>& points = corners_[entry.firstCell];
-  points.resize(static_cast<size_t>(entry.grid().vertexCount()), -1);
-  int& point = points[static_cast<size_t>(vertex)];
-  if (point < 0) point = wish(batch, entry, vertex, true);
-  return point;
 }
 
 int FacetTable::batchOf(int group) {
@@ -232,23 +250,6 @@ int FacetTable::batchOf(int group) {
   return batch;
 }
 
-int FacetTable::wish(int batch, const GridTable::Entry& entry, int index, bool vertex) {
-  std::vector<Wish>& list = wishes_[static_cast<size_t>(batch)].list;
-  list.push_back({static_cast<uint32_t>(&entry - grids_.entries().data()), index, vertex});
-  return static_cast<int>(list.size()) - 1;
-}
-
-void FacetTable::makePoints() {
-  tile_.batches.reserve(wishes_.size());
-  for (const Wishes& wishes : wishes_) {
-    const ShadeGroup& group = scene_.groups[static_cast<size_t>(wishes.group)];
-    ShadePoints& points = tile_.batches.emplace_back(wishes.group, primvarFloats(group), group.steps);
-    points.reserve(static_cast<int>(wishes.list.size()));
-    fill(wishes, points);
-    setTextureCoordinates(group, points);
-  }
-}
-
 void FacetTable::fill(const Wishes& wishes, ShadePoints& points) const {
   Gathered gathered{};
   const bool subtracted = scene_.groups[static_cast<size_t>(wishes.group)].subtracted;
@@ -257,22 +258,20 @@ void FacetTable::fill(const Wishes& wishes, ShadePoints& points) const {
     const int lanes = std::min(kLanes, count - first);
     for (int i = 0; i < lanes; ++i) {
       const Wish& w = wishes.list[static_cast<size_t>(first + i)];
-      const Grid& g = grids_.entries()[w.entry].grid();
+      const GridTable::Entry& entry = grids_.entries()[w.entry];
+      const Grid& g = entry.grid();
       points.add(hashCombine(g.name, static_cast<uint32_t>(w.index)));
-      points.channel(kTime)[first + i] = -1;
-      if (w.vertex) {
+      const auto put = [&](const auto& mean) {
+        for (int k = 0; k < floats; ++k) points.primvar(k)[first + i] = mean(g.primvar(k));
+        if (g.keyCount > 1) points.set3(kDriftX, first + i, driftOf(scene_, g, mean));
+      };
+      if (entry.raster->smooth) {
         gathered.readVertex(g, w.index, i);
-        for (int k = 0; k < floats; ++k) points.primvar(k)[first + i] = g.primvar(k)[w.index];
-        points.set3(kDriftX, first + i, driftOf(scene_, g, [&](const float* f) { return f[w.index]; }));
+        put([&](const float* f) { return f[w.index]; });
       } else {
         const int a = w.index / g.nu * (g.nu + 1) + w.index % g.nu, c = a + g.nu + 1;
         gathered.readCell(g, a, i);
-        points.set3(kDriftX, first + i,
-                    driftOf(scene_, g, [&](const float* f) { return 0.25f * (f[a] + f[a + 1] + f[c] + f[c + 1]); }));
-        for (int k = 0; k < floats; ++k) {
-          const float* f = g.primvar(k);
-          points.primvar(k)[first + i] = 0.25f * (f[a] + f[a + 1] + f[c] + f[c + 1]);
-        }
+        put([&](const float* f) { return 0.25f * (f[a] + f[a + 1] + f[c] + f[c + 1]); });
       }
     }
     if (subtracted)
@@ -281,13 +280,14 @@ void FacetTable::fill(const Wishes& wishes, ShadePoints& points) const {
     derive(gathered, camera_.perspective(), PointBlock(points, first));
     for (int i = 0; points.hasSteps() && i < lanes; ++i) {
       const Wish& w = wishes.list[static_cast<size_t>(first + i)];
-      const Grid& g = grids_.entries()[w.entry].grid();
-      if (w.vertex)
-        addSteps(scene_, g, VertexSteps(g, w.index), points, first + i);
+      const GridTable::Entry& entry = grids_.entries()[w.entry];
+      if (entry.raster->smooth)
+        addSteps(scene_, entry.grid(), VertexSteps(entry.grid(), w.index), points, first + i);
       else
-        addSteps(scene_, g, CellSteps(g, w.index), points, first + i);
+        addSteps(scene_, entry.grid(), CellSteps(entry.grid(), w.index), points, first + i);
     }
   }
+  std::fill_n(points.channel(kTime), count, -1.0f);
 }
 
 }  // namespace tomales
