@@ -187,12 +187,15 @@ FacetTable::FacetTable(const Scene& scene, const Camera& camera, const GridTable
       grids_(grids),
       tile_(tile),
       seen_(grids.cellCount(), 0),
-      facetOf_(grids.cellCount()) {}
+      facetOf_(grids.cellCount(), ~0U) {}
 
-void FacetTable::make() {
+void FacetTable::make(std::vector<Fragment>& fragments) {
   tile_.facets.reserve(static_cast<size_t>(std::count(seen_.begin(), seen_.end(), 1)));
-  for (uint32_t entry = 0; entry < grids_.entries().size(); ++entry)
-    if (grids_.entries()[entry].raster) makeFacets(entry);
+  for (Fragment& f : fragments) {
+    const uint32_t cell = f.facet;
+    if (facetOf_[cell] == ~0U) makeFacets(grids_.of(cell));
+    f.facet = facetOf_[cell];
+  }
   tile_.batches.reserve(wishes_.size());
   for (const Wishes& wishes : wishes_) {
     const ShadeGroup& group = scene_.groups[static_cast<size_t>(wishes.group)];
@@ -203,13 +206,10 @@ void FacetTable::make() {
   }
 }
 
-void FacetTable::makeFacets(uint32_t number) {
-  const GridTable::Entry& entry = grids_.entries()[number];
+void FacetTable::makeFacets(const GridTable::Entry& entry) {
   const Grid& g = entry.grid();
+  const auto number = static_cast<uint32_t>(&entry - grids_.entries().data());
   const uint8_t* seen = seen_.data() + entry.firstCell;
-  const int cells = g.cellCount();
-  int cell = static_cast<int>(std::find(seen, seen + cells, 1) - seen);
-  if (cell == cells) return;
   const int batch = batchOf(scene_.objects[static_cast<size_t>(g.object)].group), row = g.nu + 1;
   std::vector<Wish>& list = wishes_[static_cast<size_t>(batch)].list;
   const auto wish = [&](int index) {
@@ -223,7 +223,7 @@ void FacetTable::makeFacets(uint32_t number) {
   };
   const bool smooth = entry.raster->smooth;
   if (smooth) corners_.assign(static_cast<size_t>(g.vertexCount()), -1);
-  for (; cell < cells; ++cell) {
+  for (int cell = 0; cell < g.cellCount(); ++cell) {
     if (!seen[cell]) continue;
     facetOf_[entry.firstCell + static_cast<uint32_t>(cell)] = static_cast<uint32_t>(tile_.facets.size());
     Facet& facet = tile_.facets.emplace_back();

@@ -1,4 +1,4 @@
-// Visible micropolygons become facets and points to shade, in the order of their grids. Private to the hider.
+// Visible micropolygons become facets and points to shade, grid by grid in order of first use. Private to the hider.
 #pragma once
 #include "reyes/hide/samples.h"
 
@@ -10,10 +10,8 @@ class FacetTable {
   /// A cell that some sample sees.
   void see(uint32_t cell) { seen_[cell] = 1; }
   /// Makes the facets of all cells that are seen, and their points; before, the tile has none. Everything in them depends on the
-  /// grid alone.
-  void make();
-  /// Pre: the cell is seen, and make() was called.
-  uint32_t facetOf(uint32_t cell) const { return facetOf_[cell]; }
+  /// grid alone. Fragments have cells instead of facets, each one that is seen.
+  void make(std::vector<Fragment>& fragments);
 
  private:
   /// A point to be made: at the centre of a cell, or at a vertex.
@@ -25,7 +23,7 @@ class FacetTable {
     int group;
     std::vector<Wish> list;
   };
-  void makeFacets(uint32_t entry);
+  void makeFacets(const GridTable::Entry& entry);
   int batchOf(int group);
   void fill(const Wishes& wishes, ShadePoints& points) const;
 
@@ -34,7 +32,7 @@ class FacetTable {
   const GridTable& grids_;
   DeepTile& tile_;
   std::vector<uint8_t> seen_;      ///< A cell
-  std::vector<uint32_t> facetOf_;  ///< A cell
+  std::vector<uint32_t> facetOf_;  ///< A cell, ~0: not made yet.
   std::vector<int> batchOf_;       ///< A group, -1: none yet.
   std::vector<Wishes> wishes_;     ///< A batch
   std::vector<int> corners_;       ///< Points of a grid's vertices, -1: none yet.

@@ -1,7 +1,7 @@
 // Which opaque cells the samples of a pixel see: for the first sample that is left, all that see the same cell at once.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reyes/hide/opaque_sights.cpp"
-#include "reyes/hide/vector.h"  // Includes this file again for each target.
+#include "reyes/base/vector.h"  // Includes this file again for each target.
 
 #include "reyes/hide/pixel_layers.h"
 #include "reyes/hide/samples.h"

@@ -1,6 +1,6 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reyes/hide/pixel_layers.cpp"
-#include "reyes/hide/vector.h"  // Includes this file again for each target.
+#include "reyes/base/vector.h"  // Includes this file again for each target.
 
 #include <algorithm>
 #include <bit>

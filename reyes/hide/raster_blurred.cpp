@@ -4,7 +4,7 @@
 // micropolygons, and few are left that miss.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reyes/hide/raster_blurred.cpp"
-#include "reyes/hide/vector.h"  // Includes this file again for each target.
+#include "reyes/base/vector.h"  // Includes this file again for each target.
 
 #include "reyes/hide/blur_bounds.h"
 #include "reyes/hide/raster.h"

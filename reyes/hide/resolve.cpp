@@ -52,8 +52,7 @@ class TileBuilder {
       const Lent fragments(tile_.fragments, scratch_.fragments);
       for (size_t pixel = 0; pixel < count; ++pixel) addPixel(pixel);
     }
-    facets_.make();
-    for (Fragment& f : tile_.fragments) f.facet = facets_.facetOf(f.facet);
+    facets_.make(tile_.fragments);
     tile_.shrink();
     return std::move(tile_);
   }
