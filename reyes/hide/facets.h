@@ -1,5 +1,7 @@
 // Visible micropolygons become facets and points to shade, grid by grid in order of first use. Private to the hider.
 #pragma once
+#include <span>
+
 #include "reyes/hide/samples.h"
 
 namespace tomales {
@@ -26,6 +28,9 @@ class FacetTable {
   void makeFacets(const GridTable::Entry& entry);
   int batchOf(int group);
   void fill(const Wishes& wishes, ShadePoints& points) const;
+  void addSteps(std::span<const Wish> wishes, ShadePoints& points, int first) const;
+  /// How many wishes from the first on are for cells that follow each other in a row of a grid.
+  static int runLength(const Grid& g, std::span<const Wish> wishes);
 
   const Scene& scene_;
   const Camera& camera_;
