@@ -264,7 +264,7 @@ class Descent {
       Films& films = out.filmsOf(job_.raster);
       const uint32_t s = lane - pixel * static_cast<uint32_t>(out.lanes);
       *films.next() = depth;
-      return films.add(pixel, cell, s / 64, uint64_t{1} << (s % 64));
+      return films.add(pixel, cell, s / 64, uint64_t{1} << (s % 64), depth, depth);
     }
     if (depth == before) return settleTies(job_, lane, 1, cell);
     before = depth, out.cell[lane] = cell, out.nearer[pixel] = 1;

@@ -90,7 +90,7 @@ class TileBuilder {
       Fragment& f = tile_.fragments.emplace_back();
       f.facet = s.cell;  // The facet is found later.
       f.z = camera_.zFromDepthKey(s.d), f.samples = s.samples, f.word = static_cast<uint16_t>(s.word);
-      if (grids_.of(s.cell).raster->smooth) setPosition(f, s.cell, pixel);
+      if (grids_.anySmooth() && grids_.of(s.cell).raster->smooth) setPosition(f, s.cell, pixel);
     }
   }
 
@@ -140,11 +140,8 @@ class TileBuilder {
       // In place: a copy would wait for its parts to be written.
       Sight& sight = sights_.emplace_back();
       sight.cell = film.cell, sight.word = film.word, sight.depths = depths, sight.opaque = false;
-      if (open) {
-        sight.samples = film.samples;
-        sight.d = *std::min_element(depths, depths + std::popcount(film.samples));
-        continue;
-      }
+      sight.samples = film.samples, sight.d = film.nearest, sight.far = film.farthest;
+      if (open) continue;
       sight.samples = 0, sight.d = kInfinity;
       // What an opaque surface hides is closed up.
       int kept = 0, k0 = 0;
