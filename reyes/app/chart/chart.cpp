@@ -1,0 +1,204 @@
+#include "reyes/app/chart/chart.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "reyes/app/chart/report.h"
+#include "reyes/app/chart/sweeps.h"
+#include "reyes/app/interrupt.h"
+#include "reyes/app/render.h"
+
+namespace tomales {
+namespace {
+
+namespace fs = std::filesystem;
+using Arguments = std::vector<std::string>;
+
+constexpr int kPictureSize = 200;
+constexpr double kReferenceShare = 0.4;  ///< Of the budget, before the points.
+constexpr double kBatchShare = 0.06;     ///< Of the budget, of one batch.
+constexpr double kQuiet = 0.25;          ///< A reference with this share of the least error needs no further batches.
+constexpr double kSilent = 1e-4;         ///< A noise floor below which there is nothing to gain.
+constexpr int kTrialPaths = 64;
+
+Arguments operator+(Arguments a, const Arguments& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+std::string joined(const Arguments& arguments) {
+  std::string out;
+  for (const std::string& a : arguments) out += (out.empty() ? "" : " ") + (a.find(' ') == std::string::npos ? a : '\'' + a + '\'');
+  return out;
+}
+
+/// Names of options without their dashes, and no word about what all points of a sweep share.
+std::string inShort(const Arguments& arguments) {
+  std::string out;
+  for (size_t i = 0; i + 1 < arguments.size(); i += 2)
+    if (arguments[i] != "--gi" && arguments[i] != "--error-function") out += (out.empty() ? "" : ", ") + arguments[i].substr(2) + ' ' + arguments[i + 1];
+  return out.empty() ? joined(arguments) : out;
+}
+
+LabSettings labOf(const ChartSettings& s, const ChartSweep& sweep) {
+  LabSettings lab{s.folder.empty() ? chartCacheFolder() : s.folder, s.files, sweep.common, s.budget_s};
+  if (s.format) lab.arguments = lab.arguments + Arguments{"--format", fmt::format("{}x{}", (*s.format)[0], (*s.format)[1])};
+  if (s.bounces > 0) lab.arguments = lab.arguments + Arguments{"--bounces", std::to_string(s.bounces)};
+  if (s.threads > 0) lab.arguments = lab.arguments + Arguments{"-t", std::to_string(s.threads)};
+  return lab;
+}
+
+class Chart {
+ public:
+  Chart(const ChartSettings& settings, const ChartSweep& sweep)
+      : settings_(settings), sweep_(sweep), labSettings_(labOf(settings, sweep)), lab_(labSettings_) {
+    report_.scene = fs::path(settings.files.front()).filename().string();
+    report_.title = sweep.title, report_.budget_s = settings.budget_s;
+    report_.commandLine = joined(Arguments{"tomales", "chart"} + settings.files + Arguments{"--sweep", sweep.name, "-o", settings.output});
+    for (const ChartCurve& curve : sweep.curves) report_.curves.push_back(curve.name);
+  }
+
+  int run() {
+    chooseReference();
+    while (reference_.batches() < 2 || (lab_.secondsUsed() < kReferenceShare * settings_.budget_s && reference_.noiseFloor() > kSilent))
+      if (!addBatch()) break;
+    measure();
+    while (!isQuiet() && addBatch()) {}
+    if (reference_.batches() == 0) return fail(kUnreadable, "no reference: " + lab_.why());
+    judge();
+    if (!write()) return fail(kUnwritable, "\"" + settings_.output + "\" could not be written");
+    if (const int code = interruptExitCode()) return code;
+    return report_.missing.empty() ? kDone : kIncomplete;
+  }
+
+ private:
+  int fail(int code, const std::string& why) const {
+    log_.report(code == kUnwritable ? Severity::Output : Severity::Error, "chart", {}, why);
+    return interruptExitCode() ? interruptExitCode() : code;
+  }
+
+  std::string commandLine(const Arguments& arguments) const {
+    return joined(Arguments{"tomales", "render"} + settings_.files + labSettings_.arguments + arguments);
+  }
+
+  /// A prelude becomes a file of its own before the scene.
+  std::optional<Run> render(const Arguments& arguments) {
+    Arguments out;
+    for (const std::string& a : arguments) {
+      if (!a.starts_with(kPrelude)) {
+        out.push_back(a);
+        continue;
+      }
+      const std::string text = a.substr(std::string(kPrelude).size());
+      const fs::path file = fs::path(labSettings_.folder) / fmt::format("{:016x}.rib", std::hash<std::string>{}(text));
+      std::ofstream(file) << text << '\n';
+      out.push_back(file.string());
+    }
+    return lab_.run(out);
+  }
+
+  /// As many paths as fit a small share of the budget.
+  void chooseReference() {
+    referenceArguments_ = sweep_.reference;
+    if (!sweep_.tracedReference) return;
+    const auto trial = render(sweep_.reference + Arguments{"--samples", std::to_string(kTrialPaths)});
+    int paths = 16;
+    if (trial)
+      while (paths < 4096 && trial->wall_s * (2 * paths) / kTrialPaths < kBatchShare * settings_.budget_s) paths *= 2;
+    referenceArguments_ = referenceArguments_ + Arguments{"--samples", std::to_string(paths)};
+  }
+
+  bool addBatch() {
+    if (reference_.batches() >= settings_.batches) return false;
+    const auto run = render(referenceArguments_ + Arguments{sweep_.seed, std::to_string(reference_.batches() + 1)});
+    if (!run) return false;
+    report_.referenceSeconds += run->cpu_s;
+    std::string error;
+    const auto image = readImage(run->picture, error);
+    if (!image || !reference_.add(*image)) return false;
+    log("reference", fmt::format("batch {}, noise {:.3g} %", reference_.batches(), 100 * reference_.noiseFloor()));
+    return true;
+  }
+
+  bool isQuiet() const {
+    double least = kInfinity;
+    for (const ChartPoint& p : report_.points) least = std::min(least, p.error.mean);
+    return reference_.noiseFloor() < std::max(kQuiet * least, kSilent);
+  }
+
+  /// The cheapest setting of every method first, so that a small budget leaves no method out.
+  void measure() {
+    size_t steps = 0;
+    for (const ChartCurve& curve : sweep_.curves) steps = std::max(steps, curve.settings.size());
+    for (size_t step = 0; step < steps; ++step)
+      for (size_t c = 0; c < sweep_.curves.size(); ++c)
+        if (step < sweep_.curves[c].settings.size()) measure(c, sweep_.curves[c].settings[step]);
+    std::stable_sort(report_.points.begin(), report_.points.end(), [](const ChartPoint& a, const ChartPoint& b) { return a.curve < b.curve; });
+  }
+
+  void measure(size_t curve, const Arguments& arguments) {
+    const auto run = render(arguments);
+    if (!run) {
+      report_.missing.push_back(report_.curves[curve] + ", " + inShort(arguments) + ": " + lab_.why());
+      return;
+    }
+    ChartPoint point{curve, inShort(arguments), commandLine(arguments), *run, {}, false, false, {}, {}};
+    std::string error;
+    if (const auto image = readImage(run->picture, error); image && reference_.batches() > 0) point.error = reference_.errorOf(*image);
+    log(report_.curves[curve], fmt::format("{}: {:.3g} % in {:.3g} CPU s{}", point.setting, 100 * point.error.mean, run->cpu_s, run->recalled ? " (recalled)" : ""));
+    report_.points.push_back(std::move(point));
+  }
+
+  /// Once the reference is complete.
+  void judge() {
+    for (ChartPoint& p : report_.points) {
+      std::string error;
+      const auto image = readImage(p.run.picture, error);
+      if (!image) continue;
+      p.error = reference_.errorOf(*image);
+      p.picture = p.run.picture + ".thumb.png", p.errorMap = p.run.picture + ".error.png";
+      writeImage(p.picture, thumbnail(*image, kPictureSize), true, log_);
+      writeImage(p.errorMap, thumbnail(reference_.errorMap(*image, report_.mapRange), kPictureSize), true, log_);
+    }
+    report_.referencePicture = (fs::path(labSettings_.folder) / "reference.thumb.png").string();
+    writeImage(report_.referencePicture, thumbnail(reference_.mean(), kPictureSize), true, log_);
+    report_.referenceBatches = reference_.batches(), report_.noiseFloor = reference_.noiseFloor();
+    report_.referenceCommandLine = commandLine(referenceArguments_ + Arguments{sweep_.seed, fmt::format("1..{}", reference_.batches())});
+    markBest(report_);
+  }
+
+  bool write() const {
+    return writeChartPage(settings_.output, report_) && writeChartJson(fs::path(settings_.output).replace_extension(".json").string(), report_);
+  }
+
+  void log(const std::string& who, const std::string& what) const { fmt::print(stderr, "{:6.0f} s  {}, {}\n", lab_.secondsUsed(), who, what); }
+
+  const ChartSettings& settings_;
+  const ChartSweep& sweep_;
+  const LabSettings labSettings_;
+  Lab lab_;
+  mutable Log log_;
+  Arguments referenceArguments_;
+  ChartReference reference_;
+  ChartReport report_;
+};
+
+}  // namespace
+
+std::string chartCacheFolder() {
+  const char *cache = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
+  const fs::path base = cache && *cache ? fs::path(cache) : home && *home ? fs::path(home) / ".cache" : fs::temp_directory_path();
+  return (base / "tomales" / "chart").string();
+}
+
+int chartCommand(const ChartSettings& settings) {
+  catchInterrupts();
+  return Chart(settings, *chartSweep(settings.sweep)).run();
+}
+
+}  // namespace tomales

@@ -1,0 +1,136 @@
+#include "reyes/app/chart/error.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tomales {
+namespace {
+
+std::array<int, 3> colors(const Image& image) {
+  std::array<int, 3> out{image.channelIndex("R"), image.channelIndex("G"), image.channelIndex("B")};
+  for (int& c : out) c = std::max(c, 0);
+  return out;
+}
+
+vec3 colorAt(const Image& image, const std::array<int, 3>& c, int x, int y) {
+  const float* p = image.at(x, y);
+  return {p[c[0]], p[c[1]], p[c[2]]};
+}
+
+Image blank(const Image& like) {
+  return {like.width, like.height, {"R", "G", "B"}, std::vector<float>(static_cast<size_t>(like.width) * static_cast<size_t>(like.height) * 3),
+          0, 0, like.width, like.height};
+}
+
+void set(Image& image, int x, int y, const vec3& color) {
+  float* p = image.at(x, y);
+  p[0] = color.x, p[1] = color.y, p[2] = color.z;
+}
+
+/// Calls visit(test, reference) for each colour of each pixel that counts.
+template <class Visit>
+void eachValue(const Image& test, const Image& reference, Visit&& visit) {
+  const auto t = colors(test), r = colors(reference);
+  for (int y = 0; y < reference.height; ++y)
+    for (int x = 0; x < reference.width; ++x) {
+      const vec3 a = colorAt(test, t, x, y), b = colorAt(reference, r, x, y);
+      if (b == vec3(0)) continue;
+      for (int c = 0; c < 3; ++c) visit(a[c], b[c]);
+    }
+}
+
+/// Mean of some batches, without one of them (-1: of all).
+Image meanOf(const std::vector<Image>& batches, int without) {
+  Image out = blank(batches.front());
+  const float share = 1 / static_cast<float>(static_cast<int>(batches.size()) - (without >= 0));
+  for (int b = 0; b < static_cast<int>(batches.size()); ++b) {
+    if (b == without) continue;
+    const Image& batch = batches[static_cast<size_t>(b)];
+    const auto c = colors(batch);
+    for (int y = 0; y < out.height; ++y)
+      for (int x = 0; x < out.width; ++x) {
+        const vec3 value = colorAt(batch, c, x, y) * share;
+        for (int i = 0; i < 3; ++i) out.at(x, y)[i] += value[i];
+      }
+  }
+  return out;
+}
+
+double meanError(const Image& test, const Image& reference) {
+  double sum = 0;
+  int64_t count = 0;
+  eachValue(test, reference, [&](float t, float r) { sum += std::abs(t - r) / (std::abs(r) + ChartReference::kFloor), ++count; });
+  return count ? sum / static_cast<double>(count) : 0;
+}
+
+}  // namespace
+
+bool ChartReference::add(const Image& batch) {
+  if (!batches_.empty() && (batch.width != mean_.width || batch.height != mean_.height)) return false;
+  batches_.push_back(batch);
+  mean_ = meanOf(batches_, -1);
+  return true;
+}
+
+double ChartReference::noiseFloor() const {
+  const double n = batches();
+  if (n < 2) return kInfinity;
+  // A batch is off the mean of the others by its own noise and theirs, sqrt(n + n / (n - 1)) times that of the mean of all.
+  double sum = 0;
+  for (int b = 0; b < batches(); ++b) sum += meanError(batches_[static_cast<size_t>(b)], meanOf(batches_, b));
+  return sum / n / std::sqrt(n + n / (n - 1));
+}
+
+ErrorFigures ChartReference::errorOf(const Image& test) const {
+  ErrorFigures out;
+  std::vector<float> errors;
+  double squares = 0, tests = 0, references = 0;
+  eachValue(test, mean_, [&](float t, float r) {
+    errors.push_back(std::abs(t - r) / (std::abs(r) + kFloor));
+    out.mean += errors.back(), squares += double{t - r} * (t - r), tests += t, references += r;
+  });
+  if (errors.empty()) return out;
+  const double count = static_cast<double>(errors.size());
+  out.mean /= count;
+  const auto p99 = errors.begin() + static_cast<ptrdiff_t>(0.99 * (count - 1));
+  std::nth_element(errors.begin(), p99, errors.end());
+  out.p99 = *p99;
+  out.bias = references != 0 ? tests / references - 1 : 0;
+  out.rms = references != 0 ? std::sqrt(squares / count) / (references / count) : 0;
+  if (batches() < 2) return out;
+  double spread = 0;
+  for (int b = 0; b < batches(); ++b) spread += std::pow(meanError(test, meanOf(batches_, b)) - out.mean, 2);
+  out.confidence = 2 * std::sqrt(spread * (batches() - 1) / batches());
+  return out;
+}
+
+Image ChartReference::errorMap(const Image& test, float range) const {
+  Image out = blank(mean_);
+  const auto t = colors(test), r = colors(mean_);
+  for (int y = 0; y < out.height; ++y)
+    for (int x = 0; x < out.width; ++x) {
+      const float b = luminance(colorAt(mean_, r, x, y)), d = luminance(colorAt(test, t, x, y)) - b;
+      const float off = b == 0 ? 0 : std::clamp(d / (std::abs(b) + kFloor) / range, -1.0f, 1.0f);
+      set(out, x, y, off > 0 ? vec3(1, 1 - off, 1 - off) : vec3(1 + off, 1 + off, 1));
+    }
+  return out;
+}
+
+Image thumbnail(const Image& image, int size) {
+  const int step = (std::max(image.width, image.height) + size - 1) / size;
+  Image out{image.width / step, image.height / step, {}, {}, 0, 0, 0, 0};
+  out.width = std::max(1, out.width), out.height = std::max(1, out.height);
+  out = blank(out);
+  const auto c = colors(image);
+  for (int y = 0; y < out.height; ++y)
+    for (int x = 0; x < out.width; ++x) {
+      vec3 sum(0);
+      int count = 0;
+      for (int j = y * step; j < std::min((y + 1) * step, image.height); ++j)
+        for (int i = x * step; i < std::min((x + 1) * step, image.width); ++i) sum += colorAt(image, c, i, j), ++count;
+      set(out, x, y, sum / static_cast<float>(std::max(count, 1)));
+    }
+  return out;
+}
+
+}  // namespace tomales

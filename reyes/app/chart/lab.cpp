@@ -1,0 +1,172 @@
+#include "reyes/app/chart/lab.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "reyes/app/interrupt.h"
+#include "reyes/base/checksum.h"
+
+namespace tomales {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+namespace fs = std::filesystem;
+
+constexpr const char* kSelf = "/proc/self/exe";
+
+std::string readAll(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+uint64_t sumOf(const std::string& text) { return checksum(std::as_bytes(std::span(text))); }
+
+/// What stands between quotation marks.
+std::vector<std::string> stringsIn(const std::string& text) {
+  std::vector<std::string> out;
+  for (size_t begin = text.find('"'); begin != std::string::npos;) {
+    const size_t end = text.find('"', begin + 1);
+    if (end == std::string::npos) break;
+    out.push_back(text.substr(begin + 1, end - begin - 1));
+    begin = text.find('"', end + 1);
+  }
+  return out;
+}
+
+/// Each file once, with those that it names.
+void addContents(const fs::path& path, std::set<fs::path>& seen, std::string& sums) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error) || !seen.insert(fs::weakly_canonical(path, error)).second) return;
+  const std::string text = readAll(path.string());
+  sums += fmt::format("{:016x}", sumOf(text));
+  if (path.extension() != ".rib") return;
+  for (const std::string& name : stringsIn(text)) {
+    if (name.empty() || name.size() > 1024) continue;
+    addContents(name, seen, sums);
+    addContents(path.parent_path() / name, seen, sums);
+  }
+}
+
+struct Ended {
+  bool good = false;
+  std::string why;
+  double cpu_s = 0, wall_s = 0, peakBytes = 0;
+};
+
+double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
+
+pid_t start(const std::vector<std::string>& arguments, const std::string& messages) {
+  std::vector<char*> argv;
+  for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
+  pid_t child = -1;
+  const int failed = posix_spawn(&child, kSelf, &files, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&files);
+  return failed ? -1 : child;
+}
+
+/// Ends the child when this process is interrupted or at the deadline.
+Ended await(pid_t child, Clock::time_point deadline) {
+  Ended out;
+  const auto begin = Clock::now();
+  rusage usage{};
+  int status = 0;
+  while (wait4(child, &status, WNOHANG, &usage) == 0) {
+    if (out.why.empty() && (interrupted() || Clock::now() > deadline)) {
+      out.why = interrupted() ? "interrupted" : "over the budget";
+      kill(child, SIGKILL);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  out.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  out.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  out.peakBytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
+  out.good = WIFEXITED(status) && (WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == 3);
+  if (!out.good && out.why.empty()) out.why = "the renderer failed";
+  return out;
+}
+
+}  // namespace
+
+uint64_t contentsOf(const std::vector<std::string>& files) {
+  std::set<fs::path> seen;
+  std::string sums;
+  for (const std::string& file : files) addContents(file, seen, sums);
+  return sumOf(sums);
+}
+
+Lab::Lab(LabSettings settings)
+    : settings_(std::move(settings)), contents_(contentsOf(settings_.scene) ^ sumOf(readAll(kSelf))), start_(Clock::now()) {
+  fs::create_directories(settings_.folder);
+}
+
+double Lab::secondsUsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+double Lab::secondsLeft() const { return settings_.budget_s - secondsUsed(); }
+
+std::optional<Run> Lab::run(const std::vector<std::string>& arguments) {
+  std::vector<std::string> all = settings_.arguments;
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  std::string name = fmt::format("{:016x}", contents_);
+  for (const std::string& a : all) name += '\n' + a;
+  const std::string stem = (fs::path(settings_.folder) / fmt::format("{:016x}", sumOf(name))).string();
+  if (auto known = recall(stem, arguments)) return known;
+  why_ = interrupted() ? "interrupted" : "over the budget";
+  if (interrupted() || secondsLeft() <= 0) return std::nullopt;
+
+  const std::string unfinished = stem + ".part.exr", statistics = stem + ".stats.json";
+  all.insert(all.begin(), {"tomales", "render", "-q"});
+  all.insert(all.end(), {"-o", unfinished, "--stats", statistics});
+  all.insert(all.end(), settings_.scene.begin(), settings_.scene.end());
+  const pid_t child = start(all, stem + ".log");
+  why_ = "the renderer could not be started";
+  if (child < 0) return std::nullopt;
+  const Ended ended = await(child, Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(secondsLeft())));
+  why_ = ended.why;
+  std::error_code error;
+  if (ended.good) fs::rename(unfinished, stem + ".exr", error);
+  if (!ended.good || error) {
+    if (!interrupted() && why_ != "over the budget") why_ += ": " + readAll(stem + ".log");
+    fs::remove(unfinished, error);
+    return std::nullopt;
+  }
+  const Json counted = Json::parse(readAll(statistics), nullptr, false);
+  fs::remove(statistics, error);
+  Run out{arguments, stem + ".exr", ended.cpu_s, ended.wall_s, ended.peakBytes, 0, false};
+  if (counted.is_object()) out.records = counted.value("/irradiance_cache/samples"_json_pointer, int64_t{0});
+  if (remember(stem, out)) return out;
+  why_ = "\"" + settings_.folder + "\" cannot be written";
+  return std::nullopt;
+}
+
+std::optional<Run> Lab::recall(const std::string& stem, const std::vector<std::string>& arguments) const {
+  const Json j = Json::parse(readAll(stem + ".json"), nullptr, false);
+  if (!j.is_object() || !fs::exists(stem + ".exr")) return std::nullopt;
+  return Run{arguments, stem + ".exr", j.value("cpu_s", 0.0), j.value("wall_s", 0.0), j.value("peak_bytes", 0.0), j.value("records", int64_t{0}), true};
+}
+
+bool Lab::remember(const std::string& stem, const Run& run) const {
+  const Json j{{"cpu_s", run.cpu_s}, {"wall_s", run.wall_s}, {"peak_bytes", run.peakBytes}, {"records", run.records}};
+  std::ofstream file(stem + ".json.part");
+  file << j.dump(2) << '\n';
+  file.close();
+  std::error_code error;
+  if (file) fs::rename(stem + ".json.part", stem + ".json", error);
+  return file && !error;
+}
+
+}  // namespace tomales

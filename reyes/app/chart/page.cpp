@@ -1,0 +1,130 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "reyes/app/chart/html.h"
+#include "reyes/app/chart/plot.h"
+#include "reyes/app/chart/report.h"
+#include "reyes/app/settings.h"
+
+namespace tomales {
+namespace {
+
+constexpr double kAskedErrors[] = {0.08, 0.04, 0.02, 0.01, 0.005};
+
+class Page {
+ public:
+  explicit Page(const ChartReport& report) : r_(report) {}
+
+  std::string write(const std::string& jsonName) {
+    put("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
+    put("<title>{0}: error against cost</title><style>{1}</style></head><body>\n", escapeXml(r_.scene), kPageStyle);
+    put("<h1>{}: {}</h1>\n", escapeXml(r_.scene), escapeXml(r_.title));
+    summary(jsonName);
+    reach();
+    legend();
+    put("<div class=\"plots\">\n");
+    plot("Error against CPU time", "CPU seconds of the whole process", [](const ChartPoint& p) { return p.run.cpu_s; },
+         [](const ChartPoint& p) { return p.bestInTime; });
+    plot("Error against memory", "peak resident memory, MB", [](const ChartPoint& p) { return p.run.peakBytes / 1048576; },
+         [](const ChartPoint& p) { return p.bestInMemory; });
+    put("</div>\n");
+    table();
+    cards();
+    put("</body></html>\n");
+    return std::move(out_);
+  }
+
+ private:
+  template <class... T>
+  void put(fmt::format_string<T...> format, T&&... values) {
+    fmt::format_to(std::back_inserter(out_), format, std::forward<T>(values)...);
+  }
+  std::string key(size_t curve) const { return fmt::format("<span class=\"key\" style=\"background:{}\"></span>{}", plotColor(curve), escapeXml(r_.curves[curve])); }
+
+  void summary(const std::string& jsonName) {
+    put("<p>Error: mean of |test &minus; reference| / (reference + {}) over all colours of all pixels that the reference lights. Yellow: the "
+        "points that no other beats in both cost and error. Every point leads to its picture.</p>\n", ChartReference::kFloor);
+    put("<p>The reference is the mean of {} independent pictures ({:.0f} CPU s) of <code>{}</code>; its own noise is {}.</p>\n", r_.referenceBatches,
+        r_.referenceSeconds, escapeXml(r_.referenceCommandLine), std::isfinite(r_.noiseFloor) ? percent(r_.noiseFloor) : "unknown");
+    put("<p>Figures: <a href=\"{0}\">{0}</a>. Made with tomales {1}: <code>{2}</code></p>\n", escapeXml(jsonName), kVersion, escapeXml(r_.commandLine));
+    for (const std::string& m : r_.missing) put("<p><strong>Not measured:</strong> {}</p>\n", escapeXml(m));
+  }
+
+  void reach() {
+    put("<h2>CPU seconds to reach an error</h2><div class=\"scroll\"><table><tr><th>method</th>");
+    for (const double e : kAskedErrors) put("<th>{}</th>", percent(e));
+    put("</tr>\n");
+    for (size_t c = 0; c < r_.curves.size(); ++c) {
+      put("<tr><td>{}</td>", key(c));
+      for (const double e : kAskedErrors) {
+        const auto seconds = secondsToReach(r_, c, e);
+        put("<td>{}</td>", seconds ? shortNumber(*seconds) : "&ndash;");
+      }
+      put("</tr>\n");
+    }
+    put("</table></div>\n");
+  }
+
+  void legend() {
+    put("<ul class=\"legend\">");
+    for (size_t c = 0; c < r_.curves.size(); ++c) put("<li>{}</li>", key(c));
+    put("</ul>\n");
+  }
+
+  template <class Cost, class Best>
+  void plot(const char* title, const char* label, Cost&& cost, Best&& best) {
+    Plot plot{title, label, "mean relative error", {}, std::isfinite(r_.noiseFloor) ? r_.noiseFloor : 0};
+    for (const std::string& name : r_.curves) plot.curves.push_back({name, {}});
+    for (size_t i = 0; i < r_.points.size(); ++i) {
+      const ChartPoint& p = r_.points[i];
+      const std::string tip = fmt::format("{}, {}: {} in {} s, {}", r_.curves[p.curve], p.setting, percent(p.error.mean), shortNumber(p.run.cpu_s),
+                                          megabytes(p.run.peakBytes));
+      plot.curves[p.curve].points.push_back({cost(p), p.error.mean, tip, fmt::format("#p{}", i), best(p)});
+    }
+    put("<section><h2>{}</h2><div class=\"wide\">{}</div><div class=\"narrow\">{}</div></section>\n", title, drawPlot(plot, 580, 420),
+        drawPlot(plot, 358, 340));
+  }
+
+  void table() {
+    put("<h2>All points</h2><div class=\"scroll\"><table><tr><th>method</th><th class=\"text\">setting</th><th>mean error</th><th>&plusmn; 95 %</th>"
+        "<th>99th percentile</th><th>rms</th><th>bias</th><th>CPU s</th><th>wall s</th><th>memory</th><th>records</th></tr>\n");
+    for (size_t i = 0; i < r_.points.size(); ++i) {
+      const ChartPoint& p = r_.points[i];
+      put("<tr class=\"{}\"><td>{}</td><td class=\"text\"><a href=\"#p{}\">{}</a></td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>",
+          p.bestInTime ? "best" : "", key(p.curve), i, escapeXml(p.setting), percent(p.error.mean), percent(p.error.confidence), percent(p.error.p99),
+          percent(p.error.rms), percent(p.error.bias));
+      put("<td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", shortNumber(p.run.cpu_s), shortNumber(p.run.wall_s), megabytes(p.run.peakBytes),
+          p.run.records);
+    }
+    put("</table></div>\n");
+  }
+
+  void cards() {
+    put("<h2>Pictures</h2><p>Right: where the picture is too bright (red) and too dark (blue), full colour at {}.</p>\n<div class=\"cards\">\n",
+        percent(r_.mapRange));
+    put("<figure><img alt=\"reference\" src=\"{}\"><figcaption>reference<br><code>{}</code></figcaption></figure>\n", embedded(r_.referencePicture),
+        escapeXml(r_.referenceCommandLine));
+    for (size_t i = 0; i < r_.points.size(); ++i) {
+      const ChartPoint& p = r_.points[i];
+      put("<figure id=\"p{}\"><img loading=\"lazy\" alt=\"picture\" src=\"{}\"> <img loading=\"lazy\" alt=\"error\" src=\"{}\">", i, embedded(p.picture),
+          embedded(p.errorMap));
+      put("<figcaption>{} {}<br>{} in {} CPU s<br><code>{}</code></figcaption></figure>\n", key(p.curve), escapeXml(p.setting), percent(p.error.mean),
+          shortNumber(p.run.cpu_s), escapeXml(p.commandLine));
+    }
+    put("</div>\n");
+  }
+
+  const ChartReport& r_;
+  std::string out_;
+};
+
+}  // namespace
+
+bool writeChartPage(const std::string& path, const ChartReport& report) {
+  const std::string json = std::filesystem::path(path).filename().replace_extension(".json").string();
+  return writeAtOnce(path, Page(report).write(json));
+}
+
+}  // namespace tomales

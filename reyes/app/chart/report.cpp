@@ -1,0 +1,83 @@
+#include "reyes/app/chart/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "reyes/app/chart/html.h"
+#include "reyes/app/settings.h"
+
+namespace tomales {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Cost>
+bool isBest(const ChartReport& report, const ChartPoint& p, Cost&& cost) {
+  return std::none_of(report.points.begin(), report.points.end(), [&](const ChartPoint& q) {
+    return cost(q) <= cost(p) && q.error.mean <= p.error.mean && (cost(q) < cost(p) || q.error.mean < p.error.mean);
+  });
+}
+
+Json pointJson(const ChartReport& report, const ChartPoint& p) {
+  return {{"method", report.curves[p.curve]},
+          {"setting", p.setting},
+          {"command", p.commandLine},
+          {"cpu_s", p.run.cpu_s},
+          {"wall_s", p.run.wall_s},
+          {"peak_bytes", p.run.peakBytes},
+          {"irradiance_records", p.run.records},
+          {"mean_absolute_relative_error", p.error.mean},
+          {"confidence_95", p.error.confidence},
+          {"p99", p.error.p99},
+          {"bias", p.error.bias},
+          {"rms", p.error.rms},
+          {"best_in_time", p.bestInTime},
+          {"best_in_memory", p.bestInMemory},
+          {"recalled", p.run.recalled}};
+}
+
+}  // namespace
+
+void markBest(ChartReport& report) {
+  for (ChartPoint& p : report.points) {
+    p.bestInTime = isBest(report, p, [](const ChartPoint& q) { return q.run.cpu_s; });
+    p.bestInMemory = isBest(report, p, [](const ChartPoint& q) { return q.run.peakBytes; });
+  }
+}
+
+std::optional<double> secondsToReach(const ChartReport& report, size_t curve, double error) {
+  std::optional<double> best;
+  const ChartPoint* before = nullptr;
+  for (const ChartPoint& p : report.points) {
+    if (p.curve != curve) continue;
+    std::optional<double> seconds;
+    if (p.error.mean <= error) seconds = p.run.cpu_s;
+    if (seconds && before && before->error.mean > error) {
+      const double share = std::log(before->error.mean / error) / std::log(before->error.mean / std::max(p.error.mean, 1e-9));
+      seconds = before->run.cpu_s * std::pow(p.run.cpu_s / before->run.cpu_s, share);
+    }
+    if (seconds && (!best || *seconds < *best)) best = seconds;
+    before = &p;
+  }
+  return best;
+}
+
+bool writeChartJson(const std::string& path, const ChartReport& report) {
+  Json out{{"version", kVersion},
+           {"scene", report.scene},
+           {"sweep", report.title},
+           {"command", report.commandLine},
+           {"reference",
+            {{"command", report.referenceCommandLine},
+             {"batches", report.referenceBatches},
+             {"cpu_s", report.referenceSeconds},
+             {"noise_floor", std::isfinite(report.noiseFloor) ? Json(report.noiseFloor) : Json(nullptr)}}},
+           {"budget_s", report.budget_s},
+           {"missing", report.missing},
+           {"points", Json::array()}};
+  for (const ChartPoint& p : report.points) out["points"].push_back(pointJson(report, p));
+  return writeAtOnce(path, out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+}
+
+}  // namespace tomales

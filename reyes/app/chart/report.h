@@ -1,0 +1,38 @@
+// What a chart has found, and the two files that say it.
+#pragma once
+#include "reyes/app/chart/error.h"
+#include "reyes/app/chart/lab.h"
+
+namespace tomales {
+
+/// One setting of one method.
+struct ChartPoint {
+  size_t curve;
+  std::string setting;      ///< In short.
+  std::string commandLine;
+  Run run;
+  ErrorFigures error;
+  bool bestInTime = false, bestInMemory = false;  ///< No other point is cheaper and more accurate.
+  std::string picture, errorMap;                  ///< PNG files of thumbnails.
+};
+
+struct ChartReport {
+  std::string scene, title, commandLine, referenceCommandLine;
+  std::vector<std::string> curves;
+  std::vector<ChartPoint> points;  ///< Curve by curve, as the sweep has them.
+  std::vector<std::string> missing;  ///< What the budget or a failure left out, and why.
+  int referenceBatches = 0;
+  double noiseFloor = 0, referenceSeconds = 0, budget_s = 0;
+  std::string referencePicture;
+  float mapRange = 0.1f;  ///< Relative error of full colour.
+};
+
+void markBest(ChartReport& report);
+/// Seconds at which a curve reaches an error, on straight lines between its points in logarithmic axes; nothing if it does not.
+std::optional<double> secondsToReach(const ChartReport& report, size_t curve, double error);
+
+// Both go to a temporary name first. False: they could not be written.
+bool writeChartPage(const std::string& path, const ChartReport& report);
+bool writeChartJson(const std::string& path, const ChartReport& report);
+
+}  // namespace tomales

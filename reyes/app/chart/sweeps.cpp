@@ -1,0 +1,86 @@
+#include "reyes/app/chart/sweeps.h"
+
+#include <fmt/format.h>
+
+namespace tomales {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+/// Rays of a record against how far it is used: neither alone brings the error down for long.
+struct GatherStep {
+  const char *samples, *maxError, *photons;
+};
+constexpr GatherStep kGatherSteps[] = {
+    {"32", "4", "30000"}, {"96", "2.5", "100000"}, {"256", "1.5", "300000"}, {"640", "1", "600000"}, {"1600", "0.7", "1000000"}};
+
+ChartCurve gatherCurve(const std::string& errorFunction) {
+  ChartCurve out{"gather, " + errorFunction, {}};
+  for (const GatherStep& s : kGatherSteps)
+    out.settings.push_back({"--gi", "gather", "--error-function", errorFunction, "--samples", s.samples, "--max-error", s.maxError});
+  return out;
+}
+
+ChartCurve atlasCurve() {
+  ChartCurve out{"atlas", {}};
+  for (const GatherStep& s : kGatherSteps)
+    out.settings.push_back({"--gi", "atlas", "--photons", s.photons, "--samples", s.samples, "--max-error", s.maxError});
+  return out;
+}
+
+void add(Arguments& to, const Arguments& more) { to.insert(to.end(), more.begin(), more.end()); }
+
+/// One curve, along which one option takes these values.
+ChartCurve varied(const std::string& name, const Arguments& fixed, const std::string& option, const Arguments& values) {
+  ChartCurve out{name, {}};
+  for (const std::string& value : values) {
+    Arguments& settings = out.settings.emplace_back(fixed);
+    add(settings, option.starts_with(kPrelude) ? Arguments{fmt::format(fmt::runtime(option), value)} : Arguments{option, value});
+  }
+  return out;
+}
+
+const Arguments kGather{"--gi", "gather"}, kAtlas{"--gi", "atlas"}, kTraced{"--gi", "reference"};
+
+std::vector<ChartSweep> allSweeps() {
+  const std::string motion = std::string(kPrelude) + "GeometricApproximation \"motionfactor\" {}";
+  const std::string tessellation = std::string(kPrelude) + "Attribute \"trace\" \"float tessellation\" {}";
+  return {
+      {"gi", "methods of indirect light", {"--indirect-only"}, kTraced, "--light-seed", true,
+       {gatherCurve("screen"), gatherCurve("ward"), gatherCurve("hessian"), atlasCurve(),
+        varied("reference", kTraced, "--samples", {"4", "16", "64", "256"})}},
+      {"maxerror", "error allowed in irradiance interpolation", {"--indirect-only"}, kTraced, "--light-seed", true,
+       {varied("gather", kGather, "--max-error", {"8", "4", "2", "1", "0.5", "0.25"})}},
+      {"samples", "gather rays of an irradiance record", {"--indirect-only"}, kTraced, "--light-seed", true,
+       {varied("gather", kGather, "--samples", {"16", "50", "150", "450", "1350", "4000"})}},
+      {"photons", "photons of the irradiance atlas", {"--indirect-only"}, kTraced, "--light-seed", true,
+       {varied("atlas", kAtlas, "--photons", {"10000", "30000", "100000", "300000", "1000000", "3000000"})}},
+      {"brickcache", "memory for bricks", {"--indirect-only"}, kTraced, "--light-seed", true,
+       {varied("atlas", kAtlas, "--brick-cache", {"100K", "300K", "1M", "3M", "10M"})}},
+      {"shadingrate", "shading rate", {"--gi", "none"}, {"--shading-rate", "0.0625"}, "--seed", false,
+       {varied("shading rate", {}, "--shading-rate", {"16", "8", "4", "2", "1", "0.5", "0.25"})}},
+      {"pixelsamples", "pixel samples", {"--gi", "none"}, {"--pixel-samples", "16x16"}, "--seed", false,
+       {varied("pixel samples", {}, "--pixel-samples", {"1x1", "2x2", "3x3", "4x4", "6x6", "8x8"})}},
+      {"motionfactor", "coarser shading of what moves", {"--gi", "none"}, {fmt::format(fmt::runtime(motion), 0)}, "--seed", false,
+       {varied("motion factor", {}, motion, {"16", "8", "4", "2", "1", "0"})}},
+      {"tessellation", "fineness of the polygons that rays meet", {"--gi", "gather", "--indirect-only"},
+       {fmt::format(fmt::runtime(tessellation), 16)}, "--seed", false,
+       {varied("tessellation", {}, tessellation, {"0.125", "0.25", "0.5", "1", "2", "4", "8"})}},
+  };
+}
+
+}  // namespace
+
+std::optional<ChartSweep> chartSweep(const std::string& name) {
+  for (const ChartSweep& sweep : allSweeps())
+    if (sweep.name == name) return sweep;
+  return std::nullopt;
+}
+
+std::string chartSweepNames() {
+  std::string out;
+  for (const ChartSweep& sweep : allSweeps()) out += (out.empty() ? "" : ", ") + sweep.name;
+  return out;
+}
+
+}  // namespace tomales

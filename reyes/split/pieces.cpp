@@ -1,0 +1,242 @@
+#include <fmt/format.h>
+
+#include "reyes/split.h"
+#include "reyes/split/rate.h"
+
+namespace tomales {
+namespace {
+
+constexpr int kMaxDepth = 48;     ///< Halvings of one patch; beyond, the piece is smaller than a float can name.
+/// A bound that is so many times larger than the lines on its piece does not shrink with it: it is rounding, or the circle
+/// in which a ribbon may turn. From some depth on points measured on the piece say where it is, or nothing near the eye would
+/// ever be culled.
+constexpr float kSlack = 8;
+constexpr int kSlackDepth = 8;
+constexpr float kRasterMargin_px = 1.0f;  ///< The hider may push borders out by half a pixel.
+/// Pieces that one patch may visit: so many times those that cover the window once, and some for small windows. Only
+/// coordinates beyond float's precision or reach, which no halving makes small, come near it.
+constexpr double kLayersOfPatch = 64;
+constexpr double kLeastBudget = 1 << 16;
+/// Lazily, a patch is halved so often, and what then has so many grids or more is a coarse piece.
+constexpr int kHalvingsAtOnce = 6;
+constexpr int64_t kGridsOfCoarse = 64;
+
+/// Box in camera space around a rectangle, over the shutter, before displacement.
+Bound3 cameraBound(const Object& o, uint32_t patch, const UvRect& rect) {
+  Bound3 object;
+  for (const PrimPtr& shape : o.shapes) object.extend(shape->bound(patch, rect));
+  Bound3 camera;
+  for (const float t : o.keyTimes) camera.extend(transformBound(o.cameraFromObject.at(t), object));
+  return camera;
+}
+
+/// Raster length of the way that the middle of a rectangle goes over the shutter. Pre: it stays in front of the eye.
+float pathLength_px(const Object& o, const Camera& camera, uint32_t patch, const UvRect& rect) {
+  float length = 0;
+  vec2 last(0);
+  for (size_t k = 0; k < o.keyTimes.size(); ++k) {
+    size_t shape = 0;
+    while (shape + 1 < o.shapes.size() && o.shapeTimes[shape + 1] <= o.keyTimes[k]) ++shape;
+    const vec3 middle = o.shapes[shape]->bound(patch, rect).center();
+    const vec2 at = camera.raster(transformPoint(o.cameraFromObject.at(o.keyTimes[k]), middle));
+    if (k > 0) length += glm::length(at - last);
+    last = at;
+  }
+  return length;
+}
+
+/// The least diameter of the circle of confusion in a range of depths; 0 if the focal plane is among them.
+float leastBlur_px(const Camera& camera, float zMin, float zMax) {
+  if (!camera.defocuses()) return 0;
+  const vec2 a = camera.defocus(camera.depthKey(zMin)), b = camera.defocus(camera.depthKey(zMax));
+  return dot(a, b) <= 0 ? 0 : 2 * std::min(glm::length(a), glm::length(b)) / std::sqrt(2.0f);
+}
+
+std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
+  UvRect a = r, b = r;
+  if (alongU)
+    a.u1 = b.u0 = 0.5f * (r.u0 + r.u1);
+  else
+    a.v1 = b.v0 = 0.5f * (r.v0 + r.v1);
+  return {a, b};
+}
+
+/// Splits the patches of one object.
+class Splitter {
+ public:
+  /// Pieces that were left out because halving did not help.
+  struct GivenUp { int64_t atEye = 0, tooMany = 0; };
+
+  Splitter(const Scene& scene, int object, const Camera& camera, const PixelRect& window, Stats& stats, Splitting splitting,
+           StopFlag stop)
+      : object_(scene.objects[static_cast<size_t>(object)]), index_(object), gridSize_(scene.options.gridSize),
+        camera_(camera), window_(window), stats_(stats), lazily_(splitting == Splitting::Lazily), stop_(stop),
+        edge_px_(std::sqrt(std::max(object_.attributes->shadingRate, 1e-4f))) {}
+
+  void splitPatch(uint32_t patch, std::vector<SubPatch>& out) {
+    const double window_px = static_cast<double>(window_.width()) * window_.height();
+    budget_ = static_cast<int64_t>(kLeastBudget + kLayersOfPatch * window_px / (double{edge_px_} * edge_px_ * gridSize_));
+    split(patch, UvRect{}, 0, out);
+  }
+  void splitPiece(const SubPatch& coarse, std::vector<SubPatch>& out) {
+    start_ = coarse.depth;
+    budget_ = kGridsOfCoarse + static_cast<int64_t>(kLayersOfPatch) * gridsOf(coarse.nu, coarse.nv);
+    split(coarse.patch, coarse.rect, coarse.depth, out);
+  }
+
+  const GivenUp& givenUp() const { return givenUp_; }
+
+ private:
+  void split(uint32_t patch, const UvRect& rect, int depth, std::vector<SubPatch>& out) {
+    if (stop_ && stop_->load(std::memory_order_relaxed)) return;
+    if (budget_-- <= 0) {
+      ++givenUp_.tooMany;
+      return;
+    }
+    Bound3 bare = cameraBound(object_, patch, rect);
+    if (cannotBeSeen(bare) || object_.shape().kept(patch, rect) == Kept::None) {
+      ++stats_.geometry.culled;
+      return;
+    }
+    const PatchSize size = measure(object_, camera_, patch, rect);
+    const bool still = object_.keyTimes.size() == 1;
+    const float reach = size.u.length + size.v.length;
+    if (still && depth >= kSlackDepth && glm::length(bare.size()) > kSlack * reach) {
+      bare = size.probes.grown(reach);
+      if (cannotBeSeen(bare)) return;
+    }
+    const Bound3 bound = bare.grown(object_.displacementBound);
+    const bool crossesEye = crosses(bare);
+    const float blur = coarsening(patch, rect, bound);
+    const bool binary = object_.attributes->binaryDice;
+    const int nu = cells(size.u, edge_px_, blur, binary), nv = cells(size.v, edge_px_, blur, binary);
+    if (static_cast<int64_t>(nu) * nv <= gridSize_) {
+      // What moves through the eye plane does so however small it is; it is seen while it stays in front.
+      if (crossesEye && !still) ++givenUp_.atEye;
+      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound), bound.lo.z, crossesEye, depth, false});
+    } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && gridsOf(nu, nv) >= kGridsOfCoarse && !crossesEye &&
+               glm::length(bare.size()) <= kSlack * reach) {
+      // Halving shrinks such a piece and its bound as it should, so that its grids can be foretold.
+      const Bound2 raster = rasterOf(bound);
+      budget_ -= std::min(gridsOf(nu, nv), gridsInView(raster));
+      out.push_back({index_, patch, rect, nu, nv, raster, bound.lo.z, crossesEye, depth, true});
+    } else if (depth == kMaxDepth) {
+      ++(bound.lo.z < glm::length(bound.size()) ? givenUp_.atEye : givenUp_.tooMany);
+    } else {
+      const bool alongU = crossesEye ? size.u.length >= size.v.length : nu >= nv;
+      const auto [a, b] = halves(rect, alongU);
+      split(patch, a, depth + 1, out);
+      split(patch, b, depth + 1, out);
+    }
+  }
+
+  int64_t gridsOf(int nu, int nv) const { return static_cast<int64_t>(nu) * nv / gridSize_; }
+  /// That a layer of surface over what the window shows of `raster` takes.
+  int64_t gridsInView(const Bound2& raster) const {
+    const vec2 lo = glm::max(raster.lo, vec2(window_.x0, window_.y0)), hi = glm::min(raster.hi, vec2(window_.x1, window_.y1));
+    const vec2 size = glm::max(hi - lo, vec2(0));
+    return 1 + static_cast<int64_t>(double{size.x} * size.y / (double{edge_px_} * edge_px_ * gridSize_));
+  }
+
+  bool cannotBeSeen(const Bound3& bare) const {
+    const Bound3 bound = bare.grown(object_.displacementBound);
+    if (!isFinite(bound.lo) || !isFinite(bound.hi)) return true;
+    // Solids are cut off where their surface is known, not before.
+    return object_.solid < 0 ? camera_.outside(bound, window_) : camera_.outsideWindow(bound, window_);
+  }
+  /// No halving shrinks a displacement bound: what it alone brings to the eye plane does not count.
+  bool crosses(const Bound3& bare) const { return camera_.perspective() && bare.lo.z < camera_.eyePlane(); }
+
+  /// Of what lies beyond the near plane.
+  Bound2 rasterOf(Bound3 bound) const {
+    if (camera_.perspective()) bound.lo.z = std::max(bound.lo.z, camera_.nearClip());
+    Bound2 raster;
+    camera_.rasterBound(bound, raster);
+    return {raster.lo - vec2(kRasterMargin_px), raster.hi + vec2(kRasterMargin_px)};
+  }
+
+  /// How much longer than the shading rate asks the edges may be: a micropolygon's width up to a quarter of the circle
+  /// of confusion, its area up to a quarter of the way it moves, by the factors of GeometricApproximation.
+  float coarsening(uint32_t patch, const UvRect& rect, const Bound3& bound) const {
+    const Attributes& a = *object_.attributes;
+    const float focus = a.focusFactor * leastBlur_px(camera_, std::max(bound.lo.z, camera_.nearClip()), bound.hi.z) / 4;
+    const bool moves = a.motionFactor > 0 && object_.keyTimes.size() > 1;
+    const float motion = moves ? a.motionFactor * pathLength_px(object_, camera_, patch, rect) / 4 : 0;
+    const float scale = std::max({1.0f, focus, std::sqrt(motion)});
+    return std::isfinite(scale) ? scale : 1.0f;
+  }
+
+  const Object& object_;
+  const int index_, gridSize_;
+  const Camera& camera_;
+  const PixelRect& window_;
+  Stats& stats_;
+  const bool lazily_;
+  const StopFlag stop_;
+  const float edge_px_;
+  int start_ = 0;       ///< Depth of what is being split.
+  int64_t budget_ = 0;  ///< Pieces that the patch may still visit.
+  GivenUp givenUp_;
+};
+
+void report(const Splitter::GivenUp& givenUp, const Object& o, Stats& stats, Log& log) {
+  stats.geometry.eyeSplitsGivenUp += givenUp.atEye;
+  if (givenUp.atEye > 0)
+    log.report(Severity::Warning, "split-eye-plane", o.where,
+               fmt::format("{} passes through the eye: what lies too near there, at any time, is not drawn; set "
+                           "Clipping near by hand if it shows",
+                           objectName(o)));
+  if (givenUp.tooMany > 0)
+    log.report(Severity::Missing, "split-too-many", o.where,
+               fmt::format("{} cannot be cut into pieces of the size of a grid: its coordinates, its displacement bound "
+                           "or the magnification are too large; parts are not drawn",
+                           objectName(o)));
+}
+
+}  // namespace
+
+std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
+                                  float margin, const Camera& camera, const PixelRect& window, bool clipped) {
+  Bound3 bound;
+  for (const float t : keyTimes) bound.extend(transformBound(cameraFromObject.at(t), box));
+  bound = bound.grown(margin);
+  const Placement anywhere{{{window.x0, window.y0}, {window.x1, window.y1}}, -kInfinity};
+  if (!isFinite(bound.lo) || !isFinite(bound.hi)) return anywhere;  // one bad patch must not take its neighbours along
+  if (clipped ? camera.outside(bound, window) : camera.outsideWindow(bound, window)) return std::nullopt;
+  Placement out{{}, bound.lo.z};
+  if (!camera.rasterBound(bound, out.raster)) out.raster = anywhere.raster;
+  out.raster.lo -= vec2(kRasterMargin_px);
+  out.raster.hi += vec2(kRasterMargin_px);
+  return out;
+}
+
+namespace {
+
+/// split(splitter, pieces) does it; the rest is the same for patches and pieces.
+template <class Split>
+std::vector<SubPatch> piecesBy(Splitter splitter, const Object& object, Stats& stats, Log& log, const Split& split) {
+  std::vector<SubPatch> pieces;
+  split(splitter, pieces);
+  report(splitter.givenUp(), object, stats, log);
+  stats.geometry.subpatches += std::count_if(pieces.begin(), pieces.end(), [](const SubPatch& p) { return !p.coarse; });
+  return pieces;
+}
+
+}  // namespace
+
+std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<const uint32_t> patches, const Camera& camera,
+                                   const PixelRect& window, Stats& stats, Log& log, Splitting splitting, StopFlag stop) {
+  return piecesBy(Splitter(scene, object, camera, window, stats, splitting, stop), scene.objects[static_cast<size_t>(object)], stats, log,
+                  [&](Splitter& splitter, std::vector<SubPatch>& out) {
+                    for (const uint32_t p : patches) splitter.splitPatch(p, out);
+                  });
+}
+
+std::vector<SubPatch> splitPiece(const Scene& scene, const SubPatch& coarse, const Camera& camera, const PixelRect& window,
+                                 Stats& stats, Log& log, StopFlag stop) {
+  return piecesBy(Splitter(scene, coarse.object, camera, window, stats, Splitting::Lazily, stop),
+                  scene.objects[static_cast<size_t>(coarse.object)], stats, log,
+                  [&](Splitter& splitter, std::vector<SubPatch>& out) { splitter.splitPiece(coarse, out); });
+}
+
+}  // namespace tomales
