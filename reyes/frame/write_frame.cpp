@@ -21,8 +21,8 @@ MatteNames matteNames(const Scene& scene) {
 /// Keeps in a frame the tiles that some rows of pixels need, and has those filled that come in below.
 class MovingBand {
  public:
-  MovingBand(DeepFrame& frame, const TileFill& fill, const Options& options)
-      : frame_(frame), fill_(fill), reach_(static_cast<int>(filterReach(options).y)), needed_(tilesOf(frame, options)) {
+  MovingBand(DeepFrame& frame, FrameFilter& filter, const TileFill& fill, const Options& options)
+      : frame_(frame), filter_(filter), fill_(fill), reach_(static_cast<int>(filterReach(options).y)), needed_(tilesOf(frame, options)) {
     std::sort(needed_.begin(), needed_.end());
     frame.hold(0, 0);
   }
@@ -34,11 +34,18 @@ class MovingBand {
     const auto from = needed_.begin() + static_cast<std::ptrdiff_t>(filled_);
     const auto to = std::lower_bound(from, needed_.end(), static_cast<uint32_t>(last * frame_.columns));
     filled_ = static_cast<size_t>(to - needed_.begin());
-    fill_({from, to});
+    fill_({from, to}, [this](size_t index, DeepTile&& tile) {
+      // Now, while it is in the cache.
+      filter_.resolve(index, tile);
+      if (!filter_.needsTiles()) return;
+      tile.forgetPoints();
+      frame_.tile(index) = std::move(tile);
+    });
   }
 
  private:
   DeepFrame& frame_;
+  FrameFilter& filter_;
   const TileFill& fill_;
   const int reach_;
   std::vector<uint32_t> needed_;
@@ -56,8 +63,8 @@ void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer,
   const SampleOffsets offsets = sampleOffsets(pattern);
   const MatteNames names = matteNames(scene);
   const View view = viewOf(Camera(options), scene.cameraFromWorldAtOpen());
-  MovingBand tiles(frame, fill, options);
-  const FrameFilter filter(frame, options, offsets, names);
+  FrameFilter filter(frame, options, offsets, names);
+  MovingBand tiles(frame, filter, fill, options);
   std::vector<std::unique_ptr<DisplayFile>> files;
   for (size_t i = 0; i < options.displays.size(); ++i)
     if (options.displays[i].type != "null")
