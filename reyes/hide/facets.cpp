@@ -245,7 +245,7 @@ void FacetTable::makeFacets(const GridTable::Entry& entry) {
   };
   const bool smooth = entry.raster->smooth;
   if (smooth) corners_.assign(static_cast<size_t>(g.vertexCount()), -1);
-  for (int cell = 0; cell < g.cellCount(); ++cell) {
+  for (int cell = 0; cell < g.cellNumbers(); ++cell) {
     if (!seen[cell]) continue;
     facetOf_[entry.firstCell + static_cast<uint32_t>(cell)] = static_cast<uint32_t>(tile_.facets.size());
     Facet& facet = tile_.facets.emplace_back();
