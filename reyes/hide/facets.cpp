@@ -17,9 +17,9 @@ struct VertexSteps {
   float uScale, vScale;
 
   VertexSteps(const Grid& g, int vertex) : at(vertex) {
-    const int row = g.nu + 1, i = vertex % row, j = vertex / row;
+    const int row = g.nu + 1, i = vertex % row, j = vertex / row % (g.nv + 1), first = vertex - j * row - i;
     const int i0 = std::max(i - 1, 0), i1 = std::min(i + 1, g.nu), j0 = std::max(j - 1, 0), j1 = std::min(j + 1, g.nv);
-    uLo = j * row + i0, uHi = j * row + i1, vLo = j0 * row + i, vHi = j1 * row + i;
+    uLo = first + j * row + i0, uHi = first + j * row + i1, vLo = first + j0 * row + i, vHi = first + j1 * row + i;
     uScale = 1 / static_cast<float>(i1 - i0), vScale = 1 / static_cast<float>(j1 - j0);
   }
   float mean(const float* f) const { return f[at]; }
@@ -107,13 +107,14 @@ struct alignas(64) Gathered {
   void readCells(const Grid& g, int a, int count, int i) {
     const int row = g.nu + 1;
     const Sources from{{g.P(0, 0) + a, g.P(0, 1) + a, g.P(0, 2) + a}, {g.N(0) + a, g.N(1) + a, g.N(2) + a}, g.u() + a, g.v() + a};
-    if (a + row + 1 + kLanes <= g.stride())
+    if (count >= kRun && a + row + 1 + kLanes <= g.stride())
       readBlock(from, row, i);
     else
       for (int k = 0; k < count; ++k) readCell(from, k, row, i);
   }
 
  private:
+  static constexpr int kRun = 4;  ///< Cells that are worth a vector.
   struct Sources {
     const float *P[3], *N[3], *u, *v;
   };
@@ -245,7 +246,7 @@ void FacetTable::makeFacets(const GridTable::Entry& entry) {
   };
   const bool smooth = entry.raster->smooth;
   if (smooth) corners_.assign(static_cast<size_t>(g.vertexCount()), -1);
-  for (int cell = 0; cell < g.cellCount(); ++cell) {
+  for (int cell = 0, end = g.cellNumbers(); cell < end; ++cell) {
     if (!seen[cell]) continue;
     facetOf_[entry.firstCell + static_cast<uint32_t>(cell)] = static_cast<uint32_t>(tile_.facets.size());
     Facet& facet = tile_.facets.emplace_back();
@@ -288,8 +289,10 @@ void FacetTable::fill(const Wishes& wishes, ShadePoints& points) const {
         gathered.readVertex(g, a, static_cast<int>(i));
       else
         gathered.readCells(g, a, run, static_cast<int>(i));
+      const int ofPiece = vertex ? g.verticesOfPiece() : g.nu * (g.nv + 1), piece = w.index / ofPiece;
+      const uint32_t name = g.pieces[static_cast<size_t>(piece)].name;
       for (int k = 0; k < run; ++k, ++i) {
-        const int point = points.add(hashCombine(g.name, static_cast<uint32_t>(w.index + k))), c = a + k + g.nu + 1;
+        const int point = points.add(hashCombine(name, static_cast<uint32_t>(w.index - piece * ofPiece + k))), c = a + k + g.nu + 1;
         const auto mean = [&](const float* f) { return vertex ? f[a] : 0.25f * (f[a + k] + f[a + k + 1] + f[c] + f[c + 1]); };
         for (int p = 0; p < floats; ++p) points.primvar(p)[point] = mean(g.primvar(p));
         if (g.keyCount > 1) points.set3(kDriftX, point, driftOf(scene_, g, mean));
