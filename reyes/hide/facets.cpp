@@ -107,13 +107,14 @@ struct alignas(64) Gathered {
   void readCells(const Grid& g, int a, int count, int i) {
     const int row = g.nu + 1;
     const Sources from{{g.P(0, 0) + a, g.P(0, 1) + a, g.P(0, 2) + a}, {g.N(0) + a, g.N(1) + a, g.N(2) + a}, g.u() + a, g.v() + a};
-    if (a + row + 1 + kLanes <= g.stride())
+    if (count >= kRun && a + row + 1 + kLanes <= g.stride())
       readBlock(from, row, i);
     else
       for (int k = 0; k < count; ++k) readCell(from, k, row, i);
   }
 
  private:
+  static constexpr int kRun = 4;  ///< Cells that are worth a vector.
   struct Sources {
     const float *P[3], *N[3], *u, *v;
   };
@@ -245,7 +246,7 @@ void FacetTable::makeFacets(const GridTable::Entry& entry) {
   };
   const bool smooth = entry.raster->smooth;
   if (smooth) corners_.assign(static_cast<size_t>(g.vertexCount()), -1);
-  for (int cell = 0; cell < g.cellNumbers(); ++cell) {
+  for (int cell = 0, end = g.cellNumbers(); cell < end; ++cell) {
     if (!seen[cell]) continue;
     facetOf_[entry.firstCell + static_cast<uint32_t>(cell)] = static_cast<uint32_t>(tile_.facets.size());
     Facet& facet = tile_.facets.emplace_back();

@@ -18,7 +18,16 @@ struct Film {
   float nearest, farthest;  ///< Of the depth keys.
 };
 
+/// Grows in memory that its thread keeps from bucket to bucket.
 struct Films {
+  Films() { list.swap(spare().list), depths.swap(spare().depths); }
+  ~Films() {
+    list.clear();
+    if (list.capacity() > spare().list.capacity()) list.swap(spare().list);
+    if (depths.size() > spare().depths.size()) depths.swap(spare().depths);
+  }
+  Films(const Films&) = delete;
+
   std::vector<Film> list;
   std::vector<float> depths;  ///< The first `depthCount` are in use.
   size_t depthCount = 0;
@@ -41,6 +50,16 @@ struct Films {
     Film& film = list.emplace_back();
     film.pixel = pixel, film.cell = cell, film.firstDepth = first, film.word = word, film.samples = samples;
     film.nearest = nearest, film.farthest = farthest;
+  }
+
+ private:
+  struct Spare {
+    std::vector<Film> list;
+    std::vector<float> depths;
+  };
+  static Spare& spare() {
+    static thread_local Spare ofThread;
+    return ofThread;
   }
 };
 

@@ -3,19 +3,35 @@
 namespace tomales {
 namespace {
 
-/// The points of a facet and their weights at a fragment: one, or the four corners.
+bool isConstant(const Facet& f) { return f.point[1] == f.point[0] && f.point[2] == f.point[0]; }
+
+/// Points of a facet and their weights: the first alone, or the four corners at a fragment.
 struct Blend {
-  const Facet& facet;
   int count = 1;
   float weight[4] = {1, 0, 0, 0};
 
-  Blend(const Facet& f, const Fragment& fragment) : facet(f) {
-    if (f.point[1] == f.point[0] && f.point[2] == f.point[0]) return;
+  Blend() = default;
+  Blend(const Facet& f, const Fragment& fragment) {
+    if (isConstant(f)) return;
     const float u = static_cast<float>(fragment.u) / 255, v = static_cast<float>(fragment.v) / 255;
     count = 4;
     weight[0] = (1 - u) * (1 - v), weight[1] = u * (1 - v), weight[2] = (1 - u) * v, weight[3] = u * v;
   }
 };
+
+FacetShade blendedShade(const DeepTile& tile, const Facet& facet, const Blend& blend) {
+  const ShadedPoints& shaded = tile.shaded[static_cast<size_t>(facet.batch)];
+  FacetShade out{blend.weight[0] * shaded.color(facet.point[0]), blend.weight[0] * shaded.opacity(facet.point[0]), vec3(0.0f)};
+  for (int i = 1; i < blend.count; ++i) {
+    out.color += blend.weight[i] * shaded.color(facet.point[i]);
+    out.opacity += blend.weight[i] * shaded.opacity(facet.point[i]);
+  }
+  if (facet.matte)
+    out.color = vec3(0.0f);
+  else
+    out.coverage = out.opacity;
+  return out;
+}
 
 std::vector<ExtraFloat> extrasOf(const FrameOutput& output) {
   std::vector<ExtraFloat> out;
@@ -33,18 +49,7 @@ std::vector<ExtraFloat> extrasOf(const FrameOutput& output) {
 
 FacetShade facetShade(const DeepTile& tile, const Fragment& fragment) {
   const Facet& facet = tile.facets[fragment.facet];
-  const ShadedPoints& shaded = tile.shaded[static_cast<size_t>(facet.batch)];
-  const Blend blend(facet, fragment);
-  FacetShade out{blend.weight[0] * shaded.color(facet.point[0]), blend.weight[0] * shaded.opacity(facet.point[0]), vec3(0.0f)};
-  for (int i = 1; i < blend.count; ++i) {
-    out.color += blend.weight[i] * shaded.color(facet.point[i]);
-    out.opacity += blend.weight[i] * shaded.opacity(facet.point[i]);
-  }
-  if (facet.matte)
-    out.color = vec3(0.0f);
-  else
-    out.coverage = out.opacity;
-  return out;
+  return blendedShade(tile, facet, Blend(facet, fragment));
 }
 
 Compositor::Compositor(const FrameOutput& output, const Options& options, int samples)
@@ -84,7 +89,19 @@ void Compositor::extraValues(const DeepTile& tile, const Fragment& fragment, flo
   }
 }
 
+/// Facets of one point show the same to all fragments: gathered once, in their order.
+void Compositor::shadeFacets(const DeepTile& tile) {
+  shades_.clear();
+  shades_.reserve(tile.facets.size());
+  for (const Facet& facet : tile.facets) shades_.push_back(blendedShade(tile, facet, Blend()));
+}
+
+FacetShade Compositor::shadeOf(const DeepTile& tile, const Fragment& fragment) const {
+  return isConstant(tile.facets[fragment.facet]) ? shades_[fragment.facet] : facetShade(tile, fragment);
+}
+
 ResolvedTile Compositor::resolve(const DeepTile& tile) {
+  shadeFacets(tile);
   ResolvedTile out;
   out.first.reserve(tile.pixels.size() + 1);
   out.contributions.reserve(tile.fragments.size());
@@ -112,7 +129,7 @@ float* Compositor::append(const Contribution& contribution, ResolvedTile& out) c
 
 void Compositor::resolveEach(const DeepTile& tile, const Fragment* begin, const Fragment* end, ResolvedTile& out) {
   for (const Fragment* f = begin; f != end; ++f) {
-    const FacetShade s = facetShade(tile, *f);
+    const FacetShade s = shadeOf(tile, *f);
     float* value = append({f->samples, f->word, f->z, hasDepth(s) ? f->z : kInfinity}, out);
     value[0] = s.color.x, value[1] = s.color.y, value[2] = s.color.z, value[3] = meanOf(s.coverage);
     if (!extras_.empty()) extraValues(tile, *f, value + 4);
@@ -139,7 +156,7 @@ void Compositor::resolveStack(const DeepTile& tile, const Fragment* begin, const
   stack_.reset(samples_.size(), static_cast<size_t>(width()));
   const vec3 hidden = vec3(1.0f) - options_.opaqueThreshold;
   for (const Fragment* f = begin; f != end; ++f) {
-    const FacetShade shade = facetShade(tile, *f);
+    const FacetShade shade = shadeOf(tile, *f);
     if (hasDepth(shade)) noteDepth(tile, *f);
     if (!extras_.empty()) extraValues(tile, *f, facetValues_.data());
     stack_.lay({f->samples, f->word, shade.color, shade.opacity, shade.coverage, hidden, f->z, extras_, facetValues_.data()});

@@ -42,6 +42,9 @@ class Compositor {
   void layers(const DeepTile& tile, const DeepPixel& pixel, const Visit& visit);
 
  private:
+  void shadeFacets(const DeepTile& tile);
+  /// After shadeFacets().
+  FacetShade shadeOf(const DeepTile& tile, const Fragment& fragment) const;
   bool disjoint(const Fragment* begin, const Fragment* end);
   bool hasDepth(const FacetShade& shade) const;
   void extraValues(const DeepTile& tile, const Fragment& fragment, float* out) const;
@@ -52,6 +55,7 @@ class Compositor {
 
   const Options& options_;
   std::vector<ExtraFloat> extras_;
+  std::vector<FacetShade> shades_;      ///< Of all facets of a tile, those of one point.
   std::vector<uint64_t> seen_;          ///< Samples that any fragment covers.
   std::vector<vec3> clear_;             ///< Of every sample, while layers() runs.
   std::vector<Contribution> samples_;   ///< Of every sample, while a stack is resolved,
