@@ -99,6 +99,7 @@ class Hemisphere {
         key_(hashCombine(point.key, settings.seed)),
         times_(scene, point, count_, key_) {
     orthonormalBasis(point.normal, tangent_, bitangent_);
+    first_.spread = 1 / std::sqrt(static_cast<float>(count_));
     scene.prepareOrigin(point.group, point.position, point.edgeLength, first_);
   }
 
