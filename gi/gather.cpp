@@ -110,6 +110,7 @@ class Hemisphere {
         spots_(spots),
         aim_(spots, point.position, point.normal) {
     orthonormalBasis(point.normal, tangent_, bitangent_);
+    first_.spread = 1 / std::sqrt(static_cast<float>(count_));
     scene.prepareOrigin(point.group, point.position, point.edgeLength, first_);
   }
 

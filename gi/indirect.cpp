@@ -190,7 +190,8 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
   const int paths = context.depth > 0 ? 1 : planFor(state, points.group(), query).gather.samples;
   const int depth = context.depth + 1;
   ShadeContext hitContext{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
-  hitContext.diffuseLimit = 0;  // bounces are those of indirectDiffuse() alone; mirrors reflect as deep as their objects allow
+  hitContext.diffuseLimit = bounces;  // of wide lobes that shaders follow, too; mirrors reflect as deep as their objects allow
+  hitContext.highlights = true;
   PathBatches batches(state, *tools, points, N, query.maxDistance, hitContext);
   std::vector<PathSum> sums;
   for (int i = 0; i < points.count(); ++i)

@@ -7,14 +7,15 @@ namespace tomales {
 namespace {
 
 /// Depths and limits of the points that such rays meet: an object's limit counts from its own depth, and never lifts an earlier one.
-ShadeContext contextOfHits(const Attributes& own, const RayQuery& query, const ShadeContext& context) {
+ShadeContext contextOfHits(const Attributes& own, const RayQuery& query, const ShadeContext& context, GiMode mode) {
   ShadeContext hit = context;
+  hit.highlights = mode == GiMode::Reference;
   hit.kind = query.kind;
   hit.label = query.label, hit.lampsGlow = query.lampsGlow;
   hit.diffuseLimit = std::min(context.diffuseLimit, context.depth + own.trace.maxDiffuseDepth);
   hit.specularLimit = std::min(context.specularLimit, context.specularDepth + own.trace.maxSpecularDepth);
   if (query.kind == RayKind::Diffuse) {
-    ++hit.depth, hit.lightSamples = 1, hit.indirect = false;
+    ++hit.depth, hit.lightSamples = 1, hit.indirect = hit.highlights;
   } else {
     ++hit.specularDepth;
   }
@@ -103,7 +104,7 @@ void traceForShader(const GiState& state, const ShadePoints& points, const uint8
                     const RayQuery& query, const ShadeContext& context, const RayResult& result) {
   clearResult(points, active, result);
   const Attributes& own = *state.scene.groups[static_cast<size_t>(points.group())].attributes;
-  const ShadeContext hitContext = contextOfHits(own, query, context);
+  const ShadeContext hitContext = contextOfHits(own, query, context, state.settings.mode);
   if (context.kind == RayKind::Transmission || isTooDeep(hitContext, state.scene.options)) return;
   const RayTools* tools = state.rays();
   if (!tools) return;

@@ -74,7 +74,8 @@ void GiServices::transmission(const ShadePoints& points, const uint8_t* active, 
       shadowRays.push_back(ray), names.push_back(points.name(i));
     }
   }
-  const std::vector<vec3> clear = scene.transmission(shadowRays, names, *tools->shading, context);
+  int64_t adjusted = 0;
+  const std::vector<vec3> clear = scene.transmission(shadowRays, names, *tools->shading, context, adjusted);
   for (size_t p = 0; p < pointOf.size(); ++p) {
     const auto first = clear.begin() + static_cast<ptrdiff_t>(p) * times;
     const vec3 share = std::accumulate(first, first + times, vec3(0)) / static_cast<float>(times);
@@ -82,6 +83,7 @@ void GiServices::transmission(const ShadePoints& points, const uint8_t* active, 
     light.x[i] *= share.x, light.y[i] *= share.y, light.z[i] *= share.z;
   }
   impl_->stats.rays.transmission += static_cast<int64_t>(shadowRays.size());
+  impl_->stats.rays.hitlistAdjusted += adjusted;
 }
 
 void GiServices::trace(const ShadePoints& points, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction, const RayQuery& query,

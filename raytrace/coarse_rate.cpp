@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include "raytrace/tessellate.h"
 #include "reyes/dice.h"
 
 namespace tomales {
 namespace {
 
 constexpr float kPolygon_px = 8;
+constexpr float kMediumEdge = 3;               ///< Of medium polygons, in edges of micropolygons.
+constexpr float kSmoothed = 0.8f;              ///< Fineness of what the eye sees displaced and rays do not.
 constexpr float kLeastPolygon_px = 1.5f;  ///< No polygon is smaller for the sake of its turn: far objects need few.
 constexpr float kTurn = 15 * kPi / 180;        ///< Radians between the normals at the ends of a polygon.
 constexpr float kEmitterTurn = 5 * kPi / 180;  ///< Brings the area of a sphere light within 0.5 %.
@@ -62,28 +63,82 @@ CoarseRate limited(const Object& o, double nu, double nv, Log& log) {
   return {static_cast<int>(nu), static_cast<int>(nv)};
 }
 
+/// How fine polygons are to be.
+struct Fineness {
+  float edge_px, turn;  ///< The longest that they may be, and the farthest that the normal may turn along one
+  float least_px;       ///< in shorter ones it may turn farther.
+};
+
+Fineness finenessOf(const Attributes& a, float fineness) {
+  const float rate = std::sqrt(std::max(a.shadingRate, 1e-4f)) / fineness;
+  return {kPolygon_px * rate, (a.areaLight >= 0 ? kEmitterTurn : kTurn) / fineness,
+          a.areaLight >= 0 ? 0.0f : kLeastPolygon_px * rate};
+}
+
+/// Micropolygons of `edge` times the edge that ShadingRate asks for, and no smaller ones.
+Fineness micropolygons(const Attributes& a, float edge) {
+  Fineness out = finenessOf(a, kPolygon_px / edge);
+  out.least_px = out.edge_px;
+  return out;
+}
+
+/// Where the eye alone sees displacement, polygons matter less than that does (docs/performance.md).
+Fineness fixedFineness(const Object& o) {
+  const Attributes& a = *o.attributes;
+  if (a.trace.rate == TessellationMode::Full && a.areaLight < 0) return micropolygons(a, 1);
+  const bool smooth = a.displacement && !displacesForRays(o);
+  return finenessOf(a, std::max(a.trace.tessellation, 1e-3f) * (smooth ? kSmoothed : 1.0f));
+}
+
+/// A patch as it was probed.
+class PatchLines {
+ public:
+  PatchLines(const Scene& scene, const Camera& camera, int object, uint32_t patch)
+      : object_(scene.objects[static_cast<size_t>(object)]) {
+    const Grid probe = dice(scene, object, patch, UvRect{}, kProbes, kProbes, 1);
+    u_ = linesOf(probe, camera, 1, kProbes + 1), v_ = linesOf(probe, camera, kProbes + 1, 1);
+    // Displacement has no normals to judge by beforehand, so it keeps the pixel rate out of view too.
+    byPixels_ = displacesForRays(object_) || mayBeSeen(object_, patch, camera);
+  }
+
+  CoarseRate rate(const Fineness& fineness, Log& log) const {
+    return limited(object_, count(u_, fineness), count(v_, fineness), log);
+  }
+
+ private:
+  double count(const LineFigures& f, const Fineness& fineness) const {
+    double n = double{f.turn} / fineness.turn;
+    if (fineness.least_px > 0) n = std::min(n, double{f.length_px} / fineness.least_px);
+    if (byPixels_) n = std::max(n, double{f.length_px} / fineness.edge_px);
+    return std::isfinite(n) ? std::max(1.0, std::ceil(n)) : 1.0;
+  }
+
+  const Object& object_;
+  LineFigures u_, v_;
+  bool byPixels_;
+};
+
 }  // namespace
+
+bool displacesForRays(const Object& o) {
+  return o.attributes->trace.displacements && o.attributes->displacement;
+}
 
 CoarseRate coarseRate(const Scene& scene, const Camera& camera, int object, uint32_t patch, Log& log) {
   const Object& o = scene.objects[static_cast<size_t>(object)];
-  const bool displaced = displacesForRays(o);
-  if (o.shape().info(patch).planar && !displaced) return {1, 1};
-  const Grid probe = dice(scene, object, patch, UvRect{}, kProbes, kProbes, 1);
-  const LineFigures u = linesOf(probe, camera, 1, kProbes + 1),
-                    v = linesOf(probe, camera, kProbes + 1, 1);
-  const Attributes& a = *o.attributes;
-  const float fineness = std::max(a.trace.tessellation, 1e-3f);
-  const float turn = (a.areaLight >= 0 ? kEmitterTurn : kTurn) / fineness;
-  // Displacement has no normals to judge by beforehand, so it keeps the pixel rate out of view too.
-  const bool byPixels = displaced || mayBeSeen(o, patch, camera);
-  const float edge_px = kPolygon_px * std::sqrt(std::max(a.shadingRate, 1e-4f)) / fineness;
-  const auto count = [&](const LineFigures& f) {
-    double byTurn = double{f.turn} / turn;
-    if (a.areaLight < 0) byTurn = std::min(byTurn, double{f.length_px} / edge_px * (kPolygon_px / kLeastPolygon_px));
-    const double n = std::max(byTurn, byPixels ? double{f.length_px} / edge_px : 0.0);
-    return std::isfinite(n) ? std::max(1.0, std::ceil(n)) : 1.0;
-  };
-  return limited(o, count(u), count(v), log);
+  if (isExactQuad(o, patch)) return {1, 1};
+  return PatchLines(scene, camera, object, patch).rate(fixedFineness(o), log);
+}
+
+std::array<CoarseRate, kLevels> levelRates(const Scene& scene, const Camera& camera, int object, uint32_t patch, Log& log) {
+  const Attributes& a = *scene.objects[static_cast<size_t>(object)].attributes;
+  const PatchLines lines(scene, camera, object, patch);
+  const auto atLeast = [](const CoarseRate& x, const CoarseRate& y) { return CoarseRate{std::max(x.nu, y.nu), std::max(x.nv, y.nv)}; };
+  std::array<CoarseRate, kLevels> out;
+  out[2] = lines.rate(finenessOf(a, std::max(a.trace.tessellation, 1e-3f)), log);
+  out[1] = atLeast(lines.rate(micropolygons(a, kMediumEdge), log), out[2]);
+  out[0] = atLeast(lines.rate(micropolygons(a, 1), log), out[1]);
+  return out;
 }
 
 }  // namespace tomales

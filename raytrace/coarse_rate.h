@@ -1,5 +1,8 @@
 // How many quadrilaterals a patch becomes for rays along u and v (the rule is in raytrace/tessellate.h).
 #pragma once
+#include <array>
+
+#include "raytrace/level.h"
 #include "reyes/camera.h"
 #include "reyes/scene.h"
 
@@ -10,5 +13,11 @@ struct CoarseRate {
 };
 /// A patch that asks for millions is reported and gets fewer.
 CoarseRate coarseRate(const Scene& scene, const Camera& camera, int object, uint32_t patch, Log& log);
+/// At every level, each no coarser than the next.
+std::array<CoarseRate, kLevels> levelRates(const Scene& scene, const Camera& camera, int object, uint32_t patch, Log& log);
+
+bool displacesForRays(const Object& object);
+/// Is the patch one exact quadrilateral?
+inline bool isExactQuad(const Object& o, uint32_t patch) { return o.shape().info(patch).planar && !displacesForRays(o); }
 
 }  // namespace tomales

@@ -35,7 +35,8 @@ void rejectUnseen(const RTCFilterFunctionNArguments* args) {
 
 void recordNear(const RTCFilterFunctionNArguments* args) {
   const auto& traversal = *reinterpret_cast<const Traversal*>(args->context);
-  if (rejected(args, traversal) || RTCRayN_tfar(args->ray, 1, 0) - traversal.shift > traversal.window) return;
+  if (!traversal.filter && RTCRayN_tfar(args->ray, 1, 0) > traversal.shift + traversal.window) return;  // most hits
+  if (rejected(args, traversal) || RTCRayN_tfar(args->ray, 1, 0) > traversal.shift + traversal.window) return;
   traversal.list->push_back(hitOf(*args, traversal));
   args->valid[0] = 0;
 }

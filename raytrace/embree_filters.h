@@ -4,6 +4,7 @@
 #include <embree3/rtcore.h>
 
 #include "raytrace/hit_list.h"
+#include "raytrace/level.h"
 #include "raytrace/tessellate.h"
 #include "raytrace/trace.h"
 
@@ -32,6 +33,7 @@ struct Instances {
   uint32_t firstId = 0;
   std::vector<uint32_t> group;
   std::vector<bool> opaque;
+  uint32_t firstChunk = 0;  ///< Hits of chunks have such instance IDs, in their order; what they belong to is their Geometry's.
 };
 
 /// What filters are given beside the hit. Embree hands back the address of its first member.
@@ -44,13 +46,16 @@ struct Traversal {
   const Instances* instances = nullptr;
   const RayFilter* filter = nullptr;
   float level = 0;  ///< The ray's number for levels of detail.
+  Level fineness = Level::Fine;
 
   PolygonHit hit(const Geometry& geometry, float t, uint32_t instanceId, uint32_t primitive, float u, float v,
                  bool leaving, const vec3& normal) const {
     const auto [mesh, quad] = geometry.place(primitive);
-    if (instanceId == RTC_INVALID_GEOMETRY_ID) return {t, mesh, quad, u, v, leaving, -1, normal};
+    if (instanceId == RTC_INVALID_GEOMETRY_ID) return {t, mesh, quad, u, v, leaving, -1, normal, -1};
+    if (instanceId >= instances->firstChunk)
+      return {t, mesh, quad, u, v, leaving, -1, normal, static_cast<int>(instanceId - instances->firstChunk)};
     const uint32_t i = instanceId - instances->firstId;
-    return {t, instances->group[i], quad, u, v, leaving, static_cast<int>(i), normal};
+    return {t, instances->group[i], quad, u, v, leaving, static_cast<int>(i), normal, -1};
   }
 };
 static_assert(std::is_standard_layout_v<Traversal>);

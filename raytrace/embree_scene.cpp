@@ -3,9 +3,10 @@
 #include <atomic>
 #include <deque>
 #include <map>
+#include <optional>
 #include <tuple>
 
-#include "raytrace/embree_filters.h"
+#include "raytrace/embree_chunks.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"
 
@@ -36,6 +37,7 @@ struct EmbreeScene::Impl {
   std::deque<Geometry> geometries;  ///< By Embree's geomID; Embree keeps their addresses.
   std::deque<Geometry> masters;
   Instances instances;
+  std::optional<EmbreeChunks> chunks;
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
 
@@ -60,7 +62,7 @@ struct EmbreeScene::Impl {
   }
 
   Traversal traversalOf(const Ray& ray, RTCFilterFunctionN filter, float shift, float window, HitList* list) const {
-    Traversal t{{}, shift, window, ray.tMax, list, &instances, ray.filter, levelOf(ray)};
+    Traversal t{{}, shift, window, ray.tMax, list, &instances, ray.filter, levelOf(ray), ray.level};
     rtcInitIntersectContext(&t.embree);
     t.embree.filter = filter;
     return t;
@@ -169,9 +171,12 @@ struct EmbreeScene::Impl {
     const float t = r.ray.tfar - shift;
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID || t >= ray.tMax) return false;
     const uint32_t instance = r.hit.instID[0];
+    const bool inChunk = instance != RTC_INVALID_GEOMETRY_ID && instance >= instances.firstChunk;
     const CoarseInstance* placed =
-        instance != RTC_INVALID_GEOMETRY_ID ? &shapes.instances[instance - instances.firstId] : nullptr;
-    const Geometry& geometry = placed ? masters[placed->master] : geometries[r.hit.geomID];
+        instance != RTC_INVALID_GEOMETRY_ID && !inChunk ? &shapes.instances[instance - instances.firstId] : nullptr;
+    const Geometry& geometry = inChunk  ? chunks->geometryOf(instance - instances.firstChunk)
+                               : placed ? masters[placed->master]
+                                        : geometries[r.hit.geomID];
     const vec3 normal(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z);
     out = traversal.hit(geometry, t, instance, r.hit.primID, r.hit.u, r.hit.v,
                         leaves(ray.direction, placed ? placed->normals * normal : normal, geometry.flips), normal);
@@ -181,7 +186,8 @@ struct EmbreeScene::Impl {
 
 EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const SharedShapes& shapes,
                          const std::vector<uint32_t>& groupOf, const std::vector<uint32_t>& masks,
-                         const std::vector<bool>& opaque, bool solids, Log& log)
+                         const std::vector<bool>& opaque, bool solids, Log& log,
+                         const Chunks* chunks, size_t chunkBytes)
     : impl_(std::make_unique<Impl>(groups, shapes)) {
   impl_->device = rtcNewDevice(nullptr);
   rtcSetDeviceMemoryMonitorFunction(impl_->device, &Impl::countBytes, impl_.get());
@@ -199,6 +205,10 @@ EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const SharedSha
   // first, would depend on their number.
   const ThreadLimit one(1);
   impl_->attachInstances(groupOf, masks, opaque);
+  const uint32_t end = impl_->instances.firstId + static_cast<uint32_t>(impl_->instances.group.size());
+  impl_->instances.firstChunk = end;
+  if (chunks && !chunks->all().empty())
+    impl_->chunks.emplace(*chunks, chunkBytes).attach(impl_->device, impl_->scene, end, end, groups, masks, opaque);
   rtcCommitScene(impl_->scene);
   if (rtcGetDeviceError(impl_->device) != RTC_ERROR_NONE)
     log.report(Severity::Missing, "trace-embree", {},
@@ -206,6 +216,7 @@ EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const SharedSha
 }
 
 EmbreeScene::~EmbreeScene() {
+  impl_->chunks.reset();
   if (impl_->scene) rtcReleaseScene(impl_->scene);
   if (impl_->device) rtcReleaseDevice(impl_->device);
 }
@@ -239,6 +250,10 @@ void EmbreeScene::all(const Ray& ray, float window, HitList& list) const {
   RTCRay r = rayFrom(line, window, 0, ~0U);
   rtcOccluded1(impl_->scene, &traversal.embree, &r);
 }
+
+vec3 EmbreeScene::normal(const PolygonHit& hit, Level ray) const { return impl_->chunks->normal(hit, ray); }
+
+ResidentFigures EmbreeScene::chunkFigures() const { return impl_->chunks ? impl_->chunks->figures() : ResidentFigures{}; }
 
 size_t EmbreeScene::bytes() const { return static_cast<size_t>(std::max<int64_t>(0, impl_->bytes)); }
 

@@ -1,7 +1,10 @@
-// The only user of Embree: coarse quads in a BVH of two levels (instances), and the two traversals that the hit list needs.
+// Coarse quads in a BVH of two levels (instances, chunks), and the two traversals that the hit list needs. Embree is known to the files
+// raytrace/embree_* alone.
 // Space: current. Threads: const members may be called concurrently.
 #pragma once
+#include "raytrace/chunks.h"
 #include "raytrace/hit_list.h"
+#include "raytrace/resident_cache.h"
 #include "raytrace/shared_shapes.h"
 #include "raytrace/tessellate.h"
 #include "raytrace/trace.h"
@@ -14,8 +17,10 @@ class EmbreeScene {
   /// the groups that are parts of solids, or all others and the instances. `groups` and `shapes` must outlive this.
   /// Of groups that fade a ray sees those that have its number in their share: a hash of the ray, within the share of what it
   /// leaves, so that one level of detail does not shadow another in its place.
+  /// `chunks`, if there are any, must outlive this too; at most about `chunkBytes` of them are kept.
   EmbreeScene(const std::vector<CoarseGroup>& groups, const SharedShapes& shapes, const std::vector<uint32_t>& groupOf,
-              const std::vector<uint32_t>& masks, const std::vector<bool>& opaque, bool solids, Log& log);
+              const std::vector<uint32_t>& masks, const std::vector<bool>& opaque, bool solids, Log& log,
+              const Chunks* chunks = nullptr, size_t chunkBytes = 0);
   ~EmbreeScene();
 
   /// Nearest hit with ray.bias < t < ray.tMax; ray.offset plays no part.
@@ -32,7 +37,11 @@ class EmbreeScene {
   /// Fills `list` with all hits at t >= -window, however far, unsorted.
   void all(const Ray& ray, float window, HitList& list) const;
 
+  /// Unit normal on the RISpec side where a hit of a chunk lies that a ray of this level has had.
+  vec3 normal(const PolygonHit& hit, Level ray) const;
+
   size_t bytes() const;  ///< That Embree allocated.
+  ResidentFigures chunkFigures() const;
 
  private:
   struct Impl;

@@ -7,8 +7,9 @@
 namespace tomales {
 
 void sortAlongRay(HitList& list) {
+  if (list.size() < 2) return;
   std::sort(list.begin(), list.end(), [](const PolygonHit& a, const PolygonHit& b) {
-    return std::tie(a.t, a.group, a.instance, a.quad) < std::tie(b.t, b.group, b.instance, b.quad);
+    return std::tie(a.t, a.group, a.instance, a.chunk, a.quad) < std::tie(b.t, b.group, b.instance, b.chunk, b.quad);
   });
 }
 

@@ -13,11 +13,12 @@ namespace tomales {
 struct PolygonHit {
   float t = 0;           ///< From the ray's own origin; negative before it.
   uint32_t group = 0;    ///< Shade group
-  uint32_t quad = 0;     ///< In its CoarseGroup, or in the master of its instance
-  float u = 0, v = 0;    ///< In the quad
+  uint32_t quad = 0;     ///< In its CoarseGroup, or in the master of its instance; of a chunk the tile
+  float u = 0, v = 0;    ///< In the quad, or in the tile
   bool leaving = false;  ///< The ray goes to the side of the RISpec normal.
   int instance = -1;     ///< In SharedShapes::instances, -1: none.
   vec3 normal{0};        ///< Of the polygon, along d/du x d/dv, any length; of an instance in the space of its master.
+  int chunk = -1;        ///< In Chunks::all(), -1: none.
 };
 
 /// Any length: a fixed capacity would have to drop hits, and which ones matter is known only at the end.

@@ -17,9 +17,10 @@ inline bool traceable(const Ray& ray) {
 inline RayStart startOf(const Ray& ray) { return {ray.offset, 4e-7f * glm::length(ray.origin), ray.group}; }
 
 struct RayScene::Impl {
-  Impl(const Scene& scene, const Camera& camera, const ShadingSystem& shading, bool hitList, Log& log);
+  Impl(const Scene& scene, const Camera& camera, const ShadingSystem& shading, const RaySettings& settings, Log& log);
 
   Hit resolve(const Ray& ray, const PolygonHit& hit) const;
+  Hit resolveChunk(const Ray& ray, const PolygonHit& hit) const;
   /// Is the opacity of the whole group that of its attributes?
   bool knowsOpacity(uint32_t group) const { return opacityIsConstant[group]; }
   /// Adds the surfaces of solids to what a traversal of all else has found: those up to `window` to the list, and the nearest
@@ -27,10 +28,14 @@ struct RayScene::Impl {
   bool addSolids(const Ray& ray, float window, uint32_t mask, HitList& list, bool found, PolygonHit& beyond) const;
   vec3 clearness(const PolygonHit& hit) const { return 1.0f - scene.groups[hit.group].attributes->opacity; }
 
+  Level levelOf(const Ray& ray, const vec3& P) const;
+
   const Scene& scene;
+  const Camera& camera;
   const bool hitList;
   const SharedShapes shapes;
   const std::vector<CoarseGroup> groups;  ///< Without what is in `shapes`, but for deviation and size.
+  const Chunks chunks;
   const std::vector<bool> opacityIsConstant;
   const std::vector<uint32_t> masks;
   const std::vector<bool> opaque;

@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "raytrace/coarse_rate.h"
+#include "raytrace/chunks.h"
+#include "raytrace/doubled_grid.h"
 #include "raytrace/ray_times.h"
 #include "reyes/base/parallel.h"
 #include "reyes/dice.h"
@@ -16,6 +17,8 @@ class Tessellator {
  public:
   Tessellator(const Scene& scene, const Camera& camera, const ShadingSystem& shading, Log& log)
       : scene_(scene), camera_(camera), shading_(shading), log_(log), times_(rayTimes(scene)) {}
+
+  bool moves(int object) const { return times_[static_cast<size_t>(objectOf(object).group)].size() > 1; }
 
   void addPatch(int object, uint32_t patch, CoarseGroup& out) const {
     const auto [nu, nv] = coarseRate(scene_, camera_, object, patch, log_);
@@ -37,7 +40,7 @@ class Tessellator {
     if (keptOfTile == Kept::None) return;
     Grid g = dice(scene_, object, patch, rect, 2 * nu, 2 * nv, {times_[static_cast<size_t>(o.group)], o.currentFromObject});
     if (displacesForRays(o)) shading_.displace(g);
-    if (!isFiniteGrid(g)) {
+    if (!isFinite(g)) {
       log_.report(Severity::Warning, "trace-not-finite", o.where,
                   fmt::format("{} has points that are not finite: rays pass through that part", objectName(o)));
       return;
@@ -66,7 +69,7 @@ class Tessellator {
           continue;
         }
         out.quads.push_back({a, a + 1, a + row + 1, a + row});
-        for (int key = 0; key < g.keyCount; ++key) out.deviation = std::max(out.deviation, deviationOf(g, key, 2 * i, 2 * j));
+        for (int key = 0; key < g.keyCount; ++key) out.deviation = std::max(out.deviation, doubledDeviation(g, key, 2 * i, 2 * j));
       }
   }
 
@@ -76,27 +79,6 @@ class Tessellator {
       return g.kept[static_cast<size_t>((j + dv) * g.nu + i + du)] == Kept::None;
     };
     return g.kept.empty() || !(gone(0, 0) && gone(1, 0) && gone(0, 1) && gone(1, 1));
-  }
-
-  static bool isFiniteGrid(const Grid& g) {
-    for (int key = 0; key < g.keyCount; ++key)
-      for (int i = 0; i < g.vertexCount(); ++i)
-        if (!isFinite(g.position(key, i))) return false;
-    return true;
-  }
-
-  /// Distance of the centre and the middles of the edges from the polygon with corner (i, j), across its
-  /// plane: along the plane a point may slide without leaving the surface.
-  static float deviationOf(const Grid& g, int key, int i, int j) {
-    const int row = g.nu + 1, k = j * row + i;
-    const auto P = [&](int di, int dj) { return g.position(key, k + dj * row + di); };
-    const vec3 a = P(0, 0), b = P(2, 0), c = P(2, 2), d = P(0, 2);
-    const vec3 n = normalizeOr(cross(c - a, d - b), vec3(0));
-    const auto off = [&](const vec3& p, const vec3& q, const vec3& middle) {
-      return std::abs(dot(middle - 0.5f * (p + q), n));
-    };
-    return std::max(
-        {off(b, d, P(1, 1)), off(a, b, P(1, 0)), off(b, c, P(2, 1)), off(c, d, P(1, 2)), off(d, a, P(0, 1))});
   }
 
   const Scene& scene_;
@@ -159,15 +141,16 @@ float diagonalOf(const Object& o) {
   return camera.empty() ? 0.0f : glm::length(camera.size());
 }
 
-/// A part for each piece of work.
+/// A part for each piece of work. Patches that have levels (raytrace/chunks.h) are left out unless asked for.
 std::vector<CoarseGroup> tessellateAll(const Scene& scene, const Camera& camera, const ShadingSystem& shading,
-                                       const std::vector<Work>& work, Log& log) {
+                                       const std::vector<Work>& work, bool withLevels, Log& log) {
   std::vector<CoarseGroup> pieces(work.size());
   const Tessellator tessellator(scene, camera, shading, log);
   parallelFor(work.size(), 1, [&](size_t begin, size_t end) {
     for (size_t w = begin; w < end; ++w)
       for (uint32_t p = work[w].first; p < work[w].last; ++p)
-        tessellator.addPatch(work[w].object, p, pieces[w]);
+        if (withLevels || !hasLevels(scene.objects[static_cast<size_t>(work[w].object)], p, tessellator.moves(work[w].object)))
+          tessellator.addPatch(work[w].object, p, pieces[w]);
   });
   return pieces;
 }
@@ -199,10 +182,6 @@ size_t CoarseGroup::bytes() const {
          latticeOfQuad.capacity() * sizeof(uint32_t) + lattices.capacity() * sizeof(Lattice);
 }
 
-bool displacesForRays(const Object& o) {
-  return o.attributes->trace.displacements && o.attributes->displacement;
-}
-
 bool raysNeed(const Attributes& a) {
   const Visibility& v = a.visibility;
   return v.diffuse || v.specular || v.transmission || v.photon || a.areaLight >= 0;
@@ -216,7 +195,7 @@ std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, co
     const bool needed = scene.objects[i].solid >= 0 || raysNeed(*scene.objects[i].attributes);
     if (needed && (elsewhere.empty() || !elsewhere[i])) addWork(scene, i, work);
   }
-  std::vector<CoarseGroup> pieces = tessellateAll(scene, camera, shading, work, log);
+  std::vector<CoarseGroup> pieces = tessellateAll(scene, camera, shading, work, false, log);
   std::vector<CoarseGroup> groups(scene.groups.size());
   for (size_t g = 0; g < groups.size(); ++g) {
     groups[g].detail = scene.groups[g].attributes->detail;
@@ -241,7 +220,7 @@ CoarseGroup tessellateObject(const Scene& scene, const Camera& camera, const Sha
   CoarseGroup out;
   out.flipsNormal = o.flipsNormal;
   out.size = diagonalOf(o);
-  for (const CoarseGroup& piece : tessellateAll(scene, camera, shading, work, log)) append(out, piece);
+  for (const CoarseGroup& piece : tessellateAll(scene, camera, shading, work, true, log)) append(out, piece);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #pragma once
 #include <array>
 
+#include "raytrace/coarse_rate.h"
 #include "reyes/shade.h"
 
 namespace tomales {
@@ -57,13 +58,13 @@ struct CoarseGroup {
 /// Rays keep away from a coarse surface by so much of its deviation: docs/decisions/0006-hit-list-offset.md
 constexpr float kOffsetFactor = 1.5f;
 
-/// One for each of scene.groups; empty for what no ray may meet and no light is made of, and for objects that are `elsewhere`.
+/// One for each of scene.groups; empty for what no ray may meet and no light is made of, for objects that are `elsewhere`, and for patches
+/// that have levels (raytrace/chunks.h).
 std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, const ShadingSystem& shading,
                                     Log& log, const std::vector<bool>& elsewhere = {});
 /// One object alone.
 CoarseGroup tessellateObject(const Scene& scene, const Camera& camera, const ShadingSystem& shading, int object, Log& log);
 
 bool raysNeed(const Attributes& attributes);       ///< Some ray may meet it, or a light is made of it.
-bool displacesForRays(const Object& object);
 
 }  // namespace tomales

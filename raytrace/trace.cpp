@@ -11,6 +11,7 @@ constexpr float kChordShare = 0.1f;
 constexpr float kOffsetEpsilon =
     1e-5f;                      ///< Of distance and size: rounding, where the coarse surface is exact.
 constexpr float kBias = 1e-4f;  ///< The same for rays without a hit list.
+constexpr float kMediumWidth_px = 3, kCoarseWidth_px = 8;  ///< Of rays, from which on they see these levels.
 
 std::vector<uint32_t> masksOf(const Scene& scene) {
   std::vector<uint32_t> masks;
@@ -66,16 +67,18 @@ HitList& scratchSurfaces() {
 
 }  // namespace
 
-RayScene::Impl::Impl(const Scene& s, const Camera& camera, const ShadingSystem& shading, bool useHitList,
+RayScene::Impl::Impl(const Scene& s, const Camera& c, const ShadingSystem& shading, const RaySettings& settings,
                      Log& log)
     : scene(s),
-      hitList(useHitList),
+      camera(c),
+      hitList(settings.hitList),
       shapes(shareShapes(s, camera, shading, log)),
       groups(coarseGroups(s, camera, shading, shapes, log)),
+      chunks(s, camera, shading, shapes.shared, log),
       opacityIsConstant(constantOpacityOf(s, shading)),
       masks(masksOf(s)),
       opaque(opaqueOf(s, opacityIsConstant)),
-      embree(groups, shapes, groupsOfInstances(s, shapes), masks, opaque, false, log),
+      embree(groups, shapes, groupsOfInstances(s, shapes), masks, opaque, false, log, &chunks, settings.geometryCacheBytes),
       solids(s, groups, masks, log),
       emitters(s, groups),
       displacementBounds(groups.size(), 0.0f) {
@@ -113,6 +116,7 @@ bool RayScene::Impl::addSolids(const Ray& ray, float window, uint32_t mask, HitL
 }
 
 Hit RayScene::Impl::resolve(const Ray& ray, const PolygonHit& polygon) const {
+  if (polygon.chunk >= 0) return resolveChunk(ray, polygon);
   const CoarseInstance* instance =
       polygon.instance >= 0 ? &shapes.instances[static_cast<size_t>(polygon.instance)] : nullptr;
   const CoarseGroup& g = instance ? shapes.masters[instance->master] : groups[polygon.group];
@@ -135,17 +139,37 @@ Hit RayScene::Impl::resolve(const Ray& ray, const PolygonHit& polygon) const {
   return {polygon.t, object, l.patch, uv.x, uv.y, normalizeOr(normal, geometric), geometric, false, atOpen};
 }
 
-RayScene::RayScene(const Scene& scene, const Camera& camera, const ShadingSystem& shading, bool hitList,
+Hit RayScene::Impl::resolveChunk(const Ray& ray, const PolygonHit& hit) const {
+  const Tile& tile = chunks.all()[static_cast<size_t>(hit.chunk)].tiles[hit.quad];
+  const vec3 along = groups[hit.group].flipsNormal ? -hit.normal : hit.normal, normal = embree.normal(hit, ray.level);
+  return {hit.t,  tile.object, tile.patch, lerp(tile.rect.u0, tile.rect.u1, hit.u), lerp(tile.rect.v0, tile.rect.v1, hit.v),
+          normal, normalizeOr(along, normal), false, ray.origin + hit.t * ray.direction};
+}
+
+/// As wide as the polygons of a level are from the eye, as if what is met were as far from P as that is from the eye.
+Level RayScene::Impl::levelOf(const Ray& ray, const vec3& P) const {
+  const float width_px = 2 * ray.spread * glm::length(P) / std::max(camera.pixelSize(P), 1e-20f);
+  return width_px >= kCoarseWidth_px ? Level::Coarse : width_px >= kMediumWidth_px ? Level::Medium : Level::Fine;
+}
+
+RayScene::RayScene(const Scene& scene, const Camera& camera, const ShadingSystem& shading, const RaySettings& settings,
                    Stats& stats, Log& log)
-    : impl_(std::make_unique<Impl>(scene, camera, shading, hitList, log)) {
+    : impl_(std::make_unique<Impl>(scene, camera, shading, settings, log)) {
   size_t polygons = 0, bytes = impl_->embree.bytes() + impl_->solids.bytes();
   for (const auto* meshes : {&impl_->groups, &impl_->shapes.masters})
     for (const CoarseGroup& g : *meshes) polygons += g.quads.size(), bytes += g.bytes();
   stats.raytrace.coarsePolygons += static_cast<int64_t>(polygons);
   stats.raytrace.bytes += static_cast<int64_t>(bytes);
+  stats.geometryCache.finePolygons += impl_->chunks.finePolygons();
 }
 
 RayScene::~RayScene() = default;
+
+void RayScene::report(Stats& stats) const {
+  const ResidentFigures figures = impl_->embree.chunkFigures();
+  stats.geometryCache.lookups += figures.lookups, stats.geometryCache.misses += figures.misses;
+  stats.geometryCache.bytes = std::max(stats.geometryCache.bytes.load(), figures.mostBytes);
+}
 
 Hit RayScene::closest(const Ray& ray, RayMask mask) const {
   if (!traceable(ray)) return {};
@@ -172,9 +196,11 @@ void RayScene::prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ra
   const auto g = static_cast<size_t>(group);
   const auto& given = impl_->scene.groups[g].attributes->trace;
   const CoarseGroup& coarse = impl_->groups[g];
+  ray.level = impl_->levelOf(ray, P);
+  const float deviation = std::max(coarse.deviation, impl_->chunks.deviation(g, ray.level));
   const float scale = glm::length(P) + coarse.size;
   const float automatic =
-      kOffsetFactor * (coarse.deviation + impl_->displacementBounds[g] + kChordShare * edgeLength) +
+      kOffsetFactor * (deviation + impl_->displacementBounds[g] + kChordShare * edgeLength) +
       kOffsetEpsilon * scale;
   ray.group = group;
   ray.offset = impl_->hitList ? std::max(given.offset.value_or(automatic), 0.0f) : 0.0f;

@@ -11,6 +11,7 @@
 #pragma once
 #include <optional>
 
+#include "raytrace/level.h"
 #include "reyes/shade.h"
 
 namespace tomales {
@@ -33,6 +34,7 @@ struct Ray {
   float spread = 0;             ///< Radius of the ray's footprint for each unit of t (half the width of its differential).
   int group = -1;               ///< Shade group that the ray leaves, -1: unknown. Settles which of two walls that meet is left.
   float time = 0;               ///< Part of the shutter, 0..1.
+  Level level = Level::Fine;    ///< Of surfaces that have several. A ray sees one, so that none slips between two.
   const RayFilter* filter = nullptr;  ///< Null: all pass.
 };
 
@@ -61,24 +63,34 @@ enum RayMask : uint32_t { kMaskDiffuse = 1, kMaskSpecular = 2, kMaskTransmission
 
 class Emitters;
 
+struct RaySettings {
+  bool hitList = true;
+  size_t geometryCacheBytes = kDefaultGeometryCache;  ///< For surfaces of several levels (docs/decisions/0036-geometry-cache.md)
+
+  static constexpr size_t kDefaultGeometryCache = 30 << 20;
+};
+
 class RayScene {
  public:
   /// Tessellates every object that some ray may see. Displaces with `shading` where trace:displacements asks for it.
-  RayScene(const Scene& scene, const Camera& camera, const ShadingSystem& shading, bool hitList, Stats& stats, Log& log);
+  RayScene(const Scene& scene, const Camera& camera, const ShadingSystem& shading, const RaySettings& settings, Stats& stats,
+           Log& log);
   ~RayScene();
+
+  void report(Stats& stats) const;  ///< After the last ray.
 
   Hit closest(const Ray& ray, RayMask mask) const;
   /// Fraction of light that passes from each origin to tMax. What hides all is met first and ends the ray; the opacity of the rest is
   /// the object's and its primitive variable's, or its shader's (Attribute "shade" "transmissionhitmode"), whose points are shaded
-  /// together. `names` as in shadeHits.
+  /// together. `names` as in shadeHits. `adjusted` grows by how many of those that are not blocked started at a recorded hit.
   std::vector<vec3> transmission(const std::vector<Ray>& rays, const std::vector<SampleName>& names, const ShadingSystem& shading,
-                                 const ShadeContext& context) const;
+                                 const ShadeContext& context, int64_t& adjusted) const;
 
   /// Which groups have a member in one of the sets of `subset` (all, if empty) and none in those of `exclude`. Sets are separated by
   /// commas or spaces. Null: all. Stays valid.
   const std::vector<uint8_t>* groupsIn(const std::string& subset, const std::string& exclude) const;
 
-  /// Sets group, offset and bias of a ray that leaves P on a micropolygon of this group with edges no longer than `edgeLength`
+  /// Sets group, level, offset and bias of a ray of known spread that leaves P on a micropolygon of this group with edges no longer than `edgeLength`
   /// (0: a point of the true surface): trace:offset and trace:bias, or by default more than the largest distance between the
   /// coarse surface, the true one (displacement bound included) and the micropolygon.
   void prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ray) const;

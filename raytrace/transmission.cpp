@@ -21,7 +21,7 @@ bool addSolids(const RayScene::Impl& scene, const Ray& ray, float window, HitLis
 
 /// The surfaces that one ray goes through, in order.
 struct Layers {
-  bool blocked = false;
+  bool blocked = false, adjusted = false;
   std::vector<PolygonHit> hits;
 };
 
@@ -38,6 +38,7 @@ Layers layersOf(const RayScene::Impl& scene, const Ray& ray) {
   sortAlongRay(list);
   const RayStart start = startOf(ray);
   const int origin = offsetting ? effectiveOrigin(list, start) : -1, first = nextHit(list, origin, start);
+  out.adjusted = origin >= 0;
   for (size_t i = static_cast<size_t>(first); first >= 0 && i < list.size(); ++i) {
     // An edge shared by two quads counts once; far hits are as far apart as their rounding.
     const bool again =
@@ -59,13 +60,14 @@ struct Asked {
 }  // namespace
 
 std::vector<vec3> RayScene::transmission(const std::vector<Ray>& rays, const std::vector<SampleName>& names,
-                                         const ShadingSystem& shading, const ShadeContext& context) const {
+                                         const ShadingSystem& shading, const ShadeContext& context, int64_t& adjusted) const {
   std::vector<vec3> clear(rays.size(), vec3(1));
   Asked asked;
   for (size_t r = 0; r < rays.size(); ++r) {
     if (!traceable(rays[r])) continue;
     const Layers layers = layersOf(*impl_, rays[r]);
     if (layers.blocked) clear[r] = vec3(0);
+    adjusted += layers.adjusted;
     for (const PolygonHit& hit : layers.hits)
       if (impl_->knowsOpacity(hit.group)) clear[r] *= glm::clamp(impl_->clearness(hit), 0.0f, 1.0f);
     if (clear[r] == vec3(0)) continue;

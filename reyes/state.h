@@ -145,6 +145,9 @@ struct DetailShare {
   bool contains(float x) const { return x >= lo && x < hi; }
 };
 
+/// Which polygons rays see of a surface: those of one rate; of three, by the width of the ray; or micropolygons.
+enum class TessellationMode : uint8_t { Fixed, Multiresolution, Full };
+
 /// Immutable once a primitive refers to it; consecutive primitives share one.
 struct Attributes {
   vec3 color{1.0f}, opacity{1.0f};
@@ -173,6 +176,7 @@ struct Attributes {
     int maxDiffuseDepth = 1, maxSpecularDepth = 2;  ///< Bounces that follow one from here, beyond none that an earlier object allows.
     std::string subset;                             ///< Attribute "grouping" "tracesubset": what rays from here see; empty: all
     float tessellation = 1;
+    TessellationMode rate = TessellationMode::Fixed;
     bool operator==(const Trace&) const = default;
   } trace;
   struct Indirect {

@@ -74,7 +74,7 @@ void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, 
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
   ShadingSystem shading(scene, registry, nullptr, log, stats);
   const Camera camera(scene.options);
-  const RayScene rays(scene, camera, shading, settings.hitList, stats, log);
+  const RayScene rays(scene, camera, shading, raySettings(settings, scene.options), stats, log);
   const StageTimer timer(stats, "photons");
   const PhotonFigures figures =
       writePhotons(settings.output, scene, rays, shading, atlasSettings(settings, scene), {}, stats, log);

@@ -54,7 +54,7 @@ bool FrameJob::hide(const DeepFrame& layout, const TileSink& sink) {
 void FrameJob::prepareRays() {
   if (!traces()) return;
   const StageTimer timer(stats_, "raytrace");
-  rays_ = std::make_unique<RayScene>(scene_, camera_, *shading_, settings_.hitList, stats_, log_);
+  rays_ = std::make_unique<RayScene>(scene_, camera_, *shading_, raySettings(settings_, scene_.options), stats_, log_);
   prepareRays([tools = RayTools{rays_.get(), shading_.get()}] { return &tools; });
   if (mode_ == GiMode::Atlas) services_->setAtlas(prepareAtlas(scene_, *rays_, *shading_, settings_, stats_, log_));
 }
@@ -149,6 +149,7 @@ void FrameJob::finish(DeepFrame& frame, const TileFill& fill) {
   const RowViewer viewer = preview ? [&](const Image& rows) { preview->show(rows); } : RowViewer{};
   writeFrame(frame, fill, viewer, scene_, *shading_, {{}, &interrupted(), settings_.seed}, stats_, log_);
   if (services_) services_->reportAtlas(stats_);
+  if (rays_) rays_->report(stats_);
   meter_.report(1);
 }
 

@@ -61,6 +61,11 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--photons", s.photons, "Photons to emit for --gi atlas")->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
   app.add_option("--atlas", s.atlasFolder, "Folder of brick maps: used if they are there, else made and kept")->type_name("FOLDER");
   app.add_option("--brick-cache", s.brickCacheBytes, "Memory for bricks (default 10M)")->transform(CLI::AsSizeValue(false));
+  addParsed(app, "--geometry-cache", s.geometryCache, parseBytes, "30M", "Memory for geometry that rays see at several levels (default 30M)");
+  app.add_option_function<std::string>(
+         "--ray-geometry", [&s](const std::string& t) { s.fullGeometry = t == "full"; },
+         "What rays see: scene (as the RIB says), or full: displaced micropolygons (the default of --gi reference)")
+      ->check(CLI::IsMember({"scene", "full"}))->type_name("scene|full");
   app.add_flag_callback(
       "--no-hit-list", [&s] { s.hitList = false; }, "Rays leave surfaces by a bias alone");
 }

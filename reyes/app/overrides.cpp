@@ -123,6 +123,19 @@ void limitTextures(Options& options, int64_t limit_bytes) {
   p.name = "texturememory", p.floats = {std::min(asked_KB, most_KB)};
 }
 
+RaySettings raySettings(const RenderSettings& settings, const Options& options) {
+  RaySettings out{settings.hitList};
+  const auto it = options.user.find("limits:geocachememory");
+  if (it != options.user.end())
+    out.geometryCacheBytes = static_cast<size_t>(std::max(it->second.number(0), 0.0f) * 1024);
+  if (settings.geometryCache) out.geometryCacheBytes = static_cast<size_t>(*settings.geometryCache);
+  return out;
+}
+
+bool tracesFullGeometry(const RenderSettings& settings) {
+  return settings.fullGeometry.value_or(settings.gi == GiChoice::Reference);
+}
+
 void applyOverrides(Scene& scene, const RenderSettings& settings) {
   raiseTextureMemory(scene.options);
   if (settings.textureMemory) {
@@ -143,6 +156,8 @@ void applyOverrides(Scene& scene, const RenderSettings& settings) {
   if (namesPicture(settings.output)) overrideOutput(o, settings.output);  // else it is a .dfb or .icf
   if (settings.shadingRate)
     changeAttributes(scene, [&](Attributes& a) { a.shadingRate = *settings.shadingRate; });
+  if (tracesFullGeometry(settings))
+    changeAttributes(scene, [](Attributes& a) { a.trace.displacements = true, a.trace.rate = TessellationMode::Full; });
   const bool wantsIndirect = settings.gi != GiChoice::Scene && settings.gi != GiChoice::None;
   if (wantsIndirect && !hasIndirectLight(scene)) addIndirectLight(scene);
 }

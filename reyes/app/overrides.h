@@ -14,6 +14,9 @@ void dropDisplays(Options& options, Log& log);
 
 bool hasIndirectLight(const Scene& scene);
 
+/// With the memory for geometry that Option "limits" "geocachememory" and --geometry-cache allow.
+RaySettings raySettings(const RenderSettings& settings, const Options& options);
+
 /// How a choice is carried out for this scene.
 GiMode giModeOf(GiChoice choice, const Scene& scene);
 

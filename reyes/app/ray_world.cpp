@@ -1,6 +1,7 @@
 #include "reyes/app/ray_world.h"
 
 #include "reyes/app/hide.h"
+#include "reyes/app/overrides.h"
 #include "reyes/rib.h"
 
 namespace tomales {
@@ -10,7 +11,7 @@ struct RayWorld::Built {
       : scene(std::move(s)), camera(scene.options), registry(log) {
     registry.addLibrary(tomales_builtin_shaders(), "built-in");
     shading = std::make_unique<ShadingSystem>(scene, registry, services, log, stats);
-    rays = std::make_unique<RayScene>(scene, camera, *shading, settings.hitList, stats, log);
+    rays = std::make_unique<RayScene>(scene, camera, *shading, raySettings(settings, scene.options), stats, log);
     tools = {rays.get(), shading.get()};
   }
   const Scene scene;

@@ -40,6 +40,8 @@ struct RenderSettings {
   std::optional<int64_t> textureMemory;  ///< Bytes.
   std::string textureCache;
   bool hitList = true;
+  std::optional<int64_t> geometryCache;  ///< Bytes.
+  std::optional<bool> fullGeometry;      ///< Rays see displaced micropolygons; none: for the reference.
   std::string statsFile;
   bool profileShaders = false;     ///< Say at the end what each shader has cost.
   bool progress = false;

@@ -104,8 +104,8 @@ void fields(A& a, Visibility& x) {
 
 template <class A>
 void fields(A& a, Attributes::Trace& x) {
-  auto& [bias, offset, displacements, sampleMotion, maxDiffuseDepth, maxSpecularDepth, subset, tessellation] = x;
-  each(a, bias, offset, displacements, sampleMotion, maxDiffuseDepth, maxSpecularDepth, subset, tessellation);
+  auto& [bias, offset, displacements, sampleMotion, maxDiffuseDepth, maxSpecularDepth, subset, tessellation, rate] = x;
+  each(a, bias, offset, displacements, sampleMotion, maxDiffuseDepth, maxSpecularDepth, subset, tessellation, rate);
 }
 
 template <class A>

@@ -128,6 +128,11 @@ void transmission(Attributes& a, const Param& p) {
 // "cache" looks into files that the scene may not have; its shader knows as much.
 HitMode hitMode(const Param& p) { return p.strings[0] == "primitive" ? HitMode::Primitive : HitMode::Shader; }
 
+TessellationMode tessellationMode(const Param& p) {
+  const std::string& mode = p.strings[0];
+  return mode == "full" ? TessellationMode::Full : mode == "multiresolution" ? TessellationMode::Multiresolution : TessellationMode::Fixed;
+}
+
 using Setter = void (*)(Attributes&, const Param&);
 const std::unordered_map<std::string_view, Setter>& numberSetters() {
   static const std::unordered_map<std::string_view, Setter> table = {
@@ -176,6 +181,7 @@ const std::unordered_map<std::string_view, Setter>& textSetters() {
       {"photon:globalmap", [](Attributes& a, const Param& p) { a.photon.globalMap = p.strings[0]; }},
       {"photon:shadingmodel", [](Attributes& a, const Param& p) { a.photon.shadingModel = p.strings[0]; }},
       {"grouping:membership", [](Attributes& a, const Param& p) { editMembership(a.membership, p.strings[0]); }},
+      {"trace:tessellationmode", [](Attributes& a, const Param& p) { a.trace.rate = tessellationMode(p); }},
       {"grouping:tracesubset", [](Attributes& a, const Param& p) { a.trace.subset = p.strings[0]; }},
       {"shade:diffusehitmode", [](Attributes& a, const Param& p) { a.diffuseHitMode = hitMode(p); }},
       {"shade:specularhitmode", [](Attributes& a, const Param& p) { a.specularHitMode = hitMode(p); }},

@@ -51,7 +51,7 @@ constexpr Standard kStandard[] = {
      "searchpath:resource searchpath:texturecache shade:specular searchpath:dirmap ribparse:varsubst bucket:order statistics:filename statistics:xmlfilename"},
     {"float", "shadow:bias shadow:bias0 shadow:bias1 shutter:offset"},
     {"string",
-     "identifier:name identifier:shadinggroup grouping:membership grouping:tracesubset displacementbound:coordinatesystem "
+     "identifier:name identifier:shadinggroup grouping:membership grouping:tracesubset trace:tessellationmode displacementbound:coordinatesystem "
      "light:shadows indirect:surface photon:globalmap photon:causticmap photon:shadingmodel "
      "dice:strategy trimcurve:sense shade:strategy shade:diffusehitmode shade:specularhitmode "
      "shade:transmissionhitmode shade:camerahitmode"},

@@ -236,7 +236,9 @@ int32_t rayInfo(void* host, const TmGrid* g, const char* name, TmVec3 out) {
     forActive(g, [&](int i) { out.x[i] = static_cast<float>(value); });
     return 1;
   };
-  if (what == "type") return number(static_cast<int>(c.kind));
+  // Shaders leave highlights out where a diffuse ray asks.
+  const bool whole = c.kind == RayKind::Diffuse && c.highlights;
+  if (what == "type") return number(static_cast<int>(whole ? RayKind::Specular : c.kind));
   if (what == "depth") return number(c.depth + c.specularDepth);
   if (what == "diffusedepth") return number(c.depth);
   if (what == "speculardepth") return number(c.specularDepth);

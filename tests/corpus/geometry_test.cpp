@@ -89,7 +89,7 @@ void expectPictureFinite(Scene& scene, ShadingSystem& shading, Stats& stats, Log
 
 void expectRaysFinite(const Scene& scene, const ShadingSystem& shading, Stats& stats, Log& log) {
   const Camera camera(scene.options);
-  const RayScene rays(scene, camera, shading, true, stats, log);
+  const RayScene rays(scene, camera, shading, {}, stats, log);
   int unsound = 0;
   for (uint32_t i = 0; i < 500; ++i) {
     vec3 origin, direction;

@@ -50,7 +50,7 @@ void goThroughTheStages(Scene scene, Log& log) {
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
   ShadingSystem shading(scene, registry, nullptr, log, stats);
   hideFrame(scene, shading, {}, stats, log);
-  const RayScene rays(scene, Camera(scene.options), shading, true, stats, log);
+  const RayScene rays(scene, Camera(scene.options), shading, {}, stats, log);
   rays.closest({vec3(0), vec3(0, 0, 1)}, kMaskDiffuse);
 }
 

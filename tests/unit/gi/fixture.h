@@ -84,7 +84,7 @@ struct World {
         camera(scene.options),
         registry(log),
         shading(bind(scene, registry, log, stats)),
-        rays(scene, camera, shading, true, stats, log) {}
+        rays(scene, camera, shading, {}, stats, log) {}
 
   std::unique_ptr<GiServices> use(const GiSettings& settings) {
     auto services = std::make_unique<GiServices>(scene, camera, rays, shading, settings, stats);

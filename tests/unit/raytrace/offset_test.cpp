@@ -70,7 +70,7 @@ TEST(Offset, WithoutAHitListTheBiasDecides) {
   World world;
   world.attributes.trace.bias = 0.05f;
   world.add(parallelogram({-1, -1, 2}, {2, 0, 0}, {0, 2, 0}));
-  world.build(false);
+  world.build({.hitList = false});
   for (const float distance : {0.04f, 0.06f}) {
     const Ray ray = world.rayFrom(0, {0.1f, 0.2f, 2 - distance}, {0, 0, 1});
     EXPECT_EQ(ray.offset, 0);

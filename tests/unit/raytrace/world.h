@@ -86,11 +86,11 @@ struct World {
     return scene.lights.back()->index;
   }
 
-  void build(bool hitList = true) {
+  void build(const RaySettings& settings = {}) {
     scene.freeze();
     camera = std::make_unique<Camera>(scene.options);
     shading = std::make_unique<ShadingSystem>(scene, registry, nullptr, log, stats);
-    rays = std::make_unique<RayScene>(scene, *camera, *shading, hitList, stats, log);
+    rays = std::make_unique<RayScene>(scene, *camera, *shading, settings, stats, log);
   }
 
   Ray rayFrom(int object, const vec3& origin, const vec3& direction, float tMax = kInfinity) const {
@@ -100,7 +100,8 @@ struct World {
   }
 
   vec3 transmission(const Ray& ray) const {
-    return rays->transmission({ray}, {SampleName{}}, *shading, ShadeContext{})[0];
+    int64_t adjusted = 0;
+    return rays->transmission({ray}, {SampleName{}}, *shading, ShadeContext{}, adjusted)[0];
   }
 
   Log log{Log::Verbosity::Quiet};

@@ -1,0 +1,188 @@
+#include "raytrace/chunks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+#include "raytrace/doubled_grid.h"
+#include "raytrace/packed_normal.h"
+#include "raytrace/ray_times.h"
+#include "raytrace/tessellate.h"
+#include "reyes/base/parallel.h"
+#include "reyes/base/rng.h"
+#include "reyes/dice.h"
+
+namespace tomales {
+namespace {
+
+constexpr int kTile = 64;               ///< Fine polygons of a tile along u or v.
+constexpr int kChunkPolygons = 64 * 64; ///< Fine ones at which a chunk is full: docs/decisions/0036-geometry-cache.md
+constexpr int kSampled = 4;             ///< Polygons along u and v of the part of a tile whose deviation is measured.
+constexpr size_t index(Level level) { return static_cast<size_t>(level); }
+
+int64_t polygons(const Tile& tile, Level level) {
+  const CoarseRate& r = tile.rate[index(level)];
+  return int64_t{r.nu} * r.nv;
+}
+
+/// Bits of x, which has ten, with two zeros between them.
+uint32_t spaced(uint32_t x) {
+  x = (x | x << 16) & 0x30000ffU, x = (x | x << 8) & 0x300f00fU, x = (x | x << 4) & 0x30c30c3U;
+  return (x | x << 2) & 0x9249249U;
+}
+
+/// Along a Morton curve.
+uint32_t placeOf(const vec3& p, const Bound3& within) {
+  const vec3 at = glm::clamp((p - within.lo) / glm::max(within.size(), vec3(1e-20f)), 0.0f, 1.0f) * 1023.0f;
+  return spaced(static_cast<uint32_t>(at.x)) | spaced(static_cast<uint32_t>(at.y)) << 1 | spaced(static_cast<uint32_t>(at.z)) << 2;
+}
+
+vec3 middle(const Bound3& b) { return 0.5f * (b.lo + b.hi); }
+
+}  // namespace
+
+/// What is known of a patch, or of one of its tiles.
+struct Chunks::Planned {
+  std::vector<Tile> tiles;
+  std::vector<Bound3> bounds;  ///< Of each tile.
+  std::array<float, kLevels> deviation{};
+};
+
+bool hasLevels(const Object& o, uint32_t patch, bool moves) {
+  const Attributes& a = *o.attributes;
+  return a.trace.rate != TessellationMode::Fixed && !moves && a.areaLight < 0 && o.solid < 0 && a.detail.whole() && raysNeed(a) &&
+         !isExactQuad(o, patch) && o.shape().kept(patch, UvRect{}) == Kept::All;
+}
+
+Chunks::Chunks(const Scene& scene, const Camera& camera, const ShadingSystem& shading, const std::vector<bool>& elsewhere, Log& log)
+    : scene_(scene), shading_(shading), log_(log), deviations_(scene.groups.size()) {
+  for (const ShadeGroup& g : scene.groups) full_.push_back(g.attributes->trace.rate == TessellationMode::Full);
+  const std::vector<std::vector<float>> times = rayTimes(scene);
+  std::vector<std::pair<int, uint32_t>> patches;
+  for (size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& o = scene.objects[i];
+    for (uint32_t p = 0; !elsewhere[i] && o.attributes->trace.rate != TessellationMode::Fixed && p < o.shape().patchCount(); ++p)
+      if (hasLevels(o, p, times[static_cast<size_t>(o.group)].size() > 1)) patches.emplace_back(static_cast<int>(i), p);
+  }
+  std::vector<Planned> planned(patches.size());
+  parallelFor(patches.size(), 16, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) planned[i] = plan(patches[i].first, patches[i].second, camera);
+  });
+  pack(planned);
+}
+
+Chunks::Planned Chunks::plan(int object, uint32_t patch, const Camera& camera) const {
+  const Object& o = scene_.objects[static_cast<size_t>(object)];
+  const std::array<CoarseRate, kLevels> rates = levelRates(scene_, camera, object, patch, log_);
+  const auto tiles = [](int count) { return (count + kTile - 1) / kTile; };
+  const int across = tiles(rates[0].nu), along = tiles(rates[0].nv);
+  const auto at = [](int i, int n) { return static_cast<float>(i) / static_cast<float>(n); };
+  Planned out;
+  for (int j = 0; j < along; ++j)
+    for (int i = 0; i < across; ++i) {
+      Tile tile{object, patch, {at(i, across), at(i + 1, across), at(j, along), at(j + 1, along)}, {}};
+      for (size_t l = 0; l < kLevels; ++l) tile.rate[l] = {(rates[l].nu + across - 1) / across, (rates[l].nv + along - 1) / along};
+      const Bound3 bound = transformBound(o.cameraFromObject.at(o.keyTimes.front()), o.shape().bound(patch, tile.rect));
+      out.bounds.push_back(displacesForRays(o) ? bound.grown(o.displacementBound) : bound);
+      measure(out, tile);
+      out.tiles.push_back(tile);
+    }
+  return out;
+}
+
+/// All coarse polygons of the tile, and of the finer ones a part that hash chooses.
+void Chunks::measure(Planned& planned, const Tile& tile) const {
+  const Object& o = scene_.objects[static_cast<size_t>(tile.object)];
+  for (const Level level : {Level::Coarse, Level::Medium, Level::Fine}) {
+    const auto [nu, nv] = tile.rate[index(level)];
+    UvRect part = tile.rect;
+    int u = nu, v = nv;
+    if (level != Level::Coarse) {
+      u = std::min(nu, kSampled), v = std::min(nv, kSampled);
+      const uint32_t name = hashCombine(o.name, tile.patch, static_cast<uint32_t>(planned.tiles.size()), static_cast<uint32_t>(level));
+      const int i = static_cast<int>(unitFloat(name) * static_cast<float>(nu - u + 1));
+      const int j = static_cast<int>(unitFloat(hash32(name)) * static_cast<float>(nv - v + 1));
+      const auto within = [](float a, float b, int k, int n) { return lerp(a, b, static_cast<float>(k) / static_cast<float>(n)); };
+      part = {within(tile.rect.u0, tile.rect.u1, i, nu), within(tile.rect.u0, tile.rect.u1, i + u, nu),
+              within(tile.rect.v0, tile.rect.v1, j, nv), within(tile.rect.v0, tile.rect.v1, j + v, nv)};
+    }
+    Grid g = tomales::dice(scene_, tile.object, tile.patch, part, 2 * u, 2 * v, 1);
+    if (displacesForRays(o)) shading_.displace(g);
+    if (!isFinite(g)) continue;
+    planned.deviation[index(level)] = std::max(planned.deviation[index(level)], doubledDeviation(g, 0));
+    // Where the displacement bound is too small.
+    for (int k = 0; k < g.vertexCount(); ++k) planned.bounds.back().extend(g.position(0, k));
+  }
+}
+
+void Chunks::pack(std::vector<Planned>& planned) {
+  struct Placed {
+    uint32_t group, place;
+    const Tile* tile;
+    const Bound3* bound;
+  };
+  std::vector<Bound3> ofGroup(scene_.groups.size());
+  std::vector<Placed> placed;
+  for (const Planned& p : planned)
+    for (size_t i = 0; i < p.tiles.size(); ++i) {
+      const auto group = static_cast<uint32_t>(scene_.objects[static_cast<size_t>(p.tiles[i].object)].group);
+      ofGroup[group].extend(p.bounds[i]);
+      placed.push_back({group, 0, &p.tiles[i], &p.bounds[i]});
+      for (size_t l = 0; l < kLevels; ++l) deviations_[group][l] = std::max(deviations_[group][l], p.deviation[l]);
+      finePolygons_ += polygons(p.tiles[i], Level::Fine);
+    }
+  for (Placed& p : placed) p.place = placeOf(middle(*p.bound), ofGroup[p.group]);
+  std::stable_sort(placed.begin(), placed.end(),
+                   [](const Placed& a, const Placed& b) { return std::tie(a.group, a.place) < std::tie(b.group, b.place); });
+  int64_t held = 0;
+  for (const Placed& p : placed) {
+    const int64_t more = polygons(*p.tile, Level::Fine);
+    if (chunks_.empty() || chunks_.back().group != p.group || held + more > kChunkPolygons) chunks_.push_back({p.group, {}, {}}), held = 0;
+    held += more;
+    chunks_.back().tiles.push_back(*p.tile);
+    chunks_.back().bound.extend(*p.bound);
+  }
+  for (Chunk& c : chunks_) c.tiles.shrink_to_fit();
+}
+
+ChunkMesh Chunks::dice(size_t chunk, Level level) const {
+  ChunkMesh out;
+  const std::vector<Tile>& tiles = chunks_[chunk].tiles;
+  size_t vertices = 0;
+  for (const Tile& t : tiles) {
+    const auto [nu, nv] = t.rate[index(level)];
+    out.firstVertex.push_back(static_cast<uint32_t>(vertices));
+    vertices += static_cast<size_t>(nu + 1) * static_cast<size_t>(nv + 1);
+  }
+  out.P.reserve(vertices + 1), out.N.reserve(vertices);
+  for (const Tile& t : tiles) {
+    const Object& o = scene_.objects[static_cast<size_t>(t.object)];
+    const auto [nu, nv] = t.rate[index(level)];
+    Grid g = tomales::dice(scene_, t.object, t.patch, t.rect, nu, nv, 1);
+    if (displacesForRays(o)) shading_.displace(g);
+    const bool finite = isFinite(g);
+    if (!finite)
+      log_.report(Severity::Warning, "trace-not-finite", o.where,
+                  fmt::format("{} has points that are not finite: rays pass through that part", objectName(o)));
+    for (int k = 0; k < g.vertexCount(); ++k) {
+      out.P.push_back(finite ? g.position(0, k) : vec3(std::numeric_limits<float>::quiet_NaN()));
+      out.N.push_back(packNormal(normalizeOr(g.normal(k), vec3(0, 0, -1))));
+    }
+  }
+  return out;
+}
+
+vec3 Chunks::normal(const ChunkMesh& mesh, size_t chunk, Level level, uint32_t tile, float u, float v) const {
+  const auto [nu, nv] = chunks_[chunk].tiles[tile].rate[index(level)];
+  const auto cell = [](float x, int n) { return std::clamp(static_cast<int>(x * static_cast<float>(n)), 0, n - 1); };
+  const int i = cell(u, nu), j = cell(v, nv);
+  const float fu = u * static_cast<float>(nu) - static_cast<float>(i), fv = v * static_cast<float>(nv) - static_cast<float>(j);
+  const auto N = [&](int di, int dj) {
+    return unpackNormal(mesh.N[mesh.firstVertex[tile] + static_cast<uint32_t>((j + dj) * (nu + 1) + i + di)]);
+  };
+  return normalizeOr(glm::mix(glm::mix(N(0, 0), N(1, 0), fu), glm::mix(N(0, 1), N(1, 1), fu), fv), N(0, 0));
+}
+
+}  // namespace tomales

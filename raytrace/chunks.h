@@ -1,0 +1,72 @@
+// Surfaces that rays see at several levels: tiles of patches, near ones together in chunks, of which each level is diced when a ray first
+// comes there (docs/decisions/0036-geometry-cache.md).
+// What stands still, is no light, no part of a solid and not trimmed, where Attribute "trace" "tessellationmode" asks for it; flat
+// patches without displacement are exact as they are and stay out.
+// Space: current. Threads: const members may be called concurrently.
+#pragma once
+#include <array>
+
+#include "raytrace/coarse_rate.h"
+#include "raytrace/level.h"
+#include "reyes/shade.h"
+
+namespace tomales {
+
+/// A rectangle of one patch, cut alike at every level by its neighbours in the patch.
+struct Tile {
+  int object;
+  uint32_t patch;
+  UvRect rect;
+  std::array<CoarseRate, kLevels> rate;  ///< Polygons of the tile
+};
+
+struct Chunk {
+  uint32_t group;
+  Bound3 bound;             ///< Of all levels.
+  std::vector<Tile> tiles;
+};
+
+/// Lattices of the tiles of a chunk, rows along u, one behind the other.
+struct ChunkMesh {
+  std::vector<vec3> P;                ///< Behind the last lie at least 4 more readable bytes. A tile that is not finite is NaN.
+  std::vector<uint32_t> N;            ///< RISpec side; raytrace/packed_normal.h
+  std::vector<uint32_t> firstVertex;  ///< Of each tile.
+
+  size_t bytes() const { return P.capacity() * sizeof(vec3) + (N.capacity() + firstVertex.capacity()) * sizeof(uint32_t); }
+};
+
+/// Does this patch of the object belong into chunks?
+bool hasLevels(const Object& object, uint32_t patch, bool moves);
+
+class Chunks {
+ public:
+  /// Leaves out objects that are `elsewhere`. All must outlive this. Dices the coarse level once to learn how far it is off.
+  Chunks(const Scene& scene, const Camera& camera, const ShadingSystem& shading, const std::vector<bool>& elsewhere, Log& log);
+
+  const std::vector<Chunk>& all() const { return chunks_; }
+  ChunkMesh dice(size_t chunk, Level level) const;
+  /// The level at which a ray of this level sees a group.
+  Level levelOf(uint32_t group, Level ray) const { return full_[group] ? Level::Fine : ray; }
+  /// Largest distance between the polygons of a level and what they stand for; 0 for groups that are not here. Of the finer levels
+  /// a part is measured.
+  float deviation(size_t group, Level ray) const { return deviations_[group][static_cast<size_t>(levelOf(static_cast<uint32_t>(group), ray))]; }
+  /// Unit normal, RISpec side, where tile parameters u, v lead.
+  vec3 normal(const ChunkMesh& mesh, size_t chunk, Level level, uint32_t tile, float u, float v) const;
+  int64_t finePolygons() const { return finePolygons_; }
+
+ private:
+  struct Planned;
+  Planned plan(int object, uint32_t patch, const Camera& camera) const;
+  void measure(Planned& planned, const Tile& tile) const;
+  void pack(std::vector<Planned>& planned);
+
+  const Scene& scene_;
+  const ShadingSystem& shading_;
+  Log& log_;
+  std::vector<bool> full_;  ///< Of each group: rays of all levels see the finest.
+  std::vector<Chunk> chunks_;
+  std::vector<std::array<float, kLevels>> deviations_;
+  int64_t finePolygons_ = 0;
+};
+
+}  // namespace tomales

@@ -1,0 +1,108 @@
+#include "raytrace/embree_chunks.h"
+
+#include <map>
+
+namespace tomales {
+namespace {
+
+// What Embree allocates, as its memory monitor tells it: for each grid polygon, and for a scene.
+constexpr size_t kPolygonBytes = 22, kSceneBytes = 10000;
+
+}  // namespace
+
+EmbreeChunks::Resident::~Resident() {
+  if (scene) rtcReleaseScene(scene);
+}
+
+EmbreeChunks::EmbreeChunks(const Chunks& chunks, size_t budget) : chunks_(chunks), cache_(chunks.all().size() * kLevels, budget) {}
+
+EmbreeChunks::~EmbreeChunks() {
+  if (device_) rtcReleaseDevice(device_);
+}
+
+void EmbreeChunks::attach(RTCDevice device, RTCScene to, unsigned id, uint32_t firstInstance, const std::vector<CoarseGroup>& groups,
+                          const std::vector<uint32_t>& masks, const std::vector<bool>& opaque) {
+  device_ = device, firstInstance_ = firstInstance;
+  rtcRetainDevice(device);
+  for (uint32_t g = 0; g < groups.size(); ++g)
+    described_.push_back({opaque[g], groups[g].flipsNormal, {}, groups.data(), g, {}, nullptr});
+  std::map<uint32_t, std::vector<uint32_t>> byMask;
+  for (uint32_t c = 0; c < chunks_.all().size(); ++c) byMask[masks[chunks_.all()[c].group]].push_back(c);
+  for (auto& [mask, chunks] : byMask) {
+    Members& members = members_.emplace_back(Members{this, std::move(chunks)});
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(members.chunks.size()));
+    rtcSetGeometryBoundsFunction(geometry, &EmbreeChunks::boundsOf, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, &EmbreeChunks::intersect);
+    rtcSetGeometryOccludedFunction(geometry, &EmbreeChunks::occluded);
+    rtcSetGeometryMask(geometry, mask);
+    rtcSetGeometryUserData(geometry, &members);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(to, geometry, id++);
+    rtcReleaseGeometry(geometry);
+  }
+}
+
+void EmbreeChunks::boundsOf(const RTCBoundsFunctionArguments* args) {
+  const auto& members = *static_cast<const Members*>(args->geometryUserPtr);
+  const Bound3& b = members.owner->chunks_.all()[members.chunks[args->primID]].bound;
+  *args->bounds_o = {b.lo.x, b.lo.y, b.lo.z, 0, b.hi.x, b.hi.y, b.hi.z, 0};
+}
+
+// The hits of a chunk name it by the ID of an instance, which Embree takes over from the context.
+void EmbreeChunks::intersect(const RTCIntersectFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  const auto& members = *static_cast<const Members*>(args->geometryUserPtr);
+  const uint32_t chunk = members.chunks[args->primID];
+  const auto held = members.owner->resident(chunk, reinterpret_cast<const Traversal*>(args->context)->fineness);
+  args->context->instID[0] = members.owner->firstInstance_ + chunk;
+  rtcIntersect1(held->scene, args->context, reinterpret_cast<RTCRayHit*>(args->rayhit));
+  args->context->instID[0] = RTC_INVALID_GEOMETRY_ID;
+}
+
+void EmbreeChunks::occluded(const RTCOccludedFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  const auto& members = *static_cast<const Members*>(args->geometryUserPtr);
+  const uint32_t chunk = members.chunks[args->primID];
+  const auto held = members.owner->resident(chunk, reinterpret_cast<const Traversal*>(args->context)->fineness);
+  args->context->instID[0] = members.owner->firstInstance_ + chunk;
+  rtcOccluded1(held->scene, args->context, reinterpret_cast<RTCRay*>(args->ray));
+  args->context->instID[0] = RTC_INVALID_GEOMETRY_ID;
+}
+
+std::shared_ptr<const EmbreeChunks::Resident> EmbreeChunks::resident(uint32_t chunk, Level ray) const {
+  const Level level = chunks_.levelOf(chunks_.all()[chunk].group, ray);
+  return cache_.get(chunk * kLevels + static_cast<size_t>(level), [&] { return build(chunk, level); });
+}
+
+std::shared_ptr<const EmbreeChunks::Resident> EmbreeChunks::build(uint32_t chunk, Level level) const {
+  auto out = std::make_shared<Resident>();
+  out->mesh = chunks_.dice(chunk, level);
+  out->scene = rtcNewScene(device_);
+  rtcSetSceneFlags(out->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+  RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_GRID);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, out->mesh.P.data(), 0, sizeof(vec3), out->mesh.P.size());
+  const std::vector<Tile>& tiles = chunks_.all()[chunk].tiles;
+  auto* grids = static_cast<RTCGrid*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_GRID, 0, RTC_FORMAT_GRID, sizeof(RTCGrid), tiles.size()));
+  for (size_t t = 0; grids && t < tiles.size(); ++t) {
+    const auto [nu, nv] = tiles[t].rate[static_cast<size_t>(level)];
+    grids[t] = {out->mesh.firstVertex[t], static_cast<unsigned>(nu + 1), static_cast<uint16_t>(nu + 1), static_cast<uint16_t>(nv + 1)};
+    out->sceneBytes += kPolygonBytes * static_cast<size_t>(nu) * static_cast<size_t>(nv);
+  }
+  rtcSetGeometryUserData(geometry, const_cast<Geometry*>(&described_[chunks_.all()[chunk].group]));
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(out->scene, geometry, 0);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(out->scene);
+  out->sceneBytes += kSceneBytes;
+  return out;
+}
+
+vec3 EmbreeChunks::normal(const PolygonHit& hit, Level ray) const {
+  const auto chunk = static_cast<uint32_t>(hit.chunk);
+  const auto held = resident(chunk, ray);
+  return chunks_.normal(held->mesh, chunk, chunks_.levelOf(hit.group, ray), hit.quad, hit.u, hit.v);
+}
+
+}  // namespace tomales

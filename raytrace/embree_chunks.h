@@ -1,0 +1,60 @@
+// Private to the files that know Embree: chunks (raytrace/chunks.h) as user geometry. A ray that comes to one goes on in a scene of Embree grids,
+// built at the ray's level when it is not in the cache. Threads: any.
+#pragma once
+#include <deque>
+
+#include "raytrace/chunks.h"
+#include "raytrace/embree_filters.h"
+#include "raytrace/resident_cache.h"
+
+namespace tomales {
+
+class EmbreeChunks {
+ public:
+  /// `chunks` must outlive this.
+  EmbreeChunks(const Chunks& chunks, size_t budget);
+  ~EmbreeChunks();
+  EmbreeChunks(const EmbreeChunks&) = delete;
+
+  /// Adds geometries to a scene, from this ID on, one for each mask. Of groups: see EmbreeScene. `flips` of each group;
+  /// hits have instance IDs from firstInstance on.
+  void attach(RTCDevice device, RTCScene to, unsigned id, uint32_t firstInstance, const std::vector<CoarseGroup>& groups,
+              const std::vector<uint32_t>& masks, const std::vector<bool>& opaque);
+
+  const Geometry& geometryOf(uint32_t chunk) const { return described_[chunks_.all()[chunk].group]; }
+  /// Unit normal on the RISpec side where a hit lies that a ray of this level has had.
+  vec3 normal(const PolygonHit& hit, Level ray) const;
+  ResidentFigures figures() const { return cache_.figures(); }
+
+ private:
+  struct Resident {
+    ChunkMesh mesh;
+    RTCScene scene = nullptr;
+    size_t sceneBytes = 0;
+
+    Resident() = default;
+    Resident(const Resident&) = delete;
+    ~Resident();
+    size_t bytes() const { return sizeof(*this) + mesh.bytes() + sceneBytes; }
+  };
+  /// What the callbacks of one user geometry know.
+  struct Members {
+    EmbreeChunks* owner;
+    std::vector<uint32_t> chunks;
+  };
+
+  std::shared_ptr<const Resident> resident(uint32_t chunk, Level ray) const;
+  std::shared_ptr<const Resident> build(uint32_t chunk, Level level) const;
+  static void boundsOf(const RTCBoundsFunctionArguments* args);
+  static void intersect(const RTCIntersectFunctionNArguments* args);
+  static void occluded(const RTCOccludedFunctionNArguments* args);
+
+  const Chunks& chunks_;
+  RTCDevice device_ = nullptr;
+  uint32_t firstInstance_ = 0;
+  std::vector<Geometry> described_;  ///< Of each group.
+  std::deque<Members> members_;      ///< Embree keeps their addresses.
+  mutable ResidentCache<Resident> cache_;
+};
+
+}  // namespace tomales

@@ -1,0 +1,109 @@
+// Slots that are filled when somebody first asks, and emptied, least recently used first, when together they are larger than allowed.
+// What somebody still holds lives until it is given back. Threads: any.
+#pragma once
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace tomales {
+
+struct ResidentFigures {
+  int64_t lookups = 0, misses = 0, bytes = 0, mostBytes = 0;
+};
+
+/// T has size_t bytes() const.
+template <class T>
+class ResidentCache {
+ public:
+  ResidentCache(size_t slots, size_t budget) : slots_(slots), budget_(budget) {}
+
+  /// What slot i holds; make() gives it, as a shared_ptr<const T>, if it is empty. make() asks for no other slot.
+  template <class Make>
+  std::shared_ptr<const T> get(size_t i, const Make& make) {
+    Slot& slot = slots_[i];
+    if (auto found = slot.take(clock_.load(std::memory_order_relaxed))) return found;
+    const std::lock_guard building(making_[i % kStripes]);
+    if (auto found = slot.take(clock_.load(std::memory_order_relaxed))) return found;  // another thread has made it meanwhile
+    std::shared_ptr<const T> made = make();
+    slot.put(made, clock_++);
+    admit(i, made->bytes());
+    return made;
+  }
+
+  ResidentFigures figures() const {
+    const std::lock_guard lock(mutex_);
+    ResidentFigures out{0, misses_, bytes_, mostBytes_};
+    for (const Slot& slot : slots_) out.lookups += slot.lookups;
+    return out;
+  }
+
+ private:
+  static constexpr size_t kStripes = 64;
+
+  struct Slot {
+    std::shared_ptr<const T> take(int64_t now) {
+      const Hold hold(busy);
+      if (content) lastUse = now, ++lookups;
+      return content;
+    }
+    void put(std::shared_ptr<const T> made, int64_t now) {
+      const Hold hold(busy);
+      content = std::move(made), lastUse = now, ++lookups;
+    }
+    std::shared_ptr<const T> clear() {
+      const Hold hold(busy);
+      return std::exchange(content, nullptr);
+    }
+    int64_t used() {
+      const Hold hold(busy);
+      return lastUse;
+    }
+
+    struct Hold {
+      explicit Hold(std::atomic_flag& f) : flag(f) {
+        while (flag.test_and_set(std::memory_order_acquire)) {
+        }
+      }
+      ~Hold() { flag.clear(std::memory_order_release); }
+      Hold(const Hold&) = delete;
+      std::atomic_flag& flag;
+    };
+    std::atomic_flag busy;
+    std::shared_ptr<const T> content;
+    int64_t lastUse = 0, lookups = 0;
+  };
+  struct Resident {
+    size_t slot;
+    int64_t bytes;
+  };
+
+  void admit(size_t slot, size_t bytes) {
+    std::vector<std::shared_ptr<const T>> gone;  // freed after the lock
+    const std::lock_guard lock(mutex_);
+    ++misses_;
+    residents_.push_back({slot, static_cast<int64_t>(bytes)});
+    bytes_ += residents_.back().bytes;
+    while (bytes_ > static_cast<int64_t>(budget_) && residents_.size() > 1) {
+      const auto oldest = std::min_element(residents_.begin(), residents_.end() - 1, [this](const Resident& a, const Resident& b) {
+        return slots_[a.slot].used() < slots_[b.slot].used();
+      });
+      gone.push_back(slots_[oldest->slot].clear());
+      bytes_ -= oldest->bytes;
+      residents_.erase(oldest);
+    }
+    mostBytes_ = std::max(mostBytes_, bytes_);
+  }
+
+  std::vector<Slot> slots_;
+  std::mutex making_[kStripes];
+  const size_t budget_;
+  std::atomic<int64_t> clock_{0};  ///< Counts what was made: a use after that is younger than the making.
+  mutable std::mutex mutex_;
+  std::vector<Resident> residents_;
+  int64_t misses_ = 0, bytes_ = 0, mostBytes_ = 0;
+};
+
+}  // namespace tomales

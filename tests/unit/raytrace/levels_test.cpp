@@ -1,0 +1,150 @@
+// Surfaces that rays see at several levels, and the cache that holds them.
+#include <gtest/gtest.h>
+
+#include "raytrace/packed_normal.h"
+#include "raytrace/resident_cache.h"
+#include "reyes/base/parallel.h"
+#include "reyes/base/rng.h"
+#include "world.h"
+
+namespace tomales::test {
+namespace {
+
+vec3 anyDirection(uint32_t i) {
+  const vec2 xi = sobol2(i, 7);
+  const float z = 1 - 2 * xi.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * xi.y;
+  return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
+struct LevelledWorld : World {
+  explicit LevelledWorld(TessellationMode mode, size_t cacheBytes = 1 << 30, bool displaced = true) {
+    attributes.trace.rate = mode;
+    attributes.shadingRate = 4;
+    attributes.trace.displacements = displaced;
+    attributes.displacementBound = 0.1f;
+    if (displaced)
+      attributes.displacement = shader("noisybump", {floatsParam("Km", ValueType::Float, Storage::Uniform, {0.05f}),
+                                                     floatsParam("frequency", ValueType::Float, Storage::Uniform, {3})});
+    add(sphere(), translation({0, 0, 4}));
+    RaySettings settings;
+    settings.geometryCacheBytes = cacheBytes;
+    build(settings);
+  }
+};
+
+TEST(Levels, ARayFromWithinAClosedSurfaceMeetsItAtAnyLevel) {
+  const LevelledWorld world(TessellationMode::Multiresolution);
+  for (const Level level : {Level::Fine, Level::Medium, Level::Coarse})
+    for (uint32_t i = 0; i < 20000; ++i) {
+      Ray ray{{0.1f, -0.05f, 4.02f}, anyDirection(i)};
+      ray.level = level;
+      const Hit hit = world.rays->closest(ray, kMaskDiffuse);
+      ASSERT_EQ(hit.object, 0);
+      EXPECT_NEAR(hit.t, 1, 0.25f);
+      EXPECT_GT(dot(hit.geometricNormal, ray.direction), 0) << "it leaves";
+      EXPECT_GT(dot(hit.normal, hit.geometricNormal), 0.5f);
+    }
+}
+
+TEST(Levels, WideRaysMeetCoarsePolygonsAndNarrowOnesFine) {
+  const LevelledWorld world(TessellationMode::Multiresolution, 1 << 30, false);
+  double off[3] = {0, 0, 0};
+  for (const Level level : {Level::Fine, Level::Medium, Level::Coarse})
+    for (uint32_t i = 0; i < 5000; ++i) {
+      Ray ray{{0, 0, 4}, anyDirection(i)};
+      ray.level = level;
+      off[static_cast<size_t>(level)] = std::max(off[static_cast<size_t>(level)], std::abs(1.0 - double{world.rays->closest(ray, kMaskDiffuse).t}));
+    }
+  EXPECT_LT(4 * off[0], off[1]);
+  EXPECT_LT(2 * off[1], off[2]);
+  Ray ray{{0, 0, 4}, {0, 0, 1}};
+  world.rays->prepareOrigin(0, ray.origin, 0, ray);
+  EXPECT_EQ(ray.level, Level::Fine);
+  ray.spread = 0.04f;
+  world.rays->prepareOrigin(0, ray.origin, 0, ray);
+  EXPECT_EQ(ray.level, Level::Coarse);
+  EXPECT_GT(ray.offset, off[2]) << "the offset is that of the level that the ray meets";
+}
+
+TEST(Levels, PatchParametersLeadBackToTheHit) {
+  const LevelledWorld world(TessellationMode::Full, 1 << 30, false);
+  for (uint32_t i = 0; i < 5000; ++i) {
+    const Ray ray{{0, 0, 4}, anyDirection(i)};
+    const Hit hit = world.rays->closest(ray, kMaskDiffuse);
+    ASSERT_EQ(hit.object, 0);
+    const float u = hit.u, v = hit.v;
+    float P[3] = {0, 0, 0}, rest[9];
+    world.scene.objects[0].shape().evaluate(hit.patch, 1, &u, &v,
+                                            {P, P + 1, P + 2, rest, rest + 1, rest + 2, rest + 3, rest + 4, rest + 5, rest + 6, rest + 7, rest + 8});
+    EXPECT_LT(glm::length(vec3(P[0], P[1], P[2]) - ray.direction * hit.t), 5e-3f);
+    EXPECT_GT(dot(hit.normal, glm::normalize(vec3(P[0], P[1], P[2]))), 0.9999f);
+  }
+}
+
+std::vector<Hit> hitsOf(const World& world, int threads) {
+  const ThreadLimit limit(threads);
+  std::vector<Hit> hits(900);
+  parallelFor(hits.size(), 16, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      Ray ray{{0.1f, -0.05f, 4.02f}, anyDirection(static_cast<uint32_t>(i))};
+      ray.level = static_cast<Level>(i % 3);
+      ray.offset = i % 2 ? 1e-3f : 0.0f;
+      hits[i] = world.rays->closest(ray, kMaskDiffuse);
+    }
+  });
+  return hits;
+}
+
+TEST(GeometryCache, ASmallOneGivesTheSameHitsForAnyNumberOfThreads) {
+  LevelledWorld large(TessellationMode::Multiresolution), small(TessellationMode::Multiresolution, 300000);
+  const std::vector<Hit> expected = hitsOf(large, 1);
+  for (const int threads : {1, 4}) {
+    const std::vector<Hit> found = hitsOf(small, threads);
+    for (size_t i = 0; i < found.size(); ++i) {
+      ASSERT_EQ(found[i].t, expected[i].t);
+      ASSERT_EQ(found[i].u, expected[i].u);
+      ASSERT_EQ(found[i].v, expected[i].v);
+      ASSERT_EQ(found[i].normal, expected[i].normal);
+    }
+  }
+  large.rays->report(large.stats), small.rays->report(small.stats);
+  EXPECT_GT(small.stats.geometryCache.misses, 4 * large.stats.geometryCache.misses) << "and had to build again";
+  EXPECT_LE(small.stats.geometryCache.bytes, 600000);
+  EXPECT_GT(large.stats.geometryCache.bytes, 700000);
+}
+
+struct Block {
+  int name;
+  size_t bytes() const { return 10; }
+};
+
+TEST(ResidentCache, KeepsWhatWasUsedLast) {
+  ResidentCache<Block> cache(4, 25);
+  int made = 0;
+  const auto get = [&](size_t i) {
+    return cache.get(i, [&] { return ++made, std::make_shared<const Block>(Block{static_cast<int>(i)}); })->name;
+  };
+  EXPECT_EQ(get(0), 0);
+  EXPECT_EQ(get(1), 1);
+  EXPECT_EQ(get(0), 0);  // 1 is now the older
+  EXPECT_EQ(get(2), 2);
+  EXPECT_EQ(made, 3);
+  EXPECT_EQ(get(0), 0);
+  EXPECT_EQ(made, 3);
+  EXPECT_EQ(get(1), 1);
+  EXPECT_EQ(made, 4);
+  EXPECT_EQ(cache.figures().lookups, 6);
+  EXPECT_EQ(cache.figures().misses, 4);
+  EXPECT_EQ(cache.figures().mostBytes, 20);
+}
+
+TEST(PackedNormal, IsOffByLittle) {
+  for (uint32_t i = 0; i < 10000; ++i) {
+    const vec3 n = anyDirection(i);
+    EXPECT_LT(glm::length(unpackNormal(packNormal(n)) - n), 7e-5f);
+  }
+  for (const vec3& axis : {vec3(1, 0, 0), vec3(0, -1, 0), vec3(0, 0, 1), vec3(0, 0, -1)}) EXPECT_LT(glm::length(unpackNormal(packNormal(axis)) - axis), 1e-6f);
+}
+
+}  // namespace
+}  // namespace tomales::test
