@@ -4,6 +4,7 @@
 
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "gi/point_file.h"
 
@@ -39,6 +40,42 @@ std::vector<double> boxAreas(const Scene& scene) {
   return areas;
 }
 
+/// Counted up when the same inputs begin to make other files.
+constexpr uint32_t kMethod = 1;
+
+uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
+  const auto& [emit, maxDepth, seed] = settings.photons;
+  return contentSum(kMethod, settings.world, names, emit, maxDepth, seed);
+}
+
+uint64_t irradianceInputs(const PointFile& photons, const PhotonIrradianceSettings& settings) {
+  const auto& [nearest, every, maxRadius] = settings;
+  return contentSum(kMethod, photons.contents(), nearest, every, maxRadius);
+}
+
+uint64_t brickInputs(const PointFile& points, const BrickSettings& settings) {
+  const auto& [maxError, maxDepth, radiusScale, ignoreNormals] = settings;
+  return contentSum(kMethod, points.contents(), maxError, maxDepth, radiusScale, ignoreNormals);
+}
+
+/// Of a file that may be missing or damaged: then not known.
+MadeFrom pointsMadeFrom(const fs::path& path) {
+  try {
+    return PointFile(path.string()).madeFrom();
+  } catch (const FileError&) {
+    return {};
+  }
+}
+
+MadeFrom bricksMadeFrom(const fs::path& path) {
+  try {
+    BrickCache none(0);
+    return BrickMap(path.string(), none).madeFrom();
+  } catch (const FileError&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 float meanOf(const PointCloud& cloud) {
@@ -47,14 +84,14 @@ float meanOf(const PointCloud& cloud) {
   return cloud.data.empty() ? 0.0f : static_cast<float>(sum / static_cast<double>(cloud.data.size()));
 }
 
-std::vector<std::string> mapNames(const Scene& scene, const AtlasSettings& settings) {
+MapNames mapNames(const Scene& scene, const AtlasSettings& settings) {
   std::vector<double> areas = boxAreas(scene);
   for (size_t g = 0; g < areas.size(); ++g)
     if (!scene.groups[g].attributes->photon.globalMap.empty()) areas[g] = 0;
   const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
   const double share = total * std::min(1.0, static_cast<double>(settings.mostPhotonBytes) /
                                                  (kStoredBytes * static_cast<double>(settings.photons.emit)));
-  std::vector<std::string> names;
+  MapNames names;
   double before = 0;  // groups follow each other as objects do in the scene: neighbours in its hierarchy stay together
   for (size_t g = 0; g < areas.size(); ++g) {
     const std::string& given = scene.groups[g].attributes->photon.globalMap;
@@ -65,9 +102,8 @@ std::vector<std::string> mapNames(const Scene& scene, const AtlasSettings& setti
 }
 
 PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
-                           const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
+                           const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
   makeFolder(folder);
-  const std::vector<std::string> names = mapNames(scene, settings);
   std::map<std::string, PointFileWriter> files;
   std::vector<PointFileWriter*> fileOfGroup;
   for (const std::string& name : names)
@@ -82,7 +118,7 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
       },
       progress, stats, log);
   for (auto& [name, file] : files) {
-    file.finish();
+    file.finish({settings.world, photonInputs(names, settings)});
     if (file.count() == 0)
       log.report(Severity::Warning, "photons-none-" + name, {}, fmt::format("no photon came to the objects of photon map \"{}\"", name));
   }
@@ -95,43 +131,59 @@ void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonI
   const PointFile file(photons.string());
   PointCloud cloud = file.readAll();
   if (cloud.offsetOf("power") < 0) throw FileError(fmt::format("\"{}\" is no photon map: it has no channel \"power\"", photons.string()));
-  writePointFile(estimateIrradiance(cloud, settings), out.string());
+  writePointFile(estimateIrradiance(cloud, settings), out.string(), {file.madeFrom().world, irradianceInputs(file, settings)});
 }
 
 BuiltBricks writeIrradianceBricks(const fs::path& points, const fs::path& out, BrickSettings settings) {
-  const PointCloud cloud = PointFile(points.string()).readAll();
+  const PointFile file(points.string());
+  const PointCloud cloud = file.readAll();
+  const MadeFrom madeFrom{file.madeFrom().world, brickInputs(file, settings)};
   settings.maxError *= meanOf(cloud);
-  return writeBrickMap(cloud, settings, out.string());
+  return writeBrickMap(cloud, settings, out.string(), madeFrom);
 }
 
 void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
-                const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
+                const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
   const fs::path photons = folder / "photons", irradiance = folder / "irradiance";
   makeFolder(irradiance);
-  {
+  const std::set<std::string> maps(names.begin(), names.end());
+  const uint64_t inputs = photonInputs(names, settings);
+  const bool traced = std::all_of(maps.begin(), maps.end(), [&](const std::string& name) {
+    return pointsMadeFrom(fileOf(photons, name, ".ptc")).inputs == inputs;
+  });
+  if (!traced) {
     const StageTimer timer(stats, "photons");
-    writePhotons(photons, scene, rays, shading, settings, progress, stats, log);
+    writePhotons(photons, scene, rays, shading, names, settings, progress, stats, log);
   }
-  std::vector<std::string> names = mapNames(scene, settings);
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  for (const std::string& name : names) {
-    {
+  for (const std::string& name : maps) {
+    const fs::path from = fileOf(photons, name, ".ptc"), points = fileOf(irradiance, name, ".ptc"), bricks = fileOf(folder, name, ".bkm");
+    if (pointsMadeFrom(points).inputs != irradianceInputs(PointFile(from.string()), settings.irradiance)) {
       const StageTimer timer(stats, "irradiance");
-      writeIrradiance(fileOf(photons, name, ".ptc"), fileOf(irradiance, name, ".ptc"), settings.irradiance);
+      writeIrradiance(from, points, settings.irradiance);
+    }
+    if (bricksMadeFrom(bricks).inputs == brickInputs(PointFile(points.string()), settings.bricks)) {
+      ++stats.photons.groupsKept;
+      continue;
     }
     const StageTimer timer(stats, "brickmake");
-    writeIrradianceBricks(fileOf(irradiance, name, ".ptc"), fileOf(folder, name, ".bkm"), settings.bricks);
+    writeIrradianceBricks(points, bricks, settings.bricks);
   }
 }
 
-IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, const AtlasSettings& settings, size_t cacheBytes, Log& log)
+bool isMadeByHand(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder / "photons", error)) return false;
+  const fs::directory_iterator files(folder, error);
+  return !error && std::any_of(begin(files), end(files), [](const auto& entry) { return entry.path().extension() == ".bkm"; });
+}
+
+IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, const MapNames& names, size_t cacheBytes, Log& log)
     : cache_(cacheBytes),
       worldFromCurrent_(glm::inverse(scene.cameraFromWorldAtOpen())),
       worldFromCurrentScale_(std::cbrt(std::abs(glm::determinant(mat3(worldFromCurrent_))))),
       log_(log) {
   std::map<std::string, const BrickMap*> byName;
-  for (const std::string& name : mapNames(scene, settings)) {
+  for (const std::string& name : names) {
     auto [at, isNew] = byName.try_emplace(name, nullptr);
     const fs::path file = fileOf(folder, name, ".bkm");
     if (isNew && fs::exists(file)) {
@@ -144,6 +196,12 @@ IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, con
     }
     mapOfGroup_.push_back(at->second);
   }
+}
+
+std::optional<std::string> IrradianceAtlas::strange(uint64_t world) const {
+  for (const auto& map : maps_)
+    if (const uint64_t from = map->madeFrom().world; from != 0 && world != 0 && from != world) return map->path();
+  return std::nullopt;
 }
 
 vec3 IrradianceAtlas::irradianceOverPi(int group, const vec3& P, const vec3& N, float radius) const {

@@ -2,7 +2,8 @@
 // of objects, in a folder; and the lookup behind gather rays.
 //   FOLDER/photons/NAME.ptc  ->  FOLDER/irradiance/NAME.ptc  ->  FOLDER/NAME.bkm
 // Groups are named by Attribute "photon" "globalmap"; what has no name is shared out by size among "scene0", "scene1", ...
-// Files are in world space, so that another camera can use them. Irradiance in files is E in W/m2.
+// Files are in world space, so that another camera can use them. Irradiance in files is E in W/m2. Each names what it was made of
+// (MadeFrom), so that only what has changed since is made again.
 #pragma once
 #include <filesystem>
 
@@ -17,10 +18,12 @@ struct AtlasSettings {
   PhotonIrradianceSettings irradiance;
   BrickSettings bricks{0.03f};                ///< maxError: a share of the map's mean irradiance (the paper's is absolute)
   size_t mostPhotonBytes = 256 << 20;         ///< That the photons of one unnamed group are expected to take.
+  uint64_t world = 0;                         ///< worldSum() of the scene.
 };
 
 /// For each of Scene::groups, the name of its map.
-std::vector<std::string> mapNames(const Scene& scene, const AtlasSettings& settings);
+using MapNames = std::vector<std::string>;
+MapNames mapNames(const Scene& scene, const AtlasSettings& settings);
 
 /// Of all floats of a cloud; 0 if it is empty.
 float meanOf(const PointCloud& cloud);
@@ -29,21 +32,28 @@ using AtlasProgress = std::function<void(float)>;
 
 /// Photons into FOLDER, one file a map. Throws FileError.
 PhotonFigures writePhotons(const std::filesystem::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
-                           const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log);
+                           const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log);
 /// One photon map -> irradiance points. Throws FileError.
 void writeIrradiance(const std::filesystem::path& photons, const std::filesystem::path& out, const PhotonIrradianceSettings& settings);
 /// Irradiance points -> brick map; its maxError is relative to their mean. Throws FileError.
 BuiltBricks writeIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out, BrickSettings settings);
 
-/// All three for a scene. Throws FileError.
+/// All three for a scene, as far as the folder does not hold them yet: photons are traced again if the scene or their settings have
+/// changed, and groups to which the same photons come keep their maps. Throws FileError.
 void writeAtlas(const std::filesystem::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
-                const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log);
+                const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log);
+
+/// Brick maps without the photons that they came from: somebody put them there, and they are used as they are.
+bool isMadeByHand(const std::filesystem::path& folder);
 
 /// The brick maps of a folder. Threads: lookups are concurrent.
 class IrradianceAtlas {
  public:
   /// Maps that are missing are black, with a warning: nothing was lit there. Throws FileError where one is damaged.
-  IrradianceAtlas(const std::filesystem::path& folder, const Scene& scene, const AtlasSettings& settings, size_t cacheBytes, Log& log);
+  IrradianceAtlas(const std::filesystem::path& folder, const Scene& scene, const MapNames& names, size_t cacheBytes, Log& log);
+
+  /// Names a map that was made from another world than this, if there is one. 0 and maps that do not say: any.
+  std::optional<std::string> strange(uint64_t world) const;
 
   /// E/pi at P (current space) on the side of N, over a radius; 0 where there is nothing.
   vec3 irradianceOverPi(int group, const vec3& P, const vec3& N, float radius) const;
@@ -53,7 +63,7 @@ class IrradianceAtlas {
   mutable BrickCache cache_;
   mat4 worldFromCurrent_;
   float worldFromCurrentScale_;
-  std::vector<std::unique_ptr<const BrickMap>> maps_;
+  std::vector<std::unique_ptr<const BrickMap>> maps_;  ///< By name.
   std::vector<const BrickMap*> mapOfGroup_;  ///< Null: no photon came there.
   Log& log_;
 };

@@ -19,6 +19,8 @@ class BrickMap {
   const std::vector<CloudChannel>& channels() const { return channels_; }
   int width() const { return width_; }  ///< Floats of one lookup.
   const BrickTree& tree() const { return tree_; }
+  const std::string& path() const { return file_.path(); }
+  const MadeFrom& madeFrom() const { return madeFrom_; }
   uint64_t fileBytes() const { return file_.fileBytes(); }
 
   /// Data around P on surfaces that face as N does (N zero: whatever they face), averaged over a cube of half width `radius`:
@@ -32,6 +34,7 @@ class BrickMap {
   struct Sum;
   void addLevel(int level, const vec3& P, const vec3& N, float halfWidth, float weight, Sum& sum) const;
   void addVoxel(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum, int depth) const;
+  void find(int level, const glm::ivec3& voxel, Sum& sum) const;
   BrickPtr cached(int32_t node) const;
 
   ChunkReader file_;
@@ -40,9 +43,10 @@ class BrickMap {
   std::vector<CloudChannel> channels_;
   int width_ = 0;
   BrickTree tree_;
+  MadeFrom madeFrom_;
 };
 
 /// Makes FILE.bkm of a cloud. Throws FileError.
-BuiltBricks writeBrickMap(const PointCloud& cloud, const BrickSettings& settings, const std::string& path);
+BuiltBricks writeBrickMap(const PointCloud& cloud, const BrickSettings& settings, const std::string& path, const MadeFrom& madeFrom = {});
 
 }  // namespace tomales

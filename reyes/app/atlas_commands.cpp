@@ -75,8 +75,9 @@ void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, 
   const Camera camera(scene.options);
   const RayScene rays(scene, camera, shading, settings.hitList, stats, log);
   const StageTimer timer(stats, "photons");
+  const AtlasSettings atlas = atlasSettings(settings, scene);
   const PhotonFigures figures =
-      writePhotons(settings.output, scene, rays, shading, atlasSettings(settings, scene), {}, stats, log);
+      writePhotons(settings.output, scene, rays, shading, mapNames(scene, atlas), atlas, {}, stats, log);
   if (settings.verbosity != Log::Verbosity::Quiet)
     fmt::print("{} photons emitted, {} stored in {}\n", figures.emitted, figures.stored, settings.output);
 }
@@ -111,26 +112,27 @@ int brickmakeCommand(const BrickmakeCommand& command) {
     const std::vector<fs::path> files = pointFiles(command.inputs);
     const bool one = fs::path(command.output).extension() == ".bkm";
     if (!one) makeFolder(command.output);
-    const auto make = [&](const PointCloud& cloud, const fs::path& out) {
+    const auto make = [&](const PointCloud& cloud, const fs::path& out, uint64_t world) {
       BrickSettings settings = command.settings;
       if (command.relative) settings.maxError *= meanOf(cloud);
-      const BuiltBricks built = writeBrickMap(cloud, settings, out.string());
+      const BuiltBricks built = writeBrickMap(cloud, settings, out.string(), {world, 0});
       fmt::print("{}: {} points, {} bricks, {} left out, {} levels\n", out.string(), cloud.count(), built.tree.nodes.size(),
                  built.eliminated, built.tree.deepest + 1);
     };
     PointCloud all;
+    uint64_t world = 0;
     for (const fs::path& file : files) {
+      const PointFile part(file.string());
       if (!one) {
-        make(PointFile(file.string()).readAll(), fs::path(command.output) / file.filename().replace_extension(".bkm"));
+        make(part.readAll(), fs::path(command.output) / fs::path(file).filename().replace_extension(".bkm"), part.madeFrom().world);
         continue;
       }
-      const PointFile part(file.string());
       if (!all.channels.empty() && all.channels != part.channels())
         throw FileError(fmt::format("\"{}\" has other channels than the files before", file.string()));
-      all.channels = part.channels();
+      all.channels = part.channels(), world = part.madeFrom().world;
       for (size_t i = 0; i < part.chunkCount(); ++i) part.read(i, all);
     }
-    if (one) make(all, command.output);
+    if (one) make(all, command.output, world);
   });
   return exitCodeOf(log);
 }
