@@ -69,8 +69,7 @@ MadeFrom pointsMadeFrom(const fs::path& path) {
 
 MadeFrom bricksMadeFrom(const fs::path& path) {
   try {
-    BrickCache none(0);
-    return BrickMap(path.string(), none).madeFrom();
+    return BrickFile(path.string()).madeFrom();
   } catch (const FileError&) {
     return {};
   }
@@ -200,7 +199,7 @@ IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, con
 
 std::optional<std::string> IrradianceAtlas::strange(uint64_t world) const {
   for (const auto& map : maps_)
-    if (const uint64_t from = map->madeFrom().world; from != 0 && world != 0 && from != world) return map->path();
+    if (const uint64_t from = map->file().madeFrom().world; from != 0 && world != 0 && from != world) return map->file().path();
   return std::nullopt;
 }
 
@@ -219,7 +218,7 @@ vec3 IrradianceAtlas::irradianceOverPi(int group, const vec3& P, const vec3& N, 
 
 void IrradianceAtlas::report(Stats& stats) const {
   int64_t total = 0, onDisk = 0;
-  for (const auto& map : maps_) total += static_cast<int64_t>(map->tree().nodes.size()), onDisk += static_cast<int64_t>(map->fileBytes());
+  for (const auto& map : maps_) total += static_cast<int64_t>(map->file().tree().nodes.size()), onDisk += static_cast<int64_t>(map->file().fileBytes());
   stats.bricks.total += total, stats.bricks.bytesOnDisk += onDisk;
   stats.bricks.lookups += cache_.lookups(), stats.bricks.misses += cache_.misses();
   stats.bricks.cacheBytes += static_cast<int64_t>(cache_.bytes());

@@ -44,8 +44,9 @@ Estimate estimate(const PointCloud& photons, const PhotonTree& tree, int power, 
   const vec3 P = tree.position(at), N = tree.normal(at);
   const auto most = static_cast<size_t>(settings.nearest);
   tree.nearest(P, N, most, settings.maxRadius, heap);
-  // The farthest gives the radius and does not count: n - 1 inside is what a disk that just excludes the n-th has.
-  const float r2 = heap.size() == most ? heap.front().distance2 : std::min(settings.maxRadius * settings.maxRadius, heap.front().distance2);
+  // The farthest gives the radius and does not count: n - 1 inside is what a disk that just excludes the n-th has. Fewer: as far as they
+  // reach, unless they are so few that two which happen to be close would shine.
+  const float r2 = heap.size() >= std::min(kFew, most) ? heap.front().distance2 : settings.maxRadius * settings.maxRadius;
   if (!(r2 > 0)) return {vec3(0.0f), 0};
   std::sort(heap.begin(), heap.end());  // sums in the order of distance, which no thread decides
   const size_t inside = heap.size() == most ? most - 1 : heap.size();

@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "gi/packed_normal.h"
+#include "reyes/base/packed_normal.h"
 
 namespace tomales {
 namespace {

@@ -74,14 +74,4 @@ class PatchTree {
   std::vector<std::vector<Bound3>> levels_;
 };
 
-/// Lengths in camera space of a rectangle's longest u and v lines, and the raster lengths when the camera sees it:
-/// what dicing and ray tessellation choose their rates from.
-struct PatchSize {
-  float u_px = 0, v_px = 0, u_length = 0, v_length = 0;
-  int uLeast = 1, vLeast = 1;  ///< Cells without which a line that bends round would enclose nothing.
-  float uBend_px = 0, vBend_px = 0;  ///< Largest second differences of four stretches of a line, across it.
-  Bound3 probes;  ///< Around the points that were measured, in camera space.
-};
-PatchSize measure(const Object& object, const Camera& camera, uint32_t patch, const UvRect& rect);
-
 }  // namespace tomales

@@ -1,7 +1,5 @@
 #include "reyes/dice.h"
 
-#include <gtest/gtest.h>
-
 #include "tests/unit/split/test_scene.h"
 
 namespace tomales {

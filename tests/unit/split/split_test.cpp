@@ -1,41 +1,9 @@
-#include "reyes/split.h"
-
-#include <gtest/gtest.h>
-
-#include <bit>
-#include <numeric>
-
 #include "reyes/dice.h"
 #include "tests/unit/split/test_scene.h"
 
 namespace tomales {
 namespace {
-using test::sceneOf;
-using test::sphere;
-using test::translation;
-
-PrimPtr quad(float size, float y) {
-  Problems problems;
-  Param P;
-  P.name = "P", P.type = ValueType::Point, P.storage = Storage::Vertex;
-  P.floats = {-size, y, -size, size, y, -size, -size, y, size, size, y, size};
-  return makeBilinearPatchMesh(2, false, 2, false, {P}, problems);
-}
-std::vector<SubPatch> split(const Scene& scene, Stats& stats, Log& log) {
-  const Camera camera(scene.options);
-  std::vector<SubPatch> all;
-  for (int o = 0; o < static_cast<int>(scene.objects.size()); ++o) {
-    std::vector<uint32_t> patches(scene.objects[static_cast<size_t>(o)].shape().patchCount());
-    std::iota(patches.begin(), patches.end(), 0U);
-    const auto pieces = splitPatches(scene, o, patches, camera, camera.crop(), stats, log);
-    all.insert(all.end(), pieces.begin(), pieces.end());
-  }
-  return all;
-}
-std::vector<SubPatch> split(const Scene& scene, Stats& stats) {
-  Log log(Log::Verbosity::Quiet);
-  return split(scene, stats, log);
-}
+using namespace test;
 
 TEST(Split, PiecesOfAPatchCoverItOnceWhenAllOfItIsInView) {
   const Scene scene = sceneOf({sphere()}, translation({0, 0, 4}));
@@ -46,15 +14,6 @@ TEST(Split, PiecesOfAPatchCoverItOnceWhenAllOfItIsInView) {
     EXPECT_LE(p.nu * p.nv, scene.options.gridSize);
   }
   EXPECT_DOUBLE_EQ(covered, 1.0);
-}
-
-TEST(Split, ClosedShapesKeepAShapeHoweverSmall) {
-  const Scene scene = sceneOf({sphere(1e-3f)}, translation({0, 0, 4}));
-  Stats stats;
-  const std::vector<SubPatch> pieces = split(scene, stats);
-  ASSERT_EQ(pieces.size(), 1u);
-  EXPECT_GE(pieces[0].nu, 6);
-  EXPECT_GE(pieces[0].nv, 4);
 }
 
 TEST(Split, EndsWhenToldToStop) {
@@ -146,72 +105,6 @@ TEST(Split, WhatOnlyItsBlurBringsIntoViewIsKept) {
   EXPECT_FALSE(split(lens, stats).empty());
 }
 
-size_t micropolygons(const Scene& scene) {
-  Stats stats;
-  size_t n = 0;
-  for (const SubPatch& p : split(scene, stats)) n += static_cast<size_t>(p.nu) * static_cast<size_t>(p.nv);
-  return n;
-}
-
-Scene withFactors(Scene scene, float motion, float focus) {
-  auto attributes = std::make_shared<Attributes>(*scene.objects[0].attributes);
-  attributes->motionFactor = motion, attributes->focusFactor = focus;
-  scene.objects[0].attributes = attributes;
-  scene.freeze();
-  return scene;
-}
-
-TEST(Split, GeometricApproximationLeavesWhatIsStillAndSharpAlone) {
-  const Scene scene = sceneOf({sphere()}, translation({0, 0, 4}));
-  EXPECT_EQ(micropolygons(withFactors(scene, 0, 0)), micropolygons(withFactors(scene, 5, 5)));
-}
-
-TEST(Split, FocusFactorDicesWhatIsBlurredCoarser) {
-  Scene scene = sceneOf({sphere()}, translation({0, 0, 4}));
-  // Circle of confusion at z = 4: 128 / (2 tan 30) * lens diameter * |1/12 - 1/4| = 18.5 d; 32 px.
-  scene.options.fStop = 1, scene.options.focalDistance = 12, scene.options.focalLength = 32 / 18.475f;
-  const double sharp = static_cast<double>(micropolygons(withFactors(scene, 0, 0)));
-  // Edges of 8 px, the bounds of pieces letting some off.
-  EXPECT_LT(static_cast<double>(micropolygons(withFactors(scene, 0, 1))), sharp / 25);
-  EXPECT_GT(static_cast<double>(micropolygons(withFactors(scene, 0, 0.25f))), sharp / 10);
-}
-
-TEST(Split, ASmallBallFarOutOfFocusKeepsAShape) {
-  Scene scene = sceneOf({sphere(0.15f)}, translation({0, 0, 12}));
-  scene.options.fStop = 0.1f, scene.options.focalDistance = 2, scene.options.focalLength = 0.2f;
-  Stats stats;
-  scene.freeze();
-  for (const SubPatch& p : split(scene, stats)) {
-    EXPECT_GE(p.nu, 3);
-    EXPECT_GE(p.nv, 2);
-  }
-}
-
-TEST(Split, MotionFactorDicesWhatMovesFarCoarser) {
-  Scene scene = sceneOf({sphere(0.3f)}, translation({0, 0, 4}));
-  scene.options.shutterClose = 1;
-  scene.objects[0].worldFromObject = {{0, 1}, {translation({-0.5f, 0, 4}), translation({0.5f, 0, 4})}};
-  // 128 / (2 tan 30) / 4 = 27.7 px: areas of 6.9 px2 with factor 1.
-  const double fine = static_cast<double>(micropolygons(withFactors(scene, 0, 1)));
-  EXPECT_NEAR(fine / static_cast<double>(micropolygons(withFactors(scene, 1, 1))), 6.9, 1.5);
-}
-
-TEST(Split, MicropolygonsAreNoLargerThanTheShadingRateAsks) {
-  for (const float rate : {0.25f, 1.0f, 4.0f}) {
-    const Scene scene = sceneOf({sphere()}, translation({0, 0, 4}), rate);
-    const Camera camera(scene.options);
-    Stats stats;
-    for (const SubPatch& p : split(scene, stats)) {
-      const Grid g = dice(scene, p.object, p.patch, p.rect, p.nu, p.nv, 1);
-      for (int j = 0; j <= g.nv; ++j)
-        for (int i = 0; i < g.nu; ++i) {
-          const int k = j * (g.nu + 1) + i;
-          EXPECT_LT(glm::length(camera.raster(g.position(0, k + 1)) - camera.raster(g.position(0, k))), 1.35f * std::sqrt(rate));
-        }
-    }
-  }
-}
-
 TEST(Split, AGroundPlaneThroughTheEyeEndsInFinitelyManyPieces) {
   // The plane runs from far behind the camera to far in front, a little below the eye.
   const Scene scene = sceneOf({quad(1000, -1.0f)}, mat4(1.0f), 1, 64);
@@ -262,32 +155,6 @@ TEST(Split, ASurfaceThroughTheEyeNeedsFewPieces) {
   EXPECT_TRUE(std::any_of(pieces.begin(), pieces.end(), [](const SubPatch& p) { return p.crossesEye; }));
 }
 
-Scene withDicing(Scene scene, bool binary, bool rasterOrient) {
-  auto attributes = std::make_shared<Attributes>(*scene.objects[0].attributes);
-  attributes->binaryDice = binary, attributes->rasterOrient = rasterOrient;
-  scene.objects[0].attributes = std::move(attributes);
-  return scene;
-}
-
-TEST(Split, BinaryDicingMakesPowersOfTwo) {
-  Stats stats;
-  for (const SubPatch& p : split(withDicing(sceneOf({sphere()}, translation({0, 0, 4})), true, true), stats)) {
-    EXPECT_TRUE(std::has_single_bit(static_cast<unsigned>(p.nu)) && std::has_single_bit(static_cast<unsigned>(p.nv)));
-    EXPECT_LE(p.nu * p.nv, 256);
-  }
-}
-
-TEST(Split, WithoutRasterOrientAForeshortenedPatchIsDicedAsIfItFacedTheEye) {
-  Stats stats;
-  const auto cells = [&](bool rasterOrient) {
-    int64_t n = 0;
-    for (const SubPatch& p : split(withDicing(sceneOf({quad(1, -0.2f)}, translation({0, 0, 8})), false, rasterOrient), stats))
-      n += int64_t{p.nu} * p.nv;
-    return n;
-  };
-  EXPECT_GT(cells(false), 4 * cells(true));
-}
-
 TEST(Split, AHugeDisplacementBoundLosesNothing) {
   Scene scene = sceneOf({sphere()}, translation({0, 0, 4}), 1, 64);
   scene.objects[0].displacementBound = 1e9f;
@@ -326,50 +193,6 @@ TEST(Split, DoesNotDependOnTheCrop) {
     EXPECT_TRUE(std::any_of(whole.begin(), whole.end(), [&](const SubPatch& w) {
       return w.object == c.object && w.rect.u0 == c.rect.u0 && w.rect.u1 == c.rect.u1 && w.rect.v0 == c.rect.v0 && w.nu == c.nu && w.nv == c.nv;
     }));
-}
-
-TEST(PatchTree, BoxesOfEveryLevelHoldThePatchesBelow) {
-  std::vector<Param> params(1);
-  params[0].name = "P", params[0].type = ValueType::Point, params[0].storage = Storage::Vertex;
-  const int n = 61;  // 3600 patches: 57 leaves, 4 boxes of leaves, 1.
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i)
-      for (const float x : {static_cast<float>(i), static_cast<float>(j), static_cast<float>(i * j % 7)})
-        params[0].floats.push_back(x);
-  Problems problems;
-  const PrimPtr mesh = makeBilinearPatchMesh(n, false, n, false, params, problems);
-  const PatchTree tree({mesh});
-  ASSERT_EQ(tree.top(), 2u);
-  EXPECT_EQ(tree.count(0), 57u);
-  EXPECT_EQ(tree.count(2), 1u);
-  const auto holds = [](const Bound3& out, const Bound3& in) {
-    return glm::all(glm::lessThanEqual(out.lo, in.lo)) && glm::all(glm::greaterThanEqual(out.hi, in.hi));
-  };
-  std::vector<int> found(mesh->patchCount());
-  float longest = 0;
-  for (uint32_t leaf = 0; leaf < tree.count(0); ++leaf) {
-    for (const uint32_t p : tree.patches(leaf)) {
-      ++found[p];
-      for (uint32_t level = 0, index = leaf; level <= tree.top(); ++level, index /= PatchTree::kFan)
-        EXPECT_TRUE(holds(tree.box(level, index), mesh->bound(p, UvRect{})));
-    }
-    longest += std::max(tree.box(0, leaf).size().x, tree.box(0, leaf).size().y) / 57;
-  }
-  for (const int times : found) EXPECT_EQ(times, 1);
-  EXPECT_LT(longest, 30);  // Row by row a leaf is 60 long.
-}
-
-TEST(PlaceBox, ACrossedEyePlaneIsTheWholeWindowAndWhatIsBehindIsNowhere) {
-  const Scene scene = sceneOf({sphere()}, mat4(1.0f));
-  const Camera camera(scene.options);
-  const auto place = [&](float z) {
-    return placeBox({vec3(-1), vec3(1)}, Motion::still(translation({0, 0, z})), {0.0f}, 0, camera, camera.crop());
-  };
-  EXPECT_FALSE(place(-3).has_value());
-  ASSERT_TRUE(place(0).has_value());
-  EXPECT_LE(place(0)->raster.lo.x, 0);
-  EXPECT_GE(place(0)->raster.hi.y, 128);
-  EXPECT_FLOAT_EQ(place(5)->zMin, 4);
 }
 
 }  // namespace

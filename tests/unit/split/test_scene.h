@@ -1,6 +1,10 @@
 // A scene of hand-placed primitives for tests of splitting and dicing.
 #pragma once
-#include "reyes/scene.h"
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "reyes/split.h"
 
 namespace tomales::test {
 
@@ -32,6 +36,31 @@ inline mat4 translation(const vec3& t) {
   mat4 m(1.0f);
   m[3] = vec4(t, 1);
   return m;
+}
+
+inline PrimPtr quad(float size, float y) {
+  Problems problems;
+  Param P;
+  P.name = "P", P.type = ValueType::Point, P.storage = Storage::Vertex;
+  P.floats = {-size, y, -size, size, y, -size, -size, y, size, size, y, size};
+  return makeBilinearPatchMesh(2, false, 2, false, {P}, problems);
+}
+
+/// Of all objects, in view of the whole frame.
+inline std::vector<SubPatch> split(const Scene& scene, Stats& stats, Log& log) {
+  const Camera camera(scene.options);
+  std::vector<SubPatch> all;
+  for (int o = 0; o < static_cast<int>(scene.objects.size()); ++o) {
+    std::vector<uint32_t> patches(scene.objects[static_cast<size_t>(o)].shape().patchCount());
+    std::iota(patches.begin(), patches.end(), 0U);
+    const auto pieces = splitPatches(scene, o, patches, camera, camera.crop(), stats, log);
+    all.insert(all.end(), pieces.begin(), pieces.end());
+  }
+  return all;
+}
+inline std::vector<SubPatch> split(const Scene& scene, Stats& stats) {
+  Log log(Log::Verbosity::Quiet);
+  return split(scene, stats, log);
 }
 
 }  // namespace tomales::test

@@ -1,27 +1,8 @@
-#include "tests/unit/prim/support.h"
+#include "tests/unit/prim/thin.h"
 
 namespace tomales {
 namespace {
 using namespace test;
-
-const vec3 kEye(0.3f, 0.4f, -10);
-
-float noise(uint32_t i) { return 2 * unitFloat(hash32(i + 4321)) - 1; }
-
-std::vector<float> wiggle(int n) {
-  std::vector<float> p;
-  for (int i = 0; i < n; ++i)
-    for (int axis = 0; axis < 3; ++axis)
-      p.push_back((axis == 0 ? i : 0) + noise(static_cast<uint32_t>(3 * i + axis)) * 0.6f);
-  return p;
-}
-
-Param width(Storage storage, std::vector<float> values) {
-  return floats(storage == Storage::Constant ? "constantwidth" : "width", storage, ValueType::Float,
-                std::move(values));
-}
-
-PrimPtr seen(const PrimPtr& prim) { return prim->facing(kEye, {0, 0, 1}, true); }
 
 PrimPtr curves(bool cubic, const Basis& basis, const std::vector<int>& counts, bool periodic,
                ParamList params) {
@@ -256,117 +237,6 @@ TEST(NastyCurves, WrongInputThrowsASentence) {
   EXPECT_NE(errorWith(false, bezierBasis(), {2}, {positions(wiggle(2)), width(Storage::Constant, {-1})}), "");
   EXPECT_NE(errorWith(false, bezierBasis(), {2}, {positions(wiggle(2)), width(Storage::Varying, {1, NAN})}),
             "");
-}
-
-PrimPtr points(ParamList params) {
-  Problems problems;
-  const PrimPtr prim = makePoints(params, problems);
-  EXPECT_TRUE(problems.empty());
-  return prim;
-}
-
-TEST(Points, AreDisksOfTheirWidth) {
-  const PrimPtr prim = seen(points({positions(wiggle(3)), width(Storage::Varying, {1, 2, 0.5f})}));
-  ASSERT_EQ(prim->patchCount(), 3u);
-  EXPECT_NEAR(dicedArea(*prim, 64), M_PI / 4 * (1 + 4 + 0.25), 0.01);
-  expectSoundEverywhere(*prim);
-  expectBoundsContainTheSurface(*prim);
-  expectDerivativesOfPositions(*prim, 1e-3f);
-  const float radius[] = {0.5f, 1, 0.25f};
-  for (uint32_t patch = 0; patch < 3; ++patch) {
-    const vec3 center = sampleAt(*prim, patch, 0.5f, 0.5f).p;
-    for (float t : {0.0f, 0.3f, 0.8f})
-      EXPECT_NEAR(glm::length(sampleAt(*prim, patch, t, 1).p - center), radius[patch], 1e-5f);
-    EXPECT_LT(
-        glm::length(glm::normalize(sampleAt(*prim, patch, 0.2f, 0.9f).n) - glm::normalize(kEye - center)),
-        1e-5f);
-  }
-}
-
-/// Of the polygons that a lattice over a patch makes.
-double latticeArea(const Prim& prim, uint32_t patch, int nu, int nv) {
-  std::vector<float> u, v;
-  for (int j = 0; j <= nv; ++j)
-    for (int i = 0; i <= nu; ++i) u.push_back(static_cast<float>(i) / nu), v.push_back(static_cast<float>(j) / nv);
-  std::vector<float> f[12];
-  for (auto& array : f) array.resize(u.size());
-  prim.evaluateLattice(patch, nu, nv, u.data(), v.data(),
-                       {f[0].data(), f[1].data(), f[2].data(), f[3].data(), f[4].data(), f[5].data(), f[6].data(),
-                        f[7].data(), f[8].data(), f[9].data(), f[10].data(), f[11].data()});
-  const auto at = [&](int i, int j) {
-    const size_t k = static_cast<size_t>(j * (nu + 1) + i);
-    const glm::dvec3 p(f[0][k], f[1][k], f[2][k]);
-    const Bound3 bound = prim.bound(patch, {});
-    EXPECT_TRUE(p == glm::clamp(p, glm::dvec3(bound.lo), glm::dvec3(bound.hi)));
-    return p;
-  };
-  double area = 0;
-  for (int j = 0; j < nv; ++j)
-    for (int i = 0; i < nu; ++i)
-      area += glm::length(glm::cross(at(i + 1, j + 1) - at(i, j), at(i, j + 1) - at(i + 1, j))) / 2;
-  return area;
-}
-
-TEST(Points, FewPolygonsHaveTheAreaOfTheDiskTheyStandFor) {
-  const PrimPtr prim = seen(points({positions({1, 2, 3}), width(Storage::Constant, {0.5f})}));
-  for (int nu = 1; nu < 6; ++nu)
-    for (int nv = 1; nv < 6; ++nv) EXPECT_NEAR(latticeArea(*prim, 0, nu, nv), M_PI / 16, 1e-6) << nu << ' ' << nv;
-}
-
-TEST(Points, OfTypeSphereAreSpheres) {
-  Param type;
-  type.name = "type", type.storage = Storage::Constant, type.type = ValueType::String, type.strings = {"sphere"};
-  const PrimPtr prim = points({positions({1, 2, 3, 0, 0, 0}), width(Storage::Vertex, {0.5f, 4}), type});
-  EXPECT_EQ(prim->facing(kEye, {0, 0, 1}, true), nullptr);
-  expectSoundEverywhere(*prim);
-  expectBoundsContainTheSurface(*prim);
-  expectDerivativesOfPositions(*prim, 1e-3f);
-  for (const float t : {0.0f, 0.2f, 0.7f, 1.0f})
-    EXPECT_NEAR(glm::length(sampleAt(*prim, 1, t, 0.3f * t).p), 2, 1e-6f);
-  expectAreaAtSecondOrder(*points({positions({1, 2, 3}), width(Storage::Constant, {2}), type}), 4 * M_PI);
-  for (const int n : {3, 5, 9}) EXPECT_NEAR(latticeArea(*prim, 0, n, n - 1), M_PI / 4, 1e-6) << n;
-}
-
-TEST(Points, OfOtherTypesSayWhatTheyAre) {
-  for (const char* name : {"patch", "blobby", "wrong"}) {
-    Param type;
-    type.name = "type", type.storage = Storage::Constant, type.type = ValueType::String, type.strings = {name};
-    Problems problems;
-    EXPECT_EQ(makePoints({positions({0, 0, 0}), type}, problems)->patchCount(), 1u);
-    EXPECT_EQ(problems.size(), 1u);
-  }
-}
-
-TEST(Points, FaceTheirNormalIfTheyHaveOne) {
-  const PrimPtr prim = points({positions({0, 0, 0, 5, 0, 0}), width(Storage::Constant, {2}),
-                               floats("N", Storage::Varying, ValueType::Normal, {0, 2, 0, 1, 0, 0})});
-  EXPECT_EQ(prim->facing(kEye, {0, 0, 1}, true), nullptr);
-  EXPECT_EQ(sampleAt(*prim, 0, 0.3f, 0.3f).n, vec3(0, 1, 0));
-  EXPECT_EQ(sampleAt(*prim, 1, 0.3f, 0.3f).n, vec3(1, 0, 0));
-  EXPECT_NEAR(prim->bound(1, {}).size().x, 0, 1e-4f);
-  EXPECT_LT(prim->bound(0, {0.4f, 0.6f, 0.4f, 0.6f}).size().x, 0.45f);
-}
-
-TEST(Points, ValuesBelongToTheirPoint) {
-  const PrimPtr prim =
-      points({positions({0, 0, 0, 5, 0, 0}), floats("c", Storage::Varying, ValueType::Float, {3, 4}),
-              floats("k", Storage::Constant, ValueType::Float, {9})});
-  EXPECT_EQ(primvarAt(*prim, 1, 0, 0.2f, 0.3f)[0], 4);
-  EXPECT_EQ(primvarAt(*prim, 1, 1, 0.2f, 0.3f)[0], 9);
-}
-
-TEST(NastyPoints, WrongInputThrowsASentenceAndNoWidthIsSound) {
-  Problems problems;
-  const auto errorWith = [&](const ParamList& params) {
-    return errorOf([&] { makePoints(params, problems); });
-  };
-  EXPECT_NE(errorWith({}), "");
-  EXPECT_NE(errorWith({positions({})}), "");
-  EXPECT_NE(errorWith({positions({0, 0})}), "");
-  EXPECT_NE(errorWith({positions({0, 0, INFINITY})}), "");
-  EXPECT_NE(errorWith({positions({0, 0, 0}), width(Storage::Constant, {-1})}), "");
-  expectSoundEverywhere(*seen(points({positions({0, 0, 0}), width(Storage::Constant, {0})})));
-  expectSoundEverywhere(*seen(points({positions({kEye.x, kEye.y, kEye.z})})));
 }
 
 }  // namespace

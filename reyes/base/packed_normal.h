@@ -1,4 +1,4 @@
-// Private to gi: unit normals in 32 bits, as files have them.
+// Unit normals in 32 bits, as files have them.
 #pragma once
 #include "reyes/base/math.h"
 

@@ -1,11 +1,7 @@
-#include "reyes/split.h"
-
 #include <fmt/format.h>
 
-#include <bit>
-#include <numeric>
-
-#include "reyes/base/parallel.h"
+#include "reyes/split.h"
+#include "reyes/split/rate.h"
 
 namespace tomales {
 namespace {
@@ -65,21 +61,6 @@ std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
   return {a, b};
 }
 
-/// How far a chord may leave its arc, at any shading rate: a silhouette's error (docs/decisions/0034).
-constexpr float kFlat_px = 0.25f;
-
-/// Cells along `length_px`: fewer where blur lets edges grow by `coarsening`, but never so few, `least`, that the shape collapses, and
-/// so many that chords are flat. Binary: a power of two.
-int cells(float length_px, int least, float bend_px, float edge_px, float coarsening, bool binary) {
-  constexpr float kLeastOfCoarse = 4;
-  // A line that a quarter of it leaves by `bend_px` as a second difference: its n-th part bulges by 2 bend / n^2.
-  const float flat = std::min(std::ceil(std::sqrt(2 * bend_px / (kFlat_px * coarsening))), 64.0f);
-  const float fine = std::ceil(length_px / edge_px), coarse = std::ceil(length_px / (edge_px * coarsening));
-  const float n = std::max({coarse, std::min(fine, kLeastOfCoarse), static_cast<float>(least), flat});
-  const int count = n >= 1.0f ? static_cast<int>(std::min(n, 65536.0f)) : 1;
-  return binary ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(count))) : count;
-}
-
 /// Splits the patches of one object.
 class Splitter {
  public:
@@ -119,7 +100,7 @@ class Splitter {
     }
     const PatchSize size = measure(object_, camera_, patch, rect);
     const bool still = object_.keyTimes.size() == 1;
-    const float reach = size.u_length + size.v_length;
+    const float reach = size.u.length + size.v.length;
     if (still && depth >= kSlackDepth && glm::length(bare.size()) > kSlack * reach) {
       bare = size.probes.grown(reach);
       if (cannotBeSeen(bare)) return;
@@ -128,7 +109,7 @@ class Splitter {
     const bool crossesEye = crosses(bare);
     const float blur = coarsening(patch, rect, bound);
     const bool binary = object_.attributes->binaryDice;
-    const int nu = cells(size.u_px, size.uLeast, size.uBend_px, edge_px_, blur, binary), nv = cells(size.v_px, size.vLeast, size.vBend_px, edge_px_, blur, binary);
+    const int nu = cells(size.u, edge_px_, blur, binary), nv = cells(size.v, edge_px_, blur, binary);
     if (static_cast<int64_t>(nu) * nv <= gridSize_) {
       // What moves through the eye plane does so however small it is; it is seen while it stays in front.
       if (crossesEye && !still) ++givenUp_.atEye;
@@ -142,7 +123,7 @@ class Splitter {
     } else if (depth == kMaxDepth) {
       ++(bound.lo.z < glm::length(bound.size()) ? givenUp_.atEye : givenUp_.tooMany);
     } else {
-      const bool alongU = crossesEye ? size.u_length >= size.v_length : nu >= nv;
+      const bool alongU = crossesEye ? size.u.length >= size.v.length : nu >= nv;
       const auto [a, b] = halves(rect, alongU);
       split(patch, a, depth + 1, out);
       split(patch, b, depth + 1, out);
@@ -214,74 +195,6 @@ void report(const Splitter::GivenUp& givenUp, const Object& o, Stats& stats, Log
 
 }  // namespace
 
-namespace {
-
-/// Chords that a line takes, however short it is, to enclose something: it bends round (a meridian), or closes on itself (a parallel).
-int leastCells(float length, float endToEnd) { return endToEnd < 0.3f * length ? 6 : endToEnd < 0.8f * length ? 4 : 1; }
-
-/// The part of a second difference that lies across the line; what lies along it is mere speed.
-float bend(const vec2& before, const vec2& at, const vec2& after) {
-  const vec2 along = after - before, second = after - 2.0f * at + before;
-  const float length = glm::length(along);
-  if (!(length > 1e-3f * glm::length(second))) return glm::length(second);  // there and back
-  const float across = std::abs(along.x * second.y - along.y * second.x) / length;
-  return std::isfinite(across) ? across : 0;
-}
-
-/// Longest lines along u and v of the lattice of kProbes x kProbes chords.
-template <int kProbes>
-PatchSize measureLattice(const Object& o, const Camera& camera, uint32_t patch, const UvRect& r) {
-  constexpr int kRow = kProbes + 1, kCount = kRow * kRow;
-  float u[kCount], v[kCount], data[12][kCount];
-  for (int j = 0, k = 0; j < kRow; ++j)
-    for (int i = 0; i < kRow; ++i, ++k) {
-      u[k] = lerp(r.u0, r.u1, static_cast<float>(i) / kProbes);
-      v[k] = lerp(r.v0, r.v1, static_cast<float>(j) / kProbes);
-    }
-  o.shape().evaluate(patch, kCount, u, v,
-                     {data[0], data[1], data[2], data[3], data[4], data[5], data[6], data[7], data[8], data[9], data[10], data[11]});
-  const mat4 m = o.cameraFromObject.at(o.keyTimes.front());
-  vec3 p[kCount];
-  vec2 raster[kCount];
-  PatchSize size;
-  for (int k = 0; k < kCount; ++k) {
-    p[k] = transformPoint(m, {data[0][k], data[1][k], data[2][k]});
-    size.probes.extend(p[k]);
-    const vec3 inFront(p[k].x, p[k].y, std::max(p[k].z, camera.nearClip()));
-    raster[k] = camera.perspective() ? camera.raster(inFront) : camera.raster(p[k]);
-  }
-  const bool rasterOrient = o.attributes->rasterOrient;
-  for (int line = 0; line < kRow; ++line) {
-    float du_px = 0, dv_px = 0, du = 0, dv = 0;
-    for (int k = 0; k < kProbes; ++k) {
-      const int a = line * kRow + k, b = k * kRow + line;
-      const float lu = glm::length(p[a + 1] - p[a]), lv = glm::length(p[b + kRow] - p[b]);
-      du += lu;
-      dv += lv;
-      // Without rasterorient a micropolygon is as large as if it faced the camera (rispec-table 4, dice:rasterorient).
-      du_px += rasterOrient ? glm::length(raster[a + 1] - raster[a]) : lu / camera.pixelSize(p[a]);
-      if (k > 0) {
-        size.uBend_px = std::max(size.uBend_px, bend(raster[a - 1], raster[a], raster[a + 1]));
-        size.vBend_px = std::max(size.vBend_px, bend(raster[b - kRow], raster[b], raster[b + kRow]));
-      }
-      dv_px += rasterOrient ? glm::length(raster[b + kRow] - raster[b]) : lv / camera.pixelSize(p[b]);
-    }
-    size.u_px = std::max(size.u_px, du_px), size.v_px = std::max(size.v_px, dv_px);
-    size.u_length = std::max(size.u_length, du), size.v_length = std::max(size.v_length, dv);
-    const int u0 = line * kRow, v0 = line;
-    size.uLeast = std::max(size.uLeast, leastCells(du, glm::length(p[u0 + kProbes] - p[u0])));
-    size.vLeast = std::max(size.vLeast, leastCells(dv, glm::length(p[v0 + kProbes * kRow] - p[v0])));
-  }
-  return size;
-}
-
-}  // namespace
-
-PatchSize measure(const Object& o, const Camera& camera, uint32_t patch, const UvRect& r) {
-  // The lines of a flat patch are straight, and the longest is one of its edges.
-  return o.shape().info(patch).planar ? measureLattice<1>(o, camera, patch, r) : measureLattice<4>(o, camera, patch, r);
-}
-
 std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
                                   float margin, const Camera& camera, const PixelRect& window, bool clipped) {
   Bound3 bound;
@@ -324,54 +237,6 @@ std::vector<SubPatch> splitPiece(const Scene& scene, const SubPatch& coarse, con
   return piecesBy(Splitter(scene, coarse.object, camera, window, stats, Splitting::Lazily, stop),
                   scene.objects[static_cast<size_t>(coarse.object)], stats, log,
                   [&](Splitter& splitter, std::vector<SubPatch>& out) { splitter.splitPiece(coarse, out); });
-}
-
-namespace {
-
-/// Bits of x, two apart.
-uint32_t spread(uint32_t x) {
-  x = (x | (x << 16)) & 0x030000ffU;
-  x = (x | (x << 8)) & 0x0300f00fU;
-  x = (x | (x << 4)) & 0x030c30c3U;
-  return (x | (x << 2)) & 0x09249249U;
-}
-
-/// Place on Morton's curve of a point of a box, 10 bits an axis.
-uint32_t placeOnCurve(const vec3& p, const Bound3& box) {
-  const auto axis = [&](int k) {
-    const float size = box.hi[k] - box.lo[k], at = size > 0 ? (p[k] - box.lo[k]) / size : 0;
-    return static_cast<uint32_t>(at >= 0 ? std::min(at * 1024, 1023.0f) : 0.0f);  // NaN: 0
-  };
-  return spread(axis(0)) | spread(axis(1)) << 1 | spread(axis(2)) << 2;
-}
-
-}  // namespace
-
-PatchTree::PatchTree(const std::vector<PrimPtr>& shapes, StopFlag stop) : order_(shapes.front()->patchCount()) {
-  std::vector<Bound3> ofPatch(order_.size());
-  parallelFor(ofPatch.size(), kLeaf, [&](size_t begin, size_t end) {
-    for (size_t p = begin; p < end && !(stop && *stop); ++p)
-      for (const PrimPtr& shape : shapes) ofPatch[p].extend(shape->bound(static_cast<uint32_t>(p), UvRect{}));
-  });
-  std::iota(order_.begin(), order_.end(), 0U);
-  if (order_.size() > kLeaf) {
-    Bound3 all;
-    for (const Bound3& b : ofPatch)
-      if (isFinite(b.lo) && isFinite(b.hi)) all.extend(b);
-    std::vector<std::pair<uint32_t, uint32_t>> places(order_.size());
-    for (uint32_t p = 0; p < places.size(); ++p) places[p] = {placeOnCurve(ofPatch[p].center(), all), p};
-    std::sort(places.begin(), places.end());
-    for (size_t k = 0; k < places.size(); ++k) order_[k] = places[k].second;
-  }
-  std::vector<Bound3> boxes((order_.size() + kLeaf - 1) / kLeaf);
-  for (size_t k = 0; k < order_.size(); ++k) boxes[k / kLeaf].extend(ofPatch[order_[k]]);
-  levels_.push_back(std::move(boxes));
-  while (levels_.back().size() > 1) {
-    const std::vector<Bound3>& below = levels_.back();
-    std::vector<Bound3> above((below.size() + kFan - 1) / kFan);
-    for (size_t i = 0; i < below.size(); ++i) above[i / kFan].extend(below[i]);
-    levels_.push_back(std::move(above));
-  }
 }
 
 }  // namespace tomales

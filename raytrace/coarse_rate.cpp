@@ -1,0 +1,89 @@
+#include "raytrace/coarse_rate.h"
+
+#include <fmt/format.h>
+
+#include "raytrace/tessellate.h"
+#include "reyes/dice.h"
+
+namespace tomales {
+namespace {
+
+constexpr float kPolygon_px = 8;
+constexpr float kLeastPolygon_px = 1.5f;  ///< No polygon is smaller for the sake of its turn: far objects need few.
+constexpr float kTurn = 15 * kPi / 180;        ///< Radians between the normals at the ends of a polygon.
+constexpr float kEmitterTurn = 5 * kPi / 180;  ///< Brings the area of a sphere light within 0.5 %.
+constexpr int kProbes = 5;                     ///< Odd, so that a symmetrical wave is not met at its zeros.
+constexpr double kMostQuadsOfPatch = 1 << 22;
+
+float angleBetween(const vec3& a, const vec3& b) {
+  return std::acos(std::clamp(dot(normalizeOr(a, vec3(0)), normalizeOr(b, vec3(0))), -1.0f, 1.0f));
+}
+
+/// Longest lattice line of a patch, in pixels, and the most that the normal turns along one.
+struct LineFigures {
+  float length_px = 0, turn = 0;
+};
+
+LineFigures linesOf(const Grid& g, const Camera& camera, int alongStride, int acrossStride) {
+  LineFigures out;
+  for (int line = 0; line <= kProbes; ++line) {
+    LineFigures sum;
+    for (int k = 0; k < kProbes; ++k) {
+      const int a = line * acrossStride + k * alongStride, b = a + alongStride;
+      const vec3 p = g.position(0, a), q = g.position(0, b);
+      // The pixel size by distance is defined all around the eye, unlike raster coordinates. A chord past the eye counts as
+      // if it were half its length away: it fills the view whatever it is cut into.
+      const float pixel = std::max(camera.pixelSize(0.5f * (p + q)), camera.pixelSize(0.5f * (q - p)));
+      sum.length_px += glm::length(q - p) / std::max(pixel, 1e-20f);
+      sum.turn += angleBetween(g.normal(a), g.normal(b));
+    }
+    out.length_px = std::max(out.length_px, sum.length_px);
+    out.turn = std::max(out.turn, sum.turn);
+  }
+  return out;
+}
+
+bool mayBeSeen(const Object& o, uint32_t patch, const Camera& camera) {
+  const Bound3 bound =
+      transformBound(o.cameraFromObject.at(o.keyTimes.front()), o.shape().bound(patch, UvRect{}));
+  return o.attributes->visibility.camera &&
+         !camera.outside(bound.grown(o.displacementBound),
+                         {0, 0, camera.xResolution(), camera.yResolution()});
+}
+
+CoarseRate limited(const Object& o, double nu, double nv, Log& log) {
+  if (nu * nv <= kMostQuadsOfPatch) return {static_cast<int>(nu), static_cast<int>(nv)};
+  log.report(Severity::Warning, "trace-tessellation", o.where,
+             fmt::format("{} asks for {:.0f} x {:.0f} polygons for rays in one patch: limited to {:.0f}; "
+                         "lower Attribute \"trace\" \"tessellation\"",
+                         objectName(o), nu, nv, kMostQuadsOfPatch));
+  // Halving keeps the proportions until one side is a single polygon.
+  while (nu * nv > kMostQuadsOfPatch) (nu > nv ? nu : nv) = std::ceil(std::max(nu, nv) / 2);
+  return {static_cast<int>(nu), static_cast<int>(nv)};
+}
+
+}  // namespace
+
+CoarseRate coarseRate(const Scene& scene, const Camera& camera, int object, uint32_t patch, Log& log) {
+  const Object& o = scene.objects[static_cast<size_t>(object)];
+  const bool displaced = displacesForRays(o);
+  if (o.shape().info(patch).planar && !displaced) return {1, 1};
+  const Grid probe = dice(scene, object, patch, UvRect{}, kProbes, kProbes, 1);
+  const LineFigures u = linesOf(probe, camera, 1, kProbes + 1),
+                    v = linesOf(probe, camera, kProbes + 1, 1);
+  const Attributes& a = *o.attributes;
+  const float fineness = std::max(a.trace.tessellation, 1e-3f);
+  const float turn = (a.areaLight >= 0 ? kEmitterTurn : kTurn) / fineness;
+  // Displacement has no normals to judge by beforehand, so it keeps the pixel rate out of view too.
+  const bool byPixels = displaced || mayBeSeen(o, patch, camera);
+  const float edge_px = kPolygon_px * std::sqrt(std::max(a.shadingRate, 1e-4f)) / fineness;
+  const auto count = [&](const LineFigures& f) {
+    double byTurn = double{f.turn} / turn;
+    if (a.areaLight < 0) byTurn = std::min(byTurn, double{f.length_px} / edge_px * (kPolygon_px / kLeastPolygon_px));
+    const double n = std::max(byTurn, byPixels ? double{f.length_px} / edge_px : 0.0);
+    return std::isfinite(n) ? std::max(1.0, std::ceil(n)) : 1.0;
+  };
+  return limited(o, count(u), count(v), log);
+}
+
+}  // namespace tomales

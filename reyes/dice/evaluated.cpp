@@ -1,0 +1,32 @@
+#include "reyes/dice/evaluated.h"
+
+namespace tomales {
+
+mat3 normalMatrix(const Object& o, const mat4& m) {
+  const mat3 a(m);
+  const mat3 cofactor(cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1]));
+  return o.flipsNormal ? -cofactor : cofactor;
+}
+
+void transformPrimvar(const Primvar& p, const mat4& m, const mat3& normals, int n, float* values, int stride) {
+  const bool point = p.type == ValueType::Point, vector = p.type == ValueType::Vector, normal = p.type == ValueType::Normal;
+  if (!point && !vector && !normal) return;
+  for (int first = 0; first + 2 < p.width; first += 3)
+    for (int i = 0; i < n; ++i) {
+      float* x = values + first * stride + i;
+      const vec3 in(x[0], x[stride], x[2 * stride]);
+      const vec3 out = point ? transformPoint(m, in) : vector ? transformVector(m, in) : normals * in;
+      x[0] = out.x, x[stride] = out.y, x[2 * stride] = out.z;
+    }
+}
+
+int offsetOf(const std::vector<Primvar>& primvars, std::string_view name) {
+  int offset = 0;
+  for (const Primvar& p : primvars) {
+    if (p.name == name) return offset;
+    offset += p.width;
+  }
+  return -1;
+}
+
+}  // namespace tomales

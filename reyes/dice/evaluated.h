@@ -1,0 +1,77 @@
+// What lattices and single points have in common: primitives evaluated at a time, and the way into current space.
+#pragma once
+#include "reyes/dice.h"
+
+namespace tomales {
+
+/// Three arrays.
+template <class T>
+struct Triple {
+  T *x, *y, *z;
+};
+
+/// Object-space results of Prim::evaluate for n points; memory is kept by the thread.
+class Evaluated {
+ public:
+  explicit Evaluated(int n) : stride_(n == 1 ? 1 : static_cast<size_t>(padded(n))) {
+    if (n > 1) {
+      many_.swap(spare());
+      many_.resize(std::max(many_.size(), stride_ * 12));
+    }
+    data_ = n > 1 ? many_.data() : one_;
+  }
+  ~Evaluated() {
+    if (many_.size() > spare().size()) many_.swap(spare());
+  }
+  Evaluated(const Evaluated&) = delete;
+  SurfacePoints view() {
+    const auto a = [this](size_t i) { return data_ + i * stride_; };
+    return {a(0), a(1), a(2), a(3), a(4), a(5), a(6), a(7), a(8), a(9), a(10), a(11)};
+  }
+  vec3 get(size_t first, int i) const {
+    const float* x = data_ + first * stride_ + i;
+    return {x[0], x[stride_], x[2 * stride_]};
+  }
+  Triple<const float> triple(size_t first) const {
+    const float* x = data_ + first * stride_;
+    return {x, x + stride_, x + 2 * stride_};
+  }
+  void blend(const Evaluated& next, float t) {
+    for (size_t i = 0; i < stride_ * 12; ++i) data_[i] = lerp(data_[i], next.data_[i], t);
+  }
+
+ private:
+  /// Memory that a thread keeps from grid to grid.
+  static AlignedVector<float>& spare() {
+    static thread_local AlignedVector<float> memory;
+    return memory;
+  }
+
+  size_t stride_;
+  float one_[12] = {};
+  AlignedVector<float> many_;
+  float* data_;
+};
+
+/// A deforming object at `time`: linear between the two shapes around it. evaluate(prim, points) fills n points.
+template <class Evaluate>
+void evaluateAt(const Object& o, float time, int n, Evaluated& out, const Evaluate& evaluate) {
+  size_t k = 0;
+  while (k + 1 < o.shapeTimes.size() && o.shapeTimes[k + 1] <= time) ++k;
+  evaluate(*o.shapes[k], out.view());
+  if (k + 1 >= o.shapes.size() || time <= o.shapeTimes[k]) return;
+  const float t = (time - o.shapeTimes[k]) / (o.shapeTimes[k + 1] - o.shapeTimes[k]);
+  Evaluated next(n);
+  evaluate(*o.shapes[k + 1], next.view());
+  out.blend(next, t);
+}
+
+/// Normals by the cofactor matrix: right for any scale, and mirrored exactly when cross products of transformed
+/// derivatives are, which Object::flipsNormal undoes.
+mat3 normalMatrix(const Object& o, const mat4& m);
+/// Primitive variables given in object space arrive in current space.
+void transformPrimvar(const Primvar& p, const mat4& m, const mat3& normals, int n, float* values, int stride);
+/// Offset of the primvar `name` among the group's floats, or -1.
+int offsetOf(const std::vector<Primvar>& primvars, std::string_view name);
+
+}  // namespace tomales

@@ -1,0 +1,114 @@
+#include "reyes/dice/evaluated.h"
+
+namespace tomales {
+
+TrueSurface surfaceAt(const Scene& scene, int object, uint32_t patch, float u, float v) {
+  const Object& o = scene.objects[static_cast<size_t>(object)];
+  const mat4& m = scene.groups[static_cast<size_t>(o.group)].cameraFromObject;
+  Evaluated e(1);
+  evaluateAt(o, o.keyTimes.front(), 1, e, [&](const Prim& shape, SurfacePoints out) { shape.evaluate(patch, 1, &u, &v, out); });
+  return {transformPoint(m, e.get(0, 0)), transformVector(m, e.get(3, 0)), transformVector(m, e.get(6, 0)),
+          normalMatrix(o, m) * e.get(9, 0)};
+}
+
+namespace {
+
+/// The shader's parameters at a place of a patch, and how they run along it: patches of one mesh share a parameter square.
+struct ShaderParameters {
+  float u, v, perU, perV;
+
+  ShaderParameters(const Prim& prim, uint32_t patch, float u0, float v0) {
+    const float us[3] = {u0, u0 < 0.5f ? u0 + 0.5f : u0 - 0.5f, u0}, vs[3] = {v0, v0, v0 < 0.5f ? v0 + 0.5f : v0 - 0.5f};
+    float su[3], sv[3];
+    prim.surfaceParameters(patch, 3, us, vs, su, sv);
+    const float dsu = (su[1] - su[0]) / (us[1] - us[0]), dsv = (sv[2] - sv[0]) / (vs[2] - vs[0]);
+    u = su[0], v = sv[0], perU = dsu != 0 ? dsu : 1.0f, perV = dsv != 0 ? dsv : 1.0f;
+  }
+};
+
+/// All primitive variables at one place, current space.
+void primvarsAt(const Prim& prim, uint32_t patch, float u, float v, const mat4& m, const mat3& normals, AlignedVector<float>& out) {
+  out.clear();
+  for (size_t k = 0; k < prim.primvars().size(); ++k) {
+    const Primvar& p = prim.primvars()[k];
+    const size_t first = out.size();
+    out.resize(first + static_cast<size_t>(p.width));
+    prim.interpolate(patch, static_cast<int>(k), 1, &u, &v, out.data() + first, 1);
+    transformPrimvar(p, m, normals, 1, out.data() + first, 1);
+  }
+}
+
+vec3 tripleAt(const AlignedVector<float>& values, int offset) {
+  const float* v = values.data() + offset;
+  return {v[0], v[1], v[2]};
+}
+
+}  // namespace
+
+void evaluatePoint(const Scene& scene, int object, uint32_t patch, float u, float v, ShadePoints& batch, int index) {
+  const Object& o = scene.objects[static_cast<size_t>(object)];
+  const Prim& prim = o.shape();
+  const mat4& m = scene.groups[static_cast<size_t>(o.group)].cameraFromObject;
+  const mat3 normals = normalMatrix(o, m);
+
+  const TrueSurface surface = surfaceAt(scene, object, patch, u, v);
+  const vec3 geometric = normalizeOr(surface.normal, vec3(0, 0, -1));
+  batch.set3(kPx, index, surface.P);
+  batch.set3(kNgx, index, geometric);
+  batch.set3(kNx, index, geometric);
+
+  const ShaderParameters shader(prim, patch, u, v);
+  batch.set3(kDpduX, index, surface.dPdu / shader.perU);
+  batch.set3(kDpdvX, index, surface.dPdv / shader.perV);
+  batch.channel(kU)[index] = shader.u;
+  batch.channel(kV)[index] = shader.v;
+  batch.channel(kDu)[index] = 0;
+  batch.channel(kDv)[index] = 0;
+  batch.channel(kArea)[index] = 0;
+
+  AlignedVector<float> values;
+  primvarsAt(prim, patch, u, v, m, normals, values);
+  for (int c = 0; c < static_cast<int>(values.size()); ++c) batch.primvar(c)[index] = values[static_cast<size_t>(c)];
+  if (const int n = offsetOf(prim.primvars(), "N"); n >= 0) batch.set3(kNx, index, normalizeOr(tripleAt(values, n), geometric));
+  const vec2 st = o.attributes->textureAt(shader.u, shader.v);
+  const int s = offsetOf(prim.primvars(), "s"), t = offsetOf(prim.primvars(), "t");
+  batch.channel(kS)[index] = s >= 0 ? batch.primvar(s)[index] : st.x;
+  batch.channel(kT)[index] = t >= 0 ? batch.primvar(t)[index] : st.y;
+}
+
+void evaluateSteps(const Scene& scene, int object, uint32_t patch, float u, float v, float radius, ShadePoints& batch, int index) {
+  constexpr float kWidest = 0.25f;  // of a patch: its end is never passed on both sides
+  const Object& o = scene.objects[static_cast<size_t>(object)];
+  const Prim& prim = o.shape();
+  const mat4& m = scene.groups[static_cast<size_t>(o.group)].cameraFromObject;
+  const mat3 normals = normalMatrix(o, m);
+  const ShaderParameters here(prim, patch, u, v);
+  const int N = offsetOf(prim.primvars(), "N"), s = offsetOf(prim.primvars(), "s"), t = offsetOf(prim.primvars(), "t");
+  const auto normalAt = [&](float pu, float pv, const AlignedVector<float>& values) {
+    return normalizeOr(N >= 0 ? tripleAt(values, N) : surfaceAt(scene, object, patch, pu, pv).normal, vec3(0));
+  };
+  AlignedVector<float> values, moved;
+  primvarsAt(prim, patch, u, v, m, normals, values);
+  const vec3 normal = normalAt(u, v, values);
+  for (const bool alongV : {false, true}) {
+    const float edge = glm::length(batch.get3(alongV ? kDpdvX : kDpduX, index)), per = std::abs(alongV ? here.perV : here.perU);
+    const float patchStep = edge * per > 0 ? std::clamp(2 * radius / (edge * per), 1e-6f, kWidest) : kWidest;
+    const float at = alongV ? v : u, sign = at + patchStep <= 1 ? 1.0f : -1.0f;
+    const float pu = alongV ? u : u + sign * patchStep, pv = alongV ? v + sign * patchStep : v;
+    primvarsAt(prim, patch, pu, pv, m, normals, moved);
+    const auto put = [&](int value, float change) { batch.step(value, alongV)[index] = sign * change; };
+    const vec3 turned = normalAt(pu, pv, moved) - normal;
+    for (int axis = 0; axis < 3; ++axis) put(kStepN + axis, turned[axis]);
+    for (int c = 0; c < static_cast<int>(values.size()); ++c) {
+      const auto k = static_cast<size_t>(c);
+      put(kStepPrimvars + c, moved[k] - values[k]);
+    }
+    const ShaderParameters there(prim, patch, pu, pv);
+    const vec2 st = o.attributes->textureAt(there.u, there.v) - o.attributes->textureAt(here.u, here.v);
+    put(kStepS, s >= 0 ? moved[static_cast<size_t>(s)] - values[static_cast<size_t>(s)] : st.x);
+    put(kStepT, t >= 0 ? moved[static_cast<size_t>(t)] - values[static_cast<size_t>(t)] : st.y);
+    batch.channel(alongV ? kDv : kDu)[index] = patchStep * per;
+  }
+}
+
+}  // namespace tomales

@@ -1,0 +1,23 @@
+// How many micropolygons a rectangle of a patch takes along u and v, from lines measured on it as the camera sees them.
+#pragma once
+#include "reyes/scene.h"
+
+namespace tomales {
+
+/// The longest of some lines of a rectangle along u, or along v.
+struct LineSize {
+  float px = 0, length = 0;  ///< In raster space, and in camera space.
+  int least = 1;             ///< Cells without which a line that bends round would enclose nothing.
+  float bend_px = 0;         ///< Largest second difference of four stretches of a line, across it.
+};
+struct PatchSize {
+  LineSize u, v;
+  Bound3 probes;  ///< Around the points that were measured, in camera space.
+};
+PatchSize measure(const Object& object, const Camera& camera, uint32_t patch, const UvRect& rect);
+
+/// Cells along a line with edges of `edge_px`: fewer where blur lets edges grow by `coarsening`, but never so few, `least`, that the shape
+/// collapses, and so many that chords are flat (docs/decisions/0034). Binary: a power of two.
+int cells(const LineSize& line, float edge_px, float coarsening, bool binary);
+
+}  // namespace tomales
