@@ -4,7 +4,6 @@
 
 #include <map>
 #include <numeric>
-#include <set>
 
 #include "gi/point_file.h"
 
@@ -13,6 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view kCaustic = ".caustic";  ///< What the names of caustic maps end in.
 constexpr double kStoredBytes = 2.5 * 32;  ///< Of one emitted photon: so many surfaces, so many bytes.
 
 fs::path fileOf(const fs::path& folder, const std::string& map, const char* extension) {
@@ -45,7 +45,7 @@ constexpr uint32_t kMethod = 1;
 
 uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
   const auto& [emit, maxDepth, seed] = settings.photons;
-  return contentSum(kMethod, settings.world, names, emit, maxDepth, seed);
+  return contentSum(kMethod, settings.world, names.global, names.caustic, emit, maxDepth, seed);
 }
 
 uint64_t irradianceInputs(const PointFile& photons, const PhotonIrradianceSettings& settings) {
@@ -94,26 +94,41 @@ MapNames mapNames(const Scene& scene, const AtlasSettings& settings) {
   double before = 0;  // groups follow each other as objects do in the scene: neighbours in its hierarchy stay together
   for (size_t g = 0; g < areas.size(); ++g) {
     const std::string& given = scene.groups[g].attributes->photon.globalMap;
-    names.push_back(!given.empty() ? given : fmt::format("scene{}", share > 0 ? static_cast<int>(before / share) : 0));
+    const std::string& caustic = scene.groups[g].attributes->photon.causticMap;
+    names.global.push_back(!given.empty() ? given : fmt::format("scene{}", share > 0 ? static_cast<int>(before / share) : 0));
+    names.caustic.push_back(!caustic.empty() ? caustic + std::string(kCaustic) : "");
     before += areas[g];
   }
   return names;
+}
+
+std::set<std::string> MapNames::all() const {
+  std::set<std::string> out(global.begin(), global.end());
+  out.insert(caustic.begin(), caustic.end());
+  out.erase("");
+  return out;
 }
 
 PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                            const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
   makeFolder(folder);
   std::map<std::string, PointFileWriter> files;
-  std::vector<PointFileWriter*> fileOfGroup;
-  for (const std::string& name : names)
-    fileOfGroup.push_back(&files.try_emplace(name, fileOf(folder, name, ".ptc").string(), std::vector<CloudChannel>{{"power", 3}}).first->second);
+  for (const std::string& name : names.all()) files.try_emplace(name, fileOf(folder, name, ".ptc").string(), std::vector<CloudChannel>{{"power", 3}});
+  const auto filesOf = [&](const std::vector<std::string>& groups) {
+    std::vector<PointFileWriter*> out;
+    for (const std::string& name : groups) out.push_back(name.empty() ? nullptr : &files.at(name));
+    return out;
+  };
+  const std::vector<PointFileWriter*> global = filesOf(names.global), caustic = filesOf(names.caustic);
   const mat4 worldFromCurrent = glm::inverse(scene.cameraFromWorldAtOpen());
   const mat3 normalMatrix = glm::transpose(mat3(scene.cameraFromWorldAtOpen()));
   const PhotonFigures figures = tracePhotons(
       scene, rays, shading, settings.photons,
       [&](const StoredPhoton& p) {
-        fileOfGroup[static_cast<size_t>(p.group)]->add(transformPoint(worldFromCurrent, p.P), normalizeOr(normalMatrix * p.N, vec3(0, 0, 1)),
-                                                       0, &p.power.x);
+        const vec3 P = transformPoint(worldFromCurrent, p.P), N = normalizeOr(normalMatrix * p.N, vec3(0, 0, 1));
+        const auto group = static_cast<size_t>(p.group);
+        global[group]->add(P, N, 0, &p.power.x);
+        if (p.caustic && caustic[group]) caustic[group]->add(P, N, 0, &p.power.x);
       },
       progress, stats, log);
   for (auto& [name, file] : files) {
@@ -145,7 +160,7 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
                 const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
   const fs::path photons = folder / "photons", irradiance = folder / "irradiance";
   makeFolder(irradiance);
-  const std::set<std::string> maps(names.begin(), names.end());
+  const std::set<std::string> maps = names.all();
   const uint64_t inputs = photonInputs(names, settings);
   const bool traced = std::all_of(maps.begin(), maps.end(), [&](const std::string& name) {
     return pointsMadeFrom(fileOf(photons, name, ".ptc")).inputs == inputs;
@@ -156,9 +171,10 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
   }
   for (const std::string& name : maps) {
     const fs::path from = fileOf(photons, name, ".ptc"), points = fileOf(irradiance, name, ".ptc"), bricks = fileOf(folder, name, ".bkm");
-    if (pointsMadeFrom(points).inputs != irradianceInputs(PointFile(from.string()), settings.irradiance)) {
+    const PhotonIrradianceSettings& estimate = name.ends_with(kCaustic) ? settings.caustics : settings.irradiance;
+    if (pointsMadeFrom(points).inputs != irradianceInputs(PointFile(from.string()), estimate)) {
       const StageTimer timer(stats, "irradiance");
-      writeIrradiance(from, points, settings.irradiance);
+      writeIrradiance(from, points, estimate);
     }
     if (bricksMadeFrom(bricks).inputs == brickInputs(PointFile(points.string()), settings.bricks)) {
       ++stats.photons.groupsKept;
@@ -181,20 +197,21 @@ IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, con
       worldFromCurrent_(glm::inverse(scene.cameraFromWorldAtOpen())),
       worldFromCurrentScale_(std::cbrt(std::abs(glm::determinant(mat3(worldFromCurrent_))))),
       log_(log) {
-  std::map<std::string, const BrickMap*> byName;
-  for (const std::string& name : names) {
-    auto [at, isNew] = byName.try_emplace(name, nullptr);
-    const fs::path file = fileOf(folder, name, ".bkm");
-    if (isNew && fs::exists(file)) {
-      maps_.push_back(std::make_unique<const BrickMap>(file.string(), cache_));
-      if (maps_.back()->width() != 3) throw FileError(fmt::format("\"{}\" is no irradiance map: it has not three channels", file.string()));
-      at->second = maps_.back().get();
-    } else if (isNew) {
-      log.report(Severity::Missing, "atlas-no-map-" + name, {},
-                 fmt::format("irradiance map \"{}\" is missing: its objects reflect no indirect light", file.string()));
-    }
-    mapOfGroup_.push_back(at->second);
+  std::map<std::string, const BrickMap*> byName{{"", nullptr}};
+  for (const std::string& name : names.all()) byName[name] = open(fileOf(folder, name, ".bkm"));
+  for (const std::string& name : names.global) mapOfGroup_.push_back(byName.at(name));
+  for (const std::string& name : names.caustic) causticOfGroup_.push_back(byName.at(name));
+}
+
+const BrickMap* IrradianceAtlas::open(const fs::path& file) {
+  if (!fs::exists(file)) {
+    log_.report(Severity::Missing, "atlas-no-map-" + file.stem().string(), {},
+                fmt::format("irradiance map \"{}\" is missing: its objects reflect no indirect light", file.string()));
+    return nullptr;
   }
+  maps_.push_back(std::make_unique<const BrickMap>(file.string(), cache_));
+  if (maps_.back()->width() != 3) throw FileError(fmt::format("\"{}\" is no irradiance map: it has not three channels", file.string()));
+  return maps_.back().get();
 }
 
 std::optional<std::string> IrradianceAtlas::strange(uint64_t world) const {
@@ -203,8 +220,8 @@ std::optional<std::string> IrradianceAtlas::strange(uint64_t world) const {
   return std::nullopt;
 }
 
-vec3 IrradianceAtlas::irradianceOverPi(int group, const vec3& P, const vec3& N, float radius) const {
-  const BrickMap* map = mapOfGroup_[static_cast<size_t>(group)];
+vec3 IrradianceAtlas::look(const MapOfGroup& maps, int group, const vec3& P, const vec3& N, float radius) const {
+  const BrickMap* map = maps[static_cast<size_t>(group)];
   vec3 E(0.0f);
   if (!map) return E;
   try {

@@ -100,8 +100,8 @@ void fields(A& a, Attributes::Indirect& x) {
 
 template <class A>
 void fields(A& a, Attributes::Photon& x) {
-  auto& [globalMap, shadingModel] = x;
-  each(a, globalMap, shadingModel);
+  auto& [globalMap, causticMap, shadingModel] = x;
+  each(a, globalMap, causticMap, shadingModel);
 }
 
 template <class A>

@@ -99,6 +99,25 @@ TEST(Photons, AModelThatIsNotKnownIsNamedAndMatte) {
   EXPECT_EQ(world.log.count("photons-model-velvet"), 1);
 }
 
+TEST(Photons, WhatComesByAMirrorAloneIsACaustic) {
+  // Light falls aslant on a mirror that lies flat, and from there on a wall, which it reaches by itself too.
+  SceneBuilder b;
+  b.light("distantlight", {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {1, -1, 0})});
+  b.quad({-1, -1, 2}, {1, -1, 2}, {1, -1, 4}, {-1, -1, 4}, vec3(1));
+  b.quad({4, -6, -6}, {4, 10, -6}, {4, 10, 12}, {4, -6, 12}, vec3(0.5f));
+  auto mirror = std::make_shared<Attributes>(*b.scene.objects[0].attributes);
+  mirror->photon.shadingModel = "chrome";
+  b.scene.objects[0].attributes = mirror;
+  World world(b.scene);
+  double caustic = 0;
+  for (const StoredPhoton& p : traced(world, {200000, 6})) {
+    if (p.caustic) EXPECT_TRUE(p.P.y > 1.9f && p.P.y < 4.1f && p.P.z > 1.9f && p.P.z < 4.1f);
+    caustic += p.caustic ? double{p.power.y} : 0.0;
+  }
+  const double onMirror = 2 * double{kPi} * 4 * std::sqrt(0.5);
+  EXPECT_NEAR(caustic, onMirror, 0.02 * onMirror);
+}
+
 TEST(Photons, ADistantLightIsAimedAtTheObjectsAlone) {
   SceneBuilder b;
   b.light("distantlight", {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {0, 0, 1})});
@@ -212,9 +231,31 @@ TEST_F(Atlas, MapsWithoutTheirPhotonsAreUsedAndKnownForStrangers) {
   EXPECT_TRUE(isMadeByHand(folder));
   SceneBuilder b;
   World world(b.scene);
-  const IrradianceAtlas atlas(folder, world.scene, {"left", "right"}, 1 << 20, world.log);
+  const IrradianceAtlas atlas(folder, world.scene, {{"left", "right"}, {}}, 1 << 20, world.log);
   EXPECT_TRUE(atlas.strange(1).has_value());
   EXPECT_FALSE(atlas.strange(0).has_value());
+}
+
+TEST_F(Atlas, CausticsHaveMapsOfTheirOwn) {
+  SceneBuilder b;
+  b.light("distantlight", {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {1, -1, 0})});
+  b.quad({-1, -1, 2}, {1, -1, 2}, {1, -1, 4}, {-1, -1, 4}, vec3(1));
+  b.quad({4, -6, -6}, {4, 10, -6}, {4, 10, 12}, {4, -6, 12}, vec3(0.5f));
+  auto mirror = std::make_shared<Attributes>(*b.scene.objects[0].attributes), wall = std::make_shared<Attributes>(*b.scene.objects[1].attributes);
+  mirror->photon.shadingModel = "chrome", wall->photon.causticMap = "wall";
+  b.scene.objects[0].attributes = mirror, b.scene.objects[1].attributes = wall;
+  World world(b.scene);
+  const auto services = world.use({.mode = GiMode::None});
+  AtlasSettings settings;
+  settings.photons = {500000, 6};
+  const MapNames names = mapNames(world.scene, settings);
+  EXPECT_EQ(names.caustic, (std::vector<std::string>{"", "wall.caustic"}));
+  writeAtlas(folder, world.scene, world.rays, world.shading, names, settings, {}, world.stats, world.log);
+  const IrradianceAtlas atlas(folder, world.scene, names, 1 << 20, world.log);
+  const float expected = 2 * std::sqrt(0.5f);  // E/pi of the light, at 45 degrees
+  EXPECT_NEAR(atlas.causticOverPi(1, {4, 3, 3}, {-1, 0, 0}, 0.1f).y, expected, 0.05f * expected);
+  EXPECT_LT(atlas.causticOverPi(1, {4, 6, 3}, {-1, 0, 0}, 0.1f).y, 0.01f);
+  EXPECT_NEAR(atlas.irradianceOverPi(1, {4, 6, 3}, {-1, 0, 0}, 0.1f).y, expected, 0.1f * expected);
 }
 
 TEST_F(Atlas, AMissingMapIsBlackAndNamed) {
@@ -233,10 +274,10 @@ TEST_F(Atlas, GroupsShareAFileAsTheyAreNamedAndBySize) {
   named->photon.globalMap = "car";
   b.scene.objects[2].attributes = named;
   b.scene.freeze();
-  EXPECT_EQ(mapNames(b.scene, {}), (std::vector<std::string>{"scene0", "scene0", "car"}));
+  EXPECT_EQ(mapNames(b.scene, {}).global, (std::vector<std::string>{"scene0", "scene0", "car"}));
   AtlasSettings small;
   small.mostPhotonBytes = 30 << 20;  // less than half of what a million photons take
-  EXPECT_EQ(mapNames(b.scene, small), (std::vector<std::string>{"scene0", "scene1", "car"}));
+  EXPECT_EQ(mapNames(b.scene, small).global, (std::vector<std::string>{"scene0", "scene1", "car"}));
 }
 
 }  // namespace
