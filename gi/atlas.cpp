@@ -77,12 +77,6 @@ MadeFrom bricksMadeFrom(const fs::path& path) {
 
 }  // namespace
 
-float meanOf(const PointCloud& cloud) {
-  double sum = 0;
-  for (const float v : cloud.data) sum += double{v};
-  return cloud.data.empty() ? 0.0f : static_cast<float>(sum / static_cast<double>(cloud.data.size()));
-}
-
 MapNames mapNames(const Scene& scene, const AtlasSettings& settings) {
   std::vector<double> areas = boxAreas(scene);
   for (size_t g = 0; g < areas.size(); ++g)
@@ -141,19 +135,32 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
   return figures;
 }
 
-void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonIrradianceSettings& settings) {
+void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonIrradianceSettings& given, uint64_t most) {
   const PointFile file(photons.string());
-  PointCloud cloud = file.readAll();
-  if (cloud.offsetOf("power") < 0) throw FileError(fmt::format("\"{}\" is no photon map: it has no channel \"power\"", photons.string()));
-  writePointFile(estimateIrradiance(cloud, settings), out.string(), {file.madeFrom().world, irradianceInputs(file, settings)});
+  const bool arePhotons = std::any_of(file.channels().begin(), file.channels().end(), [](const CloudChannel& c) { return c.name == "power"; });
+  if (!arePhotons) throw FileError(fmt::format("\"{}\" is no photon map: it has no channel \"power\"", photons.string()));
+  const MadeFrom madeFrom{file.madeFrom().world, irradianceInputs(file, given)};
+  if (file.count() <= most) return writePointFile(estimateIrradiance(file.readAll(), given), out.string(), madeFrom);
+  PhotonIrradianceSettings settings = given;
+  settings.maxRadius = reachOf(given, file.bound());
+  const PointTiles tiles(file);
+  PointFileWriter writer(out.string(), {{"irradiance", 3}});
+  forEachTile(tiles, most, [&](const Bound3& box) {
+    const PointCloud points = estimateIrradiance(tiles.around(box, settings.maxRadius), settings);
+    for (size_t i = 0; i < points.count(); ++i) {
+      const vec3& P = points.position[i];
+      if (glm::all(glm::greaterThanEqual(P, box.lo)) && glm::all(glm::lessThan(P, box.hi))) writer.add(P, points.normal[i], points.radius[i], points.at(i));
+    }
+  });
+  writer.finish(madeFrom);
 }
 
 BuiltBricks writeIrradianceBricks(const fs::path& points, const fs::path& out, BrickSettings settings) {
   const PointFile file(points.string());
-  const PointCloud cloud = file.readAll();
   const MadeFrom madeFrom{file.madeFrom().world, brickInputs(file, settings)};
-  settings.maxError *= meanOf(cloud);
-  return writeBrickMap(cloud, settings, out.string(), madeFrom);
+  const PointTiles tiles(file);
+  settings.maxError *= static_cast<float>(tiles.meanOfData());
+  return writeBrickMap(tiles, settings, out.string(), madeFrom);
 }
 
 void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,

@@ -32,16 +32,14 @@ struct MapNames {
 };
 MapNames mapNames(const Scene& scene, const AtlasSettings& settings);
 
-/// Of all floats of a cloud; 0 if it is empty.
-float meanOf(const PointCloud& cloud);
-
 using AtlasProgress = std::function<void(float)>;
 
 /// Photons into FOLDER, one file a map. Throws FileError.
 PhotonFigures writePhotons(const std::filesystem::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                            const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log);
-/// One photon map -> irradiance points. Throws FileError.
-void writeIrradiance(const std::filesystem::path& photons, const std::filesystem::path& out, const PhotonIrradianceSettings& settings);
+/// One photon map -> irradiance points, in cubes of about `most` photons where there are more. Throws FileError.
+void writeIrradiance(const std::filesystem::path& photons, const std::filesystem::path& out, const PhotonIrradianceSettings& settings,
+                     uint64_t most = kPointsInMemory);
 /// Irradiance points -> brick map; its maxError is relative to their mean. Throws FileError.
 BuiltBricks writeIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out, BrickSettings settings);
 

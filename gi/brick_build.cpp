@@ -39,18 +39,21 @@ struct Shares {
 
 class Builder {
  public:
-  Builder(const PointCloud& cloud, const BrickSettings& settings, const std::function<void(const Brick&)>& store)
-      : cloud_(cloud), settings_(settings), store_(store), width_(static_cast<size_t>(cloud.width())) {}
+  Builder(const BrickCube& cube, int width, const BrickSettings& settings, const std::function<void(const Brick&)>& store)
+      : settings_(settings), store_(store), width_(static_cast<size_t>(width)) {
+    out_.tree.cube = cube;
+  }
 
-  BuiltBricks run() {
-    if (cloud_.count() == 0) return {};
-    out_.tree.cube = cubeAround(cloud_.bound());
-    spots_.reserve(cloud_.count());
-    for (size_t i = 0; i < cloud_.count(); ++i) spots_.push_back(spot(i));
-    Members all(cloud_.count());
-    std::iota(all.begin(), all.end(), 0u);
+  BuiltBricks run(const PointCloud& cloud) {
     BrickNode root;
-    accumulate(0, out_.tree.cube.lo, all, root);
+    accumulate(0, glm::ivec3(0), use(cloud), root);
+    keep(0, root);
+    return std::move(out_);
+  }
+
+  BuiltBricks run(const PointTiles& tiles, uint64_t most) {
+    BrickNode root;
+    accumulate(tiles, most, 0, glm::ivec3(0), root);
     keep(0, root);
     return std::move(out_);
   }
@@ -63,17 +66,20 @@ class Builder {
     std::array<Members, 8> parts;
   };
 
-  static BrickCube cubeAround(const Bound3& b) {
-    const float longest = maxComponent(b.size());
-    // A margin, so that the farthest points lie inside and a single one has a volume at all.
-    const float size = longest * 1.001f + 1e-5f * maxComponent(glm::max(glm::abs(b.lo), glm::abs(b.hi))) + 1e-30f;
-    return {b.center() - vec3(0.5f * size), size};
+  /// The points that are worked on from now on; all of them.
+  Members use(const PointCloud& cloud) {
+    cloud_ = &cloud;
+    spots_.clear(), spots_.reserve(cloud.count());
+    for (size_t i = 0; i < cloud.count(); ++i) spots_.push_back(spot(i));
+    Members all(cloud.count());
+    std::iota(all.begin(), all.end(), 0u);
+    return all;
   }
 
   Spot spot(size_t i) const {
-    const vec3 n = settings_.ignoreNormals ? vec3(0.0f) : cloud_.normal[i];
-    const float r = cloud_.radius[i] * settings_.radiusScale;
-    return {cloud_.position[i], n == vec3(0.0f) ? vec3(r) : r * glm::sqrt(glm::max(vec3(1.0f) - n * n, vec3(0.0f))), n, r};
+    const vec3 n = settings_.ignoreNormals ? vec3(0.0f) : cloud_->normal[i];
+    const float r = cloud_->radius[i] * settings_.radiusScale;
+    return {cloud_->position[i], n == vec3(0.0f) ? vec3(r) : r * glm::sqrt(glm::max(vec3(1.0f) - n * n, vec3(0.0f))), n, r};
   }
 
   Level& at(int level) {
@@ -99,28 +105,52 @@ class Builder {
     });
   }
 
-  /// Fills the sums of `level` with the cube at `lo`, and `node` with the children that are kept.
-  void accumulate(int level, const vec3& lo, const Members& members, BrickNode& node) {
+  vec3 corner(int level, const glm::ivec3& place) const { return out_.tree.cube.lo + std::ldexp(out_.tree.cube.size, -level) * vec3(place); }
+  static glm::ivec3 placeOfChild(const glm::ivec3& place, int octant) { return place * 2 + glm::ivec3(octant & 1, octant >> 1 & 1, octant >> 2 & 1); }
+
+  /// Fills the sums of `level` with the cube at `place`, in cubes of that level, and `node` with the children that are kept.
+  void accumulate(int level, const glm::ivec3& place, const Members& members, BrickNode& node) {
     Level& here = at(level);
     here.sums.clear();
+    const vec3 lo = corner(level, place);
     if (fineEnough(level, lo, members)) {
       for (const uint32_t i : members) splat(i, lo, out_.tree.cube.voxelSize(level), here.sums);
       return;
     }
-    const float size = std::ldexp(out_.tree.cube.size, -level - 1);
-    partition(members, lo + vec3(size), here.parts);
+    partition(members, corner(level + 1, place * 2 + 1), here.parts);
     for (int octant = 0; octant < 8; ++octant) {
       const Members& part = here.parts[static_cast<size_t>(octant)];
       if (part.empty()) continue;
       BrickNode child;
-      accumulate(level + 1, lo + size * vec3(octant & 1, octant >> 1 & 1, octant >> 2 & 1), part, child);
-      const float spread = here.sums.addChild(at(level + 1).sums, octant);
-      const bool leaf = std::all_of(child.child.begin(), child.child.end(), [](int32_t c) { return c < 0; });
-      if (leaf && spread <= settings_.maxError)
-        ++out_.eliminated;
-      else
-        node.child[static_cast<size_t>(octant)] = keep(level + 1, child);
+      accumulate(level + 1, placeOfChild(place, octant), part, child);
+      addChild(level, octant, child, node);
     }
+  }
+
+  /// The same of points on disk. False: there are none.
+  bool accumulate(const PointTiles& tiles, uint64_t most, int level, const glm::ivec3& place, BrickNode& node) {
+    if (tiles.count(level, place) <= most || level == PointTiles::kDeepest || level >= settings_.maxDepth) {
+      const PointCloud cloud = tiles.around(tiles.box(level, place), 0);
+      accumulate(level, place, use(cloud), node);
+      return cloud.count() > 0;
+    }
+    at(level).sums.clear();
+    for (int octant = 0; octant < 8; ++octant) {
+      BrickNode child;
+      if (accumulate(tiles, most, level + 1, placeOfChild(place, octant), child))
+        addChild(level, octant, child, node);
+    }
+    return true;
+  }
+
+  /// The finished sums of a child, one level below: into those of `level`, and to the store unless they say the same.
+  void addChild(int level, int octant, const BrickNode& child, BrickNode& node) {
+    const float spread = at(level).sums.addChild(at(level + 1).sums, octant);
+    const bool leaf = std::all_of(child.child.begin(), child.child.end(), [](int32_t c) { return c < 0; });
+    if (leaf && spread <= settings_.maxError)
+      ++out_.eliminated;
+    else
+      node.child[static_cast<size_t>(octant)] = keep(level + 1, child);
   }
 
   /// Points by the octants around `middle` that their boxes reach.
@@ -147,7 +177,7 @@ class Builder {
     const float size = oriented ? r * r : r * r * r;  // area or volume, but for a constant
     const float reach = 0.5f * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
     const Shares xs(p.x, h.x), ys(p.y, h.y), zs(p.z, h.z);
-    const float* data = cloud_.data.data() + i * width_;
+    const float* data = cloud_->data.data() + i * width_;
     for (int z = zs.first; z <= zs.last; ++z)
       for (int y = ys.first; y <= ys.last; ++y)
         for (int x = xs.first; x <= xs.last; ++x) {
@@ -158,11 +188,11 @@ class Builder {
         }
   }
 
-  const PointCloud& cloud_;
   const BrickSettings settings_;
   const std::function<void(const Brick&)>& store_;
   const size_t width_;
   BuiltBricks out_;
+  const PointCloud* cloud_ = nullptr;
   std::vector<Spot> spots_;
   std::deque<Level> levels_;  // a deque: deeper levels come while those above are at work
 };
@@ -170,7 +200,13 @@ class Builder {
 }  // namespace
 
 BuiltBricks buildBricks(const PointCloud& cloud, const BrickSettings& settings, const std::function<void(const Brick&)>& store) {
-  return Builder(cloud, settings, store).run();
+  if (cloud.count() == 0) return {};
+  return Builder(cubeAround(cloud.bound()), cloud.width(), settings, store).run(cloud);
+}
+
+BuiltBricks buildBricks(const PointTiles& tiles, const BrickSettings& settings, const std::function<void(const Brick&)>& store, uint64_t most) {
+  if (tiles.file().count() == 0) return {};
+  return Builder(tiles.cube(), tiles.file().width(), settings, store).run(tiles, most);
 }
 
 }  // namespace tomales

@@ -39,7 +39,8 @@ Brick unpacked(const Bytes& bytes, int width, const std::string& path) {
   brick.data = r.getVector<float>();
   const bool whole = std::is_sorted(voxels.begin(), voxels.end()) && (voxels.empty() || voxels.back() < kBrickVoxels) &&
                      voxels.size() <= std::numeric_limits<uint16_t>::max() && normals.size() == voxels.size() &&
-                     incoherent.size() == voxels.size() && brick.data.size() == voxels.size() * static_cast<size_t>(width);
+                     incoherent.size() == voxels.size() && brick.data.size() == voxels.size() * static_cast<size_t>(width) &&
+                     std::all_of(brick.data.begin(), brick.data.end(), [](float v) { return std::isfinite(v); });
   if (!whole) throw FileError(fmt::format("\"{}\" is damaged: a brick does not add up", path));
   for (const uint16_t v : voxels) ++brick.first[v + 1u];
   std::partial_sum(brick.first.begin(), brick.first.end(), brick.first.begin());

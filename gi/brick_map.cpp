@@ -109,12 +109,27 @@ void BrickMap::addVoxel(int level, const glm::ivec3& voxel, const vec3& N, float
   }
 }
 
+namespace {
+
+/// `points`: in memory or on disk.
+template <class Points>
+BuiltBricks write(const Points& points, const std::vector<CloudChannel>& channels, const BrickSettings& settings, const std::string& path,
+                  const MadeFrom& madeFrom) {
+  BrickFileWriter file(path);
+  BuiltBricks built = buildBricks(points, settings, [&](const Brick& brick) { file.add(brick); });
+  file.finish(channels, built.tree, madeFrom);
+  return built;
+}
+
+}  // namespace
+
 BuiltBricks writeBrickMap(const PointCloud& cloud, const BrickSettings& settings, const std::string& path, const MadeFrom& madeFrom) {
   if (cloud.width() > BrickFile::kMostWidth) throw FileError(fmt::format("\"{}\": more than {} floats a point", path, BrickFile::kMostWidth));
-  BrickFileWriter file(path);
-  BuiltBricks built = buildBricks(cloud, settings, [&](const Brick& brick) { file.add(brick); });
-  file.finish(cloud.channels, built.tree, madeFrom);
-  return built;
+  return write(cloud, cloud.channels, settings, path, madeFrom);
+}
+
+BuiltBricks writeBrickMap(const PointTiles& points, const BrickSettings& settings, const std::string& path, const MadeFrom& madeFrom) {
+  return write(points, points.file().channels(), settings, path, madeFrom);
 }
 
 }  // namespace tomales

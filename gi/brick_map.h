@@ -35,7 +35,8 @@ class BrickMap {
   uint32_t id_;
 };
 
-/// Makes FILE.bkm of a cloud. Throws FileError.
+/// Makes FILE.bkm of a cloud in memory or on disk. Throws FileError.
+BuiltBricks writeBrickMap(const PointTiles& points, const BrickSettings& settings, const std::string& path, const MadeFrom& madeFrom = {});
 BuiltBricks writeBrickMap(const PointCloud& cloud, const BrickSettings& settings, const std::string& path, const MadeFrom& madeFrom = {});
 
 }  // namespace tomales

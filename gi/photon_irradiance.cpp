@@ -75,9 +75,13 @@ float coveredShare(float centroidDistance) {
   return segment(hi).x;
 }
 
+float reachOf(const PhotonIrradianceSettings& settings, const Bound3& map) {
+  return settings.maxRadius > 0 || map.empty() ? settings.maxRadius : kMostOfMap * glm::length(map.size());
+}
+
 PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& given) {
   PhotonIrradianceSettings settings = given;
-  if (!(settings.maxRadius > 0)) settings.maxRadius = kMostOfMap * glm::length(photons.bound().size());
+  settings.maxRadius = reachOf(given, photons.bound());
   PointCloud out;
   out.channels = {{"irradiance", 3}};
   if (photons.count() == 0) return out;

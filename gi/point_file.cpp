@@ -29,6 +29,11 @@ PointFileWriter::PointFileWriter(const std::string& path, const std::vector<Clou
 }
 
 void PointFileWriter::add(const vec3& P, const vec3& N, float radius, const float* values) {
+  const auto finite = [](float v) { return std::isfinite(v); };
+  if (!isFinite(P) || !isFinite(N) || !(radius >= 0) || !finite(radius) || !std::all_of(values, values + pending_.width(), finite)) {
+    ++dropped_;
+    return;
+  }
   pending_.add(P, N, radius, values);
   if (pending_.count() == kChunkPoints) flush();
 }
@@ -70,13 +75,12 @@ void PointFileWriter::finish(const MadeFrom& madeFrom) {
 PointFile::PointFile(const std::string& path) : file_(path, kKind, kVersion) {
   ByteReader r(file_.header(), path);
   const auto channelCount = r.get<uint32_t>();
-  int width = 0;
   for (uint32_t i = 0; i < channelCount; ++i) {
     std::string name = r.getString();
     channels_.push_back({std::move(name), r.get<int32_t>()});
-    if (channels_.back().width < 1 || channels_.back().width > kMostWidth - width)
+    if (channels_.back().width < 1 || channels_.back().width > kMostWidth - width_)
       throw FileError(fmt::format("\"{}\": its channels are too many or damaged", path));
-    width += channels_.back().width;
+    width_ += channels_.back().width;
   }
   count_ = r.get<uint64_t>();
   bounds_ = r.getVector<Bound3>();
@@ -102,6 +106,10 @@ void PointFile::read(size_t chunk, PointCloud& to) const {
   const size_t n = positions.size();
   if (normals.size() != n || radii.size() != n || data.size() != n * static_cast<size_t>(to.width()))
     throw FileError(fmt::format("\"{}\" is damaged: a chunk does not add up", file_.path()));
+  const auto finite = [](float v) { return std::isfinite(v); };
+  if (!std::all_of(positions.begin(), positions.end(), [](const vec3& P) { return isFinite(P); }) ||
+      !std::all_of(radii.begin(), radii.end(), [](float r) { return std::isfinite(r) && r >= 0; }) || !std::all_of(data.begin(), data.end(), finite))
+    throw FileError(fmt::format("\"{}\" is damaged: a point is not finite", file_.path()));
   to.position.insert(to.position.end(), positions.begin(), positions.end());
   for (const uint32_t p : normals) to.normal.push_back(unpackNormal(p));
   to.radius.insert(to.radius.end(), radii.begin(), radii.end());

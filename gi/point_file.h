@@ -16,7 +16,9 @@ class PointFileWriter {
 
   /// Throws FileError, as every member.
   PointFileWriter(const std::string& path, const std::vector<CloudChannel>& channels);
+  /// A point that is not finite is left out.
   void add(const vec3& P, const vec3& N, float radius, const float* values);
+  size_t dropped() const { return dropped_; }
   size_t count() const { return written_ + pending_.count(); }
   void finish(const MadeFrom& madeFrom = {});
 
@@ -25,7 +27,7 @@ class PointFileWriter {
   ChunkWriter file_;
   ContentSum contents_;
   PointCloud pending_;
-  size_t written_ = 0;
+  size_t written_ = 0, dropped_ = 0;
   std::vector<Bound3> bounds_;
 };
 
@@ -33,6 +35,7 @@ class PointFile {
  public:
   explicit PointFile(const std::string& path);  ///< Throws FileError.
   const std::vector<CloudChannel>& channels() const { return channels_; }
+  int width() const { return width_; }  ///< Floats of one point's data.
   uint64_t count() const { return count_; }
   const MadeFrom& madeFrom() const { return madeFrom_; }
   uint64_t contents() const { return contents_; }  ///< Names the channels and points, in their order.
@@ -46,6 +49,7 @@ class PointFile {
  private:
   ChunkReader file_;
   std::vector<CloudChannel> channels_;
+  int width_ = 0;
   uint64_t count_ = 0, contents_ = 0;
   MadeFrom madeFrom_;
   std::vector<Bound3> bounds_;

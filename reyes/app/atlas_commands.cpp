@@ -53,6 +53,22 @@ void makeFolder(const std::string& folder) {
   if (!fs::is_directory(folder)) throw FileError(fmt::format("folder \"{}\" cannot be made: {}", folder, error.message()));
 }
 
+/// One cloud of several, chunk by chunk.
+void joinPointFiles(const std::vector<fs::path>& files, const fs::path& out) {
+  const PointFile first(files.front().string());
+  PointFileWriter writer(out.string(), first.channels());
+  for (const fs::path& path : files) {
+    const PointFile file(path.string());
+    if (file.channels() != first.channels()) throw FileError(fmt::format("\"{}\" has other channels than the files before", path.string()));
+    for (size_t chunk = 0; chunk < file.chunkCount(); ++chunk) {
+      PointCloud part;
+      file.read(chunk, part);
+      for (size_t i = 0; i < part.count(); ++i) writer.add(part.position[i], part.normal[i], part.radius[i], part.at(i));
+    }
+  }
+  writer.finish(first.madeFrom());
+}
+
 /// The first frame of RIB files, ready to be traced.
 std::optional<Scene> firstScene(const RenderSettings& settings, Log& log) {
   std::optional<Scene> scene;
@@ -113,27 +129,23 @@ int brickmakeCommand(const BrickmakeCommand& command) {
     const std::vector<fs::path> files = pointFiles(command.inputs);
     const bool one = fs::path(command.output).extension() == ".bkm";
     if (!one) makeFolder(command.output);
-    const auto make = [&](const PointCloud& cloud, const fs::path& out, uint64_t world) {
+    const auto make = [&](const fs::path& in, const fs::path& out) {
+      const PointFile file(in.string());
+      const PointTiles tiles(file);
       BrickSettings settings = command.settings;
-      if (command.relative) settings.maxError *= meanOf(cloud);
-      const BuiltBricks built = writeBrickMap(cloud, settings, out.string(), {world, 0});
-      fmt::print("{}: {} points, {} bricks, {} left out, {} levels\n", out.string(), cloud.count(), built.tree.nodes.size(),
-                 built.eliminated, built.tree.deepest + 1);
+      if (command.relative) settings.maxError *= static_cast<float>(tiles.meanOfData());
+      const BuiltBricks built = writeBrickMap(tiles, settings, out.string(), {file.madeFrom().world, 0});
+      fmt::print("{}: {} points, {} bricks, {} left out, {} levels\n", out.string(), file.count(), built.tree.nodes.size(), built.eliminated,
+                 built.tree.deepest + 1);
     };
-    PointCloud all;
-    uint64_t world = 0;
-    for (const fs::path& file : files) {
-      const PointFile part(file.string());
-      if (!one) {
-        make(part.readAll(), fs::path(command.output) / fs::path(file).filename().replace_extension(".bkm"), part.madeFrom().world);
-        continue;
-      }
-      if (!all.channels.empty() && all.channels != part.channels())
-        throw FileError(fmt::format("\"{}\" has other channels than the files before", file.string()));
-      all.channels = part.channels(), world = part.madeFrom().world;
-      for (size_t i = 0; i < part.chunkCount(); ++i) part.read(i, all);
+    if (one && files.size() > 1) {
+      const fs::path all = fs::path(command.output).concat(".ptc");
+      joinPointFiles(files, all);
+      make(all, command.output);
+      fs::remove(all);
+    } else {
+      for (const fs::path& file : files) make(file, one ? fs::path(command.output) : fs::path(command.output) / fs::path(file).filename().replace_extension(".bkm"));
     }
-    if (one) make(all, command.output, world);
   });
   return exitCodeOf(log);
 }

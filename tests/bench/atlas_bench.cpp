@@ -5,7 +5,7 @@
 #include <ctime>
 #include <filesystem>
 
-#include "gi/atlas.h"
+#include "gi/brick_map.h"
 #include "gi/photon_irradiance.h"
 #include "gi/point_file.h"
 #include "reyes/base/parallel.h"
@@ -65,11 +65,11 @@ void bench(uint32_t count) {
   measure("irradiance, every", count, [&] { all = estimateIrradiance(photons, {.every = 1}); });
   writePointFile(every4, points);
   const PointCloud few = PointFile(points).readAll();
-  measure("bricks of every 4th", static_cast<double>(few.count()), [&] { writeBrickMap(few, {0.03f * meanOf(few)}, bricks); });
+  const float mean = static_cast<float>(PointTiles(PointFile(points)).meanOfData());
+  measure("bricks of every 4th", static_cast<double>(few.count()), [&] { writeBrickMap(few, {0.03f * mean}, bricks); });
   measure("point file", static_cast<double>(all.count()), [&] { writePointFile(all, points); });
   PointCloud read;
   measure("read again", static_cast<double>(all.count()), [&] { read = PointFile(points).readAll(); });
-  const float mean = meanOf(read);
   for (const float error : {0.0f, 0.03f, 0.3f}) {
     BuiltBricks built;
     measure(fmt::format("bricks, maxerror {}", error).c_str(), static_cast<double>(read.count()),
