@@ -108,7 +108,7 @@ void PointFile::read(size_t chunk, PointCloud& to) const {
     throw FileError(fmt::format("\"{}\" is damaged: a chunk does not add up", file_.path()));
   const auto finite = [](float v) { return std::isfinite(v); };
   if (!std::all_of(positions.begin(), positions.end(), [](const vec3& P) { return isFinite(P); }) ||
-      !std::all_of(radii.begin(), radii.end(), [](float r) { return std::isfinite(r) && r >= 0; }) || !std::all_of(data.begin(), data.end(), finite))
+      !std::all_of(radii.begin(), radii.end(), [](float radius) { return std::isfinite(radius) && radius >= 0; }) || !std::all_of(data.begin(), data.end(), finite))
     throw FileError(fmt::format("\"{}\" is damaged: a point is not finite", file_.path()));
   to.position.insert(to.position.end(), positions.begin(), positions.end());
   for (const uint32_t p : normals) to.normal.push_back(unpackNormal(p));
