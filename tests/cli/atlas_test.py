@@ -16,6 +16,7 @@ LightSource "pointlight" 2 "from" [0 0 0] "intensity" [{light}]
 Attribute "photon" "globalmap" ["room"]
 Color {color} 0.5 0.5
 Sides 2
+Surface "matte"
 Sphere 2 -2 2 360
 Translate 40 0 0
 LightSource "pointlight" 3 "from" [0 0 0] "intensity" [2]

@@ -39,7 +39,7 @@ with tempfile.TemporaryDirectory() as name:
     expect(first["bricks"]["hit_rate"] > 0.99, f"cache hits: {100 * first['bricks']['hit_rate']:.2f} %")
     dark = [xy for xy, c in direct.items() if max(c[:3]) < 1e-4 and xy[1] > 43]
     lit = sum(max(final[xy][:3]) > 1e-3 for xy in dark) / len(dark)
-    expect(lit > 0.9, f"light reaches what the sun does not: {100 * lit:.1f} % of {len(dark)} pixels")
+    expect(lit > 0.7, f"light reaches what the sun does not: {100 * lit:.1f} % of {len(dark)} pixels")
     expect(mean(direct) < mean(final) < 2 * mean(direct) + 0.2, f"and not too much: mean {mean(direct):.3f} -> {mean(final):.3f}")
     expect(max(max(c[:3]) for xy, c in final.items() if xy in set(dark)) < 2, "no pixel in the shade shines")
 sys.exit(bool(failures))
