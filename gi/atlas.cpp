@@ -12,6 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view kCaustic = ".caustic";  ///< What the names of caustic maps end in.
 constexpr double kStoredBytes = 2.5 * 32;  ///< Of one emitted photon: so many surfaces, so many bytes.
 
 fs::path fileOf(const fs::path& folder, const std::string& map, const char* extension) {
@@ -39,50 +40,93 @@ std::vector<double> boxAreas(const Scene& scene) {
   return areas;
 }
 
-}  // namespace
+/// Counted up when the same inputs begin to make other files.
+constexpr uint32_t kMethod = 1;
 
-float meanOf(const PointCloud& cloud) {
-  double sum = 0;
-  for (const float v : cloud.data) sum += double{v};
-  return cloud.data.empty() ? 0.0f : static_cast<float>(sum / static_cast<double>(cloud.data.size()));
+uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
+  const auto& [emit, maxDepth, seed] = settings.photons;
+  return contentSum(kMethod, settings.world, names.global, names.caustic, emit, maxDepth, seed);
 }
 
-std::vector<std::string> mapNames(const Scene& scene, const AtlasSettings& settings) {
+uint64_t irradianceInputs(const PointFile& photons, const PhotonIrradianceSettings& settings) {
+  const auto& [nearest, every, maxRadius] = settings;
+  return contentSum(kMethod, photons.contents(), nearest, every, maxRadius);
+}
+
+uint64_t brickInputs(const PointFile& points, const BrickSettings& settings) {
+  const auto& [maxError, maxDepth, radiusScale, ignoreNormals] = settings;
+  return contentSum(kMethod, points.contents(), maxError, maxDepth, radiusScale, ignoreNormals);
+}
+
+/// Of a file that may be missing or damaged: then not known.
+MadeFrom pointsMadeFrom(const fs::path& path) {
+  try {
+    return PointFile(path.string()).madeFrom();
+  } catch (const FileError&) {
+    return {};
+  }
+}
+
+MadeFrom bricksMadeFrom(const fs::path& path) {
+  try {
+    return BrickFile(path.string()).madeFrom();
+  } catch (const FileError&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+MapNames mapNames(const Scene& scene, const AtlasSettings& settings) {
   std::vector<double> areas = boxAreas(scene);
   for (size_t g = 0; g < areas.size(); ++g)
     if (!scene.groups[g].attributes->photon.globalMap.empty()) areas[g] = 0;
   const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
   const double share = total * std::min(1.0, static_cast<double>(settings.mostPhotonBytes) /
                                                  (kStoredBytes * static_cast<double>(settings.photons.emit)));
-  std::vector<std::string> names;
+  MapNames names;
   double before = 0;  // groups follow each other as objects do in the scene: neighbours in its hierarchy stay together
   for (size_t g = 0; g < areas.size(); ++g) {
     const std::string& given = scene.groups[g].attributes->photon.globalMap;
-    names.push_back(!given.empty() ? given : fmt::format("scene{}", share > 0 ? static_cast<int>(before / share) : 0));
+    const std::string& caustic = scene.groups[g].attributes->photon.causticMap;
+    names.global.push_back(!given.empty() ? given : fmt::format("scene{}", share > 0 ? static_cast<int>(before / share) : 0));
+    names.caustic.push_back(!caustic.empty() ? caustic + std::string(kCaustic) : "");
     before += areas[g];
   }
   return names;
 }
 
+std::set<std::string> MapNames::all() const {
+  std::set<std::string> out(global.begin(), global.end());
+  out.insert(caustic.begin(), caustic.end());
+  out.erase("");
+  return out;
+}
+
 PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
-                           const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
+                           const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
   makeFolder(folder);
-  const std::vector<std::string> names = mapNames(scene, settings);
   std::map<std::string, PointFileWriter> files;
-  std::vector<PointFileWriter*> fileOfGroup;
-  for (const std::string& name : names)
-    fileOfGroup.push_back(&files.try_emplace(name, fileOf(folder, name, ".ptc").string(), std::vector<CloudChannel>{{"power", 3}}).first->second);
+  for (const std::string& name : names.all()) files.try_emplace(name, fileOf(folder, name, ".ptc").string(), std::vector<CloudChannel>{{"power", 3}});
+  const auto filesOf = [&](const std::vector<std::string>& groups) {
+    std::vector<PointFileWriter*> out;
+    for (const std::string& name : groups) out.push_back(name.empty() ? nullptr : &files.at(name));
+    return out;
+  };
+  const std::vector<PointFileWriter*> global = filesOf(names.global), caustic = filesOf(names.caustic);
   const mat4 worldFromCurrent = glm::inverse(scene.cameraFromWorldAtOpen());
   const mat3 normalMatrix = glm::transpose(mat3(scene.cameraFromWorldAtOpen()));
   const PhotonFigures figures = tracePhotons(
       scene, rays, shading, settings.photons,
       [&](const StoredPhoton& p) {
-        fileOfGroup[static_cast<size_t>(p.group)]->add(transformPoint(worldFromCurrent, p.P), normalizeOr(normalMatrix * p.N, vec3(0, 0, 1)),
-                                                       0, &p.power.x);
+        const vec3 P = transformPoint(worldFromCurrent, p.P), N = normalizeOr(normalMatrix * p.N, vec3(0, 0, 1));
+        const auto group = static_cast<size_t>(p.group);
+        global[group]->add(P, N, 0, &p.power.x);
+        if (p.caustic && caustic[group]) caustic[group]->add(P, N, 0, &p.power.x);
       },
       progress, stats, log);
   for (auto& [name, file] : files) {
-    file.finish();
+    file.finish({settings.world, photonInputs(names, settings)});
     if (file.count() == 0)
       log.report(Severity::Warning, "photons-none-" + name, {}, fmt::format("no photon came to the objects of photon map \"{}\"", name));
   }
@@ -91,63 +135,100 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
   return figures;
 }
 
-void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonIrradianceSettings& settings) {
+void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonIrradianceSettings& given, uint64_t most) {
   const PointFile file(photons.string());
-  PointCloud cloud = file.readAll();
-  if (cloud.offsetOf("power") < 0) throw FileError(fmt::format("\"{}\" is no photon map: it has no channel \"power\"", photons.string()));
-  writePointFile(estimateIrradiance(cloud, settings), out.string());
+  const bool arePhotons = std::any_of(file.channels().begin(), file.channels().end(), [](const CloudChannel& c) { return c.name == "power"; });
+  if (!arePhotons) throw FileError(fmt::format("\"{}\" is no photon map: it has no channel \"power\"", photons.string()));
+  const MadeFrom madeFrom{file.madeFrom().world, irradianceInputs(file, given)};
+  if (file.count() <= most) return writePointFile(estimateIrradiance(file.readAll(), given), out.string(), madeFrom);
+  PhotonIrradianceSettings settings = given;
+  settings.maxRadius = reachOf(given, file.bound());
+  const PointTiles tiles(file);
+  PointFileWriter writer(out.string(), {{"irradiance", 3}});
+  forEachTile(tiles, most, [&](const Bound3& box) {
+    const PointCloud points = estimateIrradiance(tiles.around(box, settings.maxRadius), settings);
+    for (size_t i = 0; i < points.count(); ++i) {
+      const vec3& P = points.position[i];
+      if (glm::all(glm::greaterThanEqual(P, box.lo)) && glm::all(glm::lessThan(P, box.hi))) writer.add(P, points.normal[i], points.radius[i], points.at(i));
+    }
+  });
+  writer.finish(madeFrom);
 }
 
 BuiltBricks writeIrradianceBricks(const fs::path& points, const fs::path& out, BrickSettings settings) {
-  const PointCloud cloud = PointFile(points.string()).readAll();
-  settings.maxError *= meanOf(cloud);
-  return writeBrickMap(cloud, settings, out.string());
+  const PointFile file(points.string());
+  const MadeFrom madeFrom{file.madeFrom().world, brickInputs(file, settings)};
+  const PointTiles tiles(file);
+  settings.maxError *= static_cast<float>(tiles.meanOfData());
+  return writeBrickMap(tiles, settings, out.string(), madeFrom);
 }
 
 void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
-                const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
+                const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
   const fs::path photons = folder / "photons", irradiance = folder / "irradiance";
   makeFolder(irradiance);
-  {
+  const std::set<std::string> maps = names.all();
+  const uint64_t inputs = photonInputs(names, settings);
+  const bool traced = std::all_of(maps.begin(), maps.end(), [&](const std::string& name) {
+    return pointsMadeFrom(fileOf(photons, name, ".ptc")).inputs == inputs;
+  });
+  if (!traced) {
     const StageTimer timer(stats, "photons");
-    writePhotons(photons, scene, rays, shading, settings, progress, stats, log);
+    writePhotons(photons, scene, rays, shading, names, settings, progress, stats, log);
   }
-  std::vector<std::string> names = mapNames(scene, settings);
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  for (const std::string& name : names) {
-    {
+  for (const std::string& name : maps) {
+    const fs::path from = fileOf(photons, name, ".ptc"), points = fileOf(irradiance, name, ".ptc"), bricks = fileOf(folder, name, ".bkm");
+    const PhotonIrradianceSettings& estimate = name.ends_with(kCaustic) ? settings.caustics : settings.irradiance;
+    if (pointsMadeFrom(points).inputs != irradianceInputs(PointFile(from.string()), estimate)) {
       const StageTimer timer(stats, "irradiance");
-      writeIrradiance(fileOf(photons, name, ".ptc"), fileOf(irradiance, name, ".ptc"), settings.irradiance);
+      writeIrradiance(from, points, estimate);
+    }
+    if (bricksMadeFrom(bricks).inputs == brickInputs(PointFile(points.string()), settings.bricks)) {
+      ++stats.photons.groupsKept;
+      continue;
     }
     const StageTimer timer(stats, "brickmake");
-    writeIrradianceBricks(fileOf(irradiance, name, ".ptc"), fileOf(folder, name, ".bkm"), settings.bricks);
+    writeIrradianceBricks(points, bricks, settings.bricks);
   }
 }
 
-IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, const AtlasSettings& settings, size_t cacheBytes, Log& log)
+bool isMadeByHand(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder / "photons", error)) return false;
+  const fs::directory_iterator files(folder, error);
+  return !error && std::any_of(begin(files), end(files), [](const auto& entry) { return entry.path().extension() == ".bkm"; });
+}
+
+IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, const MapNames& names, size_t cacheBytes, Log& log)
     : cache_(cacheBytes),
       worldFromCurrent_(glm::inverse(scene.cameraFromWorldAtOpen())),
       worldFromCurrentScale_(std::cbrt(std::abs(glm::determinant(mat3(worldFromCurrent_))))),
       log_(log) {
-  std::map<std::string, const BrickMap*> byName;
-  for (const std::string& name : mapNames(scene, settings)) {
-    auto [at, isNew] = byName.try_emplace(name, nullptr);
-    const fs::path file = fileOf(folder, name, ".bkm");
-    if (isNew && fs::exists(file)) {
-      maps_.push_back(std::make_unique<const BrickMap>(file.string(), cache_));
-      if (maps_.back()->width() != 3) throw FileError(fmt::format("\"{}\" is no irradiance map: it has not three channels", file.string()));
-      at->second = maps_.back().get();
-    } else if (isNew) {
-      log.report(Severity::Missing, "atlas-no-map-" + name, {},
-                 fmt::format("irradiance map \"{}\" is missing: its objects reflect no indirect light", file.string()));
-    }
-    mapOfGroup_.push_back(at->second);
-  }
+  std::map<std::string, const BrickMap*> byName{{"", nullptr}};
+  for (const std::string& name : names.all()) byName[name] = open(fileOf(folder, name, ".bkm"));
+  for (const std::string& name : names.global) mapOfGroup_.push_back(byName.at(name));
+  for (const std::string& name : names.caustic) causticOfGroup_.push_back(byName.at(name));
 }
 
-vec3 IrradianceAtlas::irradianceOverPi(int group, const vec3& P, const vec3& N, float radius) const {
-  const BrickMap* map = mapOfGroup_[static_cast<size_t>(group)];
+const BrickMap* IrradianceAtlas::open(const fs::path& file) {
+  if (!fs::exists(file)) {
+    log_.report(Severity::Missing, "atlas-no-map-" + file.stem().string(), {},
+                fmt::format("irradiance map \"{}\" is missing: its objects reflect no indirect light", file.string()));
+    return nullptr;
+  }
+  maps_.push_back(std::make_unique<const BrickMap>(file.string(), cache_));
+  if (maps_.back()->width() != 3) throw FileError(fmt::format("\"{}\" is no irradiance map: it has not three channels", file.string()));
+  return maps_.back().get();
+}
+
+std::optional<std::string> IrradianceAtlas::strange(uint64_t world) const {
+  for (const auto& map : maps_)
+    if (const uint64_t from = map->file().madeFrom().world; from != 0 && world != 0 && from != world) return map->file().path();
+  return std::nullopt;
+}
+
+vec3 IrradianceAtlas::look(const MapOfGroup& maps, int group, const vec3& P, const vec3& N, float radius) const {
+  const BrickMap* map = maps[static_cast<size_t>(group)];
   vec3 E(0.0f);
   if (!map) return E;
   try {

@@ -1,10 +1,13 @@
 // Composer: the irradiance atlas (irradiance-atlas 4). Photons, irradiance points and brick maps of a scene, one file for each group
 // of objects, in a folder; and the lookup behind gather rays.
 //   FOLDER/photons/NAME.ptc  ->  FOLDER/irradiance/NAME.ptc  ->  FOLDER/NAME.bkm
+// and the same for NAME.caustic, the part that came by mirrors and glass, which is looked up where the eye sees it.
 // Groups are named by Attribute "photon" "globalmap"; what has no name is shared out by size among "scene0", "scene1", ...
-// Files are in world space, so that another camera can use them. Irradiance in files is E in W/m2.
+// Files are in world space, so that another camera can use them. Irradiance in files is E in W/m2. Each names what it was made of
+// (MadeFrom), so that only what has changed since is made again.
 #pragma once
 #include <filesystem>
+#include <set>
 
 #include "gi/brick_map.h"
 #include "gi/photon_irradiance.h"
@@ -15,46 +18,64 @@ namespace tomales {
 struct AtlasSettings {
   PhotonSettings photons;
   PhotonIrradianceSettings irradiance;
+  PhotonIrradianceSettings caustics{50, 1};   ///< Sharp: every photon counts.
   BrickSettings bricks{0.03f};                ///< maxError: a share of the map's mean irradiance (the paper's is absolute)
   size_t mostPhotonBytes = 256 << 20;         ///< That the photons of one unnamed group are expected to take.
+  uint64_t world = 0;                         ///< worldSum() of the scene.
 };
 
-/// For each of Scene::groups, the name of its map.
-std::vector<std::string> mapNames(const Scene& scene, const AtlasSettings& settings);
-
-/// Of all floats of a cloud; 0 if it is empty.
-float meanOf(const PointCloud& cloud);
+/// For each of Scene::groups, the names of its maps.
+struct MapNames {
+  std::vector<std::string> global;
+  std::vector<std::string> caustic;  ///< Ends in kCaustic; empty: has none.
+  std::set<std::string> all() const;
+};
+MapNames mapNames(const Scene& scene, const AtlasSettings& settings);
 
 using AtlasProgress = std::function<void(float)>;
 
 /// Photons into FOLDER, one file a map. Throws FileError.
 PhotonFigures writePhotons(const std::filesystem::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
-                           const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log);
-/// One photon map -> irradiance points. Throws FileError.
-void writeIrradiance(const std::filesystem::path& photons, const std::filesystem::path& out, const PhotonIrradianceSettings& settings);
+                           const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log);
+/// One photon map -> irradiance points, in cubes of about `most` photons where there are more. Throws FileError.
+void writeIrradiance(const std::filesystem::path& photons, const std::filesystem::path& out, const PhotonIrradianceSettings& settings,
+                     uint64_t most = kPointsInMemory);
 /// Irradiance points -> brick map; its maxError is relative to their mean. Throws FileError.
 BuiltBricks writeIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out, BrickSettings settings);
 
-/// All three for a scene. Throws FileError.
+/// All three for a scene, as far as the folder does not hold them yet: photons are traced again if the scene or their settings have
+/// changed, and groups to which the same photons come keep their maps. Throws FileError.
 void writeAtlas(const std::filesystem::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
-                const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log);
+                const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log);
+
+/// Brick maps without the photons that they came from: somebody put them there, and they are used as they are.
+bool isMadeByHand(const std::filesystem::path& folder);
 
 /// The brick maps of a folder. Threads: lookups are concurrent.
 class IrradianceAtlas {
  public:
   /// Maps that are missing are black, with a warning: nothing was lit there. Throws FileError where one is damaged.
-  IrradianceAtlas(const std::filesystem::path& folder, const Scene& scene, const AtlasSettings& settings, size_t cacheBytes, Log& log);
+  IrradianceAtlas(const std::filesystem::path& folder, const Scene& scene, const MapNames& names, size_t cacheBytes, Log& log);
+
+  /// Names a map that was made from another world than this, if there is one. 0 and maps that do not say: any.
+  std::optional<std::string> strange(uint64_t world) const;
 
   /// E/pi at P (current space) on the side of N, over a radius; 0 where there is nothing.
-  vec3 irradianceOverPi(int group, const vec3& P, const vec3& N, float radius) const;
+  vec3 irradianceOverPi(int group, const vec3& P, const vec3& N, float radius) const { return look(mapOfGroup_, group, P, N, radius); }
+  /// Likewise, of what came by mirrors and glass alone.
+  vec3 causticOverPi(int group, const vec3& P, const vec3& N, float radius) const { return look(causticOfGroup_, group, P, N, radius); }
   void report(Stats& stats) const;  ///< Bricks, lookups, misses, bytes.
 
  private:
+  using MapOfGroup = std::vector<const BrickMap*>;  ///< Null: no photon came there.
+  vec3 look(const MapOfGroup& maps, int group, const vec3& P, const vec3& N, float radius) const;
+  const BrickMap* open(const std::filesystem::path& file);
+
   mutable BrickCache cache_;
   mat4 worldFromCurrent_;
   float worldFromCurrentScale_;
-  std::vector<std::unique_ptr<const BrickMap>> maps_;
-  std::vector<const BrickMap*> mapOfGroup_;  ///< Null: no photon came there.
+  std::vector<std::unique_ptr<const BrickMap>> maps_;  ///< By name.
+  MapOfGroup mapOfGroup_, causticOfGroup_;
   Log& log_;
 };
 

@@ -15,14 +15,24 @@ void BrickAccumulator::clear() {
   layers_.clear(), data_.clear();
 }
 
-int32_t BrickAccumulator::findLayer(int voxel, const vec3& direction, bool& merged) const {
-  const bool oriented = direction != vec3(0.0f);
+int32_t BrickAccumulator::findLayer(int voxel, const vec3& normal, bool& merged) const {
+  const bool oriented = normal != vec3(0.0f);
+  const float length2 = dot(normal, normal);
+  if (const int32_t only = head_[static_cast<size_t>(voxel)]; oriented && only >= 0 && layers_[static_cast<size_t>(only)].next < 0) {
+    const vec3& mean = layers_[static_cast<size_t>(only)].normal;  // nearly always so, and needs no root
+    const float along = dot(mean, normal);
+    if (along > 0 && along * along >= kLayerCosine * kLayerCosine * dot(mean, mean) * length2) return only;
+  }
   int32_t best = -1;
   float bestCosine = -2;
   int count = 0;
   for (int32_t l = head_[static_cast<size_t>(voxel)]; l >= 0; l = layers_[static_cast<size_t>(l)].next, ++count) {
-    const vec3 mean = normalizeOr(layers_[static_cast<size_t>(l)].normal, vec3(0.0f));
-    const float cosine = oriented == (mean != vec3(0.0f)) ? (oriented ? dot(mean, direction) : 1.0f) : -1.0f;
+    const vec3& mean = layers_[static_cast<size_t>(l)].normal;
+    float cosine = -1;
+    if (oriented && mean != vec3(0.0f))
+      cosine = dot(mean, normal) / std::sqrt(dot(mean, mean) * length2);
+    else if (!oriented && mean == vec3(0.0f))
+      cosine = 1;
     if (cosine > bestCosine) best = l, bestCosine = cosine;
   }
   if (bestCosine >= kLayerCosine) return best;
@@ -30,14 +40,14 @@ int32_t BrickAccumulator::findLayer(int voxel, const vec3& direction, bool& merg
   return merged ? best : -1;
 }
 
-int32_t BrickAccumulator::add(int voxel, const LayerSum& sum, const float* data) {
+int32_t BrickAccumulator::add(int voxel, const LayerSum& sum, const float* data, float share) {
   bool merged = false;
-  int32_t l = findLayer(voxel, normalizeOr(sum.normal, vec3(0.0f)), merged);
+  int32_t l = findLayer(voxel, sum.normal, merged);
   if (l < 0) {
     l = static_cast<int32_t>(layers_.size());
     layers_.push_back(sum);
     layers_.back().next = std::exchange(head_[static_cast<size_t>(voxel)], l);
-    data_.insert(data_.end(), data, data + width_);
+    for (int k = 0; k < width_; ++k) data_.push_back(share * data[k]);
     return l;
   }
   LayerSum& layer = layers_[static_cast<size_t>(l)];
@@ -45,7 +55,7 @@ int32_t BrickAccumulator::add(int voxel, const LayerSum& sum, const float* data)
   layer.weight += sum.weight;
   layer.incoherent |= merged | sum.incoherent;
   float* to = data_.data() + l * width_;
-  for (int k = 0; k < width_; ++k) to[k] += data[k];
+  for (int k = 0; k < width_; ++k) to[k] += share * data[k];
   return l;
 }
 
@@ -53,28 +63,26 @@ float BrickAccumulator::addChild(const BrickAccumulator& child, int octant) {
   constexpr int half = kBrickWidth / 2;
   const auto width = static_cast<size_t>(width_);
   const size_t firstNew = layers_.size();  // the octants of a brick share no voxel, so all that is added to is new
-  std::vector<float> least, most;
+  least_.clear(), most_.clear();
   float spread = 0;
-  for (int z = 0; z < kBrickWidth; ++z)
-    for (int y = 0; y < kBrickWidth; ++y)
-      for (int x = 0; x < kBrickWidth; ++x) {
-        const int to = voxelIndex((octant & 1 ? half : 0) + x / 2, (octant & 2 ? half : 0) + y / 2,
-                                  (octant & 4 ? half : 0) + z / 2);
-        for (int32_t l = child.head_[static_cast<size_t>(voxelIndex(x, y, z))]; l >= 0;
-             l = child.layers_[static_cast<size_t>(l)].next) {
-          const LayerSum& sum = child.layers_[static_cast<size_t>(l)];
-          const float* data = child.data_.data() + static_cast<size_t>(l) * width;
-          const auto into = static_cast<size_t>(add(to, sum, data)) - firstNew;
-          if (layers_[into + firstNew].incoherent) spread = kInfinity;
-          if (least.size() < (into + 1) * width) least.resize((into + 1) * width, kInfinity), most.resize((into + 1) * width, -kInfinity);
-          for (size_t k = 0; k < width; ++k) {
-            const float mean = data[k] / sum.weight;
-            float &lo = least[into * width + k], &hi = most[into * width + k];
-            lo = std::min(lo, mean), hi = std::max(hi, mean);
-            spread = std::max(spread, hi - lo);
-          }
-        }
+  for (int v = 0; v < kBrickVoxels; ++v) {
+    if (child.head_[static_cast<size_t>(v)] < 0) continue;
+    const int x = v % kBrickWidth, y = v / kBrickWidth % kBrickWidth, z = v / (kBrickWidth * kBrickWidth);
+    const int to = voxelIndex((octant & 1 ? half : 0) + x / 2, (octant & 2 ? half : 0) + y / 2, (octant & 4 ? half : 0) + z / 2);
+    for (int32_t l = child.head_[static_cast<size_t>(v)]; l >= 0; l = child.layers_[static_cast<size_t>(l)].next) {
+      const LayerSum& sum = child.layers_[static_cast<size_t>(l)];
+      const float* data = child.data_.data() + static_cast<size_t>(l) * width;
+      const auto into = static_cast<size_t>(add(to, sum, data, 1)) - firstNew;
+      if (layers_[into + firstNew].incoherent) spread = kInfinity;
+      if (least_.size() < (into + 1) * width) least_.resize((into + 1) * width, kInfinity), most_.resize((into + 1) * width, -kInfinity);
+      for (size_t k = 0; k < width; ++k) {
+        const float mean = data[k] / sum.weight;
+        float &lo = least_[into * width + k], &hi = most_[into * width + k];
+        lo = std::min(lo, mean), hi = std::max(hi, mean);
+        spread = std::max(spread, hi - lo);
       }
+    }
+  }
   return spread;
 }
 

@@ -17,9 +17,9 @@ class BrickAccumulator {
   explicit BrickAccumulator(int width) : width_(width) { clear(); }
   void clear();
 
-  /// Adds to the layer of the voxel that faces as `sum` does, or to a new one. `data`: sums, times the weight already.
-  /// Returns the layer.
-  int32_t add(int voxel, const LayerSum& sum, const float* data);
+  /// Adds to the layer of the voxel that faces as `sum` does, or to a new one. Of `data`, `share` times is added: the weight, if they are
+  /// not sums already. Returns the layer.
+  int32_t add(int voxel, const LayerSum& sum, const float* data, float share);
 
   /// Box-filters `child` into octant `octant`. Returns the largest spread of the child's means over any of its
   /// groups of 2x2x2 voxels, layer by layer; infinite where layers had to be merged that face apart.
@@ -28,12 +28,13 @@ class BrickAccumulator {
   Brick finish() const;
 
  private:
-  int32_t findLayer(int voxel, const vec3& direction, bool& merged) const;
+  int32_t findLayer(int voxel, const vec3& normal, bool& merged) const;
 
   int width_;
   std::array<int32_t, kBrickVoxels> head_;
   std::vector<LayerSum> layers_;
   std::vector<float> data_;
+  std::vector<float> least_, most_;  ///< Means of the layers that addChild() has added to.
 };
 
 }  // namespace tomales

@@ -1,6 +1,6 @@
 #include "gi/brick_build.h"
 
-#include <memory>
+#include <deque>
 #include <numeric>
 
 #include "gi/brick_accumulate.h"
@@ -10,46 +10,85 @@ namespace {
 
 using Members = std::vector<uint32_t>;
 
+/// A point as voxels meet it. Flat along its normal, or a sphere where it has none.
+struct Spot {
+  vec3 center;
+  vec3 half;     ///< Half the sides of the box around it.
+  vec3 normal;   ///< Zero: a sphere.
+  float radius;
+};
+
+/// One dimension of the voxels that a box meets: which, and how much of the box lies in each.
+struct Shares {
+  int first, last;
+  std::array<float, kBrickWidth> share;
+
+  /// `center` and `half` in voxels.
+  Shares(float center, float half) {
+    const float lo = center - half, hi = center + half;
+    first = std::clamp(static_cast<int>(std::floor(lo)), 0, kBrickWidth - 1);
+    last = std::clamp(static_cast<int>(std::floor(hi)), 0, kBrickWidth - 1);
+    for (int i = first; i <= last; ++i) {
+      // A side without length lies inside as a whole.
+      const auto at = static_cast<float>(i);
+      share[static_cast<size_t>(i)] = half > 1e-5f ? std::max(0.0f, std::min(hi, at + 1) - std::max(lo, at)) / (2 * half) : 1.0f;
+    }
+  }
+  float operator[](int i) const { return share[static_cast<size_t>(i)]; }
+};
+
 class Builder {
  public:
-  Builder(const PointCloud& cloud, const BrickSettings& settings, const std::function<void(const Brick&)>& store)
-      : cloud_(cloud), settings_(settings), store_(store), width_(cloud.width()) {}
+  Builder(const BrickCube& cube, int width, const BrickSettings& settings, const std::function<void(const Brick&)>& store)
+      : settings_(settings), store_(store), width_(static_cast<size_t>(width)) {
+    out_.tree.cube = cube;
+  }
 
-  BuiltBricks run() {
-    if (cloud_.count() == 0) return {};
-    out_.tree.cube = cubeAround(cloud_.bound());
-    Members all(cloud_.count());
-    std::iota(all.begin(), all.end(), 0u);
+  BuiltBricks run(const PointCloud& cloud) {
     BrickNode root;
-    accumulate(0, out_.tree.cube.lo, std::move(all), root);
+    accumulate(0, glm::ivec3(0), use(cloud), root);
+    keep(0, root);
+    return std::move(out_);
+  }
+
+  BuiltBricks run(const PointTiles& tiles, uint64_t most) {
+    BrickNode root;
+    accumulate(tiles, most, 0, glm::ivec3(0), root);
     keep(0, root);
     return std::move(out_);
   }
 
  private:
-  static BrickCube cubeAround(const Bound3& b) {
-    const float longest = maxComponent(b.size());
-    // A margin, so that the farthest points lie inside and a single one has a volume at all.
-    const float size = longest * 1.001f + 1e-5f * maxComponent(glm::max(glm::abs(b.lo), glm::abs(b.hi))) + 1e-30f;
-    return {b.center() - vec3(0.5f * size), size};
+  /// What one level works on: all that is ever in memory besides the points.
+  struct Level {
+    explicit Level(int width) : sums(width) {}
+    BrickAccumulator sums;
+    std::array<Members, 8> parts;
+  };
+
+  /// The points that are worked on from now on; all of them.
+  Members use(const PointCloud& cloud) {
+    cloud_ = &cloud;
+    spots_.clear(), spots_.reserve(cloud.count());
+    for (size_t i = 0; i < cloud.count(); ++i) spots_.push_back(spot(i));
+    Members all(cloud.count());
+    std::iota(all.begin(), all.end(), 0u);
+    return all;
   }
 
-  bool oriented(uint32_t i) const { return !settings_.ignoreNormals && cloud_.normal[i] != vec3(0.0f); }
-  float radius(uint32_t i) const { return cloud_.radius[i] * settings_.radiusScale; }
-
-  /// Half the sides of the box around a point's disk or sphere.
-  vec3 halfBox(uint32_t i) const {
-    const vec3 n = cloud_.normal[i];
-    return oriented(i) ? radius(i) * glm::sqrt(glm::max(vec3(1.0f) - n * n, vec3(0.0f))) : vec3(radius(i));
+  Spot spot(size_t i) const {
+    const vec3 n = settings_.ignoreNormals ? vec3(0.0f) : cloud_->normal[i];
+    const float r = cloud_->radius[i] * settings_.radiusScale;
+    return {cloud_->position[i], n == vec3(0.0f) ? vec3(r) : r * glm::sqrt(glm::max(vec3(1.0f) - n * n, vec3(0.0f))), n, r};
   }
 
-  BrickAccumulator& accumulator(int level) {
-    while (static_cast<int>(levels_.size()) <= level) levels_.push_back(std::make_unique<BrickAccumulator>(width_));
-    return *levels_[static_cast<size_t>(level)];
+  Level& at(int level) {
+    while (static_cast<int>(levels_.size()) <= level) levels_.emplace_back(static_cast<int>(width_));
+    return levels_[static_cast<size_t>(level)];
   }
 
   int32_t keep(int level, const BrickNode& node) {
-    store_(accumulator(level).finish());
+    store_(at(level).sums.finish());
     out_.tree.nodes.push_back(node);
     out_.tree.deepest = std::max(out_.tree.deepest, level);
     return out_.tree.root();
@@ -61,94 +100,113 @@ class Builder {
     const float half = 0.5f * std::sqrt(3.0f) * out_.tree.cube.voxelSize(level);
     const vec3 hi = lo + vec3(std::ldexp(out_.tree.cube.size, -level));
     return std::none_of(members.begin(), members.end(), [&](uint32_t i) {
-      const vec3& p = cloud_.position[i];
-      return radius(i) < half && glm::all(glm::greaterThanEqual(p, lo)) && glm::all(glm::lessThan(p, hi));
+      const Spot& s = spots_[i];
+      return s.radius < half && glm::all(glm::greaterThanEqual(s.center, lo)) && glm::all(glm::lessThan(s.center, hi));
     });
   }
 
-  /// Fills the accumulator of `level` with the cube at `lo`, and `node` with the children that are kept.
-  void accumulate(int level, const vec3& lo, Members members, BrickNode& node) {
-    accumulator(level).clear();
+  vec3 corner(int level, const glm::ivec3& place) const { return out_.tree.cube.lo + std::ldexp(out_.tree.cube.size, -level) * vec3(place); }
+  static glm::ivec3 placeOfChild(const glm::ivec3& place, int octant) { return place * 2 + glm::ivec3(octant & 1, octant >> 1 & 1, octant >> 2 & 1); }
+
+  /// Fills the sums of `level` with the cube at `place`, in cubes of that level, and `node` with the children that are kept.
+  void accumulate(int level, const glm::ivec3& place, const Members& members, BrickNode& node) {
+    Level& here = at(level);
+    here.sums.clear();
+    const vec3 lo = corner(level, place);
     if (fineEnough(level, lo, members)) {
-      for (const uint32_t i : members) splat(i, lo, out_.tree.cube.voxelSize(level), accumulator(level));
+      for (const uint32_t i : members) splat(i, lo, out_.tree.cube.voxelSize(level), here.sums);
       return;
     }
-    const float size = std::ldexp(out_.tree.cube.size, -level - 1);
-    std::array<Members, 8> parts = partition(members, lo + vec3(size));
-    Members().swap(members);
+    partition(members, corner(level + 1, place * 2 + 1), here.parts);
     for (int octant = 0; octant < 8; ++octant) {
-      Members& part = parts[static_cast<size_t>(octant)];
+      const Members& part = here.parts[static_cast<size_t>(octant)];
       if (part.empty()) continue;
-      const vec3 childLo = lo + size * vec3(octant & 1, octant >> 1 & 1, octant >> 2 & 1);
       BrickNode child;
-      accumulate(level + 1, childLo, std::move(part), child);
-      const float spread = accumulator(level).addChild(accumulator(level + 1), octant);
-      const bool leaf = std::all_of(child.child.begin(), child.child.end(), [](int32_t c) { return c < 0; });
-      if (leaf && spread <= settings_.maxError)
-        ++out_.eliminated;
-      else
-        node.child[static_cast<size_t>(octant)] = keep(level + 1, child);
+      accumulate(level + 1, placeOfChild(place, octant), part, child);
+      addChild(level, octant, child, node);
     }
+  }
+
+  /// The same of points on disk. False: there are none.
+  bool accumulate(const PointTiles& tiles, uint64_t most, int level, const glm::ivec3& place, BrickNode& node) {
+    if (tiles.count(level, place) <= most || level == PointTiles::kDeepest || level >= settings_.maxDepth) {
+      const PointCloud cloud = tiles.around(tiles.box(level, place), 0);
+      accumulate(level, place, use(cloud), node);
+      return cloud.count() > 0;
+    }
+    at(level).sums.clear();
+    for (int octant = 0; octant < 8; ++octant) {
+      BrickNode child;
+      if (accumulate(tiles, most, level + 1, placeOfChild(place, octant), child))
+        addChild(level, octant, child, node);
+    }
+    return true;
+  }
+
+  /// The finished sums of a child, one level below: into those of `level`, and to the store unless they say the same.
+  void addChild(int level, int octant, const BrickNode& child, BrickNode& node) {
+    const float spread = at(level).sums.addChild(at(level + 1).sums, octant);
+    const bool leaf = std::all_of(child.child.begin(), child.child.end(), [](int32_t c) { return c < 0; });
+    if (leaf && spread <= settings_.maxError)
+      ++out_.eliminated;
+    else
+      node.child[static_cast<size_t>(octant)] = keep(level + 1, child);
   }
 
   /// Points by the octants around `middle` that their boxes reach.
-  std::array<Members, 8> partition(const Members& members, const vec3& middle) const {
-    std::array<Members, 8> parts;
+  void partition(const Members& members, const vec3& middle, std::array<Members, 8>& parts) const {
+    for (Members& part : parts) part.clear();
     for (const uint32_t i : members) {
-      const vec3 p = cloud_.position[i], h = halfBox(i);
-      const auto low = glm::lessThan(p - h, middle), high = glm::greaterThanEqual(p + h, middle);
-      for (int octant = 0; octant < 8; ++octant)
-        if ((octant & 1 ? high.x : low.x) && (octant & 2 ? high.y : low.y) && (octant & 4 ? high.z : low.z))
-          parts[static_cast<size_t>(octant)].push_back(i);
+      const Spot& s = spots_[i];
+      unsigned low = 0, high = 0;
+      for (int k = 0; k < 3; ++k) {
+        low |= static_cast<unsigned>(s.center[k] - s.half[k] < middle[k]) << k;
+        high |= static_cast<unsigned>(s.center[k] + s.half[k] >= middle[k]) << k;
+      }
+      for (unsigned octant = 0; octant < 8; ++octant)
+        if ((octant & ~high) == 0 && (~octant & 7 & ~low) == 0) parts[octant].push_back(i);
     }
-    return parts;
   }
 
   /// Adds a point to the voxels that its box and its plane cross, by the share of the box in each.
-  void splat(uint32_t i, const vec3& lo, float voxel, BrickAccumulator& to) {
-    const vec3 p = (cloud_.position[i] - lo) / voxel, h = halfBox(i) / voxel, n = cloud_.normal[i];
-    const glm::ivec3 first = glm::clamp(glm::ivec3(glm::floor(p - h)), 0, kBrickWidth - 1);
-    const glm::ivec3 last = glm::clamp(glm::ivec3(glm::floor(p + h)), 0, kBrickWidth - 1);
-    const float r = std::max(radius(i) / voxel, 1e-3f);
-    const float size = oriented(i) ? r * r : r * r * r;  // area or volume, but for a constant
-    for (int z = first.z; z <= last.z; ++z)
-      for (int y = first.y; y <= last.y; ++y)
-        for (int x = first.x; x <= last.x; ++x) {
-          const vec3 corner(x, y, z), off = corner + vec3(0.5f) - p;
-          if (oriented(i) && std::abs(dot(n, off)) > 0.5f * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z))) continue;
-          const float weight = size * share(p, h, corner);
-          if (weight > 0) addPoint(i, voxelIndex(x, y, z), weight, to);
+  void splat(uint32_t i, const vec3& lo, float voxel, BrickAccumulator& to) const {
+    const Spot& s = spots_[i];
+    const vec3 p = (s.center - lo) / voxel, h = s.half / voxel, n = s.normal;
+    const bool oriented = n != vec3(0.0f);
+    const float r = std::max(s.radius / voxel, 1e-3f);
+    const float size = oriented ? r * r : r * r * r;  // area or volume, but for a constant
+    const float reach = 0.5f * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+    const Shares xs(p.x, h.x), ys(p.y, h.y), zs(p.z, h.z);
+    const float* data = cloud_->data.data() + i * width_;
+    for (int z = zs.first; z <= zs.last; ++z)
+      for (int y = ys.first; y <= ys.last; ++y)
+        for (int x = xs.first; x <= xs.last; ++x) {
+          const vec3 off = vec3(x, y, z) + vec3(0.5f) - p;
+          if (oriented && std::abs(dot(n, off)) > reach) continue;
+          const float weight = size * xs[x] * ys[y] * zs[z];
+          if (weight > 0) to.add(voxelIndex(x, y, z), {weight * n, weight}, data, weight);
         }
   }
 
-  /// Of the box p +- h, the part inside the unit voxel at `corner`; a side without length lies inside as a whole.
-  static float share(const vec3& p, const vec3& h, const vec3& corner) {
-    float part = 1;
-    for (int k = 0; k < 3; ++k)
-      if (h[k] > 1e-5f)
-        part *= std::max(0.0f, std::min(p[k] + h[k], corner[k] + 1) - std::max(p[k] - h[k], corner[k])) / (2 * h[k]);
-    return part;
-  }
-
-  void addPoint(uint32_t i, int voxel, float weight, BrickAccumulator& to) {
-    scratch_.assign(cloud_.at(i), cloud_.at(i) + width_);
-    for (float& d : scratch_) d *= weight;
-    to.add(voxel, {oriented(i) ? weight * cloud_.normal[i] : vec3(0.0f), weight}, scratch_.data());
-  }
-
-  const PointCloud& cloud_;
   const BrickSettings settings_;
   const std::function<void(const Brick&)>& store_;
-  const int width_;
+  const size_t width_;
   BuiltBricks out_;
-  std::vector<std::unique_ptr<BrickAccumulator>> levels_;  // one brick a level: all that is ever in memory
-  std::vector<float> scratch_;
+  const PointCloud* cloud_ = nullptr;
+  std::vector<Spot> spots_;
+  std::deque<Level> levels_;  // a deque: deeper levels come while those above are at work
 };
 
 }  // namespace
 
 BuiltBricks buildBricks(const PointCloud& cloud, const BrickSettings& settings, const std::function<void(const Brick&)>& store) {
-  return Builder(cloud, settings, store).run();
+  if (cloud.count() == 0) return {};
+  return Builder(cubeAround(cloud.bound()), cloud.width(), settings, store).run(cloud);
+}
+
+BuiltBricks buildBricks(const PointTiles& tiles, const BrickSettings& settings, const std::function<void(const Brick&)>& store, uint64_t most) {
+  if (tiles.file().count() == 0) return {};
+  return Builder(tiles.cube(), tiles.file().width(), settings, store).run(tiles, most);
 }
 
 }  // namespace tomales

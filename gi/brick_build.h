@@ -6,9 +6,11 @@
 #include <functional>
 
 #include "gi/brick.h"
-#include "gi/point_cloud.h"
+#include "gi/point_tiles.h"
 
 namespace tomales {
+
+constexpr uint64_t kPointsInMemory = 4'000'000;
 
 struct BrickSettings {
   float maxError = 0.002f;      ///< Bricks whose 2x2x2 groups of voxels vary less are left out, in units of the data.
@@ -24,5 +26,9 @@ struct BuiltBricks {
 
 /// Hands every brick that is kept to `store`, in the order of the nodes. A cloud without points makes a tree without nodes.
 BuiltBricks buildBricks(const PointCloud& cloud, const BrickSettings& settings, const std::function<void(const Brick&)>& store);
+
+/// The same from disk, with about `most` points in memory at a time; best if the file is sorted (writePointFile). Throws FileError.
+BuiltBricks buildBricks(const PointTiles& tiles, const BrickSettings& settings, const std::function<void(const Brick&)>& store,
+                        uint64_t most = kPointsInMemory);
 
 }  // namespace tomales

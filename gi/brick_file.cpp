@@ -2,38 +2,50 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+#include <numeric>
+
+#include "reyes/base/packed_normal.h"
+
 namespace tomales {
 namespace {
 
 constexpr char kKind[9] = "TMBRICKS";
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 constexpr int kMostLevels = 24;  ///< Voxel coordinates stay exact in int.
 
-Bytes pack(const Brick& brick) {
-  ByteWriter w;
-  w.put(std::vector<uint16_t>(brick.first.begin(), brick.first.end()));
-  std::vector<vec3> normals;
+/// A brick as it is stored: for each layer its voxel, in order, its normal, whether that is incoherent, and its data.
+Bytes packed(const Brick& brick) {
+  std::vector<uint16_t> voxels;
+  std::vector<uint32_t> normals;
   std::vector<uint8_t> incoherent;
-  for (const BrickLayer& l : brick.layers) normals.push_back(l.normal), incoherent.push_back(l.incoherent);
+  voxels.reserve(brick.layers.size()), normals.reserve(brick.layers.size()), incoherent.reserve(brick.layers.size());
+  for (size_t v = 0; v < kBrickVoxels; ++v) voxels.insert(voxels.end(), brick.first[v + 1] - brick.first[v], static_cast<uint16_t>(v));
+  for (const BrickLayer& l : brick.layers) normals.push_back(packNormal(l.normal)), incoherent.push_back(l.incoherent);
+  ByteWriter w;
+  w.put(voxels);
   w.put(normals);
   w.put(incoherent);
   w.put(brick.data);
   return std::move(w.bytes);
 }
 
-Brick unpack(const Bytes& bytes, int width, const std::string& path) {
+Brick unpacked(const Bytes& bytes, int width, const std::string& path) {
   ByteReader r(bytes, path);
   Brick brick;
-  const auto first = r.getVector<uint16_t>();
-  const auto normals = r.getVector<vec3>();
+  const auto voxels = r.getVector<uint16_t>();
+  const auto normals = r.getVector<uint32_t>();
   const auto incoherent = r.getVector<uint8_t>();
   brick.data = r.getVector<float>();
-  const bool whole = first.size() == brick.first.size() && std::is_sorted(first.begin(), first.end()) && first.front() == 0 &&
-                     first.back() == normals.size() && incoherent.size() == normals.size() &&
-                     brick.data.size() == normals.size() * static_cast<size_t>(width);
+  const bool whole = std::is_sorted(voxels.begin(), voxels.end()) && (voxels.empty() || voxels.back() < kBrickVoxels) &&
+                     voxels.size() <= std::numeric_limits<uint16_t>::max() && normals.size() == voxels.size() &&
+                     incoherent.size() == voxels.size() && brick.data.size() == voxels.size() * static_cast<size_t>(width) &&
+                     std::all_of(brick.data.begin(), brick.data.end(), [](float v) { return std::isfinite(v); });
   if (!whole) throw FileError(fmt::format("\"{}\" is damaged: a brick does not add up", path));
-  std::copy(first.begin(), first.end(), brick.first.begin());
-  for (size_t i = 0; i < normals.size(); ++i) brick.layers.push_back({normals[i], incoherent[i] != 0});
+  for (const uint16_t v : voxels) ++brick.first[v + 1u];
+  std::partial_sum(brick.first.begin(), brick.first.end(), brick.first.begin());
+  brick.layers.reserve(voxels.size());
+  for (size_t i = 0; i < voxels.size(); ++i) brick.layers.push_back({unpackNormal(normals[i]), incoherent[i] != 0});
   return brick;
 }
 
@@ -61,16 +73,17 @@ BrickFile::BrickFile(const std::string& path) : file_(path, kKind, kVersion) {
   tree_.cube = r.get<BrickCube>();
   tree_.deepest = r.get<int32_t>();
   tree_.nodes = r.getVector<BrickNode>();
+  madeFrom_ = r.get<MadeFrom>();
   if (!sound(tree_) || tree_.nodes.size() != file_.count()) throw FileError(fmt::format("\"{}\" is damaged: its octree does not add up", path));
 }
 
-Brick BrickFile::brick(int32_t node) const { return unpack(file_.read(static_cast<uint32_t>(node)), width_, file_.path()); }
+Brick BrickFile::brick(int32_t node) const { return unpacked(file_.read(static_cast<uint32_t>(node)), width_, file_.path()); }
 
 BrickFileWriter::BrickFileWriter(const std::string& path) : file_(path, kKind, kVersion) {}
 
-void BrickFileWriter::add(const Brick& brick) { file_.add(pack(brick)); }
+void BrickFileWriter::add(const Brick& brick) { file_.add(packed(brick)); }
 
-void BrickFileWriter::finish(const std::vector<CloudChannel>& channels, const BrickTree& tree) {
+void BrickFileWriter::finish(const std::vector<CloudChannel>& channels, const BrickTree& tree, const MadeFrom& madeFrom) {
   ByteWriter header;
   header.put(static_cast<uint32_t>(channels.size()));
   for (const CloudChannel& c : channels) {
@@ -80,6 +93,7 @@ void BrickFileWriter::finish(const std::vector<CloudChannel>& channels, const Br
   header.put(tree.cube);
   header.put(static_cast<int32_t>(tree.deepest));
   header.put(tree.nodes);
+  header.put(madeFrom);
   file_.finish(header.bytes);
 }
 

@@ -1,5 +1,5 @@
 // Noun: a brick map (irradiance-atlas 3) on disk, .bkm: a tiled 3D MIP map of data on surfaces or in volumes. A file of chunks
-// (reyes/base/chunk_file.h), one a brick; its header has the channels and the octree.
+// (reyes/base/chunk_file.h), one a brick; its header has the channels, the octree, and what the map was made of.
 // Space: that of the points it was made from (world). Threads: const members may be called concurrently; a writer belongs to one thread.
 #pragma once
 #include <string>
@@ -19,6 +19,8 @@ class BrickFile {
   const std::vector<CloudChannel>& channels() const { return channels_; }
   int width() const { return width_; }  ///< Floats of one lookup.
   const BrickTree& tree() const { return tree_; }
+  const MadeFrom& madeFrom() const { return madeFrom_; }
+  const std::string& path() const { return file_.path(); }
   uint64_t fileBytes() const { return file_.fileBytes(); }
   Brick brick(int32_t node) const;  ///< Throws FileError where the file is damaged.
 
@@ -27,13 +29,14 @@ class BrickFile {
   std::vector<CloudChannel> channels_;
   int width_ = 0;
   BrickTree tree_;
+  MadeFrom madeFrom_;
 };
 
 class BrickFileWriter {
  public:
   explicit BrickFileWriter(const std::string& path);  ///< Throws FileError, as every member.
   void add(const Brick& brick);  ///< In the order of the nodes.
-  void finish(const std::vector<CloudChannel>& channels, const BrickTree& tree);
+  void finish(const std::vector<CloudChannel>& channels, const BrickTree& tree, const MadeFrom& madeFrom);
 
  private:
   ChunkWriter file_;

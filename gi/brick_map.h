@@ -26,6 +26,7 @@ class BrickMap {
   struct Sum;
   void addLevel(int level, const vec3& P, const vec3& N, float halfWidth, float weight, Sum& sum) const;
   void addVoxel(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum, int depth) const;
+  void find(int level, const glm::ivec3& voxel, Sum& sum) const;
   BrickPtr cached(int32_t node) const;
   const BrickTree& tree() const { return file_.tree(); }
 
@@ -34,7 +35,8 @@ class BrickMap {
   uint32_t id_;
 };
 
-/// Makes FILE.bkm of a cloud. Throws FileError.
-BuiltBricks writeBrickMap(const PointCloud& cloud, const BrickSettings& settings, const std::string& path);
+/// Makes FILE.bkm of a cloud in memory or on disk. Throws FileError.
+BuiltBricks writeBrickMap(const PointTiles& points, const BrickSettings& settings, const std::string& path, const MadeFrom& madeFrom = {});
+BuiltBricks writeBrickMap(const PointCloud& cloud, const BrickSettings& settings, const std::string& path, const MadeFrom& madeFrom = {});
 
 }  // namespace tomales

@@ -88,6 +88,13 @@ class PathBatches {
   std::vector<vec3> directions_;  ///< and where it left.
 };
 
+/// Light by way of mirrors and glass, which gather rays do not find.
+vec3 causticAt(const GiState& state, int group, const vec3& P, const vec3& n, float pixelSize) {
+  if (state.settings.mode != GiMode::Atlas || state.scene.groups[static_cast<size_t>(group)].attributes->photon.causticMap.empty()) return vec3(0.0f);
+  gatherTools(state);
+  return state.atlas ? state.atlas->causticOverPi(group, P, n, 0.5f * pixelSize) : vec3(0.0f);
+}
+
 IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, const GatherSettings& settings,
                               RayAnswers* answers) {
   const struct {
@@ -167,14 +174,14 @@ void interpolateIndirect(const GiState& state, const ShadePoints& points, const 
       const IrradianceEstimate estimate = prepared->cache.lookup(P, n, pixelSize);
       if (estimate.weight > 0) {
         ++interpolated;
-        store(out, i, estimate.E, estimate.dominant);
+        store(out, i, estimate.E + causticAt(state, points.group(), P, n, pixelSize), estimate.dominant);
         continue;
       }
     }
     // Kept out of the cache: what other points find there must not depend on the order of shading.
     const GatherPoint point{points.group(), P, n, points.key(i), pixelSize, points.edgeLength(i), points.get3(kDriftX, i), points.channel(kTime)[i]};
     const IndirectAnswer answer = gatherOrRecall(state, point, plan.gather, context.answers);
-    store(out, i, answer[0], &answer[1]);
+    store(out, i, answer[0] + causticAt(state, points.group(), P, n, pixelSize), &answer[1]);
   }
   state.stats.irradianceCache.lookups += lookups;
   state.stats.irradianceCache.interpolated += interpolated;

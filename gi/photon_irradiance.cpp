@@ -10,6 +10,9 @@ namespace {
 // Chance alone moves the centroid of 50 photons by 0.09 radii on average; from there on a border is believed in gradually.
 constexpr float kChanceEnds = 0.18f, kBorderBegins = 0.34f;
 constexpr float kOverlap = 1.6f;  ///< Radius of a disk over that of the area it stands for: few gaps between random disks.
+constexpr size_t kFew = 8;        ///< Fewer photons tell nothing about how far the next are.
+/// By chance, the nearest eight of 50 are so much closer once in a thousand times. Radii that follow chance make bricks finer than the data.
+constexpr float kMuchCloser = 0.5f;
 constexpr float kMostOfMap = 0.05f;
 constexpr size_t kEstimatesPerTask = 256;
 
@@ -32,7 +35,7 @@ float diskRadius(float area, size_t count, int every) {
 /// By the nearest few alone: where photons are rare, those that the search has to reach for lie on other surfaces, and the disk must
 /// not reach there. Pre: sorted.
 float nearRadius(const std::vector<NearPhoton>& photons, int every) {
-  const size_t few = std::min(photons.size(), 2 * static_cast<size_t>(every));
+  const size_t few = std::min(photons.size(), std::max(kFew, 2 * static_cast<size_t>(every)));
   return diskRadius(kPi * photons[few - 1].distance2, few, every);
 }
 
@@ -41,8 +44,9 @@ Estimate estimate(const PointCloud& photons, const PhotonTree& tree, int power, 
   const vec3 P = tree.position(at), N = tree.normal(at);
   const auto most = static_cast<size_t>(settings.nearest);
   tree.nearest(P, N, most, settings.maxRadius, heap);
-  // The farthest gives the radius and does not count: n - 1 inside is what a disk that just excludes the n-th has.
-  const float r2 = heap.size() == most ? heap.front().distance2 : std::min(settings.maxRadius * settings.maxRadius, heap.front().distance2);
+  // The farthest gives the radius and does not count: n - 1 inside is what a disk that just excludes the n-th has. Fewer: as far as they
+  // reach, unless they are so few that two which happen to be close would shine.
+  const float r2 = heap.size() >= std::min(kFew, most) ? heap.front().distance2 : settings.maxRadius * settings.maxRadius;
   if (!(r2 > 0)) return {vec3(0.0f), 0};
   std::sort(heap.begin(), heap.end());  // sums in the order of distance, which no thread decides
   const size_t inside = heap.size() == most ? most - 1 : heap.size();
@@ -56,7 +60,8 @@ Estimate estimate(const PointCloud& photons, const PhotonTree& tree, int power, 
   const float distance = glm::length(centroid - dot(centroid, N) * N) / std::sqrt(r2);
   const float belief = glm::smoothstep(kChanceEnds, kBorderBegins, distance);
   const float area = kPi * r2 * glm::mix(1.0f, coveredShare(distance), belief);
-  return {sum / area, std::min(diskRadius(area, inside, settings.every), nearRadius(heap, settings.every))};
+  const float wide = diskRadius(area, inside, settings.every), close = nearRadius(heap, settings.every);
+  return {sum / area, close < kMuchCloser * wide ? close : wide};
 }
 
 }  // namespace
@@ -70,9 +75,13 @@ float coveredShare(float centroidDistance) {
   return segment(hi).x;
 }
 
+float reachOf(const PhotonIrradianceSettings& settings, const Bound3& map) {
+  return settings.maxRadius > 0 || map.empty() ? settings.maxRadius : kMostOfMap * glm::length(map.size());
+}
+
 PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& given) {
   PhotonIrradianceSettings settings = given;
-  if (!(settings.maxRadius > 0)) settings.maxRadius = kMostOfMap * glm::length(photons.bound().size());
+  settings.maxRadius = reachOf(given, photons.bound());
   PointCloud out;
   out.channels = {{"irradiance", 3}};
   if (photons.count() == 0) return out;

@@ -17,6 +17,9 @@ struct PhotonIrradianceSettings {
 /// to cover the surface. No photons make an empty cloud.
 PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& settings);
 
+/// The radius beyond which photons do not count, on a map of this bound.
+float reachOf(const PhotonIrradianceSettings& settings, const Bound3& map);
+
 /// Share of a disk that a straight border leaves, by how far the centroid of what is left lies from the centre, in radii: 1 at 0, 1/2
 /// at 4/(3 pi). What photons near the border of a surface are short of.
 float coveredShare(float centroidDistance);

@@ -18,6 +18,7 @@ struct Path {
   vec3 power;
   uint32_t number;
   int depth = 0;
+  bool specular = true;  ///< So far it has met nothing diffuse.
 };
 
 struct Scratch {
@@ -117,7 +118,8 @@ class Tracer {
     switch (const PhotonModel model = models_[static_cast<size_t>(group)]) {
       case PhotonModel::Matte:
       case PhotonModel::Translucent: {
-        out.push_back({P, N, path.power, group, path.depth});
+        out.push_back({P, N, path.power, group, path.depth, path.specular && path.depth > 0});
+        path.specular = false;
         passed = isFinite(reflectance) ? glm::clamp(reflectance, 0.0f, 1.0f) : vec3(0);
         const bool through = model == PhotonModel::Translucent && sobol1(path.number, hashCombine(name, 2u)) < 0.5f;
         // Around the interpolated normal some photons would go into the polygon, and be caught in what it bounds.

@@ -21,6 +21,7 @@ struct StoredPhoton {
   vec3 power;
   int group;   ///< Of Scene::groups
   int depth;   ///< 0: straight from a light.
+  bool caustic;  ///< It has met mirrors and glass alone on its way, and at least one.
 };
 
 struct PhotonFigures { int64_t emitted = 0, stored = 0; };

@@ -16,6 +16,12 @@ struct CloudChannel {
   bool operator==(const CloudChannel&) const = default;
 };
 
+/// What a file was made of, as sums; 0: not known.
+struct MadeFrom {
+  uint64_t world = 0;   ///< worldSum() of the scene at the start of it all.
+  uint64_t inputs = 0;  ///< What was read, and the settings.
+};
+
 struct PointCloud {
   std::vector<CloudChannel> channels;
   std::vector<vec3> position;

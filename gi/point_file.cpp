@@ -4,32 +4,14 @@
 
 #include <numeric>
 
+#include "reyes/base/packed_normal.h"
+
 namespace tomales {
 namespace {
 
 constexpr char kKind[9] = "TMPOINTS";
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 constexpr int kMostWidth = 256;
-
-/// Octahedral: 1 / 65534 of a quadrant fine. 0 is no normal.
-uint32_t packNormal(const vec3& n) {
-  if (n == vec3(0.0f)) return 0;
-  const vec3 a = n / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
-  vec2 o(a.x, a.y);
-  if (a.z < 0) o = (vec2(1) - glm::abs(vec2(a.y, a.x))) * vec2(a.x < 0 ? -1.0f : 1.0f, a.y < 0 ? -1.0f : 1.0f);
-  const auto pack = [](float v) { return static_cast<uint32_t>(std::lround(v * 32767.0f) + 32768); };
-  return pack(o.x) << 16 | pack(o.y);
-}
-
-vec3 unpackNormal(uint32_t packed) {
-  if (packed == 0) return vec3(0.0f);
-  const auto part = [](uint32_t v) { return (static_cast<float>(v & 0xffff) - 32768.0f) / 32767.0f; };
-  vec3 n(part(packed >> 16), part(packed), 0);
-  n.z = 1 - std::abs(n.x) - std::abs(n.y);
-  const float fold = std::max(-n.z, 0.0f);
-  n.x += n.x >= 0 ? -fold : fold, n.y += n.y >= 0 ? -fold : fold;
-  return normalizeOr(n, vec3(0, 0, 1));
-}
 
 /// Every third bit of a number, from 21 bits.
 uint64_t spread(uint64_t x) {
@@ -47,6 +29,11 @@ PointFileWriter::PointFileWriter(const std::string& path, const std::vector<Clou
 }
 
 void PointFileWriter::add(const vec3& P, const vec3& N, float radius, const float* values) {
+  const auto finite = [](float v) { return std::isfinite(v); };
+  if (!isFinite(P) || !isFinite(N) || !(radius >= 0) || !finite(radius) || !std::all_of(values, values + pending_.width(), finite)) {
+    ++dropped_;
+    return;
+  }
   pending_.add(P, N, radius, values);
   if (pending_.count() == kChunkPoints) flush();
 }
@@ -60,6 +47,7 @@ void PointFileWriter::flush() {
   w.put(normals);
   w.put(pending_.radius);
   w.put(pending_.data);
+  contents_.raw(w.bytes.data(), w.bytes.size());
   file_.add(w.bytes);
   bounds_.push_back(pending_.bound());
   written_ += pending_.count();
@@ -68,32 +56,36 @@ void PointFileWriter::flush() {
   pending_ = std::move(empty);
 }
 
-void PointFileWriter::finish() {
+void PointFileWriter::finish(const MadeFrom& madeFrom) {
   flush();
   ByteWriter header;
   header.put(static_cast<uint32_t>(pending_.channels.size()));
   for (const CloudChannel& c : pending_.channels) {
     header.put(c.name);
     header.put(static_cast<int32_t>(c.width));
+    contents_.raw(c.name.data(), c.name.size());
   }
   header.put(static_cast<uint64_t>(written_));
   header.put(bounds_);
+  header.put(madeFrom);
+  header.put(contents_.sum);
   file_.finish(header.bytes);
 }
 
 PointFile::PointFile(const std::string& path) : file_(path, kKind, kVersion) {
   ByteReader r(file_.header(), path);
   const auto channelCount = r.get<uint32_t>();
-  int width = 0;
   for (uint32_t i = 0; i < channelCount; ++i) {
     std::string name = r.getString();
     channels_.push_back({std::move(name), r.get<int32_t>()});
-    if (channels_.back().width < 1 || channels_.back().width > kMostWidth - width)
+    if (channels_.back().width < 1 || channels_.back().width > kMostWidth - width_)
       throw FileError(fmt::format("\"{}\": its channels are too many or damaged", path));
-    width += channels_.back().width;
+    width_ += channels_.back().width;
   }
   count_ = r.get<uint64_t>();
   bounds_ = r.getVector<Bound3>();
+  madeFrom_ = r.get<MadeFrom>();
+  contents_ = r.get<uint64_t>();
   if (bounds_.size() != file_.count()) throw FileError(fmt::format("\"{}\" is damaged: its chunks do not add up", path));
 }
 
@@ -114,6 +106,10 @@ void PointFile::read(size_t chunk, PointCloud& to) const {
   const size_t n = positions.size();
   if (normals.size() != n || radii.size() != n || data.size() != n * static_cast<size_t>(to.width()))
     throw FileError(fmt::format("\"{}\" is damaged: a chunk does not add up", file_.path()));
+  const auto finite = [](float v) { return std::isfinite(v); };
+  if (!std::all_of(positions.begin(), positions.end(), [](const vec3& P) { return isFinite(P); }) ||
+      !std::all_of(radii.begin(), radii.end(), [](float radius) { return std::isfinite(radius) && radius >= 0; }) || !std::all_of(data.begin(), data.end(), finite))
+    throw FileError(fmt::format("\"{}\" is damaged: a point is not finite", file_.path()));
   to.position.insert(to.position.end(), positions.begin(), positions.end());
   for (const uint32_t p : normals) to.normal.push_back(unpackNormal(p));
   to.radius.insert(to.radius.end(), radii.begin(), radii.end());
@@ -127,7 +123,7 @@ PointCloud PointFile::readAll() const {
   return cloud;
 }
 
-void writePointFile(const PointCloud& cloud, const std::string& path) {
+void writePointFile(const PointCloud& cloud, const std::string& path, const MadeFrom& madeFrom) {
   const Bound3 bound = cloud.bound();
   const float scale = static_cast<float>((1 << 21) - 1) / std::max(maxComponent(bound.size()), 1e-30f);
   std::vector<uint64_t> code(cloud.count());
@@ -140,7 +136,7 @@ void writePointFile(const PointCloud& cloud, const std::string& path) {
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return code[a] != code[b] ? code[a] < code[b] : a < b; });
   PointFileWriter file(path, cloud.channels);
   for (const uint32_t i : order) file.add(cloud.position[i], cloud.normal[i], cloud.radius[i], cloud.at(i));
-  file.finish();
+  file.finish(madeFrom);
 }
 
 }  // namespace tomales

@@ -1,11 +1,12 @@
 // Noun: a point cloud on disk (.ptc), the one container for photons, irradiance points and baked data. Written as a stream and read
 // chunk by chunk, so that neither ever needs the whole cloud in memory.
-//   header   channels, the count of points, their bound, and the bound of every chunk
+//   header   channels, the count of points, the bound of every chunk, what the file was made of, and a sum of the points
 //   chunk    at most kChunkPoints points: positions, normals (octahedral, 2 x 16 bits; 0: none), radii, data
 // Threads: a reader may be shared; a writer belongs to one thread.
 #pragma once
 #include "gi/point_cloud.h"
 #include "reyes/base/chunk_file.h"
+#include "reyes/base/pack.h"
 
 namespace tomales {
 
@@ -15,15 +16,18 @@ class PointFileWriter {
 
   /// Throws FileError, as every member.
   PointFileWriter(const std::string& path, const std::vector<CloudChannel>& channels);
+  /// A point that is not finite is left out.
   void add(const vec3& P, const vec3& N, float radius, const float* values);
+  size_t dropped() const { return dropped_; }
   size_t count() const { return written_ + pending_.count(); }
-  void finish();
+  void finish(const MadeFrom& madeFrom = {});
 
  private:
   void flush();
   ChunkWriter file_;
+  ContentSum contents_;
   PointCloud pending_;
-  size_t written_ = 0;
+  size_t written_ = 0, dropped_ = 0;
   std::vector<Bound3> bounds_;
 };
 
@@ -31,7 +35,10 @@ class PointFile {
  public:
   explicit PointFile(const std::string& path);  ///< Throws FileError.
   const std::vector<CloudChannel>& channels() const { return channels_; }
+  int width() const { return width_; }  ///< Floats of one point's data.
   uint64_t count() const { return count_; }
+  const MadeFrom& madeFrom() const { return madeFrom_; }
+  uint64_t contents() const { return contents_; }  ///< Names the channels and points, in their order.
   Bound3 bound() const;
   size_t chunkCount() const { return bounds_.size(); }
   const Bound3& chunkBound(size_t chunk) const { return bounds_[chunk]; }
@@ -42,11 +49,13 @@ class PointFile {
  private:
   ChunkReader file_;
   std::vector<CloudChannel> channels_;
-  uint64_t count_ = 0;
+  int width_ = 0;
+  uint64_t count_ = 0, contents_ = 0;
+  MadeFrom madeFrom_;
   std::vector<Bound3> bounds_;
 };
 
 /// Along a Morton curve, so that chunks are compact in space. Throws FileError.
-void writePointFile(const PointCloud& cloud, const std::string& path);
+void writePointFile(const PointCloud& cloud, const std::string& path, const MadeFrom& madeFrom = {});
 
 }  // namespace tomales

@@ -22,6 +22,7 @@ struct Object {
   SourceLoc where;
   int solid = -1;                ///< In Scene::solids: part of the surface of
   int solidBlock = -1;           ///< this primitive of it.
+  uint64_t contents = 0;         ///< Sum of what describes its shapes, whatever file that stands in.
 
   // Filled by Scene::freeze().
   Motion cameraFromObject;       ///< Over the shutter; one key when nothing moves.

@@ -188,6 +188,7 @@ struct Attributes {
   } indirect;
   struct Photon {
     std::string globalMap;                                  ///< Name of the map that this geometry shares; "": chosen for it.
+    std::string causticMap;                                 ///< Likewise of photons that come by mirrors and glass; "": none are kept.
     std::string shadingModel = "matte";
     bool operator==(const Photon&) const = default;
   } photon;

@@ -53,6 +53,22 @@ void makeFolder(const std::string& folder) {
   if (!fs::is_directory(folder)) throw FileError(fmt::format("folder \"{}\" cannot be made: {}", folder, error.message()));
 }
 
+/// One cloud of several, chunk by chunk.
+void joinPointFiles(const std::vector<fs::path>& files, const fs::path& out) {
+  const PointFile first(files.front().string());
+  PointFileWriter writer(out.string(), first.channels());
+  for (const fs::path& path : files) {
+    const PointFile file(path.string());
+    if (file.channels() != first.channels()) throw FileError(fmt::format("\"{}\" has other channels than the files before", path.string()));
+    for (size_t chunk = 0; chunk < file.chunkCount(); ++chunk) {
+      PointCloud part;
+      file.read(chunk, part);
+      for (size_t i = 0; i < part.count(); ++i) writer.add(part.position[i], part.normal[i], part.radius[i], part.at(i));
+    }
+  }
+  writer.finish(first.madeFrom());
+}
+
 /// The first frame of RIB files, ready to be traced.
 std::optional<Scene> firstScene(const RenderSettings& settings, Log& log) {
   std::optional<Scene> scene;
@@ -76,8 +92,9 @@ void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, 
   const Camera camera(scene.options);
   const RayScene rays(scene, camera, shading, raySettings(settings, scene.options), stats, log);
   const StageTimer timer(stats, "photons");
+  const AtlasSettings atlas = atlasSettings(settings, scene);
   const PhotonFigures figures =
-      writePhotons(settings.output, scene, rays, shading, atlasSettings(settings, scene), {}, stats, log);
+      writePhotons(settings.output, scene, rays, shading, mapNames(scene, atlas), atlas, {}, stats, log);
   if (settings.verbosity != Log::Verbosity::Quiet)
     fmt::print("{} photons emitted, {} stored in {}\n", figures.emitted, figures.stored, settings.output);
 }
@@ -112,26 +129,23 @@ int brickmakeCommand(const BrickmakeCommand& command) {
     const std::vector<fs::path> files = pointFiles(command.inputs);
     const bool one = fs::path(command.output).extension() == ".bkm";
     if (!one) makeFolder(command.output);
-    const auto make = [&](const PointCloud& cloud, const fs::path& out) {
+    const auto make = [&](const fs::path& in, const fs::path& out) {
+      const PointFile file(in.string());
+      const PointTiles tiles(file);
       BrickSettings settings = command.settings;
-      if (command.relative) settings.maxError *= meanOf(cloud);
-      const BuiltBricks built = writeBrickMap(cloud, settings, out.string());
-      fmt::print("{}: {} points, {} bricks, {} left out, {} levels\n", out.string(), cloud.count(), built.tree.nodes.size(),
-                 built.eliminated, built.tree.deepest + 1);
+      if (command.relative) settings.maxError *= static_cast<float>(tiles.meanOfData());
+      const BuiltBricks built = writeBrickMap(tiles, settings, out.string(), {file.madeFrom().world, 0});
+      fmt::print("{}: {} points, {} bricks, {} left out, {} levels\n", out.string(), file.count(), built.tree.nodes.size(), built.eliminated,
+                 built.tree.deepest + 1);
     };
-    PointCloud all;
-    for (const fs::path& file : files) {
-      if (!one) {
-        make(PointFile(file.string()).readAll(), fs::path(command.output) / file.filename().replace_extension(".bkm"));
-        continue;
-      }
-      const PointFile part(file.string());
-      if (!all.channels.empty() && all.channels != part.channels())
-        throw FileError(fmt::format("\"{}\" has other channels than the files before", file.string()));
-      all.channels = part.channels();
-      for (size_t i = 0; i < part.chunkCount(); ++i) part.read(i, all);
+    if (one && files.size() > 1) {
+      const fs::path all = fs::path(command.output).concat(".ptc");
+      joinPointFiles(files, all);
+      make(all, command.output);
+      fs::remove(all);
+    } else {
+      for (const fs::path& file : files) make(file, one ? fs::path(command.output) : fs::path(command.output) / fs::path(file).filename().replace_extension(".bkm"));
     }
-    if (one) make(all, command.output);
   });
   return exitCodeOf(log);
 }

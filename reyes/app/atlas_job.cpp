@@ -1,8 +1,11 @@
 #include "reyes/app/atlas_job.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+
+#include "reyes/world_sum.h"
 
 namespace tomales {
 namespace {
@@ -23,13 +26,6 @@ std::string folderOf(const RenderSettings& settings, const Scene& scene) {
   return p && !p->strings.empty() ? p->strings[0] : std::string();
 }
 
-bool hasMaps(const fs::path& folder) {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (entry.path().extension() == ".bkm") return true;
-  return false;
-}
-
 /// Gone with everything in it at the end. An open map keeps its file readable.
 struct TemporaryFolder {
   fs::path path = fs::temp_directory_path() / ("tomales_atlas_" + std::to_string(::getpid()));
@@ -43,6 +39,7 @@ struct TemporaryFolder {
 
 AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene) {
   AtlasSettings out;
+  out.world = worldSum(scene);
   out.photons.emit = settings.photons;
   out.photons.seed = lightSeedOf(settings);
   const Param* bounces = indirectParam(scene, "bounces");
@@ -58,8 +55,14 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
   const std::string given = folderOf(settings, scene);
   const fs::path folder = given.empty() ? temporary.path : fs::path(given);
   try {
-    if (!hasMaps(folder)) writeAtlas(folder, scene, rays, shading, atlas, {}, stats, log);
-    return std::make_unique<const IrradianceAtlas>(folder, scene, atlas, brickCacheBytes(settings), log);
+    const MapNames names = mapNames(scene, atlas);
+    const bool byHand = isMadeByHand(folder);
+    if (!byHand) writeAtlas(folder, scene, rays, shading, names, atlas, {}, stats, log);
+    auto maps = std::make_unique<const IrradianceAtlas>(folder, scene, names, brickCacheBytes(settings), log);
+    if (const auto strange = byHand ? maps->strange(atlas.world) : std::nullopt)
+      log.report(Severity::Warning, "atlas-stale", {},
+                 fmt::format("irradiance map \"{}\" was made before the scene was changed, or from another; it is used as it is", *strange));
+    return maps;
   } catch (const FileError& e) {
     log.report(Severity::Missing, "atlas", {}, std::string(e.what()) + ": rendered without indirect light");
     return nullptr;

@@ -7,8 +7,8 @@ namespace tomales {
 
 AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene);
 
-/// From settings.atlasFolder, or the `atlas` of the scene's indirect light, where brick maps are there; else they are made, in that
-/// folder or a temporary one. Null after an error, which has been reported.
+/// In settings.atlasFolder, or the `atlas` of the scene's indirect light, where what is still true is used and the rest made; without
+/// either in a temporary folder. Maps put there by hand are used as they are. Null after an error, which has been reported.
 std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                                                     const RenderSettings& settings, Stats& stats, Log& log);
 

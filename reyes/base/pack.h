@@ -3,6 +3,7 @@
 // The structured binding makes the compiler stop at a structure that has gained a field which the list lacks.
 //   Packer      appends to bytes
 //   Unpacker    takes from bytes; `damaged` once they do not fit
+//   ContentSum  a number that changes with the values
 //   SchemaSum   a number that changes with the lists, so that builds that differ do not read each other's files
 #pragma once
 #include <array>
@@ -43,6 +44,14 @@ struct Unpacker {
       std::memcpy(data, bytes.data(), size);
       bytes = bytes.subspan(size);
     }
+  }
+};
+
+struct ContentSum {
+  uint64_t sum = 0;
+  void raw(const void* data, size_t size) {
+    const uint64_t both[2] = {sum, checksum({static_cast<const std::byte*>(data), size})};
+    sum = checksum(std::as_bytes(std::span(both)));
   }
 };
 
@@ -196,6 +205,14 @@ bool unpack(BytesView bytes, T& out) {
   Unpacker unpacker{bytes};
   field(unpacker, out);
   return !unpacker.damaged && unpacker.bytes.empty();
+}
+
+/// Of all values, in their order.
+template <class... T>
+uint64_t contentSum(const T&... x) {
+  ContentSum sum;
+  (field(sum, const_cast<T&>(x)), ...);
+  return sum.sum;
 }
 
 template <class T>

@@ -20,7 +20,7 @@ struct Stats {
   struct { Counter coarsePolygons{0}, bytes{0}; } raytrace;
   struct { Counter lookups{0}, misses{0}, bytes{0}, finePolygons{0}; } geometryCache;
   struct { Counter samples{0}, lookups{0}, interpolated{0}; } irradianceCache;
-  struct { Counter emitted{0}, stored{0}, groups{0}; } photons;
+  struct { Counter emitted{0}, stored{0}, groups{0}, groupsKept{0}; } photons;
   struct { Counter total{0}, lookups{0}, misses{0}, cacheBytes{0}, bytesOnDisk{0}; } bricks;
   struct { Counter lookups{0}, tileRequests{0}, tileMisses{0}, bytesRead{0}; } textures;
   struct { Counter grids{0}, geometry{0}, deepFrame{0}; } memoryBytes;

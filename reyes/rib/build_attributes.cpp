@@ -179,6 +179,7 @@ const std::unordered_map<std::string_view, Setter>& textSetters() {
       {"displacementbound:coordinatesystem",
        [](Attributes& a, const Param& p) { a.displacementBoundSpace = p.strings[0]; }},
       {"photon:globalmap", [](Attributes& a, const Param& p) { a.photon.globalMap = p.strings[0]; }},
+      {"photon:causticmap", [](Attributes& a, const Param& p) { a.photon.causticMap = p.strings[0]; }},
       {"photon:shadingmodel", [](Attributes& a, const Param& p) { a.photon.shadingModel = p.strings[0]; }},
       {"grouping:membership", [](Attributes& a, const Param& p) { editMembership(a.membership, p.strings[0]); }},
       {"trace:tessellationmode", [](Attributes& a, const Param& p) { a.trace.rate = tessellationMode(p); }},

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "reyes/output.h"
+#include "reyes/rib/contents.h"
 #include "reyes/rib/request_table.h"
 #include "reyes/rib/scene_builder.h"
 
@@ -89,6 +90,7 @@ void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times
   state_.scope.attributes = state_.attributes(state_.scope.attributes);
   object.attributes = state_.attributes(attributesOf(state_.scope, state_.globals.options));
   object.where = r.where;
+  object.contents = shapes.contents;
   placeInSolid(state_, object);
   state_.world->objects.push_back(std::move(object));
 }
@@ -106,7 +108,8 @@ Master::Shapes SceneBuilder::shapesOf(const Keys& keys, const std::vector<float>
 }
 
 Master::Shapes SceneBuilder::buildShapes(const Keys& keys, const std::vector<float>& times) {
-  Master::Shapes out{{}, times, state_.scope.uBasis, state_.scope.vBasis, state_.scope.roundCurves, state_.scope.trim, 0};
+  Master::Shapes out{{}, times, state_.scope.uBasis, state_.scope.vBasis, state_.scope.roundCurves, state_.scope.trim, 0,
+                     contentsOf(keys, times, state_.scope)};
   for (const Request* key : keys) {
     out.reach = std::max(out.reach, reachOf(*key));
     PrimPtr prim = buildShape(*key, out.keys.empty() ? nullptr : out.keys[0].get());

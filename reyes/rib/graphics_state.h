@@ -45,6 +45,7 @@ struct Master {
     bool roundCurves;
     std::shared_ptr<const TrimLoops> trim;  ///< Those that it was built with; the others see the values of the request only.
     float reach;                            ///< reachOf() the requests.
+    uint64_t contents;                      ///< contentsOf() them.
   };
   std::vector<Request> requests;
   std::map<size_t, Shapes> shapes;  ///< By index of the request.

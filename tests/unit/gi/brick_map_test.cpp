@@ -125,6 +125,28 @@ TEST_F(BrickMaps, TheCacheStaysInItsBudgetAndChangesNoResult) {
   EXPECT_LT(cache.misses(), small.misses());
 }
 
+TEST_F(BrickMaps, PointsOnDiskMakeTheSameMapHoweverFewFitIntoMemory) {
+  PointCloud cloud;
+  addSquare(cloud, 64, 0.1f, 1, [](float x, float y) { return std::sin(9 * x) * y; });
+  addSquare(cloud, 32, 0.7f, -1, [](float x, float) { return x; });
+  const std::string points = (folder / "a.ptc").string();
+  writePointFile(cloud, points);
+  const PointFile file(points);
+  const PointTiles tiles(file);
+  const auto bricksOf = [](const auto& build) {
+    std::vector<Brick> out;
+    const BuiltBricks built = build([&](const Brick& b) { out.push_back(b); });
+    EXPECT_EQ(built.tree.nodes.size(), out.size());
+    return out;
+  };
+  const auto whole = bricksOf([&](const auto& store) { return buildBricks(file.readAll(), {}, store); });
+  for (const uint64_t most : {1u, 100u, 3000u, 1000000u}) {
+    const auto parts = bricksOf([&](const auto& store) { return buildBricks(tiles, {}, store, most); });
+    ASSERT_EQ(parts.size(), whole.size()) << most;
+    for (size_t i = 0; i < whole.size(); ++i) EXPECT_TRUE(parts[i].data == whole[i].data && parts[i].first == whole[i].first) << most;
+  }
+}
+
 TEST_F(BrickMaps, AnEmptyCloudAndASinglePointMakeMaps) {
   PointCloud cloud;
   cloud.channels = {{"value", 1}};

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "gi/atlas.h"
 #include "gi/photon_tree.h"
 #include "gi/point_file.h"
 #include "reyes/base/rng.h"
@@ -67,7 +68,24 @@ TEST(PhotonIrradiance, DisksCoverTheAreaOfTheirSurface) {
   const PointCloud out = estimateIrradiance(photons, {});
   double area = 0;
   for (const float r : out.radius) area += double{kPi * r * r};
-  EXPECT_NEAR(area, 1.4 * 1.6, 0.3);  // they overlap
+  EXPECT_NEAR(area, 1.6 * 1.6, 0.1);  // they overlap
+}
+
+TEST(PhotonIrradiance, PhotonsThatDoNotFitIntoMemoryGiveTheSameLight) {
+  const auto folder = std::filesystem::temp_directory_path() / ("tomales_tiles_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  PointCloud photons;
+  addSquare(photons, 20000, 0, {0, 0, 1}, vec3(1), 3);
+  writePointFile(photons, (folder / "p.ptc").string());
+  for (const uint64_t most : {1'000'000u, 3000u}) {
+    writeIrradiance(folder / "p.ptc", folder / "e.ptc", {}, most);
+    const PointCloud out = PointFile((folder / "e.ptc").string()).readAll();
+    EXPECT_NEAR(static_cast<double>(out.count()), 5000, 100) << most;
+    double mean = 0;
+    for (size_t i = 0; i < out.count(); ++i) mean += double{out.at(i)[0]} / static_cast<double>(out.count());
+    EXPECT_NEAR(mean, 1, 0.03) << most;
+  }
+  std::filesystem::remove_all(folder);
 }
 
 TEST(PhotonIrradiance, CoveredShareIsThatOfACircularSegment) {

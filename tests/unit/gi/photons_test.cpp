@@ -6,6 +6,7 @@
 #include "gi/atlas.h"
 #include "gi/point_file.h"
 #include "reyes/base/parallel.h"
+#include "reyes/world_sum.h"
 #include "tests/unit/gi/fixture.h"
 
 namespace tomales {
@@ -98,6 +99,25 @@ TEST(Photons, AModelThatIsNotKnownIsNamedAndMatte) {
   EXPECT_EQ(world.log.count("photons-model-velvet"), 1);
 }
 
+TEST(Photons, WhatComesByAMirrorAloneIsACaustic) {
+  // Light falls aslant on a mirror that lies flat, and from there on a wall, which it reaches by itself too.
+  SceneBuilder b;
+  b.light("distantlight", {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {1, -1, 0})});
+  b.quad({-1, -1, 2}, {1, -1, 2}, {1, -1, 4}, {-1, -1, 4}, vec3(1));
+  b.quad({4, -6, -6}, {4, 10, -6}, {4, 10, 12}, {4, -6, 12}, vec3(0.5f));
+  auto mirror = std::make_shared<Attributes>(*b.scene.objects[0].attributes);
+  mirror->photon.shadingModel = "chrome";
+  b.scene.objects[0].attributes = mirror;
+  World world(b.scene);
+  double caustic = 0;
+  for (const StoredPhoton& p : traced(world, {200000, 6})) {
+    EXPECT_TRUE(!p.caustic || (p.P.y > 1.9f && p.P.y < 4.1f && p.P.z > 1.9f && p.P.z < 4.1f));
+    caustic += p.caustic ? double{p.power.y} : 0.0;
+  }
+  const double onMirror = 2 * double{kPi} * 4 * std::sqrt(0.5);
+  EXPECT_NEAR(caustic, onMirror, 0.02 * onMirror);
+}
+
 TEST(Photons, ADistantLightIsAimedAtTheObjectsAlone) {
   SceneBuilder b;
   b.light("distantlight", {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {0, 0, 1})});
@@ -135,8 +155,9 @@ TEST_F(Atlas, GivesTheIntegratingSphereItsLight) {
   const auto services = world.use({.mode = GiMode::Atlas});
   AtlasSettings settings;
   settings.photons = {200000, 30};
-  writeAtlas(folder, world.scene, world.rays, world.shading, settings, {}, world.stats, world.log);
-  services->setAtlas(std::make_unique<IrradianceAtlas>(folder, world.scene, settings, 1 << 20, world.log));
+  const MapNames names = mapNames(world.scene, settings);
+  writeAtlas(folder, world.scene, world.rays, world.shading, names, settings, {}, world.stats, world.log);
+  services->setAtlas(std::make_unique<IrradianceAtlas>(folder, world.scene, names, 1 << 20, world.log));
   ShadePoints points(0, 0);
   for (uint32_t i = 0; i < 6; ++i) {
     const vec3 d = glm::normalize(vec3(static_cast<float>(i) - 2.5f, 0.5f, 1));
@@ -152,9 +173,94 @@ TEST_F(Atlas, GivesTheIntegratingSphereItsLight) {
   for (const vec3& E : indirectAt(*services, points, query)) EXPECT_NEAR(E.x, expected, 0.03f * expected);
 }
 
+/// Writes an atlas into `folder`; which stages had work to do.
+std::string stagesOf(const fs::path& folder, const AtlasSettings& settings, float wall, int64_t* kept = nullptr) {
+  // Two closed rooms, so that what happens in one changes nothing in the other.
+  SceneBuilder b;
+  for (const float x : {0.0f, 10.0f}) {
+    b.light("pointlight", {floatParam("intensity", kIntensity), pointParam("from", {x + 0.3f, 0, 0.5f})});
+    b.sphere(kRadius, vec3(x > 0 ? wall : kAlbedo), {x, 0, 0.5f});
+    auto named = std::make_shared<Attributes>(*b.scene.objects.back().attributes);
+    named->photon.globalMap = x > 0 ? "right" : "left";
+    b.scene.objects[b.scene.objects.size() - 1].attributes = named;
+  }
+  World world(b.scene);
+  const auto services = world.use({.mode = GiMode::None});
+  AtlasSettings all = settings;
+  all.world = worldSum(world.scene);
+  writeAtlas(folder, world.scene, world.rays, world.shading, mapNames(world.scene, all), all, {}, world.stats, world.log);
+  if (kept) *kept = world.stats.photons.groupsKept;
+  std::string out;
+  for (const auto& [name, figures] : world.stats.stages()) out += name + " ";
+  return out;
+}
+
+TEST_F(Atlas, WhatHasNotChangedIsNotMadeAgain) {
+  AtlasSettings settings;
+  settings.photons = {20000, 10};
+  EXPECT_EQ(stagesOf(folder, settings, 0.5f), "brickmake irradiance photons ");
+  EXPECT_EQ(stagesOf(folder, settings, 0.5f), "");
+  settings.bricks.maxError = 0.1f;
+  EXPECT_EQ(stagesOf(folder, settings, 0.5f), "brickmake ");
+  settings.irradiance.nearest = 30;
+  EXPECT_EQ(stagesOf(folder, settings, 0.5f), "brickmake irradiance ");
+  settings.photons.seed = 1;
+  EXPECT_EQ(stagesOf(folder, settings, 0.5f), "brickmake irradiance photons ");
+  fs::remove(folder / "irradiance" / "left.ptc");
+  EXPECT_EQ(stagesOf(folder, settings, 0.5f), "irradiance ");  // and gives the same points, so that the bricks stay
+}
+
+TEST_F(Atlas, GroupsThatTheSamePhotonsReachKeepTheirMaps) {
+  AtlasSettings settings;
+  settings.photons = {20000, 10};
+  int64_t kept = 0;
+  stagesOf(folder, settings, 0.5f, &kept);
+  EXPECT_EQ(kept, 0);
+  EXPECT_EQ(stagesOf(folder, settings, 0.6f, &kept), "brickmake irradiance photons ");
+  EXPECT_EQ(kept, 1);
+  EXPECT_EQ(stagesOf(folder, settings, 0.6f, &kept), "");
+  EXPECT_EQ(kept, 2);
+}
+
+TEST_F(Atlas, MapsWithoutTheirPhotonsAreUsedAndKnownForStrangers) {
+  AtlasSettings settings;
+  settings.photons = {20000, 10};
+  stagesOf(folder, settings, 0.5f);
+  EXPECT_FALSE(isMadeByHand(folder));
+  fs::remove_all(folder / "photons");
+  EXPECT_TRUE(isMadeByHand(folder));
+  SceneBuilder b;
+  World world(b.scene);
+  const IrradianceAtlas atlas(folder, world.scene, {{"left", "right"}, {}}, 1 << 20, world.log);
+  EXPECT_TRUE(atlas.strange(1).has_value());
+  EXPECT_FALSE(atlas.strange(0).has_value());
+}
+
+TEST_F(Atlas, CausticsHaveMapsOfTheirOwn) {
+  SceneBuilder b;
+  b.light("distantlight", {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {1, -1, 0})});
+  b.quad({-1, -1, 2}, {1, -1, 2}, {1, -1, 4}, {-1, -1, 4}, vec3(1));
+  b.quad({4, -6, -6}, {4, 10, -6}, {4, 10, 12}, {4, -6, 12}, vec3(0.5f));
+  auto mirror = std::make_shared<Attributes>(*b.scene.objects[0].attributes), wall = std::make_shared<Attributes>(*b.scene.objects[1].attributes);
+  mirror->photon.shadingModel = "chrome", wall->photon.causticMap = "wall";
+  b.scene.objects[0].attributes = mirror, b.scene.objects[1].attributes = wall;
+  World world(b.scene);
+  const auto services = world.use({.mode = GiMode::None});
+  AtlasSettings settings;
+  settings.photons = {500000, 6};
+  const MapNames names = mapNames(world.scene, settings);
+  EXPECT_EQ(names.caustic, (std::vector<std::string>{"", "wall.caustic"}));
+  writeAtlas(folder, world.scene, world.rays, world.shading, names, settings, {}, world.stats, world.log);
+  const IrradianceAtlas atlas(folder, world.scene, names, 1 << 20, world.log);
+  const float expected = 2 * std::sqrt(0.5f);  // E/pi of the light, at 45 degrees
+  EXPECT_NEAR(atlas.causticOverPi(1, {4, 3, 3}, {-1, 0, 0}, 0.1f).y, expected, 0.05f * expected);
+  EXPECT_LT(atlas.causticOverPi(1, {4, 6, 3}, {-1, 0, 0}, 0.1f).y, 0.01f);
+  EXPECT_NEAR(atlas.irradianceOverPi(1, {4, 6, 3}, {-1, 0, 0}, 0.1f).y, expected, 0.1f * expected);
+}
+
 TEST_F(Atlas, AMissingMapIsBlackAndNamed) {
   World world(insideOfASphere());
-  const IrradianceAtlas atlas(folder, world.scene, {}, 1 << 20, world.log);
+  const IrradianceAtlas atlas(folder, world.scene, mapNames(world.scene, {}), 1 << 20, world.log);
   EXPECT_EQ(atlas.irradianceOverPi(0, {0, 0, 2.5f}, {0, 0, -1}, 0.1f), vec3(0));
   EXPECT_EQ(world.log.count("atlas-no-map-scene0"), 1);
 }
@@ -168,10 +274,10 @@ TEST_F(Atlas, GroupsShareAFileAsTheyAreNamedAndBySize) {
   named->photon.globalMap = "car";
   b.scene.objects[2].attributes = named;
   b.scene.freeze();
-  EXPECT_EQ(mapNames(b.scene, {}), (std::vector<std::string>{"scene0", "scene0", "car"}));
+  EXPECT_EQ(mapNames(b.scene, {}).global, (std::vector<std::string>{"scene0", "scene0", "car"}));
   AtlasSettings small;
   small.mostPhotonBytes = 30 << 20;  // less than half of what a million photons take
-  EXPECT_EQ(mapNames(b.scene, small), (std::vector<std::string>{"scene0", "scene1", "car"}));
+  EXPECT_EQ(mapNames(b.scene, small).global, (std::vector<std::string>{"scene0", "scene1", "car"}));
 }
 
 }  // namespace

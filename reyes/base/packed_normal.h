@@ -1,0 +1,27 @@
+// Unit normals in 32 bits, as files have them.
+#pragma once
+#include "reyes/base/math.h"
+
+namespace tomales {
+
+/// Octahedral: 1 / 65534 of a quadrant fine. 0 is no normal.
+inline uint32_t packNormal(const vec3& n) {
+  if (n == vec3(0.0f)) return 0;
+  const vec3 a = n / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+  vec2 o(a.x, a.y);
+  if (a.z < 0) o = (vec2(1) - glm::abs(vec2(a.y, a.x))) * vec2(a.x < 0 ? -1.0f : 1.0f, a.y < 0 ? -1.0f : 1.0f);
+  const auto pack = [](float v) { return static_cast<uint32_t>(std::lround(v * 32767.0f) + 32768); };
+  return pack(o.x) << 16 | pack(o.y);
+}
+
+inline vec3 unpackNormal(uint32_t packed) {
+  if (packed == 0) return vec3(0.0f);
+  const auto part = [](uint32_t v) { return (static_cast<float>(v & 0xffff) - 32768.0f) / 32767.0f; };
+  vec3 n(part(packed >> 16), part(packed), 0);
+  n.z = 1 - std::abs(n.x) - std::abs(n.y);
+  const float fold = std::max(-n.z, 0.0f);
+  n.x += n.x >= 0 ? -fold : fold, n.y += n.y >= 0 ? -fold : fold;
+  return normalizeOr(n, vec3(0, 0, 1));
+}
+
+}  // namespace tomales

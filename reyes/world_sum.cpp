@@ -1,0 +1,82 @@
+#include "reyes/world_sum.h"
+
+#include <filesystem>
+
+#include "reyes/state_fields.h"
+
+namespace tomales {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A sum to which shaders add what is known of the files that they name, and not where they are written.
+struct WorldSum : ContentSum {
+  std::map<std::string, std::string> searchPaths{};
+};
+
+std::vector<fs::path> foldersOf(const WorldSum& sum, const char* kind) {
+  std::vector<fs::path> out{"."};
+  const auto it = sum.searchPaths.find(kind);
+  if (it == sum.searchPaths.end()) return out;
+  for (size_t begin = 0; begin <= it->second.size();) {
+    const size_t end = std::min(it->second.find(':', begin), it->second.size());
+    out.emplace_back(it->second.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return out;
+}
+
+/// Of every file that the name may stand for.
+void addFile(WorldSum& sum, const std::string& name, const char* kind) {
+  for (const fs::path& folder : foldersOf(sum, kind)) {
+    const fs::path path = folder / name;
+    std::error_code error;
+    if (name.empty() || !fs::is_regular_file(path, error)) continue;
+    uint64_t size = fs::file_size(path, error);
+    auto changed = fs::last_write_time(path, error).time_since_epoch().count();
+    each(sum, size, changed);
+  }
+}
+
+void addPicture(WorldSum& sum, const std::string& name) {
+  for (const std::string_view mark : {"<UDIM>", "_MAPID_"})
+    if (const size_t at = name.find(mark); at != std::string::npos)
+      for (int tile = 1001; tile <= 1100; ++tile) addFile(sum, std::string(name).replace(at, mark.size(), std::to_string(tile)), "texture");
+  addFile(sum, name, "texture");
+}
+
+void fields(WorldSum& a, ShaderCall& x) {
+  each(a, x.name, x.params, x.worldFromShader);
+  addFile(a, x.name + ".so", "shader");
+  for (const Param& p : x.params)
+    for (const std::string& s : p.strings) addPicture(a, s);
+}
+
+}  // namespace
+
+uint64_t worldSum(const Scene& scene) {
+  WorldSum sum;
+  sum.searchPaths = scene.options.searchPaths;
+  Options options = scene.options;
+  std::map<std::string, mat4> spaces = scene.worldFromNamed;
+  each(sum, options.searchPaths, options.user, options.shutterOpen, options.shutterClose, options.maxRayDepth, spaces);
+  for (std::shared_ptr<LightCall> light : scene.lights) field(sum, light);
+  std::map<std::shared_ptr<const Attributes>, uint64_t> known;
+  uint64_t objects = 0;
+  for (const Object& o : scene.objects) {
+    if (!o.attributes->visibility.photon) continue;
+    auto [attributes, isNew] = known.try_emplace(o.attributes, 0);
+    if (isNew) {
+      WorldSum part;
+      part.searchPaths = scene.options.searchPaths;
+      std::shared_ptr<const Attributes> shared = o.attributes;
+      field(part, shared);
+      attributes->second = part.sum;
+    }
+    objects += contentSum(attributes->second, o.contents, o.shapeTimes, o.worldFromObject, o.solid, o.solidBlock);
+  }
+  field(sum, objects);
+  return sum.sum;
+}
+
+}  // namespace tomales

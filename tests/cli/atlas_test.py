@@ -1,0 +1,93 @@
+"""The irradiance atlas as files: what is made again and what is kept, and what damaged, foreign, empty and cut-off files say."""
+import json
+import resource
+import signal
+import subprocess
+
+from program import Suite
+
+t = Suite()
+ROOM = """Format 24 24 1
+Projection "perspective" "fov" [60]
+Translate {camera} 0 3
+WorldBegin
+LightSource "indirectlight" 1 "samples" [16]
+LightSource "pointlight" 2 "from" [0 0 0] "intensity" [{light}]
+Attribute "photon" "globalmap" ["room"]
+Color {color} 0.5 0.5
+Sides 2
+Surface "matte"
+Sphere 2 -2 2 360
+Translate 40 0 0
+LightSource "pointlight" 3 "from" [0 0 0] "intensity" [2]
+Attribute "photon" "globalmap" ["closet"]
+Color 0.5 0.5 0.5
+Sphere 2 -2 2 360
+WorldEnd
+"""
+
+
+def room(name="room.rib", camera="0", light="2", color="0.5"):
+    return t.write(name, ROOM.format(camera=camera, light=light, color=color))
+
+
+def stages(*arguments):
+    """The stages of the atlas that had work to do, and how many maps were kept."""
+    result = t.run(*arguments, "--gi", "atlas", "--atlas", "maps", "--photons", "20000", "-o", "out.exr", "--stats", "stats.json")
+    stats = json.loads((t.folder / "stats.json").read_text())
+    work = [s for s in ("photons", "irradiance", "brickmake") if s in stats["time_s"]]
+    return result.returncode, " ".join(work), stats["photons"]["groups_kept"]
+
+
+def limited(size, *arguments):
+    """With files of no more than `size` bytes: as on a full disk."""
+    def limit():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+    return subprocess.run([t.program, *arguments], cwd=t.folder, capture_output=True, text=True, preexec_fn=limit, timeout=60)
+
+
+room()
+t.expect(stages("room.rib") == (0, "photons irradiance brickmake", 0), "an atlas is made")
+t.expect(stages("room.rib") == (0, "", 2), "and used again")
+t.expect(stages("room.rib", "--format", "32x16") == (0, "", 2), "whatever the format")
+room("moved.rib", camera="0.3")
+t.expect(stages("moved.rib") == (0, "", 2), "and from another camera")
+room("red.rib", color="0.7")
+t.expect(stages("red.rib") == (0, "photons irradiance brickmake", 1), "a colour that changes leaves the other room its map")
+t.expect(stages("red.rib", "--seed", "4")[1] == "photons irradiance brickmake", "other random numbers make other maps")
+(t.folder / "maps" / "room.bkm").write_bytes((t.folder / "maps" / "room.bkm").read_bytes()[:-9])
+t.expect(stages("red.rib", "--seed", "4") == (0, "brickmake", 1), "a map that is cut off is made again")
+
+# Maps that somebody made: they are used, and it is said when they are of another scene.
+t.run("photons", "room.rib", "-o", "byhand_photons", "--photons", "20000")
+t.run("irradiance", "byhand_photons", "-o", "byhand_points")
+t.run("brickmake", "byhand_points", "-o", "byhand", "--relative", "--maxerror", "0.03")
+t.expect_run("maps made by hand", ["room.rib", "--gi", "atlas", "--atlas", "byhand", "-o", "out.exr"], 0)
+t.expect_run("and of a scene that has changed since", ["red.rib", "--gi", "atlas", "--atlas", "byhand", "-o", "out.exr"], 0, "was made before the scene was changed")
+
+# Bad files.
+points = (t.folder / "byhand_points" / "room.ptc").read_bytes()
+bricks = (t.folder / "byhand" / "room.bkm").read_bytes()
+for end in (0, 5, 40, len(points) // 2, len(points) - 1):
+    t.write("cut.ptc", points[:end])
+    t.expect_run(f"a .ptc of {end} bytes", ["brickmake", "cut.ptc", "-o", "cut.bkm"], 2, "cut.ptc")
+t.expect(not (t.folder / "cut.bkm").exists(), "makes no map")
+for end in (0, 5, 40, len(bricks) // 2, len(bricks) - 1):
+    t.write("cut.bkm", bricks[:end])
+    t.expect_run(f"a .bkm of {end} bytes", ["view", "cut.bkm", "-o", "cut.png"], 2, "cut.bkm")
+t.write("newer.ptc", points[:8] + b"\xff" + points[9:])
+t.expect_run("a .ptc of another version", ["brickmake", "newer.ptc", "-o", "newer.bkm"], 2, "newer.ptc", "version")
+t.write("foreign.ptc", bricks)
+t.expect_run("a brick map that calls itself a cloud", ["brickmake", "foreign.ptc", "-o", "foreign.bkm"], 2, "another kind")
+t.expect_run("irradiance of what is no photon map", ["irradiance", "byhand_points", "-o", "again"], 2, "no photon map")
+
+# A scene without light, an object that no photon reaches, a disk that is full.
+t.write("dark.rib", ROOM.format(camera="0", light="2", color="0.5").replace('LightSource "pointlight"', '# LightSource "pointlight"'))
+t.expect_run("a scene without light", ["dark.rib", "--gi", "atlas", "-o", "dark.exr"], 0, "emits photons")
+t.write("lonely.rib", ROOM.format(camera="0", light="2", color="0.5").replace("LightSource \"pointlight\" 3", "# LightSource \"pointlight\" 3"))
+t.expect_run("a group that no photon reaches", ["lonely.rib", "--gi", "atlas", "-o", "lonely.exr"], 0, 'no photon came to the objects of photon map "closet"')
+full = limited(20000, "room.rib", "--gi", "atlas", "--atlas", "full", "--photons", "50000", "-o", "full.exr")
+t.expect(full.returncode == 3 and "room.ptc" in full.stderr and "cannot be written" in full.stderr, f"a disk too full for photons (exit {full.returncode})")
+t.expect(not [f for f in (t.folder / "full").rglob("*") if f.is_file() and "room" in f.name], "leaves nothing half-written")
+t.finish()
