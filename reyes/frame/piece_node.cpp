@@ -12,7 +12,7 @@ namespace tomales {
 
 namespace {
 
-constexpr int kSmall_cells = 64;  ///< Pieces with fewer share a node,
+constexpr int kSmall_cells = 256;  ///< Pieces with fewer share a node,
 constexpr int kBlock_buckets = 4;  ///< if they begin in the same square of buckets,
 constexpr int kStack_vertices = 512;  ///< and grids of about as many vertices.
 

@@ -6,6 +6,7 @@
 #include "reyes/base/vector.h"  // Includes this file again for each target.
 
 #include <bit>
+#include <cstring>
 
 #include "reyes/hide/raster.h"
 
@@ -256,11 +257,24 @@ void rasterize(const RasterJob& job) {
   }
 }
 
+/// Is one of eight flags set?
+HWY_INLINE bool anyOfEight(const uint8_t* flags) {
+  uint64_t eight;
+  std::memcpy(&eight, flags, sizeof eight);
+  return eight != 0;
+}
+
 void settlePixels(SampleBuffer& s, const PixelRect& pixels) {
   const size_t lanes = static_cast<size_t>(s.lanes);
   for (int y = pixels.y0; y < pixels.y1; ++y)
-    for (int x = pixels.x0; x < pixels.x1; ++x) {
+    for (int x = pixels.x0; x < pixels.x1;) {
       const size_t pixel = s.pixelIndex(x, y);
+      // Of a stack's bound a bucket often sees little.
+      if (x + 8 <= pixels.x1 && !anyOfEight(&s.nearer[pixel])) {
+        x += 8;
+        continue;
+      }
+      ++x;
       if (!s.nearer[pixel]) continue;
       Floats most = all(-kInfinity);
       for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) most = hn::Max(most, hn::Load(kF, s.depth.data() + pixel * lanes + g));
