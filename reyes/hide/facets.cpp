@@ -15,9 +15,9 @@ struct VertexSteps {
   float uScale, vScale;
 
   VertexSteps(const Grid& g, int vertex) : at(vertex) {
-    const int row = g.nu + 1, i = vertex % row, j = vertex / row;
+    const int row = g.nu + 1, i = vertex % row, j = vertex / row % (g.nv + 1), first = vertex - j * row - i;
     const int i0 = std::max(i - 1, 0), i1 = std::min(i + 1, g.nu), j0 = std::max(j - 1, 0), j1 = std::min(j + 1, g.nv);
-    uLo = j * row + i0, uHi = j * row + i1, vLo = j0 * row + i, vHi = j1 * row + i;
+    uLo = first + j * row + i0, uHi = first + j * row + i1, vLo = first + j0 * row + i, vHi = first + j1 * row + i;
     uScale = 1 / static_cast<float>(i1 - i0), vScale = 1 / static_cast<float>(j1 - j0);
   }
   float mean(const float* f) const { return f[at]; }
@@ -258,7 +258,8 @@ void FacetTable::fill(const Wishes& wishes, ShadePoints& points) const {
     for (int i = 0; i < lanes; ++i) {
       const Wish& w = wishes.list[static_cast<size_t>(first + i)];
       const Grid& g = grids_.entries()[w.entry].grid();
-      points.add(hashCombine(g.name, static_cast<uint32_t>(w.index)));
+      const int ofPiece = w.vertex ? g.verticesOfPiece() : g.nu * (g.nv + 1), piece = w.index / ofPiece;
+      points.add(hashCombine(g.pieces[static_cast<size_t>(piece)].name, static_cast<uint32_t>(w.index - piece * ofPiece)));
       points.channel(kTime)[first + i] = -1;
       if (w.vertex) {
         gathered.readVertex(g, w.index, i);

@@ -209,19 +209,20 @@ HWY_INLINE void rasterizeCell(const RasterJob& job, const QuadBlock& q, int i, u
     }
 }
 
-void rasterize(const RasterJob& job) {
+/// The micropolygons whose first vertices are those from `first` to before `end`.
+void rasterizeRun(const RasterJob& job, int first, int end, QuadBlock& q) {
   const RasterGrid& r = job.raster;
   const Grid& g = *r.grid;
-  const int row = g.nu + 1, end = g.nv * row;
-  QuadBlock q;
-  for (int k = 0; k < end; k += kLanes) {
+  const int row = g.nu + 1;
+  for (int k = first; k < end; k += kLanes) {
     uint64_t left = setUp(q, r, k, row, job.out.rect);
     for (; left; left &= left - 1) {
-      const int i = std::countr_zero(left), a = k + i, u = a % row;
+      const int i = std::countr_zero(left), a = k + i, v = a / row, u = a - v * row;
       if (a >= end) break;
       if (u == g.nu) continue;
+      const int index = v * g.nu + u;
+      if (!g.isCell(index)) continue;
       if (r.sides == 1 && turnedAway(job, a)) continue;
-      const int index = a / row * g.nu + u;
       const Kept kept = keptOf(job, index);
       if (kept == Kept::None) continue;
       const uint32_t cell = job.firstCell + static_cast<uint32_t>(index);
@@ -230,6 +231,23 @@ void rasterize(const RasterJob& job) {
       else
         rasterizeCell<false>(job, q, i, cell, kept);
     }
+  }
+}
+
+/// Pieces that other buckets see are passed over, and so are those that are hidden here.
+void rasterize(const RasterJob& job) {
+  const Grid& g = *job.raster.grid;
+  const auto& pieces = job.raster.ofPiece;
+  const int ofPiece = g.verticesOfPiece(), withoutCells = g.nu + 1;
+  const auto seen = [&](size_t p) {
+    return !job.out.hides(job.out.touched(pieces[p].bound.lo, pieces[p].bound.hi), pieces[p].dMin);
+  };
+  QuadBlock q;
+  if (pieces.empty()) return rasterizeRun(job, 0, ofPiece - withoutCells, q);
+  for (size_t p = 0; p < pieces.size(); ++p) {
+    const size_t first = p;
+    while (p < pieces.size() && seen(p)) ++p;
+    if (p > first) rasterizeRun(job, static_cast<int>(first) * ofPiece, static_cast<int>(p) * ofPiece - withoutCells, q);
   }
 }
 

@@ -36,7 +36,7 @@ struct Soup {
                     z + slope * u);
         },
         name % 5 ? 1 : 2);
-    g->openEdges = static_cast<uint8_t>(name & 15U);
+    g->pieces[0].openEdges = static_cast<uint8_t>(name & 15U);
     return raster(world, g, name % 4 != 0);
   }
 };
@@ -149,7 +149,7 @@ TEST(Resolve, MoreThanSixtyFourSamplesTakeSeveralWords) {
 /// One cell, 4 px by 2 px at depth 3, with a primitive variable.
 std::shared_ptr<Grid> oneCell() {
   auto g = std::make_shared<Grid>();
-  g->object = 0, g->name = 42, g->openEdges = kAllEdges;
+  g->object = 0, g->pieces[0].name = 42, g->pieces[0].openEdges = kAllEdges;
   g->allocate(1, 1, 1, 2);
   for (int k = 0; k < 4; ++k) {
     const vec3 p = at(static_cast<float>(k % 2) * 4, static_cast<float>(k / 2) * 2, 3);
