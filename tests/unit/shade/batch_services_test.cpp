@@ -200,7 +200,8 @@ TEST_F(BatchServices, RaysAreAsWideAsWhatTheyLeave) {
   body = [](sl::Surface& s) {
     TmRayOptions cone = rsl::defaultRays();
     cone.coneAngle = 0.1f, cone.samples = 4;
-    s.Ci = trace(s.P, -s.I) + trace(s.P, -s.I, cone);
+    s.Ci = trace(s.P, -s.I);
+    s.Ci += trace(s.P, -s.I, cone);
   };
   ShadePoints p = points({vec3(0, 0, 5)});
   p.set3(kDpduX, 0, {3, 0, 0}), p.set3(kDpdvX, 0, {0, 4, 0}), p.set3(kIx, 0, {0, 0, 5});
