@@ -85,11 +85,12 @@ class Decomposer {
   bool addFace(uint32_t first, std::span<const int> counts) {
     corner_.clear(), point_.clear(), open_.clear(), loopStart_.clear();
     gather(first, static_cast<uint32_t>(counts[0]));
-    const glm::dvec3 normal = point_.size() < 3 ? glm::dvec3(0) : newellNormal(point_);
     Bound3 box;
     for (const vec3& p : point_) box.extend(p);
-    const bool flatEnough =
-        point_.size() >= 3 && glm::length(normal) > 1e-9 * glm::dot(box.size(), box.size());
+    const double leastArea = 1e-9 * glm::dot(box.size(), box.size());
+    glm::dvec3 normal = newellNormal(point_);
+    if (!(glm::length(normal) > leastArea)) normal = normalOfWidestTriangle(point_);
+    const bool flatEnough = point_.size() >= 3 && glm::length(normal) > leastArea;
     out_.faces.push_back({vec3(0), true});
     if (!flatEnough) return false;
     if (counts.size() > 1) {

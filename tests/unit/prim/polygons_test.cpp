@@ -185,6 +185,15 @@ TEST(NastyPolygon, SelfCrossingAndSpiralsNeitherCrashNorHang) {
   }
 }
 
+TEST(NastyPolygon, ABowTieWhoseHalvesCancelIsDrawnInItsPlane) {
+  const PrimPtr prim = polygon(flat({{0, 0}, {2, 2}, {2, 0}, {0, 2}}));
+  EXPECT_GT(prim->patchCount(), 0u);
+  EXPECT_EQ(std::abs(sampleAt(*prim, 0, 0.5f, 0.5f).n.z), glm::length(sampleAt(*prim, 0, 0.5f, 0.5f).n));
+  Problems problems;
+  makePolygons({4}, {0, 1, 2, 3}, {positions({0, 0, 0, 1, 1, 0, 3, 3, 0, 2, 2, 0})}, problems);
+  EXPECT_EQ(problems.size(), 1u);  // on one line
+}
+
 TEST(NastyPolygon, FarFromTheOriginAndTinyKeepsItsNormal) {
   const PrimPtr prim = polygon({1000, 1000, 0, 1000.01f, 1000, 0, 1000.01f, 1000.01f, 0, 1000, 1000.01f, 0});
   EXPECT_EQ(sampleAt(*prim, 0, 0.5f, 0.5f).n, vec3(0, 0, 1));
