@@ -52,7 +52,7 @@ std::string lackOf(const TmShader& s) {
 
 constexpr unsigned kMostSeconds = 10;
 
-/// Constructors run before anything can be checked, so a child process tries them first (docs/decisions/0041). Returns what became of it;
+/// Constructors run before anything can be checked, so a child process tries them first (docs/decisions/0043). Returns what became of it;
 /// empty: it lives.
 std::string triedInChild(const char* path) {
   const pid_t child = fork();
