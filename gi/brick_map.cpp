@@ -17,8 +17,16 @@ struct BrickMap::Sum {
   BrickPtr brick;
 };
 
+BrickMap::BrickMap(const PointCloud& cloud) : channels_(cloud.channels), width_(cloud.width()) {
+  if (width_ > BrickFile::kMostWidth) throw FileError(fmt::format("more than {} floats a point", BrickFile::kMostWidth));
+  BrickSettings settings;
+  settings.maxError = 0;
+  tree_ = buildBricks(cloud, settings, [&](const Brick& brick) { bricks_.push_back(std::make_shared<const Brick>(brick)); }).tree;
+}
+
 BrickPtr BrickMap::cached(int32_t node) const {
-  return cache_.get(id_, static_cast<uint32_t>(node), [&] { return file_.brick(node); });
+  if (!file_) return bricks_[static_cast<size_t>(node)];
+  return cache_->get(id_, static_cast<uint32_t>(node), [&] { return file_->brick(node); });
 }
 
 bool BrickMap::lookup(const vec3& P, const vec3& N, float radius, float* out) const {

@@ -1,7 +1,7 @@
 // Verb: lookups in a brick map (irradiance-atlas 3.3), of which the octree is in memory and bricks come through a cache.
 // Space: that of the points it was made from (world). Threads: const members may be called concurrently.
 #pragma once
-#include <optional>
+#include <memory>
 
 #include "gi/brick_build.h"
 #include "gi/brick_cache.h"
@@ -12,10 +12,13 @@ namespace tomales {
 class BrickMap {
  public:
   /// Throws FileError. The cache must outlive the map.
-  BrickMap(const std::string& path, BrickCache& cache) : file_(path), cache_(cache), id_(cache.addMap()) {}
+  BrickMap(const std::string& path, BrickCache& cache) : file_(std::make_unique<const BrickFile>(path)), cache_(&cache), id_(cache.addMap()) {}
+  /// Of a cloud that is small enough to be held whole, nothing left out. Throws FileError.
+  explicit BrickMap(const PointCloud& cloud);
 
-  const BrickFile& file() const { return file_; }
-  int width() const { return file_.width(); }  ///< Floats of one lookup.
+  const BrickFile& file() const { return *file_; }  ///< Pre: it was made of one.
+  const std::vector<CloudChannel>& channels() const { return file_ ? file_->channels() : channels_; }
+  int width() const { return file_ ? file_->width() : width_; }  ///< Floats of one lookup.
 
   /// Data around P on surfaces that face as N does (N zero: whatever they face), averaged over a cube of half width `radius`:
   /// linear between voxels and between levels (3.3). Where the finest voxels there are empty, coarser ones answer. False: there
@@ -28,11 +31,15 @@ class BrickMap {
   void addVoxel(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum, int depth) const;
   void find(int level, const glm::ivec3& voxel, Sum& sum) const;
   BrickPtr cached(int32_t node) const;
-  const BrickTree& tree() const { return file_.tree(); }
+  const BrickTree& tree() const { return file_ ? file_->tree() : tree_; }
 
-  BrickFile file_;
-  BrickCache& cache_;
-  uint32_t id_;
+  std::unique_ptr<const BrickFile> file_;  ///< Null: all is held below.
+  BrickCache* cache_ = nullptr;
+  uint32_t id_ = 0;
+  std::vector<CloudChannel> channels_;
+  int width_ = 0;
+  BrickTree tree_;
+  std::vector<BrickPtr> bricks_;
 };
 
 /// Makes FILE.bkm of a cloud in memory or on disk. Throws FileError.

@@ -114,6 +114,7 @@ void traceForShader(const GiState& state, const ShadePoints& points, const uint8
     const vec3 d{direction.x[i], direction.y[i], direction.z[i]};
     if (!active[i] || d == vec3(0)) continue;
     Ray ray{{P.x[i], P.y[i], P.z[i]}, d};
+    if (query.radius) ray.radius = query.radius[i], ray.spread = query.spread[i];
     aim(*tools->rays, points, i, rayTime(*tools->rays, points, i, query.number, query.count, context.seed), ray);
     ray.tMax = query.maxDistance;
     ray.offset = slantedOffset(ray.offset, std::abs(dot(d, points.get3(kNgx, i))));

@@ -72,7 +72,7 @@ void addPoint(const Scene& scene, const Ray& ray, const Hit& hit, SampleName nam
   points.set3(kIx, i, I);
   points.channel(kTime)[i] = ray.time;
   if (ray.time > 0) bringToOpen(scene, ray, hit, points, i);
-  const float radius = ray.spread * hit.t;
+  const float radius = ray.radius + ray.spread * hit.t;
   if (radius > 0) points.channel(kArea)[i] = kPi * radius * radius;
   if (points.hasSteps()) evaluateSteps(scene, hit.object, hit.patch, hit.u, hit.v, std::max(radius, kLeastSpread * hit.t), points, i);
 }

@@ -32,6 +32,7 @@ struct Ray {
   float offset = 0;             ///< Hit-list distance; 0 switches the algorithm off and uses `bias` alone.
   float bias = 0;               ///< Without a hit list: hits at t <= bias do not count.
   float spread = 0;             ///< Radius of the ray's footprint for each unit of t (half the width of its differential).
+  float radius = 0;             ///< And at its origin.
   int group = -1;               ///< Shade group that the ray leaves, -1: unknown. Settles which of two walls that meet is left.
   float time = 0;               ///< Part of the shutter, 0..1.
   Level level = Level::Fine;    ///< Of surfaces that have several. A ray sees one, so that none slips between two.

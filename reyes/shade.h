@@ -59,6 +59,7 @@ struct RayQuery {
   float opacityThreshold = 1;      ///< A ray goes on behind what is transparent until this much is covered.
   int number = 0, count = 1;       ///< These are rays `number` of `count` from each point.
   bool lampsGlow = true;           ///< Area lights are seen.
+  const float *radius = nullptr, *spread = nullptr;  ///< Of the footprint of each ray, at its start and added for each unit of length. Null: none.
 };
 
 /// A value of what a ray met, by its RSL gather() name, into `floats` (1 or 3) arrays of the caller.
@@ -132,6 +133,30 @@ class ShadeServices {
                                const ShadeContext& context, IndirectResult out) const = 0;
 };
 
+/// Data in space that shaders keep and look up: bake3d(), texture3d(). Arrays of one length, in the space of the file.
+struct CloudQuery {
+  std::string file;
+  int count = 0;
+  const uint8_t* active = nullptr;
+  TmConstVec3 P{}, N{};           ///< N: unit or zero.
+  const float* radius = nullptr;
+};
+struct CloudValue {
+  std::string name;
+  int floats = 1;
+  float* c[3] = {nullptr, nullptr, nullptr};
+};
+
+/// The seam to point clouds and brick maps (implemented in gi/clouds, injected by reyes/app). `problem` says why false is returned.
+class CloudServices {
+ public:
+  virtual ~CloudServices() = default;
+  virtual bool bake(const CloudQuery&, const std::vector<CloudValue>&, std::string& problem) = 0;
+  virtual bool lookUp(const CloudQuery&, const std::vector<CloudValue>&, float* found, std::string& problem) = 0;
+  /// E/pi of a photon map.
+  virtual bool photons(const CloudQuery&, int estimator, TmVec3 E, std::string& problem) = 0;
+};
+
 /// Where a light is, as far as one can tell without asking it.
 enum class LightKind { None, Ambient, Point, Distant, Sky, Area, Indirect };
 
@@ -176,6 +201,7 @@ class ShadingSystem {
 
   /// Services may arrive after construction (they need the ray scene, which needs displacement).
   void setServices(const ShadeServices* services);
+  void setClouds(CloudServices* clouds);
 
   /// After Scene::add(). One thread at a time; others may use the groups that they know of meanwhile.
   void bindNewGroups();

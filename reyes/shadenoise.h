@@ -1,9 +1,50 @@
 // RSL's noise, pnoise and cellnoise of one to four dimensions, and spline with all its bases and their inverses (rispec-table 9.1). The
 // same bits on every machine: integer hashes and IEEE arithmetic alone.
 #pragma once
-#include "reyes/shader.h"
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+
+#include "reyes/shader_math.h"
 
 namespace rsl {
+
+/// A 32-bit mix of a lattice point ("lowbias32", C. Wellons, once an axis).
+RSL_INLINE uint32_t latticeHash(int32_t x, int32_t y, int32_t z) {
+  const auto mixIn = [](uint32_t h, int32_t c) {
+    h = (h ^ static_cast<uint32_t>(c)) * 0x9e3779b9U;
+    h ^= h >> 16, h *= 0x7feb352dU, h ^= h >> 15, h *= 0x846ca68bU, h ^= h >> 16;
+    return h;
+  };
+  return mixIn(mixIn(mixIn(0, x), y), z);
+}
+
+/// One of the twelve gradients to the edges of a cube (Perlin 2002, "Improving noise"), by p.
+RSL_INLINE float gradient(uint32_t hash, Vec3 p) {
+  const uint32_t h = hash & 15;
+  const float a = h < 8 ? p.x : p.y, b = h < 4 ? p.y : (h & 13) == 12 ? p.x : p.z;
+  return (h & 1 ? -a : a) + (h & 2 ? -b : b);
+}
+
+/// Gradient noise in [-1, 1]: zero on the integer lattice, twice differentiable, the same on every machine.
+RSL_INLINE float signedNoise(Vec3 p) {
+  const Vec3 cell{std::floor(p.x), std::floor(p.y), std::floor(p.z)}, f = p - cell;
+  const auto fade = [](float t) { return t * t * t * (t * (t * 6 - 15) + 10); };
+  // Lattice coordinates wrap far out instead of overflowing the integer: fmod(c, 2^20), exactly, without a call.
+  const auto lattice = [](float c) { return static_cast<int32_t>(c - std::trunc(c * 0x1p-20f) * 0x1p20f); };
+  const int32_t x = lattice(cell.x), y = lattice(cell.y), z = lattice(cell.z);
+  const auto corner = [&](int i, int j, int k) {
+    const Vec3 offset{static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)};
+    return gradient(latticeHash(x + i, y + j, z + k), f - offset);
+  };
+  const float u = fade(f.x), v = fade(f.y), w = fade(f.z);
+  const auto face = [&](int k) {
+    return mix(mix(corner(0, 0, k), corner(1, 0, k), u), mix(corner(0, 1, k), corner(1, 1, k), u), v);
+  };
+  return clamp(mix(face(0), face(1), w), -1, 1);
+}
+/// RSL's noise(): the same in [0, 1].
+inline float noise(Vec3 p) { return 0.5f + 0.5f * signedNoise(p); }
 
 namespace noise_detail {
 

@@ -1,7 +1,7 @@
 // RSL's shadeops as functions of one point: mathematics, geometry, colour, matrices, splines (rispec-table section 9). Plain C++17 over
 // reyes/shader.h; the same bits on every machine but for the C library's transcendental functions. reyes/sl.h applies them to batches.
 #pragma once
-#include "reyes/shadenoise.h"
+#include "reyes/shader.h"
 
 namespace rsl {
 

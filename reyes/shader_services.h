@@ -95,6 +95,23 @@ typedef struct TmShadowLookup {
   int32_t samples;
 } TmShadowLookup;
 
+/* One channel of bake3d() and texture3d(): a number or a triple for each point. */
+typedef struct TmCloudValue {
+  const char* name;
+  int32_t floats;              /* 1 or 3 */
+  float* c[3];
+} TmCloudValue;
+
+/* How they see space. Start from TM_CLOUD_DEFAULTS. */
+typedef struct TmCloudLookup {
+  uint32_t structBytes;
+  const char* coordSystem;     /* of the file; NULL: "world" */
+  const float* radius;         /* current space: of the disk that is baked, of what is averaged over; NULL: of the micropolygon */
+  float radiusScale;
+} TmCloudLookup;
+
+#define TM_CLOUD_DEFAULTS { sizeof(TmCloudLookup), 0, 0, 1 }
+
 /* What a shader may ask of the renderer. Every call works on the whole batch and obeys `active`. */
 typedef struct TmServices {
   uint32_t structBytes;
@@ -194,6 +211,23 @@ typedef struct TmServices {
   int32_t (*ask)(void* host, const TmGrid*, int32_t whom, int32_t light, const char* name, int32_t* type, TmValue* out);
   /* RISpec textureinfo(): "exists", "resolution", "type", "channels", "bitsperchannel", "viewingmatrix", "projectionmatrix". */
   int32_t (*textureInfo)(void* host, const TmGrid*, const char* name, const char* what, int32_t* type, TmValue* out);
+
+  /* textureWith() over a parallelogram of the caller's own: sides[0], sides[1] are s and t along one side, sides[2], sides[3] along the
+   * other, for each point. */
+  int32_t (*textureOver)(void* host, const TmGrid*, const char* name, const TmTextureLookup* lookup, const float* s, const float* t,
+                         const float* const* sides, TmVec3 out);
+  /* RISpec's bake3d: where the camera sees a point, it goes to the point cloud `file` (.ptc) with its values, to be written when the frame
+   * ends. N of zero length: a sphere. Returns 0 if it cannot be, which has been reported. */
+  int32_t (*bake3d)(void* host, const TmGrid*, const char* file, TmConstVec3 P, TmConstVec3 N, const TmCloudLookup* lookup,
+                    const TmCloudValue* values, int32_t valueCount);
+  /* Values around P in a point cloud (.ptc, held whole) or brick map (.bkm), on surfaces that face as N does (zero length: all). found[i] is 1
+   * where there are any; elsewhere values are left alone. Returns 0 if the file or a channel is missing, which has been reported. */
+  int32_t (*texture3d)(void* host, const TmGrid*, const char* file, TmConstVec3 P, TmConstVec3 N, const TmCloudLookup* lookup,
+                       const TmCloudValue* values, int32_t valueCount, float* found);
+  /* E/pi at P on the side of N from a photon map, by the `estimator` nearest photons. Returns as texture3d(). */
+  int32_t (*photonMap)(void* host, const TmGrid*, const char* file, TmConstVec3 P, TmConstVec3 N, int32_t estimator, TmVec3 out);
+  /* RISpec printf(): a line on standard error, whole whatever other threads say. */
+  void (*print)(void* host, const TmGrid*, const char* text);
 } TmServices;
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// Values of a whole batch with masks, and RSL's operators and shadeops on them. Include reyes/sl.h.
+// Values of a whole batch with masks, and RSL's operators on them. Part of reyes/sl.h.
 #pragma once
 #include <functional>
 #include <utility>
@@ -16,6 +16,7 @@ class Run {
   static Run& now() { return *current(); }
 
   TmGrid grid;
+  int randoms = 0;  ///< Calls of random() so far.
 
  private:
   static Run*& current() {
@@ -192,7 +193,7 @@ using Point = Triple;
 using Vector = Triple;
 using Normal = Triple;
 
-// --- Operators and shadeops, point by point
+// --- Operators, point by point
 
 inline Float operator-(const Float& a) { return Float::of([&](int i) { return -a[i]; }); }
 inline Triple operator-(const Triple& a) { return Triple::of([&](int i) { return -a[i]; }); }
@@ -216,76 +217,5 @@ SL_COMPARISON(==)
 SL_COMPARISON(!=)
 #undef SL_OPERATOR
 #undef SL_COMPARISON
-
-#define SL_1(name, expression) \
-  inline Float name(const Float& a) { return Float::of([&](int i) { const float x = a[i]; return expression; }); }
-SL_1(abs, std::abs(x))
-SL_1(floor, std::floor(x))
-SL_1(ceil, std::ceil(x))
-SL_1(round, std::round(x))
-SL_1(sqrt, std::sqrt(x))
-SL_1(exp, std::exp(x))
-SL_1(log, std::log(x))
-SL_1(sin, std::sin(x))
-SL_1(cos, std::cos(x))
-SL_1(tan, std::tan(x))
-SL_1(asin, std::asin(x))
-SL_1(acos, std::acos(x))
-SL_1(atan, std::atan(x))
-SL_1(sign, rsl::sign(x))
-SL_1(radians, rsl::radians(x))
-SL_1(degrees, rsl::degrees(x))
-SL_1(noise, rsl::noise(x))
-#undef SL_1
-#define SL_2(name, expression) \
-  inline Float name(const Float& a, const Float& b) { return Float::of([&](int i) { const float x = a[i], y = b[i]; return expression; }); }
-SL_2(pow, std::pow(x, y))
-SL_2(mod, rsl::mod(x, y))
-SL_2(min, std::min(x, y))
-SL_2(max, std::max(x, y))
-SL_2(atan, std::atan2(x, y))
-SL_2(step, rsl::step(x, y))
-SL_2(noise, rsl::noise(x, y))
-#undef SL_2
-inline Float clamp(const Float& x, const Float& lo, const Float& hi) { return Float::of([&](int i) { return rsl::clamp(x[i], lo[i], hi[i]); }); }
-inline Float mix(const Float& a, const Float& b, const Float& t) { return Float::of([&](int i) { return rsl::mix(a[i], b[i], t[i]); }); }
-inline Triple mix(const Triple& a, const Triple& b, const Float& t) { return Triple::of([&](int i) { return rsl::mix(a[i], b[i], t[i]); }); }
-inline Float smoothstep(const Float& lo, const Float& hi, const Float& x) { return Float::of([&](int i) { return rsl::smoothstep(lo[i], hi[i], x[i]); }); }
-inline Float filterstep(const Float& edge, const Float& x, const Float& width) { return Float::of([&](int i) { return rsl::filterstep(edge[i], x[i], width[i]); }); }
-inline Float spline(const Float& x, std::initializer_list<float> knots) {
-  return Float::of([&](int i) { return rsl::spline(rsl::Basis::CatmullRom, x[i], knots.begin(), int(knots.size())); });
-}
-inline Triple spline(const Float& x, std::initializer_list<rsl::Color> knots) {
-  return Triple::of([&](int i) { return rsl::spline(rsl::Basis::CatmullRom, x[i], knots.begin(), int(knots.size())); });
-}
-/// Over all points at once, so that the compiler vectorises it; `p` and `out` do not overlap.
-RSL_HOT inline void noiseOver(int n, TmConstVec3 p, float* __restrict out) {
-  for (int i = 0; i < n; ++i) out[i] = 0.5f + 0.5f * rsl::signedNoise(rsl::Vec3{p.x[i], p.y[i], p.z[i]});
-}
-inline Float noise(const Triple& p) {
-  Float out;
-  noiseOver(grid()->padded, p, out.data());
-  return out;
-}
-inline Triple noise3(const Triple& p) { return Triple::of([&](int i) { return rsl::noise3(p[i]); }); }
-inline Float cellnoise(const Triple& p) { return Float::of([&](int i) { return rsl::cellnoise(p[i]); }); }
-inline Float pnoise(const Triple& p, const Triple& period) { return Float::of([&](int i) { return rsl::pnoise(p[i], period[i]); }); }
-inline Float xcomp(const Triple& p) { return Float(TmConstVec3(p).x); }
-inline Float ycomp(const Triple& p) { return Float(TmConstVec3(p).y); }
-inline Float zcomp(const Triple& p) { return Float(TmConstVec3(p).z); }
-inline Float dot(const Triple& a, const Triple& b) { return Float::of([&](int i) { return rsl::dot(a[i], b[i]); }); }
-inline Triple cross(const Triple& a, const Triple& b) { return Triple::of([&](int i) { return rsl::cross(a[i], b[i]); }); }
-inline Float length(const Triple& a) { return Float::of([&](int i) { return rsl::length(a[i]); }); }
-inline Float distance(const Triple& a, const Triple& b) { return length(a - b); }
-inline Triple normalize(const Triple& a) { return Triple::of([&](int i) { return rsl::normalize(a[i]); }); }
-inline Triple reflect(const Triple& I, const Triple& N) { return Triple::of([&](int i) { return rsl::reflect(I[i], N[i]); }); }
-inline Triple refract(const Triple& I, const Triple& N, const Float& eta) { return Triple::of([&](int i) { return rsl::refract(I[i], N[i], eta[i]); }); }
-inline Triple faceforward(const Triple& N, const Triple& I, const Triple& Nref) { return Triple::of([&](int i) { return rsl::faceforward(N[i], I[i], Nref[i]); }); }
-inline Triple faceforward(const Triple& N, const Triple& I) { return faceforward(N, I, Triple(grid()->Ng)); }
-inline void fresnel(const Triple& I, const Triple& N, const Float& eta, Float& Kr, Float& Kt) {
-  Kr = Float::of([&](int i) { return rsl::fresnel(I[i], N[i], eta[i]); });
-  Kt = 1 - Kr;
-}
-inline Triple ctransform(const char* from, const char* to, const Triple& c) { return Triple::of([&](int i) { return rsl::ctransform(from, to, c[i]); }); }
 
 }  // namespace sl

@@ -16,6 +16,11 @@ namespace {
 
 constexpr int kMostReferenceLightSamples = 256, kReferenceLightSamples = 64;
 
+std::string texturePathOf(const Options& options) {
+  const auto it = options.searchPaths.find("texture");
+  return it == options.searchPaths.end() ? std::string() : it->second;
+}
+
 }  // namespace
 
 FrameJob::FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, Log& log)
@@ -26,9 +31,11 @@ FrameJob::FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, L
       mode_(giModeOf(settings.gi, scene)),
       camera_(scene.options),
       registry_(log),
-      meter_(settings.progress) {
+      meter_(settings.progress),
+      clouds_(texturePathOf(scene.options)) {
   registry_.addLibrary(tomales_builtin_shaders(), "built-in");
   shading_ = std::make_unique<ShadingSystem>(scene, registry_, nullptr, log, stats);
+  shading_->setClouds(&clouds_);
   if (traces()) open([](const Attributes& a) {
       const Visibility& v = a.visibility;
       return v.diffuse || v.specular || v.transmission || v.photon;
@@ -150,6 +157,7 @@ void FrameJob::finish(DeepFrame& frame, const TileFill& fill) {
   writeFrame(frame, fill, viewer, scene_, *shading_, {{}, &interrupted(), settings_.seed}, stats_, log_);
   if (services_) services_->reportAtlas(stats_);
   if (rays_) rays_->report(stats_);
+  clouds_.write(log_);
   meter_.report(1);
 }
 

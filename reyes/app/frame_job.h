@@ -3,6 +3,7 @@
 #include "reyes/app/progress.h"
 #include "reyes/app/settings.h"
 #include "reyes/base/stats.h"
+#include "gi/clouds.h"
 #include "reyes/frame.h"
 
 namespace tomales {
@@ -58,6 +59,7 @@ class FrameJob {
   const Camera camera_;
   ShaderRegistry registry_;
   ProgressMeter meter_;
+  CloudFiles clouds_;
   std::unique_ptr<ShadingSystem> shading_;
   std::unique_ptr<RayScene> rays_;
   std::unique_ptr<GiServices> services_;

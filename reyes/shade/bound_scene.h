@@ -59,6 +59,7 @@ struct BoundScene {
   Log& log;
   Stats& stats;
   const ShadeServices* services = nullptr;
+  CloudServices* clouds = nullptr;
   Camera camera;
   mat4 cameraFromWorld;
   float specularSharpness;  ///< Over roughness, the exponent of specular().

@@ -86,7 +86,8 @@ BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const 
     TmValue& value = bound->values[i];
     value = {{nullptr, nullptr, nullptr}, 0, std::max(1, decl.arrayLength), nullptr};
     if (isOutput(decl)) {
-      if (param) warn("shader-parameter-output", fmt::format("\"{}\" is an output; what is given is ignored", decl.name));
+      const bool isInputToo = std::any_of(shader.params, shader.params + n, [&](const TmParamDecl& d) { return !isOutput(d) && std::string_view(d.name) == decl.name; });
+      if (param && !isInputToo) warn("shader-parameter-output", fmt::format("\"{}\" is an output; what is given is ignored", decl.name));
       continue;
     }
     ParameterValue parameter = parameterValue(decl, param);

@@ -45,6 +45,7 @@ class Lights {
  public:
   /// From now on only lights of this group count; null: all.
   void restrictTo(const std::string* group);
+  bool restricted() const { return group_ != nullptr; }
   /// Sum of the ambient lights at the active points of `asking`.
   void ambient(Batch& batch, const TmGrid& asking, TmVec3 out);
   /// All samples of all lights that have a direction, in the order of Attributes::lights. Unshadowed until

@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "reyes/shade/footprint.h"
 #include "reyes/shade/primary.h"
 #include "reyes/shade/sky.h"
 
@@ -28,30 +29,6 @@ int32_t lookUp(const Batch& batch, const TextureQuery& query, TmVec3 out) {
   return batch.scene.textures.lookup(query, batch.running->where, batch.running->user, out);
 }
 
-/// Angle that the micropolygon of a point subtends for what it mirrors: twice that from the eye (a flat mirror keeps it; the
-/// factor covers what curvature adds where its normals are not known).
-float angleSeen(const TmGrid* g, int i) {
-  const float edge = std::max(glm::length(get(g->dPdu, i)) * std::abs(g->du[i]), glm::length(get(g->dPdv, i)) * std::abs(g->dv[i]));
-  const float distance = glm::length(get(g->I, i));
-  return distance > 0 ? std::min(2 * edge / distance, kPi) : 0.0f;
-}
-
-/// Angle by which a direction turns over the micropolygon of each point.
-void turnOf(const Batch& batch, const TmGrid* g, TmConstVec3 direction, float* angle, Arena& arena) {
-  const float* axes[3] = {direction.x, direction.y, direction.z};
-  float* step = arena.floats(g->count);
-  float* sum[2] = {arena.floats(g->count), arena.floats(g->count)};
-  for (const bool alongV : {false, true})
-    for (const float* axis : axes) {
-      if (!batch.stepsOf(g, alongV, axis, step)) return forActive(g, [&](int i) { angle[i] = angleSeen(g, i); });
-      forActive(g, [&](int i) { sum[alongV][i] += step[i] * step[i]; });
-    }
-  forActive(g, [&](int i) {
-    const float length = glm::length(get(direction, i));
-    angle[i] = length > 0 ? std::min(std::sqrt(std::max(sum[0][i], sum[1][i])) / length, kPi) : 0.0f;
-  });
-}
-
 /// The picture stands in world space, +z at its top.
 int32_t lookUpLatLong(Batch& batch, const TmGrid* g, const char* name, const TmTextureLookup& options, TmConstVec3 direction,
                       const float* angle, TmVec3 out) {
@@ -73,6 +50,14 @@ int32_t lookUpLatLong(Batch& batch, const TmGrid* g, const char* name, const TmT
 }
 
 }  // namespace
+
+int32_t textureOver(void* host, const TmGrid* g, const char* name, const TmTextureLookup* given, const float* s, const float* t, const float* const* sides,
+                    TmVec3 out) {
+  TextureQuery query = queryOf(g, name, optionsOf(given));
+  query.s = s, query.t = t;
+  query.su = sides[0], query.tu = sides[1], query.sv = sides[2], query.tv = sides[3];
+  return lookUp(batchOf(host), query, out);
+}
 
 int32_t textureWith(void* host, const TmGrid* g, const char* name, const TmTextureLookup* given, const float* s, const float* t, TmVec3 out) {
   Batch& batch = batchOf(host);
@@ -111,7 +96,7 @@ int32_t environmentWith(void* host, const TmGrid* g, const char* name, const TmT
     return 1;
   }
   float* angle = batch.arena.floats(g->count);
-  turnOf(batch, g, direction, angle, batch.arena);
+  turnOf(batch, g, direction, angle);
   return lookUpLatLong(batch, g, name, options, direction, angle, out);
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "reyes/base/rng.h"
+#include "reyes/shade/footprint.h"
 #include "reyes/shade/primary.h"
 #include "reyes/shade/volumes.h"
 
@@ -94,6 +95,15 @@ class Cone {
   TmVec3 origin_, direction_;
 };
 
+/// Differentials: a ray starts as wide as its micropolygon, and widens by how the axis turns over that and by its share of the cone.
+void setFootprints(Batch& batch, const TmGrid* g, TmConstVec3 axis, const TmRayOptions& options, RayQuery& query) {
+  float *radius = batch.arena.floats(g->count), *spread = batch.arena.floats(g->count);
+  turnOf(batch, g, axis, spread);
+  const float share = options.coneAngle / std::sqrt(static_cast<float>(options.samples));
+  forActive(g, [&](int i) { radius[i] = micropolygonRadius(*batch.points, g, i), spread[i] = std::min(0.5f * spread[i] + share, 1.0f); });
+  query.radius = radius, query.spread = spread;
+}
+
 /// Can this batch trace? Reports a shader that cannot because it did not say that it would.
 bool traces(const Batch& batch) {
   if (batch.points && !batch.scene.services)
@@ -121,6 +131,7 @@ void traceRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 directi
   if (!traces(batch)) return;
   Cone cone(batch, g, options);
   RayQuery query = queryOf(options);
+  setFootprints(batch, g, direction, options, query);
   RayResult result;
   result.distance = batch.arena.floats(g->count);
   if (color.x) result.color = batch.arena.vec3(g->count), result.opacity = batch.arena.vec3(g->count);
@@ -146,6 +157,7 @@ int32_t gatherRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 axi
   Cone cone(batch, g, options);
   cone.aim(P, axis, ray);
   RayQuery query = queryOf(options);
+  setFootprints(batch, g, axis, options, query);
   query.number = ray;
   RayResult result;
   result.distance = batch.arena.floats(g->count);
@@ -187,6 +199,7 @@ void occlusion(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 N, cons
   if (!traces(batch)) return;
   Cone cone(batch, g, options);
   RayQuery query = queryOf(options, RayKind::Diffuse);
+  setFootprints(batch, g, N, options, query);
   RayResult result;
   result.distance = batch.arena.floats(g->count);
   if (radiance.x) result.color = batch.arena.vec3(g->count);

@@ -1,6 +1,10 @@
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <cstring>
 #include <filesystem>
 
 #include "reyes/shade.h"
@@ -33,6 +37,42 @@ bool matches(const Versioned* v) {
   return v && v->abi == TM_SHADER_ABI && v->structBytes >= sizeof(Versioned);
 }
 
+/// What a shader of our ABI lacks; empty: nothing.
+std::string lackOf(const TmShader& s) {
+  if (!s.name || !*s.name) return "a name";
+  if (!s.shade) return "a function";
+  if (s.kind < TM_SURFACE || s.kind > TM_IMAGER) return "a kind that there is";
+  if (s.paramCount < 0 || (s.paramCount > 0 && !s.params)) return "its parameters";
+  for (int32_t k = 0; k < s.paramCount; ++k) {
+    const TmParamDecl& p = s.params[k];
+    if (!p.name || p.arrayLength < 1 || TM_TYPE_OF(p.type) > TM_MATRIX) return fmt::format("a name, length or type of parameter {}", k + 1);
+  }
+  return {};
+}
+
+constexpr unsigned kMostSeconds = 10;
+
+/// Constructors run before anything can be checked, so a child process tries them first (docs/decisions/0043). Returns what became of it;
+/// empty: it lives.
+std::string triedInChild(const char* path) {
+  const pid_t child = fork();
+  if (child < 0) return {};
+  if (child == 0) {
+    alarm(kMostSeconds);
+    const int nowhere = open("/dev/null", O_WRONLY);  // the parent will say it all again
+    dup2(nowhere, STDOUT_FILENO), dup2(nowhere, STDERR_FILENO);
+    if (void* handle = dlopen(path, RTLD_NOW | RTLD_LOCAL))
+      if (const auto function = reinterpret_cast<TmShadersFunction>(dlsym(handle, TM_SHADERS_SYMBOL))) function();
+    _exit(0);
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) return fmt::format("does not end loading within {} s", kMostSeconds);
+  if (WIFSIGNALED(status)) return fmt::format("crashes while it is loaded ({})", strsignal(WTERMSIG(status)));
+  return WIFEXITED(status) && WEXITSTATUS(status) != 0 ? "ends the program while it is loaded" : "";
+}
+
 std::string expected(const char* what) {
   return fmt::format("{} is of another shader ABI than {}; compile it against the headers of this version",
                      what, TM_SHADER_ABI);
@@ -44,10 +84,12 @@ bool ShaderRegistry::Impl::add(const TmShaderLibrary* library, const std::string
   if (!matches(library)) return refuse(origin, expected("the shader library")), false;
   for (int32_t i = 0; i < library->count; ++i) {
     const TmShader* shader = library->shaders[i];
-    if (matches(shader))
-      shaders[{shader->kind, shader->name}] = shader;
-    else
+    if (!matches(shader))
       refuse(origin, expected(fmt::format("shader number {}", i + 1).c_str()));
+    else if (const std::string lack = lackOf(*shader); !lack.empty())
+      refuse(origin, fmt::format("shader number {} lacks {}", i + 1, lack));
+    else
+      shaders[{shader->kind, shader->name}] = shader;
   }
   return true;
 }
@@ -56,6 +98,7 @@ bool ShaderRegistry::Impl::add(const TmShaderLibrary* library, const std::string
 bool ShaderRegistry::Impl::load(const std::string& path) {
   if (const auto it = plugins.find(path); it != plugins.end()) return it->second;
   bool& loaded = plugins[path] = false;
+  if (const std::string fate = triedInChild(path.c_str()); !fate.empty()) return refuse(path, fate + "; it is left out"), false;
   void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle) return refuse(path, fmt::format("cannot be loaded: {}", dlerror())), false;
   const auto function = reinterpret_cast<TmShadersFunction>(dlsym(handle, TM_SHADERS_SYMBOL));

@@ -1,6 +1,8 @@
 // The functions behind TmServices: their table, and those that are about the surface itself.
+#include <cstdio>
 #include <cstring>
 
+#include "reyes/shade/cloud_services.h"
 #include "reyes/shade/light_services.h"
 #include "reyes/shade/messages.h"
 #include "reyes/shade/picture_services.h"
@@ -78,6 +80,8 @@ void report(void* host, const TmGrid*, int32_t severity, const char* message) {
   batch.report(severity >= 2 ? Severity::Missing : Severity::Warning, "shader-says", message);
 }
 
+void print(void*, const TmGrid*, const char* text) { std::fputs((std::string(text) + "\n").c_str(), stderr); }
+
 }  // namespace
 
 const TmServices kServices = {
@@ -85,6 +89,7 @@ const TmServices kServices = {
     calculateNormal,    transmission, indirectDiffuse, report,  environment, diffuseOf, shadow,
     traceRays,          gatherRays,   occlusion,       transmissionWith, rayInfo, rayLabel,
     lightDensity,       lightAlong,   lobeSamples,     stratified,
-    derivative,         textureWith,  environmentWith, illuminance, ask,   textureInfo};
+    derivative,         textureWith,  environmentWith, illuminance, ask,   textureInfo,
+    textureOver,        bake3d,       texture3d,       photonMap,   print};
 
 }  // namespace tomales

@@ -35,6 +35,8 @@ ShadingSystem::~ShadingSystem() = default;
 
 void ShadingSystem::setServices(const ShadeServices* services) { impl_->services = services; }
 
+void ShadingSystem::setClouds(CloudServices* clouds) { impl_->clouds = clouds; }
+
 void ShadingSystem::bindNewGroups() { impl_->bindNewGroups(); }
 
 bool ShadingSystem::opaque(int group) const {

@@ -21,6 +21,11 @@ TEST_F(Disney, WithoutSpecularIsMatteAtNormalIncidence) {
   expectColor(facing({number("specular", 0)}), attributes.color, 1e-5f);
 }
 
+TEST_F(Disney, TakesSpecularThoughAnOutputHasThatNameToo) {
+  facing({number("specular", 1)});
+  EXPECT_TRUE(log.entries().empty());
+}
+
 TEST_F(Disney, TheSpecularLobeHasTheHeightOfItsDistribution) {
   attributes.color = vec3(0.0f);
   const float rough = 0.5f, alpha = rough * rough;

@@ -1,0 +1,165 @@
+#include "gi/clouds.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+#include <numeric>
+
+#include "gi/photon_irradiance.h"
+#include "gi/point_file.h"
+
+namespace tomales {
+namespace {
+
+namespace fs = std::filesystem;
+
+vec3 at(TmConstVec3 v, int i) { return {v.x[i], v.y[i], v.z[i]}; }
+
+fs::path found(const std::string& file, const std::string& searchPath) {
+  for (size_t begin = 0; begin <= searchPath.size();) {
+    const size_t end = std::min(searchPath.find(':', begin), searchPath.size());
+    const fs::path candidate = fs::path(searchPath.substr(begin, end - begin)) / file;
+    std::error_code none;
+    if (fs::is_regular_file(candidate, none)) return candidate;
+    begin = end + 1;
+  }
+  return file;
+}
+
+std::vector<CloudChannel> channelsOf(const std::vector<CloudValue>& values) {
+  std::vector<CloudChannel> channels;
+  for (const CloudValue& v : values) channels.push_back({v.name, v.floats});
+  return channels;
+}
+
+/// By position, normal, radius and data, in this order.
+bool comesBefore(const PointCloud& cloud, uint32_t a, uint32_t b) {
+  const auto key = [&](uint32_t i) {
+    const vec3 &p = cloud.position[i], &n = cloud.normal[i];
+    return std::array{p.x, p.y, p.z, n.x, n.y, n.z, cloud.radius[i]};
+  };
+  const auto ka = key(a), kb = key(b);
+  if (ka != kb) return ka < kb;
+  const auto width = static_cast<size_t>(cloud.width());
+  return std::lexicographical_compare(cloud.at(a), cloud.at(a) + width, cloud.at(b), cloud.at(b) + width);
+}
+
+PointCloud sorted(const PointCloud& cloud) {
+  std::vector<uint32_t> order(cloud.count());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return comesBefore(cloud, a, b); });
+  PointCloud out;
+  out.channels = cloud.channels;
+  out.reserve(order.size());
+  for (const uint32_t i : order) out.add(cloud.position[i], cloud.normal[i], cloud.radius[i], cloud.at(i));
+  return out;
+}
+
+/// Where the floats of a wanted channel are among those of a lookup; -1: it is not there in that width.
+int placeOf(const std::vector<CloudChannel>& channels, const CloudValue& wanted) {
+  int offset = 0;
+  for (const CloudChannel& c : channels) {
+    if (c.name == wanted.name) return c.width == wanted.floats ? offset : -1;
+    offset += c.width;
+  }
+  return -1;
+}
+
+/// Throws FileError.
+PointCloud cloudOf(const fs::path& path, int estimator) {
+  PointCloud cloud = PointFile(path.string()).readAll();
+  if (estimator <= 0) return cloud;
+  if (placeOf(cloud.channels, {"power", 3, {}}) < 0) throw FileError(fmt::format("\"{}\" is no photon map: it has no channel \"power\"", path.string()));
+  PhotonIrradianceSettings settings;
+  settings.nearest = estimator, settings.every = 1;
+  return estimateIrradiance(cloud, settings);
+}
+
+}  // namespace
+
+bool CloudFiles::bake(const CloudQuery& q, const std::vector<CloudValue>& values, std::string& problem) {
+  const std::vector<CloudChannel> channels = channelsOf(values);
+  std::vector<float> data;
+  const std::lock_guard lock(mutex_);
+  PointCloud& cloud = baked_[q.file];
+  if (cloud.count() == 0) cloud.channels = channels;
+  if (cloud.channels != channels) {
+    problem = "bakes other channels than those that the file has already";
+    return false;
+  }
+  for (int i = 0; i < q.count; ++i) {
+    if (!q.active[i] || !isFinite(at(q.P, i))) continue;
+    data.clear();
+    for (const CloudValue& v : values)
+      for (int k = 0; k < v.floats; ++k) data.push_back(v.c[k][i]);
+    cloud.add(at(q.P, i), at(q.N, i), q.radius[i], data.data());
+  }
+  return true;
+}
+
+const CloudFiles::Opened& CloudFiles::opened(const std::string& file, int estimator) {
+  const std::lock_guard lock(mutex_);
+  const auto [it, isNew] = opened_.try_emplace({file, estimator});
+  if (!isNew) return it->second;
+  const fs::path path = found(file, searchPath_);
+  try {
+    if (path.extension() == ".ptc")
+      it->second.map = std::make_unique<const BrickMap>(cloudOf(path, estimator));
+    else
+      it->second.map = std::make_unique<const BrickMap>(path.string(), cache_);
+  } catch (const FileError& e) {
+    it->second.problem = e.what();
+  }
+  return it->second;
+}
+
+bool CloudFiles::lookUp(const CloudQuery& q, const std::vector<CloudValue>& values, float* isFound, std::string& problem) {
+  const Opened& file = opened(q.file);
+  problem = file.problem;
+  if (!file.map) return false;
+  std::vector<int> places;
+  for (const CloudValue& v : values) {
+    places.push_back(placeOf(file.map->channels(), v));
+    if (places.back() < 0) problem = fmt::format("has no channel \"{}\" of {} floats", v.name, v.floats);
+  }
+  std::vector<float> data(static_cast<size_t>(file.map->width()));
+  try {
+    for (int i = 0; i < q.count; ++i) {
+      if (!q.active[i]) continue;
+      isFound[i] = file.map->lookup(at(q.P, i), at(q.N, i), q.radius[i], data.data()) ? 1.0f : 0.0f;
+      for (size_t v = 0; isFound[i] != 0 && v < values.size(); ++v)
+        for (int k = 0; places[v] >= 0 && k < values[v].floats; ++k) values[v].c[k][i] = data[static_cast<size_t>(places[v] + k)];
+    }
+  } catch (const FileError& e) {
+    problem = e.what();
+  }
+  return problem.empty();
+}
+
+bool CloudFiles::photons(const CloudQuery& q, int estimator, TmVec3 E, std::string& problem) {
+  const Opened& file = opened(q.file, std::max(1, estimator));
+  problem = file.problem;
+  const int place = file.map ? placeOf(file.map->channels(), {"irradiance", 3, {}}) : -1;
+  if (file.map && place < 0) problem = "is no photon map";
+  if (place < 0) return false;
+  std::vector<float> data(static_cast<size_t>(file.map->width()));
+  for (int i = 0; i < q.count; ++i) {
+    if (!q.active[i]) continue;
+    file.map->lookup(at(q.P, i), at(q.N, i), q.radius[i], data.data());
+    const float* e = data.data() + place;
+    E.x[i] = e[0] / kPi, E.y[i] = e[1] / kPi, E.z[i] = e[2] / kPi;
+  }
+  return true;
+}
+
+void CloudFiles::write(Log& log) {
+  for (const auto& [file, cloud] : baked_) try {
+      writePointFile(sorted(cloud), file);
+    } catch (const FileError& e) {
+      log.report(Severity::Output, "bake3d", {std::make_shared<const std::string>(file), 0}, e.what());
+    }
+  baked_.clear();
+}
+
+}  // namespace tomales

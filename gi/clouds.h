@@ -1,0 +1,41 @@
+// Composer: point clouds and brick maps as shaders know them, bake3d() and texture3d(). What is baked rests in memory until it is written;
+// what is looked up is opened once: brick maps (.bkm) brick by brick, point clouds (.ptc) whole, as bricks.
+// Threads: bake() and lookUp() may be called concurrently; write() after the last of them.
+#pragma once
+#include <map>
+#include <mutex>
+
+#include "gi/brick_map.h"
+#include "reyes/base/log.h"
+#include "reyes/shade.h"
+
+namespace tomales {
+
+class CloudFiles final : public CloudServices {
+ public:
+  /// searchPath: folders by colons, for reading.
+  explicit CloudFiles(std::string searchPath) : searchPath_(std::move(searchPath)) {}
+
+  bool bake(const CloudQuery&, const std::vector<CloudValue>&, std::string& problem) override;
+  bool lookUp(const CloudQuery&, const std::vector<CloudValue>&, float* found, std::string& problem) override;
+  bool photons(const CloudQuery&, int estimator, TmVec3 E, std::string& problem) override;
+
+  /// All that was baked, as FILE.ptc. The points of a file are sorted by what they are, so that no bit depends on threads or buckets.
+  void write(Log& log);
+
+ private:
+  struct Opened {
+    std::unique_ptr<const BrickMap> map;  ///< Null: it could not be opened.
+    std::string problem;
+  };
+  /// estimator > 0: a photon map, as the irradiance that so many nearest photons tell of.
+  const Opened& opened(const std::string& file, int estimator = 0);
+
+  const std::string searchPath_;
+  std::mutex mutex_;
+  std::map<std::string, PointCloud> baked_;
+  std::map<std::pair<std::string, int>, Opened> opened_;  ///< By file and estimator.
+  BrickCache cache_;
+};
+
+}  // namespace tomales

@@ -1,0 +1,36 @@
+#include "reyes/shade/binder.h"
+
+#include <fmt/format.h>
+
+#include "reyes/shade/substitute.h"
+
+namespace tomales {
+
+std::string pathOf(const Options& options, const char* kind) {
+  const auto it = options.searchPaths.find(kind);
+  return it == options.searchPaths.end() ? std::string() : it->second;
+}
+
+BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, const std::string& user,
+                            TmKind kind) {
+  const std::string name = call ? call->name : "defaultsurface";
+  const TmShader* shader = registry_.find(name, kind, path_);
+  const float open = scene_.options.shutterOpen;
+  const mat4 currentFromShader = call ? cameraFromWorld_ * call->worldFromShader.at(open) : mat4(1.0f);
+  if (shader) {
+    const bool isLight = kind == TM_LIGHT;
+    return bindShader(*shader, call, where, user, currentFromShader, isLight ? kLightParams : ParamNames{},
+                      log_);
+  }
+  static constexpr const char* kKinds[] = {"surface", "displacement", "light", "volume", "imager"};
+  static constexpr const char* kConsequences[] = {"a magenta checker is rendered", "nothing is displaced",
+                                                  "it casts no light", "the air is clear",
+                                                  "the picture stays as it is"};
+  log_.report(
+      Severity::Missing, "shader-missing", where,
+      fmt::format("{}: {} shader \"{}\" is unknown; {}", user, kKinds[kind], name, kConsequences[kind]));
+  if (kind != TM_SURFACE) return nullptr;
+  return bindShader(kSubstituteSurface, nullptr, where, user, currentFromShader, {}, log_);
+}
+
+}  // namespace tomales

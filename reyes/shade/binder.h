@@ -1,0 +1,72 @@
+// What binds requests to shaders while a scene is bound. Private to bound_scene.
+// Threads: one at a time.
+#pragma once
+#include <map>
+
+#include "reyes/shade/bound_scene.h"
+
+namespace tomales {
+
+/// Folders of Option "searchpath".
+std::string pathOf(const Options& options, const char* kind);
+
+/// Parameters that every light understands, whether or not its shader declares them.
+extern const ParamNames kLightParams;
+
+/// Binds requests; groups that share a request share its shader, so that each problem is told once.
+class Binder {
+ public:
+  Binder(const Scene& scene, ShaderRegistry& registry, const Textures& textures, const ShadowMaps& shadowMaps, Log& log)
+      : scene_(scene),
+        textures_(textures),
+        shadowMaps_(shadowMaps),
+        registry_(registry),
+        log_(log),
+        path_(pathOf(scene.options, "shader")),
+        cameraFromWorld_(scene.cameraFromWorldAtOpen()) {}
+
+  BoundShaderPtr surface(const std::shared_ptr<const ShaderCall>& call, const SourceLoc& object,
+                         const std::string& user) {
+    return cached(call, object, user, TM_SURFACE);
+  }
+  BoundShaderPtr optional(const std::shared_ptr<const ShaderCall>& call, const std::string& user,
+                          TmKind kind) {
+    return call ? cached(call, call->where, user, kind) : nullptr;
+  }
+  BoundShaderPtr imager(const std::optional<ShaderCall>& call, const std::string& user) {
+    const bool none = !call || call->name.empty() || call->name == "null";
+    return none ? nullptr : bind(&*call, call->where, user, TM_IMAGER);
+  }
+  /// Another surface by its bare name, in the space of the visible one.
+  BoundShaderPtr indirectSurface(const Attributes& a, const SourceLoc& object, const std::string& user) {
+    if (a.indirect.surface.empty()) return nullptr;
+    ShaderCall call{a.indirect.surface, {}, {}, object};
+    if (a.surface) call.worldFromShader = a.surface->worldFromShader, call.where = a.surface->where;
+    return bind(&call, call.where, user, TM_SURFACE);
+  }
+  std::unique_ptr<const BoundLight> light(const LightCall& call, int index);
+
+ private:
+  BoundShaderPtr cached(const std::shared_ptr<const ShaderCall>& call, const SourceLoc& object,
+                        const std::string& user, TmKind kind) {
+    if (!call) return bind(nullptr, object, user, kind);
+    const auto [it, isNew] = bound_.try_emplace(call.get());
+    if (isNew) it->second = bind(call.get(), call->where, user, kind);
+    return it->second;
+  }
+  BoundShaderPtr bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind);
+
+  const Scene& scene_;
+  const Textures& textures_;
+  const ShadowMaps& shadowMaps_;
+  ShaderRegistry& registry_;
+  Log& log_;
+  const std::string path_;
+  const mat4 cameraFromWorld_;
+  std::map<const ShaderCall*, BoundShaderPtr> bound_;
+};
+
+/// Connects lights that filter an indirect light to their sources; those without one cast no light.
+void connectFilters(BoundScene& scene);
+
+}  // namespace tomales

@@ -1,0 +1,13 @@
+// Point clouds and brick maps behind TmServices: from current space to that of the file and back.
+#pragma once
+#include "reyes/shade/batch.h"
+
+namespace tomales {
+
+int32_t bake3d(void* host, const TmGrid*, const char* file, TmConstVec3 P, TmConstVec3 N, const TmCloudLookup*, const TmCloudValue* values,
+               int32_t valueCount);
+int32_t texture3d(void* host, const TmGrid*, const char* file, TmConstVec3 P, TmConstVec3 N, const TmCloudLookup*, const TmCloudValue* values,
+                  int32_t valueCount, float* found);
+int32_t photonMap(void* host, const TmGrid*, const char* file, TmConstVec3 P, TmConstVec3 N, int32_t estimator, TmVec3 out);
+
+}  // namespace tomales

@@ -1,0 +1,68 @@
+"""Shader plugins that are broken in every way that can be told: located errors, and the frame goes on with a loud substitute."""
+import os
+import pathlib
+import subprocess
+
+from program import Suite
+
+t = Suite()
+source = pathlib.Path(__file__).resolve().parent.parent.parent
+SCENE = """Display "o.exr" "file" "rgba"
+Format 16 16 1
+Projection "perspective" "fov" [40]
+Translate 0 0 4
+WorldBegin
+LightSource "distantlight" 1
+Attribute "identifier" "name" ["ball"]
+Surface "%s"
+Sphere 1 -1 1 360
+WorldEnd
+"""
+SHADER = """#include <reyes/shader.h>
+namespace {
+void shade(const TmGrid* g) {
+  for (int i : rsl::Batch(g)) rsl::Batch(g).output(i, rsl::Color{%s, 1, 1}, {1, 1, 1});
+}
+const rsl::Shader shader(TM_SURFACE, "%s", "", 0, shade, {});
+%s
+}
+TM_SHADER_LIBRARY(shader)
+"""
+
+
+def build(name, code):
+    t.write(name + ".cpp", code)
+    subprocess.run([os.environ["CXX"], "-std=c++17", "-shared", "-fPIC", "-I", source, t.folder / (name + ".cpp"), "-o", t.folder / (name + ".so")],
+                   check=True)
+
+
+def render(name, code, *says):
+    t.write("scene.rib", SCENE % name)
+    result = t.expect_run(name, ["scene.rib"], code, *says)
+    t.expect((t.folder / "o.exr").exists(), f"{name}: there is a picture")
+    (t.folder / "o.exr").unlink(missing_ok=True)
+    return result
+
+
+build("good", SHADER % ("0.5f", "good", ""))
+t.expect(not render("good", 0).stderr, "a good plugin renders without a word")
+build("crashing", SHADER % ("0.5f", "crashing", "struct Crash { Crash() { *(volatile int*)8 = 1; } } crash;"))
+render("crashing", 3, "crashing.so", "crashes while it is loaded", "scene.rib:8", "\"ball\"", "magenta")
+build("leaving", "#include <cstdlib>\n" + SHADER % ("0.5f", "leaving", "struct Leave { Leave() { std::_Exit(7); } } leave;"))
+render("leaving", 3, "leaving.so", "ends the program while it is loaded", "scene.rib:8")
+build("old", (SHADER % ("0.5f", "old", "")).replace("#include", "#include <reyes/shader_api.h>\n#undef TM_SHADER_ABI\n#define TM_SHADER_ABI 0u\n#include"))
+render("old", 3, "old.so", "another shader ABI", "scene.rib:8")
+build("empty", "extern \"C\" int unrelated() { return 1; }")
+render("empty", 3, "empty.so", "does not export tomales_shaders")
+build("nameless", (SHADER % ("0.5f", "", "")))
+render("nameless", 3, "nameless.so", "lacks a name")
+t.write("text.so", "no library")
+render("text", 3, "text.so", "cannot be loaded")
+
+build("dividing", SHADER % ("0.0f / 0.0f", "dividing", ""))
+said = render("dividing", 0, "\"ball\"", "\"dividing\"", "NaN").stderr
+t.expect(said.count("dividing\"") == 1, "NaN is told once")
+build("throwing", "#include <stdexcept>\n" + (SHADER % ("0.5f", "throwing", "")).replace("void shade(const TmGrid* g) {", "void shade(const TmGrid* g) {\n  if (g) throw std::runtime_error(\"no bananas\");"))
+said = render("throwing", 3, "\"ball\"", "no bananas", "scene.rib:8").stderr
+t.expect(said.count("no bananas") == 1, "an exception is told once")
+t.finish()

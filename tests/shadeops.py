@@ -1,0 +1,19 @@
+"""Every shadeop of tests/unit/shade/shadeops.txt is in an installed header and has a test: `shadeops.py SOURCE`."""
+import pathlib
+import re
+import sys
+
+source = pathlib.Path(sys.argv[1])
+installed = re.search(r"set\(TOMALES_PLUGIN_HEADERS (.*?)\)", (source / "CMakeLists.txt").read_text(), re.DOTALL)[1].split()
+headers = "\n".join((source / name).read_text() for name in installed)
+tests = "\n".join(file.read_text() for file in sorted((source / "tests/unit").rglob("*.cpp")))
+bad = 0
+rows = [line for line in (source / "tests/unit/shade/shadeops.txt").read_text().splitlines() if line and not line.startswith("#")]
+for row in rows:
+    name, symbol, proof = (part.strip() for part in re.split(r"\s{2,}", row))
+    for text, where, place in ((symbol, headers, "installed header"), (proof, tests, "test")):
+        if text not in where:
+            print(f"{name}: no {place} has \"{text}\"")
+            bad += 1
+print(f"{len(rows)} shadeops")
+sys.exit(bool(bad))

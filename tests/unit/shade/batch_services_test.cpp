@@ -1,0 +1,218 @@
+// What shaders in RSL's manner ask of the renderer (reyes/sl_services.h), under masks: random numbers, derivatives, light, messages, rays.
+#include <OpenImageIO/imagebuf.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "reyes/sl.h"
+#include "tests/unit/shade/stage.h"
+
+namespace tomales {
+namespace {
+
+using namespace sl;
+
+/// What the one shader does; set by the test, on whose thread it runs.
+std::function<void(sl::Surface&)> body;
+struct obedient : sl::Surface {
+  void main() {
+    Ci = Color(-1.0), Oi = Color(1.0);
+    body(*this);
+  }
+};
+rsl::FloatParam lift("lift", 3, "");
+const rsl::Shader obedientShader(TM_SURFACE, "obedient", "", TM_TRACES | TM_DERIVATIVES, sl::shade<obedient>, {&lift});
+
+struct coned : sl::Light {
+  void main() {
+    illuminate(Point(0, 0, 0), Vector(0, 0, 1), 0.3, [&] { Cl = Color(2 / dot(L, L)); });
+  }
+};
+struct sunny : sl::Light {
+  void main() {
+    solar(Vector(0, 3, 4), [&] { Cl = Color(1, 0.5, 0.25); });
+  }
+};
+const rsl::Shader conedShader(TM_LIGHT, "coned", "", 0, sl::shade<coned>, {});
+const rsl::Shader sunnyShader(TM_LIGHT, "sunny", "", TM_LIGHT_SOLAR, sl::shade<sunny>, {});
+
+class BatchServices : public Stage {
+ protected:
+  BatchServices() {
+    static const TmShader* const shaders[] = {obedientShader, conedShader, sunnyShader};
+    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 3};
+    registry.addLibrary(&library, "test");
+    surface("obedient");
+  }
+  /// Ci of `n` points at z = 5, of which those with u < 1/2 are asked.
+  std::vector<vec3> asked(int n, const std::function<void(sl::Surface&)>& what, const ShadeContext& context = {}) {
+    body = [&](sl::Surface& s) { If(s.u < 0.5, [&] { what(s); }); };
+    const ShadedPoints out = shade(points(std::vector<vec3>(static_cast<size_t>(n), vec3(0, 0, 5))), context);
+    std::vector<vec3> colors;
+    for (int i = 0; i < n; ++i) colors.push_back(out.color(i));
+    for (int i = (n + 1) / 2; i < n; ++i) EXPECT_EQ(colors[static_cast<size_t>(i)], vec3(-1)) << "nobody asked at " << i;
+    return colors;
+  }
+};
+
+TEST_F(BatchServices, RandomNumbersAreEvenDifferAndBelongToThePoint) {
+  const auto draw = [](sl::Surface& s) { s.Ci = Color(s.random(), s.random(), s.random()); };
+  const std::vector<vec3> all = asked(2000, draw);
+  vec3 mean(0);
+  for (size_t i = 0; i < 1000; ++i) {
+    for (int k = 0; k < 3; ++k) EXPECT_TRUE(all[i][k] >= 0 && all[i][k] < 1);
+    mean += all[i] / 1000.0f;
+  }
+  expectColor(mean, vec3(0.5f), 0.03f);
+  EXPECT_NE(all[0].x, all[0].y);
+  EXPECT_NE(all[0].x, all[1].x);
+  EXPECT_EQ(asked(20, draw)[3], all[3]) << "whatever the batch";
+}
+
+TEST_F(BatchServices, FilterstepAveragesOverTheMicropolygonAndDepthCountsBetweenTheClippingPlanes) {
+  scene.options.nearClip = 1, scene.options.farClip = 21;
+  body = [](sl::Surface& s) { s.Ci = Color(filterstep(0.5, s.u), depth(s.P), filterstep(0.5, s.v)); };  // filterstepOfU
+  ShadePoints p = points(std::vector<vec3>(10, vec3(0, 0, 5)));
+  for (int i = 0; i < 10; ++i) p.channel(kDu)[i] = 0.4f, p.channel(kDv)[i] = 0.1f;
+  const ShadedPoints out = shade(p);
+  for (int i = 0; i < 10; ++i) {
+    const double u = 0.1 * i;
+    EXPECT_NEAR(out.color(i).x, std::clamp((u + 0.2 - 0.5) / 0.4, 0.0, 1.0), 1e-5);
+    EXPECT_NEAR(out.color(i).y, 4.0 / 20, 1e-6);
+    EXPECT_NEAR(out.color(i).z, 0.5, 1e-5);
+  }
+}
+
+TEST_F(BatchServices, PhongAndTheLobeOfSpecularAreTheirFormulas) {
+  light("distantlight", {point("to", {0, 3, 4})});  // from the light: (0, 0.6, 0.8)
+  const std::vector<vec3> c = asked(4, [](sl::Surface& s) {
+    const Normal N = s.N;
+    s.Ci = Color(xcomp(phong(N, Vector(0, 0, -2), 5)), specularbrdf(Vector(0, -3, -4), N, -s.I, 0.5), xcomp(specular(N, -s.I, 0.5)));
+  });
+  const double H = (0.8 + 1) / std::hypot(0.6, 1.8);
+  expectColor(c[0], vec3(static_cast<float>(std::pow(0.8, 5)), static_cast<float>(std::pow(H, 16)), static_cast<float>(std::pow(H, 16))), 1e-5f);
+}
+
+TEST_F(BatchServices, LightsInRslsMannerShineIntoTheirConeAndFromTheirDirection) {
+  surface("matte");
+  light("coned"), light("sunny");
+  const ShadedPoints out = shade(points({vec3(0, 0, 4), vec3(3, 0, 4)}));
+  const vec3 sun = 0.8f * vec3(1, 0.5f, 0.25f);
+  expectColor(out.color(0), vec3(2 / 16.0f) + sun);
+  expectColor(out.color(1), sun);
+}
+
+TEST_F(BatchServices, MessagesHaveRslsNames) {
+  attributes.shadingRate = 2.5f;
+  Param shot = number("user:shot", 42);
+  scene.options.user["user:shot"] = shot;
+  displacement("noisybump", {number("Km", 0.25f)});
+  const auto fog = [&](float distance) { return std::make_shared<const ShaderCall>(call("fog", {number("distance", distance)})); };
+  attributes.atmosphere = fog(7), attributes.exterior = fog(11), attributes.interior = fog(13);
+  asked(4, [](sl::Surface& s) {
+    Float x;
+    const auto is = [&](double value) { return std::abs(double(x[0]) - value) < 1e-6; };
+    std::string text;
+    EXPECT_TRUE(s.surface("lift", x) && is(3));
+    EXPECT_TRUE(s.displacement("Km", x) && is(0.25));
+    EXPECT_TRUE(s.atmosphere("distance", x) && is(7));
+    EXPECT_TRUE(s.incident("distance", x) && is(11));
+    EXPECT_TRUE(s.opposite("distance", x) && is(13));
+    EXPECT_TRUE(s.attribute("Ri:ShadingRate", x) && is(2.5));
+    EXPECT_TRUE(s.option("user:shot", x) && is(42));
+    EXPECT_TRUE(s.rendererinfo("renderer", text) && text == "Tomales");
+    EXPECT_FALSE(s.surface("absent", x));
+    EXPECT_FALSE(s.surface("lift", text)) << "a number is no text";
+    EXPECT_EQ(shadername(), "obedient");
+    EXPECT_EQ(shadername(TM_OF_ATMOSPHERE), "fog");
+  });
+}
+
+TEST_F(BatchServices, ATextureOfFourCornersIsTheMeanBetweenThem) {
+  const std::string path = ::testing::TempDir() + "/tomales_corners.tif";
+  OIIO::ImageBuf picture(OIIO::ImageSpec(256, 256, 1, OIIO::TypeDesc::FLOAT));
+  for (int y = 0; y < 256; ++y)
+    for (int x = 0; x < 256; ++x) {
+      const float value = x < 128 ? 0.0f : 1.0f;
+      picture.setpixel(x, y, &value);
+    }
+  ASSERT_TRUE(picture.write(path));
+  const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
+    TmTextureLookup one = lookup();
+    one.channels = 1;
+    const auto over = [&](double from, double to) {
+      const Float ss[4] = {from, to, from, to}, tt[4] = {0.4, 0.4, 0.6, 0.6};
+      return xcomp(texture(path.c_str(), ss, tt, one));
+    };
+    s.Ci = Color(over(0.4, 0.6), over(0.45, 0.65), over(0.7, 0.8));
+  });
+  expectColor(c[0], vec3(0.5f, 0.75f, 1), 0.05f);
+  EXPECT_TRUE(log.entries().empty());
+}
+
+TEST_F(BatchServices, IndirectdiffuseIsTheMeanOfWhatRaysSee) {
+  services.seen = [](const vec3& d) { return vec3(2, d.z * d.z, 1); };
+  const std::vector<vec3> c = asked(2, [](sl::Surface& s) { s.Ci = indirectdiffuse(s.P, s.N, 4096); });
+  expectColor(c[0], vec3(2, 0.5f, 1), 0.01f);  // the mean of cos^2 by the cosine is 1/2
+}
+
+TEST_F(BatchServices, PointsKnowTheRayThatCame) {
+  ShadeContext context;
+  context.kind = RayKind::Diffuse, context.depth = 2, context.specularDepth = 1, context.label = "here";
+  const std::vector<vec3> c = asked(2, [](sl::Surface& s) {
+    Triple depth;
+    EXPECT_TRUE(rayinfo("diffusedepth", depth));
+    EXPECT_FALSE(rayinfo("colour", depth));
+    EXPECT_TRUE(isindirectray());
+    EXPECT_FALSE(isshadowray());
+    EXPECT_EQ(raylabel(), "here");
+    EXPECT_EQ(raydepth(), 3);
+    s.Ci = depth;
+  }, context);
+  EXPECT_EQ(c[0].x, 2);
+}
+
+TEST_F(BatchServices, PrintingIsForThePointsOfTheMask) {
+  ::testing::internal::CaptureStderr();
+  asked(4, [](sl::Surface& s) { s.printf("%f at %p in %s", s.u, s.P, "here"); });
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(),
+            "0.000000 at 0.000000 0.000000 5.000000 in here\n0.250000 at 0.000000 0.000000 5.000000 in here\n");
+}
+
+/// Notes the widths of rays and answers nothing.
+class Widths : public ShadeServices {
+ public:
+  mutable std::vector<vec2> noted;
+  void trace(const ShadePoints&, const uint8_t*, TmConstVec3, TmConstVec3, const RayQuery& query, const ShadeContext&, const RayResult& result) const override {
+    noted.emplace_back(query.radius[0], query.spread[0]);
+    result.distance[0] = kInfinity;
+  }
+  void transmission(const ShadePoints&, const uint8_t*, TmConstVec3, const ShadowRays&, const ShadeContext&, TmVec3) const override {}
+  bool sampleEmitter(int, int, TmConstVec3, const float*, const float*, const EmitterPoints&) const override { return false; }
+  void meetEmitter(int, int, TmConstVec3, TmConstVec3, const EmitterPoints&) const override {}
+  float emitterReach(int) const override { return 0; }
+  void indirectDiffuse(const ShadePoints&, const uint8_t*, TmConstVec3, const IndirectQuery&, const ShadeContext&, IndirectResult) const override {}
+};
+
+// Differentials: rays start as wide as the micropolygon and widen with it and with the cone.
+TEST_F(BatchServices, RaysAreAsWideAsWhatTheyLeave) {
+  const Widths wide;
+  body = [](sl::Surface& s) {
+    TmRayOptions cone = rsl::defaultRays();
+    cone.coneAngle = 0.1f, cone.samples = 4;
+    s.Ci = trace(s.P, -s.I);
+    s.Ci += trace(s.P, -s.I, cone);
+  };
+  ShadePoints p = points({vec3(0, 0, 5)});
+  p.set3(kDpduX, 0, {3, 0, 0}), p.set3(kDpdvX, 0, {0, 4, 0}), p.set3(kIx, 0, {0, 0, 5});
+  p.channel(kDu)[0] = p.channel(kDv)[0] = 0.01f;
+  system().setServices(&wide);
+  shade(p);
+  ASSERT_EQ(wide.noted.size(), 5u);
+  EXPECT_NEAR(wide.noted[0].x, 0.025f, 1e-6f);
+  EXPECT_NEAR(wide.noted[0].y, 0.04f / 5, 1e-6f) << "as a mirror spreads what the eye sees";
+  EXPECT_NEAR(wide.noted[1].y, 0.04f / 5 + 0.05f, 1e-6f);
+}
+
+}  // namespace
+}  // namespace tomales

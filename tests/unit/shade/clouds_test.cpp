@@ -1,0 +1,135 @@
+// bake3d() and texture3d() between shaders and what keeps the points: spaces, radii, masks, and what is baked once.
+#include "reyes/sl.h"
+#include "tests/unit/shade/stage.h"
+
+namespace tomales {
+namespace {
+
+/// Remembers what it is given, and knows of one file.
+class FakeClouds : public CloudServices {
+ public:
+  struct Baked {
+    vec3 P, N;
+    float radius, value;
+  };
+  std::vector<Baked> baked;
+
+  bool bake(const CloudQuery& q, const std::vector<CloudValue>& values, std::string& problem) override {
+    if (q.file == "full.ptc") return problem = "the disk is full", false;
+    for (int i = 0; i < q.count; ++i)
+      if (q.active[i]) baked.push_back({at(q.P, i), at(q.N, i), q.radius[i], values.at(0).c[0][i]});
+    return true;
+  }
+  bool lookUp(const CloudQuery& q, const std::vector<CloudValue>& values, float* found, std::string& problem) override {
+    if (q.file != "known.ptc") return problem = "is not there", false;
+    for (int i = 0; i < q.count; ++i) {
+      if (!q.active[i]) continue;
+      found[i] = q.P.x[i] > 0.5f ? 1 : 0;
+      if (found[i] != 0) values.at(0).c[0][i] = q.P.x[i];
+    }
+    return true;
+  }
+  bool photons(const CloudQuery& q, int estimator, TmVec3 E, std::string&) override {
+    for (int i = 0; i < q.count; ++i)
+      if (q.active[i]) E.x[i] = static_cast<float>(estimator), E.y[i] = q.N.z[i], E.z[i] = 0;
+    return true;
+  }
+
+ private:
+  static vec3 at(TmConstVec3 v, int i) { return {v.x[i], v.y[i], v.z[i]}; }
+};
+
+rsl::StringParam file("file", "left.ptc", "");
+struct baking : sl::Surface {
+  void main() {
+    TmCloudLookup object = sl::cloudLookup();
+    object.coordSystem = "object";
+    sl::If(u < 0.5, [&] { sl::bake3d(file(sl::grid()), P, N, {{"u", u}}, object); });
+    Ci = sl::diffuse(N), Oi = sl::Color(1.0);
+  }
+};
+struct finding : sl::Surface {
+  void main() {
+    sl::Float x = -1, found = -1;
+    sl::If(u < 0.7, [&] {
+      found = sl::texture3d(file(sl::grid()), P, N, {{"x", x}});
+    });
+    Ci = sl::Color(x, found, 0) + sl::photonmap("photons.ptc", P, N, 7) * sl::Color(0, 0, 1), Oi = sl::Color(1.0);
+    sl::setzcomp(Ci, sl::xcomp(sl::photonmap("photons.ptc", P, N, 7)));
+  }
+};
+const rsl::Shader bakingShader(TM_SURFACE, "baking", "", 0, sl::shade<baking>, {&file});
+rsl::StringParam file2("file", "known.ptc", "");
+const rsl::Shader neighbourShader(TM_SURFACE, "bakingwide", "", TM_NEIGHBOURS, sl::shade<baking>, {&file2});
+const rsl::Shader findingShader(TM_SURFACE, "finding", "", 0, sl::shade<finding>, {&file2});
+
+class CloudCalls : public Stage {
+ protected:
+  CloudCalls() {
+    static const TmShader* const shaders[] = {bakingShader, neighbourShader, findingShader};
+    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 3};
+    registry.addLibrary(&library, "test");
+  }
+  ShadePoints row() {
+    ShadePoints p = points({vec3(0, 0, 5), vec3(1, 0, 5), vec3(2, 0, 5), vec3(3, 0, 5)});
+    for (int i = 0; i < 4; ++i) {
+      p.set3(kDpduX, i, {3, 0, 0}), p.set3(kDpdvX, i, {0, 4, 0});
+      p.channel(kDu)[i] = p.channel(kDv)[i] = 2;
+    }
+    return p;
+  }
+  FakeClouds clouds;
+};
+
+TEST_F(CloudCalls, PointsAreBakedInTheSpaceOfTheFileWithTheRadiusOfTheirMicropolygons) {
+  surface("baking");
+  worldFromObject = Motion::still(mat4(2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1));
+  system().setClouds(&clouds);
+  shade(row());
+  ASSERT_EQ(clouds.baked.size(), 2u) << "those under the mask";
+  EXPECT_EQ(clouds.baked[1].P, vec3(0.5f, 0, 2.5f));
+  EXPECT_EQ(clouds.baked[1].N, vec3(0, 0, -1));
+  EXPECT_FLOAT_EQ(clouds.baked[1].radius, 2.5f) << "half of a 6 by 8 diagonal, in object space";
+  EXPECT_EQ(clouds.baked[1].value, 0.25f);
+}
+
+TEST_F(CloudCalls, EachPointIsBakedOnceForTheCameraAlone) {
+  surface("bakingwide", {text("file", "left.ptc")});
+  light("distantlight", {text("__group", "key")});
+  system().setClouds(&clouds);
+  ShadeContext gather;
+  gather.kind = RayKind::Diffuse;
+  shade(row(), gather);
+  EXPECT_TRUE(clouds.baked.empty());
+  ShadePoints wide(0, 0, true);
+  const ShadePoints narrow = row();
+  for (int i = 0; i < narrow.count(); ++i) {
+    wide.add(narrow.key(i));
+    for (int c = 0; c < narrow.channelCount(); ++c) wide.channel(c)[i] = narrow.channel(c)[i];
+  }
+  shade(wide);
+  EXPECT_EQ(clouds.baked.size(), 2u) << "neighbours are not points of their own";
+}
+
+TEST_F(CloudCalls, WhatIsFoundIsSaidPointByPointUnderTheMask) {
+  surface("finding");
+  system().setClouds(&clouds);
+  const ShadedPoints out = shade(row());
+  expectColor(out.color(0), {-1, 0, 7});
+  expectColor(out.color(1), {1, 1, 7});
+  expectColor(out.color(2), {2, 1, 7});
+  expectColor(out.color(3), {-1, -1, 7});
+  EXPECT_TRUE(log.entries().empty());
+}
+
+TEST_F(CloudCalls, WhatCannotBeIsReportedOnceWithShaderAndFile) {
+  surface("finding", {text("file", "absent.ptc")});
+  system().setClouds(&clouds);
+  shade(row()), shade(row());
+  ASSERT_EQ(log.entries().size(), 1u);
+  EXPECT_NE(log.entries()[0].message.find("\"absent.ptc\": is not there"), std::string::npos) << log.entries()[0].message;
+  EXPECT_EQ(log.worst(), Severity::Missing);
+}
+
+}  // namespace
+}  // namespace tomales
