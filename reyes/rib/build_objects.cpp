@@ -46,14 +46,21 @@ bool isEmptyMesh(const Request& r) {
   return r.args[r.name.ends_with("SubdivisionMesh") ? 1 : 0].integers.empty();
 }
 
+/// No Display shows colours: exporters write Surface "null" there to save time, and mean what Opacity says.
+bool showsDepthAlone(const Options& options) {
+  return !options.displays.empty() && std::all_of(options.displays.begin(), options.displays.end(), [](const DisplayCall& d) {
+    return d.mode == "z" || d.type == "shadow" || d.type == "zfile";
+  });
+}
+
 /// Surface "null": nobody sees the object, but it may emit.
-std::shared_ptr<Attributes> attributesOf(const Scope& scope) {
+std::shared_ptr<Attributes> attributesOf(const Scope& scope, const Options& options) {
   const std::shared_ptr<Attributes>& given = scope.attributes;
   if (!given->surface || given->surface->name != "null") return given;
-  auto unseen = std::make_shared<Attributes>(*given);
-  unseen->surface = nullptr;
-  unseen->visibility = {false, false, false, false, false};
-  return unseen;
+  auto bare = std::make_shared<Attributes>(*given);
+  bare->surface = nullptr;
+  if (!showsDepthAlone(options)) bare->visibility = {false, false, false, false, false};
+  return bare;
 }
 
 bool sameBasis(const Basis& a, const Basis& b) { return a.step == b.step && a.matrix == b.matrix; }
@@ -86,7 +93,7 @@ void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times
   object.shapeTimes = std::move(shapes.times);
   object.worldFromObject = state_.scope.ctm;
   state_.scope.attributes = state_.attributes(state_.scope.attributes);
-  object.attributes = state_.attributes(attributesOf(state_.scope));
+  object.attributes = state_.attributes(attributesOf(state_.scope, state_.globals.options));
   object.where = r.where;
   placeInSolid(state_, object);
   state_.world->objects.push_back(std::move(object));
