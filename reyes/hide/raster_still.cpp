@@ -3,7 +3,7 @@
 // the same in all of them, and none is fused, so the bits are too.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reyes/hide/raster_still.cpp"
-#include "reyes/hide/vector.h"  // Includes this file again for each target.
+#include "reyes/base/vector.h"  // Includes this file again for each target.
 
 #include <bit>
 
@@ -183,7 +183,9 @@ HWY_INLINE void film(const RasterJob& job, const Quad& quad, size_t pixel, uint3
     const Reach r = reachOf(job, quad, first + g, cell, kept);
     if (hn::AllFalse(kF, r.mask)) continue;
     hn::StoreU(hn::Compress(r.depth, r.mask), kF, films.next());
-    films.add(static_cast<uint32_t>(pixel), cell, static_cast<uint32_t>(g / 64), bitsOf(r.mask) << (g % 64));
+    const float nearest = hn::GetLane(hn::MinOfLanes(kF, hn::IfThenElse(r.mask, r.depth, all(kInfinity))));
+    const float farthest = hn::GetLane(hn::MaxOfLanes(kF, hn::IfThenElse(r.mask, r.depth, all(-kInfinity))));
+    films.add(static_cast<uint32_t>(pixel), cell, static_cast<uint32_t>(g / 64), bitsOf(r.mask) << (g % 64), nearest, farthest);
   }
 }
 
@@ -239,8 +241,11 @@ void rasterize(const RasterJob& job) {
   const Grid& g = *job.raster.grid;
   const auto& pieces = job.raster.ofPiece;
   const int ofPiece = g.verticesOfPiece(), withoutCells = g.nu + 1;
+  const vec2 lo(job.out.rect.x0, job.out.rect.y0), hi(job.out.rect.x1, job.out.rect.y1);
   const auto seen = [&](size_t p) {
-    return !job.out.hides(job.out.touched(pieces[p].bound.lo, pieces[p].bound.hi), pieces[p].dMin);
+    const RasterExtent& e = pieces[p];
+    const bool touches = (e.bound.lo.x < hi.x) & (e.bound.hi.x >= lo.x) & (e.bound.lo.y < hi.y) & (e.bound.hi.y >= lo.y);
+    return touches && !job.out.hides(job.out.touched(e.bound.lo, e.bound.hi), e.dMin);
   };
   QuadBlock q;
   if (pieces.empty()) return rasterizeRun(job, 0, ofPiece - withoutCells, q);

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "reyes/output.h"
 #include "reyes/rib/request_table.h"
 #include "reyes/rib/scene_builder.h"
 
@@ -46,20 +47,13 @@ bool isEmptyMesh(const Request& r) {
   return r.args[r.name.ends_with("SubdivisionMesh") ? 1 : 0].integers.empty();
 }
 
-/// No Display shows colours: exporters write Surface "null" there to save time, and mean what Opacity says.
-bool showsDepthAlone(const Options& options) {
-  return !options.displays.empty() && std::all_of(options.displays.begin(), options.displays.end(), [](const DisplayCall& d) {
-    return d.mode == "z" || d.type == "shadow" || d.type == "zfile";
-  });
-}
-
-/// Surface "null": nobody sees the object, but it may emit.
+/// Surface "null": nobody sees the object, but it may emit. In passes for depth alone it means, by custom, that no shader need run.
 std::shared_ptr<Attributes> attributesOf(const Scope& scope, const Options& options) {
   const std::shared_ptr<Attributes>& given = scope.attributes;
   if (!given->surface || given->surface->name != "null") return given;
   auto bare = std::make_shared<Attributes>(*given);
   bare->surface = nullptr;
-  if (!showsDepthAlone(options)) bare->visibility = {false, false, false, false, false};
+  if (outputOf(options).shades) bare->visibility = {false, false, false, false, false};
   return bare;
 }
 
