@@ -138,6 +138,8 @@ const std::unordered_map<std::string_view, Setter>& numberSetters() {
   static const std::unordered_map<std::string_view, Setter> table = {
       {"displacementbound:sphere",
        [](Attributes& a, const Param& p) { a.displacementBound = std::max(0.0f, p.number(0)); }},
+      {"bound:displacement",  // until PRMan 3.8
+       [](Attributes& a, const Param& p) { a.displacementBound = std::max(0.0f, p.number(0)); }},
       {"visibility:camera", [](Attributes& a, const Param& p) { a.visibility.camera = p.number(1) != 0; }},
       {"visibility:diffuse", [](Attributes& a, const Param& p) { a.visibility.diffuse = p.number(1) != 0; }},
       {"visibility:specular",

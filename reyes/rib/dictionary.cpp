@@ -56,7 +56,7 @@ constexpr Standard kStandard[] = {
      "dice:strategy trimcurve:sense shade:strategy shade:diffusehitmode shade:specularhitmode "
      "shade:transmissionhitmode shade:camerahitmode"},
     {"float",
-     "displacementbound:sphere trace:bias trace:offset trace:tessellation indirect:gain indirect:bleeding "
+     "displacementbound:sphere bound:displacement trace:bias trace:offset trace:tessellation indirect:gain indirect:bleeding "
      "irradiance:maxerror irradiance:maxpixeldist irradiance:shadingrate"},
     {"color", "indirect:bleedingcolor"},
     {"int",

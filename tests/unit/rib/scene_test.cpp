@@ -131,6 +131,24 @@ TEST(Shaders, NullSurfaceIsSeenByNobodyUntilTheNextSurface) {
   EXPECT_FALSE(r.attributes(2).atmosphere);
 }
 
+TEST(Shaders, NullSurfaceIsThereWhereDepthAloneIsShown) {
+  const auto seen = [](const std::string& displays) {
+    const Reading r(displays + inWorld("Surface \"null\" " + kSphere));
+    return r.attributes(0).visibility.camera;
+  };
+  EXPECT_TRUE(seen("Display \"a\" \"zfile\" \"z\""));
+  EXPECT_TRUE(seen("Display \"a.exr\" \"openexr\" \"z\""));
+  EXPECT_FALSE(seen("Display \"a.exr\" \"openexr\" \"rgba\""));
+  EXPECT_FALSE(seen("Display \"a\" \"zfile\" \"z\" Display \"+b.exr\" \"openexr\" \"rgba\""));
+  EXPECT_FALSE(seen(""));
+}
+
+TEST(Attributes, BoundDisplacementIsTheDisplacementBoundOfOldScenes) {
+  const Reading r(inWorld("Attribute \"bound\" \"displacement\" [0.25] " + kSphere));
+  EXPECT_EQ(r.codes(), "");
+  EXPECT_EQ(r.attributes(0).displacementBound, 0.25f);
+}
+
 TEST(Lights, OfAreaBelongToTheGeometryThatFollows) {
   const Reading r(inWorld(kSphere + "AttributeBegin AreaLightSource \"arealight\" 3 \"intensity\" 2 " +
                           kSphere + "AttributeEnd " + kSphere));
