@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <tuple>
 
 #include "reyes/dice.h"
@@ -16,9 +17,12 @@ constexpr int kBlock_buckets = 4;  ///< if they begin in the same square of buck
 constexpr int kStack_vertices = 512;  ///< and grids of about as many vertices.
 
 TOMALES_HOT bool allSeeable(const Grid& g, int key, const Camera& camera) {
+  // Camera::seeable without a branch, which would keep it out of vectors.
   const float *x = g.P(key, 0), *y = g.P(key, 1), *z = g.P(key, 2);
+  const float nearest = camera.perspective() ? camera.eyePlane() : -FLT_MAX;
   int unseeable = 0;
-  for (int v = 0, count = g.vertexCount(); v < count; ++v) unseeable |= !camera.seeable({x[v], y[v], z[v]});
+  for (int v = 0, count = g.vertexCount(); v < count; ++v)
+    unseeable |= int(!(std::abs(x[v]) <= FLT_MAX)) | int(!(std::abs(y[v]) <= FLT_MAX)) | int(!(z[v] >= nearest)) | int(!(z[v] <= FLT_MAX));
   return unseeable == 0;
 }
 

@@ -241,8 +241,11 @@ void rasterize(const RasterJob& job) {
   const Grid& g = *job.raster.grid;
   const auto& pieces = job.raster.ofPiece;
   const int ofPiece = g.verticesOfPiece(), withoutCells = g.nu + 1;
+  const vec2 lo(job.out.rect.x0, job.out.rect.y0), hi(job.out.rect.x1, job.out.rect.y1);
   const auto seen = [&](size_t p) {
-    return !job.out.hides(job.out.touched(pieces[p].bound.lo, pieces[p].bound.hi), pieces[p].dMin);
+    const RasterExtent& e = pieces[p];
+    const bool touches = (e.bound.lo.x < hi.x) & (e.bound.hi.x >= lo.x) & (e.bound.lo.y < hi.y) & (e.bound.hi.y >= lo.y);
+    return touches && !job.out.hides(job.out.touched(e.bound.lo, e.bound.hi), e.dMin);
   };
   QuadBlock q;
   if (pieces.empty()) return rasterizeRun(job, 0, ofPiece - withoutCells, q);

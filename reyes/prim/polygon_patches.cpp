@@ -131,14 +131,28 @@ class Decomposer {
 
   bool openBetween(int a, int b) const { return (a + 1) % static_cast<int>(corner_.size()) == b && open_[a]; }
 
+  /// One patch, of which the edge v = 1 is the corner that its shortest side faces: lines along u are short, and what is linear over the
+  /// triangle is so over the patch.
+  void addTriangle(const Piece& piece) {
+    const auto side = [&](size_t k) {
+      const vec3 d = point_[static_cast<size_t>(piece[(k + 1) % 3])] - point_[static_cast<size_t>(piece[k])];
+      return glm::dot(d, d);
+    };
+    const size_t k = side(1) < side(0) ? (side(2) < side(1) ? 2 : 1) : (side(2) < side(0) ? 2 : 0);
+    const int a = piece[k], b = piece[(k + 1) % 3], c = piece[(k + 2) % 3];
+    addQuad({corner_[a], corner_[b], corner_[c], corner_[c]},
+            {true, edgeBits(openBetween(c, a), openBetween(b, c), openBetween(a, b), true)});
+  }
+
   void addPiece(const Piece& piece) {
     const size_t n = piece.size();
+    if (n == 3) return addTriangle(piece);
     std::vector<uint32_t>&at = at_, &middle = middle_;
     at.clear(), middle.clear();
     for (int k : piece) at.push_back(corner_[k]);
     for (size_t k = 0; k < n; ++k) middle.push_back(make(std::array{at[k], at[(k + 1) % n]}));
     const uint32_t center = make(at);
-    const bool planar = n == 3 || out_.faces.back().planar;
+    const bool planar = out_.faces.back().planar;
     for (size_t k = 0; k < n; ++k) {
       const size_t before = (k + n - 1) % n, after = (k + 1) % n;
       const uint8_t open =

@@ -125,6 +125,12 @@ template <class L>
   }
 }
 
+// The lines of a flat patch are straight, and the longest is one of its edges.
+constexpr int kFlatProbes = 1, kCurvedProbes = 4;
+/// Along u a triangle (edge v = 1 has no length) is, in the mean of squares, this much of its foot: in the mean its cells are smaller than the
+/// rate asks, and the largest, at its foot, have 1.4 times the area.
+constexpr float kTriangle = 0.70710678f;
+
 // Target clones are no templates.
 TOMALES_HOT void measureHot(Lattice<1, kLanes>& at, const mat4& m, const Camera& camera, bool asSeen, Sizes<kLanes>& out) {
   measureLattice(at, m, camera, asSeen, out);
@@ -158,14 +164,13 @@ void measureSome(const Object& o, const Camera& camera, int count, const PatchAt
   measureHot(at, o.cameraFromObject.at(o.keyTimes.front()), camera, o.attributes->rasterOrient, sizes);
   for (int i = 0; i < count; ++i) {
     const auto &su = sizes.u, &sv = sizes.v;
-    put(i, PatchSize{{su.px[i], su.length[i], su.least[i], su.bend_px[i]},
+    constexpr int c = L::kCount - L::kRow, d = L::kCount - 1;
+    const bool triangle = kProbes == kFlatProbes && at.x[c][i] == at.x[d][i] && at.y[c][i] == at.y[d][i] && at.z[c][i] == at.z[d][i];
+    put(i, PatchSize{{triangle ? kTriangle * su.px[i] : su.px[i], su.length[i], su.least[i], su.bend_px[i]},
                      {sv.px[i], sv.length[i], sv.least[i], sv.bend_px[i]},
                      {{sizes.lo[0][i], sizes.lo[1][i], sizes.lo[2][i]}, {sizes.hi[0][i], sizes.hi[1][i], sizes.hi[2][i]}}});
   }
 }
-
-// The lines of a flat patch are straight, and the longest is one of its edges.
-constexpr int kFlatProbes = 1, kCurvedProbes = 4;
 
 template <int kProbes>
 void measureThose(bool planar, const Object& o, const Camera& camera, std::span<const uint32_t> patches, const UvRect& r, std::vector<PatchSize>& out) {
