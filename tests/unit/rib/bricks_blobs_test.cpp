@@ -21,7 +21,7 @@ struct BrickMapFile : ::testing::Test {
     brick.data = {1, 2, 3, 0.5f, 4, 5, 6, 0.25f};
     BrickFileWriter file((folder / "two.bkm").string());
     file.add(brick);
-    file.finish({{"irradiance", 3}, {"area", 1}}, {{vec3(0), 1}, {BrickNode{}}, 0});
+    file.finish({{"irradiance", 3}, {"area", 1}}, {{vec3(0), 1}, {BrickNode{}}, 0}, {});
   }
   ~BrickMapFile() override { fs::remove_all(folder); }
 };
