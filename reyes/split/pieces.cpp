@@ -14,9 +14,10 @@ constexpr float kSlack = 8;
 constexpr int kSlackDepth = 8;
 constexpr float kRasterMargin_px = 1.0f;  ///< The hider may push borders out by half a pixel.
 /// Pieces that one patch may visit: so many times those that cover the window once, and some for small windows. Only
-/// coordinates beyond float's precision or reach, which no halving makes small, come near it.
-constexpr double kLayersOfPatch = 64;
-constexpr double kLeastBudget = 1 << 16;
+/// coordinates beyond float's precision or reach, which no halving makes small, come near it. Patches of one object share what
+/// exceeds the least, or a mesh of them would take hours.
+constexpr double kLayersOfObject = 64, kLayersOfPatch = 4;
+constexpr double kVisitsOfObject = 1 << 16, kVisitsOfPatch = 1 << 12;
 /// Lazily, a patch is halved so often, and what then has so many grids or more is a coarse piece.
 constexpr int kHalvingsAtOnce = 6;
 constexpr int64_t kGridsOfCoarse = 64;
@@ -74,25 +75,38 @@ class Splitter {
         edge_px_(std::sqrt(std::max(object_.attributes->shadingRate, 1e-4f))) {}
 
   void splitPatch(uint32_t patch, std::vector<SubPatch>& out) {
-    const double window_px = static_cast<double>(window_.width()) * window_.height();
-    budget_ = static_cast<int64_t>(kLeastBudget + kLayersOfPatch * window_px / (double{edge_px_} * edge_px_ * gridSize_));
-    split(patch, UvRect{}, 0, out);
+    const double window_px = static_cast<double>(window_.width()) * window_.height(), patches = object_.shape().patchCount();
+    const double layers = std::max(kLayersOfObject / patches, kLayersOfPatch), least = std::max(kVisitsOfObject / patches, kVisitsOfPatch);
+    splitWithin(static_cast<int64_t>(least + layers * window_px / (double{edge_px_} * edge_px_ * gridSize_)), patch, UvRect{}, 0, out);
   }
   void splitPiece(const SubPatch& coarse, std::vector<SubPatch>& out) {
-    start_ = coarse.depth;
-    budget_ = kGridsOfCoarse + static_cast<int64_t>(kLayersOfPatch) * gridsOf(coarse.nu, coarse.nv);
-    split(coarse.patch, coarse.rect, coarse.depth, out);
+    splitWithin(coarse.visits, coarse.patch, coarse.rect, coarse.depth, out);
   }
 
   const GivenUp& givenUp() const { return givenUp_; }
 
  private:
+  /// Coarse pieces inherit what is left of the visits, in proportion to the grids that they may show: however deep they are nested, a
+  /// patch takes no more than it was given.
+  void splitWithin(int64_t visits, uint32_t patch, const UvRect& rect, int depth, std::vector<SubPatch>& out) {
+    const auto first = static_cast<ptrdiff_t>(out.size());
+    start_ = depth, budget_ = visits;
+    split(patch, rect, depth, out);
+    const auto share = [this](const SubPatch& p) { return p.coarse ? static_cast<double>(std::min(gridsOf(p.nu, p.nv), gridsInView(p.raster))) : 0.0; };
+    double shares = 0;
+    for (auto p = out.begin() + first; p != out.end(); ++p) shares += share(*p);
+    for (auto p = out.begin() + first; p != out.end(); ++p)
+      if (p->coarse) p->visits = static_cast<int64_t>(share(*p) / shares * static_cast<double>(budget_));
+    stats_.geometry.piecesVisited += visits - budget_;
+  }
+
   void split(uint32_t patch, const UvRect& rect, int depth, std::vector<SubPatch>& out) {
     if (stop_ && stop_->load(std::memory_order_relaxed)) return;
-    if (budget_-- <= 0) {
+    if (budget_ <= 0) {
       ++givenUp_.tooMany;
       return;
     }
+    --budget_;
     Bound3 bare = cameraBound(object_, patch, rect);
     if (cannotBeSeen(bare) || object_.shape().kept(patch, rect) == Kept::None) {
       ++stats_.geometry.culled;
@@ -117,9 +131,7 @@ class Splitter {
     } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && gridsOf(nu, nv) >= kGridsOfCoarse && !crossesEye &&
                glm::length(bare.size()) <= kSlack * reach) {
       // Halving shrinks such a piece and its bound as it should, so that its grids can be foretold.
-      const Bound2 raster = rasterOf(bound);
-      budget_ -= std::min(gridsOf(nu, nv), gridsInView(raster));
-      out.push_back({index_, patch, rect, nu, nv, raster, bound.lo.z, crossesEye, depth, true});
+      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound), bound.lo.z, crossesEye, depth, true});
     } else if (depth == kMaxDepth) {
       ++(bound.lo.z < glm::length(bound.size()) ? givenUp_.atEye : givenUp_.tooMany);
     } else {
@@ -175,7 +187,7 @@ class Splitter {
   const StopFlag stop_;
   const float edge_px_;
   int start_ = 0;       ///< Depth of what is being split.
-  int64_t budget_ = 0;  ///< Pieces that the patch may still visit.
+  int64_t budget_ = 0;  ///< Pieces that may still be visited.
   GivenUp givenUp_;
 };
 
