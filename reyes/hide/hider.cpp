@@ -42,8 +42,8 @@ Hider::Hider(const Scene& scene, const Camera& camera, const SamplePattern& patt
 Hider::~Hider() = default;
 
 bool Hider::hidden(const Bound2& raster, float zMin) const {
-  // What is in the bound may reach out of it when its border is pushed.
-  const vec2 reach(kMaxReach_px + 1 / kLattice);
+  // Vertices are snapped.
+  const vec2 reach(1 / kLattice);
   const SampleBuffer& s = impl_->samples;
   return s.hides(s.touched(raster.lo - reach, raster.hi + reach), impl_->camera.leastDepthKey(zMin));
 }

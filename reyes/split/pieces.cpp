@@ -12,7 +12,6 @@ constexpr int kMaxDepth = 48;     ///< Halvings of one patch; beyond, the piece 
 /// ever be culled.
 constexpr float kSlack = 8;
 constexpr int kSlackDepth = 8;
-constexpr float kRasterMargin_px = 1.0f;  ///< The hider may push borders out by half a pixel.
 /// Pieces that one patch may visit: so many times those that cover the window once, and some for small windows. Only
 /// coordinates beyond float's precision or reach, which no halving makes small, come near it. Patches of one object share what
 /// exceeds the least, or a mesh of them would take hours.
@@ -60,6 +59,14 @@ std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
   else
     a.v1 = b.v0 = 0.5f * (r.v0 + r.v1);
   return {a, b};
+}
+
+/// With what the hider may add to it, and half a pixel to be safe.
+Bound2 rasterOf(const Bound3& bound, float displacementBound, const Camera& camera, const Bound2& throughTheEye = {}) {
+  Bound2 raster;
+  if (!camera.rasterBound(bound, raster)) raster = throughTheEye;
+  const vec2 margin(borderReach_px(displacementBound) + 0.5f);
+  return {raster.lo - margin, raster.hi + margin};
 }
 
 /// Splits the patches of one object.
@@ -162,9 +169,7 @@ class Splitter {
   /// Of what lies beyond the near plane.
   Bound2 rasterOf(Bound3 bound) const {
     if (camera_.perspective()) bound.lo.z = std::max(bound.lo.z, camera_.nearClip());
-    Bound2 raster;
-    camera_.rasterBound(bound, raster);
-    return {raster.lo - vec2(kRasterMargin_px), raster.hi + vec2(kRasterMargin_px)};
+    return tomales::rasterOf(bound, object_.displacementBound, camera_);
   }
 
   /// How much longer than the shading rate asks the edges may be: a micropolygon's width up to a quarter of the circle
@@ -215,11 +220,7 @@ std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObj
   const Placement anywhere{{{window.x0, window.y0}, {window.x1, window.y1}}, -kInfinity};
   if (!isFinite(bound.lo) || !isFinite(bound.hi)) return anywhere;  // one bad patch must not take its neighbours along
   if (clipped ? camera.outside(bound, window) : camera.outsideWindow(bound, window)) return std::nullopt;
-  Placement out{{}, bound.lo.z};
-  if (!camera.rasterBound(bound, out.raster)) out.raster = anywhere.raster;
-  out.raster.lo -= vec2(kRasterMargin_px);
-  out.raster.hi += vec2(kRasterMargin_px);
-  return out;
+  return Placement{rasterOf(bound, margin, camera, anywhere.raster), bound.lo.z};
 }
 
 namespace {
