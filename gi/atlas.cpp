@@ -161,7 +161,7 @@ vec3 IrradianceAtlas::irradianceOverPi(int group, const vec3& P, const vec3& N, 
 
 void IrradianceAtlas::report(Stats& stats) const {
   int64_t total = 0, onDisk = 0;
-  for (const auto& map : maps_) total += static_cast<int64_t>(map->tree().nodes.size()), onDisk += static_cast<int64_t>(map->fileBytes());
+  for (const auto& map : maps_) total += static_cast<int64_t>(map->file().tree().nodes.size()), onDisk += static_cast<int64_t>(map->file().fileBytes());
   stats.bricks.total += total, stats.bricks.bytesOnDisk += onDisk;
   stats.bricks.lookups += cache_.lookups(), stats.bricks.misses += cache_.misses();
   stats.bricks.cacheBytes += static_cast<int64_t>(cache_.bytes());

@@ -3,51 +3,6 @@
 #include <fmt/format.h>
 
 namespace tomales {
-namespace {
-
-constexpr char kKind[9] = "TMBRICKS";
-constexpr uint32_t kVersion = 1;
-constexpr int kMostWidth = 256;  ///< Floats of a lookup.
-constexpr int kMostLevels = 24;  ///< Voxel coordinates stay exact in int.
-
-Bytes pack(const Brick& brick) {
-  ByteWriter w;
-  w.put(std::vector<uint16_t>(brick.first.begin(), brick.first.end()));
-  std::vector<vec3> normals;
-  std::vector<uint8_t> incoherent;
-  for (const BrickLayer& l : brick.layers) normals.push_back(l.normal), incoherent.push_back(l.incoherent);
-  w.put(normals);
-  w.put(incoherent);
-  w.put(brick.data);
-  return std::move(w.bytes);
-}
-
-Brick unpack(const Bytes& bytes, int width, const std::string& path) {
-  ByteReader r(bytes, path);
-  Brick brick;
-  const auto first = r.getVector<uint16_t>();
-  const auto normals = r.getVector<vec3>();
-  const auto incoherent = r.getVector<uint8_t>();
-  brick.data = r.getVector<float>();
-  const bool whole = first.size() == brick.first.size() && std::is_sorted(first.begin(), first.end()) && first.front() == 0 &&
-                     first.back() == normals.size() && incoherent.size() == normals.size() &&
-                     brick.data.size() == normals.size() * static_cast<size_t>(width);
-  if (!whole) throw FileError(fmt::format("\"{}\" is damaged: a brick does not add up", path));
-  std::copy(first.begin(), first.end(), brick.first.begin());
-  for (size_t i = 0; i < normals.size(); ++i) brick.layers.push_back({normals[i], incoherent[i] != 0});
-  return brick;
-}
-
-bool sound(const BrickTree& tree) {
-  const auto count = static_cast<int32_t>(tree.nodes.size());
-  for (int32_t i = 0; i < count; ++i)
-    for (const int32_t c : tree.nodes[static_cast<size_t>(i)].child)
-      if (c < -1 || c >= i) return false;
-  return isFinite(tree.cube.lo) && tree.cube.size > 0 && std::isfinite(tree.cube.size) && tree.deepest >= 0 &&
-         tree.deepest < kMostLevels;
-}
-
-}  // namespace
 
 struct BrickMap::Sum {
   float* data;
@@ -56,56 +11,38 @@ struct BrickMap::Sum {
   BrickPtr last;
 };
 
-BrickMap::BrickMap(const std::string& path, BrickCache& cache) : file_(path, kKind, kVersion), cache_(cache), id_(cache.addMap()) {
-  ByteReader r(file_.header(), path);
-  const auto channelCount = r.get<uint32_t>();
-  for (uint32_t i = 0; i < channelCount; ++i) {
-    std::string name = r.getString();
-    channels_.push_back({std::move(name), r.get<int32_t>()});
-    if (channels_.back().width < 1 || channels_.back().width > kMostWidth - width_)
-      throw FileError(fmt::format("\"{}\": its channels are too many or damaged", path));
-    width_ += channels_.back().width;
-  }
-  tree_.cube = r.get<BrickCube>();
-  tree_.deepest = r.get<int32_t>();
-  tree_.nodes = r.getVector<BrickNode>();
-  if (!sound(tree_) || tree_.nodes.size() != file_.count()) throw FileError(fmt::format("\"{}\" is damaged: its octree does not add up", path));
-}
-
-Brick BrickMap::brick(int32_t node) const { return unpack(file_.read(static_cast<uint32_t>(node)), width_, file_.path()); }
-
 BrickPtr BrickMap::cached(int32_t node) const {
-  return cache_.get(id_, static_cast<uint32_t>(node), [&] { return brick(node); });
+  return cache_.get(id_, static_cast<uint32_t>(node), [&] { return file_.brick(node); });
 }
 
 bool BrickMap::lookup(const vec3& P, const vec3& N, float radius, float* out) const {
-  std::fill_n(out, width_, 0.0f);
-  if (tree_.nodes.empty() || !isFinite(P)) return false;
+  std::fill_n(out, width(), 0.0f);
+  if (tree().nodes.empty() || !isFinite(P)) return false;
   Sum sum{out, 0, -1, nullptr};
   // The level whose voxels are as wide as the lookup volume, between two levels unless at either end.
-  const float ideal = std::log2(tree_.cube.voxelSize(0) / std::max(2 * radius, 1e-30f));
-  const float level = std::clamp(ideal, 0.0f, static_cast<float>(tree_.deepest));
+  const float ideal = std::log2(tree().cube.voxelSize(0) / std::max(2 * radius, 1e-30f));
+  const float level = std::clamp(ideal, 0.0f, static_cast<float>(tree().deepest));
   const int coarse = static_cast<int>(level);
   const float t = level - static_cast<float>(coarse);
-  if (t < 1) addLevel(coarse, P, N, std::max(radius, 0.5f * tree_.cube.voxelSize(coarse)), 1 - t, sum);
-  if (t > 0) addLevel(coarse + 1, P, N, std::max(radius, 0.5f * tree_.cube.voxelSize(coarse + 1)), t, sum);
-  for (int l = coarse - 1; l >= 0 && !(sum.weight > 0); --l) addLevel(l, P, N, 0.5f * tree_.cube.voxelSize(l), 1, sum);
+  if (t < 1) addLevel(coarse, P, N, std::max(radius, 0.5f * tree().cube.voxelSize(coarse)), 1 - t, sum);
+  if (t > 0) addLevel(coarse + 1, P, N, std::max(radius, 0.5f * tree().cube.voxelSize(coarse + 1)), t, sum);
+  for (int l = coarse - 1; l >= 0 && !(sum.weight > 0); --l) addLevel(l, P, N, 0.5f * tree().cube.voxelSize(l), 1, sum);
   if (!(sum.weight > 0)) return false;
-  for (int k = 0; k < width_; ++k) out[k] /= sum.weight;
+  for (int k = 0; k < width(); ++k) out[k] /= sum.weight;
   return true;
 }
 
 void BrickMap::addLevel(int level, const vec3& P, const vec3& N, float halfWidth, float weight, Sum& sum) const {
-  const float voxel = tree_.cube.voxelSize(level);
+  const float voxel = tree().cube.voxelSize(level);
   const int end = kBrickWidth << level;
-  const vec3 p = (P - tree_.cube.lo) / voxel;
+  const vec3 p = (P - tree().cube.lo) / voxel;
   const float h = std::min(halfWidth / voxel, 1.0f);  // farther than two voxels only where the root is still too fine
   if (glm::any(glm::lessThan(p, vec3(-2.0f))) || glm::any(glm::greaterThan(p, vec3(static_cast<float>(end) + 2)))) return;
   const glm::ivec3 first = glm::clamp(glm::ivec3(glm::floor(p - h)), 0, end - 1);
   const glm::ivec3 last = glm::clamp(glm::ivec3(glm::floor(p + h)), 0, end - 1);
   const float before = sum.weight;
   Sum part{sum.data, 0, sum.lastNode, sum.last};
-  std::array<float, kMostWidth> own{};
+  std::array<float, BrickFile::kMostWidth> own{};
   part.data = own.data();
   for (int z = first.z; z <= last.z; ++z)
     for (int y = first.y; y <= last.y; ++y)
@@ -117,17 +54,17 @@ void BrickMap::addLevel(int level, const vec3& P, const vec3& N, float halfWidth
       }
   sum.lastNode = part.lastNode, sum.last = part.last;
   if (!(part.weight > 0)) return;
-  for (int k = 0; k < width_; ++k) sum.data[k] += weight * own[static_cast<size_t>(k)] / part.weight;
+  for (int k = 0; k < width(); ++k) sum.data[k] += weight * own[static_cast<size_t>(k)] / part.weight;
   sum.weight = before + weight;
 }
 
 void BrickMap::addVoxel(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum, int depth) const {
   // Down to the brick at this level, or to the finest above it: what was left out there says the same.
-  int32_t node = tree_.root();
+  int32_t node = tree().root();
   int at = 0;
   while (at < level) {
     const glm::ivec3 octant = (voxel >> (level - at + 2)) & 1;
-    const int32_t child = tree_.nodes[static_cast<size_t>(node)].child[static_cast<size_t>(octant.x | octant.y << 1 | octant.z << 2)];
+    const int32_t child = tree().nodes[static_cast<size_t>(node)].child[static_cast<size_t>(octant.x | octant.y << 1 | octant.z << 2)];
     if (child < 0) break;
     node = child, ++at;
   }
@@ -137,7 +74,7 @@ void BrickMap::addVoxel(int level, const glm::ivec3& voxel, const vec3& N, float
   const auto v = static_cast<size_t>(voxelIndex(local.x, local.y, local.z));
   for (size_t l = b.first[v]; l < b.first[v + 1]; ++l) {
     const BrickLayer& layer = b.layers[l];
-    if (layer.incoherent && at == level && level < tree_.deepest && depth < 2 && N != vec3(0.0f)) {
+    if (layer.incoherent && at == level && level < tree().deepest && depth < 2 && N != vec3(0.0f)) {
       // Too many directions met here: finer voxels tell them apart (3.3). That covers every layer of the voxel.
       const BrickPtr held = sum.last;
       const float before = sum.weight;
@@ -150,26 +87,17 @@ void BrickMap::addVoxel(int level, const glm::ivec3& voxel, const vec3& N, float
   for (size_t l = b.first[v]; l < b.first[v + 1]; ++l) {
     const vec3& n = b.layers[l].normal;
     if (N != vec3(0.0f) && n != vec3(0.0f) && dot(N, n) < kLayerCosine) continue;
-    const float* data = b.data.data() + l * static_cast<size_t>(width_);
-    for (int k = 0; k < width_; ++k) sum.data[k] += weight * data[k];
+    const float* data = b.data.data() + l * static_cast<size_t>(width());
+    for (int k = 0; k < width(); ++k) sum.data[k] += weight * data[k];
     sum.weight += weight;
   }
 }
 
 BuiltBricks writeBrickMap(const PointCloud& cloud, const BrickSettings& settings, const std::string& path) {
-  if (cloud.width() > kMostWidth) throw FileError(fmt::format("\"{}\": more than {} floats a point", path, kMostWidth));
-  ChunkWriter file(path, kKind, kVersion);
-  BuiltBricks built = buildBricks(cloud, settings, [&](const Brick& brick) { file.add(pack(brick)); });
-  ByteWriter header;
-  header.put(static_cast<uint32_t>(cloud.channels.size()));
-  for (const CloudChannel& c : cloud.channels) {
-    header.put(c.name);
-    header.put(static_cast<int32_t>(c.width));
-  }
-  header.put(built.tree.cube);
-  header.put(static_cast<int32_t>(built.tree.deepest));
-  header.put(built.tree.nodes);
-  file.finish(header.bytes);
+  if (cloud.width() > BrickFile::kMostWidth) throw FileError(fmt::format("\"{}\": more than {} floats a point", path, BrickFile::kMostWidth));
+  BrickFileWriter file(path);
+  BuiltBricks built = buildBricks(cloud, settings, [&](const Brick& brick) { file.add(brick); });
+  file.finish(cloud.channels, built.tree);
   return built;
 }
 

@@ -1,5 +1,6 @@
 #include "gi/gather.h"
 
+#include "gi/hemisphere.h"
 #include "gi/hessian.h"
 #include "gi/layers.h"
 #include "reyes/base/rng.h"
@@ -11,6 +12,9 @@ namespace {
 constexpr float kHessianTolerance = 4;
 constexpr float kContrast = 4;  ///< Between neighbours of a cell, in means of the hemisphere: a small bright source.
 constexpr int kMostSplit = 8;
+constexpr float kMostAimed = 0.5f;  ///< Rays at bright spots, for each of the hemisphere.
+constexpr size_t kLeastAimed = 8;
+constexpr float kFoundByChance = 160;  ///< Rays of the hemisphere on spheres around spots: so many find out without help.
 
 /// Where in each cell its ray goes: correlated multi-jitter (Kensler 2013). The columns of a ring take
 /// different heights in their cells and the rings of a sector different angles, so both projections are
@@ -61,8 +65,12 @@ struct Scratch {
   RayLayers layers;
   std::vector<Hit> hits;
   HitAnswers answers;
-  std::vector<vec3> directions, radiance, fine;
+  std::vector<vec3> directions, radiance;          ///< One ray of each cell,
   std::vector<float> distances;
+  std::vector<vec3> fineDirections, fine;          ///< more of some cells,
+  std::vector<vec3> aimedDirections, aimed;        ///< and those at bright spots.
+  std::vector<int> fineCells, aimedCells, raysOfCell;
+  std::vector<CellSpread> spread;
 };
 
 /// Where light changes fast: cells whose neighbours differ by more than kContrast times the mean. A cell's own ray has no say, so
@@ -89,7 +97,8 @@ std::vector<int> contrastCells(const HemisphereCells& cells, std::span<const vec
 /// The rays of one record.
 class Hemisphere {
  public:
-  Hemisphere(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point, const GatherSettings& settings)
+  Hemisphere(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point, const GatherSettings& settings,
+             const BrightSpots& spots)
       : scene_(scene),
         shading_(shading),
         point_(point),
@@ -97,28 +106,36 @@ class Hemisphere {
         cells_(hemisphereCells(settings.samples)),
         count_(static_cast<size_t>(cells_.rings) * static_cast<size_t>(cells_.sectors)),
         key_(hashCombine(point.key, settings.seed)),
-        times_(scene, point, count_, key_) {
+        times_(scene, point, count_, key_),
+        spots_(spots),
+        aim_(spots, point.position, point.normal) {
     orthonormalBasis(point.normal, tangent_, bitangent_);
     scene.prepareOrigin(point.group, point.position, point.edgeLength, first_);
   }
 
-  HemisphereSamples trace(Stats& stats) {
+  HemisphereSamples trace(Stats& stats, BrightFind* find) {
     const CellJitter jitter(cells_, key_);
     scratch_.directions.clear();
     for (size_t i = 0; i < count_; ++i) {
       const int ring = static_cast<int>(i) / cells_.sectors, sector = static_cast<int>(i) % cells_.sectors;
-      add(static_cast<int>(i), static_cast<int>(i), jitter(ring, sector, static_cast<uint32_t>(i)), count_);
+      add(static_cast<int>(i), static_cast<int>(i), inCell(static_cast<int>(i), jitter(ring, sector, static_cast<uint32_t>(i))), count_);
       scratch_.directions.push_back(scratch_.layers.rays.back().direction);
     }
     scratch_.distances.assign(count_, kInfinity);
-    shade(stats, scratch_.radiance);
+    shade(stats, scratch_.radiance, count_);
+    if (find) tell(*find);
     refine(stats);
-    return {cells_, tangent_, bitangent_, point_.normal, scratch_.directions, scratch_.radiance, scratch_.distances};
+    aim(stats);
+    weigh();
+    return {cells_, tangent_, bitangent_, point_.normal, scratch_.directions, scratch_.radiance, scratch_.distances, scratch_.spread};
   }
 
  private:
-  void add(int element, int cell, const vec2& xi, size_t raysOfHemisphere) {
-    const vec3 local = hemisphereDirection(cells_, cell / cells_.sectors, cell % cells_.sectors, xi);
+  vec3 inCell(int cell, const vec2& xi) const {
+    return hemisphereDirection(cells_, cell / cells_.sectors, cell % cells_.sectors, xi);
+  }
+
+  void add(int element, int cell, const vec3& local, size_t raysOfHemisphere) {
     Ray r = first_;
     r.direction = local.x * tangent_ + local.y * bitangent_ + local.z * point_.normal;
     r.offset = slantedOffset(first_.offset, local.z);
@@ -130,8 +147,7 @@ class Hemisphere {
   }
 
   /// What the added rays see, by their elements; of the first rays also how far.
-  void shade(Stats& stats, std::vector<vec3>& radiance) {
-    const size_t elements = scratch_.layers.rays.size();
+  void shade(Stats& stats, std::vector<vec3>& radiance, size_t elements) {
     radiance.assign(elements, vec3(0));
     ShadeContext context{RayKind::Diffuse, 1, settings_.seed, 1, false};
     context.light = settings_.light;
@@ -146,29 +162,94 @@ class Hemisphere {
       scratch_.layers.goOn(scene_, scratch_.hits, scratch_.answers, 1,
                            [&](int element, const vec3& seen, const vec3&) { radiance[static_cast<size_t>(element)] += seen; });
     }
+    scratch_.layers = {};
+  }
+
+  void tell(BrightFind& find) const {
+    find = {};
+    for (const vec3& L : scratch_.radiance) find.irradiance += luminance(L) / static_cast<float>(count_);
+    for (size_t i = 0; i < count_; ++i)
+      if (const float L = luminance(scratch_.radiance[i]); L > kContrast * find.irradiance && scratch_.distances[i] < kInfinity)
+        find.hits.push_back({point_.position + scratch_.distances[i] * scratch_.directions[i], L});
   }
 
   /// Up to half as many rays again, in strata of the cells where light changes fast.
   void refine(Stats& stats) {
+    scratch_.raysOfCell.assign(count_, 1);
+    scratch_.fineDirections.clear(), scratch_.fineCells.clear();
     const std::vector<int> chosen = contrastCells(cells_, scratch_.radiance);
     if (chosen.empty()) return;
     const int split = std::min(kMostSplit, static_cast<int>(std::sqrt(0.5f * static_cast<float>(count_) / static_cast<float>(chosen.size()))));
     if (split < 2) return;
-    scratch_.layers = {};
     const int strata = split * split;
-    for (size_t c = 0; c < chosen.size(); ++c)
+    for (const int cell : chosen) {
+      scratch_.raysOfCell[static_cast<size_t>(cell)] += strata;
       for (int s = 0; s < strata; ++s) {
         const uint32_t name = hashCombine(key_, number_, 0x66696e65U);
         const vec2 inside{unitFloat(hash32(name)), unitFloat(hash32(name ^ 0x9e3779b9U))};
-        add(static_cast<int>(c) * strata + s, chosen[c], (vec2(s / split, s % split) + inside) / static_cast<float>(split),
+        add(static_cast<int>(scratch_.fineCells.size()), cell, inCell(cell, (vec2(s / split, s % split) + inside) / static_cast<float>(split)),
             count_ * static_cast<size_t>(strata));
+        scratch_.fineCells.push_back(cell);
+        scratch_.fineDirections.push_back(scratch_.layers.rays.back().direction);
       }
-    shade(stats, scratch_.fine);
-    for (size_t c = 0; c < chosen.size(); ++c) {
-      vec3& L = scratch_.radiance[static_cast<size_t>(chosen[c])];
-      for (int s = 0; s < strata; ++s) L += scratch_.fine[c * static_cast<size_t>(strata) + static_cast<size_t>(s)];
-      L /= static_cast<float>(strata + 1);
     }
+    shade(stats, scratch_.fine, scratch_.fineCells.size());
+  }
+
+  /// More rays the more of the light is expected from the spots. What this hemisphere has seen of them has no say in it.
+  void aim(Stats& stats) {
+    scratch_.aimedDirections.clear(), scratch_.aimedCells.clear();
+    aims_ = 0;
+    if (aim_.irradiance() > 0 && aim_.coverage() * static_cast<float>(count_) < kFoundByChance)
+      aims_ = static_cast<size_t>(kMostAimed * static_cast<float>(count_) * aim_.irradiance() / (aim_.irradiance() + dimIrradiance()));
+    if (aims_ < kLeastAimed) aims_ = 0;
+    for (size_t i = 0; i < aims_; ++i) {
+      const float choice = (static_cast<float>(i) + sobol1(static_cast<uint32_t>(i), key_ ^ 0x73706f74U)) / static_cast<float>(aims_);
+      const vec3 d = aim_.direction(choice, sobol2(static_cast<uint32_t>(i), key_ ^ 0x61696d73U));
+      const vec3 local{dot(d, tangent_), dot(d, bitangent_), dot(d, point_.normal)};
+      if (local.z <= 0) continue;
+      const int cell = cellOf(cells_, local);
+      add(static_cast<int>(scratch_.aimedCells.size()), cell, local, 4 * count_);
+      scratch_.aimedCells.push_back(cell);
+      scratch_.aimedDirections.push_back(d);
+    }
+    shade(stats, scratch_.aimed, scratch_.aimedCells.size());
+  }
+
+  /// E/pi but for what is as bright as a spot.
+  float dimIrradiance() const {
+    float sum = 0;
+    for (const vec3& L : scratch_.radiance)
+      if (luminance(L) <= kContrast * spots_.irradiance()) sum += luminance(L);
+    return sum / static_cast<float>(count_);
+  }
+
+  /// The mean of each cell from all rays that fall into it, by the balance heuristic (Veach and Guibas 1995).
+  void weigh() {
+    scratch_.spread.assign(count_, {});
+    if (scratch_.fineCells.empty() && aims_ == 0) return;
+    for (size_t c = 0; c < count_; ++c) {
+      scratch_.radiance[c] *= weight(static_cast<int>(c), scratch_.directions[c]);
+      scratch_.spread[c].add(luminance(scratch_.radiance[c]));
+    }
+    for (size_t i = 0; i < scratch_.fineCells.size(); ++i) addTo(scratch_.fineCells[i], scratch_.fineDirections[i], scratch_.fine[i]);
+    for (size_t i = 0; i < scratch_.aimedCells.size(); ++i) addTo(scratch_.aimedCells[i], scratch_.aimedDirections[i], scratch_.aimed[i]);
+  }
+
+  void addTo(int cell, const vec3& direction, const vec3& L) {
+    const vec3 part = weight(cell, direction) * L;
+    scratch_.radiance[static_cast<size_t>(cell)] += part;
+    scratch_.spread[static_cast<size_t>(cell)].add(luminance(part));
+  }
+
+  /// One over the rays that were to be expected there, on a cell of projected solid angle pi / n.
+  float weight(int cell, const vec3& direction) const {
+    float rays = static_cast<float>(scratch_.raysOfCell[static_cast<size_t>(cell)]);
+    if (aims_ > 0) {
+      const float cosine = std::max(dot(direction, point_.normal), 1e-6f);
+      rays += static_cast<float>(aims_) * aim_.density(direction) * kPi / (cosine * static_cast<float>(count_));
+    }
+    return 1 / rays;
   }
 
   static Scratch& emptyScratch() {
@@ -185,18 +266,21 @@ class Hemisphere {
   const size_t count_;
   const uint32_t key_;
   const RayTimes times_;
+  const BrightSpots& spots_;
+  const SpotAim aim_;
   Ray first_{point_.position, point_.normal, settings_.maxDistance};
   vec3 tangent_, bitangent_;
   uint32_t number_ = 0;
+  size_t aims_ = 0;
   Scratch& scratch_ = emptyScratch();
 };
 
 }  // namespace
 
 IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point,
-                        const GatherSettings& settings, Stats& stats) {
-  Hemisphere hemisphere(scene, shading, point, settings);
-  const HemisphereSamples samples = hemisphere.trace(stats);
+                        const GatherSettings& settings, const BrightSpots& spots, Stats& stats, BrightFind* find) {
+  Hemisphere hemisphere(scene, shading, point, settings, spots);
+  const HemisphereSamples samples = hemisphere.trace(stats, find);
   IrradianceRecord record = summarize(samples);
   record.position = point.position;
   record.pixelSize = point.pixelSize;

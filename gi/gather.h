@@ -3,6 +3,7 @@
 // directions. Also the plain Monte Carlo estimate that the reference uses.
 // Irradiance: results are E/pi.
 #pragma once
+#include "gi/bright_spots.h"
 #include "gi/irradiance_cache.h"
 #include "raytrace/trace.h"
 
@@ -27,8 +28,9 @@ struct GatherPoint {
   vec3 drift{0};          ///< As kDriftX.
   float time = -1;        ///< As kTime.
 };
-IrradianceRecord gather(const RayScene& rays, const ShadingSystem& shading, const GatherPoint& point,
-                        const GatherSettings& settings, Stats& stats);
+/// `spots`: some rays more are aimed at them. `find`: what is bright here, as the hemisphere alone sees it.
+IrradianceRecord gather(const RayScene& rays, const ShadingSystem& shading, const GatherPoint& point, const GatherSettings& settings,
+                        const BrightSpots& spots, Stats& stats, BrightFind* find = nullptr);
 
 /// Hit-list distance of a ray at this cosine to the normal. Coarse and fine surface are up to `offset` apart along the normal, so
 /// a slanted ray meets the coarse one later; the floor keeps grazing rays from reaching through other objects.
@@ -39,5 +41,6 @@ inline float slantedOffset(float offset, float cosine) { return offset / std::ma
 struct HemisphereCells { int rings, sectors; };
 HemisphereCells hemisphereCells(int samples);   ///< rings * sectors close to `samples`, sectors ~ pi * rings
 vec3 hemisphereDirection(const HemisphereCells& cells, int ring, int sector, vec2 xi);
+int cellOf(const HemisphereCells& cells, const vec3& direction);  ///< ring * sectors + sector
 
 }  // namespace tomales

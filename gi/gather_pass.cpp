@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kLastPhases = 8;  // for points beyond the first of each pixel, in the order of a hash
 constexpr int kPhases = kLatticePhases + kLastPhases;
+constexpr int kScoutPhases = 3;  // after which bright spots are known
 constexpr float kEnough = 0.05f;  // sum of weights below which a point gets its own record
 constexpr size_t kPointsPerSlice = 256;
 
@@ -166,21 +167,23 @@ class GatherPass {
     if (!sites.empty() && !tools_) tools_ = gatherTools(state_);
     if (sites.empty() || !tools_) return report(1);
     std::vector<IrradianceRecord> records(sites.size());
+    std::vector<BrightFind> finds(phase_ < kScoutPhases ? sites.size() : 0);
     size_t done = 0;
     for (; done < sites.size() && !isCancelled(); done = std::min(done + kPointsPerSlice, sites.size())) {
       report(static_cast<float>(done) / static_cast<float>(sites.size()));
       const size_t count = std::min(kPointsPerSlice, sites.size() - done);
       parallelFor(count, 1, [&](size_t begin, size_t end) {
-        for (size_t i = done + begin; i < done + end; ++i) records[i] = gatherAt(sites[i]);
+        for (size_t i = done + begin; i < done + end; ++i) records[i] = gatherAt(sites[i], finds.empty() ? nullptr : &finds[i]);
       });
     }
+    if (!finds.empty()) state_.spots.learn(finds);
     for (size_t i = 0; i < done; ++i) state_.caches[sites[i].cache].cache.insert(records[i]);
     state_.stats.irradianceCache.samples += static_cast<int64_t>(done);
     report(1);
   }
 
-  IrradianceRecord gatherAt(const Site& site) const {
-    return gather(*tools_->rays, *tools_->shading, site.point, state_.caches[site.cache].plan.gather, state_.stats);
+  IrradianceRecord gatherAt(const Site& site, BrightFind* find) const {
+    return gather(*tools_->rays, *tools_->shading, site.point, state_.caches[site.cache].plan.gather, state_.spots, state_.stats, find);
   }
 
   void report(float fractionOfPhase) const {

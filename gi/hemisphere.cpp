@@ -69,16 +69,18 @@ struct Gradients {
 
 namespace {
 
-// Within strata: what neighbours along a ring differ by.
+// Within strata: what the rays of a cell differ by, or where it has but one, neighbours along the ring.
 float noiseOf(const HemisphereSamples& s) {
   const size_t N = static_cast<size_t>(s.cells.sectors), count = s.radiance.size();
   float squares = 0;
   for (size_t i = 0; i < count; ++i) {
-    const size_t next = (i + 1) % N == 0 ? i + 1 - N : i + 1;
+    const bool known = !s.spread.empty() && s.spread[i].known();
+    size_t next = (i + 1) % N == 0 ? i + 1 - N : i + 1;
+    if (!known && !s.spread.empty() && s.spread[next].known()) next = i % N == 0 ? i + N - 1 : i - 1;
     const float step = luminance(s.radiance[i]) - luminance(s.radiance[next]);
-    squares += step * step;
+    squares += known ? s.spread[i].variance() : 0.5f * step * step;
   }
-  return std::sqrt(0.5f * squares) / static_cast<float>(count);
+  return std::sqrt(squares) / static_cast<float>(count);
 }
 
 }  // namespace
@@ -95,6 +97,13 @@ vec3 hemisphereDirection(const HemisphereCells& cells, int ring, int sector, vec
   const float phi = 2 * kPi * (static_cast<float>(sector) + xi.y) / static_cast<float>(cells.sectors);
   const float sine = std::sqrt(sin2);
   return {sine * std::cos(phi), sine * std::sin(phi), std::sqrt(1 - sin2)};
+}
+
+int cellOf(const HemisphereCells& cells, const vec3& direction) {
+  const float sin2 = direction.x * direction.x + direction.y * direction.y, phi = std::atan2(direction.y, direction.x);
+  const float turn = phi / (2 * kPi) + (phi < 0 ? 1.0f : 0.0f);
+  const auto index = [](float part, int count) { return std::clamp(static_cast<int>(part * static_cast<float>(count)), 0, count - 1); };
+  return index(sin2, cells.rings) * cells.sectors + index(turn, cells.sectors);
 }
 
 IrradianceRecord summarize(const HemisphereSamples& s) {

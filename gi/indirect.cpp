@@ -104,7 +104,7 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
     if (const auto it = answers->indirect.find(name); it != answers->indirect.end()) return it->second;
   const RayTools* tools = gatherTools(state);
   if (!tools) return {vec3(0.0f), point.normal, point.normal, point.normal};
-  const IrradianceRecord record = gather(*tools->rays, *tools->shading, point, settings, state.stats);
+  const IrradianceRecord record = gather(*tools->rays, *tools->shading, point, settings, state.spots, state.stats);
   const IndirectAnswer answer{record.E, record.dominant[0], record.dominant[1], record.dominant[2]};
   if (answers && answers->recording) answers->indirect[name] = answer;
   return answer;

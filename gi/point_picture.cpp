@@ -113,33 +113,4 @@ Image pictureOf(const PointCloud& cloud, const PointPictureSettings& settings) {
   return std::move(picture.image);
 }
 
-PointCloud voxelsOf(const BrickMap& map, int level) {
-  const BrickTree& tree = map.tree();
-  PointCloud out;
-  out.channels = map.channels();
-  struct Place { int32_t node; int level; vec3 lo; };
-  std::vector<Place> todo;
-  if (tree.root() >= 0) todo.push_back({tree.root(), 0, tree.cube.lo});
-  while (!todo.empty()) {
-    const Place p = todo.back();
-    todo.pop_back();
-    const BrickNode& node = tree.nodes[static_cast<size_t>(p.node)];
-    const bool deeper = level < 0 || p.level < level;
-    const float half = std::ldexp(tree.cube.size, -p.level - 1), voxel = tree.cube.voxelSize(p.level);
-    for (size_t octant = 0; octant < 8; ++octant)
-      if (deeper && node.child[octant] >= 0)
-        todo.push_back({node.child[octant], p.level + 1, p.lo + half * vec3(octant & 1, octant >> 1 & 1, octant >> 2 & 1)});
-    const Brick brick = map.brick(p.node);
-    for (int v = 0; v < kBrickVoxels; ++v) {
-      const int x = v % kBrickWidth, y = v / kBrickWidth % kBrickWidth, z = v / (kBrickWidth * kBrickWidth);
-      const auto octant = static_cast<size_t>((x >= kBrickWidth / 2) | (y >= kBrickWidth / 2) << 1 | (z >= kBrickWidth / 2) << 2);
-      if (deeper && node.child[octant] >= 0) continue;
-      for (size_t l = brick.first[static_cast<size_t>(v)]; l < brick.first[static_cast<size_t>(v) + 1]; ++l)
-        out.add(p.lo + voxel * (vec3(x, y, z) + 0.5f), brick.layers[l].normal, 0.6f * voxel,
-                brick.data.data() + l * static_cast<size_t>(map.width()));
-    }
-  }
-  return out;
-}
-
 }  // namespace tomales

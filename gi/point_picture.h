@@ -1,9 +1,10 @@
-// Verb: a picture of a point cloud or a brick map, to look at: disks in their plane, voxels as disks of their width, seen by a
-// camera or from above a corner. Nearest in front; no shading.
+// Verb: a picture of a point cloud, to look at: disks in their plane, seen by a camera or from above a corner.
+// Nearest in front; no shading.
 #pragma once
 #include <optional>
 
-#include "gi/brick_map.h"
+#include "gi/point_cloud.h"
+#include "reyes/base/chunk_file.h"
 #include "reyes/image.h"
 
 namespace tomales {
@@ -18,8 +19,5 @@ struct PointPictureSettings {
 
 /// Linear R G B A. Throws FileError: no such channel.
 Image pictureOf(const PointCloud& cloud, const PointPictureSettings& settings);
-
-/// The voxels of one level, and of coarser bricks where that level has none; level < 0: the finest.
-PointCloud voxelsOf(const BrickMap& map, int level);
 
 }  // namespace tomales

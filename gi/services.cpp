@@ -29,7 +29,7 @@ GiServices::GiServices(const Scene& scene, const Camera& camera, const RayScene&
 
 GiServices::GiServices(const Scene& scene, const Camera& camera, RaySource rays, const ShadingSystem& shading,
                        const GiSettings& settings, Stats& stats)
-    : impl_(new Impl{{scene, camera, std::move(rays), shading, settings, stats, nullptr, {}, {}, false}}) {}
+    : impl_(new Impl{{scene, camera, std::move(rays), shading, settings, stats, nullptr, {}, {}}}) {}
 
 GiServices::~GiServices() = default;
 

@@ -16,6 +16,7 @@ struct GiState {
   mutable std::unique_ptr<const IrradianceAtlas> atlas;  ///< GiMode::Atlas alone.
   std::vector<PreparedCache> caches;  ///< Written by fillCaches, frozen while shading.
   std::optional<Emitters> emitters;   ///< Known without rays.
+  BrightSpots spots{};                ///< Likewise.
   bool cachesGiven = false;           ///< Not gathered for this very frame.
   AtlasSource atlasSource{};          ///< May be empty.
   mutable std::once_flag atlasOnce{};

@@ -1,133 +1,16 @@
 #include "raytrace/embree_scene.h"
 
-#include <embree3/rtcore.h>
-
 #include <atomic>
 #include <deque>
 #include <map>
 #include <tuple>
 
+#include "raytrace/embree_filters.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
 namespace {
-
-/// The groups that rays treat alike share one Embree geometry: a geometry of its own for each would cost 65 kB, and a scene
-/// may have a group for every object.
-struct Geometry {
-  bool opaque, flips;
-  DetailShare detail;
-  const CoarseGroup* meshes;                         ///< All groups, or the one master.
-  uint32_t onlyMesh = 0;
-  std::vector<uint32_t> meshOfQuad{};                ///< Empty: all belong to onlyMesh.
-  const std::vector<uint32_t>* firstQuad = nullptr;  ///< of each mesh, in its geometry
-
-  struct Place { uint32_t mesh, quad; };
-  Place place(uint32_t primitive) const {
-    if (meshOfQuad.empty()) return {onlyMesh, primitive};
-    const uint32_t mesh = meshOfQuad[primitive];
-    return {mesh, primitive - (*firstQuad)[mesh]};
-  }
-};
-
-/// Instances come behind the geometries in the order of Embree's IDs.
-struct Instances {
-  uint32_t firstId = 0;
-  std::vector<uint32_t> group;
-  std::vector<bool> opaque;
-};
-
-/// What filters are given beside the hit. Embree hands back the address of its first member.
-struct Traversal {
-  RTCIntersectContext embree;
-  float shift = 0;  ///< Embree's t of the ray's own origin.
-  float window = 0;
-  float tMax = kInfinity;
-  HitList* list = nullptr;
-  const Instances* instances = nullptr;
-  const RayFilter* filter = nullptr;
-  float level = 0;  ///< The ray's number for levels of detail.
-
-  PolygonHit hit(const Geometry& geometry, float t, uint32_t instanceId, uint32_t primitive, float u, float v,
-                 bool leaving, const vec3& normal) const {
-    const auto [mesh, quad] = geometry.place(primitive);
-    if (instanceId == RTC_INVALID_GEOMETRY_ID) return {t, mesh, quad, u, v, leaving, -1, normal};
-    const uint32_t i = instanceId - instances->firstId;
-    return {t, instances->group[i], quad, u, v, leaving, static_cast<int>(i), normal};
-  }
-};
-static_assert(std::is_standard_layout_v<Traversal>);
-
-bool leaves(const vec3& direction, const vec3& normal, bool flips) {
-  return (dot(direction, normal) > 0) != flips;
-}
-
-PolygonHit hitOf(const RTCFilterFunctionNArguments& args, const Traversal& traversal) {
-  const vec3 direction(RTCRayN_dir_x(args.ray, 1, 0), RTCRayN_dir_y(args.ray, 1, 0),
-                       RTCRayN_dir_z(args.ray, 1, 0));
-  const vec3 normal(RTCHitN_Ng_x(args.hit, 1, 0), RTCHitN_Ng_y(args.hit, 1, 0), RTCHitN_Ng_z(args.hit, 1, 0));
-  const Geometry& geometry = *static_cast<const Geometry*>(args.geometryUserPtr);
-  return traversal.hit(geometry, RTCRayN_tfar(args.ray, 1, 0) - traversal.shift, RTCHitN_instID(args.hit, 1, 0, 0),
-                       RTCHitN_primID(args.hit, 1, 0), RTCHitN_u(args.hit, 1, 0), RTCHitN_v(args.hit, 1, 0),
-                       leaves(direction, normal, geometry.flips), normal);
-}
-
-bool isOpaque(const RTCFilterFunctionNArguments& args, const Traversal& traversal, const PolygonHit& hit) {
-  return hit.instance >= 0 ? traversal.instances->opaque[static_cast<size_t>(hit.instance)]
-                           : static_cast<const Geometry*>(args.geometryUserPtr)->opaque;
-}
-
-/// Rejects what the ray does not see. True: nothing is left to do.
-bool rejected(const RTCFilterFunctionNArguments* args, const Traversal& traversal) {
-  if (!args->valid[0]) return true;
-  if (!traversal.filter) return false;
-  const PolygonHit hit = hitOf(*args, traversal);
-  if (!traversal.filter->passes(hit.group, hit.leaving)) args->valid[0] = 0;
-  return !args->valid[0];
-}
-
-void rejectUnseen(const RTCFilterFunctionNArguments* args) {
-  rejected(args, *reinterpret_cast<const Traversal*>(args->context));
-}
-
-/// Records and rejects hits in the window, accepts those beyond.
-void recordNear(const RTCFilterFunctionNArguments* args) {
-  const auto& traversal = *reinterpret_cast<const Traversal*>(args->context);
-  if (rejected(args, traversal) || RTCRayN_tfar(args->ray, 1, 0) - traversal.shift > traversal.window) return;
-  traversal.list->push_back(hitOf(*args, traversal));
-  args->valid[0] = 0;
-}
-
-/// Accepts what is opaque beyond the window, which ends the traversal; records and rejects all else.
-void recordShadow(const RTCFilterFunctionNArguments* args) {
-  const auto& traversal = *reinterpret_cast<const Traversal*>(args->context);
-  if (rejected(args, traversal)) return;
-  const PolygonHit hit = hitOf(*args, traversal);
-  const bool counts = hit.t < traversal.tMax;
-  if (counts && hit.t > traversal.window && isOpaque(*args, traversal, hit)) return;
-  if (counts) traversal.list->push_back(hit);
-  args->valid[0] = 0;
-}
-
-/// Records and rejects every hit.
-void recordAll(const RTCFilterFunctionNArguments* args) {
-  const auto& traversal = *reinterpret_cast<const Traversal*>(args->context);
-  if (!args->valid[0]) return;
-  traversal.list->push_back(hitOf(*args, traversal));
-  args->valid[0] = 0;
-}
-
-/// Rejects hits that trim curves have cut away, and levels of detail that the ray does not see. Embree asks it before the
-/// filters of a traversal.
-void rejectAbsent(const RTCFilterFunctionNArguments* args) {
-  if (!args->valid[0]) return;
-  const Geometry& geometry = *static_cast<const Geometry*>(args->geometryUserPtr);
-  const auto [mesh, quad] = geometry.place(RTCHitN_primID(args->hit, 1, 0));
-  if (!geometry.detail.contains(reinterpret_cast<const Traversal*>(args->context)->level) ||
-      !geometry.meshes[mesh].keeps(quad, RTCHitN_u(args->hit, 1, 0), RTCHitN_v(args->hit, 1, 0)))
-    args->valid[0] = 0;
-}
 
 /// Embree takes no negative tnear: the ray starts `shift` before its origin.
 RTCRay rayFrom(const Ray& ray, float shift, float tNear, uint32_t mask) {

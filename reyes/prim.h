@@ -172,8 +172,8 @@ struct TrimLoops {
 /// Positions are "P", or "Pw" with weights above zero. Orders 2 to 32. u,v run from 0 to 1 over min..max.
 PrimPtr makeNuPatch(const NurbsDirection& u, const NurbsDirection& v, const TrimLoops&, const ParamList&, Problems&);
 
-/// Disks: round, as wide as "constantwidth" or "width" says (1 if absent), facing "N" or else the eye; spheres if "type"
-/// is "sphere". One patch each.
+/// Disks: round, as wide as "constantwidth" or "width" says (1 if absent), facing "N" or else the eye. "type" makes them spheres
+/// ("sphere") or cards ("patch", with "patchaspectratio", width over height, and "patchangle" in degrees). One patch each.
 PrimPtr makePoints(const ParamList&, Problems&);
 
 /// Ribbons, u across and v along, as wide as "width" or "constantwidth" says (1 if absent), with the normal "N" or else

@@ -22,7 +22,7 @@ def unit_of(path):
 SHADER_HEADERS = {"reyes/shader_api", "reyes/shader", "reyes/shadenoise", "reyes/shadeops", "reyes/sl"}
 # Each third-party library is included by the units named here and nowhere else.
 THIRD_PARTY = {
-    "embree3/": ["raytrace/embree_scene.cpp"],
+    "embree3/": ["raytrace/embree_"],
     "opensubdiv/": ["reyes/prim/subdivision_"],
     "OpenImageIO/": ["reyes/pictures/"],
     "OpenEXR/": ["reyes/image/exr_file.cpp"],

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "gi/brick_file.h"
 #include "gi/ply.h"
 #include "gi/point_picture.h"
 #include "reyes/app/atlas_job.h"
@@ -154,10 +155,9 @@ int viewCommand(const ViewCommand& command) {
         return vec3(camera->raster(at), at.z);
       };
     }
-    BrickCache cache;
     const bool bricks = fs::path(command.input).extension() == ".bkm";
     const PointCloud cloud =
-        bricks ? voxelsOf(BrickMap(command.input, cache), command.level) : PointFile(command.input).readAll();
+        bricks ? voxelsOf(BrickFile(command.input), command.level) : PointFile(command.input).readAll();
     writeImage(command.output, pictureOf(cloud, settings), fs::path(command.output).extension() == ".png", log);
   });
   return exitCodeOf(log);

@@ -9,6 +9,7 @@
 #include "reyes/app/overrides.h"
 #include "reyes/app/pixel_report.h"
 #include "reyes/app/preview.h"
+#include "reyes/app/turns_timer.h"
 
 namespace tomales {
 namespace {
@@ -122,14 +123,15 @@ void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::op
                             const std::function<void(size_t tile, const DeepTile&)>& keep) {
   DeepFrame frame = layout;
   FrameHider hider(layout, scene_, *shading_, control(0, 0.99f), stats_, log_);
-  const TileSink sink{{}, [&](size_t index, DeepTile&& tile) {
-                        keep(index, tile);
-                        tomales::shadeTile(tile, scene_, *shading_, shadeContext());
-                        place(index, std::move(tile), frame);
-                      }, find};
   bool complete = true;
   finish(frame, [&](std::span<const uint32_t> tiles) {
-    const StageTimer timer(stats_, "hide");
+    TurnsTimer timer(stats_, "hide", "shade");
+    const TileSink sink{{}, [&](size_t index, DeepTile&& tile) {
+                          keep(index, tile);
+                          const TurnsTimer::Turn turn(timer);
+                          tomales::shadeTile(tile, scene_, *shading_, shadeContext());
+                          place(index, std::move(tile), frame);
+                        }, find};
     complete = hider.hide(tiles, sink) && complete;
   });
   if (!complete) log_.report(Severity::Warning, "interrupted", {}, "interrupted: finished buckets are written");

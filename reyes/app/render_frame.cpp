@@ -62,6 +62,10 @@ void reportMemory(int64_t limit, const std::string& done, const Stats& stats, Lo
                            MB(stats.raytrace.bytes)));
 }
 
+/// What is hidden is shaded and filtered while it is in the cache, row by row, unless that would take more geometry into memory or
+/// the scene asks for another order.
+bool mayStream(const Scene& scene) { return scene.procedurals.empty() && scene.options.bucketOrder == "horizontal"; }
+
 /// False: the file cannot be read, which is reported.
 bool useIrradiance(const Scene& scene, const RenderSettings& settings, GiServices& services, Log& log) {
   std::string error;
@@ -88,7 +92,7 @@ void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats&
   const bool given = !settings.irradiance.empty(), gathers = job.gathers() && (!given || settings.appendIrradiance);
   const int64_t budget_bytes = tileBudget(settings);
   const bool large = pixelsOf(scene) * (bytesOfTilePixel(scene) + kBytesOfPoints) > budget_bytes;
-  const bool streams = !gathers && (large || !settings.preview.empty());  // a preview wants the first rows first
+  const bool streams = !gathers && (large || !settings.preview.empty() || mayStream(scene));  // a preview wants the first rows first
 
   if (streams || given || settings.resume) job.openAll();
   BucketFile file(scene, world, settings, log);

@@ -1,4 +1,4 @@
-// Particles as disks or spheres (RISpec 3.2, Points).
+// Particles as disks, squares or spheres (RISpec 3.2, Points).
 #include <fmt/format.h>
 
 #include "reyes/base/simd.h"
@@ -114,16 +114,32 @@ class PointCloud : public Prim {
   Primvar width_;
 };
 
-class Disks : public PointCloud {
+/// Shapes with a plane: that of "N", or the one that faces the eye.
+template <class Shape>
+class FlatPoints : public PointCloud {
  public:
   using PointCloud::PointCloud;
 
   std::shared_ptr<const Prim> facing(const vec3& eye, const vec3& forward, bool perspective) const override {
     if (normalsOf(primvars_)) return nullptr;
-    auto turned = std::make_shared<Disks>(*this);
+    auto turned = std::make_shared<Shape>(static_cast<const Shape&>(*this));
     turned->eye_ = {eye, forward, perspective};
     return turned;
   }
+
+ protected:
+  vec3 normalOf(uint32_t patch) const {
+    const Primvar* given = normalsOf(primvars_);
+    const float* n = given ? &given->values[given->values.size() > 3 ? 3 * static_cast<size_t>(patch) : 0] : nullptr;
+    return normalizeOr(n ? vec3(n[0], n[1], n[2]) : eye_.towards(points_[patch]), vec3(0, 0, 1));
+  }
+
+  Eye eye_;
+};
+
+class Disks : public FlatPoints<Disks> {
+ public:
+  using FlatPoints::FlatPoints;
 
   PatchInfo info(uint32_t) const override { return {}; }
 
@@ -154,15 +170,71 @@ class Disks : public PointCloud {
     Disk disk;
     disk.center = points_[patch];
     disk.radius = radiusOf(patch);
-    const Primvar* given = normalsOf(primvars_);
-    const float* n =
-        given ? &given->values[given->values.size() > 3 ? 3 * static_cast<size_t>(patch) : 0] : nullptr;
-    disk.normal = normalizeOr(n ? vec3(n[0], n[1], n[2]) : eye_.towards(disk.center), vec3(0, 0, 1));
+    disk.normal = normalOf(patch);
     orthonormalBasis(disk.normal, disk.tangent, disk.bitangent);
     return disk;
   }
+};
 
-  Eye eye_;
+/// PRMan's "patch": pictures on cards. v runs down against the object's y, as far as the card's plane has it, and u to the right of who
+/// sees its front in a left-handed space; "patchangle" turns it, "patchaspectratio" is width over height.
+class Squares : public FlatPoints<Squares> {
+ public:
+  Squares(std::vector<vec3> points, std::vector<Primvar> primvars)
+      : FlatPoints(std::move(points), std::move(primvars)),
+        angle_degrees_(numbersOf("patchangle", 0)),
+        aspect_(numbersOf("patchaspectratio", 1)) {
+    for (const float a : aspect_)
+      if (!(a > 0)) throw PrimError(fmt::format("patchaspectratio is {} somewhere", a));
+  }
+
+  PatchInfo info(uint32_t) const override { return {true, kAllEdges}; }
+
+  Bound3 bound(uint32_t patch, const UvRect& r) const override {
+    const Card card = cardOf(patch);
+    Bound3 bound;
+    for (int k = 0; k < 4; ++k) bound.extend(card.at(k & 1 ? r.u1 : r.u0, k >> 1 ? r.v1 : r.v0));
+    return paddedForRounding(bound, bound);
+  }
+
+  void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const override {
+    const Card card = cardOf(patch);
+    for (int i = 0; i < n; ++i) {
+      setFrame(out, i, card.at(u[i], v[i]), card.right, card.down);
+      setNormal(out, i, cross(card.right, card.down));
+    }
+  }
+
+ protected:
+  double inflation(int, int) const override { return 1; }
+
+ private:
+  struct Card {
+    vec3 center, right, down;
+    vec3 at(float u, float v) const { return center + (u - 0.5f) * right + (v - 0.5f) * down; }
+  };
+
+  Card cardOf(uint32_t patch) const {
+    const vec3 normal = normalOf(patch);
+    vec3 right, down;
+    orthonormalBasis(normal, right, down);
+    right = normalizeOr(cross(normal, vec3(0, 1, 0)), right), down = cross(normal, right);
+    const float turn = glm::radians(valueOf(angle_degrees_, patch)), width = 2 * radiusOf(patch);
+    const float c = std::cos(turn), s = std::sin(turn);
+    return {points_[patch], width * (c * right - s * down), width / valueOf(aspect_, patch) * (c * down + s * right)};
+  }
+
+  /// Of "constant" + name or name; one for all, or one each.
+  std::vector<float> numbersOf(const std::string& name, float fallback) const {
+    std::vector<float> out{fallback};
+    for (const std::string& wanted : {"constant" + name, name})
+      for (const Primvar& var : primvars_)
+        if (var.name == wanted && var.width == 1) out = var.values;
+    return out;
+  }
+  static float valueOf(const std::vector<float>& list, uint32_t patch) { return list[list.size() > 1 ? patch : 0]; }
+
+  std::vector<float> angle_degrees_, aspect_;
 };
 
 /// u around z, v from pole to pole.
@@ -206,34 +278,12 @@ class Spheres : public PointCloud {
   }
 };
 
-bool wantsSpheres(const ParamList& params, Problems& problems) {
+std::string typeOf(const ParamList& params) {
   const Param* type = findParam(params, "type");
-  const std::string name = type && !type->strings.empty() ? type->strings[0] : "particle";
-  if (name == "blobby") problems.push_back("points of type \"blobby\" do not flow together: they are spheres");
-  const bool spheres = name == "sphere" || name == "blobby";
-  if (!spheres && name != "particle" && name != "disk")
-    problems.push_back(fmt::format("points of type \"{}\" are not supported: they are disks", name));
-  return spheres;
+  return type && !type->strings.empty() ? type->strings[0] : "particle";
 }
 
 }  // namespace
-
-Primvar widthOf(const std::vector<Primvar>& primvars) {
-  const Primvar* found = nullptr;
-  for (const char* name : {"constantwidth", "width"})
-    for (const Primvar& var : primvars)
-      if (var.name == name && var.width == 1) found = &var;
-  if (!found) return {"width", Storage::Constant, ValueType::Float, 1, {1.0f}};
-  for (float w : found->values)
-    if (!(w >= 0 && w < kInfinity)) throw PrimError(fmt::format("{} is {} somewhere", found->name, w));
-  return *found;
-}
-
-const Primvar* normalsOf(const std::vector<Primvar>& primvars) {
-  for (const Primvar& var : primvars)
-    if (var.name == "N" && var.width == 3) return &var;
-  return nullptr;
-}
 
 PrimPtr makePoints(const ParamList& params, Problems& problems) {
   std::vector<vec3> points = takePositions(params, 1, false, problems);
@@ -241,7 +291,10 @@ PrimPtr makePoints(const ParamList& params, Problems& problems) {
   ParamList others = params;
   std::erase_if(others, [](const Param& p) { return p.name == "type"; });
   std::vector<Primvar> primvars = takePrimvars(others, {1, n, n, n}, problems);
-  if (wantsSpheres(params, problems)) return std::make_shared<Spheres>(std::move(points), std::move(primvars));
+  const std::string type = typeOf(params);
+  if (type == "sphere") return std::make_shared<Spheres>(std::move(points), std::move(primvars));
+  if (type == "patch") return std::make_shared<Squares>(std::move(points), std::move(primvars));
+  if (type != "particle" && type != "disk") problems.push_back(fmt::format("points of type \"{}\" are not known: they are disks", type));
   return std::make_shared<Disks>(std::move(points), std::move(primvars));
 }
 

@@ -95,16 +95,11 @@ PrimPtr subdivisionMesh(const Request& r, const Scope&, Problems& problems) {
                              problems);
 }
 
-PrimPtr blobby(const Request& r, const Scope&, Problems& problems) {
-  return makeBlobby(r.args[0].integer(), r.args[1].integers, r.args[2].numbers, r.params, problems);
-}
-PrimPtr blobbyKey(const Prim& first, const Request& r, Problems& problems) {
-  return makeBlobbyKey(first, r.args[0].integer(), r.args[1].integers, r.args[2].numbers, r.params, problems);
-}
-
-PrimPtr geometry(const Request& r, const Scope&, Problems& problems) {
-  if (r.args[0].strings[0] != "teapot") throw PrimError("there is no geometry \"" + r.args[0].strings[0] + "\"");
-  return makeTeapot(r.params, problems);
+PrimPtr geometry(const Request& r, const Scope& s, Problems& problems) {
+  const std::string& name = r.args[0].strings[0];
+  if (name == "teapot") return makeTeapot(r.params, problems);
+  if (name == "brickmap") return brickMap(r, s, problems);
+  throw PrimError("there is no geometry \"" + name + "\"");
 }
 
 template <size_t... I, class Make>
@@ -143,7 +138,7 @@ const std::unordered_map<std::string_view, Builder>& builders() {
       {"Curves", curves},
       {"SubdivisionMesh", subdivisionMesh},
       {"HierarchicalSubdivisionMesh", subdivisionMesh},
-      {"Blobby", blobby},
+      {"Blobby", nullptr},  // it must know the first key of its motion
       {"Geometry", geometry},
   };
   return table;
@@ -187,7 +182,8 @@ PrimPtr buildPrim(const Request& r, const Scope& scope, const Prim* first, Probl
   for (const RibArg& a : r.args)
     if (!allFinite(a.numbers)) throw PrimError("an argument is not finite");
   const auto build = [&](const Request& request) {
-    if (first && r.name == "Blobby") return blobbyKey(*first, request, problems);
+    if (const std::optional<Request> joined = blobbyOfPoints(request)) return blobby(*joined, first, problems);
+    if (request.name == "Blobby") return blobby(request, first, problems);
     return builders().at(r.name)(request, scope, problems);
   };
   if (std::all_of(r.params.begin(), r.params.end(), [](const Param& p) { return allFinite(p.floats); }))

@@ -28,7 +28,7 @@ constexpr Standard kStandard[] = {
      "maxdistance distance km opacity samples blur shadowbias"},
     {"color", "lightcolor specularcolor background bgcolor color"},
     {"point", "from to"},
-    {"string", "texturename shadowname mapname sfpx sfnx sfpy sfny sfpz sfnz"},
+    {"string", "filename texturename shadowname mapname sfpx sfnx sfpy sfny sfpz sfnz"},
     // Camera, displays, hiders
     {"float", "fov depthbias jitter dither minwidth dofaspect"},
     {"float[4]", "aperture"},

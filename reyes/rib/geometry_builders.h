@@ -1,4 +1,4 @@
-// Builders of single requests that the table in build_geometry.cpp names. Private to it.
+// Builders of single requests that build_geometry.cpp names. Private to it.
 #pragma once
 #include "reyes/rib/graphics_state.h"
 
@@ -7,5 +7,10 @@ namespace tomales::rib {
 PrimPtr nuPatch(const Request& request, const Scope& scope, Problems& problems);
 PrimPtr points(const Request& request, const Scope& scope, Problems& problems);
 PrimPtr curves(const Request& request, const Scope& scope, Problems& problems);
+/// `first`: the shape at the first key of motion, if it is not that itself.
+PrimPtr blobby(const Request& request, const Prim* first, Problems& problems);
+/// Points of type "blobby" as the Blobby that they are; others are none. Throws PrimError.
+std::optional<Request> blobbyOfPoints(const Request& request);
+PrimPtr brickMap(const Request& request, const Scope& scope, Problems& problems);
 
 }  // namespace tomales::rib

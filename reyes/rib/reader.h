@@ -83,6 +83,8 @@ class Reader {
   bool mayEnter(const Request& request, const std::string& key, size_t cost);
   static std::shared_ptr<std::atomic<size_t>> newBudget();
   bool spend(size_t cost);
+  /// Geometry "brickmap": its file is found like a texture.
+  void geometry(const Request& request);
   /// Along Option "searchpath" of that category. Empty: nowhere.
   std::string findFile(const std::string& name, const char* category) const;
 

@@ -101,6 +101,14 @@ bool Reader::spend(size_t cost) {
   return left >= cost;
 }
 
+void Reader::geometry(const Request& r) {
+  Request found = r;
+  for (Param& p : found.params)
+    for (std::string& file : p.strings)
+      if (const std::string path = p.name == "filename" ? findFile(file, "texture") : ""; !path.empty()) file = path;
+  builder_.request(found);
+}
+
 // The search path first, then beside the file that reads, then where the caller says.
 std::string Reader::findFile(const std::string& written, const char* category) const {
   const std::string name = mapped(written, builder_.dirMap());

@@ -59,9 +59,14 @@ TEST(Points, FewPolygonsHaveTheAreaOfTheDiskTheyStandFor) {
     for (int nv = 1; nv < 6; ++nv) EXPECT_NEAR(latticeArea(*prim, 0, nu, nv), M_PI / 16, 1e-6) << nu << ' ' << nv;
 }
 
-TEST(Points, OfTypeSphereAreSpheres) {
+Param typed(const char* name) {
   Param type;
-  type.name = "type", type.storage = Storage::Constant, type.type = ValueType::String, type.strings = {"sphere"};
+  type.name = "type", type.storage = Storage::Constant, type.type = ValueType::String, type.strings = {name};
+  return type;
+}
+
+TEST(Points, OfTypeSphereAreSpheres) {
+  const Param type = typed("sphere");
   const PrimPtr prim = points({positions({1, 2, 3, 0, 0, 0}), width(Storage::Vertex, {0.5f, 4}), type});
   EXPECT_EQ(prim->facing(kEye, {0, 0, 1}, true), nullptr);
   expectSoundEverywhere(*prim);
@@ -73,14 +78,29 @@ TEST(Points, OfTypeSphereAreSpheres) {
   for (const int n : {3, 5, 9}) EXPECT_NEAR(latticeArea(*prim, 0, n, n - 1), M_PI / 4, 1e-6) << n;
 }
 
-TEST(Points, OfOtherTypesSayWhatTheyAre) {
-  for (const char* name : {"patch", "blobby", "wrong"}) {
-    Param type;
-    type.name = "type", type.storage = Storage::Constant, type.type = ValueType::String, type.strings = {name};
-    Problems problems;
-    EXPECT_EQ(makePoints({positions({0, 0, 0}), type}, problems)->patchCount(), 1u);
-    EXPECT_EQ(problems.size(), 1u);
-  }
+TEST(Points, OfTypePatchAreCardsThatStandUprightUntilTheirAngleTurnsThem) {
+  const auto card = [](float angle_degrees, float aspect) {
+    return points({positions({1, 2, 3}), width(Storage::Constant, {2}), typed("patch"),
+                   floats("patchangle", Storage::Varying, ValueType::Float, {angle_degrees}),
+                   floats("constantpatchaspectratio", Storage::Constant, ValueType::Float, {aspect})});
+  };
+  const PrimPtr front = card(0, 2)->facing({0, 0, 0}, {0, 0, 1}, false);
+  EXPECT_LT(glm::length(sampleAt(*front, 0, 0, 0).p - vec3(0, 2.5f, 3)), 1e-6f);
+  EXPECT_LT(glm::length(sampleAt(*front, 0, 1, 1).p - vec3(2, 1.5f, 3)), 1e-6f);
+  EXPECT_EQ(sampleAt(*front, 0, 0.2f, 0.9f).n.z < 0, true);
+  const PrimPtr turned = card(90, 2)->facing({0, 0, 0}, {0, 0, 1}, false);
+  EXPECT_LT(glm::length(sampleAt(*turned, 0, 1, 0.5f).p - vec3(1, 3, 3)), 1e-6f);
+  expectSoundEverywhere(*front);
+  expectBoundsContainTheSurface(*turned);
+  expectDerivativesOfPositions(*turned, 1e-3f);
+  Problems problems;
+  EXPECT_THROW(makePoints({positions({0, 0, 0}), typed("patch"), floats("patchaspectratio", Storage::Varying, ValueType::Float, {0})}, problems), PrimError);
+}
+
+TEST(Points, OfTypesNobodyKnowsAreDisksAndSaySo) {
+  Problems problems;
+  EXPECT_EQ(makePoints({positions({0, 0, 0}), typed("wrong")}, problems)->patchCount(), 1u);
+  EXPECT_EQ(problems.size(), 1u);
 }
 
 TEST(Points, FaceTheirNormalIfTheyHaveOne) {

@@ -1,0 +1,115 @@
+#include "gi/brick_file.h"
+
+#include <fmt/format.h>
+
+namespace tomales {
+namespace {
+
+constexpr char kKind[9] = "TMBRICKS";
+constexpr uint32_t kVersion = 1;
+constexpr int kMostLevels = 24;  ///< Voxel coordinates stay exact in int.
+
+Bytes pack(const Brick& brick) {
+  ByteWriter w;
+  w.put(std::vector<uint16_t>(brick.first.begin(), brick.first.end()));
+  std::vector<vec3> normals;
+  std::vector<uint8_t> incoherent;
+  for (const BrickLayer& l : brick.layers) normals.push_back(l.normal), incoherent.push_back(l.incoherent);
+  w.put(normals);
+  w.put(incoherent);
+  w.put(brick.data);
+  return std::move(w.bytes);
+}
+
+Brick unpack(const Bytes& bytes, int width, const std::string& path) {
+  ByteReader r(bytes, path);
+  Brick brick;
+  const auto first = r.getVector<uint16_t>();
+  const auto normals = r.getVector<vec3>();
+  const auto incoherent = r.getVector<uint8_t>();
+  brick.data = r.getVector<float>();
+  const bool whole = first.size() == brick.first.size() && std::is_sorted(first.begin(), first.end()) && first.front() == 0 &&
+                     first.back() == normals.size() && incoherent.size() == normals.size() &&
+                     brick.data.size() == normals.size() * static_cast<size_t>(width);
+  if (!whole) throw FileError(fmt::format("\"{}\" is damaged: a brick does not add up", path));
+  std::copy(first.begin(), first.end(), brick.first.begin());
+  for (size_t i = 0; i < normals.size(); ++i) brick.layers.push_back({normals[i], incoherent[i] != 0});
+  return brick;
+}
+
+bool sound(const BrickTree& tree) {
+  const auto count = static_cast<int32_t>(tree.nodes.size());
+  for (int32_t i = 0; i < count; ++i)
+    for (const int32_t c : tree.nodes[static_cast<size_t>(i)].child)
+      if (c < -1 || c >= i) return false;
+  return isFinite(tree.cube.lo) && tree.cube.size > 0 && std::isfinite(tree.cube.size) && tree.deepest >= 0 &&
+         tree.deepest < kMostLevels;
+}
+
+}  // namespace
+
+BrickFile::BrickFile(const std::string& path) : file_(path, kKind, kVersion) {
+  ByteReader r(file_.header(), path);
+  const auto channelCount = r.get<uint32_t>();
+  for (uint32_t i = 0; i < channelCount; ++i) {
+    std::string name = r.getString();
+    channels_.push_back({std::move(name), r.get<int32_t>()});
+    if (channels_.back().width < 1 || channels_.back().width > kMostWidth - width_)
+      throw FileError(fmt::format("\"{}\": its channels are too many or damaged", path));
+    width_ += channels_.back().width;
+  }
+  tree_.cube = r.get<BrickCube>();
+  tree_.deepest = r.get<int32_t>();
+  tree_.nodes = r.getVector<BrickNode>();
+  if (!sound(tree_) || tree_.nodes.size() != file_.count()) throw FileError(fmt::format("\"{}\" is damaged: its octree does not add up", path));
+}
+
+Brick BrickFile::brick(int32_t node) const { return unpack(file_.read(static_cast<uint32_t>(node)), width_, file_.path()); }
+
+BrickFileWriter::BrickFileWriter(const std::string& path) : file_(path, kKind, kVersion) {}
+
+void BrickFileWriter::add(const Brick& brick) { file_.add(pack(brick)); }
+
+void BrickFileWriter::finish(const std::vector<CloudChannel>& channels, const BrickTree& tree) {
+  ByteWriter header;
+  header.put(static_cast<uint32_t>(channels.size()));
+  for (const CloudChannel& c : channels) {
+    header.put(c.name);
+    header.put(static_cast<int32_t>(c.width));
+  }
+  header.put(tree.cube);
+  header.put(static_cast<int32_t>(tree.deepest));
+  header.put(tree.nodes);
+  file_.finish(header.bytes);
+}
+
+PointCloud voxelsOf(const BrickFile& file, int level) {
+  const BrickTree& tree = file.tree();
+  PointCloud out;
+  out.channels = file.channels();
+  struct Place { int32_t node; int level; vec3 lo; };
+  std::vector<Place> todo;
+  if (tree.root() >= 0) todo.push_back({tree.root(), 0, tree.cube.lo});
+  while (!todo.empty()) {
+    const Place p = todo.back();
+    todo.pop_back();
+    const BrickNode& node = tree.nodes[static_cast<size_t>(p.node)];
+    const bool deeper = level < 0 || p.level < level;
+    const float half = std::ldexp(tree.cube.size, -p.level - 1), voxel = tree.cube.voxelSize(p.level);
+    for (size_t octant = 0; octant < 8; ++octant)
+      if (deeper && node.child[octant] >= 0)
+        todo.push_back({node.child[octant], p.level + 1, p.lo + half * vec3(octant & 1, octant >> 1 & 1, octant >> 2 & 1)});
+    const Brick brick = file.brick(p.node);
+    for (int v = 0; v < kBrickVoxels; ++v) {
+      const int x = v % kBrickWidth, y = v / kBrickWidth % kBrickWidth, z = v / (kBrickWidth * kBrickWidth);
+      const auto octant = static_cast<size_t>((x >= kBrickWidth / 2) | (y >= kBrickWidth / 2) << 1 | (z >= kBrickWidth / 2) << 2);
+      if (deeper && node.child[octant] >= 0) continue;
+      for (size_t l = brick.first[static_cast<size_t>(v)]; l < brick.first[static_cast<size_t>(v) + 1]; ++l)
+        out.add(p.lo + voxel * (vec3(x, y, z) + 0.5f), brick.layers[l].normal, 0.5f * std::sqrt(3.0f) * voxel,
+                brick.data.data() + l * static_cast<size_t>(file.width()));
+    }
+  }
+  return out;
+}
+
+}  // namespace tomales

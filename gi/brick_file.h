@@ -1,0 +1,46 @@
+// Noun: a brick map (irradiance-atlas 3) on disk, .bkm: a tiled 3D MIP map of data on surfaces or in volumes. A file of chunks
+// (reyes/base/chunk_file.h), one a brick; its header has the channels and the octree.
+// Space: that of the points it was made from (world). Threads: const members may be called concurrently; a writer belongs to one thread.
+#pragma once
+#include <string>
+
+#include "gi/brick.h"
+#include "gi/point_cloud.h"
+#include "reyes/base/chunk_file.h"
+
+namespace tomales {
+
+class BrickFile {
+ public:
+  static constexpr int kMostWidth = 256;  ///< Floats of one lookup.
+
+  explicit BrickFile(const std::string& path);  ///< Throws FileError.
+
+  const std::vector<CloudChannel>& channels() const { return channels_; }
+  int width() const { return width_; }  ///< Floats of one lookup.
+  const BrickTree& tree() const { return tree_; }
+  uint64_t fileBytes() const { return file_.fileBytes(); }
+  Brick brick(int32_t node) const;  ///< Throws FileError where the file is damaged.
+
+ private:
+  ChunkReader file_;
+  std::vector<CloudChannel> channels_;
+  int width_ = 0;
+  BrickTree tree_;
+};
+
+class BrickFileWriter {
+ public:
+  explicit BrickFileWriter(const std::string& path);  ///< Throws FileError, as every member.
+  void add(const Brick& brick);  ///< In the order of the nodes.
+  void finish(const std::vector<CloudChannel>& channels, const BrickTree& tree);
+
+ private:
+  ChunkWriter file_;
+};
+
+/// The voxels of one level, and of coarser bricks where that level has none; level < 0: the finest. They are disks as wide as the voxel is
+/// across its corners, so that neighbours meet whichever way their surface goes. Throws FileError.
+PointCloud voxelsOf(const BrickFile& file, int level);
+
+}  // namespace tomales

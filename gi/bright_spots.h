@@ -1,0 +1,63 @@
+// Noun: where gather rays have found light much brighter than what is around, as spheres at which later records aim some of
+// their rays. Over reyes/base alone. Radiance and E/pi are luminances here.
+// Space: that of the caller. Threads: const members may be called concurrently.
+#pragma once
+#include <vector>
+
+#include "reyes/base/math.h"
+
+namespace tomales {
+
+struct BrightHit {
+  vec3 position;
+  float radiance;
+};
+
+/// What one record has found.
+struct BrightFind {
+  float irradiance = 0;
+  std::vector<BrightHit> hits;
+};
+
+class BrightSpots {
+ public:
+  struct Spot {
+    vec3 center;
+    float radius, radiance;
+  };
+  /// The same spots for the same finds in the same order.
+  void learn(const std::vector<BrightFind>& finds);
+  const std::vector<Spot>& spots() const { return spots_; }
+  /// Mean of all finds.
+  float irradiance() const { return records_ > 0 ? static_cast<float>(irradiance_ / static_cast<double>(records_)) : 0.0f; }
+
+ private:
+  std::vector<BrightHit> hits_;
+  std::vector<Spot> spots_;
+  double irradiance_ = 0;
+  size_t records_ = 0;
+};
+
+/// Directions from one point to the spots, more towards those from which more light would come if nothing were in between.
+class SpotAim {
+ public:
+  SpotAim(const BrightSpots& spots, const vec3& position, const vec3& normal);
+  /// E/pi if nothing hid the spots; 0: there is none to aim at.
+  float irradiance() const { return irradiance_; }
+  /// Of the cosine-weighted hemisphere, at most: the spots may overlap.
+  float coverage() const { return coverage_; }
+  /// xi: uniform in [0,1); unit.
+  vec3 direction(float choice, const vec2& xi) const;
+  /// Of direction() over solid angle.
+  float density(const vec3& direction) const;
+
+ private:
+  struct Cone {
+    vec3 axis;
+    float versine, upTo, density;  ///< versine: one less the cosine of its half angle; upTo: of the choice; density: of directions in it
+  };
+  std::vector<Cone> cones_;
+  float irradiance_ = 0, coverage_ = 0;
+};
+
+}  // namespace tomales

@@ -1,0 +1,70 @@
+// Private to the files that know Embree: what its filter functions are told of a geometry and of a traversal.
+// Threads: filters run on those of the rays; a Traversal belongs to one ray.
+#pragma once
+#include <embree3/rtcore.h>
+
+#include "raytrace/hit_list.h"
+#include "raytrace/tessellate.h"
+#include "raytrace/trace.h"
+
+namespace tomales {
+
+/// The groups that rays treat alike share one Embree geometry: a geometry of its own for each would cost 65 kB, and a scene
+/// may have a group for every object.
+struct Geometry {
+  bool opaque, flips;
+  DetailShare detail;
+  const CoarseGroup* meshes;                         ///< All groups, or the one master.
+  uint32_t onlyMesh = 0;
+  std::vector<uint32_t> meshOfQuad{};                ///< Empty: all belong to onlyMesh.
+  const std::vector<uint32_t>* firstQuad = nullptr;  ///< of each mesh, in its geometry
+
+  struct Place { uint32_t mesh, quad; };
+  Place place(uint32_t primitive) const {
+    if (meshOfQuad.empty()) return {onlyMesh, primitive};
+    const uint32_t mesh = meshOfQuad[primitive];
+    return {mesh, primitive - (*firstQuad)[mesh]};
+  }
+};
+
+/// Instances come behind the geometries in the order of Embree's IDs.
+struct Instances {
+  uint32_t firstId = 0;
+  std::vector<uint32_t> group;
+  std::vector<bool> opaque;
+};
+
+/// What filters are given beside the hit. Embree hands back the address of its first member.
+struct Traversal {
+  RTCIntersectContext embree;
+  float shift = 0;  ///< Embree's t of the ray's own origin.
+  float window = 0;
+  float tMax = kInfinity;
+  HitList* list = nullptr;
+  const Instances* instances = nullptr;
+  const RayFilter* filter = nullptr;
+  float level = 0;  ///< The ray's number for levels of detail.
+
+  PolygonHit hit(const Geometry& geometry, float t, uint32_t instanceId, uint32_t primitive, float u, float v,
+                 bool leaving, const vec3& normal) const {
+    const auto [mesh, quad] = geometry.place(primitive);
+    if (instanceId == RTC_INVALID_GEOMETRY_ID) return {t, mesh, quad, u, v, leaving, -1, normal};
+    const uint32_t i = instanceId - instances->firstId;
+    return {t, instances->group[i], quad, u, v, leaving, static_cast<int>(i), normal};
+  }
+};
+static_assert(std::is_standard_layout_v<Traversal>);
+
+/// Does a ray that meets a polygon with this normal, along d/du x d/dv, go to the side of the RISpec normal?
+inline bool leaves(const vec3& direction, const vec3& normal, bool flips) { return (dot(direction, normal) > 0) != flips; }
+
+// Filters of traversals: the context's is asked after the geometry's.
+void rejectUnseen(const RTCFilterFunctionNArguments* args);  ///< Rejects what the ray's RayFilter does.
+void recordNear(const RTCFilterFunctionNArguments* args);    ///< Records and rejects hits in the window, accepts those beyond.
+/// Accepts what is opaque beyond the window, which ends the traversal; records and rejects all else.
+void recordShadow(const RTCFilterFunctionNArguments* args);
+void recordAll(const RTCFilterFunctionNArguments* args);     ///< Records and rejects every hit.
+/// Of a geometry: rejects hits that trim curves have cut away, and levels of detail that the ray does not see.
+void rejectAbsent(const RTCFilterFunctionNArguments* args);
+
+}  // namespace tomales

@@ -1,0 +1,116 @@
+#include "gi/bright_spots.h"
+
+#include <gtest/gtest.h>
+
+#include "reyes/base/rng.h"
+#include "tests/unit/gi/fixture.h"
+
+namespace tomales {
+namespace {
+
+using namespace test;
+
+BrightFind disk(const vec3& center, float radius, int hits, float radiance) {
+  BrightFind find{1, {}};
+  for (int i = 0; i < hits; ++i) {
+    const vec2 xi = sobol2(static_cast<uint32_t>(i), 7);
+    const float r = radius * std::sqrt(xi.x), phi = 2 * kPi * xi.y;
+    find.hits.push_back({center + vec3(r * std::cos(phi), r * std::sin(phi), 0), radiance});
+  }
+  return find;
+}
+
+BrightSpots twoDisks() {
+  BrightSpots spots;
+  spots.learn({disk({0, 0, 5}, 0.2f, 300, 50), disk({3, 0, 4}, 0.1f, 300, 20)});
+  return spots;
+}
+
+TEST(BrightSpots, SpheresHoldAllThatWasFoundAndLittleElse) {
+  const BrightSpots spots = twoDisks();
+  ASSERT_FALSE(spots.spots().empty());
+  for (const BrightFind& find : {disk({0, 0, 5}, 0.2f, 300, 50), disk({3, 0, 4}, 0.1f, 300, 20)})
+    for (const BrightHit& hit : find.hits)
+      EXPECT_TRUE(std::any_of(spots.spots().begin(), spots.spots().end(),
+                              [&](const BrightSpots::Spot& s) { return glm::length(hit.position - s.center) <= s.radius; }));
+  for (const BrightSpots::Spot& s : spots.spots()) EXPECT_LT(s.radius, 0.25f);
+}
+
+TEST(BrightSpots, ASingleHitIsChance) {
+  BrightSpots spots;
+  spots.learn({disk({0, 0, 5}, 0.2f, 1, 50)});
+  EXPECT_TRUE(spots.spots().empty());
+  EXPECT_EQ(SpotAim(spots, vec3(0), {0, 0, 1}).irradiance(), 0);
+}
+
+TEST(SpotAim, LooksPastWhatIsBehindTheSurface) {
+  EXPECT_EQ(SpotAim(twoDisks(), vec3(0), {0, 0, -1}).irradiance(), 0);
+}
+
+TEST(SpotAim, ItsDensityIsThatOfItsDirections) {
+  const SpotAim aim(twoDisks(), vec3(0), {0, 0, 1});
+  ASSERT_GT(aim.irradiance(), 0);
+  // The mean of 1/density over its directions is the solid angle that they cover, found by uniform directions too.
+  constexpr uint32_t kCount = 200000;
+  double covered = 0, integral = 0;
+  int inside = 0;
+  for (uint32_t i = 0; i < kCount; ++i) {
+    const vec3 d = aim.direction(sobol1(i, 1), sobol2(i, 2));
+    const float density = aim.density(d);
+    ASSERT_GT(density, 0);
+    covered += 1.0 / density / kCount;
+    const vec2 xi = sobol2(i, 3);  // over the cone of half angle 45 degrees around +z
+    const float z = 1 - xi.x * (1 - std::sqrt(0.5f)), r = std::sqrt(1 - z * z);
+    const float uniform = aim.density({r * std::cos(2 * kPi * xi.y), r * std::sin(2 * kPi * xi.y), z});
+    integral += uniform / kCount;
+    inside += uniform > 0;
+  }
+  const double cone = 2 * kPi * (1 - std::sqrt(0.5));
+  EXPECT_NEAR(integral * cone, 1, 0.03);
+  EXPECT_NEAR(covered / (inside * cone / kCount), 1, 0.03);
+}
+
+// A room lit through a small bright quad far away.
+SceneBuilder roomWithAGlow() {
+  SceneBuilder b;
+  b.light("distantlight", {pointParam("from", {0, 0, 0}), pointParam("to", {0, 0, 1})});
+  b.quad({-0.15f, 1.75f, 5}, {0.15f, 1.75f, 5}, {0.15f, 2.05f, 5}, {-0.15f, 2.05f, 5}, vec3(0.8f));
+  b.quad({-3, -1, 0}, {3, -1, 0}, {3, -1, 6}, {-3, -1, 6}, vec3(0.1f));
+  return b;
+}
+
+TEST(Gather, RaysAimedAtABrightSpotKeepTheMeanAndTakeTheNoise) {
+  World world(roomWithAGlow().scene);
+  GatherSettings settings;
+  settings.samples = 4096;
+  const GatherPoint from{1, {0.3f, -1, 1}, {0, 1, 0}, 1, 0.01f, 0.01f};
+  std::vector<BrightFind> finds(64);
+  for (uint32_t i = 0; i < finds.size(); ++i) {
+    GatherPoint point = from;
+    point.key = 1000 + i, point.position.x += 0.01f * static_cast<float>(i);
+    gather(world.rays, world.shading, point, settings, {}, world.stats, &finds[i]);
+  }
+  BrightSpots spots;
+  spots.learn(finds);
+  ASSERT_FALSE(spots.spots().empty());
+  const auto figures = [&](const BrightSpots& aimedAt, int samples, int count) {
+    settings.samples = samples;
+    double sum = 0, squares = 0;
+    for (int i = 0; i < count; ++i) {
+      GatherPoint point = from;
+      point.key = static_cast<uint32_t>(i);
+      const double E = luminance(gather(world.rays, world.shading, point, settings, aimedAt, world.stats).E);
+      sum += E, squares += E * E;
+    }
+    const double mean = sum / count;
+    return std::pair(mean, std::sqrt(std::max(0.0, squares / count - mean * mean)) / mean);
+  };
+  const double truth = figures({}, 4096, 64).first;
+  const double plainNoise = figures({}, 128, 400).second;
+  const auto [aimed, aimedNoise] = figures(spots, 128, 400);
+  EXPECT_NEAR(aimed / truth, 1, 0.02);
+  EXPECT_LT(aimedNoise, 0.3 * plainNoise);
+}
+
+}  // namespace
+}  // namespace tomales

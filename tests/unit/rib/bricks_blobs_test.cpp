@@ -1,0 +1,81 @@
+// Requests whose primitive is made of something else: Geometry "brickmap", Points of type "blobby".
+#include <filesystem>
+
+#include "gi/brick_file.h"
+#include "tests/unit/rib/rib_test_tools.h"
+
+namespace tomales {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One brick over the unit cube, with two voxels: (0,0,0) faces z and holds 1 2 3, (7,7,7) is a volume and holds 4 5 6.
+struct BrickMapFile : ::testing::Test {
+  const fs::path folder = fs::temp_directory_path() / ("tomales_rib_bricks_" + std::to_string(::getpid()));
+  BrickMapFile() {
+    fs::create_directories(folder);
+    Brick brick;
+    std::fill(brick.first.begin() + 1, brick.first.end(), uint16_t{1});
+    brick.first.back() = 2;
+    brick.layers = {{{0, 0, 1}}, {vec3(0)}};
+    brick.data = {1, 2, 3, 0.5f, 4, 5, 6, 0.25f};
+    BrickFileWriter file((folder / "two.bkm").string());
+    file.add(brick);
+    file.finish({{"irradiance", 3}, {"area", 1}}, {{vec3(0), 1}, {BrickNode{}}, 0});
+  }
+  ~BrickMapFile() override { fs::remove_all(folder); }
+};
+
+TEST_F(BrickMapFile, IsADiskForEachVoxelWithItsChannels) {
+  const Reading r("Option \"searchpath\" \"texture\" [\"" + folder.string() + "\"]" + inWorld("Geometry \"brickmap\" \"filename\" [\"two.bkm\"]"));
+  EXPECT_EQ(r.codes(), "");
+  const Prim& prim = r.object(0).shape();
+  ASSERT_EQ(prim.patchCount(), 2u);
+  const Bound3 first = prim.bound(0, {0.49f, 0.51f, 0.49f, 0.51f});
+  EXPECT_LT(glm::length(first.center() - vec3(1 / 16.0f)), 1e-3f);
+  float edge[12];
+  const float one = 1, half = 0.5f;
+  prim.evaluate(0, 1, &one, &half, {edge, edge + 1, edge + 2, edge + 3, edge + 4, edge + 5, edge + 6, edge + 7, edge + 8, edge + 9, edge + 10, edge + 11});
+  EXPECT_NEAR(glm::distance(vec3(edge[0], edge[1], edge[2]), vec3(1 / 16.0f)), std::sqrt(3.0f) / 16, 1e-6f);  // a voxel's half diagonal
+  for (const Primvar& var : prim.primvars()) {
+    const bool color = var.name == "irradiance" || var.name == "Cs";
+    EXPECT_TRUE(!color || var.values == (std::vector<float>{1, 2, 3, 4, 5, 6}));
+    EXPECT_TRUE(var.name != "area" || var.values == (std::vector<float>{0.5f, 0.25f}));
+  }
+}
+
+TEST_F(BrickMapFile, ThatIsMissingOrNoneIsDroppedByName) {
+  const Reading r(inWorld("Geometry \"brickmap\" \"filename\" [\"/nowhere.bkm\"]\nGeometry \"brickmap\"\nGeometry \"cube\""));
+  EXPECT_EQ(r.log.count("rib-object-dropped"), 3);
+  EXPECT_EQ(r.message("rib-object-dropped").where.line, 2);
+}
+
+TEST(PointsOfTypeBlobby, AreOneBlobbyAsWideAsThePointsAre) {
+  const Reading r(inWorld("Points \"P\" [0 0 0 0.7 0 0 9 0 0] \"constantwidth\" [1] \"uniform string type\" [\"blobby\"] \"varying color Cs\" [1 0 0 0 1 0 0 0 1]\n"
+                          "Blobby 1 [1001 0] [1 0 0 0 0 1 0 0 0 0 1 0 9 0 0 1] [\"\"]"));
+  EXPECT_EQ(r.codes(), "");
+  const auto boundOf = [](const Prim& prim) {
+    Bound3 bound;
+    for (uint32_t patch = 0; patch < prim.patchCount(); ++patch) bound.extend(prim.bound(patch, {}));
+    return bound;
+  };
+  const Bound3 joined = boundOf(r.object(0).shape()), alone = boundOf(r.object(1).shape());
+  EXPECT_NEAR(joined.hi.x, alone.hi.x, 0.02f);
+  EXPECT_NEAR(joined.hi.x, 9.5f, 0.02f);
+  ASSERT_EQ(r.object(0).shape().primvars().size(), 1u);
+}
+
+TEST(PointsOfTypeBlobby, MoveAsBlobbiesDo) {
+  const Reading r("Shutter 0 1" + inWorld("MotionBegin [0 1] Points \"P\" [0 0 0 1 0 0] \"uniform string type\" [\"blobby\"]\n"
+                                          "Points \"P\" [0 1 0 1 1 0] \"uniform string type\" [\"blobby\"] MotionEnd"));
+  EXPECT_EQ(r.codes(), "");
+  EXPECT_EQ(r.object(0).shapes.size(), 2u);
+}
+
+TEST(PointsOfTypeBlobby, WithWidthsThatDoNotFitAreDropped) {
+  const Reading r(inWorld("Points \"P\" [0 0 0 1 0 0] \"varying float width\" [1 2 3] \"uniform string type\" [\"blobby\"]"));
+  EXPECT_EQ(r.codes(), "rib-object-dropped@2 ");
+}
+
+}  // namespace
+}  // namespace tomales
