@@ -85,7 +85,7 @@ std::shared_ptr<const RasterGrid> PieceNode::makeGrid(const SubPatch& piece) {
 
 std::shared_ptr<Pool> PieceNode::makePool() const {
   // A vertex takes a dozen floats without motion and primitive variables, and a grid about as much as this without vertices.
-  constexpr size_t kVertex_bytes = 48, kGrid_bytes = 768, kMost_bytes = 65536;
+  constexpr size_t kVertex_bytes = 48, kGrid_bytes = 768, kMost_bytes = 2048;
   size_t bytes = 0;
   for (const Piece& p : pieces_) bytes += kGrid_bytes + kVertex_bytes * static_cast<size_t>(padded((p.patch.nu + 1) * (p.patch.nv + 1)));
   return {new Pool(std::min(bytes, kMost_bytes)), [&live = context_.liveGrids_bytes](const Pool* pool) {

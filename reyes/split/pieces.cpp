@@ -17,6 +17,7 @@ constexpr int kSlackDepth = 8;
 /// exceeds the least, or a mesh of them would take hours.
 constexpr double kLayersOfObject = 64, kLayersOfPatch = 4;
 constexpr double kVisitsOfObject = 1 << 16, kVisitsOfPatch = 1 << 12;
+constexpr float kRounding_px = 0.01f;  ///< Of projecting a box or its points.
 /// Lazily, a patch is halved so often, and what then has so many grids or more is a coarse piece.
 constexpr int kHalvingsAtOnce = 6;
 constexpr int64_t kGridsOfCoarse = 64;
@@ -61,12 +62,20 @@ std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
   return {a, b};
 }
 
-/// With what the hider may add to it, and half a pixel to be safe.
-Bound2 rasterOf(const Bound3& bound, float displacementBound, const Camera& camera, const Bound2& throughTheEye = {}) {
+/// With what the hider may add to it: at a corner both borders are pushed.
+Bound2 rasterOf(const Bound3& bound, float reach_px, const Camera& camera, const Bound2& throughTheEye = {}) {
   Bound2 raster;
   if (!camera.rasterBound(bound, raster)) raster = throughTheEye;
-  const vec2 margin(borderReach_px(displacementBound) + 0.5f);
+  const vec2 margin(2 * reach_px + kRounding_px);
   return {raster.lo - margin, raster.hi + margin};
+}
+
+/// Is a patch bent nowhere, nor shaded as if it were? As a single cell it then reaches farther only by what closes T-vertices, and most small
+/// ones are missed by all samples.
+bool isFlat(const Object& o, uint32_t patch) {
+  const std::vector<Primvar>& primvars = o.shape().primvars();
+  return o.displacementBound <= 0 && o.shape().info(patch).planar &&
+         std::none_of(primvars.begin(), primvars.end(), [](const Primvar& p) { return p.name == "N"; });
 }
 
 /// Splits the patches of one object.
@@ -97,7 +106,7 @@ class Splitter {
   /// patch takes no more than it was given.
   void splitWithin(int64_t visits, uint32_t patch, const UvRect& rect, int depth, std::vector<SubPatch>& out) {
     const auto first = static_cast<ptrdiff_t>(out.size());
-    start_ = depth, budget_ = visits;
+    start_ = depth, budget_ = visits, flat_ = isFlat(object_, patch);
     split(patch, rect, depth, out);
     const auto share = [this](const SubPatch& p) { return p.coarse ? static_cast<double>(std::min(gridsOf(p.nu, p.nv), gridsInView(p.raster))) : 0.0; };
     double shares = 0;
@@ -134,11 +143,11 @@ class Splitter {
     if (static_cast<int64_t>(nu) * nv <= gridSize_) {
       // What moves through the eye plane does so however small it is; it is seen while it stays in front.
       if (crossesEye && !still) ++givenUp_.atEye;
-      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound), bound.lo.z, crossesEye, depth, false});
+      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, nu, nv), bound.lo.z, crossesEye, depth, false});
     } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && gridsOf(nu, nv) >= kGridsOfCoarse && !crossesEye &&
                glm::length(bare.size()) <= kSlack * reach) {
       // Halving shrinks such a piece and its bound as it should, so that its grids can be foretold.
-      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound), bound.lo.z, crossesEye, depth, true});
+      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, nu, nv), bound.lo.z, crossesEye, depth, true});
     } else if (depth == kMaxDepth) {
       ++(bound.lo.z < glm::length(bound.size()) ? givenUp_.atEye : givenUp_.tooMany);
     } else {
@@ -167,9 +176,10 @@ class Splitter {
   bool crosses(const Bound3& bare) const { return camera_.perspective() && bare.lo.z < camera_.eyePlane(); }
 
   /// Of what lies beyond the near plane.
-  Bound2 rasterOf(Bound3 bound) const {
+  Bound2 rasterOf(Bound3 bound, int nu, int nv) const {
+    constexpr float kFlatReach_px = 0.05f;
     if (camera_.perspective()) bound.lo.z = std::max(bound.lo.z, camera_.nearClip());
-    return tomales::rasterOf(bound, object_.displacementBound, camera_);
+    return tomales::rasterOf(bound, flat_ && nu * nv == 1 ? kFlatReach_px : borderReach_px(object_.displacementBound), camera_);
   }
 
   /// How much longer than the shading rate asks the edges may be: a micropolygon's width up to a quarter of the circle
@@ -193,6 +203,7 @@ class Splitter {
   const float edge_px_;
   int start_ = 0;       ///< Depth of what is being split.
   int64_t budget_ = 0;  ///< Pieces that may still be visited.
+  bool flat_ = false;   ///< The patch
   GivenUp givenUp_;
 };
 
@@ -220,7 +231,7 @@ std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObj
   const Placement anywhere{{{window.x0, window.y0}, {window.x1, window.y1}}, -kInfinity};
   if (!isFinite(bound.lo) || !isFinite(bound.hi)) return anywhere;  // one bad patch must not take its neighbours along
   if (clipped ? camera.outside(bound, window) : camera.outsideWindow(bound, window)) return std::nullopt;
-  return Placement{rasterOf(bound, margin, camera, anywhere.raster), bound.lo.z};
+  return Placement{rasterOf(bound, borderReach_px(margin), camera, anywhere.raster), bound.lo.z};
 }
 
 namespace {

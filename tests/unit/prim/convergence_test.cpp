@@ -97,7 +97,9 @@ TEST_P(Convergence, OfAreaAndVolumeIsOfSecondOrder) {
   const Measured coarse = diced(*c.prim, c.coarsest), medium = diced(*c.prim, 2 * c.coarsest), fine = diced(*c.prim, 4 * c.coarsest);
   const double byArea = order(coarse.area, medium.area, fine.area), byVolume = order(coarse.volume, medium.volume, fine.volume);
   EXPECT_NEAR(byArea, 2, 0.2) << coarse.area << ' ' << medium.area << ' ' << fine.area;
-  if (c.closed) EXPECT_NEAR(byVolume, 2, 0.2) << coarse.volume << ' ' << medium.volume << ' ' << fine.volume;
+  if (c.closed) {
+    EXPECT_NEAR(byVolume, 2, 0.2) << coarse.volume << ' ' << medium.volume << ' ' << fine.volume;
+  }
   RecordProperty("area", std::to_string(byArea));
   RecordProperty("volume", c.closed ? std::to_string(byVolume) : "open");
 }

@@ -94,7 +94,7 @@ TEST(Split, AllPiecesOfAPatchTogetherHaveABudgetHoweverDeepTheyAreNested) {
   constexpr int64_t kBudget = (1 << 16) + 64 * 64;  // The window of 128 x 128 takes 64 grids.
   Problems problems;
   int cut = 0;
-  for (size_t k = 0; k < 48; ++k)
+  for (const size_t k : {0, 17, 47})
     for (const float far : {2147483647.0f, -3e5f}) {
       Param P;
       P.name = "P", P.type = ValueType::Point, P.storage = Storage::Vertex;
@@ -118,7 +118,7 @@ TEST(Split, PatchesOfOneObjectShareABudget) {
   Problems problems;
   Param P;
   P.name = "P", P.type = ValueType::Point, P.storage = Storage::Vertex;
-  const int n = 40;
+  const int n = 5;
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i)
       for (const float x : {(i % 2 ? 1e9f : -1e9f) * static_cast<float>(j), (j % 2 ? 1e9f : -1e9f), 3.0f * static_cast<float>(i + j)}) P.floats.push_back(x);
