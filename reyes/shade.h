@@ -185,7 +185,7 @@ class ShadingSystem {
   bool wantsSteps(int group) const;
   /// Does its shader leave Oi = Os?
   bool keepsOpacity(int group) const;
-  /// Runs the displacement shader of the grid's object, in place; recomputes N. No-op without one.
+  /// Runs the displacement shader of the grid's object, in place; recomputes N. No-op without one. Pre: one piece, if there is one.
   void displace(Grid& grid) const;
   /// Surface shader and lights over a batch of one group. `out` is resized.
   void shade(const ShadePoints& points, const ShadeContext& context, ShadedPoints& out) const;
