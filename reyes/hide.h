@@ -48,7 +48,7 @@ struct RasterGrid : RasterExtent {
   std::shared_ptr<const Grid> grid;
   bool opaque = true;           ///< Hides what is behind it.
   bool matte = false;
-  int sides = 2;
+  float facing = 0;             ///< Seen are triangles abc and bdc (reyes/hide/raster.h) whose raster area has this sign; 0: all.
   DetailShare detail;           ///< Only samples of this share see it.
   bool clipped = false;         ///< Some vertex is cut off by the near or far plane or a ClippingPlane.
   bool inSolid = false;         ///< Its hits are crossings for reyes/hide/solids.cpp, and hide nothing before.

@@ -12,6 +12,9 @@
 
 namespace tomales {
 
+/// How far the hider may push the border of a grid out in raster space, over its neighbour (docs/decisions/0003).
+constexpr float borderReach_px(float displacementBound) { return displacementBound > 0 ? 4.0f : 0.5f; }
+
 /// One primitive request placed in the world. Deforming geometry has a Prim for each of `shapeTimes`, alike in
 /// topology; all motion in between is linear.
 struct Object {

@@ -1,5 +1,6 @@
 // Verb: Scene -> sub-patches small enough to dice, each with its raster bound. Bound, cull, judge, halve; a piece that
-// crosses the near plane is halved until its micropolygons are small there. Depends on the camera and on ShadingRate, never on
+// crosses the near plane is halved until its micropolygons are small there. What no halving makes small ends too: a patch has a budget of
+// visits, of which coarse pieces inherit what is left. Depends on the camera and on ShadingRate, never on
 // buckets, crop or threads.
 // Threads: pure but for the counters and the log.
 #pragma once
@@ -22,7 +23,8 @@ struct SubPatch {
   float zMin;       ///< Nearest camera z, likewise.
   bool crossesEye = false;  ///< Some of it lies nearer than Camera::eyePlane, and micropolygons there are to be left out.
   int depth = 0;            ///< Halvings of its patch.
-  bool coarse = false;      ///< Too large for a grid: splitPiece() goes on with it.
+  bool coarse = false;      ///< Too large for a grid: splitPiece() goes on with it,
+  int64_t visits = 0;       ///< and may look at so many pieces.
 };
 
 /// Where something may be seen, over the shutter, displacement and defocus included.

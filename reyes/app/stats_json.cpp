@@ -46,7 +46,7 @@ double hitRate(int64_t lookups, int64_t misses) {
 }
 
 Json countersOf(const Stats& s) {
-  const auto& [primitives, subpatches, grids, diced, visible, culled, eyeSplits] = s.geometry;
+  const auto& [primitives, subpatches, grids, diced, visible, culled, eyeSplits, visited] = s.geometry;
   return {{"geometry",
            {{"primitives", primitives.load()},
             {"subpatches", subpatches.load()},
@@ -54,7 +54,8 @@ Json countersOf(const Stats& s) {
             {"micropolygons_diced", diced.load()},
             {"micropolygons_visible", visible.load()},
             {"culled", culled.load()},
-            {"eye_splits_given_up", eyeSplits.load()}}},
+            {"eye_splits_given_up", eyeSplits.load()},
+            {"pieces_visited", visited.load()}}},
           {"shade", {{"vertices_shaded", s.shade.verticesShaded.load()}, {"by_shader", shadersOf(s)}}},
           {"rays",
            {{"gather", s.rays.gather.load()},

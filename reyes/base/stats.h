@@ -14,7 +14,7 @@ using Counter = std::atomic<int64_t>;
 
 struct Stats {
   struct { Counter primitives{0}, subpatches{0}, gridsDiced{0}, micropolygonsDiced{0}, micropolygonsVisible{0},
-           culled{0}, eyeSplitsGivenUp{0}; } geometry;
+           culled{0}, eyeSplitsGivenUp{0}, piecesVisited{0}; } geometry;
   struct { Counter verticesShaded{0}; } shade;
   struct { Counter gather{0}, transmission{0}, specular{0}, photon{0}, reference{0}, hitlistAdjusted{0}; } rays;
   struct { Counter coarsePolygons{0}, bytes{0}; } raytrace;

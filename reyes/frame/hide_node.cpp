@@ -13,15 +13,22 @@ namespace {
 /// of buckets than can be seen.
 constexpr float kDense = 4, kSmall_px = 32;
 
-/// Opened by the first bucket that asks what is in it, and shared; or, if `transient`, by each bucket for itself.
+/// Shared: opened by the first bucket that asks what is in it. Transient: by each bucket for itself. AtOnce: likewise, and what is in it is
+/// not put into the queue, where the pieces of many small things that lie side by side would wait for each other.
+enum class Opening : uint8_t { Shared, Transient, AtOnce };
+
 class OpeningNode : public HideNode {
  public:
-  OpeningNode(HideContext& context, const Placement& place, const BucketRange& range, bool transient)
-      : HideNode(place, range), context_(context), transient_(transient), users_(range.count()) {}
+  OpeningNode(HideContext& context, const Placement& place, const BucketRange& range, Opening opening)
+      : HideNode(place, range), context_(context), opening_(opening), users_(range.count()) {}
 
-  void visit(size_t bucket, NodeQueue& queue, Hider&) final {
-    if (transient_) {
-      for (auto& node : open(context_.buckets.only(bucket))) queue.push(std::shared_ptr<HideNode>(std::move(node)));
+  void visit(size_t bucket, NodeQueue& queue, Hider& hider) final {
+    if (opening_ != Opening::Shared) {
+      for (auto& node : open(context_.buckets.only(bucket)))
+        if (opening_ == Opening::Transient)
+          queue.push(std::shared_ptr<HideNode>(std::move(node)));
+        else if (!hider.hidden(node->raster(), node->zMin()))
+          node->visit(bucket, queue, hider);
       return;
     }
     const std::lock_guard lock(mutex_);
@@ -35,7 +42,7 @@ class OpeningNode : public HideNode {
   }
 
   void release(size_t bucket) final {
-    if (transient_) return;
+    if (opening_ != Opening::Shared) return;
     const std::lock_guard lock(mutex_);
     if (!inside_)
       doneBefore_.push_back(bucket);
@@ -55,7 +62,7 @@ class OpeningNode : public HideNode {
   HideContext& context_;
 
  private:
-  const bool transient_;
+  const Opening opening_;
   std::mutex mutex_;
   std::unique_ptr<NodeList> inside_;
   std::vector<size_t> doneBefore_;  ///< Buckets that were done before it was opened.
@@ -69,7 +76,7 @@ HideNodes nodesOfPieces(HideContext& context, std::vector<SubPatch> pieces, floa
 class CoarseNode : public OpeningNode {
  public:
   CoarseNode(HideContext& context, const SubPatch& piece, const BucketRange& range)
-      : OpeningNode(context, {piece.raster, piece.zMin}, range, range.count() == 1), piece_(piece) {}
+      : OpeningNode(context, {piece.raster, piece.zMin}, range, range.count() == 1 ? Opening::Transient : Opening::Shared), piece_(piece) {}
 
  private:
   HideNodes open(const BucketRange& within) override {
@@ -118,8 +125,13 @@ class PatchesNode : public OpeningNode {
  private:
   PatchesNode(HideContext& context, const Placement& place, const BucketRange& range, int object, Tree tree, uint32_t level,
               uint32_t index)
-      : OpeningNode(context, place, range, range.count() == 1 || isDense(place.raster, *tree, level)), object_(object), tree_(std::move(tree)),
+      : OpeningNode(context, place, range, openingOf(place.raster, range, *tree, level)), object_(object), tree_(std::move(tree)),
         level_(level), index_(index) {}
+
+  static Opening openingOf(const Bound2& raster, const BucketRange& range, const PatchTree& tree, uint32_t level) {
+    if (isDense(raster, tree, level)) return level == 0 ? Opening::AtOnce : Opening::Transient;
+    return range.count() == 1 ? Opening::Transient : Opening::Shared;
+  }
 
   static bool isDense(const Bound2& b, const PatchTree& tree, uint32_t level) {
     const vec2 size = b.hi - b.lo;
@@ -197,7 +209,7 @@ class ProceduralNode : public OpeningNode {
 
  private:
   ProceduralNode(HideContext& context, const Placement& place, const BucketRange& range, const Procedural& procedural)
-      : OpeningNode(context, place, range, false), procedural_(procedural) {}
+      : OpeningNode(context, place, range, Opening::Shared), procedural_(procedural) {}
 
   HideNodes open(const BucketRange& within) override {
     Expansion inside = context_.scene.opened(procedural_);

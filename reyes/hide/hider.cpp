@@ -7,7 +7,7 @@
 namespace tomales {
 namespace {
 
-constexpr size_t kManyGrids = 4096;
+constexpr size_t kManyGrids = 1024;
 
 /// Key times of a grid as fractions of the shutter; none if it is still.
 std::vector<float> shutterTimes(const Scene& scene, const Grid& grid) {
@@ -42,16 +42,15 @@ Hider::Hider(const Scene& scene, const Camera& camera, const SamplePattern& patt
 Hider::~Hider() = default;
 
 bool Hider::hidden(const Bound2& raster, float zMin) const {
-  // What is in the bound may reach out of it when its border is pushed.
-  const vec2 reach(kMaxReach_px + 1 / kLattice);
+  // Vertices are snapped.
+  const vec2 reach(1 / kLattice);
   const SampleBuffer& s = impl_->samples;
-  return s.hides(s.touched(raster.lo - reach, raster.hi + reach), impl_->camera.leastDepthKey(zMin));
+  return s.hides(Bound2{raster.lo - reach, raster.hi + reach}, impl_->camera.leastDepthKey(zMin));
 }
 
 void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
   SampleBuffer& s = impl_->samples;
-  const PixelRect pixels = s.touched(raster->bound.lo, raster->bound.hi);
-  if (s.hides(pixels, raster->dMin)) return;
+  if (s.hides(raster->bound, raster->dMin)) return;
   impl_->dropUnseen();
   const GridTable::Entry& entry = impl_->grids.add(raster, shutterTimes(impl_->scene, *raster->grid));
   const RasterJob job{*raster, impl_->grids, entry.firstCell, entry.keyTimes, impl_->camera, s};
@@ -61,7 +60,7 @@ void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
   } else {
     rasterizeStill(job);
   }
-  s.settle(pixels);
+  s.settle(s.touched(raster->bound.lo, raster->bound.hi));
 }
 
 DeepTile Hider::resolve() {

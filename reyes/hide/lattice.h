@@ -4,8 +4,6 @@
 namespace tomales {
 
 constexpr float kLattice = 1024;  ///< Lattice points in a pixel, for vertices and samples.
-constexpr float kMaxReach_px =
-    0.5f;  ///< Farthest that the border of a grid is pushed out (docs/decisions/0003).
 
 /// Nearest lattice point, by the spacing of floats between 2^13 and 2^14; the lattice is coarser beyond 4096
 /// px.

@@ -63,20 +63,33 @@ float slantOf(const vec2& direction, const float* x, const float* y, const Borde
   return length > 0 ? std::abs(along.x * direction.y - along.y * direction.x) / length : 1.0f;
 }
 
-void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, std::vector<vec2>& push) {
+float longestEdge_px(const float* x, const float* y, const Border& b) {
+  float longest = 0;
+  for (int k = 0; k < b.count; ++k) {
+    const int v = b.first + k * b.step, w = v + b.step;
+    longest = std::max(longest, glm::length(vec2(x[w] - x[v], y[w] - y[v])));
+  }
+  return longest;
+}
+
+/// least_px: what the border reaches out by where it looks straight.
+void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, float least_px, std::vector<vec2>& push) {
+  const float most_px = std::max(borderReach_px(0), least_px);
   for (int k = 0; k <= b.count; ++k) {
     const int v = b.first + k * b.step;
     const vec2 outward{x[v] - x[v + b.inward], y[v] - y[v + b.inward]};
     const float length = glm::length(outward);
     if (!(length > 0)) continue;
-    const float reach = std::clamp(kReach * sagitta_px(g, x, y, b, k), kMinReach_px, kMaxReach_px);
+    const float reach = std::clamp(kReach * sagitta_px(g, x, y, b, k), least_px, most_px);
     // Along the lattice, so that the other borders stay where they are, until the border itself has moved by as much.
     const float slant = std::max(slantOf(outward / length, x, y, b, k), kLeastSlant);
-    push[static_cast<size_t>(v)] += outward * (std::min(reach / slant, kMaxReach_px) / length);
+    push[static_cast<size_t>(v)] += outward * (std::min(reach / slant, most_px) / length);
   }
 }
 
-void pushBorders(const Grid& g, float* x, float* y) {
+/// A displaced border that neighbours sample at other places may be anywhere within a micropolygon of what they see: `mostOfDisplaced_px`
+/// limits that; 0: it is not displaced.
+void pushBorders(const Grid& g, float mostOfDisplaced_px, float* x, float* y) {
   const auto ends = [](const Grid::Piece& p) { return (p.openEdges & kAllEdges) == kAllEdges; };
   if (std::all_of(g.pieces.begin(), g.pieces.end(), ends)) return;
   const int row = g.nu + 1;
@@ -89,7 +102,8 @@ void pushBorders(const Grid& g, float* x, float* y) {
                               {kEdgeV0, first, 1, row, g.nu},
                               {kEdgeV1, first + g.nv * row, 1, -row, g.nu}};
     for (const Border& b : borders)
-      if (!(p.openEdges & b.edge)) pushBorder(g, b, x, y, push);
+      if (!(p.openEdges & b.edge))
+        pushBorder(g, b, x, y, std::max(kMinReach_px, std::min(mostOfDisplaced_px, longestEdge_px(x, y, b))), push);
     first += g.verticesOfPiece();
   }
   for (size_t v = 0; v < push.size(); ++v) x[v] += push[v].x, y[v] += push[v].y;
@@ -128,6 +142,13 @@ bool anyClipped(const Vertices& from, const Camera& camera, bool planes) {
   for (int v = 0; v < from.count; ++v)
     if (const vec3 p = from.at(v); camera.seeable(p) && camera.clips(p)) return true;
   return false;
+}
+
+/// Sign of the raster area, u before v, of what turns dP/du x dP/dv to the eye. By the shape alone, which is closed where a body is: shading
+/// normals of a micropolygon at a fold may point either way, and leave a hole (docs/decisions/0003).
+float facingSign(const Camera& camera) {
+  const vec2 o = camera.raster({0, 0, 1}), x = camera.raster({1, 0, 1}) - o, y = camera.raster({0, 1, 1}) - o;
+  return x.x * y.y - x.y * y.x > 0 ? -1.0f : 1.0f;
 }
 
 TOMALES_HOT void snap(float* __restrict x, float* __restrict y, int count) {
@@ -194,7 +215,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
   r->opaque = opaque;
   r->matte = attributes.matte;
   r->inSolid = object.solid >= 0;
-  r->sides = r->inSolid ? 2 : attributes.sides;
+  if (attributes.sides == 1 && !r->inSolid) r->facing = object.flipsNormal ? -facingSign(camera) : facingSign(camera);
   r->detail = attributes.detail;
   r->smooth = attributes.interpolation == ShadingInterpolation::Smooth;
   if (std::find(g.kept.begin(), g.kept.end(), Kept::Part) != g.kept.end()) {
@@ -205,6 +226,8 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
   const size_t stride = static_cast<size_t>(g.stride()),
                size = stride * static_cast<size_t>(g.keyCount) + 2 * kLanes;
   for (PooledVector<float>* axis : {&r->x, &r->y, &r->d}) *axis = PooledVector<float>(size, 0.0f, pool.get());
+  // What is transparent would show an overlap that wide.
+  const float mostOfDisplaced_px = opaque && attributes.displacement && object.displacementBound > 0 ? borderReach_px(object.displacementBound) : 0.0f;
   const int pieces = g.pieceCount(), count = g.verticesOfPiece();
   if (pieces > 1) r->ofPiece.resize(static_cast<size_t>(pieces));
   for (int key = 0; key < g.keyCount; ++key) {
@@ -214,7 +237,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
     const bool allSeeable = toRaster(vertices, camera, x, y, d);
     if (!r->inSolid) r->clipped |= anyClipped(vertices, camera, !scene.options.clippingPlanes.empty());
     if (r->trim) r->trimReach_px = std::max(r->trimReach_px, kMinReach_px + kTrimReach * deviation_px(g, x, y));
-    pushBorders(g, x, y);
+    pushBorders(g, mostOfDisplaced_px, x, y);
     snap(x, y, g.vertexCount());
     for (int p = 0; p < pieces; ++p) {
       const int first = p * count;
@@ -226,7 +249,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
     }
   }
   if (r->inSolid && zMin < kInfinity) r->dMin = std::min(r->dMin, camera.leastDepthKey(zMin));
-  r->trimReach_px = std::min(r->trimReach_px, kMaxReach_px);
+  r->trimReach_px = std::min(r->trimReach_px, borderReach_px(0));
   CHECK_EQ(pieces > 1 && (g.keyCount > 1 || camera.defocuses() || r->inSolid), false);
   if (g.keyCount > 1 || r->defocused) r->blur = boundBlur(*r, camera);
   return r;

@@ -32,9 +32,6 @@ void rasterizeStill(const RasterJob& job);
 /// point of the lens.
 void rasterizeBlurred(const RasterJob& job);
 
-/// Sides 1: does the cell turn its RISpec normal away from the eye?
-bool turnedAway(const RasterJob& job, int a);
-
 /// What trim curves, clipping and levels of detail leave of a cell of the job's grid.
 inline Kept keptOf(const RasterJob& job, int cell) {
   const std::vector<Kept>& given = job.raster.grid->kept;

@@ -177,17 +177,18 @@ HWY_INLINE Floats sideOf(const SeenVertex& p, const SeenVertex& q, const SeenVer
   return hn::IfThenElse(hn::Lt(area, hn::Zero(kF)), all(-1), all(1));
 }
 
-/// Which samples the quad covers, and their depth keys.
+/// Which samples the quad covers, and their depth keys. facing: RasterGrid::facing, there and then.
 template <class B>
-HWY_INLINE Mask covers(const BlurredQuad<B>& q, const SampleVector& s, Floats focus, Floats& depth) {
+HWY_INLINE Mask covers(const BlurredQuad<B>& q, const SampleVector& s, Floats focus, Floats facing, Floats& depth) {
   const SeenVertex a = seen(q, 0, s, focus), b = seen(q, 1, s, focus), c = seen(q, 2, s, focus), d = seen(q, 3, s, focus);
   const Floats ab = edge(a, b, q.swapped[0], s), bc = edge(b, c, q.swapped[1], s), ca = edge(c, a, q.swapped[2], s);
   const Floats bd = edge(b, d, q.swapped[3], s), dc = edge(d, c, q.swapped[4], s);
   const Floats side0 = sideOf(a, b, c), side1 = sideOf(b, d, c);
+  const auto faces = [facing](Floats side) { return hn::Ge(hn::Mul(facing, side), hn::Zero(kF)); };
   const Mask in0 = hn::And(hn::And(inside(ab, q.swapped[0], side0), inside(bc, q.swapped[1], side0)),
-                           inside(ca, q.swapped[2], side0));
+                           hn::And(inside(ca, q.swapped[2], side0), faces(side0)));
   const Mask in1 = hn::And(hn::And(inside(bd, q.swapped[3], side1), inside(dc, q.swapped[4], side1)),
-                           inside(hn::Neg(bc), !q.swapped[1], side1));
+                           hn::And(inside(hn::Neg(bc), !q.swapped[1], side1), faces(side1)));
   const Floats p = hn::IfThenElse(in0, bc, dc), r = hn::IfThenElse(in0, ca, hn::Neg(bc)), t = hn::IfThenElse(in0, ab, bd);
   const Floats pd = hn::IfThenElse(in0, a.d, b.d), rd = hn::IfThenElse(in0, b.d, d.d);
   const Floats weighted = hn::Add(hn::Add(hn::Mul(p, pd), hn::Mul(r, rd)), hn::Mul(t, c.d));
@@ -238,14 +239,13 @@ class Descent {
   void meet(int i, int j, const SampleList& samples) {
     const Grid& g = *job_.raster.grid;
     const int a = j * (g.nu + 1) + i;
-    if (job_.raster.sides == 1 && turnedAway(job_, a)) return;
     const Kept kept = keptOf(job_, j * g.nu + i);
     if (kept == Kept::None) return;
     const BlurredQuad<B> quad(job_.raster, key_, a);
     const uint32_t cell = job_.firstCell + static_cast<uint32_t>(j * g.nu + i);
     for (size_t k = 0; k < samples.count; k += hn::Lanes(kF)) {
       Floats depth;
-      const Mask in = hn::And(covers(quad, loadSamples<B>(samples, k), all(focus_), depth), hn::FirstN(kF, samples.count - k));
+      const Mask in = hn::And(covers(quad, loadSamples<B>(samples, k), all(focus_), all(job_.raster.facing), depth), hn::FirstN(kF, samples.count - k));
       HWY_ALIGN float depths[kLanes];
       hn::Store(depth, kF, depths);
       for (uint64_t left = bitsOf(in); left; left &= left - 1) {

@@ -56,7 +56,8 @@ HWY_INLINE void setBounds(const float v[4][kLanes], float* lo, float* hi) {
   }
 }
 
-HWY_INLINE void setTriangles(QuadBlock& q) {
+/// facing: RasterGrid::facing
+HWY_INLINE void setTriangles(QuadBlock& q, float facing) {
   for (int i = 0; i < kLanes; ++i) {
     const float ax = q.x[0][i], bx = q.x[1][i], cx = q.x[2][i], dx = q.x[3][i];
     const float ay = q.y[0][i], by = q.y[1][i], cy = q.y[2][i], dy = q.y[3][i];
@@ -71,9 +72,9 @@ HWY_INLINE void setTriangles(QuadBlock& q) {
     q.dc.set(i, dx, dy, cx, cy, side1);
     q.fold[i] = -side0 * side1;
     q.foldLimit[i] = (q.bc.limit[i] < 0 ? -1.0f : 1.0f) * q.fold[i] > 0 ? 0.0f : -kTiny;
-    // A triangle without area has no inside.
-    q.ab.limit[i] = area0 == 0 ? FLT_MAX : q.ab.limit[i];
-    q.bd.limit[i] = area1 == 0 ? FLT_MAX : q.bd.limit[i];
+    // A triangle without area has no inside, and one that turns away is not seen.
+    q.ab.limit[i] = (area0 == 0) | (facing * side0 < 0) ? FLT_MAX : q.ab.limit[i];
+    q.bd.limit[i] = (area1 == 0) | (facing * side1 < 0) ? FLT_MAX : q.bd.limit[i];
     const float inverse0 = 1.0f / (area0 == 0 ? 1.0f : area0), inverse1 = 1.0f / (area1 == 0 ? 1.0f : area1);
     q.gx0[i] = ((bd - ad) * (cy - ay) - (cd - ad) * (by - ay)) * inverse0;
     q.gy0[i] = ((cd - ad) * (bx - ax) - (bd - ad) * (cx - ax)) * inverse0;
@@ -99,7 +100,7 @@ HWY_INLINE uint64_t setUp(QuadBlock& q, const RasterGrid& r, int first, int row,
   if (touching == 0) return 0;
   loadCorners(q.d, r.d.data() + first, row);
   setBounds(q.d, q.dMin, q.dMax);
-  setTriangles(q);
+  setTriangles(q, r.facing);
   return touching;
 }
 
@@ -225,7 +226,6 @@ void rasterizeRun(const RasterJob& job, int first, int end, QuadBlock& q) {
       if (u == g.nu) continue;
       const int index = v * g.nu + u;
       if (!g.isCell(index)) continue;
-      if (r.sides == 1 && turnedAway(job, a)) continue;
       const Kept kept = keptOf(job, index);
       if (kept == Kept::None) continue;
       const uint32_t cell = job.firstCell + static_cast<uint32_t>(index);

@@ -104,4 +104,20 @@ bool SampleBuffer::hides(const PixelRect& pixels, float d) const {
   return true;
 }
 
+bool SampleBuffer::hides(const Bound2& bound, float d) const {
+  const PixelRect pixels = touched(bound.lo, bound.hi);
+  if (pixels.width() * pixels.height() > kFew_px) return hides(pixels, d);
+  const size_t width = static_cast<size_t>(lanes);
+  for (int row = pixels.y0; row < pixels.y1; ++row)
+    for (int column = pixels.x0; column < pixels.x1; ++column) {
+      const size_t pixel = pixelIndex(column, row), first = pixel * width;
+      if (far[pixel] < d) continue;
+      int seeing = 0;
+      for (size_t i = first; i < first + width; ++i)
+        seeing |= (x[i] >= bound.lo.x) & (x[i] <= bound.hi.x) & (y[i] >= bound.lo.y) & (y[i] <= bound.hi.y) & (depth[i] >= d);
+      if (seeing) return false;
+    }
+  return true;
+}
+
 }  // namespace tomales

@@ -89,8 +89,12 @@ struct SampleBuffer {
   std::vector<uint32_t> seen() const;
   /// Is every sample of the pixels nearer than depth key d?
   bool hides(const PixelRect& pixels, float d) const;
+  /// Is every sample within a raster bound? Those of a few pixels are asked one by one, as what is smaller than their distance lies mostly
+  /// between them.
+  bool hides(const Bound2& bound, float d) const;
 
  private:
+  static constexpr int kFew_px = 4;
   const SamplePattern& pattern_;
   const vec2 lens_;
   std::vector<int> patternAt_;  ///< A pixel

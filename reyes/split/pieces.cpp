@@ -12,11 +12,12 @@ constexpr int kMaxDepth = 48;     ///< Halvings of one patch; beyond, the piece 
 /// ever be culled.
 constexpr float kSlack = 8;
 constexpr int kSlackDepth = 8;
-constexpr float kRasterMargin_px = 1.0f;  ///< The hider may push borders out by half a pixel.
 /// Pieces that one patch may visit: so many times those that cover the window once, and some for small windows. Only
-/// coordinates beyond float's precision or reach, which no halving makes small, come near it.
-constexpr double kLayersOfPatch = 64;
-constexpr double kLeastBudget = 1 << 16;
+/// coordinates beyond float's precision or reach, which no halving makes small, come near it. Patches of one object share what
+/// exceeds the least, or a mesh of them would take hours.
+constexpr double kLayersOfObject = 64, kLayersOfPatch = 4;
+constexpr double kVisitsOfObject = 1 << 16, kVisitsOfPatch = 1 << 12;
+constexpr float kRounding_px = 0.01f;  ///< Of projecting a box or its points.
 /// Lazily, a patch is halved so often, and what then has so many grids or more is a coarse piece.
 constexpr int kHalvingsAtOnce = 6;
 constexpr int64_t kGridsOfCoarse = 64;
@@ -61,6 +62,22 @@ std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
   return {a, b};
 }
 
+/// With what the hider may add to it: at a corner both borders are pushed.
+Bound2 rasterOf(const Bound3& bound, float reach_px, const Camera& camera, const Bound2& throughTheEye = {}) {
+  Bound2 raster;
+  if (!camera.rasterBound(bound, raster)) raster = throughTheEye;
+  const vec2 margin(2 * reach_px + kRounding_px);
+  return {raster.lo - margin, raster.hi + margin};
+}
+
+/// Is a patch bent nowhere, nor shaded as if it were? As a single cell it then reaches farther only by what closes T-vertices, and most small
+/// ones are missed by all samples.
+bool isFlat(const Object& o, uint32_t patch) {
+  const std::vector<Primvar>& primvars = o.shape().primvars();
+  return o.displacementBound <= 0 && o.shape().info(patch).planar &&
+         std::none_of(primvars.begin(), primvars.end(), [](const Primvar& p) { return p.name == "N"; });
+}
+
 /// Splits the patches of one object.
 class Splitter {
  public:
@@ -75,26 +92,39 @@ class Splitter {
 
   /// size: what measure() says of the whole patch.
   void splitPatch(uint32_t patch, const PatchSize& size, std::vector<SubPatch>& out) {
-    const double window_px = static_cast<double>(window_.width()) * window_.height();
-    budget_ = static_cast<int64_t>(kLeastBudget + kLayersOfPatch * window_px / (double{edge_px_} * edge_px_ * gridSize_));
-    split(patch, UvRect{}, 0, &size, out);
+    const double window_px = static_cast<double>(window_.width()) * window_.height(), patches = object_.shape().patchCount();
+    const double layers = std::max(kLayersOfObject / patches, kLayersOfPatch), least = std::max(kVisitsOfObject / patches, kVisitsOfPatch);
+    splitWithin(static_cast<int64_t>(least + layers * window_px / (double{edge_px_} * edge_px_ * gridSize_)), patch, UvRect{}, 0, &size, out);
   }
   void splitPiece(const SubPatch& coarse, std::vector<SubPatch>& out) {
-    start_ = coarse.depth;
-    budget_ = kGridsOfCoarse + static_cast<int64_t>(kLayersOfPatch) * gridsOf(coarse.nu, coarse.nv);
-    split(coarse.patch, coarse.rect, coarse.depth, nullptr, out);
+    splitWithin(coarse.visits, coarse.patch, coarse.rect, coarse.depth, nullptr, out);
   }
 
   const GivenUp& givenUp() const { return givenUp_; }
 
  private:
+  /// Coarse pieces inherit what is left of the visits, in proportion to the grids that they may show: however deep they are nested, a
+  /// patch takes no more than it was given.
+  void splitWithin(int64_t visits, uint32_t patch, const UvRect& rect, int depth, const PatchSize* measured, std::vector<SubPatch>& out) {
+    const auto first = static_cast<ptrdiff_t>(out.size());
+    start_ = depth, budget_ = visits, flat_ = isFlat(object_, patch);
+    split(patch, rect, depth, measured, out);
+    const auto share = [this](const SubPatch& p) { return p.coarse ? static_cast<double>(std::min(gridsOf(p.nu, p.nv), gridsInView(p.raster))) : 0.0; };
+    double shares = 0;
+    for (auto p = out.begin() + first; p != out.end(); ++p) shares += share(*p);
+    for (auto p = out.begin() + first; p != out.end(); ++p)
+      if (p->coarse) p->visits = static_cast<int64_t>(share(*p) / shares * static_cast<double>(budget_));
+    stats_.geometry.piecesVisited += visits - budget_;
+  }
+
   /// measured: null if nobody has yet.
   void split(uint32_t patch, const UvRect& rect, int depth, const PatchSize* measured, std::vector<SubPatch>& out) {
     if (stop_ && stop_->load(std::memory_order_relaxed)) return;
-    if (budget_-- <= 0) {
+    if (budget_ <= 0) {
       ++givenUp_.tooMany;
       return;
     }
+    --budget_;
     Bound3 bare = cameraBound(object_, patch, rect);
     if (cannotBeSeen(bare) || object_.shape().kept(patch, rect) == Kept::None) {
       ++stats_.geometry.culled;
@@ -115,13 +145,11 @@ class Splitter {
     if (static_cast<int64_t>(nu) * nv <= gridSize_) {
       // What moves through the eye plane does so however small it is; it is seen while it stays in front.
       if (crossesEye && !still) ++givenUp_.atEye;
-      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound), bound.lo.z, crossesEye, depth, false});
+      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, nu, nv), bound.lo.z, crossesEye, depth, false});
     } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && gridsOf(nu, nv) >= kGridsOfCoarse && !crossesEye &&
                glm::length(bare.size()) <= kSlack * reach) {
       // Halving shrinks such a piece and its bound as it should, so that its grids can be foretold.
-      const Bound2 raster = rasterOf(bound);
-      budget_ -= std::min(gridsOf(nu, nv), gridsInView(raster));
-      out.push_back({index_, patch, rect, nu, nv, raster, bound.lo.z, crossesEye, depth, true});
+      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, nu, nv), bound.lo.z, crossesEye, depth, true});
     } else if (depth == kMaxDepth) {
       ++(bound.lo.z < glm::length(bound.size()) ? givenUp_.atEye : givenUp_.tooMany);
     } else {
@@ -150,11 +178,10 @@ class Splitter {
   bool crosses(const Bound3& bare) const { return camera_.perspective() && bare.lo.z < camera_.eyePlane(); }
 
   /// Of what lies beyond the near plane.
-  Bound2 rasterOf(Bound3 bound) const {
+  Bound2 rasterOf(Bound3 bound, int nu, int nv) const {
+    constexpr float kFlatReach_px = 0.05f;
     if (camera_.perspective()) bound.lo.z = std::max(bound.lo.z, camera_.nearClip());
-    Bound2 raster;
-    camera_.rasterBound(bound, raster);
-    return {raster.lo - vec2(kRasterMargin_px), raster.hi + vec2(kRasterMargin_px)};
+    return tomales::rasterOf(bound, flat_ && nu * nv == 1 ? kFlatReach_px : borderReach_px(object_.displacementBound), camera_);
   }
 
   /// How much longer than the shading rate asks the edges may be: a micropolygon's width up to a quarter of the circle
@@ -177,7 +204,8 @@ class Splitter {
   const StopFlag stop_;
   const float edge_px_;
   int start_ = 0;       ///< Depth of what is being split.
-  int64_t budget_ = 0;  ///< Pieces that the patch may still visit.
+  int64_t budget_ = 0;  ///< Pieces that may still be visited.
+  bool flat_ = false;   ///< The patch
   GivenUp givenUp_;
 };
 
@@ -205,11 +233,7 @@ std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObj
   const Placement anywhere{{{window.x0, window.y0}, {window.x1, window.y1}}, -kInfinity};
   if (!isFinite(bound.lo) || !isFinite(bound.hi)) return anywhere;  // one bad patch must not take its neighbours along
   if (clipped ? camera.outside(bound, window) : camera.outsideWindow(bound, window)) return std::nullopt;
-  Placement out{{}, bound.lo.z};
-  if (!camera.rasterBound(bound, out.raster)) out.raster = anywhere.raster;
-  out.raster.lo -= vec2(kRasterMargin_px);
-  out.raster.hi += vec2(kRasterMargin_px);
-  return out;
+  return Placement{rasterOf(bound, borderReach_px(margin), camera, anywhere.raster), bound.lo.z};
 }
 
 namespace {

@@ -1,4 +1,6 @@
 // Closed bodies in front of nothing: a sample inside the silhouette that sees nothing looks through a crack.
+#include <fmt/format.h>
+
 #include "tests/unit/frame/hidden_body.h"
 
 namespace tomales {
@@ -48,6 +50,28 @@ constexpr const char* kSplineTorus =
 const std::string kBumpyCube = std::string(kDisplace) + kCube, kBumpyTorus = std::string(kDisplace) + kTorus,
                   kBumpyNurbs = std::string(kDisplace) + kNurbsSphere;
 
+/// Two poles of 60 slivers each, whose neighbours hardly ever have the same rate.
+std::string bipyramid() {
+  constexpr int kCount = 60;
+  std::string counts, faces, points = "0 0 1 0 0 -1 ";
+  for (int k = 0; k < kCount; ++k) {
+    const float angle = 2 * kPi * static_cast<float>(k) / kCount;
+    const int a = 2 + k, b = 2 + (k + 1) % kCount;
+    counts += "3 3 ";
+    faces += fmt::format("0 {0} {1} 1 {1} {0} ", a, b);
+    points += fmt::format("{:.5f} {:.5f} 0 ", std::cos(angle), std::sin(angle));
+  }
+  return "SubdivisionMesh \"catmull-clark\" [" + counts + "] [" + faces + "] [] [] [] [] \"P\" [" + points + "] ";
+}
+
+/// A tube between two ends with sharp rims, whose sides and caps are displaced apart, and one that closes on itself.
+constexpr const char* kTube =
+    "Attribute \"dice\" \"int roundcurve\" [1] Curves \"cubic\" [4] \"nonperiodic\" \"P\" [-1.2 -0.6 0 -0.4 0.9 0 0.4 -0.9 0 1.2 0.6 0] "
+    "\"constantwidth\" [0.6]";
+constexpr const char* kRing =
+    "Attribute \"dice\" \"int roundcurve\" [1] Basis \"b-spline\" 1 \"b-spline\" 1 Curves \"cubic\" [6] \"periodic\" \"P\" [1.4 0 0  0.7 "
+    "0.5 1.2  -0.7 -0.3 1.2  -1.4 0 0  -0.7 0.5 -1.2  0.7 -0.3 -1.2] \"constantwidth\" [0.5]";
+
 struct Body {
   const char* name;
   std::string rib;
@@ -85,6 +109,26 @@ TEST_P(Crack, NoneWhenItMovesOrIsOutOfFocus) {
   EXPECT_GT(blurred.inside_px, 500);
   EXPECT_EQ(blurred.samples, 0);
 }
+
+/// Bumps finer than a micropolygon, at rates from far too fine to far too coarse.
+class DisplacedCrack : public testing::TestWithParam<Body> {};
+
+TEST_P(DisplacedCrack, NoneHoweverFarMicropolygonsMissTheBumps) {
+  const std::string shader =
+      "Attribute \"displacementbound\" \"float sphere\" [0.2] Displacement \"noisybump\" \"float Km\" [0.12] \"float frequency\" [3] "
+      "\"float octaves\" [4] ";
+  for (const char* rate : {"0.5", "1", "4", "16", "100"}) {
+    const Holes found = holes(hide("ShadingRate " + std::string(rate) + " " + shader + GetParam().rib, {}, "Sides 1 Translate 0 0 4.5 Rotate 30 1 0.3 0 "));
+    EXPECT_GT(found.inside_px, 700);
+    EXPECT_EQ(found.samples, 0) << "rate " << rate;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Bodies, DisplacedCrack,
+                         testing::Values(Body{"Sphere", kSphere}, Body{"Torus", kTorus}, Body{"SubdivisionCube", kCube},
+                                         Body{"NurbsSphere", kNurbsSphere}, Body{"BSplineTorus", kSplineTorus},
+                                         Body{"Slivers", bipyramid()}, Body{"Tube", kTube}, Body{"Ring", kRing}),
+                         [](const auto& p) { return p.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(Bodies, Crack,
                          testing::Values(Body{"Sphere", kSphere}, Body{"Torus", kTorus},

@@ -168,8 +168,10 @@ TEST(Facing, OneSidedSurfacesHideTheirBack) {
   const SamplePattern pattern(2, 2, true, 0);
   const auto g = makeGrid(0, 1, 4, 4, rectangle(0, 0, 8, 8));
   EXPECT_EQ(coverage(hide(w, pattern, {0, 0, 8, 8}, {raster(w, g)}), 3, 3, 4), 1);
-  std::fill_n(g->N(2), g->vertexCount(), 1.0f);
-  EXPECT_EQ(coverage(hide(w, pattern, {0, 0, 8, 8}, {raster(w, g)}), 3, 3, 4), 0);
+  std::fill_n(g->N(2), g->vertexCount(), 1.0f);  // Shading normals do not matter.
+  EXPECT_EQ(coverage(hide(w, pattern, {0, 0, 8, 8}, {raster(w, g)}), 3, 3, 4), 1);
+  const auto back = makeGrid(0, 1, 4, 4, rectangle(8, 0, 0, 8));
+  EXPECT_EQ(coverage(hide(w, pattern, {0, 0, 8, 8}, {raster(w, back)}), 3, 3, 4), 0);
 }
 
 TEST(Facing, UnderPerspectiveIsDecidedAtThePoint) {
@@ -181,14 +183,17 @@ TEST(Facing, UnderPerspectiveIsDecidedAtThePoint) {
   oneSided.sides = 1;
   w.add(oneSided);
   w.freeze();
-  // Both walls of a corridor lean away in N.z, but face the eye.
-  const auto g = makeGrid(0, 1, 4, 4, [](float u, float v, int) { return vec3(1, v - 0.5f, 2 + 2 * u); });
-  for (int k = 0; k < g->vertexCount(); ++k) g->N(0)[k] = -1, g->N(2)[k] = 0.1f;
+  // Both walls of a corridor that widens lean away in N.z, but face the eye.
+  const auto wall = [](float near, float far) {
+    return makeGrid(0, 1, 4, 4, [=](float u, float v, int) {
+      const float z = near + u * (far - near);
+      return vec3(1 + 0.1f * z, v - 0.5f, z);
+    });
+  };
   const SamplePattern pattern(2, 2, true, 0);
   const PixelRect rect{0, 0, 64, 64};
-  EXPECT_FALSE(hide(w, pattern, rect, {raster(w, g)}).fragments.empty());
-  for (int k = 0; k < g->vertexCount(); ++k) g->N(0)[k] = 1, g->N(2)[k] = -0.1f;
-  EXPECT_TRUE(hide(w, pattern, rect, {raster(w, g)}).fragments.empty());
+  EXPECT_FALSE(hide(w, pattern, rect, {raster(w, wall(2, 4))}).fragments.empty());
+  EXPECT_TRUE(hide(w, pattern, rect, {raster(w, wall(4, 2))}).fragments.empty());
 }
 
 }  // namespace

@@ -193,6 +193,67 @@ TEST(Definition, OfRationalBSplinesOfOrdersTwoToTen) {
   }
 }
 
+TEST(Definition, OfFlatPolygons) {
+  Problems none;
+  const glm::dvec3 a(0, 0, 1), b(2, 0.5, 2), c(2.5, 2, 2.25), d(0.5, 1.5, 1.25);  // a + c = b + d: flat
+  const auto corners = [](const std::vector<glm::dvec3>& p) {
+    std::vector<float> out;
+    for (const glm::dvec3& q : p) out.insert(out.end(), {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)});
+    return positions(out);
+  };
+  expectDefinition(*makePolygons({4}, {0, 1, 2, 3}, {corners({a, b, c, d})}, none), 0,
+                   [&](double u, double v) { return glm::mix(glm::mix(a, b, u), glm::mix(d, c, u), v); }, 1000);
+}
+
+/// A circle whose start and sense are free, as its first point and that of a quarter say.
+struct Circle {
+  double start, sense;
+  Circle(const vec2& first, const vec2& quarter)
+      : start(std::atan2(double{first.y}, double{first.x})), sense(std::sin(std::atan2(double{quarter.y}, double{quarter.x}) - start) > 0 ? 1 : -1) {}
+  glm::dvec2 at(double t) const { return {std::cos(start + sense * 2 * M_PI * t), std::sin(start + sense * 2 * M_PI * t)}; }
+};
+
+TEST(Definition, OfPointsThatAreDisks) {
+  Problems none;
+  const PrimPtr disk = makePoints({positions({1, 2, 3}), floats("constantwidth", Storage::Constant, ValueType::Float, {3}),
+                                   floats("N", Storage::Vertex, ValueType::Normal, {0, 0, 1})}, none);
+  // The square -1..1 onto the disk by P. Nowell's elliptical mapping; how it is turned is free.
+  const glm::dvec3 centre(1, 2, 3), right = glm::dvec3(sampleAt(*disk, 0, 1, 0.5f).p) - centre, up = glm::dvec3(sampleAt(*disk, 0, 0.5f, 1).p) - centre;
+  EXPECT_NEAR(glm::length(right), 1.5, 1e-6);
+  EXPECT_NEAR(glm::length(glm::cross(right, up)), 1.5 * 1.5, 1e-5);
+  expectDefinition(*disk, 0, [&](double u, double v) {
+    const double a = 2 * u - 1, b = 2 * v - 1;
+    return centre + a * std::sqrt(1 - b * b / 2) * right + b * std::sqrt(1 - a * a / 2) * up;
+  }, 1000);
+}
+
+TEST(Definition, OfPointsThatAreSpheres) {
+  Problems none;
+  Param type = floats("type", Storage::Uniform, ValueType::String, {});
+  type.strings = {"sphere"};
+  const PrimPtr ball = makePoints({positions({1, 2, 3}), floats("constantwidth", Storage::Constant, ValueType::Float, {3}), type}, none);
+  const auto from = [&](float u) { return vec2(sampleAt(*ball, 0, u, 0.5f).p) - vec2(1, 2); };
+  const Circle circle(from(0), from(0.25f));
+  const double up = sampleAt(*ball, 0, 0, 1).p.z > 3 ? 1 : -1;
+  expectDefinition(*ball, 0, [&](double u, double v) {
+    const double phi = up * M_PI * (v - 0.5);
+    return glm::dvec3(glm::dvec2(1, 2) + 1.5 * std::cos(phi) * circle.at(u), 3 + 1.5 * std::sin(phi));
+  }, 1000);
+}
+
+TEST(Definition, OfStraightCurves) {
+  Problems none;
+  const Param line = positions({1, 2, 0, 1, 2, 4}), wide = floats("constantwidth", Storage::Constant, ValueType::Float, {0.5f});
+  const Param n = floats("N", Storage::Constant, ValueType::Normal, {0, 1, 0});
+  const PrimPtr ribbon = makeCurves(false, bezierBasis(), {2}, false, {line, wide, n}, none);
+  const double left = sampleAt(*ribbon, 0, 0, 0).p.x < 1 ? 1 : -1;
+  expectDefinition(*ribbon, 0, [&](double u, double v) { return glm::dvec3(1 + left * 0.5 * (u - 0.5), 2, 4 * v); }, 1000);
+  const PrimPtr tube = makeTubes(false, bezierBasis(), {2}, false, {line, wide}, none);
+  const auto from = [&](float u) { return vec2(sampleAt(*tube, 0, u, 0).p) - vec2(1, 2); };
+  const Circle circle(from(0), from(0.25f));
+  expectDefinition(*tube, 0, [&](double u, double v) { return glm::dvec3(glm::dvec2(1, 2) + 0.25 * circle.at(u), 4 * v); }, 1000);
+}
+
 /// Volume within the diced surface, by the divergence theorem.
 double dicedVolume(const Prim& prim, int side) {
   double volume = 0;

@@ -74,6 +74,62 @@ TEST(Split, SplittingLazilyEndsInTheSamePieces) {
   }
 }
 
+/// All pieces, lazily; the visits that took.
+int64_t visitsOf(const Scene& scene, Log& log) {
+  const Camera camera(scene.options);
+  Stats stats;
+  const uint32_t patch = 0;
+  std::vector<SubPatch> pieces = splitPatches(scene, 0, {&patch, 1}, camera, camera.crop(), stats, log, Splitting::Lazily);
+  while (!pieces.empty()) {
+    const SubPatch piece = pieces.back();
+    pieces.pop_back();
+    if (!piece.coarse) continue;
+    const std::vector<SubPatch> finer = splitPiece(scene, piece, camera, camera.crop(), stats, log);
+    pieces.insert(pieces.end(), finer.begin(), finer.end());
+  }
+  return stats.geometry.piecesVisited;
+}
+
+TEST(Split, AllPiecesOfAPatchTogetherHaveABudgetHoweverDeepTheyAreNested) {
+  constexpr int64_t kBudget = (1 << 16) + 64 * 64;  // The window of 128 x 128 takes 64 grids.
+  Problems problems;
+  int cut = 0;
+  for (const size_t k : {0, 17, 47})
+    for (const float far : {2147483647.0f, -3e5f}) {
+      Param P;
+      P.name = "P", P.type = ValueType::Point, P.storage = Storage::Vertex;
+      P.floats.assign(48, 0);
+      P.floats[k] = far;
+      Scene scene = sceneOf({makeBicubicPatchMesh(4, false, bezierBasis(), 4, false, bezierBasis(), {P}, problems)}, translation({0, 0, 5}));
+      scene.objects[0].displacementBound = 0.2f;
+      Log log(Log::Verbosity::Quiet);
+      EXPECT_LE(visitsOf(scene, log), kBudget) << k;
+      cut += log.worst() == Severity::Missing;
+    }
+  Scene endless = sceneOf({sphere(1e9f)}, translation({0, 0, 1e9f}));
+  endless.objects[0].displacementBound = 1e5f;
+  Log log(Log::Verbosity::Quiet);
+  EXPECT_LE(visitsOf(endless, log), kBudget);
+  EXPECT_GT(cut + (log.worst() == Severity::Missing), 0) << "what is cut short is reported";
+}
+
+TEST(Split, PatchesOfOneObjectShareABudget) {
+  // A fan of patches that all reach out of floats' precision.
+  Problems problems;
+  Param P;
+  P.name = "P", P.type = ValueType::Point, P.storage = Storage::Vertex;
+  const int n = 5;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i)
+      for (const float x : {(i % 2 ? 1e9f : -1e9f) * static_cast<float>(j), (j % 2 ? 1e9f : -1e9f), 3.0f * static_cast<float>(i + j)}) P.floats.push_back(x);
+  const Scene scene = sceneOf({makeBilinearPatchMesh(n + 1, false, n + 1, false, {P}, problems)}, translation({0, 0, 5}));
+  Stats stats;
+  Log log(Log::Verbosity::Quiet);
+  split(scene, stats, log);
+  EXPECT_LE(stats.geometry.piecesVisited, n * n * (4096 + 4 * 64));
+  EXPECT_EQ(log.worst(), Severity::Missing);
+}
+
 Scene outOfFocus(Scene scene) {
   scene.options.fStop = 1, scene.options.focalLength = 0.8f, scene.options.focalDistance = 6;
   return scene;
