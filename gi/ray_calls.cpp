@@ -10,7 +10,7 @@ namespace {
 ShadeContext contextOfHits(const Attributes& own, const RayQuery& query, const ShadeContext& context) {
   ShadeContext hit = context;
   hit.kind = query.kind;
-  hit.label = query.label;
+  hit.label = query.label, hit.lampsGlow = query.lampsGlow;
   hit.diffuseLimit = std::min(context.diffuseLimit, context.depth + own.trace.maxDiffuseDepth);
   hit.specularLimit = std::min(context.specularLimit, context.specularDepth + own.trace.maxSpecularDepth);
   if (query.kind == RayKind::Diffuse) {

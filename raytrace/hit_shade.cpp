@@ -164,7 +164,7 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
     for (size_t k = first; k < last; ++k) addPoint(scene, rays[order[k]], hits[order[k]], names[order[k]], points);
     const bool shades = answers.wantsColor && answers.mode.value_or(modeOf(attributes, context.kind)) == HitMode::Shader;
     if (shades) shading.shade(points, hitContext, shaded);
-    const vec3 emission = diffuse ? vec3(0) : shading.visibleEmission(g);
+    const vec3 emission = diffuse || !context.lampsGlow ? vec3(0) : shading.visibleEmission(g);
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = order[k];
       const int p = static_cast<int>(k - first);

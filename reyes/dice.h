@@ -1,11 +1,13 @@
-// Verb: a rectangle of a patch -> Grid. Evaluates one primitive on a regular lattice, at every motion key.
-//   in     object, patch, rectangle and counts that split.h (or a ray tessellator) chose
+// Verb: rectangles of patches -> Grid. Evaluates one primitive on regular lattices of equal counts, at every motion key.
+//   in     object, patches, rectangles and counts that split.h (or a ray tessellator) chose
 //   out    vertices: P in camera space per key, N, (u,v) and every primitive variable
 //   never  projects, culls, displaces or shades
 // Crack rule: a vertex on an edge depends only on the edge's parameters and its count along it, so neighbours with equal
 // counts agree bit for bit; unequal counts are closed by the hider (docs/decisions/0003).
 // Threads: concurrent calls are safe.
 #pragma once
+#include <span>
+
 #include "reyes/grid.h"
 #include "reyes/points.h"
 
@@ -17,11 +19,11 @@ struct DiceKeys {
   const Motion& currentFromObject;
 };
 
-Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, const DiceKeys& at,
-          Pool* pool = nullptr);
-/// pool: where the vertices are kept. keys: how many of the object's keyTimes to evaluate, as the camera sees them (all, or 1 for shutter open).
-Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, int keys,
-          Pool* pool = nullptr);
+/// pool: where the vertices are kept. Every piece has the vertices that it has alone.
+Grid dice(const Scene& scene, int object, std::span<const PatchPiece> pieces, int nu, int nv, const DiceKeys& at, Pool* pool = nullptr);
+Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, const DiceKeys& at);
+/// keys: how many of the object's keyTimes to evaluate, as the camera sees them (all, or 1 for shutter open).
+Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, int keys);
 
 /// A point of the true surface at shutter open, in current space; derivatives by the patch's own u and v.
 struct TrueSurface {

@@ -1,5 +1,7 @@
 #include "reyes/grid.h"
 
+#include "reyes/base/check.h"
+
 namespace tomales {
 
 void Grid::allocate(int cellsU, int cellsV, int keys, int primvarFloats, Pool* pool) {
@@ -8,6 +10,7 @@ void Grid::allocate(int cellsU, int cellsV, int keys, int primvarFloats, Pool* p
 }
 
 void calculateNormals(const Grid& g, bool flip, float* nx, float* ny, float* nz) {
+  CHECK_EQ(g.pieceCount(), 1);
   const int row = g.nu + 1;
   const auto P = [&](int i, int j) { return g.position(0, j * row + i); };
   const auto differences = [&](int i, int j) {

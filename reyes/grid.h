@@ -1,5 +1,7 @@
-// Noun: one diced piece of a primitive: (nu+1) x (nv+1) vertices, nu x nv micropolygons, structure of arrays in one
-// aligned block. Vertex (i, j) has index j * (nu+1) + i, micropolygon (i, j) index j * nu + i.
+// Noun: diced pieces of one object, all of (nu+1) x (nv+1) vertices and nu x nv micropolygons, structure of arrays in one
+// aligned block. Large pieces are alone; small ones share a grid, so that what is done once a grid is done once for dozens
+// (docs/decisions/0040-stacked-grids.md). They are stacked: vertex (i, j) of piece p has index (p * (nv+1) + j) * (nu+1) + i, and
+// micropolygon (i, j) number (p * (nv+1) + j) * nu + i; numbers between the last row of a piece and the next piece name nothing.
 // A grid is diced once, shared by the buckets that its bound touches, and freed after the last of them.
 #pragma once
 #include "reyes/base/pool.h"
@@ -7,20 +9,37 @@
 
 namespace tomales {
 
-struct Grid {
-  int object = -1;          ///< In Scene::objects.
+/// A rectangle of a patch, to be diced.
+struct PatchPiece {
   uint32_t patch = 0;
   UvRect rect;
-  int nu = 0, nv = 0;       ///< Micropolygons along u and v.
-  int keyCount = 1;         ///< Motion keys of P (times: Object::keyTimes).
-  uint8_t openEdges = 0;    ///< PatchEdge bits: edges of the grid that end the surface; the rest join a neighbour.
-  bool displaced = false;
-  std::vector<Kept> kept;   ///< What trim curves and the near plane leave of each cell; empty: everything.
-  std::vector<mat3> turns;  ///< Linear part of the motion from key 0 to each key.
-  uint32_t name = 0;        ///< Stable name of the grid for random numbers.
+};
 
-  int vertexCount() const { return (nu + 1) * (nv + 1); }
-  int cellCount() const { return nu * nv; }
+struct Grid {
+  struct Piece : PatchPiece {
+    uint8_t openEdges = 0;  ///< PatchEdge bits: edges that end the surface; the rest join a neighbour.
+    uint32_t name = 0;      ///< Stable name for random numbers.
+  };
+
+  int object = -1;          ///< In Scene::objects.
+  int nu = 0, nv = 0;       ///< Micropolygons along u and v of a piece.
+  std::vector<Piece> pieces = std::vector<Piece>(1);
+  int keyCount = 1;         ///< Motion keys of P (times: Object::keyTimes).
+  bool displaced = false;
+  std::vector<Kept> kept;   ///< What trim curves and the near plane leave of each cell number; empty: everything.
+  std::vector<mat3> turns;  ///< Linear part of the motion from key 0 to each key.
+
+  int pieceCount() const { return static_cast<int>(pieces.size()); }
+  int verticesOfPiece() const { return (nu + 1) * (nv + 1); }
+  int vertexCount() const { return pieceCount() * verticesOfPiece(); }
+  /// Micropolygons.
+  int cellCount() const { return pieceCount() * nu * nv; }
+  /// Their numbers lie below this.
+  int cellNumbers() const { return (pieceCount() * (nv + 1) - 1) * nu; }
+  bool isCell(int number) const { return number / nu % (nv + 1) != nv; }
+  int pieceOfCell(int number) const { return number / (nu * (nv + 1)); }
+  /// Its number if the piece were alone.
+  int cellInPiece(int number) const { return number % (nu * (nv + 1)); }
   int stride() const { return padded(vertexCount()); }
 
   /// Arrays, each stride() floats. P in camera space.
@@ -37,13 +56,16 @@ struct Grid {
 
   /// Position on the patch of a point of a cell, given in the cell's own (u,v), 0..1.
   vec2 onPatch(int cell, const vec2& at) const {
-    return {lerp(rect.u0, rect.u1, (static_cast<float>(cell % nu) + at.x) / static_cast<float>(nu)),
-            lerp(rect.v0, rect.v1, (static_cast<float>(cell / nu) + at.y) / static_cast<float>(nv))};
+    const UvRect& rect = pieces[static_cast<size_t>(pieceOfCell(cell))].rect;
+    const int inPiece = cellInPiece(cell);
+    return {lerp(rect.u0, rect.u1, (static_cast<float>(inPiece % nu) + at.x) / static_cast<float>(nu)),
+            lerp(rect.v0, rect.v1, (static_cast<float>(inPiece / nu) + at.y) / static_cast<float>(nv))};
   }
   vec3 position(int key, int vertex) const { return {P(key, 0)[vertex], P(key, 1)[vertex], P(key, 2)[vertex]}; }
   vec3 normal(int vertex) const { return {N(0)[vertex], N(1)[vertex], N(2)[vertex]}; }
 
-  /// Sets the sizes and allocates `keys` positions, the normal, u, v and `primvarFloats` arrays, in a pool if one is given.
+  /// Sets the sizes of pieces and allocates `keys` positions, the normal, u, v and `primvarFloats` arrays for all there are, in a
+  /// pool if one is given.
   void allocate(int nu, int nv, int keys, int primvarFloats, Pool* pool = nullptr);
 
  private:
@@ -54,6 +76,7 @@ struct Grid {
 
 /// Unit normals of the surface that the vertices of motion key 0 span, by centred differences, one-sided at the border;
 /// `flip` turns them (Object::flipsNormal). Where the lattice is degenerate (a pole), the nearest defined row is used.
+/// Pre: one piece.
 void calculateNormals(const Grid& grid, bool flip, float* nx, float* ny, float* nz);
 
 }  // namespace tomales

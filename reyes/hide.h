@@ -33,8 +33,18 @@ class SamplePattern {
 
 struct BlurBounds;
 
+/// Where something is seen, over the shutter and the lens.
+struct RasterExtent {
+  Bound2 bound;
+  float dMin = kInfinity;
+  void extend(const RasterExtent& e) {
+    bound.extend(e.bound.lo), bound.extend(e.bound.hi);
+    dMin = std::min(dMin, e.dMin);
+  }
+};
+
 /// Vertices of a grid in raster space, made once a grid by `project` and shared by the buckets.
-struct RasterGrid {
+struct RasterGrid : RasterExtent {
   std::shared_ptr<const Grid> grid;
   bool opaque = true;           ///< Hides what is behind it.
   bool matte = false;
@@ -47,12 +57,11 @@ struct RasterGrid {
   std::shared_ptr<const BlurBounds> blur;  ///< Null if still and in focus.
   PooledVector<float> x, y, d;  ///< Raster x, y and depth key (Camera::depthKey): keyCount * stride each, then a tail to read blocks
                                 ///< across the end; borders pushed out.
-  float dMin = 0;
-  Bound2 bound;                 ///< Over the shutter and the lens.
+  std::vector<RasterExtent> ofPiece;  ///< Empty: one piece.
   const Prim* trim = nullptr;   ///< Asked what trim curves leave of Grid::kept cells; null: nothing is cut.
   float trimReach_px = 0;       ///< What is left reaches this much farther, to meet what a neighbour leaves.
 };
-/// Pre: every vertex of a cell that Grid::kept keeps is Camera::seeable. zMin: nearest camera z of the solid that the grid
+/// Pre: every vertex of a cell that Grid::kept keeps is Camera::seeable; several pieces are still, in focus and belong to no solid. zMin: nearest camera z of the solid that the grid
 /// belongs to. pool: where it is kept.
 std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene, const Camera& camera, bool opaque,
                                           float zMin = kInfinity, const std::shared_ptr<Pool>& pool = nullptr);

@@ -42,6 +42,7 @@ struct ShadeContext {
   int specularDepth = 0;       ///< Specular bounces between the eye and these points.
   int diffuseLimit = 1 << 20, specularLimit = 1 << 20;  ///< Depths at which no ray follows, set by the objects on the way.
   std::string label{};         ///< Of the ray that came here.
+  bool lampsGlow = true;       ///< For that ray.
   RayAnswers* answers = nullptr;  ///< Of this batch: asked before shadow and gather rays are traced. Null: all are traced.
   int chunk = 0;               ///< Set by ShadingSystem: which part of the batch is being shaded.
 };
@@ -56,6 +57,7 @@ struct RayQuery {
   std::optional<HitMode> mode;     ///< Empty: as the attributes of what is met say.
   float opacityThreshold = 1;      ///< A ray goes on behind what is transparent until this much is covered.
   int number = 0, count = 1;       ///< These are rays `number` of `count` from each point.
+  bool lampsGlow = true;           ///< Area lights are seen.
 };
 
 /// A value of what a ray met, by its RSL gather() name, into `floats` (1 or 3) arrays of the caller.
@@ -183,7 +185,7 @@ class ShadingSystem {
   bool wantsSteps(int group) const;
   /// Does its shader leave Oi = Os?
   bool keepsOpacity(int group) const;
-  /// Runs the displacement shader of the grid's object, in place; recomputes N. No-op without one.
+  /// Runs the displacement shader of the grid's object, in place; recomputes N. No-op without one. Pre: one piece, if there is one.
   void displace(Grid& grid) const;
   /// Surface shader and lights over a batch of one group. `out` is resized.
   void shade(const ShadePoints& points, const ShadeContext& context, ShadedPoints& out) const;

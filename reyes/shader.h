@@ -1,82 +1,17 @@
 // The C++ face of shader_api.h, and all that a shader needs to include: typed parameters, a batch that loops
 // over its active points, small vector maths and noise. Header only, C++17, no dependencies: plugins build
-// against the two installed headers alone. docs/shader_writing.md is the tutorial.
+// against the installed headers alone. docs/shader_writing.md is the tutorial.
 //   a shader is   parameters at namespace scope, one function, one rsl::Shader that names them
 //   a plugin is   TM_SHADER_LIBRARY(shader, ...) once
 // Space and colour: as shader_api.h says. Threads: parameters and shaders are constant once the library is
 // loaded.
 #pragma once
-#include <algorithm>
-#include <cmath>
-#include <initializer_list>
 #include <memory>
 #include <new>
-#include <string>
-#include <vector>
 
-#include "reyes/shader_api.h"
+#include "reyes/shader_params.h"
 
 namespace rsl {
-
-struct Vec3 {
-  float x = 0, y = 0, z = 0;
-};
-using Color = Vec3;
-
-inline Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec3 operator-(Vec3 a) { return {-a.x, -a.y, -a.z}; }
-inline Vec3 operator*(Vec3 a, Vec3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-inline Vec3 operator*(Vec3 a, float s) { return {a.x * s, a.y * s, a.z * s}; }
-inline Vec3 operator*(float s, Vec3 a) { return a * s; }
-inline Vec3 operator/(Vec3 a, float s) { return a * (1 / s); }
-inline float dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec3 cross(Vec3 a, Vec3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline float length(Vec3 a) { return std::sqrt(dot(a, a)); }
-/// Zero stays zero, as in RSL.
-inline Vec3 normalize(Vec3 a) {
-  const float l = length(a);
-  return l > 0 ? a / l : Vec3{};
-}
-/// RISpec faceforward with Nref = Ng: N on the side of the surface that I arrives at.
-inline Vec3 faceforward(Vec3 N, Vec3 I, Vec3 Ng) { return dot(I, Ng) > 0 ? -N : N; }
-inline Vec3 reflect(Vec3 I, Vec3 N) { return I - 2 * dot(I, N) * N; }
-/// I and N of unit length, N against I; eta: index of refraction before over behind. Total reflection: zero (RISpec 15.3).
-inline Vec3 refract(Vec3 I, Vec3 N, float eta) {
-  const float c = -dot(I, N), k = 1 - eta * eta * (1 - c * c);
-  return k < 0 ? Vec3{} : eta * I + (eta * c - std::sqrt(k)) * N;
-}
-/// Share of unpolarised light that is reflected where refract() would refract.
-inline float fresnel(Vec3 I, Vec3 N, float eta) {
-  const float c = std::min(1.0f, std::abs(dot(I, N))), k = 1 - eta * eta * (1 - c * c);
-  if (k <= 0) return 1;
-  const float t = std::sqrt(k), s = (eta * c - t) / (eta * c + t), p = (c - eta * t) / (c + eta * t);
-  return 0.5f * (s * s + p * p);
-}
-
-inline float clamp(float x, float lo, float hi) { return std::min(std::max(x, lo), hi); }
-inline float mix(float a, float b, float t) { return a + (b - a) * t; }
-inline Vec3 mix(Vec3 a, Vec3 b, float t) { return a + (b - a) * t; }
-inline float smoothstep(float lo, float hi, float x) {
-  if (hi <= lo) return x < lo ? 0.0f : 1.0f;
-  const float t = clamp((x - lo) / (hi - lo), 0, 1);
-  return t * t * (3 - 2 * t);
-}
-
-/// Before a function of plain loops without branches: built for SSE2, AVX2 and AVX-512 and picked by CPU, with the same bits.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define RSL_HOT __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define RSL_HOT
-#endif
-#ifdef __GNUC__
-#define RSL_INLINE inline __attribute__((always_inline))  ///< Called in such loops: clones vectorise only what is part of them.
-#else
-#define RSL_INLINE inline
-#endif
 
 /// A 32-bit mix of a lattice point ("lowbias32", C. Wellons, once an axis).
 RSL_INLINE uint32_t latticeHash(int32_t x, int32_t y, int32_t z) {
@@ -115,107 +50,6 @@ RSL_INLINE float signedNoise(Vec3 p) {
 /// RSL's noise(): the same in [0, 1].
 inline float noise(Vec3 p) { return 0.5f + 0.5f * signedNoise(p); }
 
-// --- Parameters
-// ---------------------------------------------------------------------------------------------------
-
-/// A declared parameter. Make one of the typed ones below at namespace scope and list it in one Shader of the
-/// same file.
-class Param {
- public:
-  Param(const char* name, int32_t type, std::vector<float> floats, const char* string, const char* doc)
-      : floats_(std::move(floats)), string_(string), decl_{name, type, 1, floats_.data(), &string_, doc} {}
-  Param(const Param&) = delete;
-
- protected:
-  const TmValue& value(const TmGrid* g) const { return g->params[index_]; }
-
- private:
-  friend class Shader;
-  std::vector<float> floats_;
-  const char* string_;
-  TmParamDecl decl_;
-  int index_ = 0;
-};
-
-class FloatParam : public Param {
- public:
-  FloatParam(const char* name, float value, const char* doc) : Param(name, TM_FLOAT, {value}, "", doc) {}
-  float operator()(const TmGrid* g, int i) const {
-    const TmValue& v = value(g);
-    return v.c[0][i * v.step];
-  }
-};
-
-template <TmType type>
-class TripleParam : public Param {
- public:
-  TripleParam(const char* name, Vec3 v, const char* doc) : Param(name, type, {v.x, v.y, v.z}, "", doc) {}
-  Vec3 operator()(const TmGrid* g, int i) const {
-    const TmValue& v = this->value(g);
-    return {v.c[0][i * v.step], v.c[1][i * v.step], v.c[2][i * v.step]};
-  }
-};
-using ColorParam = TripleParam<TM_COLOR>;
-using PointParam = TripleParam<TM_POINT>;
-using VectorParam = TripleParam<TM_VECTOR>;
-using NormalParam = TripleParam<TM_NORMAL>;
-
-class StringParam : public Param {
- public:
-  StringParam(const char* name, const char* value, const char* doc)
-      : Param(name, TM_STRING, {}, value, doc) {}
-  const char* operator()(const TmGrid* g) const { return value(g).string; }
-};
-
-/// An output parameter: stored, and so worth computing, only where a Display asks for its name.
-template <int32_t type, class T>
-class Output : public Param {
- public:
-  Output(const char* name, const char* doc) : Param(name, type | TM_OUTPUT, {0, 0, 0}, "", doc) {}
-  bool wanted(const TmGrid* g) const { return value(g).step == 1; }
-  /// Pre: wanted.
-  void set(const TmGrid* g, int i, const T& v) const {
-    const float* from = reinterpret_cast<const float*>(&v);
-    for (size_t k = 0; k < sizeof(T) / sizeof(float); ++k) const_cast<float*>(value(g).c[k])[i] = from[k];
-  }
-};
-using FloatOutput = Output<TM_FLOAT, float>;
-using ColorOutput = Output<TM_COLOR, Color>;
-using PointOutput = Output<TM_POINT, Vec3>;
-using VectorOutput = Output<TM_VECTOR, Vec3>;
-using NormalOutput = Output<TM_NORMAL, Vec3>;
-
-/// A shader as the renderer sees it.
-class Shader {
- public:
-  Shader(TmKind kind, const char* name, const char* doc, uint32_t capabilities, void (*shade)(const TmGrid*),
-         std::initializer_list<Param*> params)
-      : decls_(declare(params)),
-        shader_{TM_SHADER_ABI,
-                sizeof(TmShader),
-                name,
-                kind,
-                capabilities,
-                decls_.data(),
-                static_cast<int32_t>(decls_.size()),
-                shade,
-                doc} {}
-  Shader(const Shader&) = delete;
-  operator const TmShader*() const { return &shader_; }
-
- private:
-  static std::vector<TmParamDecl> declare(std::initializer_list<Param*> params) {
-    std::vector<TmParamDecl> decls;
-    for (Param* p : params) {
-      p->index_ = static_cast<int>(decls.size());
-      decls.push_back(p->decl_);
-    }
-    return decls;
-  }
-  std::vector<TmParamDecl> decls_;
-  TmShader shader_;
-};
-
 // --- A batch of points
 // --------------------------------------------------------------------------------------------
 
@@ -253,6 +87,7 @@ class Vec3Array : public Array {
   void set(int i, Vec3 v) { rsl::set(TmVec3(*this), i, v); }
 };
 
+enum class RayType { Camera, Diffuse, Specular, Transmission };  ///< rayInfo("type")
 inline TmRayOptions defaultRays() { return TM_RAY_DEFAULTS; }
 
 /// `for (int i : batch)` visits the active points. Services are one call for the whole batch: ask before the
@@ -350,18 +185,9 @@ class Batch {
     return g->call->gather(g->host, g, view(g->P), axis, &options, ray, hit.data(), outputs.begin(),
                            static_cast<int32_t>(outputs.size())) != 0;
   }
-  bool isShadowRay() const {
-    Vec3Array type(g);
-    g->call->rayInfo(g->host, g, "type", type);
-    for (int i : *this) return type[i].x == 3;
-    return false;
-  }
-  int rayDepth() const {
-    Vec3Array depth(g);
-    g->call->rayInfo(g->host, g, "depth", depth);
-    for (int i : *this) return static_cast<int>(depth[i].x);
-    return 0;
-  }
+  RayType rayType() const { return static_cast<RayType>(rayNumber("type")); }
+  bool isShadowRay() const { return rayType() == RayType::Transmission; }
+  int rayDepth() const { return rayNumber("depth"); }
 
   /// P in a named space (current space where the name is unknown).
   Vec3Array positionsIn(const char* space) const {
@@ -395,6 +221,13 @@ class Batch {
   const TmGrid* const g;
 
  private:
+  /// Of the ray that came to these points: the same for all.
+  int rayNumber(const char* name) const {
+    Vec3Array value(g);
+    g->call->rayInfo(g->host, g, name, value);
+    for (int i : *this) return static_cast<int>(value[i].x);
+    return 0;
+  }
   template <class Service>
   Vec3Array filled(const Service& service) const {
     Vec3Array out(g);

@@ -1,4 +1,5 @@
 // A principled surface after Burley 2012, "Physically-based shading at Disney" (sections 5.3 to 5.6), without anisotropy and subsurface.
+// Highlights are samples of the lights and of its own two lobes together; reflected rays are drawn from the lobes.
 #include "reyes/shadeops.h"
 
 namespace {
@@ -10,7 +11,7 @@ rsl::FloatParam metallic("metallic", 0, "0: dielectric, 1: metal"), specular("sp
 rsl::FloatParam speculartint("speculartint", 0, "tint of that towards the base colour"), roughness("roughness", 0.5f, "of both lobes");
 rsl::FloatParam sheen("sheen", 0, "grazing reflection of cloth"), sheentint("sheentint", 0.5f, "its tint");
 rsl::FloatParam clearcoat("clearcoat", 0, "a second lobe"), clearcoatgloss("clearcoatgloss", 1, "1: glossy, 0: satin");
-rsl::FloatParam reflections("reflections", 0, "rays that mirror the scene, a point; 0: lights alone are mirrored");
+rsl::UniformFloatParam reflections("reflections", 0, "rays that mirror the scene, a point; 0: lights alone are mirrored");
 rsl::ColorParam emission("emission", {0, 0, 0}, "radiance that it adds");
 rsl::StringParam texturename("texturename", "", "picture that multiplies Cs, the base colour");
 rsl::ColorOutput diffusePart("diffuse", "share of diffuse light and sheen"), specularPart("specular", "share of highlights"),
@@ -64,49 +65,131 @@ struct Material {
   }
 };
 
+/// The two lobes of one point, as something to draw directions from: the half vector H by its distribution times N.H.
+struct Lobes {
+  Vec3 N, V, tangent, bitangent;
+  Material material;
+  float nv, coatShare;  ///< Of the directions, what the coat gets.
+
+  Lobes(Vec3 n, Vec3 v, const Material& m) : N(n), V(v), material(m), nv(std::max(1e-4f, rsl::dot(n, v))) {
+    rsl::orthonormalBasis(N, tangent, bitangent);
+    const float F = fresnelWeight(nv), coat = m.coat * rsl::mix(0.04f, 1, F), base = luminance(rsl::mix(m.specular0, Color{1, 1, 1}, F));
+    coatShare = coat > 0 ? coat / (coat + base) : 0;
+  }
+  /// The cosine included, for light that is E/pi; 0 below the surface.
+  Color value(Vec3 L) const {
+    const float nl = rsl::dot(N, L);
+    if (nl <= 0) return {};
+    const Vec3 H = rsl::normalize(L + V);
+    return nl * material.glossy(nl, nv, rsl::dot(N, H), rsl::dot(L, H));
+  }
+  /// With which draw() returns L, over solid angle.
+  float density(Vec3 L) const {
+    const Vec3 H = rsl::normalize(L + V);
+    const float nh = rsl::dot(N, H), vh = rsl::dot(V, H);
+    if (nh <= 0 || vh <= 0 || rsl::dot(N, L) <= 0) return 0;
+    return rsl::mix(gtr2(nh, material.alpha), gtr1(nh, material.coatAlpha), coatShare) * nh / (4 * vh);
+  }
+  Vec3 draw(float xi0, float xi1) const {
+    const bool ofCoat = xi0 < coatShare;
+    const float xi = ofCoat ? xi0 / coatShare : (xi0 - coatShare) / (1 - coatShare), angle = 2 * rsl::kPi * xi1;
+    const float a2 = ofCoat ? material.coatAlpha * material.coatAlpha : material.alpha * material.alpha;
+    const float c2 = ofCoat ? (1 - std::pow(a2, 1 - xi)) / (1 - a2) : (1 - xi) / (1 + (a2 - 1) * xi);
+    const float c = std::sqrt(rsl::clamp(c2, 0, 1)), s = std::sqrt(1 - c * c);
+    const Vec3 H = (s * std::cos(angle)) * tangent + (s * std::sin(angle)) * bitangent + c * N;
+    return 2 * rsl::dot(V, H) * H - V;
+  }
+};
+
+/// One batch of points with their materials.
+class Glossy {
+ public:
+  Glossy(const rsl::Batch& b, const rsl::Vec3Array& N, const rsl::Vec3Array& V, const rsl::Vec3Array& paint)
+      : b_(b), g_(b.g), ofLights_(static_cast<int>(g_->call->lobeSamples(g_->host, g_))), L_(g_), xi0_(g_), xi1_(g_), density_(g_), cl_(g_) {
+    lobes_.reserve(static_cast<size_t>(g_->count));
+    for (int i = 0; i < g_->count; ++i) lobes_.emplace_back(N[i], V[i], Material(g_, i, paint[i]));
+  }
+  const Lobes& operator[](int i) const { return lobes_[static_cast<size_t>(i)]; }
+
+  /// What sample `k` of the lights adds: the rest comes by addLobeSamples().
+  void addLightSample(int k, const TmLightSample& sample, rsl::Vec3Array& sum) {
+    g_->call->lightDensity(g_->host, g_, k, density_.data());
+    for (int i : b_) {
+      const Vec3 L = rsl::get(sample.L, i);
+      const float other = density_[i] > 0 ? static_cast<float>(ofLights_) * (*this)[i].density(L) / density_[i] : 0.0f;
+      sum.set(i, sum[i] + rsl::get(sample.Cl, i) * (*this)[i].value(L) / (1 + other * other));
+    }
+  }
+  void addLobeSamples(rsl::Vec3Array& sum) {
+    for (int k = 0; k < ofLights_; ++k) {
+      draw(k, ofLights_);
+      g_->call->lightAlong(g_->host, g_, L_, density_.data(), k, ofLights_, cl_);
+      for (int i : b_) sum.set(i, sum[i] + cl_[i] * (*this)[i].value(L_[i]));
+    }
+  }
+  /// What the scene looks like in it. Lamps are left out: light samples bring those.
+  void addReflections(int rays, rsl::Vec3Array& sum) {
+    TmRayOptions options = rsl::defaultRays();
+    options.drawn = rays, options.passLamps = 1;
+    for (int& k = options.number; k < rays; ++k) {
+      draw(k, rays);
+      const rsl::Vec3Array seen = b_.trace(L_, options);
+      for (int i : b_)
+        if (density_[i] > 0) sum.set(i, sum[i] + seen[i] * (*this)[i].value(L_[i]) / (rsl::kPi * density_[i] * static_cast<float>(rays)));
+    }
+  }
+
+ private:
+  /// Sets L_, 0 where the direction goes below the surface, and density_.
+  void draw(int k, int of) {
+    g_->call->stratified(g_->host, g_, k, of, xi0_.data(), xi1_.data());
+    for (int i : b_) {
+      const Vec3 L = (*this)[i].draw(xi0_[i], xi1_[i]);
+      density_[i] = (*this)[i].density(L);
+      L_.set(i, density_[i] > 0 ? L : Vec3{});
+    }
+  }
+
+  const rsl::Batch& b_;
+  const TmGrid* const g_;
+  const int ofLights_;
+  std::vector<Lobes> lobes_;
+  rsl::Vec3Array L_;
+  rsl::Array xi0_, xi1_, density_;
+  rsl::Vec3Array cl_;
+};
+
 void shade(const TmGrid* g) {
   const rsl::Batch b(g);
   const rsl::Vec3Array N = b.facingNormals(), V = b.towardsViewer(), ambient = b.ambient();
-  rsl::Vec3Array paint(g), diffuse(g), glossy(g), mirrored(g), R(g), type(g);
+  rsl::Vec3Array paint(g), diffuse(g), highlight(g), mirrored(g);
   for (int i : b) paint.set(i, {1, 1, 1});
   if (*texturename(g)) b.texture(texturename(g), paint);
-  g->call->rayInfo(g->host, g, "type", type);
+  // Gather rays carry diffuse light alone.
+  const bool shiny = b.rayType() != rsl::RayType::Diffuse;
+  Glossy glossy(b, N, V, paint);
   TmLightSample sample;
-  for (int k = 0; g->call->light(g->host, g, k, &sample); ++k)
+  for (int k = 0; g->call->light(g->host, g, k, &sample); ++k) {
     for (int i : b) {
       const Vec3 L = rsl::get(sample.L, i), H = rsl::normalize(L + V[i]);
-      const float nl = rsl::dot(N[i], L), nv = std::max(1e-4f, rsl::dot(N[i], V[i])), nh = rsl::dot(N[i], H), lh = rsl::dot(L, H);
-      if (nl <= 0) continue;
-      const Material m(g, i, paint[i]);
-      const Color light = nl * rsl::get(sample.Cl, i);
-      if (!sample.nondiffuse) diffuse.set(i, diffuse[i] + light * m.diffuse(nl, nv, lh));
-      // Indirect light is diffuse light: of its direction no more is known than the main one. Gather rays carry diffuse light alone.
-      if (!sample.nonspecular && !sample.isIndirect && type[i].x != 1) glossy.set(i, glossy[i] + light * m.glossy(nl, nv, nh, lh));
+      const float nl = rsl::dot(N[i], L);
+      if (nl > 0 && !sample.nondiffuse)
+        diffuse.set(i, diffuse[i] + nl * rsl::get(sample.Cl, i) * glossy[i].material.diffuse(nl, glossy[i].nv, rsl::dot(L, H)));
     }
-  int rays = 0;
-  float cone = 0;
-  for (int i : b) {
-    R.set(i, rsl::reflect(-V[i], N[i]));
-    rays = type[i].x == 0 || type[i].x == 2 ? static_cast<int>(reflections(g, i)) : 0;
-    cone = rays > 1 ? std::atan(Material(g, i, paint[i]).alpha) : 0;
+    // Indirect light is diffuse light: of its direction no more is known than the main one.
+    if (shiny && !sample.nonspecular && !sample.isIndirect) glossy.addLightSample(k, sample, highlight);
   }
-  if (rays > 0) {
-    TmRayOptions options = rsl::defaultRays();
-    options.samples = rays, options.coneAngle = std::min(cone, 0.17f);  // wider cones would be diffuse rays
-    mirrored = b.trace(R, options);
+  if (shiny) {
+    glossy.addLobeSamples(highlight);
+    glossy.addReflections(static_cast<int>(reflections(g)), mirrored);
   }
   for (int i : b) {
-    const Material m(g, i, paint[i]);
-    const float F = fresnelWeight(std::max(0.0f, rsl::dot(N[i], V[i])));
-    const float coat = m.coat * rsl::mix(0.04f, 1, F);
-    // Rough lobes at grazing angles do not reach the mirror's value (Lagarde's fit).
-    const Color least = rsl::max(m.specular0, Color{1 - m.roughness, 1 - m.roughness, 1 - m.roughness});
-    const Color mirror = (rsl::mix(m.specular0, least, F) + Color{coat, coat, coat}) * mirrored[i];
+    const Material& m = glossy[i].material;
     const Color matte = m.matte * m.base * ambient[i] + diffuse[i];
-    b.output(i, matte + glossy[i] + mirror + emission(g, i), b.Os(i));
+    b.output(i, matte + highlight[i] + mirrored[i] + emission(g, i), b.Os(i));
     if (diffusePart.wanted(g)) diffusePart.set(g, i, b.Os(i) * matte);
-    if (specularPart.wanted(g)) specularPart.set(g, i, b.Os(i) * glossy[i]);
-    if (reflectionPart.wanted(g)) reflectionPart.set(g, i, b.Os(i) * mirror);
+    if (specularPart.wanted(g)) specularPart.set(g, i, b.Os(i) * highlight[i]);
+    if (reflectionPart.wanted(g)) reflectionPart.set(g, i, b.Os(i) * mirrored[i]);
     if (albedo.wanted(g)) albedo.set(g, i, b.Os(i) * m.base);
   }
 }

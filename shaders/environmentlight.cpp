@@ -1,20 +1,33 @@
+#include <cstring>
+
 #include "reyes/shader.h"
 
 namespace {
 rsl::FloatParam intensity("intensity", 1, "scale");
 rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "radiance of the sky, or what multiplies its map");
-rsl::StringParam map("map", "", "latitude-longitude picture, +z of the world at its top; none: uniform");
+rsl::StringParam map("map", "", "latitude-longitude picture, +z at its top; none: uniform");
+rsl::StringParam mapspace("mapspace", "world", "the space whose +z that is: world or shader");
 rsl::FloatParam samples("samples", 64, "directions for each shaded point");
 
 // The map is seen through a filter of this angle, radians: that of the cells by which its brightness is known.
 constexpr float kCell = 0.00614f;
+
+/// environment() looks along world directions: those that stand in the world as L does in the map's space.
+rsl::Vec3Array directions(const TmGrid* g) {
+  rsl::Vec3Array out(g);
+  for (int i : rsl::Batch(g)) out.set(i, rsl::get(g->L, i));
+  if (std::strcmp(mapspace(g), "world") == 0) return out;
+  g->call->transform(g->host, g, TM_AS_VECTOR, "current", mapspace(g), rsl::view(g->L), out);
+  g->call->transform(g->host, g, TM_AS_VECTOR, "world", "current", rsl::view(TmVec3(out)), out);
+  return out;
+}
 
 void shade(const TmGrid* g) {
   const rsl::Batch b(g);
   rsl::Vec3Array sky(g);
   rsl::Array width(g);
   for (int i : b) sky.set(i, {1, 1, 1}), width[i] = kCell;
-  if (*map(g) != '\0') b.environment(map(g), rsl::view(g->L), width.data(), sky);
+  if (*map(g) != '\0') b.environment(map(g), rsl::view(TmVec3(directions(g))), width.data(), sky);
   for (int i : b) rsl::set(g->Cl, i, intensity(g, i) * lightcolor(g, i) * sky[i]);
 }
 }  // namespace
@@ -23,4 +36,4 @@ extern const rsl::Shader environmentlightShader;
 const rsl::Shader environmentlightShader(TM_LIGHT, "environmentlight",
                                          "light from all around, at infinity: a sky",
                                          TM_LIGHT_SOLAR | TM_LIGHT_SHADOWED | TM_LIGHT_SKY, shade,
-                                         {&intensity, &lightcolor, &map, &samples});
+                                         {&intensity, &lightcolor, &map, &samples, &mapspace});

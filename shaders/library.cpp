@@ -4,7 +4,7 @@ extern const rsl::Shader constantShader, matteShader, metalShader, plasticShader
     defaultsurfaceShader, ambientlightShader, distantlightShader, pointlightShader, spotlightShader,
     arealightShader, environmentlightShader, indirectlightShader, filterlightShader, shadowspotShader,
     shadowpointShader, shadowdistantShader, shinymetalShader, fogShader, depthcueShader, backgroundShader,
-    clamptoalphaShader, bumpyShader, noisybumpShader, mirrorShader, glassShader, occlusionlightShader, disneyShader;
+    clamptoalphaShader, bumpyShader, noisybumpShader, mirrorShader, glassShader, occlusionlightShader, disneyShader, daylightShader, sunlightShader;
 
 const TmShaderLibrary* tomales_builtin_shaders(void) {
   static const TmShader* const shaders[] = {
@@ -14,7 +14,8 @@ const TmShaderLibrary* tomales_builtin_shaders(void) {
       indirectlightShader,  filterlightShader,    shadowspotShader,   shadowpointShader,
       shadowdistantShader,  shinymetalShader,     fogShader,          depthcueShader,
       backgroundShader,     clamptoalphaShader,   bumpyShader,        noisybumpShader,
-      mirrorShader,         glassShader,          occlusionlightShader, disneyShader};
+      mirrorShader,         glassShader,          occlusionlightShader, disneyShader,
+      daylightShader,       sunlightShader};
   static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders,
                                           static_cast<int32_t>(sizeof shaders / sizeof *shaders)};
   return &library;

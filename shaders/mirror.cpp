@@ -3,17 +3,15 @@
 namespace {
 rsl::FloatParam Kr("Kr", 1, "weight of what is mirrored");
 rsl::ColorParam specularcolor("specularcolor", {1, 1, 1}, "tint of what is mirrored");
-rsl::FloatParam blur("blur", 0, "half angle of the cone of reflected rays, radians; up to 0.17 they are specular rays");
-rsl::FloatParam samples("samples", 1, "reflected rays a point");
+rsl::UniformFloatParam blur("blur", 0, "half angle of the cone of reflected rays, radians; up to 0.17 they are specular rays");
+rsl::UniformFloatParam samples("samples", 1, "reflected rays a point");
 
 void shade(const TmGrid* g) {
   const rsl::Batch b(g);
   rsl::Vec3Array R(g);
   TmRayOptions rays = rsl::defaultRays();
-  for (int i : b) {
-    R.set(i, rsl::reflect(rsl::normalize(b.I(i)), b.facingNormal(i)));
-    rays.coneAngle = blur(g, i), rays.samples = static_cast<int32_t>(samples(g, i));
-  }
+  rays.coneAngle = blur(g), rays.samples = static_cast<int32_t>(samples(g));
+  for (int i : b) R.set(i, rsl::reflect(rsl::normalize(b.I(i)), b.facingNormal(i)));
   const rsl::Vec3Array mirrored = b.trace(R, rays);
   for (int i : b) b.output(i, Kr(g, i) * specularcolor(g, i) * mirrored[i], b.Os(i));
 }

@@ -3,19 +3,17 @@
 namespace {
 rsl::FloatParam intensity("intensity", 1, "scale");
 rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "radiance of what is all around");
-rsl::FloatParam samples("samples", 64, "rays a point");
-rsl::FloatParam coneangle("coneangle", 1.5707963f, "half angle around the normal that is looked at");
-rsl::FloatParam maxdist("maxdist", 1e30f, "what is farther covers nothing");
-rsl::FloatParam falloff("falloff", 0, "what is at distance d covers exp(-falloff d); 0: wholly");
+rsl::UniformFloatParam samples("samples", 64, "rays a point");
+rsl::UniformFloatParam coneangle("coneangle", 1.5707963f, "half angle around the normal that is looked at");
+rsl::UniformFloatParam maxdist("maxdist", 1e30f, "what is farther covers nothing");
+rsl::UniformFloatParam falloff("falloff", 0, "what is at distance d covers exp(-falloff d); 0: wholly");
 rsl::StringParam subset("subset", "", "sets of objects that cover; none: all");
 
 void shade(const TmGrid* g) {
   const rsl::Batch b(g);
   TmRayOptions rays = rsl::defaultRays();
-  for (int i : b) {
-    rays.samples = static_cast<int32_t>(samples(g, i)), rays.coneAngle = coneangle(g, i);
-    rays.maxDistance = maxdist(g, i), rays.falloff = falloff(g, i);
-  }
+  rays.samples = static_cast<int32_t>(samples(g)), rays.coneAngle = coneangle(g);
+  rays.maxDistance = maxdist(g), rays.falloff = falloff(g);
   rays.subset = subset(g);
   const rsl::Array covered = b.occlusion(b.facingNormals(), rays);
   for (int i : b) rsl::set(g->Cl, i, intensity(g, i) * (1 - covered[i]) * lightcolor(g, i));

@@ -5,20 +5,17 @@
 
 struct ShadowParams {
   rsl::StringParam shadowname{"shadowname", "", "shadow map, or `raytrace`"};
-  rsl::FloatParam samples{"samples", 16, "lookups in the map for each point"};
-  rsl::FloatParam blur{"blur", 0, "softness, as a fraction of the map"};
-  rsl::FloatParam width{"width", 1, "scale of the region that is looked up"};
-  rsl::FloatParam shadowbias{"shadowbias", -1,
+  rsl::UniformFloatParam samples{"samples", 16, "lookups in the map for each point"};
+  rsl::UniformFloatParam blur{"blur", 0, "softness, as a fraction of the map"};
+  rsl::UniformFloatParam width{"width", 1, "scale of the region that is looked up"};
+  rsl::UniformFloatParam shadowbias{"shadowbias", -1,
                              "depth that an occluder must be nearer by; negative: Option \"shadow\" \"bias\", or as needed"};
 
   /// Dims Cl of the batch by one map.
   void dim(const rsl::Batch& b, const char* map) const {
     const TmGrid* g = b.g;
-    if (*map == '\0' || g->count == 0) return;
-    int first = 0;
-    while (first < g->count - 1 && !g->active[first]) ++first;
-    const TmShadowLookup lookup{shadowbias(g, first), blur(g, first), width(g, first),
-                                static_cast<int32_t>(samples(g, first))};
+    if (*map == '\0') return;
+    const TmShadowLookup lookup{shadowbias(g), blur(g), width(g), static_cast<int32_t>(samples(g))};
     rsl::Vec3Array shadow(g);
     g->call->shadow(g->host, g, map, rsl::view(g->P), &lookup, shadow);
     for (int i : b) rsl::set(g->Cl, i, rsl::get(g->Cl, i) * (rsl::Color{1, 1, 1} - shadow[i]));

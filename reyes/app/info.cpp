@@ -97,17 +97,17 @@ Json imageInfo(const std::string& file, Log& log) {
 Json paramInfo(const TmParamDecl& p) {
   static constexpr const char* kTypes[] = {"float", "color", "point", "vector", "normal", "string", "matrix"};
   static constexpr int kFloats[] = {1, 3, 3, 3, 3, 0, 16};
-  const int32_t type = p.type & ~TM_OUTPUT;
-  const bool known = type >= TM_FLOAT && type <= TM_MATRIX, output = type != p.type;
+  const int32_t type = TM_TYPE_OF(p.type);
+  const bool known = type >= TM_FLOAT && type <= TM_MATRIX, output = (p.type & TM_OUTPUT) != 0;
   if (output)
     return {{"name", p.name}, {"type", known ? std::string("output ") + kTypes[type] : "?"}, {"doc", p.doc ? p.doc : ""}};
   Json value = Json::array();
-  for (int i = 0; known && i < p.arrayLength * kFloats[p.type]; ++i)
+  for (int i = 0; known && i < p.arrayLength * kFloats[type]; ++i)
     value.push_back(p.floats ? p.floats[i] : 0.0f);
-  for (int i = 0; known && p.type == TM_STRING && p.strings && i < p.arrayLength; ++i)
+  for (int i = 0; known && type == TM_STRING && p.strings && i < p.arrayLength; ++i)
     value.push_back(p.strings[i]);
   return {{"name", p.name},
-          {"type", known ? kTypes[p.type] : "?"},
+          {"type", known ? kTypes[type] : "?"},
           {"default", value},
           {"doc", p.doc ? p.doc : ""}};
 }

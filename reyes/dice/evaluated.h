@@ -24,8 +24,9 @@ class Evaluated {
     if (many_.size() > spare().size()) many_.swap(spare());
   }
   Evaluated(const Evaluated&) = delete;
-  SurfacePoints view() {
-    const auto a = [this](size_t i) { return data_ + i * stride_; };
+  /// From one of the points on.
+  SurfacePoints view(int first = 0) {
+    const auto a = [this, first](size_t i) { return data_ + i * stride_ + first; };
     return {a(0), a(1), a(2), a(3), a(4), a(5), a(6), a(7), a(8), a(9), a(10), a(11)};
   }
   vec3 get(size_t first, int i) const {
@@ -53,16 +54,16 @@ class Evaluated {
   float* data_;
 };
 
-/// A deforming object at `time`: linear between the two shapes around it. evaluate(prim, points) fills n points.
+/// A deforming object at `time`: linear between the two shapes around it. evaluate(prim, out) fills n points of `out`.
 template <class Evaluate>
 void evaluateAt(const Object& o, float time, int n, Evaluated& out, const Evaluate& evaluate) {
   size_t k = 0;
   while (k + 1 < o.shapeTimes.size() && o.shapeTimes[k + 1] <= time) ++k;
-  evaluate(*o.shapes[k], out.view());
+  evaluate(*o.shapes[k], out);
   if (k + 1 >= o.shapes.size() || time <= o.shapeTimes[k]) return;
   const float t = (time - o.shapeTimes[k]) / (o.shapeTimes[k + 1] - o.shapeTimes[k]);
   Evaluated next(n);
-  evaluate(*o.shapes[k + 1], next.view());
+  evaluate(*o.shapes[k + 1], next);
   out.blend(next, t);
 }
 

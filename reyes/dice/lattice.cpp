@@ -46,26 +46,47 @@ uint8_t openEdgesOf(const PatchInfo& info, const UvRect& r) {
 
 /// Each cell with some of its surroundings: the hider asks for points a little way off a cell (hide/trim.cpp).
 std::vector<Kept> keptOfCells(const Prim& prim, const Grid& g) {
-  if (prim.kept(g.patch, g.rect) == Kept::All) return {};
+  const auto whole = [&](const PatchPiece& p) { return prim.kept(p.patch, p.rect) == Kept::All; };
+  if (std::all_of(g.pieces.begin(), g.pieces.end(), whole)) return {};
   constexpr float kMargin = 0.25f;
-  std::vector<Kept> out(static_cast<size_t>(g.cellCount()));
-  for (int cell = 0; cell < g.cellCount(); ++cell) {
+  std::vector<Kept> out(static_cast<size_t>(g.cellNumbers()));
+  for (int cell = 0; cell < g.cellNumbers(); ++cell) {
     const vec2 lo = g.onPatch(cell, vec2(-kMargin)), hi = g.onPatch(cell, vec2(1 + kMargin));
-    out[static_cast<size_t>(cell)] = prim.kept(g.patch, {lo.x, hi.x, lo.y, hi.y});
+    out[static_cast<size_t>(cell)] = prim.kept(g.pieces[static_cast<size_t>(g.pieceOfCell(cell))].patch, {lo.x, hi.x, lo.y, hi.y});
   }
   return out;
 }
 
-}  // namespace
+bool isWhole(const UvRect& r) { return r.u0 == 0 && r.u1 == 1 && r.v0 == 0 && r.v1 == 1; }
 
-Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, int keys, Pool* pool) {
-  const Object& o = scene.objects[static_cast<size_t>(object)];
-  const std::vector<float> times(o.keyTimes.begin(), o.keyTimes.begin() + keys);
-  return dice(scene, object, patch, rect, nu, nv, {times, o.cameraFromObject}, pool);
+/// Where a lattice of nu x nv over a rectangle lies on its patch, rows along u.
+void latticeOver(const UvRect& rect, int nu, int nv, float* u, float* v) {
+  // The last vertex is the rectangle's own number, so that neighbours evaluate the same one.
+  const auto at = [](float a, float b, int i, int count) {
+    return i == count ? b : a + (b - a) * (static_cast<float>(i) / static_cast<float>(count));
+  };
+  for (int i = 0; i <= nu; ++i) u[i] = at(rect.u0, rect.u1, i, nu);
+  for (int j = 0; j <= nv; ++j) {
+    const int first = j * (nu + 1);
+    if (j > 0) std::copy_n(u, nu + 1, u + first);
+    std::fill_n(v + first, nu + 1, at(rect.v0, rect.v1, j, nv));
+  }
 }
 
-Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, const DiceKeys& keys,
-          Pool* pool) {
+}  // namespace
+
+Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, int keys) {
+  const Object& o = scene.objects[static_cast<size_t>(object)];
+  const std::vector<float> times(o.keyTimes.begin(), o.keyTimes.begin() + keys);
+  return dice(scene, object, patch, rect, nu, nv, {times, o.cameraFromObject});
+}
+
+Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, const DiceKeys& keys) {
+  const PatchPiece piece{patch, rect};
+  return dice(scene, object, {&piece, 1}, nu, nv, keys);
+}
+
+Grid dice(const Scene& scene, int object, std::span<const PatchPiece> pieces, int nu, int nv, const DiceKeys& keys, Pool* pool) {
   const Object& o = scene.objects[static_cast<size_t>(object)];
   const int keyCount = static_cast<int>(keys.times.size());
   const Prim& prim = o.shape();
@@ -73,32 +94,35 @@ Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, in
   for (const Primvar& p : prim.primvars()) floats += p.width;
 
   Grid g;
-  g.object = object, g.patch = patch, g.rect = rect;
+  g.object = object;
+  g.pieces.clear();
+  g.pieces.reserve(pieces.size());
+  for (const PatchPiece& p : pieces)
+    g.pieces.push_back({p, openEdgesOf(prim.info(p.patch), p.rect), nameOf(o.name, p.patch, p.rect, nu, nv)});
   g.allocate(nu, nv, keyCount, floats, pool);
-  g.openEdges = openEdgesOf(prim.info(patch), rect);
-  g.name = nameOf(o.name, patch, rect, nu, nv);
   g.kept = keptOfCells(prim, g);
 
-  const int n = g.vertexCount();
+  const int n = g.vertexCount(), ofPiece = g.verticesOfPiece();
   static thread_local AlignedVector<float> u, v;
-  u.resize(static_cast<size_t>(g.stride())), v.resize(u.size());
-  // The last vertex is the rectangle's own number, so that neighbours evaluate the same one.
-  const auto at = [](float a, float b, int i, int count) {
-    return i == count ? b : a + (b - a) * (static_cast<float>(i) / static_cast<float>(count));
+  u.resize(static_cast<size_t>(padded(ofPiece))), v.resize(u.size());
+  UvRect laid{0, 0, 0, 0};  // u and v are for this
+  /// f(piece, number of its first vertex), with u and v for the piece.
+  const auto forPieces = [&](const auto& f) {
+    int first = 0;
+    for (const Grid::Piece& p : g.pieces) {
+      if (p.rect.u0 != laid.u0 || p.rect.u1 != laid.u1 || p.rect.v0 != laid.v0 || p.rect.v1 != laid.v1)
+        latticeOver(laid = p.rect, nu, nv, u.data(), v.data());
+      f(p, first);
+      first += ofPiece;
+    }
   };
-  for (int i = 0; i <= nu; ++i) u[static_cast<size_t>(i)] = at(rect.u0, rect.u1, i, nu);
-  for (int j = 0; j <= nv; ++j) {
-    const int first = j * (nu + 1);
-    if (j > 0) std::copy_n(u.data(), nu + 1, u.data() + first);
-    std::fill_n(v.data() + first, nu + 1, at(rect.v0, rect.v1, j, nv));
-  }
-
-  const bool whole = rect.u0 == 0 && rect.u1 == 1 && rect.v0 == 0 && rect.v1 == 1;
-  const auto vertices = [&](const Prim& shape, SurfacePoints out) {
-    if (whole)
-      shape.evaluateLattice(patch, nu, nv, u.data(), v.data(), out);
-    else
-      shape.evaluate(patch, n, u.data(), v.data(), out);
+  const auto vertices = [&](const Prim& shape, Evaluated& out) {
+    forPieces([&](const Grid::Piece& p, int first) {
+      if (isWhole(p.rect))
+        shape.evaluateLattice(p.patch, nu, nv, u.data(), v.data(), out.view(first));
+      else
+        shape.evaluate(p.patch, ofPiece, u.data(), v.data(), out.view(first));
+    });
   };
   Evaluated e(n);
   for (int key = 0; key < keyCount; ++key) {
@@ -113,13 +137,17 @@ Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, in
       int offset = 0;
       for (size_t k = 0; k < prim.primvars().size(); ++k) {
         const Primvar& p = prim.primvars()[k];
-        prim.interpolate(patch, static_cast<int>(k), n, u.data(), v.data(), g.primvar(offset), g.stride());
+        forPieces([&](const Grid::Piece& piece, int first) {
+          prim.interpolate(piece.patch, static_cast<int>(k), ofPiece, u.data(), v.data(), g.primvar(offset) + first, g.stride());
+        });
         transformPrimvar(p, m, normals, n, g.primvar(offset), g.stride());
         offset += p.width;
       }
     }
   }
-  prim.surfaceParameters(patch, n, u.data(), v.data(), g.u(), g.v());
+  forPieces([&](const Grid::Piece& p, int first) {
+    prim.surfaceParameters(p.patch, ofPiece, u.data(), v.data(), g.u() + first, g.v() + first);
+  });
 
   // A normal that the user gives is the shading normal (RISpec 5.2); the geometric one is still measured from P.
   if (const int offset = offsetOf(prim.primvars(), "N"); offset >= 0)

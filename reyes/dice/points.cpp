@@ -6,7 +6,7 @@ TrueSurface surfaceAt(const Scene& scene, int object, uint32_t patch, float u, f
   const Object& o = scene.objects[static_cast<size_t>(object)];
   const mat4& m = scene.groups[static_cast<size_t>(o.group)].cameraFromObject;
   Evaluated e(1);
-  evaluateAt(o, o.keyTimes.front(), 1, e, [&](const Prim& shape, SurfacePoints out) { shape.evaluate(patch, 1, &u, &v, out); });
+  evaluateAt(o, o.keyTimes.front(), 1, e, [&](const Prim& shape, Evaluated& out) { shape.evaluate(patch, 1, &u, &v, out.view()); });
   return {transformPoint(m, e.get(0, 0)), transformVector(m, e.get(3, 0)), transformVector(m, e.get(6, 0)),
           normalMatrix(o, m) * e.get(9, 0)};
 }

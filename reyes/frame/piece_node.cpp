@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cfloat>
+#include <tuple>
 
 #include "reyes/dice.h"
 
@@ -12,73 +13,118 @@ namespace tomales {
 namespace {
 
 constexpr int kSmall_cells = 64;  ///< Pieces with fewer share a node,
-constexpr int kBlock_buckets = 4;  ///< if they begin in the same square of buckets.
+constexpr int kBlock_buckets = 4;  ///< if they begin in the same square of buckets,
+constexpr int kStack_vertices = 512;  ///< and grids of about as many vertices.
 
 TOMALES_HOT bool allSeeable(const Grid& g, int key, const Camera& camera) {
+  // Camera::seeable without a branch, which would keep it out of vectors.
   const float *x = g.P(key, 0), *y = g.P(key, 1), *z = g.P(key, 2);
+  const float nearest = camera.perspective() ? camera.eyePlane() : -FLT_MAX;
   int unseeable = 0;
-  for (int v = 0, count = g.vertexCount(); v < count; ++v) unseeable |= !camera.seeable({x[v], y[v], z[v]});
+  for (int v = 0, count = g.vertexCount(); v < count; ++v)
+    unseeable |= int(!(std::abs(x[v]) <= FLT_MAX)) | int(!(std::abs(y[v]) <= FLT_MAX)) | int(!(z[v] >= nearest)) | int(!(z[v] <= FLT_MAX));
   return unseeable == 0;
 }
 
+/// Does nothing that is decided for a whole grid depend on what shares it?
+bool canStack(const HideContext& context, const SubPatch& piece) {
+  const Object& o = context.scene.objects[static_cast<size_t>(piece.object)];
+  return o.keyTimes.size() == 1 && !context.camera.defocuses() && o.solid < 0 && !o.attributes->displacement && !piece.crossesEye &&
+         o.shape().kept(piece.patch, piece.rect) == Kept::All;
+}
+
+/// What pieces of a node have in common, and those of a grid.
 struct Neighbour {
   int row, column;  ///< Of a square of buckets.
+  int nu, nv;
   const SubPatch* piece;
-  bool operator<(const Neighbour& o) const { return row != o.row ? row < o.row : column < o.column; }
+  bool sharesNode(const Neighbour& o) const { return row == o.row && column == o.column; }
+  bool sharesGrid(const Neighbour& o) const { return sharesNode(o) && nu == o.nu && nv == o.nv; }
+  bool operator<(const Neighbour& o) const { return std::tie(row, column, nu, nv) < std::tie(o.row, o.column, o.nu, o.nv); }
 };
+
+PieceStack alone(const SubPatch& p) { return {p.object, p.nu, p.nv, {{p.patch, p.rect}}, {p.raster, p.zMin}, p.crossesEye}; }
+
+void extend(Placement& place, const Placement& by) {
+  place.raster.extend(by.raster.lo), place.raster.extend(by.raster.hi);
+  place.zMin = std::min(place.zMin, by.zMin);
+}
+
+/// Of neighbours that share a node, nearest first. Pre: those that may share a grid stand together.
+std::vector<PieceStack> stacksOf(const HideContext& context, std::span<const Neighbour> neighbours) {
+  std::vector<PieceStack> out;
+  const Neighbour* last = nullptr;
+  for (const Neighbour& n : neighbours) {
+    const SubPatch& p = *n.piece;
+    const size_t most = std::max<size_t>(1, kStack_vertices / static_cast<size_t>((p.nu + 1) * (p.nv + 1)));
+    const bool stacks = canStack(context, p);
+    if (last && stacks && n.sharesGrid(*last) && out.back().pieces.size() < most) {
+      out.back().pieces.push_back({p.patch, p.rect});
+      extend(out.back().place, {p.raster, p.zMin});
+    } else {
+      out.push_back(alone(p));
+    }
+    last = stacks ? &n : nullptr;
+  }
+  std::stable_sort(out.begin(), out.end(), [](const PieceStack& a, const PieceStack& b) { return a.place.zMin < b.place.zMin; });
+  return out;
+}
 
 }  // namespace
 
-PieceNode::PieceNode(HideContext& context, std::span<const SubPatch* const> pieces, const Placement& place, const BucketRange& range)
+PieceNode::PieceNode(HideContext& context, std::vector<PieceStack> stacks, const Placement& place, const BucketRange& range)
     : HideNode(place, range), context_(context), users_(range.count()) {
-  pieces_.reserve(pieces.size());
-  for (const SubPatch* piece : pieces) pieces_.push_back({*piece, range & context.buckets.touched(piece->raster)});
+  stacks_.reserve(stacks.size());
+  for (PieceStack& s : stacks) {
+    const BucketRange touched = range & context.buckets.touched(s.place.raster);
+    stacks_.push_back({std::move(s), touched});
+  }
 }
 
 void PieceNode::visit(size_t bucket, NodeQueue&, Hider& hider) {
   const int column = context_.buckets.column(bucket), row = context_.buckets.row(bucket);
-  for (Piece& piece : pieces_) {
-    const BucketRange& r = piece.range;
+  for (Stack& stack : stacks_) {
+    const BucketRange& r = stack.range;
     if (column < r.c0 || column > r.c1 || row < r.r0 || row > r.r1) continue;
-    if (pieces_.size() > 1 && hider.hidden(piece.patch.raster, piece.patch.zMin)) continue;
-    if (const auto grid = acquire(piece)) hider.insert(grid);
+    if (stacks_.size() > 1 && hider.hidden(stack.pieces.place.raster, stack.pieces.place.zMin)) continue;
+    if (const auto grid = acquire(stack)) hider.insert(grid);
   }
 }
 
-std::shared_ptr<const RasterGrid> PieceNode::acquire(Piece& piece) {
+std::shared_ptr<const RasterGrid> PieceNode::acquire(Stack& stack) {
   const std::lock_guard lock(mutex_);
-  if (!piece.made) piece.grid = makeGrid(piece.patch);
-  piece.made = true;
-  return piece.grid;
+  if (!stack.made) stack.grid = makeGrid(stack.pieces);
+  stack.made = true;
+  return stack.grid;
 }
 
 void PieceNode::release(size_t) {
   const std::lock_guard lock(mutex_);
   if (--users_ > 0) return;
-  pieces_.clear();
+  stacks_.clear();
   pool_.reset();
 }
 
-std::shared_ptr<const RasterGrid> PieceNode::makeGrid(const SubPatch& piece) {
-  const Object& o = context_.scene.objects[static_cast<size_t>(piece.object)];
+std::shared_ptr<const RasterGrid> PieceNode::makeGrid(const PieceStack& stack) {
+  const Object& o = context_.scene.objects[static_cast<size_t>(stack.object)];
   if (!pool_) pool_ = makePool();
   const size_t before = pool_->bytes();
   auto grid = std::allocate_shared<Grid>(
       KeepingPool<Grid>(pool_),
-      dice(context_.scene, piece.object, piece.patch, piece.rect, piece.nu, piece.nv, {o.keyTimes, o.cameraFromObject}, pool_.get()));
+      dice(context_.scene, stack.object, stack.pieces, stack.nu, stack.nv, {o.keyTimes, o.cameraFromObject}, pool_.get()));
   context_.shading.displace(*grid);
   Stats& stats = context_.stats;
   ++stats.geometry.gridsDiced;
   stats.geometry.micropolygonsDiced += grid->cellCount();
 
-  if (leaveOutUnseeable(*grid) && !piece.crossesEye)
+  if (leaveOutUnseeable(*grid) && !stack.crossesEye)
     context_.log.report(Severity::Warning, "grid-behind-eye", o.where,
                         fmt::format("{}: displaced vertices are not finite or lie behind the eye; the micropolygons there are "
                                     "left out (is displacementbound too small?)",
                                     objectName(o)));
   // Midpoints need what lies behind what is opaque.
   const bool hides = context_.shading.opaque(o.group) && context_.scene.options.depthFilter != DepthFilter::Midpoint;
-  auto raster = project(std::move(grid), context_.scene, context_.camera, hides, piece.zMin, pool_);
+  auto raster = project(std::move(grid), context_.scene, context_.camera, hides, stack.place.zMin, pool_);
   keepPeak(stats.memoryBytes.grids, context_.liveGrids_bytes += static_cast<int64_t>(pool_->bytes() - before));
   return raster;
 }
@@ -87,7 +133,8 @@ std::shared_ptr<Pool> PieceNode::makePool() const {
   // A vertex takes a dozen floats without motion and primitive variables, and a grid about as much as this without vertices.
   constexpr size_t kVertex_bytes = 48, kGrid_bytes = 768, kMost_bytes = 65536;
   size_t bytes = 0;
-  for (const Piece& p : pieces_) bytes += kGrid_bytes + kVertex_bytes * static_cast<size_t>(padded((p.patch.nu + 1) * (p.patch.nv + 1)));
+  for (const auto& [stack, range, grid, made] : stacks_)
+    bytes += kGrid_bytes + kVertex_bytes * static_cast<size_t>(padded(static_cast<int>(stack.pieces.size()) * (stack.nu + 1) * (stack.nv + 1)));
   return {new Pool(std::min(bytes, kMost_bytes)), [&live = context_.liveGrids_bytes](const Pool* pool) {
             live -= static_cast<int64_t>(pool->bytes());
             delete pool;
@@ -98,18 +145,18 @@ bool PieceNode::leaveOutUnseeable(Grid& g) const {
   bool all = true;
   for (int key = 0; key < g.keyCount; ++key) all &= allSeeable(g, key, context_.camera);
   if (all) return false;
-  const int row = g.nu + 1;
+  const int row = g.nu + 1, rows = g.nv + 1;
   bool any = false;
   for (int v = 0; v < g.vertexCount(); ++v) {
     bool good = true;
     for (int key = 0; key < g.keyCount; ++key) good &= context_.camera.seeable(g.position(key, v));
     if (good) continue;
     any = true;
-    g.kept.resize(static_cast<size_t>(g.cellCount()), Kept::All);
-    const int i = v % row, j = v / row;
+    g.kept.resize(static_cast<size_t>(g.cellNumbers()), Kept::All);
+    const int i = v % row, j = v / row % rows, first = v / row - j;
     for (int cj = std::max(j - 1, 0); cj <= std::min(j, g.nv - 1); ++cj)
       for (int ci = std::max(i - 1, 0); ci <= std::min(i, g.nu - 1); ++ci)
-        g.kept[static_cast<size_t>(cj * g.nu + ci)] = Kept::None;
+        g.kept[static_cast<size_t>((first + cj) * g.nu + ci)] = Kept::None;
   }
   return any;
 }
@@ -121,23 +168,17 @@ HideNodes pieceNodes(HideContext& context, std::span<const SubPatch> pieces, con
     const BucketRange touched = within & context.buckets.touched(piece.raster);
     if (touched.empty()) continue;
     if (piece.nu * piece.nv < kSmall_cells)
-      small.push_back({touched.r0 / kBlock_buckets, touched.c0 / kBlock_buckets, &piece});
+      small.push_back({touched.r0 / kBlock_buckets, touched.c0 / kBlock_buckets, piece.nu, piece.nv, &piece});
     else
-      out.push_back(std::make_unique<PieceNode>(context, std::array{&piece}, Placement{piece.raster, piece.zMin}, touched));
+      out.push_back(std::make_unique<PieceNode>(context, std::vector{alone(piece)}, Placement{piece.raster, piece.zMin}, touched));
   }
   std::stable_sort(small.begin(), small.end());
-  std::vector<const SubPatch*> together;
   for (auto begin = small.begin(), end = begin; begin != small.end(); begin = end) {
-    end = std::upper_bound(begin, small.end(), *begin);
-    together.clear();
+    end = std::find_if(begin, small.end(), [&](const Neighbour& n) { return !n.sharesNode(*begin); });
     Placement place{{}, kInfinity};
-    for (const Neighbour& n : std::span(begin, end)) {
-      together.push_back(n.piece);
-      place.raster.extend(n.piece->raster.lo), place.raster.extend(n.piece->raster.hi);
-      place.zMin = std::min(place.zMin, n.piece->zMin);
-    }
-    std::stable_sort(together.begin(), together.end(), [](const SubPatch* a, const SubPatch* b) { return a->zMin < b->zMin; });
-    out.push_back(std::make_unique<PieceNode>(context, together, place, within & context.buckets.touched(place.raster)));
+    std::vector<PieceStack> stacks = stacksOf(context, {begin, end});
+    for (const PieceStack& s : stacks) extend(place, s.place);
+    out.push_back(std::make_unique<PieceNode>(context, std::move(stacks), place, within & context.buckets.touched(place.raster)));
   }
   return out;
 }

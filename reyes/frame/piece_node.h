@@ -1,38 +1,47 @@
-// Pieces that a grid each can hold: diced by the first bucket that does not hide them, and shared by those that they touch.
+// Pieces that a grid can hold: diced by the first bucket that does not hide them, and shared by those that they touch.
 #pragma once
 #include "reyes/frame/hide_node.h"
 
 namespace tomales {
 
+/// Pieces for one grid, all of nu x nv, and where they are together.
+struct PieceStack {
+  int object, nu, nv;
+  std::vector<PatchPiece> pieces;
+  Placement place;
+  bool crossesEye;  ///< SubPatch::crossesEye
+};
+
 class PieceNode : public HideNode {
  public:
-  /// Pieces: nearest first.
-  PieceNode(HideContext& context, std::span<const SubPatch* const> pieces, const Placement& place, const BucketRange& range);
+  /// Stacks: nearest first.
+  PieceNode(HideContext& context, std::vector<PieceStack> stacks, const Placement& place, const BucketRange& range);
 
   void visit(size_t bucket, NodeQueue& queue, Hider& hider) override;
   void release(size_t bucket) override;
 
  private:
-  struct Piece {
-    SubPatch patch;
+  struct Stack {
+    PieceStack pieces;
     BucketRange range;
     std::shared_ptr<const RasterGrid> grid{};
     bool made = false;
   };
-  std::shared_ptr<const RasterGrid> acquire(Piece& piece);
-  std::shared_ptr<const RasterGrid> makeGrid(const SubPatch& piece);
+  std::shared_ptr<const RasterGrid> acquire(Stack& stack);
+  std::shared_ptr<const RasterGrid> makeGrid(const PieceStack& stack);
   std::shared_ptr<Pool> makePool() const;
   /// Takes away the cells with vertices that are nearer than the eye plane at some key or not finite. True if there are.
   bool leaveOutUnseeable(Grid& grid) const;
 
   HideContext& context_;
-  std::vector<Piece> pieces_;
+  std::vector<Stack> stacks_;
   std::mutex mutex_;
   std::shared_ptr<Pool> pool_;  ///< Of the grids. Hiders keep them longer than nodes do.
   int users_;
 };
 
-/// A node for each large piece, and one for small ones that lie close together: most of what a tiny piece costs would be its node.
+/// A node for each large piece, and one for small ones that lie close together: most of what a tiny piece costs would be its node
+/// and its grid. Which pieces share a grid may depend on buckets, what is seen may not (docs/decisions/0040).
 HideNodes pieceNodes(HideContext& context, std::span<const SubPatch> pieces, const BucketRange& within);
 
 }  // namespace tomales

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "reyes/base/check.h"
+
 namespace tomales {
 namespace {
 
@@ -42,6 +44,7 @@ std::vector<BlurBounds::Level> levelsOf(const Grid& g) {
 
 std::shared_ptr<const BlurBounds> boundBlur(const RasterGrid& r, const Camera& camera) {
   const Grid& g = *r.grid;
+  CHECK_EQ(g.pieceCount(), 1);
   const int row = g.nu + 1, segments = std::max(1, g.keyCount - 1);
   auto bounds = std::make_shared<BlurBounds>();
   bounds->levels = levelsOf(g);

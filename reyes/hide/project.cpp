@@ -1,4 +1,5 @@
 // Grid -> raster space, with the borders that join a neighbour pushed out (docs/decisions/0003).
+#include "reyes/base/check.h"
 #include "reyes/hide/blur_bounds.h"
 #include "reyes/hide/lattice.h"
 
@@ -11,7 +12,7 @@ constexpr float kReach = 4;
 constexpr float kMinReach_px = 2 / kLattice;
 constexpr float kTrimReach = 2;  // The reach is tried along x and y only, and trim curves run aslant.
 
-/// One border of a grid as vertex indices: first + k * step for k in 0..count; the inner neighbour is
+/// One border of a piece as vertex indices: first + k * step for k in 0..count; the inner neighbour is
 /// `inward` away.
 struct Border {
   PatchEdge edge;
@@ -76,16 +77,21 @@ void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, 
 }
 
 void pushBorders(const Grid& g, float* x, float* y) {
-  if ((g.openEdges & kAllEdges) == kAllEdges) return;
+  const auto ends = [](const Grid::Piece& p) { return (p.openEdges & kAllEdges) == kAllEdges; };
+  if (std::all_of(g.pieces.begin(), g.pieces.end(), ends)) return;
   const int row = g.nu + 1;
-  const Border borders[] = {{kEdgeU0, 0, row, 1, g.nv},
-                            {kEdgeU1, g.nu, row, -1, g.nv},
-                            {kEdgeV0, 0, 1, row, g.nu},
-                            {kEdgeV1, g.nv * row, 1, -row, g.nu}};
   static thread_local std::vector<vec2> push;
   push.assign(static_cast<size_t>(g.vertexCount()), vec2(0));
-  for (const Border& b : borders)
-    if (!(g.openEdges & b.edge)) pushBorder(g, b, x, y, push);
+  int first = 0;
+  for (const Grid::Piece& p : g.pieces) {
+    const Border borders[] = {{kEdgeU0, first, row, 1, g.nv},
+                              {kEdgeU1, first + g.nu, row, -1, g.nv},
+                              {kEdgeV0, first, 1, row, g.nu},
+                              {kEdgeV1, first + g.nv * row, 1, -row, g.nu}};
+    for (const Border& b : borders)
+      if (!(p.openEdges & b.edge)) pushBorder(g, b, x, y, push);
+    first += g.verticesOfPiece();
+  }
   for (size_t v = 0; v < push.size(); ++v) x[v] += push[v].x, y[v] += push[v].y;
 }
 
@@ -128,8 +134,9 @@ TOMALES_HOT void snap(float* __restrict x, float* __restrict y, int count) {
   for (int v = 0; v < count; ++v) x[v] = snapToLattice(x[v]), y[v] = snapToLattice(y[v]);
 }
 
-/// Bounds of vertices in focus. Lanes of a vector keep their own, which the compiler cannot do for one running minimum.
-TOMALES_HOT void extendBy(const float* x, const float* y, const float* d, int count, RasterGrid& r) {
+/// Of vertices in focus. Lanes of a vector keep their own, which the compiler cannot do for one running minimum.
+TOMALES_HOT RasterExtent extentOf(const float* x, const float* y, const float* d, int count) {
+  RasterExtent e;
   float lo[3][kLanes], hi[2][kLanes];
   for (int i = 0; i < kLanes; ++i) lo[0][i] = lo[1][i] = lo[2][i] = kInfinity, hi[0][i] = hi[1][i] = -kInfinity;
   const auto take = [&](int v, int i) {
@@ -142,9 +149,36 @@ TOMALES_HOT void extendBy(const float* x, const float* y, const float* d, int co
     for (int i = 0; i < kLanes; ++i) take(first + i, i);
   for (int i = 0; first + i < count; ++i) take(first + i, i);
   for (int i = 0; i < kLanes; ++i) {
-    r.bound.lo = glm::min(r.bound.lo, vec2(lo[0][i], lo[1][i])), r.bound.hi = glm::max(r.bound.hi, vec2(hi[0][i], hi[1][i]));
-    r.dMin = std::min(r.dMin, lo[2][i]);
+    e.bound.lo = glm::min(e.bound.lo, vec2(lo[0][i], lo[1][i])), e.bound.hi = glm::max(e.bound.hi, vec2(hi[0][i], hi[1][i]));
+    e.dMin = std::min(e.dMin, lo[2][i]);
   }
+  return e;
+}
+
+/// The same of fewer than fill lanes.
+RasterExtent extentOfFew(const float* x, const float* y, const float* d, int count) {
+  RasterExtent e;
+  for (int v = 0; v < count; ++v) {
+    e.bound.extend(vec2(x[v], y[v]));
+    e.dMin = std::min(e.dMin, d[v]);
+  }
+  return e;
+}
+
+/// Some of the vertices of `r` at a key, of which those that nobody sees do not count; notes what is out of focus.
+RasterExtent extentOfSeeable(RasterGrid& r, const Camera& camera, int key, int first, int count) {
+  const size_t base = static_cast<size_t>(key * r.grid->stride());
+  RasterExtent e;
+  for (int v = first; v < first + count; ++v) {
+    if (!camera.seeable(r.grid->position(key, v))) continue;
+    const size_t k = base + static_cast<size_t>(v);
+    const vec2 at(r.x[k], r.y[k]), blur = glm::abs(camera.defocus(r.d[k]));
+    e.bound.extend(at - blur);
+    e.bound.extend(at + blur);
+    r.defocused |= std::max(blur.x, blur.y) > 1 / kLattice;
+    e.dMin = std::min(e.dMin, r.d[k]);
+  }
+  return e;
 }
 
 }  // namespace
@@ -163,12 +197,16 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
   r->sides = r->inSolid ? 2 : attributes.sides;
   r->detail = attributes.detail;
   r->smooth = attributes.interpolation == ShadingInterpolation::Smooth;
-  if (!g.kept.empty()) r->trim = &scene.objects[static_cast<size_t>(g.object)].shape();
+  if (std::find(g.kept.begin(), g.kept.end(), Kept::Part) != g.kept.end()) {
+    CHECK_EQ(g.pieceCount(), 1);
+    r->trim = &object.shape();
+  }
   // The tail lets blocks of micropolygons be read across the end.
   const size_t stride = static_cast<size_t>(g.stride()),
                size = stride * static_cast<size_t>(g.keyCount) + 2 * kLanes;
   for (PooledVector<float>* axis : {&r->x, &r->y, &r->d}) *axis = PooledVector<float>(size, 0.0f, pool.get());
-  r->dMin = r->inSolid && zMin < kInfinity ? camera.leastDepthKey(zMin) : kInfinity;
+  const int pieces = g.pieceCount(), count = g.verticesOfPiece();
+  if (pieces > 1) r->ofPiece.resize(static_cast<size_t>(pieces));
   for (int key = 0; key < g.keyCount; ++key) {
     const size_t base = stride * static_cast<size_t>(key);
     float *x = r->x.data() + base, *y = r->y.data() + base, *d = r->d.data() + base;
@@ -178,20 +216,18 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
     if (r->trim) r->trimReach_px = std::max(r->trimReach_px, kMinReach_px + kTrimReach * deviation_px(g, x, y));
     pushBorders(g, x, y);
     snap(x, y, g.vertexCount());
-    if (allSeeable && !camera.defocuses()) {
-      extendBy(x, y, d, g.vertexCount(), *r);
-      continue;
-    }
-    for (int v = 0; v < g.vertexCount(); ++v) {
-      if (!camera.seeable(g.position(key, v))) continue;
-      const vec2 blur = glm::abs(camera.defocus(d[v]));
-      r->bound.extend(vec2(x[v], y[v]) - blur);
-      r->bound.extend(vec2(x[v], y[v]) + blur);
-      r->defocused |= std::max(blur.x, blur.y) > 1 / kLattice;
-      r->dMin = std::min(r->dMin, d[v]);
+    for (int p = 0; p < pieces; ++p) {
+      const int first = p * count;
+      const auto extent = !allSeeable || camera.defocuses() ? extentOfSeeable(*r, camera, key, first, count)
+                          : count < 2 * kLanes              ? extentOfFew(x + first, y + first, d + first, count)
+                                                            : extentOf(x + first, y + first, d + first, count);
+      if (pieces > 1) r->ofPiece[static_cast<size_t>(p)].extend(extent);
+      r->extend(extent);
     }
   }
+  if (r->inSolid && zMin < kInfinity) r->dMin = std::min(r->dMin, camera.leastDepthKey(zMin));
   r->trimReach_px = std::min(r->trimReach_px, kMaxReach_px);
+  CHECK_EQ(pieces > 1 && (g.keyCount > 1 || camera.defocuses() || r->inSolid), false);
   if (g.keyCount > 1 || r->defocused) r->blur = boundBlur(*r, camera);
   return r;
 }

@@ -3,7 +3,7 @@
 // the same in all of them, and none is fused, so the bits are too.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reyes/hide/raster_still.cpp"
-#include "reyes/hide/vector.h"  // Includes this file again for each target.
+#include "reyes/base/vector.h"  // Includes this file again for each target.
 
 #include <bit>
 
@@ -183,7 +183,9 @@ HWY_INLINE void film(const RasterJob& job, const Quad& quad, size_t pixel, uint3
     const Reach r = reachOf(job, quad, first + g, cell, kept);
     if (hn::AllFalse(kF, r.mask)) continue;
     hn::StoreU(hn::Compress(r.depth, r.mask), kF, films.next());
-    films.add(static_cast<uint32_t>(pixel), cell, static_cast<uint32_t>(g / 64), bitsOf(r.mask) << (g % 64));
+    const float nearest = hn::GetLane(hn::MinOfLanes(kF, hn::IfThenElse(r.mask, r.depth, all(kInfinity))));
+    const float farthest = hn::GetLane(hn::MaxOfLanes(kF, hn::IfThenElse(r.mask, r.depth, all(-kInfinity))));
+    films.add(static_cast<uint32_t>(pixel), cell, static_cast<uint32_t>(g / 64), bitsOf(r.mask) << (g % 64), nearest, farthest);
   }
 }
 
@@ -209,19 +211,20 @@ HWY_INLINE void rasterizeCell(const RasterJob& job, const QuadBlock& q, int i, u
     }
 }
 
-void rasterize(const RasterJob& job) {
+/// The micropolygons whose first vertices are those from `first` to before `end`.
+void rasterizeRun(const RasterJob& job, int first, int end, QuadBlock& q) {
   const RasterGrid& r = job.raster;
   const Grid& g = *r.grid;
-  const int row = g.nu + 1, end = g.nv * row;
-  QuadBlock q;
-  for (int k = 0; k < end; k += kLanes) {
+  const int row = g.nu + 1;
+  for (int k = first; k < end; k += kLanes) {
     uint64_t left = setUp(q, r, k, row, job.out.rect);
     for (; left; left &= left - 1) {
-      const int i = std::countr_zero(left), a = k + i, u = a % row;
+      const int i = std::countr_zero(left), a = k + i, v = a / row, u = a - v * row;
       if (a >= end) break;
       if (u == g.nu) continue;
+      const int index = v * g.nu + u;
+      if (!g.isCell(index)) continue;
       if (r.sides == 1 && turnedAway(job, a)) continue;
-      const int index = a / row * g.nu + u;
       const Kept kept = keptOf(job, index);
       if (kept == Kept::None) continue;
       const uint32_t cell = job.firstCell + static_cast<uint32_t>(index);
@@ -230,6 +233,26 @@ void rasterize(const RasterJob& job) {
       else
         rasterizeCell<false>(job, q, i, cell, kept);
     }
+  }
+}
+
+/// Pieces that other buckets see are passed over, and so are those that are hidden here.
+void rasterize(const RasterJob& job) {
+  const Grid& g = *job.raster.grid;
+  const auto& pieces = job.raster.ofPiece;
+  const int ofPiece = g.verticesOfPiece(), withoutCells = g.nu + 1;
+  const vec2 lo(job.out.rect.x0, job.out.rect.y0), hi(job.out.rect.x1, job.out.rect.y1);
+  const auto seen = [&](size_t p) {
+    const RasterExtent& e = pieces[p];
+    const bool touches = (e.bound.lo.x < hi.x) & (e.bound.hi.x >= lo.x) & (e.bound.lo.y < hi.y) & (e.bound.hi.y >= lo.y);
+    return touches && !job.out.hides(job.out.touched(e.bound.lo, e.bound.hi), e.dMin);
+  };
+  QuadBlock q;
+  if (pieces.empty()) return rasterizeRun(job, 0, ofPiece - withoutCells, q);
+  for (size_t p = 0; p < pieces.size(); ++p) {
+    const size_t first = p;
+    while (p < pieces.size() && seen(p)) ++p;
+    if (p > first) rasterizeRun(job, static_cast<int>(first) * ofPiece, static_cast<int>(p) * ofPiece - withoutCells, q);
   }
 }
 

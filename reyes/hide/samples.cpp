@@ -5,10 +5,11 @@
 namespace tomales {
 
 const GridTable::Entry& GridTable::add(const std::shared_ptr<const RasterGrid>& raster, std::vector<float> keyTimes) {
-  const uint32_t first = cellCount(), cells = static_cast<uint32_t>(raster->grid->cellCount());
+  const uint32_t first = cellCount(), cells = static_cast<uint32_t>(raster->grid->cellNumbers());
   entryOfPage_.resize(entryOfPage_.size() + (cells + kPage - 1) / kPage, static_cast<uint32_t>(entries_.size()));
   entries_.push_back({first, raster, std::move(keyTimes)});
   ++held_;
+  anySmooth_ |= raster->smooth;
   return entries_.back();
 }
 
@@ -28,7 +29,7 @@ void GridTable::keepOnly(const std::vector<uint32_t>& cells) {
   for (Entry& e : entries_) {
     if (!e.raster) continue;
     const auto first = std::lower_bound(cells.begin(), cells.end(), e.firstCell);
-    if (first != cells.end() && *first < e.firstCell + static_cast<uint32_t>(e.grid().cellCount())) {
+    if (first != cells.end() && *first < e.firstCell + static_cast<uint32_t>(e.grid().cellNumbers())) {
       e.raster = onItsOwn(e.raster);
       continue;
     }
@@ -41,7 +42,9 @@ bool GridTable::precedes(uint32_t a, uint32_t b) const {
   const auto rank = [this](uint32_t cell) {
     const Entry& e = of(cell);
     const Grid& g = e.grid();
-    return std::make_tuple(g.name, g.object, g.patch, g.rect.u0, g.rect.v0, cell - e.firstCell);
+    const int number = static_cast<int>(cell - e.firstCell);
+    const Grid::Piece& p = g.pieces[static_cast<size_t>(g.pieceOfCell(number))];
+    return std::make_tuple(p.name, g.object, p.patch, p.rect.u0, p.rect.v0, g.cellInPiece(number));
   };
   return rank(a) < rank(b);
 }

@@ -18,7 +18,7 @@ bool keepsSample(const RasterJob& job, uint32_t cell, size_t lane) {
     SamplePoint moved = sample;
     moved.at += offset;
     const vec2 uv = g.onPatch(index, positionOnCell(entry, job.camera, index, moved));
-    return raster.trim->keeps(g.patch, uv.x, uv.y);
+    return raster.trim->keeps(g.pieces[static_cast<size_t>(g.pieceOfCell(index))].patch, uv.x, uv.y);
   };
   // The surfaces on both sides of a trim curve are chords of it: each reaches out by its own error, so that they meet.
   const float r = raster.trimReach_px;

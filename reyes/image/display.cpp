@@ -1,7 +1,6 @@
-#include <filesystem>
-
 #include "reyes/base/rng.h"
 #include "reyes/image/cryptomatte.h"
+#include "reyes/image/display_format.h"
 
 namespace tomales {
 namespace {
@@ -39,107 +38,6 @@ void encodeForScreen(Image& image) {
       if (static_cast<int>(c) != alpha)
         image.pixels[i + c] = encodeSrgb(a > 0 ? image.pixels[i + c] / a : 0.0f);
   }
-}
-
-FileFormat formatOfType(const std::string& type) {
-  if (type == "openexr" || type == "exr") return {"openexr", SampleType::Float};
-  if (type == "shadow" || type == "zfile" || type == "deepshad" || type == "deepexr") return {"openexr", SampleType::Float};
-  if (type == "tiff" || type == "tif") return {"tiff", SampleType::UInt8};
-  if (type == "png") return {"png", SampleType::UInt8};
-  return {"", SampleType::Float};
-}
-
-/// A string parameter of a Display, in lower case; empty if it is not there.
-std::string text(const DisplayCall& display, const char* name) {
-  const Param* p = findParam(display.params, name);
-  std::string value = p && !p->strings.empty() ? p->strings[0] : "";
-  for (char& c : value) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return value;
-}
-
-constexpr std::string_view kCompressions[] = {"none", "rle", "zip", "zips", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
-constexpr std::string_view kHeader = "exrheader_";
-
-bool knowsParam(const std::string& name) {
-  static constexpr std::string_view kNames[] = {"transfer",    "exrpixeltype", "type",     "compression", "exrcompression",
-                                                "tiled",       "multipart",    "quantize", "dither",      "filter",
-                                                "filterwidth", "exposure",     "origin",   "chromaticities", "mergedepth",
-                                                "mergeopacity"};
-  return name.starts_with(kHeader) || std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
-}
-
-std::string compressionOf(const DisplayCall& display) {
-  const std::string plain = text(display, "compression");
-  return plain.empty() ? text(display, "exrcompression") : plain;
-}
-
-std::string pixelTypeOf(const DisplayCall& display) {
-  const std::string exr = text(display, "exrpixeltype");
-  return exr.empty() ? text(display, "type") : exr;
-}
-
-void warnAboutParams(const DisplayCall& display, Log& log) {
-  const auto warn = [&](const std::string& what) {
-    log.report(Severity::Warning, "display-parameter", display.where,
-               "Display \"" + display.name + "\": " + what + "; ignored");
-  };
-  for (const Param& p : display.params)
-    if (!knowsParam(p.name)) warn("no parameter \"" + p.name + "\"");
-  const std::string transfer = text(display, "transfer"), type = pixelTypeOf(display), compression = compressionOf(display);
-  if (!transfer.empty() && transfer != "srgb" && transfer != "linear")
-    warn("no transfer \"" + transfer + "\"");
-  if (!type.empty() && type != "half" && type != "float") warn("no pixel type \"" + type + "\"");
-  if (!compression.empty() &&
-      std::find(std::begin(kCompressions), std::end(kCompressions), compression) == std::end(kCompressions))
-    warn("no compression \"" + compression + "\"");
-}
-
-std::vector<Metadata> metadataOf(const DisplayCall& display) {
-  // Linear light of the primaries of Rec. 709 and sRGB, unless the Display says otherwise.
-  Metadata primaries{"chromaticities", "", {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f}};
-  if (const Param* p = findParam(display.params, "chromaticities"); p && p->floats.size() == 8) primaries.numbers = p->floats;
-  std::vector<Metadata> out{primaries};
-  for (const Param& p : display.params) {
-    if (!p.name.starts_with(kHeader)) continue;
-    Metadata m{p.name.substr(kHeader.size()), p.strings.empty() ? "" : p.strings[0], p.floats};
-    for (const int i : p.ints) m.numbers.push_back(static_cast<float>(i));
-    out.push_back(std::move(m));
-  }
-  return out;
-}
-
-bool flag(const DisplayCall& display, const char* name) {
-  const Param* p = findParam(display.params, name);
-  return p && p->number(0) != 0;
-}
-
-void setExr(const DisplayCall& display, FileFormat& format) {
-  if (pixelTypeOf(display) == "half") format.type = SampleType::Half;
-  const std::string compression = compressionOf(display);
-  if (std::find(std::begin(kCompressions), std::end(kCompressions), compression) != std::end(kCompressions))
-    format.compression = compression;
-  if (flag(display, "tiled")) format.tile = PictureFile::kBandRows;
-  format.multipart = flag(display, "multipart");
-  format.metadata = metadataOf(display);
-}
-
-/// Decides file format, and the name where the Display leaves it open (RISpec's "ri.pic" has a format of no
-/// one's).
-FileFormat formatOf(const DisplayCall& display, std::string& path, Log& log) {
-  FileFormat format = formatOfType(display.type);
-  if (format.name.empty()) {
-    if (display.type != "file")
-      log.report(
-          Severity::Warning, "display-type", display.where,
-          "Display \"" + display.name + "\": no display type \"" + display.type + "\"; written as a file");
-    format = formatOfExtension(path);
-  }
-  if (format.name.empty()) {
-    format = {"openexr", SampleType::Float};
-    path = std::filesystem::path(path).replace_extension(".exr").string();
-  }
-  if (format.name == "openexr") setExr(display, format);
-  return format;
 }
 
 }  // namespace
@@ -246,7 +144,7 @@ struct DisplayFile::Impl {
       quantizers.assign(selection.size(), Quantize{});
       wide = false;
     }
-    screen = text(display, "transfer") == "srgb" && !anyDepth;
+    screen = displayText(display, "transfer") == "srgb" && !anyDepth;
     format.unassociatedAlpha = screen;
     format.type = wide ? SampleType::UInt16 : SampleType::UInt8;
     return true;

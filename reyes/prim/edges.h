@@ -1,7 +1,8 @@
 // Which edges of a mesh join two faces. Private to the primitives.
 #pragma once
 #include <algorithm>
-#include <cstdint>
+#include <cstddef>
+#include <numeric>
 #include <vector>
 
 namespace tomales {
@@ -10,27 +11,42 @@ class EdgeFaces {
  public:
   /// Sizes and indices that requireFaces has passed.
   EdgeFaces(const std::vector<int>& vertexCounts, const std::vector<int>& vertices) {
-    sides_.reserve(vertices.size());
-    size_t first = 0;
-    for (int count : vertexCounts) {
-      for (int k = 0; k < count; ++k)
-        sides_.push_back(key(vertices[first + k], vertices[first + (k + 1) % count]));
-      first += static_cast<size_t>(count);
-    }
-    std::sort(sides_.begin(), sides_.end());
+    const int most = vertices.empty() ? -1 : *std::max_element(vertices.begin(), vertices.end());
+    end_.assign(static_cast<size_t>(most) + 2, 0);
+    forSides(vertexCounts, vertices, [&](int a, int) { ++end_[static_cast<size_t>(a) + 1]; });
+    std::partial_sum(end_.begin(), end_.end(), end_.begin());
+    others_.resize(vertices.size());
+    // Filling moves each list's end, kept one place early, to where it belongs.
+    forSides(vertexCounts, vertices, [&](int a, int b) { others_[end_[static_cast<size_t>(a)]++] = b; });
+    for (int a = 0; a <= most; ++a) std::sort(others_.begin() + firstOf(a), others_.begin() + lastOf(a));
   }
 
   /// Faces at the edge between vertices a and b; 0 if there is no such edge.
   int count(int a, int b) const {
-    const auto [first, last] = std::equal_range(sides_.begin(), sides_.end(), key(a, b));
+    if (a > b) std::swap(a, b);
+    if (a < 0 || static_cast<size_t>(a) + 1 >= end_.size()) return 0;
+    const auto [first, last] = std::equal_range(others_.begin() + firstOf(a), others_.begin() + lastOf(a), b);
     return static_cast<int>(last - first);
   }
 
  private:
-  static uint64_t key(int a, int b) {
-    return static_cast<uint64_t>(std::min(a, b)) << 32 | static_cast<uint32_t>(std::max(a, b));
+  /// f(lesser vertex, greater one) for every side of every face.
+  template <class F>
+  static void forSides(const std::vector<int>& vertexCounts, const std::vector<int>& vertices, const F& f) {
+    size_t first = 0;
+    for (const int count : vertexCounts) {
+      for (int k = 0; k < count; ++k) {
+        const int a = vertices[first + static_cast<size_t>(k)], b = vertices[first + static_cast<size_t>(k + 1 < count ? k + 1 : 0)];
+        f(std::min(a, b), std::max(a, b));
+      }
+      first += static_cast<size_t>(count);
+    }
   }
-  std::vector<uint64_t> sides_;  // an edge as often as faces have it
+  ptrdiff_t firstOf(int a) const { return a > 0 ? static_cast<ptrdiff_t>(end_[static_cast<size_t>(a) - 1]) : 0; }
+  ptrdiff_t lastOf(int a) const { return static_cast<ptrdiff_t>(end_[static_cast<size_t>(a)]); }
+
+  std::vector<int> others_;   // of vertex after vertex: the greater ends of its sides, sorted, an edge as often as faces have it
+  std::vector<size_t> end_;   // of a vertex's others
 };
 
 }  // namespace tomales

@@ -142,6 +142,15 @@ glm::dvec3 newellNormal(const std::vector<vec3>& points) {
   return normal;
 }
 
+glm::dvec3 normalOfWidestTriangle(const std::vector<vec3>& points) {
+  glm::dvec3 farthest(0), normal(0);
+  for (const vec3& p : points)
+    if (const glm::dvec3 way(p - points[0]); glm::length(way) > glm::length(farthest)) farthest = way;
+  for (const vec3& p : points)
+    if (const glm::dvec3 n = glm::cross(farthest, glm::dvec3(p - points[0])); glm::length(n) > glm::length(normal)) normal = n;
+  return normal;
+}
+
 bool isStrictlyConvex(const std::vector<vec3>& points, const glm::dvec3& normal) {
   const std::vector<Point2> p = projected(points, normal);
   return allTurnsAtLeast(p, 1e-6 * glm::length(normal)) && goesAroundOnce(p);

@@ -11,6 +11,10 @@ namespace tomales {
 /// Newell).
 glm::dvec3 newellNormal(const std::vector<vec3>& points);
 
+/// Of the triangle that the first point makes with the one farthest from it and the one farthest from their line: a bow tie, whose
+/// halves cancel each other in newellNormal(), has a plane too.
+glm::dvec3 normalOfWidestTriangle(const std::vector<vec3>& points);
+
 /// A convex part of a polygon, as positions in its list of points; an edge that is not the polygon's own is a
 /// diagonal.
 using Piece = std::vector<int>;

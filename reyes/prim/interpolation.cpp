@@ -69,6 +69,11 @@ void evaluateBilinear(const std::array<vec3, 4>& corners, int n, const float* u,
 }
 
 Bound3 boundBilinear(const std::array<vec3, 4>& corners, const UvRect& rect) {
+  if (rect.u0 == 0 && rect.u1 == 1 && rect.v0 == 0 && rect.v1 == 1) {
+    Bound3 whole;
+    for (const vec3& corner : corners) whole.extend(corner);
+    return paddedForRounding(whole, whole);
+  }
   const float u[4] = {rect.u0, rect.u1, rect.u0, rect.u1}, v[4] = {rect.v0, rect.v0, rect.v1, rect.v1};
   Bound3 bound, whole;
   for (int k = 0; k < 4; ++k) {

@@ -55,7 +55,8 @@ class NuPatch : public Prim {
           patch, [&](size_t control) { return glm::dvec4(controls_[control]); }, nets_);
     for (const vec4& h : nets_)
       if (!(h.w > 0)) throw PrimError("its weights are not positive everywhere");
-    extent_ = wholeBound().size();
+    const glm::dvec3 extent(wholeBound().size());
+    degenerate_ = 1e-5 * glm::dot(extent, extent) / patchCount();
   }
 
   uint32_t patchCount() const override {
@@ -65,16 +66,7 @@ class NuPatch : public Prim {
   Bound3 bound(uint32_t patch, const UvRect& rect) const override { return boundRational(net(patch), rect); }
 
   void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const override {
-    for (int i = 0; i < n; ++i) {
-      const RationalPoint s = evaluateRational(net(patch), u[i], v[i]);
-      out.px[i] = static_cast<float>(s.p.x), out.py[i] = static_cast<float>(s.p.y),
-      out.pz[i] = static_cast<float>(s.p.z);
-      out.dux[i] = static_cast<float>(s.du.x), out.duy[i] = static_cast<float>(s.du.y),
-      out.duz[i] = static_cast<float>(s.du.z);
-      out.dvx[i] = static_cast<float>(s.dv.x), out.dvy[i] = static_cast<float>(s.dv.y),
-      out.dvz[i] = static_cast<float>(s.dv.z);
-      setNormal(out, i, normalOf(patch, s, u[i], v[i]));
-    }
+    evaluateRational(net(patch), degenerate_, n, u, v, out);
   }
 
   void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su,
@@ -137,19 +129,6 @@ class NuPatch : public Prim {
     Bound3 bound;
     for (const vec4& h : nets_) bound.extend(vec3(h) / h.w);
     return bound;
-  }
-
-  /// Where the derivatives do not span a plane: the normal a little way towards the middle, where they do.
-  vec3 normalOf(uint32_t patch, const RationalPoint& s, double u, double v) const {
-    const glm::dvec3 normal = glm::cross(s.du, s.dv);
-    const double degenerate = 1e-5 * glm::dot(glm::dvec3(extent_), glm::dvec3(extent_)) / patchCount();
-    if (glm::length(normal) > degenerate) return vec3(normal);
-    for (double step : {1e-3, 1e-2, 1e-1}) {
-      const RationalPoint near = evaluateRational(net(patch), u + (0.5 - u) * step, v + (0.5 - v) * step);
-      const glm::dvec3 n = glm::cross(near.du, near.dv);
-      if (glm::length(n) > 1e-6 * glm::length(near.du) * glm::length(near.dv)) return vec3(glm::normalize(n));
-    }
-    return {0, 0, 1};
   }
 
   std::vector<vec4> edge(uint32_t patch, PatchEdge bit) const {
@@ -220,7 +199,7 @@ class NuPatch : public Prim {
   const std::optional<TrimRegion> trim_;
   std::vector<vec4> controls_;
   std::vector<vec4> nets_;  // Bezier controls, patch by patch
-  vec3 extent_;
+  double degenerate_ = 0;     // the least length of a normal that can be told from rounding
 };
 
 }  // namespace

@@ -138,6 +138,29 @@ RationalPoint evaluateRational(const RationalNet& net, double u, double v) {
   return {p, (glm::dvec3(hu) - p * hu.w) / h.w, (glm::dvec3(hv) - p * hv.w) / h.w};
 }
 
+namespace {
+
+vec3 normalOf(const RationalNet& net, double degenerate, const RationalPoint& s, double u, double v) {
+  const glm::dvec3 normal = glm::cross(s.du, s.dv);
+  if (glm::length(normal) > degenerate) return vec3(normal);
+  for (double step : {1e-3, 1e-2, 1e-1}) {
+    const RationalPoint near = evaluateRational(net, u + (0.5 - u) * step, v + (0.5 - v) * step);
+    const glm::dvec3 n = glm::cross(near.du, near.dv);
+    if (glm::length(n) > 1e-6 * glm::length(near.du) * glm::length(near.dv)) return vec3(glm::normalize(n));
+  }
+  return {0, 0, 1};
+}
+
+}  // namespace
+
+void evaluateRational(const RationalNet& net, double degenerate, int n, const float* u, const float* v, const SurfacePoints& out) {
+  for (int i = 0; i < n; ++i) {
+    const RationalPoint s = evaluateRational(net, u[i], v[i]);
+    setFrame(out, i, vec3(s.p), vec3(s.du), vec3(s.dv));
+    setNormal(out, i, normalOf(net, degenerate, s, u[i], v[i]));
+  }
+}
+
 Bound3 boundRational(const RationalNet& net, const UvRect& rect) {
   const int count = net.uOrder * net.vOrder;
   std::vector<glm::dvec4> c(net.controls, net.controls + count);

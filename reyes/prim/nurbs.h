@@ -1,4 +1,4 @@
-// NURBS as rational Bezier pieces of any order. Private to NuPatch.
+// NURBS as rational Bezier pieces of any order. Private to NuPatch and to patch meshes with weights.
 #pragma once
 #include "reyes/prim.h"
 
@@ -30,6 +30,9 @@ struct RationalPoint {
 };
 
 RationalPoint evaluateRational(const RationalNet& net, double u, double v);
+/// Where the derivatives do not span a plane, their product no longer than `degenerate`, the normal is that a little way towards the
+/// middle.
+void evaluateRational(const RationalNet& net, double degenerate, int n, const float* u, const float* v, const SurfacePoints& out);
 
 /// The controls of the piece over the rectangle contain it. Pre: weights are positive.
 Bound3 boundRational(const RationalNet& net, const UvRect& rect);

@@ -1,47 +1,13 @@
 // Bilinear and bicubic patch meshes (RISpec section 5.2). A Patch is a mesh of one.
 #include <fmt/format.h>
 
-#include "reyes/prim/bicubic.h"
-#include "reyes/prim/interpolation.h"
+#include "reyes/prim/patch_mesh.h"
 #include "reyes/prim/primvars.h"
 
 namespace tomales {
 namespace {
 
-/// One direction of a mesh.
-struct Direction {
-  int controls, step, patches;
-  bool periodic;
-  int corners() const { return periodic ? patches : patches + 1; }  ///< Varying values.
-};
-
-struct Layout {
-  Direction u, v;
-  uint32_t patches() const { return static_cast<uint32_t>(u.patches) * static_cast<uint32_t>(v.patches); }
-  size_t controls() const { return static_cast<size_t>(u.controls) * v.controls; }
-  size_t corners() const { return static_cast<size_t>(u.corners()) * v.corners(); }
-  PrimvarCounts counts() const { return {patches(), corners(), controls(), corners()}; }
-
-  /// Numbers of the varying values at a patch's corners.
-  Corners cornersOf(uint32_t patch) const {
-    const int i = static_cast<int>(patch) % u.patches, j = static_cast<int>(patch) / u.patches;
-    const auto number = [&](int du, int dv) {
-      return static_cast<uint32_t>((j + dv) % v.corners() * u.corners() + (i + du) % u.corners());
-    };
-    return {number(0, 0), number(1, 0), number(0, 1), number(1, 1)};
-  }
-  /// Number of control (k, l) of a patch.
-  size_t controlOf(uint32_t patch, int k, int l) const {
-    const int i = static_cast<int>(patch) % u.patches, j = static_cast<int>(patch) / u.patches;
-    return static_cast<size_t>((j * v.step + l) % v.controls) * u.controls + (i * u.step + k) % u.controls;
-  }
-  /// The neighbour across an edge, around the mesh whether or not it is periodic.
-  uint32_t neighbour(uint32_t patch, int du, int dv) const {
-    const int i = static_cast<int>(patch) % u.patches, j = static_cast<int>(patch) / u.patches;
-    return static_cast<uint32_t>((j + dv + v.patches) % v.patches * u.patches +
-                                 (i + du + u.patches) % u.patches);
-  }
-};
+constexpr ToBezier kAsTheyAre{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
 
 /// `span` control points make one patch. Throws where RISpec's counts do not come out.
 Direction directionOf(const char* name, int controls, bool periodic, int span, int step) {
@@ -80,60 +46,6 @@ std::vector<vec3> takeControls(const ParamList& params, const Layout& mesh, Prob
   const Param* heights = findParam(params, "Pz");
   return heights ? takeHeights(*heights, mesh) : takePositions(params, mesh.controls(), true, problems);
 }
-
-class PatchMesh : public Prim {
- public:
-  uint32_t patchCount() const override { return mesh_.patches(); }
-
-  void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su,
-                         float* sv) const override {
-    const float i = static_cast<float>(static_cast<int>(patch) % mesh_.u.patches),
-                nu = static_cast<float>(mesh_.u.patches);
-    const float j = static_cast<float>(static_cast<int>(patch) / mesh_.u.patches),
-                nv = static_cast<float>(mesh_.v.patches);
-    for (int k = 0; k < n; ++k) su[k] = (i + u[k]) / nu, sv[k] = (j + v[k]) / nv;
-  }
-
-  void interpolate(uint32_t patch, int index, int n, const float* u, const float* v, float* out,
-                   int stride) const override {
-    const Primvar& var = primvars_[static_cast<size_t>(index)];
-    if (repeatIfEven(var, patch, n, out, stride)) return;
-    if (var.storage == Storage::Vertex)
-      interpolateVertex(patch, var, n, u, v, out, stride);
-    else
-      interpolateBilinear(var.values.data(), var.width, mesh_.cornersOf(patch), n, u, v, out, stride);
-  }
-
- protected:
-  PatchMesh(const Layout& mesh, const ParamList& params, Problems& problems)
-      : Prim(takePrimvars(params, mesh.counts(), problems)), mesh_(mesh) {}
-
-  virtual void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v,
-                                 float* out, int stride) const = 0;
-
-  /// An edge is closed if it is a point, or if it is the opposite edge of the patch next to it: in a mesh
-  /// that is not periodic but ends where it began, too. edge(patch, bit) lists its control points.
-  template <class EdgeOf>
-  uint8_t findOpenEdges(uint32_t patch, const EdgeOf& edge) const {
-    struct Side {
-      PatchEdge mine, theirs;
-      int du, dv;
-    };
-    static constexpr Side kSides[] = {{kEdgeU0, kEdgeU1, -1, 0},
-                                      {kEdgeU1, kEdgeU0, 1, 0},
-                                      {kEdgeV0, kEdgeV1, 0, -1},
-                                      {kEdgeV1, kEdgeV0, 0, 1}};
-    int open = 0;
-    for (const Side& side : kSides) {
-      const auto mine = edge(patch, side.mine);
-      const bool isPoint = std::equal(mine.begin() + 1, mine.end(), mine.begin());
-      if (!isPoint && mine != edge(mesh_.neighbour(patch, side.du, side.dv), side.theirs)) open |= side.mine;
-    }
-    return static_cast<uint8_t>(open);
-  }
-
-  const Layout mesh_;
-};
 
 class BilinearMesh : public PatchMesh {
  public:
@@ -248,6 +160,7 @@ class BicubicMesh : public PatchMesh {
 PrimPtr makeBilinearPatchMesh(int nu, bool uPeriodic, int nv, bool vPeriodic, const ParamList& params,
                               Problems& problems) {
   const Layout mesh{directionOf("u", nu, uPeriodic, 2, 1), directionOf("v", nv, vPeriodic, 2, 1)};
+  if (isRational(params)) return makeRationalMesh(mesh, 2, kAsTheyAre, kAsTheyAre, params, problems);
   return std::make_shared<BilinearMesh>(mesh, params, problems);
 }
 
@@ -255,6 +168,7 @@ PrimPtr makeBicubicPatchMesh(int nu, bool uPeriodic, const Basis& uBasis, int nv
                              const Basis& vBasis, const ParamList& params, Problems& problems) {
   const Layout mesh{directionOf("u", nu, uPeriodic, 4, uBasis.step),
                     directionOf("v", nv, vPeriodic, 4, vBasis.step)};
+  if (isRational(params)) return makeRationalMesh(mesh, 4, bezierFrom(uBasis), bezierFrom(vBasis), params, problems);
   return std::make_shared<BicubicMesh>(mesh, uBasis, vBasis, params, problems);
 }
 

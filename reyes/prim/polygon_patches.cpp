@@ -85,11 +85,12 @@ class Decomposer {
   bool addFace(uint32_t first, std::span<const int> counts) {
     corner_.clear(), point_.clear(), open_.clear(), loopStart_.clear();
     gather(first, static_cast<uint32_t>(counts[0]));
-    const glm::dvec3 normal = point_.size() < 3 ? glm::dvec3(0) : newellNormal(point_);
     Bound3 box;
     for (const vec3& p : point_) box.extend(p);
-    const bool flatEnough =
-        point_.size() >= 3 && glm::length(normal) > 1e-9 * glm::dot(box.size(), box.size());
+    const double leastArea = 1e-9 * glm::dot(box.size(), box.size());
+    glm::dvec3 normal = newellNormal(point_);
+    if (!(glm::length(normal) > leastArea)) normal = normalOfWidestTriangle(point_);
+    const bool flatEnough = point_.size() >= 3 && glm::length(normal) > leastArea;
     out_.faces.push_back({vec3(0), true});
     if (!flatEnough) return false;
     if (counts.size() > 1) {
@@ -130,14 +131,28 @@ class Decomposer {
 
   bool openBetween(int a, int b) const { return (a + 1) % static_cast<int>(corner_.size()) == b && open_[a]; }
 
+  /// One patch, of which the edge v = 1 is the corner that its shortest side faces: lines along u are short, and what is linear over the
+  /// triangle is so over the patch.
+  void addTriangle(const Piece& piece) {
+    const auto side = [&](size_t k) {
+      const vec3 d = point_[static_cast<size_t>(piece[(k + 1) % 3])] - point_[static_cast<size_t>(piece[k])];
+      return glm::dot(d, d);
+    };
+    const size_t k = side(1) < side(0) ? (side(2) < side(1) ? 2 : 1) : (side(2) < side(0) ? 2 : 0);
+    const int a = piece[k], b = piece[(k + 1) % 3], c = piece[(k + 2) % 3];
+    addQuad({corner_[a], corner_[b], corner_[c], corner_[c]},
+            {true, edgeBits(openBetween(c, a), openBetween(b, c), openBetween(a, b), true)});
+  }
+
   void addPiece(const Piece& piece) {
     const size_t n = piece.size();
+    if (n == 3) return addTriangle(piece);
     std::vector<uint32_t>&at = at_, &middle = middle_;
     at.clear(), middle.clear();
     for (int k : piece) at.push_back(corner_[k]);
     for (size_t k = 0; k < n; ++k) middle.push_back(make(std::array{at[k], at[(k + 1) % n]}));
     const uint32_t center = make(at);
-    const bool planar = n == 3 || out_.faces.back().planar;
+    const bool planar = out_.faces.back().planar;
     for (size_t k = 0; k < n; ++k) {
       const size_t before = (k + n - 1) % n, after = (k + 1) % n;
       const uint8_t open =

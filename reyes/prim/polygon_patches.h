@@ -1,5 +1,6 @@
-// Faces of polygons cut into bilinear patches. A convex quadrilateral is one patch; every other face becomes
-// quadrilaterals around the centres of its convex pieces, which meet at the midpoints of the edges. Private to polygons.
+// Faces of polygons cut into bilinear patches. A convex quadrilateral is one patch, and so is a triangle, with an edge of no length;
+// every other face becomes triangles and quadrilaterals around the centres of its convex pieces, which meet at the midpoints of the edges
+// (docs/decisions/0041-a-triangle-is-one-patch.md). Private to polygons.
 #pragma once
 #include <span>
 
@@ -45,7 +46,7 @@ struct Face {
   bool planar;
 };
 
-/// Points made as the means of face-vertices. Flat, because a mesh of triangles makes four points a face.
+/// Points made as the means of face-vertices. Flat, because a mesh of pentagons makes six points a face.
 class MadePoints {
  public:
   size_t count() const { return ends_.size(); }

@@ -180,6 +180,13 @@ bool hasGeometry(const LightCall& call, const Scene& scene) {
                      [&](const ShadeGroup& g) { return g.attributes->areaLight == call.index; });
 }
 
+/// Of a space, whatever its scale, from current ones.
+mat3 directionsOf(const mat4& currentFromSpace) {
+  mat3 axes(currentFromSpace);
+  for (int k = 0; k < 3; ++k) axes[k] = normalizeOr(axes[k], axes[k]);
+  return glm::transpose(axes);
+}
+
 }  // namespace
 
 std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index) {
@@ -199,7 +206,7 @@ std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index
     const std::string picture = bound->text("map", "");
     light->sky = picture.empty() ? std::make_shared<const Sky>()
                                  : std::make_shared<const Sky>(textures_, picture, bound->where, bound->user,
-                                                               glm::inverse(mat3(cameraFromWorld_)));
+                                                               directionsOf(bound->text("mapspace", "") == "shader" ? bound->currentFromShader : cameraFromWorld_));
   }
   if (light->can(TM_LIGHT_AREA) || light->can(TM_LIGHT_SKY) || light->can(TM_LIGHT_SAMPLED))
     light->samples = countOf(*bound, "samples", 16, 1, kMostLightSamples, log_);
@@ -234,15 +241,22 @@ void connectFilters(BoundScene& scene) {
   }
 }
 
-std::vector<Override> overridesOf(const BoundShader& bound, const std::vector<Primvar>& primvars) {
+/// Told once of each shader: parameters that primitive variables of their name cannot override.
+std::vector<Override> overridesOf(const BoundShader& bound, const std::vector<Primvar>& primvars, Log& log) {
   std::vector<Override> out;
   for (int i = 0; i < bound.shader->paramCount; ++i) {
     const TmParamDecl& decl = bound.shader->params[i];
     if (isOutput(decl)) continue;
-    const int width = decl.type == TM_FLOAT ? 1 : decl.type <= TM_NORMAL ? 3 : 0;
+    const int width = typeOf(decl) == TM_FLOAT ? 1 : typeOf(decl) <= TM_NORMAL ? 3 : 0;
     int offset = 0;
     for (const Primvar& p : primvars) {
-      if (p.name == decl.name && p.width == width && decl.arrayLength == 1) out.push_back({i, offset, width});
+      const bool same = p.name == decl.name && p.width == width && decl.arrayLength == 1;
+      if (same && isUniform(decl))
+        log.report(Severity::Warning, fmt::format("shader-parameter-uniform-{}", bound.shader->name), bound.where,
+                   fmt::format("{}: shader \"{}\": parameter \"{}\" is uniform; the primitive variable of that name is ignored", bound.user,
+                               bound.shader->name, decl.name));
+      else if (same)
+        out.push_back({i, offset, width});
       offset += p.width;
     }
   }
@@ -346,9 +360,9 @@ BoundGroup BoundScene::bound(const ShadeGroup& group) const {
   g.atmosphere = binder_->optional(a.atmosphere, g.object, TM_VOLUME);
   g.interior = binder_->optional(a.interior, g.object, TM_VOLUME);
   g.exterior = binder_->optional(a.exterior, g.object, TM_VOLUME);
-  g.surfaceOverrides = overridesOf(*g.surface, group.primvars);
-  if (g.indirectSurface) g.indirectOverrides = overridesOf(*g.indirectSurface, group.primvars);
-  if (g.displacement) g.displacementOverrides = overridesOf(*g.displacement, group.primvars);
+  g.surfaceOverrides = overridesOf(*g.surface, group.primvars, log);
+  if (g.indirectSurface) g.indirectOverrides = overridesOf(*g.indirectSurface, group.primvars, log);
+  if (g.displacement) g.displacementOverrides = overridesOf(*g.displacement, group.primvars, log);
   findPrimvars(g);
   for (int index : a.lights)
     if (index >= 0 && index < static_cast<int>(lights.size()) && lights[static_cast<size_t>(index)])

@@ -4,55 +4,10 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include "reyes/shade/parameter_values.h"
+
 namespace tomales {
 namespace {
-
-int floatsOf(int32_t type) {
-  switch (type) {
-    case TM_COLOR:
-    case TM_POINT:
-    case TM_VECTOR:
-    case TM_NORMAL:
-      return 3;
-    case TM_MATRIX:
-      return 16;
-    case TM_STRING:
-      return 0;
-    default:
-      return 1;
-  }
-}
-
-bool accepts(int32_t declared, ValueType given) {
-  switch (declared) {
-    case TM_FLOAT:
-      return given == ValueType::Float || given == ValueType::Integer;
-    case TM_COLOR:
-      return given == ValueType::Color;
-    case TM_STRING:
-      return given == ValueType::String;
-    case TM_MATRIX:
-      return given == ValueType::Matrix;
-    default:
-      return given == ValueType::Point || given == ValueType::Vector || given == ValueType::Normal;
-  }
-}
-
-size_t given(const Param& p) {
-  return p.type == ValueType::String ? p.strings.size() : std::max(p.floats.size(), p.ints.size());
-}
-
-std::vector<float> valuesOf(const TmParamDecl& decl, const Param* param, size_t count) {
-  std::vector<float> out(count, 0.0f);
-  if (param && !param->floats.empty())
-    std::copy_n(param->floats.begin(), count, out.begin());
-  else if (param)
-    std::transform(param->ints.begin(), param->ints.begin() + static_cast<std::ptrdiff_t>(count), out.begin(),
-                   [](int i) { return static_cast<float>(i); });
-  else if (decl.floats)
-    std::copy_n(decl.floats, count, out.begin());
-  return out;
-}
 
 void toCurrent(int32_t type, const mat4& currentFromShader, std::vector<float>& v) {
   if (type == TM_MATRIX) {
@@ -92,7 +47,7 @@ const TmValue* BoundShader::find(std::string_view name) const {
 int BoundShader::output(std::string_view name, ValueType type) const {
   for (int i = 0; i < shader->paramCount; ++i)
     if (shader->params[i].name == name && isOutput(shader->params[i]) &&
-        accepts(shader->params[i].type & ~TM_OUTPUT, type))
+        accepts(typeOf(shader->params[i]), type))
       return i;
   return -1;
 }
@@ -127,31 +82,23 @@ BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const 
   };
   for (size_t i = 0; i < n; ++i) {
     const TmParamDecl& decl = shader.params[i];
-    const size_t width = static_cast<size_t>(floatsOf(decl.type)) * static_cast<size_t>(decl.arrayLength);
     const Param* param = call ? findParam(call->params, decl.name) : nullptr;
-    if (param && isOutput(decl)) {
-      warn("shader-parameter-output", fmt::format("\"{}\" is an output; what is given is ignored", decl.name));
-      param = nullptr;
-    }
-    const size_t needed = decl.type == TM_STRING ? 1 : width;
-    if (param && (!accepts(decl.type, param->type) || given(*param) < needed)) {
-      warn("shader-parameter-type", fmt::format("parameter \"{}\" has a value of the wrong type or length; "
-                                                "its default is used",
-                                                decl.name));
-      param = nullptr;
-    }
     TmValue& value = bound->values[i];
-    value = {{nullptr, nullptr, nullptr}, 0, decl.arrayLength, nullptr};
-    if (isOutput(decl)) continue;
-    if (decl.type == TM_STRING) {
-      const char* fallback = decl.strings && decl.strings[0] ? decl.strings[0] : "";
-      bound->strings[i] = param ? param->strings[0] : fallback;
+    value = {{nullptr, nullptr, nullptr}, 0, std::max(1, decl.arrayLength), nullptr};
+    if (isOutput(decl)) {
+      if (param) warn("shader-parameter-output", fmt::format("\"{}\" is an output; what is given is ignored", decl.name));
+      continue;
+    }
+    ParameterValue parameter = parameterValue(decl, param);
+    if (!parameter.remark.empty()) warn("shader-parameter-type", fmt::format("parameter \"{}\" {}", decl.name, parameter.remark));
+    if (typeOf(decl) == TM_STRING) {
+      for (const std::string& s : parameter.strings) bound->strings[i].append(s).push_back('\0');
       value.string = bound->strings[i].c_str();
       continue;
     }
-    bound->floats[i] = valuesOf(decl, param, width);
-    toCurrent(decl.type, currentFromShader, bound->floats[i]);
-    for (size_t k = 0; k < std::min<size_t>(width, 3); ++k) value.c[k] = bound->floats[i].data() + k;
+    bound->floats[i] = std::move(parameter.floats);
+    toCurrent(typeOf(decl), currentFromShader, bound->floats[i]);
+    for (size_t k = 0; k < std::min<size_t>(bound->floats[i].size(), 3); ++k) value.c[k] = bound->floats[i].data() + k;
   }
   if (call)
     for (const Param& p : call->params)

@@ -28,11 +28,13 @@ struct BoundShader {
 using BoundShaderPtr = std::shared_ptr<const BoundShader>;
 
 inline bool isOutput(const TmParamDecl& decl) { return (decl.type & TM_OUTPUT) != 0; }
+inline bool isUniform(const TmParamDecl& decl) { return (decl.type & TM_UNIFORM) != 0; }
+inline int32_t typeOf(const TmParamDecl& decl) { return TM_TYPE_OF(decl.type); }
 
 using ParamNames = std::vector<std::string_view>;
 
 /// `call` may be null: all defaults. Reports parameters that the shader does not have, except `hostParams`,
-/// and values of a wrong type, which keep their defaults.
+/// and values of another type or length than declared (parameter_values.h says what becomes of those).
 BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const SourceLoc& where,
                           const std::string& user, const mat4& currentFromShader,
                           const ParamNames& hostParams, Log& log);

@@ -10,8 +10,8 @@ namespace {
 // Differences along the lattice; a displacement shader sees no better derivatives than its grid has.
 void derivatives(const Grid& g, TmVec3 dPdu, TmVec3 dPdv) {
   const int row = g.nu + 1;
-  const float u = (g.rect.u1 - g.rect.u0) / static_cast<float>(g.nu),
-              v = (g.rect.v1 - g.rect.v0) / static_cast<float>(g.nv);
+  const UvRect& rect = g.pieces.front().rect;
+  const float u = (rect.u1 - rect.u0) / static_cast<float>(g.nu), v = (rect.v1 - rect.v0) / static_cast<float>(g.nv);
   for (int j = 0; j <= g.nv; ++j)
     for (int i = 0; i <= g.nu; ++i) {
       const int a = std::max(i - 1, 0), b = std::min(i + 1, g.nu), c = std::max(j - 1, 0),
@@ -78,13 +78,13 @@ void Batch::setGrid(Grid& g, const BoundShader& shader, const std::vector<Overri
   derivatives(g, dPdu, dPdv);
   float *s = arena.floats(n), *t = arena.floats(n), *du = arena.floats(n), *dv = arena.floats(n);
   const auto& corners = group.group->attributes->textureCoordinates;
+  const UvRect& rect = g.pieces.front().rect;
   for (int i = 0; i < n; ++i) {
     set(I, i, scene.camera.incident(g.position(0, i)));
     const float u = g.u()[i], v = g.v()[i];
     const vec2 st = glm::mix(glm::mix(corners[0], corners[1], u), glm::mix(corners[2], corners[3], u), v);
     s[i] = st.x, t[i] = st.y;
-    du[i] = (g.rect.u1 - g.rect.u0) / static_cast<float>(g.nu),
-    dv[i] = (g.rect.v1 - g.rect.v0) / static_cast<float>(g.nv);
+    du[i] = (rect.u1 - rect.u0) / static_cast<float>(g.nu), dv[i] = (rect.v1 - rect.v0) / static_cast<float>(g.nv);
   }
   tm.Ng = view(Ng), tm.I = view(I), tm.dPdu = view(dPdu), tm.dPdv = view(dPdv);
   tm.s = group.sOffset < 0 ? s : g.primvar(group.sOffset);

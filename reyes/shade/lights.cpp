@@ -27,7 +27,7 @@ TmGrid lightGrid(Batch& batch, const BoundLight& light) {
 void openOutputs(Batch& batch, const BoundShader& light, std::vector<TmValue>& params) {
   for (size_t i = 0; i < params.size(); ++i) {
     if (!isOutput(light.shader->params[i])) continue;
-    const int width = (light.shader->params[i].type & ~TM_OUTPUT) == TM_FLOAT ? 1 : 3;
+    const int width = typeOf(light.shader->params[i]) == TM_FLOAT ? 1 : 3;
     for (int k = 0; k < width; ++k) params[i].c[k] = batch.arena.floats(batch.tm.count);
     params[i].step = 1;
   }

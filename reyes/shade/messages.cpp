@@ -41,7 +41,7 @@ int32_t tell(const BoundShader* shader, const TmValue* values, std::string_view 
   for (int i = 0; i < shader->shader->paramCount; ++i) {
     const TmParamDecl& decl = shader->shader->params[i];
     if (decl.name != name || (isOutput(decl) && !values[i].c[0])) continue;
-    *type = decl.type & ~TM_OUTPUT, *out = values[i];
+    *type = TM_TYPE_OF(decl.type), *out = values[i];
     return 1;
   }
   return 0;

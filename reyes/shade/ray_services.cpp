@@ -21,6 +21,8 @@ TmRayOptions optionsOf(const TmRayOptions* given) {
   if (given) std::copy_n(reinterpret_cast<const char*>(given), std::min<size_t>(given->structBytes, sizeof options),
                          reinterpret_cast<char*>(&options));
   options.samples = std::clamp(options.samples, 1, 1 << 16);
+  options.drawn = std::clamp(options.drawn, 0, 1 << 14);
+  options.number = std::clamp(options.number, 0, std::max(0, options.drawn - 1));
   options.coneAngle = std::clamp(options.coneAngle, 0.0f, kPi / 2);
   return options;
 }
@@ -34,7 +36,9 @@ RayQuery queryOf(const TmRayOptions& o, RayKind kind) {
   q.sides = o.hitSides == TM_HIT_FRONT ? HitSides::Front : o.hitSides == TM_HIT_BACK ? HitSides::Back : HitSides::Both;
   if (o.hitMode != TM_HIT_DEFAULT) q.mode = o.hitMode == TM_HIT_PRIMITIVE ? HitMode::Primitive : HitMode::Shader;
   q.opacityThreshold = o.opacityThreshold;
-  q.count = o.samples;
+  q.count = std::max(1, o.drawn) * o.samples;
+  q.number = o.number * o.samples;
+  q.lampsGlow = o.passLamps == 0;
   return q;
 }
 
@@ -58,7 +62,8 @@ class Cone {
  private:
   vec2 random(int i, int ray, uint32_t stream) const {
     const SampleName name = batch_.points->name(i);
-    const uint32_t index = name.sequence * static_cast<uint32_t>(options_.samples) + static_cast<uint32_t>(ray);
+    const auto number = static_cast<uint32_t>(options_.number * options_.samples + ray);
+    const uint32_t index = name.sequence * static_cast<uint32_t>(options_.samples * std::max(1, options_.drawn)) + number;
     return sobol2(index, hashCombine(name.key, stream, batch_.context.seed, static_cast<uint32_t>(batch_.context.depth + batch_.context.specularDepth)));
   }
   vec3 around(const vec3& axis, const vec2& xi) const {
@@ -119,8 +124,8 @@ void traceRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 directi
   RayResult result;
   result.distance = batch.arena.floats(g->count);
   if (color.x) result.color = batch.arena.vec3(g->count), result.opacity = batch.arena.vec3(g->count);
-  for (; query.number < options.samples; ++query.number) {
-    cone.aim(P, direction, query.number);
+  for (int ray = 0; ray < options.samples; ++ray, ++query.number) {
+    cone.aim(P, direction, ray);
     batch.scene.services->trace(*batch.points, g->active, cone.origin(), cone.direction(), query, batch.context, result);
     if (color.x) crossVolumes(batch, g, cone.origin(), cone.direction(), result.distance, result.color, result.opacity);
     forActive(g, [&](int i) {

@@ -73,21 +73,23 @@ class Splitter {
         camera_(camera), window_(window), stats_(stats), lazily_(splitting == Splitting::Lazily), stop_(stop),
         edge_px_(std::sqrt(std::max(object_.attributes->shadingRate, 1e-4f))) {}
 
-  void splitPatch(uint32_t patch, std::vector<SubPatch>& out) {
+  /// size: what measure() says of the whole patch.
+  void splitPatch(uint32_t patch, const PatchSize& size, std::vector<SubPatch>& out) {
     const double window_px = static_cast<double>(window_.width()) * window_.height();
     budget_ = static_cast<int64_t>(kLeastBudget + kLayersOfPatch * window_px / (double{edge_px_} * edge_px_ * gridSize_));
-    split(patch, UvRect{}, 0, out);
+    split(patch, UvRect{}, 0, &size, out);
   }
   void splitPiece(const SubPatch& coarse, std::vector<SubPatch>& out) {
     start_ = coarse.depth;
     budget_ = kGridsOfCoarse + static_cast<int64_t>(kLayersOfPatch) * gridsOf(coarse.nu, coarse.nv);
-    split(coarse.patch, coarse.rect, coarse.depth, out);
+    split(coarse.patch, coarse.rect, coarse.depth, nullptr, out);
   }
 
   const GivenUp& givenUp() const { return givenUp_; }
 
  private:
-  void split(uint32_t patch, const UvRect& rect, int depth, std::vector<SubPatch>& out) {
+  /// measured: null if nobody has yet.
+  void split(uint32_t patch, const UvRect& rect, int depth, const PatchSize* measured, std::vector<SubPatch>& out) {
     if (stop_ && stop_->load(std::memory_order_relaxed)) return;
     if (budget_-- <= 0) {
       ++givenUp_.tooMany;
@@ -98,7 +100,7 @@ class Splitter {
       ++stats_.geometry.culled;
       return;
     }
-    const PatchSize size = measure(object_, camera_, patch, rect);
+    const PatchSize size = measured ? *measured : measure(object_, camera_, patch, rect);
     const bool still = object_.keyTimes.size() == 1;
     const float reach = size.u.length + size.v.length;
     if (still && depth >= kSlackDepth && glm::length(bare.size()) > kSlack * reach) {
@@ -125,8 +127,8 @@ class Splitter {
     } else {
       const bool alongU = crossesEye ? size.u.length >= size.v.length : nu >= nv;
       const auto [a, b] = halves(rect, alongU);
-      split(patch, a, depth + 1, out);
-      split(patch, b, depth + 1, out);
+      split(patch, a, depth + 1, nullptr, out);
+      split(patch, b, depth + 1, nullptr, out);
     }
   }
 
@@ -228,7 +230,8 @@ std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<con
                                    const PixelRect& window, Stats& stats, Log& log, Splitting splitting, StopFlag stop) {
   return piecesBy(Splitter(scene, object, camera, window, stats, splitting, stop), scene.objects[static_cast<size_t>(object)], stats, log,
                   [&](Splitter& splitter, std::vector<SubPatch>& out) {
-                    for (const uint32_t p : patches) splitter.splitPatch(p, out);
+                    const std::vector<PatchSize> sizes = measureWhole(scene.objects[static_cast<size_t>(object)], camera, patches);
+                    for (size_t i = 0; i < patches.size(); ++i) splitter.splitPatch(patches[i], sizes[i], out);
                   });
 }
 

@@ -1,6 +1,11 @@
+// Lines of a lattice of probes over a rectangle are measured chord by chord. Whole patches are measured sixteen at a time, a vector of them
+// at each step: most scenes with many patches have small ones.
 #include "reyes/split/rate.h"
 
 #include <bit>
+#include <cmath>
+
+#include "reyes/base/simd.h"
 
 namespace tomales {
 namespace {
@@ -8,70 +13,196 @@ namespace {
 /// How far a chord may leave its arc, at any shading rate: a silhouette's error (docs/decisions/0034).
 constexpr float kFlat_px = 0.25f;
 
-/// Chords that a line takes, however short it is, to enclose something: it bends round (a meridian), or closes on itself (a parallel).
-int leastCells(float length, float endToEnd) { return endToEnd < 0.3f * length ? 6 : endToEnd < 0.8f * length ? 4 : 1; }
+/// Probes of kPatches patches; point k of all of them stands together. Rows of points run along u.
+template <int kProbesT, int kPatchesT>
+struct Lattice {
+  static constexpr int kProbes = kProbesT, kPatches = kPatchesT, kRow = kProbes + 1, kCount = kRow * kRow;
+  alignas(64) float x[kCount][kPatches], y[kCount][kPatches], z[kCount][kPatches];  ///< Camera space
+  alignas(64) float rasterX[kCount][kPatches], rasterY[kCount][kPatches];
+};
+
+/// PatchSize of kPatches patches.
+template <int kPatches>
+struct Sizes {
+  struct Line {
+    alignas(64) float px[kPatches], length[kPatches], bend_px[kPatches];
+    alignas(64) int least[kPatches];
+  };
+  Line u, v;
+  alignas(64) float lo[3][kPatches], hi[3][kPatches];
+};
 
 /// The part of a second difference that lies across the line; what lies along it is mere speed.
-float bend(const vec2& before, const vec2& at, const vec2& after) {
-  const vec2 along = after - before, second = after - 2.0f * at + before;
-  const float length = glm::length(along);
-  if (!(length > 1e-3f * glm::length(second))) return glm::length(second);  // there and back
-  const float across = std::abs(along.x * second.y - along.y * second.x) / length;
-  return std::isfinite(across) ? across : 0;
+inline float bend(float x0, float y0, float x1, float y1, float x2, float y2) {
+  const float alongX = x2 - x0, alongY = y2 - y0, secondX = x2 - 2.0f * x1 + x0, secondY = y2 - 2.0f * y1 + y0;
+  const float length = std::sqrt(alongX * alongX + alongY * alongY), second = std::sqrt(secondX * secondX + secondY * secondY);
+  const float across = std::abs(alongX * secondY - alongY * secondX) / length;
+  const float finite = across < kInfinity ? across : 0.0f;
+  return length > 1e-3f * second ? finite : second;  // else there and back
 }
 
-/// Longest lines along u and v of the lattice of kProbes x kProbes chords.
+/// Chords that a line takes, however short it is, to enclose something: it bends round (a meridian), or closes on itself (a parallel).
+inline int leastCells(float length, float endToEnd) { return endToEnd < 0.3f * length ? 6 : endToEnd < 0.8f * length ? 4 : 1; }
+
+/// The line of points first, first + step, ...; where it is longer than what `out` has, that grows.
+template <class L>
+[[gnu::always_inline]] inline void measureLine(const L& __restrict at, int first, int step, const Camera& camera, bool asSeen,
+                                               typename Sizes<L::kPatches>::Line& __restrict out) {
+  constexpr int n = L::kPatches;
+  float length_px[n] = {}, length[n] = {}, chord[n];
+  for (int k = 0; k < L::kProbes; ++k) {
+    const int a = first + k * step, b = a + step;
+    for (int i = 0; i < n; ++i) {
+      const float dx = at.x[b][i] - at.x[a][i], dy = at.y[b][i] - at.y[a][i], dz = at.z[b][i] - at.z[a][i];
+      chord[i] = std::sqrt(dx * dx + dy * dy + dz * dz);
+      length[i] += chord[i];
+    }
+    for (int i = 0; asSeen && i < n; ++i) {
+      const float dx = at.rasterX[b][i] - at.rasterX[a][i], dy = at.rasterY[b][i] - at.rasterY[a][i];
+      length_px[i] += std::sqrt(dx * dx + dy * dy);
+    }
+    // Without rasterorient a micropolygon is as large as if it faced the camera (rispec-table 4, dice:rasterorient).
+    for (int i = 0; !asSeen && i < n; ++i) length_px[i] += chord[i] / camera.pixelSize({at.x[a][i], at.y[a][i], at.z[a][i]});
+    if (k == 0) continue;
+    const int c = a - step;
+    for (int i = 0; i < n; ++i) {
+      const float bends = bend(at.rasterX[c][i], at.rasterY[c][i], at.rasterX[a][i], at.rasterY[a][i], at.rasterX[b][i], at.rasterY[b][i]);
+      out.bend_px[i] = out.bend_px[i] < bends ? bends : out.bend_px[i];
+    }
+  }
+  const int last = first + L::kProbes * step;
+  for (int i = 0; i < n; ++i) {
+    const float dx = at.x[last][i] - at.x[first][i], dy = at.y[last][i] - at.y[first][i], dz = at.z[last][i] - at.z[first][i];
+    const int least = leastCells(length[i], std::sqrt(dx * dx + dy * dy + dz * dz));
+    out.least[i] = out.least[i] < least ? least : out.least[i];
+    out.length[i] = out.length[i] < length[i] ? length[i] : out.length[i];
+    out.px[i] = out.px[i] < length_px[i] ? length_px[i] : out.px[i];
+  }
+}
+
+/// Object space to camera space, in the order of glm's product, and to raster.
+template <class L>
+[[gnu::always_inline]] inline void place(L& __restrict at, const mat4& m, const Camera& camera) {
+  const float nearest = camera.perspective() ? camera.nearClip() : -kInfinity;
+  const bool affine = m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] == 1;
+  for (int k = 0; k < L::kCount; ++k) {
+    float *x = at.x[k], *y = at.y[k], *z = at.z[k];
+    for (int i = 0; !affine && i < L::kPatches; ++i) {
+      const vec3 p = transformPoint(m, {x[i], y[i], z[i]});
+      x[i] = p.x, y[i] = p.y, z[i] = p.z;
+    }
+    for (int i = 0; affine && i < L::kPatches; ++i) {
+      const float px = x[i], py = y[i], pz = z[i];
+      x[i] = (m[0][0] * px + m[1][0] * py) + (m[2][0] * pz + m[3][0]);
+      y[i] = (m[0][1] * px + m[1][1] * py) + (m[2][1] * pz + m[3][1]);
+      z[i] = (m[0][2] * px + m[1][2] * py) + (m[2][2] * pz + m[3][2]);
+    }
+    for (int i = 0; i < L::kPatches; ++i) {
+      const vec2 raster = camera.raster({x[i], y[i], z[i] < nearest ? nearest : z[i]});
+      at.rasterX[k][i] = raster.x, at.rasterY[k][i] = raster.y;
+    }
+  }
+}
+
+template <int kCount, int kPatches>
+[[gnu::always_inline]] inline void boundPoints(const float (&at)[kCount][kPatches], float* __restrict lo, float* __restrict hi) {
+  for (int i = 0; i < kPatches; ++i) lo[i] = kInfinity, hi[i] = -kInfinity;
+  for (int k = 0; k < kCount; ++k)
+    for (int i = 0; i < kPatches; ++i) lo[i] = at[k][i] < lo[i] ? at[k][i] : lo[i], hi[i] = hi[i] < at[k][i] ? at[k][i] : hi[i];
+}
+
+template <class L>
+[[gnu::always_inline]] inline void measureLattice(L& __restrict at, const mat4& m, const Camera& camera, bool asSeen, Sizes<L::kPatches>& __restrict out) {
+  place(at, m, camera);
+  boundPoints(at.x, out.lo[0], out.hi[0]);
+  boundPoints(at.y, out.lo[1], out.hi[1]);
+  boundPoints(at.z, out.lo[2], out.hi[2]);
+  for (auto* longest : {&out.u, &out.v})
+    for (int i = 0; i < L::kPatches; ++i) longest->px[i] = longest->length[i] = longest->bend_px[i] = 0, longest->least[i] = 1;
+  for (int line = 0; line < L::kRow; ++line) {
+    measureLine(at, line * L::kRow, 1, camera, asSeen, out.u);
+    measureLine(at, line, L::kRow, camera, asSeen, out.v);
+  }
+}
+
+// The lines of a flat patch are straight, and the longest is one of its edges.
+constexpr int kFlatProbes = 1, kCurvedProbes = 4;
+/// Along u a triangle (edge v = 1 has no length) is, in the mean of squares, this much of its foot: in the mean its cells are smaller than the
+/// rate asks, and the largest, at its foot, have 1.4 times the area.
+constexpr float kTriangle = 0.70710678f;
+
+// Target clones are no templates.
+TOMALES_HOT void measureHot(Lattice<1, kLanes>& at, const mat4& m, const Camera& camera, bool asSeen, Sizes<kLanes>& out) {
+  measureLattice(at, m, camera, asSeen, out);
+}
+TOMALES_HOT void measureHot(Lattice<4, kLanes>& at, const mat4& m, const Camera& camera, bool asSeen, Sizes<kLanes>& out) {
+  measureLattice(at, m, camera, asSeen, out);
+}
 template <int kProbes>
-PatchSize measureLattice(const Object& o, const Camera& camera, uint32_t patch, const UvRect& r) {
-  constexpr int kRow = kProbes + 1, kCount = kRow * kRow;
-  float u[kCount], v[kCount], data[12][kCount];
-  for (int j = 0, k = 0; j < kRow; ++j)
-    for (int i = 0; i < kRow; ++i, ++k) {
+void measureHot(Lattice<kProbes, 1>& at, const mat4& m, const Camera& camera, bool asSeen, Sizes<1>& out) {
+  measureLattice(at, m, camera, asSeen, out);
+}
+
+/// patchAt(i): one of up to kPatches patches; put(i, size).
+template <int kProbes, int kPatches, class PatchAt, class Put>
+void measureSome(const Object& o, const Camera& camera, int count, const PatchAt& patchAt, const UvRect& r, const Put& put) {
+  using L = Lattice<kProbes, kPatches>;
+  L at;
+  float u[L::kCount], v[L::kCount], data[12][L::kCount];
+  for (int j = 0, k = 0; j < L::kRow; ++j)
+    for (int i = 0; i < L::kRow; ++i, ++k) {
       u[k] = lerp(r.u0, r.u1, static_cast<float>(i) / kProbes);
       v[k] = lerp(r.v0, r.v1, static_cast<float>(j) / kProbes);
     }
-  o.shape().evaluate(patch, kCount, u, v,
-                     {data[0], data[1], data[2], data[3], data[4], data[5], data[6], data[7], data[8], data[9], data[10], data[11]});
-  const mat4 m = o.cameraFromObject.at(o.keyTimes.front());
-  vec3 p[kCount];
-  vec2 raster[kCount];
-  PatchSize size;
-  for (int k = 0; k < kCount; ++k) {
-    p[k] = transformPoint(m, {data[0][k], data[1][k], data[2][k]});
-    size.probes.extend(p[k]);
-    const vec3 inFront(p[k].x, p[k].y, std::max(p[k].z, camera.nearClip()));
-    raster[k] = camera.perspective() ? camera.raster(inFront) : camera.raster(p[k]);
+  for (int i = 0; i < kPatches; ++i) {
+    if (i < count)
+      o.shape().evaluate(patchAt(i), L::kCount, u, v,
+                         {data[0], data[1], data[2], data[3], data[4], data[5], data[6], data[7], data[8], data[9], data[10], data[11]});
+    for (int k = 0; k < L::kCount; ++k) at.x[k][i] = data[0][k], at.y[k][i] = data[1][k], at.z[k][i] = data[2][k];
   }
-  const bool rasterOrient = o.attributes->rasterOrient;
-  for (int line = 0; line < kRow; ++line) {
-    float du_px = 0, dv_px = 0, du = 0, dv = 0;
-    for (int k = 0; k < kProbes; ++k) {
-      const int a = line * kRow + k, b = k * kRow + line;
-      const float lu = glm::length(p[a + 1] - p[a]), lv = glm::length(p[b + kRow] - p[b]);
-      du += lu;
-      dv += lv;
-      // Without rasterorient a micropolygon is as large as if it faced the camera (rispec-table 4, dice:rasterorient).
-      du_px += rasterOrient ? glm::length(raster[a + 1] - raster[a]) : lu / camera.pixelSize(p[a]);
-      if (k > 0) {
-        size.u.bend_px = std::max(size.u.bend_px, bend(raster[a - 1], raster[a], raster[a + 1]));
-        size.v.bend_px = std::max(size.v.bend_px, bend(raster[b - kRow], raster[b], raster[b + kRow]));
-      }
-      dv_px += rasterOrient ? glm::length(raster[b + kRow] - raster[b]) : lv / camera.pixelSize(p[b]);
-    }
-    size.u.px = std::max(size.u.px, du_px), size.v.px = std::max(size.v.px, dv_px);
-    size.u.length = std::max(size.u.length, du), size.v.length = std::max(size.v.length, dv);
-    const int u0 = line * kRow, v0 = line;
-    size.u.least = std::max(size.u.least, leastCells(du, glm::length(p[u0 + kProbes] - p[u0])));
-    size.v.least = std::max(size.v.least, leastCells(dv, glm::length(p[v0 + kProbes * kRow] - p[v0])));
+  Sizes<kPatches> sizes;
+  measureHot(at, o.cameraFromObject.at(o.keyTimes.front()), camera, o.attributes->rasterOrient, sizes);
+  for (int i = 0; i < count; ++i) {
+    const auto &su = sizes.u, &sv = sizes.v;
+    constexpr int c = L::kCount - L::kRow, d = L::kCount - 1;
+    const bool triangle = kProbes == kFlatProbes && at.x[c][i] == at.x[d][i] && at.y[c][i] == at.y[d][i] && at.z[c][i] == at.z[d][i];
+    put(i, PatchSize{{triangle ? kTriangle * su.px[i] : su.px[i], su.length[i], su.least[i], su.bend_px[i]},
+                     {sv.px[i], sv.length[i], sv.least[i], sv.bend_px[i]},
+                     {{sizes.lo[0][i], sizes.lo[1][i], sizes.lo[2][i]}, {sizes.hi[0][i], sizes.hi[1][i], sizes.hi[2][i]}}});
   }
-  return size;
+}
+
+template <int kProbes>
+void measureThose(bool planar, const Object& o, const Camera& camera, std::span<const uint32_t> patches, const UvRect& r, std::vector<PatchSize>& out) {
+  std::vector<uint32_t> these;
+  for (uint32_t i = 0; i < patches.size(); ++i)
+    if (o.shape().info(patches[i]).planar == planar) these.push_back(i);
+  for (size_t first = 0; first < these.size(); first += kLanes) {
+    const int count = static_cast<int>(std::min<size_t>(kLanes, these.size() - first));
+    measureSome<kProbes, kLanes>(
+        o, camera, count, [&](int i) { return patches[these[first + static_cast<size_t>(i)]]; }, r,
+        [&](int i, const PatchSize& size) { out[these[first + static_cast<size_t>(i)]] = size; });
+  }
 }
 
 }  // namespace
 
+std::vector<PatchSize> measureWhole(const Object& o, const Camera& camera, std::span<const uint32_t> patches) {
+  std::vector<PatchSize> out(patches.size());
+  measureThose<kFlatProbes>(true, o, camera, patches, UvRect{}, out);
+  measureThose<kCurvedProbes>(false, o, camera, patches, UvRect{}, out);
+  return out;
+}
+
 PatchSize measure(const Object& o, const Camera& camera, uint32_t patch, const UvRect& r) {
-  // The lines of a flat patch are straight, and the longest is one of its edges.
-  return o.shape().info(patch).planar ? measureLattice<1>(o, camera, patch, r) : measureLattice<4>(o, camera, patch, r);
+  PatchSize size;
+  const auto patchAt = [&](int) { return patch; };
+  const auto put = [&](int, const PatchSize& s) { size = s; };
+  if (o.shape().info(patch).planar)
+    measureSome<kFlatProbes, 1>(o, camera, 1, patchAt, r, put);
+  else
+    measureSome<kCurvedProbes, 1>(o, camera, 1, patchAt, r, put);
+  return size;
 }
 
 int cells(const LineSize& line, float edge_px, float coarsening, bool binary) {

@@ -1,5 +1,7 @@
 // How many micropolygons a rectangle of a patch takes along u and v, from lines measured on it as the camera sees them.
 #pragma once
+#include <span>
+
 #include "reyes/scene.h"
 
 namespace tomales {
@@ -15,6 +17,8 @@ struct PatchSize {
   Bound3 probes;  ///< Around the points that were measured, in camera space.
 };
 PatchSize measure(const Object& object, const Camera& camera, uint32_t patch, const UvRect& rect);
+/// Of each of some patches as a whole.
+std::vector<PatchSize> measureWhole(const Object& object, const Camera& camera, std::span<const uint32_t> patches);
 
 /// Cells along a line with edges of `edge_px`: fewer where blur lets edges grow by `coarsening`, but never so few, `least`, that the shape
 /// collapses, and so many that chords are flat (docs/decisions/0034). Binary: a power of two.

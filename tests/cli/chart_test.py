@@ -103,6 +103,37 @@ suite.expect(all(f.stat().st_mtime_ns == t for f, t in before.items()), "and ren
 suite.expect_run("a sweep that does not exist", chart[:4] + ["--sweep", "beauty"], 1, "shadingrate")
 suite.expect_run("a scene that does not exist", ["chart", "no.rib", "-o", "report.html"], 1, "no.rib")
 
+LAB = """##lab title Bars thinner than a pixel
+##lab knob tenths of a pixel: 9 1
+##lab common --gi none
+##lab truth --pixel-samples 8x8 --seed @
+##lab method few: --pixel-samples 2x2
+##lab note A note & more.
+Format 24 24 1
+PixelFilter "box" 1 1
+Projection "orthographic"
+ScreenWindow 0 24 0 24
+WorldBegin
+Surface "constant"
+Rotate -10 0 0 1
+Polygon "P" [4 -9 5  4 40 5  4.$knob 40 5  4.$knob -9 5]
+WorldEnd
+"""
+(suite.folder / "lab").mkdir()
+suite.write("lab/bars.rib", LAB)
+lab = ["chart", "--stability", "lab", "-o", "stability.html", "--cache", "cache", "--budget", "60s", "--batches", "2"]
+suite.expect_run("a laboratory", lab, 0, "few, tenths of a pixel 1")
+scene = json.loads((suite.folder / "stability.json").read_text())["scenes"][0]
+wide, thin = (p["mean_absolute_relative_error"] for p in scene["points"])
+suite.expect(0 < wide < thin, f"thin bars are worse: {wide}, {thin}")
+page = Page((suite.folder / "stability.html").read_text())
+suite.expect(not page.open and not page.wrong and all(load.startswith("data:") for load in page.loads), "its page is whole and stands alone")
+suite.expect(all(link[1:] in page.ids for link in page.links if link.startswith("#")), "its links lead somewhere")
+suite.write("lab/bars.rib", LAB.replace("##lab truth", "##lab tooth"))
+suite.expect_run("a laboratory with a word that nobody knows", lab, 2, "cannot be understood: ##lab tooth")
+suite.write("lab/bars.rib", LAB.replace("##lab knob", "# knob"))
+suite.expect_run("a laboratory without a knob", lab, 2, "knob")
+
 if browser := shutil.which("chromium"):  # looks, where there is something to look with
     seen = subprocess.run([browser, "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", (suite.folder / "report.html").as_uri()],
                           capture_output=True, text=True, timeout=120).stdout

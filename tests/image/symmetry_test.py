@@ -16,9 +16,9 @@ import tempfile
 from pictures import pixels
 
 tomales, root = sys.argv[1], pathlib.Path(sys.argv[2])
-every_check = "--all" in sys.argv
 only = next((a for a in sys.argv[3:] if a != "--all"), "")
-WIDTH, HEIGHT, BLOCK = 96, 72, 8
+every_check = "--all" in sys.argv
+WIDTH, HEIGHT, BLOCK = (96, 72, 8) if every_check else (64, 48, 8)
 failures = []
 
 # Why some scenes are left out of some checks.
@@ -78,15 +78,16 @@ def check(path, folder):
     text = path.read_text(errors="replace")
     text = re.sub(r"^PixelFilter.*$", "", text, flags=re.M).replace("WorldBegin", 'PixelFilter "box" 1 1\nWorldBegin', 1)
     base = render(text, folder, "base")
+    most = 0.05 if "indirectlight" in text else 0.02  # where irradiance records lie is decided by a hair's breadth
     turned = render(moved(text, "Rotate 37 1 2 3", "Rotate -37 1 2 3"), folder, "turned")
     share = differing(base, turned)
-    verdict(name, "turned", share < 0.02, f"{100 * share:.2f} % of the pixels differ")
+    verdict(name, "turned", share < most, f"{100 * share:.2f} % of the pixels differ")
     share = differing(base, render(moved(text, "Translate 300 -200 500", "Translate -300 200 -500"), folder, "far"))
-    verdict(name, "far from the origin", share < 0.02, f"{100 * share:.2f} % of the pixels differ")
+    verdict(name, "far from the origin", share < most, f"{100 * share:.2f} % of the pixels differ")
     if not any(reason.search(text) for reason in (FALLS_OFF, IN_UNITS, ON_SCREEN)):
-        for k in (0.01, 1000):
+        for k in (0.01, 1000) if every_check else (1000,):
             share = differing(base, render(scaled(text, k), folder, f"scaled_{k}"))
-            verdict(name, f"{k} times as large", share < 0.02, f"{100 * share:.2f} % of the pixels differ")
+            verdict(name, f"{k} times as large", share < most, f"{100 * share:.2f} % of the pixels differ")
     if every_check:
         check_means(name, text, folder, statistics.fmean(sum(p) / 3 for p in base.values()))
 
@@ -112,7 +113,10 @@ for scene in sorted((root / "scenes").rglob("*.rib")):
     content = scene.read_text(errors="replace")
     if only not in str(scene) or content.count("WorldBegin") != 1 or "Projection" not in content or NEEDS_PLUGINS.search(content):
         continue
-    os.chdir(scene.parent)
     with tempfile.TemporaryDirectory() as where:
+        os.chdir(where)  # pictures that a scene names stay here
+        for beside in scene.parent.iterdir():
+            (pathlib.Path(where) / beside.name).symlink_to(beside)
         check(scene, pathlib.Path(where))
+        os.chdir(root)
 sys.exit(bool(failures))

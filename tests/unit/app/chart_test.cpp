@@ -2,10 +2,10 @@
 
 #include <fstream>
 
-#include "reyes/app/chart_lab.h"
-#include "reyes/app/chart_plot.h"
-#include "reyes/app/chart_report.h"
-#include "reyes/app/chart_sweeps.h"
+#include "reyes/app/chart/lab.h"
+#include "reyes/app/chart/plot.h"
+#include "reyes/app/chart/report.h"
+#include "reyes/app/chart/sweeps.h"
 #include "reyes/app/settings.h"
 #include "reyes/base/rng.h"
 

@@ -119,7 +119,7 @@ int samplesThatFallThrough(uint8_t innerOpen, uint8_t outerOpen) {
     };
   };
   const auto inner = makeGrid(0, 1, 5, 4, ring(10, 20)), outer = makeGrid(0, 2, 8, 4, ring(20, 30));
-  inner->openEdges = innerOpen, outer->openEdges = outerOpen;
+  inner->pieces[0].openEdges = innerOpen, outer->pieces[0].openEdges = outerOpen;
   const SamplePattern pattern(8, 8, true, 2);
   const DeepTile t = hide(w, pattern, {0, 0, 40, 40}, {raster(w, inner), raster(w, outer)});
   int through = 0;
@@ -141,7 +141,7 @@ TEST(Crack, StraightBordersReachOverByTwoThousandthsOfAPixelAndOpenOnesNotAtAll)
   w.add();
   w.freeze();
   const auto g = makeGrid(0, 1, 4, 4, rectangle(8, 8, 12, 12));
-  g->openEdges = kEdgeU0 | kEdgeV0 | kEdgeV1;
+  g->pieces[0].openEdges = kEdgeU0 | kEdgeV0 | kEdgeV1;
   const auto r = raster(w, g);
   EXPECT_EQ(r->bound.lo, vec2(8, 8));
   EXPECT_EQ(r->bound.hi.y, 12);
@@ -155,7 +155,7 @@ TEST(Crack, BordersReachOverByHalfAPixelAtMost) {
   w.freeze();
   const auto g = makeGrid(
       0, 1, 2, 2, [](float u, float v, int) { return at(10 + 10 * u + 20 * v * (1 - v) * u, 10 + 20 * v); });
-  g->openEdges = kEdgeU0 | kEdgeV0 | kEdgeV1;
+  g->pieces[0].openEdges = kEdgeU0 | kEdgeV0 | kEdgeV1;
   EXPECT_NEAR(raster(w, g)->bound.hi.x, 25.5f, 0.001f);
 }
 

@@ -36,7 +36,7 @@ struct Soup {
                     z + slope * u);
         },
         name % 5 ? 1 : 2);
-    g->openEdges = static_cast<uint8_t>(name & 15U);
+    g->pieces[0].openEdges = static_cast<uint8_t>(name & 15U);
     return raster(world, g, name % 4 != 0);
   }
 };
@@ -69,6 +69,59 @@ TEST(Resolve, DoesNotDependOnTheOrderOfGrids) {
     for (int y = 0; y < 64; ++y)
       for (int x = 0; x < 64; ++x) ASSERT_EQ(seen(a, x, y), seen(b, x, y)) << x << "," << y;
   }
+}
+
+/// Grids of one piece as one of many.
+std::shared_ptr<Grid> stacked(const std::vector<std::shared_ptr<Grid>>& grids) {
+  auto all = std::make_shared<Grid>();
+  all->object = grids[0]->object;
+  all->pieces.clear();
+  for (const auto& g : grids) all->pieces.push_back(g->pieces[0]);
+  all->allocate(grids[0]->nu, grids[0]->nv, 1, 0);
+  int first = 0;
+  for (const auto& g : grids) {
+    for (int axis = 0; axis < 3; ++axis) {
+      std::copy_n(g->P(0, axis), g->vertexCount(), all->P(0, axis) + first);
+      std::copy_n(g->N(axis), g->vertexCount(), all->N(axis) + first);
+    }
+    std::copy_n(g->u(), g->vertexCount(), all->u() + first);
+    std::copy_n(g->v(), g->vertexCount(), all->v() + first);
+    first += g->vertexCount();
+  }
+  return all;
+}
+
+TEST(Resolve, PiecesThatShareAGridLookAsTheyDoAlone) {
+  const SamplePattern pattern(4, 4, true, 1);
+  for (const auto interpolation : {ShadingInterpolation::Constant, ShadingInterpolation::Smooth})
+    for (const bool opaque : {true, false}) {
+      World w;
+      Attributes attributes;
+      attributes.interpolation = interpolation;
+      w.add(attributes);
+      w.freeze();
+      std::vector<std::shared_ptr<Grid>> grids;
+      Rasters alone;
+      for (uint32_t k = 0; k < 60; ++k) {
+        const auto random = [&](uint32_t dimension) { return unitFloat(hashCombine(k, dimension, 7U)); };
+        const float x = 66 * random(0) - 4, y = 66 * random(1) - 4, z = 1 + std::floor(4 * random(2)), turn = random(3);
+        grids.push_back(makeGrid(0, hash32(k), 2, 3, [&](float u, float v, int) {
+          return at(x + 9 * (u - turn * v), y + 9 * (v + turn * u), z + random(4) * u);
+        }));
+        grids.back()->pieces[0].openEdges = static_cast<uint8_t>(k & 15U);
+        alone.push_back(raster(w, grids.back(), opaque));
+      }
+      const Rasters shared = {raster(w, stacked(grids), opaque)};
+      EXPECT_EQ(shared[0]->ofPiece.size(), grids.size());
+      for (const int size : {64, 16})
+        for (int y0 = 0; y0 < 64; y0 += size)
+          for (int x0 = 0; x0 < 64; x0 += size) {
+            const PixelRect rect{x0, y0, x0 + size, y0 + size};
+            const DeepTile a = hide(w, pattern, rect, alone), b = hide(w, pattern, rect, shared);
+            for (int y = y0; y < y0 + size; ++y)
+              for (int x = x0; x < x0 + size; ++x) ASSERT_EQ(seen(a, x, y), seen(b, x, y)) << x << "," << y;
+          }
+    }
 }
 
 void expectNoTraceOfBuckets(int samples) {
@@ -110,7 +163,7 @@ TEST(Resolve, HasTheSameBitsForEveryVectorWidth) {
   const DeepTile widest = hide(soup.world, pattern, rect, soup.rasters);
   const int64_t supported = hwy::SupportedTargets();
   for (const int64_t target : {HWY_EMU128, HWY_SSE4, HWY_AVX2, HWY_AVX3}) {
-    if (!(supported & target)) continue;  // One for each that is compiled: reyes/hide/vector.h
+    if (!(supported & target)) continue;  // One for each that is compiled: reyes/base/vector.h
     const Widths one(target);
     const DeepTile tile = hide(soup.world, pattern, rect, soup.rasters);
     for (int y = 0; y < 64; ++y)
@@ -149,7 +202,7 @@ TEST(Resolve, MoreThanSixtyFourSamplesTakeSeveralWords) {
 /// One cell, 4 px by 2 px at depth 3, with a primitive variable.
 std::shared_ptr<Grid> oneCell() {
   auto g = std::make_shared<Grid>();
-  g->object = 0, g->name = 42, g->openEdges = kAllEdges;
+  g->object = 0, g->pieces[0].name = 42, g->pieces[0].openEdges = kAllEdges;
   g->allocate(1, 1, 1, 2);
   for (int k = 0; k < 4; ++k) {
     const vec3 p = at(static_cast<float>(k % 2) * 4, static_cast<float>(k / 2) * 2, 3);

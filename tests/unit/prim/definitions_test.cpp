@@ -106,43 +106,50 @@ TEST(Definition, OfBicubicMeshesInEveryBasisStepAndWrap) {
   for (const Direction& u : directions) {
     const Direction& v = directions[(turn * 5 + 3) % std::size(directions)];
     const bool homogeneous = turn++ % 2;
-    SCOPED_TRACE(std::string(u.name) + " by " + v.name);
-    const std::vector<glm::dvec4> controls = randomControls(u.controls, v.controls, false, homogeneous ? 2.0f : 1.0f);
-    Problems problems;
-    const PrimPtr prim = makeBicubicPatchMesh(u.controls, u.periodic, u.basis, v.controls, v.periodic, v.basis,
-                                              {asParam(controls, homogeneous)}, problems);
-    ASSERT_EQ(prim->patchCount(), static_cast<uint32_t>(u.patches * v.patches));
-    const auto weight = [](const Basis& b, double t, int k) {
-      const double powers[4] = {t * t * t, t * t, t, 1};
-      double sum = 0;
-      for (int row = 0; row < 4; ++row) sum += powers[row] * double{b.matrix[row][k]};
-      return sum;
-    };
-    for (uint32_t patch = 0; patch < prim->patchCount(); ++patch)
-      expectDefinition(*prim, patch, [&](double s, double t) {
-        const int column = static_cast<int>(patch) % u.patches, row = static_cast<int>(patch) / u.patches;
-        glm::dvec4 sum(0);
-        for (int j = 0; j < 4; ++j)
-          for (int i = 0; i < 4; ++i) {
-            const int x = (column * u.basis.step + i) % u.controls, y = (row * v.basis.step + j) % v.controls;
-            sum += weight(u.basis, s, i) * weight(v.basis, t, j) * controls[static_cast<size_t>(y * u.controls + x)];
-          }
-        return glm::dvec3(sum) / controls[0].w;  // Weights of the power and Hermite bases do not add up to one.
-      }, 1 + 1000 / static_cast<int>(prim->patchCount()));
+    const auto weighs = [](const Direction& d) { return d.name[0] == 'b'; };  // weights of the others may be negative
+    for (const bool rational : {false, true}) {
+        if (rational && !(weighs(u) && weighs(v))) continue;
+        SCOPED_TRACE(std::string(u.name) + " by " + v.name + (rational ? ", rational" : ""));
+        const std::vector<glm::dvec4> controls = randomControls(u.controls, v.controls, rational, homogeneous ? 2.0f : 1.0f);
+        Problems problems;
+        const PrimPtr prim = makeBicubicPatchMesh(u.controls, u.periodic, u.basis, v.controls, v.periodic, v.basis,
+                                                  {asParam(controls, homogeneous || rational)}, problems);
+        EXPECT_TRUE(problems.empty());
+        ASSERT_EQ(prim->patchCount(), static_cast<uint32_t>(u.patches * v.patches));
+        const auto weight = [](const Basis& b, double t, int k) {
+          const double powers[4] = {t * t * t, t * t, t, 1};
+          double sum = 0;
+          for (int row = 0; row < 4; ++row) sum += powers[row] * double{b.matrix[row][k]};
+          return sum;
+        };
+        for (uint32_t patch = 0; patch < prim->patchCount(); ++patch)
+          expectDefinition(*prim, patch, [&](double s, double t) {
+            const int column = static_cast<int>(patch) % u.patches, row = static_cast<int>(patch) / u.patches;
+            glm::dvec4 sum(0);
+            for (int j = 0; j < 4; ++j)
+              for (int i = 0; i < 4; ++i) {
+                const int x = (column * u.basis.step + i) % u.controls, y = (row * v.basis.step + j) % v.controls;
+                sum += weight(u.basis, s, i) * weight(v.basis, t, j) * controls[static_cast<size_t>(y * u.controls + x)];
+              }
+            return glm::dvec3(sum) / (rational ? sum.w : controls[0].w);  // Weights of the power and Hermite bases do not add up to one.
+          }, 1 + 1000 / static_cast<int>(prim->patchCount()));
+      }
+    }
   }
-}
 
-TEST(Definition, OfBilinearMeshes) {
-  const std::vector<glm::dvec4> c = randomControls(4, 3, false, 3);
-  Problems problems;
-  const PrimPtr prim = makeBilinearPatchMesh(4, true, 3, false, {asParam(c, true)}, problems);
-  ASSERT_EQ(prim->patchCount(), 8u);
-  for (uint32_t patch = 0; patch < 8; ++patch)
-    expectDefinition(*prim, patch, [&](double s, double t) {
-      const size_t i = patch % 4, j = patch / 4, k = (i + 1) % 4;
-      const glm::dvec4 h = glm::mix(glm::mix(c[j * 4 + i], c[j * 4 + k], s), glm::mix(c[j * 4 + 4 + i], c[j * 4 + 4 + k], s), t);
-      return glm::dvec3(h) / h.w;
-    }, 130);
+  TEST(Definition, OfBilinearMeshes) {
+    for (const bool rational : {false, true}) {
+    const std::vector<glm::dvec4> c = randomControls(4, 3, rational, 3);
+    Problems problems;
+    const PrimPtr prim = makeBilinearPatchMesh(4, true, 3, false, {asParam(c, true)}, problems);
+    ASSERT_EQ(prim->patchCount(), 8u);
+    for (uint32_t patch = 0; patch < 8; ++patch)
+      expectDefinition(*prim, patch, [&](double s, double t) {
+        const size_t i = patch % 4, j = patch / 4, k = (i + 1) % 4;
+        const glm::dvec4 h = glm::mix(glm::mix(c[j * 4 + i], c[j * 4 + k], s), glm::mix(c[j * 4 + 4 + i], c[j * 4 + 4 + k], s), t);
+        return glm::dvec3(h) / h.w;
+      }, 130);
+  }
 }
 
 /// The Cox-de Boor definition, order by order: the weights of all controls.

@@ -197,6 +197,25 @@ TEST(PatchMesh, PwIsDividedByItsWeight) {
   EXPECT_TRUE(problems.empty());
 }
 
+TEST(PatchMesh, PwOfDifferentWeightsIsRationalSoThatCirclesAreExact) {
+  const float w = 0.70710678f, a = (1 + 2 * w) / 3, b = 2 * w / 3, c = 1 / 3.0f;  // a quarter, from (1, 0) to (0, 1), of cubics
+  std::vector<float> pw;
+  for (const float z : {0.0f, 1 / 3.0f, 2 / 3.0f, 1.0f})
+    for (const vec3& h : {vec3(1, 0, 1), vec3(c + b, b, a), vec3(b, c + b, a), vec3(0, 1, 1)}) pw.insert(pw.end(), {h.x, h.y, z * h.z, h.z});
+  const Param heat = floats("heat", Storage::Vertex, ValueType::Float, std::vector<float>(16, 0.25f));
+  Problems problems;
+  const PrimPtr prim = makeBicubicPatchMesh(4, false, bezierBasis(), 4, false, bezierBasis(), {floats("Pw", Storage::Vertex, ValueType::HPoint, pw), heat}, problems);
+  EXPECT_TRUE(problems.empty());
+  for (const float u : {0.0f, 0.3f, 0.8f, 1.0f}) {
+    const Sample s = sampleAt(*prim, 0, u, 0.4f);
+    EXPECT_NEAR(glm::length(vec2(s.p.x, s.p.y)), 1, 1e-6f);
+    EXPECT_NEAR(std::abs(dot(glm::normalize(s.n), vec3(s.p.x, s.p.y, 0))), 1, 1e-6f);
+    EXPECT_NEAR(primvarAt(*prim, 0, 0, u, 0.4f)[0], 0.25f, 1e-6f);
+  }
+  expectSoundEverywhere(*prim);
+  expectBoundsContainTheSurface(*prim);
+}
+
 TEST(PatchMesh, WrongCountsThrowASentence) {
   Problems problems;
   const auto mesh = [&](int nu, int nv, std::vector<float> p) {

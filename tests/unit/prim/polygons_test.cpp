@@ -94,11 +94,10 @@ TEST(Polygon, EdgesBetweenFacesAndInsideThemAreClosed) {
   Problems problems;  // a quad and a triangle that share edge 1-2
   const PrimPtr prim = makePolygons({4, 3}, {0, 1, 2, 3, 1, 4, 2},
                                     {positions({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0})}, problems);
-  ASSERT_EQ(prim->patchCount(), 4u);
+  ASSERT_EQ(prim->patchCount(), 2u);
   EXPECT_EQ(prim->info(0).openEdges, kAllEdges & ~kEdgeU1);
-  EXPECT_EQ(prim->info(1).openEdges, kEdgeV0);            // at 1: to 4 is open, to 2 is shared
-  EXPECT_EQ(prim->info(2).openEdges, kEdgeV0 | kEdgeU0);  // at 4
-  EXPECT_EQ(prim->info(3).openEdges, kEdgeU0);            // at 2
+  // From 1-4 to corner 2; 2-1 is shared, and the edge at the corner has no length that could gape.
+  EXPECT_EQ(prim->info(1).openEdges, kEdgeV0 | kEdgeU1 | kEdgeV1);
 }
 
 TEST(Polygon, FacesThatShareAnEdgeAgreeOnItsPoints) {
@@ -114,18 +113,41 @@ TEST(Polygon, FacesThatShareAnEdgeAgreeOnItsPoints) {
     EXPECT_EQ(sampleAt(*mirrored, 0, k / 16.0f, 0).p, sampleAt(*mirrored, 1, 1 - k / 16.0f, 0).p);
 }
 
-TEST(Polygon, VaryingIsLinearAlongEdgesAndTheMeanAtTheCentre) {
+TEST(Polygon, ATriangleIsOnePatchFromItsShortestSideToTheCornerAcross) {
+  for (const std::vector<float>& p : {std::vector<float>{0, 0, 0, 1, 0, 0, 0, 3, 0}, {0, 3, 0, 0, 0, 0, 1, 0, 0}, {1, 0, 0, 0, 3, 0, 0, 0, 0}}) {
+    const PrimPtr prim = polygon(p);
+    ASSERT_EQ(prim->patchCount(), 1u);
+    EXPECT_EQ(sampleAt(*prim, 0, 0, 0).p, vec3(0));
+    EXPECT_EQ(sampleAt(*prim, 0, 1, 0).p, vec3(1, 0, 0));
+    for (const float u : {0.0f, 0.5f, 1.0f}) EXPECT_EQ(sampleAt(*prim, 0, u, 1).p, vec3(0, 3, 0));
+  }
+}
+
+TEST(Polygon, VaryingIsLinearOverATriangle) {
   Problems problems;
   const PrimPtr prim = makePolygons(
       {3}, {0, 1, 2},
       {positions({0, 0, 0, 1, 0, 0, 0, 1, 0}), floats("k", Storage::Varying, ValueType::Float, {0, 3, 6}),
        floats("f", Storage::FaceVarying, ValueType::Float, {3, 6, 9})},
       problems);
+  for (const float u : {0.0f, 0.3f, 1.0f})
+    for (const float v : {0.0f, 0.6f, 1.0f}) {
+      const vec3 p = sampleAt(*prim, 0, u, v).p;
+      EXPECT_NEAR(primvarAt(*prim, 0, 0, u, v)[0], 3 * p.x + 6 * p.y, 1e-6f);
+      EXPECT_NEAR(primvarAt(*prim, 0, 1, u, v)[0], 3 + 3 * p.x + 6 * p.y, 1e-6f);
+    }
+}
+
+TEST(Polygon, VaryingIsTheMeanAtTheCentreOfOthers) {
+  Problems problems;  // a pentagon
+  const PrimPtr prim = makePolygons({5}, {0, 1, 2, 3, 4},
+                                    {positions({0, 0, 0, 2, 0, 0, 3, 2, 0, 1, 3, 0, -1, 2, 0}),
+                                     floats("k", Storage::Varying, ValueType::Float, {0, 3, 6, 9, 12})},
+                                    problems);
+  ASSERT_EQ(prim->patchCount(), 5u);
   EXPECT_FLOAT_EQ(primvarAt(*prim, 0, 0, 0, 0)[0], 0);
   EXPECT_FLOAT_EQ(primvarAt(*prim, 0, 0, 1, 0)[0], 1.5f);
-  EXPECT_FLOAT_EQ(primvarAt(*prim, 0, 0, 1, 1)[0], 3);
-  EXPECT_FLOAT_EQ(primvarAt(*prim, 1, 1, 0, 0)[0], 6);
-  EXPECT_FLOAT_EQ(primvarAt(*prim, 2, 1, 1, 1)[0], 6);
+  for (uint32_t patch = 0; patch < 5; ++patch) EXPECT_FLOAT_EQ(primvarAt(*prim, patch, 0, 1, 1)[0], 6);
 }
 
 TEST(Polygon, UniformAndFaceVaryingBelongToTheirFaceWhenOthersAreDropped) {
@@ -183,6 +205,15 @@ TEST(NastyPolygon, SelfCrossingAndSpiralsNeitherCrashNorHang) {
     expectSoundEverywhere(*prim);
     expectBoundsContainTheSurface(*prim, 1000);
   }
+}
+
+TEST(NastyPolygon, ABowTieWhoseHalvesCancelIsDrawnInItsPlane) {
+  const PrimPtr prim = polygon(flat({{0, 0}, {2, 2}, {2, 0}, {0, 2}}));
+  EXPECT_GT(prim->patchCount(), 0u);
+  EXPECT_EQ(std::abs(sampleAt(*prim, 0, 0.5f, 0.5f).n.z), glm::length(sampleAt(*prim, 0, 0.5f, 0.5f).n));
+  Problems problems;
+  makePolygons({4}, {0, 1, 2, 3}, {positions({0, 0, 0, 1, 1, 0, 3, 3, 0, 2, 2, 0})}, problems);
+  EXPECT_EQ(problems.size(), 1u);  // on one line
 }
 
 TEST(NastyPolygon, FarFromTheOriginAndTinyKeepsItsNormal) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "reyes/shader.h"
+#include "reyes/shade/parameter_values.h"
 #include "tests/unit/shade/stage.h"
 
 namespace tomales {
@@ -82,6 +83,117 @@ TEST_F(Binding, UnknownAndMistypedParametersAreWarnedAboutAndDefaulted) {
   EXPECT_EQ(log.worst(), Severity::Warning);
   EXPECT_EQ(log.count("shader-parameter-unknown-matte"), 1);
   EXPECT_EQ(log.count("shader-parameter-type-matte"), 1);
+}
+
+Param given(ValueType type, std::vector<float> floats) {
+  Param p;
+  p.name = "x", p.type = type, p.floats = std::move(floats);
+  return p;
+}
+
+TEST(ParameterValues, NumbersAreConvertedWhereTheSpecificationAllows) {
+  const float half[] = {0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f};
+  using V = std::vector<float>;
+  struct Case {
+    int32_t type;
+    int length;
+    Param from;
+    V to;
+    bool remarked;
+  };
+  Param integer;
+  integer.type = ValueType::Integer, integer.ints = {7};
+  Param word;
+  word.type = ValueType::String, word.strings = {"red"};
+  const Case cases[] = {
+      {TM_FLOAT, 1, given(ValueType::Float, {3}), {3}, false},
+      {TM_FLOAT, 1, integer, {7}, false},
+      {TM_COLOR, 1, given(ValueType::Color, {1, 2, 3}), {1, 2, 3}, false},
+      {TM_NORMAL, 1, given(ValueType::Point, {1, 2, 3}), {1, 2, 3}, false},
+      {TM_COLOR, 1, given(ValueType::Float, {3}), {3, 3, 3}, true},
+      {TM_COLOR, 1, given(ValueType::Float, {1, 2, 3}), {1, 2, 3}, true},
+      {TM_COLOR, 1, given(ValueType::Point, {1, 2, 3}), {1, 2, 3}, true},
+      {TM_POINT, 1, given(ValueType::HPoint, {2, 4, 6, 2}), {1, 2, 3}, true},
+      {TM_MATRIX, 1, given(ValueType::Float, {2}), {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1}, true},
+      {TM_FLOAT, 3, given(ValueType::Color, {1, 2, 3}), {1, 2, 3}, true},
+      {TM_FLOAT, 3, given(ValueType::Float, {1, 2}), {1, 2, 0.5f}, true},
+      {TM_FLOAT, 1, given(ValueType::Float, {1, 2}), {1}, true},
+      // Nothing says which component a float would take, what a word is worth, or what two numbers are of three.
+      {TM_FLOAT, 1, given(ValueType::Color, {1, 2, 3}), {0.5f}, true},
+      {TM_FLOAT, 1, word, {0.5f}, true},
+      {TM_COLOR, 1, given(ValueType::Float, {1, 2}), {0.5f, 0.5f, 0.5f}, true},
+      {TM_COLOR, 1, given(ValueType::Matrix, V(16, 1.0f)), {0.5f, 0.5f, 0.5f}, true},
+  };
+  for (const Case& c : cases) {
+    const ParameterValue value = parameterValue({"x", c.type, c.length, half, nullptr, ""}, &c.from);
+    const std::string what = std::to_string(c.type) + " from " + std::to_string(static_cast<int>(c.from.type));
+    EXPECT_EQ(value.floats, c.to) << what;
+    EXPECT_EQ(!value.remark.empty(), c.remarked) << what << ": " << value.remark;
+  }
+}
+
+// --- Parameters of all shapes, as the C++ face gives them
+
+rsl::FloatArrayParam floats("floats", {1, 2, 3}, "");
+rsl::ColorArrayParam colors("colors", {{1, 0, 0}, {0, 1, 0}}, "");
+rsl::StringArrayParam words("words", {"one", "two"}, "");
+rsl::MatrixParam matrix("matrix", "");
+rsl::UniformFloatParam count("count", 5, "");
+
+std::vector<std::string> heard;
+void shadeShapes(const TmGrid* g) {
+  heard = {words(g, 0), words(g, 1)};
+  EXPECT_EQ(floats.length(g) + words.length(g), 5);
+  for (int i : rsl::Batch(g)) {
+    rsl::set(g->Ci, i, {floats(g, 2), colors(g, 1).y, count(g)});
+    rsl::set(g->Oi, i, {matrix(g)[12], matrix(g)[13], matrix(g)[14]});
+  }
+}
+const rsl::Shader shapesShader(TM_SURFACE, "shapes", "", 0, shadeShapes, {&floats, &colors, &words, &matrix, &count});
+
+class Shapes : public Stage {
+ protected:
+  Shapes() {
+    static const TmShader* const shaders[] = {shapesShader};
+    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 1};
+    registry.addLibrary(&library, "test");
+  }
+};
+
+TEST_F(Shapes, ArraysAndMatricesHaveDefaultsAndValues) {
+  surface("shapes");
+  expectColor(shadeOne(), {3, 1, 5});
+  EXPECT_EQ(heard, (std::vector<std::string>{"one", "two"}));
+  Param array = given(ValueType::Float, {4, 5, 6}), pair = given(ValueType::Color, {0, 0, 0, 0, 7, 0}), m = given(ValueType::Matrix, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 2, 3, 4, 1});
+  array.name = "floats", pair.name = "colors", m.name = "matrix";
+  Param said;
+  said.name = "words", said.type = ValueType::String, said.strings = {"", "three"};
+  shading.reset(), scene.objects.clear();
+  surface("shapes", {array, pair, m, said, number("count", 9)});
+  const ShadedPoints out = shade(points({vec3(0, 0, 5)}));
+  expectColor(out.color(0), {6, 7, 9});
+  expectColor(out.opacity(0), {2, 3, 4});
+  EXPECT_EQ(heard, (std::vector<std::string>{"", "three"}));
+  EXPECT_TRUE(log.entries().empty());
+}
+
+TEST_F(Shapes, AUniformParameterIsNotOverriddenByPrimitiveVariablesAndThisIsSaid) {
+  surface("shapes");
+  primvar("count", ValueType::Float);
+  ShadePoints p = points({vec3(0, 0, 5)});
+  p.primvar(0)[0] = 100;
+  EXPECT_EQ(shade(p).color(0).z, 5);
+  EXPECT_EQ(log.count("shader-parameter-uniform-shapes"), 1);
+}
+
+TEST(ParameterValues, StringsStayStrings) {
+  const char* defaults[] = {"a", "b"};
+  Param p = given(ValueType::Float, {1});
+  EXPECT_EQ(parameterValue({"x", TM_STRING, 2, nullptr, defaults, ""}, &p).strings, (std::vector<std::string>{"a", "b"}));
+  p = Param{}, p.type = ValueType::String, p.strings = {"c"};
+  const ParameterValue value = parameterValue({"x", TM_STRING, 2, nullptr, defaults, ""}, &p);
+  EXPECT_EQ(value.strings, (std::vector<std::string>{"c", "b"}));
+  EXPECT_FALSE(value.remark.empty());
 }
 
 TEST_F(Binding, ASurfaceForIndirectRaysReplacesTheVisibleOne) {

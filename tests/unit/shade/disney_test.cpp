@@ -64,12 +64,62 @@ TEST_F(Disney, TheRoughestMetalGivesBackWhatItsIntegralSays) {
   EXPECT_NEAR(shadeOne().x, 1 - std::log(2.0f), 3e-3f);
 }
 
+// A world of 1 all around is the same whether it is a sky, of which light and lobes are sampled, or what reflected rays see.
+TEST_F(Disney, ReflectedRaysTellOfTheSameWorldAsHighlights) {
+  services.seen = [](const vec3&) { return vec3(1.0f); };
+  for (const float rough : {0.1f, 0.5f, 1.0f})
+    for (const float coat : {0.0f, 1.0f}) {
+      const ParamList look{number("metallic", 1), number("roughness", rough), number("clearcoat", coat), number("reflections", 2048)};
+      shading.reset(), scene.objects.clear(), scene.lights.clear(), attributes.lights.clear();
+      surface("disney", look);
+      const float mirrored = shadeOne().x;
+      shading.reset(), scene.objects.clear();
+      surface("disney", {look.begin(), look.end() - 1});
+      light("environmentlight", {number("samples", 2048)});
+      EXPECT_NEAR(shadeOne().x, mirrored, 0.01f) << rough << " " << coat;
+      if (rough == 1 && coat == 0) {
+        EXPECT_NEAR(mirrored, 1 - std::log(2.0f), 5e-3f);
+      }
+    }
+}
+
+// A sharp lobe under a wide sky: samples of the sky alone would hardly ever meet it.
+TEST_F(Disney, ASharpLobeUnderASkyIsFreeOfNoise) {
+  surface("disney", {number("metallic", 1), number("roughness", 0.1f)});
+  light("environmentlight", {number("samples", 16)});
+  const ShadedPoints seen = shade(points(std::vector<vec3>(200, vec3(0, 0, 5))));
+  double mean = 0, square = 0;
+  for (int i = 0; i < 200; ++i) mean += double{seen.color(i).x} / 200, square += std::pow(double{seen.color(i).x} - 1, 2) / 200;
+  EXPECT_NEAR(mean, 1, 0.02);
+  EXPECT_LT(std::sqrt(square), 0.06);
+}
+
+TEST_F(Disney, BitsDoNotDependOnTheCompanyOfAPoint) {
+  surface("disney", {number("metallic", 1), number("reflections", 8)});
+  light("environmentlight");
+  primvar("roughness", ValueType::Float);
+  services.seen = [](const vec3& d) { return d * d; };
+  ShadePoints all = points(std::vector<vec3>(300, vec3(0.3f, 0.4f, 5)));
+  for (int i = 0; i < 300; ++i) all.primvar(0)[i] = static_cast<float>(i) / 300;
+  const ShadedPoints together = shade(all);
+  for (const int i : {0, 100, 299}) {
+    ShadePoints alone(0, 1);
+    alone.add(all.key(i));
+    for (int c = 0; c < all.channelCount(); ++c) alone.channel(c)[0] = all.channel(c)[i];
+    EXPECT_EQ(shade(alone).color(0), together.color(i)) << i;
+  }
+  EXPECT_NE(together.color(100), together.color(101));
+}
+
 TEST_F(Disney, EmissionAndReflectionsAreAdded) {
   attributes.color = vec3(0.0f);
   expectColor(facing({number("specular", 0), color("emission", {1, 2, 3})}), {1, 2, 3});
   const size_t before = services.asked.size();
   facing({number("reflections", 4)});
-  EXPECT_EQ(services.asked.size(), before + 4);
+  ASSERT_EQ(services.asked.size(), before + 4);
+  EXPECT_EQ(services.asked.back().number, 3);
+  EXPECT_EQ(services.asked.back().count, 4);
+  EXPECT_FALSE(services.asked.back().lampsGlow) << "light samples bring them";
 }
 
 }  // namespace

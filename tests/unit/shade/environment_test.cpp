@@ -100,6 +100,17 @@ TEST_F(Environment, TheMapStandsInTheWorldNotInTheCamera) {
   expectColor(litBy({1, 0, 0}), {1, 1, 5.0f / 3}, 3e-3f);
 }
 
+TEST_F(Environment, TheMapMayStandInTheSpaceOfTheLight) {
+  surface("matte");
+  scene.cameraFromWorld = Motion::still(mat4(1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1));
+  LightCall& sky = light("environmentlight", {text("map", writeMap([](const vec3& w) { return vec3(1 + w.z, 1 + w.y, 1 + w.x); })), text("mapspace", "shader")});
+  // Twice as large as the world; its z is the world's x, its x the world's y.
+  sky.shader.worldFromShader = Motion::still(mat4(0, 2, 0, 0, 0, 0, 2, 0, 2, 0, 0, 0, 0, 0, 0, 1));
+  expectColor(litBy({1, 0, 0}), {5.0f / 3, 1, 1}, 3e-3f);   // current x is the world's, the map's z
+  expectColor(litBy({0, -1, 0}), {1, 1, 5.0f / 3}, 3e-3f);
+  expectColor(litBy({0, 0, -1}), {1, 5.0f / 3, 1}, 3e-3f);
+}
+
 TEST_F(Environment, ShinyMetalMirrorsTheMapByTheReflectedDirection) {
   surface("shinymetal",
           {number("Kr", 0.5f), text("texturename", writeMap([](const vec3& w) { return vec3(1) + w; }))});

@@ -227,9 +227,7 @@ TEST_F(Sl, WhatRaysBringCrossesTheVolumeOfItsSide) {
 TEST_F(Sl, TheExamplesCompileOutOfTree) {
   const fs::path folder = fs::path(::testing::TempDir()) / "tomales_examples", source = TOMALES_SOURCE_DIR;
   fs::remove_all(folder);
-  fs::create_directories(folder / "include/reyes");
-  for (const char* header : {"shader.h", "shader_api.h", "shadeops.h", "shadenoise.h", "sl.h", "sl_values.h"})
-    fs::copy(source / "reyes" / header, folder / "include/reyes" / header);
+  installHeaders(folder / "include");
   std::vector<fs::path> examples = {source / "docs/example_plugin/kinds.cpp"};
   for (const auto& entry : fs::directory_iterator(source / "docs/rsl_plugins"))
     if (entry.path().extension() == ".cpp") examples.push_back(entry.path());

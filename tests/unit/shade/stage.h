@@ -3,6 +3,9 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <sstream>
+
 #include "reyes/shade.h"
 
 namespace tomales {
@@ -41,6 +44,7 @@ class FakeServices final : public ShadeServices {
  public:
   std::function<float(const vec3& P, const vec3& toward)> visible;
   std::function<float(const vec3& P, const vec3& direction)> met;  ///< Distance
+  std::function<vec3(const vec3& direction)> seen;  ///< Colour
   mutable std::vector<RayQuery> asked;
   std::function<void(float a, float b, vec3& P, vec3& N, float& area)> emitter;
   vec3 E{0.0f}, dominant[3] = {vec3(0, 0, -1), vec3(0, 0, -1), vec3(0, 0, -1)};
@@ -60,9 +64,13 @@ class FakeServices final : public ShadeServices {
   void trace(const ShadePoints& points, const uint8_t* active, TmConstVec3 P, TmConstVec3 d, const RayQuery& query, const ShadeContext&,
              const RayResult& result) const override {
     asked.push_back(query);
-    for (int i = 0; i < points.count(); ++i)
-      if (active[i] && result.distance)
-        result.distance[i] = met ? met({P.x[i], P.y[i], P.z[i]}, {d.x[i], d.y[i], d.z[i]}) : kInfinity;
+    for (int i = 0; i < points.count(); ++i) {
+      if (!active[i]) continue;
+      const vec3 toward{d.x[i], d.y[i], d.z[i]};
+      if (result.distance) result.distance[i] = met ? met({P.x[i], P.y[i], P.z[i]}, toward) : kInfinity;
+      const vec3 color = seen && toward != vec3(0) ? seen(toward) : vec3(0);
+      if (result.color.x) result.color.x[i] = color.x, result.color.y[i] = color.y, result.color.z[i] = color.z;
+    }
   }
   float emitterReach(int) const override { return 0; }
   bool sampleEmitter(int, int count, TmConstVec3 from, const float* a, const float* b, const EmitterPoints& out) const override {
@@ -169,6 +177,13 @@ class Stage : public ::testing::Test {
   FakeServices services;
   std::unique_ptr<ShadingSystem> shading;
 };
+
+/// As `cmake --install` does.
+inline void installHeaders(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder / "reyes");
+  std::istringstream headers(TOMALES_PLUGIN_HEADERS);
+  for (std::string header; std::getline(headers, header, ':');) std::filesystem::copy(std::filesystem::path(TOMALES_SOURCE_DIR) / header, folder / header);
+}
 
 inline void expectColor(const vec3& is, const vec3& should, float tolerance = 1e-5f) {
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(is[k], should[k], tolerance) << "channel " << k;

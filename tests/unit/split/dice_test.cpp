@@ -34,6 +34,40 @@ TEST(Dice, PiecesOfOnePatchShareTheirEdgeBitForBit) {
   for (int v = 0; v <= 5; ++v) EXPECT_EQ(a.position(0, v * 9 + 8), b.position(0, v * 4));
 }
 
+TEST(Dice, PiecesThatShareAGridAreWhatTheyAreAlone) {
+  const Scene scene = sceneOf({sphere()}, translation({0.3f, -0.2f, 5}));
+  const std::vector<float> times = {0};
+  const DiceKeys keys{times, scene.objects[0].cameraFromObject};
+  const std::vector<PatchPiece> pieces = {{0, {}}, {0, {0.125f, 0.25f, 0.5f, 0.75f}}, {0, {0.25f, 0.5f, 0, 1}}, {0, {}}};
+  const int nu = 3, nv = 2;
+  const Grid all = dice(scene, 0, pieces, nu, nv, keys);
+  ASSERT_EQ(all.pieceCount(), 4);
+  EXPECT_EQ(all.cellCount(), 4 * nu * nv);
+  int cells = 0;
+  for (int number = 0; number < all.cellNumbers(); ++number) cells += all.isCell(number);
+  EXPECT_EQ(cells, all.cellCount());
+  for (int p = 0; p < all.pieceCount(); ++p) {
+    const PatchPiece& piece = pieces[static_cast<size_t>(p)];
+    const Grid one = dice(scene, 0, piece.patch, piece.rect, nu, nv, keys);
+    const Grid::Piece &a = all.pieces[static_cast<size_t>(p)], &b = one.pieces[0];
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.openEdges, b.openEdges);
+    for (int v = 0; v < one.vertexCount(); ++v) {
+      const int k = p * all.verticesOfPiece() + v;
+      EXPECT_EQ(all.position(0, k), one.position(0, v));
+      EXPECT_EQ(all.normal(k), one.normal(v));
+      EXPECT_EQ(vec2(all.u()[k], all.v()[k]), vec2(one.u()[v], one.v()[v]));
+    }
+    for (int cell = 0; cell < one.cellCount(); ++cell) {
+      const int number = p * (nv + 1) * nu + cell;
+      EXPECT_TRUE(all.isCell(number));
+      EXPECT_EQ(all.pieceOfCell(number), p);
+      EXPECT_EQ(all.cellInPiece(number), cell);
+      EXPECT_EQ(all.onPatch(number, {0.3f, 0.6f}), one.onPatch(cell, {0.3f, 0.6f}));
+    }
+  }
+}
+
 TEST(Dice, NormalsPointOutwardsThroughMirrorsAndInsideOut) {
   for (const float mirror : {1.0f, -1.0f})
     for (const bool inside : {false, true}) {

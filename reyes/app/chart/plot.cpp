@@ -1,4 +1,4 @@
-#include "reyes/app/chart_plot.h"
+#include "reyes/app/chart/plot.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "reyes/app/chart_lab.h"
+#include "reyes/app/chart/lab.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -19,6 +19,9 @@ struct ChartSettings {
   int threads = 0;                 ///< Of each rendering. 0: as many as the machine has.
 };
 
+/// The user's, for what has been measured.
+std::string chartCacheFolder();
+
 int chartCommand(const ChartSettings& settings);
 
 }  // namespace tomales

@@ -1,7 +1,7 @@
 // What a chart has found, and the two files that say it.
 #pragma once
-#include "reyes/app/chart_error.h"
-#include "reyes/app/chart_lab.h"
+#include "reyes/app/chart/error.h"
+#include "reyes/app/chart/lab.h"
 
 namespace tomales {
 

@@ -1,4 +1,4 @@
-#include "reyes/app/chart_error.h"
+#include "reyes/app/chart/error.h"
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,10 @@
-#include "reyes/app/chart_report.h"
+#include "reyes/app/chart/report.h"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "reyes/app/chart/html.h"
 #include "reyes/app/settings.h"
 
 namespace tomales {
@@ -78,12 +77,7 @@ bool writeChartJson(const std::string& path, const ChartReport& report) {
            {"missing", report.missing},
            {"points", Json::array()}};
   for (const ChartPoint& p : report.points) out["points"].push_back(pointJson(report, p));
-  std::ofstream file(path + ".part");
-  file << out.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
-  file.close();
-  std::error_code problem;
-  if (file) std::filesystem::rename(path + ".part", path, problem);
-  return file && !problem;
+  return writeAtOnce(path, out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
 }  // namespace tomales

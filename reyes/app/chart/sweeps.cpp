@@ -1,4 +1,4 @@
-#include "reyes/app/chart_sweeps.h"
+#include "reyes/app/chart/sweeps.h"
 
 #include <fmt/format.h>
 

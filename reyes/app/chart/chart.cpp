@@ -1,4 +1,4 @@
-#include "reyes/app/chart.h"
+#include "reyes/app/chart/chart.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "reyes/app/chart_report.h"
-#include "reyes/app/chart_sweeps.h"
+#include "reyes/app/chart/report.h"
+#include "reyes/app/chart/sweeps.h"
 #include "reyes/app/interrupt.h"
 #include "reyes/app/render.h"
 
@@ -25,12 +25,6 @@ constexpr double kBatchShare = 0.06;     ///< Of the budget, of one batch.
 constexpr double kQuiet = 0.25;          ///< A reference with this share of the least error needs no further batches.
 constexpr double kSilent = 1e-4;         ///< A noise floor below which there is nothing to gain.
 constexpr int kTrialPaths = 64;
-
-std::string cacheFolder() {
-  const char *cache = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
-  const fs::path base = cache && *cache ? fs::path(cache) : home && *home ? fs::path(home) / ".cache" : fs::temp_directory_path();
-  return (base / "tomales" / "chart").string();
-}
 
 Arguments operator+(Arguments a, const Arguments& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -52,7 +46,7 @@ std::string inShort(const Arguments& arguments) {
 }
 
 LabSettings labOf(const ChartSettings& s, const ChartSweep& sweep) {
-  LabSettings lab{s.folder.empty() ? cacheFolder() : s.folder, s.files, sweep.common, s.budget_s};
+  LabSettings lab{s.folder.empty() ? chartCacheFolder() : s.folder, s.files, sweep.common, s.budget_s};
   if (s.format) lab.arguments = lab.arguments + Arguments{"--format", fmt::format("{}x{}", (*s.format)[0], (*s.format)[1])};
   if (s.bounces > 0) lab.arguments = lab.arguments + Arguments{"--bounces", std::to_string(s.bounces)};
   if (s.threads > 0) lab.arguments = lab.arguments + Arguments{"-t", std::to_string(s.threads)};
@@ -195,6 +189,12 @@ class Chart {
 };
 
 }  // namespace
+
+std::string chartCacheFolder() {
+  const char *cache = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
+  const fs::path base = cache && *cache ? fs::path(cache) : home && *home ? fs::path(home) / ".cache" : fs::temp_directory_path();
+  return (base / "tomales" / "chart").string();
+}
 
 int chartCommand(const ChartSettings& settings) {
   catchInterrupts();

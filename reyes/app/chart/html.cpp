@@ -1,0 +1,70 @@
+#include "reyes/app/chart/html.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+
+#include "reyes/app/chart/plot.h"
+
+namespace tomales {
+namespace {
+
+std::string base64(const std::string& bytes) {
+  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    uint32_t group = 0;
+    for (size_t k = 0; k < 3; ++k) group = group << 8 | (i + k < bytes.size() ? static_cast<uint8_t>(bytes[i + k]) : 0U);
+    for (size_t k = 0; k < 4; ++k) out += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return out;
+}
+
+}  // namespace
+
+const char* const kPageStyle = R"(
+:root{font:16px/1.5 system-ui,sans-serif;color:#1b1b1b;background:#fff}
+body{max-width:1200px;margin:0 auto;padding:0 16px 48px}
+h1{font-size:1.5rem;margin:1.2em 0 .2em}h2{font-size:1.15rem;margin:2em 0 .5em}
+p{max-width:46em;margin:.5em 0}code{font:12px/1.5 ui-monospace,monospace;overflow-wrap:anywhere}
+a{color:#0058a3}
+.scroll{overflow-x:auto}table{border-collapse:collapse;font-size:14px}
+th,td{padding:3px 10px 3px 0;text-align:right;white-space:nowrap;border-bottom:1px solid #e4e4e4}
+th:first-child,td:first-child,td.text,th.text{text-align:left}
+tr.best td:first-child{font-weight:600}
+.plots{display:grid;grid-template-columns:1fr 1fr;gap:24px}.plots h2{margin-top:1em}
+.key{display:inline-block;width:.8em;height:.8em;border-radius:50%;margin:0 .35em 0 0}
+.legend{display:flex;flex-wrap:wrap;gap:4px 20px;margin:.6em 0;padding:0;list-style:none;font-size:14px}
+svg{display:block;width:100%;height:auto;font:12px system-ui,sans-serif}
+.grid{stroke:#ececec}.axis{stroke:#555;fill:none}.tick,.label{fill:#333}
+.curve{fill:none;stroke-width:1.8}.point{stroke:#fff;stroke-width:1.2}.best{stroke:#111;stroke-width:2}
+.front{fill:none;stroke:#ffd84d;stroke-width:9;stroke-linecap:round;stroke-linejoin:round;opacity:.55}
+path.floor{stroke:#888;stroke-dasharray:3 4}text.floor{fill:#666}
+a:hover circle,a:focus circle{r:7px}
+.cards{display:grid;grid-template-columns:repeat(auto-fill,minmax(330px,1fr));gap:20px}
+figure{margin:0;padding:10px;border:1px solid #e0e0e0;border-radius:6px}figure:target{outline:3px solid #ffd84d}
+figure img{width:calc(50% - 3px);image-rendering:auto;vertical-align:top}
+figcaption{font-size:13px}.narrow{display:none}
+@media(max-width:800px){.plots{grid-template-columns:1fr}.wide{display:none}.narrow{display:block}.cards{grid-template-columns:1fr}}
+)";
+
+std::string embedded(const std::string& png) {
+  std::ifstream file(png, std::ios::binary);
+  return "data:image/png;base64," + base64({std::istreambuf_iterator<char>(file), {}});
+}
+
+std::string percent(double share) { return shortNumber(100 * share) + " %"; }
+std::string megabytes(double bytes) { return fmt::format("{:.0f} MB", bytes / 1048576); }
+
+bool writeAtOnce(const std::string& path, const std::string& text) {
+  std::ofstream file(path + ".part");
+  file << text;
+  file.close();
+  std::error_code problem;
+  if (file) std::filesystem::rename(path + ".part", path, problem);
+  return file && !problem;
+}
+
+}  // namespace tomales

@@ -1,0 +1,166 @@
+#include "reyes/app/chart/stability.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "reyes/app/chart/html.h"
+#include "reyes/app/interrupt.h"
+#include "reyes/app/render.h"
+
+namespace tomales {
+namespace {
+
+namespace fs = std::filesystem;
+using Arguments = std::vector<std::string>;
+
+constexpr int kPictureSize = 128;
+constexpr float kMapRange = 0.3f;  ///< Relative error of full colour.
+
+std::vector<std::string> scenesOf(const std::vector<std::string>& given) {
+  std::vector<std::string> out;
+  for (const std::string& name : given) {
+    if (!fs::is_directory(name)) {
+      out.push_back(name);
+      continue;
+    }
+    const size_t first = out.size();
+    for (const auto& entry : fs::directory_iterator(name))
+      if (entry.path().extension() == ".rib") out.push_back(entry.path().string());
+    std::sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end());
+  }
+  return out;
+}
+
+/// The first @ of each argument becomes a number.
+Arguments numbered(Arguments arguments, int number) {
+  for (std::string& a : arguments)
+    if (const size_t at = a.find('@'); at != std::string::npos) a.replace(at, 1, std::to_string(number));
+  return arguments;
+}
+
+class Laboratory {
+ public:
+  Laboratory(const ChartSettings& settings, Log& log) : settings_(settings), log_(log), start_(std::chrono::steady_clock::now()) {}
+
+  StabilityCurve measure(LabScene scene) {
+    StabilityCurve out{std::move(scene), {}, {}, 0, {}};
+    for (const std::string& value : out.scene.values) measure(out, value);
+    std::stable_sort(out.points.begin(), out.points.end(), [](const StabilityPoint& a, const StabilityPoint& b) { return a.method < b.method; });
+    return out;
+  }
+
+ private:
+  double secondsLeft() const {
+    return settings_.budget_s - std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+  void measure(StabilityCurve& out, const std::string& value) {
+    const LabScene& scene = out.scene;
+    fs::create_directories(settings_.folder);
+    const fs::path rib = fs::path(settings_.folder) / fmt::format("{}_{}.rib", fs::path(scene.file).stem().string(), value);
+    if (!writeAtOnce(rib.string(), withKnob(scene.text, value))) {
+      out.missing.push_back(fmt::format("{} {}: \"{}\" cannot be written", scene.knob, value, rib.string()));
+      return;
+    }
+    LabSettings lab{settings_.folder, {rib.string()}, scene.common, secondsLeft()};
+    if (settings_.threads > 0) lab.arguments.insert(lab.arguments.end(), {"-t", std::to_string(settings_.threads)});
+    Lab runs(lab);
+    ChartReference truth;
+    std::string error;
+    for (int batch = 1; batch <= settings_.batches; ++batch) {
+      const auto run = runs.run(numbered(scene.truth, batch));
+      const auto image = run ? readImage(run->picture, error) : std::nullopt;
+      if (!image || !truth.add(*image)) break;
+    }
+    if (truth.batches() < 2) {
+      out.missing.push_back(fmt::format("{} {}: no truth: {}", scene.knob, value, runs.why()));
+      return;
+    }
+    out.noiseFloor = std::max(out.noiseFloor, truth.noiseFloor());
+    out.truths.push_back(rib.string() + ".truth.png");
+    writeImage(out.truths.back(), thumbnail(truth.mean(), kPictureSize), true, log_);
+    for (size_t m = 0; m < scene.methods.size(); ++m) measure(out, value, m, truth, runs, rib.string());
+  }
+
+  void measure(StabilityCurve& out, const std::string& value, size_t method, const ChartReference& truth, Lab& runs, const std::string& rib) {
+    const LabMethod& m = out.scene.methods[method];
+    Arguments arguments;
+    for (const std::string& a : m.arguments) arguments.push_back(withKnob(a, value));
+    const auto run = runs.run(arguments);
+    std::string error;
+    const auto image = run ? readImage(run->picture, error) : std::nullopt;
+    if (!image) {
+      out.missing.push_back(fmt::format("{}, {} {}: {}", m.name, out.scene.knob, value, run ? error : runs.why()));
+      return;
+    }
+    std::string command = "tomales render " + rib;
+    for (const Arguments& part : {out.scene.common, arguments})
+      for (const std::string& a : part) command += ' ' + a;
+    StabilityPoint point{method, value, truth.errorOf(*image), *run, command, run->picture + ".thumb.png", run->picture + ".error.png"};
+    writeImage(point.picture, thumbnail(*image, kPictureSize), true, log_);
+    writeImage(point.errorMap, thumbnail(truth.errorMap(*image, kMapRange), kPictureSize), true, log_);
+    fmt::print(stderr, "{}, {}, {} {}: {:.3g} %{}\n", fs::path(out.scene.file).stem().string(), m.name, out.scene.knob, value, 100 * point.error.mean,
+               run->recalled ? " (recalled)" : "");
+    out.points.push_back(std::move(point));
+  }
+
+  const ChartSettings& settings_;
+  Log& log_;
+  const std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace
+
+int stabilityCommand(const ChartSettings& given) {
+  catchInterrupts();
+  ChartSettings settings = given;
+  if (settings.folder.empty()) settings.folder = chartCacheFolder();
+  Log log;
+  std::vector<StabilityCurve> curves;
+  Laboratory laboratory(settings, log);
+  bool whole = true;
+  for (const std::string& file : scenesOf(settings.files)) {
+    std::string error;
+    auto scene = readLabScene(file, error);
+    if (!scene) {
+      log.report(Severity::Error, "lab-scene", {std::make_shared<std::string>(file), 0}, "is no scene of a laboratory: " + error);
+      return kUnreadable;
+    }
+    curves.push_back(laboratory.measure(std::move(*scene)));
+    whole = whole && curves.back().missing.empty();
+  }
+  std::string command = "tomales chart --stability";
+  for (const std::string& file : settings.files) command += ' ' + file;
+  if (!writeStabilityPage(settings.output, curves, command) ||
+      !writeStabilityJson(fs::path(settings.output).replace_extension(".json").string(), curves, command)) {
+    log.report(Severity::Output, "chart", {}, "\"" + settings.output + "\" could not be written");
+    return kUnwritable;
+  }
+  if (const int code = interruptExitCode()) return code;
+  return whole ? kDone : kIncomplete;
+}
+
+bool writeStabilityJson(const std::string& path, const std::vector<StabilityCurve>& curves, const std::string& commandLine) {
+  using Json = nlohmann::ordered_json;
+  Json out{{"version", kVersion}, {"command", commandLine}, {"scenes", Json::array()}};
+  for (const StabilityCurve& c : curves) {
+    Json scene{{"file", c.scene.file}, {"title", c.scene.title}, {"knob", c.scene.knob}, {"noise_floor", c.noiseFloor}, {"missing", c.missing}, {"points", Json::array()}};
+    for (const StabilityPoint& p : c.points)
+      scene["points"].push_back({{"method", c.scene.methods[p.method].name},
+                                 {"knob", std::stod(p.knob)},
+                                 {"command", p.commandLine},
+                                 {"cpu_s", p.run.cpu_s},
+                                 {"mean_absolute_relative_error", p.error.mean},
+                                 {"p99", p.error.p99},
+                                 {"bias", p.error.bias},
+                                 {"rms", p.error.rms}});
+    out["scenes"].push_back(std::move(scene));
+  }
+  return writeAtOnce(path, out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+}
+
+}  // namespace tomales

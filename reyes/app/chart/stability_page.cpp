@@ -1,0 +1,105 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "reyes/app/chart/html.h"
+#include "reyes/app/chart/plot.h"
+#include "reyes/app/chart/stability.h"
+#include "reyes/app/settings.h"
+
+namespace tomales {
+namespace {
+
+constexpr const char* kOwnStyle = R"(
+.strip{display:grid;gap:4px;overflow-x:auto;font-size:12px;align-items:center;margin-top:10px}
+.strip img{width:96px}.strip span{color:#555}
+)";
+
+class Page {
+ public:
+  std::string write(const std::vector<StabilityCurve>& curves, const std::string& commandLine, const std::string& json) {
+    put("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
+    put("<title>Stability</title><style>{}{}</style></head><body>\n<h1>Where methods fail</h1>\n", kPageStyle, kOwnStyle);
+    put("<p>Each scene has a knob that drives methods from harmless to fatal. Error: mean of |test &minus; truth| / (truth + {}) over all colours of all "
+        "pixels that the truth lights.</p>\n", ChartReference::kFloor);
+    put("<p>Figures: <a href=\"{0}\">{0}</a>. Made with tomales {1}: <code>{2}</code></p>\n<ul>\n", escapeXml(json), kVersion, escapeXml(commandLine));
+    for (size_t i = 0; i < curves.size(); ++i) put("<li><a href=\"#s{}\">{}</a></li>\n", i, escapeXml(curves[i].scene.title));
+    put("</ul>\n");
+    for (size_t i = 0; i < curves.size(); ++i) section(curves[i], i);
+    put("</body></html>\n");
+    return std::move(out_);
+  }
+
+ private:
+  template <class... T>
+  void put(fmt::format_string<T...> format, T&&... values) {
+    fmt::format_to(std::back_inserter(out_), format, std::forward<T>(values)...);
+  }
+  static std::string name(size_t scene, const StabilityPoint& p) { return fmt::format("s{}m{}k{}", scene, p.method, p.knob); }
+
+  void section(const StabilityCurve& c, size_t scene) {
+    put("<h2 id=\"s{}\">{}</h2>\n<p>{}</p>\n", scene, escapeXml(c.scene.title), escapeXml(c.scene.note));
+    for (const std::string& m : c.missing) put("<p><strong>Not measured:</strong> {}</p>\n", escapeXml(m));
+    Plot plot{c.scene.title, c.scene.knob, "mean relative error", {}, c.noiseFloor};
+    put("<ul class=\"legend\">");
+    for (size_t m = 0; m < c.scene.methods.size(); ++m) {
+      plot.curves.push_back({c.scene.methods[m].name, {}});
+      put("<li><span class=\"key\" style=\"background:{}\"></span>{}</li>", plotColor(m), escapeXml(c.scene.methods[m].name));
+    }
+    put("</ul>\n");
+    for (const StabilityPoint& p : c.points)
+      plot.curves[p.method].points.push_back({std::stod(p.knob), p.error.mean,
+                                              fmt::format("{}, {} {}: {} (99th percentile {})", c.scene.methods[p.method].name, c.scene.knob, p.knob,
+                                                          percent(p.error.mean), percent(p.error.p99)),
+                                              '#' + name(scene, p)});
+    put("<div class=\"plots\"><div><div class=\"wide\">{}</div><div class=\"narrow\">{}</div></div><div>\n", drawPlot(plot, 580, 320), drawPlot(plot, 358, 300));
+    table(c);
+    put("</div></div>\n");
+    pictures(c, scene);
+  }
+
+  void table(const StabilityCurve& c) {
+    put("<div class=\"scroll\"><table><tr><th>{}</th>", escapeXml(c.scene.knob));
+    for (const std::string& value : c.scene.values) put("<th>{}</th>", escapeXml(value));
+    put("</tr>\n");
+    for (size_t m = 0; m < c.scene.methods.size(); ++m) {
+      put("<tr><td>{}</td>", escapeXml(c.scene.methods[m].name));
+      for (const std::string& value : c.scene.values) {
+        const StabilityPoint* p = find(c, m, value);
+        put("<td>{}</td>", p ? percent(p->error.mean) : "&ndash;");
+      }
+      put("</tr>\n");
+    }
+    put("</table></div>\n");
+  }
+
+  static const StabilityPoint* find(const StabilityCurve& c, size_t method, const std::string& value) {
+    for (const StabilityPoint& p : c.points)
+      if (p.method == method && p.knob == value) return &p;
+    return nullptr;
+  }
+
+  /// The truths above; under them, method by method, where pictures are wrong.
+  void pictures(const StabilityCurve& c, size_t scene) {
+    put("<div class=\"strip\" style=\"grid-template-columns:8em repeat({},96px)\"><span>truth</span>", std::max<size_t>(c.truths.size(), 1));
+    for (const std::string& truth : c.truths) put("<img alt=\"truth\" src=\"{}\">", embedded(truth));
+    for (size_t m = 0; m < c.scene.methods.size(); ++m) {
+      put("\n<span>{}</span>", escapeXml(c.scene.methods[m].name));
+      for (size_t k = 0, shown = 0; k < c.scene.values.size() && shown < c.truths.size(); ++k)
+        if (const StabilityPoint* p = find(c, m, c.scene.values[k]); p && ++shown)
+          put("<img id=\"{}\" alt=\"error\" title=\"{}\" src=\"{}\">", name(scene, *p), escapeXml(p->commandLine), embedded(p->errorMap));
+    }
+    put("</div>\n");
+  }
+
+  std::string out_;
+};
+
+}  // namespace
+
+bool writeStabilityPage(const std::string& path, const std::vector<StabilityCurve>& curves, const std::string& commandLine) {
+  const std::string json = std::filesystem::path(path).filename().replace_extension(".json").string();
+  return writeAtOnce(path, Page().write(curves, commandLine, json));
+}
+
+}  // namespace tomales

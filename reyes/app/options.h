@@ -1,0 +1,38 @@
+// Options of the command line that several commands share.
+#pragma once
+#include <CLI/CLI.hpp>
+
+#include "reyes/app/settings.h"
+
+namespace tomales {
+
+/// An option whose text must parse: stores the value or makes the usage error.
+template <class T, class Parse>
+CLI::Option* addParsed(CLI::App& app, const std::string& name, T& target, Parse parse,
+                       const std::string& form, const std::string& help) {
+  const auto take = [&target, parse, name, form](const std::string& text) {
+    const auto value = parse(text);
+    if (!value) throw CLI::ValidationError(name, "\"" + text + "\" is not of the form " + form);
+    target = *value;
+  };
+  return app.add_option_function<std::string>(name, take, help)->type_name(form);
+}
+
+/// Files of our own, by extension.
+inline auto parseNamed(const char* extension) {
+  return [extension](const std::string& text) {
+    return text.ends_with(extension) && text != extension ? std::optional(text) : std::nullopt;
+  };
+}
+
+/// The name of a picture, if it is one.
+std::optional<std::string> parseOutput(const std::string& text);
+
+void addOutput(CLI::App& app, RenderSettings& s);
+void addCrop(CLI::App& app, RenderSettings& s);
+void addPictureOptions(CLI::App& app, RenderSettings& s);  ///< Of the frame; --crop among them.
+void addLightOptions(CLI::App& app, RenderSettings& s);
+void addRunOptions(CLI::App& app, RenderSettings& s);      ///< Threads, statistics, memory of textures, how much is said.
+void addWatching(CLI::App& app, RenderSettings& s);        ///< --preview, --pixel
+
+}  // namespace tomales

@@ -1,0 +1,47 @@
+"""Every scene of the gallery is rendered without a message and shows something: docs/gallery.md.
+
+    gallery_test.py tomales repository
+"""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from pictures import pixels
+
+tomales, root = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+failures = []
+
+
+def run(*arguments, cwd):
+    return subprocess.run([tomales, *map(str, arguments)], cwd=cwd, capture_output=True, text=True)
+
+
+def make_brick_map(folder):
+    """As scenes/primitives/brickmap.rib says, of fewer photons."""
+    for step in (("photons", root / "scenes/cornell/cornell.rib", "-o", "photons", "--photons", "20000"), ("irradiance", "photons", "-o", "irradiance"),
+                 ("brickmake", "irradiance", "-o", "cornell.bkm", "--relative", "--maxerror", "0.1")):
+        done = run(*step, cwd=folder)
+        if done.returncode:
+            failures.append(f"{step[0]}: {done.stderr}")
+
+
+with tempfile.TemporaryDirectory() as temporary:
+    folder = pathlib.Path(temporary)
+    os.environ["TOMALES_TEXTURE_CACHE"] = str(folder / "textures")
+    make_brick_map(folder)
+    for scene in sorted([*root.glob("scenes/primitives/*.rib"), *root.glob("scenes/motion/*.rib")]):
+        name = f"{scene.parent.name}/{scene.stem}"
+        text = scene.read_text().replace("../../docs", str(root / "docs"))
+        (folder / scene.name).write_text(text)
+        done = run("render", scene.name, "-o", "out.exr", "--format", "96x72", "--pixel-samples", "2x2", cwd=folder)
+        if done.returncode or done.stdout or done.stderr:
+            failures.append(f"{name}: exit code {done.returncode}: {done.stdout}{done.stderr}")
+            continue
+        seen = sum(max(p[:3]) > 0.01 for p in pixels(folder / "out.exr").values())
+        if seen < 0.02 * 96 * 72:
+            failures.append(f"{name}: only {seen} pixels show something")
+
+print("\n".join(failures))
+sys.exit(bool(failures))

@@ -1,0 +1,148 @@
+// What requests of the RIS era become.
+#include "rib_test_tools.h"
+
+namespace tomales {
+namespace {
+
+const std::string kSphere = "Sphere 1 -1 1 360\n";
+
+TEST(Ris, BxdfsBecomeStandardShaders) {
+  const Reading r(inWorld("Bxdf \"PxrDiffuse\" \"d\" \"color diffuseColor\" [.1 .2 .3] " + kSphere +
+                          "Bxdf \"PxrDiffuse\" \"e\" " + kSphere +
+                          "Bxdf \"PxrDisney\" \"f\" \"color baseColor\" [.4 .5 .6] \"float roughness\" .25 " +
+                          kSphere));
+  EXPECT_EQ(r.attributes(0).surface->name, "matte");
+  EXPECT_EQ(r.attributes(0).color, vec3(.1f, .2f, .3f));
+  EXPECT_EQ(r.attributes(2).surface->name, "disney");
+  EXPECT_EQ(findParam(r.attributes(2).surface->params, "roughness")->number(0), .25f);
+  EXPECT_EQ(r.log.count("rib-substitute"), 2) << "once a name";
+}
+
+TEST(Ris, AreaLightsEmitAlongTheirZAndStaySwitchedOn) {
+  for (const char* kind : {"PxrRectLight", "PxrDiskLight", "PxrSphereLight"}) {
+    const Reading r(inWorld("Attribute \"visibility\" \"int camera\" 0 \"int indirect\" 0 Light \"" + std::string(kind) +
+                            "\" \"key\" \"float intensity\" 3 \"float exposure\" 2 \"__instanceid\" [\"k\"]\n" + kSphere));
+    ASSERT_EQ(r.scene().lights.size(), 1u) << kind;
+    EXPECT_TRUE(r.scene().lights[0]->area);
+    EXPECT_EQ(findParam(r.scene().lights[0]->shader.params, "intensity")->number(0), 12);
+    EXPECT_EQ(r.attributes(0).areaLight, 0);
+    EXPECT_FALSE(r.attributes(0).visibility.camera || r.attributes(0).visibility.transmission || r.attributes(0).visibility.diffuse);
+    EXPECT_EQ(r.attributes(1).areaLight, -1);
+    EXPECT_TRUE(r.attributes(1).visibility.transmission);
+    EXPECT_EQ(r.attributes(1).lights, std::vector<int>{0});
+    if (kind == std::string("PxrSphereLight")) continue;
+    std::vector<float> x(12);
+    const float half = .5f;
+    r.object(0).shape().evaluate(
+        0, 1, &half, &half,
+        {&x[0], &x[1], &x[2], &x[3], &x[4], &x[5], &x[6], &x[7], &x[8], &x[9], &x[10], &x[11]});
+    EXPECT_GT(x[11], 0) << kind;
+  }
+}
+
+TEST(Ris, LightsOutlastTheirBlock) {
+  const Reading r(inWorld("AttributeBegin AttributeBegin Light \"PxrDistantLight\" \"sun\" " + kSphere + "AttributeEnd " + kSphere +
+                          "Illuminate \"sun\" 0 " + kSphere + "AttributeEnd " + kSphere));
+  for (const size_t i : {0u, 1u, 3u}) EXPECT_EQ(r.attributes(i).lights, std::vector<int>{0}) << i;
+  EXPECT_TRUE(r.attributes(2).lights.empty());
+}
+
+TEST(Ris, IntegratorsTurnIndirectLightOn) {
+  const auto bounces = [](const std::string& params) {
+    const Reading r("Integrator \"PxrPathTracer\" \"i\" " + params + inWorld(kSphere));
+    const Param* p = r.scene().lights.empty() ? nullptr : findParam(r.scene().lights[0]->shader.params, "bounces");
+    return r.scene().lights.empty() ? 0.0f : p ? p->number(0) : -1.0f;
+  };
+  EXPECT_EQ(bounces(""), -1) << "that of indirectlight";
+  EXPECT_EQ(bounces("\"int maxPathLength\" 4"), 3);
+  EXPECT_EQ(bounces("\"int maxPathLength\" 1"), 0) << "direct light alone";
+  EXPECT_EQ(bounces("\"int maxIndirectBounces\" 2"), 2);
+  const Reading path(
+      "Integrator \"PxrPathTracer\" \"i\"" +
+      inWorld("Light \"PxrDomeLight\" \"sky\" \"string lightColorMap\" \"sky.exr\" " + kSphere));
+  ASSERT_EQ(path.scene().lights.size(), 2u);
+  EXPECT_EQ(path.scene().lights[0]->shader.name, "indirectlight");
+  EXPECT_EQ(path.scene().lights[1]->shader.name, "environmentlight");
+  EXPECT_TRUE(Reading("Integrator \"PxrDirectLighting\" \"i\"" + inWorld(kSphere)).scene().lights.empty());
+  EXPECT_EQ(Reading("Hider \"raytrace\" \"int maxsamples\" 256 \"int incremental\" 1" + inWorld("")).scene().options.xSamples, 8);
+}
+
+TEST(Ris, ReferencesAreFollowedToPatternsThatHaveASubstitute) {
+  const Reading r(inWorld(
+      "Pattern \"PxrTexture\" \"wood\" \"string filename\" \"wood.tif\" Pattern \"PxrChecker\" \"board\" \"color colorA\" [1 0 0]\n"
+      "Pattern \"PxrPrimvar\" \"own\" \"string varname\" \"Cs\"\nPattern \"PxrFractal\" \"noise\"\n"
+      "Bxdf \"PxrDiffuse\" \"a\" \"reference color diffuseColor\" \"wood:resultRGB\" " + kSphere +
+      "Bxdf \"PxrDisney\" \"b\" \"reference color baseColor\" [\"board:resultRGB\"] \"int[] x\" [] " + kSphere +
+      "Color .2 .3 .4 Bxdf \"PxrDiffuse\" \"c\" \"reference color diffuseColor\" \"own:resultRGB\" " + kSphere +
+      "Bxdf \"PxrDiffuse\" \"d\" \"reference color diffuseColor\" \"noise:resultRGB\" " + kSphere +
+      "Bxdf \"PxrDiffuse\" \"e\" \"reference color diffuseColor\" \"nowhere:resultRGB\" " + kSphere));
+  EXPECT_EQ(r.attributes(0).surface->name, "paintedplastic");
+  EXPECT_EQ(findParam(r.attributes(0).surface->params, "texturename")->strings[0], "wood.tif");
+  EXPECT_EQ(r.attributes(1).color, vec3(.5f, 0, 0));
+  EXPECT_EQ(r.attributes(2).color, vec3(.2f, .3f, .4f));
+  EXPECT_EQ(r.attributes(3).color, vec3(.5f));
+  EXPECT_EQ(r.log.count("rib-reference"), 1);
+  EXPECT_EQ(r.message("rib-reference").where.line, 9);
+  // Two Bxdfs and four patterns.
+  EXPECT_EQ(r.log.count("rib-substitute"), 2 + 4) << r.codes();
+}
+
+TEST(Ris, MetalsMirrorAndGlassRefracts) {
+  const Reading r(inWorld("Bxdf \"PxrDisney\" \"m\" \"float metallic\" 1 \"color baseColor\" [1 .5 0] " + kSphere +
+                          "Bxdf \"PxrSurface\" \"s\" \"float diffuseGain\" 0 \"color specularEdgeColor\" [.9 .8 .7] " + kSphere +
+                          "Bxdf \"PxrGlass\" \"g\" \"float ior\" 1.3 " + kSphere));
+  EXPECT_EQ(r.attributes(0).surface->name, "disney");
+  EXPECT_EQ(findParam(r.attributes(0).surface->params, "metallic")->number(0), 1);
+  EXPECT_EQ(findParam(r.attributes(1).surface->params, "reflections")->number(0), 1);
+  EXPECT_EQ(r.attributes(0).color, vec3(1, .5f, 0));
+  EXPECT_EQ(r.attributes(1).color, vec3(.9f, .8f, .7f));
+  EXPECT_EQ(r.attributes(2).surface->name, "glass");
+}
+
+TEST(Ris, DomesTurnTheirMapWithTheirSpace) {
+  const Reading r(inWorld("Light \"PxrDomeLight\" \"sky\" \"string lightColorMap\" \"sky.exr\" " + kSphere));
+  EXPECT_EQ(findParam(r.scene().lights.at(0)->shader.params, "mapspace")->strings.at(0), "shader");
+}
+
+TEST(Ris, DaylightIsASunAndASkyWithTheirOwnTints) {
+  const Reading r(inWorld("Light \"PxrEnvDayLight\" \"day\" \"float exposure\" [1] \"color sunTint\" [1 0 0] \"vector sunDirection\" [0.6 0.8 0] \"float haziness\" [4] " + kSphere));
+  ASSERT_EQ(r.scene().lights.size(), 2u);
+  const ParamList &sun = r.scene().lights[0]->shader.params, &sky = r.scene().lights[1]->shader.params;
+  EXPECT_EQ(r.scene().lights[0]->shader.name, "sunlight");
+  EXPECT_EQ(r.scene().lights[1]->shader.name, "daylight");
+  EXPECT_EQ(findParam(sun, "lightcolor")->floats, (std::vector<float>{1, 0, 0}));
+  EXPECT_EQ(findParam(sky, "lightcolor")->floats, (std::vector<float>{1, 1, 1}));
+  for (const ParamList* params : {&sun, &sky}) {
+    EXPECT_EQ(findParam(*params, "sundirection")->floats, (std::vector<float>{0.6f, 0.8f, 0}));
+    EXPECT_EQ(findParam(*params, "turbidity")->floats[0], 4);
+    EXPECT_EQ(findParam(*params, "intensity")->floats[0], 2);
+  }
+}
+
+/// Height over the horizon and azimuth from north over east, of the sun of a place and time.
+vec2 sunOf(float month, float day, float hour, float zone, float latitude, float longitude) {
+  const Reading r(inWorld("Light \"PxrEnvDayLight\" \"day\" \"float month\" [" + std::to_string(month) + "] \"float day\" [" + std::to_string(day) + "] \"float hour\" [" +
+                          std::to_string(hour) + "] \"float zone\" [" + std::to_string(zone) + "] \"float latitude\" [" + std::to_string(latitude) +
+                          "] \"float longitude\" [" + std::to_string(longitude) + "] " + kSphere));
+  const std::vector<float> d = findParam(r.scene().lights.at(0)->shader.params, "sundirection")->floats;
+  return {glm::degrees(std::asin(d[1])), glm::degrees(std::atan2(d[0], d[2]))};
+}
+
+// An almanac's: the sun's declination is 23.4 at the solstices and 0 at the equinoxes; clocks are up to 16 minutes off.
+TEST(Ris, TheSunOfADateAndAPlaceStandsWhereAlmanacsSay) {
+  EXPECT_GT(sunOf(3, 21, 12.12f, 0, 0, 0).x, 89);                  // overhead on the equator
+  EXPECT_NEAR(sunOf(6, 21, 12.03f, 0, 48, 0).x, 90 - 48 + 23.4f, 0.5f);
+  EXPECT_NEAR(std::abs(sunOf(6, 21, 12.03f, 0, 48, 0).y), 180, 1);   // in the south
+  EXPECT_NEAR(sunOf(12, 21, 11.97f, 0, 48, 0).x, 90 - 48 - 23.4f, 0.5f);
+  EXPECT_NEAR(sunOf(3, 21, 6.12f, 0, 48, 0).x, 0, 1);                // rises in the east at six
+  EXPECT_NEAR(sunOf(3, 21, 6.12f, 0, 48, 0).y, 90, 1);
+  EXPECT_NEAR(std::abs(sunOf(6, 21, 13.03f, 1, -30, 0).y), 0, 1);   // in the north, an hour later by a clock of zone 1
+}
+
+TEST(Ris, NightIsDarkAndSaysSo) {
+  const Reading r(inWorld("Light \"PxrEnvDayLight\" \"day\" \"vector sunDirection\" [0 -0.1 1] " + kSphere));
+  EXPECT_EQ(r.log.count("rib-substitute"), 2);
+}
+
+}  // namespace
+}  // namespace tomales
