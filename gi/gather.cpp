@@ -59,8 +59,8 @@ class RayTimes {
   std::vector<int> strata_;
 };
 
-/// Kept by each thread from one record to the next. Gather rays shade without indirect light, so gathering
-/// never nests.
+/// Kept by each thread from one record to the next. What gather rays hit asks for indirect light of frozen caches and paths, so
+/// gathering never nests.
 struct Scratch {
   RayLayers layers;
   std::vector<Hit> hits;
@@ -150,7 +150,7 @@ class Hemisphere {
   /// What the added rays see, by their elements; of the first rays also how far.
   void shade(Stats& stats, std::vector<vec3>& radiance, size_t elements) {
     radiance.assign(elements, vec3(0));
-    ShadeContext context{RayKind::Diffuse, 1, settings_.seed, 1, false};
+    ShadeContext context{RayKind::Diffuse, settings_.depth, settings_.seed, 1, settings_.indirect};
     context.light = settings_.light;
     context.diffuseLimit = 0;  // of direct light the diffuse component alone; mirrors and glass show what they show
     scratch_.answers.mode = HitMode::Shader;

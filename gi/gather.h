@@ -15,6 +15,8 @@ struct GatherSettings {
   uint32_t seed = 0;
   Illumination light = Illumination::Lights;  ///< Of what the rays hit.
   bool curvature = false;                     ///< Fill smoothRadius, and gradients that see occlusion.
+  int depth = 1;                              ///< Diffuse bounces between the eye and what the rays hit,
+  bool indirect = false;                      ///< whose shaders ask for indirect light in turn.
   bool operator==(const GatherSettings&) const = default;
 };
 

@@ -49,7 +49,11 @@ class GatherPass {
   void run(const std::function<void(float)>& progress, const std::atomic<bool>* cancelled) {
     progress_ = &progress, cancelled_ = cancelled;
     if (!prepareCaches()) return;
-    for (phase_ = 0; phase_ < kPhases && !isCancelled(); ++phase_) gatherAt(uncovered());
+    for (phase_ = 0; phase_ < kPhases && !isCancelled(); ++phase_) {
+      const std::vector<Site> sites = uncovered();
+      if (phase_ == 0) prepareBounces(sites);
+      gatherAt(sites);
+    }
   }
 
  private:
@@ -78,6 +82,16 @@ class GatherPass {
       cacheOfGroup_[group] = c;
     }
     return true;
+  }
+
+  void prepareBounces(const std::vector<Site>& sites) {
+    int bounces = 1;
+    for (size_t g = 0; g < cacheOfGroup_.size(); ++g)
+      if (cacheOfGroup_[g] != kNoCache) bounces = std::max(bounces, bouncesFor(state_, *state_.shading.indirectQuery(static_cast<int>(g))));
+    if (bounces == 1 || sites.empty() || !(tools_ = gatherTools(state_))) return;
+    std::vector<GatherPoint> points;
+    for (const Site& s : sites) points.push_back(s.point);
+    state_.bounces.fill(*tools_, state_.camera, points, state_.caches[sites[0].cache].plan.gather, bounces, state_.spots, state_.stats);
   }
 
   Bound3 measureFrame() {
@@ -156,7 +170,7 @@ class GatherPass {
   }
 
   Site siteOf(const ShadePoints& batch, int point, int x, int y) const {
-    const vec3 position = batch.position(point), normal = batch.facingNormal(point);
+    const vec3 position = batch.position(point), normal = gatherNormal(state_, batch, point);
     return {{batch.group(), position, normal, batch.key(point), projectedPixelSize(state_.camera, position, normal),
              batch.edgeLength(point), batch.get3(kDriftX, point), batch.channel(kTime)[point]},
             cacheOfGroup_[static_cast<size_t>(batch.group())], x, y};

@@ -15,8 +15,8 @@ template <class A>
 void fields(A& a, GatherPlan& x) {
   auto& [cache, gather] = x;
   auto& [errorFunction, kappa, maxPixels] = cache;
-  auto& [samples, maxDistance, seed, light, curvature] = gather;
-  each(a, errorFunction, kappa, maxPixels, samples, maxDistance, seed, light, curvature);
+  auto& [samples, maxDistance, seed, light, curvature, depth, indirect] = gather;
+  each(a, errorFunction, kappa, maxPixels, samples, maxDistance, seed, light, curvature, depth, indirect);
 }
 
 template <class A>

@@ -44,16 +44,18 @@ class PathBatches {
     const vec3 normal = unitNormal(points_, N_, i);
     vec3 tangent, bitangent;
     orthonormalBasis(normal, tangent, bitangent);
-    const uint32_t pointKey =
-        hashCombine(points_.key(i), state_.settings.seed, static_cast<uint32_t>(context_.depth));
+    // The hits of one record share a key and continue each other's sequence.
+    const SampleName name = points_.name(i);
+    const uint32_t pointKey = hashCombine(name.key, state_.settings.seed, static_cast<uint32_t>(context_.depth));
     for (int path = 0; path < paths; ++path) {
+      const uint32_t number = name.sequence * static_cast<uint32_t>(paths) + static_cast<uint32_t>(path);
       Ray ray{points_.position(i), normal};
       aim(*tools_.rays, points_, i, rayTime(*tools_.rays, points_, i, path, paths, state_.settings.seed), ray);
       ray.tMax = maxDistance_;
-      const vec3 local = cosineHemisphere(sobol2(static_cast<uint32_t>(path), pointKey));
+      const vec3 local = cosineHemisphere(sobol2(number, pointKey));
       ray.direction = local.x * tangent + local.y * bitangent + local.z * normal;
       ray.offset = slantedOffset(ray.offset, local.z);
-      layers_.add(static_cast<int>(sums_.size()), ray, {hashCombine(pointKey, static_cast<uint32_t>(path)), 0});
+      layers_.add(static_cast<int>(sums_.size()), ray, {hashCombine(pointKey, number), 0});
       sums_.push_back(&sum), directions_.push_back(ray.direction);
       if (sums_.size() == kRaysPerBatch) flush();
     }
@@ -103,9 +105,9 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
     int group, samples;
     float maxDistance, time;
     vec3 drift;
-    uint32_t light;
+    uint32_t light, indirect;
   } asked{point.position,   point.normal,         point.key,  settings.seed, point.group,
-          settings.samples, settings.maxDistance, point.time, point.drift,   static_cast<uint32_t>(settings.light)};
+          settings.samples, settings.maxDistance, point.time, point.drift,   static_cast<uint32_t>(settings.light), settings.indirect};
   const uint64_t name = answers ? checksum(std::as_bytes(std::span(&asked, 1))) : 0;
   if (answers)
     if (const auto it = answers->indirect.find(name); it != answers->indirect.end()) return it->second;
@@ -139,14 +141,27 @@ GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) 
   plan.gather.samples = std::max(1, settings.samples > 0 ? settings.samples : query.samples);
   plan.gather.maxDistance = query.maxDistance;
   plan.gather.seed = settings.seed;
+  plan.gather.indirect = bouncesFor(state, query) > 1;
   if (settings.mode == GiMode::Atlas) plan.gather.light = Illumination::Stored;
   return plan;
+}
+
+int bouncesFor(const GiState& state, const IndirectQuery& query) {
+  const int asked = state.settings.bounces > 0 ? state.settings.bounces : query.bounces;
+  return state.settings.mode == GiMode::None ? 0 : state.settings.mode == GiMode::Atlas ? std::min(asked, 1) : asked;
 }
 
 float projectedPixelSize(const Camera& camera, const vec3& P, const vec3& n) {
   constexpr float kLeastCosine = 0.05f;  // grazing views would let one record reach over whole objects
   const float cosine = std::abs(dot(normalizeOr(camera.incident(P), n), n));
   return camera.pixelSize(P) / std::sqrt(std::max(cosine, kLeastCosine));
+}
+
+vec3 gatherNormal(const GiState& state, const ShadePoints& points, int i) {
+  const Attributes& attributes = *state.scene.groups[static_cast<size_t>(points.group())].attributes;
+  if (!attributes.displacement || attributes.displacementBound > 0) return points.facingNormal(i);
+  const vec3 n = points.get3(kNgx, i);
+  return dot(points.get3(kIx, i), n) > 0 ? -n : n;
 }
 
 void store(const IndirectResult& out, int i, const vec3& E, const vec3 dominant[3]) {
@@ -167,11 +182,11 @@ void interpolateIndirect(const GiState& state, const ShadePoints& points, const 
   int64_t lookups = 0, interpolated = 0;
   for (int i = 0; i < points.count(); ++i) {
     if (!active[i]) continue;
-    const vec3 P = points.position(i), n = unitNormal(points, N, i);
-    const float pixelSize = projectedPixelSize(state.camera, P, n);
+    const vec3 P = points.position(i), n = unitNormal(points, N, i), unbumped = gatherNormal(state, points, i);
+    const float pixelSize = projectedPixelSize(state.camera, P, unbumped);
     if (prepared != state.caches.end()) {
       ++lookups;
-      const IrradianceEstimate estimate = prepared->cache.lookup(P, n, pixelSize);
+      const IrradianceEstimate estimate = prepared->cache.lookup(P, unbumped, n, pixelSize);
       if (estimate.weight > 0) {
         ++interpolated;
         store(out, i, estimate.E + causticAt(state, points.group(), P, n, pixelSize), estimate.dominant);
@@ -209,6 +224,21 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
     for (vec3& d : sum.directions) d = normalizeOr(d, unitNormal(points, N, sum.point));
     store(out, sum.point, sum.radiance / static_cast<float>(paths), sum.directions);
   }
+}
+
+void bounceIndirect(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
+                    const IndirectQuery& query, const ShadeContext& context, int bounces, const IndirectResult& out) {
+  std::vector<uint8_t> unknown(active, active + points.count());
+  bool all = true;
+  for (int i = 0; i < points.count(); ++i) {
+    if (!active[i]) continue;
+    const IrradianceEstimate estimate =
+        state.bounces.lookup(bounces - context.depth, state.camera, points.position(i), gatherNormal(state, points, i), unitNormal(points, N, i));
+    if (estimate.weight > 0) store(out, i, estimate.E, estimate.dominant);
+    unknown[static_cast<size_t>(i)] = estimate.weight <= 0;
+    all &= estimate.weight > 0;
+  }
+  if (!all) traceIndirect(state, points, unknown.data(), N, query, context, bounces, out);
 }
 
 }  // namespace tomales

@@ -225,9 +225,9 @@ void IrradianceCache::restore(const IrradianceRecord& record) {
   if (impl_->settings.kappa < kInfinity) impl_->insert(static_cast<uint32_t>(impl_->records.size() - 1));
 }
 
-IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, float pixelSize) const {
-  if (!(impl_->settings.kappa < kInfinity)) return impl_->blend({}, x, normal);
-  return impl_->blend(impl_->candidatesAt(x, normal, pixelSize), x, normal);
+IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, const vec3& shadingNormal, float pixelSize) const {
+  if (!(impl_->settings.kappa < kInfinity)) return impl_->blend({}, x, shadingNormal);
+  return impl_->blend(impl_->candidatesAt(x, normal, pixelSize), x, shadingNormal);
 }
 
 const std::vector<IrradianceRecord>& IrradianceCache::records() const { return impl_->records; }

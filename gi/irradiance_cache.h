@@ -57,8 +57,10 @@ class IrradianceCache {
   void insert(const IrradianceRecord& record);
   /// One of records() of an earlier cache with these settings: goes in as it is.
   void restore(const IrradianceRecord& record);
-  /// Weighted mean of the extrapolated records (eq. 5, 7). pixelSize: root of the projected pixel area at x.
-  IrradianceEstimate lookup(const vec3& x, const vec3& normal, float pixelSize) const;
+  /// Weighted mean of the extrapolated records (eq. 5, 7): those that serve `normal`, turned to `shadingNormal`. pixelSize: root of the
+  /// projected pixel area at x.
+  IrradianceEstimate lookup(const vec3& x, const vec3& normal, const vec3& shadingNormal, float pixelSize) const;
+  IrradianceEstimate lookup(const vec3& x, const vec3& normal, float pixelSize) const { return lookup(x, normal, normal, pixelSize); }
   const std::vector<IrradianceRecord>& records() const;
   const Bound3& bound() const;
 

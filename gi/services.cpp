@@ -127,11 +127,11 @@ float GiServices::emitterReach(int light) const {
 void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                                  const IndirectQuery& query, const ShadeContext& context,
                                  IndirectResult out) const {
-  const GiSettings& settings = impl_->settings;
-  const int asked = settings.bounces > 0 ? settings.bounces : query.bounces;
-  const int bounces = settings.mode == GiMode::None ? 0 : interpolates(settings.mode) ? std::min(asked, 1) : asked;
+  const int bounces = bouncesFor(*impl_, query);
   if (context.depth < bounces) {
-    if (interpolates(settings.mode)) return interpolateIndirect(*impl_, points, active, N, query, context, out);
+    const bool cached = interpolates(impl_->settings.mode);
+    if (cached && context.depth > 0) return bounceIndirect(*impl_, points, active, N, query, context, bounces, out);
+    if (cached) return interpolateIndirect(*impl_, points, active, N, query, context, out);
     return traceIndirect(*impl_, points, active, N, query, context, bounces, out);
   }
   for (int i = 0; i < points.count(); ++i) {

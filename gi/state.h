@@ -1,5 +1,6 @@
 // Private to gi: what GiServices holds, and the parts that it is made of.
 #pragma once
+#include "gi/bounce_caches.h"
 #include "gi/services.h"
 
 #include <mutex>
@@ -16,7 +17,8 @@ struct GiState {
   mutable std::unique_ptr<const IrradianceAtlas> atlas;  ///< GiMode::Atlas alone.
   std::vector<PreparedCache> caches;  ///< Written by fillCaches, frozen while shading.
   std::optional<Emitters> emitters;   ///< Known without rays.
-  BrightSpots spots{};                ///< Likewise.
+  BrightSpots spots{};                ///< Likewise,
+  BounceCaches bounces{};             ///< and these.
   bool cachesGiven = false;           ///< Not gathered for this very frame.
   AtlasSource atlasSource{};          ///< May be empty.
   mutable std::once_flag atlasOnce{};
@@ -29,9 +31,16 @@ const RayTools* gatherTools(const GiState&);
 /// attributes, and those over the light.
 GatherPlan planFor(const GiState&, int group, const IndirectQuery&);
 
+/// Diffuse bounces that a light accounts for.
+int bouncesFor(const GiState&, const IndirectQuery&);
+
 /// Root of the area that a pixel projects onto the plane through P with unit normal n (approximate-gi
 /// section 4.5).
 float projectedPixelSize(const Camera&, const vec3& P, const vec3& n);
+
+/// Where irradiance is gathered: the normal on the viewer's side without bumps (approximate-gi 4.5). A displacement shader of a group
+/// without displacement bound moves no point, so that there it is the geometric normal.
+vec3 gatherNormal(const GiState&, const ShadePoints& points, int i);
 
 /// Phase of the gather pass in which the nearest point of a pixel is considered: 0 is a lattice of stride 16,
 /// and each phase after it halves the area for each point, down to every pixel (quincunx first, then the rest
@@ -66,5 +75,8 @@ void interpolateIndirect(const GiState&, const ShadePoints&, const uint8_t* acti
                          const IndirectQuery&, const ShadeContext&, const IndirectResult& out);
 void traceIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N,
                    const IndirectQuery&, const ShadeContext&, int bounces, const IndirectResult& out);
+/// At what gather rays hit: from the caches of further bounces, or traced.
+void bounceIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N,
+                    const IndirectQuery&, const ShadeContext&, int bounces, const IndirectResult& out);
 
 }  // namespace tomales

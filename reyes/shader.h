@@ -175,6 +175,13 @@ class Batch {
     g->call->calculateNormal(g->host, g, view(g->P), g->N);
   }
 
+  /// Turns the normals as displace() would, and leaves the points: a bump.
+  void bump(const Array& amount) const {
+    Vec3Array moved(g);
+    for (int i : *this) moved.set(i, P(i) + amount[i] * normalize(N(i)));
+    g->call->calculateNormal(g->host, g, moved, g->N);
+  }
+
   const TmGrid* const g;
 
  private:

@@ -78,7 +78,6 @@ GiSettings FrameJob::giSettings() const {
 void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
   if (!gathers() || interrupted()) return;
   const StageTimer timer(stats_, "gather");
-  warnAboutBounces();
   services_->gatherPass(layout, tiles, meter_.stage(0.3f, 0.7f), &interrupted());
 }
 
@@ -159,20 +158,6 @@ void FrameJob::finish(DeepFrame& frame, const TileFill& fill) {
   if (rays_) rays_->report(stats_);
   clouds_.write(log_);
   meter_.report(1);
-}
-
-void FrameJob::warnAboutBounces() const {
-  if (mode_ == GiMode::Atlas) return;
-  for (const auto& light : scene_.lights) {
-    const Param* bounces = findParam(light->shader.params, "bounces");
-    const float asked = settings_.bounces > 0 ? static_cast<float>(settings_.bounces)
-                        : bounces             ? bounces->number(0)
-                                              : 1.0f;
-    if (light->shader.name == "indirectlight" && asked > 1)
-      log_.report(Severity::Warning, "gather-bounces", light->shader.where,
-                  "light \"" + light->handle +
-                      "\": gathering follows one bounce; more are followed by --gi reference");
-  }
 }
 
 FrameControl FrameJob::control(float begin, float end) {

@@ -44,7 +44,6 @@ class FrameJob {
   bool traces() const { return mode_ != GiMode::None || shading_->needsRays(); }
   /// A ray may go anywhere, so what rays may meet is read before the first of them, on screen or not, and kept.
   void open(const std::function<bool(const Attributes&)>& wanted);
-  void warnAboutBounces() const;
   int referenceLightSamples() const;
   ShadeContext shadeContext() const;
   /// A shaded tile, for the rows of the picture.

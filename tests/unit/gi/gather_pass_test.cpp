@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <numeric>
 
 #include "reyes/base/parallel.h"
+#include "reyes/base/rng.h"
 #include "tests/unit/gi/fixture.h"
 
 namespace tomales {
@@ -69,6 +71,66 @@ TEST(GatherPass, TheCacheDoesNotDependOnThreadsOrBuckets) {
       if (first.empty()) first = E;
       EXPECT_EQ(E, first) << threads << " threads, buckets of " << bucket;
     }
+}
+
+TEST(GatherPass, BouncesDoNotDependOnThreadsOrBuckets) {
+  World world(cornell(indirect(32)).scene);
+  std::vector<vec3> first, one;
+  for (const int threads : {1, 4}) {
+    const ThreadLimit limit(threads);
+    const DeepFrame frame = frameOf(world, threads == 1 ? 16 : 13);
+    const auto services = world.use({.bounces = 3});
+    gatherFrame(*services, frame);
+    const std::vector<vec3> E = indirectOf(*services, world, frame);
+    if (first.empty()) first = E;
+    EXPECT_EQ(E, first) << threads;
+  }
+  const DeepFrame frame = frameOf(world, 16);
+  const auto services = world.use({});
+  gatherFrame(*services, frame);
+  one = indirectOf(*services, world, frame);
+  const auto sum = [](const std::vector<vec3>& all) { return std::accumulate(all.begin(), all.end(), vec3(0)); };
+  EXPECT_GT(sum(first).x, 1.2f * sum(one).x);
+}
+
+// A room with bumps all over; normals turn by up to 40 degrees.
+struct BumpedRoom {
+  explicit BumpedRoom(float displacementBound) : world(scene(displacementBound)), frame(frameOf(world, 16)) {
+    for (DeepTile& tile : frame.tiles)
+      for (ShadePoints& batch : tile.batches)
+        for (int i = 0; i < batch.count(); ++i) {
+          const uint32_t key = batch.key(i);
+          const vec3 turn{unitFloat(hash32(key)), unitFloat(hash32(key ^ 1)), unitFloat(hash32(key ^ 2))};
+          batch.set3(kNx, i, glm::normalize(batch.get3(kNx, i) + 0.9f * (turn - vec3(0.5f))));
+        }
+  }
+  static Scene scene(float displacementBound) {
+    SceneBuilder b = cornell(indirect(256));
+    for (Object& o : b.scene.objects) {
+      auto attributes = std::make_shared<Attributes>(*o.attributes);
+      attributes->displacement = std::make_shared<ShaderCall>(call("noisybump", {floatParam("moves", 0)}));
+      attributes->displacementBound = displacementBound;
+      o.attributes = attributes;
+    }
+    return b.scene;
+  }
+  World world;
+  DeepFrame frame;
+};
+
+TEST(GatherPass, BumpsTakeNoRecordsAndAreStillSeen) {
+  BumpedRoom bumps(0), relief(1e-4f);
+  for (BumpedRoom* room : {&bumps, &relief}) gatherFrame(*room->world.use({}), room->frame);
+  EXPECT_LT(bumps.world.stats.irradianceCache.samples * 3, relief.world.stats.irradianceCache.samples);
+  const auto services = bumps.world.use({});
+  gatherFrame(*services, bumps.frame);
+  const std::vector<vec3> E = indirectOf(*services, bumps.world, bumps.frame);
+  EXPECT_EQ(bumps.world.stats.irradianceCache.interpolated, bumps.world.stats.irradianceCache.lookups);
+  const auto everyPoint = bumps.world.use({.maxError = 0});
+  const std::vector<vec3> truth = indirectOf(*everyPoint, bumps.world, bumps.frame);
+  float error = 0, mean = 0;
+  for (size_t i = 0; i < E.size(); ++i) error += std::abs(luminance(E[i]) - luminance(truth[i])), mean += luminance(truth[i]);
+  EXPECT_LT(error / mean, 0.08f);
 }
 
 TEST(GatherPass, ASmallerMaxErrorTakesMoreRecords) {

@@ -15,8 +15,8 @@ using namespace test;
 constexpr float kRadius = 2, kAlbedo = 0.5f, kIntensity = 3,
                 kOneBounce = kAlbedo * kIntensity / (kRadius * kRadius);
 
-Scene insideOfASphere(const vec3& light) {
-  SceneBuilder b;
+Scene insideOfASphere(const vec3& light, int resolution = 64) {
+  SceneBuilder b(resolution);
   b.light("pointlight", {floatParam("intensity", kIntensity), pointParam("from", light)});
   b.light("indirectlight", {});
   b.sphere(kRadius, vec3(kAlbedo), {0, 0, 0.5f});
@@ -75,6 +75,22 @@ TEST(GiServices, ReferenceBouncesAddUpAsAGeometricSeries) {
     // is pierced.
     EXPECT_LE(world.stats.rays.reference - before, 4 * 256 * bounces);
     EXPECT_GT(world.stats.rays.reference - before, 4 * 250 * bounces);
+  }
+}
+
+TEST(GiServices, GatheredBouncesAddUpAsAGeometricSeries) {
+  World world(insideOfASphere({0.6f, -0.5f, 1.0f}, 48));
+  const DeepFrame frame = frameOf(world, 16);
+  IndirectQuery query;
+  for (const auto& [bounces, cached] : {std::pair(2, false), std::pair(2, true), std::pair(4, true)}) {
+    const float expected = kOneBounce * (1 - std::pow(kAlbedo, static_cast<float>(bounces))) / (1 - kAlbedo);
+    const auto services = world.use({.mode = GiMode::Gather, .samples = 400, .bounces = bounces});
+    if (cached) gatherFrame(*services, frame);  // else hits find no record and go on as paths
+    const int64_t before = world.stats.rays.reference;
+    for (const vec3& E : indirectAt(*services, pointsInside(), query)) EXPECT_NEAR(E.x, expected, 0.03f * expected) << bounces << (cached ? " cached" : " traced");
+    const int64_t paths = world.stats.rays.reference - before;
+    EXPECT_GT(paths, cached ? -1 : 4 * 390);
+    EXPECT_LT(paths, cached ? 4 * 60 : 4 * 600) << "nearly all hits find records";
   }
 }
 
