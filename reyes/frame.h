@@ -69,8 +69,10 @@ bool shadeTiles(std::span<const uint32_t> tiles, const ShadeSteps& steps, const 
 
 void runImager(Image& image, const ShadingSystem& shading);
 
-/// Puts shaded tiles into frame.tile(i). Empty ones are left out of the picture.
-using TileFill = std::function<void(std::span<const uint32_t> tiles)>;
+/// Takes a shaded tile for the picture; from any thread.
+using TilePlace = std::function<void(size_t index, DeepTile&& tile)>;
+/// Calls `place` for some tiles. Others are left out of the picture.
+using TileFill = std::function<void(std::span<const uint32_t> tiles, const TilePlace& place)>;
 /// Sees the rows that go to the Displays. May be empty.
 using RowViewer = std::function<void(const Image& rows)>;
 /// Asks for the tiles that the next rows of the picture need, each once and in rows from the top, and forgets those that no

@@ -77,7 +77,12 @@ class FrameFilter {
   FrameFilter(const DeepFrame& frame, const Options& options, const SampleOffsets& samples, const MatteNames& names = {});
   ~FrameFilter();
   Image shape() const;                  ///< Of the whole: no pixels.
-  Image rows(int y0, int y1) const;     ///< Raster rows [y0, y1) of the crop window.
+  /// Takes what a tile shows, which then may go unless needsTiles(). Another tile at a time from any thread.
+  void resolve(size_t index, const DeepTile& tile);
+  bool needsTiles() const;
+  /// Raster rows [y0, y1) of the crop window, from the top; tiles that are not resolved are taken from the frame. Afterwards what no
+  /// lower row needs is forgotten.
+  Image rows(int y0, int y1) const;
   DeepRows deepRows(int y0, int y1, const DeepMerge& merge) const;  ///< The same, before exposure.
 
  private:

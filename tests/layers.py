@@ -32,7 +32,7 @@ THIRD_PARTY = {
     "CLI/": ["reyes/app/"],
     "zstd.h": ["reyes/base/chunk_file.cpp", "reyes/base/record_file.cpp"],
     "xxhash.h": ["reyes/base/checksum.cpp"],
-    "hwy/": ["reyes/hide/vector.h"],
+    "hwy/": ["reyes/base/vector.h"],
     "zlib.h": ["reyes/rib/stream.cpp"],
 }
 

@@ -101,7 +101,7 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
   const float begin = gathers() ? 0.7f : 0.5f;
   size_t shaded = 0;
   bool complete = true;
-  finish(frame, [&](std::span<const uint32_t> tiles) {
+  finish(frame, [&](std::span<const uint32_t> tiles, const TilePlace& put) {
     const StageTimer timer(stats_, "shade");
     const auto share = [&](size_t done) {
       return begin + (0.99f - begin) * static_cast<float>(done) / static_cast<float>(frame.tileCount());
@@ -111,7 +111,7 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
                              if (loaded) tile = std::move(*loaded);
                              return loaded.has_value();
                            },
-                           [&](size_t index, DeepTile&& tile) { place(index, std::move(tile), frame); }};
+                           [&](size_t index, DeepTile&& tile) { place(index, std::move(tile), put); }};
     const FrameControl control{meter_.stage(share(shaded), share(shaded + tiles.size())), cut ? nullptr : &interrupted(), settings_.seed};
     complete = shadeTiles(tiles, steps, scene_, *shading_, context, control) && complete;
     shaded += tiles.size();
@@ -124,24 +124,23 @@ void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::op
   DeepFrame frame = layout;
   FrameHider hider(layout, scene_, *shading_, control(0, 0.99f), stats_, log_);
   bool complete = true;
-  finish(frame, [&](std::span<const uint32_t> tiles) {
+  finish(frame, [&](std::span<const uint32_t> tiles, const TilePlace& put) {
     TurnsTimer timer(stats_, "hide", "shade");
     const TileSink sink{{}, [&](size_t index, DeepTile&& tile) {
                           keep(index, tile);
                           const TurnsTimer::Turn turn(timer);
                           tomales::shadeTile(tile, scene_, *shading_, shadeContext());
-                          place(index, std::move(tile), frame);
+                          place(index, std::move(tile), put);
                         }, find};
     complete = hider.hide(tiles, sink) && complete;
   });
   if (!complete) log_.report(Severity::Warning, "interrupted", {}, "interrupted: finished buckets are written");
 }
 
-void FrameJob::place(size_t index, DeepTile&& tile, DeepFrame& frame) const {
+void FrameJob::place(size_t index, DeepTile&& tile, const TilePlace& put) const {
   for (const auto& [x, y] : settings_.pixels)
-    if (tile.rect.contains(x, y)) std::fputs(pixelReport(tile, x, y, frame.samplesPerPixel, scene_).c_str(), stdout);
-  tile.forgetPoints();
-  frame.tile(index) = std::move(tile);
+    if (tile.rect.contains(x, y)) std::fputs(pixelReport(tile, x, y, layOutFrame(scene_).samplesPerPixel, scene_).c_str(), stdout);
+  put(index, std::move(tile));
 }
 
 void FrameJob::finish(DeepFrame& frame, const TileFill& fill) {

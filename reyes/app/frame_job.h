@@ -47,7 +47,7 @@ class FrameJob {
   int referenceLightSamples() const;
   ShadeContext shadeContext() const;
   /// A shaded tile, for the rows of the picture.
-  void place(size_t index, DeepTile&& tile, DeepFrame& frame) const;
+  void place(size_t index, DeepTile&& tile, const TilePlace& put) const;
   void finish(DeepFrame& frame, const TileFill& fill);
 
   Scene& scene_;

@@ -1,3 +1,4 @@
+#include "reyes/base/parallel.h"
 #include "reyes/frame.h"
 #include "reyes/frame/sampling.h"
 
@@ -21,8 +22,8 @@ MatteNames matteNames(const Scene& scene) {
 /// Keeps in a frame the tiles that some rows of pixels need, and has those filled that come in below.
 class MovingBand {
  public:
-  MovingBand(DeepFrame& frame, const TileFill& fill, const Options& options)
-      : frame_(frame), fill_(fill), reach_(static_cast<int>(filterReach(options).y)), needed_(tilesOf(frame, options)) {
+  MovingBand(DeepFrame& frame, FrameFilter& filter, const TileFill& fill, const Options& options)
+      : frame_(frame), filter_(filter), fill_(fill), reach_(static_cast<int>(filterReach(options).y)), needed_(tilesOf(frame, options)) {
     std::sort(needed_.begin(), needed_.end());
     frame.hold(0, 0);
   }
@@ -34,15 +35,56 @@ class MovingBand {
     const auto from = needed_.begin() + static_cast<std::ptrdiff_t>(filled_);
     const auto to = std::lower_bound(from, needed_.end(), static_cast<uint32_t>(last * frame_.columns));
     filled_ = static_cast<size_t>(to - needed_.begin());
-    fill_({from, to});
+    fill_({from, to}, [this](size_t index, DeepTile&& tile) {
+      // Now, while it is in the cache.
+      filter_.resolve(index, tile);
+      if (!filter_.needsTiles()) return;
+      tile.forgetPoints();
+      frame_.tile(index) = std::move(tile);
+    });
   }
 
  private:
   DeepFrame& frame_;
+  FrameFilter& filter_;
   const TileFill& fill_;
   const int reach_;
   std::vector<uint32_t> needed_;
   size_t filled_ = 0;
+};
+
+/// The files of the Displays, and rows that are on their way to them.
+class DisplayFiles {
+ public:
+  explicit DisplayFiles(Stats& stats) : stats_(stats) {}
+  void add(std::unique_ptr<DisplayFile> file) { files_.push_back(std::move(file)); }
+
+  /// Pre: nothing is on its way.
+  void take(Image rows, const FrameFilter& filter, int y0, int y1) {
+    for (const auto& file : files_) {
+      const std::optional<DeepMerge> merge = file->deep();
+      deep_.push_back(merge ? filter.deepRows(y0, y1, *merge) : DeepRows{});
+    }
+    rows_ = std::move(rows);
+  }
+  void write() {
+    if (!rows_) return;
+    const StageTimer timer(stats_, "image");
+    for (size_t i = 0; i < files_.size(); ++i) files_[i]->deep() ? files_[i]->write(deep_[i]) : files_[i]->write(*rows_);
+    rows_.reset();
+    deep_.clear();
+  }
+  void close() {
+    write();
+    const StageTimer timer(stats_, "image");
+    for (const auto& file : files_) file->close();
+  }
+
+ private:
+  Stats& stats_;
+  std::vector<std::unique_ptr<DisplayFile>> files_;
+  std::optional<Image> rows_;
+  std::vector<DeepRows> deep_;  ///< A file
 };
 
 }  // namespace
@@ -56,31 +98,25 @@ void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer,
   const SampleOffsets offsets = sampleOffsets(pattern);
   const MatteNames names = matteNames(scene);
   const View view = viewOf(Camera(options), scene.cameraFromWorldAtOpen());
-  MovingBand tiles(frame, fill, options);
-  const FrameFilter filter(frame, options, offsets, names);
-  std::vector<std::unique_ptr<DisplayFile>> files;
+  FrameFilter filter(frame, options, offsets, names);
+  MovingBand tiles(frame, filter, fill, options);
+  DisplayFiles files(stats);
   for (size_t i = 0; i < options.displays.size(); ++i)
     if (options.displays[i].type != "null")
-      files.push_back(std::make_unique<DisplayFile>(filter.shape(), output, i, options, log, view, names));
+      files.add(std::make_unique<DisplayFile>(filter.shape(), output, i, options, log, view, names));
   for (int y = frame.crop.y0; y < frame.crop.y1; y += kBandRows) {
     const int end = std::min(y + kBandRows, frame.crop.y1);
-    tiles.moveTo(y, end);
+    // One thread writes rows while the others hide and shade those below.
+    parallelFor(2, 1, [&](size_t job, size_t) { job == 0 ? tiles.moveTo(y, end) : files.write(); });
     const StageTimer timer(stats, "image");
     Image band = filter.rows(y, end);
     expose(band, options);
     runImager(band, shading);
     if (viewer) viewer(band);
-    for (const auto& file : files) {
-      const std::optional<DeepMerge> merge = file->deep();
-      if (merge)
-        file->write(filter.deepRows(y, end, *merge));
-      else
-        file->write(band);
-    }
+    files.take(std::move(band), filter, y, end);
     if (control.progress) control.progress(static_cast<float>(end - frame.crop.y0) / static_cast<float>(frame.crop.height()));
   }
-  const StageTimer timer(stats, "image");
-  for (const auto& file : files) file->close();
+  files.close();
 }
 
 }  // namespace tomales

@@ -9,6 +9,8 @@ inline float reciprocalLength(float length2) {
   return length2 > 0.0f && length2 < kInfinity ? 1.0f / std::sqrt(length2) : 0.0f;
 }
 
+inline int firstVertex(const Grid& g, int cell) { return cell + cell / g.nu; }
+
 /// Differences at a vertex: centred, one-sided at the border, of the length of one micropolygon.
 struct VertexSteps {
   int at, uLo, uHi, vLo, vHi;
@@ -29,7 +31,7 @@ struct VertexSteps {
 struct CellSteps {
   int a, b, c, d;
 
-  CellSteps(const Grid& g, int cell) : a(cell / g.nu * (g.nu + 1) + cell % g.nu), b(a + 1), c(a + g.nu + 1), d(c + 1) {}
+  CellSteps(const Grid& g, int cell) : a(firstVertex(g, cell)), b(a + 1), c(a + g.nu + 1), d(c + 1) {}
   float mean(const float* f) const { return 0.25f * (f[a] + f[b] + f[c] + f[d]); }
   float uStep(const float* f) const { return 0.5f * ((f[b] - f[a]) + (f[d] - f[c])); }
   float vStep(const float* f) const { return 0.5f * ((f[c] - f[a]) + (f[d] - f[b])); }
@@ -37,7 +39,7 @@ struct CellSteps {
 
 /// Steps of point i, whose fixed channels are filled. Texture coordinates without primitive variables are bilinear in u, v.
 template <class Steps>
-void addSteps(const Scene& scene, const Grid& g, const Steps& steps, ShadePoints& points, int i) {
+void stepsOf(const Scene& scene, const Grid& g, const Steps& steps, ShadePoints& points, int i) {
   const ShadeGroup& group = scene.groups[static_cast<size_t>(points.group())];
   const auto put = [&](int value, float u, float v) { points.step(value, false)[i] = u, points.step(value, true)[i] = v; };
   // N as the grid has it may be of any length; that of a shaded point is 1.
@@ -68,7 +70,7 @@ void addSteps(const Scene& scene, const Grid& g, const Steps& steps, ShadePoints
 template <class Mean>
 vec3 driftOf(const Scene& scene, const Grid& g, const Mean& mean) {
   const Object& o = scene.objects[static_cast<size_t>(g.object)];
-  if (g.keyCount == 1 || o.shapes.size() == 1) return vec3(0);
+  if (o.shapes.size() == 1) return vec3(0);
   const int last = g.keyCount - 1;
   const vec3 here(mean(g.P(0, 0)), mean(g.P(0, 1)), mean(g.P(0, 2)));
   const vec3 there(mean(g.P(last, 0)), mean(g.P(last, 1)), mean(g.P(last, 2)));
@@ -76,11 +78,19 @@ vec3 driftOf(const Scene& scene, const Grid& g, const Mean& mean) {
   return transformPoint(openFromLast, there) - here;
 }
 
-/// What is read of the grids, kLanes points at a time.
+/// Over a cell with corners a b c d.
+struct MeanAndSteps {
+  float mean, u, v;
+  MeanAndSteps(float a, float b, float c, float d)
+      : mean(0.25f * (a + b + c + d)), u(0.5f * ((b - a) + (d - c))), v(0.5f * ((c - a) + (d - b))) {}
+};
+
+/// What is read of the grids, kLanes points at a time; arrays may be written to beyond.
 struct alignas(64) Gathered {
-  float P[3][kLanes], N[3][kLanes];
-  float uEdge[3][kLanes], vEdge[3][kLanes];  ///< Of P, one micropolygon long.
-  float u[kLanes], v[kLanes], du[kLanes], dv[kLanes];
+  using Array = float[2 * kLanes];
+  Array P[3], N[3];
+  Array uEdge[3], vEdge[3];  ///< Of P, one micropolygon long.
+  Array u, v, du, dv;
 
   void readVertex(const Grid& g, int vertex, int i) {
     const VertexSteps steps(g, vertex);
@@ -93,23 +103,36 @@ struct alignas(64) Gathered {
     du[i] = steps.uStep(g.u()), dv[i] = steps.vStep(g.v());
   }
 
-  /// The centre of the cell whose first vertex is `a`.
-  void readCell(const Grid& g, int a, int i) {
-    const int c = a + g.nu + 1;
-    for (int axis = 0; axis < 3; ++axis) {
-      const float* p = g.P(0, axis);
-      meanAndSteps(p[a], p[a + 1], p[c], p[c + 1], P[axis][i], uEdge[axis][i], vEdge[axis][i]);
-      const float* n = g.N(axis);
-      N[axis][i] = 0.25f * (n[a] + n[a + 1] + n[c] + n[c + 1]);
-    }
-    float unused;
-    meanAndSteps(g.u()[a], g.u()[a + 1], g.u()[c], g.u()[c + 1], u[i], du[i], unused);
-    meanAndSteps(g.v()[a], g.v()[a + 1], g.v()[c], g.v()[c + 1], v[i], unused, dv[i]);
+  /// The centres of `count` cells, the first vertices of which follow each other from `a` on.
+  void readCells(const Grid& g, int a, int count, int i) {
+    const int row = g.nu + 1;
+    const Sources from{{g.P(0, 0) + a, g.P(0, 1) + a, g.P(0, 2) + a}, {g.N(0) + a, g.N(1) + a, g.N(2) + a}, g.u() + a, g.v() + a};
+    if (count >= kRun && a + row + 1 + kLanes <= g.stride())
+      readBlock(from, row, i);
+    else
+      for (int k = 0; k < count; ++k) readCell(from, k, row, i);
   }
 
  private:
-  static void meanAndSteps(float a, float b, float c, float d, float& mean, float& uStep, float& vStep) {
-    mean = 0.25f * (a + b + c + d), uStep = 0.5f * ((b - a) + (d - c)), vStep = 0.5f * ((c - a) + (d - b));
+  static constexpr int kRun = 4;  ///< Cells that are worth a vector.
+  struct Sources {
+    const float *P[3], *N[3], *u, *v;
+  };
+  static MeanAndSteps over(const float* f, int k, int row) { return {f[k], f[k + 1], f[k + row], f[k + row + 1]}; }
+
+  void readCell(const Sources& from, int k, int row, int i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const MeanAndSteps p = over(from.P[axis], k, row);
+      P[axis][i + k] = p.mean, uEdge[axis][i + k] = p.u, vEdge[axis][i + k] = p.v;
+      N[axis][i + k] = over(from.N[axis], k, row).mean;
+    }
+    const MeanAndSteps s = over(from.u, k, row), t = over(from.v, k, row);
+    u[i + k] = s.mean, du[i + k] = s.u, v[i + k] = t.mean, dv[i + k] = t.v;
+  }
+
+  TOMALES_HOT void readBlock(const Sources& from, int row, int i) {
+#pragma GCC ivdep
+    for (int k = 0; k < kLanes; ++k) readCell(from, k, row, i);
   }
 };
 
@@ -186,38 +209,56 @@ FacetTable::FacetTable(const Scene& scene, const Camera& camera, const GridTable
       camera_(camera),
       grids_(grids),
       tile_(tile),
+      seen_(grids.cellCount(), 0),
       facetOf_(grids.cellCount(), ~0U) {}
 
-uint32_t FacetTable::facetOf(uint32_t cell) {
-  uint32_t& facet = facetOf_[cell];
-  if (facet == ~0U) {
-    facet = static_cast<uint32_t>(tile_.facets.size());
-    const GridTable::Entry& entry = grids_.of(cell);
-    tile_.facets.push_back(makeFacet(entry, static_cast<int>(cell - entry.firstCell)));
+void FacetTable::make(std::vector<Fragment>& fragments) {
+  tile_.facets.reserve(static_cast<size_t>(std::count(seen_.begin(), seen_.end(), 1)));
+  for (Fragment& f : fragments) {
+    const uint32_t cell = f.facet;
+    if (facetOf_[cell] == ~0U) makeFacets(grids_.of(cell));
+    f.facet = facetOf_[cell];
   }
-  return facet;
+  tile_.batches.reserve(wishes_.size());
+  for (const Wishes& wishes : wishes_) {
+    const ShadeGroup& group = scene_.groups[static_cast<size_t>(wishes.group)];
+    ShadePoints& points = tile_.batches.emplace_back(wishes.group, primvarFloats(group), group.steps);
+    points.reserve(static_cast<int>(wishes.list.size()));
+    fill(wishes, points);
+    setTextureCoordinates(group, points);
+  }
 }
 
-Facet FacetTable::makeFacet(const GridTable::Entry& entry, int cell) {
+void FacetTable::makeFacets(const GridTable::Entry& entry) {
   const Grid& g = entry.grid();
-  const int batch = batchOf(scene_.objects[static_cast<size_t>(g.object)].group);
-  if (entry.raster->smooth) {
-    const int row = g.nu + 1, a = cell / g.nu * row + cell % g.nu;
-    Facet facet{batch, {}, entry.raster->matte};
-    const int corner[4] = {a, a + 1, a + row, a + row + 1};
-    for (int k = 0; k < 4; ++k) facet.point[k] = cornerPoint(entry, batch, corner[k]);
-    return facet;
+  const auto number = static_cast<uint32_t>(&entry - grids_.entries().data());
+  const uint8_t* seen = seen_.data() + entry.firstCell;
+  const int batch = batchOf(scene_.objects[static_cast<size_t>(g.object)].group), row = g.nu + 1;
+  std::vector<Wish>& list = wishes_[static_cast<size_t>(batch)].list;
+  const auto wish = [&](int index) {
+    list.push_back({number, index});
+    return static_cast<int>(list.size()) - 1;
+  };
+  const auto corner = [&](int vertex) {
+    int& point = corners_[static_cast<size_t>(vertex)];
+    if (point < 0) point = wish(vertex);
+    return point;
+  };
+  const bool smooth = entry.raster->smooth;
+  if (smooth) corners_.assign(static_cast<size_t>(g.vertexCount()), -1);
+  for (int cell = 0, end = g.cellNumbers(); cell < end; ++cell) {
+    if (!seen[cell]) continue;
+    facetOf_[entry.firstCell + static_cast<uint32_t>(cell)] = static_cast<uint32_t>(tile_.facets.size());
+    Facet& facet = tile_.facets.emplace_back();
+    facet.batch = batch, facet.matte = entry.raster->matte;
+    if (smooth) {
+      const int a = firstVertex(g, cell);
+      const int vertices[4] = {a, a + 1, a + row, a + row + 1};
+      for (int k = 0; k < 4; ++k) facet.point[k] = corner(vertices[k]);
+    } else {
+      std::fill_n(facet.point, 4, wish(cell));
+    }
   }
-  const int p = wish(batch, entry, cell, false);
-  return {batch, {p, p, p, p}, entry.raster->matte};
-}
-
-int FacetTable::cornerPoint(const GridTable::Entry& entry, int batch, int vertex) {
-  std::vector<int>& points = corners_[entry.firstCell];
-  points.resize(static_cast<size_t>(entry.grid().vertexCount()), -1);
-  int& point = points[static_cast<size_t>(vertex)];
-  if (point < 0) point = wish(batch, entry, vertex, true);
-  return point;
 }
 
 int FacetTable::batchOf(int group) {
@@ -232,63 +273,56 @@ int FacetTable::batchOf(int group) {
   return batch;
 }
 
-int FacetTable::wish(int batch, const GridTable::Entry& entry, int index, bool vertex) {
-  std::vector<Wish>& list = wishes_[static_cast<size_t>(batch)].list;
-  list.push_back({static_cast<uint32_t>(&entry - grids_.entries().data()), index, vertex});
-  return static_cast<int>(list.size()) - 1;
-}
-
-void FacetTable::makePoints() {
-  tile_.batches.reserve(wishes_.size());
-  for (const Wishes& wishes : wishes_) {
-    const ShadeGroup& group = scene_.groups[static_cast<size_t>(wishes.group)];
-    ShadePoints& points = tile_.batches.emplace_back(wishes.group, primvarFloats(group), group.steps);
-    points.reserve(static_cast<int>(wishes.list.size()));
-    fill(wishes, points);
-    setTextureCoordinates(group, points);
-  }
-}
-
 void FacetTable::fill(const Wishes& wishes, ShadePoints& points) const {
   Gathered gathered{};
   const bool subtracted = scene_.groups[static_cast<size_t>(wishes.group)].subtracted;
   const int count = static_cast<int>(wishes.list.size()), floats = points.primvarFloats();
   for (int first = 0; first < count; first += kLanes) {
-    const int lanes = std::min(kLanes, count - first);
-    for (int i = 0; i < lanes; ++i) {
-      const Wish& w = wishes.list[static_cast<size_t>(first + i)];
-      const Grid& g = grids_.entries()[w.entry].grid();
-      const int ofPiece = w.vertex ? g.verticesOfPiece() : g.nu * (g.nv + 1), piece = w.index / ofPiece;
-      points.add(hashCombine(g.pieces[static_cast<size_t>(piece)].name, static_cast<uint32_t>(w.index - piece * ofPiece)));
-      points.channel(kTime)[first + i] = -1;
-      if (w.vertex) {
-        gathered.readVertex(g, w.index, i);
-        for (int k = 0; k < floats; ++k) points.primvar(k)[first + i] = g.primvar(k)[w.index];
-        points.set3(kDriftX, first + i, driftOf(scene_, g, [&](const float* f) { return f[w.index]; }));
-      } else {
-        const int a = w.index / g.nu * (g.nu + 1) + w.index % g.nu, c = a + g.nu + 1;
-        gathered.readCell(g, a, i);
-        points.set3(kDriftX, first + i,
-                    driftOf(scene_, g, [&](const float* f) { return 0.25f * (f[a] + f[a + 1] + f[c] + f[c + 1]); }));
-        for (int k = 0; k < floats; ++k) {
-          const float* f = g.primvar(k);
-          points.primvar(k)[first + i] = 0.25f * (f[a] + f[a + 1] + f[c] + f[c + 1]);
-        }
+    const std::span<const Wish> block(wishes.list.data() + first, static_cast<size_t>(std::min(kLanes, count - first)));
+    for (size_t i = 0; i < block.size();) {
+      const Wish& w = block[i];
+      const GridTable::Entry& entry = grids_.entries()[w.entry];
+      const Grid& g = entry.grid();
+      const bool vertex = entry.raster->smooth;
+      const int run = vertex ? 1 : runLength(g, block.subspan(i)), a = vertex ? w.index : firstVertex(g, w.index);
+      if (vertex)
+        gathered.readVertex(g, a, static_cast<int>(i));
+      else
+        gathered.readCells(g, a, run, static_cast<int>(i));
+      const int ofPiece = vertex ? g.verticesOfPiece() : g.nu * (g.nv + 1), piece = w.index / ofPiece;
+      const uint32_t name = g.pieces[static_cast<size_t>(piece)].name;
+      for (int k = 0; k < run; ++k, ++i) {
+        const int point = points.add(hashCombine(name, static_cast<uint32_t>(w.index - piece * ofPiece + k))), c = a + k + g.nu + 1;
+        const auto mean = [&](const float* f) { return vertex ? f[a] : 0.25f * (f[a + k] + f[a + k + 1] + f[c] + f[c + 1]); };
+        for (int p = 0; p < floats; ++p) points.primvar(p)[point] = mean(g.primvar(p));
+        if (g.keyCount > 1) points.set3(kDriftX, point, driftOf(scene_, g, mean));
       }
     }
     if (subtracted)
       for (auto& axis : gathered.N)
         for (float& n : axis) n = -n;
     derive(gathered, camera_.perspective(), PointBlock(points, first));
-    for (int i = 0; points.hasSteps() && i < lanes; ++i) {
-      const Wish& w = wishes.list[static_cast<size_t>(first + i)];
-      const Grid& g = grids_.entries()[w.entry].grid();
-      if (w.vertex)
-        addSteps(scene_, g, VertexSteps(g, w.index), points, first + i);
-      else
-        addSteps(scene_, g, CellSteps(g, w.index), points, first + i);
-    }
+    if (points.hasSteps()) addSteps(block, points, first);
   }
+  std::fill_n(points.channel(kTime), count, -1.0f);
+}
+
+void FacetTable::addSteps(std::span<const Wish> wishes, ShadePoints& points, int first) const {
+  for (const Wish& w : wishes) {
+    const GridTable::Entry& entry = grids_.entries()[w.entry];
+    if (entry.raster->smooth)
+      stepsOf(scene_, entry.grid(), VertexSteps(entry.grid(), w.index), points, first++);
+    else
+      stepsOf(scene_, entry.grid(), CellSteps(entry.grid(), w.index), points, first++);
+  }
+}
+
+int FacetTable::runLength(const Grid& g, std::span<const Wish> wishes) {
+  const Wish& w = wishes[0];
+  const auto most = std::min(wishes.size(), static_cast<size_t>(g.nu - w.index % g.nu));
+  size_t n = 1;
+  while (n < most && wishes[n].entry == w.entry && wishes[n].index == w.index + static_cast<int>(n)) ++n;
+  return static_cast<int>(n);
 }
 
 }  // namespace tomales

@@ -1,5 +1,7 @@
-// Visible micropolygons become facets and points to shade, in order of first use. Private to the hider.
+// Visible micropolygons become facets and points to shade, grid by grid in order of first use. Private to the hider.
 #pragma once
+#include <span>
+
 #include "reyes/hide/samples.h"
 
 namespace tomales {
@@ -7,37 +9,38 @@ namespace tomales {
 class FacetTable {
  public:
   FacetTable(const Scene& scene, const Camera& camera, const GridTable& grids, DeepTile& tile);
-  /// The facet of a cell, made at its first use. Everything in it depends on the grid alone.
-  uint32_t facetOf(uint32_t cell);
-  /// Fills the points of all facets; before, the tile has no batches.
-  void makePoints();
+  /// A cell that some sample sees.
+  void see(uint32_t cell) { seen_[cell] = 1; }
+  /// Makes the facets of all cells that are seen, and their points; before, the tile has none. Everything in them depends on the
+  /// grid alone. Fragments have cells instead of facets, each one that is seen.
+  void make(std::vector<Fragment>& fragments);
 
  private:
   /// A point to be made: at the centre of a cell, or at a vertex.
   struct Wish {
     uint32_t entry;  ///< In GridTable::entries.
     int index;       ///< Of the cell or vertex.
-    bool vertex;
   };
   struct Wishes {
     int group;
     std::vector<Wish> list;
   };
-  Facet makeFacet(const GridTable::Entry& entry, int cell);
-  int cornerPoint(const GridTable::Entry& entry, int batch, int vertex);
+  void makeFacets(const GridTable::Entry& entry);
   int batchOf(int group);
-  int wish(int batch, const GridTable::Entry& entry, int index, bool vertex);
   void fill(const Wishes& wishes, ShadePoints& points) const;
+  void addSteps(std::span<const Wish> wishes, ShadePoints& points, int first) const;
+  /// How many wishes from the first on are for cells that follow each other in a row of a grid.
+  static int runLength(const Grid& g, std::span<const Wish> wishes);
 
   const Scene& scene_;
   const Camera& camera_;
   const GridTable& grids_;
   DeepTile& tile_;
-  std::vector<uint32_t> facetOf_;  ///< A cell
+  std::vector<uint8_t> seen_;      ///< A cell
+  std::vector<uint32_t> facetOf_;  ///< A cell, ~0: not made yet.
   std::vector<int> batchOf_;       ///< A group, -1: none yet.
   std::vector<Wishes> wishes_;     ///< A batch
-  std::map<uint32_t, std::vector<int>>
-      corners_;  ///< Points of a grid's vertices, by its first cell, -1: none yet.
+  std::vector<int> corners_;       ///< Points of a grid's vertices, -1: none yet.
 };
 
 }  // namespace tomales

@@ -1,7 +1,7 @@
 // Which opaque cells the samples of a pixel see: for the first sample that is left, all that see the same cell at once.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reyes/hide/opaque_sights.cpp"
-#include "reyes/hide/vector.h"  // Includes this file again for each target.
+#include "reyes/base/vector.h"  // Includes this file again for each target.
 
 #include "reyes/hide/pixel_layers.h"
 #include "reyes/hide/samples.h"
@@ -34,10 +34,11 @@ void collect(const SampleBuffer& samples, size_t pixel, std::vector<Sight>& sigh
     uint64_t left = ~lanesOf(cells, depths, here, kNoCell, nearest);
     if (here < 64) left &= (uint64_t{1} << here) - 1;
     while (left) {
-      Sight sight{cells[std::countr_zero(left)], static_cast<uint32_t>(first / 64), 0, 0, depths, true};
+      Sight& sight = sights.emplace_back();  // In place: a copy would wait for its parts to be written.
+      sight.cell = cells[std::countr_zero(left)], sight.word = static_cast<uint32_t>(first / 64);
+      sight.depths = depths, sight.opaque = true;
       sight.samples = lanesOf(cells, depths, here, sight.cell, sight.d);
       left &= ~sight.samples;
-      sights.push_back(sight);
     }
   }
 }

@@ -1,6 +1,6 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reyes/hide/pixel_layers.cpp"
-#include "reyes/hide/vector.h"  // Includes this file again for each target.
+#include "reyes/base/vector.h"  // Includes this file again for each target.
 
 #include <algorithm>
 #include <bit>
@@ -20,7 +20,7 @@ HWY_INLINE void forLanes(Mask mask, size_t first, const F& f) {
   for (uint64_t left = bitsOf(mask); left; left &= left - 1) f(first + static_cast<size_t>(std::countr_zero(left)));
 }
 
-void merge(Queues& q, const std::vector<Sight>& sights, const PixelLayers::Nearer& nearer, std::vector<Sight>& merged) {
+void merge(Queues& q, std::span<const Sight> sights, const PixelLayers::Nearer& nearer, std::vector<Sight>& merged) {
   const size_t lanes = q.d.size();
   const auto at = [&](uint32_t sight, float d) {
     Sight out = sights[sight];
@@ -79,8 +79,26 @@ void PixelLayers::Queues::resize(size_t queues) {
   next.resize(queues), end.resize(queues), sample.resize(queues);
 }
 
+std::span<const Sight> PixelLayers::nextRun(std::span<const Sight> sights) {
+  size_t n = 1;
+  for (float far = sights[0].far; n < sights.size() && sights[n].d <= far; ++n) far = std::max(far, sights[n].far);
+  return sights.first(n);
+}
+
+/// Does a sample see two of them?
+bool PixelLayers::overlap(std::span<const Sight> sights) {
+  std::fill(covered_.begin(), covered_.end(), 0);
+  bool twice = false;
+  for (const Sight& s : sights) {
+    if (covered_.size() <= s.word) covered_.resize(size_t{s.word} + 1, 0);
+    twice |= (covered_[s.word] & s.samples) != 0;
+    covered_[s.word] |= s.samples;
+  }
+  return twice;
+}
+
 /// Also counts the layers of each sample.
-bool PixelLayers::inOrder(const std::vector<Sight>& sights) {
+bool PixelLayers::inOrder(std::span<const Sight> sights) {
   size_t words = 0;
   for (const Sight& s : sights) words = std::max(words, size_t{s.word} + 1);
   last_.assign(words * 64, -kNone_d);
@@ -95,7 +113,7 @@ bool PixelLayers::inOrder(const std::vector<Sight>& sights) {
   return ordered;
 }
 
-void PixelLayers::listLayers(const std::vector<Sight>& sights) {
+void PixelLayers::listLayers(std::span<const Sight> sights) {
   queues_.resize(static_cast<size_t>(std::count_if(counts_.begin(), counts_.end(), [](uint32_t n) { return n > 0; })));
   uint32_t total = 0;
   for (uint32_t sample = 0, queue = 0; sample < counts_.size(); ++sample) {
@@ -120,10 +138,17 @@ void PixelLayers::listLayers(const std::vector<Sight>& sights) {
 
 HWY_EXPORT(merge);
 void PixelLayers::order(std::vector<Sight>& sights, const Nearer& nearer) {
-  if (inOrder(sights)) return;
-  listLayers(sights);
   merged_.clear();
-  HWY_DYNAMIC_DISPATCH(merge)(queues_, sights, nearer, merged_);
+  for (std::span<const Sight> left(sights); !left.empty();) {
+    const std::span<const Sight> run = nextRun(left);
+    left = left.subspan(run.size());
+    if (run.size() == 1 || !overlap(run) || inOrder(run)) {
+      merged_.insert(merged_.end(), run.begin(), run.end());
+    } else {
+      listLayers(run);
+      HWY_DYNAMIC_DISPATCH(merge)(queues_, run, nearer, merged_);
+    }
+  }
   sights.swap(merged_);
 }
 

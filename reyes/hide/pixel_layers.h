@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "reyes/base/simd.h"
@@ -15,6 +16,7 @@ struct Sight {
   float d;              ///< Of the nearest of its samples.
   const float* depths;  ///< Opaque: a depth key for each of the word's 64 samples. Else one for each of `samples`.
   bool opaque;
+  float far = __builtin_inff();  ///< No less than the depth key of any of its samples.
 };
 
 class PixelLayers {
@@ -48,9 +50,13 @@ class PixelLayers {
   static constexpr uint32_t kNone = ~0U;
 
  private:
-  bool inOrder(const std::vector<Sight>& sights);
-  void listLayers(const std::vector<Sight>& sights);
+  /// Those that lie behind all before them, sample or not, need not be looked at together with them.
+  std::span<const Sight> nextRun(std::span<const Sight> sights);
+  bool overlap(std::span<const Sight> sights);
+  bool inOrder(std::span<const Sight> sights);
+  void listLayers(std::span<const Sight> sights);
 
+  std::vector<uint64_t> covered_;
   std::vector<float> last_;
   std::vector<uint32_t> counts_;
   Queues queues_;

@@ -4,7 +4,7 @@
 // micropolygons, and few are left that miss.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reyes/hide/raster_blurred.cpp"
-#include "reyes/hide/vector.h"  // Includes this file again for each target.
+#include "reyes/base/vector.h"  // Includes this file again for each target.
 
 #include "reyes/hide/blur_bounds.h"
 #include "reyes/hide/raster.h"
@@ -264,7 +264,7 @@ class Descent {
       Films& films = out.filmsOf(job_.raster);
       const uint32_t s = lane - pixel * static_cast<uint32_t>(out.lanes);
       *films.next() = depth;
-      return films.add(pixel, cell, s / 64, uint64_t{1} << (s % 64));
+      return films.add(pixel, cell, s / 64, uint64_t{1} << (s % 64), depth, depth);
     }
     if (depth == before) return settleTies(job_, lane, 1, cell);
     before = depth, out.cell[lane] = cell, out.nearer[pixel] = 1;

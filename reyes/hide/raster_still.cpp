@@ -3,7 +3,7 @@
 // the same in all of them, and none is fused, so the bits are too.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reyes/hide/raster_still.cpp"
-#include "reyes/hide/vector.h"  // Includes this file again for each target.
+#include "reyes/base/vector.h"  // Includes this file again for each target.
 
 #include <bit>
 #include <cstring>
@@ -184,7 +184,9 @@ HWY_INLINE void film(const RasterJob& job, const Quad& quad, size_t pixel, uint3
     const Reach r = reachOf(job, quad, first + g, cell, kept);
     if (hn::AllFalse(kF, r.mask)) continue;
     hn::StoreU(hn::Compress(r.depth, r.mask), kF, films.next());
-    films.add(static_cast<uint32_t>(pixel), cell, static_cast<uint32_t>(g / 64), bitsOf(r.mask) << (g % 64));
+    const float nearest = hn::GetLane(hn::MinOfLanes(kF, hn::IfThenElse(r.mask, r.depth, all(kInfinity))));
+    const float farthest = hn::GetLane(hn::MaxOfLanes(kF, hn::IfThenElse(r.mask, r.depth, all(-kInfinity))));
+    films.add(static_cast<uint32_t>(pixel), cell, static_cast<uint32_t>(g / 64), bitsOf(r.mask) << (g % 64), nearest, farthest);
   }
 }
 

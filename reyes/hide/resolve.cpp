@@ -49,11 +49,10 @@ class TileBuilder {
     tile_.pixels.reserve(count);
     sortFilms(count);
     {
-      const Lent facets(tile_.facets, scratch_.facets);
       const Lent fragments(tile_.fragments, scratch_.fragments);
       for (size_t pixel = 0; pixel < count; ++pixel) addPixel(pixel);
     }
-    facets_.makePoints();
+    facets_.make(tile_.fragments);
     tile_.shrink();
     return std::move(tile_);
   }
@@ -87,9 +86,11 @@ class TileBuilder {
     if (films) scratch_.layers.order(sights_, nearer);
     tile_.pixels.push_back({static_cast<uint32_t>(tile_.fragments.size()), static_cast<uint32_t>(sights_.size())});
     for (const Sight& s : sights_) {
-      Fragment f{facets_.facetOf(s.cell), camera_.zFromDepthKey(s.d), s.samples, static_cast<uint16_t>(s.word)};
-      if (grids_.of(s.cell).raster->smooth) setPosition(f, s.cell, pixel);
-      tile_.fragments.push_back(f);
+      facets_.see(s.cell);
+      Fragment& f = tile_.fragments.emplace_back();
+      f.facet = s.cell;  // The facet is found later.
+      f.z = camera_.zFromDepthKey(s.d), f.samples = s.samples, f.word = static_cast<uint16_t>(s.word);
+      if (grids_.anySmooth() && grids_.of(s.cell).raster->smooth) setPosition(f, s.cell, pixel);
     }
   }
 
@@ -136,13 +137,12 @@ class TileBuilder {
     for (uint32_t k = scratch_.firstFilm[pixel]; k < scratch_.firstFilm[pixel + 1]; ++k) {
       const Film& film = samples_.films.list[scratch_.filmsOfPixel[k]];
       float* depths = samples_.films.depths.data() + film.firstDepth;
-      Sight sight{film.cell, film.word, 0, kInfinity, depths, false};
-      if (open) {
-        sight.samples = film.samples;
-        sight.d = *std::min_element(depths, depths + std::popcount(film.samples));
-        sights_.push_back(sight);
-        continue;
-      }
+      // In place: a copy would wait for its parts to be written.
+      Sight& sight = sights_.emplace_back();
+      sight.cell = film.cell, sight.word = film.word, sight.depths = depths, sight.opaque = false;
+      sight.samples = film.samples, sight.d = film.nearest, sight.far = film.farthest;
+      if (open) continue;
+      sight.samples = 0, sight.d = kInfinity;
       // What an opaque surface hides is closed up.
       int kept = 0, k0 = 0;
       for (uint64_t left = film.samples; left; left &= left - 1, ++k0) {
@@ -153,7 +153,7 @@ class TileBuilder {
         sight.samples |= left & (~left + 1);
         sight.d = std::min(sight.d, d);
       }
-      if (kept > 0) sights_.push_back(sight);
+      if (kept == 0) sights_.pop_back();
     }
   }
 

@@ -9,6 +9,7 @@ const GridTable::Entry& GridTable::add(const std::shared_ptr<const RasterGrid>& 
   entryOfPage_.resize(entryOfPage_.size() + (cells + kPage - 1) / kPage, static_cast<uint32_t>(entries_.size()));
   entries_.push_back({first, raster, std::move(keyTimes)});
   ++held_;
+  anySmooth_ |= raster->smooth;
   return entries_.back();
 }
 

@@ -29,6 +29,7 @@ class GridTable {
   /// Lets go of every grid that has none of these cells, and keeps copies of the rest where it would keep others' memory too. Pre: sorted.
   void keepOnly(const std::vector<uint32_t>& cells);
   size_t held() const { return held_; }  ///< Grids not let go of.
+  bool anySmooth() const { return anySmooth_; }  ///< Has one RasterGrid::smooth?
   /// Decides between equal depths: by name, never by pointer or order of insertion.
   bool precedes(uint32_t a, uint32_t b) const;
 
@@ -37,6 +38,7 @@ class GridTable {
   std::vector<Entry> entries_;
   std::vector<uint32_t> entryOfPage_;
   size_t held_ = 0;
+  bool anySmooth_ = false;
 };
 
 /// Arrays have a lane for each sample: those of a pixel stand together, padded to `lanes`. Padding hides everything.

@@ -92,7 +92,7 @@ class SolidResolver {
     if (!grids_.of(c.cell).raster->opaque) {
       const uint32_t lanes = static_cast<uint32_t>(samples_.lanes), s = c.lane % lanes;
       *samples_.films.next() = c.d;
-      samples_.films.add(c.lane / lanes, c.cell, s / 64, uint64_t{1} << (s % 64));
+      samples_.films.add(c.lane / lanes, c.cell, s / 64, uint64_t{1} << (s % 64), c.d, c.d);
       return false;
     }
     uint32_t& owner = samples_.cell[c.lane];

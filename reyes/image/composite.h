@@ -2,17 +2,9 @@
 // samples, so that a pixel is composited once and not once for every neighbour whose filter touches it.
 #pragma once
 #include "reyes/deep.h"
-#include "reyes/output.h"
+#include "reyes/image/sample_stack.h"
 
 namespace tomales {
-
-/// One float of a contribution beyond R G B A.
-struct ExtraFloat {
-  int channel, component;  ///< In FrameOutput::channels.
-  int variable;            ///< In ShadedPoints::variables.
-  bool composited;
-  float fill;
-};
 
 struct Contribution {
   uint64_t samples;
@@ -22,17 +14,11 @@ struct Contribution {
   float zSecond = kInfinity;  ///< and of the second.
 };
 
-/// Contributions of the pixels of some rows; those of pixel i are [first[i], first[i + 1]).
-struct ResolvedRows {
-  PixelRect rect;
-  int width;                   ///< Floats of a contribution: R G B A, then the extra floats.
+/// Contributions of the pixels of a tile; those of pixel i are [first[i], first[i + 1]).
+struct ResolvedTile {
   std::vector<Contribution> contributions;
-  std::vector<float> values;   ///< `width` each.
-  std::vector<size_t> first{0};
-  size_t index(int x, int y) const {
-    return static_cast<size_t>(y - rect.y0) * static_cast<size_t>(rect.width()) + static_cast<size_t>(x - rect.x0);
-  }
-  const float* value(size_t contribution) const { return values.data() + contribution * static_cast<size_t>(width); }
+  std::vector<float> values;  ///< Compositor::width() each: R G B A, then the extra floats.
+  std::vector<uint32_t> first;
 };
 
 /// What a fragment shows: coverage is its opacity, or 0 where it is matte.
@@ -48,36 +34,33 @@ class Compositor {
   int width() const { return 4 + static_cast<int>(extras_.size()); }
   const std::vector<ExtraFloat>& extras() const { return extras_; }
 
-  /// Appends the contributions of one pixel.
-  void resolve(const DeepTile& tile, const DeepPixel& pixel, ResolvedRows& out);
+  ResolvedTile resolve(const DeepTile& tile);
 
   /// Front to back, for what is not hidden: visit(fragment, shade, samples, clear), with the share of light that passes what
   /// lies before these samples of it.
   template <class Visit>
-  void layers(const DeepTile& tile, const DeepPixel& pixel, const Visit& visit) {
-    shadeAll(tile, pixel);
-    walk(tile, pixel, visit);
-  }
+  void layers(const DeepTile& tile, const DeepPixel& pixel, const Visit& visit);
 
  private:
+  void shadeFacets(const DeepTile& tile);
+  /// After shadeFacets().
+  FacetShade shadeOf(const DeepTile& tile, const Fragment& fragment) const;
   bool disjoint(const Fragment* begin, const Fragment* end);
-  void shadeAll(const DeepTile& tile, const DeepPixel& pixel);
-  /// layers(), after shadeAll().
-  template <class Visit>
-  void walk(const DeepTile& tile, const DeepPixel& pixel, const Visit& visit);
   bool hasDepth(const FacetShade& shade) const;
   void extraValues(const DeepTile& tile, const Fragment& fragment, float* out) const;
-  void resolveEach(const DeepTile& tile, const Fragment* begin, const Fragment* end, ResolvedRows& out);
-  void resolveStack(const DeepTile& tile, const DeepPixel& pixel, ResolvedRows& out);
+  float* append(const Contribution& contribution, ResolvedTile& out) const;
+  void resolveEach(const DeepTile& tile, const Fragment* begin, const Fragment* end, ResolvedTile& out);
+  void resolveStack(const DeepTile& tile, const Fragment* begin, const Fragment* end, ResolvedTile& out);
+  void noteDepth(const DeepTile& tile, const Fragment& fragment);
 
   const Options& options_;
   std::vector<ExtraFloat> extras_;
+  std::vector<FacetShade> shades_;      ///< Of all facets of a tile, those of one point.
   std::vector<uint64_t> seen_;          ///< Samples that any fragment covers.
-  std::vector<FacetShade> shades_;      ///< Of every fragment of a pixel.
   std::vector<vec3> clear_;             ///< Of every sample, while layers() runs.
   std::vector<Contribution> samples_;   ///< Of every sample, while a stack is resolved,
   std::vector<int> batchOf_;            ///< where their z is from,
-  std::vector<float> sampleValues_;     ///< and their values.
+  SampleStack stack_;                   ///< and what they see.
   std::vector<float> facetValues_;
 };
 
@@ -87,17 +70,17 @@ inline int lowestBit(uint64_t mask) { return __builtin_ctzll(mask); }
 inline float meanOf(const vec3& v) { return (v.x + v.y + v.z) / 3; }
 
 template <class Visit>
-void Compositor::walk(const DeepTile& tile, const DeepPixel& pixel, const Visit& visit) {
+void Compositor::layers(const DeepTile& tile, const DeepPixel& pixel, const Visit& visit) {
   const Fragment* begin = tile.fragments.data() + pixel.first;
   const Fragment* end = begin + pixel.count;
   if (disjoint(begin, end)) {
-    for (const Fragment* f = begin; f != end; ++f) visit(*f, shades_[static_cast<size_t>(f - begin)], f->samples, vec3(1.0f));
+    for (const Fragment* f = begin; f != end; ++f) visit(*f, facetShade(tile, *f), f->samples, vec3(1.0f));
     return;
   }
   std::fill(clear_.begin(), clear_.end(), vec3(1.0f));
   const vec3 hidden = vec3(1.0f) - options_.opaqueThreshold;
   for (const Fragment* f = begin; f != end; ++f) {
-    const FacetShade& shade = shades_[static_cast<size_t>(f - begin)];
+    const FacetShade shade = facetShade(tile, *f);
     for (uint64_t left = f->samples; left; left &= left - 1) {
       vec3& clear = clear_[static_cast<size_t>(f->word) * 64 + static_cast<size_t>(lowestBit(left))];
       if (clear.x <= hidden.x && clear.y <= hidden.y && clear.z <= hidden.z) continue;

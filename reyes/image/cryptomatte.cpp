@@ -66,10 +66,9 @@ void cryptomatte(const DeepFrame& frame, const Options& options, const SampleOff
       for (int x = band.originX; x < band.originX + band.width; ++x) {
         shares.clear();
         float total = 0;
-        forNeighbours(rows.rect, weights, samples, x, y, [&](const WeightTable::Cell& cell, size_t pixel) {
+        forNeighbours(rows.rect, weights, samples, x, y, [&](const WeightTable::Cell& cell, const ivec2& pixel) {
           total += weights.sum(cell);
-          for (size_t i = rows.first[pixel]; i < rows.first[pixel + 1]; ++i) {
-            const Layer& l = rows.layers[i];
+          for (const Layer& l : rows.at(pixel)) {
             const float coverage = weights.sum(cell, l.samples, l.word) * meanOf(l.coverage), id = ids[static_cast<size_t>(l.group)];
             if (!(coverage > 0)) continue;
             const auto known = std::find_if(shares.begin(), shares.end(), [&](const Share& s) { return s.id == id; });

@@ -106,10 +106,9 @@ DeepRows deepRows(const DeepFrame& frame, const Options& options, const SampleOf
         for (int x = frame.crop.x0; x < frame.crop.x1; ++x) {
           float total = 0;
           shares.clear();
-          forNeighbours(rows.rect, weights, samples, x, y, [&](const WeightTable::Cell& cell, size_t pixel) {
+          forNeighbours(rows.rect, weights, samples, x, y, [&](const WeightTable::Cell& cell, const ivec2& pixel) {
             total += weights.sum(cell);
-            for (size_t i = rows.first[pixel]; i < rows.first[pixel + 1]; ++i) {
-              const Layer& l = rows.layers[i];
+            for (const Layer& l : rows.at(pixel)) {
               const float w = weights.sum(cell, l.samples, l.word);
               if (w > 0) shares.push_back({l.z, w * l.color, w * l.coverage});
             }

@@ -1,5 +1,7 @@
 // Private to reyes/image: deep pixels.
 #pragma once
+#include <span>
+
 #include "reyes/image/weights.h"
 
 namespace tomales {
@@ -18,6 +20,11 @@ struct LayeredRows {
   PixelRect rect;
   std::vector<Layer> layers;
   std::vector<size_t> first{0};
+
+  std::span<const Layer> at(const ivec2& p) const {
+    const size_t i = static_cast<size_t>(p.y - rect.y0) * static_cast<size_t>(rect.width()) + static_cast<size_t>(p.x - rect.x0);
+    return {layers.data() + first[i], first[i + 1] - first[i]};
+  }
 };
 /// Rows [y0, y1) as far as the frame has samples.
 LayeredRows layersOf(const DeepFrame& frame, const Options& options, int y0, int y1);

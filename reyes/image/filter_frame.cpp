@@ -1,4 +1,6 @@
 // Contributions -> pixels, some rows at a time.
+#include <span>
+
 #include "reyes/base/parallel.h"
 #include "reyes/image.h"
 #include "reyes/image/composite.h"
@@ -37,10 +39,11 @@ struct Reduction {
 
 struct FrameFilter::Impl {
   Impl(const DeepFrame& f, const Options& o, const SampleOffsets& s, const MatteNames& n)
-      : frame(f), options(o), samples(s), names(n), output(outputOf(o)) {
+      : frame(f), options(o), samples(s), names(n), output(outputOf(o)), resolved(f.tileCount()) {
     addPass({Reduce::Filter, o.filter, o.xFilterWidth, o.yFilterWidth}).floats = {{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {3, 3, 0}};
     const Compositor compositor(output, options, frame.samplesPerPixel);
     const std::vector<ExtraFloat>& extras = compositor.extras();
+    width = compositor.width();
     for (size_t e = 0; e < extras.size(); ++e) {
       const Channel& channel = output.channels[static_cast<size_t>(extras[e].channel)];
       if (channel.sampling.reduce == Reduce::Filter)
@@ -64,41 +67,72 @@ struct FrameFilter::Impl {
     r.from = from, r.to = channel.first, r.width = channel.width(), r.fill = channel.fill;
   }
 
-  ResolvedRows resolve(const PixelRect& block) const {
-    Compositor compositor(output, options, frame.samplesPerPixel);
-    const PixelRect& p = frame.padded;
-    ResolvedRows rows{{std::max(p.x0, block.x0 - reachX), std::max(p.y0, block.y0 - reachY), std::min(p.x1, block.x1 + reachX),
-                       std::min(p.y1, block.y1 + reachY)},
-                      compositor.width(), {}, {}};
-    for (int y = rows.rect.y0; y < rows.rect.y1; ++y)
-      for (int x = rows.rect.x0; x < rows.rect.x1; ++x) {
-        if (const DeepTile* tile = finishedTile(frame, x, y)) compositor.resolve(*tile, tile->pixel(x, y), rows);
-        rows.first.push_back(rows.contributions.size());
-      }
-    return rows;
+  void resolve(size_t index, const DeepTile& tile) {
+    resolved[index] = std::make_unique<ResolvedTile>(Compositor(output, options, frame.samplesPerPixel).resolve(tile));
+  }
+  /// The tiles that rows of pixels need and that nobody has brought.
+  void resolveRows(int y0, int y1) {
+    const auto first = firstTileOf(y0 - reachY), last = firstTileOf(y1 + reachY - 1) + static_cast<size_t>(frame.columns);
+    parallelFor(last - first, 1, [&](size_t begin, size_t) {
+      const size_t index = first + begin;
+      const PixelRect rect = frame.rectOf(index);
+      if (resolved[index]) return;
+      if (const DeepTile* tile = finishedTile(frame, rect.x0, rect.y0)) resolve(index, *tile);
+    });
+  }
+  /// Those that lie above some rows of pixels and all that their filters touch.
+  void forgetAbove(int y) {
+    const size_t end = firstTileOf(y - reachY);
+    for (; forgotten < end; ++forgotten) resolved[forgotten].reset();
+  }
+  size_t firstTileOf(int y) const {
+    return static_cast<size_t>(frame.rowOf(std::clamp(y, frame.padded.y0, frame.padded.y1 - 1))) * static_cast<size_t>(frame.columns);
+  }
+
+  /// What the samples of a pixel see.
+  struct Seen {
+    std::span<const Contribution> list;
+    const float* values;  ///< `width` each.
+  };
+  Seen seenAt(int x, int y) const {
+    const int right = x - frame.padded.x0, column = right / frame.bucketWidth, row = frame.rowOf(y);
+    const auto& tile = resolved[static_cast<size_t>(row) * static_cast<size_t>(frame.columns) + static_cast<size_t>(column)];
+    if (!tile) return {};
+    const int left = column * frame.bucketWidth, tileWidth = std::min(frame.bucketWidth, frame.padded.width() - left);
+    const auto pixel = static_cast<size_t>((y - frame.padded.y0 - row * frame.bucketHeight) * tileWidth + right - left);
+    const size_t begin = tile->first[pixel], end = tile->first[pixel + 1];
+    return {{tile->contributions.data() + begin, end - begin}, tile->values.data() + begin * static_cast<size_t>(width)};
   }
 
   /// What the samples around bring to each pixel of a block: the floats of a pass, the weight of all samples, and that of
   /// those which see something. For each pixel by rows, columns and fragments.
-  PixelSums sumsOf(const ResolvedRows& rows, const Pass& pass, const PixelRect& block) const {
+  PixelSums sumsOf(const Pass& pass, const PixelRect& block) const {
     const size_t floats = pass.floats.size();
     PixelSums sums(pass.weights, block, static_cast<int>(floats) + 2);
     std::vector<float> everything(static_cast<size_t>(sums.width())), seen(everything.size());
     AlignedVector<float> weights(static_cast<size_t>(pass.weights.places()));
     everything[floats] = seen[floats + 1] = 1;
-    size_t pixel = 0;
-    for (int y = rows.rect.y0; y < rows.rect.y1; ++y)
-      for (int x = rows.rect.x0; x < rows.rect.x1; ++x, ++pixel) {
+    const PixelRect around = reached(block, pass.weights);
+    for (int y = around.y0; y < around.y1; ++y)
+      for (int x = around.x0; x < around.x1; ++x) {
         const int pattern = samples.patternOf(x, y);
         sums.add(x, y, pass.weights.sums(pattern), everything.data());
-        for (size_t i = rows.first[pixel]; i < rows.first[pixel + 1]; ++i) {
-          const Contribution& c = rows.contributions[i];
+        const Seen here = seenAt(x, y);
+        const float* values = here.values;
+        for (const Contribution& c : here.list) {
           pass.weights.sums(pattern, c.samples, c.word, weights.data());
-          for (size_t k = 0; k < floats; ++k) seen[k] = rows.value(i)[pass.floats[k].from];
+          for (size_t k = 0; k < floats; ++k) seen[k] = values[pass.floats[k].from];
           sums.add(x, y, weights.data(), seen.data());
+          values += width;
         }
       }
     return sums;
+  }
+  /// Pixels whose samples reach a block.
+  PixelRect reached(const PixelRect& block, const WeightTable& w) const {
+    const PixelRect& p = frame.padded;
+    return {std::max(p.x0, block.x0 - w.reachX), std::max(p.y0, block.y0 - w.reachY), std::min(p.x1, block.x1 + w.reachX),
+            std::min(p.y1, block.y1 + w.reachY)};
   }
 
   void filter(const PixelSums& sums, const Pass& pass, int x, int y, float* out) const {
@@ -110,14 +144,15 @@ struct FrameFilter::Impl {
     }
   }
 
-  void reduce(const ResolvedRows& rows, const Reduction& r, int x, int y, float* out) const {
+  void reduce(const Reduction& r, int x, int y, float* out) const {
     float weight = 0, best = 0;
     float* to = out + r.to;
     std::fill_n(to, r.width, r.fill);
-    forNeighbours(rows.rect, r.weights, samples, x, y, [&](const WeightTable::Cell& cell, size_t pixel) {
-      for (size_t i = rows.first[pixel]; i < rows.first[pixel + 1]; ++i) {
-        const Contribution& c = rows.contributions[i];
-        const float w = r.weights.sum(cell, c.samples, c.word), *value = rows.value(i) + r.from;
+    forNeighbours(frame.padded, r.weights, samples, x, y, [&](const WeightTable::Cell& cell, const ivec2& pixel) {
+      const Seen here = seenAt(pixel.x, pixel.y);
+      for (size_t i = 0; i < here.list.size(); ++i) {
+        const Contribution& c = here.list[i];
+        const float w = r.weights.sum(cell, c.samples, c.word), *value = here.values + i * static_cast<size_t>(width) + r.from;
         if (!(w > 0)) continue;
         const bool first = weight == 0;
         weight += w;
@@ -139,11 +174,9 @@ struct FrameFilter::Impl {
     for (int k = 0; r.reduce == Reduce::Average && weight > 0 && k < r.width; ++k) to[k] /= weight;
   }
 
-  float depth(const ResolvedRows& rows, int x, int y) const {
+  float depth(int x, int y) const {
     float low = kInfinity, high = -kInfinity, sum = 0, weight = 0;
-    const size_t pixel = rows.index(x, y);
-    for (size_t i = rows.first[pixel]; i < rows.first[pixel + 1]; ++i) {
-      const Contribution& c = rows.contributions[i];
+    for (const Contribution& c : seenAt(x, y).list) {
       if (c.z == kInfinity) continue;
       const bool midpoint = options.depthFilter == DepthFilter::Midpoint;
       const float z = midpoint ? 0.5f * c.z + 0.5f * std::min(c.zSecond, options.farClip) : c.z;
@@ -164,6 +197,9 @@ struct FrameFilter::Impl {
   std::vector<Pass> passes;
   std::vector<Reduction> reductions;
   int reachX = 0, reachY = 0;
+  int width = 0;  ///< Floats of a contribution.
+  std::vector<std::unique_ptr<ResolvedTile>> resolved;
+  size_t forgotten = 0;  ///< Of these, from the first.
 };
 
 FrameFilter::FrameFilter(const DeepFrame& frame, const Options& options, const SampleOffsets& samples, const MatteNames& names)
@@ -183,27 +219,37 @@ Image FrameFilter::rows(int y0, int y1) const {
   image.pixels.resize(static_cast<size_t>(image.width) * static_cast<size_t>(image.height) * image.channels.size());
   const auto across = static_cast<size_t>((crop.width() + kBlockColumns - 1) / kBlockColumns);
   const auto down = static_cast<size_t>((image.height + kBlockRows - 1) / kBlockRows);
+  impl_->resolveRows(y0, y1);
   parallelFor(across * down, 1, [&](size_t begin, size_t) {
     const int x0 = crop.x0 + static_cast<int>(begin % across) * kBlockColumns, top = y0 + static_cast<int>(begin / across) * kBlockRows;
     const PixelRect block{x0, top, std::min(x0 + kBlockColumns, crop.x1), std::min(top + kBlockRows, y1)};
-    const ResolvedRows resolved = impl_->resolve(block);
     for (const Pass& pass : impl_->passes) {
-      const PixelSums sums = impl_->sumsOf(resolved, pass, block);
+      const PixelSums sums = impl_->sumsOf(pass, block);
       for (int y = block.y0; y < block.y1; ++y)
         for (int x = block.x0; x < block.x1; ++x) impl_->filter(sums, pass, x, y, image.at(x - crop.x0, y - y0));
     }
     for (int y = block.y0; y < block.y1; ++y)
       for (int x = block.x0; x < block.x1; ++x) {
         float* out = image.at(x - crop.x0, y - y0);
-        for (const Reduction& r : impl_->reductions) impl_->reduce(resolved, r, x, y, out);
-        out[4] = impl_->depth(resolved, x, y);
+        for (const Reduction& r : impl_->reductions) impl_->reduce(r, x, y, out);
+        out[4] = impl_->depth(x, y);
       }
   });
   for (const Channel& c : impl_->output.channels)
     if (isMatte(c.kind))
       cryptomatte(impl_->frame, impl_->options, impl_->samples,
                   c.kind == ChannelKind::Objects ? impl_->names.objects : impl_->names.materials, c.first, image);
+  impl_->forgetAbove(y1);
   return image;
+}
+
+void FrameFilter::resolve(size_t index, const DeepTile& tile) { impl_->resolve(index, tile); }
+
+bool FrameFilter::needsTiles() const {
+  const auto& channels = impl_->output.channels;
+  const auto& displays = impl_->options.displays;
+  return std::any_of(channels.begin(), channels.end(), [](const Channel& c) { return isMatte(c.kind); }) ||
+         std::any_of(displays.begin(), displays.end(), writesDeep);
 }
 
 DeepRows FrameFilter::deepRows(int y0, int y1, const DeepMerge& merge) const {

@@ -78,14 +78,13 @@ class PixelSums {
   AlignedVector<float> sums_;
 };
 
-/// Calls body(cell, pixel) for every pixel of `rect` whose samples reach pixel (x, y); `pixel` counts along its rows.
+/// Calls body(cell, pixel) for every pixel of `rect` whose samples reach pixel (x, y).
 template <class Body>
 void forNeighbours(const PixelRect& rect, const WeightTable& weights, const SampleOffsets& samples, int x, int y,
                    const Body& body) {
   for (int sy = std::max(y - weights.reachY, rect.y0); sy < std::min(y + weights.reachY + 1, rect.y1); ++sy)
     for (int sx = std::max(x - weights.reachX, rect.x0); sx < std::min(x + weights.reachX + 1, rect.x1); ++sx)
-      body(weights.cell(samples.patternOf(sx, sy), sx - x, sy - y),
-           static_cast<size_t>(sy - rect.y0) * static_cast<size_t>(rect.width()) + static_cast<size_t>(sx - rect.x0));
+      body(weights.cell(samples.patternOf(sx, sy), sx - x, sy - y), ivec2(sx, sy));
 }
 
 /// The tile of a pixel, or null where an interrupted frame has none.

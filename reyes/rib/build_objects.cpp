@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "reyes/output.h"
 #include "reyes/rib/request_table.h"
 #include "reyes/rib/scene_builder.h"
 
@@ -46,14 +47,14 @@ bool isEmptyMesh(const Request& r) {
   return r.args[r.name.ends_with("SubdivisionMesh") ? 1 : 0].integers.empty();
 }
 
-/// Surface "null": nobody sees the object, but it may emit.
-std::shared_ptr<Attributes> attributesOf(const Scope& scope) {
+/// Surface "null": nobody sees the object, but it may emit. In passes for depth alone it means, by custom, that no shader need run.
+std::shared_ptr<Attributes> attributesOf(const Scope& scope, const Options& options) {
   const std::shared_ptr<Attributes>& given = scope.attributes;
   if (!given->surface || given->surface->name != "null") return given;
-  auto unseen = std::make_shared<Attributes>(*given);
-  unseen->surface = nullptr;
-  unseen->visibility = {false, false, false, false, false};
-  return unseen;
+  auto bare = std::make_shared<Attributes>(*given);
+  bare->surface = nullptr;
+  if (outputOf(options).shades) bare->visibility = {false, false, false, false, false};
+  return bare;
 }
 
 bool sameBasis(const Basis& a, const Basis& b) { return a.step == b.step && a.matrix == b.matrix; }
@@ -86,7 +87,7 @@ void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times
   object.shapeTimes = std::move(shapes.times);
   object.worldFromObject = state_.scope.ctm;
   state_.scope.attributes = state_.attributes(state_.scope.attributes);
-  object.attributes = state_.attributes(attributesOf(state_.scope));
+  object.attributes = state_.attributes(attributesOf(state_.scope, state_.globals.options));
   object.where = r.where;
   placeInSolid(state_, object);
   state_.world->objects.push_back(std::move(object));

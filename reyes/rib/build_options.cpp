@@ -140,15 +140,19 @@ void exposure(GraphicsState& s, const Request& r) {
 }
 
 void searchPath(GraphicsState& s, const Request& r, const Param& p) {
+  const auto mappedPath = [&s](const std::string& path) {
+    std::string joined;
+    for (const std::string& folder : foldersOf(path)) joined += (joined.empty() ? "" : ":") + mapped(folder, s.globals.dirMap);
+    return joined;
+  };
   if (p.name == "dirmap") {
     s.globals.dirMap = readDirMap(p.strings);
+    for (auto& [category, path] : s.globals.options.searchPaths) path = mappedPath(path);
     return;
   }
   std::string& path = s.globals.options.searchPaths[p.name];
-  std::string unset, joined;
-  for (const std::string& folder : foldersOf(expandSearchPath(p.strings[0], path, unset)))
-    joined += (joined.empty() ? "" : ":") + mapped(folder, s.globals.dirMap);
-  path = joined;
+  std::string unset;
+  path = mappedPath(expandSearchPath(p.strings[0], path, unset));
   if (!unset.empty())
     s.warn(r, "rib-variable", "the environment has no " + unset + "; it stands for nothing in the search path");
 }

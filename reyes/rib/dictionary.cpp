@@ -36,7 +36,7 @@ constexpr Standard kStandard[] = {
     {"float[2]", "shutteropening exposure filterwidth"},
     {"float[4]", "quantize"},
     {"int[2]", "origin"},
-    {"string", "compression filter depthfilter type source exrpixeltype exrcompression transfer lightgroup __group __category"},
+    {"string", "operation subset compression filter depthfilter type source exrpixeltype exrcompression transfer lightgroup __group __category"},
     {"float", "fill mergedepth mergeopacity"},
     {"float[8]", "chromaticities"},
     {"int", "tiled multipart"},

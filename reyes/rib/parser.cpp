@@ -24,7 +24,11 @@ Parser::Parser(ByteStream& stream, std::string file, Dictionary& dictionary, Log
       log_(log) {}
 
 std::optional<Request> Parser::next() {
-  while (!at(Kind::End)) {
+  for (; !at(Kind::End); ++senseless_) {
+    if (senseless_ >= kMostSenseless) {
+      log_.report(Severity::Missing, "rib-senseless", here(), fmt::format("{} places before make no sense as RIB; the rest is not read", senseless_));
+      break;
+    }
     const Signature* signature = at(Kind::Name) ? findSignature(lexer_.peek().text) : nullptr;
     if (!signature) {
       if (!at(Kind::Name))

@@ -12,10 +12,13 @@ namespace tomales::rib {
 
 class Parser {
  public:
+  /// What has more errors than that is no RIB, and may have no end.
+  static constexpr int kMostSenseless = 100'000;
+
   /// The dictionary outlives the parser: it belongs to the whole stream, archives included.
   Parser(ByteStream& stream, std::string file, Dictionary& dictionary, Log& log);
 
-  /// The next good request; nothing at the end of the stream.
+  /// The next good request; nothing at the end of the stream, or where so much made no sense that the rest is given up.
   std::optional<Request> next();
   /// In a branch of a condition that is not read, other renderers may be spoken to: nothing is wrong with what they understand.
   void mute(bool muted) { muted_ = muted; }
@@ -48,6 +51,7 @@ class Parser {
   Log& log_;
   Request request_;
   bool muted_ = false;
+  int senseless_ = 0;  ///< Places that were skipped.
 };
 
 }  // namespace tomales::rib

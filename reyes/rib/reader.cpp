@@ -59,11 +59,11 @@ bool Reader::readTop(ByteStream& stream, const std::string& name) {
 }
 
 size_t Reader::read(ByteStream& stream, const std::string& name, const std::string& key,
-                    const std::string& folder) {
+                    const std::string& folder, size_t cost) {
   enter(key, folder);
   Parser parser(stream, name, dictionary_, log_);
   size_t count = 0;
-  for (std::optional<Request> request = parser.next(); request; request = parser.next(), ++count) {
+  for (std::optional<Request> request = parser.next(); request && (cost == 0 || spend(cost)); request = parser.next(), ++count) {
     if (dictionary_.hasColorSamples()) *request = withRgb(std::move(*request));
     handle(*request);
     parser.mute(!open_.back().conditions.reads());

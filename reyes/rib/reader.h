@@ -61,8 +61,8 @@ class Reader {
   Reader(const Surroundings& around, const SceneBuilder::Place& place, std::shared_ptr<std::atomic<size_t>> budget);
 
   bool readTop(ByteStream& stream, const std::string& name);
-  /// The number of good requests.
-  size_t read(ByteStream& stream, const std::string& name, const std::string& key, const std::string& folder);
+  /// The number of good requests. `cost`: what each is worth of the budget, beyond which no more are read; 0: all are.
+  size_t read(ByteStream& stream, const std::string& name, const std::string& key, const std::string& folder, size_t cost = 0);
   void enter(const std::string& key, const std::string& folder);
   void leave();
   void handle(const Request& request);

@@ -11,7 +11,9 @@ namespace {
 // Of a procedural within another, or within an archive: it keeps its surroundings in memory until it is opened.
 constexpr size_t kProceduralCost = 20;
 constexpr size_t kProgramCost = 1000;
+constexpr size_t kAnswerCost = 10;  // a request of a program: what it draws takes a kilobyte
 constexpr double kSystemPatience_s = 3600;
+constexpr size_t kLongestAnswer = size_t{1} << 30;  // bytes
 
 std::string text(const ParamList& params, const char* name) {
   const Param* p = findParam(params, name);
@@ -120,11 +122,18 @@ void Reader::runProgram(const Request& r) {
   const float detail = isBox(r.args[2].numbers) ? builder_.rasterArea(r.args[2].numbers) : kInfinity;
   auto program = programs_->take(call[0]);
   program->ask(fmt::format("{:g} {}\n", detail, call.size() > 1 ? call[1] : ""), settings_.programPatience_s);
-  const auto stream = ByteStream::fromProgram([&](char* b, size_t n) { return program->read(b, n); });
+  size_t bytes = 0;
+  const auto stream = ByteStream::fromProgram([&](char* b, size_t n) {
+    const size_t got = bytes < kLongestAnswer ? program->read(b, n) : 0;
+    bytes += got;
+    return got;
+  });
   perform("AttributeBegin", r.where);
   const size_t count =
-      read(*stream, name, fmt::format("{}: program", open_.size()), std::string(open_.back().folder));
+      read(*stream, name, fmt::format("{}: program", open_.size()), std::string(open_.back().folder), kAnswerCost);
   perform("AttributeEnd", r.where);
+  if (bytes >= kLongestAnswer || *budget_ < kAnswerCost)
+    return report(Severity::Missing, "rib-program", r, fmt::format("\"{}\" does not end its answer; it is killed, and the rest is not read", call[0].substr(0, 200)));
   if (stream->closed()) return programs_->giveBack(call[0], std::move(program));
   const std::string trouble = program->finish();
   if (!trouble.empty() || count == 0)

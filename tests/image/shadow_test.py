@@ -43,11 +43,11 @@ LightSource "shadowdistant" "lamp" "point from" [0 1 0] "point to" [0 0 0] "stri
 """
 
 
-def lit(kind, opacity, hider=""):
+def lit(kind, opacity, hider="", of_map=""):
     """The floor seen from above, lit by a light without falloff through a map of that type."""
     with tempfile.TemporaryDirectory() as folder:
         rib = pathlib.Path(folder) / "a.rib"
-        rib.write_text(MAP.format(folder=folder, type=kind, hider=hider, world=SQUARE.format(opacity=opacity, seen=1)) +
+        rib.write_text(MAP.format(folder=folder, type=kind, hider=hider, world=SQUARE.format(opacity=opacity, seen=1).replace("matte", of_map or "matte")) +
                        VIEW.format(folder=folder, world=SQUARE.format(opacity=opacity, seen=0)))
         subprocess.run([tomales, "render", str(rib), "-q"], check=True)
         return pixels(pathlib.Path(folder) / "out.exr")
@@ -61,6 +61,8 @@ area = (4 / 3) ** 2 / 4  # of the picture, which is 2 x 2
 for name, hider in (("min", ""), ("midpoint", 'Hider "hidden" "string depthfilter" "midpoint"')):
     shadow = 1 - mean(lit("shadow", "1 1 1", hider))
     check(abs(shadow - area) < 0.02 * area, f"area of the shadow of a square, depthfilter {name}: {shadow:.5f}, closed form {area:.5f}")
+shadow = 1 - mean(lit("shadow", "1 1 1", of_map="null"))
+check(abs(shadow - area) < 0.02 * area, f"Surface \"null\" hides nothing from a map: {shadow:.5f}")
 deep = lit("deepshad", "0.75 0.5 0.25")
 for channel, opacity in enumerate((0.75, 0.5, 0.25)):
     shadow = 1 - mean(deep, channel)

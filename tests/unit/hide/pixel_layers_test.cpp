@@ -24,7 +24,8 @@ struct Crossing {
       std::vector<float>& d = depths.emplace_back();
       for (int k = 0; k < std::popcount(samples); ++k)
         d.push_back(static_cast<float>(hashCombine(seed, cell, 3U, static_cast<uint32_t>(k)) % 50));
-      sights.push_back({cell, word, samples, *std::min_element(d.begin(), d.end()), nullptr, false});
+      const auto [nearest, farthest] = std::minmax_element(d.begin(), d.end());
+      sights.push_back({cell, word, samples, *nearest, nullptr, false, seed % 2 ? *farthest : kInfinity});
     }
     for (size_t i = 0; i < sights.size(); ++i) sights[i].depths = depths[i].data();
     std::sort(sights.begin(), sights.end(), nearer);

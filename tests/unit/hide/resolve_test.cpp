@@ -163,7 +163,7 @@ TEST(Resolve, HasTheSameBitsForEveryVectorWidth) {
   const DeepTile widest = hide(soup.world, pattern, rect, soup.rasters);
   const int64_t supported = hwy::SupportedTargets();
   for (const int64_t target : {HWY_EMU128, HWY_SSE4, HWY_AVX2, HWY_AVX3}) {
-    if (!(supported & target)) continue;  // One for each that is compiled: reyes/hide/vector.h
+    if (!(supported & target)) continue;  // One for each that is compiled: reyes/base/vector.h
     const Widths one(target);
     const DeepTile tile = hide(soup.world, pattern, rect, soup.rasters);
     for (int y = 0; y < 64; ++y)

@@ -47,9 +47,8 @@ TEST(Weights, WhatIsScatteredIsWhatAPixelWouldGather) {
   for (int y = block.y0; y < block.y1; ++y)
     for (int x = block.x0; x < block.x1; ++x) {
       float gathered[3] = {};
-      forNeighbours(around, table, samples, x, y, [&](const WeightTable::Cell& cell, size_t pixel) {
-        const int sx = around.x0 + static_cast<int>(pixel) % around.width(), sy = around.y0 + static_cast<int>(pixel) / around.width();
-        for (int k = 0; k < 3; ++k) gathered[k] += table.sum(cell) * valueAt(sx, sy, k);
+      forNeighbours(around, table, samples, x, y, [&](const WeightTable::Cell& cell, const ivec2& pixel) {
+        for (int k = 0; k < 3; ++k) gathered[k] += table.sum(cell) * valueAt(pixel.x, pixel.y, k);
       });
       for (int k = 0; k < 3; ++k) EXPECT_EQ(scattered.of(x, y)[k], gathered[k]);
     }

@@ -170,6 +170,13 @@ TEST(RunProgram, ThatHangsDiesOrIsAbsentIsReported) {
   }
 }
 
+TEST(RunProgram, ThatNeverEndsItsAnswerIsKilled) {
+  for (const char* command : {"yes version 3.03", "yes Sphere"}) {
+    const Trusting r(inWorld("Procedural \"RunProgram\" [\"" + std::string(command) + "\" \"\"] [-1 1 -1 1 -1 1]"));
+    EXPECT_EQ(r.log.count("rib-program"), 1) << command;
+  }
+}
+
 TEST(System, RunsWhenAllowedAndReportsFailure) {
   const Trusting r(inWorld("System \"true\"\nSystem \"exit 4\"\n"));
   ASSERT_EQ(r.log.entries().size(), 1u);

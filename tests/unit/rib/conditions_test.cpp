@@ -130,6 +130,7 @@ TEST(SearchPath, MapsFoldersOfTheZoneOfUnix) {
                 .scene()
                 .objects.size(),
             1u);
+  EXPECT_EQ(Reading("Option \"searchpath\" \"archive\" \"/z/\"\n" + map + inWorld("ReadArchive \"mapped.rib\"")).scene().objects.size(), 1u) << "in either order";
 }
 
 }  // namespace

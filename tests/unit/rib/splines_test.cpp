@@ -18,7 +18,7 @@ TEST(Geometry, WithHolesLeavesThemOut) {
               "\"P\" [0 0 0 9 0 0 9 9 0 0 9 0  1 1 0 2 1 0 1 2 0]"));
   EXPECT_EQ(r.codes(), "");
   ASSERT_EQ(r.scene().objects.size(), 2u);
-  EXPECT_EQ(r.object(0).shape().patchCount(), 21u);  // seven triangles of three
+  EXPECT_EQ(r.object(0).shape().patchCount(), 7u);
 }
 
 TEST(Geometry, NuPatchHasAPatchForEveryKnotInterval) {

@@ -1,5 +1,5 @@
 // Vectors of samples: our names for what the rasterisers use of Highway, which compiles them for several widths and picks one
-// when first called. Include it first in a .cpp that defines HWY_TARGET_INCLUDE. Private to the hider.
+// when first called. Include it first in a .cpp that defines HWY_TARGET_INCLUDE.
 // No operation here may be fused (MulAdd) and no sum may cross lanes, so that all widths give the same bits.
 
 // Each target costs a compilation; these leave SSE4, AVX2, AVX-512 and, for older CPUs, what the compiler makes of loops.
@@ -12,11 +12,11 @@
 #include "reyes/base/simd.h"
 
 // Once for each target, by Highway's convention.
-#if defined(TOMALES_HIDE_VECTOR_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef TOMALES_HIDE_VECTOR_H
-#undef TOMALES_HIDE_VECTOR_H
+#if defined(TOMALES_BASE_VECTOR_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TOMALES_BASE_VECTOR_H
+#undef TOMALES_BASE_VECTOR_H
 #else
-#define TOMALES_HIDE_VECTOR_H
+#define TOMALES_BASE_VECTOR_H
 #endif
 
 HWY_BEFORE_NAMESPACE();

@@ -1,0 +1,42 @@
+// Private to reyes/image: all samples of a pixel while its fragments are laid over one another, front to back.
+#pragma once
+#include <span>
+
+#include "reyes/base/simd.h"
+#include "reyes/output.h"
+
+namespace tomales {
+
+/// One float of a contribution beyond R G B A.
+struct ExtraFloat {
+  int channel, component;  ///< In FrameOutput::channels.
+  int variable;            ///< In ShadedPoints::variables.
+  bool composited;
+  float fill;
+};
+
+/// What a fragment shows to some samples. Coverage is its opacity, or 0 where it is matte.
+struct Lay {
+  uint64_t samples;
+  uint16_t word;
+  vec3 color, opacity, coverage;
+  vec3 hidden;  ///< A sample that lets no more light through sees nothing of it.
+  float z;
+  std::span<const ExtraFloat> extras;
+  const float* extraValues;
+};
+
+/// Arrays have a lane for each sample.
+struct SampleStack {
+  AlignedVector<float> clear[3];  ///< Share of light that passes what was laid so far.
+  AlignedVector<float> nearest;   ///< Depth.
+  AlignedVector<float> values;    ///< An array of lanes for each float of a contribution.
+  size_t lanes = 0;
+
+  /// samples: a multiple of kLanes.
+  void reset(size_t samples, size_t floats);
+  /// "Over", with an opacity for each channel.
+  void lay(const Lay& l);
+};
+
+}  // namespace tomales
