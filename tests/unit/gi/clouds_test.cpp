@@ -94,8 +94,8 @@ TEST_F(Clouds, WhatWasBakedIsFoundAgainAlongTheSearchPathByPointCloudAndByBrickM
       }
       EXPECT_EQ(found[i], 1);
       if (truth[i] > 0.1f && truth[i] < 0.9f && at.y[i] > 0.1f && at.y[i] < 0.9f) {
-        EXPECT_NEAR(sum[i], truth[i] + 2 * at.y[i], 0.02f) << file;
-        EXPECT_NEAR(px[i], truth[i], 0.02f) << file;
+        EXPECT_NEAR(sum[i], truth[i] + 2 * at.y[i], 0.05f) << file;  // points are 0.03 apart
+        EXPECT_NEAR(px[i], truth[i], 0.03f) << file;
       }
     }
     for (float& x : at.x) x -= 0.05f;
