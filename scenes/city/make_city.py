@@ -26,7 +26,7 @@ def numbers(values):
     return " ".join(f"{v:.4g}" for v in values)
 
 
-def panel(corner, u, v, bulge, at):
+def panel(corner, u, v, bulge):
     """A bicubic patch over a parallelogram whose middle stands out along u x v."""
     n = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
     length = math.sqrt(sum(c * c for c in n)) or 1
@@ -35,9 +35,7 @@ def panel(corner, u, v, bulge, at):
         for i in range(4):
             out = bulge / length if 0 < i < 3 and 0 < j < 3 else 0
             points += [corner[k] + u[k] * i / 3 + v[k] * j / 3 + n[k] * out for k in range(3)]
-    # Neighbours continue each other's texture.
-    st = [c for s, t in ((0, 0), (1, 0), (0, 1), (1, 1)) for c in (at[0] + s, at[1] + t)]
-    return f'NuPatch 4 4 {PANEL_KNOTS} 0 1 4 4 {PANEL_KNOTS} 0 1 "P" [{numbers(points)}] "st" [{numbers(st)}]\n'
+    return f'NuPatch 4 4 {PANEL_KNOTS} 0 1 4 4 {PANEL_KNOTS} 0 1 "P" [{numbers(points)}]\n'
 
 
 def tube(base, top, wide, narrow, bend=0.0):
@@ -100,7 +98,7 @@ class City:
         self.rib.append(f'AttributeBegin\nAttribute "identifier" "name" ["{name}"]\nAttribute "photon" "globalmap" ["{name}"]\n'
                         f'ReadArchive "{name}.rib"\nAttributeEnd\n')
 
-    def bay(self, at, right, width, height, place, texture, color):
+    def bay(self, at, right, width, height, texture, color):
         """One window with the wall around it: twelve primitives. `right`: along the wall, whose outside is right x up."""
         out = (-right[2], 0.0, right[0])  # up x right, turned out of the wall
         out = (-out[0], 0.0, -out[2])
@@ -110,7 +108,7 @@ class City:
 
         def across(x0, y0, x1, y1, z, bulge):
             a = p(x0, y0, z)
-            return panel(a, [c - d for c, d in zip(p(x1, y0, z), a)], [c - d for c, d in zip(p(x0, y1, z), a)], bulge, place)
+            return panel(a, [c - d for c, d in zip(p(x1, y0, z), a)], [c - d for c, d in zip(p(x0, y1, z), a)], bulge)
 
         def block(x0, y0, x1, y1, deep):
             a, b = p(x0, y0, -0.05), p(x1, y1, deep)
@@ -140,12 +138,12 @@ class City:
             for i in range(columns):
                 w, h = length / columns, tall / floors
                 start = (x0, j * h, z0 + (length - i * w if side else i * w))
-                parts += self.bay(start, right, w, h, (i, j), 10 * index + j % 7, color)
+                parts += self.bay(start, right, w, h, 10 * index + j % 7, color)
         parts.append(self.paint(color, 10 * index + 3, 0.05, 2.0))
         far = x0 + depth * (1 if side else -1)
         lo, hi = min(x0, far), max(x0, far)
-        parts += [panel((lo, 0, z0), (hi - lo, 0, 0), (0, tall, 0), 0.0, (0, 0)), panel((hi, 0, z0 + length), (lo - hi, 0, 0), (0, tall, 0), 0.0, (0, 0)),
-                  panel((lo, tall, z0), (hi - lo, 0, 0), (0, 0, length), 0.3, (0, 0)), panel((far, 0, z0), (0, 0, length), (0, tall, 0), 0.0, (0, 0))]
+        parts += [panel((lo, 0, z0), (hi - lo, 0, 0), (0, tall, 0), 0.0), panel((hi, 0, z0 + length), (lo - hi, 0, 0), (0, tall, 0), 0.0),
+                  panel((lo, tall, z0), (hi - lo, 0, 0), (0, 0, length), 0.3), panel((far, 0, z0), (0, 0, length), (0, tall, 0), 0.0)]
         self.group(f"house{index:02}", parts)
 
     def car(self, index):
@@ -159,11 +157,11 @@ class City:
         for (za, ya), (zb, yb) in zip(profile, profile[1:]):
             for s in range(slices):
                 a, w = -0.85 + 1.7 * s / slices, 1.7 / slices
-                parts.append(panel((x + a, ya, z + za), (0, yb - ya, zb - za), (w, 0, 0), 0.02, (s, 0)))
+                parts.append(panel((x + a, ya, z + za), (0, yb - ya, zb - za), (w, 0, 0), 0.02))
         for edge in (-0.85, 0.85):
             for (za, ya), (zb, yb) in zip(profile, profile[1:]):
                 u, v = (0, ya - 0.35, 0), (0, 0.5 * (yb - ya), zb - za)
-                parts.append(panel((x + edge, 0.35, z + za), *((v, u) if edge < 0 else (u, v)), 0.02, (0, 0)))
+                parts.append(panel((x + edge, 0.35, z + za), *((v, u) if edge < 0 else (u, v)), 0.02))
         parts.append(self.paint((0.05, 0.05, 0.05), 220, 0.006, 9.0))
         for dx in (-0.8, 0.8):
             for dz in (-1.3, 1.3):
@@ -197,7 +195,7 @@ class City:
         parts = [self.paint((0.35, 0.34, 0.33), 250, 0.02, 5.0)]
         for j in range(rows):
             for i in range(columns):
-                parts.append(panel((-STREET / 2 + STREET * i / columns, 0, LENGTH * (j + 1) / rows), (STREET / columns, 0, 0), (0, 0, -LENGTH / rows), 0.0, (i, j)))
+                parts.append(panel((-STREET / 2 + STREET * i / columns, 0, LENGTH * (j + 1) / rows), (STREET / columns, 0, 0), (0, 0, -LENGTH / rows), 0.0))
         self.group("street", parts)
         for side in (-1, 1):
             parts = [self.paint((0.55, 0.53, 0.5), 251 + side, 0.012, 6.0)]
