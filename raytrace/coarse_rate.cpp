@@ -9,7 +9,6 @@ namespace {
 
 constexpr float kPolygon_px = 8;
 constexpr float kMediumEdge = 3;               ///< Of medium polygons, in edges of micropolygons.
-constexpr float kSmoothed = 0.8f;              ///< Fineness of what the eye sees displaced and rays do not.
 constexpr float kLeastPolygon_px = 1.5f;  ///< No polygon is smaller for the sake of its turn: far objects need few.
 constexpr float kTurn = 15 * kPi / 180;        ///< Radians between the normals at the ends of a polygon.
 constexpr float kEmitterTurn = 5 * kPi / 180;  ///< Brings the area of a sphere light within 0.5 %.
@@ -82,12 +81,10 @@ Fineness micropolygons(const Attributes& a, float edge) {
   return out;
 }
 
-/// Where the eye alone sees displacement, polygons matter less than that does (docs/performance.md).
 Fineness fixedFineness(const Object& o) {
   const Attributes& a = *o.attributes;
   if (a.trace.rate == TessellationMode::Full && a.areaLight < 0) return micropolygons(a, 1);
-  const bool smooth = a.displacement && !displacesForRays(o);
-  return finenessOf(a, std::max(a.trace.tessellation, 1e-3f) * (smooth ? kSmoothed : 1.0f));
+  return finenessOf(a, std::max(a.trace.tessellation, 1e-3f));
 }
 
 /// A patch as it was probed.

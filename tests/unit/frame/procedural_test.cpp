@@ -88,7 +88,7 @@ TEST(Procedural, GeometryIsDroppedBehindTheLastBucket) {
     return stats.memoryBytes.geometry.load();
   };
   EXPECT_GT(peak(1), 0);
-  EXPECT_LE(peak(8), 2 * peak(1)) << "two rows of squares may touch one row of buckets";
+  EXPECT_LE(peak(8), 3 * peak(1)) << "two rows of squares may touch one row of buckets, and pieces share memory";
 }
 
 TEST(Procedural, GivesTheSamePictureForAnyNumberOfThreads) {

@@ -2,6 +2,7 @@
 #include "gi/clouds.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -53,7 +54,7 @@ class Clouds : public ::testing::Test {
     return path("wall.ptc");
   }
 
-  const fs::path folder = fs::path(::testing::TempDir()) / "tomales_clouds";
+  const fs::path folder = fs::path(::testing::TempDir()) / ("tomales_clouds_" + std::to_string(::getpid()));
   Wall wall{32};
   Log log{Log::Verbosity::Quiet};
 };
