@@ -179,8 +179,9 @@ vec3 Chunks::normal(const ChunkMesh& mesh, size_t chunk, Level level, uint32_t t
   const auto cell = [](float x, int n) { return std::clamp(static_cast<int>(x * static_cast<float>(n)), 0, n - 1); };
   const int i = cell(u, nu), j = cell(v, nv);
   const float fu = u * static_cast<float>(nu) - static_cast<float>(i), fv = v * static_cast<float>(nv) - static_cast<float>(j);
+  const int row = nu + 1;
   const auto N = [&](int di, int dj) {
-    return unpackNormal(mesh.N[mesh.firstVertex[tile] + static_cast<uint32_t>((j + dj) * (nu + 1) + i + di)]);
+    return unpackNormal(mesh.N[mesh.firstVertex[tile] + static_cast<uint32_t>((j + dj) * row + i + di)]);
   };
   return normalizeOr(glm::mix(glm::mix(N(0, 0), N(1, 0), fu), glm::mix(N(0, 1), N(1, 1), fu), fv), N(0, 0));
 }
