@@ -194,6 +194,20 @@ const std::unordered_map<std::string_view, Setter>& textSetters() {
   return table;
 }
 
+/// What some attributes may say; "cache" is taken as "shader".
+void checkWord(GraphicsState& s, const Request& r, const std::string& key, const std::string& word) {
+  using Words = std::vector<std::string_view>;
+  static const std::unordered_map<std::string_view, Words> table = {
+      {"trace:tessellationmode", {"fixed", "multiresolution", "full"}},
+      {"shade:diffusehitmode", {"shader", "primitive", "cache"}},
+      {"shade:specularhitmode", {"shader", "primitive", "cache"}},
+      {"shade:transmissionhitmode", {"primitive", "shader", "cache"}},
+  };
+  const auto known = table.find(key);
+  if (known == table.end() || std::find(known->second.begin(), known->second.end(), word) != known->second.end()) return;
+  s.warnOnce(key + ' ' + word, r, "rib-unknown-attribute", fmt::format("Attribute \"{}\" knows no \"{}\"; \"{}\" is taken", key, word, known->second[0]));
+}
+
 // User attributes are read by name where they are used; all others have no effect.
 void attribute(GraphicsState& s, const Request& r) {
   const std::string& category = r.args[0].strings[0];
@@ -205,6 +219,7 @@ void attribute(GraphicsState& s, const Request& r) {
     if (empty) {
       reject(s, r, "\"" + key + "\" has no value");
     } else if (const auto it = setters.find(key); it != setters.end()) {
+      if (text) checkWord(s, r, key, p.strings[0]);
       it->second(s.scope.edit(), p);
     } else if (key == "trimcurve:sense") {
       trimSense(s, r, text ? p.strings[0] : "");
