@@ -11,20 +11,7 @@
 namespace tomales {
 namespace {
 
-std::string base64(const std::string& bytes) {
-  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    uint32_t group = 0;
-    for (size_t k = 0; k < 3; ++k) group = group << 8 | (i + k < bytes.size() ? static_cast<uint8_t>(bytes[i + k]) : 0U);
-    for (size_t k = 0; k < 4; ++k) out += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
-}
-
-}  // namespace
-
-const char* const kPageStyle = R"(
+constexpr const char* kPageStyle = R"(
 :root{font:16px/1.5 system-ui,sans-serif;color:#1b1b1b;background:#fff}
 body{max-width:1200px;margin:0 auto;padding:0 16px 48px}
 h1{font-size:1.5rem;margin:1.2em 0 .2em}h2{font-size:1.15rem;margin:2em 0 .5em}
@@ -49,6 +36,24 @@ figure img{width:calc(50% - 3px);image-rendering:auto;vertical-align:top}
 figcaption{font-size:13px}.narrow{display:none}
 @media(max-width:800px){.plots{grid-template-columns:1fr}.wide{display:none}.narrow{display:block}.cards{grid-template-columns:1fr}}
 )";
+
+std::string base64(const std::string& bytes) {
+  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    uint32_t group = 0;
+    for (size_t k = 0; k < 3; ++k) group = group << 8 | (i + k < bytes.size() ? static_cast<uint8_t>(bytes[i + k]) : 0U);
+    for (size_t k = 0; k < 4; ++k) out += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return out;
+}
+
+}  // namespace
+
+void Markup::openPage(const std::string& title, const std::string& heading, const std::string& style) {
+  put("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
+  put("<title>{}</title><style>{}{}</style></head><body>\n<h1>{}</h1>\n", escapeXml(title), kPageStyle, style, escapeXml(heading));
+}
 
 std::string embedded(const std::string& png) {
   std::ifstream file(png, std::ios::binary);

@@ -13,14 +13,12 @@ namespace {
 
 constexpr double kAskedErrors[] = {0.08, 0.04, 0.02, 0.01, 0.005};
 
-class Page {
+class Page : Markup {
  public:
   explicit Page(const ChartReport& report) : r_(report) {}
 
   std::string write(const std::string& jsonName) {
-    put("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
-    put("<title>{0}: error against cost</title><style>{1}</style></head><body>\n", escapeXml(r_.scene), kPageStyle);
-    put("<h1>{}: {}</h1>\n", escapeXml(r_.scene), escapeXml(r_.title));
+    openPage(r_.scene + ": error against cost", r_.scene + ": " + r_.title);
     summary(jsonName);
     reach();
     legend();
@@ -32,15 +30,11 @@ class Page {
     put("</div>\n");
     table();
     cards();
-    put("</body></html>\n");
-    return std::move(out_);
+    closePage();
+    return take();
   }
 
  private:
-  template <class... T>
-  void put(fmt::format_string<T...> format, T&&... values) {
-    fmt::format_to(std::back_inserter(out_), format, std::forward<T>(values)...);
-  }
   std::string key(size_t curve) const { return fmt::format("<span class=\"key\" style=\"background:{}\"></span>{}", plotColor(curve), escapeXml(r_.curves[curve])); }
 
   void summary(const std::string& jsonName) {
@@ -117,7 +111,6 @@ class Page {
   }
 
   const ChartReport& r_;
-  std::string out_;
 };
 
 }  // namespace

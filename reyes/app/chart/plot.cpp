@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reyes/app/chart/html.h"
+
 namespace tomales {
 namespace {
 
@@ -41,7 +43,7 @@ struct LogAxis {
   }
 };
 
-class Drawing {
+class Drawing : Markup {
  public:
   Drawing(const Plot& plot, int width, int height) : plot_(plot), width_(width), height_(height) {
     for (const PlotCurve& curve : plot.curves)
@@ -57,14 +59,10 @@ class Drawing {
     front();
     for (size_t c = 0; c < plot_.curves.size(); ++c) curve(c);
     put("</svg>\n");
-    return std::move(out_);
+    return take();
   }
 
  private:
-  template <class... T>
-  void put(fmt::format_string<T...> format, T&&... values) {
-    fmt::format_to(std::back_inserter(out_), format, std::forward<T>(values)...);
-  }
 
   void axes() {
     const double bottom = height_ - kBottom, right = width_ - kRight;
@@ -113,7 +111,6 @@ class Drawing {
   const Plot& plot_;
   const int width_, height_;
   LogAxis x_, y_;
-  std::string out_;
 };
 
 }  // namespace

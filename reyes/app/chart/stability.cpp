@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "reyes/app/chart/html.h"
@@ -60,6 +59,7 @@ class Laboratory {
 
   void measure(StabilityCurve& out, const std::string& value) {
     const LabScene& scene = out.scene;
+    out.truths.emplace_back();
     fs::create_directories(settings_.folder);
     const fs::path rib = fs::path(settings_.folder) / fmt::format("{}_{}.rib", fs::path(scene.file).stem().string(), value);
     if (!writeAtOnce(rib.string(), withKnob(scene.text, value))) {
@@ -81,7 +81,7 @@ class Laboratory {
       return;
     }
     out.noiseFloor = std::max(out.noiseFloor, truth.noiseFloor());
-    out.truths.push_back(rib.string() + ".truth.png");
+    out.truths.back() = rib.string() + ".truth.png";
     writeImage(out.truths.back(), thumbnail(truth.mean(), kPictureSize), true, log_);
     for (size_t m = 0; m < scene.methods.size(); ++m) measure(out, value, m, truth, runs, rib.string());
   }
@@ -100,8 +100,7 @@ class Laboratory {
     std::string command = "tomales render " + rib;
     for (const Arguments& part : {out.scene.common, arguments})
       for (const std::string& a : part) command += ' ' + a;
-    StabilityPoint point{method, value, truth.errorOf(*image), *run, command, run->picture + ".thumb.png", run->picture + ".error.png"};
-    writeImage(point.picture, thumbnail(*image, kPictureSize), true, log_);
+    StabilityPoint point{method, value, truth.errorOf(*image), *run, command, run->picture + ".error.png"};
     writeImage(point.errorMap, thumbnail(truth.errorMap(*image, kMapRange), kPictureSize), true, log_);
     fmt::print(stderr, "{}, {}, {} {}: {:.3g} %{}\n", fs::path(out.scene.file).stem().string(), m.name, out.scene.knob, value, 100 * point.error.mean,
                run->recalled ? " (recalled)" : "");

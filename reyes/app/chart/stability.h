@@ -14,13 +14,13 @@ struct StabilityPoint {
   ErrorFigures error;
   Run run;
   std::string commandLine;
-  std::string picture, errorMap;  ///< PNG files of thumbnails.
+  std::string errorMap;  ///< PNG file of a thumbnail.
 };
 
 struct StabilityCurve {
   LabScene scene;
   std::vector<StabilityPoint> points;  ///< Method by method, harmless first.
-  std::vector<std::string> truths;     ///< Thumbnails, one for each value of the knob that was measured.
+  std::vector<std::string> truths;     ///< Thumbnails, one for each value of the knob; empty: not measured.
   double noiseFloor = 0;               ///< The worst of all truths.
   std::vector<std::string> missing;    ///< What the budget or a failure left out, and why.
 };

@@ -15,26 +15,21 @@ constexpr const char* kOwnStyle = R"(
 .strip img{width:96px}.strip span{color:#555}
 )";
 
-class Page {
+class Page : Markup {
  public:
   std::string write(const std::vector<StabilityCurve>& curves, const std::string& commandLine, const std::string& json) {
-    put("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
-    put("<title>Stability</title><style>{}{}</style></head><body>\n<h1>Where methods fail</h1>\n", kPageStyle, kOwnStyle);
+    openPage("Stability", "Where methods fail", kOwnStyle);
     put("<p>Each scene has a knob that drives methods from harmless to fatal. Error: mean of |test &minus; truth| / (truth + {}) over all colours of all "
         "pixels that the truth lights.</p>\n", ChartReference::kFloor);
     put("<p>Figures: <a href=\"{0}\">{0}</a>. Made with tomales {1}: <code>{2}</code></p>\n<ul>\n", escapeXml(json), kVersion, escapeXml(commandLine));
     for (size_t i = 0; i < curves.size(); ++i) put("<li><a href=\"#s{}\">{}</a></li>\n", i, escapeXml(curves[i].scene.title));
     put("</ul>\n");
     for (size_t i = 0; i < curves.size(); ++i) section(curves[i], i);
-    put("</body></html>\n");
-    return std::move(out_);
+    closePage();
+    return take();
   }
 
  private:
-  template <class... T>
-  void put(fmt::format_string<T...> format, T&&... values) {
-    fmt::format_to(std::back_inserter(out_), format, std::forward<T>(values)...);
-  }
   static std::string name(size_t scene, const StabilityPoint& p) { return fmt::format("s{}m{}k{}", scene, p.method, p.knob); }
 
   void section(const StabilityCurve& c, size_t scene) {
@@ -81,18 +76,19 @@ class Page {
 
   /// The truths above; under them, method by method, where pictures are wrong.
   void pictures(const StabilityCurve& c, size_t scene) {
-    put("<div class=\"strip\" style=\"grid-template-columns:8em repeat({},96px)\"><span>truth</span>", std::max<size_t>(c.truths.size(), 1));
-    for (const std::string& truth : c.truths) put("<img alt=\"truth\" src=\"{}\">", embedded(truth));
+    put("<div class=\"strip\" style=\"grid-template-columns:8em repeat({},96px)\"><span>truth</span>", c.scene.values.size());
+    for (const std::string& truth : c.truths) put("{}", truth.empty() ? "<span></span>" : fmt::format("<img alt=\"truth\" src=\"{}\">", embedded(truth)));
     for (size_t m = 0; m < c.scene.methods.size(); ++m) {
       put("\n<span>{}</span>", escapeXml(c.scene.methods[m].name));
-      for (size_t k = 0, shown = 0; k < c.scene.values.size() && shown < c.truths.size(); ++k)
-        if (const StabilityPoint* p = find(c, m, c.scene.values[k]); p && ++shown)
+      for (const std::string& value : c.scene.values) {
+        if (const StabilityPoint* p = find(c, m, value))
           put("<img id=\"{}\" alt=\"error\" title=\"{}\" src=\"{}\">", name(scene, *p), escapeXml(p->commandLine), embedded(p->errorMap));
+        else
+          put("<span></span>");
+      }
     }
     put("</div>\n");
   }
-
-  std::string out_;
 };
 
 }  // namespace
