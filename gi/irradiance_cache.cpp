@@ -6,6 +6,7 @@ namespace tomales {
 namespace {
 
 constexpr float kMinPixels = 1.5f;              // R- of eq. 3
+constexpr float kFinestPixels = 1;             // of a dispute, at kappa 1
 constexpr float kMaxAngleTerm = 0.0151922470f;  // 1 - cos(alpha+), alpha+ = 10 degrees (eq. 4)
 constexpr float kBehindTolerance = 0.1f;        // of the validity radius
 constexpr float kDispute = 0.1f;              // relative difference of extrapolated values, at kappa 1, that is no longer smooth
@@ -93,6 +94,9 @@ struct IrradianceCache::Impl {
     return radius / settings.kappa;
   }
 
+  /// No dispute shortens records below this: closer ones would be noise of single pixels, paid with a hemisphere each.
+  float least(float pixelSize) const { return kFinestPixels * pixelSize / settings.kappa; }
+
   void insert(uint32_t index) {
     const IrradianceRecord& r = records[index];
     if (!root.contains(r.position)) return outside.push_back(index);
@@ -139,7 +143,7 @@ struct IrradianceCache::Impl {
 
   // Smooth down to 0 where the record stops being used, so that interpolation has no seams.
   float weight(const IrradianceRecord& r, const vec3& x, const vec3& n, float pixelSize) const {
-    const float radius = std::min(reach(size(r), pixelSize), r.limit);
+    const float radius = std::min(reach(size(r), pixelSize), std::max(r.limit, least(pixelSize)));
     const vec3 step = x - r.position;
     const float distance2 = dot(step, step);
     if (!(distance2 < radius * radius)) return 0;
@@ -183,17 +187,20 @@ struct IrradianceCache::Impl {
     return out;
   }
 
-  IrradianceEstimate blend(const std::vector<Candidate>& candidates, const vec3& x, const vec3& n) const {
+  IrradianceEstimate blend(const std::vector<Candidate>& candidates, const vec3& x, const vec3& n, float pixelSize) const {
     IrradianceEstimate out{vec3(0.0f), {vec3(0.0f), vec3(0.0f), vec3(0.0f)}};
+    float nearest = kInfinity;
     for (const Candidate& candidate : candidates) {
       const IrradianceRecord& r = records[candidate.record];
       const vec3 E = extrapolate(r, x, n);
       out.disputed |= candidate.weight > 0 && &candidate != &candidates.front() && differ(E, out.E / out.weight, 2 * noiseAt(r, glm::length(x - r.position)));
+      nearest = std::min(nearest, glm::length(x - r.position));
       out.E += candidate.weight * E;
       for (int c = 0; c < 3; ++c) out.dominant[c] += candidate.weight * r.dominant[c];  // eq. 7
       out.weight += candidate.weight;
     }
     if (out.weight > 0) out.E /= out.weight;
+    out.disputed &= nearest > least(pixelSize);
     for (vec3& d : out.dominant) d = normalizeOr(d, n);
     return out;
   }
@@ -226,8 +233,8 @@ void IrradianceCache::restore(const IrradianceRecord& record) {
 }
 
 IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, const vec3& shadingNormal, float pixelSize) const {
-  if (!(impl_->settings.kappa < kInfinity)) return impl_->blend({}, x, shadingNormal);
-  return impl_->blend(impl_->candidatesAt(x, normal, pixelSize), x, shadingNormal);
+  if (!(impl_->settings.kappa < kInfinity)) return impl_->blend({}, x, shadingNormal, pixelSize);
+  return impl_->blend(impl_->candidatesAt(x, normal, pixelSize), x, shadingNormal, pixelSize);
 }
 
 const std::vector<IrradianceRecord>& IrradianceCache::records() const { return impl_->records; }
