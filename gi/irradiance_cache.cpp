@@ -11,6 +11,7 @@ constexpr float kMaxAngleTerm = 0.0151922470f;  // 1 - cos(alpha+), alpha+ = 10 
 constexpr float kBehindTolerance = 0.1f;        // of the validity radius
 constexpr float kDispute = 0.1f;              // relative difference of extrapolated values, at kappa 1, that is no longer smooth
 constexpr float kNoiseMargin = 3;             // standard errors
+constexpr float kDark = 0.1f;                 // of the mean E: what is darker differs by fractions of this, not of itself
 constexpr int kMaxDepth = 24;
 constexpr int kNone = -1;
 
@@ -75,6 +76,7 @@ struct IrradianceCache::Impl {
   std::vector<Node> nodes{Node{}};
   std::vector<uint32_t> outside;  // records beyond the root box
   std::vector<IrradianceRecord> records;
+  float luminanceSum = 0;  // of their E
 
   float size(const IrradianceRecord& r) const {
     switch (settings.errorFunction) {
@@ -115,7 +117,8 @@ struct IrradianceCache::Impl {
 
   bool differ(const vec3& a, const vec3& b, float noise) const {
     const float tolerance = settings.errorFunction == ErrorFunction::Ward ? 4 * kDispute : kDispute;  // as kappa counts there
-    return std::abs(luminance(a) - luminance(b)) > tolerance / settings.kappa * std::max(luminance(a), luminance(b)) + kNoiseMargin * noise;
+    return std::abs(luminance(a) - luminance(b)) > tolerance / settings.kappa * std::max({luminance(a), luminance(b), kDark * luminanceSum / static_cast<float>(records.size())}) +
+                                                         kNoiseMargin * noise;
   }
 
   // Of an extrapolated value: gradients are as noisy as E over the mean distance of what is seen.
@@ -221,6 +224,7 @@ IrradianceCache::~IrradianceCache() = default;
 void IrradianceCache::insert(const IrradianceRecord& record) {
   Impl& impl = *impl_;
   impl.records.push_back(record);
+  impl.luminanceSum += luminance(record.E);
   if (!(impl.settings.kappa < kInfinity)) return;
   limitTranslation(impl.records.back(), impl.reach(impl.size(record), record.pixelSize));
   impl.settleDisputes(static_cast<uint32_t>(impl.records.size() - 1));
@@ -229,6 +233,7 @@ void IrradianceCache::insert(const IrradianceRecord& record) {
 
 void IrradianceCache::restore(const IrradianceRecord& record) {
   impl_->records.push_back(record);
+  impl_->luminanceSum += luminance(record.E);
   if (impl_->settings.kappa < kInfinity) impl_->insert(static_cast<uint32_t>(impl_->records.size() - 1));
 }
 
