@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "raytrace/resident_cache.h"
-#include "reyes/base/packed_normal.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"
 #include "world.h"
@@ -223,14 +222,6 @@ TEST(ResidentCache, MakesRoomForMoreThanOne) {
   EXPECT_TRUE(holds(16));
   EXPECT_TRUE(holds(3)) << "the fourth oldest";
   EXPECT_FALSE(holds(2));
-}
-
-TEST(PackedNormal, IsOffByLittle) {
-  for (uint32_t i = 0; i < 10000; ++i) {
-    const vec3 n = anyDirection(i);
-    EXPECT_LT(glm::length(unpackNormal(packNormal(n)) - n), 7e-5f);
-  }
-  for (const vec3& axis : {vec3(1, 0, 0), vec3(0, -1, 0), vec3(0, 0, 1), vec3(0, 0, -1)}) EXPECT_LT(glm::length(unpackNormal(packNormal(axis)) - axis), 1e-6f);
 }
 
 }  // namespace
