@@ -164,7 +164,7 @@ PointCloud recordsOf(const IrradianceShot& shot) {
   const float scale = std::cbrt(std::abs(glm::determinant(mat3(worldFromCamera))));
   for (const PreparedCache& c : shot.caches)
     for (const IrradianceRecord& r : c.cache.records()) {
-      const float data[] = {1, r.E.x, r.E.y, r.E.z, scale * r.closest, scale * r.harmonicMean, r.noise};
+      const float data[] = {1, r.E.x, r.E.y, r.E.z, std::min(scale * r.closest, 1e30f), std::min(scale * r.harmonicMean, 1e30f), r.noise};
       out.add(transformPoint(worldFromCamera, r.position), glm::normalize(normalsFromCamera * r.normal), 0, data);
     }
   return out;
