@@ -7,9 +7,9 @@
 #include <tuple>
 
 #include "raytrace/doubled_grid.h"
-#include "raytrace/packed_normal.h"
 #include "raytrace/ray_times.h"
 #include "raytrace/tessellate.h"
+#include "reyes/base/packed_normal.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"
 #include "reyes/dice.h"

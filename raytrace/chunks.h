@@ -29,7 +29,7 @@ struct Chunk {
 /// Lattices of the tiles of a chunk, rows along u, one behind the other.
 struct ChunkMesh {
   std::vector<vec3> P;                ///< Behind the last lie at least 4 more readable bytes. A tile that is not finite is NaN.
-  std::vector<uint32_t> N;            ///< RISpec side; raytrace/packed_normal.h
+  std::vector<uint32_t> N;            ///< RISpec side; reyes/base/packed_normal.h
   std::vector<uint32_t> firstVertex;  ///< Of each tile.
 
   size_t bytes() const { return P.capacity() * sizeof(vec3) + (N.capacity() + firstVertex.capacity()) * sizeof(uint32_t); }

@@ -1,7 +1,6 @@
 // Surfaces that rays see at several levels, and the cache that holds them.
 #include <gtest/gtest.h>
 
-#include "raytrace/packed_normal.h"
 #include "raytrace/resident_cache.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"
@@ -136,14 +135,6 @@ TEST(ResidentCache, KeepsWhatWasUsedLast) {
   EXPECT_EQ(cache.figures().lookups, 6);
   EXPECT_EQ(cache.figures().misses, 4);
   EXPECT_EQ(cache.figures().mostBytes, 20);
-}
-
-TEST(PackedNormal, IsOffByLittle) {
-  for (uint32_t i = 0; i < 10000; ++i) {
-    const vec3 n = anyDirection(i);
-    EXPECT_LT(glm::length(unpackNormal(packNormal(n)) - n), 7e-5f);
-  }
-  for (const vec3& axis : {vec3(1, 0, 0), vec3(0, -1, 0), vec3(0, 0, 1), vec3(0, 0, -1)}) EXPECT_LT(glm::length(unpackNormal(packNormal(axis)) - axis), 1e-6f);
 }
 
 }  // namespace
