@@ -6,6 +6,7 @@
 
 #include "reyes/app/atlas_job.h"
 #include "reyes/app/interrupt.h"
+#include "reyes/app/limits.h"
 #include "reyes/app/overrides.h"
 #include "reyes/app/pixel_report.h"
 #include "reyes/app/preview.h"
@@ -79,6 +80,7 @@ void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
   if (!gathers() || interrupted()) return;
   const StageTimer timer(stats_, "gather");
   services_->gatherPass(layout, tiles, meter_.stage(0.3f, 0.7f), &interrupted());
+  warnOfNoise(services_->caches(), log_);
 }
 
 ShadeContext FrameJob::shadeContext() const {

@@ -53,6 +53,17 @@ t.write("good.rib", GOOD)
 result = t.expect_run("a crop without anything in it", ["good.rib", "--crop", "0,0.1,0,0.1"], 0)
 t.expect("nothing" not in result.stderr, "is no reason for a warning")
 
+# Where methods come to their limits, they say so.
+ROOM = 'Translate %s %s 0\nSurface "matte"\nLightSource "indirectlight" 1 "float samples" [%d]\nLightSource "pointlight" 2 "point from" [1 1 -3]\n' \
+       'Sphere 1 -1 1 360\nPolygon "P" [-9 -9 2 -9 9 2 9 9 2 9 -9 2]\n'
+def room(away, samples):
+    return (WORLD % (ROOM % (away, away, samples))).replace("WorldBegin", f"Translate {-away} {-away} 0\nWorldBegin")
+for what, away, samples, says in (("far from the origin", 1000000, 256, "float-range"), ("with few rays", 0, 4, "gather-noise")):
+    t.write("limit.rib", room(away, samples))
+    t.expect_run("a scene " + what, ["limit.rib", "-o", "limit.exr"], 0, says)
+t.write("limit.rib", room(1000, 256))
+t.expect(not t.run("limit.rib", "-o", "limit.exr").stderr, "a scene near the origin and with rays enough is no reason for a warning")
+
 # Something missing: the frame is complete, exit 3.
 t.write("archive.rib", WORLD % 'Sphere 1 -1 1 360\nReadArchive "nowhere.rib"')
 t.expect_run("a missing archive", ["archive.rib"], 3, "archive.rib:6", "nowhere.rib")
