@@ -58,11 +58,11 @@ ROOM = 'Translate %s %s 0\nSurface "matte"\nLightSource "indirectlight" 1 "float
        'Sphere 1 -1 1 360\nPolygon "P" [-9 -9 2 -9 9 2 9 9 2 9 -9 2]\n'
 def room(away, samples):
     return (WORLD % (ROOM % (away, away, samples))).replace("WorldBegin", f"Translate {-away} {-away} 0\nWorldBegin")
-for what, away, samples, says in (("far from the origin", 1000000, 256, "float-range"), ("with few rays", 0, 4, "gather-noise")):
+for what, away, samples, says in (("far from the origin", 1000000, 256, "float-range"), ("with few rays", 0, 3, "gather-noise")):
     t.write("limit.rib", room(away, samples))
-    t.expect_run("a scene " + what, ["limit.rib", "-o", "limit.exr"], 0, says)
+    t.expect_run("a scene " + what, ["limit.rib", "-o", "limit.exr", "--format", "64x64"], 0, says)
 t.write("limit.rib", room(1000, 256))
-t.expect(not t.run("limit.rib", "-o", "limit.exr").stderr, "a scene near the origin and with rays enough is no reason for a warning")
+t.expect(not t.run("limit.rib", "-o", "limit.exr", "--format", "64x64").stderr, "a scene near the origin and with rays enough is no reason for a warning")
 
 # Something missing: the frame is complete, exit 3.
 t.write("archive.rib", WORLD % 'Sphere 1 -1 1 360\nReadArchive "nowhere.rib"')
