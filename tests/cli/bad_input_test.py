@@ -55,7 +55,7 @@ t.expect("nothing" not in result.stderr, "is no reason for a warning")
 
 # Where methods come to their limits, they say so.
 ROOM = 'Translate %s %s 0\nSurface "matte"\nLightSource "indirectlight" 1 "float samples" [%d]\nLightSource "pointlight" 2 "point from" [1 1 -3]\n' \
-       'Sphere 1 -1 1 360\nPolygon "P" [-9 -9 2 -9 9 2 9 9 2 9 -9 2]\n'
+       'Sphere 1 -1 1 360\nSphere 9 -9 9 360\n'  # a ball in a hollow one
 def room(away, samples):
     return (WORLD % (ROOM % (away, away, samples))).replace("WorldBegin", f"Translate {-away} {-away} 0\nWorldBegin")
 for what, away, samples, says in (("far from the origin", 1000000, 256, "float-range"), ("with few rays", 0, 3, "gather-noise")):
