@@ -187,7 +187,12 @@ bool hasFolder(const std::string& file, const SourceLoc& where, Log& log) {
 
 bool displaysHaveFolders(const Options& options, Log& log) {
   bool all = true;
-  for (const DisplayCall& display : options.displays) all = hasFolder(display.name, display.where, log) && all;
+  for (const DisplayCall& display : options.displays) {
+    const std::filesystem::path folder = std::filesystem::path(display.name).parent_path();
+    std::error_code failed;  // then the folder is missing still
+    if (folder.is_relative() && !folder.empty()) std::filesystem::create_directories(folder, failed);
+    all = hasFolder(display.name, display.where, log) && all;
+  }
   return all;
 }
 

@@ -181,6 +181,8 @@ bool knownOption(GraphicsState& s, const Request& r, const std::string& key, con
                                                  "spacefill",  "spiral",   "random"};
     if (orders.contains(p.strings[0]))
       o.bucketOrder = p.strings[0];
+    else if (p.strings[0] == "circle")  // RenderMan for Maya
+      o.bucketOrder = "spiral";
     else
       s.warn(r, "rib-bucket-order", "no bucket order \"" + p.strings[0] + "\"; \"" + o.bucketOrder + "\" is used");
   } else {

@@ -47,6 +47,10 @@ const std::unordered_map<std::string_view, Translator>& translators() {
   static const std::unordered_map<std::string_view, Translator> table = {
       {"Bxdf", [](const Request& r, Patterns& patterns) { return risBxdf(r, patterns); }},
       {"Light", [](const Request& r, Patterns&) { return risLight(r); }},
+      {"AreaLightSource", stdLight},
+      {"Geometry", envSphere},
+      {"Option", [](const Request& r, Patterns&) { return riValues(r); }},
+      {"Attribute", [](const Request& r, Patterns&) { return riValues(r); }},
       {"Integrator", integrator},
       {"Pattern", pattern},
       {"Camera", camera},
@@ -68,7 +72,13 @@ Note standsIn(const Request& r, const std::string& substitute, Severity severity
   return note(r, "is not available: " + substitute + " stands in for it", severity);
 }
 
-bool isRis(std::string_view name) { return translators().contains(name); }
+// Of requests that are older than RIS, those that name something of it.
+bool isRis(const Request& r) {
+  if (r.name == "Option" || r.name == "Attribute") return r.args[0].strings[0] == "Ri";
+  if (r.name == "AreaLightSource") return r.args[0].strings[0].find("PxrStd") != std::string::npos;
+  if (r.name == "Geometry") return r.args[0].strings[0] == "envsphere";
+  return translators().contains(r.name);
+}
 
 Translation translateRis(const Request& r, Patterns& patterns) { return translators().at(r.name)(r, patterns); }
 
