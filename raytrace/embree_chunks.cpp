@@ -8,13 +8,41 @@ namespace {
 // What Embree allocates, as its memory monitor tells it: for each grid polygon, and for a scene.
 constexpr size_t kPolygonBytes = 22, kSceneBytes = 10000;
 
+constexpr int kPartEdge = 16, kPartPolygons = kPartEdge * kPartEdge;  ///< Of what an Extent has a box for: 24 bytes where polygons take 9000.
+
+/// A ray among boxes that are a little larger than they say.
+class Slabs {
+ public:
+  explicit Slabs(const RTCRay& r) : origin_(r.org_x, r.org_y, r.org_z), direction_(r.dir_x, r.dir_y, r.dir_z), first_(r.tnear), last_(r.tfar) {}
+
+  bool meets(const Bound3& box) const {
+    const float margin = 1e-5f * (glm::length(origin_) + std::max(maxComponent(glm::abs(box.lo)), maxComponent(glm::abs(box.hi))));
+    float first = first_, last = last_;
+    for (int k = 0; k < 3; ++k) {
+      const float lo = box.lo[k] - margin - origin_[k], hi = box.hi[k] + margin - origin_[k];
+      if (direction_[k] == 0) {
+        if (lo > 0 || hi < 0) return false;
+        continue;
+      }
+      const float a = lo / direction_[k], b = hi / direction_[k];
+      first = std::max(first, std::min(a, b)), last = std::min(last, std::max(a, b));
+    }
+    return first <= last + 1e-6f * std::abs(last) + margin;
+  }
+
+ private:
+  vec3 origin_, direction_;
+  float first_, last_;
+};
+
 }  // namespace
 
 EmbreeChunks::Resident::~Resident() {
   if (scene) rtcReleaseScene(scene);
 }
 
-EmbreeChunks::EmbreeChunks(const Chunks& chunks, size_t budget) : chunks_(chunks), cache_(chunks.all().size() * kLevels, budget) {}
+EmbreeChunks::EmbreeChunks(const Chunks& chunks, size_t budget)
+    : chunks_(chunks), cache_(chunks.all().size() * kLevels, budget), extents_(chunks.all().size() * kLevels) {}
 
 EmbreeChunks::~EmbreeChunks() {
   if (device_) rtcReleaseDevice(device_);
@@ -54,9 +82,11 @@ void EmbreeChunks::intersect(const RTCIntersectFunctionNArguments* args) {
   if (!args->valid[0]) return;
   const auto& members = *static_cast<const Members*>(args->geometryUserPtr);
   const uint32_t chunk = members.chunks[args->primID];
-  const auto held = members.owner->resident(chunk, reinterpret_cast<const Traversal*>(args->context)->fineness);
+  auto* ray = reinterpret_cast<RTCRayHit*>(args->rayhit);
+  const auto held = members.owner->met(chunk, reinterpret_cast<const Traversal*>(args->context)->fineness, ray->ray);
+  if (!held) return;
   args->context->instID[0] = members.owner->firstInstance_ + chunk;
-  rtcIntersect1(held->scene, args->context, reinterpret_cast<RTCRayHit*>(args->rayhit));
+  rtcIntersect1(held->scene, args->context, ray);
   args->context->instID[0] = RTC_INVALID_GEOMETRY_ID;
 }
 
@@ -64,15 +94,59 @@ void EmbreeChunks::occluded(const RTCOccludedFunctionNArguments* args) {
   if (!args->valid[0]) return;
   const auto& members = *static_cast<const Members*>(args->geometryUserPtr);
   const uint32_t chunk = members.chunks[args->primID];
-  const auto held = members.owner->resident(chunk, reinterpret_cast<const Traversal*>(args->context)->fineness);
+  auto* ray = reinterpret_cast<RTCRay*>(args->ray);
+  const auto held = members.owner->met(chunk, reinterpret_cast<const Traversal*>(args->context)->fineness, *ray);
+  if (!held) return;
   args->context->instID[0] = members.owner->firstInstance_ + chunk;
-  rtcOccluded1(held->scene, args->context, reinterpret_cast<RTCRay*>(args->ray));
+  rtcOccluded1(held->scene, args->context, ray);
   args->context->instID[0] = RTC_INVALID_GEOMETRY_ID;
 }
 
+std::shared_ptr<const EmbreeChunks::Resident> EmbreeChunks::met(uint32_t chunk, Level ray, const RTCRay& r) const {
+  const Extent& extent = extents_[slotOf(chunk, ray)];
+  if (extent.known.load(std::memory_order_acquire)) {
+    const Slabs slabs(r);
+    const auto meets = [&](const Bound3& part) { return slabs.meets(part); };
+    if (!meets(extent.whole) || std::none_of(extent.parts.begin(), extent.parts.end(), meets)) return nullptr;
+  }
+  return resident(chunk, ray);
+}
+
+size_t EmbreeChunks::slotOf(uint32_t chunk, Level ray) const {
+  return chunk * kLevels + static_cast<size_t>(chunks_.levelOf(chunks_.all()[chunk].group, ray));
+}
+
 std::shared_ptr<const EmbreeChunks::Resident> EmbreeChunks::resident(uint32_t chunk, Level ray) const {
-  const Level level = chunks_.levelOf(chunks_.all()[chunk].group, ray);
-  return cache_.get(chunk * kLevels + static_cast<size_t>(level), [&] { return build(chunk, level); });
+  const size_t slot = slotOf(chunk, ray);
+  return cache_.get(slot, [&] {
+    auto made = build(chunk, chunks_.levelOf(chunks_.all()[chunk].group, ray));
+    if (!extents_[slot].known.load(std::memory_order_relaxed)) learnExtent(chunk, chunks_.levelOf(chunks_.all()[chunk].group, ray), made->mesh);
+    return made;
+  });
+}
+
+/// The cache makes a slot on one thread at a time.
+void EmbreeChunks::learnExtent(uint32_t chunk, Level level, const ChunkMesh& mesh) const {
+  Extent& out = extents_[chunk * kLevels + static_cast<size_t>(level)];
+  const std::vector<Tile>& tiles = chunks_.all()[chunk].tiles;
+  int held = kPartPolygons;
+  for (size_t t = 0; t < tiles.size(); ++t) {
+    const auto [nu, nv] = tiles[t].rate[static_cast<size_t>(level)];
+    for (int v = 0; v < nv; v += kPartEdge)
+      for (int u = 0; u < nu; u += kPartEdge) {
+        const int u1 = std::min(u + kPartEdge, nu), v1 = std::min(v + kPartEdge, nv), more = (u1 - u) * (v1 - v);
+        if (held + more > kPartPolygons) out.parts.emplace_back(), held = 0;
+        held += more;
+        for (int j = v; j <= v1; ++j)
+          for (int i = u; i <= u1; ++i) {
+            const vec3& p = mesh.P[mesh.firstVertex[t] + static_cast<size_t>(j) * static_cast<size_t>(nu + 1) + static_cast<size_t>(i)];
+            if (isFinite(p)) out.parts.back().extend(p);
+          }
+      }
+  }
+  out.parts.shrink_to_fit();
+  for (const Bound3& part : out.parts) out.whole.extend(part);
+  out.known.store(true, std::memory_order_release);
 }
 
 std::shared_ptr<const EmbreeChunks::Resident> EmbreeChunks::build(uint32_t chunk, Level level) const {
