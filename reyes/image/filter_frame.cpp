@@ -1,6 +1,8 @@
 // Contributions -> pixels, some rows at a time.
+#include <mutex>
 #include <span>
 
+#include "reyes/base/check.h"
 #include "reyes/base/parallel.h"
 #include "reyes/image.h"
 #include "reyes/image/composite.h"
@@ -41,9 +43,9 @@ struct FrameFilter::Impl {
   Impl(const DeepFrame& f, const Options& o, const SampleOffsets& s, const MatteNames& n)
       : frame(f), options(o), samples(s), names(n), output(outputOf(o)), resolved(f.tileCount()) {
     addPass({Reduce::Filter, o.filter, o.xFilterWidth, o.yFilterWidth}).floats = {{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {3, 3, 0}};
-    const Compositor compositor(output, options, frame.samplesPerPixel);
-    const std::vector<ExtraFloat>& extras = compositor.extras();
-    width = compositor.width();
+    compositors.push_back(std::make_unique<Compositor>(output, options, frame.samplesPerPixel));
+    const std::vector<ExtraFloat>& extras = compositors[0]->extras();
+    width = compositors[0]->width();
     for (size_t e = 0; e < extras.size(); ++e) {
       const Channel& channel = output.channels[static_cast<size_t>(extras[e].channel)];
       if (channel.sampling.reduce == Reduce::Filter)
@@ -68,7 +70,17 @@ struct FrameFilter::Impl {
   }
 
   void resolve(size_t index, const DeepTile& tile) {
-    resolved[index] = std::make_unique<ResolvedTile>(Compositor(output, options, frame.samplesPerPixel).resolve(tile));
+    std::unique_ptr<Compositor> compositor = takeCompositor();
+    resolved[index] = std::make_unique<ResolvedTile>(compositor->resolve(tile));
+    const std::lock_guard lock(mutex);
+    compositors.push_back(std::move(compositor));
+  }
+  std::unique_ptr<Compositor> takeCompositor() {
+    const std::lock_guard lock(mutex);
+    if (compositors.empty()) return std::make_unique<Compositor>(output, options, frame.samplesPerPixel);
+    std::unique_ptr<Compositor> taken = std::move(compositors.back());
+    compositors.pop_back();
+    return taken;
   }
   /// The tiles that rows of pixels need and that nobody has brought.
   void resolveRows(int y0, int y1) {
@@ -242,6 +254,8 @@ struct FrameFilter::Impl {
   int width = 0;  ///< Floats of a contribution.
   std::vector<std::unique_ptr<ResolvedTile>> resolved;
   size_t forgotten = 0;  ///< Of these, from the first.
+  std::mutex mutex;
+  std::vector<std::unique_ptr<Compositor>> compositors;  ///< Those that no thread uses.
 };
 
 FrameFilter::FrameFilter(const DeepFrame& frame, const Options& options, const SampleOffsets& samples, const MatteNames& names)
@@ -254,8 +268,9 @@ Image FrameFilter::shape() const {
           impl_->options.yResolution};
 }
 
-Image FrameFilter::rows(int y0, int y1) const {
+Image FrameFilter::rows(int y0, int y1) {
   const PixelRect& crop = impl_->frame.crop;
+  CHECK_GE(impl_->firstTileOf(y0 - impl_->reachY), impl_->forgotten);
   Image image = shape();
   image.originY = y0, image.height = y1 - y0;
   image.pixels.resize(static_cast<size_t>(image.width) * static_cast<size_t>(image.height) * image.channels.size());
