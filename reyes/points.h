@@ -91,7 +91,7 @@ class ShadePoints {
 
   int group_, primvarFloats_, channels_;
   int capacity_ = 0;            ///< Points that the block has room for, a multiple of kLanes.
-  AlignedVector<float> block_;  ///< One array of capacity_ floats a channel; what lies beyond count() is finite.
+  UnsetVector<float> block_;    ///< One array of capacity_ floats a channel; what lies between count() and padded(count()) is finite.
   std::vector<SampleName> names_;
 };
 

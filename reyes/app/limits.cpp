@@ -17,17 +17,18 @@ constexpr size_t kFewRecords = 32;  // say nothing about the whole
 }  // namespace
 
 void warnOfFloatRange(const Scene& scene, Log& log) {
-  // Object to camera is one matrix; its translation is the sum of two that cancel, each as long as this.
-  const float away = glm::length(vec3(scene.cameraFromWorldAtOpen()[3]));
+  // Object to camera is one matrix; its translation is the sum of two that cancel, each as long as this. What depth loses moves nothing in
+  // the picture.
+  const float away = glm::length(vec2(scene.cameraFromWorldAtOpen()[3]));
   const float lost = away * std::numeric_limits<float>::epsilon();
   const Camera camera(scene.options);
   for (const Object& o : scene.objects) {
     if (o.shapes.empty() || !o.attributes->visibility.camera) continue;
     const Bound3 bound = transformBound(o.cameraFromObject.keys.front(), o.shapes.front()->bound(0, {}));
     const float pixel = camera.pixelSize(bound.center());
-    if (!(bound.hi.z > 0 && lost > kShift_px * pixel)) continue;
+    if (!(bound.lo.z > 0 && lost > kShift_px * pixel)) continue;
     log.report(Severity::Warning, "float-range", o.where,
-               fmt::format("{}: the camera is {:.3g} units from the origin of the world, where floats are {:.2g} apart; a pixel is {:.2g} there: "
+               fmt::format("{}: the camera is {:.3g} units beside the origin of the world, where floats are {:.2g} apart; a pixel is {:.2g} there: "
                            "move camera and scene nearer to the origin",
                            objectName(o), away, lost, pixel));
     return;

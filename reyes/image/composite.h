@@ -17,7 +17,7 @@ struct Contribution {
 /// Contributions of the pixels of a tile; those of pixel i are [first[i], first[i + 1]).
 struct ResolvedTile {
   std::vector<Contribution> contributions;
-  std::vector<float> values;  ///< Compositor::width() each: R G B A, then the extra floats.
+  UnsetVector<float> values;  ///< Compositor::width() each: R G B A, then the extra floats.
   std::vector<uint32_t> first;
 };
 
@@ -50,7 +50,7 @@ class Compositor {
   bool disjoint(const Fragment* begin, const Fragment* end);
   bool hasDepth(const FacetShade& shade) const;
   void extraValues(const DeepTile& tile, const Fragment& fragment, float* out) const;
-  float* append(const Contribution& contribution, ResolvedTile& out) const;
+  float* room(size_t contributions, ResolvedTile& out) const;
   void resolveEach(const DeepTile& tile, const Fragment* begin, const Fragment* end, ResolvedTile& out);
   void resolveStack(const DeepTile& tile, const Fragment* begin, const Fragment* end, ResolvedTile& out);
   void noteDepth(const DeepTile& tile, const Fragment& fragment);

@@ -73,8 +73,10 @@ t.write("light.rib", WORLD % 'LightSource "nolight" 1\nSphere 1 -1 1 360')
 t.expect_run("a missing light shader", ["light.rib"], 3, "light.rib:5", "nolight")
 
 # Output that cannot be written: exit 4, before hours are spent on it.
-t.expect_run("-o into a folder that does not exist", ["good.rib", "-o", "no/where/a.exr"], 4, "no/where/a.exr")
-t.write("display.rib", GOOD.replace("good.exr", "no/where/b.exr"))
+nowhere = str(t.folder / "no" / "where")  # relative folders are made
+t.expect_run("-o into a folder that does not exist", ["good.rib", "-o", nowhere + "/a.exr"], 4, "no/where/a.exr")
+t.expect_run("-o into what is no folder", ["good.rib", "-o", "good.rib/a.exr"], 4, "good.rib/a.exr")
+t.write("display.rib", GOOD.replace("good.exr", nowhere + "/b.exr"))
 t.expect_run("a Display in a folder that does not exist", ["display.rib"], 4, "display.rib:1", "no/where/b.exr")
 os.mkdir(t.folder / "taken.exr")
 t.expect_run("-o onto a folder", ["good.rib", "-o", "taken.exr"], 4, "taken.exr")
