@@ -1,4 +1,6 @@
 // Where and when rays leave points that may move.
+#include <utility>
+
 #include "gi/state.h"
 #include "reyes/base/rng.h"
 
@@ -24,11 +26,9 @@ void aim(const RayScene& rays, const ShadePoints& points, int i, float time, Ray
   }
   // The level of what it meets follows from what the point itself stands for; textures there do not.
   const float spread = std::sqrt(points.channel(kArea)[i] / kPi) / std::max(glm::length(ray.origin), 1e-20f);
-  Ray wide = ray;
-  wide.spread = std::max(ray.spread, spread);
-  rays.prepareOrigin(points.group(), ray.origin, points.edgeLength(i), wide);
-  wide.spread = ray.spread;
-  ray = wide;
+  const float own = std::exchange(ray.spread, std::max(ray.spread, spread));
+  rays.prepareOrigin(points.group(), ray.origin, points.edgeLength(i), ray);
+  ray.spread = own;
 }
 
 }  // namespace tomales

@@ -88,7 +88,7 @@ class City:
         name = f"textures/wall{texture % self.textures:03}.png"
         return (f'Color [{numbers(color)}]\nSurface "paintedplastic" "Ka" 0 "Kd" 0.9 "Ks" 0 "texturename" ["{name}"]\n'
                 f'Attribute "displacementbound" "sphere" [{1.7 * bump:.4g}] "coordinatesystem" ["shader"]\n'
-                f'Displacement "noisybump" "Km" {bump} "frequency" {frequency} "octaves" 3\n')
+                f'Displacement "noisybump" "float Km" {bump} "float frequency" {frequency} "float octaves" 3\n')
 
     def group(self, name, parts):
         """`parts`: of state and geometry. One archive, one photon map."""
