@@ -25,10 +25,9 @@ void aim(const RayScene& rays, const ShadePoints& points, int i, float time, Ray
     ray.direction = normalizeOr(end - ray.origin, ray.direction);
   }
   // The level of what it meets follows from what the point itself stands for; textures there do not.
-  const float spread = std::sqrt(points.channel(kArea)[i] / kPi) / std::max(glm::length(ray.origin), 1e-20f);
-  const float own = std::exchange(ray.spread, std::max(ray.spread, spread));
+  const float own = std::exchange(ray.radius, std::max(ray.radius, std::sqrt(points.channel(kArea)[i] / kPi)));
   rays.prepareOrigin(points.group(), ray.origin, points.edgeLength(i), ray);
-  ray.spread = own;
+  ray.radius = own;
 }
 
 }  // namespace tomales
