@@ -1,6 +1,4 @@
 // Where and when rays leave points that may move.
-#include <utility>
-
 #include "gi/state.h"
 #include "reyes/base/rng.h"
 
@@ -25,9 +23,11 @@ void aim(const RayScene& rays, const ShadePoints& points, int i, float time, Ray
     ray.direction = normalizeOr(end - ray.origin, ray.direction);
   }
   // The level of what it meets follows from what the point itself stands for; textures there do not.
-  const float own = std::exchange(ray.radius, std::max(ray.radius, std::sqrt(points.channel(kArea)[i] / kPi)));
-  rays.prepareOrigin(points.group(), ray.origin, points.edgeLength(i), ray);
-  ray.radius = own;
+  Ray wide = ray;
+  wide.radius = std::max(ray.radius, std::sqrt(points.channel(kArea)[i] / kPi));
+  rays.prepareOrigin(points.group(), ray.origin, points.edgeLength(i), wide);
+  wide.radius = ray.radius;
+  ray = wide;
 }
 
 }  // namespace tomales

@@ -208,6 +208,27 @@ TEST_F(BrickMaps, ALookupWithoutANumberFindsNothing) {
   EXPECT_EQ(lookedUp(map, {nan, 0.5f, 0}, {0, 0, 1}, 0.1f), -1);
 }
 
+TEST_F(BrickMaps, FilesWithPointsOrVoxelsThatAreNoNumbersAreRefused) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::string points = (folder / "nan.ptc").string();
+  for (int what = 0; what < 4; ++what) {
+    PointCloud cloud;
+    cloud.channels = {{"value", 1}};
+    const float good = 1, value = what == 0 ? nan : 1;
+    cloud.add({0, 0, 0}, {0, 0, 1}, 1, &good);
+    cloud.add({what == 1 ? nan : 1, 1, 1}, {0, 0, 1}, what == 2 ? nan : 1, &value);
+    if (what == 3) cloud.position[1].x = kInfinity;
+    PointFileWriter writer(points, cloud.channels);
+    writer.addChunk(cloud);  // which looks at nothing
+    writer.finish();
+    EXPECT_THROW(PointFile(points).readAll(), FileError) << what;
+  }
+  PointCloud cloud;
+  addSquare(cloud, 4, 0, 1, [&](float, float) { return nan; });
+  writeBrickMap(cloud, {}, path);
+  EXPECT_THROW(lookedUp(BrickMap(path, cache), {0.5f, 0.5f, 0}, {0, 0, 1}, 0.1f), FileError);
+}
+
 TEST_F(BrickMaps, TinyAndHugeSurfacesKeepTheirDirectionsApart) {
   for (const float scale : {1e-9f, 1e9f}) {
     PointCloud cloud;
