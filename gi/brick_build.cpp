@@ -130,7 +130,7 @@ class Builder {
   /// The same of points on disk. False: there are none.
   bool accumulate(const PointTiles& tiles, uint64_t most, int level, const glm::ivec3& place, BrickNode& node) {
     if (tiles.count(level, place) <= most || level == PointTiles::kDeepest || level >= settings_.maxDepth) {
-      const PointCloud cloud = tiles.around(tiles.box(level, place), 0);
+      const PointCloud cloud = tiles.around(tiles.box(level, place), 0, settings_.radiusScale);
       accumulate(level, place, use(cloud), node);
       return cloud.count() > 0;
     }

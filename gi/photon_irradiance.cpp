@@ -44,12 +44,13 @@ Estimate estimate(const PointCloud& photons, const PhotonTree& tree, int power, 
   const vec3 P = tree.position(at), N = tree.normal(at);
   const auto most = static_cast<size_t>(settings.nearest);
   tree.nearest(P, N, most, settings.maxRadius, heap);
-  // The farthest gives the radius and does not count: n - 1 inside is what a disk that just excludes the n-th has. Fewer: as far as they
-  // reach, unless they are so few that two which happen to be close would shine.
-  const float r2 = heap.size() >= std::min(kFew, most) ? heap.front().distance2 : settings.maxRadius * settings.maxRadius;
+  // The farthest gives the radius and does not count: n - 1 inside is what a disk that just excludes the n-th has. So few that two
+  // which happen to be close would shine: all of the reach is the disk.
+  const bool byFarthest = heap.size() >= std::min(kFew, most);
+  const float r2 = byFarthest ? heap.front().distance2 : settings.maxRadius * settings.maxRadius;
   if (!(r2 > 0)) return {vec3(0.0f), 0};
   std::sort(heap.begin(), heap.end());  // sums in the order of distance, which no thread decides
-  const size_t inside = heap.size() == most ? most - 1 : heap.size();
+  const size_t inside = heap.size() - byFarthest;
   vec3 sum(0.0f), centroid(0.0f);
   for (size_t i = 0; i < inside; ++i) {
     const float* w = photons.at(tree.order()[heap[i].photon]) + power;
@@ -85,7 +86,7 @@ PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceS
   PointCloud out;
   out.channels = {{"irradiance", 3}};
   if (photons.count() == 0) return out;
-  const int power = photons.offsetOf("power");
+  const int power = offsetOf(photons.channels, "power");
   CHECK_GE(power, 0);
   const PhotonTree tree(photons);
   const auto every = static_cast<size_t>(std::max(1, settings.every));
