@@ -188,6 +188,23 @@ TEST(Ris, OptionsAndAttributesOfTheCategoryRiAreTheRequestsOfThatName) {
   EXPECT_EQ(r.codes(), "rib-unknown-option@1 ") << "Wisdom alone; the curve of five points fits a b-spline";
 }
 
+TEST(Ris, PxrCameraHasALens) {
+  const std::string lens = "\"float focalLength\" [.5] \"float focalDistance\" [7] ";
+  const Reading sharp("Projection \"PxrCamera\" \"float fov\" 30 \"float fStop\" [1e38] " + lens + inWorld(kSphere));
+  EXPECT_EQ(sharp.scene().options.fStop, kInfinity);
+  const Reading r("Projection \"PxrCamera\" \"float fov\" 30 \"float fStop\" [2] " + lens + inWorld(kSphere));
+  EXPECT_EQ(r.scene().options.fStop, 2);
+  EXPECT_EQ(r.scene().options.focalLength, .5f);
+  EXPECT_EQ(r.scene().options.focalDistance, 7);
+  EXPECT_EQ(r.scene().options.fov_degrees, 30);
+  EXPECT_EQ(r.codes(), "");
+}
+
+TEST(Ris, IntegratorsOfGlobalLightLackNothing) {
+  EXPECT_EQ(Reading("Integrator \"PxrVCM\" \"i\"" + inWorld(kSphere)).message("rib-substitute").severity, Severity::Warning);
+  EXPECT_EQ(Reading("Integrator \"PxrVisualizer\" \"i\"" + inWorld(kSphere)).message("rib-substitute").severity, Severity::Missing);
+}
+
 TEST(Ris, SourcesOfChannelsLoseTheirTypeAndPathsBecomeOutputs) {
   const auto source = [](const std::string& theirs) {
     const Reading r("DisplayChannel \"color c\" \"string source\" [\"" + theirs + "\"]" + inWorld(kSphere));
