@@ -150,9 +150,9 @@ void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonI
   const PointTiles tiles(sorted);
   PointFileWriter writer(out.string(), {{"irradiance", 3}});
   forEachTile(tiles, most, [&](int level, const glm::ivec3& place) {
-    const PointCloud points = estimateIrradiance(tiles.around(tiles.box(level, place), settings.maxRadius), settings);
-    for (size_t i = 0; i < points.count(); ++i)
-      if (tiles.contains(level, place, points.position[i])) writer.add(points.position[i], points.normal[i], points.radius[i], points.at(i));
+    const auto inside = [&](const vec3& P) { return tiles.contains(level, place, P); };
+    const PointCloud points = estimateIrradiance(tiles.around(tiles.box(level, place), settings.maxRadius), settings, inside);
+    for (size_t i = 0; i < points.count(); ++i) writer.add(points.position[i], points.normal[i], points.radius[i], points.at(i));
   });
   writer.finish(madeFrom);
 }

