@@ -62,8 +62,8 @@ void setHostParams(BoundLight& light, const LightCall& call, const ShadowMaps& m
     const Param* p = findParam(params, name);
     return p && !p->strings.empty() ? p->strings[0] : std::string();
   };
-  const auto warn = [&](const char* code, const std::string& problem) {
-    log.report(Severity::Warning, code, call.shader.where, light.bound->user + ": " + problem);
+  const auto warn = [&](const char* code, const std::string& problem, Severity severity = Severity::Warning) {
+    log.report(severity, code, call.shader.where, light.bound->user + ": " + problem);
   };
   light.shadowVariance = std::max(0.0f, number("shadowvariance"));
   light.nondiffuse = number("__nondiffuse") != 0, light.nonspecular = number("__nonspecular") != 0;
@@ -88,7 +88,7 @@ void setHostParams(BoundLight& light, const LightCall& call, const ShadowMaps& m
          fmt::format("\"{}\" is not an area light; it shines without its geometry", call.shader.name));
   if (!call.area && light.can(TM_LIGHT_AREA))
     warn("light-area",
-         fmt::format("\"{}\" needs AreaLightSource and geometry; it casts no light", call.shader.name));
+         fmt::format("\"{}\" needs AreaLightSource and geometry; it casts no light", call.shader.name), Severity::Missing);
 }
 
 bool hasGeometry(const LightCall& call, const Scene& scene) {

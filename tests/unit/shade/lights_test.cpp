@@ -253,6 +253,9 @@ TEST_F(Lights, MistakenLightsAreWarnedAbout) {
   light("distantlight", {text("lighting", "sideways"), text("shadowname", "map.shd")});
   system();
   EXPECT_EQ(log.count("light-area"), 2);
+  const std::vector<LogEntry> said = log.entries();
+  EXPECT_EQ(std::count_if(said.begin(), said.end(), [](const LogEntry& e) { return e.severity == Severity::Missing; }), 1)
+      << "the area light without geometry lights nothing";
   EXPECT_EQ(log.count("light-lighting"), 1);
   EXPECT_EQ(log.count("light-shadow-map"), 1);
 }
