@@ -45,6 +45,10 @@ const RayTools* RayWorld::tools() {
   return built_ ? &built_->tools : nullptr;
 }
 
+void RayWorld::report() const {
+  if (built_) built_->rays->report(stats_);
+}
+
 bool RayWorld::sourcesAreUnchanged() const {
   std::vector<std::string> files;
   for (const SourceFile& source : shot_.sources) files.push_back(source.path);

@@ -16,6 +16,7 @@ class RayWorld {
 
   /// Null: the RIB is gone or has changed, which is reported. Threads: any; all wait for the first.
   const RayTools* tools();
+  void report() const;  ///< After the last ray: to the Stats.
   /// What hits ask for light and shadows.
   void setServices(const ShadeServices* services) { services_ = services; }
 

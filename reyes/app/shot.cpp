@@ -100,10 +100,14 @@ void ShotJob::shadePicture() {
   checkDisplays(shot_.scene.options, log_);
   prepareLight();
   const auto load = [this](size_t index) { return this->load(index); };
-  if (!job_->gathers() || (irradiance_ && !settings_.appendIrradiance)) return job_->write(shot_.frame, load);
-  TileStore tiles(shot_.frame.tileCount(), kTilesInMemory_bytes, load);
-  job_->gather(shot_.frame, tiles.reader());
-  job_->write(shot_.frame, [&](size_t index) { return tiles.take(index); });
+  if (!job_->gathers() || (irradiance_ && !settings_.appendIrradiance)) {
+    job_->write(shot_.frame, load);
+  } else {
+    TileStore tiles(shot_.frame.tileCount(), kTilesInMemory_bytes, load);
+    job_->gather(shot_.frame, tiles.reader());
+    job_->write(shot_.frame, [&](size_t index) { return tiles.take(index); });
+  }
+  world_->report();
 }
 
 void ShotJob::gatherIrradiance() {
@@ -123,6 +127,7 @@ void ShotJob::gatherIrradiance() {
   IrradianceShot shot{interrupted() ? 0 : file_->shotSum(), job_->giSettings(), shot_.scene.cameraFromWorldAtOpen(), {},
                       tools->rays->emitters().table()};
   shot.caches = job_->services()->takeCaches();
+  world_->report();
   if (!written || !out->finish(shot)) unwritten(out->error());
 }
 

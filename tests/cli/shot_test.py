@@ -78,6 +78,10 @@ for name, text in (("direct", DIRECT), ("indirect", INDIRECT)):
     expect_same(f"{name}: hide, gather and shade give the bits of render", f"{name}.exr", f"{name}.cached.exr")
     suite.expect(rays("cached.json") == 0, f"{name}: no ray is traced when the cache is given")
 
+suite.write("levels.rib", 'Attribute "trace" "int displacements" [1] "string tessellationmode" ["multiresolution"]\n' + DIRECT)
+suite.run("hide", "levels.rib", "-o", "levels.dfb", "-q")
+suite.run("shade", "levels.dfb", "-o", "levels.exr", "--stats", "levels.json", "-q")
+suite.expect(json.loads((suite.folder / "levels.json").read_text())["geometry_cache"]["lookups"] > 0, "shading a deep frame buffer tells of the geometry cache")
 suite.run("shade", "indirect.dfb", "--irradiance", "indirect.icf", "--crop", "0.25,0.75,0.5,1", "-o", "crop.exr", "--stats", "crop.json")
 suite.run("render", "indirect.rib", "--crop", "0.25,0.75,0.5,1", "-o", "crop.render.exr", "-q", "--gi", "none")
 window = subprocess.run(["oiiotool", "indirect.exr", "--crop", "24x20+12+20", "crop.exr", "--diff"], cwd=suite.folder, capture_output=True, text=True)

@@ -1,6 +1,7 @@
 // Surfaces that rays see at several levels, and the cache that holds them.
 #include <gtest/gtest.h>
 
+#include "raytrace/ray_scene.h"
 #include "raytrace/resident_cache.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"
@@ -63,6 +64,18 @@ TEST(Levels, WideRaysMeetCoarsePolygonsAndNarrowOnesFine) {
   world.rays->prepareOrigin(0, ray.origin, 0, ray);
   EXPECT_EQ(ray.level, Level::Coarse);
   EXPECT_GT(ray.offset, off[2]) << "the offset is that of the level that the ray meets";
+}
+
+TEST(Levels, WhatLeavesAHitSeesNoFinerLevel) {
+  LevelledWorld world(TessellationMode::Multiresolution, 1 << 30, false);
+  const RayScene::Impl rays(world.scene, *world.camera, *world.shading, {}, world.log);
+  for (const Level met : {Level::Fine, Level::Medium, Level::Coarse})
+    for (uint32_t i = 0; i < 100; ++i) {
+      const vec3 P = vec3(0, 0, 4) + anyDirection(i);
+      Ray ray{P, {0, 0, 1}};
+      ray.radius = rays.leastRadius(0, met, P);
+      EXPECT_EQ(rays.levelOf(ray, P), met);
+    }
 }
 
 TEST(Levels, PatchParametersLeadBackToTheHit) {
