@@ -201,7 +201,7 @@ class Hemisphere {
   void aim(Stats& stats) {
     scratch_.aimedDirections.clear(), scratch_.aimedCells.clear();
     aims_ = 0;
-    if (aim_.irradiance() > 0 && aim_.coverage() * static_cast<float>(count_) < kFoundByChance)
+    if (aim_.irradiance() > 0 && std::isfinite(aim_.irradiance()) && aim_.coverage() * static_cast<float>(count_) < kFoundByChance)
       aims_ = static_cast<size_t>(kMostAimed * static_cast<float>(count_) * aim_.irradiance() / (aim_.irradiance() + dimIrradiance()));
     if (aims_ < kLeastAimed) aims_ = 0;
     for (size_t i = 0; i < aims_; ++i) {
@@ -217,11 +217,11 @@ class Hemisphere {
     shade(stats, scratch_.aimed, scratch_.aimedCells.size());
   }
 
-  /// E/pi but for what is as bright as a spot.
+  /// E/pi but for what is as bright as a spot. Colours may be negative, but no share of rays.
   float dimIrradiance() const {
     float sum = 0;
     for (const vec3& L : scratch_.radiance)
-      if (luminance(L) <= kContrast * spots_.irradiance()) sum += luminance(L);
+      if (luminance(L) <= kContrast * spots_.irradiance()) sum += std::max(luminance(L), 0.0f);
     return sum / static_cast<float>(count_);
   }
 

@@ -13,7 +13,7 @@ constexpr float kLeastPolygon_px = 1.5f;  ///< No polygon is smaller for the sak
 constexpr float kTurn = 15 * kPi / 180;   ///< Radians between the normals at the ends of a polygon.
 constexpr float kEmitterTurn = 5 * kPi / 180;  ///< Brings the area of a sphere light within 0.5 %.
 constexpr int kProbes = 5;                     ///< Odd, so that a symmetrical wave is not met at its zeros.
-constexpr double kMostQuadsOfPatch = 1 << 22;
+constexpr double kMostQuads = 1 << 20, kMostQuadsOfLevels = 1 << 22;  ///< Of a patch; levels are diced where rays come.
 
 float angleBetween(const vec3& a, const vec3& b) {
   return std::acos(std::clamp(dot(normalizeOr(a, vec3(0)), normalizeOr(b, vec3(0))), -1.0f, 1.0f));
@@ -52,12 +52,13 @@ bool mayBeSeen(const Object& o, uint32_t patch, const Camera& camera) {
 }
 
 CoarseRate limited(const Object& o, double nu, double nv, const char* remedy, Log& log) {
-  if (nu * nv <= kMostQuadsOfPatch) return {static_cast<int>(nu), static_cast<int>(nv)};
+  const double most = o.attributes->trace.rate == TessellationMode::Fixed ? kMostQuads : kMostQuadsOfLevels;
+  if (nu * nv <= most) return {static_cast<int>(nu), static_cast<int>(nv)};
   log.report(Severity::Warning, "trace-tessellation", o.where,
              fmt::format("{} asks for {:.0f} x {:.0f} polygons for rays in one patch: limited to {:.0f}; {}",
-                         objectName(o), nu, nv, kMostQuadsOfPatch, remedy));
+                         objectName(o), nu, nv, most, remedy));
   // Halving keeps the proportions until one side is a single polygon.
-  while (nu * nv > kMostQuadsOfPatch) (nu > nv ? nu : nv) = std::ceil(std::max(nu, nv) / 2);
+  while (nu * nv > most) (nu > nv ? nu : nv) = std::ceil(std::max(nu, nv) / 2);
   return {static_cast<int>(nu), static_cast<int>(nv)};
 }
 

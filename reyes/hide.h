@@ -17,7 +17,8 @@ class SamplePattern {
   SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t seed, const Aperture& aperture = {});
   int count() const { return count_; }
   int padded() const { return padded_; }
-  int patternOf(int x, int y) const;              ///< 0..255
+  int patternCount() const { return patterns_; }  ///< Enough not to be seen to repeat.
+  int patternOf(int x, int y) const;
   const float* x(int pattern) const;              ///< In [0,1) inside the pixel; padded() floats.
   const float* y(int pattern) const;
   const float* time(int pattern) const;           ///< In [0,1) of the shutter.
@@ -26,7 +27,7 @@ class SamplePattern {
   const float* detail(int pattern) const;         ///< In [0,1): what DetailShare divides; those of a pixel are stratified.
 
  private:
-  int count_, padded_;
+  int count_, padded_, patterns_;
   uint32_t seed_;
   AlignedVector<float> x_, y_, time_, lensX_, lensY_, detail_;
 };

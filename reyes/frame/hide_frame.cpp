@@ -21,6 +21,9 @@ std::optional<DeepTile> hideBucket(size_t bucket, const PixelRect& rect, const N
 
 }  // namespace
 
+/// Buckets hold all their samples; those of more are halved, which no picture shows.
+constexpr int64_t kMostSamplesOfBucket = 1 << 22;
+
 DeepFrame layOutFrame(const Scene& scene) {
   const Options& o = scene.options;
   const vec2 reach = filterReach(o);
@@ -31,9 +34,13 @@ DeepFrame layOutFrame(const Scene& scene) {
   frame.padded = {frame.crop.x0 - reachX, frame.crop.y0 - reachY, frame.crop.x1 + reachX, frame.crop.y1 + reachY};
   frame.bucketWidth = std::max(1, o.bucketWidth);
   frame.bucketHeight = std::max(1, o.bucketHeight);
+  frame.samplesPerPixel = samplePattern(o, 0).count();
+  while (int64_t{frame.bucketWidth} * frame.bucketHeight * frame.samplesPerPixel > kMostSamplesOfBucket && frame.bucketWidth * frame.bucketHeight > 1) {
+    int& side = frame.bucketWidth > frame.bucketHeight ? frame.bucketWidth : frame.bucketHeight;
+    side = (side + 1) / 2;
+  }
   frame.columns = (frame.padded.width() + frame.bucketWidth - 1) / frame.bucketWidth;
   frame.rows = (frame.padded.height() + frame.bucketHeight - 1) / frame.bucketHeight;
-  frame.samplesPerPixel = samplePattern(o, 0).count();
   return frame;
 }
 

@@ -12,7 +12,7 @@ inline SamplePattern samplePattern(const Options& o, uint32_t seed) {
 inline SampleOffsets sampleOffsets(const SamplePattern& pattern) {
   SampleOffsets out;
   out.count = pattern.count();
-  for (int p = 0; p < 256; ++p) {
+  for (int p = 0; p < pattern.patternCount(); ++p) {
     auto& positions = out.byPattern.emplace_back();
     for (int s = 0; s < pattern.count(); ++s) positions.emplace_back(pattern.x(p)[s], pattern.y(p)[s]);
   }

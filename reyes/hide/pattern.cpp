@@ -9,7 +9,8 @@
 namespace tomales {
 namespace {
 
-constexpr uint32_t kPatterns = 256;
+/// Enough not to be seen to repeat; with very many samples a pixel has little error that could, and patterns would fill the memory.
+constexpr int kMostPatterns = 256, kLeastPatterns = 16, kSamplesOfPatterns = 1 << 20;
 
 /// Position `inside` (0..1) of stratum `i` of n, on the lattice but never in another stratum.
 float placed(int i, int n, float inside) {
@@ -48,13 +49,14 @@ class Times {
 }  // namespace
 
 SamplePattern::SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t seed, const Aperture& aperture)
-    : count_(xSamples * ySamples), padded_(tomales::padded(count_)), seed_(seed) {
-  const size_t size = static_cast<size_t>(kPatterns) * static_cast<size_t>(padded_);
+    : count_(xSamples * ySamples), padded_(tomales::padded(count_)),
+      patterns_(std::clamp(kSamplesOfPatterns / count_, kLeastPatterns, kMostPatterns)), seed_(seed) {
+  const size_t size = static_cast<size_t>(patterns_) * static_cast<size_t>(padded_);
   // Padding repeats the corner of the pixel; the hider gives those lanes a depth that nothing beats.
   x_.assign(size, 0), y_.assign(size, 0), time_.assign(size, 0), lensX_.assign(size, 0),
       lensY_.assign(size, 0), detail_.assign(size, 0);
   const ApertureShape throughAperture(aperture);
-  for (uint32_t p = 0; p < kPatterns; ++p) {
+  for (uint32_t p = 0; p < static_cast<uint32_t>(patterns_); ++p) {
     const uint32_t name = hashCombine(seed, 0x70617474U, p);
     const std::vector<int> inColumn = permutation(ySamples, hash32(name ^ 1U));
     const std::vector<int> inRow = permutation(xSamples, hash32(name ^ 2U));
@@ -85,7 +87,7 @@ SamplePattern::SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t s
 }
 
 int SamplePattern::patternOf(int x, int y) const {
-  return static_cast<int>(hashCombine(seed_, static_cast<uint32_t>(x), static_cast<uint32_t>(y)) % kPatterns);
+  return static_cast<int>(hashCombine(seed_, static_cast<uint32_t>(x), static_cast<uint32_t>(y)) % static_cast<uint32_t>(patterns_));
 }
 
 const float* SamplePattern::x(int pattern) const {

@@ -146,7 +146,7 @@ PrimPtr makeBlobby(int leafCount, const std::vector<int>& code, const std::vecto
                    const ParamList& params, Problems& problems) {
   Read read = readBlobby(leafCount, code, floats, params, problems);
   BlobMesh mesh = contour(read.program.field, read.program.box);
-  if (!mesh.complete) problems.push_back("its leaves are so many and small that details of its shape may be missed");
+  if (!mesh.complete) problems.push_back("a leaf is so drawn out, or so much smaller than others, that details of its shape may be missed");
   return std::make_shared<Blobby>(read.program.field, std::move(mesh), std::move(read.primvars));
 }
 

@@ -8,7 +8,9 @@ constexpr int kExtraLevels = 3;           ///< For cells with more than one shee
 constexpr double kCellsOfFeature = 3;     ///< A leaf alone shows with this many cells across.
 constexpr double kLeastCosine = 0.5;      ///< Between normals of a cell and their mean.
 constexpr double kRounding = 1e-9;        ///< Of sums of leaves' values.
-constexpr size_t kMostCells = 4'000'000;  ///< About a gigabyte while it is made.
+/// More mean that a leaf is drawn out, or far smaller than another; then all cells are larger by this, or by this again.
+constexpr size_t kMostCells = 1 << 18, kMostCellsOfLeaf = 1 << 10;
+constexpr double kCoarsening = 4;
 
 using Lattice = std::array<uint32_t, 3>;  ///< In finest cells from the root's corner.
 
@@ -52,17 +54,22 @@ bool isFlatEnough(const std::vector<dvec3>& crossings, const BlobField& field) {
 
 class Contourer {
  public:
-  Contourer(const BlobField& field, const Box& box) : origin_(box.lo) {
+  /// coarser: cells may be so many times larger than the features ask for.
+  Contourer(const BlobField& field, const Box& box, double coarser)
+      : origin_(box.lo), cellsOfFeature_(kCellsOfFeature / coarser),
+        mostCells_(kMostCells + kMostCellsOfLeaf * field.leavesUsed()) {
     const dvec3 size = box.hi - box.lo;
     const double side = std::max({size.x, size.y, size.z});
-    const double levels = std::ceil(std::log2(std::max(1.0, side * kCellsOfFeature / field.feature())));
+    const double levels = std::ceil(std::log2(std::max(1.0, side * cellsOfFeature_ / field.feature())));
     const uint32_t finest = 1u << static_cast<int>(std::min<double>(levels + kExtraLevels, kDeepest));
     unit_ = side / finest;
     cells_.push_back({{0, 0, 0}, finest});
     refine(0, field);
   }
 
-  BlobMesh run() {
+  /// Nothing: it takes too many cells.
+  std::optional<BlobMesh> run() {
+    if (cells_.size() > mostCells_) return {};
     for (uint32_t k = 0; k < cells_.size(); ++k)
       if (cells_[k].inside != 0 && cells_[k].inside != 0xff && cells_[k].firstChild == 0) addQuads(k);
     return std::move(out_);
@@ -83,18 +90,17 @@ class Contourer {
   }
 
   void refine(uint32_t index, const BlobField& outer) {
+    if (cells_.size() > mostCells_) return;
     const Box box = boxOf(cells_[index]);
     const BlobField field = outer.within(box);
     const FieldRange range = field.over(box);
     if (range.lo > kBlobSurface + kRounding || range.hi < kBlobSurface - kRounding) return;
-    const bool full = cells_.size() > kMostCells;
-    out_.complete &= !full;
-    const double wanted = field.feature() / kCellsOfFeature, side = unit_ * cells_[index].size;
-    if (cells_[index].size == 1 || side <= wanted || full) {
+    const double wanted = field.feature() / cellsOfFeature_, side = unit_ * cells_[index].size;
+    if (cells_[index].size == 1 || side <= wanted) {
       cells_[index].inside = cornersInside(cells_[index], field);
       const std::vector<dvec3> crossings = crossingsOf(cells_[index], field);
       const bool simple = isOneSheet(cells_[index].inside) && isFlatEnough(crossings, field) && !hidesGap(cells_[index], field);
-      if (simple || side * (1 << kExtraLevels) <= wanted || cells_[index].size == 1 || full)
+      if (simple || side * (1 << kExtraLevels) <= wanted || cells_[index].size == 1)
         return makeVertex(index, crossings, field);
       cells_[index].inside = 0;
     }
@@ -200,6 +206,8 @@ class Contourer {
   }
 
   const dvec3 origin_;
+  const double cellsOfFeature_;
+  const size_t mostCells_;
   double unit_;
   std::vector<Cell> cells_;
   BlobMesh out_;
@@ -256,6 +264,12 @@ BlobMesh carriedMesh(const BlobMesh& mesh, const BlobField& field, const BlobFie
   return out;
 }
 
-BlobMesh contour(const BlobField& field, const Box& box) { return Contourer(field, box).run(); }
+BlobMesh contour(const BlobField& field, const Box& box) {
+  for (double coarser = 1;; coarser *= kCoarsening)
+    if (std::optional<BlobMesh> mesh = Contourer(field, box, coarser).run()) {
+      mesh->complete = coarser == 1;
+      return std::move(*mesh);
+    }
+}
 
 }  // namespace tomales

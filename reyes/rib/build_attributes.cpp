@@ -16,18 +16,23 @@ void textureCoordinates(GraphicsState& s, const Request& r) {
   for (size_t i = 0; i < 4; ++i) s.scope.edit().textureCoordinates[i] = {a[2 * i], a[2 * i + 1]};
 }
 
+// A thousand micropolygons a pixel are as many as any sampling can tell apart, and what a scene of one layer can be waited for.
+void setShadingRate(GraphicsState& s, const Request& r) {
+  s.scope.edit().shadingRate = clamped(s, r, s.scope.shadingRate * s.scope.relativeShadingRate, 1e-3f, 1e8f);
+}
+
 void shadingRate(GraphicsState& s, const Request& r) {
   const float rate = r.args[0].number();
   if (!(rate > 0)) return reject(s, r, fmt::format("{} is no area", rate));
-  s.scope.shadingRate = std::clamp(rate, 1e-4f, 1e8f);
-  s.scope.edit().shadingRate = s.scope.shadingRate * s.scope.relativeShadingRate;
+  s.scope.shadingRate = rate;
+  setShadingRate(s, r);
 }
 
 // PRMan: factors of ShadingRate that multiply down the blocks, until one is reset.
 void relativeShadingRate(GraphicsState& s, const Request& r, float factor, bool resets) {
   if (!(factor > 0)) return reject(s, r, fmt::format("{} is no factor", factor));
   s.scope.relativeShadingRate = std::clamp(resets ? factor : factor * s.scope.relativeShadingRate, 1e-4f, 1e4f);
-  s.scope.edit().shadingRate = s.scope.shadingRate * s.scope.relativeShadingRate;
+  setShadingRate(s, r);
 }
 
 // RISpec 3.2 section 4.2.9 knows "flatness", which no polygonal renderer after it asks for; the factors are PRMan's.

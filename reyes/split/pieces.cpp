@@ -16,8 +16,11 @@ constexpr int kSlackDepth = 8;
 /// coordinates beyond float's precision or reach, which no halving makes small, come near it. Patches of one object share what
 /// exceeds the least, or a mesh of them would take hours.
 constexpr double kLayersOfObject = 64, kLayersOfPatch = 4;
-constexpr double kVisitsOfObject = 1 << 16, kVisitsOfPatch = 1 << 12;
+constexpr double kVisitsOfObject = 1 << 14, kVisitsOfPatch = 1 << 9;
 constexpr float kLeastReach_px = 0.05f;  ///< What vertices are snapped by, and what closes T-vertices.
+/// What a blurred piece costs beyond its visit if it may be seen all over the window: each sample there has to look whether it meets it, and
+/// all buckets wait for its vertices at every key.
+constexpr double kVisitsOfBlur = 32, kKeysOfBlur = 16;
 constexpr float kRounding_px = 0.01f;  ///< Of projecting a box or its points.
 /// Lazily, a patch is halved so often, and what then has so many grids or more is a coarse piece.
 constexpr int kHalvingsAtOnce = 6;
@@ -54,6 +57,8 @@ float leastBlur_px(const Camera& camera, float zMin, float zMax) {
   return dot(a, b) <= 0 ? 0 : 2 * std::min(glm::length(a), glm::length(b)) / std::sqrt(2.0f);
 }
 
+double pixelsOf(const PixelRect& r) { return static_cast<double>(r.width()) * r.height(); }
+
 std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
   UvRect a = r, b = r;
   if (alongU)
@@ -85,7 +90,7 @@ bool isAlone(const Object& o, uint32_t patch) { return o.displacementBound <= 0 
 /// Splits the patches of one object.
 class Splitter {
  public:
-  /// Pieces that were left out because halving did not help.
+  /// Pieces that were left out because halving did not help, or there was no time left.
   struct GivenUp { int64_t atEye = 0, tooMany = 0; };
 
   Splitter(const Scene& scene, int object, const Camera& camera, const PixelRect& window, Stats& stats, Splitting splitting,
@@ -96,9 +101,9 @@ class Splitter {
 
   /// size: what measure() says of the whole patch.
   void splitPatch(uint32_t patch, const PatchSize& size, std::vector<SubPatch>& out) {
-    const double window_px = static_cast<double>(window_.width()) * window_.height(), patches = object_.shape().patchCount();
+    const double patches = object_.shape().patchCount();
     const double layers = std::max(kLayersOfObject / patches, kLayersOfPatch), least = std::max(kVisitsOfObject / patches, kVisitsOfPatch);
-    splitWithin(static_cast<int64_t>(least + layers * window_px / (double{edge_px_} * edge_px_ * gridSize_)), patch, UvRect{}, 0, &size, out);
+    splitWithin(static_cast<int64_t>(least + layers * gridsOver(pixelsOf(window_))), patch, UvRect{}, 0, &size, out);
   }
   void splitPiece(const SubPatch& coarse, std::vector<SubPatch>& out) {
     splitWithin(coarse.visits, coarse.patch, coarse.rect, coarse.depth, nullptr, out);
@@ -113,12 +118,11 @@ class Splitter {
     const auto first = static_cast<ptrdiff_t>(out.size());
     start_ = depth, budget_ = visits, flat_ = isFlat(object_, patch), alone_ = isAlone(object_, patch);
     split(patch, rect, depth, measured, out);
-    const auto share = [this](const SubPatch& p) { return p.coarse ? static_cast<double>(std::min(gridsOf(p.nu, p.nv), gridsInView(p.raster))) : 0.0; };
+    const auto share = [this](const SubPatch& p) { return p.coarse ? static_cast<double>(std::min(gridsOf(p.nu, p.nv), 1 + static_cast<int64_t>(gridsOver(inView_px(p.raster))))) : 0.0; };
     double shares = 0;
     for (auto p = out.begin() + first; p != out.end(); ++p) shares += share(*p);
     for (auto p = out.begin() + first; p != out.end(); ++p)
-      if (p->coarse) p->visits = static_cast<int64_t>(share(*p) / shares * static_cast<double>(budget_));
-    stats_.geometry.piecesVisited += visits - budget_;
+      if (p->coarse) p->visits = static_cast<int64_t>(share(*p) / shares * static_cast<double>(std::max<int64_t>(budget_, 0)));
   }
 
   /// measured: null if nobody has yet.
@@ -129,6 +133,7 @@ class Splitter {
       return;
     }
     --budget_;
+    ++stats_.geometry.piecesVisited;
     Bound3 bare = cameraBound(object_, patch, rect);
     if (cannotBeSeen(bare) || object_.shape().kept(patch, rect) == Kept::None) {
       ++stats_.geometry.culled;
@@ -151,6 +156,7 @@ class Splitter {
     if (static_cast<int64_t>(nu) * nv <= gridSize_) {
       // What moves through the eye plane does so however small it is; it is seen while it stays in front.
       if (crossesEye && !still) ++givenUp_.atEye;
+      if (!still || camera_.defocuses()) budget_ -= visitsOfBlur(rasterOf(bare, reach_px));
       out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, reach_px), bound.lo.z, crossesEye, depth, false});
     } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && gridsOf(nu, nv) >= kGridsOfCoarse && !crossesEye &&
                glm::length(bare.size()) <= kSlack * reach) {
@@ -166,13 +172,19 @@ class Splitter {
     }
   }
 
+  int64_t visitsOfBlur(const Bound2& raster) const {
+    const double keys = 1 + static_cast<double>(object_.keyTimes.size()) / kKeysOfBlur;
+    return static_cast<int64_t>(kVisitsOfBlur * keys * inView_px(raster) / pixelsOf(window_));
+  }
   int64_t gridsOf(int nu, int nv) const { return static_cast<int64_t>(nu) * nv / gridSize_; }
-  /// That a layer of surface over what the window shows of `raster` takes.
-  int64_t gridsInView(const Bound2& raster) const {
+  /// Of a bound, what the window shows.
+  double inView_px(const Bound2& raster) const {
     const vec2 lo = glm::max(raster.lo, vec2(window_.x0, window_.y0)), hi = glm::min(raster.hi, vec2(window_.x1, window_.y1));
     const vec2 size = glm::max(hi - lo, vec2(0));
-    return 1 + static_cast<int64_t>(double{size.x} * size.y / (double{edge_px_} * edge_px_ * gridSize_));
+    return double{size.x} * size.y;
   }
+  /// That a layer of surface over so many pixels takes.
+  double gridsOver(double area_px) const { return area_px / (double{edge_px_} * edge_px_ * gridSize_); }
 
   bool cannotBeSeen(const Bound3& bare) const {
     const Bound3 bound = bare.grown(object_.displacementBound);
@@ -223,8 +235,8 @@ void report(const Splitter::GivenUp& givenUp, const Object& o, Stats& stats, Log
                            objectName(o)));
   if (givenUp.tooMany > 0)
     log.report(Severity::Missing, "split-too-many", o.where,
-               fmt::format("{} cannot be cut into pieces of the size of a grid: its coordinates, its displacement bound "
-                           "or the magnification are too large; parts are not drawn",
+               fmt::format("{} cannot be cut into pieces of the size of a grid: its coordinates, its displacement bound, "
+                           "its blur or the magnification are too large; parts are not drawn",
                            objectName(o)));
 }
 
