@@ -53,7 +53,9 @@ class Blobby : public Prim {
   PatchInfo info(uint32_t) const override { return {false, 0}; }
 
   Bound3 bound(uint32_t patch, const UvRect& rect) const override {
-    const Bound3 hull = hullOf(patch, rect), sampled = boundOfSamples(rect, [&](float u, float v) {
+    const Bound3 hull = hullOf(patch, rect);
+    if (!mesh_.complete) return paddedForRounding(hull, hull);  // too coarse for a few samples to speak for the rest
+    const Bound3 sampled = boundOfSamples(rect, [&](float u, float v) {
       return vec3(pointOn(fields_[patch], wayAt(patch, u, v)).p);
     });
     return paddedForRounding({glm::max(hull.lo, sampled.lo), glm::min(hull.hi, sampled.hi)}, hull);
