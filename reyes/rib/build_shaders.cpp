@@ -9,9 +9,17 @@ bool tracesShadows(const GraphicsState& s, const Request& r) {
   return s.scope.lightsCastShadows || (map && !map->strings.empty() && map->strings[0] == "raytrace");
 }
 
+// "shadowfile" is what listings of the 1990s call the map of the lights that PRMan has named shadow...
+void nameShadowMap(ShaderCall& light) {
+  if (!light.name.starts_with("shadow") || findParam(light.params, "shadowname")) return;
+  for (Param& p : light.params)
+    if (p.name == "shadowfile") p.name = "shadowname";
+}
+
 int addLight(GraphicsState& s, const Request& r, bool area) {
   auto light = std::make_shared<LightCall>();
   light->shader = makeShaderCall(s, r);
+  nameShadowMap(light->shader);
   light->handle = r.args[1].strings[0];
   light->area = area;
   light->castsShadows = area || tracesShadows(s, r);

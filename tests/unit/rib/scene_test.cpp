@@ -172,6 +172,15 @@ TEST(ShadingRate, IsMultipliedByRelativeRatesDownTheBlocks) {
   EXPECT_EQ(r.codes(), "rib-attribute@5 ");
 }
 
+TEST(Scene, ShadowLightsOfOldListingsFindTheirMap) {
+  const Reading r(inWorld("LightSource \"shadowspot\" 1 \"string shadowfile\" \"a.shd\" LightSource \"shadowspot\" 2 \"string shadowfile\" \"b\" "
+                          "\"string shadowname\" \"c\" LightSource \"mine\" 3 \"string shadowfile\" \"d\"" + std::string(" Sphere 1 -1 1 360")));
+  const auto map = [&](size_t light, const char* name) { return findParam(r.scene().lights.at(light)->shader.params, name); };
+  EXPECT_EQ(map(0, "shadowname")->strings[0], "a.shd");
+  EXPECT_EQ(map(1, "shadowname")->strings[0], "c");
+  EXPECT_EQ(map(2, "shadowname"), nullptr) << "a shader of one's own may mean what it likes";
+}
+
 TEST(Scene, CastsShadowsOfBmrtIsWhatShadowRaysSee) {
   const std::string casts = "Attribute \"render\" \"string casts_shadows\" ", sphere = " Sphere 1 -1 1 360\n";
   const Reading r(inWorld(casts + "\"none\"" + sphere + casts + "\"Os\"" + sphere + casts + "\"shade\"" + sphere));
