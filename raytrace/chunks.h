@@ -40,7 +40,7 @@ bool hasLevels(const Object& object, uint32_t patch, bool moves);
 
 class Chunks {
  public:
-  /// Leaves out objects that are `elsewhere`. All must outlive this. Dices the coarse level once to learn how far it is off.
+  /// Leaves out objects that are `elsewhere`. All must outlive this. Dices some of every level that rays see to learn how far it is off.
   Chunks(const Scene& scene, const Camera& camera, const ShadingSystem& shading, const std::vector<bool>& elsewhere, Log& log);
 
   const std::vector<Chunk>& all() const { return chunks_; }

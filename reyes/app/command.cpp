@@ -151,7 +151,7 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   bricks->add_flag("--ignorenormals", in.brickmake.settings.ignoreNormals, "The data fill a volume");
   bricks->callback([&] { code = brickmakeCommand(in.brickmake); });
 
-  CLI::App* view = app.add_subcommand("view", "A picture of a point cloud, photon map or brick map");
+  CLI::App* view = app.add_subcommand("view", "A picture of a point cloud, photon map, brick map, or of the records of an irradiance cache");
   view->add_option("FILE", in.view.input)->required();
   addParsed(*view, "-o", in.view.output, parseOutput, "FILE.png|.exr|.tif", "The picture");
   view->add_option("--channel", in.view.channel, "Channel to show; also normal, radius (default: the first)");
@@ -161,8 +161,8 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   addParsed(*view, "--format", in.view.size, [](const std::string& t) { return parsePair(t, 1, 16384); }, "WxH", "Resolution in pixels");
   view->callback([&] { code = viewCommand(in.view); });
 
-  CLI::App* convert = app.add_subcommand("convert", "Point clouds from and to PLY, for other programs");
-  convert->add_option("IN", in.convert.input, "FILE.ptc or FILE.ply")->required();
+  CLI::App* convert = app.add_subcommand("convert", "Point clouds from and to PLY, for other programs; the records of an irradiance cache as a point cloud");
+  convert->add_option("IN", in.convert.input, "FILE.ptc, FILE.ply or SHOT.icf")->required();
   convert->add_option("OUT", in.convert.output, "FILE.ply or FILE.ptc")->required();
   convert->add_option("--radius", in.convert.radius, "Of points that name none (default: 0)")->check(CLI::Range(0.0, 1e9));
   convert->callback([&] { code = convertCommand(in.convert); });
