@@ -99,6 +99,9 @@ class ShadePoints {
 struct ShadedPoints {
   AlignedVector<float> Ci[3], Oi[3];
   std::vector<AlignedVector<float>> variables;  ///< As FrameOutput::variables; empty where nobody stores them.
+  /// What of Ci and Oi is air before a transparent point, seen beside its surface: where another surface follows behind, that one's air holds it
+  /// too. Empty: there is none.
+  AlignedVector<float> airCi[3], airOi[3];
   void resize(int count);
   vec3 color(int i) const { return {Ci[0][static_cast<size_t>(i)], Ci[1][static_cast<size_t>(i)], Ci[2][static_cast<size_t>(i)]}; }
   vec3 opacity(int i) const { return {Oi[0][static_cast<size_t>(i)], Oi[1][static_cast<size_t>(i)], Oi[2][static_cast<size_t>(i)]}; }

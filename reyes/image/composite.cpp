@@ -54,6 +54,25 @@ FacetShade facetShade(const DeepTile& tile, const Fragment& fragment) {
   return blendedShade(tile, facet, Blend(facet, fragment));
 }
 
+bool hasAir(const DeepTile& tile) {
+  return std::any_of(tile.shaded.begin(), tile.shaded.end(), [](const ShadedPoints& s) { return !s.airCi[0].empty(); });
+}
+
+Air Compositor::takeAir(const DeepTile& tile, const Fragment& fragment, FacetShade& shade) {
+  const Facet& facet = tile.facets[fragment.facet];
+  const ShadedPoints& shaded = tile.shaded[static_cast<size_t>(facet.batch)];
+  Air out;
+  if (facet.matte || shaded.airCi[0].empty()) return out;
+  const Blend blend(facet, fragment);
+  for (int i = 0; i < blend.count; ++i)
+    for (int k = 0; k < 3; ++k) {
+      const auto point = static_cast<size_t>(facet.point[i]);
+      out.color[k] += blend.weight[i] * shaded.airCi[k][point], out.opacity[k] += blend.weight[i] * shaded.airOi[k][point];
+    }
+  shade.color -= out.color, shade.opacity -= out.opacity, shade.coverage -= out.opacity;
+  return out;
+}
+
 Compositor::Compositor(const FrameOutput& output, const Options& options, int samples)
     : options_(options),
       extras_(extrasOf(output)),
@@ -155,14 +174,17 @@ void Compositor::noteDepth(const DeepTile& tile, const Fragment& f) {
 
 void Compositor::resolveStack(const DeepTile& tile, const Fragment* begin, const Fragment* end, ResolvedTile& out) {
   for (Contribution& s : samples_) s = {0, 0, kInfinity};
-  stack_.reset(samples_.size(), static_cast<size_t>(width()));
+  const bool withAir = hasAir(tile);
+  stack_.reset(samples_.size(), static_cast<size_t>(width()), withAir);
   const vec3 hidden = vec3(1.0f) - options_.opaqueThreshold;
   for (const Fragment* f = begin; f != end; ++f) {
-    const FacetShade shade = shadeOf(tile, *f);
+    FacetShade shade = shadeOf(tile, *f);
     if (hasDepth(shade)) noteDepth(tile, *f);
     if (!extras_.empty()) extraValues(tile, *f, facetValues_.data());
-    stack_.lay({f->samples, f->word, shade.color, shade.opacity, shade.coverage, hidden, f->z, extras_, facetValues_.data()});
+    const Air air = withAir ? takeAir(tile, *f, shade) : Air{};
+    stack_.lay({f->samples, f->word, shade.color, shade.opacity, shade.coverage, hidden, f->z, extras_, facetValues_.data(), withAir ? &air : nullptr});
   }
+  stack_.addAir();
   size_t seeing = 0;
   for (const uint64_t word : seen_) seeing += static_cast<size_t>(std::popcount(word));
   float* value = room(seeing, out);

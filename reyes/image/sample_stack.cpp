@@ -36,8 +36,17 @@ void layAt(const Lay& l, uint64_t samples, SampleStack& stack, size_t first) {
   add(0, hn::Mul(x, all(l.color.x)));
   add(1, hn::Mul(y, all(l.color.y)));
   add(2, hn::Mul(z, all(l.color.z)));
-  const Floats covered = hn::Add(hn::Add(hn::Mul(x, all(l.coverage.x)), hn::Mul(y, all(l.coverage.y))), hn::Mul(z, all(l.coverage.z)));
-  add(3, hn::Div(covered, all(3.0f)));
+  const auto mean = [&](const vec3& v) {
+    return hn::Div(hn::Add(hn::Add(hn::Mul(x, all(v.x)), hn::Mul(y, all(v.y))), hn::Mul(z, all(v.z))), all(3.0f));
+  };
+  add(3, mean(l.coverage));
+  if (l.air) {
+    const Floats seen[4] = {hn::Mul(x, all(l.air->color.x)), hn::Mul(y, all(l.air->color.y)), hn::Mul(z, all(l.air->color.z)), mean(l.air->opacity)};
+    for (size_t k = 0; k < 4; ++k) {
+      float* to = stack.air[k].data() + first;
+      put(seen[k], on, hn::Load(kF, to), to);
+    }
+  }
   put(hn::Min(before, all(l.z)), on, before, nearest);
   put(hn::Mul(x, all(1.0f - l.opacity.x)), on, x, cx);
   put(hn::Mul(y, all(1.0f - l.opacity.y)), on, y, cy);
@@ -60,11 +69,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tomales {
 
-void SampleStack::reset(size_t samples, size_t floats) {
+void SampleStack::reset(size_t samples, size_t floats, bool withAir) {
   lanes = samples;
   for (auto& c : clear) c.assign(lanes, 1.0f);
   nearest.assign(lanes, kInfinity);
   values.assign(lanes * floats, 0.0f);
+  for (auto& a : air) a.assign(withAir ? lanes : 0, 0.0f);
+}
+
+void SampleStack::addAir() {
+  for (size_t k = 0; k < 4; ++k)
+    for (size_t i = 0; i < air[k].size(); ++i) values[k * lanes + i] += air[k][i];
 }
 
 HWY_EXPORT(lay);
