@@ -16,10 +16,15 @@ constexpr int kSlackDepth = 8;
 /// coordinates beyond float's precision or reach, which no halving makes small, come near it. Patches of one object share what
 /// exceeds the least, or a mesh of them would take hours.
 constexpr double kLayersOfObject = 64, kLayersOfPatch = 4;
+<<<<<<< HEAD
 constexpr double kVisitsOfObject = 1 << 14, kVisitsOfPatch = 1 << 9;
 /// What a blurred piece costs beyond its visit if it may be seen all over the window: each sample there has to look whether it meets it, and
 /// all buckets wait for its vertices at every key.
 constexpr double kVisitsOfBlur = 32, kKeysOfBlur = 16;
+=======
+constexpr double kVisitsOfObject = 1 << 16, kVisitsOfPatch = 1 << 12;
+constexpr float kLeastReach_px = 0.05f;  ///< What vertices are snapped by, and what closes T-vertices.
+>>>>>>> main
 constexpr float kRounding_px = 0.01f;  ///< Of projecting a box or its points.
 /// Lazily, a patch is halved so often, and what then has so many grids or more is a coarse piece.
 constexpr int kHalvingsAtOnce = 6;
@@ -83,6 +88,9 @@ bool isFlat(const Object& o, uint32_t patch) {
          std::none_of(primvars.begin(), primvars.end(), [](const Primvar& p) { return p.name == "N"; });
 }
 
+/// Does a whole patch, a particle say, join no neighbour? Nothing is added to its borders then.
+bool isAlone(const Object& o, uint32_t patch) { return o.displacementBound <= 0 && (o.shape().info(patch).openEdges & kAllEdges) == kAllEdges; }
+
 /// Splits the patches of one object.
 class Splitter {
  public:
@@ -112,7 +120,7 @@ class Splitter {
   /// patch takes no more than it was given.
   void splitWithin(int64_t visits, uint32_t patch, const UvRect& rect, int depth, const PatchSize* measured, std::vector<SubPatch>& out) {
     const auto first = static_cast<ptrdiff_t>(out.size());
-    start_ = depth, budget_ = visits, flat_ = isFlat(object_, patch);
+    start_ = depth, budget_ = visits, flat_ = isFlat(object_, patch), alone_ = isAlone(object_, patch);
     split(patch, rect, depth, measured, out);
     const auto share = [this](const SubPatch& p) { return p.coarse ? static_cast<double>(std::min(gridsOf(p.nu, p.nv), 1 + static_cast<int64_t>(gridsOver(inView_px(p.raster))))) : 0.0; };
     double shares = 0;
@@ -147,15 +155,21 @@ class Splitter {
     const float blur = coarsening(patch, rect, bound);
     const bool binary = object_.attributes->binaryDice;
     const int nu = cells(size.u, edge_px_, blur, binary), nv = cells(size.v, edge_px_, blur, binary);
+    const bool joins = !alone_ || depth > 0, oneCell = flat_ && nu * nv == 1;
+    const float reach_px = oneCell || !joins ? kLeastReach_px : borderReach_px(object_.displacementBound);
     if (static_cast<int64_t>(nu) * nv <= gridSize_) {
       // What moves through the eye plane does so however small it is; it is seen while it stays in front.
       if (crossesEye && !still) ++givenUp_.atEye;
+<<<<<<< HEAD
       if (!still || camera_.defocuses()) budget_ -= visitsOfBlur(rasterOf(bare, nu, nv));
       out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, nu, nv), bound.lo.z, crossesEye, depth, false});
+=======
+      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, reach_px), bound.lo.z, crossesEye, depth, false});
+>>>>>>> main
     } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && gridsOf(nu, nv) >= kGridsOfCoarse && !crossesEye &&
                glm::length(bare.size()) <= kSlack * reach) {
       // Halving shrinks such a piece and its bound as it should, so that its grids can be foretold.
-      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, nu, nv), bound.lo.z, crossesEye, depth, true});
+      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, reach_px), bound.lo.z, crossesEye, depth, true});
     } else if (depth == kMaxDepth) {
       ++(bound.lo.z < glm::length(bound.size()) ? givenUp_.atEye : givenUp_.tooMany);
     } else {
@@ -190,10 +204,9 @@ class Splitter {
   bool crosses(const Bound3& bare) const { return camera_.perspective() && bare.lo.z < camera_.eyePlane(); }
 
   /// Of what lies beyond the near plane.
-  Bound2 rasterOf(Bound3 bound, int nu, int nv) const {
-    constexpr float kFlatReach_px = 0.05f;
+  Bound2 rasterOf(Bound3 bound, float reach_px) const {
     if (camera_.perspective()) bound.lo.z = std::max(bound.lo.z, camera_.nearClip());
-    return tomales::rasterOf(bound, flat_ && nu * nv == 1 ? kFlatReach_px : borderReach_px(object_.displacementBound), camera_);
+    return tomales::rasterOf(bound, reach_px, camera_);
   }
 
   /// How much longer than the shading rate asks the edges may be: a micropolygon's width up to a quarter of the circle
@@ -217,7 +230,7 @@ class Splitter {
   const float edge_px_;
   int start_ = 0;       ///< Depth of what is being split.
   int64_t budget_ = 0;  ///< Pieces that may still be visited.
-  bool flat_ = false;   ///< The patch
+  bool flat_ = false, alone_ = false;  ///< The patch
   GivenUp givenUp_;
 };
 
