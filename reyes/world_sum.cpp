@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "reyes/base/search_path.h"
 #include "reyes/state_fields.h"
 
 namespace tomales {
@@ -14,21 +15,11 @@ struct WorldSum : ContentSum {
   std::map<std::string, std::string> searchPaths{};
 };
 
-std::vector<fs::path> foldersOf(const WorldSum& sum, const char* kind) {
-  std::vector<fs::path> out{"."};
-  const auto it = sum.searchPaths.find(kind);
-  if (it == sum.searchPaths.end()) return out;
-  for (size_t begin = 0; begin <= it->second.size();) {
-    const size_t end = std::min(it->second.find(':', begin), it->second.size());
-    out.emplace_back(it->second.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return out;
-}
-
 /// Of every file that the name may stand for.
 void addFile(WorldSum& sum, const std::string& name, const char* kind) {
-  for (const fs::path& folder : foldersOf(sum, kind)) {
+  std::vector<std::string> folders = foldersOf(pathOf(sum.searchPaths, kind));
+  folders.insert(folders.begin(), ".");
+  for (const fs::path folder : folders) {
     const fs::path path = folder / name;
     std::error_code error;
     if (name.empty() || !fs::is_regular_file(path, error)) continue;

@@ -6,7 +6,7 @@
 namespace tomales::rib {
 namespace {
 
-constexpr int kAdd = 0, kEllipsoid = 1001;
+constexpr int kAdd = 0, kConstant = 1000, kEllipsoid = 1001;
 
 RibArg integers(std::vector<int> list) { return {.kind = RibArg::Kind::Integers, .integers = std::move(list)}; }
 
@@ -19,11 +19,12 @@ PrimPtr blobby(const Request& r, const Prim* first, Problems& problems) {
   return first ? makeBlobbyKey(*first, leaves, code, floats, r.params, problems) : makeBlobby(leaves, code, floats, r.params, problems);
 }
 
-// A lone ellipsoid shows at half its radius, so each is as large as its point is wide.
+// A lone ellipsoid shows at half its radius, so each is as large as its point is wide. Where a point has no width there is nothing.
 std::optional<Request> blobbyOfPoints(const Request& r) {
   const Param* type = r.name == "Points" ? findParam(r.params, "type") : nullptr;
+  if (!type || type->strings.empty() || type->strings[0] != "blobby") return std::nullopt;
   const Param* place = findParam(r.params, "P");
-  if (!type || type->strings.empty() || type->strings[0] != "blobby" || !place) return std::nullopt;
+  if (!place) return std::nullopt;
   const Param* width = findParam(r.params, "width");
   if (!width) width = findParam(r.params, "constantwidth");
   const size_t n = place->floats.size() / 3;
@@ -34,7 +35,8 @@ std::optional<Request> blobbyOfPoints(const Request& r) {
   for (size_t i = 0; i < n; ++i) {
     const float w = width ? width->floats[width->floats.size() > 1 ? i : 0] : 1;
     const float* p = &place->floats[3 * i];
-    code.insert(code.end(), {kEllipsoid, static_cast<int>(floats.size())});
+    if (!(w >= 0)) throw PrimError(fmt::format("{} is {} somewhere", width->name, w));
+    code.insert(code.end(), {w > 0 ? kEllipsoid : kConstant, static_cast<int>(floats.size())});
     floats.insert(floats.end(), {w, 0, 0, 0, 0, w, 0, 0, 0, 0, w, 0, p[0], p[1], p[2], 1});
     sum.push_back(static_cast<int>(i));
   }

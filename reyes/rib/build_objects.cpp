@@ -54,7 +54,7 @@ std::shared_ptr<Attributes> attributesOf(const Scope& scope, const Options& opti
   if (!given->surface || given->surface->name != "null") return given;
   auto bare = std::make_shared<Attributes>(*given);
   bare->surface = nullptr;
-  if (outputOf(options).shades) bare->visibility = {false, false, false, false, false};
+  if (shades(options)) bare->visibility = {false, false, false, false, false};
   return bare;
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "reyes/base/search_path.h"
 #include "reyes/rib/reader.h"
 
 namespace tomales::rib {
@@ -112,9 +113,7 @@ void Reader::geometry(const Request& r) {
 // The search path first, then beside the file that reads, then where the caller says.
 std::string Reader::findFile(const std::string& written, const char* category) const {
   const std::string name = mapped(written, builder_.dirMap());
-  std::vector<std::string> folders;
-  const auto& paths = builder_.options().searchPaths;
-  if (const auto it = paths.find(category); it != paths.end()) folders = foldersOf(it->second);
+  std::vector<std::string> folders = foldersOf(pathOf(builder_.options().searchPaths, category));
   folders.push_back(open_.back().folder);
   folders.insert(folders.end(), settings_.archivePath.begin(), settings_.archivePath.end());
   std::error_code ignored;

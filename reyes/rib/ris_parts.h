@@ -54,8 +54,6 @@ Translation risBxdf(const Request& request, const Patterns& patterns);
 Translation risLight(const Request& request);
 /// PxrEnvDayLight
 Translation dayLight(const Request& request);
-/// Towards its sun, in the light's space: y up, x east, z north.
-vec3 sunDirection(const Request& request);
 /// "intensity" and "lightcolor" of any light.
 ParamList emission(const Request& request);
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "reyes/base/rng.h"
+#include "reyes/base/search_path.h"
 #include "reyes/pictures.h"
 
 namespace tomales {
@@ -155,19 +155,9 @@ const ShadowMap* ShadowMaps::find(const std::string& name, const SourceLoc& wher
   const std::lock_guard lock(mutex_);
   const auto [it, isNew] = maps_.try_emplace(name);
   if (!isNew) return it->second.get();
-  namespace fs = std::filesystem;
-  std::error_code none;
-  std::string path = name, error;
-  for (size_t begin = 0; fs::path(name).is_relative() && begin <= searchPath_.size();) {
-    const size_t end = std::min(searchPath_.find(':', begin), searchPath_.size());
-    const fs::path candidate = fs::path(searchPath_.substr(begin, end - begin)) / name;
-    if (fs::is_regular_file(candidate, none)) {
-      path = candidate.string();
-      break;
-    }
-    begin = end + 1;
-  }
-  it->second = ShadowMap::read(path, error);
+  const std::string path = findFile(name, searchPath_);
+  std::string error;
+  it->second = ShadowMap::read(path.empty() ? name : path, error);
   if (!it->second)
     log_.report(Severity::Missing, fmt::format("shadow-map {}", name), where,
                 fmt::format("{}: shadow map \"{}\" cannot be read ({}); shadows are traced instead", user, name,

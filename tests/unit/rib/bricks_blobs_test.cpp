@@ -72,6 +72,14 @@ TEST(PointsOfTypeBlobby, MoveAsBlobbiesDo) {
   EXPECT_EQ(r.object(0).shapes.size(), 2u);
 }
 
+TEST(PointsOfTypeBlobby, OfNoWidthAreNothingAndOfNegativeWidthAnError) {
+  const Reading r(inWorld("Points \"P\" [0 0 0 1 0 0 2 0 0] \"varying float width\" [1 0 0] \"uniform string type\" [\"blobby\"]\n"
+                          "Points \"P\" [0 0 0 1 0 0] \"varying float width\" [1 -1] \"uniform string type\" [\"blobby\"]"));
+  EXPECT_EQ(r.codes(), "rib-object-dropped@3 ");
+  EXPECT_NE(r.message("rib-object-dropped").message.find("width is -1 somewhere"), std::string::npos);
+  EXPECT_LT(r.object(0).shape().bound(0, {}).hi.x, 0.6f);
+}
+
 TEST(PointsOfTypeBlobby, WithWidthsThatDoNotFitAreDropped) {
   const Reading r(inWorld("Points \"P\" [0 0 0 1 0 0] \"varying float width\" [1 2 3] \"uniform string type\" [\"blobby\"]"));
   EXPECT_EQ(r.codes(), "rib-object-dropped@2 ");
