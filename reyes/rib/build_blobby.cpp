@@ -1,7 +1,11 @@
 // Blobby requests, and Points of type "blobby" -> Prims.
 #include <fmt/format.h>
 
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "reyes/pictures.h"
 #include "reyes/rib/geometry_builders.h"
+#include "reyes/rib/handlers.h"
 
 namespace tomales::rib {
 namespace {
@@ -12,11 +16,27 @@ RibArg integers(std::vector<int> list) { return {.kind = RibArg::Kind::Integers,
 
 }  // namespace
 
-PrimPtr blobby(const Request& r, const Prim* first, Problems& problems) {
+PrimPtr blobby(const Request& r, const Prim* first, const GroundReader& grounds, Problems& problems) {
   const int leaves = r.args[0].integer();
   const std::vector<int>& code = r.args[1].integers;
   const std::vector<float>& floats = r.args[2].numbers;
-  return first ? makeBlobbyKey(*first, leaves, code, floats, r.params, problems) : makeBlobby(leaves, code, floats, r.params, problems);
+  return first ? makeBlobbyKey(*first, leaves, code, floats, grounds, r.params, problems) : makeBlobby(leaves, code, floats, grounds, r.params, problems);
+}
+
+GroundPicture readGround(const std::string& path, const mat4& worldFromObject) {
+  std::string error;
+  const auto in = openPicture(path, error);
+  if (!in) throw PrimError(error);
+  const std::optional<DepthCamera> camera = depthCameraOf(*in);
+  if (!camera || in->deep()) throw PrimError("it is no picture of depth with the matrices of its camera");
+  const PictureShape& shape = in->shape();
+  GroundPicture out{shape.width, shape.height, std::vector<float>(static_cast<size_t>(shape.width) * static_cast<size_t>(shape.height)), {}, {}};
+  if (!in->read(camera->depth, camera->depth + 1, out.depth.data())) throw PrimError(in->error());
+  const vec3 half(0.5f * static_cast<float>(shape.fullWidth), -0.5f * static_cast<float>(shape.fullHeight), 1);
+  const mat4 texelFromNdc = glm::scale(glm::translate(mat4(1.0f), vec3(half.x - static_cast<float>(shape.x), -half.y - static_cast<float>(shape.y), 0)), half);
+  out.cameraFromObject = camera->cameraFromWorld * worldFromObject;
+  out.texelFromObject = texelFromNdc * camera->ndcFromWorld * worldFromObject;
+  return out;
 }
 
 // A lone ellipsoid shows at half its radius, so each is as large as its point is wide. Where a point has no width there is nothing.

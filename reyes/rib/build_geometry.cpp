@@ -178,12 +178,12 @@ float reachOf(const Request& r) {
 
 bool isGeometry(std::string_view name) { return builders().contains(name); }
 
-PrimPtr buildPrim(const Request& r, const Scope& scope, const Prim* first, Problems& problems) {
+PrimPtr buildPrim(const Request& r, const Scope& scope, const Prim* first, const GroundReader& grounds, Problems& problems) {
   for (const RibArg& a : r.args)
     if (!allFinite(a.numbers)) throw PrimError("an argument is not finite");
   const auto build = [&](const Request& request) {
-    if (const std::optional<Request> joined = blobbyOfPoints(request)) return blobby(*joined, first, problems);
-    if (request.name == "Blobby") return blobby(request, first, problems);
+    if (const std::optional<Request> joined = blobbyOfPoints(request)) return blobby(*joined, first, grounds, problems);
+    if (request.name == "Blobby") return blobby(request, first, grounds, problems);
     return builders().at(r.name)(request, scope, problems);
   };
   if (std::all_of(r.params.begin(), r.params.end(), [](const Param& p) { return allFinite(p.floats); }))

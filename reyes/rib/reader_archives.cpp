@@ -102,11 +102,15 @@ bool Reader::spend(size_t cost) {
   return left >= cost;
 }
 
+/// Names of files become what the search path finds.
 void Reader::geometry(const Request& r) {
   Request found = r;
+  const auto find = [this](std::string& file) {
+    if (const std::string path = findFile(file, "texture"); !path.empty()) file = path;
+  };
   for (Param& p : found.params)
-    for (std::string& file : p.strings)
-      if (const std::string path = p.name == "filename" ? findFile(file, "texture") : ""; !path.empty()) file = path;
+    if (p.name == "filename") std::for_each(p.strings.begin(), p.strings.end(), find);
+  if (r.name == "Blobby" && r.args.size() > 3) std::for_each(found.args[3].strings.begin(), found.args[3].strings.end(), find);
   builder_.request(found);
 }
 

@@ -65,6 +65,13 @@ TEST(PointsOfTypeBlobby, AreOneBlobbyAsWideAsThePointsAre) {
   ASSERT_EQ(r.object(0).shape().primvars().size(), 1u);
 }
 
+TEST(RepelledBlobby, WithoutItsPictureIsWholeAndSaidToBe) {
+  const Reading r(inWorld("Blobby 2 [1001 0 1003 0 16 0 2 0 1] [1.5 0 0 0 0 1.5 0 0 0 0 1.5 0 0 0 -.1 1 .4 .01 .3 .08] [\"/nowhere.zfile\"]\n"
+                          "Blobby 2 [1001 0 1003 1 16 0 2 0 1] [1.5 0 0 0 0 1.5 0 0 0 0 1.5 0 0 0 -.1 1 .4 .01 .3 .08] [\"/nowhere.zfile\"]"));
+  EXPECT_EQ(r.codes(), "rib-ground@2 rib-object-dropped@3 ");
+  EXPECT_EQ(r.scene().objects.size(), 1u);
+}
+
 TEST(PointsOfTypeBlobby, MoveAsBlobbiesDo) {
   const Reading r("Shutter 0 1" + inWorld("MotionBegin [0 1] Points \"P\" [0 0 0 1 0 0] \"uniform string type\" [\"blobby\"]\n"
                                           "Points \"P\" [0 1 0 1 1 0] \"uniform string type\" [\"blobby\"] MotionEnd"));
