@@ -48,6 +48,7 @@ std::vector<GatherPoint> BounceCaches::hitsFrom(const RayScene& rays, const Came
       for (uint32_t k = 0; k < kRaysOfPoint; ++k) {
         const vec3 local = cosineHemisphere(sobol2(k, key));
         Ray ray{start.position, local.x * tangent + local.y * bitangent + local.z * start.normal};
+        ray.spread = 1 / std::sqrt(static_cast<float>(kRaysOfPoint));
         rays.prepareOrigin(start.group, start.position, start.edgeLength, ray);
         ray.offset = slantedOffset(ray.offset, local.z);
         const Hit hit = rays.closest(ray, kMaskDiffuse);

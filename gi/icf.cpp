@@ -156,6 +156,20 @@ std::optional<std::vector<RayAnswers>> IcfFile::answers(size_t tile, std::string
   return std::nullopt;
 }
 
+PointCloud recordsOf(const IrradianceShot& shot) {
+  PointCloud out;
+  out.channels = {{"record", 1}, {"irradiance", 3}, {"closest", 1}, {"harmonicmean", 1}, {"noise", 1}};
+  const mat4 worldFromCamera = glm::inverse(shot.cameraFromWorld);
+  const mat3 normalsFromCamera = glm::transpose(mat3(shot.cameraFromWorld));
+  const float scale = std::cbrt(std::abs(glm::determinant(mat3(worldFromCamera))));
+  for (const PreparedCache& c : shot.caches)
+    for (const IrradianceRecord& r : c.cache.records()) {
+      const float data[] = {1, r.E.x, r.E.y, r.E.z, std::min(scale * r.closest, 1e30f), std::min(scale * r.harmonicMean, 1e30f), r.noise};
+      out.add(transformPoint(worldFromCamera, r.position), glm::normalize(normalsFromCamera * r.normal), 0, data);
+    }
+  return out;
+}
+
 void moveToCamera(IrradianceShot& shot, const mat4& cameraFromWorld) {
   if (shot.cameraFromWorld == cameraFromWorld) return;
   const mat4 m = cameraFromWorld * glm::inverse(shot.cameraFromWorld);

@@ -2,6 +2,7 @@
 // .dfb is shaded without a ray: indirect light comes from the records, shadows and emitters from the answers.
 // Threads: answers may be written and read concurrently.
 #pragma once
+#include "gi/point_cloud.h"
 #include "gi/services.h"
 #include "reyes/base/record_file.h"
 
@@ -42,6 +43,10 @@ class IcfFile {
   std::unique_ptr<RecordFile> records_;
   IrradianceShot shot_;
 };
+
+/// Where the records of all caches lie, in world space and without extent: "record", which is 1; "irradiance" (E/pi), "closest" and
+/// "harmonicmean" (units of the world, 1e30 where rays meet nothing), "noise" (of E/pi).
+PointCloud recordsOf(const IrradianceShot& shot);
 
 /// Moves records to the camera of another frame; the same bits if it is the same.
 void moveToCamera(IrradianceShot& shot, const mat4& cameraFromWorld);

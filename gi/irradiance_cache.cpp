@@ -6,10 +6,13 @@ namespace tomales {
 namespace {
 
 constexpr float kMinPixels = 1.5f;              // R- of eq. 3
+constexpr float kFinestPixels = 1;             // of a dispute, at kappa 1
 constexpr float kMaxAngleTerm = 0.0151922470f;  // 1 - cos(alpha+), alpha+ = 10 degrees (eq. 4)
 constexpr float kBehindTolerance = 0.1f;        // of the validity radius
 constexpr float kDispute = 0.1f;              // relative difference of extrapolated values, at kappa 1, that is no longer smooth
+constexpr float kTorn = 0.5f;                 // the same between points that see other things
 constexpr float kNoiseMargin = 3;             // standard errors
+constexpr float kDark = 0.1f;                 // of the mean E: what is darker is off by fractions of this, not of itself
 constexpr int kMaxDepth = 24;
 constexpr int kNone = -1;
 
@@ -74,6 +77,7 @@ struct IrradianceCache::Impl {
   std::vector<Node> nodes{Node{}};
   std::vector<uint32_t> outside;  // records beyond the root box
   std::vector<IrradianceRecord> records;
+  float luminanceSum = 0;  // of their E
 
   float size(const IrradianceRecord& r) const {
     switch (settings.errorFunction) {
@@ -109,9 +113,22 @@ struct IrradianceCache::Impl {
     }
   }
 
-  bool differ(const vec3& a, const vec3& b, float noise) const {
+  enum class Dispute { None, Steep, Torn };
+
+  Dispute disputeOf(const vec3& a, const vec3& b, float noise) const {
     const float tolerance = settings.errorFunction == ErrorFunction::Ward ? 4 * kDispute : kDispute;  // as kappa counts there
-    return std::abs(luminance(a) - luminance(b)) > tolerance / settings.kappa * std::max(luminance(a), luminance(b)) + kNoiseMargin * noise;
+    const float larger = std::max(luminance(a), luminance(b)), off = std::abs(luminance(a) - luminance(b)) - kNoiseMargin * noise;
+    const float dark = kDark * luminanceSum / static_cast<float>(records.size());
+    if (!(off > tolerance / settings.kappa * std::max(larger, dark))) return Dispute::None;
+    return off > kTorn * std::max(larger, dark) ? Dispute::Torn : Dispute::Steep;
+  }
+
+  // Steep light needs no record nearer than a pixel: they would be noise of single pixels, paid with a hemisphere each. What is torn lies on
+  // both sides of something thinner than that.
+  float least(float pixelSize) const { return kFinestPixels * pixelSize / settings.kappa; }
+  float limitBy(Dispute dispute, float distance, float pixelSize) const {
+    if (dispute == Dispute::None) return kInfinity;
+    return dispute == Dispute::Torn ? distance : std::max(distance, least(pixelSize));
   }
 
   // Of an extrapolated value: gradients are as noisy as E over the mean distance of what is seen.
@@ -123,8 +140,10 @@ struct IrradianceCache::Impl {
     for (const Candidate& candidate : candidatesAt(fresh.position, fresh.normal, fresh.pixelSize)) {
       IrradianceRecord& old = records[candidate.record];
       const float distance = glm::length(fresh.position - old.position), fromOld = noiseAt(old, distance), fromFresh = noiseAt(fresh, distance);
-      if (differ(extrapolate(old, fresh.position, fresh.normal), fresh.E, fromOld + fresh.noise)) old.limit = std::min(old.limit, distance);
-      if (differ(extrapolate(fresh, old.position, old.normal), old.E, fromFresh + old.noise)) fresh.limit = std::min(fresh.limit, distance);
+      const Dispute ofOld = disputeOf(extrapolate(old, fresh.position, fresh.normal), fresh.E, fromOld + fresh.noise);
+      const Dispute ofFresh = disputeOf(extrapolate(fresh, old.position, old.normal), old.E, fromFresh + old.noise);
+      old.limit = std::min(old.limit, limitBy(ofOld, distance, old.pixelSize));
+      fresh.limit = std::min(fresh.limit, limitBy(ofFresh, distance, fresh.pixelSize));
     }
   }
 
@@ -183,17 +202,22 @@ struct IrradianceCache::Impl {
     return out;
   }
 
-  IrradianceEstimate blend(const std::vector<Candidate>& candidates, const vec3& x, const vec3& n) const {
+  IrradianceEstimate blend(const std::vector<Candidate>& candidates, const vec3& x, const vec3& n, float pixelSize) const {
     IrradianceEstimate out{vec3(0.0f), {vec3(0.0f), vec3(0.0f), vec3(0.0f)}};
+    float nearest = kInfinity;
+    Dispute worst = Dispute::None;
     for (const Candidate& candidate : candidates) {
       const IrradianceRecord& r = records[candidate.record];
       const vec3 E = extrapolate(r, x, n);
-      out.disputed |= candidate.weight > 0 && &candidate != &candidates.front() && differ(E, out.E / out.weight, 2 * noiseAt(r, glm::length(x - r.position)));
+      const float distance = glm::length(x - r.position);
+      if (&candidate != &candidates.front()) worst = std::max(worst, disputeOf(E, out.E / out.weight, 2 * noiseAt(r, distance)));
+      nearest = std::min(nearest, distance);
       out.E += candidate.weight * E;
       for (int c = 0; c < 3; ++c) out.dominant[c] += candidate.weight * r.dominant[c];  // eq. 7
       out.weight += candidate.weight;
     }
     if (out.weight > 0) out.E /= out.weight;
+    out.disputed = limitBy(worst, nearest, pixelSize) <= nearest;
     for (vec3& d : out.dominant) d = normalizeOr(d, n);
     return out;
   }
@@ -214,6 +238,7 @@ IrradianceCache::~IrradianceCache() = default;
 void IrradianceCache::insert(const IrradianceRecord& record) {
   Impl& impl = *impl_;
   impl.records.push_back(record);
+  impl.luminanceSum += luminance(record.E);
   if (!(impl.settings.kappa < kInfinity)) return;
   limitTranslation(impl.records.back(), impl.reach(impl.size(record), record.pixelSize));
   impl.settleDisputes(static_cast<uint32_t>(impl.records.size() - 1));
@@ -222,12 +247,13 @@ void IrradianceCache::insert(const IrradianceRecord& record) {
 
 void IrradianceCache::restore(const IrradianceRecord& record) {
   impl_->records.push_back(record);
+  impl_->luminanceSum += luminance(record.E);
   if (impl_->settings.kappa < kInfinity) impl_->insert(static_cast<uint32_t>(impl_->records.size() - 1));
 }
 
 IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, const vec3& shadingNormal, float pixelSize) const {
-  if (!(impl_->settings.kappa < kInfinity)) return impl_->blend({}, x, shadingNormal);
-  return impl_->blend(impl_->candidatesAt(x, normal, pixelSize), x, shadingNormal);
+  if (!(impl_->settings.kappa < kInfinity)) return impl_->blend({}, x, shadingNormal, pixelSize);
+  return impl_->blend(impl_->candidatesAt(x, normal, pixelSize), x, shadingNormal, pixelSize);
 }
 
 const std::vector<IrradianceRecord>& IrradianceCache::records() const { return impl_->records; }

@@ -24,6 +24,7 @@ Ray RayLayers::behind(const RayScene& scene, const Ray& ray, const Hit& hit) {
   Ray on = ray;
   on.origin = ray.origin + hit.t * ray.direction;
   on.tMax = ray.tMax - hit.t;
+  on.radius += ray.spread * hit.t;
   scene.prepareOrigin(scene.groupOf(hit), on.origin, 0, on);
   on.offset = slantedOffset(on.offset, std::abs(dot(ray.direction, hit.geometricNormal)));
   return on;

@@ -71,6 +71,7 @@ class Tracer {
 
  private:
   static constexpr float kEmitterBias = 1e-4f;
+  static constexpr float kDiffuseSpread = 0.1f;  ///< As a gather ray of about a hundred; irradiance is estimated over more.
 
   /// Every path to its next surface; those that end there leave the list.
   void step(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const {
@@ -146,7 +147,10 @@ class Tracer {
     if (!(xi < survival)) return false;
     path.power = power / survival;
     path.ray = {P, normalizeOr(direction, N)};
+    // The level of what it meets follows from its width; textures there do not.
+    path.ray.spread = path.specular ? 0.0f : kDiffuseSpread;
     rays_.prepareOrigin(group, P, 0, path.ray);
+    path.ray.spread = 0;
     path.ray.offset = slantedOffset(path.ray.offset, std::abs(dot(path.ray.direction, N)));
     return true;
   }

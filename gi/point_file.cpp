@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "reyes/base/morton.h"
 #include "reyes/base/packed_normal.h"
 
 namespace tomales {
@@ -12,13 +13,6 @@ namespace {
 constexpr char kKind[9] = "TMPOINTS";
 constexpr uint32_t kVersion = 2;
 constexpr int kMostWidth = 256;
-
-/// Every third bit of a number, from 21 bits.
-uint64_t spread(uint64_t x) {
-  x = (x | x << 32) & 0x001f00000000ffffULL, x = (x | x << 16) & 0x001f0000ff0000ffULL;
-  x = (x | x << 8) & 0x100f00f00f00f00fULL, x = (x | x << 4) & 0x10c30c30c30c30c3ULL;
-  return (x | x << 2) & 0x1249249249249249ULL;
-}
 
 }  // namespace
 
@@ -127,10 +121,7 @@ void writePointFile(const PointCloud& cloud, const std::string& path, const Made
   const Bound3 bound = cloud.bound();
   const float scale = static_cast<float>((1 << 21) - 1) / std::max(maxComponent(bound.size()), 1e-30f);
   std::vector<uint64_t> code(cloud.count());
-  for (size_t i = 0; i < code.size(); ++i) {
-    const vec3 p = (cloud.position[i] - bound.lo) * scale;
-    code[i] = spread(static_cast<uint64_t>(p.x)) | spread(static_cast<uint64_t>(p.y)) << 1 | spread(static_cast<uint64_t>(p.z)) << 2;
-  }
+  for (size_t i = 0; i < code.size(); ++i) code[i] = mortonPlace(glm::uvec3((cloud.position[i] - bound.lo) * scale));
   std::vector<uint32_t> order(cloud.count());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return code[a] != code[b] ? code[a] < code[b] : a < b; });

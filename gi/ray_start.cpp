@@ -23,11 +23,10 @@ void aim(const RayScene& rays, const ShadePoints& points, int i, float time, Ray
     ray.direction = normalizeOr(end - ray.origin, ray.direction);
   }
   // The level of what it meets follows from what the point itself stands for; textures there do not.
-  const float spread = std::sqrt(points.channel(kArea)[i] / kPi) / std::max(glm::length(ray.origin), 1e-20f);
   Ray wide = ray;
-  wide.spread = std::max(ray.spread, spread);
+  wide.radius = std::max(ray.radius, std::sqrt(points.channel(kArea)[i] / kPi));
   rays.prepareOrigin(points.group(), ray.origin, points.edgeLength(i), wide);
-  wide.spread = ray.spread;
+  wide.radius = ray.radius;
   ray = wide;
 }
 

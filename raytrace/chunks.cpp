@@ -7,9 +7,10 @@
 #include <tuple>
 
 #include "raytrace/doubled_grid.h"
-#include "raytrace/packed_normal.h"
 #include "raytrace/ray_times.h"
 #include "raytrace/tessellate.h"
+#include "reyes/base/morton.h"
+#include "reyes/base/packed_normal.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"
 #include "reyes/dice.h"
@@ -18,28 +19,23 @@ namespace tomales {
 namespace {
 
 constexpr int kTile = 64;               ///< Fine polygons of a tile along u or v.
-constexpr int kChunkPolygons = 64 * 64; ///< Fine ones at which a chunk is full: docs/decisions/0036-geometry-cache.md
+constexpr int kChunkPolygons = 64 * 64;  ///< Fine ones at which a chunk is full: docs/decisions/0036-geometry-cache.md
+constexpr size_t kChunkTiles = 1024;    ///< Of more Embree would build with several threads, and bits would depend on how many.
 constexpr int kSampled = 4;             ///< Polygons along u and v of the part of a tile whose deviation is measured.
 constexpr size_t index(Level level) { return static_cast<size_t>(level); }
 
-int64_t polygons(const Tile& tile, Level level) {
-  const CoarseRate& r = tile.rate[index(level)];
+int64_t finePolygonsOf(const Tile& tile) {
+  const CoarseRate& r = tile.rate[index(Level::Fine)];
   return int64_t{r.nu} * r.nv;
 }
 
-/// Bits of x, which has ten, with two zeros between them.
-uint32_t spaced(uint32_t x) {
-  x = (x | x << 16) & 0x30000ffU, x = (x | x << 8) & 0x300f00fU, x = (x | x << 4) & 0x30c30c3U;
-  return (x | x << 2) & 0x9249249U;
-}
+/// Vertices that are diced later lie in it whatever rounds, and Embree's arithmetic with it.
+Bound3 withRounding(const Bound3& b) { return b.grown(1e-6f * std::max(maxComponent(glm::abs(b.lo)), maxComponent(glm::abs(b.hi)))); }
 
-/// Along a Morton curve.
-uint32_t placeOf(const vec3& p, const Bound3& within) {
-  const vec3 at = glm::clamp((p - within.lo) / glm::max(within.size(), vec3(1e-20f)), 0.0f, 1.0f) * 1023.0f;
-  return spaced(static_cast<uint32_t>(at.x)) | spaced(static_cast<uint32_t>(at.y)) << 1 | spaced(static_cast<uint32_t>(at.z)) << 2;
+void reportNotFinite(const Object& o, Log& log) {
+  log.report(Severity::Warning, "trace-not-finite", o.where,
+             fmt::format("{} has points that are not finite: rays pass through that part", objectName(o)));
 }
-
-vec3 middle(const Bound3& b) { return 0.5f * (b.lo + b.hi); }
 
 }  // namespace
 
@@ -59,6 +55,9 @@ bool hasLevels(const Object& o, uint32_t patch, bool moves) {
 Chunks::Chunks(const Scene& scene, const Camera& camera, const ShadingSystem& shading, const std::vector<bool>& elsewhere, Log& log)
     : scene_(scene), shading_(shading), log_(log), deviations_(scene.groups.size()) {
   for (const ShadeGroup& g : scene.groups) full_.push_back(g.attributes->trace.rate == TessellationMode::Full);
+  if (std::all_of(scene.groups.begin(), scene.groups.end(),
+                  [](const ShadeGroup& g) { return g.attributes->trace.rate == TessellationMode::Fixed; }))
+    return;
   const std::vector<std::vector<float>> times = rayTimes(scene);
   std::vector<std::pair<int, uint32_t>> patches;
   for (size_t i = 0; i < scene.objects.size(); ++i) {
@@ -85,7 +84,11 @@ Chunks::Planned Chunks::plan(int object, uint32_t patch, const Camera& camera) c
       Tile tile{object, patch, {at(i, across), at(i + 1, across), at(j, along), at(j + 1, along)}, {}};
       for (size_t l = 0; l < kLevels; ++l) tile.rate[l] = {(rates[l].nu + across - 1) / across, (rates[l].nv + along - 1) / along};
       const Bound3 bound = transformBound(o.cameraFromObject.at(o.keyTimes.front()), o.shape().bound(patch, tile.rect));
-      out.bounds.push_back(displacesForRays(o) ? bound.grown(o.displacementBound) : bound);
+      if (!isFinite(bound.lo) || !isFinite(bound.hi)) {
+        reportNotFinite(o, log_);
+        continue;
+      }
+      out.bounds.push_back(withRounding(displacesForRays(o) ? bound.grown(o.displacementBound) : bound));
       measure(out, tile);
       out.tiles.push_back(tile);
     }
@@ -96,6 +99,7 @@ Chunks::Planned Chunks::plan(int object, uint32_t patch, const Camera& camera) c
 void Chunks::measure(Planned& planned, const Tile& tile) const {
   const Object& o = scene_.objects[static_cast<size_t>(tile.object)];
   for (const Level level : {Level::Coarse, Level::Medium, Level::Fine}) {
+    if (levelOf(static_cast<uint32_t>(o.group), level) != level) continue;  // no ray sees it
     const auto [nu, nv] = tile.rate[index(level)];
     UvRect part = tile.rect;
     int u = nu, v = nv;
@@ -113,7 +117,9 @@ void Chunks::measure(Planned& planned, const Tile& tile) const {
     if (!isFinite(g)) continue;
     planned.deviation[index(level)] = std::max(planned.deviation[index(level)], doubledDeviation(g, 0));
     // Where the displacement bound is too small.
-    for (int k = 0; k < g.vertexCount(); ++k) planned.bounds.back().extend(g.position(0, k));
+    Bound3 met;
+    for (int k = 0; k < g.vertexCount(); ++k) met.extend(g.position(0, k));
+    planned.bounds.back().extend(withRounding(met));
   }
 }
 
@@ -131,15 +137,17 @@ void Chunks::pack(std::vector<Planned>& planned) {
       ofGroup[group].extend(p.bounds[i]);
       placed.push_back({group, 0, &p.tiles[i], &p.bounds[i]});
       for (size_t l = 0; l < kLevels; ++l) deviations_[group][l] = std::max(deviations_[group][l], p.deviation[l]);
-      finePolygons_ += polygons(p.tiles[i], Level::Fine);
+      finePolygons_ += finePolygonsOf(p.tiles[i]);
     }
-  for (Placed& p : placed) p.place = placeOf(middle(*p.bound), ofGroup[p.group]);
+  for (Placed& p : placed) p.place = mortonPlace(p.bound->center(), ofGroup[p.group]);
   std::stable_sort(placed.begin(), placed.end(),
                    [](const Placed& a, const Placed& b) { return std::tie(a.group, a.place) < std::tie(b.group, b.place); });
   int64_t held = 0;
   for (const Placed& p : placed) {
-    const int64_t more = polygons(*p.tile, Level::Fine);
-    if (chunks_.empty() || chunks_.back().group != p.group || held + more > kChunkPolygons) chunks_.push_back({p.group, {}, {}}), held = 0;
+    const int64_t more = finePolygonsOf(*p.tile);
+    const bool fits = !chunks_.empty() && chunks_.back().group == p.group && held + more <= kChunkPolygons &&
+                      chunks_.back().tiles.size() < kChunkTiles;
+    if (!fits) chunks_.push_back({p.group, {}, {}}), held = 0;
     held += more;
     chunks_.back().tiles.push_back(*p.tile);
     chunks_.back().bound.extend(*p.bound);
@@ -163,9 +171,7 @@ ChunkMesh Chunks::dice(size_t chunk, Level level) const {
     Grid g = tomales::dice(scene_, t.object, t.patch, t.rect, nu, nv, 1);
     if (displacesForRays(o)) shading_.displace(g);
     const bool finite = isFinite(g);
-    if (!finite)
-      log_.report(Severity::Warning, "trace-not-finite", o.where,
-                  fmt::format("{} has points that are not finite: rays pass through that part", objectName(o)));
+    if (!finite) reportNotFinite(o, log_);
     for (int k = 0; k < g.vertexCount(); ++k) {
       out.P.push_back(finite ? g.position(0, k) : vec3(std::numeric_limits<float>::quiet_NaN()));
       out.N.push_back(packNormal(normalizeOr(g.normal(k), vec3(0, 0, -1))));

@@ -29,7 +29,7 @@ struct Chunk {
 /// Lattices of the tiles of a chunk, rows along u, one behind the other.
 struct ChunkMesh {
   std::vector<vec3> P;                ///< Behind the last lie at least 4 more readable bytes. A tile that is not finite is NaN.
-  std::vector<uint32_t> N;            ///< RISpec side; raytrace/packed_normal.h
+  std::vector<uint32_t> N;            ///< RISpec side; reyes/base/packed_normal.h
   std::vector<uint32_t> firstVertex;  ///< Of each tile.
 
   size_t bytes() const { return P.capacity() * sizeof(vec3) + (N.capacity() + firstVertex.capacity()) * sizeof(uint32_t); }
@@ -40,7 +40,7 @@ bool hasLevels(const Object& object, uint32_t patch, bool moves);
 
 class Chunks {
  public:
-  /// Leaves out objects that are `elsewhere`. All must outlive this. Dices the coarse level once to learn how far it is off.
+  /// Leaves out objects that are `elsewhere`. All must outlive this. Dices some of every level that rays see to learn how far it is off.
   Chunks(const Scene& scene, const Camera& camera, const ShadingSystem& shading, const std::vector<bool>& elsewhere, Log& log);
 
   const std::vector<Chunk>& all() const { return chunks_; }

@@ -8,9 +8,9 @@ namespace tomales {
 namespace {
 
 constexpr float kPolygon_px = 8;
-constexpr float kMediumEdge = 3;               ///< Of medium polygons, in edges of micropolygons.
+constexpr float kMediumEdge = 3;          ///< Of medium polygons, in edges of micropolygons.
 constexpr float kLeastPolygon_px = 1.5f;  ///< No polygon is smaller for the sake of its turn: far objects need few.
-constexpr float kTurn = 15 * kPi / 180;        ///< Radians between the normals at the ends of a polygon.
+constexpr float kTurn = 15 * kPi / 180;   ///< Radians between the normals at the ends of a polygon.
 constexpr float kEmitterTurn = 5 * kPi / 180;  ///< Brings the area of a sphere light within 0.5 %.
 constexpr int kProbes = 5;                     ///< Odd, so that a symmetrical wave is not met at its zeros.
 constexpr double kMostQuadsOfPatch = 1 << 22;
@@ -51,12 +51,11 @@ bool mayBeSeen(const Object& o, uint32_t patch, const Camera& camera) {
                          {0, 0, camera.xResolution(), camera.yResolution()});
 }
 
-CoarseRate limited(const Object& o, double nu, double nv, Log& log) {
+CoarseRate limited(const Object& o, double nu, double nv, const char* remedy, Log& log) {
   if (nu * nv <= kMostQuadsOfPatch) return {static_cast<int>(nu), static_cast<int>(nv)};
   log.report(Severity::Warning, "trace-tessellation", o.where,
-             fmt::format("{} asks for {:.0f} x {:.0f} polygons for rays in one patch: limited to {:.0f}; "
-                         "lower Attribute \"trace\" \"tessellation\"",
-                         objectName(o), nu, nv, kMostQuadsOfPatch));
+             fmt::format("{} asks for {:.0f} x {:.0f} polygons for rays in one patch: limited to {:.0f}; {}",
+                         objectName(o), nu, nv, kMostQuadsOfPatch, remedy));
   // Halving keeps the proportions until one side is a single polygon.
   while (nu * nv > kMostQuadsOfPatch) (nu > nv ? nu : nv) = std::ceil(std::max(nu, nv) / 2);
   return {static_cast<int>(nu), static_cast<int>(nv)};
@@ -66,18 +65,20 @@ CoarseRate limited(const Object& o, double nu, double nv, Log& log) {
 struct Fineness {
   float edge_px, turn;  ///< The longest that they may be, and the farthest that the normal may turn along one
   float least_px;       ///< in shorter ones it may turn farther.
+  const char* remedy;   ///< What makes them coarser.
 };
 
 Fineness finenessOf(const Attributes& a, float fineness) {
   const float rate = std::sqrt(std::max(a.shadingRate, 1e-4f)) / fineness;
   return {kPolygon_px * rate, (a.areaLight >= 0 ? kEmitterTurn : kTurn) / fineness,
-          a.areaLight >= 0 ? 0.0f : kLeastPolygon_px * rate};
+          a.areaLight >= 0 ? 0.0f : kLeastPolygon_px * rate, "lower Attribute \"trace\" \"tessellation\""};
 }
 
 /// Micropolygons of `edge` times the edge that ShadingRate asks for, and no smaller ones.
 Fineness micropolygons(const Attributes& a, float edge) {
   Fineness out = finenessOf(a, kPolygon_px / edge);
   out.least_px = out.edge_px;
+  out.remedy = "raise ShadingRate";
   return out;
 }
 
@@ -99,7 +100,7 @@ class PatchLines {
   }
 
   CoarseRate rate(const Fineness& fineness, Log& log) const {
-    return limited(object_, count(u_, fineness), count(v_, fineness), log);
+    return limited(object_, count(u_, fineness), count(v_, fineness), fineness.remedy, log);
   }
 
  private:

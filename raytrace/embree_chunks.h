@@ -16,8 +16,8 @@ class EmbreeChunks {
   ~EmbreeChunks();
   EmbreeChunks(const EmbreeChunks&) = delete;
 
-  /// Adds geometries to a scene, from this ID on, one for each mask. Of groups: see EmbreeScene. `flips` of each group;
-  /// hits have instance IDs from firstInstance on.
+  /// Adds geometries to a scene, from this ID on, one for each mask. `groups`, `masks` and
+  /// `opaque`: see EmbreeScene. Hits have instance IDs from firstInstance on.
   void attach(RTCDevice device, RTCScene to, unsigned id, uint32_t firstInstance, const std::vector<CoarseGroup>& groups,
               const std::vector<uint32_t>& masks, const std::vector<bool>& opaque);
 

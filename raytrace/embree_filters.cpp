@@ -35,8 +35,8 @@ void rejectUnseen(const RTCFilterFunctionNArguments* args) {
 
 void recordNear(const RTCFilterFunctionNArguments* args) {
   const auto& traversal = *reinterpret_cast<const Traversal*>(args->context);
-  if (!traversal.filter && RTCRayN_tfar(args->ray, 1, 0) > traversal.shift + traversal.window) return;  // most hits
-  if (rejected(args, traversal) || RTCRayN_tfar(args->ray, 1, 0) > traversal.shift + traversal.window) return;
+  const bool isNear = RTCRayN_tfar(args->ray, 1, 0) <= traversal.shift + traversal.window;
+  if ((!isNear && !traversal.filter) || rejected(args, traversal) || !isNear) return;
   traversal.list->push_back(hitOf(*args, traversal));
   args->valid[0] = 0;
 }

@@ -129,16 +129,11 @@ struct EmbreeScene::Impl {
     rtcReleaseGeometry(geometry);
   }
 
-  /// The polygons of a master lie in its own buffers: Embree asks for 16 readable bytes at the last vertex.
   RTCScene sceneOf(const CoarseGroup& mesh) {
     RTCScene out = newScene();
     Geometry& described = masters.emplace_back(Geometry{true, mesh.flipsNormal, {}, &mesh, 0, {}, nullptr});
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
-    auto* vertices = static_cast<vec3*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), mesh.P.size()));
-    if (vertices) std::copy(mesh.P.begin(), mesh.P.end(), vertices);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, mesh.quads.data(), 0, sizeof(Quad),
-                               mesh.quads.size());
+    share(geometry, mesh);
     if (mesh.trimmed) filterAbsent(geometry);
     attach(out, geometry, 0, &described);
     rtcCommitScene(out);

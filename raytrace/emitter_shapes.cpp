@@ -183,7 +183,6 @@ SeenPoint onFlat(const EmitterShape& flat, const dvec3& fromCenter, double densi
   return {vec3(dvec3(flat.center) + fromCenter), flat.normal, static_cast<float>(density)};
 }
 
-
 /// Rounding must not lose the whole shape, nor a wrong solid angle brighten it: far or edge-on shapes are sampled by area.
 bool isSmall(double solidAngle) { return !(solidAngle > kLeastSolidAngle); }
 

@@ -65,6 +65,8 @@ void bringToOpen(const Scene& scene, const Ray& ray, const Hit& hit, ShadePoints
 void addPoint(const Scene& scene, const Ray& ray, const Hit& hit, SampleName name, ShadePoints& points) {
   const int i = points.add(name);
   evaluatePoint(scene, hit.object, hit.patch, hit.u, hit.v, points, i);
+  const float radius = ray.radius + ray.spread * hit.t;
+  if (points.hasSteps()) evaluateSteps(scene, hit.object, hit.patch, hit.u, hit.v, std::max(radius, kLeastSpread * hit.t), points, i);
   const vec3 I = ray.direction * hit.t;
   points.set3(kPx, i, ray.origin + I);
   points.set3(kNx, i, hit.normal);
@@ -72,9 +74,7 @@ void addPoint(const Scene& scene, const Ray& ray, const Hit& hit, SampleName nam
   points.set3(kIx, i, I);
   points.channel(kTime)[i] = ray.time;
   if (ray.time > 0) bringToOpen(scene, ray, hit, points, i);
-  const float radius = ray.radius + ray.spread * hit.t;
   if (radius > 0) points.channel(kArea)[i] = kPi * radius * radius;
-  if (points.hasSteps()) evaluateSteps(scene, hit.object, hit.patch, hit.u, hit.v, std::max(radius, kLeastSpread * hit.t), points, i);
 }
 
 HitMode modeOf(const Attributes& a, RayKind kind) {

@@ -1,4 +1,5 @@
-// Slots that are filled when somebody first asks, and emptied, least recently used first, when together they are larger than allowed.
+// Slots that are filled when somebody first asks, and emptied, least recently used first, when together they are larger than allowed: then
+// an eighth goes at once.
 // What somebody still holds lives until it is given back. Threads: any.
 #pragma once
 #include <algorithm>
@@ -11,39 +12,42 @@
 namespace tomales {
 
 struct ResidentFigures {
-  int64_t lookups = 0, misses = 0, bytes = 0, mostBytes = 0;
+  int64_t lookups = 0, misses = 0, mostBytes = 0;
 };
 
 /// T has size_t bytes() const.
 template <class T>
 class ResidentCache {
  public:
-  ResidentCache(size_t slots, size_t budget) : slots_(slots), budget_(budget) {}
+  ResidentCache(size_t slots, size_t budget) : slots_(slots), budget_(static_cast<int64_t>(std::min(budget, size_t{1} << 62))) {}
 
   /// What slot i holds; make() gives it, as a shared_ptr<const T>, if it is empty. make() asks for no other slot.
   template <class Make>
   std::shared_ptr<const T> get(size_t i, const Make& make) {
     Slot& slot = slots_[i];
     if (auto found = slot.take(clock_.load(std::memory_order_relaxed))) return found;
+    Gone gone;  // freed after the lock
     const std::lock_guard building(making_[i % kStripes]);
     if (auto found = slot.take(clock_.load(std::memory_order_relaxed))) return found;  // another thread has made it meanwhile
     std::shared_ptr<const T> made = make();
     slot.put(made, clock_++);
-    admit(i, made->bytes());
+    gone = admit(i, made->bytes());
     return made;
   }
 
   ResidentFigures figures() const {
     const std::lock_guard lock(mutex_);
-    ResidentFigures out{0, misses_, bytes_, mostBytes_};
+    ResidentFigures out{0, misses_, mostBytes_};
     for (const Slot& slot : slots_) out.lookups += slot.lookups;
     return out;
   }
 
  private:
+  using Gone = std::vector<std::shared_ptr<const T>>;
   static constexpr size_t kStripes = 64;
 
-  struct Slot {
+  /// Every visit writes to it: on a cache line of its own.
+  struct alignas(64) Slot {
     std::shared_ptr<const T> take(int64_t now) {
       const Hold hold(busy);
       if (content) lastUse = now, ++lookups;
@@ -80,26 +84,34 @@ class ResidentCache {
     int64_t bytes;
   };
 
-  void admit(size_t slot, size_t bytes) {
-    std::vector<std::shared_ptr<const T>> gone;  // freed after the lock
+  /// What it pushes out.
+  Gone admit(size_t slot, size_t bytes) {
+    Gone gone;
     const std::lock_guard lock(mutex_);
     ++misses_;
     residents_.push_back({slot, static_cast<int64_t>(bytes)});
     bytes_ += residents_.back().bytes;
-    while (bytes_ > static_cast<int64_t>(budget_) && residents_.size() > 1) {
-      const auto oldest = std::min_element(residents_.begin(), residents_.end() - 1, [this](const Resident& a, const Resident& b) {
-        return slots_[a.slot].used() < slots_[b.slot].used();
-      });
-      gone.push_back(slots_[oldest->slot].clear());
-      bytes_ -= oldest->bytes;
-      residents_.erase(oldest);
+    if (bytes_ > budget_) {
+      std::vector<std::pair<int64_t, Resident>> byAge;  // without the newest
+      for (size_t i = 0; i + 1 < residents_.size(); ++i) byAge.emplace_back(slots_[residents_[i].slot].used(), residents_[i]);
+      std::sort(byAge.begin(), byAge.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+      residents_ = {residents_.back()};
+      for (const auto& [used, r] : byAge) {
+        if (bytes_ <= budget_ - budget_ / 8) {
+          residents_.push_back(r);
+          continue;
+        }
+        gone.push_back(slots_[r.slot].clear());
+        bytes_ -= r.bytes;
+      }
     }
     mostBytes_ = std::max(mostBytes_, bytes_);
+    return gone;
   }
 
   std::vector<Slot> slots_;
   std::mutex making_[kStripes];
-  const size_t budget_;
+  const int64_t budget_;
   std::atomic<int64_t> clock_{0};  ///< Counts what was made: a use after that is younger than the making.
   mutable std::mutex mutex_;
   std::vector<Resident> residents_;

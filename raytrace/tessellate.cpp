@@ -221,6 +221,7 @@ CoarseGroup tessellateObject(const Scene& scene, const Camera& camera, const Sha
   out.flipsNormal = o.flipsNormal;
   out.size = diagonalOf(o);
   for (const CoarseGroup& piece : tessellateAll(scene, camera, shading, work, true, log)) append(out, piece);
+  fit(out);
   return out;
 }
 

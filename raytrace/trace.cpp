@@ -148,7 +148,7 @@ Hit RayScene::Impl::resolveChunk(const Ray& ray, const PolygonHit& hit) const {
 
 /// As wide as the polygons of a level are from the eye, as if what is met were as far from P as that is from the eye.
 Level RayScene::Impl::levelOf(const Ray& ray, const vec3& P) const {
-  const float width_px = 2 * ray.spread * glm::length(P) / std::max(camera.pixelSize(P), 1e-20f);
+  const float width_px = 2 * std::max(ray.spread * glm::length(P), ray.radius) / std::max(camera.pixelSize(P), 1e-20f);
   return width_px >= kCoarseWidth_px ? Level::Coarse : width_px >= kMediumWidth_px ? Level::Medium : Level::Fine;
 }
 

@@ -91,7 +91,7 @@ class RayScene {
   /// commas or spaces. Null: all. Stays valid.
   const std::vector<uint8_t>* groupsIn(const std::string& subset, const std::string& exclude) const;
 
-  /// Sets group, level, offset and bias of a ray of known spread that leaves P on a micropolygon of this group with edges no longer than `edgeLength`
+  /// Sets group, level, offset and bias of a ray of known spread and radius that leaves P on a micropolygon of this group with edges no longer than `edgeLength`
   /// (0: a point of the true surface): trace:offset and trace:bias, or by default more than the largest distance between the
   /// coarse surface, the true one (displacement bound included) and the micropolygon.
   void prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ray) const;

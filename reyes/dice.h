@@ -35,7 +35,7 @@ TrueSurface surfaceAt(const Scene& scene, int object, uint32_t patch, float u, f
 /// Fills one shading point at patch position (u, v): a ray hit. P and normals are evaluated on the true surface;
 /// the caller may overwrite them. `primvarFloats` of the batch must be the object's.
 void evaluatePoint(const Scene& scene, int object, uint32_t patch, float u, float v, ShadePoints& batch, int index);
-/// After evaluatePoint, for a batch with steps: how values change over a footprint of that radius, of which du and dv become the size.
+/// Right after evaluatePoint, for a batch with steps: how values change over a footprint of that radius, of which du and dv become the size.
 void evaluateSteps(const Scene& scene, int object, uint32_t patch, float u, float v, float radius, ShadePoints& batch, int index);
 
 }  // namespace tomales

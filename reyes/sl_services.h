@@ -1,6 +1,7 @@
 // What shaders ask of the renderer, on values of a batch: spaces, derivatives, pictures, light, rays, point clouds, messages (rispec-table
 // 9.1 to 9.6). Part of reyes/sl.h.
 #pragma once
+#include "reyes/sl_lists.h"
 #include "reyes/sl_shadeops.h"
 
 namespace sl {
@@ -54,6 +55,11 @@ inline Triple texture(const char* name, const Float& s, const Float& t, const Tm
   return tripleFrom([&](TmVec3 out) { grid()->call->textureWith(grid()->host, grid(), name, &options, s.data(), t.data(), out); });
 }
 inline Triple texture(const char* name) { return texture(name, Float(grid()->s), Float(grid()->t)); }
+/// With a list, which begins with a name.
+template <class... List>
+Triple texture(const char* name, const Float& s, const Float& t, const char* first, const List&... list) { return texture(name, s, t, listed(lookup(), first, list...)); }
+template <class... List>
+Triple texture(const char* name, const char* first, const List&... list) { return texture(name, Float(grid()->s), Float(grid()->t), first, list...); }
 /// One channel.
 inline Float ftexture(const char* name, int channel, const Float& s, const Float& t) {
   TmTextureLookup one = lookup();
@@ -74,8 +80,20 @@ inline Triple texture(const char* name, const Float (&s)[4], const Float (&t)[4]
 inline Triple environment(const char* name, const Triple& R, const TmTextureLookup& options = lookup()) {
   return tripleFrom([&](TmVec3 out) { grid()->call->environmentWith(grid()->host, grid(), name, &options, R, out); });
 }
-inline Triple shadow(const char* name, const Triple& p, const TmShadowLookup& options = {-1, 0, 1, 16}) {
+template <class... List>
+Triple environment(const char* name, const Triple& R, const char* first, const List&... list) { return environment(name, R, listed(lookup(), first, list...)); }
+constexpr TmShadowLookup kShadowDefaults = {-1, 0, 1, 16};
+inline Triple shadow(const char* name, const Triple& p, const TmShadowLookup& options = kShadowDefaults) {
   return tripleFrom([&](TmVec3 out) { grid()->call->shadow(grid()->host, grid(), name, p, &options, out); });
+}
+template <class... List>
+Triple shadow(const char* name, const Triple& p, const char* first, const List&... list) { return shadow(name, p, listed(kShadowDefaults, first, list...)); }
+
+/// Empty: there is none.
+inline std::string askText(TmWhom whom, const char* name) {
+  int32_t type;
+  TmValue v;
+  return grid()->call->ask(grid()->host, grid(), whom, -1, name, &type, &v) && type == TM_STRING ? v.string : "";
 }
 
 inline Color ambient() {
@@ -99,13 +117,21 @@ inline Color phong(const Normal& n, const Vector& v, const Float& size) {
   }
   return sum;
 }
-/// The lobe of specular(), L and V of any length; the exponent is docs/decisions/0004's.
+/// What specular() divides by the roughness to get its exponent, as Option "shade" "specular" says (docs/decisions/0004).
+inline float specularScale() {
+  float& scale = Run::now().specularScale;
+  if (scale == 0) scale = askText(TM_OF_OPTIONS, "shade:specular") == "rispec" ? 1 : 8;
+  return scale;
+}
+/// The lobe of specular(), L and V of any length.
 inline Float specularbrdf(const Vector& L, const Normal& N, const Vector& V, const Float& roughness) {
-  return pow(max(0, dot(normalize(N), normalize(normalize(L) + normalize(V)))), 8 / roughness);
+  return pow(max(0, dot(normalize(N), normalize(normalize(L) + normalize(V)))), specularScale() / roughness);
 }
 inline Color trace(const Point& p, const Vector& r, const TmRayOptions& options = rsl::defaultRays()) {
   return tripleFrom([&](TmVec3 out) { grid()->call->trace(grid()->host, grid(), p, r, &options, out, nullptr); });
 }
+template <class... List>
+Color trace(const Point& p, const Vector& r, const char* first, const List&... list) { return trace(p, r, listed(rsl::defaultRays(), first, list...)); }
 /// RSL's float trace(): how far the ray goes, 1e30 where it meets nothing.
 inline Float traceDistance(const Point& p, const Vector& r, const TmRayOptions& options = rsl::defaultRays()) {
   Float out;
@@ -115,15 +141,22 @@ inline Float traceDistance(const Point& p, const Vector& r, const TmRayOptions& 
 inline Color transmission(const Point& from, const Point& to, const TmRayOptions& options = rsl::defaultRays()) {
   return tripleFrom([&](TmVec3 out) { grid()->call->transmissionWith(grid()->host, grid(), from, to - from, &options, out); });
 }
-inline Float occlusion(const Point& p, const Normal& n, int samples) {
-  TmRayOptions options = rsl::defaultRays();
+template <class... List>
+Color transmission(const Point& from, const Point& to, const char* first, const List&... list) {
+  return transmission(from, to, listed(rsl::defaultRays(), first, list...));
+}
+template <class... List>
+Float occlusion(const Point& p, const Normal& n, int samples, const List&... list) {
+  TmRayOptions options = listed(rsl::defaultRays(), list...);
   options.samples = samples;
   Float out;
   grid()->call->occlusion(grid()->host, grid(), p, n, &options, out.data(), TmVec3{});
   return out;
 }
-/// Mean radiance that arrives from the hemisphere around n (or the cone of options): not multiplied by Cs or pi.
-inline Color indirectdiffuse(const Point& p, const Normal& n, int samples, TmRayOptions options = rsl::defaultRays()) {
+/// Mean radiance that arrives from the hemisphere around n (or the cone of the list): not multiplied by Cs or pi.
+template <class... List>
+Color indirectdiffuse(const Point& p, const Normal& n, int samples, const List&... list) {
+  TmRayOptions options = listed(rsl::defaultRays(), list...);
   options.samples = samples;
   Float covered;
   return tripleFrom([&](TmVec3 out) { grid()->call->occlusion(grid()->host, grid(), p, n, &options, covered.data(), out); });
@@ -254,11 +287,6 @@ void print(const std::string& pattern, const Values&... values) {
   forActive([&](int i) { grid()->call->print(grid()->host, grid(), rsl::format(pattern, at(values, i)...).c_str()); });
 }
 
-inline std::string askText(TmWhom whom, const char* name) {
-  int32_t type;
-  TmValue v;
-  return grid()->call->ask(grid()->host, grid(), whom, -1, name, &type, &v) && type == TM_STRING ? v.string : "";
-}
 inline std::string shadername(TmWhom whom = TM_OF_SURFACE) { return askText(whom, "__shadername"); }
 
 }  // namespace sl

@@ -1,6 +1,7 @@
 // Values of a whole batch with masks, and RSL's operators on them. Part of reyes/sl.h.
 #pragma once
 #include <functional>
+#include <string_view>
 #include <utility>
 
 #include "reyes/shadeops.h"
@@ -16,7 +17,8 @@ class Run {
   static Run& now() { return *current(); }
 
   TmGrid grid;
-  int randoms = 0;  ///< Calls of random() so far.
+  int randoms = 0;            ///< Calls of random() so far.
+  float specularScale = 0;    ///< Of sl::specularScale(); 0: not asked yet.
 
  private:
   static Run*& current() {
@@ -161,6 +163,7 @@ class Triple {
   Triple(Triple&&) = default;
   Triple& operator=(const Triple& v) { return assign([&](int i) { return v[i]; }); }
   Triple& operator+=(const Triple& v) { return assign([&](int i) { return (*this)[i] + v[i]; }); }
+  Triple& operator-=(const Triple& v) { return assign([&](int i) { return (*this)[i] - v[i]; }); }
   Triple& operator*=(const Triple& v) { return assign([&](int i) { return (*this)[i] * v[i]; }); }
   Triple& operator*=(const Float& v) { return assign([&](int i) { return (*this)[i] * v[i]; }); }
 
@@ -193,6 +196,13 @@ using Point = Triple;
 using Vector = Triple;
 using Normal = Triple;
 
+// --- Parameters that are the same at all points
+
+inline float uniform(const rsl::UniformFloatParam& p) { return p(grid()); }
+inline const char* uniform(const rsl::StringParam& p) { return p(grid()); }
+inline bool operator==(const rsl::StringParam& a, std::string_view b) { return uniform(a) == b; }
+inline bool operator!=(const rsl::StringParam& a, std::string_view b) { return uniform(a) != b; }
+
 // --- Operators, point by point
 
 inline Float operator-(const Float& a) { return Float::of([&](int i) { return -a[i]; }); }
@@ -207,6 +217,11 @@ SL_OPERATOR(-)
 SL_OPERATOR(*)
 inline Triple operator*(const Float& a, const Triple& b) { return Triple::of([&](int i) { return a[i] * b[i]; }); }
 inline Triple operator*(const Triple& a, const Float& b) { return b * a; }
+// A number beside a triple stands for three.
+inline Triple operator+(const Triple& a, const Float& b) { return a + Triple(b); }
+inline Triple operator+(const Float& a, const Triple& b) { return Triple(a) + b; }
+inline Triple operator-(const Triple& a, const Float& b) { return a - Triple(b); }
+inline Triple operator-(const Float& a, const Triple& b) { return Triple(a) - b; }
 #define SL_COMPARISON(op) \
   inline Mask operator op(const Float& a, const Float& b) { return Mask::of([&](int i) { return a[i] op b[i]; }); }
 SL_COMPARISON(<)

@@ -11,7 +11,7 @@ rsl::FloatParam metallic("metallic", 0, "0: dielectric, 1: metal"), specular("sp
 rsl::FloatParam speculartint("speculartint", 0, "tint of that towards the base colour"), roughness("roughness", 0.5f, "of both lobes");
 rsl::FloatParam sheen("sheen", 0, "grazing reflection of cloth"), sheentint("sheentint", 0.5f, "its tint");
 rsl::FloatParam clearcoat("clearcoat", 0, "a second lobe"), clearcoatgloss("clearcoatgloss", 1, "1: glossy, 0: satin");
-rsl::UniformFloatParam reflections("reflections", 0, "rays that mirror the scene, a point; 0: lights alone are mirrored");
+rsl::UniformFloatParam reflections("reflections", 0, "rays that mirror the scene, a point that the camera sees; 0: lights alone");
 rsl::ColorParam emission("emission", {0, 0, 0}, "radiance that it adds");
 rsl::StringParam texturename("texturename", "", "picture that multiplies Cs, the base colour");
 rsl::ColorOutput diffusePart("diffuse", "share of diffuse light and sheen"), specularPart("specular", "share of highlights"),
@@ -181,7 +181,8 @@ void shade(const TmGrid* g) {
   }
   if (shiny) {
     glossy.addLobeSamples(highlight);
-    glossy.addReflections(static_cast<int>(reflections(g)), mirrored);
+    const int rays = static_cast<int>(reflections(g));
+    glossy.addReflections(b.rayDepth() > 0 ? std::min(rays, 1) : rays, mirrored);  // reflected again and again, rays would multiply
   }
   for (int i : b) {
     const Material& m = glossy[i].material;

@@ -23,11 +23,10 @@ struct shinyplastic : Surface {
     Normal Nf = faceforward(normalize(N), I);
     Vector V = -normalize(I);
     Float kr, kt;
-    fresnel(-V, Nf, 1 / Float(eta), kr, kt);
+    fresnel(-V, Nf, 1 / eta, kr, kt);
     Color reflection = trace(P, reflect(-V, Nf));
     Oi = Os;
-    Ci = Os * (Cs * (Float(Ka) * ambient() + Float(Kd) * kt * diffuse(Nf)) + Float(Ks) * (Color(specularcolor) * specular(Nf, V, roughness)) +
-               Float(Kr) * kr * reflection);
+    Ci = Os * (Cs * (Ka * ambient() + Kd * kt * diffuse(Nf)) + specularcolor * Ks * specular(Nf, V, roughness) + Kr * kr * reflection);
   }
 };
 const rsl::Shader shader(TM_SURFACE, "shinyplastic", "plastic that mirrors by Fresnel's equations", TM_KEEPS_OPACITY | TM_TRACES,

@@ -1,6 +1,6 @@
 // A spotlight with soft shadows that projects a slide. In RSL:
 //
-//   light slidespot(float intensity = 1, coneangle = radians(30), conedeltaangle = radians(5), shadowsamples = 16, size = 0;
+//   light slidespot(float intensity = 1, coneangle = radians(30), conedeltaangle = radians(5), shadowsamples = 16, samplecone = 0;
 //                   color lightcolor = 1; point from = (0, 0, 0), to = (0, 0, 1); vector up = (0, 1, 0); string slidename = "") {
 //     vector A = normalize(to - from), right = normalize(A ^ up), top = right ^ A;
 //     illuminate (from, A, coneangle) {
@@ -11,7 +11,7 @@
 //         float ss = .5 - (L . right) / (2 * width * depth), tt = .5 - (L . top) / (2 * width * depth);
 //         Cl *= color texture(slidename, ss, tt);
 //       }
-//       Cl *= transmission(Ps, from, "samples", shadowsamples, "samplecone", atan(size, length(L)));
+//       Cl *= transmission(Ps, from, "samples", shadowsamples, "samplecone", samplecone);
 //     }
 //   }
 #include <reyes/sl.h>
@@ -21,7 +21,8 @@ using namespace sl;
 namespace {
 rsl::FloatParam intensity("intensity", 1, "scale: the light at distance 1"), coneangle("coneangle", 0.523598776f, "half angle of the cone, radians");
 rsl::FloatParam conedeltaangle("conedeltaangle", 0.0872664626f, "width of the soft edge inside the cone, radians");
-rsl::FloatParam shadowsamples("shadowsamples", 16, "shadow rays a point"), size("size", 0, "radius of the lamp: softness of its shadows");
+rsl::UniformFloatParam shadowsamples("shadowsamples", 16, "shadow rays a point");
+rsl::UniformFloatParam samplecone("samplecone", 0, "half angle of the lamp as points see it, radians: softness of shadows");
 rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "colour");
 rsl::PointParam from("from", {0, 0, 0}, "position"), to("to", {0, 0, 1}, "a point on the axis");
 rsl::VectorParam up("up", {0, 1, 0}, "which way the slide stands");
@@ -29,23 +30,21 @@ rsl::StringParam slidename("slidename", "", "picture in the lamp; none: white");
 
 struct slidespot : Light {
   void main() {
-    Vector A = normalize(Point(to) - Point(from)), right = normalize(cross(A, up)), top = cross(right, A);
+    Vector A = normalize(to - from), right = normalize(cross(A, up)), top = cross(right, A);
     illuminate(from, A, coneangle, [&] {
       Float c = dot(normalize(L), A), width = tan(coneangle);
-      Cl = Float(intensity) * Color(lightcolor) * smoothstep(cos(coneangle), cos(Float(coneangle) - Float(conedeltaangle)), c) / dot(L, L);
-      if (*slidename(grid())) {
+      Cl = intensity * lightcolor * smoothstep(cos(coneangle), cos(coneangle - conedeltaangle), c) / dot(L, L);
+      if (slidename != "") {
         Float depth = dot(L, A);
         Float ss = 0.5 - dot(L, right) / (2 * width * depth), tt = 0.5 - dot(L, top) / (2 * width * depth);
-        Cl *= texture(slidename(grid()), ss, tt);
+        Cl *= texture(uniform(slidename), ss, tt);
       }
-      TmRayOptions rays = rsl::defaultRays();
-      rays.samples = int(shadowsamples(grid(), 0)), rays.coneAngle = std::atan2(size(grid(), 0), rsl::length(L[0]));
-      Cl *= transmission(Ps, from, rays);
+      Cl *= transmission(Ps, from, "samples", shadowsamples, "samplecone", samplecone);
     });
   }
 };
 const rsl::Shader shader(TM_LIGHT, "slidespot", "a spotlight with a slide and soft shadows", TM_TRACES, sl::shade<slidespot>,
-                         {&intensity, &coneangle, &conedeltaangle, &shadowsamples, &size, &lightcolor, &from, &to, &up, &slidename});
+                         {&intensity, &coneangle, &conedeltaangle, &shadowsamples, &samplecone, &lightcolor, &from, &to, &up, &slidename});
 }  // namespace
 
 TM_SHADER_LIBRARY(shader)

@@ -20,25 +20,26 @@ using namespace sl;
 
 namespace {
 rsl::FloatParam density("density", 1, "of the thickest smoke, for each unit of length"), frequency("frequency", 1, "lumps for each unit");
-rsl::FloatParam steps("steps", 32, "of the march"), octaves("octaves", 3, "layers of noise"), top("top", 2, "no smoke above this height in the world");
+rsl::UniformFloatParam steps("steps", 32, "of the march"), octaves("octaves", 3, "layers of noise");
+rsl::FloatParam top("top", 2, "no smoke above this height in the world");
 rsl::ColorParam smokecolor("smokecolor", {0.8f, 0.8f, 0.8f}, "colour");
 
 struct smoke : Volume {
   void main() {
     Point Pw = transform("world", P);
     Vector Iw = vtransform("world", I);
-    const int n = int(steps(grid(), 0));
+    const float n = uniform(steps);
     Float stepsize = length(I) / n;
     Color Cv;
     Float clear = 1;
     for (int i = 0; i < n; ++i) {
-      Point Q = Pw - Float((i + 0.5) / n) * Iw;
+      Point Q = Pw - ((i + 0.5) / n) * Iw;
       Float d = 0, amp = 1, f = frequency;
-      for (int k = 0; k < int(octaves(grid(), 0)); ++k) {
+      for (int k = 0; k < uniform(octaves); ++k) {
         d += amp * (2 * noise(f * Q) - 1);
         f *= 2, amp *= 0.5;
       }
-      d = Float(density) * smoothstep(0, 0.7, d + 0.3) * (1 - smoothstep(0, top, ycomp(Q)));
+      d = density * smoothstep(0, 0.7, d + 0.3) * (1 - smoothstep(0, top, ycomp(Q)));
       Float seen = exp(-d * stepsize);
       Cv = mix(smokecolor, Cv, seen);
       clear *= seen;

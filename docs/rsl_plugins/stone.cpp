@@ -25,13 +25,13 @@ rsl::FloatParam Km("Km", 0.1f, "depth of the hollows"), lumps("frequency", 2, "l
 
 struct stone : Displacement {
   void main() {
-    Point Q = Float(lumps) * transform("shader", P);
+    Point Q = lumps * transform("shader", P);
     Float h = 0, amp = 1;
     for (int k = 0; k < 4; ++k) {
       h += amp * abs(2 * noise(Q) - 1);
-      Q *= Float(2), amp *= 0.5;
+      Q *= 2, amp *= 0.5;
     }
-    P += -(Float(Km) * h * normalize(N));
+    P -= Km * h * normalize(N);
     N = calculatenormal(P);
   }
 };
@@ -44,11 +44,11 @@ rsl::ColorParam dark("dark", {0.25f, 0.22f, 0.2f}, "colour between grains");
 struct stonesurface : Surface {
   void main() {
     Point Q = transform("shader", P);
-    Float grain = noise(Float(grains) * Q);
-    Normal Nb = normalize(calculatenormal(P + Float(Kb) * grain * normalize(N)));
+    Float grain = noise(grains * Q);
+    Normal Nb = normalize(calculatenormal(P + Kb * grain * normalize(N)));
     Normal Nf = faceforward(Nb, I);
     Oi = Os;
-    Ci = Os * mix(dark, Cs, smoothstep(0.2, 0.8, grain)) * (Float(Ka) * ambient() + Float(Kd) * diffuse(Nf));
+    Ci = Os * mix(dark, Cs, smoothstep(0.2, 0.8, grain)) * (Ka * ambient() + Kd * diffuse(Nf));
   }
 };
 const rsl::Shader surface(TM_SURFACE, "stonesurface", "grains that are bumps", TM_KEEPS_OPACITY | TM_NEIGHBOURS, sl::shade<stonesurface>,

@@ -23,13 +23,13 @@ struct toon : Surface {
   void main() {
     Normal Nf = faceforward(normalize(N), I);
     Float light = 0;
-    illuminance(P, Nf, rsl::kPi / 2, [&] { light += 0.3333 * (xcomp(Cl) + ycomp(Cl) + zcomp(Cl)) * dot(normalize(L), Nf); });
-    Float tone = floor(light * Float(tones) + 0.5) / Float(tones);
+    illuminance(P, Nf, rsl::kPi / 2, [&] { light += 0.3333 * (comp(Cl, 0) + comp(Cl, 1) + comp(Cl, 2)) * dot(normalize(L), Nf); });
+    Float tone = floor(light * tones + 0.5) / tones;
     Float facing = dot(-normalize(I), Nf);
     Float pixel = abs(Du(facing) * du) + abs(Dv(facing) * dv);
-    Float ink = 1 - filterstep(Float(outline) * pixel, facing, pixel);
+    Float ink = 1 - filterstep(outline * pixel, facing, pixel);
     Oi = Os;
-    Ci = Os * mix(Cs * (ambient() + Color(tone)), inkcolor, ink);
+    Ci = Os * mix(Cs * (ambient() + tone), inkcolor, ink);
   }
 };
 const rsl::Shader shader(TM_SURFACE, "toon", "flat tones and an outline", TM_KEEPS_OPACITY | TM_NEIGHBOURS, sl::shade<toon>,

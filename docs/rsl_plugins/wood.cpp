@@ -26,16 +26,15 @@ rsl::ColorParam shine("shine", {1, 1, 1}, "colour of highlights");
 struct wood : Surface {
   void main() {
     Point Q = transform("shader", P);
-    Q += 0.08 * (noise3(4 * Q) - Vector(0.5));
-    Float r = Float(ringscale) * sqrt(xcomp(Q) * xcomp(Q) + ycomp(Q) * ycomp(Q));
+    Q += 0.08 * (noise3(4 * Q) - 0.5);
+    Float r = ringscale * sqrt(xcomp(Q) * xcomp(Q) + ycomp(Q) * ycomp(Q));
     r += 0.3 * noise(r);
     Float ring = mod(r, 1), late = smoothstep(0.5, 0.9, ring) * (1 - smoothstep(0.95, 1, ring));
-    Float grain = filterstep(0.6, noise(Float(grainscale) * Point(xcomp(Q), ycomp(Q), 0.1 * zcomp(Q))), 0.3);
+    Float grain = filterstep(0.6, noise(grainscale * Point(xcomp(Q), ycomp(Q), 0.1 * zcomp(Q))), 0.3);
     Color base = mix(lightwood, darkwood, clamp(late + 0.25 * grain, 0, 1));
     Normal Nf = faceforward(normalize(N), I);
     Oi = Os;
-    Ci = Os * (base * (ambient() + Float(Kd) * diffuse(Nf)) +
-               (1 - 0.5 * grain) * Float(Ks) * (Color(shine) * specular(Nf, -normalize(I), roughness)));
+    Ci = Os * (base * (ambient() + Kd * diffuse(Nf)) + (1 - 0.5 * grain) * Ks * shine * specular(Nf, -normalize(I), roughness));
   }
 };
 const rsl::Shader shader(TM_SURFACE, "wood", "rings and pores of a trunk along z of shader space", TM_KEEPS_OPACITY, sl::shade<wood>,

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "gi/brick_file.h"
+#include "gi/icf.h"
 #include "gi/ply.h"
 #include "gi/point_picture.h"
 #include "reyes/app/atlas_job.h"
@@ -99,6 +100,15 @@ void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, 
     fmt::print("{} photons emitted, {} stored in {}\n", figures.emitted, figures.stored, settings.output);
 }
 
+/// Of a .ptc, or the records of an .icf.
+PointCloud cloudOf(const std::string& path) {
+  if (fs::path(path).extension() != ".icf") return PointFile(path).readAll();
+  std::string error;
+  const std::unique_ptr<IcfFile> file = IcfFile::open(path, error);
+  if (!file) throw FileError(fmt::format("\"{}\": {}", path, error));
+  return recordsOf(file->shot());
+}
+
 }  // namespace
 
 int photonsCommand(const RenderSettings& settings) {
@@ -169,9 +179,7 @@ int viewCommand(const ViewCommand& command) {
         return vec3(camera->raster(at), at.z);
       };
     }
-    const bool bricks = fs::path(command.input).extension() == ".bkm";
-    const PointCloud cloud =
-        bricks ? voxelsOf(BrickFile(command.input), command.level) : PointFile(command.input).readAll();
+    const PointCloud cloud = fs::path(command.input).extension() == ".bkm" ? voxelsOf(BrickFile(command.input), command.level) : cloudOf(command.input);
     writeImage(command.output, pictureOf(cloud, settings), fs::path(command.output).extension() == ".png", log);
   });
   return exitCodeOf(log);
@@ -189,8 +197,10 @@ int convertCommand(const ConvertCommand& command) {
         log.report(Severity::Warning, "ply-points", {},
                    fmt::format("\"{}\": {} of {} points are not finite or have a negative radius; dropped", command.input,
                                figures.dropped, figures.points + figures.dropped));
+    } else if (from == ".icf" && to == ".ptc") {
+      writePointFile(cloudOf(command.input), command.output);
     } else {
-      throw FileError("point clouds are converted from .ptc to .ply, or from .ply to .ptc");
+      throw FileError("point clouds are converted from .ptc to .ply, from .ply to .ptc, or from .icf to .ptc");
     }
   });
   return exitCodeOf(log);

@@ -46,7 +46,7 @@ void buildRender(CLI::App& app, Invocation& in, int& code) {
   c->add_flag("--resume", in.render.resume, "Keep finished buckets beside the picture until it is written, and use those of an interrupted run");
   c->add_option("--irradiance", in.render.irradiance, "Indirect light from these records instead of a gather pass")->type_name("SHOT.icf");
   c->add_flag("--irradiance-append", in.render.appendIrradiance, "Gather where those records leave points uncovered");
-  addParsed(*c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M", "Shade and drop buckets one by one when the frame would need more");
+  addParsed(*c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M", "Limits textures, bricks and the buckets of the frame; what exceeds it rests in a file");
   c->add_option("SCENE", in.render.files, "RIB files")->required();
   c->callback([&] { code = renderCommand(in.render); });
 }
@@ -151,7 +151,7 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   bricks->add_flag("--ignorenormals", in.brickmake.settings.ignoreNormals, "The data fill a volume");
   bricks->callback([&] { code = brickmakeCommand(in.brickmake); });
 
-  CLI::App* view = app.add_subcommand("view", "A picture of a point cloud, photon map or brick map");
+  CLI::App* view = app.add_subcommand("view", "A picture of a point cloud, photon map, brick map, or of the records of an irradiance cache");
   view->add_option("FILE", in.view.input)->required();
   addParsed(*view, "-o", in.view.output, parseOutput, "FILE.png|.exr|.tif", "The picture");
   view->add_option("--channel", in.view.channel, "Channel to show; also normal, radius (default: the first)");
@@ -161,8 +161,8 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   addParsed(*view, "--format", in.view.size, [](const std::string& t) { return parsePair(t, 1, 16384); }, "WxH", "Resolution in pixels");
   view->callback([&] { code = viewCommand(in.view); });
 
-  CLI::App* convert = app.add_subcommand("convert", "Point clouds from and to PLY, for other programs");
-  convert->add_option("IN", in.convert.input, "FILE.ptc or FILE.ply")->required();
+  CLI::App* convert = app.add_subcommand("convert", "Point clouds from and to PLY, for other programs; the records of an irradiance cache as a point cloud");
+  convert->add_option("IN", in.convert.input, "FILE.ptc, FILE.ply or SHOT.icf")->required();
   convert->add_option("OUT", in.convert.output, "FILE.ply or FILE.ptc")->required();
   convert->add_option("--radius", in.convert.radius, "Of points that name none (default: 0)")->check(CLI::Range(0.0, 1e9));
   convert->callback([&] { code = convertCommand(in.convert); });

@@ -1,13 +1,17 @@
 // Unit normals in 32 bits, as files have them.
 #pragma once
+#include <cfloat>
+
 #include "reyes/base/math.h"
 
 namespace tomales {
 
-/// Octahedral: 1 / 65534 of a quadrant fine. 0 is no normal.
+/// The octahedron folded onto a square of 65535 x 65535 (Meyer et al. 2010): off by less than 0.004 degrees. 0 is no normal, which what is
+/// zero or not finite becomes.
 inline uint32_t packNormal(const vec3& n) {
-  if (n == vec3(0.0f)) return 0;
-  const vec3 a = n / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+  const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+  if (!(sum > 0 && sum <= FLT_MAX)) return 0;
+  const vec3 a = n / sum;
   vec2 o(a.x, a.y);
   if (a.z < 0) o = (vec2(1) - glm::abs(vec2(a.y, a.x))) * vec2(a.x < 0 ? -1.0f : 1.0f, a.y < 0 ? -1.0f : 1.0f);
   const auto pack = [](float v) { return static_cast<uint32_t>(std::lround(v * 32767.0f) + 32768); };

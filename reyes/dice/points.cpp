@@ -66,7 +66,7 @@ void evaluatePoint(const Scene& scene, int object, uint32_t patch, float u, floa
   batch.channel(kDv)[index] = 0;
   batch.channel(kArea)[index] = 0;
 
-  AlignedVector<float> values;
+  static thread_local AlignedVector<float> values;
   primvarsAt(prim, patch, u, v, m, normals, values);
   for (int c = 0; c < static_cast<int>(values.size()); ++c) batch.primvar(c)[index] = values[static_cast<size_t>(c)];
   if (const int n = offsetOf(prim.primvars(), "N"); n >= 0) batch.set3(kNx, index, normalizeOr(tripleAt(values, n), geometric));
@@ -87,26 +87,23 @@ void evaluateSteps(const Scene& scene, int object, uint32_t patch, float u, floa
   const auto normalAt = [&](float pu, float pv, const AlignedVector<float>& values) {
     return normalizeOr(N >= 0 ? tripleAt(values, N) : surfaceAt(scene, object, patch, pu, pv).normal, vec3(0));
   };
-  AlignedVector<float> values, moved;
-  primvarsAt(prim, patch, u, v, m, normals, values);
-  const vec3 normal = normalAt(u, v, values);
+  static thread_local AlignedVector<float> moved;
+  const vec3 normal = batch.get3(kNx, index);
   for (const bool alongV : {false, true}) {
     const float edge = glm::length(batch.get3(alongV ? kDpdvX : kDpduX, index)), per = std::abs(alongV ? here.perV : here.perU);
     const float patchStep = edge * per > 0 ? std::clamp(2 * radius / (edge * per), 1e-6f, kWidest) : kWidest;
     const float at = alongV ? v : u, sign = at + patchStep <= 1 ? 1.0f : -1.0f;
     const float pu = alongV ? u : u + sign * patchStep, pv = alongV ? v + sign * patchStep : v;
     primvarsAt(prim, patch, pu, pv, m, normals, moved);
-    const auto put = [&](int value, float change) { batch.step(value, alongV)[index] = sign * change; };
+    const auto put = [&](int value, float difference) { batch.step(value, alongV)[index] = sign * difference; };
     const vec3 turned = normalAt(pu, pv, moved) - normal;
     for (int axis = 0; axis < 3; ++axis) put(kStepN + axis, turned[axis]);
-    for (int c = 0; c < static_cast<int>(values.size()); ++c) {
-      const auto k = static_cast<size_t>(c);
-      put(kStepPrimvars + c, moved[k] - values[k]);
-    }
+    const auto change = [&](int c) { return moved[static_cast<size_t>(c)] - batch.primvar(c)[index]; };
+    for (int c = 0; c < static_cast<int>(moved.size()); ++c) put(kStepPrimvars + c, change(c));
     const ShaderParameters there(prim, patch, pu, pv);
     const vec2 st = o.attributes->textureAt(there.u, there.v) - o.attributes->textureAt(here.u, here.v);
-    put(kStepS, s >= 0 ? moved[static_cast<size_t>(s)] - values[static_cast<size_t>(s)] : st.x);
-    put(kStepT, t >= 0 ? moved[static_cast<size_t>(t)] - values[static_cast<size_t>(t)] : st.y);
+    put(kStepS, s >= 0 ? change(s) : st.x);
+    put(kStepT, t >= 0 ? change(t) : st.y);
     batch.channel(alongV ? kDv : kDu)[index] = patchStep * per;
   }
 }

@@ -9,13 +9,38 @@
 namespace tomales {
 namespace {
 
+Bound3 boundOf(const std::vector<vec3>& points) {
+  Bound3 box;
+  for (const vec3& p : points) box.extend(p);
+  return box;
+}
+
+/// As long as the area is large, or 0 where points enclose none.
+glm::dvec3 areaNormal(const std::vector<vec3>& points, const Bound3& box) {
+  if (points.size() < 3) return glm::dvec3(0);
+  const double leastArea = 1e-9 * glm::dot(box.size(), box.size());
+  glm::dvec3 normal = newellNormal(points);
+  if (!(glm::length(normal) > leastArea)) normal = normalOfWidestTriangle(points);
+  return glm::length(normal) > leastArea ? normal : glm::dvec3(0);
+}
+
+Face faceOf(const std::vector<vec3>& points, const glm::dvec3& normal, const Bound3& box) {
+  const glm::dvec3 unit = glm::normalize(normal);
+  const double size = glm::length(glm::dvec3(box.size()));
+  const bool planar = std::none_of(points.begin(), points.end(), [&](const vec3& p) {
+    return std::abs(glm::dot(glm::dvec3(p - points[0]), unit)) > 1e-6 * size;
+  });
+  return {vec3(unit), planar};
+}
+
 class Decomposer {
  public:
   Decomposer(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
-             const std::vector<int>& vertices, const std::vector<vec3>& positions)
+             const std::vector<int>& vertices, const std::vector<vec3>& plan, const std::vector<vec3>& positions)
       : loopCounts_(loopCounts),
         vertexCounts_(vertexCounts),
         vertices_(vertices),
+        plan_(plan),
         positions_(positions),
         edges_(vertexCounts, vertices) {}
 
@@ -40,7 +65,7 @@ class Decomposer {
   }
 
  private:
-  vec3 position(uint32_t faceVertex) const { return positions_[static_cast<size_t>(vertices_[faceVertex])]; }
+  vec3 position(uint32_t faceVertex) const { return plan_[static_cast<size_t>(vertices_[faceVertex])]; }
 
   /// A loop's vertices without those that repeat the one before.
   void gather(uint32_t first, uint32_t count) {
@@ -85,20 +110,16 @@ class Decomposer {
   bool addFace(uint32_t first, std::span<const int> counts) {
     corner_.clear(), point_.clear(), open_.clear(), loopStart_.clear();
     gather(first, static_cast<uint32_t>(counts[0]));
-    Bound3 box;
-    for (const vec3& p : point_) box.extend(p);
-    const double leastArea = 1e-9 * glm::dot(box.size(), box.size());
-    glm::dvec3 normal = newellNormal(point_);
-    if (!(glm::length(normal) > leastArea)) normal = normalOfWidestTriangle(point_);
-    const bool flatEnough = point_.size() >= 3 && glm::length(normal) > leastArea;
+    const Bound3 box = boundOf(point_);
+    const glm::dvec3 normal = areaNormal(point_, box);
     out_.faces.push_back({vec3(0), true});
-    if (!flatEnough) return false;
+    if (normal == glm::dvec3(0)) return false;
     if (counts.size() > 1) {
       gatherHoles(first + static_cast<uint32_t>(counts[0]), counts.subspan(1));
       joinHoles(normal);
     }
-    const glm::dvec3 unit = glm::normalize(normal);
-    out_.faces.back() = {vec3(unit), isPlanar(unit, glm::length(glm::dvec3(box.size())))};
+    out_.faces.back() = faceOf(point_, normal, box);
+    if (&plan_ != &positions_) moveFace();
     if (point_.size() == 3)
       addPiece({0, 1, 2});
     else if (point_.size() == 4 && isStrictlyConvex(point_, normal))
@@ -109,10 +130,13 @@ class Decomposer {
     return true;
   }
 
-  bool isPlanar(const glm::dvec3& unit, double size) const {
-    for (const vec3& p : point_)
-      if (std::abs(glm::dot(glm::dvec3(p - point_[0]), unit)) > 1e-6 * size) return false;
-    return true;
+  /// The face at hand where its corners are in `positions_`. Without area there it keeps the plane of the plan.
+  void moveFace() {
+    std::vector<vec3> moved;
+    for (const uint32_t c : corner_) moved.push_back(positions_[static_cast<size_t>(vertices_[c])]);
+    const Bound3 box = boundOf(moved);
+    const glm::dvec3 normal = areaNormal(moved, box);
+    out_.faces.back() = faceOf(moved, normal == glm::dvec3(0) ? glm::dvec3(out_.faces.back().normal) : normal, box);
   }
 
   static uint8_t edgeBits(bool u0, bool u1, bool v0, bool v1) {
@@ -164,7 +188,7 @@ class Decomposer {
   const std::vector<int>& loopCounts_;
   const std::vector<int>& vertexCounts_;
   const std::vector<int>& vertices_;
-  const std::vector<vec3>& positions_;
+  const std::vector<vec3>&plan_, &positions_;
   const EdgeFaces edges_;
   Decomposition out_;
   size_t holesIgnored_ = 0;
@@ -178,9 +202,9 @@ class Decomposer {
 }  // namespace
 
 Decomposition decompose(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
-                        const std::vector<int>& vertices, const std::vector<vec3>& positions,
+                        const std::vector<int>& vertices, const std::vector<vec3>& plan, const std::vector<vec3>& positions,
                         Problems& problems) {
-  return Decomposer(loopCounts, vertexCounts, vertices, positions).run(problems);
+  return Decomposer(loopCounts, vertexCounts, vertices, plan, positions).run(problems);
 }
 
 }  // namespace tomales

@@ -71,8 +71,9 @@ struct Decomposition {
 };
 
 /// A face is a run of loops, its outline and its holes; a loop is a run of `vertices`. All counts have been checked. Faces
-/// without area and holes outside of their polygon are dropped with a sentence.
-Decomposition decompose(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
-                        const std::vector<int>& vertices, const std::vector<vec3>& positions, Problems& problems);
+/// without area and holes outside of their polygon are dropped with a sentence. Faces are cut as they lie in `plan` (of the size of
+/// `positions`), so that all keys of a motion are cut alike; `Decomposition::faces` are those of `positions`.
+Decomposition decompose(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts, const std::vector<int>& vertices,
+                        const std::vector<vec3>& plan, const std::vector<vec3>& positions, Problems& problems);
 
 }  // namespace tomales

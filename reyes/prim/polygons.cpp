@@ -14,6 +14,7 @@ class Polygons : public Prim {
       : Prim(std::move(primvars)),
         parts_(std::move(parts)),
         positions_(std::move(positions)),
+        given_(positions_.size()),
         vertices_(std::move(vertices)) {
     addMadePoints();
   }
@@ -51,6 +52,9 @@ class Polygons : public Prim {
     interpolateBilinear(var.values.data(), var.width, corners, n, u, v, out, stride);
   }
 
+  /// Those that were given: without made points.
+  std::vector<vec3> givenPositions() const { return {positions_.begin(), positions_.begin() + static_cast<std::ptrdiff_t>(given_)}; }
+
  private:
   static float areaScale(SurfacePoints s, int i) {
     const vec3 du(s.dux[i], s.duy[i], s.duz[i]), dv(s.dvx[i], s.dvy[i], s.dvz[i]);
@@ -70,14 +74,14 @@ class Polygons : public Prim {
   /// Appends a value for every made point to the positions and to the primvars that have one per vertex or
   /// face-vertex.
   void addMadePoints() {
-    const size_t count = parts_.made.count(), given = positions_.size();
+    const size_t count = parts_.made.count();
     for (size_t k = 0; k < count; ++k) {
       const std::span<const uint32_t> from = parts_.made.sources(k);
       vec3 sum(0);
       for (uint32_t corner : from) sum += positions_[vertexNumber(corner)];
       positions_.push_back(sum / static_cast<float>(from.size()));
     }
-    for (size_t k = 0; k < count; ++k) vertices_.push_back(static_cast<int>(given + k));
+    for (size_t k = 0; k < count; ++k) vertices_.push_back(static_cast<int>(given_ + k));
     for (Primvar& var : primvars_)
       if (var.storage != Storage::Constant && var.storage != Storage::Uniform) addMadeValues(var);
     parts_.made = {};
@@ -99,6 +103,7 @@ class Polygons : public Prim {
   size_t shapeBytes() const override { return bytesOf(parts_.faces) + parts_.patches.bytes() + bytesOf(positions_) + bytesOf(vertices_); }
   Decomposition parts_;
   std::vector<vec3> positions_;
+  size_t given_;
   std::vector<int> vertices_;
 };
 
@@ -114,20 +119,22 @@ void requireLoops(const std::vector<int>& loopCounts, size_t loops) {
 }  // namespace
 
 PrimPtr makeGeneralPolygons(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
-                            const std::vector<int>& vertices, const ParamList& params, Problems& problems) {
+                            const std::vector<int>& vertices, const ParamList& params, Problems& problems, const Prim* first) {
   const size_t used = requireFaces(vertexCounts, vertices);
   requireLoops(loopCounts, vertexCounts.size());
   std::vector<vec3> positions = takePositions(params, used, false, problems);
   const PrimvarCounts counts{loopCounts.size(), positions.size(), positions.size(), vertices.size()};
   std::vector<Primvar> primvars = takePrimvars(params, counts, problems);
-  Decomposition parts = decompose(loopCounts, vertexCounts, vertices, positions, problems);
+  const auto* shape = dynamic_cast<const Polygons*>(first);
+  const std::vector<vec3> before = shape ? shape->givenPositions() : std::vector<vec3>();
+  const std::vector<vec3>& plan = before.size() == positions.size() ? before : positions;
+  Decomposition parts = decompose(loopCounts, vertexCounts, vertices, plan, positions, problems);
   return std::make_shared<Polygons>(std::move(parts), std::move(positions), vertices, std::move(primvars));
 }
 
 PrimPtr makePolygons(const std::vector<int>& vertexCounts, const std::vector<int>& vertices,
-                     const ParamList& params, Problems& problems) {
-  return makeGeneralPolygons(std::vector<int>(vertexCounts.size(), 1), vertexCounts, vertices, params,
-                             problems);
+                     const ParamList& params, Problems& problems, const Prim* first) {
+  return makeGeneralPolygons(std::vector<int>(vertexCounts.size(), 1), vertexCounts, vertices, params, problems, first);
 }
 
 }  // namespace tomales

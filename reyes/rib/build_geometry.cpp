@@ -23,18 +23,22 @@ std::vector<int> countUp(int n) {
   return out;
 }
 
-PrimPtr polygon(const Request& r, const Scope&, Problems& problems) {
+PrimPtr polygon(const Request& r, const Prim* first, Problems& problems) {
   const int n = pointCount(r);
-  return makePolygons({n}, countUp(n), r.params, problems);
+  return makePolygons({n}, countUp(n), r.params, problems, first);
 }
 
-PrimPtr generalPolygon(const Request& r, const Scope&, Problems& problems) {
+PrimPtr generalPolygon(const Request& r, const Prim* first, Problems& problems) {
   const std::vector<int>& counts = r.args[0].integers;
-  return makeGeneralPolygons({static_cast<int>(counts.size())}, counts, countUp(pointCount(r)), r.params, problems);
+  return makeGeneralPolygons({static_cast<int>(counts.size())}, counts, countUp(pointCount(r)), r.params, problems, first);
 }
 
-PrimPtr pointsGeneralPolygons(const Request& r, const Scope&, Problems& problems) {
-  return makeGeneralPolygons(r.args[0].integers, r.args[1].integers, r.args[2].integers, r.params, problems);
+PrimPtr pointsPolygons(const Request& r, const Prim* first, Problems& problems) {
+  return makePolygons(r.args[0].integers, r.args[1].integers, r.params, problems, first);
+}
+
+PrimPtr pointsGeneralPolygons(const Request& r, const Prim* first, Problems& problems) {
+  return makeGeneralPolygons(r.args[0].integers, r.args[1].integers, r.args[2].integers, r.params, problems, first);
 }
 
 bool bicubic(const Request& r) {
@@ -124,13 +128,6 @@ const std::unordered_map<std::string_view, Builder>& builders() {
       {"Paraboloid", quadric<4, makeParaboloid>},
       {"Disk", quadric<3, makeDisk>},
       {"Torus", quadric<5, makeTorus>},
-      {"Polygon", polygon},
-      {"GeneralPolygon", generalPolygon},
-      {"PointsPolygons",
-       [](const Request& r, const Scope&, Problems& problems) {
-         return makePolygons(r.args[0].integers, r.args[1].integers, r.params, problems);
-       }},
-      {"PointsGeneralPolygons", pointsGeneralPolygons},
       {"Patch", patch},
       {"PatchMesh", patchMesh},
       {"NuPatch", nuPatch},
@@ -138,8 +135,20 @@ const std::unordered_map<std::string_view, Builder>& builders() {
       {"Curves", curves},
       {"SubdivisionMesh", subdivisionMesh},
       {"HierarchicalSubdivisionMesh", subdivisionMesh},
-      {"Blobby", nullptr},  // it must know the first key of its motion
       {"Geometry", geometry},
+  };
+  return table;
+}
+
+/// Shapes that are taken apart as they are at the first key of their motion: `first`, if they are not that themselves.
+using KeyBuilder = PrimPtr (*)(const Request&, const Prim* first, Problems&);
+const std::unordered_map<std::string_view, KeyBuilder>& keyBuilders() {
+  static const std::unordered_map<std::string_view, KeyBuilder> table = {
+      {"Polygon", polygon},
+      {"GeneralPolygon", generalPolygon},
+      {"PointsPolygons", pointsPolygons},
+      {"PointsGeneralPolygons", pointsGeneralPolygons},
+      {"Blobby", nullptr},  // it must know its ground, too
   };
   return table;
 }
@@ -176,7 +185,7 @@ float reachOf(const Request& r) {
   return reach;
 }
 
-bool isGeometry(std::string_view name) { return builders().contains(name); }
+bool isGeometry(std::string_view name) { return builders().contains(name) || keyBuilders().contains(name); }
 
 PrimPtr buildPrim(const Request& r, const Scope& scope, const Prim* first, const GroundReader& grounds, Problems& problems) {
   for (const RibArg& a : r.args)
@@ -184,7 +193,8 @@ PrimPtr buildPrim(const Request& r, const Scope& scope, const Prim* first, const
   const auto build = [&](const Request& request) {
     if (const std::optional<Request> joined = blobbyOfPoints(request)) return blobby(*joined, first, grounds, problems);
     if (request.name == "Blobby") return blobby(request, first, grounds, problems);
-    return builders().at(r.name)(request, scope, problems);
+    const auto keyed = keyBuilders().find(request.name);
+    return keyed != keyBuilders().end() ? keyed->second(request, first, problems) : builders().at(request.name)(request, scope, problems);
   };
   if (std::all_of(r.params.begin(), r.params.end(), [](const Param& p) { return allFinite(p.floats); }))
     return build(r);

@@ -81,6 +81,9 @@ void noteReferences(const Request& r, const Bxdf& b, const Patterns& patterns, s
         if (n.text.find("stands in") == std::string::npos) notes.push_back(std::move(n));
 }
 
+/// Rays of a point that mirror the scene.
+constexpr float kReflections = 4;
+
 /// What `disney` takes over from its namesake. PxrSurface tells of its specular lobe by the colour at normal incidence, of which
 /// disney's 1 is 0.08. RIS mirrors the scene in metals and coats.
 void addDisney(const Request& r, bool metal, ParamList& params) {
@@ -95,7 +98,7 @@ void addDisney(const Request& r, bool metal, ParamList& params) {
     const std::vector<float> face = color(r, "specularFaceColor", 0);
     add("specular", (face[0] + face[1] + face[2]) / (3 * 0.08f));
   }
-  if (metal || number(r, "clearcoat", 0) > 0) add("reflections", 1);
+  if (metal || number(r, "clearcoat", 0) > 0) add("reflections", kReflections);
 }
 
 }  // namespace

@@ -1,22 +1,20 @@
 #include <dlfcn.h>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cstring>
 #include <filesystem>
 
 #include "reyes/base/search_path.h"
 #include "reyes/shade.h"
+#include "reyes/shade/plugin_trial.h"
 
 namespace tomales {
 
 struct ShaderRegistry::Impl {
   Log& log;
-  std::mutex mutex;  // over the two below: find() loads plugins while other frames bind
+  std::mutex mutex;  // over what follows: find() loads plugins while other frames bind
   std::map<std::pair<int, std::string>, const TmShader*> shaders;
   std::map<std::string, bool> plugins;  // by path: did it load
+  PluginTrial trial;
 
   void refuse(const std::string& origin, const std::string& problem) {
     const SourceLoc where{std::make_shared<const std::string>(origin), 0};
@@ -51,29 +49,6 @@ std::string lackOf(const TmShader& s) {
   return {};
 }
 
-constexpr unsigned kMostSeconds = 10;
-
-/// Constructors run before anything can be checked, so a child process tries them first (docs/decisions/0043). Returns what became of it;
-/// empty: it lives.
-std::string triedInChild(const char* path) {
-  const pid_t child = fork();
-  if (child < 0) return {};
-  if (child == 0) {
-    alarm(kMostSeconds);
-    const int nowhere = open("/dev/null", O_WRONLY);  // the parent will say it all again
-    dup2(nowhere, STDOUT_FILENO), dup2(nowhere, STDERR_FILENO);
-    if (void* handle = dlopen(path, RTLD_NOW | RTLD_LOCAL))
-      if (const auto function = reinterpret_cast<TmShadersFunction>(dlsym(handle, TM_SHADERS_SYMBOL))) function();
-    _exit(0);
-  }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) return fmt::format("does not end loading within {} s", kMostSeconds);
-  if (WIFSIGNALED(status)) return fmt::format("crashes while it is loaded ({})", strsignal(WTERMSIG(status)));
-  return WIFEXITED(status) && WEXITSTATUS(status) != 0 ? "ends the program while it is loaded" : "";
-}
-
 std::string expected(const char* what) {
   return fmt::format("{} is of another shader ABI than {}; compile it against the headers of this version",
                      what, TM_SHADER_ABI);
@@ -99,7 +74,7 @@ bool ShaderRegistry::Impl::add(const TmShaderLibrary* library, const std::string
 bool ShaderRegistry::Impl::load(const std::string& path) {
   if (const auto it = plugins.find(path); it != plugins.end()) return it->second;
   bool& loaded = plugins[path] = false;
-  if (const std::string fate = triedInChild(path.c_str()); !fate.empty()) return refuse(path, fate + "; it is left out"), false;
+  if (const std::string fate = trial.fateOf(path); !fate.empty()) return refuse(path, fate + "; it is left out"), false;
   void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle) return refuse(path, fmt::format("cannot be loaded: {}", dlerror())), false;
   const auto function = reinterpret_cast<TmShadersFunction>(dlsym(handle, TM_SHADERS_SYMBOL));
@@ -107,7 +82,7 @@ bool ShaderRegistry::Impl::load(const std::string& path) {
   return loaded = add(function(), path);
 }
 
-ShaderRegistry::ShaderRegistry(Log& log) : impl_(new Impl{log, {}, {}, {}}) {}
+ShaderRegistry::ShaderRegistry(Log& log) : impl_(new Impl{log, {}, {}, {}, {}}) {}
 ShaderRegistry::~ShaderRegistry() = default;
 
 bool ShaderRegistry::addLibrary(const TmShaderLibrary* library, const std::string& origin) {

@@ -50,6 +50,11 @@ build("crashing", SHADER % ("0.5f", "crashing", "struct Crash { Crash() { *(vola
 render("crashing", 3, "crashing.so", "crashes while it is loaded", "scene.rib:8", "\"ball\"", "magenta")
 build("leaving", "#include <cstdlib>\n" + SHADER % ("0.5f", "leaving", "struct Leave { Leave() { std::_Exit(7); } } leave;"))
 render("leaving", 3, "leaving.so", "ends the program while it is loaded", "scene.rib:8")
+build("quitting", "#include <cstdlib>\n" + SHADER % ("0.5f", "quitting", "struct Quit { Quit() { std::_Exit(0); } } quit;"))
+render("quitting", 3, "quitting.so", "ends the program while it is loaded", "scene.rib:8")
+t.write("several.rib", (SCENE % "crashing").replace("WorldEnd", 'Surface "good"\nSphere 1 -1 1 360\nSurface "leaving"\nSphere 1 -1 1 360\nSurface "crashing"\nSphere 1 -1 1 360\nWorldEnd'))
+said = t.expect_run("plugins are tried after others have crashed", ["several.rib"], 3, "crashing.so", "leaving.so").stderr
+t.expect("good.so" not in said and said.count("crashes while it is loaded") == 1, "each for itself, and once")
 build("old", (SHADER % ("0.5f", "old", "")).replace("#include", "#include <reyes/shader_api.h>\n#undef TM_SHADER_ABI\n#define TM_SHADER_ABI 0u\n#include"))
 render("old", 3, "old.so", "another shader ABI", "scene.rib:8")
 build("empty", "extern \"C\" int unrelated() { return 1; }")

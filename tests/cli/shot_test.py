@@ -118,6 +118,12 @@ for file, kind in (("direct.dfb", "dfb"), ("indirect.icf", "icf")):
     info = json.loads(suite.run("info", file, "--json").stdout)
     suite.expect(info["kind"] == kind, f"info knows {file}")
     suite.expect_run(f"info {file} as text", ["info", file], 0, f"kind: {kind}")
+suite.expect_run("the records as a picture", ["view", "indirect.icf", "-o", "records.png"], 0)
+suite.expect_run("and as a cloud", ["convert", "indirect.icf", "records.ptc"], 0)
+records = sum(c["records"] for c in json.loads(suite.run("info", "indirect.icf", "--json").stdout)["caches"])
+points = json.loads(suite.run("info", "records.ptc", "--json").stdout)["points"]
+suite.expect(points == records, f"with a point for each record ({points} of {records})")
+suite.expect_run("an .icf that is none", ["view", "indirect.dfb.icf", "-o", "records.png"], 2, "indirect.dfb.icf")
 suite.expect(json.loads(suite.run("info", "indirect.icf", "--json").stdout)["caches"][0]["records"] > 10, "info counts records")
 
 # Damage

@@ -212,6 +212,35 @@ TEST(IrradianceCache, ARecordThatIsWrongAtANewOneEndsBeforeIt) {
   EXPECT_NEAR(cache.lookup({0.051f, 0, 0}, kUp, 0.01f).E.x, 2, 1e-5f);
 }
 
+TEST(IrradianceCache, DisputesShortenNoRecordBelowAPixelOverKappa) {
+  for (const float kappa : {1.0f, 2.0f}) {
+    IrradianceCache cache(kBox, {ErrorFunction::Screen, kappa});
+    const float pixel = 0.01f, least = pixel / kappa;
+    cache.insert(recordAt(vec3(0), vec3(1), 1, pixel));
+    cache.insert(recordAt({0.2f * least, 0, 0}, vec3(1.5f), 1, pixel));
+    EXPECT_FLOAT_EQ(cache.records()[0].limit, least);
+    EXPECT_NEAR(cache.lookup({-0.5f * least, 0, 0}, kUp, pixel).weight, 0.5f + 0.3f, 1e-4f);
+    EXPECT_FALSE(cache.lookup({-0.5f * least, 0, 0}, kUp, pixel).disputed) << "a third record would lie closer than a pixel";
+  }
+}
+
+TEST(IrradianceCache, LightIsTornByWallsThinnerThanAPixel) {
+  IrradianceCache cache(kBox, {});
+  cache.insert(recordAt(vec3(0), vec3(1)));
+  cache.insert(recordAt({0.002f, 0, 0}, vec3(0)));
+  EXPECT_FLOAT_EQ(cache.records()[0].limit, 0.002f);
+  EXPECT_EQ(cache.lookup({0.003f, 0, 0}, kUp, 0.01f).E, vec3(0));
+}
+
+TEST(IrradianceCache, WhatIsDarkerThanATenthOfTheMeanIsNotDisputedByFractionsOfItself) {
+  IrradianceCache cache(kBox, {});
+  cache.insert(recordAt({0.5f, 0, 0}, vec3(1)));
+  cache.insert(recordAt(vec3(0), vec3(1e-4f)));
+  cache.insert(recordAt({0.05f, 0, 0}, vec3(2e-4f)));
+  EXPECT_EQ(cache.records()[1].limit, kInfinity);
+  EXPECT_FALSE(cache.lookup({0.02f, 0, 0}, kUp, 0.01f).disputed);
+}
+
 TEST(IrradianceCache, NoiseIsNoDispute) {
   IrradianceCache cache(kBox, {});
   IrradianceRecord a = recordAt(vec3(0), vec3(1)), b = recordAt({0.05f, 0, 0}, vec3(1.5f));

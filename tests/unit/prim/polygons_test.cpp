@@ -1,3 +1,5 @@
+#include <random>
+
 #include "tests/unit/prim/support.h"
 
 namespace tomales {
@@ -28,6 +30,45 @@ void expectArea(const std::vector<vec2>& outline, double area) {
     EXPECT_GT(cross(sampleAt(*prim, patch, 0.5f, 0.5f).du, sampleAt(*prim, patch, 0.5f, 0.5f).dv).z, 0);
   }
   expectSoundEverywhere(*prim);
+}
+
+TEST(Polygon, AllKeysOfAMotionAreCutAsTheFirst) {
+  std::mt19937 rng(7);
+  std::uniform_real_distribution<float> at(-1, 1);
+  for (int round = 0; round < 200; ++round) {
+    const int n = 3 + round % 5;
+    std::vector<float> before, after;
+    std::vector<int> vertices;
+    Param share;  // another number for every vertex: which ones a point is made of
+    share.name = "share", share.storage = Storage::Vertex;
+    for (int i = 0; i < n; ++i) {
+      vertices.push_back(i), share.floats.push_back(static_cast<float>(1 << (2 * i)));
+      for (int axis = 0; axis < 3; ++axis) before.push_back(at(rng)), after.push_back(at(rng));
+    }
+    Problems problems;
+    const PrimPtr first = makePolygons({n}, vertices, {positions(before), share}, problems);
+    const PrimPtr key = makePolygons({n}, vertices, {positions(after), share}, problems, first.get());
+    ASSERT_EQ(key->patchCount(), first->patchCount());
+    for (uint32_t patch = 0; patch < first->patchCount(); ++patch)
+      for (const float u : {0.0f, 0.3f, 1.0f})
+        for (const float v : {0.0f, 0.6f, 1.0f}) {
+          float a = 0, b = 0;
+          first->interpolate(patch, 0, 1, &u, &v, &a, 1);
+          key->interpolate(patch, 0, 1, &u, &v, &b, 1);
+          EXPECT_EQ(a, b);
+          EXPECT_TRUE(isFinite(sampleAt(*key, patch, u, v).n));
+        }
+  }
+}
+
+TEST(Polygon, AKeyWhoseFaceHasCollapsedKeepsIt) {
+  Problems problems;
+  const PrimPtr first = makePolygons({3, 3}, {0, 1, 2, 0, 2, 3}, {positions({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0})}, problems);
+  const PrimPtr key =
+      makePolygons({3, 3}, {0, 1, 2, 0, 2, 3}, {positions({0, 0, 0, 0.5f, 0.5f, 0, 1, 1, 0, 0, 1, 0})}, problems, first.get());
+  EXPECT_EQ(key->patchCount(), 2u);
+  EXPECT_EQ(sampleAt(*key, 0, 0.5f, 0.5f).n, vec3(0, 0, 1));
+  EXPECT_TRUE(problems.empty());
 }
 
 TEST(Polygon, AConvexQuadIsOnePatchAlongItsFirstAndLastEdge) {

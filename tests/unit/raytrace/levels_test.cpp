@@ -1,7 +1,6 @@
 // Surfaces that rays see at several levels, and the cache that holds them.
 #include <gtest/gtest.h>
 
-#include "raytrace/packed_normal.h"
 #include "raytrace/resident_cache.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"
@@ -113,6 +112,83 @@ TEST(GeometryCache, ASmallOneGivesTheSameHitsForAnyNumberOfThreads) {
   EXPECT_GT(large.stats.geometryCache.bytes, 700000);
 }
 
+/// A wavy field over -1..1 in x and y of n x n patches, of which the first may reach farther than what is twice as large can say.
+PrimPtr field(int n, bool far) {
+  std::vector<float> P;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) {
+      const float x = 2 * static_cast<float>(i) / static_cast<float>(n) - 1, y = 2 * static_cast<float>(j) / static_cast<float>(n) - 1;
+      P.insert(P.end(), {far && i == 0 && j == 0 ? -3e38f : x, y, 0.1f * std::sin(9 * x) * std::cos(7 * y)});
+    }
+  Problems problems;
+  return makeBilinearPatchMesh(n + 1, false, n + 1, false, {floatsParam("P", ValueType::Point, Storage::Vertex, P)}, problems);
+}
+
+std::vector<Hit> fieldHits(int threads) {
+  const ThreadLimit limit(threads);
+  World world;
+  world.attributes.trace.rate = TessellationMode::Multiresolution;
+  world.attributes.shadingRate = 1e4f;  // one polygon a patch: thousands of tiles
+  world.attributes.trace.displacements = true;
+  world.attributes.displacementBound = 0.1f;
+  world.attributes.displacement = shader("noisybump", {floatsParam("Km", ValueType::Float, Storage::Uniform, {0.05f})});
+  world.add(field(64, false), translation({0, 0, 3}));
+  world.build();
+  std::vector<Hit> hits;
+  for (int j = 0; j <= 128; ++j)  // through the edges of the patches, which two of them share
+    for (int i = 0; i <= 128; ++i) {
+      Ray ray{{static_cast<float>(i - 64) / 64.0f, static_cast<float>(j - 64) / 64.0f, 0}, {0, 0, 1}};
+      ray.level = Level::Coarse;
+      hits.push_back(world.rays->closest(ray, kMaskDiffuse));
+    }
+  return hits;
+}
+
+TEST(Levels, ChunksOfManySmallPatchesAreTheSameForAnyNumberOfThreads) {
+  const std::vector<Hit> expected = fieldHits(1), found = fieldHits(8);
+  for (size_t i = 0; i < found.size(); ++i) {
+    ASSERT_EQ(found[i].t, expected[i].t);
+    ASSERT_EQ(found[i].patch, expected[i].patch);
+    ASSERT_EQ(found[i].u, expected[i].u);
+  }
+}
+
+TEST(Levels, APatchThatIsNotFiniteIsReportedAndTheOthersAreThere) {
+  World world;
+  world.attributes.trace.rate = TessellationMode::Multiresolution;
+  mat4 twice = 2.0f * mat4(1.0f);
+  twice[3] = vec4(0, 0, 3, 1);
+  world.add(field(8, true), twice);
+  world.build();
+  EXPECT_GE(world.log.count("trace-not-finite"), 1);
+  for (int i = 0; i < 7; ++i) {
+    const vec3 through(-1.24f + 0.5f * static_cast<float>(i), 0.76f, 0);
+    EXPECT_EQ(world.rays->closest({through, {0, 0, 1}}, kMaskDiffuse).object, 0) << through.x;
+  }
+}
+
+TEST(Levels, WhatAsksForTooManyMicropolygonsIsToldTheWayOut) {
+  World world;
+  world.attributes.trace.rate = TessellationMode::Multiresolution;
+  world.attributes.shadingRate = 1e-3f;
+  Problems problems;
+  const std::vector<float> twisted{-1, -1, 2, 1, -1, 2, -1, 1, 2, 1, 1, 3};
+  world.add(makeBilinearPatchMesh(2, false, 2, false, {floatsParam("P", ValueType::Point, Storage::Vertex, twisted)}, problems));
+  world.build();
+  const auto entries = world.log.entries();
+  EXPECT_TRUE(std::any_of(entries.begin(), entries.end(), [](const LogEntry& e) {
+    return e.code == "trace-tessellation" && e.message.find("raise ShadingRate") != std::string::npos;
+  }));
+}
+
+TEST(Levels, AWideOriginSeesCoarsePolygonsToo) {
+  const LevelledWorld world(TessellationMode::Multiresolution, 1 << 30, false);
+  Ray ray{{0, 0, 4}, {0, 0, 1}};
+  ray.radius = 0.2f;
+  world.rays->prepareOrigin(0, ray.origin, 0, ray);
+  EXPECT_EQ(ray.level, Level::Coarse);
+}
+
 struct Block {
   int name;
   size_t bytes() const { return 10; }
@@ -138,12 +214,14 @@ TEST(ResidentCache, KeepsWhatWasUsedLast) {
   EXPECT_EQ(cache.figures().mostBytes, 20);
 }
 
-TEST(PackedNormal, IsOffByLittle) {
-  for (uint32_t i = 0; i < 10000; ++i) {
-    const vec3 n = anyDirection(i);
-    EXPECT_LT(glm::length(unpackNormal(packNormal(n)) - n), 7e-5f);
-  }
-  for (const vec3& axis : {vec3(1, 0, 0), vec3(0, -1, 0), vec3(0, 0, 1), vec3(0, 0, -1)}) EXPECT_LT(glm::length(unpackNormal(packNormal(axis)) - axis), 1e-6f);
+TEST(ResidentCache, MakesRoomForMoreThanOne) {
+  ResidentCache<Block> cache(32, 160);
+  for (size_t i = 0; i < 17; ++i) cache.get(i, [&] { return std::make_shared<const Block>(Block{static_cast<int>(i)}); });
+  int made = 0;
+  const auto holds = [&](size_t i) { return cache.get(i, [&] { return ++made, std::make_shared<const Block>(Block{static_cast<int>(i)}); }), made == 0; };
+  EXPECT_TRUE(holds(16));
+  EXPECT_TRUE(holds(3)) << "the fourth oldest";
+  EXPECT_FALSE(holds(2));
 }
 
 }  // namespace

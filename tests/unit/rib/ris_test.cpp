@@ -93,7 +93,7 @@ TEST(Ris, MetalsMirrorAndGlassRefracts) {
                           "Bxdf \"PxrGlass\" \"g\" \"float ior\" 1.3 " + kSphere));
   EXPECT_EQ(r.attributes(0).surface->name, "disney");
   EXPECT_EQ(findParam(r.attributes(0).surface->params, "metallic")->number(0), 1);
-  EXPECT_EQ(findParam(r.attributes(1).surface->params, "reflections")->number(0), 1);
+  EXPECT_EQ(findParam(r.attributes(1).surface->params, "reflections")->number(0), 4);
   EXPECT_EQ(r.attributes(0).color, vec3(1, .5f, 0));
   EXPECT_EQ(r.attributes(1).color, vec3(.9f, .8f, .7f));
   EXPECT_EQ(r.attributes(2).surface->name, "glass");

@@ -93,6 +93,49 @@ TEST_F(BatchServices, PhongAndTheLobeOfSpecularAreTheirFormulas) {
   expectColor(c[0], vec3(static_cast<float>(std::pow(0.8, 5)), static_cast<float>(std::pow(H, 16)), static_cast<float>(std::pow(H, 16))), 1e-5f);
 }
 
+TEST_F(BatchServices, TheLobeHasTheExponentThatTheSceneChoosesAsSpecularHas) {
+  scene.options.user["shade:specular"] = text("shade:specular", "rispec");
+  light("distantlight", {point("to", {0, 3, 4})});
+  const std::vector<vec3> c = asked(4, [](sl::Surface& s) {
+    s.Ci = Color(specularbrdf(Vector(0, -3, -4), s.N, -s.I, 0.5), xcomp(specular(s.N, -s.I, 0.5)), 0);
+  });
+  const auto highlight = static_cast<float>(std::pow((0.8 + 1) / std::hypot(0.6, 1.8), 2));
+  expectColor(c[0], {highlight, highlight, 0}, 1e-5f);
+}
+
+TEST_F(BatchServices, ParameterListsSetWhatTheyName) {
+  services.seen = [](const vec3&) { return vec3(1); };
+  asked(2, [](sl::Surface& s) {
+    s.Ci = trace(s.P, Vector(0, 0, 1), "bias", 0.25, "maxdist", 9, "label", "mirror", "subset", "a", "excludesubset", "b", "hitsides", "front", "hitmode",
+                 "shader", "othreshold", 0.5);
+    occlusion(s.P, s.N, 3, "coneangle", 0.5, "distribution", "uniform");
+  });
+  ASSERT_EQ(services.asked.size(), 4u);
+  const RayQuery& q = services.asked[0];
+  EXPECT_EQ(q.bias, 0.25f);
+  EXPECT_EQ(q.maxDistance, 9);
+  EXPECT_EQ(q.label, "mirror");
+  EXPECT_EQ(q.subset, "a");
+  EXPECT_EQ(q.excludeSubset, "b");
+  EXPECT_EQ(q.sides, HitSides::Front);
+  EXPECT_EQ(q.mode, HitMode::Shader);
+  EXPECT_EQ(q.opacityThreshold, 0.5f);
+  const TmRayOptions rays = listed(rsl::defaultRays(), "samples", 7, "samplecone", 0.1, "distribution", "uniform", "samplebase", 0.5, "falloff", 2, "falloffmode", 1);
+  EXPECT_EQ(std::tie(rays.samples, rays.coneAngle, rays.uniform, rays.sampleBase, rays.falloff, rays.falloffMode), std::tuple(7, 0.1f, 1, 0.5f, 2.0f, 1));
+  const TmTextureLookup l = listed(lookup(), "blur", 0.1, "twidth", 3, "fill", 0.5, "filter", "gaussian", "samples", 4);
+  EXPECT_EQ(std::tuple(l.sblur, l.tblur, l.swidth, l.twidth, l.fill, l.samples), std::tuple(0.1f, 0.1f, 1.0f, 3.0f, 0.5f, 4));
+  EXPECT_STREQ(l.filter, "gaussian");
+  const TmShadowLookup w = listed(kShadowDefaults, "bias", 0.01, "blur", 0.2, "width", 2, "samples", 64);
+  EXPECT_EQ(std::tuple(w.bias, w.blur, w.width, w.samples), std::tuple(0.01f, 0.2f, 2.0f, 64));
+}
+
+TEST_F(BatchServices, ANameThatAParameterListDoesNotKnowIsReportedOnce) {
+  body = [](sl::Surface& s) { s.Ci = trace(s.P, s.I, "smaples", 2); };
+  shadeOne(), shadeOne();
+  ASSERT_EQ(log.entries().size(), 1u);
+  EXPECT_NE(log.entries()[0].message.find("\"smaples\""), std::string::npos) << log.entries()[0].message;
+}
+
 TEST_F(BatchServices, LightsInRslsMannerShineIntoTheirConeAndFromTheirDirection) {
   surface("matte");
   light("coned"), light("sunny");

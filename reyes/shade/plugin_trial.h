@@ -1,0 +1,30 @@
+// Plugins are tried in a child process before they are loaded, because their constructors run before anything about them can be checked
+// (docs/decisions/0043). Threads: one at a time.
+#pragma once
+#include <sys/types.h>
+
+#include <string>
+
+namespace tomales {
+
+/// One child tries plugin after plugin. It is replaced when one has ended it, and ends by itself when nothing is asked for a while, so that it
+/// keeps no copy of a process that goes on.
+class PluginTrial {
+ public:
+  PluginTrial() = default;
+  ~PluginTrial() { end(); }
+  PluginTrial(const PluginTrial&) = delete;
+
+  /// What becomes of a process that loads this plugin; empty: it lives.
+  std::string fateOf(const std::string& path);
+
+ private:
+  bool begin(const std::string& path);
+  void start();
+  int end();
+
+  pid_t child_ = -1;
+  int socket_ = -1;
+};
+
+}  // namespace tomales
