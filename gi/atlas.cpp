@@ -5,7 +5,8 @@
 #include <map>
 #include <numeric>
 
-#include "gi/point_file.h"
+#include "gi/point_tiles.h"
+#include "reyes/base/temporary_folder.h"
 
 namespace tomales {
 namespace {
@@ -41,7 +42,7 @@ std::vector<double> boxAreas(const Scene& scene) {
 }
 
 /// Counted up when the same inputs begin to make other files.
-constexpr uint32_t kMethod = 1;
+constexpr uint32_t kMethod = 2;
 
 uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
   const auto& [emit, maxDepth, seed] = settings.photons;
@@ -137,20 +138,21 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
 
 void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonIrradianceSettings& given, uint64_t most) {
   const PointFile file(photons.string());
-  const bool arePhotons = std::any_of(file.channels().begin(), file.channels().end(), [](const CloudChannel& c) { return c.name == "power"; });
-  if (!arePhotons) throw FileError(fmt::format("\"{}\" is no photon map: it has no channel \"power\"", photons.string()));
+  requirePhotons(file);
   const MadeFrom madeFrom{file.madeFrom().world, irradianceInputs(file, given)};
   if (file.count() <= most) return writePointFile(estimateIrradiance(file.readAll(), given), out.string(), madeFrom);
   PhotonIrradianceSettings settings = given;
   settings.maxRadius = reachOf(given, file.bound());
-  const PointTiles tiles(file);
+  const TemporaryFolder temporary(out.parent_path().empty() ? "." : out.parent_path());
+  const fs::path compact = temporary.path() / "photons.ptc";  // their own chunks lie everywhere, as photons do
+  PointTiles(file).writeCompact(compact.string());
+  const PointFile sorted(compact.string());
+  const PointTiles tiles(sorted);
   PointFileWriter writer(out.string(), {{"irradiance", 3}});
-  forEachTile(tiles, most, [&](const Bound3& box) {
-    const PointCloud points = estimateIrradiance(tiles.around(box, settings.maxRadius), settings);
-    for (size_t i = 0; i < points.count(); ++i) {
-      const vec3& P = points.position[i];
-      if (glm::all(glm::greaterThanEqual(P, box.lo)) && glm::all(glm::lessThan(P, box.hi))) writer.add(P, points.normal[i], points.radius[i], points.at(i));
-    }
+  forEachTile(tiles, most, [&](int level, const glm::ivec3& place) {
+    const auto inside = [&](const vec3& P) { return tiles.contains(level, place, P); };
+    const PointCloud points = estimateIrradiance(tiles.around(tiles.box(level, place), settings.maxRadius), settings, inside);
+    for (size_t i = 0; i < points.count(); ++i) writer.add(points.position[i], points.normal[i], points.radius[i], points.at(i));
   });
   writer.finish(madeFrom);
 }

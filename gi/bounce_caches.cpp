@@ -65,10 +65,11 @@ std::vector<GatherPoint> BounceCaches::hitsFrom(const RayScene& rays, const Came
 }
 
 std::vector<IrradianceRecord> BounceCaches::recordsAt(const RayTools& tools, const std::vector<GatherPoint>& points, const GatherSettings& settings,
-                                                      const BrightSpots& spots, Stats& stats) const {
+                                                      const Run& run) const {
+  static const BrightSpots kNone;  // nothing has been looked for yet
   std::vector<IrradianceRecord> records(points.size());
   parallelFor(points.size(), 1, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) records[i] = gather(*tools.rays, *tools.shading, points[i], settings, spots, stats);
+    for (size_t i = begin; i < end && !run.isCancelled(); ++i) records[i] = gather(*tools.rays, *tools.shading, points[i], settings, kNone, run.stats);
   });
   return records;
 }
@@ -77,9 +78,8 @@ void BounceCaches::insert(IrradianceCache& level, const std::vector<IrradianceRe
   for (const IrradianceRecord& r : records) level.insert(r), light_.back() += luminance(r.E);
 }
 
-void BounceCaches::cover(const RayTools& tools, const std::vector<GatherPoint>& candidates, const GatherSettings& settings,
-                         const BrightSpots& spots, Stats& stats) {
-  for (int phase = 0; phase < kPhases && points_.size() < kMostRecords; ++phase) {
+void BounceCaches::cover(const RayTools& tools, const std::vector<GatherPoint>& candidates, const GatherSettings& settings, const Run& run) {
+  for (int phase = 0; phase < kPhases && points_.size() < kMostRecords && !run.isCancelled(); ++phase) {
     std::vector<uint8_t> open(candidates.size(), 0);
     parallelFor(candidates.size(), 64, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i) {
@@ -90,7 +90,7 @@ void BounceCaches::cover(const RayTools& tools, const std::vector<GatherPoint>& 
     std::vector<GatherPoint> fresh;
     for (size_t i = 0; i < candidates.size(); ++i)
       if (open[i]) fresh.push_back(candidates[i]);
-    insert(levels_[0], recordsAt(tools, fresh, settings, spots, stats));
+    insert(levels_[0], recordsAt(tools, fresh, settings, run));
     points_.insert(points_.end(), fresh.begin(), fresh.end());
   }
 }
@@ -100,8 +100,7 @@ bool BounceCaches::settled() const {
   return n > 1 && light_[n - 1] - light_[n - 2] <= kSettled * light_[n - 1];
 }
 
-void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::vector<GatherPoint>& from, const GatherSettings& gather, int bounces,
-                        const BrightSpots& spots, Stats& stats) {
+void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::vector<GatherPoint>& from, const GatherSettings& gather, int bounces, const Run& run) {
   levels_.clear(), light_.assign(1, 0.0), points_.clear();
   float distance = 0;
   for (const GatherPoint& p : from) distance += glm::length(p.position) / static_cast<float>(from.size());
@@ -113,13 +112,13 @@ void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::
   Bound3 bound;
   for (const GatherPoint& p : seen) bound.extend(p.position);
   levels_.emplace_back(bound, kCoarse);
-  cover(tools, seen, settings, spots, stats);
-  cover(tools, hitsFrom(*tools.rays, camera, points_, 0x6d6f7265U), settings, spots, stats);
+  cover(tools, seen, settings, run);
+  cover(tools, hitsFrom(*tools.rays, camera, points_, 0x6d6f7265U), settings, run);
   settings.indirect = true;
-  for (int b = 2; b < bounces && !settled(); ++b) {
+  for (int b = 2; b < bounces && !settled() && !run.isCancelled(); ++b) {
     settings.depth = bounces - b + 1;
     IrradianceCache level(bound, kCoarse);
-    const std::vector<IrradianceRecord> records = recordsAt(tools, points_, settings, spots, stats);
+    const std::vector<IrradianceRecord> records = recordsAt(tools, points_, settings, run);
     light_.push_back(0);
     insert(level, records);
     levels_.push_back(std::move(level));

@@ -21,8 +21,10 @@ int32_t BrickAccumulator::findLayer(int voxel, const vec3& normal, bool& merged)
   if (const int32_t only = head_[static_cast<size_t>(voxel)]; oriented && only >= 0 && layers_[static_cast<size_t>(only)].next < 0) {
     const vec3& mean = layers_[static_cast<size_t>(only)].normal;  // nearly always so, and needs no root
     const float along = dot(mean, normal);
-    if (along > 0 && along * along >= kLayerCosine * kLayerCosine * dot(mean, mean) * length2) return only;
+    // Squares of tiny weights underflow; then the roots below decide.
+    if (along > 1e-15f && along * along >= kLayerCosine * kLayerCosine * dot(mean, mean) * length2) return only;
   }
+  const float length = glm::length(normal);
   int32_t best = -1;
   float bestCosine = -2;
   int count = 0;
@@ -30,7 +32,7 @@ int32_t BrickAccumulator::findLayer(int voxel, const vec3& normal, bool& merged)
     const vec3& mean = layers_[static_cast<size_t>(l)].normal;
     float cosine = -1;
     if (oriented && mean != vec3(0.0f))
-      cosine = dot(mean, normal) / std::sqrt(dot(mean, mean) * length2);
+      cosine = dot(mean, normal) / (glm::length(mean) * length);
     else if (!oriented && mean == vec3(0.0f))
       cosine = 1;
     if (cosine > bestCosine) best = l, bestCosine = cosine;

@@ -130,9 +130,15 @@ class Builder {
   /// The same of points on disk. False: there are none.
   bool accumulate(const PointTiles& tiles, uint64_t most, int level, const glm::ivec3& place, BrickNode& node) {
     if (tiles.count(level, place) <= most || level == PointTiles::kDeepest || level >= settings_.maxDepth) {
-      const PointCloud cloud = tiles.around(tiles.box(level, place), 0);
-      accumulate(level, place, use(cloud), node);
-      return cloud.count() > 0;
+      const Bound3 box = tiles.box(level, place);
+      const PointCloud cloud = tiles.around(box, 0, settings_.radiusScale);
+      Members members = use(cloud);
+      std::erase_if(members, [&](uint32_t i) {  // as partition() does
+        const Spot& s = spots_[i];
+        return glm::any(glm::greaterThanEqual(s.center - s.half, box.hi)) || glm::any(glm::lessThan(s.center + s.half, box.lo));
+      });
+      accumulate(level, place, members, node);
+      return !members.empty();
     }
     at(level).sums.clear();
     for (int octant = 0; octant < 8; ++octant) {

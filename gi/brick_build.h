@@ -10,7 +10,7 @@
 
 namespace tomales {
 
-constexpr uint64_t kPointsInMemory = 4'000'000;
+constexpr uint64_t kPointsInMemory = 1'500'000;
 
 struct BrickSettings {
   float maxError = 0.002f;      ///< Bricks whose 2x2x2 groups of voxels vary less are left out, in units of the data.

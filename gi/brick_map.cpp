@@ -31,7 +31,7 @@ BrickPtr BrickMap::cached(int32_t node) const {
 
 bool BrickMap::lookup(const vec3& P, const vec3& N, float radius, float* out) const {
   std::fill_n(out, width(), 0.0f);
-  if (tree().nodes.empty() || !isFinite(P)) return false;
+  if (tree().nodes.empty() || !isFinite(P) || std::isnan(radius)) return false;
   Sum sum;
   sum.data = out;
   // The level whose voxels are as wide as the lookup volume, between two levels unless at either end.

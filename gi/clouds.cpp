@@ -51,24 +51,14 @@ PointCloud sorted(const PointCloud& cloud) {
   return out;
 }
 
-/// Where the floats of a wanted channel are among those of a lookup; -1: it is not there in that width.
-int placeOf(const std::vector<CloudChannel>& channels, const CloudValue& wanted) {
-  int offset = 0;
-  for (const CloudChannel& c : channels) {
-    if (c.name == wanted.name) return c.width == wanted.floats ? offset : -1;
-    offset += c.width;
-  }
-  return -1;
-}
-
 /// Throws FileError.
 PointCloud cloudOf(const fs::path& path, int estimator) {
-  PointCloud cloud = PointFile(path.string()).readAll();
-  if (estimator <= 0) return cloud;
-  if (placeOf(cloud.channels, {"power", 3, {}}) < 0) throw FileError(fmt::format("\"{}\" is no photon map: it has no channel \"power\"", path.string()));
+  const PointFile file(path.string());
+  if (estimator <= 0) return file.readAll();
+  requirePhotons(file);
   PhotonIrradianceSettings settings;
   settings.nearest = estimator, settings.every = 1;
-  return estimateIrradiance(cloud, settings);
+  return estimateIrradiance(file.readAll(), settings);
 }
 
 }  // namespace
@@ -77,29 +67,33 @@ bool CloudFiles::bake(const CloudQuery& q, const std::vector<CloudValue>& values
   const std::vector<CloudChannel> channels = channelsOf(values);
   std::vector<float> data;
   const std::lock_guard lock(mutex_);
-  PointCloud& cloud = baked_[q.file];
+  auto& [cloud, dropped] = baked_[q.file];
   if (cloud.count() == 0) cloud.channels = channels;
   if (cloud.channels != channels) {
     problem = "bakes other channels than those that the file has already";
     return false;
   }
   for (int i = 0; i < q.count; ++i) {
-    if (!q.active[i] || !isFinite(at(q.P, i))) continue;
+    if (!q.active[i]) continue;
     data.clear();
     for (const CloudValue& v : values)
       for (int k = 0; k < v.floats; ++k) data.push_back(v.c[k][i]);
-    cloud.add(at(q.P, i), at(q.N, i), q.radius[i], data.data());
+    if (isValidPoint(at(q.P, i), at(q.N, i), q.radius[i], data))
+      cloud.add(at(q.P, i), at(q.N, i), q.radius[i], data.data());
+    else
+      ++dropped;
   }
   return true;
 }
 
 const CloudFiles::Opened& CloudFiles::opened(const std::string& file, int estimator) {
-  const std::lock_guard lock(mutex_);
-  const auto [it, isNew] = opened_.try_emplace({file, estimator});
-  if (!isNew) return it->second;
   const fs::path path = found(file, searchPath_);
+  const bool isCloud = path.extension() == ".ptc";
+  const std::lock_guard lock(mutex_);
+  const auto [it, isNew] = opened_.try_emplace({file, isCloud ? estimator : 0});
+  if (!isNew) return it->second;
   try {
-    if (path.extension() == ".ptc")
+    if (isCloud)
       it->second.map = std::make_unique<const BrickMap>(cloudOf(path, estimator));
     else
       it->second.map = std::make_unique<const BrickMap>(path.string(), cache_);
@@ -115,7 +109,7 @@ bool CloudFiles::lookUp(const CloudQuery& q, const std::vector<CloudValue>& valu
   if (!file.map) return false;
   std::vector<int> places;
   for (const CloudValue& v : values) {
-    places.push_back(placeOf(file.map->channels(), v));
+    places.push_back(offsetOf(file.map->channels(), v.name, v.floats));
     if (places.back() < 0) problem = fmt::format("has no channel \"{}\" of {} floats", v.name, v.floats);
   }
   std::vector<float> data(static_cast<size_t>(file.map->width()));
@@ -135,25 +129,35 @@ bool CloudFiles::lookUp(const CloudQuery& q, const std::vector<CloudValue>& valu
 bool CloudFiles::photons(const CloudQuery& q, int estimator, TmVec3 E, std::string& problem) {
   const Opened& file = opened(q.file, std::max(1, estimator));
   problem = file.problem;
-  const int place = file.map ? placeOf(file.map->channels(), {"irradiance", 3, {}}) : -1;
+  const int place = file.map ? offsetOf(file.map->channels(), "irradiance", 3) : -1;
   if (file.map && place < 0) problem = "is no photon map";
   if (place < 0) return false;
   std::vector<float> data(static_cast<size_t>(file.map->width()));
-  for (int i = 0; i < q.count; ++i) {
-    if (!q.active[i]) continue;
-    file.map->lookup(at(q.P, i), at(q.N, i), q.radius[i], data.data());
-    const float* e = data.data() + place;
-    E.x[i] = e[0] / kPi, E.y[i] = e[1] / kPi, E.z[i] = e[2] / kPi;
+  try {
+    for (int i = 0; i < q.count; ++i) {
+      if (!q.active[i]) continue;
+      file.map->lookup(at(q.P, i), at(q.N, i), q.radius[i], data.data());
+      const float* e = data.data() + place;
+      E.x[i] = e[0] / kPi, E.y[i] = e[1] / kPi, E.z[i] = e[2] / kPi;
+    }
+  } catch (const FileError& e) {
+    problem = e.what();
   }
-  return true;
+  return problem.empty();
 }
 
 void CloudFiles::write(Log& log) {
-  for (const auto& [file, cloud] : baked_) try {
-      writePointFile(sorted(cloud), file);
+  for (const auto& [file, baked] : baked_) {
+    const SourceLoc where{std::make_shared<const std::string>(file), 0};
+    if (baked.dropped > 0)
+      log.report(Severity::Warning, "bake3d-points-" + file, where,
+                 fmt::format("{} of {} baked points are not finite or have a negative radius; dropped", baked.dropped, baked.dropped + baked.cloud.count()));
+    try {
+      writePointFile(sorted(baked.cloud), file);
     } catch (const FileError& e) {
-      log.report(Severity::Output, "bake3d", {std::make_shared<const std::string>(file), 0}, e.what());
+      log.report(Severity::Output, "bake3d", where, e.what());
     }
+  }
   baked_.clear();
 }
 

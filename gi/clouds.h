@@ -24,16 +24,20 @@ class CloudFiles final : public CloudServices {
   void write(Log& log);
 
  private:
+  struct Baked {
+    PointCloud cloud;
+    uint64_t dropped = 0;  ///< Points that no file may hold.
+  };
   struct Opened {
     std::unique_ptr<const BrickMap> map;  ///< Null: it could not be opened.
     std::string problem;
   };
-  /// estimator > 0: a photon map, as the irradiance that so many nearest photons tell of.
+  /// estimator > 0: a photon map, as the irradiance that so many nearest photons tell of. Brick maps hold irradiance as it is.
   const Opened& opened(const std::string& file, int estimator = 0);
 
   const std::string searchPath_;
   std::mutex mutex_;
-  std::map<std::string, PointCloud> baked_;
+  std::map<std::string, Baked> baked_;
   std::map<std::pair<std::string, int>, Opened> opened_;  ///< By file and estimator.
   BrickCache cache_;
 };

@@ -91,7 +91,13 @@ class GatherPass {
     if (bounces == 1 || sites.empty() || !(tools_ = gatherTools(state_))) return;
     std::vector<GatherPoint> points;
     for (const Site& s : sites) points.push_back(s.point);
-    state_.bounces.fill(*tools_, state_.camera, points, state_.caches[sites[0].cache].plan.gather, bounces, state_.spots, state_.stats);
+    // What gathers anywhere may look them up: as many rays, as far, as any plan asks, whatever pixel comes first.
+    GatherSettings gather = state_.caches[0].plan.gather;
+    for (const PreparedCache& c : state_.caches) {
+      gather.samples = std::max(gather.samples, c.plan.gather.samples);
+      gather.maxDistance = std::max(gather.maxDistance, c.plan.gather.maxDistance);
+    }
+    state_.bounces.fill(*tools_, state_.camera, points, gather, bounces, {state_.stats, cancelled_});
   }
 
   Bound3 measureFrame() {

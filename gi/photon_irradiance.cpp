@@ -23,8 +23,8 @@ vec2 segment(float theta) {
 }
 
 struct Estimate {
-  vec3 irradiance;
-  float radius;
+  vec3 irradiance{0.0f};
+  float radius = 0;  ///< 0: none was made.
 };
 
 /// Of the disk that stands for `every` of `count` photons on an area.
@@ -44,12 +44,13 @@ Estimate estimate(const PointCloud& photons, const PhotonTree& tree, int power, 
   const vec3 P = tree.position(at), N = tree.normal(at);
   const auto most = static_cast<size_t>(settings.nearest);
   tree.nearest(P, N, most, settings.maxRadius, heap);
-  // The farthest gives the radius and does not count: n - 1 inside is what a disk that just excludes the n-th has. Fewer: as far as they
-  // reach, unless they are so few that two which happen to be close would shine.
-  const float r2 = heap.size() >= std::min(kFew, most) ? heap.front().distance2 : settings.maxRadius * settings.maxRadius;
+  // The farthest gives the radius and does not count: n - 1 inside is what a disk that just excludes the n-th has. So few that two
+  // which happen to be close would shine: all of the reach is the disk.
+  const bool byFarthest = heap.size() >= std::min(kFew, most);
+  const float r2 = byFarthest ? heap.front().distance2 : settings.maxRadius * settings.maxRadius;
   if (!(r2 > 0)) return {vec3(0.0f), 0};
   std::sort(heap.begin(), heap.end());  // sums in the order of distance, which no thread decides
-  const size_t inside = heap.size() == most ? most - 1 : heap.size();
+  const size_t inside = heap.size() - byFarthest;
   vec3 sum(0.0f), centroid(0.0f);
   for (size_t i = 0; i < inside; ++i) {
     const float* w = photons.at(tree.order()[heap[i].photon]) + power;
@@ -79,13 +80,13 @@ float reachOf(const PhotonIrradianceSettings& settings, const Bound3& map) {
   return settings.maxRadius > 0 || map.empty() ? settings.maxRadius : kMostOfMap * glm::length(map.size());
 }
 
-PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& given) {
+PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& given, const std::function<bool(const vec3& P)>& wanted) {
   PhotonIrradianceSettings settings = given;
   settings.maxRadius = reachOf(given, photons.bound());
   PointCloud out;
   out.channels = {{"irradiance", 3}};
   if (photons.count() == 0) return out;
-  const int power = photons.offsetOf("power");
+  const int power = offsetOf(photons.channels, "power");
   CHECK_GE(power, 0);
   const PhotonTree tree(photons);
   const auto every = static_cast<size_t>(std::max(1, settings.every));
@@ -93,8 +94,10 @@ PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceS
   std::vector<Estimate> estimates(count);
   parallelFor(count, kEstimatesPerTask, [&](size_t begin, size_t end) {
     std::vector<NearPhoton> heap;
-    for (size_t i = begin; i < end; ++i)
-      estimates[i] = estimate(photons, tree, power, static_cast<uint32_t>(i * every), settings, heap);
+    for (size_t i = begin; i < end; ++i) {
+      const auto at = static_cast<uint32_t>(i * every);
+      if (!wanted || wanted(tree.position(at))) estimates[i] = estimate(photons, tree, power, at, settings, heap);
+    }
   });
   out.reserve(count);
   for (size_t i = 0; i < count; ++i) {

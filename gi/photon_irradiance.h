@@ -3,6 +3,8 @@
 // Irradiance: `irradiance` of the result is E in W/m2, not E/pi.
 // Threads: uses the pool; the result does not depend on it.
 #pragma once
+#include <functional>
+
 #include "gi/point_cloud.h"
 
 namespace tomales {
@@ -15,7 +17,8 @@ struct PhotonIrradianceSettings {
 
 /// `photons` needs a channel "power" of three floats (W), and normals. The result has the channel "irradiance"; its disks overlap enough
 /// to cover the surface. No photons make an empty cloud.
-PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& settings);
+/// `wanted`: only at photons there; null: at all.
+PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& settings, const std::function<bool(const vec3& P)>& wanted = {});
 
 /// The radius beyond which photons do not count, on a map of this bound.
 float reachOf(const PhotonIrradianceSettings& settings, const Bound3& map);

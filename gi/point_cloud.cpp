@@ -8,15 +8,6 @@ int PointCloud::width() const {
   return sum;
 }
 
-int PointCloud::offsetOf(const std::string& channel) const {
-  int offset = 0;
-  for (const CloudChannel& c : channels) {
-    if (c.name == channel) return offset;
-    offset += c.width;
-  }
-  return -1;
-}
-
 void PointCloud::add(const vec3& P, const vec3& N, float r, const float* values) {
   position.push_back(P), normal.push_back(N), radius.push_back(r);
   data.insert(data.end(), values, values + width());
@@ -31,6 +22,20 @@ Bound3 PointCloud::bound() const {
   Bound3 b;
   for (const vec3& p : position) b.extend(p);
   return b;
+}
+
+int offsetOf(const std::vector<CloudChannel>& channels, const std::string& name, int width) {
+  int offset = 0;
+  for (const CloudChannel& c : channels) {
+    if (c.name == name) return width == 0 || c.width == width ? offset : -1;
+    offset += c.width;
+  }
+  return -1;
+}
+
+bool isValidPoint(const vec3& P, const vec3& N, float radius, std::span<const float> values) {
+  return isFinite(P) && isFinite(N) && radius >= 0 && std::isfinite(radius) &&
+         std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
 }
 
 }  // namespace tomales

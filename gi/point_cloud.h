@@ -3,6 +3,7 @@
 // Space: world, unless a file's header says otherwise (PRMan's bake3d "coordsystem"). Over reyes/base alone.
 // Threads: plain data.
 #pragma once
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,13 +32,17 @@ struct PointCloud {
 
   size_t count() const { return position.size(); }
   int width() const;
-  /// First float of a channel among the width() of a point, -1: there is none.
-  int offsetOf(const std::string& channel) const;
   const float* at(size_t point) const { return data.data() + point * static_cast<size_t>(width()); }
   /// `values`: width() floats.
   void add(const vec3& P, const vec3& N, float r, const float* values);
   void reserve(size_t points);
   Bound3 bound() const;  ///< Of the positions.
 };
+
+/// First float of a channel among those of a point, -1: there is none of this width (0: of any).
+int offsetOf(const std::vector<CloudChannel>& channels, const std::string& name, int width = 0);
+
+/// What files may hold: all finite, no negative radius.
+bool isValidPoint(const vec3& P, const vec3& N, float radius, std::span<const float> values);
 
 }  // namespace tomales

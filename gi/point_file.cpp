@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <numeric>
+#include <utility>
 
 #include "reyes/base/morton.h"
 #include "reyes/base/packed_normal.h"
@@ -23,35 +24,31 @@ PointFileWriter::PointFileWriter(const std::string& path, const std::vector<Clou
 }
 
 void PointFileWriter::add(const vec3& P, const vec3& N, float radius, const float* values) {
-  const auto finite = [](float v) { return std::isfinite(v); };
-  if (!isFinite(P) || !isFinite(N) || !(radius >= 0) || !finite(radius) || !std::all_of(values, values + pending_.width(), finite)) {
-    ++dropped_;
-    return;
-  }
+  if (!isValidPoint(P, N, radius, {values, static_cast<size_t>(pending_.width())})) return;
   pending_.add(P, N, radius, values);
-  if (pending_.count() == kChunkPoints) flush();
+  if (pending_.count() < kChunkPoints) return;
+  PointCloud next;
+  next.channels = pending_.channels;
+  addChunk(std::exchange(pending_, std::move(next)));
 }
 
-void PointFileWriter::flush() {
-  if (pending_.count() == 0) return;
+void PointFileWriter::addChunk(PointCloud points) {
+  if (points.count() == 0) return;
   std::vector<uint32_t> normals;
-  for (const vec3& n : pending_.normal) normals.push_back(packNormal(n));
+  for (const vec3& n : points.normal) normals.push_back(packNormal(n));
   ByteWriter w;
-  w.put(pending_.position);
+  w.put(points.position);
   w.put(normals);
-  w.put(pending_.radius);
-  w.put(pending_.data);
+  w.put(points.radius);
+  w.put(points.data);
   contents_.raw(w.bytes.data(), w.bytes.size());
   file_.add(w.bytes);
-  bounds_.push_back(pending_.bound());
-  written_ += pending_.count();
-  PointCloud empty;
-  empty.channels = pending_.channels;
-  pending_ = std::move(empty);
+  bounds_.push_back(points.bound());
+  written_ += points.count();
 }
 
 void PointFileWriter::finish(const MadeFrom& madeFrom) {
-  flush();
+  addChunk(pending_);
   ByteWriter header;
   header.put(static_cast<uint32_t>(pending_.channels.size()));
   for (const CloudChannel& c : pending_.channels) {
@@ -81,6 +78,8 @@ PointFile::PointFile(const std::string& path) : file_(path, kKind, kVersion) {
   madeFrom_ = r.get<MadeFrom>();
   contents_ = r.get<uint64_t>();
   if (bounds_.size() != file_.count()) throw FileError(fmt::format("\"{}\" is damaged: its chunks do not add up", path));
+  if (!std::all_of(bounds_.begin(), bounds_.end(), [](const Bound3& b) { return isFinite(b.lo) && isFinite(b.hi) && !b.empty(); }))
+    throw FileError(fmt::format("\"{}\" is damaged: a chunk has no place", path));
 }
 
 Bound3 PointFile::bound() const {
@@ -101,9 +100,11 @@ void PointFile::read(size_t chunk, PointCloud& to) const {
   if (normals.size() != n || radii.size() != n || data.size() != n * static_cast<size_t>(to.width()))
     throw FileError(fmt::format("\"{}\" is damaged: a chunk does not add up", file_.path()));
   const auto finite = [](float v) { return std::isfinite(v); };
-  if (!std::all_of(positions.begin(), positions.end(), [](const vec3& P) { return isFinite(P); }) ||
+  const Bound3& b = bounds_[chunk];  // finite, so that what lies within is
+  if (!std::all_of(positions.begin(), positions.end(),
+                   [&](const vec3& P) { return glm::all(glm::greaterThanEqual(P, b.lo)) && glm::all(glm::lessThanEqual(P, b.hi)); }) ||
       !std::all_of(radii.begin(), radii.end(), [](float radius) { return std::isfinite(radius) && radius >= 0; }) || !std::all_of(data.begin(), data.end(), finite))
-    throw FileError(fmt::format("\"{}\" is damaged: a point is not finite", file_.path()));
+    throw FileError(fmt::format("\"{}\" is damaged: a point is not finite, or not where it should be", file_.path()));
   to.position.insert(to.position.end(), positions.begin(), positions.end());
   for (const uint32_t p : normals) to.normal.push_back(unpackNormal(p));
   to.radius.insert(to.radius.end(), radii.begin(), radii.end());
@@ -115,6 +116,11 @@ PointCloud PointFile::readAll() const {
   cloud.channels = channels_;
   for (size_t i = 0; i < chunkCount(); ++i) read(i, cloud);
   return cloud;
+}
+
+void requirePhotons(const PointFile& file) {
+  if (offsetOf(file.channels(), "power", 3) < 0)
+    throw FileError(fmt::format("\"{}\" is no photon map: it has no channel \"power\" of three floats", file.path()));
 }
 
 void writePointFile(const PointCloud& cloud, const std::string& path, const MadeFrom& madeFrom) {

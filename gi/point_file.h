@@ -18,16 +18,16 @@ class PointFileWriter {
   PointFileWriter(const std::string& path, const std::vector<CloudChannel>& channels);
   /// A point that is not finite is left out.
   void add(const vec3& P, const vec3& N, float radius, const float* values);
-  size_t dropped() const { return dropped_; }
+  /// At most kChunkPoints valid points, as a chunk of their own.
+  void addChunk(PointCloud points);
   size_t count() const { return written_ + pending_.count(); }
   void finish(const MadeFrom& madeFrom = {});
 
  private:
-  void flush();
   ChunkWriter file_;
   ContentSum contents_;
   PointCloud pending_;
-  size_t written_ = 0, dropped_ = 0;
+  size_t written_ = 0;
   std::vector<Bound3> bounds_;
 };
 
@@ -44,6 +44,7 @@ class PointFile {
   const Bound3& chunkBound(size_t chunk) const { return bounds_[chunk]; }
   void read(size_t chunk, PointCloud& to) const;  ///< Appends; throws FileError.
   PointCloud readAll() const;
+  const std::string& path() const { return file_.path(); }
   uint64_t fileBytes() const { return file_.fileBytes(); }
 
  private:
@@ -54,6 +55,9 @@ class PointFile {
   MadeFrom madeFrom_;
   std::vector<Bound3> bounds_;
 };
+
+/// Throws FileError unless it has a channel "power" of three floats.
+void requirePhotons(const PointFile& file);
 
 /// Along a Morton curve, so that chunks are compact in space. Throws FileError.
 void writePointFile(const PointCloud& cloud, const std::string& path, const MadeFrom& madeFrom = {});

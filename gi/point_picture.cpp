@@ -19,7 +19,7 @@ std::vector<vec3> valuesOf(const PointCloud& cloud, const std::string& name) {
     return out;
   }
   const std::string& wanted = name.empty() && !cloud.channels.empty() ? cloud.channels.front().name : name;
-  const int offset = cloud.offsetOf(wanted);
+  const int offset = offsetOf(cloud.channels, wanted);
   if (offset < 0) throw FileError(fmt::format("there is no channel \"{}\"", wanted));
   const auto channel = std::find_if(cloud.channels.begin(), cloud.channels.end(), [&](const auto& c) { return c.name == wanted; });
   for (size_t i = 0; i < cloud.count(); ++i) {

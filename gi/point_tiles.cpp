@@ -1,9 +1,22 @@
 #include "gi/point_tiles.h"
 
+#include <utility>
+
 namespace tomales {
 namespace {
 
 constexpr int kSide = 1 << PointTiles::kDeepest;
+constexpr uint64_t kPiles = 64;
+
+size_t indexOf(const glm::ivec3& cell) { return static_cast<size_t>((cell.z * kSide + cell.y) * kSide + cell.x); }
+
+/// Of 0 .. kSide^3 - 1 along a Morton curve, in which neighbours are neighbours in space.
+glm::ivec3 alongCurve(int number) {
+  glm::ivec3 cell(0);
+  for (int bit = 0; bit < PointTiles::kDeepest; ++bit)
+    for (int k = 0; k < 3; ++k) cell[k] |= (number >> (3 * bit + k) & 1) << bit;
+  return cell;
+}
 
 bool meet(const Bound3& a, const Bound3& b) {
   return glm::all(glm::lessThanEqual(a.lo, b.hi)) && glm::all(glm::greaterThanEqual(a.hi, b.lo));
@@ -24,10 +37,7 @@ PointTiles::PointTiles(const PointFile& file) : file_(file), cube_(cubeAround(fi
   for (size_t chunk = 0; chunk < file.chunkCount(); ++chunk) {
     PointCloud part;
     file.read(chunk, part);
-    for (const vec3& P : part.position) {
-      const glm::ivec3 at = glm::clamp(glm::ivec3((P - cube_.lo) / cube_.size * static_cast<float>(kSide)), 0, kSide - 1);
-      ++counts_[static_cast<size_t>((at.z * kSide + at.y) * kSide + at.x)];
-    }
+    for (const vec3& P : part.position) ++counts_[indexOf(cellOf(P))];
     for (const float r : part.radius) largestRadius_ = std::max(largestRadius_, r);
     for (const float v : part.data) sum += double{v};
     values += static_cast<double>(part.data.size());
@@ -35,10 +45,18 @@ PointTiles::PointTiles(const PointFile& file) : file_(file), cube_(cubeAround(fi
   mean_ = values > 0 ? sum / values : 0;
 }
 
+glm::ivec3 PointTiles::cellOf(const vec3& P) const {
+  glm::ivec3 cell(0);
+  for (int k = 0; k < 3; ++k) {
+    const float at = (P[k] - cube_.lo[k]) / cube_.size * static_cast<float>(kSide);
+    if (at > 0) cell[k] = at < kSide ? static_cast<int>(at) : kSide - 1;  // a cube too large for floats leaves NaN: the first cell
+  }
+  return cell;
+}
+
 Bound3 PointTiles::box(int level, const glm::ivec3& place) const {
   const float size = std::ldexp(cube_.size, -level);
-  const vec3 lo = cube_.lo + size * vec3(place);
-  return {lo, lo + vec3(size)};
+  return {cube_.lo + size * vec3(place), cube_.lo + size * vec3(place + 1)};
 }
 
 uint64_t PointTiles::count(int level, const glm::ivec3& place) const {
@@ -47,23 +65,48 @@ uint64_t PointTiles::count(int level, const glm::ivec3& place) const {
   uint64_t sum = 0;
   for (int z = 0; z < width; ++z)
     for (int y = 0; y < width; ++y)
-      for (int x = 0; x < width; ++x) sum += counts_[static_cast<size_t>(((first.z + z) * kSide + first.y + y) * kSide + first.x + x)];
+      for (int x = 0; x < width; ++x) sum += counts_[indexOf(first + glm::ivec3(x, y, z))];
   return sum;
 }
 
-PointCloud PointTiles::around(const Bound3& box, float margin) const {
+PointCloud PointTiles::around(const Bound3& box, float margin, float radiusScale) const {
   PointCloud out, part;
   out.channels = file_.channels();
   for (size_t chunk = 0; chunk < file_.chunkCount(); ++chunk) {
-    if (!meet(file_.chunkBound(chunk), box.grown(std::max(margin, largestRadius_)))) continue;
+    if (!meet(file_.chunkBound(chunk), box.grown(std::max(margin, largestRadius_ * radiusScale)))) continue;
     part = {};
     file_.read(chunk, part);
     for (size_t i = 0; i < part.count(); ++i) {
       const vec3& P = part.position[i];
-      if (meet({P, P}, box.grown(std::max(margin, part.radius[i])))) out.add(P, part.normal[i], part.radius[i], part.at(i));
+      if (meet({P, P}, box.grown(std::max(margin, part.radius[i] * radiusScale)))) out.add(P, part.normal[i], part.radius[i], part.at(i));
     }
   }
   return out;
+}
+
+void PointTiles::writeCompact(const std::string& path) const {
+  std::vector<uint8_t> pileOf(counts_.size());
+  uint64_t before = 0;
+  for (int number = 0; number < kSide * kSide * kSide; ++number) {
+    const size_t cell = indexOf(alongCurve(number));
+    pileOf[cell] = static_cast<uint8_t>(before * kPiles / std::max<uint64_t>(file_.count(), 1));
+    before += counts_[cell];
+  }
+  PointFileWriter writer(path, file_.channels());
+  PointCloud empty, part;
+  empty.channels = file_.channels();
+  std::vector<PointCloud> piles(kPiles, empty);
+  for (size_t chunk = 0; chunk < file_.chunkCount(); ++chunk) {
+    part = {};
+    file_.read(chunk, part);
+    for (size_t i = 0; i < part.count(); ++i) {
+      PointCloud& pile = piles[pileOf[indexOf(cellOf(part.position[i]))]];
+      pile.add(part.position[i], part.normal[i], part.radius[i], part.at(i));
+      if (pile.count() == PointFileWriter::kChunkPoints) writer.addChunk(std::exchange(pile, empty));
+    }
+  }
+  for (PointCloud& pile : piles) writer.addChunk(std::move(pile));
+  writer.finish(file_.madeFrom());
 }
 
 }  // namespace tomales

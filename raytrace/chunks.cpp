@@ -19,15 +19,12 @@ namespace tomales {
 namespace {
 
 constexpr int kTile = 64;               ///< Fine polygons of a tile along u or v.
-constexpr int kChunkPolygons = 64 * 64;  ///< Fine ones at which a chunk is full: docs/decisions/0036-geometry-cache.md
+constexpr int kChunkPolygons = 64 * 64;  ///< At which a chunk is full: docs/decisions/0036-geometry-cache.md
 constexpr size_t kChunkTiles = 1024;    ///< Of more Embree would build with several threads, and bits would depend on how many.
 constexpr int kSampled = 4;             ///< Polygons along u and v of the part of a tile whose deviation is measured.
 constexpr size_t index(Level level) { return static_cast<size_t>(level); }
 
-int64_t finePolygonsOf(const Tile& tile) {
-  const CoarseRate& r = tile.rate[index(Level::Fine)];
-  return int64_t{r.nu} * r.nv;
-}
+int64_t polygons(const CoarseRate& r) { return int64_t{r.nu} * r.nv; }
 
 /// Vertices that are diced later lie in it whatever rounds, and Embree's arithmetic with it.
 Bound3 withRounding(const Bound3& b) { return b.grown(1e-6f * std::max(maxComponent(glm::abs(b.lo)), maxComponent(glm::abs(b.hi)))); }
@@ -39,10 +36,18 @@ void reportNotFinite(const Object& o, Log& log) {
 
 }  // namespace
 
-/// What is known of a patch, or of one of its tiles.
+/// What will be a tile at each level.
+struct Chunks::Piece {
+  UvRect rect;
+  std::array<CoarseRate, kLevels> rate;
+  Bound3 bound;
+};
+
+/// What is known of a patch.
 struct Chunks::Planned {
-  std::vector<Tile> tiles;
-  std::vector<Bound3> bounds;  ///< Of each tile.
+  int object = -1;
+  uint32_t patch = 0;
+  std::vector<Piece> pieces;
   std::array<float, kLevels> deviation{};
 };
 
@@ -53,7 +58,7 @@ bool hasLevels(const Object& o, uint32_t patch, bool moves) {
 }
 
 Chunks::Chunks(const Scene& scene, const Camera& camera, const ShadingSystem& shading, const std::vector<bool>& elsewhere, Log& log)
-    : scene_(scene), shading_(shading), log_(log), deviations_(scene.groups.size()) {
+    : scene_(scene), shading_(shading), log_(log), present_(scene.groups.size()), deviations_(scene.groups.size()) {
   for (const ShadeGroup& g : scene.groups) full_.push_back(g.attributes->trace.rate == TessellationMode::Full);
   if (std::all_of(scene.groups.begin(), scene.groups.end(),
                   [](const ShadeGroup& g) { return g.attributes->trace.rate == TessellationMode::Fixed; }))
@@ -78,96 +83,100 @@ Chunks::Planned Chunks::plan(int object, uint32_t patch, const Camera& camera) c
   const auto tiles = [](int count) { return (count + kTile - 1) / kTile; };
   const int across = tiles(rates[0].nu), along = tiles(rates[0].nv);
   const auto at = [](int i, int n) { return static_cast<float>(i) / static_cast<float>(n); };
-  Planned out;
+  Planned out{object, patch, {}, {}};
   for (int j = 0; j < along; ++j)
     for (int i = 0; i < across; ++i) {
-      Tile tile{object, patch, {at(i, across), at(i + 1, across), at(j, along), at(j + 1, along)}, {}};
-      for (size_t l = 0; l < kLevels; ++l) tile.rate[l] = {(rates[l].nu + across - 1) / across, (rates[l].nv + along - 1) / along};
-      const Bound3 bound = transformBound(o.cameraFromObject.at(o.keyTimes.front()), o.shape().bound(patch, tile.rect));
+      Piece piece{{at(i, across), at(i + 1, across), at(j, along), at(j + 1, along)}, {}, {}};
+      for (size_t l = 0; l < kLevels; ++l) piece.rate[l] = {(rates[l].nu + across - 1) / across, (rates[l].nv + along - 1) / along};
+      const Bound3 bound = transformBound(o.cameraFromObject.at(o.keyTimes.front()), o.shape().bound(patch, piece.rect));
       if (!isFinite(bound.lo) || !isFinite(bound.hi)) {
         reportNotFinite(o, log_);
         continue;
       }
-      out.bounds.push_back(withRounding(displacesForRays(o) ? bound.grown(o.displacementBound) : bound));
-      measure(out, tile);
-      out.tiles.push_back(tile);
+      piece.bound = withRounding(displacesForRays(o) ? bound.grown(o.displacementBound) : bound);
+      measure(out, piece);
+      out.pieces.push_back(piece);
     }
   return out;
 }
 
-/// All coarse polygons of the tile, and of the finer ones a part that hash chooses.
-void Chunks::measure(Planned& planned, const Tile& tile) const {
-  const Object& o = scene_.objects[static_cast<size_t>(tile.object)];
+/// All coarse polygons of the piece, and of the finer ones a part that hash chooses.
+void Chunks::measure(Planned& planned, Piece& piece) const {
+  const Object& o = scene_.objects[static_cast<size_t>(planned.object)];
   for (const Level level : {Level::Coarse, Level::Medium, Level::Fine}) {
     if (levelOf(static_cast<uint32_t>(o.group), level) != level) continue;  // no ray sees it
-    const auto [nu, nv] = tile.rate[index(level)];
-    UvRect part = tile.rect;
+    const auto [nu, nv] = piece.rate[index(level)];
+    UvRect part = piece.rect;
     int u = nu, v = nv;
     if (level != Level::Coarse) {
       u = std::min(nu, kSampled), v = std::min(nv, kSampled);
-      const uint32_t name = hashCombine(o.name, tile.patch, static_cast<uint32_t>(planned.tiles.size()), static_cast<uint32_t>(level));
+      const uint32_t name = hashCombine(o.name, planned.patch, static_cast<uint32_t>(planned.pieces.size()), static_cast<uint32_t>(level));
       const int i = static_cast<int>(unitFloat(name) * static_cast<float>(nu - u + 1));
       const int j = static_cast<int>(unitFloat(hash32(name)) * static_cast<float>(nv - v + 1));
       const auto within = [](float a, float b, int k, int n) { return lerp(a, b, static_cast<float>(k) / static_cast<float>(n)); };
-      part = {within(tile.rect.u0, tile.rect.u1, i, nu), within(tile.rect.u0, tile.rect.u1, i + u, nu),
-              within(tile.rect.v0, tile.rect.v1, j, nv), within(tile.rect.v0, tile.rect.v1, j + v, nv)};
+      part = {within(piece.rect.u0, piece.rect.u1, i, nu), within(piece.rect.u0, piece.rect.u1, i + u, nu),
+              within(piece.rect.v0, piece.rect.v1, j, nv), within(piece.rect.v0, piece.rect.v1, j + v, nv)};
     }
-    Grid g = tomales::dice(scene_, tile.object, tile.patch, part, 2 * u, 2 * v, 1);
+    Grid g = tomales::dice(scene_, planned.object, planned.patch, part, 2 * u, 2 * v, 1);
     if (displacesForRays(o)) shading_.displace(g);
     if (!isFinite(g)) continue;
     planned.deviation[index(level)] = std::max(planned.deviation[index(level)], doubledDeviation(g, 0));
     // Where the displacement bound is too small.
     Bound3 met;
     for (int k = 0; k < g.vertexCount(); ++k) met.extend(g.position(0, k));
-    planned.bounds.back().extend(withRounding(met));
+    piece.bound.extend(withRounding(met));
   }
 }
 
-void Chunks::pack(std::vector<Planned>& planned) {
+void Chunks::pack(const std::vector<Planned>& planned) {
   struct Placed {
     uint32_t group, place;
-    const Tile* tile;
-    const Bound3* bound;
+    const Planned* of;
+    const Piece* piece;
   };
   std::vector<Bound3> ofGroup(scene_.groups.size());
   std::vector<Placed> placed;
-  for (const Planned& p : planned)
-    for (size_t i = 0; i < p.tiles.size(); ++i) {
-      const auto group = static_cast<uint32_t>(scene_.objects[static_cast<size_t>(p.tiles[i].object)].group);
-      ofGroup[group].extend(p.bounds[i]);
-      placed.push_back({group, 0, &p.tiles[i], &p.bounds[i]});
-      for (size_t l = 0; l < kLevels; ++l) deviations_[group][l] = std::max(deviations_[group][l], p.deviation[l]);
-      finePolygons_ += finePolygonsOf(p.tiles[i]);
+  for (const Planned& p : planned) {
+    const auto group = static_cast<uint32_t>(scene_.objects[static_cast<size_t>(p.object)].group);
+    for (size_t l = 0; l < kLevels; ++l) deviations_[group][l] = std::max(deviations_[group][l], p.deviation[l]);
+    for (const Piece& piece : p.pieces) {
+      present_[group] = true;
+      ofGroup[group].extend(piece.bound);
+      placed.push_back({group, 0, &p, &piece});
+      finePolygons_ += polygons(piece.rate[index(Level::Fine)]);
     }
-  for (Placed& p : placed) p.place = mortonPlace(p.bound->center(), ofGroup[p.group]);
+  }
+  for (Placed& p : placed) p.place = mortonPlace(p.piece->bound.center(), ofGroup[p.group]);
   std::stable_sort(placed.begin(), placed.end(),
                    [](const Placed& a, const Placed& b) { return std::tie(a.group, a.place) < std::tie(b.group, b.place); });
-  int64_t held = 0;
-  for (const Placed& p : placed) {
-    const int64_t more = finePolygonsOf(*p.tile);
-    const bool fits = !chunks_.empty() && chunks_.back().group == p.group && held + more <= kChunkPolygons &&
-                      chunks_.back().tiles.size() < kChunkTiles;
-    if (!fits) chunks_.push_back({p.group, {}, {}}), held = 0;
-    held += more;
-    chunks_.back().tiles.push_back(*p.tile);
-    chunks_.back().bound.extend(*p.bound);
+  for (const Level level : {Level::Fine, Level::Medium, Level::Coarse}) {
+    int64_t held = kChunkPolygons;
+    for (const Placed& p : placed) {
+      if (levelOf(p.group, level) != level) continue;
+      const CoarseRate& rate = p.piece->rate[index(level)];
+      const bool fits = held + polygons(rate) <= kChunkPolygons && chunks_.back().group == p.group && chunks_.back().tiles.size() < kChunkTiles;
+      if (!fits) chunks_.push_back({p.group, level, {}, {}}), held = 0;
+      held += polygons(rate);
+      chunks_.back().tiles.push_back({p.of->object, p.of->patch, p.piece->rect, rate});
+      chunks_.back().bound.extend(p.piece->bound);
+    }
   }
   for (Chunk& c : chunks_) c.tiles.shrink_to_fit();
 }
 
-ChunkMesh Chunks::dice(size_t chunk, Level level) const {
+ChunkMesh Chunks::dice(size_t chunk) const {
   ChunkMesh out;
   const std::vector<Tile>& tiles = chunks_[chunk].tiles;
   size_t vertices = 0;
   for (const Tile& t : tiles) {
-    const auto [nu, nv] = t.rate[index(level)];
+    const auto [nu, nv] = t.rate;
     out.firstVertex.push_back(static_cast<uint32_t>(vertices));
     vertices += static_cast<size_t>(nu + 1) * static_cast<size_t>(nv + 1);
   }
   out.P.reserve(vertices + 1), out.N.reserve(vertices);
   for (const Tile& t : tiles) {
     const Object& o = scene_.objects[static_cast<size_t>(t.object)];
-    const auto [nu, nv] = t.rate[index(level)];
+    const auto [nu, nv] = t.rate;
     Grid g = tomales::dice(scene_, t.object, t.patch, t.rect, nu, nv, 1);
     if (displacesForRays(o)) shading_.displace(g);
     const bool finite = isFinite(g);
@@ -180,8 +189,8 @@ ChunkMesh Chunks::dice(size_t chunk, Level level) const {
   return out;
 }
 
-vec3 Chunks::normal(const ChunkMesh& mesh, size_t chunk, Level level, uint32_t tile, float u, float v) const {
-  const auto [nu, nv] = chunks_[chunk].tiles[tile].rate[index(level)];
+vec3 Chunks::normal(const ChunkMesh& mesh, size_t chunk, uint32_t tile, float u, float v) const {
+  const auto [nu, nv] = chunks_[chunk].tiles[tile].rate;
   const auto cell = [](float x, int n) { return std::clamp(static_cast<int>(x * static_cast<float>(n)), 0, n - 1); };
   const int i = cell(u, nu), j = cell(v, nv);
   const float fu = u * static_cast<float>(nu) - static_cast<float>(i), fv = v * static_cast<float>(nv) - static_cast<float>(j);

@@ -1,4 +1,4 @@
-// Surfaces that rays see at several levels: tiles of patches, near ones together in chunks, of which each level is diced when a ray first
+// Surfaces that rays see at several levels: tiles of patches, near ones of one level together in chunks, which are diced when a ray first
 // comes there (docs/decisions/0036-geometry-cache.md).
 // What stands still, is no light, no part of a solid and not trimmed, where Attribute "trace" "tessellationmode" asks for it; flat
 // patches without displacement are exact as they are and stay out.
@@ -17,12 +17,13 @@ struct Tile {
   int object;
   uint32_t patch;
   UvRect rect;
-  std::array<CoarseRate, kLevels> rate;  ///< Polygons of the tile
+  CoarseRate rate;
 };
 
 struct Chunk {
   uint32_t group;
-  Bound3 bound;             ///< Of all levels.
+  Level level;
+  Bound3 bound;             ///< No tighter than that of all levels.
   std::vector<Tile> tiles;
 };
 
@@ -44,26 +45,29 @@ class Chunks {
   Chunks(const Scene& scene, const Camera& camera, const ShadingSystem& shading, const std::vector<bool>& elsewhere, Log& log);
 
   const std::vector<Chunk>& all() const { return chunks_; }
-  ChunkMesh dice(size_t chunk, Level level) const;
+  ChunkMesh dice(size_t chunk) const;
   /// The level at which a ray of this level sees a group.
   Level levelOf(uint32_t group, Level ray) const { return full_[group] ? Level::Fine : ray; }
+  bool has(uint32_t group) const { return present_[group]; }
   /// Largest distance between the polygons of a level and what they stand for; 0 for groups that are not here. Of the finer levels
   /// a part is measured.
   float deviation(size_t group, Level ray) const { return deviations_[group][static_cast<size_t>(levelOf(static_cast<uint32_t>(group), ray))]; }
   /// Unit normal, RISpec side, where tile parameters u, v lead.
-  vec3 normal(const ChunkMesh& mesh, size_t chunk, Level level, uint32_t tile, float u, float v) const;
+  vec3 normal(const ChunkMesh& mesh, size_t chunk, uint32_t tile, float u, float v) const;
   int64_t finePolygons() const { return finePolygons_; }
 
  private:
   struct Planned;
   Planned plan(int object, uint32_t patch, const Camera& camera) const;
-  void measure(Planned& planned, const Tile& tile) const;
-  void pack(std::vector<Planned>& planned);
+  struct Piece;
+  void measure(Planned& planned, Piece& piece) const;
+  void pack(const std::vector<Planned>& planned);
 
   const Scene& scene_;
   const ShadingSystem& shading_;
   Log& log_;
   std::vector<bool> full_;  ///< Of each group: rays of all levels see the finest.
+  std::vector<bool> present_;  ///< Of each group: some chunk belongs to it.
   std::vector<Chunk> chunks_;
   std::vector<std::array<float, kLevels>> deviations_;
   int64_t finePolygons_ = 0;

@@ -1,6 +1,7 @@
 // Private to the files that know Embree: chunks (raytrace/chunks.h) as user geometry. A ray that comes to one goes on in a scene of Embree grids,
-// built at the ray's level when it is not in the cache. Threads: any.
+// built when it is not in the cache. Chunks of all levels stand in one scene: rays see those of theirs by mask. Threads: any.
 #pragma once
+#include <atomic>
 #include <deque>
 
 #include "raytrace/chunks.h"
@@ -22,8 +23,8 @@ class EmbreeChunks {
               const std::vector<uint32_t>& masks, const std::vector<bool>& opaque);
 
   const Geometry& geometryOf(uint32_t chunk) const { return described_[chunks_.all()[chunk].group]; }
-  /// Unit normal on the RISpec side where a hit lies that a ray of this level has had.
-  vec3 normal(const PolygonHit& hit, Level ray) const;
+  /// Unit normal on the RISpec side where a hit lies.
+  vec3 normal(const PolygonHit& hit) const;
   ResidentFigures figures() const { return cache_.figures(); }
 
  private:
@@ -43,8 +44,18 @@ class EmbreeChunks {
     std::vector<uint32_t> chunks;
   };
 
-  std::shared_ptr<const Resident> resident(uint32_t chunk, Level ray) const;
-  std::shared_ptr<const Resident> build(uint32_t chunk, Level level) const;
+  /// Where the vertices of a chunk lie: tighter than Chunk::bound. Known once they have been made, and kept when they go.
+  struct Extent {
+    Bound3 whole;
+    std::vector<Bound3> parts;
+    std::atomic<bool> known{false};
+  };
+
+  /// Null: the ray passes by.
+  std::shared_ptr<const Resident> met(uint32_t chunk, const RTCRay& r) const;
+  std::shared_ptr<const Resident> resident(uint32_t chunk) const;
+  std::shared_ptr<const Resident> build(uint32_t chunk) const;
+  void learnExtent(uint32_t chunk, const ChunkMesh& mesh) const;
   static void boundsOf(const RTCBoundsFunctionArguments* args);
   static void intersect(const RTCIntersectFunctionNArguments* args);
   static void occluded(const RTCOccludedFunctionNArguments* args);
@@ -55,6 +66,7 @@ class EmbreeChunks {
   std::vector<Geometry> described_;  ///< Of each group.
   std::deque<Members> members_;      ///< Embree keeps their addresses.
   mutable ResidentCache<Resident> cache_;
+  mutable std::vector<Extent> extents_;  ///< Of each chunk.
 };
 
 }  // namespace tomales

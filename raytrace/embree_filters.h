@@ -10,6 +10,10 @@
 
 namespace tomales {
 
+/// Embree's mask of what rays with these bits of RayMask see at a level, or of such a ray.
+inline uint32_t maskAt(uint32_t mask, Level level) { return mask << 4 * static_cast<int>(level); }
+inline uint32_t maskAtAllLevels(uint32_t mask) { return maskAt(mask, Level::Fine) | maskAt(mask, Level::Medium) | maskAt(mask, Level::Coarse); }
+
 /// The groups that rays treat alike share one Embree geometry: a geometry of its own for each would cost 65 kB, and a scene
 /// may have a group for every object.
 struct Geometry {
@@ -46,7 +50,6 @@ struct Traversal {
   const Instances* instances = nullptr;
   const RayFilter* filter = nullptr;
   float level = 0;  ///< The ray's number for levels of detail.
-  Level fineness = Level::Fine;
 
   PolygonHit hit(const Geometry& geometry, float t, uint32_t instanceId, uint32_t primitive, float u, float v,
                  bool leaving, const vec3& normal) const {

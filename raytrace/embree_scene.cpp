@@ -20,7 +20,7 @@ RTCRay rayFrom(const Ray& ray, float shift, float tNear, uint32_t mask) {
   r.org_x = origin.x, r.org_y = origin.y, r.org_z = origin.z;
   r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
   r.tnear = tNear, r.tfar = ray.tMax + shift, r.time = ray.time;
-  r.mask = mask;
+  r.mask = maskAt(mask, ray.level);
   return r;
 }
 
@@ -62,7 +62,7 @@ struct EmbreeScene::Impl {
   }
 
   Traversal traversalOf(const Ray& ray, RTCFilterFunctionN filter, float shift, float window, HitList* list) const {
-    Traversal t{{}, shift, window, ray.tMax, list, &instances, ray.filter, levelOf(ray), ray.level};
+    Traversal t{{}, shift, window, ray.tMax, list, &instances, ray.filter, levelOf(ray)};
     rtcInitIntersectContext(&t.embree);
     t.embree.filter = filter;
     return t;
@@ -79,7 +79,7 @@ struct EmbreeScene::Impl {
       share(geometry, like);
     else
       copy(geometry, members, out.meshOfQuad);
-    rtcSetGeometryMask(geometry, mask);
+    rtcSetGeometryMask(geometry, maskAtAllLevels(mask));
     if (like.trimmed || !like.detail.whole()) filterAbsent(geometry);
     attach(scene, geometry, id, &out);
   }
@@ -150,7 +150,7 @@ struct EmbreeScene::Impl {
       RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
       rtcSetGeometryInstancedScene(geometry, scenes[instance.master]);
       rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &instance.cameraFromObject[0][0]);
-      rtcSetGeometryMask(geometry, masks[groupOf[i]]);
+      rtcSetGeometryMask(geometry, maskAtAllLevels(masks[groupOf[i]]));
       attach(scene, geometry, instances.firstId + static_cast<uint32_t>(i), nullptr);
       instances.group.push_back(groupOf[i]);
       instances.opaque.push_back(opaque[groupOf[i]]);
@@ -246,7 +246,7 @@ void EmbreeScene::all(const Ray& ray, float window, HitList& list) const {
   rtcOccluded1(impl_->scene, &traversal.embree, &r);
 }
 
-vec3 EmbreeScene::normal(const PolygonHit& hit, Level ray) const { return impl_->chunks->normal(hit, ray); }
+vec3 EmbreeScene::normal(const PolygonHit& hit) const { return impl_->chunks->normal(hit); }
 
 ResidentFigures EmbreeScene::chunkFigures() const { return impl_->chunks ? impl_->chunks->figures() : ResidentFigures{}; }
 

@@ -37,8 +37,8 @@ class EmbreeScene {
   /// Fills `list` with all hits at t >= -window, however far, unsorted.
   void all(const Ray& ray, float window, HitList& list) const;
 
-  /// Unit normal on the RISpec side where a hit of a chunk lies that a ray of this level has had.
-  vec3 normal(const PolygonHit& hit, Level ray) const;
+  /// Unit normal on the RISpec side where a hit of a chunk lies.
+  vec3 normal(const PolygonHit& hit) const;
 
   size_t bytes() const;  ///< That Embree allocated.
   ResidentFigures chunkFigures() const;

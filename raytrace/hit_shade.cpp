@@ -62,7 +62,8 @@ void bringToOpen(const Scene& scene, const Ray& ray, const Hit& hit, ShadePoints
 
 /// Parameters and primitive variables are those of the true surface, place and normals those that the ray
 /// met.
-void addPoint(const Scene& scene, const Ray& ray, const Hit& hit, SampleName name, ShadePoints& points) {
+void addPoint(const RayScene::Impl& rays, const Ray& ray, const Hit& hit, SampleName name, ShadePoints& points) {
+  const Scene& scene = rays.scene;
   const int i = points.add(name);
   evaluatePoint(scene, hit.object, hit.patch, hit.u, hit.v, points, i);
   const float radius = ray.radius + ray.spread * hit.t;
@@ -74,7 +75,8 @@ void addPoint(const Scene& scene, const Ray& ray, const Hit& hit, SampleName nam
   points.set3(kIx, i, I);
   points.channel(kTime)[i] = ray.time;
   if (ray.time > 0) bringToOpen(scene, ray, hit, points, i);
-  if (radius > 0) points.channel(kArea)[i] = kPi * radius * radius;
+  const float stands = std::max(radius, rays.leastRadius(static_cast<uint32_t>(points.group()), ray.level, ray.origin + I));
+  if (stands > 0) points.channel(kArea)[i] = kPi * stands * stands;
 }
 
 HitMode modeOf(const Attributes& a, RayKind kind) {
@@ -161,7 +163,7 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
     const Attributes& attributes = *group.attributes;
     ShadePoints points(g, primvarFloats(group), shading.wantsSteps(g));
     points.reserve(static_cast<int>(last - first));
-    for (size_t k = first; k < last; ++k) addPoint(scene, rays[order[k]], hits[order[k]], names[order[k]], points);
+    for (size_t k = first; k < last; ++k) addPoint(*impl_, rays[order[k]], hits[order[k]], names[order[k]], points);
     const bool shades = answers.wantsColor && answers.mode.value_or(modeOf(attributes, context.kind)) == HitMode::Shader;
     if (shades) shading.shade(points, hitContext, shaded);
     const vec3 emission = diffuse || !context.lampsGlow ? vec3(0) : shading.visibleEmission(g);

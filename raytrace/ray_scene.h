@@ -29,6 +29,9 @@ struct RayScene::Impl {
   vec3 clearness(const PolygonHit& hit) const { return 1.0f - scene.groups[hit.group].attributes->opacity; }
 
   Level levelOf(const Ray& ray, const vec3& P) const;
+  /// Radius from which on a point stands for polygons of the level at which a ray has met it: what leaves it must see none finer, because it
+  /// lies on those. 0 for groups without levels.
+  float leastRadius(uint32_t group, Level met, const vec3& P) const;
 
   const Scene& scene;
   const Camera& camera;

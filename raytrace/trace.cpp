@@ -141,7 +141,7 @@ Hit RayScene::Impl::resolve(const Ray& ray, const PolygonHit& polygon) const {
 
 Hit RayScene::Impl::resolveChunk(const Ray& ray, const PolygonHit& hit) const {
   const Tile& tile = chunks.all()[static_cast<size_t>(hit.chunk)].tiles[hit.quad];
-  const vec3 along = groups[hit.group].flipsNormal ? -hit.normal : hit.normal, normal = embree.normal(hit, ray.level);
+  const vec3 along = groups[hit.group].flipsNormal ? -hit.normal : hit.normal, normal = embree.normal(hit);
   return {hit.t,  tile.object, tile.patch, lerp(tile.rect.u0, tile.rect.u1, hit.u), lerp(tile.rect.v0, tile.rect.v1, hit.v),
           normal, normalizeOr(along, normal), false, ray.origin + hit.t * ray.direction};
 }
@@ -150,6 +150,12 @@ Hit RayScene::Impl::resolveChunk(const Ray& ray, const PolygonHit& hit) const {
 Level RayScene::Impl::levelOf(const Ray& ray, const vec3& P) const {
   const float width_px = 2 * std::max(ray.spread * glm::length(P), ray.radius) / std::max(camera.pixelSize(P), 1e-20f);
   return width_px >= kCoarseWidth_px ? Level::Coarse : width_px >= kMediumWidth_px ? Level::Medium : Level::Fine;
+}
+
+float RayScene::Impl::leastRadius(uint32_t group, Level met, const vec3& P) const {
+  constexpr float kHalfAndRounding = 0.5001f;
+  if (met == Level::Fine || !chunks.has(group)) return 0;
+  return kHalfAndRounding * (met == Level::Coarse ? kCoarseWidth_px : kMediumWidth_px) * camera.pixelSize(P);
 }
 
 RayScene::RayScene(const Scene& scene, const Camera& camera, const ShadingSystem& shading, const RaySettings& settings,

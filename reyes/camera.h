@@ -2,6 +2,8 @@
 // space (pixels, origin at the top left, y down).
 // Threads: immutable.
 #pragma once
+#include <cfloat>
+
 #include "reyes/state.h"
 
 namespace tomales {
@@ -21,7 +23,11 @@ class Camera {
   /// What is nearer cannot be diced: half as far as the near plane, so that what that one cuts can be.
   float eyePlane() const { return 0.5f * near_; }
   /// Finite, and not nearer than the eye plane: `raster` is defined and so is the depth key.
-  bool seeable(const vec3& p) const { return isFinite(p) && !(perspective_ && p.z < eyePlane()); }
+  bool seeable(const vec3& p) const {
+    // Without a branch, which would keep it out of vectors.
+    const float nearest = perspective_ ? eyePlane() : -FLT_MAX;
+    return (std::abs(p.x) <= FLT_MAX) & (std::abs(p.y) <= FLT_MAX) & (p.z >= nearest) & (p.z <= FLT_MAX);
+  }
   /// Raster x, y. Pre: p.z > 0 under perspective.
   vec2 raster(const vec3& p) const {
     const float w = perspective_ ? 1.0f / p.z : 1.0f;

@@ -65,7 +65,7 @@ constexpr int64_t kMostTiles = int64_t{1} << 24;
 struct DeepFrame {
   PixelRect crop;       ///< Pixels to write.
   PixelRect padded;     ///< Pixels that have samples: crop grown by the filter's reach.
-  int bucketWidth = 16, bucketHeight = 16, columns = 0, rows = 0;
+  int bucketWidth = 32, bucketHeight = 32, columns = 0, rows = 0;
   int samplesPerPixel = 1;
   bool complete = true; ///< False: interrupted, some tiles are empty.
   std::vector<DeepTile> tiles;  ///< Of some rows of buckets, from the top: all of them, a band that moves down the frame, or none.

@@ -63,6 +63,7 @@ struct RasterGrid : RasterExtent {
 };
 /// Pre: every vertex of a cell that Grid::kept keeps is Camera::seeable; several pieces are still, in focus and belong to no solid. zMin: nearest camera z of the solid that the grid
 /// belongs to. pool: where it is kept.
+/// opaque: by its shaders; what may stand before the midpoint of two surfaces hides nothing all the same.
 std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene, const Camera& camera, bool opaque,
                                           float zMin = kInfinity, const std::shared_ptr<Pool>& pool = nullptr);
 

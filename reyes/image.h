@@ -80,9 +80,9 @@ class FrameFilter {
   /// Takes what a tile shows, which then may go unless needsTiles(). Another tile at a time from any thread.
   void resolve(size_t index, const DeepTile& tile);
   bool needsTiles() const;
-  /// Raster rows [y0, y1) of the crop window, from the top; tiles that are not resolved are taken from the frame. Afterwards what no
-  /// lower row needs is forgotten.
-  Image rows(int y0, int y1) const;
+  /// Raster rows [y0, y1) of the crop window, from the top: none above those asked for before. Tiles that are not resolved are taken from
+  /// the frame. Afterwards what no lower row needs is forgotten.
+  Image rows(int y0, int y1);
   DeepRows deepRows(int y0, int y1, const DeepMerge& merge) const;  ///< The same, before exposure.
 
  private:

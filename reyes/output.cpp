@@ -46,17 +46,18 @@ const std::map<std::string, Reduce, std::less<>> kReductions = {
 
 /// What `asker` says about sampling and encoding; what it leaves open stays.
 void amend(Channel& channel, Encoding& encoding, const Asker& asker, Log* log) {
-  const auto numbers = [&](const char* name, size_t count) -> const std::vector<float>* {
+  const auto numbers = [&](const char* name, size_t count) -> std::optional<std::vector<float>> {
     const Param* p = findParam(asker.params, name);
-    if (!p) return nullptr;
-    if (p->floats.size() == count) return &p->floats;
+    if (!p) return std::nullopt;
+    if (p->floats.size() == count) return p->floats;
+    if (p->ints.size() == count) return std::vector<float>(p->ints.begin(), p->ints.end());  // RenderMan for Maya: "int[4] quantize"
     if (log)
       log->report(Severity::Warning, fmt::format("channel-{}", name), asker.where,
-                  fmt::format("{}: \"{}\" needs {} floats; ignored", asker.name, name, count));
-    return nullptr;
+                  fmt::format("{}: \"{}\" needs {} numbers; ignored", asker.name, name, count));
+    return std::nullopt;
   };
   const Param* filter = findParam(asker.params, "filter");
-  const auto* width = numbers("filterwidth", 2);
+  const auto width = numbers("filterwidth", 2);
   if (channel.kind == ChannelKind::Variable && filter && !filter->strings.empty()) {
     const auto it = kReductions.find(filter->strings[0]);
     channel.sampling.reduce = it == kReductions.end() ? Reduce::Filter : it->second;
@@ -71,13 +72,13 @@ void amend(Channel& channel, Encoding& encoding, const Asker& asker, Log* log) {
     log->report(Severity::Warning, "channel-filter", asker.where,
                 fmt::format("{}: Ci and a are filtered by PixelFilter, z by the Hider's depthfilter; \"filter\" is "
                             "ignored for them", asker.name));
-  if (const auto* exposure = numbers("exposure", 2)) {
+  if (const auto exposure = numbers("exposure", 2)) {
     if ((*exposure)[1] > 0)
       encoding.exposure = {(*exposure)[0], (*exposure)[1]};
     else if (log)
       log->report(Severity::Warning, "channel-exposure", asker.where, asker.name + ": gamma must be positive; ignored");
   }
-  const auto *quantize = numbers("quantize", 4), *dither = numbers("dither", 1);
+  const auto quantize = numbers("quantize", 4), dither = numbers("dither", 1);
   if (quantize) encoding.quantize = Quantize{(*quantize)[1], (*quantize)[2], (*quantize)[3], 0, (*quantize)[0]};
   if (dither) {
     if (!encoding.quantize) encoding.quantize = Quantize{};

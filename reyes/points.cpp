@@ -6,6 +6,8 @@ int ShadePoints::add(SampleName name) {
   const int index = count();
   names_.push_back(name);
   if (index == capacity_) setCapacity(2 * index + 1);
+  if (index % kLanes == 0)
+    for (int c = 0; c < channels_; ++c) std::fill_n(channel(c) + index, kLanes, 0.0f);
   return index;
 }
 
@@ -21,9 +23,9 @@ void ShadePoints::shrink() {
 
 void ShadePoints::setCapacity(int points) {
   const int wanted = padded(points);
-  AlignedVector<float> block(static_cast<size_t>(channels_) * static_cast<size_t>(wanted), 0.0f);
+  UnsetVector<float> block(static_cast<size_t>(channels_) * static_cast<size_t>(wanted));
   for (int c = 0; c < channels_; ++c)
-    std::copy_n(channel(c), std::min(capacity_, wanted), block.data() + static_cast<size_t>(c) * static_cast<size_t>(wanted));
+    std::copy_n(channel(c), std::min({capacity_, wanted, padded(count())}), block.data() + static_cast<size_t>(c) * static_cast<size_t>(wanted));
   block_ = std::move(block);
   capacity_ = wanted;
 }
@@ -34,6 +36,7 @@ void ShadedPoints::resize(int count) {
   for (int k = 0; k < 3; ++k) {
     Ci[k].assign(static_cast<size_t>(padded(count)), 0.0f);
     Oi[k].assign(static_cast<size_t>(padded(count)), 0.0f);
+    airCi[k].clear(), airOi[k].clear();
   }
 }
 

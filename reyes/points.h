@@ -91,7 +91,7 @@ class ShadePoints {
 
   int group_, primvarFloats_, channels_;
   int capacity_ = 0;            ///< Points that the block has room for, a multiple of kLanes.
-  AlignedVector<float> block_;  ///< One array of capacity_ floats a channel; what lies beyond count() is finite.
+  UnsetVector<float> block_;    ///< One array of capacity_ floats a channel; what lies between count() and padded(count()) is finite.
   std::vector<SampleName> names_;
 };
 
@@ -99,6 +99,9 @@ class ShadePoints {
 struct ShadedPoints {
   AlignedVector<float> Ci[3], Oi[3];
   std::vector<AlignedVector<float>> variables;  ///< As FrameOutput::variables; empty where nobody stores them.
+  /// What of Ci and Oi is air before a transparent point, seen beside its surface: where another surface follows behind, that one's air holds it
+  /// too. Empty: there is none.
+  AlignedVector<float> airCi[3], airOi[3];
   void resize(int count);
   vec3 color(int i) const { return {Ci[0][static_cast<size_t>(i)], Ci[1][static_cast<size_t>(i)], Ci[2][static_cast<size_t>(i)]}; }
   vec3 opacity(int i) const { return {Oi[0][static_cast<size_t>(i)], Oi[1][static_cast<size_t>(i)], Oi[2][static_cast<size_t>(i)]}; }

@@ -217,7 +217,7 @@ class ShadingSystem {
   /// Surface shader and lights over a batch of one group. `out` is resized.
   void shade(const ShadePoints& points, const ShadeContext& context, ShadedPoints& out) const;
 
-  /// Atmosphere between the eye and points that the camera sees, over their colours in place. No-op without one.
+  /// Atmosphere between the eye and points that the camera sees, over their colours in place, and ShadedPoints::airCi. No-op without one.
   void atmosphere(const ShadePoints& points, ShadedPoints& out) const;
   bool hasImager() const;
   /// Imager shader, in place. No-op without one.

@@ -112,7 +112,7 @@ struct Options {
   vec3 opaqueThreshold{0.996f};                            ///< Limits "othreshold": what is behind is not visible.
   vec3 depthThreshold{1.0f};                               ///< Limits "zthreshold": what is clearer has no depth.
   std::optional<ShaderCall> imager;
-  int bucketWidth = 16, bucketHeight = 16;
+  int bucketWidth = 32, bucketHeight = 32;
   std::string bucketOrder = "horizontal";                  ///< Option "bucket" "order": reyes/frame/bucket_order.h
   int maxRayDepth = 10;                                    ///< Bounces of any kind.
   int gridSize = 256;                                      ///< Most micropolygons in a grid.

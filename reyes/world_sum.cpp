@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "reyes/base/file_stamp.h"
 #include "reyes/base/search_path.h"
 #include "reyes/state_fields.h"
 
@@ -20,12 +21,8 @@ void addFile(WorldSum& sum, const std::string& name, const char* kind) {
   std::vector<std::string> folders = foldersOf(pathOf(sum.searchPaths, kind));
   folders.insert(folders.begin(), ".");
   for (const fs::path folder : folders) {
-    const fs::path path = folder / name;
-    std::error_code error;
-    if (name.empty() || !fs::is_regular_file(path, error)) continue;
-    uint64_t size = fs::file_size(path, error);
-    auto changed = fs::last_write_time(path, error).time_since_epoch().count();
-    each(sum, size, changed);
+    uint64_t stamp = name.empty() ? 0 : fileStamp(folder / name);
+    if (stamp != 0) each(sum, stamp);
   }
 }
 
@@ -53,9 +50,16 @@ uint64_t worldSum(const Scene& scene) {
   each(sum, options.searchPaths, options.user, options.shutterOpen, options.shutterClose, options.maxRayDepth, spaces);
   for (std::shared_ptr<LightCall> light : scene.lights) field(sum, light);
   std::map<std::shared_ptr<const Attributes>, uint64_t> known;
+  std::vector<uint64_t> solids;
+  for (const Solid& solid : scene.solids) {
+    uint64_t blocks = 0;
+    for (int b = 0; b < solid.blockCount(); ++b) blocks = contentSum(blocks, solid.operation(b), solid.parent(b));
+    solids.push_back(blocks);
+  }
   uint64_t objects = 0;
   for (const Object& o : scene.objects) {
-    if (!o.attributes->visibility.photon) continue;
+    // Photons that do not meet an area light come from it all the same.
+    if (!o.attributes->visibility.photon && o.attributes->areaLight < 0) continue;
     auto [attributes, isNew] = known.try_emplace(o.attributes, 0);
     if (isNew) {
       WorldSum part;
@@ -64,7 +68,8 @@ uint64_t worldSum(const Scene& scene) {
       field(part, shared);
       attributes->second = part.sum;
     }
-    objects += contentSum(attributes->second, o.contents, o.shapeTimes, o.worldFromObject, o.solid, o.solidBlock);
+    objects += contentSum(attributes->second, o.contents, o.shapeTimes, o.worldFromObject, o.solid, o.solidBlock,
+                          o.solid < 0 ? 0 : solids[static_cast<size_t>(o.solid)]);
   }
   field(sum, objects);
   return sum.sum;

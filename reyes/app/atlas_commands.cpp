@@ -13,6 +13,7 @@
 #include "reyes/app/render.h"
 #include "reyes/app/stats_json.h"
 #include "reyes/base/parallel.h"
+#include "reyes/base/temporary_folder.h"
 #include "reyes/rib.h"
 
 namespace tomales {
@@ -149,10 +150,11 @@ int brickmakeCommand(const BrickmakeCommand& command) {
                  built.tree.deepest + 1);
     };
     if (one && files.size() > 1) {
-      const fs::path all = fs::path(command.output).concat(".ptc");
+      const fs::path folder = fs::path(command.output).parent_path();
+      const TemporaryFolder temporary(folder.empty() ? "." : folder);
+      const fs::path all = temporary.path() / "all.ptc";
       joinPointFiles(files, all);
       make(all, command.output);
-      fs::remove(all);
     } else {
       for (const fs::path& file : files) make(file, one ? fs::path(command.output) : fs::path(command.output) / fs::path(file).filename().replace_extension(".bkm"));
     }

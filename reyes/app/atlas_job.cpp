@@ -1,10 +1,11 @@
 #include "reyes/app/atlas_job.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
+#include <optional>
 
+#include "reyes/base/temporary_folder.h"
 #include "reyes/world_sum.h"
 
 namespace tomales {
@@ -26,15 +27,6 @@ std::string folderOf(const RenderSettings& settings, const Scene& scene) {
   return p && !p->strings.empty() ? p->strings[0] : std::string();
 }
 
-/// Gone with everything in it at the end. An open map keeps its file readable.
-struct TemporaryFolder {
-  fs::path path = fs::temp_directory_path() / ("tomales_atlas_" + std::to_string(::getpid()));
-  ~TemporaryFolder() {
-    std::error_code error;
-    fs::remove_all(path, error);
-  }
-};
-
 }  // namespace
 
 AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene) {
@@ -51,10 +43,11 @@ AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene) 
 std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                                                     const RenderSettings& settings, Stats& stats, Log& log) {
   const AtlasSettings atlas = atlasSettings(settings, scene);
-  const TemporaryFolder temporary;
   const std::string given = folderOf(settings, scene);
-  const fs::path folder = given.empty() ? temporary.path : fs::path(given);
+  std::optional<TemporaryFolder> temporary;  // an open map keeps its file readable
   try {
+    if (given.empty()) temporary.emplace(fs::temp_directory_path());
+    const fs::path folder = temporary ? temporary->path() : fs::path(given);
     const MapNames names = mapNames(scene, atlas);
     const bool byHand = isMadeByHand(folder);
     if (!byHand) writeAtlas(folder, scene, rays, shading, names, atlas, {}, stats, log);
@@ -63,7 +56,7 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
       log.report(Severity::Warning, "atlas-stale", {},
                  fmt::format("irradiance map \"{}\" was made before the scene was changed, or from another; it is used as it is", *strange));
     return maps;
-  } catch (const FileError& e) {
+  } catch (const std::runtime_error& e) {  // FileError, or of the file system
     log.report(Severity::Missing, "atlas", {}, std::string(e.what()) + ": rendered without indirect light");
     return nullptr;
   }

@@ -6,6 +6,7 @@
 
 #include "reyes/app/atlas_job.h"
 #include "reyes/app/interrupt.h"
+#include "reyes/app/limits.h"
 #include "reyes/app/overrides.h"
 #include "reyes/app/pixel_report.h"
 #include "reyes/app/preview.h"
@@ -75,6 +76,7 @@ void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
   if (!gathers() || interrupted()) return;
   const StageTimer timer(stats_, "gather");
   services_->gatherPass(layout, tiles, meter_.stage(0.3f, 0.7f), &interrupted());
+  warnOfNoise(services_->caches(), log_);
 }
 
 ShadeContext FrameJob::shadeContext() const {
@@ -181,7 +183,12 @@ bool hasFolder(const std::string& file, const SourceLoc& where, Log& log) {
 
 bool displaysHaveFolders(const Options& options, Log& log) {
   bool all = true;
-  for (const DisplayCall& display : options.displays) all = hasFolder(display.name, display.where, log) && all;
+  for (const DisplayCall& display : options.displays) {
+    const std::filesystem::path folder = std::filesystem::path(display.name).parent_path();
+    std::error_code failed;  // then the folder is missing still
+    if (folder.is_relative() && !folder.empty()) std::filesystem::create_directories(folder, failed);
+    all = hasFolder(display.name, display.where, log) && all;
+  }
   return all;
 }
 

@@ -65,7 +65,8 @@ class FrameJob {
 };
 
 /// Hours of rendering must not end at a folder that never existed. False: reported.
-bool displaysHaveFolders(const Options& options, Log& log);
 bool hasFolder(const std::string& file, const SourceLoc& where, Log& log);
+/// Makes those that are relative: scenes of modellers name folders of their project.
+bool displaysHaveFolders(const Options& options, Log& log);
 
 }  // namespace tomales

@@ -7,6 +7,7 @@
 #include "reyes/app/empty_frame.h"
 #include "reyes/app/hide.h"
 #include "reyes/app/interrupt.h"
+#include "reyes/app/limits.h"
 #include "reyes/app/make.h"
 #include "reyes/app/overrides.h"
 #include "reyes/app/render_frame.h"
@@ -63,6 +64,7 @@ class RenderRun {
       applyOverrides(scene, settings_);
       dropDisplays(scene.options, log_);
       warnAboutOverwriting(scene);
+      warnOfFloatRange(scene, log_);
       const int64_t seenBefore = stats_.geometry.micropolygonsVisible;
       const int errorsBefore = errors();
       job_(scene, scenes_ - 1, settings_, stats_, log_, [this] { flush(); });

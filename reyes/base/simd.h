@@ -40,4 +40,19 @@ struct CacheAligned {
 template <class T>
 using AlignedVector = std::vector<T, CacheAligned<T>>;
 
+/// The same, where elements without a value are not set to zero: for what is written before it is read.
+template <class T>
+struct Unset : CacheAligned<T> {
+  using value_type = T;
+  Unset() = default;
+  template <class U>
+  Unset(const Unset<U>&) {}
+  template <class U>
+  void construct(U* p) { ::new (static_cast<void*>(p)) U; }
+  template <class U, class... Args>
+  void construct(U* p, Args&&... args) { ::new (static_cast<void*>(p)) U(static_cast<Args&&>(args)...); }
+};
+template <class T>
+using UnsetVector = std::vector<T, Unset<T>>;
+
 }  // namespace tomales

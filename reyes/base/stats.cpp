@@ -28,18 +28,25 @@ std::map<std::string, Stats::StageFigures> Stats::stages() const {
   return stages_;
 }
 
-double processCpuSeconds() {
+namespace {
+
+double secondsOf(clockid_t clock) {
   timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  clock_gettime(clock, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-StageTimer::StageTimer(Stats& stats, std::string name)
-    : stats_(stats), name_(std::move(name)), start_(std::chrono::steady_clock::now()), cpuStart_(processCpuSeconds()) {}
+}  // namespace
+
+double processCpuSeconds() { return secondsOf(CLOCK_PROCESS_CPUTIME_ID); }
+double threadCpuSeconds() { return secondsOf(CLOCK_THREAD_CPUTIME_ID); }
+
+StageTimer::StageTimer(Stats& stats, std::string name, double (*cpuSeconds)())
+    : stats_(stats), name_(std::move(name)), start_(std::chrono::steady_clock::now()), cpuSeconds_(cpuSeconds), cpuStart_(cpuSeconds()) {}
 
 StageTimer::~StageTimer() {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start_;
-  stats_.addStage(name_, wall.count(), processCpuSeconds() - cpuStart_);
+  stats_.addStage(name_, wall.count(), cpuSeconds_() - cpuStart_);
 }
 
 }  // namespace tomales

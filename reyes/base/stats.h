@@ -27,7 +27,7 @@ struct Stats {
 
   /// Adds to the figures of one named shader ("shade.by_shader").
   void addShader(const std::string& name, int64_t vertices, double time_s);
-  /// Adds wall and process CPU time to a stage of the frame ("parse", "hide", "gather", "shade", "image").
+  /// Adds wall and CPU time to a stage of the frame ("parse", "hide", "gather", "shade", "image", "write").
   void addStage(const std::string& name, double wall_s, double cpu_s);
 
   struct ShaderFigures { int64_t vertices = 0; double time_s = 0; };
@@ -41,13 +41,15 @@ struct Stats {
   std::map<std::string, StageFigures> stages_;
 };
 
-/// CPU seconds that this process has used, all threads.
+/// CPU seconds that this process has used, all threads; and those of the calling thread.
 double processCpuSeconds();
+double threadCpuSeconds();
 
-/// Times one stage from construction to destruction.
+/// Times one stage from construction to destruction, on one thread; `cpuSeconds`: of the process, or where other stages run meanwhile, of the
+/// thread.
 class StageTimer {
  public:
-  StageTimer(Stats& stats, std::string name);
+  StageTimer(Stats& stats, std::string name, double (*cpuSeconds)() = processCpuSeconds);
   ~StageTimer();
   StageTimer(const StageTimer&) = delete;
 
@@ -55,6 +57,7 @@ class StageTimer {
   Stats& stats_;
   std::string name_;
   std::chrono::steady_clock::time_point start_;
+  double (*cpuSeconds_)();
   double cpuStart_;
 };
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cfloat>
 #include <tuple>
 
 #include "reyes/dice.h"
@@ -17,12 +16,9 @@ constexpr int kBlock_buckets = 4;  ///< if they begin in the same square of buck
 constexpr int kStack_vertices = 512;  ///< and grids of about as many vertices.
 
 TOMALES_HOT bool allSeeable(const Grid& g, int key, const Camera& camera) {
-  // Camera::seeable without a branch, which would keep it out of vectors.
   const float *x = g.P(key, 0), *y = g.P(key, 1), *z = g.P(key, 2);
-  const float nearest = camera.perspective() ? camera.eyePlane() : -FLT_MAX;
   int unseeable = 0;
-  for (int v = 0, count = g.vertexCount(); v < count; ++v)
-    unseeable |= int(!(std::abs(x[v]) <= FLT_MAX)) | int(!(std::abs(y[v]) <= FLT_MAX)) | int(!(z[v] >= nearest)) | int(!(z[v] <= FLT_MAX));
+  for (int v = 0, count = g.vertexCount(); v < count; ++v) unseeable |= !camera.seeable({x[v], y[v], z[v]});
   return unseeable == 0;
 }
 
@@ -122,9 +118,7 @@ std::shared_ptr<const RasterGrid> PieceNode::makeGrid(const PieceStack& stack) {
                         fmt::format("{}: displaced vertices are not finite or lie behind the eye; the micropolygons there are "
                                     "left out (is displacementbound too small?)",
                                     objectName(o)));
-  // Midpoints need what lies behind what is opaque.
-  const bool hides = context_.shading.opaque(o.group) && context_.scene.options.depthFilter != DepthFilter::Midpoint;
-  auto raster = project(std::move(grid), context_.scene, context_.camera, hides, stack.place.zMin, pool_);
+  auto raster = project(std::move(grid), context_.scene, context_.camera, context_.shading.opaque(o.group), stack.place.zMin, pool_);
   keepPeak(stats.memoryBytes.grids, context_.liveGrids_bytes += static_cast<int64_t>(pool_->bytes() - before));
   return raster;
 }

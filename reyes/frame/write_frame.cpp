@@ -69,14 +69,14 @@ class DisplayFiles {
   }
   void write() {
     if (!rows_) return;
-    const StageTimer timer(stats_, "image");
+    const StageTimer timer(stats_, "write", threadCpuSeconds);
     for (size_t i = 0; i < files_.size(); ++i) files_[i]->deep() ? files_[i]->write(deep_[i]) : files_[i]->write(*rows_);
     rows_.reset();
     deep_.clear();
   }
   void close() {
     write();
-    const StageTimer timer(stats_, "image");
+    const StageTimer timer(stats_, "write", threadCpuSeconds);
     for (const auto& file : files_) file->close();
   }
 

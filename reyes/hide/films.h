@@ -18,13 +18,14 @@ struct Film {
   float nearest, farthest;  ///< Of the depth keys.
 };
 
-/// Grows in memory that its thread keeps from bucket to bucket.
+/// Grows in memory that its thread keeps from bucket to bucket, up to some size: one bucket of very many layers is no reason to hold as much for
+/// the rest of the frame.
 struct Films {
   Films() { list.swap(spare().list), depths.swap(spare().depths); }
   ~Films() {
     list.clear();
-    if (list.capacity() > spare().list.capacity()) list.swap(spare().list);
-    if (depths.size() > spare().depths.size()) depths.swap(spare().depths);
+    if (worthKeeping(list, spare().list)) list.swap(spare().list);
+    if (worthKeeping(depths, spare().depths)) depths.swap(spare().depths);
   }
   Films(const Films&) = delete;
 
@@ -53,6 +54,11 @@ struct Films {
   }
 
  private:
+  static constexpr size_t kMostKept_bytes = size_t{32} << 20;
+  template <class T>
+  static bool worthKeeping(const std::vector<T>& mine, const std::vector<T>& kept) {
+    return mine.capacity() > kept.capacity() && mine.capacity() * sizeof(T) <= kMostKept_bytes;
+  }
   struct Spare {
     std::vector<Film> list;
     std::vector<float> depths;

@@ -168,30 +168,25 @@ TOMALES_HOT void snap(float* __restrict x, float* __restrict y, int count) {
 /// Of vertices in focus. Lanes of a vector keep their own, which the compiler cannot do for one running minimum.
 TOMALES_HOT RasterExtent extentOf(const float* x, const float* y, const float* d, int count) {
   RasterExtent e;
-  float lo[3][kLanes], hi[2][kLanes];
-  for (int i = 0; i < kLanes; ++i) lo[0][i] = lo[1][i] = lo[2][i] = kInfinity, hi[0][i] = hi[1][i] = -kInfinity;
-  const auto take = [&](int v, int i) {
-    lo[0][i] = x[v] < lo[0][i] ? x[v] : lo[0][i], hi[0][i] = x[v] > hi[0][i] ? x[v] : hi[0][i];
-    lo[1][i] = y[v] < lo[1][i] ? y[v] : lo[1][i], hi[1][i] = y[v] > hi[1][i] ? y[v] : hi[1][i];
-    lo[2][i] = d[v] < lo[2][i] ? d[v] : lo[2][i];
-  };
   int first = 0;
-  for (; first + kLanes <= count; first += kLanes)
-    for (int i = 0; i < kLanes; ++i) take(first + i, i);
-  for (int i = 0; first + i < count; ++i) take(first + i, i);
-  for (int i = 0; i < kLanes; ++i) {
-    e.bound.lo = glm::min(e.bound.lo, vec2(lo[0][i], lo[1][i])), e.bound.hi = glm::max(e.bound.hi, vec2(hi[0][i], hi[1][i]));
-    e.dMin = std::min(e.dMin, lo[2][i]);
+  if (count >= 2 * kLanes) {
+    float lo[3][kLanes], hi[2][kLanes];
+    for (int i = 0; i < kLanes; ++i) lo[0][i] = lo[1][i] = lo[2][i] = kInfinity, hi[0][i] = hi[1][i] = -kInfinity;
+    for (; first + kLanes <= count; first += kLanes)
+      for (int i = 0; i < kLanes; ++i) {
+        const int v = first + i;
+        lo[0][i] = x[v] < lo[0][i] ? x[v] : lo[0][i], hi[0][i] = x[v] > hi[0][i] ? x[v] : hi[0][i];
+        lo[1][i] = y[v] < lo[1][i] ? y[v] : lo[1][i], hi[1][i] = y[v] > hi[1][i] ? y[v] : hi[1][i];
+        lo[2][i] = d[v] < lo[2][i] ? d[v] : lo[2][i];
+      }
+    for (int i = 0; i < kLanes; ++i) {
+      e.bound.lo = glm::min(e.bound.lo, vec2(lo[0][i], lo[1][i])), e.bound.hi = glm::max(e.bound.hi, vec2(hi[0][i], hi[1][i]));
+      e.dMin = std::min(e.dMin, lo[2][i]);
+    }
   }
-  return e;
-}
-
-/// The same of fewer than fill lanes.
-RasterExtent extentOfFew(const float* x, const float* y, const float* d, int count) {
-  RasterExtent e;
-  for (int v = 0; v < count; ++v) {
-    e.bound.extend(vec2(x[v], y[v]));
-    e.dMin = std::min(e.dMin, d[v]);
+  for (; first < count; ++first) {
+    e.bound.extend(vec2(x[first], y[first]));
+    e.dMin = std::min(e.dMin, d[first]);
   }
   return e;
 }
@@ -222,7 +217,8 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
   const Object& object = scene.objects[static_cast<size_t>(g.object)];
   const Attributes& attributes = *object.attributes;
   r->grid = std::move(grid);
-  r->opaque = opaque;
+  // Midpoints need what lies behind what is opaque.
+  r->opaque = opaque && scene.options.depthFilter != DepthFilter::Midpoint;
   r->matte = attributes.matte;
   r->inSolid = object.solid >= 0;
   const float facing = object.flipsNormal ? -facingSign(camera) : facingSign(camera);
@@ -253,7 +249,6 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
     for (int p = 0; p < pieces; ++p) {
       const int first = p * count;
       const auto extent = !allSeeable || camera.defocuses() ? extentOfSeeable(*r, camera, key, first, count)
-                          : count < 2 * kLanes              ? extentOfFew(x + first, y + first, d + first, count)
                                                             : extentOf(x + first, y + first, d + first, count);
       if (pieces > 1) r->ofPiece[static_cast<size_t>(p)].extend(extent);
       r->extend(extent);

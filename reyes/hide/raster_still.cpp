@@ -171,8 +171,10 @@ HWY_INLINE bool claim(const RasterJob& job, const Quad& quad, size_t lane, uint3
   const Mask ties = hn::And(r.mask, hn::Eq(r.depth, r.before));
   if (!hn::AllFalse(kF, ties)) settleTies(job, lane, bitsOf(ties), cell);
   const Mask won = hn::And(r.mask, hn::Lt(r.depth, r.before));
-  hn::BlendedStore(r.depth, won, kF, out.depth.data() + lane);
-  hn::BlendedStore(hn::Set(kU, cell), hn::RebindMask(kU, won), kU, out.cell.data() + lane);
+  uint32_t* cells = out.cell.data() + lane;
+  // Whole vectors: the next cell reads them back, and could not from a masked store that is still on its way.
+  hn::Store(hn::IfThenElse(won, r.depth, r.before), kF, out.depth.data() + lane);
+  hn::Store(hn::IfThenElse(hn::RebindMask(kU, won), hn::Set(kU, cell), hn::Load(kU, cells)), kU, cells);
   return true;
 }
 
@@ -246,7 +248,7 @@ void rasterize(const RasterJob& job) {
   const auto seen = [&](size_t p) {
     const RasterExtent& e = pieces[p];
     const bool touches = (e.bound.lo.x < hi.x) & (e.bound.hi.x >= lo.x) & (e.bound.lo.y < hi.y) & (e.bound.hi.y >= lo.y);
-    return touches && !job.out.hides(job.out.touched(e.bound.lo, e.bound.hi), e.dMin);
+    return touches && !job.out.hides(e.bound, e.dMin);
   };
   QuadBlock q;
   if (pieces.empty()) return rasterizeRun(job, 0, ofPiece - withoutCells, q);

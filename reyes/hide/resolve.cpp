@@ -142,7 +142,7 @@ class TileBuilder {
       sight.cell = film.cell, sight.word = film.word, sight.depths = depths, sight.opaque = false;
       sight.samples = film.samples, sight.d = film.nearest, sight.far = film.farthest;
       if (open) continue;
-      sight.samples = 0, sight.d = kInfinity;
+      sight.samples = 0, sight.d = kInfinity, sight.far = -kInfinity;
       // What an opaque surface hides is closed up.
       int kept = 0, k0 = 0;
       for (uint64_t left = film.samples; left; left &= left - 1, ++k0) {
@@ -151,7 +151,7 @@ class TileBuilder {
         if (d > opaque || (d == opaque && !grids_.precedes(film.cell, samples_.cell[lane]))) continue;
         depths[kept++] = d;
         sight.samples |= left & (~left + 1);
-        sight.d = std::min(sight.d, d);
+        sight.d = std::min(sight.d, d), sight.far = std::max(sight.far, d);
       }
       if (kept == 0) sights_.pop_back();
     }

@@ -15,9 +15,14 @@ const GridTable::Entry& GridTable::add(const std::shared_ptr<const RasterGrid>& 
 
 namespace {
 
-/// A small grid shares the memory of its neighbours (reyes/base/pool.h), and would hold it as long as it is seen.
+constexpr size_t kMuchMore = 4;
+
+/// A small grid shares the memory of its neighbours (reyes/base/pool.h), and would hold it as long as it is seen: where that is several times
+/// its own, it is copied. Raster positions are about a third of a grid.
 std::shared_ptr<const RasterGrid> onItsOwn(const std::shared_ptr<const RasterGrid>& shared) {
-  if (!shared->x.get_allocator().pool || shared->blur) return shared;
+  const Pool* pool = shared->x.get_allocator().pool;
+  const size_t own_bytes = 9 * shared->x.size() * sizeof(float);
+  if (!pool || pool->bytes() < kMuchMore * own_bytes || shared->blur) return shared;
   auto own = std::make_shared<RasterGrid>(*shared);
   own->grid = std::make_shared<const Grid>(*shared->grid);
   return own;
@@ -49,6 +54,16 @@ bool GridTable::precedes(uint32_t a, uint32_t b) const {
   return rank(a) < rank(b);
 }
 
+namespace {
+
+/// lanes: a multiple of kLanes.
+inline void shift(const float* from, float by, int lanes, float* __restrict to) {
+  for (int k = 0; k < lanes; k += kLanes)
+    for (int i = 0; i < kLanes; ++i) to[k + i] = by + from[k + i];
+}
+
+}  // namespace
+
 SampleBuffer::SampleBuffer(const SamplePattern& pattern, const Camera& camera, const PixelRect& pixels)
     : rect(pixels), lanes(pattern.padded()), pattern_(pattern), lens_(camera.lens()) {
   const size_t count = static_cast<size_t>(rect.width()) * static_cast<size_t>(rect.height());
@@ -65,11 +80,8 @@ SampleBuffer::SampleBuffer(const SamplePattern& pattern, const Camera& camera, c
       patternAt_.push_back(at);
       pixelOf.insert(pixelOf.end(), width / kLanes, static_cast<uint32_t>(p));
       const size_t first = static_cast<size_t>(p) * width;
-      const float *fromX = pattern.x(at), *fromY = pattern.y(at);
-      for (size_t s = 0; s < width; ++s) {
-        x[first + s] = static_cast<float>(column) + fromX[s];
-        y[first + s] = static_cast<float>(row) + fromY[s];
-      }
+      shift(pattern.x(at), static_cast<float>(column), lanes, x.data() + first);
+      shift(pattern.y(at), static_cast<float>(row), lanes, y.data() + first);
       std::fill_n(depth.data() + first + samples, width - samples, -kInfinity);
     }
 }

@@ -47,9 +47,9 @@ struct SampleBuffer {
 
   PixelRect rect;
   int lanes;                       ///< Of a pixel, a multiple of kLanes.
-  AlignedVector<float> x, y;       ///< Raster position.
-  AlignedVector<float> time;       ///< Fraction of the shutter; this and the lens are empty before showBlur().
-  AlignedVector<float> lensX, lensY;  ///< Raster shift of what has a depth key of Camera::focusKey() + 1.
+  UnsetVector<float> x, y;         ///< Raster position.
+  UnsetVector<float> time;         ///< Fraction of the shutter; this and the lens are empty before showBlur().
+  UnsetVector<float> lensX, lensY;  ///< Raster shift of what has a depth key of Camera::focusKey() + 1.
   AlignedVector<float> depth;      ///< Key of the nearest opaque hit; -infinity in padding, which so never counts.
   AlignedVector<uint32_t> cell;    ///< That hit.
   std::vector<uint32_t> pixelOf;   ///< Of kLanes lanes.

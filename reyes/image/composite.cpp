@@ -1,5 +1,7 @@
 #include "reyes/image/composite.h"
 
+#include <bit>
+
 namespace tomales {
 namespace {
 
@@ -52,6 +54,25 @@ FacetShade facetShade(const DeepTile& tile, const Fragment& fragment) {
   return blendedShade(tile, facet, Blend(facet, fragment));
 }
 
+bool hasAir(const DeepTile& tile) {
+  return std::any_of(tile.shaded.begin(), tile.shaded.end(), [](const ShadedPoints& s) { return !s.airCi[0].empty(); });
+}
+
+Air Compositor::takeAir(const DeepTile& tile, const Fragment& fragment, FacetShade& shade) {
+  const Facet& facet = tile.facets[fragment.facet];
+  const ShadedPoints& shaded = tile.shaded[static_cast<size_t>(facet.batch)];
+  Air out;
+  if (facet.matte || shaded.airCi[0].empty()) return out;
+  const Blend blend(facet, fragment);
+  for (int i = 0; i < blend.count; ++i)
+    for (int k = 0; k < 3; ++k) {
+      const auto point = static_cast<size_t>(facet.point[i]);
+      out.color[k] += blend.weight[i] * shaded.airCi[k][point], out.opacity[k] += blend.weight[i] * shaded.airOi[k][point];
+    }
+  shade.color -= out.color, shade.opacity -= out.opacity, shade.coverage -= out.opacity;
+  return out;
+}
+
 Compositor::Compositor(const FrameOutput& output, const Options& options, int samples)
     : options_(options),
       extras_(extrasOf(output)),
@@ -89,11 +110,11 @@ void Compositor::extraValues(const DeepTile& tile, const Fragment& fragment, flo
   }
 }
 
-/// Facets of one point show the same to all fragments: gathered once, in their order.
+/// Facets of one point show the same to all fragments: gathered once, in their order. Others have a place, and nothing there.
 void Compositor::shadeFacets(const DeepTile& tile) {
-  shades_.clear();
-  shades_.reserve(tile.facets.size());
-  for (const Facet& facet : tile.facets) shades_.push_back(blendedShade(tile, facet, Blend()));
+  shades_.resize(tile.facets.size());
+  for (size_t i = 0; i < shades_.size(); ++i)
+    if (const Facet& facet = tile.facets[i]; isConstant(facet)) shades_[i] = blendedShade(tile, facet, Blend());
 }
 
 FacetShade Compositor::shadeOf(const DeepTile& tile, const Fragment& fragment) const {
@@ -119,18 +140,18 @@ ResolvedTile Compositor::resolve(const DeepTile& tile) {
   return out;
 }
 
-/// Returns where its values go.
-float* Compositor::append(const Contribution& contribution, ResolvedTile& out) const {
-  out.contributions.push_back(contribution);
+/// Where the values of the next contributions go.
+float* Compositor::room(size_t contributions, ResolvedTile& out) const {
   const size_t at = out.values.size();
-  out.values.resize(at + static_cast<size_t>(width()));
+  out.values.resize(at + contributions * static_cast<size_t>(width()));
   return out.values.data() + at;
 }
 
 void Compositor::resolveEach(const DeepTile& tile, const Fragment* begin, const Fragment* end, ResolvedTile& out) {
-  for (const Fragment* f = begin; f != end; ++f) {
+  float* value = room(static_cast<size_t>(end - begin), out);
+  for (const Fragment* f = begin; f != end; ++f, value += width()) {
     const FacetShade s = shadeOf(tile, *f);
-    float* value = append({f->samples, f->word, f->z, hasDepth(s) ? f->z : kInfinity}, out);
+    out.contributions.push_back({f->samples, f->word, f->z, hasDepth(s) ? f->z : kInfinity});
     value[0] = s.color.x, value[1] = s.color.y, value[2] = s.color.z, value[3] = meanOf(s.coverage);
     if (!extras_.empty()) extraValues(tile, *f, value + 4);
   }
@@ -153,20 +174,26 @@ void Compositor::noteDepth(const DeepTile& tile, const Fragment& f) {
 
 void Compositor::resolveStack(const DeepTile& tile, const Fragment* begin, const Fragment* end, ResolvedTile& out) {
   for (Contribution& s : samples_) s = {0, 0, kInfinity};
-  stack_.reset(samples_.size(), static_cast<size_t>(width()));
+  const bool withAir = hasAir(tile);
+  stack_.reset(samples_.size(), static_cast<size_t>(width()), withAir);
   const vec3 hidden = vec3(1.0f) - options_.opaqueThreshold;
   for (const Fragment* f = begin; f != end; ++f) {
-    const FacetShade shade = shadeOf(tile, *f);
+    FacetShade shade = shadeOf(tile, *f);
     if (hasDepth(shade)) noteDepth(tile, *f);
     if (!extras_.empty()) extraValues(tile, *f, facetValues_.data());
-    stack_.lay({f->samples, f->word, shade.color, shade.opacity, shade.coverage, hidden, f->z, extras_, facetValues_.data()});
+    const Air air = withAir ? takeAir(tile, *f, shade) : Air{};
+    stack_.lay({f->samples, f->word, shade.color, shade.opacity, shade.coverage, hidden, f->z, extras_, facetValues_.data(), withAir ? &air : nullptr});
   }
+  stack_.addAir();
+  size_t seeing = 0;
+  for (const uint64_t word : seen_) seeing += static_cast<size_t>(std::popcount(word));
+  float* value = room(seeing, out);
   for (size_t word = 0; word < seen_.size(); ++word)
-    for (uint64_t left = seen_[word]; left; left &= left - 1) {
+    for (uint64_t left = seen_[word]; left; left &= left - 1, value += width()) {
       const size_t sample = word * 64 + static_cast<size_t>(lowestBit(left));
       Contribution& s = samples_[sample];
       s.samples = left & (~left + 1), s.word = static_cast<uint16_t>(word), s.nearest = stack_.nearest[sample];
-      float* value = append(s, out);
+      out.contributions.push_back(s);
       for (size_t k = 0; k < static_cast<size_t>(width()); ++k) value[k] = stack_.values[k * stack_.lanes + sample];
     }
 }

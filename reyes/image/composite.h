@@ -17,7 +17,7 @@ struct Contribution {
 /// Contributions of the pixels of a tile; those of pixel i are [first[i], first[i + 1]).
 struct ResolvedTile {
   std::vector<Contribution> contributions;
-  std::vector<float> values;  ///< Compositor::width() each: R G B A, then the extra floats.
+  UnsetVector<float> values;  ///< Compositor::width() each: R G B A, then the extra floats.
   std::vector<uint32_t> first;
 };
 
@@ -37,7 +37,7 @@ class Compositor {
   ResolvedTile resolve(const DeepTile& tile);
 
   /// Front to back, for what is not hidden: visit(fragment, shade, samples, clear), with the share of light that passes what
-  /// lies before these samples of it.
+  /// lies before these samples of it. Then, once more, the air that is seen beside the last of each sample.
   template <class Visit>
   void layers(const DeepTile& tile, const DeepPixel& pixel, const Visit& visit);
 
@@ -45,10 +45,12 @@ class Compositor {
   void shadeFacets(const DeepTile& tile);
   /// After shadeFacets().
   FacetShade shadeOf(const DeepTile& tile, const Fragment& fragment) const;
+  /// What `shade` has of air, which is taken off it: that of all but the last thing that a sample sees.
+  static Air takeAir(const DeepTile& tile, const Fragment& fragment, FacetShade& shade);
   bool disjoint(const Fragment* begin, const Fragment* end);
   bool hasDepth(const FacetShade& shade) const;
   void extraValues(const DeepTile& tile, const Fragment& fragment, float* out) const;
-  float* append(const Contribution& contribution, ResolvedTile& out) const;
+  float* room(size_t contributions, ResolvedTile& out) const;
   void resolveEach(const DeepTile& tile, const Fragment* begin, const Fragment* end, ResolvedTile& out);
   void resolveStack(const DeepTile& tile, const Fragment* begin, const Fragment* end, ResolvedTile& out);
   void noteDepth(const DeepTile& tile, const Fragment& fragment);
@@ -57,7 +59,13 @@ class Compositor {
   std::vector<ExtraFloat> extras_;
   std::vector<FacetShade> shades_;      ///< Of all facets of a tile, those of one point.
   std::vector<uint64_t> seen_;          ///< Samples that any fragment covers.
-  std::vector<vec3> clear_;             ///< Of every sample, while layers() runs.
+  /// What a sample saw last while layers() runs, and through what.
+  struct Last {
+    const Fragment* fragment = nullptr;
+    vec3 clear;
+  };
+  std::vector<vec3> clear_;             ///< Of every sample, while layers() runs,
+  std::vector<Last> last_;              ///< and in air.
   std::vector<Contribution> samples_;   ///< Of every sample, while a stack is resolved,
   std::vector<int> batchOf_;            ///< where their z is from,
   SampleStack stack_;                   ///< and what they see.
@@ -65,6 +73,7 @@ class Compositor {
 };
 
 FacetShade facetShade(const DeepTile& tile, const Fragment& fragment);
+bool hasAir(const DeepTile& tile);
 
 inline int lowestBit(uint64_t mask) { return __builtin_ctzll(mask); }
 inline float meanOf(const vec3& v) { return (v.x + v.y + v.z) / 3; }
@@ -78,15 +87,27 @@ void Compositor::layers(const DeepTile& tile, const DeepPixel& pixel, const Visi
     return;
   }
   std::fill(clear_.begin(), clear_.end(), vec3(1.0f));
+  const bool air = hasAir(tile);
+  if (air) last_.assign(clear_.size(), {});
   const vec3 hidden = vec3(1.0f) - options_.opaqueThreshold;
   for (const Fragment* f = begin; f != end; ++f) {
-    const FacetShade shade = facetShade(tile, *f);
+    FacetShade shade = facetShade(tile, *f);
+    if (air) takeAir(tile, *f, shade);
     for (uint64_t left = f->samples; left; left &= left - 1) {
-      vec3& clear = clear_[static_cast<size_t>(f->word) * 64 + static_cast<size_t>(lowestBit(left))];
+      const size_t sample = static_cast<size_t>(f->word) * 64 + static_cast<size_t>(lowestBit(left));
+      vec3& clear = clear_[sample];
       if (clear.x <= hidden.x && clear.y <= hidden.y && clear.z <= hidden.z) continue;
       visit(*f, shade, left & (~left + 1), clear);
+      if (air) last_[sample] = {f, clear};
       clear *= vec3(1.0f) - shade.opacity;
     }
+  }
+  for (size_t sample = 0; air && sample < last_.size(); ++sample) {
+    const Last& last = last_[sample];
+    if (!last.fragment) continue;
+    FacetShade shade{vec3(0.0f), vec3(0.0f), vec3(0.0f)};
+    const Air seen = takeAir(tile, *last.fragment, shade);
+    visit(*last.fragment, {seen.color, seen.opacity, seen.opacity}, uint64_t{1} << (sample % 64), last.clear);
   }
 }
 

@@ -20,7 +20,7 @@ bool knowsParam(const std::string& name) {
   static constexpr std::string_view kNames[] = {"transfer",    "exrpixeltype", "type",     "compression", "exrcompression",
                                                 "tiled",       "multipart",    "quantize", "dither",      "filter",
                                                 "filterwidth", "exposure",     "origin",   "chromaticities", "mergedepth",
-                                                "mergeopacity"};
+                                                "mergeopacity", "asrgba"};  // asrgba: Ci and a are R G B A here anyway
   return name.starts_with(kHeader) || std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 

@@ -1,6 +1,8 @@
 // Contributions -> pixels, some rows at a time.
+#include <mutex>
 #include <span>
 
+#include "reyes/base/check.h"
 #include "reyes/base/parallel.h"
 #include "reyes/image.h"
 #include "reyes/image/composite.h"
@@ -41,9 +43,9 @@ struct FrameFilter::Impl {
   Impl(const DeepFrame& f, const Options& o, const SampleOffsets& s, const MatteNames& n)
       : frame(f), options(o), samples(s), names(n), output(outputOf(o)), resolved(f.tileCount()) {
     addPass({Reduce::Filter, o.filter, o.xFilterWidth, o.yFilterWidth}).floats = {{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {3, 3, 0}};
-    const Compositor compositor(output, options, frame.samplesPerPixel);
-    const std::vector<ExtraFloat>& extras = compositor.extras();
-    width = compositor.width();
+    compositors.push_back(std::make_unique<Compositor>(output, options, frame.samplesPerPixel));
+    const std::vector<ExtraFloat>& extras = compositors[0]->extras();
+    width = compositors[0]->width();
     for (size_t e = 0; e < extras.size(); ++e) {
       const Channel& channel = output.channels[static_cast<size_t>(extras[e].channel)];
       if (channel.sampling.reduce == Reduce::Filter)
@@ -68,7 +70,17 @@ struct FrameFilter::Impl {
   }
 
   void resolve(size_t index, const DeepTile& tile) {
-    resolved[index] = std::make_unique<ResolvedTile>(Compositor(output, options, frame.samplesPerPixel).resolve(tile));
+    std::unique_ptr<Compositor> compositor = takeCompositor();
+    resolved[index] = std::make_unique<ResolvedTile>(compositor->resolve(tile));
+    const std::lock_guard lock(mutex);
+    compositors.push_back(std::move(compositor));
+  }
+  std::unique_ptr<Compositor> takeCompositor() {
+    const std::lock_guard lock(mutex);
+    if (compositors.empty()) return std::make_unique<Compositor>(output, options, frame.samplesPerPixel);
+    std::unique_ptr<Compositor> taken = std::move(compositors.back());
+    compositors.pop_back();
+    return taken;
   }
   /// The tiles that rows of pixels need and that nobody has brought.
   void resolveRows(int y0, int y1) {
@@ -94,38 +106,58 @@ struct FrameFilter::Impl {
     std::span<const Contribution> list;
     const float* values;  ///< `width` each.
   };
-  Seen seenAt(int x, int y) const {
+  /// Pixels of one row from (x, y) on that lie in one tile.
+  struct TileRun {
+    const ResolvedTile* tile;  ///< Null: they see nothing.
+    size_t pixel;              ///< Of the tile, the first of them.
+    int end;                   ///< The x behind them.
+
+    Seen at(size_t i, int width) const {
+      if (!tile) return {};
+      const size_t begin = tile->first[pixel + i], last = tile->first[pixel + i + 1];
+      return {{tile->contributions.data() + begin, last - begin}, tile->values.data() + begin * static_cast<size_t>(width)};
+    }
+  };
+  TileRun runFrom(int x, int y) const {
     const int right = x - frame.padded.x0, column = right / frame.bucketWidth, row = frame.rowOf(y);
     const auto& tile = resolved[static_cast<size_t>(row) * static_cast<size_t>(frame.columns) + static_cast<size_t>(column)];
-    if (!tile) return {};
     const int left = column * frame.bucketWidth, tileWidth = std::min(frame.bucketWidth, frame.padded.width() - left);
-    const auto pixel = static_cast<size_t>((y - frame.padded.y0 - row * frame.bucketHeight) * tileWidth + right - left);
-    const size_t begin = tile->first[pixel], end = tile->first[pixel + 1];
-    return {{tile->contributions.data() + begin, end - begin}, tile->values.data() + begin * static_cast<size_t>(width)};
+    return {tile.get(), static_cast<size_t>((y - frame.padded.y0 - row * frame.bucketHeight) * tileWidth + right - left),
+            frame.padded.x0 + left + tileWidth};
+  }
+  Seen seenAt(int x, int y) const { return runFrom(x, y).at(0, width); }
+  /// Calls visit(x, seen) for the pixels [x0, x1) of a row.
+  template <class Visit>
+  void forRow(int x0, int x1, int y, const Visit& visit) const {
+    for (int x = x0; x < x1;) {
+      const TileRun run = runFrom(x, y);
+      for (size_t i = 0; x < std::min(run.end, x1); ++x, ++i) visit(x, run.at(i, width));
+    }
   }
 
-  /// What the samples around bring to each pixel of a block: the floats of a pass, the weight of all samples, and that of
-  /// those which see something. For each pixel by rows, columns and fragments.
+  /// What the samples around bring to each pixel of a block: the floats of a pass, and the weight of those which see something. For each
+  /// pixel by rows, columns and fragments.
   PixelSums sumsOf(const Pass& pass, const PixelRect& block) const {
-    const size_t floats = pass.floats.size();
-    PixelSums sums(pass.weights, block, static_cast<int>(floats) + 2);
-    std::vector<float> everything(static_cast<size_t>(sums.width())), seen(everything.size());
-    AlignedVector<float> weights(static_cast<size_t>(pass.weights.places()));
-    everything[floats] = seen[floats + 1] = 1;
+    const size_t floats = pass.floats.size(), places = static_cast<size_t>(pass.weights.places());
+    PixelSums sums(pass.weights, block, static_cast<int>(floats) + 1);
+    const auto wide = static_cast<size_t>(sums.width());
+    AlignedVector<float> weights, values;
     const PixelRect around = reached(block, pass.weights);
     for (int y = around.y0; y < around.y1; ++y)
-      for (int x = around.x0; x < around.x1; ++x) {
+      forRow(around.x0, around.x1, y, [&](int x, const Seen& here) {
+        const size_t count = here.list.size();
+        if (count == 0) return;
+        if (weights.size() < count * places) weights.resize(count * places), values.resize(count * wide);
         const int pattern = samples.patternOf(x, y);
-        sums.add(x, y, pass.weights.sums(pattern), everything.data());
-        const Seen here = seenAt(x, y);
-        const float* values = here.values;
-        for (const Contribution& c : here.list) {
-          pass.weights.sums(pattern, c.samples, c.word, weights.data());
-          for (size_t k = 0; k < floats; ++k) seen[k] = values[pass.floats[k].from];
-          sums.add(x, y, weights.data(), seen.data());
-          values += width;
+        for (size_t c = 0; c < count; ++c) {
+          pass.weights.sums(pattern, here.list[c].samples, here.list[c].word, weights.data() + c * places);
+          const float* from = here.values + c * static_cast<size_t>(width);
+          float* to = values.data() + c * wide;
+          for (size_t k = 0; k < floats; ++k) to[k] = from[pass.floats[k].from];
+          to[floats] = 1;
         }
-      }
+        sums.add(x, y, static_cast<int>(count), weights.data(), values.data());
+      });
     return sums;
   }
   /// Pixels whose samples reach a block.
@@ -135,8 +167,30 @@ struct FrameFilter::Impl {
             std::min(p.y1, block.y1 + w.reachY)};
   }
 
-  void filter(const PixelSums& sums, const Pass& pass, int x, int y, float* out) const {
-    const float *sum = sums.of(x, y), total = sum[pass.floats.size()], covered = sum[pass.floats.size() + 1];
+  /// The sums of weights of all samples around each pixel of a block, by rows.
+  std::vector<float> totalsOf(const Pass& pass, const PixelRect& block) const {
+    const WeightTable& w = pass.weights;
+    const PixelRect around = reached(block, w);
+    const auto columns = static_cast<size_t>(around.width());
+    std::vector<const float*> sums;  // of the pattern of each
+    for (int y = around.y0; y < around.y1; ++y)
+      for (int x = around.x0; x < around.x1; ++x) sums.push_back(w.sums(samples.patternOf(x, y)));
+    std::vector<float> totals;
+    for (int y = block.y0; y < block.y1; ++y)
+      for (int x = block.x0; x < block.x1; ++x) {
+        float total = 0;
+        const int first = std::max(x - w.reachX, around.x0), last = std::min(x + w.reachX, around.x1 - 1);
+        for (int sy = std::max(y - w.reachY, around.y0); sy <= std::min(y + w.reachY, around.y1 - 1); ++sy) {
+          const float* const* row = sums.data() + static_cast<size_t>(sy - around.y0) * columns - around.x0;
+          for (int sx = first; sx <= last; ++sx) total += row[sx][w.cell(0, sx - x, sy - y).place];
+        }
+        totals.push_back(total);
+      }
+    return totals;
+  }
+
+  void filter(const float* sum, float total, const Pass& pass, float* out) const {
+    const float covered = sum[pass.floats.size()];
     for (size_t k = 0; k < pass.floats.size(); ++k) {
       const Pass::Float& f = pass.floats[k];
       const float filled = f.fill == 0 ? sum[k] : sum[k] + f.fill * (total - covered);
@@ -174,9 +228,9 @@ struct FrameFilter::Impl {
     for (int k = 0; r.reduce == Reduce::Average && weight > 0 && k < r.width; ++k) to[k] /= weight;
   }
 
-  float depth(int x, int y) const {
+  float depth(std::span<const Contribution> seen) const {
     float low = kInfinity, high = -kInfinity, sum = 0, weight = 0;
-    for (const Contribution& c : seenAt(x, y).list) {
+    for (const Contribution& c : seen) {
       if (c.z == kInfinity) continue;
       const bool midpoint = options.depthFilter == DepthFilter::Midpoint;
       const float z = midpoint ? 0.5f * c.z + 0.5f * std::min(c.zSecond, options.farClip) : c.z;
@@ -200,6 +254,8 @@ struct FrameFilter::Impl {
   int width = 0;  ///< Floats of a contribution.
   std::vector<std::unique_ptr<ResolvedTile>> resolved;
   size_t forgotten = 0;  ///< Of these, from the first.
+  std::mutex mutex;
+  std::vector<std::unique_ptr<Compositor>> compositors;  ///< Those that no thread uses.
 };
 
 FrameFilter::FrameFilter(const DeepFrame& frame, const Options& options, const SampleOffsets& samples, const MatteNames& names)
@@ -212,8 +268,9 @@ Image FrameFilter::shape() const {
           impl_->options.yResolution};
 }
 
-Image FrameFilter::rows(int y0, int y1) const {
+Image FrameFilter::rows(int y0, int y1) {
   const PixelRect& crop = impl_->frame.crop;
+  CHECK_GE(impl_->firstTileOf(y0 - impl_->reachY), impl_->forgotten);
   Image image = shape();
   image.originY = y0, image.height = y1 - y0;
   image.pixels.resize(static_cast<size_t>(image.width) * static_cast<size_t>(image.height) * image.channels.size());
@@ -225,15 +282,16 @@ Image FrameFilter::rows(int y0, int y1) const {
     const PixelRect block{x0, top, std::min(x0 + kBlockColumns, crop.x1), std::min(top + kBlockRows, y1)};
     for (const Pass& pass : impl_->passes) {
       const PixelSums sums = impl_->sumsOf(pass, block);
+      const std::vector<float> totals = impl_->totalsOf(pass, block);
+      const float* total = totals.data();
       for (int y = block.y0; y < block.y1; ++y)
-        for (int x = block.x0; x < block.x1; ++x) impl_->filter(sums, pass, x, y, image.at(x - crop.x0, y - y0));
+        for (int x = block.x0; x < block.x1; ++x) impl_->filter(sums.of(x, y), *total++, pass, image.at(x - crop.x0, y - y0));
     }
-    for (int y = block.y0; y < block.y1; ++y)
-      for (int x = block.x0; x < block.x1; ++x) {
-        float* out = image.at(x - crop.x0, y - y0);
-        for (const Reduction& r : impl_->reductions) impl_->reduce(r, x, y, out);
-        out[4] = impl_->depth(x, y);
-      }
+    for (int y = block.y0; y < block.y1; ++y) {
+      for (int x = block.x0; x < block.x1; ++x)
+        for (const Reduction& r : impl_->reductions) impl_->reduce(r, x, y, image.at(x - crop.x0, y - y0));
+      impl_->forRow(block.x0, block.x1, y, [&](int x, const Impl::Seen& seen) { image.at(x - crop.x0, y - y0)[4] = impl_->depth(seen.list); });
+    }
   });
   for (const Channel& c : impl_->output.channels)
     if (isMatte(c.kind))

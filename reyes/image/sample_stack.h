@@ -15,6 +15,11 @@ struct ExtraFloat {
   float fill;
 };
 
+/// ShadedPoints::airCi and airOi of a fragment.
+struct Air {
+  vec3 color{0.0f}, opacity{0.0f};
+};
+
 /// What a fragment shows to some samples. Coverage is its opacity, or 0 where it is matte.
 struct Lay {
   uint64_t samples;
@@ -24,6 +29,7 @@ struct Lay {
   float z;
   std::span<const ExtraFloat> extras;
   const float* extraValues;
+  const Air* air = nullptr;  ///< Left out of the above. Null: there is none in all of the tile.
 };
 
 /// Arrays have a lane for each sample.
@@ -31,12 +37,15 @@ struct SampleStack {
   AlignedVector<float> clear[3];  ///< Share of light that passes what was laid so far.
   AlignedVector<float> nearest;   ///< Depth.
   AlignedVector<float> values;    ///< An array of lanes for each float of a contribution.
+  AlignedVector<float> air[4];    ///< R G B A of the air before what was laid last, beside it; empty where no tile has any.
   size_t lanes = 0;
 
   /// samples: a multiple of kLanes.
-  void reset(size_t samples, size_t floats);
+  void reset(size_t samples, size_t floats, bool withAir);
   /// "Over", with an opacity for each channel.
   void lay(const Lay& l);
+  /// After the last: nothing follows that would bring its air.
+  void addAir();
 };
 
 }  // namespace tomales

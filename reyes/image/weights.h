@@ -64,14 +64,13 @@ class PixelSums {
   static constexpr int kWide = 8;  ///< Floats of a pixel are padded to a multiple.
   PixelSums(const WeightTable& weights, const PixelRect& block, int floats);
   int width() const { return width_; }
-  /// What samples of pixel (x, y) see, width() floats; a weight for each place, as WeightTable::sums() has them.
-  void add(int x, int y, const float* weights, const float* values);
-  const float* of(int x, int y) const { return const_cast<PixelSums*>(this)->at(x, y); }
+  /// All that samples of pixel (x, y) see, in order: `count` times width() floats, and for each a row of weights as WeightTable::sums() has
+  /// them.
+  void add(int x, int y, int count, const float* weights, const float* values);
+  const float* of(int x, int y) const { return sums_.data() + indexOf(x, y) * width_; }
 
  private:
-  float* at(int x, int y) {
-    return sums_.data() + (static_cast<ptrdiff_t>(y - block_.y0) * block_.width() + x - block_.x0) * width_;
-  }
+  ptrdiff_t indexOf(int x, int y) const { return static_cast<ptrdiff_t>(y - block_.y0) * block_.width() + x - block_.x0; }
   const WeightTable& weights_;
   const PixelRect block_;
   const int width_;

@@ -8,7 +8,7 @@
 #include "reyes/prim/interpolation.h"
 #include "reyes/prim/primvars.h"
 #include "reyes/prim/subdivision_crowded.h"
-#include "reyes/prim/subdivision_limit.h"
+#include "reyes/prim/subdivision_shared.h"
 
 namespace tomales {
 namespace {
@@ -32,9 +32,10 @@ class SubdivisionMesh : public Prim {
   SubdivisionMesh(const Coarse& mesh, std::vector<Primvar> primvars)
       : Prim(std::move(primvars)),
         positions_(mesh.positions),
-        refiner_(makeRefiner(mesh)),
-        factory_(*refiner_, limitOptions()),
-        crowded_(mesh, refiner_->GetLevel(0), facesWithSurface()),
+        faces_(sharedFaces(mesh)),
+        refiner_(*faces_->refiner),
+        factory_(faces_->factory),
+        crowded_(mesh, refiner_.GetLevel(0), facesWithSurface()),
         crowdedPositions_(crowded_.refine(&positions_[0].x, 3)) {
     for (const vec3& p : positions_) hull_.extend(p);
     size_t channel = 0;
@@ -46,7 +47,7 @@ class SubdivisionMesh : public Prim {
       crowdedValues_.push_back(smooth ? crowded_.refine(var.values.data(), var.width, channelOf_.back())
                                       : CrowdedFaces::Values{});
     }
-    for (int face = 0; face < refiner_->GetLevel(0).GetNumFaces(); ++face) addPatches(face);
+    for (int face = 0; face < refiner_.GetLevel(0).GetNumFaces(); ++face) addPatches(face);
   }
 
   uint32_t patchCount() const override { return static_cast<uint32_t>(patches_.size()); }
@@ -83,7 +84,7 @@ class SubdivisionMesh : public Prim {
 
   std::vector<int> facesWithSurface() const {
     std::vector<int> faces;
-    for (int face = 0; face < refiner_->GetLevel(0).GetNumFaces(); ++face)
+    for (int face = 0; face < refiner_.GetLevel(0).GetNumFaces(); ++face)
       if (factory_.FaceHasLimitSurface(face)) faces.push_back(face);
     return faces;
   }
@@ -125,8 +126,9 @@ class SubdivisionMesh : public Prim {
   }
   const uint64_t id_ = nextId();
   const std::vector<vec3> positions_;
-  const Refiner refiner_;
-  const LimitFactory factory_;
+  const std::shared_ptr<const SharedFaces> faces_;
+  const Far::TopologyRefiner& refiner_;
+  const LimitFactory& factory_;
   const CrowdedFaces crowded_;
   const CrowdedFaces::Values crowdedPositions_;
   std::vector<CrowdedFaces::Values> crowdedValues_;  // by primvar
@@ -160,7 +162,7 @@ const PositionLimit& SubdivisionMesh::positionsOf(int face) const {
 }
 
 bool SubdivisionMesh::isOpen(int face, int edgeOfFace) const {
-  const Far::TopologyLevel& level = refiner_->GetLevel(0);
+  const Far::TopologyLevel& level = refiner_.GetLevel(0);
   for (int other : level.GetEdgeFaces(level.GetFaceEdges(face)[edgeOfFace]))
     if (other != face && factory_.FaceHasLimitSurface(other)) return false;
   return true;
@@ -168,7 +170,7 @@ bool SubdivisionMesh::isOpen(int face, int edgeOfFace) const {
 
 void SubdivisionMesh::addPatches(int face) {
   if (!factory_.FaceHasLimitSurface(face)) return;
-  const int size = refiner_->GetLevel(0).GetFaceVertices(face).size();
+  const int size = refiner_.GetLevel(0).GetFaceVertices(face).size();
   const auto bit = [&](int edge, PatchEdge bitOfEdge) { return isOpen(face, edge) ? bitOfEdge : 0; };
   if (size == 4) {
     const int open = bit(0, kEdgeV0) | bit(1, kEdgeU1) | bit(2, kEdgeV1) | bit(3, kEdgeU0);

@@ -125,6 +125,12 @@ void transmission(Attributes& a, const Param& p) {
   a.transmissionHitMode = p.strings[0] == "shader" ? HitMode::Shader : HitMode::Primitive;
 }
 
+// BMRT: "none", "opaque", "Os" and "shade" (BMRT User Guide, attribute "render" "casts_shadows").
+void castsShadows(Attributes& a, const Param& p) {
+  a.visibility.transmission = p.strings[0] != "none";
+  a.transmissionHitMode = p.strings[0] == "shade" ? HitMode::Shader : HitMode::Primitive;
+}
+
 // "cache" looks into files that the scene may not have; its shader knows as much.
 HitMode hitMode(const Param& p) { return p.strings[0] == "primitive" ? HitMode::Primitive : HitMode::Shader; }
 
@@ -178,6 +184,7 @@ const std::unordered_map<std::string_view, Setter>& textSetters() {
   static const std::unordered_map<std::string_view, Setter> table = {
       {"identifier:name", [](Attributes& a, const Param& p) { a.name = p.strings[0]; }},
       {"visibility:transmission", transmission},
+      {"render:casts_shadows", castsShadows},
       {"displacementbound:coordinatesystem",
        [](Attributes& a, const Param& p) { a.displacementBoundSpace = p.strings[0]; }},
       {"photon:globalmap", [](Attributes& a, const Param& p) { a.photon.globalMap = p.strings[0]; }},

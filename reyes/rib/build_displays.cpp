@@ -4,6 +4,7 @@
 #include "reyes/rib/dictionary.h"
 #include "reyes/rib/handlers.h"
 #include "reyes/rib/refusals.h"
+#include "reyes/rib/ris.h"
 
 namespace tomales::rib {
 namespace {
@@ -87,6 +88,8 @@ void displayChannel(GraphicsState& s, const Request& r) {
   for (const Param& p : r.params)
     if (std::find(std::begin(kKnown), std::end(kKnown), p.name) == std::end(kKnown))
       s.warnOnce("channel:" + p.name, r, "rib-channel", "DisplayChannel: no parameter \"" + p.name + "\"; ignored");
+  for (Param& p : call.params)
+    if (p.name == "source" && !p.strings.empty()) p.strings[0] = risSource(p.strings[0]);
   s.globals.options.channels[call.name] = std::move(call);
 }
 

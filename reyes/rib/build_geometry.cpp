@@ -99,8 +99,21 @@ PrimPtr subdivisionMesh(const Request& r, const Scope&, Problems& problems) {
                              problems);
 }
 
+// PRMan 19 and 20: the shapes of PxrStdAreaLight, of side or diameter one.
+PrimPtr lightShape(const std::string& name, const Request& r, Problems& problems) {
+  if (name == "spherelight") return makeSphere(.5f, -.5f, .5f, 360, r.params, problems);
+  if (name == "disklight") return makeDisk(0, .5f, 360, r.params, problems);
+  if (name != "rectlight") return nullptr;
+  ParamList params = r.params;
+  Param& p = params.emplace_back();
+  p.name = "P", p.type = ValueType::Point, p.storage = Storage::Vertex;
+  p.floats = {-.5f, -.5f, 0, .5f, -.5f, 0, -.5f, .5f, 0, .5f, .5f, 0};
+  return makeBilinearPatchMesh(2, false, 2, false, params, problems);
+}
+
 PrimPtr geometry(const Request& r, const Scope& s, Problems& problems) {
   const std::string& name = r.args[0].strings[0];
+  if (PrimPtr light = lightShape(name, r, problems)) return light;
   if (name == "teapot") return makeTeapot(r.params, problems);
   if (name == "brickmap") return brickMap(r, s, problems);
   throw PrimError("there is no geometry \"" + name + "\"");

@@ -50,6 +50,17 @@ void cropWindow(GraphicsState& s, const Request& r) {
   s.globals.options.cropWindow = w;
 }
 
+// RenderMan 21 and later: the lens of PxrCamera, in the units of DepthOfField. Out of range it is a pinhole.
+void pxrLens(Options& o, const ParamList& params) {
+  const auto positive = [&](const char* name) {
+    const Param* p = findParam(params, name);
+    const float value = p ? p->number(0) : 0;
+    return value > 0 && value < 1e30f ? value : 0;
+  };
+  const float stop = positive("fStop"), length = positive("focalLength"), distance = positive("focalDistance");
+  if (stop > 0 && length > 0 && distance > 0) o.fStop = stop, o.focalLength = length, o.focalDistance = distance;
+}
+
 void projection(GraphicsState& s, const Request& r) {
   if (s.world) return reject(s, r, "the camera cannot change after WorldBegin");
   const std::string& kind = r.args[0].strings[0];
@@ -62,8 +73,11 @@ void projection(GraphicsState& s, const Request& r) {
     o.projection = ProjectionKind::Null;
   else
     reject(s, r, "unknown projection \"" + kind + "\"");
+  const bool camera = kind == "PxrCamera";
+  if (camera) pxrLens(o, r.params);
   for (const Param& p : r.params) {
     const float fov = p.number(90);
+    if (camera && (p.name == "fStop" || p.name == "focalLength" || p.name == "focalDistance")) continue;
     if (p.name != "fov")
       s.warn(r, "rib-unsupported", "parameter \"" + p.name + "\" is not supported, ignored");
     else if (fov > 0 && fov < 180)
@@ -178,6 +192,8 @@ bool knownOption(GraphicsState& s, const Request& r, const std::string& key, con
                                                  "spacefill",  "spiral",   "random"};
     if (orders.contains(p.strings[0]))
       o.bucketOrder = p.strings[0];
+    else if (p.strings[0] == "circle")  // RenderMan for Maya
+      o.bucketOrder = "spiral";
     else
       s.warn(r, "rib-bucket-order", "no bucket order \"" + p.strings[0] + "\"; \"" + o.bucketOrder + "\" is used");
   } else {

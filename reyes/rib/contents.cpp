@@ -1,5 +1,6 @@
 #include "reyes/rib/contents.h"
 
+#include "reyes/base/file_stamp.h"
 #include "reyes/state_fields.h"
 
 namespace tomales {
@@ -46,7 +47,14 @@ namespace tomales::rib {
 
 uint64_t contentsOf(const std::vector<const Request*>& keys, const std::vector<float>& times, const Scope& scope) {
   uint64_t sum = contentSum(times, scope.uBasis, scope.vBasis, scope.roundCurves, *scope.trim);
-  for (const Request* key : keys) sum = contentSum(sum, *key);
+  for (const Request* key : keys) {
+    sum = contentSum(sum, *key);
+    // A brick map is what is in its file.
+    const Param* file = key->name == "Geometry" ? findParam(key->params, "filename") : nullptr;
+    if (file && !file->strings.empty()) sum = contentSum(sum, fileStamp(file->strings[0]));
+    if (key->name == "Blobby" && key->args.size() > 3)
+      for (const std::string& ground : key->args[3].strings) sum = contentSum(sum, fileStamp(ground));
+  }
   return sum;
 }
 

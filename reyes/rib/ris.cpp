@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <unordered_map>
 
 #include "reyes/rib/ris_parts.h"
@@ -19,7 +20,8 @@ Translation integrator(const Request& r, Patterns&) {
   const Param *bounces = findParam(r.params, "maxIndirectBounces"), *length = findParam(r.params, "maxPathLength");
   const float most = bounces ? bounces->number(1) : length ? length->number(2) - 1 : 1;
   if (bounces || length) params.push_back(param("bounces", ValueType::Float, {most}));
-  const Severity severity = name == "PxrPathTracer" ? Severity::Warning : Severity::Missing;
+  static const std::set<std::string_view> global = {"PxrPathTracer", "PxrVCM", "PxrUPBP", "PxrUnified"};
+  const Severity severity = global.contains(name) ? Severity::Warning : Severity::Missing;
   if (most < 1) return {{}, {standsIn(r, "direct light alone", severity)}};
   return {Script(r).say("LightSource", {string("indirectlight"), string("Integrator " + name)}, params).list(),
           {standsIn(r, "indirectlight", severity)}};
@@ -47,6 +49,10 @@ const std::unordered_map<std::string_view, Translator>& translators() {
   static const std::unordered_map<std::string_view, Translator> table = {
       {"Bxdf", [](const Request& r, Patterns& patterns) { return risBxdf(r, patterns); }},
       {"Light", [](const Request& r, Patterns&) { return risLight(r); }},
+      {"AreaLightSource", stdLight},
+      {"Geometry", envSphere},
+      {"Option", [](const Request& r, Patterns&) { return riValues(r); }},
+      {"Attribute", [](const Request& r, Patterns&) { return riValues(r); }},
       {"Integrator", integrator},
       {"Pattern", pattern},
       {"Camera", camera},
@@ -68,7 +74,13 @@ Note standsIn(const Request& r, const std::string& substitute, Severity severity
   return note(r, "is not available: " + substitute + " stands in for it", severity);
 }
 
-bool isRis(std::string_view name) { return translators().contains(name); }
+// Of requests that are older than RIS, those that name something of it.
+bool isRis(const Request& r) {
+  if (r.name == "Option" || r.name == "Attribute") return r.args[0].strings[0] == "Ri";
+  if (r.name == "AreaLightSource") return r.args[0].strings[0].find("PxrStd") != std::string::npos;
+  if (r.name == "Geometry") return r.args[0].strings[0] == "envsphere";
+  return translators().contains(r.name);
+}
 
 Translation translateRis(const Request& r, Patterns& patterns) { return translators().at(r.name)(r, patterns); }
 

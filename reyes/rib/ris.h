@@ -20,8 +20,11 @@ struct Translation {
 /// Pattern requests by handle: the parameters of others refer to their outputs.
 using Patterns = std::map<std::string, Request>;
 
-bool isRis(std::string_view name);
-/// Pre: isRis(request.name).
+bool isRis(const Request& request);
+/// Pre: isRis(request).
 Translation translateRis(const Request& request, Patterns& patterns);
+
+/// What Tomales calls the source of a channel ("normal Nn", "color lpe:C<RD>[<L.>O]"), without its type; unknown ones stay.
+std::string risSource(const std::string& source);
 
 }  // namespace tomales::rib

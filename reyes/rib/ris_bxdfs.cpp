@@ -15,8 +15,10 @@ struct Bxdf {
   float grey;  ///< The default of that colour.
   const char *roughness, *diffuseGain, *metallic;
   bool shiny, emits;
+  bool metal = false;  ///< Always.
 };
 constexpr Bxdf kMatte{"diffuseColor", 0.5f, nullptr, nullptr, nullptr, false, false};
+constexpr Bxdf kBlack{"no color", 0, nullptr, nullptr, nullptr, false, true};
 
 const std::unordered_map<std::string_view, Bxdf>& bxdfs() {
   static const std::unordered_map<std::string_view, Bxdf> table = {
@@ -26,7 +28,14 @@ const std::unordered_map<std::string_view, Bxdf>& bxdfs() {
       {"PxrDisney", {"baseColor", 0.5f, "roughness", nullptr, "metallic", true, false}},
       {"PxrDisneyBsdf", {"baseColor", 0.5f, "roughness", nullptr, "metallic", true, false}},
       {"PxrSurface", {"diffuseColor", 0.18f, "specularRoughness", "diffuseGain", nullptr, true, false}},
-      {"PxrLayerSurface", {"diffuseColor", 0.18f, "specularRoughness", "diffuseGain", nullptr, true, false}}};
+      {"PxrLayerSurface", {"diffuseColor", 0.18f, "specularRoughness", "diffuseGain", nullptr, true, false}},
+      {"PxrLMPlastic", {"diffuseColor", 0.18f, "roughness", nullptr, nullptr, true, false}},
+      {"PxrLMMetal", {"specularColor", 1, "roughness", nullptr, nullptr, true, false, true}},
+      {"PxrMarschnerHair", kMatte},
+      {"PxrBlack", kBlack},
+      {"PxrLightEmission", kBlack},  // its light does the rest
+      {"LamaDiffuse", kMatte},
+      {"LamaConductor", {"reflectivity", 1, "roughness", nullptr, nullptr, true, false, true}}};
   return table;
 }
 
@@ -81,6 +90,39 @@ void noteReferences(const Request& r, const Bxdf& b, const Patterns& patterns, s
         if (n.text.find("stands in") == std::string::npos) notes.push_back(std::move(n));
 }
 
+/// The parameter that holds the index of refraction of what one sees through; null: it is opaque.
+const char* indexOf(const Request& r) {
+  static const std::unordered_map<std::string_view, const char*> table = {
+      {"PxrGlass", "ior"}, {"PxrLMGlass", "eta"}, {"LamaDielectric", "IOR"}, {"PxrSurface", "glassIor"}, {"PxrLayerSurface", "glassIor"}};
+  const std::string& name = r.args[0].strings[0];
+  const auto it = table.find(name);
+  if (it == table.end() || (it->second == std::string_view("glassIor") && !(number(r, "refractionGain", 0) > 0.5f))) return nullptr;
+  return it->second;
+}
+
+Translation glass(const Request& r, const char* index) {
+  ParamList params{param("eta", ValueType::Float, {number(r, index, 1.5f)})};
+  if (findParam(r.params, "refractionColor")) params.push_back(param("transmitcolor", ValueType::Color, color(r, "refractionColor", 1)));
+  return {Script(r).say("Surface", {string("glass")}, std::move(params)).list(), {standsIn(r, "glass")}};
+}
+
+/// What a metal mirrors straight back: Fresnel's equations for the index n and the absorption k, or an artist's colours.
+std::vector<float> metalColor(const Request& r, const Bxdf& b) {
+  const auto fresnel = [](float n, float k) { return ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k); };
+  const auto physical = [&](const char* index, const char* absorption) {
+    std::vector<float> n = color(r, index, 1.5f), k = color(r, absorption, 0);
+    for (size_t i = 0; i < 3; ++i) n[i] = fresnel(n[i], k[i]);
+    return n;
+  };
+  if (findParam(r.params, "kappa")) return physical("eta", "kappa");
+  if (!b.diffuseGain) return color(r, b.color, b.grey);
+  const std::vector<float> edge = color(r, "specularEdgeColor", 1), face = color(r, "specularFaceColor", 0);
+  if (number(r, "specularFresnelMode", 0) == 0) return face[0] + face[1] + face[2] > 0 ? face : edge;
+  std::vector<float> out = physical("specularIor", "specularExtinctionCoeff");
+  for (size_t i = 0; i < 3; ++i) out[i] *= edge[i];
+  return out;
+}
+
 /// Rays of a point that mirror the scene.
 constexpr float kReflections = 4;
 
@@ -105,18 +147,17 @@ void addDisney(const Request& r, bool metal, ParamList& params) {
 
 Translation risBxdf(const Request& r, const Patterns& patterns) {
   const std::string& name = r.args[0].strings[0];
-  if (name == "PxrGlass")
-    return {Script(r).say("Surface", {string("glass")}, {param("eta", ValueType::Float, {number(r, "ior", 1.5f)})}).list(), {standsIn(r, "glass")}};
+  if (const char* index = indexOf(r)) return glass(r, index);
   const auto it = bxdfs().find(name);
   const Bxdf b = it == bxdfs().end() ? kMatte : it->second;
   Source base = baseColor(r, b, patterns);
-  const bool metal = (b.metallic && number(r, b.metallic, 0) > 0.5f) || (b.diffuseGain && number(r, b.diffuseGain, 1) <= 0);
+  const bool metal = b.metal || (b.metallic && number(r, b.metallic, 0) > 0.5f) || (b.diffuseGain && number(r, b.diffuseGain, 1) <= 0);
   ParamList params;
   if (b.roughness && findParam(r.params, b.roughness))
     params.push_back(param("roughness", ValueType::Float, {std::clamp(number(r, b.roughness, 0.1f), 0.001f, 1.0f)}));
   std::string shader = b.emits ? "constant" : b.shiny ? "disney" : "matte";
   if (b.shiny) addDisney(r, metal, params);
-  if (metal && b.diffuseGain) base.color = color(r, "specularEdgeColor", 1);
+  if (metal && !b.metallic) base.color = metalColor(r, b);
   if (b.shiny && !base.texture.empty()) {
     params.push_back(param("texturename", base.texture));
   } else if (!base.texture.empty()) {

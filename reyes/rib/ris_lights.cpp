@@ -13,27 +13,27 @@ ParamList emission(const Request& r) {
 
 namespace {
 
-// An emitter in a scope of its own, black but for what it emits, which casts no shadow; turned about y.
-Translation areaLight(const Request& r, const char* shape, std::vector<RibArg> args, ParamList params, float turn_degrees = 0) {
-  const RibArg handle = string(r.args[1].strings[0]);
-  Script script(r);
-  script.say("AttributeBegin").say("AreaLightSource", {string("arealight"), handle}, emission(r));
+// From here on geometry emits, is black but for that, and casts no shadow.
+void sayEmitter(Script& script, const Request& r) {
+  script.say("AreaLightSource", {string("arealight"), string(r.args[1].strings[0])}, emission(r));
   script.say("Surface", {string("constant")}).say("Color", {numbers({0, 0, 0})});
   script.say("Attribute", {string("visibility")}, {param("transmission", ValueType::Float, {0})});
+}
+
+// An emitter in a scope of its own; turned about y.
+Translation areaLight(const Request& r, const char* shape, std::vector<RibArg> args, float turn_degrees = 0) {
+  Script script(r);
+  script.say("AttributeBegin");
+  sayEmitter(script, r);
   if (turn_degrees != 0) script.say("Rotate", {numbers({turn_degrees, 0, 1, 0})});
-  script.say(shape, std::move(args), std::move(params)).say("AttributeEnd");
+  script.say(shape, std::move(args)).say("AttributeEnd");
   return {script.list(), {standsIn(r, "arealight")}};
 }
 
-Translation rectLight(const Request& r) {
-  Param p = param("P", ValueType::Point, {-.5f, -.5f, 0, .5f, -.5f, 0, -.5f, .5f, 0, .5f, .5f, 0});
-  p.storage = Storage::Vertex;
-  return areaLight(r, "Patch", {string("bilinear")}, {p});
-}
-Translation sphereLight(const Request& r) { return areaLight(r, "Sphere", {numbers({.5f, -.5f, .5f, 360})}, {}); }
-Translation diskLight(const Request& r) { return areaLight(r, "Disk", {numbers({0, .5f, 360})}, {}); }
-
-Translation cylinderLight(const Request& r) { return areaLight(r, "Cylinder", {numbers({.5f, -.5f, .5f, 360})}, {}, 90); }
+Translation rectLight(const Request& r) { return areaLight(r, "Geometry", {string("rectlight")}); }
+Translation sphereLight(const Request& r) { return areaLight(r, "Geometry", {string("spherelight")}); }
+Translation diskLight(const Request& r) { return areaLight(r, "Geometry", {string("disklight")}); }
+Translation cylinderLight(const Request& r) { return areaLight(r, "Cylinder", {numbers({.5f, -.5f, .5f, 360})}, 90); }
 
 Translation lightSource(const Request& r, const char* shader, const ParamList& more) {
   ParamList params = emission(r);
@@ -44,17 +44,46 @@ Translation distantLight(const Request& r) {
   return lightSource(r, "distantlight", {param("from", ValueType::Point, {0, 0, 0}), param("to", ValueType::Point, {0, 0, 1})});
 }
 Translation domeLight(const Request& r) {
-  const std::string map = text(r, "lightColorMap");
+  const std::string map = text(r, findParam(r.params, "rman__EnvMap") ? "rman__EnvMap" : "lightColorMap");
   return lightSource(r, "environmentlight", map.empty() ? ParamList{} : ParamList{param("map", map), param("mapspace", "shader")});
 }
 
+// The geometry is what follows in its block.
+Translation meshLight(const Request& r) {
+  Script script(r);
+  sayEmitter(script, r);
+  return {script.list(), {standsIn(r, "arealight")}};
+}
+
+// Where PRMan 19 and 20 keep the light that has no shape yet; no Pattern can have this handle.
+const std::string kStdLight = "AreaLightSource\n";
+
 }  // namespace
+
+// RenderMan for Maya 19 and 20 name the shader after the light that they wrote it for: "shaders/PxrStdAreaLightShape1_rfm".
+Translation stdLight(const Request& r, Patterns& patterns) {
+  const auto is = [&](const char* kind) { return r.args[0].strings[0].find(kind) != std::string::npos; };
+  patterns[kStdLight] = r;
+  if (is("PxrStdEnvMapLight")) return domeLight(r);
+  if (is("PxrStdEnvDayLight")) return dayLight(r);
+  if (is("PxrStdAreaLight")) return meshLight(r);
+  return {{}, {note(r, "is not available and has no substitute: it is dark", Severity::Missing)}};
+}
+
+// Skies are not drawn. Those of the two other kinds shine already.
+Translation envSphere(const Request& r, Patterns& patterns) {
+  const auto light = patterns.find(kStdLight);
+  if (light == patterns.end() || light->second.args[0].strings[0].find("PxrStdAreaLight") == std::string::npos) return {};
+  Translation sky = domeLight(light->second);
+  for (Note& n : sky.notes) n.key += " envsphere", n.where = r.where;
+  return sky;
+}
 
 Translation risLight(const Request& r) {
   static const std::unordered_map<std::string_view, Translation (*)(const Request&)> table = {
       {"PxrRectLight", rectLight}, {"PxrSphereLight", sphereLight},   {"PxrDiskLight", diskLight},
       {"PxrDomeLight", domeLight}, {"PxrDistantLight", distantLight}, {"PxrEnvDayLight", dayLight},
-      {"PxrCylinderLight", cylinderLight}};
+      {"PxrCylinderLight", cylinderLight}, {"PxrMeshLight", meshLight}};
   const auto it = table.find(r.args[0].strings[0]);
   if (it != table.end()) return it->second(r);
   return {{}, {note(r, "is not available and has no substitute: it is dark", Severity::Missing)}};

@@ -84,12 +84,12 @@ void SceneBuilder::step(const Request& r) {
 }
 
 void SceneBuilder::perform(const Request& r) {
-  if (isGeometry(r.name)) return addGeometry({&r}, {0.0f});
+  if (isGeometry(r.name) && !isRis(r)) return addGeometry({&r}, {0.0f});
   if (!usableArguments(r))
     return state_.warn(r, "rib-not-finite", "an argument is not a finite number; ignored");
   if (isTransformation(r.name)) return applyTransformation(state_, {&r}, {0.0f});
   if (inProcedural_ && refuse(r)) return;
-  if (isRis(r.name)) return performRis(r);
+  if (isRis(r)) return performRis(r);
   if (performBlock(r) || performHandler(r)) return;
   const Signature* signature = findSignature(r.name);
   const bool geometry = signature && signature->support == Support::NotYetGeometry;

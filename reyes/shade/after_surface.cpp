@@ -14,13 +14,27 @@ void ShadingSystem::atmosphere(const ShadePoints& points, ShadedPoints& out) con
   // Air is crossed from the eye to the point, also where rays are parallel and kI has no length of its own.
   for (int i = 0; i < seen.count() && !impl_->camera.perspective(); ++i)
     seen.set3(kIx, i, vec3(0, 0, seen.channel(kPz)[i]));
-  ArenaLease arena;
-  Batch batch(*impl_, group, context, *arena);
-  batch.setPoints(seen, *group.atmosphere, {}, out, 0);
-  if (batch.run(*group.atmosphere, batch.tm))
+  const auto run = [&](ShadedPoints& colors) {
+    ArenaLease arena;
+    Batch batch(*impl_, group, context, *arena);
+    batch.setPoints(seen, *group.atmosphere, {}, colors, 0);
+    if (!batch.run(*group.atmosphere, batch.tm)) return false;
     batch.blackOutNonFinite(*group.atmosphere);
-  else
+    return true;
+  };
+  if (!run(out)) {
     out = before;
+    return;
+  }
+  const auto transparent = [](const AlignedVector<float>& o, int n) { return std::any_of(o.begin(), o.begin() + n, [](float x) { return x < 1; }); };
+  if (std::none_of(std::begin(before.Oi), std::end(before.Oi), [&](const auto& o) { return transparent(o, points.count()); })) return;
+  ShadedPoints air;
+  air.resize(points.count());
+  if (!run(air)) return;
+  for (int k = 0; k < 3; ++k) {
+    out.airCi[k] = std::move(air.Ci[k]), out.airOi[k] = std::move(air.Oi[k]);
+    for (size_t i = 0; i < out.airCi[k].size(); ++i) out.airCi[k][i] *= 1 - before.Oi[k][i], out.airOi[k][i] *= 1 - before.Oi[k][i];
+  }
 }
 
 bool ShadingSystem::hasImager() const { return impl_->imager != nullptr; }

@@ -65,6 +65,7 @@ void ShadingSystem::shade(const ShadePoints& points, const ShadeContext& context
 
   const ShaderTimer timer(impl_->stats, shader, count);
   ShadePoints chunk(points.group(), points.primvarFloats(), points.hasSteps());
+  chunk.reserve(std::min(count, kChunk));
   for (int begin = 0; begin < count; begin += kChunk) {
     copyChunk(points, begin, std::min(begin + kChunk, count), chunk);
     ArenaLease arena;

@@ -17,6 +17,7 @@ constexpr int kSlackDepth = 8;
 /// exceeds the least, or a mesh of them would take hours.
 constexpr double kLayersOfObject = 64, kLayersOfPatch = 4;
 constexpr double kVisitsOfObject = 1 << 16, kVisitsOfPatch = 1 << 12;
+constexpr float kLeastReach_px = 0.05f;  ///< What vertices are snapped by, and what closes T-vertices.
 constexpr float kRounding_px = 0.01f;  ///< Of projecting a box or its points.
 /// Lazily, a patch is halved so often, and what then has so many grids or more is a coarse piece.
 constexpr int kHalvingsAtOnce = 6;
@@ -78,6 +79,9 @@ bool isFlat(const Object& o, uint32_t patch) {
          std::none_of(primvars.begin(), primvars.end(), [](const Primvar& p) { return p.name == "N"; });
 }
 
+/// Does a whole patch, a particle say, join no neighbour? Nothing is added to its borders then.
+bool isAlone(const Object& o, uint32_t patch) { return o.displacementBound <= 0 && (o.shape().info(patch).openEdges & kAllEdges) == kAllEdges; }
+
 /// Splits the patches of one object.
 class Splitter {
  public:
@@ -107,7 +111,7 @@ class Splitter {
   /// patch takes no more than it was given.
   void splitWithin(int64_t visits, uint32_t patch, const UvRect& rect, int depth, const PatchSize* measured, std::vector<SubPatch>& out) {
     const auto first = static_cast<ptrdiff_t>(out.size());
-    start_ = depth, budget_ = visits, flat_ = isFlat(object_, patch);
+    start_ = depth, budget_ = visits, flat_ = isFlat(object_, patch), alone_ = isAlone(object_, patch);
     split(patch, rect, depth, measured, out);
     const auto share = [this](const SubPatch& p) { return p.coarse ? static_cast<double>(std::min(gridsOf(p.nu, p.nv), gridsInView(p.raster))) : 0.0; };
     double shares = 0;
@@ -142,14 +146,16 @@ class Splitter {
     const float blur = coarsening(patch, rect, bound);
     const bool binary = object_.attributes->binaryDice;
     const int nu = cells(size.u, edge_px_, blur, binary), nv = cells(size.v, edge_px_, blur, binary);
+    const bool joins = !alone_ || depth > 0, oneCell = flat_ && nu * nv == 1;
+    const float reach_px = oneCell || !joins ? kLeastReach_px : borderReach_px(object_.displacementBound);
     if (static_cast<int64_t>(nu) * nv <= gridSize_) {
       // What moves through the eye plane does so however small it is; it is seen while it stays in front.
       if (crossesEye && !still) ++givenUp_.atEye;
-      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, nu, nv), bound.lo.z, crossesEye, depth, false});
+      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, reach_px), bound.lo.z, crossesEye, depth, false});
     } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && gridsOf(nu, nv) >= kGridsOfCoarse && !crossesEye &&
                glm::length(bare.size()) <= kSlack * reach) {
       // Halving shrinks such a piece and its bound as it should, so that its grids can be foretold.
-      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, nu, nv), bound.lo.z, crossesEye, depth, true});
+      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, reach_px), bound.lo.z, crossesEye, depth, true});
     } else if (depth == kMaxDepth) {
       ++(bound.lo.z < glm::length(bound.size()) ? givenUp_.atEye : givenUp_.tooMany);
     } else {
@@ -178,10 +184,9 @@ class Splitter {
   bool crosses(const Bound3& bare) const { return camera_.perspective() && bare.lo.z < camera_.eyePlane(); }
 
   /// Of what lies beyond the near plane.
-  Bound2 rasterOf(Bound3 bound, int nu, int nv) const {
-    constexpr float kFlatReach_px = 0.05f;
+  Bound2 rasterOf(Bound3 bound, float reach_px) const {
     if (camera_.perspective()) bound.lo.z = std::max(bound.lo.z, camera_.nearClip());
-    return tomales::rasterOf(bound, flat_ && nu * nv == 1 ? kFlatReach_px : borderReach_px(object_.displacementBound), camera_);
+    return tomales::rasterOf(bound, reach_px, camera_);
   }
 
   /// How much longer than the shading rate asks the edges may be: a micropolygon's width up to a quarter of the circle
@@ -205,7 +210,7 @@ class Splitter {
   const float edge_px_;
   int start_ = 0;       ///< Depth of what is being split.
   int64_t budget_ = 0;  ///< Pieces that may still be visited.
-  bool flat_ = false;   ///< The patch
+  bool flat_ = false, alone_ = false;  ///< The patch
   GivenUp givenUp_;
 };
 

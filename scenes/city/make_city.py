@@ -2,7 +2,8 @@
 lit by the sun alone; a photon map for every house, car and tree and for the ground, as in "An Irradiance Atlas for Global Illumination in
 Complex Production Scenes" (2004), section 5.
 
-make_city.py FOLDER [SCALE]: 1 is 36,000 primitives and 300 textures; 0.01 the same street of fewer, larger parts. The same files every time.
+make_city.py FOLDER [SCALE] [VIEW]: 1 is 36,000 primitives and 300 textures; 0.01 the same street of fewer, larger parts. The same files every time.
+VIEW: "irradiance" shows the brick maps in FOLDER/maps (atlasview.cpp), "reflected" their irradiance times the colours.
 """
 import math
 import pathlib
@@ -74,8 +75,8 @@ def leaves(rng, centre, size):
 
 
 class City:
-    def __init__(self, folder, scale):
-        self.folder, self.scale = folder, scale
+    def __init__(self, folder, scale, view=None):
+        self.folder, self.scale, self.view = folder, scale, view
         self.rng = random.Random(2004)
         self.textures = self.count(300, least=8)
         self.primitives = self.groups = 0
@@ -86,15 +87,18 @@ class City:
 
     def paint(self, color, texture, bump, frequency=3.0):
         name = f"textures/wall{texture % self.textures:03}.png"
-        return (f'Color [{numbers(color)}]\nSurface "paintedplastic" "Ka" 0 "Kd" 0.9 "Ks" 0 "texturename" ["{name}"]\n'
+        surface = f'"paintedplastic" "Ka" 0 "Kd" 0.9 "Ks" 0 "texturename" ["{name}"]'
+        if self.view:
+            surface = '"atlasview" "string map" ["maps/GROUP.bkm"]' + (f' "texturename" ["{name}"]' if self.view == "reflected" else "")
+        return (f'Color [{numbers(color)}]\nSurface {surface}\n'
                 f'Attribute "displacementbound" "sphere" [{1.7 * bump:.4g}] "coordinatesystem" ["shader"]\n'
-                f'Displacement "noisybump" "Km" {bump} "frequency" {frequency} "octaves" 3\n')
+                f'Displacement "noisybump" "float Km" {bump} "float frequency" {frequency} "float octaves" 3\n')
 
     def group(self, name, parts):
         """`parts`: of state and geometry. One archive, one photon map."""
         self.groups += 1
         self.primitives += sum(p.startswith(("NuPatch", "Subdivision")) for p in parts)
-        (self.folder / f"{name}.rib").write_text("".join(parts))
+        (self.folder / f"{name}.rib").write_text("".join(parts).replace("GROUP", name))
         self.rib.append(f'AttributeBegin\nAttribute "identifier" "name" ["{name}"]\nAttribute "photon" "globalmap" ["{name}"]\n'
                         f'ReadArchive "{name}.rib"\nAttributeEnd\n')
 
@@ -245,6 +249,7 @@ class City:
 # Written by scenes/city/make_city.py: {self.primitives} primitives in {self.groups} photon maps, {self.textures} textures.
 version 3.03
 Option "limits" "bucketsize" [32 32]
+Option "searchpath" "shader" [".:@"]
 Display "city.exr" "openexr" "rgb"
 Format 1024 553 1
 PixelSamples 3 3
@@ -264,4 +269,4 @@ ShadingRate 1
 
 
 if __name__ == "__main__":
-    print(City(pathlib.Path(sys.argv[1]), float(sys.argv[2]) if len(sys.argv) > 2 else 1.0).write())
+    print(City(pathlib.Path(sys.argv[1]), float(sys.argv[2]) if len(sys.argv) > 2 else 1.0, *sys.argv[3:4]).write())

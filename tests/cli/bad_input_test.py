@@ -53,6 +53,17 @@ t.write("good.rib", GOOD)
 result = t.expect_run("a crop without anything in it", ["good.rib", "--crop", "0,0.1,0,0.1"], 0)
 t.expect("nothing" not in result.stderr, "is no reason for a warning")
 
+# Where methods come to their limits, they say so.
+ROOM = 'Translate %s %s 0\nSurface "matte"\nLightSource "indirectlight" 1 "float samples" [%d]\nLightSource "pointlight" 2 "point from" [1 1 -3]\n' \
+       'Sphere 1 -1 1 360\nSphere 9 -9 9 360\n'  # a ball in a hollow one
+def room(away, samples):
+    return (WORLD % (ROOM % (away, away, samples))).replace("WorldBegin", f"Translate {-away} {-away} 0\nWorldBegin")
+for what, away, samples, says in (("far from the origin", 1000000, 256, "float-range"), ("with few rays", 0, 3, "gather-noise")):
+    t.write("limit.rib", room(away, samples))
+    t.expect_run("a scene " + what, ["limit.rib", "-o", "limit.exr", "--format", "64x64"], 0, says)
+t.write("limit.rib", room(1000, 256))
+t.expect(not t.run("limit.rib", "-o", "limit.exr", "--format", "64x64").stderr, "a scene near the origin and with rays enough is no reason for a warning")
+
 # Something missing: the frame is complete, exit 3.
 t.write("archive.rib", WORLD % 'Sphere 1 -1 1 360\nReadArchive "nowhere.rib"')
 t.expect_run("a missing archive", ["archive.rib"], 3, "archive.rib:6", "nowhere.rib")
@@ -62,8 +73,10 @@ t.write("light.rib", WORLD % 'LightSource "nolight" 1\nSphere 1 -1 1 360')
 t.expect_run("a missing light shader", ["light.rib"], 3, "light.rib:5", "nolight")
 
 # Output that cannot be written: exit 4, before hours are spent on it.
-t.expect_run("-o into a folder that does not exist", ["good.rib", "-o", "no/where/a.exr"], 4, "no/where/a.exr")
-t.write("display.rib", GOOD.replace("good.exr", "no/where/b.exr"))
+nowhere = str(t.folder / "no" / "where")  # relative folders are made
+t.expect_run("-o into a folder that does not exist", ["good.rib", "-o", nowhere + "/a.exr"], 4, "no/where/a.exr")
+t.expect_run("-o into what is no folder", ["good.rib", "-o", "good.rib/a.exr"], 4, "good.rib/a.exr")
+t.write("display.rib", GOOD.replace("good.exr", nowhere + "/b.exr"))
 t.expect_run("a Display in a folder that does not exist", ["display.rib"], 4, "display.rib:1", "no/where/b.exr")
 os.mkdir(t.folder / "taken.exr")
 t.expect_run("-o onto a folder", ["good.rib", "-o", "taken.exr"], 4, "taken.exr")

@@ -189,5 +189,5 @@ suite.run("render", "indirect.rib", "-o", "given.exr", "--irradiance", "indirect
 expect_same("a render with records from a file has the same bits", "indirect.exr", "given.exr")
 suite.run("render", "indirect.rib", "-o", "given.exr", "--irradiance", "indirect.icf", "--irradiance-append", "--stats", "given.json", "-q")
 suite.expect(json.loads((suite.folder / "given.json").read_text())["irradiance_cache"]["samples"] == 0, "nothing is appended where all is covered")
-suite.expect_run("a frame beyond memory is refused", ["render", "direct.rib", "-o", "huge.exr", "--format", "65536x65536"], 4, "--crop")
+suite.expect_run("a frame beyond memory is refused", ["render", "direct.rib", "-o", "huge.exr", "--format", "65536x65536", "--bucket-size", "16"], 4, "--crop")
 suite.finish()

@@ -30,6 +30,14 @@ t.write("plain.rib", GOOD.split("\n", 1)[1])
 t.expect_run("a scene without Display", ["plain.rib"], 0)
 t.expect((t.folder / "ri.exr").exists(), "writes ri.exr")
 
+display, rest = GOOD.split("\n", 1)
+t.write("project.rib", 'Display "renderman/images/scene.exr" "it" "rgba" "int[4] quantize" [0 0 0 0] "int asrgba" 1\n' + rest)
+made = t.expect_run("folders of a modeller's project", ["project.rib"], 0)
+t.expect((t.folder / "renderman/images/scene.exr").exists(), "are made")
+t.expect("quantize" not in made.stderr and "asrgba" not in made.stderr, "what RenderMan for Maya says of a Display is understood: " + made.stderr)
+t.write("nowhere.rib", 'Display "/nowhere/scene.exr" "openexr" "rgba"\n' + rest)
+t.expect_run("absolute ones are not", ["nowhere.rib"], 4, "folder is missing")
+
 # Frames.
 frames = "".join(f"FrameBegin {n}\n{GOOD}FrameEnd\n" for n in (1, 2, 3))
 t.write("frames.rib", frames)

@@ -35,6 +35,7 @@ struct Squares {
 
   Squares() {
     scene.options.xResolution = scene.options.yResolution = 128;
+    scene.options.bucketWidth = scene.options.bucketHeight = 16;  // as large as a square
     scene.options.screenWindow = {{-4, 4, -4, 4}};
   }
   void add(const vec3& corner) {

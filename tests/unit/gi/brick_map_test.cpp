@@ -147,6 +147,103 @@ TEST_F(BrickMaps, PointsOnDiskMakeTheSameMapHoweverFewFitIntoMemory) {
   }
 }
 
+TEST_F(BrickMaps, ScaledRadiiReachFromCubesThatAreNotInMemory) {
+  PointCloud cloud;
+  addSquare(cloud, 64, 0.1f, 1, [](float x, float y) { return x * y; });
+  const std::string points = (folder / "a.ptc").string();
+  writePointFile(cloud, points);
+  const PointFile file(points);
+  const BrickSettings wide{.radiusScale = 2};
+  std::vector<Brick> whole, parts;
+  buildBricks(file.readAll(), wide, [&](const Brick& b) { whole.push_back(b); });
+  buildBricks(PointTiles(file), wide, [&](const Brick& b) { parts.push_back(b); }, 1300);
+  ASSERT_EQ(parts.size(), whole.size());
+  for (size_t i = 0; i < whole.size(); ++i) EXPECT_EQ(parts[i].data, whole[i].data);
+}
+
+TEST_F(BrickMaps, EveryPointLiesInOneTileAndCompactChunksHoldTheSamePoints) {
+  PointCloud cloud;
+  cloud.channels = {{"value", 1}};
+  for (uint32_t i = 0; i < 60000; ++i) {  // in no order, many on borders of cubes
+    const vec2 at = sobol2(hash32(i), 3);
+    const float value = static_cast<float>(i);
+    cloud.add({std::round(at.x * 64) / 64, at.y, 0.1f * at.x}, {0, 0, 1}, 0, &value);
+  }
+  const std::string scattered = (folder / "s.ptc").string(), compact = (folder / "c.ptc").string();
+  PointFileWriter writer(scattered, cloud.channels);
+  for (size_t i = 0; i < cloud.count(); ++i) writer.add(cloud.position[i], cloud.normal[i], 0, cloud.at(i));
+  writer.finish();
+  const PointFile file(scattered);
+  PointTiles(file).writeCompact(compact);
+  const PointFile sorted(compact);
+  const PointTiles tiles(sorted);
+  uint64_t found = 0;
+  std::vector<int> times(cloud.count(), 0);
+  forEachTile(tiles, 2000, [&](int level, const glm::ivec3& place) {
+    const PointCloud near = tiles.around(tiles.box(level, place), 0.01f);
+    uint64_t here = 0;
+    for (size_t i = 0; i < near.count(); ++i)
+      if (tiles.contains(level, place, near.position[i])) ++times[static_cast<size_t>(near.at(i)[0])], ++here;
+    EXPECT_EQ(here, tiles.count(level, place));
+    found += here;
+  });
+  EXPECT_EQ(found, cloud.count());
+  EXPECT_TRUE(std::all_of(times.begin(), times.end(), [](int n) { return n == 1; }));
+  const auto volume = [](const PointFile& f) {
+    float sum = 0;
+    for (size_t c = 0; c < f.chunkCount(); ++c) sum += f.chunkBound(c).size().x * f.chunkBound(c).size().y;
+    return sum / static_cast<float>(f.chunkCount());
+  };
+  EXPECT_GT(volume(file), 0.9f);
+  EXPECT_LT(volume(sorted), 0.1f);
+}
+
+TEST_F(BrickMaps, ALookupWithoutANumberFindsNothing) {
+  PointCloud cloud;
+  addSquare(cloud, 16, 0, 1, [](float x, float) { return x; });
+  writeBrickMap(cloud, {}, path);
+  const BrickMap map(path, cache);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(lookedUp(map, {0.5f, 0.5f, 0}, {0, 0, 1}, nan), -1);
+  EXPECT_EQ(lookedUp(map, {nan, 0.5f, 0}, {0, 0, 1}, 0.1f), -1);
+}
+
+TEST_F(BrickMaps, FilesWithPointsOrVoxelsThatAreNoNumbersAreRefused) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::string points = (folder / "nan.ptc").string();
+  for (int what = 0; what < 4; ++what) {
+    PointCloud cloud;
+    cloud.channels = {{"value", 1}};
+    const float good = 1, value = what == 0 ? nan : 1;
+    cloud.add({0, 0, 0}, {0, 0, 1}, 1, &good);
+    cloud.add({what == 1 ? nan : 1, 1, 1}, {0, 0, 1}, what == 2 ? nan : 1, &value);
+    if (what == 3) cloud.position[1].x = kInfinity;
+    PointFileWriter writer(points, cloud.channels);
+    writer.addChunk(cloud);  // which looks at nothing
+    writer.finish();
+    EXPECT_THROW(PointFile(points).readAll(), FileError) << what;
+  }
+  PointCloud cloud;
+  addSquare(cloud, 4, 0, 1, [&](float, float) { return nan; });
+  writeBrickMap(cloud, {}, path);
+  EXPECT_THROW(lookedUp(BrickMap(path, cache), {0.5f, 0.5f, 0}, {0, 0, 1}, 0.1f), FileError);
+}
+
+TEST_F(BrickMaps, TinyAndHugeSurfacesKeepTheirDirectionsApart) {
+  for (const float scale : {1e-9f, 1e9f}) {
+    PointCloud cloud;
+    cloud.channels = {{"value", 1}};
+    for (int i = 0; i < 64; ++i) {
+      const vec3 at(static_cast<float>(i % 8), static_cast<float>(i / 8), 0);
+      for (const float side : {1.0f, -1.0f}) cloud.add(scale * at, {0, 0, side}, scale, &side);
+    }
+    writeBrickMap(cloud, {}, path);
+    const BrickMap map(path, cache);
+    EXPECT_EQ(lookedUp(map, scale * vec3(3, 3, 0), {0, 0, 1}, scale), 1) << scale;
+    EXPECT_EQ(lookedUp(map, scale * vec3(3, 3, 0), {0, 0, -1}, scale), -1) << scale;
+  }
+}
+
 TEST_F(BrickMaps, AnEmptyCloudAndASinglePointMakeMaps) {
   PointCloud cloud;
   cloud.channels = {{"value", 1}};

@@ -59,6 +59,27 @@ class Clouds : public ::testing::Test {
   Log log{Log::Verbosity::Quiet};
 };
 
+TEST_F(Clouds, PointsThatAreNotNumbersAreLeftOutAndCounted) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  CloudFiles files("");
+  std::string problem;
+  wall.value[3] = nan, wall.radius[7] = nan, wall.radius[8] = -1, wall.x[20] = std::numeric_limits<float>::infinity();
+  ASSERT_TRUE(files.bake(wall.query(path("wall.ptc"), 0, wall.count), wall.values(0), problem)) << problem;
+  files.write(log);
+  EXPECT_EQ(PointFile(path("wall.ptc")).count(), static_cast<uint64_t>(wall.count - 4));
+  ASSERT_EQ(log.entries().size(), 1u);
+  EXPECT_NE(log.entries()[0].message.find("4 of 1024"), std::string::npos) << log.entries()[0].message;
+}
+
+TEST_F(Clouds, WhatIsNoPhotonMapSaysSo) {
+  const std::string file = bakeWall();
+  CloudFiles files("");
+  std::string problem;
+  std::vector<float> e(static_cast<size_t>(wall.count));
+  EXPECT_FALSE(files.photons(wall.query(file, 0, wall.count), 50, {e.data(), e.data(), e.data()}, problem));
+  EXPECT_NE(problem.find("power"), std::string::npos) << problem;
+}
+
 TEST_F(Clouds, TheFileDependsNeitherOnThreadsNorOnTheOrderOfBatches) {
   const std::string once = contents(bakeWall());
   CloudFiles files("");

@@ -37,6 +37,20 @@ TEST(PhotonIrradiance, UniformPhotonsGiveTheirIrradiance) {
   EXPECT_NEAR(sum.z / static_cast<float>(count), 3, 0.06);
 }
 
+TEST(PhotonIrradiance, TheFarthestOfFewWithinReachGivesTheRadiusAndDoesNotCount) {
+  PointCloud photons;
+  photons.channels = {{"power", 3}};
+  const vec3 power(1.0f);
+  for (int i = 0; i < 21 * 21; ++i) photons.add({static_cast<float>(i % 21), static_cast<float>(i / 21), 0}, {0, 0, 1}, 0, &power.x);
+  PhotonIrradianceSettings settings;
+  settings.maxRadius = 3.7f, settings.every = 1;  // 45 photons, the farthest at the root of 13
+  const PointCloud out = estimateIrradiance(photons, settings);
+  ASSERT_EQ(out.count(), photons.count());
+  const auto middle = static_cast<size_t>(std::find(out.position.begin(), out.position.end(), vec3(10, 10, 0)) - out.position.begin());
+  ASSERT_LT(middle, out.count());
+  EXPECT_NEAR(out.at(middle)[0], 44 / (13 * kPi), 1e-4);
+}
+
 TEST(PhotonIrradiance, BordersAreNotDark) {
   PointCloud photons;
   addSquare(photons, 40000, 0, {0, 0, 1}, vec3(1), 9);

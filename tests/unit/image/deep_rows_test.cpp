@@ -45,7 +45,7 @@ TEST_P(DeepRowsTest, FlattenedAreTheFilteredPicture) {
     const DeepFrame frame = frameOf(stack(12, opacity, 0.25f), 4, 2, 16);
     const Options options = filtered(GetParam(), 3);
     const SampleOffsets samples = jittered(16, 8);
-    const FrameFilter filter(frame, options, samples);
+    FrameFilter filter(frame, options, samples);
     const Image flat = filter.rows(0, 4);
     const DeepRows deep = filter.deepRows(0, 4, {});
     const float* at = deep.values.data();
@@ -64,7 +64,7 @@ TEST(DeepRows, MergingMovesOpacityByNoMoreThanItMay) {
   const DeepFrame frame = frameOf(stack(40, 0.004f, 0.1f), 1, 0, 16);
   const Options options = filtered("box", 1);
   const SampleOffsets samples = jittered(16, 8);
-  const FrameFilter filter(frame, options, samples);
+  FrameFilter filter(frame, options, samples);
   const DeepRows all = filter.deepRows(0, 1, {0, 0}), merged = filter.deepRows(0, 1, {0, 0.01f});
   EXPECT_EQ(all.counts[0], 40u);
   EXPECT_LT(merged.counts[0], 15u);

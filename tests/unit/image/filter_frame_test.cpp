@@ -73,6 +73,14 @@ TEST(FilterFrame, SamplesBeyondSixtyFourAreKeptApart) {
   EXPECT_FLOAT_EQ(image.at(0, 0)[3], 0.75f);
 }
 
+TEST(FilterFrame, LayersOfSamplesBeyondSixtyFourAreComposited) {
+  DeepFrame frame = frameOf({{vec3(1.0f), vec3(0.5f), 1, 0xf0}, {vec3(3.0f), vec3(1.0f), 2, 0xff}}, 1, 0, 128);
+  for (Fragment& f : frame.tiles[0].fragments) f.word = 1;
+  const Image image = filterFrame(frame, filtered("box", 1), jittered(128, 2));
+  EXPECT_FLOAT_EQ(image.at(0, 0)[0], (4 * (1 + 0.5f * 3) + 4 * 3) / 128);
+  EXPECT_FLOAT_EQ(image.at(0, 0)[3], 8.0f / 128);
+}
+
 TEST(FilterFrame, SmoothFacetsAreBilinearInTheirFourPoints) {
   DeepFrame frame = frameOf({{vec3(0.0f), vec3(1.0f), 1, 1}}, 1, 0, 1);
   DeepTile& tile = frame.tiles[0];
@@ -178,12 +186,46 @@ TEST(FilterFrame, BandsOfRowsAreThePicture) {
   const DeepFrame frame = frameOf({{vec3(0.3f), vec3(0.5f), 1, 0x5a5a}, {vec3(0.9f), vec3(1.0f), 2, 0x0ff0}}, 20, 2, 16);
   const Options options = filtered("mitchell", 4);
   const SampleOffsets samples = jittered(16, 8);
-  const FrameFilter filter(frame, options, samples);
+  FrameFilter filter(frame, options, samples);
   std::vector<float> bands = filter.rows(0, 7).pixels;
   const Image rest = filter.rows(7, 20);
   EXPECT_EQ(rest.originY, 7);
   bands.insert(bands.end(), rest.pixels.begin(), rest.pixels.end());
   EXPECT_EQ(bands, filterFrame(frame, options, samples).pixels);
+}
+
+/// The same in tiles of `size` x `size` pixels.
+DeepFrame cut(DeepFrame frame, int size) {
+  const DeepTile whole = frame.tiles[0];
+  frame.bucketWidth = frame.bucketHeight = size;
+  frame.columns = (frame.padded.width() + size - 1) / size, frame.rows = (frame.padded.height() + size - 1) / size;
+  frame.holdAll();
+  for (size_t i = 0; i < frame.tileCount(); ++i) {
+    DeepTile& tile = frame.tiles[i] = whole;
+    tile.rect = frame.rectOf(i);
+    tile.pixels.clear();
+    for (int y = tile.rect.y0; y < tile.rect.y1; ++y)
+      for (int x = tile.rect.x0; x < tile.rect.x1; ++x) tile.pixels.push_back(whole.pixel(x, y));
+  }
+  return frame;
+}
+
+TEST(FilterFrame, TilesThatAreBroughtAndGoAreTheSameAsThoseOfTheFrame) {
+  const Options options = filtered("gaussian", 4);
+  const SampleOffsets samples = jittered(16, 8);
+  DeepFrame frame = cut(frameOf({{vec3(0.3f, 0.2f, 0.9f), vec3(0.4f), 1, 0x0ff3}, {vec3(1.0f), vec3(1.0f), 2, 0x3f0f}}, 20, 2, 16), 5);
+  const Image whole = filterFrame(frame, options, samples);
+  const std::vector<DeepTile> tiles = std::move(frame.tiles);
+  frame.hold(0, 0);
+  FrameFilter filter(frame, options, samples);
+  size_t next = 0;
+  for (int y = 0; y < 20; y += 4) {
+    const auto end = static_cast<size_t>((frame.rowOf(y + 4 + 2 - 1) + 1) * frame.columns);
+    for (; next < end; ++next) filter.resolve(next, tiles[next]);
+    const Image band = filter.rows(y, y + 4);
+    EXPECT_TRUE(std::equal(band.pixels.begin(), band.pixels.end(), whole.at(0, y))) << y;
+  }
+  EXPECT_EQ(next, tiles.size());
 }
 
 TEST(FilterFrame, ThreadsLeaveNoTrace) {

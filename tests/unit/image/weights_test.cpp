@@ -37,18 +37,22 @@ TEST(Weights, WhatIsScatteredIsWhatAPixelWouldGather) {
   const WeightTable table(PixelFilter("gaussian", 3, 3), samples);
   const PixelRect block{4, 3, 11, 8}, around{3, 2, 12, 9};
   PixelSums scattered(table, block, 3);
-  std::vector<float> values(static_cast<size_t>(scattered.width()));
+  // Each pixel sees two things: one value, and its double under the same weights.
+  const auto wide = static_cast<size_t>(scattered.width()), places = static_cast<size_t>(table.places());
+  std::vector<float> values(2 * wide), weights(2 * places);
   const auto valueAt = [](int x, int y, int k) { return unitFloat(hashCombine(static_cast<uint32_t>(x), static_cast<uint32_t>(y), static_cast<uint32_t>(k))); };
   for (int y = around.y0; y < around.y1; ++y)
     for (int x = around.x0; x < around.x1; ++x) {
-      for (int k = 0; k < 3; ++k) values[static_cast<size_t>(k)] = valueAt(x, y, k);
-      scattered.add(x, y, table.sums(samples.patternOf(x, y)), values.data());
+      for (size_t k = 0; k < 3; ++k) values[k] = valueAt(x, y, static_cast<int>(k)), values[wide + k] = 2 * values[k];
+      for (size_t c = 0; c < 2; ++c) std::copy_n(table.sums(samples.patternOf(x, y)), places, weights.data() + c * places);
+      scattered.add(x, y, 2, weights.data(), values.data());
     }
   for (int y = block.y0; y < block.y1; ++y)
     for (int x = block.x0; x < block.x1; ++x) {
       float gathered[3] = {};
       forNeighbours(around, table, samples, x, y, [&](const WeightTable::Cell& cell, const ivec2& pixel) {
-        for (int k = 0; k < 3; ++k) gathered[k] += table.sum(cell) * valueAt(pixel.x, pixel.y, k);
+        for (const float share : {1.0f, 2.0f})
+          for (int k = 0; k < 3; ++k) gathered[k] += table.sum(cell) * (share * valueAt(pixel.x, pixel.y, k));
       });
       for (int k = 0; k < 3; ++k) EXPECT_EQ(scattered.of(x, y)[k], gathered[k]);
     }

@@ -99,6 +99,127 @@ TEST(Ris, MetalsMirrorAndGlassRefracts) {
   EXPECT_EQ(r.attributes(2).surface->name, "glass");
 }
 
+TEST(Ris, SurfacesThatRefractAreGlass) {
+  const Reading r(inWorld("Bxdf \"PxrSurface\" \"g\" \"float diffuseGain\" 0 \"float refractionGain\" 1 \"float glassIor\" 1.7 \"color refractionColor\" [0 .9 0] " + kSphere +
+                          "Bxdf \"PxrSurface\" \"o\" \"float glassIor\" 1.7 " + kSphere +
+                          "Bxdf \"LamaDielectric\" \"l\" \"float IOR\" 1.3 " + kSphere));
+  EXPECT_EQ(r.attributes(0).surface->name, "glass");
+  EXPECT_EQ(findParam(r.attributes(0).surface->params, "eta")->number(0), 1.7f);
+  EXPECT_EQ(findParam(r.attributes(0).surface->params, "transmitcolor")->floats, (std::vector<float>{0, .9f, 0}));
+  EXPECT_EQ(r.attributes(1).surface->name, "disney") << "it refracts nothing";
+  EXPECT_EQ(findParam(r.attributes(2).surface->params, "eta")->number(0), 1.3f);
+}
+
+TEST(Ris, MetalsHaveTheColorOfTheirIndexOrOfTheArtist) {
+  const std::string gold = "\"float diffuseGain\" 0 \"color specularEdgeColor\" [1 1 .5] ";
+  const Reading r(inWorld("Bxdf \"PxrSurface\" \"p\" \"int specularFresnelMode\" 1 \"color specularIor\" [1 2 3] "
+                          "\"color specularExtinctionCoeff\" [0 1 0] " + gold + kSphere +
+                          "Bxdf \"PxrSurface\" \"a\" \"color specularFaceColor\" [.9 .6 .2] " + gold + kSphere +
+                          "Bxdf \"LamaConductor\" \"l\" \"color reflectivity\" [.9 .7 .3] " + kSphere +
+                          "Bxdf \"PxrLMMetal\" \"m\" \"color eta\" [3 3 3] \"color kappa\" [0 0 0] " + kSphere));
+  // ((n - 1)^2 + k^2) / ((n + 1)^2 + k^2)
+  const vec3 physical = r.attributes(0).color, lm = r.attributes(3).color;
+  EXPECT_NEAR(physical.x, 0, 1e-6f);
+  EXPECT_NEAR(physical.y, .2f, 1e-6f);
+  EXPECT_NEAR(physical.z, .125f, 1e-6f);
+  EXPECT_EQ(r.attributes(1).color, vec3(.9f, .6f, .2f));
+  EXPECT_EQ(r.attributes(2).color, vec3(.9f, .7f, .3f));
+  EXPECT_NEAR(lm.x, .25f, 1e-6f);
+  EXPECT_EQ(findParam(r.attributes(2).surface->params, "metallic")->number(0), 1);
+  EXPECT_EQ(r.log.count("rib-substitute"), 3) << r.codes();
+}
+
+TEST(Ris, LightsOfPRMan20ShineFromTheGeometryThatFollows) {
+  for (const char* light : {"AreaLightSource \"PxrStdAreaLight\" \"a\"", "AreaLightSource \"shaders/PxrStdAreaLightShape1_rfm\" \"a\"", "Light \"PxrMeshLight\" \"a\""})
+    for (const char* shape : {"Geometry \"rectlight\"", "Geometry \"spherelight\"", "Geometry \"disklight\"", "Sphere 1 -1 1 360"}) {
+      const Reading r(inWorld("AttributeBegin " + std::string(light) + " \"float intensity\" 3 \"float exposure\" 1\n" + shape + "\nAttributeEnd " + kSphere));
+      ASSERT_EQ(r.scene().lights.size(), 1u) << light << shape;
+      EXPECT_EQ(findParam(r.scene().lights[0]->shader.params, "intensity")->number(0), 6);
+      EXPECT_EQ(r.attributes(0).areaLight, 0);
+      EXPECT_EQ(r.attributes(1).lights, std::vector<int>{0}) << "it shines beyond its block";
+      EXPECT_EQ(r.codes(), "rib-substitute@2 ");
+    }
+}
+
+TEST(Ris, SkiesOfPRMan20AreDomes) {
+  const Reading map(inWorld("AreaLightSource \"x/PxrStdEnvMapLightShape1_rfm\" \"sky\" \"string rman__EnvMap\" [\"sky.tx\"] Geometry \"envsphere\" \"constant float[2] resolution\" [8 4] " + kSphere));
+  ASSERT_EQ(map.scene().lights.size(), 1u);
+  EXPECT_EQ(findParam(map.scene().lights[0]->shader.params, "map")->strings[0], "sky.tx");
+  EXPECT_EQ(map.scene().objects.size(), 1u) << "it is not drawn";
+  const Reading area(inWorld("AttributeBegin AreaLightSource \"PxrStdAreaLight\" \"sky\" \"float intensity\" 3 Geometry \"envsphere\" AttributeEnd " + kSphere));
+  EXPECT_EQ(area.scene().lights.back()->shader.name, "environmentlight");
+  EXPECT_EQ(findParam(area.scene().lights.back()->shader.params, "intensity")->number(0), 3);
+}
+
+TEST(Ris, LightsInObjectsShineFromEachInstance) {
+  const Reading r(inWorld("ObjectBegin \"lamp\" Scale 1 1 -1 Light \"PxrRectLight\" \"l\" ObjectEnd "
+                          "AttributeBegin Translate 0 0 5 ObjectInstance \"lamp\" AttributeEnd ObjectInstance \"lamp\" " + kSphere));
+  EXPECT_EQ(r.scene().lights.size(), 2u);
+  EXPECT_EQ(r.attributes(2).lights, (std::vector<int>{0, 1}));
+}
+
+TEST(Ris, OptionsAndAttributesOfTheCategoryRiAreTheRequestsOfThatName) {
+  const Reading r("Option \"Ri\" \"int[2] FormatResolution\" [64 36] \"float FormatPixelAspectRatio\" [2] \"string PixelFilterName\" [\"gaussian\"]\n"
+                  "\"float[2] PixelFilterWidth\" [3 4] \"float[2] Clipping\" [0.1 100] \"float[4] ScreenWindow\" [-1 1 -0.5 0.5]\n"
+                  "\"float[4] CropWindow\" [0 .5 0 1] \"float[2] Shutter\" [0 .25] \"float Wisdom\" 1" +
+                  inWorld("Attribute \"Ri\" \"int Sides\" 1 \"int Matte\" 1 \"float ShadingRate\" 4 \"string Orientation\" \"inside\" \"color Color\" [1 0 0] " + kSphere +
+                          "Attribute \"Ri\" \"int ReverseOrientation\" 1 \"string Basis\" \"b-spline\" \"color Opacity\" [.5 .5 .5]\n"
+                          "Curves \"cubic\" [5] \"nonperiodic\" \"P\" [0 0 0 1 0 0 2 0 0 3 0 0 4 0 0]"));
+  const Options& o = r.scene().options;
+  EXPECT_EQ(o.xResolution, 64);
+  EXPECT_EQ(o.yResolution, 36);
+  EXPECT_EQ(o.pixelAspect, 2);
+  EXPECT_EQ(o.filter, "gaussian");
+  EXPECT_EQ(o.xFilterWidth, 3);
+  EXPECT_EQ(o.yFilterWidth, 4);
+  EXPECT_EQ(o.nearClip, .1f);
+  EXPECT_EQ(o.farClip, 100);
+  EXPECT_EQ(o.shutterClose, .25f);
+  EXPECT_EQ(o.screenWindow.value()[3], .5f);
+  EXPECT_EQ(o.cropWindow[1], .5f);
+  const Attributes &first = r.attributes(0), &second = r.attributes(1);
+  EXPECT_EQ(first.sides, 1);
+  EXPECT_TRUE(first.matte);
+  EXPECT_EQ(first.shadingRate, 4);
+  EXPECT_TRUE(first.insideOut);
+  EXPECT_EQ(first.color, vec3(1, 0, 0));
+  EXPECT_EQ(second.opacity, vec3(.5f));
+  EXPECT_FALSE(second.insideOut);
+  EXPECT_EQ(r.codes(), "rib-unknown-option@1 ") << "Wisdom alone; the curve of five points fits a b-spline";
+}
+
+TEST(Ris, PxrCameraHasALens) {
+  const std::string lens = "\"float focalLength\" [.5] \"float focalDistance\" [7] ";
+  const Reading sharp("Projection \"PxrCamera\" \"float fov\" 30 \"float fStop\" [1e38] " + lens + inWorld(kSphere));
+  EXPECT_EQ(sharp.scene().options.fStop, kInfinity);
+  const Reading r("Projection \"PxrCamera\" \"float fov\" 30 \"float fStop\" [2] " + lens + inWorld(kSphere));
+  EXPECT_EQ(r.scene().options.fStop, 2);
+  EXPECT_EQ(r.scene().options.focalLength, .5f);
+  EXPECT_EQ(r.scene().options.focalDistance, 7);
+  EXPECT_EQ(r.scene().options.fov_degrees, 30);
+  EXPECT_EQ(r.codes(), "");
+}
+
+TEST(Ris, IntegratorsOfGlobalLightLackNothing) {
+  EXPECT_EQ(Reading("Integrator \"PxrVCM\" \"i\"" + inWorld(kSphere)).message("rib-substitute").severity, Severity::Warning);
+  EXPECT_EQ(Reading("Integrator \"PxrVisualizer\" \"i\"" + inWorld(kSphere)).message("rib-substitute").severity, Severity::Missing);
+}
+
+TEST(Ris, SourcesOfChannelsLoseTheirTypeAndPathsBecomeOutputs) {
+  const auto source = [](const std::string& theirs) {
+    const Reading r("DisplayChannel \"color c\" \"string source\" [\"" + theirs + "\"]" + inWorld(kSphere));
+    return findParam(r.scene().options.channels.at("c").params, "source")->strings[0];
+  };
+  EXPECT_EQ(source("color Ci"), "Ci");
+  EXPECT_EQ(source("normal Nn"), "normal");
+  EXPECT_EQ(source("float zfiltered"), "z");
+  EXPECT_EQ(source("color lpe:C<RD>[<L.>O]"), "diffuse");
+  EXPECT_EQ(source("lpe:C<RS>[DS]+[<L.>O]"), "reflection");
+  EXPECT_EQ(source("color lpe:nothruput;noclamp;unoccluded;overwrite;C(U2L)|O"), "albedo");
+  EXPECT_EQ(source("color lpe:C<TD>[DS]*[<L.>O]"), "lpe:C<TD>[DS]*[<L.>O]") << "nobody answers it, which is said";
+  EXPECT_EQ(source("lightgroup:key light"), "lightgroup:key light");
+}
+
 TEST(Ris, DomesTurnTheirMapWithTheirSpace) {
   const Reading r(inWorld("Light \"PxrDomeLight\" \"sky\" \"string lightColorMap\" \"sky.exr\" " + kSphere));
   EXPECT_EQ(findParam(r.scene().lights.at(0)->shader.params, "mapspace")->strings.at(0), "shader");

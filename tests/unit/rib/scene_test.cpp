@@ -172,6 +172,17 @@ TEST(ShadingRate, IsMultipliedByRelativeRatesDownTheBlocks) {
   EXPECT_EQ(r.codes(), "rib-attribute@5 ");
 }
 
+TEST(Scene, CastsShadowsOfBmrtIsWhatShadowRaysSee) {
+  const std::string casts = "Attribute \"render\" \"string casts_shadows\" ", sphere = " Sphere 1 -1 1 360\n";
+  const Reading r(inWorld(casts + "\"none\"" + sphere + casts + "\"Os\"" + sphere + casts + "\"shade\"" + sphere));
+  EXPECT_FALSE(r.attributes(0).visibility.transmission);
+  EXPECT_TRUE(r.attributes(0).visibility.camera);
+  EXPECT_TRUE(r.attributes(1).visibility.transmission);
+  EXPECT_EQ(r.attributes(1).transmissionHitMode, HitMode::Primitive);
+  EXPECT_EQ(r.attributes(2).transmissionHitMode, HitMode::Shader);
+  EXPECT_TRUE(r.log.entries().empty()) << r.codes();
+}
+
 TEST(Visibility, UnderstandsTheNamesOfOldScenes) {
   const Reading r(inWorld("Attribute \"visibility\" \"int trace\" 0 \"string transmission\" \"transparent\" Sphere 1 -1 1 360\n"
                           "Attribute \"visibility\" \"string transmission\" \"Os\" Sphere 1 -1 1 360\n"

@@ -48,6 +48,23 @@ TEST(WorldSum, ObjectsThatPhotonsPassDoNotCount) {
   EXPECT_EQ(sumOf(kCamera + world(kLight + unseen + kBall)), sumOf(kCamera + world(kLight + kBall)));
 }
 
+TEST(WorldSum, AreaLightsCountThoughPhotonsPassThem) {
+  const auto lamp = [](const char* size) {
+    return std::string("AttributeBegin\nAreaLightSource \"arealight\" 2\nAttribute \"visibility\" \"int photon\" [0]\nSphere ") + size + "\nAttributeEnd\n";
+  };
+  EXPECT_NE(sumOf(kCamera + world(lamp("1 -1 1 360") + kBall)), sumOf(kCamera + world(lamp("2 -2 2 360") + kBall)));
+}
+
+TEST(WorldSum, ChangesWithTheOperationsOfSolids) {
+  const auto solid = [](const std::string& operation) {
+    const std::string part = "SolidBegin \"primitive\"\n" + kBall + "SolidEnd\n";
+    return sumOf(kCamera + world(kLight + "SolidBegin \"" + operation + "\"\n" + part + "Translate 1 0 0\n" + part + "SolidEnd\n"));
+  };
+  EXPECT_NE(solid("union"), solid("difference"));
+  EXPECT_NE(solid("union"), solid("intersection"));
+  EXPECT_EQ(solid("union"), solid("union"));
+}
+
 TEST(WorldSum, ChangesWithTheFilesThatShadersName) {
   const std::filesystem::path file = std::filesystem::temp_directory_path() / ("tomales_world_" + std::to_string(::getpid()) + ".tex");
   const std::string rib = kCamera + world(kLight + "Surface \"paintedplastic\" \"texturename\" [\"" + file.string() + "\"]\nSphere 1 -1 1 360\n");

@@ -34,6 +34,23 @@ TEST_F(Atmosphere, FogFadesWithTheDistanceToTheEye) {
   expectColor(out.opacity(0), vec3(0.5f * (1 - d) + d));
 }
 
+TEST_F(Atmosphere, WhatIsAirBesideATransparentSurfaceIsKnown) {
+  scene.options.projection = ProjectionKind::Perspective;
+  atmosphere("fog", {number("distance", 10), color("background", {0.2f, 0.4f, 1})});
+  attributes.opacity = vec3(0.25f, 0.5f, 1);
+  const float d = 1 - std::exp(-0.5f);
+  const ShadedPoints out = seen({3, 0, 4});
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(out.airCi[k][0], (1 - attributes.opacity[k]) * d * vec3(0.2f, 0.4f, 1)[k], 1e-6);
+    EXPECT_NEAR(out.airOi[k][0], (1 - attributes.opacity[k]) * d, 1e-6);
+  }
+}
+
+TEST_F(Atmosphere, NoAirIsKeptWhereNothingIsTransparent) {
+  atmosphere("fog", {number("distance", 10)});
+  EXPECT_TRUE(seen({3, 0, 4}).airCi[0].empty());
+}
+
 TEST_F(Atmosphere, FogIsMeasuredInDepthWhereRaysAreParallel) {
   scene.options.projection = ProjectionKind::Orthographic;
   atmosphere("fog", {number("distance", 10)});

@@ -1,0 +1,57 @@
+#include "reyes/app/limits.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "reyes/camera.h"
+
+namespace tomales {
+namespace {
+
+constexpr float kShift_px = 0.25f;
+constexpr float kUncertain = 0.1f, kDark = 0.1f;
+constexpr float kShareOfRecords = 0.5f;
+constexpr size_t kFewRecords = 32;  // say nothing about the whole
+
+}  // namespace
+
+void warnOfFloatRange(const Scene& scene, Log& log) {
+  // Object to camera is one matrix; its translation is the sum of two that cancel, each as long as this. What depth loses moves nothing in
+  // the picture.
+  const float away = glm::length(vec2(scene.cameraFromWorldAtOpen()[3]));
+  const float lost = away * std::numeric_limits<float>::epsilon();
+  const Camera camera(scene.options);
+  for (const Object& o : scene.objects) {
+    if (o.shapes.empty() || !o.attributes->visibility.camera) continue;
+    const Bound3 bound = transformBound(o.cameraFromObject.keys.front(), o.shapes.front()->bound(0, {}));
+    const float pixel = camera.pixelSize(bound.center());
+    if (!(bound.lo.z > 0 && lost > kShift_px * pixel)) continue;
+    log.report(Severity::Warning, "float-range", o.where,
+               fmt::format("{}: the camera is {:.3g} units beside the origin of the world, where floats are {:.2g} apart; a pixel is {:.2g} there: "
+                           "move camera and scene nearer to the origin",
+                           objectName(o), away, lost, pixel));
+    return;
+  }
+}
+
+void warnOfNoise(std::span<const PreparedCache> caches, Log& log) {
+  for (const PreparedCache& c : caches) {
+    const std::vector<IrradianceRecord>& records = c.cache.records();
+    if (records.size() < kFewRecords) continue;
+    double sum = 0;
+    for (const IrradianceRecord& r : records) sum += luminance(r.E);
+    const float dark = kDark * static_cast<float>(sum / static_cast<double>(records.size()));
+    const auto uncertain = std::count_if(records.begin(), records.end(), [&](const IrradianceRecord& r) {
+      return r.noise > kUncertain * std::max(luminance(r.E), dark);
+    });
+    const float share = static_cast<float>(uncertain) / static_cast<float>(records.size());
+    if (share > kShareOfRecords)
+      log.report(Severity::Warning, "gather-noise", {},
+                 fmt::format("{:.0f} % of {} irradiance records are uncertain by more than {:.0f} %: {} rays a record are few for this light "
+                             "(\"samples\" of indirectlight, --samples)",
+                             100 * share, records.size(), 100 * kUncertain, c.plan.gather.samples));
+  }
+}
+
+}  // namespace tomales

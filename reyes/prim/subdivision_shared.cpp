@@ -1,0 +1,58 @@
+#include "reyes/prim/subdivision_shared.h"
+
+#include <map>
+
+#include "reyes/base/pack.h"
+
+namespace tomales {
+
+template <class A>
+void fields(A& a, MeshTags& x) {
+  auto& [boundary, faceVarying, propagateCorners, smoothTriangles, chaikin, creaseEdges, creaseSharpness, corners, cornerSharpness, holes] = x;
+  each(a, boundary, faceVarying, propagateCorners, smoothTriangles, chaikin, creaseEdges, creaseSharpness, corners, cornerSharpness, holes);
+}
+
+namespace {
+
+/// Of vertices of faces; larger meshes are rarely alike, and would be long keys.
+constexpr size_t kLargest = 4096;
+
+std::string keyOf(const Coarse& mesh) {
+  Packer key;
+  MeshTags tags = mesh.tags;
+  std::vector<int> counts = mesh.vertexCounts, vertices = mesh.vertices;
+  size_t points = mesh.positions.size(), channels = mesh.channels.size();
+  auto scheme = mesh.scheme;
+  each(key, scheme, counts, vertices, tags, points, channels);
+  for (const FaceVaryingChannel& c : mesh.channels) {
+    std::vector<int> indices = c.indices;
+    field(key, indices);
+  }
+  return {reinterpret_cast<const char*>(key.bytes.data()), key.bytes.size()};
+}
+
+/// Those that some mesh still has.
+struct Known {
+  std::mutex mutex;
+  std::map<std::string, std::weak_ptr<const SharedFaces>> byKey;
+  size_t most = 64;  ///< Then those that are gone are taken out.
+};
+
+}  // namespace
+
+std::shared_ptr<const SharedFaces> sharedFaces(const Coarse& mesh) {
+  if (mesh.vertices.size() > kLargest) return std::make_shared<const SharedFaces>(mesh);
+  static Known known;
+  std::string key = keyOf(mesh);
+  const std::lock_guard lock(known.mutex);
+  if (known.byKey.size() >= known.most) {
+    std::erase_if(known.byKey, [](const auto& entry) { return entry.second.expired(); });
+    known.most = 2 * known.byKey.size() + 64;
+  }
+  std::weak_ptr<const SharedFaces>& place = known.byKey[std::move(key)];
+  std::shared_ptr<const SharedFaces> faces = place.lock();
+  if (!faces) place = faces = std::make_shared<const SharedFaces>(mesh);
+  return faces;
+}
+
+}  // namespace tomales
