@@ -8,6 +8,7 @@
 
 #include "gi/photon_irradiance.h"
 #include "gi/point_file.h"
+#include "reyes/base/search_path.h"
 
 namespace tomales {
 namespace {
@@ -17,14 +18,8 @@ namespace fs = std::filesystem;
 vec3 at(TmConstVec3 v, int i) { return {v.x[i], v.y[i], v.z[i]}; }
 
 fs::path found(const std::string& file, const std::string& searchPath) {
-  for (size_t begin = 0; begin <= searchPath.size();) {
-    const size_t end = std::min(searchPath.find(':', begin), searchPath.size());
-    const fs::path candidate = fs::path(searchPath.substr(begin, end - begin)) / file;
-    std::error_code none;
-    if (fs::is_regular_file(candidate, none)) return candidate;
-    begin = end + 1;
-  }
-  return file;
+  const std::string path = findFile(file, searchPath);
+  return path.empty() ? file : path;
 }
 
 std::vector<CloudChannel> channelsOf(const std::vector<CloudValue>& values) {

@@ -97,10 +97,7 @@ class Planner {
 
   FrameOutput plan() {
     for (const DisplayCall& display : options_.displays) addDisplay(display);
-    out_.shades = options_.displays.empty() ||
-                  std::any_of(options_.displays.begin(), options_.displays.end(), [](const DisplayCall& d) {
-                    return !writesShadowMap(d) && d.type != "deepshad" && d.mode != "z" && d.type != "null";
-                  });
+    out_.shades = shades(options_);
     return std::move(out_);
   }
 
@@ -217,6 +214,12 @@ std::vector<std::string> FrameOutput::names() const {
   for (const Channel& c : channels)
     for (int k = 0; c.first >= 5 && k < c.width(); ++k) out.push_back(fmt::format("{}.{}", c.name, k));
   return out;
+}
+
+bool shades(const Options& options) {
+  return options.displays.empty() || std::any_of(options.displays.begin(), options.displays.end(), [](const DisplayCall& d) {
+           return !writesShadowMap(d) && d.type != "deepshad" && d.mode != "z" && d.type != "null";
+         });
 }
 
 FrameOutput outputOf(const Options& options, Log* log) { return Planner(options, log).plan(); }

@@ -73,6 +73,9 @@ struct FrameOutput {
   std::vector<std::string> names() const;
 };
 
+/// FrameOutput::shades alone.
+bool shades(const Options& options);
+
 /// Reports channels that are not declared, and parameters that are not understood, if `log` is given.
 FrameOutput outputOf(const Options& options, Log* log = nullptr);
 

@@ -5,9 +5,11 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "reyes/base/math.h"
 #include "reyes/shader_api.h"
 
 namespace tomales {
@@ -116,5 +118,13 @@ const PictureLibrary* pictureLibrary(std::string& error);
 bool makeTexture(const TextureRecipe& recipe, std::string& error);
 /// A file's reader. Null: `error` says why.
 std::unique_ptr<PictureReader> openPicture(const std::string& path, std::string& error);
+
+/// What a picture that a Display of type "shadow", "zfile" or "deepshad" has left says of its camera.
+struct DepthCamera {
+  mat4 cameraFromWorld{1.0f};
+  mat4 ndcFromWorld{1.0f};  ///< Homogeneous, -1..1, y up.
+  int depth = 0;            ///< Number of the channel.
+};
+std::optional<DepthCamera> depthCameraOf(const PictureReader& picture);
 
 }  // namespace tomales

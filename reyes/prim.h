@@ -8,6 +8,7 @@
 //   never     knows a camera, an attribute or a shader
 // Space: everything is in object space. Threads: const members may be called concurrently.
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -189,14 +190,24 @@ PrimPtr makeTubes(bool cubic, const Basis& basis, const std::vector<int>& vertex
 /// Newell's teapot, 3.15 high, on z = 0 with its spout towards x. Primvars run over every patch alike.
 PrimPtr makeTeapot(const ParamList&, Problems&);
 
+/// A picture of depth, seen by its camera, whose surfaces keep a Blobby away.
+struct GroundPicture {
+  int width = 0, height = 0;
+  std::vector<float> depth;      ///< Row by row; infinite where there is nothing.
+  mat4 cameraFromObject{1.0f};
+  mat4 texelFromObject{1.0f};    ///< Homogeneous; texel (0, 0) is the square from there to (1, 1).
+};
+/// That of a string of the request. Nothing: it cannot be read, and the user knows.
+using GroundReader = std::function<std::optional<GroundPicture>(int string)>;
+
 /// The surface where a field that leaves and operations on them make is 27/64. `code` and `floats` as RIB gives them
 /// (reyes/prim/blobby_code.h); varying and vertex primvars have a value for each leaf and blend.
-PrimPtr makeBlobby(int leafCount, const std::vector<int>& code, const std::vector<float>& floats, const ParamList&,
-                   Problems&);
+PrimPtr makeBlobby(int leafCount, const std::vector<int>& code, const std::vector<float>& floats, const GroundReader&,
+                   const ParamList&, Problems&);
 /// A later key of a moving one: the mesh of `first` goes where its leaves go, and from there onto the new surface. If `first` is no
 /// Blobby of as many leaves: makeBlobby().
 PrimPtr makeBlobbyKey(const Prim& first, int leafCount, const std::vector<int>& code, const std::vector<float>& floats,
-                      const ParamList&, Problems&);
+                      const GroundReader&, const ParamList&, Problems&);
 
 /// Schemes "catmull-clark", "loop" (triangles only) and "bilinear" by OpenSubdiv's limit surface. Tags as
 /// HierarchicalSubdivisionMesh gives them: per tag a name and {number of ints, number of floats, number of strings}.

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "reyes/base/file_stamp.h"
+#include "reyes/base/search_path.h"
 #include "reyes/state_fields.h"
 
 namespace tomales {
@@ -15,21 +16,11 @@ struct WorldSum : ContentSum {
   std::map<std::string, std::string> searchPaths{};
 };
 
-std::vector<fs::path> foldersOf(const WorldSum& sum, const char* kind) {
-  std::vector<fs::path> out{"."};
-  const auto it = sum.searchPaths.find(kind);
-  if (it == sum.searchPaths.end()) return out;
-  for (size_t begin = 0; begin <= it->second.size();) {
-    const size_t end = std::min(it->second.find(':', begin), it->second.size());
-    out.emplace_back(it->second.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return out;
-}
-
 /// Of every file that the name may stand for.
 void addFile(WorldSum& sum, const std::string& name, const char* kind) {
-  for (const fs::path& folder : foldersOf(sum, kind)) {
+  std::vector<std::string> folders = foldersOf(pathOf(sum.searchPaths, kind));
+  folders.insert(folders.begin(), ".");
+  for (const fs::path folder : folders) {
     uint64_t stamp = name.empty() ? 0 : fileStamp(folder / name);
     if (stamp != 0) each(sum, stamp);
   }

@@ -120,7 +120,7 @@ int photonsCommand(const RenderSettings& settings) {
   guarded(log, Severity::Output, [&] {
     if (std::optional<Scene> scene = firstScene(settings, log)) tracePhotonsOf(*scene, settings, stats, log);
   });
-  writeStats(settings, stats, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), log);
+  writeLastStats(settings, stats, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), log);
   return exitCodeOf(log);
 }
 

@@ -172,9 +172,10 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c = app.add_subcommand("chart", "A page that shows what error a second and a megabyte buy on a scene, for every method");
   ChartSettings& s = in.chart;
   addParsed(*c, "-o", s.output, parseNamed(".html"), "FILE.html", "Write here, and the figures to FILE.json")->required();
-  c->add_option("--sweep", s.sweep, "What to vary: " + chartSweepNames())
+  CLI::Option* sweep = c->add_option("--sweep", s.sweep, "What to vary: " + chartSweepNames())
       ->check([](const std::string& name) { return chartSweep(name) ? std::string() : "none of " + chartSweepNames(); });
-  c->add_flag("--stability", in.stability, "SCENEs are laboratory scenes with a knob (docs/chart.md), or folders of them: error against the knob");
+  c->add_flag("--stability", in.stability, "SCENEs are laboratory scenes with a knob (docs/chart.md), or folders of them: error against the knob")
+      ->excludes(sweep);
   addParsed(*c, "--budget", s.budget_s, parseSeconds, "10m", "Wall time, as 90s, 10m or 2h (default 10m)");
   addParsed(*c, "--format", s.format, [](const std::string& t) { return parsePair(t, 1, 65536); }, "WxH", "Resolution in pixels");
   c->add_option("--batches", s.batches, "Most independent pictures that make the reference")->check(CLI::Range(2, 10000));
@@ -182,7 +183,15 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
   c->add_option("-t", s.threads, "Threads of each rendering (default: all)")->check(CLI::Range(1, 4096));
   c->add_option("--cache", s.folder, "Keep what has been measured here (default: the user's cache)")->type_name("FOLDER");
   c->add_option("SCENE", s.files, "RIB files")->required()->check(CLI::ExistingPath);
-  c->callback([&] { code = in.stability ? stabilityCommand(in.chart) : chartCommand(in.chart); });
+  c->callback([&] {
+    if (in.stability) {
+      code = stabilityCommand(in.chart);
+      return;
+    }
+    for (const std::string& file : in.chart.files)
+      if (const std::string problem = CLI::ExistingFile(file); !problem.empty()) throw CLI::ValidationError("SCENE", problem + " (only --stability takes folders)");
+    code = chartCommand(in.chart);
+  });
 }
 
 bool namesCommand(const std::string& text) {

@@ -11,16 +11,12 @@
 #include "reyes/app/pixel_report.h"
 #include "reyes/app/preview.h"
 #include "reyes/app/turns_timer.h"
+#include "reyes/base/search_path.h"
 
 namespace tomales {
 namespace {
 
 constexpr int kMostReferenceLightSamples = 256, kReferenceLightSamples = 64;
-
-std::string texturePathOf(const Options& options) {
-  const auto it = options.searchPaths.find("texture");
-  return it == options.searchPaths.end() ? std::string() : it->second;
-}
 
 }  // namespace
 
@@ -33,7 +29,7 @@ FrameJob::FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, L
       camera_(scene.options),
       registry_(log),
       meter_(settings.progress),
-      clouds_(texturePathOf(scene.options)) {
+      clouds_(pathOf(scene.options.searchPaths, "texture")) {
   registry_.addLibrary(tomales_builtin_shaders(), "built-in");
   shading_ = std::make_unique<ShadingSystem>(scene, registry_, nullptr, log, stats);
   shading_->setClouds(&clouds_);

@@ -50,8 +50,7 @@ class RenderRun {
     if (rendered_ > 0 && namesPicture(settings_.output) && !outputUsed_)
       log_.report(Severity::Output, "output-unused", {std::make_shared<std::string>(settings_.output), 0},
                   "not written: -o takes the place of a picture, and the Displays of the scene are all maps");
-    flush();
-    if (settings_.profileShaders) printShaderProfile(stats_);
+    writeLastStats(settings_, stats_, secondsSoFar(), log_);
     if (const int code = interruptExitCode()) return code;
     return !read ? std::max(exitCodeOf(log_), kUnreadable) : exitCodeOf(log_);
   }
@@ -67,9 +66,10 @@ class RenderRun {
       warnAboutOverwriting(scene);
       warnOfFloatRange(scene, log_);
       const int64_t seenBefore = stats_.geometry.micropolygonsVisible;
+      const int errorsBefore = errors();
       job_(scene, scenes_ - 1, settings_, stats_, log_, [this] { flush(); });
       if (stats_.geometry.micropolygonsVisible == seenBefore && !settings_.resume && !interrupted() &&
-          log_.worst() < Severity::Error)  // else it may have been refused
+          errors() == errorsBefore)  // else it may have been refused
         explainEmptyFrame(scene, log_);
       flush();
     }
@@ -79,6 +79,12 @@ class RenderRun {
   bool wanted(const Scene& scene) const {
     return !settings_.frames ||
            std::binary_search(settings_.frames->begin(), settings_.frames->end(), scene.options.frame);
+  }
+
+  int errors() const {
+    int out = 0;
+    for (const LogEntry& e : log_.entries()) out += e.severity >= Severity::Error ? e.count : 0;
+    return out;
   }
 
   void warnAboutOverwriting(const Scene& scene) {
@@ -96,10 +102,8 @@ class RenderRun {
                 "\"" + file + "\" of an earlier frame is written over; with -o, # in the name stands for the frame number");
   }
 
-  void flush() {
-    const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start_;
-    writeStats(settings_, stats_, total.count(), log_);
-  }
+  double secondsSoFar() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  void flush() { writeStats(settings_, stats_, secondsSoFar(), log_); }
 
   const RenderSettings& settings_;
   const Job job_;

@@ -17,7 +17,7 @@ int runOnShot(const RenderSettings& settings, void (ShotJob::*work)()) {
   Stats stats;
   if (const auto job = ShotJob::open(settings, stats, log)) (job.get()->*work)();
   const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start;
-  writeStats(settings, stats, total.count(), log);
+  writeLastStats(settings, stats, total.count(), log);
   const int code = interruptExitCode();
   return code ? code : exitCodeOf(log);
 }

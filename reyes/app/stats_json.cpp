@@ -114,8 +114,6 @@ Json statsJson(const RenderSettings& settings, const Stats& stats, double total_
   return out;
 }
 
-}  // namespace
-
 void printShaderProfile(const Stats& stats) {
   const auto byName = stats.byShader();
   std::vector<std::pair<std::string, Stats::ShaderFigures>> shaders(byName.begin(), byName.end());
@@ -125,6 +123,8 @@ void printShaderProfile(const Stats& stats) {
     std::puts(fmt::format("{:<24}{:>14}{:>12.3f}{:>14.0f}", name, f.vertices, f.time_s,
                           f.vertices > 0 ? 1e9 * f.time_s / static_cast<double>(f.vertices) : 0.0).c_str());
 }
+
+}  // namespace
 
 void writeStats(const RenderSettings& settings, const Stats& stats, double total_s, Log& log) {
   if (settings.statsFile.empty()) return;
@@ -139,6 +139,11 @@ void writeStats(const RenderSettings& settings, const Stats& stats, double total
   if (file) std::filesystem::rename(temporary, settings.statsFile, problem);
   if (!file || problem)
     log.report(Severity::Output, "stats-write", {}, "\"" + settings.statsFile + "\" could not be written");
+}
+
+void writeLastStats(const RenderSettings& settings, const Stats& stats, double total_s, Log& log) {
+  writeStats(settings, stats, total_s, log);
+  if (settings.profileShaders) printShaderProfile(stats);
 }
 
 }  // namespace tomales

@@ -72,8 +72,17 @@ float longestEdge_px(const float* x, const float* y, const Border& b) {
   return longest;
 }
 
-/// least_px: what the border reaches out by where it looks straight.
-void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, float least_px, std::vector<vec2>& push) {
+/// Of the raster area of the cell at vertex k of a border, u before v.
+float areaSign(const float* x, const float* y, const Border& b, int k) {
+  const int v = b.first + k * b.step, before = k < b.count ? v : v - b.step, after = before + b.step, in = v + b.inward;
+  const vec2 along{x[after] - x[before], y[after] - y[before]}, inward{x[in] - x[v], y[in] - y[v]};
+  const float turn = inward.x * along.y - inward.y * along.x;
+  return b.edge == kEdgeU0 || b.edge == kEdgeV1 ? turn : -turn;
+}
+
+/// least_px: what the border reaches out by where it looks straight. What faces away goes no farther than to twice its last cell: past the horizon
+/// it would show as a dark line around the body.
+void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, float least_px, float facing, std::vector<vec2>& push) {
   const float most_px = std::max(borderReach_px(0), least_px);
   for (int k = 0; k <= b.count; ++k) {
     const int v = b.first + k * b.step;
@@ -83,13 +92,14 @@ void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, 
     const float reach = std::clamp(kReach * sagitta_px(g, x, y, b, k), least_px, most_px);
     // Along the lattice, so that the other borders stay where they are, until the border itself has moved by as much.
     const float slant = std::max(slantOf(outward / length, x, y, b, k), kLeastSlant);
-    push[static_cast<size_t>(v)] += outward * (std::min(reach / slant, most_px) / length);
+    const bool faces = facing * areaSign(x, y, b, k) > 0;
+    push[static_cast<size_t>(v)] += outward * (std::min(reach / slant, faces ? most_px : std::max(borderReach_px(0), length)) / length);
   }
 }
 
 /// A displaced border that neighbours sample at other places may be anywhere within a micropolygon of what they see: `mostOfDisplaced_px`
-/// limits that; 0: it is not displaced.
-void pushBorders(const Grid& g, float mostOfDisplaced_px, float* x, float* y) {
+/// limits that; 0: it is not displaced. facing: RasterGrid::facing, if it had one side.
+void pushBorders(const Grid& g, float mostOfDisplaced_px, float facing, float* x, float* y) {
   const auto ends = [](const Grid::Piece& p) { return (p.openEdges & kAllEdges) == kAllEdges; };
   if (std::all_of(g.pieces.begin(), g.pieces.end(), ends)) return;
   const int row = g.nu + 1;
@@ -103,7 +113,7 @@ void pushBorders(const Grid& g, float mostOfDisplaced_px, float* x, float* y) {
                               {kEdgeV1, first + g.nv * row, 1, -row, g.nu}};
     for (const Border& b : borders)
       if (!(p.openEdges & b.edge))
-        pushBorder(g, b, x, y, std::max(kMinReach_px, std::min(mostOfDisplaced_px, longestEdge_px(x, y, b))), push);
+        pushBorder(g, b, x, y, std::max(kMinReach_px, std::min(mostOfDisplaced_px, longestEdge_px(x, y, b))), facing, push);
     first += g.verticesOfPiece();
   }
   for (size_t v = 0; v < push.size(); ++v) x[v] += push[v].x, y[v] += push[v].y;
@@ -211,7 +221,8 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
   r->opaque = opaque && scene.options.depthFilter != DepthFilter::Midpoint;
   r->matte = attributes.matte;
   r->inSolid = object.solid >= 0;
-  if (attributes.sides == 1 && !r->inSolid) r->facing = object.flipsNormal ? -facingSign(camera) : facingSign(camera);
+  const float facing = object.flipsNormal ? -facingSign(camera) : facingSign(camera);
+  if (attributes.sides == 1 && !r->inSolid) r->facing = facing;
   r->detail = attributes.detail;
   r->smooth = attributes.interpolation == ShadingInterpolation::Smooth;
   if (std::find(g.kept.begin(), g.kept.end(), Kept::Part) != g.kept.end()) {
@@ -233,7 +244,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
     const bool allSeeable = toRaster(vertices, camera, x, y, d);
     if (!r->inSolid) r->clipped |= anyClipped(vertices, camera, !scene.options.clippingPlanes.empty());
     if (r->trim) r->trimReach_px = std::max(r->trimReach_px, kMinReach_px + kTrimReach * deviation_px(g, x, y));
-    pushBorders(g, mostOfDisplaced_px, x, y);
+    pushBorders(g, mostOfDisplaced_px, facing, x, y);
     snap(x, y, g.vertexCount());
     for (int p = 0; p < pieces; ++p) {
       const int first = p * count;

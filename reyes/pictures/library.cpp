@@ -1,6 +1,8 @@
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "reyes/pictures.h"
 
@@ -48,6 +50,15 @@ bool makeTexture(const TextureRecipe& recipe, std::string& error) {
 std::unique_ptr<PictureReader> openPicture(const std::string& path, std::string& error) {
   const PictureLibrary* library = pictureLibrary(error);
   return library ? library->open(path, error) : nullptr;
+}
+
+std::optional<DepthCamera> depthCameraOf(const PictureReader& picture) {
+  const auto& channels = picture.shape().channels;
+  DepthCamera out;
+  out.depth = static_cast<int>(std::find(channels.begin(), channels.end(), "Z") - channels.begin());
+  // RenderMan's matrices act on rows from the right and are stored by rows: that is glm's storage.
+  const bool whole = picture.matrix("worldtocamera", glm::value_ptr(out.cameraFromWorld)) && picture.matrix("worldtoscreen", glm::value_ptr(out.ndcFromWorld));
+  return whole && out.depth < static_cast<int>(channels.size()) ? std::optional(out) : std::nullopt;
 }
 
 }  // namespace tomales

@@ -11,6 +11,7 @@
 #include <set>
 #include <shared_mutex>
 
+#include "reyes/base/search_path.h"
 #include "reyes/pictures/convert.h"
 
 namespace tomales {
@@ -77,18 +78,7 @@ class Cache : public TextureCache {
   }
 
   /// As it is found along the search path; empty: nowhere.
-  std::string find(const std::string& name) const {
-    std::error_code none;
-    if (fs::path(name).is_absolute()) return fs::is_regular_file(name, none) ? name : "";
-    const std::string& path = settings.searchPath;
-    for (size_t begin = 0; begin <= path.size();) {
-      const size_t end = std::min(path.find(':', begin), path.size());
-      const fs::path file = fs::path(path.substr(begin, end - begin)) / name;
-      if (fs::is_regular_file(file, none)) return file.string();
-      begin = end + 1;
-    }
-    return fs::is_regular_file(name, none) ? name : "";
-  }
+  std::string find(const std::string& name) const { return findFile(name, settings.searchPath); }
 
   std::unique_ptr<const Picture> open(const std::string& name) {
     auto picture = std::make_unique<Picture>();

@@ -133,9 +133,9 @@ struct Read {
   std::vector<Primvar> primvars;
 };
 
-Read readBlobby(int leafCount, const std::vector<int>& code, const std::vector<float>& floats, const ParamList& params,
-                Problems& problems) {
-  BlobProgram program = readBlobProgram(code, floats, problems);
+Read readBlobby(int leafCount, const std::vector<int>& code, const std::vector<float>& floats, const GroundReader& grounds,
+                const ParamList& params, Problems& problems) {
+  BlobProgram program = readBlobProgram(code, floats, grounds, problems);
   if (static_cast<size_t>(std::max(0, leafCount)) != program.leafCount)
     problems.push_back(fmt::format("it announces {} leaves and has {}", leafCount, program.leafCount));
   const size_t n = program.leafCount;
@@ -145,18 +145,18 @@ Read readBlobby(int leafCount, const std::vector<int>& code, const std::vector<f
 }  // namespace
 
 PrimPtr makeBlobby(int leafCount, const std::vector<int>& code, const std::vector<float>& floats,
-                   const ParamList& params, Problems& problems) {
-  Read read = readBlobby(leafCount, code, floats, params, problems);
+                   const GroundReader& grounds, const ParamList& params, Problems& problems) {
+  Read read = readBlobby(leafCount, code, floats, grounds, params, problems);
   BlobMesh mesh = contour(read.program.field, read.program.box);
   if (!mesh.complete) problems.push_back("a leaf is so drawn out, or so much smaller than others, that details of its shape may be missed");
   return std::make_shared<Blobby>(read.program.field, std::move(mesh), std::move(read.primvars));
 }
 
 PrimPtr makeBlobbyKey(const Prim& first, int leafCount, const std::vector<int>& code, const std::vector<float>& floats,
-                      const ParamList& params, Problems& problems) {
-  Read read = readBlobby(leafCount, code, floats, params, problems);
+                      const GroundReader& grounds, const ParamList& params, Problems& problems) {
+  Read read = readBlobby(leafCount, code, floats, grounds, params, problems);
   const auto* blobby = dynamic_cast<const Blobby*>(&first);
-  if (!blobby || blobby->leafCount() != read.program.leafCount) return makeBlobby(leafCount, code, floats, params, problems);
+  if (!blobby || blobby->leafCount() != read.program.leafCount) return makeBlobby(leafCount, code, floats, grounds, params, problems);
   return std::make_shared<Blobby>(read.program.field, blobby->carriedTo(read.program.field), std::move(read.primvars));
 }
 

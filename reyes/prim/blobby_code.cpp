@@ -4,6 +4,8 @@
 
 #include <optional>
 
+#include "reyes/prim/blobby_ground.h"
+
 namespace tomales {
 namespace {
 
@@ -11,8 +13,8 @@ enum Code { kDivide = 4, kSubtract = 5, kIdentity = 7, kConstant = 1000, kEllips
 
 class CodeReader {
  public:
-  CodeReader(const std::vector<int>& code, const std::vector<float>& floats, Problems& problems)
-      : code_(code), floats_(floats), problems_(problems) {}
+  CodeReader(const std::vector<int>& code, const std::vector<float>& floats, const GroundReader& grounds, Problems& problems)
+      : code_(code), floats_(floats), grounds_(grounds), problems_(problems) {}
 
   BlobProgram read() {
     struct Step {
@@ -31,14 +33,10 @@ class CodeReader {
       } else if (code == kConstant) {
         steps.push_back({BlobOp::Constant, take(1)[0], 0, {}});
         addLeaf(nullptr);
-      } else if (code == kEllipsoid || code == kSegment) {
-        const std::optional<BlobLeaf> leaf = code == kEllipsoid ? ellipsoid() : segment();
+      } else if (code >= kEllipsoid && code <= kPlugin) {
+        const std::optional<BlobLeaf> leaf = code == kEllipsoid ? ellipsoid() : code == kSegment ? segment() : code == kPlane ? plane() : plugin();
         steps.push_back({leaf ? BlobOp::Leaf : BlobOp::Constant, 0, static_cast<uint32_t>(leaves_.size()), {}});
         addLeaf(leaf ? &*leaf : nullptr);
-      } else if (code == kPlane || code == kPlugin) {
-        skip(code);
-        steps.push_back({BlobOp::Constant, 0, 0, {}});
-        addLeaf(nullptr);
       } else {
         throw PrimError(fmt::format("there is no operation or leaf {}", code));
       }
@@ -109,20 +107,29 @@ class CodeReader {
     return BlobLeaf{inverse, -(inverse * center), from, to, radius};
   }
 
-  void skip(int code) {
-    problems_.push_back(fmt::format("leaf {} ({}) is not supported; it counts as 0", leaves_.size(),
-                                    code == kPlane ? "a repelling plane" : "from a plugin"));
-    if (code == kPlane) return static_cast<void>(next()), static_cast<void>(take(4));
-    // A plugin: its name, then a count and a first number for its floats, and the same for its strings.
-    for (int k = 0; k < 5; ++k) next();
+  std::optional<BlobLeaf> plane() {
+    const int string = next();
+    const float* f = take(4);
+    std::optional<GroundPicture> picture = grounds_ ? grounds_(string) : std::nullopt;
+    if (!picture || !(f[0] > 0)) return {};
+    BlobLeaf leaf = nothing();
+    leaf.ground = std::make_shared<BlobGround>(std::move(*picture), Repulsion{f[0], f[1], f[2], f[3]});
+    return leaf;
   }
 
-  void addLeaf(const BlobLeaf* leaf) {
-    leaves_.push_back(leaf ? *leaf : BlobLeaf{glm::dmat3(1), dvec3(0), dvec3(0), dvec3(0), 1});
+  /// Its name, then a count and a first number for its floats, and the same for its strings.
+  std::optional<BlobLeaf> plugin() {
+    problems_.push_back(fmt::format("leaf {} is code from a plugin, for which there is no interface; it counts as 0", leaves_.size()));
+    for (int k = 0; k < 5; ++k) next();
+    return {};
   }
+
+  static BlobLeaf nothing() { return {glm::dmat3(1), dvec3(0), dvec3(0), dvec3(0), 1}; }
+  void addLeaf(const BlobLeaf* leaf) { leaves_.push_back(leaf ? *leaf : nothing()); }
 
   const std::vector<int>& code_;
   const std::vector<float>& floats_;
+  const GroundReader& grounds_;
   Problems& problems_;
   size_t at_ = 0;
   std::vector<BlobLeaf> leaves_;
@@ -131,9 +138,8 @@ class CodeReader {
 
 }  // namespace
 
-BlobProgram readBlobProgram(const std::vector<int>& code, const std::vector<float>& floats,
-                            Problems& problems) {
-  return CodeReader(code, floats, problems).read();
+BlobProgram readBlobProgram(const std::vector<int>& code, const std::vector<float>& floats, const GroundReader& grounds, Problems& problems) {
+  return CodeReader(code, floats, grounds, problems).read();
 }
 
 }  // namespace tomales

@@ -13,9 +13,8 @@ struct BlobProgram {
 
 /// Codes (PRMan): leaves 1000 constant, 1001 ellipsoid, 1002 segment; operations 0 add, 1 multiply, 2 maximum, 3 minimum
 /// (a count and operands), 4 divide, 5 subtract (two operands), 6 negate, 7 identity (one). Operands are numbers of earlier
-/// codes. Leaves that cannot be made (1003 repelling plane, 1004 plugin) count as 0 everywhere, with a sentence. Throws
-/// PrimError if the arrays do not fit each other.
-BlobProgram readBlobProgram(const std::vector<int>& code, const std::vector<float>& floats,
-                            Problems& problems);
+/// codes. 1003 repels: a string, the name of its picture of depth, and four floats (blobby_ground.h). Leaves that cannot be made (that without its
+/// picture; 1004, from a plugin) count as 0 everywhere, the latter with a sentence. Throws PrimError if the arrays do not fit each other.
+BlobProgram readBlobProgram(const std::vector<int>& code, const std::vector<float>& floats, const GroundReader& grounds, Problems& problems);
 
 }  // namespace tomales

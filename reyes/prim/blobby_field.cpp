@@ -1,5 +1,7 @@
 #include "reyes/prim/blobby_field.h"
 
+#include "reyes/prim/blobby_ground.h"
+
 namespace tomales {
 namespace {
 
@@ -20,6 +22,7 @@ double fallOff(double distance) {
 }
 
 FieldPoint leafAt(const BlobLeaf& leaf, const dvec3& p) {
+  if (leaf.ground) return leaf.ground->at(p);
   const dvec3 away = awayFromSegment(leaf, leaf.axes * p + leaf.origin) / leaf.radius;
   const double rest = 1 - glm::dot(away, away);
   if (rest <= 0) return {};
@@ -27,6 +30,7 @@ FieldPoint leafAt(const BlobLeaf& leaf, const dvec3& p) {
 }
 
 FieldRange leafOver(const BlobLeaf& leaf, const Box& box) {
+  if (leaf.ground) return leaf.ground->over(box);
   const dvec3 center = 0.5 * (box.lo + box.hi), half = 0.5 * (box.hi - box.lo);
   dvec3 reach(0);
   for (int k = 0; k < 3; ++k) reach += glm::abs(leaf.axes[k]) * half[k];
@@ -56,24 +60,19 @@ FieldPoint apply(BlobOp op, std::span<const uint32_t> operands, const std::vecto
   return op == BlobOp::Negate ? FieldPoint{-out.value, -out.gradient} : out;
 }
 
-FieldRange multiply(const FieldRange& a, const FieldRange& b) {
-  const auto [lo, hi] = std::minmax({a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi});
-  return {lo, hi};
-}
-
 FieldRange applyToRanges(BlobOp op, std::span<const uint32_t> operands, const std::vector<FieldRange>& ranges) {
   FieldRange out = ranges[operands[0]];
   for (const uint32_t k : operands.subspan(1)) {
     const FieldRange& x = ranges[k];
     switch (op) {
-      case BlobOp::Add: out = {out.lo + x.lo, out.hi + x.hi}; break;
-      case BlobOp::Multiply: out = multiply(out, x); break;
+      case BlobOp::Add: out = sum(out, x); break;
+      case BlobOp::Multiply: out = product(out, x); break;
       case BlobOp::Maximum: out = {std::max(out.lo, x.lo), std::max(out.hi, x.hi)}; break;
       case BlobOp::Minimum: out = {std::min(out.lo, x.lo), std::min(out.hi, x.hi)}; break;
       case BlobOp::Subtract: out = {out.lo - x.hi, out.hi - x.lo}; break;
       case BlobOp::Divide:
         if (x.lo <= 0 && x.hi >= 0) return {-HUGE_VAL, HUGE_VAL};
-        out = multiply(out, {1 / x.hi, 1 / x.lo});
+        out = product(out, {1 / x.hi, 1 / x.lo});
         break;
       default: break;
     }
@@ -83,7 +82,15 @@ FieldRange applyToRanges(BlobOp op, std::span<const uint32_t> operands, const st
 
 }  // namespace
 
+FieldRange sum(const FieldRange& a, const FieldRange& b) { return {a.lo + b.lo, a.hi + b.hi}; }
+
+FieldRange product(const FieldRange& a, const FieldRange& b) {
+  const auto [lo, hi] = std::minmax({a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi});
+  return {lo, hi};
+}
+
 double BlobLeaf::feature() const {
+  if (ground) return ground->feature();
   const glm::dmat3 rows = glm::transpose(axes);
   double steepest = 0;
   for (int k = 0; k < 3; ++k) steepest = std::max({steepest, glm::length(axes[k]), glm::length(rows[k])});
@@ -167,7 +174,7 @@ std::vector<double> BlobField::leafWeights(const dvec3& p) const {
     const Instruction& i = code_[index];
     if (!counts[index] || i.op == BlobOp::Constant) continue;
     if (i.op == BlobOp::Leaf) {
-      weights[i.first] = values[index].value;
+      weights[i.first] = (*leaves_)[i.first].ground ? 0.0 : values[index].value;
       continue;
     }
     const bool chooses = i.op == BlobOp::Maximum || i.op == BlobOp::Minimum;

@@ -18,13 +18,16 @@ struct Box {
   dvec3 lo, hi;
 };
 
+class BlobGround;
+
 /// (1 - d^2)^3 for d < 1, else 0, where d is the distance from a segment, a point if its ends are equal, in the leaf's
-/// own space, by `radius`.
+/// own space, by `radius`. Or a ground, which has no values to blend and carries nothing along.
 struct BlobLeaf {
   glm::dmat3 axes;  ///< Leaf space from the object's, with `origin`.
   dvec3 origin;
   dvec3 from, to;
   double radius;
+  std::shared_ptr<const BlobGround> ground{};
 
   double feature() const;  ///< Least distance over which it falls from 1 to 0.
 };
@@ -38,6 +41,8 @@ struct FieldPoint {
 struct FieldRange {
   double lo, hi;
 };
+FieldRange sum(const FieldRange& a, const FieldRange& b);
+FieldRange product(const FieldRange& a, const FieldRange& b);
 
 /// A program: every instruction uses the results of earlier ones, and the last is the field.
 class BlobField {

@@ -172,26 +172,9 @@ class NuPatch : public Prim {
                         along.data(), along.data() + n, out, stride);
   }
 
-  /// Weighted like the positions, so that values stay where they are on the surface. Three components at a
-  /// time.
   void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v,
                          float* out, int stride) const {
-    for (int c = 0; c < var.width; c += 3) {
-      const int many = std::min(3, var.width - c);
-      const auto controlOf = [&](size_t control) {
-        glm::dvec4 h(0, 0, 0, controls_[control].w);
-        for (int k = 0; k < many; ++k)
-          h[k] = h.w * var.values[control * static_cast<size_t>(var.width) + static_cast<size_t>(c + k)];
-        return h;
-      };
-      std::vector<vec4> values;
-      convert(patch, controlOf, values);
-      for (int i = 0; i < n; ++i) {
-        const RationalPoint s = evaluateRational({values.data(), u_.order, v_.order}, u[i], v[i]);
-        for (int k = 0; k < many; ++k)
-          out[static_cast<ptrdiff_t>(c + k) * stride + i] = static_cast<float>(s.p[k]);
-      }
-    }
+    interpolateRational(var, controls_, u_.order, v_.order, [&](const auto& controlOf, auto& values) { convert(patch, controlOf, values); }, n, u, v, out, stride);
   }
 
   size_t shapeBytes() const override { return bytesOf(controls_) + bytesOf(nets_); }

@@ -34,6 +34,27 @@ RationalPoint evaluateRational(const RationalNet& net, double u, double v);
 /// middle.
 void evaluateRational(const RationalNet& net, double degenerate, int n, const float* u, const float* v, const SurfacePoints& out);
 
+/// A vertex variable, weighted like the positions, so that values stay where they are on the surface. `convert` appends to its second argument
+/// the Bezier controls of the patch made of homogeneous controls, which its first gives by their number.
+template <class Convert>
+void interpolateRational(const Primvar& var, const std::vector<vec4>& controls, int uOrder, int vOrder, const Convert& convert, int n, const float* u,
+                         const float* v, float* out, int stride) {
+  for (int c = 0; c < var.width; c += 3) {
+    const int many = std::min(3, var.width - c);
+    const auto controlOf = [&](size_t control) {
+      glm::dvec4 h(0, 0, 0, controls[control].w);
+      for (int k = 0; k < many; ++k) h[k] = h.w * var.values[control * static_cast<size_t>(var.width) + static_cast<size_t>(c + k)];
+      return h;
+    };
+    std::vector<vec4> values;
+    convert(controlOf, values);
+    for (int i = 0; i < n; ++i) {
+      const glm::dvec3 value = evaluateRational({values.data(), uOrder, vOrder}, u[i], v[i]).p;
+      for (int k = 0; k < many; ++k) out[static_cast<ptrdiff_t>(c + k) * stride + i] = static_cast<float>(value[k]);
+    }
+  }
+}
+
 /// The controls of the piece over the rectangle contain it. Pre: weights are positive.
 Bound3 boundRational(const RationalNet& net, const UvRect& rect);
 

@@ -53,15 +53,7 @@ class RationalMesh : public PatchMesh {
 
  protected:
   void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v, float* out, int stride) const override {
-    for (int c = 0; c < var.width; ++c) {
-      std::vector<vec4> values;
-      convert(patch, [&](size_t control) {
-        const float weight = controls_[control].w;
-        return glm::dvec4(weight * var.values[control * static_cast<size_t>(var.width) + static_cast<size_t>(c)], 0, 0, weight);
-      }, values);
-      for (int i = 0; i < n; ++i)
-        out[static_cast<ptrdiff_t>(c) * stride + i] = static_cast<float>(evaluateRational({values.data(), order_, order_}, u[i], v[i]).p.x);
-    }
+    interpolateRational(var, controls_, order_, order_, [&](const auto& controlOf, auto& values) { convert(patch, controlOf, values); }, n, u, v, out, stride);
   }
 
  private:

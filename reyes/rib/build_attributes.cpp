@@ -213,7 +213,7 @@ void checkWord(GraphicsState& s, const Request& r, const std::string& key, const
       {"trace:tessellationmode", {"fixed", "multiresolution", "full"}},
       {"shade:diffusehitmode", {"shader", "primitive", "cache"}},
       {"shade:specularhitmode", {"shader", "primitive", "cache"}},
-      {"shade:transmissionhitmode", {"primitive", "shader", "cache"}},
+      {"shade:transmissionhitmode", {"shader", "primitive", "cache"}},
   };
   const auto known = table.find(key);
   if (known == table.end() || std::find(known->second.begin(), known->second.end(), word) != known->second.end()) return;

@@ -1,29 +1,50 @@
 // Blobby requests, and Points of type "blobby" -> Prims.
 #include <fmt/format.h>
 
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "reyes/pictures.h"
 #include "reyes/rib/geometry_builders.h"
+#include "reyes/rib/handlers.h"
 
 namespace tomales::rib {
 namespace {
 
-constexpr int kAdd = 0, kEllipsoid = 1001;
+constexpr int kAdd = 0, kConstant = 1000, kEllipsoid = 1001;
 
 RibArg integers(std::vector<int> list) { return {.kind = RibArg::Kind::Integers, .integers = std::move(list)}; }
 
 }  // namespace
 
-PrimPtr blobby(const Request& r, const Prim* first, Problems& problems) {
+PrimPtr blobby(const Request& r, const Prim* first, const GroundReader& grounds, Problems& problems) {
   const int leaves = r.args[0].integer();
   const std::vector<int>& code = r.args[1].integers;
   const std::vector<float>& floats = r.args[2].numbers;
-  return first ? makeBlobbyKey(*first, leaves, code, floats, r.params, problems) : makeBlobby(leaves, code, floats, r.params, problems);
+  return first ? makeBlobbyKey(*first, leaves, code, floats, grounds, r.params, problems) : makeBlobby(leaves, code, floats, grounds, r.params, problems);
 }
 
-// A lone ellipsoid shows at half its radius, so each is as large as its point is wide.
+GroundPicture readGround(const std::string& path, const mat4& worldFromObject) {
+  std::string error;
+  const auto in = openPicture(path, error);
+  if (!in) throw PrimError(error);
+  const std::optional<DepthCamera> camera = depthCameraOf(*in);
+  if (!camera || in->deep()) throw PrimError("it is no picture of depth with the matrices of its camera");
+  const PictureShape& shape = in->shape();
+  GroundPicture out{shape.width, shape.height, std::vector<float>(static_cast<size_t>(shape.width) * static_cast<size_t>(shape.height)), {}, {}};
+  if (!in->read(camera->depth, camera->depth + 1, out.depth.data())) throw PrimError(in->error());
+  const vec3 half(0.5f * static_cast<float>(shape.fullWidth), -0.5f * static_cast<float>(shape.fullHeight), 1);
+  const mat4 texelFromNdc = glm::scale(glm::translate(mat4(1.0f), vec3(half.x - static_cast<float>(shape.x), -half.y - static_cast<float>(shape.y), 0)), half);
+  out.cameraFromObject = camera->cameraFromWorld * worldFromObject;
+  out.texelFromObject = texelFromNdc * camera->ndcFromWorld * worldFromObject;
+  return out;
+}
+
+// A lone ellipsoid shows at half its radius, so each is as large as its point is wide. Where a point has no width there is nothing.
 std::optional<Request> blobbyOfPoints(const Request& r) {
   const Param* type = r.name == "Points" ? findParam(r.params, "type") : nullptr;
+  if (!type || type->strings.empty() || type->strings[0] != "blobby") return std::nullopt;
   const Param* place = findParam(r.params, "P");
-  if (!type || type->strings.empty() || type->strings[0] != "blobby" || !place) return std::nullopt;
+  if (!place) return std::nullopt;
   const Param* width = findParam(r.params, "width");
   if (!width) width = findParam(r.params, "constantwidth");
   const size_t n = place->floats.size() / 3;
@@ -34,7 +55,8 @@ std::optional<Request> blobbyOfPoints(const Request& r) {
   for (size_t i = 0; i < n; ++i) {
     const float w = width ? width->floats[width->floats.size() > 1 ? i : 0] : 1;
     const float* p = &place->floats[3 * i];
-    code.insert(code.end(), {kEllipsoid, static_cast<int>(floats.size())});
+    if (!(w >= 0)) throw PrimError(fmt::format("{} is {} somewhere", width->name, w));
+    code.insert(code.end(), {w > 0 ? kEllipsoid : kConstant, static_cast<int>(floats.size())});
     floats.insert(floats.end(), {w, 0, 0, 0, 0, w, 0, 0, 0, 0, w, 0, p[0], p[1], p[2], 1});
     sum.push_back(static_cast<int>(i));
   }

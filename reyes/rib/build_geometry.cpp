@@ -161,7 +161,7 @@ const std::unordered_map<std::string_view, KeyBuilder>& keyBuilders() {
       {"GeneralPolygon", generalPolygon},
       {"PointsPolygons", pointsPolygons},
       {"PointsGeneralPolygons", pointsGeneralPolygons},
-      {"Blobby", blobby},
+      {"Blobby", nullptr},  // it must know its ground, too
   };
   return table;
 }
@@ -200,11 +200,12 @@ float reachOf(const Request& r) {
 
 bool isGeometry(std::string_view name) { return builders().contains(name) || keyBuilders().contains(name); }
 
-PrimPtr buildPrim(const Request& r, const Scope& scope, const Prim* first, Problems& problems) {
+PrimPtr buildPrim(const Request& r, const Scope& scope, const Prim* first, const GroundReader& grounds, Problems& problems) {
   for (const RibArg& a : r.args)
     if (!allFinite(a.numbers)) throw PrimError("an argument is not finite");
   const auto build = [&](const Request& request) {
-    if (const std::optional<Request> joined = blobbyOfPoints(request)) return blobby(*joined, first, problems);
+    if (const std::optional<Request> joined = blobbyOfPoints(request)) return blobby(*joined, first, grounds, problems);
+    if (request.name == "Blobby") return blobby(request, first, grounds, problems);
     const auto keyed = keyBuilders().find(request.name);
     return keyed != keyBuilders().end() ? keyed->second(request, first, problems) : builders().at(request.name)(request, scope, problems);
   };

@@ -54,7 +54,7 @@ std::shared_ptr<Attributes> attributesOf(const Scope& scope, const Options& opti
   if (!given->surface || given->surface->name != "null") return given;
   auto bare = std::make_shared<Attributes>(*given);
   bare->surface = nullptr;
-  if (outputOf(options).shades) bare->visibility = {false, false, false, false, false};
+  if (shades(options)) bare->visibility = {false, false, false, false, false};
   return bare;
 }
 
@@ -134,7 +134,7 @@ PrimPtr SceneBuilder::buildShape(const Request& r, const Prim* first) {
   Problems problems;
   PrimPtr prim;
   try {
-    prim = buildPrim(r, state_.scope, first, problems);
+    prim = buildPrim(r, state_.scope, first, [&](int string) { return groundOf(r, string); }, problems);
   } catch (const PrimError& e) {
     state_.log.report(Severity::Missing, "rib-object-dropped", r.where,
                       fmt::format("{}: {}; the object is dropped", description(r), e.what()));
@@ -147,6 +147,20 @@ PrimPtr SceneBuilder::buildShape(const Request& r, const Prim* first) {
     state_.log.report(Severity::Warning, "rib-primitive", r.where,
                       fmt::format("{}: {}", description(r), fmt::join(problems, "; ")));
   return prim;
+}
+
+/// Where the object is when the shutter opens.
+std::optional<GroundPicture> SceneBuilder::groundOf(const Request& r, int string) const {
+  const std::vector<std::string>& names = r.args[3].strings;
+  if (string < 0 || static_cast<size_t>(string) >= names.size()) throw PrimError(fmt::format("a leaf names string {} of {}", string, names.size()));
+  const std::string& name = names[static_cast<size_t>(string)];
+  try {
+    return readGround(name, state_.scope.ctm.at(state_.globals.options.shutterOpen));
+  } catch (const PrimError& e) {
+    state_.log.report(Severity::Missing, "rib-ground", r.where,
+                      fmt::format("{}: its ground \"{}\" cannot be read ({}); nothing repels it", description(r), name, e.what()));
+    return {};
+  }
 }
 
 std::string SceneBuilder::description(const Request& r) const {

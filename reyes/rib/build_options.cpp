@@ -154,19 +154,16 @@ void exposure(GraphicsState& s, const Request& r) {
 }
 
 void searchPath(GraphicsState& s, const Request& r, const Param& p) {
-  const auto mappedPath = [&s](const std::string& path) {
-    std::string joined;
-    for (const std::string& folder : foldersOf(path)) joined += (joined.empty() ? "" : ":") + mapped(folder, s.globals.dirMap);
-    return joined;
-  };
+  Globals& g = s.globals;
   if (p.name == "dirmap") {
-    s.globals.dirMap = readDirMap(p.strings);
-    for (auto& [category, path] : s.globals.options.searchPaths) path = mappedPath(path);
+    g.dirMap = readDirMap(p.strings);
+    for (const auto& [category, path] : g.unmappedPaths) g.options.searchPaths[category] = mappedPath(path, g.dirMap);
     return;
   }
-  std::string& path = s.globals.options.searchPaths[p.name];
+  std::string& path = g.unmappedPaths[p.name];
   std::string unset;
-  path = mappedPath(expandSearchPath(p.strings[0], path, unset));
+  path = expandSearchPath(p.strings[0], path, unset);
+  g.options.searchPaths[p.name] = mappedPath(path, g.dirMap);
   if (!unset.empty())
     s.warn(r, "rib-variable", "the environment has no " + unset + "; it stands for nothing in the search path");
 }

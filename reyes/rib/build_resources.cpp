@@ -1,8 +1,8 @@
 // Resource "attributes": named copies of the attributes, restored as a whole or in part.
 #include <fmt/format.h>
 
+#include "reyes/base/search_path.h"
 #include "reyes/rib/handlers.h"
-#include "reyes/rib/search_path.h"
 
 namespace tomales::rib {
 namespace {

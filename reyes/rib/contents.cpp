@@ -52,6 +52,8 @@ uint64_t contentsOf(const std::vector<const Request*>& keys, const std::vector<f
     // A brick map is what is in its file.
     const Param* file = key->name == "Geometry" ? findParam(key->params, "filename") : nullptr;
     if (file && !file->strings.empty()) sum = contentSum(sum, fileStamp(file->strings[0]));
+    if (key->name == "Blobby" && key->args.size() > 3)
+      for (const std::string& ground : key->args[3].strings) sum = contentSum(sum, fileStamp(ground));
   }
   return sum;
 }

@@ -22,6 +22,7 @@ constexpr Standard kStandard[] = {
     {"varying float", "s t width"},
     {"varying float[2]", "st"},
     {"constant float", "constantwidth"},
+    {"varying float", "patchangle patchaspectratio"},
     // Parameters of the standard shaders (RISpec 3.2 appendix A)
     {"float",
      "Ka Kd Ks Kr roughness intensity coneangle conedeltaangle beamdistribution amplitude mindistance "

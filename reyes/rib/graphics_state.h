@@ -60,6 +60,7 @@ struct Globals {
   std::map<std::string, std::shared_ptr<Master>> masters;
   std::vector<std::map<std::string, Scope>> resources{1};  ///< Outermost ResourceBegin first.
   DirMap dirMap;
+  std::map<std::string, std::string> unmappedPaths;  ///< Options::searchPaths before dirMap: headers of frames say both again.
   Patterns patterns;
   std::map<std::string, ParamList> quantized;  ///< Quantize of a variable: parameters of the Displays that show it.
 };

@@ -27,7 +27,9 @@ void applyTransformation(GraphicsState& state, const std::vector<const Request*>
 
 /// Sphere, Polygon, ...: throws PrimError if there is nothing to draw.
 bool isGeometry(std::string_view name);
-PrimPtr buildPrim(const Request& request, const Scope& scope, const Prim* first, Problems& problems);
+PrimPtr buildPrim(const Request& request, const Scope& scope, const Prim* first, const GroundReader& grounds, Problems& problems);
+/// Of a file that a Display of depth has left. Throws PrimError.
+GroundPicture readGround(const std::string& path, const mat4& worldFromObject);
 
 /// No point of the shape is farther from its origin, by any coordinate; perhaps none is as far.
 float reachOf(const Request& request);

@@ -106,7 +106,8 @@ void Reader::perform(const Request& r) {
       {"ReadArchive", &Reader::readArchive}, {"ArchiveBegin", &Reader::record},
       {"ArchiveEnd", &Reader::record},       {"Procedural", &Reader::procedural},
       {"Procedural2", &Reader::procedural2}, {"System", &Reader::system},
-      {"Geometry", &Reader::geometry}};
+      {"Geometry", &Reader::geometry},
+      {"Blobby", &Reader::geometry}};
   if (const auto it = table.find(r.name); it != table.end()) return (this->*it->second)(r);
   if (changesSurroundings(r.name)) surroundings_.reset();
   declare(r, dictionary_, log_);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "reyes/base/search_path.h"
 #include "reyes/rib/reader.h"
 
 namespace tomales::rib {
@@ -101,20 +102,22 @@ bool Reader::spend(size_t cost) {
   return left >= cost;
 }
 
+/// Names of files become what the search path finds.
 void Reader::geometry(const Request& r) {
   Request found = r;
+  const auto find = [this](std::string& file) {
+    if (const std::string path = findFile(file, "texture"); !path.empty()) file = path;
+  };
   for (Param& p : found.params)
-    for (std::string& file : p.strings)
-      if (const std::string path = p.name == "filename" ? findFile(file, "texture") : ""; !path.empty()) file = path;
+    if (p.name == "filename") std::for_each(p.strings.begin(), p.strings.end(), find);
+  if (r.name == "Blobby" && r.args.size() > 3) std::for_each(found.args[3].strings.begin(), found.args[3].strings.end(), find);
   builder_.request(found);
 }
 
 // The search path first, then beside the file that reads, then where the caller says.
 std::string Reader::findFile(const std::string& written, const char* category) const {
   const std::string name = mapped(written, builder_.dirMap());
-  std::vector<std::string> folders;
-  const auto& paths = builder_.options().searchPaths;
-  if (const auto it = paths.find(category); it != paths.end()) folders = foldersOf(it->second);
+  std::vector<std::string> folders = foldersOf(pathOf(builder_.options().searchPaths, category));
   folders.push_back(open_.back().folder);
   folders.insert(folders.end(), settings_.archivePath.begin(), settings_.archivePath.end());
   std::error_code ignored;

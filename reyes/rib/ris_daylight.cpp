@@ -9,7 +9,7 @@ namespace {
 /// Days before a month of a year without leap day; the sun moves by a quarter of a degree meanwhile at most.
 float dayOfYear(float month, float day) {
   static constexpr int kBefore[] = {0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};
-  return static_cast<float>(kBefore[std::clamp(static_cast<int>(month), 1, 12) - 1]) + day;
+  return static_cast<float>(kBefore[static_cast<int>(std::clamp(month, 1.0f, 12.0f)) - 1]) + day;
 }
 
 /// Unit, x towards the east, y up, z towards the north (Preetham, Shirley and Smits 1999, appendix 6).
@@ -22,8 +22,7 @@ vec3 sunAt(float day, float hour, float zone, float latitude_degrees, float long
           std::cos(latitude) * std::sin(declination) - std::sin(latitude) * std::cos(declination) * std::cos(turn)};
 }
 
-}  // namespace
-
+/// Towards the sun, in the light's space: y up, x east, z north.
 vec3 sunDirection(const Request& r) {
   const float month = number(r, "month", 0);
   if (month >= 1)  // defaults: PRMan's, a November afternoon in Seattle
@@ -33,6 +32,8 @@ vec3 sunDirection(const Request& r) {
     if (const Param* p = findParam(r.params, name); p && p->floats.size() == 3) return {p->floats[0], p->floats[1], p->floats[2]};
   return {0, 0, 1};
 }
+
+}  // namespace
 
 Translation dayLight(const Request& r) {
   const vec3 sun = sunDirection(r);

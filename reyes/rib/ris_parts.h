@@ -59,8 +59,6 @@ Translation envSphere(const Request& request, Patterns& patterns);
 Translation riValues(const Request& request);
 /// PxrEnvDayLight
 Translation dayLight(const Request& request);
-/// Towards its sun, in the light's space: y up, x east, z north.
-vec3 sunDirection(const Request& request);
 /// "intensity" and "lightcolor" of any light.
 ParamList emission(const Request& request);
 

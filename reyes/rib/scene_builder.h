@@ -86,6 +86,7 @@ class SceneBuilder : public RiSink {
   Master::Shapes buildShapes(const Keys& keys, const std::vector<float>& times);
   /// `first`: the shape at the first key of motion, if it is not that itself.
   PrimPtr buildShape(const Request& request, const Prim* first);
+  std::optional<GroundPicture> groundOf(const Request& blobby, int string) const;
   std::string description(const Request& request) const;
 
   const RibSettings settings_;

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
-#include <sstream>
+
+#include "reyes/base/search_path.h"
 
 namespace tomales::rib {
 namespace {
@@ -73,11 +74,9 @@ std::string mapped(const std::string& name, const DirMap& map) {
   return it == map.end() ? name : (*it)[2] + name.substr((*it)[1].size());
 }
 
-std::vector<std::string> foldersOf(const std::string& searchPath) {
-  std::vector<std::string> out;
-  std::istringstream list(searchPath);
-  for (std::string folder; std::getline(list, folder, ':');)
-    if (!folder.empty()) out.push_back(folder);
+std::string mappedPath(const std::string& path, const DirMap& map) {
+  std::string out;
+  for (const std::string& folder : foldersOf(path)) out += (out.empty() ? "" : ":") + mapped(folder, map);
   return out;
 }
 

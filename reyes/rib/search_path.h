@@ -18,6 +18,7 @@ DirMap readDirMap(const std::vector<std::string>& written);
 /// The name with its beginning replaced by the first entry that fits.
 std::string mapped(const std::string& name, const DirMap& map);
 
-std::vector<std::string> foldersOf(const std::string& searchPath);
+/// The same for each folder of a search path.
+std::string mappedPath(const std::string& path, const DirMap& map);
 
 }  // namespace tomales::rib

@@ -6,11 +6,6 @@
 
 namespace tomales {
 
-std::string pathOf(const Options& options, const char* kind) {
-  const auto it = options.searchPaths.find(kind);
-  return it == options.searchPaths.end() ? std::string() : it->second;
-}
-
 BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, const std::string& user,
                             TmKind kind) {
   const std::string name = call ? call->name : "defaultsurface";

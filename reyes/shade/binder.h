@@ -3,12 +3,10 @@
 #pragma once
 #include <map>
 
+#include "reyes/base/search_path.h"
 #include "reyes/shade/bound_scene.h"
 
 namespace tomales {
-
-/// Folders of Option "searchpath".
-std::string pathOf(const Options& options, const char* kind);
 
 /// Parameters that every light understands, whether or not its shader declares them.
 extern const ParamNames kLightParams;
@@ -22,7 +20,7 @@ class Binder {
         shadowMaps_(shadowMaps),
         registry_(registry),
         log_(log),
-        path_(pathOf(scene.options, "shader")),
+        path_(pathOf(scene.options.searchPaths, "shader")),
         cameraFromWorld_(scene.cameraFromWorldAtOpen()) {}
 
   BoundShaderPtr surface(const std::shared_ptr<const ShaderCall>& call, const SourceLoc& object,

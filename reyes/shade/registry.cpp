@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "reyes/base/search_path.h"
 #include "reyes/shade.h"
 #include "reyes/shade/plugin_trial.h"
 
@@ -97,16 +98,11 @@ bool ShaderRegistry::loadPlugin(const std::string& path) {
 const TmShader* ShaderRegistry::find(const std::string& name, TmKind kind, const std::string& searchPath) {
   const std::lock_guard lock(impl_->mutex);
   if (const TmShader* s = impl_->known(name, kind)) return s;
-  const std::string path = searchPath.empty() ? "." : searchPath;
-  for (size_t begin = 0; begin <= path.size();) {
-    const size_t end = std::min(path.find(':', begin), path.size());
-    std::string folder = path.substr(begin, end - begin);
-    if (folder.empty() || folder == "&" || folder == "@") folder = ".";
-    const std::filesystem::path file = std::filesystem::path(folder) / (name + ".so");
+  for (const std::filesystem::path folder : foldersOf(searchPath.empty() ? "." : searchPath)) {
+    const std::filesystem::path file = folder / (name + ".so");
     std::error_code none;
     if (std::filesystem::is_regular_file(file, none) && impl_->load(file.string()))
       if (const TmShader* s = impl_->known(name, kind)) return s;
-    begin = end + 1;
   }
   return nullptr;
 }

@@ -3,22 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <glm/gtc/type_ptr.hpp>
 
 #include "reyes/base/rng.h"
+#include "reyes/base/search_path.h"
 #include "reyes/pictures.h"
 
 namespace tomales {
 namespace {
-
-bool matrixOf(const PictureReader& in, const char* name, mat4& out) {
-  float m[16];
-  // RenderMan's matrices act on rows from the right and are stored by rows: that is glm's storage.
-  if (!in.matrix(name, m)) return false;
-  out = glm::make_mat4(m);
-  return true;
-}
 
 int channelOf(const PictureShape& shape, const char* name) {
   const auto it = std::find(shape.channels.begin(), shape.channels.end(), name);
@@ -38,16 +29,16 @@ std::unique_ptr<const ShadowMap> ShadowMap::read(const std::string& path, std::s
   const PictureShape& shape = in->shape();
   auto map = std::make_unique<ShadowMap>();
   const auto channel = [&](const char* name) { return channelOf(shape, name); };
-  if (channel("Z") < 0 || !matrixOf(*in, "worldtocamera", map->cameraFromWorld_) ||
-      !matrixOf(*in, "worldtoscreen", map->ndcFromWorld_))
-    return error = "it is no shadow map: depth or the matrices of its camera are missing", nullptr;
+  const std::optional<DepthCamera> camera = depthCameraOf(*in);
+  if (!camera) return error = "it is no shadow map: depth or the matrices of its camera are missing", nullptr;
+  map->cameraFromWorld_ = camera->cameraFromWorld, map->ndcFromWorld_ = camera->ndcFromWorld;
   map->cameraNormalFromWorld_ = glm::transpose(glm::inverse(mat3(map->cameraFromWorld_)));
   map->width_ = shape.fullWidth, map->height_ = shape.fullHeight;
   map->x0_ = shape.x, map->y0_ = shape.y, map->columns_ = shape.width, map->rows_ = shape.height;
   const mat4 ndcFromCamera = map->ndcFromWorld_ * glm::inverse(map->cameraFromWorld_);
   map->perspective_ = std::abs(ndcFromCamera[2][3]) > 1e-6f * std::abs(ndcFromCamera[3][3]);
   if (!in->deep()) {
-    const int z = channel("Z");
+    const int z = camera->depth;
     map->depth_.resize(static_cast<size_t>(shape.width) * static_cast<size_t>(shape.height));
     if (!in->read(z, z + 1, map->depth_.data())) return error = in->error(), nullptr;
     return map;
@@ -55,7 +46,7 @@ std::unique_ptr<const ShadowMap> ShadowMap::read(const std::string& path, std::s
   std::vector<uint32_t> counts;
   std::vector<float> values;
   if (!in->readDeep(counts, values)) return error = in->error(), nullptr;
-  const int z = channel("Z"), back = channel("ZBack") < 0 ? z : channel("ZBack"), alpha = channel("A");
+  const int z = camera->depth, back = channel("ZBack") < 0 ? z : channel("ZBack"), alpha = channel("A");
   const int opacity[3] = {channel("AR"), channel("AG"), channel("AB")};
   map->first_.push_back(0);
   const float* sample = values.data();
@@ -155,19 +146,9 @@ const ShadowMap* ShadowMaps::find(const std::string& name, const SourceLoc& wher
   const std::lock_guard lock(mutex_);
   const auto [it, isNew] = maps_.try_emplace(name);
   if (!isNew) return it->second.get();
-  namespace fs = std::filesystem;
-  std::error_code none;
-  std::string path = name, error;
-  for (size_t begin = 0; fs::path(name).is_relative() && begin <= searchPath_.size();) {
-    const size_t end = std::min(searchPath_.find(':', begin), searchPath_.size());
-    const fs::path candidate = fs::path(searchPath_.substr(begin, end - begin)) / name;
-    if (fs::is_regular_file(candidate, none)) {
-      path = candidate.string();
-      break;
-    }
-    begin = end + 1;
-  }
-  it->second = ShadowMap::read(path, error);
+  const std::string path = findFile(name, searchPath_);
+  std::string error;
+  it->second = ShadowMap::read(path.empty() ? name : path, error);
   if (!it->second)
     log_.report(Severity::Missing, fmt::format("shadow-map {}", name), where,
                 fmt::format("{}: shadow map \"{}\" cannot be read ({}); shadows are traced instead", user, name,

@@ -31,12 +31,6 @@ Arguments operator+(Arguments a, const Arguments& b) {
   return a;
 }
 
-std::string joined(const Arguments& arguments) {
-  std::string out;
-  for (const std::string& a : arguments) out += (out.empty() ? "" : " ") + (a.find(' ') == std::string::npos ? a : '\'' + a + '\'');
-  return out;
-}
-
 /// Names of options without their dashes, and no word about what all points of a sweep share.
 std::string inShort(const Arguments& arguments) {
   std::string out;
@@ -46,11 +40,7 @@ std::string inShort(const Arguments& arguments) {
 }
 
 LabSettings labOf(const ChartSettings& s, const ChartSweep& sweep) {
-  LabSettings lab{s.folder.empty() ? chartCacheFolder() : s.folder, s.files, sweep.common, s.budget_s};
-  if (s.format) lab.arguments = lab.arguments + Arguments{"--format", fmt::format("{}x{}", (*s.format)[0], (*s.format)[1])};
-  if (s.bounces > 0) lab.arguments = lab.arguments + Arguments{"--bounces", std::to_string(s.bounces)};
-  if (s.threads > 0) lab.arguments = lab.arguments + Arguments{"-t", std::to_string(s.threads)};
-  return lab;
+  return {s.folder.empty() ? chartCacheFolder() : s.folder, s.files, sweep.common + sharedArguments(s), s.budget_s};
 }
 
 class Chart {
@@ -189,6 +179,20 @@ class Chart {
 };
 
 }  // namespace
+
+std::vector<std::string> sharedArguments(const ChartSettings& s) {
+  Arguments out;
+  if (s.format) out = out + Arguments{"--format", fmt::format("{}x{}", (*s.format)[0], (*s.format)[1])};
+  if (s.bounces > 0) out = out + Arguments{"--bounces", std::to_string(s.bounces)};
+  if (s.threads > 0) out = out + Arguments{"-t", std::to_string(s.threads)};
+  return out;
+}
+
+std::string joined(const std::vector<std::string>& arguments) {
+  std::string out;
+  for (const std::string& a : arguments) out += (out.empty() ? "" : " ") + (a.find(' ') == std::string::npos ? a : '\'' + a + '\'');
+  return out;
+}
 
 std::string chartCacheFolder() {
   const char *cache = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");

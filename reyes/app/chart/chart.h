@@ -19,6 +19,12 @@ struct ChartSettings {
   int threads = 0;                 ///< Of each rendering. 0: as many as the machine has.
 };
 
+/// What every rendering is told beside the scene: --format, --bounces, -t.
+std::vector<std::string> sharedArguments(const ChartSettings& settings);
+
+/// As a shell would take them.
+std::string joined(const std::vector<std::string>& arguments);
+
 /// The user's, for what has been measured.
 std::string chartCacheFolder();
 

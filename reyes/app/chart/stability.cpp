@@ -57,18 +57,23 @@ class Laboratory {
     return settings_.budget_s - std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
 
+  Arguments common(const LabScene& scene) const {
+    Arguments out = scene.common;
+    for (const std::string& a : sharedArguments(settings_)) out.push_back(a);
+    return out;
+  }
+
   void measure(StabilityCurve& out, const std::string& value) {
     const LabScene& scene = out.scene;
     out.truths.emplace_back();
     fs::create_directories(settings_.folder);
-    const fs::path rib = fs::path(settings_.folder) / fmt::format("{}_{}.rib", fs::path(scene.file).stem().string(), value);
+    const uint64_t place = std::hash<std::string>{}(fs::weakly_canonical(scene.file).string());  // others may have this name too
+    const fs::path rib = fs::path(settings_.folder) / fmt::format("{}_{:08x}_{}.rib", fs::path(scene.file).stem().string(), place & 0xffffffff, value);
     if (!writeAtOnce(rib.string(), withKnob(scene.text, value))) {
       out.missing.push_back(fmt::format("{} {}: \"{}\" cannot be written", scene.knob, value, rib.string()));
       return;
     }
-    LabSettings lab{settings_.folder, {rib.string()}, scene.common, secondsLeft()};
-    if (settings_.threads > 0) lab.arguments.insert(lab.arguments.end(), {"-t", std::to_string(settings_.threads)});
-    Lab runs(lab);
+    Lab runs({settings_.folder, {rib.string()}, common(scene), secondsLeft()});
     ChartReference truth;
     std::string error;
     for (int batch = 1; batch <= settings_.batches; ++batch) {
@@ -97,10 +102,9 @@ class Laboratory {
       out.missing.push_back(fmt::format("{}, {} {}: {}", m.name, out.scene.knob, value, run ? error : runs.why()));
       return;
     }
-    std::string command = "tomales render " + rib;
-    for (const Arguments& part : {out.scene.common, arguments})
-      for (const std::string& a : part) command += ' ' + a;
-    StabilityPoint point{method, value, truth.errorOf(*image), *run, command, run->picture + ".error.png"};
+    Arguments command{"tomales", "render", rib};
+    for (const Arguments& part : {common(out.scene), arguments}) command.insert(command.end(), part.begin(), part.end());
+    StabilityPoint point{method, value, truth.errorOf(*image), *run, joined(command), run->picture + ".error.png"};
     writeImage(point.errorMap, thumbnail(truth.errorMap(*image, kMapRange), kPictureSize), true, log_);
     fmt::print(stderr, "{}, {}, {} {}: {:.3g} %{}\n", fs::path(out.scene.file).stem().string(), m.name, out.scene.knob, value, 100 * point.error.mean,
                run->recalled ? " (recalled)" : "");
@@ -132,10 +136,10 @@ int stabilityCommand(const ChartSettings& given) {
     curves.push_back(laboratory.measure(std::move(*scene)));
     whole = whole && curves.back().missing.empty();
   }
-  std::string command = "tomales chart --stability";
-  for (const std::string& file : settings.files) command += ' ' + file;
-  if (!writeStabilityPage(settings.output, curves, command) ||
-      !writeStabilityJson(fs::path(settings.output).replace_extension(".json").string(), curves, command)) {
+  Arguments command{"tomales", "chart", "--stability"};
+  for (const Arguments& part : {settings.files, sharedArguments(settings), {"-o", settings.output}}) command.insert(command.end(), part.begin(), part.end());
+  if (!writeStabilityPage(settings.output, curves, joined(command)) ||
+      !writeStabilityJson(fs::path(settings.output).replace_extension(".json").string(), curves, joined(command))) {
     log.report(Severity::Output, "chart", {}, "\"" + settings.output + "\" could not be written");
     return kUnwritable;
   }

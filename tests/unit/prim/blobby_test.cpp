@@ -1,3 +1,5 @@
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "tests/unit/prim/support.h"
 
 namespace tomales {
@@ -9,7 +11,7 @@ constexpr int kAdd = 0, kMultiply = 1, kMaximum = 2, kMinimum = 3, kDivide = 4, 
 
 PrimPtr blobby(int leaves, const std::vector<int>& code, const std::vector<float>& numbers, ParamList params = {}) {
   Problems problems;
-  const PrimPtr prim = makeBlobby(leaves, code, numbers, params, problems);
+  const PrimPtr prim = makeBlobby(leaves, code, numbers, {}, params, problems);
   EXPECT_TRUE(problems.empty());
   return prim;
 }
@@ -74,7 +76,7 @@ TEST(Blobby, AKeyOfMotionIsTheNewSurfaceOnTheMeshOfTheFirst) {
   const vec3 at(0.45f, 0.15f, 0.1f), scale(1.1f, 1, 1), end(0.6f, 0.2f, 0);  // neither parts nor merges
   Problems problems;
   const PrimPtr first = blobby(3, code, numbers({0.5f, 0, 0}, vec3(1), {0.5f, 0, 0}));
-  const PrimPtr key = makeBlobbyKey(*first, 3, code, numbers(at, scale, end), {}, problems);
+  const PrimPtr key = makeBlobbyKey(*first, 3, code, numbers(at, scale, end), {}, {}, problems);
   EXPECT_TRUE(problems.empty());
   ASSERT_EQ(key->patchCount(), first->patchCount());
   atRandomPoints(*key, [&](const Sample& s) {
@@ -86,7 +88,7 @@ TEST(Blobby, AKeyOfMotionIsTheNewSurfaceOnTheMeshOfTheFirst) {
   const auto still = [](const vec3& by) { return joined({ball(by), ball(vec3(0.8f, 0, 0) + by)}); };
   const std::vector<int> two = {kEllipsoid, 0, kEllipsoid, 16, kAdd, 2, 0, 1};
   const vec3 by(1, 2, 3);
-  const PrimPtr here = blobby(2, two, still(vec3(0))), there = makeBlobbyKey(*here, 2, two, still(by), {}, problems);
+  const PrimPtr here = blobby(2, two, still(vec3(0))), there = makeBlobbyKey(*here, 2, two, still(by), {}, {}, problems);
   for (uint32_t patch = 0; patch < here->patchCount(); patch += 5)
     EXPECT_LT(glm::length(sampleAt(*there, patch, 0.3f, 0.6f).p - sampleAt(*here, patch, 0.3f, 0.6f).p - by), 1e-5f);
 }
@@ -203,10 +205,65 @@ TEST(Blobby, ValuesOfLeavesBlendByTheirShareOfTheField) {
   }
 }
 
+/// A picture from 2 above the plane z = 0, looking down: two wide, row 0 at y = 1. Depth grows with x by `slope`; nothing is seen beyond x = edge.
+GroundPicture groundAt(float slope, float edge = 1) {
+  constexpr int kSize = 64;
+  GroundPicture out{kSize, kSize, {}, mat4(1.0f), mat4(1.0f)};
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) {
+      const float at = -1 + 2 * (static_cast<float>(x) + 0.5f) / kSize;
+      out.depth.push_back(at < edge ? 2 + slope * at : INFINITY);
+    }
+  out.cameraFromObject = glm::translate(mat4(1.0f), vec3(0, 0, 2)) * glm::scale(mat4(1.0f), vec3(1, 1, -1));
+  out.texelFromObject = glm::scale(glm::translate(mat4(1.0f), vec3(kSize / 2, kSize / 2, 0)), vec3(kSize / 2, -kSize / 2, 1));
+  return out;
+}
+
+/// The note's formula, word by word.
+double repulsionAt(double z, double A, double B, double C, double D) {
+  const auto bump = [](double r) { return r <= 0 || r >= 2 ? 0 : std::pow(r, 3) * (8 - 12 * r + 6 * r * r - std::pow(r, 3)); };
+  const auto ease = [](double r) { return r >= 1 ? 1 : r * r * (3 - 2 * r); };
+  return z >= A ? 0 : (D * bump(z / C) - B / z) * (1 - ease(z / A));
+}
+
+TEST(RepelledBlobby, FollowsTheFormulaOverPlaneAndSlopedGrounds) {
+  const std::vector<float> numbers = joined({ball(vec3(0, 0, 0.3f)), {0.4f, 0.01f, 0.15f, 0.3f}});
+  const std::vector<int> code = {kEllipsoid, 0, 1003, 0, 16, kAdd, 2, 0, 1};
+  for (const float slope : {0.0f, -0.3f}) {
+    Problems problems;
+    const PrimPtr prim = makeBlobby(2, code, numbers, [&](int) { return groundAt(slope); }, {}, problems);
+    EXPECT_TRUE(problems.empty());
+    float lowest = 1;
+    atRandomPoints(*prim, [&](const Sample& s) {
+      const double z = s.p.z + slope * s.p.x;  // above the ground, along the view
+      ASSERT_GT(z, 0);
+      EXPECT_NEAR(ballAt(s.p, {0, 0, 0.3f}) + repulsionAt(z, 0.4f, 0.01f, 0.15f, 0.3f), 27.0 / 64, 1e-4);
+      lowest = std::min(lowest, static_cast<float>(z));
+    });
+    EXPECT_LT(lowest, 0.1f) << "it comes near";
+    EXPECT_LT(enclosedBy(*prim, 8).gap.x, 1e-3);
+    expectSoundEverywhere(*prim);
+  }
+}
+
+TEST(RepelledBlobby, IsWhatItIsWithoutGroundAboveItsHeightAndWherePicturesShowNothing) {
+  const std::vector<int> code = {kEllipsoid, 0, 1003, 0, 16, kAdd, 2, 0, 1};
+  Problems problems;
+  for (const bool high : {true, false}) {
+    const vec3 center(0, 0, high ? 1.0f : 0.3f);
+    const PrimPtr prim = makeBlobby(2, code, joined({ball(center), {0.4f, 0.01f, 0.15f, 0.3f}}),
+                                    [&](int) -> std::optional<GroundPicture> { return high ? groundAt(0) : groundAt(0, -1); }, {}, problems);
+    atRandomPoints(*prim, [&](const Sample& s) { EXPECT_NEAR(glm::distance(s.p, center), 0.5f, 1e-4f); });
+  }
+  const PrimPtr unread = makeBlobby(2, code, joined({ball(vec3(0)), {0.4f, 0.01f, 0.15f, 0.3f}}), [](int) { return std::nullopt; }, {}, problems);
+  atRandomPoints(*unread, [&](const Sample& s) { EXPECT_NEAR(glm::length(s.p), 0.5f, 1e-4f); });
+  EXPECT_TRUE(problems.empty());
+}
+
 TEST(NastyBlobby, ArraysThatDoNotFitThrowASentence) {
   Problems problems;
   const auto errorWith = [&](const std::vector<int>& code, const std::vector<float>& numbers) {
-    return errorOf([&] { makeBlobby(1, code, numbers, {}, problems); });
+    return errorOf([&] { makeBlobby(1, code, numbers, {}, {}, problems); });
   };
   EXPECT_EQ(errorWith({}, {}), "it has no operations and no leaves");
   EXPECT_EQ(errorWith({kEllipsoid}, {}), "its list of codes ends in the middle of an operation");
@@ -224,12 +281,10 @@ TEST(NastyBlobby, WhatHasNoSurfaceIsEmptyAndWhatIsUnknownIsNamed) {
             0u);
   EXPECT_EQ(blobby(2, {kEllipsoid, 0, kConstant, 16, kDivide, 0, 1}, joined({ball(vec3(0)), {0}}))->patchCount(), 0u);
   Problems problems;
-  EXPECT_GT(makeBlobby(2, {kEllipsoid, 0, 1003, 0, 16, kAdd, 2, 0, 1}, joined({ball(vec3(0)), {1, 1, 1, 1}}), {}, problems)
-                ->patchCount(),
-            0u);
+  EXPECT_GT(makeBlobby(2, {kEllipsoid, 0, 1004, 0, 1, 16, 0, 0, kAdd, 2, 0, 1}, joined({ball(vec3(0)), {1}}), {}, {}, problems)->patchCount(), 0u);
   EXPECT_EQ(problems.size(), 1u);
   problems.clear();
-  makeBlobby(3, {kEllipsoid, 0, kEllipsoid, 16, kAdd, 2, 0, 1}, joined({ball(vec3(0)), ball(vec3(1), {1, 0, 1})}), {}, problems);
+  makeBlobby(3, {kEllipsoid, 0, kEllipsoid, 16, kAdd, 2, 0, 1}, joined({ball(vec3(0)), ball(vec3(1), {1, 0, 1})}), {}, {}, problems);
   EXPECT_EQ(problems.size(), 2u);  // a flat leaf; two leaves where three are announced
 }
 
@@ -242,7 +297,7 @@ TEST(NastyBlobby, ExtremeScalesAndOverlapsAreSound) {
   expectSoundEverywhere(*blobby(2, {kEllipsoid, 0, kEllipsoid, 0, kAdd, 2, 0, 1}, ball(vec3(0), {1, 0.05f, 1})));
   // A thousandth as thick as wide: its cells would be too many, which it says.
   Problems problems;
-  makeBlobby(1, {kEllipsoid, 0}, ball(vec3(0), {1, 1e-3f, 1}), {}, problems);
+  makeBlobby(1, {kEllipsoid, 0}, ball(vec3(0), {1, 1e-3f, 1}), {}, {}, problems);
   EXPECT_EQ(problems.size(), 1u);
 }
 

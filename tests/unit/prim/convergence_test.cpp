@@ -87,7 +87,7 @@ std::vector<Case> cases() {
           {"Ribbon", makeCurves(true, bsplineBasis(), {6}, false, {positions(wiggle(6)), width(Storage::Constant, {0.1f})}, none)->facing(kEye, {0, 0, 1}, true), false, 16},
           {"Tube", makeTubes(true, bsplineBasis(), {6}, false, {positions(wiggle(6)), width(Storage::Constant, {0.1f})}, none), true, 16},
           {"Teapot", makeTeapot({}, none)},
-          {"Blobby", makeBlobby(1, {1001, 0}, {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1}, {}, none), true, 2}};
+          {"Blobby", makeBlobby(1, {1001, 0}, {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1}, {}, {}, none), true, 2}};
 }
 
 class Convergence : public testing::TestWithParam<Case> {};

@@ -65,11 +65,26 @@ TEST(PointsOfTypeBlobby, AreOneBlobbyAsWideAsThePointsAre) {
   ASSERT_EQ(r.object(0).shape().primvars().size(), 1u);
 }
 
+TEST(RepelledBlobby, WithoutItsPictureIsWholeAndSaidToBe) {
+  const Reading r(inWorld("Blobby 2 [1001 0 1003 0 16 0 2 0 1] [1.5 0 0 0 0 1.5 0 0 0 0 1.5 0 0 0 -.1 1 .4 .01 .3 .08] [\"/nowhere.zfile\"]\n"
+                          "Blobby 2 [1001 0 1003 1 16 0 2 0 1] [1.5 0 0 0 0 1.5 0 0 0 0 1.5 0 0 0 -.1 1 .4 .01 .3 .08] [\"/nowhere.zfile\"]"));
+  EXPECT_EQ(r.codes(), "rib-ground@2 rib-object-dropped@3 ");
+  EXPECT_EQ(r.scene().objects.size(), 1u);
+}
+
 TEST(PointsOfTypeBlobby, MoveAsBlobbiesDo) {
   const Reading r("Shutter 0 1" + inWorld("MotionBegin [0 1] Points \"P\" [0 0 0 1 0 0] \"uniform string type\" [\"blobby\"]\n"
                                           "Points \"P\" [0 1 0 1 1 0] \"uniform string type\" [\"blobby\"] MotionEnd"));
   EXPECT_EQ(r.codes(), "");
   EXPECT_EQ(r.object(0).shapes.size(), 2u);
+}
+
+TEST(PointsOfTypeBlobby, OfNoWidthAreNothingAndOfNegativeWidthAnError) {
+  const Reading r(inWorld("Points \"P\" [0 0 0 1 0 0 2 0 0] \"varying float width\" [1 0 0] \"uniform string type\" [\"blobby\"]\n"
+                          "Points \"P\" [0 0 0 1 0 0] \"varying float width\" [1 -1] \"uniform string type\" [\"blobby\"]"));
+  EXPECT_EQ(r.codes(), "rib-object-dropped@3 ");
+  EXPECT_NE(r.message("rib-object-dropped").message.find("width is -1 somewhere"), std::string::npos);
+  EXPECT_LT(r.object(0).shape().bound(0, {}).hi.x, 0.6f);
 }
 
 TEST(PointsOfTypeBlobby, WithWidthsThatDoNotFitAreDropped) {

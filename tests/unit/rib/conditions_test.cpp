@@ -133,5 +133,11 @@ TEST(SearchPath, MapsFoldersOfTheZoneOfUnix) {
   EXPECT_EQ(Reading("Option \"searchpath\" \"archive\" \"/z/\"\n" + map + inWorld("ReadArchive \"mapped.rib\"")).scene().objects.size(), 1u) << "in either order";
 }
 
+TEST(SearchPath, IsMappedOnceThoughEveryFrameSaysItAgain) {
+  const std::string map = "Option \"searchpath\" \"string dirmap\" [\"NFS\" \"/a\" \"/a/b\"]\n", path = "Option \"searchpath\" \"texture\" \"&:/a\"\n";
+  const Reading r(map + "Option \"searchpath\" \"texture\" \"/a\"\n" + map + path + map + inWorld(""));
+  EXPECT_EQ(r.scene().options.searchPaths.at("texture"), "/a/b:/a/b");
+}
+
 }  // namespace
 }  // namespace tomales
