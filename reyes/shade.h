@@ -42,8 +42,8 @@ struct ShadeContext {
   int specularDepth = 0;       ///< Specular bounces between the eye and these points.
   int diffuseLimit = 1 << 20, specularLimit = 1 << 20;  ///< Depths at which no ray follows, set by the objects on the way.
   std::string label{};         ///< Of the ray that came here.
-  bool highlights = false;     ///< Diffuse rays bring highlights too: those of the reference path tracer.
   bool lampsGlow = true;       ///< For that ray.
+  bool highlights = false;     ///< Diffuse rays bring highlights too: those of the reference path tracer.
   RayAnswers* answers = nullptr;  ///< Of this batch: asked before shadow and gather rays are traced. Null: all are traced.
   int chunk = 0;               ///< Set by ShadingSystem: which part of the batch is being shaded.
 };

@@ -89,6 +89,29 @@ inline Triple shadow(const char* name, const Triple& p, const TmShadowLookup& op
 template <class... List>
 Triple shadow(const char* name, const Triple& p, const char* first, const List&... list) { return shadow(name, p, listed(kShadowDefaults, first, list...)); }
 
+// --- The ray that came to these points
+
+/// By its RSL name; false: there is none.
+inline bool rayinfo(const char* name, Triple& out) {
+  Triple value;
+  if (!grid()->call->rayInfo(grid()->host, grid(), name, value.out())) return false;
+  out = value;
+  return true;
+}
+inline int rayNumber(const char* name) {
+  Triple value;
+  rayinfo(name, value);
+  for (int i = 0; i < grid()->count; ++i)
+    if (grid()->active[i]) return int(value[i].x);
+  return 0;
+}
+inline int raydepth() { return rayNumber("depth"); }
+inline bool isshadowray() { return rayNumber("type") == 3; }
+inline bool isindirectray() { return rayNumber("type") == 1; }
+inline std::string raylabel() { return grid()->call->rayLabel(grid()->host, grid()); }
+
+// --- Light
+
 /// Empty: there is none.
 inline std::string askText(TmWhom whom, const char* name) {
   int32_t type;
@@ -110,6 +133,7 @@ inline Color phong(const Normal& n, const Vector& v, const Float& size) {
   const Normal N = normalize(n);
   const Vector R = reflect(-normalize(v), N);
   Color sum;
+  if (isindirectray()) return sum;  // gather rays carry diffuse light alone
   TmIlluminance query{sizeof(TmIlluminance), 0, "", N, float(rsl::kPi / 2), 0, {}, {}, nullptr, 0, 0, 0};
   while (grid()->call->illuminance(grid()->host, grid(), &query)) {
     if (query.nonspecular) continue;
@@ -161,27 +185,6 @@ Color indirectdiffuse(const Point& p, const Normal& n, int samples, const List&.
   Float covered;
   return tripleFrom([&](TmVec3 out) { grid()->call->occlusion(grid()->host, grid(), p, n, &options, covered.data(), out); });
 }
-
-// --- The ray that came to these points
-
-/// By its RSL name; false: there is none.
-inline bool rayinfo(const char* name, Triple& out) {
-  Triple value;
-  if (!grid()->call->rayInfo(grid()->host, grid(), name, value.out())) return false;
-  out = value;
-  return true;
-}
-inline int rayNumber(const char* name) {
-  Triple value;
-  rayinfo(name, value);
-  for (int i = 0; i < grid()->count; ++i)
-    if (grid()->active[i]) return int(value[i].x);
-  return 0;
-}
-inline int raydepth() { return rayNumber("depth"); }
-inline bool isshadowray() { return rayNumber("type") == 3; }
-inline bool isindirectray() { return rayNumber("type") == 1; }
-inline std::string raylabel() { return grid()->call->rayLabel(grid()->host, grid()); }
 
 // --- Point clouds
 
@@ -243,10 +246,10 @@ inline bool ask(TmWhom whom, const char* name, Triple& out, int light = -1) {
   });
   return true;
 }
-inline bool ask(TmWhom whom, const char* name, Matrix& out) {
+inline bool ask(TmWhom whom, const char* name, Matrix& out, int light = -1) {
   int32_t type;
   TmValue v;
-  if (!grid()->call->ask(grid()->host, grid(), whom, -1, name, &type, &v) || type != TM_MATRIX) return false;
+  if (!grid()->call->ask(grid()->host, grid(), whom, light, name, &type, &v) || type != TM_MATRIX) return false;
   out = Matrix(rsl::Matrix::of(v.c[0]));
   return true;
 }

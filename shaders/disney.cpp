@@ -116,6 +116,7 @@ class Glossy {
     g_->call->lightDensity(g_->host, g_, k, density_.data());
     for (int i : b_) {
       const Vec3 L = rsl::get(sample.L, i);
+      if (rsl::dot((*this)[i].N, L) <= 0) continue;
       const float other = density_[i] > 0 ? static_cast<float>(ofLights_) * (*this)[i].density(L) / density_[i] : 0.0f;
       sum.set(i, sum[i] + rsl::get(sample.Cl, i) * (*this)[i].value(L) / (1 + other * other));
     }
@@ -181,7 +182,7 @@ void shade(const TmGrid* g) {
   }
   if (shiny) {
     glossy.addLobeSamples(highlight);
-    const int rays = static_cast<int>(reflections(g));
+    const int rays = static_cast<int>(rsl::clamp(reflections(g), 0, 1 << 14));
     glossy.addReflections(b.rayDepth() > 0 ? std::min(rays, 1) : rays, mirrored);  // reflected again and again, rays would multiply
   }
   for (int i : b) {

@@ -5,7 +5,7 @@ rsl::FloatParam Km("Km", 0.1f, "largest displacement to either side");
 rsl::FloatParam frequency("frequency", 1, "lumps for each unit of `space`");
 rsl::FloatParam octaves("octaves", 4, "layers, each twice as fine and half as high");
 rsl::StringParam space("space", "shader", "the noise stands still in this space");
-rsl::FloatParam moves("moves", 1, "0: normals turn as if points had moved, which stay");
+rsl::UniformFloatParam moves("moves", 1, "0: normals turn as if points had moved, which stay");
 
 struct Octave {
   float scale, weight;  ///< 2^k, 2^-k
@@ -36,7 +36,7 @@ void shade(const TmGrid* g) {
   for (float k = 0; k < most; ++k)
     addOctave({std::exp2(k), std::exp2(-k), k}, g->count, p, counts.data(), sum.data(), weights.data());
   for (int i : b) amount[i] = weights[i] > 0 ? Km(g, i) * (sum[i] / weights[i]) : 0.0f;
-  moves(g, 0) != 0 ? b.displace(amount) : b.bump(amount);
+  moves(g) != 0 ? b.displace(amount) : b.bump(amount);
 }
 }  // namespace
 

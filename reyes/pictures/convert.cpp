@@ -35,13 +35,20 @@ bool moveInto(const std::string& temporary, const std::string& file, std::string
   return !problem;
 }
 
-/// Every texel is read here: a truncated picture is found out before anything is made of it.
+/// Every texel is read here: a truncated picture is found out before anything is made of it. By an ImageInput, since an ImageBuf takes strips
+/// of TIFF that are cut off for read: OpenImageIO returns true and leaves a message.
 bool readWhole(const std::string& file, OIIO::ImageBuf& picture, std::string& error) {
-  picture.reset(file);
-  if (picture.read(0, 0, true)) return picture.deep() ? (error = "it is a deep picture", false) : true;
-  error = picture.geterror();
-  if (error.empty()) error = oiioError();
-  return false;
+  const auto in = OIIO::ImageInput::open(file);
+  if (!in) return error = oiioError(), false;
+  OIIO::ImageSpec spec = in->spec();
+  if (spec.deep) return error = "it is a deep picture", false;
+  spec.channelformats.clear();
+  picture.reset(spec);
+  const bool read = in->read_image(0, 0, 0, spec.nchannels, spec.format, picture.localpixels());
+  error = in->geterror();
+  error = error.substr(0, error.find('\n'));
+  if (!read && error.empty()) error = "it cannot be read";
+  return error.empty();
 }
 
 bool write(const OIIO::ImageBuf& picture, const TextureRecipe& recipe, const std::string& file, std::string& error) {

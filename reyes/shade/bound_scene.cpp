@@ -18,7 +18,7 @@ std::vector<Override> overridesOf(const BoundShader& bound, const std::vector<Pr
     for (const Primvar& p : primvars) {
       const bool same = p.name == decl.name && p.width == width && decl.arrayLength == 1;
       if (same && isUniform(decl))
-        log.report(Severity::Warning, fmt::format("shader-parameter-uniform-{}", bound.shader->name), bound.where,
+        log.report(Severity::Warning, fmt::format("shader-parameter-uniform-{}-{}", bound.shader->name, decl.name), bound.where,
                    fmt::format("{}: shader \"{}\": parameter \"{}\" is uniform; the primitive variable of that name is ignored", bound.user,
                                bound.shader->name, decl.name));
       else if (same)

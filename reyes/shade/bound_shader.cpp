@@ -76,8 +76,8 @@ BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const 
   const size_t n = static_cast<size_t>(shader.paramCount);
   bound->floats.resize(n), bound->strings.resize(n), bound->values.resize(n);
 
-  const auto warn = [&](const char* code, const std::string& problem) {
-    log.report(Severity::Warning, fmt::format("{}-{}", code, shader.name), where,
+  const auto warn = [&](const char* code, std::string_view parameter, const std::string& problem) {
+    log.report(Severity::Warning, fmt::format("{}-{}-{}", code, shader.name, parameter), where,
                fmt::format("{}: shader \"{}\": {}", user, shader.name, problem));
   };
   for (size_t i = 0; i < n; ++i) {
@@ -87,11 +87,11 @@ BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const 
     value = {{nullptr, nullptr, nullptr}, 0, std::max(1, decl.arrayLength), nullptr};
     if (isOutput(decl)) {
       const bool isInputToo = std::any_of(shader.params, shader.params + n, [&](const TmParamDecl& d) { return !isOutput(d) && std::string_view(d.name) == decl.name; });
-      if (param && !isInputToo) warn("shader-parameter-output", fmt::format("\"{}\" is an output; what is given is ignored", decl.name));
+      if (param && !isInputToo) warn("shader-parameter-output", decl.name, fmt::format("\"{}\" is an output; what is given is ignored", decl.name));
       continue;
     }
     ParameterValue parameter = parameterValue(decl, param);
-    if (!parameter.remark.empty()) warn("shader-parameter-type", fmt::format("parameter \"{}\" {}", decl.name, parameter.remark));
+    if (!parameter.remark.empty()) warn("shader-parameter-type", decl.name, fmt::format("parameter \"{}\" {}", decl.name, parameter.remark));
     if (typeOf(decl) == TM_STRING) {
       for (const std::string& s : parameter.strings) bound->strings[i].append(s).push_back('\0');
       value.string = bound->strings[i].c_str();
@@ -104,7 +104,7 @@ BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const 
   if (call)
     for (const Param& p : call->params)
       if (!bound->find(p.name) && std::find(hostParams.begin(), hostParams.end(), p.name) == hostParams.end())
-        warn("shader-parameter-unknown", fmt::format("has no parameter \"{}\"; it is ignored", p.name));
+        warn("shader-parameter-unknown", p.name, fmt::format("has no parameter \"{}\"; it is ignored", p.name));
   return bound;
 }
 

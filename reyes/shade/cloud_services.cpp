@@ -75,7 +75,7 @@ int32_t texture3d(void* host, const TmGrid* all, const char* file, TmConstVec3 P
   const bool known = batch.scene.clouds->lookUp(query, valuesOf(values, valueCount), found, problem);
   primary.spread(found);
   for (const TmCloudValue& v : std::span(values, static_cast<size_t>(std::max(0, valueCount))))
-    for (int k = 0; k < v.floats; ++k) primary.spread(v.c[k]);
+    for (int k = 0; k < (v.floats == 3 ? 3 : 1); ++k) primary.spread(v.c[k]);
   return known || refuse(batch, file, problem);
 }
 

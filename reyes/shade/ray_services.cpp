@@ -17,7 +17,7 @@ constexpr float kFar = 1e30f;                    ///< RI_INFINITY: the distance 
 constexpr uint32_t kConeStream = 0x636f6e65U, kBaseStream = 0x62617365U;
 
 /// The caller's options, as many as it knows of.
-TmRayOptions optionsOf(const TmRayOptions* given) {
+TmRayOptions drawnOptionsOf(const TmRayOptions* given) {
   TmRayOptions options = TM_RAY_DEFAULTS;
   if (given) std::copy_n(reinterpret_cast<const char*>(given), std::min<size_t>(given->structBytes, sizeof options),
                          reinterpret_cast<char*>(&options));
@@ -25,6 +25,15 @@ TmRayOptions optionsOf(const TmRayOptions* given) {
   options.drawn = std::clamp(options.drawn, 0, 1 << 14);
   options.number = std::clamp(options.number, 0, std::max(0, options.drawn - 1));
   options.coneAngle = std::clamp(options.coneAngle, 0.0f, kPi / 2);
+  return options;
+}
+
+int floatsOf(const TmRayOutput& o) { return o.floats == 3 ? 3 : 1; }
+
+/// Of services other than trace(), which draw all their directions themselves.
+TmRayOptions optionsOf(const TmRayOptions* given) {
+  TmRayOptions options = drawnOptionsOf(given);
+  options.drawn = options.number = 0;
   return options;
 }
 
@@ -123,7 +132,7 @@ void traceRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 directi
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
   const TmGrid* g = primary.grid();
-  const TmRayOptions options = optionsOf(given);
+  const TmRayOptions options = drawnOptionsOf(given);
   forActive(all, [&](int i) {
     if (color.x) set(color, i, vec3(0));
     if (distance) distance[i] = kFar;
@@ -167,7 +176,7 @@ int32_t gatherRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 axi
     if (name.starts_with("ray:"))
       ofRay.push_back(&o);
     else
-      result.outputs.push_back({o.name, o.floats == 3 ? 3 : 1, {o.c[0], o.c[1], o.c[2]}});
+      result.outputs.push_back({o.name, floatsOf(o), {o.c[0], o.c[1], o.c[2]}});
   }
   batch.scene.services->trace(*batch.points, g->active, cone.origin(), cone.direction(), query, batch.context, result);
   forActive(g, [&](int i) {
@@ -177,12 +186,12 @@ int32_t gatherRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 axi
       const vec3 value = name == "ray:origin"      ? get(cone.origin(), i)
                          : name == "ray:direction" ? get(cone.direction(), i)
                                                    : vec3(std::min(result.distance[i], kFar));
-      for (int k = 0; k < o->floats; ++k) o->c[k][i] = value[k];
+      for (int k = 0; k < floatsOf(*o); ++k) o->c[k][i] = value[k];
     }
   });
   primary.spread(hit);
   for (const TmRayOutput& o : std::span(outputs, static_cast<size_t>(outputCount)))
-    for (int k = 0; k < o.floats; ++k) primary.spread(o.c[k]);
+    for (int k = 0; k < floatsOf(o); ++k) primary.spread(o.c[k]);
   return 1;
 }
 

@@ -76,13 +76,14 @@ TEST_F(Binding, UnknownShadersAreReportedWithPlaceAndObjectAndReplacedLoudly) {
 }
 
 TEST_F(Binding, UnknownAndMistypedParametersAreWarnedAboutAndDefaulted) {
-  surface("matte", {number("Kx", 3), color("Kd", {2, 2, 2})});
+  surface("matte", {number("Kx", 3), number("Ky", 3), color("Kd", {2, 2, 2})});
   light("distantlight");
   expectColor(shadeOne(), vec3(1));
-  EXPECT_EQ(log.entries().size(), 2u);
+  EXPECT_EQ(log.entries().size(), 3u);
   EXPECT_EQ(log.worst(), Severity::Warning);
-  EXPECT_EQ(log.count("shader-parameter-unknown-matte"), 1);
-  EXPECT_EQ(log.count("shader-parameter-type-matte"), 1);
+  EXPECT_EQ(log.count("shader-parameter-unknown-matte-Kx"), 1);
+  EXPECT_EQ(log.count("shader-parameter-unknown-matte-Ky"), 1);
+  EXPECT_EQ(log.count("shader-parameter-type-matte-Kd"), 1);
 }
 
 Param given(ValueType type, std::vector<float> floats) {
@@ -183,7 +184,7 @@ TEST_F(Shapes, AUniformParameterIsNotOverriddenByPrimitiveVariablesAndThisIsSaid
   ShadePoints p = points({vec3(0, 0, 5)});
   p.primvar(0)[0] = 100;
   EXPECT_EQ(shade(p).color(0).z, 5);
-  EXPECT_EQ(log.count("shader-parameter-uniform-shapes"), 1);
+  EXPECT_EQ(log.count("shader-parameter-uniform-shapes-count"), 1);
 }
 
 TEST(ParameterValues, StringsStayStrings) {

@@ -140,12 +140,14 @@ TEST_F(Pictures, TilesOfAMarkedNameAreChosenByWholeNumbersOfST) {
 TEST_F(Pictures, WhatIsMissingOrTruncatedIsMagentaAndReported) {
   EXPECT_EQ(at("absent.tif", 0.5f, 0.5f), (std::array<float, 3>{1, 0, 1}));
   EXPECT_FALSE(found);
-  const std::string whole = write("whole.png", 256, [](int x, int y) { return std::array<float, 3>{float(x * 7 % 11) / 11, float(y) / 256, 0}; });
-  std::ifstream in(whole, std::ios::binary);
-  std::string bytes((std::istreambuf_iterator<char>(in)), {});
-  std::ofstream(folder / "cut.png", std::ios::binary) << bytes.substr(0, bytes.size() / 2);
-  EXPECT_EQ(at("cut.png", 0.5f, 0.9f), (std::array<float, 3>{1, 0, 1}));
-  EXPECT_EQ(log.count("texture-missing cut.png"), 1);
+  for (const std::string type : {".png", ".tif"}) {
+    const std::string whole = write("whole" + type, 256, [](int x, int y) { return std::array<float, 3>{float(x * 7 % 11) / 11, float(y) / 256, 0}; });
+    std::ifstream in(whole, std::ios::binary);
+    std::string bytes((std::istreambuf_iterator<char>(in)), {});
+    std::ofstream(folder / ("cut" + type), std::ios::binary) << bytes.substr(0, bytes.size() / 2);
+    EXPECT_EQ(at(("cut" + type).c_str(), 0.5f, 0.9f), (std::array<float, 3>{1, 0, 1})) << type;
+    EXPECT_EQ(log.count("texture-missing cut" + type), 1);
+  }
   EXPECT_EQ(log.worst(), Severity::Missing);
   EXPECT_EQ(filesInCache(), 0u);
 }
