@@ -16,15 +16,11 @@ constexpr int kSlackDepth = 8;
 /// coordinates beyond float's precision or reach, which no halving makes small, come near it. Patches of one object share what
 /// exceeds the least, or a mesh of them would take hours.
 constexpr double kLayersOfObject = 64, kLayersOfPatch = 4;
-<<<<<<< HEAD
 constexpr double kVisitsOfObject = 1 << 14, kVisitsOfPatch = 1 << 9;
 /// What a blurred piece costs beyond its visit if it may be seen all over the window: each sample there has to look whether it meets it, and
 /// all buckets wait for its vertices at every key.
 constexpr double kVisitsOfBlur = 32, kKeysOfBlur = 16;
-=======
-constexpr double kVisitsOfObject = 1 << 16, kVisitsOfPatch = 1 << 12;
 constexpr float kLeastReach_px = 0.05f;  ///< What vertices are snapped by, and what closes T-vertices.
->>>>>>> main
 constexpr float kRounding_px = 0.01f;  ///< Of projecting a box or its points.
 /// Lazily, a patch is halved so often, and what then has so many grids or more is a coarse piece.
 constexpr int kHalvingsAtOnce = 6;
@@ -160,12 +156,8 @@ class Splitter {
     if (static_cast<int64_t>(nu) * nv <= gridSize_) {
       // What moves through the eye plane does so however small it is; it is seen while it stays in front.
       if (crossesEye && !still) ++givenUp_.atEye;
-<<<<<<< HEAD
-      if (!still || camera_.defocuses()) budget_ -= visitsOfBlur(rasterOf(bare, nu, nv));
-      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, nu, nv), bound.lo.z, crossesEye, depth, false});
-=======
+      if (!still || camera_.defocuses()) budget_ -= visitsOfBlur(rasterOf(bare, reach_px));
       out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, reach_px), bound.lo.z, crossesEye, depth, false});
->>>>>>> main
     } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && gridsOf(nu, nv) >= kGridsOfCoarse && !crossesEye &&
                glm::length(bare.size()) <= kSlack * reach) {
       // Halving shrinks such a piece and its bound as it should, so that its grids can be foretold.
