@@ -10,7 +10,7 @@ constexpr double kLeastCosine = 0.5;      ///< Between normals of a cell and the
 constexpr double kRounding = 1e-9;        ///< Of sums of leaves' values.
 /// More mean that a leaf is drawn out, or far smaller than another; then all cells are larger by this, or by this again.
 constexpr size_t kMostCells = 1 << 18, kMostCellsOfLeaf = 1 << 10;
-constexpr double kCoarsening = 4;
+constexpr double kLeastCoarsening = 4, kMostCoarsening = 64;
 
 using Lattice = std::array<uint32_t, 3>;  ///< In finest cells from the root's corner.
 
@@ -67,6 +67,10 @@ class Contourer {
     refine(0, field);
   }
 
+  /// How many times larger cells must be at least for the surface to fit, going by how much of the box was done when there were too many: a
+  /// surface has a quarter of the cells when they are twice as large.
+  double wantedCoarsening() const { return std::clamp(std::sqrt(std::pow(unit_ * cells_[0].size, 3) / std::max(done_, 1e-300)), kLeastCoarsening, kMostCoarsening); }
+
   /// Nothing: it takes too many cells.
   std::optional<BlobMesh> run() {
     if (cells_.size() > mostCells_) return {};
@@ -94,14 +98,17 @@ class Contourer {
     const Box box = boxOf(cells_[index]);
     const BlobField field = outer.within(box);
     const FieldRange range = field.over(box);
-    if (range.lo > kBlobSurface + kRounding || range.hi < kBlobSurface - kRounding) return;
-    const double wanted = field.feature() / cellsOfFeature_, side = unit_ * cells_[index].size;
+    const double side = unit_ * cells_[index].size;
+    if (range.lo > kBlobSurface + kRounding || range.hi < kBlobSurface - kRounding) return void(done_ += side * side * side);
+    const double wanted = field.feature() / cellsOfFeature_;
     if (cells_[index].size == 1 || side <= wanted) {
       cells_[index].inside = cornersInside(cells_[index], field);
       const std::vector<dvec3> crossings = crossingsOf(cells_[index], field);
       const bool simple = isOneSheet(cells_[index].inside) && isFlatEnough(crossings, field) && !hidesGap(cells_[index], field);
-      if (simple || side * (1 << kExtraLevels) <= wanted || cells_[index].size == 1)
+      if (simple || side * (1 << kExtraLevels) <= wanted || cells_[index].size == 1) {
+        done_ += side * side * side;
         return makeVertex(index, crossings, field);
+      }
       cells_[index].inside = 0;
     }
     const uint32_t first = static_cast<uint32_t>(cells_.size());
@@ -209,6 +216,7 @@ class Contourer {
   const double cellsOfFeature_;
   const size_t mostCells_;
   double unit_;
+  double done_ = 0;  ///< Volume of the box that needs no more cells.
   std::vector<Cell> cells_;
   BlobMesh out_;
 };
@@ -265,11 +273,14 @@ BlobMesh carriedMesh(const BlobMesh& mesh, const BlobField& field, const BlobFie
 }
 
 BlobMesh contour(const BlobField& field, const Box& box) {
-  for (double coarser = 1;; coarser *= kCoarsening)
-    if (std::optional<BlobMesh> mesh = Contourer(field, box, coarser).run()) {
+  for (double coarser = 1;;) {
+    Contourer contourer(field, box, coarser);
+    if (std::optional<BlobMesh> mesh = contourer.run()) {
       mesh->complete = coarser == 1;
       return std::move(*mesh);
     }
+    coarser *= contourer.wantedCoarsening();
+  }
 }
 
 }  // namespace tomales
