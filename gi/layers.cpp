@@ -30,8 +30,8 @@ Ray RayLayers::behind(const RayScene& scene, const Ray& ray, const Hit& hit) {
   return on;
 }
 
-void RayLayers::keep(size_t to, size_t from, const Ray& ray, const vec3& left) {
-  rays[to] = ray, elements[to] = elements[from], clear[to] = left;
+void RayLayers::keep(size_t to, size_t from, const Ray& ray, const vec3& passes) {
+  rays[to] = ray, elements[to] = elements[from], clear[to] = passes;
   names[to] = {hashCombine(names[from].key, 0x6c617965U), names[from].sequence};
 }
 

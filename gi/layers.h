@@ -11,6 +11,8 @@ struct RayLayers {
   std::vector<SampleName> names;
   std::vector<int> elements;  ///< Whose ray it is, by the caller's count.
   std::vector<vec3> clear;    ///< What passes from there to the start.
+  std::vector<Ray> came;      ///< How each came to the surface behind which it starts; empty before the first goOn(),
+  std::vector<Hit> left;      ///< and that surface.
 
   void add(int element, const Ray& ray, SampleName name);
 
@@ -22,21 +24,23 @@ struct RayLayers {
   template <class Brings>
   void goOn(const RayScene& scene, const std::vector<Hit>& hits, const HitAnswers& answers, float opacityThreshold, const Brings& brings) {
     size_t kept = 0;
+    came.clear(), left.clear();
     for (size_t r = 0; r < rays.size(); ++r) {
       if (hits[r].object < 0) continue;
       // One bad shader result would cost the whole point.
       const vec3 color = isFinite(answers.color[r]) ? clear[r] * answers.color[r] : vec3(0);
-      const vec3 left = clear[r] * (1.0f - glm::clamp(answers.opacity[r], 0.0f, 1.0f));
-      brings(elements[r], color, left);
-      if (maxComponent(left) <= 1 - std::min(opacityThreshold, 0.9999f) || hits[r].t >= rays[r].tMax) continue;
-      keep(kept++, r, behind(scene, rays[r], hits[r]), left);
+      const vec3 passes = clear[r] * (1.0f - glm::clamp(answers.opacity[r], 0.0f, 1.0f));
+      brings(elements[r], color, passes);
+      if (maxComponent(passes) <= 1 - std::min(opacityThreshold, 0.9999f) || hits[r].t >= rays[r].tMax) continue;
+      came.push_back(rays[r]), left.push_back(hits[r]);
+      keep(kept++, r, behind(scene, rays[r], hits[r]), passes);
     }
     resize(kept);
   }
 
  private:
   static Ray behind(const RayScene& scene, const Ray& ray, const Hit& hit);
-  void keep(size_t to, size_t from, const Ray& ray, const vec3& left);
+  void keep(size_t to, size_t from, const Ray& ray, const vec3& passes);
   void resize(size_t count);
 };
 

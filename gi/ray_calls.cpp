@@ -43,7 +43,10 @@ class ShaderRays {
       answers_.outputs = layer == 0 ? result_.outputs : std::vector<RayOutput>{};
       if (answers_.wantsColor || !answers_.outputs.empty())
         tools_.rays->shadeHits(layers_.rays, hits_, layers_.names, *tools_.shading, context_, answers_);
-      if (layer == 0) setDistances();
+      if (layer == 0)
+        setDistances();  // the shader's own surface knows what lies before the first
+      else
+        tools_.rays->crossVolumes(layers_.came, layers_.left, layers_.rays, hits_, layers_.names, *tools_.shading, context_, answers_);
       if (wantsColor)
         layers_.goOn(*tools_.rays, hits_, answers_, query_.opacityThreshold,
                      [&](int i, const vec3& color, const vec3& clear) { add(i, color, clear); });

@@ -180,4 +180,35 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
   }
 }
 
+void RayScene::crossVolumes(const std::vector<Ray>& came, const std::vector<Hit>& left, const std::vector<Ray>& rays, const std::vector<Hit>& hits,
+                            const std::vector<SampleName>& names, const ShadingSystem& shading, const ShadeContext& context, HitAnswers& answers) const {
+  ShadeContext crossing = context;
+  crossing.answers = nullptr;  // they are those of the points that the rays leave first
+  std::vector<int> groupOf;
+  const std::vector<uint32_t> order = byGroup(impl_->scene, left, groupOf);
+  ShadedPoints colors;
+  for (size_t first = 0, last = 0; first < order.size(); first = last) {
+    const int g = groupOf[order[first]];
+    while (last < order.size() && groupOf[order[last]] == g) ++last;
+    for (const bool inside : {false, true}) {
+      if (!shading.hasVolume(g, inside)) continue;
+      ShadePoints ends(g, primvarFloats(impl_->scene.groups[static_cast<size_t>(g)]), shading.wantsSteps(g));
+      std::vector<uint32_t> which;
+      for (size_t k = first; k < last; ++k) {
+        const uint32_t i = order[k];
+        if (hits[i].object < 0 || (dot(rays[i].direction, left[i].geometricNormal) < 0) != inside) continue;
+        const vec3 I = std::max(hits[i].t, 0.0f) * rays[i].direction;
+        addPoint(*impl_, came[i], left[i], names[i], ends);
+        ends.set3(kPx, ends.count() - 1, rays[i].origin + I), ends.set3(kIx, ends.count() - 1, I);
+        which.push_back(i);
+      }
+      colors.resize(ends.count());
+      for (size_t k = 0; k < which.size(); ++k) colors.set(static_cast<int>(k), answers.color[which[k]], answers.opacity[which[k]]);
+      if (which.empty() || !shading.crossVolume(ends, inside, crossing, colors)) continue;
+      for (size_t k = 0; k < which.size(); ++k)
+        answers.color[which[k]] = colors.color(static_cast<int>(k)), answers.opacity[which[k]] = colors.opacity(static_cast<int>(k));
+    }
+  }
+}
+
 }  // namespace tomales

@@ -109,6 +109,11 @@ class RayScene {
   void shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& hits, const std::vector<SampleName>& names,
                  const ShadingSystem& shading, const ShadeContext& context, HitAnswers& answers) const;
 
+  /// What lies between each hit and the surface that its ray has come through (`left`, met by `came`) changes the answers: Interior or
+  /// Exterior of that surface's group, by the side on which the ray leaves it.
+  void crossVolumes(const std::vector<Ray>& came, const std::vector<Hit>& left, const std::vector<Ray>& rays, const std::vector<Hit>& hits,
+                    const std::vector<SampleName>& names, const ShadingSystem& shading, const ShadeContext& context, HitAnswers& answers) const;
+
   /// The surfaces of area lights.
   const Emitters& emitters() const;
 

@@ -104,6 +104,9 @@ struct ShadedPoints {
   AlignedVector<float> airCi[3], airOi[3];
   void resize(int count);
   vec3 color(int i) const { return {Ci[0][static_cast<size_t>(i)], Ci[1][static_cast<size_t>(i)], Ci[2][static_cast<size_t>(i)]}; }
+  void set(int i, const vec3& color, const vec3& opacity) {
+    for (int k = 0; k < 3; ++k) Ci[k][static_cast<size_t>(i)] = color[k], Oi[k][static_cast<size_t>(i)] = opacity[k];
+  }
   vec3 opacity(int i) const { return {Oi[0][static_cast<size_t>(i)], Oi[1][static_cast<size_t>(i)], Oi[2][static_cast<size_t>(i)]}; }
 };
 

@@ -219,6 +219,11 @@ class ShadingSystem {
 
   /// Atmosphere between the eye and points that the camera sees, over their colours in place, and ShadedPoints::airCi. No-op without one.
   void atmosphere(const ShadePoints& points, ShadedPoints& out) const;
+  /// Does a volume shader stand inside (Interior) or outside (Exterior) of the group's surfaces?
+  bool hasVolume(int group, bool inside) const;
+  /// Runs it over what rays bring through the volume to the surface that they leave, in place. The points are those of the surface, but for
+  /// kP, which is where each ray ends, and kI, the way there. False, and `out` is left alone: there is none, or it failed.
+  bool crossVolume(ShadePoints& ends, bool inside, const ShadeContext& context, ShadedPoints& out) const;
   bool hasImager() const;
   /// Imager shader, in place. No-op without one.
   void image(ShadedPixels& pixels) const;

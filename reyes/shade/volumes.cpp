@@ -8,7 +8,20 @@ namespace {
 
 constexpr float kFar = 1e30f;
 
-/// One volume shader over the rays of `which`.
+const BoundShader* volumeOf(const BoundGroup& group, bool inside) { return (inside ? group.interior : group.exterior).get(); }
+
+/// One volume shader over the colours and opacities at the ends of rays. False: it threw.
+bool run(const BoundScene& scene, const BoundGroup& group, const BoundShader& volume, const ShadeContext& context, ShadePoints& ends, ShadedPoints& out) {
+  const ShaderTimer timer(scene.stats, volume, ends.count());
+  ArenaLease arena;
+  Batch batch(scene, group, context, *arena);
+  batch.setPoints(ends, volume, {}, out, 0);
+  if (!batch.run(volume, batch.tm)) return false;
+  batch.blackOutNonFinite(volume);
+  return true;
+}
+
+/// Over the rays of `which`.
 void cross(Batch& asking, const BoundShader& volume, const std::vector<int>& which, TmConstVec3 origin, TmConstVec3 direction,
            const float* distance, TmVec3 color, TmVec3 opacity) {
   const ShadePoints& from = *asking.points;
@@ -21,32 +34,32 @@ void cross(Batch& asking, const BoundShader& volume, const std::vector<int>& whi
     for (int c = 0; c < from.channelCount(); ++c) ends.channel(c)[k] = from.channel(c)[i];
     const vec3 I = distance[i] * get(direction, i);
     ends.set3(kPx, k, get(origin, i) + I), ends.set3(kIx, k, I);
-    for (int axis = 0; axis < 3; ++axis) {
-      out.Ci[axis][static_cast<size_t>(k)] = get(color, i)[axis];
-      out.Oi[axis][static_cast<size_t>(k)] = opacity.x ? get(opacity, i)[axis] : 1.0f;
-    }
+    out.set(k, get(color, i), opacity.x ? get(opacity, i) : vec3(1));
   }
-  const ShaderTimer timer(asking.scene.stats, volume, ends.count());
-  ArenaLease arena;
-  Batch batch(asking.scene, asking.group, asking.context, *arena);
-  batch.setPoints(ends, volume, {}, out, 0);
-  if (!batch.run(volume, batch.tm)) return;
-  batch.blackOutNonFinite(volume);
+  if (!run(asking.scene, asking.group, volume, asking.context, ends, out)) return;
   for (int k = 0; k < ends.count(); ++k) set(color, which[static_cast<size_t>(k)], out.color(k));
 }
 
 }  // namespace
 
 void crossVolumes(Batch& batch, const TmGrid* g, TmConstVec3 origin, TmConstVec3 direction, const float* distance, TmVec3 color, TmVec3 opacity) {
-  const BoundShader* volumes[2] = {batch.group.exterior.get(), batch.group.interior.get()};
-  for (const bool inwards : {false, true}) {
-    if (!volumes[inwards]) continue;
+  for (const bool inside : {false, true}) {
+    const BoundShader* volume = volumeOf(batch.group, inside);
+    if (!volume) continue;
     std::vector<int> which;
     forActive(g, [&](int i) {
-      if (distance[i] < kFar && (dot(get(direction, i), get(g->Ng, i)) < 0) == inwards) which.push_back(i);
+      if (distance[i] < kFar && (dot(get(direction, i), get(g->Ng, i)) < 0) == inside) which.push_back(i);
     });
-    if (!which.empty()) cross(batch, *volumes[inwards], which, origin, direction, distance, color, opacity);
+    if (!which.empty()) cross(batch, *volume, which, origin, direction, distance, color, opacity);
   }
+}
+
+bool ShadingSystem::hasVolume(int group, bool inside) const { return volumeOf(impl_->groups[static_cast<size_t>(group)], inside) != nullptr; }
+
+bool ShadingSystem::crossVolume(ShadePoints& ends, bool inside, const ShadeContext& context, ShadedPoints& out) const {
+  const BoundGroup& group = impl_->groups[static_cast<size_t>(ends.group())];
+  const BoundShader* volume = volumeOf(group, inside);
+  return volume && run(*impl_, group, *volume, context, ends, out);
 }
 
 }  // namespace tomales

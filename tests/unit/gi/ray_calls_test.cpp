@@ -114,6 +114,49 @@ TEST(RayCalls, AnEmitterThatAMirrorShowsCountsOnce) {
   }
 }
 
+TEST(RayCalls, AirBetweenLayersIsThatOfTheSideOnWhichTheRayLeavesEach) {
+  // Sheets across a ray along +z, with fog inside and outside of each: the law of Beer and Lambert. Fog before the first is the caller's.
+  struct Sheet {
+    float z, opacity;
+    vec3 color;
+    bool turned;
+    float thick[2];  // distances of the fog outside, inside; 0: none
+  };
+  const Sheet sheets[] = {{2, 0.25f, {1, 0, 0}, false, {4, 7}}, {3, 0.5f, {0, 1, 0}, true, {5, 2}}, {4.5f, 0.75f, {0.5f, 0.5f, 1}, false, {0, 0}},
+                          {7, 0.2f, {1, 1, 0}, true, {0, 6}}, {9, 1, vec3(1), false, {1, 1}}};
+  const vec3 fog(0.2f, 0.4f, 0.8f);
+  for (const bool flipped : {false, true}) {
+    SceneBuilder b;
+    for (const Sheet& s : sheets) {
+      b.quad({-1, -1, s.z}, {1, -1, s.z}, {1, 1, s.z}, {-1, 1, s.z}, s.color);
+      surface(b, "constant");
+      change(b, [&](Attributes& a) {
+        a.opacity = vec3(s.opacity), a.insideOut = s.turned != flipped;
+        const auto volume = [&](float distance) {
+          Param background{"background", Storage::Uniform, ValueType::Color, 1, {fog.x, fog.y, fog.z}, {}, {}};
+          return distance > 0 ? std::make_shared<ShaderCall>(call("fog", {floatParam("distance", distance), background})) : nullptr;
+        };
+        a.exterior = volume(s.thick[0]), a.interior = volume(s.thick[1]);
+      });
+    }
+    World world(b.scene);
+    const auto services = world.use({});
+    const Hit first = world.rays.closest({vec3(0), {0, 0, 1}}, kMaskSpecular);
+    const bool entersFirst = first.geometricNormal.z < 0;  // every other sheet by whether it is turned
+    vec3 color(0);
+    float clear = 1, before = 0;
+    const Sheet* last = nullptr;
+    for (const Sheet& s : sheets) {
+      const float distance = last ? last->thick[entersFirst != last->turned] : 0, passes = distance > 0 ? std::exp((before - s.z) / distance) : 1;
+      color += clear * ((1 - passes) * fog + passes * s.opacity * s.color);
+      clear *= passes * (1 - s.opacity), before = s.z, last = &s;
+    }
+    const Answer is = traceOne(*services, vec3(0), {0, 0, 1}, {});
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(is.color[k], color[k], 1e-5f) << "channel " << k << (flipped ? ", flipped" : "");
+    EXPECT_NEAR(is.distance, 2, 1e-5f);
+  }
+}
+
 TEST(RayCalls, LightPassesLayersByTheProductOfTheirClearness) {
   for (const bool byPrimvar : {false, true}) {
     SceneBuilder b;
