@@ -35,11 +35,13 @@ inline Triple Deriv(const Triple& a, const Float& b) { return Du(a) / Du(b) + Dv
 inline Float filterstep(const Float& edge, const Float& x) {
   return filterstep(edge, x, abs(Du(x) * Float(grid()->du)) + abs(Dv(x) * Float(grid()->dv)));
 }
-/// Another number in [0, 1) at every call, by what the point is.
+/// Another number in [0, 1) at every call, by what the point is: the 48 bits of its first stratified sample name it, and a hash keeps its
+/// numbers apart from the directions that its lobes draw.
 inline Float randomNumber() {
-  constexpr int kNumbers = 256;
+  const int call = Run::now().randoms++;
   Float x, y;
-  grid()->call->stratified(grid()->host, grid(), Run::now().randoms++ % kNumbers, kNumbers, x.data(), y.data());
+  grid()->call->stratified(grid()->host, grid(), 0, 1, x.data(), y.data());
+  forActive([&](int i) { x.data()[i] = float(rsl::latticeHash(int32_t(x[i] * 0x1p24f), int32_t(y[i] * 0x1p24f), call) >> 8) * 0x1p-24f; });
   return x;
 }
 /// Of a micropolygon whose points were at p.

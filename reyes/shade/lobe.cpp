@@ -8,6 +8,14 @@ namespace {
 
 constexpr uint32_t kLobeStream = 0x6c6f6265U;
 
+/// What is displaced goes by its place on the object, so that grids which meet there agree; light probes and pixels have one name for all.
+SampleName nameOf(const Batch& batch, const TmGrid* g, int i) {
+  if (batch.points) return batch.points->name(i % batch.points->count());
+  if (!batch.grid) return {};
+  const Object& object = batch.scene.scene.objects[static_cast<size_t>(batch.grid->object)];
+  return {hashCombine(object.name, __builtin_bit_cast(uint32_t, g->u[i]), __builtin_bit_cast(uint32_t, g->v[i])), 0};
+}
+
 /// The lobe of RISpec 15.6, (N.H)^e, with the exponent of docs/decisions/0004. Directions are drawn by H with density
 /// (e + 1) / 2 pi cos^e.
 struct BlinnLobe {
@@ -131,7 +139,7 @@ int32_t lobeSamples(void* host, const TmGrid*) { return (batchOf(host).lights.mo
 void stratified(void* host, const TmGrid* g, int32_t sample, int32_t samples, float* xi0, float* xi1) {
   const Batch& batch = batchOf(host);
   forActive(g, [&](int i) {
-    const SampleName name = batch.points ? batch.points->name(i % batch.points->count()) : SampleName{};
+    const SampleName name = nameOf(batch, g, i);
     const vec2 xi = sobol2(name.sequence * static_cast<uint32_t>(samples) + static_cast<uint32_t>(sample),
                            hashCombine(name.key, kLobeStream, batch.context.seed));
     xi0[i] = xi.x, xi1[i] = xi.y;

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 
 #include "reyes/sl.h"
 #include "tests/unit/shade/stage.h"
@@ -63,10 +64,29 @@ TEST_F(BatchServices, RandomNumbersAreEvenDifferAndBelongToThePoint) {
     for (int k = 0; k < 3; ++k) EXPECT_TRUE(all[i][k] >= 0 && all[i][k] < 1);
     mean += all[i] / 1000.0f;
   }
-  expectColor(mean, vec3(0.5f), 0.03f);
+  expectColor(mean, vec3(0.5f), 0.041f);  // four and a half standard errors of independent numbers
   EXPECT_NE(all[0].x, all[0].y);
   EXPECT_NE(all[0].x, all[1].x);
   EXPECT_EQ(asked(20, draw)[3], all[3]) << "whatever the batch";
+}
+
+TEST_F(BatchServices, RandomNumbersDoNotRepeatAndKnowNothingOfTheDirectionsOfLobes) {
+  constexpr int kCalls = 1000;
+  std::set<float> drawn;
+  double together = 0;
+  body = [&](sl::Surface& s) {
+    for (int k = 0; k < kCalls; ++k) {
+      const Float x = s.random();
+      Float a, b;
+      grid()->call->stratified(grid()->host, grid(), k % 256, 256, a.data(), b.data());
+      drawn.insert(x[0]);
+      together += 12.0 * (x[0] - 0.5) * (a[0] - 0.5) / kCalls;
+    }
+    s.Ci = Color(0.0);
+  };
+  shade(points({vec3(0, 0, 5)}));
+  EXPECT_GE(drawn.size(), size_t(kCalls - 1)) << "of 2^24 numbers";
+  EXPECT_LT(std::abs(together), 0.12) << "correlation; 0.03 is one standard deviation";
 }
 
 TEST_F(BatchServices, FilterstepAveragesOverTheMicropolygonAndDepthCountsBetweenTheClippingPlanes) {

@@ -1,8 +1,9 @@
 #include <OpenImageIO/imagebuf.h>
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <set>
 
-#include "reyes/shader.h"
+#include "reyes/sl.h"
 #include "tests/unit/shade/stage.h"
 
 namespace tomales {
@@ -17,14 +18,18 @@ void tilting(const TmGrid* g) {
 void raising(const TmGrid* g) {
   for (int i : rsl::Batch(g)) g->P.z[i] -= 0.25f;
 }
+struct rough : sl::Displacement {
+  void main() { P -= random() * sl::Vector(0, 0, 1); }
+};
+const rsl::Shader roughShader(TM_DISPLACEMENT, "rough", "", 0, sl::shade<rough>, {});
 const rsl::Shader tiltingShader(TM_DISPLACEMENT, "tilting", "", 0, tilting, {});
 const rsl::Shader raisingShader(TM_DISPLACEMENT, "raising", "", 0, raising, {});
 
 class Displacement : public Stage {
  protected:
   Displacement() {
-    static const TmShader* const shaders[] = {tiltingShader, raisingShader};
-    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 2};
+    static const TmShader* const shaders[] = {tiltingShader, raisingShader, roughShader};
+    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 3};
     registry.addLibrary(&library, "test");
     attributes.displacementBound = 10;
   }
@@ -70,6 +75,19 @@ TEST_F(Displacement, LeavesTheNormalToTheShader) {
   system().displace(g);
   EXPECT_FLOAT_EQ(g.P(0, 2)[3], 4.75f);
   EXPECT_EQ(g.normal(3), vec3(0, 0, -1));
+}
+
+TEST_F(Displacement, RandomNumbersGoByThePlaceOnTheObject) {
+  displacement("rough");
+  Grid fine = plane(8), coarse = plane(4);
+  system().displace(fine), system().displace(coarse);
+  std::set<float> heights;
+  float mean = 0;
+  for (int k = 0; k < 81; ++k) heights.insert(fine.P(0, 2)[k]), mean += (5 - fine.P(0, 2)[k]) / 81;
+  EXPECT_GT(heights.size(), 78u) << "each vertex has its own";
+  EXPECT_NEAR(mean, 0.5f, 0.13f) << "four standard deviations";
+  for (int j = 0; j <= 4; ++j)
+    for (int i = 0; i <= 4; ++i) EXPECT_EQ(coarse.P(0, 2)[j * 5 + i], fine.P(0, 2)[2 * j * 9 + 2 * i]) << "whatever the grid";
 }
 
 TEST_F(Displacement, WithoutAShaderNothingHappens) {
