@@ -40,8 +40,8 @@ void beginSolid(GraphicsState& s, const Request& r) {
   if (s.scope.solid >= 0 && openSolid(s).operation(s.scope.solidBlock) == SolidOperation::Primitive)
     return s.warn(r, "rib-solid", "inside a primitive; what it holds is part of the surface of that");
   if (s.scope.solid >= 0 && openSolid(s).depth(s.scope.solidBlock) >= kDeepestSolid)
-    return s.log.report(Severity::Missing, "rib-nesting", r.where,
-                        fmt::format("SolidBegin: more than {} solids within solids; what it holds is part of the one around it", kDeepestSolid));
+    return s.warnOnce("solids", r, "rib-nesting",
+                      fmt::format("SolidBegin: more than {} solids within solids; what it holds is part of the one around it", kDeepestSolid));
   if (s.scope.solid < 0) {
     s.scope.solid = static_cast<int>(s.world->solids.size());
     s.world->solids.emplace_back();
