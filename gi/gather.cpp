@@ -290,7 +290,8 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
   if (settings.curvature) {
     const IrradianceCurvature curvature = curvatureOf(samples);
     std::copy_n(curvature.gradient, 3, record.translationGradient);
-    record.smoothRadius = settings.occlusion ? variationRadius(curvature, settings.occlusion->maxVariation)
+    // What is near bends light faster the nearer one comes, so that the curvature of the record's own place holds half way at best.
+    record.smoothRadius = settings.occlusion ? std::min(variationRadius(curvature, settings.occlusion->maxVariation), 0.5f * record.closest)
                                              : hessianRadius(curvature, luminance(record.E), point.pixelSize, kHessianTolerance);
   }
   return record;

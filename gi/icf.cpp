@@ -20,9 +20,9 @@ void fields(A& a, OcclusionQuery& x) {
 template <class A>
 void fields(A& a, GatherPlan& x) {
   auto& [cache, gather] = x;
-  auto& [errorFunction, kappa, maxPixels, minPixels] = cache;
+  auto& [errorFunction, kappa, maxPixels] = cache;
   auto& [samples, maxDistance, seed, light, curvature, depth, indirect, subset, occlusion] = gather;
-  each(a, errorFunction, kappa, maxPixels, minPixels, samples, maxDistance, seed, light, curvature, depth, indirect, subset, occlusion);
+  each(a, errorFunction, kappa, maxPixels, samples, maxDistance, seed, light, curvature, depth, indirect, subset, occlusion);
 }
 
 template <class A>

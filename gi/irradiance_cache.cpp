@@ -5,6 +5,7 @@
 namespace tomales {
 namespace {
 
+constexpr float kMinPixels = 1.5f;              // R- of eq. 3
 constexpr float kFinestPixels = 1;             // of a dispute, at kappa 1
 constexpr float kMaxAngleTerm = 0.0151922470f;  // 1 - cos(alpha+), alpha+ = 10 degrees (eq. 4)
 constexpr float kBehindTolerance = 0.1f;        // of the validity radius
@@ -92,7 +93,7 @@ struct IrradianceCache::Impl {
   // same limits.
   float reach(float recordSize, float pixelSize) const {
     const float radius =
-        std::max(std::min(recordSize, settings.maxPixels * pixelSize), settings.minPixels * pixelSize);
+        std::max(std::min(recordSize, settings.maxPixels * pixelSize), kMinPixels * pixelSize);
     return radius / settings.kappa;
   }
 

@@ -35,7 +35,6 @@ struct CacheSettings {
   ErrorFunction errorFunction = ErrorFunction::Screen;
   float kappa = 1;                 ///< Eq. 2: records reach 1 / kappa as far. Infinite: nothing is ever reused.
   float maxPixels = 10;            ///< R+ of eq. 3, in roots of the projected pixel area (Attribute "irradiance" "maxpixeldist")
-  float minPixels = 1.5f;          ///< Likewise R-.
   bool operator==(const CacheSettings&) const = default;
 };
 

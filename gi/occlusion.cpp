@@ -8,8 +8,6 @@ namespace {
 
 constexpr float kMostPixels = 40;  ///< As of the Hessian's records of light.
 
-constexpr float kLeastPixels = 0.5f;  ///< Shadows of contacts are as narrow.
-
 /// A visible point that shows what its group asks.
 struct Scout {
   uint32_t order = ~0U;  ///< The least of the group is taken, whatever the tiles are.
@@ -67,7 +65,6 @@ GatherPlan planFor(const GiState& state, int group, const OcclusionQuery& query)
   GatherPlan plan;
   plan.cache.errorFunction = ErrorFunction::Hessian;
   plan.cache.maxPixels = state.scene.groups[static_cast<size_t>(group)].attributes->irradianceMaxPixelDist.value_or(kMostPixels);
-  plan.cache.minPixels = kLeastPixels;
   plan.gather.curvature = true;
   plan.gather.samples = query.samples;
   plan.gather.maxDistance = query.maxDistance;

@@ -108,14 +108,14 @@ TEST(Occlusion, IsInterpolatedWithinItsVariationFromFewRecords) {
     gatherFrame(*services, frame);
     const int64_t records = world.stats.irradianceCache.samples, rays = world.stats.rays.gather;
     EXPECT_GT(records, 50);
-    EXPECT_LT(records, 1200);
+    EXPECT_LT(records, 2500);
     const Error error = errorOnFloor(world, frame);
     EXPECT_GT(error.points, 2000);
     EXPECT_LE(world.stats.rays.gather, rays + 5 * 1100) << "all but a few from records";
     const auto traced = world.use({.mode = mode, .maxError = 0});
     const Error noise = errorOnFloor(world, frame);
-    EXPECT_LT(error.mean, noise.mean + 0.004f) << "of the ball's coarse polygons, and of rays";
-    EXPECT_LT(error.most, noise.most + 0.03f);
+    EXPECT_LT(error.mean, noise.mean + 0.006f) << "of the ball's coarse polygons, and of rays";
+    EXPECT_LT(error.most, noise.most + 0.08f);
   }
 }
 
