@@ -18,6 +18,7 @@ inline uint32_t maskAtAllLevels(uint32_t mask) { return maskAt(mask, Level::Fine
 /// may have a group for every object.
 struct Geometry {
   bool opaque, flips;
+  uint32_t mask;  ///< Of rays that see it: bits of RayMask.
   DetailShare detail;
   const CoarseGroup* meshes;                         ///< All groups, or the one master.
   uint32_t onlyMesh = 0;
