@@ -13,6 +13,8 @@
 namespace tomales {
 namespace {
 
+constexpr size_t kManyQuads = 4096;  ///< A geometry of its own costs less than copies of so many (Geometry in raytrace/embree_filters.h).
+
 /// Embree takes no negative tnear: the ray starts `shift` before its origin.
 RTCRay rayFrom(const Ray& ray, float shift, float tNear, uint32_t mask) {
   const vec3 origin = ray.origin - shift * ray.direction;
@@ -197,12 +199,12 @@ EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const SharedSha
   impl_->device = rtcNewDevice(nullptr);
   rtcSetDeviceMemoryMonitorFunction(impl_->device, &Impl::countBytes, impl_.get());
   impl_->scene = impl_->newScene();
-  std::map<std::tuple<uint32_t, bool, bool, bool, size_t, float, float>, std::vector<uint32_t>> alike;
+  std::map<std::tuple<uint32_t, bool, bool, bool, size_t, float, float, uint32_t>, std::vector<uint32_t>> alike;
   for (uint32_t i = 0; i < groups.size(); ++i) {
     const CoarseGroup& g = groups[i];
     impl_->fades |= !g.detail.whole();
     if (!g.quads.empty() && g.solid == solids)
-      alike[{masks[i], opaque[i], g.flipsNormal, g.trimmed, g.laterP.size(), g.detail.lo, g.detail.hi}].push_back(i);
+      alike[{masks[i], opaque[i], g.flipsNormal, g.trimmed, g.laterP.size(), g.detail.lo, g.detail.hi, g.quads.size() < kManyQuads ? 0 : i + 1}].push_back(i);
   }
   impl_->firstQuad.resize(groups.size());
   for (const auto& [kind, members] : alike) impl_->attach(members, std::get<0>(kind), std::get<1>(kind));
