@@ -61,7 +61,8 @@ bool sound(const BrickTree& tree) {
 }  // namespace
 
 BrickFile::BrickFile(const std::string& path) : file_(path, kKind, kVersion) {
-  ByteReader r(file_.header(), path);
+  const Bytes header = file_.takeHeader();
+  ByteReader r(header, path);
   const auto channelCount = r.get<uint32_t>();
   for (uint32_t i = 0; i < channelCount; ++i) {
     std::string name = r.getString();
