@@ -77,7 +77,7 @@ struct IrradianceCache::Impl {
   std::vector<Node> nodes{Node{}};
   std::vector<uint32_t> outside;  // records beyond the root box
   std::vector<IrradianceRecord> records;
-  float luminanceSum = 0;  // of their E
+  double luminanceSum = 0;  // of their E
 
   float size(const IrradianceRecord& r) const {
     switch (settings.errorFunction) {
@@ -118,7 +118,7 @@ struct IrradianceCache::Impl {
   Dispute disputeOf(const vec3& a, const vec3& b, float noise) const {
     const float tolerance = settings.errorFunction == ErrorFunction::Ward ? 4 * kDispute : kDispute;  // as kappa counts there
     const float larger = std::max(luminance(a), luminance(b)), off = std::abs(luminance(a) - luminance(b)) - kNoiseMargin * noise;
-    const float dark = kDark * luminanceSum / static_cast<float>(records.size());
+    const auto dark = static_cast<float>(kDark * luminanceSum / static_cast<double>(records.size()));
     if (!(off > tolerance / settings.kappa * std::max(larger, dark))) return Dispute::None;
     return off > kTorn * std::max(larger, dark) ? Dispute::Torn : Dispute::Steep;
   }

@@ -134,12 +134,13 @@ PrimPtr makeTorus(float major, float minor, float phiMin_degrees, float phiMax_d
 
 /// Faces of any size and convexity, without holes. `vertexCounts` per face, `vertices` concatenated.
 /// Polygon is the same with one face. Degenerate faces (fewer than three distinct vertices) are dropped with a problem.
-/// `first`: the same faces at the first key of a motion; faces are cut, and dropped, as they lie there.
+/// `keys`: where the points of one that moves are at every key, so that all are cut, and faces dropped, alike.
+using PointKeys = std::vector<std::vector<vec3>>;
 PrimPtr makePolygons(const std::vector<int>& vertexCounts, const std::vector<int>& vertices, const ParamList&, Problems&,
-                     const Prim* first = nullptr);
+                     const PointKeys& keys = {});
 /// With holes: `loopCounts` loops per face, the first its outline; `vertexCounts` per loop. Holes may go either way.
 PrimPtr makeGeneralPolygons(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
-                            const std::vector<int>& vertices, const ParamList&, Problems&, const Prim* first = nullptr);
+                            const std::vector<int>& vertices, const ParamList&, Problems&, const PointKeys& keys = {});
 
 /// A spline basis (rows as RISpec prints them, power-basis coefficients from control values) and its step.
 struct Basis { mat4 matrix; int step; };

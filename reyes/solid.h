@@ -21,6 +21,7 @@ class Solid {
   int blockCount() const { return static_cast<int>(blocks_.size()); }
   SolidOperation operation(int block) const { return at(block).operation; }
   int parent(int block) const { return at(block).parent; }
+  int depth(int block) const { return block < 0 ? 0 : 1 + depth(at(block).parent); }  ///< Blocks around this one and itself.
   /// Does the solid lie on the other side of this primitive's surface: do an odd number of differences take it away?
   bool subtracted(int block) const;
 

@@ -134,31 +134,33 @@ int irradianceCommand(const IrradianceCommand& command) {
   return exitCodeOf(log);
 }
 
+void makeBrickMaps(const BrickmakeCommand& command) {
+  const std::vector<fs::path> files = pointFiles(command.inputs);
+  const bool one = fs::path(command.output).extension() == ".bkm";
+  if (!one) makeFolder(command.output);
+  const auto make = [&](const fs::path& in, const fs::path& out) {
+    const PointFile file(in.string());
+    const PointTiles tiles(file);
+    BrickSettings settings = command.settings;
+    if (command.relative) settings.maxError *= static_cast<float>(tiles.meanOfData());
+    const BuiltBricks built = writeBrickMap(tiles, settings, out.string(), {file.madeFrom().world, 0});
+    fmt::print("{}: {} points, {} bricks, {} left out, {} levels\n", out.string(), file.count(), built.tree.nodes.size(), built.eliminated,
+               built.tree.deepest + 1);
+  };
+  if (one && files.size() > 1) {
+    const fs::path folder = fs::path(command.output).parent_path();
+    const TemporaryFolder temporary(folder.empty() ? "." : folder);
+    const fs::path all = temporary.path() / "all.ptc";
+    joinPointFiles(files, all);
+    make(all, command.output);
+  } else {
+    for (const fs::path& file : files) make(file, one ? fs::path(command.output) : fs::path(command.output) / fs::path(file).filename().replace_extension(".bkm"));
+  }
+}
+
 int brickmakeCommand(const BrickmakeCommand& command) {
   Log log;
-  guarded(log, Severity::Error, [&] {
-    const std::vector<fs::path> files = pointFiles(command.inputs);
-    const bool one = fs::path(command.output).extension() == ".bkm";
-    if (!one) makeFolder(command.output);
-    const auto make = [&](const fs::path& in, const fs::path& out) {
-      const PointFile file(in.string());
-      const PointTiles tiles(file);
-      BrickSettings settings = command.settings;
-      if (command.relative) settings.maxError *= static_cast<float>(tiles.meanOfData());
-      const BuiltBricks built = writeBrickMap(tiles, settings, out.string(), {file.madeFrom().world, 0});
-      fmt::print("{}: {} points, {} bricks, {} left out, {} levels\n", out.string(), file.count(), built.tree.nodes.size(), built.eliminated,
-                 built.tree.deepest + 1);
-    };
-    if (one && files.size() > 1) {
-      const fs::path folder = fs::path(command.output).parent_path();
-      const TemporaryFolder temporary(folder.empty() ? "." : folder);
-      const fs::path all = temporary.path() / "all.ptc";
-      joinPointFiles(files, all);
-      make(all, command.output);
-    } else {
-      for (const fs::path& file : files) make(file, one ? fs::path(command.output) : fs::path(command.output) / fs::path(file).filename().replace_extension(".bkm"));
-    }
-  });
+  guarded(log, Severity::Error, [&] { makeBrickMaps(command); });
   return exitCodeOf(log);
 }
 

@@ -20,6 +20,8 @@ struct BrickmakeCommand {
   BrickSettings settings;
   bool relative = false;            ///< maxError is a share of the mean of the data.
 };
+/// Throws FileError.
+void makeBrickMaps(const BrickmakeCommand& command);
 int brickmakeCommand(const BrickmakeCommand& command);
 
 struct ViewCommand {

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "reyes/app/atlas_commands.h"
 #include "reyes/image.h"
 #include "reyes/pictures.h"
 
@@ -48,6 +49,38 @@ TextureRecipe recipeOf(const Request& r, Log& log) {
   return recipe;
 }
 
+/// PRMan's arguments are those of its brickmake.
+BrickmakeCommand brickmakeOf(const Request& r, Log& log) {
+  static constexpr std::string_view kKnown[] = {"maxerror", "maxdepth", "radiusscale", "ignorenormals"};
+  for (const Param& p : r.params)
+    if (std::find(std::begin(kKnown), std::end(kKnown), p.name) == std::end(kKnown))
+      log.report(Severity::Warning, "make-brickmap", r.where, fmt::format("{}: there is no \"{}\"; ignored", r.name, p.name));
+  BrickmakeCommand command{r.args[0].strings, r.args[1].strings[0], {}};
+  BrickSettings& s = command.settings;
+  const auto number = [&](std::string_view name, float fallback, float least, float most) {
+    const Param* p = findParam(r.params, name);
+    if (!p) return fallback;
+    const float given = p->number(fallback);
+    if (given >= least && given <= most) return given;
+    log.report(Severity::Warning, "make-brickmap", r.where,
+               fmt::format("{}: \"{}\" is {:g} and must be from {:g} to {:g}; {:g} is used", r.name, name, given, least, most, fallback));
+    return fallback;
+  };
+  s.maxError = number("maxerror", s.maxError, 0, 1e9f);
+  s.maxDepth = static_cast<int>(number("maxdepth", static_cast<float>(s.maxDepth), 0, 20));
+  s.radiusScale = number("radiusscale", s.radiusScale, 1e-3f, 1e3f);
+  s.ignoreNormals = number("ignorenormals", 0, 0, 1) != 0;
+  return command;
+}
+
+void makeBrickMap(const Request& r, Log& log) {
+  try {
+    makeBrickMaps(brickmakeOf(r, log));
+  } catch (const FileError& e) {
+    log.report(Severity::Missing, "make-brickmap", r.where, fmt::format("{}: \"{}\" cannot be made ({})", r.name, r.args[1].strings[0], e.what()));
+  }
+}
+
 }  // namespace
 
 void performMake(const Request& r, Log& log) {
@@ -55,6 +88,7 @@ void performMake(const Request& r, Log& log) {
     makeShadow(r.args[0].strings[0], r.args[1].strings[0], r.where, log);
     return;
   }
+  if (r.name == "MakeBrickMap") return makeBrickMap(r, log);
   const TextureRecipe recipe = recipeOf(r, log);
   std::string error;
   if (!makeTexture(recipe, error))

@@ -36,12 +36,13 @@ class RenderRun {
     rib.allowSystem = settings_.allowSystem;
     rib.onScene = [this](Scene&& scene) { takeScene(std::move(scene)); };
     rib.onMake = [this](const Request& request) {
+      made_ = true;
       if (!interrupted()) performMake(request, log_);
     };
     parse_.emplace(stats_, "parse");
     const bool read = readRib(settings_.files, rib, log_);
     parse_.reset();
-    if (read && scenes_ == 0 && !interrupted())
+    if (read && scenes_ == 0 && !made_ && !interrupted())
       log_.report(Severity::Error, "no-world", {std::make_shared<std::string>(settings_.files.front()), 0},
                   "nothing to render: no WorldBegin ... WorldEnd was found");
     if (scenes_ > 0 && rendered_ == 0 && settings_.frames && !interrupted())
@@ -114,6 +115,7 @@ class RenderRun {
   std::optional<StageTimer> parse_;
   std::set<std::string> written_;
   int scenes_ = 0, rendered_ = 0;
+  bool made_ = false;  // by a Make request
   bool outputUsed_ = false;
 };
 

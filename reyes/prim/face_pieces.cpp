@@ -1,11 +1,18 @@
 #include "reyes/prim/face_pieces.h"
 
 #include <numeric>
-
-#include "reyes/prim/planar.h"
+#include <optional>
 
 namespace tomales {
 namespace {
+
+constexpr size_t kMostTries = 32;
+
+double twiceArea(const std::vector<Point2>& p) {
+  double area = 0;
+  for (size_t i = 1; i + 1 < p.size(); ++i) area += turn(p[0], p[i], p[i + 1]);
+  return area;
+}
 
 bool allTurnsAtLeast(const std::vector<Point2>& p, double least) {
   for (size_t i = 0; i < p.size(); ++i)
@@ -26,7 +33,7 @@ bool goesAroundOnce(const std::vector<Point2>& p) {
 /// Points by place, about one a cell, so that a small triangle meets few of them.
 class PointGrid {
  public:
-  explicit PointGrid(const std::vector<Point2>& p) : p_(p), lo_(p.at(0)) {
+  PointGrid(const std::vector<Point2>& p) : p_(p), lo_(p.at(0)) {
     Point2 hi = lo_;
     for (const Point2& q : p) lo_ = glm::min(lo_, q), hi = glm::max(hi, q);
     side_ = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(p.size()))), 1, 1024);
@@ -62,61 +69,88 @@ class PointGrid {
   std::vector<std::vector<int>> cells_;
 };
 
+/// Cuts corners off that are ears at all keys; where there is none, those of the first key.
 class EarClipper {
  public:
-  explicit EarClipper(std::vector<Point2> points)
-      : p_(std::move(points)), left_(p_), count_(p_.size()), before_(p_.size()), after_(p_.size()) {
+  /// Begins to look for ears at position `start`.
+  EarClipper(const Outlines& keys, int start) : p_(keys), left_(keys.begin(), keys.end()), count_(keys[0].size()), next_(start) {
     for (size_t i = 0; i < count_; ++i)
-      before_[i] = static_cast<int>((i + count_ - 1) % count_), after_[i] = static_cast<int>((i + 1) % count_);
+      before_.push_back(static_cast<int>((i + count_ - 1) % count_)), after_.push_back(static_cast<int>((i + 1) % count_));
   }
 
-  std::vector<Piece> clip() {
+  Pieces clip() {
     while (count_ > 3) cut(findEar());
-    if (area(next_) != 0) pieces_.push_back({before(next_), next_, after(next_)});
-    return std::move(pieces_);
+    addPiece(next_);
+    return std::move(out_);
   }
 
  private:
   int before(int i) const { return before_[static_cast<size_t>(i)]; }
   int after(int i) const { return after_[static_cast<size_t>(i)]; }
-  const Point2& at(int i) const { return p_[static_cast<size_t>(i)]; }
-  double area(int i) const { return turn(at(before(i)), at(i), at(after(i))); }
+  const Point2& at(size_t key, int i) const { return p_[key][static_cast<size_t>(i)]; }
+  double area(size_t key, int i) const { return turn(at(key, before(i)), at(key, i), at(key, after(i))); }
+  bool hasArea(int i) const {
+    for (size_t key = 0; key < p_.size(); ++key)
+      if (area(key, i) != 0) return true;
+    return false;
+  }
 
-  bool isEar(int i) const {
-    const Point2 &a = at(before(i)), &b = at(i), &c = at(after(i));
-    return !left_.any(glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), [&](const Point2& p) {
+  bool isEar(size_t key, int i) const {
+    if (!(area(key, i) > 0)) return false;
+    const Point2 &a = at(key, before(i)), &b = at(key, i), &c = at(key, after(i));
+    return !left_[key].any(glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), [&](const Point2& p) {
       return p != a && p != b && p != c && contains(a, b, c, p);
     });
   }
 
-  /// The first true ear after the last one cut; failing that a corner without area, failing that the biggest.
-  int findEar() const {
+  /// A corner without area takes nothing from the key that it has none at.
+  bool isEar(int i) const {
+    for (size_t key = 0; key < p_.size(); ++key)
+      if (area(key, i) != 0 && !isEar(key, i)) return false;
+    return hasArea(i);
+  }
+
+  template <class Condition>
+  std::optional<int> firstCorner(const Condition& condition) const {
     int i = next_;
     for (size_t k = 0; k < count_; ++k, i = after(i))
-      if (area(i) > 0 && isEar(i)) return i;
+      if (condition(i)) return i;
+    return {};
+  }
+
+  /// The first true ear after the last one cut; failing that a corner without area, failing that the biggest.
+  int findEar() {
+    if (const auto ear = firstCorner([&](int i) { return isEar(i); })) return *ear;
+    if (p_.size() > 1) out_.disjoint = false;
+    if (const auto ear = firstCorner([&](int i) { return isEar(0, i); })) return *ear;
+    if (const auto straight = firstCorner([&](int i) { return !hasArea(i); })) return *straight;
     int best = next_;
-    for (size_t k = 0; k < count_; ++k, i = after(i)) {
-      if (area(i) == 0) return i;
-      if (area(i) > area(best)) best = i;
-    }
+    firstCorner([&](int i) {
+      if (area(0, i) > area(0, best)) best = i;
+      return false;
+    });
     return best;
   }
 
+  void addPiece(int i) {
+    if (hasArea(i)) out_.list.push_back({before(i), i, after(i)});
+  }
+
   void cut(int i) {
-    if (area(i) != 0) pieces_.push_back({before(i), i, after(i)});
-    left_.remove(i);
+    addPiece(i);
+    for (PointGrid& left : left_) left.remove(i);
     after_[static_cast<size_t>(before(i))] = after(i);
     before_[static_cast<size_t>(after(i))] = before(i);
     next_ = after(i);
     --count_;
   }
 
-  const std::vector<Point2> p_;
-  PointGrid left_;
+  const Outlines& p_;
+  std::vector<PointGrid> left_;  ///< By key.
   size_t count_;
   std::vector<int> before_, after_;  ///< Of those that are left.
-  int next_ = 0;
-  std::vector<Piece> pieces_;
+  int next_;
+  Pieces out_;
 };
 
 }  // namespace
@@ -151,17 +185,25 @@ glm::dvec3 normalOfWidestTriangle(const std::vector<vec3>& points) {
   return normal;
 }
 
-bool isStrictlyConvex(const std::vector<vec3>& points, const glm::dvec3& normal) {
-  const std::vector<Point2> p = projected(points, normal);
-  return allTurnsAtLeast(p, 1e-6 * glm::length(normal)) && goesAroundOnce(p);
+bool isStrictlyConvex(const Outlines& keys) {
+  return std::all_of(keys.begin(), keys.end(), [](const std::vector<Point2>& p) {
+    return allTurnsAtLeast(p, 1e-6 * std::abs(twiceArea(p))) && goesAroundOnce(p);
+  });
 }
 
-std::vector<Piece> convexPieces(const std::vector<vec3>& points, const glm::dvec3& normal) {
-  const std::vector<Point2> p = projected(points, normal);
-  if (!allTurnsAtLeast(p, 0) || !goesAroundOnce(p)) return EarClipper(p).clip();
-  Piece whole(points.size());
-  std::iota(whole.begin(), whole.end(), 0);
-  return {whole};
+Pieces convexPieces(const Outlines& keys) {
+  const size_t n = keys[0].size();
+  if (std::all_of(keys.begin(), keys.end(), [](const auto& p) { return allTurnsAtLeast(p, 0) && goesAroundOnce(p); })) {
+    Piece whole(n);
+    std::iota(whole.begin(), whole.end(), 0);
+    return {{whole}};
+  }
+  // Which ears are common to all keys depends on those that have been cut before.
+  const int tries = keys.size() > 1 ? static_cast<int>(std::min(n, kMostTries)) : 1;
+  Pieces first = EarClipper(keys, 0).clip();
+  for (int start = 1; start < tries && !first.disjoint; ++start)
+    if (Pieces pieces = EarClipper(keys, start).clip(); pieces.disjoint) return pieces;
+  return first;
 }
 
 }  // namespace tomales

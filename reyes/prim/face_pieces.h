@@ -4,6 +4,7 @@
 #include <array>
 
 #include "reyes/prim.h"
+#include "reyes/prim/planar.h"
 
 namespace tomales {
 
@@ -19,11 +20,17 @@ glm::dvec3 normalOfWidestTriangle(const std::vector<vec3>& points);
 /// diagonal.
 using Piece = std::vector<int>;
 
-/// Convex parts that cover the polygon: itself, or triangles (ear clipping: Meisters 1975). Never fails;
-/// where the polygon crosses itself the triangles overlap.
-std::vector<Piece> convexPieces(const std::vector<vec3>& points, const glm::dvec3& normal);
+struct Pieces {
+  std::vector<Piece> list;
+  bool disjoint = true;  ///< At every key. False only for one that moves.
+};
 
-/// True if every corner turns, and turns the same way.
-bool isStrictlyConvex(const std::vector<vec3>& points, const glm::dvec3& normal);
+/// Convex parts that cover the polygon: itself, or triangles (ear clipping: Meisters 1975; of a polygon that moves, corners that are ears
+/// at all keys). Never fails; where the polygon crosses itself the triangles overlap, and so they do at the later keys of one that
+/// cannot be cut alike at all.
+Pieces convexPieces(const Outlines& keys);
+
+/// True if every corner turns, and turns the same way, at all keys.
+bool isStrictlyConvex(const Outlines& keys);
 
 }  // namespace tomales

@@ -3,28 +3,40 @@
 #include "reyes/prim/hole_bridges.h"
 
 #include <numeric>
-
-#include "reyes/prim/planar.h"
+#include <span>
 
 namespace tomales {
 namespace {
 
 using Walk = std::vector<int>;
 
+// Pairs of a hole's vertex and a corner that are tried where the bridge of the first key will not do.
+constexpr size_t kMostPairs = 10'000;
+
+/// Does p lie on the way from a to b, ends excepted?
+bool liesBetween(const Point2& a, const Point2& b, const Point2& p) {
+  return p != a && p != b && turn(a, b, p) == 0 && glm::dot(p - a, p - b) < 0;
+}
+
+bool cross(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
+  return turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
+}
+
 class Bridger {
  public:
-  Bridger(std::vector<Point2> points, Walk outline) : p_(std::move(points)), walk_(std::move(outline)) {}
+  Bridger(const Outlines& keys, Walk outline) : keys_(keys), p_(keys[0]), walk_(std::move(outline)) {}
 
-  /// The hole goes clockwise and begins with its rightmost vertex. False: it lies outside.
-  bool add(const Walk& hole) {
-    const int at = findCorner(p_[hole[0]]);
+  /// The hole goes clockwise and begins with its rightmost vertex; `later` are those that will be added behind it. False: it lies outside.
+  bool add(Walk hole, std::span<const Walk> later) {
+    int at = findCorner(p_[hole[0]]);
     if (at < 0) return false;
-    Walk detour(hole);
-    detour.insert(detour.end(), {hole[0], walk_[at]});
-    walk_.insert(walk_.begin() + at + 1, detour.begin(), detour.end());
+    if (keys_.size() > 1 && !isClear(hole, at, later)) at = findClear(hole, at, later);
+    hole.insert(hole.end(), {hole[0], walk_[at]});
+    walk_.insert(walk_.begin() + at + 1, hole.begin(), hole.end());
     return true;
   }
 
+  bool simple() const { return simple_; }
   Walk walk() && { return std::move(walk_); }
 
  private:
@@ -69,14 +81,48 @@ class Bridger {
   }
 
   /// m lies towards the inside from corner i: tells the copies of a corner apart that bridges have made.
-  bool sees(int i, const Point2& m) const {
-    const Point2 &a = corner(i - 1), &b = corner(i), &c = corner(i + 1);
+  bool sees(int i, const Point2& m) const { return sees(p_, i, m); }
+  bool sees(const std::vector<Point2>& p, int i, const Point2& m) const {
+    const auto at = [&](int k) { return p[walk_[(k + size()) % size()]]; };
+    const Point2 a = at(i - 1), b = at(i), c = at(i + 1);
     const bool leftOfIn = turn(a, b, m) >= 0, leftOfOut = turn(b, c, m) >= 0;
     return turn(a, b, c) >= 0 ? leftOfIn && leftOfOut : leftOfIn || leftOfOut;
   }
 
-  const std::vector<Point2> p_;
+  /// Does the edge ab of a key touch a loop anywhere but at its own ends?
+  static bool touches(const std::vector<Point2>& p, const Point2& a, const Point2& b, const Walk& loop) {
+    for (size_t i = 0; i < loop.size(); ++i) {
+      const Point2 &c = p[loop[i]], &d = p[loop[(i + 1) % loop.size()]];
+      if (liesBetween(a, b, c) || cross(a, b, c, d)) return true;
+    }
+    return false;
+  }
+
+  /// Is the bridge from the hole's first vertex to a position in the walk inside and clear of everything, at every key?
+  bool isClear(const Walk& hole, int at, std::span<const Walk> later) const {
+    for (const std::vector<Point2>& p : keys_) {
+      const Point2 &a = p[hole[0]], &b = p[walk_[at]];
+      if (!sees(p, at, a) || touches(p, a, b, walk_) || touches(p, a, b, hole)) return false;
+      if (std::any_of(later.begin(), later.end(), [&](const Walk& loop) { return touches(p, a, b, loop); })) return false;
+    }
+    return true;
+  }
+
+  /// The first clear bridge, the hole turned to begin with its vertex; `fallback` and the hole as it was if there is none.
+  int findClear(Walk& hole, int fallback, std::span<const Walk> later) {
+    Walk turned = hole;
+    if (hole.size() * walk_.size() <= kMostPairs)
+      for (size_t k = 0; k < hole.size(); ++k, std::rotate(turned.begin(), turned.begin() + 1, turned.end()))
+        for (int at = 0; at < size(); ++at)
+          if (isClear(turned, at, later)) return hole = turned, at;
+    simple_ = false;
+    return fallback;
+  }
+
+  const Outlines& keys_;
+  const std::vector<Point2>& p_;  ///< Of the first key.
   Walk walk_;
+  bool simple_ = true;
 };
 
 double signedArea(const std::vector<Point2>& p, const Walk& loop) {
@@ -87,9 +133,8 @@ double signedArea(const std::vector<Point2>& p, const Walk& loop) {
 
 }  // namespace
 
-BridgedOutline bridgeHoles(const std::vector<vec3>& points, const std::vector<int>& loopStarts,
-                           const glm::dvec3& normal) {
-  const std::vector<Point2> p = projected(points, normal);
+BridgedOutline bridgeHoles(const Outlines& keys, const std::vector<int>& loopStarts) {
+  const std::vector<Point2>& p = keys[0];
   std::vector<Walk> loops;
   for (size_t k = 0; k + 1 < loopStarts.size(); ++k) {
     Walk loop(static_cast<size_t>(loopStarts[k + 1] - loopStarts[k]));
@@ -104,9 +149,11 @@ BridgedOutline bridgeHoles(const std::vector<vec3>& points, const std::vector<in
   // From right to left, so that no later hole is in the way of a bridge.
   std::stable_sort(loops.begin() + 1, loops.end(),
                    [&](const Walk& a, const Walk& b) { return p[a[0]].x > p[b[0]].x; });
-  Bridger bridger(p, loops[0]);
+  Bridger bridger(keys, loops[0]);
   BridgedOutline out;
-  for (size_t k = 1; k < loops.size(); ++k) out.ignored += !bridger.add(loops[k]);
+  const std::span<const Walk> holes(loops);
+  for (size_t k = 1; k < loops.size(); ++k) out.ignored += !bridger.add(loops[k], holes.subspan(k + 1));
+  out.simple = bridger.simple();
   out.order = std::move(bridger).walk();
   return out;
 }

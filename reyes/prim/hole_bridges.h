@@ -1,6 +1,6 @@
 // Joins the holes of a polygon to its outline. Private to polygons.
 #pragma once
-#include "reyes/prim.h"
+#include "reyes/prim/planar.h"
 
 namespace tomales {
 
@@ -8,11 +8,11 @@ namespace tomales {
 struct BridgedOutline {
   std::vector<int> order;  ///< Positions in the list of points; both ends of a bridge come twice.
   int ignored = 0;         ///< Holes that lie outside of the outline.
+  bool simple = true;      ///< No bridge crosses anything at any key. False only for a polygon that moves.
 };
 
-/// Loop k is points[loopStarts[k]] to points[loopStarts[k + 1] - 1]: first the outline, which goes
-/// counter-clockwise about the normal, then the holes, which go either way.
-BridgedOutline bridgeHoles(const std::vector<vec3>& points, const std::vector<int>& loopStarts,
-                           const glm::dvec3& normal);
+/// Loop k is the points loopStarts[k] to loopStarts[k + 1] - 1: first the outline, which goes counter-clockwise, then the holes,
+/// which go either way. Bridges are those of the first key unless something is in their way at another.
+BridgedOutline bridgeHoles(const Outlines& keys, const std::vector<int>& loopStarts);
 
 }  // namespace tomales

@@ -8,6 +8,9 @@ namespace tomales {
 
 using Point2 = glm::dvec2;
 
+/// One polygon at each key of its motion (a single one if it stands still), but for keys at which it has no area.
+using Outlines = std::vector<std::vector<Point2>>;
+
 /// Drops the axis along which the polygon is thinnest; counter-clockwise about the normal stays
 /// counter-clockwise.
 std::vector<Point2> projected(const std::vector<vec3>& points, const glm::dvec3& normal);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "reyes/prim/edges.h"
 #include "reyes/prim/face_pieces.h"
 #include "reyes/prim/hole_bridges.h"
@@ -36,13 +38,16 @@ Face faceOf(const std::vector<vec3>& points, const glm::dvec3& normal, const Bou
 class Decomposer {
  public:
   Decomposer(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
-             const std::vector<int>& vertices, const std::vector<vec3>& plan, const std::vector<vec3>& positions)
+             const std::vector<int>& vertices, const std::vector<vec3>& positions, const PointKeys& keys)
       : loopCounts_(loopCounts),
         vertexCounts_(vertexCounts),
         vertices_(vertices),
-        plan_(plan),
         positions_(positions),
-        edges_(vertexCounts, vertices) {}
+        edges_(vertexCounts, vertices) {
+    for (const std::vector<vec3>& key : keys)
+      if (key.size() == positions.size()) keys_.push_back(&key);
+    if (keys_.empty()) keys_.push_back(&positions);
+  }
 
   Decomposition run(Problems& problems) {
     uint32_t first = 0;
@@ -61,20 +66,34 @@ class Decomposer {
     if (holesIgnored_)
       problems.push_back(
           fmt::format("{} holes lie outside of their polygon; they were ignored", holesIgnored_));
+    if (overlapping_)
+      problems.push_back(fmt::format("{} faces turn inside out as they move and overlap themselves", overlapping_));
     return std::move(out_);
   }
 
  private:
-  vec3 position(uint32_t faceVertex) const { return plan_[static_cast<size_t>(vertices_[faceVertex])]; }
+  using Points = std::vector<vec3>;
+
+  vec3 position(const Points& key, uint32_t faceVertex) const { return key[static_cast<size_t>(vertices_[faceVertex])]; }
+
+  bool coincide(uint32_t a, uint32_t b) const {
+    return std::all_of(keys_.begin(), keys_.end(), [&](const Points* key) { return position(*key, a) == position(*key, b); });
+  }
+
+  const Points& cornersAt(const Points& key) {
+    points_.clear();
+    for (const uint32_t c : corner_) points_.push_back(position(key, c));
+    return points_;
+  }
 
   /// A loop's vertices without those that repeat the one before.
   void gather(uint32_t first, uint32_t count) {
     loopStart_.push_back(static_cast<int>(corner_.size()));
     for (uint32_t k = 0; k < count; ++k) {
       const uint32_t next = first + (k + 1) % count;
-      if (position(first + k) == position(next)) continue;
+      if (coincide(first + k, next)) continue;
       // This corner's edge to the next one; the last of several equal vertices carries it.
-      corner_.push_back(first + k), point_.push_back(position(first + k));
+      corner_.push_back(first + k);
       open_.push_back(edges_.count(vertices_[first + k], vertices_[next]) < 2);
     }
   }
@@ -93,50 +112,70 @@ class Decomposer {
   }
 
   /// Makes one closed walk of the loops. A bridge is never open.
-  void joinHoles(const glm::dvec3& normal) {
-    const BridgedOutline outline = bridgeHoles(point_, loopStart_, normal);
+  void joinHoles() {
+    const BridgedOutline outline = bridgeHoles(outlines_, loopStart_);
     holesIgnored_ += static_cast<size_t>(outline.ignored);
+    disjoint_ = outline.simple;
     std::vector<uint32_t> corner;
-    std::vector<vec3> point;
     std::vector<char> open;
     for (size_t k = 0; k < outline.order.size(); ++k) {
       const int at = outline.order[k], to = outline.order[(k + 1) % outline.order.size()];
-      corner.push_back(corner_[at]), point.push_back(point_[at]);
+      corner.push_back(corner_[at]);
       open.push_back(nextInLoop(at) == to ? open_[at] : nextInLoop(to) == at ? open_[to] : 0);
     }
-    corner_ = std::move(corner), point_ = std::move(point), open_ = std::move(open);
+    for (std::vector<Point2>& p : outlines_) {
+      const std::vector<Point2> loops = std::exchange(p, {});
+      for (const int at : outline.order) p.push_back(loops[at]);
+    }
+    corner_ = std::move(corner), open_ = std::move(open);
   }
 
-  bool addFace(uint32_t first, std::span<const int> counts) {
-    corner_.clear(), point_.clear(), open_.clear(), loopStart_.clear();
-    gather(first, static_cast<uint32_t>(counts[0]));
-    const Bound3 box = boundOf(point_);
-    const glm::dvec3 normal = areaNormal(point_, box);
-    out_.faces.push_back({vec3(0), true});
-    if (normal == glm::dvec3(0)) return false;
-    if (counts.size() > 1) {
-      gatherHoles(first + static_cast<uint32_t>(counts[0]), counts.subspan(1));
-      joinHoles(normal);
-    }
-    out_.faces.back() = faceOf(point_, normal, box);
-    if (&plan_ != &positions_) moveFace();
-    if (point_.size() == 3)
-      addPiece({0, 1, 2});
-    else if (point_.size() == 4 && isStrictlyConvex(point_, normal))
-      addQuad({corner_[0], corner_[1], corner_[3], corner_[2]},
-              {out_.faces.back().planar, edgeBits(open_[3], open_[1], open_[0], open_[2])});
-    else
-      for (const Piece& piece : convexPieces(point_, normal)) addPiece(piece);
+  glm::dvec3 normalAt(const Points& key) {
+    const Points& points = cornersAt(key);
+    return areaNormal(points, boundOf(points));
+  }
+
+  /// Of the outline, at the keys and at the key at hand: there, if it has no area, that of the first key where it has. False: it never has.
+  bool findNormals() {
+    normals_.clear();
+    for (const Points* key : keys_) normals_.push_back(normalAt(*key));
+    const auto any = std::find_if(normals_.begin(), normals_.end(), [](const glm::dvec3& n) { return n != glm::dvec3(0); });
+    if (any == normals_.end()) return false;
+    normal_ = keys_[0] == &positions_ ? normals_[0] : normalAt(positions_);
+    if (normal_ == glm::dvec3(0)) normal_ = *any;
     return true;
   }
 
-  /// The face at hand where its corners are in `positions_`. Without area there it keeps the plane of the plan.
-  void moveFace() {
-    std::vector<vec3> moved;
-    for (const uint32_t c : corner_) moved.push_back(positions_[static_cast<size_t>(vertices_[c])]);
-    const Bound3 box = boundOf(moved);
-    const glm::dvec3 normal = areaNormal(moved, box);
-    out_.faces.back() = faceOf(moved, normal == glm::dvec3(0) ? glm::dvec3(out_.faces.back().normal) : normal, box);
+  void projectLoops() {
+    outlines_.clear();
+    for (size_t k = 0; k < keys_.size(); ++k)
+      if (normals_[k] != glm::dvec3(0)) outlines_.push_back(projected(cornersAt(*keys_[k]), normals_[k]));
+  }
+
+  bool addFace(uint32_t first, std::span<const int> counts) {
+    corner_.clear(), open_.clear(), loopStart_.clear();
+    disjoint_ = true;
+    gather(first, static_cast<uint32_t>(counts[0]));
+    out_.faces.push_back({vec3(0), true});
+    if (!findNormals()) return false;
+    if (counts.size() > 1) gatherHoles(first + static_cast<uint32_t>(counts[0]), counts.subspan(1));
+    const Points& points = cornersAt(positions_);
+    out_.faces.back() = faceOf(points, normal_, boundOf(points));
+    if (corner_.size() == 3) {
+      addTriangle({0, 1, 2});
+      return true;
+    }
+    projectLoops();
+    if (counts.size() > 1) joinHoles();
+    if (corner_.size() == 4 && isStrictlyConvex(outlines_)) {
+      addQuad({corner_[0], corner_[1], corner_[3], corner_[2]},
+              {out_.faces.back().planar, edgeBits(open_[3], open_[1], open_[0], open_[2])});
+      return true;
+    }
+    const Pieces pieces = convexPieces(outlines_);
+    for (const Piece& piece : pieces.list) addPiece(piece);
+    overlapping_ += !(disjoint_ && pieces.disjoint);
+    return true;
   }
 
   static uint8_t edgeBits(bool u0, bool u1, bool v0, bool v1) {
@@ -159,7 +198,7 @@ class Decomposer {
   /// triangle is so over the patch.
   void addTriangle(const Piece& piece) {
     const auto side = [&](size_t k) {
-      const vec3 d = point_[static_cast<size_t>(piece[(k + 1) % 3])] - point_[static_cast<size_t>(piece[k])];
+      const vec3 d = position(*keys_[0], corner_[static_cast<size_t>(piece[(k + 1) % 3])]) - position(*keys_[0], corner_[static_cast<size_t>(piece[k])]);
       return glm::dot(d, d);
     };
     const size_t k = side(1) < side(0) ? (side(2) < side(1) ? 2 : 1) : (side(2) < side(0) ? 2 : 0);
@@ -188,12 +227,17 @@ class Decomposer {
   const std::vector<int>& loopCounts_;
   const std::vector<int>& vertexCounts_;
   const std::vector<int>& vertices_;
-  const std::vector<vec3>&plan_, &positions_;
+  const std::vector<vec3>& positions_;
+  std::vector<const std::vector<vec3>*> keys_;  ///< By which faces are cut; never empty.
   const EdgeFaces edges_;
   Decomposition out_;
-  size_t holesIgnored_ = 0;
+  size_t holesIgnored_ = 0, overlapping_ = 0;
   std::vector<uint32_t> corner_;  // of the face at hand
-  std::vector<vec3> point_;
+  Points points_;                    // of its corners at some key
+  std::vector<glm::dvec3> normals_;  // by key
+  glm::dvec3 normal_{0};
+  Outlines outlines_;
+  bool disjoint_ = true;
   std::vector<char> open_;      // edge from a corner to the next
   std::vector<int> loopStart_;  // first corner of every loop, and the end
   std::vector<uint32_t> at_, middle_;  // of the piece at hand
@@ -201,10 +245,9 @@ class Decomposer {
 
 }  // namespace
 
-Decomposition decompose(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
-                        const std::vector<int>& vertices, const std::vector<vec3>& plan, const std::vector<vec3>& positions,
-                        Problems& problems) {
-  return Decomposer(loopCounts, vertexCounts, vertices, plan, positions).run(problems);
+Decomposition decompose(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts, const std::vector<int>& vertices,
+                        const std::vector<vec3>& positions, const PointKeys& keys, Problems& problems) {
+  return Decomposer(loopCounts, vertexCounts, vertices, positions, keys).run(problems);
 }
 
 }  // namespace tomales

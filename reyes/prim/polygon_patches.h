@@ -70,10 +70,11 @@ struct Decomposition {
   MadePoints made;
 };
 
-/// A face is a run of loops, its outline and its holes; a loop is a run of `vertices`. All counts have been checked. Faces
-/// without area and holes outside of their polygon are dropped with a sentence. Faces are cut as they lie in `plan` (of the size of
-/// `positions`), so that all keys of a motion are cut alike; `Decomposition::faces` are those of `positions`.
+/// A face is a run of loops, its outline and its holes; a loop is a run of `vertices`. All counts have been checked. Faces without area at
+/// any key and holes outside of their polygon are dropped with a sentence. `keys`: where the points are at every key of motion, empty for what
+/// stands still. All keys are cut alike, where that can be done without overlap at any (else as it suits the first, with a sentence);
+/// `Decomposition::faces` are those of `positions`.
 Decomposition decompose(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts, const std::vector<int>& vertices,
-                        const std::vector<vec3>& plan, const std::vector<vec3>& positions, Problems& problems);
+                        const std::vector<vec3>& positions, const PointKeys& keys, Problems& problems);
 
 }  // namespace tomales

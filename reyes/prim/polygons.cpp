@@ -52,9 +52,6 @@ class Polygons : public Prim {
     interpolateBilinear(var.values.data(), var.width, corners, n, u, v, out, stride);
   }
 
-  /// Those that were given: without made points.
-  std::vector<vec3> givenPositions() const { return {positions_.begin(), positions_.begin() + static_cast<std::ptrdiff_t>(given_)}; }
-
  private:
   static float areaScale(SurfacePoints s, int i) {
     const vec3 du(s.dux[i], s.duy[i], s.duz[i]), dv(s.dvx[i], s.dvy[i], s.dvz[i]);
@@ -119,22 +116,19 @@ void requireLoops(const std::vector<int>& loopCounts, size_t loops) {
 }  // namespace
 
 PrimPtr makeGeneralPolygons(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
-                            const std::vector<int>& vertices, const ParamList& params, Problems& problems, const Prim* first) {
+                            const std::vector<int>& vertices, const ParamList& params, Problems& problems, const PointKeys& keys) {
   const size_t used = requireFaces(vertexCounts, vertices);
   requireLoops(loopCounts, vertexCounts.size());
   std::vector<vec3> positions = takePositions(params, used, false, problems);
   const PrimvarCounts counts{loopCounts.size(), positions.size(), positions.size(), vertices.size()};
   std::vector<Primvar> primvars = takePrimvars(params, counts, problems);
-  const auto* shape = dynamic_cast<const Polygons*>(first);
-  const std::vector<vec3> before = shape ? shape->givenPositions() : std::vector<vec3>();
-  const std::vector<vec3>& plan = before.size() == positions.size() ? before : positions;
-  Decomposition parts = decompose(loopCounts, vertexCounts, vertices, plan, positions, problems);
+  Decomposition parts = decompose(loopCounts, vertexCounts, vertices, positions, keys, problems);
   return std::make_shared<Polygons>(std::move(parts), std::move(positions), vertices, std::move(primvars));
 }
 
 PrimPtr makePolygons(const std::vector<int>& vertexCounts, const std::vector<int>& vertices,
-                     const ParamList& params, Problems& problems, const Prim* first) {
-  return makeGeneralPolygons(std::vector<int>(vertexCounts.size(), 1), vertexCounts, vertices, params, problems, first);
+                     const ParamList& params, Problems& problems, const PointKeys& keys) {
+  return makeGeneralPolygons(std::vector<int>(vertexCounts.size(), 1), vertexCounts, vertices, params, problems, keys);
 }
 
 }  // namespace tomales

@@ -9,6 +9,10 @@ namespace {
 
 using Builder = PrimPtr (*)(const Request&, const Scope&, Problems&);
 
+bool allFinite(const std::vector<float>& v) {
+  return std::all_of(v.begin(), v.end(), [](float f) { return std::isfinite(f); });
+}
+
 /// The number of points that P (or Pw, Pz) brings.
 int pointCount(const Request& r) {
   for (const Param& p : r.params)
@@ -23,22 +27,35 @@ std::vector<int> countUp(int n) {
   return out;
 }
 
-PrimPtr polygon(const Request& r, const Prim* first, Problems& problems) {
+/// Where the points of a shape that moves are at each key; none where it stands still.
+PointKeys pointKeys(const MotionKeys& motion) {
+  PointKeys out;
+  if (motion.requests.size() < 2) return out;
+  for (const Request* key : motion.requests) {
+    std::vector<vec3>& points = out.emplace_back();
+    for (const Param& p : key->params)
+      if (p.name == "P" && allFinite(p.floats))
+        for (size_t i = 0; i + 2 < p.floats.size(); i += 3) points.emplace_back(p.floats[i], p.floats[i + 1], p.floats[i + 2]);
+  }
+  return out;
+}
+
+PrimPtr polygon(const Request& r, const MotionKeys& motion, Problems& problems) {
   const int n = pointCount(r);
-  return makePolygons({n}, countUp(n), r.params, problems, first);
+  return makePolygons({n}, countUp(n), r.params, problems, pointKeys(motion));
 }
 
-PrimPtr generalPolygon(const Request& r, const Prim* first, Problems& problems) {
+PrimPtr generalPolygon(const Request& r, const MotionKeys& motion, Problems& problems) {
   const std::vector<int>& counts = r.args[0].integers;
-  return makeGeneralPolygons({static_cast<int>(counts.size())}, counts, countUp(pointCount(r)), r.params, problems, first);
+  return makeGeneralPolygons({static_cast<int>(counts.size())}, counts, countUp(pointCount(r)), r.params, problems, pointKeys(motion));
 }
 
-PrimPtr pointsPolygons(const Request& r, const Prim* first, Problems& problems) {
-  return makePolygons(r.args[0].integers, r.args[1].integers, r.params, problems, first);
+PrimPtr pointsPolygons(const Request& r, const MotionKeys& motion, Problems& problems) {
+  return makePolygons(r.args[0].integers, r.args[1].integers, r.params, problems, pointKeys(motion));
 }
 
-PrimPtr pointsGeneralPolygons(const Request& r, const Prim* first, Problems& problems) {
-  return makeGeneralPolygons(r.args[0].integers, r.args[1].integers, r.args[2].integers, r.params, problems, first);
+PrimPtr pointsGeneralPolygons(const Request& r, const MotionKeys& motion, Problems& problems) {
+  return makeGeneralPolygons(r.args[0].integers, r.args[1].integers, r.args[2].integers, r.params, problems, pointKeys(motion));
 }
 
 bool bicubic(const Request& r) {
@@ -153,8 +170,8 @@ const std::unordered_map<std::string_view, Builder>& builders() {
   return table;
 }
 
-/// Shapes that are taken apart as they are at the first key of their motion: `first`, if they are not that themselves.
-using KeyBuilder = PrimPtr (*)(const Request&, const Prim* first, Problems&);
+/// Shapes that are taken apart alike at all keys of their motion.
+using KeyBuilder = PrimPtr (*)(const Request&, const MotionKeys&, Problems&);
 const std::unordered_map<std::string_view, KeyBuilder>& keyBuilders() {
   static const std::unordered_map<std::string_view, KeyBuilder> table = {
       {"Polygon", polygon},
@@ -164,10 +181,6 @@ const std::unordered_map<std::string_view, KeyBuilder>& keyBuilders() {
       {"Blobby", nullptr},  // it must know its ground, too
   };
   return table;
-}
-
-bool allFinite(const std::vector<float>& v) {
-  return std::all_of(v.begin(), v.end(), [](float f) { return std::isfinite(f); });
 }
 
 /// The request without primitive variables that hold NaN or infinity. Throws if those are the shape itself.
@@ -200,14 +213,14 @@ float reachOf(const Request& r) {
 
 bool isGeometry(std::string_view name) { return builders().contains(name) || keyBuilders().contains(name); }
 
-PrimPtr buildPrim(const Request& r, const Scope& scope, const Prim* first, const GroundReader& grounds, Problems& problems) {
+PrimPtr buildPrim(const Request& r, const Scope& scope, const MotionKeys& motion, const GroundReader& grounds, Problems& problems) {
   for (const RibArg& a : r.args)
     if (!allFinite(a.numbers)) throw PrimError("an argument is not finite");
   const auto build = [&](const Request& request) {
-    if (const std::optional<Request> joined = blobbyOfPoints(request)) return blobby(*joined, first, grounds, problems);
-    if (request.name == "Blobby") return blobby(request, first, grounds, problems);
+    if (const std::optional<Request> joined = blobbyOfPoints(request)) return blobby(*joined, motion.first, grounds, problems);
+    if (request.name == "Blobby") return blobby(request, motion.first, grounds, problems);
     const auto keyed = keyBuilders().find(request.name);
-    return keyed != keyBuilders().end() ? keyed->second(request, first, problems) : builders().at(request.name)(request, scope, problems);
+    return keyed != keyBuilders().end() ? keyed->second(request, motion, problems) : builders().at(request.name)(request, scope, problems);
   };
   if (std::all_of(r.params.begin(), r.params.end(), [](const Param& p) { return allFinite(p.floats); }))
     return build(r);

@@ -112,7 +112,7 @@ Master::Shapes SceneBuilder::buildShapes(const Keys& keys, const std::vector<flo
                      contentsOf(keys, times, state_.scope)};
   for (const Request* key : keys) {
     out.reach = std::max(out.reach, reachOf(*key));
-    PrimPtr prim = buildShape(*key, out.keys.empty() ? nullptr : out.keys[0].get());
+    PrimPtr prim = buildShape(*key, {keys, out.keys.empty() ? nullptr : out.keys[0].get()});
     if (!prim && out.keys.empty()) return out;
     if (!prim || (!out.keys.empty() && !sameTopology(*out.keys[0], *prim))) {
       state_.log.report(Severity::Warning, "rib-motion", key->where,
@@ -126,7 +126,7 @@ Master::Shapes SceneBuilder::buildShapes(const Keys& keys, const std::vector<flo
   return out;
 }
 
-PrimPtr SceneBuilder::buildShape(const Request& r, const Prim* first) {
+PrimPtr SceneBuilder::buildShape(const Request& r, const MotionKeys& motion) {
   if (isEmptyMesh(r)) {
     state_.log.report(Severity::Warning, "rib-empty-mesh", r.where, description(r) + ": it has no faces");
     return nullptr;
@@ -134,7 +134,7 @@ PrimPtr SceneBuilder::buildShape(const Request& r, const Prim* first) {
   Problems problems;
   PrimPtr prim;
   try {
-    prim = buildPrim(r, state_.scope, first, [&](int string) { return groundOf(r, string); }, problems);
+    prim = buildPrim(r, state_.scope, motion, [&](int string) { return groundOf(r, string); }, problems);
   } catch (const PrimError& e) {
     state_.log.report(Severity::Missing, "rib-object-dropped", r.where,
                       fmt::format("{}: {}; the object is dropped", description(r), e.what()));

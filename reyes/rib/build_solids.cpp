@@ -1,9 +1,14 @@
 // SolidBegin ... SolidEnd (RISpec 3.2 section 5.9).
+#include <fmt/format.h>
+
 #include "reyes/rib/closed_surface.h"
 #include "reyes/rib/handlers.h"
 
 namespace tomales::rib {
 namespace {
+
+// Every sample walks up the blocks that it enters and leaves.
+constexpr int kDeepestSolid = 100;
 
 std::optional<SolidOperation> operationOf(const std::string& name) {
   static const std::unordered_map<std::string_view, SolidOperation> table = {
@@ -34,6 +39,9 @@ void beginSolid(GraphicsState& s, const Request& r) {
   if (!operation) s.warn(r, "rib-solid", "unknown operation \"" + name + "\"; union is used");
   if (s.scope.solid >= 0 && openSolid(s).operation(s.scope.solidBlock) == SolidOperation::Primitive)
     return s.warn(r, "rib-solid", "inside a primitive; what it holds is part of the surface of that");
+  if (s.scope.solid >= 0 && openSolid(s).depth(s.scope.solidBlock) >= kDeepestSolid)
+    return s.warnOnce("solids", r, "rib-nesting",
+                      fmt::format("SolidBegin: more than {} solids within solids; what it holds is part of the one around it", kDeepestSolid));
   if (s.scope.solid < 0) {
     s.scope.solid = static_cast<int>(s.world->solids.size());
     s.world->solids.emplace_back();

@@ -39,6 +39,8 @@ constexpr Standard kStandard[] = {
     {"int[2]", "origin"},
     {"string", "operation subset compression filter depthfilter type source exrpixeltype exrcompression transfer lightgroup __group __category"},
     {"float", "fill mergedepth mergeopacity"},
+    {"float", "maxerror radiusscale"},  // of MakeBrickMap
+    {"int", "maxdepth ignorenormals"},
     {"float[8]", "chromaticities"},
     {"int", "tiled multipart"},
     // Category names go by "category:name"

@@ -27,7 +27,12 @@ void applyTransformation(GraphicsState& state, const std::vector<const Request*>
 
 /// Sphere, Polygon, ...: throws PrimError if there is nothing to draw.
 bool isGeometry(std::string_view name);
-PrimPtr buildPrim(const Request& request, const Scope& scope, const Prim* first, const GroundReader& grounds, Problems& problems);
+/// What a request is a key of.
+struct MotionKeys {
+  const std::vector<const Request*>& requests;  ///< By time; the request alone if it does not move.
+  const Prim* first;                            ///< The shape at the first key, if it is not that itself.
+};
+PrimPtr buildPrim(const Request& request, const Scope& scope, const MotionKeys& motion, const GroundReader& grounds, Problems& problems);
 /// Of a file that a Display of depth has left. Throws PrimError.
 GroundPicture readGround(const std::string& path, const mat4& worldFromObject);
 

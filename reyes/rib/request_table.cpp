@@ -152,7 +152,7 @@ constexpr Signature kTable[] = {
     {"MakeLatLongEnvironment", "sss2", kParams, kWorks},
     {"MakeCubeFaceEnvironment", "sssssssfs2", kParams, kWorks},
     {"MakeShadow", "ss", kParams, kWorks},
-    {"MakeBrickMap", "Ss", kParams, kNotYet},
+    {"MakeBrickMap", "Ss", kParams, kWorks},
     {"MakeOcclusion", "Ss", kParams, kNotYet},
     {"MakeTexture3D", "ss", kParams, kNotYet},
 };

@@ -84,8 +84,7 @@ class SceneBuilder : public RiSink {
   /// From the master if it has them.
   Master::Shapes shapesOf(const Keys& keys, const std::vector<float>& times);
   Master::Shapes buildShapes(const Keys& keys, const std::vector<float>& times);
-  /// `first`: the shape at the first key of motion, if it is not that itself.
-  PrimPtr buildShape(const Request& request, const Prim* first);
+  PrimPtr buildShape(const Request& request, const MotionKeys& motion);
   std::optional<GroundPicture> groundOf(const Request& blobby, int string) const;
   std::string description(const Request& request) const;
 

@@ -66,6 +66,14 @@ t.run("brickmake", "byhand_points", "-o", "byhand", "--relative", "--maxerror", 
 t.expect_run("maps made by hand", ["room.rib", "--gi", "atlas", "--atlas", "byhand", "-o", "out.exr"], 0)
 t.expect_run("and of a scene that has changed since", ["red.rib", "--gi", "atlas", "--atlas", "byhand", "-o", "out.exr"], 0, "was made before the scene was changed")
 
+# The same by a request of RIB, and one that asks for what is not there.
+t.write("make.rib", 'MakeBrickMap ["byhand_points/room.ptc" "byhand_points/closet.ptc"] "rib.bkm" "maxerror" [0.01] "maxdepth" [2] "speed" [1]')
+t.expect_run("MakeBrickMap joins clouds", ["make.rib"], 0, "make.rib:1", '"speed"')
+t.run("brickmake", "byhand_points", "-o", "both.bkm", "--maxerror", "0.01", "--maxdepth", "2")
+t.expect((t.folder / "rib.bkm").read_bytes() == (t.folder / "both.bkm").read_bytes(), "as brickmake does")
+t.write("absent.rib", 'MakeBrickMap ["nowhere.ptc"] "a.bkm"')
+t.expect_run("of a cloud that is not there", ["absent.rib"], 3, "absent.rib:1", "nowhere.ptc", "a.bkm")
+
 # Bad files.
 points = (t.folder / "byhand_points" / "room.ptc").read_bytes()
 bricks = (t.folder / "byhand" / "room.bkm").read_bytes()

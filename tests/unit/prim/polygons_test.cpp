@@ -1,3 +1,4 @@
+#include <numeric>
 #include <random>
 
 #include "tests/unit/prim/support.h"
@@ -32,7 +33,39 @@ void expectArea(const std::vector<vec2>& outline, double area) {
   expectSoundEverywhere(*prim);
 }
 
-TEST(Polygon, AllKeysOfAMotionAreCutAsTheFirst) {
+std::vector<vec3> pointsOf(const std::vector<float>& p) {
+  std::vector<vec3> out;
+  for (size_t i = 0; i < p.size(); i += 3) out.emplace_back(p[i], p[i + 1], p[i + 2]);
+  return out;
+}
+
+/// A flat face at several keys: its patches cover each point of it once at every key, by their areas. `loops`: their number, then their sizes.
+void expectCutsCover(const std::vector<std::vector<float>>& keys, const std::vector<int>& loops) {
+  const std::vector<int> counts(loops.begin() + 1, loops.end());
+  PointKeys points;
+  for (const auto& key : keys) points.push_back(pointsOf(key));
+  std::vector<int> vertices(points[0].size());
+  std::iota(vertices.begin(), vertices.end(), 0);
+  for (size_t k = 0; k < keys.size(); ++k) {
+    Problems problems;
+    const PrimPtr prim = makeGeneralPolygons({loops[0]}, counts, vertices, {positions(keys[k])}, problems, points);
+    EXPECT_TRUE(problems.empty()) << problems[0];
+    double expected = 0;
+    size_t begin = 0;
+    for (const int count : counts) {
+      double loop = 0;
+      for (int i = 0; i < count; ++i) {
+        const vec3 &a = points[k][begin + static_cast<size_t>(i)], &b = points[k][begin + static_cast<size_t>((i + 1) % count)];
+        loop += 0.5 * (double(a.x) * double(b.y) - double(a.y) * double(b.x));
+      }
+      expected += begin ? -std::abs(loop) : std::abs(loop);
+      begin += static_cast<size_t>(count);
+    }
+    EXPECT_NEAR(dicedArea(*prim, 1), expected, 1e-4 * expected) << "key " << k;
+  }
+}
+
+TEST(Polygon, AllKeysOfAMotionAreCutAlike) {
   std::mt19937 rng(7);
   std::uniform_real_distribution<float> at(-1, 1);
   for (int round = 0; round < 200; ++round) {
@@ -46,8 +79,9 @@ TEST(Polygon, AllKeysOfAMotionAreCutAsTheFirst) {
       for (int axis = 0; axis < 3; ++axis) before.push_back(at(rng)), after.push_back(at(rng));
     }
     Problems problems;
-    const PrimPtr first = makePolygons({n}, vertices, {positions(before), share}, problems);
-    const PrimPtr key = makePolygons({n}, vertices, {positions(after), share}, problems, first.get());
+    const PointKeys keys = {pointsOf(before), pointsOf(after)};
+    const PrimPtr first = makePolygons({n}, vertices, {positions(before), share}, problems, keys);
+    const PrimPtr key = makePolygons({n}, vertices, {positions(after), share}, problems, keys);
     ASSERT_EQ(key->patchCount(), first->patchCount());
     for (uint32_t patch = 0; patch < first->patchCount(); ++patch)
       for (const float u : {0.0f, 0.3f, 1.0f})
@@ -63,12 +97,41 @@ TEST(Polygon, AllKeysOfAMotionAreCutAsTheFirst) {
 
 TEST(Polygon, AKeyWhoseFaceHasCollapsedKeepsIt) {
   Problems problems;
-  const PrimPtr first = makePolygons({3, 3}, {0, 1, 2, 0, 2, 3}, {positions({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0})}, problems);
-  const PrimPtr key =
-      makePolygons({3, 3}, {0, 1, 2, 0, 2, 3}, {positions({0, 0, 0, 0.5f, 0.5f, 0, 1, 1, 0, 0, 1, 0})}, problems, first.get());
-  EXPECT_EQ(key->patchCount(), 2u);
-  EXPECT_EQ(sampleAt(*key, 0, 0.5f, 0.5f).n, vec3(0, 0, 1));
+  const std::vector<float> whole = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, half = {0, 0, 0, 0.5f, 0.5f, 0, 1, 1, 0, 0, 1, 0};
+  for (const PointKeys& keys : {PointKeys{pointsOf(whole), pointsOf(half)}, PointKeys{pointsOf(half), pointsOf(whole)}}) {
+    const PrimPtr key = makePolygons({3, 3}, {0, 1, 2, 0, 2, 3}, {positions(half)}, problems, keys);
+    EXPECT_EQ(key->patchCount(), 2u);
+    EXPECT_EQ(sampleAt(*key, 0, 0.5f, 0.5f).n, vec3(0, 0, 1));
+  }
   EXPECT_TRUE(problems.empty());
+}
+
+// Two triangles of a dart on one side of the wrong diagonal cover more than the dart.
+TEST(Polygon, AReflexCornerThatMovesLeavesNoOverlapAtAnyKey) {
+  const std::vector<float> shallow = {-1, -1, 0, 1, -1, 0, 1, 1, 0, 0, 0.1f, 0, -1, 1, 0};
+  const std::vector<float> deep = {-1, -1, 0, 1, -1, 0, 1, 1, 0, 0, -0.5f, 0, -1, 1, 0};
+  const std::vector<float> square = {-1, -1, 0, 1, -1, 0, 1, 1, 0, 0, 1, 0, -1, 1, 0};
+  for (const auto& [before, after] : {std::pair(shallow, deep), std::pair(square, deep), std::pair(deep, square)})
+    expectCutsCover({before, after}, {1, 5});
+  // A quadrilateral that bends in.
+  expectCutsCover({{0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0}, {0, 0, 0, 2, 0, 0, 0.5f, 0.5f, 0, 0, 2, 0}}, {1, 4});
+}
+
+TEST(Polygon, AHoleThatMovesPastItsBridgeLeavesNoOverlap) {
+  const auto holed = [](float x, float y) {
+    return std::vector<float>{0, 0, 0, 4, 0, 0, 4, 4, 0, 0, 4, 0, x, y, 0, x, y + 1, 0, x + 1, y + 1, 0, x + 1, y, 0};
+  };
+  expectCutsCover({holed(0.5f, 0.5f), holed(2.5f, 2.5f)}, {2, 4, 4});
+  expectCutsCover({holed(2.5f, 0.5f), holed(0.5f, 2.5f), holed(1.5f, 1.5f)}, {2, 4, 4});
+}
+
+// Darts whose reflex corner changes places have no cut in common.
+TEST(Polygon, OneThatCannotBeCutAlikeIsToldOf) {
+  const std::vector<float> before = {1.2f, 1.2f, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0}, after = {0, 0, 0, 0.9f, 1.1f, 0, 2, 2, 0, 0, 2, 0};
+  Problems problems;
+  makePolygons({4}, {0, 1, 2, 3}, {positions(after)}, problems, {pointsOf(before), pointsOf(after)});
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_NE(problems[0].find("overlap"), std::string::npos);
 }
 
 TEST(Polygon, AConvexQuadIsOnePatchAlongItsFirstAndLastEdge) {

@@ -63,5 +63,17 @@ TEST(Solids, OfWrongUseAreNamedAndMakeSomethingSensible) {
   EXPECT_NE(r.object(0).solidBlock, r.object(1).solidBlock);
 }
 
+TEST(Solids, AreCountedWhereTheyNestBeyondUse) {
+  std::string rib;
+  for (int i = 0; i < 1000; ++i) rib += "SolidBegin \"union\"\n";
+  rib += "SolidBegin \"primitive\" Sphere 1 -1 1 360 SolidEnd ";
+  for (int i = 0; i < 1000; ++i) rib += "SolidEnd ";
+  const Reading r(inWorld(rib));
+  EXPECT_NE(r.codes().find("rib-nesting@102 "), std::string::npos) << r.codes();
+  ASSERT_EQ(r.scene().solids.size(), 1U);
+  EXPECT_EQ(r.scene().solids[0].blockCount(), 101);  // the sphere is a primitive of its own
+  EXPECT_EQ(r.scene().objects.size(), 1U);
+}
+
 }  // namespace
 }  // namespace tomales
