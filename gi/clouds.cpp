@@ -51,6 +51,14 @@ PointCloud sorted(const PointCloud& cloud) {
   return out;
 }
 
+/// None: of a name that there is not.
+std::optional<Translucency> materialOf(const TmSubsurface& s) {
+  const auto triple = [](const float (&v)[3]) { return vec3(v[0], v[1], v[2]); };
+  if (s.material) return translucencyOf(s.material);
+  if (s.meanFreePath[0] != 0) return translucencyOf(triple(s.albedo), triple(s.meanFreePath), s.ior);
+  return Translucency{triple(s.scattering), triple(s.absorption), s.ior};
+}
+
 /// Throws FileError.
 PointCloud cloudOf(const fs::path& path, int estimator) {
   const PointFile file(path.string());
@@ -86,7 +94,7 @@ bool CloudFiles::bake(const CloudQuery& q, const std::vector<CloudValue>& values
   return true;
 }
 
-const CloudFiles::Opened& CloudFiles::opened(const std::string& file, int estimator) {
+const CloudFiles::Opened<BrickMap>& CloudFiles::opened(const std::string& file, int estimator) {
   const fs::path path = found(file, searchPath_);
   const bool isCloud = path.extension() == ".ptc";
   const std::lock_guard lock(mutex_);
@@ -94,9 +102,9 @@ const CloudFiles::Opened& CloudFiles::opened(const std::string& file, int estima
   if (!isNew) return it->second;
   try {
     if (isCloud)
-      it->second.map = std::make_unique<const BrickMap>(cloudOf(path, estimator));
+      it->second.data = std::make_unique<const BrickMap>(cloudOf(path, estimator));
     else
-      it->second.map = std::make_unique<const BrickMap>(path.string(), cache_);
+      it->second.data = std::make_unique<const BrickMap>(path.string(), cache_);
   } catch (const FileError& e) {
     it->second.problem = e.what();
   }
@@ -104,19 +112,19 @@ const CloudFiles::Opened& CloudFiles::opened(const std::string& file, int estima
 }
 
 bool CloudFiles::lookUp(const CloudQuery& q, const std::vector<CloudValue>& values, float* isFound, std::string& problem) {
-  const Opened& file = opened(q.file);
+  const Opened<BrickMap>& file = opened(q.file);
   problem = file.problem;
-  if (!file.map) return false;
+  if (!file.data) return false;
   std::vector<int> places;
   for (const CloudValue& v : values) {
-    places.push_back(offsetOf(file.map->channels(), v.name, v.floats));
+    places.push_back(offsetOf(file.data->channels(), v.name, v.floats));
     if (places.back() < 0) problem = fmt::format("has no channel \"{}\" of {} floats", v.name, v.floats);
   }
-  std::vector<float> data(static_cast<size_t>(file.map->width()));
+  std::vector<float> data(static_cast<size_t>(file.data->width()));
   try {
     for (int i = 0; i < q.count; ++i) {
       if (!q.active[i]) continue;
-      isFound[i] = file.map->lookup(at(q.P, i), at(q.N, i), q.radius[i], data.data()) ? 1.0f : 0.0f;
+      isFound[i] = file.data->lookup(at(q.P, i), at(q.N, i), q.radius[i], data.data()) ? 1.0f : 0.0f;
       for (size_t v = 0; isFound[i] != 0 && v < values.size(); ++v)
         for (int k = 0; places[v] >= 0 && k < values[v].floats; ++k) values[v].c[k][i] = data[static_cast<size_t>(places[v] + k)];
     }
@@ -127,16 +135,16 @@ bool CloudFiles::lookUp(const CloudQuery& q, const std::vector<CloudValue>& valu
 }
 
 bool CloudFiles::photons(const CloudQuery& q, int estimator, TmVec3 E, std::string& problem) {
-  const Opened& file = opened(q.file, std::max(1, estimator));
+  const Opened<BrickMap>& file = opened(q.file, std::max(1, estimator));
   problem = file.problem;
-  const int place = file.map ? offsetOf(file.map->channels(), "irradiance", 3) : -1;
-  if (file.map && place < 0) problem = "is no photon map";
+  const int place = file.data ? offsetOf(file.data->channels(), "irradiance", 3) : -1;
+  if (file.data && place < 0) problem = "is no photon map";
   if (place < 0) return false;
-  std::vector<float> data(static_cast<size_t>(file.map->width()));
+  std::vector<float> data(static_cast<size_t>(file.data->width()));
   try {
     for (int i = 0; i < q.count; ++i) {
       if (!q.active[i]) continue;
-      file.map->lookup(at(q.P, i), at(q.N, i), q.radius[i], data.data());
+      file.data->lookup(at(q.P, i), at(q.N, i), q.radius[i], data.data());
       const float* e = data.data() + place;
       E.x[i] = e[0] / kPi, E.y[i] = e[1] / kPi, E.z[i] = e[2] / kPi;
     }
@@ -144,6 +152,33 @@ bool CloudFiles::photons(const CloudQuery& q, int estimator, TmVec3 E, std::stri
     problem = e.what();
   }
   return problem.empty();
+}
+
+const CloudFiles::Opened<Diffusion>& CloudFiles::openedToDiffuse(const std::string& file) {
+  const std::lock_guard lock(mutex_);
+  const auto [it, isNew] = diffusing_.try_emplace(file);
+  if (!isNew) return it->second;
+  try {
+    it->second.data = std::make_unique<const Diffusion>(PointFile(found(file, searchPath_).string()).readAll());
+  } catch (const FileError& e) {
+    it->second.problem = e.what();
+  }
+  return it->second;
+}
+
+bool CloudFiles::subsurface(const CloudQuery& q, const TmSubsurface& given, TmVec3 out, std::string& problem) {
+  const Opened<Diffusion>& file = openedToDiffuse(q.file);
+  problem = file.problem;
+  const std::optional<Translucency> material = materialOf(given);
+  if (!material) problem = fmt::format("subsurface material \"{}\" is not known", given.material);
+  if (!problem.empty()) return false;
+  const Dipole dipole(*material);
+  for (int i = 0; i < q.count; ++i) {
+    if (!q.active[i]) continue;
+    const vec3 light = file.data->at(at(q.P, i), dipole, given.unitLength, given.maxSolidAngle);
+    out.x[i] = light.x, out.y[i] = light.y, out.z[i] = light.z;
+  }
+  return true;
 }
 
 void CloudFiles::write(Log& log) {

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "gi/brick_map.h"
+#include "gi/diffusion.h"
 #include "reyes/base/log.h"
 #include "reyes/shade.h"
 
@@ -19,6 +20,7 @@ class CloudFiles final : public CloudServices {
   bool bake(const CloudQuery&, const std::vector<CloudValue>&, std::string& problem) override;
   bool lookUp(const CloudQuery&, const std::vector<CloudValue>&, float* found, std::string& problem) override;
   bool photons(const CloudQuery&, int estimator, TmVec3 E, std::string& problem) override;
+  bool subsurface(const CloudQuery&, const TmSubsurface&, TmVec3 out, std::string& problem) override;
 
   /// All that was baked, as FILE.ptc. The points of a file are sorted by what they are, so that no bit depends on threads or buckets.
   void write(Log& log);
@@ -28,17 +30,20 @@ class CloudFiles final : public CloudServices {
     PointCloud cloud;
     uint64_t dropped = 0;  ///< Points that no file may hold.
   };
+  template <class Data>
   struct Opened {
-    std::unique_ptr<const BrickMap> map;  ///< Null: it could not be opened.
+    std::unique_ptr<const Data> data;  ///< Null: it could not be opened.
     std::string problem;
   };
   /// estimator > 0: a photon map, as the irradiance that so many nearest photons tell of. Brick maps hold irradiance as it is.
-  const Opened& opened(const std::string& file, int estimator = 0);
+  const Opened<BrickMap>& opened(const std::string& file, int estimator = 0);
+  const Opened<Diffusion>& openedToDiffuse(const std::string& file);
 
   const std::string searchPath_;
   std::mutex mutex_;
   std::map<std::string, Baked> baked_;
-  std::map<std::pair<std::string, int>, Opened> opened_;  ///< By file and estimator.
+  std::map<std::pair<std::string, int>, Opened<BrickMap>> opened_;  ///< By file and estimator.
+  std::map<std::string, Opened<Diffusion>> diffusing_;
   BrickCache cache_;
 };
 

@@ -155,6 +155,8 @@ class CloudServices {
   virtual bool lookUp(const CloudQuery&, const std::vector<CloudValue>&, float* found, std::string& problem) = 0;
   /// E/pi of a photon map.
   virtual bool photons(const CloudQuery&, int estimator, TmVec3 E, std::string& problem) = 0;
+  /// Baked light that leaves after diffusion, E/pi.
+  virtual bool subsurface(const CloudQuery&, const TmSubsurface&, TmVec3 out, std::string& problem) = 0;
 };
 
 /// Where a light is, as far as one can tell without asking it.

@@ -149,9 +149,17 @@ class Batch {
     return g->call->gather(g->host, g, view(g->P), axis, &options, ray, hit.data(), outputs.begin(),
                            static_cast<int32_t>(outputs.size())) != 0;
   }
+  /// rayInfo() of the ray that came to these points: the same for all.
+  int rayNumber(const char* name) const {
+    Vec3Array value(g);
+    g->call->rayInfo(g->host, g, name, value);
+    for (int i : *this) return static_cast<int>(value[i].x);
+    return 0;
+  }
   RayType rayType() const { return static_cast<RayType>(rayNumber("type")); }
   bool isShadowRay() const { return rayType() == RayType::Transmission; }
   int rayDepth() const { return rayNumber("depth"); }
+  bool wantsHighlights() const { return rayNumber("highlights") != 0; }
 
   /// P in a named space (current space where the name is unknown).
   Vec3Array positionsIn(const char* space) const {
@@ -185,13 +193,6 @@ class Batch {
   const TmGrid* const g;
 
  private:
-  /// Of the ray that came to these points: the same for all.
-  int rayNumber(const char* name) const {
-    Vec3Array value(g);
-    g->call->rayInfo(g->host, g, name, value);
-    for (int i : *this) return static_cast<int>(value[i].x);
-    return 0;
-  }
   template <class Service>
   Vec3Array filled(const Service& service) const {
     Vec3Array out(g);

@@ -112,6 +112,22 @@ typedef struct TmCloudLookup {
 
 #define TM_CLOUD_DEFAULTS { sizeof(TmCloudLookup), 0, 0, 1 }
 
+/* What light diffuses through in subsurface(). Start from TM_SUBSURFACE_DEFAULTS: marble. */
+typedef struct TmSubsurface {
+  uint32_t structBytes;
+  const char* coordSystem;     /* of the file; NULL: "world" */
+  const char* material;        /* "apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skimmilk", "skin1", "skin2",
+                                  "spectralon", "wholemilk" (Jensen et al. 2001, figure 5); NULL: as follows */
+  float scattering[3], absorption[3]; /* reduced scattering and absorption, 1/mm */
+  float albedo[3], meanFreePath[3];   /* unless meanFreePath[0] is 0, instead of those: diffuse albedo, and diffuse mean free path in mm */
+  float ior;
+  float unitLength;            /* millimetres in one unit of the file's space */
+  float maxSolidAngle;         /* points that together are seen under less count as one; 0: each for itself */
+} TmSubsurface;
+
+#define TM_SUBSURFACE_DEFAULTS \
+  { sizeof(TmSubsurface), 0, "marble", {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 1.3f, 1, 0.1f }
+
 /* What a shader may ask of the renderer. Every call works on the whole batch and obeys `active`. */
 typedef struct TmServices {
   uint32_t structBytes;
@@ -180,7 +196,8 @@ typedef struct TmServices {
   /* transmission() with options; several samples spread over a cone. */
   void (*transmissionWith)(void* host, const TmGrid*, TmConstVec3 P, TmConstVec3 toward, const TmRayOptions* options, TmVec3 out);
   /* Of the ray that came to these points: "type" (0 camera, 1 diffuse, 2 specular, 3 transmission), "depth", "diffusedepth",
-   * "speculardepth" into x; "origin", "direction" into all, "length" into x. Returns 0: no such name. */
+   * "speculardepth", "highlights" (0: gathered light is wanted, without them) into x; "origin", "direction" into all, "length" into x.
+   * Returns 0: no such name. */
   int32_t (*rayInfo)(void* host, const TmGrid*, const char* name, TmVec3 out);
   /* Its label. */
   const char* (*rayLabel)(void* host, const TmGrid*);
@@ -228,6 +245,9 @@ typedef struct TmServices {
   int32_t (*photonMap)(void* host, const TmGrid*, const char* file, TmConstVec3 P, TmConstVec3 N, int32_t estimator, TmVec3 out);
   /* RISpec printf(): a line on standard error, whole whatever other threads say. */
   void (*print)(void* host, const TmGrid*, const char* text);
+  /* Light that has entered where a point cloud was baked and leaves at P, by the diffusion approximation: E/pi as what was baked. The
+   * cloud holds "_area" and "_radiance_t", what diffuse() gives to a surface that lets it all in. Returns as texture3d(). */
+  int32_t (*subsurface)(void* host, const TmGrid*, const char* file, TmConstVec3 P, const TmSubsurface*, TmVec3 out);
 } TmServices;
 
 #ifdef __cplusplus

@@ -12,10 +12,12 @@ struct Setting {
   Setting(double v) : number(static_cast<float>(v)) {}
   Setting(const char* v) : text(v) {}
   Setting(const rsl::UniformFloatParam& p) : number(uniform(p)) {}
+  Setting(const rsl::Color& c) : color(c) {}
   Setting(const rsl::StringParam& p) : text(uniform(p)) {}
   int whole() const { return static_cast<int>(number); }
   float number = 0;
   const char* text = "";
+  rsl::Color color{};
 };
 
 inline bool set(TmRayOptions& o, std::string_view name, const Setting& v) {
@@ -57,6 +59,21 @@ inline bool set(TmShadowLookup& o, std::string_view name, const Setting& v) {
   else if (name == "blur") o.blur = v.number;
   else if (name == "width") o.width = v.number;
   else if (name == "samples") o.samples = v.whole();
+  else return false;
+  return true;
+}
+
+inline bool set(TmSubsurface& o, std::string_view name, const Setting& v) {
+  const auto setColor = [&](float (&to)[3]) { to[0] = v.color.x, to[1] = v.color.y, to[2] = v.color.z, o.material = nullptr; };
+  if (name == "coordsystem") o.coordSystem = v.text;
+  else if (name == "material") o.material = v.text;
+  else if (name == "scattering") setColor(o.scattering);
+  else if (name == "absorption") setColor(o.absorption);
+  else if (name == "albedo") setColor(o.albedo);
+  else if (name == "diffusemeanfreepath") setColor(o.meanFreePath);
+  else if (name == "ior") o.ior = v.number;
+  else if (name == "unitlength") o.unitLength = v.number;
+  else if (name == "maxsolidangle") o.maxSolidAngle = v.number;
   else return false;
   return true;
 }

@@ -46,6 +46,8 @@ inline Float randomNumber() {
 }
 /// Of a micropolygon whose points were at p.
 inline Float area(const Triple& p) { return length(cross(Du(p) * Float(grid()->du), Dv(p) * Float(grid()->dv))); }
+/// "shading" and "dicing" are the same here: one point is shaded for each micropolygon.
+inline Float area(const Triple& p, const char*) { return area(p); }
 inline Normal calculatenormal(const Triple& p) {
   return tripleFrom([&](TmVec3 out) { grid()->call->calculateNormal(grid()->host, grid(), p, out); });
 }
@@ -100,26 +102,54 @@ inline bool rayinfo(const char* name, Triple& out) {
   out = value;
   return true;
 }
-inline int rayNumber(const char* name) {
-  Triple value;
-  rayinfo(name, value);
-  for (int i = 0; i < grid()->count; ++i)
-    if (grid()->active[i]) return int(value[i].x);
-  return 0;
-}
-inline int raydepth() { return rayNumber("depth"); }
-inline bool isshadowray() { return rayNumber("type") == 3; }
-inline bool isindirectray() { return rayNumber("type") == 1; }
+inline int raydepth() { return rsl::Batch(grid()).rayDepth(); }
+inline bool isshadowray() { return rsl::Batch(grid()).isShadowRay(); }
+inline bool isindirectray() { return rsl::Batch(grid()).rayType() == rsl::RayType::Diffuse; }
 inline std::string raylabel() { return grid()->call->rayLabel(grid()->host, grid()); }
 
-// --- Light
+// --- Other shaders, attributes, options
 
+/// One of these types, or nothing.
+inline bool askFor(TmWhom whom, int light, const char* name, int first, int last, TmValue& out) {
+  int32_t type;
+  return grid()->call->ask(grid()->host, grid(), whom, light, name, &type, &out) && type >= first && type <= last;
+}
+/// A value of another shader, of the attributes, ... False, and `out` as it was, where there is none of that name and type.
+inline bool ask(TmWhom whom, const char* name, Float& out, int light = -1) {
+  TmValue v;
+  if (!askFor(whom, light, name, TM_FLOAT, TM_FLOAT, v)) return false;
+  out = Float::of([&](int i) { return v.c[0][v.step * std::min(i, grid()->count - 1)]; });
+  return true;
+}
+inline bool ask(TmWhom whom, const char* name, Triple& out, int light = -1) {
+  TmValue v;
+  if (!askFor(whom, light, name, TM_COLOR, TM_NORMAL, v)) return false;
+  out = Triple::of([&](int i) {
+    const int k = v.step * std::min(i, grid()->count - 1);
+    return rsl::Vec3{v.c[0][k], v.c[1][k], v.c[2][k]};
+  });
+  return true;
+}
+inline bool ask(TmWhom whom, const char* name, Matrix& out, int light = -1) {
+  TmValue v;
+  if (!askFor(whom, light, name, TM_MATRIX, TM_MATRIX, v)) return false;
+  out = Matrix(rsl::Matrix::of(v.c[0]));
+  return true;
+}
+inline bool ask(TmWhom whom, const char* name, std::string& out, int light = -1) {
+  TmValue v;
+  if (!askFor(whom, light, name, TM_STRING, TM_STRING, v)) return false;
+  out = v.string;
+  return true;
+}
 /// Empty: there is none.
 inline std::string askText(TmWhom whom, const char* name) {
-  int32_t type;
-  TmValue v;
-  return grid()->call->ask(grid()->host, grid(), whom, -1, name, &type, &v) && type == TM_STRING ? v.string : "";
+  std::string text;
+  ask(whom, name, text);
+  return text;
 }
+
+// --- Light
 
 inline Color ambient() {
   return tripleFrom([](TmVec3 out) { grid()->call->ambient(grid()->host, grid(), out); });
@@ -135,7 +165,7 @@ inline Color phong(const Normal& n, const Vector& v, const Float& size) {
   const Normal N = normalize(n);
   const Vector R = reflect(-normalize(v), N);
   Color sum;
-  if (isindirectray()) return sum;  // gather rays carry diffuse light alone
+  if (!rsl::Batch(grid()).wantsHighlights()) return sum;
   TmIlluminance query{sizeof(TmIlluminance), 0, "", N, float(rsl::kPi / 2), 0, {}, {}, nullptr, 0, 0, 0};
   while (grid()->call->illuminance(grid()->host, grid(), &query)) {
     if (query.nonspecular) continue;
@@ -215,6 +245,19 @@ inline Color photonmap(const char* file, const Point& p, const Normal& n, int es
   return tripleFrom([&](TmVec3 out) { grid()->call->photonMap(grid()->host, grid(), file, p, n, estimator, out); });
 }
 
+/// Of the photons of Attribute "photon" "causticmap"; none: black.
+inline Color caustic(const Point& p, const Normal& n) {
+  const std::string file = askText(TM_OF_ATTRIBUTES, "photon:causticmap");
+  return file.empty() ? Color() : photonmap(file.c_str(), p, n);
+}
+/// Light that was baked as "_radiance_t" with "_area", where it leaves after diffusion: of the material of the list, else of marble. E/pi. The
+/// approximation does not look at the normal.
+template <class... List>
+Color subsurface(const Point& p, const Normal&, const char* file, const List&... list) {
+  const TmSubsurface material = listed(TmSubsurface(TM_SUBSURFACE_DEFAULTS), list...);
+  return tripleFrom([&](TmVec3 out) { grid()->call->subsurface(grid()->host, grid(), file, p, &material, out); });
+}
+
 /// One value of each hit, by its gather() name.
 using Gathered = std::pair<const char*, Triple*>;
 template <class Hit, class Miss>
@@ -230,38 +273,6 @@ void gather(const Point& p, const Vector& direction, float angle, int samples, s
   }
 }
 
-/// A value of another shader, of the attributes, ... False, and `out` as it was, where there is none of that name and type.
-inline bool ask(TmWhom whom, const char* name, Float& out, int light = -1) {
-  int32_t type;
-  TmValue v;
-  if (!grid()->call->ask(grid()->host, grid(), whom, light, name, &type, &v) || type != TM_FLOAT) return false;
-  out = Float::of([&](int i) { return v.c[0][v.step * std::min(i, grid()->count - 1)]; });
-  return true;
-}
-inline bool ask(TmWhom whom, const char* name, Triple& out, int light = -1) {
-  int32_t type;
-  TmValue v;
-  if (!grid()->call->ask(grid()->host, grid(), whom, light, name, &type, &v) || type < TM_COLOR || type > TM_NORMAL) return false;
-  out = Triple::of([&](int i) {
-    const int k = v.step * std::min(i, grid()->count - 1);
-    return rsl::Vec3{v.c[0][k], v.c[1][k], v.c[2][k]};
-  });
-  return true;
-}
-inline bool ask(TmWhom whom, const char* name, Matrix& out, int light = -1) {
-  int32_t type;
-  TmValue v;
-  if (!grid()->call->ask(grid()->host, grid(), whom, light, name, &type, &v) || type != TM_MATRIX) return false;
-  out = Matrix(rsl::Matrix::of(v.c[0]));
-  return true;
-}
-inline bool ask(TmWhom whom, const char* name, std::string& out, int light = -1) {
-  int32_t type;
-  TmValue v;
-  if (!grid()->call->ask(grid()->host, grid(), whom, light, name, &type, &v) || type != TM_STRING) return false;
-  out = v.string;
-  return true;
-}
 /// Inside illuminance(): of that light.
 template <class T>
 bool lightsource(int light, const char* name, T& out) { return ask(TM_OF_LIGHT, name, out, light); }

@@ -167,7 +167,7 @@ void shade(const TmGrid* g) {
   for (int i : b) paint.set(i, {1, 1, 1});
   if (*texturename(g)) b.texture(texturename(g), paint);
   // Gather rays carry diffuse light alone.
-  const bool shiny = b.rayType() != rsl::RayType::Diffuse;
+  const bool shiny = b.wantsHighlights();
   Glossy glossy(b, N, V, paint);
   TmLightSample sample;
   for (int k = 0; g->call->light(g->host, g, k, &sample); ++k) {

@@ -16,8 +16,8 @@ constexpr float kCell = 0.00614f;
 rsl::Vec3Array directions(const TmGrid* g) {
   rsl::Vec3Array out(g);
   for (int i : rsl::Batch(g)) out.set(i, rsl::get(g->L, i));
-  if (std::strcmp(mapspace(g), "world") == 0) return out;
-  g->call->transform(g->host, g, TM_AS_VECTOR, "current", mapspace(g), rsl::view(g->L), out);
+  if (std::strcmp(mapspace(g), "shader") != 0) return out;
+  g->call->transform(g->host, g, TM_AS_VECTOR, "current", "shader", rsl::view(g->L), out);
   g->call->transform(g->host, g, TM_AS_VECTOR, "world", "current", rsl::view(TmVec3(out)), out);
   return out;
 }

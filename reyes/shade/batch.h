@@ -76,6 +76,13 @@ class Batch {
   std::deque<std::string> answers_;
 };
 
+/// What a caller of another release gives of an options struct that begins with structBytes: as many fields as it knows of. Null: none.
+template <class Options>
+Options givenOptions(Options options, const Options* given) {
+  if (given) std::copy_n(reinterpret_cast<const char*>(given), std::min<size_t>(given->structBytes, sizeof options), reinterpret_cast<char*>(&options));
+  return options;
+}
+
 inline TmConstVec3 view(TmVec3 v) { return {v.x, v.y, v.z}; }
 inline vec3 get(TmConstVec3 a, int i) { return {a.x[i], a.y[i], a.z[i]}; }
 inline vec3 get(TmVec3 a, int i) { return {a.x[i], a.y[i], a.z[i]}; }

@@ -119,10 +119,12 @@ std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index
                 bound->user + ": no geometry follows the AreaLightSource; it casts no light");
   light->shadows = light->shadows && !indirect;
   if (light->can(TM_LIGHT_SKY)) {
-    const std::string picture = bound->text("map", "");
+    const std::string picture = bound->text("map", ""), space = bound->text("mapspace", "world");
+    if (space != "world" && space != "shader")
+      log_.report(Severity::Warning, "light-mapspace", bound->where, fmt::format("{}: mapspace \"{}\" is neither \"world\" nor \"shader\"; world is used", bound->user, space));
     light->sky = picture.empty() ? std::make_shared<const Sky>()
                                  : std::make_shared<const Sky>(textures_, picture, bound->where, bound->user,
-                                                               directionsOf(bound->text("mapspace", "") == "shader" ? bound->currentFromShader : cameraFromWorld_));
+                                                               directionsOf(space == "shader" ? bound->currentFromShader : cameraFromWorld_));
   }
   if (light->can(TM_LIGHT_AREA) || light->can(TM_LIGHT_SKY) || light->can(TM_LIGHT_SAMPLED))
     light->samples = countOf(*bound, "samples", 16, 1, kMostLightSamples, log_);

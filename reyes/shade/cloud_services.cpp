@@ -11,11 +11,7 @@
 namespace tomales {
 namespace {
 
-TmCloudLookup optionsOf(const TmCloudLookup* given) {
-  TmCloudLookup options = TM_CLOUD_DEFAULTS;
-  if (given) std::copy_n(reinterpret_cast<const char*>(given), std::min<size_t>(given->structBytes, sizeof options), reinterpret_cast<char*>(&options));
-  return options;
-}
+TmCloudLookup optionsOf(const TmCloudLookup* given) { return givenOptions<TmCloudLookup>(TM_CLOUD_DEFAULTS, given); }
 
 std::vector<CloudValue> valuesOf(const TmCloudValue* values, int32_t count) {
   std::vector<CloudValue> out;
@@ -72,11 +68,11 @@ int32_t texture3d(void* host, const TmGrid* all, const char* file, TmConstVec3 P
   CloudQuery query;
   if (!toFile(batch, primary.grid(), file, P, N, optionsOf(given), query)) return 0;
   std::string problem;
-  const bool known = batch.scene.clouds->lookUp(query, valuesOf(values, valueCount), found, problem);
+  const bool isKnown = batch.scene.clouds->lookUp(query, valuesOf(values, valueCount), found, problem);
   primary.spread(found);
   for (const TmCloudValue& v : std::span(values, static_cast<size_t>(std::max(0, valueCount))))
     for (int k = 0; k < (v.floats == 3 ? 3 : 1); ++k) primary.spread(v.c[k]);
-  return known || refuse(batch, file, problem);
+  return isKnown || refuse(batch, file, problem);
 }
 
 int32_t photonMap(void* host, const TmGrid* all, const char* file, TmConstVec3 P, TmConstVec3 N, int32_t estimator, TmVec3 out) {
@@ -87,9 +83,25 @@ int32_t photonMap(void* host, const TmGrid* all, const char* file, TmConstVec3 P
   CloudQuery query;
   if (!toFile(batch, primary.grid(), file, P, N, TM_CLOUD_DEFAULTS, query)) return 0;
   std::string problem;
-  const bool known = batch.scene.clouds->photons(query, estimator, out, problem);
+  const bool isKnown = batch.scene.clouds->photons(query, estimator, out, problem);
   primary.spread(out);
-  return known || refuse(batch, file, problem);
+  return isKnown || refuse(batch, file, problem);
+}
+
+int32_t subsurface(void* host, const TmGrid* all, const char* file, TmConstVec3 P, const TmSubsurface* given, TmVec3 out) {
+  Batch& batch = batchOf(host);
+  const Primary primary(batch, all);
+  forActive(all, [&](int i) { set(out, i, vec3(0)); });
+  if (!batch.scene.clouds) return refuse(batch, file, "nothing is looked up here");
+  const TmSubsurface material = givenOptions<TmSubsurface>(TM_SUBSURFACE_DEFAULTS, given);
+  TmCloudLookup options = TM_CLOUD_DEFAULTS;
+  options.coordSystem = material.coordSystem;
+  CloudQuery query;
+  if (!toFile(batch, primary.grid(), file, P, TmConstVec3{}, options, query)) return 0;
+  std::string problem;
+  const bool isKnown = batch.scene.clouds->subsurface(query, material, out, problem);
+  primary.spread(out);
+  return isKnown || refuse(batch, file, problem);
 }
 
 }  // namespace tomales

@@ -61,8 +61,10 @@ int32_t tellAttribute(Batch& batch, std::string_view name, int32_t* type, TmValu
   if (name == "Sides") return number(static_cast<float>(a.sides));
   if (name == "Color") return color(a.color);
   if (name == "Opacity") return color(a.opacity);
-  if (name == "ShadingInterpolation" || name == "Orientation" || name == "identifier:name") {
-    const std::string text = name == "identifier:name" ? a.name
+  if (name == "ShadingInterpolation" || name == "Orientation" || name == "identifier:name" || name == "photon:globalmap" || name == "photon:causticmap") {
+    const std::string text = name == "identifier:name"     ? a.name
+                             : name == "photon:globalmap"  ? a.photon.globalMap
+                             : name == "photon:causticmap" ? a.photon.causticMap
                              : name == "Orientation"   ? (a.insideOut ? "inside" : "outside")
                              : a.interpolation == ShadingInterpolation::Smooth ? "smooth"
                                                                                : "constant";

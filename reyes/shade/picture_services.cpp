@@ -9,12 +9,7 @@
 namespace tomales {
 namespace {
 
-/// The caller's options, as many as it knows of.
-TmTextureLookup optionsOf(const TmTextureLookup* given) {
-  TmTextureLookup options = TM_TEXTURE_DEFAULTS;
-  if (given) std::copy_n(reinterpret_cast<const char*>(given), std::min<size_t>(given->structBytes, sizeof options), reinterpret_cast<char*>(&options));
-  return options;
-}
+TmTextureLookup optionsOf(const TmTextureLookup* given) { return givenOptions<TmTextureLookup>(TM_TEXTURE_DEFAULTS, given); }
 
 TextureQuery queryOf(const TmGrid* g, const char* name, const TmTextureLookup& o) {
   TextureQuery q;

@@ -1,34 +1,24 @@
 #include "reyes/shade/plugin_trial.h"
 
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
 #include <signal.h>
-#include <sys/socket.h>
+#include <spawn.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include <climits>
 #include <cstring>
+#include <filesystem>
 
-#include "reyes/shader_api.h"
+#include "reyes/shade/plugin_trial_socket.h"
+
+extern char** environ;
 
 namespace tomales {
 namespace {
 
-constexpr int kMostSeconds = 10, kIdleMilliseconds = 200;
-constexpr char kBegins = 'b', kLives = 'l';  // said in this order, for each plugin
+using trial::arrives;
 
-bool arrives(int socket, int milliseconds) {
-  pollfd wait{socket, POLLIN, 0};
-  int ready;
-  while ((ready = poll(&wait, 1, milliseconds)) < 0 && errno == EINTR) {
-  }
-  return ready > 0;
-}
-
-bool say(int socket, char word) { return send(socket, &word, 1, MSG_NOSIGNAL) == 1; }
+constexpr int kMostSeconds = 10;
 
 enum class Heard { Word, End, Nothing };
 
@@ -38,38 +28,35 @@ Heard hear(int socket) {
   return recv(socket, &word, 1, 0) == 1 ? Heard::Word : Heard::End;
 }
 
-[[noreturn]] void tryPlugins(int socket) {
-  constexpr int kSocket = STDERR_FILENO + 1;
-  // What the parent has open is not to stay open here, nor is anything to be said twice.
-  const int nowhere = open("/dev/null", O_RDWR);
-  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, standard);
-  dup2(socket, kSocket);
-  close_range(kSocket + 1, ~0u, 0);
-  char path[PATH_MAX + 1];
-  while (arrives(kSocket, kIdleMilliseconds)) {
-    const ssize_t length = recv(kSocket, path, PATH_MAX, 0);
-    if (length <= 0 || !say(kSocket, kBegins)) break;
-    path[length] = 0;
-    if (void* handle = dlopen(path, RTLD_NOW | RTLD_LOCAL))
-      if (const auto function = reinterpret_cast<TmShadersFunction>(dlsym(handle, TM_SHADERS_SYMBOL))) function();
-    say(kSocket, kLives);
-  }
-  _exit(0);
+/// Beside this program, as built, or in lib, as installed. Empty: nowhere.
+std::filesystem::path trialProgram() {
+  const std::filesystem::path name = "tomales_plugin_trial";
+  std::error_code none;
+  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
+  for (const auto& path : {folder / name, folder / ".." / "lib" / name})
+    if (std::filesystem::exists(path, none)) return path;
+  return {};
 }
 
 }  // namespace
 
+// A program of its own, not a fork: other threads may hold locks that the child would wait for.
 void PluginTrial::start() {
   end();
+  const std::string program = trialProgram();
   int ends[2];
-  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) return;
-  child_ = fork();
-  if (child_ == 0) tryPlugins(ends[1]);
+  if (program.empty() || socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) return;
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_adddup2(&files, ends[1], trial::kSocket);  // first: the numbers of standard files may be those of the socket
+  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&files, standard, "/dev/null", O_RDWR, 0);  // nothing is to be said twice
+  char* const arguments[] = {const_cast<char*>(program.c_str()), nullptr};
+  const bool started = posix_spawn(&child_, program.c_str(), &files, nullptr, arguments, environ) == 0;
+  posix_spawn_file_actions_destroy(&files);
   close(ends[1]);
-  if (child_ < 0)
-    close(ends[0]);
-  else
-    socket_ = ends[0];
+  if (!started) child_ = -1, close(ends[0]);
+  socket_ = started ? ends[0] : -1;
 }
 
 /// Returns the status of the child, which ends as soon as nobody speaks to it.

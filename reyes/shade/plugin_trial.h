@@ -7,8 +7,8 @@
 
 namespace tomales {
 
-/// One child tries plugin after plugin. It is replaced when one has ended it, and ends by itself when nothing is asked for a while, so that it
-/// keeps no copy of a process that goes on.
+/// One child, the program tomales_plugin_trial, tries plugin after plugin. It is replaced when one has ended it, and ends by itself when nothing is
+/// asked for a while. Where there is no such program, nothing is tried.
 class PluginTrial {
  public:
   PluginTrial() = default;

@@ -16,11 +16,8 @@ constexpr float kSpecularCone = 10 * kPi / 180;  ///< trace:specularthreshold of
 constexpr float kFar = 1e30f;                    ///< RI_INFINITY: the distance to nothing
 constexpr uint32_t kConeStream = 0x636f6e65U, kBaseStream = 0x62617365U;
 
-/// The caller's options, as many as it knows of.
 TmRayOptions drawnOptionsOf(const TmRayOptions* given) {
-  TmRayOptions options = TM_RAY_DEFAULTS;
-  if (given) std::copy_n(reinterpret_cast<const char*>(given), std::min<size_t>(given->structBytes, sizeof options),
-                         reinterpret_cast<char*>(&options));
+  TmRayOptions options = givenOptions<TmRayOptions>(TM_RAY_DEFAULTS, given);
   options.samples = std::clamp(options.samples, 1, 1 << 16);
   options.drawn = std::clamp(options.drawn, 0, 1 << 14);
   options.number = std::clamp(options.number, 0, std::max(0, options.drawn - 1));
@@ -258,9 +255,8 @@ int32_t rayInfo(void* host, const TmGrid* g, const char* name, TmVec3 out) {
     forActive(g, [&](int i) { out.x[i] = static_cast<float>(value); });
     return 1;
   };
-  // Shaders leave highlights out where a diffuse ray asks.
-  const bool whole = c.kind == RayKind::Diffuse && c.highlights;
-  if (what == "type") return number(static_cast<int>(whole ? RayKind::Specular : c.kind));
+  if (what == "type") return number(static_cast<int>(c.kind));
+  if (what == "highlights") return number(c.kind != RayKind::Diffuse || c.highlights);
   if (what == "depth") return number(c.depth + c.specularDepth);
   if (what == "diffusedepth") return number(c.depth);
   if (what == "speculardepth") return number(c.specularDepth);

@@ -1,4 +1,6 @@
 // The functions behind TmServices: their table, and those that are about the surface itself.
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <cstring>
 
@@ -21,6 +23,8 @@ int32_t transform(void* host, const TmGrid* g, int32_t kind, const char* from, c
   const bool projected = a && b && (a->kind != Space::Linear || b->kind != Space::Linear);
   if (!a || !b || (projected && kind != TM_AS_POINT)) {
     forActive(g, [&](int i) { set(out, i, get(in, i)); });
+    if (!a || !b)
+      batch.report(Severity::Warning, "shader-space", fmt::format("transforms to or from space \"{}\", which there is not; values stay as they are", a ? to : from));
     return 0;
   }
   const TmType type = kind == TM_AS_POINT ? TM_POINT : kind == TM_AS_NORMAL ? TM_NORMAL : TM_VECTOR;
@@ -90,6 +94,7 @@ const TmServices kServices = {
     traceRays,          gatherRays,   occlusion,       transmissionWith, rayInfo, rayLabel,
     lightDensity,       lightAlong,   lobeSamples,     stratified,
     derivative,         textureWith,  environmentWith, illuminance, ask,   textureInfo,
-    textureOver,        bake3d,       texture3d,       photonMap,   print};
+    textureOver,        bake3d,       texture3d,       photonMap,   print,
+    subsurface};
 
 }  // namespace tomales

@@ -55,6 +55,15 @@ render("quitting", 3, "quitting.so", "ends the program while it is loaded", "sce
 t.write("several.rib", (SCENE % "crashing").replace("WorldEnd", 'Surface "good"\nSphere 1 -1 1 360\nSurface "leaving"\nSphere 1 -1 1 360\nSurface "crashing"\nSphere 1 -1 1 360\nWorldEnd'))
 said = t.expect_run("plugins are tried after others have crashed", ["several.rib"], 3, "crashing.so", "leaving.so").stderr
 t.expect("good.so" not in said and said.count("crashes while it is loaded") == 1, "each for itself, and once")
+# Met by procedurals while other threads shade: each broken plugin is told, and all that is sound is there.
+for k in range(6):
+    (t.folder / f"crashing{k}.so").write_bytes((t.folder / "crashing.so").read_bytes())
+    t.write(f"later{k}.rib", f'Surface "crashing{k}"\nTranslate {k - 3} 0 0\nSphere 0.3 -0.3 0.3 360\n')
+later = "".join(f'Procedural "DelayedReadArchive" ["later{k}.rib"] [-4 4 -0.3 0.3 -0.3 0.3]\n' for k in range(6))
+t.write("later.rib", (SCENE % "good").replace("Format 16 16", "Format 64 64").replace("WorldEnd", later + "WorldEnd"))
+said = t.expect_run("plugins are tried while other threads run", ["later.rib", "--bucket-size", "8", "-t", "4"], 3, *(f"crashing{k}.so" for k in range(6))).stderr
+t.expect(said.count("crashes while it is loaded") == 6 and "good.so" not in said, "each is told once, and nothing else is lost")
+
 build("old", (SHADER % ("0.5f", "old", "")).replace("#include", "#include <reyes/shader_api.h>\n#undef TM_SHADER_ABI\n#define TM_SHADER_ABI 0u\n#include"))
 render("old", 3, "old.so", "another shader ABI", "scene.rib:8")
 build("empty", "extern \"C\" int unrelated() { return 1; }")

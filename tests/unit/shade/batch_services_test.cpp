@@ -213,6 +213,31 @@ TEST_F(BatchServices, ATextureOfFourCornersIsTheMeanBetweenThem) {
   EXPECT_TRUE(log.entries().empty());
 }
 
+TEST_F(BatchServices, PicturesAndLightsTellWhatTheyHold) {
+  const std::string path = ::testing::TempDir() + "/tomales_constant.exr";
+  OIIO::ImageBuf picture(OIIO::ImageSpec(64, 32, 3, OIIO::TypeDesc::FLOAT));
+  for (int k = 0; k < 64 * 32; ++k) {
+    const float value[] = {0.25f, 0.5f, 2};
+    picture.setpixel(k % 64, k / 64, value);
+  }
+  ASSERT_TRUE(picture.write(path));
+  light("distantlight", {number("intensity", 0.625f)});
+  const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
+    std::vector<float> size;
+    std::string kind;
+    EXPECT_TRUE(textureinfo(path.c_str(), "resolution", size));
+    EXPECT_EQ(size, (std::vector<float>{64, 32}));
+    EXPECT_FALSE(textureinfo(path.c_str(), "resolution", kind)) << "numbers are no text";
+    EXPECT_TRUE(textureinfo(path.c_str(), "type", kind));
+    EXPECT_EQ(kind, "texture");
+    Float intensity = 0;
+    s.illuminance(s.P, s.N, 1.5f, [&] { EXPECT_TRUE(lightsource(s.lightNumber, "intensity", intensity)); });
+    s.Ci = Color(ftexture(path.c_str(), 1, 0.5 + 0.1 * s.u, s.v), zcomp(environment(path.c_str(), Vector(s.u, 1, 0))), intensity);
+  });
+  for (const size_t i : {0u, 1u}) expectColor(c[i], {0.5f, 2, 0.625f});
+  EXPECT_TRUE(log.entries().empty());
+}
+
 TEST_F(BatchServices, IndirectdiffuseIsTheMeanOfWhatRaysSee) {
   services.seen = [](const vec3& d) { return vec3(2, d.z * d.z, 1); };
   const std::vector<vec3> c = asked(2, [](sl::Surface& s) { s.Ci = indirectdiffuse(s.P, s.N, 4096); });
@@ -233,6 +258,31 @@ TEST_F(BatchServices, PointsKnowTheRayThatCame) {
     s.Ci = depth;
   }, context);
   EXPECT_EQ(c[0].x, 2);
+}
+
+TEST_F(BatchServices, DiffuseRaysAreThatWhetherTheyWantHighlightsOrNot) {
+  light("distantlight");
+  ShadeContext context;
+  context.kind = RayKind::Diffuse;
+  for (const bool wanted : {false, true}) {
+    context.highlights = wanted;
+    const std::vector<vec3> c = asked(1, [](sl::Surface& s) {
+      Triple wants;
+      EXPECT_TRUE(isindirectray());
+      EXPECT_TRUE(rayinfo("highlights", wants));
+      s.Ci = Color(xcomp(wants), xcomp(phong(s.N, -s.I, 1)), xcomp(specular(s.N, -s.I, 8)));
+    }, context);
+    EXPECT_EQ(c[0].x, wanted);
+    EXPECT_NEAR(c[0].y, wanted, 1e-5f);
+    EXPECT_NEAR(c[0].z, wanted, 1e-5f);
+  }
+}
+
+TEST_F(BatchServices, ASpaceThatThereIsNotIsToldAndChangesNothing) {
+  const std::vector<vec3> c = asked(2, [](sl::Surface& s) { s.Ci = transform("nowhere", s.P); });
+  expectColor(c[0], {0, 0, 5});
+  ASSERT_EQ(log.count("shader-space-obedient"), 1);
+  EXPECT_NE(log.entries()[0].message.find("\"nowhere\""), std::string::npos);
 }
 
 TEST_F(BatchServices, PrintingIsForThePointsOfTheMask) {

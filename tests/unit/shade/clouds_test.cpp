@@ -35,6 +35,14 @@ class FakeClouds : public CloudServices {
     return true;
   }
 
+  /// Tells what it was asked.
+  bool subsurface(const CloudQuery& q, const TmSubsurface& s, TmVec3 out, std::string& problem) override {
+    if (q.file != "known.ptc") return problem = "is not there", false;
+    for (int i = 0; i < q.count; ++i)
+      if (q.active[i]) out.x[i] = q.P.x[i], out.y[i] = s.unitLength * s.ior, out.z[i] = s.material ? 0 : s.scattering[1] + s.absorption[2];
+    return true;
+  }
+
  private:
   static vec3 at(TmConstVec3 v, int i) { return {v.x[i], v.y[i], v.z[i]}; }
 };
@@ -58,16 +66,31 @@ struct finding : sl::Surface {
     sl::setzcomp(Ci, sl::xcomp(sl::photonmap("photons.ptc", P, N, 7)));
   }
 };
+struct wax : sl::Surface {
+  void main() {
+    Ci = sl::Color(-1.0), Oi = sl::Color(1.0);
+    sl::If(u < 0.7, [&] {
+      Ci = sl::subsurface(P, N, file(sl::grid()), "coordsystem", "object", "scattering", rsl::Color{1, 2, 3}, "absorption", rsl::Color{4, 5, 6}, "ior", 1.5,
+                          "unitlength", 10);
+    });
+  }
+};
+struct causticlight : sl::Surface {
+  void main() { Ci = sl::caustic(P, N), Oi = sl::Color(1.0); }
+};
+const rsl::Shader causticShader(TM_SURFACE, "causticlight", "", 0, sl::shade<causticlight>, {});
 const rsl::Shader bakingShader(TM_SURFACE, "baking", "", 0, sl::shade<baking>, {&file});
 rsl::StringParam file2("file", "known.ptc", "");
 const rsl::Shader neighbourShader(TM_SURFACE, "bakingwide", "", TM_NEIGHBOURS, sl::shade<baking>, {&file2});
+rsl::StringParam file4("file", "known.ptc", "");
+const rsl::Shader waxShader(TM_SURFACE, "wax", "", TM_NEIGHBOURS, sl::shade<wax>, {&file4});
 const rsl::Shader findingShader(TM_SURFACE, "finding", "", 0, sl::shade<finding>, {&file2});
 
 class CloudCalls : public Stage {
  protected:
   CloudCalls() {
-    static const TmShader* const shaders[] = {bakingShader, neighbourShader, findingShader};
-    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 3};
+    static const TmShader* const shaders[] = {bakingShader, neighbourShader, findingShader, waxShader, causticShader};
+    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 5};
     registry.addLibrary(&library, "test");
   }
   ShadePoints row() {
@@ -120,6 +143,37 @@ TEST_F(CloudCalls, WhatIsFoundIsSaidPointByPointUnderTheMask) {
   expectColor(out.color(2), {2, 1, 7});
   expectColor(out.color(3), {-1, -1, 7});
   EXPECT_TRUE(log.entries().empty());
+}
+
+TEST_F(CloudCalls, DiffusedLightIsAskedForInTheSpaceOfTheFileUnderTheMask) {
+  surface("wax");
+  worldFromObject = Motion::still(mat4(2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1));
+  system().setClouds(&clouds);
+  const ShadedPoints out = shade(row());
+  expectColor(out.color(0), {0, 15, 8});
+  expectColor(out.color(1), {0.5f, 15, 8});
+  expectColor(out.color(3), {-1, -1, -1});
+  EXPECT_TRUE(log.entries().empty());
+}
+
+TEST_F(CloudCalls, WithoutItsCloudNoLightIsDiffusedAndTheUserIsTold) {
+  surface("wax", {text("file", "absent.ptc")});
+  system().setClouds(&clouds);
+  expectColor(shade(row()).color(0), {0, 0, 0});
+  EXPECT_EQ(log.worst(), Severity::Missing);
+}
+
+TEST_F(CloudCalls, CausticsAreThePhotonsOfTheMapThatTheAttributeNames) {
+  attributes.photon.causticMap = "caustics.ptc";
+  surface("causticlight");
+  system().setClouds(&clouds);
+  expectColor(shade(row()).color(0), {50, -1, 0});
+}
+
+TEST_F(CloudCalls, WithoutAMapThereAreNoCaustics) {
+  surface("causticlight");
+  system().setClouds(&clouds);
+  expectColor(shade(row()).color(0), {0, 0, 0});
 }
 
 TEST_F(CloudCalls, WhatCannotBeIsReportedOnceWithShaderAndFile) {

@@ -111,6 +111,15 @@ TEST_F(Environment, TheMapMayStandInTheSpaceOfTheLight) {
   expectColor(litBy({0, 0, -1}), {1, 5.0f / 3, 1}, 3e-3f);
 }
 
+TEST_F(Environment, AMapSpaceThatThereIsNotIsTheWorldAndTold) {
+  surface("matte");
+  scene.cameraFromWorld = Motion::still(mat4(1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1));
+  light("environmentlight", {text("map", writeMap([](const vec3& w) { return vec3(1 + w.z, 1 + w.y, 1 + w.x); })), text("mapspace", "object")});
+  expectColor(litBy({0, 0, -1}), {5.0f / 3, 1, 1}, 3e-3f);
+  ASSERT_EQ(log.count("light-mapspace"), 1);
+  EXPECT_EQ(log.worst(), Severity::Warning);
+}
+
 TEST_F(Environment, ShinyMetalMirrorsTheMapByTheReflectedDirection) {
   surface("shinymetal",
           {number("Kr", 0.5f), text("texturename", writeMap([](const vec3& w) { return vec3(1) + w; }))});
