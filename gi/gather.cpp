@@ -23,6 +23,7 @@ const BrightSpots kNoSpots;
 /// gathering never nests.
 struct Scratch {
   RayLayers layers;
+  Surroundings surroundings;
   std::vector<Hit> hits, unknown;                  ///< unknown: those that no radiosity map answers.
   std::vector<std::pair<size_t, vec3>> mapped;
   HitAnswers answers;
@@ -80,7 +81,12 @@ class Hemisphere {
     filter_.groups = scene.groupsIn(asked.empty() ? own : asked, occlusion ? occlusion->excludeSubset : "");
     if (occlusion) filter_.sides = occlusion->sides;
     if (occlusion && occlusion->bias >= 0) first_.offset = 0, first_.bias = occlusion->bias;
-    if (!filter_.passesAll()) first_.filter = &filter_;
+    if (!filter_.passesAll()) {
+      first_.filter = &filter_;
+    } else if (first_.offset > 0) {
+      scene.lookAround(point.position, slantedOffset(first_.offset, 0), kMaskDiffuse, scratch_.surroundings);
+      first_.surroundings = &scratch_.surroundings;
+    }
   }
 
   HemisphereSamples trace(Stats& stats, BrightFind* find) {
