@@ -25,7 +25,8 @@ constexpr double kMostPatchesOfBucket = 1 << 19;
 
 double patchesPerPixel(const Scene& scene) {
   double patches = 0;
-  for (const Object& o : scene.objects) patches += o.shape().patchCount();
+  for (const Object& o : scene.objects)
+    if (!o.shapes.empty()) patches += o.shape().patchCount();  // those of a shot have none
   return patches / (static_cast<double>(scene.options.xResolution) * scene.options.yResolution);
 }
 
