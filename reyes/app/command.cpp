@@ -108,7 +108,7 @@ void buildCompare(CLI::App& app, Invocation& in, int& code) {
 }
 
 void buildShadetest(CLI::App& app, Invocation& in, int& code) {
-  CLI::App* c = app.add_subcommand("shadetest", "One surface, displacement or light shader over a grid: time and values");
+  CLI::App* c = app.add_subcommand("shadetest", "One shader over a grid: time and values");
   c->add_option("SHADER", in.shadetest.shader, "A name, or a plugin .so")->required();
   addParsed(*c, "--grid", in.shadetest.grid, [](const std::string& t) { return parsePair(t, 2, 4096); }, "NxM", "Points along u and v (default 64x64)");
   addParsed(*c, "-o", in.shadetest.output, parseOutput, "FILE.exr|.tif|.png", "Picture of Ci");

@@ -5,9 +5,11 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 
 #include "reyes/app/render.h"
 #include "reyes/dice.h"
+#include "reyes/frame.h"
 #include "reyes/image.h"
 #include "reyes/rib.h"
 #include "reyes/shade.h"
@@ -19,10 +21,13 @@ namespace fs = std::filesystem;
 
 /// A unit square that faces the eye from five units away, under an ambient and a distant light.
 std::string sceneFor(const TmShader& shader, const std::string& path) {
-  const char* request = shader.kind == TM_LIGHT ? "LightSource \"{}\" \"tested\"" : shader.kind == TM_DISPLACEMENT ? "Displacement \"{}\"" : "Surface \"{}\"";
-  return "Option \"searchpath\" \"string shader\" [\"" + path + "\"]\nProjection \"perspective\" \"fov\" [20]\nWorldBegin\n" +
+  static constexpr const char* kRequests[] = {"Surface \"{}\"", "Displacement \"{}\"", "LightSource \"{}\" \"tested\"", "Atmosphere \"{}\"", "Imager \"{}\""};
+  const std::string request = fmt::format(fmt::runtime(kRequests[shader.kind]), shader.name);
+  const bool isImager = shader.kind == TM_IMAGER;
+  return "Option \"searchpath\" \"string shader\" [\"" + path + "\"]\nProjection \"perspective\" \"fov\" [20]\nClipping 1 10\n" + (isImager ? request : "") +
+         "\nWorldBegin\n" +
          (shader.kind == TM_LIGHT ? "" : "LightSource \"ambientlight\" \"a\" \"intensity\" [0.2] LightSource \"distantlight\" \"d\" \"to\" [0.3 -0.4 1]\n") +
-         (shader.kind == TM_SURFACE ? "" : "Surface \"matte\"\n") + fmt::format(fmt::runtime(request), shader.name) +
+         (shader.kind == TM_SURFACE ? "" : "Surface \"matte\"\n") + (isImager ? "" : request) +
          "\nTranslate 0 0 5\nPatch \"bilinear\" \"P\" [-.5 .5 0  .5 .5 0  -.5 -.5 0  .5 -.5 0]\nWorldEnd\n";
 }
 
@@ -34,9 +39,9 @@ const TmShader* findShader(const std::string& name, ShaderRegistry& registry, Lo
     registry.loadPlugin(fs::absolute(name).string());
     return plugin.all().empty() ? nullptr : plugin.all().front();
   }
-  for (const TmKind kind : {TM_SURFACE, TM_DISPLACEMENT, TM_LIGHT})
+  for (const TmKind kind : {TM_SURFACE, TM_DISPLACEMENT, TM_LIGHT, TM_VOLUME, TM_IMAGER})
     if (const TmShader* shader = registry.find(name, kind, ".")) return shader;
-  log.report(Severity::Error, "shadetest", {}, "no surface, displacement or light shader \"" + name + "\" is built in or in this folder");
+  log.report(Severity::Error, "shadetest", {}, "no shader \"" + name + "\" is built in or in this folder");
   return nullptr;
 }
 
@@ -79,22 +84,60 @@ void testDisplacement(const Scene& scene, const ShadingSystem& shading, const st
   std::puts(fmt::format("nanoseconds a point: {:.1f}\nlongest displacement: {:.6g}", time_ns / still.vertexCount(), longest).c_str());
 }
 
-void testSurface(const ShadetestCommand& command, const Scene& scene, const ShadingSystem& shading, Log& log) {
-  const ShadePoints points = pointsOf(scene, shading, command.grid);
-  ShadedPoints out;
-  const double time_ns = timeOf([&] { shading.shade(points, {}, out); });
+/// Times `shade`, and says what is in the picture that it has left, three colours first.
+void testColors(const ShadetestCommand& command, const std::function<void()>& shade, const std::function<Image()>& picture, Log& log) {
+  const double time_ns = timeOf(shade);
+  const Image image = picture();
+  const size_t count = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
   vec3 low(kInfinity), high(-kInfinity), mean(0);
-  Image image;
-  image.width = image.displayWidth = command.grid[0], image.height = image.displayHeight = command.grid[1];
-  image.channels = {"R", "G", "B"};
-  for (int i = 0; i < points.count(); ++i) {
-    const vec3 c = out.color(i);
-    low = glm::min(low, c), high = glm::max(high, c), mean += c / static_cast<float>(points.count());
-    image.pixels.insert(image.pixels.end(), {c.x, c.y, c.z});
+  for (size_t i = 0; i < count; ++i) {
+    const float* pixel = image.pixels.data() + i * image.channels.size();
+    const vec3 c(pixel[0], pixel[1], pixel[2]);
+    low = glm::min(low, c), high = glm::max(high, c), mean += c / static_cast<float>(count);
   }
-  std::puts(fmt::format("nanoseconds a point: {:.1f}", time_ns / points.count()).c_str());
+  std::puts(fmt::format("nanoseconds a point: {:.1f}", time_ns / static_cast<double>(count)).c_str());
   say("Ci least", low), say("Ci mean", mean), say("Ci greatest", high);
   if (!command.output.empty()) writeImage(command.output, image, fs::path(command.output).extension() == ".png", log);
+}
+
+Image blankImage(const std::array<int, 2>& size, std::vector<std::string> channels) {
+  Image image;
+  image.width = image.displayWidth = size[0], image.height = image.displayHeight = size[1];
+  image.channels = std::move(channels);
+  return image;
+}
+
+/// Surfaces and lights by what the surface looks like, volumes by what the air leaves of it.
+void testPoints(const ShadetestCommand& command, const Scene& scene, const ShadingSystem& shading, bool volume, Log& log) {
+  const ShadePoints points = pointsOf(scene, shading, command.grid);
+  ShadedPoints surface, out;
+  shading.shade(points, {}, surface);
+  const auto shade = [&] {
+    if (volume)
+      out = surface, shading.atmosphere(points, out);
+    else
+      shading.shade(points, {}, out);
+  };
+  const auto picture = [&] {
+    Image image = blankImage(command.grid, {"R", "G", "B"});
+    for (int i = 0; i < points.count(); ++i) {
+      const vec3 c = out.color(i);
+      image.pixels.insert(image.pixels.end(), {c.x, c.y, c.z});
+    }
+    return image;
+  };
+  testColors(command, shade, picture, log);
+}
+
+/// A picture whose grey is half of its alpha, which rises from the left, 0, to the right, 1.
+void testImager(const ShadetestCommand& command, const ShadingSystem& shading, Log& log) {
+  const auto [width, height] = command.grid;
+  Image wedge = blankImage(command.grid, {"R", "G", "B", "A"}), image;
+  for (int i = 0; i < width * height; ++i) {
+    const float alpha = static_cast<float>(i % width) / static_cast<float>(width - 1), grey = 0.5f * alpha;
+    wedge.pixels.insert(wedge.pixels.end(), {grey, grey, grey, alpha});
+  }
+  testColors(command, [&] { image = wedge, runImager(image, shading); }, [&] { return image; }, log);
 }
 
 }  // namespace
@@ -105,18 +148,17 @@ int shadetestCommand(const ShadetestCommand& command) {
   ShaderRegistry registry(log);
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
   const TmShader* shader = findShader(command.shader, registry, log);
-  if (!shader || shader->kind > TM_LIGHT) {
-    if (shader) log.report(Severity::Error, "shadetest", {}, "volumes and imagers have nothing to shade on a grid");
-    return std::max(exitCodeOf(log), kUnreadable);
-  }
+  if (!shader) return std::max(exitCodeOf(log), kUnreadable);
   RibSettings rib;
   rib.onScene = [&](Scene&& scene) {
     const ShadingSystem shading(scene, registry, nullptr, log, stats);
     std::puts(fmt::format("shader: {}\npoints: {} x {}", shader->name, command.grid[0], command.grid[1]).c_str());
     if (shader->kind == TM_DISPLACEMENT)
       testDisplacement(scene, shading, command.grid);
+    else if (shader->kind == TM_IMAGER)
+      testImager(command, shading, log);
     else
-      testSurface(command, scene, shading, log);
+      testPoints(command, scene, shading, shader->kind == TM_VOLUME, log);
   };
   readRibText(sceneFor(*shader, "."), "shadetest", rib, log);
   return exitCodeOf(log);

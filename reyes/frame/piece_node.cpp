@@ -13,7 +13,8 @@ namespace {
 
 constexpr int kSmall_cells = 256;  ///< Pieces with fewer share a node,
 constexpr int kBlock_buckets = 4;  ///< if they begin in the same square of buckets,
-constexpr int kStack_vertices = 512;  ///< and grids of about as many vertices.
+constexpr int kStack_vertices = 512;  ///< and grids of about as many vertices,
+constexpr int kStacked_vertices = 64; ///< if they have no more: of larger ones too many would be diced for one that is seen.
 
 TOMALES_HOT bool allSeeable(const Grid& g, int key, const Camera& camera) {
   const float *x = g.P(key, 0), *y = g.P(key, 1), *z = g.P(key, 2);
@@ -52,8 +53,9 @@ std::vector<PieceStack> stacksOf(const HideContext& context, std::span<const Nei
   const Neighbour* last = nullptr;
   for (const Neighbour& n : neighbours) {
     const SubPatch& p = *n.piece;
-    const size_t most = std::max<size_t>(1, kStack_vertices / static_cast<size_t>((p.nu + 1) * (p.nv + 1)));
-    const bool stacks = canStack(context, p);
+    const int vertices = (p.nu + 1) * (p.nv + 1);
+    const auto most = static_cast<size_t>(std::max(1, kStack_vertices / vertices));
+    const bool stacks = vertices <= kStacked_vertices && canStack(context, p);
     if (last && stacks && n.sharesGrid(*last) && out.back().pieces.size() < most) {
       out.back().pieces.push_back({p.patch, p.rect});
       extend(out.back().place, {p.raster, p.zMin});

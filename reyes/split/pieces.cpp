@@ -96,7 +96,7 @@ class Splitter {
   Splitter(const Scene& scene, int object, const Camera& camera, const PixelRect& window, Stats& stats, Splitting splitting,
            StopFlag stop)
       : object_(scene.objects[static_cast<size_t>(object)]), index_(object), gridSize_(scene.options.gridSize),
-        camera_(camera), window_(window), stats_(stats), lazily_(splitting == Splitting::Lazily), stop_(stop),
+        longest_(2 * static_cast<int>(std::ceil(std::sqrt(static_cast<double>(gridSize_))))), camera_(camera), window_(window), stats_(stats), lazily_(splitting == Splitting::Lazily), stop_(stop),
         edge_px_(std::sqrt(std::max(object_.attributes->shadingRate, 1e-4f))) {}
 
   /// size: what measure() says of the whole patch.
@@ -151,13 +151,16 @@ class Splitter {
     const float blur = coarsening(patch, rect, bound);
     const bool binary = object_.attributes->binaryDice;
     const int nu = cells(size.u, edge_px_, blur, binary), nv = cells(size.v, edge_px_, blur, binary);
-    const bool joins = !alone_ || depth > 0, oneCell = flat_ && nu * nv == 1;
+    const bool joins = !alone_ || depth > 0, oneCell = flat_ && nu == 1 && nv == 1;
     const float reach_px = oneCell || !joins ? kLeastReach_px : borderReach_px(object_.displacementBound);
     if (static_cast<int64_t>(nu) * nv <= gridSize_) {
       // What moves through the eye plane does so however small it is; it is seen while it stays in front.
       if (crossesEye && !still) ++givenUp_.atEye;
       if (!still || camera_.defocuses()) budget_ -= visitsOfBlur(rasterOf(bare, reach_px));
-      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, reach_px), bound.lo.z, crossesEye, depth, false});
+      if (std::max(nu, nv) > longest_ && !crossesEye)
+        cutAcross(patch, rect, depth + 1, nu, nv, out);
+      else
+        out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, reach_px), bound.lo.z, crossesEye, depth, false});
     } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && gridsOf(nu, nv) >= kGridsOfCoarse && !crossesEye &&
                glm::length(bare.size()) <= kSlack * reach) {
       // Halving shrinks such a piece and its bound as it should, so that its grids can be foretold.
@@ -169,6 +172,31 @@ class Splitter {
       const auto [a, b] = halves(rect, alongU);
       split(patch, a, depth + 1, nullptr, out);
       split(patch, b, depth + 1, nullptr, out);
+    }
+  }
+
+  /// A long and narrow piece would be diced whole for the end that is seen. What was measured of it holds for its parts.
+  void cutAcross(uint32_t patch, const UvRect& rect, int depth, int nu, int nv, std::vector<SubPatch>& out) {
+    const bool alongU = nu >= nv;
+    int& cellsAlong = alongU ? nu : nv;
+    const int parts = (cellsAlong + longest_ - 1) / longest_;
+    cellsAlong = (cellsAlong + parts - 1) / parts;
+    UvRect part = rect;
+    float& begin = alongU ? part.u0 : part.v0;
+    float& end = alongU ? part.u1 : part.v1;
+    const float from = begin, to = end;
+    end = begin;
+    for (int k = 1; k <= parts; ++k) {
+      begin = end, end = k == parts ? to : lerp(from, to, static_cast<float>(k) / static_cast<float>(parts));
+      --budget_;
+      ++stats_.geometry.piecesVisited;
+      const Bound3 bare = cameraBound(object_, patch, part);
+      if (cannotBeSeen(bare) || object_.shape().kept(patch, part) == Kept::None) {
+        ++stats_.geometry.culled;
+        continue;
+      }
+      const Bound3 bound = bare.grown(object_.displacementBound);
+      out.push_back({index_, patch, part, nu, nv, rasterOf(bound, borderReach_px(object_.displacementBound)), bound.lo.z, false, depth, false});
     }
   }
 
@@ -214,6 +242,7 @@ class Splitter {
 
   const Object& object_;
   const int index_, gridSize_;
+  const int longest_;  ///< Cells in a row.
   const Camera& camera_;
   const PixelRect& window_;
   Stats& stats_;
