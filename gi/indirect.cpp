@@ -97,6 +97,12 @@ vec3 causticAt(const GiState& state, int group, const vec3& P, const vec3& n, fl
   return state.atlas ? state.atlas->causticOverPi(group, P, n, 0.5f * pixelSize) : vec3(0.0f);
 }
 
+/// The cache of a plan. Records that were given serve even where a light has since been edited to ask for others.
+std::vector<PreparedCache>::const_iterator preparedFor(const GiState& state, const GatherPlan& plan) {
+  const auto prepared = std::find_if(state.caches.begin(), state.caches.end(), [&](const PreparedCache& c) { return c.plan == plan; });
+  return prepared == state.caches.end() && state.cachesGiven && plan.cache.kappa < kInfinity ? state.caches.begin() : prepared;
+}
+
 IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, const GatherSettings& settings,
                               RayAnswers* answers) {
   const struct {
@@ -171,14 +177,23 @@ void store(const IndirectResult& out, int i, const vec3& E, const vec3 dominant[
     if (out.dominant[c].x) put(out.dominant[c], dominant[c]);
 }
 
+std::optional<vec3> gatheredOverPi(const GiState& state, const ShadePoints& points, int i) {
+  const IndirectQuery* query = state.shading.indirectQuery(points.group());
+  if (!query) return std::nullopt;
+  const auto prepared = preparedFor(state, planFor(state, points.group(), *query));
+  if (prepared == state.caches.end()) return std::nullopt;
+  const vec3 P = points.position(i), n = gatherNormal(state, points, i);
+  const float pixelSize = projectedPixelSize(state.camera, P, n);
+  const IrradianceEstimate estimate = prepared->cache.lookup(P, n, pixelSize);
+  if (!(estimate.weight > 0)) return std::nullopt;
+  return estimate.E + causticAt(state, points.group(), P, n, pixelSize);
+}
+
 void interpolateIndirect(const GiState& state, const ShadePoints& points, const uint8_t* active,
                          TmConstVec3 N, const IndirectQuery& query, const ShadeContext& context,
                          const IndirectResult& out) {
   const GatherPlan plan = planFor(state, points.group(), query);
-  auto prepared = std::find_if(state.caches.begin(), state.caches.end(),
-                               [&](const PreparedCache& c) { return c.plan == plan; });
-  // Records that were given serve even where a light has since been edited to ask for others.
-  if (prepared == state.caches.end() && state.cachesGiven && plan.cache.kappa < kInfinity) prepared = state.caches.begin();
+  const auto prepared = preparedFor(state, plan);
   int64_t lookups = 0, interpolated = 0;
   for (int i = 0; i < points.count(); ++i) {
     if (!active[i]) continue;

@@ -61,6 +61,7 @@ void FrameJob::prepareRays() {
   rays_ = std::make_unique<RayScene>(scene_, camera_, *shading_, raySettings(settings_, scene_.options), stats_, log_);
   prepareRays([tools = RayTools{rays_.get(), shading_.get()}] { return &tools; });
   if (mode_ == GiMode::Atlas) services_->setAtlas(prepareAtlas(scene_, *rays_, *shading_, settings_, stats_, log_));
+  if (mode_ == GiMode::Baked) services_->setAtlas(openBaked(scene_, settings_, log_));
 }
 
 void FrameJob::prepareRays(RaySource rays) {
@@ -77,6 +78,7 @@ void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
   const StageTimer timer(stats_, "gather");
   services_->gatherPass(layout, tiles, meter_.stage(0.3f, 0.7f), &interrupted());
   warnOfNoise(services_->caches(), log_);
+  if (!settings_.bakedFolder.empty() && !interrupted()) bakeGathered(*services_, layout, tiles, scene_, settings_, log_);
 }
 
 ShadeContext FrameJob::shadeContext() const {

@@ -8,8 +8,8 @@ GiChoice giOrUsageError(const std::string& text) {
   for (const char* later : {"radiosity", "points"})
     if (text == later)
       throw CLI::ValidationError(
-          "--gi", "\"" + text + "\" is not available yet; use scene, none, gather, atlas or reference");
-  throw CLI::ValidationError("--gi", "\"" + text + "\" is none of scene, none, gather, atlas, reference");
+          "--gi", "\"" + text + "\" is not available yet; use scene, none, gather, atlas, baked or reference");
+  throw CLI::ValidationError("--gi", "\"" + text + "\" is none of scene, none, gather, atlas, baked, reference");
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ void addPictureOptions(CLI::App& app, RenderSettings& s) {
 void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option_function<std::string>(
          "--gi", [&s](const std::string& t) { s.gi = giOrUsageError(t); },
-         "Indirect light: scene (as the RIB says), none, gather, atlas, reference")
+         "Indirect light: scene (as the RIB says), none, gather, atlas, baked (by --baked), reference")
       ->type_name("MODE");
   app.add_option("--samples", s.samples,
                  "Gather rays of an irradiance sample, or paths of a point for the reference")

@@ -100,6 +100,8 @@ GiMode giModeOf(GiChoice choice, const Scene& scene) {
       return GiMode::Reference;
     case GiChoice::Atlas:
       return GiMode::Atlas;
+    case GiChoice::Baked:
+      return GiMode::Baked;
     case GiChoice::Scene:
       return !hasIndirectLight(scene) ? GiMode::None : asksForAtlas(scene) ? GiMode::Atlas : GiMode::Gather;
     default:

@@ -11,7 +11,7 @@ namespace tomales {
 
 constexpr const char* kVersion = "0.1.0";
 
-enum class GiChoice { Scene, None, Gather, Atlas, Reference };
+enum class GiChoice { Scene, None, Gather, Atlas, Baked, Reference };
 
 struct RenderSettings {
   std::vector<std::string> files;  ///< One RIB stream; "-" is standard input.
@@ -30,6 +30,7 @@ struct RenderSettings {
   std::optional<uint32_t> lightSeed;  ///< Of the random numbers of light alone; none: seed.
   int64_t photons = 1'000'000;     ///< To emit for --gi atlas.
   std::string atlasFolder;         ///< Brick maps to use, or to make; empty: made in a temporary folder.
+  std::string bakedFolder;         ///< Brick maps of gathered light: added to, or with GiChoice::Baked used; empty: none.
   size_t brickCacheBytes = BrickCache::kDefaultBytes;
   std::optional<int> bucketSize;
   std::vector<std::string> edits;  ///< RIB files of changes to a shot.

@@ -70,6 +70,8 @@ void ShotJob::prepareLight() {
       const RayTools& tools = *world_->tools();
       return prepareAtlas(tools.rays->scene(), *tools.rays, *tools.shading, settings_, stats_, log_);
     });
+  if (job_->mode() == GiMode::Baked)
+    log_.report(Severity::Missing, "baked-folder", {}, "--gi baked is for tomales render: shaded without indirect light");
   if (!irradiance_) return;
   IrradianceShot given = irradiance_->takeShot();
   if (given.emitters && given.shot == file_->shotSum()) job_->services()->useEmitters(std::move(*given.emitters));
