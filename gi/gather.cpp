@@ -63,6 +63,7 @@ class RayTimes {
 /// gathering never nests.
 struct Scratch {
   RayLayers layers;
+  Surroundings surroundings;
   std::vector<Hit> hits;
   HitAnswers answers;
   std::vector<vec3> directions, radiance;          ///< One ray of each cell,
@@ -112,6 +113,8 @@ class Hemisphere {
     orthonormalBasis(point.normal, tangent_, bitangent_);
     first_.spread = 1 / std::sqrt(static_cast<float>(count_));
     scene.prepareOrigin(point.group, point.position, point.edgeLength, first_);
+    scene.lookAround(point.position, slantedOffset(first_.offset, 0), kMaskDiffuse, scratch_.surroundings);
+    first_.surroundings = &scratch_.surroundings;
   }
 
   HemisphereSamples trace(Stats& stats, BrightFind* find) {
