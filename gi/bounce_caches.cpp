@@ -16,6 +16,8 @@ constexpr float kEnough = 0.05f;        ///< As in the gather pass.
 constexpr CacheSettings kCoarse{.kappa = 0.7f};
 constexpr float kPixelsAcross = 64;     ///< Records are as dense as for a picture of so many pixels.
 constexpr int kSamplesShare = 4, kLeastSamples = 48, kMostSamples = 256;
+constexpr int kLeastDeepSamples = 24;   ///< Each further level has half the rays of the one before, down to these: all levels together cost about
+                                        ///< as much as the first two.
 constexpr double kSettled = 0.002;      ///< What a level may lack.
 
 int phaseOf(uint32_t key) {
@@ -66,10 +68,9 @@ std::vector<GatherPoint> BounceCaches::hitsFrom(const RayScene& rays, const Came
 
 std::vector<IrradianceRecord> BounceCaches::recordsAt(const RayTools& tools, const std::vector<GatherPoint>& points, const GatherSettings& settings,
                                                       const Run& run) const {
-  static const BrightSpots kNone;  // nothing has been looked for yet
   std::vector<IrradianceRecord> records(points.size());
   parallelFor(points.size(), 1, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end && !run.isCancelled(); ++i) records[i] = gather(*tools.rays, *tools.shading, points[i], settings, kNone, run.stats);
+    for (size_t i = begin; i < end && !run.isCancelled(); ++i) records[i] = gather(*tools.rays, *tools.shading, points[i], settings, {}, run.stats);
   });
   return records;
 }
@@ -89,7 +90,7 @@ void BounceCaches::cover(const RayTools& tools, const std::vector<GatherPoint>& 
     });
     std::vector<GatherPoint> fresh;
     for (size_t i = 0; i < candidates.size(); ++i)
-      if (open[i]) fresh.push_back(candidates[i]);
+      if (open[i] && points_.size() + fresh.size() < kMostRecords) fresh.push_back(candidates[i]);
     insert(levels_[0], recordsAt(tools, fresh, settings, run));
     points_.insert(points_.end(), fresh.begin(), fresh.end());
   }
@@ -117,6 +118,7 @@ void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::
   settings.indirect = true;
   for (int b = 2; b < bounces && !settled() && !run.isCancelled(); ++b) {
     settings.depth = bounces - b + 1;
+    settings.samples = std::max(kLeastDeepSamples, settings.samples / 2);
     IrradianceCache level(bound, kCoarse);
     const std::vector<IrradianceRecord> records = recordsAt(tools, points_, settings, run);
     light_.push_back(0);

@@ -3,6 +3,9 @@
 // Threads: plain data.
 #pragma once
 #include <array>
+#include <bit>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "reyes/base/math.h"
@@ -17,19 +20,89 @@ constexpr float kLayerCosine = 0.70710678f;  ///< 45 degrees (irradiance-atlas 3
 
 inline int voxelIndex(int x, int y, int z) { return (z * kBrickWidth + y) * kBrickWidth + x; }
 
+/// Which way the data of a layer face, in 32 bits.
 struct BrickLayer {
-  vec3 normal;              ///< Mean, unit; zero: volume data.
-  bool incoherent = false;  ///< Normals of different layers had to be merged: finer bricks tell them apart.
+  int8_t x = 0, y = 0, z = 0;  ///< Mean normal, in 127ths of its length: off by less than half a degree. Zero: volume data.
+  uint8_t incoherent = 0;      ///< Normals of different layers had to be merged: finer bricks tell them apart.
+
+  BrickLayer() = default;
+  BrickLayer(const vec3& unitNormal, bool isIncoherent);
+  vec3 normal() const { return normalizeOr(vec3(x, y, z), vec3(0.0f)); }
+  /// N: of unit length; zero: asks for whatever is there.
+  bool answers(const vec3& N) const {
+    const vec3 n(x, y, z);
+    const float along = dot(N, n), length2 = dot(n, n);
+    return N == vec3(0.0f) || length2 == 0 || (along > 0 && along * along >= kLayerCosine * kLayerCosine * length2);
+  }
 };
 
-struct Brick {
-  std::array<uint16_t, kBrickVoxels + 1> first{};  ///< Voxel v has layers first[v] .. first[v + 1] - 1.
-  std::vector<BrickLayer> layers;
-  std::vector<float> data;  ///< As many floats a layer as the map has.
+/// Packed as it is in the file, because a cache holds as many bricks as they are small.
+class Brick {
+ public:
+  /// While it is made: layers in the order of their voxels.
+  struct Parts {
+    std::vector<uint16_t> voxels;    ///< Of each layer.
+    std::vector<BrickLayer> layers;
+    std::vector<float> data;         ///< `width` floats a layer.
+  };
+  /// Data that may be off by `tolerance` are kept in 16 bits where that suffices.
+  Brick(const Parts& parts, int width, float tolerance);
+  /// Of bytes(); nothing if they make no brick of that width.
+  static std::optional<Brick> of(std::vector<std::byte> bytes, int width);
 
-  size_t bytes() const {
-    return sizeof(Brick) + layers.capacity() * sizeof(BrickLayer) + data.capacity() * sizeof(float);
+  /// Layers [first, end) of a voxel.
+  struct Range { size_t first, end; };
+  Range layersOf(int voxel) const {
+    const Head& h = head();
+    const auto slab = static_cast<size_t>(voxel) / 64;
+    const uint64_t bit = uint64_t{1} << voxel % 64;
+    if (!(h.filled[slab] & bit)) return {0, 0};
+    const size_t rank = h.before[slab] + static_cast<size_t>(std::popcount(h.filled[slab] & (bit - 1)));
+    if (!h.several) return {rank, rank + 1};
+    const auto* first = at<uint16_t>(firstAt());
+    return {first[rank], first[rank + 1]};
   }
+  const BrickLayer& layer(size_t i) const { return at<BrickLayer>(sizeof(Head))[i]; }
+  /// sum[k] += weight * value k of the layer.
+  void add(size_t layer, float weight, float* sum) const {
+    if (head().rounded) {
+      const auto* low = at<float>(dataAt());
+      const float* const step = low + width_;
+      const auto* q = reinterpret_cast<const uint16_t*>(step + width_) + layer * width_;
+      for (size_t k = 0; k < width_; ++k) sum[k] += weight * (low[k] + step[k] * static_cast<float>(q[k]));
+      return;
+    }
+    const auto* data = at<float>(dataAt()) + layer * width_;
+    for (size_t k = 0; k < width_; ++k) sum[k] += weight * data[k];
+  }
+
+  const std::vector<std::byte>& bytes() const { return bytes_; }
+
+ private:
+  /// Then the layers; the data, or for each channel the lowest and the step and then data in steps; and where the layers of each
+  /// filled voxel begin, if some have several.
+  struct Head {
+    std::array<uint64_t, kBrickVoxels / 64> filled{};  ///< A bit a voxel.
+    std::array<uint16_t, kBrickVoxels / 64> before{};  ///< Filled voxels of lower slabs.
+    uint32_t layers = 0;
+    uint8_t rounded = 0, several = 0;
+    uint16_t voxels = 0;                               ///< Filled.
+  };
+  static_assert(sizeof(Head) == 88);
+
+  Brick(std::vector<std::byte> bytes, size_t width) : bytes_(std::move(bytes)), width_(width) {}
+  template <class T>
+  const T* at(size_t offset) const { return reinterpret_cast<const T*>(bytes_.data() + offset); }
+  const Head& head() const { return *at<Head>(0); }
+  size_t dataAt() const { return sizeof(Head) + head().layers * sizeof(BrickLayer); }
+  size_t firstAt() const {
+    const size_t values = head().layers * width_;
+    return dataAt() + (head().rounded ? 2 * width_ * sizeof(float) + values * sizeof(uint16_t) : values * sizeof(float));
+  }
+  size_t wholeSize() const { return firstAt() + (head().several ? (head().voxels + size_t{1}) * sizeof(uint16_t) : 0); }
+
+  std::vector<std::byte> bytes_;
+  size_t width_;
 };
 
 /// Octree node; its brick has the same number. Octant i has bit 0 in x, bit 1 in y, bit 2 in z.

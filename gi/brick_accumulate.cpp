@@ -88,20 +88,17 @@ float BrickAccumulator::addChild(const BrickAccumulator& child, int octant) {
   return spread;
 }
 
-Brick BrickAccumulator::finish() const {
-  Brick brick;
-  brick.layers.reserve(layers_.size());
-  brick.data.reserve(data_.size());
-  for (size_t v = 0; v < kBrickVoxels; ++v) {
-    brick.first[v] = static_cast<uint16_t>(brick.layers.size());
+Brick BrickAccumulator::finish(float tolerance) const {
+  Brick::Parts parts;
+  parts.voxels.reserve(layers_.size()), parts.layers.reserve(layers_.size()), parts.data.reserve(data_.size());
+  for (size_t v = 0; v < kBrickVoxels; ++v)
     for (int32_t l = head_[v]; l >= 0; l = layers_[static_cast<size_t>(l)].next) {
       const LayerSum& sum = layers_[static_cast<size_t>(l)];
-      brick.layers.push_back({normalizeOr(sum.normal, vec3(0.0f)), sum.incoherent});
-      for (int k = 0; k < width_; ++k) brick.data.push_back(data_[static_cast<size_t>(l * width_ + k)] / sum.weight);
+      parts.voxels.push_back(static_cast<uint16_t>(v));
+      parts.layers.emplace_back(normalizeOr(sum.normal, vec3(0.0f)), sum.incoherent);
+      for (int k = 0; k < width_; ++k) parts.data.push_back(data_[static_cast<size_t>(l * width_ + k)] / sum.weight);
     }
-  }
-  brick.first[kBrickVoxels] = static_cast<uint16_t>(brick.layers.size());
-  return brick;
+  return {parts, width_, tolerance};
 }
 
 }  // namespace tomales

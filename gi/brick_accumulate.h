@@ -25,7 +25,8 @@ class BrickAccumulator {
   /// groups of 2x2x2 voxels, layer by layer; infinite where layers had to be merged that face apart.
   float addChild(const BrickAccumulator& child, int octant);
 
-  Brick finish() const;
+  /// The means; `tolerance`: by which they may be off.
+  Brick finish(float tolerance) const;
 
  private:
   int32_t findLayer(int voxel, const vec3& normal, bool& merged) const;

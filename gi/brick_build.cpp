@@ -88,7 +88,7 @@ class Builder {
   }
 
   int32_t keep(int level, const BrickNode& node) {
-    store_(at(level).sums.finish());
+    store_(at(level).sums.finish(settings_.maxError));
     out_.tree.nodes.push_back(node);
     out_.tree.deepest = std::max(out_.tree.deepest, level);
     return out_.tree.root();

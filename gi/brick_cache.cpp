@@ -10,6 +10,7 @@ namespace tomales {
 namespace {
 
 constexpr size_t kShards = 16;  // each with its own lock and share of the budget
+constexpr size_t kBytesOfEntry = 192;  // of the list, the index and the allocator, in about
 
 }  // namespace
 
@@ -24,9 +25,11 @@ struct BrickCache::Shard {
   size_t budget = 0, bytes = 0;
   int64_t lookups = 0, misses = 0;
 
+  static size_t bytesOf(const Brick& brick) { return brick.bytes().capacity() + sizeof(Brick) + kBytesOfEntry; }
+
   void makeRoom() {
     while (bytes > budget && !byUse.empty()) {
-      bytes -= byUse.back().brick->bytes();
+      bytes -= bytesOf(*byUse.back().brick);
       index.erase(byUse.back().key);
       byUse.pop_back();
     }
@@ -52,7 +55,7 @@ BrickPtr BrickCache::get(uint32_t map, uint32_t brick, const std::function<Brick
   }
   ++shard.misses;
   auto made = std::make_shared<const Brick>(read());
-  shard.bytes += made->bytes();
+  shard.bytes += Shard::bytesOf(*made);
   shard.byUse.push_front({key, made});
   shard.index[key] = shard.byUse.begin();
   shard.makeRoom();

@@ -2,52 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-#include <numeric>
-
-#include "reyes/base/packed_normal.h"
-
 namespace tomales {
 namespace {
 
 constexpr char kKind[9] = "TMBRICKS";
-constexpr uint32_t kVersion = 2;
+constexpr uint32_t kVersion = 3;
 constexpr int kMostLevels = 24;  ///< Voxel coordinates stay exact in int.
-
-/// A brick as it is stored: for each layer its voxel, in order, its normal, whether that is incoherent, and its data.
-Bytes packed(const Brick& brick) {
-  std::vector<uint16_t> voxels;
-  std::vector<uint32_t> normals;
-  std::vector<uint8_t> incoherent;
-  voxels.reserve(brick.layers.size()), normals.reserve(brick.layers.size()), incoherent.reserve(brick.layers.size());
-  for (size_t v = 0; v < kBrickVoxels; ++v) voxels.insert(voxels.end(), brick.first[v + 1] - brick.first[v], static_cast<uint16_t>(v));
-  for (const BrickLayer& l : brick.layers) normals.push_back(packNormal(l.normal)), incoherent.push_back(l.incoherent);
-  ByteWriter w;
-  w.put(voxels);
-  w.put(normals);
-  w.put(incoherent);
-  w.put(brick.data);
-  return std::move(w.bytes);
-}
-
-Brick unpacked(const Bytes& bytes, int width, const std::string& path) {
-  ByteReader r(bytes, path);
-  Brick brick;
-  const auto voxels = r.getVector<uint16_t>();
-  const auto normals = r.getVector<uint32_t>();
-  const auto incoherent = r.getVector<uint8_t>();
-  brick.data = r.getVector<float>();
-  const bool whole = std::is_sorted(voxels.begin(), voxels.end()) && (voxels.empty() || voxels.back() < kBrickVoxels) &&
-                     voxels.size() <= std::numeric_limits<uint16_t>::max() && normals.size() == voxels.size() &&
-                     incoherent.size() == voxels.size() && brick.data.size() == voxels.size() * static_cast<size_t>(width) &&
-                     std::all_of(brick.data.begin(), brick.data.end(), [](float v) { return std::isfinite(v); });
-  if (!whole) throw FileError(fmt::format("\"{}\" is damaged: a brick does not add up", path));
-  for (const uint16_t v : voxels) ++brick.first[v + 1u];
-  std::partial_sum(brick.first.begin(), brick.first.end(), brick.first.begin());
-  brick.layers.reserve(voxels.size());
-  for (size_t i = 0; i < voxels.size(); ++i) brick.layers.push_back({unpackNormal(normals[i]), incoherent[i] != 0});
-  return brick;
-}
 
 bool sound(const BrickTree& tree) {
   const auto count = static_cast<int32_t>(tree.nodes.size());
@@ -61,7 +21,8 @@ bool sound(const BrickTree& tree) {
 }  // namespace
 
 BrickFile::BrickFile(const std::string& path) : file_(path, kKind, kVersion) {
-  ByteReader r(file_.header(), path);
+  const Bytes header = file_.takeHeader();
+  ByteReader r(header, path);
   const auto channelCount = r.get<uint32_t>();
   for (uint32_t i = 0; i < channelCount; ++i) {
     std::string name = r.getString();
@@ -77,11 +38,15 @@ BrickFile::BrickFile(const std::string& path) : file_(path, kKind, kVersion) {
   if (!sound(tree_) || tree_.nodes.size() != file_.count()) throw FileError(fmt::format("\"{}\" is damaged: its octree does not add up", path));
 }
 
-Brick BrickFile::brick(int32_t node) const { return unpacked(file_.read(static_cast<uint32_t>(node)), width_, file_.path()); }
+Brick BrickFile::brick(int32_t node) const {
+  std::optional<Brick> brick = Brick::of(file_.read(static_cast<uint32_t>(node)), width_);
+  if (!brick) throw FileError(fmt::format("\"{}\" is damaged: a brick does not add up", path()));
+  return std::move(*brick);
+}
 
 BrickFileWriter::BrickFileWriter(const std::string& path) : file_(path, kKind, kVersion) {}
 
-void BrickFileWriter::add(const Brick& brick) { file_.add(packed(brick)); }
+void BrickFileWriter::add(const Brick& brick) { file_.add(brick.bytes()); }
 
 void BrickFileWriter::finish(const std::vector<CloudChannel>& channels, const BrickTree& tree, const MadeFrom& madeFrom) {
   ByteWriter header;
@@ -101,6 +66,7 @@ PointCloud voxelsOf(const BrickFile& file, int level) {
   const BrickTree& tree = file.tree();
   PointCloud out;
   out.channels = file.channels();
+  std::vector<float> values(static_cast<size_t>(file.width()));
   struct Place { int32_t node; int level; vec3 lo; };
   std::vector<Place> todo;
   if (tree.root() >= 0) todo.push_back({tree.root(), 0, tree.cube.lo});
@@ -118,9 +84,12 @@ PointCloud voxelsOf(const BrickFile& file, int level) {
       const int x = v % kBrickWidth, y = v / kBrickWidth % kBrickWidth, z = v / (kBrickWidth * kBrickWidth);
       const auto octant = static_cast<size_t>((x >= kBrickWidth / 2) | (y >= kBrickWidth / 2) << 1 | (z >= kBrickWidth / 2) << 2);
       if (deeper && node.child[octant] >= 0) continue;
-      for (size_t l = brick.first[static_cast<size_t>(v)]; l < brick.first[static_cast<size_t>(v) + 1]; ++l)
-        out.add(p.lo + voxel * (vec3(x, y, z) + 0.5f), brick.layers[l].normal, 0.5f * std::sqrt(3.0f) * voxel,
-                brick.data.data() + l * static_cast<size_t>(file.width()));
+      const Brick::Range layers = brick.layersOf(v);
+      for (size_t l = layers.first; l < layers.end; ++l) {
+        std::fill(values.begin(), values.end(), 0.0f);
+        brick.add(l, 1, values.data());
+        out.add(p.lo + voxel * (vec3(x, y, z) + 0.5f), brick.layer(l).normal(), 0.5f * std::sqrt(3.0f) * voxel, values.data());
+      }
     }
   }
   return out;

@@ -93,26 +93,23 @@ void BrickMap::find(int level, const glm::ivec3& voxel, Sum& sum) const {
 
 void BrickMap::addVoxel(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum, int depth) const {
   find(level, voxel, sum);
-  const Brick* b = sum.brick.get();
   const glm::ivec3 local = (voxel >> (level - sum.foundLevel)) & (kBrickWidth - 1);
-  const auto v = static_cast<size_t>(voxelIndex(local.x, local.y, local.z));
-  const size_t first = b->first[v], end = b->first[v + 1];
+  const int v = voxelIndex(local.x, local.y, local.z);
+  const Brick::Range layers = sum.brick->layersOf(v);
   const bool finer = sum.foundLevel == level && level < tree().deepest && depth < 2 && N != vec3(0.0f);
-  if (finer && std::any_of(b->layers.begin() + static_cast<std::ptrdiff_t>(first), b->layers.begin() + static_cast<std::ptrdiff_t>(end),
-                           [](const BrickLayer& layer) { return layer.incoherent; })) {
+  bool incoherent = false;
+  for (size_t l = layers.first; finer && l < layers.end; ++l) incoherent |= sum.brick->layer(l).incoherent != 0;
+  if (incoherent) {
     // Too many directions met here: finer voxels tell them apart (3.3). That covers every layer of the voxel.
     const float before = sum.weight;
     for (int k = 0; k < 8; ++k)
       addVoxel(level + 1, voxel * 2 + glm::ivec3(k & 1, k >> 1 & 1, k >> 2 & 1), N, weight / 8, sum, depth + 1);
     if (sum.weight > before) return;
     find(level, voxel, sum);
-    b = sum.brick.get();
   }
-  for (size_t l = first; l < end; ++l) {
-    const vec3& n = b->layers[l].normal;
-    if (N != vec3(0.0f) && n != vec3(0.0f) && dot(N, n) < kLayerCosine) continue;
-    const float* data = b->data.data() + l * static_cast<size_t>(width());
-    for (int k = 0; k < width(); ++k) sum.data[k] += weight * data[k];
+  for (size_t l = layers.first; l < layers.end; ++l) {
+    if (!sum.brick->layer(l).answers(N)) continue;
+    sum.brick->add(l, weight, sum.data);
     sum.weight += weight;
   }
 }

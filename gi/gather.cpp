@@ -3,7 +3,8 @@
 #include "gi/hemisphere.h"
 #include "gi/hessian.h"
 #include "gi/layers.h"
-#include "reyes/base/rng.h"
+#include "gi/radiosity_maps.h"
+#include "gi/ray_strata.h"
 
 namespace tomales {
 namespace {
@@ -16,54 +17,15 @@ constexpr float kMostAimed = 0.5f;  ///< Rays at bright spots, for each of the h
 constexpr size_t kLeastAimed = 8;
 constexpr float kFoundByChance = 160;  ///< Rays of the hemisphere on spheres around spots: so many find out without help.
 
-/// Where in each cell its ray goes: correlated multi-jitter (Kensler 2013). The columns of a ring take
-/// different heights in their cells and the rings of a sector different angles, so both projections are
-/// stratified as finely as there are rays; plain jitter in the cells costs a third more rays for the same
-/// error (docs/performance.md).
-class CellJitter {
- public:
-  CellJitter(const HemisphereCells& cells, uint32_t key)
-      : key_(key),
-        height_(permutation(cells.sectors, key ^ 0x51633e2dU)),
-        angle_(permutation(cells.rings, key ^ 0x68bc21ebU)) {}
-
-  vec2 operator()(int ring, int sector, uint32_t ray) const {
-    const uint32_t name = hashCombine(key_, ray);
-    return {within(height_, sector, name ^ 0x3c6ef372U), within(angle_, ring, name ^ 0xa54ff53aU)};
-  }
-
- private:
-  static float within(const std::vector<int>& strata, int i, uint32_t name) {
-    return (static_cast<float>(strata[static_cast<size_t>(i)]) + unitFloat(hash32(name))) /
-           static_cast<float>(strata.size());
-  }
-  uint32_t key_;
-  std::vector<int> height_, angle_;
-};
-
-/// When each ray is shot: equal strata of the shutter in an order that has nothing to do with the cells.
-class RayTimes {
- public:
-  RayTimes(const RayScene& scene, const GatherPoint& point, size_t count, uint32_t key) : fixed_(std::max(point.time, 0.0f)), key_(key) {
-    if (point.time < 0 && scene.samplesTime(point.group)) strata_ = permutation(static_cast<int>(count), key ^ 0x74696d65U);
-  }
-  float operator()(size_t ray) const {
-    if (strata_.empty()) return fixed_;
-    const float inside = unitFloat(hashCombine(key_, static_cast<uint32_t>(ray), 0x74696d65U));
-    return std::min((static_cast<float>(strata_[ray]) + inside) / static_cast<float>(strata_.size()), 0x1.fffffep-1f);
-  }
-
- private:
-  float fixed_;
-  uint32_t key_;
-  std::vector<int> strata_;
-};
+const BrightSpots kNoSpots;
 
 /// Kept by each thread from one record to the next. What gather rays hit asks for indirect light of frozen caches and paths, so
 /// gathering never nests.
 struct Scratch {
   RayLayers layers;
-  std::vector<Hit> hits;
+  Surroundings surroundings;
+  std::vector<Hit> hits, unknown;                  ///< unknown: those that no radiosity map answers.
+  std::vector<std::pair<size_t, vec3>> mapped;
   HitAnswers answers;
   std::vector<vec3> directions, radiance;          ///< One ray of each cell,
   std::vector<float> distances;
@@ -98,7 +60,7 @@ std::vector<int> contrastCells(const HemisphereCells& cells, std::span<const vec
 class Hemisphere {
  public:
   Hemisphere(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point, const GatherSettings& settings,
-             const BrightSpots& spots)
+             const KnownLight& known)
       : scene_(scene),
         shading_(shading),
         point_(point),
@@ -107,11 +69,24 @@ class Hemisphere {
         count_(static_cast<size_t>(cells_.rings) * static_cast<size_t>(cells_.sectors)),
         key_(hashCombine(point.key, settings.seed)),
         times_(scene, point, count_, key_),
-        spots_(spots),
-        aim_(spots, point.position, point.normal) {
+        spots_(known.spots ? *known.spots : kNoSpots),
+        maps_(known.maps),
+        aim_(spots_, point.position, point.normal) {
     orthonormalBasis(point.normal, tangent_, bitangent_);
     first_.spread = 1 / std::sqrt(static_cast<float>(count_));
     scene.prepareOrigin(point.group, point.position, point.edgeLength, first_);
+    const OcclusionQuery* occlusion = settings.occlusion ? &*settings.occlusion : nullptr;
+    const std::string& asked = occlusion ? occlusion->subset : settings.subset;
+    const std::string& own = scene.scene().groups[static_cast<size_t>(point.group)].attributes->trace.subset;
+    filter_.groups = scene.groupsIn(asked.empty() ? own : asked, occlusion ? occlusion->excludeSubset : "");
+    if (occlusion) filter_.sides = occlusion->sides;
+    if (occlusion && occlusion->bias >= 0) first_.offset = 0, first_.bias = occlusion->bias;
+    if (!filter_.passesAll()) {
+      first_.filter = &filter_;
+    } else if (first_.offset > 0) {
+      scene.lookAround(point.position, slantedOffset(first_.offset, 0), kMaskDiffuse, scratch_.surroundings);
+      first_.surroundings = &scratch_.surroundings;
+    }
   }
 
   HemisphereSamples trace(Stats& stats, BrightFind* find) {
@@ -123,7 +98,7 @@ class Hemisphere {
       scratch_.directions.push_back(scratch_.layers.rays.back().direction);
     }
     scratch_.distances.assign(count_, kInfinity);
-    shade(stats, scratch_.radiance, count_);
+    see(stats, scratch_.radiance, count_);
     if (find) tell(*find);
     refine(stats);
     aim(stats);
@@ -148,6 +123,29 @@ class Hemisphere {
   }
 
   /// What the added rays see, by their elements; of the first rays also how far.
+  void see(Stats& stats, std::vector<vec3>& radiance, size_t elements) {
+    if (settings_.occlusion)
+      uncover(stats, radiance, elements);
+    else
+      shade(stats, radiance, elements);
+    scratch_.layers = {};
+  }
+
+  void uncover(Stats& stats, std::vector<vec3>& radiance, size_t elements) {
+    radiance.assign(elements, vec3(1));
+    meet(stats, &radiance == &scratch_.radiance);
+    for (size_t r = 0; r < scratch_.hits.size(); ++r)
+      if (scratch_.hits[r].object >= 0)
+        radiance[static_cast<size_t>(scratch_.layers.elements[r])] -= vec3(settings_.occlusion->coveredAt(std::max(0.0f, scratch_.hits[r].t)));
+  }
+
+  void meet(Stats& stats, bool measures) {
+    stats.rays.hitlistAdjusted += scratch_.layers.meet(scene_, kMaskDiffuse, scratch_.hits);
+    stats.rays.gather += static_cast<int64_t>(scratch_.hits.size());
+    for (size_t i = 0; measures && i < scratch_.hits.size(); ++i)
+      if (scratch_.hits[i].object >= 0) scratch_.distances[i] = std::max(0.0f, scratch_.hits[i].t);
+  }
+
   void shade(Stats& stats, std::vector<vec3>& radiance, size_t elements) {
     radiance.assign(elements, vec3(0));
     ShadeContext context{RayKind::Diffuse, settings_.depth, settings_.seed, 1, settings_.indirect};
@@ -155,15 +153,23 @@ class Hemisphere {
     context.diffuseLimit = 0;  // of direct light the diffuse component alone; mirrors and glass show what they show
     scratch_.answers.mode = HitMode::Shader;
     for (int layer = 0; layer < kMostLayers && !scratch_.layers.rays.empty(); ++layer) {
-      stats.rays.hitlistAdjusted += scratch_.layers.meet(scene_, kMaskDiffuse, scratch_.hits);
-      stats.rays.gather += static_cast<int64_t>(scratch_.hits.size());
-      for (size_t i = 0; layer == 0 && &radiance == &scratch_.radiance && i < elements; ++i)
-        if (scratch_.hits[i].object >= 0) scratch_.distances[i] = std::max(0.0f, scratch_.hits[i].t);
-      scene_.shadeHits(scratch_.layers.rays, scratch_.hits, scratch_.layers.names, shading_, context, scratch_.answers);
+      meet(stats, layer == 0 && &radiance == &scratch_.radiance);
+      answer(context);
       scratch_.layers.goOn(scene_, scratch_.hits, scratch_.answers, 1,
                            [&](int element, const vec3& seen, const vec3&) { radiance[static_cast<size_t>(element)] += seen; });
     }
-    scratch_.layers = {};
+  }
+
+  /// From radiosity maps as far as they know.
+  void answer(const ShadeContext& context) {
+    const auto& rays = scratch_.layers.rays;
+    scratch_.unknown = scratch_.hits, scratch_.mapped.clear();
+    vec3 radiance;
+    for (size_t r = 0; maps_ && r < rays.size(); ++r)
+      if (scratch_.hits[r].object >= 0 && maps_->lookup(rays[r], scratch_.hits[r], radiance))
+        scratch_.unknown[r].object = -1, scratch_.mapped.emplace_back(r, radiance);
+    scene_.shadeHits(rays, scratch_.unknown, scratch_.layers.names, shading_, context, scratch_.answers);
+    for (const auto& [r, L] : scratch_.mapped) scratch_.answers.color[r] = L, scratch_.answers.opacity[r] = vec3(1);
   }
 
   void tell(BrightFind& find) const {
@@ -194,7 +200,7 @@ class Hemisphere {
         scratch_.fineDirections.push_back(scratch_.layers.rays.back().direction);
       }
     }
-    shade(stats, scratch_.fine, scratch_.fineCells.size());
+    see(stats, scratch_.fine, scratch_.fineCells.size());
   }
 
   /// More rays the more of the light is expected from the spots. What this hemisphere has seen of them has no say in it.
@@ -214,7 +220,7 @@ class Hemisphere {
       scratch_.aimedCells.push_back(cell);
       scratch_.aimedDirections.push_back(d);
     }
-    shade(stats, scratch_.aimed, scratch_.aimedCells.size());
+    see(stats, scratch_.aimed, scratch_.aimedCells.size());
   }
 
   /// E/pi but for what is as bright as a spot. Colours may be negative, but no share of rays.
@@ -268,7 +274,9 @@ class Hemisphere {
   const uint32_t key_;
   const RayTimes times_;
   const BrightSpots& spots_;
+  const RadiosityMaps* maps_;
   const SpotAim aim_;
+  RayFilter filter_;
   Ray first_{point_.position, point_.normal, settings_.maxDistance};
   vec3 tangent_, bitangent_;
   uint32_t number_ = 0;
@@ -279,8 +287,8 @@ class Hemisphere {
 }  // namespace
 
 IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point,
-                        const GatherSettings& settings, const BrightSpots& spots, Stats& stats, BrightFind* find) {
-  Hemisphere hemisphere(scene, shading, point, settings, spots);
+                        const GatherSettings& settings, const KnownLight& known, Stats& stats, BrightFind* find) {
+  Hemisphere hemisphere(scene, shading, point, settings, known);
   const HemisphereSamples samples = hemisphere.trace(stats, find);
   IrradianceRecord record = summarize(samples);
   record.position = point.position;
@@ -288,7 +296,9 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
   if (settings.curvature) {
     const IrradianceCurvature curvature = curvatureOf(samples);
     std::copy_n(curvature.gradient, 3, record.translationGradient);
-    record.smoothRadius = hessianRadius(curvature, luminance(record.E), point.pixelSize, kHessianTolerance);
+    // What is near bends light faster the nearer one comes, so that the curvature of the record's own place holds half way at best.
+    record.smoothRadius = settings.occlusion ? std::min(variationRadius(curvature, settings.occlusion->maxVariation), 0.5f * record.closest)
+                                             : hessianRadius(curvature, luminance(record.E), point.pixelSize, kHessianTolerance);
   }
   return record;
 }

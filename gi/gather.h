@@ -17,6 +17,8 @@ struct GatherSettings {
   bool curvature = false;                     ///< Fill smoothRadius, and gradients that see occlusion.
   int depth = 1;                              ///< Diffuse bounces between the eye and what the rays hit,
   bool indirect = false;                      ///< whose shaders ask for indirect light in turn.
+  std::string subset{};                       ///< Sets of objects that the rays see; none: as trace:subset of the object says.
+  std::optional<OcclusionQuery> occlusion{};  ///< Instead of light: E/pi is what is not covered of the hemisphere, and no hit is shaded.
   bool operator==(const GatherSettings&) const = default;
 };
 
@@ -30,9 +32,16 @@ struct GatherPoint {
   vec3 drift{0};          ///< As kDriftX.
   float time = -1;        ///< As kTime.
 };
-/// `spots`: some rays more are aimed at them. `find`: what is bright here, as the hemisphere alone sees it.
+class RadiosityMaps;
+
+/// What is known of the light before it is gathered. Null: nothing.
+struct KnownLight {
+  const BrightSpots* spots = nullptr;    ///< Some rays more are aimed at them.
+  const RadiosityMaps* maps = nullptr;   ///< Of what hits send back.
+};
+/// `find`: what is bright here, as the hemisphere alone sees it.
 IrradianceRecord gather(const RayScene& rays, const ShadingSystem& shading, const GatherPoint& point, const GatherSettings& settings,
-                        const BrightSpots& spots, Stats& stats, BrightFind* find = nullptr);
+                        const KnownLight& known, Stats& stats, BrightFind* find = nullptr);
 
 /// Hit-list distance of a ray at this cosine to the normal. Coarse and fine surface are up to `offset` apart along the normal, so
 /// a slanted ray meets the coarse one later; the floor keeps grazing rays from reaching through other objects.

@@ -57,19 +57,21 @@ class GatherPass {
   }
 
  private:
-  static constexpr size_t kNoCache = ~size_t{0};
-
+  bool isLight(size_t cache) const { return !state_.caches[cache].plan.gather.occlusion; }
   bool isCancelled() const { return cancelled_ && cancelled_->load(std::memory_order_relaxed); }
 
-  // Groups whose indirect lights ask for the same share a cache. With maxerror 0 nothing could be reused. False: no group asks.
+  // Groups whose lights and shaders ask for the same share a cache. With maxerror 0 nothing could be reused. False: no group asks.
   bool prepareCaches() {
-    cacheOfGroup_.assign(state_.scene.groups.size(), kNoCache);
+    cachesOfGroup_.assign(state_.scene.groups.size(), {});
+    rehearse(state_, layout_, tiles_, cancelled_);
     std::vector<std::pair<size_t, GatherPlan>> plans;
-    for (size_t g = 0; g < cacheOfGroup_.size(); ++g) {
+    for (size_t g = 0; g < cachesOfGroup_.size(); ++g) {
       const int group = static_cast<int>(g);
       const IndirectQuery* query = state_.shading.indirectQuery(group);
       const Attributes& attributes = *state_.scene.groups[g].attributes;
-      if (!query || !attributes.indirect.receive || attributes.matte) continue;
+      if (attributes.matte) continue;
+      for (const OcclusionQuery& asked : state_.occlusionAsked[g]) plans.emplace_back(g, planFor(state_, group, asked));
+      if (!query || !attributes.indirect.receive || !interpolatesIndirect(state_)) continue;
       const GatherPlan plan = planFor(state_, group, *query);
       if (plan.cache.kappa < kInfinity) plans.emplace_back(g, plan);
     }
@@ -79,21 +81,27 @@ class GatherPass {
       size_t c = 0;
       while (c < state_.caches.size() && !(state_.caches[c].plan == plan)) ++c;
       if (c == state_.caches.size()) state_.caches.push_back({plan, IrradianceCache(bound, plan.cache)});
-      cacheOfGroup_[group] = c;
+      cachesOfGroup_[group].push_back(c);
     }
+    sites_.resize(state_.caches.size());
     return true;
   }
 
   void prepareBounces(const std::vector<Site>& sites) {
     int bounces = 1;
-    for (size_t g = 0; g < cacheOfGroup_.size(); ++g)
-      if (cacheOfGroup_[g] != kNoCache) bounces = std::max(bounces, bouncesFor(state_, *state_.shading.indirectQuery(static_cast<int>(g))));
-    if (bounces == 1 || sites.empty() || !(tools_ = gatherTools(state_))) return;
+    for (size_t g = 0; g < cachesOfGroup_.size(); ++g)
+      for (const size_t c : cachesOfGroup_[g])
+        if (isLight(c)) bounces = std::max(bounces, bouncesFor(state_, *state_.shading.indirectQuery(static_cast<int>(g))));
     std::vector<GatherPoint> points;
-    for (const Site& s : sites) points.push_back(s.point);
+    for (const Site& s : sites)
+      if (isLight(s.cache)) points.push_back(s.point);
+    if (bounces == 1 || points.empty() || !(tools_ = gatherTools(state_))) return;
     // What gathers anywhere may look them up: as many rays, as far, as any plan asks, whatever pixel comes first.
-    GatherSettings gather = state_.caches[0].plan.gather;
+    size_t first = 0;
+    while (!isLight(first)) ++first;
+    GatherSettings gather = state_.caches[first].plan.gather;
     for (const PreparedCache& c : state_.caches) {
+      if (c.plan.gather.occlusion) continue;
       gather.samples = std::max(gather.samples, c.plan.gather.samples);
       gather.maxDistance = std::max(gather.maxDistance, c.plan.gather.maxDistance);
     }
@@ -134,23 +142,28 @@ class GatherPass {
     });
     std::stable_sort(sites.begin(), sites.end(), [](const Site& a, const Site& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
     std::erase_if(sites, [&](const Site& s) {
-      return !sites_.insert(static_cast<uint64_t>(s.point.group) << 32 | s.point.key).second;
+      return !sites_[s.cache].insert(static_cast<uint64_t>(s.point.group) << 32 | s.point.key).second;
     });
     return sites;
   }
 
   void collectTile(size_t t, const DeepTile& tile, std::vector<Site>& out) {
     std::vector<size_t> firstOfBatch{0};
-    for (const ShadePoints& batch : tile.batches) firstOfBatch.push_back(firstOfBatch.back() + static_cast<size_t>(batch.count()));
+    std::vector<GatherPlaces> places;
+    for (const ShadePoints& batch : tile.batches) {
+      firstOfBatch.push_back(firstOfBatch.back() + static_cast<size_t>(batch.count()));
+      places.emplace_back(state_, batch);
+    }
     const auto consider = [&](const Facet& facet, int point, int x, int y) {
       const auto b = static_cast<size_t>(facet.batch);
       // Of the lattice every pixel asks, and later every point once, in a phase that is its own: so it does not matter which tiles see it.
       if (phase_ >= kLatticePhases && !seen_->set(t, firstOfBatch[b] + static_cast<size_t>(point))) return;
-      const Site site = siteOf(tile.batches[b], point, x, y);
-      const GatherPoint& p = site.point;
-      const IrradianceEstimate known = state_.caches[site.cache].cache.lookup(p.position, p.normal, p.pixelSize);
-      // What was given is appended to, not refined.
-      if (known.weight < kEnough || (known.disputed && !state_.cachesGiven)) out.push_back(site);
+      const GatherPoint p = places[b].at(point);
+      for (const size_t c : cachesOfGroup_[static_cast<size_t>(tile.batches[b].group())]) {
+        const IrradianceEstimate known = state_.caches[c].cache.lookup(p.position, p.normal, p.pixelSize);
+        // What was given is appended to, not refined.
+        if (known.weight < kEnough || (known.disputed && !state_.cachesGiven)) out.push_back({p, c, x, y});
+      }
     };
     for (int y = tile.rect.y0; y < tile.rect.y1; ++y)
       for (int x = tile.rect.x0; x < tile.rect.x1; ++x) {
@@ -161,7 +174,7 @@ class GatherPass {
         for (uint32_t f = pixel.first; f < pixel.first + pixel.count; ++f) {
           const Facet& facet = tile.facets[tile.fragments[f].facet];
           const ShadePoints& batch = tile.batches[static_cast<size_t>(facet.batch)];
-          if (cacheOfGroup_[static_cast<size_t>(batch.group())] == kNoCache) continue;
+          if (cachesOfGroup_[static_cast<size_t>(batch.group())].empty()) continue;
           for (int corner = 0; corner < 4; ++corner) {
             const int point = facet.point[corner];
             if (corner > 0 && point == facet.point[0]) continue;
@@ -173,13 +186,6 @@ class GatherPass {
           if (phase_ < kLatticePhases) break;  // its first point alone
         }
       }
-  }
-
-  Site siteOf(const ShadePoints& batch, int point, int x, int y) const {
-    const vec3 position = batch.position(point), normal = gatherNormal(state_, batch, point);
-    return {{batch.group(), position, normal, batch.key(point), projectedPixelSize(state_.camera, position, normal),
-             batch.edgeLength(point), batch.get3(kDriftX, point), batch.channel(kTime)[point]},
-            cacheOfGroup_[static_cast<size_t>(batch.group())], x, y};
   }
 
   // The records of a phase are inserted when all have been made.
@@ -196,6 +202,10 @@ class GatherPass {
         for (size_t i = done + begin; i < done + end; ++i) records[i] = gatherAt(sites[i], finds.empty() ? nullptr : &finds[i]);
       });
     }
+    size_t lights = 0;
+    for (size_t i = 0; i < finds.size(); ++i)
+      if (isLight(sites[i].cache)) std::swap(finds[lights++], finds[i]);
+    finds.resize(lights);
     if (!finds.empty()) state_.spots.learn(finds);
     for (size_t i = 0; i < done; ++i) state_.caches[sites[i].cache].cache.insert(records[i]);
     state_.stats.irradianceCache.samples += static_cast<int64_t>(done);
@@ -203,7 +213,9 @@ class GatherPass {
   }
 
   IrradianceRecord gatherAt(const Site& site, BrightFind* find) const {
-    return gather(*tools_->rays, *tools_->shading, site.point, state_.caches[site.cache].plan.gather, state_.spots, state_.stats, find);
+    const bool light = isLight(site.cache);
+    return gather(*tools_->rays, *tools_->shading, site.point, state_.caches[site.cache].plan.gather,
+                  light ? KnownLight{&state_.spots, state_.radiosity.get()} : KnownLight{}, state_.stats, light ? find : nullptr);
   }
 
   void report(float fractionOfPhase) const {
@@ -214,9 +226,9 @@ class GatherPass {
   const DeepFrame& layout_;
   const TileReader& tiles_;
   const RayTools* tools_ = nullptr;
-  std::vector<size_t> cacheOfGroup_;
+  std::vector<std::vector<size_t>> cachesOfGroup_;
   std::optional<PointBits> seen_;
-  std::unordered_set<uint64_t> sites_;  ///< That have a record.
+  std::vector<std::unordered_set<uint64_t>> sites_;  ///< Of each cache: those that have a record.
   const std::function<void(float)>* progress_ = nullptr;
   const std::atomic<bool>* cancelled_ = nullptr;
   int phase_ = 0;

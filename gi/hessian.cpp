@@ -143,11 +143,27 @@ class Mesh {
 
 IrradianceCurvature curvatureOf(const HemisphereSamples& samples) { return Mesh(samples).sum(); }
 
-float hessianRadius(const IrradianceCurvature& h, float luminanceOfE, float pixelSize, float tolerance) {
+namespace {
+
+/// Magnitudes of the eigenvalues.
+vec2 bendsOf(const IrradianceCurvature& h) {
   const float mean = 0.5f * (h.xx + h.yy), half = std::sqrt(0.25f * (h.xx - h.yy) * (h.xx - h.yy) + h.xy * h.xy);
-  const float bend = std::abs(mean + half) + std::abs(mean - half);
+  return {std::abs(mean + half), std::abs(mean - half)};
+}
+
+}  // namespace
+
+float hessianRadius(const IrradianceCurvature& h, float luminanceOfE, float pixelSize, float tolerance) {
+  const vec2 bends = bendsOf(h);
+  const float bend = bends.x + bends.y;
   // |x^T H x| / 2 over a disk of radius R is at most (|l1| + |l2|) pi R^4 / 8.
   return bend > 0 ? std::pow(8 * tolerance * luminanceOfE * pixelSize * pixelSize / (kPi * bend), 0.25f) : kInfinity;
+}
+
+float variationRadius(const IrradianceCurvature& h, float variation) {
+  const vec2 bends = bendsOf(h);
+  const float bend = std::max(bends.x, bends.y);
+  return bend > 0 ? std::sqrt(2 * variation / bend) : kInfinity;
 }
 
 }  // namespace tomales

@@ -19,4 +19,7 @@ IrradianceCurvature curvatureOf(const HemisphereSamples& samples);
 /// squared pixels, is `tolerance` times the luminance of E.
 float hessianRadius(const IrradianceCurvature& curvature, float luminanceOfE, float pixelSize, float tolerance);
 
+/// Radius within which extrapolating linearly is off by no more than `variation`.
+float variationRadius(const IrradianceCurvature& curvature, float variation);
+
 }  // namespace tomales

@@ -12,11 +12,17 @@ void fields(A& a, IrradianceRecord& x) {
 }
 
 template <class A>
+void fields(A& a, OcclusionQuery& x) {
+  auto& [samples, maxDistance, bias, falloff, falloffMode, maxVariation, subset, excludeSubset, sides] = x;
+  each(a, samples, maxDistance, bias, falloff, falloffMode, maxVariation, subset, excludeSubset, sides);
+}
+
+template <class A>
 void fields(A& a, GatherPlan& x) {
   auto& [cache, gather] = x;
   auto& [errorFunction, kappa, maxPixels] = cache;
-  auto& [samples, maxDistance, seed, light, curvature, depth, indirect] = gather;
-  each(a, errorFunction, kappa, maxPixels, samples, maxDistance, seed, light, curvature, depth, indirect);
+  auto& [samples, maxDistance, seed, light, curvature, depth, indirect, subset, occlusion] = gather;
+  each(a, errorFunction, kappa, maxPixels, samples, maxDistance, seed, light, curvature, depth, indirect, subset, occlusion);
 }
 
 template <class A>

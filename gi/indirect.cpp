@@ -35,13 +35,16 @@ struct PathSum {
 // The hemisphere of each active point, one cosine-weighted ray a path, in batches large enough to shade well.
 class PathBatches {
  public:
-  PathBatches(const GiState& state, const RayTools& tools, const ShadePoints& points, TmConstVec3 N, float maxDistance,
+  PathBatches(const GiState& state, const RayTools& tools, const ShadePoints& points, TmConstVec3 N, const IndirectQuery& query,
               const ShadeContext& hitContext)
-      : state_(state), tools_(tools), points_(points), N_(N), maxDistance_(maxDistance), context_(hitContext) {}
+      : state_(state), tools_(tools), points_(points), places_(state, points), N_(N), maxDistance_(query.maxDistance), context_(hitContext) {
+    const std::string& own = state.scene.groups[static_cast<size_t>(points.group())].attributes->trace.subset;
+    filter_.groups = tools.rays->groupsIn(query.subset.empty() ? own : query.subset, "");
+  }
 
   void add(PathSum& sum, int paths) {
     const int i = sum.point;
-    const vec3 normal = unitNormal(points_, N_, i);
+    const vec3 normal = places_.shading(i, unitNormal(points_, N_, i));
     vec3 tangent, bitangent;
     orthonormalBasis(normal, tangent, bitangent);
     // The hits of one record share a key and continue each other's sequence.
@@ -49,9 +52,10 @@ class PathBatches {
     const uint32_t pointKey = hashCombine(name.key, state_.settings.seed, static_cast<uint32_t>(context_.depth));
     for (int path = 0; path < paths; ++path) {
       const uint32_t number = name.sequence * static_cast<uint32_t>(paths) + static_cast<uint32_t>(path);
-      Ray ray{points_.position(i), normal};
-      aim(*tools_.rays, points_, i, rayTime(*tools_.rays, points_, i, path, paths, state_.settings.seed), ray);
+      Ray ray;
+      places_.aim(*tools_.rays, i, rayTime(*tools_.rays, points_, i, path, paths, state_.settings.seed), ray);
       ray.tMax = maxDistance_;
+      if (!filter_.passesAll()) ray.filter = &filter_;
       const vec3 local = cosineHemisphere(sobol2(number, pointKey));
       ray.direction = local.x * tangent + local.y * bitangent + local.z * normal;
       ray.offset = slantedOffset(ray.offset, local.z);
@@ -81,9 +85,11 @@ class PathBatches {
   const GiState& state_;
   const RayTools& tools_;
   const ShadePoints& points_;
+  const GatherPlaces places_;
   const TmConstVec3 N_;
   const float maxDistance_;
   const ShadeContext context_;
+  RayFilter filter_;
   RayLayers layers_;
   std::vector<Hit> hits_;
   std::vector<PathSum*> sums_;    ///< Of each path since the last flush,
@@ -113,7 +119,7 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
     if (const auto it = answers->indirect.find(name); it != answers->indirect.end()) return it->second;
   const RayTools* tools = gatherTools(state);
   if (!tools) return {vec3(0.0f), point.normal, point.normal, point.normal};
-  const IrradianceRecord record = gather(*tools->rays, *tools->shading, point, settings, state.spots, state.stats);
+  const IrradianceRecord record = gather(*tools->rays, *tools->shading, point, settings, {&state.spots, state.radiosity.get()}, state.stats);
   const IndirectAnswer answer{record.E, record.dominant[0], record.dominant[1], record.dominant[2]};
   if (answers && answers->recording) answers->indirect[name] = answer;
   return answer;
@@ -123,8 +129,17 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
 
 const RayTools* gatherTools(const GiState& state) {
   const RayTools* tools = state.rays();
-  if (tools && state.atlasSource) std::call_once(state.atlasOnce, [&] { state.atlas = state.atlasSource(); });
+  if (tools)
+    std::call_once(state.sourcesOnce, [&] {
+      if (state.atlasSource) state.atlas = state.atlasSource();
+      if (state.radiositySource) state.radiosity = state.radiositySource();
+    });
   return tools;
+}
+
+bool interpolatesIndirect(const GiState& state) {
+  const GiMode mode = state.settings.mode;
+  return mode == GiMode::Gather || mode == GiMode::Atlas || mode == GiMode::Radiosity;
 }
 
 GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) {
@@ -141,6 +156,7 @@ GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) 
   plan.gather.samples = std::max(1, settings.samples > 0 ? settings.samples : query.samples);
   plan.gather.maxDistance = query.maxDistance;
   plan.gather.seed = settings.seed;
+  plan.gather.subset = query.subset;
   plan.gather.indirect = bouncesFor(state, query) > 1;
   if (settings.mode == GiMode::Atlas) plan.gather.light = Illumination::Stored;
   return plan;
@@ -148,20 +164,8 @@ GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) 
 
 int bouncesFor(const GiState& state, const IndirectQuery& query) {
   const int asked = state.settings.bounces > 0 ? state.settings.bounces : query.bounces;
-  return state.settings.mode == GiMode::None ? 0 : state.settings.mode == GiMode::Atlas ? std::min(asked, 1) : asked;
-}
-
-float projectedPixelSize(const Camera& camera, const vec3& P, const vec3& n) {
-  constexpr float kLeastCosine = 0.05f;  // grazing views would let one record reach over whole objects
-  const float cosine = std::abs(dot(normalizeOr(camera.incident(P), n), n));
-  return camera.pixelSize(P) / std::sqrt(std::max(cosine, kLeastCosine));
-}
-
-vec3 gatherNormal(const GiState& state, const ShadePoints& points, int i) {
-  const Attributes& attributes = *state.scene.groups[static_cast<size_t>(points.group())].attributes;
-  if (!attributes.displacement || attributes.displacementBound > 0) return points.facingNormal(i);
-  const vec3 n = points.get3(kNgx, i);
-  return dot(points.get3(kIx, i), n) > 0 ? -n : n;
+  const GiMode mode = state.settings.mode;
+  return mode == GiMode::None ? 0 : mode == GiMode::Atlas || mode == GiMode::Radiosity ? std::min(asked, 1) : asked;
 }
 
 void store(const IndirectResult& out, int i, const vec3& E, const vec3 dominant[3]) {
@@ -178,25 +182,27 @@ void interpolateIndirect(const GiState& state, const ShadePoints& points, const 
   auto prepared = std::find_if(state.caches.begin(), state.caches.end(),
                                [&](const PreparedCache& c) { return c.plan == plan; });
   // Records that were given serve even where a light has since been edited to ask for others.
-  if (prepared == state.caches.end() && state.cachesGiven && plan.cache.kappa < kInfinity) prepared = state.caches.begin();
+  if (prepared == state.caches.end() && state.cachesGiven && plan.cache.kappa < kInfinity)
+    prepared = std::find_if(state.caches.begin(), state.caches.end(), [](const PreparedCache& c) { return !c.plan.gather.occlusion; });
+  const GatherPlaces places(state, points);
   int64_t lookups = 0, interpolated = 0;
   for (int i = 0; i < points.count(); ++i) {
     if (!active[i]) continue;
-    const vec3 P = points.position(i), n = unitNormal(points, N, i), unbumped = gatherNormal(state, points, i);
-    const float pixelSize = projectedPixelSize(state.camera, P, unbumped);
+    GatherPoint point = places.at(i);
+    const vec3 n = places.shading(i, unitNormal(points, N, i)), caustic = causticAt(state, points.group(), points.position(i), n, point.pixelSize);
     if (prepared != state.caches.end()) {
       ++lookups;
-      const IrradianceEstimate estimate = prepared->cache.lookup(P, unbumped, n, pixelSize);
+      const IrradianceEstimate estimate = prepared->cache.lookup(point.position, point.normal, n, point.pixelSize);
       if (estimate.weight > 0) {
         ++interpolated;
-        store(out, i, estimate.E + causticAt(state, points.group(), P, n, pixelSize), estimate.dominant);
+        store(out, i, estimate.E + caustic, estimate.dominant);
         continue;
       }
     }
     // Kept out of the cache: what other points find there must not depend on the order of shading.
-    const GatherPoint point{points.group(), P, n, points.key(i), pixelSize, points.edgeLength(i), points.get3(kDriftX, i), points.channel(kTime)[i]};
+    point.normal = n;
     const IndirectAnswer answer = gatherOrRecall(state, point, plan.gather, context.answers);
-    store(out, i, answer[0] + causticAt(state, points.group(), P, n, pixelSize), &answer[1]);
+    store(out, i, answer[0] + caustic, &answer[1]);
   }
   state.stats.irradianceCache.lookups += lookups;
   state.stats.irradianceCache.interpolated += interpolated;
@@ -214,7 +220,7 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
   ShadeContext hitContext{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
   hitContext.diffuseLimit = bounces;  // of wide lobes that shaders follow, too; mirrors reflect as deep as their objects allow
   hitContext.highlights = true;
-  PathBatches batches(state, *tools, points, N, query.maxDistance, hitContext);
+  PathBatches batches(state, *tools, points, N, query, hitContext);
   std::vector<PathSum> sums;
   for (int i = 0; i < points.count(); ++i)
     if (active[i]) sums.push_back({i});
@@ -228,12 +234,14 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
 
 void bounceIndirect(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                     const IndirectQuery& query, const ShadeContext& context, int bounces, const IndirectResult& out) {
+  const GatherPlaces places(state, points);
   std::vector<uint8_t> unknown(active, active + points.count());
   bool all = true;
   for (int i = 0; i < points.count(); ++i) {
     if (!active[i]) continue;
+    const GatherPoint point = places.at(i);
     const IrradianceEstimate estimate =
-        state.bounces.lookup(bounces - context.depth, state.camera, points.position(i), gatherNormal(state, points, i), unitNormal(points, N, i));
+        state.bounces.lookup(bounces - context.depth, state.camera, point.position, point.normal, places.shading(i, unitNormal(points, N, i)));
     if (estimate.weight > 0) store(out, i, estimate.E, estimate.dominant);
     unknown[static_cast<size_t>(i)] = estimate.weight <= 0;
     all &= estimate.weight > 0;

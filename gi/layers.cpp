@@ -23,6 +23,7 @@ int64_t RayLayers::meet(const RayScene& scene, RayMask mask, std::vector<Hit>& h
 Ray RayLayers::behind(const RayScene& scene, const Ray& ray, const Hit& hit) {
   Ray on = ray;
   on.origin = ray.origin + hit.t * ray.direction;
+  on.surroundings = nullptr;
   on.tMax = ray.tMax - hit.t;
   on.radius += ray.spread * hit.t;
   scene.prepareOrigin(scene.groupOf(hit), on.origin, 0, on);

@@ -64,7 +64,8 @@ void PointFileWriter::finish(const MadeFrom& madeFrom) {
 }
 
 PointFile::PointFile(const std::string& path) : file_(path, kKind, kVersion) {
-  ByteReader r(file_.header(), path);
+  const Bytes header = file_.takeHeader();
+  ByteReader r(header, path);
   const auto channelCount = r.get<uint32_t>();
   for (uint32_t i = 0; i < channelCount; ++i) {
     std::string name = r.getString();

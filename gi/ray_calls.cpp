@@ -106,6 +106,7 @@ void setBias(const RayQuery& query, Ray& ray) {
 void traceForShader(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction,
                     const RayQuery& query, const ShadeContext& context, const RayResult& result) {
   clearResult(points, active, result);
+  if (context.rehearsal) return;
   const Attributes& own = *state.scene.groups[static_cast<size_t>(points.group())].attributes;
   const ShadeContext hitContext = contextOfHits(own, query, context, state.settings.mode);
   if (context.kind == RayKind::Transmission || isTooDeep(hitContext, state.scene.options)) return;

@@ -9,8 +9,6 @@ namespace tomales {
 namespace {
 
 constexpr int kTimesOfLight = 16;  ///< Least number of times that the shadows of one light see, over all its samples.
-/// Modes that answer from the irradiance cache.
-bool interpolates(GiMode mode) { return mode == GiMode::Gather || mode == GiMode::Atlas; }
 
 }  // namespace
 
@@ -35,7 +33,7 @@ GiServices::~GiServices() = default;
 
 void GiServices::gatherPass(const DeepFrame& layout, const TileReader& tiles, const std::function<void(float)>& progress,
                             const std::atomic<bool>* cancelled) {
-  if (interpolates(impl_->settings.mode)) fillCaches(*impl_, layout, tiles, progress, cancelled);
+  if (impl_->settings.mode != GiMode::Reference) fillCaches(*impl_, layout, tiles, progress, cancelled);
 }
 
 const std::vector<PreparedCache>& GiServices::caches() const { return impl_->caches; }
@@ -48,7 +46,7 @@ void GiServices::useEmitters(EmitterTable emitters) { impl_->emitters.emplace(st
 
 void GiServices::transmission(const ShadePoints& points, const uint8_t* active, TmConstVec3 toward,
                               const ShadowRays& rays, const ShadeContext& context, TmVec3 light) const {
-  const RayTools* tools = impl_->rays();
+  const RayTools* tools = context.rehearsal ? nullptr : impl_->rays();
   if (!tools) return;
   const RayScene& scene = *tools->rays;
   const Attributes& own = *impl_->scene.groups[static_cast<size_t>(points.group())].attributes;
@@ -105,6 +103,8 @@ void GiServices::setAtlas(std::unique_ptr<const IrradianceAtlas> atlas) { impl_-
 
 void GiServices::setAtlasSource(AtlasSource source) { impl_->atlasSource = std::move(source); }
 
+void GiServices::setRadiositySource(RadiositySource source) { impl_->radiositySource = std::move(source); }
+
 void GiServices::reportAtlas(Stats& stats) const {
   if (impl_->atlas) impl_->atlas->report(stats);
 }
@@ -119,6 +119,11 @@ void GiServices::storedIrradiance(const ShadePoints& points, const uint8_t* acti
   }
 }
 
+bool GiServices::interpolatedOcclusion(const ShadePoints& points, const uint8_t* active, TmConstVec3 N, const OcclusionQuery& query,
+                                       const ShadeContext& context, float* covered) const {
+  return interpolateOcclusion(*impl_, points, active, N, query, context, covered);
+}
+
 float GiServices::emitterReach(int light) const {
   const Emitters* emitters = impl_->knownEmitters();
   return emitters ? emitters->reach(light) : 0.0f;
@@ -129,7 +134,7 @@ void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* activ
                                  IndirectResult out) const {
   const int bounces = bouncesFor(*impl_, query);
   if (context.depth < bounces) {
-    const bool cached = interpolates(impl_->settings.mode);
+    const bool cached = interpolatesIndirect(*impl_);
     if (cached && context.depth > 0) return bounceIndirect(*impl_, points, active, N, query, context, bounces, out);
     if (cached) return interpolateIndirect(*impl_, points, active, N, query, context, out);
     return traceIndirect(*impl_, points, active, N, query, context, bounces, out);

@@ -3,6 +3,7 @@
 #pragma once
 #include "gi/atlas.h"
 #include "gi/gather.h"
+#include "gi/radiosity_maps.h"
 #include "raytrace/emitters.h"
 #include "reyes/deep.h"
 
@@ -16,6 +17,7 @@ enum class GiMode {
   None,       ///< Direct light only: indirect lights give nothing.
   Gather,     ///< One bounce, shaded hits, irradiance caching.
   Atlas,      ///< All bounces: gather rays look up the irradiance that photons left in brick maps; irradiance caching.
+  Radiosity,  ///< One bounce from radiosity maps; irradiance caching.
   Reference,  ///< Brute-force path tracing of the same transport: unbiased for diffuse surfaces.
 };
 
@@ -49,6 +51,7 @@ struct RayTools {
 /// geometry to be had, which has been reported; rays then meet nothing.
 using RaySource = std::function<const RayTools*()>;
 using AtlasSource = std::function<std::unique_ptr<const IrradianceAtlas>()>;
+using RadiositySource = std::function<std::unique_ptr<const RadiosityMaps>()>;
 
 class GiServices final : public ShadeServices {
  public:
@@ -62,6 +65,8 @@ class GiServices final : public ShadeServices {
   void setAtlas(std::unique_ptr<const IrradianceAtlas> atlas);
   /// Or brought when the first point has to be gathered, from any thread.
   void setAtlasSource(AtlasSource source);
+  /// Likewise for GiMode::Radiosity.
+  void setRadiositySource(RadiositySource source);
   void reportAtlas(Stats& stats) const;  ///< After the last lookup.
 
   /// Fills the irradiance cache for every point that a shaded frame will ask about, coarse to fine. Records of one level are
@@ -86,6 +91,8 @@ class GiServices final : public ShadeServices {
   void meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction, const EmitterPoints& out) const override;
   void storedIrradiance(const ShadePoints&, const uint8_t* active, TmVec3 E) const override;
   float emitterReach(int light) const override;
+  bool interpolatedOcclusion(const ShadePoints&, const uint8_t* active, TmConstVec3 N, const OcclusionQuery&, const ShadeContext&,
+                             float* covered) const override;
   void indirectDiffuse(const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&, const ShadeContext&,
                        IndirectResult out) const override;
 

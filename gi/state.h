@@ -19,17 +19,28 @@ struct GiState {
   std::optional<Emitters> emitters;   ///< Known without rays.
   BrightSpots spots{};                ///< Likewise,
   BounceCaches bounces{};             ///< and these.
+  mutable std::vector<std::vector<OcclusionQuery>> occlusionAsked{};  ///< By each group: written by rehearse() alone.
   bool cachesGiven = false;           ///< Not gathered for this very frame.
-  AtlasSource atlasSource{};          ///< May be empty.
-  mutable std::once_flag atlasOnce{};
+  AtlasSource atlasSource{};          ///< May be empty,
+  RadiositySource radiositySource{};  ///< and this.
+  mutable std::unique_ptr<const RadiosityMaps> radiosity{};  ///< GiMode::Radiosity alone.
+  mutable std::once_flag sourcesOnce{};
 };
 
-/// What it takes to gather, the atlas included; null as RaySource says.
+/// What it takes to gather, atlas and radiosity maps included; null as RaySource says.
 const RayTools* gatherTools(const GiState&);
 
 /// The settings of an indirect light as this group sees them: the command line wins over the group's
 /// attributes, and those over the light.
 GatherPlan planFor(const GiState&, int group, const IndirectQuery&);
+
+GatherPlan planFor(const GiState&, int group, const OcclusionQuery&);
+
+/// Does indirect light come from an irradiance cache?
+bool interpolatesIndirect(const GiState&);
+
+/// Runs the shaders of each group that asksOcclusion() at one of its visible points, to learn what they ask.
+void rehearse(GiState&, const DeepFrame& layout, const TileReader&, const std::atomic<bool>* cancelled);
 
 /// Diffuse bounces that a light accounts for.
 int bouncesFor(const GiState&, const IndirectQuery&);
@@ -38,9 +49,27 @@ int bouncesFor(const GiState&, const IndirectQuery&);
 /// section 4.5).
 float projectedPixelSize(const Camera&, const vec3& P, const vec3& n);
 
-/// Where irradiance is gathered: the normal on the viewer's side without bumps (approximate-gi 4.5). A displacement shader of a group
-/// without displacement bound moves no point, so that there it is the geometric normal.
-vec3 gatherNormal(const GiState&, const ShadePoints& points, int i);
+/// Where the indirect light of a batch is gathered and looked up (approximate-gi 4.5): at its points, or where their primitive variable
+/// "gatherP" says, on the side of the normal without bumps or of "gatherN". The same places for all that names them alike, as all of one
+/// hair does its root.
+class GatherPlaces {
+ public:
+  GatherPlaces(const GiState&, const ShadePoints&);
+  GatherPoint at(int i) const;
+  /// The normal that light is turned to there: that of shading, unless another is named.
+  vec3 shading(int i, const vec3& normal) const { return normals_ < 0 ? normal : this->normal(i); }
+  /// The start of a ray along `direction` from there, at a time of the shutter.
+  void aim(const RayScene&, int i, float time, Ray&) const;
+
+ private:
+  vec3 normal(int i) const;
+  vec3 named(int offset, int i) const;
+
+  const GiState& state_;
+  const ShadePoints& points_;
+  int positions_, normals_;  ///< Offsets of the primitive variables; -1: none.
+  bool bumped_;
+};
 
 /// Phase of the gather pass in which the nearest point of a pixel is considered: 0 is a lattice of stride 16,
 /// and each phase after it halves the area for each point, down to every pixel (quincunx first, then the rest
@@ -75,6 +104,9 @@ void interpolateIndirect(const GiState&, const ShadePoints&, const uint8_t* acti
                          const IndirectQuery&, const ShadeContext&, const IndirectResult& out);
 void traceIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N,
                    const IndirectQuery&, const ShadeContext&, int bounces, const IndirectResult& out);
+/// ShadeServices::interpolatedOcclusion().
+bool interpolateOcclusion(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N, const OcclusionQuery&, const ShadeContext&,
+                          float* covered);
 /// At what gather rays hit: from the caches of further bounces, or traced.
 void bounceIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N,
                     const IndirectQuery&, const ShadeContext&, int bounces, const IndirectResult& out);

@@ -14,10 +14,11 @@ namespace tomales {
 inline uint32_t maskAt(uint32_t mask, Level level) { return mask << 4 * static_cast<int>(level); }
 inline uint32_t maskAtAllLevels(uint32_t mask) { return maskAt(mask, Level::Fine) | maskAt(mask, Level::Medium) | maskAt(mask, Level::Coarse); }
 
-/// The groups that rays treat alike share one Embree geometry: a geometry of its own for each would cost 65 kB, and a scene
-/// may have a group for every object.
+/// The small groups that rays treat alike share one Embree geometry: a geometry of its own for each would cost 65 kB, and a scene
+/// may have a group for every object. Positions and indices are copied for that, about 31 bytes a polygon.
 struct Geometry {
   bool opaque, flips;
+  uint32_t mask;  ///< Of rays that see it: bits of RayMask.
   DetailShare detail;
   const CoarseGroup* meshes;                         ///< All groups, or the one master.
   uint32_t onlyMesh = 0;

@@ -13,6 +13,8 @@
 namespace tomales {
 namespace {
 
+constexpr size_t kManyQuads = 4096;  ///< A geometry of its own costs less than copies of so many (Geometry in raytrace/embree_filters.h).
+
 /// Embree takes no negative tnear: the ray starts `shift` before its origin.
 RTCRay rayFrom(const Ray& ray, float shift, float tNear, uint32_t mask) {
   const vec3 origin = ray.origin - shift * ray.direction;
@@ -72,7 +74,7 @@ struct EmbreeScene::Impl {
   void attach(const std::vector<uint32_t>& members, uint32_t mask, bool opaque) {
     const CoarseGroup& like = groups[members.front()];
     const auto id = static_cast<unsigned>(geometries.size());
-    Geometry& out = geometries.emplace_back(Geometry{opaque, like.flipsNormal, like.detail, groups.data(), members.front(), {}, &firstQuad});
+    Geometry& out = geometries.emplace_back(Geometry{opaque, like.flipsNormal, mask, like.detail, groups.data(), members.front(), {}, &firstQuad});
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
     rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(like.laterP.size() + 1));
     if (members.size() == 1)
@@ -131,7 +133,7 @@ struct EmbreeScene::Impl {
 
   RTCScene sceneOf(const CoarseGroup& mesh) {
     RTCScene out = newScene();
-    Geometry& described = masters.emplace_back(Geometry{true, mesh.flipsNormal, {}, &mesh, 0, {}, nullptr});
+    Geometry& described = masters.emplace_back(Geometry{true, mesh.flipsNormal, 0, {}, &mesh, 0, {}, nullptr});
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
     share(geometry, mesh);
     if (mesh.trimmed) filterAbsent(geometry);
@@ -156,6 +158,16 @@ struct EmbreeScene::Impl {
       instances.opaque.push_back(opaque[groupOf[i]]);
     }
     for (RTCScene s : scenes) rtcReleaseScene(s);  // the instances hold it
+  }
+
+  void addTo(Surroundings& out, bool instance, uint32_t geometryId, uint32_t primitive, uint32_t mask) const {
+    if (instance || geometryId >= geometries.size()) return out.giveUp();
+    const Geometry& geometry = geometries[geometryId];
+    if (!(geometry.mask & mask)) return;
+    const auto [mesh, quad] = geometry.place(primitive);
+    const CoarseGroup& g = geometry.meshes[mesh];
+    if (g.trimmed || !g.detail.whole()) return out.giveUp();
+    out.add(mesh, quad, g.flipsNormal, {g.corner(quad, 0), g.corner(quad, 1), g.corner(quad, 2), g.corner(quad, 3)});
   }
 
   bool trace(const Ray& ray, float shift, float tNear, uint32_t mask, Traversal& traversal,
@@ -187,12 +199,12 @@ EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const SharedSha
   impl_->device = rtcNewDevice(nullptr);
   rtcSetDeviceMemoryMonitorFunction(impl_->device, &Impl::countBytes, impl_.get());
   impl_->scene = impl_->newScene();
-  std::map<std::tuple<uint32_t, bool, bool, bool, size_t, float, float>, std::vector<uint32_t>> alike;
+  std::map<std::tuple<uint32_t, bool, bool, bool, size_t, float, float, uint32_t>, std::vector<uint32_t>> alike;
   for (uint32_t i = 0; i < groups.size(); ++i) {
     const CoarseGroup& g = groups[i];
     impl_->fades |= !g.detail.whole();
     if (!g.quads.empty() && g.solid == solids)
-      alike[{masks[i], opaque[i], g.flipsNormal, g.trimmed, g.laterP.size(), g.detail.lo, g.detail.hi}].push_back(i);
+      alike[{masks[i], opaque[i], g.flipsNormal, g.trimmed, g.laterP.size(), g.detail.lo, g.detail.hi, g.quads.size() < kManyQuads ? 0 : i + 1}].push_back(i);
   }
   impl_->firstQuad.resize(groups.size());
   for (const auto& [kind, members] : alike) impl_->attach(members, std::get<0>(kind), std::get<1>(kind));
@@ -221,9 +233,36 @@ bool EmbreeScene::nearest(const Ray& ray, uint32_t mask, PolygonHit& hit) const 
   return impl_->trace(ray, 0, std::max(ray.bias, 0.0f), mask, traversal, hit);
 }
 
+void EmbreeScene::around(const vec3& P, float reach, uint32_t mask, Surroundings& out) const {
+  struct Asked {
+    const Impl& scene;
+    uint32_t mask;
+    Surroundings& out;
+  } asked{*impl_, mask, out};
+  out.reset(P, reach);
+  RTCPointQuery query{P.x, P.y, P.z, 0, reach + 2 * roundingAt(P)};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  const auto meets = [](RTCPointQueryFunctionArguments* args) {
+    const Asked& a = *static_cast<Asked*>(args->userPtr);
+    a.scene.addTo(a.out, args->context->instStackSize > 0, args->geomID, args->primID, a.mask);
+    if (!a.out.gaveUp()) return false;
+    args->query->radius = 0;
+    return true;
+  };
+  rtcPointQuery(impl_->scene, &query, &context, meets, &asked);
+}
+
 bool EmbreeScene::nearestBeyond(const Ray& ray, float window, uint32_t mask, HitList& list,
                                 PolygonHit& beyond) const {
   list.clear();
+  if (ray.surroundings && ray.time == 0 && ray.surroundings->know(ray.origin, window)) {
+    // Rather twice what lies at the end of the window than not at all.
+    ray.surroundings->meet(ray.direction, window + roundingAt(ray.origin), list);
+    if (ray.filter) std::erase_if(list, [&](const PolygonHit& hit) { return !ray.filter->passes(hit.group, hit.leaving); });
+    Traversal traversal = impl_->traversalOf(ray, ray.filter ? &rejectUnseen : nullptr, 0, 0, nullptr);
+    return impl_->trace(ray, 0, window, mask, traversal, beyond);
+  }
   Traversal traversal = impl_->traversalOf(ray, &recordNear, window, window, &list);
   return impl_->trace(ray, window, 0, mask, traversal, beyond);
 }

@@ -6,6 +6,7 @@
 #include "raytrace/hit_list.h"
 #include "raytrace/resident_cache.h"
 #include "raytrace/shared_shapes.h"
+#include "raytrace/surroundings.h"
 #include "raytrace/tessellate.h"
 #include "raytrace/trace.h"
 
@@ -25,6 +26,10 @@ class EmbreeScene {
 
   /// Nearest hit with ray.bias < t < ray.tMax; ray.offset plays no part.
   bool nearest(const Ray& ray, uint32_t mask, PolygonHit& hit) const;
+
+  /// Whatever rays of this mask may meet within `reach` of P at shutter open. Gives up at what is not a polygon of its own: instances,
+  /// chunks, what is trimmed or fades.
+  void around(const vec3& P, float reach, uint32_t mask, Surroundings& out) const;
 
   /// One traversal: fills `list` with all hits at |t| <= window, unsorted, and `beyond` with the nearest
   /// after that. False: nothing beyond before tMax.

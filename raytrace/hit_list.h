@@ -38,6 +38,9 @@ void sortAlongRay(HitList& list);
 /// The objects may differ: at the crease of two walls a ray leaves both, and neither shadows it.
 bool sameSurface(const PolygonHit& a, const PolygonHit& b, float distance);
 
+/// Positions are off by a few units in the last place of their distance from the eye.
+inline float roundingAt(const vec3& P) { return 4e-7f * glm::length(P); }
+
 /// What is known about the start of the ray.
 struct RayStart {
   float offset = 0;

@@ -15,16 +15,6 @@ int primvarFloats(const ShadeGroup& group) {
                          [](int sum, const Primvar& p) { return sum + p.width; });
 }
 
-/// Of a primitive variable among the floats of a point; -1: there is none.
-int primvarOffset(const std::vector<Primvar>& primvars, std::string_view name) {
-  int offset = 0;
-  for (const Primvar& p : primvars) {
-    if (p.name == name) return offset;
-    offset += p.width;
-  }
-  return -1;
-}
-
 int widthOf(const std::vector<Primvar>& primvars, std::string_view name) {
   return std::find_if(primvars.begin(), primvars.end(), [&](const Primvar& p) { return p.name == name; })->width;
 }
@@ -86,7 +76,7 @@ HitMode modeOf(const Attributes& a, RayKind kind) {
 
 /// Cs and Os of a point: its primitive variable's or its attribute's.
 vec3 primitiveColor(const ShadeGroup& group, const ShadePoints& points, int i, std::string_view name, const vec3& attribute) {
-  const int offset = primvarOffset(group.primvars, name);
+  const int offset = offsetOf(group.primvars, name);
   return offset < 0 ? attribute : vec3(points.primvar(offset)[i], points.primvar(offset + 1)[i], points.primvar(offset + 2)[i]);
 }
 
@@ -103,7 +93,7 @@ bool readOutput(const ShadeGroup& group, const ShadePoints& points, int i, const
   } else if (what == "primitive") {
     const auto vector = kVectors.find(key);
     const auto number = kNumbers.find(key);
-    const int offset = primvarOffset(group.primvars, key);
+    const int offset = offsetOf(group.primvars, key);
     if (vector != kVectors.end())
       out = points.get3(vector->second, i);
     else if (number != kNumbers.end())

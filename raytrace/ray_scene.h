@@ -13,8 +13,7 @@ inline bool traceable(const Ray& ray) {
   return isFinite(ray.origin) && isFinite(ray.direction) && ray.direction != vec3(0) && ray.tMax > 0;
 }
 
-/// Positions are off by a few units in the last place of their distance from the eye.
-inline RayStart startOf(const Ray& ray) { return {ray.offset, 4e-7f * glm::length(ray.origin), ray.group}; }
+inline RayStart startOf(const Ray& ray) { return {ray.offset, roundingAt(ray.origin), ray.group}; }
 
 struct RayScene::Impl {
   Impl(const Scene& scene, const Camera& camera, const ShadingSystem& shading, const RaySettings& settings, Log& log);

@@ -213,6 +213,10 @@ void RayScene::prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ra
   ray.bias = given.bias.value_or(kBias * scale);
 }
 
+void RayScene::lookAround(const vec3& origin, float largestOffset, RayMask mask, Surroundings& out) const {
+  impl_->embree.around(origin, recordingWindow(largestOffset), mask, out);
+}
+
 const std::vector<uint8_t>* RayScene::groupsIn(const std::string& subset, const std::string& exclude) const {
   if (subset.empty() && exclude.empty()) return nullptr;
   const std::lock_guard lock(impl_->subsetsMutex);

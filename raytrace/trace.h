@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "raytrace/level.h"
+#include "raytrace/surroundings.h"
 #include "reyes/shade.h"
 
 namespace tomales {
@@ -37,6 +38,7 @@ struct Ray {
   float time = 0;               ///< Part of the shutter, 0..1.
   Level level = Level::Fine;    ///< Of surfaces that have several. A ray sees one, so that none slips between two.
   const RayFilter* filter = nullptr;  ///< Null: all pass.
+  const Surroundings* surroundings = nullptr;  ///< Null, or of its origin (RayScene::lookAround).
 };
 
 struct Hit {
@@ -95,6 +97,10 @@ class RayScene {
   /// (0: a point of the true surface): trace:offset and trace:bias, or by default more than the largest distance between the
   /// coarse surface, the true one (displacement bound included) and the micropolygon.
   void prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ray) const;
+
+  /// For many rays of this mask that leave one origin: with Ray::surroundings the hit list costs each of them little. What they meet is the
+  /// same. `largestOffset`: of any of them.
+  void lookAround(const vec3& origin, float largestOffset, RayMask mask, Surroundings& out) const;
 
   /// Do rays from points of this group meet anything that moves?
   bool samplesTime(int group) const;

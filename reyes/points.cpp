@@ -16,6 +16,12 @@ void ShadePoints::reserve(int points) {
   if (points > capacity_) setCapacity(points);
 }
 
+void ShadePoints::assign(const ShadePoints& from, int begin, int end) {
+  clear();
+  for (int i = begin; i < end; ++i) add(from.name(i));
+  for (int c = 0; c < channels_; ++c) std::copy(from.channel(c) + begin, from.channel(c) + end, channel(c));
+}
+
 void ShadePoints::shrink() {
   if (padded(count()) < capacity_) setCapacity(count());
   names_.shrink_to_fit();

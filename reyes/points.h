@@ -53,6 +53,7 @@ class ShadePoints {
   int add(SampleName name);
   int add(uint32_t key) { return add(SampleName{key, 0}); }
   void reserve(int count);
+  void assign(const ShadePoints& from, int begin, int end);  ///< Pre: of the same group, and like this with steps or without.
   void clear();
   void shrink();  ///< Gives back what growing reserved beyond need.
 

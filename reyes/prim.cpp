@@ -2,6 +2,15 @@
 
 namespace tomales {
 
+int offsetOf(const std::vector<Primvar>& primvars, std::string_view name) {
+  int offset = 0;
+  for (const Primvar& p : primvars) {
+    if (p.name == name) return offset;
+    offset += p.width;
+  }
+  return -1;
+}
+
 size_t Prim::bytes() const {
   size_t bytes = sizeof(*this) + shapeBytes();
   for (const Primvar& p : primvars_) bytes += sizeof(p) + p.values.capacity() * sizeof(float);

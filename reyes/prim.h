@@ -13,6 +13,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reyes/base/math.h"
@@ -50,6 +51,9 @@ struct Primvar {
   int width;  ///< Floats of one element.
   std::vector<float> values;
 };
+
+/// Of a variable among the floats of a point, which has those of all in their order; -1: there is none of that name.
+int offsetOf(const std::vector<Primvar>& primvars, std::string_view name);
 
 /// A whole sphere, or a whole flat disk.
 struct RoundShape {

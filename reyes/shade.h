@@ -45,6 +45,7 @@ struct ShadeContext {
   bool lampsGlow = true;       ///< For that ray.
   bool highlights = false;     ///< Diffuse rays bring highlights too: those of the reference path tracer.
   RayAnswers* answers = nullptr;  ///< Of this batch: asked before shadow and gather rays are traced. Null: all are traced.
+  bool rehearsal = false;      ///< Shaders run only to learn what they ask: no ray is traced, and nothing baked or printed.
   int chunk = 0;               ///< Set by ShadingSystem: which part of the batch is being shaded.
 };
 
@@ -82,6 +83,25 @@ struct IndirectQuery {
   float maxError = 1, maxDistance = 1e30f;
   std::string errorFunction = "screen", radiance = "shader", atlas, subset;
   int bounces = 1;
+};
+
+/// occlusion() of the hemisphere, weighted by the cosine, where its answers may be interpolated.
+struct OcclusionQuery {
+  int samples = 1;
+  float maxDistance = 1e30f, bias = -1;
+  float falloff = 0;
+  int falloffMode = 0;
+  float maxVariation = 0;          ///< How far they may be off.
+  std::string subset, excludeSubset;
+  HitSides sides = HitSides::Both;
+  bool operator==(const OcclusionQuery&) const = default;
+
+  /// How much of a ray is covered by what it meets at a distance.
+  float coveredAt(float distance) const {
+    if (!(distance < 1e30f)) return 0;
+    if (falloff <= 0) return 1;
+    return falloffMode == 1 ? std::pow(std::max(0.0f, 1 - distance / maxDistance), falloff) : std::exp(-falloff * distance);
+  }
 };
 
 /// Arrays for count() points. E is E/pi.
@@ -122,6 +142,10 @@ class ShadeServices {
   virtual bool sampleEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1, const EmitterPoints& out) const = 0;
   /// The nearest point that shines along each unit direction, of those emitters of the light whose shape is simple.
   virtual void meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction, const EmitterPoints& out) const = 0;
+
+  /// Share of the hemisphere around N that is covered, interpolated. False: nothing is known, `covered` is left alone and rays must tell.
+  virtual bool interpolatedOcclusion(const ShadePoints& points, const uint8_t* active, TmConstVec3 N, const OcclusionQuery& query,
+                                     const ShadeContext& context, float* covered) const;
 
   /// E/pi that an earlier pass stored around each point; kArea of the points is what to average over. Zero where there is none.
   virtual void storedIrradiance(const ShadePoints& points, const uint8_t* active, TmVec3 E) const;
@@ -235,6 +259,7 @@ class ShadingSystem {
   /// The indirect light switched on for a group, if any: what the gather pass must prepare.
   const IndirectQuery* indirectQuery(int group) const;
   bool needsRays() const;  ///< Some light or shader will trace.
+  bool asksOcclusion(int group) const;  ///< Does a shader of the group call occlusion() whose answers may be interpolated?
 
   LightKind lightKind(int light) const;  ///< None: its shader is missing, or it lights only what the camera sees.
   void probe(int light, LightProbe& probe) const;

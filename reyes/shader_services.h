@@ -35,10 +35,12 @@ typedef struct TmRayOptions {
   int32_t falloffMode;         /* mode 1 (1 - d / maxDistance)^falloff; falloff 0: wholly */
   int32_t drawn, number;       /* trace() along directions that the caller draws itself, one a call: how many, and which this is */
   int32_t passLamps;           /* 1: area lights do not glow for these rays, since lightAlong() or specular() has brought them */
+  float maxVariation;          /* occlusion() of a whole hemisphere by the cosine: how far an answer may be off that is interpolated between
+                                * records (docs/gi.md); 0: traced at every point; < 0: as Attribute "irradiance" "maxerror" says, if it is given */
 } TmRayOptions;
 
 #define TM_RAY_DEFAULTS \
-  { sizeof(TmRayOptions), 1, 0, 0, -1, 1e30f, 0, 0, 0, 0, TM_HIT_BOTH, TM_HIT_DEFAULT, 1, 0, 0, 0, 0, 0 }
+  { sizeof(TmRayOptions), 1, 0, 0, -1, 1e30f, 0, 0, 0, 0, TM_HIT_BOTH, TM_HIT_DEFAULT, 1, 0, 0, 0, 0, 0, -1 }
 
 /* One value of each ray of gather(): "surface:Ci", "surface:Oi", "primitive:" P, N, Ng, I, dPdu, dPdv, u, v, s, t, Cs, Os or a
  * primitive variable, "attribute:category:name", "ray:origin", "ray:direction", "ray:length". Numbers fill c[0], triples all. */

@@ -36,6 +36,7 @@ inline bool set(TmRayOptions& o, std::string_view name, const Setting& v) {
   else if (name == "othreshold") o.opacityThreshold = v.number;
   else if (name == "falloff") o.falloff = v.number;
   else if (name == "falloffmode") o.falloffMode = v.whole();
+  else if (name == "maxvariation") o.maxVariation = v.number;
   else return false;
   return true;
 }

@@ -192,6 +192,11 @@ struct Attributes {
     std::string shadingModel = "matte";
     bool operator==(const Photon&) const = default;
   } photon;
+  struct Radiosity {                                        ///< Of its radiosity map (docs/gi.md).
+    bool screen = true;                                     ///< texelSize is in pixels, else in units of the world;
+    float texelSize = 4;                                    ///< 0: it has none.
+    bool operator==(const Radiosity&) const = default;
+  } radiosity;
   std::optional<float> irradianceMaxError, irradianceMaxPixelDist;
   bool rasterOrient = true;                                 ///< Attribute "dice" "rasterorient"
   bool binaryDice = false;                                  ///< Attribute "dice" "binary": counts are powers of two.

@@ -105,14 +105,20 @@ void fields(A& a, Attributes::Photon& x) {
 }
 
 template <class A>
+void fields(A& a, Attributes::Radiosity& x) {
+  auto& [screen, texelSize] = x;
+  each(a, screen, texelSize);
+}
+
+template <class A>
 void fields(A& a, Attributes& x) {
   auto& [color, opacity, textureCoordinates, shadingRate, motionFactor, focusFactor, interpolation, matte, sides, detail, insideOut,
          name, membership, diffuseHitMode, specularHitMode, transmissionHitMode, surface, displacement, atmosphere, interior, exterior, lights,
-         areaLight, displacementBound, displacementBoundSpace, visibility, trace, indirect, photon, irradianceMaxError,
+         areaLight, displacementBound, displacementBoundSpace, visibility, trace, indirect, photon, radiosity, irradianceMaxError,
          irradianceMaxPixelDist, rasterOrient, binaryDice, user] = x;
   each(a, color, opacity, textureCoordinates, shadingRate, motionFactor, focusFactor, interpolation, matte, sides, detail, insideOut,
        name, membership, diffuseHitMode, specularHitMode, transmissionHitMode, surface, displacement, atmosphere, interior, exterior, lights,
-       areaLight, displacementBound, displacementBoundSpace, visibility, trace, indirect, photon, irradianceMaxError,
+       areaLight, displacementBound, displacementBoundSpace, visibility, trace, indirect, photon, radiosity, irradianceMaxError,
        irradianceMaxPixelDist, rasterOrient, binaryDice, user);
 }
 

@@ -10,6 +10,7 @@
 #include "reyes/app/overrides.h"
 #include "reyes/app/pixel_report.h"
 #include "reyes/app/preview.h"
+#include "reyes/app/radiosity_job.h"
 #include "reyes/app/turns_timer.h"
 #include "reyes/base/search_path.h"
 
@@ -37,6 +38,8 @@ FrameJob::FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, L
       const Visibility& v = a.visibility;
       return v.diffuse || v.specular || v.transmission || v.photon;
     });
+  gathers_ = mode_ == GiMode::Gather || mode_ == GiMode::Atlas || mode_ == GiMode::Radiosity;
+  for (size_t g = 0; g < scene.groups.size() && mode_ == GiMode::None; ++g) gathers_ |= shading_->asksOcclusion(static_cast<int>(g));
 }
 
 FrameJob::~FrameJob() = default;
@@ -61,6 +64,8 @@ void FrameJob::prepareRays() {
   rays_ = std::make_unique<RayScene>(scene_, camera_, *shading_, raySettings(settings_, scene_.options), stats_, log_);
   prepareRays([tools = RayTools{rays_.get(), shading_.get()}] { return &tools; });
   if (mode_ == GiMode::Atlas) services_->setAtlas(prepareAtlas(scene_, *rays_, *shading_, settings_, stats_, log_));
+  if (mode_ == GiMode::Radiosity)
+    services_->setRadiositySource([this] { return prepareRadiosity({rays_.get(), shading_.get()}, camera_, settings_, stats_, log_); });
 }
 
 void FrameJob::prepareRays(RaySource rays) {

@@ -33,8 +33,9 @@ class FrameJob {
   void hideAndWrite(const DeepFrame& layout, const std::function<std::optional<DeepTile>(size_t tile)>& find,
                     const std::function<void(size_t tile, const DeepTile&)>& keep);
 
-  bool gathers() const { return mode_ == GiMode::Gather || mode_ == GiMode::Atlas; }
+  bool gathers() const { return gathers_; }
   GiMode mode() const { return mode_; }
+  const Camera& camera() const { return camera_; }
   GiSettings giSettings() const;
   GiServices* services() { return services_.get(); }
   ShadingSystem& shading() { return *shading_; }
@@ -55,6 +56,7 @@ class FrameJob {
   Stats& stats_;
   Log& log_;
   const GiMode mode_;
+  bool gathers_ = false;
   const Camera camera_;
   ShaderRegistry registry_;
   ProgressMeter meter_;

@@ -5,11 +5,9 @@ namespace {
 
 GiChoice giOrUsageError(const std::string& text) {
   if (const auto choice = parseGi(text)) return *choice;
-  for (const char* later : {"radiosity", "points"})
-    if (text == later)
-      throw CLI::ValidationError(
-          "--gi", "\"" + text + "\" is not available yet; use scene, none, gather, atlas or reference");
-  throw CLI::ValidationError("--gi", "\"" + text + "\" is none of scene, none, gather, atlas, reference");
+  if (text == "points")
+    throw CLI::ValidationError("--gi", "\"" + text + "\" is not available yet; use scene, none, gather, atlas, radiosity or reference");
+  throw CLI::ValidationError("--gi", "\"" + text + "\" is none of scene, none, gather, atlas, radiosity, reference");
 }
 
 }  // namespace
@@ -46,7 +44,7 @@ void addPictureOptions(CLI::App& app, RenderSettings& s) {
 void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option_function<std::string>(
          "--gi", [&s](const std::string& t) { s.gi = giOrUsageError(t); },
-         "Indirect light: scene (as the RIB says), none, gather, atlas, reference")
+         "Indirect light: scene (as the RIB says), none, gather, atlas, radiosity, reference")
       ->type_name("MODE");
   app.add_option("--samples", s.samples,
                  "Gather rays of an irradiance sample, or paths of a point for the reference")
@@ -60,6 +58,9 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--light-seed", s.lightSeed, "Of the random numbers of light alone");
   app.add_option("--photons", s.photons, "Photons to emit for --gi atlas")->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
   app.add_option("--atlas", s.atlasFolder, "Folder of brick maps: used if they are there, else made and kept")->type_name("FOLDER");
+  app.add_option("--radiosity-texels", s.radiosityTexels, "Times as many texels along each edge of a radiosity map as objects ask, for --gi radiosity")
+      ->check(CLI::Range(1e-3, 1e3));
+  app.add_option("--radiosity-maps", s.radiosityFolder, "Write the radiosity maps there: a tiled MIP EXR for each object and side")->type_name("FOLDER");
   app.add_option("--brick-cache", s.brickCacheBytes, "Memory for bricks (default 10M)")->transform(CLI::AsSizeValue(false));
   addParsed(app, "--geometry-cache", s.geometryCache, parseBytes, "30M", "Memory for geometry that rays see at several levels (default 30M)");
   app.add_option_function<std::string>(

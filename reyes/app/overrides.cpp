@@ -84,11 +84,11 @@ bool hasIndirectLight(const Scene& scene) {
                      [](const auto& light) { return light->shader.name == "indirectlight"; });
 }
 
-/// indirectlight "string radiance" "atlas"
-bool asksForAtlas(const Scene& scene) {
-  return std::any_of(scene.lights.begin(), scene.lights.end(), [](const auto& light) {
+/// Does an indirectlight say so: "string radiance" "atlas"?
+bool asksFor(const char* what, const Scene& scene) {
+  return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const auto& light) {
     const Param* radiance = findParam(light->shader.params, "radiance");
-    return light->shader.name == "indirectlight" && radiance && !radiance->strings.empty() && radiance->strings[0] == "atlas";
+    return light->shader.name == "indirectlight" && radiance && !radiance->strings.empty() && radiance->strings[0] == what;
   });
 }
 
@@ -100,8 +100,11 @@ GiMode giModeOf(GiChoice choice, const Scene& scene) {
       return GiMode::Reference;
     case GiChoice::Atlas:
       return GiMode::Atlas;
+    case GiChoice::Radiosity:
+      return GiMode::Radiosity;
     case GiChoice::Scene:
-      return !hasIndirectLight(scene) ? GiMode::None : asksForAtlas(scene) ? GiMode::Atlas : GiMode::Gather;
+      if (!hasIndirectLight(scene)) return GiMode::None;
+      return asksFor("atlas", scene) ? GiMode::Atlas : asksFor("radiosity", scene) ? GiMode::Radiosity : GiMode::Gather;
     default:
       return GiMode::None;
   }

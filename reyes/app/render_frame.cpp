@@ -42,11 +42,11 @@ bool fitsMemory(const Scene& scene, const DeepFrame& layout, Log& log) {
   return false;
 }
 
-/// For hidden buckets: what --memory-limit leaves beside what is in memory now and what caches may grow to.
-int64_t tileBudget(const RenderSettings& settings) {
+/// For hidden buckets: what --memory-limit leaves beside what is in memory now, `held` bytes of buckets not counted, and what caches may grow to.
+int64_t tileBudget(const RenderSettings& settings, int64_t held) {
   if (!settings.memoryLimit) return kUsualLimit;
   const int64_t caches = textureShare(*settings.memoryLimit) + static_cast<int64_t>(brickCacheBytes(settings));
-  return std::max<int64_t>(0, *settings.memoryLimit - residentBytes() - caches);
+  return std::max<int64_t>(0, *settings.memoryLimit - (residentBytes() - held) - caches);
 }
 
 void reportMemory(int64_t limit, const std::string& done, const Stats& stats, Log& log) {
@@ -90,7 +90,7 @@ void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats&
   checkDisplays(scene.options, log);
   FrameJob job(scene, settings, stats, log);
   const bool given = !settings.irradiance.empty(), gathers = job.gathers() && (!given || settings.appendIrradiance);
-  const int64_t budget_bytes = tileBudget(settings);
+  const int64_t budget_bytes = tileBudget(settings, 0);
   const bool large = pixelsOf(scene) * (bytesOfTilePixel(scene) + kBytesOfPoints) > budget_bytes;
   const bool streams = !gathers && (large || !settings.preview.empty() || mayStream(scene));  // a preview wants the first rows first
 
@@ -102,14 +102,21 @@ void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats&
   if (streams) {
     job.hideAndWrite(layout, find, [&](size_t i, const DeepTile& tile) { file.keepForResume(i, tile); });
   } else {
-    TileStore store(layout.tileCount(), budget_bytes, find);
+    // What rays will meet needs room too, nobody knows yet how much.
+    TileStore store(layout.tileCount(), settings.memoryLimit && gathers && !given ? budget_bytes / 2 : budget_bytes, find);
+    const TileStore::Spill spill = [&](size_t i, const DeepTile& tile) { file.spill(i, tile); };
     const TileSink sink{{}, [&](size_t i, DeepTile&& tile) {
                           file.keepForResume(i, tile);
-                          if (!store.keep(i, tile)) file.spill(i, tile);
+                          if (!store.keep(i, tile)) spill(i, tile);
                         }, settings.resume ? find : nullptr};
     job.hide(layout, sink);
+    returnFreeMemory();  // the grids
     afterStage();
     if (!given) job.prepareRays();
+    if (settings.memoryLimit) {
+      store.shrinkTo(tileBudget(settings, store.held_bytes()), spill);
+      returnFreeMemory();
+    }
     if (gathers) job.gather(layout, store.reader());
     afterStage();
     job.write(layout, [&](size_t i) { return store.take(i); });

@@ -11,7 +11,7 @@ namespace tomales {
 
 constexpr const char* kVersion = "0.1.0";
 
-enum class GiChoice { Scene, None, Gather, Atlas, Reference };
+enum class GiChoice { Scene, None, Gather, Atlas, Radiosity, Reference };
 
 struct RenderSettings {
   std::vector<std::string> files;  ///< One RIB stream; "-" is standard input.
@@ -29,6 +29,8 @@ struct RenderSettings {
   uint32_t seed = 0;
   std::optional<uint32_t> lightSeed;  ///< Of the random numbers of light alone; none: seed.
   int64_t photons = 1'000'000;     ///< To emit for --gi atlas.
+  float radiosityTexels = 1;       ///< Times as many along each edge of a radiosity map as objects ask.
+  std::string radiosityFolder;     ///< Radiosity maps are written there too; empty: nowhere.
   std::string atlasFolder;         ///< Brick maps to use, or to make; empty: made in a temporary folder.
   size_t brickCacheBytes = BrickCache::kDefaultBytes;
   std::optional<int> bucketSize;

@@ -3,6 +3,7 @@
 #include <atomic>
 
 #include "reyes/app/atlas_job.h"
+#include "reyes/app/radiosity_job.h"
 #include "reyes/app/interrupt.h"
 #include "reyes/app/overrides.h"
 #include "reyes/rib.h"
@@ -70,6 +71,8 @@ void ShotJob::prepareLight() {
       const RayTools& tools = *world_->tools();
       return prepareAtlas(tools.rays->scene(), *tools.rays, *tools.shading, settings_, stats_, log_);
     });
+  if (job_->mode() == GiMode::Radiosity)
+    job_->services()->setRadiositySource([this] { return prepareRadiosity(*world_->tools(), job_->camera(), settings_, stats_, log_); });
   if (!irradiance_) return;
   IrradianceShot given = irradiance_->takeShot();
   if (given.emitters && given.shot == file_->shotSum()) job_->services()->useEmitters(std::move(*given.emitters));

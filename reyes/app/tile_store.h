@@ -12,6 +12,8 @@ class TileStore {
  public:
   /// Where tiles rest that are not in memory. `load` gives nothing for those that are not there.
   using Load = std::function<std::optional<DeepTile>(size_t tile)>;
+  /// Puts a tile where `load` finds it.
+  using Spill = std::function<void(size_t index, const DeepTile& tile)>;
   TileStore(size_t tiles, int64_t budget_bytes, Load load)
       : load_(std::move(load)), budget_bytes_(budget_bytes), kept_(tiles) {}
 
@@ -24,6 +26,19 @@ class TileStore {
     }
     kept_[index] = std::make_shared<DeepTile>(std::move(tile));
     return true;
+  }
+
+  int64_t held_bytes() const { return held_bytes_; }
+
+  /// No more than that from now on: what exceeds it goes to where `load` finds it. Not while tiles are read.
+  void shrinkTo(int64_t budget_bytes, const Spill& spill) {
+    budget_bytes_ = budget_bytes;
+    for (size_t i = 0; i < kept_.size() && held_bytes_ > budget_bytes_; ++i) {
+      if (!kept_[i]) continue;
+      spill(i, *kept_[i]);
+      held_bytes_ -= static_cast<int64_t>(kept_[i]->bytes());
+      kept_[i].reset();
+    }
   }
 
   /// To look at; null: it is nowhere.
@@ -49,7 +64,7 @@ class TileStore {
 
  private:
   const Load load_;
-  const int64_t budget_bytes_;
+  int64_t budget_bytes_;
   std::atomic<int64_t> held_bytes_{0};
   std::vector<std::shared_ptr<DeepTile>> kept_;
 };

@@ -17,6 +17,7 @@ namespace {
 constexpr uint32_t kByteOrder = 0x01020304;
 constexpr char kEnd[9] = "TOMALESX";
 constexpr int kCompression = -5;  // floats have little to give, and what they have zstd's fastest finds too
+constexpr size_t kKeptBytes = 1 << 20;  ///< Of what a thread reads into.
 constexpr uint64_t kMostChunkBytes = uint64_t{1} << 30;
 
 struct Preamble {
@@ -128,9 +129,14 @@ struct ChunkReader::Impl {
 
   Bytes unpack(const Entry& e) const {
     if (e.offset > bytes || e.stored > bytes - e.offset || e.size > kMostChunkBytes) fail("is damaged: a chunk lies outside of it");
-    Bytes stored(e.stored), out(e.size);
-    readAt(e.offset, stored.data(), stored.size());
-    const size_t size = ZSTD_decompress(out.data(), out.size(), stored.data(), stored.size());
+    // Of each thread, because making them takes longer than a small chunk.
+    thread_local std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> zstd{ZSTD_createDCtx(), &ZSTD_freeDCtx};
+    thread_local Bytes stored;
+    if (stored.size() < e.stored) stored.resize(e.stored);
+    Bytes out(e.size);
+    readAt(e.offset, stored.data(), e.stored);
+    const size_t size = ZSTD_decompressDCtx(zstd.get(), out.data(), out.size(), stored.data(), e.stored);
+    if (stored.size() > kKeptBytes) stored = {};
     if (ZSTD_isError(size)) fail(fmt::format("is damaged: {}", ZSTD_getErrorName(size)));
     if (size != e.size) fail("is damaged: a chunk is too short");
     return out;
@@ -170,7 +176,7 @@ ChunkReader::~ChunkReader() = default;
 ChunkReader::ChunkReader(ChunkReader&&) noexcept = default;
 const std::string& ChunkReader::path() const { return impl_->path; }
 uint32_t ChunkReader::count() const { return static_cast<uint32_t>(impl_->entries.size()); }
-const Bytes& ChunkReader::header() const { return impl_->header; }
+Bytes ChunkReader::takeHeader() { return std::exchange(impl_->header, {}); }
 uint64_t ChunkReader::fileBytes() const { return impl_->bytes; }
 
 Bytes ChunkReader::read(uint32_t chunk) const {

@@ -50,7 +50,7 @@ class ChunkReader {
 
   const std::string& path() const;
   uint32_t count() const;             ///< Of chunks, without the header.
-  const Bytes& header() const;
+  Bytes takeHeader();                 ///< Leaves none: it may be large, and whoever asks makes something else of it.
   Bytes read(uint32_t chunk) const;   ///< Throws FileError.
   uint64_t fileBytes() const;
 

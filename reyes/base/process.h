@@ -8,4 +8,7 @@ namespace tomales {
 int64_t residentBytes();
 int64_t peakResidentBytes();
 
+/// What has been freed goes back to the machine; else the allocator keeps most of it. Takes milliseconds.
+void returnFreeMemory();
+
 }  // namespace tomales

@@ -20,13 +20,4 @@ void transformPrimvar(const Primvar& p, const mat4& m, const mat3& normals, int 
     }
 }
 
-int offsetOf(const std::vector<Primvar>& primvars, std::string_view name) {
-  int offset = 0;
-  for (const Primvar& p : primvars) {
-    if (p.name == name) return offset;
-    offset += p.width;
-  }
-  return -1;
-}
-
 }  // namespace tomales

@@ -72,7 +72,5 @@ void evaluateAt(const Object& o, float time, int n, Evaluated& out, const Evalua
 mat3 normalMatrix(const Object& o, const mat4& m);
 /// Primitive variables given in object space arrive in current space.
 void transformPrimvar(const Primvar& p, const mat4& m, const mat3& normals, int n, float* values, int stride);
-/// Offset of the primvar `name` among the group's floats, or -1.
-int offsetOf(const std::vector<Primvar>& primvars, std::string_view name);
 
 }  // namespace tomales

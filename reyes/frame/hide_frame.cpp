@@ -19,10 +19,30 @@ std::optional<DeepTile> hideBucket(size_t bucket, const PixelRect& rect, const N
   return hider.resolve();
 }
 
-}  // namespace
-
-/// Buckets hold all their samples; those of more are halved, which no picture shows.
+// Buckets hold all their samples, and of crowds a grid for each sample or so. Those of more are halved, which no picture shows.
 constexpr int64_t kMostSamplesOfBucket = 1 << 22;
+constexpr double kMostPatchesOfBucket = 1 << 19;
+
+double patchesPerPixel(const Scene& scene) {
+  double patches = 0;
+  for (const Object& o : scene.objects)
+    if (!o.shapes.empty()) patches += o.shape().patchCount();  // those of a shot have none
+  return patches / (static_cast<double>(scene.options.xResolution) * scene.options.yResolution);
+}
+
+void limitBuckets(DeepFrame& frame, double patchesPerPixel) {
+  int &width = frame.bucketWidth, &height = frame.bucketHeight;
+  const auto isTooLarge = [&] {
+    const int64_t pixels = int64_t{width} * height;
+    return pixels > 1 && (pixels * frame.samplesPerPixel > kMostSamplesOfBucket || static_cast<double>(pixels) * patchesPerPixel > kMostPatchesOfBucket);
+  };
+  while (isTooLarge()) {
+    int& side = width > height ? width : height;
+    side = (side + 1) / 2;
+  }
+}
+
+}  // namespace
 
 DeepFrame layOutFrame(const Scene& scene) {
   const Options& o = scene.options;
@@ -35,10 +55,7 @@ DeepFrame layOutFrame(const Scene& scene) {
   frame.bucketWidth = std::max(1, o.bucketWidth);
   frame.bucketHeight = std::max(1, o.bucketHeight);
   frame.samplesPerPixel = samplePattern(o, 0).count();
-  while (int64_t{frame.bucketWidth} * frame.bucketHeight * frame.samplesPerPixel > kMostSamplesOfBucket && frame.bucketWidth * frame.bucketHeight > 1) {
-    int& side = frame.bucketWidth > frame.bucketHeight ? frame.bucketWidth : frame.bucketHeight;
-    side = (side + 1) / 2;
-  }
+  limitBuckets(frame, patchesPerPixel(scene));
   frame.columns = (frame.padded.width() + frame.bucketWidth - 1) / frame.bucketWidth;
   frame.rows = (frame.padded.height() + frame.bucketHeight - 1) / frame.bucketHeight;
   return frame;

@@ -11,8 +11,7 @@ namespace tomales {
 
 namespace {
 
-constexpr int kSmall_cells = 256;  ///< Pieces with fewer share a node,
-constexpr int kBlock_buckets = 4;  ///< if they begin in the same square of buckets,
+constexpr int kSmall_cells = 256;  ///< Pieces with fewer share a node if they begin in the same bucket,
 constexpr int kStack_vertices = 512;  ///< and grids of about as many vertices,
 constexpr int kStacked_vertices = 64; ///< if they have no more: of larger ones too many would be diced for one that is seen.
 
@@ -32,7 +31,7 @@ bool canStack(const HideContext& context, const SubPatch& piece) {
 
 /// What pieces of a node have in common, and those of a grid.
 struct Neighbour {
-  int row, column;  ///< Of a square of buckets.
+  int row, column;  ///< Of a bucket.
   int nu, nv;
   const SubPatch* piece;
   bool sharesNode(const Neighbour& o) const { return row == o.row && column == o.column; }
@@ -164,7 +163,7 @@ HideNodes pieceNodes(HideContext& context, std::span<const SubPatch> pieces, con
     const BucketRange touched = within & context.buckets.touched(piece.raster);
     if (touched.empty()) continue;
     if (piece.nu * piece.nv < kSmall_cells)
-      small.push_back({touched.r0 / kBlock_buckets, touched.c0 / kBlock_buckets, piece.nu, piece.nv, &piece});
+      small.push_back({touched.r0, touched.c0, piece.nu, piece.nv, &piece});
     else
       out.push_back(std::make_unique<PieceNode>(context, std::vector{alone(piece)}, Placement{piece.raster, piece.zMin}, touched));
   }

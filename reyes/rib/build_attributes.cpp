@@ -176,6 +176,8 @@ const std::unordered_map<std::string_view, Setter>& numberSetters() {
       {"indirect:gain", [](Attributes& a, const Param& p) { a.indirect.gain = p.number(1); }},
       {"indirect:bleeding", [](Attributes& a, const Param& p) { a.indirect.bleeding = p.number(1); }},
       {"indirect:bleedingcolor", [](Attributes& a, const Param& p) { a.indirect.bleedingColor = color(p); }},
+      {"radiosity:screentexels", [](Attributes& a, const Param& p) { a.radiosity = {true, p.number(0)}; }},
+      {"radiosity:worldtexels", [](Attributes& a, const Param& p) { a.radiosity = {false, p.number(0)}; }},
       {"irradiance:maxerror", [](Attributes& a, const Param& p) { a.irradianceMaxError = p.number(0); }},
       {"irradiance:maxpixeldist",
        [](Attributes& a, const Param& p) { a.irradianceMaxPixelDist = p.number(0); }},

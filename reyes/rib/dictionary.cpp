@@ -23,6 +23,8 @@ constexpr Standard kStandard[] = {
     {"varying float[2]", "st"},
     {"constant float", "constantwidth"},
     {"varying float", "patchangle patchaspectratio"},
+    {"uniform point", "gatherP"},
+    {"uniform normal", "gatherN"},
     // Parameters of the standard shaders (RISpec 3.2 appendix A)
     {"float",
      "Ka Kd Ks Kr roughness intensity coneangle conedeltaangle beamdistribution amplitude mindistance "
@@ -60,7 +62,7 @@ constexpr Standard kStandard[] = {
      "shade:transmissionhitmode shade:camerahitmode"},
     {"float",
      "displacementbound:sphere bound:displacement trace:bias trace:offset trace:tessellation indirect:gain indirect:bleeding "
-     "irradiance:maxerror irradiance:maxpixeldist irradiance:shadingrate"},
+     "irradiance:maxerror irradiance:maxpixeldist irradiance:shadingrate radiosity:screentexels radiosity:worldtexels"},
     {"color", "indirect:bleedingcolor"},
     {"int",
      "visibility:camera visibility:diffuse visibility:specular visibility:transmission visibility:photon "

@@ -32,9 +32,8 @@ void warnAboutUnsupported(const BoundShader& light, const IndirectQuery& q, Log&
   };
   if (q.errorFunction != "screen" && q.errorFunction != "ward" && q.errorFunction != "hessian")
     warn("errorfunction", q.errorFunction, "\"screen\" is used");
-  if (q.radiance != "shader" && q.radiance != "atlas") warn("radiance", q.radiance, "gather rays run the shaders");
+  if (q.radiance != "shader" && q.radiance != "atlas" && q.radiance != "radiosity") warn("radiance", q.radiance, "gather rays run the shaders");
   if (!q.atlas.empty()) warn("atlas", q.atlas, "it is not read");
-  if (!q.subset.empty()) warn("subset", q.subset, "gather rays see all objects");
 }
 
 IndirectQuery queryOf(const BoundShader& light, Log& log) {

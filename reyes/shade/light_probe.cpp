@@ -4,6 +4,10 @@
 
 namespace tomales {
 
+bool ShadeServices::interpolatedOcclusion(const ShadePoints&, const uint8_t*, TmConstVec3, const OcclusionQuery&, const ShadeContext&, float*) const {
+  return false;
+}
+
 void ShadeServices::storedIrradiance(const ShadePoints& points, const uint8_t* active, TmVec3 E) const {
   for (int i = 0; i < points.count(); ++i)
     if (active[i]) set(E, i, vec3(0.0f));

@@ -76,10 +76,8 @@ bool PluginTrial::begin(const std::string& path) {
 }
 
 std::string PluginTrial::fateOf(const std::string& path) {
-  if (!begin(path)) {
-    start();
-    if (!begin(path)) return {};  // no child to be had: untried
-  }
+  works_ = begin(path) || (start(), begin(path));
+  if (!works_) return {};
   const Heard heard = hear(socket_);
   if (heard == Heard::Word) return {};
   if (heard == Heard::Nothing) kill(child_, SIGKILL);

@@ -8,21 +8,24 @@
 namespace tomales {
 
 /// One child, the program tomales_plugin_trial, tries plugin after plugin. It is replaced when one has ended it, and ends by itself when nothing is
-/// asked for a while. Where there is no such program, nothing is tried.
+/// asked for a while.
 class PluginTrial {
  public:
   PluginTrial() = default;
   ~PluginTrial() { end(); }
   PluginTrial(const PluginTrial&) = delete;
 
-  /// What becomes of a process that loads this plugin; empty: it lives.
+  /// What becomes of a process that loads this plugin; empty: it lives, or there is no such child.
   std::string fateOf(const std::string& path);
+  /// False: the child could not be started, so that the last plugin is untried.
+  bool works() const { return works_; }
 
  private:
   bool begin(const std::string& path);
   void start();
   int end();
 
+  bool works_ = true;
   pid_t child_ = -1;
   int socket_ = -1;
 };

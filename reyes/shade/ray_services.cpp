@@ -14,6 +14,8 @@ namespace {
 
 constexpr float kSpecularCone = 10 * kPi / 180;  ///< trace:specularthreshold of rispec-table 3.2: wider rays are diffuse.
 constexpr float kFar = 1e30f;                    ///< RI_INFINITY: the distance to nothing
+constexpr float kWholeCone = 0.999f * kPi / 2;   ///< Shaders say pi/2 with few digits.
+constexpr float kVariationOfError = 0.05f;       ///< That maxerror 1 allows.
 constexpr uint32_t kConeStream = 0x636f6e65U, kBaseStream = 0x62617365U;
 
 TmRayOptions drawnOptionsOf(const TmRayOptions* given) {
@@ -117,10 +119,19 @@ bool traces(const Batch& batch) {
   return batch.points && batch.scene.services;
 }
 
-float weightOf(const TmRayOptions& o, float distance) {
-  if (!(distance < kFar)) return 0;
-  if (o.falloff <= 0) return 1;
-  return o.falloffMode == 1 ? std::pow(std::max(0.0f, 1 - distance / o.maxDistance), o.falloff) : std::exp(-o.falloff * distance);
+/// What occlusion() asks.
+OcclusionQuery occlusionOf(const TmRayOptions& o, const RayQuery& rays, const Attributes& a) {
+  OcclusionQuery q{o.samples, o.maxDistance, o.bias, o.falloff, o.falloffMode, o.maxVariation, rays.subset, rays.excludeSubset, rays.sides};
+  if (q.maxVariation < 0) q.maxVariation = kVariationOfError * a.irradianceMaxError.value_or(0.0f);
+  return q;
+}
+
+/// Could earlier records answer? They lie at the points of batches that the eye sees, and hold whole hemispheres.
+bool isInterpolated(const Batch& batch, const TmGrid* g, TmConstVec3 P, const TmRayOptions& o, const OcclusionQuery& q) {
+  if (!(q.maxVariation > 0) || batch.context.kind != RayKind::Camera || o.uniform || o.coneAngle < kWholeCone || o.sampleBase > 0) return false;
+  for (int i = 0; i < g->count; ++i)
+    if (g->active[i] && get(P, i) != batch.points->position(i)) return false;
+  return true;
 }
 
 }  // namespace
@@ -205,6 +216,10 @@ void occlusion(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 N, cons
   if (!traces(batch)) return;
   Cone cone(batch, g, options);
   RayQuery query = queryOf(options, RayKind::Diffuse);
+  const OcclusionQuery asked = occlusionOf(options, query, *batch.group.group->attributes);
+  if (!radiance.x && isInterpolated(batch, g, P, options, asked) &&
+      batch.scene.services->interpolatedOcclusion(*batch.points, g->active, N, asked, batch.context, covered))
+    return primary.spread(covered);
   setFootprints(batch, g, N, options, query);
   RayResult result;
   result.distance = batch.arena.floats(g->count);
@@ -214,7 +229,7 @@ void occlusion(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 N, cons
     cone.aim(P, N, query.number);
     batch.scene.services->trace(*batch.points, g->active, cone.origin(), cone.direction(), query, batch.context, result);
     forActive(g, [&](int i) {
-      covered[i] += share * weightOf(options, result.distance[i]);
+      covered[i] += share * asked.coveredAt(result.distance[i]);
       if (radiance.x) set(radiance, i, get(radiance, i) + share * get(result.color, i));
     });
   }

@@ -15,6 +15,7 @@ struct ShaderRegistry::Impl {
   std::map<std::pair<int, std::string>, const TmShader*> shaders;
   std::map<std::string, bool> plugins;  // by path: did it load
   PluginTrial trial;
+  bool untriedSaid = false;
 
   void refuse(const std::string& origin, const std::string& problem) {
     const SourceLoc where{std::make_shared<const std::string>(origin), 0};
@@ -75,6 +76,9 @@ bool ShaderRegistry::Impl::load(const std::string& path) {
   if (const auto it = plugins.find(path); it != plugins.end()) return it->second;
   bool& loaded = plugins[path] = false;
   if (const std::string fate = trial.fateOf(path); !fate.empty()) return refuse(path, fate + "; it is left out"), false;
+  if (!trial.works() && !untriedSaid)
+    untriedSaid = true, log.report(Severity::Warning, "shader-plugin", {std::make_shared<const std::string>(path), 0},
+                                   "plugins are loaded untried, and may end the program: tomales_plugin_trial cannot be started");
   void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle) return refuse(path, fmt::format("cannot be loaded: {}", dlerror())), false;
   const auto function = reinterpret_cast<TmShadersFunction>(dlsym(handle, TM_SHADERS_SYMBOL));
@@ -82,7 +86,7 @@ bool ShaderRegistry::Impl::load(const std::string& path) {
   return loaded = add(function(), path);
 }
 
-ShaderRegistry::ShaderRegistry(Log& log) : impl_(new Impl{log, {}, {}, {}, {}}) {}
+ShaderRegistry::ShaderRegistry(Log& log) : impl_(new Impl{log, {}, {}, {}, {}, false}) {}
 ShaderRegistry::~ShaderRegistry() = default;
 
 bool ShaderRegistry::addLibrary(const TmShaderLibrary* library, const std::string& origin) {

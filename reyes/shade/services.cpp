@@ -84,7 +84,9 @@ void report(void* host, const TmGrid*, int32_t severity, const char* message) {
   batch.report(severity >= 2 ? Severity::Missing : Severity::Warning, "shader-says", message);
 }
 
-void print(void*, const TmGrid*, const char* text) { std::fputs((std::string(text) + "\n").c_str(), stderr); }
+void print(void* host, const TmGrid*, const char* text) {
+  if (!batchOf(host).context.rehearsal) std::fputs((std::string(text) + "\n").c_str(), stderr);
+}
 
 }  // namespace
 

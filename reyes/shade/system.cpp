@@ -9,13 +9,6 @@ namespace {
 constexpr int kChunk =
     256;  // points: a few hundred kB of light samples, so a chunk stays in the second-level cache
 
-void copyChunk(const ShadePoints& from, int begin, int end, ShadePoints& to) {
-  to.clear();
-  for (int i = begin; i < end; ++i) to.add(from.name(i));
-  for (int c = 0; c < from.channelCount(); ++c)
-    std::copy(from.channel(c) + begin, from.channel(c) + end, to.channel(c));
-}
-
 /// A shader that threw leaves nothing worth showing; one that divides by zero leaves points to black out.
 void repair(Batch& batch, const BoundShader& shader, bool finished) {
   if (finished) return batch.blackOutNonFinite(shader);
@@ -67,7 +60,7 @@ void ShadingSystem::shade(const ShadePoints& points, const ShadeContext& context
   ShadePoints chunk(points.group(), points.primvarFloats(), points.hasSteps());
   chunk.reserve(std::min(count, kChunk));
   for (int begin = 0; begin < count; begin += kChunk) {
-    copyChunk(points, begin, std::min(begin + kChunk, count), chunk);
+    chunk.assign(points, begin, std::min(begin + kChunk, count));
     ArenaLease arena;
     ShadeContext chunkContext = context;
     chunkContext.chunk = begin / kChunk;
@@ -93,6 +86,11 @@ vec3 ShadingSystem::visibleEmission(int group) const {
 const IndirectQuery* ShadingSystem::indirectQuery(int group) const {
   const auto& query = impl_->groups[static_cast<size_t>(group)].indirect;
   return query ? &*query : nullptr;
+}
+
+bool ShadingSystem::asksOcclusion(int group) const {
+  const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
+  return g.surface->can(TM_OCCLUDED) || std::any_of(g.lights.begin(), g.lights.end(), [](const BoundLight* l) { return l->can(TM_OCCLUDED); });
 }
 
 bool ShadingSystem::needsRays() const {

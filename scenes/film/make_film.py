@@ -53,6 +53,19 @@ def numbers(values):
     return " ".join(f"{v:.5g}" for v in values)
 
 
+FILL = 'LightSource "ambientlight" "fill" "intensity" [0.12]'
+# Indirect light instead, also of a sky that gather rays alone meet.
+GI = """LightSource "indirectlight" "gi" "float samples" [600]
+AttributeBegin
+Attribute "identifier" "name" ["sky"]
+Attribute "visibility" "int camera" [0] "int diffuse" [1] "int specular" [0] "int transmission" [0]
+Attribute "radiosity" "float screentexels" [64]
+Surface "constant"
+Color [0.22 0.27 0.36]
+Sphere 60 -60 60 360
+AttributeEnd"""
+
+
 def rib():
     points, colors, faces = mesh()
     flat = lambda rows: [v for row in rows for v in row]
@@ -79,7 +92,7 @@ Rotate 24 0 1 0
 WorldBegin
 LightSource "spotlight" "key" "from" [-4 5 -5] "to" [0 0 0] "intensity" [55] "coneangle" [0.7] "string shadowname" ["raytrace"] "lightcolor" [1 0.93 0.8]
 LightSource "distantlight" "rim" "from" [3 2.5 4] "to" [0 0 0] "intensity" [0.5] "lightcolor" [0.6 0.75 1]
-LightSource "ambientlight" "fill" "intensity" [0.12]
+{GI if "--gi" in sys.argv else FILL}
 AttributeBegin
 Attribute "identifier" "name" ["floor"]
 Surface "matte"

@@ -35,9 +35,9 @@ struct ChunkFile : ::testing::Test {
 
 TEST_F(ChunkFile, ChunksComeBackInAnyOrder) {
   write();
-  const ChunkReader r(path, "TESTFILE", 3);
+  ChunkReader r(path, "TESTFILE", 3);
   ASSERT_EQ(r.count(), 3u);
-  EXPECT_EQ(textOf(r.header()), "the header");
+  EXPECT_EQ(textOf(r.takeHeader()), "the header");
   EXPECT_EQ(r.read(2).size(), 0u);
   EXPECT_EQ(textOf(r.read(1)), std::string(5000, 'x'));
   EXPECT_EQ(textOf(r.read(0)), "first");
@@ -64,8 +64,8 @@ TEST_F(ChunkFile, OtherKindsAndVersionsAreRefused) {
 /// All that is in the file; nothing if reading it is an error.
 std::vector<Bytes> contents(const std::string& path) {
   try {
-    const ChunkReader r(path, "TESTFILE", 3);
-    std::vector<Bytes> all{r.header()};
+    ChunkReader r(path, "TESTFILE", 3);
+    std::vector<Bytes> all{r.takeHeader()};
     for (uint32_t i = 0; i < r.count(); ++i) all.push_back(r.read(i));
     return all;
   } catch (const FileError&) {

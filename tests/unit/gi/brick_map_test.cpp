@@ -143,8 +143,76 @@ TEST_F(BrickMaps, PointsOnDiskMakeTheSameMapHoweverFewFitIntoMemory) {
   for (const uint64_t most : {1000u, 3000u, 1000000u}) {
     const auto parts = bricksOf([&](const auto& store) { return buildBricks(tiles, {}, store, most); });
     ASSERT_EQ(parts.size(), whole.size()) << most;
-    for (size_t i = 0; i < whole.size(); ++i) EXPECT_TRUE(parts[i].data == whole[i].data && parts[i].first == whole[i].first) << most;
+    for (size_t i = 0; i < whole.size(); ++i) EXPECT_EQ(parts[i].bytes(), whole[i].bytes()) << most;
   }
+}
+
+/// Layers of some voxels: one, none, or several, each with two floats.
+Brick::Parts someParts(float scale) {
+  Brick::Parts parts;
+  for (uint16_t v = 3; v < kBrickVoxels; v = static_cast<uint16_t>(v + 7))
+    for (uint32_t l = 0; l < (v % 5 ? 1u : 3u); ++l) {
+      const float value = scale * unitFloat(hashCombine(v, l));
+      parts.voxels.push_back(v);
+      parts.layers.emplace_back(vec3(l == 0, l == 1, l == 2), v % 2 == 0);
+      parts.data.insert(parts.data.end(), {value, 5 - 2 * value});
+    }
+  return parts;
+}
+
+TEST(Brick, HoldsItsLayersWithinASixteenthOfTheTolerance) {
+  const Brick::Parts parts = someParts(40);
+  for (const float tolerance : {0.0f, 0.005f, 0.03f, 10.0f}) {
+    const Brick brick(parts, 2, tolerance);
+    const bool rounded = 40 * 2 / 65535.0f / 2 < tolerance / 16;
+    EXPECT_EQ(brick.bytes().size() < Brick(parts, 2, 0).bytes().size(), rounded) << tolerance;
+    size_t l = 0;
+    for (int v = 0; v < kBrickVoxels; ++v)
+      for (auto [i, end] = brick.layersOf(v); i < end; ++i, ++l) {
+        ASSERT_LT(l, parts.voxels.size());
+        EXPECT_EQ(i, l);
+        EXPECT_EQ(parts.voxels[l], v);
+        EXPECT_EQ(brick.layer(i).normal(), parts.layers[l].normal());
+        EXPECT_EQ(brick.layer(i).incoherent, parts.layers[l].incoherent);
+        float got[2] = {1, 1};
+        brick.add(i, 0.5f, got);
+        for (int k = 0; k < 2; ++k) EXPECT_NEAR(got[k], 1 + 0.5f * parts.data[2 * l + static_cast<size_t>(k)], tolerance / 32 + 1e-5f);
+      }
+    EXPECT_EQ(l, parts.voxels.size());
+  }
+}
+
+TEST(Brick, IsMadeOfItsBytesAndOfNoOthers) {
+  const Brick brick(someParts(1), 2, 0.01f);
+  ASSERT_TRUE(Brick::of(brick.bytes(), 2));
+  EXPECT_EQ(Brick::of(brick.bytes(), 2)->bytes(), brick.bytes());
+  EXPECT_FALSE(Brick::of(brick.bytes(), 3));
+  EXPECT_FALSE(Brick::of({}, 2));
+  std::vector<std::byte> longer = brick.bytes(), shorter = brick.bytes();
+  longer.push_back({}), shorter.pop_back();
+  EXPECT_FALSE(Brick::of(longer, 2));
+  EXPECT_FALSE(Brick::of(shorter, 2));
+  for (size_t at = 0; at < brick.bytes().size(); ++at) {  // whatever is in them, no voxel has layers that are not there
+    std::vector<std::byte> changed = brick.bytes();
+    changed[at] ^= std::byte{0x55};
+    const auto other = Brick::of(changed, 2);
+    float sum[2] = {0, 0};
+    for (int v = 0; other && v < kBrickVoxels; ++v)
+      for (auto [i, end] = other->layersOf(v); i < end; ++i) other->add(i, other->layer(i).normal().x, sum);
+  }
+}
+
+TEST(BrickLayer, AnswersNormalsWithin45Degrees) {
+  for (uint32_t i = 0; i < 2000; ++i) {
+    const vec2 a = sobol2(i, 1), b = sobol2(i, 2);
+    const vec3 n = cosineHemisphere(a), m = cosineHemisphere(b);
+    const float cosine = dot(n, m);
+    if (std::abs(cosine - kLayerCosine) < 0.01f) continue;
+    EXPECT_EQ(BrickLayer(n, false).answers(m), cosine > kLayerCosine);
+    EXPECT_GT(dot(BrickLayer(n, false).normal(), n), 0.9999f);
+  }
+  EXPECT_TRUE(BrickLayer(vec3(0, 0, 1), false).answers(vec3(0)));
+  EXPECT_TRUE(BrickLayer(vec3(0), false).answers(vec3(0, 0, 1)));
 }
 
 TEST_F(BrickMaps, ScaledRadiiReachFromCubesThatAreNotInMemory) {
@@ -158,7 +226,7 @@ TEST_F(BrickMaps, ScaledRadiiReachFromCubesThatAreNotInMemory) {
   buildBricks(file.readAll(), wide, [&](const Brick& b) { whole.push_back(b); });
   buildBricks(PointTiles(file), wide, [&](const Brick& b) { parts.push_back(b); }, 1300);
   ASSERT_EQ(parts.size(), whole.size());
-  for (size_t i = 0; i < whole.size(); ++i) EXPECT_EQ(parts[i].data, whole[i].data);
+  for (size_t i = 0; i < whole.size(); ++i) EXPECT_EQ(parts[i].bytes(), whole[i].bytes());
 }
 
 TEST_F(BrickMaps, EveryPointLiesInOneTileAndCompactChunksHoldTheSamePoints) {

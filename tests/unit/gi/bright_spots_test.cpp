@@ -99,7 +99,7 @@ TEST(Gather, RaysAimedAtABrightSpotKeepTheMeanAndTakeTheNoise) {
     for (int i = 0; i < count; ++i) {
       GatherPoint point = from;
       point.key = static_cast<uint32_t>(i);
-      const double E = luminance(gather(world.rays, world.shading, point, settings, aimedAt, world.stats).E);
+      const double E = luminance(gather(world.rays, world.shading, point, settings, {&aimedAt}, world.stats).E);
       sum += E, squares += E * E;
     }
     const double mean = sum / count;

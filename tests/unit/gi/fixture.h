@@ -2,6 +2,7 @@
 #pragma once
 #include "gi/services.h"
 #include "gi/state.h"
+#include "reyes/dice.h"
 
 namespace tomales::test {
 
@@ -132,9 +133,12 @@ inline DeepFrame frameOf(const World& world, int bucket) {
         if (hit.object < 0) continue;
         const int group = world.scene.objects[static_cast<size_t>(hit.object)].group;
         int& b = batchOfGroup[static_cast<size_t>(group)];
-        if (b < 0) b = static_cast<int>(tile.batches.size()), tile.batches.emplace_back(group, 0);
+        int floats = 0;
+        for (const Primvar& p : world.scene.groups[static_cast<size_t>(group)].primvars) floats += p.width;
+        if (b < 0) b = static_cast<int>(tile.batches.size()), tile.batches.emplace_back(group, floats);
         ShadePoints& batch = tile.batches[static_cast<size_t>(b)];
         const int i = batch.add(static_cast<uint32_t>(y * 10000 + x));
+        if (floats > 0) evaluatePoint(world.scene, hit.object, hit.patch, hit.u, hit.v, batch, i);
         const vec3 P = ray.origin + hit.t * ray.direction;
         batch.set3(kPx, i, P), batch.set3(kIx, i, P);
         batch.set3(kNx, i, hit.normal), batch.set3(kNgx, i, hit.geometricNormal);

@@ -181,5 +181,20 @@ TEST(Closest, GivesTheSameBitsForAnyNumberOfThreads) {
   }
 }
 
+TEST(RayGeometry, TwoLargeGroupsTakeTwiceTheMemoryOfOne) {
+  const auto bytesOf = [](int spheres) {
+    World world;
+    world.attributes.trace.tessellation = 8;
+    for (int i = 0; i < spheres; ++i) {
+      world.attributes.shadingRate = 1 + 0.01f * static_cast<float>(i);  // a group of its own
+      world.add(sphere(), translation({0, 0, 5 + 3 * static_cast<float>(i)}));
+    }
+    world.build();
+    EXPECT_GT(world.stats.raytrace.coarsePolygons, 4096 * spheres);
+    return static_cast<double>(world.stats.raytrace.bytes) / static_cast<double>(world.stats.raytrace.coarsePolygons);
+  };
+  EXPECT_LT(bytesOf(2), 1.05 * bytesOf(1)) << "positions and indices are copied";
+}
+
 }  // namespace
 }  // namespace tomales::test

@@ -14,11 +14,7 @@ struct BrickMapFile : ::testing::Test {
   const fs::path folder = fs::temp_directory_path() / ("tomales_rib_bricks_" + std::to_string(::getpid()));
   BrickMapFile() {
     fs::create_directories(folder);
-    Brick brick;
-    std::fill(brick.first.begin() + 1, brick.first.end(), uint16_t{1});
-    brick.first.back() = 2;
-    brick.layers = {{{0, 0, 1}}, {vec3(0)}};
-    brick.data = {1, 2, 3, 0.5f, 4, 5, 6, 0.25f};
+    const Brick brick({{0, kBrickVoxels - 1}, {{vec3(0, 0, 1), false}, {vec3(0), false}}, {1, 2, 3, 0.5f, 4, 5, 6, 0.25f}}, 4, 0);
     BrickFileWriter file((folder / "two.bkm").string());
     file.add(brick);
     file.finish({{"irradiance", 3}, {"area", 1}}, {{vec3(0), 1}, {BrickNode{}}, 0}, {});

@@ -1,0 +1,105 @@
+// occlusion() from records of the irradiance cache's kind, of what is not covered instead of light.
+#include "gi/state.h"
+#include "reyes/base/parallel.h"
+#include "reyes/base/rng.h"
+
+namespace tomales {
+namespace {
+
+constexpr float kMostPixels = 40;  ///< As of the Hessian's records of light.
+
+/// A visible point that shows what its group asks.
+struct Scout {
+  uint32_t order = ~0U;  ///< The least of the group is taken, whatever the tiles are.
+  size_t tile = ~size_t{0};
+  int batch = 0, point = 0;
+  bool operator<(const Scout& o) const { return order != o.order ? order < o.order : tile < o.tile; }
+};
+
+bool keepsOcclusion(const GiState& state) { return state.settings.mode != GiMode::Reference && state.settings.maxError != 0; }
+
+std::vector<Scout> scoutsOf(const GiState& state, const DeepFrame& layout, const TileReader& tiles, const std::atomic<bool>* cancelled) {
+  std::vector<Scout> scouts(state.scene.groups.size());
+  std::mutex merging;
+  parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
+    const auto tile = cancelled && cancelled->load(std::memory_order_relaxed) ? nullptr : tiles(t);
+    if (!tile) return;
+    for (size_t b = 0; b < tile->batches.size(); ++b) {
+      const ShadePoints& batch = tile->batches[b];
+      if (!state.shading.asksOcclusion(batch.group())) continue;
+      Scout best;
+      for (int i = 0; i < batch.count(); ++i) best = std::min(best, Scout{hash32(batch.key(i)), t, static_cast<int>(b), i});
+      const std::lock_guard lock(merging);
+      Scout& known = scouts[static_cast<size_t>(batch.group())];
+      known = std::min(known, best);
+    }
+  });
+  return scouts;
+}
+
+}  // namespace
+
+void rehearse(GiState& state, const DeepFrame& layout, const TileReader& tiles, const std::atomic<bool>* cancelled) {
+  state.occlusionAsked.assign(state.scene.groups.size(), {});
+  bool any = false;
+  for (size_t g = 0; g < state.scene.groups.size(); ++g) any |= state.shading.asksOcclusion(static_cast<int>(g));
+  if (!any || !keepsOcclusion(state)) return;
+  std::vector<std::vector<Scout>> ofTile(layout.tileCount());
+  for (const Scout& s : scoutsOf(state, layout, tiles, cancelled))
+    if (s.tile < ofTile.size()) ofTile[s.tile].push_back(s);
+  ShadeContext context;
+  context.rehearsal = true, context.indirect = false, context.seed = state.settings.seed;
+  parallelFor(ofTile.size(), 1, [&](size_t t, size_t) {
+    const auto tile = ofTile[t].empty() ? nullptr : tiles(t);
+    for (const Scout& s : tile ? ofTile[t] : std::vector<Scout>{}) {
+      const ShadePoints& batch = tile->batches[static_cast<size_t>(s.batch)];
+      ShadePoints one(batch.group(), batch.primvarFloats(), batch.hasSteps());
+      one.assign(batch, s.point, s.point + 1);
+      ShadedPoints out;
+      state.shading.shade(one, context, out);
+    }
+  });
+}
+
+GatherPlan planFor(const GiState& state, int group, const OcclusionQuery& query) {
+  GatherPlan plan;
+  plan.cache.errorFunction = ErrorFunction::Hessian;
+  plan.cache.maxPixels = state.scene.groups[static_cast<size_t>(group)].attributes->irradianceMaxPixelDist.value_or(kMostPixels);
+  plan.gather.curvature = true;
+  plan.gather.samples = query.samples;
+  plan.gather.maxDistance = query.maxDistance;
+  plan.gather.seed = state.settings.seed;
+  plan.gather.occlusion = query;
+  return plan;
+}
+
+bool interpolateOcclusion(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N, const OcclusionQuery& query,
+                          const ShadeContext& context, float* covered) {
+  if (!keepsOcclusion(state)) return false;
+  if (context.rehearsal) {
+    auto& asked = state.occlusionAsked[static_cast<size_t>(points.group())];
+    if (std::find(asked.begin(), asked.end(), query) == asked.end()) asked.push_back(query);
+    return true;
+  }
+  const GatherPlan plan = planFor(state, points.group(), query);
+  const auto prepared = std::find_if(state.caches.begin(), state.caches.end(), [&](const PreparedCache& c) { return c.plan == plan; });
+  if (prepared == state.caches.end()) return false;
+  const GatherPlaces places(state, points);
+  int64_t lookups = 0, interpolated = 0;
+  for (int i = 0; i < points.count(); ++i) {
+    if (!active[i]) continue;
+    GatherPoint point = places.at(i);
+    const vec3 n = places.shading(i, normalizeOr({N.x[i], N.y[i], N.z[i]}, point.normal));
+    const IrradianceEstimate known = prepared->cache.lookup(point.position, point.normal, n, point.pixelSize);
+    ++lookups, interpolated += known.weight > 0;
+    point.normal = n;
+    const RayTools* tools = known.weight > 0 ? nullptr : state.rays();
+    const float open = known.weight > 0 ? known.E.x : tools ? gather(*tools->rays, *tools->shading, point, plan.gather, {}, state.stats).E.x : 1;
+    covered[i] = std::clamp(1 - open, 0.0f, 1.0f);
+  }
+  state.stats.irradianceCache.lookups += lookups;
+  state.stats.irradianceCache.interpolated += interpolated;
+  return true;
+}
+
+}  // namespace tomales

@@ -1,0 +1,141 @@
+#include "gi/radiosity_bake.h"
+
+#include "reyes/base/rng.h"
+#include "reyes/dice.h"
+
+namespace tomales {
+namespace {
+
+constexpr int kProbes = 4;          ///< Edges across a patch that its size is measured along.
+constexpr int kMostTexels = 2048;   ///< Along an edge.
+constexpr int kSamples = 2;         ///< Along each edge of a texel.
+constexpr size_t kSamplesPerBatch = 1024;
+constexpr uint32_t kBakeStream = 0x72616469U;
+
+int powerOfTwoNear(float texels) {
+  const float clamped = std::clamp(texels, 1.0f, static_cast<float>(kMostTexels));
+  return 1 << static_cast<int>(std::lround(std::log2(clamped)));
+}
+
+RadiosityChart chartOf(const Scene& scene, const Camera& camera, int object, uint32_t patch, float texels) {
+  vec3 at[kProbes + 1][kProbes + 1];
+  vec3 middle(0);
+  for (int j = 0; j <= kProbes; ++j)
+    for (int i = 0; i <= kProbes; ++i) {
+      at[j][i] = surfaceAt(scene, object, patch, static_cast<float>(i) / kProbes, static_cast<float>(j) / kProbes).P;
+      middle += at[j][i] / static_cast<float>((kProbes + 1) * (kProbes + 1));
+    }
+  float alongU = 0, alongV = 0;
+  for (int j = 0; j <= kProbes; ++j) {
+    float u = 0, v = 0;
+    for (int i = 0; i < kProbes; ++i) u += glm::length(at[j][i + 1] - at[j][i]), v += glm::length(at[i + 1][j] - at[i][j]);
+    alongU = std::max(alongU, u), alongV = std::max(alongV, v);
+  }
+  const Attributes::Radiosity& asked = scene.objects[static_cast<size_t>(object)].attributes->radiosity;
+  // By its distance, so that what the camera does not see is no coarser than what it sees as far away.
+  const float unit = asked.screen ? camera.pixelSize({0, 0, glm::length(middle)}) : std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))));
+  const float texel = std::max(asked.texelSize * unit / texels, 1e-12f);
+  RadiosityChart chart;
+  chart.width = powerOfTwoNear(alongU / texel), chart.height = powerOfTwoNear(alongV / texel);
+  chart.texelSize = std::max(std::sqrt(alongU / static_cast<float>(chart.width) * alongV / static_cast<float>(chart.height)), 1e-20f);
+  return chart;
+}
+
+/// Samples of texels on their way to be shaded together.
+class Samples {
+ public:
+  explicit Samples(const RadiosityBake& bake) : bake_(bake), context_{RayKind::Diffuse, 1, bake.settings.seed, 1, false} {
+    context_.diffuseLimit = 0;  // as where gather rays hit
+    answers_.mode = HitMode::Shader;
+  }
+
+  /// A look at a point from `radius` in front of it; where its colour goes, and how many have gone there.
+  void add(const Ray& ray, const Hit& hit, SampleName name, vec3& sum, int& count) {
+    rays_.push_back(ray), hits_.push_back(hit), names_.push_back(name), sums_.push_back(&sum), counts_.push_back(&count);
+    if (rays_.size() == kSamplesPerBatch) flush();
+  }
+  void flush() {
+    bake_.rays.shadeHits(rays_, hits_, names_, bake_.shading, context_, answers_);
+    for (size_t i = 0; i < sums_.size(); ++i)
+      if (isFinite(answers_.color[i])) *sums_[i] += answers_.color[i], ++*counts_[i];
+    rays_.clear(), hits_.clear(), names_.clear(), sums_.clear(), counts_.clear();
+  }
+
+ private:
+  const RadiosityBake& bake_;
+  ShadeContext context_;
+  std::vector<Ray> rays_;
+  std::vector<Hit> hits_;
+  std::vector<SampleName> names_;
+  std::vector<vec3*> sums_;
+  std::vector<int*> counts_;
+  HitAnswers answers_;
+};
+
+/// The quadrilateral on the surface of which a texel holds the mean.
+struct Texel {
+  int object;
+  uint32_t patch;
+  bool back;
+  vec2 corner, size;  ///< In (u, v).
+  float radius;       ///< Of what one sample stands for.
+  uint32_t key;
+};
+
+void sample(const RadiosityBake& bake, const Texel& texel, Samples& samples, vec3& sum, int& count) {
+  const Scene& scene = bake.rays.scene();
+  const Object& object = scene.objects[static_cast<size_t>(texel.object)];
+  for (int k = 0; k < kSamples * kSamples; ++k) {
+    const uint32_t name = hashCombine(texel.key, static_cast<uint32_t>(k));
+    const vec2 jitter{unitFloat(hash32(name)), unitFloat(hash32(name ^ 0x9e3779b9U))};
+    const vec2 uv = texel.corner + texel.size * (vec2(k % kSamples, k / kSamples) + jitter) / float{kSamples};
+    if (!object.shape().keeps(texel.patch, uv.x, uv.y)) continue;
+    const TrueSurface surface = surfaceAt(scene, texel.object, texel.patch, uv.x, uv.y);
+    const vec3 n = normalizeOr(surface.normal, vec3(0));
+    if (n == vec3(0)) continue;
+    const vec3 out = texel.back ? -n : n;
+    Ray ray{surface.P + texel.radius * out, -out};
+    ray.radius = texel.radius, ray.group = object.group;
+    Hit hit;
+    hit.t = texel.radius, hit.object = texel.object, hit.patch = texel.patch, hit.u = uv.x, hit.v = uv.y;
+    hit.normal = hit.geometricNormal = n, hit.atOpen = surface.P;
+    samples.add(ray, hit, {texel.key, static_cast<uint32_t>(k)}, sum, count);
+  }
+}
+
+}  // namespace
+
+std::vector<RadiosityChart> layOutCharts(const Scene& scene, const Camera& camera, int object, float texels) {
+  std::vector<RadiosityChart> charts;
+  const uint32_t patches = scene.objects[static_cast<size_t>(object)].shape().patchCount();
+  for (uint32_t p = 0; p < patches; ++p) charts.push_back(chartOf(scene, camera, object, p, texels));
+  return charts;
+}
+
+void bakeCharts(const RadiosityBake& bake, int object, uint32_t first, bool back, std::span<RadiosityChart> charts) {
+  Samples samples(bake);
+  std::vector<std::vector<int>> counts;
+  for (RadiosityChart& c : charts) {
+    c.texels.assign(static_cast<size_t>(c.width) * static_cast<size_t>(c.height), vec3(0));
+    counts.emplace_back(c.texels.size(), 0);
+  }
+  for (size_t c = 0; c < charts.size(); ++c) {
+    RadiosityChart& chart = charts[c];
+    const auto patch = first + static_cast<uint32_t>(c);
+    const vec2 size = 1.0f / vec2(chart.width, chart.height);
+    const uint32_t key = hashCombine(kBakeStream, static_cast<uint32_t>(object), patch);
+    for (size_t t = 0; t < chart.texels.size(); ++t) {
+      const vec2 cell(static_cast<float>(t % static_cast<size_t>(chart.width)), static_cast<float>(t / static_cast<size_t>(chart.width)));
+      const Texel texel{object, patch, back, cell * size, size, 0.5f * chart.texelSize / kSamples, hashCombine(key, static_cast<uint32_t>(t))};
+      sample(bake, texel, samples, chart.texels[t], counts[c][t]);
+    }
+  }
+  samples.flush();
+  for (size_t c = 0; c < charts.size(); ++c) {
+    for (size_t t = 0; t < counts[c].size(); ++t)
+      if (counts[c][t] > 0) charts[c].texels[t] /= static_cast<float>(counts[c][t]);
+    charts[c].makeLevels();
+  }
+}
+
+}  // namespace tomales

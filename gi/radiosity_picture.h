@@ -1,0 +1,17 @@
+// Verb: radiosity maps -> pictures, to look at and for shaders. Charts are packed so that each lies at a multiple of its own width and
+// height: levels of the picture down to a chart's shorter edge hold no texel of two patches.
+#pragma once
+#include "gi/radiosity_maps.h"
+#include "reyes/image.h"
+
+namespace tomales {
+
+/// Where the charts lie in a picture, by their lower corners in texels.
+struct ChartLayout {
+  int width = 0, height = 0;  ///< Powers of two.
+  std::vector<glm::ivec2> corner;
+};
+ChartLayout layOutPicture(const std::vector<RadiosityChart>& charts);
+Image pictureOf(const std::vector<RadiosityChart>& charts);
+
+}  // namespace tomales

@@ -1,0 +1,51 @@
+// Private to gi: where and when the rays of one hemisphere go.
+#pragma once
+#include "gi/gather.h"
+#include "reyes/base/rng.h"
+
+namespace tomales {
+
+/// Where in each cell its ray goes: correlated multi-jitter (Kensler 2013). The columns of a ring take
+/// different heights in their cells and the rings of a sector different angles, so both projections are
+/// stratified as finely as there are rays; plain jitter in the cells costs a third more rays for the same
+/// error (docs/performance.md).
+class CellJitter {
+ public:
+  CellJitter(const HemisphereCells& cells, uint32_t key)
+      : key_(key),
+        height_(permutation(cells.sectors, key ^ 0x51633e2dU)),
+        angle_(permutation(cells.rings, key ^ 0x68bc21ebU)) {}
+
+  vec2 operator()(int ring, int sector, uint32_t ray) const {
+    const uint32_t name = hashCombine(key_, ray);
+    return {within(height_, sector, name ^ 0x3c6ef372U), within(angle_, ring, name ^ 0xa54ff53aU)};
+  }
+
+ private:
+  static float within(const std::vector<int>& strata, int i, uint32_t name) {
+    return (static_cast<float>(strata[static_cast<size_t>(i)]) + unitFloat(hash32(name))) /
+           static_cast<float>(strata.size());
+  }
+  uint32_t key_;
+  std::vector<int> height_, angle_;
+};
+
+/// When each ray is shot: equal strata of the shutter in an order that has nothing to do with the cells.
+class RayTimes {
+ public:
+  RayTimes(const RayScene& scene, const GatherPoint& point, size_t count, uint32_t key) : fixed_(std::max(point.time, 0.0f)), key_(key) {
+    if (point.time < 0 && scene.samplesTime(point.group)) strata_ = permutation(static_cast<int>(count), key ^ 0x74696d65U);
+  }
+  float operator()(size_t ray) const {
+    if (strata_.empty()) return fixed_;
+    const float inside = unitFloat(hashCombine(key_, static_cast<uint32_t>(ray), 0x74696d65U));
+    return std::min((static_cast<float>(strata_[ray]) + inside) / static_cast<float>(strata_.size()), 0x1.fffffep-1f);
+  }
+
+ private:
+  float fixed_;
+  uint32_t key_;
+  std::vector<int> strata_;
+};
+
+}  // namespace tomales

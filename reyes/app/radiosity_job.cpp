@@ -1,0 +1,61 @@
+#include "reyes/app/radiosity_job.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "gi/radiosity_picture.h"
+#include "reyes/app/overrides.h"
+#include "reyes/base/chunk_file.h"
+#include "reyes/pictures.h"
+
+namespace tomales {
+namespace {
+
+/// Without what file systems take amiss; no two alike.
+std::string fileName(const Object& object, int index, std::set<std::string>& used) {
+  std::string name = object.attributes->name.empty() ? "object" : object.attributes->name;
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.') c = '_';
+  if (name[0] == '.') name[0] = '_';
+  if (!used.insert(name).second || object.attributes->name.empty()) name += fmt::format("_{}", index);
+  used.insert(name);
+  return name;
+}
+
+void writeMap(const std::vector<RadiosityChart>& charts, const std::filesystem::path& file, Log& log) {
+  std::filesystem::path base = file;
+  base.replace_extension(".base.exr");
+  std::string error;
+  const bool written = writeImage(base.string(), pictureOf(charts), false, log);
+  const bool made = written && makeTexture({.pictures = {base.string()}, .file = file.string(), .sWrap = "clamp", .tWrap = "clamp"}, error);
+  std::error_code ignored;
+  std::filesystem::remove(base, ignored);
+  if (!made) throw FileError(fmt::format("\"{}\": {}", file.string(), written ? error : "cannot be written"));
+}
+
+void writeRadiosityMaps(const RadiosityMaps& maps, const Scene& scene, const std::filesystem::path& folder, Log& log) {
+  std::filesystem::create_directories(folder);
+  std::set<std::string> used;
+  for (int i = 0; i < static_cast<int>(scene.objects.size()); ++i) {
+    if (maps.charts(i, false).empty()) continue;
+    const std::string name = fileName(scene.objects[static_cast<size_t>(i)], i, used);
+    writeMap(maps.charts(i, false), folder / (name + ".exr"), log);
+    if (!maps.charts(i, true).empty()) writeMap(maps.charts(i, true), folder / (name + ".back.exr"), log);
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<const RadiosityMaps> prepareRadiosity(const RayTools& tools, const Camera& camera, const RenderSettings& settings, Stats& stats, Log& log) {
+  const StageTimer timer(stats, "radiosity");
+  auto maps = std::make_unique<const RadiosityMaps>(*tools.rays, *tools.shading, camera, RadiositySettings{settings.radiosityTexels, lightSeedOf(settings)}, log);
+  try {
+    if (!settings.radiosityFolder.empty()) writeRadiosityMaps(*maps, tools.rays->scene(), settings.radiosityFolder, log);
+  } catch (const std::runtime_error& e) {  // FileError, or of the file system
+    log.report(Severity::Missing, "radiosity-maps", {}, fmt::format("radiosity maps cannot be written: {}; they are used all the same", e.what()));
+  }
+  return maps;
+}
+
+}  // namespace tomales

@@ -1,0 +1,45 @@
+"""Radiosity maps as files, and what has none."""
+import json
+
+from program import Suite
+
+t = Suite()
+t.write("room.rib", """Format 24 24 1
+Projection "perspective" "fov" [60]
+Translate 0 0 3
+WorldBegin
+LightSource "indirectlight" 1 "samples" [16] "string radiance" "radiosity"
+LightSource "pointlight" 2 "from" [0 0 0] "intensity" [2]
+Surface "matte"
+AttributeBegin
+Attribute "identifier" "name" ["the room"]
+Color 0.5 0.5 0.5
+Sides 2
+Sphere 2 -2 2 360
+AttributeEnd
+AttributeBegin
+Attribute "identifier" "name" ["glass"]
+Opacity 0.5 0.5 0.5
+Sphere 0.2 -0.2 0.2 360
+AttributeEnd
+AttributeBegin
+Attribute "identifier" "name" ["plain"]
+Sides 1
+Attribute "radiosity" "float worldtexels" [0.1]
+Translate 0 -1 0
+Sphere 0.2 -0.2 0.2 360
+AttributeEnd
+WorldEnd
+""")
+
+t.expect_run("what has no map is told", ["room.rib", "--radiosity-maps", "maps", "-o", "out.exr", "--stats", "stats.json", "-v"], 0,
+             '"glass" has no radiosity map, because it is not opaque')
+stats = json.loads((t.folder / "stats.json").read_text())
+t.expect("radiosity" in stats["time_s"], "the time of baking is counted")
+names = sorted(p.name for p in (t.folder / "maps").iterdir())
+t.expect(names == ["plain.exr", "the_room.back.exr", "the_room.exr"], f"a map for each side that shows, and nothing else: {names}")
+t.expect_run("a map is a picture", ["info", "maps/the_room.exr"], 0)
+t.expect_run("by the command line", ["room.rib", "--gi", "radiosity", "--radiosity-texels", "0.5", "-o", "coarse.exr"], 0)
+t.write("file", "")
+t.expect_run("a folder that is none", ["room.rib", "--radiosity-maps", "file", "-o", "out.exr"], 3, "radiosity maps cannot be written")
+t.finish()

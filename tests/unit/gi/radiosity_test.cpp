@@ -1,0 +1,137 @@
+// Radiosity maps (approximate-gi 4.4).
+#include <gtest/gtest.h>
+
+#include "fixture.h"
+#include "gi/radiosity_picture.h"
+#include "reyes/base/parallel.h"
+#include "reyes/base/rng.h"
+
+namespace tomales {
+namespace {
+
+using namespace test;
+
+RadiosityChart gradient(int width, int height) {
+  RadiosityChart c;
+  c.width = width, c.height = height, c.texelSize = 1;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) c.texels.emplace_back((static_cast<float>(x) + 0.5f) / static_cast<float>(width), (static_cast<float>(y) + 0.5f) / static_cast<float>(height), 1);
+  c.makeLevels();
+  return c;
+}
+
+TEST(RadiosityChart, InterpolatesAGradientAtEveryLevelThatItFits) {
+  const RadiosityChart c = gradient(16, 8);
+  EXPECT_EQ(c.levels(), 5);
+  for (const float width : {0.0f, 1.0f, 1.7f}) {
+    const vec3 found = c.lookup(0.4f, 0.6f, width);
+    EXPECT_NEAR(found.x, 0.4f, 1e-5f) << width;
+    EXPECT_NEAR(found.y, 0.6f, 1e-5f) << width;
+  }
+  for (const float width : {16.0f, 1e9f, kInfinity}) EXPECT_NEAR(c.lookup(0.1f, 0.9f, width).x, 0.5f, 1e-5f) << "the mean";
+}
+
+TEST(RadiosityChart, OfOneTexelIsThatTexel) {
+  RadiosityChart c;
+  c.width = c.height = 1, c.texelSize = 1, c.texels = {vec3(3, 2, 1)};
+  c.makeLevels();
+  EXPECT_EQ(c.lookup(0.9f, 0.1f, 5), vec3(3, 2, 1));
+}
+
+TEST(RadiosityPicture, ChartsLieAtMultiplesOfTheirSizeAndDoNotOverlap) {
+  std::vector<RadiosityChart> charts;
+  for (uint32_t k = 0; k < 200; ++k) {
+    RadiosityChart c;
+    c.width = 1 << (hash32(k) % 6), c.height = 1 << (hash32(k + 1000) % 5);
+    c.texels.assign(static_cast<size_t>(c.width * c.height), vec3(static_cast<float>(k + 1)));
+    charts.push_back(c);
+  }
+  const ChartLayout layout = layOutPicture(charts);
+  const Image picture = pictureOf(charts);
+  EXPECT_EQ(picture.width & (picture.width - 1), 0);
+  EXPECT_EQ(picture.height & (picture.height - 1), 0);
+  int64_t area = 0;
+  for (size_t k = 0; k < charts.size(); ++k) {
+    const RadiosityChart& c = charts[k];
+    EXPECT_EQ(layout.corner[k].x % c.width, 0);
+    EXPECT_EQ(layout.corner[k].y % c.height, 0);
+    for (int y = 0; y < c.height; ++y)
+      for (int x = 0; x < c.width; ++x) EXPECT_EQ(picture.at(layout.corner[k].x + x, layout.corner[k].y + y)[0], static_cast<float>(k + 1));
+    area += static_cast<int64_t>(c.width) * c.height;
+  }
+  EXPECT_LT(static_cast<int64_t>(picture.width) * picture.height, 4 * area);
+}
+
+TEST(RadiosityMaps, HoldWhatAHitSendsBack) {
+  World world(cornell({floatParam("samples", 64)}).scene);
+  const auto services = world.use({.mode = GiMode::Radiosity});
+  const RadiosityMaps maps(world.rays, world.shading, world.camera, {.texels = 4}, world.log);
+  EXPECT_GT(maps.texelCount(), 10000);
+  const ShadeContext context{RayKind::Diffuse, 1, 0, 1, false};
+  double sum = 0, off = 0;
+  int found = 0;
+  for (uint32_t k = 0; k < 4000; ++k) {
+    Ray ray{{0.2f, 0.1f, 2.6f}, cosineHemisphere(sobol2(k, 7U))};
+    const Hit hit = world.rays.closest(ray, kMaskDiffuse);
+    vec3 mapped;
+    if (hit.object < 0 || !maps.lookup(ray, hit, mapped)) continue;
+    std::vector<vec3> truth;
+    world.rays.shadeHits({ray}, {hit}, {{k, 0}}, world.shading, context, truth);
+    sum += static_cast<double>(luminance(truth[0])), off += static_cast<double>(std::abs(luminance(truth[0]) - luminance(mapped)));
+    ++found;
+  }
+  EXPECT_GT(found, 2000);
+  EXPECT_LT(off / sum, 0.02) << "the edges of shadows alone";
+}
+
+TEST(RadiosityMaps, GatherAsShadersDoForNoShaderAtHits) {
+  World world(cornell({floatParam("samples", 400)}).scene);
+  const DeepFrame frame = frameOf(world, 16);
+  const auto shaded = world.use({});
+  gatherFrame(*shaded, frame);
+  const std::vector<vec3> truth = indirectOf(*shaded, world, frame);
+  const auto mapped = world.use({.mode = GiMode::Radiosity});
+  mapped->setRadiositySource([&] { return std::make_unique<const RadiosityMaps>(world.rays, world.shading, world.camera, RadiositySettings{}, world.log); });
+  gatherFrame(*mapped, frame);
+  const int64_t before = world.stats.shade.verticesShaded;
+  const std::vector<vec3> found = indirectOf(*mapped, world, frame);
+  EXPECT_EQ(world.stats.shade.verticesShaded, before);
+  double sum = 0, off = 0;
+  for (size_t i = 0; i < truth.size(); ++i) sum += static_cast<double>(luminance(truth[i])), off += static_cast<double>(std::abs(luminance(truth[i]) - luminance(found[i])));
+  EXPECT_LT(off / sum, 0.02);
+}
+
+TEST(RadiosityMaps, DoNotDependOnThreads) {
+  World world(cornell().scene);
+  const auto services = world.use({.mode = GiMode::Radiosity});
+  std::vector<vec3> first;
+  for (const int threads : {1, 4}) {
+    const ThreadLimit limit(threads);
+    const RadiosityMaps maps(world.rays, world.shading, world.camera, {}, world.log);
+    std::vector<vec3> all;
+    for (int o = 0; o < static_cast<int>(world.scene.objects.size()); ++o)
+      for (const bool back : {false, true})
+        for (const RadiosityChart& c : maps.charts(o, back)) all.insert(all.end(), c.texels.begin(), c.texels.end());
+    if (first.empty()) first = all;
+    EXPECT_EQ(all, first) << threads;
+  }
+}
+
+TEST(RadiosityMaps, AreNotMadeOfWhatIsNotOpaqueOrWantsNone) {
+  SceneBuilder b = cornell();
+  for (const size_t i : {size_t{0}, size_t{1}}) {
+    auto a = std::make_shared<Attributes>(*b.scene.objects[i].attributes);
+    if (i == 0) a->opacity = vec3(0.5f);
+    if (i == 1) a->radiosity.texelSize = 0;
+    b.scene.objects[i].attributes = a;
+  }
+  World world(std::move(b.scene));
+  const auto services = world.use({.mode = GiMode::Radiosity});
+  const RadiosityMaps maps(world.rays, world.shading, world.camera, {}, world.log);
+  EXPECT_TRUE(maps.charts(0, false).empty());
+  EXPECT_TRUE(maps.charts(1, false).empty());
+  EXPECT_FALSE(maps.charts(2, false).empty());
+}
+
+}  // namespace
+}  // namespace tomales
