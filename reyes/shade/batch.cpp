@@ -173,11 +173,11 @@ bool Batch::stepsOf(const TmGrid* g, bool alongV, const float* value, float* out
     if (is(g->v)) return alongV ? take(g->dv) : (std::fill_n(out, n, 0.0f), true);
     return false;
   }
+  if (is(p.channel(kS))) return take(p.step(kStepS, alongV));
+  if (is(p.channel(kT))) return take(p.step(kStepT, alongV));
   // A polygon's u and v are its x and y, so that both may change along either edge of a micropolygon.
   if (is(g->u)) return take(p.step(kStepU, alongV));
   if (is(g->v)) return take(p.step(kStepV, alongV));
-  if (is(p.channel(kS))) return take(p.step(kStepS, alongV));
-  if (is(p.channel(kT))) return take(p.step(kStepT, alongV));
   for (int k = 0; k < 3; ++k)
     if (is(p.channel(kNx + k))) return take(p.step(kStepN + k, alongV));
   for (int k = 0; k < p.primvarFloats(); ++k)
