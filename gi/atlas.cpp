@@ -16,26 +16,14 @@ namespace fs = std::filesystem;
 constexpr std::string_view kCaustic = ".caustic";  ///< What the names of caustic maps end in.
 constexpr double kStoredBytes = 2.5 * 32;  ///< Of one emitted photon: so many surfaces, so many bytes.
 
-fs::path fileOf(const fs::path& folder, const std::string& map, const char* extension) {
-  std::string name = map;
-  for (char& c : name)
-    if (c == '/' || c == '\0') c = '_';
-  return folder / (name + extension);
-}
-
-void makeFolder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder)) throw FileError(fmt::format("folder \"{}\" cannot be made: {}", folder.string(), error.message()));
-}
-
 /// Size of the objects of each group, as the area of their boxes.
 std::vector<double> boxAreas(const Scene& scene) {
   std::vector<double> areas(scene.groups.size(), 0.0);
+  const mat4 worldFromCamera = glm::inverse(scene.cameraFromWorldAtOpen());  // so that every camera finds the same maps
   for (const Object& o : scene.objects) {
     Bound3 bound;
     for (uint32_t patch = 0; patch < o.shape().patchCount(); ++patch) bound.extend(o.shape().bound(patch, {}));
-    const vec3 s = bound.empty() ? vec3(0) : transformBound(o.cameraFromObject.keys.front(), bound).size();
+    const vec3 s = bound.empty() ? vec3(0) : transformBound(worldFromCamera * o.cameraFromObject.keys.front(), bound).size();
     areas[static_cast<size_t>(o.group)] += double{s.x * s.y + s.y * s.z + s.z * s.x};
   }
   return areas;
@@ -78,6 +66,19 @@ MadeFrom bricksMadeFrom(const fs::path& path) {
 
 }  // namespace
 
+fs::path atlasFile(const fs::path& folder, const std::string& map, const char* extension) {
+  std::string name = map;
+  for (char& c : name)
+    if (c == '/' || c == '\0') c = '_';
+  return folder / (name + extension);
+}
+
+void makeAtlasFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder)) throw FileError(fmt::format("folder \"{}\" cannot be made: {}", folder.string(), error.message()));
+}
+
 MapNames mapNames(const Scene& scene, const AtlasSettings& settings) {
   std::vector<double> areas = boxAreas(scene);
   for (size_t g = 0; g < areas.size(); ++g)
@@ -106,9 +107,9 @@ std::set<std::string> MapNames::all() const {
 
 PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                            const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
-  makeFolder(folder);
+  makeAtlasFolder(folder);
   std::map<std::string, PointFileWriter> files;
-  for (const std::string& name : names.all()) files.try_emplace(name, fileOf(folder, name, ".ptc").string(), std::vector<CloudChannel>{{"power", 3}});
+  for (const std::string& name : names.all()) files.try_emplace(name, atlasFile(folder, name, ".ptc").string(), std::vector<CloudChannel>{{"power", 3}});
   const auto filesOf = [&](const std::vector<std::string>& groups) {
     std::vector<PointFileWriter*> out;
     for (const std::string& name : groups) out.push_back(name.empty() ? nullptr : &files.at(name));
@@ -168,18 +169,18 @@ BuiltBricks writeIrradianceBricks(const fs::path& points, const fs::path& out, B
 void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                 const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
   const fs::path photons = folder / "photons", irradiance = folder / "irradiance";
-  makeFolder(irradiance);
+  makeAtlasFolder(irradiance);
   const std::set<std::string> maps = names.all();
   const uint64_t inputs = photonInputs(names, settings);
   const bool traced = std::all_of(maps.begin(), maps.end(), [&](const std::string& name) {
-    return pointsMadeFrom(fileOf(photons, name, ".ptc")).inputs == inputs;
+    return pointsMadeFrom(atlasFile(photons, name, ".ptc")).inputs == inputs;
   });
   if (!traced) {
     const StageTimer timer(stats, "photons");
     writePhotons(photons, scene, rays, shading, names, settings, progress, stats, log);
   }
   for (const std::string& name : maps) {
-    const fs::path from = fileOf(photons, name, ".ptc"), points = fileOf(irradiance, name, ".ptc"), bricks = fileOf(folder, name, ".bkm");
+    const fs::path from = atlasFile(photons, name, ".ptc"), points = atlasFile(irradiance, name, ".ptc"), bricks = atlasFile(folder, name, ".bkm");
     const PhotonIrradianceSettings& estimate = name.ends_with(kCaustic) ? settings.caustics : settings.irradiance;
     if (pointsMadeFrom(points).inputs != irradianceInputs(PointFile(from.string()), estimate)) {
       const StageTimer timer(stats, "irradiance");
@@ -207,7 +208,7 @@ IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, con
       worldFromCurrentScale_(std::cbrt(std::abs(glm::determinant(mat3(worldFromCurrent_))))),
       log_(log) {
   std::map<std::string, const BrickMap*> byName{{"", nullptr}};
-  for (const std::string& name : names.all()) byName[name] = open(fileOf(folder, name, ".bkm"));
+  for (const std::string& name : names.all()) byName[name] = open(atlasFile(folder, name, ".bkm"));
   for (const std::string& name : names.global) mapOfGroup_.push_back(byName.at(name));
   for (const std::string& name : names.caustic) causticOfGroup_.push_back(byName.at(name));
 }
@@ -229,17 +230,17 @@ std::optional<std::string> IrradianceAtlas::strange(uint64_t world) const {
   return std::nullopt;
 }
 
-vec3 IrradianceAtlas::look(const MapOfGroup& maps, int group, const vec3& P, const vec3& N, float radius) const {
+std::optional<vec3> IrradianceAtlas::look(const MapOfGroup& maps, int group, const vec3& P, const vec3& N, float radius) const {
   const BrickMap* map = maps[static_cast<size_t>(group)];
-  vec3 E(0.0f);
-  if (!map) return E;
+  if (!map) return std::nullopt;
   try {
+    vec3 E(0.0f);
     const vec3 normal = normalizeOr(transformVector(worldFromCurrent_, N), N);
-    map->lookup(transformPoint(worldFromCurrent_, P), normal, radius * worldFromCurrentScale_, &E.x);
+    if (map->lookup(transformPoint(worldFromCurrent_, P), normal, radius * worldFromCurrentScale_, &E.x)) return E / kPi;
   } catch (const FileError& e) {
     log_.report(Severity::Missing, "atlas-damaged", {}, fmt::format("{}: no indirect light from there", e.what()));
   }
-  return E / kPi;
+  return std::nullopt;
 }
 
 void IrradianceAtlas::report(Stats& stats) const {

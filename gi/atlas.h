@@ -7,6 +7,7 @@
 // (MadeFrom), so that only what has changed since is made again.
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <set>
 
 #include "gi/brick_map.h"
@@ -31,6 +32,10 @@ struct MapNames {
   std::set<std::string> all() const;
 };
 MapNames mapNames(const Scene& scene, const AtlasSettings& settings);
+
+/// The file of a map in a folder.
+std::filesystem::path atlasFile(const std::filesystem::path& folder, const std::string& map, const char* extension);
+void makeAtlasFolder(const std::filesystem::path& folder);  ///< Throws FileError.
 
 using AtlasProgress = std::function<void(float)>;
 
@@ -61,14 +66,16 @@ class IrradianceAtlas {
   std::optional<std::string> strange(uint64_t world) const;
 
   /// E/pi at P (current space) on the side of N, over a radius; 0 where there is nothing.
-  vec3 irradianceOverPi(int group, const vec3& P, const vec3& N, float radius) const { return look(mapOfGroup_, group, P, N, radius); }
+  vec3 irradianceOverPi(int group, const vec3& P, const vec3& N, float radius) const { return look(mapOfGroup_, group, P, N, radius).value_or(vec3(0.0f)); }
   /// Likewise, of what came by mirrors and glass alone.
-  vec3 causticOverPi(int group, const vec3& P, const vec3& N, float radius) const { return look(causticOfGroup_, group, P, N, radius); }
+  vec3 causticOverPi(int group, const vec3& P, const vec3& N, float radius) const { return look(causticOfGroup_, group, P, N, radius).value_or(vec3(0.0f)); }
+  /// As irradianceOverPi(); nothing where there is nothing.
+  std::optional<vec3> bakedOverPi(int group, const vec3& P, const vec3& N, float radius) const { return look(mapOfGroup_, group, P, N, radius); }
   void report(Stats& stats) const;  ///< Bricks, lookups, misses, bytes.
 
  private:
   using MapOfGroup = std::vector<const BrickMap*>;  ///< Null: no photon came there.
-  vec3 look(const MapOfGroup& maps, int group, const vec3& P, const vec3& N, float radius) const;
+  std::optional<vec3> look(const MapOfGroup& maps, int group, const vec3& P, const vec3& N, float radius) const;
   const BrickMap* open(const std::filesystem::path& file);
 
   mutable BrickCache cache_;

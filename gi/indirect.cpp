@@ -103,6 +103,13 @@ vec3 causticAt(const GiState& state, int group, const vec3& P, const vec3& n, fl
   return state.atlas ? state.atlas->causticOverPi(group, P, n, 0.5f * pixelSize) : vec3(0.0f);
 }
 
+/// The cache of a plan. Records that were given serve even where a light has since been edited to ask for others.
+std::vector<PreparedCache>::const_iterator preparedFor(const GiState& state, const GatherPlan& plan) {
+  const auto prepared = std::find_if(state.caches.begin(), state.caches.end(), [&](const PreparedCache& c) { return c.plan == plan; });
+  if (prepared != state.caches.end() || !state.cachesGiven || !(plan.cache.kappa < kInfinity)) return prepared;
+  return std::find_if(state.caches.begin(), state.caches.end(), [](const PreparedCache& c) { return !c.plan.gather.occlusion; });
+}
+
 IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, const GatherSettings& settings,
                               RayAnswers* answers) {
   const struct {
@@ -175,15 +182,21 @@ void store(const IndirectResult& out, int i, const vec3& E, const vec3 dominant[
     if (out.dominant[c].x) put(out.dominant[c], dominant[c]);
 }
 
+std::optional<vec3> gatheredOverPi(const GiState& state, const GatherPoint& at) {
+  const IndirectQuery* query = state.shading.indirectQuery(at.group);
+  if (!query) return std::nullopt;
+  const auto prepared = preparedFor(state, planFor(state, at.group, *query));
+  if (prepared == state.caches.end()) return std::nullopt;
+  const IrradianceEstimate estimate = prepared->cache.lookup(at.position, at.normal, at.pixelSize);
+  if (!(estimate.weight > 0)) return std::nullopt;
+  return estimate.E + causticAt(state, at.group, at.position, at.normal, at.pixelSize);
+}
+
 void interpolateIndirect(const GiState& state, const ShadePoints& points, const uint8_t* active,
                          TmConstVec3 N, const IndirectQuery& query, const ShadeContext& context,
                          const IndirectResult& out) {
   const GatherPlan plan = planFor(state, points.group(), query);
-  auto prepared = std::find_if(state.caches.begin(), state.caches.end(),
-                               [&](const PreparedCache& c) { return c.plan == plan; });
-  // Records that were given serve even where a light has since been edited to ask for others.
-  if (prepared == state.caches.end() && state.cachesGiven && plan.cache.kappa < kInfinity)
-    prepared = std::find_if(state.caches.begin(), state.caches.end(), [](const PreparedCache& c) { return !c.plan.gather.occlusion; });
+  const auto prepared = preparedFor(state, plan);
   const GatherPlaces places(state, points);
   int64_t lookups = 0, interpolated = 0;
   for (int i = 0; i < points.count(); ++i) {

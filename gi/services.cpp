@@ -36,6 +36,10 @@ void GiServices::gatherPass(const DeepFrame& layout, const TileReader& tiles, co
   if (impl_->settings.mode != GiMode::Reference) fillCaches(*impl_, layout, tiles, progress, cancelled);
 }
 
+void GiServices::bake(const DeepFrame& layout, const TileReader& tiles, const std::filesystem::path& folder, const MapNames& names, uint64_t world) const {
+  bakeLight(*impl_, layout, tiles, folder, names, world);
+}
+
 const std::vector<PreparedCache>& GiServices::caches() const { return impl_->caches; }
 std::vector<PreparedCache> GiServices::takeCaches() { return std::exchange(impl_->caches, {}); }
 void GiServices::useCaches(std::vector<PreparedCache> caches) {
@@ -132,6 +136,7 @@ float GiServices::emitterReach(int light) const {
 void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                                  const IndirectQuery& query, const ShadeContext& context,
                                  IndirectResult out) const {
+  if (impl_->settings.mode == GiMode::Baked) return bakedIndirect(*impl_, points, active, out);
   const int bounces = bouncesFor(*impl_, query);
   if (context.depth < bounces) {
     const bool cached = interpolatesIndirect(*impl_);

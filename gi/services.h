@@ -18,6 +18,7 @@ enum class GiMode {
   Gather,     ///< One bounce, shaded hits, irradiance caching.
   Atlas,      ///< All bounces: gather rays look up the irradiance that photons left in brick maps; irradiance caching.
   Radiosity,  ///< One bounce from radiosity maps; irradiance caching.
+  Baked,      ///< All of it from brick maps of what was gathered for earlier frames (irradiance-atlas 6.3): no rays.
   Reference,  ///< Brute-force path tracing of the same transport: unbiased for diffuse surfaces.
 };
 
@@ -61,7 +62,11 @@ class GiServices final : public ShadeServices {
              const GiSettings& settings, Stats& stats);
   ~GiServices() override;
 
-  /// What gather rays look up in GiMode::Atlas; before the gather pass.
+  /// Adds E at every point that the gather pass has served to what FOLDER/points has of this world, and makes FOLDER/NAME.bkm of it: for
+  /// GiMode::Baked. `world`: worldSum() of the scene. Throws FileError.
+  void bake(const DeepFrame& layout, const TileReader& tiles, const std::filesystem::path& folder, const MapNames& names, uint64_t world) const;
+
+  /// What gather rays look up in GiMode::Atlas, before the gather pass; and points themselves in GiMode::Baked.
   void setAtlas(std::unique_ptr<const IrradianceAtlas> atlas);
   /// Or brought when the first point has to be gathered, from any thread.
   void setAtlasSource(AtlasSource source);

@@ -14,7 +14,7 @@ struct GiState {
   const ShadingSystem& shading;
   const GiSettings settings;
   Stats& stats;
-  mutable std::unique_ptr<const IrradianceAtlas> atlas;  ///< GiMode::Atlas alone.
+  mutable std::unique_ptr<const IrradianceAtlas> atlas;  ///< GiMode::Atlas and Baked alone.
   std::vector<PreparedCache> caches;  ///< Written by fillCaches, frozen while shading.
   std::optional<Emitters> emitters;   ///< Known without rays.
   BrightSpots spots{};                ///< Likewise,
@@ -77,6 +77,12 @@ class GatherPlaces {
 constexpr int kLatticePhases = 9;
 int latticePhase(int x, int y);
 
+/// E/pi as the gather pass has left it there; nothing where no record serves.
+std::optional<vec3> gatheredOverPi(const GiState&, const GatherPoint& at);
+
+/// GiServices::bake().
+void bakeLight(const GiState&, const DeepFrame& layout, const TileReader&, const std::filesystem::path& folder, const MapNames&, uint64_t world);
+
 void fillCaches(GiState&, const DeepFrame& layout, const TileReader&, const std::function<void(float)>& progress,
                 const std::atomic<bool>* cancelled);
 
@@ -99,7 +105,10 @@ void traceForShader(const GiState&, const ShadePoints&, const uint8_t* active, T
 /// E and dominant directions into element i of a result.
 void store(const IndirectResult& out, int i, const vec3& E, const vec3 dominant[3]);
 
-// indirectDiffuse() in the two modes. Pre: the light may still bounce at these points.
+/// indirectDiffuse() in GiMode::Baked, at any depth.
+void bakedIndirect(const GiState&, const ShadePoints&, const uint8_t* active, const IndirectResult& out);
+
+// indirectDiffuse() in the others. Pre: the light may still bounce at these points.
 void interpolateIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N,
                          const IndirectQuery&, const ShadeContext&, const IndirectResult& out);
 void traceIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N,

@@ -11,6 +11,7 @@ constexpr float kPolygon_px = 8;
 constexpr float kMediumEdge = 3;          ///< Of medium polygons, in edges of micropolygons.
 constexpr float kLeastPolygon_px = 1.5f;  ///< No polygon is smaller for the sake of its turn: far objects need few.
 constexpr float kTurn = 15 * kPi / 180;   ///< Radians between the normals at the ends of a polygon.
+constexpr float kMostTurn = 100 * kPi / 180;  ///< However small: half a circle of one polygon would be its diameter, without area.
 constexpr float kEmitterTurn = 5 * kPi / 180;  ///< Brings the area of a sphere light within 0.5 %.
 constexpr int kProbes = 5;                     ///< Odd, so that a symmetrical wave is not met at its zeros.
 constexpr double kMostQuads = 1 << 20, kMostQuadsOfLevels = 1 << 22;  ///< Of a patch; levels are diced where rays come.
@@ -108,6 +109,7 @@ class PatchLines {
   double count(const LineFigures& f, const Fineness& fineness) const {
     double n = double{f.turn} / fineness.turn;
     if (fineness.least_px > 0) n = std::min(n, double{f.length_px} / fineness.least_px);
+    n = std::max(n, double{f.turn} / kMostTurn);
     if (byPixels_) n = std::max(n, double{f.length_px} / fineness.edge_px);
     return std::isfinite(n) ? std::max(1.0, std::ceil(n)) : 1.0;
   }

@@ -9,6 +9,8 @@ namespace {
 
 using Corners = std::array<vec3, 4>;
 
+constexpr size_t kMostFacets = 256;  ///< That directions are tried against, which costs as much as a ray; of more none are met.
+
 float areaOf(const Corners& q) {
   const auto& [a, b, c, d] = q;
   return 0.5f * (glm::length(cross(b - a, d - a)) + glm::length(cross(d - c, b - c)));
@@ -99,11 +101,11 @@ EmitterTable tableOf(const Scene& scene, const std::vector<CoarseGroup>& groups)
   return table;
 }
 
-void put(const EmitterPoints& out, int i, const vec3& P, const vec3& N, double density, bool meets) {
+void put(const EmitterPoints& out, int i, const vec3& P, const vec3& N, double density, double meetDensity) {
   out.P.x[i] = P.x, out.P.y[i] = P.y, out.P.z[i] = P.z;
   out.N.x[i] = N.x, out.N.y[i] = N.y, out.N.z[i] = N.z;
   out.density[i] = static_cast<float>(density);
-  if (out.meetDensity) out.meetDensity[i] = meets ? out.density[i] : 0.0f;
+  if (out.meetDensity) out.meetDensity[i] = static_cast<float>(meetDensity);
 }
 
 vec3 at(TmConstVec3 v, int i) { return {v.x[i], v.y[i], v.z[i]}; }
@@ -126,7 +128,22 @@ Emitters::Emitters(EmitterTable table) : table_(std::move(table)), lights_(table
       lights_[light].areas.add(source.rows.total());
       lights_[light].sources.push_back(std::move(source));
     }
+    findFacets(table_[light], lights_[light]);
   }
+}
+
+void Emitters::findFacets(const EmitterLight& given, Light& light) {
+  for (Source& source : light.sources) {
+    const EmitterLattice& lattice = given.lattices[source.lattice];
+    const size_t before = light.facets.size();
+    for (size_t k = 0; !lattice.surface && k < lattice.quads.size(); ++k)
+      if (const auto facet = facetOf(lattice.quads[k], lattice.normals[k])) light.facets.push_back(*facet);
+    source.met = light.facets.size() == before + lattice.quads.size();
+    if (!source.met) light.facets.resize(before);
+  }
+  if (light.facets.size() <= kMostFacets) return;
+  light.facets.clear();
+  for (Source& source : light.sources) source.met = false;
 }
 
 void Emitters::place(const EmitterLattice& from, size_t k, float u, float v, vec3& P, vec3& normal) const {
@@ -172,11 +189,13 @@ bool Emitters::sampleFrom(int light, int count, TmConstVec3 from, const float* x
     const vec3 eye = at(from, i);
     if (pick < emitters.shapes.size()) {
       const SeenPoint p = sampleSolidAngle(emitters.shapes[pick], eye, {static_cast<float>(u), xi1[i]});
-      put(out, i, p.P, p.N, share * double{p.density}, true);
+      put(out, i, p.P, p.N, share * double{p.density}, share * double{p.density});
       continue;
     }
-    const AreaPoint p = onLattice(emitters, l.sources[pick - emitters.shapes.size()], u, double{xi1[i]});
-    put(out, i, p.P, p.N, p.area > 0 ? share * solidAngleDensity(eye, p.P, p.N, 1 / p.area) : 0, false);
+    const Source& source = l.sources[pick - emitters.shapes.size()];
+    const AreaPoint p = onLattice(emitters, source, u, double{xi1[i]});
+    const double density = p.area > 0 ? share * solidAngleDensity(eye, p.P, p.N, 1 / p.area) : 0;
+    put(out, i, p.P, p.N, density, density > 0 && source.met ? l.facetDensity(eye, p.P, p.N) : 0);
   }
   return true;
 }
@@ -185,13 +204,23 @@ void Emitters::meet(int light, int count, TmConstVec3 from, TmConstVec3 directio
   for (int i = 0; i < count; ++i) {
     const vec3 eye = at(from, i);
     float nearest = kInfinity;
-    put(out, i, eye, vec3(0), 0, true);
+    put(out, i, eye, vec3(0), 0, 0);
     for (size_t s = 0; known(light) && s < given(light).shapes.size(); ++s) {
       const SeenPoint p = tomales::meet(given(light).shapes[s], eye, at(direction, i));
       const float distance = p.density > 0 ? glm::length(p.P - eye) : kInfinity;
       if (!(distance < nearest)) continue;
       nearest = distance;
-      put(out, i, p.P, p.N, sources(light).areas.weight(s) / sources(light).areas.total() * double{p.density}, true);
+      const double density = sources(light).areas.weight(s) / sources(light).areas.total() * double{p.density};
+      put(out, i, p.P, p.N, density, density);
+    }
+    if (!known(light)) continue;
+    for (const EmitterFacet& facet : sources(light).facets) {
+      const float distance = distanceTo(facet, eye, at(direction, i));
+      if (!(distance < nearest)) continue;
+      nearest = distance;
+      const vec3 P = eye + distance * at(direction, i);
+      const double density = sources(light).facetDensity(eye, P, facet.normal);
+      put(out, i, P, facet.normal, density, density);
     }
   }
 }

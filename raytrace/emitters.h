@@ -1,8 +1,10 @@
 // Points on area lights. Rectangles, disks and spheres are sampled by solid angle (emitter_shapes.h). All else is by area: places of
 // the true surface, chosen by the coarse quads of all objects that emit for a light in proportion to area, and weighted so that any
 // surface shines as much as it does, not as its polygons would. Where rays see displacement the polygons stand for the surface.
+// Directions meet the simple shapes, and meshes of few flat polygons.
 // Space: current. Threads: const members may be called concurrently.
 #pragma once
+#include "raytrace/emitter_facets.h"
 #include "raytrace/emitter_shapes.h"
 #include "raytrace/tessellate.h"
 #include "reyes/base/distribution.h"
@@ -56,10 +58,14 @@ class Emitters {
     uint32_t lattice;
     Distribution rows;
     std::vector<Distribution> row;  ///< quads of each row
+    bool met = false;               ///< Its quads are facets.
   };
   struct Light {
     Distribution areas;             ///< Shapes come first.
     std::vector<Source> sources;    ///< Lattices with area.
+    std::vector<EmitterFacet> facets;
+    /// By which samples of the light and directions that meet it weigh each other: as if all polygons were sampled evenly.
+    double facetDensity(const vec3& from, const vec3& P, const vec3& N) const { return solidAngleDensity(from, P, N, 1 / areas.total()); }
   };
   struct AreaPoint {
     vec3 P{0}, N{0};
@@ -68,6 +74,7 @@ class Emitters {
   bool known(int light) const { return light >= 0 && light < static_cast<int>(lights_.size()); }
   const EmitterLight& given(int light) const { return table_[static_cast<size_t>(light)]; }
   const Light& sources(int light) const { return lights_[static_cast<size_t>(light)]; }
+  static void findFacets(const EmitterLight& given, Light& light);
   /// On lattice `source`, if it were the whole light.
   AreaPoint onLattice(const EmitterLight& light, const Source& source, double u, double v) const;
   /// Position and d/du x d/dv by the quad's own parameters.

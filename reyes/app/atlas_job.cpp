@@ -27,6 +27,12 @@ std::string folderOf(const RenderSettings& settings, const Scene& scene) {
   return p && !p->strings.empty() ? p->strings[0] : std::string();
 }
 
+void warnOfStrangers(const IrradianceAtlas& maps, uint64_t world, Log& log) {
+  if (const auto strange = maps.strange(world))
+    log.report(Severity::Warning, "atlas-stale", {},
+               fmt::format("irradiance map \"{}\" was made before the scene was changed, or from another; it is used as it is", *strange));
+}
+
 }  // namespace
 
 AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene) {
@@ -52,13 +58,41 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
     const bool byHand = isMadeByHand(folder);
     if (!byHand) writeAtlas(folder, scene, rays, shading, names, atlas, {}, stats, log);
     auto maps = std::make_unique<const IrradianceAtlas>(folder, scene, names, brickCacheBytes(settings), log);
-    if (const auto strange = byHand ? maps->strange(atlas.world) : std::nullopt)
-      log.report(Severity::Warning, "atlas-stale", {},
-                 fmt::format("irradiance map \"{}\" was made before the scene was changed, or from another; it is used as it is", *strange));
+    if (byHand) warnOfStrangers(*maps, atlas.world, log);
     return maps;
   } catch (const std::runtime_error& e) {  // FileError, or of the file system
     log.report(Severity::Missing, "atlas", {}, std::string(e.what()) + ": rendered without indirect light");
     return nullptr;
+  }
+}
+
+std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const RenderSettings& settings, Log& log) {
+  if (settings.bakedFolder.empty()) {
+    log.report(Severity::Missing, "baked-folder", {}, "--gi baked needs --baked FOLDER: rendered without indirect light");
+    return nullptr;
+  }
+  try {
+    const AtlasSettings atlas = atlasSettings(settings, scene);
+    MapNames names = mapNames(scene, atlas);
+    names.caustic.assign(names.caustic.size(), "");  // it is in what was baked
+    auto maps = std::make_unique<const IrradianceAtlas>(settings.bakedFolder, scene, names, brickCacheBytes(settings), log);
+    warnOfStrangers(*maps, atlas.world, log);
+    return maps;
+  } catch (const std::runtime_error& e) {  // FileError, or of the file system
+    log.report(Severity::Missing, "baked", {}, std::string(e.what()) + ": rendered without indirect light");
+    return nullptr;
+  }
+}
+
+void bakeGathered(const GiServices& services, const DeepFrame& layout, const TileReader& tiles, const Scene& scene, const RenderSettings& settings,
+                  Log& log) {
+  try {
+    const AtlasSettings atlas = atlasSettings(settings, scene);
+    MapNames names = mapNames(scene, atlas);
+    names.caustic.assign(names.caustic.size(), "");
+    services.bake(layout, tiles, settings.bakedFolder, names, atlas.world);
+  } catch (const std::runtime_error& e) {
+    log.report(Severity::Output, "baked-write", {}, std::string(e.what()) + ": the gathered light is not kept");
   }
 }
 

@@ -46,6 +46,8 @@ void buildRender(CLI::App& app, Invocation& in, int& code) {
   c->add_flag("--resume", in.render.resume, "Keep finished buckets beside the picture until it is written, and use those of an interrupted run");
   c->add_option("--irradiance", in.render.irradiance, "Indirect light from these records instead of a gather pass")->type_name("SHOT.icf");
   c->add_flag("--irradiance-append", in.render.appendIrradiance, "Gather where those records leave points uncovered");
+  c->add_option("--baked", in.render.bakedFolder, "Brick maps of gathered light: made, or added to; with --gi baked used instead of gathering, by any camera")
+      ->type_name("FOLDER");
   addParsed(*c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M", "Limits textures, bricks and the buckets of the frame; what exceeds it rests in a file");
   c->add_option("SCENE", in.render.files, "RIB files")->required();
   c->callback([&] { code = renderCommand(in.render); });

@@ -66,6 +66,7 @@ void FrameJob::prepareRays() {
   if (mode_ == GiMode::Atlas) services_->setAtlas(prepareAtlas(scene_, *rays_, *shading_, settings_, stats_, log_));
   if (mode_ == GiMode::Radiosity)
     services_->setRadiositySource([this] { return prepareRadiosity({rays_.get(), shading_.get()}, camera_, settings_, stats_, log_); });
+  if (mode_ == GiMode::Baked) services_->setAtlas(openBaked(scene_, settings_, log_));
 }
 
 void FrameJob::prepareRays(RaySource rays) {
@@ -82,6 +83,7 @@ void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
   const StageTimer timer(stats_, "gather");
   services_->gatherPass(layout, tiles, meter_.stage(0.3f, 0.7f), &interrupted());
   warnOfNoise(services_->caches(), log_);
+  if (!settings_.bakedFolder.empty() && !interrupted()) bakeGathered(*services_, layout, tiles, scene_, settings_, log_);
 }
 
 ShadeContext FrameJob::shadeContext() const {

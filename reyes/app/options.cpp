@@ -6,8 +6,8 @@ namespace {
 GiChoice giOrUsageError(const std::string& text) {
   if (const auto choice = parseGi(text)) return *choice;
   if (text == "points")
-    throw CLI::ValidationError("--gi", "\"" + text + "\" is not available yet; use scene, none, gather, atlas, radiosity or reference");
-  throw CLI::ValidationError("--gi", "\"" + text + "\" is none of scene, none, gather, atlas, radiosity, reference");
+    throw CLI::ValidationError("--gi", "\"" + text + "\" is not available yet; use scene, none, gather, atlas, radiosity, baked or reference");
+  throw CLI::ValidationError("--gi", "\"" + text + "\" is none of scene, none, gather, atlas, radiosity, baked, reference");
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ void addPictureOptions(CLI::App& app, RenderSettings& s) {
 void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option_function<std::string>(
          "--gi", [&s](const std::string& t) { s.gi = giOrUsageError(t); },
-         "Indirect light: scene (as the RIB says), none, gather, atlas, radiosity, reference")
+         "Indirect light: scene (as the RIB says), none, gather, atlas, radiosity, baked, reference")
       ->type_name("MODE");
   app.add_option("--samples", s.samples,
                  "Gather rays of an irradiance sample, or paths of a point for the reference")

@@ -102,6 +102,8 @@ GiMode giModeOf(GiChoice choice, const Scene& scene) {
       return GiMode::Atlas;
     case GiChoice::Radiosity:
       return GiMode::Radiosity;
+    case GiChoice::Baked:
+      return GiMode::Baked;
     case GiChoice::Scene:
       if (!hasIndirectLight(scene)) return GiMode::None;
       return asksFor("atlas", scene) ? GiMode::Atlas : asksFor("radiosity", scene) ? GiMode::Radiosity : GiMode::Gather;

@@ -90,6 +90,8 @@ void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats&
   checkDisplays(scene.options, log);
   FrameJob job(scene, settings, stats, log);
   const bool given = !settings.irradiance.empty(), gathers = job.gathers() && (!given || settings.appendIrradiance);
+  if (!settings.bakedFolder.empty() && !gathers && job.mode() != GiMode::Baked)
+    log.report(Severity::Warning, "baked-unused", {}, "--baked: nothing is gathered that could be kept; it is for --gi gather, atlas or baked");
   const int64_t budget_bytes = tileBudget(settings, 0);
   const bool large = pixelsOf(scene) * (bytesOfTilePixel(scene) + kBytesOfPoints) > budget_bytes;
   const bool streams = !gathers && (large || !settings.preview.empty() || mayStream(scene));  // a preview wants the first rows first

@@ -96,6 +96,7 @@ std::optional<GiChoice> parseGi(const std::string& text) {
   if (text == "gather") return GiChoice::Gather;
   if (text == "atlas") return GiChoice::Atlas;
   if (text == "radiosity") return GiChoice::Radiosity;
+  if (text == "baked") return GiChoice::Baked;
   if (text == "reference") return GiChoice::Reference;
   return std::nullopt;
 }

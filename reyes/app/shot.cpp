@@ -73,6 +73,8 @@ void ShotJob::prepareLight() {
     });
   if (job_->mode() == GiMode::Radiosity)
     job_->services()->setRadiositySource([this] { return prepareRadiosity(*world_->tools(), job_->camera(), settings_, stats_, log_); });
+  if (job_->mode() == GiMode::Baked)
+    log_.report(Severity::Missing, "baked-folder", {}, "--gi baked is for tomales render: shaded without indirect light");
   if (!irradiance_) return;
   IrradianceShot given = irradiance_->takeShot();
   if (given.emitters && given.shot == file_->shotSum()) job_->services()->useEmitters(std::move(*given.emitters));

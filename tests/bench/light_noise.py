@@ -69,9 +69,16 @@ def sky(n, extra=""):
             'Patch "bilinear" "P" [-9 -9 -1  9 -9 -1  -9 9 -1  9 9 -1]\nTranslate 0 0 -0.4\nSphere 0.6 -0.6 0.6 360\nWorldEnd\n')
 
 
-def glossy(half, roughness):
+def octahedron(x, y, z, r):
+    corners = [(x + r, y, z), (x - r, y, z), (x, y + r, z), (x, y - r, z), (x, y, z + r), (x, y, z - r)]
+    faces = [(a, c, b) if (a + b + c) % 2 else (a, b, c) for a in (0, 1) for b in (2, 3) for c in (4, 5)]
+    flat = lambda rows: " ".join(f"{v}" for row in rows for v in row)
+    return f'PointsPolygons [{"3 " * len(faces)}] [{flat(faces)}] "P" [{flat(corners)}]'
+
+
+def glossy(half, roughness, shape=rectangle):
     def scene(n, extra=""):
-        return (HEAD.format(fov=45, camera="Rotate -20 1 0 0\nTranslate 0 0 4") + area(n, rectangle(0, 1.5, 2, half), 4 / half ** 2, extra) +
+        return (HEAD.format(fov=45, camera="Rotate -20 1 0 0\nTranslate 0 0 4") + area(n, shape(0, 1.5, 2, half), 4 / half ** 2, extra) +
                 f'Surface "plastic" "float Kd" [0] "float Ks" [1] "float roughness" [{roughness}]\n' + FLOOR + "WorldEnd\n")
     return scene
 
@@ -84,6 +91,7 @@ SCENES = {
     "glossy floor, lamp of 0.1, roughness 0.1": (glossy(0.05, 0.1), 16),
     "glossy floor, lamp of 2, roughness 0.1": (glossy(1, 0.1), 16),
     "glossy floor, lamp of 2, roughness 0.005": (glossy(1, 0.005), 16),
+    "glossy floor, octahedron of 2, roughness 0.005": (glossy(1, 0.005, octahedron), 16),
 }
 
 

@@ -90,6 +90,42 @@ t.write("foreign.ptc", bricks)
 t.expect_run("a brick map that calls itself a cloud", ["brickmake", "foreign.ptc", "-o", "foreign.bkm"], 2, "another kind")
 t.expect_run("irradiance of what is no photon map", ["irradiance", "byhand_points", "-o", "again"], 2, "no photon map")
 
+# What was gathered as brick maps, with which another camera shades at the cost of direct light (irradiance-atlas 6.3).
+def lit(scene, *arguments):
+    """Exit code, gather rays, and what was said."""
+    result = t.run(scene, *arguments, "--stats", "stats.json", "--samples", "64")
+    return result.returncode, json.loads((t.folder / "stats.json").read_text())["rays"]["gather"], result.stderr
+
+
+def apart(a, b):
+    return json.loads(t.run("compare", a, b, "--json").stdout)["mean_absolute_relative_error"]
+
+
+def kept(folder):
+    return sum(f.stat().st_size for f in (t.folder / folder / "points").iterdir())
+
+
+code, rays, _ = lit("room.rib", "--gi", "gather", "--baked", "light", "-o", "first.exr")
+t.expect(code == 0 and rays > 0, "light is gathered and kept")
+before = kept("light")
+code, rays, said = lit("room.rib", "--gi", "baked", "--baked", "light", "-o", "again.exr")
+t.expect((code, rays, said) == (0, 0, ""), f"and used without a ray ({code}, {rays}, {said})")
+t.expect(apart("again.exr", "first.exr") < 0.01, "for the same picture but for 1 %")
+lit("moved.rib", "--gi", "gather", "-o", "own.exr")
+code, rays, said = lit("moved.rib", "--gi", "baked", "--baked", "light", "-o", "other.exr")
+t.expect((code, rays, said) == (0, 0, "") and apart("other.exr", "own.exr") < 0.02, f"from another camera, within 2 % of what that would gather ({said})")
+t.expect(kept("light") == before, "shading adds nothing to it")
+lit("moved.rib", "--gi", "gather", "--baked", "light", "-o", "own.exr")
+t.expect(kept("light") > before, "but another camera may")
+t.expect("was made before the scene was changed" in lit("red.rib", "--gi", "baked", "--baked", "light", "-o", "out.exr")[2], "of a scene that has changed it is used with a warning")
+lit("red.rib", "--gi", "gather", "--baked", "light", "-o", "out.exr")
+t.expect(lit("red.rib", "--gi", "baked", "--baked", "light", "-o", "out.exr")[2] == "", "and what such a scene gathers takes its place")
+t.expect_run("baked light without a folder", ["room.rib", "--gi", "baked", "-o", "out.exr"], 3, "needs --baked FOLDER")
+t.expect_run("a folder for what is not gathered", ["room.rib", "--gi", "reference", "--samples", "1", "--baked", "light", "-o", "out.exr"], 0, "nothing is gathered")
+t.expect_run("baked light that is not there", ["room.rib", "--gi", "baked", "--baked", "nowhere", "-o", "out.exr"], 3, "is missing")
+(t.folder / "light" / "room.bkm").write_bytes(b"TMBRICKS" + bytes(40))
+t.expect(lit("red.rib", "--gi", "baked", "--baked", "light", "-o", "out.exr")[0] == 3, "a damaged map is said")
+
 # A scene without light, an object that no photon reaches, a disk that is full.
 t.write("dark.rib", ROOM.format(camera="0", light="2", color="0.5").replace('LightSource "pointlight"', '# LightSource "pointlight"'))
 t.expect_run("a scene without light", ["dark.rib", "--gi", "atlas", "-o", "dark.exr"], 0, "emits photons")

@@ -4,7 +4,8 @@
 //   hit list  "An Approximate Global Illumination System", section 4.3 (docs/decisions/0006)
 // Flat cases: rays leave places up to d = offset / 1.5 before or behind their sheet, as micropolygons do, with the cosine around its
 // normal. Right is what a ray would meet that leaves the sheet itself and cannot meet it. Curved cases: places on the true surface
-// of a sphere, rays inwards; meeting the sphere before half the way to its other side is wrong.
+// of a sphere, rays inwards; meeting the sphere before half the way to its other side is wrong. The same at all times of the shutter, where it moves.
+// Curves and points: rays outwards, all of which miss it.
 //
 //     offset_lab [--rays N] [--check] [--picture FILE.ppm]
 #include <fmt/format.h>
@@ -76,30 +77,94 @@ Row run(const FlatCase& c, int rays) {
   return row;
 }
 
+/// Rays from the places of an object's micropolygons, at the times of the shutter if it moves, to the outer side or inwards. Wrong is a hit with the
+/// object: outwards any, inwards one before `inside` times the cosine.
+struct ObjectCase {
+  std::string name;
+  double limit = 1;
+  float inside = 0;  ///< 0: outwards.
+  UvRect part{0.013f, 0.987f, 0.1f, 0.9f};
+};
+
+Row run(const ObjectCase& c, const World& world, int rays) {
+  const Grid g = dice(world.scene, 0, 0, c.part, 64, 64, 1);
+  const bool moves = world.rays->samplesTime(0), inwards = c.inside > 0;
+  Row row{c.name, {}, c.limit};
+  for (int i = 0; i < rays; ++i) {
+    const auto n = static_cast<uint32_t>(i);
+    const int k = static_cast<int>(hash32(n) % static_cast<uint32_t>(g.vertexCount()));
+    const float time = moves ? sobol1(n, 4) : 0;
+    const vec3 P = world.rays->placeAt(0, g.position(0, k), vec3(0), time);
+    const vec3 away = glm::normalize(world.rays->placeAt(0, g.position(0, k) + glm::normalize(g.normal(k)), vec3(0), time) - P);
+    vec3 x, y;
+    orthonormalBasis(away, x, y);
+    const vec3 d = cosineHemisphere(sobol2(n, 3));
+    Ray prepared{P, vec3(0, 0, 1)};
+    world.rays->prepareOrigin(0, P, 0, prepared);
+    for (const Method m : {kBias, kIgnore, kHitList}) {
+      Ray ray = rayBy(m, P, d.x * x + d.y * y + (inwards ? -d.z : d.z) * away, d.z, prepared.offset, prepared.bias, 0);
+      ray.time = time;
+      const Hit hit = world.rays->closest(ray, kMaskDiffuse);
+      row.wrong[m] += inwards ? hit.object < 0 || hit.t < c.inside * d.z : hit.object >= 0;
+    }
+  }
+  for (double& w : row.wrong) w /= rays;
+  return row;
+}
+
 /// Five radii away from the eye; both stand at `away` in the world.
 Row runSphere(const std::string& name, float radius, float away, int rays, double limit) {
   World world;
   world.scene.cameraFromWorld = Motion::still(translation({-away, -away, -away}));
   world.add(sphere(radius), translation(vec3(away) + vec3(0, 0, 5 * radius)));
   world.build();
-  const Grid g = dice(world.scene, 0, 0, UvRect{0.013f, 0.987f, 0.1f, 0.9f}, 64, 64, 1);
-  Row row{name, {}, limit};
-  for (int i = 0; i < rays; ++i) {
-    const int k = static_cast<int>(hash32(static_cast<uint32_t>(i)) % static_cast<uint32_t>(g.vertexCount()));
-    const vec3 P = g.position(0, k), N = g.normal(k);
-    vec3 x, y;
-    orthonormalBasis(glm::normalize(N), x, y);
-    const vec3 d = cosineHemisphere(sobol2(static_cast<uint32_t>(i), 3));
-    Ray prepared{P, vec3(0, 0, 1)};
-    world.rays->prepareOrigin(0, P, 0, prepared);
-    for (const Method m : {kBias, kIgnore, kHitList}) {
-      const Ray ray = rayBy(m, P, d.x * x + d.y * y - d.z * glm::normalize(N), d.z, prepared.offset, prepared.bias, 0);
-      const Hit hit = world.rays->closest(ray, kMaskDiffuse);
-      row.wrong[m] += hit.object < 0 || hit.t < radius * d.z;
-    }
+  return run(ObjectCase{name, limit, radius}, world, rays);
+}
+
+/// A sphere of radius 1 that turns around an axis beside it, or moves, while the shutter is open.
+Row runMoving(const std::string& name, const mat4& atClose, int rays, double limit) {
+  World world;
+  world.scene.options.shutterClose = 1;
+  world.attributes.trace.sampleMotion = true;
+  const mat4 place = translation({0, 0, 6});
+  world.add(sphere(), place);
+  world.scene.objects[0].worldFromObject = Motion{{0, 1}, {place, place * atClose}};
+  world.build();
+  return run(ObjectCase{name, limit, 1}, world, rays);
+}
+
+/// The x axis goes to the y axis, about the point (1, 0, 0).
+mat4 aroundRim(float angle) {
+  mat4 turn(1.0f);
+  turn[0] = vec4(std::cos(angle), std::sin(angle), 0, 0), turn[1] = vec4(-std::sin(angle), std::cos(angle), 0, 0);
+  return translation({1, 0, 0}) * turn * translation({-1, 0, 0});
+}
+
+ParamList thin(std::vector<float> points, float width) {
+  return {floatsParam("P", ValueType::Point, Storage::Vertex, std::move(points)), floatsParam("constantwidth", ValueType::Float, Storage::Constant, {width})};
+}
+
+std::vector<Row> runThin(int rays) {
+  const std::vector<float> line{-1, -0.5f, 5, 1, 0.5f, 6}, bend{-1, -0.5f, 5, 0, 1, 5, 0.5f, 1, 5, 1, -0.5f, 5};
+  Problems problems;
+  ParamList ball = thin({0, 0, 5}, 0.02f);
+  Param type = floatsParam("type", ValueType::String, Storage::Constant, {});
+  type.strings = {"sphere"};
+  ball.push_back(type);
+  const std::pair<const char*, PrimPtr> prims[] = {
+      {"straight tube", makeTubes(false, bezierBasis(), {2}, false, thin(line, 0.1f), problems)},
+      {"bent curve that faces the eye", makeCurves(true, bezierBasis(), {4}, false, thin(bend, 0.1f), problems)},
+      {"point, a disk", makePoints(thin({0, 0, 5}, 0.02f), problems)},
+      {"point, a sphere", makePoints(ball, problems)},
+  };
+  std::vector<Row> rows;
+  for (const auto& [name, prim] : prims) {
+    World world;
+    world.add(prim);
+    world.build();
+    rows.push_back(run(ObjectCase{name, 0.03}, world, rays));
   }
-  for (double& w : row.wrong) w /= rays;
-  return row;
+  return rows;
 }
 
 /// The far side of a wall whose near side the rays leave, and a ceiling.
@@ -134,6 +199,9 @@ std::vector<Row> measure(int rays) {
   for (const float radius : {1e-3f, 1e-1f, 10.0f, 1e3f, 1e5f})
     rows.push_back(runSphere(fmt::format("sphere of radius {:g}", radius), radius, 0, rays, 0.03));
   rows.push_back(runSphere("sphere of radius 1, scene moved by 1e6", 1, 1e6f, rays, 0.03));
+  for (Row& row : runThin(rays)) rows.push_back(std::move(row));
+  rows.push_back(runMoving("sphere that moves by its width", translation({2, 0.5f, 0}), rays, 0.03));
+  rows.push_back(runMoving("sphere that turns by 90 degrees around its rim", aroundRim(kPi / 2), rays, 0.03));
   return rows;
 }
 

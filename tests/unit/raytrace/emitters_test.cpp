@@ -86,6 +86,83 @@ TEST(Emitters, ASphereLightIsSampledOnTheSphereItself) {
   EXPECT_LT(glm::length(mean) / static_cast<float>(s.P.size()), 0.01f);
 }
 
+/// Pieces of a light around the origin: a bent band of trapezia, of which one hides another.
+World& trapezia(World& world, int pieces) {
+  world.attributes.areaLight = world.addAreaLight();
+  for (int i = 0; i < pieces; ++i) {
+    const float a = 2 * kPi * static_cast<float>(i) / static_cast<float>(pieces), b = a + 3 * kPi / static_cast<float>(pieces);
+    const vec3 p(std::cos(a), std::sin(a), 0), q(std::cos(b), std::sin(b), 0), up(0, 0, 1);
+    Problems problems;
+    std::vector<float> values;
+    for (const vec3& c : {q, p, 0.9f * p + 0.3f * (q - p) + up, 0.9f * p + up}) values.insert(values.end(), {c.x, c.y, c.z});
+    world.add(makeBilinearPatchMesh(2, false, 2, false, {floatsParam("P", ValueType::Point, Storage::Vertex, values)}, problems));
+  }
+  world.build();
+  return world;
+}
+
+struct Seen {
+  vec3 P, N;
+  float density = -1, meetDensity = -1;
+  EmitterPoints out() { return {{&P.x, &P.y, &P.z}, {&N.x, &N.y, &N.z}, &density, &meetDensity}; }
+};
+
+TEST(Emitters, DirectionsMeetFlatMeshesWithTheDensityByWhichSamplesWeighThem) {
+  World world;
+  const Emitters& emitters = trapezia(world, 12).rays->emitters();
+  const vec3 eye(0.1f, -0.05f, 0.3f);
+  int same = 0, nearer = 0;
+  for (uint32_t i = 0; i < 2000; ++i) {
+    const vec2 xi = sobol2(i, 1);
+    Seen sampled, met;
+    ASSERT_TRUE(emitters.sampleFrom(0, 1, {&eye.x, &eye.y, &eye.z}, &xi.x, &xi.y, sampled.out()));
+    if (!(sampled.density > 0)) continue;
+    const vec3 d = glm::normalize(sampled.P - eye);
+    emitters.meet(0, 1, {&eye.x, &eye.y, &eye.z}, {&d.x, &d.y, &d.z}, met.out());
+    const bool isSame = glm::length(met.P - sampled.P) < 1e-4f;
+    same += isSame;
+    nearer += !isSame && glm::length(met.P - eye) < glm::length(sampled.P - eye);
+    if (!isSame) continue;
+    EXPECT_NEAR(met.density / sampled.meetDensity, 1, 1e-3f);
+    EXPECT_GT(dot(met.N, sampled.N), 0.999f);
+  }
+  EXPECT_GT(same, 700);
+  EXPECT_GT(nearer, 100) << "some of the band lies behind the rest";
+  EXPECT_GT(same + nearer, 1500);
+}
+
+// Over all directions the density of one that is met is the share of samples that are seen.
+TEST(Emitters, WhatDirectionsMeetAddsUpToTheWholeLight) {
+  World world;
+  world.attributes.areaLight = world.addAreaLight();
+  world.add(parallelogram({-1, -1, 4}, {0.7f, 2, 0}, {2, 0, 0}));
+  world.build();
+  const vec3 eye(0.2f, 0.1f, 3);
+  double sum = 0;
+  constexpr uint32_t kDirections = 1 << 16;
+  for (uint32_t i = 0; i < kDirections; ++i) {
+    const vec2 xi = sobol2(i, 2);
+    const float z = 1 - 2 * xi.x, r = std::sqrt(std::max(0.0f, 1 - z * z));
+    const vec3 d(r * std::cos(2 * kPi * xi.y), r * std::sin(2 * kPi * xi.y), z);
+    Seen met;
+    world.rays->emitters().meet(0, 1, {&eye.x, &eye.y, &eye.z}, {&d.x, &d.y, &d.z}, met.out());
+    sum += 4 * double{kPi} * double{met.density} / kDirections;
+  }
+  EXPECT_NEAR(sum, 1, 0.01);
+}
+
+TEST(Emitters, OfMeshesOfThousandsOfPolygonsNoneAreMet) {
+  World world;
+  const Emitters& emitters = trapezia(world, 300).rays->emitters();
+  const vec3 eye(0), d(1, 0, 0.1f);
+  Seen met, sampled;
+  const float xi = 0.5f;
+  emitters.meet(0, 1, {&eye.x, &eye.y, &eye.z}, {&d.x, &d.y, &d.z}, met.out());
+  emitters.sampleFrom(0, 1, {&eye.x, &eye.y, &eye.z}, &xi, &xi, sampled.out());
+  EXPECT_EQ(met.density, 0);
+  EXPECT_EQ(sampled.meetDensity, 0);
+}
+
 TEST(Emitters, NormalsFollowOrientation) {
   World world;
   world.attributes.areaLight = world.addAreaLight();

@@ -115,6 +115,18 @@ TEST(Tessellate, DisplacedPolygonsReachTheRateOfMicropolygons) {
   EXPECT_LT(groups[0].deviation, 0.01f);
 }
 
+TEST(Tessellate, ASphereSmallerThanAPixelKeepsItsShape) {
+  for (const float radius : {0.01f, 1e-4f}) {
+    World world;
+    world.add(sphere(radius), translation({0, 0, 5}));
+    const CoarseGroup g = coarse(world)[0];
+    EXPECT_LE(g.quads.size(), 16u);
+    float area = 0;
+    for (const Quad& q : g.quads) area += 0.5f * glm::length(cross(g.P[q[2]] - g.P[q[0]], g.P[q[3]] - g.P[q[1]]));
+    EXPECT_GT(area, 2 * kPi * radius * radius) << "half the sphere's";
+  }
+}
+
 TEST(Tessellate, AnAbsurdRateIsLimitedAndReported) {
   World world;
   world.attributes.trace.tessellation = 1e4f;

@@ -1,0 +1,21 @@
+// Flat convex polygons of area lights that are meshes, as directions meet them. Space: any; threads: pure.
+#pragma once
+#include <array>
+#include <optional>
+
+#include "reyes/base/math.h"
+
+namespace tomales {
+
+struct EmitterFacet {
+  std::array<vec3, 4> corners;
+  vec3 normal;  ///< Unit, of the shining side.
+};
+
+/// Nothing for what is bent or not convex. Two corners may coincide.
+std::optional<EmitterFacet> facetOf(const std::array<vec3, 4>& corners, const vec3& normal);
+
+/// Distance to the facet's shining side along the unit `direction`; infinite if it is not met.
+float distanceTo(const EmitterFacet& facet, const vec3& from, const vec3& direction);
+
+}  // namespace tomales
