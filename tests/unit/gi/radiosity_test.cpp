@@ -98,10 +98,15 @@ TEST(RadiosityMaps, HoldWhatAHitSendsBack) {
 
 TEST(RadiosityMaps, OfATrimmedPatchAreNotDarkAlongItsEdge) {
   SceneBuilder b;
-  const TrimCurve triangle{{4, 2, {0, 0, 1, 2, 3, 3}, 0, 3}, {{0.13f, 0.17f, 1}, {0.91f, 0.32f, 1}, {0.41f, 0.87f, 1}, {0.13f, 0.17f, 1}}};
+  TrimLoops triangle;
+  triangle.loops.resize(1), triangle.keepsInside = true;
+  TrimCurve& edges = triangle.loops[0].emplace_back();
+  edges.line.controls = 4, edges.line.order = 2, edges.line.min = 0, edges.line.max = 3;
+  edges.line.knots = {0, 0, 1, 2, 3, 3};
+  edges.controls = {{0.13f, 0.17f, 1}, {0.91f, 0.32f, 1}, {0.41f, 0.87f, 1}, {0.13f, 0.17f, 1}};
   const Param P{"P", Storage::Vertex, ValueType::Point, 1, {-1, -1, 3, 1, -1, 3, -1, 1, 3, 1, 1, 3}, {}, {}};
   Problems problems;
-  b.add(makeNuPatch({2, 2, {0, 0, 1, 1}, 0, 1}, {2, 2, {0, 0, 1, 1}, 0, 1}, {{{triangle}}, true}, {P}, problems), {0.5f, 0.25f, 1});
+  b.add(makeNuPatch({2, 2, {0, 0, 1, 1}, 0, 1}, {2, 2, {0, 0, 1, 1}, 0, 1}, triangle, {P}, problems), {0.5f, 0.25f, 1});
   ASSERT_TRUE(problems.empty()) << problems.front();
   auto bright = std::make_shared<Attributes>(*b.scene.objects[0].attributes);
   bright->surface = std::make_shared<ShaderCall>(call("constant"));
