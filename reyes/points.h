@@ -25,7 +25,7 @@ enum PointChannel : int {
 
 /// What may change from one micropolygon to the next, as a batch with steps holds it: two arrays for each, the change along the
 /// whole of a micropolygon's u edge and of its v edge. Primitive variables follow.
-enum PointStep : int { kStepN = 0, kStepS = 3, kStepT = 4, kStepPrimvars = 5 };
+enum PointStep : int { kStepN = 0, kStepS = 3, kStepT = 4, kStepU = 5, kStepV = 6, kStepPrimvars = 7 };
 
 /// Names a point for random numbers: the same point must have the same name for any thread count, bucket size and crop.
 /// Points that share a key and differ in `sequence` draw successive parts of one low-discrepancy sequence, so that what is

@@ -134,9 +134,9 @@ int irradianceCommand(const IrradianceCommand& command) {
   return exitCodeOf(log);
 }
 
-void makeBrickMaps(const BrickmakeCommand& command) {
+void makeBrickMaps(const BrickmakeCommand& command, const std::function<void(const std::string&)>& made) {
   const std::vector<fs::path> files = pointFiles(command.inputs);
-  const bool one = fs::path(command.output).extension() == ".bkm";
+  const bool one = command.oneFile || fs::path(command.output).extension() == ".bkm";
   if (!one) makeFolder(command.output);
   const auto make = [&](const fs::path& in, const fs::path& out) {
     const PointFile file(in.string());
@@ -144,8 +144,9 @@ void makeBrickMaps(const BrickmakeCommand& command) {
     BrickSettings settings = command.settings;
     if (command.relative) settings.maxError *= static_cast<float>(tiles.meanOfData());
     const BuiltBricks built = writeBrickMap(tiles, settings, out.string(), {file.madeFrom().world, 0});
-    fmt::print("{}: {} points, {} bricks, {} left out, {} levels\n", out.string(), file.count(), built.tree.nodes.size(), built.eliminated,
-               built.tree.deepest + 1);
+    if (made)
+      made(fmt::format("{}: {} points, {} bricks, {} left out, {} levels", out.string(), file.count(), built.tree.nodes.size(), built.eliminated,
+               built.tree.deepest + 1));
   };
   if (one && files.size() > 1) {
     const fs::path folder = fs::path(command.output).parent_path();
@@ -160,7 +161,7 @@ void makeBrickMaps(const BrickmakeCommand& command) {
 
 int brickmakeCommand(const BrickmakeCommand& command) {
   Log log;
-  guarded(log, Severity::Error, [&] { makeBrickMaps(command); });
+  guarded(log, Severity::Error, [&] { makeBrickMaps(command, [](const std::string& what) { fmt::print("{}\n", what); }); });
   return exitCodeOf(log);
 }
 

@@ -1,5 +1,7 @@
 // tomales photons, irradiance, brickmake, view, convert: the irradiance atlas pass by pass (docs/gi.md).
 #pragma once
+#include <functional>
+
 #include "reyes/app/settings.h"
 
 namespace tomales {
@@ -19,9 +21,10 @@ struct BrickmakeCommand {
   std::string output;               ///< FILE.bkm for all, or a folder for one each.
   BrickSettings settings;
   bool relative = false;            ///< maxError is a share of the mean of the data.
+  bool oneFile = false;             ///< `output` is a file, whatever it ends in.
 };
-/// Throws FileError.
-void makeBrickMaps(const BrickmakeCommand& command);
+/// `made` hears of each. Throws FileError, or std::filesystem::filesystem_error.
+void makeBrickMaps(const BrickmakeCommand& command, const std::function<void(const std::string&)>& made = {});
 int brickmakeCommand(const BrickmakeCommand& command);
 
 struct ViewCommand {

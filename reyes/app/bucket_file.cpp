@@ -6,12 +6,11 @@
 #include <filesystem>
 
 #include "reyes/app/hide.h"
-#include "reyes/frame.h"
 
 namespace tomales {
 
-BucketFile::BucketFile(const Scene& scene, int world, const RenderSettings& settings, Log& log)
-    : picture_(scene.options.displays.front().name), layout_(layOutFrame(scene)), log_(log), resumes_(settings.resume) {
+BucketFile::BucketFile(const Scene& scene, const DeepFrame& layout, int world, const RenderSettings& settings, Log& log)
+    : picture_(scene.options.displays.front().name), layout_(layout), log_(log), resumes_(settings.resume) {
   if (!resumes_) return;
   const Shot shot{scene, layout_, settings.seed, sourcesOf(settings.files), std::filesystem::current_path().string(), world};
   std::string error;

@@ -11,7 +11,7 @@ namespace tomales {
 
 class BucketFile {
  public:
-  BucketFile(const Scene& scene, int world, const RenderSettings& settings, Log& log);
+  BucketFile(const Scene& scene, const DeepFrame& layout, int world, const RenderSettings& settings, Log& log);
 
   std::optional<DeepTile> tile(size_t index) const { return file_ ? file_->tile(index) : std::nullopt; }
   /// Without --resume, nothing.

@@ -69,6 +69,7 @@ BrickmakeCommand brickmakeOf(const Request& r, Log& log) {
   s.maxError = number("maxerror", s.maxError, 0, 1e9f);
   s.maxDepth = static_cast<int>(number("maxdepth", static_cast<float>(s.maxDepth), 0, 20));
   s.radiusScale = number("radiusscale", s.radiusScale, 1e-3f, 1e3f);
+  command.oneFile = true;
   s.ignoreNormals = number("ignorenormals", 0, 0, 1) != 0;
   return command;
 }
@@ -76,7 +77,7 @@ BrickmakeCommand brickmakeOf(const Request& r, Log& log) {
 void makeBrickMap(const Request& r, Log& log) {
   try {
     makeBrickMaps(brickmakeOf(r, log));
-  } catch (const FileError& e) {
+  } catch (const std::runtime_error& e) {  // FileError, or of the file system
     log.report(Severity::Missing, "make-brickmap", r.where, fmt::format("{}: \"{}\" cannot be made ({})", r.name, r.args[1].strings[0], e.what()));
   }
 }

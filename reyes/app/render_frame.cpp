@@ -97,7 +97,7 @@ void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats&
   const bool streams = !gathers && (large || !settings.preview.empty() || mayStream(scene));  // a preview wants the first rows first
 
   if (streams || given || settings.resume) job.openAll();
-  BucketFile file(scene, world, settings, log);
+  BucketFile file(scene, layout, world, settings, log);
   const std::function<std::optional<DeepTile>(size_t)> find = [&](size_t i) { return file.tile(i); };
   if (streams || given) job.prepareRays();
   if (given && job.services() && !useIrradiance(scene, settings, *job.services(), log)) return;

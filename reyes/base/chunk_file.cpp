@@ -136,7 +136,7 @@ struct ChunkReader::Impl {
     Bytes out(e.size);
     readAt(e.offset, stored.data(), e.stored);
     const size_t size = ZSTD_decompressDCtx(zstd.get(), out.data(), out.size(), stored.data(), e.stored);
-    if (stored.size() > kKeptBytes) stored = {};
+    if (stored.size() > kKeptBytes) stored = Bytes();
     if (ZSTD_isError(size)) fail(fmt::format("is damaged: {}", ZSTD_getErrorName(size)));
     if (size != e.size) fail("is damaged: a chunk is too short");
     return out;

@@ -26,4 +26,13 @@ void returnFreeMemory() {
 #endif
 }
 
+std::vector<std::filesystem::path> besideProgram(const std::string& name) {
+  std::error_code none;
+  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
+  std::vector<std::filesystem::path> out;
+  for (const auto& path : {folder / name, folder / ".." / "lib" / name})
+    if (std::filesystem::exists(path, none)) out.push_back(path);
+  return out;
+}
+
 }  // namespace tomales

@@ -54,7 +54,7 @@ void batch(A& a, ShadePoints& x) {
   each(a, group, primvarFloats, steps);
   columns(a, names, &SampleName::key, &SampleName::sequence);
   if constexpr (kIsSchema<A>) {
-    a.add(kFixedChannels);
+    a.add(kFixedChannels), a.add(kStepPrimvars);
   } else {
     const size_t bytes = names.size() * sizeof(float);
     if constexpr (kUnpacks<A>) {

@@ -104,6 +104,7 @@ void evaluateSteps(const Scene& scene, int object, uint32_t patch, float u, floa
     const vec2 st = o.attributes->textureAt(there.u, there.v) - o.attributes->textureAt(here.u, here.v);
     put(kStepS, s >= 0 ? change(s) : st.x);
     put(kStepT, t >= 0 ? change(t) : st.y);
+    put(kStepU, there.u - here.u), put(kStepV, there.v - here.v);
     batch.channel(alongV ? kDv : kDu)[index] = patchStep * per;
   }
 }

@@ -28,10 +28,15 @@ void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading,
   for (size_t b = 0; b < tile.batches.size(); ++b) {
     const ShadePoints& points = tile.batches[b];
     ShadedPoints& out = tile.shaded[b];
-    // A holdout is opaque to the hider and black in the picture; filtering gives it no alpha.
     const bool matte = scene.groups[static_cast<size_t>(points.group())].attributes->matte;
-    if (matte || (!wantsColor && shading.opaque(points.group()))) {
+    if ((matte || !wantsColor) && shading.opaque(points.group())) {
       leaveBlack(points.count(), out);
+      continue;
+    }
+    if (matte) {  // A holdout holds out as much as it is opaque; compositing takes nothing else of it, so that no light need be asked for.
+      ShadeContext opacityAlone = context;
+      opacityAlone.direct = opacityAlone.indirect = false;
+      shading.shade(points, opacityAlone, out);
       continue;
     }
     ShadeContext batchContext = context;

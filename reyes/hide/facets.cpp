@@ -53,6 +53,7 @@ void stepsOf(const Scene& scene, const Grid& g, const Steps& steps, ShadePoints&
   const vec2 su = alongU * steps.uStep(g.u()) + alongV * steps.uStep(g.v());
   const vec2 sv = alongU * steps.vStep(g.u()) + alongV * steps.vStep(g.v());
   put(kStepS, su.x, sv.x), put(kStepT, su.y, sv.y);
+  put(kStepU, steps.uStep(g.u()), steps.vStep(g.u())), put(kStepV, steps.uStep(g.v()), steps.vStep(g.v()));
   int offset = 0;
   for (const Primvar& p : group.primvars) {
     for (int k = 0; k < p.width; ++k) {

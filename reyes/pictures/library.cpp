@@ -1,9 +1,9 @@
 #include <dlfcn.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "reyes/base/process.h"
 #include "reyes/pictures.h"
 
 namespace tomales {
@@ -12,13 +12,10 @@ namespace {
 /// Beside the program, as built, or in lib, as installed; else where the loader looks, by the run path of the program (CMakeLists.txt). A
 /// sanitizer's loader looks with its own run path.
 void* openModule() {
-  const std::filesystem::path name = "libtomales_openimageio.so";
-  std::error_code none;
-  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
-  for (const auto& path : {folder / name, folder / ".." / "lib" / name, name})
-    if (path == name || std::filesystem::exists(path, none))
-      if (void* handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL)) return handle;
-  return nullptr;
+  constexpr const char* kName = "libtomales_openimageio.so";
+  for (const auto& path : besideProgram(kName))
+    if (void* handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL)) return handle;
+  return dlopen(kName, RTLD_LAZY | RTLD_LOCAL);
 }
 
 }  // namespace

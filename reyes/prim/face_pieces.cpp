@@ -6,7 +6,7 @@
 namespace tomales {
 namespace {
 
-constexpr size_t kMostTries = 32;
+constexpr size_t kMostTries = 32, kMostTriedCorners = 10'000;
 
 double twiceArea(const std::vector<Point2>& p) {
   double area = 0;
@@ -84,6 +84,16 @@ class EarClipper {
     return std::move(out_);
   }
 
+  /// Nothing as soon as there is no common ear.
+  std::optional<Pieces> clipAlike() {
+    while (count_ > 3) {
+      cut(findEar());
+      if (!out_.disjoint) return std::nullopt;
+    }
+    addPiece(next_);
+    return std::move(out_);
+  }
+
  private:
   int before(int i) const { return before_[static_cast<size_t>(i)]; }
   int after(int i) const { return after_[static_cast<size_t>(i)]; }
@@ -120,7 +130,8 @@ class EarClipper {
 
   /// The first true ear after the last one cut; failing that a corner without area, failing that the biggest.
   int findEar() {
-    if (const auto ear = firstCorner([&](int i) { return isEar(i); })) return *ear;
+    if (out_.disjoint)
+      if (const auto ear = firstCorner([&](int i) { return isEar(i); })) return *ear;
     if (p_.size() > 1) out_.disjoint = false;
     if (const auto ear = firstCorner([&](int i) { return isEar(0, i); })) return *ear;
     if (const auto straight = firstCorner([&](int i) { return !hasArea(i); })) return *straight;
@@ -199,11 +210,10 @@ Pieces convexPieces(const Outlines& keys) {
     return {{whole}};
   }
   // Which ears are common to all keys depends on those that have been cut before.
-  const int tries = keys.size() > 1 ? static_cast<int>(std::min(n, kMostTries)) : 1;
-  Pieces first = EarClipper(keys, 0).clip();
-  for (int start = 1; start < tries && !first.disjoint; ++start)
-    if (Pieces pieces = EarClipper(keys, start).clip(); pieces.disjoint) return pieces;
-  return first;
+  const size_t tries = keys.size() > 1 ? std::min({n, kMostTries, kMostTriedCorners / n}) : 0;
+  for (size_t start = 0; start < tries; ++start)
+    if (std::optional<Pieces> pieces = EarClipper(keys, static_cast<int>(start)).clipAlike()) return *std::move(pieces);
+  return EarClipper(keys, 0).clip();
 }
 
 }  // namespace tomales

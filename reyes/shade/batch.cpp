@@ -155,28 +155,29 @@ void Batch::answer(const std::vector<float>& numbers, const std::string& text, T
 
 bool Batch::stepsOf(const TmGrid* g, bool alongV, const float* value, float* out) const {
   const int n = g->count;
-  const float *parameter = alongV ? g->v : g->u, *size = alongV ? g->dv : g->du;
   if (stencil && n == tm.count) {
-    for (int i = 0; i < n; ++i) {
-      const float step = stencil.difference(alongV, parameter, i);
-      out[i] = step != 0 ? stencil.difference(alongV, value, i) * size[i] / step : 0.0f;
-    }
+    for (int i = 0; i < n; ++i) out[i] = stencil.step(alongV, value, i);
     return true;
   }
   if (!points) return false;
   const ShadePoints& p = *points;
   const auto is = [&](const float* known) { return known == value || std::equal(known, known + n, value); };
   const auto take = [&](const float* steps) { return std::copy_n(steps, n, out), true; };
-  if (is(g->u)) return alongV ? (std::fill_n(out, n, 0.0f), true) : take(g->du);
-  if (is(g->v)) return alongV ? take(g->dv) : (std::fill_n(out, n, 0.0f), true);
   for (int k = 0; k < 3; ++k) {
     if (!is(p.channel(kPx + k))) continue;
-    for (int i = 0; i < n; ++i) out[i] = p.channel((alongV ? kDpdvX : kDpduX) + k)[i] * size[i];
+    for (int i = 0; i < n; ++i) out[i] = p.channel((alongV ? kDpdvX : kDpduX) + k)[i] * (alongV ? g->dv : g->du)[i];
     return true;
   }
-  if (!p.hasSteps()) return false;
+  if (!p.hasSteps()) {
+    if (is(g->u)) return alongV ? (std::fill_n(out, n, 0.0f), true) : take(g->du);
+    if (is(g->v)) return alongV ? take(g->dv) : (std::fill_n(out, n, 0.0f), true);
+    return false;
+  }
   if (is(p.channel(kS))) return take(p.step(kStepS, alongV));
   if (is(p.channel(kT))) return take(p.step(kStepT, alongV));
+  // A polygon's u and v are its x and y, so that both may change along either edge of a micropolygon.
+  if (is(g->u)) return take(p.step(kStepU, alongV));
+  if (is(g->v)) return take(p.step(kStepV, alongV));
   for (int k = 0; k < 3; ++k)
     if (is(p.channel(kNx + k))) return take(p.step(kStepN + k, alongV));
   for (int k = 0; k < p.primvarFloats(); ++k)

@@ -7,21 +7,14 @@
 namespace tomales {
 namespace {
 
-// Differences along the lattice; a displacement shader sees no better derivatives than its grid has.
-void derivatives(const Grid& g, TmVec3 dPdu, TmVec3 dPdv) {
-  const int row = g.nu + 1;
-  const UvRect& rect = g.pieces.front().rect;
-  const float u = (rect.u1 - rect.u0) / static_cast<float>(g.nu), v = (rect.v1 - rect.v0) / static_cast<float>(g.nv);
-  for (int j = 0; j <= g.nv; ++j)
-    for (int i = 0; i <= g.nu; ++i) {
-      const int a = std::max(i - 1, 0), b = std::min(i + 1, g.nu), c = std::max(j - 1, 0),
-                d = std::min(j + 1, g.nv);
-      const int k = j * row + i;
-      set(dPdu, k,
-          (g.position(0, j * row + b) - g.position(0, j * row + a)) / (static_cast<float>(b - a) * u));
-      set(dPdv, k,
-          (g.position(0, d * row + i) - g.position(0, c * row + i)) / (static_cast<float>(d - c) * v));
-    }
+/// Differences along the lattice: a displacement shader sees no better derivatives than its grid has. `d` is the change of the
+/// parameter `of` over a micropolygon; 1 where it does not change along this direction, as at points that are shaded.
+void derivatives(const Grid& g, const Stencil& stencil, int direction, const float* of, float* d, TmVec3 dP) {
+  for (int i = 0; i < g.vertexCount(); ++i) {
+    const float step = stencil.step(direction, of, i);
+    d[i] = step != 0 ? step : 1.0f;
+    set(dP, i, vec3(stencil.step(direction, g.P(0, 0), i), stencil.step(direction, g.P(0, 1), i), stencil.step(direction, g.P(0, 2), i)) / d[i]);
+  }
 }
 
 /// Applies P - before to the later motion keys, turned as the object turns; returns the longest displacement.
@@ -75,23 +68,22 @@ void Batch::setGrid(Grid& g, const BoundShader& shader, const std::vector<Overri
   tm.u = g.u(), tm.v = g.v();
   const TmVec3 Ng = arena.vec3(n), I = arena.vec3(n), dPdu = arena.vec3(n), dPdv = arena.vec3(n);
   calculateNormals(g, scene.scene.objects[static_cast<size_t>(g.object)].flipsNormal, Ng.x, Ng.y, Ng.z);
-  derivatives(g, dPdu, dPdv);
+  stencil = stencilOf(g, arena);
   float *s = arena.floats(n), *t = arena.floats(n), *du = arena.floats(n), *dv = arena.floats(n);
   const auto& corners = group.group->attributes->textureCoordinates;
-  const UvRect& rect = g.pieces.front().rect;
+  derivatives(g, stencil, 0, g.u(), du, dPdu);
+  derivatives(g, stencil, 1, g.v(), dv, dPdv);
   for (int i = 0; i < n; ++i) {
     set(I, i, scene.camera.incident(g.position(0, i)));
     const float u = g.u()[i], v = g.v()[i];
     const vec2 st = glm::mix(glm::mix(corners[0], corners[1], u), glm::mix(corners[2], corners[3], u), v);
     s[i] = st.x, t[i] = st.y;
-    du[i] = (rect.u1 - rect.u0) / static_cast<float>(g.nu), dv[i] = (rect.v1 - rect.v0) / static_cast<float>(g.nv);
   }
   tm.Ng = view(Ng), tm.I = view(I), tm.dPdu = view(dPdu), tm.dPdv = view(dPdv);
   tm.s = group.sOffset < 0 ? s : g.primvar(group.sOffset);
   tm.t = group.tOffset < 0 ? t : g.primvar(group.tOffset);
   tm.du = du, tm.dv = dv;
   tm.dPdtime = constant(vec3(0));
-  stencil = stencilOf(g, arena);
 }
 
 void ShadingSystem::displace(Grid& grid) const {

@@ -15,8 +15,8 @@ void move(const ShadePoints& from, int i, bool alongV, float half, bool parallel
   const vec3 edge = from.get3(alongV ? kDpdvX : kDpduX, i) * from.channel(alongV ? kDv : kDu)[i];
   out.set3(kPx, to, from.position(i) + half * edge);
   if (!parallel) out.set3(kIx, to, from.get3(kIx, i) + half * edge);
-  out.channel(alongV ? kV : kU)[to] += half * from.channel(alongV ? kDv : kDu)[i];
   const auto step = [&](int value) { return half * from.step(value, alongV)[i]; };
+  out.channel(kU)[to] += step(kStepU), out.channel(kV)[to] += step(kStepV);
   out.channel(kS)[to] += step(kStepS), out.channel(kT)[to] += step(kStepT);
   const vec3 N = from.get3(kNx, i);
   out.set3(kNx, to, normalizeOr(N + vec3(step(kStepN), step(kStepN + 1), step(kStepN + 2)), N));
@@ -34,7 +34,7 @@ Stencil stencilOf(const Grid& g, Arena& arena) {
     index[0][k] = j * row + std::max(i - 1, 0), index[1][k] = j * row + std::min(i + 1, g.nu);
     index[2][k] = std::max(j - 1, 0) * row + i, index[3][k] = std::min(j + 1, g.nv) * row + i;
   }
-  return {{index[0], index[2]}, {index[1], index[3]}};
+  return {{index[0], index[2]}, {index[1], index[3]}, {1, row}};
 }
 
 Widened widened(const ShadePoints& points, bool parallel, Arena& arena) {

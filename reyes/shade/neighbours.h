@@ -7,12 +7,17 @@ namespace tomales {
 
 struct Grid;
 
-/// The derivative of element i along direction d (0: u, 1: v) is (x[hi[d][i]] - x[lo[d][i]]) / (p[hi] - p[lo]), p being u or v.
-/// Null arrays: a batch without neighbours.
+/// Along direction d (0: u, 1: v) of the lattice x changes from x[lo[d][i]] to x[hi[d][i]] around element i. Null arrays: a batch
+/// without neighbours.
 struct Stencil {
   const int32_t *lo[2] = {nullptr, nullptr}, *hi[2] = {nullptr, nullptr};
+  int32_t next[2] = {0, 0};  ///< From an element to that behind one micropolygon; 0: lo and hi are one micropolygon apart.
   explicit operator bool() const { return lo[0] != nullptr; }
   float difference(int d, const float* x, int i) const { return x[hi[d][i]] - x[lo[d][i]]; }
+  /// The change over one micropolygon. Never by u or v, which need not change along d: those of polygons are x and y.
+  float step(int d, const float* x, int i) const {
+    return next[d] == 0 ? difference(d, x, i) : difference(d, x, i) * static_cast<float>(next[d]) / static_cast<float>(hi[d][i] - lo[d][i]);
+  }
 };
 
 /// Centred differences along the lattice of a grid, one-sided at its border.

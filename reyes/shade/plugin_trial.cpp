@@ -7,8 +7,8 @@
 #include <sys/wait.h>
 
 #include <cstring>
-#include <filesystem>
 
+#include "reyes/base/process.h"
 #include "reyes/shade/plugin_trial_socket.h"
 
 extern char** environ;
@@ -28,24 +28,15 @@ Heard hear(int socket) {
   return recv(socket, &word, 1, 0) == 1 ? Heard::Word : Heard::End;
 }
 
-/// Beside this program, as built, or in lib, as installed. Empty: nowhere.
-std::filesystem::path trialProgram() {
-  const std::filesystem::path name = "tomales_plugin_trial";
-  std::error_code none;
-  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
-  for (const auto& path : {folder / name, folder / ".." / "lib" / name})
-    if (std::filesystem::exists(path, none)) return path;
-  return {};
-}
-
 }  // namespace
 
 // A program of its own, not a fork: other threads may hold locks that the child would wait for.
 void PluginTrial::start() {
   end();
-  const std::string program = trialProgram();
+  const auto programs = besideProgram("tomales_plugin_trial");
   int ends[2];
-  if (program.empty() || socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) return;
+  if (programs.empty() || socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) return;
+  const std::string program = programs.front();
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_adddup2(&files, ends[1], trial::kSocket);  // first: the numbers of standard files may be those of the socket

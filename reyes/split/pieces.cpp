@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <bit>
+
 #include "reyes/split.h"
 #include "reyes/split/rate.h"
 
@@ -179,7 +181,8 @@ class Splitter {
   void cutAcross(uint32_t patch, const UvRect& rect, int depth, int nu, int nv, std::vector<SubPatch>& out) {
     const bool alongU = nu >= nv;
     int& cellsAlong = alongU ? nu : nv;
-    const int parts = (cellsAlong + longest_ - 1) / longest_;
+    int parts = (cellsAlong + longest_ - 1) / longest_;
+    if (object_.attributes->binaryDice) parts = static_cast<int>(std::bit_ceil(static_cast<unsigned>(parts)));
     cellsAlong = (cellsAlong + parts - 1) / parts;
     UvRect part = rect;
     float& begin = alongU ? part.u0 : part.v0;

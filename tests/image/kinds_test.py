@@ -1,4 +1,5 @@
-"""TextureCoordinates, Orientation, ReverseOrientation, Sides and Matte mean the same to every kind of primitive.
+"""TextureCoordinates, Orientation, ReverseOrientation, Sides and Matte mean the same to every kind of primitive, and a polygon is textured
+alike whichever of its corners comes first.
 
     kinds_test.py tomales repository
 """
@@ -59,6 +60,30 @@ WorldEnd
     return pixels(folder / "a.exr")
 
 
+def polygons(folder, what):
+    """The same square eight times: begun at each corner, in both directions."""
+    corners = [(-0.4, -0.4), (-0.4, 0.4), (0.4, 0.4), (0.4, -0.4)]
+    (folder / "map.ppm").write_text("P3 8 8 255 " + " ".join(f"{40 * (x % 4) + 60} {30 * y} {90 * ((x + y) % 2)}" for y in range(8) for x in range(8)))
+    squares = "\n".join(
+        f'TransformBegin Translate {k % 4 + 0.5} {k // 4 + 0.5} 2 Polygon "P" [' +
+        " ".join(f"{x} {y} 0" for x, y in [corners[(k + i * (1 if k < 4 else -1)) % 4] for i in range(4)]) + "] TransformEnd" for k in range(8))
+    (folder / "polygons.rib").write_text(f"""Format 128 64 1
+PixelFilter "box" 1 1
+Hider "hidden" "jitter" [0]
+Display "polygons.exr" "openexr" "rgba"
+Projection "orthographic"
+ScreenWindow 0 4 0 2
+WorldBegin
+LightSource "ambientlight" 1
+{what}
+{squares}
+WorldEnd
+""")
+    subprocess.run([pathlib.Path(tomales).absolute(), "render", "polygons.rib", "-q", "--texture-cache", "cache"], cwd=folder, check=True)
+    picture = pixels(folder / "polygons.exr")
+    return [{(x, y): picture[32 * (k % 4) + x, 32 * (1 - k // 4) + y] for x in range(32) for y in range(32)} for k in range(8)]
+
+
 def expect(what, good):
     """`good`: of the pixels of one kind."""
     for k, kind in enumerate(KINDS):
@@ -82,6 +107,17 @@ with tempfile.TemporaryDirectory() as temporary:
     expect("Matte does not hold out what it covers", lambda cell: all(abs(held[p][3] + both[p][3] - 1) < 1e-3 for p in cell))
     expect("TextureCoordinates are not its s and t",
            lambda cell: all(abs(placed[p][0] - 0.3) < 1e-4 and abs(placed[p][1] - 0.6) < 1e-4 for p in cell if placed[p][2] == 1))
+
+    squares = polygons(folder, 'Surface "paintedplastic" "string texturename" "map.ppm" "Kd" [0] "Ks" [0]')
+    if len({round(p[0], 1) for p in squares[0].values()}) < 3:
+        failures.append("the picture is not to be seen on a polygon")
+    for k, square in enumerate(squares):
+        off = sum(abs(a - b) for p in square for a, b in zip(square[p], squares[0][p])) / len(square)
+        if off > 0.01:
+            failures.append(f"a polygon that begins at another corner ({k}) is textured otherwise: {off:.3f}")
+    misty = render(folder, "Matte 1 Opacity 0.25 0.25 0.25", BACKDROP)  # of up to eight layers
+    expect("transparent and Matte, it does not hold out as much as it covers",
+           lambda cell: all(1 - (1 - 0.75**8) * both[p][3] - 1e-3 <= misty[p][3] <= 1 - 0.25 * both[p][3] + 1e-3 for p in cell))
 
 print("\n".join(failures))
 sys.exit(bool(failures))

@@ -85,6 +85,7 @@ void maskedRun(const TmGrid* g) {
     asked.call(*g->call, g->host, &some, out, flags.data());
     EXPECT_EQ(out[1].x, kUntouched) << asked.service;
     EXPECT_EQ(out[1].y, kUntouched) << asked.service;
+    EXPECT_EQ(out[1].z, kUntouched) << asked.service;
     EXPECT_EQ(flags[1], 0) << asked.service;
     for (const int i : {0, 2}) EXPECT_TRUE(out[i].x != kUntouched || flags[static_cast<size_t>(i)]) << asked.service << " gave nothing";
   }

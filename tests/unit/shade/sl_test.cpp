@@ -148,6 +148,7 @@ TEST_F(Sl, DerivativesAreCentredDifferencesOverTheMicropolygon) {
     const int i = p.add(static_cast<uint32_t>(k));
     const float u = static_cast<float>(k) / 20, v = 0.3f;
     p.channel(kU)[i] = u, p.channel(kV)[i] = v, p.channel(kDu)[i] = du, p.channel(kDv)[i] = dv;
+    p.step(kStepU, false)[i] = du, p.step(kStepV, true)[i] = dv;
     p.set3(kPx, i, {2 * u, 4 * v, 5}), p.set3(kDpduX, i, {2, 0, 0}), p.set3(kDpdvX, i, {0, 4, 0});
     p.set3(kNx, i, {0, 0, -1}), p.set3(kNgx, i, {0, 0, -1}), p.set3(kIx, i, p.position(i));
   }
