@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr float kMostIor = 3;  // the rational approximation of inner reflection is made for less
+
 vec3 at(TmConstVec3 v, int i) { return {v.x[i], v.y[i], v.z[i]}; }
 
 fs::path found(const std::string& file, const std::string& searchPath) {
@@ -57,6 +59,15 @@ std::optional<Translucency> materialOf(const TmSubsurface& s) {
   if (s.material) return translucencyOf(s.material);
   if (s.meanFreePath[0] != 0) return translucencyOf(triple(s.albedo), triple(s.meanFreePath), s.ior);
   return Translucency{triple(s.scattering), triple(s.absorption), s.ior};
+}
+
+/// What subsurface() cannot reckon with; empty: nothing.
+std::string problemOf(const TmSubsurface& given, const std::optional<Translucency>& material) {
+  if (!material) return fmt::format("subsurface material \"{}\" is not known", given.material);
+  if (!(material->ior >= 1 && material->ior <= kMostIor)) return fmt::format("subsurface \"ior\" {} is not between 1 and {}", material->ior, kMostIor);
+  if (!(given.unitLength > 0 && std::isfinite(given.unitLength))) return fmt::format("subsurface \"unitlength\" {} is no length", given.unitLength);
+  if (!isFinite(material->scattering) || !isFinite(material->absorption)) return "subsurface scattering and absorption are not finite";
+  return {};
 }
 
 /// Throws FileError.
@@ -170,7 +181,7 @@ bool CloudFiles::subsurface(const CloudQuery& q, const TmSubsurface& given, TmVe
   const Opened<Diffusion>& file = openedToDiffuse(q.file);
   problem = file.problem;
   const std::optional<Translucency> material = materialOf(given);
-  if (!material) problem = fmt::format("subsurface material \"{}\" is not known", given.material);
+  if (problem.empty()) problem = problemOf(given, material);
   if (!problem.empty()) return false;
   const Dipole dipole(*material);
   for (int i = 0; i < q.count; ++i) {

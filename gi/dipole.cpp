@@ -58,8 +58,9 @@ Translucency translucencyOf(const vec3& albedo, const vec3& meanFreePath, float 
 }
 
 Dipole::Dipole(const Translucency& m) {
-  const vec3 absorption = glm::max(m.absorption, vec3(0)), extinction = glm::max(absorption + m.scattering, vec3(1e-6f));
-  albedo_ = m.scattering / extinction;
+  const vec3 absorption = glm::max(m.absorption, vec3(0)), scattering = glm::max(m.scattering, vec3(0));
+  const vec3 extinction = glm::max(absorption + scattering, vec3(1e-6f));
+  albedo_ = scattering / extinction;
   decay_ = glm::sqrt(3.0f * absorption * extinction);
   real_ = 1.0f / extinction;
   virtual_ = real_ * (1 + 4.0f / 3.0f * innerReflection(m.ior));

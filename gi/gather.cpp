@@ -163,9 +163,10 @@ class Hemisphere {
   /// From radiosity maps as far as they know.
   void answer(const ShadeContext& context) {
     const auto& rays = scratch_.layers.rays;
+    if (!maps_) return scene_.shadeHits(rays, scratch_.hits, scratch_.layers.names, shading_, context, scratch_.answers);
     scratch_.unknown = scratch_.hits, scratch_.mapped.clear();
     vec3 radiance;
-    for (size_t r = 0; maps_ && r < rays.size(); ++r)
+    for (size_t r = 0; r < rays.size(); ++r)
       if (scratch_.hits[r].object >= 0 && maps_->lookup(rays[r], scratch_.hits[r], radiance))
         scratch_.unknown[r].object = -1, scratch_.mapped.emplace_back(r, radiance);
     scene_.shadeHits(rays, scratch_.unknown, scratch_.layers.names, shading_, context, scratch_.answers);

@@ -118,9 +118,21 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
     int group, samples;
     float maxDistance, time;
     vec3 drift;
-    uint32_t light, indirect;
-  } asked{point.position,   point.normal,         point.key,  settings.seed, point.group,
-          settings.samples, settings.maxDistance, point.time, point.drift,   static_cast<uint32_t>(settings.light), settings.indirect};
+    uint32_t light, indirect, subset, radiosity;
+  } asked{point.position,
+          point.normal,
+          point.key,
+          settings.seed,
+          point.group,
+          settings.samples,
+          settings.maxDistance,
+          point.time,
+          point.drift,
+          static_cast<uint32_t>(settings.light),
+          settings.indirect,
+          static_cast<uint32_t>(checksum(std::as_bytes(std::span(settings.subset)))),
+          state.settings.mode == GiMode::Radiosity};
+  static_assert(sizeof asked == 19 * sizeof(uint32_t), "no padding, whose bytes would be names too");
   const uint64_t name = answers ? checksum(std::as_bytes(std::span(&asked, 1))) : 0;
   if (answers)
     if (const auto it = answers->indirect.find(name); it != answers->indirect.end()) return it->second;

@@ -16,8 +16,6 @@ struct Scout {
   bool operator<(const Scout& o) const { return order != o.order ? order < o.order : tile < o.tile; }
 };
 
-bool keepsOcclusion(const GiState& state) { return state.settings.mode != GiMode::Reference && state.settings.maxError != 0; }
-
 std::vector<Scout> scoutsOf(const GiState& state, const DeepFrame& layout, const TileReader& tiles, const std::atomic<bool>* cancelled) {
   std::vector<Scout> scouts(state.scene.groups.size());
   std::mutex merging;
@@ -39,11 +37,13 @@ std::vector<Scout> scoutsOf(const GiState& state, const DeepFrame& layout, const
 
 }  // namespace
 
+bool keepsOcclusion(const GiSettings& settings) { return settings.mode != GiMode::Reference && settings.maxError != 0; }
+
 void rehearse(GiState& state, const DeepFrame& layout, const TileReader& tiles, const std::atomic<bool>* cancelled) {
   state.occlusionAsked.assign(state.scene.groups.size(), {});
   bool any = false;
   for (size_t g = 0; g < state.scene.groups.size(); ++g) any |= state.shading.asksOcclusion(static_cast<int>(g));
-  if (!any || !keepsOcclusion(state)) return;
+  if (!any || !keepsOcclusion(state.settings)) return;
   std::vector<std::vector<Scout>> ofTile(layout.tileCount());
   for (const Scout& s : scoutsOf(state, layout, tiles, cancelled))
     if (s.tile < ofTile.size()) ofTile[s.tile].push_back(s);
@@ -75,7 +75,7 @@ GatherPlan planFor(const GiState& state, int group, const OcclusionQuery& query)
 
 bool interpolateOcclusion(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N, const OcclusionQuery& query,
                           const ShadeContext& context, float* covered) {
-  if (!keepsOcclusion(state)) return false;
+  if (!keepsOcclusion(state.settings)) return false;
   if (context.rehearsal) {
     auto& asked = state.occlusionAsked[static_cast<size_t>(points.group())];
     if (std::find(asked.begin(), asked.end(), query) == asked.end()) asked.push_back(query);

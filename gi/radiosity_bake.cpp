@@ -9,6 +9,7 @@ namespace {
 constexpr int kProbes = 4;          ///< Edges across a patch that its size is measured along.
 constexpr int kMostTexels = 2048;   ///< Along an edge.
 constexpr int kSamples = 2;         ///< Along each edge of a texel.
+constexpr float kShare = 1.0f / (kSamples * kSamples);
 constexpr size_t kSamplesPerBatch = 1024;
 constexpr uint32_t kBakeStream = 0x72616469U;
 
@@ -37,6 +38,8 @@ RadiosityChart chartOf(const Scene& scene, const Camera& camera, int object, uin
   const float texel = std::max(asked.texelSize * unit / texels, 1e-12f);
   RadiosityChart chart;
   chart.width = powerOfTwoNear(alongU / texel), chart.height = powerOfTwoNear(alongV / texel);
+  chart.texels.assign(static_cast<size_t>(chart.width) * static_cast<size_t>(chart.height), vec3(0));
+  chart.coverage.assign(chart.texels.size(), 0.0f);
   chart.texelSize = std::max(std::sqrt(alongU / static_cast<float>(chart.width) * alongV / static_cast<float>(chart.height)), 1e-20f);
   return chart;
 }
@@ -49,16 +52,16 @@ class Samples {
     answers_.mode = HitMode::Shader;
   }
 
-  /// A look at a point from `radius` in front of it; where its colour goes, and how many have gone there.
-  void add(const Ray& ray, const Hit& hit, SampleName name, vec3& sum, int& count) {
-    rays_.push_back(ray), hits_.push_back(hit), names_.push_back(name), sums_.push_back(&sum), counts_.push_back(&count);
+  /// A look at a point from `radius` in front of it; where its share of the colour goes, and its share of the texel if it has one.
+  void add(const Ray& ray, const Hit& hit, SampleName name, vec3& sum, float& coverage) {
+    rays_.push_back(ray), hits_.push_back(hit), names_.push_back(name), sums_.push_back(&sum), coverages_.push_back(&coverage);
     if (rays_.size() == kSamplesPerBatch) flush();
   }
   void flush() {
     bake_.rays.shadeHits(rays_, hits_, names_, bake_.shading, context_, answers_);
     for (size_t i = 0; i < sums_.size(); ++i)
-      if (isFinite(answers_.color[i])) *sums_[i] += answers_.color[i], ++*counts_[i];
-    rays_.clear(), hits_.clear(), names_.clear(), sums_.clear(), counts_.clear();
+      if (isFinite(answers_.color[i])) *sums_[i] += kShare * answers_.color[i], *coverages_[i] += kShare;
+    rays_.clear(), hits_.clear(), names_.clear(), sums_.clear(), coverages_.clear();
   }
 
  private:
@@ -68,7 +71,7 @@ class Samples {
   std::vector<Hit> hits_;
   std::vector<SampleName> names_;
   std::vector<vec3*> sums_;
-  std::vector<int*> counts_;
+  std::vector<float*> coverages_;
   HitAnswers answers_;
 };
 
@@ -82,7 +85,7 @@ struct Texel {
   uint32_t key;
 };
 
-void sample(const RadiosityBake& bake, const Texel& texel, Samples& samples, vec3& sum, int& count) {
+void sample(const RadiosityBake& bake, const Texel& texel, Samples& samples, vec3& sum, float& coverage) {
   const Scene& scene = bake.rays.scene();
   const Object& object = scene.objects[static_cast<size_t>(texel.object)];
   for (int k = 0; k < kSamples * kSamples; ++k) {
@@ -99,7 +102,7 @@ void sample(const RadiosityBake& bake, const Texel& texel, Samples& samples, vec
     Hit hit;
     hit.t = texel.radius, hit.object = texel.object, hit.patch = texel.patch, hit.u = uv.x, hit.v = uv.y;
     hit.normal = hit.geometricNormal = n, hit.atOpen = surface.P;
-    samples.add(ray, hit, {texel.key, static_cast<uint32_t>(k)}, sum, count);
+    samples.add(ray, hit, {texel.key, static_cast<uint32_t>(k)}, sum, coverage);
   }
 }
 
@@ -112,30 +115,27 @@ std::vector<RadiosityChart> layOutCharts(const Scene& scene, const Camera& camer
   return charts;
 }
 
-void bakeCharts(const RadiosityBake& bake, int object, uint32_t first, bool back, std::span<RadiosityChart> charts) {
-  Samples samples(bake);
-  std::vector<std::vector<int>> counts;
-  for (RadiosityChart& c : charts) {
-    c.texels.assign(static_cast<size_t>(c.width) * static_cast<size_t>(c.height), vec3(0));
-    counts.emplace_back(c.texels.size(), 0);
-  }
-  for (size_t c = 0; c < charts.size(); ++c) {
-    RadiosityChart& chart = charts[c];
-    const auto patch = first + static_cast<uint32_t>(c);
-    const vec2 size = 1.0f / vec2(chart.width, chart.height);
-    const uint32_t key = hashCombine(kBakeStream, static_cast<uint32_t>(object), patch);
-    for (size_t t = 0; t < chart.texels.size(); ++t) {
-      const vec2 cell(static_cast<float>(t % static_cast<size_t>(chart.width)), static_cast<float>(t / static_cast<size_t>(chart.width)));
-      const Texel texel{object, patch, back, cell * size, size, 0.5f * chart.texelSize / kSamples, hashCombine(key, static_cast<uint32_t>(t))};
-      sample(bake, texel, samples, chart.texels[t], counts[c][t]);
+void bakeTexels(const RadiosityBake& bake, int object, bool back, std::span<RadiosityChart> charts, const TexelRun& run) {
+  const auto forEach = [&](const auto& visit) {
+    size_t patch = run.patch, t = run.texel;
+    for (size_t k = 0; k < run.count; ++k, ++t) {
+      if (t == charts[patch].texels.size()) ++patch, t = 0;
+      visit(static_cast<uint32_t>(patch), t);
     }
-  }
+  };
+  Samples samples(bake);
+  forEach([&](uint32_t patch, size_t t) {
+    RadiosityChart& chart = charts[patch];
+    const vec2 size = 1.0f / vec2(chart.width, chart.height);
+    const vec2 cell(static_cast<float>(t % static_cast<size_t>(chart.width)), static_cast<float>(t / static_cast<size_t>(chart.width)));
+    const uint32_t key = hashCombine(hashCombine(kBakeStream, static_cast<uint32_t>(object), patch), static_cast<uint32_t>(t));
+    sample(bake, {object, patch, back, cell * size, size, 0.5f * chart.texelSize / kSamples, key}, samples, chart.texels[t], chart.coverage[t]);
+  });
   samples.flush();
-  for (size_t c = 0; c < charts.size(); ++c) {
-    for (size_t t = 0; t < counts[c].size(); ++t)
-      if (counts[c][t] > 0) charts[c].texels[t] /= static_cast<float>(counts[c][t]);
-    charts[c].makeLevels();
-  }
+  forEach([&](uint32_t patch, size_t t) {
+    RadiosityChart& chart = charts[patch];
+    if (chart.coverage[t] > 0) chart.texels[t] /= chart.coverage[t];
+  });
 }
 
 }  // namespace tomales

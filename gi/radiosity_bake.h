@@ -12,9 +12,9 @@ struct RadiosityBake {
   const RadiositySettings settings;
 };
 
-/// Sizes of the charts of an object's patches; no texels yet.
+/// Charts of an object's patches, of which nothing is known yet.
 std::vector<RadiosityChart> layOutCharts(const Scene& scene, const Camera& camera, int object, float texels);
-/// Shades some of them, of patches from `first` on.
-void bakeCharts(const RadiosityBake& bake, int object, uint32_t first, bool back, std::span<RadiosityChart> charts);
+/// Shades some of their texels, one side of them.
+void bakeTexels(const RadiosityBake& bake, int object, bool back, std::span<RadiosityChart> charts, const TexelRun& run);
 
 }  // namespace tomales

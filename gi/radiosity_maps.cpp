@@ -8,7 +8,8 @@
 namespace tomales {
 namespace {
 
-constexpr int64_t kTexelsPerRun = 256;  ///< That one thread bakes at a time, at least.
+constexpr size_t kTexelsPerRun = 1024;  ///< That one thread bakes at a time.
+constexpr size_t kChartsPerTask = 16;
 
 /// Why an object has no map; null: it has one.
 const char* refusal(const ShadingSystem& shading, const Object& o) {
@@ -17,6 +18,7 @@ const char* refusal(const ShadingSystem& shading, const Object& o) {
   if (o.shape().facing(vec3(0), vec3(0, 0, 1), true)) return "it turns to the eye";
   if (a.displacement && a.trace.displacements) return "rays see its displacement";
   if (!shading.opaque(o.group)) return "it is not opaque";
+  if (shading.tracesRays(o.group)) return "its shader traces rays";
   return nullptr;
 }
 
@@ -28,21 +30,34 @@ int RadiosityChart::levels() const {
   return n;
 }
 
+// Push and pull (Gortler et al. 1996), so that what is trimmed away darkens nothing along its edge.
 void RadiosityChart::makeLevels() {
-  size_t from = 0;
-  int w = width, h = height;
-  while (w > 1 || h > 1) {
-    const int sx = w > 1 ? 2 : 1, sy = h > 1 ? 2 : 1;
-    for (int y = 0; y < h; y += sy)
-      for (int x = 0; x < w; x += sx) {
+  struct Step {
+    size_t from;  ///< The finer level; the coarser one follows.
+    int width, height, sx, sy;
+    size_t at(int x, int y) const { return from + static_cast<size_t>(y * width + x); }
+    size_t coarser(int x, int y) const { return at(0, height) + static_cast<size_t>(y / sy * (width / sx) + x / sx); }
+  };
+  if (coverage.empty()) coverage.assign(texels.size(), 1.0f);
+  std::vector<Step> steps;
+  for (Step s{0, width, height, 1, 1}; s.width > 1 || s.height > 1; s = {s.at(0, s.height), s.width / s.sx, s.height / s.sy, 1, 1}) {
+    s.sx = s.width > 1 ? 2 : 1, s.sy = s.height > 1 ? 2 : 1;
+    for (int y = 0; y < s.height; y += s.sy)
+      for (int x = 0; x < s.width; x += s.sx) {
         vec3 sum(0);
-        for (int j = 0; j < sy; ++j)
-          for (int i = 0; i < sx; ++i) sum += texels[from + static_cast<size_t>((y + j) * w + x + i)];
-        texels.push_back(sum / static_cast<float>(sx * sy));
+        float known = 0;
+        for (int j = 0; j < s.sy; ++j)
+          for (int i = 0; i < s.sx; ++i) sum += coverage[s.at(x + i, y + j)] * texels[s.at(x + i, y + j)], known += coverage[s.at(x + i, y + j)];
+        texels.push_back(known > 0 ? sum / known : vec3(0));
+        coverage.push_back(known / static_cast<float>(s.sx * s.sy));
       }
-    from += static_cast<size_t>(w) * static_cast<size_t>(h);
-    w /= sx, h /= sy;
+    steps.push_back(s);
   }
+  for (auto s = steps.rbegin(); s != steps.rend(); ++s)
+    for (int y = 0; y < s->height; ++y)
+      for (int x = 0; x < s->width; ++x)
+        if (!(coverage[s->at(x, y)] > 0)) texels[s->at(x, y)] = texels[s->coarser(x, y)];
+  coverage = {};
 }
 
 vec3 RadiosityChart::atLevel(int level, float u, float v) const {
@@ -85,24 +100,28 @@ RadiosityMaps::RadiosityMaps(const RayScene& rays, const ShadingSystem& shading,
     if (scene_.objects[static_cast<size_t>(mapped[k])].attributes->sides == 2) map.back = map.front;
   });
   std::vector<Run> runs;
+  std::vector<RadiosityChart*> charts;
   for (const int object : mapped)
-    for (const bool back : {false, true}) addRuns(object, back, runs);
+    for (const bool back : {false, true}) {
+      addRuns(object, back, runs);
+      for (RadiosityChart& c : side(object, back)) charts.push_back(&c);
+    }
   const RadiosityBake bake{rays, shading, settings};
-  parallelFor(runs.size(), 1, [&](size_t r, size_t) {
-    const Run& run = runs[r];
-    Map& map = maps_[static_cast<size_t>(run.object)];
-    bakeCharts(bake, run.object, run.first, run.back, std::span(run.back ? map.back : map.front).subspan(run.first, run.count));
+  parallelFor(runs.size(), 1, [&](size_t r, size_t) { bakeTexels(bake, runs[r].object, runs[r].back, side(runs[r].object, runs[r].back), runs[r].texels); });
+  parallelFor(charts.size(), kChartsPerTask, [&](size_t begin, size_t end) {
+    for (size_t c = begin; c < end; ++c) charts[c]->makeLevels();
   });
 }
 
 void RadiosityMaps::addRuns(int object, bool back, std::vector<Run>& runs) const {
-  const Map& map = maps_[static_cast<size_t>(object)];
-  const std::vector<RadiosityChart>& charts = back ? map.back : map.front;
-  int64_t texels = kTexelsPerRun;
-  for (uint32_t p = 0; p < charts.size(); ++p) {
-    if (texels >= kTexelsPerRun) runs.push_back({object, p, 0, back}), texels = 0;
-    texels += static_cast<int64_t>(charts[p].width) * charts[p].height, ++runs.back().count;
-  }
+  const std::vector<RadiosityChart>& all = charts(object, back);
+  size_t room = 0;
+  for (size_t p = 0; p < all.size(); ++p)
+    for (size_t t = 0; t < all[p].texels.size();) {
+      if (room == 0) runs.push_back({object, back, {p, t, 0}}), room = kTexelsPerRun;
+      const size_t taken = std::min(room, all[p].texels.size() - t);
+      runs.back().texels.count += taken, room -= taken, t += taken;
+    }
 }
 
 bool RadiosityMaps::lookup(const Ray& ray, const Hit& hit, vec3& radiance) const {

@@ -1,8 +1,8 @@
 // Noun: radiosity maps (approximate-gi 4.4), a texture for each surface with what it sends back of direct light, so that gather rays run no
 // shader. Every patch has a chart of its own, a power of two wide and high, so that MIP levels never mix patches; the texture mapping that
 // is inverted is that of the patch, (u, v), which every surface has. Both sides of a surface that shows both.
-// What has no map is shaded where it is hit: points and curves that turn to the eye, what is not opaque, and what displacement moves for
-// rays.
+// What has no map is shaded where it is hit: points and curves that turn to the eye, what is not opaque, what traces rays itself, and what
+// displacement moves for rays.
 // Irradiance: none; radiance towards all sides, as a hit is shaded for gather rays. Threads: const members may be called concurrently.
 #pragma once
 #include "raytrace/trace.h"
@@ -20,15 +20,21 @@ struct RadiosityChart {
   int width = 0, height = 0;   ///< Of the finest level, powers of two; each level halves what is not 1 yet.
   float texelSize = 0;         ///< Of it: root of its mean area.
   std::vector<vec3> texels;
+  std::vector<float> coverage;   ///< Of each texel of the finest level, until makeLevels(): share of it that is known; empty: all of each.
 
   int levels() const;
-  /// Of level 0: smooths from level to level.
+  /// Of level 0: smooths from level to level by what is known of each texel, and fills those of which nothing is from the coarser ones.
   void makeLevels();
   /// Bilinear inside the chart, linear between levels; `width` is that of the footprint.
   vec3 lookup(float u, float v, float width) const;
 
  private:
   vec3 atLevel(int level, float u, float v) const;
+};
+
+/// So many texels of the charts of an object, from one of them on.
+struct TexelRun {
+  size_t patch, texel, count;
 };
 
 class RadiosityMaps {
@@ -49,12 +55,16 @@ class RadiosityMaps {
   struct Map {
     std::vector<RadiosityChart> front, back;  ///< By patch; empty: none.
   };
-  /// Patches that are baked together.
+  /// Texels that are baked together.
   struct Run {
     int object;
-    uint32_t first, count;
     bool back;
+    TexelRun texels;
   };
+  std::vector<RadiosityChart>& side(int object, bool back) {
+    Map& map = maps_[static_cast<size_t>(object)];
+    return back ? map.back : map.front;
+  }
   void addRuns(int object, bool back, std::vector<Run>& runs) const;
 
   const Scene& scene_;

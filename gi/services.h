@@ -54,6 +54,9 @@ using RaySource = std::function<const RayTools*()>;
 using AtlasSource = std::function<std::unique_ptr<const IrradianceAtlas>()>;
 using RadiositySource = std::function<std::unique_ptr<const RadiosityMaps>()>;
 
+/// Are answers of occlusion() kept where a group asks for it (ShadingSystem::asksOcclusion)?
+bool keepsOcclusion(const GiSettings&);
+
 class GiServices final : public ShadeServices {
  public:
   GiServices(const Scene& scene, const Camera& camera, const RayScene& rays, const ShadingSystem& shading,

@@ -259,7 +259,8 @@ class ShadingSystem {
   /// The indirect light switched on for a group, if any: what the gather pass must prepare.
   const IndirectQuery* indirectQuery(int group) const;
   bool needsRays() const;  ///< Some light or shader will trace.
-  bool asksOcclusion(int group) const;  ///< Does a shader of the group call occlusion() whose answers may be interpolated?
+  bool tracesRays(int group) const;     ///< Does its surface shader ask for rays, and not for occlusion() alone?
+  bool asksOcclusion(int group) const;  ///< May a shader of the group call occlusion() so that answers may be interpolated?
 
   LightKind lightKind(int light) const;  ///< None: its shader is missing, or it lights only what the camera sees.
   void probe(int light, LightProbe& probe) const;

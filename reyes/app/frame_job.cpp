@@ -39,7 +39,7 @@ FrameJob::FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, L
       return v.diffuse || v.specular || v.transmission || v.photon;
     });
   gathers_ = mode_ == GiMode::Gather || mode_ == GiMode::Atlas || mode_ == GiMode::Radiosity;
-  for (size_t g = 0; g < scene.groups.size() && mode_ == GiMode::None; ++g) gathers_ |= shading_->asksOcclusion(static_cast<int>(g));
+  for (size_t g = 0; g < scene.groups.size() && mode_ == GiMode::None && keepsOcclusion(giSettings()); ++g) gathers_ |= shading_->asksOcclusion(static_cast<int>(g));
 }
 
 FrameJob::~FrameJob() = default;

@@ -12,14 +12,12 @@
 namespace tomales {
 namespace {
 
-/// Without what file systems take amiss; no two alike.
+/// Without what file systems take amiss, and without dots, which set suffixes off; no two alike.
 std::string fileName(const Object& object, int index, std::set<std::string>& used) {
-  std::string name = object.attributes->name.empty() ? "object" : object.attributes->name;
+  std::string name = object.attributes->name.empty() ? fmt::format("object_{}", index) : object.attributes->name;
   for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.') c = '_';
-  if (name[0] == '.') name[0] = '_';
-  if (!used.insert(name).second || object.attributes->name.empty()) name += fmt::format("_{}", index);
-  used.insert(name);
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
+  while (!used.insert(name).second) name += fmt::format("_{}", index);
   return name;
 }
 

@@ -88,9 +88,19 @@ const IndirectQuery* ShadingSystem::indirectQuery(int group) const {
   return query ? &*query : nullptr;
 }
 
+bool ShadingSystem::tracesRays(int group) const {
+  const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
+  return g.surface->can(TM_TRACES) && !g.surface->can(TM_OCCLUDED);
+}
+
+// Of a light that says how far answers may be off it is known before it runs.
 bool ShadingSystem::asksOcclusion(int group) const {
   const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
-  return g.surface->can(TM_OCCLUDED) || std::any_of(g.lights.begin(), g.lights.end(), [](const BoundLight* l) { return l->can(TM_OCCLUDED); });
+  const bool allowed = g.group->attributes->irradianceMaxError.value_or(0.0f) > 0;
+  return g.surface->can(TM_OCCLUDED) || std::any_of(g.lights.begin(), g.lights.end(), [&](const BoundLight* l) {
+    const float variation = l->can(TM_OCCLUDED) ? l->bound->number("maxvariation", 1) : 0;
+    return variation < 0 ? allowed : variation > 0;
+  });
 }
 
 bool ShadingSystem::needsRays() const {

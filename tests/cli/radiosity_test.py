@@ -29,6 +29,21 @@ Attribute "radiosity" "float worldtexels" [0.1]
 Translate 0 -1 0
 Sphere 0.2 -0.2 0.2 360
 AttributeEnd
+Sides 1
+AttributeBegin
+Attribute "identifier" "name" ["the room.back"]
+Translate 0 1 0
+Sphere 0.2 -0.2 0.2 360
+AttributeEnd
+AttributeBegin
+Attribute "identifier" "name" ["object_5"]
+Translate 1 0 0
+Sphere 0.2 -0.2 0.2 360
+AttributeEnd
+AttributeBegin
+Translate -1 0 0
+Sphere 0.2 -0.2 0.2 360
+AttributeEnd
 WorldEnd
 """)
 
@@ -37,7 +52,7 @@ t.expect_run("what has no map is told", ["room.rib", "--radiosity-maps", "maps",
 stats = json.loads((t.folder / "stats.json").read_text())
 t.expect("radiosity" in stats["time_s"], "the time of baking is counted")
 names = sorted(p.name for p in (t.folder / "maps").iterdir())
-t.expect(names == ["plain.exr", "the_room.back.exr", "the_room.exr"], f"a map for each side that shows, and nothing else: {names}")
+t.expect(names == ["object_5.exr", "object_5_5.exr", "plain.exr", "the_room.back.exr", "the_room.exr", "the_room_back.exr"], f"a map for each side that shows, and nothing else: {names}")
 t.expect_run("a map is a picture", ["info", "maps/the_room.exr"], 0)
 t.expect_run("by the command line", ["room.rib", "--gi", "radiosity", "--radiosity-texels", "0.5", "-o", "coarse.exr"], 0)
 t.write("file", "")

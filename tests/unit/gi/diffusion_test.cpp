@@ -114,6 +114,13 @@ TEST(Diffusion, NoPointsGiveNoLightAndAMissingChannelIsSaid) {
   EXPECT_THROW(Diffusion{none}, FileError);
 }
 
+TEST(Diffusion, NegativeScatteringIsNone) {
+  const Dipole dipole({{-2, 1, -0.5f}, {1, 1, 0.25f}, 1.3f});
+  EXPECT_EQ(dipole.reflectance().x, 0);
+  EXPECT_GT(dipole.reflectance().y, 0);
+  EXPECT_EQ(dipole.exitance(1).z, 0);
+}
+
 TEST(Diffusion, FilesAreAskedThroughTheSeamOfShaders) {
   const std::string file = ::testing::TempDir() + "tomales_diffusion.ptc";
   writePointFile(plane(161, vec3(1)), file);
@@ -130,6 +137,14 @@ TEST(Diffusion, FilesAreAskedThroughTheSeamOfShaders) {
   EXPECT_NEAR(r[0], 0.6f, 0.02f);
   EXPECT_EQ(r[1], -1) << "not asked for";
   EXPECT_LT(r[2], 1e-6f);
+  const auto refused = [&](const auto& spoil) {
+    TmSubsurface bad = material;
+    spoil(bad), problem.clear();
+    return !files.subsurface(query, bad, {r, g, b}, problem) && !problem.empty();
+  };
+  for (const float ior : {0.0f, 0.5f, 4.0f, NAN}) EXPECT_TRUE(refused([&](TmSubsurface& m) { m.ior = ior; })) << ior;
+  for (const float length : {0.0f, -1.0f, NAN, INFINITY}) EXPECT_TRUE(refused([&](TmSubsurface& m) { m.unitLength = length; })) << length;
+  EXPECT_TRUE(refused([](TmSubsurface& m) { m.meanFreePath[0] = 0, m.scattering[1] = NAN; }));
   material.material = "granite";
   EXPECT_FALSE(files.subsurface(query, material, {r, g, b}, problem));
   EXPECT_NE(problem.find("granite"), std::string::npos);

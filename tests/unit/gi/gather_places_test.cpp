@@ -46,6 +46,7 @@ TEST(GatherPlaces, RecordsOfBladesLieAtTheirRoots) {
     EXPECT_NEAR(r.position.y, kGround, 1e-4f);
     if (std::abs(r.position.z - 3) < 1e-5f) roots.insert(r.position.x);
   }
+  EXPECT_FALSE(roots.empty());
   EXPECT_LE(roots.size(), static_cast<size_t>(kBlades));
 }
 
@@ -91,13 +92,16 @@ TEST(GatherPlaces, TheReferenceGathersThereToo) {
   GiSettings settings;
   settings.mode = GiMode::Reference, settings.samples = 4096;
   const auto reference = world.use(settings);
+  int found = 0;
   for (const ShadePoints& batch : frame.tiles[0].batches) {
     if (offsetOf(world.scene.groups[static_cast<size_t>(batch.group())].primvars, "gatherP") < 0) continue;
     ShadePoints top(batch.group(), batch.primvarFloats());
     top.assign(batch, 0, 1);
     const IndirectQuery& query = *world.shading.indirectQuery(batch.group());
     EXPECT_NEAR(luminance(indirectAt(*cached, top, query)[0]) / luminance(indirectAt(*reference, top, query)[0]), 1, 0.06f);
+    ++found;
   }
+  EXPECT_GT(found, 0);
 }
 
 }  // namespace

@@ -38,6 +38,18 @@ TEST(RadiosityChart, OfOneTexelIsThatTexel) {
   EXPECT_EQ(c.lookup(0.9f, 0.1f, 5), vec3(3, 2, 1));
 }
 
+TEST(RadiosityChart, WhatIsUnknownHasNoSayAndTakesWhatIsAround) {
+  RadiosityChart c;
+  c.width = 4, c.height = 2, c.texelSize = 1;
+  c.texels = {vec3(1), vec3(0), vec3(0), vec3(0), vec3(5), vec3(0), vec3(0), vec3(0)};
+  c.coverage = {1, 0, 0, 0, 0.5f, 0, 0, 0};
+  c.makeLevels();
+  const float mean = (1 + 0.5f * 5) / 1.5f;
+  EXPECT_EQ(c.texels[0].x, 1);
+  EXPECT_EQ(c.texels[4].x, 5);
+  for (const size_t filled : {1, 5, 2, 3, 6, 7, 8, 9, 10}) EXPECT_NEAR(c.texels[filled].x, mean, 1e-5f) << filled;
+}
+
 TEST(RadiosityPicture, ChartsLieAtMultiplesOfTheirSizeAndDoNotOverlap) {
   std::vector<RadiosityChart> charts;
   for (uint32_t k = 0; k < 200; ++k) {
@@ -84,6 +96,29 @@ TEST(RadiosityMaps, HoldWhatAHitSendsBack) {
   EXPECT_LT(off / sum, 0.02) << "the edges of shadows alone";
 }
 
+TEST(RadiosityMaps, OfATrimmedPatchAreNotDarkAlongItsEdge) {
+  SceneBuilder b;
+  TrimLoops triangle;
+  triangle.loops.resize(1), triangle.keepsInside = true;
+  TrimCurve& edges = triangle.loops[0].emplace_back();
+  edges.line.controls = 4, edges.line.order = 2, edges.line.min = 0, edges.line.max = 3;
+  edges.line.knots = {0, 0, 1, 2, 3, 3};
+  edges.controls = {{0.13f, 0.17f, 1}, {0.91f, 0.32f, 1}, {0.41f, 0.87f, 1}, {0.13f, 0.17f, 1}};
+  const Param P{"P", Storage::Vertex, ValueType::Point, 1, {-1, -1, 3, 1, -1, 3, -1, 1, 3, 1, 1, 3}, {}, {}};
+  Problems problems;
+  b.add(makeNuPatch({2, 2, {0, 0, 1, 1}, 0, 1}, {2, 2, {0, 0, 1, 1}, 0, 1}, triangle, {P}, problems), {0.5f, 0.25f, 1});
+  ASSERT_TRUE(problems.empty()) << problems.front();
+  auto bright = std::make_shared<Attributes>(*b.scene.objects[0].attributes);
+  bright->surface = std::make_shared<ShaderCall>(call("constant"));
+  b.scene.objects[0].attributes = bright;
+  World world(std::move(b.scene));
+  const auto services = world.use({.mode = GiMode::Radiosity});
+  const RadiosityMaps maps(world.rays, world.shading, world.camera, {}, world.log);
+  ASSERT_EQ(maps.charts(0, false).size(), 1U);
+  EXPECT_GT(maps.texelCount(), 100);
+  for (const vec3& texel : maps.charts(0, false)[0].texels) EXPECT_NEAR(glm::distance(texel, {0.5f, 0.25f, 1}), 0, 1e-5f);
+}
+
 TEST(RadiosityMaps, GatherAsShadersDoForNoShaderAtHits) {
   World world(cornell({floatParam("samples", 400)}).scene);
   const DeepFrame frame = frameOf(world, 16);
@@ -91,9 +126,10 @@ TEST(RadiosityMaps, GatherAsShadersDoForNoShaderAtHits) {
   gatherFrame(*shaded, frame);
   const std::vector<vec3> truth = indirectOf(*shaded, world, frame);
   const auto mapped = world.use({.mode = GiMode::Radiosity});
-  mapped->setRadiositySource([&] { return std::make_unique<const RadiosityMaps>(world.rays, world.shading, world.camera, RadiositySettings{}, world.log); });
-  gatherFrame(*mapped, frame);
+  auto maps = std::make_unique<const RadiosityMaps>(world.rays, world.shading, world.camera, RadiositySettings{}, world.log);
+  mapped->setRadiositySource([&] { return std::move(maps); });
   const int64_t before = world.stats.shade.verticesShaded;
+  gatherFrame(*mapped, frame);
   const std::vector<vec3> found = indirectOf(*mapped, world, frame);
   EXPECT_EQ(world.stats.shade.verticesShaded, before);
   double sum = 0, off = 0;
@@ -117,12 +153,33 @@ TEST(RadiosityMaps, DoNotDependOnThreads) {
   }
 }
 
-TEST(RadiosityMaps, AreNotMadeOfWhatIsNotOpaqueOrWantsNone) {
+TEST(RadiosityMaps, DoNotAnswerForRaysThatRanShaders) {
+  World world(cornell({floatParam("samples", 16)}).scene);
+  const DeepFrame frame = frameOf(world, 16);
+  const ShadePoints& batch = frame.tiles[5].batches[0];
+  RayAnswers answers;
+  answers.recording = true;
+  ShadeContext context;
+  context.answers = &answers;
+  size_t recorded = 0;
+  for (const GiMode mode : {GiMode::Gather, GiMode::Radiosity})
+    for (const char* subset : {"", "walls"}) {
+      IndirectQuery query = *world.shading.indirectQuery(batch.group());
+      query.subset = subset;
+      const auto services = world.use({.mode = mode});
+      indirectAt(*services, batch, query, context);
+      EXPECT_EQ(answers.indirect.size(), recorded + static_cast<size_t>(batch.count()));
+      recorded = answers.indirect.size();
+    }
+}
+
+TEST(RadiosityMaps, AreNotMadeOfWhatMirrorsIsNotOpaqueOrWantsNone) {
   SceneBuilder b = cornell();
-  for (const size_t i : {size_t{0}, size_t{1}}) {
+  for (const size_t i : {size_t{0}, size_t{1}, size_t{3}}) {
     auto a = std::make_shared<Attributes>(*b.scene.objects[i].attributes);
     if (i == 0) a->opacity = vec3(0.5f);
     if (i == 1) a->radiosity.texelSize = 0;
+    if (i == 3) a->surface = std::make_shared<ShaderCall>(call("mirror"));
     b.scene.objects[i].attributes = a;
   }
   World world(std::move(b.scene));
@@ -131,6 +188,7 @@ TEST(RadiosityMaps, AreNotMadeOfWhatIsNotOpaqueOrWantsNone) {
   EXPECT_TRUE(maps.charts(0, false).empty());
   EXPECT_TRUE(maps.charts(1, false).empty());
   EXPECT_FALSE(maps.charts(2, false).empty());
+  EXPECT_TRUE(maps.charts(3, false).empty());
 }
 
 }  // namespace
