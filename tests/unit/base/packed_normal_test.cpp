@@ -3,15 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "reyes/base/rng.h"
+#include "tests/unit/directions.h"
 
 namespace tomales::test {
 namespace {
-
-vec3 anyDirection(uint32_t i) {
-  const vec2 xi = sobol2(i, 7);
-  const float z = 1 - 2 * xi.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * xi.y;
-  return {r * std::cos(phi), r * std::sin(phi), z};
-}
 
 TEST(PackedNormal, IsOffByLittle) {
   for (uint32_t i = 0; i < 10000; ++i) {

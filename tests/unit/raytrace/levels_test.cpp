@@ -5,16 +5,11 @@
 #include "raytrace/resident_cache.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"
+#include "tests/unit/directions.h"
 #include "world.h"
 
 namespace tomales::test {
 namespace {
-
-vec3 anyDirection(uint32_t i) {
-  const vec2 xi = sobol2(i, 7);
-  const float z = 1 - 2 * xi.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * xi.y;
-  return {r * std::cos(phi), r * std::sin(phi), z};
-}
 
 struct LevelledWorld : World {
   explicit LevelledWorld(TessellationMode mode, size_t cacheBytes = 1 << 30, bool displaced = true) {

@@ -2,16 +2,11 @@
 
 #include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"
+#include "tests/unit/directions.h"
 #include "world.h"
 
 namespace tomales::test {
 namespace {
-
-vec3 anyDirection(uint32_t i) {
-  const vec2 xi = sobol2(i, 7);
-  const float z = 1 - 2 * xi.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * xi.y;
-  return {r * std::cos(phi), r * std::sin(phi), z};
-}
 
 TEST(Closest, MeetsTheWallsOfABoxWhereTheyAre) {
   World world;
