@@ -265,22 +265,24 @@ Cells fewest(float alongU, float alongV, int leastU, int leastV) {
 }
 
 /// Whatever the rate asks: so that the shape does not collapse where blur lets edges grow, and chords are flat.
-int leastOf(const LineSize& line, float edge_px, float coarsening) {
+int leastOf(const LineSize& line, float edge_px, float coarsening, bool joins) {
   constexpr float kLeastOfCoarse = 4;
+  // The hider knows how far a line bulges from two chords on, and closes cracks by that (docs/decisions/0003).
+  constexpr float kOneChord_px = 0.05f;
   // A line that a quarter of it leaves by `bend_px` as a second difference: its n-th part bulges by 2 bend / n^2.
   const float flat = std::min(std::ceil(std::sqrt(2 * line.bend_px / (kFlat_px * coarsening))), 64.0f);
   const float fine = coarsening > 1 ? std::ceil(line.px / edge_px) : 1.0f, edge = kLongest * edge_px * coarsening;
-  const float n = std::max({std::ceil(line.px / edge), std::min(fine, kLeastOfCoarse), static_cast<float>(line.least), flat});
+  const float n = std::max({std::ceil(line.px / edge), std::min(fine, kLeastOfCoarse), static_cast<float>(line.least), flat, joins && 2 * line.bend_px > kOneChord_px ? 2.0f : 1.0f});
   return n >= 1.0f ? static_cast<int>(std::min(n, kMostCells)) : 1;
 }
 
 }  // namespace
 
-Cells cells(const PatchSize& size, float edge_px, float coarsening, bool binary) {
+Cells cells(const PatchSize& size, float edge_px, float coarsening, bool binary, bool joins) {
   const float square = size.area_px2 / (size.u.px * size.v.px);
   const float edges = std::sqrt(square < 1.0f ? square : 1.0f) / (edge_px * coarsening);
   const auto along = [&](const LineSize& line) { return line.px > 0 ? std::min(line.px * edges, kMostCells) : 0.0f; };
-  const Cells n = fewest(along(size.u), along(size.v), leastOf(size.u, edge_px, coarsening), leastOf(size.v, edge_px, coarsening));
+  const Cells n = fewest(along(size.u), along(size.v), leastOf(size.u, edge_px, coarsening, joins), leastOf(size.v, edge_px, coarsening, joins));
   const auto whole = [binary](int count) { return binary ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(count))) : count; };
   return {whole(n.nu), whole(n.nv)};
 }

@@ -26,7 +26,8 @@ struct Cells {
 };
 /// Cells of a piece: as few as have the area edge_px^2 in raster space, with edges up to half as long again where lines cross at a slant or counts are
 /// rounded; fewer where blur lets edges grow by `coarsening`, but never so few, `least`, that the shape collapses, and so many that chords are
-/// flat (docs/decisions/0034, 0050). Binary: powers of two.
-Cells cells(const PatchSize& size, float edge_px, float coarsening, bool binary);
+/// flat (docs/decisions/0034, 0050). Binary: powers of two. joins: its
+/// edges meet others.
+Cells cells(const PatchSize& size, float edge_px, float coarsening, bool binary, bool joins);
 
 }  // namespace tomales
