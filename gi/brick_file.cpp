@@ -6,7 +6,7 @@ namespace tomales {
 namespace {
 
 constexpr char kKind[9] = "TMBRICKS";
-constexpr uint32_t kVersion = 3;
+constexpr uint32_t kVersion = 4;
 constexpr int kMostLevels = 24;  ///< Voxel coordinates stay exact in int.
 
 bool sound(const BrickTree& tree) {
@@ -34,6 +34,7 @@ BrickFile::BrickFile(const std::string& path) : file_(path, kKind, kVersion) {
   tree_.cube = r.get<BrickCube>();
   tree_.deepest = r.get<int32_t>();
   tree_.nodes = r.getVector<BrickNode>();
+  for (const uint8_t surface : r.getVector<uint8_t>()) tree_.surfaces.set(surface & kMostSurfaces);
   madeFrom_ = r.get<MadeFrom>();
   if (!sound(tree_) || tree_.nodes.size() != file_.count()) throw FileError(fmt::format("\"{}\" is damaged: its octree does not add up", path));
 }
@@ -58,6 +59,10 @@ void BrickFileWriter::finish(const std::vector<CloudChannel>& channels, const Br
   header.put(tree.cube);
   header.put(static_cast<int32_t>(tree.deepest));
   header.put(tree.nodes);
+  std::vector<uint8_t> surfaces;
+  for (size_t i = 0; i < tree.surfaces.size(); ++i)
+    if (tree.surfaces[i]) surfaces.push_back(static_cast<uint8_t>(i));
+  header.put(surfaces);
   header.put(madeFrom);
   file_.finish(header.bytes);
 }

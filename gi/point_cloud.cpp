@@ -2,10 +2,23 @@
 
 namespace tomales {
 
-int PointCloud::width() const {
+bool tellsSurfaces(const std::vector<CloudChannel>& channels) { return !channels.empty() && channels.back() == kSurfaceChannel; }
+
+std::vector<CloudChannel> dataOf(std::vector<CloudChannel> channels) {
+  if (tellsSurfaces(channels)) channels.pop_back();
+  return channels;
+}
+
+int widthOf(const std::vector<CloudChannel>& channels) {
   int sum = 0;
   for (const CloudChannel& c : channels) sum += c.width;
   return sum;
+}
+
+int PointCloud::surface(size_t point) const {
+  if (!tellsSurfaces(channels)) return 0;
+  const float told = at(point)[width() - 1];
+  return told >= 1 && told <= kMostSurfaces ? static_cast<int>(told) : 0;
 }
 
 void PointCloud::add(const vec3& P, const vec3& N, float r, const float* values) {
