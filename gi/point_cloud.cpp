@@ -1,12 +1,38 @@
 #include "gi/point_cloud.h"
 
+#include <fmt/format.h>
+
 namespace tomales {
 
-int PointCloud::width() const {
+int widthOf(const std::vector<CloudChannel>& channels) {
   int sum = 0;
   for (const CloudChannel& c : channels) sum += c.width;
   return sum;
 }
+
+void putChannels(ByteWriter& w, const std::vector<CloudChannel>& channels) {
+  w.put(static_cast<uint32_t>(channels.size()));
+  for (const CloudChannel& c : channels) {
+    w.put(c.name);
+    w.put(static_cast<int32_t>(c.width));
+  }
+}
+
+std::vector<CloudChannel> getChannels(ByteReader& r, const std::string& path) {
+  std::vector<CloudChannel> out;
+  const auto count = r.get<uint32_t>();
+  int width = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    std::string name = r.getString();
+    out.push_back({std::move(name), r.get<int32_t>()});
+    if (out.back().width < 1 || out.back().width > kMostWidth - width)
+      throw FileError(fmt::format("\"{}\": its channels are too many or damaged", path));
+    width += out.back().width;
+  }
+  return out;
+}
+
+int PointCloud::width() const { return widthOf(channels); }
 
 void PointCloud::add(const vec3& P, const vec3& N, float r, const float* values) {
   position.push_back(P), normal.push_back(N), radius.push_back(r);
