@@ -26,6 +26,7 @@ Scene insideOfASphere(const std::string& model = "matte") {
   b.sphere(kRadius, vec3(kAlbedo), {0, 0, 0.5f});
   auto attributes = std::make_shared<Attributes>(*b.scene.objects[0].attributes);
   attributes->photon.shadingModel = model;
+  attributes->trace.tessellation = 2;  // of a sphere of polygons too large light arrives too little
   b.scene.objects[0].attributes = attributes;
   return b.scene;
 }
