@@ -19,7 +19,7 @@ struct BrickMap::Sum {
 };
 
 BrickMap::BrickMap(const PointCloud& cloud) : channels_(dataOf(cloud.channels)), width_(widthOf(channels_)) {
-  if (width_ > BrickFile::kMostWidth) throw FileError(fmt::format("more than {} floats a point", BrickFile::kMostWidth));
+  if (width_ > kMostWidth) throw FileError(fmt::format("more than {} floats a point", kMostWidth));
   BrickSettings settings;
   settings.maxError = 0;
   tree_ = buildBricks(cloud, settings, [&](const Brick& brick) { bricks_.push_back(std::make_shared<const Brick>(brick)); }).tree;
@@ -57,7 +57,7 @@ void BrickMap::addLevel(int level, const vec3& P, const vec3& N, float halfWidth
   if (glm::any(glm::lessThan(p, vec3(-2.0f))) || glm::any(glm::greaterThan(p, vec3(static_cast<float>(end) + 2)))) return;
   const glm::ivec3 first = glm::clamp(glm::ivec3(glm::floor(p - h)), 0, end - 1);
   const glm::ivec3 last = glm::clamp(glm::ivec3(glm::floor(p + h)), 0, end - 1);
-  std::array<float, BrickFile::kMostWidth> own;
+  std::array<float, kMostWidth> own;
   std::fill_n(own.begin(), width(), 0.0f);
   const float before = std::exchange(sum.weight, 0.0f);
   float* const all = std::exchange(sum.data, own.data());
@@ -131,7 +131,7 @@ BuiltBricks write(const Points& points, const std::vector<CloudChannel>& channel
 }  // namespace
 
 BuiltBricks writeBrickMap(const PointCloud& cloud, const BrickSettings& settings, const std::string& path, const MadeFrom& madeFrom) {
-  if (cloud.width() > BrickFile::kMostWidth) throw FileError(fmt::format("\"{}\": more than {} floats a point", path, BrickFile::kMostWidth));
+  if (cloud.width() > kMostWidth) throw FileError(fmt::format("\"{}\": more than {} floats a point", path, kMostWidth));
   return write(cloud, dataOf(cloud.channels), settings, path, madeFrom);
 }
 

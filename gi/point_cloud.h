@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "reyes/base/chunk_file.h"
 #include "reyes/base/math.h"
 
 namespace tomales {
@@ -24,6 +25,12 @@ constexpr int kMostSurfaces = 127;
 bool tellsSurfaces(const std::vector<CloudChannel>& channels);
 std::vector<CloudChannel> dataOf(std::vector<CloudChannel> channels);  ///< Without kSurfaceChannel.
 int widthOf(const std::vector<CloudChannel>& channels);                ///< Floats of one point.
+
+constexpr int kMostWidth = 256;  ///< Floats of a point in a file.
+
+/// As headers of point clouds and brick maps hold them. Reading throws FileError, naming `path`, where they do not add up.
+void putChannels(ByteWriter& w, const std::vector<CloudChannel>& channels);
+std::vector<CloudChannel> getChannels(ByteReader& r, const std::string& path);
 
 /// What a file was made of, as sums; 0: not known.
 struct MadeFrom {
