@@ -8,19 +8,8 @@ namespace tomales {
 namespace {
 
 constexpr uint32_t kLeaf = 8;
-constexpr int kCells = 400;            // as a cube of 12 x 12 pixels a face has in one hemisphere
-constexpr float kOwnPlane = 0.05f;     // of its radius: nearer, a disk is that of the point itself, or of its neighbours
-
-/// How one thing covers part of a cell.
-struct Splat {
-  int cell;
-  float share, distance;
-  uint32_t order;
-  vec3 light;
-  bool operator<(const Splat& o) const {
-    return cell != o.cell ? cell < o.cell : distance != o.distance ? distance < o.distance : order < o.order;
-  }
-};
+constexpr int kDirections = 400;      // as many as pixels of a cube of 12 x 12 a face in one hemisphere
+constexpr float kOwnPlane = 0.3f;     // of its radius: nearer, a disk is that of the point itself, or of its neighbours
 
 }  // namespace
 
@@ -35,7 +24,7 @@ Disks::Sum Disks::sumOf(const Disk& d) {
           glm::outerProduct(d.area * d.light, d.N)};
 }
 
-Disks::Disks(const PointCloud& cloud, const std::string& channel) : cells_(hemisphereCells(kCells)) {
+Disks::Disks(const PointCloud& cloud, const std::string& channel) {
   const int area = offsetOf(cloud.channels, "_area", 1), light = channel.empty() ? -1 : offsetOf(cloud.channels, channel, 3);
   if (!channel.empty() && light < 0) throw FileError("has no channel \"" + channel + "\" of 3 floats");
   disks_.reserve(cloud.count());
@@ -45,8 +34,9 @@ Disks::Disks(const PointCloud& cloud, const std::string& channel) : cells_(hemis
     const vec3 L = light >= 0 ? vec3(values[light], values[light + 1], values[light + 2]) : vec3(0);
     disks_.push_back({cloud.position[i], cloud.normal[i], r > 0 ? r : std::sqrt(a / kPi), a, L});
   }
-  for (int ring = 0; ring < cells_.rings; ++ring)
-    for (int sector = 0; sector < cells_.sectors; ++sector) directions_.push_back(hemisphereDirection(cells_, ring, sector, vec2(0.5f)));
+  const HemisphereCells cells = hemisphereCells(kDirections);
+  for (int ring = 0; ring < cells.rings; ++ring)
+    for (int sector = 0; sector < cells.sectors; ++sector) directions_.push_back(hemisphereDirection(cells, ring, sector, vec2(0.5f)));
   if (!disks_.empty()) build(0, static_cast<uint32_t>(disks_.size()));
 }
 
@@ -72,15 +62,11 @@ uint32_t Disks::build(uint32_t begin, uint32_t end) {
   return node;
 }
 
-/// One hemisphere while the tree is walked.
-class Disks::View {
+/// One line of sight on its way through the tree.
+class Disks::Sight {
  public:
-  View(const Disks& disks, const vec3& P, const vec3& N, const DisksQuery& query)
-      : disks_(disks), P_(P), N_(N), query_(query), leastCosine_(query.coneAngle < kPi / 2 ? std::cos(query.coneAngle) : 0.0f) {
-    orthonormalBasis(N, tangent_, bitangent_);
-    splats_.clear();
-    inCone_ = static_cast<float>(std::count_if(disks.directions_.begin(), disks.directions_.end(), [&](const vec3& d) { return d.z >= leastCosine_; }));
-  }
+  Sight(const Disks& disks, const vec3& P, const vec3& d, const DisksQuery& query)
+      : disks_(disks), P_(P), d_(d), over_(1.0f / d), query_(query), reach_(query.falloff.maxDistance) {}
 
   void walk() {
     uint32_t open[64];  // halving 2^32 disks goes no deeper
@@ -89,112 +75,80 @@ class Disks::View {
     while (depth > 0) {
       const uint32_t node = open[--depth];
       const Group& group = disks_.groups_[node];
-      if (isBelow(group.bound)) continue;
+      if (!crosses(group.bound)) continue;
       const vec3 way = group.sum.P - P_, outside = glm::max(glm::max(group.bound.lo - P_, P_ - group.bound.hi), vec3(0));
-      if (outside != vec3(0) && dot(way, N_) > 0 && group.seen < query_.maxSolidAngle * dot(way, way)) {
-        addFar(group.sum);
+      if (outside != vec3(0) && group.seen < query_.maxSolidAngle * dot(way, way)) {
+        meet(group.sum);
       } else if (group.second != 0) {
         open[depth++] = group.second, open[depth++] = node + 1;
       } else {
-        for (uint32_t i = group.begin; i < group.end; ++i) add(disks_.disks_[i]);
+        for (uint32_t i = group.begin; i < group.end; ++i) meet(disks_.disks_[i]);
       }
     }
   }
 
-  HemisphereView result() {
-    HemisphereView out;
-    if (!(inCone_ > 0)) return out;
-    if (query_.clamp) std::sort(splats_.begin(), splats_.end());
-    float left = 1;
-    for (size_t k = 0; k < splats_.size(); ++k) {
-      const Splat& s = splats_[k];
-      if (k == 0 || s.cell != splats_[k - 1].cell) left = 1;
-      const float share = query_.clamp ? std::min(left, s.share) : s.share;
-      left -= share;
-      out.covered += share / inCone_ * query_.falloff.coveredAt(s.distance);
-      out.radiance += share / inCone_ * s.light;
-    }
-    out.covered = std::min(out.covered, 1.0f);
-    return out;
-  }
+  float covered = 0;
+  vec3 light{0.0f};
 
  private:
-  bool isBelow(const Bound3& b) const {
-    const vec3 highest{N_.x > 0 ? b.hi.x : b.lo.x, N_.y > 0 ? b.hi.y : b.lo.y, N_.z > 0 ? b.hi.z : b.lo.z};
-    return dot(highest - P_, N_) <= 0;
+  bool crosses(const Bound3& b) const {
+    const vec3 a = (b.lo - P_) * over_, c = (b.hi - P_) * over_, first = glm::min(a, c), last = glm::max(a, c);
+    return std::max({first.x, first.y, first.z, 0.0f}) <= std::min({last.x, last.y, last.z, reach_});
   }
 
-  void add(const Disk& disk) {
-    const vec3 way = disk.P - P_;
-    const float squared = dot(way, way);
-    if (squared > 4 * disk.radius * disk.radius && disk.area < query_.maxSolidAngle * squared)
-      addFar(sumOf(disk));
-    else
-      addNear(disk);
-  }
-
-  /// As a disk of its own direction, on as many cells as it is large.
-  void addFar(const Sum& sum) {
+  /// As a disk across the way, of the corners of a square of what it covers: those of its neighbours meet it.
+  void meet(const Sum& sum) {
     const vec3 way = sum.P - P_;
-    const float distance = glm::length(way);
-    const vec3 d = way / distance, local{dot(d, tangent_), dot(d, bitangent_), dot(d, N_)};
-    if (distance > query_.falloff.maxDistance || distance < query_.falloff.bias || local.z < std::max(leastCosine_, 1e-6f)) return;
-    const float across = std::sqrt(std::max(0.0f, sum.area * dot(d, sum.facing * d)));  // what it covers as seen from here
-    if (!(across > 0)) return;
-    const float front = std::clamp(0.5f - 0.5f * dot(sum.front, d) / across, 0.0f, 1.0f), sides = shown(front);
-    const vec3 light = glm::max(0.5f * (sum.light / sum.area - sum.lightFront * d / across), vec3(0));
-    const float angle = across / (distance * distance), share = sides * angle * local.z * static_cast<float>(disks_.directions_.size()) / kPi;
-    if (share <= 1) return splat(cellOf(disks_.cells_, local), share, distance, light);
-    const float cosine = 1 - angle / (2 * kPi);
-    within_.clear();
-    for (size_t c = 0; c < disks_.directions_.size(); ++c)
-      if (dot(disks_.directions_[c], local) > cosine && disks_.directions_[c].z >= leastCosine_) within_.push_back(static_cast<int>(c));
-    if (within_.empty()) within_.push_back(cellOf(disks_.cells_, local));
-    for (const int c : within_) splat(c, share / static_cast<float>(within_.size()), distance, light);
+    const float t = dot(way, d_);
+    const float all = std::sqrt(std::max(0.0f, sum.area * dot(d_, sum.facing * d_))), facing = std::clamp(-dot(sum.front, d_), -all, all);
+    const float front = 0.5f * (all + facing), back = 0.5f * (all - facing), across = std::max(front, back);  // fronts of what is closed hide its backs
+    if (!(across > 0) || !(t > std::max(query_.falloff.bias, 0.0f)) || dot(way, way) - t * t > 0.5f * across) return;
+    add(t, 2 / kPi, front / across, back / across, glm::max(0.5f * (all / sum.area * sum.light - sum.lightFront * d_), vec3(0)) / across);
   }
 
-  /// Where the middle of each cell meets it.
-  void addNear(const Disk& disk) {
-    const vec3 way = disk.P - P_, n = disk.N == vec3(0) ? normalizeOr(-way, N_) : disk.N;
+  void meet(const Disk& disk) {
+    const vec3 way = disk.P - P_, n = disk.N == vec3(0) ? -d_ : disk.N;
     const float least = query_.falloff.bias >= 0 ? query_.falloff.bias : kOwnPlane * disk.radius, r2 = disk.radius * disk.radius;
-    const float share = query_.clamp ? 1.0f : std::min(1.0f, disk.area / (kPi * r2));  // disks overlap
-    for (size_t c = 0; c < disks_.directions_.size(); ++c) {
-      const vec3& local = disks_.directions_[c];
-      if (local.z < leastCosine_) continue;
-      const vec3 d = local.x * tangent_ + local.y * bitangent_ + local.z * N_;
-      const float facing = dot(n, d), t = dot(n, way) / facing;
-      if (!(t > least) || t > query_.falloff.maxDistance || dot(t * d - way, t * d - way) > r2) continue;
-      const float front = facing < 0 ? 1.0f : 0.0f;
-      splat(static_cast<int>(c), share * shown(front), t, front * disk.light);
-    }
+    const float facing = dot(n, d_), t = dot(n, way) / facing;
+    const vec3 off = t * d_ - way;
+    if (!(t > least) || !(dot(off, off) <= r2)) return;
+    const float front = facing < 0 ? 1.0f : 0.0f;
+    add(t, std::min(1.0f, disk.area / (kPi * r2)), front, 1 - front, front * disk.light);
   }
 
-  /// Of the share that faces the point.
-  float shown(float front) const {
+  /// share: of what counts, where all of it does: disks overlap.
+  void add(float t, float share, float front, float back, const vec3& sends) {
     const HitSides sides = query_.falloff.sides;
-    return sides == HitSides::Both ? 1.0f : sides == HitSides::Front ? front : 1 - front;
-  }
-  void splat(int cell, float share, float distance, const vec3& light) {
-    if (share > 0) splats_.push_back({cell, share, distance, static_cast<uint32_t>(splats_.size()), light});
+    const float shown = sides == HitSides::Both ? 1.0f : sides == HitSides::Front ? front : back;
+    if (t > reach_ || !(shown > 0)) return;
+    if (!query_.clamp) {
+      covered += share * shown * query_.falloff.coveredAt(t), light += share * sends;
+      return;
+    }
+    reach_ = t;
+    covered = shown * query_.falloff.coveredAt(t), light = sends;
   }
 
   const Disks& disks_;
-  const vec3 P_, N_;
+  const vec3 P_, d_, over_;
   const DisksQuery& query_;
-  const float leastCosine_;
-  float inCone_ = 0;  ///< Cells
-  vec3 tangent_, bitangent_;
-  static thread_local std::vector<Splat> splats_;
-  static thread_local std::vector<int> within_;
+  float reach_;  ///< Of what still counts
 };
 
-thread_local std::vector<Splat> Disks::View::splats_;
-thread_local std::vector<int> Disks::View::within_;
-
 HemisphereView Disks::seenFrom(const vec3& P, const vec3& N, const DisksQuery& query) const {
-  View view(*this, P, N, query);
-  view.walk();
-  return view.result();
+  vec3 tangent, bitangent;
+  orthonormalBasis(N, tangent, bitangent);
+  const float leastCosine = query.coneAngle < kPi / 2 ? std::cos(query.coneAngle) : 0.0f;
+  HemisphereView out;
+  int count = 0;
+  for (const vec3& local : directions_) {
+    if (local.z < leastCosine) continue;
+    Sight sight(*this, P, local.x * tangent + local.y * bitangent + local.z * N, query);
+    sight.walk();
+    out.covered += sight.covered, out.radiance += sight.light, ++count;
+  }
+  if (count == 0) return {};
+  return {std::min(1.0f, out.covered / static_cast<float>(count)), out.radiance / static_cast<float>(count)};
 }
 
 }  // namespace tomales

@@ -1,5 +1,6 @@
 // The disks of a point cloud as what covers a hemisphere and sends light into it (P. Christensen 2008, "Point-Based Approximate Color
-// Bleeding", sections 4 and 5): a tree, whose groups count as one disk where they are seen under a small angle, on a raster of the hemisphere.
+// Bleeding"): a tree, whose groups count as one disk where they are seen under a small angle. Where the paper rasterises disks on a hemisphere,
+// lines of sight meet them here: what is nearer hides what is behind it wherever it is.
 // Private to gi. Threads: built by one; lookups are concurrent. The answer depends on the cloud alone, not on threads.
 #pragma once
 #include "gi/gather.h"
@@ -44,14 +45,13 @@ class Disks {
     float seen;                   ///< Area
     uint32_t begin, end, second;  ///< The first child follows; 0: a leaf.
   };
-  class View;
+  class Sight;
   static Sum sumOf(const Disk& disk);
   uint32_t build(uint32_t begin, uint32_t end);
 
   std::vector<Disk> disks_;
   std::vector<Group> groups_;
-  HemisphereCells cells_;
-  std::vector<vec3> directions_;  ///< Of the cells, around +z.
+  std::vector<vec3> directions_;  ///< Around +z, by the cosine.
 };
 
 }  // namespace tomales

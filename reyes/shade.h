@@ -178,7 +178,7 @@ struct CloudValue {
 /// What of a point cloud is in the way of a hemisphere.
 struct DisksQuery {
   std::string channel;             ///< What the disks send.
-  float maxSolidAngle = 0.05f;     ///< Disks that together are seen under less count as one.
+  float maxSolidAngle = 0.01f;     ///< Disks that together are seen under less count as one.
   bool clamp = true;               ///< Those behind others do not count.
   float coneAngle = kPi / 2;       ///< Half angle of what is looked at.
   OcclusionQuery falloff;

@@ -48,7 +48,7 @@ typedef struct TmRayOptions {
 } TmRayOptions;
 
 #define TM_RAY_DEFAULTS \
-  { sizeof(TmRayOptions), 1, 0, 0, -1, 1e30f, 0, 0, 0, 0, TM_HIT_BOTH, TM_HIT_DEFAULT, 1, 0, 0, 0, 0, 0, -1, 1, 0, 0, 0, 0, 0.05f, 1 }
+  { sizeof(TmRayOptions), 1, 0, 0, -1, 1e30f, 0, 0, 0, 0, TM_HIT_BOTH, TM_HIT_DEFAULT, 1, 0, 0, 0, 0, 0, -1, 1, 0, 0, 0, 0, 0.01f, 1 }
 
 /* What a hemisphere (or a cone) of rays finds. NULL: not wanted. */
 typedef struct TmHemisphere {
