@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <map>
 #include <numeric>
 
@@ -14,7 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kCaustic = ".caustic";  ///< What the names of caustic maps end in.
-constexpr double kStoredBytes = 2.5 * 32;  ///< Of one emitted photon: so many surfaces, so many bytes.
+constexpr double kStoredBytes = 2.5 * 36;  ///< Of one emitted photon: so many surfaces, so many bytes.
+constexpr double kLeastOfMap = 1e-3;       ///< Share of its map, by area, that a surface needs for a number: leaves share their photons.
 
 /// Size of the objects of each group, as the area of their boxes.
 std::vector<double> boxAreas(const Scene& scene) {
@@ -30,7 +32,7 @@ std::vector<double> boxAreas(const Scene& scene) {
 }
 
 /// Counted up when the same inputs begin to make other files.
-constexpr uint32_t kMethod = 2;
+constexpr uint32_t kMethod = 3;
 
 uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
   const auto& [emit, maxDepth, seed] = settings.photons;
@@ -64,6 +66,19 @@ MadeFrom bricksMadeFrom(const fs::path& path) {
   }
 }
 
+/// The groups of each map from 1 on; 0: small ones.
+std::vector<int> numbered(const std::vector<std::string>& maps, const std::vector<double>& areas) {
+  struct Map { double area = 0; int groups = 0; };
+  std::map<std::string, Map> byName;
+  for (size_t g = 0; g < maps.size(); ++g) byName[maps[g]].area += areas[g];
+  std::vector<int> out;
+  for (size_t g = 0; g < maps.size(); ++g) {
+    Map& map = byName[maps[g]];
+    out.push_back(areas[g] >= kLeastOfMap * map.area ? 1 + map.groups++ % kMostSurfaces : 0);
+  }
+  return out;
+}
+
 }  // namespace
 
 fs::path atlasFile(const fs::path& folder, const std::string& map, const char* extension) {
@@ -80,7 +95,8 @@ void makeAtlasFolder(const fs::path& folder) {
 }
 
 MapNames mapNames(const Scene& scene, const AtlasSettings& settings) {
-  std::vector<double> areas = boxAreas(scene);
+  const std::vector<double> own = boxAreas(scene);
+  std::vector<double> areas = own;
   for (size_t g = 0; g < areas.size(); ++g)
     if (!scene.groups[g].attributes->photon.globalMap.empty()) areas[g] = 0;
   const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
@@ -95,6 +111,7 @@ MapNames mapNames(const Scene& scene, const AtlasSettings& settings) {
     names.caustic.push_back(!caustic.empty() ? caustic + std::string(kCaustic) : "");
     before += areas[g];
   }
+  names.surface = numbered(names.global, own);
   return names;
 }
 
@@ -109,7 +126,7 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
                            const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
   makeAtlasFolder(folder);
   std::map<std::string, PointFileWriter> files;
-  for (const std::string& name : names.all()) files.try_emplace(name, atlasFile(folder, name, ".ptc").string(), std::vector<CloudChannel>{{"power", 3}});
+  for (const std::string& name : names.all()) files.try_emplace(name, atlasFile(folder, name, ".ptc").string(), std::vector<CloudChannel>{{"power", 3}, kSurfaceChannel});
   const auto filesOf = [&](const std::vector<std::string>& groups) {
     std::vector<PointFileWriter*> out;
     for (const std::string& name : groups) out.push_back(name.empty() ? nullptr : &files.at(name));
@@ -123,8 +140,9 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
       [&](const StoredPhoton& p) {
         const vec3 P = transformPoint(worldFromCurrent, p.P), N = normalizeOr(normalMatrix * p.N, vec3(0, 0, 1));
         const auto group = static_cast<size_t>(p.group);
-        global[group]->add(P, N, 0, &p.power.x);
-        if (p.caustic && caustic[group]) caustic[group]->add(P, N, 0, &p.power.x);
+        const std::array values{p.power.x, p.power.y, p.power.z, static_cast<float>(names.surface[group])};
+        global[group]->add(P, N, 0, values.data());
+        if (p.caustic && caustic[group]) caustic[group]->add(P, N, 0, values.data());
       },
       progress, stats, log);
   for (auto& [name, file] : files) {
@@ -149,7 +167,7 @@ void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonI
   PointTiles(file).writeCompact(compact.string());
   const PointFile sorted(compact.string());
   const PointTiles tiles(sorted);
-  PointFileWriter writer(out.string(), {{"irradiance", 3}});
+  PointFileWriter writer(out.string(), irradianceChannels(sorted.channels()));
   forEachTile(tiles, most, [&](int level, const glm::ivec3& place) {
     const auto inside = [&](const vec3& P) { return tiles.contains(level, place, P); };
     const PointCloud points = estimateIrradiance(tiles.around(tiles.box(level, place), settings.maxRadius), settings, inside);
@@ -206,6 +224,7 @@ IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, con
     : cache_(cacheBytes),
       worldFromCurrent_(glm::inverse(scene.cameraFromWorldAtOpen())),
       worldFromCurrentScale_(std::cbrt(std::abs(glm::determinant(mat3(worldFromCurrent_))))),
+      surfaceOfGroup_(names.surface),
       log_(log) {
   std::map<std::string, const BrickMap*> byName{{"", nullptr}};
   for (const std::string& name : names.all()) byName[name] = open(atlasFile(folder, name, ".bkm"));
@@ -236,7 +255,8 @@ std::optional<vec3> IrradianceAtlas::look(const MapOfGroup& maps, int group, con
   try {
     vec3 E(0.0f);
     const vec3 normal = normalizeOr(transformVector(worldFromCurrent_, N), N);
-    if (map->lookup(transformPoint(worldFromCurrent_, P), normal, radius * worldFromCurrentScale_, &E.x)) return E / kPi;
+    const int surface = surfaceOfGroup_[static_cast<size_t>(group)];
+    if (map->lookup(transformPoint(worldFromCurrent_, P), normal, radius * worldFromCurrentScale_, &E.x, surface)) return E / kPi;
   } catch (const FileError& e) {
     log_.report(Severity::Missing, "atlas-damaged", {}, fmt::format("{}: no indirect light from there", e.what()));
   }

@@ -25,10 +25,11 @@ struct AtlasSettings {
   uint64_t world = 0;                         ///< worldSum() of the scene.
 };
 
-/// For each of Scene::groups, the names of its maps.
+/// For each of Scene::groups, the names of its maps, and its number there: what touches does not share light.
 struct MapNames {
   std::vector<std::string> global;
   std::vector<std::string> caustic;  ///< Ends in kCaustic; empty: has none.
+  std::vector<int> surface;          ///< PointCloud::surface() of what lies on it; 0: too small to have light of its own.
   std::set<std::string> all() const;
 };
 MapNames mapNames(const Scene& scene, const AtlasSettings& settings);
@@ -83,6 +84,7 @@ class IrradianceAtlas {
   float worldFromCurrentScale_;
   std::vector<std::unique_ptr<const BrickMap>> maps_;  ///< By name.
   MapOfGroup mapOfGroup_, causticOfGroup_;
+  std::vector<int> surfaceOfGroup_;
   Log& log_;
 };
 

@@ -1,4 +1,5 @@
 // What the gather pass has found, as brick maps that another camera reads (irradiance-atlas 6.3).
+#include <array>
 #include <map>
 #include <tuple>
 
@@ -18,7 +19,8 @@ struct LitPoint {
   vec3 P, N;  ///< World.
   float radius;
   vec3 E;     ///< W/m2
-  auto key() const { return std::tuple(P.x, P.y, P.z, N.x, N.y, N.z, radius, E.x, E.y, E.z); }
+  int surface;
+  auto key() const { return std::tuple(P.x, P.y, P.z, N.x, N.y, N.z, radius, E.x, E.y, E.z, surface); }
 };
 
 using PointsOfMap = std::map<std::string, std::vector<LitPoint>>;
@@ -61,7 +63,8 @@ class Baking {
       const std::optional<vec3> light = gatheredOverPi(state_, at);
       if (!light) continue;
       const vec3& N = at.normal;
-      out.push_back({transformPoint(worldFromCurrent_, batch.position(i)), normalizeOr(normals_ * N, N), kOverlap * scale_ * batch.edgeLength(i), kPi * *light});
+      out.push_back({transformPoint(worldFromCurrent_, batch.position(i)), normalizeOr(normals_ * N, N), kOverlap * scale_ * batch.edgeLength(i), kPi * *light,
+                     names_.surface[static_cast<size_t>(batch.group())]});
     }
     return out;
   }
@@ -77,7 +80,7 @@ class Baking {
 void copyEarlier(const fs::path& path, uint64_t world, PointFileWriter& to) {
   if (!fs::exists(path)) return;
   const PointFile file(path.string());
-  if (file.madeFrom().world != world) return;
+  if (file.madeFrom().world != world || file.channels() != to.channels()) return;
   for (size_t chunk = 0; chunk < file.chunkCount(); ++chunk) {
     PointCloud points;
     file.read(chunk, points);
@@ -92,9 +95,12 @@ void bakeLight(const GiState& state, const DeepFrame& layout, const TileReader& 
   makeAtlasFolder(kept);
   for (const auto& [name, points] : Baking(state, names).run(layout, tiles)) {
     const fs::path path = atlasFile(kept, name, ".ptc");
-    PointFileWriter writer(path.string(), {{"irradiance", 3}});
+    PointFileWriter writer(path.string(), {{"irradiance", 3}, kSurfaceChannel});
     copyEarlier(path, world, writer);
-    for (const LitPoint& p : points) writer.add(p.P, p.N, p.radius, &p.E.x);
+    for (const LitPoint& p : points) {
+      const std::array values{p.E.x, p.E.y, p.E.z, static_cast<float>(p.surface)};
+      writer.add(p.P, p.N, p.radius, values.data());
+    }
     writer.finish({world, 0});
     writeIrradianceBricks(path, atlasFile(folder, name, ".bkm"), kBricks);
   }

@@ -37,7 +37,7 @@ void append(std::vector<std::byte>& bytes, const T* values, size_t count) {
 
 }  // namespace
 
-BrickLayer::BrickLayer(const vec3& n, bool isIncoherent) : incoherent(isIncoherent) {
+BrickLayer::BrickLayer(const vec3& n, bool isIncoherent, int of) : incoherent(isIncoherent), surface(static_cast<uint8_t>(of & kMostSurfaces)) {
   const auto part = [](float v) { return static_cast<int8_t>(std::lround(127 * std::clamp(v, -1.0f, 1.0f))); };
   x = part(n.x), y = part(n.y), z = part(n.z);
 }

@@ -1,13 +1,15 @@
 // Noun: a brick, the tile of a brick map (irradiance-atlas 3.1): 8^3 voxels, of which few are filled. A voxel has a layer for
-// every direction that its surfaces face, each with the mean of the data there. Over reyes/base alone.
+// every surface and direction that it faces, each with the mean of the data there. Over point clouds and reyes/base.
 // Threads: plain data.
 #pragma once
 #include <array>
 #include <bit>
+#include <bitset>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "gi/point_cloud.h"
 #include "reyes/base/math.h"
 
 namespace tomales {
@@ -23,13 +25,15 @@ inline int voxelIndex(int x, int y, int z) { return (z * kBrickWidth + y) * kBri
 /// Which way the data of a layer face, in 32 bits.
 struct BrickLayer {
   int8_t x = 0, y = 0, z = 0;  ///< Mean normal, in 127ths of its length: off by less than half a degree. Zero: volume data.
-  uint8_t incoherent = 0;      ///< Normals of different layers had to be merged: finer bricks tell them apart.
+  uint8_t incoherent : 1 = 0;  ///< Different layers had to be merged: finer bricks tell them apart.
+  uint8_t surface : 7 = 0;     ///< As PointCloud::surface(); 0: not known, or of several.
 
   BrickLayer() = default;
-  BrickLayer(const vec3& unitNormal, bool isIncoherent);
+  BrickLayer(const vec3& unitNormal, bool isIncoherent, int surface = 0);
   vec3 normal() const { return normalizeOr(vec3(x, y, z), vec3(0.0f)); }
-  /// N: of unit length; zero: asks for whatever is there.
-  bool answers(const vec3& N) const {
+  /// N: of unit length; zero: asks for whatever is there. of: 0: likewise, of any surface.
+  bool answers(const vec3& N, int of = 0) const {
+    if (of != 0 && surface != 0 && of != surface) return false;
     const vec3 n(x, y, z);
     const float along = dot(N, n), length2 = dot(n, n);
     return N == vec3(0.0f) || length2 == 0 || (along > 0 && along * along >= kLayerCosine * kLayerCosine * length2);
@@ -122,6 +126,7 @@ struct BrickTree {
   BrickCube cube;
   std::vector<BrickNode> nodes;
   int deepest = 0;  ///< Level of the finest node; the root's is 0.
+  std::bitset<kMostSurfaces + 1> surfaces{};  ///< That the points told; 0: some told none.
   int32_t root() const { return static_cast<int32_t>(nodes.size()) - 1; }
 };
 

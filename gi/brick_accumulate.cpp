@@ -5,7 +5,7 @@
 namespace tomales {
 namespace {
 
-/// Six sides of a box and a few between: more directions than that in one voxel are foliage or noise.
+/// Six sides of a box and a few between, or surfaces that meet: more than that in one voxel are foliage or noise.
 constexpr int kMostLayers = 8;
 
 }  // namespace
@@ -15,18 +15,19 @@ void BrickAccumulator::clear() {
   layers_.clear(), data_.clear();
 }
 
-int32_t BrickAccumulator::findLayer(int voxel, const vec3& normal, bool& merged) const {
+int32_t BrickAccumulator::findLayer(int voxel, const LayerSum& like, bool& merged) const {
+  const vec3& normal = like.normal;
   const bool oriented = normal != vec3(0.0f);
   const float length2 = dot(normal, normal);
   if (const int32_t only = head_[static_cast<size_t>(voxel)]; oriented && only >= 0 && layers_[static_cast<size_t>(only)].next < 0) {
-    const vec3& mean = layers_[static_cast<size_t>(only)].normal;  // nearly always so, and needs no root
-    const float along = dot(mean, normal);
+    const auto& [mean, weight, next, incoherent, surface] = layers_[static_cast<size_t>(only)];  // nearly always so, and needs no root
+    const float along = surface == like.surface ? dot(mean, normal) : 0.0f;
     // Squares of tiny weights underflow; then the roots below decide.
     if (along > 1e-15f && along * along >= kLayerCosine * kLayerCosine * dot(mean, mean) * length2) return only;
   }
   const float length = glm::length(normal);
   int32_t best = -1;
-  float bestCosine = -2;
+  float bestCosine = -4;
   int count = 0;
   for (int32_t l = head_[static_cast<size_t>(voxel)]; l >= 0; l = layers_[static_cast<size_t>(l)].next, ++count) {
     const vec3& mean = layers_[static_cast<size_t>(l)].normal;
@@ -35,6 +36,7 @@ int32_t BrickAccumulator::findLayer(int voxel, const vec3& normal, bool& merged)
       cosine = dot(mean, normal) / (glm::length(mean) * length);
     else if (!oriented && mean == vec3(0.0f))
       cosine = 1;
+    if (layers_[static_cast<size_t>(l)].surface != like.surface) cosine -= 2;  // any of the same surface comes first
     if (cosine > bestCosine) best = l, bestCosine = cosine;
   }
   if (bestCosine >= kLayerCosine) return best;
@@ -44,7 +46,7 @@ int32_t BrickAccumulator::findLayer(int voxel, const vec3& normal, bool& merged)
 
 int32_t BrickAccumulator::add(int voxel, const LayerSum& sum, const float* data, float share) {
   bool merged = false;
-  int32_t l = findLayer(voxel, sum.normal, merged);
+  int32_t l = findLayer(voxel, sum, merged);
   if (l < 0) {
     l = static_cast<int32_t>(layers_.size());
     layers_.push_back(sum);
@@ -56,6 +58,7 @@ int32_t BrickAccumulator::add(int voxel, const LayerSum& sum, const float* data,
   layer.normal += sum.normal;
   layer.weight += sum.weight;
   layer.incoherent |= merged | sum.incoherent;
+  if (layer.surface != sum.surface) layer.surface = 0;
   float* to = data_.data() + l * width_;
   for (int k = 0; k < width_; ++k) to[k] += share * data[k];
   return l;
@@ -95,7 +98,7 @@ Brick BrickAccumulator::finish(float tolerance) const {
     for (int32_t l = head_[v]; l >= 0; l = layers_[static_cast<size_t>(l)].next) {
       const LayerSum& sum = layers_[static_cast<size_t>(l)];
       parts.voxels.push_back(static_cast<uint16_t>(v));
-      parts.layers.emplace_back(normalizeOr(sum.normal, vec3(0.0f)), sum.incoherent);
+      parts.layers.emplace_back(normalizeOr(sum.normal, vec3(0.0f)), sum.incoherent, sum.surface);
       for (int k = 0; k < width_; ++k) parts.data.push_back(data_[static_cast<size_t>(l * width_ + k)] / sum.weight);
     }
   return {parts, width_, tolerance};

@@ -10,6 +10,7 @@ struct LayerSum {
   float weight = 0;
   int32_t next = -1;  ///< Another layer of the same voxel.
   bool incoherent = false;
+  uint8_t surface = 0;
 };
 
 class BrickAccumulator {
@@ -17,7 +18,7 @@ class BrickAccumulator {
   explicit BrickAccumulator(int width) : width_(width) { clear(); }
   void clear();
 
-  /// Adds to the layer of the voxel that faces as `sum` does, or to a new one. Of `data`, `share` times is added: the weight, if they are
+  /// Adds to the layer of the voxel that faces as `sum` does and is of the same surface, or to a new one. Of `data`, `share` times is added: the weight, if they are
   /// not sums already. Returns the layer.
   int32_t add(int voxel, const LayerSum& sum, const float* data, float share);
 
@@ -29,7 +30,7 @@ class BrickAccumulator {
   Brick finish(float tolerance) const;
 
  private:
-  int32_t findLayer(int voxel, const vec3& normal, bool& merged) const;
+  int32_t findLayer(int voxel, const LayerSum& like, bool& merged) const;
 
   int width_;
   std::array<int32_t, kBrickVoxels> head_;

@@ -16,6 +16,7 @@ struct Spot {
   vec3 half;     ///< Half the sides of the box around it.
   vec3 normal;   ///< Zero: a sphere.
   float radius;
+  uint8_t surface;
 };
 
 /// One dimension of the voxels that a box meets: which, and how much of the box lies in each.
@@ -68,9 +69,12 @@ class Builder {
 
   /// The points that are worked on from now on; all of them.
   Members use(const PointCloud& cloud) {
-    cloud_ = &cloud;
+    cloud_ = &cloud, stride_ = static_cast<size_t>(cloud.width());
     spots_.clear(), spots_.reserve(cloud.count());
-    for (size_t i = 0; i < cloud.count(); ++i) spots_.push_back(spot(i));
+    for (size_t i = 0; i < cloud.count(); ++i) {
+      spots_.push_back(spot(i));
+      out_.tree.surfaces.set(spots_.back().surface);
+    }
     Members all(cloud.count());
     std::iota(all.begin(), all.end(), 0u);
     return all;
@@ -79,7 +83,8 @@ class Builder {
   Spot spot(size_t i) const {
     const vec3 n = settings_.ignoreNormals ? vec3(0.0f) : cloud_->normal[i];
     const float r = cloud_->radius[i] * settings_.radiusScale;
-    return {cloud_->position[i], n == vec3(0.0f) ? vec3(r) : r * glm::sqrt(glm::max(vec3(1.0f) - n * n, vec3(0.0f))), n, r};
+    const vec3 half = n == vec3(0.0f) ? vec3(r) : r * glm::sqrt(glm::max(vec3(1.0f) - n * n, vec3(0.0f)));
+    return {cloud_->position[i], half, n, r, static_cast<uint8_t>(cloud_->surface(i))};
   }
 
   Level& at(int level) {
@@ -183,14 +188,14 @@ class Builder {
     const float size = oriented ? r * r : r * r * r;  // area or volume, but for a constant
     const float reach = 0.5f * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
     const Shares xs(p.x, h.x), ys(p.y, h.y), zs(p.z, h.z);
-    const float* data = cloud_->data.data() + i * width_;
+    const float* data = cloud_->data.data() + i * stride_;
     for (int z = zs.first; z <= zs.last; ++z)
       for (int y = ys.first; y <= ys.last; ++y)
         for (int x = xs.first; x <= xs.last; ++x) {
           const vec3 off = vec3(x, y, z) + vec3(0.5f) - p;
           if (oriented && std::abs(dot(n, off)) > reach) continue;
           const float weight = size * xs[x] * ys[y] * zs[z];
-          if (weight > 0) to.add(voxelIndex(x, y, z), {weight * n, weight}, data, weight);
+          if (weight > 0) to.add(voxelIndex(x, y, z), {weight * n, weight, -1, false, s.surface}, data, weight);
         }
   }
 
@@ -199,6 +204,7 @@ class Builder {
   const size_t width_;
   BuiltBricks out_;
   const PointCloud* cloud_ = nullptr;
+  size_t stride_ = 0;  ///< Floats of one point there: width_ and perhaps its surface.
   std::vector<Spot> spots_;
   std::deque<Level> levels_;  // a deque: deeper levels come while those above are at work
 };
@@ -207,12 +213,12 @@ class Builder {
 
 BuiltBricks buildBricks(const PointCloud& cloud, const BrickSettings& settings, const std::function<void(const Brick&)>& store) {
   if (cloud.count() == 0) return {};
-  return Builder(cubeAround(cloud.bound()), cloud.width(), settings, store).run(cloud);
+  return Builder(cubeAround(cloud.bound()), widthOf(dataOf(cloud.channels)), settings, store).run(cloud);
 }
 
 BuiltBricks buildBricks(const PointTiles& tiles, const BrickSettings& settings, const std::function<void(const Brick&)>& store, uint64_t most) {
   if (tiles.file().count() == 0) return {};
-  return Builder(tiles.cube(), tiles.file().width(), settings, store).run(tiles, most);
+  return Builder(tiles.cube(), widthOf(dataOf(tiles.file().channels())), settings, store).run(tiles, most);
 }
 
 }  // namespace tomales

@@ -6,7 +6,7 @@ namespace tomales {
 namespace {
 
 constexpr char kKind[9] = "TMBRICKS";
-constexpr uint32_t kVersion = 3;
+constexpr uint32_t kVersion = 4;
 constexpr int kMostLevels = 24;  ///< Voxel coordinates stay exact in int.
 
 bool sound(const BrickTree& tree) {
@@ -23,17 +23,12 @@ bool sound(const BrickTree& tree) {
 BrickFile::BrickFile(const std::string& path) : file_(path, kKind, kVersion) {
   const Bytes header = file_.takeHeader();
   ByteReader r(header, path);
-  const auto channelCount = r.get<uint32_t>();
-  for (uint32_t i = 0; i < channelCount; ++i) {
-    std::string name = r.getString();
-    channels_.push_back({std::move(name), r.get<int32_t>()});
-    if (channels_.back().width < 1 || channels_.back().width > kMostWidth - width_)
-      throw FileError(fmt::format("\"{}\": its channels are too many or damaged", path));
-    width_ += channels_.back().width;
-  }
+  channels_ = getChannels(r, path);
+  width_ = widthOf(channels_);
   tree_.cube = r.get<BrickCube>();
   tree_.deepest = r.get<int32_t>();
   tree_.nodes = r.getVector<BrickNode>();
+  for (const uint8_t surface : r.getVector<uint8_t>()) tree_.surfaces.set(surface & kMostSurfaces);
   madeFrom_ = r.get<MadeFrom>();
   if (!sound(tree_) || tree_.nodes.size() != file_.count()) throw FileError(fmt::format("\"{}\" is damaged: its octree does not add up", path));
 }
@@ -50,14 +45,14 @@ void BrickFileWriter::add(const Brick& brick) { file_.add(brick.bytes()); }
 
 void BrickFileWriter::finish(const std::vector<CloudChannel>& channels, const BrickTree& tree, const MadeFrom& madeFrom) {
   ByteWriter header;
-  header.put(static_cast<uint32_t>(channels.size()));
-  for (const CloudChannel& c : channels) {
-    header.put(c.name);
-    header.put(static_cast<int32_t>(c.width));
-  }
+  putChannels(header, channels);
   header.put(tree.cube);
   header.put(static_cast<int32_t>(tree.deepest));
   header.put(tree.nodes);
+  std::vector<uint8_t> surfaces;
+  for (size_t i = 0; i < tree.surfaces.size(); ++i)
+    if (tree.surfaces[i]) surfaces.push_back(static_cast<uint8_t>(i));
+  header.put(surfaces);
   header.put(madeFrom);
   file_.finish(header.bytes);
 }

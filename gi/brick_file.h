@@ -12,8 +12,6 @@ namespace tomales {
 
 class BrickFile {
  public:
-  static constexpr int kMostWidth = 256;  ///< Floats of one lookup.
-
   explicit BrickFile(const std::string& path);  ///< Throws FileError.
 
   const std::vector<CloudChannel>& channels() const { return channels_; }

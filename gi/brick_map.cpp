@@ -9,6 +9,7 @@ namespace tomales {
 struct BrickMap::Sum {
   float* data = nullptr;
   float weight = 0;
+  int surface = 0;               ///< That is asked for.
   // Most voxels of a lookup lie in one brick:
   int level = -1;                ///< The last was asked for at this level,
   glm::ivec3 place{0};           ///< here, in bricks of that level,
@@ -17,8 +18,8 @@ struct BrickMap::Sum {
   BrickPtr brick;
 };
 
-BrickMap::BrickMap(const PointCloud& cloud) : channels_(cloud.channels), width_(cloud.width()) {
-  if (width_ > BrickFile::kMostWidth) throw FileError(fmt::format("more than {} floats a point", BrickFile::kMostWidth));
+BrickMap::BrickMap(const PointCloud& cloud) : channels_(dataOf(cloud.channels)), width_(widthOf(channels_)) {
+  if (width_ > kMostWidth) throw FileError(fmt::format("more than {} floats a point", kMostWidth));
   BrickSettings settings;
   settings.maxError = 0;
   tree_ = buildBricks(cloud, settings, [&](const Brick& brick) { bricks_.push_back(std::make_shared<const Brick>(brick)); }).tree;
@@ -29,11 +30,12 @@ BrickPtr BrickMap::cached(int32_t node) const {
   return cache_->get(id_, static_cast<uint32_t>(node), [&] { return file_->brick(node); });
 }
 
-bool BrickMap::lookup(const vec3& P, const vec3& N, float radius, float* out) const {
+bool BrickMap::lookup(const vec3& P, const vec3& N, float radius, float* out, int surface) const {
   std::fill_n(out, width(), 0.0f);
   if (tree().nodes.empty() || !isFinite(P) || std::isnan(radius)) return false;
   Sum sum;
   sum.data = out;
+  sum.surface = knows(surface) ? surface : 0;
   // The level whose voxels are as wide as the lookup volume, between two levels unless at either end.
   const float ideal = std::log2(tree().cube.voxelSize(0) / std::max(2 * radius, 1e-30f));
   const float level = std::clamp(ideal, 0.0f, static_cast<float>(tree().deepest));
@@ -55,7 +57,7 @@ void BrickMap::addLevel(int level, const vec3& P, const vec3& N, float halfWidth
   if (glm::any(glm::lessThan(p, vec3(-2.0f))) || glm::any(glm::greaterThan(p, vec3(static_cast<float>(end) + 2)))) return;
   const glm::ivec3 first = glm::clamp(glm::ivec3(glm::floor(p - h)), 0, end - 1);
   const glm::ivec3 last = glm::clamp(glm::ivec3(glm::floor(p + h)), 0, end - 1);
-  std::array<float, BrickFile::kMostWidth> own;
+  std::array<float, kMostWidth> own;
   std::fill_n(own.begin(), width(), 0.0f);
   const float before = std::exchange(sum.weight, 0.0f);
   float* const all = std::exchange(sum.data, own.data());
@@ -108,7 +110,7 @@ void BrickMap::addVoxel(int level, const glm::ivec3& voxel, const vec3& N, float
     find(level, voxel, sum);
   }
   for (size_t l = layers.first; l < layers.end; ++l) {
-    if (!sum.brick->layer(l).answers(N)) continue;
+    if (!sum.brick->layer(l).answers(N, sum.surface)) continue;
     sum.brick->add(l, weight, sum.data);
     sum.weight += weight;
   }
@@ -129,12 +131,12 @@ BuiltBricks write(const Points& points, const std::vector<CloudChannel>& channel
 }  // namespace
 
 BuiltBricks writeBrickMap(const PointCloud& cloud, const BrickSettings& settings, const std::string& path, const MadeFrom& madeFrom) {
-  if (cloud.width() > BrickFile::kMostWidth) throw FileError(fmt::format("\"{}\": more than {} floats a point", path, BrickFile::kMostWidth));
-  return write(cloud, cloud.channels, settings, path, madeFrom);
+  if (cloud.width() > kMostWidth) throw FileError(fmt::format("\"{}\": more than {} floats a point", path, kMostWidth));
+  return write(cloud, dataOf(cloud.channels), settings, path, madeFrom);
 }
 
 BuiltBricks writeBrickMap(const PointTiles& points, const BrickSettings& settings, const std::string& path, const MadeFrom& madeFrom) {
-  return write(points, points.file().channels(), settings, path, madeFrom);
+  return write(points, dataOf(points.file().channels()), settings, path, madeFrom);
 }
 
 }  // namespace tomales

@@ -19,11 +19,13 @@ class BrickMap {
   const BrickFile& file() const { return *file_; }  ///< Pre: it was made of one.
   const std::vector<CloudChannel>& channels() const { return file_ ? file_->channels() : channels_; }
   int width() const { return file_ ? file_->width() : width_; }  ///< Floats of one lookup.
+  bool knows(int surface) const { return surface > 0 && surface <= kMostSurfaces && tree().surfaces[static_cast<size_t>(surface)]; }
 
   /// Data around P on surfaces that face as N does (N zero: whatever they face), averaged over a cube of half width `radius`:
   /// linear between voxels and between levels (3.3). Where the finest voxels there are empty, coarser ones answer. False: there
-  /// is nothing near, and `out` (width() floats) is zero. Throws FileError where the file is damaged.
-  bool lookup(const vec3& P, const vec3& N, float radius, float* out) const;
+  /// is nothing near, and `out` (width() floats) is zero. `surface`: what lies on another does not count, where the map knows() this one.
+  /// Throws FileError where the file is damaged.
+  bool lookup(const vec3& P, const vec3& N, float radius, float* out, int surface = 0) const;
 
  private:
   struct Sum;

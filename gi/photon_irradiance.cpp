@@ -1,5 +1,7 @@
 #include "gi/photon_irradiance.h"
 
+#include <array>
+
 #include "gi/photon_tree.h"
 #include "reyes/base/check.h"
 #include "reyes/base/parallel.h"
@@ -43,7 +45,7 @@ Estimate estimate(const PointCloud& photons, const PhotonTree& tree, int power, 
                   const PhotonIrradianceSettings& settings, std::vector<NearPhoton>& heap) {
   const vec3 P = tree.position(at), N = tree.normal(at);
   const auto most = static_cast<size_t>(settings.nearest);
-  tree.nearest(P, N, most, settings.maxRadius, heap);
+  tree.nearest(P, N, tree.surface(at), most, settings.maxRadius, heap);
   // The farthest gives the radius and does not count: n - 1 inside is what a disk that just excludes the n-th has. So few that two
   // which happen to be close would shine: all of the reach is the disk.
   const bool byFarthest = heap.size() >= std::min(kFew, most);
@@ -80,11 +82,17 @@ float reachOf(const PhotonIrradianceSettings& settings, const Bound3& map) {
   return settings.maxRadius > 0 || map.empty() ? settings.maxRadius : kMostOfMap * glm::length(map.size());
 }
 
+std::vector<CloudChannel> irradianceChannels(const std::vector<CloudChannel>& photons) {
+  std::vector<CloudChannel> out{{"irradiance", 3}};
+  if (tellsSurfaces(photons)) out.push_back(kSurfaceChannel);
+  return out;
+}
+
 PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& given, const std::function<bool(const vec3& P)>& wanted) {
   PhotonIrradianceSettings settings = given;
   settings.maxRadius = reachOf(given, photons.bound());
   PointCloud out;
-  out.channels = {{"irradiance", 3}};
+  out.channels = irradianceChannels(photons.channels);
   if (photons.count() == 0) return out;
   const int power = offsetOf(photons.channels, "power");
   CHECK_GE(power, 0);
@@ -102,7 +110,9 @@ PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceS
   out.reserve(count);
   for (size_t i = 0; i < count; ++i) {
     const auto at = static_cast<uint32_t>(i * every);
-    if (estimates[i].radius > 0) out.add(tree.position(at), tree.normal(at), estimates[i].radius, &estimates[i].irradiance.x);
+    const vec3& E = estimates[i].irradiance;
+    const std::array values{E.x, E.y, E.z, static_cast<float>(tree.surface(at))};
+    if (estimates[i].radius > 0) out.add(tree.position(at), tree.normal(at), estimates[i].radius, values.data());
   }
   return out;
 }

@@ -20,6 +20,9 @@ struct PhotonIrradianceSettings {
 /// `wanted`: only at photons there; null: at all.
 PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& settings, const std::function<bool(const vec3& P)>& wanted = {});
 
+/// The channels of the result: `irradiance`, and which surface it is of where photons tell.
+std::vector<CloudChannel> irradianceChannels(const std::vector<CloudChannel>& photons);
+
 /// The radius beyond which photons do not count, on a map of this bound.
 float reachOf(const PhotonIrradianceSettings& settings, const Bound3& map);
 

@@ -10,14 +10,21 @@ namespace {
 constexpr uint32_t kLeaf = 16;
 constexpr float kSameSide = 0.5f;       ///< Photons of surfaces turned away by more than 60 degrees do not count.
 constexpr float kAlongNormal = 15.0f;   ///< A photon off the plane looks four times as far.
+/// And one of another surface four hundred times as far as it is off the sheet: tiles of one floor continue each other, a ball does not
+/// continue the floor it lies on. On one sphere or plane a chord makes the same angle with both normals; of two parallel sheets, one
+/// looks at the back of the other.
+constexpr float kOffSheet = 160e3f;
 
 }  // namespace
 
 PhotonTree::PhotonTree(const PointCloud& photons) : order_(photons.count()) {
   std::iota(order_.begin(), order_.end(), 0u);
   build(0, static_cast<uint32_t>(order_.size()), 0, photons);
-  position_.reserve(order_.size()), normal_.reserve(order_.size());
-  for (const uint32_t i : order_) position_.push_back(photons.position[i]), normal_.push_back(photons.normal[i]);
+  position_.reserve(order_.size()), normal_.reserve(order_.size()), surface_.reserve(order_.size());
+  for (const uint32_t i : order_) {
+    position_.push_back(photons.position[i]), normal_.push_back(photons.normal[i]);
+    surface_.push_back(static_cast<uint8_t>(photons.surface(i)));
+  }
 }
 
 void PhotonTree::build(uint32_t begin, uint32_t end, uint32_t node, const PointCloud& photons) {
@@ -37,7 +44,7 @@ void PhotonTree::build(uint32_t begin, uint32_t end, uint32_t node, const PointC
   build(middle, end, 2 * node + 2, photons);
 }
 
-void PhotonTree::nearest(const vec3& P, const vec3& N, size_t most, float radius, std::vector<NearPhoton>& heap) const {
+void PhotonTree::nearest(const vec3& P, const vec3& N, int surface, size_t most, float radius, std::vector<NearPhoton>& heap) const {
   struct Range {
     uint32_t begin, end, node;
     float distance2;
@@ -62,7 +69,9 @@ void PhotonTree::nearest(const vec3& P, const vec3& N, size_t most, float radius
     }
     for (uint32_t i = r.begin; i < r.end; ++i) {
       const vec3 off = position_[i] - P;
-      const float along = dot(off, N), distance2 = dot(off, off) + kAlongNormal * along * along;
+      const bool same = surface == 0 || surface_[i] == 0 || surface_[i] == surface;
+      const float apart = same ? dot(off, N) : 0.5f * dot(off, N + normal_[i]);
+      const float distance2 = dot(off, off) + (same ? kAlongNormal : kOffSheet) * apart * apart;
       if (distance2 > limit || dot(normal_[i], N) < kSameSide) continue;
       heap.push_back({distance2, i});
       std::push_heap(heap.begin(), heap.end());

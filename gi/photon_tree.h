@@ -6,7 +6,7 @@
 namespace tomales {
 
 struct NearPhoton {
-  float distance2;  ///< Squared; along the normal it counts four times (a disk, not a sphere).
+  float distance2;  ///< Squared; along the normal it counts four times, and more to another surface (a disk, not a sphere).
   uint32_t photon;  ///< In the order of the tree.
   bool operator<(const NearPhoton& o) const {
     return distance2 != o.distance2 ? distance2 < o.distance2 : photon < o.photon;
@@ -22,8 +22,11 @@ class PhotonTree {
   const vec3& position(uint32_t i) const { return position_[i]; }
   const vec3& normal(uint32_t i) const { return normal_[i]; }
 
-  /// The `most` nearest photons within `radius` that face as `N` does, as a heap with the farthest in front.
-  void nearest(const vec3& P, const vec3& N, size_t most, float radius, std::vector<NearPhoton>& heap) const;
+  int surface(uint32_t i) const { return surface_[i]; }  ///< 0: not known.
+
+  /// The `most` nearest photons within `radius` that face as `N` does, as a heap with the farthest in front. Those of another surface
+  /// than `surface` (0: all are of this one) count only if they continue it.
+  void nearest(const vec3& P, const vec3& N, int surface, size_t most, float radius, std::vector<NearPhoton>& heap) const;
 
  private:
   struct Split {
@@ -34,6 +37,7 @@ class PhotonTree {
 
   std::vector<uint32_t> order_;
   std::vector<vec3> position_, normal_;
+  std::vector<uint8_t> surface_;
   std::vector<Split> splits_;  ///< Node n has children 2n + 1 and 2n + 2; each halves its range.
 };
 

@@ -1,11 +1,48 @@
 #include "gi/point_cloud.h"
 
+#include <fmt/format.h>
+
 namespace tomales {
 
-int PointCloud::width() const {
+bool tellsSurfaces(const std::vector<CloudChannel>& channels) { return !channels.empty() && channels.back() == kSurfaceChannel; }
+
+std::vector<CloudChannel> dataOf(std::vector<CloudChannel> channels) {
+  if (tellsSurfaces(channels)) channels.pop_back();
+  return channels;
+}
+
+int widthOf(const std::vector<CloudChannel>& channels) {
   int sum = 0;
   for (const CloudChannel& c : channels) sum += c.width;
   return sum;
+}
+
+void putChannels(ByteWriter& w, const std::vector<CloudChannel>& channels) {
+  w.put(static_cast<uint32_t>(channels.size()));
+  for (const CloudChannel& c : channels) {
+    w.put(c.name);
+    w.put(static_cast<int32_t>(c.width));
+  }
+}
+
+std::vector<CloudChannel> getChannels(ByteReader& r, const std::string& path) {
+  std::vector<CloudChannel> out;
+  const auto count = r.get<uint32_t>();
+  int width = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    std::string name = r.getString();
+    out.push_back({std::move(name), r.get<int32_t>()});
+    if (out.back().width < 1 || out.back().width > kMostWidth - width)
+      throw FileError(fmt::format("\"{}\": its channels are too many or damaged", path));
+    width += out.back().width;
+  }
+  return out;
+}
+
+int PointCloud::surface(size_t point) const {
+  if (!tellsSurfaces(channels)) return 0;
+  const float told = at(point)[width() - 1];
+  return told >= 1 && told <= kMostSurfaces ? static_cast<int>(told) : 0;
 }
 
 void PointCloud::add(const vec3& P, const vec3& N, float r, const float* values) {

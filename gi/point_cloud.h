@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "reyes/base/chunk_file.h"
 #include "reyes/base/math.h"
 
 namespace tomales {
@@ -16,6 +17,20 @@ struct CloudChannel {
   int width = 1;  ///< Floats of one point.
   bool operator==(const CloudChannel&) const = default;
 };
+
+/// The last channel of clouds that tell surfaces apart: which one a point lies on, 1 .. kMostSurfaces; 0: not known. No datum of its own:
+/// brick maps keep it with their layers (gi/brick.h).
+inline const CloudChannel kSurfaceChannel{"surface", 1};
+constexpr int kMostSurfaces = 127;
+bool tellsSurfaces(const std::vector<CloudChannel>& channels);
+std::vector<CloudChannel> dataOf(std::vector<CloudChannel> channels);  ///< Without kSurfaceChannel.
+int widthOf(const std::vector<CloudChannel>& channels);                ///< Floats of one point.
+
+constexpr int kMostWidth = 256;  ///< Floats of a point in a file.
+
+/// As headers of point clouds and brick maps hold them. Reading throws FileError, naming `path`, where they do not add up.
+void putChannels(ByteWriter& w, const std::vector<CloudChannel>& channels);
+std::vector<CloudChannel> getChannels(ByteReader& r, const std::string& path);
 
 /// What a file was made of, as sums; 0: not known.
 struct MadeFrom {
@@ -31,10 +46,11 @@ struct PointCloud {
   std::vector<float> data;    ///< width() floats a point.
 
   size_t count() const { return position.size(); }
-  int width() const;
+  int width() const { return widthOf(channels); }
   const float* at(size_t point) const { return data.data() + point * static_cast<size_t>(width()); }
   /// `values`: width() floats.
   void add(const vec3& P, const vec3& N, float r, const float* values);
+  int surface(size_t point) const;  ///< Of kSurfaceChannel; 0: not known.
   void reserve(size_t points);
   Bound3 bound() const;  ///< Of the positions.
 };

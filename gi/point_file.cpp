@@ -13,7 +13,6 @@ namespace {
 
 constexpr char kKind[9] = "TMPOINTS";
 constexpr uint32_t kVersion = 2;
-constexpr int kMostWidth = 256;
 
 }  // namespace
 
@@ -50,12 +49,8 @@ void PointFileWriter::addChunk(PointCloud points) {
 void PointFileWriter::finish(const MadeFrom& madeFrom) {
   addChunk(pending_);
   ByteWriter header;
-  header.put(static_cast<uint32_t>(pending_.channels.size()));
-  for (const CloudChannel& c : pending_.channels) {
-    header.put(c.name);
-    header.put(static_cast<int32_t>(c.width));
-    contents_.raw(c.name.data(), c.name.size());
-  }
+  putChannels(header, pending_.channels);
+  for (const CloudChannel& c : pending_.channels) contents_.raw(c.name.data(), c.name.size());
   header.put(static_cast<uint64_t>(written_));
   header.put(bounds_);
   header.put(madeFrom);
@@ -66,14 +61,8 @@ void PointFileWriter::finish(const MadeFrom& madeFrom) {
 PointFile::PointFile(const std::string& path) : file_(path, kKind, kVersion) {
   const Bytes header = file_.takeHeader();
   ByteReader r(header, path);
-  const auto channelCount = r.get<uint32_t>();
-  for (uint32_t i = 0; i < channelCount; ++i) {
-    std::string name = r.getString();
-    channels_.push_back({std::move(name), r.get<int32_t>()});
-    if (channels_.back().width < 1 || channels_.back().width > kMostWidth - width_)
-      throw FileError(fmt::format("\"{}\": its channels are too many or damaged", path));
-    width_ += channels_.back().width;
-  }
+  channels_ = getChannels(r, path);
+  width_ = widthOf(channels_);
   count_ = r.get<uint64_t>();
   bounds_ = r.getVector<Bound3>();
   madeFrom_ = r.get<MadeFrom>();

@@ -20,6 +20,7 @@ class PointFileWriter {
   void add(const vec3& P, const vec3& N, float radius, const float* values);
   /// At most kChunkPoints valid points, as a chunk of their own.
   void addChunk(PointCloud points);
+  const std::vector<CloudChannel>& channels() const { return pending_.channels; }
   size_t count() const { return written_ + pending_.count(); }
   void finish(const MadeFrom& madeFrom = {});
 

@@ -34,13 +34,15 @@ BrickCube cubeAround(const Bound3& b) {
 
 PointTiles::PointTiles(const PointFile& file) : file_(file), cube_(cubeAround(file.bound())), counts_(kSide * kSide * kSide) {
   double sum = 0, values = 0;
+  const auto width = static_cast<size_t>(widthOf(dataOf(file.channels())));
   for (size_t chunk = 0; chunk < file.chunkCount(); ++chunk) {
     PointCloud part;
     file.read(chunk, part);
     for (const vec3& P : part.position) ++counts_[indexOf(cellOf(P))];
     for (const float r : part.radius) largestRadius_ = std::max(largestRadius_, r);
-    for (const float v : part.data) sum += double{v};
-    values += static_cast<double>(part.data.size());
+    for (size_t i = 0; i < part.count(); ++i)
+      for (size_t k = 0; k < width; ++k) sum += double{part.at(i)[k]};
+    values += static_cast<double>(part.count() * width);
   }
   mean_ = values > 0 ? sum / values : 0;
 }

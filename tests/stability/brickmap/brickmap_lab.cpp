@@ -4,6 +4,7 @@
 // README.md has its tables.
 #include <fmt/format.h>
 
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -21,6 +22,7 @@ namespace fs = std::filesystem;
 struct Surface {
   vec3 corner, u, v, normal;
   float E;
+  int number = 1;  ///< PointCloud::surface()
   vec3 at(vec2 xi) const { return corner + xi.x * u + xi.y * v; }
   float area() const { return glm::length(cross(u, v)); }
 };
@@ -46,6 +48,8 @@ const std::vector<LabScene>& labScenes() {
        {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1},
         {{-0.02f, 0, 0.02f}, {0.02f, 0, -0.02f}, {0, 1, 0}, {0.70710678f, 0, 0.70710678f}, 0.5f},
         {{-0.02f, 0, 0.02f}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}, 0.05f}}},
+      // The lit underside of a floor, and what lies on the floor and faces down too.
+      {"contact", {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 1}, {{0, 0, 0}, {1, 0, 0.1f}, {0, 1, 0}, {0.0995037f, 0, -0.9950372f}, 0.05f, 2}}},
   };
   return scenes;
 }
@@ -56,12 +60,13 @@ PointCloud photonsOf(const LabScene& scene, int count) {
   for (const Surface& s : scene.surfaces) total += double{s.E * s.area()};
   const auto power = static_cast<float>(total / count);
   PointCloud cloud;
-  cloud.channels = {{"power", 3}};
+  cloud.channels = {{"power", 3}, kSurfaceChannel};
   for (size_t k = 0; k < scene.surfaces.size(); ++k) {
     const Surface& s = scene.surfaces[k];
     const auto own = static_cast<uint32_t>(std::lround(s.E * s.area() / power));
-    const vec3 each(s.E * s.area() / static_cast<float>(std::max(own, 1u)));
-    for (uint32_t i = 0; i < own; ++i) cloud.add(s.at(sobol2(i, hashCombine(static_cast<uint32_t>(k), 17u))), s.normal, 0, &each.x);
+    const float each = s.E * s.area() / static_cast<float>(std::max(own, 1u));
+    const std::array values{each, each, each, static_cast<float>(s.number)};
+    for (uint32_t i = 0; i < own; ++i) cloud.add(s.at(sobol2(i, hashCombine(static_cast<uint32_t>(k), 17u))), s.normal, 0, values.data());
   }
   return cloud;
 }
@@ -91,7 +96,7 @@ Errors errorsOf(const LabScene& scene, const Lookup& lookup) {
     const Surface& s = scene.surfaces[k];
     for (uint32_t i = 0; i < kPlaces; ++i) {
       const vec3 P = s.at(sobol2(i, hashCombine(static_cast<uint32_t>(k), 99u)));
-      const double E = double{lookup(P, s.normal)}, error = E - double{s.E};
+      const double E = double{lookup(P, s)}, error = E - double{s.E};
       out.mean += std::abs(error), ++all;
       const bool leaf = std::strcmp(scene.name, "leaf") == 0;
       const float apart = std::strcmp(scene.name, "thin wall") == 0 ? std::abs(P.x - 0.5f) - 0.5f * kWall : std::max(P.x, P.z);
@@ -110,7 +115,7 @@ struct Lab {
 
   void run(const LabScene& scene, int photons, bool check) {
     const PointCloud points = estimateIrradiance(photonsOf(scene, photons), {});
-    const Errors nearest = errorsOf(scene, [&](const vec3& P, const vec3& N) { return nearestOf(points, P, N); });
+    const Errors nearest = errorsOf(scene, [&](const vec3& P, const Surface& s) { return nearestOf(points, P, s.normal); });
     fmt::print("\n## {}, {} photons, {} irradiance points\n\n", scene.name, photons, points.count());
     fmt::print("| maxerror | bricks | left out | bytes |");
     constexpr float kFilters[] = {0.002f, 0.005f, 0.01f, 0.02f, 0.05f, 0.1f};
@@ -125,9 +130,9 @@ struct Lab {
       fmt::print("| {} | {} | {:.0f} % | {} |", maxError, kept, 100.0 * built.eliminated / static_cast<double>(built.eliminated + static_cast<int>(kept)),
                  fs::file_size(path));
       for (const float filter : kFilters) {
-        const Errors e = errorsOf(scene, [&](const vec3& P, const vec3& N) {
+        const Errors e = errorsOf(scene, [&](const vec3& P, const Surface& s) {
           float E[3] = {0, 0, 0};
-          map.lookup(P, N, filter, E);
+          map.lookup(P, s.normal, filter, E, s.number);
           return E[0];
         });
         fmt::print(" {} |", text(e));

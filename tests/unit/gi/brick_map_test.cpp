@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 
@@ -81,6 +82,31 @@ TEST_F(BrickMaps, TwoSidesOfALeafDoNotMix) {
   for (const float radius : {0.001f, 0.01f, 0.1f, 1.0f}) {
     EXPECT_FLOAT_EQ(lookedUp(map, {0.4f, 0.6f, 0}, {0, 0, 1}, radius), 1.0f) << radius;
     EXPECT_FLOAT_EQ(lookedUp(map, {0.4f, 0.6f, 0}, {0, 0, -1}, radius), 0.0f) << radius;
+  }
+}
+
+TEST_F(BrickMaps, SurfacesThatTouchDoNotMixWhereOneIsAskedFor) {
+  PointCloud cloud;
+  cloud.channels = {{"value", 1}, kSurfaceChannel};
+  for (uint32_t i = 0; i < 8000; ++i) {
+    const vec2 at = sobol2(i, 3);
+    const std::array<float, 2> sheet{1, 1}, above{0, 2};
+    cloud.add({at.x, at.y, 0}, {0, 0, -1}, 0.02f, sheet.data());
+    cloud.add({at.x, at.y, 0.01f * at.x}, {0, 0, -1}, 0.02f, above.data());
+  }
+  writeBrickMap(cloud, {}, path);
+  const BrickMap map(path, cache);
+  EXPECT_EQ(map.width(), 1);
+  const auto ask = [&](int surface, float radius) {
+    float v = -1;
+    map.lookup({0.3f, 0.5f, 0.003f}, {0, 0, -1}, radius, &v, surface);
+    return v;
+  };
+  for (const float radius : {0.005f, 0.05f, 0.5f}) {
+    EXPECT_FLOAT_EQ(ask(1, radius), 1) << radius;
+    EXPECT_FLOAT_EQ(ask(2, radius), 0) << radius;
+    EXPECT_NEAR(ask(0, radius), 0.5f, 0.2f) << radius;
+    EXPECT_EQ(ask(3, radius), ask(0, radius)) << "of a surface that the map does not know";
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 
 #include "gi/atlas.h"
@@ -76,6 +77,61 @@ TEST(PhotonIrradiance, WallsBehindAndBesideDoNotCount) {
     EXPECT_NEAR(out.at(i)[0], out.normal[i].z > 0 ? 1 : 5, out.normal[i].z > 0 ? 0.6 : 3);
 }
 
+/// A ball of radius 0.25 that lies on a sheet whose other side is lit: the sheet's photons face as those of the ball's underside do.
+PointCloud ballOnASheet(bool told) {
+  PointCloud photons;
+  photons.channels = {{"power", 3}};
+  if (told) photons.channels.push_back(kSurfaceChannel);
+  const auto add = [&](const vec3& P, const vec3& N, float power, float surface) {
+    const std::array values{power, power, power, surface};
+    photons.add(P, N, 0, values.data());
+  };
+  for (uint32_t i = 0; i < 40000; ++i) {
+    const vec2 at = sobol2(i, 5);
+    add({at.x, at.y, 0}, {0, 0, -1}, 1.0f / 40000, 1);
+    if (i >= 2000) continue;
+    const float z = 1 - 2 * at.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * at.y;
+    const vec3 N(r * std::cos(phi), r * std::sin(phi), z);
+    add(vec3(0.5f, 0.5f, 0.25f) + 0.25f * N, N, 0.05f * kPi / 4 / 2000, 2);
+  }
+  return photons;
+}
+
+TEST(PhotonIrradiance, ABallOnASheetDoesNotTakeTheLightOfItsOtherSide) {
+  for (const bool told : {true, false}) {
+    const PointCloud photons = ballOnASheet(told), out = estimateIrradiance(photons, {.every = 1});
+    double near = 0;
+    int count = 0;
+    for (size_t i = 0; i < out.count(); ++i) {
+      const float off = glm::length(vec2(out.position[i]) - vec2(0.5f));
+      if (out.position[i].z == 0 || out.normal[i].z > -0.5f || off < 0.02f || off > 0.1f) continue;
+      near += double{out.at(i)[0]}, ++count;
+    }
+    ASSERT_GT(count, 20);
+    if (told)
+      EXPECT_NEAR(near / count, 0.05, 0.01);
+    else
+      EXPECT_GT(near / count, 0.1) << "as long as nobody says which is which";
+  }
+}
+
+TEST(PhotonIrradiance, TilesOfTwoColoursShareTheLightOfTheirFloor) {
+  PointCloud photons;
+  photons.channels = {{"power", 3}, kSurfaceChannel};
+  for (uint32_t i = 0; i < 40000; ++i) {
+    const vec2 at = sobol2(i, 5);
+    const bool dark = (static_cast<int>(at.x * 50) + static_cast<int>(at.y * 50)) % 2;
+    const std::array values{1.0f / 40000, 1.0f / 40000, 1.0f / 40000, dark ? 1.0f : 2.0f};
+    photons.add({at.x, at.y, 0}, {0, 0, 1}, 0, values.data());
+  }
+  const PointCloud out = estimateIrradiance(photons, {});
+  double sum = 0;
+  int count = 0;
+  for (size_t i = 0; i < out.count(); ++i)
+    if (inMiddle(out.position[i])) sum += double{out.at(i)[0]}, ++count;
+  EXPECT_NEAR(sum / count, 1, 0.02);
+}
+
 TEST(PhotonIrradiance, DisksCoverTheAreaOfTheirSurface) {
   PointCloud photons;
   addSquare(photons, 10000, 0, {0, 0, 1}, vec3(1), 3);
@@ -115,7 +171,7 @@ TEST(PhotonTree, FindsTheSamePhotonsAsABruteForceSearch) {
   std::vector<NearPhoton> heap;
   for (uint32_t q = 0; q < 50; ++q) {
     const vec3 P(unitFloat(hash32(q)), unitFloat(hash32(q + 1000)), 0.01f);
-    tree.nearest(P, {0, 0, 1}, 20, kInfinity, heap);
+    tree.nearest(P, {0, 0, 1}, 0, 20, kInfinity, heap);
     std::vector<NearPhoton> all;
     for (uint32_t i = 0; i < 3000; ++i) {
       const vec3 off = tree.position(i) - P;

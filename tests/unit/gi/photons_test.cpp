@@ -231,7 +231,7 @@ TEST_F(Atlas, MapsWithoutTheirPhotonsAreUsedAndKnownForStrangers) {
   EXPECT_TRUE(isMadeByHand(folder));
   SceneBuilder b;
   World world(b.scene);
-  const IrradianceAtlas atlas(folder, world.scene, {{"left", "right"}, {}}, 1 << 20, world.log);
+  const IrradianceAtlas atlas(folder, world.scene, {{"left", "right"}, {}, {0, 0}}, 1 << 20, world.log);
   EXPECT_TRUE(atlas.strange(1).has_value());
   EXPECT_FALSE(atlas.strange(0).has_value());
 }
