@@ -8,8 +8,9 @@ namespace tomales {
 namespace {
 
 constexpr uint32_t kLeaf = 8;
-constexpr int kDirections = 400;      // as many as pixels of a cube of 12 x 12 a face in one hemisphere
-constexpr float kOwnPlane = 0.3f;     // of its radius: nearer, a disk is that of the point itself, or of its neighbours
+constexpr int kDirections = 1024;
+constexpr float kGoldenAngle = 2.399963f;  // of a spiral, whose points are nowhere dense
+constexpr float kOwnPlane = 0.3f;          // of its radius: nearer, a disk is that of the point itself, or of its neighbours
 
 }  // namespace
 
@@ -34,9 +35,10 @@ Disks::Disks(const PointCloud& cloud, const std::string& channel) {
     const vec3 L = light >= 0 ? vec3(values[light], values[light + 1], values[light + 2]) : vec3(0);
     disks_.push_back({cloud.position[i], cloud.normal[i], r > 0 ? r : std::sqrt(a / kPi), a, L});
   }
-  const HemisphereCells cells = hemisphereCells(kDirections);
-  for (int ring = 0; ring < cells.rings; ++ring)
-    for (int sector = 0; sector < cells.sectors; ++sector) directions_.push_back(hemisphereDirection(cells, ring, sector, vec2(0.5f)));
+  for (int k = 0; k < kDirections; ++k) {
+    const float r2 = (static_cast<float>(k) + 0.5f) / kDirections, r = std::sqrt(r2), phi = kGoldenAngle * static_cast<float>(k);
+    directions_.push_back({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - r2)});
+  }
   if (!disks_.empty()) build(0, static_cast<uint32_t>(disks_.size()));
 }
 

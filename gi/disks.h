@@ -3,8 +3,8 @@
 // lines of sight meet them here: what is nearer hides what is behind it wherever it is.
 // Private to gi. Threads: built by one; lookups are concurrent. The answer depends on the cloud alone, not on threads.
 #pragma once
-#include "gi/gather.h"
 #include "gi/point_cloud.h"
+#include "reyes/shade.h"
 
 namespace tomales {
 
