@@ -266,6 +266,27 @@ TEST_F(BatchServices, AShadowOfFourCornersIsTheMeanBetweenThem) {
   EXPECT_TRUE(log.entries().empty());
 }
 
+TEST_F(BatchServices, AnOptionScalesAllTextureFilters) {
+  const std::string path = ::testing::TempDir() + "/tomales_step.tif";
+  OIIO::ImageBuf picture(OIIO::ImageSpec(256, 256, 1, OIIO::TypeDesc::FLOAT));
+  for (int k = 0; k < 256 * 256; ++k) {
+    const float value = k % 256 < 128 ? 0.0f : 1.0f;
+    picture.setpixel(k % 256, k / 256, &value);
+  }
+  ASSERT_TRUE(picture.write(path));
+  scene.options.user["texture:width"] = number("width", 2);
+  const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
+    TmTextureLookup one = lookup();
+    one.channels = 1;
+    const auto over = [&](double from, double to) {
+      const Float ss[4] = {from, to, from, to}, tt[4] = {0.4, 0.4, 0.6, 0.6};
+      return xcomp(texture(path.c_str(), ss, tt, one));
+    };
+    s.Ci = Color(over(0.475, 0.575), over(0.55, 0.6), 0);  // twice as wide: from 0.425 to 0.625, and beyond the step
+  });
+  expectColor(c[0], {0.625f, 1, 0}, 0.06f);
+}
+
 TEST_F(BatchServices, PicturesAndLightsTellWhatTheyHold) {
   const std::string path = ::testing::TempDir() + "/tomales_constant.exr";
   OIIO::ImageBuf picture(OIIO::ImageSpec(64, 32, 3, OIIO::TypeDesc::FLOAT));
