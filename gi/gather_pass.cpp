@@ -154,16 +154,13 @@ class GatherPass {
       firstOfBatch.push_back(firstOfBatch.back() + static_cast<size_t>(batch.count()));
       places.emplace_back(state_, batch);
     }
-    const auto consider = [&](const Facet& facet, int point, int x, int y) {
+    std::vector<std::vector<Site>> asked(state_.caches.size());
+    const auto ask = [&](const Facet& facet, int point, int x, int y) {
       const auto b = static_cast<size_t>(facet.batch);
       // Of the lattice every pixel asks, and later every point once, in a phase that is its own: so it does not matter which tiles see it.
       if (phase_ >= kLatticePhases && !seen_->set(t, firstOfBatch[b] + static_cast<size_t>(point))) return;
       const GatherPoint p = places[b].at(point);
-      for (const size_t c : cachesOfGroup_[static_cast<size_t>(tile.batches[b].group())]) {
-        const IrradianceEstimate known = state_.caches[c].cache.lookup(p.position, p.normal, p.pixelSize);
-        // What was given is appended to, not refined.
-        if (known.weight < kEnough || (known.disputed && !state_.cachesGiven)) out.push_back({p, c, x, y});
-      }
+      for (const size_t c : cachesOfGroup_[static_cast<size_t>(tile.batches[b].group())]) asked[c].push_back({p, c, x, y});
     };
     for (int y = tile.rect.y0; y < tile.rect.y1; ++y)
       for (int x = tile.rect.x0; x < tile.rect.x1; ++x) {
@@ -180,12 +177,23 @@ class GatherPass {
             if (corner > 0 && point == facet.point[0]) continue;
             const int phase =
                 first ? latticed : kLatticePhases + static_cast<int>(hash32(batch.key(point)) % kLastPhases);
-            if (phase == phase_) consider(facet, point, x, y);
+            if (phase == phase_) ask(facet, point, x, y);
             first = false;
           }
           if (phase_ < kLatticePhases) break;  // its first point alone
         }
       }
+    for (size_t c = 0; c < asked.size(); ++c) keepUncovered(c, asked[c], out);
+  }
+
+  void keepUncovered(size_t cache, const std::vector<Site>& asked, std::vector<Site>& out) const {
+    std::vector<IrradiancePlace> places;
+    for (const Site& s : asked) places.push_back({s.point.position, s.point.normal, s.point.normal, s.point.pixelSize});
+    std::vector<IrradianceEstimate> known(places.size());
+    state_.caches[cache].cache.lookup(places, known.data());
+    // What was given is appended to, not refined.
+    for (size_t i = 0; i < asked.size(); ++i)
+      if (known[i].weight < kEnough || (known[i].disputed && !state_.cachesGiven)) out.push_back(asked[i]);
   }
 
   // The records of a phase are inserted when all have been made.

@@ -49,6 +49,12 @@ GatherPoint GatherPlaces::at(int i) const {
   return p;
 }
 
+IrradiancePlace GatherPlaces::lookupAt(int i, const vec3& normal) const {
+  IrradiancePlace p{positions_ < 0 ? points_.position(i) : named(positions_, i), this->normal(i), shading(i, normal), 0};
+  p.pixelSize = projectedPixelSize(state_.camera, p.position, p.normal);
+  return p;
+}
+
 void GatherPlaces::aim(const RayScene& rays, int i, float time, Ray& ray) const {
   ray.origin = points_.position(i);
   tomales::aim(rays, points_, i, time, ray);

@@ -223,26 +223,27 @@ void interpolateIndirect(const GiState& state, const ShadePoints& points, const 
   const GatherPlan plan = planFor(state, points.group(), query);
   const auto prepared = preparedFor(state, plan);
   const GatherPlaces places(state, points);
-  int64_t lookups = 0, interpolated = 0;
-  for (int i = 0; i < points.count(); ++i) {
-    if (!active[i]) continue;
-    GatherPoint point = places.at(i);
-    const vec3 n = places.shading(i, unitNormal(points, N, i)), caustic = causticAt(state, points.group(), point.position, n, point.pixelSize);
-    if (prepared != state.caches.end()) {
-      ++lookups;
-      const IrradianceEstimate estimate = prepared->cache.lookup(point.position, point.normal, n, point.pixelSize);
-      if (estimate.weight > 0) {
-        ++interpolated;
-        store(out, i, estimate.E + caustic, estimate.dominant);
-        continue;
-      }
+  std::vector<int> asked;
+  std::vector<IrradiancePlace> at;
+  for (int i = 0; i < points.count(); ++i)
+    if (active[i]) asked.push_back(i), at.push_back(places.lookupAt(i, unitNormal(points, N, i)));
+  std::vector<IrradianceEstimate> known(at.size());
+  if (prepared != state.caches.end()) prepared->cache.lookup(at, known.data()), state.stats.irradianceCache.lookups += static_cast<int64_t>(at.size());
+  int64_t interpolated = 0;
+  for (size_t k = 0; k < at.size(); ++k) {
+    const int i = asked[k];
+    const vec3 caustic = causticAt(state, points.group(), at[k].position, at[k].shadingNormal, at[k].pixelSize);
+    if (known[k].weight > 0) {
+      ++interpolated;
+      store(out, i, known[k].E + caustic, known[k].dominant);
+      continue;
     }
     // Kept out of the cache: what other points find there must not depend on the order of shading.
-    point.normal = n;
+    GatherPoint point = places.at(i);
+    point.normal = at[k].shadingNormal;
     const IndirectAnswer answer = gatherOrRecall(state, point, plan.gather, context.answers);
     store(out, i, answer[0] + caustic, &answer[1]);
   }
-  state.stats.irradianceCache.lookups += lookups;
   state.stats.irradianceCache.interpolated += interpolated;
 }
 

@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#include "gi/record_tree.h"
+#include "reyes/base/simd.h"
+
 namespace tomales {
 namespace {
 
@@ -13,40 +16,49 @@ constexpr float kDispute = 0.1f;              // relative difference of extrapol
 constexpr float kTorn = 0.5f;                 // the same between points that see other things
 constexpr float kNoiseMargin = 3;             // standard errors
 constexpr float kDark = 0.1f;                 // of the mean E: what is darker is off by fractions of this, not of itself
-constexpr int kMaxDepth = 24;
-constexpr int kNone = -1;
-
-// A record lives in the node whose size matches its validity radius, as in Ward et al. 1988. That radius
-// depends on the pixel size at the lookup (eq. 3), so a lookup prunes with the largest record size below a
-// node instead.
-struct Node {
-  float largest = 0;  // record size, of this node and all below
-  int child[8] = {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
-  std::vector<uint32_t> records;
-};
-
-struct Box {
-  vec3 center;
-  float half;
-
-  int childIndex(const vec3& p) const {
-    return (p.x >= center.x ? 1 : 0) | (p.y >= center.y ? 2 : 0) | (p.z >= center.z ? 4 : 0);
-  }
-  Box child(int i) const {
-    const float h = half * 0.5f;
-    return {center + vec3(i & 1 ? h : -h, i & 2 ? h : -h, i & 4 ? h : -h), h};
-  }
-  bool contains(const vec3& p) const { return maxComponent(glm::abs(p - center)) <= half; }
-  bool touches(const vec3& p, float radius) const {
-    const vec3 outside = glm::max(glm::abs(p - center) - vec3(half), vec3(0.0f));
-    return dot(outside, outside) <= radius * radius;
-  }
-};
+constexpr size_t kRun = 64;                     // lookups that share their candidates, at most
+constexpr float kRunPixels = 24;                // diagonal of what they cover, at most: incoherent points would share too many
 
 struct Candidate {
   uint32_t record;
   float weight;
 };
+
+/// The records that may serve some of the places of a run, as arrays.
+struct Vicinity {
+  std::vector<uint32_t> records;
+  AlignedVector<float> x, y, z, nx, ny, nz, size, limit, slack;
+
+  void clear() {
+    records.clear();
+    for (auto* a : {&x, &y, &z, &nx, &ny, &nz, &size, &limit}) a->clear();
+  }
+  void add(uint32_t record, const IrradianceRecord& r, float recordSize) {
+    records.push_back(record);
+    x.push_back(r.position.x), y.push_back(r.position.y), z.push_back(r.position.z);
+    nx.push_back(r.normal.x), ny.push_back(r.normal.y), nz.push_back(r.normal.z);
+    size.push_back(recordSize), limit.push_back(r.limit);
+  }
+};
+
+/// What a record may serve, but for rounding.
+struct Reach {
+  float least, most, scale;  ///< Its radius is its size between least and most, times scale.
+  float cosine;              ///< Of the angle between normals, at least.
+};
+
+/// slack[i] > 0: record i may serve a point at p with normal n.
+TOMALES_HOT void findSlack(const Vicinity& v, const vec3& p, const vec3& n, const Reach& reach, float* slack) {
+  const float *x = v.x.data(), *y = v.y.data(), *z = v.z.data(), *nx = v.nx.data(), *ny = v.ny.data(), *nz = v.nz.data();
+  const float *size = v.size.data(), *limit = v.limit.data();
+  const size_t count = v.records.size();
+  for (size_t i = 0; i < count; ++i) {
+    const float dx = p.x - x[i], dy = p.y - y[i], dz = p.z - z[i];
+    const float radius = std::min(reach.scale * std::max(std::min(size[i], reach.most), reach.least), limit[i]);
+    const float near = radius * radius - (dx * dx + dy * dy + dz * dz);
+    slack[i] = std::min(near, n.x * nx[i] + n.y * ny[i] + n.z * nz[i] - reach.cosine);
+  }
+}
 
 vec3 extrapolate(const IrradianceRecord& r, const vec3& x, const vec3& n) {
   const vec3 turn = cross(r.normal, n), step = x - r.position;
@@ -73,10 +85,8 @@ void limitTranslation(IrradianceRecord& r, float radius) {
 struct IrradianceCache::Impl {
   CacheSettings settings;
   Bound3 bound;
-  Box root;
-  std::vector<Node> nodes{Node{}};
-  std::vector<uint32_t> outside;  // records beyond the root box
-  std::vector<IrradianceRecord> records;
+  RecordTree tree{bound};
+  std::vector<IrradianceRecord> records{};
   double luminanceSum = 0;  // of their E
 
   float size(const IrradianceRecord& r) const {
@@ -99,18 +109,7 @@ struct IrradianceCache::Impl {
 
   void insert(uint32_t index) {
     const IrradianceRecord& r = records[index];
-    if (!root.contains(r.position)) return outside.push_back(index);
-    const float recordSize = size(r), radius = reach(recordSize, r.pixelSize);
-    Box box = root;
-    int node = 0;
-    for (int depth = 0;; ++depth) {
-      Node& here = nodes[static_cast<size_t>(node)];
-      here.largest = std::max(here.largest, recordSize);
-      if (depth == kMaxDepth || box.half < 2 * radius) return here.records.push_back(index);
-      const int i = box.childIndex(r.position);
-      box = box.child(i);
-      node = descend(node, i);
-    }
+    tree.insert(index, r.position, size(r), reach(size(r), r.pixelSize));
   }
 
   enum class Dispute { None, Steep, Torn };
@@ -147,15 +146,6 @@ struct IrradianceCache::Impl {
     }
   }
 
-  int descend(int node, int i) {
-    const int child = nodes[static_cast<size_t>(node)].child[i];
-    if (child != kNone) return child;
-    const int added = static_cast<int>(nodes.size());
-    nodes[static_cast<size_t>(node)].child[i] = added;
-    nodes.emplace_back();
-    return added;
-  }
-
   // Smooth down to 0 where the record stops being used, so that interpolation has no seams.
   float weight(const IrradianceRecord& r, const vec3& x, const vec3& n, float pixelSize) const {
     const float radius = std::min(reach(size(r), pixelSize), r.limit);
@@ -176,30 +166,55 @@ struct IrradianceCache::Impl {
     return front * std::max(0.0f, 1 / std::max(error, 1e-4f) - 1);
   }
 
-  void collect(const std::vector<uint32_t>& from, const vec3& x, const vec3& n, float pixelSize,
-               std::vector<Candidate>& out) const {
-    for (const uint32_t i : from) {
-      const float w = weight(records[i], x, n, pixelSize);
-      if (w > 0) out.push_back({i, w});
-    }
-  }
-
-  void collect(int node, const Box& box, const vec3& x, const vec3& n, float pixelSize,
-               std::vector<Candidate>& out) const {
-    const Node& here = nodes[static_cast<size_t>(node)];
-    if (!box.touches(x, reach(here.largest, pixelSize))) return;
-    collect(here.records, x, n, pixelSize, out);
-    for (int i = 0; i < 8; ++i)
-      if (here.child[i] != kNone) collect(here.child[i], box.child(i), x, n, pixelSize, out);
-  }
-
   // In the order of the records, so that the shape of the tree leaves no trace.
   std::vector<Candidate> candidatesAt(const vec3& x, const vec3& n, float pixelSize) const {
     std::vector<Candidate> out;
-    collect(outside, x, n, pixelSize, out);
-    collect(0, root, x, n, pixelSize, out);
+    tree.visit({x, x}, [&](float recordSize) { return reach(recordSize, pixelSize); },
+               [&](uint32_t i) {
+                 const float w = weight(records[i], x, n, pixelSize);
+                 if (w > 0) out.push_back({i, w});
+               });
     std::sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) { return a.record < b.record; });
     return out;
+  }
+
+  Reach reachAt(float pixelSize) const {
+    constexpr float kRounding = 1e-4f;
+    const float angle = settings.errorFunction == ErrorFunction::Ward ? 1 / (settings.kappa * settings.kappa) : kMaxAngleTerm / (settings.kappa * settings.kappa);
+    return {kMinPixels * pixelSize, settings.maxPixels * pixelSize, (1 + kRounding) / settings.kappa, 1 - angle - kRounding};
+  }
+
+  /// Lookups that lie close together share one walk through the tree.
+  void lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, Vicinity& near, std::vector<Candidate>& found) const {
+    Bound3 region;
+    float pixelSize = 0;
+    for (const IrradiancePlace& p : places) region.extend(p.position), pixelSize = std::max(pixelSize, p.pixelSize);
+    const size_t half = places.size() / 2;
+    if (places.size() > kRun || (half > 0 && !(glm::length(region.size()) <= kRunPixels * pixelSize))) {
+      lookup(places.first(half), out, near, found);
+      return lookup(places.subspan(half), out + half, near, found);
+    }
+    near.clear();
+    const Reach farthest = reachAt(pixelSize);
+    const auto reachOf = [&](float recordSize) { return farthest.scale * std::max(std::min(recordSize, farthest.most), farthest.least); };
+    tree.visit(region, reachOf, [&](uint32_t i) {
+      const IrradianceRecord& r = records[i];
+      const vec3 off = r.position - glm::clamp(r.position, region.lo, region.hi);
+      const float radius = std::min(reachOf(size(r)), (1 + 1e-4f) * r.limit);
+      if (dot(off, off) <= radius * radius) near.add(i, r, size(r));
+    });
+    near.slack.resize(near.records.size());
+    for (const IrradiancePlace& p : places) {
+      findSlack(near, p.position, p.normal, reachAt(p.pixelSize), near.slack.data());
+      found.clear();
+      for (size_t k = 0; k < near.records.size(); ++k) {
+        if (!(near.slack[k] > 0)) continue;
+        const float w = weight(records[near.records[k]], p.position, p.normal, p.pixelSize);
+        if (w > 0) found.push_back({near.records[k], w});
+      }
+      std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) { return a.record < b.record; });
+      *out++ = blend(found, p.position, p.shadingNormal, p.pixelSize);
+    }
   }
 
   IrradianceEstimate blend(const std::vector<Candidate>& candidates, const vec3& x, const vec3& n, float pixelSize) const {
@@ -224,12 +239,7 @@ struct IrradianceCache::Impl {
 };
 
 IrradianceCache::IrradianceCache(const Bound3& bound, const CacheSettings& settings)
-    : impl_(std::make_unique<Impl>()) {
-  impl_->settings = settings;
-  impl_->bound = bound;
-  impl_->root =
-      bound.empty() ? Box{vec3(0.0f), 0.0f} : Box{bound.center(), 0.5001f * maxComponent(bound.size())};
-}
+    : impl_(new Impl{settings, bound}) {}
 
 IrradianceCache::IrradianceCache(IrradianceCache&&) noexcept = default;
 IrradianceCache& IrradianceCache::operator=(IrradianceCache&&) noexcept = default;
@@ -254,6 +264,16 @@ void IrradianceCache::restore(const IrradianceRecord& record) {
 IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, const vec3& shadingNormal, float pixelSize) const {
   if (!(impl_->settings.kappa < kInfinity)) return impl_->blend({}, x, shadingNormal, pixelSize);
   return impl_->blend(impl_->candidatesAt(x, normal, pixelSize), x, shadingNormal, pixelSize);
+}
+
+void IrradianceCache::lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out) const {
+  if (places.empty()) return;
+  if (impl_->settings.kappa < kInfinity) {
+    thread_local Vicinity near;
+    thread_local std::vector<Candidate> found;
+    return impl_->lookup(places, out, near, found);
+  }
+  for (const IrradiancePlace& p : places) *out++ = impl_->blend({}, p.position, p.shadingNormal, p.pixelSize);
 }
 
 const std::vector<IrradianceRecord>& IrradianceCache::records() const { return impl_->records; }

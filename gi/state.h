@@ -56,6 +56,8 @@ class GatherPlaces {
  public:
   GatherPlaces(const GiState&, const ShadePoints&);
   GatherPoint at(int i) const;
+  /// The same without what rays take; `normal`: that of shading.
+  IrradiancePlace lookupAt(int i, const vec3& normal) const;
   /// The normal that light is turned to there: that of shading, unless another is named.
   vec3 shading(int i, const vec3& normal) const { return normals_ < 0 ? normal : this->normal(i); }
   /// The start of a ray along `direction` from there, at a time of the shutter.

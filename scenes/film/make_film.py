@@ -1,5 +1,5 @@
 """Writes film.rib: a toad-like creature as one Catmull-Clark mesh with painted skin (vertex colours) and displaced warts, eyes, and a
-floor; a film-sized frame. Nothing random: the same file every time."""
+floor, under a sky; a film-sized frame. Nothing random: the same file every time."""
 import math
 import sys
 
@@ -53,10 +53,8 @@ def numbers(values):
     return " ".join(f"{v:.5g}" for v in values)
 
 
-FILL = 'LightSource "ambientlight" "fill" "intensity" [0.12]'
-# Indirect light instead, also of a sky that gather rays alone meet.
-GI = """LightSource "indirectlight" "gi" "float samples" [600]
-AttributeBegin
+# Its environment is what gather rays meet where they miss all else: indirect light brings it, and no ray is spent on it where light is direct.
+SKY = """AttributeBegin
 Attribute "identifier" "name" ["sky"]
 Attribute "visibility" "int camera" [0] "int diffuse" [1] "int specular" [0] "int transmission" [0]
 Attribute "radiosity" "float screentexels" [64]
@@ -92,7 +90,10 @@ Rotate 24 0 1 0
 WorldBegin
 LightSource "spotlight" "key" "from" [-4 5 -5] "to" [0 0 0] "intensity" [55] "coneangle" [0.7] "string shadowname" ["raytrace"] "lightcolor" [1 0.93 0.8]
 LightSource "distantlight" "rim" "from" [3 2.5 4] "to" [0 0 0] "intensity" [0.5] "lightcolor" [0.6 0.75 1]
-{GI if "--gi" in sys.argv else FILL}
+LightSource "indirectlight" "gi" "float samples" [600]
+Illuminate "gi" 0
+LightSource "filterlight" "art" "string source" ["gi"]
+{SKY}
 AttributeBegin
 Attribute "identifier" "name" ["floor"]
 Surface "matte"

@@ -10,7 +10,7 @@ import tempfile
 root = pathlib.Path(__file__).resolve().parents[2]
 tomales = sys.argv[1]
 scene = sys.argv[2] if len(sys.argv) > 2 else root / "scenes/film/film.rib"
-further = sys.argv[3:] or ["--format", "560x338"]
+further = sys.argv[3:] or ["--format", "560x338", "--gi", "none"]
 
 BYTES_OF_POLYGON = 37  # position, normal, Embree's 22 (raytrace/embree_chunks.cpp)
 TIMES_SMALLER = 30

@@ -37,10 +37,10 @@ with tempfile.TemporaryDirectory() as name:
     truth = a.truth
     if not truth:
         truth = folder / "truth.exr"
-        render(folder, 16, 1, a.format)[0].rename(truth)
+        render(folder, 16, 1, a.format, "--gi", "none")[0].rename(truth)
     print("| rate | coarse polygons | geometry and BVH | error | million rays a CPU second, their hits shaded |\n|---|---|---|---|---|")
     for rate in RATES:
-        picture, stats = render(folder, rate, 0, a.format)
+        picture, stats = render(folder, rate, 0, a.format, "--gi", "none")
         wrong = error(picture, truth)
         few, many = (render(folder, rate, 0, "228x138", "--gi", "gather", "--samples", str(n))[1] for n in (64, 512))
         rays = sum(many["rays"][kind] - few["rays"][kind] for kind in ("gather", "transmission"))

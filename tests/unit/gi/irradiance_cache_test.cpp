@@ -261,5 +261,34 @@ TEST(IrradianceCache, TheHessianReachesAsFarAsLightIsSmoothButNotPastWhatItSees)
   EXPECT_NEAR(weightOfOne(hessian, r, {0.05f, 0, 0}, kUp, 0.01f), 0.5f, 1e-5f);
 }
 
+TEST(IrradianceCache, ManyLookupsAtOnceHaveTheBitsOfOneAtATime) {
+  for (const ErrorFunction function : {ErrorFunction::Screen, ErrorFunction::Ward, ErrorFunction::Hessian}) {
+    IrradianceCache cache(kBox, {function, function == ErrorFunction::Ward ? 4.0f : 1.0f});
+    for (uint32_t i = 0; i < 3000; ++i) {
+      IrradianceRecord r = recordAt(1.1f * randomIn(i, 1), vec3(1) + 0.02f * randomIn(i, 2), 0.5f * unitFloat(hashCombine(i, 3)));  // some outside
+      r.normal = glm::normalize(kUp + 0.12f * randomIn(i, 4)), r.smoothRadius = 0.3f;
+      cache.insert(r);
+    }
+    std::vector<IrradiancePlace> places;
+    for (uint32_t i = 0; i < 1500; ++i) {  // a walk in small steps, with leaps
+      const vec3 start = randomIn(i / 100, 5), normal = glm::normalize(kUp + 0.1f * randomIn(i, 7));
+      places.push_back({start + 0.03f * randomIn(i, 8), normal, glm::normalize(normal + 0.2f * randomIn(i, 6)), i % 100 < 50 ? 0.03f : 0.1f});
+    }
+    std::vector<IrradianceEstimate> all(places.size());
+    cache.lookup(places, all.data());
+    int found = 0;
+    for (size_t i = 0; i < places.size(); ++i) {
+      const IrradiancePlace& p = places[i];
+      const IrradianceEstimate one = cache.lookup(p.position, p.normal, p.shadingNormal, p.pixelSize);
+      EXPECT_EQ(one.weight, all[i].weight);
+      EXPECT_EQ(one.E, all[i].E);
+      EXPECT_EQ(one.dominant[1], all[i].dominant[1]);
+      EXPECT_EQ(one.disputed, all[i].disputed);
+      found += one.weight > 0;
+    }
+    EXPECT_GT(found, 100);
+  }
+}
+
 }  // namespace
 }  // namespace tomales

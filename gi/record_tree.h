@@ -1,0 +1,87 @@
+// Private to gi/irradiance_cache: an octree of numbered records. Each lies in the node that matches its radius (Ward et al. 1988). How far a
+// record reaches depends on who asks (approximate-gi eq. 3), so nodes know the size of their largest record, of which that is a function.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "reyes/base/math.h"
+
+namespace tomales {
+
+class RecordTree {
+ public:
+  /// `bound` should hold all records; what falls outside still works, only slower.
+  explicit RecordTree(const Bound3& bound)
+      : root_(bound.empty() ? Box{vec3(0.0f), 0.0f} : Box{bound.center(), 0.5001f * maxComponent(bound.size())}) {}
+
+  void insert(uint32_t record, const vec3& position, float size, float radius) {
+    if (!root_.contains(position)) return outside_.push_back(record);
+    Box box = root_;
+    int node = 0;
+    for (int depth = 0;; ++depth) {
+      Node& here = nodes_[static_cast<size_t>(node)];
+      here.largest = std::max(here.largest, size);
+      if (depth == kMaxDepth || box.half < 2 * radius) return here.records.push_back(record);
+      const int i = box.childIndex(position);
+      box = box.child(i);
+      node = descend(node, i);
+    }
+  }
+
+  /// visit(record), in any order, at least for all that lie within `reach` of `region`. reach(size): of a record of that size; it may not
+  /// fall with the size.
+  template <class Reach, class Visit>
+  void visit(const Bound3& region, const Reach& reach, const Visit& visit) const {
+    for (const uint32_t record : outside_) visit(record);
+    visitNode(0, root_, region, reach, visit);
+  }
+
+ private:
+  static constexpr int kMaxDepth = 24, kNone = -1;
+
+  struct Node {
+    float largest = 0;  ///< Size, of this node and all below.
+    int child[8] = {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
+    std::vector<uint32_t> records;
+  };
+
+  struct Box {
+    vec3 center;
+    float half;
+
+    int childIndex(const vec3& p) const { return (p.x >= center.x ? 1 : 0) | (p.y >= center.y ? 2 : 0) | (p.z >= center.z ? 4 : 0); }
+    Box child(int i) const {
+      const float h = half * 0.5f;
+      return {center + vec3(i & 1 ? h : -h, i & 2 ? h : -h, i & 4 ? h : -h), h};
+    }
+    bool contains(const vec3& p) const { return maxComponent(glm::abs(p - center)) <= half; }
+    bool touches(const Bound3& b, float radius) const {
+      const vec3 outside = glm::max(glm::max(b.lo - (center + vec3(half)), (center - vec3(half)) - b.hi), vec3(0.0f));
+      return dot(outside, outside) <= radius * radius;
+    }
+  };
+
+  int descend(int node, int i) {
+    const int child = nodes_[static_cast<size_t>(node)].child[i];
+    if (child != kNone) return child;
+    const int added = static_cast<int>(nodes_.size());
+    nodes_[static_cast<size_t>(node)].child[i] = added;
+    nodes_.emplace_back();
+    return added;
+  }
+
+  template <class Reach, class Visit>
+  void visitNode(int node, const Box& box, const Bound3& region, const Reach& reach, const Visit& visit) const {
+    const Node& here = nodes_[static_cast<size_t>(node)];
+    if (!box.touches(region, reach(here.largest))) return;
+    for (const uint32_t record : here.records) visit(record);
+    for (int i = 0; i < 8; ++i)
+      if (here.child[i] != kNone) visitNode(here.child[i], box.child(i), region, reach, visit);
+  }
+
+  Box root_;
+  std::vector<Node> nodes_{Node{}};
+  std::vector<uint32_t> outside_;  ///< Records beyond the root box.
+};
+
+}  // namespace tomales
