@@ -91,7 +91,7 @@ TEST(Disks, SidesDistancesConesAndFalloffAreObeyed) {
 TEST(Disks, CoarserIsNearlyTheSame) {
   const Disks disks(sphere(20000, {0, 0, 2}), "_radiosity");
   DisksQuery coarse, fine;
-  coarse.maxSolidAngle = 0.2f, fine.maxSolidAngle = 0.002f;
+  coarse.maxSolidAngle = 0.01f, fine.maxSolidAngle = 0.0005f;
   EXPECT_NEAR(disks.seenFrom(vec3(0), kUp, coarse).covered, disks.seenFrom(vec3(0), kUp, fine).covered, 0.02f);
 }
 

@@ -275,6 +275,7 @@ TEST(RayCalls, GlassAndMirrorsAreAsBrightAsTheSkyAroundThem) {
   change(b, [](Attributes& a) { a.trace.maxSpecularDepth = 100; });
   b.sphere(1, vec3(1), {3, 0, 5});
   surface(b, "mirror");
+  change(b, [](Attributes& a) { a.trace.maxSpecularDepth = 100; });
   b.scene.options.maxRayDepth = 100;
   World world(b.scene);
   const auto services = world.use({});
