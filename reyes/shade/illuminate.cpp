@@ -69,9 +69,9 @@ TOMALES_HOT void markFacing(int n, const uint8_t* active, TmConstVec3 N, TmConst
 TOMALES_HOT void addDiffuse(int n, const float* share, TmConstVec3 N, TmConstVec3 L, TmConstVec3 Cl, TmVec3 out) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
-    const float cosine = L.x[i] * N.x[i] + L.y[i] * N.y[i] + L.z[i] * N.z[i], all = share[i] * cosine;
-    const float weight = where(share[i] != 0.0f, all);
-    out.x[i] += Cl.x[i] * weight, out.y[i] += Cl.y[i] * weight, out.z[i] += Cl.z[i] * weight;
+    const float weight = share[i] * (L.x[i] * N.x[i] + L.y[i] * N.y[i] + L.z[i] * N.z[i]);
+    const bool counts = share[i] != 0.0f;
+    out.x[i] += where(counts, Cl.x[i] * weight), out.y[i] += where(counts, Cl.y[i] * weight), out.z[i] += where(counts, Cl.z[i] * weight);
   }
 }
 
@@ -82,8 +82,9 @@ TOMALES_HOT void addHighlight(int n, const float* share, TmConstVec3 N, TmConstV
     const float hx = L.x[i] + V.x[i], hy = L.y[i] + V.y[i], hz = L.z[i] + V.z[i];
     const float cosine = (N.x[i] * hx + N.y[i] * hy + N.z[i] * hz) * inverseLength(hx, hy, hz);
     const float positive = cosine > FLT_MIN ? cosine : FLT_MIN, within = positive < 1.0f ? positive : 1.0f;
-    const float all = share[i] * power(within, exponent[i]), weight = where((share[i] != 0.0f) & (cosine > 0.0f), all);
-    out.x[i] += Cl.x[i] * weight, out.y[i] += Cl.y[i] * weight, out.z[i] += Cl.z[i] * weight;
+    const float weight = share[i] * power(within, exponent[i]);
+    const bool counts = (share[i] != 0.0f) & (cosine > 0.0f);
+    out.x[i] += where(counts, Cl.x[i] * weight), out.y[i] += where(counts, Cl.y[i] * weight), out.z[i] += where(counts, Cl.z[i] * weight);
   }
 }
 

@@ -14,7 +14,8 @@ bool allFinite(int n, TmConstVec3 v);
 void markFacing(int n, const uint8_t* active, TmConstVec3 N, TmConstVec3 L, uint8_t* facing);
 /// out += share * Cl * (L . N)
 void addDiffuse(int n, const float* share, TmConstVec3 N, TmConstVec3 L, TmConstVec3 Cl, TmVec3 out);
-/// out += share * Cl * (N . H)^exponent, with H half way between L and V. The power is true to 4e-6 of itself.
+/// out += share * Cl * (N . H)^exponent, with H half way between L and V. The power is true to 2e-6 of itself where it is above 1e-3, to 2e-5
+/// elsewhere, and 0 below 2^-126.
 void addHighlight(int n, const float* share, TmConstVec3 N, TmConstVec3 V, const float* exponent, TmConstVec3 L, TmConstVec3 Cl, TmVec3 out);
 
 }  // namespace tomales

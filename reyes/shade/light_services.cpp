@@ -95,12 +95,14 @@ void diffuseOf(void* host, const TmGrid* all, int32_t which, TmConstVec3 N, TmVe
   normalizeAll(g->count, N, n);
   fill(g, out, vec3(0.0f));
   uint8_t* lit = batch.arena.bytes(g->count);
+  float* share = batch.arena.floats(g->count);
   for (LightSample& sample : batch.lights.samples(batch)) {
     const BoundLight& light = *sample.light;
     if (light.nondiffuse || !(which & (light.can(TM_LIGHT_INDIRECT) ? TM_INDIRECT_LIGHT : TM_DIRECT_LIGHT))) continue;
     markFacing(g->count, g->active, view(n), view(sample.L), lit);
     batch.lights.shadow(batch, sample, lit);
-    addDiffuse(g->count, sharesOf(batch, g->count, lit, sample.nondiffuse), view(n), view(sample.L), view(sample.Cl), out);
+    setShares(g->count, lit, sample.nondiffuse, share);
+    addDiffuse(g->count, share, view(n), view(sample.L), view(sample.Cl), out);
   }
   primary.spread(out);
 }

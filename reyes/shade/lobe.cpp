@@ -42,7 +42,7 @@ class Highlight {
  public:
   Highlight(Batch& batch, const TmGrid* g, TmConstVec3 N, TmConstVec3 V, const float* roughness, TmVec3 out)
       : batch_(batch), g_(g), out_(out), N_(batch.arena.vec3(g->count)), V_(batch.arena.vec3(g->count)), exponent_(batch.arena.floats(g->count)),
-        side_(batch.arena.bytes(g->count)), drawn_(lobeSamples(&batch, g)) {
+        share_(batch.arena.floats(g->count)), side_(batch.arena.bytes(g->count)), drawn_(lobeSamples(&batch, g)) {
     forActive(g, [&](int i) { set(out, i, vec3(0.0f)); });
     normalizeAll(g->count, N, N_);
     normalizeAll(g->count, V, V_);
@@ -54,9 +54,9 @@ class Highlight {
       if (sample.light->nonspecular) continue;
       chooseSide(view(sample.L));
       batch_.lights.shadow(batch_, sample, side_);
-      float* share = sharesOf(batch_, g_->count, side_, sample.nonspecular);
-      if (sample.density) weighAgainstLobe(sample, share);
-      addHighlight(g_->count, share, view(N_), view(V_), exponent_, view(sample.L), view(sample.Cl), out_);
+      setShares(g_->count, side_, sample.nonspecular, share_);
+      if (sample.density) weighAgainstLobe(sample);
+      addHighlight(g_->count, share_, view(N_), view(V_), exponent_, view(sample.L), view(sample.Cl), out_);
     }
   }
 
@@ -70,7 +70,8 @@ class Highlight {
       chooseSide(view(L));
       forActive(g_, [&](int i) { density[i] = side_[i] ? lobeAt(i).density(get(L, i)) : 0.0f; });
       lightAlong(&batch_, g_, view(L), density, k, drawn_, Cl);
-      addHighlight(n, sharesOf(batch_, n, side_, nullptr), view(N_), view(V_), exponent_, view(L), view(Cl), out_);
+      setShares(n, side_, nullptr, share_);
+      addHighlight(n, share_, view(N_), view(V_), exponent_, view(L), view(Cl), out_);
     }
   }
 
@@ -79,11 +80,11 @@ class Highlight {
   /// Light counts on the side of N alone: illuminance(P, N, PI/2).
   void chooseSide(TmConstVec3 L) { markFacing(g_->count, g_->active, view(N_), L, side_); }
   /// What the lobe's own samples find too (multiple importance sampling, the power heuristic).
-  void weighAgainstLobe(const LightSample& sample, float* share) const {
+  void weighAgainstLobe(const LightSample& sample) {
     forActive(g_, [&](int i) {
       if (!side_[i] || !(sample.density[i] > 0)) return;
       const float other = static_cast<float>(drawn_) * lobeAt(i).density(get(sample.L, i)) / sample.density[i];
-      share[i] /= 1 + other * other;
+      share_[i] /= 1 + other * other;
     });
   }
 
@@ -91,7 +92,7 @@ class Highlight {
   const TmGrid* g_;
   TmVec3 out_;
   TmVec3 N_, V_;  ///< Unit
-  float* exponent_;
+  float *exponent_, *share_;
   uint8_t* side_;
   const int drawn_;
 };

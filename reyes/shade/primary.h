@@ -33,10 +33,8 @@ void forActive(const TmGrid* g, const Body& body) {
 }
 
 /// How much of a light counts at each point: where it is lit, what one of its outputs __nondiffuse and __nonspecular leaves. Null: all.
-inline float* sharesOf(Batch& batch, int n, const uint8_t* lit, const float* without) {
-  float* share = batch.arena.floats(n);
+inline void setShares(int n, const uint8_t* lit, const float* without, float* share) {
   for (int i = 0; i < n; ++i) share[i] = lit[i] ? (without ? 1 - without[i] : 1.0f) : 0.0f;
-  return share;
 }
 
 inline Batch& batchOf(void* host) { return *static_cast<Batch*>(host); }

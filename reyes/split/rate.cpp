@@ -271,8 +271,8 @@ int leastOf(const LineSize& line, float edge_px, float coarsening, bool joins) {
   constexpr float kOneChord_px = 0.05f;
   // A line that a quarter of it leaves by `bend_px` as a second difference: its n-th part bulges by 2 bend / n^2.
   const float flat = std::min(std::ceil(std::sqrt(2 * line.bend_px / (kFlat_px * coarsening))), 64.0f);
-  const float fine = coarsening > 1 ? std::ceil(line.px / edge_px) : 1.0f, edge = kLongest * edge_px * coarsening;
-  const float n = std::max({std::ceil(line.px / edge), std::min(fine, kLeastOfCoarse), static_cast<float>(line.least), flat, joins && 2 * line.bend_px > kOneChord_px ? 2.0f : 1.0f});
+  const float fine = std::ceil(line.px / (kLongest * edge_px)), coarse = std::ceil(line.px / (kLongest * edge_px * coarsening));
+  const float n = std::max({coarse, std::min(fine, kLeastOfCoarse), static_cast<float>(line.least), flat, joins && 2 * line.bend_px > kOneChord_px ? 2.0f : 1.0f});
   return n >= 1.0f ? static_cast<int>(std::min(n, kMostCells)) : 1;
 }
 
@@ -281,7 +281,7 @@ int leastOf(const LineSize& line, float edge_px, float coarsening, bool joins) {
 Cells cells(const PatchSize& size, float edge_px, float coarsening, bool binary, bool joins) {
   const float square = size.area_px2 / (size.u.px * size.v.px);
   const float edges = std::sqrt(square < 1.0f ? square : 1.0f) / (edge_px * coarsening);
-  const auto along = [&](const LineSize& line) { return line.px > 0 ? std::min(line.px * edges, kMostCells) : 0.0f; };
+  const auto along = [&](const LineSize& line) { return line.px > 0 && edges > 0 ? std::min(line.px * edges, kMostCells) : 0.0f; };
   const Cells n = fewest(along(size.u), along(size.v), leastOf(size.u, edge_px, coarsening, joins), leastOf(size.v, edge_px, coarsening, joins));
   const auto whole = [binary](int count) { return binary ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(count))) : count; };
   return {whole(n.nu), whole(n.nv)};

@@ -62,9 +62,10 @@ TEST(Rate, MotionFactorDicesWhatMovesFarCoarser) {
   Scene scene = sceneOf({sphere(0.3f)}, translation({0, 0, 4}));
   scene.options.shutterClose = 1;
   scene.objects[0].worldFromObject = {{0, 1}, {translation({-0.5f, 0, 4}), translation({0.5f, 0, 4})}};
-  // 128 / (2 tan 30) / 4 = 27.7 px, and 30 px where it is nearest: areas of 6.9 to 7.5 px2 with factor 1.
+  // 128 / (2 tan 30) / 4 = 27.7 px, and 30 px where it is nearest: areas of 6.9 to 7.5 px2 with factor 1. Whole numbers of cells are up to a tenth off
+  // either way: a ratio of 5.6 to 9.2, and the few cells of the coarse ball are a little fewer yet.
   const double fine = static_cast<double>(micropolygons(withFactors(scene, 0, 1)));
-  EXPECT_NEAR(fine / static_cast<double>(micropolygons(withFactors(scene, 1, 1))), 8, 1.5);
+  EXPECT_NEAR(fine / static_cast<double>(micropolygons(withFactors(scene, 1, 1))), 7.5, 2);
 }
 
 TEST(Rate, MicropolygonsAreInTheMeanAsLargeAsTheShadingRateAsksAndNowhereMuchLarger) {
