@@ -52,12 +52,13 @@ bool mayBeSeen(const Object& o, uint32_t patch, const Camera& camera) {
                          {0, 0, camera.xResolution(), camera.yResolution()});
 }
 
-CoarseRate limited(const Object& o, double nu, double nv, const char* remedy, Log& log) {
+/// Without a log: silently.
+CoarseRate limited(const Object& o, double nu, double nv, const char* remedy, Log* log) {
   const double most = o.attributes->trace.rate == TessellationMode::Fixed ? kMostQuads : kMostQuadsOfLevels;
   if (nu * nv <= most) return {static_cast<int>(nu), static_cast<int>(nv)};
-  log.report(Severity::Warning, "trace-tessellation", o.where,
-             fmt::format("{} asks for {:.0f} x {:.0f} polygons for rays in one patch: limited to {:.0f}; {}",
-                         objectName(o), nu, nv, most, remedy));
+  if (log)
+    log->report(Severity::Warning, "trace-tessellation", o.where,
+                fmt::format("{} asks for {:.0f} x {:.0f} polygons for rays in one patch: limited to {:.0f}; {}", objectName(o), nu, nv, most, remedy));
   // Halving keeps the proportions until one side is a single polygon.
   while (nu * nv > most) (nu > nv ? nu : nv) = std::ceil(std::max(nu, nv) / 2);
   return {static_cast<int>(nu), static_cast<int>(nv)};
@@ -101,7 +102,7 @@ class PatchLines {
     byPixels_ = displacesForRays(object_) || mayBeSeen(object_, patch, camera);
   }
 
-  CoarseRate rate(const Fineness& fineness, Log& log) const {
+  CoarseRate rate(const Fineness& fineness, Log* log) const {
     return limited(object_, count(u_, fineness), count(v_, fineness), fineness.remedy, log);
   }
 
@@ -128,16 +129,16 @@ bool displacesForRays(const Object& o) {
 CoarseRate coarseRate(const Scene& scene, const Camera& camera, int object, uint32_t patch, Log& log) {
   const Object& o = scene.objects[static_cast<size_t>(object)];
   if (isExactQuad(o, patch)) return {1, 1};
-  return PatchLines(scene, camera, object, patch).rate(fixedFineness(o), log);
+  return PatchLines(scene, camera, object, patch).rate(fixedFineness(o), &log);
 }
 
 std::array<CoarseRate, kLevelsInChunks> levelRates(const Scene& scene, const Camera& camera, int object, uint32_t patch, Log& log) {
   const Attributes& a = *scene.objects[static_cast<size_t>(object)].attributes;
   const PatchLines lines(scene, camera, object, patch);
   const auto atLeast = [](const CoarseRate& x, const CoarseRate& y) { return CoarseRate{std::max(x.nu, y.nu), std::max(x.nv, y.nv)}; };
-  const CoarseRate coarse = lines.rate(fixedFineness(scene.objects[static_cast<size_t>(object)]), log);
-  const CoarseRate medium = atLeast(lines.rate(micropolygons(a, kMediumEdge), log), coarse);
-  return {atLeast(lines.rate(micropolygons(a, 1), log), medium), medium};
+  const CoarseRate coarse = lines.rate(fixedFineness(scene.objects[static_cast<size_t>(object)]), nullptr);
+  const CoarseRate medium = atLeast(lines.rate(micropolygons(a, kMediumEdge), &log), coarse);
+  return {atLeast(lines.rate(micropolygons(a, 1), &log), medium), medium};
 }
 
 }  // namespace tomales

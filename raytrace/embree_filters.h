@@ -24,7 +24,7 @@ struct Geometry {
   };
 
   bool opaque, flips;
-  uint32_t mask;  ///< Of rays that see it, as Embree knows it.
+  uint32_t mask;  ///< Of rays that see it, as Embree knows it; 0 for masters and chunks, which are seen as what they belong to.
   DetailShare detail;
   const CoarseGroup* meshes;           ///< All groups, or the one master.
   Run only;
@@ -43,6 +43,7 @@ struct Instances {
   uint32_t firstId = 0;
   std::vector<uint32_t> group;
   std::vector<bool> opaque;
+  std::vector<bool> mirrors;   ///< Takes polygons to such of the other sense.
   std::vector<uint32_t> mask;  ///< As Embree knows it.
   uint32_t firstChunk = 0;  ///< Hits of chunks have such instance IDs, in their order; what they belong to is their Geometry's.
 };

@@ -159,6 +159,7 @@ struct EmbreeScene::Impl {
       attach(scene, geometry, instances.firstId + static_cast<uint32_t>(i), nullptr);
       instances.group.push_back(groupOf[i]);
       instances.opaque.push_back(opaque[groupOf[i]]);
+      instances.mirrors.push_back(glm::determinant(mat3(instance.cameraFromObject)) < 0);
     }
     for (RTCScene s : scenes) rtcReleaseScene(s);  // the instances hold it
   }
@@ -185,8 +186,7 @@ struct EmbreeScene::Impl {
     const std::array<vec3, 4> corners = g.corners(quad);
     std::array<vec3, 4> placed = corners;
     for (vec3& p : placed) p = transformPoint(cameraFromObject, p);
-    const bool mirrors = glm::determinant(mat3(cameraFromObject)) < 0;
-    out.add(instances.group[instance], quad, g.flipsNormal != mirrors, placed, static_cast<int>(instance), corners);
+    out.add(instances.group[instance], quad, g.flipsNormal != instances.mirrors[instance], placed, static_cast<int>(instance), corners);
   }
 
   bool trace(const Ray& ray, float shift, float tNear, uint32_t mask, Traversal& traversal,
@@ -227,7 +227,7 @@ EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const SharedSha
     for (const auto& [run, mask] : {std::pair(Geometry::Run{i, 0, plain}, maskAtAllLevels(masks[i])),
                                     std::pair(Geometry::Run{i, plain, coarse}, maskAt(masks[i], Level::Coarse))})
       if (run.count > 0)
-        alike[{mask, opaque[i], g.flipsNormal, g.trimmed, g.laterP.size(), g.detail.lo, g.detail.hi, run.count < kManyQuads ? 0 : i + 1}].push_back(run);
+        alike[{mask, opaque[i], g.flipsNormal, g.trimmed, g.laterP.size(), g.detail.lo, g.detail.hi, g.quads.size() < kManyQuads ? 0 : i + 1}].push_back(run);
   }
   for (auto& [kind, runs] : alike) impl_->attach(std::move(runs), std::get<0>(kind), std::get<1>(kind));
   // With several threads the order of primitives in a leaf, and with it which of two hits at equal t is found

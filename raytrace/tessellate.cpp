@@ -217,7 +217,10 @@ std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, co
     group.flipsNormal = o.flipsNormal != o.subtracted;
     if (w.first == 0) group.size = std::max(group.size, diagonalOf(o));
   }
+  const bool anyLevels = std::any_of(scene.groups.begin(), scene.groups.end(),
+                                     [](const ShadeGroup& g) { return g.attributes->trace.rate == TessellationMode::Multiresolution; });
   for (const Patches which : {Patches::WithoutLevels, Patches::WithLevels}) {
+    if (which == Patches::WithLevels && !anyLevels) break;
     std::vector<CoarseGroup> pieces = tessellateAll(scene, camera, shading, work, which, log);
     for (size_t w = 0; w < work.size(); ++w) {
       if (!pieces[w].P.empty()) append(groups[static_cast<size_t>(scene.objects[static_cast<size_t>(work[w].object)].group)], pieces[w]);

@@ -35,7 +35,7 @@ struct Floor {
 };
 
 SceneBuilder underSky() {
-  SceneBuilder b(1024);  // coarse polygons are 8 pixels long
+  SceneBuilder b(1024);  // coarse polygons are 16 pixels long
   b.light("occlusionlight", {floatParam("samples", 16384)});
   return b;
 }
