@@ -185,7 +185,8 @@ bool CloudFiles::occlusion(const CloudQuery& q, const DisksQuery& query, float* 
   const Opened<Disks>& file = openedWhole(disks_, std::pair(q.file, query.channel), q.file,
                                           [&](const PointCloud& cloud) { return std::make_unique<const Disks>(cloud, query.channel); });
   problem = file.problem;
-  if (!file.data) return false;
+  if (file.data && radiance.x && !file.data->sends()) problem = fmt::format("has no channel \"{}\" of 3 floats", query.channel);
+  if (!problem.empty()) return false;
   for (int i = 0; i < q.count; ++i) {
     if (!q.active[i] || at(q.N, i) == vec3(0)) continue;
     const HemisphereView seen = file.data->seenFrom(at(q.P, i), at(q.N, i), query);

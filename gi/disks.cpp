@@ -2,14 +2,13 @@
 
 #include <algorithm>
 
-#include "reyes/base/chunk_file.h"
-
 namespace tomales {
 namespace {
 
 constexpr uint32_t kLeaf = 8;
 constexpr int kDirections = 1024;
 constexpr float kGoldenAngle = 2.399963f;  // of a spiral, whose points are nowhere dense
+constexpr float kReach = 0.625f;
 constexpr float kOwnPlane = 0.3f;          // of its radius: nearer, a disk is that of the point itself, or of its neighbours
 
 }  // namespace
@@ -26,8 +25,8 @@ Disks::Sum Disks::sumOf(const Disk& d) {
 }
 
 Disks::Disks(const PointCloud& cloud, const std::string& channel) {
-  const int area = offsetOf(cloud.channels, "_area", 1), light = channel.empty() ? -1 : offsetOf(cloud.channels, channel, 3);
-  if (!channel.empty() && light < 0) throw FileError("has no channel \"" + channel + "\" of 3 floats");
+  const int area = offsetOf(cloud.channels, "_area", 1), light = offsetOf(cloud.channels, channel, 3);
+  sends_ = light >= 0;
   disks_.reserve(cloud.count());
   for (size_t i = 0; i < cloud.count(); ++i) {
     const float r = cloud.radius[i], *values = cloud.at(i), a = area >= 0 ? values[area] : cloud.normal[i] == vec3(0) ? kPi * r * r : 2 * r * r;
@@ -98,14 +97,15 @@ class Disks::Sight {
     return std::max({first.x, first.y, first.z, 0.0f}) <= std::min({last.x, last.y, last.z, reach_});
   }
 
-  /// As a disk across the way, of the corners of a square of what it covers: those of its neighbours meet it.
+  /// As the part of its bound that lies within a disk across the way, which reaches the corners of a rectangle of what it covers and of two
+  /// to one: then no light comes between neighbours.
   void meet(const Sum& sum) {
     const vec3 way = sum.P - P_;
     const float t = dot(way, d_);
     const float all = std::sqrt(std::max(0.0f, sum.area * dot(d_, sum.facing * d_))), facing = std::clamp(-dot(sum.front, d_), -all, all);
     const float front = 0.5f * (all + facing), back = 0.5f * (all - facing), across = std::max(front, back);  // fronts of what is closed hide its backs
-    if (!(across > 0) || !(t > std::max(query_.falloff.bias, 0.0f)) || dot(way, way) - t * t > 0.5f * across) return;
-    add(t, 2 / kPi, front / across, back / across, glm::max(0.5f * (all / sum.area * sum.light - sum.lightFront * d_), vec3(0)) / across);
+    if (!(across > 0) || !(t > std::max(query_.falloff.bias, 0.0f)) || dot(way, way) - t * t > kReach * across) return;
+    add(t, 1 / (kPi * kReach), front / across, back / across, glm::max(0.5f * (all / sum.area * sum.light - sum.lightFront * d_), vec3(0)) / across);
   }
 
   void meet(const Disk& disk) {
@@ -140,17 +140,17 @@ class Disks::Sight {
 HemisphereView Disks::seenFrom(const vec3& P, const vec3& N, const DisksQuery& query) const {
   vec3 tangent, bitangent;
   orthonormalBasis(N, tangent, bitangent);
-  const float leastCosine = query.coneAngle < kPi / 2 ? std::cos(query.coneAngle) : 0.0f;
+  const float spread = std::sin(std::clamp(query.coneAngle, 0.0f, kPi / 2));
   HemisphereView out;
-  int count = 0;
-  for (const vec3& local : directions_) {
-    if (local.z < leastCosine) continue;
+  for (const vec3& whole : directions_) {
+    const vec2 d = spread * vec2(whole);
+    const vec3 local(d, std::sqrt(std::max(0.0f, 1 - dot(d, d))));
     Sight sight(*this, P, local.x * tangent + local.y * bitangent + local.z * N, query);
     sight.walk();
-    out.covered += sight.covered, out.radiance += sight.light, ++count;
+    out.covered += sight.covered / kDirections, out.radiance += sight.light / static_cast<float>(kDirections);
   }
-  if (count == 0) return {};
-  return {std::min(1.0f, out.covered / static_cast<float>(count)), out.radiance / static_cast<float>(count)};
+  out.covered = std::min(1.0f, out.covered);
+  return out;
 }
 
 }  // namespace tomales

@@ -16,9 +16,10 @@ struct HemisphereView {
 
 class Disks {
  public:
-  /// channel: of 3 floats, what the front of each disk sends; empty: nothing. Areas are those of the channel "_area", else of the squares whose
-  /// diagonals are the diameters, as bake3d() makes them. Throws FileError.
+  /// channel: of 3 floats, what the front of each disk sends; where there is none, nothing. Areas are those of the channel "_area", else of the squares whose
+  /// diagonals are the diameters, as bake3d() makes them.
   Disks(const PointCloud& cloud, const std::string& channel);
+  bool sends() const { return sends_; }
 
   /// N: unit.
   HemisphereView seenFrom(const vec3& P, const vec3& N, const DisksQuery& query) const;
@@ -51,6 +52,7 @@ class Disks {
 
   std::vector<Disk> disks_;
   std::vector<Group> groups_;
+  bool sends_ = false;
   std::vector<vec3> directions_;  ///< Around +z, by the cosine.
 };
 

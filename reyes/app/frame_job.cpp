@@ -90,7 +90,7 @@ ShadeContext FrameJob::shadeContext() const {
   ShadeContext context;
   context.seed = lightSeedOf(settings_);
   context.direct = settings_.direct;
-  context.lightSamples = mode_ == GiMode::Reference ? referenceLightSamples() : settings_.lightSamples;
+  context.lightSamples = settings_.lightSamples > 0 ? settings_.lightSamples : mode_ == GiMode::Reference ? referenceLightSamples() : 0;
   return context;
 }
 

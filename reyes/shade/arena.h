@@ -28,6 +28,13 @@ class Arena {
   uint8_t* bytes(int n) { return reinterpret_cast<uint8_t*>(floats((n + 3) / 4)); }
   void clear() { block_ = used_ = 0; }
 
+  /// What has been handed out so far; restore() takes back all that came after.
+  struct Mark {
+    size_t block, used;
+  };
+  Mark mark() const { return {block_, used_}; }
+  void restore(Mark m) { block_ = m.block, used_ = m.used; }
+
  private:
   void nextBlock(size_t need) {
     if (block_ < blocks_.size()) ++block_;

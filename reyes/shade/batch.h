@@ -59,11 +59,24 @@ class Batch {
 
   /// The last indirect gather: an indirect light runs once a colour channel and asks for the same three
   /// times.
-  struct {
+  struct Gathered {
     const BoundShader* who = nullptr;
     uint8_t* active = nullptr;
     TmVec3 N, E, dominant[3];
   } gathered;
+
+  /// For as long as it lives, memory of the arena is borrowed: for what one of many rays needs.
+  class Scratch {
+   public:
+    explicit Scratch(Batch& batch) : batch_(batch), mark_(batch.arena.mark()), gathered_(batch.gathered) {}
+    ~Scratch() { batch_.arena.restore(mark_), batch_.gathered = gathered_; }
+    Scratch(const Scratch&) = delete;
+
+   private:
+    Batch& batch_;
+    const Arena::Mark mark_;
+    const Gathered gathered_;
+  };
 
  private:
   void setCommon(int count, const BoundShader& shader, const std::vector<Override>& overrides,

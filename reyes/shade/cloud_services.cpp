@@ -25,13 +25,16 @@ bool refuse(const Batch& batch, const char* file, const std::string& problem) {
   return false;
 }
 
+/// Of lengths.
+float scaleOf(const mat4& m) { return std::cbrt(std::abs(glm::determinant(mat3(m)))); }
+
 /// Points and their radii in the space of the file. False: there is none of that name, which has been reported.
 bool toFile(Batch& batch, const TmGrid* g, const char* file, TmConstVec3 P, TmConstVec3 N, const TmCloudLookup& options, CloudQuery& query) {
   const char* name = options.coordSystem ? options.coordSystem : "world";
   const std::optional<Space> space = findSpace(batch, name);
   if (!space || space->kind != Space::Linear) return refuse(batch, file, fmt::format("there is no coordinate system \"{}\"", name));
   const mat4 fileFromCurrent = glm::inverse(space->currentFromSpace);
-  const float scale = std::cbrt(std::abs(glm::determinant(mat3(fileFromCurrent)))) * options.radiusScale;
+  const float scale = scaleOf(fileFromCurrent) * options.radiusScale;
   const TmVec3 p = batch.arena.vec3(g->count), n = batch.arena.vec3(g->count);
   float* radius = batch.arena.floats(g->count);
   forActive(g, [&](int i) {
@@ -98,8 +101,14 @@ bool occlusionByDisks(Batch& batch, const TmGrid* g, const char* file, TmConstVe
   if (!batch.scene.clouds) return refuse(batch, file, "nothing is looked up here");
   CloudQuery query;
   if (!toFile(batch, g, file, P, N, TM_CLOUD_DEFAULTS, query)) return false;
+  DisksQuery inFile = disks;
+  const float scale = 1 / scaleOf(batch.scene.cameraFromWorld);
+  OcclusionQuery& far = inFile.falloff;
+  if (far.maxDistance < 1e30f) far.maxDistance *= scale;
+  if (far.bias > 0) far.bias *= scale;
+  if (far.falloffMode != 1) far.falloff /= scale;
   std::string problem;
-  return batch.scene.clouds->occlusion(query, disks, covered, radiance, problem) || refuse(batch, file, problem);
+  return batch.scene.clouds->occlusion(query, inFile, covered, radiance, problem) || refuse(batch, file, problem);
 }
 
 int32_t subsurface(void* host, const TmGrid* all, const char* file, TmConstVec3 P, const TmSubsurface* given, TmVec3 out) {

@@ -1,9 +1,12 @@
 // occlusion() and indirectdiffuse(): by rays, by earlier records, by the disks of a point cloud.
+#include <fmt/format.h>
+
 #include "reyes/shade/cloud_services.h"
 #include "reyes/shade/picture_services.h"
 #include "reyes/shade/primary.h"
 #include "reyes/shade/ray_services.h"
 #include "reyes/shade/ray_shots.h"
+#include "reyes/shade/spaces.h"
 
 namespace tomales {
 namespace {
@@ -30,19 +33,30 @@ const uint8_t* interpolate(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConst
   return batch.scene.services->interpolatedOcclusion(*batch.points, own, N, q, batch.context, covered) ? moved : g->active;
 }
 
-/// What rays that meet nothing see of a picture that stands in a named space, as environment() sees it; `width`: radians.
-void lookUpEnvironment(Batch& batch, const TmGrid& open, const TmRayOptions& o, TmConstVec3 direction, float width, TmVec3 out) {
-  float* angle = batch.arena.floats(open.count);
-  std::fill_n(angle, open.count, width);
-  const TmVec3 inMap = batch.arena.vec3(open.count);
-  const bool inWorld = !o.environmentSpace;
-  forActive(&open, [&](int i) { set(inMap, i, get(direction, i)); });
-  if (!inWorld) {
-    open.call->transform(&batch, &open, TM_AS_VECTOR, "current", o.environmentSpace, view(inMap), inMap);
-    open.call->transform(&batch, &open, TM_AS_VECTOR, "world", "current", view(inMap), inMap);
-  }
-  environment(&batch, &open, o.environment, view(inMap), angle, out);
+/// From current space to the directions by which environment() finds what a picture shows that stands in the space of the options.
+mat3 directionsOf(const Batch& batch, const TmRayOptions& o) {
+  const std::optional<Space> space = findSpace(batch, o.environmentSpace ? o.environmentSpace : "world");
+  if (space && space->kind == Space::Linear) return mat3(batch.scene.cameraFromWorld) * glm::inverse(mat3(space->currentFromSpace));
+  batch.report(Severity::Warning, "shader-space", fmt::format("looks up an environment in space \"{}\", which there is not; the world is used", o.environmentSpace));
+  return mat3(1.0f);
 }
+
+/// What rays that meet nothing see of a picture, as environment() sees it.
+struct OpenSky {
+  const char* picture;
+  mat3 toMap;
+  float* angle;  ///< Radians
+  TmVec3 direction, color;
+
+  OpenSky(Batch& batch, const TmGrid* g, const TmRayOptions& o)
+      : picture(o.environment), toMap(directionsOf(batch, o)), angle(batch.arena.floats(g->count)), direction(batch.arena.vec3(g->count)), color(batch.arena.vec3(g->count)) {
+    std::fill_n(angle, g->count, std::sqrt(2 * kPi * (1 - std::cos(o.coneAngle)) / static_cast<float>(o.samples)));
+  }
+  void lookUp(Batch& batch, const TmGrid& open, TmConstVec3 along) {
+    forActive(&open, [&](int i) { set(direction, i, toMap * get(along, i)); });
+    environment(&batch, &open, picture, view(direction), angle, color);
+  }
+};
 
 void traceHemisphere(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& options, const TmHemisphere& out) {
   const bool looksUp = options.environment && (out.radiance.x || out.environmentColor.x), directs = out.environmentDirection.x != nullptr;
@@ -55,22 +69,24 @@ void traceHemisphere(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N
   RayResult result;
   result.distance = batch.arena.floats(g->count);
   if (out.radiance.x) result.color = batch.arena.vec3(g->count);
-  const float share = 1 / static_cast<float>(options.samples), width = std::sqrt(2 * kPi * share);
+  const float share = 1 / static_cast<float>(options.samples);
   TmGrid open = traced;
   uint8_t* misses = batch.arena.bytes(g->count);
   open.active = misses;
-  const TmVec3 seen = batch.arena.vec3(g->count);
+  std::optional<OpenSky> sky;
+  if (looksUp) sky.emplace(batch, g, options);
   Cone cone(batch, &traced, options);
   for (; query.number < options.samples; ++query.number) {
+    const Batch::Scratch scratch(batch);
     cone.aim(P, N, query.number);
     batch.scene.services->trace(*batch.points, traced.active, cone.origin(), cone.direction(), query, batch.context, result);
     for (int i = 0; i < traced.count; ++i) misses[i] = traced.active[i] && !(result.distance[i] < kFarAway);
-    if (looksUp) lookUpEnvironment(batch, open, options, cone.direction(), width, seen);
+    if (sky) sky->lookUp(batch, open, cone.direction());
     forActive(&traced, [&](int i) {
-      const vec3 sky = share * (misses[i] && looksUp ? get(seen, i) : vec3(0));
+      const vec3 light = share * (misses[i] && sky ? get(sky->color, i) : vec3(0));
       if (out.covered) out.covered[i] += share * asked.coveredAt(result.distance[i]);
-      if (out.radiance.x) set(out.radiance, i, get(out.radiance, i) + share * get(result.color, i) + sky);
-      if (out.environmentColor.x) set(out.environmentColor, i, get(out.environmentColor, i) + sky);
+      if (out.radiance.x) set(out.radiance, i, get(out.radiance, i) + share * get(result.color, i) + light);
+      if (out.environmentColor.x) set(out.environmentColor, i, get(out.environmentColor, i) + light);
       if (directs && misses[i]) set(out.environmentDirection, i, get(out.environmentDirection, i) + get(cone.direction(), i));
     });
   }
@@ -79,8 +95,10 @@ void traceHemisphere(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N
 
 /// The same of a point cloud.
 bool hemisphereOfDisks(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& o, const TmHemisphere& out) {
-  const std::string channel = !out.radiance.x ? "" : o.pointChannel ? o.pointChannel : "_radiosity";
-  const DisksQuery query{channel, std::max(o.maxSolidAngle, 1e-4f), o.clamp != 0, o.coneAngle, occlusionOf(o, rayQuery(o), *batch.group.group->attributes)};
+  if (o.environment || out.environmentColor.x || out.environmentDirection.x || o.uniform || o.sampleBase > 0)
+    batch.report(Severity::Missing, "shader-pointbased", "asks a point cloud for environments, an even distribution or a sample base, which rays alone know; they are left out");
+  const DisksQuery query{o.pointChannel ? o.pointChannel : "_radiosity", std::max(o.maxSolidAngle, 1e-4f), o.clamp != 0, o.coneAngle,
+                         occlusionOf(o, rayQuery(o), *batch.group.group->attributes)};
   float* covered = out.covered ? out.covered : batch.arena.floats(g->count);
   return occlusionByDisks(batch, g, o.pointCloud, P, N, query, covered, out.radiance);
 }

@@ -34,6 +34,7 @@ void traceRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 directi
   // As of area lights, diffuse rays bring nothing: diffuse() has asked for the light itself.
   if (color.x && query.kind == RayKind::Specular && query.lampsGlow && query.maxDistance >= kFarAway) result.leaves = batch.arena.bytes(g->count);
   for (int ray = 0; ray < options.samples; ++ray, ++query.number) {
+    const Batch::Scratch scratch(batch);
     cone.aim(P, direction, ray);
     batch.scene.services->trace(*batch.points, g->active, cone.origin(), cone.direction(), query, batch.context, result);
     if (result.leaves) batch.lights.addSkies(batch, cone.direction(), result.leaves, view(result.opacity), result.color);

@@ -287,6 +287,26 @@ TEST_F(BatchServices, AnOptionScalesAllTextureFilters) {
   expectColor(c[0], {0.625f, 1, 0}, 0.06f);
 }
 
+// Three quarters of the way from a texel of 0 to one of 1: linear, and by the cubic B-spline of filters that are not boxes.
+TEST_F(BatchServices, AnOptionNamesTheFilterOfLookupsThatNameNone) {
+  const std::string path = ::testing::TempDir() + "/tomales_edge.tif";
+  OIIO::ImageBuf picture(OIIO::ImageSpec(256, 256, 1, OIIO::TypeDesc::FLOAT));
+  for (int k = 0; k < 256 * 256; ++k) {
+    const float value = k % 256 < 128 ? 0.0f : 1.0f;
+    picture.setpixel(k % 256, k / 256, &value);
+  }
+  ASSERT_TRUE(picture.write(path));
+  scene.options.user["texture:filter"] = text("filter", "gaussian");
+  const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
+    FilterRegion spot;
+    spot.s = 0.5 + 0.25 / 256, spot.t = 0.5;
+    for (int k = 0; k < 4; ++k) spot.sides[k] = k == 0 || k == 3 ? 1e-4 : 0.0;
+    s.Ci = Color(xcomp(texture(path.c_str(), spot)), xcomp(texture(path.c_str(), spot, "filter", "box")), 0);
+  });
+  const float f = 0.75f, cubic = 1 - ((1 - f) * (1 - f) * (1 - f) + 4 - 6 * f * f + 3 * f * f * f) / 6;
+  expectColor(c[0], {cubic, 0.75f, 0}, 5e-3f);
+}
+
 TEST_F(BatchServices, PicturesAndLightsTellWhatTheyHold) {
   const std::string path = ::testing::TempDir() + "/tomales_constant.exr";
   OIIO::ImageBuf picture(OIIO::ImageSpec(64, 32, 3, OIIO::TypeDesc::FLOAT));

@@ -40,6 +40,7 @@ class FakeClouds : public CloudServices {
     for (int i = 0; i < q.count; ++i) {
       if (!q.active[i]) continue;
       covered[i] = d.clamp ? 0.25f : 0.5f;
+      if (d.falloff.maxDistance < 1e30f) covered[i] = 100 * d.falloff.maxDistance + 10 * d.falloff.bias + d.falloff.falloff;
       if (radiance.x) radiance.x[i] = d.maxSolidAngle, radiance.y[i] = q.P.x[i], radiance.z[i] = d.channel == "_radiosity" ? 1.0f : 2.0f;
     }
     return true;
@@ -109,6 +110,13 @@ struct listing : sl::Surface {
   }
   sl::Float radius = 1;
 };
+struct distant : sl::Surface {
+  void main() {
+    Ci = sl::Color(sl::occlusion(P, N, 0, "pointbased", 1, "filename", "known.ptc", "maxdist", 8, "bias", 0.5, "falloff", 3, "distribution", "uniform"));
+    Oi = sl::Color(1.0);
+  }
+};
+const rsl::Shader distantShader(TM_SURFACE, "distant", "", 0, sl::shade<distant>, {});
 const rsl::Shader listingShader(TM_SURFACE, "listing", "", 0, sl::shade<listing>, {});
 const rsl::Shader causticShader(TM_SURFACE, "causticlight", "", 0, sl::shade<causticlight>, {});
 const rsl::Shader bakingShader(TM_SURFACE, "baking", "", 0, sl::shade<baking>, {&file});
@@ -122,8 +130,8 @@ const rsl::Shader findingShader(TM_SURFACE, "finding", "", 0, sl::shade<finding>
 class CloudCalls : public Stage {
  protected:
   CloudCalls() {
-    static const TmShader* const shaders[] = {bakingShader, neighbourShader, findingShader, waxShader, causticShader, pointbasedShader, listingShader};
-    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 7};
+    static const TmShader* const shaders[] = {bakingShader, neighbourShader, findingShader, waxShader, causticShader, pointbasedShader, listingShader, distantShader};
+    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 8};
     registry.addLibrary(&library, "test");
   }
   ShadePoints row() {
@@ -205,6 +213,15 @@ TEST_F(CloudCalls, OcclusionOfAPointCloudNeedsNoRaysAndIsAskedForInWorldSpaceUnd
   expectColor(out.color(3), {-1, -1, -1});
   EXPECT_TRUE(services.asked.empty());
   EXPECT_TRUE(log.entries().empty());
+}
+
+TEST_F(CloudCalls, DistancesOfAPointCloudAreThoseOfTheWorldAndWhatRaysAloneKnowIsTold) {
+  surface("distant");
+  scene.cameraFromWorld = Motion::still(mat4(2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1));
+  system().setClouds(&clouds);
+  EXPECT_FLOAT_EQ(shade(row()).color(0).x, 100 * 4 + 10 * 0.25f + 6) << "8, 1/2 and exp(-3 d) in a camera of twice the size";
+  ASSERT_EQ(log.entries().size(), 1u);
+  EXPECT_EQ(log.worst(), Severity::Missing);
 }
 
 TEST_F(CloudCalls, WithoutItsCloudNothingIsCoveredAndTheUserIsTold) {
