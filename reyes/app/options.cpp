@@ -5,9 +5,7 @@ namespace {
 
 GiChoice giOrUsageError(const std::string& text) {
   if (const auto choice = parseGi(text)) return *choice;
-  if (text == "points")
-    throw CLI::ValidationError("--gi", "\"" + text + "\" is not available yet; use scene, none, gather, atlas, radiosity, baked or reference");
-  throw CLI::ValidationError("--gi", "\"" + text + "\" is none of scene, none, gather, atlas, radiosity, baked, reference");
+  throw CLI::ValidationError("--gi", "\"" + text + "\" is none of scene, none, gather, atlas, points, radiosity, baked, reference");
 }
 
 }  // namespace
@@ -44,7 +42,7 @@ void addPictureOptions(CLI::App& app, RenderSettings& s) {
 void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option_function<std::string>(
          "--gi", [&s](const std::string& t) { s.gi = giOrUsageError(t); },
-         "Indirect light: scene (as the RIB says), none, gather, atlas, radiosity, baked, reference")
+         "Indirect light: scene (as the RIB says), none, gather, atlas, points, radiosity, baked, reference")
       ->type_name("MODE");
   app.add_option("--samples", s.samples,
                  "Gather rays of an irradiance sample, or paths of a point for the reference")
@@ -57,7 +55,7 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_flag_callback("--indirect-only", [&s] { s.direct = false; }, "Leave out direct light where the eye looks");
   app.add_option("--light-seed", s.lightSeed, "Of the random numbers of light alone");
   app.add_option("--photons", s.photons, "Photons to emit for --gi atlas")->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
-  app.add_option("--atlas", s.atlasFolder, "Folder of brick maps: used if they are there, else made and kept")->type_name("FOLDER");
+  app.add_option("--atlas", s.atlasFolder, "Folder of brick maps: used if they are there, else made and kept; for --gi points of point clouds")->type_name("FOLDER");
   app.add_option("--radiosity-texels", s.radiosityTexels, "Times as many texels along each edge of a radiosity map as objects ask, for --gi radiosity")
       ->check(CLI::Range(1e-3, 1e3));
   app.add_option("--radiosity-maps", s.radiosityFolder, "Write the radiosity maps there: a tiled MIP EXR for each object and side")->type_name("FOLDER");

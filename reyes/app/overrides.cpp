@@ -99,6 +99,7 @@ GiMode giModeOf(GiChoice choice, const Scene& scene) {
     case GiChoice::Reference:
       return GiMode::Reference;
     case GiChoice::Atlas:
+    case GiChoice::Points:
       return GiMode::Atlas;
     case GiChoice::Radiosity:
       return GiMode::Radiosity;
@@ -106,7 +107,7 @@ GiMode giModeOf(GiChoice choice, const Scene& scene) {
       return GiMode::Baked;
     case GiChoice::Scene:
       if (!hasIndirectLight(scene)) return GiMode::None;
-      return asksFor("atlas", scene) ? GiMode::Atlas : asksFor("radiosity", scene) ? GiMode::Radiosity : GiMode::Gather;
+      return asksFor("atlas", scene) || asksFor("points", scene) ? GiMode::Atlas : asksFor("radiosity", scene) ? GiMode::Radiosity : GiMode::Gather;
     default:
       return GiMode::None;
   }

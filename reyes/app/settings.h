@@ -11,7 +11,7 @@ namespace tomales {
 
 constexpr const char* kVersion = "0.1.0";
 
-enum class GiChoice { Scene, None, Gather, Atlas, Radiosity, Baked, Reference };
+enum class GiChoice { Scene, None, Gather, Atlas, Points, Radiosity, Baked, Reference };
 
 struct RenderSettings {
   std::vector<std::string> files;  ///< One RIB stream; "-" is standard input.
@@ -31,7 +31,7 @@ struct RenderSettings {
   int64_t photons = 1'000'000;     ///< To emit for --gi atlas.
   float radiosityTexels = 1;       ///< Times as many along each edge of a radiosity map as objects ask.
   std::string radiosityFolder;     ///< Radiosity maps are written there too; empty: nowhere.
-  std::string atlasFolder;         ///< Brick maps to use, or to make; empty: made in a temporary folder.
+  std::string atlasFolder;         ///< Brick maps to use, or to make; empty: made in a temporary folder. For GiChoice::Points: point clouds.
   std::string bakedFolder;         ///< Brick maps of gathered light: added to, or with GiChoice::Baked used; empty: none.
   size_t brickCacheBytes = BrickCache::kDefaultBytes;
   std::optional<int> bucketSize;
