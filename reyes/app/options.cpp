@@ -34,6 +34,7 @@ void addPictureOptions(CLI::App& app, RenderSettings& s) {
   addParsed(app, "--pixel-samples", s.pixelSamples, pixelSamples, "NxM", "Samples of a pixel");
   app.add_option("--shading-rate", s.shadingRate, "Area of a micropolygon in pixels, for all objects")
       ->check(CLI::Range(1e-3, 1e6));
+  app.add_flag("--draft", s.draft, "Coarse and fast, to place lights by: 50 gather rays, no displacement, micropolygons of 16 times the area, 2x2 samples");
   addParsed(app, "--frames", s.frames, parseFrames, "1-10x2,15", "Only these frames");
   app.add_option("--seed", s.seed, "Of all random numbers");
   app.add_option("--bucket-size", s.bucketSize, "Edge of a bucket in pixels")->check(CLI::Range(1, 4096));

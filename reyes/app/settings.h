@@ -20,6 +20,7 @@ struct RenderSettings {
   std::optional<std::array<int, 2>> format, pixelSamples;
   std::optional<std::array<float, 4>> crop;  ///< xmin xmax ymin ymax, 0..1
   std::optional<float> shadingRate;
+  bool draft = false;              ///< Coarse and fast, to place lights by.
   std::optional<std::vector<int>> frames;  ///< Sorted. None: all.
   GiChoice gi = GiChoice::Scene;
   int samples = 0, bounces = 0;  ///< 0: as the scene's indirect light asks.
