@@ -84,7 +84,7 @@ void copyEarlier(const fs::path& path, uint64_t world, PointFileWriter& to) {
   for (size_t chunk = 0; chunk < file.chunkCount(); ++chunk) {
     PointCloud points;
     file.read(chunk, points);
-    to.addChunk(std::move(points));
+    to.addChunk(points);
   }
 }
 

@@ -81,10 +81,9 @@ class Hemisphere {
     filter_.groups = scene.groupsIn(asked.empty() ? own : asked, occlusion ? occlusion->excludeSubset : "");
     if (occlusion) filter_.sides = occlusion->sides;
     if (occlusion && occlusion->bias >= 0) first_.offset = 0, first_.bias = occlusion->bias;
-    if (!filter_.passesAll()) {
-      first_.filter = &filter_;
-    } else if (first_.offset > 0) {
-      scene.lookAround(point.position, slantedOffset(first_.offset, 0), kMaskDiffuse, scratch_.surroundings);
+    if (!filter_.passesAll()) first_.filter = &filter_;
+    if (first_.offset > 0) {
+      scene.lookAround(first_, slantedOffset(first_.offset, 0), kMaskDiffuse, scratch_.surroundings);
       first_.surroundings = &scratch_.surroundings;
     }
   }

@@ -134,6 +134,7 @@ void PhotonSource::emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton
   // Two pairs of one photon: each stratified over all photons of the light, unrelated to the other.
   const uint32_t stream = hashCombine(seed, static_cast<uint32_t>(light_));
   std::vector<vec2> a, b;
+  a.reserve(out.size()), b.reserve(out.size());
   for (uint32_t i = 0; i < out.size(); ++i) {
     a.push_back(sobol2(first + i, stream));
     b.push_back(sobol2(first + i, hashCombine(stream, kSecondPair)));

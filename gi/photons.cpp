@@ -22,10 +22,8 @@ struct Path {
 };
 
 struct Scratch {
-  std::vector<Ray> rays;
   std::vector<Hit> hits;
-  std::vector<SampleName> names;
-  std::vector<vec3> lit, dark;
+  std::vector<vec3> reflectance;  ///< At each.
 };
 
 /// Reflection and refraction at a smooth dielectric.
@@ -51,6 +49,7 @@ class Tracer {
                    "photon shadingmodel \"" + name + "\" is not known; matte is used");
       models_.push_back(model.value_or(PhotonModel::Matte));
     }
+    askEvenSurfaces();
   }
 
   void trace(const PhotonSource& source, uint32_t first, size_t count, float share, std::vector<StoredPhoton>& out) const {
@@ -75,34 +74,65 @@ class Tracer {
 
   /// Every path to its next surface; those that end there leave the list.
   void step(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const {
-    s.rays.clear(), s.hits.clear(), s.names.clear();
-    for (const Path& path : paths) {
-      s.rays.push_back(path.ray);
-      s.hits.push_back(rays_.closest(path.ray, kMaskPhoton));
-      s.names.push_back({hashCombine(stream, path.number, static_cast<uint32_t>(path.depth)), 0});
-    }
-    reflectances(s);
+    s.hits.clear();
+    for (const Path& path : paths) s.hits.push_back(rays_.closest(path.ray, kMaskPhoton));
+    reflectances(paths, stream, s);
     size_t kept = 0;
     for (size_t i = 0; i < paths.size(); ++i) {
-      if (s.hits[i].object < 0) continue;
-      Path path = paths[i];
-      if (bounce(path, s.hits[i], s.lit[i], stream, out)) paths[kept++] = path;
+      if (s.hits[i].object < 0 || !bounce(paths[i], s.hits[i], s.reflectance[i], stream, out)) continue;
+      if (kept != i) paths[kept] = paths[i];
+      ++kept;
     }
     paths.resize(kept);
   }
 
-  /// Diffuse reflectance at every hit: what comes back of E/pi = 1, less what is emitted.
-  void reflectances(Scratch& s) const {
+  /// Surfaces that reflect the same everywhere, at any place of theirs.
+  void askEvenSurfaces() {
+    even_.resize(scene_.groups.size());
+    for (size_t g = 0; g < even_.size(); ++g) {
+      if (!shading_.reflectsEvenly(static_cast<int>(g))) continue;
+      Hit hit;
+      hit.t = 1, hit.object = scene_.groups[g].exampleObject, hit.u = hit.v = 0.5f;
+      hit.normal = hit.geometricNormal = {0, 0, -1};
+      even_[g] = shaded({{vec3(0), vec3(0, 0, 1)}}, {hit}, {{}}).front();
+    }
+  }
+
+  /// Diffuse reflectance at every hit, of surfaces that are even or by their shaders.
+  void reflectances(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const {
+    s.reflectance.assign(s.hits.size(), vec3(0));
+    bool all = true;
+    for (size_t i = 0; i < s.hits.size(); ++i)
+      if (s.hits[i].object >= 0) {
+        const auto& even = even_[static_cast<size_t>(groupOf(s.hits[i]))];
+        s.reflectance[i] = even.value_or(vec3(0)), all &= even.has_value();
+      }
+    if (all) return;
+    std::vector<Ray> rays;
+    std::vector<Hit> hits;
+    std::vector<SampleName> names;
+    std::vector<size_t> which;
+    for (size_t i = 0; i < s.hits.size(); ++i) {
+      if (s.hits[i].object < 0 || even_[static_cast<size_t>(groupOf(s.hits[i]))]) continue;
+      rays.push_back(paths[i].ray), hits.push_back(s.hits[i]), which.push_back(i);
+      names.push_back({hashCombine(stream, paths[i].number, static_cast<uint32_t>(paths[i].depth)), 0});
+    }
+    const std::vector<vec3> found = shaded(rays, hits, names);
+    for (size_t k = 0; k < which.size(); ++k) s.reflectance[which[k]] = found[k];
+  }
+
+  /// What comes back of E/pi = 1, less what is emitted.
+  std::vector<vec3> shaded(const std::vector<Ray>& rays, const std::vector<Hit>& hits, const std::vector<SampleName>& names) const {
     ShadeContext context{RayKind::Diffuse, 1, settings_.seed, 1, false};
     context.light = Illumination::Unit;
-    rays_.shadeHits(s.rays, s.hits, s.names, shading_, context, s.lit);
-    const bool emitters = std::any_of(s.hits.begin(), s.hits.end(), [&](const Hit& h) {
-      return h.object >= 0 && shading_.emits(groupOf(h));
-    });
-    if (!emitters) return;
+    std::vector<vec3> lit, dark;
+    rays_.shadeHits(rays, hits, names, shading_, context, lit);
+    const bool emitters = std::any_of(hits.begin(), hits.end(), [&](const Hit& h) { return h.object >= 0 && shading_.emits(groupOf(h)); });
+    if (!emitters) return lit;
     context.light = Illumination::None;
-    rays_.shadeHits(s.rays, s.hits, s.names, shading_, context, s.dark);
-    for (size_t i = 0; i < s.lit.size(); ++i) s.lit[i] -= s.dark[i];
+    rays_.shadeHits(rays, hits, names, shading_, context, dark);
+    for (size_t i = 0; i < lit.size(); ++i) lit[i] -= dark[i];
+    return lit;
   }
 
   int groupOf(const Hit& hit) const { return scene_.objects[static_cast<size_t>(hit.object)].group; }
@@ -159,7 +189,8 @@ class Tracer {
   const RayScene& rays_;
   const ShadingSystem& shading_;
   const PhotonSettings& settings_;
-  std::vector<PhotonModel> models_;
+  std::vector<PhotonModel> models_;         ///< Of each group,
+  std::vector<std::optional<vec3>> even_;  ///< and what it reflects if that is the same everywhere.
 };
 
 std::vector<PhotonSource> sourcesOf(const Scene& scene, const RayScene& rays, const ShadingSystem& shading, Log& log) {
@@ -200,15 +231,17 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
     log.report(Severity::Warning, "photons-no-light", scene.where, "no light of the scene emits photons: indirect light is black");
   const Tracer tracer(scene, rays, shading, settings, log);
   PhotonFigures figures;
+  std::vector<std::vector<StoredPhoton>> stored;
   for (const PhotonSource& source : sources) {
     const auto count = static_cast<size_t>(std::max(1.0, std::round(static_cast<double>(settings.emit) * source.power() / total)));
     const float share = 1 / static_cast<float>(count);
     for (size_t wave = 0; wave < count; wave += kPhotonsPerTask * kTasksPerWave) {
       const size_t end = std::min(count, wave + kPhotonsPerTask * kTasksPerWave);
-      std::vector<std::vector<StoredPhoton>> stored((end - wave + kPhotonsPerTask - 1) / kPhotonsPerTask);
+      stored.resize((end - wave + kPhotonsPerTask - 1) / kPhotonsPerTask);
       parallelFor(stored.size(), 1, [&](size_t begin, size_t last) {
         for (size_t task = begin; task < last; ++task) {
           const size_t first = wave + task * kPhotonsPerTask;
+          stored[task].clear();
           tracer.trace(source, static_cast<uint32_t>(first), std::min(kPhotonsPerTask, end - first), share, stored[task]);
         }
       });

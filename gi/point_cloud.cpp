@@ -55,6 +55,8 @@ void PointCloud::reserve(size_t points) {
   data.reserve(points * static_cast<size_t>(width()));
 }
 
+void PointCloud::clear() { position.clear(), normal.clear(), radius.clear(), data.clear(); }
+
 Bound3 PointCloud::bound() const {
   Bound3 b;
   for (const vec3& p : position) b.extend(p);

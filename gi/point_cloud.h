@@ -52,6 +52,7 @@ struct PointCloud {
   void add(const vec3& P, const vec3& N, float r, const float* values);
   int surface(size_t point) const;  ///< Of kSurfaceChannel; 0: not known.
   void reserve(size_t points);
+  void clear();  ///< Keeps the channels.
   Bound3 bound() const;  ///< Of the positions.
 };
 

@@ -19,29 +19,32 @@ constexpr uint32_t kVersion = 2;
 PointFileWriter::PointFileWriter(const std::string& path, const std::vector<CloudChannel>& channels)
     : file_(path, kKind, kVersion) {
   pending_.channels = channels;
+  width_ = static_cast<size_t>(pending_.width());
   if (pending_.width() > kMostWidth) throw FileError(fmt::format("\"{}\": more than {} floats a point", path, kMostWidth));
 }
 
 void PointFileWriter::add(const vec3& P, const vec3& N, float radius, const float* values) {
-  if (!isValidPoint(P, N, radius, {values, static_cast<size_t>(pending_.width())})) return;
-  pending_.add(P, N, radius, values);
+  if (!isValidPoint(P, N, radius, {values, width_})) return;
+  pending_.position.push_back(P), pending_.normal.push_back(N), pending_.radius.push_back(radius);
+  pending_.data.insert(pending_.data.end(), values, values + width_);
   if (pending_.count() < kChunkPoints) return;
-  PointCloud next;
-  next.channels = pending_.channels;
-  addChunk(std::exchange(pending_, std::move(next)));
+  addChunk(pending_);
+  pending_.clear();
 }
 
-void PointFileWriter::addChunk(PointCloud points) {
+void PointFileWriter::addChunk(const PointCloud& points) {
   if (points.count() == 0) return;
-  std::vector<uint32_t> normals;
-  for (const vec3& n : points.normal) normals.push_back(packNormal(n));
-  ByteWriter w;
+  std::vector<uint32_t> normals(points.count());
+  std::transform(points.normal.begin(), points.normal.end(), normals.begin(), packNormal);
+  ByteWriter w{std::move(packed_)};
+  w.bytes.clear();
   w.put(points.position);
   w.put(normals);
   w.put(points.radius);
   w.put(points.data);
   contents_.raw(w.bytes.data(), w.bytes.size());
   file_.add(w.bytes);
+  packed_ = std::move(w.bytes);
   bounds_.push_back(points.bound());
   written_ += points.count();
 }

@@ -19,7 +19,7 @@ class PointFileWriter {
   /// A point that is not finite is left out.
   void add(const vec3& P, const vec3& N, float radius, const float* values);
   /// At most kChunkPoints valid points, as a chunk of their own.
-  void addChunk(PointCloud points);
+  void addChunk(const PointCloud& points);
   const std::vector<CloudChannel>& channels() const { return pending_.channels; }
   size_t count() const { return written_ + pending_.count(); }
   void finish(const MadeFrom& madeFrom = {});
@@ -28,6 +28,8 @@ class PointFileWriter {
   ChunkWriter file_;
   ContentSum contents_;
   PointCloud pending_;
+  size_t width_;
+  Bytes packed_{};
   size_t written_ = 0;
   std::vector<Bound3> bounds_;
 };

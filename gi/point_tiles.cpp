@@ -1,6 +1,5 @@
 #include "gi/point_tiles.h"
 
-#include <utility>
 
 namespace tomales {
 namespace {
@@ -104,10 +103,12 @@ void PointTiles::writeCompact(const std::string& path) const {
     for (size_t i = 0; i < part.count(); ++i) {
       PointCloud& pile = piles[pileOf[indexOf(cellOf(part.position[i]))]];
       pile.add(part.position[i], part.normal[i], part.radius[i], part.at(i));
-      if (pile.count() == PointFileWriter::kChunkPoints) writer.addChunk(std::exchange(pile, empty));
+      if (pile.count() < PointFileWriter::kChunkPoints) continue;
+      writer.addChunk(pile);
+      pile.clear();
     }
   }
-  for (PointCloud& pile : piles) writer.addChunk(std::move(pile));
+  for (const PointCloud& pile : piles) writer.addChunk(pile);
   writer.finish(file_.madeFrom());
 }
 

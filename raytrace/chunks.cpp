@@ -21,6 +21,7 @@ namespace {
 constexpr int kTile = 64;               ///< Fine polygons of a tile along u or v.
 constexpr int kChunkPolygons = 64 * 64;  ///< At which a chunk is full: docs/decisions/0036-geometry-cache.md
 constexpr size_t kChunkTiles = 1024;    ///< Of more Embree would build with several threads, and bits would depend on how many.
+constexpr int kProbes = 8;              ///< Cells along u and v of the lattice over a tile that shows where its bound is too small.
 constexpr int kSampled = 4;             ///< Polygons along u and v of the part of a tile whose deviation is measured.
 constexpr size_t index(Level level) { return static_cast<size_t>(level); }
 
@@ -39,7 +40,7 @@ void reportNotFinite(const Object& o, Log& log) {
 /// What will be a tile at each level.
 struct Chunks::Piece {
   UvRect rect;
-  std::array<CoarseRate, kLevels> rate;
+  std::array<CoarseRate, kLevelsInChunks> rate;
   Bound3 bound;
 };
 
@@ -48,7 +49,7 @@ struct Chunks::Planned {
   int object = -1;
   uint32_t patch = 0;
   std::vector<Piece> pieces;
-  std::array<float, kLevels> deviation{};
+  std::array<float, kLevelsInChunks> deviation{};
 };
 
 bool hasLevels(const Object& o, uint32_t patch, bool moves) {
@@ -79,7 +80,7 @@ Chunks::Chunks(const Scene& scene, const Camera& camera, const ShadingSystem& sh
 
 Chunks::Planned Chunks::plan(int object, uint32_t patch, const Camera& camera) const {
   const Object& o = scene_.objects[static_cast<size_t>(object)];
-  const std::array<CoarseRate, kLevels> rates = levelRates(scene_, camera, object, patch, log_);
+  const std::array<CoarseRate, kLevelsInChunks> rates = levelRates(scene_, camera, object, patch, log_);
   const auto tiles = [](int count) { return (count + kTile - 1) / kTile; };
   const int across = tiles(rates[0].nu), along = tiles(rates[0].nv);
   const auto at = [](int i, int n) { return static_cast<float>(i) / static_cast<float>(n); };
@@ -87,7 +88,7 @@ Chunks::Planned Chunks::plan(int object, uint32_t patch, const Camera& camera) c
   for (int j = 0; j < along; ++j)
     for (int i = 0; i < across; ++i) {
       Piece piece{{at(i, across), at(i + 1, across), at(j, along), at(j + 1, along)}, {}, {}};
-      for (size_t l = 0; l < kLevels; ++l) piece.rate[l] = {(rates[l].nu + across - 1) / across, (rates[l].nv + along - 1) / along};
+      for (size_t l = 0; l < kLevelsInChunks; ++l) piece.rate[l] = {(rates[l].nu + across - 1) / across, (rates[l].nv + along - 1) / along};
       const Bound3 bound = transformBound(o.cameraFromObject.at(o.keyTimes.front()), o.shape().bound(patch, piece.rect));
       if (!isFinite(bound.lo) || !isFinite(bound.hi)) {
         reportNotFinite(o, log_);
@@ -100,31 +101,32 @@ Chunks::Planned Chunks::plan(int object, uint32_t patch, const Camera& camera) c
   return out;
 }
 
-/// All coarse polygons of the piece, and of the finer ones a part that hash chooses.
+/// A part of the piece at each level, which hash chooses.
 void Chunks::measure(Planned& planned, Piece& piece) const {
   const Object& o = scene_.objects[static_cast<size_t>(planned.object)];
-  for (const Level level : {Level::Coarse, Level::Medium, Level::Fine}) {
-    if (levelOf(static_cast<uint32_t>(o.group), level) != level) continue;  // no ray sees it
-    const auto [nu, nv] = piece.rate[index(level)];
-    UvRect part = piece.rect;
-    int u = nu, v = nv;
-    if (level != Level::Coarse) {
-      u = std::min(nu, kSampled), v = std::min(nv, kSampled);
-      const uint32_t name = hashCombine(o.name, planned.patch, static_cast<uint32_t>(planned.pieces.size()), static_cast<uint32_t>(level));
-      const int i = static_cast<int>(unitFloat(name) * static_cast<float>(nu - u + 1));
-      const int j = static_cast<int>(unitFloat(hash32(name)) * static_cast<float>(nv - v + 1));
-      const auto within = [](float a, float b, int k, int n) { return lerp(a, b, static_cast<float>(k) / static_cast<float>(n)); };
-      part = {within(piece.rect.u0, piece.rect.u1, i, nu), within(piece.rect.u0, piece.rect.u1, i + u, nu),
-              within(piece.rect.v0, piece.rect.v1, j, nv), within(piece.rect.v0, piece.rect.v1, j + v, nv)};
-    }
-    Grid g = tomales::dice(scene_, planned.object, planned.patch, part, 2 * u, 2 * v, 1);
+  const auto displaced = [&](const UvRect& part, int nu, int nv) {
+    Grid g = tomales::dice(scene_, planned.object, planned.patch, part, nu, nv, 1);
     if (displacesForRays(o)) shading_.displace(g);
-    if (!isFinite(g)) continue;
-    planned.deviation[index(level)] = std::max(planned.deviation[index(level)], doubledDeviation(g, 0));
+    if (!isFinite(g)) return g;
     // Where the displacement bound is too small.
     Bound3 met;
     for (int k = 0; k < g.vertexCount(); ++k) met.extend(g.position(0, k));
     piece.bound.extend(withRounding(met));
+    return g;
+  };
+  if (displacesForRays(o)) displaced(piece.rect, kProbes, kProbes);
+  for (const Level level : {Level::Medium, Level::Fine}) {
+    if (levelOf(static_cast<uint32_t>(o.group), level) != level) continue;  // no ray sees it
+    const auto [nu, nv] = piece.rate[index(level)];
+    const int u = std::min(nu, kSampled), v = std::min(nv, kSampled);
+    const uint32_t name = hashCombine(o.name, planned.patch, static_cast<uint32_t>(planned.pieces.size()), static_cast<uint32_t>(level));
+    const int i = static_cast<int>(unitFloat(name) * static_cast<float>(nu - u + 1));
+    const int j = static_cast<int>(unitFloat(hash32(name)) * static_cast<float>(nv - v + 1));
+    const auto within = [](float a, float b, int k, int n) { return lerp(a, b, static_cast<float>(k) / static_cast<float>(n)); };
+    const UvRect part{within(piece.rect.u0, piece.rect.u1, i, nu), within(piece.rect.u0, piece.rect.u1, i + u, nu),
+                      within(piece.rect.v0, piece.rect.v1, j, nv), within(piece.rect.v0, piece.rect.v1, j + v, nv)};
+    if (const Grid g = displaced(part, 2 * u, 2 * v); isFinite(g))
+      planned.deviation[index(level)] = std::max(planned.deviation[index(level)], doubledDeviation(g, 0));
   }
 }
 
@@ -138,7 +140,7 @@ void Chunks::pack(const std::vector<Planned>& planned) {
   std::vector<Placed> placed;
   for (const Planned& p : planned) {
     const auto group = static_cast<uint32_t>(scene_.objects[static_cast<size_t>(p.object)].group);
-    for (size_t l = 0; l < kLevels; ++l) deviations_[group][l] = std::max(deviations_[group][l], p.deviation[l]);
+    for (size_t l = 0; l < kLevelsInChunks; ++l) deviations_[group][l] = std::max(deviations_[group][l], p.deviation[l]);
     for (const Piece& piece : p.pieces) {
       present_[group] = true;
       ofGroup[group].extend(piece.bound);
@@ -149,7 +151,7 @@ void Chunks::pack(const std::vector<Planned>& planned) {
   for (Placed& p : placed) p.place = mortonPlace(p.piece->bound.center(), ofGroup[p.group]);
   std::stable_sort(placed.begin(), placed.end(),
                    [](const Placed& a, const Placed& b) { return std::tie(a.group, a.place) < std::tie(b.group, b.place); });
-  for (const Level level : {Level::Fine, Level::Medium, Level::Coarse}) {
+  for (const Level level : {Level::Fine, Level::Medium}) {
     int64_t held = kChunkPolygons;
     for (const Placed& p : placed) {
       if (levelOf(p.group, level) != level) continue;

@@ -1,5 +1,5 @@
-// Surfaces that rays see at several levels: tiles of patches, near ones of one level together in chunks, which are diced when a ray first
-// comes there (docs/decisions/0036-geometry-cache.md).
+// Surfaces that rays see at several levels, at all but the coarse one: tiles of patches, near ones of one level together in chunks, which are
+// diced when a ray first comes there (docs/decisions/0036-geometry-cache.md). Coarse polygons are those of raytrace/tessellate.h.
 // What stands still, is no light, no part of a solid and not trimmed, where Attribute "trace" "tessellationmode" asks for it; flat
 // patches without displacement are exact as they are and stay out.
 // Space: current. Threads: const members may be called concurrently.
@@ -46,12 +46,14 @@ class Chunks {
 
   const std::vector<Chunk>& all() const { return chunks_; }
   ChunkMesh dice(size_t chunk) const;
-  /// The level at which a ray of this level sees a group.
+  /// The level at which a ray of this level sees a group; coarse: not here.
   Level levelOf(uint32_t group, Level ray) const { return full_[group] ? Level::Fine : ray; }
   bool has(uint32_t group) const { return present_[group]; }
-  /// Largest distance between the polygons of a level and what they stand for; 0 for groups that are not here. Of the finer levels
-  /// a part is measured.
-  float deviation(size_t group, Level ray) const { return deviations_[group][static_cast<size_t>(levelOf(static_cast<uint32_t>(group), ray))]; }
+  /// Largest distance between polygons that a ray of this level sees here and what they stand for, as far as a part of them tells; 0 if it sees none.
+  float deviation(size_t group, Level ray) const {
+    const Level level = levelOf(static_cast<uint32_t>(group), ray);
+    return level == Level::Coarse ? 0 : deviations_[group][static_cast<size_t>(level)];
+  }
   /// Unit normal, RISpec side, where tile parameters u, v lead.
   vec3 normal(const ChunkMesh& mesh, size_t chunk, uint32_t tile, float u, float v) const;
   int64_t finePolygons() const { return finePolygons_; }
@@ -69,7 +71,7 @@ class Chunks {
   std::vector<bool> full_;  ///< Of each group: rays of all levels see the finest.
   std::vector<bool> present_;  ///< Of each group: some chunk belongs to it.
   std::vector<Chunk> chunks_;
-  std::vector<std::array<float, kLevels>> deviations_;
+  std::vector<std::array<float, kLevelsInChunks>> deviations_;
   int64_t finePolygons_ = 0;
 };
 

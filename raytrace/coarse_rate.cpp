@@ -7,7 +7,7 @@
 namespace tomales {
 namespace {
 
-constexpr float kPolygon_px = 8;
+constexpr float kPolygon_px = 16;
 constexpr float kMediumEdge = 3;          ///< Of medium polygons, in edges of micropolygons.
 constexpr float kLeastPolygon_px = 1.5f;  ///< No polygon is smaller for the sake of its turn: far objects need few.
 constexpr float kTurn = 15 * kPi / 180;   ///< Radians between the normals at the ends of a polygon.
@@ -131,15 +131,13 @@ CoarseRate coarseRate(const Scene& scene, const Camera& camera, int object, uint
   return PatchLines(scene, camera, object, patch).rate(fixedFineness(o), log);
 }
 
-std::array<CoarseRate, kLevels> levelRates(const Scene& scene, const Camera& camera, int object, uint32_t patch, Log& log) {
+std::array<CoarseRate, kLevelsInChunks> levelRates(const Scene& scene, const Camera& camera, int object, uint32_t patch, Log& log) {
   const Attributes& a = *scene.objects[static_cast<size_t>(object)].attributes;
   const PatchLines lines(scene, camera, object, patch);
   const auto atLeast = [](const CoarseRate& x, const CoarseRate& y) { return CoarseRate{std::max(x.nu, y.nu), std::max(x.nv, y.nv)}; };
-  std::array<CoarseRate, kLevels> out;
-  out[2] = lines.rate(finenessOf(a, std::max(a.trace.tessellation, 1e-3f)), log);
-  out[1] = atLeast(lines.rate(micropolygons(a, kMediumEdge), log), out[2]);
-  out[0] = atLeast(lines.rate(micropolygons(a, 1), log), out[1]);
-  return out;
+  const CoarseRate coarse = lines.rate(fixedFineness(scene.objects[static_cast<size_t>(object)]), log);
+  const CoarseRate medium = atLeast(lines.rate(micropolygons(a, kMediumEdge), log), coarse);
+  return {atLeast(lines.rate(micropolygons(a, 1), log), medium), medium};
 }
 
 }  // namespace tomales

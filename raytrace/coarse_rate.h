@@ -13,8 +13,8 @@ struct CoarseRate {
 };
 /// A patch that asks for millions is reported and gets fewer.
 CoarseRate coarseRate(const Scene& scene, const Camera& camera, int object, uint32_t patch, Log& log);
-/// At every level, each no coarser than the next.
-std::array<CoarseRate, kLevels> levelRates(const Scene& scene, const Camera& camera, int object, uint32_t patch, Log& log);
+/// Of the levels in chunks, the first no coarser than the next and that no coarser than coarseRate().
+std::array<CoarseRate, kLevelsInChunks> levelRates(const Scene& scene, const Camera& camera, int object, uint32_t patch, Log& log);
 
 bool displacesForRays(const Object& object);
 /// Is the patch one exact quadrilateral?

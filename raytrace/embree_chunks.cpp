@@ -53,7 +53,7 @@ void EmbreeChunks::attach(RTCDevice device, RTCScene to, unsigned id, uint32_t f
   device_ = device, firstInstance_ = firstInstance;
   rtcRetainDevice(device);
   for (uint32_t g = 0; g < groups.size(); ++g)
-    described_.push_back({opaque[g], groups[g].flipsNormal, masks[g], {}, groups.data(), g, {}, nullptr});
+    described_.push_back({opaque[g], groups[g].flipsNormal, masks[g], {}, groups.data(), {g, 0, 0}});
   std::map<uint32_t, std::vector<uint32_t>> byMask;
   for (uint32_t c = 0; c < chunks_.all().size(); ++c) {
     const auto& [group, level, bound, tiles] = chunks_.all()[c];
@@ -63,7 +63,7 @@ void EmbreeChunks::attach(RTCDevice device, RTCScene to, unsigned id, uint32_t f
     byMask[mask].push_back(c);
   }
   for (auto& [mask, chunks] : byMask) {
-    Members& members = members_.emplace_back(Members{this, std::move(chunks)});
+    Members& members = members_.emplace_back(Members{this, mask, std::move(chunks)});
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(members.chunks.size()));
     rtcSetGeometryBoundsFunction(geometry, &EmbreeChunks::boundsOf, nullptr);

@@ -22,6 +22,8 @@ class EmbreeChunks {
   void attach(RTCDevice device, RTCScene to, unsigned id, uint32_t firstInstance, const std::vector<CoarseGroup>& groups,
               const std::vector<uint32_t>& masks, const std::vector<bool>& opaque);
 
+  /// Of rays that see some of what was attached as this geometry, counted from the first; as Embree knows it.
+  uint32_t maskOf(size_t geometry) const { return members_[geometry].mask; }
   const Geometry& geometryOf(uint32_t chunk) const { return described_[chunks_.all()[chunk].group]; }
   /// Unit normal on the RISpec side where a hit lies.
   vec3 normal(const PolygonHit& hit) const;
@@ -41,6 +43,7 @@ class EmbreeChunks {
   /// What the callbacks of one user geometry know.
   struct Members {
     EmbreeChunks* owner;
+    uint32_t mask;
     std::vector<uint32_t> chunks;
   };
 

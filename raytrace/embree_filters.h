@@ -17,19 +17,24 @@ inline uint32_t maskAtAllLevels(uint32_t mask) { return maskAt(mask, Level::Fine
 /// The small groups that rays treat alike share one Embree geometry: a geometry of its own for each would cost 65 kB, and a scene
 /// may have a group for every object. Positions and indices are copied for that, about 31 bytes a polygon.
 struct Geometry {
+  /// Quads of one mesh, behind each other there and here.
+  struct Run {
+    uint32_t mesh, firstQuad, count;
+    uint32_t firstPrimitive = 0;
+  };
+
   bool opaque, flips;
-  uint32_t mask;  ///< Of rays that see it: bits of RayMask.
+  uint32_t mask;  ///< Of rays that see it, as Embree knows it.
   DetailShare detail;
-  const CoarseGroup* meshes;                         ///< All groups, or the one master.
-  uint32_t onlyMesh = 0;
-  std::vector<uint32_t> meshOfQuad{};                ///< Empty: all belong to onlyMesh.
-  const std::vector<uint32_t>* firstQuad = nullptr;  ///< of each mesh, in its geometry
+  const CoarseGroup* meshes;           ///< All groups, or the one master.
+  Run only;
+  std::vector<Run> runs{};
+  std::vector<uint32_t> runOfQuad{};  ///< Empty: all belong to `only`.
 
   struct Place { uint32_t mesh, quad; };
   Place place(uint32_t primitive) const {
-    if (meshOfQuad.empty()) return {onlyMesh, primitive};
-    const uint32_t mesh = meshOfQuad[primitive];
-    return {mesh, primitive - (*firstQuad)[mesh]};
+    const Run& run = runOfQuad.empty() ? only : runs[runOfQuad[primitive]];
+    return {run.mesh, run.firstQuad + (primitive - run.firstPrimitive)};
   }
 };
 
@@ -38,6 +43,7 @@ struct Instances {
   uint32_t firstId = 0;
   std::vector<uint32_t> group;
   std::vector<bool> opaque;
+  std::vector<uint32_t> mask;  ///< As Embree knows it.
   uint32_t firstChunk = 0;  ///< Hits of chunks have such instance IDs, in their order; what they belong to is their Geometry's.
 };
 

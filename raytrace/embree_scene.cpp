@@ -35,7 +35,6 @@ struct EmbreeScene::Impl {
   const SharedShapes& shapes;
   bool fades = false;  ///< Some group does.
   std::atomic<int64_t> bytes{0};
-  std::vector<uint32_t> firstQuad;
   std::deque<Geometry> geometries;  ///< By Embree's geomID; Embree keeps their addresses.
   std::deque<Geometry> masters;
   Instances instances;
@@ -70,36 +69,36 @@ struct EmbreeScene::Impl {
     return t;
   }
 
-  /// One geometry of the given groups.
-  void attach(const std::vector<uint32_t>& members, uint32_t mask, bool opaque) {
-    const CoarseGroup& like = groups[members.front()];
+  /// One geometry of quads of the given groups.
+  void attach(std::vector<Geometry::Run> runs, uint32_t mask, bool opaque) {
+    const CoarseGroup& like = groups[runs.front().mesh];
     const auto id = static_cast<unsigned>(geometries.size());
-    Geometry& out = geometries.emplace_back(Geometry{opaque, like.flipsNormal, mask, like.detail, groups.data(), members.front(), {}, &firstQuad});
+    Geometry& out = geometries.emplace_back(Geometry{opaque, like.flipsNormal, mask, like.detail, groups.data(), runs.front()});
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
     rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(like.laterP.size() + 1));
-    if (members.size() == 1)
-      share(geometry, like);
+    if (runs.size() == 1)
+      share(geometry, like, runs.front());
     else
-      copy(geometry, members, out.meshOfQuad);
-    rtcSetGeometryMask(geometry, maskAtAllLevels(mask));
+      copy(geometry, std::move(runs), out);
+    rtcSetGeometryMask(geometry, mask);
     if (like.trimmed || !like.detail.whole()) filterAbsent(geometry);
     attach(scene, geometry, id, &out);
   }
 
   static const std::vector<vec3>& positions(const CoarseGroup& g, size_t step) { return step == 0 ? g.P : g.laterP[step - 1]; }
 
-  static void share(RTCGeometry geometry, const CoarseGroup& g) {
+  static void share(RTCGeometry geometry, const CoarseGroup& g, const Geometry::Run& run) {
     for (unsigned step = 0; step <= g.laterP.size(); ++step)
       rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT3, positions(g, step).data(), 0, sizeof(vec3),
                                  positions(g, step).size());
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, g.quads.data(), 0, sizeof(Quad), g.quads.size());
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, g.quads.data(), sizeof(Quad) * run.firstQuad, sizeof(Quad), run.count);
   }
 
   /// Embree pads the vertex buffer that it allocates, of which it reads 16 bytes at the last.
-  void copy(RTCGeometry geometry, const std::vector<uint32_t>& members, std::vector<uint32_t>& meshOfQuad) {
-    const size_t steps = groups[members.front()].laterP.size() + 1;
+  void copy(RTCGeometry geometry, std::vector<Geometry::Run> runs, Geometry& out) const {
+    const size_t steps = groups[runs.front().mesh].laterP.size() + 1;
     size_t vertexCount = 0, quadCount = 0;
-    for (const uint32_t g : members) vertexCount += groups[g].P.size(), quadCount += groups[g].quads.size();
+    for (const Geometry::Run& r : runs) vertexCount += groups[r.mesh].P.size(), quadCount += r.count;
     std::vector<vec3*> vertices;
     for (unsigned step = 0; step < steps; ++step)
       vertices.push_back(static_cast<vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT3,
@@ -107,16 +106,18 @@ struct EmbreeScene::Impl {
     auto* quads = static_cast<Quad*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, sizeof(Quad), quadCount));
     uint32_t firstVertex = 0;
-    meshOfQuad.reserve(quadCount);
-    for (const uint32_t g : members) {
+    out.runOfQuad.reserve(quadCount);
+    for (size_t r = 0; r < runs.size(); ++r) {
       if (!vertices.back() || !quads) break;  // out of memory: the device's error tells
-      firstQuad[g] = static_cast<uint32_t>(meshOfQuad.size());
-      meshOfQuad.insert(meshOfQuad.end(), groups[g].quads.size(), g);
-      for (size_t step = 0; step < steps; ++step) vertices[step] = std::copy(positions(groups[g], step).begin(), positions(groups[g], step).end(), vertices[step]);
-      for (const Quad& q : groups[g].quads)
+      const CoarseGroup& g = groups[runs[r].mesh];
+      runs[r].firstPrimitive = static_cast<uint32_t>(out.runOfQuad.size());
+      out.runOfQuad.insert(out.runOfQuad.end(), runs[r].count, static_cast<uint32_t>(r));
+      for (size_t step = 0; step < steps; ++step) vertices[step] = std::copy(positions(g, step).begin(), positions(g, step).end(), vertices[step]);
+      for (const Quad& q : std::span(g.quads).subspan(runs[r].firstQuad, runs[r].count))
         *quads++ = {q[0] + firstVertex, q[1] + firstVertex, q[2] + firstVertex, q[3] + firstVertex};
-      firstVertex += static_cast<uint32_t>(groups[g].P.size());
+      firstVertex += static_cast<uint32_t>(g.P.size());
     }
+    out.runs = std::move(runs);
   }
 
   static void filterAbsent(RTCGeometry geometry) {
@@ -133,9 +134,10 @@ struct EmbreeScene::Impl {
 
   RTCScene sceneOf(const CoarseGroup& mesh) {
     RTCScene out = newScene();
-    Geometry& described = masters.emplace_back(Geometry{true, mesh.flipsNormal, 0, {}, &mesh, 0, {}, nullptr});
+    const Geometry::Run whole{0, 0, static_cast<uint32_t>(mesh.quads.size())};
+    Geometry& described = masters.emplace_back(Geometry{true, mesh.flipsNormal, 0, {}, &mesh, whole});
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
-    share(geometry, mesh);
+    share(geometry, mesh, whole);
     if (mesh.trimmed) filterAbsent(geometry);
     attach(out, geometry, 0, &described);
     rtcCommitScene(out);
@@ -152,7 +154,8 @@ struct EmbreeScene::Impl {
       RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
       rtcSetGeometryInstancedScene(geometry, scenes[instance.master]);
       rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &instance.cameraFromObject[0][0]);
-      rtcSetGeometryMask(geometry, maskAtAllLevels(masks[groupOf[i]]));
+      instances.mask.push_back(maskAtAllLevels(masks[groupOf[i]]));
+      rtcSetGeometryMask(geometry, instances.mask.back());
       attach(scene, geometry, instances.firstId + static_cast<uint32_t>(i), nullptr);
       instances.group.push_back(groupOf[i]);
       instances.opaque.push_back(opaque[groupOf[i]]);
@@ -160,14 +163,30 @@ struct EmbreeScene::Impl {
     for (RTCScene s : scenes) rtcReleaseScene(s);  // the instances hold it
   }
 
-  void addTo(Surroundings& out, bool instance, uint32_t geometryId, uint32_t primitive, uint32_t mask) const {
-    if (instance || geometryId >= geometries.size()) return out.giveUp();
+  /// `mask`: as Embree knows it.
+  void addTo(Surroundings& out, uint32_t geometryId, uint32_t primitive, uint32_t mask) const {
+    if (geometryId >= instances.firstChunk) {
+      if (chunks->maskOf(geometryId - instances.firstChunk) & mask) out.giveUp();
+      return;
+    }
     const Geometry& geometry = geometries[geometryId];
     if (!(geometry.mask & mask)) return;
     const auto [mesh, quad] = geometry.place(primitive);
     const CoarseGroup& g = geometry.meshes[mesh];
     if (g.trimmed || !g.detail.whole()) return out.giveUp();
-    out.add(mesh, quad, g.flipsNormal, {g.corner(quad, 0), g.corner(quad, 1), g.corner(quad, 2), g.corner(quad, 3)});
+    out.add(mesh, quad, g.flipsNormal, g.corners(quad));
+  }
+
+  void addOfInstance(Surroundings& out, uint32_t instance, uint32_t quad, uint32_t mask) const {
+    if (!(instances.mask[instance] & mask)) return;
+    const auto& [object, master, cameraFromObject, normals] = shapes.instances[instance];
+    const CoarseGroup& g = shapes.masters[master];
+    if (g.trimmed) return out.giveUp();
+    const std::array<vec3, 4> corners = g.corners(quad);
+    std::array<vec3, 4> placed = corners;
+    for (vec3& p : placed) p = transformPoint(cameraFromObject, p);
+    const bool mirrors = glm::determinant(mat3(cameraFromObject)) < 0;
+    out.add(instances.group[instance], quad, g.flipsNormal != mirrors, placed, static_cast<int>(instance), corners);
   }
 
   bool trace(const Ray& ray, float shift, float tNear, uint32_t mask, Traversal& traversal,
@@ -199,15 +218,18 @@ EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const SharedSha
   impl_->device = rtcNewDevice(nullptr);
   rtcSetDeviceMemoryMonitorFunction(impl_->device, &Impl::countBytes, impl_.get());
   impl_->scene = impl_->newScene();
-  std::map<std::tuple<uint32_t, bool, bool, bool, size_t, float, float, uint32_t>, std::vector<uint32_t>> alike;
+  std::map<std::tuple<uint32_t, bool, bool, bool, size_t, float, float, uint32_t>, std::vector<Geometry::Run>> alike;
   for (uint32_t i = 0; i < groups.size(); ++i) {
     const CoarseGroup& g = groups[i];
     impl_->fades |= !g.detail.whole();
-    if (!g.quads.empty() && g.solid == solids)
-      alike[{masks[i], opaque[i], g.flipsNormal, g.trimmed, g.laterP.size(), g.detail.lo, g.detail.hi, g.quads.size() < kManyQuads ? 0 : i + 1}].push_back(i);
+    if (g.solid != solids) continue;
+    const auto plain = static_cast<uint32_t>(g.quads.size() - g.onlyCoarse), coarse = static_cast<uint32_t>(g.onlyCoarse);
+    for (const auto& [run, mask] : {std::pair(Geometry::Run{i, 0, plain}, maskAtAllLevels(masks[i])),
+                                    std::pair(Geometry::Run{i, plain, coarse}, maskAt(masks[i], Level::Coarse))})
+      if (run.count > 0)
+        alike[{mask, opaque[i], g.flipsNormal, g.trimmed, g.laterP.size(), g.detail.lo, g.detail.hi, run.count < kManyQuads ? 0 : i + 1}].push_back(run);
   }
-  impl_->firstQuad.resize(groups.size());
-  for (const auto& [kind, members] : alike) impl_->attach(members, std::get<0>(kind), std::get<1>(kind));
+  for (auto& [kind, runs] : alike) impl_->attach(std::move(runs), std::get<0>(kind), std::get<1>(kind));
   // With several threads the order of primitives in a leaf, and with it which of two hits at equal t is found
   // first, would depend on their number.
   const ThreadLimit one(1);
@@ -233,19 +255,22 @@ bool EmbreeScene::nearest(const Ray& ray, uint32_t mask, PolygonHit& hit) const 
   return impl_->trace(ray, 0, std::max(ray.bias, 0.0f), mask, traversal, hit);
 }
 
-void EmbreeScene::around(const vec3& P, float reach, uint32_t mask, Surroundings& out) const {
+void EmbreeScene::around(const vec3& P, float reach, uint32_t mask, Level level, Surroundings& out) const {
   struct Asked {
     const Impl& scene;
     uint32_t mask;
     Surroundings& out;
-  } asked{*impl_, mask, out};
+  } asked{*impl_, maskAt(mask, level), out};
   out.reset(P, reach);
   RTCPointQuery query{P.x, P.y, P.z, 0, reach + 2 * roundingAt(P)};
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   const auto meets = [](RTCPointQueryFunctionArguments* args) {
     const Asked& a = *static_cast<Asked*>(args->userPtr);
-    a.scene.addTo(a.out, args->context->instStackSize > 0, args->geomID, args->primID, a.mask);
+    if (args->context->instStackSize > 0)
+      a.scene.addOfInstance(a.out, args->context->instID[0] - a.scene.instances.firstId, args->primID, a.mask);
+    else
+      a.scene.addTo(a.out, args->geomID, args->primID, a.mask);
     if (!a.out.gaveUp()) return false;
     args->query->radius = 0;
     return true;

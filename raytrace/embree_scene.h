@@ -27,9 +27,8 @@ class EmbreeScene {
   /// Nearest hit with ray.bias < t < ray.tMax; ray.offset plays no part.
   bool nearest(const Ray& ray, uint32_t mask, PolygonHit& hit) const;
 
-  /// Whatever rays of this mask may meet within `reach` of P at shutter open. Gives up at what is not a polygon of its own: instances,
-  /// chunks, what is trimmed or fades.
-  void around(const vec3& P, float reach, uint32_t mask, Surroundings& out) const;
+  /// Whatever rays of this mask and level may meet within `reach` of P at shutter open. Gives up at chunks and at what is trimmed or fades.
+  void around(const vec3& P, float reach, uint32_t mask, Level level, Surroundings& out) const;
 
   /// One traversal: fills `list` with all hits at |t| <= window, unsorted, and `beyond` with the nearest
   /// after that. False: nothing beyond before tMax.

@@ -6,6 +6,6 @@ namespace tomales {
 
 /// Polygons of about one pixel (x sqrt(ShadingRate)), of three, and of raytrace/coarse_rate.h.
 enum class Level : uint8_t { Fine, Medium, Coarse };
-constexpr int kLevels = 3;
+constexpr int kLevelsInChunks = 2;  ///< The finer ones, made where rays come; coarse polygons are always there.
 
 }  // namespace tomales

@@ -17,7 +17,9 @@ class Surroundings {
   /// Something is near that cannot be added.
   void giveUp() { known_ = false; }
   /// Corners in the order of Quad (raytrace/tessellate.h). Those out of reach are dropped.
-  void add(uint32_t group, uint32_t quad, bool flips, const std::array<vec3, 4>& corners);
+  void add(uint32_t group, uint32_t quad, bool flips, const std::array<vec3, 4>& corners) { add(group, quad, flips, corners, -1, corners); }
+  /// The same of an instance, with the corners that its master has.
+  void add(uint32_t group, uint32_t quad, bool flips, const std::array<vec3, 4>& corners, int instance, const std::array<vec3, 4>& ofMaster);
 
   bool gaveUp() const { return !known_; }
   /// Is all known that a ray from here meets at |t| <= window?
@@ -32,9 +34,10 @@ class Surroundings {
   /// the origin tells that side; the neighbour has the same one, with the other sign, to the bit.
   struct Near {
     uint32_t group, quad;
+    int instance;
     bool flips;
-    std::array<vec3, 2> normals;   ///< Of triangles 0-1-3 and 2-3-1; unnormalised.
-    std::array<float, 2> heights;  ///< dot(normal, corner - origin)
+    std::array<vec3, 2> normals;   ///< Of triangles 0-1-3 and 2-3-1, as hits tell them (PolygonHit::normal).
+    std::array<float, 2> heights;  ///< Of the triangles in current space: dot(unnormalised normal, corner - origin)
     std::array<float, 8> x, y, z;  ///< Normals of the planes of edges 0-1, 1-3, 3-0, 1-2 and 2-3; the rest fills a vector.
   };
 

@@ -104,7 +104,9 @@ void append(CoarseGroup& to, const CoarseGroup& from) {
     to.lattices.push_back(l);
   }
   to.trimmed |= from.trimmed;
+  to.onlyCoarse += from.onlyCoarse;
   to.deviation = std::max(to.deviation, from.deviation);
+  to.coarseDeviation = std::max(to.coarseDeviation, from.coarseDeviation);
 }
 
 /// Gives back what growing reserved beyond need; Embree reads 16 bytes at the last position.
@@ -141,17 +143,26 @@ float diagonalOf(const Object& o) {
   return camera.empty() ? 0.0f : glm::length(camera.size());
 }
 
-/// A part for each piece of work. Patches that have levels (raytrace/chunks.h) are left out unless asked for.
+enum class Patches { All, WithoutLevels, WithLevels };
+
+/// A part for each piece of work.
 std::vector<CoarseGroup> tessellateAll(const Scene& scene, const Camera& camera, const ShadingSystem& shading,
-                                       const std::vector<Work>& work, bool withLevels, Log& log) {
+                                       const std::vector<Work>& work, Patches which, Log& log) {
   std::vector<CoarseGroup> pieces(work.size());
   const Tessellator tessellator(scene, camera, shading, log);
+  const auto wanted = [&](int object, uint32_t patch) {
+    const Object& o = scene.objects[static_cast<size_t>(object)];
+    const bool withLevels = which == Patches::WithLevels;
+    if (withLevels && o.attributes->trace.rate != TessellationMode::Multiresolution) return false;  // or no ray sees its coarse polygons
+    return which == Patches::All || hasLevels(o, patch, tessellator.moves(object)) == withLevels;
+  };
   parallelFor(work.size(), 1, [&](size_t begin, size_t end) {
     for (size_t w = begin; w < end; ++w)
       for (uint32_t p = work[w].first; p < work[w].last; ++p)
-        if (withLevels || !hasLevels(scene.objects[static_cast<size_t>(work[w].object)], p, tessellator.moves(work[w].object)))
-          tessellator.addPatch(work[w].object, p, pieces[w]);
+        if (wanted(work[w].object, p)) tessellator.addPatch(work[w].object, p, pieces[w]);
   });
+  if (which == Patches::WithLevels)
+    for (CoarseGroup& piece : pieces) piece.onlyCoarse = piece.quads.size(), piece.coarseDeviation = std::exchange(piece.deviation, 0.0f);
   return pieces;
 }
 
@@ -195,19 +206,23 @@ std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, co
     const bool needed = scene.objects[i].solid >= 0 || raysNeed(*scene.objects[i].attributes);
     if (needed && (elsewhere.empty() || !elsewhere[i])) addWork(scene, i, work);
   }
-  std::vector<CoarseGroup> pieces = tessellateAll(scene, camera, shading, work, false, log);
   std::vector<CoarseGroup> groups(scene.groups.size());
   for (size_t g = 0; g < groups.size(); ++g) {
     groups[g].detail = scene.groups[g].attributes->detail;
     groups[g].solid = scene.groups[g].solid;
   }
-  for (size_t w = 0; w < work.size(); ++w) {
-    const Object& o = scene.objects[static_cast<size_t>(work[w].object)];
+  for (const Work& w : work) {
+    const Object& o = scene.objects[static_cast<size_t>(w.object)];
     CoarseGroup& group = groups[static_cast<size_t>(o.group)];
     group.flipsNormal = o.flipsNormal != o.subtracted;
-    if (work[w].first == 0) group.size = std::max(group.size, diagonalOf(o));
-    if (!pieces[w].P.empty()) append(group, pieces[w]);
-    pieces[w] = {};
+    if (w.first == 0) group.size = std::max(group.size, diagonalOf(o));
+  }
+  for (const Patches which : {Patches::WithoutLevels, Patches::WithLevels}) {
+    std::vector<CoarseGroup> pieces = tessellateAll(scene, camera, shading, work, which, log);
+    for (size_t w = 0; w < work.size(); ++w) {
+      if (!pieces[w].P.empty()) append(groups[static_cast<size_t>(scene.objects[static_cast<size_t>(work[w].object)].group)], pieces[w]);
+      pieces[w] = {};
+    }
   }
   for (CoarseGroup& group : groups) fit(group);
   return groups;
@@ -220,7 +235,7 @@ CoarseGroup tessellateObject(const Scene& scene, const Camera& camera, const Sha
   CoarseGroup out;
   out.flipsNormal = o.flipsNormal;
   out.size = diagonalOf(o);
-  for (const CoarseGroup& piece : tessellateAll(scene, camera, shading, work, true, log)) append(out, piece);
+  for (const CoarseGroup& piece : tessellateAll(scene, camera, shading, work, Patches::All, log)) append(out, piece);
   fit(out);
   return out;
 }

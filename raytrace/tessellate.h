@@ -2,7 +2,7 @@
 //   in     a frozen scene; displacement where trace:displacements asks for it
 //   out    vertices in current space at the motion keys of raytrace/ray_times.h, quads, and the way back from a quad to object, patch
 //   and (u,v) never  depends on threads: the order is that of objects and patches
-// Rate: polygons of about 8 pixels (x sqrt(ShadingRate) / trace:tessellation) where the camera can see the
+// Rate: polygons of about 16 pixels (x sqrt(ShadingRate) / trace:tessellation) where the camera can see the
 // object, and a turn of the normal of at most 15 degrees (/ trace:tessellation) everywhere, as long as
 // polygons are larger than 1.5 pixels; flat patches are one exact quad.
 #pragma once
@@ -37,11 +37,13 @@ struct CoarseGroup {
   DetailShare detail;        ///< Rays of other shares pass through.
   bool solid = false;        ///< Parts of solids: what rays meet is decided in solid_hits.h.
   bool flipsNormal = false;  ///< The RISpec side is opposite to dP/du x dP/dv.
-  float deviation =
-      0;           ///< Largest distance between a coarse polygon and the micropolygons that stand for it.
+  size_t onlyCoarse = 0;     ///< The last so many quads have finer levels (raytrace/chunks.h): rays of the coarse level alone see them.
+  float deviation = 0;       ///< Largest distance between a polygon and the micropolygons that stand for it; without `onlyCoarse`,
+  float coarseDeviation = 0;  ///< and of those.
   float size = 0;  ///< Diagonal of the largest object.
 
   vec3 corner(uint32_t quad, int k) const { return P[quads[quad][static_cast<size_t>(k)]]; }
+  std::array<vec3, 4> corners(uint32_t quad) const { return {corner(quad, 0), corner(quad, 1), corner(quad, 2), corner(quad, 3)}; }
   vec3 geometricNormal(uint32_t quad) const;  ///< RISpec side, unit length.
   vec3 pointOn(uint32_t quad, float u, float v) const;  ///< On the two triangles that rays meet, cut from corner 1 to 3.
   const Lattice& latticeOf(uint32_t quad) const { return lattices[latticeOfQuad[quad]]; }
@@ -59,7 +61,7 @@ struct CoarseGroup {
 constexpr float kOffsetFactor = 1.5f;
 
 /// One for each of scene.groups; empty for what no ray may meet and no light is made of, for objects that are `elsewhere`, and for patches
-/// that have levels (raytrace/chunks.h).
+/// that rays of all levels see in chunks (raytrace/chunks.h).
 std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, const ShadingSystem& shading,
                                     Log& log, const std::vector<bool>& elsewhere = {});
 /// One object alone.

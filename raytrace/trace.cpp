@@ -11,7 +11,7 @@ constexpr float kChordShare = 0.1f;
 constexpr float kOffsetEpsilon =
     1e-5f;                      ///< Of distance and size: rounding, where the coarse surface is exact.
 constexpr float kBias = 1e-4f;  ///< The same for rays without a hit list.
-constexpr float kMediumWidth_px = 3, kCoarseWidth_px = 8;  ///< Of rays, from which on they see these levels.
+constexpr float kMediumWidth_px = 3, kCoarseWidth_px = 16;  ///< Of rays, from which on they see these levels.
 
 std::vector<uint32_t> masksOf(const Scene& scene) {
   std::vector<uint32_t> masks;
@@ -203,7 +203,8 @@ void RayScene::prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ra
   const auto& given = impl_->scene.groups[g].attributes->trace;
   const CoarseGroup& coarse = impl_->groups[g];
   ray.level = impl_->levelOf(ray, P);
-  const float deviation = std::max(coarse.deviation, impl_->chunks.deviation(g, ray.level));
+  const float ofCoarse = ray.level == Level::Coarse ? coarse.coarseDeviation : 0.0f;
+  const float deviation = std::max({coarse.deviation, ofCoarse, impl_->chunks.deviation(g, ray.level)});
   const float scale = glm::length(P) + coarse.size;
   const float automatic =
       kOffsetFactor * (deviation + impl_->displacementBounds[g] + kChordShare * edgeLength) +
@@ -213,8 +214,8 @@ void RayScene::prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ra
   ray.bias = given.bias.value_or(kBias * scale);
 }
 
-void RayScene::lookAround(const vec3& origin, float largestOffset, RayMask mask, Surroundings& out) const {
-  impl_->embree.around(origin, recordingWindow(largestOffset), mask, out);
+void RayScene::lookAround(const Ray& one, float largestOffset, RayMask mask, Surroundings& out) const {
+  impl_->embree.around(one.origin, recordingWindow(largestOffset), mask, one.level, out);
 }
 
 const std::vector<uint8_t>* RayScene::groupsIn(const std::string& subset, const std::string& exclude) const {

@@ -98,9 +98,9 @@ class RayScene {
   /// coarse surface, the true one (displacement bound included) and the micropolygon.
   void prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ray) const;
 
-  /// For many rays of this mask that leave one origin: with Ray::surroundings the hit list costs each of them little. What they meet is the
-  /// same. `largestOffset`: of any of them.
-  void lookAround(const vec3& origin, float largestOffset, RayMask mask, Surroundings& out) const;
+  /// For many rays of this mask that leave the origin of one of them and are of its level: with Ray::surroundings the hit list costs each of
+  /// them little. What they meet is the same. `largestOffset`: of any of them.
+  void lookAround(const Ray& one, float largestOffset, RayMask mask, Surroundings& out) const;
 
   /// Do rays from points of this group meet anything that moves?
   bool samplesTime(int group) const;

@@ -268,6 +268,8 @@ class ShadingSystem {
   vec3 skyRadiance(int light, const vec3& direction) const;
   /// Does the surface of a group add radiance of its own?
   bool emits(int group) const;
+  /// Does it reflect the same share of Illumination::Unit everywhere (TM_EVEN, and no primitive variable says otherwise)?
+  bool reflectsEvenly(int group) const;
 
  private:
   struct Impl;

@@ -16,5 +16,5 @@ void shade(const TmGrid* g) {
 }  // namespace
 
 extern const rsl::Shader matteShader;
-const rsl::Shader matteShader(TM_SURFACE, "matte", "Os Cs (Ka ambient() + Kd diffuse(Nf))", TM_KEEPS_OPACITY,
+const rsl::Shader matteShader(TM_SURFACE, "matte", "Os Cs (Ka ambient() + Kd diffuse(Nf))", TM_KEEPS_OPACITY | TM_EVEN,
                               shade, {&Ka, &Kd, &parts.ambient, &parts.diffuse, &parts.indirectdiffuse});

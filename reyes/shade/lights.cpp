@@ -2,6 +2,7 @@
 
 #include "reyes/base/rng.h"
 #include "reyes/shade/batch.h"
+#include "reyes/shade/illuminate.h"
 #include "reyes/shade/primary.h"
 
 namespace tomales {
@@ -35,12 +36,9 @@ void openOutputs(Batch& batch, const BoundShader& light, std::vector<TmValue>& p
 
 /// What is not finite is dark: the fault is the light's, not that of the surface that asks.
 void darkenNonFinite(Batch& batch, const BoundShader& light, const TmGrid& g) {
-  bool bad = false;
-  for (int i = 0; i < g.count; ++i) {
-    if (isFinite(get(g.Cl, i)) && isFinite(get(g.L, i))) continue;
-    set(g.Cl, i, vec3(0)), set(g.L, i, vec3(0)), bad = true;
-  }
-  if (!bad) return;
+  if (allFinite(g.count, view(g.Cl)) && allFinite(g.count, view(g.L))) return;
+  for (int i = 0; i < g.count; ++i)
+    if (!isFinite(get(g.Cl, i)) || !isFinite(get(g.L, i))) set(g.Cl, i, vec3(0)), set(g.L, i, vec3(0));
   const BoundShader* caller = std::exchange(batch.running, &light);
   batch.report(Severity::Warning, "shader-not-finite", "returned NaN or infinity; it casts no light there");
   batch.running = caller;
@@ -187,7 +185,7 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
     LightSample sample{&light, batch.arena.vec3(batch.tm.count), g.Cl, g.L, {light.can(TM_LIGHT_SOLAR), s, n}, nullptr, s, points.meetDensity, tally, g.L, g.params};
     if (const int k = light.bound->output("__nondiffuse", ValueType::Float); k >= 0) sample.nondiffuse = g.params[k].c[0];
     if (const int k = light.bound->output("__nonspecular", ValueType::Float); k >= 0) sample.nonspecular = g.params[k].c[0];
-    for (int i = 0; i < g.count; ++i) set(sample.L, i, normalizeOr(get(g.L, i), vec3(0.0f)));
+    normalizeAll(g.count, view(g.L), sample.L);
     if (light.shadows && batch.scene.services) {
       if (area) sample.toward = beforeEmitter(batch, g, batch.scene.services->emitterReach(light.index));
       sample.pending = batch.arena.bytes(g.count);

@@ -125,7 +125,7 @@ int bench(int repetitions, uint32_t raysOfOrigin) {
       {"closest() by hit list", [&](const Origin& o) { return count(o, [&](const Ray& ray) { return traced(ray, true, false); }); }},
       {"closest() by hit list, surroundings known",
        [&](const Origin& o) {
-         world.rays->lookAround(o.rays.front().origin, slantedOffset(o.offset, 0), kMaskDiffuse, surroundings);
+         world.rays->lookAround(o.rays.front(), slantedOffset(o.offset, 0), kMaskDiffuse, surroundings);
          return count(o, [&](const Ray& ray) { return traced(ray, true, true); });
        }},
   };

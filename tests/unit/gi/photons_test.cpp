@@ -26,6 +26,7 @@ Scene insideOfASphere(const std::string& model = "matte") {
   b.sphere(kRadius, vec3(kAlbedo), {0, 0, 0.5f});
   auto attributes = std::make_shared<Attributes>(*b.scene.objects[0].attributes);
   attributes->photon.shadingModel = model;
+  attributes->trace.tessellation = 2;  // of a sphere of polygons too large light arrives too little
   b.scene.objects[0].attributes = attributes;
   return b.scene;
 }
@@ -70,6 +71,31 @@ TEST(Photons, AreTheSameForAnyNumberOfThreads) {
   const auto a = withThreads(1), b = withThreads(3);
   ASSERT_EQ(a.size(), b.size());
   for (size_t i = 0; i < a.size(); ++i) EXPECT_TRUE(a[i].P == b[i].P && a[i].power == b[i].power) << i;
+}
+
+TEST(Photons, GoTheSameWayWhetherASurfaceIsAskedOnceOrAtEveryHit) {
+  World once(insideOfASphere());
+  ASSERT_TRUE(once.shading.reflectsEvenly(0));
+  Scene scene = insideOfASphere();
+  auto attributes = std::make_shared<Attributes>(*scene.objects[0].attributes);
+  attributes->surface = std::make_shared<ShaderCall>(call("plastic", {floatParam("Kd", 1)}));
+  scene.objects[0].attributes = attributes;
+  World each(scene);
+  ASSERT_FALSE(each.shading.reflectsEvenly(0));
+  const auto a = traced(once, {10000, 5}), b = traced(each, {10000, 5});
+  ASSERT_EQ(a.size(), b.size());
+  for (size_t i = 0; i < a.size(); ++i) EXPECT_TRUE(a[i].P == b[i].P && a[i].power == b[i].power) << i;
+}
+
+TEST(Photons, AskSurfacesWhosePrimitiveVariablesColourThem) {
+  SceneBuilder b;
+  Problems problems;
+  Param P{"P", Storage::Vertex, ValueType::Point, 1, {0, 0, 0, 1, 0, 0, 1, 1, 0}, {}, {}}, Cs{"Cs", Storage::Vertex, ValueType::Color, 1, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {}, {}},
+      Kd{"Kd", Storage::Vertex, ValueType::Float, 1, {0, 1, 0.5f}, {}, {}};
+  for (const ParamList& params : {ParamList{P}, {P, Cs}, {P, Kd}}) b.add(makePolygons({3}, {0, 1, 2}, params, problems), vec3(1));
+  World world(b.scene);
+  for (const auto& [object, even] : {std::pair{0, true}, {1, false}, {2, false}})
+    EXPECT_EQ(world.shading.reflectsEvenly(world.scene.objects[static_cast<size_t>(object)].group), even) << object;
 }
 
 TEST(Photons, NoneComesIntoAClosedBody) {

@@ -19,7 +19,7 @@ void compare(const World& world, int object, const vec3& P, Differences& out, co
   Ray ray = world.rayFrom(object, P, {0, 0, 1});
   const float offset = ray.offset;
   Surroundings around;
-  world.rays->lookAround(P, 2 * offset, kMaskDiffuse, around);
+  world.rays->lookAround(ray, 2 * offset, kMaskDiffuse, around);
   for (uint32_t i = 0; i < 100; ++i) {
     ray.direction = anyDirection(i);
     if (!glm::all(glm::greaterThanEqual(ray.direction, least))) continue;
@@ -90,7 +90,7 @@ TEST(Surroundings, PlaceAndSenseOfAHitAreThoseOfAnyOther) {
     const Hit far = world.rays->closest(ray, kMaskDiffuse);
     ray.offset = 1, ray.origin += 1.5f * d;
     Surroundings around;
-    world.rays->lookAround(ray.origin, 1, kMaskDiffuse, around);
+    world.rays->lookAround(ray, 1, kMaskDiffuse, around);
     HitList list;
     around.meet(d, 4, list);
     if (far.object < 0 || far.t > 2 || far.t < 1) continue;
@@ -104,7 +104,7 @@ TEST(Surroundings, PlaceAndSenseOfAHitAreThoseOfAnyOther) {
   EXPECT_GT(met, 40);
 }
 
-TEST(Surroundings, GiveUpWhereTheyWouldCostMoreOrAreNotPolygonsOfTheirOwn) {
+TEST(Surroundings, GiveUpWhereTheyWouldCostMore) {
   Surroundings around;
   EXPECT_FALSE(around.know({}, 0)) << "nobody has looked";
   around.reset({}, 1);
@@ -113,16 +113,41 @@ TEST(Surroundings, GiveUpWhereTheyWouldCostMoreOrAreNotPolygonsOfTheirOwn) {
   EXPECT_FALSE(around.know({0.1f, 0, 0}, 1));
   for (uint32_t i = 0; i <= Surroundings::kMost; ++i) around.add(0, i, false, {vec3(-1, -1, 0), vec3(1, -1, 0), vec3(1, 1, 0), vec3(-1, 1, 0)});
   EXPECT_TRUE(around.gaveUp());
+}
 
+TEST(Surroundings, HoldPolygonsOfInstances) {
+  const mat4 places[] = {translation({0, 0, 5}),
+                         mat4(vec4(0.8f, 0.3f, 0, 0), vec4(-0.2f, 0.7f, 0.1f, 0), vec4(0, 0.2f, 1.1f, 0), vec4(0.1f, 0, 5.02f, 1)),   // skewed,
+                         mat4(vec4(-1.2f, 0, 0, 0), vec4(0, 0.9f, 0.2f, 0), vec4(0, 0, 1.3f, 0), vec4(-0.1f, 0.1f, 4.97f, 1))};  // mirrored
   World world;
   const PrimPtr shared = waves();
-  world.add(shared, translation({0, 0, 5})), world.add(shared, translation({0, 5, 5}));
+  for (const mat4& place : places) world.add(shared, place);
+  world.attributes.visibility.diffuse = false;
+  world.add(shared, translation({0, 0, 4.99f}));
   world.build();
-  world.rays->lookAround({0, 0, 5}, 0.1f, kMaskDiffuse, around);
-  EXPECT_TRUE(around.gaveUp());
+  Surroundings around;
   Differences d;
-  for (uint32_t i = 0; i < 50; ++i) compare(world, 0, vec3(1.8f * sobol2(i, 1) - 0.9f, 5), d);
+  HitList list;
+  for (uint32_t i = 0; i < 200; ++i) {
+    const vec3 P(1.6f * sobol2(i, 1) - 0.8f, 5 + 0.1f * sobol1(i, 2));
+    compare(world, static_cast<int>(i % 3), P, d);
+    // Each hit with its place on its instance and its sense.
+    world.rays->lookAround(Ray{P, {0, 0, 1}}, 0.05f, kMaskDiffuse, around);
+    ASSERT_TRUE(around.know(P, 0.05f));
+    list.clear();
+    around.meet({0, 0, 1}, 0.05f, list);
+    for (const PolygonHit& hit : list) {
+      ASSERT_GE(hit.instance, 0);
+      Ray ray{P + vec3(0, 0, hit.t - 1e-3f), {0, 0, 1}};
+      const Hit met = world.rays->closest(ray, kMaskDiffuse);
+      if (met.t > 2e-3f) continue;  // two of them closer than that
+      EXPECT_EQ(hit.leaving, met.geometricNormal.z > 0);
+    }
+  }
+  EXPECT_GT(d.rays, 15000);
+  EXPECT_GT(d.adjusted, d.rays / 4);
   EXPECT_EQ(d.wrong, 0);
+  EXPECT_LT(d.farthest, 1e-4f);
 }
 
 TEST(Surroundings, LeaveOutWhatTheRayDoesNotSee) {
@@ -134,11 +159,11 @@ TEST(Surroundings, LeaveOutWhatTheRayDoesNotSee) {
   world.build();
   Ray ray = world.rayFrom(floor, {0.1f, 0.2f, 3}, {0, 0, -1});
   Surroundings around;
-  world.rays->lookAround(ray.origin, ray.offset, kMaskDiffuse, around);
+  world.rays->lookAround(ray, ray.offset, kMaskDiffuse, around);
   ray.surroundings = &around;
   EXPECT_TRUE(around.know(ray.origin, ray.offset));
   EXPECT_EQ(world.rays->closest(ray, kMaskDiffuse).object, -1);
-  world.rays->lookAround(ray.origin, ray.offset, kMaskSpecular, around);
+  world.rays->lookAround(ray, ray.offset, kMaskSpecular, around);
   EXPECT_EQ(world.rays->closest(ray, kMaskSpecular).object, 1);
   const std::vector<uint8_t> none(world.scene.groups.size(), 0);
   const RayFilter filter{&none};

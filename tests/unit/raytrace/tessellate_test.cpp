@@ -31,7 +31,7 @@ TEST(Tessellate, AFlatPatchIsOneExactQuad) {
   EXPECT_LT(groups[0].deviation, 1e-6f);
 }
 
-TEST(Tessellate, PolygonsInViewAreAboutEightPixelsLong) {
+TEST(Tessellate, PolygonsInViewAreAboutSixteenPixelsLong) {
   for (const float tessellation : {1.0f, 4.0f})
     for (const float shadingRate : {1.0f, 4.0f}) {
       World world;
@@ -40,7 +40,7 @@ TEST(Tessellate, PolygonsInViewAreAboutEightPixelsLong) {
       world.add(sphere(), translation({0, 0, 3}));
       const auto groups = coarse(world);
       const float pixel = world.camera->pixelSize({0, 0, 2}),
-                  expected = 8 * std::sqrt(shadingRate) / tessellation;
+                  expected = 16 * std::sqrt(shadingRate) / tessellation;
       EXPECT_LT(longestEdge(groups[0]),
                 expected * pixel * 1.8f);  // the rate is that of the average distance along a line
       EXPECT_GT(longestEdge(groups[0]), expected * pixel * 0.6f);
@@ -101,7 +101,7 @@ TEST(Tessellate, TilesOfALargePatchShareTheirVertices) {
 TEST(Tessellate, DisplacedPolygonsReachTheRateOfMicropolygons) {
   World world;
   world.attributes.trace.displacements = true;
-  world.attributes.trace.tessellation = 8;
+  world.attributes.trace.tessellation = 16;
   world.attributes.displacement =
       shader("noisybump", {floatsParam("Km", ValueType::Float, Storage::Uniform, {0.1f})});
   world.attributes.displacementBound = 0.1f;
