@@ -5,8 +5,10 @@
 namespace tomales {
 namespace {
 
-/// Six sides of a box and a few between, or surfaces that meet: more than that in one voxel are foliage or noise.
-constexpr int kMostLayers = 8;
+/// Six sides of a box and a few between: more directions than that in one voxel are foliage or noise.
+constexpr int kMostLayers = 12;
+/// From so many on, surfaces that face alike share one: coarse voxels meet many, and are not asked what finer ones know.
+constexpr int kSharedFrom = 6;
 
 }  // namespace
 
@@ -26,22 +28,24 @@ int32_t BrickAccumulator::findLayer(int voxel, const LayerSum& like, bool& merge
     if (along > 1e-15f && along * along >= kLayerCosine * kLayerCosine * dot(mean, mean) * length2) return only;
   }
   const float length = glm::length(normal);
-  int32_t best = -1;
-  float bestCosine = -4;
+  int32_t own = -1, any = -1;
+  float ownCosine = -2, anyCosine = -2;
   int count = 0;
   for (int32_t l = head_[static_cast<size_t>(voxel)]; l >= 0; l = layers_[static_cast<size_t>(l)].next, ++count) {
-    const vec3& mean = layers_[static_cast<size_t>(l)].normal;
+    const auto& [mean, weight, next, incoherent, surface] = layers_[static_cast<size_t>(l)];
     float cosine = -1;
     if (oriented && mean != vec3(0.0f))
       cosine = dot(mean, normal) / (glm::length(mean) * length);
     else if (!oriented && mean == vec3(0.0f))
       cosine = 1;
-    if (layers_[static_cast<size_t>(l)].surface != like.surface) cosine -= 2;  // any of the same surface comes first
-    if (cosine > bestCosine) best = l, bestCosine = cosine;
+    if (cosine > anyCosine) any = l, anyCosine = cosine;
+    if (cosine > ownCosine && surface == like.surface) own = l, ownCosine = cosine;
   }
-  if (bestCosine >= kLayerCosine) return best;
-  merged = count == kMostLayers;
-  return merged ? best : -1;
+  if (ownCosine >= kLayerCosine) return own;
+  const bool alike = anyCosine >= kLayerCosine;
+  if (count < (alike ? kSharedFrom : kMostLayers)) return -1;
+  merged = !alike;
+  return any;
 }
 
 int32_t BrickAccumulator::add(int voxel, const LayerSum& sum, const float* data, float share) {

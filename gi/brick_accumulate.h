@@ -30,6 +30,7 @@ class BrickAccumulator {
   Brick finish(float tolerance) const;
 
  private:
+  /// merged: there is no room for another, and the one that is found faces elsewhere.
   int32_t findLayer(int voxel, const LayerSum& like, bool& merged) const;
 
   int width_;

@@ -8,12 +8,16 @@
 namespace tomales {
 namespace {
 
-bool applies(const BoundLight& light, const Batch& batch) {
-  if (batch.points == nullptr) return false;  // displacement shaders see no light
-  if (batch.context.light != Illumination::Lights || batch.context.kind == RayKind::Transmission) return false;
+/// For what the batch is.
+bool isOn(const BoundLight& light, const Batch& batch) {
   if (!(batch.context.kind == RayKind::Diffuse ? light.indirect : light.direct)) return false;
   if (!light.can(TM_LIGHT_INDIRECT)) return batch.context.direct || batch.context.kind != RayKind::Camera;
   return batch.context.indirect && batch.group.group->attributes->indirect.receive;
+}
+
+bool applies(const BoundLight& light, const Batch& batch) {
+  if (batch.points == nullptr) return false;  // displacement shaders see no light
+  return batch.context.light == Illumination::Lights && batch.context.kind != RayKind::Transmission && isOn(light, batch);
 }
 
 /// Of the points, without neighbours; what the light brings has room for those.
@@ -210,6 +214,20 @@ int Lights::mostSamples(Batch& batch) const {
 void Lights::along(Batch& batch, const LobeDirections& lobe, TmVec3 Cl) {
   forEachWithExtent(batch, [&](const BoundLight& light) { alongOne(batch, light, lobe, Cl); });
   ++lobes_;
+}
+
+void Lights::addSkies(Batch& batch, TmConstVec3 direction, const uint8_t* leaves, TmConstVec3 opacity, TmVec3 color) const {
+  const bool lit = batch.context.light == Illumination::Lights || batch.context.light == Illumination::Stored;
+  if (!lit || std::none_of(leaves, leaves + batch.points->count(), [](uint8_t l) { return l != 0; })) return;
+  for (const BoundLight* light : batch.group.lights) {
+    if (!light->can(TM_LIGHT_SKY) || !light->visible || light->nonspecular || !isOn(*light, batch) || (group_ && light->group != *group_)) continue;
+    TmGrid g = lightGrid(batch, *light);
+    g.active = leaves;
+    for (int i = 0; i < g.count; ++i) set(g.L, i, get(direction, i));
+    if (!batch.run(*light->bound, g)) continue;
+    darkenNonFinite(batch, *light->bound, g);
+    forActive(&g, [&](int i) { set(color, i, get(color, i) + (1.0f - get(opacity, i)) * get(g.Cl, i)); });
+  }
 }
 
 void Lights::alongOne(Batch& batch, const BoundLight& light, const LobeDirections& lobe, TmVec3 Cl) {

@@ -27,7 +27,8 @@ struct Shot {
     ShadePoints points(0, 0);
     const int i = points.add(5U);
     points.set3(kPx, i, from), points.set3(kNx, i, {0, 0, 1}), points.set3(kNgx, i, {0, 0, 1}), points.set3(kIx, i, {0, 0, -1});
-    RayResult result{&distance, {&color.x, &color.y, &color.z}, {&opacity.x, &opacity.y, &opacity.z}, {}};
+    RayResult result;
+    result.distance = &distance, result.color = {&color.x, &color.y, &color.z}, result.opacity = {&opacity.x, &opacity.y, &opacity.z};
     for (const auto& [name, floats] : names) {
       vec3& value = outputs[name];
       value = vec3(kUntouched);
