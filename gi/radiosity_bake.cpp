@@ -7,6 +7,7 @@ namespace tomales {
 namespace {
 
 constexpr int kProbes = 4;          ///< Edges across a patch that its size is measured along.
+constexpr uint32_t kManyPatches = 4096;  ///< Of an object: each is small then, and measured by its corners alone.
 constexpr int kMostTexels = 2048;   ///< Along an edge.
 constexpr int kSamples = 2;         ///< Along each edge of a texel.
 constexpr float kShare = 1.0f / (kSamples * kSamples);
@@ -16,32 +17,6 @@ constexpr uint32_t kBakeStream = 0x72616469U;
 int powerOfTwoNear(float texels) {
   const float clamped = std::clamp(texels, 1.0f, static_cast<float>(kMostTexels));
   return 1 << static_cast<int>(std::lround(std::log2(clamped)));
-}
-
-RadiosityChart chartOf(const Scene& scene, const Camera& camera, int object, uint32_t patch, float texels) {
-  vec3 at[kProbes + 1][kProbes + 1];
-  vec3 middle(0);
-  for (int j = 0; j <= kProbes; ++j)
-    for (int i = 0; i <= kProbes; ++i) {
-      at[j][i] = surfaceAt(scene, object, patch, static_cast<float>(i) / kProbes, static_cast<float>(j) / kProbes).P;
-      middle += at[j][i] / static_cast<float>((kProbes + 1) * (kProbes + 1));
-    }
-  float alongU = 0, alongV = 0;
-  for (int j = 0; j <= kProbes; ++j) {
-    float u = 0, v = 0;
-    for (int i = 0; i < kProbes; ++i) u += glm::length(at[j][i + 1] - at[j][i]), v += glm::length(at[i + 1][j] - at[i][j]);
-    alongU = std::max(alongU, u), alongV = std::max(alongV, v);
-  }
-  const Attributes::Radiosity& asked = scene.objects[static_cast<size_t>(object)].attributes->radiosity;
-  // By its distance, so that what the camera does not see is no coarser than what it sees as far away.
-  const float unit = asked.screen ? camera.pixelSize({0, 0, glm::length(middle)}) : std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))));
-  const float texel = std::max(asked.texelSize * unit / texels, 1e-12f);
-  RadiosityChart chart;
-  chart.width = powerOfTwoNear(alongU / texel), chart.height = powerOfTwoNear(alongV / texel);
-  chart.texels.assign(static_cast<size_t>(chart.width) * static_cast<size_t>(chart.height), vec3(0));
-  chart.coverage.assign(chart.texels.size(), 0.0f);
-  chart.texelSize = std::max(std::sqrt(alongU / static_cast<float>(chart.width) * alongV / static_cast<float>(chart.height)), 1e-20f);
-  return chart;
 }
 
 /// Samples of texels on their way to be shaded together.
@@ -108,11 +83,29 @@ void sample(const RadiosityBake& bake, const Texel& texel, Samples& samples, vec
 
 }  // namespace
 
-std::vector<RadiosityChart> layOutCharts(const Scene& scene, const Camera& camera, int object, float texels) {
-  std::vector<RadiosityChart> charts;
-  const uint32_t patches = scene.objects[static_cast<size_t>(object)].shape().patchCount();
-  for (uint32_t p = 0; p < patches; ++p) charts.push_back(chartOf(scene, camera, object, p, texels));
-  return charts;
+RadiosityChart chartOf(const Scene& scene, const Camera& camera, int object, uint32_t patch, float texels) {
+  const int probes = scene.objects[static_cast<size_t>(object)].shape().patchCount() > kManyPatches ? 1 : kProbes;
+  vec3 at[kProbes + 1][kProbes + 1];
+  vec3 middle(0);
+  for (int j = 0; j <= probes; ++j)
+    for (int i = 0; i <= probes; ++i) {
+      at[j][i] = surfaceAt(scene, object, patch, static_cast<float>(i) / static_cast<float>(probes), static_cast<float>(j) / static_cast<float>(probes)).P;
+      middle += at[j][i] / static_cast<float>((probes + 1) * (probes + 1));
+    }
+  float alongU = 0, alongV = 0;
+  for (int j = 0; j <= probes; ++j) {
+    float u = 0, v = 0;
+    for (int i = 0; i < probes; ++i) u += glm::length(at[j][i + 1] - at[j][i]), v += glm::length(at[i + 1][j] - at[i][j]);
+    alongU = std::max(alongU, u), alongV = std::max(alongV, v);
+  }
+  const Attributes::Radiosity& asked = scene.objects[static_cast<size_t>(object)].attributes->radiosity;
+  // By its distance, so that what the camera does not see is no coarser than what it sees as far away.
+  const float unit = asked.screen ? camera.pixelSize({0, 0, glm::length(middle)}) : std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))));
+  const float texel = std::max(asked.texelSize * unit / texels, 1e-12f);
+  RadiosityChart chart;
+  chart.width = powerOfTwoNear(alongU / texel), chart.height = powerOfTwoNear(alongV / texel);
+  chart.texelSize = std::max(std::sqrt(alongU / static_cast<float>(chart.width) * alongV / static_cast<float>(chart.height)), 1e-20f);
+  return chart;
 }
 
 void bakeTexels(const RadiosityBake& bake, int object, bool back, std::span<RadiosityChart> charts, const TexelRun& run) {

@@ -12,8 +12,8 @@ struct RadiosityBake {
   const RadiositySettings settings;
 };
 
-/// Charts of an object's patches, of which nothing is known yet.
-std::vector<RadiosityChart> layOutCharts(const Scene& scene, const Camera& camera, int object, float texels);
+/// The chart of a patch, without its texels yet.
+RadiosityChart chartOf(const Scene& scene, const Camera& camera, int object, uint32_t patch, float texels);
 /// Shades some of their texels, one side of them.
 void bakeTexels(const RadiosityBake& bake, int object, bool back, std::span<RadiosityChart> charts, const TexelRun& run);
 

@@ -30,6 +30,17 @@ int RadiosityChart::levels() const {
   return n;
 }
 
+void RadiosityChart::halve() {
+  const int before = width * height;
+  width = std::max(1, width / 2), height = std::max(1, height / 2);
+  texelSize *= std::sqrt(static_cast<float>(before) / static_cast<float>(width * height));
+}
+
+void RadiosityChart::allocate() {
+  texels.assign(static_cast<size_t>(width) * static_cast<size_t>(height), vec3(0));
+  coverage.assign(texels.size(), 0.0f);
+}
+
 // Push and pull (Gortler et al. 1996), so that what is trimmed away darkens nothing along its edge.
 void RadiosityChart::makeLevels() {
   struct Step {
@@ -94,11 +105,7 @@ RadiosityMaps::RadiosityMaps(const RayScene& rays, const ShadingSystem& shading,
       log.report(Severity::Info, fmt::format("radiosity-map-{}", why), o.where,
                  fmt::format("\"{}\" has no radiosity map, because {}; it is shaded where gather rays hit it", a.name, why));
   }
-  parallelFor(mapped.size(), 1, [&](size_t k, size_t) {
-    Map& map = maps_[static_cast<size_t>(mapped[k])];
-    map.front = layOutCharts(scene_, camera, mapped[k], settings.texels);
-    if (scene_.objects[static_cast<size_t>(mapped[k])].attributes->sides == 2) map.back = map.front;
-  });
+  layOut(mapped, camera, settings, log);
   std::vector<Run> runs;
   std::vector<RadiosityChart*> charts;
   for (const int object : mapped)
@@ -111,6 +118,33 @@ RadiosityMaps::RadiosityMaps(const RayScene& rays, const ShadingSystem& shading,
   parallelFor(charts.size(), kChartsPerTask, [&](size_t begin, size_t end) {
     for (size_t c = begin; c < end; ++c) charts[c]->makeLevels();
   });
+}
+
+void RadiosityMaps::layOut(const std::vector<int>& mapped, const Camera& camera, const RadiositySettings& settings, Log& log) {
+  struct Patch {
+    int object;
+    uint32_t number;
+  };
+  std::vector<Patch> patches;
+  for (const int object : mapped) {
+    const uint32_t count = scene_.objects[static_cast<size_t>(object)].shape().patchCount();
+    side(object, false).resize(count);
+    for (uint32_t p = 0; p < count; ++p) patches.push_back({object, p});
+  }
+  parallelFor(patches.size(), kChartsPerTask, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) side(patches[i].object, false)[patches[i].number] = chartOf(scene_, camera, patches[i].object, patches[i].number, settings.texels);
+  });
+  const auto hasBack = [&](int object) { return scene_.objects[static_cast<size_t>(object)].attributes->sides == 2; };
+  for (const int object : mapped)
+    if (hasBack(object)) side(object, true) = side(object, false);
+  int halvings = 0;
+  const auto charts = static_cast<int64_t>(patches.size());
+  for (int64_t before = 0, now = texelCount(); now > std::max(settings.mostTexels, charts) && now != before; before = now, now = texelCount(), ++halvings)
+    forEachChart([](RadiosityChart& c) { c.halve(); });
+  if (halvings > 0)
+    log.report(Severity::Warning, "radiosity-texels", {},
+               fmt::format("all radiosity maps together would have more than {} million texels: their edges have 1/{} of what was asked", settings.mostTexels >> 20, 1 << halvings));
+  forEachChart([](RadiosityChart& c) { c.allocate(); });
 }
 
 void RadiosityMaps::addRuns(int object, bool back, std::vector<Run>& runs) const {

@@ -13,6 +13,7 @@ namespace tomales {
 struct RadiositySettings {
   float texels = 1;   ///< Times as many along each edge as Attribute "radiosity" asks.
   uint32_t seed = 0;
+  int64_t mostTexels = int64_t{1} << 25;  ///< Of all maps together, which are halved until they have no more: about 20 bytes each.
 };
 
 /// Texels of one side of a patch, row by row, v down, and all coarser levels after them.
@@ -23,6 +24,9 @@ struct RadiosityChart {
   std::vector<float> coverage;   ///< Of each texel of the finest level, until makeLevels(): share of it that is known; empty: all of each.
 
   int levels() const;
+  /// Pre: no texels yet.
+  void halve();
+  void allocate();
   /// Of level 0: smooths from level to level by what is known of each texel, and fills those of which nothing is from the coarser ones.
   void makeLevels();
   /// Bilinear inside the chart, linear between levels; `width` is that of the footprint.
@@ -65,6 +69,13 @@ class RadiosityMaps {
     Map& map = maps_[static_cast<size_t>(object)];
     return back ? map.back : map.front;
   }
+  template <class Visit>
+  void forEachChart(const Visit& visit) {
+    for (Map& map : maps_)
+      for (auto* charts : {&map.front, &map.back})
+        for (RadiosityChart& c : *charts) visit(c);
+  }
+  void layOut(const std::vector<int>& mapped, const Camera& camera, const RadiositySettings& settings, Log& log);
   void addRuns(int object, bool back, std::vector<Run>& runs) const;
 
   const Scene& scene_;

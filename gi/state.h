@@ -73,6 +73,16 @@ class GatherPlaces {
   bool bumped_;
 };
 
+/// What records say of the active points of a batch.
+struct BatchLookup {
+  std::vector<int> points;                ///< Of the batch,
+  std::vector<IrradiancePlace> at;        ///< where they look,
+  std::vector<IrradianceEstimate> known;  ///< and what is there; of weight 0 where no record serves.
+};
+
+/// cache: null knows nothing. Counts what is looked up and found.
+BatchLookup lookUp(const GiState&, const IrradianceCache* cache, const GatherPlaces&, const ShadePoints&, const uint8_t* active, TmConstVec3 N);
+
 /// Phase of the gather pass in which the nearest point of a pixel is considered: 0 is a lattice of stride 16,
 /// and each phase after it halves the area for each point, down to every pixel (quincunx first, then the rest
 /// of the finer lattice).

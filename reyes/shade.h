@@ -274,7 +274,7 @@ class ShadingSystem {
   /// The indirect light switched on for a group, if any: what the gather pass must prepare.
   const IndirectQuery* indirectQuery(int group) const;
   bool needsRays() const;  ///< Some light or shader will trace.
-  bool tracesRays(int group) const;     ///< Does its surface shader ask for rays, and not for occlusion() alone?
+  bool tracesRays(int group) const;     ///< Does its surface shader ask for rays, and not for occlusion() or highlights alone?
   bool asksOcclusion(int group) const;  ///< May a shader of the group call occlusion() so that answers may be interpolated?
 
   LightKind lightKind(int light) const;  ///< None: its shader is missing, or it lights only what the camera sees.

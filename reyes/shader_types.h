@@ -43,6 +43,8 @@ typedef enum TmCapability {
                                 the host keeps how they change over a micropolygon */
   TM_OCCLUDED = 1 << 12,      /* surface, light, with TM_TRACES: answers of occlusion() may be interpolated between records that are made
                                 before anything is shaded (TmRayOptions::maxVariation) */
+  TM_TRACES_HIGHLIGHTS = 1 << 14, /* surface, with TM_TRACES: asks for rays only where highlights are wanted, so that without them it looks
+                                the same from every side */
   TM_EVEN = 1 << 13,          /* surface: under light that is the same from everywhere it looks the same wherever and from whichever side it is seen:
                                 its colour comes of Cs, Os and its parameters, not of places, coordinates or pictures. Photons ask it
                                 once, instead of at every hit */

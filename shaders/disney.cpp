@@ -199,6 +199,6 @@ void shade(const TmGrid* g) {
 
 extern const rsl::Shader disneyShader;
 const rsl::Shader disneyShader(TM_SURFACE, "disney", "principled surface of base colour Cs (Burley 2012)",
-                               TM_KEEPS_OPACITY | TM_TRACES | TM_DERIVATIVES, shade,
+                               TM_KEEPS_OPACITY | TM_TRACES | TM_TRACES_HIGHLIGHTS | TM_DERIVATIVES, shade,
                                {&metallic, &specular, &speculartint, &roughness, &sheen, &sheentint, &clearcoat, &clearcoatgloss, &reflections,
                                 &emission, &texturename, &diffusePart, &specularPart, &reflectionPart, &albedo});

@@ -27,6 +27,27 @@ std::string folderOf(const RenderSettings& settings, const Scene& scene) {
   return p && !p->strings.empty() ? p->strings[0] : std::string();
 }
 
+bool asksPoints(const RenderSettings& settings, const Scene& scene) {
+  if (settings.gi != GiChoice::Scene) return settings.gi == GiChoice::Points;
+  const Param* radiance = indirectParam(scene, "radiance");
+  return radiance && !radiance->strings.empty() && radiance->strings[0] == "points";
+}
+
+/// Brick maps, so that a ray finds the mean over its footprint, of those point clouds that are there.
+void bricksOfPoints(const fs::path& clouds, const fs::path& folder, const MapNames& names, const BrickSettings& settings, Log& log) {
+  for (const std::string& name : names.all()) {
+    const fs::path points = atlasFile(clouds, name, ".ptc");
+    if (!fs::exists(points)) {
+      log.report(Severity::Missing, "points-none-" + name, {}, fmt::format("there are no points \"{}\": its objects reflect no indirect light", points.string()));
+      continue;
+    }
+    const std::vector<CloudChannel> channels = PointFile(points.string()).channels();
+    if (std::none_of(channels.begin(), channels.end(), [](const CloudChannel& c) { return c.name == "irradiance"; }))
+      throw FileError(fmt::format("\"{}\" has no channel \"irradiance\"", points.string()));
+    writeIrradianceBricks(points, atlasFile(folder, name, ".bkm"), settings);
+  }
+}
+
 void warnOfStrangers(const IrradianceAtlas& maps, uint64_t world, Log& log) {
   if (const auto strange = maps.strange(world))
     log.report(Severity::Warning, "atlas-stale", {},
@@ -50,12 +71,18 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
                                                     const RenderSettings& settings, Stats& stats, Log& log) {
   const AtlasSettings atlas = atlasSettings(settings, scene);
   const std::string given = folderOf(settings, scene);
+  const bool points = asksPoints(settings, scene);
+  if (points && given.empty()) {
+    log.report(Severity::Missing, "points-folder", {}, "--gi points needs --atlas FOLDER of point clouds with irradiance: rendered without indirect light");
+    return nullptr;
+  }
   std::optional<TemporaryFolder> temporary;  // an open map keeps its file readable
   try {
-    if (given.empty()) temporary.emplace(fs::temp_directory_path());
+    if (given.empty() || points) temporary.emplace(fs::temp_directory_path());
     const fs::path folder = temporary ? temporary->path() : fs::path(given);
     const MapNames names = mapNames(scene, atlas);
-    const bool byHand = isMadeByHand(folder);
+    const bool byHand = points || isMadeByHand(folder);
+    if (points) bricksOfPoints(given, folder, names, atlas.bricks, log);
     if (!byHand) writeAtlas(folder, scene, rays, shading, names, atlas, {}, stats, log);
     auto maps = std::make_unique<const IrradianceAtlas>(folder, scene, names, brickCacheBytes(settings), log);
     if (byHand) warnOfStrangers(*maps, atlas.world, log);

@@ -73,7 +73,8 @@ void addShotOptions(CLI::App& app, RenderSettings& s) {
 void buildGather(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c = app.add_subcommand("gather", "A shot's irradiance cache, and all else that its rays say");
   addParsed(*c, "-o", in.render.output, parseNamed(".icf"), "SHOT.icf", "Write here")->required();
-  c->add_option("--irradiance", in.render.irradiance, "Start from these records and add what they leave uncovered")->type_name("OTHER.icf");
+  c->add_option("--irradiance", in.render.irradiance, "Start from these records and add what they leave uncovered; with --crop those inside are gathered anew")->type_name("OTHER.icf");
+  addCrop(*c, in.render);
   addLightOptions(*c, in.render);
   addRunOptions(*c, in.render);
   addShotOptions(*c, in.render);

@@ -5,9 +5,7 @@ namespace {
 
 GiChoice giOrUsageError(const std::string& text) {
   if (const auto choice = parseGi(text)) return *choice;
-  if (text == "points")
-    throw CLI::ValidationError("--gi", "\"" + text + "\" is not available yet; use scene, none, gather, atlas, radiosity, baked or reference");
-  throw CLI::ValidationError("--gi", "\"" + text + "\" is none of scene, none, gather, atlas, radiosity, baked, reference");
+  throw CLI::ValidationError("--gi", "\"" + text + "\" is none of scene, none, gather, atlas, points, radiosity, baked, reference");
 }
 
 }  // namespace
@@ -36,6 +34,7 @@ void addPictureOptions(CLI::App& app, RenderSettings& s) {
   addParsed(app, "--pixel-samples", s.pixelSamples, pixelSamples, "NxM", "Samples of a pixel");
   app.add_option("--shading-rate", s.shadingRate, "Area of a micropolygon in pixels, for all objects")
       ->check(CLI::Range(1e-3, 1e6));
+  app.add_flag("--draft", s.draft, "Coarse and fast, to place lights by: 50 gather rays, no displacement, micropolygons of 16 times the area, 2x2 samples");
   addParsed(app, "--frames", s.frames, parseFrames, "1-10x2,15", "Only these frames");
   app.add_option("--seed", s.seed, "Of all random numbers");
   app.add_option("--bucket-size", s.bucketSize, "Edge of a bucket in pixels")->check(CLI::Range(1, 4096));
@@ -44,7 +43,7 @@ void addPictureOptions(CLI::App& app, RenderSettings& s) {
 void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option_function<std::string>(
          "--gi", [&s](const std::string& t) { s.gi = giOrUsageError(t); },
-         "Indirect light: scene (as the RIB says), none, gather, atlas, radiosity, baked, reference")
+         "Indirect light: scene (as the RIB says), none, gather, atlas, points, radiosity, baked, reference")
       ->type_name("MODE");
   app.add_option("--samples", s.samples,
                  "Gather rays of an irradiance sample, or paths of a point for the reference")
@@ -58,7 +57,7 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--light-samples", s.lightSamples, "Samples of each area light and of the sky where the eye looks (default: as the lights ask)")->check(CLI::Range(1, 4096));
   app.add_option("--light-seed", s.lightSeed, "Of the random numbers of light alone");
   app.add_option("--photons", s.photons, "Photons to emit for --gi atlas")->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
-  app.add_option("--atlas", s.atlasFolder, "Folder of brick maps: used if they are there, else made and kept")->type_name("FOLDER");
+  app.add_option("--atlas", s.atlasFolder, "Folder of brick maps: used if they are there, else made and kept; for --gi points of point clouds")->type_name("FOLDER");
   app.add_option("--radiosity-texels", s.radiosityTexels, "Times as many texels along each edge of a radiosity map as objects ask, for --gi radiosity")
       ->check(CLI::Range(1e-3, 1e3));
   app.add_option("--radiosity-maps", s.radiosityFolder, "Write the radiosity maps there: a tiled MIP EXR for each object and side")->type_name("FOLDER");

@@ -38,6 +38,24 @@ void addIndirectLight(Scene& scene) {
   changeAttributes(scene, [&](Attributes& a) { a.lights.push_back(light->index); });
 }
 
+/// The low quality of approximate-gi 5.2; what the command line asks for besides wins.
+void makeDraft(Scene& scene) {
+  constexpr float kRays = 50, kCoarser = 16;
+  constexpr int kSamples = 2;
+  Options& o = scene.options;
+  o.xSamples = std::min(o.xSamples, kSamples), o.ySamples = std::min(o.ySamples, kSamples);
+  changeAttributes(scene, [](Attributes& a) { a.displacement = nullptr, a.displacementBound = 0, a.shadingRate *= kCoarser; });
+  for (auto& light : scene.lights) {
+    if (light->shader.name != "indirectlight") continue;
+    auto draft = std::make_shared<LightCall>(*light);
+    std::erase_if(draft->shader.params, [](const Param& p) { return p.name == "samples"; });
+    Param samples;
+    samples.name = "samples", samples.type = ValueType::Float, samples.floats = {kRays};
+    draft->shader.params.push_back(std::move(samples));
+    light = std::move(draft);
+  }
+}
+
 bool isMap(const DisplayCall& d) { return writesShadowMap(d) || d.type == "deepshad"; }
 
 /// -o replaces the first Display that is no map for later frames; a frame of such maps alone keeps them all. PNG is for looking at: no alpha, and sRGB unless the scene's Exposure
@@ -99,6 +117,7 @@ GiMode giModeOf(GiChoice choice, const Scene& scene) {
     case GiChoice::Reference:
       return GiMode::Reference;
     case GiChoice::Atlas:
+    case GiChoice::Points:
       return GiMode::Atlas;
     case GiChoice::Radiosity:
       return GiMode::Radiosity;
@@ -106,7 +125,7 @@ GiMode giModeOf(GiChoice choice, const Scene& scene) {
       return GiMode::Baked;
     case GiChoice::Scene:
       if (!hasIndirectLight(scene)) return GiMode::None;
-      return asksFor("atlas", scene) ? GiMode::Atlas : asksFor("radiosity", scene) ? GiMode::Radiosity : GiMode::Gather;
+      return asksFor("atlas", scene) || asksFor("points", scene) ? GiMode::Atlas : asksFor("radiosity", scene) ? GiMode::Radiosity : GiMode::Gather;
     default:
       return GiMode::None;
   }
@@ -154,6 +173,9 @@ void applyOverrides(Scene& scene, const RenderSettings& settings) {
   if (settings.memoryLimit) limitTextures(o, *settings.memoryLimit);
   if (settings.format) o.xResolution = (*settings.format)[0], o.yResolution = (*settings.format)[1];
   if (settings.crop) o.cropWindow = *settings.crop;
+  const bool wantsIndirect = settings.gi != GiChoice::Scene && settings.gi != GiChoice::None;
+  if (wantsIndirect && !hasIndirectLight(scene)) addIndirectLight(scene);
+  if (settings.draft) makeDraft(scene);
   if (settings.pixelSamples)
     o.xSamples = (*settings.pixelSamples)[0], o.ySamples = (*settings.pixelSamples)[1];
   if (settings.bucketSize) o.bucketWidth = o.bucketHeight = *settings.bucketSize;
@@ -163,8 +185,6 @@ void applyOverrides(Scene& scene, const RenderSettings& settings) {
     changeAttributes(scene, [&](Attributes& a) { a.shadingRate = *settings.shadingRate; });
   if (tracesFullGeometry(settings))
     changeAttributes(scene, [](Attributes& a) { a.trace.displacements = true, a.trace.rate = TessellationMode::Full; });
-  const bool wantsIndirect = settings.gi != GiChoice::Scene && settings.gi != GiChoice::None;
-  if (wantsIndirect && !hasIndirectLight(scene)) addIndirectLight(scene);
 }
 
 }  // namespace tomales

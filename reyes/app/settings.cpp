@@ -95,6 +95,7 @@ std::optional<GiChoice> parseGi(const std::string& text) {
   if (text == "none") return GiChoice::None;
   if (text == "gather") return GiChoice::Gather;
   if (text == "atlas") return GiChoice::Atlas;
+  if (text == "points") return GiChoice::Points;
   if (text == "radiosity") return GiChoice::Radiosity;
   if (text == "baked") return GiChoice::Baked;
   if (text == "reference") return GiChoice::Reference;

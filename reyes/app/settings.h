@@ -11,7 +11,7 @@ namespace tomales {
 
 constexpr const char* kVersion = "0.1.0";
 
-enum class GiChoice { Scene, None, Gather, Atlas, Radiosity, Baked, Reference };
+enum class GiChoice { Scene, None, Gather, Atlas, Points, Radiosity, Baked, Reference };
 
 struct RenderSettings {
   std::vector<std::string> files;  ///< One RIB stream; "-" is standard input.
@@ -20,6 +20,7 @@ struct RenderSettings {
   std::optional<std::array<int, 2>> format, pixelSamples;
   std::optional<std::array<float, 4>> crop;  ///< xmin xmax ymin ymax, 0..1
   std::optional<float> shadingRate;
+  bool draft = false;              ///< Coarse and fast, to place lights by.
   std::optional<std::vector<int>> frames;  ///< Sorted. None: all.
   GiChoice gi = GiChoice::Scene;
   int samples = 0, bounces = 0;  ///< 0: as the scene's indirect light asks.
@@ -32,7 +33,7 @@ struct RenderSettings {
   int64_t photons = 1'000'000;     ///< To emit for --gi atlas.
   float radiosityTexels = 1;       ///< Times as many along each edge of a radiosity map as objects ask.
   std::string radiosityFolder;     ///< Radiosity maps are written there too; empty: nowhere.
-  std::string atlasFolder;         ///< Brick maps to use, or to make; empty: made in a temporary folder.
+  std::string atlasFolder;         ///< Brick maps to use, or to make; empty: made in a temporary folder. For GiChoice::Points: point clouds.
   std::string bakedFolder;         ///< Brick maps of gathered light: added to, or with GiChoice::Baked used; empty: none.
   size_t brickCacheBytes = BrickCache::kDefaultBytes;
   std::optional<int> bucketSize;

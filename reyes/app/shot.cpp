@@ -79,6 +79,7 @@ void ShotJob::prepareLight() {
   IrradianceShot given = irradiance_->takeShot();
   if (given.emitters && given.shot == file_->shotSum()) job_->services()->useEmitters(std::move(*given.emitters));
   moveToCamera(given, shot_.scene.cameraFromWorldAtOpen());
+  if (gathersAnew_) dropRecordsOfCrop(given.caches);
   job_->services()->useCaches(std::move(given.caches));
 }
 
@@ -115,6 +116,29 @@ void ShotJob::shadePicture() {
   world_->report();
 }
 
+void ShotJob::dropRecordsOfCrop(std::vector<PreparedCache>& caches) const {
+  const PixelRect& crop = shot_.frame.crop;
+  for (PreparedCache& prepared : caches) {
+    IrradianceCache kept(prepared.cache.bound(), prepared.plan.cache);
+    for (const IrradianceRecord& r : prepared.cache.records()) {
+      const vec2 at = job_->camera().seeable(r.position) ? job_->camera().raster(r.position) : vec2(-1e9f);
+      if (!crop.contains(static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)))) kept.restore(r);
+    }
+    prepared.cache = std::move(kept);
+  }
+}
+
+bool ShotJob::copyAnswers(const std::set<uint32_t>& except, IcfWriter& out) {
+  if (!irradiance_ || irradiance_->shot().shot != file_->shotSum()) return true;
+  std::string error;
+  for (uint32_t i = 0; i < shot_.frame.tileCount(); ++i) {
+    if (except.contains(i)) continue;
+    const auto answers = irradiance_->answers(i, error);
+    if (answers && !answers->empty() && !out.writeAnswers(i, *answers)) return false;
+  }
+  return true;
+}
+
 void ShotJob::gatherIrradiance() {
   const auto unwritten = [&](const std::string& why) {
     log_.report(Severity::Output, "icf-write", {}, "\"" + settings_.output + "\" could not be written: " + why);
@@ -123,12 +147,16 @@ void ShotJob::gatherIrradiance() {
   std::string error;
   const auto out = IcfWriter::create(settings_.output, error);
   if (!out) return unwritten(error);
+  gathersAnew_ = settings_.crop.has_value();
   prepareLight();
   const RayTools* tools = world_->tools();
   if (!tools) return;
+  const std::vector<uint32_t> asked = tilesOf(shot_.frame, shot_.scene.options);
+  const std::set<uint32_t> inCrop(asked.begin(), asked.end());
   TileStore tiles(shot_.frame.tileCount(), kTilesInMemory_bytes, [this](size_t index) { return load(index); });
-  job_->gather(shot_.frame, tiles.reader());
-  const bool written = recordAnswers(tiles, *out);
+  // What has lost records outside the crop, because those of inside reached there, is served too.
+  job_->gather(shot_.frame, [&](size_t index) { return irradiance_ || inCrop.contains(static_cast<uint32_t>(index)) ? tiles.read(index) : nullptr; });
+  const bool written = recordAnswers(tiles, *out) && copyAnswers(inCrop, *out);
   IrradianceShot shot{interrupted() ? 0 : file_->shotSum(), job_->giSettings(), shot_.scene.cameraFromWorldAtOpen(), {},
                       tools->rays->emitters().table()};
   shot.caches = job_->services()->takeCaches();

@@ -1,5 +1,7 @@
 // A .dfb opened for a command: edited as the command line asks, its tiles handed out, its light prepared.
 #pragma once
+#include <set>
+
 #include "gi/icf.h"
 #include "reyes/app/frame_job.h"
 #include "reyes/app/ray_world.h"
@@ -24,6 +26,10 @@ class ShotJob {
   void prepareLight();
   /// Nothing: its bucket is damaged, which is reported.
   std::optional<DeepTile> load(size_t index);
+  /// What was gathered before goes, where --crop asks for it anew.
+  void dropRecordsOfCrop(std::vector<PreparedCache>& caches) const;
+  /// Those of buckets that --crop leaves as they were.
+  bool copyAnswers(const std::set<uint32_t>& except, IcfWriter& out);
   bool recordAnswers(TileStore& tiles, IcfWriter& out);
 
   std::unique_ptr<DfbFile> file_;
@@ -32,6 +38,7 @@ class ShotJob {
   Log& log_;
   Shot shot_;
   std::unique_ptr<IcfFile> irradiance_;
+  bool gathersAnew_ = false;  ///< What --crop shows, with records of elsewhere given.
   std::unique_ptr<RayWorld> world_;
   std::unique_ptr<FrameJob> job_;
 };

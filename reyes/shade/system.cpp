@@ -90,7 +90,7 @@ const IndirectQuery* ShadingSystem::indirectQuery(int group) const {
 
 bool ShadingSystem::tracesRays(int group) const {
   const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
-  return g.surface->can(TM_TRACES) && !g.surface->can(TM_OCCLUDED);
+  return g.surface->can(TM_TRACES) && !g.surface->can(TM_OCCLUDED) && !g.surface->can(TM_TRACES_HIGHLIGHTS);
 }
 
 // Of a light that says how far answers may be off it is known before it runs.

@@ -129,6 +129,14 @@ t.expect_run("baked light that is not there", ["room.rib", "--gi", "baked", "--b
 (t.folder / "light" / "room.bkm").write_bytes(b"TMBRICKS" + bytes(40))
 t.expect(lit("red.rib", "--gi", "baked", "--baked", "light", "-o", "out.exr")[0] == 3, "a damaged map is said")
 
+# Point clouds in place of brick maps.
+t.run("render", "room.rib", "--gi", "atlas", "--atlas", "byhand", "-o", "bricks.exr", "-q")
+t.expect_run("gather rays look up points", ["room.rib", "--gi", "points", "--atlas", "byhand_points", "-o", "points.exr", "-q"], 0)
+t.expect(apart("points.exr", "bricks.exr") < 0.001, "as they do brick maps of them")
+t.expect_run("points without a folder", ["room.rib", "--gi", "points", "-o", "out.exr"], 3, "needs --atlas FOLDER of point clouds")
+t.expect_run("points that are not there", ["room.rib", "--gi", "points", "--atlas", "nowhere", "-o", "out.exr"], 3, "there are no points")
+t.expect_run("photons are no irradiance", ["room.rib", "--gi", "points", "--atlas", "byhand_photons", "-o", "out.exr"], 3, 'has no channel "irradiance"')
+
 # A scene without light, an object that no photon reaches, a disk that is full.
 t.write("dark.rib", ROOM.format(camera="0", light="2", color="0.5").replace('LightSource "pointlight"', '# LightSource "pointlight"'))
 t.expect_run("a scene without light", ["dark.rib", "--gi", "atlas", "-o", "dark.exr"], 0, "emits photons")

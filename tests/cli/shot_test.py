@@ -1,13 +1,18 @@
 """A picture in steps (hide, gather, shade) is the picture of one process, bit for bit; and what becomes of files that are damaged,
 disks that are full and runs that are killed."""
 import json
+import pathlib
 import random
 import resource
 import signal
 import subprocess
+import sys
 import time
 
 from program import Suite
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "image"))
+from pictures import pixels  # noqa: E402
 
 SCENE = """Display "scene.exr" "file" "rgba"
 Format 48 40 1
@@ -192,6 +197,16 @@ suite.expect_run("a memory limit is obeyed and said so", ["render", "direct.rib"
 expect_same("a frame that is shaded bucket by bucket has the same bits", "direct.exr", "small.exr")
 suite.run("render", "indirect.rib", "-o", "given.exr", "--irradiance", "indirect.icf", "--stats", "given.json", "-q")
 expect_same("a render with records from a file has the same bits", "indirect.exr", "given.exr")
+# One region is gathered anew, after an edit; the rest of the picture stays as it is.
+suite.write("region.rib", 'Attribute "identifier" "name" ["floor"] Color [0.9 0.1 0.1]')
+suite.run("gather", "indirect.dfb", "-o", "region.icf", "--irradiance", "indirect.icf", "--crop", "0,0.4,0,1", "--edit", "region.rib", "--stats", "region.json", "-q")
+for name in ("indirect", "region"):
+    suite.run("shade", "indirect.dfb", "--irradiance", f"{name}.icf", "-o", f"{name}.part.exr", "--indirect-only", "-q", "--stats", f"{name}.part.json")
+before, after = (pixels(suite.folder / f"{name}.part.exr") for name in ("indirect", "region"))
+inside, outside = (sum(before[xy] != after[xy] for xy in before if (xy[0] < 24) == left) for left in (True, False))
+gathered = json.loads((suite.folder / "region.json").read_text())["irradiance_cache"]["samples"]
+suite.expect(gathered > 0 and inside > 200 and outside < 100, f"a region is gathered anew ({gathered} records, {inside} pixels, {outside} elsewhere)")
+suite.expect(json.loads((suite.folder / "region.part.json").read_text())["rays"]["gather"] == 0, "and needs no rays to be shaded")
 suite.run("render", "indirect.rib", "-o", "given.exr", "--irradiance", "indirect.icf", "--irradiance-append", "--stats", "given.json", "-q")
 suite.expect(json.loads((suite.folder / "given.json").read_text())["irradiance_cache"]["samples"] == 0, "nothing is appended where all is covered")
 suite.expect_run("a frame beyond memory is refused", ["render", "direct.rib", "-o", "huge.exr", "--format", "65536x65536", "--bucket-size", "16"], 4, "--crop")

@@ -72,6 +72,18 @@ TEST(Overrides, AGiModeAddsAnIndirectLightOnceAndOnlyWhereItIsMissing) {
   EXPECT_EQ(giModeOf(GiChoice::None, scene), GiMode::None);
 }
 
+TEST(Overrides, ADraftIsCoarseButForWhatIsAskedBesides) {
+  Scene scene = sceneOf("PixelSamples 4 4\nWorldBegin\nLightSource \"indirectlight\" 1 \"samples\" [600]\nShadingRate 0.5\nDisplacement \"bumpy\"\nSphere 1 -1 1 360\nWorldEnd\n");
+  RenderSettings settings;
+  settings.draft = true;
+  settings.pixelSamples = {{3, 5}};
+  applyOverrides(scene, settings);
+  EXPECT_EQ(scene.objects[0].attributes->shadingRate, 8);
+  EXPECT_EQ(scene.objects[0].attributes->displacement, nullptr);
+  EXPECT_EQ(scene.options.xSamples, 3);
+  EXPECT_EQ(findParam(scene.lights[0]->shader.params, "samples")->number(0), 50);
+}
+
 TEST(Overrides, PictureSizesComeFromTheCommandLine) {
   Scene scene = sceneOf(kTwoSpheres);
   RenderSettings settings;

@@ -44,7 +44,8 @@ TEST(OutputName, PicturesAreKnownByTheirExtension) {
   for (const char* name : {"a.jpg", "exr", "a.exr.gz", ""}) EXPECT_FALSE(namesPicture(name)) << name;
 }
 
-TEST(GiChoice, HasFourNames) {
+TEST(GiChoice, HasNames) {
+  EXPECT_EQ(parseGi("points"), GiChoice::Points);
   EXPECT_EQ(parseGi("reference"), GiChoice::Reference);
   EXPECT_FALSE(parseGi("Gather"));
 }

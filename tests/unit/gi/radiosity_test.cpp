@@ -173,6 +173,29 @@ TEST(RadiosityMaps, DoNotAnswerForRaysThatRanShaders) {
     }
 }
 
+TEST(RadiosityMaps, AreMadeOfWhatTracesForHighlightsAlone) {
+  SceneBuilder b = cornell();
+  auto a = std::make_shared<Attributes>(*b.scene.objects[0].attributes);
+  a->surface = std::make_shared<ShaderCall>(call("disney"));
+  b.scene.objects[0].attributes = a;
+  World world(std::move(b.scene));
+  const auto services = world.use({.mode = GiMode::Radiosity});
+  EXPECT_FALSE(RadiosityMaps(world.rays, world.shading, world.camera, {}, world.log).charts(0, false).empty());
+}
+
+TEST(RadiosityMaps, HaveNoMoreTexelsTogetherThanTheyMay) {
+  World world(cornell().scene);
+  const auto services = world.use({.mode = GiMode::Radiosity});
+  const RadiosityMaps asked(world.rays, world.shading, world.camera, {}, world.log);
+  const int64_t most = asked.texelCount() / 10;
+  const RadiosityMaps bounded(world.rays, world.shading, world.camera, {.mostTexels = most}, world.log);
+  EXPECT_LE(bounded.texelCount(), most);
+  EXPECT_GE(bounded.texelCount(), most / 4);
+  EXPECT_EQ(world.log.worst(), Severity::Warning);
+  const RadiosityMaps least(world.rays, world.shading, world.camera, {.mostTexels = 1}, world.log);
+  EXPECT_GT(least.texelCount(), 0);
+}
+
 TEST(RadiosityMaps, AreNotMadeOfWhatMirrorsIsNotOpaqueOrWantsNone) {
   SceneBuilder b = cornell();
   for (const size_t i : {size_t{0}, size_t{1}, size_t{3}}) {
