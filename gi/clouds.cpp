@@ -71,12 +71,12 @@ std::string problemOf(const TmSubsurface& given, const std::optional<Translucenc
 }
 
 /// Throws FileError.
-PointCloud cloudOf(const fs::path& path, int estimator) {
+PointCloud cloudOf(const fs::path& path, const TmPhotonLookup* photons) {
   const PointFile file(path.string());
-  if (estimator <= 0) return file.readAll();
+  if (!photons) return file.readAll();
   requirePhotons(file);
   PhotonIrradianceSettings settings;
-  settings.nearest = estimator, settings.every = 1;
+  settings.nearest = photons->estimator, settings.every = 1, settings.maxRadius = photons->maxDistance;
   return estimateIrradiance(file.readAll(), settings);
 }
 
@@ -105,15 +105,16 @@ bool CloudFiles::bake(const CloudQuery& q, const std::vector<CloudValue>& values
   return true;
 }
 
-const CloudFiles::Opened<BrickMap>& CloudFiles::opened(const std::string& file, int estimator) {
+const CloudFiles::Opened<BrickMap>& CloudFiles::opened(const std::string& file, const TmPhotonLookup* photons) {
   const fs::path path = found(file, searchPath_);
   const bool isCloud = path.extension() == ".ptc";
   const std::lock_guard lock(mutex_);
-  const auto [it, isNew] = opened_.try_emplace({file, isCloud ? estimator : 0});
+  const bool estimates = isCloud && photons;
+  const auto [it, isNew] = opened_.try_emplace({file, estimates ? photons->estimator : 0, estimates ? photons->maxDistance : 0});
   if (!isNew) return it->second;
   try {
     if (isCloud)
-      it->second.data = std::make_unique<const BrickMap>(cloudOf(path, estimator));
+      it->second.data = std::make_unique<const BrickMap>(cloudOf(path, photons));
     else
       it->second.data = std::make_unique<const BrickMap>(path.string(), cache_);
   } catch (const FileError& e) {
@@ -145,8 +146,10 @@ bool CloudFiles::lookUp(const CloudQuery& q, const std::vector<CloudValue>& valu
   return problem.empty();
 }
 
-bool CloudFiles::photons(const CloudQuery& q, int estimator, TmVec3 E, std::string& problem) {
-  const Opened<BrickMap>& file = opened(q.file, std::max(1, estimator));
+bool CloudFiles::photons(const CloudQuery& q, const TmPhotonLookup& given, TmVec3 E, std::string& problem) {
+  TmPhotonLookup lookup = given;
+  lookup.estimator = std::max(1, lookup.estimator), lookup.maxDistance = std::max(0.0f, lookup.maxDistance);
+  const Opened<BrickMap>& file = opened(q.file, &lookup);
   problem = file.problem;
   const int place = file.data ? offsetOf(file.data->channels(), "irradiance", 3) : -1;
   if (file.data && place < 0) problem = "is no photon map";
@@ -165,20 +168,36 @@ bool CloudFiles::photons(const CloudQuery& q, int estimator, TmVec3 E, std::stri
   return problem.empty();
 }
 
-const CloudFiles::Opened<Diffusion>& CloudFiles::openedToDiffuse(const std::string& file) {
+template <class Data, class Key, class Make>
+const CloudFiles::Opened<Data>& CloudFiles::openedWhole(std::map<Key, Opened<Data>>& known, const Key& key, const std::string& file, const Make& make) {
   const std::lock_guard lock(mutex_);
-  const auto [it, isNew] = diffusing_.try_emplace(file);
+  const auto [it, isNew] = known.try_emplace(key);
   if (!isNew) return it->second;
   try {
-    it->second.data = std::make_unique<const Diffusion>(PointFile(found(file, searchPath_).string()).readAll());
+    it->second.data = make(PointFile(found(file, searchPath_).string()).readAll());
   } catch (const FileError& e) {
     it->second.problem = e.what();
   }
   return it->second;
 }
 
+bool CloudFiles::occlusion(const CloudQuery& q, const DisksQuery& query, float* covered, TmVec3 radiance, std::string& problem) {
+  const Opened<Disks>& file = openedWhole(disks_, std::pair(q.file, query.channel), q.file,
+                                          [&](const PointCloud& cloud) { return std::make_unique<const Disks>(cloud, query.channel); });
+  problem = file.problem;
+  if (!file.data) return false;
+  for (int i = 0; i < q.count; ++i) {
+    if (!q.active[i] || at(q.N, i) == vec3(0)) continue;
+    const HemisphereView seen = file.data->seenFrom(at(q.P, i), at(q.N, i), query);
+    covered[i] = seen.covered;
+    if (radiance.x) radiance.x[i] = seen.radiance.x, radiance.y[i] = seen.radiance.y, radiance.z[i] = seen.radiance.z;
+  }
+  return true;
+}
+
 bool CloudFiles::subsurface(const CloudQuery& q, const TmSubsurface& given, TmVec3 out, std::string& problem) {
-  const Opened<Diffusion>& file = openedToDiffuse(q.file);
+  const Opened<Diffusion>& file =
+      openedWhole(diffusing_, q.file, q.file, [](const PointCloud& cloud) { return std::make_unique<const Diffusion>(cloud); });
   problem = file.problem;
   const std::optional<Translucency> material = materialOf(given);
   if (problem.empty()) problem = problemOf(given, material);

@@ -7,6 +7,7 @@
 
 #include "gi/brick_map.h"
 #include "gi/diffusion.h"
+#include "gi/disks.h"
 #include "reyes/base/log.h"
 #include "reyes/shade.h"
 
@@ -19,7 +20,8 @@ class CloudFiles final : public CloudServices {
 
   bool bake(const CloudQuery&, const std::vector<CloudValue>&, std::string& problem) override;
   bool lookUp(const CloudQuery&, const std::vector<CloudValue>&, float* found, std::string& problem) override;
-  bool photons(const CloudQuery&, int estimator, TmVec3 E, std::string& problem) override;
+  bool photons(const CloudQuery&, const TmPhotonLookup&, TmVec3 E, std::string& problem) override;
+  bool occlusion(const CloudQuery&, const DisksQuery&, float* covered, TmVec3 radiance, std::string& problem) override;
   bool subsurface(const CloudQuery&, const TmSubsurface&, TmVec3 out, std::string& problem) override;
 
   /// All that was baked, as FILE.ptc. The points of a file are sorted by what they are, so that no bit depends on threads or buckets.
@@ -35,15 +37,18 @@ class CloudFiles final : public CloudServices {
     std::unique_ptr<const Data> data;  ///< Null: it could not be opened.
     std::string problem;
   };
-  /// estimator > 0: a photon map, as the irradiance that so many nearest photons tell of. Brick maps hold irradiance as it is.
-  const Opened<BrickMap>& opened(const std::string& file, int estimator = 0);
-  const Opened<Diffusion>& openedToDiffuse(const std::string& file);
+  /// With `photons`: a photon map, as the irradiance that the nearest tell of. Brick maps hold irradiance as it is.
+  const Opened<BrickMap>& opened(const std::string& file, const TmPhotonLookup* photons = nullptr);
+  /// What `make` makes of all points of a file.
+  template <class Data, class Key, class Make>
+  const Opened<Data>& openedWhole(std::map<Key, Opened<Data>>& known, const Key& key, const std::string& file, const Make& make);
 
   const std::string searchPath_;
   std::mutex mutex_;
   std::map<std::string, Baked> baked_;
-  std::map<std::pair<std::string, int>, Opened<BrickMap>> opened_;  ///< By file and estimator.
+  std::map<std::tuple<std::string, int, float>, Opened<BrickMap>> opened_;  ///< By file, estimator and greatest distance.
   std::map<std::string, Opened<Diffusion>> diffusing_;
+  std::map<std::pair<std::string, std::string>, Opened<Disks>> disks_;  ///< By file and channel.
   BrickCache cache_;
 };
 

@@ -1,4 +1,6 @@
 // The two answers to indirectDiffuse(): interpolated from the irradiance cache, and path traced.
+#include <bit>
+
 #include "gi/layers.h"
 #include "gi/state.h"
 #include "reyes/base/checksum.h"
@@ -110,15 +112,26 @@ std::vector<PreparedCache>::const_iterator preparedFor(const GiState& state, con
   return std::find_if(state.caches.begin(), state.caches.end(), [](const PreparedCache& c) { return !c.plan.gather.occlusion; });
 }
 
-IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, const GatherSettings& settings,
-                              RayAnswers* answers) {
+uint32_t nameOf(const std::string& text) { return static_cast<uint32_t>(checksum(std::as_bytes(std::span(text)))); }
+
+/// Of what GatherSettings do not hold as well.
+uint32_t nameOf(const std::optional<OcclusionQuery>& q) {
+  const auto bits = [](float x) { return std::bit_cast<uint32_t>(x); };
+  return q ? hashCombine(bits(q->bias), bits(q->falloff), static_cast<uint32_t>(q->falloffMode), static_cast<uint32_t>(q->sides), nameOf(q->subset),
+                         nameOf(q->excludeSubset))
+           : 0;
+}
+
+}  // namespace
+
+IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, const GatherSettings& settings, RayAnswers* answers) {
   const struct {
     vec3 position, normal;
     uint32_t key, seed;
     int group, samples;
     float maxDistance, time;
     vec3 drift;
-    uint32_t light, indirect, subset, radiosity;
+    uint32_t light, indirect, subset, radiosity, occlusion;
   } asked{point.position,
           point.normal,
           point.key,
@@ -130,21 +143,21 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
           point.drift,
           static_cast<uint32_t>(settings.light),
           settings.indirect,
-          static_cast<uint32_t>(checksum(std::as_bytes(std::span(settings.subset)))),
-          state.settings.mode == GiMode::Radiosity};
-  static_assert(sizeof asked == 19 * sizeof(uint32_t), "no padding, whose bytes would be names too");
+          nameOf(settings.subset),
+          state.settings.mode == GiMode::Radiosity,
+          nameOf(settings.occlusion)};
+  static_assert(sizeof asked == 20 * sizeof(uint32_t), "no padding, whose bytes would be names too");
   const uint64_t name = answers ? checksum(std::as_bytes(std::span(&asked, 1))) : 0;
   if (answers)
     if (const auto it = answers->indirect.find(name); it != answers->indirect.end()) return it->second;
   const RayTools* tools = gatherTools(state);
-  if (!tools) return {vec3(0.0f), point.normal, point.normal, point.normal};
-  const IrradianceRecord record = gather(*tools->rays, *tools->shading, point, settings, {&state.spots, state.radiosity.get()}, state.stats);
+  if (!tools) return {vec3(settings.occlusion ? 1.0f : 0.0f), point.normal, point.normal, point.normal};
+  const KnownLight known = settings.occlusion ? KnownLight{} : KnownLight{&state.spots, state.radiosity.get()};
+  const IrradianceRecord record = gather(*tools->rays, *tools->shading, point, settings, known, state.stats);
   const IndirectAnswer answer{record.E, record.dominant[0], record.dominant[1], record.dominant[2]};
   if (answers && answers->recording) answers->indirect[name] = answer;
   return answer;
 }
-
-}  // namespace
 
 const RayTools* gatherTools(const GiState& state) {
   const RayTools* tools = state.rays();
@@ -219,7 +232,7 @@ void interpolateIndirect(const GiState& state, const ShadePoints& points, const 
   int64_t interpolated = 0;
   for (size_t k = 0; k < at.size(); ++k) {
     const int i = asked[k];
-    const vec3 caustic = causticAt(state, points.group(), points.position(i), at[k].shadingNormal, at[k].pixelSize);
+    const vec3 caustic = causticAt(state, points.group(), at[k].position, at[k].shadingNormal, at[k].pixelSize);
     if (known[k].weight > 0) {
       ++interpolated;
       store(out, i, known[k].E + caustic, known[k].dominant);

@@ -93,8 +93,7 @@ bool interpolateOcclusion(const GiState& state, const ShadePoints& points, const
     const IrradianceEstimate known = prepared->cache.lookup(point.position, point.normal, n, point.pixelSize);
     ++lookups, interpolated += known.weight > 0;
     point.normal = n;
-    const RayTools* tools = known.weight > 0 ? nullptr : state.rays();
-    const float open = known.weight > 0 ? known.E.x : tools ? gather(*tools->rays, *tools->shading, point, plan.gather, {}, state.stats).E.x : 1;
+    const float open = known.weight > 0 ? known.E.x : gatherOrRecall(state, point, plan.gather, context.answers)[0].x;
     covered[i] = std::clamp(1 - open, 0.0f, 1.0f);
   }
   state.stats.irradianceCache.lookups += lookups;

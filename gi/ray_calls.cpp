@@ -12,6 +12,7 @@ ShadeContext contextOfHits(const Attributes& own, const RayQuery& query, const S
   hit.highlights = mode == GiMode::Reference;
   hit.kind = query.kind;
   hit.label = query.label, hit.lampsGlow = query.lampsGlow;
+  hit.importance *= query.importance;
   hit.diffuseLimit = std::min(context.diffuseLimit, context.depth + own.trace.maxDiffuseDepth);
   hit.specularLimit = std::min(context.specularLimit, context.specularDepth + own.trace.maxSpecularDepth);
   if (query.kind == RayKind::Diffuse) {
@@ -33,12 +34,16 @@ class ShaderRays {
   ShaderRays(const GiState& state, const RayTools& tools, const RayQuery& query, const ShadeContext& hitContext, const RayResult& result)
       : state_(state), tools_(tools), query_(query), context_(hitContext), result_(result) {}
 
-  void add(int element, const Ray& ray, SampleName name) { layers_.add(element, ray, name); }
+  void add(int element, const Ray& ray, SampleName name) {
+    layers_.add(element, ray, name);
+    if (result_.effective) covered_[element].start = ray.origin;
+  }
 
   void trace() {
     const bool wantsColor = result_.color.x || result_.opacity.x;
     for (int layer = 0; layer < (wantsColor ? kMostLayers : 1) && !layers_.rays.empty(); ++layer) {
       meet();
+      setLeaves();
       answers_.mode = query_.mode, answers_.wantsColor = wantsColor || asksForSurface(), answers_.elements = layers_.elements;
       answers_.outputs = layer == 0 ? result_.outputs : std::vector<RayOutput>{};
       if (answers_.wantsColor || !answers_.outputs.empty())
@@ -47,10 +52,12 @@ class ShaderRays {
         setDistances();  // the shader's own surface knows what lies before the first
       else
         tools_.rays->crossVolumes(layers_.came, layers_.left, layers_.rays, hits_, layers_.names, *tools_.shading, context_, answers_);
+      if (result_.effective) addCovered();
       if (wantsColor)
         layers_.goOn(*tools_.rays, hits_, answers_, query_.opacityThreshold,
                      [&](int i, const vec3& color, const vec3& clear) { add(i, color, clear); });
     }
+    for (const auto& [i, c] : covered_) result_.effective[i] = c.share > 0 ? c.distance / c.share : kInfinity;
   }
 
  private:
@@ -69,6 +76,22 @@ class ShaderRays {
     for (size_t r = 0; r < hits_.size(); ++r) result_.distance[layers_.elements[r]] = hits_[r].object < 0 ? kInfinity : std::max(hits_[r].t, 0.0f);
   }
 
+  void setLeaves() {
+    if (!result_.leaves) return;
+    for (size_t r = 0; r < hits_.size(); ++r)
+      if (hits_[r].object < 0) result_.leaves[layers_.elements[r]] = 1;
+  }
+
+  void addCovered() {
+    for (size_t r = 0; r < hits_.size(); ++r) {
+      if (hits_[r].object < 0) continue;
+      Covered& c = covered_[layers_.elements[r]];
+      const vec3 covers = layers_.clear[r] * glm::clamp(answers_.opacity[r], 0.0f, 1.0f), end = layers_.rays[r].origin + hits_[r].t * layers_.rays[r].direction;
+      const float share = (covers.x + covers.y + covers.z) / 3;
+      c.share += share, c.distance += share * glm::length(end - c.start);
+    }
+  }
+
   void add(int i, const vec3& color, const vec3& clear) {
     if (result_.color.x) result_.color.x[i] += color.x, result_.color.y[i] += color.y, result_.color.z[i] += color.z;
     if (result_.opacity.x) result_.opacity.x[i] = 1 - clear.x, result_.opacity.y[i] = 1 - clear.y, result_.opacity.z[i] = 1 - clear.z;
@@ -82,12 +105,20 @@ class ShaderRays {
   RayLayers layers_;
   std::vector<Hit> hits_;
   HitAnswers answers_;
+  /// What ends a ray, surface by surface, and the distances weighted by that.
+  struct Covered {
+    vec3 start{0.0f};
+    float share = 0, distance = 0;
+  };
+  std::map<int, Covered> covered_;  ///< Of each element, where `effective` is wanted.
 };
 
 void clearResult(const ShadePoints& points, const uint8_t* active, const RayResult& result) {
   for (int i = 0; i < points.count(); ++i) {
     if (!active[i]) continue;
     if (result.distance) result.distance[i] = kInfinity;
+    if (result.leaves) result.leaves[i] = 0;
+    if (result.effective) result.effective[i] = kInfinity;
     for (const TmVec3& v : {result.color, result.opacity})
       if (v.x) v.x[i] = v.y[i] = v.z[i] = 0;
   }

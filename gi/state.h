@@ -104,6 +104,9 @@ void setBias(const RayQuery&, Ray&);
 void traceForShader(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction, const RayQuery&,
                     const ShadeContext&, const RayResult&);
 
+/// Of a point that no record serves, or what rays answered there before, if `answers` has it.
+IndirectAnswer gatherOrRecall(const GiState&, const GatherPoint&, const GatherSettings&, RayAnswers* answers);
+
 /// E and dominant directions into element i of a result.
 void store(const IndirectResult& out, int i, const vec3& E, const vec3 dominant[3]);
 

@@ -17,9 +17,13 @@ void ShadePoints::reserve(int points) {
 }
 
 void ShadePoints::assign(const ShadePoints& from, int begin, int end) {
-  clear();
-  for (int i = begin; i < end; ++i) add(from.name(i));
-  for (int c = 0; c < channels_; ++c) std::copy(from.channel(c) + begin, from.channel(c) + end, channel(c));
+  const int n = end - begin;
+  names_.assign(from.names_.begin() + begin, from.names_.begin() + end);
+  if (n > capacity_) setCapacity(n);
+  for (int c = 0; c < channels_; ++c) {
+    std::copy(from.channel(c) + begin, from.channel(c) + end, channel(c));
+    std::fill(channel(c) + n, channel(c) + padded(n), 0.0f);
+  }
 }
 
 void ShadePoints::shrink() {

@@ -46,6 +46,7 @@ struct ShadeContext {
   bool highlights = false;     ///< Diffuse rays bring highlights too: those of the reference path tracer.
   RayAnswers* answers = nullptr;  ///< Of this batch: asked before shadow and gather rays are traced. Null: all are traced.
   bool rehearsal = false;      ///< Shaders run only to learn what they ask: no ray is traced, and nothing baked or printed.
+  float importance = 1;        ///< Of what is seen here, for the eye.
   int chunk = 0;               ///< Set by ShadingSystem: which part of the batch is being shaded.
 };
 
@@ -60,6 +61,7 @@ struct RayQuery {
   float opacityThreshold = 1;      ///< A ray goes on behind what is transparent until this much is covered.
   int number = 0, count = 1;       ///< These are rays `number` of `count` from each point.
   bool lampsGlow = true;           ///< Area lights are seen.
+  float importance = 1;            ///< Of what these rays bring.
   const float *radius = nullptr, *spread = nullptr;  ///< Of the footprint of each ray, at its start and added for each unit of length. Null: none.
 };
 
@@ -73,7 +75,9 @@ struct RayOutput {
 /// Arrays for count() points; null pointers: not wanted.
 struct RayResult {
   float* distance = nullptr;       ///< kInfinity: nothing was met, and no output set.
-  TmVec3 color{}, opacity{};       ///< Of all that the ray went through.
+  TmVec3 color{}, opacity{};       ///< Of all that the ray went through,
+  float* effective = nullptr;      ///< and with them the mean distance of what covers it; kInfinity: nothing does.
+  uint8_t* leaves = nullptr;       ///< 1: the ray was traced and ends nowhere, whatever it has passed that is transparent.
   std::vector<RayOutput> outputs;  ///< Of the first hit.
 };
 
@@ -171,6 +175,15 @@ struct CloudValue {
   float* c[3] = {nullptr, nullptr, nullptr};
 };
 
+/// What of a point cloud is in the way of a hemisphere.
+struct DisksQuery {
+  std::string channel;             ///< What the disks send.
+  float maxSolidAngle = 0.01f;     ///< Disks that together are seen under less count as one.
+  bool clamp = true;               ///< Those behind others do not count.
+  float coneAngle = kPi / 2;       ///< Half angle of what is looked at.
+  OcclusionQuery falloff;
+};
+
 /// The seam to point clouds and brick maps (implemented in gi/clouds, injected by reyes/app). `problem` says why false is returned.
 class CloudServices {
  public:
@@ -178,7 +191,9 @@ class CloudServices {
   virtual bool bake(const CloudQuery&, const std::vector<CloudValue>&, std::string& problem) = 0;
   virtual bool lookUp(const CloudQuery&, const std::vector<CloudValue>&, float* found, std::string& problem) = 0;
   /// E/pi of a photon map.
-  virtual bool photons(const CloudQuery&, int estimator, TmVec3 E, std::string& problem) = 0;
+  virtual bool photons(const CloudQuery&, const TmPhotonLookup&, TmVec3 E, std::string& problem) = 0;
+  /// Share of the hemisphere around N, weighted by the cosine, and (unless x is null) the mean radiance that arrives from it.
+  virtual bool occlusion(const CloudQuery&, const DisksQuery&, float* covered, TmVec3 radiance, std::string& problem) = 0;
   /// Baked light that leaves after diffusion, E/pi.
   virtual bool subsurface(const CloudQuery&, const TmSubsurface&, TmVec3 out, std::string& problem) = 0;
 };

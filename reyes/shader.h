@@ -83,15 +83,11 @@ class Batch {
   /// RSL faceforward(normalize(N), I).
   Vec3 facingNormal(int i) const { return faceforward(normalize(N(i)), I(i), Ng(i)); }
   Vec3Array facingNormals() const {
-    Vec3Array out(g);
-    for (int i : *this) out.set(i, facingNormal(i));
-    return out;
+    return forAll([this](int i) { return facingNormal(i); });
   }
   /// Unit vectors to the viewer.
   Vec3Array towardsViewer() const {
-    Vec3Array out(g);
-    for (int i : *this) out.set(i, -normalize(I(i)));
-    return out;
+    return forAll([this](int i) { return -normalize(I(i)); });
   }
 
   Vec3Array ambient() const {
@@ -193,6 +189,17 @@ class Batch {
   const TmGrid* const g;
 
  private:
+  /// Of inactive points as well: a loop without branches can be vectorised.
+  template <class Body>
+  Vec3Array forAll(const Body& body) const {
+    Vec3Array out(g);
+    const TmVec3 to = out;
+#ifdef __GNUC__
+#pragma GCC ivdep
+#endif
+    for (int i = 0; i < g->count; ++i) rsl::set(to, i, body(i));
+    return out;
+  }
   template <class Service>
   Vec3Array filled(const Service& service) const {
     Vec3Array out(g);

@@ -37,13 +37,40 @@ typedef struct TmRayOptions {
   int32_t passLamps;           /* 1: area lights do not glow for these rays, since lightAlong() or specular() has brought them */
   float maxVariation;          /* occlusion() of a whole hemisphere by the cosine: how far an answer may be off that is interpolated between
                                 * records (docs/gi.md); 0: traced at every point; < 0: as Attribute "irradiance" "maxerror" says, if it is given */
+  float importance;            /* of what the rays bring, 0 to 1: rayInfo("importance") where they arrive is the product of all on the way */
+  /* occlusion() alone: */
+  const char *environment, *environmentSpace; /* the latitude-longitude picture that rays see which meet nothing (NULL: black), and the
+                                * space whose +z is its top (NULL: "world") */
+  const char *pointCloud, *pointChannel; /* the disks of this file (.ptc) are in the way instead of geometry (NULL: rays), and the channel of what
+                                * they send (NULL: "_radiosity"); world space */
+  float maxSolidAngle;         /* disks that together are seen under less count as one */
+  int32_t clamp;               /* 1: disks behind others do not count, 0: all do */
 } TmRayOptions;
 
 #define TM_RAY_DEFAULTS \
-  { sizeof(TmRayOptions), 1, 0, 0, -1, 1e30f, 0, 0, 0, 0, TM_HIT_BOTH, TM_HIT_DEFAULT, 1, 0, 0, 0, 0, 0, -1 }
+  { sizeof(TmRayOptions), 1, 0, 0, -1, 1e30f, 0, 0, 0, 0, TM_HIT_BOTH, TM_HIT_DEFAULT, 1, 0, 0, 0, 0, 0, -1, 1, 0, 0, 0, 0, 0.01f, 1 }
+
+/* What a hemisphere (or a cone) of rays finds. NULL: not wanted. */
+typedef struct TmHemisphere {
+  uint32_t structBytes;
+  float* covered;              /* share of it, with falloff */
+  TmVec3 radiance;             /* mean of what arrives from there, the environment included */
+  TmVec3 environmentColor;     /* the same of the environment alone */
+  TmVec3 environmentDirection; /* mean direction of the rays that meet nothing, unit length, or 0 */
+} TmHemisphere;
+
+/* How photons are looked up. Start from TM_PHOTON_DEFAULTS. */
+typedef struct TmPhotonLookup {
+  uint32_t structBytes;
+  int32_t estimator;           /* the nearest photons that count */
+  float maxDistance;           /* none farther away does, in units of the file's space; 0: a twentieth of the map's diagonal */
+} TmPhotonLookup;
+
+#define TM_PHOTON_DEFAULTS { sizeof(TmPhotonLookup), 50, 0 }
 
 /* One value of each ray of gather(): "surface:Ci", "surface:Oi", "primitive:" P, N, Ng, I, dPdu, dPdv, u, v, s, t, Cs, Os or a
- * primitive variable, "attribute:category:name", "ray:origin", "ray:direction", "ray:length". Numbers fill c[0], triples all. */
+ * primitive variable, "attribute:category:name", "ray:origin", "ray:direction", "ray:length", "effectivedistance" (of all that the ray goes
+ * through until it is covered, weighted by what each covers). Numbers fill c[0], triples all. */
 typedef struct TmRayOutput {
   const char* name;
   int32_t floats;              /* 1 or 3 */
@@ -198,7 +225,7 @@ typedef struct TmServices {
   /* transmission() with options; several samples spread over a cone. */
   void (*transmissionWith)(void* host, const TmGrid*, TmConstVec3 P, TmConstVec3 toward, const TmRayOptions* options, TmVec3 out);
   /* Of the ray that came to these points: "type" (0 camera, 1 diffuse, 2 specular, 3 transmission), "depth", "diffusedepth",
-   * "speculardepth", "highlights" (0: gathered light is wanted, without them) into x; "origin", "direction" into all, "length" into x.
+   * "speculardepth", "shadowdepth", "importance", "highlights" (0: gathered light is wanted, without them) into x; "origin", "direction" into all, "length" into x.
    * Returns 0: no such name. */
   int32_t (*rayInfo)(void* host, const TmGrid*, const char* name, TmVec3 out);
   /* Its label. */
@@ -250,6 +277,10 @@ typedef struct TmServices {
   /* Light that has entered where a point cloud was baked and leaves at P, by the diffusion approximation: E/pi as what was baked. The
    * cloud holds "_area" and "_radiance_t", what diffuse() gives to a surface that lets it all in. Returns as texture3d(). */
   int32_t (*subsurface)(void* host, const TmGrid*, const char* file, TmConstVec3 P, const TmSubsurface*, TmVec3 out);
+  /* occlusion(), with all that it finds. Returns 0 if a point cloud is missing, which has been reported. */
+  int32_t (*hemisphere)(void* host, const TmGrid*, TmConstVec3 P, TmConstVec3 N, const TmRayOptions* options, const TmHemisphere* out);
+  /* photonMap() with options, which may be NULL. */
+  int32_t (*photonMapWith)(void* host, const TmGrid*, const char* file, TmConstVec3 P, TmConstVec3 N, const TmPhotonLookup*, TmVec3 out);
 } TmServices;
 
 #ifdef __cplusplus

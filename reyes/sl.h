@@ -1,11 +1,13 @@
 // Shaders that read like RSL: values of a whole batch at once, with masks (reyes/sl_values.h), shadeops
-// (sl_shadeops.h) and services (sl_services.h). What a compiler from RSL would emit.
+// (sl_shadeops.h) and services (sl_services.h, sl_pictures.h, sl_light.h, sl_clouds.h). What a compiler from RSL would emit.
 //   struct matte : sl::Surface { void main() { Normal Nf = faceforward(normalize(N), I);  Oi = Os;  Ci = Os * Cs * diffuse(Nf); } };
 //   const rsl::Shader shader(TM_SURFACE, "matte", "doc", TM_KEEPS_OPACITY, sl::shade<matte>, {});
 // Declarations take all points; assignments (=, +=) only those of the conditionals and loops around them, and so do services.
 // Threads: a value belongs to the thread and the run of a shader that made it.
 #pragma once
-#include "reyes/sl_services.h"
+#include "reyes/sl_clouds.h"
+#include "reyes/sl_light.h"
+#include "reyes/sl_pictures.h"
 
 namespace sl {
 
@@ -31,6 +33,7 @@ struct Globals {
   SL_ASK(rendererinfo, TM_OF_RENDERER)
 #undef SL_ASK
   static Float random() { return randomNumber(); }
+  static Float randomgrid() { return randomGrid(); }
   template <class... Values>
   static void printf(const std::string& pattern, const Values&... values) { print(pattern, values...); }
 

@@ -14,10 +14,14 @@ struct Setting {
   Setting(const rsl::UniformFloatParam& p) : number(uniform(p)) {}
   Setting(const rsl::Color& c) : color(c) {}
   Setting(const rsl::StringParam& p) : text(uniform(p)) {}
+  Setting(Float* out) : numbers(out) {}
+  Setting(Triple* out) : triples(out) {}
   int whole() const { return static_cast<int>(number); }
   float number = 0;
   const char* text = "";
   rsl::Color color{};
+  Float* numbers = nullptr;   ///< To be filled in.
+  Triple* triples = nullptr;  ///< Likewise.
 };
 
 inline bool set(TmRayOptions& o, std::string_view name, const Setting& v) {
@@ -37,7 +41,74 @@ inline bool set(TmRayOptions& o, std::string_view name, const Setting& v) {
   else if (name == "falloff") o.falloff = v.number;
   else if (name == "falloffmode") o.falloffMode = v.whole();
   else if (name == "maxvariation") o.maxVariation = v.number;
+  else if (name == "weight") o.importance = v.number;
   else return false;
+  return true;
+}
+
+/// Of occlusion() and indirectdiffuse(): as rays, and a point cloud, an environment and what else is to be filled in.
+struct HemisphereList {
+  TmRayOptions rays = rsl::defaultRays();
+  bool pointBased = false;
+  const char* file = nullptr;
+  Triple *environmentColor = nullptr, *environmentDirection = nullptr;
+  Float* covered = nullptr;
+
+  /// As TmServices wants them.
+  TmRayOptions options(int samples) const {
+    TmRayOptions o = rays;
+    o.samples = samples, o.pointCloud = pointBased ? file : nullptr;
+    return o;
+  }
+};
+inline bool set(HemisphereList& o, std::string_view name, const Setting& v) {
+  if (name == "pointbased") o.pointBased = v.number != 0;
+  else if (name == "filename") o.file = v.text;
+  else if (name == "channel") o.rays.pointChannel = v.text;
+  else if (name == "clamp") o.rays.clamp = v.whole();
+  else if (name == "maxsolidangle") o.rays.maxSolidAngle = v.number;
+  else if (name == "environmentmap") o.rays.environment = *v.text ? v.text : nullptr;
+  else if (name == "environmentspace") o.rays.environmentSpace = v.text;
+  else if (name == "environmentcolor") o.environmentColor = v.triples;
+  else if (name == "environmentdir") o.environmentDirection = v.triples;
+  else if (name == "occlusion") o.covered = v.numbers;
+  // How hard to try, which other renderers ask: rays are stratified, and what is nearer hides what is behind it.
+  else if (name == "adaptive" || name == "minsamples" || name == "brightnesswarp" || name == "sortbleeding" || name == "rasterresolution") return true;
+  else return set(o.rays, name, v);
+  return true;
+}
+
+/// Of photonmap().
+struct PhotonList {
+  TmPhotonLookup photons = TM_PHOTON_DEFAULTS;
+  bool radiance = false;  ///< Of baked "_radiosity", instead of irradiance.
+};
+inline bool set(PhotonList& o, std::string_view name, const Setting& v) {
+  if (name == "estimator") o.photons.estimator = v.whole();
+  else if (name == "maxdist") o.photons.maxDistance = v.number;
+  else if (name == "lookuptype") o.radiance = std::string_view(v.text) == "radiance";
+  else return false;
+  return true;
+}
+
+/// Of bake3d() and texture3d(). A radius is in current space.
+struct CloudList {
+  TmCloudLookup cloud = TM_CLOUD_DEFAULTS;
+  Float radius;
+  bool hasRadius = false;
+
+  TmCloudLookup options() const {
+    TmCloudLookup o = cloud;
+    if (hasRadius) o.radius = radius.data();
+    return o;
+  }
+};
+inline bool set(CloudList& o, std::string_view name, const Setting& v) {
+  if (name == "coordsystem") o.cloud.coordSystem = v.text;
+  else if (name == "radius" || name == "filterradius") o.radius = v.numbers ? *v.numbers : Float(double(v.number)), o.hasRadius = true;
+  else if (name == "radiusscale" || name == "filterscale") o.cloud.radiusScale = v.number;
+  // Points are those that are shaded, and brick maps are always read to their depth and blended.
+  else return name == "interpolate" || name == "maxdepth" || name == "lerp";
   return true;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "reyes/shadetext.h"
+#include "reyes/shadewavelet.h"
 #include "reyes/sl_values.h"
 
 namespace sl {
@@ -126,6 +127,8 @@ inline Float cellnoise(const Triple& p) { return Float::of([&](int i) { return r
 inline Float cellnoise(const Triple& p, const Float& t) { return Float::of([&](int i) { return rsl::cellnoise(p[i], t[i]); }); }
 inline Triple cellnoise3(const Triple& p) { return Triple::of([&](int i) { return rsl::cellnoise3(p[i]); }); }
 inline Triple cellnoise3(const Triple& p, const Float& t) { return Triple::of([&](int i) { return rsl::cellnoise3(p[i], t[i]); }); }
+
+inline Float wnoise(const Triple& p, const Float& width = 0) { return Float::of([&](int i) { return rsl::wnoise(p[i], width[i]); }); }
 
 // --- Geometry
 

@@ -8,6 +8,7 @@ rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "radiance of the sky, or wha
 rsl::StringParam map("map", "", "latitude-longitude picture, +z at its top; none: uniform");
 rsl::StringParam mapspace("mapspace", "world", "the space whose +z that is: world or shader");
 rsl::FloatParam samples("samples", 64, "directions for each shaded point");
+rsl::FloatParam visible("visible", 1, "0: specular rays do not see it");
 
 // The map is seen through a filter of this angle, radians: that of the cells by which its brightness is known.
 constexpr float kCell = 0.00614f;
@@ -36,4 +37,4 @@ extern const rsl::Shader environmentlightShader;
 const rsl::Shader environmentlightShader(TM_LIGHT, "environmentlight",
                                          "light from all around, at infinity: a sky",
                                          TM_LIGHT_SOLAR | TM_LIGHT_SHADOWED | TM_LIGHT_SKY, shade,
-                                         {&intensity, &lightcolor, &map, &samples, &mapspace});
+                                         {&intensity, &lightcolor, &map, &samples, &mapspace, &visible});

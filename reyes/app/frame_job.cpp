@@ -90,7 +90,7 @@ ShadeContext FrameJob::shadeContext() const {
   ShadeContext context;
   context.seed = lightSeedOf(settings_);
   context.direct = settings_.direct;
-  context.lightSamples = mode_ == GiMode::Reference ? referenceLightSamples() : 0;
+  context.lightSamples = mode_ == GiMode::Reference ? referenceLightSamples() : settings_.lightSamples;
   return context;
 }
 

@@ -55,6 +55,7 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
       ->check(CLI::Range(0.0, 1e6));
   addParsed(app, "--error-function", s.errorFunction, parseErrorFunction, "screen|ward|hessian", "How far an irradiance record may be used");
   app.add_flag_callback("--indirect-only", [&s] { s.direct = false; }, "Leave out direct light where the eye looks");
+  app.add_option("--light-samples", s.lightSamples, "Samples of each area light and of the sky where the eye looks (default: as the lights ask)")->check(CLI::Range(1, 4096));
   app.add_option("--light-seed", s.lightSeed, "Of the random numbers of light alone");
   app.add_option("--photons", s.photons, "Photons to emit for --gi atlas")->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
   app.add_option("--atlas", s.atlasFolder, "Folder of brick maps: used if they are there, else made and kept")->type_name("FOLDER");

@@ -25,6 +25,7 @@ struct RenderSettings {
   int samples = 0, bounces = 0;  ///< 0: as the scene's indirect light asks.
   float maxError = -1;           ///< < 0: likewise.
   std::optional<ErrorFunction> errorFunction;  ///< None: likewise.
+  int lightSamples = 0;          ///< Of each area light and of the sky, where the eye looks; 0: as many as the light asks for.
   bool direct = true;            ///< False: the picture shows what indirect lights bring, and nothing else.
   uint32_t seed = 0;
   std::optional<uint32_t> lightSeed;  ///< Of the random numbers of light alone; none: seed.

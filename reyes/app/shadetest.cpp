@@ -59,18 +59,24 @@ ShadePoints pointsOf(const Scene& scene, const ShadingSystem& shading, const std
   return points;
 }
 
+/// What is timed, and what has to be done anew before each call, which is not.
+struct Trial {
+  std::function<void()> prepare, call;
+};
+
 /// Nanoseconds of one call, from as many as a fifth of a second holds.
-template <class Call>
-double timeOf(const Call& call) {
+double timeOf(const Trial& trial) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   int calls = 0;
-  double elapsed_s = 0;
-  for (; elapsed_s < 0.2; ++calls) {
-    call();
-    elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
+  Clock::duration spent{};
+  for (; Clock::now() - start < std::chrono::milliseconds(200); ++calls) {
+    trial.prepare();
+    const auto began = Clock::now();
+    trial.call();
+    spent += Clock::now() - began;
   }
-  return 1e9 * elapsed_s / calls;
+  return 1e9 * std::chrono::duration<double>(spent).count() / calls;
 }
 
 void say(const char* what, const vec3& v) { std::puts(fmt::format("{}: {:.6g} {:.6g} {:.6g}", what, v.x, v.y, v.z).c_str()); }
@@ -78,15 +84,15 @@ void say(const char* what, const vec3& v) { std::puts(fmt::format("{}: {:.6g} {:
 void testDisplacement(const Scene& scene, const ShadingSystem& shading, const std::array<int, 2>& size) {
   const Grid still = dice(scene, 0, 0, UvRect{}, size[0] - 1, size[1] - 1, 1);
   Grid moved;
-  const double time_ns = timeOf([&] { moved = still, shading.displace(moved); });
+  const double time_ns = timeOf({[&] { moved = still; }, [&] { shading.displace(moved); }});
   float longest = 0;
   for (int i = 0; i < still.vertexCount(); ++i) longest = std::max(longest, glm::length(moved.position(0, i) - still.position(0, i)));
   std::puts(fmt::format("nanoseconds a point: {:.1f}\nlongest displacement: {:.6g}", time_ns / still.vertexCount(), longest).c_str());
 }
 
-/// Times `shade`, and says what is in the picture that it has left, three colours first.
-void testColors(const ShadetestCommand& command, const std::function<void()>& shade, const std::function<Image()>& picture, Log& log) {
-  const double time_ns = timeOf(shade);
+/// Times a trial, and says what is in the picture that it has left, three colours first.
+void testColors(const ShadetestCommand& command, const Trial& trial, const std::function<Image()>& picture, Log& log) {
+  const double time_ns = timeOf(trial);
   const Image image = picture();
   const size_t count = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
   vec3 low(kInfinity), high(-kInfinity), mean(0);
@@ -112,9 +118,12 @@ void testPoints(const ShadetestCommand& command, const Scene& scene, const Shadi
   const ShadePoints points = pointsOf(scene, shading, command.grid);
   ShadedPoints surface, out;
   shading.shade(points, {}, surface);
+  const auto prepare = [&] {
+    if (volume) out = surface;
+  };
   const auto shade = [&] {
     if (volume)
-      out = surface, shading.atmosphere(points, out);
+      shading.atmosphere(points, out);
     else
       shading.shade(points, {}, out);
   };
@@ -126,7 +135,7 @@ void testPoints(const ShadetestCommand& command, const Scene& scene, const Shadi
     }
     return image;
   };
-  testColors(command, shade, picture, log);
+  testColors(command, {prepare, shade}, picture, log);
 }
 
 /// A picture whose grey is half of its alpha, which rises from the left, 0, to the right, 1.
@@ -137,7 +146,7 @@ void testImager(const ShadetestCommand& command, const ShadingSystem& shading, L
     const float alpha = static_cast<float>(i % width) / static_cast<float>(width - 1), grey = 0.5f * alpha;
     wedge.pixels.insert(wedge.pixels.end(), {grey, grey, grey, alpha});
   }
-  testColors(command, [&] { image = wedge, runImager(image, shading); }, [&] { return image; }, log);
+  testColors(command, {[&] { image = wedge; }, [&] { runImager(image, shading); }}, [&] { return image; }, log);
 }
 
 }  // namespace

@@ -197,7 +197,7 @@ bool knownOption(GraphicsState& s, const Request& r, const std::string& key, con
     else
       s.warn(r, "rib-bucket-order", "no bucket order \"" + p.strings[0] + "\"; \"" + o.bucketOrder + "\" is used");
   } else {
-    return key.starts_with("user:") || key.starts_with("shadow:bias") || key == "shade:specular" || key == "limits:texturememory" || key == "limits:geocachememory" || key == "ribparse:varsubst";
+    return key.starts_with("user:") || key.starts_with("shadow:bias") || key == "shade:specular" || key == "texture:width" || key == "texture:filter" || key == "limits:texturememory" || key == "limits:geocachememory" || key == "ribparse:varsubst";
   }
   return true;
 }

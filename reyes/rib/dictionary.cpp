@@ -53,8 +53,8 @@ constexpr Standard kStandard[] = {
     {"color", "limits:othreshold limits:zthreshold"},
     {"string",
      "searchpath:archive searchpath:shader searchpath:texture searchpath:display searchpath:procedural "
-     "searchpath:resource searchpath:texturecache shade:specular searchpath:dirmap ribparse:varsubst bucket:order statistics:filename statistics:xmlfilename"},
-    {"float", "shadow:bias shadow:bias0 shadow:bias1 shutter:offset"},
+     "searchpath:resource searchpath:texturecache shade:specular texture:filter searchpath:dirmap ribparse:varsubst bucket:order statistics:filename statistics:xmlfilename"},
+    {"float", "shadow:bias shadow:bias0 shadow:bias1 shutter:offset texture:width"},
     {"string",
      "identifier:name identifier:shadinggroup grouping:membership grouping:tracesubset trace:tessellationmode displacementbound:coordinatesystem "
      "light:shadows indirect:surface photon:globalmap photon:causticmap photon:shadingmodel "

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "reyes/shade/illuminate.h"
+
 namespace tomales {
 
 Batch::Batch(const BoundScene& s, const BoundGroup& g, const ShadeContext& c, Arena& a)
@@ -11,7 +13,7 @@ Batch::Batch(const BoundScene& s, const BoundGroup& g, const ShadeContext& c, Ar
 
 TmConstVec3 Batch::constant(const vec3& v) {
   const TmVec3 out = arena.vec3(tm.count);
-  for (int i = 0; i < tm.padded; ++i) set(out, i, v);
+  std::fill_n(out.x, tm.padded, v.x), std::fill_n(out.y, tm.padded, v.y), std::fill_n(out.z, tm.padded, v.z);
   return view(out);
 }
 
@@ -186,15 +188,15 @@ bool Batch::stepsOf(const TmGrid* g, bool alongV, const float* value, float* out
 }
 
 void Batch::blackOutNonFinite(const BoundShader& shader) {
-  bool bad = false;
-  for (int i = 0; i < (points ? points->count() : tm.count); ++i) {
+  running = &shader;
+  const int n = points ? points->count() : tm.count;
+  if (allFinite(n, view(tm.Ci)) && allFinite(n, view(tm.Oi))) return;
+  for (int i = 0; i < n; ++i) {
     if (isFinite(get(tm.Ci, i)) && isFinite(get(tm.Oi, i))) continue;
-    bad = true;
     if (!isFinite(get(tm.Oi, i))) set(tm.Oi, i, vec3(1.0f));
     set(tm.Ci, i, vec3(0.0f));
   }
-  running = &shader;
-  if (bad) report(Severity::Warning, "shader-not-finite", "returned NaN or infinity; such points are black");
+  report(Severity::Warning, "shader-not-finite", "returned NaN or infinity; such points are black");
 }
 
 bool Batch::run(const BoundShader& shader, const TmGrid& tmGrid) {

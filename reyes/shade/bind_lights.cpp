@@ -117,6 +117,7 @@ std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index
     log_.report(Severity::Warning, "light-no-geometry", call.shader.where,
                 bound->user + ": no geometry follows the AreaLightSource; it casts no light");
   light->shadows = light->shadows && !indirect;
+  light->visible = bound->number("visible", 1) != 0;
   if (light->can(TM_LIGHT_SKY)) {
     const std::string picture = bound->text("map", ""), space = bound->text("mapspace", "world");
     if (space != "world" && space != "shader")

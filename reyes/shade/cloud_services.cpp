@@ -76,6 +76,12 @@ int32_t texture3d(void* host, const TmGrid* all, const char* file, TmConstVec3 P
 }
 
 int32_t photonMap(void* host, const TmGrid* all, const char* file, TmConstVec3 P, TmConstVec3 N, int32_t estimator, TmVec3 out) {
+  TmPhotonLookup options = TM_PHOTON_DEFAULTS;
+  options.estimator = estimator;
+  return photonMapWith(host, all, file, P, N, &options, out);
+}
+
+int32_t photonMapWith(void* host, const TmGrid* all, const char* file, TmConstVec3 P, TmConstVec3 N, const TmPhotonLookup* given, TmVec3 out) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
   forActive(all, [&](int i) { set(out, i, vec3(0)); });
@@ -83,9 +89,17 @@ int32_t photonMap(void* host, const TmGrid* all, const char* file, TmConstVec3 P
   CloudQuery query;
   if (!toFile(batch, primary.grid(), file, P, N, TM_CLOUD_DEFAULTS, query)) return 0;
   std::string problem;
-  const bool isKnown = batch.scene.clouds->photons(query, estimator, out, problem);
+  const bool isKnown = batch.scene.clouds->photons(query, givenOptions<TmPhotonLookup>(TM_PHOTON_DEFAULTS, given), out, problem);
   primary.spread(out);
   return isKnown || refuse(batch, file, problem);
+}
+
+bool occlusionByDisks(Batch& batch, const TmGrid* g, const char* file, TmConstVec3 P, TmConstVec3 N, const DisksQuery& disks, float* covered, TmVec3 radiance) {
+  if (!batch.scene.clouds) return refuse(batch, file, "nothing is looked up here");
+  CloudQuery query;
+  if (!toFile(batch, g, file, P, N, TM_CLOUD_DEFAULTS, query)) return false;
+  std::string problem;
+  return batch.scene.clouds->occlusion(query, disks, covered, radiance, problem) || refuse(batch, file, problem);
 }
 
 int32_t subsurface(void* host, const TmGrid* all, const char* file, TmConstVec3 P, const TmSubsurface* given, TmVec3 out) {

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "reyes/base/rng.h"
+#include "reyes/shade/illuminate.h"
 #include "reyes/shade/primary.h"
 
 namespace tomales {
@@ -10,30 +11,6 @@ namespace {
 
 void fill(const TmGrid* g, TmVec3 out, const vec3& v) {
   forActive(g, [&](int i) { set(out, i, v); });
-}
-
-/// The share of a light that a kind of reflection sees at a point, by the light's outputs __nondiffuse and __nonspecular.
-float shareOf(const float* without, int i) { return without ? 1 - without[i] : 1.0f; }
-
-/// Sums weight(i, sample, L, N) * Cl over the light samples on the side of N (RISpec 15.6: illuminance(P, N, PI/2)), of the lights
-/// that count.
-template <class Counts, class Weight>
-void sumOverLights(Batch& batch, const TmGrid* all, TmConstVec3 N, const Counts& counts, TmVec3 out, const Weight& weight) {
-  const Primary primary(batch, all);
-  const TmGrid* g = primary.grid();
-  const TmVec3 n = batch.arena.vec3(g->count);
-  forActive(g, [&](int i) { set(n, i, normalizeOr(get(N, i), vec3(0.0f))); });
-  fill(g, out, vec3(0.0f));
-  uint8_t* facing = batch.arena.bytes(g->count);
-  for (LightSample& sample : batch.lights.samples(batch)) {
-    if (!counts(*sample.light)) continue;
-    std::fill_n(facing, g->count, uint8_t{0});
-    forActive(g, [&](int i) { facing[i] = dot(get(n, i), get(sample.L, i)) > 0; });
-    batch.lights.shadow(batch, sample, facing);
-    for (int i = 0; i < g->count; ++i)
-      if (facing[i]) set(out, i, get(out, i) + get(sample.Cl, i) * weight(i, sample, get(sample.L, i), get(n, i)));
-  }
-  primary.spread(out);
 }
 
 /// Of a lookup that leaves it open: Option "shadow" "bias", or a random one between "bias0" and "bias1"; negative: as needed.
@@ -109,12 +86,23 @@ const uint8_t* litPoints(Batch& batch, const TmGrid* g, const TmIlluminance& con
 
 }  // namespace
 
-void diffuseOf(void* host, const TmGrid* g, int32_t which, TmConstVec3 N, TmVec3 out) {
-  const auto counts = [which](const BoundLight& light) {
-    return !light.nondiffuse && (which & (light.can(TM_LIGHT_INDIRECT) ? TM_INDIRECT_LIGHT : TM_DIRECT_LIGHT)) != 0;
-  };
-  sumOverLights(batchOf(host), g, N, counts, out,
-                [](int i, const LightSample& s, const vec3& L, const vec3& n) { return shareOf(s.nondiffuse, i) * dot(L, n); });
+/// RISpec 15.6: illuminance(P, N, PI/2).
+void diffuseOf(void* host, const TmGrid* all, int32_t which, TmConstVec3 N, TmVec3 out) {
+  Batch& batch = batchOf(host);
+  const Primary primary(batch, all);
+  const TmGrid* g = primary.grid();
+  const TmVec3 n = batch.arena.vec3(g->count);
+  normalizeAll(g->count, N, n);
+  fill(g, out, vec3(0.0f));
+  uint8_t* lit = batch.arena.bytes(g->count);
+  for (LightSample& sample : batch.lights.samples(batch)) {
+    const BoundLight& light = *sample.light;
+    if (light.nondiffuse || !(which & (light.can(TM_LIGHT_INDIRECT) ? TM_INDIRECT_LIGHT : TM_DIRECT_LIGHT))) continue;
+    markFacing(g->count, g->active, view(n), view(sample.L), lit);
+    batch.lights.shadow(batch, sample, lit);
+    addDiffuse(g->count, sharesOf(batch, g->count, lit, sample.nondiffuse), view(n), view(sample.L), view(sample.Cl), out);
+  }
+  primary.spread(out);
 }
 
 void diffuse(void* host, const TmGrid* g, TmConstVec3 N, TmVec3 out) {

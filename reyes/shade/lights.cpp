@@ -2,17 +2,22 @@
 
 #include "reyes/base/rng.h"
 #include "reyes/shade/batch.h"
+#include "reyes/shade/illuminate.h"
 #include "reyes/shade/primary.h"
 
 namespace tomales {
 namespace {
 
-bool applies(const BoundLight& light, const Batch& batch) {
-  if (batch.points == nullptr) return false;  // displacement shaders see no light
-  if (batch.context.light != Illumination::Lights || batch.context.kind == RayKind::Transmission) return false;
+/// For what the batch is.
+bool isOn(const BoundLight& light, const Batch& batch) {
   if (!(batch.context.kind == RayKind::Diffuse ? light.indirect : light.direct)) return false;
   if (!light.can(TM_LIGHT_INDIRECT)) return batch.context.direct || batch.context.kind != RayKind::Camera;
   return batch.context.indirect && batch.group.group->attributes->indirect.receive;
+}
+
+bool applies(const BoundLight& light, const Batch& batch) {
+  if (batch.points == nullptr) return false;  // displacement shaders see no light
+  return batch.context.light == Illumination::Lights && batch.context.kind != RayKind::Transmission && isOn(light, batch);
 }
 
 /// Of the points, without neighbours; what the light brings has room for those.
@@ -35,12 +40,9 @@ void openOutputs(Batch& batch, const BoundShader& light, std::vector<TmValue>& p
 
 /// What is not finite is dark: the fault is the light's, not that of the surface that asks.
 void darkenNonFinite(Batch& batch, const BoundShader& light, const TmGrid& g) {
-  bool bad = false;
-  for (int i = 0; i < g.count; ++i) {
-    if (isFinite(get(g.Cl, i)) && isFinite(get(g.L, i))) continue;
-    set(g.Cl, i, vec3(0)), set(g.L, i, vec3(0)), bad = true;
-  }
-  if (!bad) return;
+  if (allFinite(g.count, view(g.Cl)) && allFinite(g.count, view(g.L))) return;
+  for (int i = 0; i < g.count; ++i)
+    if (!isFinite(get(g.Cl, i)) || !isFinite(get(g.L, i))) set(g.Cl, i, vec3(0)), set(g.L, i, vec3(0));
   const BoundShader* caller = std::exchange(batch.running, &light);
   batch.report(Severity::Warning, "shader-not-finite", "returned NaN or infinity; it casts no light there");
   batch.running = caller;
@@ -187,7 +189,7 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
     LightSample sample{&light, batch.arena.vec3(batch.tm.count), g.Cl, g.L, {light.can(TM_LIGHT_SOLAR), s, n}, nullptr, s, points.meetDensity, tally, g.L, g.params};
     if (const int k = light.bound->output("__nondiffuse", ValueType::Float); k >= 0) sample.nondiffuse = g.params[k].c[0];
     if (const int k = light.bound->output("__nonspecular", ValueType::Float); k >= 0) sample.nonspecular = g.params[k].c[0];
-    for (int i = 0; i < g.count; ++i) set(sample.L, i, normalizeOr(get(g.L, i), vec3(0.0f)));
+    normalizeAll(g.count, view(g.L), sample.L);
     if (light.shadows && batch.scene.services) {
       if (area) sample.toward = beforeEmitter(batch, g, batch.scene.services->emitterReach(light.index));
       sample.pending = batch.arena.bytes(g.count);
@@ -212,6 +214,20 @@ int Lights::mostSamples(Batch& batch) const {
 void Lights::along(Batch& batch, const LobeDirections& lobe, TmVec3 Cl) {
   forEachWithExtent(batch, [&](const BoundLight& light) { alongOne(batch, light, lobe, Cl); });
   ++lobes_;
+}
+
+void Lights::addSkies(Batch& batch, TmConstVec3 direction, const uint8_t* leaves, TmConstVec3 opacity, TmVec3 color) const {
+  const bool lit = batch.context.light == Illumination::Lights || batch.context.light == Illumination::Stored;
+  if (!lit || std::none_of(leaves, leaves + batch.points->count(), [](uint8_t l) { return l != 0; })) return;
+  for (const BoundLight* light : batch.group.lights) {
+    if (!light->can(TM_LIGHT_SKY) || !light->visible || light->nonspecular || !isOn(*light, batch) || (group_ && light->group != *group_)) continue;
+    TmGrid g = lightGrid(batch, *light);
+    g.active = leaves;
+    for (int i = 0; i < g.count; ++i) set(g.L, i, get(direction, i));
+    if (!batch.run(*light->bound, g)) continue;
+    darkenNonFinite(batch, *light->bound, g);
+    forActive(&g, [&](int i) { set(color, i, get(color, i) + (1.0f - get(opacity, i)) * get(g.Cl, i)); });
+  }
 }
 
 void Lights::alongOne(Batch& batch, const BoundLight& light, const LobeDirections& lobe, TmVec3 Cl) {

@@ -57,6 +57,9 @@ class Lights {
   /// Adds what lights with an extent send along the given directions, shadowed, as samples by the power heuristic: with a the density
   /// of the light's own samples there and b that of those given, radiance / pi * b / (a^2 + b^2).
   void along(Batch& batch, const LobeDirections& lobe, TmVec3 Cl);
+  /// Adds the radiance of lights that are all around, at infinity, to rays that have left the scene along unit directions, through what is opaque by
+  /// `opacity`.
+  void addSkies(Batch& batch, TmConstVec3 direction, const uint8_t* leaves, TmConstVec3 opacity, TmVec3 color) const;
   /// Of the lights that along() may find, the largest number of samples; 0: there are none.
   int mostSamples(Batch& batch) const;
 

@@ -1,6 +1,7 @@
 #include "reyes/shade/lobe.h"
 
 #include "reyes/base/rng.h"
+#include "reyes/shade/illuminate.h"
 #include "reyes/shade/primary.h"
 
 namespace tomales {
@@ -22,10 +23,6 @@ struct BlinnLobe {
   vec3 N, V;
   float exponent;
 
-  float value(const vec3& L) const {
-    const vec3 H = normalizeOr(L + V, vec3(0.0f));
-    return std::pow(std::max(0.0f, dot(N, H)), exponent);
-  }
   vec3 draw(const vec2& xi) const {
     const float cosine = std::pow(1 - xi.x, 1 / (exponent + 1)), sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
     vec3 tangent, bitangent;
@@ -44,13 +41,12 @@ struct BlinnLobe {
 class Highlight {
  public:
   Highlight(Batch& batch, const TmGrid* g, TmConstVec3 N, TmConstVec3 V, const float* roughness, TmVec3 out)
-      : batch_(batch), g_(g), out_(out), lobes_(static_cast<size_t>(g->count)), side_(batch.arena.bytes(g->count)),
-        drawn_(lobeSamples(&batch, g)) {
-    forActive(g, [&](int i) {
-      set(out, i, vec3(0.0f));
-      lobes_[static_cast<size_t>(i)] = {normalizeOr(get(N, i), vec3(0.0f)), normalizeOr(get(V, i), vec3(0.0f)),
-                                        batch.scene.specularSharpness / std::max(roughness[i], 1e-6f)};
-    });
+      : batch_(batch), g_(g), out_(out), N_(batch.arena.vec3(g->count)), V_(batch.arena.vec3(g->count)), exponent_(batch.arena.floats(g->count)),
+        side_(batch.arena.bytes(g->count)), drawn_(lobeSamples(&batch, g)) {
+    forActive(g, [&](int i) { set(out, i, vec3(0.0f)); });
+    normalizeAll(g->count, N, N_);
+    normalizeAll(g->count, V, V_);
+    for (int i = 0; i < g->count; ++i) exponent_[i] = batch.scene.specularSharpness / std::max(roughness[i], 1e-6f);
   }
 
   void addLightSamples() {
@@ -58,13 +54,9 @@ class Highlight {
       if (sample.light->nonspecular) continue;
       chooseSide(view(sample.L));
       batch_.lights.shadow(batch_, sample, side_);
-      forSide([&](int i, const BlinnLobe& lobe) {
-        const vec3 L = get(sample.L, i);
-        const float of = sample.density ? sample.density[i] : 0.0f;
-        const float other = of > 0 ? static_cast<float>(drawn_) * lobe.density(L) / of : 0.0f;
-        const float share = sample.nonspecular ? 1 - sample.nonspecular[i] : 1.0f;
-        add(i, get(sample.Cl, i) * (share * lobe.value(L) / (1 + other * other)));
-      });
+      float* share = sharesOf(batch_, g_->count, side_, sample.nonspecular);
+      if (sample.density) weighAgainstLobe(sample, share);
+      addHighlight(g_->count, share, view(N_), view(V_), exponent_, view(sample.L), view(sample.Cl), out_);
     }
   }
 
@@ -74,31 +66,32 @@ class Highlight {
     const TmVec3 L = batch_.arena.vec3(n), Cl = batch_.arena.vec3(n);
     for (int k = 0; k < drawn_; ++k) {
       stratified(&batch_, g_, k, drawn_, xi0, xi1);
-      forActive(g_, [&](int i) { set(L, i, lobes_[static_cast<size_t>(i)].draw({xi0[i], xi1[i]})); });
+      forActive(g_, [&](int i) { set(L, i, lobeAt(i).draw({xi0[i], xi1[i]})); });
       chooseSide(view(L));
-      forActive(g_, [&](int i) { density[i] = side_[i] ? lobes_[static_cast<size_t>(i)].density(get(L, i)) : 0.0f; });
+      forActive(g_, [&](int i) { density[i] = side_[i] ? lobeAt(i).density(get(L, i)) : 0.0f; });
       lightAlong(&batch_, g_, view(L), density, k, drawn_, Cl);
-      forSide([&](int i, const BlinnLobe& lobe) { add(i, get(Cl, i) * lobe.value(get(L, i))); });
+      addHighlight(n, sharesOf(batch_, n, side_, nullptr), view(N_), view(V_), exponent_, view(L), view(Cl), out_);
     }
   }
 
  private:
+  BlinnLobe lobeAt(int i) const { return {get(N_, i), get(V_, i), exponent_[i]}; }
   /// Light counts on the side of N alone: illuminance(P, N, PI/2).
-  void chooseSide(TmConstVec3 L) {
-    forActive(g_, [&](int i) { side_[i] = dot(lobes_[static_cast<size_t>(i)].N, get(L, i)) > 0; });
-  }
-  template <class Body>
-  void forSide(const Body& body) const {
+  void chooseSide(TmConstVec3 L) { markFacing(g_->count, g_->active, view(N_), L, side_); }
+  /// What the lobe's own samples find too (multiple importance sampling, the power heuristic).
+  void weighAgainstLobe(const LightSample& sample, float* share) const {
     forActive(g_, [&](int i) {
-      if (side_[i]) body(i, lobes_[static_cast<size_t>(i)]);
+      if (!side_[i] || !(sample.density[i] > 0)) return;
+      const float other = static_cast<float>(drawn_) * lobeAt(i).density(get(sample.L, i)) / sample.density[i];
+      share[i] /= 1 + other * other;
     });
   }
-  void add(int i, const vec3& light) { set(out_, i, get(out_, i) + light); }
 
   Batch& batch_;
   const TmGrid* g_;
   TmVec3 out_;
-  std::vector<BlinnLobe> lobes_;
+  TmVec3 N_, V_;  ///< Unit
+  float* exponent_;
   uint8_t* side_;
   const int drawn_;
 };

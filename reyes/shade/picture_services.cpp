@@ -11,11 +11,17 @@ namespace {
 
 TmTextureLookup optionsOf(const TmTextureLookup* given) { return givenOptions<TmTextureLookup>(TM_TEXTURE_DEFAULTS, given); }
 
-TextureQuery queryOf(const TmGrid* g, const char* name, const TmTextureLookup& o) {
+/// Option "texture" "width" scales all filters, and "filter" is that of lookups which name none.
+TextureQuery queryOf(const Batch& batch, const TmGrid* g, const char* name, const TmTextureLookup& o) {
+  const auto& options = batch.scene.scene.options.user;
+  const auto width = options.find("texture:width"), filter = options.find("texture:filter");
+  const float scale = width != options.end() ? std::max(0.0f, width->second.number(1)) : 1.0f;
+  const bool names = filter != options.end() && !filter->second.strings.empty();
   TextureQuery q;
   q.name = name;
-  q.channel = o.channel, q.channels = o.channels == 1 ? 1 : 3, q.fill = o.fill, q.filter = o.filter;
-  q.sWidth = o.swidth, q.tWidth = o.twidth, q.sBlur = o.sblur, q.tBlur = o.tblur;
+  q.channel = o.channel, q.channels = o.channels == 1 ? 1 : 3, q.fill = o.fill;
+  q.filter = !o.filter && names ? filter->second.strings[0].c_str() : o.filter;
+  q.sWidth = scale * o.swidth, q.tWidth = scale * o.twidth, q.sBlur = o.sblur, q.tBlur = o.tblur;
   q.count = g->count, q.active = g->active;
   return q;
 }
@@ -38,7 +44,7 @@ int32_t lookUpLatLong(Batch& batch, const TmGrid* g, const char* name, const TmT
     tv[i] = std::min(1.0f, angle[i] / kPi);
     su[i] = std::min(1.0f, angle[i] / (2 * kPi * std::max(std::sqrt(d.x * d.x + d.y * d.y), 1e-6f)));
   });
-  TextureQuery query = queryOf(g, name, options);
+  TextureQuery query = queryOf(batch, g, name, options);
   query.s = s, query.t = t, query.su = su, query.tu = zero, query.sv = zero, query.tv = tv;
   query.latlong = true;
   return lookUp(batch, query, out);
@@ -48,15 +54,16 @@ int32_t lookUpLatLong(Batch& batch, const TmGrid* g, const char* name, const TmT
 
 int32_t textureOver(void* host, const TmGrid* g, const char* name, const TmTextureLookup* given, const float* s, const float* t, const float* const* sides,
                     TmVec3 out) {
-  TextureQuery query = queryOf(g, name, optionsOf(given));
+  const Batch& batch = batchOf(host);
+  TextureQuery query = queryOf(batch, g, name, optionsOf(given));
   query.s = s, query.t = t;
   query.su = sides[0], query.tu = sides[1], query.sv = sides[2], query.tv = sides[3];
-  return lookUp(batchOf(host), query, out);
+  return lookUp(batch, query, out);
 }
 
 int32_t textureWith(void* host, const TmGrid* g, const char* name, const TmTextureLookup* given, const float* s, const float* t, TmVec3 out) {
   Batch& batch = batchOf(host);
-  TextureQuery query = queryOf(g, name, optionsOf(given));
+  TextureQuery query = queryOf(batch, g, name, optionsOf(given));
   query.s = s, query.t = t;
   float* steps[4];
   for (float*& step : steps) step = batch.arena.floats(g->count);

@@ -32,6 +32,13 @@ void forActive(const TmGrid* g, const Body& body) {
     if (g->active[i]) body(i);
 }
 
+/// How much of a light counts at each point: where it is lit, what one of its outputs __nondiffuse and __nonspecular leaves. Null: all.
+inline float* sharesOf(Batch& batch, int n, const uint8_t* lit, const float* without) {
+  float* share = batch.arena.floats(n);
+  for (int i = 0; i < n; ++i) share[i] = lit[i] ? (without ? 1 - without[i] : 1.0f) : 0.0f;
+  return share;
+}
+
 inline Batch& batchOf(void* host) { return *static_cast<Batch*>(host); }
 
 }  // namespace tomales

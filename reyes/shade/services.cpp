@@ -97,6 +97,6 @@ const TmServices kServices = {
     lightDensity,       lightAlong,   lobeSamples,     stratified,
     derivative,         textureWith,  environmentWith, illuminance, ask,   textureInfo,
     textureOver,        bake3d,       texture3d,       photonMap,   print,
-    subsurface};
+    subsurface,         hemisphere,   photonMapWith};
 
 }  // namespace tomales

@@ -79,7 +79,7 @@ vec3 ShadingSystem::visibleEmission(int group) const {
   const int index = impl_->groups[static_cast<size_t>(group)].group->attributes->areaLight;
   if (index < 0 || index >= static_cast<int>(impl_->lights.size())) return vec3(0.0f);
   const auto& light = impl_->lights[static_cast<size_t>(index)];
-  if (!light || !light->can(TM_LIGHT_AREA) || light->bound->number("visible", 1) == 0) return vec3(0.0f);
+  if (!light || !light->can(TM_LIGHT_AREA) || !light->visible) return vec3(0.0f);
   return light->bound->number("intensity", 1) * light->bound->color("lightcolor", vec3(1.0f));
 }
 

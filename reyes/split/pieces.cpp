@@ -152,8 +152,9 @@ class Splitter {
     const bool crossesEye = crosses(bare);
     const float blur = coarsening(patch, rect, bound);
     const bool binary = object_.attributes->binaryDice;
-    const int nu = cells(size.u, edge_px_, blur, binary), nv = cells(size.v, edge_px_, blur, binary);
-    const bool joins = !alone_ || depth > 0, oneCell = flat_ && nu == 1 && nv == 1;
+    const bool joins = !alone_ || depth > 0;
+    const auto [nu, nv] = cells(size, edge_px_, blur, binary, joins);
+    const bool oneCell = flat_ && nu == 1 && nv == 1;
     const float reach_px = oneCell || !joins ? kLeastReach_px : borderReach_px(object_.displacementBound);
     if (static_cast<int64_t>(nu) * nv <= gridSize_) {
       // What moves through the eye plane does so however small it is; it is seen while it stays in front.

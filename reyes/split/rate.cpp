@@ -12,6 +12,7 @@ namespace {
 
 /// How far a chord may leave its arc, at any shading rate: a silhouette's error (docs/decisions/0034).
 constexpr float kFlat_px = 0.25f;
+constexpr float kMostCells = 65536;
 
 /// Probes of kPatches patches; point k of all of them stands together. Rows of points run along u.
 template <int kProbesT, int kPatchesT>
@@ -29,6 +30,7 @@ struct Sizes {
     alignas(64) int least[kPatches];
   };
   Line u, v;
+  alignas(64) float area_px2[kPatches];
   alignas(64) float lo[3][kPatches], hi[3][kPatches];
 };
 
@@ -80,6 +82,38 @@ template <class L>
   }
 }
 
+/// Twice the area of the triangle at `a` whose sides go to `b` and `c`, in pixels; where that is more than `out` has, that grows.
+template <class L>
+[[gnu::always_inline]] inline void measureCorner(const L& __restrict at, int a, int b, int c, const Camera& camera, bool asSeen, float* __restrict out) {
+  constexpr int n = L::kPatches;
+  float area[n];
+  for (int i = 0; asSeen && i < n; ++i) {
+    const float bx = at.rasterX[b][i] - at.rasterX[a][i], by = at.rasterY[b][i] - at.rasterY[a][i];
+    const float cx = at.rasterX[c][i] - at.rasterX[a][i], cy = at.rasterY[c][i] - at.rasterY[a][i];
+    area[i] = std::abs(bx * cy - by * cx);
+  }
+  for (int i = 0; !asSeen && i < n; ++i) {
+    const vec3 o{at.x[a][i], at.y[a][i], at.z[a][i]};
+    const vec3 across = cross(vec3(at.x[b][i], at.y[b][i], at.z[b][i]) - o, vec3(at.x[c][i], at.y[c][i], at.z[c][i]) - o);
+    const float size = camera.pixelSize(o);
+    area[i] = std::sqrt(dot(across, across)) / (size * size);
+  }
+  for (int i = 0; i < n; ++i) out[i] = out[i] < area[i] ? area[i] : out[i];
+}
+
+/// As if all were as large as the largest between two lines of probes each.
+template <class L>
+[[gnu::always_inline]] inline void measureArea(const L& __restrict at, const Camera& camera, bool asSeen, float* __restrict out) {
+  for (int i = 0; i < L::kPatches; ++i) out[i] = 0;
+  for (int v = 0; v < L::kProbes; ++v)
+    for (int u = 0; u < L::kProbes; ++u) {
+      const int a = v * L::kRow + u, b = a + 1, c = a + L::kRow, d = c + 1;
+      measureCorner(at, a, b, c, camera, asSeen, out);
+      measureCorner(at, d, c, b, camera, asSeen, out);
+    }
+  for (int i = 0; i < L::kPatches; ++i) out[i] *= static_cast<float>(L::kProbes * L::kProbes);
+}
+
 /// Object space to camera space, in the order of glm's product, and to raster.
 template <class L>
 [[gnu::always_inline]] inline void place(L& __restrict at, const mat4& m, const Camera& camera) {
@@ -123,6 +157,7 @@ template <class L>
     measureLine(at, line * L::kRow, 1, camera, asSeen, out.u);
     measureLine(at, line, L::kRow, camera, asSeen, out.v);
   }
+  measureArea(at, camera, asSeen, out.area_px2);
 }
 
 // The lines of a flat patch are straight, and the longest is one of its edges.
@@ -166,8 +201,10 @@ void measureSome(const Object& o, const Camera& camera, int count, const PatchAt
     const auto &su = sizes.u, &sv = sizes.v;
     constexpr int c = L::kCount - L::kRow, d = L::kCount - 1;
     const bool triangle = kProbes == kFlatProbes && at.x[c][i] == at.x[d][i] && at.y[c][i] == at.y[d][i] && at.z[c][i] == at.z[d][i];
-    put(i, PatchSize{{triangle ? kTriangle * su.px[i] : su.px[i], su.length[i], su.least[i], su.bend_px[i]},
+    const float share = triangle ? kTriangle : 1.0f;
+    put(i, PatchSize{{share * su.px[i], su.length[i], su.least[i], su.bend_px[i]},
                      {sv.px[i], sv.length[i], sv.least[i], sv.bend_px[i]},
+                     share * sizes.area_px2[i],
                      {{sizes.lo[0][i], sizes.lo[1][i], sizes.lo[2][i]}, {sizes.hi[0][i], sizes.hi[1][i], sizes.hi[2][i]}}});
   }
 }
@@ -205,14 +242,49 @@ PatchSize measure(const Object& o, const Camera& camera, uint32_t patch, const U
   return size;
 }
 
-int cells(const LineSize& line, float edge_px, float coarsening, bool binary) {
+namespace {
+
+/// An edge may be this much longer than that of a square of the area asked.
+constexpr float kLongest = 1.5f;
+/// So much smaller than the cells along two lines, as fractions, may their whole numbers be.
+constexpr float kFewer = 0.9f;
+
+/// Whole numbers for two lines that take so many cells: as few as cover the area, the squarest of these.
+Cells fewest(float alongU, float alongV, int leastU, int leastV) {
+  Cells best{0, 0};
+  float bestEdge = kInfinity;
+  for (const float tried : {std::floor(alongU), std::ceil(alongU), alongU / kLongest}) {
+    const int nu = std::max(leastU, static_cast<int>(std::ceil(tried)));
+    const int nv = std::max(leastV, static_cast<int>(std::ceil(kFewer * alongU * alongV / static_cast<float>(nu))));
+    const float edge = std::max(alongU / static_cast<float>(nu), alongV / static_cast<float>(nv));
+    const int64_t count = int64_t{nu} * nv, fewestYet = int64_t{best.nu} * best.nv;
+    if (best.nu > 0 && (count > fewestYet || (count == fewestYet && edge >= bestEdge))) continue;
+    best = {nu, nv}, bestEdge = edge;
+  }
+  return best;
+}
+
+/// Whatever the rate asks: so that the shape does not collapse where blur lets edges grow, and chords are flat.
+int leastOf(const LineSize& line, float edge_px, float coarsening, bool joins) {
   constexpr float kLeastOfCoarse = 4;
+  // The hider knows how far a line bulges from two chords on, and closes cracks by that (docs/decisions/0003).
+  constexpr float kOneChord_px = 0.05f;
   // A line that a quarter of it leaves by `bend_px` as a second difference: its n-th part bulges by 2 bend / n^2.
   const float flat = std::min(std::ceil(std::sqrt(2 * line.bend_px / (kFlat_px * coarsening))), 64.0f);
-  const float fine = std::ceil(line.px / edge_px), coarse = std::ceil(line.px / (edge_px * coarsening));
-  const float n = std::max({coarse, std::min(fine, kLeastOfCoarse), static_cast<float>(line.least), flat});
-  const int count = n >= 1.0f ? static_cast<int>(std::min(n, 65536.0f)) : 1;
-  return binary ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(count))) : count;
+  const float fine = coarsening > 1 ? std::ceil(line.px / edge_px) : 1.0f, edge = kLongest * edge_px * coarsening;
+  const float n = std::max({std::ceil(line.px / edge), std::min(fine, kLeastOfCoarse), static_cast<float>(line.least), flat, joins && 2 * line.bend_px > kOneChord_px ? 2.0f : 1.0f});
+  return n >= 1.0f ? static_cast<int>(std::min(n, kMostCells)) : 1;
+}
+
+}  // namespace
+
+Cells cells(const PatchSize& size, float edge_px, float coarsening, bool binary, bool joins) {
+  const float square = size.area_px2 / (size.u.px * size.v.px);
+  const float edges = std::sqrt(square < 1.0f ? square : 1.0f) / (edge_px * coarsening);
+  const auto along = [&](const LineSize& line) { return line.px > 0 ? std::min(line.px * edges, kMostCells) : 0.0f; };
+  const Cells n = fewest(along(size.u), along(size.v), leastOf(size.u, edge_px, coarsening, joins), leastOf(size.v, edge_px, coarsening, joins));
+  const auto whole = [binary](int count) { return binary ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(count))) : count; };
+  return {whole(n.nu), whole(n.nv)};
 }
 
 }  // namespace tomales

@@ -16,7 +16,7 @@ parser.add_argument("--format", default="914x551")
 parser.add_argument("--truth")
 a = parser.parse_args()
 
-RATES = 4, 2, 1, 0.5, 0.25, 0.125, 0.0625
+RATES = 8, 4, 2, 1, 0.5, 0.25, 0.125
 
 
 def render(folder, tessellation, displacements, pixels, *further):
@@ -37,7 +37,7 @@ with tempfile.TemporaryDirectory() as name:
     truth = a.truth
     if not truth:
         truth = folder / "truth.exr"
-        render(folder, 16, 1, a.format, "--gi", "none")[0].rename(truth)
+        render(folder, 32, 1, a.format, "--gi", "none")[0].rename(truth)
     print("| rate | coarse polygons | geometry and BVH | error | million rays a CPU second, their hits shaded |\n|---|---|---|---|---|")
     for rate in RATES:
         picture, stats = render(folder, rate, 0, a.format, "--gi", "none")

@@ -50,6 +50,7 @@ WorldEnd
 """
 DIRECT = "Shutter 0 1\n" + SCENE % ""
 INDIRECT = SCENE % 'LightSource "indirectlight" "gi" "float samples" [48]'
+OCCLUDED = SCENE % 'LightSource "occlusionlight" "sky" "float samples" [64] "float maxvariation" [0.1]'
 suite = Suite()
 
 
@@ -66,7 +67,7 @@ def expect_same(what, a, b):
     suite.expect(same(a, b), what)
 
 
-for name, text in (("direct", DIRECT), ("indirect", INDIRECT)):
+for name, text in (("direct", DIRECT), ("indirect", INDIRECT), ("occluded", OCCLUDED)):
     suite.write(f"{name}.rib", text)
     suite.run("render", f"{name}.rib", "-o", f"{name}.exr", "-q")
     suite.expect_run(f"{name}: hide", ["hide", f"{name}.rib", "-o", f"{name}.dfb", "-t", "2", "--bucket-size", "11"], 0)

@@ -15,7 +15,7 @@ from pictures import pixels  # noqa: E402
 
 tomales = pathlib.Path(sys.argv[1]).resolve()
 size, samples, frames = [int(x) for x in sys.argv[2:5]] if len(sys.argv) > 4 else (24, 128, 4)
-LIMIT = 0.03 if len(sys.argv) <= 4 else 0.01  # few rays and large pixels make a coarser picture
+LIMIT = 0.04 if len(sys.argv) <= 4 else 0.01  # few rays and large pixels make a coarser picture
 SCENE = (FOLDER / "irradiance_cache" / "box_ball.rib").read_text()
 EYE, BALL = "Translate 0 0 3.95", "Translate 0.4 -0.65 -0.3"
 LAMP = 5  # shines more than any surface reflects

@@ -42,7 +42,11 @@ ChartCurve varied(const std::string& name, const Arguments& fixed, const std::st
 
 const Arguments kGather{"--gi", "gather"}, kAtlas{"--gi", "atlas"}, kTraced{"--gi", "reference"};
 
+const Arguments kPixelSamples{"1x1", "2x2", "3x3", "4x4", "6x6", "8x8"}, kFilterWidths{"4", "2", "1.5", "1", "0.7", "0.5", "0.25"};
+const Arguments kTessellations{"0.125", "0.25", "0.5", "1", "2", "4", "8"};
+
 std::vector<ChartSweep> allSweeps() {
+  const std::string filter = std::string(kPrelude) + "Option \"texture\" \"filter\" ";
   const std::string motion = std::string(kPrelude) + "GeometricApproximation \"motionfactor\" {}";
   const std::string tessellation = std::string(kPrelude) + "Attribute \"trace\" \"float tessellation\" {}";
   return {
@@ -60,12 +64,16 @@ std::vector<ChartSweep> allSweeps() {
       {"shadingrate", "shading rate", {"--gi", "none"}, {"--shading-rate", "0.0625"}, "--seed", false,
        {varied("shading rate", {}, "--shading-rate", {"16", "8", "4", "2", "1", "0.5", "0.25"})}},
       {"pixelsamples", "pixel samples", {"--gi", "none"}, {"--pixel-samples", "16x16"}, "--seed", false,
-       {varied("pixel samples", {}, "--pixel-samples", {"1x1", "2x2", "3x3", "4x4", "6x6", "8x8"})}},
+       {varied("jittered", {}, "--pixel-samples", kPixelSamples), varied("regular", {std::string(kPrelude) + "Hider \"hidden\" \"int jitter\" 0"}, "--pixel-samples", kPixelSamples)}},
+      {"shadowsamples", "samples of lights that have an extent", {"--gi", "none"}, {"--light-samples", "1024"}, "--light-seed", false,
+       {varied("light samples", {}, "--light-samples", {"1", "2", "4", "8", "16", "32", "64", "128"})}},
+      {"texturefilter", "width of texture filters", {"--gi", "none"}, {"--shading-rate", "0.0625"}, "--seed", false,
+       {varied("box", {}, filter + "\"box\" \"width\" {}", kFilterWidths), varied("gaussian", {}, filter + "\"gaussian\" \"width\" {}", kFilterWidths)}},
       {"motionfactor", "coarser shading of what moves", {"--gi", "none"}, {fmt::format(fmt::runtime(motion), 0)}, "--seed", false,
        {varied("motion factor", {}, motion, {"16", "8", "4", "2", "1", "0"})}},
       {"tessellation", "fineness of the polygons that rays meet", {"--gi", "gather", "--indirect-only"},
        {fmt::format(fmt::runtime(tessellation), 16)}, "--seed", false,
-       {varied("tessellation", {}, tessellation, {"0.125", "0.25", "0.5", "1", "2", "4", "8"})}},
+       {varied("hit list", {}, tessellation, kTessellations), varied("bias alone", {"--no-hit-list"}, tessellation, kTessellations)}},
   };
 }
 

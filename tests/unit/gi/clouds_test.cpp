@@ -76,7 +76,7 @@ TEST_F(Clouds, WhatIsNoPhotonMapSaysSo) {
   CloudFiles files("");
   std::string problem;
   std::vector<float> e(static_cast<size_t>(wall.count));
-  EXPECT_FALSE(files.photons(wall.query(file, 0, wall.count), 50, {e.data(), e.data(), e.data()}, problem));
+  EXPECT_FALSE(files.photons(wall.query(file, 0, wall.count), TM_PHOTON_DEFAULTS, {e.data(), e.data(), e.data()}, problem));
   EXPECT_NE(problem.find("power"), std::string::npos) << problem;
 }
 
@@ -145,7 +145,7 @@ TEST_F(Clouds, MistakesAreTold) {
   EXPECT_NE(problem.find("absent.ptc"), std::string::npos) << problem;
   EXPECT_FALSE(files.lookUp(wall.query(bakeWall(), 0, 4), {{"colour", 3, {sum.data(), sum.data(), sum.data()}}}, found.data(), problem));
   EXPECT_NE(problem.find("colour"), std::string::npos) << problem;
-  EXPECT_FALSE(files.photons(wall.query(path("wall.ptc"), 0, 4), 50, {sum.data(), sum.data(), sum.data()}, problem));
+  EXPECT_FALSE(files.photons(wall.query(path("wall.ptc"), 0, 4), TM_PHOTON_DEFAULTS, {sum.data(), sum.data(), sum.data()}, problem));
   EXPECT_NE(problem.find("photon map"), std::string::npos) << problem;
   std::ofstream(path("short.ptc")) << contents(path("wall.ptc")).substr(0, 2000);
   EXPECT_FALSE(files.lookUp(wall.query(path("short.ptc"), 0, 4), wanted, found.data(), problem));
@@ -169,7 +169,7 @@ TEST_F(Clouds, APhotonMapTellsOfItsIrradiance) {
   std::vector<float> e[3];
   for (auto& c : e) c.assign(1024, 0);
   std::string problem;
-  ASSERT_TRUE(files.photons(wall.query(path("photons.ptc"), 0, 1024), 50, {e[0].data(), e[1].data(), e[2].data()}, problem)) << problem;
+  ASSERT_TRUE(files.photons(wall.query(path("photons.ptc"), 0, 1024), TM_PHOTON_DEFAULTS, {e[0].data(), e[1].data(), e[2].data()}, problem)) << problem;
   for (const size_t i : {size_t{16 * 32 + 16}, size_t{12 * 32 + 20}})
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(e[c][i], 1024 * (c == 0 ? 2 : c == 1 ? 1 : 0.5) / double{kPi}, 0.1 * 1024 / double{kPi});
 }

@@ -54,6 +54,8 @@ RayQuery asking(const Edit& edit) {
 struct Answer {
   float distance = 0;
   vec3 color, opacity, place;
+  float effective = 0;
+  uint8_t leaves = 0;
 };
 Answer traceOne(const GiServices& services, const vec3& P, const vec3& direction, const RayQuery& query, const ShadeContext& context = {}) {
   ShadePoints points(0, 0);
@@ -61,7 +63,7 @@ Answer traceOne(const GiServices& services, const vec3& P, const vec3& direction
   const uint8_t active = 1;
   Answer a;
   const auto view = [](vec3& v) { return TmVec3{&v.x, &v.y, &v.z}; };
-  const RayResult result{&a.distance, view(a.color), view(a.opacity), {{"primitive:P", 3, {&a.place.x, &a.place.y, &a.place.z}}}};
+  const RayResult result{&a.distance, view(a.color), view(a.opacity), &a.effective, &a.leaves, {{"primitive:P", 3, {&a.place.x, &a.place.y, &a.place.z}}}};
   services.trace(points, &active, {&P.x, &P.y, &P.z}, {&direction.x, &direction.y, &direction.z}, query, context, result);
   return a;
 }
@@ -187,6 +189,13 @@ TEST(RayCalls, LightPassesLayersByTheProductOfTheirClearness) {
       for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(1 - a.opacity[c], std::pow(0.8f - 0.2f * static_cast<float>(c), static_cast<float>(through)), 1e-5f);
       EXPECT_LT(glm::length(a.color - a.opacity), 1e-5f) << "white layers: what covers is what shines";
+      EXPECT_EQ(a.leaves, 1) << "nothing that is met is opaque";
+      // The mean distance of layers 1/2 apart, by what each covers: the mean over the colours.
+      double covered = 0, distances = 0;
+      for (int k = 1; k <= through; ++k)
+        for (const double clear : {0.8, 0.6, 0.4}) covered += (1 - clear) * std::pow(clear, k - 1), distances += 0.5 * k * (1 - clear) * std::pow(clear, k - 1);
+      if (through > 0) { EXPECT_NEAR(a.effective, distances / covered, 1e-4); }
+      else EXPECT_EQ(a.effective, kInfinity);
     }
   }
 }
@@ -255,6 +264,44 @@ TEST(RayCalls, SubsetsAndSidesAndDistanceChooseWhatIsMet) {
   EXPECT_NEAR(std::min(front, back), 1, 1e-5f);
   EXPECT_NEAR(std::max(front, back), 2, 1e-5f);
   EXPECT_LT(glm::length(traceOne(*services, P, up, asking([&](RayQuery& q) { q.subset = "far"; })).place - vec3(0.2f, 2, 0.1f)), 1e-5f);
+}
+
+// In a white sky everything that neither absorbs nor casts shadows is white: mirrors, and glass whose rays go on until they leave.
+TEST(RayCalls, GlassAndMirrorsAreAsBrightAsTheSkyAroundThem) {
+  SceneBuilder b;
+  b.light("environmentlight", {floatParam("intensity", 3)});
+  b.sphere(1, vec3(1), {0, 0, 5});
+  surface(b, "glass");
+  change(b, [](Attributes& a) { a.trace.maxSpecularDepth = 100; });
+  b.sphere(1, vec3(1), {3, 0, 5});
+  surface(b, "mirror");
+  change(b, [](Attributes& a) { a.trace.maxSpecularDepth = 100; });
+  b.scene.options.maxRayDepth = 100;
+  World world(b.scene);
+  const auto services = world.use({});
+  ShadePoints glass(0, 0), mirror(1, 0);
+  for (int k = 0; k < 20; ++k) {
+    const float x = 0.045f * static_cast<float>(k), z = -std::sqrt(1 - x * x);
+    addPoint(glass, vec3(x, 0, z) + vec3(0, 0, 5), {x, 0, z}, vec3(x, 0, 5 + z));
+    addPoint(mirror, vec3(-x, 0, z) + vec3(3, 0, 5), {-x, 0, z}, {0, 0, 1});
+  }
+  // Within glass weak reflections are left out with their share: nothing is lost.
+  for (const vec3& c : shaded(world, glass)) EXPECT_NEAR(c.y, 3, 0.02f);
+
+  for (const vec3& c : shaded(world, mirror)) EXPECT_NEAR(c.y, 3, 0.02f);
+}
+
+TEST(RayCalls, RaysThatAreNotShotDoNotLeave) {
+  SceneBuilder b;
+  b.light("environmentlight", {});
+  b.quad({-9, 0, -9}, {9, 0, -9}, {9, 0, 9}, {-9, 0, 9}, vec3(1));
+  surface(b, "mirror");
+  change(b, [](Attributes& a) { a.trace.maxSpecularDepth = 0; });
+  World world(b.scene);
+  const auto services = world.use({});
+  ShadePoints points(0, 0);
+  addPoint(points, {0, 0, 0}, {0, 1, 0}, {0.01f, -1, 0});
+  EXPECT_EQ(shaded(world, points)[0], vec3(0));
 }
 
 TEST(RayCalls, DepthIsLimitedByTheObjectsOnTheWay) {

@@ -213,6 +213,80 @@ TEST_F(BatchServices, ATextureOfFourCornersIsTheMeanBetweenThem) {
   EXPECT_TRUE(log.entries().empty());
 }
 
+TEST_F(BatchServices, PicturesAreLookedUpOverRegionsCornersAndChannels) {
+  const std::string path = ::testing::TempDir() + "/tomales_ramp.exr";
+  OIIO::ImageBuf picture(OIIO::ImageSpec(256, 128, 3, OIIO::TypeDesc::FLOAT));
+  for (int k = 0; k < 256 * 128; ++k) {
+    const float s = (static_cast<float>(k % 256) + 0.5f) / 256, value[] = {s < 0.5f ? 0.0f : 1.0f, s, 2};
+    picture.setpixel(k % 256, k / 256, value);
+  }
+  ASSERT_TRUE(picture.write(path));
+  const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
+    FilterRegion wide;
+    for (Float& side : wide.sides) side = 0.1;
+    wide.s = 0.5, wide.t = 0.5;
+    const Float step = xcomp(texture(path.c_str(), wide));
+    wide.s = 0.53, wide.scale(2);
+    const Float wider = xcomp(texture(path.c_str(), wide));
+    s.Ci = Color(step, wider, ftexture(path.c_str(), 1, 0.25, 0.5, "blur", 0.02));
+  });
+  EXPECT_NEAR(c[0].x, 0.5f, 0.02f);
+  EXPECT_TRUE(c[0].y > 0.5f && c[0].y < 0.75f) << c[0].y;
+  EXPECT_NEAR(c[0].z, 0.25f, 0.01f);
+  const std::vector<vec3> around = asked(4, [&](sl::Surface& s) {
+    // From the equator: +y is a quarter round the picture, where its green is 1/4.
+    const Vector corners[4] = {Vector(0.1, 1, 0.1), Vector(-0.1, 1, 0.1), Vector(0.1, 1, -0.1), Vector(-0.1, 1, -0.1)};
+    s.Ci = Color(ycomp(environment(path.c_str(), corners)), fenvironment(path.c_str(), 1, Vector(0, 1, 0)), fenvironment(path.c_str(), 2, Vector(0, 1, 0), "blur", 0.01));
+  });
+  expectColor(around[0], {0.25f, 0.25f, 2}, 0.01f);
+  EXPECT_TRUE(log.entries().empty());
+}
+
+// An orthographic map of -1..1: something at depth 1 hides its left half.
+TEST_F(BatchServices, AShadowOfFourCornersIsTheMeanBetweenThem) {
+  const std::string path = ::testing::TempDir() + "/tomales_half.exr";
+  OIIO::ImageSpec spec(64, 64, 1, OIIO::TypeDesc::FLOAT);
+  spec.channelnames = {"Z"};
+  const mat4 same(1.0f);
+  spec.attribute("worldtocamera", OIIO::TypeMatrix, &same), spec.attribute("worldtoscreen", OIIO::TypeMatrix, &same);
+  OIIO::ImageBuf map(spec);
+  for (int k = 0; k < 64 * 64; ++k) {
+    const float depth = k % 64 < 32 ? 1.0f : 100.0f;
+    map.setpixel(k % 64, k / 64, &depth);
+  }
+  ASSERT_TRUE(map.write(path));
+  const std::vector<vec3> c = asked(2, [&](sl::Surface& s) {
+    const auto over = [&](double from, double to) {
+      const Point corners[4] = {Point(from, -0.5, 5), Point(to, -0.5, 5), Point(from, 0.5, 5), Point(to, 0.5, 5)};
+      return xcomp(shadow(path.c_str(), corners, "samples", 4, "bias", 0.1));
+    };
+    s.Ci = Color(over(-0.5, 0.5), over(-0.5, -0.25), xcomp(shadow(path.c_str(), Point(0.5, 0, 5))));
+  });
+  expectColor(c[0], {0.5f, 1, 0});
+  EXPECT_TRUE(log.entries().empty());
+}
+
+TEST_F(BatchServices, AnOptionScalesAllTextureFilters) {
+  const std::string path = ::testing::TempDir() + "/tomales_step.tif";
+  OIIO::ImageBuf picture(OIIO::ImageSpec(256, 256, 1, OIIO::TypeDesc::FLOAT));
+  for (int k = 0; k < 256 * 256; ++k) {
+    const float value = k % 256 < 128 ? 0.0f : 1.0f;
+    picture.setpixel(k % 256, k / 256, &value);
+  }
+  ASSERT_TRUE(picture.write(path));
+  scene.options.user["texture:width"] = number("width", 2);
+  const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
+    TmTextureLookup one = lookup();
+    one.channels = 1;
+    const auto over = [&](double from, double to) {
+      const Float ss[4] = {from, to, from, to}, tt[4] = {0.4, 0.4, 0.6, 0.6};
+      return xcomp(texture(path.c_str(), ss, tt, one));
+    };
+    s.Ci = Color(over(0.475, 0.575), over(0.55, 0.6), 0);  // twice as wide: from 0.425 to 0.625, and beyond the step
+  });
+  expectColor(c[0], {0.625f, 1, 0}, 0.06f);
+}
+
 TEST_F(BatchServices, PicturesAndLightsTellWhatTheyHold) {
   const std::string path = ::testing::TempDir() + "/tomales_constant.exr";
   OIIO::ImageBuf picture(OIIO::ImageSpec(64, 32, 3, OIIO::TypeDesc::FLOAT));
@@ -242,6 +316,99 @@ TEST_F(BatchServices, IndirectdiffuseIsTheMeanOfWhatRaysSee) {
   services.seen = [](const vec3& d) { return vec3(2, d.z * d.z, 1); };
   const std::vector<vec3> c = asked(2, [](sl::Surface& s) { s.Ci = indirectdiffuse(s.P, s.N, 4096); });
   expectColor(c[0], vec3(2, 0.5f, 1), 0.01f);  // the mean of cos^2 by the cosine is 1/2
+  EXPECT_EQ(asked(2, [](sl::Surface& s) { s.Ci = indirect(s.P, s.N, 4096); })[0], c[0]) << "its old name";
+}
+
+TEST_F(BatchServices, PointsThatAShaderHasMovedAreTracedAndTheOthersInterpolated) {
+  services.interpolated = 0.75f;
+  services.met = [](const vec3&, const vec3&) { return 1.0f; };
+  const std::vector<vec3> c = asked(8, [](sl::Surface& s) {
+    Point from = s.P;
+    sl::If(s.u > 0.3, [&] { from += Vector(0, 0.5, 0); });
+    s.Ci = Color(occlusion(from, s.N, 4, "maxvariation", 0.1), occlusion(from, s.N, 4), 0);
+  });
+  for (const size_t i : {0u, 1u, 2u}) expectColor(c[i], {0.75f, 1, 0});
+  expectColor(c[3], {1, 1, 0});
+}
+
+// Half of the sphere of directions leaves the scene, towards +x; the map is 1 + its own direction.
+TEST_F(BatchServices, OcclusionTellsOfTheEnvironmentWhereRaysLeave) {
+  const std::string path = ::testing::TempDir() + "/tomales_open.exr";
+  OIIO::ImageBuf picture(OIIO::ImageSpec(256, 128, 3, OIIO::TypeDesc::FLOAT));
+  for (int k = 0; k < 256 * 128; ++k) {
+    const float theta = kPi * (static_cast<float>(k / 256) + 0.5f) / 128, phi = 2 * kPi * (static_cast<float>(k % 256) + 0.5f) / 256;
+    const float value[] = {1 + std::sin(theta) * std::cos(phi), 1 + std::sin(theta) * std::sin(phi), 1 + std::cos(theta)};
+    picture.setpixel(k % 256, k / 256, value);
+  }
+  ASSERT_TRUE(picture.write(path));
+  services.met = [](const vec3&, const vec3& d) { return d.x > 0 ? kInfinity : 1.0f; };
+  services.seen = [](const vec3& d) { return d.x > 0 ? vec3(0) : vec3(0, 0, 2); };
+  const std::vector<vec3> c = asked(2, [&](sl::Surface& s) {
+    Color environmentColor, environmentDirection;
+    Float covers;
+    Color radiance = indirectdiffuse(s.P, Normal(0, 0, 1), 4096, "environmentmap", path.c_str(), "environmentcolor", &environmentColor, "environmentdir",
+                                     &environmentDirection, "occlusion", &covers, "adaptive", 1);
+    s.Ci = radiance;
+    EXPECT_NEAR(covers[0], 0.5f, 2e-3f);
+    // By the cosine, the mean of x over the half of the hemisphere where it is positive is 2/(3 pi), of z 1/3, of y 0; each over all.
+    const float x = 2.0f / (3 * kPi), z = 1.0f / 3;
+    EXPECT_NEAR(environmentColor[0].x, 0.5f + x, 0.01f);
+    EXPECT_NEAR(environmentColor[0].y, 0.5f, 0.01f);
+    EXPECT_NEAR(environmentColor[0].z, 0.5f + z, 0.01f);
+    const vec3 mean = glm::normalize(vec3(x, 0, z));
+    expectColor({environmentDirection[0].x, environmentDirection[0].y, environmentDirection[0].z}, mean, 0.01f);
+  });
+  EXPECT_NEAR(c[0].z, 1 + 0.5f + 1.0f / 3, 0.01f);
+  EXPECT_TRUE(log.entries().empty());
+}
+
+TEST_F(BatchServices, GatherHasCategoriesListsAndTheEffectiveDistance) {
+  services.met = [](const vec3&, const vec3&) { return 3.0f; };
+  const std::vector<vec3> c = asked(2, [](sl::Surface& s) {
+    Float hits = 0, misses = 0, effective, length;
+    Vector direction, sum;
+    gather("illuminance", s.P, s.N, 0.5f, 4, rays("label", "probe", "distribution", "cosine"), {{"effectivedistance", &effective}, {"ray:length", &length}},
+           [&] { hits += effective + 10 * length; }, [&] { misses += 1; });
+    s.Ci = Color(hits, misses, 0);
+    gather("samplepattern", s.P, s.N, 0.5f, 8, rays(), {{"ray:direction", &direction}}, [&] { hits += 1000; }, [&] { sum += direction; });
+    setzcomp(s.Ci, zcomp(normalize(sum)));
+  });
+  expectColor(c[0], {4 * 36, 0, -1}, 0.05f);
+  EXPECT_EQ(services.asked.front().label, "probe");
+  EXPECT_EQ(services.asked.size(), 4u) << "a pattern of samples is not traced";
+  body = [](sl::Surface& s) { gather("pathtrace", s.P, s.N, 0.5f, 4, rays(), {}, [] {}, [] {}); };
+  shadeOne();
+  EXPECT_EQ(log.entries().size(), 1u);
+}
+
+TEST_F(BatchServices, ImportanceIsTheProductOfWeights) {
+  ShadeContext context;
+  context.importance = 0.25f;
+  const std::vector<vec3> c = asked(2, [](sl::Surface& s) {
+    Float importance, shadow;
+    std::string type, label;
+    EXPECT_TRUE(rayinfo("importance", importance) && rayinfo("shadowdepth", shadow) && rayinfo("type", type) && rayinfo("label", label));
+    EXPECT_FALSE(rayinfo("depth", type)) << "a number is no text";
+    EXPECT_EQ(type, "camera");
+    trace(s.P, s.I, "weight", 0.5);
+    s.Ci = Color(importance, shadow, traceDistance(s.P, s.I, "maxdist", 2));
+  }, context);
+  expectColor(c[0], {0.25f, 0, 1e30f});
+  EXPECT_EQ(services.asked[0].importance, 0.5f);
+  EXPECT_EQ(services.asked[1].maxDistance, 2);
+}
+
+TEST_F(BatchServices, RandomgridIsOneNumberOfACallAndOfTheObjectsName) {
+  attributes.name = "left";
+  float first = 0;
+  const std::vector<vec3> c = asked(64, [&](sl::Surface& s) { s.Ci = Color(s.randomgrid(), s.randomgrid(), 0) + Triple(0, 0, 1) * random3(); });
+  first = c[0].x;
+  for (size_t i = 0; i < 32; ++i) {
+    EXPECT_EQ(c[i].x, first);
+    EXPECT_NE(c[i].y, first);
+    if (i > 0) { EXPECT_NE(c[i].z, c[i - 1].z) << "random() differs from point to point"; }
+  }
+  EXPECT_TRUE(first >= 0 && first < 1);
 }
 
 TEST_F(BatchServices, PointsKnowTheRayThatCame) {

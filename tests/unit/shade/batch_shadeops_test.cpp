@@ -128,6 +128,8 @@ const std::vector<Case>& cases() {
       {"colour cellnoise", [](const Values& v) { return cellnoise3(v.p); }, [](const In& in) { return of(rsl::cellnoise3(vec(in.p))); }},
       {"colour cellnoise of 4", [](const Values& v) { return cellnoise3(v.p, 5.5); }, [](const In& in) { return of(rsl::cellnoise3(vec(in.p), 5)); }},
 
+      {"wnoise", [](const Values& v) { return Triple(wnoise(v.p)); }, [](const In& in) { return all(double{rsl::wnoise(vec(in.p))}); }},
+      {"wnoise over a width", [](const Values& v) { return Triple(wnoise(v.p, v.a)); }, [](const In& in) { return all(double{rsl::wnoise(vec(in.p), float(in.a))}); }},
       {"components", [](const Values& v) { return Triple(xcomp(v.p), ycomp(v.q), comp(v.p, 2)); }, [](const In& in) { return D3{in.p[0], in.q[1], in.p[2]}; }},
       {"zcomp", [](const Values& v) { return Triple(zcomp(v.q)); }, [](const In& in) { return all(in.q[2]); }},
       {"setcomp", [](const Values& v) { Triple t = v.p; setxcomp(t, v.a), setycomp(t, v.b), setzcomp(t, v.c); return t; }, [](const In& in) { return D3{in.a, in.b, in.c}; }},
@@ -223,6 +225,43 @@ TEST_F(BatchShadeops, AreWhatTheyAreByOtherMeansAtThePointsOfTheMaskAndNoOthers)
       }
     }
   EXPECT_TRUE(log.entries().empty());
+}
+
+TEST_F(BatchShadeops, WaveletNoiseFadesToItsMeanBeyondItsBand) {
+  double sum = 0, squares = 0;
+  constexpr int kMany = 20000;
+  for (int k = 0; k < kMany; ++k) {
+    const rsl::Vec3 p{0.61803f * static_cast<float>(k), 0.75487f * static_cast<float>(k), 0.56984f * static_cast<float>(k)};
+    const float w = rsl::wnoise(p);
+    ASSERT_TRUE(w >= 0 && w <= 1);
+    ASSERT_EQ(rsl::wnoise(p, 1), 0.5f);
+    if (w > 0 && w < 1) { ASSERT_NEAR(rsl::wnoise(p, 0.75f) - 0.5f, 0.5f * (w - 0.5f), 1e-6f); }
+    sum += w, squares += (w - 0.5) * (w - 0.5);
+  }
+  EXPECT_NEAR(sum / kMany, 0.5, 0.01);
+  EXPECT_NEAR(std::sqrt(squares / kMany), 1.0 / 6, 0.01);
+}
+
+// Its defining property: the noise has nothing that quadratic B-splines of twice the spacing could hold, so that its integral with any is 0.
+TEST(WaveletNoise, IsOrthogonalToEveryCoarserGrid) {
+  const auto spline = [](double x) {
+    const double a = std::fabs(x);
+    return a < 0.5 ? 0.75 - a * a : a < 1.5 ? 0.5 * (1.5 - a) * (1.5 - a) : 0.0;
+  };
+  constexpr int kSteps = 24;
+  double worst = 0, mean = 0;
+  for (int place = 0; place < 20; ++place) {
+    double held = 0, both = 0;
+    for (int k = 0; k < kSteps * kSteps * kSteps; ++k) {
+      const double x[3] = {(k % kSteps + 0.5) / 4 - 3, (k / kSteps % kSteps + 0.5) / 4 - 3, (k / kSteps / kSteps + 0.5) / 4 - 3};  // the spline's 6 units
+      const double weight = spline(x[0] / 2) * spline(x[1] / 2) * spline(x[2] / 2);
+      const rsl::Vec3 p{float(x[0] + 2 * place - 0.5), float(x[1] - 4 * place - 0.5), float(x[2] + 5.5)};  // coarse ones stand halfway between fine ones
+      const double noise = rsl::WaveletTile::get()(p);
+      held += weight * noise / 64, both += weight * std::fabs(noise) / 64;
+    }
+    worst = std::max(worst, std::fabs(held)), mean += both / 20;
+  }
+  EXPECT_LT(worst, 0.02 * mean);
 }
 
 TEST(Text, IsJoinedWrittenAndMatched) {

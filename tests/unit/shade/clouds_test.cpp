@@ -29,9 +29,19 @@ class FakeClouds : public CloudServices {
     }
     return true;
   }
-  bool photons(const CloudQuery& q, int estimator, TmVec3 E, std::string&) override {
+  bool photons(const CloudQuery& q, const TmPhotonLookup& lookup, TmVec3 E, std::string&) override {
     for (int i = 0; i < q.count; ++i)
-      if (q.active[i]) E.x[i] = static_cast<float>(estimator), E.y[i] = q.N.z[i], E.z[i] = 0;
+      if (q.active[i]) E.x[i] = static_cast<float>(lookup.estimator), E.y[i] = q.N.z[i], E.z[i] = lookup.maxDistance;
+    return true;
+  }
+  /// Tells what it was asked.
+  bool occlusion(const CloudQuery& q, const DisksQuery& d, float* covered, TmVec3 radiance, std::string& problem) override {
+    if (q.file != "known.ptc") return problem = "is not there", false;
+    for (int i = 0; i < q.count; ++i) {
+      if (!q.active[i]) continue;
+      covered[i] = d.clamp ? 0.25f : 0.5f;
+      if (radiance.x) radiance.x[i] = d.maxSolidAngle, radiance.y[i] = q.P.x[i], radiance.z[i] = d.channel == "_radiosity" ? 1.0f : 2.0f;
+    }
     return true;
   }
 
@@ -78,19 +88,42 @@ struct wax : sl::Surface {
 struct causticlight : sl::Surface {
   void main() { Ci = sl::caustic(P, N), Oi = sl::Color(1.0); }
 };
+struct pointbased : sl::Surface {
+  void main() {
+    Ci = sl::Color(-1.0), Oi = sl::Color(1.0);
+    sl::If(u < 0.7, [&] {
+      const sl::Float covered = sl::occlusion(P, N, 0, "pointbased", 1, "filename", file(sl::grid()), "clamp", 0);
+      Ci = sl::indirectdiffuse(P, N, 0, "filename", file(sl::grid()), "pointbased", 1, "maxsolidangle", 0.125, "channel", "_light");
+      Ci += sl::Color(covered, 0, 0);
+    });
+  }
+};
+/// Lists of texture3d(), bake3d() and photonmap().
+struct listing : sl::Surface {
+  void main() {
+    sl::Float x = 0;
+    sl::bake3d("left.ptc", P, N, {{"u", u}}, "coordsystem", "object", "radius", 0.5, "radiusscale", 3, "interpolate", 1);
+    const sl::Float found = sl::texture3d("known.ptc", P, N, {{"x", x}}, "coordsystem", "object", "filterradius", &radius, "maxdepth", 4);
+    Ci = sl::photonmap("photons.ptc", P, N, "estimator", 9, "maxdist", 2.5);
+    sl::setycomp(Ci, x + 10 * found), Oi = sl::Color(1.0);
+  }
+  sl::Float radius = 1;
+};
+const rsl::Shader listingShader(TM_SURFACE, "listing", "", 0, sl::shade<listing>, {});
 const rsl::Shader causticShader(TM_SURFACE, "causticlight", "", 0, sl::shade<causticlight>, {});
 const rsl::Shader bakingShader(TM_SURFACE, "baking", "", 0, sl::shade<baking>, {&file});
 rsl::StringParam file2("file", "known.ptc", "");
 const rsl::Shader neighbourShader(TM_SURFACE, "bakingwide", "", TM_NEIGHBOURS, sl::shade<baking>, {&file2});
 rsl::StringParam file4("file", "known.ptc", "");
+const rsl::Shader pointbasedShader(TM_SURFACE, "pointbased", "", TM_NEIGHBOURS, sl::shade<pointbased>, {&file4});
 const rsl::Shader waxShader(TM_SURFACE, "wax", "", TM_NEIGHBOURS, sl::shade<wax>, {&file4});
 const rsl::Shader findingShader(TM_SURFACE, "finding", "", 0, sl::shade<finding>, {&file2});
 
 class CloudCalls : public Stage {
  protected:
   CloudCalls() {
-    static const TmShader* const shaders[] = {bakingShader, neighbourShader, findingShader, waxShader, causticShader};
-    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 5};
+    static const TmShader* const shaders[] = {bakingShader, neighbourShader, findingShader, waxShader, causticShader, pointbasedShader, listingShader};
+    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 7};
     registry.addLibrary(&library, "test");
   }
   ShadePoints row() {
@@ -161,6 +194,34 @@ TEST_F(CloudCalls, WithoutItsCloudNoLightIsDiffusedAndTheUserIsTold) {
   system().setClouds(&clouds);
   expectColor(shade(row()).color(0), {0, 0, 0});
   EXPECT_EQ(log.worst(), Severity::Missing);
+}
+
+TEST_F(CloudCalls, OcclusionOfAPointCloudNeedsNoRaysAndIsAskedForInWorldSpaceUnderTheMask) {
+  surface("pointbased");
+  scene.cameraFromWorld = Motion::still(mat4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 10, 0, 0, 1));
+  system().setClouds(&clouds);
+  const ShadedPoints out = shade(row());
+  expectColor(out.color(1), {0.125f + 0.5f, 1 - 10, 2});
+  expectColor(out.color(3), {-1, -1, -1});
+  EXPECT_TRUE(services.asked.empty());
+  EXPECT_TRUE(log.entries().empty());
+}
+
+TEST_F(CloudCalls, WithoutItsCloudNothingIsCoveredAndTheUserIsTold) {
+  surface("pointbased", {text("file", "absent.ptc")});
+  system().setClouds(&clouds);
+  expectColor(shade(row()).color(0), {0, 0, 0});
+  EXPECT_EQ(log.worst(), Severity::Missing);
+}
+
+TEST_F(CloudCalls, ListsSetWhatTheyName) {
+  surface("listing");
+  worldFromObject = Motion::still(mat4(2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1));
+  system().setClouds(&clouds);
+  const ShadedPoints out = shade(row());
+  expectColor(out.color(2), {9, 1 + 10, 2.5f});  // found at 2 of the world, 1 of the object
+  ASSERT_EQ(clouds.baked.size(), 4u);
+  EXPECT_FLOAT_EQ(clouds.baked[2].radius, 0.75f) << "1/2, thrice, in an object of twice the size";
 }
 
 TEST_F(CloudCalls, CausticsAreThePhotonsOfTheMapThatTheAttributeNames) {

@@ -128,6 +128,47 @@ TEST_F(Environment, ShinyMetalMirrorsTheMapByTheReflectedDirection) {
   expectColor(shade(p).color(0), 0.5f * attributes.color * vec3(2, 1, 1), 2e-3f);  // I = +z, R = +x
 }
 
+TEST_F(Environment, AMirrorSeesTheSkyWhereItsRaysLeaveTheScene) {
+  surface("mirror", {number("Kr", 0.5f)});
+  light("environmentlight", {number("intensity", 2), text("map", writeMap([](const vec3& w) { return vec3(1) + w; }))});
+  services.seen = [](const vec3& d) { return d.x > 0 ? vec3(0) : vec3(0.25f, 0, 0); };
+  services.met = [](const vec3&, const vec3& d) { return d.x > 0 ? kInfinity : 3.0f; };
+  ShadePoints p = points({vec3(0, 0, 5), vec3(0, 0, 5)}, glm::normalize(vec3(1, 0, -1)));
+  p.set3(kNx, 1, glm::normalize(vec3(-1, 0, -1))), p.set3(kNgx, 1, glm::normalize(vec3(-1, 0, -1)));
+  const ShadedPoints out = shade(p);
+  expectColor(out.color(0), {2, 1, 1}, 4e-3f);  // R = +x
+  expectColor(out.color(1), {0.125f, 0, 0});    // R = -x, where something is
+}
+
+TEST_F(Environment, SkiesThatAreNotVisibleOrNotSpecularAreNotMirroredNorByWideRays) {
+  surface("mirror", {number("blur", 0)});
+  light("environmentlight", {number("visible", 0)});
+  light("environmentlight", {number("__nonspecular", 1)});
+  services.met = [](const vec3&, const vec3&) { return kInfinity; };
+  expectColor(shadeOne(), {0, 0, 0});
+}
+
+TEST_F(Environment, WideRaysLeaveTheSkyToDiffuse) {
+  surface("mirror", {number("blur", 1), number("samples", 4)});
+  light("environmentlight");
+  services.met = [](const vec3&, const vec3&) { return kInfinity; };
+  expectColor(shadeOne(), {0, 0, 0});
+}
+
+// A white metal in a white sky is as bright as the sky, by the lights alone as with rays that mirror the scene: light samples bring the sky once.
+TEST_F(Environment, RaysThatPassLampsPassTheSky) {
+  const auto lit = [&](float rays) {
+    shading.reset(), scene = {}, attributes = {};
+    surface("disney", {number("metallic", 1), number("roughness", 0.2f), number("reflections", rays)});
+    light("environmentlight", {number("samples", 256)});
+    return litBy({0, 0, -1}, 256).x;
+  };
+  services.met = [](const vec3&, const vec3&) { return kInfinity; };
+  const float alone = lit(0);
+  EXPECT_NEAR(alone, 1, 0.02f);
+  EXPECT_EQ(lit(8), alone);
+}
+
 TEST_F(Environment, AMissingMapIsMagentaAndReportedOnce) {
   surface("matte");
   light("environmentlight", {text("map", "absent.exr")});

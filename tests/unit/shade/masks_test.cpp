@@ -60,6 +60,11 @@ const std::vector<Asked>& calls() {
       }),
       TM_CALL("texture3d", call.texture3d(h, g, "absent.ptc", rsl::view(g->P), *axis, nullptr, nullptr, 0, out.x)),
       TM_CALL("photonMap", call.photonMap(h, g, "absent.ptc", rsl::view(g->P), *axis, 50, out)),
+      TM_CALL("hemisphere", {
+        const TmHemisphere found{sizeof(TmHemisphere), nullptr, out, {}, {}};
+        call.hemisphere(h, g, rsl::view(g->P), *axis, nullptr, &found);
+      }),
+      TM_CALL("photonMapWith", call.photonMapWith(h, g, "absent.ptc", rsl::view(g->P), *axis, nullptr, out)),
       TM_CALL("subsurface", call.subsurface(h, g, "absent.ptc", rsl::view(g->P), nullptr, out)),
   };
 #undef TM_CALL

@@ -47,7 +47,9 @@ struct differing : sl::Surface {
     Normal bumped = calculatenormal(P + Vector(0, 0, 0.5) * u);
     Ci = Color(Du(f), Dv(f), Deriv(f, u + v));
     If(u > 0.5, [&] { Ci = Color(bumped); });
-    Oi = Color(area(P));
+    FilterRegion region;
+    region.calculate2d(f, v);
+    Oi = Color(area(P), region.sides[0], 0);
   }
 };
 
@@ -158,6 +160,7 @@ TEST_F(Sl, DerivativesAreCentredDifferencesOverTheMicropolygon) {
     // z = u / 2 over x = 2u: the normal leans by 1 in 4 (unit length, on the side of Ng).
     expectColor(out.color(i), u > 0.5f ? glm::normalize(vec3(0.25f, 0, -1)) : vec3(6 * u, 2, 6 * u + 2), 2e-3f);
     EXPECT_NEAR(out.opacity(i).x, 2 * du * 4 * dv, 1e-5f);
+    EXPECT_NEAR(out.opacity(i).y, 6 * u * du, 1e-4f);
   }
   EXPECT_EQ(log.entries().size(), 0u);
 }

@@ -67,11 +67,22 @@ class FakeServices final : public ShadeServices {
     for (int i = 0; i < points.count(); ++i) {
       if (!active[i]) continue;
       const vec3 toward{d.x[i], d.y[i], d.z[i]};
-      if (result.distance) result.distance[i] = met ? met({P.x[i], P.y[i], P.z[i]}, toward) : kInfinity;
+      const float way = met ? met({P.x[i], P.y[i], P.z[i]}, toward) : kInfinity, distance = way < query.maxDistance ? way : kInfinity;
+      if (result.effective) result.effective[i] = 2 * distance;
+      if (result.distance) result.distance[i] = distance;
+      if (result.leaves) result.leaves[i] = met && distance == kInfinity;
       const vec3 color = seen && toward != vec3(0) ? seen(toward) : vec3(0);
       if (result.color.x) result.color.x[i] = color.x, result.color.y[i] = color.y, result.color.z[i] = color.z;
     }
   }
+  bool interpolatedOcclusion(const ShadePoints& points, const uint8_t* active, TmConstVec3, const OcclusionQuery&, const ShadeContext&,
+                             float* covered) const override {
+    if (!interpolated) return false;
+    for (int i = 0; i < points.count(); ++i)
+      if (active[i]) covered[i] = *interpolated;
+    return true;
+  }
+  std::optional<float> interpolated;  ///< What records answer to occlusion(); none: rays must tell.
   float emitterReach(int) const override { return 0; }
   bool sampleEmitter(int, int count, TmConstVec3 from, const float* a, const float* b, const EmitterPoints& out) const override {
     if (!emitter) return false;

@@ -1,0 +1,113 @@
+// occlusion() and indirectdiffuse(): by rays, by earlier records, by the disks of a point cloud.
+#include "reyes/shade/cloud_services.h"
+#include "reyes/shade/picture_services.h"
+#include "reyes/shade/primary.h"
+#include "reyes/shade/ray_services.h"
+#include "reyes/shade/ray_shots.h"
+
+namespace tomales {
+namespace {
+
+constexpr float kWholeCone = 0.999f * kPi / 2;   ///< Shaders say pi/2 with few digits.
+constexpr float kVariationOfError = 0.05f;       ///< That maxerror 1 allows.
+
+/// What occlusion() asks.
+OcclusionQuery occlusionOf(const TmRayOptions& o, const RayQuery& rays, const Attributes& a) {
+  OcclusionQuery q{o.samples, o.maxDistance, o.bias, o.falloff, o.falloffMode, o.maxVariation, rays.subset, rays.excludeSubset, rays.sides};
+  if (q.maxVariation < 0) q.maxVariation = kVariationOfError * a.irradianceMaxError.value_or(0.0f);
+  return q;
+}
+
+/// Answers what earlier records know, and returns the points that rays must tell of. Records lie at the points that the eye sees, and hold whole
+/// hemispheres.
+const uint8_t* interpolate(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& o, const OcclusionQuery& q, float* covered) {
+  if (!(q.maxVariation > 0) || batch.context.kind != RayKind::Camera || o.uniform || o.coneAngle < kWholeCone || o.sampleBase > 0) return g->active;
+  uint8_t *own = batch.arena.bytes(g->count), *moved = batch.arena.bytes(g->count);
+  for (int i = 0; i < g->count; ++i) {
+    own[i] = g->active[i] && get(P, i) == batch.points->position(i);
+    moved[i] = g->active[i] && !own[i];
+  }
+  return batch.scene.services->interpolatedOcclusion(*batch.points, own, N, q, batch.context, covered) ? moved : g->active;
+}
+
+/// What rays that meet nothing see of a picture that stands in a named space, as environment() sees it; `width`: radians.
+void lookUpEnvironment(Batch& batch, const TmGrid& open, const TmRayOptions& o, TmConstVec3 direction, float width, TmVec3 out) {
+  float* angle = batch.arena.floats(open.count);
+  std::fill_n(angle, open.count, width);
+  const TmVec3 inMap = batch.arena.vec3(open.count);
+  const bool inWorld = !o.environmentSpace;
+  forActive(&open, [&](int i) { set(inMap, i, get(direction, i)); });
+  if (!inWorld) {
+    open.call->transform(&batch, &open, TM_AS_VECTOR, "current", o.environmentSpace, view(inMap), inMap);
+    open.call->transform(&batch, &open, TM_AS_VECTOR, "world", "current", view(inMap), inMap);
+  }
+  environment(&batch, &open, o.environment, view(inMap), angle, out);
+}
+
+void traceHemisphere(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& options, const TmHemisphere& out) {
+  const bool looksUp = options.environment && (out.radiance.x || out.environmentColor.x), directs = out.environmentDirection.x != nullptr;
+  RayQuery query = rayQuery(options, RayKind::Diffuse);
+  const OcclusionQuery asked = occlusionOf(options, query, *batch.group.group->attributes);
+  TmGrid traced = *g;
+  if (out.covered && !out.radiance.x && !looksUp && !directs) traced.active = interpolate(batch, g, P, N, options, asked, out.covered);
+  if (std::none_of(traced.active, traced.active + traced.count, [](uint8_t a) { return a != 0; })) return;
+  setFootprints(batch, &traced, N, options, query);
+  RayResult result;
+  result.distance = batch.arena.floats(g->count);
+  if (out.radiance.x) result.color = batch.arena.vec3(g->count);
+  const float share = 1 / static_cast<float>(options.samples), width = std::sqrt(2 * kPi * share);
+  TmGrid open = traced;
+  uint8_t* misses = batch.arena.bytes(g->count);
+  open.active = misses;
+  const TmVec3 seen = batch.arena.vec3(g->count);
+  Cone cone(batch, &traced, options);
+  for (; query.number < options.samples; ++query.number) {
+    cone.aim(P, N, query.number);
+    batch.scene.services->trace(*batch.points, traced.active, cone.origin(), cone.direction(), query, batch.context, result);
+    for (int i = 0; i < traced.count; ++i) misses[i] = traced.active[i] && !(result.distance[i] < kFarAway);
+    if (looksUp) lookUpEnvironment(batch, open, options, cone.direction(), width, seen);
+    forActive(&traced, [&](int i) {
+      const vec3 sky = share * (misses[i] && looksUp ? get(seen, i) : vec3(0));
+      if (out.covered) out.covered[i] += share * asked.coveredAt(result.distance[i]);
+      if (out.radiance.x) set(out.radiance, i, get(out.radiance, i) + share * get(result.color, i) + sky);
+      if (out.environmentColor.x) set(out.environmentColor, i, get(out.environmentColor, i) + sky);
+      if (directs && misses[i]) set(out.environmentDirection, i, get(out.environmentDirection, i) + get(cone.direction(), i));
+    });
+  }
+  if (directs) forActive(&traced, [&](int i) { set(out.environmentDirection, i, normalizeOr(get(out.environmentDirection, i), vec3(0))); });
+}
+
+/// The same of a point cloud.
+bool hemisphereOfDisks(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& o, const TmHemisphere& out) {
+  const std::string channel = !out.radiance.x ? "" : o.pointChannel ? o.pointChannel : "_radiosity";
+  const DisksQuery query{channel, std::max(o.maxSolidAngle, 1e-4f), o.clamp != 0, o.coneAngle, occlusionOf(o, rayQuery(o), *batch.group.group->attributes)};
+  float* covered = out.covered ? out.covered : batch.arena.floats(g->count);
+  return occlusionByDisks(batch, g, o.pointCloud, P, N, query, covered, out.radiance);
+}
+
+}  // namespace
+
+void occlusion(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 N, const TmRayOptions* given, float* covered, TmVec3 radiance) {
+  TmHemisphere out{sizeof(TmHemisphere), covered, radiance, {}, {}};
+  hemisphere(host, all, P, N, given, &out);
+}
+
+int32_t hemisphere(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 N, const TmRayOptions* given, const TmHemisphere* wanted) {
+  Batch& batch = batchOf(host);
+  const Primary primary(batch, all);
+  TmRayOptions options = rayOptions(given);
+  if (options.coneAngle == 0) options.coneAngle = kPi / 2;
+  const TmHemisphere out = givenOptions<TmHemisphere>({}, wanted);
+  forActive(all, [&](int i) {
+    if (out.covered) out.covered[i] = 0;
+    for (const TmVec3& v : {out.radiance, out.environmentColor, out.environmentDirection})
+      if (v.x) set(v, i, vec3(0));
+  });
+  const bool known = options.pointCloud ? hemisphereOfDisks(batch, primary.grid(), P, N, options, out)
+                                        : traces(batch) && (traceHemisphere(batch, primary.grid(), P, N, options, out), true);
+  primary.spread(out.covered);
+  for (const TmVec3& v : {out.radiance, out.environmentColor, out.environmentDirection}) primary.spread(v);
+  return known;
+}
+
+}  // namespace tomales

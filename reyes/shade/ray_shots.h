@@ -1,0 +1,42 @@
+// How the rays of a shader's call are shot: options checked, directions stratified over a cone, footprints.
+#pragma once
+#include "reyes/shade/batch.h"
+
+namespace tomales {
+
+constexpr float kFarAway = 1e30f;  ///< RI_INFINITY: the distance to nothing.
+
+/// Of trace(), whose directions the caller may draw itself, and of the other services.
+TmRayOptions drawnRayOptions(const TmRayOptions* given);
+TmRayOptions rayOptions(const TmRayOptions* given);
+
+RayQuery rayQuery(const TmRayOptions&, RayKind);
+/// Narrow cones are specular, wide ones diffuse.
+RayQuery rayQuery(const TmRayOptions&);
+
+/// Can this batch trace? Reports a shader that cannot because it did not say that it would.
+bool traces(const Batch& batch);
+
+/// Ray `ray` of all points: a cone around each axis, and the places that they start from.
+class Cone {
+ public:
+  Cone(Batch& batch, const TmGrid* g, const TmRayOptions& options);
+  void aim(TmConstVec3 P, TmConstVec3 axis, int ray);
+  TmConstVec3 origin() const { return view(origin_); }
+  TmConstVec3 direction() const { return view(direction_); }
+
+ private:
+  vec2 random(int i, int ray, uint32_t stream) const;
+  vec3 around(const vec3& axis, const vec2& xi) const;
+  vec3 spread(int i, int ray) const;
+
+  Batch& batch_;
+  const TmGrid* g_;
+  const TmRayOptions& options_;
+  TmVec3 origin_, direction_;
+};
+
+/// Differentials: a ray starts as wide as its micropolygon, and widens by how the axis turns over that and by its share of the cone.
+void setFootprints(Batch& batch, const TmGrid* g, TmConstVec3 axis, const TmRayOptions& options, RayQuery& query);
+
+}  // namespace tomales
