@@ -26,6 +26,7 @@ struct Grid {
   std::vector<Piece> pieces = std::vector<Piece>(1);
   int keyCount = 1;         ///< Motion keys of P (times: Object::keyTimes).
   bool displaced = false;
+  bool round = false;       ///< Each piece is one cell and shows the ellipse that touches its four edges. Still and in focus.
   std::vector<Kept> kept;   ///< What trim curves and the near plane leave of each cell number; empty: everything.
   std::vector<mat3> turns;  ///< Linear part of the motion from key 0 to each key.
 

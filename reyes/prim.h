@@ -29,6 +29,7 @@ enum PatchEdge : uint8_t { kEdgeU0 = 1, kEdgeU1 = 2, kEdgeV0 = 4, kEdgeV1 = 8, k
 struct PatchInfo {
   bool planar = false;            ///< Flat, with straight edges: two triangles are exact.
   uint8_t openEdges = kAllEdges;  ///< Edges that end the surface; the others have a neighbour to join without cracks.
+  bool disk = false;              ///< A disk: a lattice of one cell over the whole of it is a square of its area.
 };
 
 /// How much of something trim curves leave.

@@ -29,17 +29,39 @@ bool canStack(const HideContext& context, const SubPatch& piece) {
          o.shape().kept(piece.patch, piece.rect) == Kept::All;
 }
 
+constexpr int kRound_cells = 6;  ///< A disk of so many is shaded as one: nothing but P varies over it.
+
+/// Is it a small disk, to be shown as such instead of as a polygon?
+bool isRound(const HideContext& context, const SubPatch& piece) {
+  const UvRect& r = piece.rect;
+  const bool whole = r.u0 == 0 && r.u1 == 1 && r.v0 == 0 && r.v1 == 1;
+  return whole && piece.nu * piece.nv <= kRound_cells && context.scene.objects[static_cast<size_t>(piece.object)].shape().info(piece.patch).disk &&
+         canStack(context, piece);
+}
+
+/// From a square of the disk's area to that around it.
+void widenToSquares(Grid& g) {
+  const float more = 2 / std::sqrt(kPi) - 1;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int p = 0; p < g.pieceCount(); ++p) {
+      float* at = g.P(0, axis) + 4 * p;
+      const float middle = 0.25f * (at[0] + at[1] + at[2] + at[3]);
+      for (int v = 0; v < 4; ++v) at[v] += more * (at[v] - middle);
+    }
+}
+
 /// What pieces of a node have in common, and those of a grid.
 struct Neighbour {
   int row, column;  ///< Of a bucket.
   int nu, nv;
+  bool round;
   const SubPatch* piece;
   bool sharesNode(const Neighbour& o) const { return row == o.row && column == o.column; }
-  bool sharesGrid(const Neighbour& o) const { return sharesNode(o) && nu == o.nu && nv == o.nv; }
-  bool operator<(const Neighbour& o) const { return std::tie(row, column, nu, nv) < std::tie(o.row, o.column, o.nu, o.nv); }
+  bool sharesGrid(const Neighbour& o) const { return sharesNode(o) && nu == o.nu && nv == o.nv && round == o.round; }
+  bool operator<(const Neighbour& o) const { return std::tie(row, column, nu, nv, round) < std::tie(o.row, o.column, o.nu, o.nv, o.round); }
 };
 
-PieceStack alone(const SubPatch& p) { return {p.object, p.nu, p.nv, {{p.patch, p.rect}}, {p.raster, p.zMin}, p.crossesEye}; }
+PieceStack alone(const SubPatch& p) { return {p.object, p.nu, p.nv, {{p.patch, p.rect}}, {p.raster, p.zMin}, p.crossesEye, false}; }
 
 void extend(Placement& place, const Placement& by) {
   place.raster.extend(by.raster.lo), place.raster.extend(by.raster.hi);
@@ -52,7 +74,7 @@ std::vector<PieceStack> stacksOf(const HideContext& context, std::span<const Nei
   const Neighbour* last = nullptr;
   for (const Neighbour& n : neighbours) {
     const SubPatch& p = *n.piece;
-    const int vertices = (p.nu + 1) * (p.nv + 1);
+    const int vertices = (n.nu + 1) * (n.nv + 1);
     const auto most = static_cast<size_t>(std::max(1, kStack_vertices / vertices));
     const bool stacks = vertices <= kStacked_vertices && canStack(context, p);
     if (last && stacks && n.sharesGrid(*last) && out.back().pieces.size() < most) {
@@ -60,6 +82,7 @@ std::vector<PieceStack> stacksOf(const HideContext& context, std::span<const Nei
       extend(out.back().place, {p.raster, p.zMin});
     } else {
       out.push_back(alone(p));
+      out.back().nu = n.nu, out.back().nv = n.nv, out.back().round = n.round;
     }
     last = stacks ? &n : nullptr;
   }
@@ -109,6 +132,7 @@ std::shared_ptr<const RasterGrid> PieceNode::makeGrid(const PieceStack& stack) {
   auto grid = std::allocate_shared<Grid>(
       KeepingPool<Grid>(pool_),
       dice(context_.scene, stack.object, stack.pieces, stack.nu, stack.nv, {o.keyTimes, o.cameraFromObject}, pool_.get()));
+  if ((grid->round = stack.round)) widenToSquares(*grid);
   context_.shading.displace(*grid);
   Stats& stats = context_.stats;
   ++stats.geometry.gridsDiced;
@@ -162,8 +186,10 @@ HideNodes pieceNodes(HideContext& context, std::span<const SubPatch> pieces, con
   for (const SubPatch& piece : pieces) {
     const BucketRange touched = within & context.buckets.touched(piece.raster);
     if (touched.empty()) continue;
-    if (piece.nu * piece.nv < kSmall_cells)
-      small.push_back({touched.r0, touched.c0, piece.nu, piece.nv, &piece});
+    if (isRound(context, piece))
+      small.push_back({touched.r0, touched.c0, 1, 1, true, &piece});
+    else if (piece.nu * piece.nv < kSmall_cells)
+      small.push_back({touched.r0, touched.c0, piece.nu, piece.nv, false, &piece});
     else
       out.push_back(std::make_unique<PieceNode>(context, std::vector{alone(piece)}, Placement{piece.raster, piece.zMin}, touched));
   }

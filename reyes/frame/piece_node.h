@@ -10,6 +10,7 @@ struct PieceStack {
   std::vector<PatchPiece> pieces;
   Placement place;
   bool crossesEye;  ///< SubPatch::crossesEye
+  bool round;       ///< Grid::round
 };
 
 class PieceNode : public HideNode {

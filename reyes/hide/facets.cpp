@@ -303,6 +303,8 @@ void FacetTable::fill(const Wishes& wishes, ShadePoints& points) const {
       for (auto& axis : gathered.N)
         for (float& n : axis) n = -n;
     derive(gathered, camera_.perspective(), PointBlock(points, first));
+    for (size_t i = 0; i < block.size(); ++i)
+      if (grids_.entries()[block[i].entry].grid().round) points.channel(kArea)[first + static_cast<int>(i)] *= kPi / 4;
     if (points.hasSteps()) addSteps(block, points, first);
   }
   std::fill_n(points.channel(kTime), count, -1.0f);

@@ -57,6 +57,8 @@ void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
   if (raster->blur) {
     s.showBlur();
     rasterizeBlurred(job);
+  } else if (raster->grid->round) {
+    rasterizeRound(job);
   } else {
     rasterizeStill(job);
   }

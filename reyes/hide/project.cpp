@@ -224,7 +224,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
   const float facing = object.flipsNormal ? -facingSign(camera) : facingSign(camera);
   if (attributes.sides == 1 && !r->inSolid) r->facing = facing;
   r->detail = attributes.detail;
-  r->smooth = attributes.interpolation == ShadingInterpolation::Smooth;
+  r->smooth = attributes.interpolation == ShadingInterpolation::Smooth && !r->grid->round;
   if (std::find(g.kept.begin(), g.kept.end(), Kept::Part) != g.kept.end()) {
     CHECK_EQ(g.pieceCount(), 1);
     r->trim = &object.shape();

@@ -28,6 +28,8 @@ struct RasterJob {
 
 /// Grids with one motion key, in focus.
 void rasterizeStill(const RasterJob& job);
+/// Such grids of round cells: Grid::round.
+void rasterizeRound(const RasterJob& job);
 /// Grids that move or are out of focus: a sample meets the vertices where they are at its time through its
 /// point of the lens.
 void rasterizeBlurred(const RasterJob& job);

@@ -8,7 +8,7 @@
 #include <bit>
 #include <cstring>
 
-#include "reyes/hide/raster.h"
+#include "reyes/hide/claim.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tomales {
@@ -142,79 +142,6 @@ class Quad {
   Floats fold_, foldLimit_, bx_, by_, bDepth_, dMin_, dMax_, gx0_, gy0_, gx1_, gy1_;
 };
 
-/// A vector of samples that a cell covers, no farther than what is opaque there.
-struct Reach {
-  Mask mask;
-  Floats depth, before;  ///< Depth keys of the cell, and of what was nearest.
-};
-
-HWY_INLINE Reach reachOf(const RasterJob& job, const Quad& quad, size_t lane, uint32_t cell, Kept kept) {
-  const SampleBuffer& out = job.out;
-  Reach r;
-  const Mask in = quad.covers(hn::Load(kF, out.x.data() + lane), hn::Load(kF, out.y.data() + lane), r.depth);
-  r.before = hn::Load(kF, out.depth.data() + lane);
-  // A solid is decided by all of it; padding still covers nothing.
-  const Mask reaches = job.raster.inSolid ? hn::Gt(r.before, all(-kInfinity)) : hn::Le(r.depth, r.before);
-  r.mask = hn::And(in, reaches);
-  if (HWY_UNLIKELY(kept == Kept::Part) && !hn::AllFalse(kF, r.mask)) {
-    const uint64_t left = keptLanes(job, cell, lane, bitsOf(r.mask));
-    r.mask = hn::LoadMaskBits(kF, reinterpret_cast<const uint8_t*>(&left));
-  }
-  return r;
-}
-
-/// Gives the samples from `lane` on to an opaque cell that covers them nearer than what they had.
-HWY_INLINE bool claim(const RasterJob& job, const Quad& quad, size_t lane, uint32_t cell, Kept kept) {
-  SampleBuffer& out = job.out;
-  const Reach r = reachOf(job, quad, lane, cell, kept);
-  if (hn::AllFalse(kF, r.mask)) return false;
-  const Mask ties = hn::And(r.mask, hn::Eq(r.depth, r.before));
-  if (!hn::AllFalse(kF, ties)) settleTies(job, lane, bitsOf(ties), cell);
-  const Mask won = hn::And(r.mask, hn::Lt(r.depth, r.before));
-  uint32_t* cells = out.cell.data() + lane;
-  // Whole vectors: the next cell reads them back, and could not from a masked store that is still on its way.
-  hn::Store(hn::IfThenElse(won, r.depth, r.before), kF, out.depth.data() + lane);
-  hn::Store(hn::IfThenElse(hn::RebindMask(kU, won), hn::Set(kU, cell), hn::Load(kU, cells)), kU, cells);
-  return true;
-}
-
-/// Notes which samples of a pixel a transparent cell covers in front of what is opaque.
-HWY_INLINE void film(const RasterJob& job, const Quad& quad, size_t pixel, uint32_t cell, Kept kept) {
-  SampleBuffer& out = job.out;
-  Films& films = out.filmsOf(job.raster);
-  const size_t first = pixel * static_cast<size_t>(out.lanes), lanes = static_cast<size_t>(out.lanes);
-  for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) {
-    const Reach r = reachOf(job, quad, first + g, cell, kept);
-    if (hn::AllFalse(kF, r.mask)) continue;
-    hn::StoreU(hn::Compress(r.depth, r.mask), kF, films.next());
-    const float nearest = hn::GetLane(hn::MinOfLanes(kF, hn::IfThenElse(r.mask, r.depth, all(kInfinity))));
-    const float farthest = hn::GetLane(hn::MaxOfLanes(kF, hn::IfThenElse(r.mask, r.depth, all(-kInfinity))));
-    films.add(static_cast<uint32_t>(pixel), cell, static_cast<uint32_t>(g / 64), bitsOf(r.mask) << (g % 64), nearest, farthest);
-  }
-}
-
-template <bool kOpaque>
-HWY_INLINE void rasterizeCell(const RasterJob& job, const QuadBlock& q, int i, uint32_t cell, Kept kept) {
-  SampleBuffer& out = job.out;
-  const PixelRect pixels = out.touched({q.xMin[i], q.yMin[i]}, {q.xMax[i], q.yMax[i]});
-  const size_t lanes = static_cast<size_t>(out.lanes);
-  const float dMin = job.raster.inSolid ? job.raster.dMin : q.dMin[i];
-  if (out.hides(pixels, dMin)) return;
-  const Quad quad(q, i);
-  for (int y = pixels.y0; y < pixels.y1; ++y)
-    for (int x = pixels.x0; x < pixels.x1; ++x) {
-      const size_t pixel = out.pixelIndex(x, y);
-      if (dMin > out.far[pixel]) continue;
-      if constexpr (kOpaque) {
-        bool changed = false;
-        for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) changed |= claim(job, quad, pixel * lanes + g, cell, kept);
-        out.nearer[pixel] |= static_cast<uint8_t>(changed);
-      } else {
-        film(job, quad, pixel, cell, kept);
-      }
-    }
-}
-
 /// The micropolygons whose first vertices are those from `first` to before `end`.
 void rasterizeRun(const RasterJob& job, int first, int end, QuadBlock& q) {
   const RasterGrid& r = job.raster;
@@ -231,10 +158,12 @@ void rasterizeRun(const RasterJob& job, int first, int end, QuadBlock& q) {
       const Kept kept = keptOf(job, index);
       if (kept == Kept::None) continue;
       const uint32_t cell = job.firstCell + static_cast<uint32_t>(index);
+      const PixelRect pixels = job.out.touched({q.xMin[i], q.yMin[i]}, {q.xMax[i], q.yMax[i]});
+      const auto quad = [&] { return Quad(q, i); };
       if (r.opaque && !r.inSolid)
-        rasterizeCell<true>(job, q, i, cell, kept);
+        sampleCell<true>(job, pixels, q.dMin[i], cell, kept, quad);
       else
-        rasterizeCell<false>(job, q, i, cell, kept);
+        sampleCell<false>(job, pixels, r.inSolid ? r.dMin : q.dMin[i], cell, kept, quad);
     }
   }
 }

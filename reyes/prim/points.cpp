@@ -141,7 +141,7 @@ class Disks : public FlatPoints<Disks> {
  public:
   using FlatPoints::FlatPoints;
 
-  PatchInfo info(uint32_t) const override { return {}; }
+  PatchInfo info(uint32_t) const override { return {false, kAllEdges, true}; }
 
   Bound3 bound(uint32_t patch, const UvRect& r) const override {
     const Disk disk = diskOf(patch);

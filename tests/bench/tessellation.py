@@ -1,8 +1,9 @@
 """What coarse ray geometry costs and brings (docs/performance.md): scenes/film with its shadows by rays at each rate of Attribute "trace"
 "tessellation", against rays that meet its displacement at half a pixel a polygon.
-    tessellation.py TOMALES [--truth FILE.exr: of an earlier run]"""
+    tessellation.py TOMALES [--truth FILE.exr: of an earlier run] [--chart FILE.svg]"""
 import argparse
 import json
+import math
 import pathlib
 import re
 import subprocess
@@ -14,8 +15,10 @@ parser.add_argument("tomales")
 parser.add_argument("--scene", default=str(root / "scenes/film/film.rib"))
 parser.add_argument("--format", default="914x551")
 parser.add_argument("--truth")
+parser.add_argument("--chart")
 a = parser.parse_args()
 
+DEFAULT = 1
 RATES = 8, 4, 2, 1, 0.5, 0.25, 0.125
 
 
@@ -32,6 +35,27 @@ def error(picture, truth):
     return float(re.search(r"mean_absolute_relative_error\s+(\S+)", out).group(1))
 
 
+def chart(rows, path):
+    """Error against memory; a dot for each rate, the default's filled."""
+    width, height, margin = 560, 300, 50
+    most_mb, least_mb = max(mb for _, mb, _ in rows), min(mb for _, mb, _ in rows)
+    most = max(wrong for _, _, wrong in rows)
+    least = min(wrong for _, _, wrong in rows)
+    at = [(margin + (width - 2 * margin) * math.log(mb / least_mb) / math.log(most_mb / least_mb),
+           margin + (height - 2 * margin) * (most - wrong) / (most - least)) for _, mb, wrong in rows]
+    line = " ".join(f"{x:.1f},{y:.1f}" for x, y in at)
+    dots = "".join(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="5" fill="{"#3070b0" if rate == DEFAULT else "white"}" stroke="#3070b0"/>'
+                   f'<text x="{x:.1f}" y="{y - 10:.1f}">{rate}</text>' for (x, y), (rate, _, _) in zip(at, rows))
+    bottom = height - margin + 28
+    pathlib.Path(path).write_text(
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" font-family="sans-serif" font-size="12" text-anchor="middle">'
+        f'<rect width="{width}" height="{height}" fill="white"/><polyline points="{line}" fill="none" stroke="#3070b0"/>{dots}'
+        f'<text x="{margin}" y="{bottom}">{least_mb:.1f} MB</text><text x="{width - margin}" y="{bottom}">{most_mb:.1f} MB</text>'
+        f'<text x="{width / 2}" y="{bottom}">geometry and BVH</text>'
+        f'<text x="26" y="{margin + 4}">{100 * most:.2f} %</text><text x="26" y="{height - margin + 4}">{100 * least:.2f} %</text>'
+        f'<text x="{width / 2}" y="20">mean absolute relative error; rates of Attribute "trace" "tessellation", the default filled</text></svg>\n')
+
+
 with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)
     truth = a.truth
@@ -39,6 +63,7 @@ with tempfile.TemporaryDirectory() as name:
         truth = folder / "truth.exr"
         render(folder, 32, 1, a.format, "--gi", "none")[0].rename(truth)
     print("| rate | coarse polygons | geometry and BVH | error | million rays a CPU second, their hits shaded |\n|---|---|---|---|---|")
+    rows = []
     for rate in RATES:
         picture, stats = render(folder, rate, 0, a.format, "--gi", "none")
         wrong = error(picture, truth)
@@ -46,3 +71,6 @@ with tempfile.TemporaryDirectory() as name:
         rays = sum(many["rays"][kind] - few["rays"][kind] for kind in ("gather", "transmission"))
         print(f"| {rate} | {stats['raytrace']['coarse_polygons']:,} | {stats['raytrace']['bytes'] / 1e6:.1f} MB | {100 * wrong:.2f} % "
               f"| {rays / (many['cpu_s'] - few['cpu_s']) / 1e6:.2f} |", flush=True)
+        rows.append((rate, stats["raytrace"]["bytes"] / 1e6, wrong))
+    if a.chart:
+        chart(rows, a.chart)
