@@ -18,21 +18,20 @@ constexpr std::string_view kCaustic = ".caustic";  ///< What the names of causti
 constexpr double kStoredBytes = 2.5 * 36;  ///< Of one emitted photon: so many surfaces, so many bytes.
 constexpr double kLeastOfMap = 1e-3;       ///< Share of its map, by area, that a surface needs for a number: leaves share their photons.
 
-/// Size of the objects of each group, as the area of their boxes.
+/// Size of the objects of each group, as the area of their boxes in the world, so that every camera finds the same maps.
 std::vector<double> boxAreas(const Scene& scene) {
   std::vector<double> areas(scene.groups.size(), 0.0);
-  const mat4 worldFromCamera = glm::inverse(scene.cameraFromWorldAtOpen());  // so that every camera finds the same maps
   for (const Object& o : scene.objects) {
     Bound3 bound;
     for (uint32_t patch = 0; patch < o.shape().patchCount(); ++patch) bound.extend(o.shape().bound(patch, {}));
-    const vec3 s = bound.empty() ? vec3(0) : transformBound(worldFromCamera * o.cameraFromObject.keys.front(), bound).size();
+    const vec3 s = bound.empty() ? vec3(0) : transformBound(o.worldFromObject.keys.front(), bound).size();
     areas[static_cast<size_t>(o.group)] += double{s.x * s.y + s.y * s.z + s.z * s.x};
   }
   return areas;
 }
 
 /// Counted up when the same inputs begin to make other files.
-constexpr uint32_t kMethod = 3;
+constexpr uint32_t kMethod = 4;
 
 uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
   const auto& [emit, maxDepth, seed] = settings.photons;
@@ -74,7 +73,8 @@ std::vector<int> numbered(const std::vector<std::string>& maps, const std::vecto
   std::vector<int> out;
   for (size_t g = 0; g < maps.size(); ++g) {
     Map& map = byName[maps[g]];
-    out.push_back(areas[g] >= kLeastOfMap * map.area ? 1 + map.groups++ % kMostSurfaces : 0);
+    const int number = 1 + map.groups++ % kMostSurfaces;  // small ones count too, so that who is small changes no number
+    out.push_back(areas[g] >= kLeastOfMap * map.area ? number : 0);
   }
   return out;
 }
@@ -103,6 +103,7 @@ MapNames mapNames(const Scene& scene, const AtlasSettings& settings) {
   const double share = total * std::min(1.0, static_cast<double>(settings.mostPhotonBytes) /
                                                  (kStoredBytes * static_cast<double>(settings.photons.emit)));
   MapNames names;
+  names.world = settings.world;
   double before = 0;  // groups follow each other as objects do in the scene: neighbours in its hierarchy stay together
   for (size_t g = 0; g < areas.size(); ++g) {
     const std::string& given = scene.groups[g].attributes->photon.globalMap;
@@ -224,12 +225,12 @@ IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, con
     : cache_(cacheBytes),
       worldFromCurrent_(glm::inverse(scene.cameraFromWorldAtOpen())),
       worldFromCurrentScale_(std::cbrt(std::abs(glm::determinant(mat3(worldFromCurrent_))))),
-      surfaceOfGroup_(names.surface),
       log_(log) {
   std::map<std::string, const BrickMap*> byName{{"", nullptr}};
   for (const std::string& name : names.all()) byName[name] = open(atlasFile(folder, name, ".bkm"));
   for (const std::string& name : names.global) mapOfGroup_.push_back(byName.at(name));
   for (const std::string& name : names.caustic) causticOfGroup_.push_back(byName.at(name));
+  surfaceOfGroup_ = names.surface, world_ = names.world;
 }
 
 const BrickMap* IrradianceAtlas::open(const fs::path& file) {
@@ -255,7 +256,8 @@ std::optional<vec3> IrradianceAtlas::look(const MapOfGroup& maps, int group, con
   try {
     vec3 E(0.0f);
     const vec3 normal = normalizeOr(transformVector(worldFromCurrent_, N), N);
-    const int surface = surfaceOfGroup_[static_cast<size_t>(group)];
+    // Maps of another scene have numbered their surfaces otherwise.
+    const int surface = world_ != 0 && map->file().madeFrom().world == world_ ? surfaceOfGroup_[static_cast<size_t>(group)] : 0;
     if (map->lookup(transformPoint(worldFromCurrent_, P), normal, radius * worldFromCurrentScale_, &E.x, surface)) return E / kPi;
   } catch (const FileError& e) {
     log_.report(Severity::Missing, "atlas-damaged", {}, fmt::format("{}: no indirect light from there", e.what()));

@@ -30,6 +30,7 @@ struct MapNames {
   std::vector<std::string> global;
   std::vector<std::string> caustic;  ///< Ends in kCaustic; empty: has none.
   std::vector<int> surface;          ///< PointCloud::surface() of what lies on it; 0: too small to have light of its own.
+  uint64_t world = 0;                ///< Of which the groups are, AtlasSettings::world.
   std::set<std::string> all() const;
 };
 MapNames mapNames(const Scene& scene, const AtlasSettings& settings);
@@ -85,6 +86,7 @@ class IrradianceAtlas {
   std::vector<std::unique_ptr<const BrickMap>> maps_;  ///< By name.
   MapOfGroup mapOfGroup_, causticOfGroup_;
   std::vector<int> surfaceOfGroup_;
+  uint64_t world_ = 0;
   Log& log_;
 };
 

@@ -69,7 +69,7 @@ class Builder {
 
   /// The points that are worked on from now on; all of them.
   Members use(const PointCloud& cloud) {
-    cloud_ = &cloud, stride_ = static_cast<size_t>(cloud.width());
+    cloud_ = &cloud;
     spots_.clear(), spots_.reserve(cloud.count());
     for (size_t i = 0; i < cloud.count(); ++i) {
       spots_.push_back(spot(i));
@@ -188,7 +188,7 @@ class Builder {
     const float size = oriented ? r * r : r * r * r;  // area or volume, but for a constant
     const float reach = 0.5f * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
     const Shares xs(p.x, h.x), ys(p.y, h.y), zs(p.z, h.z);
-    const float* data = cloud_->data.data() + i * stride_;
+    const float* data = cloud_->at(i);
     for (int z = zs.first; z <= zs.last; ++z)
       for (int y = ys.first; y <= ys.last; ++y)
         for (int x = xs.first; x <= xs.last; ++x) {
@@ -204,7 +204,6 @@ class Builder {
   const size_t width_;
   BuiltBricks out_;
   const PointCloud* cloud_ = nullptr;
-  size_t stride_ = 0;  ///< Floats of one point there: width_ and perhaps its surface.
   std::vector<Spot> spots_;
   std::deque<Level> levels_;  // a deque: deeper levels come while those above are at work
 };

@@ -40,7 +40,7 @@ std::vector<CloudChannel> getChannels(ByteReader& r, const std::string& path) {
 }
 
 int PointCloud::surface(size_t point) const {
-  if (!tellsSurfaces(channels)) return 0;
+  if (!channels.tellsSurfaces()) return 0;
   const float told = at(point)[width() - 1];
   return told >= 1 && told <= kMostSurfaces ? static_cast<int>(told) : 0;
 }

@@ -19,14 +19,12 @@ constexpr uint32_t kVersion = 2;
 PointFileWriter::PointFileWriter(const std::string& path, const std::vector<CloudChannel>& channels)
     : file_(path, kKind, kVersion) {
   pending_.channels = channels;
-  width_ = static_cast<size_t>(pending_.width());
   if (pending_.width() > kMostWidth) throw FileError(fmt::format("\"{}\": more than {} floats a point", path, kMostWidth));
 }
 
 void PointFileWriter::add(const vec3& P, const vec3& N, float radius, const float* values) {
-  if (!isValidPoint(P, N, radius, {values, width_})) return;
-  pending_.position.push_back(P), pending_.normal.push_back(N), pending_.radius.push_back(radius);
-  pending_.data.insert(pending_.data.end(), values, values + width_);
+  if (!isValidPoint(P, N, radius, {values, static_cast<size_t>(pending_.width())})) return;
+  pending_.add(P, N, radius, values);
   if (pending_.count() < kChunkPoints) return;
   addChunk(pending_);
   pending_.clear();

@@ -45,6 +45,8 @@ struct BoundGroup {
   std::vector<const BoundLight*> lights;
   std::optional<IndirectQuery> indirect;
   std::vector<BoundVariable> variables;  ///< As FrameOutput::variables.
+  /// Of rays that gather diffuse light.
+  const BoundShader& forDiffuseRays() const { return indirectSurface ? *indirectSurface : *surface; }
   int CsOffset = -1, OsOffset = -1, sOffset = -1, tOffset = -1, primvarFloats = 0;
 };
 

@@ -52,14 +52,13 @@ vec3 ShadingSystem::skyRadiance(int light, const vec3& direction) const {
 }
 
 bool ShadingSystem::emits(int group) const {
-  const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
-  return (g.indirectSurface ? g.indirectSurface : g.surface)->can(TM_EMITS);
+  return impl_->groups[static_cast<size_t>(group)].forDiffuseRays().can(TM_EMITS);
 }
 
 bool ShadingSystem::reflectsEvenly(int group) const {
   const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
   const bool varies = g.CsOffset >= 0 || g.OsOffset >= 0 || !(g.indirectSurface ? g.indirectOverrides : g.surfaceOverrides).empty();
-  return !varies && (g.indirectSurface ? g.indirectSurface : g.surface)->can(TM_EVEN);
+  return !varies && g.forDiffuseRays().can(TM_EVEN);
 }
 
 }  // namespace tomales

@@ -50,7 +50,7 @@ bool ShadingSystem::keepsOpacity(int group) const {
 void ShadingSystem::shade(const ShadePoints& points, const ShadeContext& context, ShadedPoints& out) const {
   const BoundGroup& group = impl_->groups[static_cast<size_t>(points.group())];
   const bool indirectHit = context.kind == RayKind::Diffuse && group.indirectSurface;
-  const BoundShader& shader = indirectHit ? *group.indirectSurface : *group.surface;
+  const BoundShader& shader = context.kind == RayKind::Diffuse ? group.forDiffuseRays() : *group.surface;
   const int count = points.count();
   out.resize(count);
   const bool variables = context.variables && !group.variables.empty();

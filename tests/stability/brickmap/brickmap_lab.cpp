@@ -1,6 +1,6 @@
 // Where brick maps may leak: light of one surface on another that is near, against the lookup of the nearest photon's irradiance that they
 // replace (Christensen 1999). Every surface has the same irradiance everywhere, so whatever else comes back is noise or a leak.
-//     brickmap_lab [--photons N] [--check] [--picture FOLDER]
+//     brickmap_lab [--photons N] [--check]
 // README.md has its tables.
 #include <fmt/format.h>
 

@@ -110,7 +110,7 @@ TEST(Diffusion, GroupsStandForTheirPoints) {
 TEST(Diffusion, NoPointsGiveNoLightAndAMissingChannelIsSaid) {
   PointCloud none = plane(0, vec3(1));
   EXPECT_EQ(Diffusion(none).at(vec3(0), Dipole(*translucencyOf("marble")), 1, 1), vec3(0));
-  none.channels.pop_back();
+  none.channels = {{"_area", 1}};
   EXPECT_THROW(Diffusion{none}, FileError);
 }
 

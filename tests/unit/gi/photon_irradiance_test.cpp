@@ -81,7 +81,7 @@ TEST(PhotonIrradiance, WallsBehindAndBesideDoNotCount) {
 PointCloud ballOnASheet(bool told) {
   PointCloud photons;
   photons.channels = {{"power", 3}};
-  if (told) photons.channels.push_back(kSurfaceChannel);
+  if (told) photons.channels = {{"power", 3}, kSurfaceChannel};
   const auto add = [&](const vec3& P, const vec3& N, float power, float surface) {
     const std::array values{power, power, power, surface};
     photons.add(P, N, 0, values.data());

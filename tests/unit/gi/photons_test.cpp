@@ -19,14 +19,14 @@ namespace fs = std::filesystem;
 constexpr float kRadius = 2, kAlbedo = 0.5f, kIntensity = 3;
 constexpr double kPower = 4 * double{kPi} * double{kPi} * double{kIntensity};
 
-Scene insideOfASphere(const std::string& model = "matte") {
+Scene insideOfASphere(const std::string& model = "matte", float tessellation = 1) {
   SceneBuilder b;
   b.light("pointlight", {floatParam("intensity", kIntensity), pointParam("from", {0.3f, 0, 0.5f})});
   b.light("indirectlight", {});
   b.sphere(kRadius, vec3(kAlbedo), {0, 0, 0.5f});
   auto attributes = std::make_shared<Attributes>(*b.scene.objects[0].attributes);
   attributes->photon.shadingModel = model;
-  attributes->trace.tessellation = 2;  // of a sphere of polygons too large light arrives too little
+  attributes->trace.tessellation = tessellation;
   b.scene.objects[0].attributes = attributes;
   return b.scene;
 }
@@ -176,8 +176,9 @@ struct Atlas : ::testing::Test {
   ~Atlas() override { fs::remove_all(folder); }
 };
 
-TEST_F(Atlas, GivesTheIntegratingSphereItsLight) {
-  World world(insideOfASphere());
+/// Of the inside of the sphere, by the atlas.
+std::vector<vec3> gatheredInside(const fs::path& folder, float tessellation) {
+  World world(insideOfASphere("matte", tessellation));
   const auto services = world.use({.mode = GiMode::Atlas});
   AtlasSettings settings;
   settings.photons = {200000, 30};
@@ -193,10 +194,15 @@ TEST_F(Atlas, GivesTheIntegratingSphereItsLight) {
   }
   IndirectQuery query;
   query.samples = 1000;
+  return indirectAt(*services, points, query);
+}
+
+TEST_F(Atlas, GivesTheIntegratingSphereItsLight) {
   // What the walls receive, all bounces, times their albedo.
   const float expected = kAlbedo * kIntensity / (kRadius * kRadius) / (1 - kAlbedo);
-  // The coarse sphere that rays see costs 1 %, the estimate from the nearest photons another.
-  for (const vec3& E : indirectAt(*services, points, query)) EXPECT_NEAR(E.x, expected, 0.03f * expected);
+  // No photon is lost on large polygons, but smooth normals lean over them, so that photons of the same polygon look farther off than they are: 4 %.
+  for (const auto& [tessellation, bound] : {std::pair{1.0f, 0.055f}, {2.0f, 0.03f}})
+    for (const vec3& E : gatheredInside(folder / std::to_string(tessellation), tessellation)) EXPECT_NEAR(E.x, expected, bound * expected) << tessellation;
 }
 
 /// Writes an atlas into `folder`; which stages had work to do.
