@@ -217,34 +217,42 @@ std::optional<vec3> gatheredOverPi(const GiState& state, const GatherPoint& at) 
   return estimate.E + causticAt(state, at.group, at.position, at.normal, at.pixelSize);
 }
 
+BatchLookup lookUp(const GiState& state, const IrradianceCache* cache, const GatherPlaces& places, const ShadePoints& points, const uint8_t* active,
+                   TmConstVec3 N) {
+  BatchLookup out;
+  for (int i = 0; i < points.count(); ++i)
+    if (active[i]) out.points.push_back(i), out.at.push_back(places.lookupAt(i, unitNormal(points, N, i)));
+  out.known.resize(out.at.size());
+  if (!cache) return out;
+  cache->lookup(out.at, out.known.data());
+  const auto served = std::count_if(out.known.begin(), out.known.end(), [](const IrradianceEstimate& e) { return e.weight > 0; });
+  state.stats.irradianceCache.lookups += static_cast<int64_t>(out.at.size());
+  state.stats.irradianceCache.interpolated += served;
+  return out;
+}
+
 void interpolateIndirect(const GiState& state, const ShadePoints& points, const uint8_t* active,
                          TmConstVec3 N, const IndirectQuery& query, const ShadeContext& context,
                          const IndirectResult& out) {
   const GatherPlan plan = planFor(state, points.group(), query);
   const auto prepared = preparedFor(state, plan);
   const GatherPlaces places(state, points);
-  std::vector<int> asked;
-  std::vector<IrradiancePlace> at;
-  for (int i = 0; i < points.count(); ++i)
-    if (active[i]) asked.push_back(i), at.push_back(places.lookupAt(i, unitNormal(points, N, i)));
-  std::vector<IrradianceEstimate> known(at.size());
-  if (prepared != state.caches.end()) prepared->cache.lookup(at, known.data()), state.stats.irradianceCache.lookups += static_cast<int64_t>(at.size());
-  int64_t interpolated = 0;
-  for (size_t k = 0; k < at.size(); ++k) {
-    const int i = asked[k];
-    const vec3 caustic = causticAt(state, points.group(), at[k].position, at[k].shadingNormal, at[k].pixelSize);
-    if (known[k].weight > 0) {
-      ++interpolated;
-      store(out, i, known[k].E + caustic, known[k].dominant);
+  const BatchLookup found = lookUp(state, prepared != state.caches.end() ? &prepared->cache : nullptr, places, points, active, N);
+  for (size_t k = 0; k < found.points.size(); ++k) {
+    const int i = found.points[k];
+    const IrradianceEstimate& known = found.known[k];
+    const vec3& n = found.at[k].shadingNormal;
+    const vec3 caustic = causticAt(state, points.group(), points.position(i), n, found.at[k].pixelSize);
+    if (known.weight > 0) {
+      store(out, i, known.E + caustic, known.dominant);
       continue;
     }
     // Kept out of the cache: what other points find there must not depend on the order of shading.
     GatherPoint point = places.at(i);
-    point.normal = at[k].shadingNormal;
+    point.normal = n;
     const IndirectAnswer answer = gatherOrRecall(state, point, plan.gather, context.answers);
     store(out, i, answer[0] + caustic, &answer[1]);
   }
-  state.stats.irradianceCache.interpolated += interpolated;
 }
 
 void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N,

@@ -85,19 +85,17 @@ bool interpolateOcclusion(const GiState& state, const ShadePoints& points, const
   const auto prepared = std::find_if(state.caches.begin(), state.caches.end(), [&](const PreparedCache& c) { return c.plan == plan; });
   if (prepared == state.caches.end()) return false;
   const GatherPlaces places(state, points);
-  int64_t lookups = 0, interpolated = 0;
-  for (int i = 0; i < points.count(); ++i) {
-    if (!active[i]) continue;
-    GatherPoint point = places.at(i);
-    const vec3 n = places.shading(i, normalizeOr({N.x[i], N.y[i], N.z[i]}, point.normal));
-    const IrradianceEstimate known = prepared->cache.lookup(point.position, point.normal, n, point.pixelSize);
-    ++lookups, interpolated += known.weight > 0;
-    point.normal = n;
-    const float open = known.weight > 0 ? known.E.x : gatherOrRecall(state, point, plan.gather, context.answers)[0].x;
+  const BatchLookup found = lookUp(state, &prepared->cache, places, points, active, N);
+  for (size_t k = 0; k < found.points.size(); ++k) {
+    const int i = found.points[k];
+    float open = found.known[k].E.x;
+    if (!(found.known[k].weight > 0)) {
+      GatherPoint point = places.at(i);
+      point.normal = found.at[k].shadingNormal;
+      open = gatherOrRecall(state, point, plan.gather, context.answers)[0].x;
+    }
     covered[i] = std::clamp(1 - open, 0.0f, 1.0f);
   }
-  state.stats.irradianceCache.lookups += lookups;
-  state.stats.irradianceCache.interpolated += interpolated;
   return true;
 }
 
