@@ -115,11 +115,18 @@ bool readOutput(const ShadeGroup& group, const ShadePoints& points, int i, const
   return true;
 }
 
-void tell(const ShadeGroup& group, const ShadePoints& points, int i, uint32_t hit, HitAnswers& answers) {
+/// Of hits that shaders ran at `shaded` has what they put out, as ShadeContext::told says.
+void tell(const ShadeGroup& group, const ShadePoints& points, int i, uint32_t hit, const ShadedPoints* shaded, HitAnswers& answers) {
+  size_t first = 0;
   for (const RayOutput& output : answers.outputs) {
+    const auto put = [&](int k) -> float& { return output.c[k][answers.elements[hit]]; };
     vec3 value(0);
-    if (!readOutput(group, points, i, output.name, answers, hit, value)) continue;
-    for (int k = 0; k < output.floats; ++k) output.c[k][answers.elements[hit]] = value[k];
+    if (readOutput(group, points, i, output.name, answers, hit, value)) {
+      for (int k = 0; k < output.floats; ++k) put(k) = value[k];
+    } else if (shaded && !std::isnan(shaded->variables[first][static_cast<size_t>(i)])) {
+      for (int k = 0; k < output.floats; ++k) put(k) = shaded->variables[first + static_cast<size_t>(k)][static_cast<size_t>(i)];
+    }
+    first += static_cast<size_t>(output.floats);
   }
 }
 
@@ -140,7 +147,8 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
                          const ShadeContext& context, HitAnswers& answers) const {
   const Scene& scene = impl_->scene;
   ShadeContext hitContext = context;
-  hitContext.answers = nullptr;  // they are those of the points that the rays leave
+  hitContext.answers = nullptr, hitContext.variables = false;  // they are those of the points that the rays leave
+  hitContext.told = answers.outputs.empty() ? nullptr : &answers.outputs;
   answers.color.assign(hits.size(), vec3(0)), answers.opacity.assign(hits.size(), vec3(0));
   std::vector<int> groupOf;
   const std::vector<uint32_t> order = byGroup(scene, hits, groupOf);
@@ -165,7 +173,7 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
       const bool front = dot(points.get3(kIx, p), points.get3(kNgx, p)) < 0;
       answers.opacity[i] = opacity;
       answers.color[i] = diffuse ? bled(color, attributes) : color + (front ? emission : vec3(0));
-      tell(group, points, p, i, answers);
+      tell(group, points, p, i, shades ? &shaded : nullptr, answers);
     }
   }
 }

@@ -29,6 +29,13 @@ enum class Illumination : uint8_t {
 };
 enum class HitSides : uint8_t { Both, Front, Back };
 
+/// A value of what a ray met, by its RSL gather() name, into `floats` (1 or 3) arrays of the caller.
+struct RayOutput {
+  std::string name;
+  int floats = 1;
+  float* c[3] = {nullptr, nullptr, nullptr};
+};
+
 /// Why and how a batch is being shaded.
 struct ShadeContext {
   RayKind kind = RayKind::Camera;
@@ -38,6 +45,7 @@ struct ShadeContext {
   bool indirect = true;        ///< Run indirect lights.
   bool direct = true;          ///< Run the others where the eye looks.
   bool variables = false;      ///< Store what outputOf(options) lists.
+  const std::vector<RayOutput>* told = nullptr;  ///< Store these instead, of "surface:NAME" the outputs of the shader; NaN: it has none of this name.
   Illumination light = Illumination::Lights;
   int specularDepth = 0;       ///< Specular bounces between the eye and these points.
   int diffuseLimit = 1 << 20, specularLimit = 1 << 20;  ///< Depths at which no ray follows, set by the objects on the way.
@@ -63,13 +71,6 @@ struct RayQuery {
   bool lampsGlow = true;           ///< Area lights are seen.
   float importance = 1;            ///< Of what these rays bring.
   const float *radius = nullptr, *spread = nullptr;  ///< Of the footprint of each ray, at its start and added for each unit of length. Null: none.
-};
-
-/// A value of what a ray met, by its RSL gather() name, into `floats` (1 or 3) arrays of the caller.
-struct RayOutput {
-  std::string name;
-  int floats = 1;
-  float* c[3] = {nullptr, nullptr, nullptr};
 };
 
 /// Arrays for count() points; null pointers: not wanted.

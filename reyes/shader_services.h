@@ -68,9 +68,10 @@ typedef struct TmPhotonLookup {
 
 #define TM_PHOTON_DEFAULTS { sizeof(TmPhotonLookup), 50, 0 }
 
-/* One value of each ray of gather(): "surface:Ci", "surface:Oi", "primitive:" P, N, Ng, I, dPdu, dPdv, u, v, s, t, Cs, Os or a
- * primitive variable, "attribute:category:name", "ray:origin", "ray:direction", "ray:length", "effectivedistance" (of all that the ray goes
- * through until it is covered, weighted by what each covers). Numbers fill c[0], triples all. */
+/* One value of each ray of gather(): "surface:" Ci, Oi or an output parameter of the shader that is met, "primitive:" P, N, Ng, I, dPdu,
+ * dPdv, u, v, s, t, Cs, Os or a primitive variable, "attribute:category:name", "ray:origin", "ray:direction", "ray:length",
+ * "effectivedistance" (of all that the ray goes through until it is covered, weighted by what each covers). Numbers fill c[0], triples all;
+ * what is met has no value of that name or type: the arrays keep theirs. */
 typedef struct TmRayOutput {
   const char* name;
   int32_t floats;              /* 1 or 3 */

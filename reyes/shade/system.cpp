@@ -53,8 +53,10 @@ void ShadingSystem::shade(const ShadePoints& points, const ShadeContext& context
   const BoundShader& shader = context.kind == RayKind::Diffuse ? group.forDiffuseRays() : *group.surface;
   const int count = points.count();
   out.resize(count);
-  const bool variables = context.variables && !group.variables.empty();
-  if (variables) allocateVariables(group.variables, count, out);
+  std::vector<BoundVariable> told;
+  if (context.told) told = bindOutputs(*context.told, shader);
+  const std::vector<BoundVariable>& variables = context.variables ? group.variables : told;
+  if (!variables.empty()) allocateVariables(variables, count, out);
 
   const ShaderTimer timer(impl_->stats, shader, count);
   ShadePoints chunk(points.group(), points.primvarFloats(), points.hasSteps());
@@ -67,10 +69,10 @@ void ShadingSystem::shade(const ShadePoints& points, const ShadeContext& context
     Batch batch(*impl_, group, chunkContext, *arena);
     batch.setPoints(chunk, shader, indirectHit ? group.indirectOverrides : group.surfaceOverrides, out,
                     begin);
-    if (variables) batch.openOutputs(group.variables, out, begin);
+    batch.openOutputs(variables, out, begin);
     repair(batch, shader, batch.run(shader, batch.tm));
-    batch.closeOutputs(variables ? group.variables : std::vector<BoundVariable>{}, out, begin);
-    if (variables) storeVariables(group.variables, batch, shader, out, begin);
+    batch.closeOutputs(variables, out, begin);
+    storeVariables(variables, batch, shader, out, begin);
   }
   impl_->stats.shade.verticesShaded += count;
 }

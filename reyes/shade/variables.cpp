@@ -100,6 +100,24 @@ std::vector<BoundVariable> bindVariables(const FrameOutput& output, const BoundG
   return out;
 }
 
+std::vector<BoundVariable> bindOutputs(const std::vector<RayOutput>& told, const BoundShader& shader) {
+  constexpr std::string_view kSurface = "surface:";
+  std::vector<BoundVariable> out;
+  int first = 0;
+  for (const RayOutput& o : told) {
+    BoundVariable v;
+    v.first = first, v.width = o.floats, v.fill = std::numeric_limits<float>::quiet_NaN();
+    first += o.floats;
+    for (const ValueType type : {ValueType::Float, ValueType::Color, ValueType::Vector}) {
+      if (!o.name.starts_with(kSurface) || floatsPerValue(type) != o.floats) continue;
+      const int index = shader.output(std::string_view(o.name).substr(kSurface.size()), type);
+      if (index >= 0) v.from = From::Output, v.index = index, v.fill = 0;
+    }
+    out.push_back(std::move(v));
+  }
+  return out;
+}
+
 void allocateVariables(const std::vector<BoundVariable>& variables, int count, ShadedPoints& out) {
   out.variables.clear();
   for (const BoundVariable& v : variables)
@@ -110,6 +128,7 @@ void storeVariables(const std::vector<BoundVariable>& variables, Batch& batch, c
                     int begin) {
   LightGroups groups(batch, shader);
   for (const BoundVariable& v : variables) {
+    if (v.from == From::Nothing) continue;
     const int n = batch.points->count();
     const auto each = [&](const auto& value) {
       const TmVec3 to = destination(v, out, begin);

@@ -2,6 +2,7 @@
 #pragma once
 #include "reyes/output.h"
 #include "reyes/points.h"
+#include "reyes/shade.h"
 #include "reyes/shade/bound_shader.h"
 
 namespace tomales {
@@ -20,6 +21,9 @@ struct BoundVariable {
 
 /// An output of the surface shader goes before all else of that name.
 std::vector<BoundVariable> bindVariables(const FrameOutput& output, const BoundGroup& group);
+
+/// The same of what a ray's caller asks: outputs of the shader that runs at its hit, in this order. Of "surface:NAME" alone.
+std::vector<BoundVariable> bindOutputs(const std::vector<RayOutput>& told, const BoundShader& shader);
 
 /// Makes room, filled with what stands where nobody writes.
 void allocateVariables(const std::vector<BoundVariable>& variables, int count, ShadedPoints& out);

@@ -85,6 +85,25 @@ TEST(RayOutputs, AreWhatTheSceneSaysOfThePlaceThatIsMet) {
   EXPECT_EQ(Shot(*services, {5, 0, 0}, {}, {{"primitive:u", 1}}).outputs.at("primitive:u").x, kUntouched) << "a miss sets nothing";
 }
 
+TEST(RayOutputs, AreTheOutputsOfTheShaderThatIsMetAndOfNoOther) {
+  const vec3 color(0.2f, 0.4f, 0.8f);
+  for (const std::string name : {"plastic", "matte"}) {
+    SceneBuilder b;
+    sheet(b, 2, color);
+    attributes(b).surface = std::make_shared<ShaderCall>(call(name));
+    World world(b.scene);
+    const auto services = world.use({});
+    const Shot shot(*services, vec3(0), {}, {{"surface:albedo", 1}, {"primitive:P", 3}, {"surface:albedo", 3}, {"surface:nothing", 3}, {"surface:Oi", 3}});
+    EXPECT_NEAR(shot.outputs.at("primitive:P").z, 2, 1e-5f) << name;
+    expectNear(shot.outputs.at("surface:albedo"), name == "plastic" ? color : vec3(kUntouched), name.c_str());
+    EXPECT_EQ(shot.outputs.at("surface:nothing").x, kUntouched) << name;
+    expectNear(shot.outputs.at("surface:Oi"), vec3(1), name.c_str());
+    RayQuery bare;
+    bare.mode = HitMode::Primitive;
+    EXPECT_EQ(Shot(*services, vec3(0), bare, {{"surface:albedo", 3}}).outputs.at("surface:albedo").x, kUntouched) << "no shader ran";
+  }
+}
+
 TEST(RayOutputs, TheShaderRunsWhereTheCallOrElseTheAttributesOfTheObjectSaySo) {
   for (const HitMode own : {HitMode::Primitive, HitMode::Shader}) {
     SceneBuilder b;
