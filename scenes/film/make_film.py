@@ -82,7 +82,7 @@ Display "film.png" "png" "rgb" "string transfer" ["sRGB"]
 Format 1828 1102 1
 PixelSamples 4 4
 PixelFilter "gaussian" 2 2
-ShadingRate 0.21
+ShadingRate 0.152
 Projection "perspective" "fov" [32]
 Translate 0 -0.05 5.2
 Rotate -14 1 0 0
