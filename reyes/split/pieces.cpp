@@ -31,12 +31,20 @@ constexpr float kDot = 3.5f;
 constexpr int kHalvingsAtOnce = 6;
 constexpr int64_t kGridsOfCoarse = 64;
 
+/// transformBound, to the bit, by extremes of products instead of eight corners: rounding is monotonic.
+Bound3 boundThrough(const mat4& m, const Bound3& b) {
+  if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1) return transformBound(m, b);
+  const vec3 x0 = vec3(m[0]) * b.lo.x, x1 = vec3(m[0]) * b.hi.x, y0 = vec3(m[1]) * b.lo.y, y1 = vec3(m[1]) * b.hi.y;
+  const vec3 z0 = vec3(m[2]) * b.lo.z, z1 = vec3(m[2]) * b.hi.z, origin(m[3]);
+  return {(glm::min(x0, x1) + glm::min(y0, y1)) + (glm::min(z0, z1) + origin), (glm::max(x0, x1) + glm::max(y0, y1)) + (glm::max(z0, z1) + origin)};
+}
+
 /// Box in camera space around a rectangle, over the shutter, before displacement.
 Bound3 cameraBound(const Object& o, uint32_t patch, const UvRect& rect) {
   Bound3 object;
   for (const PrimPtr& shape : o.shapes) object.extend(shape->bound(patch, rect));
   Bound3 camera;
-  for (const float t : o.keyTimes) camera.extend(transformBound(o.cameraFromObject.at(t), object));
+  for (const float t : o.keyTimes) camera.extend(boundThrough(o.cameraFromObject.at(t), object));
   return camera;
 }
 
