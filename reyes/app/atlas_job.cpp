@@ -48,6 +48,13 @@ void bricksOfPoints(const fs::path& clouds, const fs::path& folder, const MapNam
   }
 }
 
+/// Of baked light, which holds that of caustics too.
+MapNames bakedNames(const Scene& scene, const AtlasSettings& settings) {
+  MapNames names = mapNames(scene, settings);
+  names.caustic.assign(names.caustic.size(), "");
+  return names;
+}
+
 void warnOfStrangers(const IrradianceAtlas& maps, uint64_t world, Log& log) {
   if (const auto strange = maps.strange(world))
     log.report(Severity::Warning, "atlas-stale", {},
@@ -100,9 +107,7 @@ std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const Rende
   }
   try {
     const AtlasSettings atlas = atlasSettings(settings, scene);
-    MapNames names = mapNames(scene, atlas);
-    names.caustic.assign(names.caustic.size(), "");  // it is in what was baked
-    auto maps = std::make_unique<const IrradianceAtlas>(settings.bakedFolder, scene, names, brickCacheBytes(settings), log);
+    auto maps = std::make_unique<const IrradianceAtlas>(settings.bakedFolder, scene, bakedNames(scene, atlas), brickCacheBytes(settings), log);
     warnOfStrangers(*maps, atlas.world, log);
     return maps;
   } catch (const std::runtime_error& e) {  // FileError, or of the file system
@@ -115,9 +120,7 @@ void bakeGathered(const GiServices& services, const DeepFrame& layout, const Til
                   Log& log) {
   try {
     const AtlasSettings atlas = atlasSettings(settings, scene);
-    MapNames names = mapNames(scene, atlas);
-    names.caustic.assign(names.caustic.size(), "");
-    services.bake(layout, tiles, settings.bakedFolder, names, atlas.world);
+    services.bake(layout, tiles, settings.bakedFolder, bakedNames(scene, atlas), atlas.world);
   } catch (const std::runtime_error& e) {
     log.report(Severity::Output, "baked-write", {}, std::string(e.what()) + ": the gathered light is not kept");
   }
