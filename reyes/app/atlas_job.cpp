@@ -21,12 +21,6 @@ const Param* indirectParam(const Scene& scene, const char* name) {
   return nullptr;
 }
 
-std::string folderOf(const RenderSettings& settings, const Scene& scene) {
-  if (!settings.atlasFolder.empty()) return settings.atlasFolder;
-  const Param* p = indirectParam(scene, "atlas");
-  return p && !p->strings.empty() ? p->strings[0] : std::string();
-}
-
 bool asksPoints(const RenderSettings& settings, const Scene& scene) {
   if (settings.gi != GiChoice::Scene) return settings.gi == GiChoice::Points;
   const Param* radiance = indirectParam(scene, "radiance");
@@ -63,6 +57,12 @@ void warnOfStrangers(const IrradianceAtlas& maps, uint64_t world, Log& log) {
 
 }  // namespace
 
+std::string atlasFolder(const RenderSettings& settings, const Scene& scene) {
+  if (!settings.atlasFolder.empty()) return settings.atlasFolder;
+  const Param* p = indirectParam(scene, "atlas");
+  return p && !p->strings.empty() ? p->strings[0] : std::string();
+}
+
 AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene) {
   AtlasSettings out;
   out.world = worldSum(scene);
@@ -77,7 +77,7 @@ AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene) 
 std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                                                     const RenderSettings& settings, Stats& stats, Log& log) {
   const AtlasSettings atlas = atlasSettings(settings, scene);
-  const std::string given = folderOf(settings, scene);
+  const std::string given = atlasFolder(settings, scene);
   const bool points = asksPoints(settings, scene);
   if (points && given.empty()) {
     log.report(Severity::Missing, "points-folder", {}, "--gi points needs --atlas FOLDER of point clouds with irradiance: rendered without indirect light");
