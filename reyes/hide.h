@@ -75,6 +75,8 @@ class Hider {
   ~Hider();
   /// True if every sample in the bound is already hidden by something opaque nearer than zMin (camera space).
   bool hidden(const Bound2& raster, float zMin) const;
+  /// The same of what has been projected: insert() would find nothing to do.
+  bool hidden(const RasterExtent& extent) const;
   void insert(const std::shared_ptr<const RasterGrid>& grid);
   /// Collects visible micropolygons into points to shade. The Hider is spent.
   DeepTile resolve();
