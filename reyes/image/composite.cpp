@@ -135,7 +135,8 @@ ResolvedTile Compositor::resolve(const DeepTile& tile) {
     out.first.push_back(static_cast<uint32_t>(out.contributions.size()));
     const Fragment* begin = tile.fragments.data() + pixel.first;
     const Fragment* end = begin + pixel.count;
-    if (disjoint(begin, end))
+    if (begin == end) continue;
+    if (end - begin == 1 || disjoint(begin, end))
       resolveEach(tile, begin, end, out);
     else
       resolveStack(tile, begin, end, out);
