@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <initializer_list>
 #include <stdexcept>
+#include <vector>
 
 #include "reyes/sl_values.h"
 
@@ -12,16 +13,20 @@ namespace sl {
 /// A value of a list.
 struct Setting {
   Setting(double v) : number(static_cast<float>(v)) {}
-  Setting(const char* v) : text(v) {}
+  Setting(const char* v) : type(TM_STRING), text(v) {}
   Setting(const rsl::UniformFloatParam& p) : number(uniform(p)) {}
-  Setting(const rsl::Color& c) : color(c) {}
-  Setting(const rsl::StringParam& p) : text(uniform(p)) {}
+  Setting(const rsl::Color& c) : type(TM_COLOR), color(c) {}
+  Setting(const rsl::StringParam& p) : type(TM_STRING), text(uniform(p)) {}
+  Setting(const Float& v) : varying{v.data()} {}
+  Setting(const Triple& v) : type(TM_COLOR), varying{v.out().x, v.out().y, v.out().z} {}
   Setting(Float* out) : numbers(out) {}
   Setting(Triple* out) : triples(out) {}
   int whole() const { return static_cast<int>(number); }
+  TmType type = TM_FLOAT;
   float number = 0;
   const char* text = "";
   rsl::Color color{};
+  const float* varying[3] = {nullptr, nullptr, nullptr};  ///< To be sent; null: the same for all.
   Float* numbers = nullptr;   ///< To be filled in.
   Triple* triples = nullptr;  ///< Likewise.
 };
@@ -153,6 +158,44 @@ inline bool set(TmSubsurface& o, std::string_view name, const Setting& v) {
   else if (name == "ior") o.ior = v.number;
   else if (name == "unitlength") o.unitLength = v.number;
   else if (name == "maxsolidangle") o.maxSolidAngle = v.number;
+  else return false;
+  return true;
+}
+
+/// Of illuminance(). Names are "lightcache" ("refresh": lights run again), "send:light:NAME" (the value of a parameter, for lights that have one
+/// of that name) and "light:NAME" (to be filled in with what lights have, parameters and outputs, at each sample).
+struct LightList {
+  struct Sent {
+    std::string name;
+    Setting value;
+  };
+  struct Wanted {
+    std::string name;
+    Float* number;
+    Triple* triple;
+  };
+  bool refresh = false;
+  std::vector<Sent> sent;
+  std::vector<Wanted> wanted;
+
+  /// As TmServices wants them; they point into this list.
+  std::vector<TmMessage> messages() const {
+    std::vector<TmMessage> out;
+    for (const Sent& s : sent) {
+      const Setting& v = s.value;
+      const float* same[3] = {v.type == TM_COLOR ? &v.color.x : &v.number, &v.color.y, &v.color.z};
+      TmValue value{{same[0], same[1], same[2]}, v.varying[0] ? 1 : 0, 1, v.text};
+      if (v.varying[0]) std::copy_n(v.varying, 3, value.c);
+      out.push_back({s.name.c_str(), v.type, value});
+    }
+    return out;
+  }
+};
+inline bool set(LightList& o, std::string_view name, const Setting& v) {
+  constexpr std::string_view kSend = "send:light:", kTell = "light:";
+  if (name == "lightcache") o.refresh = std::string_view(v.text) == "refresh";
+  else if (name.substr(0, kSend.size()) == kSend) o.sent.push_back({std::string(name.substr(kSend.size())), v});
+  else if (name.substr(0, kTell.size()) == kTell && (v.numbers || v.triples)) o.wanted.push_back({std::string(name.substr(kTell.size())), v.numbers, v.triples});
   else return false;
   return true;
 }
