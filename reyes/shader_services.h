@@ -89,7 +89,15 @@ typedef enum TmWhom {
   TM_OF_RENDERER = 8           /* "renderer", "version" (four numbers), "versionstring" */
 } TmWhom;
 
-/* illuminance(): start with next = 0 and call until 0 is returned. */
+/* RSL's "send:light:NAME": the parameter of that name, of lights that have one, takes this value, which is as a parameter of the sender would
+ * be: a number, a triple or a string. */
+typedef struct TmMessage {
+  const char* name;
+  int32_t type;                /* TmType */
+  TmValue value;
+} TmMessage;
+
+/* illuminance(): start with next = 0 and call until 0 is returned. What follows an earlier release's last field is 0 there. */
 typedef struct TmIlluminance {
   uint32_t structBytes;
   int32_t next;
@@ -101,6 +109,12 @@ typedef struct TmIlluminance {
   TmConstVec3 Cl;              /* shadowed, divided by the number of samples */
   const uint8_t* lit;          /* 1: active, and the sample comes from the cone */
   int32_t isIndirect, nondiffuse, nonspecular;
+  TmConstVec3 P;               /* in: where the light arrives; x NULL: at the shaded points. Volumes elsewhere than there: in the air, which no
+                                * indirect light reaches, and where light shaders see an N of 0 */
+  const float* angles;         /* in: for each point, instead of `angle`; NULL */
+  const TmMessage* sent;       /* in: for the lights that run */
+  int32_t sentCount;
+  int32_t refresh;             /* in: 1: lights run again ("lightcache" "refresh") even if they have for the same P, category and messages */
 } TmIlluminance;
 
 /* How texture() and environment() look up (rispec-table section 10). Start from TM_TEXTURE_DEFAULTS. */
@@ -251,7 +265,8 @@ typedef struct TmServices {
                          TmVec3 out);
   /* environment() with options, over the cone that the micropolygon sees in `direction`; "raytrace" traces rays. */
   int32_t (*environmentWith)(void* host, const TmGrid*, const char* name, const TmTextureLookup* lookup, TmConstVec3 direction, TmVec3 out);
-  /* RISpec illuminance(). Ambient lights are not listed. The arrays live until the shader returns. */
+  /* RISpec illuminance(). Ambient lights are not listed. The arrays live until the shader returns; those of a P that is not that of the batch, of
+   * messages and of refreshed lights until it has asked for four more such. Call with the same mask until 0 is returned. */
   int32_t (*illuminance)(void* host, const TmGrid*, TmIlluminance*);
   /* A value of something else: `type` is the TmType, `out` as a parameter of this shader (it lives until the shader returns).
    * Returns 0 if there is no such value. `light` counts for TM_OF_LIGHT alone; negative: the light that is running. */

@@ -19,7 +19,8 @@ inline Color phong(const Normal& n, const Vector& v, const Float& size) {
   const Vector R = reflect(-normalize(v), N);
   Color sum;
   if (!rsl::Batch(grid()).wantsHighlights()) return sum;
-  TmIlluminance query{sizeof(TmIlluminance), 0, "", N, float(rsl::kPi / 2), 0, {}, {}, nullptr, 0, 0, 0};
+  TmIlluminance query{};
+  query.structBytes = sizeof query, query.axis = N, query.angle = float(rsl::kPi / 2);
   while (grid()->call->illuminance(grid()->host, grid(), &query)) {
     if (query.nonspecular) continue;
     where(query.lit, true, [&] { sum += Color(query.Cl) * pow(max(0, dot(R, normalize(Vector(query.L)))), size); });

@@ -1,7 +1,10 @@
 // RSL's optional parameter lists, such as trace(P, R, "samples", 16, "samplecone", 0.1): names and values, the same for all points
 // (rispec-table 9.6, 10). Part of reyes/sl.h. A name that there is not is an exception, which the renderer reports with shader and object.
 #pragma once
+#include <algorithm>
+#include <initializer_list>
 #include <stdexcept>
+#include <vector>
 
 #include "reyes/sl_values.h"
 
@@ -10,16 +13,20 @@ namespace sl {
 /// A value of a list.
 struct Setting {
   Setting(double v) : number(static_cast<float>(v)) {}
-  Setting(const char* v) : text(v) {}
+  Setting(const char* v) : type(TM_STRING), text(v) {}
   Setting(const rsl::UniformFloatParam& p) : number(uniform(p)) {}
-  Setting(const rsl::Color& c) : color(c) {}
-  Setting(const rsl::StringParam& p) : text(uniform(p)) {}
+  Setting(const rsl::Color& c) : type(TM_COLOR), color(c) {}
+  Setting(const rsl::StringParam& p) : type(TM_STRING), text(uniform(p)) {}
+  Setting(const Float& v) : varying{v.data()} {}
+  Setting(const Triple& v) : type(TM_COLOR), varying{v.out().x, v.out().y, v.out().z} {}
   Setting(Float* out) : numbers(out) {}
   Setting(Triple* out) : triples(out) {}
   int whole() const { return static_cast<int>(number); }
+  TmType type = TM_FLOAT;
   float number = 0;
   const char* text = "";
   rsl::Color color{};
+  const float* varying[3] = {nullptr, nullptr, nullptr};  ///< To be sent; null: the same for all.
   Float* numbers = nullptr;   ///< To be filled in.
   Triple* triples = nullptr;  ///< Likewise.
 };
@@ -43,6 +50,13 @@ inline bool set(TmRayOptions& o, std::string_view name, const Setting& v) {
   else if (name == "maxvariation") o.maxVariation = v.number;
   else if (name == "weight") o.importance = v.number;
   else return false;
+  return true;
+}
+
+/// A name that other renderers know and that changes nothing here, which is reported once. `why`: no more is to be done about it.
+inline bool isIdle(std::string_view name, std::initializer_list<std::string_view> idle, const char* why) {
+  if (std::find(idle.begin(), idle.end(), name) == idle.end()) return false;
+  grid()->call->report(grid()->host, grid(), 1, ("\"" + std::string(name) + "\" has no effect: " + why).c_str());
   return true;
 }
 
@@ -72,9 +86,8 @@ inline bool set(HemisphereList& o, std::string_view name, const Setting& v) {
   else if (name == "environmentcolor") o.environmentColor = v.triples;
   else if (name == "environmentdir") o.environmentDirection = v.triples;
   else if (name == "occlusion") o.covered = v.numbers;
-  // How hard to try, which other renderers ask: rays are stratified, and what is nearer hides what is behind it.
-  else if (name == "adaptive" || name == "minsamples" || name == "brightnesswarp" || name == "sortbleeding" || name == "rasterresolution") return true;
-  else return set(o.rays, name, v);
+  else return set(o.rays, name, v) || isIdle(name, {"adaptive", "minsamples", "brightnesswarp", "sortbleeding", "rasterresolution"},
+                                             "all samples are taken, stratified, and what is nearer hides what is behind it");
   return true;
 }
 
@@ -107,8 +120,7 @@ inline bool set(CloudList& o, std::string_view name, const Setting& v) {
   if (name == "coordsystem") o.cloud.coordSystem = v.text;
   else if (name == "radius" || name == "filterradius") o.radius = v.numbers ? *v.numbers : Float(double(v.number)), o.hasRadius = true;
   else if (name == "radiusscale" || name == "filterscale") o.cloud.radiusScale = v.number;
-  // Points are those that are shaded, and brick maps are always read to their depth and blended.
-  else return name == "interpolate" || name == "maxdepth" || name == "lerp";
+  else return isIdle(name, {"interpolate", "maxdepth", "lerp"}, "points are those that are shaded, and brick maps are read to their depth and blended");
   return true;
 }
 
@@ -146,6 +158,44 @@ inline bool set(TmSubsurface& o, std::string_view name, const Setting& v) {
   else if (name == "ior") o.ior = v.number;
   else if (name == "unitlength") o.unitLength = v.number;
   else if (name == "maxsolidangle") o.maxSolidAngle = v.number;
+  else return false;
+  return true;
+}
+
+/// Of illuminance(). Names are "lightcache" ("refresh": lights run again), "send:light:NAME" (the value of a parameter, for lights that have one
+/// of that name) and "light:NAME" (to be filled in with what lights have, parameters and outputs, at each sample).
+struct LightList {
+  struct Sent {
+    std::string name;
+    Setting value;
+  };
+  struct Wanted {
+    std::string name;
+    Float* number;
+    Triple* triple;
+  };
+  bool refresh = false;
+  std::vector<Sent> sent;
+  std::vector<Wanted> wanted;
+
+  /// As TmServices wants them; they point into this list.
+  std::vector<TmMessage> messages() const {
+    std::vector<TmMessage> out;
+    for (const Sent& s : sent) {
+      const Setting& v = s.value;
+      const float* same[3] = {v.type == TM_COLOR ? &v.color.x : &v.number, &v.color.y, &v.color.z};
+      TmValue value{{same[0], same[1], same[2]}, v.varying[0] ? 1 : 0, 1, v.text};
+      if (v.varying[0]) std::copy_n(v.varying, 3, value.c);
+      out.push_back({s.name.c_str(), v.type, value});
+    }
+    return out;
+  }
+};
+inline bool set(LightList& o, std::string_view name, const Setting& v) {
+  constexpr std::string_view kSend = "send:light:", kTell = "light:";
+  if (name == "lightcache") o.refresh = std::string_view(v.text) == "refresh";
+  else if (name.substr(0, kSend.size()) == kSend) o.sent.push_back({std::string(name.substr(kSend.size())), v});
+  else if (name.substr(0, kTell.size()) == kTell && (v.numbers || v.triples)) o.wanted.push_back({std::string(name.substr(kTell.size())), v.numbers, v.triples});
   else return false;
   return true;
 }

@@ -13,9 +13,15 @@ float center(int i, int count) { return (static_cast<float>(i) + 0.5f) / static_
 /// Solid angle for each unit of (s, t).
 float solidAngleAt(float t) { return 2 * kPi * kPi * std::sin(kPi * t); }
 
-float cosineDensity(const vec3& N, const vec3& L) { return dot(N, L) > 0 ? std::max(dot(N, L), kLeastCosine) / kPi : 0.0f; }
+bool inAir(const vec3& N) { return N == vec3(0.0f); }
+
+float cosineDensity(const vec3& N, const vec3& L) {
+  if (inAir(N)) return 1 / (4 * kPi);
+  return dot(N, L) > 0 ? std::max(dot(N, L), kLeastCosine) / kPi : 0.0f;
+}
 
 vec3 cosineDirection(const vec3& N, const vec2& xi) {
+  if (inAir(N)) return latLongDirection({xi.y, std::acos(1 - 2 * xi.x) / kPi});
   vec3 tangent, bitangent;
   orthonormalBasis(N, tangent, bitangent);
   const vec3 local = cosineHemisphere(xi);
@@ -67,7 +73,7 @@ vec3 Sky::sample(const vec3& N, vec2 xi, float& density) const {
     double s{xi.x / share}, t{xi.y};
     const size_t j = rows_.pick(t), i = row_[j].pick(s);
     L = latLongDirection({(static_cast<float>(i) + static_cast<float>(s)) / kColumns, (static_cast<float>(j) + static_cast<float>(t)) / kRows});
-    L = normalizeOr(glm::transpose(worldFromCurrent_) * L, N);
+    L = normalizeOr(glm::transpose(worldFromCurrent_) * L, vec3(0.0f, 0.0f, 1.0f));
   } else {
     L = cosineDirection(N, {(xi.x - share) / (1 - share), xi.y});
   }

@@ -25,7 +25,7 @@ class Sky {
   Sky(const Textures& textures, const std::string& picture, const SourceLoc& where, const std::string& user,
       const mat3& worldFromCurrent);
 
-  /// A unit direction to light a point with unit normal N by; density over solid angle.
+  /// A unit direction to light a point with unit normal N by; density over solid angle. N of 0: in the air, lit evenly from all sides.
   vec3 sample(const vec3& N, vec2 xi, float& density) const;
   float density(const vec3& N, const vec3& L) const;
 
