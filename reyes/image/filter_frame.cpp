@@ -1,4 +1,6 @@
 // Contributions -> pixels, some rows at a time.
+#include <bit>
+#include <map>
 #include <mutex>
 #include <span>
 
@@ -37,6 +39,24 @@ struct Reduction {
   float fill = 0;
 };
 
+PixelNoise noiseOf(const ResolvedTile& tile, int width, int samplesPerPixel) {
+  PixelNoise out;
+  const auto all = static_cast<float>(samplesPerPixel);
+  if (samplesPerPixel < 2) return out;
+  for (size_t pixel = 0; pixel + 1 < tile.first.size(); ++pixel) {
+    float sum = 0, squares = 0;
+    for (size_t c = tile.first[pixel]; c < tile.first[pixel + 1]; ++c) {
+      const float* color = tile.values.data() + c * static_cast<size_t>(width);
+      const float light = luminance(vec3(color[0], color[1], color[2])), count = static_cast<float>(std::popcount(tile.contributions[c].samples));
+      sum += count * light, squares += count * light * light;
+    }
+    if (!(sum > 0)) continue;
+    const float mean = sum / all, variance = (squares / all - mean * mean) / (all - 1);
+    out.light += mean, out.error += std::sqrt(std::max(variance, 0.0f));
+  }
+  return out;
+}
+
 }  // namespace
 
 struct FrameFilter::Impl {
@@ -72,7 +92,9 @@ struct FrameFilter::Impl {
   void resolve(size_t index, const DeepTile& tile) {
     std::unique_ptr<Compositor> compositor = takeCompositor();
     resolved[index] = std::make_unique<ResolvedTile>(compositor->resolve(tile));
+    const PixelNoise here = noiseOf(*resolved[index], compositor->width(), frame.samplesPerPixel);
     const std::lock_guard lock(mutex);
+    noise[index] = here;
     compositors.push_back(std::move(compositor));
   }
   std::unique_ptr<Compositor> takeCompositor() {
@@ -255,6 +277,7 @@ struct FrameFilter::Impl {
   std::vector<std::unique_ptr<ResolvedTile>> resolved;
   size_t forgotten = 0;  ///< Of these, from the first.
   std::mutex mutex;
+  std::map<size_t, PixelNoise> noise;  ///< By tiles.
   std::vector<std::unique_ptr<Compositor>> compositors;  ///< Those that no thread uses.
 };
 
@@ -302,6 +325,12 @@ Image FrameFilter::rows(int y0, int y1) {
 }
 
 void FrameFilter::resolve(size_t index, const DeepTile& tile) { impl_->resolve(index, tile); }
+
+PixelNoise FrameFilter::noise() const {
+  PixelNoise out;
+  for (const auto& [tile, here] : impl_->noise) out.light += here.light, out.error += here.error;
+  return out;
+}
 
 bool FrameFilter::needsTiles() const {
   const auto& channels = impl_->output.channels;

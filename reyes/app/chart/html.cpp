@@ -29,6 +29,7 @@ svg{display:block;width:100%;height:auto;font:12px system-ui,sans-serif}
 .curve{fill:none;stroke-width:1.8}.point{stroke:#fff;stroke-width:1.2}.best{stroke:#111;stroke-width:2}
 .front{fill:none;stroke:#ffd84d;stroke-width:9;stroke-linecap:round;stroke-linejoin:round;opacity:.55}
 path.floor{stroke:#888;stroke-dasharray:3 4}text.floor{fill:#666}
+path.limit{stroke:#b00020;stroke-dasharray:6 3}text.limit{fill:#b00020}.warned{fill:none;stroke:#b00020;stroke-width:1.5}
 a:hover circle,a:focus circle{r:7px}
 .cards{display:grid;grid-template-columns:repeat(auto-fill,minmax(330px,1fr));gap:20px}
 figure{margin:0;padding:10px;border:1px solid #e0e0e0;border-radius:6px}figure:target{outline:3px solid #ffd84d}
