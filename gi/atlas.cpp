@@ -49,14 +49,6 @@ uint64_t brickInputs(const PointFile& points, const BrickSettings& settings) {
 }
 
 /// Of a file that may be missing or damaged: then not known.
-MadeFrom pointsMadeFrom(const fs::path& path) {
-  try {
-    return PointFile(path.string()).madeFrom();
-  } catch (const FileError&) {
-    return {};
-  }
-}
-
 MadeFrom bricksMadeFrom(const fs::path& path) {
   try {
     return BrickFile(path.string()).madeFrom();
@@ -80,6 +72,14 @@ std::vector<int> numbered(const std::vector<std::string>& maps, const std::vecto
 }
 
 }  // namespace
+
+MadeFrom pointsMadeFrom(const fs::path& path) {
+  try {
+    return PointFile(path.string()).madeFrom();
+  } catch (const FileError&) {
+    return {};
+  }
+}
 
 fs::path atlasFile(const fs::path& folder, const std::string& map, const char* extension) {
   std::string name = map;
@@ -185,6 +185,15 @@ BuiltBricks writeIrradianceBricks(const fs::path& points, const fs::path& out, B
   return writeBrickMap(tiles, settings, out.string(), madeFrom);
 }
 
+void renewIrradianceBricks(const fs::path& points, const fs::path& out, const BrickSettings& settings, Stats& stats) {
+  if (bricksMadeFrom(out).inputs == brickInputs(PointFile(points.string()), settings)) {
+    ++stats.photons.groupsKept;
+    return;
+  }
+  const StageTimer timer(stats, "brickmake");
+  writeIrradianceBricks(points, out, settings);
+}
+
 void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                 const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
   const fs::path photons = folder / "photons", irradiance = folder / "irradiance";
@@ -205,12 +214,7 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
       const StageTimer timer(stats, "irradiance");
       writeIrradiance(from, points, estimate);
     }
-    if (bricksMadeFrom(bricks).inputs == brickInputs(PointFile(points.string()), settings.bricks)) {
-      ++stats.photons.groupsKept;
-      continue;
-    }
-    const StageTimer timer(stats, "brickmake");
-    writeIrradianceBricks(points, bricks, settings.bricks);
+    renewIrradianceBricks(points, bricks, settings.bricks, stats);
   }
 }
 

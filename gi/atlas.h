@@ -50,6 +50,11 @@ void writeIrradiance(const std::filesystem::path& photons, const std::filesystem
 /// Irradiance points -> brick map; its maxError is relative to their mean. Throws FileError.
 BuiltBricks writeIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out, BrickSettings settings);
 
+/// Unless they were made of these points and settings already, which counts as a group that was kept. Throws FileError.
+void renewIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out, const BrickSettings& settings, Stats& stats);
+/// Of a point cloud; nothing is known of one that is missing or damaged.
+MadeFrom pointsMadeFrom(const std::filesystem::path& path);
+
 /// All three for a scene, as far as the folder does not hold them yet: photons are traced again if the scene or their settings have
 /// changed, and groups to which the same photons come keep their maps. Throws FileError.
 void writeAtlas(const std::filesystem::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,

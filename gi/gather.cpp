@@ -2,8 +2,8 @@
 
 #include "gi/hemisphere.h"
 #include "gi/hessian.h"
+#include "gi/hit_radiance.h"
 #include "gi/layers.h"
-#include "gi/radiosity_maps.h"
 #include "gi/ray_strata.h"
 
 namespace tomales {
@@ -24,7 +24,7 @@ const BrightSpots kNoSpots;
 struct Scratch {
   RayLayers layers;
   Surroundings surroundings;
-  std::vector<Hit> hits, unknown;                  ///< unknown: those that no radiosity map answers.
+  std::vector<Hit> hits, unknown;                  ///< unknown: those whose radiance is not known.
   std::vector<std::pair<size_t, vec3>> mapped;
   HitAnswers answers;
   std::vector<vec3> directions, radiance;          ///< One ray of each cell,
@@ -70,7 +70,7 @@ class Hemisphere {
         key_(hashCombine(point.key, settings.seed)),
         times_(scene, point, count_, key_),
         spots_(known.spots ? *known.spots : kNoSpots),
-        maps_(known.maps),
+        known_(known.hits),
         aim_(spots_, point.position, point.normal) {
     orthonormalBasis(point.normal, tangent_, bitangent_);
     first_.spread = 1 / std::sqrt(static_cast<float>(count_));
@@ -159,14 +159,14 @@ class Hemisphere {
     }
   }
 
-  /// From radiosity maps as far as they know.
+  /// From what is known, as far as it goes.
   void answer(const ShadeContext& context) {
     const auto& rays = scratch_.layers.rays;
-    if (!maps_) return scene_.shadeHits(rays, scratch_.hits, scratch_.layers.names, shading_, context, scratch_.answers);
+    if (!known_) return scene_.shadeHits(rays, scratch_.hits, scratch_.layers.names, shading_, context, scratch_.answers);
     scratch_.unknown = scratch_.hits, scratch_.mapped.clear();
     vec3 radiance;
     for (size_t r = 0; r < rays.size(); ++r)
-      if (scratch_.hits[r].object >= 0 && maps_->lookup(rays[r], scratch_.hits[r], radiance))
+      if (scratch_.hits[r].object >= 0 && known_->lookup(rays[r], scratch_.hits[r], radiance))
         scratch_.unknown[r].object = -1, scratch_.mapped.emplace_back(r, radiance);
     scene_.shadeHits(rays, scratch_.unknown, scratch_.layers.names, shading_, context, scratch_.answers);
     for (const auto& [r, L] : scratch_.mapped) scratch_.answers.color[r] = L, scratch_.answers.opacity[r] = vec3(1);
@@ -274,7 +274,7 @@ class Hemisphere {
   const uint32_t key_;
   const RayTimes times_;
   const BrightSpots& spots_;
-  const RadiosityMaps* maps_;
+  const HitRadiance* known_;
   const SpotAim aim_;
   RayFilter filter_;
   Ray first_{point_.position, point_.normal, settings_.maxDistance};

@@ -32,12 +32,12 @@ struct GatherPoint {
   vec3 drift{0};          ///< As kDriftX.
   float time = -1;        ///< As kTime.
 };
-class RadiosityMaps;
+class HitRadiance;
 
 /// What is known of the light before it is gathered. Null: nothing.
 struct KnownLight {
   const BrightSpots* spots = nullptr;    ///< Some rays more are aimed at them.
-  const RadiosityMaps* maps = nullptr;   ///< Of what hits send back.
+  const HitRadiance* hits = nullptr;     ///< What they send back.
 };
 /// `find`: what is bright here, as the hemisphere alone sees it.
 IrradianceRecord gather(const RayScene& rays, const ShadingSystem& shading, const GatherPoint& point, const GatherSettings& settings,

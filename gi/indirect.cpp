@@ -242,7 +242,7 @@ void interpolateIndirect(const GiState& state, const ShadePoints& points, const 
     const int i = found.points[k];
     const IrradianceEstimate& known = found.known[k];
     const vec3& n = found.at[k].shadingNormal;
-    const vec3 caustic = causticAt(state, points.group(), points.position(i), n, found.at[k].pixelSize);
+    const vec3 caustic = causticAt(state, points.group(), found.at[k].position, n, found.at[k].pixelSize);
     if (known.weight > 0) {
       store(out, i, known.E + caustic, known.dominant);
       continue;

@@ -1,6 +1,5 @@
 #include "gi/point_tiles.h"
 
-
 namespace tomales {
 namespace {
 

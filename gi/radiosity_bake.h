@@ -1,8 +1,6 @@
-// Private to gi: the charts of radiosity maps, texel by texel.
+// Private to gi: what surfaces send back of direct light, texel by texel.
 #pragma once
-#include <span>
-
-#include "gi/radiosity_maps.h"
+#include "gi/radiosity_layout.h"
 
 namespace tomales {
 
@@ -12,9 +10,16 @@ struct RadiosityBake {
   const RadiositySettings settings;
 };
 
-/// The chart of a patch, without its texels yet.
-RadiosityChart chartOf(const Scene& scene, const Camera& camera, int object, uint32_t patch, float texels);
-/// Shades some of their texels, one side of them.
-void bakeTexels(const RadiosityBake& bake, int object, bool back, std::span<RadiosityChart> charts, const TexelRun& run);
+struct BakedTexel {
+  vec3 radiance{0.0f};  ///< The mean of its known part.
+  float coverage = 0;   ///< Share that is known: not trimmed away.
+};
+
+/// Shades the texels of a run, one after the other. `charts`: of its object and side.
+std::vector<BakedTexel> bakeTexels(const RadiosityBake& bake, std::span<const RadiosityChart> charts, const TexelRun& run);
+
+/// Texel t of a chart as a quadrilateral in (u, v).
+struct TexelSquare { vec2 corner, size; };
+TexelSquare texelSquare(const RadiosityChart& chart, size_t t);
 
 }  // namespace tomales

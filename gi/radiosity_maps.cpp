@@ -1,26 +1,12 @@
 #include "gi/radiosity_maps.h"
 
-#include <fmt/format.h>
-
 #include "gi/radiosity_bake.h"
 #include "reyes/base/parallel.h"
 
 namespace tomales {
 namespace {
 
-constexpr size_t kTexelsPerRun = 1024;  ///< That one thread bakes at a time.
 constexpr size_t kChartsPerTask = 16;
-
-/// Why an object has no map; null: it has one.
-const char* refusal(const ShadingSystem& shading, const Object& o) {
-  const Attributes& a = *o.attributes;
-  if (o.solid >= 0) return "it is part of a solid";
-  if (o.shape().facing(vec3(0), vec3(0, 0, 1), true)) return "it turns to the eye";
-  if (a.displacement && a.trace.displacements) return "rays see its displacement";
-  if (!shading.opaque(o.group)) return "it is not opaque";
-  if (shading.tracesRays(o.group)) return "its shader traces rays";
-  return nullptr;
-}
 
 }  // namespace
 
@@ -37,7 +23,7 @@ void RadiosityChart::halve() {
 }
 
 void RadiosityChart::allocate() {
-  texels.assign(static_cast<size_t>(width) * static_cast<size_t>(height), vec3(0));
+  texels.assign(texelCount(), vec3(0));
   coverage.assign(texels.size(), 0.0f);
 }
 
@@ -92,76 +78,32 @@ vec3 RadiosityChart::lookup(float u, float v, float footprint) const {
 }
 
 RadiosityMaps::RadiosityMaps(const RayScene& rays, const ShadingSystem& shading, const Camera& camera, const RadiositySettings& settings, Log& log)
-    : scene_(rays.scene()), maps_(scene_.objects.size()) {
-  std::vector<int> mapped;
-  for (size_t i = 0; i < scene_.objects.size(); ++i) {
-    const Object& o = scene_.objects[i];
-    const Attributes& a = *o.attributes;
-    if (!a.visibility.diffuse || a.radiosity.texelSize <= 0) continue;
-    const char* why = refusal(shading, o);
-    if (!why)
-      mapped.push_back(static_cast<int>(i));
-    else
-      log.report(Severity::Info, fmt::format("radiosity-map-{}", why), o.where,
-                 fmt::format("\"{}\" has no radiosity map, because {}; it is shaded where gather rays hit it", a.name, why));
-  }
-  layOut(mapped, camera, settings, log);
-  std::vector<Run> runs;
+    : surfaces_(layOutCharts(rays, shading, camera, settings, log)) {
   std::vector<RadiosityChart*> charts;
-  for (const int object : mapped)
-    for (const bool back : {false, true}) {
-      addRuns(object, back, runs);
-      for (RadiosityChart& c : side(object, back)) charts.push_back(&c);
-    }
+  for (SurfaceCharts& s : surfaces_)
+    for (const bool back : {false, true})
+      for (RadiosityChart& c : s.side(back)) c.allocate(), charts.push_back(&c);
+  const std::vector<TexelRun> runs = texelRuns(surfaces_);
   const RadiosityBake bake{rays, shading, settings};
-  parallelFor(runs.size(), 1, [&](size_t r, size_t) { bakeTexels(bake, runs[r].object, runs[r].back, side(runs[r].object, runs[r].back), runs[r].texels); });
+  parallelFor(runs.size(), 1, [&](size_t r, size_t) {
+    std::vector<RadiosityChart>& of = surfaces_[static_cast<size_t>(runs[r].object)].side(runs[r].back);
+    const std::vector<BakedTexel> baked = bakeTexels(bake, of, runs[r]);
+    size_t k = 0;
+    forEachTexel(of, runs[r], [&](uint32_t patch, size_t t) { of[patch].texels[t] = baked[k].radiance, of[patch].coverage[t] = baked[k].coverage, ++k; });
+  });
   parallelFor(charts.size(), kChartsPerTask, [&](size_t begin, size_t end) {
     for (size_t c = begin; c < end; ++c) charts[c]->makeLevels();
   });
 }
 
-void RadiosityMaps::layOut(const std::vector<int>& mapped, const Camera& camera, const RadiositySettings& settings, Log& log) {
-  struct Patch {
-    int object;
-    uint32_t number;
-  };
-  std::vector<Patch> patches;
-  for (const int object : mapped) {
-    const uint32_t count = scene_.objects[static_cast<size_t>(object)].shape().patchCount();
-    side(object, false).resize(count);
-    for (uint32_t p = 0; p < count; ++p) patches.push_back({object, p});
-  }
-  parallelFor(patches.size(), kChartsPerTask, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) side(patches[i].object, false)[patches[i].number] = chartOf(scene_, camera, patches[i].object, patches[i].number, settings.texels);
-  });
-  const auto hasBack = [&](int object) { return scene_.objects[static_cast<size_t>(object)].attributes->sides == 2; };
-  for (const int object : mapped)
-    if (hasBack(object)) side(object, true) = side(object, false);
-  int halvings = 0;
-  const auto charts = static_cast<int64_t>(patches.size());
-  for (int64_t before = 0, now = texelCount(); now > std::max(settings.mostTexels, charts) && now != before; before = now, now = texelCount(), ++halvings)
-    forEachChart([](RadiosityChart& c) { c.halve(); });
-  if (halvings > 0)
-    log.report(Severity::Warning, "radiosity-texels", {},
-               fmt::format("all radiosity maps together would have more than {} million texels: their edges have 1/{} of what was asked", settings.mostTexels >> 20, 1 << halvings));
-  forEachChart([](RadiosityChart& c) { c.allocate(); });
-}
+RadiosityMaps::~RadiosityMaps() = default;
 
-void RadiosityMaps::addRuns(int object, bool back, std::vector<Run>& runs) const {
-  const std::vector<RadiosityChart>& all = charts(object, back);
-  size_t room = 0;
-  for (size_t p = 0; p < all.size(); ++p)
-    for (size_t t = 0; t < all[p].texels.size();) {
-      if (room == 0) runs.push_back({object, back, {p, t, 0}}), room = kTexelsPerRun;
-      const size_t taken = std::min(room, all[p].texels.size() - t);
-      runs.back().texels.count += taken, room -= taken, t += taken;
-    }
-}
+const std::vector<RadiosityChart>& RadiosityMaps::charts(int object, bool back) const { return surfaces_[static_cast<size_t>(object)].side(back); }
 
 bool RadiosityMaps::lookup(const Ray& ray, const Hit& hit, vec3& radiance) const {
-  const Map& map = maps_[static_cast<size_t>(hit.object)];
+  const SurfaceCharts& map = surfaces_[static_cast<size_t>(hit.object)];
   const bool back = dot(ray.direction, hit.geometricNormal) > 0;
-  const std::vector<RadiosityChart>& charts = back && !map.back.empty() ? map.back : map.front;
+  const std::vector<RadiosityChart>& charts = map.side(back && !map.back.empty());
   if (charts.empty()) return false;
   radiance = charts[hit.patch].lookup(hit.u, hit.v, 2 * (ray.radius + ray.spread * hit.t));
   return true;
@@ -169,9 +111,9 @@ bool RadiosityMaps::lookup(const Ray& ray, const Hit& hit, vec3& radiance) const
 
 int64_t RadiosityMaps::texelCount() const {
   int64_t sum = 0;
-  for (const Map& m : maps_)
-    for (const auto* side : {&m.front, &m.back})
-      for (const RadiosityChart& c : *side) sum += static_cast<int64_t>(c.width) * c.height;
+  for (const SurfaceCharts& s : surfaces_)
+    for (const bool back : {false, true})
+      for (const RadiosityChart& c : s.side(back)) sum += static_cast<int64_t>(c.texelCount());
   return sum;
 }
 

@@ -5,7 +5,7 @@
 // displacement moves for rays.
 // Irradiance: none; radiance towards all sides, as a hit is shaded for gather rays. Threads: const members may be called concurrently.
 #pragma once
-#include "raytrace/trace.h"
+#include "gi/hit_radiance.h"
 #include "reyes/camera.h"
 
 namespace tomales {
@@ -23,6 +23,7 @@ struct RadiosityChart {
   std::vector<vec3> texels;
   std::vector<float> coverage;   ///< Of each texel of the finest level, until makeLevels(): share of it that is known; empty: all of each.
 
+  size_t texelCount() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }  ///< Of the finest level.
   int levels() const;
   /// Pre: no texels yet.
   void halve();
@@ -36,50 +37,22 @@ struct RadiosityChart {
   vec3 atLevel(int level, float u, float v) const;
 };
 
-/// So many texels of the charts of an object, from one of them on.
-struct TexelRun {
-  size_t patch, texel, count;
-};
+struct SurfaceCharts;  ///< gi/radiosity_layout.h
 
-class RadiosityMaps {
+class RadiosityMaps final : public HitRadiance {
  public:
   /// Bakes a map for every object that gather rays meet. Says in the log which have none, and why.
   RadiosityMaps(const RayScene& rays, const ShadingSystem& shading, const Camera& camera, const RadiositySettings& settings, Log& log);
 
-  /// Radiance of what a ray has met, towards it. False: it has no map.
-  bool lookup(const Ray& ray, const Hit& hit, vec3& radiance) const;
+  ~RadiosityMaps() override;
+
+  bool lookup(const Ray& ray, const Hit& hit, vec3& radiance) const override;
   /// Of an object, by patch; empty: it has no such map.
-  const std::vector<RadiosityChart>& charts(int object, bool back) const {
-    const Map& map = maps_[static_cast<size_t>(object)];
-    return back ? map.back : map.front;
-  }
+  const std::vector<RadiosityChart>& charts(int object, bool back) const;
   int64_t texelCount() const;  ///< Of the finest levels.
 
  private:
-  struct Map {
-    std::vector<RadiosityChart> front, back;  ///< By patch; empty: none.
-  };
-  /// Texels that are baked together.
-  struct Run {
-    int object;
-    bool back;
-    TexelRun texels;
-  };
-  std::vector<RadiosityChart>& side(int object, bool back) {
-    Map& map = maps_[static_cast<size_t>(object)];
-    return back ? map.back : map.front;
-  }
-  template <class Visit>
-  void forEachChart(const Visit& visit) {
-    for (Map& map : maps_)
-      for (auto* charts : {&map.front, &map.back})
-        for (RadiosityChart& c : *charts) visit(c);
-  }
-  void layOut(const std::vector<int>& mapped, const Camera& camera, const RadiositySettings& settings, Log& log);
-  void addRuns(int object, bool back, std::vector<Run>& runs) const;
-
-  const Scene& scene_;
-  std::vector<Map> maps_;  ///< By object.
+  std::vector<SurfaceCharts> surfaces_;  ///< By object.
 };
 
 }  // namespace tomales

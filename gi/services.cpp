@@ -111,6 +111,7 @@ void GiServices::setRadiositySource(RadiositySource source) { impl_->radiositySo
 
 void GiServices::reportAtlas(Stats& stats) const {
   if (impl_->atlas) impl_->atlas->report(stats);
+  if (impl_->radiosity) impl_->radiosity->report(stats);
 }
 
 void GiServices::storedIrradiance(const ShadePoints& points, const uint8_t* active, TmVec3 E) const {

@@ -3,7 +3,7 @@
 #pragma once
 #include "gi/atlas.h"
 #include "gi/gather.h"
-#include "gi/radiosity_maps.h"
+#include "gi/hit_radiance.h"
 #include "raytrace/emitters.h"
 #include "reyes/deep.h"
 
@@ -17,7 +17,7 @@ enum class GiMode {
   None,       ///< Direct light only: indirect lights give nothing.
   Gather,     ///< One bounce, shaded hits, irradiance caching.
   Atlas,      ///< All bounces: gather rays look up the irradiance that photons left in brick maps; irradiance caching.
-  Radiosity,  ///< One bounce from radiosity maps; irradiance caching.
+  Radiosity,  ///< One bounce from what was baked of direct light, textures or brick maps; irradiance caching.
   Baked,      ///< All of it from brick maps of what was gathered for earlier frames (irradiance-atlas 6.3): no rays.
   Reference,  ///< Brute-force path tracing of the same transport: unbiased for diffuse surfaces.
 };
@@ -52,7 +52,7 @@ struct RayTools {
 /// geometry to be had, which has been reported; rays then meet nothing.
 using RaySource = std::function<const RayTools*()>;
 using AtlasSource = std::function<std::unique_ptr<const IrradianceAtlas>()>;
-using RadiositySource = std::function<std::unique_ptr<const RadiosityMaps>()>;
+using RadiositySource = std::function<std::unique_ptr<const HitRadiance>()>;
 
 /// Are answers of occlusion() kept where a group asks for it (ShadingSystem::asksOcclusion)?
 bool keepsOcclusion(const GiSettings&);

@@ -23,7 +23,7 @@ struct GiState {
   bool cachesGiven = false;           ///< Not gathered for this very frame.
   AtlasSource atlasSource{};          ///< May be empty,
   RadiositySource radiositySource{};  ///< and this.
-  mutable std::unique_ptr<const RadiosityMaps> radiosity{};  ///< GiMode::Radiosity alone.
+  mutable std::unique_ptr<const HitRadiance> radiosity{};  ///< GiMode::Radiosity alone.
   mutable std::once_flag sourcesOnce{};
 };
 

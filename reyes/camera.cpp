@@ -33,12 +33,14 @@ Camera::Camera(const Options& o)
 bool Camera::rasterBound(const Bound3& b, Bound2& out) const {
   if (perspective_ && b.lo.z < eyePlane()) return false;
   out = {};
-  // For fixed x the reach to either side is convex in 1/z, so its extremes are at corners.
-  for (int i = 0; i < 8; ++i) {
-    const vec3 corner = b.corner(i);
-    const vec2 at = raster(corner), blur = glm::abs(defocus(depthKey(corner.z)));
-    out.extend(at - blur);
-    out.extend(at + blur);
+  // For fixed x the reach to either side is convex in 1/z, so its extremes are at corners; two at either depth have all x and y.
+  for (const float z : {b.lo.z, b.hi.z}) {
+    const vec2 blur = glm::abs(defocus(depthKey(z)));
+    for (const vec2 corner : {vec2(b.lo), vec2(b.hi)}) {
+      const vec2 at = raster({corner, z});
+      out.extend(at - blur);
+      out.extend(at + blur);
+    }
   }
   return true;
 }

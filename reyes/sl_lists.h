@@ -1,6 +1,8 @@
 // RSL's optional parameter lists, such as trace(P, R, "samples", 16, "samplecone", 0.1): names and values, the same for all points
 // (rispec-table 9.6, 10). Part of reyes/sl.h. A name that there is not is an exception, which the renderer reports with shader and object.
 #pragma once
+#include <algorithm>
+#include <initializer_list>
 #include <stdexcept>
 
 #include "reyes/sl_values.h"
@@ -46,6 +48,13 @@ inline bool set(TmRayOptions& o, std::string_view name, const Setting& v) {
   return true;
 }
 
+/// A name that other renderers know and that changes nothing here, which is reported once. `why`: no more is to be done about it.
+inline bool isIdle(std::string_view name, std::initializer_list<std::string_view> idle, const char* why) {
+  if (std::find(idle.begin(), idle.end(), name) == idle.end()) return false;
+  grid()->call->report(grid()->host, grid(), 1, ("\"" + std::string(name) + "\" has no effect: " + why).c_str());
+  return true;
+}
+
 /// Of occlusion() and indirectdiffuse(): as rays, and a point cloud, an environment and what else is to be filled in.
 struct HemisphereList {
   TmRayOptions rays = rsl::defaultRays();
@@ -72,9 +81,8 @@ inline bool set(HemisphereList& o, std::string_view name, const Setting& v) {
   else if (name == "environmentcolor") o.environmentColor = v.triples;
   else if (name == "environmentdir") o.environmentDirection = v.triples;
   else if (name == "occlusion") o.covered = v.numbers;
-  // How hard to try, which other renderers ask: rays are stratified, and what is nearer hides what is behind it.
-  else if (name == "adaptive" || name == "minsamples" || name == "brightnesswarp" || name == "sortbleeding" || name == "rasterresolution") return true;
-  else return set(o.rays, name, v);
+  else return set(o.rays, name, v) || isIdle(name, {"adaptive", "minsamples", "brightnesswarp", "sortbleeding", "rasterresolution"},
+                                             "all samples are taken, stratified, and what is nearer hides what is behind it");
   return true;
 }
 
@@ -107,8 +115,7 @@ inline bool set(CloudList& o, std::string_view name, const Setting& v) {
   if (name == "coordsystem") o.cloud.coordSystem = v.text;
   else if (name == "radius" || name == "filterradius") o.radius = v.numbers ? *v.numbers : Float(double(v.number)), o.hasRadius = true;
   else if (name == "radiusscale" || name == "filterscale") o.cloud.radiusScale = v.number;
-  // Points are those that are shaded, and brick maps are always read to their depth and blended.
-  else return name == "interpolate" || name == "maxdepth" || name == "lerp";
+  else return isIdle(name, {"interpolate", "maxdepth", "lerp"}, "points are those that are shaded, and brick maps are read to their depth and blended");
   return true;
 }
 

@@ -25,6 +25,7 @@ struct SubPatch {
   int depth = 0;            ///< Halvings of its patch.
   bool coarse = false;      ///< Too large for a grid: splitPiece() goes on with it,
   int64_t visits = 0;       ///< and may look at so many pieces.
+  bool round = false;       ///< A small disk, which is to be shown as one round cell (Grid::round).
 };
 
 /// Where something may be seen, over the shutter, displacement and defocus included.
@@ -44,8 +45,8 @@ enum class Splitting : uint8_t { Wholly, Lazily };
 /// Set from elsewhere: what is going on may end at once, with any result. Null: never.
 using StopFlag = const std::atomic<bool>*;
 
-/// Splits some patches of an object; what lies wholly outside the window is culled. Order: as given,
-/// then by place.
+/// Splits some patches of an object; what lies wholly outside the window is culled. Order: dots, which need not be measured, then
+/// the others, as given, then by place.
 std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<const uint32_t> patches, const Camera& camera,
                                    const PixelRect& window, Stats& stats, Log& log, Splitting splitting = Splitting::Wholly,
                                    StopFlag stop = nullptr);

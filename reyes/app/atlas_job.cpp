@@ -21,12 +21,6 @@ const Param* indirectParam(const Scene& scene, const char* name) {
   return nullptr;
 }
 
-std::string folderOf(const RenderSettings& settings, const Scene& scene) {
-  if (!settings.atlasFolder.empty()) return settings.atlasFolder;
-  const Param* p = indirectParam(scene, "atlas");
-  return p && !p->strings.empty() ? p->strings[0] : std::string();
-}
-
 bool asksPoints(const RenderSettings& settings, const Scene& scene) {
   if (settings.gi != GiChoice::Scene) return settings.gi == GiChoice::Points;
   const Param* radiance = indirectParam(scene, "radiance");
@@ -48,6 +42,13 @@ void bricksOfPoints(const fs::path& clouds, const fs::path& folder, const MapNam
   }
 }
 
+/// Of baked light, which holds that of caustics too.
+MapNames bakedNames(const Scene& scene, const AtlasSettings& settings) {
+  MapNames names = mapNames(scene, settings);
+  names.caustic.assign(names.caustic.size(), "");
+  return names;
+}
+
 void warnOfStrangers(const IrradianceAtlas& maps, uint64_t world, Log& log) {
   if (const auto strange = maps.strange(world))
     log.report(Severity::Warning, "atlas-stale", {},
@@ -55,6 +56,12 @@ void warnOfStrangers(const IrradianceAtlas& maps, uint64_t world, Log& log) {
 }
 
 }  // namespace
+
+std::string atlasFolder(const RenderSettings& settings, const Scene& scene) {
+  if (!settings.atlasFolder.empty()) return settings.atlasFolder;
+  const Param* p = indirectParam(scene, "atlas");
+  return p && !p->strings.empty() ? p->strings[0] : std::string();
+}
 
 AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene) {
   AtlasSettings out;
@@ -71,7 +78,7 @@ AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene) 
 std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                                                     const RenderSettings& settings, Stats& stats, Log& log) {
   const AtlasSettings atlas = atlasSettings(settings, scene);
-  const std::string given = folderOf(settings, scene);
+  const std::string given = atlasFolder(settings, scene);
   const bool points = asksPoints(settings, scene);
   if (points && given.empty()) {
     log.report(Severity::Missing, "points-folder", {}, "--gi points needs --atlas FOLDER of point clouds with irradiance: rendered without indirect light");
@@ -101,9 +108,7 @@ std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const Rende
   }
   try {
     const AtlasSettings atlas = atlasSettings(settings, scene);
-    MapNames names = mapNames(scene, atlas);
-    names.caustic.assign(names.caustic.size(), "");  // it is in what was baked
-    auto maps = std::make_unique<const IrradianceAtlas>(settings.bakedFolder, scene, names, brickCacheBytes(settings), log);
+    auto maps = std::make_unique<const IrradianceAtlas>(settings.bakedFolder, scene, bakedNames(scene, atlas), brickCacheBytes(settings), log);
     warnOfStrangers(*maps, atlas.world, log);
     return maps;
   } catch (const std::runtime_error& e) {  // FileError, or of the file system
@@ -116,9 +121,7 @@ void bakeGathered(const GiServices& services, const DeepFrame& layout, const Til
                   Log& log) {
   try {
     const AtlasSettings atlas = atlasSettings(settings, scene);
-    MapNames names = mapNames(scene, atlas);
-    names.caustic.assign(names.caustic.size(), "");
-    services.bake(layout, tiles, settings.bakedFolder, names, atlas.world);
+    services.bake(layout, tiles, settings.bakedFolder, bakedNames(scene, atlas), atlas.world);
   } catch (const std::runtime_error& e) {
     log.report(Severity::Output, "baked-write", {}, std::string(e.what()) + ": the gathered light is not kept");
   }

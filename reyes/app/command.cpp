@@ -66,7 +66,7 @@ void buildHide(CLI::App& app, Invocation& in, int& code) {
 
 void addShotOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--edit", s.edits, "Changes to shaders, lights and attributes: RIB requests after Attribute \"identifier\" \"name\"")
-      ->type_name("EDIT.rib");
+      ->expected(1)->take_all()->type_name("EDIT.rib");
   app.add_option("SHOT", s.files, "A deep frame buffer")->required()->expected(1)->type_name("SHOT.dfb");
 }
 

@@ -4,7 +4,9 @@
 
 #include <set>
 
+#include "gi/radiosity_bricks.h"
 #include "gi/radiosity_picture.h"
+#include "reyes/app/atlas_job.h"
 #include "reyes/app/overrides.h"
 #include "reyes/base/chunk_file.h"
 #include "reyes/pictures.h"
@@ -43,13 +45,29 @@ void writeRadiosityMaps(const RadiosityMaps& maps, const Scene& scene, const std
   }
 }
 
+std::unique_ptr<const HitRadiance> bricksIn(const std::string& folder, const RayTools& tools, const Camera& camera, const RadiositySettings& radiosity,
+                                            const RenderSettings& settings, Stats& stats, Log& log) {
+  try {
+    const AtlasSettings atlas = atlasSettings(settings, tools.rays->scene());
+    const RadiosityBrickSettings bricks{radiosity, atlas.bricks};
+    return std::make_unique<const RadiosityBricks>(folder, *tools.rays, *tools.shading, camera, mapNames(tools.rays->scene(), atlas), bricks, brickCacheBytes(settings),
+                                                   stats, log);
+  } catch (const std::runtime_error& e) {  // FileError, or of the file system
+    log.report(Severity::Missing, "radiosity-bricks", {}, std::string(e.what()) + ": hits of gather rays are shaded instead");
+    return nullptr;
+  }
+}
+
 }  // namespace
 
-std::unique_ptr<const RadiosityMaps> prepareRadiosity(const RayTools& tools, const Camera& camera, const RenderSettings& settings, Stats& stats, Log& log) {
+std::unique_ptr<const HitRadiance> prepareRadiosity(const RayTools& tools, const Camera& camera, const RenderSettings& settings, Stats& stats, Log& log) {
   const StageTimer timer(stats, "radiosity");
-  auto maps = std::make_unique<const RadiosityMaps>(*tools.rays, *tools.shading, camera, RadiositySettings{settings.radiosityTexels, lightSeedOf(settings)}, log);
+  const Scene& scene = tools.rays->scene();
+  const RadiositySettings radiosity{settings.radiosityTexels, lightSeedOf(settings)};
+  if (const std::string folder = atlasFolder(settings, scene); !folder.empty()) return bricksIn(folder, tools, camera, radiosity, settings, stats, log);
+  auto maps = std::make_unique<const RadiosityMaps>(*tools.rays, *tools.shading, camera, radiosity, log);
   try {
-    if (!settings.radiosityFolder.empty()) writeRadiosityMaps(*maps, tools.rays->scene(), settings.radiosityFolder, log);
+    if (!settings.radiosityFolder.empty()) writeRadiosityMaps(*maps, scene, settings.radiosityFolder, log);
   } catch (const std::runtime_error& e) {  // FileError, or of the file system
     log.report(Severity::Missing, "radiosity-maps", {}, fmt::format("radiosity maps cannot be written: {}; they are used all the same", e.what()));
   }

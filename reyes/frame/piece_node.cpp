@@ -29,16 +29,6 @@ bool canStack(const HideContext& context, const SubPatch& piece) {
          o.shape().kept(piece.patch, piece.rect) == Kept::All;
 }
 
-constexpr int kRound_cells = 6;  ///< A disk of so many is shaded as one: nothing but P varies over it.
-
-/// Is it a small disk, to be shown as such instead of as a polygon?
-bool isRound(const HideContext& context, const SubPatch& piece) {
-  const UvRect& r = piece.rect;
-  const bool whole = r.u0 == 0 && r.u1 == 1 && r.v0 == 0 && r.v1 == 1;
-  return whole && piece.nu * piece.nv <= kRound_cells && context.scene.objects[static_cast<size_t>(piece.object)].shape().info(piece.patch).disk &&
-         canStack(context, piece);
-}
-
 /// From a square of the disk's area to that around it.
 void widenToSquares(Grid& g) {
   const float more = 2 / std::sqrt(kPi) - 1;
@@ -61,7 +51,7 @@ struct Neighbour {
   bool operator<(const Neighbour& o) const { return std::tie(row, column, nu, nv, round) < std::tie(o.row, o.column, o.nu, o.nv, o.round); }
 };
 
-PieceStack alone(const SubPatch& p) { return {p.object, p.nu, p.nv, {{p.patch, p.rect}}, {p.raster, p.zMin}, p.crossesEye, false}; }
+PieceStack alone(const SubPatch& p) { return {p.object, p.nu, p.nv, {{p.patch, p.rect}}, {p.raster, p.zMin}, p.crossesEye, p.round}; }
 
 void extend(Placement& place, const Placement& by) {
   place.raster.extend(by.raster.lo), place.raster.extend(by.raster.hi);
@@ -82,7 +72,6 @@ std::vector<PieceStack> stacksOf(const HideContext& context, std::span<const Nei
       extend(out.back().place, {p.raster, p.zMin});
     } else {
       out.push_back(alone(p));
-      out.back().nu = n.nu, out.back().nv = n.nv, out.back().round = n.round;
     }
     last = stacks ? &n : nullptr;
   }
@@ -186,10 +175,8 @@ HideNodes pieceNodes(HideContext& context, std::span<const SubPatch> pieces, con
   for (const SubPatch& piece : pieces) {
     const BucketRange touched = within & context.buckets.touched(piece.raster);
     if (touched.empty()) continue;
-    if (isRound(context, piece))
-      small.push_back({touched.r0, touched.c0, 1, 1, true, &piece});
-    else if (piece.nu * piece.nv < kSmall_cells)
-      small.push_back({touched.r0, touched.c0, piece.nu, piece.nv, false, &piece});
+    if (piece.nu * piece.nv < kSmall_cells)
+      small.push_back({touched.r0, touched.c0, piece.nu, piece.nv, piece.round, &piece});
     else
       out.push_back(std::make_unique<PieceNode>(context, std::vector{alone(piece)}, Placement{piece.raster, piece.zMin}, touched));
   }

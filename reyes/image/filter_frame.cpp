@@ -1,15 +1,11 @@
 // Contributions -> pixels, some rows at a time.
-#include <bit>
-#include <map>
-#include <mutex>
-#include <span>
-
 #include "reyes/base/check.h"
 #include "reyes/base/parallel.h"
 #include "reyes/image.h"
-#include "reyes/image/composite.h"
 #include "reyes/image/cryptomatte.h"
 #include "reyes/image/deep_rows.h"
+#include "reyes/image/resolved_frame.h"
+#include "reyes/image/weights.h"
 
 namespace tomales {
 namespace {
@@ -26,6 +22,16 @@ struct Pass {
     float fill;
   };
   std::vector<Float> floats;
+
+  bool anyFill() const {
+    return std::any_of(floats.begin(), floats.end(), [](const Float& f) { return f.fill != 0; });
+  }
+  /// Do contributions have the floats side by side, so that they serve as they are?
+  bool together() const {
+    for (size_t k = 1; k < floats.size(); ++k)
+      if (floats[k].from != floats[0].from + k) return false;
+    return true;
+  }
 };
 
 /// A channel that is not filtered.
@@ -39,33 +45,31 @@ struct Reduction {
   float fill = 0;
 };
 
-PixelNoise noiseOf(const ResolvedTile& tile, int width, int samplesPerPixel) {
-  PixelNoise out;
-  const auto all = static_cast<float>(samplesPerPixel);
-  if (samplesPerPixel < 2) return out;
-  for (size_t pixel = 0; pixel + 1 < tile.first.size(); ++pixel) {
-    float sum = 0, squares = 0;
-    for (size_t c = tile.first[pixel]; c < tile.first[pixel + 1]; ++c) {
-      const float* color = tile.values.data() + c * static_cast<size_t>(width);
-      const float light = luminance(vec3(color[0], color[1], color[2])), count = static_cast<float>(std::popcount(tile.contributions[c].samples));
-      sum += count * light, squares += count * light * light;
-    }
-    if (!(sum > 0)) continue;
-    const float mean = sum / all, variance = (squares / all - mean * mean) / (all - 1);
-    out.light += mean, out.error += std::sqrt(std::max(variance, 0.0f));
+/// Pixels whose samples reach a block, and the pattern of each.
+struct Around {
+  PixelRect rect;
+  std::vector<int> patterns;
+
+  Around(const PixelRect& block, const WeightTable& w, const PixelRect& frame, const SampleOffsets& samples)
+      : rect{std::max(frame.x0, block.x0 - w.reachX), std::max(frame.y0, block.y0 - w.reachY), std::min(frame.x1, block.x1 + w.reachX),
+             std::min(frame.y1, block.y1 + w.reachY)} {
+    patterns.reserve(static_cast<size_t>(rect.width()) * static_cast<size_t>(rect.height()));
+    for (int y = rect.y0; y < rect.y1; ++y)
+      for (int x = rect.x0; x < rect.x1; ++x) patterns.push_back(samples.patternOf(x, y));
   }
-  return out;
-}
+  /// row(y)[x]
+  const int* row(int y) const { return patterns.data() + static_cast<ptrdiff_t>(y - rect.y0) * rect.width() - rect.x0; }
+};
 
 }  // namespace
 
 struct FrameFilter::Impl {
+  using Seen = ResolvedFrame::Seen;
+
   Impl(const DeepFrame& f, const Options& o, const SampleOffsets& s, const MatteNames& n)
-      : frame(f), options(o), samples(s), names(n), output(outputOf(o)), resolved(f.tileCount()) {
+      : frame(f), options(o), samples(s), names(n), output(outputOf(o)), resolved(f, output, o) {
     addPass({Reduce::Filter, o.filter, o.xFilterWidth, o.yFilterWidth}).floats = {{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {3, 3, 0}};
-    compositors.push_back(std::make_unique<Compositor>(output, options, frame.samplesPerPixel));
-    const std::vector<ExtraFloat>& extras = compositors[0]->extras();
-    width = compositors[0]->width();
+    const std::vector<ExtraFloat>& extras = resolved.extras();
     for (size_t e = 0; e < extras.size(); ++e) {
       const Channel& channel = output.channels[static_cast<size_t>(extras[e].channel)];
       if (channel.sampling.reduce == Reduce::Filter)
@@ -89,135 +93,67 @@ struct FrameFilter::Impl {
     r.from = from, r.to = channel.first, r.width = channel.width(), r.fill = channel.fill;
   }
 
-  void resolve(size_t index, const DeepTile& tile) {
-    std::unique_ptr<Compositor> compositor = takeCompositor();
-    resolved[index] = std::make_unique<ResolvedTile>(compositor->resolve(tile));
-    const PixelNoise here = noiseOf(*resolved[index], compositor->width(), frame.samplesPerPixel);
-    const std::lock_guard lock(mutex);
-    noise[index] = here;
-    compositors.push_back(std::move(compositor));
-  }
-  std::unique_ptr<Compositor> takeCompositor() {
-    const std::lock_guard lock(mutex);
-    if (compositors.empty()) return std::make_unique<Compositor>(output, options, frame.samplesPerPixel);
-    std::unique_ptr<Compositor> taken = std::move(compositors.back());
-    compositors.pop_back();
-    return taken;
-  }
-  /// The tiles that rows of pixels need and that nobody has brought.
-  void resolveRows(int y0, int y1) {
-    const auto first = firstTileOf(y0 - reachY), last = firstTileOf(y1 + reachY - 1) + static_cast<size_t>(frame.columns);
-    parallelFor(last - first, 1, [&](size_t begin, size_t) {
-      const size_t index = first + begin;
-      const PixelRect rect = frame.rectOf(index);
-      if (resolved[index]) return;
-      if (const DeepTile* tile = finishedTile(frame, rect.x0, rect.y0)) resolve(index, *tile);
-    });
-  }
-  /// Those that lie above some rows of pixels and all that their filters touch.
-  void forgetAbove(int y) {
-    const size_t end = firstTileOf(y - reachY);
-    for (; forgotten < end; ++forgotten) resolved[forgotten].reset();
-  }
-  size_t firstTileOf(int y) const {
-    return static_cast<size_t>(frame.rowOf(std::clamp(y, frame.padded.y0, frame.padded.y1 - 1))) * static_cast<size_t>(frame.columns);
-  }
-
-  /// What the samples of a pixel see.
-  struct Seen {
-    std::span<const Contribution> list;
-    const float* values;  ///< `width` each.
-  };
-  /// Pixels of one row from (x, y) on that lie in one tile.
-  struct TileRun {
-    const ResolvedTile* tile;  ///< Null: they see nothing.
-    size_t pixel;              ///< Of the tile, the first of them.
-    int end;                   ///< The x behind them.
-
-    Seen at(size_t i, int width) const {
-      if (!tile) return {};
-      const size_t begin = tile->first[pixel + i], last = tile->first[pixel + i + 1];
-      return {{tile->contributions.data() + begin, last - begin}, tile->values.data() + begin * static_cast<size_t>(width)};
-    }
-  };
-  TileRun runFrom(int x, int y) const {
-    const int right = x - frame.padded.x0, column = right / frame.bucketWidth, row = frame.rowOf(y);
-    const auto& tile = resolved[static_cast<size_t>(row) * static_cast<size_t>(frame.columns) + static_cast<size_t>(column)];
-    const int left = column * frame.bucketWidth, tileWidth = std::min(frame.bucketWidth, frame.padded.width() - left);
-    return {tile.get(), static_cast<size_t>((y - frame.padded.y0 - row * frame.bucketHeight) * tileWidth + right - left),
-            frame.padded.x0 + left + tileWidth};
-  }
-  Seen seenAt(int x, int y) const { return runFrom(x, y).at(0, width); }
-  /// Calls visit(x, seen) for the pixels [x0, x1) of a row.
-  template <class Visit>
-  void forRow(int x0, int x1, int y, const Visit& visit) const {
-    for (int x = x0; x < x1;) {
-      const TileRun run = runFrom(x, y);
-      for (size_t i = 0; x < std::min(run.end, x1); ++x, ++i) visit(x, run.at(i, width));
+  void filter(const Pass& pass, const PixelRect& block, const std::function<float*(int x, int y)>& at) const {
+    const Around around(block, pass.weights, frame.padded, samples);
+    const PixelSums sums = sumsOf(pass, block, around);
+    const std::vector<float> totals = totalsOf(pass.weights, block, around);
+    const bool fills = pass.anyFill();
+    const float* total = totals.data();
+    for (int y = block.y0; y < block.y1; ++y) {
+      float* out = at(block.x0, y);
+      for (int x = block.x0; x < block.x1; ++x, ++total, out += output.floatsPerPixel) {
+        const float* sum = sums.of(x, y);
+        const float uncovered = fills ? *total - sum[pass.floats.size()] : 0;
+        for (size_t k = 0; k < pass.floats.size(); ++k) {
+          const Pass::Float& f = pass.floats[k];
+          const float filled = f.fill == 0 ? sum[k] : sum[k] + f.fill * uncovered;
+          out[f.to] = *total != 0 ? filled / *total : f.fill;
+        }
+      }
     }
   }
 
-  /// What the samples around bring to each pixel of a block: the floats of a pass, and the weight of those which see something. For each
-  /// pixel by rows, columns and fragments.
-  PixelSums sumsOf(const Pass& pass, const PixelRect& block) const {
-    const size_t floats = pass.floats.size(), places = static_cast<size_t>(pass.weights.places());
-    PixelSums sums(pass.weights, block, static_cast<int>(floats) + 1);
+  /// What the samples around bring to each pixel of a block: the floats of a pass, and the weight of those which see something if any has a
+  /// fill. For each pixel by rows, columns and fragments.
+  PixelSums sumsOf(const Pass& pass, const PixelRect& block, const Around& around) const {
+    const size_t floats = pass.floats.size(), places = static_cast<size_t>(pass.weights.places()), step = static_cast<size_t>(resolved.width());
+    const bool fills = pass.anyFill(), copies = fills || !pass.together();
+    PixelSums sums(pass.weights, block, static_cast<int>(floats + fills));
     const auto wide = static_cast<size_t>(sums.width());
     AlignedVector<float> weights, values;
-    const PixelRect around = reached(block, pass.weights);
-    for (int y = around.y0; y < around.y1; ++y)
-      forRow(around.x0, around.x1, y, [&](int x, const Seen& here) {
+    for (int y = around.rect.y0; y < around.rect.y1; ++y) {
+      const int* patterns = around.row(y);
+      resolved.forRow(around.rect.x0, around.rect.x1, y, [&](int x, const Seen& here) {
         const size_t count = here.list.size();
         if (count == 0) return;
         if (weights.size() < count * places) weights.resize(count * places), values.resize(count * wide);
-        const int pattern = samples.patternOf(x, y);
+        for (size_t c = 0; c < count; ++c) pass.weights.sums(patterns[x], here.list[c].samples, here.list[c].word, weights.data() + c * places);
+        if (!copies) return sums.add(x, y, {static_cast<int>(count), weights.data(), here.values + pass.floats[0].from, step});
         for (size_t c = 0; c < count; ++c) {
-          pass.weights.sums(pattern, here.list[c].samples, here.list[c].word, weights.data() + c * places);
-          const float* from = here.values + c * static_cast<size_t>(width);
           float* to = values.data() + c * wide;
-          for (size_t k = 0; k < floats; ++k) to[k] = from[pass.floats[k].from];
-          to[floats] = 1;
+          for (size_t k = 0; k < floats; ++k) to[k] = here.values[c * step + pass.floats[k].from];
+          if (fills) to[floats] = 1;
         }
-        sums.add(x, y, static_cast<int>(count), weights.data(), values.data());
+        sums.add(x, y, {static_cast<int>(count), weights.data(), values.data(), wide});
       });
+    }
     return sums;
-  }
-  /// Pixels whose samples reach a block.
-  PixelRect reached(const PixelRect& block, const WeightTable& w) const {
-    const PixelRect& p = frame.padded;
-    return {std::max(p.x0, block.x0 - w.reachX), std::max(p.y0, block.y0 - w.reachY), std::min(p.x1, block.x1 + w.reachX),
-            std::min(p.y1, block.y1 + w.reachY)};
   }
 
   /// The sums of weights of all samples around each pixel of a block, by rows.
-  std::vector<float> totalsOf(const Pass& pass, const PixelRect& block) const {
-    const WeightTable& w = pass.weights;
-    const PixelRect around = reached(block, w);
-    const auto columns = static_cast<size_t>(around.width());
-    std::vector<const float*> sums;  // of the pattern of each
-    for (int y = around.y0; y < around.y1; ++y)
-      for (int x = around.x0; x < around.x1; ++x) sums.push_back(w.sums(samples.patternOf(x, y)));
-    std::vector<float> totals;
-    for (int y = block.y0; y < block.y1; ++y)
-      for (int x = block.x0; x < block.x1; ++x) {
-        float total = 0;
-        const int first = std::max(x - w.reachX, around.x0), last = std::min(x + w.reachX, around.x1 - 1);
-        for (int sy = std::max(y - w.reachY, around.y0); sy <= std::min(y + w.reachY, around.y1 - 1); ++sy) {
-          const float* const* row = sums.data() + static_cast<size_t>(sy - around.y0) * columns - around.x0;
-          for (int sx = first; sx <= last; ++sx) total += row[sx][w.cell(0, sx - x, sy - y).place];
+  std::vector<float> totalsOf(const WeightTable& w, const PixelRect& block, const Around& around) const {
+    const auto columns = static_cast<size_t>(block.width());
+    std::vector<float> totals(columns * static_cast<size_t>(block.height()));
+    for (int y = block.y0; y < block.y1; ++y) {
+      float* total = totals.data() + static_cast<size_t>(y - block.y0) * columns - block.x0;
+      for (int sy = std::max(y - w.reachY, around.rect.y0); sy < std::min(y + w.reachY + 1, around.rect.y1); ++sy)
+        for (int dx = -w.reachX; dx <= w.reachX; ++dx) {
+          const int *patterns = around.row(sy) + dx, place = w.cell(0, dx, sy - y).place;
+          const int first = std::max(block.x0, around.rect.x0 - dx), end = std::min(block.x1, around.rect.x1 - dx);
+          for (int x = first; x < end; ++x) total[x] += w.sums(patterns[x])[place];
         }
-        totals.push_back(total);
-      }
-    return totals;
-  }
-
-  void filter(const float* sum, float total, const Pass& pass, float* out) const {
-    const float covered = sum[pass.floats.size()];
-    for (size_t k = 0; k < pass.floats.size(); ++k) {
-      const Pass::Float& f = pass.floats[k];
-      const float filled = f.fill == 0 ? sum[k] : sum[k] + f.fill * (total - covered);
-      out[f.to] = total != 0 ? filled / total : f.fill;
     }
+    return totals;
   }
 
   void reduce(const Reduction& r, int x, int y, float* out) const {
@@ -225,10 +161,10 @@ struct FrameFilter::Impl {
     float* to = out + r.to;
     std::fill_n(to, r.width, r.fill);
     forNeighbours(frame.padded, r.weights, samples, x, y, [&](const WeightTable::Cell& cell, const ivec2& pixel) {
-      const Seen here = seenAt(pixel.x, pixel.y);
+      const Seen here = resolved.seenAt(pixel.x, pixel.y);
       for (size_t i = 0; i < here.list.size(); ++i) {
         const Contribution& c = here.list[i];
-        const float w = r.weights.sum(cell, c.samples, c.word), *value = here.values + i * static_cast<size_t>(width) + r.from;
+        const float w = r.weights.sum(cell, c.samples, c.word), *value = here.values + i * static_cast<size_t>(resolved.width()) + r.from;
         if (!(w > 0)) continue;
         const bool first = weight == 0;
         weight += w;
@@ -256,10 +192,12 @@ struct FrameFilter::Impl {
       if (c.z == kInfinity) continue;
       const bool midpoint = options.depthFilter == DepthFilter::Midpoint;
       const float z = midpoint ? 0.5f * c.z + 0.5f * std::min(c.zSecond, options.farClip) : c.z;
+      low = std::min(low, z), high = std::max(high, z);
+      if (options.depthFilter != DepthFilter::Average) continue;
       const auto count = static_cast<float>(__builtin_popcountll(c.samples));
-      low = std::min(low, z), high = std::max(high, z), sum += count * z, weight += count;
+      sum += count * z, weight += count;
     }
-    if (weight == 0) return kInfinity;
+    if (low == kInfinity) return kInfinity;
     if (options.depthFilter == DepthFilter::Max) return high;
     return options.depthFilter == DepthFilter::Average ? sum / weight : low;
   }
@@ -273,12 +211,7 @@ struct FrameFilter::Impl {
   std::vector<Pass> passes;
   std::vector<Reduction> reductions;
   int reachX = 0, reachY = 0;
-  int width = 0;  ///< Floats of a contribution.
-  std::vector<std::unique_ptr<ResolvedTile>> resolved;
-  size_t forgotten = 0;  ///< Of these, from the first.
-  std::mutex mutex;
-  std::map<size_t, PixelNoise> noise;  ///< By tiles.
-  std::vector<std::unique_ptr<Compositor>> compositors;  ///< Those that no thread uses.
+  ResolvedFrame resolved;
 };
 
 FrameFilter::FrameFilter(const DeepFrame& frame, const Options& options, const SampleOffsets& samples, const MatteNames& names)
@@ -293,44 +226,34 @@ Image FrameFilter::shape() const {
 
 Image FrameFilter::rows(int y0, int y1) {
   const PixelRect& crop = impl_->frame.crop;
-  CHECK_GE(impl_->firstTileOf(y0 - impl_->reachY), impl_->forgotten);
+  CHECK_EQ(impl_->resolved.reaches(y0 - impl_->reachY), true);
   Image image = shape();
   image.originY = y0, image.height = y1 - y0;
   image.pixels.resize(static_cast<size_t>(image.width) * static_cast<size_t>(image.height) * image.channels.size());
   const auto across = static_cast<size_t>((crop.width() + kBlockColumns - 1) / kBlockColumns);
   const auto down = static_cast<size_t>((image.height + kBlockRows - 1) / kBlockRows);
-  impl_->resolveRows(y0, y1);
+  impl_->resolved.resolveRows(y0 - impl_->reachY, y1 + impl_->reachY);
   parallelFor(across * down, 1, [&](size_t begin, size_t) {
     const int x0 = crop.x0 + static_cast<int>(begin % across) * kBlockColumns, top = y0 + static_cast<int>(begin / across) * kBlockRows;
     const PixelRect block{x0, top, std::min(x0 + kBlockColumns, crop.x1), std::min(top + kBlockRows, y1)};
-    for (const Pass& pass : impl_->passes) {
-      const PixelSums sums = impl_->sumsOf(pass, block);
-      const std::vector<float> totals = impl_->totalsOf(pass, block);
-      const float* total = totals.data();
-      for (int y = block.y0; y < block.y1; ++y)
-        for (int x = block.x0; x < block.x1; ++x) impl_->filter(sums.of(x, y), *total++, pass, image.at(x - crop.x0, y - y0));
-    }
+    for (const Pass& pass : impl_->passes) impl_->filter(pass, block, [&](int x, int y) { return image.at(x - crop.x0, y - y0); });
     for (int y = block.y0; y < block.y1; ++y) {
       for (int x = block.x0; x < block.x1; ++x)
         for (const Reduction& r : impl_->reductions) impl_->reduce(r, x, y, image.at(x - crop.x0, y - y0));
-      impl_->forRow(block.x0, block.x1, y, [&](int x, const Impl::Seen& seen) { image.at(x - crop.x0, y - y0)[4] = impl_->depth(seen.list); });
+      impl_->resolved.forRow(block.x0, block.x1, y, [&](int x, const Impl::Seen& seen) { image.at(x - crop.x0, y - y0)[4] = impl_->depth(seen.list); });
     }
   });
   for (const Channel& c : impl_->output.channels)
     if (isMatte(c.kind))
       cryptomatte(impl_->frame, impl_->options, impl_->samples,
                   c.kind == ChannelKind::Objects ? impl_->names.objects : impl_->names.materials, c.first, image);
-  impl_->forgetAbove(y1);
+  impl_->resolved.forgetAbove(y1 - impl_->reachY);
   return image;
 }
 
-void FrameFilter::resolve(size_t index, const DeepTile& tile) { impl_->resolve(index, tile); }
+void FrameFilter::resolve(size_t index, const DeepTile& tile) { impl_->resolved.resolve(index, tile); }
 
-PixelNoise FrameFilter::noise() const {
-  PixelNoise out;
-  for (const auto& [tile, here] : impl_->noise) out.light += here.light, out.error += here.error;
-  return out;
-}
+PixelNoise FrameFilter::noise() const { return impl_->resolved.noise(); }
 
 bool FrameFilter::needsTiles() const {
   const auto& channels = impl_->output.channels;

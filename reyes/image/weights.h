@@ -58,15 +58,21 @@ class WeightTable {
   AlignedVector<float> weights_, sums_;
 };
 
+/// What the samples of a pixel see, in order: `count` times some floats, `step` apart, and for each a row of weights as WeightTable::sums() has them.
+struct Weighted {
+  int count;
+  const float *weights, *values;
+  size_t step;
+};
+
 /// Weighted sums of floats for the pixels of a block, to which the samples of pixels in and around it bring theirs.
 class PixelSums {
  public:
-  static constexpr int kWide = 8;  ///< Floats of a pixel are padded to a multiple.
+  static constexpr int kWide = 4;  ///< Floats of a pixel are padded to a multiple.
   PixelSums(const WeightTable& weights, const PixelRect& block, int floats);
   int width() const { return width_; }
-  /// All that samples of pixel (x, y) see, in order: `count` times width() floats, and for each a row of weights as WeightTable::sums() has
-  /// them.
-  void add(int x, int y, int count, const float* weights, const float* values);
+  /// All that pixel (x, y) sees: width() floats each, of which those beyond what was asked for may be anything.
+  void add(int x, int y, const Weighted& seen);
   const float* of(int x, int y) const { return sums_.data() + indexOf(x, y) * width_; }
 
  private:

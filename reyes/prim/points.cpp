@@ -144,6 +144,11 @@ class Disks : public FlatPoints<Disks> {
   PatchInfo info(uint32_t) const override { return {false, kAllEdges, true}; }
 
   Bound3 bound(uint32_t patch, const UvRect& r) const override {
+    if (r.u0 <= 0 && r.u1 >= 1 && r.v0 <= 0 && r.v1 >= 1) {
+      const vec3 center = points_[patch], normal = normalOf(patch);
+      const vec3 reach = radiusOf(patch) * glm::sqrt(glm::max(vec3(0), vec3(1) - normal * normal));
+      return boundInflated(patch, r, {center - reach, center + reach});
+    }
     const Disk disk = diskOf(patch);
     const auto range = [](float t0, float t1, float s0, float s1) {  // of t * sqrt(1 - s * s / 2)
       t0 = 2 * t0 - 1, t1 = 2 * t1 - 1, s0 = 2 * s0 - 1, s1 = 2 * s1 - 1;

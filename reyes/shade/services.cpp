@@ -81,7 +81,9 @@ void transmission(void* host, const TmGrid* g, TmConstVec3 P, TmConstVec3 toward
 
 void report(void* host, const TmGrid*, int32_t severity, const char* message) {
   const Batch& batch = batchOf(host);
-  batch.report(severity >= 2 ? Severity::Missing : Severity::Warning, "shader-says", message);
+  constexpr size_t kAlike = 24;  // Messages that differ later, by a value perhaps, are of one site.
+  const std::string text = message;
+  batch.report(severity >= 2 ? Severity::Missing : Severity::Warning, fmt::format("shader-says {}", text.substr(0, kAlike)).c_str(), text);
 }
 
 void print(void* host, const TmGrid*, const char* text) {

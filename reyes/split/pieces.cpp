@@ -24,16 +24,27 @@ constexpr float kLeastReach_px = 0.05f;  ///< What vertices are snapped by, and 
 /// all buckets wait for its vertices at every key.
 constexpr double kVisitsOfBlur = 32, kKeysOfBlur = 16;
 constexpr float kRounding_px = 0.01f;  ///< Of projecting a box or its points.
+constexpr int kRound_cells = 6;        ///< A disk of so many is shaded as one: nothing but P varies over it.
+/// In edges of a micropolygon: a disk whose bound, half as wide again as itself, is no wider takes no more cells however it is measured.
+constexpr float kDot = 3.5f;
 /// Lazily, a patch is halved so often, and what then has so many grids or more is a coarse piece.
 constexpr int kHalvingsAtOnce = 6;
 constexpr int64_t kGridsOfCoarse = 64;
+
+/// transformBound, to the bit, by extremes of products instead of eight corners: rounding is monotonic.
+Bound3 boundThrough(const mat4& m, const Bound3& b) {
+  if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1) return transformBound(m, b);
+  const vec3 x0 = vec3(m[0]) * b.lo.x, x1 = vec3(m[0]) * b.hi.x, y0 = vec3(m[1]) * b.lo.y, y1 = vec3(m[1]) * b.hi.y;
+  const vec3 z0 = vec3(m[2]) * b.lo.z, z1 = vec3(m[2]) * b.hi.z, origin(m[3]);
+  return {(glm::min(x0, x1) + glm::min(y0, y1)) + (glm::min(z0, z1) + origin), (glm::max(x0, x1) + glm::max(y0, y1)) + (glm::max(z0, z1) + origin)};
+}
 
 /// Box in camera space around a rectangle, over the shutter, before displacement.
 Bound3 cameraBound(const Object& o, uint32_t patch, const UvRect& rect) {
   Bound3 object;
   for (const PrimPtr& shape : o.shapes) object.extend(shape->bound(patch, rect));
   Bound3 camera;
-  for (const float t : o.keyTimes) camera.extend(transformBound(o.cameraFromObject.at(t), object));
+  for (const float t : o.keyTimes) camera.extend(boundThrough(o.cameraFromObject.at(t), object));
   return camera;
 }
 
@@ -101,6 +112,21 @@ class Splitter {
         longest_(2 * static_cast<int>(std::ceil(std::sqrt(static_cast<double>(gridSize_))))), camera_(camera), window_(window), stats_(stats), lazily_(splitting == Splitting::Lazily), stop_(stop),
         edge_px_(std::sqrt(std::max(object_.attributes->shadingRate, 1e-4f))) {}
 
+  /// Takes a patch that can be seen to be a small disk, or not to be seen, without a measure of it. False: it has to be split.
+  bool takeDot(uint32_t patch, std::vector<SubPatch>& out) {
+    if (!canBeRound(patch) || object_.displacementBound > 0 || !object_.attributes->rasterOrient) return false;
+    const Bound3 bare = cameraBound(object_, patch, UvRect{});
+    const bool seen = !cannotBeSeen(bare);
+    const Bound2 raster = seen && !crosses(bare) ? rasterOf(bare, kLeastReach_px) : Bound2{};
+    const vec2 size = raster.hi - raster.lo;
+    if (seen && !(std::max(size.x, size.y) <= kDot * edge_px_)) return false;
+    ++stats_.geometry.piecesVisited;
+    if (seen)
+      out.push_back({index_, patch, UvRect{}, 1, 1, raster, bare.lo.z, false, 0, false, 0, true});
+    else
+      ++stats_.geometry.culled;
+    return true;
+  }
   /// size: what measure() says of the whole patch.
   void splitPatch(uint32_t patch, const PatchSize& size, std::vector<SubPatch>& out) {
     const double patches = object_.shape().patchCount();
@@ -162,6 +188,8 @@ class Splitter {
       if (!still || camera_.defocuses()) budget_ -= visitsOfBlur(rasterOf(bare, reach_px));
       if (std::max(nu, nv) > longest_ && !crossesEye)
         cutAcross(patch, rect, depth + 1, nu, nv, out);
+      else if (depth == 0 && nu * nv <= kRound_cells && !crossesEye && canBeRound(patch))
+        out.push_back({index_, patch, rect, 1, 1, rasterOf(bound, reach_px), bound.lo.z, false, 0, false, 0, true});
       else
         out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, reach_px), bound.lo.z, crossesEye, depth, false});
     } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && gridsOf(nu, nv) >= kGridsOfCoarse && !crossesEye &&
@@ -218,6 +246,11 @@ class Splitter {
   /// That a layer of surface over so many pixels takes.
   double gridsOver(double area_px) const { return area_px / (double{edge_px_} * edge_px_ * gridSize_); }
 
+  /// Is it a whole disk of which one cell, without corners or neighbours, tells all?
+  bool canBeRound(uint32_t patch) const {
+    return object_.keyTimes.size() == 1 && !camera_.defocuses() && object_.solid < 0 && !object_.attributes->displacement &&
+           object_.shape().info(patch).disk;
+  }
   bool cannotBeSeen(const Bound3& bare) const {
     const Bound3 bound = bare.grown(object_.displacementBound);
     if (!isFinite(bound.lo) || !isFinite(bound.hi)) return true;
@@ -304,8 +337,11 @@ std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<con
                                    const PixelRect& window, Stats& stats, Log& log, Splitting splitting, StopFlag stop) {
   return piecesBy(Splitter(scene, object, camera, window, stats, splitting, stop), scene.objects[static_cast<size_t>(object)], stats, log,
                   [&](Splitter& splitter, std::vector<SubPatch>& out) {
-                    const std::vector<PatchSize> sizes = measureWhole(scene.objects[static_cast<size_t>(object)], camera, patches);
-                    for (size_t i = 0; i < patches.size(); ++i) splitter.splitPatch(patches[i], sizes[i], out);
+                    std::vector<uint32_t> others;
+                    for (const uint32_t patch : patches)
+                      if (!splitter.takeDot(patch, out)) others.push_back(patch);
+                    const std::vector<PatchSize> sizes = measureWhole(scene.objects[static_cast<size_t>(object)], camera, others);
+                    for (size_t i = 0; i < others.size(); ++i) splitter.splitPatch(others[i], sizes[i], out);
                   });
 }
 

@@ -112,7 +112,7 @@ suite.run("render", "moved.rib", "-o", "moved.exr", "-q")
 suite.expect_run("a light that has moved", ["shade", "direct.dfb", "--irradiance", "direct.icf", "--edit", "move.rib", "-o", "move.exr"], 0)
 expect_same("shadows of a light that has moved are traced anew", "moved.exr", "move.exr")
 suite.write("bad.rib", 'Attribute "identifier" "name" ["nobody"]\nLightSource "pointlight" "none"\nSphere 1 -1 1 360\n')
-suite.expect_run("edits that fit nothing are named", ["shade", "direct.dfb", "--edit", "bad.rib", "-o", "bad.exr"], 0,
+suite.expect_run("edits that fit nothing are named", ["shade", "-o", "bad.exr", "--edit", "bad.rib", "direct.dfb"], 0,
                  'no object is named "nobody"', 'no light has the handle "none"', "Sphere changes more than shading")
 
 # Geometry that is gone is missed only where rays are needed.

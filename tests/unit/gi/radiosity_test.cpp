@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "fixture.h"
+#include "gi/radiosity_bricks.h"
 #include "gi/radiosity_picture.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"
+#include "reyes/base/temporary_folder.h"
 
 namespace tomales {
 namespace {
@@ -135,6 +137,64 @@ TEST(RadiosityMaps, GatherAsShadersDoForNoShaderAtHits) {
   double sum = 0, off = 0;
   for (size_t i = 0; i < truth.size(); ++i) sum += static_cast<double>(luminance(truth[i])), off += static_cast<double>(std::abs(luminance(truth[i]) - luminance(found[i])));
   EXPECT_LT(off / sum, 0.02);
+}
+
+struct BrickBake {
+  TemporaryFolder folder{std::filesystem::temp_directory_path()};
+  RadiosityBrickSettings settings;
+  MapNames names;
+  explicit BrickBake(World& world) {
+    AtlasSettings atlas;
+    atlas.world = 1;
+    names = mapNames(world.scene, atlas);
+  }
+  std::unique_ptr<const RadiosityBricks> make(World& world) const {
+    return std::make_unique<const RadiosityBricks>(folder.path(), world.rays, world.shading, world.camera, names, settings, BrickCache::kDefaultBytes, world.stats, world.log);
+  }
+};
+
+TEST(RadiosityBricks, GatherAsShadersDoForNoShaderAtHits) {
+  World world(cornell({floatParam("samples", 400)}).scene);
+  const DeepFrame frame = frameOf(world, 16);
+  const auto shaded = world.use({});
+  gatherFrame(*shaded, frame);
+  const std::vector<vec3> truth = indirectOf(*shaded, world, frame);
+  const auto baked = world.use({.mode = GiMode::Radiosity});
+  const BrickBake bake(world);
+  auto bricks = bake.make(world);
+  baked->setRadiositySource([&] { return std::move(bricks); });
+  const int64_t before = world.stats.shade.verticesShaded;
+  gatherFrame(*baked, frame);
+  const std::vector<vec3> found = indirectOf(*baked, world, frame);
+  EXPECT_EQ(world.stats.shade.verticesShaded, before);
+  double sum = 0, off = 0;
+  for (size_t i = 0; i < truth.size(); ++i) sum += static_cast<double>(luminance(truth[i])), off += static_cast<double>(std::abs(luminance(truth[i]) - luminance(found[i])));
+  EXPECT_LT(off / sum, 0.025) << "voxels, not texels, blur the shadow";
+}
+
+TEST(RadiosityBricks, AreKeptForTheSameWorldAndHaveTheSameBitsForAnyThreads) {
+  World world(cornell().scene);
+  const auto services = world.use({.mode = GiMode::Radiosity});
+  BrickBake bake(world);
+  const auto bits = [&] { return pointsMadeFrom(bake.folder.path() / "radiosity" / "scene0.radiosity.ptc"); };
+  uint64_t contents = 0;
+  for (const int threads : {1, 4}) {
+    const ThreadLimit limit(threads);
+    BrickBake own(world);
+    own.make(world);
+    const uint64_t now = PointFile((own.folder.path() / "radiosity" / "scene0.radiosity.ptc").string()).contents();
+    EXPECT_TRUE(contents == 0 || contents == now);
+    contents = now;
+  }
+  bake.make(world);
+  const int64_t shaded = world.stats.shade.verticesShaded;
+  const uint64_t inputs = bits().inputs;
+  bake.make(world);
+  EXPECT_EQ(world.stats.shade.verticesShaded, shaded);
+  bake.settings.points.texels = 2;
+  bake.make(world);
+  EXPECT_GT(world.stats.shade.verticesShaded, shaded);
+  EXPECT_NE(bits().inputs, inputs);
 }
 
 TEST(RadiosityMaps, DoNotDependOnThreads) {

@@ -156,6 +156,21 @@ TEST_F(BatchServices, ANameThatAParameterListDoesNotKnowIsReportedOnce) {
   EXPECT_NE(log.entries()[0].message.find("\"smaples\""), std::string::npos) << log.entries()[0].message;
 }
 
+TEST_F(BatchServices, NamesThatChangeNothingAreReportedOnceEach) {
+  body = [](sl::Surface& s) {
+    occlusion(s.P, s.N, 1, "minsamples", 8, "samples", 4);
+    bake3d("unused.ptc", s.P, s.N, {}, "interpolate", 1);
+  };
+  shadeOne(), shadeOne();
+  int minsamples = 0, interpolate = 0;
+  for (const auto& e : log.entries()) {
+    minsamples += e.message.find("\"minsamples\" has no effect") != std::string::npos;
+    interpolate += e.message.find("\"interpolate\" has no effect") != std::string::npos;
+  }
+  EXPECT_EQ(minsamples, 1);
+  EXPECT_EQ(interpolate, 1);
+}
+
 TEST_F(BatchServices, LightsInRslsMannerShineIntoTheirConeAndFromTheirDirection) {
   surface("matte");
   light("coned"), light("sunny");
@@ -266,14 +281,20 @@ TEST_F(BatchServices, AShadowOfFourCornersIsTheMeanBetweenThem) {
   EXPECT_TRUE(log.entries().empty());
 }
 
-TEST_F(BatchServices, AnOptionScalesAllTextureFilters) {
-  const std::string path = ::testing::TempDir() + "/tomales_step.tif";
+/// Black, and white from its middle on.
+std::string stepPicture(const std::string& name) {
+  std::string path = ::testing::TempDir() + name;
   OIIO::ImageBuf picture(OIIO::ImageSpec(256, 256, 1, OIIO::TypeDesc::FLOAT));
   for (int k = 0; k < 256 * 256; ++k) {
     const float value = k % 256 < 128 ? 0.0f : 1.0f;
     picture.setpixel(k % 256, k / 256, &value);
   }
-  ASSERT_TRUE(picture.write(path));
+  EXPECT_TRUE(picture.write(path));
+  return path;
+}
+
+TEST_F(BatchServices, AnOptionScalesAllTextureFilters) {
+  const std::string path = stepPicture("/tomales_step.tif");
   scene.options.user["texture:width"] = number("width", 2);
   const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
     TmTextureLookup one = lookup();
@@ -289,13 +310,7 @@ TEST_F(BatchServices, AnOptionScalesAllTextureFilters) {
 
 // Three quarters of the way from a texel of 0 to one of 1: linear, and by the cubic B-spline of filters that are not boxes.
 TEST_F(BatchServices, AnOptionNamesTheFilterOfLookupsThatNameNone) {
-  const std::string path = ::testing::TempDir() + "/tomales_edge.tif";
-  OIIO::ImageBuf picture(OIIO::ImageSpec(256, 256, 1, OIIO::TypeDesc::FLOAT));
-  for (int k = 0; k < 256 * 256; ++k) {
-    const float value = k % 256 < 128 ? 0.0f : 1.0f;
-    picture.setpixel(k % 256, k / 256, &value);
-  }
-  ASSERT_TRUE(picture.write(path));
+  const std::string path = stepPicture("/tomales_edge.tif");
   scene.options.user["texture:filter"] = text("filter", "gaussian");
   const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
     FilterRegion spot;
@@ -367,7 +382,7 @@ TEST_F(BatchServices, OcclusionTellsOfTheEnvironmentWhereRaysLeave) {
     Color environmentColor, environmentDirection;
     Float covers;
     Color radiance = indirectdiffuse(s.P, Normal(0, 0, 1), 4096, "environmentmap", path.c_str(), "environmentcolor", &environmentColor, "environmentdir",
-                                     &environmentDirection, "occlusion", &covers, "adaptive", 1);
+                                     &environmentDirection, "occlusion", &covers);
     s.Ci = radiance;
     EXPECT_NEAR(covers[0], 0.5f, 2e-3f);
     // By the cosine, the mean of x over the half of the hemisphere where it is positive is 2/(3 pi), of z 1/3, of y 0; each over all.

@@ -103,8 +103,8 @@ struct pointbased : sl::Surface {
 struct listing : sl::Surface {
   void main() {
     sl::Float x = 0;
-    sl::bake3d("left.ptc", P, N, {{"u", u}}, "coordsystem", "object", "radius", 0.5, "radiusscale", 3, "interpolate", 1);
-    const sl::Float found = sl::texture3d("known.ptc", P, N, {{"x", x}}, "coordsystem", "object", "filterradius", &radius, "maxdepth", 4);
+    sl::bake3d("left.ptc", P, N, {{"u", u}}, "coordsystem", "object", "radius", 0.5, "radiusscale", 3);
+    const sl::Float found = sl::texture3d("known.ptc", P, N, {{"x", x}}, "coordsystem", "object", "filterradius", &radius);
     Ci = sl::photonmap("photons.ptc", P, N, "estimator", 9, "maxdist", 2.5);
     sl::setycomp(Ci, x + 10 * found), Oi = sl::Color(1.0);
   }

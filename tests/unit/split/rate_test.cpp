@@ -1,7 +1,9 @@
 // How finely patches are diced.
 #include <bit>
 
+#include "reyes/base/rng.h"
 #include "reyes/dice.h"
+#include "reyes/split/rate.h"
 #include "tests/unit/split/test_scene.h"
 
 namespace tomales {
@@ -140,6 +142,35 @@ TEST(Rate, WithoutRasterOrientAForeshortenedPatchIsDicedAsIfItFacedTheEye) {
     return n;
   };
   EXPECT_GT(cells(false), 4 * cells(true));
+}
+
+TEST(Rate, DisksThatAreTakenForDotsUnmeasuredWouldTakeFewCells) {
+  Param P, N, width;
+  P.name = "P", P.type = ValueType::Point, P.storage = Storage::Vertex;
+  N.name = "N", N.type = ValueType::Normal, N.storage = Storage::Vertex;
+  width.name = "width", width.type = ValueType::Float, width.storage = Storage::Vertex;
+  constexpr uint32_t kDisks = 2000;
+  for (uint32_t i = 0; i < kDisks; ++i) {
+    const auto random = [i](uint32_t dimension) { return unitFloat(hashCombine(i, dimension)); };
+    const float z = 0.3f + 4 * random(0);
+    for (const float x : {(random(1) - 0.5f) * z, (random(2) - 0.5f) * z, z}) P.floats.push_back(x);
+    for (const float n : {random(3) - 0.5f, random(4) - 0.5f, random(5) - 0.5f}) N.floats.push_back(n);
+    width.floats.push_back(4 * random(6) * z / 110);  // A pixel is about a hundred and tenth of z.
+  }
+  Problems problems;
+  for (const ParamList& params : {ParamList{P, width}, ParamList{P, N, width}}) {
+    const Scene scene = sceneOf({makePoints(params, problems)}, mat4(1));
+    const Camera camera(scene.options);
+    Stats stats;
+    int dots = 0;
+    for (const SubPatch& p : split(scene, stats)) {
+      const Cells c = cells(measure(scene.objects[0], camera, p.patch, UvRect{}), 1, 1, false, false);
+      EXPECT_EQ(p.round, c.nu * c.nv <= 6) << c.nu << " x " << c.nv;
+      dots += p.round;
+    }
+    EXPECT_GT(dots, 500);
+    EXPECT_LT(dots, 1900);
+  }
 }
 
 }  // namespace
