@@ -91,7 +91,7 @@ class DisplayFiles {
 
 /// What moves far, is far out of focus or thinner than the samples are apart.
 void warnOfNoise(const PixelNoise& noise, const Options& options, Log& log) {
-  constexpr double kUncertain = 0.3;
+  constexpr double kUncertain = 0.2;
   const double share = noise.light > 0 ? noise.error / noise.light : 0;
   if (share <= kUncertain) return;
   log.report(Severity::Warning, "pixel-noise", {},
