@@ -23,8 +23,8 @@ void ResolvedFrame::resolve(size_t index, const DeepTile& tile) {
   compositors_.push_back(std::move(compositor));
 }
 
-PixelNoise ResolvedFrame::noiseOf(const ResolvedTile& tile) const {
-  PixelNoise out;
+ResolvedFrame::TileNoise ResolvedFrame::noiseOf(const ResolvedTile& tile) const {
+  TileNoise out;
   const auto all = static_cast<float>(frame_.samplesPerPixel);
   for (size_t pixel = 0; pixel + 1 < tile.first.size() && frame_.samplesPerPixel > 1; ++pixel) {
     float sum = 0, squares = 0;
@@ -34,15 +34,18 @@ PixelNoise ResolvedFrame::noiseOf(const ResolvedTile& tile) const {
       sum += count * light, squares += count * light * light;
     }
     const float mean = sum / all, variance = (squares / all - mean * mean) / (all - 1);
-    if (mean > 0) out.light += mean, out.error += std::sqrt(std::max(variance, 0.0f));
+    if (!(mean > 0)) continue;
+    out.sums.light += mean, out.sums.error += std::sqrt(std::max(variance, 0.0f)), ++out.lit;
   }
   return out;
 }
 
 PixelNoise ResolvedFrame::noise() const {
+  constexpr int64_t kEnough = 1000;
   PixelNoise out;
-  for (const PixelNoise& tile : noise_) out.light += tile.light, out.error += tile.error;
-  return out;
+  int64_t lit = 0;
+  for (const TileNoise& tile : noise_) out.light += tile.sums.light, out.error += tile.sums.error, lit += tile.lit;
+  return lit < kEnough ? PixelNoise{} : out;
 }
 
 std::unique_ptr<Compositor> ResolvedFrame::takeCompositor() {

@@ -24,7 +24,7 @@ class ResolvedFrame {
   void forgetAbove(int y);
   /// Are all tiles from that of row y on still there?
   bool reaches(int y) const { return firstTileOf(y) >= forgotten_; }
-  /// Of all tiles that have been resolved.
+  /// Of all tiles that have been resolved; none where so few pixels have light that most are edges.
   PixelNoise noise() const;
 
   /// What the samples of a pixel see.
@@ -58,7 +58,11 @@ class ResolvedFrame {
   TileRun runFrom(int x, int y) const;
   size_t firstTileOf(int y) const;
   std::unique_ptr<Compositor> takeCompositor();
-  PixelNoise noiseOf(const ResolvedTile& tile) const;
+  struct TileNoise {
+    PixelNoise sums;
+    int lit = 0;  ///< Pixels with light.
+  };
+  TileNoise noiseOf(const ResolvedTile& tile) const;
 
   const DeepFrame& frame_;
   const FrameOutput& output_;
@@ -68,7 +72,7 @@ class ResolvedFrame {
   int width_;
   std::vector<ExtraFloat> extras_;
   std::vector<std::unique_ptr<ResolvedTile>> resolved_;
-  std::vector<PixelNoise> noise_;  ///< Of each tile.
+  std::vector<TileNoise> noise_;  ///< Of each tile.
   size_t forgotten_ = 0;  ///< Of these, from the first.
 };
 
