@@ -49,6 +49,7 @@ inline bool set(TmRayOptions& o, std::string_view name, const Setting& v) {
   else if (name == "falloffmode") o.falloffMode = v.whole();
   else if (name == "maxvariation") o.maxVariation = v.number;
   else if (name == "weight") o.importance = v.number;
+  else if (name == "environmentspace") o.environmentSpace = v.text;
   else return false;
   return true;
 }
@@ -82,7 +83,6 @@ inline bool set(HemisphereList& o, std::string_view name, const Setting& v) {
   else if (name == "clamp") o.rays.clamp = v.whole();
   else if (name == "maxsolidangle") o.rays.maxSolidAngle = v.number;
   else if (name == "environmentmap") o.rays.environment = *v.text ? v.text : nullptr;
-  else if (name == "environmentspace") o.rays.environmentSpace = v.text;
   else if (name == "environmentcolor") o.environmentColor = v.triples;
   else if (name == "environmentdir") o.environmentDirection = v.triples;
   else if (name == "occlusion") o.covered = v.numbers;
@@ -134,6 +134,8 @@ inline bool set(TmTextureLookup& o, std::string_view name, const Setting& v) {
   else if (name == "fill") o.fill = v.number;
   else if (name == "filter") o.filter = v.text;
   else if (name == "samples") o.samples = v.whole();
+  else if (name == "mipbias") o.mipBias = v.number;
+  else if (name == "ignoreabove") o.ignoreAbove = v.number;
   else if (name != "lerp") return false;  // levels are always blended
   return true;
 }
