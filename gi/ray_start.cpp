@@ -17,7 +17,7 @@ float rayTime(const RayScene& rays, const ShadePoints& points, int i, int number
 void aim(const RayScene& rays, const ShadePoints& points, int i, float time, Ray& ray) {
   const vec3 end = ray.origin + ray.tMax * ray.direction;
   ray.time = time;
-  if (time > 0) ray.origin = rays.placeAt(points.group(), ray.origin, points.get3(kDriftX, i), time);
+  if (time > 0 && !points.inAir()) ray.origin = rays.placeAt(points.group(), ray.origin, points.get3(kDriftX, i), time);
   if (time > 0 && ray.tMax < 1e30f) {
     ray.tMax = glm::length(end - ray.origin);
     ray.direction = normalizeOr(end - ray.origin, ray.direction);
@@ -26,6 +26,7 @@ void aim(const RayScene& rays, const ShadePoints& points, int i, float time, Ray
   Ray wide = ray;
   wide.radius = std::max(ray.radius, std::sqrt(points.channel(kArea)[i] / kPi));
   rays.prepareOrigin(points.group(), ray.origin, points.edgeLength(i), wide);
+  if (points.inAir()) wide.offset = wide.bias = 0;
   wide.radius = ray.radius;
   ray = wide;
 }

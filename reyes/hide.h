@@ -19,14 +19,15 @@ class SamplePattern {
   int padded() const { return padded_; }
   int patternCount() const { return patterns_; }  ///< Enough not to be seen to repeat.
   int patternOf(int x, int y) const;
-  const float* x(int pattern) const;              ///< In [0,1) inside the pixel; padded() floats.
-  const float* y(int pattern) const;
-  const float* time(int pattern) const;           ///< In [0,1) of the shutter.
-  const float* lensX(int pattern) const;          ///< In the unit disk, over the aperture.
-  const float* lensY(int pattern) const;
-  const float* detail(int pattern) const;         ///< In [0,1): what DetailShare divides; those of a pixel are stratified.
+  const float* x(int pattern) const { return of(x_, pattern); }  ///< In [0,1) inside the pixel; padded() floats.
+  const float* y(int pattern) const { return of(y_, pattern); }
+  const float* time(int pattern) const { return of(time_, pattern); }  ///< In [0,1) of the shutter.
+  const float* lensX(int pattern) const { return of(lensX_, pattern); }  ///< In the unit disk, over the aperture.
+  const float* lensY(int pattern) const { return of(lensY_, pattern); }
+  const float* detail(int pattern) const { return of(detail_, pattern); }  ///< In [0,1): what DetailShare divides; those of a pixel are stratified.
 
  private:
+  const float* of(const AlignedVector<float>& values, int pattern) const { return values.data() + static_cast<ptrdiff_t>(pattern) * padded_; }
   int count_, padded_, patterns_;
   uint32_t seed_;
   AlignedVector<float> x_, y_, time_, lensX_, lensY_, detail_;
@@ -75,6 +76,8 @@ class Hider {
   ~Hider();
   /// True if every sample in the bound is already hidden by something opaque nearer than zMin (camera space).
   bool hidden(const Bound2& raster, float zMin) const;
+  /// The same of what has been projected: insert() would find nothing to do.
+  bool hidden(const RasterExtent& extent) const;
   void insert(const std::shared_ptr<const RasterGrid>& grid);
   /// Collects visible micropolygons into points to shade. The Hider is spent.
   DeepTile resolve();

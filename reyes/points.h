@@ -55,6 +55,10 @@ class ShadePoints {
   void reserve(int count);
   void assign(const ShadePoints& from, int begin, int end);  ///< Pre: of the same group, and like this with steps or without.
   void clear();
+  void rename(int i, SampleName name) { names_[static_cast<size_t>(i)] = name; }
+  /// Points of the air before a surface: they do not move with it, and rays leave them without an offset.
+  void setInAir(bool inAir) { inAir_ = inAir; }
+  bool inAir() const { return inAir_; }
   void shrink();  ///< Gives back what growing reserved beyond need.
 
   float* channel(int c) { return block_.data() + static_cast<size_t>(c) * static_cast<size_t>(capacity_); }
@@ -91,6 +95,7 @@ class ShadePoints {
   }
 
   int group_, primvarFloats_, channels_;
+  bool inAir_ = false;
   int capacity_ = 0;            ///< Points that the block has room for, a multiple of kLanes.
   UnsetVector<float> block_;    ///< One array of capacity_ floats a channel; what lies between count() and padded(count()) is finite.
   std::vector<SampleName> names_;

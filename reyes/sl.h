@@ -5,6 +5,8 @@
 // Declarations take all points; assignments (=, +=) only those of the conditionals and loops around them, and so do services.
 // Threads: a value belongs to the thread and the run of a shader that made it.
 #pragma once
+#include <type_traits>
+
 #include "reyes/sl_clouds.h"
 #include "reyes/sl_light.h"
 #include "reyes/sl_pictures.h"
@@ -18,6 +20,10 @@ struct Globals {
   Vector I{grid()->I}, dPdu{grid()->dPdu}, dPdv{grid()->dPdv};
   Float u{grid()->u}, v{grid()->v}, s{grid()->s}, t{grid()->t}, du{grid()->du}, dv{grid()->dv};
   Color Cs{grid()->Cs}, Os{grid()->Os};
+  Vector dPdtime{grid()->dPdtime};
+  Point E{rsl::Vec3{grid()->E[0], grid()->E[1], grid()->E[2]}};
+  const float time = grid()->time, dtime = grid()->dtime;
+  static constexpr int ncomps = 3;
 
   // RSL's names that a C++ program may have given away already. `out` may be a Float, Triple, Matrix or std::string.
 #define SL_ASK(function, whom) \
@@ -41,28 +47,75 @@ struct Globals {
   static void store(const Triple& from, TmVec3 to) { forActive([&](int i) { rsl::set(to, i, from[i]); }); }
 };
 
-struct Surface : Globals {
-  Color Ci, Oi;
+/// Shaders that ask what light arrives.
+struct Lit : Globals {
   Vector L;  ///< From P to the light, in illuminance() alone, as Cl.
   Color Cl;
   int lightNumber = -1;  ///< Its number, for ask(TM_OF_LIGHT, ...).
 
-  /// RSL illuminance(): `body` once for each sample, for the points that see it in the cone.
+  /// RSL illuminance(): `body` once for each sample of each light, for the points that it reaches at p and that see it in the cone of half
+  /// angle `angle` around the axis (a number, or one for each point); without axis from all sides. Lists are made by lights().
+  template <class Angle, class Body>
+  void illuminance(const char* category, const Point& p, const Vector& axis, const Angle& angle, const LightList& list, const Body& body) {
+    const Vector around = axis;
+    TmIlluminance query = question(category);
+    query.axis = around;
+    if constexpr (std::is_arithmetic_v<Angle>) {
+      query.angle = static_cast<float>(angle);
+      forEachSample(query, p, list, body);
+    } else {
+      const Float angles = angle;
+      query.angles = angles.data();
+      forEachSample(query, p, list, body);
+    }
+  }
+  template <class Angle, class Body>
+  void illuminance(const char* category, const Point& p, const Vector& axis, const Angle& angle, const Body& body) {
+    illuminance(category, p, axis, angle, LightList(), body);
+  }
+  template <class Angle, class Body>
+  void illuminance(const Point& p, const Vector& axis, const Angle& angle, const Body& body) { illuminance("", p, axis, angle, body); }
+  template <class Angle, class Body>
+  void illuminance(const Point& p, const Vector& axis, const Angle& angle, const LightList& list, const Body& body) { illuminance("", p, axis, angle, list, body); }
   template <class Body>
-  void illuminance(const char* category, const Point&, const Vector& axis, float angle, const Body& body) {
-    TmIlluminance query{sizeof(TmIlluminance), 0, category, axis, angle, 0, {}, {}, nullptr, 0, 0, 0};
+  void illuminance(const char* category, const Point& p, const LightList& list, const Body& body) { forEachSample(question(category), p, list, body); }
+  template <class Body>
+  void illuminance(const Point& p, const LightList& list, const Body& body) { illuminance("", p, list, body); }
+  template <class Body>
+  void illuminance(const char* category, const Point& p, const Body& body) { illuminance(category, p, LightList(), body); }
+  template <class Body>
+  void illuminance(const Point& p, const Body& body) { illuminance("", p, body); }
+
+ private:
+  static TmIlluminance question(const char* category) {
+    TmIlluminance query{};
+    query.structBytes = sizeof query, query.category = category;
+    return query;
+  }
+  template <class Body>
+  void forEachSample(TmIlluminance query, const Point& p, const LightList& list, const Body& body) {
+    const Point where = p;  // what the body does to p is none of the lights' business
+    const std::vector<TmMessage> sent = list.messages();
+    query.P = where;
+    query.sent = sent.data(), query.sentCount = int32_t(sent.size()), query.refresh = list.refresh;
     while (grid()->call->illuminance(grid()->host, grid(), &query))
-      where(query.lit, true, [&] {
+      sl::where(query.lit, true, [&] {
         L = Vector(query.L), Cl = Color(query.Cl), lightNumber = query.light;
+        for (const LightList::Wanted& w : list.wanted) w.number ? lightsource(lightNumber, w.name.c_str(), *w.number) : lightsource(lightNumber, w.name.c_str(), *w.triple);
         body();
       });
   }
-  template <class Body>
-  void illuminance(const Point& p, const Vector& axis, float angle, const Body& body) { illuminance("", p, axis, angle, body); }
+};
+/// Of illuminance(): lights("lightcache", "refresh", "send:light:NAME", value, "light:NAME", &out, ...).
+template <class... List>
+LightList lights(const List&... list) { return listed(LightList(), list...); }
+
+struct Surface : Lit {
+  Color Ci, Oi;
   void store() const { Globals::store(Ci, grid()->Ci), Globals::store(Oi, grid()->Oi); }
 };
 
-struct Volume : Globals {
+struct Volume : Lit {
   Color Ci{rsl::view(grid()->Ci)}, Oi{rsl::view(grid()->Oi)};
   void store() const { Globals::store(Ci, grid()->Ci), Globals::store(Oi, grid()->Oi); }
 };
@@ -71,9 +124,13 @@ struct Displacement : Globals {
   void store() const { Globals::store(P, grid()->P), Globals::store(N, grid()->N); }
 };
 
+/// P and N are those of the point being lit; of area lights, those of the point on the light.
 struct Light : Globals {
+  Light() {
+    if (ofArea()) P = Point(grid()->Pl), N = Normal(grid()->Nl);
+  }
   Point Ps{rsl::view(grid()->P)};
-  Vector L;  ///< From the light to Ps, in illuminate() and solar().
+  Vector L{-Vector(rsl::view(grid()->L))};  ///< From the light to Ps, in illuminate() and solar(); of area lights and skies, whose it is, always.
   Color Cl;
 
   /// RSL illuminate(): `body` for the points in the cone (half angle); the others get no light.
@@ -93,7 +150,43 @@ struct Light : Globals {
     L = axis;
     body();
   }
-  void store() const { Globals::store(-L, grid()->L), Globals::store(Cl, grid()->Cl); }
+  /// From a cone of directions (half angle): evenly over it with TM_LIGHT_SAMPLED, else along the axis.
+  template <class Body>
+  void solar(const Vector& axis, double angle, const Body& body) {
+    L = axis;
+    if (grid()->xi0) L = inCone(axis, float(angle));
+    body();
+  }
+  /// From all around; with TM_LIGHT_SKY, whose L the renderer chooses.
+  template <class Body>
+  void solar(const Body& body) { body(); }
+  void store() const {
+    if (!ofArea()) Globals::store(-L, grid()->L);
+    Globals::store(Cl, grid()->Cl);
+  }
+
+ private:
+  static bool ofArea() { return grid()->Pl.x != nullptr; }
+  static Vector inCone(const Vector& axis, float angle) {
+    return Vector::of([&](int i) {
+      const int k = std::min(i, grid()->count - 1);
+      const float z = 1 - grid()->xi0[k] * (1 - std::cos(angle)), r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * float(rsl::kPi) * grid()->xi1[k];
+      const rsl::Vec3 n = rsl::normalize(axis[i]);
+      rsl::Vec3 tangent, bitangent;
+      rsl::orthonormalBasis(n, tangent, bitangent);
+      return r * std::cos(phi) * tangent + r * std::sin(phi) * bitangent + z * n;
+    });
+  }
+};
+
+/// P is the place in the picture.
+struct Imager : Globals {
+  Color Ci{rsl::view(grid()->Ci)}, Oi{rsl::view(grid()->Oi)};
+  Float alpha{grid()->alpha};
+  void store() const {
+    Globals::store(Ci, grid()->Ci), Globals::store(Oi, grid()->Oi);
+    forActive([&](int i) { grid()->alpha[i] = alpha[i]; });
+  }
 };
 
 /// The function of an rsl::Shader.

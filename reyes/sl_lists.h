@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <initializer_list>
 #include <stdexcept>
+#include <vector>
 
 #include "reyes/sl_values.h"
 
@@ -12,16 +13,20 @@ namespace sl {
 /// A value of a list.
 struct Setting {
   Setting(double v) : number(static_cast<float>(v)) {}
-  Setting(const char* v) : text(v) {}
+  Setting(const char* v) : type(TM_STRING), text(v) {}
   Setting(const rsl::UniformFloatParam& p) : number(uniform(p)) {}
-  Setting(const rsl::Color& c) : color(c) {}
-  Setting(const rsl::StringParam& p) : text(uniform(p)) {}
+  Setting(const rsl::Color& c) : type(TM_COLOR), color(c) {}
+  Setting(const rsl::StringParam& p) : type(TM_STRING), text(uniform(p)) {}
+  Setting(const Float& v) : varying{v.data()} {}
+  Setting(const Triple& v) : type(TM_COLOR), varying{v.out().x, v.out().y, v.out().z} {}
   Setting(Float* out) : numbers(out) {}
   Setting(Triple* out) : triples(out) {}
   int whole() const { return static_cast<int>(number); }
+  TmType type = TM_FLOAT;
   float number = 0;
   const char* text = "";
   rsl::Color color{};
+  const float* varying[3] = {nullptr, nullptr, nullptr};  ///< To be sent; null: the same for all.
   Float* numbers = nullptr;   ///< To be filled in.
   Triple* triples = nullptr;  ///< Likewise.
 };
@@ -44,6 +49,7 @@ inline bool set(TmRayOptions& o, std::string_view name, const Setting& v) {
   else if (name == "falloffmode") o.falloffMode = v.whole();
   else if (name == "maxvariation") o.maxVariation = v.number;
   else if (name == "weight") o.importance = v.number;
+  else if (name == "environmentspace") o.environmentSpace = v.text;
   else return false;
   return true;
 }
@@ -77,7 +83,6 @@ inline bool set(HemisphereList& o, std::string_view name, const Setting& v) {
   else if (name == "clamp") o.rays.clamp = v.whole();
   else if (name == "maxsolidangle") o.rays.maxSolidAngle = v.number;
   else if (name == "environmentmap") o.rays.environment = *v.text ? v.text : nullptr;
-  else if (name == "environmentspace") o.rays.environmentSpace = v.text;
   else if (name == "environmentcolor") o.environmentColor = v.triples;
   else if (name == "environmentdir") o.environmentDirection = v.triples;
   else if (name == "occlusion") o.covered = v.numbers;
@@ -129,6 +134,8 @@ inline bool set(TmTextureLookup& o, std::string_view name, const Setting& v) {
   else if (name == "fill") o.fill = v.number;
   else if (name == "filter") o.filter = v.text;
   else if (name == "samples") o.samples = v.whole();
+  else if (name == "mipbias") o.mipBias = v.number;
+  else if (name == "ignoreabove") o.ignoreAbove = v.number;
   else if (name != "lerp") return false;  // levels are always blended
   return true;
 }
@@ -153,6 +160,44 @@ inline bool set(TmSubsurface& o, std::string_view name, const Setting& v) {
   else if (name == "ior") o.ior = v.number;
   else if (name == "unitlength") o.unitLength = v.number;
   else if (name == "maxsolidangle") o.maxSolidAngle = v.number;
+  else return false;
+  return true;
+}
+
+/// Of illuminance(). Names are "lightcache" ("refresh": lights run again), "send:light:NAME" (the value of a parameter, for lights that have one
+/// of that name) and "light:NAME" (to be filled in with what lights have, parameters and outputs, at each sample).
+struct LightList {
+  struct Sent {
+    std::string name;
+    Setting value;
+  };
+  struct Wanted {
+    std::string name;
+    Float* number;
+    Triple* triple;
+  };
+  bool refresh = false;
+  std::vector<Sent> sent;
+  std::vector<Wanted> wanted;
+
+  /// As TmServices wants them; they point into this list.
+  std::vector<TmMessage> messages() const {
+    std::vector<TmMessage> out;
+    for (const Sent& s : sent) {
+      const Setting& v = s.value;
+      const float* same[3] = {v.type == TM_COLOR ? &v.color.x : &v.number, &v.color.y, &v.color.z};
+      TmValue value{{same[0], same[1], same[2]}, v.varying[0] ? 1 : 0, 1, v.text};
+      if (v.varying[0]) std::copy_n(v.varying, 3, value.c);
+      out.push_back({s.name.c_str(), v.type, value});
+    }
+    return out;
+  }
+};
+inline bool set(LightList& o, std::string_view name, const Setting& v) {
+  constexpr std::string_view kSend = "send:light:", kTell = "light:";
+  if (name == "lightcache") o.refresh = std::string_view(v.text) == "refresh";
+  else if (name.substr(0, kSend.size()) == kSend) o.sent.push_back({std::string(name.substr(kSend.size())), v});
+  else if (name.substr(0, kTell.size()) == kTell && (v.numbers || v.triples)) o.wanted.push_back({std::string(name.substr(kTell.size())), v.numbers, v.triples});
   else return false;
   return true;
 }

@@ -1,16 +1,26 @@
-// Smoke, marched along the ray from the eye. In RSL:
+// Smoke, marched along the ray from the eye and lit on the way: lights shine into it, what stands in it casts shadows through it, and it dims
+// the light that has to cross it. In RSL:
 //
-//   volume smoke(float density = 1, frequency = 1, steps = 32, octaves = 3, top = 2; color smokecolor = .8) {
-//     point Pw = transform("world", P);  vector Iw = vtransform("world", I);
-//     float stepsize = length(I) / steps;
-//     color Cv = 0;  float clear = 1;
-//     for (i = 0; i < steps; i += 1) {
-//       point Q = Pw - ((i + .5) / steps) * Iw;                     /* from the surface to the eye */
+//   volume smoke(float density = 1, frequency = 1, steps = 32, octaves = 3, top = 2, lightsteps = 4; color smokecolor = .8) {
+//     float smokeat(point Q) {
 //       float d = 0, amp = 1, f = frequency;
 //       for (k = 0; k < octaves; k += 1) { d += amp * (2 * noise(f * Q) - 1);  f *= 2;  amp *= .5; }
-//       d = density * smoothstep(0, .7, d + .3) * (1 - smoothstep(0, top, ycomp(Q)));
-//       float seen = exp(-d * stepsize);
-//       Cv = mix(smokecolor, Cv, seen);  clear *= seen;
+//       return density * smoothstep(0, .7, d + .3) * (1 - smoothstep(0, top, ycomp(Q)));
+//     }
+//     float stepsize = length(I) / steps, clear = 1;
+//     color Cv = 0;
+//     for (i = 0; i < steps; i += 1) {
+//       point Q = P - ((i + .5) / steps) * I;                       /* from the surface to the eye */
+//       point Qw = transform("world", Q);
+//       float seen = exp(-smokeat(Qw) * stepsize);
+//       color Li = ambient();
+//       illuminance(Q) {
+//         vector Lw = normalize(vtransform("world", L));
+//         float way = min(length(L), max(0, top - ycomp(Qw)) / max(ycomp(Lw), .001)), depth = 0;
+//         for (k = 0; k < lightsteps; k += 1) depth += smokeat(Qw + ((k + .5) / lightsteps) * way * Lw);
+//         Li += Cl * exp(-depth * way / max(lightsteps, 1));
+//       }
+//       Cv = mix(smokecolor * Li, Cv, seen);  clear *= seen;
 //     }
 //     Ci = Ci * clear + Cv;  Oi = mix(1, Oi, clear);
 //   }
@@ -22,34 +32,42 @@ namespace {
 rsl::FloatParam density("density", 1, "of the thickest smoke, for each unit of length"), frequency("frequency", 1, "lumps for each unit");
 rsl::UniformFloatParam steps("steps", 32, "of the march"), octaves("octaves", 3, "layers of noise");
 rsl::FloatParam top("top", 2, "no smoke above this height in the world");
-rsl::ColorParam smokecolor("smokecolor", {0.8f, 0.8f, 0.8f}, "colour");
+rsl::UniformFloatParam lightsteps("lightsteps", 4, "of the march to each light; 0: smoke does not dim it");
+rsl::ColorParam smokecolor("smokecolor", {0.8f, 0.8f, 0.8f}, "share of the light that is scattered");
 
 struct smoke : Volume {
+  Float smokeat(const Point& Q) {
+    Float d = 0, amp = 1, f = frequency;
+    for (int k = 0; k < uniform(octaves); ++k) {
+      d += amp * (2 * noise(f * Q) - 1);
+      f *= 2, amp *= 0.5;
+    }
+    return density * smoothstep(0, 0.7, d + 0.3) * (1 - smoothstep(0, top, ycomp(Q)));
+  }
   void main() {
-    Point Pw = transform("world", P);
-    Vector Iw = vtransform("world", I);
-    const float n = uniform(steps);
-    Float stepsize = length(I) / n;
+    const float n = uniform(steps), m = uniform(lightsteps);
+    Float stepsize = length(I) / n, clear = 1;
     Color Cv;
-    Float clear = 1;
     for (int i = 0; i < n; ++i) {
-      Point Q = Pw - ((i + 0.5) / n) * Iw;
-      Float d = 0, amp = 1, f = frequency;
-      for (int k = 0; k < uniform(octaves); ++k) {
-        d += amp * (2 * noise(f * Q) - 1);
-        f *= 2, amp *= 0.5;
-      }
-      d = density * smoothstep(0, 0.7, d + 0.3) * (1 - smoothstep(0, top, ycomp(Q)));
-      Float seen = exp(-d * stepsize);
-      Cv = mix(smokecolor, Cv, seen);
+      Point Q = P - ((i + 0.5) / n) * I;
+      Point Qw = transform("world", Q);
+      Float seen = exp(-smokeat(Qw) * stepsize);
+      Color Li = ambient();
+      illuminance(Q, [&] {
+        Vector Lw = normalize(vtransform("world", L));
+        Float way = min(length(L), max(0, top - ycomp(Qw)) / max(ycomp(Lw), 0.001)), depth;
+        for (int k = 0; k < m; ++k) depth += smokeat(Qw + ((k + 0.5) / m) * way * Lw);
+        Li += Cl * exp(-depth * way / max(m, 1));
+      });
+      Cv = mix(smokecolor * Li, Cv, seen);
       clear *= seen;
     }
     Ci = Ci * clear + Cv;
     Oi = mix(Color(1), Oi, clear);
   }
 };
-const rsl::Shader shader(TM_VOLUME, "smoke", "lumps of smoke near the ground", 0, sl::shade<smoke>,
-                         {&density, &frequency, &steps, &octaves, &top, &smokecolor});
+const rsl::Shader shader(TM_VOLUME, "smoke", "lumps of smoke near the ground, lit by the lights", 0, sl::shade<smoke>,
+                         {&density, &frequency, &steps, &octaves, &top, &lightsteps, &smokecolor});
 }  // namespace
 
 TM_SHADER_LIBRARY(shader)

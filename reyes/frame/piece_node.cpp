@@ -86,7 +86,7 @@ PieceNode::PieceNode(HideContext& context, std::vector<PieceStack> stacks, const
   stacks_.reserve(stacks.size());
   for (PieceStack& s : stacks) {
     const BucketRange touched = range & context.buckets.touched(s.place.raster);
-    stacks_.push_back({std::move(s), touched});
+    stacks_.emplace_back(std::move(s), touched);
   }
 }
 
@@ -96,14 +96,19 @@ void PieceNode::visit(size_t bucket, NodeQueue&, Hider& hider) {
     const BucketRange& r = stack.range;
     if (column < r.c0 || column > r.c1 || row < r.r0 || row > r.r1) continue;
     if (stacks_.size() > 1 && hider.hidden(stack.pieces.place.raster, stack.pieces.place.zMin)) continue;
+    // Without a look at the grid, which may be far away in memory.
+    if (stack.made.load(std::memory_order_acquire) && hider.hidden(stack.extent)) continue;
     if (const auto grid = acquire(stack)) hider.insert(grid);
   }
 }
 
 std::shared_ptr<const RasterGrid> PieceNode::acquire(Stack& stack) {
   const std::lock_guard lock(mutex_);
-  if (!stack.made) stack.grid = makeGrid(stack.pieces);
-  stack.made = true;
+  if (!stack.made.load(std::memory_order_relaxed)) {
+    stack.grid = makeGrid(stack.pieces);
+    stack.extent = *stack.grid;
+    stack.made.store(true, std::memory_order_release);
+  }
   return stack.grid;
 }
 
@@ -141,8 +146,10 @@ std::shared_ptr<Pool> PieceNode::makePool() const {
   // A vertex takes a dozen floats without motion and primitive variables, and a grid about as much as this without vertices.
   constexpr size_t kVertex_bytes = 48, kGrid_bytes = 768, kMost_bytes = 65536;
   size_t bytes = 0;
-  for (const auto& [stack, range, grid, made] : stacks_)
-    bytes += kGrid_bytes + kVertex_bytes * static_cast<size_t>(padded(static_cast<int>(stack.pieces.size()) * (stack.nu + 1) * (stack.nv + 1)));
+  for (const auto& stack : stacks_) {
+    const PieceStack& p = stack.pieces;
+    bytes += kGrid_bytes + kVertex_bytes * static_cast<size_t>(padded(static_cast<int>(p.pieces.size()) * (p.nu + 1) * (p.nv + 1)));
+  }
   return {new Pool(std::min(bytes, kMost_bytes)), [&live = context_.liveGrids_bytes](const Pool* pool) {
             live -= static_cast<int64_t>(pool->bytes());
             delete pool;

@@ -1,5 +1,7 @@
 // Pieces that a grid can hold: diced by the first bucket that does not hide them, and shared by those that they touch.
 #pragma once
+#include <atomic>
+
 #include "reyes/frame/hide_node.h"
 
 namespace tomales {
@@ -26,7 +28,11 @@ class PieceNode : public HideNode {
     PieceStack pieces;
     BucketRange range;
     std::shared_ptr<const RasterGrid> grid{};
-    bool made = false;
+    RasterExtent extent{};            ///< Of the grid: displacement rarely takes it as far as it may.
+    std::atomic<bool> made{false};
+
+    Stack(PieceStack p, const BucketRange& r) : pieces(std::move(p)), range(r) {}
+    Stack(Stack&& o) noexcept : pieces(std::move(o.pieces)), range(o.range) {}  ///< Pre: not made yet.
   };
   std::shared_ptr<const RasterGrid> acquire(Stack& stack);
   std::shared_ptr<const RasterGrid> makeGrid(const PieceStack& stack);

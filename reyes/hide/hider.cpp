@@ -48,9 +48,11 @@ bool Hider::hidden(const Bound2& raster, float zMin) const {
   return s.hides(Bound2{raster.lo - reach, raster.hi + reach}, impl_->camera.leastDepthKey(zMin));
 }
 
+bool Hider::hidden(const RasterExtent& extent) const { return impl_->samples.hides(extent.bound, extent.dMin); }
+
 void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
   SampleBuffer& s = impl_->samples;
-  if (s.hides(raster->bound, raster->dMin)) return;
+  if (hidden(*raster)) return;
   impl_->dropUnseen();
   const GridTable::Entry& entry = impl_->grids.add(raster, shutterTimes(impl_->scene, *raster->grid));
   const RasterJob job{*raster, impl_->grids, entry.firstCell, entry.keyTimes, impl_->camera, s};

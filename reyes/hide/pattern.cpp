@@ -90,24 +90,4 @@ int SamplePattern::patternOf(int x, int y) const {
   return static_cast<int>(hashCombine(seed_, static_cast<uint32_t>(x), static_cast<uint32_t>(y)) % static_cast<uint32_t>(patterns_));
 }
 
-const float* SamplePattern::x(int pattern) const {
-  return x_.data() + static_cast<ptrdiff_t>(pattern) * padded_;
-}
-const float* SamplePattern::y(int pattern) const {
-  return y_.data() + static_cast<ptrdiff_t>(pattern) * padded_;
-}
-const float* SamplePattern::time(int pattern) const {
-  return time_.data() + static_cast<ptrdiff_t>(pattern) * padded_;
-}
-const float* SamplePattern::lensX(int pattern) const {
-  return lensX_.data() + static_cast<ptrdiff_t>(pattern) * padded_;
-}
-const float* SamplePattern::lensY(int pattern) const {
-  return lensY_.data() + static_cast<ptrdiff_t>(pattern) * padded_;
-}
-
-const float* SamplePattern::detail(int pattern) const {
-  return detail_.data() + static_cast<ptrdiff_t>(pattern) * padded_;
-}
-
 }  // namespace tomales

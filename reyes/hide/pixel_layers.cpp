@@ -138,18 +138,22 @@ void PixelLayers::listLayers(std::span<const Sight> sights) {
 
 HWY_EXPORT(merge);
 void PixelLayers::order(std::vector<Sight>& sights, const Nearer& nearer) {
-  merged_.clear();
+  // Most are in order already, and stay where they are: `merged_` begins with the first that are not.
+  bool changed = false;
   for (std::span<const Sight> left(sights); !left.empty();) {
     const std::span<const Sight> run = nextRun(left);
+    const bool ordered = run.size() == 1 || !overlap(run) || inOrder(run);
+    if (!ordered && !changed) merged_.assign(sights.begin(), sights.end() - static_cast<ptrdiff_t>(left.size()));
+    changed |= !ordered;
     left = left.subspan(run.size());
-    if (run.size() == 1 || !overlap(run) || inOrder(run)) {
-      merged_.insert(merged_.end(), run.begin(), run.end());
-    } else {
+    if (!ordered) {
       listLayers(run);
       HWY_DYNAMIC_DISPATCH(merge)(queues_, run, nearer, merged_);
+    } else if (changed) {
+      merged_.insert(merged_.end(), run.begin(), run.end());
     }
   }
-  sights.swap(merged_);
+  if (changed) sights.swap(merged_);
 }
 
 }  // namespace tomales

@@ -38,6 +38,8 @@ class Lent {
 };
 
 class TileBuilder {
+  static constexpr size_t kAhead = 12;  ///< Films that are on their way while one is looked at.
+
  public:
   TileBuilder(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples, Scratch& scratch)
       : camera_(camera), grids_(grids), samples_(samples), scratch_(scratch), sights_(scratch.sights),
@@ -134,8 +136,12 @@ class TileBuilder {
   void seeFilms(size_t pixel) {
     const size_t first = pixel * static_cast<size_t>(samples_.lanes);
     const bool open = sights_.empty();
+    const std::vector<uint32_t>& order = scratch_.filmsOfPixel;
+    const Film* all = samples_.films.list.data();
     for (uint32_t k = scratch_.firstFilm[pixel]; k < scratch_.firstFilm[pixel + 1]; ++k) {
-      const Film& film = samples_.films.list[scratch_.filmsOfPixel[k]];
+      // Those of a pixel are scattered over the list, which is larger than a cache near the processor.
+      __builtin_prefetch(all + order[std::min(size_t{k} + kAhead, order.size() - 1)]);
+      const Film& film = all[order[k]];
       float* depths = samples_.films.depths.data() + film.firstDepth;
       // In place: a copy would wait for its parts to be written.
       Sight& sight = sights_.emplace_back();

@@ -56,10 +56,15 @@ bool GridTable::precedes(uint32_t a, uint32_t b) const {
 
 namespace {
 
-/// lanes: a multiple of kLanes.
-inline void shift(const float* from, float by, int lanes, float* __restrict to) {
-  for (int k = 0; k < lanes; k += kLanes)
-    for (int i = 0; i < kLanes; ++i) to[k + i] = by + from[k + i];
+/// The samples of a row of pixels, from the pattern of each.
+TOMALES_HOT void placeRow(const SamplePattern& pattern, const int* patternAt, const PixelRect& rect, int row, int lanes, float* __restrict x,
+                          float* __restrict y) {
+  for (int column = rect.x0; column < rect.x1; ++column, ++patternAt) {
+    const float *fromX = pattern.x(*patternAt), *fromY = pattern.y(*patternAt), byX = static_cast<float>(column), byY = static_cast<float>(row);
+    for (int k = 0; k < lanes; k += kLanes, x += kLanes, y += kLanes)
+#pragma GCC ivdep
+      for (int i = 0; i < kLanes; ++i) x[i] = byX + fromX[k + i], y[i] = byY + fromY[k + i];
+  }
 }
 
 }  // namespace
@@ -73,17 +78,15 @@ SampleBuffer::SampleBuffer(const SamplePattern& pattern, const Camera& camera, c
   cell.assign(count * width, kNoCell);
   far.assign(count, kNothing);
   nearer.assign(count, 0);
-  patternAt_.reserve(count), pixelOf.reserve(count * width / kLanes);
-  for (int row = rect.y0, p = 0; row < rect.y1; ++row)
-    for (int column = rect.x0; column < rect.x1; ++column, ++p) {
-      const int at = pattern.patternOf(column, row);
-      patternAt_.push_back(at);
-      pixelOf.insert(pixelOf.end(), width / kLanes, static_cast<uint32_t>(p));
-      const size_t first = static_cast<size_t>(p) * width;
-      shift(pattern.x(at), static_cast<float>(column), lanes, x.data() + first);
-      shift(pattern.y(at), static_cast<float>(row), lanes, y.data() + first);
-      std::fill_n(depth.data() + first + samples, width - samples, -kInfinity);
-    }
+  patternAt_.reserve(count), pixelOf.resize(count * width / kLanes);
+  for (size_t p = 0, k = 0; p < count; ++p)
+    for (const size_t end = k + width / kLanes; k < end; ++k) pixelOf[k] = static_cast<uint32_t>(p);
+  for (int row = rect.y0; row < rect.y1; ++row) {
+    const size_t first = patternAt_.size();
+    for (int column = rect.x0; column < rect.x1; ++column) patternAt_.push_back(pattern.patternOf(column, row));
+    placeRow(pattern, patternAt_.data() + first, rect, row, lanes, x.data() + first * width, y.data() + first * width);
+  }
+  for (size_t p = 0; p < count && samples < width; ++p) std::fill_n(depth.data() + p * width + samples, width - samples, -kInfinity);
 }
 
 void SampleBuffer::showBlur() {
@@ -107,13 +110,6 @@ std::vector<uint32_t> SampleBuffer::seen() const {
     for (const Film& film : covered->list) out.push_back(film.cell);
   std::sort(out.begin(), out.end());
   return out;
-}
-
-bool SampleBuffer::hides(const PixelRect& pixels, float d) const {
-  for (int row = pixels.y0; row < pixels.y1; ++row)
-    for (int column = pixels.x0; column < pixels.x1; ++column)
-      if (!(far[pixelIndex(column, row)] < d)) return false;
-  return true;
 }
 
 bool SampleBuffer::hides(const Bound2& bound, float d) const {

@@ -88,7 +88,12 @@ struct SampleBuffer {
   /// All cells that some sample sees or, of solids, may see, sorted.
   std::vector<uint32_t> seen() const;
   /// Is every sample of the pixels nearer than depth key d?
-  bool hides(const PixelRect& pixels, float d) const;
+  bool hides(const PixelRect& pixels, float d) const {
+    for (int row = pixels.y0; row < pixels.y1; ++row)
+      for (int column = pixels.x0; column < pixels.x1; ++column)
+        if (!(far[pixelIndex(column, row)] < d)) return false;
+    return true;
+  }
   /// Is every sample within a raster bound? Those of a few pixels are asked one by one, as what is smaller than their distance lies mostly
   /// between them.
   bool hides(const Bound2& bound, float d) const;

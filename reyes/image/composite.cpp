@@ -110,15 +110,19 @@ void Compositor::extraValues(const DeepTile& tile, const Fragment& fragment, flo
   }
 }
 
-/// Facets of one point show the same to all fragments: gathered once, in their order. Others have a place, and nothing there.
 void Compositor::shadeFacets(const DeepTile& tile) {
   shades_.resize(tile.facets.size());
-  for (size_t i = 0; i < shades_.size(); ++i)
-    if (const Facet& facet = tile.facets[i]; isConstant(facet)) shades_[i] = blendedShade(tile, facet, Blend());
+  for (size_t i = 0; i < shades_.size(); ++i) {
+    KnownShade& s = shades_[i];
+    const Facet& facet = tile.facets[i];
+    s.known = isConstant(facet);
+    if (s.known) s.shade = blendedShade(tile, facet, Blend()), s.deep = hasDepth(s.shade);
+  }
 }
 
-FacetShade Compositor::shadeOf(const DeepTile& tile, const Fragment& fragment) const {
-  return isConstant(tile.facets[fragment.facet]) ? shades_[fragment.facet] : facetShade(tile, fragment);
+Compositor::KnownShade Compositor::blended(const DeepTile& tile, const Fragment& fragment) const {
+  const FacetShade shade = facetShade(tile, fragment);
+  return {shade, true, hasDepth(shade)};
 }
 
 ResolvedTile Compositor::resolve(const DeepTile& tile) {
@@ -131,7 +135,8 @@ ResolvedTile Compositor::resolve(const DeepTile& tile) {
     out.first.push_back(static_cast<uint32_t>(out.contributions.size()));
     const Fragment* begin = tile.fragments.data() + pixel.first;
     const Fragment* end = begin + pixel.count;
-    if (disjoint(begin, end))
+    if (begin == end) continue;
+    if (end - begin == 1 || disjoint(begin, end))
       resolveEach(tile, begin, end, out);
     else
       resolveStack(tile, begin, end, out);
@@ -150,8 +155,8 @@ float* Compositor::room(size_t contributions, ResolvedTile& out) const {
 void Compositor::resolveEach(const DeepTile& tile, const Fragment* begin, const Fragment* end, ResolvedTile& out) {
   float* value = room(static_cast<size_t>(end - begin), out);
   for (const Fragment* f = begin; f != end; ++f, value += width()) {
-    const FacetShade s = shadeOf(tile, *f);
-    out.contributions.push_back({f->samples, f->word, f->z, hasDepth(s) ? f->z : kInfinity});
+    const auto [s, known, deep] = shadeOf(tile, *f);
+    out.contributions.push_back({f->samples, f->word, f->z, deep ? f->z : kInfinity});
     value[0] = s.color.x, value[1] = s.color.y, value[2] = s.color.z, value[3] = meanOf(s.coverage);
     if (!extras_.empty()) extraValues(tile, *f, value + 4);
   }
@@ -175,16 +180,23 @@ void Compositor::noteDepth(const DeepTile& tile, const Fragment& f) {
 void Compositor::resolveStack(const DeepTile& tile, const Fragment* begin, const Fragment* end, ResolvedTile& out) {
   for (Contribution& s : samples_) s = {0, 0, kInfinity};
   const bool withAir = hasAir(tile);
+  stack_.hidden = vec3(1.0f) - options_.opaqueThreshold;
   stack_.reset(samples_.size(), static_cast<size_t>(width()), withAir);
-  const vec3 hidden = vec3(1.0f) - options_.opaqueThreshold;
+  const bool atOnce = extras_.empty() && !withAir;
+  lays_.clear();
   for (const Fragment* f = begin; f != end; ++f) {
-    FacetShade shade = shadeOf(tile, *f);
-    if (hasDepth(shade)) noteDepth(tile, *f);
-    if (!extras_.empty()) extraValues(tile, *f, facetValues_.data());
+    auto [shade, known, deep] = shadeOf(tile, *f);
+    if (deep) noteDepth(tile, *f);
     const Air air = withAir ? takeAir(tile, *f, shade) : Air{};
-    stack_.lay({f->samples, f->word, shade.color, shade.opacity, shade.coverage, hidden, f->z, extras_, facetValues_.data(), withAir ? &air : nullptr});
+    const Lay& lay = lays_.emplace_back(Lay{f->samples, shade.color, shade.opacity, shade.coverage, f->z, f->word});
+    if (atOnce) continue;
+    extraValues(tile, *f, facetValues_.data());
+    stack_.lay(lay, {extras_, facetValues_.data(), withAir ? &air : nullptr});
   }
-  stack_.addAir();
+  if (atOnce)
+    stack_.layAll(lays_);
+  else
+    stack_.addAir();
   size_t seeing = 0;
   for (const uint64_t word : seen_) seeing += static_cast<size_t>(std::popcount(word));
   float* value = room(seeing, out);

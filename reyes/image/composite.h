@@ -42,9 +42,19 @@ class Compositor {
   void layers(const DeepTile& tile, const DeepPixel& pixel, const Visit& visit);
 
  private:
+  /// What a facet of one point shows, to all fragments alike; nothing of others.
+  struct KnownShade {
+    FacetShade shade;
+    bool known = false;
+    bool deep = false;  ///< hasDepth
+  };
   void shadeFacets(const DeepTile& tile);
   /// After shadeFacets().
-  FacetShade shadeOf(const DeepTile& tile, const Fragment& fragment) const;
+  KnownShade shadeOf(const DeepTile& tile, const Fragment& fragment) const {
+    const KnownShade& known = shades_[fragment.facet];
+    return known.known ? known : blended(tile, fragment);
+  }
+  KnownShade blended(const DeepTile& tile, const Fragment& fragment) const;
   /// What `shade` has of air, which is taken off it: that of all but the last thing that a sample sees.
   static Air takeAir(const DeepTile& tile, const Fragment& fragment, FacetShade& shade);
   bool disjoint(const Fragment* begin, const Fragment* end);
@@ -57,7 +67,7 @@ class Compositor {
 
   const Options& options_;
   std::vector<ExtraFloat> extras_;
-  std::vector<FacetShade> shades_;      ///< Of all facets of a tile, those of one point.
+  std::vector<KnownShade> shades_;      ///< Of all facets of a tile.
   std::vector<uint64_t> seen_;          ///< Samples that any fragment covers.
   /// What a sample saw last while layers() runs, and through what.
   struct Last {
@@ -69,6 +79,7 @@ class Compositor {
   std::vector<Contribution> samples_;   ///< Of every sample, while a stack is resolved,
   std::vector<int> batchOf_;            ///< where their z is from,
   SampleStack stack_;                   ///< and what they see.
+  std::vector<Lay> lays_;
   std::vector<float> facetValues_;
 };
 

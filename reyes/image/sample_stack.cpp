@@ -9,13 +9,36 @@ namespace tomales {
 namespace HWY_NAMESPACE {
 namespace {
 
+/// Which of a vector of samples, from `first` on, a lay covers. None: false.
+HWY_INLINE bool coveredFrom(const Lay& l, size_t first, Mask& covered) {
+  if (l.word != first / 64) return false;
+  const uint64_t samples = l.samples >> first % 64 & ((uint64_t{1} << hn::Lanes(kF)) - 1);
+  covered = hn::LoadMaskBits(kF, reinterpret_cast<const uint8_t*>(&samples));
+  return samples != 0;
+}
+
+/// The share of light that passes what was laid so far over a vector of samples.
+struct Clear {
+  Floats x, y, z;
+
+  HWY_INLINE Mask atMost(const vec3& least) const {
+    return hn::And(hn::And(hn::Le(x, all(least.x)), hn::Le(y, all(least.y))), hn::Le(z, all(least.z)));
+  }
+  HWY_INLINE Floats mean(const vec3& v) const {
+    return hn::Div(hn::Add(hn::Add(hn::Mul(x, all(v.x)), hn::Mul(y, all(v.y))), hn::Mul(z, all(v.z))), all(3.0f));
+  }
+  HWY_INLINE Clear behind(const vec3& opacity) const {
+    return {hn::Mul(x, all(1.0f - opacity.x)), hn::Mul(y, all(1.0f - opacity.y)), hn::Mul(z, all(1.0f - opacity.z))};
+  }
+};
+
 /// A vector of samples.
-void layAt(const Lay& l, uint64_t samples, SampleStack& stack, size_t first) {
+void layAt(const Lay& l, const LayMore& more, Mask covered, SampleStack& stack, size_t first) {
   float *cx = stack.clear[0].data() + first, *cy = stack.clear[1].data() + first, *cz = stack.clear[2].data() + first;
   float *nearest = stack.nearest.data() + first, *values = stack.values.data() + first;
-  const Floats x = hn::Load(kF, cx), y = hn::Load(kF, cy), z = hn::Load(kF, cz), before = hn::Load(kF, nearest);
-  const Mask hidden = hn::And(hn::And(hn::Le(x, all(l.hidden.x)), hn::Le(y, all(l.hidden.y))), hn::Le(z, all(l.hidden.z)));
-  const Mask on = hn::AndNot(hidden, hn::LoadMaskBits(kF, reinterpret_cast<const uint8_t*>(&samples)));
+  const Clear clear{hn::Load(kF, cx), hn::Load(kF, cy), hn::Load(kF, cz)};
+  const Floats before = hn::Load(kF, nearest);
+  const Mask on = hn::AndNot(clear.atMost(stack.hidden), covered);
   // Whole vectors: the next layer reads them back, and could not from a masked store that is still on its way.
   const auto put = [](Floats v, Mask where, Floats old, float* to) { hn::Store(hn::IfThenElse(where, v, old), kF, to); };
   const auto add = [&](size_t k, Floats v) {
@@ -23,41 +46,60 @@ void layAt(const Lay& l, uint64_t samples, SampleStack& stack, size_t first) {
     const Floats sum = hn::Load(kF, to);
     put(hn::Add(sum, v), on, sum, to);
   };
-  for (size_t e = 0; e < l.extras.size(); ++e) {
-    const Floats v = all(l.extraValues[e]);
-    const int axis = l.extras[e].component % 3;
-    if (l.extras[e].composited) {
-      add(4 + e, hn::Mul(axis == 0 ? x : axis == 1 ? y : z, v));
+  for (size_t e = 0; e < more.extras.size(); ++e) {
+    const Floats v = all(more.extraValues[e]);
+    const int axis = more.extras[e].component % 3;
+    if (more.extras[e].composited) {
+      add(4 + e, hn::Mul(axis == 0 ? clear.x : axis == 1 ? clear.y : clear.z, v));
     } else {
       float* to = values + (4 + e) * stack.lanes;
       put(v, hn::And(on, hn::Eq(before, all(kInfinity))), hn::Load(kF, to), to);
     }
   }
-  add(0, hn::Mul(x, all(l.color.x)));
-  add(1, hn::Mul(y, all(l.color.y)));
-  add(2, hn::Mul(z, all(l.color.z)));
-  const auto mean = [&](const vec3& v) {
-    return hn::Div(hn::Add(hn::Add(hn::Mul(x, all(v.x)), hn::Mul(y, all(v.y))), hn::Mul(z, all(v.z))), all(3.0f));
-  };
-  add(3, mean(l.coverage));
-  if (l.air) {
-    const Floats seen[4] = {hn::Mul(x, all(l.air->color.x)), hn::Mul(y, all(l.air->color.y)), hn::Mul(z, all(l.air->color.z)), mean(l.air->opacity)};
+  add(0, hn::Mul(clear.x, all(l.color.x)));
+  add(1, hn::Mul(clear.y, all(l.color.y)));
+  add(2, hn::Mul(clear.z, all(l.color.z)));
+  add(3, clear.mean(l.coverage));
+  if (more.air) {
+    const vec3& color = more.air->color;
+    const Floats seen[4] = {hn::Mul(clear.x, all(color.x)), hn::Mul(clear.y, all(color.y)), hn::Mul(clear.z, all(color.z)), clear.mean(more.air->opacity)};
     for (size_t k = 0; k < 4; ++k) {
       float* to = stack.air[k].data() + first;
       put(seen[k], on, hn::Load(kF, to), to);
     }
   }
   put(hn::Min(before, all(l.z)), on, before, nearest);
-  put(hn::Mul(x, all(1.0f - l.opacity.x)), on, x, cx);
-  put(hn::Mul(y, all(1.0f - l.opacity.y)), on, y, cy);
-  put(hn::Mul(z, all(1.0f - l.opacity.z)), on, z, cz);
+  const Clear behind = clear.behind(l.opacity);
+  put(behind.x, on, clear.x, cx), put(behind.y, on, clear.y, cy), put(behind.z, on, clear.z, cz);
 }
 
-void lay(const Lay& l, SampleStack& stack) {
-  const size_t first = size_t{l.word} * 64, lanes = hn::Lanes(kF);
-  for (size_t g = 0; g < 64; g += lanes) {
-    const uint64_t samples = l.samples >> g & ((uint64_t{1} << lanes) - 1);
-    if (samples) layAt(l, samples, stack, first + g);
+void lay(const Lay& l, const LayMore& more, SampleStack& stack) {
+  Mask covered;
+  for (size_t first = size_t{l.word} * 64; first < std::min(size_t{l.word} * 64 + 64, stack.lanes); first += hn::Lanes(kF))
+    if (coveredFrom(l, first, covered)) layAt(l, more, covered, stack, first);
+}
+
+/// The same arithmetic in the same order, a vector of samples after the other: nothing is stored before the last fragment.
+void layAll(std::span<const Lay> lays, SampleStack& stack) {
+  for (size_t first = 0; first < stack.lanes; first += hn::Lanes(kF)) {
+    Clear clear{all(1.0f), all(1.0f), all(1.0f)};
+    Floats nearest = all(kInfinity), r = all(0.0f), g = r, b = r, a = r;
+    Mask covered;
+    for (const Lay& l : lays) {
+      if (!coveredFrom(l, first, covered)) continue;
+      const Mask on = hn::AndNot(clear.atMost(stack.hidden), covered);
+      const auto add = [on](Floats& sum, Floats v) { sum = hn::IfThenElse(on, hn::Add(sum, v), sum); };
+      add(r, hn::Mul(clear.x, all(l.color.x)));
+      add(g, hn::Mul(clear.y, all(l.color.y)));
+      add(b, hn::Mul(clear.z, all(l.color.z)));
+      add(a, clear.mean(l.coverage));
+      nearest = hn::IfThenElse(on, hn::Min(nearest, all(l.z)), nearest);
+      const Clear behind = clear.behind(l.opacity);
+      clear = {hn::IfThenElse(on, behind.x, clear.x), hn::IfThenElse(on, behind.y, clear.y), hn::IfThenElse(on, behind.z, clear.z)};
+    }
+    hn::Store(nearest, kF, stack.nearest.data() + first);
+    size_t k = 0;
+    for (const Floats& v : {r, g, b, a}) hn::Store(v, kF, stack.values.data() + stack.lanes * k++ + first);
   }
 }
 
@@ -83,7 +125,9 @@ void SampleStack::addAir() {
 }
 
 HWY_EXPORT(lay);
-void SampleStack::lay(const Lay& l) { HWY_DYNAMIC_DISPATCH(lay)(l, *this); }
+HWY_EXPORT(layAll);
+void SampleStack::lay(const Lay& l, const LayMore& more) { HWY_DYNAMIC_DISPATCH(lay)(l, more, *this); }
+void SampleStack::layAll(std::span<const Lay> lays) { HWY_DYNAMIC_DISPATCH(layAll)(lays, *this); }
 
 }  // namespace tomales
 #endif

@@ -23,13 +23,15 @@ struct Air {
 /// What a fragment shows to some samples. Coverage is its opacity, or 0 where it is matte.
 struct Lay {
   uint64_t samples;
-  uint16_t word;
   vec3 color, opacity, coverage;
-  vec3 hidden;  ///< A sample that lets no more light through sees nothing of it.
   float z;
+  uint16_t word;
+};
+/// What else it shows.
+struct LayMore {
   std::span<const ExtraFloat> extras;
   const float* extraValues;
-  const Air* air = nullptr;  ///< Left out of the above. Null: there is none in all of the tile.
+  const Air* air = nullptr;  ///< Left out of color, opacity and coverage. Null: there is none in all of the tile.
 };
 
 /// Arrays have a lane for each sample.
@@ -39,11 +41,14 @@ struct SampleStack {
   AlignedVector<float> values;    ///< An array of lanes for each float of a contribution.
   AlignedVector<float> air[4];    ///< R G B A of the air before what was laid last, beside it; empty where no tile has any.
   size_t lanes = 0;
+  vec3 hidden;                    ///< A sample that lets no more light through sees nothing of what follows.
 
   /// samples: a multiple of kLanes.
   void reset(size_t samples, size_t floats, bool withAir);
   /// "Over", with an opacity for each channel.
-  void lay(const Lay& l);
+  void lay(const Lay& l, const LayMore& more);
+  /// Instead, all of a pixel that has nothing else to show. Leaves `values` and `nearest`.
+  void layAll(std::span<const Lay> lays);
   /// After the last: nothing follows that would bring its air.
   void addAir();
 };

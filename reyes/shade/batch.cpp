@@ -4,12 +4,15 @@
 
 #include <utility>
 
+#include "reyes/shade/elsewhere.h"
 #include "reyes/shade/illuminate.h"
 
 namespace tomales {
 
 Batch::Batch(const BoundScene& s, const BoundGroup& g, const ShadeContext& c, Arena& a)
     : scene(s), group(g), context(c), arena(a) {}
+
+Batch::~Batch() = default;
 
 TmConstVec3 Batch::constant(const vec3& v) {
   const TmVec3 out = arena.vec3(tm.count);
@@ -111,6 +114,22 @@ void Batch::closeOutputs(const std::vector<BoundVariable>& variables, ShadedPoin
   for (const BoundVariable& v : variables)
     for (int k = 0; v.from == BoundVariable::From::Output && k < v.width; ++k)
       std::copy_n(params_[static_cast<size_t>(v.index)].c[k], n, out.variables[static_cast<size_t>(v.first + k)].data() + begin);
+}
+
+void Batch::setElsewhere(const Batch& asking, const TmGrid* g, const ShadePoints& moved) {
+  own = asking.own, running = asking.running;
+  points = &moved;
+  tm = asking.tm;
+  tm.host = this;
+  uint8_t* active = arena.bytes(tm.padded);
+  std::copy_n(g->active, moved.count(), active);
+  tm.active = active;
+  const auto copy = [&](int channel) {
+    const TmVec3 to = arena.vec3(tm.count);
+    for (int i = 0; i < moved.count(); ++i) set(to, i, moved.get3(channel, i));
+    return to;
+  };
+  tm.P = copy(kPx), tm.N = copy(kNx), tm.Ng = view(copy(kNgx));
 }
 
 void Batch::setLit(const LightProbe& probe, const BoundShader& shader) {

@@ -9,11 +9,14 @@
 
 namespace tomales {
 
+struct Elsewhere;
+
 extern const TmServices kServices;  ///< services.cpp; every function takes a Batch as host.
 
 class Batch {
  public:
   Batch(const BoundScene& scene, const BoundGroup& group, const ShadeContext& context, Arena& arena);
+  ~Batch();
   Batch(const Batch&) = delete;
 
   /// Inputs of a surface or volume shader from points, outputs of `count` floats from element `begin`. Adds neighbours where the
@@ -27,6 +30,8 @@ class Batch {
   /// Inputs and outputs of a displacement shader: motion key 0 of a grid.
   void setGrid(Grid& grid, const BoundShader& shader, const std::vector<Override>& overrides);
 
+  /// As a batch whose shader asks for light at `moved`, of its own points: what lights see of the surface and its shader. `g` has the mask.
+  void setElsewhere(const Batch& asking, const TmGrid* g, const ShadePoints& moved);
   /// Inputs of a light shader: points that nothing shades.
   void setLit(const LightProbe& probe, const BoundShader& shader);
   /// Inputs and outputs of an imager shader.
@@ -56,6 +61,8 @@ class Batch {
   const BoundShader* running = nullptr;
   const BoundShader* own = nullptr;     ///< What the batch has been set for; `running` is another while lights are evaluated.
   Lights lights;
+  std::vector<std::unique_ptr<Elsewhere>> elsewhere;  ///< The latest first (elsewhere.h).
+  int placesAsked = 0;                                ///< Of them.
 
   /// The last indirect gather: an indirect light runs once a colour channel and asks for the same three
   /// times.

@@ -9,26 +9,51 @@ namespace {
 
 /// Differences along the lattice: a displacement shader sees no better derivatives than its grid has. `d` is the change of the
 /// parameter `of` over a micropolygon; 1 where it does not change along this direction, as at points that are shaded.
-void derivatives(const Grid& g, const Stencil& stencil, int direction, const float* of, float* d, TmVec3 dP) {
-  for (int i = 0; i < g.vertexCount(); ++i) {
-    const float step = stencil.step(direction, of, i);
-    d[i] = step != 0 ? step : 1.0f;
-    set(dP, i, vec3(stencil.step(direction, g.P(0, 0), i), stencil.step(direction, g.P(0, 1), i), stencil.step(direction, g.P(0, 2), i)) / d[i]);
+TOMALES_HOT void derivatives(int n, const Stencil& stencil, int direction, const float* of, TmConstVec3 P, float* __restrict d, TmVec3 dP) {
+  const int32_t *lo = stencil.lo[direction], *hi = stencil.hi[direction];
+  const auto next = static_cast<float>(stencil.next[direction]);
+  float *__restrict x = dP.x, *__restrict y = dP.y, *__restrict z = dP.z;
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const int a = lo[i], b = hi[i];
+    const auto span = static_cast<float>(b - a);
+    const float step = (of[b] - of[a]) * next / span, by = step != 0 ? step : 1.0f;
+    d[i] = by;
+    x[i] = (P.x[b] - P.x[a]) * next / span / by, y[i] = (P.y[b] - P.y[a]) * next / span / by, z[i] = (P.z[b] - P.z[a]) * next / span / by;
   }
+}
+
+/// Attributes::textureAt of all vertices.
+TOMALES_HOT void textureCoordinates(int n, const std::array<vec2, 4>& corners, const float* u, const float* v, float* __restrict s, float* __restrict t) {
+  const auto mix = [](float a, float b, float at) { return a * (1.0f - at) + b * at; };
+  const vec2 c0 = corners[0], c1 = corners[1], c2 = corners[2], c3 = corners[3];
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    s[i] = mix(mix(c0.x, c1.x, u[i]), mix(c2.x, c3.x, u[i]), v[i]);
+    t[i] = mix(mix(c0.y, c1.y, u[i]), mix(c2.y, c3.y, u[i]), v[i]);
+  }
+}
+
+/// The longest way from one place to another.
+TOMALES_HOT float longestWay(int n, TmConstVec3 from, TmConstVec3 to) {
+  float longest2[kLanes] = {};
+  for (int first = 0; first < n; first += kLanes)  // arrays are padded
+    for (int k = 0; k < kLanes; ++k) {
+      const int i = first + k;
+      const float x = to.x[i] - from.x[i], y = to.y[i] - from.y[i], z = to.z[i] - from.z[i], length2 = x * x + y * y + z * z;
+      longest2[k] = (i < n) & (longest2[k] < length2) ? length2 : longest2[k];
+    }
+  return std::sqrt(*std::max_element(longest2, longest2 + kLanes));
 }
 
 /// Applies P - before to the later motion keys, turned as the object turns; returns the longest displacement.
 float moveLaterKeys(Grid& g, TmConstVec3 before) {
-  float longest2 = 0;
-  for (int i = 0; i < g.vertexCount(); ++i) {
-    const vec3 offset = g.position(0, i) - get(before, i);
-    longest2 = std::max(longest2, dot(offset, offset));
-    for (int key = 1; key < g.keyCount; ++key) {
-      const vec3 turned = g.turns.empty() ? offset : g.turns[static_cast<size_t>(key)] * offset;
+  for (int key = 1; key < g.keyCount; ++key)
+    for (int i = 0; i < g.vertexCount(); ++i) {
+      const vec3 offset = g.position(0, i) - get(before, i), turned = g.turns.empty() ? offset : g.turns[static_cast<size_t>(key)] * offset;
       for (int axis = 0; axis < 3; ++axis) g.P(key, axis)[i] += turned[axis];
     }
-  }
-  return std::sqrt(longest2);
+  return longestWay(g.vertexCount(), before, {g.P(0, 0), g.P(0, 1), g.P(0, 2)});
 }
 
 void checkBound(const BoundScene& scene, const Object& object, float longest) {
@@ -43,9 +68,19 @@ void checkBound(const BoundScene& scene, const Object& object, float longest) {
                                objectName(object), needed, space));
 }
 
+TOMALES_HOT bool allFinite(const Grid& g) {
+  int bad = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float *P = g.P(0, axis), *N = g.N(axis);
+    for (int i = 0, n = g.vertexCount(); i < n; ++i) bad |= !(std::abs(P[i]) < kInfinity) | !(std::abs(N[i]) < kInfinity);
+  }
+  return bad == 0;
+}
+
 /// Undoes what is not finite, so that one bad vertex does not tear the mesh to infinity.
 void repair(Batch& batch, Grid& g, TmConstVec3 P, TmConstVec3 N, bool all) {
   bool bad = false;
+  if (!all && allFinite(g)) return;
   for (int i = 0; i < g.vertexCount(); ++i) {
     const bool finite = isFinite(g.position(0, i)) && isFinite(g.normal(i));
     bad = bad || !finite;
@@ -70,14 +105,16 @@ void Batch::setGrid(Grid& g, const BoundShader& shader, const std::vector<Overri
   calculateNormals(g, scene.scene.objects[static_cast<size_t>(g.object)].flipsNormal, Ng.x, Ng.y, Ng.z);
   stencil = stencilOf(g, arena);
   float *s = arena.floats(n), *t = arena.floats(n), *du = arena.floats(n), *dv = arena.floats(n);
-  const auto& corners = group.group->attributes->textureCoordinates;
-  derivatives(g, stencil, 0, g.u(), du, dPdu);
-  derivatives(g, stencil, 1, g.v(), dv, dPdv);
-  for (int i = 0; i < n; ++i) {
-    set(I, i, scene.camera.incident(g.position(0, i)));
-    const float u = g.u()[i], v = g.v()[i];
-    const vec2 st = glm::mix(glm::mix(corners[0], corners[1], u), glm::mix(corners[2], corners[3], u), v);
-    s[i] = st.x, t[i] = st.y;
+  const TmConstVec3 P = view(tm.P);
+  derivatives(n, stencil, 0, g.u(), P, du, dPdu);
+  derivatives(n, stencil, 1, g.v(), P, dv, dPdv);
+  textureCoordinates(n, group.group->attributes->textureCoordinates, g.u(), g.v(), s, t);
+  const bool perspective = scene.camera.perspective();
+  for (const auto& [to, from, parallel] : {std::tuple(I.x, P.x, 0.0f), std::tuple(I.y, P.y, 0.0f), std::tuple(I.z, P.z, 1.0f)}) {
+    if (perspective)
+      std::copy_n(from, n, to);
+    else
+      std::fill_n(to, n, parallel);
   }
   tm.Ng = view(Ng), tm.I = view(I), tm.dPdu = view(dPdu), tm.dPdv = view(dPdv);
   tm.s = group.sOffset < 0 ? s : g.primvar(group.sOffset);
@@ -98,7 +135,9 @@ void ShadingSystem::displace(Grid& grid) const {
   batch.setGrid(grid, *group.displacement, group.displacementOverrides);
   const int n = grid.vertexCount();
   const TmVec3 P = (*arena).vec3(n), N = (*arena).vec3(n);
-  for (int i = 0; i < n; ++i) set(P, i, grid.position(0, i)), set(N, i, grid.normal(i));
+  for (const auto& [to, from] : {std::pair(P.x, grid.P(0, 0)), std::pair(P.y, grid.P(0, 1)), std::pair(P.z, grid.P(0, 2)),
+                                 std::pair(N.x, grid.N(0)), std::pair(N.y, grid.N(1)), std::pair(N.z, grid.N(2))})
+    std::copy_n(from, n, to);
 
   const ShaderTimer timer(scene.stats, *group.displacement, n);
   const bool finished = batch.run(*group.displacement, batch.tm);

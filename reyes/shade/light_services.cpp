@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "reyes/base/rng.h"
+#include "reyes/shade/elsewhere.h"
 #include "reyes/shade/illuminate.h"
 #include "reyes/shade/primary.h"
 
@@ -77,10 +78,12 @@ bool matchesTerm(std::string_view categories, std::string_view term) {
 }
 
 /// Points that see a sample within the cone of an illuminance statement.
-const uint8_t* litPoints(Batch& batch, const TmGrid* g, const TmIlluminance& cone, const LightSample& sample) {
-  uint8_t* lit = batch.arena.bytes(batch.tm.count);
+const uint8_t* litPoints(Batch& place, const TmGrid* g, const TmIlluminance& cone, const LightSample& sample) {
+  uint8_t* lit = place.arena.bytes(place.tm.count);
   const float least = std::cos(cone.angle);
-  forActive(g, [&](int i) { lit[i] = !cone.axis.x || dot(normalizeOr(get(cone.axis, i), vec3(0)), get(sample.L, i)) >= least; });
+  forActive(g, [&](int i) {
+    lit[i] = !cone.axis.x || dot(normalizeOr(get(cone.axis, i), vec3(0)), get(sample.L, i)) >= (cone.angles ? std::cos(cone.angles[i]) : least);
+  });
   return lit;
 }
 
@@ -148,24 +151,26 @@ bool inCategory(std::string_view categories, std::string_view expression) {
   return false;
 }
 
-int32_t illuminance(void* host, const TmGrid* g, TmIlluminance* query) {
+int32_t illuminance(void* host, const TmGrid* g, TmIlluminance* out) {
   Batch& batch = batchOf(host);
-  std::vector<LightSample>& samples = batch.lights.samples(batch);
-  const std::string_view category = query->category ? query->category : "";
-  auto next = static_cast<size_t>(std::max(query->next, 0));
+  const auto query = givenOptions<TmIlluminance>({}, out);
+  Batch& place = placeOf(batch, g, query);
+  std::vector<LightSample>& samples = place.lights.samples(place);
+  const std::string_view category = query.category ? query.category : "";
+  auto next = static_cast<size_t>(std::max(query.next, 0));
   while (next < samples.size() && !inCategory(samples[next].light->category, category)) ++next;
   if (next >= samples.size()) return 0;
   LightSample& sample = samples[next];
   const Primary primary(batch, g);
-  const uint8_t* lit = litPoints(batch, primary.grid(), *query, sample);
-  batch.lights.shadow(batch, sample, lit);
+  const uint8_t* lit = litPoints(place, primary.grid(), query, sample);
+  place.lights.shadow(place, sample, lit);
   const bool distant = sample.light->can(TM_LIGHT_SOLAR) || sample.light->can(TM_LIGHT_INDIRECT);
   const TmVec3 L = distant ? sample.L : sample.far;
   primary.spread(L), primary.spread(sample.Cl), primary.spread(const_cast<uint8_t*>(lit));
-  query->next = static_cast<int32_t>(next) + 1, query->light = static_cast<int32_t>(next);
-  query->L = view(L), query->Cl = view(sample.Cl), query->lit = lit;
-  query->isIndirect = sample.light->can(TM_LIGHT_INDIRECT);
-  query->nondiffuse = sample.light->nondiffuse, query->nonspecular = sample.light->nonspecular;
+  out->next = static_cast<int32_t>(next) + 1, out->light = lightNumber(batch, place, next);
+  out->L = view(L), out->Cl = view(sample.Cl), out->lit = lit;
+  out->isIndirect = sample.light->can(TM_LIGHT_INDIRECT);
+  out->nondiffuse = sample.light->nondiffuse, out->nonspecular = sample.light->nonspecular;
   return 1;
 }
 

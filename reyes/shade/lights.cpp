@@ -1,8 +1,12 @@
 #include "reyes/shade/lights.h"
 
+#include <fmt/format.h>
+
 #include "reyes/base/rng.h"
 #include "reyes/shade/batch.h"
 #include "reyes/shade/illuminate.h"
+#include "reyes/shade/light_services.h"
+#include "reyes/shade/parameter_values.h"
 #include "reyes/shade/primary.h"
 
 namespace tomales {
@@ -12,7 +16,7 @@ namespace {
 bool isOn(const BoundLight& light, const Batch& batch) {
   if (!(batch.context.kind == RayKind::Diffuse ? light.indirect : light.direct)) return false;
   if (!light.can(TM_LIGHT_INDIRECT)) return batch.context.direct || batch.context.kind != RayKind::Camera;
-  return batch.context.indirect && batch.group.group->attributes->indirect.receive;
+  return batch.context.indirect && batch.group.group->attributes->indirect.receive && !(batch.points && batch.points->inAir());
 }
 
 bool applies(const BoundLight& light, const Batch& batch) {
@@ -141,7 +145,7 @@ std::vector<LightSample>& Lights::samples(Batch& batch) {
     evaluated_ = true;
     if (batch.points && batch.context.light != Illumination::Lights) substitute(batch);
     for (const BoundLight* light : batch.group.lights)
-      if (!light->can(TM_LIGHT_AMBIENT) && applies(*light, batch)) evaluate(batch, *light);
+      if (!light->can(TM_LIGHT_AMBIENT) && applies(*light, batch) && (!request_ || inCategory(light->category, request_->category))) evaluate(batch, *light);
   }
   if (!group_) return samples_;
   // Copies share the arrays: what has been traced for one is traced for all.
@@ -164,6 +168,20 @@ void Lights::substitute(Batch& batch) {
   samples_.push_back({&batch.scene.stored, L, Cl, L, {}, nullptr, 0, nullptr, nullptr, L});
 }
 
+void Lights::tell(Batch& batch, const BoundShader& light, std::vector<TmValue>& params) const {
+  if (!request_) return;
+  for (const LightMessage& m : request_->sent)
+    for (size_t k = 0; k < params.size(); ++k) {
+      const TmParamDecl& decl = light.shader->params[k];
+      if (decl.name != m.name || isOutput(decl)) continue;
+      const bool fits = floatsOf(typeOf(decl)) == floatsOf(m.type) && decl.arrayLength == 1 && (m.value.step == 0 || !isUniform(decl));
+      if (!fits)
+        batch.report(Severity::Warning, "shader-sends", fmt::format("sends lights a \"{}\" of another type than \"{}\" has; it keeps its own", m.name, light.shader->name));
+      else
+        params[k] = m.value, params[k].string = m.type == TM_STRING ? m.text.c_str() : nullptr;
+    }
+}
+
 void Lights::evaluate(Batch& batch, const BoundLight& light) {
   const bool area = light.can(TM_LIGHT_AREA), sky = light.can(TM_LIGHT_SKY);
   const int n = samplesOf(light, batch);
@@ -173,6 +191,7 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
   for (int s = 0; s < n; ++s) {
     TmGrid g = lightGrid(batch, light);
     openOutputs(batch, *light.bound, params_.emplace_back(light.bound->values));
+    tell(batch, *light.bound, params_.back());
     g.params = params_.back().data();
     g.sample = s, g.samples = n;
     EmitterPoints points{};

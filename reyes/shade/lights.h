@@ -12,6 +12,21 @@ namespace tomales {
 
 class Batch;
 struct BoundLight;
+struct BoundShader;
+
+/// A parameter that the asking shader sends to lights; the arrays are others'.
+struct LightMessage {
+  std::string name;
+  int32_t type;
+  TmValue value;
+  std::string text;  ///< Of TM_STRING.
+};
+
+/// Which lights are asked for, and what they are told.
+struct LightRequest {
+  std::string category;  ///< As inCategory().
+  std::vector<LightMessage> sent;
+};
 
 /// What the shadow rays of one light have brought so far, at each point.
 struct ShadowTally {
@@ -46,6 +61,9 @@ class Lights {
   /// From now on only lights of this group count; null: all.
   void restrictTo(const std::string* group);
   bool restricted() const { return group_ != nullptr; }
+  const std::string* group() const { return group_; }
+  /// Before the first question. `request` outlives this.
+  void ask(const LightRequest& request) { request_ = &request; }
   /// Sum of the ambient lights at the active points of `asking`.
   void ambient(Batch& batch, const TmGrid& asking, TmVec3 out);
   /// All samples of all lights that have a direction, in the order of Attributes::lights. Unshadowed until
@@ -69,6 +87,7 @@ class Lights {
   void evaluate(Batch& batch, const BoundLight& light);
   void alongOne(Batch& batch, const BoundLight& light, const LobeDirections& lobe, TmVec3 Cl);
   void substitute(Batch& batch);
+  void tell(Batch& batch, const BoundShader& light, std::vector<TmValue>& params) const;
   template <class Body>
   void forEachWithExtent(Batch& batch, const Body& body) const;
   bool evaluated_ = false;
@@ -77,6 +96,7 @@ class Lights {
   std::deque<ShadowTally> tallies_;
   std::vector<LightSample> samples_, chosen_;  ///< All; those of group_.
   const std::string* group_ = nullptr;
+  const LightRequest* request_ = nullptr;
 };
 
 }  // namespace tomales

@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "reyes/shade/elsewhere.h"
 #include "reyes/shade/primary.h"
 
 namespace tomales {
@@ -155,10 +156,8 @@ int32_t ask(void* host, const TmGrid* g, int32_t whom, int32_t light, const char
       return tellVolume(batch, g, whom == TM_OF_INCIDENT, name, type, out);
     case TM_OF_LIGHT: {
       if (light < 0) return tell(batch.running, g->params, name, type, out);
-      const auto& samples = batch.lights.samples(batch);
-      if (light >= static_cast<int32_t>(samples.size()) || !samples[static_cast<size_t>(light)].params) return 0;
-      const LightSample& sample = samples[static_cast<size_t>(light)];
-      return tell(sample.light->bound.get(), sample.params, name, type, out);
+      const LightSample* sample = lightNumbered(batch, light);
+      return sample && sample->params ? tell(sample->light->bound.get(), sample->params, name, type, out) : 0;
     }
     case TM_OF_ATTRIBUTES:
       return tellAttribute(batch, name, type, out);

@@ -29,10 +29,12 @@ Stencil stencilOf(const Grid& g, Arena& arena) {
   const int n = g.vertexCount(), row = g.nu + 1;
   int32_t* index[4];
   for (auto& list : index) list = indices(arena, n);
-  for (int k = 0; k < n; ++k) {
-    const int i = k % row, j = k / row;
-    index[0][k] = j * row + std::max(i - 1, 0), index[1][k] = j * row + std::min(i + 1, g.nu);
-    index[2][k] = std::max(j - 1, 0) * row + i, index[3][k] = std::min(j + 1, g.nv) * row + i;
+  for (int j = 0, k = 0; j <= g.nv; ++j) {
+    const int before = std::max(j - 1, 0) * row, here = j * row, behind = std::min(j + 1, g.nv) * row;
+    for (int i = 0; i <= g.nu; ++i, ++k) {
+      index[0][k] = here + std::max(i - 1, 0), index[1][k] = here + std::min(i + 1, g.nu);
+      index[2][k] = before + i, index[3][k] = behind + i;
+    }
   }
   return {{index[0], index[2]}, {index[1], index[3]}, {1, row}};
 }

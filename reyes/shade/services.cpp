@@ -16,6 +16,20 @@
 namespace tomales {
 namespace {
 
+/// m * in + origin of those that are active, in the order of glm's product with a point. In place, perhaps.
+TOMALES_HOT void transformActive(const TmGrid* g, const mat3& m, const vec3& origin, TmConstVec3 in, TmVec3 out) {
+  const uint8_t* active = g->active;
+#pragma GCC ivdep
+  for (int i = 0; i < g->count; ++i) {
+    const float x = in.x[i], y = in.y[i], z = in.z[i];
+    const float tx = (m[0][0] * x + m[1][0] * y) + (m[2][0] * z + origin.x), ty = (m[0][1] * x + m[1][1] * y) + (m[2][1] * z + origin.y),
+                tz = (m[0][2] * x + m[1][2] * y) + (m[2][2] * z + origin.z);
+    out.x[i] = active[i] ? tx : out.x[i], out.y[i] = active[i] ? ty : out.y[i], out.z[i] = active[i] ? tz : out.z[i];
+  }
+}
+
+bool isAffine(const mat4& m) { return m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] == 1; }
+
 int32_t transform(void* host, const TmGrid* g, int32_t kind, const char* from, const char* to, TmConstVec3 in,
                   TmVec3 out) {
   const Batch& batch = batchOf(host);
@@ -29,9 +43,14 @@ int32_t transform(void* host, const TmGrid* g, int32_t kind, const char* from, c
   }
   const TmType type = kind == TM_AS_POINT ? TM_POINT : kind == TM_AS_NORMAL ? TM_NORMAL : TM_VECTOR;
   const mat4 toFromCurrent = glm::inverse(b->currentFromSpace), toFrom = toFromCurrent * a->currentFromSpace;
+  if (!projected && (type != TM_POINT || isAffine(toFrom))) {
+    const mat3 linear(toFrom);
+    transformActive(g, type == TM_NORMAL ? glm::transpose(glm::inverse(linear)) : linear, type == TM_POINT ? vec3(toFrom[3]) : vec3(0), in, out);
+    return 1;
+  }
   forActive(g, [&](int i) {
     vec3 p = get(in, i);
-    if (!projected) return set(out, i, transformAs(type, toFrom, p));
+    if (!projected) return set(out, i, transformPoint(toFrom, p));
     p = a->kind == Space::Linear ? transformPoint(a->currentFromSpace, p)
                                  : currentFromProjected(batch, a->kind, p);
     p = b->kind == Space::Linear ? transformPoint(toFromCurrent, p) : projectedFromCurrent(batch, b->kind, p);

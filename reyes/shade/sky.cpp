@@ -13,9 +13,15 @@ float center(int i, int count) { return (static_cast<float>(i) + 0.5f) / static_
 /// Solid angle for each unit of (s, t).
 float solidAngleAt(float t) { return 2 * kPi * kPi * std::sin(kPi * t); }
 
-float cosineDensity(const vec3& N, const vec3& L) { return dot(N, L) > 0 ? std::max(dot(N, L), kLeastCosine) / kPi : 0.0f; }
+bool inAir(const vec3& N) { return N == vec3(0.0f); }
+
+float cosineDensity(const vec3& N, const vec3& L) {
+  if (inAir(N)) return 1 / (4 * kPi);
+  return dot(N, L) > 0 ? std::max(dot(N, L), kLeastCosine) / kPi : 0.0f;
+}
 
 vec3 cosineDirection(const vec3& N, const vec2& xi) {
+  if (inAir(N)) return latLongDirection({xi.y, std::acos(1 - 2 * xi.x) / kPi});
   vec3 tangent, bitangent;
   orthonormalBasis(N, tangent, bitangent);
   const vec3 local = cosineHemisphere(xi);
@@ -67,7 +73,7 @@ vec3 Sky::sample(const vec3& N, vec2 xi, float& density) const {
     double s{xi.x / share}, t{xi.y};
     const size_t j = rows_.pick(t), i = row_[j].pick(s);
     L = latLongDirection({(static_cast<float>(i) + static_cast<float>(s)) / kColumns, (static_cast<float>(j) + static_cast<float>(t)) / kRows});
-    L = normalizeOr(glm::transpose(worldFromCurrent_) * L, N);
+    L = normalizeOr(glm::transpose(worldFromCurrent_) * L, vec3(0.0f, 0.0f, 1.0f));
   } else {
     L = cosineDirection(N, {(xi.x - share) / (1 - share), xi.y});
   }
@@ -85,6 +91,18 @@ float Sky::pictureDensity(const vec3& L) const {
   const auto cell = [](float x, int count) { return static_cast<size_t>(std::clamp(static_cast<int>(x * static_cast<float>(count)), 0, count - 1)); };
   const double share = row_[cell(st.y, kRows)].weight(cell(st.x, kColumns)) / rows_.total();
   return static_cast<float>(share * kRows * kColumns / std::max(double{solidAngleAt(st.y)}, 1e-9));
+}
+
+mat3 skyFromCurrent(const mat4& currentFromSpace) {
+  mat3 axes(currentFromSpace);
+  for (int k = 0; k < 3; ++k) axes[k] = normalizeOr(axes[k], axes[k]);
+  return glm::transpose(axes);
+}
+
+const Sky& Skies::find(const std::string& picture, const SourceLoc& where, const std::string& user) const {
+  const std::lock_guard lock(mutex_);
+  const auto it = skies_.find(picture);
+  return it != skies_.end() ? it->second : skies_.try_emplace(picture, textures_, picture, where, user, worldFromCurrent_).first->second;
 }
 
 }  // namespace tomales

@@ -257,6 +257,33 @@ TEST_F(BatchServices, PicturesAreLookedUpOverRegionsCornersAndChannels) {
   EXPECT_TRUE(log.entries().empty());
 }
 
+// Every other column of texels is 1, and one in four so large that an average over it says nothing.
+TEST_F(BatchServices, PicturesAreLookedUpOnOtherLevelsAndWithoutWhatIsTooLarge) {
+  const std::string path = ::testing::TempDir() + "/tomales_columns.exr";
+  OIIO::ImageBuf picture(OIIO::ImageSpec(256, 256, 3, OIIO::TypeDesc::FLOAT));
+  for (int k = 0; k < 256 * 256; ++k) {
+    const int column = k % 256;
+    const float value[] = {static_cast<float>(column % 2), column % 4 == 0 ? 1e9f : 2, 1e9f};
+    picture.setpixel(column, k / 256, value);
+  }
+  ASSERT_TRUE(picture.write(path));
+  const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
+    FilterRegion region;
+    region.s = 128.5 / 256, region.t = 0.5;
+    const auto look = [&](double texels, const auto&... list) {
+      for (Float& side : region.sides) side = 0;
+      region.sides[0] = texels / 256, region.sides[3] = texels / 256;
+      return texture(path.c_str(), region, list...);
+    };
+    s.Ci = Color(xcomp(look(16)), xcomp(look(16, "mipbias", 10)), xcomp(look(1, "mipbias", -4)));
+    const Color some = look(16, "ignoreabove", 1000, "fill", 7);
+    s.Oi = Color(ycomp(some), zcomp(some), xcomp(some));
+    If(s.u < 0.2, [&] { s.Ci = s.Oi; });
+  });
+  expectColor(c[0], {2, 7, 0.5f}, 0.01f);
+  expectColor(c[1], {0.5f, 0, 0.5f}, 0.02f);
+}
+
 // An orthographic map of -1..1: something at depth 1 hides its left half.
 TEST_F(BatchServices, AShadowOfFourCornersIsTheMeanBetweenThem) {
   const std::string path = ::testing::TempDir() + "/tomales_half.exr";
@@ -414,6 +441,36 @@ TEST_F(BatchServices, GatherHasCategoriesListsAndTheEffectiveDistance) {
   body = [](sl::Surface& s) { gather("pathtrace", s.P, s.N, 0.5f, 4, rays(), {}, [] {}, [] {}); };
   shadeOne();
   EXPECT_EQ(log.entries().size(), 1u);
+}
+
+// A picture of 1 + its own direction holds 4 pi of light, and adds up to a direction of 4 pi / 3 along the axis of each channel. It stands in a space
+// whose x is the world's y.
+TEST_F(BatchServices, GatherDrawsTheLightOfAnEnvironment) {
+  const std::string path = ::testing::TempDir() + "/tomales_gathered.exr";
+  OIIO::ImageBuf picture(OIIO::ImageSpec(256, 128, 3, OIIO::TypeDesc::FLOAT));
+  for (int k = 0; k < 256 * 128; ++k) {
+    const float theta = kPi * (static_cast<float>(k / 256) + 0.5f) / 128, phi = 2 * kPi * (static_cast<float>(k % 256) + 0.5f) / 256;
+    const float value[] = {1 + std::sin(theta) * std::cos(phi), 1 + std::sin(theta) * std::sin(phi), 1 + std::cos(theta)};
+    picture.setpixel(k % 256, k / 256, value);
+  }
+  ASSERT_TRUE(picture.write(path));
+  worldFromObject = Motion::still(mat4(vec4(0, 1, 0, 0), vec4(-1, 0, 0, 0), vec4(0, 0, 1, 0), vec4(0, 0, 0, 1)));
+  const std::vector<vec3> c = asked(2, [&](sl::Surface& s) {
+    Color color, sum;
+    Vector direction, redDirection;
+    Float solidAngle, hits = 0, length;
+    gather(("environment:" + path).c_str(), s.P, Vector(), 0, 4096, rays("environmentspace", "object"),
+           {{"environment:color", &color}, {"environment:solidangle", &solidAngle}, {"ray:direction", &direction}, {"ray:length", &length}}, [&] { hits += 1; },
+           [&] { sum += color * solidAngle, redDirection += xcomp(color) * solidAngle * direction; });
+    EXPECT_EQ(hits[0], 0);
+    EXPECT_EQ(length[0], 1e30f);
+    EXPECT_NEAR(redDirection[0].x, 0, 0.05f);
+    EXPECT_NEAR(redDirection[0].y, 4 * kPi / 3, 0.05f);
+    s.Ci = sum;
+  });
+  expectColor(c[0], vec3(4 * kPi), 0.1f);
+  EXPECT_TRUE(services.asked.empty()) << "nothing is traced";
+  EXPECT_TRUE(log.entries().empty());
 }
 
 TEST_F(BatchServices, ImportanceIsTheProductOfWeights) {

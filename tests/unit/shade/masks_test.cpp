@@ -50,7 +50,14 @@ const std::vector<Asked>& calls() {
       TM_CALL("textureWith", call.textureWith(h, g, "absent.tif", nullptr, g->s, g->t, out)),
       TM_CALL("environmentWith", call.environmentWith(h, g, "absent.exr", nullptr, *axis, out)),
       TM_CALL("illuminance", {
-        TmIlluminance query{sizeof(TmIlluminance), 0, "", *axis, 1.5f, 0, {}, {}, nullptr, 0, 0, 0};
+        TmIlluminance query{};
+        query.structBytes = sizeof query, query.axis = *axis, query.angle = 1.5f;
+        ASSERT_TRUE(call.illuminance(h, g, &query));
+        std::copy_n(query.lit, g->count, flags);
+      }),
+      TM_CALL("illuminance", {
+        TmIlluminance query{};
+        query.structBytes = sizeof query, query.P = *axis;
         ASSERT_TRUE(call.illuminance(h, g, &query));
         std::copy_n(query.lit, g->count, flags);
       }),

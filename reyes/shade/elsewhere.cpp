@@ -1,0 +1,124 @@
+#include "reyes/shade/elsewhere.h"
+
+#include <bit>
+
+#include "reyes/base/rng.h"
+#include "reyes/shade/parameter_values.h"
+#include "reyes/shade/primary.h"
+
+namespace tomales {
+namespace {
+
+constexpr size_t kRemembered = 4;   ///< As TmServices::illuminance promises.
+constexpr int kSamples = 1 << 20;   ///< Numbers of the samples of one place.
+constexpr int kNumbers = 1 << 10;   ///< Of places, before they begin anew.
+
+bool sameBits(float a, float b) { return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b); }
+
+template <class A, class B>
+bool sameAt(const A& a, const B& b, int i) {
+  return sameBits(a.x[i], b.x[i]) && sameBits(a.y[i], b.y[i]) && sameBits(a.z[i], b.z[i]);
+}
+
+bool atOwnPoints(const Batch& batch, const TmGrid* g, const TmIlluminance& query) {
+  if (!query.P.x) return true;
+  const TmConstVec3 own = batch.points->vec(kPx);
+  for (int i = 0; i < batch.points->count(); ++i)
+    if (g->active[i] && !sameAt(own, query.P, i)) return false;
+  return true;
+}
+
+/// Another number for each position, so that what is averaged along a march does not draw the same samples at every step.
+void moveTo(const Batch& asking, const TmGrid* g, TmConstVec3 P, ShadePoints& points) {
+  const bool air = asking.own->shader->kind == TM_VOLUME;
+  points.setInAir(air);
+  for (int i = 0; i < points.count(); ++i) {
+    if (!g->active[i]) continue;
+    const SampleName name = points.name(i);
+    const auto bits = [](float x) { return std::bit_cast<uint32_t>(x); };
+    points.rename(i, {hashCombine(name.key, bits(P.x[i]), bits(P.y[i]), bits(P.z[i])), name.sequence});
+    points.set3(kPx, i, get(P, i));
+    if (air) points.set3(kNx, i, vec3(0.0f)), points.set3(kNgx, i, vec3(0.0f));
+  }
+}
+
+/// Arrays of a message, and their length.
+int arraysOf(const TmMessage& m) { return m.type == TM_STRING ? 0 : m.type == TM_MATRIX ? 1 : floatsOf(m.type); }
+int lengthOf(const TmMessage& m, const TmGrid* g) { return m.type == TM_MATRIX ? floatsOf(TM_MATRIX) : m.value.step ? g->count : 1; }
+
+bool isSame(const LightMessage& held, const TmMessage& sent, const TmGrid* g) {
+  if (held.name != sent.name || held.type != sent.type || held.value.step != sent.value.step) return false;
+  if (sent.type == TM_STRING) return held.text == sent.value.string;
+  for (int k = 0; k < arraysOf(sent); ++k)
+    for (int i = 0; i < lengthOf(sent, g); ++i)
+      if ((!held.value.step || g->active[i]) && !sameBits(held.value.c[k][i], sent.value.c[k][i])) return false;
+  return true;
+}
+
+LightMessage copied(const TmMessage& sent, const TmGrid* g, Arena& arena) {
+  LightMessage m{sent.name, sent.type, sent.value, {}};
+  m.value.length = 1;
+  if (sent.type == TM_STRING) m.text = sent.value.string;
+  for (int k = 0; k < arraysOf(sent); ++k) {
+    float* to = arena.floats(lengthOf(sent, g));
+    std::copy_n(sent.value.c[k], lengthOf(sent, g), to);
+    m.value.c[k] = to;
+  }
+  return m;
+}
+
+}  // namespace
+
+Elsewhere::Elsewhere(const Batch& asking, const TmGrid* g, const TmIlluminance& query, int n)
+    : number(n), context(asking.context), points(*asking.points), batch(asking.scene, asking.group, context, *arena) {
+  context.answers = nullptr;  // they are named by the light alone, not by where it arrives
+  if (!atOwnPoints(asking, g, query)) moveTo(asking, g, query.P, points);
+  request.category = query.category ? query.category : "";
+  for (int i = 0; i < query.sentCount; ++i) request.sent.push_back(copied(query.sent[i], g, *arena));
+  batch.setElsewhere(asking, g, points);
+  batch.lights.ask(request);
+}
+
+bool Elsewhere::isFor(const TmGrid* g, const TmIlluminance& query) const {
+  if (request.category != (query.category ? query.category : "") || request.sent.size() != static_cast<size_t>(query.sentCount)) return false;
+  for (size_t k = 0; k < request.sent.size(); ++k)
+    if (!isSame(request.sent[k], query.sent[k], g)) return false;
+  const TmConstVec3 here = points.vec(kPx), there = query.P.x ? query.P : view(batch.tm.P);
+  for (int i = 0; i < points.count(); ++i)
+    if (g->active[i] && (!batch.tm.active[i] || !sameAt(here, there, i))) return false;
+  return true;
+}
+
+Batch& placeOf(Batch& batch, const TmGrid* g, const TmIlluminance& query) {
+  if (!batch.points || (query.sentCount == 0 && !query.refresh && atOwnPoints(batch, g, query))) return batch;
+  auto& places = batch.elsewhere;
+  const bool anew = query.refresh && query.next == 0;
+  auto it = std::find_if(places.begin(), places.end(), [&](const auto& p) { return !anew && p->isFor(g, query); });
+  if (it == places.end()) {
+    if (places.size() == kRemembered) places.pop_back();
+    batch.placesAsked = batch.placesAsked % kNumbers + 1;
+    it = places.insert(places.begin(), std::make_unique<Elsewhere>(batch, g, query, batch.placesAsked));
+  }
+  std::rotate(places.begin(), it, it + 1);
+  Batch& place = places.front()->batch;
+  place.lights.restrictTo(batch.lights.group());
+  return place;
+}
+
+int32_t lightNumber(const Batch& batch, const Batch& place, size_t sample) {
+  const int number = &place == &batch ? 0 : batch.elsewhere.front()->number;
+  return number * kSamples + static_cast<int32_t>(sample);
+}
+
+LightSample* lightNumbered(Batch& batch, int32_t number) {
+  if (number < 0) return nullptr;
+  Batch* place = number < kSamples ? &batch : nullptr;
+  for (const auto& p : batch.elsewhere)
+    if (p->number == number / kSamples) place = &p->batch;
+  if (!place) return nullptr;
+  auto& samples = place->lights.samples(*place);
+  const auto k = static_cast<size_t>(number % kSamples);
+  return k < samples.size() ? &samples[k] : nullptr;
+}
+
+}  // namespace tomales

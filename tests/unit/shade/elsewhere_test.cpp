@@ -1,0 +1,292 @@
+// Light at places that are not the points of a batch: illuminance(Q), messages to lights, smoke that is lit.
+#include <cstddef>
+
+#include "reyes/sl.h"
+#include "tests/unit/shade/stage.h"
+
+namespace tomales {
+namespace {
+
+using namespace sl;
+
+std::function<void(sl::Surface&)> onSurface;
+std::function<void(sl::Volume&)> inVolume;
+struct outside : sl::Surface {
+  void main() { Ci = Color(-1.0), Oi = Color(1.0), onSurface(*this); }
+};
+struct between : sl::Volume {
+  void main() { inVolume(*this); }
+};
+
+// A light that counts its points, says what it has been told and what it sees of the surface.
+int litPoints = 0;
+rsl::FloatParam power("power", 1, "");
+rsl::ColorParam tint("tint", {1, 1, 1}, "");
+rsl::StringParam word("word", "unsaid", "");
+rsl::UniformFloatParam whole("whole", 0, "");
+rsl::FloatOutput doubled("doubled", ""), normalLength("normallength", "");
+void shadeCounting(const TmGrid* g) {
+  const rsl::Batch b(g);
+  for (int i : b) {
+    ++litPoints;
+    const rsl::Vec3 P = rsl::get(g->P, i), N = rsl::get(g->N, i);
+    doubled.set(g, i, 2 * power(g, i)), normalLength.set(g, i, rsl::length(N));
+    b.illuminate(i, rsl::Vec3{0, 0, -1} - P, (std::string_view(word(g)) == "said" ? 100.0f : 1.0f) * power(g, i) * tint(g, i));
+  }
+}
+
+const rsl::Shader outsideShader(TM_SURFACE, "outside", "", TM_TRACES, sl::shade<outside>, {});
+const rsl::Shader betweenShader(TM_VOLUME, "between", "", 0, sl::shade<between>, {});
+const rsl::Shader countingShader(TM_LIGHT, "counting", "", 0, shadeCounting, {&power, &tint, &word, &whole, &doubled, &normalLength});
+
+class Elsewhere : public Stage {
+ protected:
+  Elsewhere() {
+    static const TmShader* const shaders[] = {outsideShader, betweenShader, countingShader};
+    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 3};
+    registry.addLibrary(&library, "test");
+    surface("outside");
+    litPoints = 0;
+  }
+  /// Ci of `n` points at z = 5, u from 0 on; `what` runs for all.
+  ShadedPoints asked(int n, const std::function<void(sl::Surface&)>& what, const ShadeContext& context = {}) {
+    onSurface = what;
+    return shade(points(std::vector<vec3>(static_cast<size_t>(n), vec3(0, 0, 5))), context);
+  }
+  /// What is seen of a black surface at z = `depth` through the volume.
+  vec3 through(float depth, const std::function<void(sl::Volume&)>& what) {
+    attributes.atmosphere = std::make_shared<const ShaderCall>(call("between", {}));
+    onSurface = [](sl::Surface& s) { s.Ci = Color(); };
+    inVolume = what;
+    ShadePoints p = points({vec3(0, 0, depth)});
+    p.set3(kIx, 0, vec3(0, 0, depth));
+    ShadedPoints out;
+    system().shade(p, {}, out);
+    system().atmosphere(p, out);
+    return out.color(0);
+  }
+};
+
+/// `steps` places along the ray of a volume from its surface to the eye.
+template <class Body>
+void march(sl::Volume& v, int steps, const Body& body) {
+  for (int i = 0; i < steps; ++i) body(Point(v.P - ((i + 0.5) / steps) * v.I));
+}
+
+TEST_F(Elsewhere, LightsRunWhereTheyAreAskedFor) {
+  light("pointlight", {point("from", {1, 2, 3}), number("intensity", 8)});
+  const ShadedPoints out = asked(8, [](sl::Surface& s) {
+    Point Q = s.P + Vector(0, 3 * s.u, -1);
+    s.illuminance(Q, [&] { s.Ci = Color(xcomp(s.Cl), length(s.L), ycomp(s.L)); });
+  });
+  for (int i = 0; i < 8; ++i) {
+    const vec3 Q(0, 3 * static_cast<float>(i) / 8, 4), L = vec3(1, 2, 3) - Q;
+    expectColor(out.color(i), {8 / dot(L, L), glm::length(L), L.y});
+  }
+}
+
+TEST_F(Elsewhere, OnlyTheMaskIsLitAndOnlyTheConeIsShadowed) {
+  light("counting").castsShadows = true;
+  services.visible = [](const vec3& P, const vec3& toward) {
+    EXPECT_EQ(P.y, 1) << "shadow rays leave the place that is asked for";
+    EXPECT_NEAR(glm::length(P + toward - vec3(0, 0, -1)), 0, 1e-6f);
+    return 0.5f;
+  };
+  const ShadedPoints out = asked(10, [](sl::Surface& s) {
+    If(s.u < 0.5, [&] {
+      Point Q = s.P + Vector(0, 1, 0);
+      s.illuminance(Q, Vector(0, 0, -1), Float(0.5) * (1 - step(0.25, s.u)), [&] { s.Ci = s.Cl; });
+    });
+  });
+  EXPECT_EQ(litPoints, 5);
+  EXPECT_EQ(services.shadowRays, 3) << "the cone has closed at the others";
+  for (int i = 0; i < 10; ++i) expectColor(out.color(i), vec3(i < 3 ? 0.5f : -1.0f));
+}
+
+TEST_F(Elsewhere, LightIsKeptForThePlacesThatWereAskedLast) {
+  light("counting");
+  asked(4, [](sl::Surface& s) {
+    const auto ask = [&](double y) { s.illuminance(s.P + Vector(0, y, 0), [] {}); };
+    ask(0), ask(0);
+    EXPECT_EQ(litPoints, 4) << "that is where the batch is";
+    ask(1), ask(1), ask(2), ask(1);
+    EXPECT_EQ(litPoints, 12);
+    ask(3), ask(4), ask(5), ask(6), ask(1);
+    EXPECT_EQ(litPoints, 32) << "forgotten, and asked again";
+    If(s.u < 0.5, [&] { ask(1); });
+    EXPECT_EQ(litPoints, 32) << "a part of them";
+    If(s.u < 0.5, [&] { ask(7); });
+    ask(7);
+    EXPECT_EQ(litPoints, 32 + 2 + 4);
+  });
+}
+
+TEST_F(Elsewhere, LoopsMayBeNestedAndTellOfTheirOwnLight) {
+  light("counting", {number("power", 3)});
+  light("counting", {number("power", 5)});
+  const ShadedPoints out = asked(2, [](sl::Surface& s) {
+    Color sum;
+    s.illuminance(s.P + Vector(0, 1, 0), [&] {
+      const int outer = s.lightNumber;
+      Float before, after;
+      lightsource(outer, "doubled", before);
+      for (double y : {2.0, 3.0}) s.illuminance(s.P + Vector(0, y, 0), [&] { sum += Color(0, 0, xcomp(s.Cl)); });
+      EXPECT_TRUE(lightsource(outer, "doubled", after));
+      sum += Color(before, after, 0);
+    });
+    s.Ci = sum;
+    Float none = -1;
+    EXPECT_FALSE(lightsource(1 << 24, "doubled", none)) << "of a place that was never asked";
+  });
+  expectColor(out.color(0), {16, 16, 32});
+}
+
+TEST_F(Elsewhere, LightsTakeWhatTheyAreSent) {
+  light("counting", {number("power", 3)});
+  light("pointlight", {point("from", {0, 0, -1})});
+  const ShadedPoints out = asked(4, [](sl::Surface& s) {
+    Color answers[4];
+    Float heard, deaf = -1;
+    const auto sum = [&](Color& to) { return [&to, &s] { to += Color(xcomp(s.Cl), ycomp(s.Cl), zcomp(s.Cl)); }; };
+    Float varying = 1 + s.u;
+    Color red(1, 0, 0);
+    s.illuminance(s.P, lights("send:light:power", varying, "light:doubled", &heard, "light:absent", &deaf), sum(answers[0]));
+    s.illuminance(s.P, s.N, 1.5, lights("send:light:tint", red, "send:light:word", "said"), sum(answers[1]));
+    s.illuminance(s.P, lights("send:light:power", red, "send:light:whole", varying), sum(answers[2]));
+    s.illuminance(s.P, lights("send:light:power", 7), sum(answers[3]));
+    s.Ci = Color(xcomp(answers[0]), xcomp(answers[1]) - ycomp(answers[1]), xcomp(answers[2]));
+    s.Oi = Color(heard, xcomp(answers[3]), deaf);
+  });
+  const float other = 1.0f / 36;
+  for (int i = 0; i < 4; ++i) {
+    const float own = 1 + static_cast<float>(i) / 4;
+    expectColor(out.color(i), {own + other, 300, 3 + other});
+    expectColor(out.opacity(i), {2 * own, 7 + other, -1});
+  }
+  ASSERT_EQ(log.entries().size(), 1u) << "once for the shader";
+  EXPECT_NE(log.entries()[0].message.find("of another type"), std::string::npos) << log.entries()[0].message;
+}
+
+TEST_F(Elsewhere, RefreshedLightsRunAgain) {
+  light("counting");
+  asked(4, [](sl::Surface& s) {
+    int seen = 0;
+    const auto ask = [&](const char* cache) { s.illuminance(s.P, lights("lightcache", cache), [&] { ++seen; }); };
+    ask("reuse"), ask("reuse");
+    EXPECT_EQ(litPoints, 4);
+    ask("refresh"), ask("refresh");
+    EXPECT_EQ(litPoints, 12);
+    EXPECT_EQ(seen, 4) << "each light once";
+    EXPECT_THROW(lights("lightcash", "reuse"), std::invalid_argument);
+  });
+}
+
+TEST_F(Elsewhere, AQueryOfAnEarlierReleaseIsOfTheShadedPoints) {
+  light("counting");
+  asked(2, [](sl::Surface& s) {
+    const Point away = s.P + Vector(0, 7, 0);
+    TmIlluminance query{};
+    query.structBytes = offsetof(TmIlluminance, P), query.P = away, query.sentCount = 99, query.refresh = 1;
+    ASSERT_TRUE(grid()->call->illuminance(grid()->host, grid(), &query));
+    EXPECT_EQ(query.L.y[0], 0);
+    EXPECT_EQ(query.L.z[0], -6);
+    EXPECT_FALSE(grid()->call->illuminance(grid()->host, grid(), &query));
+  });
+  EXPECT_EQ(litPoints, 2);
+}
+
+TEST_F(Elsewhere, CategoriesRunTheirOwnLightsAlone) {
+  light("counting", {text("__category", "key")});
+  light("counting", {text("__category", "fill")});
+  asked(4, [](sl::Surface& s) {
+    int seen = 0;
+    s.illuminance("-key", s.P + Vector(0, 1, 0), [&] { ++seen; });
+    EXPECT_EQ(seen, 1);
+  });
+  EXPECT_EQ(litPoints, 4);
+}
+
+TEST_F(Elsewhere, IndirectLightReachesSurfacesAndNotTheAir) {
+  light("indirectlight");
+  light("counting");
+  services.E = vec3(1);
+  int onSurfaces = 0, inAir = 0;
+  asked(1, [&](sl::Surface& s) { s.illuminance(s.P + Vector(0, 1, 0), [&] { ++onSurfaces; }); });
+  EXPECT_EQ(onSurfaces, 3 + 1) << "red, green, blue";
+  attributes.atmosphere = std::make_shared<const ShaderCall>(call("between", {}));
+  inVolume = [&](sl::Volume& v) {
+    v.illuminance(v.P - 0.5 * v.I, [&] {
+      ++inAir;
+      Float length = -1;
+      lightsource(v.lightNumber, "normallength", length);
+      EXPECT_EQ(length[0], 0);
+    });
+  };
+  ShadePoints p = points({vec3(0, 0, 5)});
+  ShadedPoints out;
+  out.resize(1), out.set(0, vec3(0), vec3(1));
+  shading.reset(), scene.objects.clear(), scene.groups.clear();
+  system().atmosphere(p, out);
+  EXPECT_EQ(inAir, 1);
+}
+
+// A sky of radiance 1 is 4 pi of it, over pi, from all around; above a surface half of that counts, whatever the density of samples.
+TEST_F(Elsewhere, TheAirIsLitByTheSkyFromAllSides) {
+  light("environmentlight", {number("samples", 256)});
+  float up = 0, down = 0;
+  through(4, [&](sl::Volume& v) {
+    v.illuminance(v.P - 0.5 * v.I, [&] { (v.L[0].z > 0 ? up : down) += v.Cl[0].x; });
+  });
+  EXPECT_NEAR(up, 2, 0.02f);
+  EXPECT_NEAR(down, 2, 0.02f);
+}
+
+// Light falls on a slab from the eye's side at an angle of cosine c: on the way to depth z it goes through z / c of smoke, and z of it on the
+// way back: the integral of s exp(-s z (1 + 1/c)).
+TEST_F(Elsewhere, ASlabOfSmokeScattersOnceAsBeerAndLambertSay) {
+  constexpr float kDepth = 3, kSigma = 0.7f, kCosine = 0.8f;
+  light("distantlight", {point("to", {0.6f, 0, 0.8f}), number("intensity", 2)});
+  const vec3 seen = through(kDepth, [](sl::Volume& v) {
+    constexpr int kSteps = 200;
+    Color Cv;
+    march(v, kSteps, [&](const Point& Q) {
+      Color Li;
+      v.illuminance(Q, [&] { Li += v.Cl * exp(-kSigma * zcomp(Q) / -zcomp(normalize(v.L))); });
+      Cv += Li * (kSigma * exp(-kSigma * zcomp(Q)) * length(v.I) / kSteps);
+    });
+    v.Ci += Cv;
+  });
+  const float both = 1 + 1 / kCosine;
+  EXPECT_NEAR(seen.x, 2 / both * (1 - std::exp(-kSigma * kDepth * both)), 2e-4f);
+}
+
+// Past a lamp at distance h the inverse square adds up to (atan(b / h) + atan(a / h)) / h.
+TEST_F(Elsewhere, ALampInThinSmokeGlowsByTheInverseSquare) {
+  constexpr float kDepth = 6, kBeside = 0.5f, kAt = 2;
+  light("pointlight", {point("from", {kBeside, 0, kAt})});
+  const vec3 seen = through(kDepth, [](sl::Volume& v) {
+    constexpr int kSteps = 600;
+    Color Cv;
+    march(v, kSteps, [&](const Point& Q) { v.illuminance(Q, [&] { Cv += v.Cl * (length(v.I) / kSteps); }); });
+    v.Ci += Cv;
+  });
+  EXPECT_NEAR(seen.x, (std::atan((kDepth - kAt) / kBeside) + std::atan(kAt / kBeside)) / kBeside, 1e-3f);
+}
+
+// A ball of radius 1 stands at z = 3 in the light: the smoke behind it stays dark for as long as its shadow is wide.
+TEST_F(Elsewhere, ABallCastsAShadowThroughSmoke) {
+  light("distantlight", {point("to", {0, -1, 0})}).castsShadows = true;
+  services.visible = [](const vec3& P, const vec3& toward) {
+    EXPECT_GT(toward.y, 0);
+    return std::abs(P.z - 3) < 1 ? 0.0f : 1.0f;
+  };
+  const vec3 seen = through(6, [](sl::Volume& v) {
+    Color Cv;
+    march(v, 60, [&](const Point& Q) { v.illuminance(Q, [&] { Cv += v.Cl * (length(v.I) / 60); }); });
+    v.Ci += Cv;
+  });
+  EXPECT_NEAR(seen.x, 4, 1e-4f);
+}
+
+}  // namespace
+}  // namespace tomales
