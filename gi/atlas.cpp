@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "gi/medium.h"
 #include "gi/point_tiles.h"
 #include "reyes/base/temporary_folder.h"
 
@@ -15,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kCaustic = ".caustic";  ///< What the names of caustic maps end in.
+constexpr const char* kVolume = "scene.volume";
 constexpr double kStoredBytes = 2.5 * 36;  ///< Of one emitted photon: so many surfaces, so many bytes.
 constexpr double kLeastOfMap = 1e-3;       ///< Share of its map, by area, that a surface needs for a number: leaves share their photons.
 
@@ -31,11 +33,11 @@ std::vector<double> boxAreas(const Scene& scene) {
 }
 
 /// Counted up when the same inputs begin to make other files.
-constexpr uint32_t kMethod = 4;
+constexpr uint32_t kMethod = 5;
 
 uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
   const auto& [emit, maxDepth, seed] = settings.photons;
-  return contentSum(kMethod, settings.world, names.global, names.caustic, emit, maxDepth, seed);
+  return contentSum(kMethod, settings.world, names.global, names.caustic, names.volume, emit, maxDepth, seed);
 }
 
 uint64_t irradianceInputs(const PointFile& photons, const PhotonIrradianceSettings& settings) {
@@ -44,8 +46,8 @@ uint64_t irradianceInputs(const PointFile& photons, const PhotonIrradianceSettin
 }
 
 uint64_t brickInputs(const PointFile& points, const BrickSettings& settings) {
-  const auto& [maxError, maxDepth, radiusScale, ignoreNormals] = settings;
-  return contentSum(kMethod, points.contents(), maxError, maxDepth, radiusScale, ignoreNormals);
+  const auto& [maxError, maxDepth, radiusScale, ignoreNormals, coarseness] = settings;
+  return contentSum(kMethod, points.contents(), maxError, maxDepth, radiusScale, ignoreNormals, coarseness);
 }
 
 /// Of a file that may be missing or damaged: then not known.
@@ -113,12 +115,15 @@ MapNames mapNames(const Scene& scene, const AtlasSettings& settings) {
     before += areas[g];
   }
   names.surface = numbered(names.global, own);
+  const auto hasMedium = [](const ShadeGroup& g) { return !mediumOf(g.attributes->interior.get(), 1).empty() || !mediumOf(g.attributes->exterior.get(), 1).empty(); };
+  if (std::any_of(scene.groups.begin(), scene.groups.end(), hasMedium)) names.volume = kVolume;
   return names;
 }
 
 std::set<std::string> MapNames::all() const {
   std::set<std::string> out(global.begin(), global.end());
   out.insert(caustic.begin(), caustic.end());
+  out.insert(volume);
   out.erase("");
   return out;
 }
@@ -127,7 +132,9 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
                            const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
   makeAtlasFolder(folder);
   std::map<std::string, PointFileWriter> files;
-  for (const std::string& name : names.all()) files.try_emplace(name, atlasFile(folder, name, ".ptc").string(), std::vector<CloudChannel>{{"power", 3}, kSurfaceChannel});
+  for (const std::string& name : names.all())
+    files.try_emplace(name, atlasFile(folder, name, ".ptc").string(),
+                      name == names.volume ? std::vector<CloudChannel>{{kPathPower, 3}} : std::vector<CloudChannel>{{"power", 3}, kSurfaceChannel});
   const auto filesOf = [&](const std::vector<std::string>& groups) {
     std::vector<PointFileWriter*> out;
     for (const std::string& name : groups) out.push_back(name.empty() ? nullptr : &files.at(name));
@@ -139,7 +146,9 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
   const PhotonFigures figures = tracePhotons(
       scene, rays, shading, settings.photons,
       [&](const StoredPhoton& p) {
-        const vec3 P = transformPoint(worldFromCurrent, p.P), N = normalizeOr(normalMatrix * p.N, vec3(0, 0, 1));
+        const vec3 P = transformPoint(worldFromCurrent, p.P);
+        if (p.group < 0) return files.at(names.volume).add(P, vec3(0), 0, &p.power.x);
+        const vec3 N = normalizeOr(normalMatrix * p.N, vec3(0, 0, 1));
         const auto group = static_cast<size_t>(p.group);
         const std::array values{p.power.x, p.power.y, p.power.z, static_cast<float>(names.surface[group])};
         global[group]->add(P, N, 0, values.data());
@@ -158,7 +167,7 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
 
 void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonIrradianceSettings& given, uint64_t most) {
   const PointFile file(photons.string());
-  requirePhotons(file);
+  if (offsetOf(file.channels(), kPathPower) < 0) requirePhotons(file);
   const MadeFrom madeFrom{file.madeFrom().world, irradianceInputs(file, given)};
   if (file.count() <= most) return writePointFile(estimateIrradiance(file.readAll(), given), out.string(), madeFrom);
   PhotonIrradianceSettings settings = given;
@@ -234,6 +243,7 @@ IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, con
   for (const std::string& name : names.all()) byName[name] = open(atlasFile(folder, name, ".bkm"));
   for (const std::string& name : names.global) mapOfGroup_.push_back(byName.at(name));
   for (const std::string& name : names.caustic) causticOfGroup_.push_back(byName.at(name));
+  volume_ = byName.at(names.volume);
   surfaceOfGroup_ = names.surface, world_ = names.world;
 }
 
@@ -255,13 +265,18 @@ std::optional<std::string> IrradianceAtlas::strange(uint64_t world) const {
 }
 
 std::optional<vec3> IrradianceAtlas::look(const MapOfGroup& maps, int group, const vec3& P, const vec3& N, float radius) const {
-  const BrickMap* map = maps[static_cast<size_t>(group)];
+  return look(maps[static_cast<size_t>(group)], surfaceOfGroup_[static_cast<size_t>(group)], P, N, radius);
+}
+
+vec3 IrradianceAtlas::meanRadiance(const vec3& P, float radius) const { return 0.25f * look(volume_, 0, P, vec3(0), radius).value_or(vec3(0.0f)); }
+
+std::optional<vec3> IrradianceAtlas::look(const BrickMap* map, int ofSurface, const vec3& P, const vec3& N, float radius) const {
   if (!map) return std::nullopt;
   try {
     vec3 E(0.0f);
     const vec3 normal = normalizeOr(transformVector(worldFromCurrent_, N), N);
     // Maps of another scene have numbered their surfaces otherwise.
-    const int surface = world_ != 0 && map->file().madeFrom().world == world_ ? surfaceOfGroup_[static_cast<size_t>(group)] : 0;
+    const int surface = world_ != 0 && map->file().madeFrom().world == world_ ? ofSurface : 0;
     if (map->lookup(transformPoint(worldFromCurrent_, P), normal, radius * worldFromCurrentScale_, &E.x, surface)) return E / kPi;
   } catch (const FileError& e) {
     log_.report(Severity::Missing, "atlas-damaged", {}, fmt::format("{}: no indirect light from there", e.what()));

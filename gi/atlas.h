@@ -1,7 +1,8 @@
 // Composer: the irradiance atlas (irradiance-atlas 4). Photons, irradiance points and brick maps of a scene, one file for each group
 // of objects, in a folder; and the lookup behind gather rays.
 //   FOLDER/photons/NAME.ptc  ->  FOLDER/irradiance/NAME.ptc  ->  FOLDER/NAME.bkm
-// and the same for NAME.caustic, the part that came by mirrors and glass, which is looked up where the eye sees it.
+// and the same for NAME.caustic, the part that came by mirrors and glass, which is looked up where the eye sees it, and for scene.volume,
+// the fluence in media.
 // Groups are named by Attribute "photon" "globalmap"; what has no name is shared out by size among "scene0", "scene1", ...
 // Files are in world space, so that another camera can use them. Irradiance in files is E in W/m2. Each names what it was made of
 // (MadeFrom), so that only what has changed since is made again.
@@ -20,7 +21,9 @@ struct AtlasSettings {
   PhotonSettings photons;
   PhotonIrradianceSettings irradiance;
   PhotonIrradianceSettings caustics{50, 1};   ///< Sharp: every photon counts.
-  BrickSettings bricks{0.03f};                ///< maxError: a share of the map's mean irradiance (the paper's is absolute)
+  /// maxError: a share of the map's mean irradiance (the paper's is absolute). An estimate is a mean over 50 photons, and every fourth has one:
+  /// voxels as wide as the disks hold all that they know, in a quarter of the bricks.
+  BrickSettings bricks{.maxError = 0.03f, .coarseness = 2};
   size_t mostPhotonBytes = 256 << 20;         ///< That the photons of one unnamed group are expected to take.
   uint64_t world = 0;                         ///< worldSum() of the scene.
 };
@@ -29,6 +32,7 @@ struct AtlasSettings {
 struct MapNames {
   std::vector<std::string> global;
   std::vector<std::string> caustic;  ///< Ends in kCaustic; empty: has none.
+  std::string volume;                ///< Of what flies in media; empty: there are none.
   std::vector<int> surface;          ///< PointCloud::surface() of what lies on it; 0: too small to have light of its own.
   uint64_t world = 0;                ///< Of which the groups are, AtlasSettings::world.
   std::set<std::string> all() const;
@@ -78,11 +82,14 @@ class IrradianceAtlas {
   vec3 causticOverPi(int group, const vec3& P, const vec3& N, float radius) const { return look(causticOfGroup_, group, P, N, radius).value_or(vec3(0.0f)); }
   /// As irradianceOverPi(); nothing where there is nothing.
   std::optional<vec3> bakedOverPi(int group, const vec3& P, const vec3& N, float radius) const { return look(mapOfGroup_, group, P, N, radius); }
+  /// Mean radiance from all sides at P (current space) in a medium, over a radius; 0 where there is nothing.
+  vec3 meanRadiance(const vec3& P, float radius) const;
   void report(Stats& stats) const;  ///< Bricks, lookups, misses, bytes.
 
  private:
   using MapOfGroup = std::vector<const BrickMap*>;  ///< Null: no photon came there.
   std::optional<vec3> look(const MapOfGroup& maps, int group, const vec3& P, const vec3& N, float radius) const;
+  std::optional<vec3> look(const BrickMap* map, int surface, const vec3& P, const vec3& N, float radius) const;
   const BrickMap* open(const std::filesystem::path& file);
 
   mutable BrickCache cache_;
@@ -90,6 +97,7 @@ class IrradianceAtlas {
   float worldFromCurrentScale_;
   std::vector<std::unique_ptr<const BrickMap>> maps_;  ///< By name.
   MapOfGroup mapOfGroup_, causticOfGroup_;
+  const BrickMap* volume_ = nullptr;
   std::vector<int> surfaceOfGroup_;
   uint64_t world_ = 0;
   Log& log_;

@@ -102,7 +102,7 @@ class Builder {
   /// No point of the cube is smaller than half the diagonal of its voxels (irradiance-atlas 3.2).
   bool fineEnough(int level, const vec3& lo, const Members& members) const {
     if (level >= settings_.maxDepth || members.size() <= 1) return true;
-    const float half = 0.5f * std::sqrt(3.0f) * out_.tree.cube.voxelSize(level);
+    const float half = 0.5f * std::sqrt(3.0f) * out_.tree.cube.voxelSize(level) / settings_.coarseness;
     const vec3 hi = lo + vec3(std::ldexp(out_.tree.cube.size, -level));
     return std::none_of(members.begin(), members.end(), [&](uint32_t i) {
       const Spot& s = spots_[i];

@@ -17,6 +17,7 @@ struct BrickSettings {
   int maxDepth = 15;            ///< Levels below the root.
   float radiusScale = 1;
   bool ignoreNormals = false;   ///< Volume data: every point is a sphere.
+  float coarseness = 1;         ///< The finest voxels are so many times as wide as the radii ask (3.2).
 };
 
 struct BuiltBricks {

@@ -155,6 +155,7 @@ class Hemisphere {
     radiance.assign(elements, vec3(0));
     ShadeContext context{RayKind::Diffuse, settings_.depth, settings_.seed, 1, settings_.indirect};
     context.light = settings_.light;
+    context.mirrored = settings_.mirrored;
     context.diffuseLimit = 0;  // of direct light the diffuse component alone; mirrors and glass show what they show
     scratch_.answers.mode = HitMode::Shader;
     for (int layer = 0; layer < kMostLayers && !scratch_.layers.rays.empty(); ++layer) {

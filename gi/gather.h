@@ -17,6 +17,7 @@ struct GatherSettings {
   bool curvature = false;                     ///< Fill smoothRadius, and gradients that see occlusion.
   int depth = 1;                              ///< Diffuse bounces between the eye and what the rays hit,
   bool indirect = false;                      ///< whose shaders ask for indirect light in turn.
+  bool mirrored = true;                       ///< As ShadeContext::mirrored.
   std::string subset{};                       ///< Sets of objects that the rays see; none: as trace:subset of the object says.
   std::optional<OcclusionQuery> occlusion{};  ///< Instead of light: E/pi is what is not covered of the hemisphere, and no hit is shaded.
   bool operator==(const GatherSettings&) const = default;

@@ -21,8 +21,8 @@ template <class A>
 void fields(A& a, GatherPlan& x) {
   auto& [cache, gather] = x;
   auto& [errorFunction, kappa, maxPixels] = cache;
-  auto& [samples, maxDistance, seed, light, curvature, depth, indirect, subset, occlusion] = gather;
-  each(a, errorFunction, kappa, maxPixels, samples, maxDistance, seed, light, curvature, depth, indirect, subset, occlusion);
+  auto& [samples, maxDistance, seed, light, curvature, depth, indirect, mirrored, subset, occlusion] = gather;
+  each(a, errorFunction, kappa, maxPixels, samples, maxDistance, seed, light, curvature, depth, indirect, mirrored, subset, occlusion);
 }
 
 template <class A>

@@ -142,7 +142,7 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
           point.time,
           point.drift,
           static_cast<uint32_t>(settings.light),
-          settings.indirect,
+          static_cast<uint32_t>(settings.indirect) | static_cast<uint32_t>(!settings.mirrored) << 1,
           nameOf(settings.subset),
           state.settings.mode == GiMode::Radiosity,
           nameOf(settings.occlusion)};
@@ -190,7 +190,7 @@ GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) 
   plan.gather.seed = settings.seed;
   plan.gather.subset = query.subset;
   plan.gather.indirect = bouncesFor(state, query) > 1;
-  if (settings.mode == GiMode::Atlas) plan.gather.light = Illumination::Stored;
+  if (settings.mode == GiMode::Atlas) plan.gather.light = Illumination::Stored, plan.gather.mirrored = attributes.photon.causticMap.empty();
   return plan;
 }
 

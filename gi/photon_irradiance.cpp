@@ -67,7 +67,39 @@ Estimate estimate(const PointCloud& photons, const PhotonTree& tree, int power, 
   return {sum / area, close < kMuchCloser * wide ? close : wide};
 }
 
+/// Where photons fly: as estimate(), of a ball.
+Estimate estimateInMedium(const PointCloud& photons, const PhotonTree& tree, int power, uint32_t at, const PhotonIrradianceSettings& settings,
+                          std::vector<NearPhoton>& heap) {
+  const vec3 P = tree.position(at);
+  const auto most = static_cast<size_t>(settings.nearest);
+  tree.nearest(P, vec3(0), 0, most, settings.maxRadius, heap);
+  const bool byFarthest = heap.size() >= std::min(kFew, most);
+  const float r = byFarthest ? std::sqrt(heap.front().distance2) : settings.maxRadius;
+  if (!(r > 0)) return {vec3(0.0f), 0};
+  std::sort(heap.begin(), heap.end());
+  const size_t inside = heap.size() - byFarthest;
+  vec3 sum(0.0f), centroid(0.0f);
+  for (size_t i = 0; i < inside; ++i) {
+    const float* w = photons.at(tree.order()[heap[i].photon]) + power;
+    sum += vec3(w[0], w[1], w[2]), centroid += tree.position(heap[i].photon) - P;
+  }
+  const float count = static_cast<float>(std::max<size_t>(inside, 1)), distance = glm::length(centroid) / (count * r);
+  const float covered = glm::mix(1.0f, coveredShareOfBall(distance), glm::smoothstep(kChanceEnds, kBorderBegins, distance));
+  const float volume = 4.0f / 3 * kPi * r * r * r * covered;
+  return {sum / volume, kOverlap * r * std::cbrt(covered * static_cast<float>(settings.every) / count)};
+}
+
 }  // namespace
+
+float coveredShareOfBall(float centroidDistance) {
+  float lo = -1, hi = 1, share = 1;  // the plane, seen from the centre; the centroid moves out as it comes nearer
+  for (int i = 0; i < 24; ++i) {
+    const float a = 0.5f * (lo + hi), circle = 1 - a * a;
+    share = 1 - 0.25f * (1 - a) * (1 - a) * (2 + a);
+    (share > 0 && 0.1875f * circle * circle / share < centroidDistance ? hi : lo) = a;
+  }
+  return share;
+}
 
 float coveredShare(float centroidDistance) {
   float lo = 0, hi = kPi;  // the centroid moves in as the segment grows
@@ -83,7 +115,7 @@ float reachOf(const PhotonIrradianceSettings& settings, const Bound3& map) {
 }
 
 std::vector<CloudChannel> irradianceChannels(const std::vector<CloudChannel>& photons) {
-  std::vector<CloudChannel> out{{"irradiance", 3}};
+  std::vector<CloudChannel> out{{offsetOf(photons, kPathPower) >= 0 ? "fluence" : "irradiance", 3}};
   if (tellsSurfaces(photons)) out.push_back(kSurfaceChannel);
   return out;
 }
@@ -94,7 +126,8 @@ PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceS
   PointCloud out;
   out.channels = irradianceChannels(photons.channels);
   if (photons.count() == 0) return out;
-  const int power = offsetOf(photons.channels, "power");
+  const bool inMedia = offsetOf(photons.channels, kPathPower) >= 0;
+  const int power = offsetOf(photons.channels, inMedia ? kPathPower : "power");
   CHECK_GE(power, 0);
   const PhotonTree tree(photons);
   const auto every = static_cast<size_t>(std::max(1, settings.every));
@@ -104,7 +137,7 @@ PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceS
     std::vector<NearPhoton> heap;
     for (size_t i = begin; i < end; ++i) {
       const auto at = static_cast<uint32_t>(i * every);
-      if (!wanted || wanted(tree.position(at))) estimates[i] = estimate(photons, tree, power, at, settings, heap);
+      if (!wanted || wanted(tree.position(at))) estimates[i] = (inMedia ? estimateInMedium : estimate)(photons, tree, power, at, settings, heap);
     }
   });
   out.reserve(count);

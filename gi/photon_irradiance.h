@@ -15,12 +15,16 @@ struct PhotonIrradianceSettings {
   float maxRadius = 0;  ///< Photons farther away do not count, however few there are; 0: a twentieth of the map's diagonal.
 };
 
-/// `photons` needs a channel "power" of three floats (W), and normals. The result has the channel "irradiance"; its disks overlap enough
-/// to cover the surface. No photons make an empty cloud.
+/// Of photons in media: W m, from which comes "fluence" (W/m2), 4 pi times the mean radiance from all sides (Jensen and Christensen 1998, eq. 7
+/// with the free path for what scatters).
+inline constexpr const char* kPathPower = "pathpower";
+
+/// `photons` needs a channel "power" of three floats (W), and normals, or kPathPower. The result has the channel "irradiance" or "fluence"; its disks, or balls, overlap enough
+/// to cover the surface, or fill the volume. No photons make an empty cloud.
 /// `wanted`: only at photons there; null: at all.
 PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& settings, const std::function<bool(const vec3& P)>& wanted = {});
 
-/// The channels of the result: `irradiance`, and which surface it is of where photons tell.
+/// The channels of the result: `irradiance` or `fluence`, and which surface it is of where photons tell.
 std::vector<CloudChannel> irradianceChannels(const std::vector<CloudChannel>& photons);
 
 /// The radius beyond which photons do not count, on a map of this bound.
@@ -29,5 +33,7 @@ float reachOf(const PhotonIrradianceSettings& settings, const Bound3& map);
 /// Share of a disk that a straight border leaves, by how far the centroid of what is left lies from the centre, in radii: 1 at 0, 1/2
 /// at 4/(3 pi). What photons near the border of a surface are short of.
 float coveredShare(float centroidDistance);
+/// The same of a ball and a plane: 1/2 at 3/8.
+float coveredShareOfBall(float centroidDistance);
 
 }  // namespace tomales

@@ -50,6 +50,7 @@ void PhotonTree::nearest(const vec3& P, const vec3& N, int surface, size_t most,
     float distance2;
   };
   heap.clear();
+  const bool oriented = N != vec3(0.0f);
   float limit = radius * radius;
   std::array<Range, 64> stack;
   size_t depth = 0;
@@ -72,7 +73,7 @@ void PhotonTree::nearest(const vec3& P, const vec3& N, int surface, size_t most,
       const bool same = surface == 0 || surface_[i] == 0 || surface_[i] == surface;
       const float apart = same ? dot(off, N) : 0.5f * dot(off, N + normal_[i]);
       const float distance2 = dot(off, off) + (same ? kAlongNormal : kOffSheet) * apart * apart;
-      if (distance2 > limit || dot(normal_[i], N) < kSameSide) continue;
+      if (distance2 > limit || (oriented && dot(normal_[i], N) < kSameSide)) continue;
       heap.push_back({distance2, i});
       std::push_heap(heap.begin(), heap.end());
       if (heap.size() > most) std::pop_heap(heap.begin(), heap.end()), heap.pop_back();

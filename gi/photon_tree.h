@@ -24,7 +24,7 @@ class PhotonTree {
 
   int surface(uint32_t i) const { return surface_[i]; }  ///< 0: not known.
 
-  /// The `most` nearest photons within `radius` that face as `N` does, as a heap with the farthest in front. Those of another surface
+  /// The `most` nearest photons within `radius` that face as `N` does (zero: whatever they face, in a ball), as a heap with the farthest in front. Those of another surface
   /// than `surface` (0: all are of this one) count only if they continue it.
   void nearest(const vec3& P, const vec3& N, int surface, size_t most, float radius, std::vector<NearPhoton>& heap) const;
 

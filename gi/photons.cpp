@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "gi/medium.h"
 #include "gi/photon_emission.h"
 #include "gi/state.h"
 #include "reyes/base/parallel.h"
@@ -11,20 +12,27 @@ namespace tomales {
 namespace {
 
 constexpr size_t kPhotonsPerTask = 2048, kTasksPerWave = 64;
-constexpr uint32_t kBounceStream = 0x626f756eU;
+constexpr uint32_t kBounceStream = 0x626f756eU, kMediumStream = 0x6d656469U;
 
 struct Path {
   Ray ray;
   vec3 power;
   uint32_t number;
   int depth = 0;
+  uint32_t collisions = 0;  ///< With media.
   bool specular = true;  ///< So far it has met nothing diffuse.
 };
 
 struct Scratch {
   std::vector<Hit> hits;
-  std::vector<vec3> reflectance;  ///< At each.
+  std::vector<vec3> reflectance;   ///< At each.
+  std::vector<uint8_t> scattered;  ///< Before it was reached.
 };
+
+vec3 onSphere(const vec2& xi) {
+  const float z = 1 - 2 * xi.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * xi.y;
+  return {r * std::cos(phi), r * std::sin(phi), z};
+}
 
 /// Reflection and refraction at a smooth dielectric.
 vec3 dielectric(const vec3& d, const vec3& towards, bool entering, float index, float xi) {
@@ -40,7 +48,7 @@ vec3 dielectric(const vec3& d, const vec3& towards, bool entering, float index, 
 class Tracer {
  public:
   Tracer(const Scene& scene, const RayScene& rays, const ShadingSystem& shading, const PhotonSettings& settings, Log& log)
-      : scene_(scene), rays_(rays), shading_(shading), settings_(settings) {
+      : scene_(scene), rays_(rays), shading_(shading), settings_(settings), worldUnit_(std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))))) {
     for (const ShadeGroup& g : scene.groups) {
       const std::string& name = g.attributes->photon.shadingModel;
       const std::optional<PhotonModel> model = photonModel(name);
@@ -48,6 +56,8 @@ class Tracer {
         log.report(Severity::Warning, "photons-model-" + name, scene.where,
                    "photon shadingmodel \"" + name + "\" is not known; matte is used");
       models_.push_back(model.value_or(PhotonModel::Matte));
+      media_.push_back({mediumOf(g.attributes->interior.get(), worldUnit_), mediumOf(g.attributes->exterior.get(), worldUnit_)});
+      anyMedium_ |= !media_.back().inside.empty() || !media_.back().outside.empty();
     }
     askEvenSurfaces();
   }
@@ -76,14 +86,49 @@ class Tracer {
   void step(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const {
     s.hits.clear();
     for (const Path& path : paths) s.hits.push_back(rays_.closest(path.ray, kMaskPhoton));
+    crossMedia(paths, stream, s, out);
     reflectances(paths, stream, s);
     size_t kept = 0;
     for (size_t i = 0; i < paths.size(); ++i) {
-      if (s.hits[i].object < 0 || !bounce(paths[i], s.hits[i], s.reflectance[i], stream, out)) continue;
+      if (!s.scattered[i] && (s.hits[i].object < 0 || !bounce(paths[i], s.hits[i], s.reflectance[i], stream, out))) continue;
       if (kept != i) paths[kept] = paths[i];
       ++kept;
     }
     paths.resize(kept);
+  }
+
+  /// What collides before it arrives is stored there, and meets no surface in this step.
+  void crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const {
+    s.scattered.assign(paths.size(), 0);
+    for (size_t i = 0; anyMedium_ && i < paths.size(); ++i) {
+      Path& path = paths[i];
+      Hit& hit = s.hits[i];
+      if (hit.object < 0) continue;
+      const Media& media = media_[static_cast<size_t>(groupOf(hit))];
+      const Medium& medium = dot(path.ray.direction, hit.geometricNormal) > 0 ? media.inside : media.outside;
+      if (medium.empty()) continue;
+      const uint32_t name = hashCombine(hashCombine(stream, static_cast<uint32_t>(path.depth)), kMediumStream, path.collisions);
+      const float flight = -std::log(1 - sobol1(path.number, name)) / medium.majorant();
+      if (!(flight < hit.t)) continue;
+      s.scattered[i] = scatter(path, medium, path.ray.origin + flight * path.ray.direction, name, out);
+      hit.object = -1;
+    }
+  }
+
+  bool scatter(Path& path, const Medium& medium, const vec3& P, uint32_t name, std::vector<StoredPhoton>& out) const {
+    out.push_back({P, vec3(0), path.power / (medium.majorant() * worldUnit_), -1, path.depth, false});
+    const Collision collision = collide(medium, path.power, sobol1(path.number, hashCombine(name, 1u)));
+    if (collision.event == Collision::Absorbed) return false;
+    path.power = collision.power;
+    ++path.collisions;
+    vec3 direction = path.ray.direction;
+    if (collision.event == Collision::Scattered) {
+      if (++path.depth >= settings_.maxDepth) return false;
+      path.specular = false;
+      direction = onSphere(sobol2(path.number, hashCombine(name, 2u)));
+    }
+    path.ray = {P, direction};
+    return true;
   }
 
   /// Surfaces that reflect the same everywhere, at any place of theirs.
@@ -149,7 +194,7 @@ class Tracer {
     switch (const PhotonModel model = models_[static_cast<size_t>(group)]) {
       case PhotonModel::Matte:
       case PhotonModel::Translucent: {
-        out.push_back({P, N, path.power, group, path.depth, path.specular && path.depth > 0});
+        out.push_back({P, Ng, path.power, group, path.depth, path.specular && path.depth > 0});
         path.specular = false;
         passed = isFinite(reflectance) ? glm::clamp(reflectance, 0.0f, 1.0f) : vec3(0);
         const bool through = model == PhotonModel::Translucent && sobol1(path.number, hashCombine(name, 2u)) < 0.5f;
@@ -189,6 +234,10 @@ class Tracer {
   const RayScene& rays_;
   const ShadingSystem& shading_;
   const PhotonSettings& settings_;
+  const float worldUnit_;                   ///< Length of one of the world.
+  struct Media { Medium inside, outside; };
+  std::vector<Media> media_;                ///< On both sides of the surfaces of each group.
+  bool anyMedium_ = false;
   std::vector<PhotonModel> models_;         ///< Of each group,
   std::vector<std::optional<vec3>> even_;  ///< and what it reflects if that is the same everywhere.
 };

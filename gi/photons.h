@@ -1,5 +1,6 @@
 // Verb: photons from the lights through the scene (irradiance-atlas 4). Each photon that arrives on a diffuse surface is stored; what
-// goes on is decided by Russian roulette, so that powers stay even.
+// goes on is decided by Russian roulette, so that powers stay even. In a medium (gi/medium.h: what the Interior or Exterior of the surface
+// that a photon flies to says of that side of it) photons are stored where they collide.
 // Power: W. Space: current. Same photons for any number of threads.
 #pragma once
 #include <functional>
@@ -12,14 +13,14 @@ namespace tomales {
 
 struct PhotonSettings {
   int64_t emit = 1'000'000;  ///< Of all lights together.
-  int maxDepth = 10;         ///< Most surfaces that a photon may arrive at.
+  int maxDepth = 10;         ///< Most surfaces that a photon may arrive at; being scattered counts as well.
   uint32_t seed = 0;
 };
 
 struct StoredPhoton {
-  vec3 P, N;   ///< N: unit, towards the side that the photon came from.
-  vec3 power;
-  int group;   ///< Of Scene::groups
+  vec3 P, N;   ///< N: unit, of the polygon that P lies on, towards the side that the photon came from; zero: in a medium.
+  vec3 power;  ///< In a medium times the free path there, in lengths of the world: W m.
+  int group;   ///< Of Scene::groups; -1: in a medium.
   int depth;   ///< 0: straight from a light.
   bool caustic;  ///< It has met mirrors and glass alone on its way, and at least one.
 };

@@ -10,7 +10,7 @@ namespace tomales {
 
 struct RadiosityBrickSettings {
   RadiositySettings points;
-  BrickSettings bricks{0.03f};  ///< maxError: a share of the map's mean, as of the atlas
+  BrickSettings bricks{0.03f};  ///< maxError: a share of the map's mean, as of the atlas; as fine as the points
 };
 
 class RadiosityBricks final : public HitRadiance {

@@ -11,7 +11,7 @@ ShadeContext contextOfHits(const Attributes& own, const RayQuery& query, const S
   ShadeContext hit = context;
   hit.highlights = mode == GiMode::Reference;
   hit.kind = query.kind;
-  hit.label = query.label, hit.lampsGlow = query.lampsGlow;
+  hit.label = query.label, hit.lampsGlow = query.lampsGlow && context.mirrored;
   hit.importance *= query.importance;
   hit.diffuseLimit = std::min(context.diffuseLimit, context.depth + own.trace.maxDiffuseDepth);
   hit.specularLimit = std::min(context.specularLimit, context.specularDepth + own.trace.maxSpecularDepth);

@@ -51,6 +51,7 @@ struct ShadeContext {
   int diffuseLimit = 1 << 20, specularLimit = 1 << 20;  ///< Depths at which no ray follows, set by the objects on the way.
   std::string label{};         ///< Of the ray that came here.
   bool lampsGlow = true;       ///< For that ray.
+  bool mirrored = true;        ///< Specular rays bring lamps and skies: not where photons have brought what comes from them by mirrors.
   bool highlights = false;     ///< Diffuse rays bring highlights too: those of the reference path tracer.
   RayAnswers* answers = nullptr;  ///< Of this batch: asked before shadow and gather rays are traced. Null: all are traced.
   bool rehearsal = false;      ///< Shaders run only to learn what they ask: no ray is traced, and nothing baked or printed.

@@ -151,6 +151,7 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   bricks->add_flag("--relative", in.brickmake.relative, "maxerror is a share of the mean of the data");
   bricks->add_option("--maxdepth", in.brickmake.settings.maxDepth, "Most levels below the first")->check(CLI::Range(0, 20));
   bricks->add_option("--radiusscale", in.brickmake.settings.radiusScale, "Scale of the points' radii")->check(CLI::Range(1e-3, 1e3));
+  bricks->add_option("--coarseness", in.brickmake.settings.coarseness, "Widths of the finest voxels, over what the radii ask: 2 for irradiance of photons")->check(CLI::Range(0.1, 100.0));
   bricks->add_flag("--ignorenormals", in.brickmake.settings.ignoreNormals, "The data fill a volume");
   bricks->callback([&] { code = brickmakeCommand(in.brickmake); });
 

@@ -49,7 +49,7 @@ std::unique_ptr<const HitRadiance> bricksIn(const std::string& folder, const Ray
                                             const RenderSettings& settings, Stats& stats, Log& log) {
   try {
     const AtlasSettings atlas = atlasSettings(settings, tools.rays->scene());
-    const RadiosityBrickSettings bricks{radiosity, atlas.bricks};
+    const RadiosityBrickSettings bricks{.points = radiosity};
     return std::make_unique<const RadiosityBricks>(folder, *tools.rays, *tools.shading, camera, mapNames(tools.rays->scene(), atlas), bricks, brickCacheBytes(settings),
                                                    stats, log);
   } catch (const std::runtime_error& e) {  // FileError, or of the file system

@@ -33,7 +33,7 @@ void traceRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 directi
   result.distance = batch.arena.floats(g->count);
   if (color.x) result.color = batch.arena.vec3(g->count), result.opacity = batch.arena.vec3(g->count);
   // As of area lights, diffuse rays bring nothing: diffuse() has asked for the light itself.
-  if (color.x && query.kind == RayKind::Specular && query.lampsGlow && query.maxDistance >= kFarAway) result.leaves = batch.arena.bytes(g->count);
+  if (color.x && query.kind == RayKind::Specular && query.lampsGlow && batch.context.mirrored && query.maxDistance >= kFarAway) result.leaves = batch.arena.bytes(g->count);
   for (int ray = 0; ray < options.samples; ++ray, ++query.number) {
     const Batch::Scratch scratch(batch);
     cone.aim(P, direction, ray);

@@ -66,7 +66,7 @@ void bench(uint32_t count) {
   writePointFile(every4, points);
   const PointCloud few = PointFile(points).readAll();
   const float mean = static_cast<float>(PointTiles(PointFile(points)).meanOfData());
-  measure("bricks of every 4th", static_cast<double>(few.count()), [&] { writeBrickMap(few, {0.03f * mean}, bricks); });
+  measure("bricks of every 4th", static_cast<double>(few.count()), [&] { writeBrickMap(few, {.maxError = 0.03f * mean, .coarseness = 2}, bricks); });
   measure("point file", static_cast<double>(all.count()), [&] { writePointFile(all, points); });
   PointCloud read;
   measure("read again", static_cast<double>(all.count()), [&] { read = PointFile(points).readAll(); });

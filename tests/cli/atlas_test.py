@@ -137,6 +137,34 @@ t.expect_run("points without a folder", ["room.rib", "--gi", "points", "-o", "ou
 t.expect_run("points that are not there", ["room.rib", "--gi", "points", "--atlas", "nowhere", "-o", "out.exr"], 3, "there are no points")
 t.expect_run("photons are no irradiance", ["room.rib", "--gi", "points", "--atlas", "byhand_photons", "-o", "out.exr"], 3, 'has no channel "irradiance"')
 
+# A lamp that turns its back on the floor, and a mirror: gather rays see it in there, and photons come from there to a map of caustics. Once is enough.
+MIRROR = """Format 24 24 1
+Projection "perspective" "fov" [40]
+Rotate -90 1 0 0
+Translate 0 -3 0
+WorldBegin
+LightSource "indirectlight" 1 "samples" [400]
+AttributeBegin
+AreaLightSource "arealight" 2 "intensity" [10]
+Color 0 0 0
+Patch "bilinear" "P" [1.5 0.3 -0.3  1.5 0.3 0.3  1.5 0.9 -0.3  1.5 0.9 0.3]
+AttributeEnd
+Illuminate 2 1
+AttributeBegin
+Surface "mirror"
+Attribute "photon" "shadingmodel" ["chrome"]
+Polygon "P" [-1.5 0 -2  -1.5 2 -2  -1.5 2 2  -1.5 0 2]
+AttributeEnd
+Surface "matte"
+Attribute "photon" "causticmap" ["{map}"]
+Polygon "P" [-1.2 0 -1  -1.2 0 1  1.2 0 1  1.2 0 -1]
+WorldEnd
+"""
+for name, of in (("seen", ""), ("landed", "floor")):
+    t.write(name + ".rib", MIRROR.format(map=of))
+    t.run("render", name + ".rib", "--gi", "atlas", "--photons", "200000", "--indirect-only", "-o", name + ".exr", "-q")
+t.expect(apart("landed.exr", "seen.exr") < 0.25, f"light from mirrors counts once, as photons or as rays: {apart('landed.exr', 'seen.exr')}")
+
 # A scene without light, an object that no photon reaches, a disk that is full.
 t.write("dark.rib", ROOM.format(camera="0", light="2", color="0.5").replace('LightSource "pointlight"', '# LightSource "pointlight"'))
 t.expect_run("a scene without light", ["dark.rib", "--gi", "atlas", "-o", "dark.exr"], 0, "emits photons")
