@@ -230,6 +230,31 @@ TEST_F(Elsewhere, IndirectLightReachesSurfacesAndNotTheAir) {
   EXPECT_EQ(inAir, 1);
 }
 
+// As many ends of rays as points, and the same light at infinity: what shadow rays from the ends answer is not for the surface.
+TEST_F(Elsewhere, WhatAnsweredToAVolumeIsNotRememberedOfTheSurface) {
+  light("distantlight").castsShadows = true;
+  attributes.exterior = std::make_shared<const ShaderCall>(call("between", {}));
+  services.met = [](const vec3&, const vec3&) { return 3.0f; };
+  services.visible = [](const vec3& P, const vec3&) { return P.z == 5 ? 1.0f : 0.0f; };
+  inVolume = [](sl::Volume& v) { v.illuminance(v.P, [&] { v.Ci += v.Cl; }); };
+  RayAnswers answers;
+  answers.recording = true;
+  ShadeContext context;
+  context.answers = &answers;
+  const auto lit = [&] {
+    return asked(2, [](sl::Surface& s) {
+      Color light;
+      s.illuminance(s.P, [&] { light += s.Cl; });
+      trace(s.P, Vector(0, 0, -1));
+      s.Ci = light;
+    }, context).color(1);
+  };
+  expectColor(lit(), vec3(1));
+  answers.recording = false, services.shadowRays = 0;
+  expectColor(lit(), vec3(1));
+  EXPECT_EQ(services.shadowRays, 2) << "those of the volume";
+}
+
 // A sky of radiance 1 is 4 pi of it, over pi, from all around; above a surface half of that counts, whatever the density of samples.
 TEST_F(Elsewhere, TheAirIsLitByTheSkyFromAllSides) {
   light("environmentlight", {number("samples", 256)});
