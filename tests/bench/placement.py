@@ -1,5 +1,5 @@
 """Error functions of the irradiance cache at equal numbers of records (docs/gi.md): indirect light alone against a gather at every point.
-    placement.py TOMALES [--scenes box_ball contact grazing] [--size 128] [--samples 1600] [--truth 3000] [--keep FOLDER]
+    placement.py TOMALES [--scenes box_ball contact grazing] [--size 128] [--samples 1600] [--truth 3000] [--crop X0,X1,Y0,Y1] [--keep FOLDER]
 Corners: pixels that are open to less than 97 % within 0.12 units. `screen` has the records it asks for at maxerror 1, the others as many."""
 import argparse
 import json
@@ -23,6 +23,7 @@ parser.add_argument("--functions", nargs="+", default=FUNCTIONS)
 parser.add_argument("--size", type=int, default=128)
 parser.add_argument("--samples", type=int, default=1600)
 parser.add_argument("--truth", type=int, default=3000)
+parser.add_argument("--crop", default="0,1,0,1")
 parser.add_argument("--records", type=int, default=0, help="instead of those of screen")
 parser.add_argument("--keep", type=pathlib.Path, help="pictures stay there, and truths that are there are used")
 parser.add_argument("-t", default="2")
@@ -32,7 +33,7 @@ options = parser.parse_args()
 def render(scene, out, *arguments):
     """The number of records."""
     stats = out.with_suffix(".json")
-    subprocess.run([options.tomales, "render", scene, "-q", "--format", f"{options.size}x{options.size}", "--pixel-samples", "2x2", "-t", options.t,
+    subprocess.run([options.tomales, "render", scene, "-q", "--format", f"{options.size}x{options.size}", "--pixel-samples", "2x2", "--crop", options.crop, "-t", options.t,
                     "-o", out, "--stats", stats, *map(str, arguments)], check=True)
     return json.loads(stats.read_text())["irradiance_cache"]["samples"]
 
@@ -71,26 +72,30 @@ def rms(errors):
     return math.sqrt(sum(errors) / max(len(errors), 1))
 
 
+def describe(seen, truth, corners, mean):
+    squares = {xy: sum((a - b) ** 2 for a, b in zip(seen[xy][:3], truth[xy][:3])) / 3 / mean ** 2 for xy in truth}
+    relative = sorted(abs(a - b) / (b + 0.01) for xy in truth for a, b in zip(seen[xy][:3], truth[xy][:3]))
+    parts = {"rms": squares, "outside corners": squares.keys() - corners, "in corners": squares.keys() & corners}
+    text = ", ".join(f"{part} {100 * rms([squares[xy] for xy in places]):5.2f} %" for part, places in parts.items())
+    return (f"mean {100 * sum(relative) / len(relative):5.2f} %, p99 {100 * relative[int(0.99 * len(relative))]:5.1f} %, {text}, worst pixel "
+            f"{100 * math.sqrt(max(squares.values())):4.0f} % ({len(parts['in corners'])} of {len(squares)} pixels in corners)")
+
+
 def report(scene, folder):
     truth_file = folder / f"{scene.stem}_truth.exr"
     if not truth_file.exists():
         render(scene, truth_file, "--gi", "gather", "--indirect-only", "--max-error", 0, "--samples", options.truth, "--light-seed", 1)
     emission = folder / f"{scene.stem}_emission.exr"
     render(scene, emission, "--gi", "none", "--indirect-only")
-    truth, corners, lamps = pixels(truth_file), corners_of(scene, folder), pixels(emission)
+    corners, lamps = corners_of(scene, folder), pixels(emission)
+    truth = {xy: color for xy, color in pixels(truth_file).items() if max(color[:3]) > 0}  # inside the crop
     mean = sum(sum(c[:3]) - sum(lamps[xy][:3]) for xy, c in truth.items()) / (3 * len(truth))
     records = options.records
     for function in options.functions:
         out = folder / f"{scene.stem}_{function}.exr"
         max_error, made = with_as_many(scene, out, function, records) if records else (1, gather(scene, out, function, 1))
         records = records or made
-        seen = pixels(out)
-        squares = {xy: sum((a - b) ** 2 for a, b in zip(seen[xy][:3], truth[xy][:3])) / 3 / mean ** 2 for xy in truth}
-        relative = sorted(abs(a - b) / (b + 0.01) for xy in truth for a, b in zip(seen[xy][:3], truth[xy][:3]))
-        outside = [s for xy, s in squares.items() if xy not in corners]
-        print(f"{scene.stem:<10} {function:<8} maxerror {max_error:5.3f} {made:6} records, mean {100 * sum(relative) / len(relative):5.2f} %, p99 "
-              f"{100 * relative[int(0.99 * len(relative))]:5.1f} %, rms {100 * rms(list(squares.values())):5.2f} %, outside corners {100 * rms(outside):5.2f} %, in corners "
-              f"{100 * rms([squares[xy] for xy in corners]):5.2f} %, worst pixel {100 * math.sqrt(max(squares.values())):4.0f} % ({len(corners)} px in corners)", flush=True)
+        print(f"{scene.stem:<10} {function:<8} maxerror {max_error:5.3f} {made:6} records, {describe(pixels(out), truth, corners, mean)}", flush=True)
 
 
 with tempfile.TemporaryDirectory() as name:
