@@ -1,9 +1,11 @@
-"""Pictures do not care where the world stands, how large it is, or which hand it has: each scene of the gallery, moved together with its camera.
+"""Pictures do not care where the world stands, how large it is, which hand it has, in what order and pieces it is told, or how it is rendered: each
+scene of the gallery.
 
     symmetry_test.py tomales repository [--all] [part of a scene's name]
 
-What only rounding tells apart (turned, far away, scaled) must agree in almost every pixel. What draws other random numbers (mirrored, another
-seed, twice the resolution) must agree in means of blocks as two seeds do. Without --all: what rounding tells apart.
+Threads and buckets must leave no trace, crops only in records of indirect light.
+What only rounding tells apart (turned, far away, scaled, told in another order or as one mesh) must agree in almost every pixel. What draws other random numbers or dices otherwise
+(mirrored, another seed, twice the resolution, primitives in halves) must agree in means of blocks as two seeds do. Without --all: bits, and what moving and scaling change.
 """
 import os
 import pathlib
@@ -14,6 +16,7 @@ import sys
 import tempfile
 
 from pictures import pixels
+from rewrite import merged, reordered, split
 
 tomales, root = sys.argv[1], pathlib.Path(sys.argv[2])
 only = next((a for a in sys.argv[3:] if a != "--all"), "")
@@ -27,6 +30,7 @@ IN_UNITS = re.compile(r"DepthOfField|[Dd]isplace|fog|Atmosphere|Interior|filterl
 ON_SCREEN = re.compile(r"ScreenWindow|orthographic")                                      # and windows on the screen
 BY_PIXELS = re.compile(r"motionfactor")                                                   # is coarser by so many pixels
 NEEDS_PLUGINS = re.compile(r"MakeTexture")
+BY_PARAMETERS = re.compile(r"[Tt]exture|[Dd]isplace|primvar|vertex|varying|wood|grid")  # halves have other u, v and bounds
 SLOW = ("furnace", "rectlight", "ris")
 
 
@@ -79,6 +83,7 @@ def check(path, folder):
     text = re.sub(r"^PixelFilter.*$", "", text, flags=re.M).replace("WorldBegin", 'PixelFilter "box" 1 1\nWorldBegin', 1)
     base = render(text, folder, "base")
     most = 0.05 if "indirectlight" in text else 0.02  # where irradiance records lie is decided by a hair's breadth
+    check_bits(name, text, base, folder)
     turned = render(moved(text, "Rotate 37 1 2 3", "Rotate -37 1 2 3"), folder, "turned")
     share = differing(base, turned)
     verdict(name, "turned", share < most, f"{100 * share:.2f} % of the pixels differ")
@@ -89,7 +94,24 @@ def check(path, folder):
             share = differing(base, render(scaled(text, k), folder, f"scaled_{k}"))
             verdict(name, f"{k} times as large", share < most, f"{100 * share:.2f} % of the pixels differ")
     if every_check:
+        check_rewritten(name, text, base, most, folder)
         check_means(name, text, folder, statistics.fmean(sum(p) / 3 for p in base.values()))
+
+
+def check_bits(name, text, base, folder):
+    """A crop has irradiance records of its own."""
+    crop = [] if "indirectlight" in text else ["--crop", "0.25,0.75,0.25,1"]
+    other = render(text, folder, "bits", (WIDTH, HEIGHT), "-t", "3", "--bucket-size", "8", *crop)
+    seen = [(x, y) for x, y in base if not crop or WIDTH <= 4 * x < 3 * WIDTH and HEIGHT <= 4 * y]
+    count = sum(base[key] != other[key] for key in seen)
+    verdict(name, "three threads, buckets of 8" + (", cropped" if crop else ""), count == 0, f"{count} of {len(seen)} pixels differ")
+
+
+def check_rewritten(name, text, base, most, folder):
+    for what, other in (("told in another order", reordered(text)), ("polygons as one mesh", merged(text))):
+        if other != text:
+            share = differing(base, render(other, folder, "rewritten"))
+            verdict(name, what, share < most, f"{100 * share:.2f} % of the pixels differ")
 
 
 def check_means(name, text, folder, mean):
@@ -101,6 +123,8 @@ def check_means(name, text, folder, mean):
         others["mirrored"] = blocks({(WIDTH - 1 - x, y): p for (x, y), p in flipped.items()})
     if not BY_PIXELS.search(text):
         others["twice the resolution"] = blocks(render(text, folder, "doubled", (2 * WIDTH, 2 * HEIGHT)), 2 * WIDTH, 2 * HEIGHT, 2 * BLOCK)
+    if (halved := split(text)) != text and not BY_PARAMETERS.search(text):
+        others["primitives in halves"] = blocks(render(halved, folder, "halved"))
     for what, other in others.items():
         rms, of_mean = distance(seeds[0], other)
         good = rms < 2 * noise + 0.01 * mean and of_mean < 4 * noise_of_mean + 0.005 * mean
