@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "reyes/split.h"
+#include "reyes/split/placement.h"
 #include "reyes/split/rate.h"
 
 namespace tomales {
@@ -23,52 +24,12 @@ constexpr float kLeastReach_px = 0.05f;  ///< What vertices are snapped by, and 
 /// What a blurred piece costs beyond its visit if it may be seen all over the window: each sample there has to look whether it meets it, and
 /// all buckets wait for its vertices at every key.
 constexpr double kVisitsOfBlur = 32, kKeysOfBlur = 16;
-constexpr float kRounding_px = 0.01f;  ///< Of projecting a box or its points.
 constexpr int kRound_cells = 6;        ///< A disk of so many is shaded as one: nothing but P varies over it.
 /// In edges of a micropolygon: a disk whose bound, half as wide again as itself, is no wider takes no more cells however it is measured.
 constexpr float kDot = 3.5f;
 /// Lazily, a patch is halved so often, and what then has so many grids or more is a coarse piece.
 constexpr int kHalvingsAtOnce = 6;
 constexpr int64_t kGridsOfCoarse = 64;
-
-/// transformBound, to the bit, by extremes of products instead of eight corners: rounding is monotonic.
-Bound3 boundThrough(const mat4& m, const Bound3& b) {
-  if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1) return transformBound(m, b);
-  const vec3 x0 = vec3(m[0]) * b.lo.x, x1 = vec3(m[0]) * b.hi.x, y0 = vec3(m[1]) * b.lo.y, y1 = vec3(m[1]) * b.hi.y;
-  const vec3 z0 = vec3(m[2]) * b.lo.z, z1 = vec3(m[2]) * b.hi.z, origin(m[3]);
-  return {(glm::min(x0, x1) + glm::min(y0, y1)) + (glm::min(z0, z1) + origin), (glm::max(x0, x1) + glm::max(y0, y1)) + (glm::max(z0, z1) + origin)};
-}
-
-/// Box in camera space around a rectangle, over the shutter, before displacement.
-Bound3 cameraBound(const Object& o, uint32_t patch, const UvRect& rect) {
-  Bound3 object;
-  for (const PrimPtr& shape : o.shapes) object.extend(shape->bound(patch, rect));
-  Bound3 camera;
-  for (const float t : o.keyTimes) camera.extend(boundThrough(o.cameraFromObject.at(t), object));
-  return camera;
-}
-
-/// Raster length of the way that the middle of a rectangle goes over the shutter. Pre: it stays in front of the eye.
-float pathLength_px(const Object& o, const Camera& camera, uint32_t patch, const UvRect& rect) {
-  float length = 0;
-  vec2 last(0);
-  for (size_t k = 0; k < o.keyTimes.size(); ++k) {
-    size_t shape = 0;
-    while (shape + 1 < o.shapes.size() && o.shapeTimes[shape + 1] <= o.keyTimes[k]) ++shape;
-    const vec3 middle = o.shapes[shape]->bound(patch, rect).center();
-    const vec2 at = camera.raster(transformPoint(o.cameraFromObject.at(o.keyTimes[k]), middle));
-    if (k > 0) length += glm::length(at - last);
-    last = at;
-  }
-  return length;
-}
-
-/// The least diameter of the circle of confusion in a range of depths; 0 if the focal plane is among them.
-float leastBlur_px(const Camera& camera, float zMin, float zMax) {
-  if (!camera.defocuses()) return 0;
-  const vec2 a = camera.defocus(camera.depthKey(zMin)), b = camera.defocus(camera.depthKey(zMax));
-  return dot(a, b) <= 0 ? 0 : 2 * std::min(glm::length(a), glm::length(b)) / std::sqrt(2.0f);
-}
 
 double pixelsOf(const PixelRect& r) { return static_cast<double>(r.width()) * r.height(); }
 
@@ -79,14 +40,6 @@ std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
   else
     a.v1 = b.v0 = 0.5f * (r.v0 + r.v1);
   return {a, b};
-}
-
-/// With what the hider may add to it: at a corner both borders are pushed.
-Bound2 rasterOf(const Bound3& bound, float reach_px, const Camera& camera, const Bound2& throughTheEye = {}) {
-  Bound2 raster;
-  if (!camera.rasterBound(bound, raster)) raster = throughTheEye;
-  const vec2 margin(2 * reach_px + kRounding_px);
-  return {raster.lo - margin, raster.hi + margin};
 }
 
 /// Is a patch bent nowhere, nor shaded as if it were? As a single cell it then reaches farther only by what closes T-vertices, and most small
@@ -305,21 +258,6 @@ void report(const Splitter::GivenUp& givenUp, const Object& o, Stats& stats, Log
                            "its blur or the magnification are too large; parts are not drawn",
                            objectName(o)));
 }
-
-}  // namespace
-
-std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
-                                  float margin, const Camera& camera, const PixelRect& window, bool clipped) {
-  Bound3 bound;
-  for (const float t : keyTimes) bound.extend(transformBound(cameraFromObject.at(t), box));
-  bound = bound.grown(margin);
-  const Placement anywhere{{{window.x0, window.y0}, {window.x1, window.y1}}, -kInfinity};
-  if (!isFinite(bound.lo) || !isFinite(bound.hi)) return anywhere;  // one bad patch must not take its neighbours along
-  if (clipped ? camera.outside(bound, window) : camera.outsideWindow(bound, window)) return std::nullopt;
-  return Placement{rasterOf(bound, borderReach_px(margin), camera, anywhere.raster), bound.lo.z};
-}
-
-namespace {
 
 /// split(splitter, pieces) does it; the rest is the same for patches and pieces.
 template <class Split>
