@@ -38,9 +38,9 @@ typedef struct TmRayOptions {
   float maxVariation;          /* occlusion() of a whole hemisphere by the cosine: how far an answer may be off that is interpolated between
                                 * records (docs/gi.md); 0: traced at every point; < 0: as Attribute "irradiance" "maxerror" says, if it is given */
   float importance;            /* of what the rays bring, 0 to 1: rayInfo("importance") where they arrive is the product of all on the way */
-  /* occlusion() alone: */
+  /* occlusion(), and the first two gather(): */
   const char *environment, *environmentSpace; /* the latitude-longitude picture that rays see which meet nothing (NULL: black), and the
-                                * space whose +z is its top (NULL: "world") */
+                                * space whose +z is its top (NULL: "world"). gather(): the picture that directions are drawn from */
   const char *pointCloud, *pointChannel; /* the disks of this file (.ptc) are in the way instead of geometry (NULL: rays), and the channel of what
                                 * they send (NULL: "_radiosity"); world space */
   float maxSolidAngle;         /* disks that together are seen under less count as one */
@@ -70,8 +70,9 @@ typedef struct TmPhotonLookup {
 
 /* One value of each ray of gather(): "surface:" Ci, Oi or an output parameter of the shader that is met, "primitive:" P, N, Ng, I, dPdu,
  * dPdv, u, v, s, t, Cs, Os or a primitive variable, "attribute:category:name", "ray:origin", "ray:direction", "ray:length",
- * "effectivedistance" (of all that the ray goes through until it is covered, weighted by what each covers). Numbers fill c[0], triples all;
- * what is met has no value of that name or type: the arrays keep theirs. */
+ * "effectivedistance" (of all that the ray goes through until it is covered, weighted by what each covers), and of an environment "environment:color",
+ * "environment:direction", "environment:solidangle" (what the ray stands for: over all rays, color times it adds up to the light of the whole picture).
+ * Numbers fill c[0], triples all; what is met has no value of that name or type: the arrays keep theirs. */
 typedef struct TmRayOutput {
   const char* name;
   int32_t floats;              /* 1 or 3 */
@@ -126,9 +127,12 @@ typedef struct TmTextureLookup {
   float sblur, tblur;          /* added to the region, as a fraction of the picture */
   float swidth, twidth;        /* scale of the region; 0: a point */
   int32_t samples;             /* environment(), of "raytrace": rays */
+  int32_t unused;              /* where an earlier release's struct ends in padding */
+  float mipBias;               /* so many levels of the picture finer than the region asks for; negative: coarser */
+  float ignoreAbove;           /* values greater than this are left out of what is averaged, texel by texel */
 } TmTextureLookup;
 
-#define TM_TEXTURE_DEFAULTS { sizeof(TmTextureLookup), 0, 3, 0, 0, 0, 0, 1, 1, 1 }
+#define TM_TEXTURE_DEFAULTS { sizeof(TmTextureLookup), 0, 3, 0, 0, 0, 0, 1, 1, 1, 0, 0, 1e30f }
 
 typedef enum TmTransformKind { TM_AS_POINT = 0, TM_AS_VECTOR = 1, TM_AS_NORMAL = 2 } TmTransformKind;
 
@@ -231,7 +235,8 @@ typedef struct TmServices {
   void (*trace)(void* host, const TmGrid*, TmConstVec3 P, TmConstVec3 direction, const TmRayOptions* options, TmVec3 color,
                 float* distance);
   /* Ray number `ray` of options->samples of each active point, around `axis`: hit[i] says whether it met anything, and outputs are set
-   * where it did ("ray:" values everywhere). Returns 0 when there are no more. */
+   * where it did ("ray:" values everywhere). Returns 0 when there are no more. With options->environment none is traced: all miss, and leave in
+   * all directions, half of them by the brightness of that picture. */
   int32_t (*gather)(void* host, const TmGrid*, TmConstVec3 P, TmConstVec3 axis, const TmRayOptions* options, int32_t ray, uint8_t* hit,
                     const TmRayOutput* outputs, int32_t outputCount);
   /* Share of the cone around N that is covered, and (unless x is NULL) the mean radiance that arrives from it. coneAngle 0: the whole

@@ -101,14 +101,19 @@ TmRayOptions rays(const List&... list) {
   even.uniform = 1;
   return listed(even, list...);
 }
-/// category: "illuminance" (or ""): rays are traced; "samplepattern": they are not, and all miss.
+/// category: "illuminance" (or ""): rays are traced; "samplepattern": they are not, and all miss; "environment:NAME": nor are they, but leave by the
+/// light of that picture, whatever direction and angle, with "environment:color", "environment:direction" and "environment:solidangle" (the sum of color
+/// times solid angle over all is the light of the whole picture).
 template <class Hit, class Miss>
 void gather(const char* category, const Point& p, const Vector& direction, float angle, int samples, const TmRayOptions& list,
             std::initializer_list<Gathered> wanted, const Hit& hit, const Miss& miss) {
   TmRayOptions options = list;
   options.samples = samples, options.coneAngle = angle;
+  constexpr std::string_view kEnvironment = "environment:";
   if (std::string_view(category) == "samplepattern")
     options.maxDistance = 0;
+  else if (std::string_view(category).substr(0, kEnvironment.size()) == kEnvironment)
+    options.environment = category + kEnvironment.size();
   else if (*category && std::string_view(category) != "illuminance")
     throw std::invalid_argument(std::string("gathers \"") + category + "\", which there is not");
   std::vector<TmRayOutput> outputs;

@@ -31,6 +31,13 @@ struct Setting {
   Triple* triples = nullptr;  ///< Likewise.
 };
 
+/// A name that other renderers know and that changes nothing here, which is reported once. `why`: no more is to be done about it.
+inline bool isIdle(std::string_view name, std::initializer_list<std::string_view> idle, const char* why) {
+  if (std::find(idle.begin(), idle.end(), name) == idle.end()) return false;
+  grid()->call->report(grid()->host, grid(), 1, ("\"" + std::string(name) + "\" has no effect: " + why).c_str());
+  return true;
+}
+
 inline bool set(TmRayOptions& o, std::string_view name, const Setting& v) {
   const std::string_view text = v.text;
   if (name == "samples") o.samples = v.whole();
@@ -49,14 +56,8 @@ inline bool set(TmRayOptions& o, std::string_view name, const Setting& v) {
   else if (name == "falloffmode") o.falloffMode = v.whole();
   else if (name == "maxvariation") o.maxVariation = v.number;
   else if (name == "weight") o.importance = v.number;
-  else return false;
-  return true;
-}
-
-/// A name that other renderers know and that changes nothing here, which is reported once. `why`: no more is to be done about it.
-inline bool isIdle(std::string_view name, std::initializer_list<std::string_view> idle, const char* why) {
-  if (std::find(idle.begin(), idle.end(), name) == idle.end()) return false;
-  grid()->call->report(grid()->host, grid(), 1, ("\"" + std::string(name) + "\" has no effect: " + why).c_str());
+  else if (name == "environmentspace") o.environmentSpace = v.text;
+  else return isIdle(name, {"minsamples", "raydepth"}, "all rays are shot that are asked for, and the renderer counts bounces");
   return true;
 }
 
@@ -82,11 +83,10 @@ inline bool set(HemisphereList& o, std::string_view name, const Setting& v) {
   else if (name == "clamp") o.rays.clamp = v.whole();
   else if (name == "maxsolidangle") o.rays.maxSolidAngle = v.number;
   else if (name == "environmentmap") o.rays.environment = *v.text ? v.text : nullptr;
-  else if (name == "environmentspace") o.rays.environmentSpace = v.text;
   else if (name == "environmentcolor") o.environmentColor = v.triples;
   else if (name == "environmentdir") o.environmentDirection = v.triples;
   else if (name == "occlusion") o.covered = v.numbers;
-  else return set(o.rays, name, v) || isIdle(name, {"adaptive", "minsamples", "brightnesswarp", "sortbleeding", "rasterresolution"},
+  else return set(o.rays, name, v) || isIdle(name, {"adaptive", "brightnesswarp", "sortbleeding", "rasterresolution"},
                                              "all samples are taken, stratified, and what is nearer hides what is behind it");
   return true;
 }
@@ -134,6 +134,8 @@ inline bool set(TmTextureLookup& o, std::string_view name, const Setting& v) {
   else if (name == "fill") o.fill = v.number;
   else if (name == "filter") o.filter = v.text;
   else if (name == "samples") o.samples = v.whole();
+  else if (name == "mipbias") o.mipBias = v.number;
+  else if (name == "ignoreabove") o.ignoreAbove = v.number;
   else if (name != "lerp") return false;  // levels are always blended
   return true;
 }

@@ -95,13 +95,6 @@ bool hasGeometry(const LightCall& call, const Scene& scene) {
                      [&](const ShadeGroup& g) { return g.attributes->areaLight == call.index; });
 }
 
-/// Of a space, whatever its scale, from current ones.
-mat3 directionsOf(const mat4& currentFromSpace) {
-  mat3 axes(currentFromSpace);
-  for (int k = 0; k < 3; ++k) axes[k] = normalizeOr(axes[k], axes[k]);
-  return glm::transpose(axes);
-}
-
 }  // namespace
 
 std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index) {
@@ -124,7 +117,7 @@ std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index
       log_.report(Severity::Warning, "light-mapspace", bound->where, fmt::format("{}: mapspace \"{}\" is neither \"world\" nor \"shader\"; world is used", bound->user, space));
     light->sky = picture.empty() ? std::make_shared<const Sky>()
                                  : std::make_shared<const Sky>(textures_, picture, bound->where, bound->user,
-                                                               directionsOf(space == "shader" ? bound->currentFromShader : cameraFromWorld_));
+                                                               skyFromCurrent(space == "shader" ? bound->currentFromShader : cameraFromWorld_));
   }
   if (light->can(TM_LIGHT_AREA) || light->can(TM_LIGHT_SKY) || light->can(TM_LIGHT_SAMPLED))
     light->samples = countOf(*bound, "samples", 16, 1, kMostLightSamples, log_);

@@ -88,7 +88,8 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
       cameraFromWorld(s.cameraFromWorldAtOpen()),
       specularSharpness(specularSharpnessOf(s.options, l)),
       textures({pathOf(s.options.searchPaths, "texture"), pathOf(s.options.searchPaths, "texturecache"), textureMemoryOf(s.options)}, l, st),
-      shadowMaps(pathOf(s.options.searchPaths, "texture"), l) {
+      shadowMaps(pathOf(s.options.searchPaths, "texture"), l),
+      skies(textures, skyFromCurrent(cameraFromWorld)) {
   output_ = outputOf(scene.options);
   binder_ = std::make_unique<Binder>(scene, registry, textures, shadowMaps, log);
   for (const auto& call : scene.lights)

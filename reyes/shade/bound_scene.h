@@ -68,6 +68,7 @@ struct BoundScene {
   float specularSharpness;  ///< Over roughness, the exponent of specular().
   Textures textures;
   ShadowMaps shadowMaps;
+  Skies skies;
   std::vector<std::unique_ptr<const BoundLight>> lights;  ///< As Scene::lights; null: unknown shader.
   BoundLight stored;                                      ///< Stands for all lights where Illumination is not Lights.
   StableVector<BoundGroup> groups;                        ///< As Scene::groups.

@@ -33,14 +33,6 @@ const uint8_t* interpolate(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConst
   return batch.scene.services->interpolatedOcclusion(*batch.points, own, N, q, batch.context, covered) ? moved : g->active;
 }
 
-/// From current space to the directions by which environment() finds what a picture shows that stands in the space of the options.
-mat3 directionsOf(const Batch& batch, const TmRayOptions& o) {
-  const std::optional<Space> space = findSpace(batch, o.environmentSpace ? o.environmentSpace : "world");
-  if (space && space->kind == Space::Linear) return mat3(batch.scene.cameraFromWorld) * glm::inverse(mat3(space->currentFromSpace));
-  batch.report(Severity::Warning, "shader-space", fmt::format("looks up an environment in space \"{}\", which there is not; the world is used", o.environmentSpace));
-  return mat3(1.0f);
-}
-
 /// What rays that meet nothing see of a picture, as environment() sees it.
 struct OpenSky {
   const char* picture;
@@ -49,7 +41,7 @@ struct OpenSky {
   TmVec3 direction, color;
 
   OpenSky(Batch& batch, const TmGrid* g, const TmRayOptions& o)
-      : picture(o.environment), toMap(directionsOf(batch, o)), angle(batch.arena.floats(g->count)), direction(batch.arena.vec3(g->count)), color(batch.arena.vec3(g->count)) {
+      : picture(o.environment), toMap(environmentDirections(batch, o.environmentSpace)), angle(batch.arena.floats(g->count)), direction(batch.arena.vec3(g->count)), color(batch.arena.vec3(g->count)) {
     std::fill_n(angle, g->count, std::sqrt(2 * kPi * (1 - std::cos(o.coneAngle)) / static_cast<float>(o.samples)));
   }
   void lookUp(Batch& batch, const TmGrid& open, TmConstVec3 along) {

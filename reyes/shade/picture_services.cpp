@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "reyes/base/rng.h"
 #include "reyes/shade/footprint.h"
 #include "reyes/shade/primary.h"
 #include "reyes/shade/sky.h"
@@ -21,13 +22,51 @@ TextureQuery queryOf(const Batch& batch, const TmGrid* g, const char* name, cons
   q.name = name;
   q.channel = o.channel, q.channels = o.channels == 1 ? 1 : 3, q.fill = o.fill;
   q.filter = !o.filter && names ? filter->second.strings[0].c_str() : o.filter;
-  q.sWidth = scale * o.swidth, q.tWidth = scale * o.twidth, q.sBlur = o.sblur, q.tBlur = o.tblur;
+  const float level = scale * std::exp2(-o.mipBias);
+  q.sWidth = level * o.swidth, q.tWidth = level * o.twidth, q.sBlur = o.sblur, q.tBlur = o.tblur;
   q.count = g->count, q.active = g->active;
   return q;
 }
 
 int32_t lookUp(const Batch& batch, const TextureQuery& query, TmVec3 out) {
   return batch.scene.textures.lookup(query, batch.running->where, batch.running->user, out);
+}
+
+/// The mean of the texels of a region that are not greater than `most`, channel by channel; `fill` where all are. Levels of the picture have averaged what
+/// is to be left out: points of the finest are asked instead.
+int32_t lookUpBelow(Batch& batch, const TextureQuery& query, float most, TmVec3 out) {
+  constexpr uint32_t kPoints = 64;
+  const int n = query.count;
+  float *s = batch.arena.floats(n), *t = batch.arena.floats(n);
+  const TmVec3 texel = batch.arena.vec3(n), sum = batch.arena.vec3(n), counted = batch.arena.vec3(n);
+  TextureQuery point = query;
+  point.s = s, point.t = t, point.su = point.tu = point.sv = point.tv = nullptr;
+  point.sWidth = point.tWidth = point.sBlur = point.tBlur = 0;
+  const auto edge = [](const float* e, int i) { return e ? e[i] : 0.0f; };
+  for (uint32_t k = 0; k < kPoints; ++k) {
+    const float a = sobol2(k, 0).x - 0.5f, b = sobol2(k, 0).y - 0.5f;
+    for (int i = 0; i < n; ++i) {
+      if (!query.active[i]) continue;
+      s[i] = query.s[i] + query.sWidth * (a * edge(query.su, i) + b * edge(query.sv, i)) + a * query.sBlur;
+      t[i] = query.t[i] + query.tWidth * (a * edge(query.tu, i) + b * edge(query.tv, i)) + b * query.tBlur;
+    }
+    if (!lookUp(batch, point, texel)) return lookUp(batch, query, out);
+    for (int i = 0; i < n; ++i)
+      for (int c = 0; query.active[i] && c < query.channels; ++c) {
+        const auto at = [&](TmVec3 v) -> float& { return (c == 0 ? v.x : c == 1 ? v.y : v.z)[i]; };
+        if (at(texel) <= most) at(sum) += at(texel), at(counted) += 1;
+      }
+  }
+  for (int i = 0; i < n; ++i)
+    for (int c = 0; query.active[i] && c < query.channels; ++c) {
+      const auto at = [&](TmVec3 v) -> float& { return (c == 0 ? v.x : c == 1 ? v.y : v.z)[i]; };
+      at(out) = at(counted) > 0 ? at(sum) / at(counted) : query.fill;
+    }
+  return 1;
+}
+
+int32_t lookUp(Batch& batch, const TextureQuery& query, const TmTextureLookup& o, TmVec3 out) {
+  return o.ignoreAbove < TmTextureLookup(TM_TEXTURE_DEFAULTS).ignoreAbove ? lookUpBelow(batch, query, o.ignoreAbove, out) : lookUp(batch, query, out);
 }
 
 /// The picture stands in world space, +z at its top.
@@ -47,23 +86,25 @@ int32_t lookUpLatLong(Batch& batch, const TmGrid* g, const char* name, const TmT
   TextureQuery query = queryOf(batch, g, name, options);
   query.s = s, query.t = t, query.su = su, query.tu = zero, query.sv = zero, query.tv = tv;
   query.latlong = true;
-  return lookUp(batch, query, out);
+  return lookUp(batch, query, options, out);
 }
 
 }  // namespace
 
 int32_t textureOver(void* host, const TmGrid* g, const char* name, const TmTextureLookup* given, const float* s, const float* t, const float* const* sides,
                     TmVec3 out) {
-  const Batch& batch = batchOf(host);
-  TextureQuery query = queryOf(batch, g, name, optionsOf(given));
+  Batch& batch = batchOf(host);
+  const TmTextureLookup options = optionsOf(given);
+  TextureQuery query = queryOf(batch, g, name, options);
   query.s = s, query.t = t;
   query.su = sides[0], query.tu = sides[1], query.sv = sides[2], query.tv = sides[3];
-  return lookUp(batch, query, out);
+  return lookUp(batch, query, options, out);
 }
 
 int32_t textureWith(void* host, const TmGrid* g, const char* name, const TmTextureLookup* given, const float* s, const float* t, TmVec3 out) {
   Batch& batch = batchOf(host);
-  TextureQuery query = queryOf(batch, g, name, optionsOf(given));
+  const TmTextureLookup options = optionsOf(given);
+  TextureQuery query = queryOf(batch, g, name, options);
   query.s = s, query.t = t;
   float* steps[4];
   for (float*& step : steps) step = batch.arena.floats(g->count);
@@ -74,7 +115,7 @@ int32_t textureWith(void* host, const TmGrid* g, const char* name, const TmTextu
   else if (batch.points && batch.running->shader->kind != TM_LIGHT && (batch.points->hasSteps() || !(batch.running->can(TM_DERIVATIVES) || batch.running->can(TM_NEIGHBOURS))))
     batch.report(Severity::Warning, "shader-footprint",
                  "looks a picture up at places that it has computed, without TM_NEIGHBOURS (or at s, t without TM_DERIVATIVES); it is not filtered");
-  return lookUp(batch, query, out);
+  return lookUp(batch, query, options, out);
 }
 
 int32_t texture(void* host, const TmGrid* g, const char* name, int32_t channel, int32_t channels, const float* s, const float* t, TmVec3 out) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include "reyes/shade/environment_rays.h"
 #include "reyes/shade/primary.h"
 #include "reyes/shade/ray_shots.h"
 #include "reyes/shade/volumes.h"
@@ -53,6 +54,7 @@ int32_t gatherRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 axi
   const Primary primary(batch, all);
   const TmGrid* g = primary.grid();
   const TmRayOptions options = rayOptions(given);
+  if (options.environment) return gatherEnvironment(batch, all, P, options, ray, hit, outputs, outputCount);
   if (ray < 0 || ray >= options.samples || !traces(batch)) return 0;
   Cone cone(batch, g, options);
   cone.aim(P, axis, ray);

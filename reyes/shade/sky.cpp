@@ -93,4 +93,16 @@ float Sky::pictureDensity(const vec3& L) const {
   return static_cast<float>(share * kRows * kColumns / std::max(double{solidAngleAt(st.y)}, 1e-9));
 }
 
+mat3 skyFromCurrent(const mat4& currentFromSpace) {
+  mat3 axes(currentFromSpace);
+  for (int k = 0; k < 3; ++k) axes[k] = normalizeOr(axes[k], axes[k]);
+  return glm::transpose(axes);
+}
+
+const Sky& Skies::find(const std::string& picture, const SourceLoc& where, const std::string& user) const {
+  const std::lock_guard lock(mutex_);
+  const auto it = skies_.find(picture);
+  return it != skies_.end() ? it->second : skies_.try_emplace(picture, textures_, picture, where, user, worldFromCurrent_).first->second;
+}
+
 }  // namespace tomales

@@ -2,7 +2,9 @@
 // without a picture by the cosine alone. A bright sun of a few texels is found by as many samples as it is worth.
 // Space: current. Threads: const members may be called concurrently.
 #pragma once
+#include <map>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "reyes/base/distribution.h"
@@ -16,6 +18,8 @@ namespace tomales {
 /// the right. s and t in 0..1, t downwards.
 vec2 latLong(const vec3& worldDirection);
 vec3 latLongDirection(const vec2& st);
+
+constexpr float kSkyCell = 2 * kPi / 1024;  ///< Radians: brightness is known by cells of this size.
 
 class Sky {
  public:
@@ -35,6 +39,22 @@ class Sky {
   Distribution rows_;
   std::vector<Distribution> row_;  ///< Cells of each; none: no picture.
   mat3 worldFromCurrent_{1.0f};
+};
+
+/// The orientation of a sky that stands in a space, whatever the scale of that.
+mat3 skyFromCurrent(const mat4& currentFromSpace);
+
+/// Those that shaders name, which stand in the world. Threads: concurrent calls are safe.
+class Skies {
+ public:
+  Skies(const Textures& textures, const mat3& worldFromCurrent) : textures_(textures), worldFromCurrent_(worldFromCurrent) {}
+  const Sky& find(const std::string& picture, const SourceLoc& where, const std::string& user) const;
+
+ private:
+  const Textures& textures_;
+  const mat3 worldFromCurrent_;
+  mutable std::mutex mutex_;
+  mutable std::map<std::string, Sky> skies_;
 };
 
 }  // namespace tomales

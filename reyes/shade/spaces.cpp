@@ -1,5 +1,7 @@
 #include "reyes/shade/spaces.h"
 
+#include <fmt/format.h>
+
 namespace tomales {
 namespace {
 
@@ -41,6 +43,13 @@ vec3 currentFromProjected(const Batch& batch, Space::Kind kind, const vec3& p) {
   vec3 eye, direction;
   batch.scene.camera.ray(vec2(p) * scale + origin, eye, direction);
   return eye + direction * ((p.z - eye.z) / direction.z);
+}
+
+mat3 environmentDirections(const Batch& batch, const char* name) {
+  const std::optional<Space> space = findSpace(batch, name ? name : "world");
+  if (space && space->kind == Space::Linear) return mat3(batch.scene.cameraFromWorld) * glm::inverse(mat3(space->currentFromSpace));
+  batch.report(Severity::Warning, "shader-space", fmt::format("looks up an environment in space \"{}\", which there is not; the world is used", name));
+  return mat3(1.0f);
 }
 
 }  // namespace tomales

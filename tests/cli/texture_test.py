@@ -53,9 +53,11 @@ suite.expect_run("six faces make an environment", [scene("cube", "cube.env", 'Ma
 suite.expect_run("a wrong filter and wrap mode are named",
                  [scene("odd", "o.tex", 'MakeTexture "grain.png" "o.tex" "round" "black" "star" 1 1')], 0, '"round"', '"star"')
 
-data = (suite.folder / grain).read_bytes()
-suite.write("cut.png", data[:len(data) // 2])
-suite.expect_run("a truncated picture is loud and says where", [scene("cut", "cut.png")], 3, "cut.png", "cut.rib:7", "magenta")
+suite.run("st.rib", "-o", "st.tif")
+for whole in ("grain.png", "st.tif", "st.exr", "made.tex"):
+    data = (suite.folder / whole).read_bytes()
+    suite.write("cut" + whole, data[:len(data) // 2])
+    suite.expect_run(f"half of {whole} is loud and says where", [scene("cut", "cut" + whole)], 3, "cut" + whole, "cut.rib:7", "magenta")
 suite.expect_run("a missing one too", [scene("absent", "absent.png")], 3, "absent.png", "absent.rib:7", "magenta")
 suite.expect_run("little memory changes no picture", ["--texture-memory", "1M", scene("small", "grain.png")], 0)
 suite.expect(red("small") == red("st"), "the same texels")
