@@ -13,9 +13,7 @@ ResolvedFrame::ResolvedFrame(const DeepFrame& frame, const FrameOutput& output, 
 
 void ResolvedFrame::resolve(size_t index, const DeepTile& tile) {
   std::unique_ptr<Compositor> compositor = takeCompositor();
-  auto resolved = std::make_unique<ResolvedTile>(compositor->resolve(tile));
-  resolved->values.resize(resolved->values.size() + PixelSums::kWide);
-  resolved_[index] = std::move(resolved);
+  resolved_[index] = std::make_unique<ResolvedTile>(compositor->resolve(tile));
   const std::lock_guard lock(mutex_);
   compositors_.push_back(std::move(compositor));
 }

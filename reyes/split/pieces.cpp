@@ -65,26 +65,34 @@ class Splitter {
         longest_(2 * static_cast<int>(std::ceil(std::sqrt(static_cast<double>(gridSize_))))), camera_(camera), window_(window), stats_(stats), lazily_(splitting == Splitting::Lazily), stop_(stop),
         edge_px_(std::sqrt(std::max(object_.attributes->shadingRate, 1e-4f))) {}
 
-  /// Takes a patch that can be seen to be a small disk, or not to be seen, without a measure of it. False: it has to be split.
-  bool takeDot(uint32_t patch, std::vector<SubPatch>& out) {
-    if (!canBeRound(patch) || object_.displacementBound > 0 || !object_.attributes->rasterOrient) return false;
+  /// May patches like this one be dots? Shapes have nothing but disks, or none.
+  bool hasDots(uint32_t patch) const { return canBeRound(patch) && object_.displacementBound <= 0 && object_.attributes->rasterOrient; }
+  /// Takes a patch that can be seen to be a small disk, or not to be seen, without a measure of it: nothing. Else its bound; it has to be split.
+  /// Pre: hasDots().
+  std::optional<Bound3> takeDot(uint32_t patch, std::vector<SubPatch>& out) {
+    if (stopped()) return std::nullopt;
     const Bound3 bare = cameraBound(object_, patch, UvRect{});
     const bool seen = !cannotBeSeen(bare);
-    const Bound2 raster = seen && !crosses(bare) ? rasterOf(bare, kLeastReach_px) : Bound2{};
+    if (seen && crosses(bare)) return bare;
+    const Bound2 raster = seen ? rasterOf(bare, kLeastReach_px) : Bound2{};
     const vec2 size = raster.hi - raster.lo;
-    if (seen && !(std::max(size.x, size.y) <= kDot * edge_px_)) return false;
+    if (seen && !(std::max(size.x, size.y) <= kDot * edge_px_)) return bare;
     ++stats_.geometry.piecesVisited;
     if (seen)
       out.push_back({index_, patch, UvRect{}, 1, 1, raster, bare.lo.z, false, 0, false, 0, true});
     else
       ++stats_.geometry.culled;
-    return true;
+    return std::nullopt;
   }
-  /// size: what measure() says of the whole patch.
-  void splitPatch(uint32_t patch, const PatchSize& size, std::vector<SubPatch>& out) {
+  /// What is known of a whole patch before it is split.
+  struct Known {
+    PatchSize size;             ///< By measureWhole().
+    const Bound3* bare = nullptr;  ///< cameraBound(); null: nobody has asked.
+  };
+  void splitPatch(uint32_t patch, const Known& known, std::vector<SubPatch>& out) {
     const double patches = object_.shape().patchCount();
     const double layers = std::max(kLayersOfObject / patches, kLayersOfPatch), least = std::max(kVisitsOfObject / patches, kVisitsOfPatch);
-    splitWithin(static_cast<int64_t>(least + layers * gridsOver(pixelsOf(window_))), patch, UvRect{}, 0, &size, out);
+    splitWithin(static_cast<int64_t>(least + layers * gridsOver(pixelsOf(window_))), patch, UvRect{}, 0, &known, out);
   }
   void splitPiece(const SubPatch& coarse, std::vector<SubPatch>& out) {
     splitWithin(coarse.visits, coarse.patch, coarse.rect, coarse.depth, nullptr, out);
@@ -95,10 +103,10 @@ class Splitter {
  private:
   /// Coarse pieces inherit what is left of the visits, in proportion to the grids that they may show: however deep they are nested, a
   /// patch takes no more than it was given.
-  void splitWithin(int64_t visits, uint32_t patch, const UvRect& rect, int depth, const PatchSize* measured, std::vector<SubPatch>& out) {
+  void splitWithin(int64_t visits, uint32_t patch, const UvRect& rect, int depth, const Known* known, std::vector<SubPatch>& out) {
     const auto first = static_cast<ptrdiff_t>(out.size());
     start_ = depth, budget_ = visits, flat_ = isFlat(object_, patch), alone_ = isAlone(object_, patch);
-    split(patch, rect, depth, measured, out);
+    split(patch, rect, depth, known, out);
     const auto share = [this](const SubPatch& p) { return p.coarse ? static_cast<double>(std::min(gridsOf(p.nu, p.nv), 1 + static_cast<int64_t>(gridsOver(inView_px(p.raster))))) : 0.0; };
     double shares = 0;
     for (auto p = out.begin() + first; p != out.end(); ++p) shares += share(*p);
@@ -106,21 +114,21 @@ class Splitter {
       if (p->coarse) p->visits = static_cast<int64_t>(share(*p) / shares * static_cast<double>(std::max<int64_t>(budget_, 0)));
   }
 
-  /// measured: null if nobody has yet.
-  void split(uint32_t patch, const UvRect& rect, int depth, const PatchSize* measured, std::vector<SubPatch>& out) {
-    if (stop_ && stop_->load(std::memory_order_relaxed)) return;
+  /// known: null if nothing is.
+  void split(uint32_t patch, const UvRect& rect, int depth, const Known* known, std::vector<SubPatch>& out) {
+    if (stopped()) return;
     if (budget_ <= 0) {
       ++givenUp_.tooMany;
       return;
     }
     --budget_;
     ++stats_.geometry.piecesVisited;
-    Bound3 bare = cameraBound(object_, patch, rect);
+    Bound3 bare = known && known->bare ? *known->bare : cameraBound(object_, patch, rect);
     if (cannotBeSeen(bare) || object_.shape().kept(patch, rect) == Kept::None) {
       ++stats_.geometry.culled;
       return;
     }
-    const PatchSize size = measured ? *measured : measure(object_, camera_, patch, rect);
+    const PatchSize size = known ? known->size : measure(object_, camera_, patch, rect);
     const bool still = object_.keyTimes.size() == 1;
     const float reach = size.u.length + size.v.length;
     if (still && depth >= kSlackDepth && glm::length(bare.size()) > kSlack * reach) {
@@ -199,11 +207,9 @@ class Splitter {
   /// That a layer of surface over so many pixels takes.
   double gridsOver(double area_px) const { return area_px / (double{edge_px_} * edge_px_ * gridSize_); }
 
+  bool stopped() const { return stop_ && stop_->load(std::memory_order_relaxed); }
   /// Is it a whole disk of which one cell, without corners or neighbours, tells all?
-  bool canBeRound(uint32_t patch) const {
-    return object_.keyTimes.size() == 1 && !camera_.defocuses() && object_.solid < 0 && !object_.attributes->displacement &&
-           object_.shape().info(patch).disk;
-  }
+  bool canBeRound(uint32_t patch) const { return standsStillInFocus(object_, camera_) && object_.shape().info(patch).disk; }
   bool cannotBeSeen(const Bound3& bare) const {
     const Bound3 bound = bare.grown(object_.displacementBound);
     if (!isFinite(bound.lo) || !isFinite(bound.hi)) return true;
@@ -275,11 +281,15 @@ std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<con
                                    const PixelRect& window, Stats& stats, Log& log, Splitting splitting, StopFlag stop) {
   return piecesBy(Splitter(scene, object, camera, window, stats, splitting, stop), scene.objects[static_cast<size_t>(object)], stats, log,
                   [&](Splitter& splitter, std::vector<SubPatch>& out) {
+                    const Object& o = scene.objects[static_cast<size_t>(object)];
                     std::vector<uint32_t> others;
-                    for (const uint32_t patch : patches)
-                      if (!splitter.takeDot(patch, out)) others.push_back(patch);
-                    const std::vector<PatchSize> sizes = measureWhole(scene.objects[static_cast<size_t>(object)], camera, others);
-                    for (size_t i = 0; i < others.size(); ++i) splitter.splitPatch(others[i], sizes[i], out);
+                    std::vector<Bound3> bounds;
+                    const bool dots = !patches.empty() && splitter.hasDots(patches[0]);
+                    for (size_t i = 0; dots && i < patches.size(); ++i)
+                      if (const auto bare = splitter.takeDot(patches[i], out)) others.push_back(patches[i]), bounds.push_back(*bare);
+                    const std::span<const uint32_t> left = dots ? std::span<const uint32_t>(others) : patches;
+                    const std::vector<PatchSize> sizes = measureWhole(o, camera, left);
+                    for (size_t i = 0; i < left.size(); ++i) splitter.splitPatch(left[i], {sizes[i], dots ? &bounds[i] : nullptr}, out);
                   });
 }
 
