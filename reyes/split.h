@@ -39,6 +39,11 @@ struct Placement {
 std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
                                   float margin, const Camera& camera, const PixelRect& window, bool clipped = true);
 
+/// Without motion, defocus, displacement and the other parts of a solid, nothing of a piece depends on more than its own vertices.
+inline bool standsStillInFocus(const Object& o, const Camera& camera) {
+  return o.keyTimes.size() == 1 && !camera.defocuses() && o.solid < 0 && !o.attributes->displacement;
+}
+
 /// Whether a patch of very many pieces is split at once, or left in coarse pieces where that is safe: a frame's pieces all at once
 /// would take memory in proportion to its area.
 enum class Splitting : uint8_t { Wholly, Lazily };

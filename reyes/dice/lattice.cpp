@@ -138,8 +138,10 @@ Grid dice(const Scene& scene, int object, std::span<const PatchPiece> pieces, in
       for (size_t k = 0; k < prim.primvars().size(); ++k) {
         const Primvar& p = prim.primvars()[k];
         forPieces([&](const Grid::Piece& piece, int first) {
-          prim.interpolate(piece.patch, static_cast<int>(k), ofPiece, u.data(), v.data(), g.primvar(offset) + first, g.stride());
+          if (first == 0 || p.storage != Storage::Constant)
+            prim.interpolate(piece.patch, static_cast<int>(k), ofPiece, u.data(), v.data(), g.primvar(offset) + first, g.stride());
         });
+        for (int c = 0; p.storage == Storage::Constant && c < p.width; ++c) std::fill_n(g.primvar(offset + c), n, g.primvar(offset + c)[0]);
         transformPrimvar(p, m, normals, n, g.primvar(offset), g.stride());
         offset += p.width;
       }

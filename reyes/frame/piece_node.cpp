@@ -25,8 +25,7 @@ TOMALES_HOT bool allSeeable(const Grid& g, int key, const Camera& camera) {
 /// Does nothing that is decided for a whole grid depend on what shares it?
 bool canStack(const HideContext& context, const SubPatch& piece) {
   const Object& o = context.scene.objects[static_cast<size_t>(piece.object)];
-  return o.keyTimes.size() == 1 && !context.camera.defocuses() && o.solid < 0 && !o.attributes->displacement && !piece.crossesEye &&
-         o.shape().kept(piece.patch, piece.rect) == Kept::All;
+  return standsStillInFocus(o, context.camera) && !piece.crossesEye && o.shape().kept(piece.patch, piece.rect) == Kept::All;
 }
 
 /// From a square of the disk's area to that around it.

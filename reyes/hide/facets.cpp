@@ -1,41 +1,10 @@
 #include "reyes/hide/facets.h"
 
 #include "reyes/base/rng.h"
+#include "reyes/hide/gathered.h"
 
 namespace tomales {
 namespace {
-
-inline float reciprocalLength(float length2) {
-  return length2 > 0.0f && length2 < kInfinity ? 1.0f / std::sqrt(length2) : 0.0f;
-}
-
-inline int firstVertex(const Grid& g, int cell) { return cell + cell / g.nu; }
-
-/// Differences at a vertex: centred, one-sided at the border, of the length of one micropolygon.
-struct VertexSteps {
-  int at, uLo, uHi, vLo, vHi;
-  float uScale, vScale;
-
-  VertexSteps(const Grid& g, int vertex) : at(vertex) {
-    const int row = g.nu + 1, i = vertex % row, j = vertex / row % (g.nv + 1), first = vertex - j * row - i;
-    const int i0 = std::max(i - 1, 0), i1 = std::min(i + 1, g.nu), j0 = std::max(j - 1, 0), j1 = std::min(j + 1, g.nv);
-    uLo = first + j * row + i0, uHi = first + j * row + i1, vLo = first + j0 * row + i, vHi = first + j1 * row + i;
-    uScale = 1 / static_cast<float>(i1 - i0), vScale = 1 / static_cast<float>(j1 - j0);
-  }
-  float mean(const float* f) const { return f[at]; }
-  float uStep(const float* f) const { return uScale * (f[uHi] - f[uLo]); }
-  float vStep(const float* f) const { return vScale * (f[vHi] - f[vLo]); }
-};
-
-/// Differences along a cell, the mean of both its sides.
-struct CellSteps {
-  int a, b, c, d;
-
-  CellSteps(const Grid& g, int cell) : a(firstVertex(g, cell)), b(a + 1), c(a + g.nu + 1), d(c + 1) {}
-  float mean(const float* f) const { return 0.25f * (f[a] + f[b] + f[c] + f[d]); }
-  float uStep(const float* f) const { return 0.5f * ((f[b] - f[a]) + (f[d] - f[c])); }
-  float vStep(const float* f) const { return 0.5f * ((f[c] - f[a]) + (f[d] - f[b])); }
-};
 
 /// Steps of point i, whose fixed channels are filled. Texture coordinates without primitive variables are bilinear in u, v.
 template <class Steps>
@@ -77,107 +46,6 @@ vec3 driftOf(const Scene& scene, const Grid& g, const Mean& mean) {
   const vec3 there(mean(g.P(last, 0)), mean(g.P(last, 1)), mean(g.P(last, 2)));
   const mat4 openFromLast = o.cameraFromObject.at(o.keyTimes.front()) * glm::inverse(o.cameraFromObject.at(o.keyTimes.back()));
   return transformPoint(openFromLast, there) - here;
-}
-
-/// Over a cell with corners a b c d.
-struct MeanAndSteps {
-  float mean, u, v;
-  MeanAndSteps(float a, float b, float c, float d)
-      : mean(0.25f * (a + b + c + d)), u(0.5f * ((b - a) + (d - c))), v(0.5f * ((c - a) + (d - b))) {}
-};
-
-/// What is read of the grids, kLanes points at a time; arrays may be written to beyond.
-struct alignas(64) Gathered {
-  using Array = float[2 * kLanes];
-  Array P[3], N[3];
-  Array uEdge[3], vEdge[3];  ///< Of P, one micropolygon long.
-  Array u, v, du, dv;
-
-  void readVertex(const Grid& g, int vertex, int i) {
-    const VertexSteps steps(g, vertex);
-    for (int axis = 0; axis < 3; ++axis) {
-      const float* p = g.P(0, axis);
-      P[axis][i] = p[vertex], uEdge[axis][i] = steps.uStep(p), vEdge[axis][i] = steps.vStep(p);
-      N[axis][i] = g.N(axis)[vertex];
-    }
-    u[i] = g.u()[vertex], v[i] = g.v()[vertex];
-    du[i] = steps.uStep(g.u()), dv[i] = steps.vStep(g.v());
-  }
-
-  /// The centres of `count` cells, the first vertices of which follow each other from `a` on.
-  void readCells(const Grid& g, int a, int count, int i) {
-    const int row = g.nu + 1;
-    const Sources from{{g.P(0, 0) + a, g.P(0, 1) + a, g.P(0, 2) + a}, {g.N(0) + a, g.N(1) + a, g.N(2) + a}, g.u() + a, g.v() + a};
-    if (count >= kRun && a + row + 1 + kLanes <= g.stride())
-      readBlock(from, row, i);
-    else
-      for (int k = 0; k < count; ++k) readCell(from, k, row, i);
-  }
-
- private:
-  static constexpr int kRun = 4;  ///< Cells that are worth a vector.
-  struct Sources {
-    const float *P[3], *N[3], *u, *v;
-  };
-  static MeanAndSteps over(const float* f, int k, int row) { return {f[k], f[k + 1], f[k + row], f[k + row + 1]}; }
-
-  void readCell(const Sources& from, int k, int row, int i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const MeanAndSteps p = over(from.P[axis], k, row);
-      P[axis][i + k] = p.mean, uEdge[axis][i + k] = p.u, vEdge[axis][i + k] = p.v;
-      N[axis][i + k] = over(from.N[axis], k, row).mean;
-    }
-    const MeanAndSteps s = over(from.u, k, row), t = over(from.v, k, row);
-    u[i + k] = s.mean, du[i + k] = s.u, v[i + k] = t.mean, dv[i + k] = t.v;
-  }
-
-  TOMALES_HOT void readBlock(const Sources& from, int row, int i) {
-#pragma GCC ivdep
-    for (int k = 0; k < kLanes; ++k) readCell(from, k, row, i);
-  }
-};
-
-/// The fixed channels of kLanes points from `first` on; texture coordinates are the caller's.
-struct PointBlock {
-  float* channel[kFixedChannels];
-
-  PointBlock(ShadePoints& points, int first) {
-    for (int c = 0; c < kFixedChannels; ++c) channel[c] = points.channel(c) + first;
-  }
-};
-
-/// No branches: all lanes of a vector take both ways.
-TOMALES_HOT void derive(const Gathered& g, bool perspective, const PointBlock& out) {
-  for (int i = 0; i < kLanes; ++i) {
-    const float ux = g.uEdge[0][i], uy = g.uEdge[1][i], uz = g.uEdge[2][i];
-    const float vx = g.vEdge[0][i], vy = g.vEdge[1][i], vz = g.vEdge[2][i];
-    // For a cell this is half the cross product of the diagonals: its area, exactly so where it is flat.
-    const float sx = uy * vz - uz * vy, sy = uz * vx - ux * vz, sz = ux * vy - uy * vx;
-    const float nx = g.N[0][i], ny = g.N[1][i], nz = g.N[2][i];
-    const float span2 = sx * sx + sy * sy + sz * sz;
-    const float toRiSide = sx * nx + sy * ny + sz * nz < 0 ? -1.0f : 1.0f;
-    const float perSpan = toRiSide * reciprocalLength(span2);
-    const float perNormal = reciprocalLength(nx * nx + ny * ny + nz * nz);
-    const bool flat = perSpan == 0, noNormal = perNormal == 0;
-    // A direction that is missing is taken from the other normal, and if both are, from the eye.
-    const float gx = sx * perSpan, gy = sy * perSpan, gz = sz * perSpan;
-    const float hx = nx * perNormal, hy = ny * perNormal, hz = nz * perNormal;
-    const float ex = 0, ey = 0, ez = -1;
-    const float Nx = noNormal ? (flat ? ex : gx) : hx, Ny = noNormal ? (flat ? ey : gy) : hy,
-                Nz = noNormal ? (flat ? ez : gz) : hz;
-    const float du = g.du[i] != 0 ? g.du[i] : 1.0f, dv = g.dv[i] != 0 ? g.dv[i] : 1.0f;
-    out.channel[kPx][i] = g.P[0][i], out.channel[kPy][i] = g.P[1][i], out.channel[kPz][i] = g.P[2][i];
-    out.channel[kNx][i] = Nx, out.channel[kNy][i] = Ny, out.channel[kNz][i] = Nz;
-    out.channel[kNgx][i] = flat ? Nx : gx, out.channel[kNgy][i] = flat ? Ny : gy, out.channel[kNgz][i] = flat ? Nz : gz;
-    out.channel[kIx][i] = perspective ? g.P[0][i] : 0.0f;
-    out.channel[kIy][i] = perspective ? g.P[1][i] : 0.0f;
-    out.channel[kIz][i] = perspective ? g.P[2][i] : 1.0f;
-    out.channel[kDpduX][i] = ux / du, out.channel[kDpduY][i] = uy / du, out.channel[kDpduZ][i] = uz / du;
-    out.channel[kDpdvX][i] = vx / dv, out.channel[kDpdvY][i] = vy / dv, out.channel[kDpdvZ][i] = vz / dv;
-    out.channel[kU][i] = g.u[i], out.channel[kV][i] = g.v[i];
-    out.channel[kDu][i] = du, out.channel[kDv][i] = dv;
-    out.channel[kArea][i] = std::sqrt(span2);
-  }
 }
 
 int primvarFloats(const ShadeGroup& group) {

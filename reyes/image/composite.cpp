@@ -130,7 +130,7 @@ ResolvedTile Compositor::resolve(const DeepTile& tile) {
   ResolvedTile out;
   out.first.reserve(tile.pixels.size() + 1);
   out.contributions.reserve(tile.fragments.size());
-  out.values.reserve(tile.fragments.size() * static_cast<size_t>(width()));
+  out.values.reserve(tile.fragments.size() * static_cast<size_t>(width()) + ResolvedTile::kMargin);
   for (const DeepPixel& pixel : tile.pixels) {
     out.first.push_back(static_cast<uint32_t>(out.contributions.size()));
     const Fragment* begin = tile.fragments.data() + pixel.first;
@@ -142,6 +142,7 @@ ResolvedTile Compositor::resolve(const DeepTile& tile) {
       resolveStack(tile, begin, end, out);
   }
   out.first.push_back(static_cast<uint32_t>(out.contributions.size()));
+  out.values.resize(out.values.size() + ResolvedTile::kMargin);
   return out;
 }
 
@@ -181,15 +182,21 @@ void Compositor::resolveStack(const DeepTile& tile, const Fragment* begin, const
   for (Contribution& s : samples_) s = {0, 0, kInfinity};
   const bool withAir = hasAir(tile);
   stack_.hidden = vec3(1.0f) - options_.opaqueThreshold;
-  stack_.reset(samples_.size(), static_cast<size_t>(width()), withAir);
   const bool atOnce = extras_.empty() && !withAir;
+  if (atOnce)
+    stack_.resize(samples_.size(), static_cast<size_t>(width()));
+  else
+    stack_.reset(samples_.size(), static_cast<size_t>(width()), withAir);
   lays_.clear();
   for (const Fragment* f = begin; f != end; ++f) {
     auto [shade, known, deep] = shadeOf(tile, *f);
     if (deep) noteDepth(tile, *f);
     const Air air = withAir ? takeAir(tile, *f, shade) : Air{};
-    const Lay& lay = lays_.emplace_back(Lay{f->samples, shade.color, shade.opacity, shade.coverage, f->z, f->word});
-    if (atOnce) continue;
+    const Lay lay{f->samples, shade.color, shade.opacity, shade.coverage, f->z, f->word};
+    if (atOnce) {
+      lays_.push_back(lay);
+      continue;
+    }
     extraValues(tile, *f, facetValues_.data());
     stack_.lay(lay, {extras_, facetValues_.data(), withAir ? &air : nullptr});
   }

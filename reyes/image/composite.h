@@ -17,7 +17,8 @@ struct Contribution {
 /// Contributions of the pixels of a tile; those of pixel i are [first[i], first[i + 1]).
 struct ResolvedTile {
   std::vector<Contribution> contributions;
-  UnsetVector<float> values;  ///< Compositor::width() each: R G B A, then the extra floats.
+  UnsetVector<float> values;  ///< Compositor::width() each: R G B A, then the extra floats. Behind the last, room to read kMargin more.
+  static constexpr size_t kMargin = 4;
   std::vector<uint32_t> first;
 };
 

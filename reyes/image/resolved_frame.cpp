@@ -15,10 +15,8 @@ ResolvedFrame::ResolvedFrame(const DeepFrame& frame, const FrameOutput& output, 
 
 void ResolvedFrame::resolve(size_t index, const DeepTile& tile) {
   std::unique_ptr<Compositor> compositor = takeCompositor();
-  auto resolved = std::make_unique<ResolvedTile>(compositor->resolve(tile));
-  noise_[index] = noiseOf(*resolved);
-  resolved->values.resize(resolved->values.size() + PixelSums::kWide);
-  resolved_[index] = std::move(resolved);
+  resolved_[index] = std::make_unique<ResolvedTile>(compositor->resolve(tile));
+  noise_[index] = noiseOf(*resolved_[index]);
   const std::lock_guard lock(mutex_);
   compositors_.push_back(std::move(compositor));
 }

@@ -30,7 +30,7 @@ class ResolvedFrame {
   /// What the samples of a pixel see.
   struct Seen {
     std::span<const Contribution> list;
-    const float* values;  ///< width() each; PixelSums::kWide more may be read.
+    const float* values;  ///< width() each; ResolvedTile::kMargin more may be read.
   };
   Seen seenAt(int x, int y) const { return runFrom(x, y).at(0, width_); }
   /// Calls visit(x, seen) for the pixels [x0, x1) of a row.

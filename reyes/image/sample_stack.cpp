@@ -111,6 +111,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tomales {
 
+void SampleStack::resize(size_t samples, size_t floats) {
+  lanes = samples;
+  nearest.resize(lanes), values.resize(lanes * floats);
+  for (auto& a : air) a.clear();
+}
+
 void SampleStack::reset(size_t samples, size_t floats, bool withAir) {
   lanes = samples;
   for (auto& c : clear) c.assign(lanes, 1.0f);

@@ -43,7 +43,9 @@ struct SampleStack {
   size_t lanes = 0;
   vec3 hidden;                    ///< A sample that lets no more light through sees nothing of what follows.
 
-  /// samples: a multiple of kLanes.
+  /// samples: a multiple of kLanes. For layAll(), which fills it.
+  void resize(size_t samples, size_t floats);
+  /// For lay().
   void reset(size_t samples, size_t floats, bool withAir);
   /// "Over", with an opacity for each channel.
   void lay(const Lay& l, const LayMore& more);

@@ -69,6 +69,7 @@ struct Weighted {
 class PixelSums {
  public:
   static constexpr int kWide = 4;  ///< Floats of a pixel are padded to a multiple.
+  static_assert(kWide <= ResolvedTile::kMargin);
   PixelSums(const WeightTable& weights, const PixelRect& block, int floats);
   int width() const { return width_; }
   /// All that pixel (x, y) sees: width() floats each, of which those beyond what was asked for may be anything.

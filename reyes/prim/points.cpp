@@ -146,7 +146,8 @@ class Disks : public FlatPoints<Disks> {
   Bound3 bound(uint32_t patch, const UvRect& r) const override {
     if (r.u0 <= 0 && r.u1 >= 1 && r.v0 <= 0 && r.v1 >= 1) {
       const vec3 center = points_[patch], normal = normalOf(patch);
-      const vec3 reach = radiusOf(patch) * glm::sqrt(glm::max(vec3(0), vec3(1) - normal * normal));
+      const vec3 n2 = normal * normal;  // 1 - n2 would cancel near an axis.
+      const vec3 reach = radiusOf(patch) * glm::sqrt(vec3(n2.y + n2.z, n2.z + n2.x, n2.x + n2.y));
       return boundInflated(patch, r, {center - reach, center + reach});
     }
     const Disk disk = diskOf(patch);

@@ -2,13 +2,14 @@
 #include <fmt/format.h>
 
 #include "reyes/shade/batch.h"
+#include "reyes/shade/illuminate.h"
 #include "reyes/shade/system.h"
 
 namespace tomales {
 namespace {
 
 /// Differences along the lattice: a displacement shader sees no better derivatives than its grid has. `d` is the change of the
-/// parameter `of` over a micropolygon; 1 where it does not change along this direction, as at points that are shaded.
+/// parameter `of` over a micropolygon; 1 where it does not change along this direction, as at points that are shaded. Stencil::step, written for vectors.
 TOMALES_HOT void derivatives(int n, const Stencil& stencil, int direction, const float* of, TmConstVec3 P, float* __restrict d, TmVec3 dP) {
   const int32_t *lo = stencil.lo[direction], *hi = stencil.hi[direction];
   const auto next = static_cast<float>(stencil.next[direction]);
@@ -68,26 +69,15 @@ void checkBound(const BoundScene& scene, const Object& object, float longest) {
                                objectName(object), needed, space));
 }
 
-TOMALES_HOT bool allFinite(const Grid& g) {
-  int bad = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const float *P = g.P(0, axis), *N = g.N(axis);
-    for (int i = 0, n = g.vertexCount(); i < n; ++i) bad |= !(std::abs(P[i]) < kInfinity) | !(std::abs(N[i]) < kInfinity);
-  }
-  return bad == 0;
-}
-
 /// Undoes what is not finite, so that one bad vertex does not tear the mesh to infinity.
 void repair(Batch& batch, Grid& g, TmConstVec3 P, TmConstVec3 N, bool all) {
-  bool bad = false;
-  if (!all && allFinite(g)) return;
-  for (int i = 0; i < g.vertexCount(); ++i) {
-    const bool finite = isFinite(g.position(0, i)) && isFinite(g.normal(i));
-    bad = bad || !finite;
-    if (finite && !all) continue;
+  const int n = g.vertexCount();
+  if (!all && allFinite(n, {g.P(0, 0), g.P(0, 1), g.P(0, 2)}) && allFinite(n, {g.N(0), g.N(1), g.N(2)})) return;
+  for (int i = 0; i < n; ++i) {
+    if (!all && isFinite(g.position(0, i)) && isFinite(g.normal(i))) continue;
     set(batch.tm.P, i, get(P, i)), set(batch.tm.N, i, get(N, i));
   }
-  if (bad && !all)
+  if (!all)
     batch.report(Severity::Warning, "shader-not-finite",
                  "moved points to NaN or infinity; they stay where they were");
 }
@@ -109,6 +99,7 @@ void Batch::setGrid(Grid& g, const BoundShader& shader, const std::vector<Overri
   derivatives(n, stencil, 0, g.u(), P, du, dPdu);
   derivatives(n, stencil, 1, g.v(), P, dv, dPdv);
   textureCoordinates(n, group.group->attributes->textureCoordinates, g.u(), g.v(), s, t);
+  // Camera::incident, an array at a time.
   const bool perspective = scene.camera.perspective();
   for (const auto& [to, from, parallel] : {std::tuple(I.x, P.x, 0.0f), std::tuple(I.y, P.y, 0.0f), std::tuple(I.z, P.z, 1.0f)}) {
     if (perspective)

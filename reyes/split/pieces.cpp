@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "reyes/split.h"
+#include "reyes/split/placement.h"
 #include "reyes/split/rate.h"
 
 namespace tomales {
@@ -23,52 +24,12 @@ constexpr float kLeastReach_px = 0.05f;  ///< What vertices are snapped by, and 
 /// What a blurred piece costs beyond its visit if it may be seen all over the window: each sample there has to look whether it meets it, and
 /// all buckets wait for its vertices at every key.
 constexpr double kVisitsOfBlur = 32, kKeysOfBlur = 16;
-constexpr float kRounding_px = 0.01f;  ///< Of projecting a box or its points.
 constexpr int kRound_cells = 6;        ///< A disk of so many is shaded as one: nothing but P varies over it.
 /// In edges of a micropolygon: a disk whose bound, half as wide again as itself, is no wider takes no more cells however it is measured.
 constexpr float kDot = 3.5f;
 /// Lazily, a patch is halved so often, and what then has so many grids or more is a coarse piece.
 constexpr int kHalvingsAtOnce = 6;
 constexpr int64_t kGridsOfCoarse = 64;
-
-/// transformBound, to the bit, by extremes of products instead of eight corners: rounding is monotonic.
-Bound3 boundThrough(const mat4& m, const Bound3& b) {
-  if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1) return transformBound(m, b);
-  const vec3 x0 = vec3(m[0]) * b.lo.x, x1 = vec3(m[0]) * b.hi.x, y0 = vec3(m[1]) * b.lo.y, y1 = vec3(m[1]) * b.hi.y;
-  const vec3 z0 = vec3(m[2]) * b.lo.z, z1 = vec3(m[2]) * b.hi.z, origin(m[3]);
-  return {(glm::min(x0, x1) + glm::min(y0, y1)) + (glm::min(z0, z1) + origin), (glm::max(x0, x1) + glm::max(y0, y1)) + (glm::max(z0, z1) + origin)};
-}
-
-/// Box in camera space around a rectangle, over the shutter, before displacement.
-Bound3 cameraBound(const Object& o, uint32_t patch, const UvRect& rect) {
-  Bound3 object;
-  for (const PrimPtr& shape : o.shapes) object.extend(shape->bound(patch, rect));
-  Bound3 camera;
-  for (const float t : o.keyTimes) camera.extend(boundThrough(o.cameraFromObject.at(t), object));
-  return camera;
-}
-
-/// Raster length of the way that the middle of a rectangle goes over the shutter. Pre: it stays in front of the eye.
-float pathLength_px(const Object& o, const Camera& camera, uint32_t patch, const UvRect& rect) {
-  float length = 0;
-  vec2 last(0);
-  for (size_t k = 0; k < o.keyTimes.size(); ++k) {
-    size_t shape = 0;
-    while (shape + 1 < o.shapes.size() && o.shapeTimes[shape + 1] <= o.keyTimes[k]) ++shape;
-    const vec3 middle = o.shapes[shape]->bound(patch, rect).center();
-    const vec2 at = camera.raster(transformPoint(o.cameraFromObject.at(o.keyTimes[k]), middle));
-    if (k > 0) length += glm::length(at - last);
-    last = at;
-  }
-  return length;
-}
-
-/// The least diameter of the circle of confusion in a range of depths; 0 if the focal plane is among them.
-float leastBlur_px(const Camera& camera, float zMin, float zMax) {
-  if (!camera.defocuses()) return 0;
-  const vec2 a = camera.defocus(camera.depthKey(zMin)), b = camera.defocus(camera.depthKey(zMax));
-  return dot(a, b) <= 0 ? 0 : 2 * std::min(glm::length(a), glm::length(b)) / std::sqrt(2.0f);
-}
 
 double pixelsOf(const PixelRect& r) { return static_cast<double>(r.width()) * r.height(); }
 
@@ -79,14 +40,6 @@ std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
   else
     a.v1 = b.v0 = 0.5f * (r.v0 + r.v1);
   return {a, b};
-}
-
-/// With what the hider may add to it: at a corner both borders are pushed.
-Bound2 rasterOf(const Bound3& bound, float reach_px, const Camera& camera, const Bound2& throughTheEye = {}) {
-  Bound2 raster;
-  if (!camera.rasterBound(bound, raster)) raster = throughTheEye;
-  const vec2 margin(2 * reach_px + kRounding_px);
-  return {raster.lo - margin, raster.hi + margin};
 }
 
 /// Is a patch bent nowhere, nor shaded as if it were? As a single cell it then reaches farther only by what closes T-vertices, and most small
@@ -112,26 +65,34 @@ class Splitter {
         longest_(2 * static_cast<int>(std::ceil(std::sqrt(static_cast<double>(gridSize_))))), camera_(camera), window_(window), stats_(stats), lazily_(splitting == Splitting::Lazily), stop_(stop),
         edge_px_(std::sqrt(std::max(object_.attributes->shadingRate, 1e-4f))) {}
 
-  /// Takes a patch that can be seen to be a small disk, or not to be seen, without a measure of it. False: it has to be split.
-  bool takeDot(uint32_t patch, std::vector<SubPatch>& out) {
-    if (!canBeRound(patch) || object_.displacementBound > 0 || !object_.attributes->rasterOrient) return false;
+  /// May patches like this one be dots? Shapes have nothing but disks, or none.
+  bool hasDots(uint32_t patch) const { return canBeRound(patch) && object_.displacementBound <= 0 && object_.attributes->rasterOrient; }
+  /// Takes a patch that can be seen to be a small disk, or not to be seen, without a measure of it: nothing. Else its bound; it has to be split.
+  /// Pre: hasDots().
+  std::optional<Bound3> takeDot(uint32_t patch, std::vector<SubPatch>& out) {
+    if (stopped()) return std::nullopt;
     const Bound3 bare = cameraBound(object_, patch, UvRect{});
     const bool seen = !cannotBeSeen(bare);
-    const Bound2 raster = seen && !crosses(bare) ? rasterOf(bare, kLeastReach_px) : Bound2{};
+    if (seen && crosses(bare)) return bare;
+    const Bound2 raster = seen ? rasterOf(bare, kLeastReach_px) : Bound2{};
     const vec2 size = raster.hi - raster.lo;
-    if (seen && !(std::max(size.x, size.y) <= kDot * edge_px_)) return false;
+    if (seen && !(std::max(size.x, size.y) <= kDot * edge_px_)) return bare;
     ++stats_.geometry.piecesVisited;
     if (seen)
       out.push_back({index_, patch, UvRect{}, 1, 1, raster, bare.lo.z, false, 0, false, 0, true});
     else
       ++stats_.geometry.culled;
-    return true;
+    return std::nullopt;
   }
-  /// size: what measure() says of the whole patch.
-  void splitPatch(uint32_t patch, const PatchSize& size, std::vector<SubPatch>& out) {
+  /// What is known of a whole patch before it is split.
+  struct Known {
+    PatchSize size;             ///< By measureWhole().
+    const Bound3* bare = nullptr;  ///< cameraBound(); null: nobody has asked.
+  };
+  void splitPatch(uint32_t patch, const Known& known, std::vector<SubPatch>& out) {
     const double patches = object_.shape().patchCount();
     const double layers = std::max(kLayersOfObject / patches, kLayersOfPatch), least = std::max(kVisitsOfObject / patches, kVisitsOfPatch);
-    splitWithin(static_cast<int64_t>(least + layers * gridsOver(pixelsOf(window_))), patch, UvRect{}, 0, &size, out);
+    splitWithin(static_cast<int64_t>(least + layers * gridsOver(pixelsOf(window_))), patch, UvRect{}, 0, &known, out);
   }
   void splitPiece(const SubPatch& coarse, std::vector<SubPatch>& out) {
     splitWithin(coarse.visits, coarse.patch, coarse.rect, coarse.depth, nullptr, out);
@@ -142,10 +103,10 @@ class Splitter {
  private:
   /// Coarse pieces inherit what is left of the visits, in proportion to the grids that they may show: however deep they are nested, a
   /// patch takes no more than it was given.
-  void splitWithin(int64_t visits, uint32_t patch, const UvRect& rect, int depth, const PatchSize* measured, std::vector<SubPatch>& out) {
+  void splitWithin(int64_t visits, uint32_t patch, const UvRect& rect, int depth, const Known* known, std::vector<SubPatch>& out) {
     const auto first = static_cast<ptrdiff_t>(out.size());
     start_ = depth, budget_ = visits, flat_ = isFlat(object_, patch), alone_ = isAlone(object_, patch);
-    split(patch, rect, depth, measured, out);
+    split(patch, rect, depth, known, out);
     const auto share = [this](const SubPatch& p) { return p.coarse ? static_cast<double>(std::min(gridsOf(p.nu, p.nv), 1 + static_cast<int64_t>(gridsOver(inView_px(p.raster))))) : 0.0; };
     double shares = 0;
     for (auto p = out.begin() + first; p != out.end(); ++p) shares += share(*p);
@@ -153,21 +114,21 @@ class Splitter {
       if (p->coarse) p->visits = static_cast<int64_t>(share(*p) / shares * static_cast<double>(std::max<int64_t>(budget_, 0)));
   }
 
-  /// measured: null if nobody has yet.
-  void split(uint32_t patch, const UvRect& rect, int depth, const PatchSize* measured, std::vector<SubPatch>& out) {
-    if (stop_ && stop_->load(std::memory_order_relaxed)) return;
+  /// known: null if nothing is.
+  void split(uint32_t patch, const UvRect& rect, int depth, const Known* known, std::vector<SubPatch>& out) {
+    if (stopped()) return;
     if (budget_ <= 0) {
       ++givenUp_.tooMany;
       return;
     }
     --budget_;
     ++stats_.geometry.piecesVisited;
-    Bound3 bare = cameraBound(object_, patch, rect);
+    Bound3 bare = known && known->bare ? *known->bare : cameraBound(object_, patch, rect);
     if (cannotBeSeen(bare) || object_.shape().kept(patch, rect) == Kept::None) {
       ++stats_.geometry.culled;
       return;
     }
-    const PatchSize size = measured ? *measured : measure(object_, camera_, patch, rect);
+    const PatchSize size = known ? known->size : measure(object_, camera_, patch, rect);
     const bool still = object_.keyTimes.size() == 1;
     const float reach = size.u.length + size.v.length;
     if (still && depth >= kSlackDepth && glm::length(bare.size()) > kSlack * reach) {
@@ -246,11 +207,9 @@ class Splitter {
   /// That a layer of surface over so many pixels takes.
   double gridsOver(double area_px) const { return area_px / (double{edge_px_} * edge_px_ * gridSize_); }
 
+  bool stopped() const { return stop_ && stop_->load(std::memory_order_relaxed); }
   /// Is it a whole disk of which one cell, without corners or neighbours, tells all?
-  bool canBeRound(uint32_t patch) const {
-    return object_.keyTimes.size() == 1 && !camera_.defocuses() && object_.solid < 0 && !object_.attributes->displacement &&
-           object_.shape().info(patch).disk;
-  }
+  bool canBeRound(uint32_t patch) const { return standsStillInFocus(object_, camera_) && object_.shape().info(patch).disk; }
   bool cannotBeSeen(const Bound3& bare) const {
     const Bound3 bound = bare.grown(object_.displacementBound);
     if (!isFinite(bound.lo) || !isFinite(bound.hi)) return true;
@@ -306,21 +265,6 @@ void report(const Splitter::GivenUp& givenUp, const Object& o, Stats& stats, Log
                            objectName(o)));
 }
 
-}  // namespace
-
-std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
-                                  float margin, const Camera& camera, const PixelRect& window, bool clipped) {
-  Bound3 bound;
-  for (const float t : keyTimes) bound.extend(transformBound(cameraFromObject.at(t), box));
-  bound = bound.grown(margin);
-  const Placement anywhere{{{window.x0, window.y0}, {window.x1, window.y1}}, -kInfinity};
-  if (!isFinite(bound.lo) || !isFinite(bound.hi)) return anywhere;  // one bad patch must not take its neighbours along
-  if (clipped ? camera.outside(bound, window) : camera.outsideWindow(bound, window)) return std::nullopt;
-  return Placement{rasterOf(bound, borderReach_px(margin), camera, anywhere.raster), bound.lo.z};
-}
-
-namespace {
-
 /// split(splitter, pieces) does it; the rest is the same for patches and pieces.
 template <class Split>
 std::vector<SubPatch> piecesBy(Splitter splitter, const Object& object, Stats& stats, Log& log, const Split& split) {
@@ -337,11 +281,15 @@ std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<con
                                    const PixelRect& window, Stats& stats, Log& log, Splitting splitting, StopFlag stop) {
   return piecesBy(Splitter(scene, object, camera, window, stats, splitting, stop), scene.objects[static_cast<size_t>(object)], stats, log,
                   [&](Splitter& splitter, std::vector<SubPatch>& out) {
+                    const Object& o = scene.objects[static_cast<size_t>(object)];
                     std::vector<uint32_t> others;
-                    for (const uint32_t patch : patches)
-                      if (!splitter.takeDot(patch, out)) others.push_back(patch);
-                    const std::vector<PatchSize> sizes = measureWhole(scene.objects[static_cast<size_t>(object)], camera, others);
-                    for (size_t i = 0; i < others.size(); ++i) splitter.splitPatch(others[i], sizes[i], out);
+                    std::vector<Bound3> bounds;
+                    const bool dots = !patches.empty() && splitter.hasDots(patches[0]);
+                    for (size_t i = 0; dots && i < patches.size(); ++i)
+                      if (const auto bare = splitter.takeDot(patches[i], out)) others.push_back(patches[i]), bounds.push_back(*bare);
+                    const std::span<const uint32_t> left = dots ? std::span<const uint32_t>(others) : patches;
+                    const std::vector<PatchSize> sizes = measureWhole(o, camera, left);
+                    for (size_t i = 0; i < left.size(); ++i) splitter.splitPatch(left[i], {sizes[i], dots ? &bounds[i] : nullptr}, out);
                   });
 }
 

@@ -13,9 +13,9 @@ struct Seen {
   size_t facets = 0;
 };
 
-Seen seenOf(float width_px, const std::string& attributes = {}) {
+Seen seenOf(float width_px, const std::string& attributes = {}, const std::string& options = {}) {
   // Orthographic: a pixel is 1/8.
-  const DeepFrame f = hideRib("Format 16 16 1 PixelSamples 32 32 PixelFilter \"box\" 1 1 Projection \"orthographic\" ScreenWindow -1 1 -1 1 WorldBegin " + attributes +
+  const DeepFrame f = hideRib("Format 16 16 1 PixelSamples 32 32 PixelFilter \"box\" 1 1 Projection \"orthographic\" ScreenWindow -1 1 -1 1 " + options + " WorldBegin " + attributes +
                               fmt::format(" Points \"P\" [0.03 0.02 5] \"constantwidth\" [{}] WorldEnd", width_px / 8));
   Seen seen;
   for (int y = f.crop.y0; y < f.crop.y1; ++y)
@@ -36,6 +36,30 @@ TEST(Particles, AreShadedOnceWhereTheyAreSmall) {
   EXPECT_EQ(seenOf(1.7f).facets, 1u);
   EXPECT_GT(seenOf(6).facets, 8u);
   EXPECT_GT(seenOf(1.7f, "ShadingRate 0.1").facets, 8u);
+}
+
+/// Mean alpha of a frame of 64 x 64, perspective.
+double coverageOf(const std::string& disks) {
+  const DeepFrame f = hideRib("Format 64 64 1 PixelSamples 4 4 PixelFilter \"box\" 1 1 Clipping 0.1 100 Projection \"perspective\" \"fov\" [60] WorldBegin " + disks + " WorldEnd");
+  double samples = 0;
+  for (int y = f.crop.y0; y < f.crop.y1; ++y)
+    for (int x = f.crop.x0; x < f.crop.x1; ++x) samples += covered(f, x, y);
+  return samples / (16.0 * 64 * 64);
+}
+
+TEST(Particles, ThatPassTheEyeAreSeenInFrontOfIt) {
+  EXPECT_GT(coverageOf("Points \"P\" [0 -0.5 3] \"N\" [0 1 0] \"constantwidth\" [8]"), 0.4);
+}
+
+TEST(Particles, OfManySizesAreAllSeen) {
+  const double small = coverageOf("Points \"P\" [-0.5 0 3] \"constantwidth\" [0.08]"), large = coverageOf("Points \"P\" [0.5 0 3] \"constantwidth\" [0.8]");
+  EXPECT_GT(small, 0);
+  EXPECT_NEAR(coverageOf("Points \"P\" [-0.5 0 3 0.5 0 3 0 0 -3 9 0 3] \"width\" [0.08 0.8 0.1 0.1]"), small + large, 1e-6);
+}
+
+TEST(Particles, ThatMoveOrAreDisplacedAreShadedInMorePlaces) {
+  EXPECT_GT(seenOf(1.7f, "MotionBegin [0 1] Translate 0 0 0 Translate 0.2 0 0 MotionEnd", "Shutter 0 1").facets, 1u);
+  EXPECT_GT(seenOf(1.7f, "Displacement \"bumpy\" Attribute \"displacementbound\" \"float sphere\" [0.01]").facets, 1u);
 }
 
 TEST(Particles, OfOneSideAreSeenFromTheirFront) {

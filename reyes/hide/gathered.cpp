@@ -1,0 +1,44 @@
+#include "reyes/hide/gathered.h"
+
+namespace tomales {
+
+TOMALES_HOT void Gathered::readBlock(const Sources& from, int row, int i) {
+#pragma GCC ivdep
+  for (int k = 0; k < kLanes; ++k) readCell(from, k, row, i);
+}
+
+/// No branches: all lanes of a vector take both ways.
+TOMALES_HOT void derive(const Gathered& g, bool perspective, const PointBlock& out) {
+  for (int i = 0; i < kLanes; ++i) {
+    const float ux = g.uEdge[0][i], uy = g.uEdge[1][i], uz = g.uEdge[2][i];
+    const float vx = g.vEdge[0][i], vy = g.vEdge[1][i], vz = g.vEdge[2][i];
+    // For a cell this is half the cross product of the diagonals: its area, exactly so where it is flat.
+    const float sx = uy * vz - uz * vy, sy = uz * vx - ux * vz, sz = ux * vy - uy * vx;
+    const float nx = g.N[0][i], ny = g.N[1][i], nz = g.N[2][i];
+    const float span2 = sx * sx + sy * sy + sz * sz;
+    const float toRiSide = sx * nx + sy * ny + sz * nz < 0 ? -1.0f : 1.0f;
+    const float perSpan = toRiSide * reciprocalLength(span2);
+    const float perNormal = reciprocalLength(nx * nx + ny * ny + nz * nz);
+    const bool flat = perSpan == 0, noNormal = perNormal == 0;
+    // A direction that is missing is taken from the other normal, and if both are, from the eye.
+    const float gx = sx * perSpan, gy = sy * perSpan, gz = sz * perSpan;
+    const float hx = nx * perNormal, hy = ny * perNormal, hz = nz * perNormal;
+    const float ex = 0, ey = 0, ez = -1;
+    const float Nx = noNormal ? (flat ? ex : gx) : hx, Ny = noNormal ? (flat ? ey : gy) : hy,
+                Nz = noNormal ? (flat ? ez : gz) : hz;
+    const float du = g.du[i] != 0 ? g.du[i] : 1.0f, dv = g.dv[i] != 0 ? g.dv[i] : 1.0f;
+    out.channel[kPx][i] = g.P[0][i], out.channel[kPy][i] = g.P[1][i], out.channel[kPz][i] = g.P[2][i];
+    out.channel[kNx][i] = Nx, out.channel[kNy][i] = Ny, out.channel[kNz][i] = Nz;
+    out.channel[kNgx][i] = flat ? Nx : gx, out.channel[kNgy][i] = flat ? Ny : gy, out.channel[kNgz][i] = flat ? Nz : gz;
+    out.channel[kIx][i] = perspective ? g.P[0][i] : 0.0f;
+    out.channel[kIy][i] = perspective ? g.P[1][i] : 0.0f;
+    out.channel[kIz][i] = perspective ? g.P[2][i] : 1.0f;
+    out.channel[kDpduX][i] = ux / du, out.channel[kDpduY][i] = uy / du, out.channel[kDpduZ][i] = uz / du;
+    out.channel[kDpdvX][i] = vx / dv, out.channel[kDpdvY][i] = vy / dv, out.channel[kDpdvZ][i] = vz / dv;
+    out.channel[kU][i] = g.u[i], out.channel[kV][i] = g.v[i];
+    out.channel[kDu][i] = du, out.channel[kDv][i] = dv;
+    out.channel[kArea][i] = std::sqrt(span2);
+  }
+}
+
+}  // namespace tomales
