@@ -1,77 +1,12 @@
-// Light at places that are not the points of a batch: illuminance(Q), messages to lights, smoke that is lit.
+// Light at places that are not the points of a batch: illuminance(Q), messages to lights.
 #include <cstddef>
 
-#include "reyes/sl.h"
-#include "tests/unit/shade/stage.h"
+#include "tests/unit/shade/elsewhere.h"
 
 namespace tomales {
 namespace {
 
 using namespace sl;
-
-std::function<void(sl::Surface&)> onSurface;
-std::function<void(sl::Volume&)> inVolume;
-struct outside : sl::Surface {
-  void main() { Ci = Color(-1.0), Oi = Color(1.0), onSurface(*this); }
-};
-struct between : sl::Volume {
-  void main() { inVolume(*this); }
-};
-
-// A light that counts its points, says what it has been told and what it sees of the surface.
-int litPoints = 0;
-rsl::FloatParam power("power", 1, "");
-rsl::ColorParam tint("tint", {1, 1, 1}, "");
-rsl::StringParam word("word", "unsaid", "");
-rsl::UniformFloatParam whole("whole", 0, "");
-rsl::FloatOutput doubled("doubled", ""), normalLength("normallength", "");
-void shadeCounting(const TmGrid* g) {
-  const rsl::Batch b(g);
-  for (int i : b) {
-    ++litPoints;
-    const rsl::Vec3 P = rsl::get(g->P, i), N = rsl::get(g->N, i);
-    doubled.set(g, i, 2 * power(g, i)), normalLength.set(g, i, rsl::length(N));
-    b.illuminate(i, rsl::Vec3{0, 0, -1} - P, (std::string_view(word(g)) == "said" ? 100.0f : 1.0f) * power(g, i) * tint(g, i));
-  }
-}
-
-const rsl::Shader outsideShader(TM_SURFACE, "outside", "", TM_TRACES, sl::shade<outside>, {});
-const rsl::Shader betweenShader(TM_VOLUME, "between", "", 0, sl::shade<between>, {});
-const rsl::Shader countingShader(TM_LIGHT, "counting", "", 0, shadeCounting, {&power, &tint, &word, &whole, &doubled, &normalLength});
-
-class Elsewhere : public Stage {
- protected:
-  Elsewhere() {
-    static const TmShader* const shaders[] = {outsideShader, betweenShader, countingShader};
-    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 3};
-    registry.addLibrary(&library, "test");
-    surface("outside");
-    litPoints = 0;
-  }
-  /// Ci of `n` points at z = 5, u from 0 on; `what` runs for all.
-  ShadedPoints asked(int n, const std::function<void(sl::Surface&)>& what, const ShadeContext& context = {}) {
-    onSurface = what;
-    return shade(points(std::vector<vec3>(static_cast<size_t>(n), vec3(0, 0, 5))), context);
-  }
-  /// What is seen of a black surface at z = `depth` through the volume.
-  vec3 through(float depth, const std::function<void(sl::Volume&)>& what) {
-    attributes.atmosphere = std::make_shared<const ShaderCall>(call("between", {}));
-    onSurface = [](sl::Surface& s) { s.Ci = Color(); };
-    inVolume = what;
-    ShadePoints p = points({vec3(0, 0, depth)});
-    p.set3(kIx, 0, vec3(0, 0, depth));
-    ShadedPoints out;
-    system().shade(p, {}, out);
-    system().atmosphere(p, out);
-    return out.color(0);
-  }
-};
-
-/// `steps` places along the ray of a volume from its surface to the eye.
-template <class Body>
-void march(sl::Volume& v, int steps, const Body& body) {
-  for (int i = 0; i < steps; ++i) body(Point(v.P - ((i + 0.5) / steps) * v.I));
-}
 
 TEST_F(Elsewhere, LightsRunWhereTheyAreAskedFor) {
   light("pointlight", {point("from", {1, 2, 3}), number("intensity", 8)});
@@ -284,113 +219,6 @@ TEST_F(Elsewhere, CategoriesRunTheirOwnLightsAlone) {
     EXPECT_EQ(seen, 1);
   });
   EXPECT_EQ(litPoints, 4);
-}
-
-TEST_F(Elsewhere, IndirectLightReachesSurfacesAndNotTheAir) {
-  light("indirectlight");
-  light("counting");
-  services.E = vec3(1);
-  int onSurfaces = 0, inAir = 0;
-  asked(1, [&](sl::Surface& s) { s.illuminance(s.P + Vector(0, 1, 0), [&] { ++onSurfaces; }); });
-  EXPECT_EQ(onSurfaces, 3 + 1) << "red, green, blue";
-  attributes.atmosphere = std::make_shared<const ShaderCall>(call("between", {}));
-  inVolume = [&](sl::Volume& v) {
-    v.illuminance(v.P - 0.5 * v.I, [&] {
-      ++inAir;
-      Float length = -1;
-      lightsource(v.lightNumber, "normallength", length);
-      EXPECT_EQ(length[0], 0);
-    });
-  };
-  ShadePoints p = points({vec3(0, 0, 5)});
-  ShadedPoints out;
-  out.resize(1), out.set(0, vec3(0), vec3(1));
-  shading.reset(), scene.objects.clear(), scene.groups.clear();
-  system().atmosphere(p, out);
-  EXPECT_EQ(inAir, 1);
-}
-
-// As many ends of rays as points, and the same light at infinity: what shadow rays from the ends answer is not for the surface.
-TEST_F(Elsewhere, WhatAnsweredToAVolumeIsNotRememberedOfTheSurface) {
-  light("distantlight").castsShadows = true;
-  attributes.exterior = std::make_shared<const ShaderCall>(call("between", {}));
-  services.met = [](const vec3&, const vec3&) { return 3.0f; };
-  services.visible = [](const vec3& P, const vec3&) { return P.z == 5 ? 1.0f : 0.0f; };
-  inVolume = [](sl::Volume& v) { v.Ci += diffuse(Normal(0, 0, -1)); };
-  RayAnswers answers;
-  answers.recording = true;
-  ShadeContext context;
-  context.answers = &answers;
-  const auto lit = [&] {
-    return asked(2, [](sl::Surface& s) {
-      Color light;
-      s.illuminance(s.P, [&] { light += s.Cl; });
-      trace(s.P, Vector(0, 0, -1));
-      s.Ci = light;
-    }, context).color(1);
-  };
-  expectColor(lit(), vec3(1));
-  answers.recording = false, services.shadowRays = 0;
-  expectColor(lit(), vec3(1));
-  EXPECT_EQ(services.shadowRays, 2) << "those of the volume";
-}
-
-// A sky of radiance 1 is 4 pi of it, over pi, from all around; above a surface half of that counts, whatever the density of samples.
-TEST_F(Elsewhere, TheAirIsLitByTheSkyFromAllSides) {
-  light("environmentlight", {number("samples", 256)});
-  float up = 0, down = 0;
-  through(4, [&](sl::Volume& v) {
-    v.illuminance(v.P - 0.5 * v.I, [&] { (v.L[0].z > 0 ? up : down) += v.Cl[0].x; });
-  });
-  EXPECT_NEAR(up, 2, 0.02f);
-  EXPECT_NEAR(down, 2, 0.02f);
-}
-
-// Light falls on a slab from the eye's side at an angle of cosine c: on the way to depth z it goes through z / c of smoke, and z of it on the
-// way back: the integral of s exp(-s z (1 + 1/c)).
-TEST_F(Elsewhere, ASlabOfSmokeScattersOnceAsBeerAndLambertSay) {
-  constexpr float kDepth = 3, kSigma = 0.7f, kCosine = 0.8f;
-  light("distantlight", {point("to", {0.6f, 0, 0.8f}), number("intensity", 2)});
-  const vec3 seen = through(kDepth, [](sl::Volume& v) {
-    constexpr int kSteps = 200;
-    Color Cv;
-    march(v, kSteps, [&](const Point& Q) {
-      Color Li;
-      v.illuminance(Q, [&] { Li += v.Cl * exp(-kSigma * zcomp(Q) / -zcomp(normalize(v.L))); });
-      Cv += Li * (kSigma * exp(-kSigma * zcomp(Q)) * length(v.I) / kSteps);
-    });
-    v.Ci += Cv;
-  });
-  const float both = 1 + 1 / kCosine;
-  EXPECT_NEAR(seen.x, 2 / both * (1 - std::exp(-kSigma * kDepth * both)), 2e-4f);
-}
-
-// Past a lamp at distance h the inverse square adds up to (atan(b / h) + atan(a / h)) / h.
-TEST_F(Elsewhere, ALampInThinSmokeGlowsByTheInverseSquare) {
-  constexpr float kDepth = 6, kBeside = 0.5f, kAt = 2;
-  light("pointlight", {point("from", {kBeside, 0, kAt})});
-  const vec3 seen = through(kDepth, [](sl::Volume& v) {
-    constexpr int kSteps = 600;
-    Color Cv;
-    march(v, kSteps, [&](const Point& Q) { v.illuminance(Q, [&] { Cv += v.Cl * (length(v.I) / kSteps); }); });
-    v.Ci += Cv;
-  });
-  EXPECT_NEAR(seen.x, (std::atan((kDepth - kAt) / kBeside) + std::atan(kAt / kBeside)) / kBeside, 1e-3f);
-}
-
-// A ball of radius 1 stands at z = 3 in the light: the smoke behind it stays dark for as long as its shadow is wide.
-TEST_F(Elsewhere, ABallCastsAShadowThroughSmoke) {
-  light("distantlight", {point("to", {0, -1, 0})}).castsShadows = true;
-  services.visible = [](const vec3& P, const vec3& toward) {
-    EXPECT_GT(toward.y, 0);
-    return std::abs(P.z - 3) < 1 ? 0.0f : 1.0f;
-  };
-  const vec3 seen = through(6, [](sl::Volume& v) {
-    Color Cv;
-    march(v, 60, [&](const Point& Q) { v.illuminance(Q, [&] { Cv += v.Cl * (length(v.I) / 60); }); });
-    v.Ci += Cv;
-  });
-  EXPECT_NEAR(seen.x, 4, 1e-4f);
 }
 
 }  // namespace
