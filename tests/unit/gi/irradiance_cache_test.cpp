@@ -107,6 +107,22 @@ TEST(IrradianceCache, TheFloorOfTheRadiusDoesNotSpanASlotOfParallelSides) {
   }
 }
 
+TEST(IrradianceCache, WeightsFallToNothingWithTheHeightAboveARecord) {
+  const auto record = recordAt(vec3(0), vec3(1), 0.02f);
+  float last = weightOfOne({ErrorFunction::Screen, 1}, record, vec3(0), kUp, 0.04f);
+  for (int i = 1; i <= 100; ++i) {
+    const float weight = weightOfOne({ErrorFunction::Screen, 1}, record, {0, 0, 1.2e-4f * static_cast<float>(i)}, kUp, 0.04f);
+    EXPECT_LE(weight, last);
+    EXPECT_NEAR(weight, last, 0.06f) << i;
+    last = weight;
+  }
+  EXPECT_EQ(last, 0);
+}
+
+TEST(IrradianceCache, ARecordOnWhatItSeesServesItsOwnPlace) {
+  EXPECT_GT(weightOfOne({ErrorFunction::Screen, 1}, recordAt(vec3(0), vec3(1), 0), vec3(0), kUp, 0.04f), 0);
+}
+
 TEST(IrradianceCache, ASphereIsBehindNoneOfItsOwnRecords) {
   IrradianceRecord record = recordAt({0, 0, 1}, vec3(1), kInfinity);
   for (float degrees = 1; degrees < 10; ++degrees) {
