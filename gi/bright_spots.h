@@ -1,4 +1,4 @@
-// Noun: where gather rays have found light much brighter than what is around, as spheres at which later records aim some of
+// Noun: where gather rays have found light much brighter than what is around, as disks and spheres at which later records aim some of
 // their rays. Over reyes/base alone. Radiance and E/pi are luminances here.
 // Space: that of the caller. Threads: const members may be called concurrently.
 #pragma once
@@ -11,6 +11,7 @@ namespace tomales {
 struct BrightHit {
   vec3 position;
   float radiance;
+  vec3 normal;  ///< Of what was hit, on the side that was seen.
 };
 
 /// What one record has found.
@@ -24,6 +25,7 @@ class BrightSpots {
   struct Spot {
     vec3 center;
     float radius, radiance;
+    vec3 normal;  ///< Of a disk that shines to that side; 0: a sphere.
   };
   /// The same spots for the same finds in the same order.
   void learn(const std::vector<BrightFind>& finds);
@@ -52,11 +54,13 @@ class SpotAim {
   float density(const vec3& direction) const;
 
  private:
-  struct Cone {
-    vec3 axis;
-    float versine, upTo, density;  ///< versine: one less the cosine of its half angle; upTo: of the choice; density: of directions in it
+  /// A cone of directions, or a disk, whose points are chosen evenly: seen from the side it is much less than the cone around it.
+  struct Target {
+    vec3 path, axis, normal;       ///< To its centre; axis: along it, unit; normal: 0: a cone.
+    float radius2, versine, upTo;  ///< versine: one less the cosine of a cone's half angle; upTo: of the choice
+    float density;                 ///< Over solid angle in a cone, over the area of a disk.
   };
-  std::vector<Cone> cones_;
+  std::vector<Target> targets_;
   float irradiance_ = 0, coverage_ = 0;
 };
 

@@ -29,6 +29,7 @@ struct Scratch {
   HitAnswers answers;
   std::vector<vec3> directions, radiance;          ///< One ray of each cell,
   std::vector<float> distances;
+  std::vector<vec3> normals;                       ///< Of what they hit, on the side that they see.
   std::vector<vec3> fineDirections, fine;          ///< more of some cells,
   std::vector<vec3> aimedDirections, aimed;        ///< and those at bright spots.
   std::vector<int> fineCells, aimedCells, raysOfCell;
@@ -97,6 +98,7 @@ class Hemisphere {
       scratch_.directions.push_back(scratch_.layers.rays.back().direction);
     }
     scratch_.distances.assign(count_, kInfinity);
+    scratch_.normals.resize(count_);
     see(stats, scratch_.radiance, count_);
     if (find) tell(*find);
     refine(stats);
@@ -141,8 +143,12 @@ class Hemisphere {
   void meet(Stats& stats, bool measures) {
     stats.rays.hitlistAdjusted += scratch_.layers.meet(scene_, kMaskDiffuse, scratch_.hits);
     stats.rays.gather += static_cast<int64_t>(scratch_.hits.size());
-    for (size_t i = 0; measures && i < scratch_.hits.size(); ++i)
-      if (scratch_.hits[i].object >= 0) scratch_.distances[i] = std::max(0.0f, scratch_.hits[i].t);
+    for (size_t i = 0; measures && i < scratch_.hits.size(); ++i) {
+      const Hit& hit = scratch_.hits[i];
+      if (hit.object < 0) continue;
+      scratch_.distances[i] = std::max(0.0f, hit.t);
+      scratch_.normals[i] = dot(hit.geometricNormal, scratch_.directions[i]) > 0 ? -hit.geometricNormal : hit.geometricNormal;
+    }
   }
 
   void shade(Stats& stats, std::vector<vec3>& radiance, size_t elements) {
@@ -178,7 +184,7 @@ class Hemisphere {
     for (const vec3& L : scratch_.radiance) find.irradiance += luminance(L) / static_cast<float>(count_);
     for (size_t i = 0; i < count_; ++i)
       if (const float L = luminance(scratch_.radiance[i]); L > kContrast * find.irradiance && scratch_.distances[i] < kInfinity)
-        find.hits.push_back({point_.position + scratch_.distances[i] * scratch_.directions[i], L});
+        find.hits.push_back({point_.position + scratch_.distances[i] * scratch_.directions[i], L, scratch_.normals[i]});
   }
 
   /// Up to half as many rays again, in strata of the cells where light changes fast.

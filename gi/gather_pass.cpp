@@ -16,6 +16,9 @@ constexpr int kScoutPhases = 3;  // after which bright spots are known
 constexpr float kEnough = 0.05f;  // sum of weights below which a point gets its own record
 constexpr size_t kPointsPerSlice = 256;
 
+/// Of the lattice that this phase completes; 0: none.
+int strideAfter(int phase) { return phase < kLatticePhases && phase % 2 == 0 ? 16 >> phase / 2 : 0; }
+
 struct Site {
   GatherPoint point;
   size_t cache;
@@ -46,13 +49,15 @@ class GatherPass {
  public:
   GatherPass(GiState& state, const DeepFrame& layout, const TileReader& tiles) : state_(state), layout_(layout), tiles_(tiles) {}
 
-  void run(const std::function<void(float)>& progress, const std::atomic<bool>* cancelled) {
+  void run(const std::function<void(float)>& progress, const std::atomic<bool>* cancelled, const std::function<void(int stride)>& covered) {
     progress_ = &progress, cancelled_ = cancelled;
     if (!prepareCaches()) return;
     for (phase_ = 0; phase_ < kPhases && !isCancelled(); ++phase_) {
       const std::vector<Site> sites = uncovered();
       if (phase_ == 0) prepareBounces(sites);
       gatherAt(sites);
+      const int stride = strideAfter(phase_);
+      if (covered && stride > 1 && !isCancelled()) covered(stride);
     }
   }
 
@@ -202,22 +207,30 @@ class GatherPass {
     if (sites.empty() || !tools_) return report(1);
     std::vector<IrradianceRecord> records(sites.size());
     std::vector<BrightFind> finds(phase_ < kScoutPhases ? sites.size() : 0);
-    size_t done = 0;
-    for (; done < sites.size() && !isCancelled(); done = std::min(done + kPointsPerSlice, sites.size())) {
-      report(static_cast<float>(done) / static_cast<float>(sites.size()));
-      const size_t count = std::min(kPointsPerSlice, sites.size() - done);
-      parallelFor(count, 1, [&](size_t begin, size_t end) {
-        for (size_t i = done + begin; i < done + end; ++i) records[i] = gatherAt(sites[i], finds.empty() ? nullptr : &finds[i]);
-      });
-    }
+    size_t done = makeRecords(sites, records, finds);
     size_t lights = 0;
     for (size_t i = 0; i < finds.size(); ++i)
       if (isLight(sites[i].cache)) std::swap(finds[lights++], finds[i]);
     finds.resize(lights);
     if (!finds.empty()) state_.spots.learn(finds);
+    finds.clear();
+    if (phase_ == 0 && !state_.spots.spots().empty()) done = makeRecords(sites, records, finds);  // the first found them, and could not aim
     for (size_t i = 0; i < done; ++i) state_.caches[sites[i].cache].cache.insert(records[i]);
     state_.stats.irradianceCache.samples += static_cast<int64_t>(done);
     report(1);
+  }
+
+  /// How many: fewer than there are sites if cancelled. finds: none, or as many as sites.
+  size_t makeRecords(const std::vector<Site>& sites, std::vector<IrradianceRecord>& records, std::vector<BrightFind>& finds) {
+    size_t done = 0;
+    for (; done < sites.size() && !isCancelled(); done = std::min(done + kPointsPerSlice, sites.size())) {
+      if (phase_ > 0 || !finds.empty()) report(static_cast<float>(done) / static_cast<float>(sites.size()));
+      const size_t count = std::min(kPointsPerSlice, sites.size() - done);
+      parallelFor(count, 1, [&](size_t begin, size_t end) {
+        for (size_t i = done + begin; i < done + end; ++i) records[i] = gatherAt(sites[i], finds.empty() ? nullptr : &finds[i]);
+      });
+    }
+    return done;
   }
 
   IrradianceRecord gatherAt(const Site& site, BrightFind* find) const {
@@ -252,8 +265,8 @@ int latticePhase(int x, int y) {
 }
 
 void fillCaches(GiState& state, const DeepFrame& layout, const TileReader& tiles, const std::function<void(float)>& progress,
-                const std::atomic<bool>* cancelled) {
-  GatherPass(state, layout, tiles).run(progress, cancelled);
+                const std::atomic<bool>* cancelled, const std::function<void(int stride)>& covered) {
+  GatherPass(state, layout, tiles).run(progress, cancelled, covered);
 }
 
 }  // namespace tomales

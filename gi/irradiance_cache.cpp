@@ -11,7 +11,10 @@ namespace {
 constexpr float kMinPixels = 1.5f;              // R- of eq. 3
 constexpr float kFinestPixels = 1;             // of a dispute, at kappa 1
 constexpr float kMaxAngleTerm = 0.0151922470f;  // 1 - cos(alpha+), alpha+ = 10 degrees (eq. 4)
-constexpr float kBehindTolerance = 0.1f;        // of the validity radius
+constexpr float kBehindTolerance = 0.1f;        // of the validity radius,
+constexpr float kBehindPixels = 0.45f;          // and at kappa 1: thin sheets have two sides, however far their records reach
+constexpr float kHeight = 0.5f;                 // above a record's plane, of its closest distance,
+constexpr float kHeightFade = 4;                // and from three quarters of that on it counts less
 constexpr float kDispute = 0.1f;              // relative difference of extrapolated values, at kappa 1, that is no longer smooth
 constexpr float kTorn = 0.5f;                 // the same between points that see other things
 constexpr float kNoiseMargin = 3;             // standard errors
@@ -153,9 +156,14 @@ struct IrradianceCache::Impl {
     const float distance2 = dot(step, step);
     if (!(distance2 < radius * radius)) return 0;
     // A point behind the record sees other things than the record did (Ward et al. 1988, section 4).
-    const float behind = -0.5f * dot(step, n + r.normal) / (kBehindTolerance * radius);
+    const float tolerance = std::min(kBehindTolerance * radius, kBehindPixels * pixelSize / settings.kappa);
+    const float behind = -0.5f * dot(step, n + r.normal) / tolerance;
     if (behind >= 1) return 0;
-    const float front = 1 - std::max(0.0f, behind);
+    // One as high above it as what is closest lies on another surface: R- spans a slot of parallel sides.
+    const float above = dot(step, r.normal), highest = kHeight * r.closest;
+    if (above > 0 && above >= highest) return 0;
+    const float upright = above > 0 ? std::min(1.0f, kHeightFade * (1 - above / highest)) : 1.0f;
+    const float front = upright * (1 - std::max(0.0f, behind));
     const float position = std::sqrt(distance2) / radius;
     const float angle = std::sqrt(std::max(0.0f, 1 - dot(n, r.normal)));
     if (settings.errorFunction != ErrorFunction::Ward) {

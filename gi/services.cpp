@@ -32,8 +32,8 @@ GiServices::GiServices(const Scene& scene, const Camera& camera, RaySource rays,
 GiServices::~GiServices() = default;
 
 void GiServices::gatherPass(const DeepFrame& layout, const TileReader& tiles, const std::function<void(float)>& progress,
-                            const std::atomic<bool>* cancelled) {
-  if (impl_->settings.mode != GiMode::Reference) fillCaches(*impl_, layout, tiles, progress, cancelled);
+                            const std::atomic<bool>* cancelled, const std::function<void(int stride)>& covered) {
+  if (impl_->settings.mode != GiMode::Reference) fillCaches(*impl_, layout, tiles, progress, cancelled, covered);
 }
 
 void GiServices::bake(const DeepFrame& layout, const TileReader& tiles, const std::filesystem::path& folder, const MapNames& names, uint64_t world) const {

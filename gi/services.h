@@ -80,8 +80,9 @@ class GiServices final : public ShadeServices {
   /// Fills the irradiance cache for every point that a shaded frame will ask about, coarse to fine. Records of one level are
   /// frozen before the next reads them, and their order is that of the pixels, so the cache does not depend on threads or buckets.
   /// Reads the tiles again in every phase.
+  /// covered: told when the nearest points of every `stride`th pixel and row can be shaded without rays: 16, 8, 4, 2. May be empty.
   void gatherPass(const DeepFrame& layout, const TileReader& tiles, const std::function<void(float)>& progress,
-                  const std::atomic<bool>* cancelled);
+                  const std::atomic<bool>* cancelled, const std::function<void(int stride)>& covered = {});
 
   /// What gatherPass has left; frozen while shading.
   const std::vector<PreparedCache>& caches() const;

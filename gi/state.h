@@ -95,8 +95,9 @@ std::optional<vec3> gatheredOverPi(const GiState&, const GatherPoint& at);
 /// GiServices::bake().
 void bakeLight(const GiState&, const DeepFrame& layout, const TileReader&, const std::filesystem::path& folder, const MapNames&, uint64_t world);
 
+/// GiServices::gatherPass().
 void fillCaches(GiState&, const DeepFrame& layout, const TileReader&, const std::function<void(float)>& progress,
-                const std::atomic<bool>* cancelled);
+                const std::atomic<bool>* cancelled, const std::function<void(int stride)>& covered);
 
 /// When ray `number` of the `count` that leave a point is shot: the point's own time, or a stratified one if it is seen over the
 /// whole shutter and its object samples motion. Successive points of one SampleName continue each other's sequence.

@@ -68,6 +68,12 @@ struct DeepRows {
   std::vector<float> values;
 };
 
+/// Sums over pixels: of their luminance, and of its standard error by how much the samples of each differ, as if they were independent
+/// (stratified ones are better).
+struct PixelNoise {
+  double light = 0, error = 0;
+};
+
 /// Filters the crop window of a shaded frame, some rows at a time. Floats of a pixel are those of outputOf(options): R G B A Z
 /// first; colour premultiplied, linear, before exposure; Z by Options::depthFilter, infinite where nothing opaque was hit.
 /// The sums run in a fixed order (rows, columns, fragments), so that buckets, bands and threads leave no trace.
@@ -80,6 +86,7 @@ class FrameFilter {
   /// Takes what a tile shows, which then may go unless needsTiles(). Another tile at a time from any thread.
   void resolve(size_t index, const DeepTile& tile);
   bool needsTiles() const;
+  PixelNoise noise() const;             ///< Of what has been resolved.
   /// Raster rows [y0, y1) of the crop window, from the top: none above those asked for before. Tiles that are not resolved are taken from
   /// the frame. Afterwards what no lower row needs is forgotten.
   Image rows(int y0, int y1);

@@ -110,8 +110,8 @@ typedef struct TmIlluminance {
   TmConstVec3 Cl;              /* shadowed, divided by the number of samples */
   const uint8_t* lit;          /* 1: active, and the sample comes from the cone */
   int32_t isIndirect, nondiffuse, nonspecular;
-  TmConstVec3 P;               /* in: where the light arrives; x NULL: at the shaded points. Volumes elsewhere than there: in the air, which no
-                                * indirect light reaches, and where light shaders see an N of 0 */
+  TmConstVec3 P;               /* in: where the light arrives; x NULL: at the shaded points. Volumes that give it ask in the air, which no indirect
+                                * light reaches, where light shaders see an N of 0 and rays start at once: not for the surface itself */
   const float* angles;         /* in: for each point, instead of `angle`; NULL */
   const TmMessage* sent;       /* in: for the lights that run */
   int32_t sentCount;
@@ -273,7 +273,8 @@ typedef struct TmServices {
   /* RISpec illuminance(). Ambient lights are not listed. The arrays live until the shader returns; those of a P that is not that of the batch, of
    * messages and of refreshed lights until it has asked for four more such. Call with the same mask until 0 is returned. */
   int32_t (*illuminance)(void* host, const TmGrid*, TmIlluminance*);
-  /* A value of something else: `type` is the TmType, `out` as a parameter of this shader (it lives until the shader returns).
+  /* A value of something else: `type` is the TmType, `out` as a parameter of this shader (it lives until the shader returns, or as long as what
+   * illuminance() has listed the light with).
    * Returns 0 if there is no such value. `light` counts for TM_OF_LIGHT alone; negative: the light that is running. */
   int32_t (*ask)(void* host, const TmGrid*, int32_t whom, int32_t light, const char* name, int32_t* type, TmValue* out);
   /* RISpec textureinfo(): "exists", "resolution", "type", "channels", "bitsperchannel", "viewingmatrix", "projectionmatrix". */

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <initializer_list>
 #include <stdexcept>
+#include <type_traits>
 #include <vector>
 
 #include "reyes/sl_values.h"
@@ -26,10 +27,17 @@ struct Setting {
   float number = 0;
   const char* text = "";
   rsl::Color color{};
-  const float* varying[3] = {nullptr, nullptr, nullptr};  ///< To be sent; null: the same for all.
+  const float* varying[3] = {nullptr, nullptr, nullptr};  ///< Of LightList alone; null: the same for all.
   Float* numbers = nullptr;   ///< To be filled in.
   Triple* triples = nullptr;  ///< Likewise.
 };
+
+/// A name that other renderers know and that changes nothing here, which is reported once. `why`: no more is to be done about it.
+inline bool isIdle(std::string_view name, std::initializer_list<std::string_view> idle, const char* why) {
+  if (std::find(idle.begin(), idle.end(), name) == idle.end()) return false;
+  grid()->call->report(grid()->host, grid(), 1, ("\"" + std::string(name) + "\" has no effect: " + why).c_str());
+  return true;
+}
 
 inline bool set(TmRayOptions& o, std::string_view name, const Setting& v) {
   const std::string_view text = v.text;
@@ -50,14 +58,7 @@ inline bool set(TmRayOptions& o, std::string_view name, const Setting& v) {
   else if (name == "maxvariation") o.maxVariation = v.number;
   else if (name == "weight") o.importance = v.number;
   else if (name == "environmentspace") o.environmentSpace = v.text;
-  else return false;
-  return true;
-}
-
-/// A name that other renderers know and that changes nothing here, which is reported once. `why`: no more is to be done about it.
-inline bool isIdle(std::string_view name, std::initializer_list<std::string_view> idle, const char* why) {
-  if (std::find(idle.begin(), idle.end(), name) == idle.end()) return false;
-  grid()->call->report(grid()->host, grid(), 1, ("\"" + std::string(name) + "\" has no effect: " + why).c_str());
+  else return isIdle(name, {"minsamples", "raydepth"}, "all rays are shot that are asked for, and the renderer counts bounces");
   return true;
 }
 
@@ -86,7 +87,7 @@ inline bool set(HemisphereList& o, std::string_view name, const Setting& v) {
   else if (name == "environmentcolor") o.environmentColor = v.triples;
   else if (name == "environmentdir") o.environmentDirection = v.triples;
   else if (name == "occlusion") o.covered = v.numbers;
-  else return set(o.rays, name, v) || isIdle(name, {"adaptive", "minsamples", "brightnesswarp", "sortbleeding", "rasterresolution"},
+  else return set(o.rays, name, v) || isIdle(name, {"adaptive", "brightnesswarp", "sortbleeding", "rasterresolution"},
                                              "all samples are taken, stratified, and what is nearer hides what is behind it");
   return true;
 }
@@ -167,9 +168,19 @@ inline bool set(TmSubsurface& o, std::string_view name, const Setting& v) {
 /// Of illuminance(). Names are "lightcache" ("refresh": lights run again), "send:light:NAME" (the value of a parameter, for lights that have one
 /// of that name) and "light:NAME" (to be filled in with what lights have, parameters and outputs, at each sample).
 struct LightList {
+  /// Its own copy: the caller's variables may change before the last light has run.
   struct Sent {
-    std::string name;
-    Setting value;
+    Sent(std::string_view parameter, const Setting& v) : name(parameter), text(v.text), type(v.type), step(v.varying[0] ? 1 : 0) {
+      const float* const same[3] = {v.type == TM_COLOR ? &v.color.x : &v.number, &v.color.y, &v.color.z};
+      for (int k = 0; k < (type == TM_COLOR ? 3 : 1); ++k) {
+        const float* const from = step ? v.varying[k] : same[k];
+        values[k].assign(from, from + (step ? grid()->padded : 1));
+      }
+    }
+    std::string name, text;
+    TmType type;
+    int step;
+    std::vector<float> values[3];
   };
   struct Wanted {
     std::string name;
@@ -183,20 +194,15 @@ struct LightList {
   /// As TmServices wants them; they point into this list.
   std::vector<TmMessage> messages() const {
     std::vector<TmMessage> out;
-    for (const Sent& s : sent) {
-      const Setting& v = s.value;
-      const float* same[3] = {v.type == TM_COLOR ? &v.color.x : &v.number, &v.color.y, &v.color.z};
-      TmValue value{{same[0], same[1], same[2]}, v.varying[0] ? 1 : 0, 1, v.text};
-      if (v.varying[0]) std::copy_n(v.varying, 3, value.c);
-      out.push_back({s.name.c_str(), v.type, value});
-    }
+    for (const Sent& s : sent) out.push_back({s.name.c_str(), s.type, {{s.values[0].data(), s.values[1].data(), s.values[2].data()}, s.step, 1, s.text.c_str()}});
     return out;
   }
 };
 inline bool set(LightList& o, std::string_view name, const Setting& v) {
   constexpr std::string_view kSend = "send:light:", kTell = "light:";
-  if (name == "lightcache") o.refresh = std::string_view(v.text) == "refresh";
-  else if (name.substr(0, kSend.size()) == kSend) o.sent.push_back({std::string(name.substr(kSend.size())), v});
+  const std::string_view text = v.text;
+  if (name == "lightcache" && (text == "refresh" || text == "reuse")) o.refresh = text == "refresh";
+  else if (name.substr(0, kSend.size()) == kSend && !v.numbers && !v.triples) o.sent.emplace_back(name.substr(kSend.size()), v);
   else if (name.substr(0, kTell.size()) == kTell && (v.numbers || v.triples)) o.wanted.push_back({std::string(name.substr(kTell.size())), v.numbers, v.triples});
   else return false;
   return true;
@@ -207,6 +213,8 @@ template <class Options>
 Options listed(Options options) { return options; }
 template <class Options, class... More>
 Options listed(Options options, const char* name, const Setting& value, const More&... more) {
+  if (!std::is_same_v<Options, LightList> && value.varying[0])
+    throw std::invalid_argument(std::string("has a parameter list with \"") + name + "\" that differs from point to point, which it must not");
   if (!set(options, name, value)) throw std::invalid_argument(std::string("has a parameter list with \"") + name + "\", which there is not");
   return listed(options, more...);
 }

@@ -16,7 +16,8 @@
 //       color Li = ambient();
 //       illuminance(Q) {
 //         vector Lw = normalize(vtransform("world", L));
-//         float way = min(length(L), max(0, top - ycomp(Qw)) / max(ycomp(Lw), .001)), depth = 0;
+//         float lamp = abs(length(L) - 1) < 1e-5 ? 1e30 : length(L);    /* L of lights at infinity is of unit length */
+//         float way = min(lamp, max(0, top - ycomp(Qw)) / max(ycomp(Lw), .001)), depth = 0;
 //         for (k = 0; k < lightsteps; k += 1) depth += smokeat(Qw + ((k + .5) / lightsteps) * way * Lw);
 //         Li += Cl * exp(-depth * way / max(lightsteps, 1));
 //       }
@@ -55,7 +56,9 @@ struct smoke : Volume {
       Color Li = ambient();
       illuminance(Q, [&] {
         Vector Lw = normalize(vtransform("world", L));
-        Float way = min(length(L), max(0, top - ycomp(Qw)) / max(ycomp(Lw), 0.001)), depth;
+        Float lamp = length(L);
+        If(abs(lamp - 1) < 1e-5, [&] { lamp = 1e30; });
+        Float way = min(lamp, max(0, top - ycomp(Qw)) / max(ycomp(Lw), 0.001)), depth;
         for (int k = 0; k < m; ++k) depth += smokeat(Qw + ((k + 0.5) / m) * way * Lw);
         Li += Cl * exp(-depth * way / max(m, 1));
       });

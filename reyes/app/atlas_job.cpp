@@ -68,6 +68,7 @@ AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene) 
   out.world = worldSum(scene);
   out.photons.emit = settings.photons;
   out.photons.seed = lightSeedOf(settings);
+  out.bricks.maxError = settings.brickMaxError;
   const Param* bounces = indirectParam(scene, "bounces");
   if (bounces) out.photons.maxDepth = std::max(1, static_cast<int>(bounces->number(10)));
   if (settings.bounces > 0) out.photons.maxDepth = settings.bounces;

@@ -11,6 +11,7 @@
 #include "reyes/app/pixel_report.h"
 #include "reyes/app/preview.h"
 #include "reyes/app/radiosity_job.h"
+#include "reyes/app/sketch.h"
 #include "reyes/app/turns_timer.h"
 #include "reyes/base/search_path.h"
 
@@ -81,7 +82,10 @@ GiSettings FrameJob::giSettings() const {
 void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
   if (!gathers() || interrupted()) return;
   const StageTimer timer(stats_, "gather");
-  services_->gatherPass(layout, tiles, meter_.stage(0.3f, 0.7f), &interrupted());
+  openPreview(layout);
+  std::function<void(int)> show;
+  if (preview_) show = [&](int stride) { preview_->show(sketch(layout, tiles, stride, scene_, *shading_, shadeContext(), interrupted())); };
+  services_->gatherPass(layout, tiles, meter_.stage(0.3f, 0.7f), &interrupted(), show);
   warnOfNoise(services_->caches(), log_);
   if (!settings_.bakedFolder.empty() && !interrupted()) bakeGathered(*services_, layout, tiles, scene_, settings_, log_);
 }
@@ -154,13 +158,18 @@ void FrameJob::place(size_t index, DeepTile&& tile, const TilePlace& put) const 
   put(index, std::move(tile));
 }
 
+void FrameJob::openPreview(const DeepFrame& layout) {
+  if (!preview_ && !settings_.preview.empty())
+    preview_ = std::make_unique<Preview>(settings_.preview, scene_.options.displays.front().name, layout, log_);
+}
+
 void FrameJob::finish(DeepFrame& frame, const TileFill& fill) {
-  std::optional<Preview> preview;
-  if (!settings_.preview.empty()) preview.emplace(settings_.preview, scene_.options.displays.front().name, frame, log_);
-  const RowViewer viewer = preview ? [&](const Image& rows) { preview->show(rows); } : RowViewer{};
+  openPreview(frame);
+  const RowViewer viewer = preview_ ? [&](const Image& rows) { preview_->show(rows); } : RowViewer{};
   writeFrame(frame, fill, viewer, scene_, *shading_, {{}, &interrupted(), settings_.seed}, stats_, log_);
   if (services_) services_->reportAtlas(stats_);
   if (rays_) rays_->report(stats_);
+  preview_.reset();
   clouds_.write(log_);
   meter_.report(1);
 }

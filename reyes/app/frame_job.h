@@ -8,6 +8,8 @@
 
 namespace tomales {
 
+class Preview;
+
 class FrameJob {
  public:
   /// Pre: overrides have been applied to the scene. Everything that goes wrong is in the log.
@@ -50,6 +52,8 @@ class FrameJob {
   /// A shaded tile, for the rows of the picture.
   void place(size_t index, DeepTile&& tile, const TilePlace& put) const;
   void finish(DeepFrame& frame, const TileFill& fill);
+  /// Opens a viewer's picture if there is to be one.
+  void openPreview(const DeepFrame& layout);
 
   Scene& scene_;
   const RenderSettings& settings_;
@@ -64,6 +68,7 @@ class FrameJob {
   std::unique_ptr<ShadingSystem> shading_;
   std::unique_ptr<RayScene> rays_;
   std::unique_ptr<GiServices> services_;
+  std::unique_ptr<Preview> preview_;
 };
 
 /// Hours of rendering must not end at a folder that never existed. False: reported.

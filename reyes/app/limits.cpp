@@ -10,6 +10,7 @@ namespace tomales {
 namespace {
 
 constexpr float kShift_px = 0.25f;
+constexpr float kCoarse_px2 = 16;
 constexpr float kUncertain = 0.1f, kDark = 0.1f;
 constexpr float kShareOfRecords = 0.5f;
 constexpr size_t kFewRecords = 32;  // say nothing about the whole
@@ -31,6 +32,18 @@ void warnOfFloatRange(const Scene& scene, Log& log) {
                fmt::format("{}: the camera is {:.3g} units beside the origin of the world, where floats are {:.2g} apart; a pixel is {:.2g} there: "
                            "move camera and scene nearer to the origin",
                            objectName(o), away, lost, pixel));
+    return;
+  }
+}
+
+void warnOfCoarseDicing(const Scene& scene, Log& log) {
+  for (const Object& o : scene.objects) {
+    const Attributes& a = *o.attributes;
+    if (a.shadingRate < kCoarse_px2 || o.shapes.empty() || !a.visibility.camera) continue;
+    if (!a.displacement && (o.shapes.front()->patchCount() == 0 || o.shapes.front()->info(0).planar)) continue;
+    log.report(Severity::Warning, "dice-coarse", o.where,
+               fmt::format("{}: micropolygons of {:.3g} square pixels leave corners in outlines and miss what is finer (ShadingRate, --shading-rate)", objectName(o),
+                           a.shadingRate));
     return;
   }
 }

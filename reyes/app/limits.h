@@ -11,6 +11,9 @@ namespace tomales {
 /// The camera is so far from the origin that floats place points by a good part of a pixel. Once, with the first object that is.
 void warnOfFloatRange(const Scene& scene, Log& log);
 
+/// Micropolygons of something that is not flat are so large that outlines have corners. Once, with the first object that is.
+void warnOfCoarseDicing(const Scene& scene, Log& log);
+
 /// More than half of the irradiance records are uncertain by a tenth or more (standard errors of their luminance; darker ones
 /// than a tenth of the mean are measured against that).
 void warnOfNoise(std::span<const PreparedCache> caches, Log& log);

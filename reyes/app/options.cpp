@@ -62,6 +62,7 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
       ->check(CLI::Range(1e-3, 1e3));
   app.add_option("--radiosity-maps", s.radiosityFolder, "Write the radiosity maps there: a tiled MIP EXR for each object and side; not with --atlas")->type_name("FOLDER");
   app.add_option("--brick-cache", s.brickCacheBytes, "Memory for bricks (default 10M)")->transform(CLI::AsSizeValue(false));
+  app.add_option("--brick-maxerror", s.brickMaxError, "Bricks whose voxels vary by less, as a share of the mean, are left out of the maps of --gi atlas (default 0.03)")->check(CLI::Range(0.0f, 1e6f));
   addParsed(app, "--geometry-cache", s.geometryCache, parseBytes, "30M", "Memory for geometry that rays see at several levels (default 30M)");
   app.add_option_function<std::string>(
          "--ray-geometry", [&s](const std::string& t) { s.fullGeometry = t == "full"; },

@@ -66,6 +66,7 @@ class RenderRun {
       dropDisplays(scene.options, log_);
       warnAboutOverwriting(scene);
       warnOfFloatRange(scene, log_);
+      if (!settings_.draft) warnOfCoarseDicing(scene, log_);
       const int64_t seenBefore = stats_.geometry.micropolygonsVisible;
       const int errorsBefore = errors();
       job_(scene, scenes_ - 1, settings_, stats_, log_, [this] { flush(); });

@@ -31,6 +31,7 @@ struct RenderSettings {
   uint32_t seed = 0;
   std::optional<uint32_t> lightSeed;  ///< Of the random numbers of light alone; none: seed.
   int64_t photons = 1'000'000;     ///< To emit for --gi atlas.
+  float brickMaxError = 0.03f;     ///< Of the brick maps of --gi atlas: bricks whose voxels vary by less of the map's mean are left out.
   float radiosityTexels = 1;       ///< Times as many along each edge of a radiosity map as objects ask.
   std::string radiosityFolder;     ///< Radiosity maps are written there too; empty: nowhere.
   std::string atlasFolder;         ///< Brick maps to use, or to make; empty: made in a temporary folder. For GiChoice::Points: point clouds.

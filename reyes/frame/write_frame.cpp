@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "reyes/base/parallel.h"
 #include "reyes/frame.h"
 #include "reyes/frame/sampling.h"
@@ -87,6 +89,17 @@ class DisplayFiles {
   std::vector<DeepRows> deep_;  ///< A file
 };
 
+/// What moves far, is far out of focus or thinner than the samples are apart.
+void warnOfNoise(const PixelNoise& noise, const Options& options, Log& log) {
+  constexpr double kUncertain = 0.2;
+  const double share = noise.light > 0 ? noise.error / noise.light : 0;
+  if (share <= kUncertain) return;
+  log.report(Severity::Warning, "pixel-noise", {},
+             fmt::format("pixels are uncertain by {:.0f} % in the mean: {} x {} samples are few for what moves, is out of focus or thinner than a pixel "
+                         "(PixelSamples, --pixel-samples)",
+                         100 * share, options.xSamples, options.ySamples));
+}
+
 }  // namespace
 
 void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer, const Scene& scene, const ShadingSystem& shading,
@@ -117,6 +130,7 @@ void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer,
     if (control.progress) control.progress(static_cast<float>(end - frame.crop.y0) / static_cast<float>(frame.crop.height()));
   }
   files.close();
+  warnOfNoise(filter.noise(), options, log);
 }
 
 }  // namespace tomales

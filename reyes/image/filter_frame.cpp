@@ -253,6 +253,8 @@ Image FrameFilter::rows(int y0, int y1) {
 
 void FrameFilter::resolve(size_t index, const DeepTile& tile) { impl_->resolved.resolve(index, tile); }
 
+PixelNoise FrameFilter::noise() const { return impl_->resolved.noise(); }
+
 bool FrameFilter::needsTiles() const {
   const auto& channels = impl_->output.channels;
   const auto& displays = impl_->options.displays;

@@ -1,12 +1,14 @@
 #include "reyes/image/resolved_frame.h"
 
+#include <bit>
+
 #include "reyes/base/parallel.h"
 #include "reyes/image/weights.h"
 
 namespace tomales {
 
 ResolvedFrame::ResolvedFrame(const DeepFrame& frame, const FrameOutput& output, const Options& options)
-    : frame_(frame), output_(output), options_(options), resolved_(frame.tileCount()) {
+    : frame_(frame), output_(output), options_(options), resolved_(frame.tileCount()), noise_(frame.tileCount()) {
   compositors_.push_back(takeCompositor());
   width_ = compositors_[0]->width(), extras_ = compositors_[0]->extras();
 }
@@ -14,10 +16,36 @@ ResolvedFrame::ResolvedFrame(const DeepFrame& frame, const FrameOutput& output, 
 void ResolvedFrame::resolve(size_t index, const DeepTile& tile) {
   std::unique_ptr<Compositor> compositor = takeCompositor();
   auto resolved = std::make_unique<ResolvedTile>(compositor->resolve(tile));
+  noise_[index] = noiseOf(*resolved);
   resolved->values.resize(resolved->values.size() + PixelSums::kWide);
   resolved_[index] = std::move(resolved);
   const std::lock_guard lock(mutex_);
   compositors_.push_back(std::move(compositor));
+}
+
+ResolvedFrame::TileNoise ResolvedFrame::noiseOf(const ResolvedTile& tile) const {
+  TileNoise out;
+  const auto all = static_cast<float>(frame_.samplesPerPixel);
+  for (size_t pixel = 0; pixel + 1 < tile.first.size() && frame_.samplesPerPixel > 1; ++pixel) {
+    float sum = 0, squares = 0;
+    for (size_t c = tile.first[pixel]; c < tile.first[pixel + 1]; ++c) {
+      const float* color = tile.values.data() + c * static_cast<size_t>(width_);
+      const float light = luminance(vec3(color[0], color[1], color[2])), count = static_cast<float>(std::popcount(tile.contributions[c].samples));
+      sum += count * light, squares += count * light * light;
+    }
+    const float mean = sum / all, variance = (squares / all - mean * mean) / (all - 1);
+    if (!(mean > 0)) continue;
+    out.sums.light += mean, out.sums.error += std::sqrt(std::max(variance, 0.0f)), ++out.lit;
+  }
+  return out;
+}
+
+PixelNoise ResolvedFrame::noise() const {
+  constexpr int64_t kEnough = 1000;
+  PixelNoise out;
+  int64_t lit = 0;
+  for (const TileNoise& tile : noise_) out.light += tile.sums.light, out.error += tile.sums.error, lit += tile.lit;
+  return lit < kEnough ? PixelNoise{} : out;
 }
 
 std::unique_ptr<Compositor> ResolvedFrame::takeCompositor() {

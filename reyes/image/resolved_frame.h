@@ -4,6 +4,7 @@
 #include <mutex>
 #include <span>
 
+#include "reyes/image.h"
 #include "reyes/image/composite.h"
 
 namespace tomales {
@@ -23,6 +24,8 @@ class ResolvedFrame {
   void forgetAbove(int y);
   /// Are all tiles from that of row y on still there?
   bool reaches(int y) const { return firstTileOf(y) >= forgotten_; }
+  /// Of all tiles that have been resolved; none where so few pixels have light that most are edges.
+  PixelNoise noise() const;
 
   /// What the samples of a pixel see.
   struct Seen {
@@ -55,6 +58,11 @@ class ResolvedFrame {
   TileRun runFrom(int x, int y) const;
   size_t firstTileOf(int y) const;
   std::unique_ptr<Compositor> takeCompositor();
+  struct TileNoise {
+    PixelNoise sums;
+    int lit = 0;  ///< Pixels with light.
+  };
+  TileNoise noiseOf(const ResolvedTile& tile) const;
 
   const DeepFrame& frame_;
   const FrameOutput& output_;
@@ -64,6 +72,7 @@ class ResolvedFrame {
   int width_;
   std::vector<ExtraFloat> extras_;
   std::vector<std::unique_ptr<ResolvedTile>> resolved_;
+  std::vector<TileNoise> noise_;  ///< Of each tile.
   size_t forgotten_ = 0;  ///< Of these, from the first.
 };
 

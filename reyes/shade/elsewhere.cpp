@@ -21,7 +21,6 @@ bool sameAt(const A& a, const B& b, int i) {
 }
 
 bool atOwnPoints(const Batch& batch, const TmGrid* g, const TmIlluminance& query) {
-  if (!query.P.x) return true;
   const TmConstVec3 own = batch.points->vec(kPx);
   for (int i = 0; i < batch.points->count(); ++i)
     if (g->active[i] && !sameAt(own, query.P, i)) return false;
@@ -29,16 +28,15 @@ bool atOwnPoints(const Batch& batch, const TmGrid* g, const TmIlluminance& query
 }
 
 /// Another number for each position, so that what is averaged along a march does not draw the same samples at every step.
-void moveTo(const Batch& asking, const TmGrid* g, TmConstVec3 P, ShadePoints& points) {
-  const bool air = asking.own->shader->kind == TM_VOLUME;
-  points.setInAir(air);
+void moveTo(TmConstVec3 P, const uint8_t* active, bool inAir, ShadePoints& points) {
+  points.setInAir(inAir);
   for (int i = 0; i < points.count(); ++i) {
-    if (!g->active[i]) continue;
+    if (!active[i] || (!inAir && sameAt(points.vec(kPx), P, i))) continue;
     const SampleName name = points.name(i);
     const auto bits = [](float x) { return std::bit_cast<uint32_t>(x); };
     points.rename(i, {hashCombine(name.key, bits(P.x[i]), bits(P.y[i]), bits(P.z[i])), name.sequence});
     points.set3(kPx, i, get(P, i));
-    if (air) points.set3(kNx, i, vec3(0.0f)), points.set3(kNgx, i, vec3(0.0f));
+    if (inAir) points.set3(kNx, i, vec3(0.0f)), points.set3(kNgx, i, vec3(0.0f));
   }
 }
 
@@ -69,35 +67,39 @@ LightMessage copied(const TmMessage& sent, const TmGrid* g, Arena& arena) {
 
 }  // namespace
 
-Elsewhere::Elsewhere(const Batch& asking, const TmGrid* g, const TmIlluminance& query, int n)
+Elsewhere::Elsewhere(const Batch& asking, const TmGrid* g, const TmIlluminance& query, bool inAir, int n)
     : number(n), context(asking.context), points(*asking.points), batch(asking.scene, asking.group, context, *arena) {
   context.answers = nullptr;  // they are named by the light alone, not by where it arrives
-  if (!atOwnPoints(asking, g, query)) moveTo(asking, g, query.P, points);
+  moveTo(query.P, g->active, inAir, points);
   request.category = query.category ? query.category : "";
   for (int i = 0; i < query.sentCount; ++i) request.sent.push_back(copied(query.sent[i], g, *arena));
   batch.setElsewhere(asking, g, points);
   batch.lights.ask(request);
 }
 
-bool Elsewhere::isFor(const TmGrid* g, const TmIlluminance& query) const {
-  if (request.category != (query.category ? query.category : "") || request.sent.size() != static_cast<size_t>(query.sentCount)) return false;
+bool Elsewhere::isFor(const TmGrid* g, const TmIlluminance& query, bool inAir) const {
+  if (points.inAir() != inAir || request.category != (query.category ? query.category : "") || request.sent.size() != static_cast<size_t>(query.sentCount)) return false;
   for (size_t k = 0; k < request.sent.size(); ++k)
     if (!isSame(request.sent[k], query.sent[k], g)) return false;
-  const TmConstVec3 here = points.vec(kPx), there = query.P.x ? query.P : view(batch.tm.P);
+  const TmConstVec3 here = points.vec(kPx);
   for (int i = 0; i < points.count(); ++i)
-    if (g->active[i] && (!batch.tm.active[i] || !sameAt(here, there, i))) return false;
+    if (g->active[i] && (!batch.tm.active[i] || !sameAt(here, query.P, i))) return false;
   return true;
 }
 
-Batch& placeOf(Batch& batch, const TmGrid* g, const TmIlluminance& query) {
-  if (!batch.points || (query.sentCount == 0 && !query.refresh && atOwnPoints(batch, g, query))) return batch;
+Batch& placeOf(Batch& batch, const TmGrid* g, TmIlluminance query) {
+  if (!batch.points || batch.running != batch.own) return batch;  // a light that asks hears of those that have run
+  const bool inAir = query.P.x && batch.own->shader->kind == TM_VOLUME, isTold = query.sentCount > 0 || query.refresh;
+  if (!query.P.x) query.P = batch.points->vec(kPx);
+  if (!isTold && !inAir && atOwnPoints(batch, g, query)) return batch;
   auto& places = batch.elsewhere;
   const bool anew = query.refresh && query.next == 0;
-  auto it = std::find_if(places.begin(), places.end(), [&](const auto& p) { return !anew && p->isFor(g, query); });
+  auto it = std::find_if(places.begin(), places.end(), [&](const auto& p) { return !anew && p->isFor(g, query, inAir); });
   if (it == places.end()) {
     if (places.size() == kRemembered) places.pop_back();
-    batch.placesAsked = batch.placesAsked % kNumbers + 1;
-    it = places.insert(places.begin(), std::make_unique<Elsewhere>(batch, g, query, batch.placesAsked));
+    do batch.placesAsked = batch.placesAsked % kNumbers + 1;
+    while (std::any_of(places.begin(), places.end(), [&](const auto& p) { return p->number == batch.placesAsked; }));
+    it = places.insert(places.begin(), std::make_unique<Elsewhere>(batch, g, query, inAir, batch.placesAsked));
   }
   std::rotate(places.begin(), it, it + 1);
   Batch& place = places.front()->batch;
@@ -116,6 +118,7 @@ LightSample* lightNumbered(Batch& batch, int32_t number) {
   for (const auto& p : batch.elsewhere)
     if (p->number == number / kSamples) place = &p->batch;
   if (!place) return nullptr;
+  if (place != &batch) place->lights.restrictTo(batch.lights.group());
   auto& samples = place->lights.samples(*place);
   const auto k = static_cast<size_t>(number % kSamples);
   return k < samples.size() ? &samples[k] : nullptr;

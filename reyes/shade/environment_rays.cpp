@@ -1,11 +1,8 @@
 #include "reyes/shade/environment_rays.h"
 
-#include <span>
-#include <string_view>
-
 #include "reyes/base/rng.h"
 #include "reyes/shade/picture_services.h"
-#include "reyes/shade/primary.h"
+#include "reyes/shade/ray_services.h"
 #include "reyes/shade/ray_shots.h"
 #include "reyes/shade/spaces.h"
 
@@ -26,32 +23,22 @@ int32_t gatherEnvironment(Batch& batch, const TmGrid* all, TmConstVec3 P, const 
   if (!batch.points || ray < 0 || ray >= options.samples) return 0;
   const Primary primary(batch, all);
   const TmGrid* g = primary.grid();
-  const mat3 mapFromCurrent = environmentDirections(batch, options.environmentSpace);
+  const mat3 currentFromMap = glm::inverse(environmentDirections(batch, options.environmentSpace));
   const Sky& sky = batch.scene.skies.find(options.environment, batch.running->where, batch.running->user);
   const TmVec3 direction = batch.arena.vec3(g->count), along = batch.arena.vec3(g->count), color = batch.arena.vec3(g->count);
-  float *solidAngle = batch.arena.floats(g->count), *width = batch.arena.floats(g->count);
+  float *solidAngle = batch.arena.floats(g->count), *width = batch.arena.floats(g->count), *far = batch.arena.floats(g->count);
   forActive(g, [&](int i) {
     float density = 0;
     const vec3 L = sky.sample(vec3(0.0f), randomOf(batch, i, ray, options.samples), density);
-    set(along, i, L), set(direction, i, normalizeOr(glm::inverse(mapFromCurrent) * L, L));
-    solidAngle[i] = 1 / (density * static_cast<float>(options.samples)), width[i] = kSkyCell;
+    set(along, i, L), set(direction, i, normalizeOr(currentFromMap * L, L));
+    solidAngle[i] = 1 / (density * static_cast<float>(options.samples)), width[i] = kSkyCell, far[i] = kFarAway;
     hit[i] = 0;
   });
   environment(&batch, g, options.environment, view(along), width, color);
-  for (const TmRayOutput& o : std::span(outputs, static_cast<size_t>(outputCount))) {
-    const std::string_view name = o.name;
-    forActive(g, [&](int i) {
-      const vec3 value = name == "environment:color"        ? get(color, i)
-                         : name == "environment:solidangle" ? vec3(solidAngle[i])
-                         : name == "ray:origin"             ? get(P, i)
-                         : name == "ray:length"             ? vec3(kFarAway)
-                                                            : get(direction, i);
-      const bool known = name.starts_with("environment:") || name.starts_with("ray:");
-      for (int k = 0; known && k < (o.floats == 3 ? 3 : 1); ++k) o.c[k][i] = value[k];
-    });
-    for (int k = 0; k < (o.floats == 3 ? 3 : 1); ++k) primary.spread(o.c[k]);
-  }
   primary.spread(hit);
+  setRayOutputs(primary, outputs, outputCount,
+                {{"environment:color", view(color)}, {"environment:direction", view(direction)}, {"environment:solidangle", {solidAngle, solidAngle, solidAngle}},
+                 {"ray:origin", P}, {"ray:direction", view(direction)}, {"ray:length", {far, far, far}}, {"effectivedistance", {far, far, far}}});
   return 1;
 }
 

@@ -72,10 +72,10 @@ int samplesOf(const BoundLight& light, const Batch& batch) {
   return sampled && batch.context.lightSamples > 0 ? batch.context.lightSamples : light.samples;
 }
 
-EmitterPoints emitterPoints(Batch& batch, TmGrid& g) {
+EmitterPoints emitterPoints(Batch& batch, const BoundLight& light, TmGrid& g) {
   const int n = g.count;
   const EmitterPoints points{batch.arena.vec3(n), batch.arena.vec3(n), batch.arena.floats(n), batch.arena.floats(n)};
-  g.Pl = view(points.P), g.Nl = view(points.N);
+  if (light.can(TM_LIGHT_AREA)) g.Pl = view(points.P), g.Nl = view(points.N);
   return points;
 }
 
@@ -157,7 +157,7 @@ std::vector<LightSample>& Lights::samples(Batch& batch) {
 
 /// One light along the normal in place of all.
 void Lights::substitute(Batch& batch) {
-  if (batch.context.light == Illumination::None) return;
+  if (batch.context.light == Illumination::None || batch.points->inAir()) return;  // stored light is of surfaces
   const TmVec3 L = batch.arena.vec3(batch.tm.count), Cl = batch.arena.vec3(batch.tm.count);
   for (int i = 0; i < batch.points->count(); ++i) {
     set(L, i, batch.points->facingNormal(i));
@@ -196,7 +196,7 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
     g.sample = s, g.samples = n;
     EmitterPoints points{};
     if (area || sky || light.can(TM_LIGHT_SAMPLED)) drawSample(batch, light, g);
-    if (area || sky) points = emitterPoints(batch, g);
+    if (area || sky) points = emitterPoints(batch, light, g);
     if (area && !sampleEmitter(batch, light, g, points)) return;
     if (sky) sampleSky(batch, light, g, points);
     if (!batch.run(*light.bound, g)) return;
@@ -252,7 +252,7 @@ void Lights::addSkies(Batch& batch, TmConstVec3 direction, const uint8_t* leaves
 void Lights::alongOne(Batch& batch, const BoundLight& light, const LobeDirections& lobe, TmVec3 Cl) {
   TmGrid g = lightGrid(batch, light);
   g.sample = lobe.sample, g.samples = lobe.samples;
-  const EmitterPoints points = emitterPoints(batch, g);
+  const EmitterPoints points = emitterPoints(batch, light, g);
   if (!meetLight(batch, light, g, lobe, points)) return;
   uint8_t* met = batch.arena.bytes(g.count);
   for (int i = 0; i < g.count; ++i) met[i] = g.active[i] && lobe.density[i] > 0 && points.density[i] > 0;

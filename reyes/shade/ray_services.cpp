@@ -16,6 +16,17 @@ int floatsOf(const TmRayOutput& o) { return o.floats == 3 ? 3 : 1; }
 
 }  // namespace
 
+void setRayOutputs(const Primary& primary, const TmRayOutput* outputs, int32_t outputCount, std::initializer_list<RayValue> known) {
+  for (const TmRayOutput& o : std::span(outputs, static_cast<size_t>(outputCount))) {
+    const auto* const it = std::find_if(known.begin(), known.end(), [&](const RayValue& v) { return v.name == o.name; });
+    const float* const from[3] = {it != known.end() ? it->value.x : nullptr, it != known.end() ? it->value.y : nullptr, it != known.end() ? it->value.z : nullptr};
+    for (int k = 0; k < floatsOf(o); ++k) {
+      if (from[k]) forActive(primary.grid(), [&](int i) { o.c[k][i] = from[k][i]; });
+      primary.spread(o.c[k]);
+    }
+  }
+}
+
 void traceRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 direction, const TmRayOptions* given, TmVec3 color, float* distance) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
@@ -63,32 +74,25 @@ int32_t gatherRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 axi
   query.number = ray;
   RayResult result;
   result.distance = batch.arena.floats(g->count);
-  std::vector<const TmRayOutput*> ofRay;
+  bool wantsEffective = false;
   for (const TmRayOutput& o : std::span(outputs, static_cast<size_t>(outputCount))) {
     const std::string_view name = o.name;
-    if (name.starts_with("ray:") || name == "effectivedistance")
-      ofRay.push_back(&o);
-    else
-      result.outputs.push_back({o.name, floatsOf(o), {o.c[0], o.c[1], o.c[2]}});
+    wantsEffective |= name == "effectivedistance";
+    if (!name.starts_with("ray:") && name != "effectivedistance") result.outputs.push_back({o.name, floatsOf(o), {o.c[0], o.c[1], o.c[2]}});
   }
-  if (std::any_of(ofRay.begin(), ofRay.end(), [](const TmRayOutput* o) { return std::string_view(o->name) == "effectivedistance"; }))
-    result.effective = batch.arena.floats(g->count), result.color = batch.arena.vec3(g->count);
+  if (wantsEffective) result.effective = batch.arena.floats(g->count), result.color = batch.arena.vec3(g->count);
   std::fill_n(result.distance, g->count, kInfinity);
   if (options.maxDistance > 0) batch.scene.services->trace(*batch.points, g->active, cone.origin(), cone.direction(), query, batch.context, result);
+  float *length = batch.arena.floats(g->count), *effective = batch.arena.floats(g->count);
   forActive(g, [&](int i) {
     hit[i] = result.distance[i] < kFarAway;
-    for (const TmRayOutput* o : ofRay) {
-      const std::string_view name = o->name;
-      const vec3 value = name == "ray:origin"      ? get(cone.origin(), i)
-                         : name == "ray:direction" ? get(cone.direction(), i)
-                         : name == "ray:length"    ? vec3(std::min(result.distance[i], kFarAway))
-                                                   : vec3(result.effective ? std::min(result.effective[i], kFarAway) : kFarAway);
-      for (int k = 0; k < floatsOf(*o); ++k) o->c[k][i] = value[k];
-    }
+    length[i] = std::min(result.distance[i], kFarAway);
+    effective[i] = wantsEffective ? std::min(result.effective[i], kFarAway) : kFarAway;
   });
   primary.spread(hit);
-  for (const TmRayOutput& o : std::span(outputs, static_cast<size_t>(outputCount)))
-    for (int k = 0; k < floatsOf(o); ++k) primary.spread(o.c[k]);
+  setRayOutputs(primary, outputs, outputCount,
+                {{"ray:origin", cone.origin()}, {"ray:direction", cone.direction()}, {"ray:length", {length, length, length}},
+                 {"effectivedistance", {effective, effective, effective}}});
   return 1;
 }
 

@@ -3,7 +3,9 @@
 
 #include <cstdio>
 #include <cstring>
+#include <span>
 
+#include "reyes/base/checksum.h"
 #include "reyes/shade/cloud_services.h"
 #include "reyes/shade/light_services.h"
 #include "reyes/shade/messages.h"
@@ -100,9 +102,11 @@ void transmission(void* host, const TmGrid* g, TmConstVec3 P, TmConstVec3 toward
 
 void report(void* host, const TmGrid*, int32_t severity, const char* message) {
   const Batch& batch = batchOf(host);
-  constexpr size_t kAlike = 24;  // Messages that differ later, by a value perhaps, are of one site.
+  // Messages are told apart by how they begin, since a value may follow, and into so many codes: what a shader makes up is not to fill the log.
+  constexpr size_t kAlike = 24, kCodes = 64;
   const std::string text = message;
-  batch.report(severity >= 2 ? Severity::Missing : Severity::Warning, fmt::format("shader-says {}", text.substr(0, kAlike)).c_str(), text);
+  const uint64_t site = checksum(std::as_bytes(std::span(text).first(std::min(kAlike, text.size())))) % kCodes;
+  batch.report(severity >= 2 ? Severity::Missing : Severity::Warning, fmt::format("shader-says-{}", site).c_str(), text);
 }
 
 void print(void* host, const TmGrid*, const char* text) {

@@ -36,7 +36,9 @@ void cross(Batch& asking, const BoundShader& volume, const std::vector<int>& whi
     ends.set3(kPx, k, get(origin, i) + I), ends.set3(kIx, k, I);
     out.set(k, get(color, i), opacity.x ? get(opacity, i) : vec3(1));
   }
-  if (!run(asking.scene, asking.group, volume, asking.context, ends, out)) return;
+  ShadeContext context = asking.context;
+  context.answers = nullptr;  // they are those of the points that the rays leave
+  if (!run(asking.scene, asking.group, volume, context, ends, out)) return;
   for (int k = 0; k < ends.count(); ++k) set(color, which[static_cast<size_t>(k)], out.color(k));
 }
 

@@ -26,7 +26,7 @@ class Viewer(threading.Thread):
         super().__init__(daemon=True)
         self.server = socket.create_server(("127.0.0.1", 0))
         self.address = "127.0.0.1:%d" % self.server.getsockname()[1]
-        self.reads, self.name, self.pixels, self.updates = reads, None, {}, 0
+        self.reads, self.name, self.pixels, self.updates, self.sketches = reads, None, {}, 0, []
         self.start()
 
     def run(self):
@@ -60,6 +60,8 @@ class Viewer(threading.Thread):
         floats = struct.unpack_from(f"<{width * height * channels}f", packet, at + 16 + 16 * channels)
         for i in range(width * height):
             self.pixels[x + i % width, y + i // width] = tuple(floats[offsets[c] + i * strides[c]] for c in range(channels))
+        if height == self.height > 64:  # more than the rows of a finished picture that come at once
+            self.sketches.append(dict(self.pixels))
 
 
 viewer = Viewer()
@@ -76,6 +78,30 @@ t.expect_run("the picture is the same without", ["compare", "seen.exr", "unseen.
 t.expect_run("a crop has its own corner", ["good.rib", "-o", "crop.exr", "--crop", "0.5,1,0.5,1", f"--preview={(part := Viewer()).address}"], 0)
 part.join(10)
 t.expect(len(part.pixels) == 45 * 75 and (0, 0) in part.pixels, "which is that of the viewer's picture")
+
+# A gather pass shows what it has covered, in ever smaller squares, before any row is done.
+t.write("gathered.rib", """Display "gathered.exr" "openexr" "rgba"
+Format 96 96 1
+Projection "perspective" "fov" [60]
+WorldBegin
+LightSource "indirectlight" "gi" "float samples" [64]
+LightSource "pointlight" "key" "from" [0 0.5 2] "intensity" [2]
+Surface "matte"
+Polygon "P" [-4 -1 0  -4 -1 9  4 -1 9  4 -1 0]
+Polygon "P" [-4 -1 5  -4 4 5  4 4 5  4 -1 5]
+WorldEnd
+""")
+gathering = Viewer()
+t.expect_run("a gather pass with a viewer", ["gathered.rib", "-q", "--gi", "gather", f"--preview={gathering.address}"], 0)
+gathering.join(10)
+t.expect(len(gathering.sketches) == 4, f"four pictures come before the rows ({len(gathering.sketches)})")
+for stride, picture in zip((16, 8, 4, 2), gathering.sketches):
+    t.expect(all(picture[x, y] == picture[x - x % stride, y - y % stride] for x, y in picture), f"in squares of {stride} pixels")
+    off = sorted(abs(picture[x, y][0] - gathering.pixels[x, y][0]) / gathering.pixels[x, y][0] for x in range(0, 96, stride) for y in range(0, 96, stride))
+    most = off[int(0.75 * len(off))]  # pixels along an edge see both sides
+    t.expect(most < 0.1, f"whose corners look as the finished picture does ({most:.3f})")
+t.run("gathered.rib", "-o", "ungathered.exr", "-q", "--gi", "gather")
+t.expect_run("and the picture is the same without", ["compare", "gathered.exr", "ungathered.exr"], 0, "different_pixels               0")
 
 closed = socket.create_server(("127.0.0.1", 0))
 port = closed.getsockname()[1]

@@ -1,9 +1,11 @@
-"""Pictures do not care where the world stands, how large it is, or which hand it has: each scene of the gallery, moved together with its camera.
+"""Pictures do not care where the world stands, how large it is, which hand it has, in what order and pieces it is told, or how it is rendered: each
+scene of the gallery.
 
     symmetry_test.py tomales repository [--all] [part of a scene's name]
 
-What only rounding tells apart (turned, far away, scaled) must agree in almost every pixel. What draws other random numbers (mirrored, another
-seed, twice the resolution) must agree in means of blocks as two seeds do. Without --all: what rounding tells apart.
+Threads and buckets must leave no trace, crops only in records of indirect light.
+What only rounding tells apart (turned, far away, scaled) must agree in almost every pixel. What draws other random numbers or dices otherwise
+(mirrored, another seed, twice the resolution, told in another order, as one mesh or in halves) must agree in means of blocks as two seeds do. Without --all: bits, and what moving and scaling change.
 """
 import os
 import pathlib
@@ -14,8 +16,9 @@ import sys
 import tempfile
 
 from pictures import pixels
+from rewrite import merged, reordered, split
 
-tomales, root = sys.argv[1], pathlib.Path(sys.argv[2])
+tomales, root = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 only = next((a for a in sys.argv[3:] if a != "--all"), "")
 every_check = "--all" in sys.argv
 WIDTH, HEIGHT, BLOCK = (96, 72, 8) if every_check else (64, 48, 8)
@@ -25,8 +28,9 @@ failures = []
 FALLS_OFF = re.compile(r'"(pointlight|spotlight|shadowspot|sl_shadowspot)"')  # I / d^2 knows the unit of length
 IN_UNITS = re.compile(r"DepthOfField|[Dd]isplace|fog|Atmosphere|Interior|filterlight")  # so do lengths that are parameters,
 ON_SCREEN = re.compile(r"ScreenWindow|orthographic")                                      # and windows on the screen
-BY_PIXELS = re.compile(r"motionfactor")                                                   # is coarser by so many pixels
-NEEDS_PLUGINS = re.compile(r"MakeTexture")
+BY_PIXELS = re.compile(r"motionfactor|DetailRange")                                       # is coarser, or another shape, by so many pixels
+NEEDS_FILES = re.compile(r"MakeTexture|\.bkm")  # made by other commands
+BY_PARAMETERS = re.compile(r"[Tt]exture|[Dd]isplace|primvar|vertex|varying|wood|grid")  # halves have other u, v and bounds
 SLOW = ("furnace", "rectlight", "ris")
 
 
@@ -78,7 +82,10 @@ def check(path, folder):
     text = path.read_text(errors="replace")
     text = re.sub(r"^PixelFilter.*$", "", text, flags=re.M).replace("WorldBegin", 'PixelFilter "box" 1 1\nWorldBegin', 1)
     base = render(text, folder, "base")
+    mean = statistics.fmean(sum(p) / 3 for p in base.values())
+    verdict(name, "shows something", mean > 0, f"mean {mean:.3g}")
     most = 0.05 if "indirectlight" in text else 0.02  # where irradiance records lie is decided by a hair's breadth
+    check_bits(name, text, base, folder)
     turned = render(moved(text, "Rotate 37 1 2 3", "Rotate -37 1 2 3"), folder, "turned")
     share = differing(base, turned)
     verdict(name, "turned", share < most, f"{100 * share:.2f} % of the pixels differ")
@@ -89,7 +96,16 @@ def check(path, folder):
             share = differing(base, render(scaled(text, k), folder, f"scaled_{k}"))
             verdict(name, f"{k} times as large", share < most, f"{100 * share:.2f} % of the pixels differ")
     if every_check:
-        check_means(name, text, folder, statistics.fmean(sum(p) / 3 for p in base.values()))
+        check_means(name, text, folder, mean)
+
+
+def check_bits(name, text, base, folder):
+    """A crop has irradiance records of its own."""
+    crop = [] if "indirectlight" in text else ["--crop", "0.25,0.75,0.25,1"]
+    other = render(text, folder, "bits", (WIDTH, HEIGHT), "-t", "3", "--bucket-size", "8", *crop)
+    seen = [(x, y) for x, y in base if not crop or WIDTH <= 4 * x < 3 * WIDTH and HEIGHT <= 4 * y]
+    count = sum(base[key] != other[key] for key in seen)
+    verdict(name, "three threads, buckets of 8" + (", cropped" if crop else ""), count == 0, f"{count} of {len(seen)} pixels differ")
 
 
 def check_means(name, text, folder, mean):
@@ -101,6 +117,10 @@ def check_means(name, text, folder, mean):
         others["mirrored"] = blocks({(WIDTH - 1 - x, y): p for (x, y), p in flipped.items()})
     if not BY_PIXELS.search(text):
         others["twice the resolution"] = blocks(render(text, folder, "doubled", (2 * WIDTH, 2 * HEIGHT)), 2 * WIDTH, 2 * HEIGHT, 2 * BLOCK)
+    rewritten = {"told in another order": reordered(text), "polygons as one mesh": merged(text)}
+    if not BY_PARAMETERS.search(text):
+        rewritten["primitives in halves"] = split(text)
+    others.update({what: blocks(render(other, folder, "rewritten")) for what, other in rewritten.items() if other != text})
     for what, other in others.items():
         rms, of_mean = distance(seeds[0], other)
         good = rms < 2 * noise + 0.01 * mean and of_mean < 4 * noise_of_mean + 0.005 * mean
@@ -111,7 +131,7 @@ for scene in sorted((root / "scenes").rglob("*.rib")):
     if not every_check and not only and scene.parent.name in SLOW:
         continue
     content = scene.read_text(errors="replace")
-    if only not in str(scene) or content.count("WorldBegin") != 1 or "Projection" not in content or NEEDS_PLUGINS.search(content):
+    if only not in str(scene) or content.count("WorldBegin") != 1 or "Projection" not in content or NEEDS_FILES.search(content):
         continue
     with tempfile.TemporaryDirectory() as where:
         os.chdir(where)  # pictures that a scene names stay here

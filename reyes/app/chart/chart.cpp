@@ -49,7 +49,8 @@ class Chart {
       : settings_(settings), sweep_(sweep), labSettings_(labOf(settings, sweep)), lab_(labSettings_) {
     report_.scene = fs::path(settings.files.front()).filename().string();
     report_.title = sweep.title, report_.budget_s = settings.budget_s;
-    report_.commandLine = joined(Arguments{"tomales", "chart"} + settings.files + Arguments{"--sweep", sweep.name, "-o", settings.output});
+    report_.commandLine = joined(Arguments{"tomales", "chart"} + settings.files + Arguments{"--sweep", sweep.name} + sharedArguments(settings) +
+                                 Arguments{"--budget", fmt::format("{:g}s", settings.budget_s), "-o", settings.output});
     for (const ChartCurve& curve : sweep.curves) report_.curves.push_back(curve.name);
   }
 

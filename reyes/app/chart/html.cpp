@@ -21,7 +21,7 @@ a{color:#0058a3}
 th,td{padding:3px 10px 3px 0;text-align:right;white-space:nowrap;border-bottom:1px solid #e4e4e4}
 th:first-child,td:first-child,td.text,th.text{text-align:left}
 tr.best td:first-child{font-weight:600}
-.plots{display:grid;grid-template-columns:1fr 1fr;gap:24px}.plots h2{margin-top:1em}
+.plots{display:grid;grid-template-columns:repeat(2,minmax(0,1fr));gap:24px}.plots h2{margin-top:1em}
 .key{display:inline-block;width:.8em;height:.8em;border-radius:50%;margin:0 .35em 0 0}
 .legend{display:flex;flex-wrap:wrap;gap:4px 20px;margin:.6em 0;padding:0;list-style:none;font-size:14px}
 svg{display:block;width:100%;height:auto;font:12px system-ui,sans-serif}
@@ -29,12 +29,13 @@ svg{display:block;width:100%;height:auto;font:12px system-ui,sans-serif}
 .curve{fill:none;stroke-width:1.8}.point{stroke:#fff;stroke-width:1.2}.best{stroke:#111;stroke-width:2}
 .front{fill:none;stroke:#ffd84d;stroke-width:9;stroke-linecap:round;stroke-linejoin:round;opacity:.55}
 path.floor{stroke:#888;stroke-dasharray:3 4}text.floor{fill:#666}
+path.limit{stroke:#b00020;stroke-dasharray:6 3}text.limit{fill:#b00020}.warned{fill:none;stroke:#b00020;stroke-width:1.5}
 a:hover circle,a:focus circle{r:7px}
 .cards{display:grid;grid-template-columns:repeat(auto-fill,minmax(330px,1fr));gap:20px}
 figure{margin:0;padding:10px;border:1px solid #e0e0e0;border-radius:6px}figure:target{outline:3px solid #ffd84d}
 figure img{width:calc(50% - 3px);image-rendering:auto;vertical-align:top}
 figcaption{font-size:13px}.narrow{display:none}
-@media(max-width:800px){.plots{grid-template-columns:1fr}.wide{display:none}.narrow{display:block}.cards{grid-template-columns:1fr}}
+@media(max-width:800px){.plots{grid-template-columns:minmax(0,1fr)}.wide{display:none}.narrow{display:block}.cards{grid-template-columns:1fr}}
 )";
 
 std::string base64(const std::string& bytes) {

@@ -146,8 +146,11 @@ std::optional<Run> Lab::run(const std::vector<std::string>& arguments) {
   }
   const Json counted = Json::parse(readAll(statistics), nullptr, false);
   fs::remove(statistics, error);
-  Run out{arguments, stem + ".exr", ended.cpu_s, ended.wall_s, ended.peakBytes, 0, false};
-  if (counted.is_object()) out.records = counted.value("/irradiance_cache/samples"_json_pointer, int64_t{0});
+  Run out{arguments, stem + ".exr", ended.cpu_s, ended.wall_s, ended.peakBytes, 0, {}, false};
+  if (counted.is_object()) {
+    out.records = counted.value("/irradiance_cache/samples"_json_pointer, int64_t{0});
+    for (const Json& w : counted.value("warnings", Json::array())) out.warnings.push_back(w.value("code", ""));
+  }
   if (remember(stem, out)) return out;
   why_ = "\"" + settings_.folder + "\" cannot be written";
   return std::nullopt;
@@ -156,11 +159,18 @@ std::optional<Run> Lab::run(const std::vector<std::string>& arguments) {
 std::optional<Run> Lab::recall(const std::string& stem, const std::vector<std::string>& arguments) const {
   const Json j = Json::parse(readAll(stem + ".json"), nullptr, false);
   if (!j.is_object() || !fs::exists(stem + ".exr")) return std::nullopt;
-  return Run{arguments, stem + ".exr", j.value("cpu_s", 0.0), j.value("wall_s", 0.0), j.value("peak_bytes", 0.0), j.value("records", int64_t{0}), true};
+  return Run{arguments,
+             stem + ".exr",
+             j.value("cpu_s", 0.0),
+             j.value("wall_s", 0.0),
+             j.value("peak_bytes", 0.0),
+             j.value("records", int64_t{0}),
+             j.value("warnings", std::vector<std::string>{}),
+             true};
 }
 
 bool Lab::remember(const std::string& stem, const Run& run) const {
-  const Json j{{"cpu_s", run.cpu_s}, {"wall_s", run.wall_s}, {"peak_bytes", run.peakBytes}, {"records", run.records}};
+  const Json j{{"cpu_s", run.cpu_s}, {"wall_s", run.wall_s}, {"peak_bytes", run.peakBytes}, {"records", run.records}, {"warnings", run.warnings}};
   std::ofstream file(stem + ".json.part");
   file << j.dump(2) << '\n';
   file.close();

@@ -15,6 +15,7 @@ struct Run {
   double cpu_s = 0, wall_s = 0;        ///< User and system; of the whole process.
   double peakBytes = 0;                ///< Resident.
   int64_t records = 0;                 ///< Of the irradiance cache.
+  std::vector<std::string> warnings;   ///< Codes of what it said.
   bool recalled = false;               ///< Measured by an earlier process.
 };
 

@@ -49,6 +49,10 @@ bool take(LabScene& scene, const std::string& word, const std::string& rest) {
     const auto [name, values] = named(rest);
     scene.knob = name, scene.values = wordsOf(values);
     return !scene.values.empty() && std::all_of(scene.values.begin(), scene.values.end(), isNumber);
+  } else if (word == "limit") {
+    const auto [warning, value] = named(rest);
+    scene.limit = LabLimit{warning, trimmed(value)};
+    return !warning.empty() && isNumber(scene.limit->value);
   } else return false;
   return true;
 }
@@ -57,7 +61,7 @@ bool take(LabScene& scene, const std::string& word, const std::string& rest) {
 
 std::optional<LabScene> readLabScene(const std::string& file, std::string& error) {
   std::ifstream stream(file);
-  LabScene out{file, {}, {}, {}, {}, {}, {}, {}, {std::istreambuf_iterator<char>(stream), {}}};
+  LabScene out{file, {}, {}, {}, {}, {}, {}, {}, {}, {std::istreambuf_iterator<char>(stream), {}}};
   std::istringstream lines(out.text);
   for (std::string line; std::getline(lines, line);) {
     if (!line.starts_with(kMark)) continue;
@@ -78,9 +82,8 @@ std::optional<LabScene> readLabScene(const std::string& file, std::string& error
   return out;
 }
 
-std::string withKnob(std::string text, const std::string& value) {
-  constexpr std::string_view kKnob = "$knob";
-  for (size_t at = text.find(kKnob); at != std::string::npos; at = text.find(kKnob, at + value.size())) text.replace(at, kKnob.size(), value);
+std::string replaced(std::string text, const std::string& name, const std::string& value) {
+  for (size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + value.size())) text.replace(at, name.size(), value);
   return text;
 }
 

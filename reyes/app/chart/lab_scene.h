@@ -7,6 +7,9 @@
 //   ##lab method gather, screen: --gi gather --samples 200             (once a method)
 //   ##lab common --indirect-only                                       (of every run)
 //   ##lab note Walls under 2 cm leak with records farther apart than that. (optional; repeated lines are joined)
+//   ##lab limit gather-crowded: 0.05                                   (optional: from this value on the renderer itself warns, under this code)
+//
+// `$truth` is 1 while the truth is rendered and 0 else: IfBegin "$truth == 1" can give the truth what methods are spared.
 #pragma once
 #include <optional>
 #include <string>
@@ -19,18 +22,25 @@ struct LabMethod {
   std::vector<std::string> arguments;
 };
 
+/// Of a method's use, as documented.
+struct LabLimit {
+  std::string warning;  ///< Code of what the renderer says beyond it.
+  std::string value;    ///< Of the knob, the first that is beyond.
+};
+
 struct LabScene {
   std::string file, title, knob;
   std::vector<std::string> values;  ///< As written; harmless first.
   std::vector<std::string> common, truth;
   std::vector<LabMethod> methods;
+  std::optional<LabLimit> limit;
   std::string note;  ///< What the manual says about it.
   std::string text;  ///< Of the whole file.
 };
 
 /// Nothing, and why, if the file cannot be read or lacks a title, a knob, a truth or a method.
 std::optional<LabScene> readLabScene(const std::string& file, std::string& error);
-/// The scene's RIB, or an argument of a method, with this value of the knob.
-std::string withKnob(std::string text, const std::string& value);
+/// The text with every `name`, a word that begins with $, replaced.
+std::string replaced(std::string text, const std::string& name, const std::string& value);
 
 }  // namespace tomales

@@ -48,7 +48,7 @@ class Drawing : Markup {
   Drawing(const Plot& plot, int width, int height) : plot_(plot), width_(width), height_(height) {
     for (const PlotCurve& curve : plot.curves)
       for (const PlotPoint& p : curve.points) x_.extend(p.x), y_.extend(p.y);
-    y_.extend(plot.floor);
+    y_.extend(plot.floor), x_.extend(plot.limit);
     x_.settle(kLeft, width - kRight), y_.settle(height - kBottom, kTop);
   }
 
@@ -56,6 +56,7 @@ class Drawing : Markup {
     put("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n", width_, height_, escapeXml(plot_.title));
     axes();
     floor();
+    limit();
     front();
     for (size_t c = 0; c < plot_.curves.size(); ++c) curve(c);
     put("</svg>\n");
@@ -86,6 +87,15 @@ class Drawing : Markup {
     put("<text class=\"floor\" x=\"{}\" y=\"{:.1f}\" >noise of the reference</text>\n", kLeft + 6, y_.at(plot_.floor) - 5);
   }
 
+  void limit() {
+    if (!(plot_.limit > 0)) return;
+    const double x = x_.at(plot_.limit);
+    const bool leftHalf = x < 0.5 * (kLeft + width_ - kRight);
+    put("<path class=\"limit\" d=\"M{:.1f} {}V{}\"/>", x, kTop, height_ - kBottom);
+    put("<text class=\"limit\" x=\"{:.1f}\" y=\"{}\" text-anchor=\"{}\">{}</text>\n", leftHalf ? x + 5 : x - 5, height_ - kBottom - 6, leftHalf ? "start" : "end",
+        escapeXml(plot_.limitName));
+  }
+
   /// A band under the points that nothing beats.
   void front() {
     std::vector<const PlotPoint*> best;
@@ -103,9 +113,11 @@ class Drawing : Markup {
     put("<path class=\"curve\" stroke=\"{}\" d=\"", plotColor(c));
     for (const PlotPoint& p : curve.points) put("{}{:.1f} {:.1f}", &p == &curve.points.front() ? "M" : "L", x_.at(p.x), y_.at(p.y));
     put("\"/>\n");
-    for (const PlotPoint& p : curve.points)
+    for (const PlotPoint& p : curve.points) {
+      if (p.warned) put("<circle class=\"warned\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"8.5\"/>", x_.at(p.x), y_.at(p.y));
       put("<a href=\"{}\"><circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" fill=\"{}\"><title>{}</title></circle></a>\n",
           escapeXml(p.link), p.best ? "point best" : "point", x_.at(p.x), y_.at(p.y), plotColor(c), escapeXml(p.tip));
+    }
   }
 
   const Plot& plot_;

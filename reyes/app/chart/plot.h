@@ -10,6 +10,7 @@ struct PlotPoint {
   std::string tip;   ///< Shown when pointed at.
   std::string link;  ///< Where a click goes.
   bool best = false; ///< Nothing else is both cheaper and more accurate.
+  bool warned = false;  ///< Drawn with a ring.
 };
 
 struct PlotCurve {
@@ -21,6 +22,8 @@ struct Plot {
   std::string title, xLabel, yLabel;
   std::vector<PlotCurve> curves;
   double floor = 0;  ///< Drawn as a line; 0: none.
+  double limit = 0;  ///< An upright line at this x, with its name; 0: none.
+  std::string limitName{};
 };
 
 /// `width`, `height`: in the pixels of the text, which is 12 of them high.

@@ -41,6 +41,11 @@ Arguments numbered(Arguments arguments, int number) {
   return arguments;
 }
 
+Arguments withKnob(Arguments arguments, const std::string& value) {
+  for (std::string& a : arguments) a = replaced(a, "$knob", value);
+  return arguments;
+}
+
 class Laboratory {
  public:
   Laboratory(const ChartSettings& settings, Log& log) : settings_(settings), log_(log), start_(std::chrono::steady_clock::now()) {}
@@ -68,33 +73,34 @@ class Laboratory {
     out.truths.emplace_back();
     fs::create_directories(settings_.folder);
     const uint64_t place = std::hash<std::string>{}(fs::weakly_canonical(scene.file).string());  // others may have this name too
-    const fs::path rib = fs::path(settings_.folder) / fmt::format("{}_{:08x}_{}.rib", fs::path(scene.file).stem().string(), place & 0xffffffff, value);
-    if (!writeAtOnce(rib.string(), withKnob(scene.text, value))) {
-      out.missing.push_back(fmt::format("{} {}: \"{}\" cannot be written", scene.knob, value, rib.string()));
+    const std::string stem = (fs::path(settings_.folder) / fmt::format("{}_{:08x}_{}", fs::path(scene.file).stem().string(), place & 0xffffffff, value)).string();
+    const std::string rib = stem + ".rib", truthRib = stem + ".truth.rib", text = replaced(scene.text, "$knob", value);
+    if (!writeAtOnce(rib, replaced(text, "$truth", "0")) || !writeAtOnce(truthRib, replaced(text, "$truth", "1"))) {
+      out.missing.push_back(fmt::format("{} {}: \"{}\" cannot be written", scene.knob, value, rib));
       return;
     }
-    Lab runs({settings_.folder, {rib.string()}, common(scene), secondsLeft()});
+    Lab truths({settings_.folder, {truthRib}, common(scene), secondsLeft()});
     ChartReference truth;
     std::string error;
     for (int batch = 1; batch <= settings_.batches; ++batch) {
-      const auto run = runs.run(numbered(scene.truth, batch));
+      const auto run = truths.run(numbered(withKnob(scene.truth, value), batch));
       const auto image = run ? readImage(run->picture, error) : std::nullopt;
       if (!image || !truth.add(*image)) break;
     }
     if (truth.batches() < 2) {
-      out.missing.push_back(fmt::format("{} {}: no truth: {}", scene.knob, value, runs.why()));
+      out.missing.push_back(fmt::format("{} {}: no truth: {}", scene.knob, value, truths.why()));
       return;
     }
     out.noiseFloor = std::max(out.noiseFloor, truth.noiseFloor());
-    out.truths.back() = rib.string() + ".truth.png";
+    out.truths.back() = stem + ".truth.png";
     writeImage(out.truths.back(), thumbnail(truth.mean(), kPictureSize), true, log_);
-    for (size_t m = 0; m < scene.methods.size(); ++m) measure(out, value, m, truth, runs, rib.string());
+    Lab runs({settings_.folder, {rib}, common(scene), secondsLeft()});
+    for (size_t m = 0; m < scene.methods.size(); ++m) measure(out, value, m, truth, runs, rib);
   }
 
   void measure(StabilityCurve& out, const std::string& value, size_t method, const ChartReference& truth, Lab& runs, const std::string& rib) {
     const LabMethod& m = out.scene.methods[method];
-    Arguments arguments;
-    for (const std::string& a : m.arguments) arguments.push_back(withKnob(a, value));
+    const Arguments arguments = withKnob(m.arguments, value);
     const auto run = runs.run(arguments);
     std::string error;
     const auto image = run ? readImage(run->picture, error) : std::nullopt;
@@ -104,10 +110,12 @@ class Laboratory {
     }
     Arguments command{"tomales", "render", rib};
     for (const Arguments& part : {common(out.scene), arguments}) command.insert(command.end(), part.begin(), part.end());
-    StabilityPoint point{method, value, truth.errorOf(*image), *run, joined(command), run->picture + ".error.png"};
+    const auto& limit = out.scene.limit;
+    const bool warned = limit && std::find(run->warnings.begin(), run->warnings.end(), limit->warning) != run->warnings.end();
+    StabilityPoint point{method, value, truth.errorOf(*image), *run, joined(command), run->picture + ".error.png", warned};
     writeImage(point.errorMap, thumbnail(truth.errorMap(*image, kMapRange), kPictureSize), true, log_);
-    fmt::print(stderr, "{}, {}, {} {}: {:.3g} %{}\n", fs::path(out.scene.file).stem().string(), m.name, out.scene.knob, value, 100 * point.error.mean,
-               run->recalled ? " (recalled)" : "");
+    fmt::print(stderr, "{}, {}, {} {}: {:.3g} %{}{}\n", fs::path(out.scene.file).stem().string(), m.name, out.scene.knob, value, 100 * point.error.mean,
+               warned ? ", warned" : "", run->recalled ? " (recalled)" : "");
     out.points.push_back(std::move(point));
   }
 
@@ -152,11 +160,13 @@ bool writeStabilityJson(const std::string& path, const std::vector<StabilityCurv
   Json out{{"version", kVersion}, {"command", commandLine}, {"scenes", Json::array()}};
   for (const StabilityCurve& c : curves) {
     Json scene{{"file", c.scene.file}, {"title", c.scene.title}, {"knob", c.scene.knob}, {"noise_floor", c.noiseFloor}, {"missing", c.missing}, {"points", Json::array()}};
+    if (c.scene.limit) scene["limit"] = {{"knob", std::stod(c.scene.limit->value)}, {"warning", c.scene.limit->warning}};
     for (const StabilityPoint& p : c.points)
       scene["points"].push_back({{"method", c.scene.methods[p.method].name},
                                  {"knob", std::stod(p.knob)},
                                  {"command", p.commandLine},
                                  {"cpu_s", p.run.cpu_s},
+                                 {"warnings", p.run.warnings},
                                  {"mean_absolute_relative_error", p.error.mean},
                                  {"p99", p.error.p99},
                                  {"bias", p.error.bias},

@@ -15,6 +15,7 @@ struct StabilityPoint {
   Run run;
   std::string commandLine;
   std::string errorMap;  ///< PNG file of a thumbnail.
+  bool warned;           ///< The renderer said what the scene's limit names.
 };
 
 struct StabilityCurve {

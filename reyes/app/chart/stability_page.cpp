@@ -36,6 +36,10 @@ class Page : Markup {
     put("<h2 id=\"s{}\">{}</h2>\n<p>{}</p>\n", scene, escapeXml(c.scene.title), escapeXml(c.scene.note));
     for (const std::string& m : c.missing) put("<p><strong>Not measured:</strong> {}</p>\n", escapeXml(m));
     Plot plot{c.scene.title, c.scene.knob, "mean relative error", {}, c.noiseFloor};
+    if (c.scene.limit) {
+      plot.limit = std::stod(c.scene.limit->value), plot.limitName = "limit: " + c.scene.limit->warning;
+      put("<p>Limit: at {} {} and beyond the renderer warns (<code>{}</code>, red rings).</p>\n", escapeXml(c.scene.knob), c.scene.limit->value, escapeXml(c.scene.limit->warning));
+    }
     put("<ul class=\"legend\">");
     for (size_t m = 0; m < c.scene.methods.size(); ++m) {
       plot.curves.push_back({c.scene.methods[m].name, {}});
@@ -46,7 +50,7 @@ class Page : Markup {
       plot.curves[p.method].points.push_back({std::stod(p.knob), p.error.mean,
                                               fmt::format("{}, {} {}: {} (99th percentile {})", c.scene.methods[p.method].name, c.scene.knob, p.knob,
                                                           percent(p.error.mean), percent(p.error.p99)),
-                                              '#' + name(scene, p)});
+                                              '#' + name(scene, p), false, p.warned});
     put("<div class=\"plots\"><div><div class=\"wide\">{}</div><div class=\"narrow\">{}</div></div><div>\n", drawPlot(plot, 580, 320), drawPlot(plot, 358, 300));
     table(c);
     put("</div></div>\n");

@@ -43,11 +43,13 @@ ChartCurve varied(const std::string& name, const Arguments& fixed, const std::st
 const Arguments kGather{"--gi", "gather"}, kAtlas{"--gi", "atlas"}, kTraced{"--gi", "reference"};
 
 const Arguments kPixelSamples{"1x1", "2x2", "3x3", "4x4", "6x6", "8x8"}, kFilterWidths{"4", "2", "1.5", "1", "0.7", "0.5", "0.25"};
+const Arguments kOffsets{"0.3", "0.1", "0.03", "0.01", "0.003", "0.001", "0.0001"};
 const Arguments kTessellations{"0.125", "0.25", "0.5", "1", "2", "4", "8"};
 
 std::vector<ChartSweep> allSweeps() {
   const std::string filter = std::string(kPrelude) + "Option \"texture\" \"filter\" ";
   const std::string motion = std::string(kPrelude) + "GeometricApproximation \"motionfactor\" {}";
+  const std::string offset = std::string(kPrelude) + "Attribute \"trace\" \"float offset\" {}";
   const std::string tessellation = std::string(kPrelude) + "Attribute \"trace\" \"float tessellation\" {}";
   return {
       {"gi", "methods of indirect light", {"--indirect-only"}, kTraced, "--light-seed", true,
@@ -61,6 +63,8 @@ std::vector<ChartSweep> allSweeps() {
        {varied("atlas", kAtlas, "--photons", {"10000", "30000", "100000", "300000", "1000000", "3000000"})}},
       {"brickcache", "memory for bricks", {"--indirect-only"}, kTraced, "--light-seed", true,
        {varied("atlas", kAtlas, "--brick-cache", {"100K", "300K", "1M", "3M", "10M"})}},
+      {"brickerror", "error allowed in bricks that stand for finer ones", {"--indirect-only"}, kTraced, "--light-seed", true,
+       {varied("atlas", kAtlas, "--brick-maxerror", {"1", "0.3", "0.1", "0.03", "0.01", "0.003"})}},
       {"shadingrate", "shading rate", {"--gi", "none"}, {"--shading-rate", "0.0625"}, "--seed", false,
        {varied("shading rate", {}, "--shading-rate", {"16", "8", "4", "2", "1", "0.5", "0.25"})}},
       {"pixelsamples", "pixel samples", {"--gi", "none"}, {"--pixel-samples", "16x16"}, "--seed", false,
@@ -74,6 +78,8 @@ std::vector<ChartSweep> allSweeps() {
       {"tessellation", "fineness of the polygons that rays meet", {"--gi", "gather", "--indirect-only"},
        {fmt::format(fmt::runtime(tessellation), 16)}, "--seed", false,
        {varied("hit list", {}, tessellation, kTessellations), varied("bias alone", {"--no-hit-list"}, tessellation, kTessellations)}},
+      {"offset", "how far what rays meet may be from what the eye sees, in units of the scene", {"--gi", "gather", "--indirect-only"},
+       {fmt::format(fmt::runtime(tessellation), 16)}, "--seed", false, {varied("hit list", {}, offset, kOffsets)}},
   };
 }
 

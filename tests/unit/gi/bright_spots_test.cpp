@@ -15,7 +15,7 @@ BrightFind disk(const vec3& center, float radius, int hits, float radiance) {
   for (int i = 0; i < hits; ++i) {
     const vec2 xi = sobol2(static_cast<uint32_t>(i), 7);
     const float r = radius * std::sqrt(xi.x), phi = 2 * kPi * xi.y;
-    find.hits.push_back({center + vec3(r * std::cos(phi), r * std::sin(phi), 0), radiance});
+    find.hits.push_back({center + vec3(r * std::cos(phi), r * std::sin(phi), 0), radiance, {0, 0, -1}});
   }
   return find;
 }
@@ -34,6 +34,27 @@ TEST(BrightSpots, SpheresHoldAllThatWasFoundAndLittleElse) {
       EXPECT_TRUE(std::any_of(spots.spots().begin(), spots.spots().end(),
                               [&](const BrightSpots::Spot& s) { return glm::length(hit.position - s.center) <= s.radius; }));
   for (const BrightSpots::Spot& s : spots.spots()) EXPECT_LT(s.radius, 0.25f);
+}
+
+TEST(BrightSpots, WhatIsFlatIsADiskAndNoSphere) {
+  const BrightSpots disks = twoDisks();
+  for (const BrightSpots::Spot& s : disks.spots()) EXPECT_EQ(s.normal, vec3(0, 0, -1));
+  BrightFind ball = disk({0, 0, 5}, 0.2f, 300, 50);
+  for (BrightHit& hit : ball.hits) hit.normal = normalizeOr(hit.position - vec3(0, 0, 5.02f), {0, 0, -1});
+  BrightSpots spots;
+  spots.learn({ball});
+  EXPECT_TRUE(std::any_of(spots.spots().begin(), spots.spots().end(), [](const BrightSpots::Spot& s) { return s.normal == vec3(0); }));
+}
+
+TEST(SpotAim, ADiskSeenFromTheSideIsAimedAtAsNarrowlyAsItLooks) {
+  const SpotAim aim(twoDisks(), {5, 0, 4.9f}, normalizeOr({-1, 0, 0.01f}, {}));  // 0.1 above the plane of the first, at 25 radii
+  ASSERT_GT(aim.irradiance(), 0);
+  for (uint32_t i = 0; i < 256; ++i) {
+    const vec3 d = aim.direction(sobol1(i, 1), sobol2(i, 2));
+    const vec3 onPlane = vec3(5, 0, 4.9f) + d * (0.1f / d.z);
+    EXPECT_GT(d.z, 0);
+    EXPECT_LT(glm::length(onPlane - vec3(0, 0, 5)), 0.5f);
+  }
 }
 
 TEST(BrightSpots, ASingleHitIsChance) {

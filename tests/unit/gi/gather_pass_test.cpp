@@ -244,6 +244,9 @@ TEST(GatherPass, ReportsProgressAndObeysCancellation) {
   services->gatherPass(frame, readerOf(frame), [&](float f) { heard.push_back(f); }, nullptr);
   EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
   EXPECT_EQ(heard.back(), 1);
+  std::vector<int> strides;
+  world.use({})->gatherPass(frame, readerOf(frame), {}, nullptr, [&](int stride) { strides.push_back(stride); });
+  EXPECT_EQ(strides, (std::vector<int>{16, 8, 4, 2}));
 
   const int64_t before = world.stats.irradianceCache.samples;
   std::atomic<bool> cancelled{true};

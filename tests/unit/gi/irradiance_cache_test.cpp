@@ -88,6 +88,50 @@ TEST(IrradianceCache, ARecordInFrontOfThePointIsNotUsedAndOneBesideItIs) {
   }
 }
 
+TEST(IrradianceCache, ASheetThinnerThanAPixelHidesItsBackFromTheRecordsOfItsFront) {
+  for (const auto function : {ErrorFunction::Screen, ErrorFunction::Ward, ErrorFunction::Hessian}) {
+    auto record = recordAt(vec3(0), vec3(1), 2);  // the underside of a lamp, of which nothing is near
+    record.smoothRadius = 1;
+    const CacheSettings wide{function, 1, 10};  // reaches 10 pixels of 0.04
+    EXPECT_EQ(weightOfOne(wide, record, {0.1f, 0, -0.02f}, kUp, 0.04f), 0) << "the ceiling half a pixel behind it";
+    EXPECT_GT(weightOfOne(wide, record, {0.1f, 0, -0.001f}, kUp, 0.04f), 0) << "rounding, and bumps far below a pixel";
+  }
+}
+
+TEST(IrradianceCache, TheFloorOfTheRadiusDoesNotSpanASlotOfParallelSides) {
+  for (const auto function : {ErrorFunction::Screen, ErrorFunction::Ward, ErrorFunction::Hessian}) {
+    auto record = recordAt(vec3(0), vec3(1), 0.02f);  // of the ceiling, 2 cm over a lamp
+    record.smoothRadius = 0.02f;
+    EXPECT_EQ(weightOfOne({function, 1}, record, {0.01f, 0, 0.02f}, kUp, 0.04f), 0) << "the lamp";
+    EXPECT_GT(weightOfOne({function, 1}, record, {0.01f, 0, 0.005f}, kUp, 0.04f), 0) << "a bump of the ceiling";
+  }
+}
+
+TEST(IrradianceCache, WeightsFallToNothingWithTheHeightAboveARecord) {
+  const auto record = recordAt(vec3(0), vec3(1), 0.02f);
+  float last = weightOfOne({ErrorFunction::Screen, 1}, record, vec3(0), kUp, 0.04f);
+  for (int i = 1; i <= 100; ++i) {
+    const float weight = weightOfOne({ErrorFunction::Screen, 1}, record, {0, 0, 1.2e-4f * static_cast<float>(i)}, kUp, 0.04f);
+    EXPECT_LE(weight, last);
+    EXPECT_NEAR(weight, last, 0.06f) << i;
+    last = weight;
+  }
+  EXPECT_EQ(last, 0);
+}
+
+TEST(IrradianceCache, ARecordOnWhatItSeesServesItsOwnPlace) {
+  EXPECT_GT(weightOfOne({ErrorFunction::Screen, 1}, recordAt(vec3(0), vec3(1), 0), vec3(0), kUp, 0.04f), 0);
+}
+
+TEST(IrradianceCache, ASphereIsBehindNoneOfItsOwnRecords) {
+  IrradianceRecord record = recordAt({0, 0, 1}, vec3(1), kInfinity);
+  for (float degrees = 1; degrees < 10; ++degrees) {
+    const vec3 n = tilted(degrees);
+    const float weight = weightOfOne({ErrorFunction::Screen, 1}, record, n, n, 0.1f);
+    EXPECT_NEAR(weight, 1 - std::sin(degrees * kPi / 360) / std::sin(kPi / 36), 1e-3f) << degrees;
+  }
+}
+
 TEST(IrradianceCache, AConstantFieldIsReproduced) {
   for (const auto function : {ErrorFunction::Screen, ErrorFunction::Ward}) {
     IrradianceCache cache(kBox, {function, 1});

@@ -167,6 +167,86 @@ TEST_F(Elsewhere, LightsTakeWhatTheyAreSent) {
   EXPECT_NE(log.entries()[0].message.find("of another type"), std::string::npos) << log.entries()[0].message;
 }
 
+TEST_F(Elsewhere, WhatIsSentIsKeptUntilTheLastLightHasRunAndBelongsToItsPlace) {
+  light("counting"), light("counting");
+  const ShadedPoints out = asked(2, [](sl::Surface& s) {
+    Float sent = 3;
+    Color sum, here, there;
+    s.illuminance(s.P, lights("send:light:power", sent), [&] { sum += s.Cl, sent = 100; });
+    s.illuminance(s.P + Vector(0, 8, 0), lights("send:light:power", 2), [&] { there += Color(length(s.L)); });
+    TmMessage message{"power", TM_FLOAT, {}};
+    const float two = 2;
+    message.value = {{&two, nullptr, nullptr}, 0, 1, nullptr};
+    TmIlluminance query{};
+    query.structBytes = sizeof query, query.sent = &message, query.sentCount = 1;
+    while (grid()->call->illuminance(grid()->host, grid(), &query)) here += Color(length(Vector(query.L)));
+    s.Ci = Color(xcomp(sum), xcomp(here), xcomp(there));
+    EXPECT_THROW(lights("send:light:power", &sent), std::invalid_argument);
+    EXPECT_THROW(lights("lightcache", "renew"), std::invalid_argument);
+    EXPECT_THROW(rays("maxdist", sent), std::invalid_argument) << "no list but that of lights takes a number for each point";
+  });
+  expectColor(out.color(0), {6, 12, 20});
+}
+
+// Lights that have an extent draw samples by what a point is and where it asks, whoever else asks.
+TEST_F(Elsewhere, WhatAPointGetsDoesNotDependOnTheOthers) {
+  light("arealight", {number("samples", 4)}, true);
+  services.emitter = [](float a, float b, vec3& P, vec3& N, float& area) { P = {-1 + 2 * a, -0.5f + b, 3}, N = {0, 0, 1}, area = 2; };
+  attributes.atmosphere = std::make_shared<const ShaderCall>(call("between", {}));
+  onSurface = [](sl::Surface& s) {
+    Point Q = s.P;
+    If(s.u >= 0.5, [&] { Q += Vector(0, 0.5, 0); });
+    s.Ci = Color();
+    s.illuminance(Q, [&] { s.Ci += s.Cl; });
+  };
+  inVolume = [](sl::Volume& v) {
+    Point Q = v.P;
+    If(v.u >= 0.5, [&] { Q += Vector(0, 0.5, -0.25); });
+    v.illuminance(Q, [&] { v.Ci += v.Cl; });
+  };
+  const ShadePoints all = points(std::vector<vec3>(6, vec3(0, 0, 5)));
+  const auto lit = [&](const ShadePoints& p) {
+    ShadedPoints out;
+    system().shade(p, {}, out);
+    system().atmosphere(p, out);
+    return out;
+  };
+  const ShadedPoints together = lit(all);
+  for (int i = 0; i < all.count(); ++i) {
+    ShadePoints one(all.group(), all.primvarFloats());
+    one.assign(all, i, i + 1);
+    EXPECT_EQ(lit(one).color(0), together.color(i)) << i;
+  }
+  EXPECT_NE(together.color(0), together.color(5));
+}
+
+/// A light that asks what light arrives where it shines.
+struct nosy : sl::Light {
+  void main() {
+    TmIlluminance query{};
+    query.structBytes = sizeof query;
+    const Point away = Ps + Vector(0, 1, 0);
+    query.P = away;
+    float heard = 0;
+    while (grid()->call->illuminance(grid()->host, grid(), &query)) ++heard;
+    illuminate(Point(0, 0, 0), [&] { Cl = Color(1 + double(heard)); });
+  }
+};
+TEST_F(Elsewhere, ALightThatAsksHearsOfThoseThatHaveRun) {
+  static const rsl::Shader nosyShader(TM_LIGHT, "nosy", "", 0, sl::shade<nosy>, {});
+  static const TmShader* const shaders[] = {nosyShader};
+  static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 1};
+  registry.addLibrary(&library, "test");
+  light("counting"), light("nosy");
+  const ShadedPoints out = asked(1, [](sl::Surface& s) {
+    Color own, away;
+    s.illuminance(s.P, [&] { own += s.Cl; });
+    s.illuminance(s.P + Vector(0, 2, 0), [&] { away += s.Cl; });
+    s.Ci = Color(xcomp(own), xcomp(away), 0);
+  });
+  expectColor(out.color(0), {1 + 2, 1 + 2, 0});
+}
+
 TEST_F(Elsewhere, RefreshedLightsRunAgain) {
   light("counting");
   asked(4, [](sl::Surface& s) {
@@ -228,6 +308,31 @@ TEST_F(Elsewhere, IndirectLightReachesSurfacesAndNotTheAir) {
   shading.reset(), scene.objects.clear(), scene.groups.clear();
   system().atmosphere(p, out);
   EXPECT_EQ(inAir, 1);
+}
+
+// As many ends of rays as points, and the same light at infinity: what shadow rays from the ends answer is not for the surface.
+TEST_F(Elsewhere, WhatAnsweredToAVolumeIsNotRememberedOfTheSurface) {
+  light("distantlight").castsShadows = true;
+  attributes.exterior = std::make_shared<const ShaderCall>(call("between", {}));
+  services.met = [](const vec3&, const vec3&) { return 3.0f; };
+  services.visible = [](const vec3& P, const vec3&) { return P.z == 5 ? 1.0f : 0.0f; };
+  inVolume = [](sl::Volume& v) { v.Ci += diffuse(Normal(0, 0, -1)); };
+  RayAnswers answers;
+  answers.recording = true;
+  ShadeContext context;
+  context.answers = &answers;
+  const auto lit = [&] {
+    return asked(2, [](sl::Surface& s) {
+      Color light;
+      s.illuminance(s.P, [&] { light += s.Cl; });
+      trace(s.P, Vector(0, 0, -1));
+      s.Ci = light;
+    }, context).color(1);
+  };
+  expectColor(lit(), vec3(1));
+  answers.recording = false, services.shadowRays = 0;
+  expectColor(lit(), vec3(1));
+  EXPECT_EQ(services.shadowRays, 2) << "those of the volume";
 }
 
 // A sky of radiance 1 is 4 pi of it, over pi, from all around; above a surface half of that counts, whatever the density of samples.

@@ -145,6 +145,15 @@ TEST_F(Plugins, AShaderOfAnotherAbiOrSizeIsSkippedAndItsNeighboursStay) {
   EXPECT_EQ(log.count("shader-plugin"), 2);
 }
 
+// What the first release that had these fields compiled: offsets that a later one must not move, and no field where an earlier struct ended in padding.
+TEST_F(Plugins, StructsOfOptionsHaveGrownAtTheirEnds) {
+  if (sizeof(void*) != 8) GTEST_SKIP() << "offsets of 64-bit machines";
+  EXPECT_EQ(offsetof(TmIlluminance, light), 44u);
+  EXPECT_EQ(offsetof(TmIlluminance, P), 120u) << "its first release had 120 bytes";
+  EXPECT_EQ(offsetof(TmTextureLookup, mipBias), 48u) << "and this 48";
+  EXPECT_EQ(offsetof(TmRayOptions, environment), 96u);
+}
+
 TEST_F(Plugins, AFileThatIsNoPluginIsRefusedWithAReason) {
   EXPECT_FALSE(registry.loadPlugin("/nowhere/absent.so"));
   ASSERT_EQ(log.entries().size(), 1u);

@@ -19,7 +19,7 @@ struct hazysun : sl::Light {
 /// Brighter towards the eye.
 struct gradedsky : sl::Light {
   void main() {
-    solar([&] { Cl = Color(1 + zcomp(normalize(L))); });
+    solar([&] { Cl = Color(1 + zcomp(normalize(L))) * (zcomp(P) / 5) * length(N); });  // of the point being lit: z is 5
   }
 };
 /// As the arealight that comes with the renderer.

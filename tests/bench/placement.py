@@ -1,0 +1,105 @@
+"""Error functions of the irradiance cache at equal numbers of records (docs/gi.md): indirect light alone against a gather at every point.
+    placement.py TOMALES [--scenes box_ball contact grazing] [--size 128] [--samples 1600] [--truth 3000] [--crop X0,X1,Y0,Y1] [--keep FOLDER]
+Corners: pixels that are open to less than 97 % within 0.12 units. `screen` has the records it asks for at maxerror 1, the others as many."""
+import argparse
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(TESTS / "image"))
+from pictures import pixels  # noqa: E402
+
+NEAR, OPEN = 0.12, 0.97
+FUNCTIONS = ("screen", "ward", "hessian")
+
+parser = argparse.ArgumentParser()
+parser.add_argument("tomales")
+parser.add_argument("--scenes", nargs="+", default=["box_ball", "contact", "grazing"])
+parser.add_argument("--functions", nargs="+", default=FUNCTIONS)
+parser.add_argument("--size", type=int, default=128)
+parser.add_argument("--samples", type=int, default=1600)
+parser.add_argument("--truth", type=int, default=3000)
+parser.add_argument("--crop", default="0,1,0,1")
+parser.add_argument("--records", type=int, default=0, help="instead of those of screen")
+parser.add_argument("--keep", type=pathlib.Path, help="pictures stay there, and truths that are there are used")
+parser.add_argument("-t", default="2")
+options = parser.parse_args()
+
+
+def render(scene, out, *arguments):
+    """The number of records."""
+    stats = out.with_suffix(".json")
+    subprocess.run([options.tomales, "render", scene, "-q", "--format", f"{options.size}x{options.size}", "--pixel-samples", "2x2", "--crop", options.crop, "-t", options.t,
+                    "-o", out, "--stats", stats, *map(str, arguments)], check=True)
+    return json.loads(stats.read_text())["irradiance_cache"]["samples"]
+
+
+def gather(scene, out, function, max_error):
+    return render(scene, out, "--gi", "gather", "--indirect-only", "--samples", options.samples, "--error-function", function, "--max-error", max_error)
+
+
+def with_as_many(scene, out, function, records):
+    """maxerror and records, within 1 % or as near as bisection comes."""
+    low, high = math.log(0.1), math.log(10)
+    for _ in range(12):
+        middle = (low + high) / 2
+        made = gather(scene, out, function, math.exp(middle))
+        if abs(made - records) <= 0.01 * records:
+            break
+        low, high = (middle, high) if made > records else (low, middle)
+    return math.exp(middle), made
+
+
+def corners_of(scene, folder):
+    """Pixels beside other geometry."""
+    text = scene.read_text()
+    begin = text.index('LightSource "indirectlight"')
+    open_scene = folder / f"{scene.stem}_open.rib"
+    light = f'LightSource "occlusionlight" "open" "float samples" [256] "float maxdist" [{NEAR}] "float maxvariation" [0]'
+    plain = "\n".join(line for line in (text[:begin] + light + text[text.index("\n", begin):]).splitlines() if "AreaLightSource" not in line
+                      and "Illuminate" not in line and "Color" not in line)
+    open_scene.write_text(plain)
+    picture = folder / f"{scene.stem}_open.exr"
+    render(open_scene, picture)
+    return {xy for xy, color in pixels(picture).items() if color[1] < OPEN}
+
+
+def rms(errors):
+    return math.sqrt(sum(errors) / max(len(errors), 1))
+
+
+def describe(seen, truth, corners, mean):
+    squares = {xy: sum((a - b) ** 2 for a, b in zip(seen[xy][:3], truth[xy][:3])) / 3 / mean ** 2 for xy in truth}
+    relative = sorted(abs(a - b) / (b + 0.01) for xy in truth for a, b in zip(seen[xy][:3], truth[xy][:3]))
+    parts = {"rms": squares, "outside corners": squares.keys() - corners, "in corners": squares.keys() & corners}
+    text = ", ".join(f"{part} {100 * rms([squares[xy] for xy in places]):5.2f} %" for part, places in parts.items())
+    return (f"mean {100 * sum(relative) / len(relative):5.2f} %, p99 {100 * relative[int(0.99 * len(relative))]:5.1f} %, {text}, worst pixel "
+            f"{100 * math.sqrt(max(squares.values())):4.0f} % ({len(parts['in corners'])} of {len(squares)} pixels in corners)")
+
+
+def report(scene, folder):
+    truth_file = folder / f"{scene.stem}_truth.exr"
+    if not truth_file.exists():
+        render(scene, truth_file, "--gi", "gather", "--indirect-only", "--max-error", 0, "--samples", options.truth, "--light-seed", 1)
+    emission = folder / f"{scene.stem}_emission.exr"
+    render(scene, emission, "--gi", "none", "--indirect-only")
+    corners, lamps = corners_of(scene, folder), pixels(emission)
+    truth = {xy: color for xy, color in pixels(truth_file).items() if max(color[:3]) > 0}  # inside the crop
+    mean = sum(sum(c[:3]) - sum(lamps[xy][:3]) for xy, c in truth.items()) / (3 * len(truth))
+    records = options.records
+    for function in options.functions:
+        out = folder / f"{scene.stem}_{function}.exr"
+        max_error, made = with_as_many(scene, out, function, records) if records else (1, gather(scene, out, function, 1))
+        records = records or made
+        print(f"{scene.stem:<10} {function:<8} maxerror {max_error:5.3f} {made:6} records, {describe(pixels(out), truth, corners, mean)}", flush=True)
+
+
+with tempfile.TemporaryDirectory() as name:
+    folder = options.keep or pathlib.Path(name)
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in options.scenes:
+        report(TESTS / "stability" / "irradiance_cache" / f"{name}.rib", folder)

@@ -1,0 +1,184 @@
+// Pictures, environments and shadow maps as shaders in RSL's manner look them up (reyes/sl_pictures.h).
+#include <OpenImageIO/imagebuf.h>
+
+#include <filesystem>
+
+#include "tests/unit/shade/obedient.h"
+
+namespace tomales {
+namespace {
+
+using namespace sl;
+
+class BatchPictures : public BatchServices {};
+
+TEST_F(BatchPictures, ATextureOfFourCornersIsTheMeanBetweenThem) {
+  const std::string path = ::testing::TempDir() + "/tomales_corners.tif";
+  OIIO::ImageBuf picture(OIIO::ImageSpec(256, 256, 1, OIIO::TypeDesc::FLOAT));
+  for (int y = 0; y < 256; ++y)
+    for (int x = 0; x < 256; ++x) {
+      const float value = x < 128 ? 0.0f : 1.0f;
+      picture.setpixel(x, y, &value);
+    }
+  ASSERT_TRUE(picture.write(path));
+  const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
+    TmTextureLookup one = lookup();
+    one.channels = 1;
+    const auto over = [&](double from, double to) {
+      const Float ss[4] = {from, to, from, to}, tt[4] = {0.4, 0.4, 0.6, 0.6};
+      return xcomp(texture(path.c_str(), ss, tt, one));
+    };
+    s.Ci = Color(over(0.4, 0.6), over(0.45, 0.65), over(0.7, 0.8));
+  });
+  expectColor(c[0], vec3(0.5f, 0.75f, 1), 0.05f);
+  EXPECT_TRUE(log.entries().empty());
+}
+
+TEST_F(BatchPictures, PicturesAreLookedUpOverRegionsCornersAndChannels) {
+  const std::string path = ::testing::TempDir() + "/tomales_ramp.exr";
+  OIIO::ImageBuf picture(OIIO::ImageSpec(256, 128, 3, OIIO::TypeDesc::FLOAT));
+  for (int k = 0; k < 256 * 128; ++k) {
+    const float s = (static_cast<float>(k % 256) + 0.5f) / 256, value[] = {s < 0.5f ? 0.0f : 1.0f, s, 2};
+    picture.setpixel(k % 256, k / 256, value);
+  }
+  ASSERT_TRUE(picture.write(path));
+  const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
+    FilterRegion wide;
+    for (Float& side : wide.sides) side = 0.1;
+    wide.s = 0.5, wide.t = 0.5;
+    const Float step = xcomp(texture(path.c_str(), wide));
+    wide.s = 0.53, wide.scale(2);
+    const Float wider = xcomp(texture(path.c_str(), wide));
+    s.Ci = Color(step, wider, ftexture(path.c_str(), 1, 0.25, 0.5, "blur", 0.02));
+  });
+  EXPECT_NEAR(c[0].x, 0.5f, 0.02f);
+  EXPECT_TRUE(c[0].y > 0.5f && c[0].y < 0.75f) << c[0].y;
+  EXPECT_NEAR(c[0].z, 0.25f, 0.01f);
+  const std::vector<vec3> around = asked(4, [&](sl::Surface& s) {
+    // From the equator: +y is a quarter round the picture, where its green is 1/4.
+    const Vector corners[4] = {Vector(0.1, 1, 0.1), Vector(-0.1, 1, 0.1), Vector(0.1, 1, -0.1), Vector(-0.1, 1, -0.1)};
+    s.Ci = Color(ycomp(environment(path.c_str(), corners)), fenvironment(path.c_str(), 1, Vector(0, 1, 0)), fenvironment(path.c_str(), 2, Vector(0, 1, 0), "blur", 0.01));
+  });
+  expectColor(around[0], {0.25f, 0.25f, 2}, 0.01f);
+  EXPECT_TRUE(log.entries().empty());
+}
+
+// Every other column of texels is 1, and one in four so large that an average over it says nothing.
+TEST_F(BatchPictures, PicturesAreLookedUpOnOtherLevelsAndWithoutWhatIsTooLarge) {
+  const std::string path = ::testing::TempDir() + "/tomales_columns.exr";
+  OIIO::ImageBuf picture(OIIO::ImageSpec(256, 256, 3, OIIO::TypeDesc::FLOAT));
+  for (int k = 0; k < 256 * 256; ++k) {
+    const int column = k % 256;
+    const float value[] = {static_cast<float>(column % 2), column % 4 == 0 ? 1e9f : 2, 1e9f};
+    picture.setpixel(column, k / 256, value);
+  }
+  ASSERT_TRUE(picture.write(path));
+  const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
+    FilterRegion region;
+    region.s = 128.5 / 256, region.t = 0.5;
+    const auto look = [&](double texels, const auto&... list) {
+      for (Float& side : region.sides) side = 0;
+      region.sides[0] = texels / 256, region.sides[3] = texels / 256;
+      return texture(path.c_str(), region, list...);
+    };
+    s.Ci = Color(xcomp(look(16)), xcomp(look(16, "mipbias", 10)), xcomp(look(1, "mipbias", -4)));
+    const Color some = look(16, "ignoreabove", 1000, "fill", 7);
+    s.Oi = Color(ycomp(some), zcomp(some), xcomp(some));
+    If(s.u < 0.2, [&] { s.Ci = s.Oi; });
+  });
+  expectColor(c[0], {2, 7, 0.5f}, 0.01f);
+  expectColor(c[1], {0.5f, 0, 0.5f}, 0.02f);
+}
+
+// An orthographic map of -1..1: something at depth 1 hides its left half.
+TEST_F(BatchPictures, AShadowOfFourCornersIsTheMeanBetweenThem) {
+  const std::string path = ::testing::TempDir() + "/tomales_half.exr";
+  OIIO::ImageSpec spec(64, 64, 1, OIIO::TypeDesc::FLOAT);
+  spec.channelnames = {"Z"};
+  const mat4 same(1.0f);
+  spec.attribute("worldtocamera", OIIO::TypeMatrix, &same), spec.attribute("worldtoscreen", OIIO::TypeMatrix, &same);
+  OIIO::ImageBuf map(spec);
+  for (int k = 0; k < 64 * 64; ++k) {
+    const float depth = k % 64 < 32 ? 1.0f : 100.0f;
+    map.setpixel(k % 64, k / 64, &depth);
+  }
+  ASSERT_TRUE(map.write(path));
+  const std::vector<vec3> c = asked(2, [&](sl::Surface& s) {
+    const auto over = [&](double from, double to) {
+      const Point corners[4] = {Point(from, -0.5, 5), Point(to, -0.5, 5), Point(from, 0.5, 5), Point(to, 0.5, 5)};
+      return xcomp(shadow(path.c_str(), corners, "samples", 4, "bias", 0.1));
+    };
+    s.Ci = Color(over(-0.5, 0.5), over(-0.5, -0.25), xcomp(shadow(path.c_str(), Point(0.5, 0, 5))));
+  });
+  expectColor(c[0], {0.5f, 1, 0});
+  EXPECT_TRUE(log.entries().empty());
+}
+
+/// Black, and white from its middle on.
+std::string stepPicture(const std::string& name) {
+  std::string path = ::testing::TempDir() + name;
+  OIIO::ImageBuf picture(OIIO::ImageSpec(256, 256, 1, OIIO::TypeDesc::FLOAT));
+  for (int k = 0; k < 256 * 256; ++k) {
+    const float value = k % 256 < 128 ? 0.0f : 1.0f;
+    picture.setpixel(k % 256, k / 256, &value);
+  }
+  EXPECT_TRUE(picture.write(path));
+  return path;
+}
+
+TEST_F(BatchPictures, AnOptionScalesAllTextureFilters) {
+  const std::string path = stepPicture("/tomales_step.tif");
+  scene.options.user["texture:width"] = number("width", 2);
+  const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
+    TmTextureLookup one = lookup();
+    one.channels = 1;
+    const auto over = [&](double from, double to) {
+      const Float ss[4] = {from, to, from, to}, tt[4] = {0.4, 0.4, 0.6, 0.6};
+      return xcomp(texture(path.c_str(), ss, tt, one));
+    };
+    s.Ci = Color(over(0.475, 0.575), over(0.55, 0.6), 0);  // twice as wide: from 0.425 to 0.625, and beyond the step
+  });
+  expectColor(c[0], {0.625f, 1, 0}, 0.06f);
+}
+
+// Three quarters of the way from a texel of 0 to one of 1: linear, and by the cubic B-spline of filters that are not boxes.
+TEST_F(BatchPictures, AnOptionNamesTheFilterOfLookupsThatNameNone) {
+  const std::string path = stepPicture("/tomales_edge.tif");
+  scene.options.user["texture:filter"] = text("filter", "gaussian");
+  const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
+    FilterRegion spot;
+    spot.s = 0.5 + 0.25 / 256, spot.t = 0.5;
+    for (int k = 0; k < 4; ++k) spot.sides[k] = k == 0 || k == 3 ? 1e-4 : 0.0;
+    s.Ci = Color(xcomp(texture(path.c_str(), spot)), xcomp(texture(path.c_str(), spot, "filter", "box")), 0);
+  });
+  const float f = 0.75f, cubic = 1 - ((1 - f) * (1 - f) * (1 - f) + 4 - 6 * f * f + 3 * f * f * f) / 6;
+  expectColor(c[0], {cubic, 0.75f, 0}, 5e-3f);
+}
+
+TEST_F(BatchPictures, PicturesAndLightsTellWhatTheyHold) {
+  const std::string path = ::testing::TempDir() + "/tomales_constant.exr";
+  OIIO::ImageBuf picture(OIIO::ImageSpec(64, 32, 3, OIIO::TypeDesc::FLOAT));
+  for (int k = 0; k < 64 * 32; ++k) {
+    const float value[] = {0.25f, 0.5f, 2};
+    picture.setpixel(k % 64, k / 64, value);
+  }
+  ASSERT_TRUE(picture.write(path));
+  light("distantlight", {number("intensity", 0.625f)});
+  const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
+    std::vector<float> size;
+    std::string kind;
+    EXPECT_TRUE(textureinfo(path.c_str(), "resolution", size));
+    EXPECT_EQ(size, (std::vector<float>{64, 32}));
+    EXPECT_FALSE(textureinfo(path.c_str(), "resolution", kind)) << "numbers are no text";
+    EXPECT_TRUE(textureinfo(path.c_str(), "type", kind));
+    EXPECT_EQ(kind, "texture");
+    Float intensity = 0;
+    s.illuminance(s.P, s.N, 1.5f, [&] { EXPECT_TRUE(lightsource(s.lightNumber, "intensity", intensity)); });
+    s.Ci = Color(ftexture(path.c_str(), 1, 0.5 + 0.1 * s.u, s.v), zcomp(environment(path.c_str(), Vector(s.u, 1, 0))), intensity);
+  });
+  for (const size_t i : {0u, 1u}) expectColor(c[i], {0.5f, 2, 0.625f});
+  EXPECT_TRUE(log.entries().empty());
+}
+
+}  // namespace
+}  // namespace tomales
