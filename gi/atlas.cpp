@@ -8,6 +8,7 @@
 
 #include "gi/medium.h"
 #include "gi/point_tiles.h"
+#include "gi/world_from_current.h"
 #include "reyes/base/temporary_folder.h"
 
 namespace tomales {
@@ -141,14 +142,13 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
     return out;
   };
   const std::vector<PointFileWriter*> global = filesOf(names.global), caustic = filesOf(names.caustic);
-  const mat4 worldFromCurrent = glm::inverse(scene.cameraFromWorldAtOpen());
-  const mat3 normalMatrix = glm::transpose(mat3(scene.cameraFromWorldAtOpen()));
+  const WorldFromCurrent world(scene);
   const PhotonFigures figures = tracePhotons(
       scene, rays, shading, settings.photons,
       [&](const StoredPhoton& p) {
-        const vec3 P = transformPoint(worldFromCurrent, p.P);
+        const vec3 P = transformPoint(world.points, p.P);
         if (p.group < 0) return files.at(names.volume).add(P, vec3(0), 0, &p.power.x);
-        const vec3 N = normalizeOr(normalMatrix * p.N, vec3(0, 0, 1));
+        const vec3 N = normalizeOr(world.normals * p.N, vec3(0, 0, 1));
         const auto group = static_cast<size_t>(p.group);
         const std::array values{p.power.x, p.power.y, p.power.z, static_cast<float>(names.surface[group])};
         global[group]->add(P, N, 0, values.data());

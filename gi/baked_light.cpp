@@ -5,6 +5,7 @@
 
 #include "gi/point_file.h"
 #include "gi/state.h"
+#include "gi/world_from_current.h"
 #include "reyes/base/parallel.h"
 
 namespace tomales {
@@ -28,9 +29,7 @@ using PointsOfMap = std::map<std::string, std::vector<LitPoint>>;
 class Baking {
  public:
   Baking(const GiState& state, const MapNames& names)
-      : state_(state), names_(names), worldFromCurrent_(glm::inverse(state.scene.cameraFromWorldAtOpen())),
-        normals_(glm::transpose(mat3(state.scene.cameraFromWorldAtOpen()))),
-        scale_(std::cbrt(std::abs(glm::determinant(mat3(worldFromCurrent_))))) {}
+      : state_(state), names_(names), world_(state.scene) {}
 
   /// In an order that depends on what the points are alone, each once, however many buckets see it.
   PointsOfMap run(const DeepFrame& layout, const TileReader& tiles) const {
@@ -63,7 +62,7 @@ class Baking {
       const std::optional<vec3> light = gatheredOverPi(state_, at);
       if (!light) continue;
       const vec3& N = at.normal;
-      out.push_back({transformPoint(worldFromCurrent_, batch.position(i)), normalizeOr(normals_ * N, N), kOverlap * scale_ * batch.edgeLength(i), kPi * *light,
+      out.push_back({transformPoint(world_.points, batch.position(i)), normalizeOr(world_.normals * N, N), kOverlap * world_.scale * batch.edgeLength(i), kPi * *light,
                      names_.surface[static_cast<size_t>(batch.group())]});
     }
     return out;
@@ -71,9 +70,7 @@ class Baking {
 
   const GiState& state_;
   const MapNames& names_;
-  const mat4 worldFromCurrent_;
-  const mat3 normals_;
-  const float scale_;
+  const WorldFromCurrent world_;
 };
 
 /// The points of earlier cameras, if they are of the same world.

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "gi/radiosity_bake.h"
+#include "gi/world_from_current.h"
 #include "reyes/base/parallel.h"
 #include "reyes/dice.h"
 
@@ -12,7 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSuffix = ".radiosity";
 constexpr float kOverlap = 0.8f;       ///< Radius of a point's disk over the edge of its texel: neighbours meet.
 constexpr size_t kRunsPerWave = 256;   ///< Baked before they are written.
 constexpr uint32_t kMethod = 1;        ///< Counted up when the same inputs begin to make other files.
@@ -23,8 +23,7 @@ class Baking {
  public:
   Baking(const RayScene& rays, const ShadingSystem& shading, const MapNames& names, const std::vector<SurfaceCharts>& surfaces, const RadiositySettings& settings)
       : bake_{rays, shading, settings}, scene_(rays.scene()), names_(names), surfaces_(surfaces),
-        worldFromCurrent_(glm::inverse(scene_.cameraFromWorldAtOpen())), normals_(glm::transpose(mat3(scene_.cameraFromWorldAtOpen()))),
-        scale_(std::cbrt(std::abs(glm::determinant(mat3(worldFromCurrent_))))) {}
+        world_(scene_) {}
 
   void run(std::map<std::string, PointFileWriter>& files) const {
     const std::vector<TexelRun> runs = texelRuns(surfaces_);
@@ -49,9 +48,9 @@ class Baking {
       const TexelSquare square = texelSquare(charts[patch], t);
       const vec2 middle = square.corner + 0.5f * square.size;
       const TrueSurface surface = surfaceAt(scene_, run.object, patch, middle.x, middle.y);
-      const vec3 N = normalizeOr(normals_ * surface.normal, vec3(0)), B = kPi * texel.radiance;
+      const vec3 N = normalizeOr(world_.normals * surface.normal, vec3(0)), B = kPi * texel.radiance;
       const std::array values{B.x, B.y, B.z, static_cast<float>(names_.surface[group])};
-      if (N != vec3(0)) file.add(transformPoint(worldFromCurrent_, surface.P), run.back ? -N : N, kOverlap * scale_ * charts[patch].texelSize, values.data());
+      if (N != vec3(0)) file.add(transformPoint(world_.points, surface.P), run.back ? -N : N, kOverlap * world_.scale * charts[patch].texelSize, values.data());
     });
   }
 
@@ -59,16 +58,13 @@ class Baking {
   const Scene& scene_;
   const MapNames& names_;
   const std::vector<SurfaceCharts>& surfaces_;
-  const mat4 worldFromCurrent_;
-  const mat3 normals_;
-  const float scale_;
+  const WorldFromCurrent world_;
 };
 
-/// Those of the atlas, without what came by mirrors.
+/// Those of the atlas, without what came by mirrors or flies in media.
 MapNames namesOf(const MapNames& atlas) {
   MapNames names = atlas;
-  for (std::string& name : names.global) name += kSuffix;
-  names.caustic.assign(names.caustic.size(), "");
+  names.caustic.assign(names.caustic.size(), ""), names.volume.clear();
   return names;
 }
 
@@ -78,20 +74,22 @@ RadiosityBricks::RadiosityBricks(const fs::path& folder, const RayScene& rays, c
                                  const RadiosityBrickSettings& settings, size_t cacheBytes, Stats& stats, Log& log)
     : scene_(rays.scene()) {
   const MapNames names = namesOf(atlas);
-  const fs::path points = folder / "radiosity";
-  makeAtlasFolder(points);
-  const std::vector<SurfaceCharts> surfaces = layOutCharts(rays, shading, camera, settings.points, log);
-  for (const SurfaceCharts& s : surfaces) sides_.push_back(!s.back.empty() ? 2 : !s.front.empty() ? 1 : 0);
+  const fs::path own = folder / "radiosity";  // so that it may be the folder of an atlas as well
+  makeAtlasFolder(own);
+  const std::vector<int> objects = bakedObjects(scene_, shading, log);
+  sides_.resize(scene_.objects.size());
+  for (const int object : objects) sides_[static_cast<size_t>(object)] = scene_.objects[static_cast<size_t>(object)].attributes->sides == 2 ? 2 : 1;
   const std::set<std::string> maps = names.all();
   const uint64_t inputs = inputsOf(names, settings.points);
-  if (!std::all_of(maps.begin(), maps.end(), [&](const std::string& name) { return pointsMadeFrom(atlasFile(points, name, ".ptc")).inputs == inputs; })) {
+  if (!std::all_of(maps.begin(), maps.end(), [&](const std::string& name) { return pointsMadeFrom(atlasFile(own, name, ".ptc")).inputs == inputs; })) {
     std::map<std::string, PointFileWriter> files;
-    for (const std::string& name : maps) files.try_emplace(name, atlasFile(points, name, ".ptc").string(), std::vector<CloudChannel>{{"radiosity", 3}, kSurfaceChannel});
+    for (const std::string& name : maps) files.try_emplace(name, atlasFile(own, name, ".ptc").string(), std::vector<CloudChannel>{{"radiosity", 3}, kSurfaceChannel});
+    const std::vector<SurfaceCharts> surfaces = layOutCharts(scene_, objects, camera, settings.points, log);
     Baking(rays, shading, names, surfaces, settings.points).run(files);
     for (auto& [name, file] : files) file.finish({names.world, inputs});
   }
-  for (const std::string& name : maps) renewIrradianceBricks(atlasFile(points, name, ".ptc"), atlasFile(folder, name, ".bkm"), settings.bricks, stats);
-  maps_ = std::make_unique<const IrradianceAtlas>(folder, scene_, names, cacheBytes, log);
+  for (const std::string& name : maps) renewIrradianceBricks(atlasFile(own, name, ".ptc"), atlasFile(own, name, ".bkm"), settings.bricks, stats);
+  maps_ = std::make_unique<const IrradianceAtlas>(own, scene_, names, cacheBytes, log);
 }
 
 bool RadiosityBricks::lookup(const Ray& ray, const Hit& hit, vec3& radiance) const {

@@ -12,7 +12,6 @@ constexpr int kProbes = 4;               ///< Edges across a patch that its size
 constexpr uint32_t kManyPatches = 4096;  ///< Of an object: each is small then, and measured by its corners alone.
 constexpr int kMostTexels = 2048;        ///< Along an edge.
 constexpr size_t kTexelsPerRun = 1024;   ///< That one thread bakes at a time.
-constexpr size_t kChartsPerTask = 16;
 
 int powerOfTwoNear(float texels) {
   const float clamped = std::clamp(texels, 1.0f, static_cast<float>(kMostTexels));
@@ -55,22 +54,6 @@ RadiosityChart chartOf(const Scene& scene, const Camera& camera, int object, uin
   return chart;
 }
 
-std::vector<int> mappedObjects(const Scene& scene, const ShadingSystem& shading, Log& log) {
-  std::vector<int> mapped;
-  for (size_t i = 0; i < scene.objects.size(); ++i) {
-    const Object& o = scene.objects[i];
-    const Attributes& a = *o.attributes;
-    if (!a.visibility.diffuse || a.radiosity.texelSize <= 0) continue;
-    const char* why = refusal(shading, o);
-    if (!why)
-      mapped.push_back(static_cast<int>(i));
-    else
-      log.report(Severity::Info, fmt::format("radiosity-map-{}", why), o.where,
-                 fmt::format("\"{}\" has no radiosity map, because {}; it is shaded where gather rays hit it", a.name, why));
-  }
-  return mapped;
-}
-
 void halveUntilFew(std::vector<SurfaceCharts>& surfaces, const RadiositySettings& settings, Log& log) {
   const auto forEachChart = [&](const auto& visit) {
     for (SurfaceCharts& s : surfaces)
@@ -95,11 +78,24 @@ void halveUntilFew(std::vector<SurfaceCharts>& surfaces, const RadiositySettings
 
 }  // namespace
 
-std::vector<SurfaceCharts> layOutCharts(const RayScene& rays, const ShadingSystem& shading, const Camera& camera, const RadiositySettings& settings,
-                                        Log& log) {
-  const Scene& scene = rays.scene();
+std::vector<int> bakedObjects(const Scene& scene, const ShadingSystem& shading, Log& log) {
+  std::vector<int> mapped;
+  for (size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& o = scene.objects[i];
+    const Attributes& a = *o.attributes;
+    if (!a.visibility.diffuse || a.radiosity.texelSize <= 0) continue;
+    const char* why = refusal(shading, o);
+    if (!why)
+      mapped.push_back(static_cast<int>(i));
+    else
+      log.report(Severity::Info, fmt::format("radiosity-map-{}", why), o.where,
+                 fmt::format("\"{}\" has no radiosity map, because {}; it is shaded where gather rays hit it", a.name, why));
+  }
+  return mapped;
+}
+
+std::vector<SurfaceCharts> layOutCharts(const Scene& scene, const std::vector<int>& mapped, const Camera& camera, const RadiositySettings& settings, Log& log) {
   std::vector<SurfaceCharts> surfaces(scene.objects.size());
-  const std::vector<int> mapped = mappedObjects(scene, shading, log);
   struct Patch {
     int object;
     uint32_t number;

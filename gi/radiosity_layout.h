@@ -6,6 +6,8 @@
 
 namespace tomales {
 
+constexpr size_t kChartsPerTask = 16;  ///< That one thread works on at a time.
+
 /// By patch; empty: none.
 struct SurfaceCharts {
   std::vector<RadiosityChart> front, back;
@@ -13,9 +15,10 @@ struct SurfaceCharts {
   const std::vector<RadiosityChart>& side(bool isBack) const { return isBack ? back : front; }
 };
 
-/// Charts without their texels, by object. Says in the log which objects have none and why, and where all together are too fine.
-std::vector<SurfaceCharts> layOutCharts(const RayScene& rays, const ShadingSystem& shading, const Camera& camera, const RadiositySettings& settings,
-                                        Log& log);
+/// Objects whose radiosity is baked. Says in the log which are not, and why.
+std::vector<int> bakedObjects(const Scene& scene, const ShadingSystem& shading, Log& log);
+/// Their charts without texels, by object. Says in the log where all together are too fine.
+std::vector<SurfaceCharts> layOutCharts(const Scene& scene, const std::vector<int>& objects, const Camera& camera, const RadiositySettings& settings, Log& log);
 
 /// Texels of one side of an object that are baked together: so many of its charts, from one of them on.
 struct TexelRun {

@@ -4,11 +4,6 @@
 #include "reyes/base/parallel.h"
 
 namespace tomales {
-namespace {
-
-constexpr size_t kChartsPerTask = 16;
-
-}  // namespace
 
 int RadiosityChart::levels() const {
   int n = 1;
@@ -78,7 +73,7 @@ vec3 RadiosityChart::lookup(float u, float v, float footprint) const {
 }
 
 RadiosityMaps::RadiosityMaps(const RayScene& rays, const ShadingSystem& shading, const Camera& camera, const RadiositySettings& settings, Log& log)
-    : surfaces_(layOutCharts(rays, shading, camera, settings, log)) {
+    : surfaces_(layOutCharts(rays.scene(), bakedObjects(rays.scene(), shading, log), camera, settings, log)) {
   std::vector<RadiosityChart*> charts;
   for (SurfaceCharts& s : surfaces_)
     for (const bool back : {false, true})

@@ -42,7 +42,7 @@ void fields(WorldSum& a, ShaderCall& x) {
 
 }  // namespace
 
-uint64_t worldSum(const Scene& scene) {
+uint64_t worldSum(const Scene& scene, bool photonsOnly) {
   WorldSum sum;
   sum.searchPaths = scene.options.searchPaths;
   Options options = scene.options;
@@ -59,7 +59,7 @@ uint64_t worldSum(const Scene& scene) {
   uint64_t objects = 0;
   for (const Object& o : scene.objects) {
     // Photons that do not meet an area light come from it all the same.
-    if (!o.attributes->visibility.photon && o.attributes->areaLight < 0) continue;
+    if (photonsOnly && !o.attributes->visibility.photon && o.attributes->areaLight < 0) continue;
     auto [attributes, isNew] = known.try_emplace(o.attributes, 0);
     if (isNew) {
       WorldSum part;

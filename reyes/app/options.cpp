@@ -60,7 +60,7 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--atlas", s.atlasFolder, "Folder of brick maps: used if they are there, else made and kept; for --gi radiosity likewise, of direct light; for --gi points of point clouds")->type_name("FOLDER");
   app.add_option("--radiosity-texels", s.radiosityTexels, "Times as many texels along each edge of a radiosity map as objects ask, for --gi radiosity")
       ->check(CLI::Range(1e-3, 1e3));
-  app.add_option("--radiosity-maps", s.radiosityFolder, "Write the radiosity maps there: a tiled MIP EXR for each object and side")->type_name("FOLDER");
+  app.add_option("--radiosity-maps", s.radiosityFolder, "Write the radiosity maps there: a tiled MIP EXR for each object and side; not with --atlas")->type_name("FOLDER");
   app.add_option("--brick-cache", s.brickCacheBytes, "Memory for bricks (default 10M)")->transform(CLI::AsSizeValue(false));
   app.add_option("--brick-maxerror", s.brickMaxError, "Bricks whose voxels vary by less, as a share of the mean, are left out of the maps of --gi atlas (default 0.03)")->check(CLI::Range(0.0f, 1e6f));
   addParsed(app, "--geometry-cache", s.geometryCache, parseBytes, "30M", "Memory for geometry that rays see at several levels (default 30M)");

@@ -10,6 +10,7 @@
 #include "reyes/app/overrides.h"
 #include "reyes/base/chunk_file.h"
 #include "reyes/pictures.h"
+#include "reyes/world_sum.h"
 
 namespace tomales {
 namespace {
@@ -48,7 +49,10 @@ void writeRadiosityMaps(const RadiosityMaps& maps, const Scene& scene, const std
 std::unique_ptr<const HitRadiance> bricksIn(const std::string& folder, const RayTools& tools, const Camera& camera, const RadiositySettings& radiosity,
                                             const RenderSettings& settings, Stats& stats, Log& log) {
   try {
-    const AtlasSettings atlas = atlasSettings(settings, tools.rays->scene());
+    AtlasSettings atlas = atlasSettings(settings, tools.rays->scene());
+    atlas.world = worldSum(tools.rays->scene(), false);  // gather rays meet what photons do not
+    if (!settings.radiosityFolder.empty())
+      log.report(Severity::Warning, "radiosity-maps", {}, "--radiosity-maps: left out, since radiosity goes to brick maps in the folder of --atlas");
     const RadiosityBrickSettings bricks{.points = radiosity};
     return std::make_unique<const RadiosityBricks>(folder, *tools.rays, *tools.shading, camera, mapNames(tools.rays->scene(), atlas), bricks, brickCacheBytes(settings),
                                                    stats, log);

@@ -176,13 +176,13 @@ TEST(RadiosityBricks, AreKeptForTheSameWorldAndHaveTheSameBitsForAnyThreads) {
   World world(cornell().scene);
   const auto services = world.use({.mode = GiMode::Radiosity});
   BrickBake bake(world);
-  const auto bits = [&] { return pointsMadeFrom(bake.folder.path() / "radiosity" / "scene0.radiosity.ptc"); };
+  const auto bits = [&] { return pointsMadeFrom(bake.folder.path() / "radiosity" / "scene0.ptc"); };
   uint64_t contents = 0;
   for (const int threads : {1, 4}) {
     const ThreadLimit limit(threads);
     BrickBake own(world);
     own.make(world);
-    const uint64_t now = PointFile((own.folder.path() / "radiosity" / "scene0.radiosity.ptc").string()).contents();
+    const uint64_t now = PointFile((own.folder.path() / "radiosity" / "scene0.ptc").string()).contents();
     EXPECT_TRUE(contents == 0 || contents == now);
     contents = now;
   }
