@@ -129,6 +129,12 @@ std::set<std::string> MapNames::all() const {
   return out;
 }
 
+MapNames MapNames::ofSurfaces() const {
+  MapNames out = *this;
+  out.caustic.assign(caustic.size(), ""), out.volume.clear();
+  return out;
+}
+
 PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                            const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
   makeAtlasFolder(folder);
@@ -194,13 +200,11 @@ BuiltBricks writeIrradianceBricks(const fs::path& points, const fs::path& out, B
   return writeBrickMap(tiles, settings, out.string(), madeFrom);
 }
 
-void renewIrradianceBricks(const fs::path& points, const fs::path& out, const BrickSettings& settings, Stats& stats) {
-  if (bricksMadeFrom(out).inputs == brickInputs(PointFile(points.string()), settings)) {
-    ++stats.photons.groupsKept;
-    return;
-  }
+bool renewIrradianceBricks(const fs::path& points, const fs::path& out, const BrickSettings& settings, Stats& stats) {
+  if (bricksMadeFrom(out).inputs == brickInputs(PointFile(points.string()), settings)) return false;
   const StageTimer timer(stats, "brickmake");
   writeIrradianceBricks(points, out, settings);
+  return true;
 }
 
 void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
@@ -223,7 +227,7 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
       const StageTimer timer(stats, "irradiance");
       writeIrradiance(from, points, estimate);
     }
-    renewIrradianceBricks(points, bricks, settings.bricks, stats);
+    if (!renewIrradianceBricks(points, bricks, settings.bricks, stats)) ++stats.photons.groupsKept;
   }
 }
 

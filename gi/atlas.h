@@ -36,6 +36,7 @@ struct MapNames {
   std::vector<int> surface;          ///< PointCloud::surface() of what lies on it; 0: too small to have light of its own.
   uint64_t world = 0;                ///< Of which the groups are, AtlasSettings::world.
   std::set<std::string> all() const;
+  MapNames ofSurfaces() const;       ///< Without what came by mirrors or flies in media: baked light has no maps of these.
 };
 MapNames mapNames(const Scene& scene, const AtlasSettings& settings);
 
@@ -54,8 +55,8 @@ void writeIrradiance(const std::filesystem::path& photons, const std::filesystem
 /// Irradiance points -> brick map; its maxError is relative to their mean. Throws FileError.
 BuiltBricks writeIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out, BrickSettings settings);
 
-/// Unless they were made of these points and settings already, which counts as a group that was kept. Throws FileError.
-void renewIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out, const BrickSettings& settings, Stats& stats);
+/// False: they were made of these points and settings already, and are kept. Throws FileError.
+bool renewIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out, const BrickSettings& settings, Stats& stats);
 /// Of a point cloud; nothing is known of one that is missing or damaged.
 MadeFrom pointsMadeFrom(const std::filesystem::path& path);
 

@@ -61,19 +61,12 @@ class Baking {
   const WorldFromCurrent world_;
 };
 
-/// Those of the atlas, without what came by mirrors or flies in media.
-MapNames namesOf(const MapNames& atlas) {
-  MapNames names = atlas;
-  names.caustic.assign(names.caustic.size(), ""), names.volume.clear();
-  return names;
-}
-
 }  // namespace
 
 RadiosityBricks::RadiosityBricks(const fs::path& folder, const RayScene& rays, const ShadingSystem& shading, const Camera& camera, const MapNames& atlas,
                                  const RadiosityBrickSettings& settings, size_t cacheBytes, Stats& stats, Log& log)
     : scene_(rays.scene()) {
-  const MapNames names = namesOf(atlas);
+  const MapNames names = atlas.ofSurfaces();
   const fs::path own = folder / "radiosity";  // so that it may be the folder of an atlas as well
   makeAtlasFolder(own);
   const std::vector<int> objects = bakedObjects(scene_, shading, log);

@@ -42,13 +42,6 @@ void bricksOfPoints(const fs::path& clouds, const fs::path& folder, const MapNam
   }
 }
 
-/// Of baked light, which holds that of caustics too.
-MapNames bakedNames(const Scene& scene, const AtlasSettings& settings) {
-  MapNames names = mapNames(scene, settings);
-  names.caustic.assign(names.caustic.size(), "");
-  return names;
-}
-
 void warnOfStrangers(const IrradianceAtlas& maps, uint64_t world, Log& log) {
   if (const auto strange = maps.strange(world))
     log.report(Severity::Warning, "atlas-stale", {},
@@ -108,7 +101,7 @@ std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const Rende
   }
   try {
     const AtlasSettings atlas = atlasSettings(settings, scene);
-    auto maps = std::make_unique<const IrradianceAtlas>(settings.bakedFolder, scene, bakedNames(scene, atlas), brickCacheBytes(settings), log);
+    auto maps = std::make_unique<const IrradianceAtlas>(settings.bakedFolder, scene, mapNames(scene, atlas).ofSurfaces(), brickCacheBytes(settings), log);
     warnOfStrangers(*maps, atlas.world, log);
     return maps;
   } catch (const std::runtime_error& e) {  // FileError, or of the file system
@@ -121,7 +114,7 @@ void bakeGathered(const GiServices& services, const DeepFrame& layout, const Til
                   Log& log) {
   try {
     const AtlasSettings atlas = atlasSettings(settings, scene);
-    services.bake(layout, tiles, settings.bakedFolder, bakedNames(scene, atlas), atlas.world);
+    services.bake(layout, tiles, settings.bakedFolder, mapNames(scene, atlas).ofSurfaces(), atlas.world);
   } catch (const std::runtime_error& e) {
     log.report(Severity::Output, "baked-write", {}, std::string(e.what()) + ": the gathered light is not kept");
   }
