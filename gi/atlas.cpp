@@ -121,11 +121,16 @@ MapNames mapNames(const Scene& scene, const AtlasSettings& settings) {
   return names;
 }
 
-std::set<std::string> MapNames::all() const {
+std::set<std::string> MapNames::ofReflectors() const {
   std::set<std::string> out(global.begin(), global.end());
   out.insert(caustic.begin(), caustic.end());
-  out.insert(volume);
   out.erase("");
+  return out;
+}
+
+std::set<std::string> MapNames::all() const {
+  std::set<std::string> out = ofReflectors();
+  if (!volume.empty()) out.insert(volume);
   return out;
 }
 
@@ -173,7 +178,7 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
 
 void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonIrradianceSettings& given, uint64_t most) {
   const PointFile file(photons.string());
-  if (offsetOf(file.channels(), kPathPower) < 0) requirePhotons(file);
+  if (offsetOf(file.channels(), kPathPower, 3) < 0) requirePhotons(file);
   const MadeFrom madeFrom{file.madeFrom().world, irradianceInputs(file, given)};
   if (file.count() <= most) return writePointFile(estimateIrradiance(file.readAll(), given), out.string(), madeFrom);
   PhotonIrradianceSettings settings = given;
@@ -244,10 +249,9 @@ IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, con
       worldFromCurrentScale_(std::cbrt(std::abs(glm::determinant(mat3(worldFromCurrent_))))),
       log_(log) {
   std::map<std::string, const BrickMap*> byName{{"", nullptr}};
-  for (const std::string& name : names.all()) byName[name] = open(atlasFile(folder, name, ".bkm"));
+  for (const std::string& name : names.ofReflectors()) byName[name] = open(atlasFile(folder, name, ".bkm"));
   for (const std::string& name : names.global) mapOfGroup_.push_back(byName.at(name));
   for (const std::string& name : names.caustic) causticOfGroup_.push_back(byName.at(name));
-  volume_ = byName.at(names.volume);
   surfaceOfGroup_ = names.surface, world_ = names.world;
 }
 
@@ -269,18 +273,13 @@ std::optional<std::string> IrradianceAtlas::strange(uint64_t world) const {
 }
 
 std::optional<vec3> IrradianceAtlas::look(const MapOfGroup& maps, int group, const vec3& P, const vec3& N, float radius) const {
-  return look(maps[static_cast<size_t>(group)], surfaceOfGroup_[static_cast<size_t>(group)], P, N, radius);
-}
-
-vec3 IrradianceAtlas::meanRadiance(const vec3& P, float radius) const { return 0.25f * look(volume_, 0, P, vec3(0), radius).value_or(vec3(0.0f)); }
-
-std::optional<vec3> IrradianceAtlas::look(const BrickMap* map, int ofSurface, const vec3& P, const vec3& N, float radius) const {
+  const BrickMap* map = maps[static_cast<size_t>(group)];
   if (!map) return std::nullopt;
   try {
     vec3 E(0.0f);
     const vec3 normal = normalizeOr(transformVector(worldFromCurrent_, N), N);
     // Maps of another scene have numbered their surfaces otherwise.
-    const int surface = world_ != 0 && map->file().madeFrom().world == world_ ? ofSurface : 0;
+    const int surface = world_ != 0 && map->file().madeFrom().world == world_ ? surfaceOfGroup_[static_cast<size_t>(group)] : 0;
     if (map->lookup(transformPoint(worldFromCurrent_, P), normal, radius * worldFromCurrentScale_, &E.x, surface)) return E / kPi;
   } catch (const FileError& e) {
     log_.report(Severity::Missing, "atlas-damaged", {}, fmt::format("{}: no indirect light from there", e.what()));

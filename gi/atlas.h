@@ -36,6 +36,7 @@ struct MapNames {
   std::vector<int> surface;          ///< PointCloud::surface() of what lies on it; 0: too small to have light of its own.
   uint64_t world = 0;                ///< Of which the groups are, AtlasSettings::world.
   std::set<std::string> all() const;
+  std::set<std::string> ofReflectors() const;  ///< Those that gather rays look up: all but that of media, which shaders read.
   MapNames ofSurfaces() const;       ///< Without what came by mirrors or flies in media: baked light has no maps of these.
 };
 MapNames mapNames(const Scene& scene, const AtlasSettings& settings);
@@ -83,14 +84,11 @@ class IrradianceAtlas {
   vec3 causticOverPi(int group, const vec3& P, const vec3& N, float radius) const { return look(causticOfGroup_, group, P, N, radius).value_or(vec3(0.0f)); }
   /// As irradianceOverPi(); nothing where there is nothing.
   std::optional<vec3> bakedOverPi(int group, const vec3& P, const vec3& N, float radius) const { return look(mapOfGroup_, group, P, N, radius); }
-  /// Mean radiance from all sides at P (current space) in a medium, over a radius; 0 where there is nothing.
-  vec3 meanRadiance(const vec3& P, float radius) const;
   void report(Stats& stats) const;  ///< Bricks, lookups, misses, bytes.
 
  private:
   using MapOfGroup = std::vector<const BrickMap*>;  ///< Null: no photon came there.
   std::optional<vec3> look(const MapOfGroup& maps, int group, const vec3& P, const vec3& N, float radius) const;
-  std::optional<vec3> look(const BrickMap* map, int surface, const vec3& P, const vec3& N, float radius) const;
   const BrickMap* open(const std::filesystem::path& file);
 
   mutable BrickCache cache_;
@@ -98,7 +96,6 @@ class IrradianceAtlas {
   float worldFromCurrentScale_;
   std::vector<std::unique_ptr<const BrickMap>> maps_;  ///< By name.
   MapOfGroup mapOfGroup_, causticOfGroup_;
-  const BrickMap* volume_ = nullptr;
   std::vector<int> surfaceOfGroup_;
   uint64_t world_ = 0;
   Log& log_;

@@ -19,7 +19,8 @@ Medium mediumOf(const ShaderCall* volume, float worldUnit) {
 }
 
 Collision collide(const Medium& medium, const vec3& power, float xi) {
-  const vec3 scattered = power * medium.scattering / medium.majorant(), passed = power * (1.0f - medium.extinction / medium.majorant());
+  const float majorant = medium.majorant(power);
+  const vec3 scattered = power * medium.scattering / majorant, passed = power * (1.0f - medium.extinction / majorant);
   const float before = maxComponent(power), s = maxComponent(scattered) / before, p = maxComponent(passed) / before;
   const float scale = std::max(1.0f, s + p);  // of colours that do different things the likeliest may add to more than one
   if (xi < s / scale) return {Collision::Scattered, scattered * (scale / s)};

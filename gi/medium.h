@@ -10,9 +10,10 @@ namespace tomales {
 struct Medium {
   vec3 scattering{0.0f}, extinction{0.0f};
 
-  bool empty() const { return !(majorant() > 0); }
-  /// Collisions per unit of length are sampled as of the densest colour; those that the others have not are no event (Woodcock 1965).
-  float majorant() const { return maxComponent(extinction); }
+  bool empty() const { return !(maxComponent(extinction) > 0); }
+  /// Collisions per unit of length are sampled as of the densest colour that a photon of this power still has; those that the others have
+  /// not are no event (Woodcock 1965).
+  float majorant(const vec3& power) const { return maxComponent(glm::mix(vec3(0.0f), extinction, glm::greaterThan(power, vec3(0.0f)))); }
 };
 
 /// Of the parameters "scattering" and "absorption" of a volume shader, colours per unit of the world, where one has them. `worldUnit`: length of

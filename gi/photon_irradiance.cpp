@@ -115,7 +115,7 @@ float reachOf(const PhotonIrradianceSettings& settings, const Bound3& map) {
 }
 
 std::vector<CloudChannel> irradianceChannels(const std::vector<CloudChannel>& photons) {
-  std::vector<CloudChannel> out{{offsetOf(photons, kPathPower) >= 0 ? "fluence" : "irradiance", 3}};
+  std::vector<CloudChannel> out{{offsetOf(photons, kPathPower, 3) >= 0 ? "fluence" : "irradiance", 3}};
   if (tellsSurfaces(photons)) out.push_back(kSurfaceChannel);
   return out;
 }
@@ -126,7 +126,7 @@ PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceS
   PointCloud out;
   out.channels = irradianceChannels(photons.channels);
   if (photons.count() == 0) return out;
-  const bool inMedia = offsetOf(photons.channels, kPathPower) >= 0;
+  const bool inMedia = offsetOf(photons.channels, kPathPower, 3) >= 0;
   const int power = offsetOf(photons.channels, inMedia ? kPathPower : "power");
   CHECK_GE(power, 0);
   const PhotonTree tree(photons);

@@ -106,28 +106,32 @@ class Tracer {
       if (hit.object < 0) continue;
       const Media& media = media_[static_cast<size_t>(groupOf(hit))];
       const Medium& medium = dot(path.ray.direction, hit.geometricNormal) > 0 ? media.inside : media.outside;
-      if (medium.empty()) continue;
+      const float majorant = medium.majorant(path.power);
+      if (!(majorant > 0)) continue;
       const uint32_t name = hashCombine(hashCombine(stream, static_cast<uint32_t>(path.depth)), kMediumStream, path.collisions);
-      const float flight = -std::log(1 - sobol1(path.number, name)) / medium.majorant();
+      const float flight = -std::log(1 - sobol1(path.number, name)) / majorant;
       if (!(flight < hit.t)) continue;
-      s.scattered[i] = scatter(path, medium, path.ray.origin + flight * path.ray.direction, name, out);
+      s.scattered[i] = collides(path, medium, flight, name, out);
       hit.object = -1;
     }
   }
 
-  bool scatter(Path& path, const Medium& medium, const vec3& P, uint32_t name, std::vector<StoredPhoton>& out) const {
-    out.push_back({P, vec3(0), path.power / (medium.majorant() * worldUnit_), -1, path.depth, false});
+  /// False: it ends there.
+  bool collides(Path& path, const Medium& medium, float flight, uint32_t name, std::vector<StoredPhoton>& out) const {
+    const vec3 P = path.ray.origin + flight * path.ray.direction;
+    out.push_back({P, vec3(0), path.power / (medium.majorant(path.power) * worldUnit_), -1, path.depth, false});
     const Collision collision = collide(medium, path.power, sobol1(path.number, hashCombine(name, 1u)));
     if (collision.event == Collision::Absorbed) return false;
     path.power = collision.power;
     ++path.collisions;
-    vec3 direction = path.ray.direction;
-    if (collision.event == Collision::Scattered) {
-      if (++path.depth >= settings_.maxDepth) return false;
-      path.specular = false;
-      direction = onSphere(sobol2(path.number, hashCombine(name, 2u)));
+    if (collision.event == Collision::None) {  // the same ray, from there
+      path.ray.origin = P;
+      path.ray.offset = std::max(0.0f, path.ray.offset - flight), path.ray.bias = std::max(0.0f, path.ray.bias - flight);
+      return true;
     }
-    path.ray = {P, direction};
+    if (++path.depth >= settings_.maxDepth) return false;
+    path.specular = false;
+    path.ray = {P, onSphere(sobol2(path.number, hashCombine(name, 2u)))};
     return true;
   }
 

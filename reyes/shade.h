@@ -54,6 +54,7 @@ struct ShadeContext {
   bool mirrored = true;        ///< Specular rays bring lamps and skies: not where photons have brought what comes from them by mirrors.
   bool highlights = false;     ///< Diffuse rays bring highlights too: those of the reference path tracer.
   RayAnswers* answers = nullptr;  ///< Of this batch: asked before shadow and gather rays are traced. Null: all are traced.
+  bool sketch = false;         ///< Shaders run for a look in between: nothing is baked or printed.
   bool rehearsal = false;      ///< Shaders run only to learn what they ask: no ray is traced, and nothing baked or printed.
   float importance = 1;        ///< Of what is seen here, for the eye.
   int chunk = 0;               ///< Set by ShadingSystem: which part of the batch is being shaded.

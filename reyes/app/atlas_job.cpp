@@ -29,7 +29,7 @@ bool asksPoints(const RenderSettings& settings, const Scene& scene) {
 
 /// Brick maps, so that a ray finds the mean over its footprint, of those point clouds that are there.
 void bricksOfPoints(const fs::path& clouds, const fs::path& folder, const MapNames& names, const BrickSettings& settings, Log& log) {
-  for (const std::string& name : names.all()) {
+  for (const std::string& name : names.ofReflectors()) {
     const fs::path points = atlasFile(clouds, name, ".ptc");
     if (!fs::exists(points)) {
       log.report(Severity::Missing, "points-none-" + name, {}, fmt::format("there are no points \"{}\": its objects reflect no indirect light", points.string()));
@@ -83,7 +83,7 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
     const fs::path folder = temporary ? temporary->path() : fs::path(given);
     const MapNames names = mapNames(scene, atlas);
     const bool byHand = points || isMadeByHand(folder);
-    if (points) bricksOfPoints(given, folder, names, atlas.bricks, log);
+    if (points) bricksOfPoints(given, folder, names, {.maxError = settings.brickMaxError}, log);
     if (!byHand) writeAtlas(folder, scene, rays, shading, names, atlas, {}, stats, log);
     auto maps = std::make_unique<const IrradianceAtlas>(folder, scene, names, brickCacheBytes(settings), log);
     if (byHand) warnOfStrangers(*maps, atlas.world, log);

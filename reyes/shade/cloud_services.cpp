@@ -54,7 +54,7 @@ int32_t bake3d(void* host, const TmGrid* all, const char* file, TmConstVec3 P, T
                int32_t valueCount) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
-  if (!batch.points || batch.context.kind != RayKind::Camera || batch.context.rehearsal || batch.lights.restricted()) return 1;
+  if (!batch.points || batch.context.kind != RayKind::Camera || batch.context.rehearsal || batch.context.sketch || batch.lights.restricted()) return 1;
   if (!batch.scene.clouds) return refuse(batch, file, "nothing is baked here");
   CloudQuery query;
   if (!toFile(batch, primary.grid(), file, P, N, optionsOf(given), query)) return 0;

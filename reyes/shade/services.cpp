@@ -110,7 +110,8 @@ void report(void* host, const TmGrid*, int32_t severity, const char* message) {
 }
 
 void print(void* host, const TmGrid*, const char* text) {
-  if (!batchOf(host).context.rehearsal) std::fputs((std::string(text) + "\n").c_str(), stderr);
+  const ShadeContext& context = batchOf(host).context;
+  if (!context.rehearsal && !context.sketch) std::fputs((std::string(text) + "\n").c_str(), stderr);
 }
 
 }  // namespace

@@ -28,6 +28,7 @@ failures = []
 FALLS_OFF = re.compile(r'"(pointlight|spotlight|shadowspot|sl_shadowspot)"')  # I / d^2 knows the unit of length
 IN_UNITS = re.compile(r"DepthOfField|[Dd]isplace|fog|Atmosphere|Interior|filterlight")  # so do lengths that are parameters,
 ON_SCREEN = re.compile(r"ScreenWindow|orthographic")                                      # and windows on the screen
+ROUND = {f"primitives/{n}.rib" for n in ("blobby", "quadrics", "teapot")} | {"spheres/spheres.rib"}
 BY_PIXELS = re.compile(r"motionfactor|DetailRange")                                       # is coarser, or another shape, by so many pixels
 NEEDS_FILES = re.compile(r"MakeTexture|\.bkm")  # made by other commands
 BY_PARAMETERS = re.compile(r"[Tt]exture|[Dd]isplace|primvar|vertex|varying|wood|grid")  # halves have other u, v and bounds
@@ -123,8 +124,8 @@ def check_means(name, text, folder, mean):
     others.update({what: blocks(render(other, folder, "rewritten")) for what, other in rewritten.items() if other != text})
     for what, other in others.items():
         rms, of_mean = distance(seeds[0], other)
-        # Micropolygons of half the size have highlights and outlines of their own.
-        slack = 0.03 if what == "twice the resolution" else 0.01
+        # Means of highlights and outlines on micropolygons of half the size are up to 0.9 % apart in these.
+        slack = 0.03 if what == "twice the resolution" and name in ROUND else 0.01
         good = rms < 2 * noise + slack * mean and of_mean < 4 * noise_of_mean + 0.5 * slack * mean
         verdict(name, what, good, f"blocks differ by {rms / mean:.4f} of the mean, two seeds by {noise / mean:.4f}; means by {of_mean / mean:.4f}")
 

@@ -42,7 +42,9 @@ with tempfile.TemporaryDirectory() as temporary:
         if not scene.limit or only not in path.name:
             continue
         code, value = scene.limit
-        before = scene.values[scene.values.index(value) - 1]
+        at = scene.values.index(value)
+        assert at > 0, f"{path}: nothing harmless comes before the limit"
+        before = scene.values[at - 1]
         beyond, within = scene.warns(value), scene.warns(before)
         print(("ok      " if beyond and not within else "FAILED  ") + f"{path.stem}: {code} at {value}: {beyond}; at {before}: {within}", flush=True)
         failures += not beyond or within

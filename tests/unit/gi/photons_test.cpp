@@ -220,6 +220,15 @@ TEST(PhotonsInMedia, AreAbsorbedOnTheirWay) {
   }
 }
 
+TEST(PhotonsInMedia, GoOnAsFarAsTheColoursThatTheyHaveLeftReach) {
+  SceneBuilder b = cloud(vec3(0), {1e8f, 0, 1});
+  b.light("pointlight", {floatParam("intensity", 1), pointParam("from", {0, 0, 4})});
+  World world(b.scene);
+  EXPECT_LT(traced(world, {20000, 10}).size(), 3u * 20000);
+  const float expected = kPi * (std::exp(-0.5f) - std::exp(-0.7f));
+  EXPECT_NEAR(lightBetween(world, {200000, 10}, 0.5f, 0.7f).z, expected, 0.03f * expected);
+}
+
 /// What the atlas has of the media of a scene, in the mean over places at this distance from the middle of the ball.
 vec3 meanRadianceAt(const fs::path& folder, World& world, const PhotonSettings& photons, float distance) {
   AtlasSettings settings;
@@ -228,14 +237,18 @@ vec3 meanRadianceAt(const fs::path& folder, World& world, const PhotonSettings& 
   const MapNames names = mapNames(world.scene, settings);
   EXPECT_EQ(names.volume, "scene.volume");
   writeAtlas(folder, world.scene, world.rays, world.shading, names, settings, {}, world.stats, world.log);
-  const IrradianceAtlas atlas(folder, world.scene, names, 1 << 24, world.log);
+  BrickCache cache(1 << 24);
+  const BrickMap fluence(atlasFile(folder, names.volume, ".bkm").string(), cache);
+  const mat4 worldFromCurrent = glm::inverse(world.scene.cameraFromWorldAtOpen());
   constexpr uint32_t kPlaces = 400;
   vec3 sum(0);
   for (uint32_t i = 0; i < kPlaces; ++i) {
     const vec3 up = cosineHemisphere(sobol2(i, 5U));  // both halves are alike
-    sum += atlas.meanRadiance(vec3(0, 0, 4) + distance * (i % 2 ? up : -up), 0.02f) / static_cast<float>(kPlaces);
+    vec3 here(0);
+    EXPECT_TRUE(fluence.lookup(transformPoint(worldFromCurrent, vec3(0, 0, 4) + distance * (i % 2 ? up : -up)), vec3(0), 0.02f, &here.x));
+    sum += here / static_cast<float>(kPlaces);
   }
-  return sum;
+  return sum / (4 * kPi);
 }
 
 TEST(PhotonIrradiance, ABallThatABorderCutsIsKnownByItsCentroid) {
