@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <stdexcept>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "reyes/sl_values.h"
@@ -216,7 +217,7 @@ Options listed(Options options, const char* name, const Setting& value, const Mo
   if (!std::is_same_v<Options, LightList> && value.varying[0])
     throw std::invalid_argument(std::string("has a parameter list with \"") + name + "\" that differs from point to point, which it must not");
   if (!set(options, name, value)) throw std::invalid_argument(std::string("has a parameter list with \"") + name + "\", which there is not");
-  return listed(options, more...);
+  return listed(std::move(options), more...);
 }
 
 }  // namespace sl

@@ -94,6 +94,18 @@ void sampleSky(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPo
   }
 }
 
+/// Whatever a sky's shader makes of L, its light is that of the directions it was asked for.
+bool runWithExtent(Batch& batch, const BoundLight& light, TmGrid& g) {
+  const TmVec3 asked = g.L;
+  if (light.can(TM_LIGHT_SKY)) {
+    g.L = batch.arena.vec3(batch.tm.count);
+    for (int i = 0; i < g.count; ++i) set(g.L, i, get(asked, i));
+  }
+  const bool ran = batch.run(*light.bound, g);
+  g.L = asked;
+  return ran;
+}
+
 /// Where directions from the points meet the light, and how likely its own samples are there. False: nothing can be met.
 bool meetLight(Batch& batch, const BoundLight& light, TmGrid& g, const LobeDirections& lobe, const EmitterPoints& points) {
   for (int i = 0; i < g.count; ++i) set(g.L, i, get(lobe.L, i));
@@ -186,7 +198,7 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
   const bool area = light.can(TM_LIGHT_AREA), sky = light.can(TM_LIGHT_SKY);
   const int n = samplesOf(light, batch);
   ShadowTally* tally = nullptr;
-  if (light.shadowVariance > 0 && n > 1)
+  if (light.shadowVariance > 0 && n > 1 && !request_)  // elsewhere it would know what other points have asked for
     tally = &tallies_.emplace_back(ShadowTally{batch.arena.floats(batch.points->count()), batch.arena.vec3(batch.points->count())});
   for (int s = 0; s < n; ++s) {
     TmGrid g = lightGrid(batch, light);
@@ -199,7 +211,7 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
     if (area || sky) points = emitterPoints(batch, light, g);
     if (area && !sampleEmitter(batch, light, g, points)) return;
     if (sky) sampleSky(batch, light, g, points);
-    if (!batch.run(*light.bound, g)) return;
+    if (!runWithExtent(batch, light, g)) return;
     darkenNonFinite(batch, *light.bound, g);
     if (area || sky) {
       for (int i = 0; i < g.count; ++i) points.density[i] *= static_cast<float>(n), points.meetDensity[i] *= static_cast<float>(n);
@@ -258,7 +270,7 @@ void Lights::alongOne(Batch& batch, const BoundLight& light, const LobeDirection
   for (int i = 0; i < g.count; ++i) met[i] = g.active[i] && lobe.density[i] > 0 && points.density[i] > 0;
   if (std::none_of(met, met + g.count, [](uint8_t m) { return m != 0; })) return;
   g.active = met;
-  if (!batch.run(*light.bound, g)) return;
+  if (!runWithExtent(batch, light, g)) return;
   const auto own = static_cast<float>(samplesOf(light, batch)), drawn = static_cast<float>(lobe.samples);
   for (int i = 0; i < g.count; ++i) {
     if (!met[i]) continue;

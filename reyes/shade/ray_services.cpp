@@ -65,6 +65,7 @@ int32_t gatherRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 axi
   const Primary primary(batch, all);
   const TmGrid* g = primary.grid();
   const TmRayOptions options = rayOptions(given);
+  const Batch::Scratch scratch(batch);
   if (options.environment) return gatherEnvironment(batch, all, P, options, ray, hit, outputs, outputCount);
   if (ray < 0 || ray >= options.samples || !traces(batch)) return 0;
   Cone cone(batch, g, options);

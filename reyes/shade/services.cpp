@@ -103,10 +103,11 @@ void transmission(void* host, const TmGrid* g, TmConstVec3 P, TmConstVec3 toward
 void report(void* host, const TmGrid*, int32_t severity, const char* message) {
   const Batch& batch = batchOf(host);
   // Messages are told apart by how they begin, since a value may follow, and into so many codes: what a shader makes up is not to fill the log.
-  constexpr size_t kAlike = 24, kCodes = 64;
+  constexpr size_t kAlike = 24, kCodes = 4096;
   const std::string text = message;
   const uint64_t site = checksum(std::as_bytes(std::span(text).first(std::min(kAlike, text.size())))) % kCodes;
-  batch.report(severity >= 2 ? Severity::Missing : Severity::Warning, fmt::format("shader-says-{}", site).c_str(), text);
+  const bool misses = severity >= 2;
+  batch.report(misses ? Severity::Missing : Severity::Warning, fmt::format("shader-{}-{}", misses ? "misses" : "says", site).c_str(), text);
 }
 
 void print(void* host, const TmGrid*, const char* text) {

@@ -20,6 +20,7 @@ struct hazysun : sl::Light {
 struct gradedsky : sl::Light {
   void main() {
     solar([&] { Cl = Color(1 + zcomp(normalize(L))) * (zcomp(P) / 5) * length(N); });  // of the point being lit: z is 5
+    L = Vector(1, 0, 0);  // which is the renderer's
   }
 };
 /// As the arealight that comes with the renderer.
