@@ -6,6 +6,8 @@
 
 namespace tomales {
 
+const ParamNames kMediumParams{"scattering", "absorption"};
+
 BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, const std::string& user,
                             TmKind kind) {
   const std::string name = call ? call->name : "defaultsurface";
@@ -13,9 +15,9 @@ BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, cons
   const float open = scene_.options.shutterOpen;
   const mat4 currentFromShader = call ? cameraFromWorld_ * call->worldFromShader.at(open) : mat4(1.0f);
   if (shader) {
-    const bool isLight = kind == TM_LIGHT;
-    return bindShader(*shader, call, where, user, currentFromShader, isLight ? kLightParams : ParamNames{},
-                      log_);
+    static const ParamNames kNone;
+    const ParamNames& known = kind == TM_LIGHT ? kLightParams : kind == TM_VOLUME ? kMediumParams : kNone;
+    return bindShader(*shader, call, where, user, currentFromShader, known, log_);
   }
   static constexpr const char* kKinds[] = {"surface", "displacement", "light", "volume", "imager"};
   static constexpr const char* kConsequences[] = {"a magenta checker is rendered", "nothing is displaced",

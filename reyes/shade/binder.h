@@ -10,6 +10,8 @@ namespace tomales {
 
 /// Parameters that every light understands, whether or not its shader declares them.
 extern const ParamNames kLightParams;
+/// And what photons read of every volume shader.
+extern const ParamNames kMediumParams;
 
 /// Binds requests; groups that share a request share its shader, so that each problem is told once.
 class Binder {

@@ -86,6 +86,14 @@ TEST_F(Binding, UnknownAndMistypedParametersAreWarnedAboutAndDefaulted) {
   EXPECT_EQ(log.count("shader-parameter-type-matte-Kd"), 1);
 }
 
+TEST_F(Binding, WhatPhotonsReadOfAMediumIsKnownToEveryVolumeShader) {
+  surface("matte");
+  attributes.interior = std::make_shared<ShaderCall>(call("fog", {color("scattering", {1, 1, 1}), color("absorption", {0, 0, 0}), number("density", 1)}));
+  shadeOne();
+  EXPECT_EQ(log.entries().size(), 1u);
+  EXPECT_EQ(log.count("shader-parameter-unknown-fog-density"), 1);
+}
+
 Param given(ValueType type, std::vector<float> floats) {
   Param p;
   p.name = "x", p.type = type, p.floats = std::move(floats);
