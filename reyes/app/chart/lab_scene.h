@@ -7,7 +7,7 @@
 //   ##lab method gather, screen: --gi gather --samples 200             (once a method)
 //   ##lab common --indirect-only                                       (of every run)
 //   ##lab note Walls under 2 cm leak with records farther apart than that. (optional; repeated lines are joined)
-//   ##lab limit gather-crowded: 0.05                                   (optional: from this value on the renderer itself warns, under this code)
+//   ##lab limit pixel-noise: 0.05                                      (optional: from this value on the renderer itself warns, under this code)
 //
 // `$truth` is 1 while the truth is rendered and 0 else: IfBegin "$truth == 1" can give the truth what methods are spared.
 #pragma once
