@@ -12,22 +12,30 @@ using namespace sl;
 
 class BatchPictures : public BatchServices {};
 
-TEST_F(BatchPictures, ATextureOfFourCornersIsTheMeanBetweenThem) {
-  const std::string path = ::testing::TempDir() + "/tomales_corners.tif";
+/// Black, and white from its middle on.
+std::string stepPicture(const std::string& name) {
+  std::string path = ::testing::TempDir() + name;
   OIIO::ImageBuf picture(OIIO::ImageSpec(256, 256, 1, OIIO::TypeDesc::FLOAT));
-  for (int y = 0; y < 256; ++y)
-    for (int x = 0; x < 256; ++x) {
-      const float value = x < 128 ? 0.0f : 1.0f;
-      picture.setpixel(x, y, &value);
-    }
-  ASSERT_TRUE(picture.write(path));
+  for (int k = 0; k < 256 * 256; ++k) {
+    const float value = k % 256 < 128 ? 0.0f : 1.0f;
+    picture.setpixel(k % 256, k / 256, &value);
+  }
+  EXPECT_TRUE(picture.write(path));
+  return path;
+}
+
+/// The mean over a quadrilateral of a picture, from s = `from` to `to`.
+Float meanOver(const std::string& path, double from, double to) {
+  TmTextureLookup one = lookup();
+  one.channels = 1;
+  const Float s[4] = {from, to, from, to}, t[4] = {0.4, 0.4, 0.6, 0.6};
+  return xcomp(texture(path.c_str(), s, t, one));
+}
+
+TEST_F(BatchPictures, ATextureOfFourCornersIsTheMeanBetweenThem) {
+  const std::string path = stepPicture("/tomales_corners.tif");
   const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
-    TmTextureLookup one = lookup();
-    one.channels = 1;
-    const auto over = [&](double from, double to) {
-      const Float ss[4] = {from, to, from, to}, tt[4] = {0.4, 0.4, 0.6, 0.6};
-      return xcomp(texture(path.c_str(), ss, tt, one));
-    };
+    const auto over = [&](double from, double to) { return meanOver(path, from, to); };
     s.Ci = Color(over(0.4, 0.6), over(0.45, 0.65), over(0.7, 0.8));
   });
   expectColor(c[0], vec3(0.5f, 0.75f, 1), 0.05f);
@@ -114,28 +122,11 @@ TEST_F(BatchPictures, AShadowOfFourCornersIsTheMeanBetweenThem) {
   EXPECT_TRUE(log.entries().empty());
 }
 
-/// Black, and white from its middle on.
-std::string stepPicture(const std::string& name) {
-  std::string path = ::testing::TempDir() + name;
-  OIIO::ImageBuf picture(OIIO::ImageSpec(256, 256, 1, OIIO::TypeDesc::FLOAT));
-  for (int k = 0; k < 256 * 256; ++k) {
-    const float value = k % 256 < 128 ? 0.0f : 1.0f;
-    picture.setpixel(k % 256, k / 256, &value);
-  }
-  EXPECT_TRUE(picture.write(path));
-  return path;
-}
-
 TEST_F(BatchPictures, AnOptionScalesAllTextureFilters) {
   const std::string path = stepPicture("/tomales_step.tif");
   scene.options.user["texture:width"] = number("width", 2);
   const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
-    TmTextureLookup one = lookup();
-    one.channels = 1;
-    const auto over = [&](double from, double to) {
-      const Float ss[4] = {from, to, from, to}, tt[4] = {0.4, 0.4, 0.6, 0.6};
-      return xcomp(texture(path.c_str(), ss, tt, one));
-    };
+    const auto over = [&](double from, double to) { return meanOver(path, from, to); };
     s.Ci = Color(over(0.475, 0.575), over(0.55, 0.6), 0);  // twice as wide: from 0.425 to 0.625, and beyond the step
   });
   expectColor(c[0], {0.625f, 1, 0}, 0.06f);

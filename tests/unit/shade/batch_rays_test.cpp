@@ -10,6 +10,19 @@ using namespace sl;
 
 class BatchRays : public BatchServices {};
 
+/// Of all directions, as latitudes and longitudes: 1 + the direction.
+std::string pictureOfDirections(const std::string& name) {
+  std::string path = ::testing::TempDir() + name;
+  OIIO::ImageBuf picture(OIIO::ImageSpec(256, 128, 3, OIIO::TypeDesc::FLOAT));
+  for (int k = 0; k < 256 * 128; ++k) {
+    const float theta = kPi * (static_cast<float>(k / 256) + 0.5f) / 128, phi = 2 * kPi * (static_cast<float>(k % 256) + 0.5f) / 256;
+    const float value[] = {1 + std::sin(theta) * std::cos(phi), 1 + std::sin(theta) * std::sin(phi), 1 + std::cos(theta)};
+    picture.setpixel(k % 256, k / 256, value);
+  }
+  EXPECT_TRUE(picture.write(path));
+  return path;
+}
+
 TEST_F(BatchRays, IndirectdiffuseIsTheMeanOfWhatRaysSee) {
   services.seen = [](const vec3& d) { return vec3(2, d.z * d.z, 1); };
   const std::vector<vec3> c = asked(2, [](sl::Surface& s) { s.Ci = indirectdiffuse(s.P, s.N, 4096); });
@@ -31,14 +44,7 @@ TEST_F(BatchRays, PointsThatAShaderHasMovedAreTracedAndTheOthersInterpolated) {
 
 // Half of the sphere of directions leaves the scene, towards +x; the map is 1 + its own direction.
 TEST_F(BatchRays, OcclusionTellsOfTheEnvironmentWhereRaysLeave) {
-  const std::string path = ::testing::TempDir() + "/tomales_open.exr";
-  OIIO::ImageBuf picture(OIIO::ImageSpec(256, 128, 3, OIIO::TypeDesc::FLOAT));
-  for (int k = 0; k < 256 * 128; ++k) {
-    const float theta = kPi * (static_cast<float>(k / 256) + 0.5f) / 128, phi = 2 * kPi * (static_cast<float>(k % 256) + 0.5f) / 256;
-    const float value[] = {1 + std::sin(theta) * std::cos(phi), 1 + std::sin(theta) * std::sin(phi), 1 + std::cos(theta)};
-    picture.setpixel(k % 256, k / 256, value);
-  }
-  ASSERT_TRUE(picture.write(path));
+  const std::string path = pictureOfDirections("/tomales_open.exr");
   services.met = [](const vec3&, const vec3& d) { return d.x > 0 ? kInfinity : 1.0f; };
   services.seen = [](const vec3& d) { return d.x > 0 ? vec3(0) : vec3(0, 0, 2); };
   const std::vector<vec3> c = asked(2, [&](sl::Surface& s) {
@@ -82,14 +88,7 @@ TEST_F(BatchRays, GatherHasCategoriesListsAndTheEffectiveDistance) {
 // A picture of 1 + its own direction holds 4 pi of light, and adds up to a direction of 4 pi / 3 along the axis of each channel. It stands in a space
 // whose x is the world's y.
 TEST_F(BatchRays, GatherDrawsTheLightOfAnEnvironment) {
-  const std::string path = ::testing::TempDir() + "/tomales_gathered.exr";
-  OIIO::ImageBuf picture(OIIO::ImageSpec(256, 128, 3, OIIO::TypeDesc::FLOAT));
-  for (int k = 0; k < 256 * 128; ++k) {
-    const float theta = kPi * (static_cast<float>(k / 256) + 0.5f) / 128, phi = 2 * kPi * (static_cast<float>(k % 256) + 0.5f) / 256;
-    const float value[] = {1 + std::sin(theta) * std::cos(phi), 1 + std::sin(theta) * std::sin(phi), 1 + std::cos(theta)};
-    picture.setpixel(k % 256, k / 256, value);
-  }
-  ASSERT_TRUE(picture.write(path));
+  const std::string path = pictureOfDirections("/tomales_gathered.exr");
   worldFromObject = Motion::still(mat4(vec4(0, 1, 0, 0), vec4(-1, 0, 0, 0), vec4(0, 0, 1, 0), vec4(0, 0, 0, 1)));
   const std::vector<vec3> c = asked(2, [&](sl::Surface& s) {
     Color color, sum;
