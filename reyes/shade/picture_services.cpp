@@ -43,25 +43,23 @@ int32_t lookUpBelow(Batch& batch, const TextureQuery& query, float most, TmVec3 
   point.s = s, point.t = t, point.su = point.tu = point.sv = point.tv = nullptr;
   point.sWidth = point.tWidth = point.sBlur = point.tBlur = 0;
   const auto edge = [](const float* e, int i) { return e ? e[i] : 0.0f; };
+  const auto channel = [](TmVec3 v, int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; };
   for (uint32_t k = 0; k < kPoints; ++k) {
-    const float a = sobol2(k, 0).x - 0.5f, b = sobol2(k, 0).y - 0.5f;
+    const vec2 xi = sobol2(k, 0);
+    const float a = xi.x - 0.5f, b = xi.y - 0.5f;
     for (int i = 0; i < n; ++i) {
       if (!query.active[i]) continue;
       s[i] = query.s[i] + query.sWidth * (a * edge(query.su, i) + b * edge(query.sv, i)) + a * query.sBlur;
       t[i] = query.t[i] + query.tWidth * (a * edge(query.tu, i) + b * edge(query.tv, i)) + b * query.tBlur;
     }
     if (!lookUp(batch, point, texel)) return lookUp(batch, query, out);
-    for (int i = 0; i < n; ++i)
-      for (int c = 0; query.active[i] && c < query.channels; ++c) {
-        const auto at = [&](TmVec3 v) -> float& { return (c == 0 ? v.x : c == 1 ? v.y : v.z)[i]; };
-        if (at(texel) <= most) at(sum) += at(texel), at(counted) += 1;
-      }
+    for (int c = 0; c < query.channels; ++c)
+      for (int i = 0; i < n; ++i)
+        if (const float value = channel(texel, c)[i]; query.active[i] && value <= most) channel(sum, c)[i] += value, channel(counted, c)[i] += 1;
   }
-  for (int i = 0; i < n; ++i)
-    for (int c = 0; query.active[i] && c < query.channels; ++c) {
-      const auto at = [&](TmVec3 v) -> float& { return (c == 0 ? v.x : c == 1 ? v.y : v.z)[i]; };
-      at(out) = at(counted) > 0 ? at(sum) / at(counted) : query.fill;
-    }
+  for (int c = 0; c < query.channels; ++c)
+    for (int i = 0; i < n; ++i)
+      if (query.active[i]) channel(out, c)[i] = channel(counted, c)[i] > 0 ? channel(sum, c)[i] / channel(counted, c)[i] : query.fill;
   return 1;
 }
 
