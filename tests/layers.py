@@ -27,6 +27,8 @@ THIRD_PARTY = {
     "OpenImageIO/": ["reyes/pictures/"],
     "OpenEXR/": ["reyes/image/exr_file.cpp"],
     "Imath": ["reyes/image/exr_file.cpp"],
+    "tiff": ["reyes/image/tiff_file.cpp"],
+    "png.h": ["reyes/image/png_file.cpp"],
     "tbb/": ["reyes/base/parallel.cpp"],
     "nlohmann/": ["reyes/app/"],
     "CLI/": ["reyes/app/"],
