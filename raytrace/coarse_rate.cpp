@@ -14,6 +14,7 @@ constexpr float kTurn = 15 * kPi / 180;   ///< Radians between the normals at th
 constexpr float kMostTurn = 100 * kPi / 180;  ///< However small: half a circle of one polygon would be its diameter, without area.
 constexpr float kEmitterTurn = 5 * kPi / 180;  ///< Brings the area of a sphere light within 0.5 %.
 constexpr int kProbes = 5;                     ///< Odd, so that a symmetrical wave is not met at its zeros.
+constexpr double kRounding = 1e-3;
 constexpr double kMostQuads = 1 << 20, kMostQuadsOfLevels = 1 << 22;  ///< Of a patch; levels are diced where rays come.
 
 float angleBetween(const vec3& a, const vec3& b) {
@@ -117,7 +118,7 @@ class PatchLines {
     if (fineness.least_px > 0) n = std::min(n, double{f.length_px} / fineness.least_px);
     n = std::max(n, double{f.turn} / kMostTurn);
     if (byPixels_) n = std::max(n, double{f.length_px} / fineness.edge_px);
-    return std::isfinite(n) ? std::max(1.0, std::ceil(n)) : 1.0;
+    return std::isfinite(n) ? std::max(1.0, std::ceil(n - kRounding)) : 1.0;
   }
 
   const Object& object_;
