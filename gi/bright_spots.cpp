@@ -51,7 +51,7 @@ struct Cluster {
     const float radius = 0.5f * margin() * glm::length(bound.size()), agreement = glm::length(normal);
     const vec3 n = agreement > 1 - kFlat ? normal / agreement : vec3(0);
     const bool flat = n != vec3(0) && std::all_of(hits.begin(), hits.end(), [&](const BrightHit& h) { return std::abs(dot(h.position - mean, n)) < kFlat * radius; });
-    return flat ? rectangle(n, radiance) : BrightSpots::Spot{bound.center(), radius, radiance, vec3(0)};
+    return flat ? rectangle(n, radiance) : BrightSpots::Spot{bound.center(), radius, radiance, vec3(0), 1 / margin()};
   }
   BrightSpots::Spot rectangle(const vec3& n, float radiance) const {
     vec3 u(0), v;
@@ -63,7 +63,7 @@ struct Cluster {
       low = glm::min(low, at), high = glm::max(high, at);
     }
     const vec2 middle = 0.5f * (low + high), found = 0.5f * margin() * (high - low), half = glm::max(found, kNarrowest * vec2(found.y, found.x));
-    return {mean + middle.x * u + middle.y * v, glm::length(half), radiance, n, half.x * u, half.y * v};
+    return {mean + middle.x * u + middle.y * v, glm::length(half), radiance, n, 1 / margin(), half.x * u, half.y * v};
   }
 };
 
@@ -100,7 +100,7 @@ SpotAim::SpotAim(const BrightSpots& spots, const vec3& position, const vec3& nor
                                            : 4 * glm::length(s.halfU) * glm::length(s.halfV) * std::max(0.0f, -dot(axis, s.normal));
     const float covered = area / (kPi * distance * distance) * std::min(1.0f, dot(axis, normal) + sine);
     if (covered <= 0 || s.radiance <= 0) continue;
-    targets_.push_back({path, axis, s.normal, s.halfU, s.halfV, s.radius, sine * sine / (1 + std::sqrt(1 - sine * sine)), s.radiance * covered, covered});
+    targets_.push_back({path, axis, s.normal, s.halfU, s.halfV, s.found, sine * sine / (1 + std::sqrt(1 - sine * sine)), s.radiance * covered, covered});
   }
   settle();
 }
@@ -127,11 +127,15 @@ float SpotAim::Target::density() const {
   return normal == vec3(0) ? 1 / (2 * kPi * versine) : 1 / (4 * glm::length(u) * glm::length(v));
 }
 
-vec3 SpotAim::directionTo(size_t target, const vec2& xi) const { return normalizeOr(targets_[target].toward(xi), targets_[target].axis); }
+vec3 SpotAim::probe(size_t target, const vec2& xi) const {
+  const Target& t = targets_[target];
+  const vec2 within = t.normal != vec3(0) ? 0.5f + (xi - 0.5f) * t.found : vec2(xi.x * t.found * t.found, xi.y);
+  return normalizeOr(t.toward(within), t.axis);
+}
 
 vec3 SpotAim::direction(float choice, const vec2& xi) const {
   const auto found = std::find_if(targets_.begin(), targets_.end() - 1, [&](const Target& t) { return choice * irradiance_ < t.upTo; });
-  return directionTo(static_cast<size_t>(found - targets_.begin()), xi);
+  return normalizeOr(found->toward(xi), found->axis);
 }
 
 float SpotAim::density(const vec3& direction) const {

@@ -26,6 +26,7 @@ class BrightSpots {
     vec3 center;
     float radius, radiance;
     vec3 normal;                ///< Of a rectangle that shines to that side; 0: a sphere.
+    float found = 1;            ///< Share of its extent in which hits were: around them is a margin.
     vec3 halfU{0}, halfV{0};    ///< From the rectangle's centre to the middles of two edges, perpendicular.
   };
   /// The same spots for the same finds in the same order.
@@ -48,8 +49,8 @@ class SpotAim {
   SpotAim(const BrightSpots& spots, const vec3& position, const vec3& normal);
 
   size_t targets() const { return targets_.size(); }
-  /// A direction to a place of one of them. xi: uniform in [0,1); unit.
-  vec3 directionTo(size_t target, const vec2& xi) const;
+  /// A direction to where something of one of them was found. xi: uniform in [0,1); unit.
+  vec3 probe(size_t target, const vec2& xi) const;
   /// Of each target the share of its light that is expected to arrive, in [0,1].
   void dim(const std::vector<float>& shares);
   float radiance(size_t target) const { return targets_[target].share / targets_[target].covered; }
@@ -68,7 +69,7 @@ class SpotAim {
   struct Target {
     vec3 path, axis;        ///< To its centre; axis: along it, unit.
     vec3 normal, u, v;      ///< As Spot's; normal 0: a cone.
-    float radius, versine;  ///< versine: one less the cosine of a cone's half angle.
+    float found, versine;   ///< versine: one less the cosine of a cone's half angle.
     float share, covered;   ///< Of irradiance() and coverage().
     float upTo = 0;         ///< Of the choice.
 

@@ -16,6 +16,7 @@ constexpr int kMostSplit = 8;
 constexpr float kMostAimed = 0.5f;  ///< Rays at bright spots, for each of the hemisphere.
 constexpr size_t kLeastAimed = 8;
 constexpr size_t kRaysOfProbe = 8;  ///< Of the hemisphere, for each ray that finds out whether a spot can be seen.
+constexpr size_t kLeastPerSpot = 4;   ///< Rays of the hemisphere; with fewer, probes would cost too much.
 constexpr float kLeastShare = 0.05f;  ///< Of the light of a spot, when its probes have seen none: they are few.
 constexpr float kFoundByChance = 160;  ///< Rays of the hemisphere on spheres around spots: so many find out without help.
 
@@ -216,10 +217,11 @@ class Hemisphere {
   /// What arrives of the light of each spot: something may be in between, or it shines elsewhere. These rays count for no light, so that
   /// where to aim does not depend on what counts.
   void probe(Stats& stats) {
-    const size_t targets = aim_.targets(), probes = targets > 0 ? count_ / (kRaysOfProbe * targets) : 0;
-    if (probes == 0) return;
+    const size_t targets = aim_.targets();
+    if (targets == 0 || count_ < kLeastPerSpot * targets) return;
+    const size_t probes = std::max<size_t>(1, count_ / (kRaysOfProbe * targets));
     for (size_t i = 0; i < targets * probes; ++i) {
-      const vec3 d = aim_.directionTo(i / probes, sobol2(static_cast<uint32_t>(i), key_ ^ 0x70726f62U));
+      const vec3 d = aim_.probe(i / probes, sobol2(static_cast<uint32_t>(i), key_ ^ 0x70726f62U));
       const vec3 local{dot(d, tangent_), dot(d, bitangent_), dot(d, point_.normal)};
       if (local.z > 0) add(static_cast<int>(i), cellOf(cells_, local), local, 4 * count_);
     }
