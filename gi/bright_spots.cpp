@@ -12,7 +12,7 @@ constexpr size_t kHitsToSplit = 16;
 constexpr float kNearest = 3;      ///< Radii: the rays of the hemisphere find what is nearer.
 constexpr float kRounding = 1e-3f;
 constexpr float kFlat = 0.02f;     ///< Radii, and one less the length of the mean normal: what is flatter is a rectangle.
-constexpr float kGap = 2;          ///< Mean distances between hits.
+constexpr float kGap = 1.4f;        ///< Mean distances between hits, by which they may fall short of a border. Less leaves noise, more rays miss.
 constexpr float kNarrowest = 0.05f;  ///< Of a rectangle's other edge.
 
 /// Hits close to each other that look the same way.
