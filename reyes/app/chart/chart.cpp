@@ -1,13 +1,14 @@
 #include "reyes/app/chart/chart.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
+#include "reyes/app/chart/html.h"
 #include "reyes/app/chart/report.h"
 #include "reyes/app/chart/sweeps.h"
 #include "reyes/app/interrupt.h"
@@ -20,10 +21,10 @@ namespace fs = std::filesystem;
 using Arguments = std::vector<std::string>;
 
 constexpr int kPictureSize = 200;
-constexpr double kReferenceShare = 0.4;  ///< Of the budget, before the points.
-constexpr double kBatchShare = 0.06;     ///< Of the budget, of one batch.
-constexpr double kQuiet = 0.25;          ///< A reference with this share of the least error needs no further batches.
-constexpr double kSilent = 1e-4;         ///< A noise floor below which there is nothing to gain.
+constexpr double kBatchShare = 0.05;  ///< Of the budget, of one batch of the reference.
+constexpr int kFirstBatches = 4;      ///< Before the points.
+constexpr double kQuiet = 0.25;       ///< A reference with this share of the least error needs no further batches.
+constexpr double kSilent = 1e-4;      ///< A noise floor below which there is nothing to gain.
 constexpr int kTrialPaths = 64;
 
 Arguments operator+(Arguments a, const Arguments& b) {
@@ -43,6 +44,10 @@ LabSettings labOf(const ChartSettings& s, const ChartSweep& sweep) {
   return {s.folder.empty() ? chartCacheFolder() : s.folder, s.files, sweep.common + sharedArguments(s), s.budget_s};
 }
 
+bool isWritableFolder(const fs::path& folder) {
+  return fs::is_directory(folder.empty() ? "." : folder) && access(folder.empty() ? "." : folder.c_str(), W_OK) == 0;
+}
+
 class Chart {
  public:
   Chart(const ChartSettings& settings, const ChartSweep& sweep)
@@ -54,13 +59,19 @@ class Chart {
     for (const ChartCurve& curve : sweep.curves) report_.curves.push_back(curve.name);
   }
 
+  /// A few batches of the reference, all points, and what is left of the budget for more batches: a chart whose reference is noisy says
+  /// so, and grows quieter when it is asked for again; points that are missing say nothing.
   int run() {
+    const fs::path folder = fs::path(settings_.output).parent_path();
+    if (!isWritableFolder(folder)) return fail(kUnwritable, "\"" + settings_.output + "\" cannot be written: no such folder, or one that must not be written to");
+    if (!isWritableFolder(labSettings_.folder)) return fail(kUnwritable, "\"" + labSettings_.folder + "\" cannot hold what is measured: no folder that can be written to");
     chooseReference();
-    while (reference_.batches() < 2 || (lab_.secondsUsed() < kReferenceShare * settings_.budget_s && reference_.noiseFloor() > kSilent))
-      if (!addBatch()) break;
+    while (reference_.batches() < kFirstBatches && (reference_.batches() < 2 || reference_.noiseFloor() > kSilent) && addBatch()) {}
+    if (reference_.batches() == 0) return fail(interruptExitCode() ? interruptExitCode() : kUnreadable, "no reference: " + lab_.why());
+    if (reference_.isBlack())
+      return fail(kUnreadable, "the reference is black, so there is no error to speak of; the sweep \"" + sweep_.name + "\" needs " + sweep_.needs);
     measure();
     while (!isQuiet() && addBatch()) {}
-    if (reference_.batches() == 0) return fail(kUnreadable, "no reference: " + lab_.why());
     judge();
     if (!write()) return fail(kUnwritable, "\"" + settings_.output + "\" could not be written");
     if (const int code = interruptExitCode()) return code;
@@ -70,7 +81,7 @@ class Chart {
  private:
   int fail(int code, const std::string& why) const {
     log_.report(code == kUnwritable ? Severity::Output : Severity::Error, "chart", {}, why);
-    return interruptExitCode() ? interruptExitCode() : code;
+    return code;
   }
 
   std::string commandLine(const Arguments& arguments) const {
@@ -86,9 +97,9 @@ class Chart {
         continue;
       }
       const std::string text = a.substr(std::string(kPrelude).size());
-      const fs::path file = fs::path(labSettings_.folder) / fmt::format("{:016x}.rib", std::hash<std::string>{}(text));
-      std::ofstream(file) << text << '\n';
-      out.push_back(file.string());
+      const std::string file = (fs::path(labSettings_.folder) / fmt::format("{:016x}.rib", std::hash<std::string>{}(text))).string();
+      writeAtOnce(file, text + '\n');
+      out.push_back(file);
     }
     return lab_.run(out);
   }
@@ -105,10 +116,12 @@ class Chart {
   }
 
   bool addBatch() {
-    if (reference_.batches() >= settings_.batches) return false;
+    if (reference_.batches() >= settings_.batches || batchSeconds_ > lab_.secondsLeft()) return false;
     const auto run = render(referenceArguments_ + Arguments{sweep_.seed, std::to_string(reference_.batches() + 1)});
     if (!run) return false;
     report_.referenceSeconds += run->cpu_s;
+    if (!run->recalled) batchSeconds_ = run->wall_s;
+    takeWarnings(*run);
     std::string error;
     const auto image = readImage(run->picture, error);
     if (!image || !reference_.add(*image)) return false;
@@ -134,16 +147,19 @@ class Chart {
 
   void measure(size_t curve, const Arguments& arguments) {
     const auto run = render(arguments);
-    if (!run) {
-      report_.missing.push_back(report_.curves[curve] + ", " + inShort(arguments) + ": " + lab_.why());
+    std::string error;
+    const auto image = run ? readImage(run->picture, error) : std::nullopt;
+    if (!image) {
+      report_.missing.push_back(report_.curves[curve] + ", " + inShort(arguments) + ": " + (run ? error : lab_.why()));
       return;
     }
-    ChartPoint point{curve, inShort(arguments), commandLine(arguments), *run, {}, false, false, {}, {}};
-    std::string error;
-    if (const auto image = readImage(run->picture, error); image && reference_.batches() > 0) point.error = reference_.errorOf(*image);
+    takeWarnings(*run);
+    ChartPoint point{curve, inShort(arguments), commandLine(arguments), *run, reference_.errorOf(*image), false, false, {}, {}};
     log(report_.curves[curve], fmt::format("{}: {:.3g} % in {:.3g} CPU s{}", point.setting, 100 * point.error.mean, run->cpu_s, run->recalled ? " (recalled)" : ""));
     report_.points.push_back(std::move(point));
   }
+
+  void takeWarnings(const Run& run) { report_.warnings.insert(run.warnings.begin(), run.warnings.end()); }
 
   /// Once the reference is complete.
   void judge() {
@@ -176,6 +192,7 @@ class Chart {
   mutable Log log_;
   Arguments referenceArguments_;
   ChartReference reference_;
+  double batchSeconds_ = 0;  ///< Of the last that was rendered.
   ChartReport report_;
 };
 

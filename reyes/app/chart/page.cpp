@@ -43,6 +43,7 @@ class Page : Markup {
     put("<p>The reference is the mean of {} independent pictures ({:.0f} CPU s) of <code>{}</code>; its own noise is {}.</p>\n", r_.referenceBatches,
         r_.referenceSeconds, escapeXml(r_.referenceCommandLine), std::isfinite(r_.noiseFloor) ? percent(r_.noiseFloor) : "unknown");
     put("<p>Figures: <a href=\"{0}\">{0}</a>. Made with tomales {1}: <code>{2}</code></p>\n", escapeXml(jsonName), kVersion, escapeXml(r_.commandLine));
+    if (!r_.warnings.empty()) put("<p>The renderer warned of: {}. The command lines below say more.</p>\n", escapeXml(fmt::format("{}", fmt::join(r_.warnings, ", "))));
     for (const std::string& m : r_.missing) put("<p><strong>Not measured:</strong> {}</p>\n", escapeXml(m));
   }
 
@@ -59,6 +60,8 @@ class Page : Markup {
       put("</tr>\n");
     }
     put("</table></div>\n");
+    for (size_t c = 0; c < r_.curves.size(); ++c)
+      if (isFlat(r_, c)) put("<p>{}: the error is the same for all settings; what they change is the cost, if they reach this scene at all.</p>\n", key(c));
   }
 
   void legend() {
