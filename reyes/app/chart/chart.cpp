@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <numeric>
 
 #include "reyes/app/chart/html.h"
 #include "reyes/app/chart/report.h"
@@ -135,28 +136,36 @@ class Chart {
     return reference_.noiseFloor() < std::max(kQuiet * least, kSilent);
   }
 
-  /// The cheapest setting of every method first, so that a small budget leaves no method out.
+  /// The cheapest setting of every method first, and of methods the one that was cheapest last time, so that a small budget leaves as little out
+  /// as it can.
   void measure() {
     size_t steps = 0;
     for (const ChartCurve& curve : sweep_.curves) steps = std::max(steps, curve.settings.size());
-    for (size_t step = 0; step < steps; ++step)
-      for (size_t c = 0; c < sweep_.curves.size(); ++c)
-        if (step < sweep_.curves[c].settings.size()) measure(c, sweep_.curves[c].settings[step]);
+    std::vector<double> last_s(sweep_.curves.size());
+    std::vector<size_t> order(sweep_.curves.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    for (size_t step = 0; step < steps; ++step) {
+      for (const size_t c : order)
+        if (step < sweep_.curves[c].settings.size()) last_s[c] = measure(c, sweep_.curves[c].settings[step]);
+      std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return last_s[a] < last_s[b]; });
+    }
     std::stable_sort(report_.points.begin(), report_.points.end(), [](const ChartPoint& a, const ChartPoint& b) { return a.curve < b.curve; });
   }
 
-  void measure(size_t curve, const Arguments& arguments) {
+  /// CPU seconds; infinite if it could not be measured.
+  double measure(size_t curve, const Arguments& arguments) {
     const auto run = render(arguments);
     std::string error;
     const auto image = run ? readImage(run->picture, error) : std::nullopt;
     if (!image) {
       report_.missing.push_back(report_.curves[curve] + ", " + inShort(arguments) + ": " + (run ? error : lab_.why()));
-      return;
+      return kInfinity;
     }
     takeWarnings(*run);
     ChartPoint point{curve, inShort(arguments), commandLine(arguments), *run, reference_.errorOf(*image), false, false, {}, {}};
     log(report_.curves[curve], fmt::format("{}: {:.3g} % in {:.3g} CPU s{}", point.setting, 100 * point.error.mean, run->cpu_s, run->recalled ? " (recalled)" : ""));
     report_.points.push_back(std::move(point));
+    return run->cpu_s;
   }
 
   void takeWarnings(const Run& run) { report_.warnings.insert(run.warnings.begin(), run.warnings.end()); }

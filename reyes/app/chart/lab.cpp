@@ -68,7 +68,7 @@ std::string complaint(const std::string& messages) {
 struct Ended {
   bool good = false;
   std::string why;
-  double cpu_s = 0, wall_s = 0, peakBytes = 0;
+  double cpu_s = 0, wall_s = 0;
 };
 
 double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
@@ -106,7 +106,6 @@ Ended await(pid_t child, Clock::time_point deadline) {
   }
   out.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   out.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
-  out.peakBytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
   out.good = WIFEXITED(status) && (WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == 3);
   if (!out.good && out.why.empty()) out.why = "the renderer failed";
   return out;
@@ -161,8 +160,9 @@ std::optional<Run> Lab::run(const std::vector<std::string>& arguments) {
   }
   const Json counted = Json::parse(readAll(statistics), nullptr, false);
   fs::remove(statistics, error);
-  Run out{arguments, stem + ".exr", ended.cpu_s, ended.wall_s, ended.peakBytes, 0, {}, false};
+  Run out{arguments, stem + ".exr", ended.cpu_s, ended.wall_s, 0, 0, {}, false};
   if (counted.is_object()) {
+    out.peakBytes = counted.value("/memory_bytes/peak_rss"_json_pointer, 0.0);  // wait4() would count this process's memory at the fork
     out.records = counted.value("/irradiance_cache/samples"_json_pointer, int64_t{0});
     for (const Json& w : counted.value("warnings", Json::array())) out.warnings.push_back(w.value("code", ""));
   }

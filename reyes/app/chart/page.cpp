@@ -44,7 +44,10 @@ class Page : Markup {
         r_.referenceSeconds, escapeXml(r_.referenceCommandLine), std::isfinite(r_.noiseFloor) ? percent(r_.noiseFloor) : "unknown");
     put("<p>Figures: <a href=\"{0}\">{0}</a>. Made with tomales {1}: <code>{2}</code></p>\n", escapeXml(jsonName), kVersion, escapeXml(r_.commandLine));
     if (!r_.warnings.empty()) put("<p>The renderer warned of: {}. The command lines below say more.</p>\n", escapeXml(fmt::format("{}", fmt::join(r_.warnings, ", "))));
-    for (const std::string& m : r_.missing) put("<p><strong>Not measured:</strong> {}</p>\n", escapeXml(m));
+    if (r_.missing.empty()) return;
+    put("<p><strong>Not measured:</strong></p>\n<ul>");
+    for (const std::string& m : r_.missing) put("<li>{}</li>", escapeXml(m));
+    put("</ul>\n");
   }
 
   void reach() {
@@ -86,7 +89,7 @@ class Page : Markup {
 
   void table() {
     put("<h2>All points</h2><div class=\"scroll\"><table><tr><th>method</th><th class=\"text\">setting</th><th>mean error</th><th>&plusmn; 95 %</th>"
-        "<th>99th percentile</th><th>rms</th><th>bias</th><th>CPU s</th><th>wall s</th><th>memory</th><th>records</th></tr>\n");
+        "<th>99 % below</th><th>rms</th><th>bias</th><th>CPU s</th><th>wall s</th><th>memory</th><th>records</th></tr>\n");
     for (size_t i = 0; i < r_.points.size(); ++i) {
       const ChartPoint& p = r_.points[i];
       put("<tr class=\"{}\"><td>{}</td><td class=\"text\"><a href=\"#p{}\">{}</a></td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>",
