@@ -148,10 +148,14 @@ class Tracer {
     return true;
   }
 
-  /// Surfaces that reflect the same everywhere, at any place of theirs.
+  /// Surfaces that reflect the same everywhere, at any place of theirs; and those that do not reflect by their shaders.
   void askEvenSurfaces() {
     even_.resize(scene_.groups.size());
     for (size_t g = 0; g < even_.size(); ++g) {
+      if (models_[g] != PhotonModel::Matte && models_[g] != PhotonModel::Translucent) {
+        even_[g] = vec3(0);
+        continue;
+      }
       if (!shading_.reflectsEvenly(static_cast<int>(g))) continue;
       Hit hit;
       hit.t = 1, hit.object = scene_.groups[g].exampleObject, hit.u = hit.v = 0.5f;
