@@ -64,7 +64,8 @@ uint64_t shownTwice(const SampleBuffer& samples, const GridTable& grids, const C
   if (common == 0 || films.film(film).word != films.film(other).word) return 0;
   const uint32_t *cells = films.cells(film), *otherCells = films.cells(other);
   const GridTable::Entry &entry = grids.of(cells[std::countr_zero(common)]), &otherEntry = grids.of(otherCells[std::countr_zero(common)]);
-  if (entry.grid().object != otherEntry.grid().object || entry.raster->blur || otherEntry.raster->blur) return 0;
+  if (entry.grid().object != otherEntry.grid().object || entry.raster->blur || otherEntry.raster->blur || entry.raster->inSolid)
+    return 0;
   const size_t words = films.wordsOfPixel(), word = films.film(film).word;
   const size_t first = word / words * static_cast<size_t>(samples.lanes) + 64 * (word % words);
   uint64_t out = 0;

@@ -26,7 +26,7 @@ class GridTable {
   const Entry& of(uint32_t cell) const { return entries_[entryOfPage_[cell / kPage]]; }
   const std::vector<Entry>& entries() const { return entries_; }
   uint32_t cellCount() const { return static_cast<uint32_t>(entryOfPage_.size()) * kPage; }  ///< Numbers in use, gaps included.
-  /// Lets go of every grid that has none of these cells, and keeps copies of the rest where it would keep others' memory too. Pre: sorted.
+  /// Lets go of every grid that has none of these cells. Pre: sorted.
   void keepOnly(const std::vector<uint32_t>& cells);
   size_t held() const { return held_; }  ///< Grids not let go of.
   bool anySmooth() const { return anySmooth_; }  ///< Has one RasterGrid::smooth?
@@ -61,7 +61,9 @@ struct SampleBuffer {
   Films crossings;                 ///< Everything of solids that covers a sample, however deep.
 
   /// Do 16 bits hold the positions on the lattice?
-  bool fitsLattice() const { return rect.width() <= 2 * kHalf_px && rect.height() <= 2 * kHalf_px; }
+  bool fitsLattice() const {
+    return rect.width() <= 2 * kHalf_px && rect.height() <= 2 * kHalf_px && std::max(rect.x1, rect.y1) <= kMostExact_px;
+  }
   /// Makes times and lens positions: the first grid that moves or is out of focus asks for them.
   void showBlur();
   /// What DetailShare divides, of a lane.
@@ -108,6 +110,7 @@ struct SampleBuffer {
 
  private:
   static constexpr int kFew_px = 4, kHalf_px = 32;
+  static constexpr int kMostExact_px = 16384;  ///< Beyond, floats round positions, some to the next pixel.
   const SamplePattern& pattern_;
   const vec2 lens_;
   std::vector<int> patternAt_;  ///< A pixel
