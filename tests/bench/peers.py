@@ -188,15 +188,15 @@ def agreement(bench, bounces, paths):
 
     print("\n| room | compared with ours | mean | rms of blocks | of these, noise |\n|---|---|---|---|---|")
     direct = bench.ours("--gi", "none")[0]
-    pov_direct = bench.povray(None, lamps=16)[0]
-    say("POV-Ray, direct", pov_direct, direct)
+    say("POV-Ray, direct", bench.povray(None, lamps=16)[0], direct)
+    pov_direct = bench.povray(None)[0]
     for b in bounces:
         indirect = bench.ours("--gi", "reference", "--bounces", b, "--samples", paths, "--indirect-only")[0]
         c_direct, c_indirect, _, _ = bench.cycles(paths, b)
         if b == bounces[0]:
             say("Cycles, direct", c_direct, direct)
         say(f"Cycles, {b} bounces", c_indirect, indirect)
-        say(f"POV-Ray, {b} bounces", bench.povray(radiosity(*POV_SETTINGS[2], min(b, 20)), lamps=16)[0] - pov_direct, indirect)
+        say(f"POV-Ray, {b} bounces", bench.povray(radiosity(*POV_SETTINGS[1], min(b, 20)))[0] - pov_direct, indirect)
 
 
 def main():

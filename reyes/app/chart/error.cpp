@@ -66,7 +66,7 @@ bool ChartReference::add(const Image& batch) {
 }
 
 bool ChartReference::isBlack() const {
-  return std::all_of(mean_.pixels.begin(), mean_.pixels.end(), [](float v) { return v == 0; });
+  return std::all_of(mean_.pixels.begin(), mean_.pixels.end(), [](float v) { return std::abs(v) < 1e-12f; });
 }
 
 Image ChartReference::meanWithout(size_t batch) const {

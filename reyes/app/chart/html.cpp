@@ -26,7 +26,7 @@ tr.best td:first-child{font-weight:600}
 .key{display:inline-block;width:.8em;height:.8em;border-radius:50%;margin:0 .35em 0 0}
 .legend{display:flex;flex-wrap:wrap;gap:4px 20px;margin:.6em 0;padding:0;list-style:none;font-size:14px}
 svg{display:block;width:100%;height:auto;font:12px system-ui,sans-serif}
-.grid{stroke:#ececec}.axis{stroke:#555;fill:none}.tick,.label{fill:#333}
+.grid{stroke:#ececec}.axis{stroke:#555;fill:none}.tick,.label{fill:#333}.name{fill:#555;font-size:11px}
 .curve{fill:none;stroke-width:1.8}.point{stroke:#fff;stroke-width:1.2}.best{stroke:#111;stroke-width:2}
 .front{fill:none;stroke:#ffd84d;stroke-width:9;stroke-linecap:round;stroke-linejoin:round;opacity:.55}
 path.floor{stroke:#888;stroke-dasharray:3 4}text.floor{fill:#666}
