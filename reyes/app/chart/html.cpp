@@ -15,7 +15,7 @@ constexpr const char* kPageStyle = R"(
 :root{font:16px/1.5 system-ui,sans-serif;color:#1b1b1b;background:#fff}
 body{max-width:1200px;margin:0 auto;padding:0 16px 48px}
 h1{font-size:1.5rem;margin:1.2em 0 .2em}h2{font-size:1.15rem;margin:2em 0 .5em}
-p{max-width:46em;margin:.5em 0}code{font:12px/1.5 ui-monospace,monospace;overflow-wrap:anywhere}
+h1,p,li{overflow-wrap:anywhere}p{max-width:46em;margin:.5em 0}code{font:12px/1.5 ui-monospace,monospace;overflow-wrap:anywhere}
 a{color:#0058a3}
 ul{margin:.3em 0;padding-left:1.2em;font-size:14px}
 .scroll{overflow-x:auto}table{border-collapse:collapse;font-size:14px}

@@ -28,7 +28,7 @@ class Page : Markup {
     plot("Error against memory", "peak resident memory, MB", [](const ChartPoint& p) { return p.run.peakBytes / 1048576; },
          [](const ChartPoint& p) { return p.bestInMemory; });
     if (r_.oneKnob)
-      plot("Error against the setting", r_.title.c_str(), [](const ChartPoint& p) { return p.value; }, [](const ChartPoint& p) { return p.bestInTime; });
+      plot("Error against the setting", r_.title.c_str(), [](const ChartPoint& p) { return p.value; }, [](const ChartPoint&) { return false; });
     put("</div>\n");
     table();
     cards();
