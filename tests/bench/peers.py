@@ -7,7 +7,7 @@ render of direct light alone (of Cycles, which has no use for direct light alone
 in windows of 16 x 16 pixels. The truth is ours of many paths, in two halves, which say how noisy it is; that noise is taken off every error (in squares, as noises that are independent add up). Where a
 program that errs by noise alone was not rendered long enough, the seconds to an error are extrapolated along its last two points, and marked ~.
 
-How far the programs are from each other is printed first, a check on the physics: the difference of the means and its standard error; and the root mean square difference of blocks of 16 x 16 pixels beside what
+With --agreement, how far the programs are from each other is printed first, a check on the physics: the difference of the means and its standard error; and the root mean square difference of blocks of 16 x 16 pixels beside what
 the noise of their pixels leaves, so that differences of one place show.
 """
 import argparse
