@@ -291,6 +291,17 @@ class Hemisphere {
   Scratch& scratch_ = emptyScratch();
 };
 
+/// Light under a sheet changes over its height, whatever the size of a pixel: a record there reaches as far from its edge and no farther,
+/// but for a quarter of a pixel.
+float reachUnderSheet(const HemisphereSamples& samples, float pixelSize) {
+  constexpr float kUpright = 0.8f;  // cosine
+  constexpr float kFinestPixels = 0.25f;
+  float height = kInfinity;
+  for (size_t i = 0; i < samples.directions.size(); ++i)
+    if (dot(samples.directions[i], samples.normal) > kUpright) height = std::min(height, samples.distances[i]);
+  return std::max(height, kFinestPixels * pixelSize);
+}
+
 }  // namespace
 
 IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point,
@@ -300,6 +311,7 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
   IrradianceRecord record = summarize(samples);
   record.position = point.position;
   record.pixelSize = point.pixelSize;
+  if (!settings.occlusion) record.limit = reachUnderSheet(samples, point.pixelSize);
   if (settings.curvature) {
     const IrradianceCurvature curvature = curvatureOf(samples);
     std::copy_n(curvature.gradient, 3, record.translationGradient);
