@@ -199,19 +199,28 @@ class GatherPass {
     std::vector<IrradianceEstimate> known(places.size());
     state_.caches[cache].cache.lookup(places, known.data());
     for (size_t i = 0; i < asked.size(); ++i)
-      if (known[i].weight < kEnough || known[i].disputed || (isLight(cache) && isUnderSheet(asked[i].point, known[i].closest))) out.push_back(asked[i]);
+      if (known[i].weight < kEnough || (!state_.cachesGiven && wantsItsOwn(cache, asked[i].point, known[i]))) out.push_back(asked[i]);
+  }
+
+  // What was given is appended to, not refined.
+  bool wantsItsOwn(size_t cache, const GatherPoint& p, const IrradianceEstimate& known) const {
+    return known.disputed || (isLight(cache) && isUnderSheet(cache, p, known.closest));
   }
 
   // Records in front of a slot that is narrower than they reach see the sheet over it edge-on, if at all. Of two rays that leave upwards and
   // aside one meets it, even below its very edge.
-  bool isUnderSheet(const GatherPoint& p, float closestOfRecord) const {
+  bool isUnderSheet(size_t cache, const GatherPoint& p, float closestOfRecord) const {
     constexpr float kSlant = 0.70710678f;
+    const GatherSettings& gather = state_.caches[cache].plan.gather;
+    const RayFilter filter{groupsSeenFrom(*tools_->rays, p.group, gather)};
     vec3 tangent, bitangent;
     orthonormalBasis(p.normal, tangent, bitangent);
     const float azimuth = 2 * kPi * unitFloat(hash32(p.key ^ 0x73686565U));
     const vec3 aside = std::cos(azimuth) * tangent + std::sin(azimuth) * bitangent;
     for (const float side : {-kSlant, kSlant}) {
-      Ray ray{p.position, kSlant * p.normal + side * aside, std::min(kSheetPixels * p.pixelSize, kUnmet * closestOfRecord)};
+      Ray ray{p.position, kSlant * p.normal + side * aside, std::min({kSheetPixels * p.pixelSize, kUnmet * closestOfRecord, gather.maxDistance})};
+      ray.spread = spreadOfRays(gather.samples);
+      if (!filter.passesAll()) ray.filter = &filter;
       tools_->rays->prepareOrigin(p.group, p.position, p.edgeLength, ray);
       ray.offset = slantedOffset(ray.offset, kSlant);
       const Hit hit = tools_->rays->closest(ray, kMaskDiffuse);
