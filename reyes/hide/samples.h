@@ -71,6 +71,8 @@ struct SampleBuffer {
   }
   /// Where transparent grids, and solids, note what they cover.
   Films& filmsOf(const RasterGrid& raster) { return raster.inSolid ? crossings : films; }
+  /// Of a pixel.
+  int sampleCount() const { return pattern_.count(); }
   /// Of a sample of a pixel: Film::word.
   uint32_t wordOf(uint32_t pixel, uint32_t sample) const { return pixel * static_cast<uint32_t>(films.wordsOfPixel()) + sample / 64; }
   /// Brings `far` up to date.
