@@ -121,7 +121,10 @@ class Quad {
       : ab_(q.ab, i), ca_(q.ca, i), bd_(q.bd, i), dc_(q.dc, i), bc_(q.bc, i), fold_(all(q.fold[i])),
         foldLimit_(all(q.foldLimit[i])), bx_(all(q.x[1][i])), by_(all(q.y[1][i])), bDepth_(all(q.d[1][i])),
         dMin_(all(q.dMin[i])), dMax_(all(q.dMax[i])), gx0_(all(q.gx0[i])), gy0_(all(q.gy0[i])), gx1_(all(q.gx1[i])),
-        gy1_(all(q.gy1[i])) {}
+        gy1_(all(q.gy1[i])) {
+    const float slope0 = std::abs(q.gx0[i]) + std::abs(q.gy0[i]), slope1 = std::abs(q.gx1[i]) + std::abs(q.gy1[i]);
+    vague_ = vagueDepth(slope0 > slope1 ? slope0 : slope1, q.dMin[i]);
+  }
 
   /// Which samples are covered, and their depth keys.
   HWY_INLINE Mask covers(Floats x, Floats y, Floats& depth) const {
@@ -136,8 +139,10 @@ class Quad {
     depth = hn::Min(hn::Max(d, dMin_), dMax_);
     return hn::Or(in0, in1);
   }
+  float vague() const { return vague_; }
 
  private:
+  float vague_;
   Edge ab_, ca_, bd_, dc_, bc_;
   Floats fold_, foldLimit_, bx_, by_, bDepth_, dMin_, dMax_, gx0_, gy0_, gx1_, gy1_;
 };
