@@ -13,6 +13,8 @@ find_package(nlohmann_json 3 CONFIG REQUIRED)
 find_package(embree 3.13 REQUIRED)
 find_package(hwy 1 CONFIG REQUIRED)
 find_package(OpenEXR 3 CONFIG REQUIRED)
+find_package(TIFF 4.5 REQUIRED)
+find_package(PNG REQUIRED)
 
 # libosd-dev's CMake package stops the configuration over static libraries that it does not contain, so the
 # shared library is named by hand; elsewhere the package's own configuration serves.

@@ -1,5 +1,5 @@
-// Noun: where gather rays have found light much brighter than what is around, as disks and spheres at which later records aim some of
-// their rays. Over reyes/base alone. Radiance and E/pi are luminances here.
+// Noun: where gather rays have found light much brighter than what is around, as rectangles and spheres at which later records aim some
+// of their rays. Over reyes/base alone. Radiance and E/pi are luminances here.
 // Space: that of the caller. Threads: const members may be called concurrently.
 #pragma once
 #include <vector>
@@ -25,7 +25,9 @@ class BrightSpots {
   struct Spot {
     vec3 center;
     float radius, radiance;
-    vec3 normal;  ///< Of a disk that shines to that side; 0: a sphere.
+    vec3 normal;                ///< Of a rectangle that shines to that side; 0: a sphere.
+    float found = 1;            ///< Share of its extent in which hits were: around them is a margin.
+    vec3 halfU{0}, halfV{0};    ///< From the rectangle's centre to the middles of two edges, perpendicular.
   };
   /// The same spots for the same finds in the same order.
   void learn(const std::vector<BrightFind>& finds);
@@ -40,11 +42,20 @@ class BrightSpots {
   size_t records_ = 0;
 };
 
-/// Directions from one point to the spots, more towards those from which more light would come if nothing were in between.
+/// Directions from one point to the spots, more towards those from which more light would come.
 class SpotAim {
  public:
+  /// As if nothing were in between.
   SpotAim(const BrightSpots& spots, const vec3& position, const vec3& normal);
-  /// E/pi if nothing hid the spots; 0: there is none to aim at.
+
+  size_t targets() const { return targets_.size(); }
+  /// A direction to where something of one of them was found. xi: uniform in [0,1); unit.
+  vec3 probe(size_t target, const vec2& xi) const;
+  /// Of each target the share of its light that is expected to arrive, in [0,1].
+  void dim(const std::vector<float>& shares);
+  float radiance(size_t target) const { return targets_[target].share / targets_[target].covered; }
+
+  /// E/pi of the spots; 0: there is none to aim at.
   float irradiance() const { return irradiance_; }
   /// Of the cosine-weighted hemisphere, at most: the spots may overlap.
   float coverage() const { return coverage_; }
@@ -54,12 +65,20 @@ class SpotAim {
   float density(const vec3& direction) const;
 
  private:
-  /// A cone of directions, or a disk, whose points are chosen evenly: seen from the side it is much less than the cone around it.
+  /// A cone of directions, or a rectangle, whose points are chosen evenly: seen from the side it is much less than the cone around it.
   struct Target {
-    vec3 path, axis, normal;       ///< To its centre; axis: along it, unit; normal: 0: a cone.
-    float radius2, versine, upTo;  ///< versine: one less the cosine of a cone's half angle; upTo: of the choice
-    float density;                 ///< Over solid angle in a cone, over the area of a disk.
+    vec3 path, axis;        ///< To its centre; axis: along it, unit.
+    vec3 normal, u, v;      ///< As Spot's; normal 0: a cone.
+    float found, versine;   ///< versine: one less the cosine of a cone's half angle.
+    float share, covered;   ///< Of irradiance() and coverage().
+    float upTo = 0;         ///< Of the choice.
+
+    vec3 toward(const vec2& xi) const;
+    /// Of a cone over solid angle, of a rectangle over area.
+    float density() const;
   };
+  void settle();
+
   std::vector<Target> targets_;
   float irradiance_ = 0, coverage_ = 0;
 };

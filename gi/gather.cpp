@@ -15,6 +15,9 @@ constexpr float kContrast = 4;  ///< Between neighbours of a cell, in means of t
 constexpr int kMostSplit = 8;
 constexpr float kMostAimed = 0.5f;  ///< Rays at bright spots, for each of the hemisphere.
 constexpr size_t kLeastAimed = 8;
+constexpr size_t kRaysOfProbe = 8;  ///< Of the hemisphere, for each ray that finds out whether a spot can be seen.
+constexpr size_t kLeastPerSpot = 4;   ///< Rays of the hemisphere; with fewer, probes would cost too much.
+constexpr float kLeastShare = 0.05f;  ///< Of the light of a spot, when its probes have seen none: they are few.
 constexpr float kFoundByChance = 160;  ///< Rays of the hemisphere on spheres around spots: so many find out without help.
 
 const BrightSpots kNoSpots;
@@ -33,6 +36,7 @@ struct Scratch {
   std::vector<vec3> fineDirections, fine;          ///< more of some cells,
   std::vector<vec3> aimedDirections, aimed;        ///< and those at bright spots.
   std::vector<int> fineCells, aimedCells, raysOfCell;
+  std::vector<float> shares;                       ///< Of the light of bright spots that arrive.
   std::vector<CellSpread> spread;
 };
 
@@ -213,10 +217,30 @@ class Hemisphere {
     see(stats, scratch_.fine, scratch_.fineCells.size());
   }
 
+  /// What arrives of the light of each spot: something may be in between, or it shines elsewhere. These rays count for no light, so that
+  /// where to aim does not depend on what counts.
+  void probe(Stats& stats) {
+    const size_t targets = aim_.targets();
+    if (targets == 0 || count_ < kLeastPerSpot * targets) return;
+    const size_t probes = std::max<size_t>(1, count_ / (kRaysOfProbe * targets));
+    for (size_t i = 0; i < targets * probes; ++i) {
+      const vec3 d = aim_.probe(i / probes, sobol2(static_cast<uint32_t>(i), key_ ^ 0x70726f62U));
+      const vec3 local{dot(d, tangent_), dot(d, bitangent_), dot(d, point_.normal)};
+      if (local.z > 0) add(static_cast<int>(i), cellOf(cells_, local), local, 4 * count_);
+    }
+    see(stats, scratch_.aimed, targets * probes);
+    scratch_.shares.assign(targets, 0);
+    for (size_t i = 0; i < scratch_.aimed.size(); ++i)
+      scratch_.shares[i / probes] += luminance(scratch_.aimed[i]) / (aim_.radiance(i / probes) * static_cast<float>(probes));
+    for (float& share : scratch_.shares) share = std::clamp(share, kLeastShare, 1.0f);
+    aim_.dim(scratch_.shares);
+  }
+
   /// More rays the more of the light is expected from the spots. What this hemisphere has seen of them has no say in it.
   void aim(Stats& stats) {
     scratch_.aimedDirections.clear(), scratch_.aimedCells.clear();
     aims_ = 0;
+    probe(stats);
     if (aim_.irradiance() > 0 && std::isfinite(aim_.irradiance()) && aim_.coverage() * static_cast<float>(count_) < kFoundByChance)
       aims_ = static_cast<size_t>(kMostAimed * static_cast<float>(count_) * aim_.irradiance() / (aim_.irradiance() + dimIrradiance()));
     if (aims_ < kLeastAimed) aims_ = 0;
@@ -285,7 +309,7 @@ class Hemisphere {
   const RayTimes times_;
   const BrightSpots& spots_;
   const HitRadiance* known_;
-  const SpotAim aim_;
+  SpotAim aim_;
   RayFilter filter_;
   Ray first_{point_.position, point_.normal, settings_.maxDistance};
   vec3 tangent_, bitangent_;

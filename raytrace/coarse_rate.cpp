@@ -14,13 +14,15 @@ constexpr float kTurn = 15 * kPi / 180;   ///< Radians between the normals at th
 constexpr float kMostTurn = 100 * kPi / 180;  ///< However small: half a circle of one polygon would be its diameter, without area.
 constexpr float kEmitterTurn = 5 * kPi / 180;  ///< Brings the area of a sphere light within 0.5 %.
 constexpr int kProbes = 5;                     ///< Odd, so that a symmetrical wave is not met at its zeros.
+constexpr double kRounding = 1e-3;
 constexpr double kMostQuads = 1 << 20, kMostQuadsOfLevels = 1 << 22;  ///< Of a patch; levels are diced where rays come.
 
 float angleBetween(const vec3& a, const vec3& b) {
   return std::acos(std::clamp(dot(normalizeOr(a, vec3(0)), normalizeOr(b, vec3(0))), -1.0f, 1.0f));
 }
 
-/// Longest lattice line of a patch, in pixels, and the most that the normal turns along one.
+/// Longest lattice line of a patch, in pixels, and the most that the normal turns along one, or the line itself: the rim of a disk turns
+/// within its plane.
 struct LineFigures {
   float length_px = 0, turn = 0;
 };
@@ -29,6 +31,8 @@ LineFigures linesOf(const Grid& g, const Camera& camera, int alongStride, int ac
   LineFigures out;
   for (int line = 0; line <= kProbes; ++line) {
     LineFigures sum;
+    float bend = 0;
+    vec3 chord(0);
     for (int k = 0; k < kProbes; ++k) {
       const int a = line * acrossStride + k * alongStride, b = a + alongStride;
       const vec3 p = g.position(0, a), q = g.position(0, b);
@@ -37,9 +41,11 @@ LineFigures linesOf(const Grid& g, const Camera& camera, int alongStride, int ac
       const float pixel = std::max(camera.pixelSize(0.5f * (p + q)), camera.pixelSize(0.5f * (q - p)));
       sum.length_px += glm::length(q - p) / std::max(pixel, 1e-20f);
       sum.turn += angleBetween(g.normal(a), g.normal(b));
+      if (k > 0 && chord != vec3(0) && q != p) bend += angleBetween(chord, q - p);
+      chord = q - p;
     }
     out.length_px = std::max(out.length_px, sum.length_px);
-    out.turn = std::max(out.turn, sum.turn);
+    out.turn = std::max({out.turn, sum.turn, bend * kProbes / (kProbes - 1)});
   }
   return out;
 }
@@ -112,7 +118,7 @@ class PatchLines {
     if (fineness.least_px > 0) n = std::min(n, double{f.length_px} / fineness.least_px);
     n = std::max(n, double{f.turn} / kMostTurn);
     if (byPixels_) n = std::max(n, double{f.length_px} / fineness.edge_px);
-    return std::isfinite(n) ? std::max(1.0, std::ceil(n)) : 1.0;
+    return std::isfinite(n) ? std::max(1.0, std::ceil(n - kRounding)) : 1.0;
   }
 
   const Object& object_;

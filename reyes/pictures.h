@@ -1,7 +1,7 @@
-// Noun: pictures in files, as a library behind a door sees them. OpenImageIO brings 260 shared libraries along, which cost 0.15 s
-// to link and are not needed to render a scene to OpenEXR: so it lives in a module of its own (reyes/pictures/module.cpp) that is
-// loaded when something is first asked of it.
-// Threads: concurrent calls are safe, but for those of one reader or writer.
+// Noun: pictures that are read, as a library behind a door sees them. OpenImageIO brings 260 shared libraries along, which cost 0.15
+// to 0.25 s to link and are not needed to render a scene without textures: so it lives in a module of its own
+// (reyes/pictures/module.cpp) that is loaded when something is first asked of it. Pictures are written by reyes/image.
+// Threads: concurrent calls are safe, but for those of one reader.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -31,24 +31,6 @@ class PictureReader {
   virtual bool read(int first, int end, float* out) = 0;
   /// How many samples each pixel has, then all their channels. False: error() says why.
   virtual bool readDeep(std::vector<uint32_t>& counts, std::vector<float>& values) = 0;
-  virtual std::string error() const = 0;
-};
-
-enum class PixelType { UInt8, UInt16, Float };
-
-struct PictureFormat {
-  std::string name;  ///< "tiff", "png"
-  PixelType type = PixelType::UInt8;
-  bool unassociatedAlpha = false;
-  std::string compression;
-};
-
-class PictureWriter {
- public:
-  virtual ~PictureWriter() = default;
-  /// Rows [y0, y1), pixels of the format's type. False: error() says why; likewise below.
-  virtual bool write(int y0, int y1, const void* pixels) = 0;
-  virtual bool close() = 0;
   virtual std::string error() const = 0;
 };
 
@@ -104,8 +86,6 @@ class PictureLibrary {
   virtual ~PictureLibrary() = default;
   /// Null: `error` says why; likewise below.
   virtual std::unique_ptr<PictureReader> open(const std::string& path, std::string& error) const = 0;
-  virtual std::unique_ptr<PictureWriter> create(const std::string& path, const PictureShape& shape, const PictureFormat& format,
-                                                std::string& error) const = 0;
   virtual std::unique_ptr<TextureCache> textures(const TextureSettings& settings) const = 0;
   /// Writes to a temporary name, then renames. A cube becomes a latitude-longitude picture, which is what environment lookups read.
   /// False: `error` says why, and no file is left behind.

@@ -15,6 +15,7 @@ constexpr float kUncertain = 0.1f, kDark = 0.1f;
 constexpr float kShareOfRecords = 0.5f;
 constexpr double kUncertainLight = 0.25;
 constexpr double kShareOfStarts = 0.42;
+constexpr int64_t kFewStarts = 10'000;  // rays of a few points
 constexpr size_t kFewRecords = 32;  // say nothing about the whole
 
 }  // namespace
@@ -79,7 +80,7 @@ void warnOfThinWalls(const RayScene& rays, Log& log) {
   const Scene& scene = rays.scene();
   for (const auto& [group, starts] : rays.starts()) {
     const int example = scene.groups[static_cast<size_t>(group)].exampleObject;
-    if (example < 0 || static_cast<double>(starts.crowded) <= kShareOfStarts * static_cast<double>(starts.rays)) continue;
+    if (example < 0 || starts.rays < kFewStarts || static_cast<double>(starts.crowded) <= kShareOfStarts * static_cast<double>(starts.rays)) continue;
     const Object& o = scene.objects[static_cast<size_t>(example)];
     log.report(Severity::Warning, "offset-thin", o.where,
                fmt::format("{}: {:.0f} % of the rays that leave it start where two surfaces are nearer to each other than rays know them to lie; light may "

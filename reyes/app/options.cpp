@@ -19,6 +19,7 @@ void addOutput(CLI::App& app, RenderSettings& s) {
             "Write here instead of to the first Display; # stands for the frame number. PNG: rgb, sRGB. A "
             "scene without Display writes "
             "ri.exr");
+  app.add_flag("--one-picture", s.onePicture, "With -o: leave out the scene's other Displays, shadow maps excepted")->needs("-o");
 }
 
 void addCrop(CLI::App& app, RenderSettings& s) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <set>
 
 #include "reyes/output.h"
@@ -60,9 +61,10 @@ bool isMap(const DisplayCall& d) { return writesShadowMap(d) || d.type == "deeps
 
 /// -o replaces the first Display that is no map for later frames; a frame of such maps alone keeps them all. PNG is for looking at: no alpha, and sRGB unless the scene's Exposure
 /// encodes already.
-void overrideOutput(Options& options, const std::string& output) {
+void overrideOutput(Options& options, const std::string& output, bool onePicture) {
   const auto first = std::find_if_not(options.displays.begin(), options.displays.end(), isMap);
   if (first == options.displays.end()) return;
+  if (onePicture) options.displays.erase(std::remove_if(first + 1, options.displays.end(), std::not_fn(isMap)), options.displays.end());
   DisplayCall& display = *first;
   display.name = withFrameNumber(output, options.frame);
   display.type = "file";
@@ -180,7 +182,7 @@ void applyOverrides(Scene& scene, const RenderSettings& settings) {
     o.xSamples = (*settings.pixelSamples)[0], o.ySamples = (*settings.pixelSamples)[1];
   if (settings.bucketSize) o.bucketWidth = o.bucketHeight = *settings.bucketSize;
   if (o.displays.empty()) o.displays.emplace_back();
-  if (namesPicture(settings.output)) overrideOutput(o, settings.output);  // else it is a .dfb or .icf
+  if (namesPicture(settings.output)) overrideOutput(o, settings.output, settings.onePicture);  // else it is a .dfb or .icf
   if (settings.shadingRate)
     changeAttributes(scene, [&](Attributes& a) { a.shadingRate = *settings.shadingRate; });
   if (tracesFullGeometry(settings))

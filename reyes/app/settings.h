@@ -16,6 +16,7 @@ enum class GiChoice { Scene, None, Gather, Atlas, Points, Radiosity, Baked, Refe
 struct RenderSettings {
   std::vector<std::string> files;  ///< One RIB stream; "-" is standard input.
   std::string output;              ///< Empty: the scene's Displays.
+  bool onePicture = false;         ///< Displays beside `output` are left out.
   int threads = 0;                 ///< 0: as many as the machine has.
   std::optional<std::array<int, 2>> format, pixelSamples;
   std::optional<std::array<float, 4>> crop;  ///< xmin xmax ymin ymax, 0..1

@@ -29,15 +29,20 @@ float exposed(float value, float gain, float gamma) {
   return gamma == 1 ? value : std::pow(std::max(value, 0.0f), 1 / gamma);
 }
 
-// PNG wants colour that is not multiplied by alpha, and encodes that.
+void divideByAlpha(Image& image) {
+  const int alpha = image.channelIndex("A");
+  const size_t channels = image.channels.size();
+  for (size_t i = 0; alpha >= 0 && i < image.pixels.size(); i += channels) {
+    const float a = image.pixels[i + static_cast<size_t>(alpha)];
+    for (size_t c = 0; c < channels; ++c)
+      if (static_cast<int>(c) != alpha) image.pixels[i + c] = a > 0 ? image.pixels[i + c] / a : 0.0f;
+  }
+}
+
 void encodeForScreen(Image& image) {
   const int alpha = image.channelIndex("A");
-  for (size_t i = 0; i < image.pixels.size(); i += image.channels.size()) {
-    const float a = alpha < 0 ? 1.0f : image.pixels[i + static_cast<size_t>(alpha)];
-    for (size_t c = 0; c < image.channels.size(); ++c)
-      if (static_cast<int>(c) != alpha)
-        image.pixels[i + c] = encodeSrgb(a > 0 ? image.pixels[i + c] / a : 0.0f);
-  }
+  for (size_t i = 0; i < image.pixels.size(); ++i)
+    if (static_cast<int>(i % image.channels.size()) != alpha) image.pixels[i] = encodeSrgb(image.pixels[i]);
 }
 
 }  // namespace
@@ -145,7 +150,7 @@ struct DisplayFile::Impl {
       wide = false;
     }
     screen = displayText(display, "transfer") == "srgb" && !anyDepth;
-    format.unassociatedAlpha = screen;
+    format.unassociatedAlpha = screen || (format.name == "png" && !anyDepth);
     format.type = wide ? SampleType::UInt16 : SampleType::UInt8;
     return true;
   }
@@ -166,6 +171,7 @@ struct DisplayFile::Impl {
   bool write(const Image& rows) {
     if (!file) return false;
     Image out = picked(rows);
+    if (format.unassociatedAlpha) divideByAlpha(out);
     if (screen) encodeForScreen(out);
     if (!quantizers.empty()) quantise(out, quantizers, format.type == SampleType::UInt16 ? 65535.0f : 255.0f);
     return file->write(out) || report();
@@ -240,8 +246,9 @@ bool writeImage(const std::string& path, const Image& image, bool srgb, Log& log
   }
   Image copy = image;
   if (format.type == SampleType::UInt8) {
+    format.unassociatedAlpha = srgb || format.name == "png";
+    if (format.unassociatedAlpha) divideByAlpha(copy);
     if (srgb) encodeForScreen(copy);
-    format.unassociatedAlpha = srgb;
     quantise(copy, std::vector<Quantize>(copy.channels.size(), Quantize{255, 0, 255, 0}), 255);
   }
   PictureFile file(path, copy, format);

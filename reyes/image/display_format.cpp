@@ -14,6 +14,7 @@ FileFormat formatOfType(const std::string& type) {
 }
 
 constexpr std::string_view kCompressions[] = {"none", "rle", "zip", "zips", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
+constexpr std::string_view kOnlyExr[] = {"exrpixeltype", "type", "tiled", "multipart", "chromaticities", "mergedepth", "mergeopacity"};
 constexpr std::string_view kHeader = "exrheader_";
 
 bool knowsParam(const std::string& name) {
@@ -63,6 +64,22 @@ void setExr(const DisplayCall& display, FileFormat& format) {
   format.metadata = metadataOf(display);
 }
 
+/// TIFF takes some of OpenEXR's compressions; what else only OpenEXR has is named.
+void setOther(const DisplayCall& display, FileFormat& format, Log& log) {
+  const auto warn = [&](const char* code, const std::string& what) {
+    log.report(Severity::Warning, code, display.where, "Display \"" + display.name + "\": " + what + "; ignored");
+  };
+  const std::string compression = compressionOf(display);
+  const bool known = compression == "none" || compression == "rle" || compression == "zip" || compression == "zips";
+  if (format.name == "tiff" && known)
+    format.compression = compression;
+  else if (!compression.empty())
+    warn("display-compression", "a file of type " + format.name + " cannot be compressed by \"" + compression + "\"");
+  for (const Param& p : display.params)
+    if (p.name.starts_with(kHeader) || std::find(std::begin(kOnlyExr), std::end(kOnlyExr), p.name) != std::end(kOnlyExr))
+      warn("display-parameter", "only OpenEXR files have \"" + p.name + "\"");
+}
+
 }  // namespace
 
 std::string displayText(const DisplayCall& display, const char* name) {
@@ -101,7 +118,10 @@ FileFormat formatOf(const DisplayCall& display, std::string& path, Log& log) {
     format = {"openexr", SampleType::Float};
     path = std::filesystem::path(path).replace_extension(".exr").string();
   }
-  if (format.name == "openexr") setExr(display, format);
+  if (format.name == "openexr")
+    setExr(display, format);
+  else
+    setOther(display, format, log);
   return format;
 }
 

@@ -1,5 +1,3 @@
-#include "reyes/image/exr_file.h"
-
 #include <ImathMatrix.h>
 #include <ImathVec.h>
 #include <OpenEXR/ImfChannelList.h>
@@ -26,6 +24,7 @@
 #include <system_error>
 
 #include "reyes/base/parallel.h"
+#include "reyes/image/format_writer.h"
 
 namespace tomales {
 namespace {
@@ -138,10 +137,9 @@ class Plane {
   std::vector<float> floats_;
 };
 
-}  // namespace
-
-struct ExrFile::Impl {
-  Impl(const std::string& path, const Image& image, const FileFormat& f)
+class ExrFile : public FormatWriter {
+ public:
+  ExrFile(const std::string& path, const Image& image, const FileFormat& f)
       : shape(image), format(f), parts(partsOf(shape.channels, format.multipart)) {
     errno = 0;
     stream.open(path, std::ios::binary);
@@ -154,15 +152,7 @@ struct ExrFile::Impl {
     file = std::make_unique<Imf::MultiPartOutputFile>(*out, headers.data(), static_cast<int>(headers.size()), false, helpers);
   }
 
-  void check() const {
-    if (!stream) throw std::system_error(errno != 0 ? errno : EIO, std::generic_category());
-  }
-
-  Imath::Box2i windowOf(int y0, int height) const {
-    return {{shape.originX, y0}, {shape.originX + shape.width - 1, y0 + height - 1}};
-  }
-
-  void write(const Image& rows) {
+  void write(const Image& rows) override {
     const size_t channels = rows.channels.size(), pixels = rows.pixels.size() / channels;
     const Imath::Box2i window = windowOf(rows.originY, rows.height);
     for (size_t p = 0; p < parts.size(); ++p) {
@@ -181,20 +171,7 @@ struct ExrFile::Impl {
     check();
   }
 
-  void writeRows(int p, const Imf::FrameBuffer& buffer, int height) {
-    Imf::OutputPart part(*file, p);
-    part.setFrameBuffer(buffer);
-    part.writePixels(height);
-  }
-
-  void writeTiles(int p, const Imf::FrameBuffer& buffer, int y0, int height) {
-    Imf::TiledOutputPart part(*file, p);
-    part.setFrameBuffer(buffer);
-    const int first = (y0 - shape.originY) / format.tile, last = (y0 - shape.originY + height - 1) / format.tile;
-    part.writeTiles(0, part.numXTiles() - 1, first, last);
-  }
-
-  void write(const DeepRows& rows) {
+  void write(const DeepRows& rows) override {
     const size_t channels = shape.channels.size(), samples = rows.values.size() / channels;
     std::vector<unsigned> counts(rows.counts.begin(), rows.counts.end());
     const Imath::Box2i window = windowOf(rows.y0, rows.height);
@@ -220,6 +197,34 @@ struct ExrFile::Impl {
     check();
   }
 
+  void close() override {
+    file.reset();  // writes the table of offsets, and keeps exceptions to itself
+    stream.flush();
+    check();
+  }
+
+ private:
+  void check() const {
+    if (!stream) throw std::system_error(errno != 0 ? errno : EIO, std::generic_category());
+  }
+
+  Imath::Box2i windowOf(int y0, int height) const {
+    return {{shape.originX, y0}, {shape.originX + shape.width - 1, y0 + height - 1}};
+  }
+
+  void writeRows(int p, const Imf::FrameBuffer& buffer, int height) {
+    Imf::OutputPart part(*file, p);
+    part.setFrameBuffer(buffer);
+    part.writePixels(height);
+  }
+
+  void writeTiles(int p, const Imf::FrameBuffer& buffer, int y0, int height) {
+    Imf::TiledOutputPart part(*file, p);
+    part.setFrameBuffer(buffer);
+    const int first = (y0 - shape.originY) / format.tile, last = (y0 - shape.originY + height - 1) / format.tile;
+    part.writeTiles(0, part.numXTiles() - 1, first, last);
+  }
+
   const Image shape;
   const FileFormat format;
   const std::vector<Part> parts;
@@ -228,14 +233,10 @@ struct ExrFile::Impl {
   std::unique_ptr<Imf::MultiPartOutputFile> file;
 };
 
-ExrFile::ExrFile(const std::string& path, const Image& shape, const FileFormat& format) : impl_(new Impl(path, shape, format)) {}
-ExrFile::~ExrFile() = default;
-void ExrFile::write(const Image& rows) { impl_->write(rows); }
-void ExrFile::write(const DeepRows& rows) { impl_->write(rows); }
-void ExrFile::close() {
-  impl_->file.reset();  // writes the table of offsets, and keeps exceptions to itself
-  impl_->stream.flush();
-  impl_->check();
+}  // namespace
+
+std::unique_ptr<FormatWriter> openExr(const std::string& path, const Image& shape, const FileFormat& format) {
+  return std::make_unique<ExrFile>(path, shape, format);
 }
 
 }  // namespace tomales

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cctype>
+#include <cstring>
 #include <filesystem>
 
-#include "reyes/image/exr_file.h"
+#include "reyes/image/format_writer.h"
 #include "reyes/pictures.h"
 
 namespace tomales {
@@ -14,32 +16,34 @@ namespace {
 
 namespace fs = std::filesystem;
 
-PictureShape shapeOf(const Image& image) {
-  return {image.originX,
-          image.originY,
-          image.width,
-          image.height,
-          image.displayWidth > 0 ? image.displayWidth : image.width,
-          image.displayHeight > 0 ? image.displayHeight : image.height,
-          image.channels};
-}
-
-PictureFormat pictureFormat(const FileFormat& format) {
-  const PixelType type = format.type == SampleType::UInt8    ? PixelType::UInt8
-                         : format.type == SampleType::UInt16 ? PixelType::UInt16
-                                                             : PixelType::Float;
-  const std::string best = format.name == "tiff" ? "lzw" : "zip";
-  return {format.name, type, format.unassociatedAlpha, format.compression.empty() ? best : format.compression};
-}
-
 template <class T>
-std::vector<T> integersOf(const Image& image) {
-  std::vector<T> pixels(image.pixels.size());
-  std::transform(image.pixels.begin(), image.pixels.end(), pixels.begin(), [](float v) { return static_cast<T>(v); });
-  return pixels;
+void pack(const Image& rows, std::byte* out) {
+  for (size_t i = 0; i < rows.pixels.size(); ++i) {
+    const T value = static_cast<T>(rows.pixels[i]);
+    std::memcpy(out + i * sizeof(T), &value, sizeof(T));
+  }
+}
+
+std::unique_ptr<FormatWriter> openFormat(const std::string& path, const Image& shape, const FileFormat& format) {
+  if (format.name == "openexr") return openExr(path, shape, format);
+  return format.name == "tiff" ? openTiff(path, shape, format) : openPng(path, shape, format);
 }
 
 }  // namespace
+
+std::vector<std::byte> packed(const Image& rows, SampleType type) {
+  const size_t bytes = type == SampleType::UInt8 ? 1 : type == SampleType::UInt16 ? 2 : 4;
+  std::vector<std::byte> out(rows.pixels.size() * bytes);
+  if (bytes == 1)
+    pack<uint8_t>(rows, out.data());
+  else if (bytes == 2)
+    pack<uint16_t>(rows, out.data());
+  else
+    pack<float>(rows, out.data());
+  return out;
+}
+
+void FormatWriter::write(const DeepRows&) { throw std::runtime_error("only OpenEXR holds deep pixels"); }
 
 FileFormat formatOfExtension(const std::string& path) {
   std::string extension = fs::path(path).extension().string();
@@ -61,37 +65,20 @@ struct PictureFile::Impl {
   bool open() {
     std::error_code none;
     if (!target.has_filename() || fs::is_directory(target, none)) return fail("the name is that of a directory");
-    if (format.name == "openexr")
-      return guarded([&] { exr = std::make_unique<ExrFile>(temporary.string(), shape, format); });
-    std::string error;
-    if (const PictureLibrary* library = pictureLibrary(error))
-      other = library->create(temporary.string(), shapeOf(shape), pictureFormat(format), error);
-    return other || fail(error);
+    return guarded([&] { writer = openFormat(temporary.string(), shape, format); });
   }
 
-  bool write(const Image& rows) {
-    if (exr) return guarded([&] { exr->write(rows); });
-    if (format.type == SampleType::UInt8) return put(rows, integersOf<uint8_t>(rows).data());
-    if (format.type == SampleType::UInt16) return put(rows, integersOf<uint16_t>(rows).data());
-    return put(rows, rows.pixels.data());
-  }
-  bool write(const DeepRows& rows) {
-    return guarded([&] { exr->write(rows); });
-  }
-  bool put(const Image& rows, const void* pixels) {
-    return other->write(rows.originY, rows.originY + rows.height, pixels) || fail(other->error());
+  template <class Rows>
+  bool write(const Rows& rows) {
+    return guarded([&] { writer->write(rows); });
   }
 
   bool close() {
-    if (failed || !closeFile()) return false;
+    if (failed || !guarded([&] { writer->close(); })) return false;
     std::error_code error;
     fs::rename(temporary, target, error);
     if (error) return fail(error.message());
     return done = true;
-  }
-  bool closeFile() {
-    if (exr) return guarded([&] { exr->close(); });
-    return other->close() || fail(other->error());
   }
 
   template <class Write>
@@ -112,8 +99,7 @@ struct PictureFile::Impl {
   const fs::path target, temporary;
   const Image shape;
   const FileFormat format;
-  std::unique_ptr<ExrFile> exr;
-  std::unique_ptr<PictureWriter> other;  ///< Of every other format.
+  std::unique_ptr<FormatWriter> writer;
   std::string problem;
   bool failed = false, done = false;
 };
@@ -125,7 +111,7 @@ PictureFile::PictureFile(const std::string& path, const Image& shape, const File
 
 PictureFile::~PictureFile() {
   if (impl_->done) return;
-  impl_->exr.reset(), impl_->other.reset();
+  impl_->writer.reset();
   std::error_code none;
   fs::remove(impl_->temporary, none);
 }

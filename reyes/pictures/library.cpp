@@ -5,6 +5,7 @@
 
 #include "reyes/base/process.h"
 #include "reyes/pictures.h"
+#include "reyes/pictures/exr_reader.h"
 
 namespace tomales {
 namespace {
@@ -45,6 +46,8 @@ bool makeTexture(const TextureRecipe& recipe, std::string& error) {
 }
 
 std::unique_ptr<PictureReader> openPicture(const std::string& path, std::string& error) {
+  error.clear();
+  if (auto exr = openExrPicture(path, error); exr || !error.empty()) return exr;
   const PictureLibrary* library = pictureLibrary(error);
   return library ? library->open(path, error) : nullptr;
 }

@@ -1,13 +1,18 @@
 """Error of indirect light against CPU seconds, ours beside POV-Ray's radiosity and Cycles' path tracing, on the same rooms.
 
-    tests/bench/peers.py build/release/tomales [--size 256] [--rooms cornell interior] [--programs tomales povray cycles] [--json out.json]
+    tests/bench/peers.py build/release/tomales [--size 512] [--rooms cornell interior] [--programs tomales povray cycles] [--json out.json]
 
 Debian's packages: povray blender time python3-numpy python3-openimageio. One thread each. Seconds: user and system time above the same program's
-render of direct light alone (of Cycles, which has no use for direct light alone: above its start). Error: mean |test - truth| / (truth + 1 % of the mean) of the indirect light, over the pixels that see one shape;
-the truth is ours of many samples, and how far the other programs' own best is from it is printed first, a check on the physics.
+render of direct light alone (of Cycles, which has no use for direct light alone: above its start). Error: mean |test - truth| / (truth + 1 % of the mean) of the indirect light, over the pixels that see one shape,
+in windows of 16 x 16 pixels. The truth is ours of many paths, in two halves, which say how noisy it is; that noise is taken off every error (in squares, as noises that are independent add up). Where a
+program that errs by noise alone was not rendered long enough, the seconds to an error are extrapolated (four times the paths, half the error), and marked ~.
+
+How far the programs are from each other is printed first, a check on the physics: the difference of the means and its standard error; and the root mean square difference of blocks of 16 x 16 pixels beside what
+the noise of their pixels leaves, so that differences of one place show.
 """
 import argparse
 import json
+import math
 import pathlib
 import subprocess
 import sys
@@ -20,7 +25,10 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent / "peers"))
 import programs  # noqa: E402
 import rooms  # noqa: E402
 
-POV_SETTINGS = [(40, 0.6, 5), (100, 0.4, 6), (250, 0.25, 8)]  # count, error_bound, nearest_count
+POV_SETTINGS = [(40, 0.6, 5), (100, 0.4, 6), (250, 0.25, 8), (500, 0.2, 12)]  # count, error_bound, nearest_count
+OUR_STEPS = [(100, 3, 30000), (200, 2, 100000), (400, 1.4, 300000), (800, 1, 600000)]  # samples, maxerror, photons
+WINDOW, WINDOWS_A_SIDE = 16, 5
+ASKED_ERROR = 0.02
 
 
 def run(command, cwd):
@@ -60,12 +68,50 @@ class Bench:
         parts = {k: read(self.folder / "out_cycles.exr", f"ViewLayer.{k}.") for k in ("DiffDir", "DiffInd", "DiffCol")}
         return parts["DiffDir"] * parts["DiffCol"], parts["DiffInd"] * parts["DiffCol"], cpu, memory
 
+    def corners(self):
+        """Upper left pixels of the windows: one in the middle of each cell of a lattice."""
+        step = self.size / WINDOWS_A_SIDE
+        return [(round((i + 0.5) * step - WINDOW / 2), round((j + 0.5) * step - WINDOW / 2)) for j in range(WINDOWS_A_SIDE) for i in range(WINDOWS_A_SIDE)]
+
+    def in_windows(self, image):
+        return numpy.concatenate([image[y:y + WINDOW, x:x + WINDOW][self.mask[y:y + WINDOW, x:x + WINDOW]] for x, y in self.corners()])
+
+    def truth(self, bounces, paths):
+        """Indirect light in the windows, and its noise."""
+        halves = []
+        for seed in (71, 72):
+            image = numpy.zeros((self.size, self.size, 3), numpy.float32)
+            for x, y in self.corners():
+                crop = ",".join(f"{v / self.size:.9g}" for v in (x, x + WINDOW, y, y + WINDOW))
+                part = self.ours("--gi", "reference", "--bounces", bounces, "--samples", paths // 2, "--indirect-only", "--light-seed", seed, "--crop", crop)[0]
+                image[y:y + WINDOW, x:x + WINDOW] = part[:WINDOW, :WINDOW] if part.shape[0] < self.size else part[y:y + WINDOW, x:x + WINDOW]
+            halves.append(self.in_windows(image))
+        mean = (halves[0] + halves[1]) / 2
+        return mean, relative(halves[0] - halves[1], mean) / 2
+
     def error(self, test, truth):
-        test, truth = test[self.mask], truth[self.mask]
-        return float(numpy.mean(numpy.abs(test - truth) / (truth + 0.01 * truth.mean())))
+        """Its noise taken off."""
+        mean, noise = truth
+        return math.sqrt(max(relative(self.in_windows(test) - mean, mean)**2 - noise**2, 0))
 
     def bias(self, test, truth):
-        return float(test[self.mask].mean() / truth[self.mask].mean() - 1)
+        return float(self.in_windows(test).mean() / truth[0].mean() - 1)
+
+    def difference(self, test, truth):
+        """Of the means, its standard error, rms of blocks, and what noise leaves there; all relative to the mean."""
+        scale = truth[self.mask].mean()
+        d = numpy.where(self.mask[..., None], test - truth, numpy.nan).mean(-1) / scale
+        blocks = [d[y:y + WINDOW, x:x + WINDOW] for y in range(0, self.size, WINDOW) for x in range(0, self.size, WINDOW)]
+        blocks = [b[~numpy.isnan(b)] for b in blocks]
+        blocks = [b for b in blocks if b.size > WINDOW * WINDOW // 2]
+        # neighbouring pixels have the same light but for noise, so that half of the square of their difference is its variance
+        variance = numpy.nanmean((d[:, 1:] - d[:, :-1])**2) / 2
+        counts = numpy.array([b.size for b in blocks])
+        return (float(numpy.nanmean(d)), math.sqrt(variance / self.mask.sum()), math.sqrt(numpy.mean([b.mean()**2 for b in blocks])), math.sqrt(numpy.mean(variance / counts)))
+
+
+def relative(difference, truth):
+    return float(numpy.mean(numpy.abs(difference) / (truth + 0.01 * truth.mean())))
 
 
 def radiosity(count, error_bound, nearest, bounces):
@@ -73,10 +119,11 @@ def radiosity(count, error_bound, nearest, bounces):
             "pretrace_start 0.08 pretrace_end 0.005 always_sample off brightness 1")
 
 
-def measure(bench, bounces, who, truth_samples):
+def measure(bench, bounces, who, truth_paths, paths, pov_settings):
     rows = []
-    reference = ["--gi", "reference", "--bounces", bounces]
-    truth = bench.ours(*reference, "--samples", truth_samples, "--indirect-only", "--seed", 7)[0]
+    truth = bench.truth(bounces, truth_paths)
+    print(f"\n{bench.room.name}, {bounces} bounces; the truth's own noise: {100 * truth[1]:.2f} %\n\n"
+          "| room | bounces | program | setting | error | bias | CPU s above direct | MB |\n|---|---|---|---|---|---|---|---|")
 
     def add(program, setting, indirect, cpu, memory):
         rows.append({"room": bench.room.name, "bounces": bounces, "program": program, "setting": setting, "error": bench.error(indirect, truth),
@@ -85,63 +132,97 @@ def measure(bench, bounces, who, truth_samples):
         print(f"| {r['room']} | {bounces} | {program} | {setting} | {100 * r['error']:.2f} % | {100 * r['bias']:+.2f} % | {cpu:.2f} | {memory:.0f} |", flush=True)
 
     if "tomales" in who:
-        _, direct_cpu, _ = bench.ours("--gi", "none")
+        direct, direct_cpu, _ = bench.ours("--gi", "none")
 
-        def ours(name, *options):
-            image = bench.ours(*options, "--indirect-only")[0]
-            _, cpu, memory = bench.ours(*options)
-            add(f"tomales {name}", " ".join(map(str, options[2:])), image, cpu - direct_cpu, memory)
+        def ours(name, setting, *options):
+            image, cpu, memory = bench.ours("--bounces", bounces, *options)
+            add(f"tomales {name}", setting, image - direct, cpu - direct_cpu, memory)
 
-        for samples in (16, 64, 256):
-            ours("reference", *reference, "--samples", samples)
-        for max_error, samples in ((2, 150), (1, 300), (0.5, 600), (0.25, 1200)):
-            if bounces == 1:
-                ours("gather", "--gi", "gather", "--samples", samples, "--max-error", max_error)
-            else:
-                ours("atlas", "--gi", "atlas", "--samples", samples, "--max-error", max_error, "--photons", samples * 2000)
+        for samples in paths:
+            ours("reference", f"{samples} paths", "--gi", "reference", "--samples", samples)
+        for samples, max_error, photons in OUR_STEPS:
+            ours("gather", f"`--samples {samples} --max-error {max_error}`", "--gi", "gather", "--samples", samples, "--max-error", max_error)
+            if bounces > 1:
+                ours("atlas", f"the same, `--photons {photons}`", "--gi", "atlas", "--samples", samples, "--max-error", max_error, "--photons", photons)
     if "povray" in who:
         direct, direct_cpu, _ = bench.povray(None)
-        for setting in POV_SETTINGS:
+        for setting in POV_SETTINGS[:pov_settings]:
             image, cpu, memory = bench.povray(radiosity(*setting, min(bounces, 20)))
             add("POV-Ray radiosity", "count {} error_bound {} nearest_count {}".format(*setting), image - direct, cpu - direct_cpu, memory)
     if "cycles" in who:
         start_cpu = bench.cycles(1, 0)[2]
-        for samples in (16, 64, 256):
+        for samples in paths:
             _, indirect, cpu, memory = bench.cycles(samples, bounces)
             add("Cycles", f"{samples} samples", indirect, cpu - start_cpu, memory)
     return rows
 
 
-def agreement(bench, bounces, samples):
-    """Means of direct and indirect light, all at their best."""
+def seconds_to(rows, error):
+    """On straight lines between points in logarithmic axes, and whether that is an extrapolation; None where it is not reached."""
+    rows = sorted(rows, key=lambda r: r["cpu_s"])
+    for before, after in zip([None] + rows[:-1], rows):
+        if after["error"] <= error:
+            if before is None:
+                return after["cpu_s"], False
+            share = math.log(before["error"] / error) / math.log(before["error"] / max(after["error"], 1e-6))
+            return before["cpu_s"] * (after["cpu_s"] / before["cpu_s"])**share, False
+    last = rows[-1]
+    return (last["cpu_s"] * (last["error"] / error)**2, True) if last["program"] in ("tomales reference", "Cycles") else None
+
+
+def compare(rows):
+    """Seconds to the asked error, and how many times those of our fastest others take."""
+    print(f"\n| room | bounces | program | CPU s to {100 * ASKED_ERROR:g} % |\n|---|---|---|---|")
+    for key in dict.fromkeys((r["room"], r["bounces"], r["program"]) for r in rows):
+        mine = [r for r in rows if (r["room"], r["bounces"], r["program"]) == key]
+        reached = seconds_to(mine, ASKED_ERROR)
+        text = f"{'~' if reached[1] else ''}{reached[0]:.2f}" if reached else f"not reached ({100 * min(r['error'] for r in mine):.1f} % in {max(r['cpu_s'] for r in mine):.1f} s)"
+        print(f"| {key[0]} | {key[1]} | {key[2]} | {text} |", flush=True)
+
+
+def agreement(bench, bounces, paths):
+    """Direct and indirect light of all, at their best."""
+    def say(name, test, truth):
+        mean, uncertain, blocks, noise = bench.difference(test, truth)
+        print(f"| {bench.room.name} | {name} | {100 * mean:+.3f} ± {100 * uncertain:.3f} % | {100 * blocks:.2f} % | {100 * noise:.2f} % |", flush=True)
+
+    print("\n| room | compared with ours | mean | rms of blocks | of these, noise |\n|---|---|---|---|---|")
     direct = bench.ours("--gi", "none")[0]
-    indirect = bench.ours("--gi", "reference", "--bounces", bounces, "--samples", samples, "--indirect-only")[0]
-    c_direct, c_indirect, _, _ = bench.cycles(samples, bounces)
-    p_direct = bench.povray(None, lamps=16)[0]
-    for name, test, truth in (("Cycles, direct", c_direct, direct), ("Cycles, indirect", c_indirect, indirect), ("POV-Ray, direct", p_direct, direct)):
-        print(f"{bench.room.name}, {bounces} bounces: {name}: mean {100 * bench.bias(test, truth):+.3f} %, mean absolute relative difference {100 * bench.error(test, truth):.2f} %",
-              flush=True)
+    pov_direct = bench.povray(None, lamps=16)[0]
+    say("POV-Ray, direct", pov_direct, direct)
+    for b in bounces:
+        indirect = bench.ours("--gi", "reference", "--bounces", b, "--samples", paths, "--indirect-only")[0]
+        c_direct, c_indirect, _, _ = bench.cycles(paths, b)
+        if b == bounces[0]:
+            say("Cycles, direct", c_direct, direct)
+        say(f"Cycles, {b} bounces", c_indirect, indirect)
+        say(f"POV-Ray, {b} bounces", bench.povray(radiosity(*POV_SETTINGS[2], min(b, 20)), lamps=16)[0] - pov_direct, indirect)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("tomales", type=pathlib.Path)
-    parser.add_argument("--size", type=int, default=256)
+    parser.add_argument("--size", type=int, default=512)
     parser.add_argument("--rooms", nargs="+", default=["cornell", "interior"])
-    parser.add_argument("--programs", nargs="+", default=["tomales", "povray", "cycles"])
+    parser.add_argument("--programs", nargs="*", default=["tomales", "povray", "cycles"], help="to measure; none: only whether they agree")
     parser.add_argument("--bounces", nargs="+", type=int, default=[1, 12])
-    parser.add_argument("--truth", type=int, default=2048, help="samples of our reference")
+    parser.add_argument("--truth", type=int, default=8192, help="paths of a pixel of the truth")
+    parser.add_argument("--paths", nargs="+", type=int, default=[16, 64, 256], help="of a pixel, our reference's and Cycles'")
+    parser.add_argument("--pov-settings", type=int, default=len(POV_SETTINGS), help="how many, cheapest first")
+    parser.add_argument("--agreement", type=int, default=0, help="paths of a pixel to see whether the programs agree; 0: not asked")
     parser.add_argument("--json", type=pathlib.Path)
     given = parser.parse_args()
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         for name in given.rooms:
             bench = Bench(given.tomales.resolve(), getattr(rooms, name)(), given.size, pathlib.Path(folder))
-            for bounces in given.bounces:
-                if {"povray", "cycles"} <= set(given.programs):
-                    agreement(bench, bounces, given.truth)
-                print("| room | bounces | program | setting | error | bias | CPU s above direct | MB |\n|---|---|---|---|---|---|---|---|")
-                rows += measure(bench, bounces, given.programs, given.truth)
+            if given.agreement:
+                agreement(bench, given.bounces, given.agreement)
+            if given.programs:
+                for bounces in given.bounces:
+                    rows += measure(bench, bounces, given.programs, given.truth, given.paths, given.pov_settings)
+        if rows:
+            compare(rows)
     if given.json:
         given.json.write_text(json.dumps(rows, indent=1))
 

@@ -1,6 +1,7 @@
 """tomales chart: a page that stands alone, figures beside it, and nothing measured twice."""
 import html.parser
 import json
+import pathlib
 import re
 import shutil
 import signal
@@ -12,6 +13,8 @@ from program import Suite
 
 SCENE = """Format 24 24 1
 PixelSamples 2 2
+Display "scene.exr" "openexr" "rgb"
+Display "+beside.png" "png" "rgb"
 Projection "perspective" "fov" [40]
 Translate 0 0 4
 WorldBegin
@@ -60,17 +63,41 @@ def measured():
     return len(list((suite.folder / "cache").glob("????????????????.json")))
 
 
-first = subprocess.Popen([suite.program, *chart], cwd=suite.folder, stderr=subprocess.PIPE, text=True)
-while measured() < 2 and first.poll() is None:
+def broken_off(by, at):
+    """The exit code of a chart that gets this signal when this much is measured."""
+    process = subprocess.Popen([suite.program, *chart], cwd=suite.folder, stderr=subprocess.PIPE, text=True)
+    while measured() < at and process.poll() is None:
+        time.sleep(0.02)
+    process.send_signal(by)
+    process.communicate(timeout=60)
+    return process.returncode
+
+
+def left_behind():
+    """Programs that still render in this folder."""
+    def folder(process):
+        try:
+            return (process / "cwd").resolve()
+        except OSError:
+            return None
+    return [p.name for p in pathlib.Path("/proc").glob("[0-9]*") if folder(p) == suite.folder.resolve()]
+
+
+code = broken_off(signal.SIGKILL, 1)
+suite.expect(code == -signal.SIGKILL and 1 <= measured() < 9, f"a chart that is killed keeps what was measured ({code}, {measured()})")
+for _ in range(100):
+    if not left_behind():
+        break
     time.sleep(0.02)
-first.send_signal(signal.SIGINT)
-first.communicate(timeout=60)
-suite.expect(first.returncode == 130, f"an interrupted chart ends as one ({first.returncode})")
+suite.expect(not left_behind(), "and takes its renderer with it")
+code = broken_off(signal.SIGINT, 2)
+suite.expect(code == 130, f"an interrupted chart ends as one ({code})")
 kept = measured()
 suite.expect(2 <= kept < 9, f"and keeps what was measured ({kept})")
 
 suite.expect_run("a tiny chart", chart, 0, "reference, batch 2")
 suite.expect(measured() == 9, "measures what is left: a trial, two batches, six settings")
+suite.expect(not (suite.folder / "beside.png").exists(), "leaves the scene's other pictures alone")
 report = json.loads((suite.folder / "report.json").read_text())
 points = report["points"]
 suite.expect(len(points) == 6, "every setting is in the figures")
@@ -102,6 +129,15 @@ suite.expect(all(p["recalled"] for p in again), "recalls everything")
 suite.expect(all(f.stat().st_mtime_ns == t for f, t in before.items()), "and renders nothing anew")
 suite.expect_run("a sweep that does not exist", chart[:4] + ["--sweep", "beauty"], 1, "shadingrate")
 suite.expect_run("a scene that does not exist", ["chart", "no.rib", "-o", "report.html"], 1, "no.rib")
+suite.expect_run("a folder that does not exist", ["chart", "scene.rib", "-o", "no/report.html"], 4, "no/report.html", "no such folder")
+suite.expect_run("a folder for figures that cannot be made", ["chart", "scene.rib", "-o", "report.html", "--cache", "scene.rib/cache"], 4, "scene.rib/cache")
+suite.write("dark.rib", "".join(line + "\n" for line in SCENE.splitlines() if "LightSource" not in line))
+suite.expect_run("a scene without lamps", ["chart", "dark.rib", "-o", "dark.html", *chart[4:]], 2, "black", "needs lamps")
+suite.write("wrong.rib", SCENE.replace('"matte"', '"nonesuch"'))
+suite.expect_run("a scene with a wrong name", ["chart", "wrong.rib", "-o", "wrong.html", *chart[4:]], 0)
+suite.expect("shader-missing" in (suite.folder / "wrong.html").read_text(), "is charted, and its page says what the renderer warned of")
+suite.write("broken.rib", "# nothing\n")
+suite.expect_run("a scene that cannot be rendered", ["chart", "broken.rib", "-o", "broken.html", *chart[4:]], 2, "no reference")
 
 LAB = """##lab title Bars thinner than a pixel
 ##lab knob tenths of a pixel: 9 1

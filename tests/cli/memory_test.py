@@ -72,4 +72,6 @@ suite.expect_run("what can be is not", ["large.rib", "-o", "large.exr", "--memor
 small, large = peak("400x400"), peak("1600x1600")
 print(f"        {small:.0f} MB, {large:.0f} MB")
 suite.expect(large < small + 60, "sixteen times the area takes less than 60 MB more")
+ballast = b"x" * 300_000_000
+suite.expect(peak("400x400") < small + 60, f"what the starting program has in memory ({len(ballast)} bytes) does not count")
 suite.finish()

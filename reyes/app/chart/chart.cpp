@@ -1,13 +1,15 @@
 #include "reyes/app/chart/chart.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
+#include <numeric>
 
+#include "reyes/app/chart/html.h"
 #include "reyes/app/chart/report.h"
 #include "reyes/app/chart/sweeps.h"
 #include "reyes/app/interrupt.h"
@@ -20,10 +22,10 @@ namespace fs = std::filesystem;
 using Arguments = std::vector<std::string>;
 
 constexpr int kPictureSize = 200;
-constexpr double kReferenceShare = 0.4;  ///< Of the budget, before the points.
-constexpr double kBatchShare = 0.06;     ///< Of the budget, of one batch.
-constexpr double kQuiet = 0.25;          ///< A reference with this share of the least error needs no further batches.
-constexpr double kSilent = 1e-4;         ///< A noise floor below which there is nothing to gain.
+constexpr double kBatchShare = 0.05;  ///< Of the budget, of one batch of the reference.
+constexpr int kFirstBatches = 4;      ///< Before the points.
+constexpr double kQuiet = 0.25;       ///< A reference with this share of the least error needs no further batches.
+constexpr double kSilent = 1e-4;      ///< A noise floor below which there is nothing to gain.
 constexpr int kTrialPaths = 64;
 
 Arguments operator+(Arguments a, const Arguments& b) {
@@ -43,6 +45,10 @@ LabSettings labOf(const ChartSettings& s, const ChartSweep& sweep) {
   return {s.folder.empty() ? chartCacheFolder() : s.folder, s.files, sweep.common + sharedArguments(s), s.budget_s};
 }
 
+bool isWritableFolder(const fs::path& folder) {
+  return fs::is_directory(folder.empty() ? "." : folder) && access(folder.empty() ? "." : folder.c_str(), W_OK) == 0;
+}
+
 class Chart {
  public:
   Chart(const ChartSettings& settings, const ChartSweep& sweep)
@@ -54,13 +60,19 @@ class Chart {
     for (const ChartCurve& curve : sweep.curves) report_.curves.push_back(curve.name);
   }
 
+  /// A few batches of the reference, all points, and what is left of the budget for more batches: a chart whose reference is noisy says
+  /// so, and grows quieter when it is asked for again; points that are missing say nothing.
   int run() {
+    const fs::path folder = fs::path(settings_.output).parent_path();
+    if (!isWritableFolder(folder)) return fail(kUnwritable, "\"" + settings_.output + "\" cannot be written: no such folder, or one that must not be written to");
+    if (!isWritableFolder(labSettings_.folder)) return fail(kUnwritable, "\"" + labSettings_.folder + "\" cannot hold what is measured: no folder that can be written to");
     chooseReference();
-    while (reference_.batches() < 2 || (lab_.secondsUsed() < kReferenceShare * settings_.budget_s && reference_.noiseFloor() > kSilent))
-      if (!addBatch()) break;
+    while (reference_.batches() < kFirstBatches && (reference_.batches() < 2 || reference_.noiseFloor() > kSilent) && addBatch()) {}
+    if (reference_.batches() == 0) return fail(interruptExitCode() ? interruptExitCode() : kUnreadable, "no reference: " + lab_.why());
+    if (reference_.isBlack())
+      return fail(kUnreadable, "the reference is black, so there is no error to speak of; the sweep \"" + sweep_.name + "\" needs " + sweep_.needs);
     measure();
     while (!isQuiet() && addBatch()) {}
-    if (reference_.batches() == 0) return fail(kUnreadable, "no reference: " + lab_.why());
     judge();
     if (!write()) return fail(kUnwritable, "\"" + settings_.output + "\" could not be written");
     if (const int code = interruptExitCode()) return code;
@@ -70,7 +82,7 @@ class Chart {
  private:
   int fail(int code, const std::string& why) const {
     log_.report(code == kUnwritable ? Severity::Output : Severity::Error, "chart", {}, why);
-    return interruptExitCode() ? interruptExitCode() : code;
+    return code;
   }
 
   std::string commandLine(const Arguments& arguments) const {
@@ -86,9 +98,9 @@ class Chart {
         continue;
       }
       const std::string text = a.substr(std::string(kPrelude).size());
-      const fs::path file = fs::path(labSettings_.folder) / fmt::format("{:016x}.rib", std::hash<std::string>{}(text));
-      std::ofstream(file) << text << '\n';
-      out.push_back(file.string());
+      const std::string file = (fs::path(labSettings_.folder) / fmt::format("{:016x}.rib", std::hash<std::string>{}(text))).string();
+      writeAtOnce(file, text + '\n');
+      out.push_back(file);
     }
     return lab_.run(out);
   }
@@ -105,10 +117,12 @@ class Chart {
   }
 
   bool addBatch() {
-    if (reference_.batches() >= settings_.batches) return false;
+    if (reference_.batches() >= settings_.batches || batchSeconds_ > lab_.secondsLeft()) return false;
     const auto run = render(referenceArguments_ + Arguments{sweep_.seed, std::to_string(reference_.batches() + 1)});
     if (!run) return false;
     report_.referenceSeconds += run->cpu_s;
+    if (!run->recalled) batchSeconds_ = run->wall_s;
+    takeWarnings(*run);
     std::string error;
     const auto image = readImage(run->picture, error);
     if (!image || !reference_.add(*image)) return false;
@@ -122,28 +136,39 @@ class Chart {
     return reference_.noiseFloor() < std::max(kQuiet * least, kSilent);
   }
 
-  /// The cheapest setting of every method first, so that a small budget leaves no method out.
+  /// The cheapest setting of every method first, and of methods the one that was cheapest last time, so that a small budget leaves as little out
+  /// as it can.
   void measure() {
     size_t steps = 0;
     for (const ChartCurve& curve : sweep_.curves) steps = std::max(steps, curve.settings.size());
-    for (size_t step = 0; step < steps; ++step)
-      for (size_t c = 0; c < sweep_.curves.size(); ++c)
-        if (step < sweep_.curves[c].settings.size()) measure(c, sweep_.curves[c].settings[step]);
+    std::vector<double> last_s(sweep_.curves.size());
+    std::vector<size_t> order(sweep_.curves.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    for (size_t step = 0; step < steps; ++step) {
+      for (const size_t c : order)
+        if (step < sweep_.curves[c].settings.size()) last_s[c] = measure(c, sweep_.curves[c].settings[step]);
+      std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return last_s[a] < last_s[b]; });
+    }
     std::stable_sort(report_.points.begin(), report_.points.end(), [](const ChartPoint& a, const ChartPoint& b) { return a.curve < b.curve; });
   }
 
-  void measure(size_t curve, const Arguments& arguments) {
+  /// CPU seconds; infinite if it could not be measured.
+  double measure(size_t curve, const Arguments& arguments) {
     const auto run = render(arguments);
-    if (!run) {
-      report_.missing.push_back(report_.curves[curve] + ", " + inShort(arguments) + ": " + lab_.why());
-      return;
-    }
-    ChartPoint point{curve, inShort(arguments), commandLine(arguments), *run, {}, false, false, {}, {}};
     std::string error;
-    if (const auto image = readImage(run->picture, error); image && reference_.batches() > 0) point.error = reference_.errorOf(*image);
+    const auto image = run ? readImage(run->picture, error) : std::nullopt;
+    if (!image) {
+      report_.missing.push_back(report_.curves[curve] + ", " + inShort(arguments) + ": " + (run ? error : lab_.why()));
+      return kInfinity;
+    }
+    takeWarnings(*run);
+    ChartPoint point{curve, inShort(arguments), commandLine(arguments), *run, reference_.errorOf(*image), false, false, {}, {}};
     log(report_.curves[curve], fmt::format("{}: {:.3g} % in {:.3g} CPU s{}", point.setting, 100 * point.error.mean, run->cpu_s, run->recalled ? " (recalled)" : ""));
     report_.points.push_back(std::move(point));
+    return run->cpu_s;
   }
+
+  void takeWarnings(const Run& run) { report_.warnings.insert(run.warnings.begin(), run.warnings.end()); }
 
   /// Once the reference is complete.
   void judge() {
@@ -176,6 +201,7 @@ class Chart {
   mutable Log log_;
   Arguments referenceArguments_;
   ChartReference reference_;
+  double batchSeconds_ = 0;  ///< Of the last that was rendered.
   ChartReport report_;
 };
 

@@ -39,20 +39,12 @@ void eachValue(const Image& test, const Image& reference, Visit&& visit) {
     }
 }
 
-/// Mean of some batches, without one of them (-1: of all).
-Image meanOf(const std::vector<Image>& batches, int without) {
-  Image out = blank(batches.front());
-  const float share = 1 / static_cast<float>(static_cast<int>(batches.size()) - (without >= 0));
-  for (int b = 0; b < static_cast<int>(batches.size()); ++b) {
-    if (b == without) continue;
-    const Image& batch = batches[static_cast<size_t>(b)];
-    const auto c = colors(batch);
-    for (int y = 0; y < out.height; ++y)
-      for (int x = 0; x < out.width; ++x) {
-        const vec3 value = colorAt(batch, c, x, y) * share;
-        for (int i = 0; i < 3; ++i) out.at(x, y)[i] += value[i];
-      }
-  }
+/// a * A + b * B, of colours.
+Image blend(float a, const Image& A, float b, const Image& B) {
+  Image out = blank(A);
+  const auto ca = colors(A), cb = colors(B);
+  for (int y = 0; y < out.height; ++y)
+    for (int x = 0; x < out.width; ++x) set(out, x, y, a * colorAt(A, ca, x, y) + b * colorAt(B, cb, x, y));
   return out;
 }
 
@@ -68,8 +60,18 @@ double meanError(const Image& test, const Image& reference) {
 bool ChartReference::add(const Image& batch) {
   if (!batches_.empty() && (batch.width != mean_.width || batch.height != mean_.height)) return false;
   batches_.push_back(batch);
-  mean_ = meanOf(batches_, -1);
+  const float share = 1 / static_cast<float>(batches_.size());
+  mean_ = blend(1 - share, batches_.size() > 1 ? mean_ : batch, share, batch);
   return true;
+}
+
+bool ChartReference::isBlack() const {
+  return std::all_of(mean_.pixels.begin(), mean_.pixels.end(), [](float v) { return v == 0; });
+}
+
+Image ChartReference::meanWithout(size_t batch) const {
+  const float others = static_cast<float>(batches_.size() - 1);
+  return blend((others + 1) / others, mean_, -1 / others, batches_[batch]);
 }
 
 double ChartReference::noiseFloor() const {
@@ -77,7 +79,7 @@ double ChartReference::noiseFloor() const {
   if (n < 2) return kInfinity;
   // A batch is off the mean of the others by its own noise and theirs, sqrt(n + n / (n - 1)) times that of the mean of all.
   double sum = 0;
-  for (int b = 0; b < batches(); ++b) sum += meanError(batches_[static_cast<size_t>(b)], meanOf(batches_, b));
+  for (size_t b = 0; b < batches_.size(); ++b) sum += meanError(batches_[b], meanWithout(b));
   return sum / n / std::sqrt(n + n / (n - 1));
 }
 
@@ -99,7 +101,7 @@ ErrorFigures ChartReference::errorOf(const Image& test) const {
   out.rms = references != 0 ? std::sqrt(squares / count) / (references / count) : 0;
   if (batches() < 2) return out;
   double spread = 0;
-  for (int b = 0; b < batches(); ++b) spread += std::pow(meanError(test, meanOf(batches_, b)) - out.mean, 2);
+  for (size_t b = 0; b < batches_.size(); ++b) spread += std::pow(meanError(test, meanWithout(b)) - out.mean, 2);
   out.confidence = 2 * std::sqrt(spread * (batches() - 1) / batches());
   return out;
 }

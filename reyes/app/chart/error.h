@@ -24,6 +24,7 @@ class ChartReference {
   bool add(const Image& batch);
   int batches() const { return static_cast<int>(batches_.size()); }
   const Image& mean() const { return mean_; }
+  bool isBlack() const;
   /// ErrorFigures::mean of the reference itself, from the spread of its batches. Infinite with fewer than two.
   double noiseFloor() const;
   ErrorFigures errorOf(const Image& test) const;
@@ -31,6 +32,9 @@ class ChartReference {
   Image errorMap(const Image& test, float range) const;
 
  private:
+  /// Mean of all batches but one.
+  Image meanWithout(size_t batch) const;
+
   std::vector<Image> batches_;
   Image mean_;
 };

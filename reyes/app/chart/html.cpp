@@ -17,8 +17,9 @@ body{max-width:1200px;margin:0 auto;padding:0 16px 48px}
 h1{font-size:1.5rem;margin:1.2em 0 .2em}h2{font-size:1.15rem;margin:2em 0 .5em}
 p{max-width:46em;margin:.5em 0}code{font:12px/1.5 ui-monospace,monospace;overflow-wrap:anywhere}
 a{color:#0058a3}
+ul{margin:.3em 0;padding-left:1.2em;font-size:14px}
 .scroll{overflow-x:auto}table{border-collapse:collapse;font-size:14px}
-th,td{padding:3px 10px 3px 0;text-align:right;white-space:nowrap;border-bottom:1px solid #e4e4e4}
+th,td{padding:3px 9px 3px 0;text-align:right;white-space:nowrap;border-bottom:1px solid #e4e4e4}
 th:first-child,td:first-child,td.text,th.text{text-align:left}
 tr.best td:first-child{font-weight:600}
 .plots{display:grid;grid-template-columns:repeat(2,minmax(0,1fr));gap:24px}.plots h2{margin-top:1em}

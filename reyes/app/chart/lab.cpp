@@ -2,7 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -58,26 +58,37 @@ void addContents(const fs::path& path, std::set<fs::path>& seen, std::string& su
   }
 }
 
+/// Of what the renderer said: its first error, or else the first word.
+std::string complaint(const std::string& messages) {
+  const size_t error = messages.find("error"), before = error == std::string::npos ? error : messages.rfind('\n', error);
+  const size_t begin = before == std::string::npos ? 0 : before + 1;
+  return messages.substr(begin, messages.find('\n', begin) - begin);
+}
+
 struct Ended {
   bool good = false;
   std::string why;
-  double cpu_s = 0, wall_s = 0, peakBytes = 0;
+  double cpu_s = 0, wall_s = 0;
 };
 
 double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
 
+/// The child ends with this process, however that ends: nobody would take what it renders. Between fork and exec only calls that are
+/// safe in a signal handler.
 pid_t start(const std::vector<std::string>& arguments, const std::string& messages) {
   std::vector<char*> argv;
   for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
   argv.push_back(nullptr);
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
-  pid_t child = -1;
-  const int failed = posix_spawn(&child, kSelf, &files, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&files);
-  return failed ? -1 : child;
+  const int file = open(messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (file < 0) return -1;
+  const pid_t parent = getpid(), child = fork();
+  if (child == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() == parent && dup2(file, STDOUT_FILENO) >= 0 && dup2(file, STDERR_FILENO) >= 0) execv(kSelf, argv.data());
+    _exit(127);
+  }
+  close(file);
+  return child;
 }
 
 /// Ends the child when this process is interrupted or at the deadline.
@@ -95,7 +106,6 @@ Ended await(pid_t child, Clock::time_point deadline) {
   }
   out.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   out.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
-  out.peakBytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
   out.good = WIFEXITED(status) && (WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == 3);
   if (!out.good && out.why.empty()) out.why = "the renderer failed";
   return out;
@@ -112,7 +122,8 @@ uint64_t contentsOf(const std::vector<std::string>& files) {
 
 Lab::Lab(LabSettings settings)
     : settings_(std::move(settings)), contents_(contentsOf(settings_.scene) ^ sumOf(readAll(kSelf))), start_(Clock::now()) {
-  fs::create_directories(settings_.folder);
+  std::error_code error;
+  fs::create_directories(settings_.folder, error);  // run() says if that failed
 }
 
 double Lab::secondsUsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
@@ -130,7 +141,7 @@ std::optional<Run> Lab::run(const std::vector<std::string>& arguments) {
 
   const std::string unfinished = stem + ".part.exr", statistics = stem + ".stats.json";
   all.insert(all.begin(), {"tomales", "render", "-q"});
-  all.insert(all.end(), {"-o", unfinished, "--stats", statistics});
+  all.insert(all.end(), {"-o", unfinished, "--one-picture", "--stats", statistics});
   all.insert(all.end(), settings_.scene.begin(), settings_.scene.end());
   const pid_t child = start(all, stem + ".log");
   why_ = "the renderer could not be started";
@@ -140,14 +151,18 @@ std::optional<Run> Lab::run(const std::vector<std::string>& arguments) {
   std::error_code error;
   if (ended.good) fs::rename(unfinished, stem + ".exr", error);
   if (!ended.good || error) {
-    if (!interrupted() && why_ != "over the budget") why_ += ": " + readAll(stem + ".log");
+    if (!interrupted() && why_ != "over the budget") {
+      const std::string said = complaint(readAll(stem + ".log"));
+      why_ += said.empty() ? " and said nothing (is \"" + settings_.folder + "\" on a full disk?)" : ": " + said;
+    }
     fs::remove(unfinished, error);
     return std::nullopt;
   }
   const Json counted = Json::parse(readAll(statistics), nullptr, false);
   fs::remove(statistics, error);
-  Run out{arguments, stem + ".exr", ended.cpu_s, ended.wall_s, ended.peakBytes, 0, {}, false};
+  Run out{arguments, stem + ".exr", ended.cpu_s, ended.wall_s, 0, 0, {}, false};
   if (counted.is_object()) {
+    out.peakBytes = counted.value("/memory_bytes/peak_rss"_json_pointer, 0.0);  // wait4() would count this process's memory at the fork
     out.records = counted.value("/irradiance_cache/samples"_json_pointer, int64_t{0});
     for (const Json& w : counted.value("warnings", Json::array())) out.warnings.push_back(w.value("code", ""));
   }

@@ -13,7 +13,7 @@ struct Run {
   std::vector<std::string> arguments;  ///< After those of the laboratory.
   std::string picture;                 ///< Linear EXR, in the laboratory's folder.
   double cpu_s = 0, wall_s = 0;        ///< User and system; of the whole process.
-  double peakBytes = 0;                ///< Resident.
+  double peakBytes = 0;                ///< Resident, as the renderer itself says at its end.
   int64_t records = 0;                 ///< Of the irradiance cache.
   std::vector<std::string> warnings;   ///< Codes of what it said.
   bool recalled = false;               ///< Measured by an earlier process.

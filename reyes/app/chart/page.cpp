@@ -43,7 +43,11 @@ class Page : Markup {
     put("<p>The reference is the mean of {} independent pictures ({:.0f} CPU s) of <code>{}</code>; its own noise is {}.</p>\n", r_.referenceBatches,
         r_.referenceSeconds, escapeXml(r_.referenceCommandLine), std::isfinite(r_.noiseFloor) ? percent(r_.noiseFloor) : "unknown");
     put("<p>Figures: <a href=\"{0}\">{0}</a>. Made with tomales {1}: <code>{2}</code></p>\n", escapeXml(jsonName), kVersion, escapeXml(r_.commandLine));
-    for (const std::string& m : r_.missing) put("<p><strong>Not measured:</strong> {}</p>\n", escapeXml(m));
+    if (!r_.warnings.empty()) put("<p>The renderer warned of: {}. The command lines below say more.</p>\n", escapeXml(fmt::format("{}", fmt::join(r_.warnings, ", "))));
+    if (r_.missing.empty()) return;
+    put("<p><strong>Not measured:</strong></p>\n<ul>");
+    for (const std::string& m : r_.missing) put("<li>{}</li>", escapeXml(m));
+    put("</ul>\n");
   }
 
   void reach() {
@@ -59,6 +63,8 @@ class Page : Markup {
       put("</tr>\n");
     }
     put("</table></div>\n");
+    for (size_t c = 0; c < r_.curves.size(); ++c)
+      if (isFlat(r_, c)) put("<p>{}: the error is the same for all settings; what they change is the cost, if they reach this scene at all.</p>\n", key(c));
   }
 
   void legend() {
@@ -83,7 +89,7 @@ class Page : Markup {
 
   void table() {
     put("<h2>All points</h2><div class=\"scroll\"><table><tr><th>method</th><th class=\"text\">setting</th><th>mean error</th><th>&plusmn; 95 %</th>"
-        "<th>99th percentile</th><th>rms</th><th>bias</th><th>CPU s</th><th>wall s</th><th>memory</th><th>records</th></tr>\n");
+        "<th>99 % below</th><th>rms</th><th>bias</th><th>CPU s</th><th>wall s</th><th>memory</th><th>records</th></tr>\n");
     for (size_t i = 0; i < r_.points.size(); ++i) {
       const ChartPoint& p = r_.points[i];
       put("<tr class=\"{}\"><td>{}</td><td class=\"text\"><a href=\"#p{}\">{}</a></td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>",

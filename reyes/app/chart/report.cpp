@@ -63,6 +63,14 @@ std::optional<double> secondsToReach(const ChartReport& report, size_t curve, do
   return best;
 }
 
+bool isFlat(const ChartReport& report, size_t curve) {
+  double least = kInfinity, most = 0;
+  int count = 0;
+  for (const ChartPoint& p : report.points)
+    if (p.curve == curve) least = std::min(least, p.error.mean), most = std::max(most, p.error.mean), ++count;
+  return count > 1 && most - least <= 1e-3 * most;
+}
+
 bool writeChartJson(const std::string& path, const ChartReport& report) {
   Json out{{"version", kVersion},
            {"scene", report.scene},
@@ -75,6 +83,7 @@ bool writeChartJson(const std::string& path, const ChartReport& report) {
              {"noise_floor", std::isfinite(report.noiseFloor) ? Json(report.noiseFloor) : Json(nullptr)}}},
            {"budget_s", report.budget_s},
            {"missing", report.missing},
+           {"warnings", report.warnings},
            {"points", Json::array()}};
   for (const ChartPoint& p : report.points) out["points"].push_back(pointJson(report, p));
   return writeAtOnce(path, out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');

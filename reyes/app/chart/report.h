@@ -1,5 +1,7 @@
 // What a chart has found, and the two files that say it.
 #pragma once
+#include <set>
+
 #include "reyes/app/chart/error.h"
 #include "reyes/app/chart/lab.h"
 
@@ -21,6 +23,7 @@ struct ChartReport {
   std::vector<std::string> curves;
   std::vector<ChartPoint> points;  ///< Curve by curve, as the sweep has them.
   std::vector<std::string> missing;  ///< What the budget or a failure left out, and why.
+  std::set<std::string> warnings;    ///< Codes of what any of the renderings warned of.
   int referenceBatches = 0;
   double noiseFloor = 0, referenceSeconds = 0, budget_s = 0;
   std::string referencePicture;
@@ -30,6 +33,9 @@ struct ChartReport {
 void markBest(ChartReport& report);
 /// Seconds at which a curve reaches an error, on straight lines between its points in logarithmic axes; nothing if it does not.
 std::optional<double> secondsToReach(const ChartReport& report, size_t curve, double error);
+
+/// All its points have the same error: what its settings change is the cost, if they reach this scene at all.
+bool isFlat(const ChartReport& report, size_t curve);
 
 // Both go to a temporary name first. False: they could not be written.
 bool writeChartPage(const std::string& path, const ChartReport& report);

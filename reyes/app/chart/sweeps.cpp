@@ -12,12 +12,19 @@ struct GatherStep {
   const char *samples, *maxError, *photons;
 };
 constexpr GatherStep kGatherSteps[] = {
-    {"32", "4", "30000"}, {"96", "2.5", "100000"}, {"256", "1.5", "300000"}, {"640", "1", "600000"}, {"1600", "0.7", "1000000"}};
+    {"32", "4", "30000"}, {"96", "2.5", "100000"}, {"256", "1.5", "300000"}, {"512", "1.1", "600000"}, {"1024", "0.8", "1000000"}};
 
-ChartCurve gatherCurve(const std::string& errorFunction) {
+/// coarser: times the error allowed, so that curves with as many records stand beside each other.
+ChartCurve gatherCurve(const std::string& errorFunction, double coarser) {
   ChartCurve out{"gather, " + errorFunction, {}};
   for (const GatherStep& s : kGatherSteps)
-    out.settings.push_back({"--gi", "gather", "--error-function", errorFunction, "--samples", s.samples, "--max-error", s.maxError});
+    out.settings.push_back({"--gi", "gather", "--error-function", errorFunction, "--samples", s.samples, "--max-error", fmt::format("{:g}", coarser * std::stod(s.maxError))});
+  return out;
+}
+
+ChartCurve radiosityCurve() {
+  ChartCurve out{"radiosity, one bounce", {}};
+  for (const GatherStep& s : kGatherSteps) out.settings.push_back({"--gi", "radiosity", "--samples", s.samples, "--max-error", s.maxError});
   return out;
 }
 
@@ -42,6 +49,8 @@ ChartCurve varied(const std::string& name, const Arguments& fixed, const std::st
 
 const Arguments kGather{"--gi", "gather"}, kAtlas{"--gi", "atlas"}, kTraced{"--gi", "reference"};
 
+const char *kIndirect = "lamps whose light surfaces send on to each other", *kDirect = "lamps, or surfaces that shine of themselves";
+
 const Arguments kPixelSamples{"1x1", "2x2", "3x3", "4x4", "6x6", "8x8"}, kFilterWidths{"4", "2", "1.5", "1", "0.7", "0.5", "0.25"};
 const Arguments kOffsets{"0.3", "0.1", "0.03", "0.01", "0.003", "0.001", "0.0001"};
 const Arguments kTessellations{"0.125", "0.25", "0.5", "1", "2", "4", "8"};
@@ -52,33 +61,33 @@ std::vector<ChartSweep> allSweeps() {
   const std::string offset = std::string(kPrelude) + "Attribute \"trace\" \"float offset\" {}";
   const std::string tessellation = std::string(kPrelude) + "Attribute \"trace\" \"float tessellation\" {}";
   return {
-      {"gi", "methods of indirect light", {"--indirect-only"}, kTraced, "--light-seed", true,
-       {gatherCurve("screen"), gatherCurve("ward"), gatherCurve("hessian"), atlasCurve(),
-        varied("reference", kTraced, "--samples", {"4", "16", "64", "256"})}},
-      {"maxerror", "error allowed in irradiance interpolation", {"--indirect-only"}, kTraced, "--light-seed", true,
+      {"gi", "methods of indirect light", kIndirect, {"--indirect-only"}, kTraced, "--light-seed", true,
+       {gatherCurve("screen", 1), gatherCurve("ward", 1.7), gatherCurve("hessian", 1), radiosityCurve(), atlasCurve(),
+        varied("reference", kTraced, "--samples", {"4", "16", "64", "128", "256"})}},
+      {"maxerror", "error allowed in irradiance interpolation", kIndirect, {"--indirect-only"}, kTraced, "--light-seed", true,
        {varied("gather", kGather, "--max-error", {"8", "4", "2", "1", "0.5", "0.25"})}},
-      {"samples", "gather rays of an irradiance record", {"--indirect-only"}, kTraced, "--light-seed", true,
+      {"samples", "gather rays of an irradiance record", kIndirect, {"--indirect-only"}, kTraced, "--light-seed", true,
        {varied("gather", kGather, "--samples", {"16", "50", "150", "450", "1350", "4000"})}},
-      {"photons", "photons of the irradiance atlas", {"--indirect-only"}, kTraced, "--light-seed", true,
+      {"photons", "photons of the irradiance atlas", kIndirect, {"--indirect-only"}, kTraced, "--light-seed", true,
        {varied("atlas", kAtlas, "--photons", {"10000", "30000", "100000", "300000", "1000000", "3000000"})}},
-      {"brickcache", "memory for bricks", {"--indirect-only"}, kTraced, "--light-seed", true,
+      {"brickcache", "memory for bricks", kIndirect, {"--indirect-only"}, kTraced, "--light-seed", true,
        {varied("atlas", kAtlas, "--brick-cache", {"100K", "300K", "1M", "3M", "10M"})}},
-      {"brickerror", "error allowed in bricks that stand for finer ones", {"--indirect-only"}, kTraced, "--light-seed", true,
+      {"brickerror", "error allowed in bricks that stand for finer ones", kIndirect, {"--indirect-only"}, kTraced, "--light-seed", true,
        {varied("atlas", kAtlas, "--brick-maxerror", {"1", "0.3", "0.1", "0.03", "0.01", "0.003"})}},
-      {"shadingrate", "shading rate", {"--gi", "none"}, {"--shading-rate", "0.0625"}, "--seed", false,
+      {"shadingrate", "shading rate", kDirect, {"--gi", "none"}, {"--shading-rate", "0.0625"}, "--seed", false,
        {varied("shading rate", {}, "--shading-rate", {"16", "8", "4", "2", "1", "0.5", "0.25"})}},
-      {"pixelsamples", "pixel samples", {"--gi", "none"}, {"--pixel-samples", "16x16"}, "--seed", false,
+      {"pixelsamples", "pixel samples", kDirect, {"--gi", "none"}, {"--pixel-samples", "16x16"}, "--seed", false,
        {varied("jittered", {}, "--pixel-samples", kPixelSamples), varied("regular", {std::string(kPrelude) + "Hider \"hidden\" \"int jitter\" 0"}, "--pixel-samples", kPixelSamples)}},
-      {"shadowsamples", "samples of lights that have an extent", {"--gi", "none"}, {"--light-samples", "1024"}, "--light-seed", false,
+      {"shadowsamples", "samples of lights that have an extent", kDirect, {"--gi", "none"}, {"--light-samples", "1024"}, "--light-seed", false,
        {varied("light samples", {}, "--light-samples", {"1", "2", "4", "8", "16", "32", "64", "128"})}},
-      {"texturefilter", "width of texture filters", {"--gi", "none"}, {"--shading-rate", "0.0625"}, "--seed", false,
+      {"texturefilter", "width of texture filters", kDirect, {"--gi", "none"}, {"--shading-rate", "0.0625"}, "--seed", false,
        {varied("box", {}, filter + "\"box\" \"width\" {}", kFilterWidths), varied("gaussian", {}, filter + "\"gaussian\" \"width\" {}", kFilterWidths)}},
-      {"motionfactor", "coarser shading of what moves", {"--gi", "none"}, {fmt::format(fmt::runtime(motion), 0)}, "--seed", false,
+      {"motionfactor", "coarser shading of what moves", kDirect, {"--gi", "none"}, {fmt::format(fmt::runtime(motion), 0)}, "--seed", false,
        {varied("motion factor", {}, motion, {"16", "8", "4", "2", "1", "0"})}},
-      {"tessellation", "fineness of the polygons that rays meet", {"--gi", "gather", "--indirect-only"},
+      {"tessellation", "fineness of the polygons that rays meet", kIndirect, {"--gi", "gather", "--indirect-only"},
        {fmt::format(fmt::runtime(tessellation), 16)}, "--seed", false,
        {varied("hit list", {}, tessellation, kTessellations), varied("bias alone", {"--no-hit-list"}, tessellation, kTessellations)}},
-      {"offset", "how far what rays meet may be from what the eye sees, in units of the scene", {"--gi", "gather", "--indirect-only"},
+      {"offset", "how far what rays meet may be from what the eye sees, in units of the scene", kIndirect, {"--gi", "gather", "--indirect-only"},
        {fmt::format(fmt::runtime(tessellation), 16)}, "--seed", false, {varied("hit list", {}, offset, kOffsets)}},
   };
 }

@@ -13,6 +13,7 @@ struct ChartCurve {
 
 struct ChartSweep {
   std::string name, title;
+  std::string needs;                   ///< Of the scene, lest all pictures are black.
   std::vector<std::string> common;     ///< Arguments of every run, the reference's included.
   std::vector<std::string> reference;  ///< Of a batch; batches differ in `seed`.
   std::string seed;                    ///< The option that makes batches independent.

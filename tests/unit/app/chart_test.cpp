@@ -72,6 +72,20 @@ TEST(ChartReport, ThePointsThatNothingBeatsAreMarked) {
   EXPECT_FALSE(secondsToReach(report, 0, 0.01));
 }
 
+TEST(ChartReport, ACurveOfOneErrorIsFlat) {
+  ChartReport report;
+  report.curves = {"even", "steep", "alone"};
+  const auto add = [&](size_t curve, double error) {
+    ChartPoint p{};
+    p.curve = curve, p.error.mean = error;
+    report.points.push_back(p);
+  };
+  add(0, 0.1), add(0, 0.1), add(1, 0.1), add(1, 0.05), add(2, 0.1);
+  EXPECT_TRUE(isFlat(report, 0));
+  EXPECT_FALSE(isFlat(report, 1));
+  EXPECT_FALSE(isFlat(report, 2)) << "one point says nothing";
+}
+
 TEST(ChartSweep, EverySweepHasAReferenceAndCurvesWithSettings) {
   const std::string names = chartSweepNames();
   for (size_t begin = 0; begin < names.size();) {

@@ -26,7 +26,7 @@ BrightSpots twoDisks() {
   return spots;
 }
 
-TEST(BrightSpots, SpheresHoldAllThatWasFoundAndLittleElse) {
+TEST(BrightSpots, HoldAllThatWasFoundAndLittleElse) {
   const BrightSpots spots = twoDisks();
   ASSERT_FALSE(spots.spots().empty());
   for (const BrightFind& find : {disk({0, 0, 5}, 0.2f, 300, 50), disk({3, 0, 4}, 0.1f, 300, 20)})
@@ -36,9 +36,13 @@ TEST(BrightSpots, SpheresHoldAllThatWasFoundAndLittleElse) {
   for (const BrightSpots::Spot& s : spots.spots()) EXPECT_LT(s.radius, 0.25f);
 }
 
-TEST(BrightSpots, WhatIsFlatIsADiskAndNoSphere) {
+TEST(BrightSpots, WhatIsFlatIsARectangleAndNoSphere) {
   const BrightSpots disks = twoDisks();
-  for (const BrightSpots::Spot& s : disks.spots()) EXPECT_EQ(s.normal, vec3(0, 0, -1));
+  for (const BrightSpots::Spot& s : disks.spots()) {
+    EXPECT_EQ(s.normal, vec3(0, 0, -1));
+    EXPECT_NEAR(glm::length(s.halfU + s.halfV), s.radius, 1e-6f);
+    EXPECT_NEAR(dot(s.halfU, s.halfV), 0, 1e-6f);
+  }
   BrightFind ball = disk({0, 0, 5}, 0.2f, 300, 50);
   for (BrightHit& hit : ball.hits) hit.normal = normalizeOr(hit.position - vec3(0, 0, 5.02f), {0, 0, -1});
   BrightSpots spots;
@@ -46,7 +50,7 @@ TEST(BrightSpots, WhatIsFlatIsADiskAndNoSphere) {
   EXPECT_TRUE(std::any_of(spots.spots().begin(), spots.spots().end(), [](const BrightSpots::Spot& s) { return s.normal == vec3(0); }));
 }
 
-TEST(SpotAim, ADiskSeenFromTheSideIsAimedAtAsNarrowlyAsItLooks) {
+TEST(SpotAim, ARectangleSeenFromTheSideIsAimedAtAsNarrowlyAsItLooks) {
   const SpotAim aim(twoDisks(), {5, 0, 4.9f}, normalizeOr({-1, 0, 0.01f}, {}));  // 0.1 above the plane of the first, at 25 radii
   ASSERT_GT(aim.irradiance(), 0);
   for (uint32_t i = 0; i < 256; ++i) {
@@ -55,6 +59,52 @@ TEST(SpotAim, ADiskSeenFromTheSideIsAimedAtAsNarrowlyAsItLooks) {
     EXPECT_GT(d.z, 0);
     EXPECT_LT(glm::length(onPlane - vec3(0, 0, 5)), 0.5f);
   }
+}
+
+TEST(SpotAim, WhatIsHiddenIsAimedAtLess) {
+  SpotAim aim(twoDisks(), vec3(0), {0, 0, 1});
+  ASSERT_GT(aim.targets(), 1u);
+  const float all = aim.irradiance();
+  std::vector<float> shares(aim.targets(), 0.05f);  // but for what lies straight ahead
+  float left = 0;
+  for (size_t t = 0; t < aim.targets(); ++t)
+    if (aim.probe(t, {0.5f, 0.5f}).x < 0.1f) shares[t] = 1;
+  aim.dim(shares);
+  for (uint32_t i = 0; i < 1024; ++i) left += aim.direction((static_cast<float>(i) + 0.5f) / 1024, sobol2(i, 2)).x < 0.2f ? 1.0f / 1024 : 0.0f;
+  EXPECT_LT(aim.irradiance(), all);
+  EXPECT_GT(left, 0.95f);  // the other gives a fifth of the light, undimmed
+}
+
+TEST(Gather, SpotsBehindAScreenTakeNoRaysFromWhatCanBeSeen) {
+  // Of two glows the nearer and larger is behind a screen; the noise is that of the other one, aimed at.
+  SceneBuilder b;
+  b.light("distantlight", {pointParam("from", {0, 0, 0}), pointParam("to", {0, 0, 1})});
+  b.quad({-0.15f, 1.75f, 5}, {0.15f, 1.75f, 5}, {0.15f, 2.05f, 5}, {-0.15f, 2.05f, 5}, vec3(0.8f));
+  b.quad({0.8f, 0.6f, 3}, {1.2f, 0.6f, 3}, {1.2f, 1, 3}, {0.8f, 1, 3}, vec3(0.8f));
+  b.quad({0.5f, -2, 2.5f}, {0.5f, 2, 2.5f}, {0.7f, 2, 1}, {0.7f, -2, 1}, vec3(0));
+  World world(b.scene);
+  std::vector<BrightFind> found(1);
+  found[0].irradiance = 1e-3f;
+  for (int i = 0; i < 400; ++i) {
+    const vec2 xi = sobol2(static_cast<uint32_t>(i), 7);
+    found[0].hits.push_back({{-0.15f + 0.3f * xi.x, 1.75f + 0.3f * xi.y, 5}, 0.25f, {0, 0, -1}});
+    found[0].hits.push_back({{0.8f + 0.4f * xi.x, 0.6f + 0.4f * xi.y, 3}, 0.25f, {0, 0, -1}});
+  }
+  BrightSpots both, visible;
+  both.learn(found);
+  std::erase_if(found[0].hits, [](const BrightHit& h) { return h.position.x > 0.5f; });
+  visible.learn(found);
+  const auto noise = [&](const BrightSpots& spots) {
+    double sum = 0, squares = 0;
+    for (uint32_t i = 0; i < 300; ++i) {
+      GatherSettings settings;
+      settings.samples = 512;
+      const double E = luminance(gather(world.rays, world.shading, {0, {0, -1, 1.5f}, {0, 1, 0}, i, 0.01f, 0.01f}, settings, {&spots}, world.stats).E);
+      sum += E, squares += E * E;
+    }
+    return std::sqrt(std::max(0.0, squares / 300 - sum * sum / 90000)) / (sum / 300);
+  };
+  EXPECT_LT(noise(both), 1.5 * noise(visible));
 }
 
 TEST(BrightSpots, ASingleHitIsChance) {

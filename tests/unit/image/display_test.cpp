@@ -127,6 +127,45 @@ TEST_F(Display, TransferSrgbEncodesColourDividedByAlpha) {
   EXPECT_NEAR(255 * read("a.png").at(0, 0)[0], 94, 1);
 }
 
+TEST_F(Display, PngHoldsColourDividedByAlpha) {
+  const float a = 65.0f / 255;
+  Image image{1, 1, {"R", "G", "B", "A"}, {0.2f * a, 0.7f * a, a, a}, 0, 0, 1, 1};
+  options_.rgbaQuantize = {65535, 0, 65535, 0};
+  ASSERT_TRUE(writeDisplay(image, {path("a.png"), "png", "rgba", {}, {}}, options_, log_));
+  const Image back = read("a.png");  // the reader multiplies by alpha again
+  for (size_t c = 0; c < 4; ++c) EXPECT_NEAR(back.pixels[c], image.pixels[c], 1.6f / 65535);
+}
+
+TEST_F(Display, TiffKeepsItsWindowAndEveryBitUnderEachCompression) {
+  Image large{150, 130, {"R", "G", "B", "A", "Z"}, {}, 3, 5, 200, 210};
+  for (int i = 0; i < 150 * 130 * 5; ++i) large.pixels.push_back(static_cast<float>(i % 977) / 977);
+  options_.rgbaQuantize = {0, 0, 0, 0};
+  for (const char* name : {"none", "rle", "zip"}) {
+    Param compression;
+    compression.name = "compression", compression.type = ValueType::String, compression.strings = {name};
+    ASSERT_TRUE(writeDisplay(large, {path("a.tif"), "tiff", "rgbaz", {compression}, {}}, options_, log_)) << name;
+    const Image back = read("a.tif");
+    EXPECT_EQ(back.originX, 3);
+    EXPECT_EQ(back.originY, 5);
+    EXPECT_EQ(back.displayWidth, 200);
+    EXPECT_EQ(back.displayHeight, 210);
+    EXPECT_EQ(back.pixels, large.pixels) << name;
+  }
+  EXPECT_EQ(log_.entries().size(), 0u);
+}
+
+TEST_F(Display, WhatOtherFormatsCannotHoldIsNamed) {
+  Param compression, tiled;
+  compression.name = "compression", compression.type = ValueType::String, compression.strings = {"piz"};
+  tiled.name = "tiled", tiled.type = ValueType::Integer, tiled.ints = {1};
+  ASSERT_TRUE(writeDisplay(gradient(), {path("a.tif"), "tiff", "rgba", {compression, tiled}, {}}, options_, log_));
+  EXPECT_EQ(log_.count("display-compression"), 1);
+  EXPECT_EQ(log_.count("display-parameter"), 1);
+  Image five{1, 1, {"a", "b", "c", "d", "e"}, {0, 0, 0, 0, 0}, 0, 0, 1, 1};
+  EXPECT_FALSE(writeImage(path("a.png"), five, false, log_));
+  EXPECT_EQ(log_.worst(), Severity::Output);
+}
+
 TEST_F(Display, ANameWithoutAFormatBecomesOpenExr) {
   ASSERT_TRUE(writeDisplay(gradient(), {path("ri.pic"), "file", "rgba", {}, {}}, options_, log_));
   EXPECT_TRUE(fs::exists(path("ri.exr")));
