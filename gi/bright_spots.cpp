@@ -51,7 +51,7 @@ struct Cluster {
     const float radius = 0.5f * margin() * glm::length(bound.size()), agreement = glm::length(normal);
     const vec3 n = agreement > 1 - kFlat ? normal / agreement : vec3(0);
     const bool flat = n != vec3(0) && std::all_of(hits.begin(), hits.end(), [&](const BrightHit& h) { return std::abs(dot(h.position - mean, n)) < kFlat * radius; });
-    return flat ? rectangle(n, radiance) : BrightSpots::Spot{bound.center(), radius, radiance, vec3(0), 1 / margin()};
+    return flat ? rectangle(n, radiance) : BrightSpots::Spot{bound.center(), radius, radiance, vec3(0), vec2(1 / margin())};
   }
   BrightSpots::Spot rectangle(const vec3& n, float radiance) const {
     vec3 u(0), v;
@@ -63,7 +63,7 @@ struct Cluster {
       low = glm::min(low, at), high = glm::max(high, at);
     }
     const vec2 middle = 0.5f * (low + high), found = 0.5f * margin() * (high - low), half = glm::max(found, kNarrowest * vec2(found.y, found.x));
-    return {mean + middle.x * u + middle.y * v, glm::length(half), radiance, n, 1 / margin(), half.x * u, half.y * v};
+    return {mean + middle.x * u + middle.y * v, glm::length(half), radiance, n, 0.5f * (high - low) / half, half.x * u, half.y * v};
   }
 };
 
@@ -108,6 +108,7 @@ SpotAim::SpotAim(const BrightSpots& spots, const vec3& position, const vec3& nor
 void SpotAim::settle() {
   irradiance_ = coverage_ = 0;
   for (Target& t : targets_) irradiance_ += t.share, coverage_ += t.covered, t.upTo = irradiance_;
+  for (Target& t : targets_) t.density = t.share / irradiance_ * t.densityOfPlace();
 }
 
 void SpotAim::dim(const std::vector<float>& shares) {
@@ -123,13 +124,13 @@ vec3 SpotAim::Target::toward(const vec2& xi) const {
   return (1 - drop) * axis + r * std::cos(phi) * tangent + r * std::sin(phi) * bitangent;
 }
 
-float SpotAim::Target::density() const {
+float SpotAim::Target::densityOfPlace() const {
   return normal == vec3(0) ? 1 / (2 * kPi * versine) : 1 / (4 * glm::length(u) * glm::length(v));
 }
 
 vec3 SpotAim::probe(size_t target, const vec2& xi) const {
   const Target& t = targets_[target];
-  const vec2 within = t.normal != vec3(0) ? 0.5f + (xi - 0.5f) * t.found : vec2(xi.x * t.found * t.found, xi.y);
+  const vec2 within = t.normal != vec3(0) ? 0.5f + (xi - 0.5f) * t.found : vec2(xi.x * t.found.x * t.found.x, xi.y);
   return normalizeOr(t.toward(within), t.axis);
 }
 
@@ -141,16 +142,15 @@ vec3 SpotAim::direction(float choice, const vec2& xi) const {
 float SpotAim::density(const vec3& direction) const {
   float sum = 0;
   for (const Target& t : targets_) {
-    const float chosen = t.share / irradiance_;
     if (t.normal == vec3(0)) {
       const vec3 chord = direction - t.axis;  // cosines of small angles have no digits left
-      if (dot(chord, chord) <= (2 + kRounding) * t.versine) sum += chosen * t.density();
+      if (dot(chord, chord) <= (2 + kRounding) * t.versine) sum += t.density;
       continue;
     }
     const float cosine = -dot(direction, t.normal), distance = -dot(t.path, t.normal) / cosine;
     const vec3 off = distance * direction - t.path;
     const bool inside = std::abs(dot(off, t.u)) <= (1 + kRounding) * dot(t.u, t.u) && std::abs(dot(off, t.v)) <= (1 + kRounding) * dot(t.v, t.v);
-    if (cosine > 0 && inside) sum += chosen * t.density() * distance * distance / cosine;
+    if (cosine > 0 && inside) sum += t.density * distance * distance / cosine;
   }
   return sum;
 }

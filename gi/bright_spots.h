@@ -26,7 +26,7 @@ class BrightSpots {
     vec3 center;
     float radius, radiance;
     vec3 normal;                ///< Of a rectangle that shines to that side; 0: a sphere.
-    float found = 1;            ///< Share of its extent in which hits were: around them is a margin.
+    vec2 found{1};              ///< Share of its extents in which hits were: around them is a margin.
     vec3 halfU{0}, halfV{0};    ///< From the rectangle's centre to the middles of two edges, perpendicular.
   };
   /// The same spots for the same finds in the same order.
@@ -69,13 +69,14 @@ class SpotAim {
   struct Target {
     vec3 path, axis;        ///< To its centre; axis: along it, unit.
     vec3 normal, u, v;      ///< As Spot's; normal 0: a cone.
-    float found, versine;   ///< versine: one less the cosine of a cone's half angle.
+    vec2 found;
+    float versine;          ///< One less the cosine of a cone's half angle.
     float share, covered;   ///< Of irradiance() and coverage().
     float upTo = 0;         ///< Of the choice.
+    float density = 0;      ///< Of the choice and of the place: of a cone over solid angle, of a rectangle over area.
 
     vec3 toward(const vec2& xi) const;
-    /// Of a cone over solid angle, of a rectangle over area.
-    float density() const;
+    float densityOfPlace() const;
   };
   void settle();
 

@@ -239,10 +239,8 @@ class Hemisphere {
   /// More rays the more of the light is expected from the spots. What this hemisphere has seen of them has no say in it.
   void aim(Stats& stats) {
     scratch_.aimedDirections.clear(), scratch_.aimedCells.clear();
-    aims_ = 0;
-    probe(stats);
-    if (aim_.irradiance() > 0 && std::isfinite(aim_.irradiance()) && aim_.coverage() * static_cast<float>(count_) < kFoundByChance)
-      aims_ = static_cast<size_t>(kMostAimed * static_cast<float>(count_) * aim_.irradiance() / (aim_.irradiance() + dimIrradiance()));
+    if (worthAiming() >= kLeastAimed) probe(stats);
+    aims_ = aim_.coverage() * static_cast<float>(count_) < kFoundByChance ? worthAiming() : 0;
     if (aims_ < kLeastAimed) aims_ = 0;
     for (size_t i = 0; i < aims_; ++i) {
       const float choice = (static_cast<float>(i) + sobol1(static_cast<uint32_t>(i), key_ ^ 0x73706f74U)) / static_cast<float>(aims_);
@@ -255,6 +253,11 @@ class Hemisphere {
       scratch_.aimedDirections.push_back(d);
     }
     see(stats, scratch_.aimed, scratch_.aimedCells.size());
+  }
+
+  size_t worthAiming() const {
+    const float spots = aim_.irradiance();
+    return spots > 0 && std::isfinite(spots) ? static_cast<size_t>(kMostAimed * static_cast<float>(count_) * spots / (spots + dimIrradiance())) : 0;
   }
 
   /// E/pi but for what is as bright as a spot. Colours may be negative, but no share of rays.

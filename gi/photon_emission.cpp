@@ -1,5 +1,7 @@
 #include "gi/photon_emission.h"
 
+#include <numeric>
+
 #include "raytrace/emitters.h"
 #include "reyes/base/rng.h"
 
@@ -133,12 +135,14 @@ void PhotonSource::surveyArea() {
 void PhotonSource::emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>& out) const {
   // Two pairs of one photon: each stratified over all photons of the light, unrelated to the other.
   const uint32_t stream = hashCombine(seed, static_cast<uint32_t>(light_));
-  std::vector<vec2> a, b;
-  a.reserve(out.size()), b.reserve(out.size());
-  for (uint32_t i = 0; i < out.size(); ++i) {
-    a.push_back(sobol2(first + i, stream));
-    b.push_back(sobol2(first + i, hashCombine(stream, kSecondPair)));
-  }
+  std::vector<uint32_t> number(out.size());
+  std::iota(number.begin(), number.end(), first);
+  const auto pairs = [&](uint32_t name) {
+    std::vector<vec2> xi(out.size());
+    sobol2(number, std::vector(out.size(), name), xi);
+    return xi;
+  };
+  const std::vector<vec2> a = pairs(stream), b = pairs(hashCombine(stream, kSecondPair));
   if (kind_ == LightKind::Point) emitFromPoint(a, out);
   if (kind_ == LightKind::Distant) emitFromDistance(a, out);
   if (kind_ == LightKind::Sky) emitFromSky(a, b, out);

@@ -27,6 +27,9 @@ struct Scratch {
   std::vector<Hit> hits;
   std::vector<vec3> reflectance;   ///< At each.
   std::vector<uint8_t> scattered;  ///< Before it was reached.
+  std::vector<uint32_t> number, name;
+  std::vector<vec2> direction;     ///< Random numbers: of where a path goes on,
+  std::vector<float> survival;     ///< and of whether it does.
 };
 
 vec3 onSphere(const vec2& xi) {
@@ -88,13 +91,23 @@ class Tracer {
     for (const Path& path : paths) s.hits.push_back(rays_.closest(path.ray, kMaskPhoton));
     crossMedia(paths, stream, s, out);
     reflectances(paths, stream, s);
+    draw(paths, stream, s);
     size_t kept = 0;
     for (size_t i = 0; i < paths.size(); ++i) {
-      if (!s.scattered[i] && (s.hits[i].object < 0 || !bounce(paths[i], s.hits[i], s.reflectance[i], stream, out))) continue;
+      if (!s.scattered[i] && (s.hits[i].object < 0 || !bounce(paths[i], s.hits[i], s.reflectance[i], {s.direction[i], s.survival[i]}, stream, out))) continue;
       if (kept != i) paths[kept] = paths[i];
       ++kept;
     }
     paths.resize(kept);
+  }
+
+  void draw(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const {
+    const size_t count = paths.size();
+    s.number.resize(count), s.name.resize(count), s.direction.resize(count), s.survival.resize(count);
+    for (size_t i = 0; i < count; ++i) s.number[i] = paths[i].number, s.name[i] = nameOf(paths[i], stream);
+    sobol2(s.number, s.name, s.direction);
+    for (uint32_t& name : s.name) name = hashCombine(name, 1u);
+    sobol1(s.number, s.name, s.survival);
   }
 
   /// What collides before it arrives is stored there, and meets no surface in this step.
@@ -135,10 +148,14 @@ class Tracer {
     return true;
   }
 
-  /// Surfaces that reflect the same everywhere, at any place of theirs.
+  /// Surfaces that reflect the same everywhere, at any place of theirs; and those that do not reflect by their shaders.
   void askEvenSurfaces() {
     even_.resize(scene_.groups.size());
     for (size_t g = 0; g < even_.size(); ++g) {
+      if (models_[g] != PhotonModel::Matte && models_[g] != PhotonModel::Translucent) {
+        even_[g] = vec3(0);
+        continue;
+      }
       if (!shading_.reflectsEvenly(static_cast<int>(g))) continue;
       Hit hit;
       hit.t = 1, hit.object = scene_.groups[g].exampleObject, hit.u = hit.v = 0.5f;
@@ -186,14 +203,19 @@ class Tracer {
 
   int groupOf(const Hit& hit) const { return scene_.objects[static_cast<size_t>(hit.object)].group; }
 
-  bool bounce(Path& path, const Hit& hit, const vec3& reflectance, uint32_t stream, std::vector<StoredPhoton>& out) const {
+  struct Draw {
+    vec2 direction;
+    float survival;
+  };
+  static uint32_t nameOf(const Path& path, uint32_t stream) { return hashCombine(stream, static_cast<uint32_t>(path.depth)); }
+
+  bool bounce(Path& path, const Hit& hit, const vec3& reflectance, const Draw& xi, uint32_t stream, std::vector<StoredPhoton>& out) const {
     const int group = groupOf(hit);
     const Attributes& attributes = *scene_.groups[static_cast<size_t>(group)].attributes;
     const vec3 P = path.ray.origin + hit.t * path.ray.direction, d = path.ray.direction;
     const bool front = dot(d, hit.geometricNormal) < 0;
     const vec3 N = front ? hit.normal : -hit.normal, Ng = front ? hit.geometricNormal : -hit.geometricNormal;
-    const uint32_t name = hashCombine(stream, static_cast<uint32_t>(path.depth));
-    const float xi = sobol1(path.number, hashCombine(name, 1u));
+    const uint32_t name = nameOf(path, stream);
     vec3 direction, passed;
     switch (const PhotonModel model = models_[static_cast<size_t>(group)]) {
       case PhotonModel::Matte:
@@ -203,7 +225,7 @@ class Tracer {
         passed = isFinite(reflectance) ? glm::clamp(reflectance, 0.0f, 1.0f) : vec3(0);
         const bool through = model == PhotonModel::Translucent && sobol1(path.number, hashCombine(name, 2u)) < 0.5f;
         // Around the interpolated normal some photons would go into the polygon, and be caught in what it bounds.
-        const vec3 side = through ? -Ng : Ng, local = cosineHemisphere(sobol2(path.number, name));
+        const vec3 side = through ? -Ng : Ng, local = cosineHemisphere(xi.direction);
         vec3 tangent, bitangent;
         orthonormalBasis(side, tangent, bitangent);
         direction = local.x * tangent + local.y * bitangent + local.z * side;
@@ -223,7 +245,7 @@ class Tracer {
     // Surviving photons keep the power that they came with, so that all that are stored weigh about the same.
     const vec3 power = path.power * passed;
     const float survival = std::min(1.0f, maxComponent(power) / maxComponent(path.power));
-    if (!(xi < survival)) return false;
+    if (!(xi.survival < survival)) return false;
     path.power = power / survival;
     path.ray = {P, normalizeOr(direction, N)};
     // The level of what it meets follows from its width; textures there do not.

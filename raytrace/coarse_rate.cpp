@@ -14,7 +14,8 @@ constexpr float kTurn = 15 * kPi / 180;   ///< Radians between the normals at th
 constexpr float kMostTurn = 100 * kPi / 180;  ///< However small: half a circle of one polygon would be its diameter, without area.
 constexpr float kEmitterTurn = 5 * kPi / 180;  ///< Brings the area of a sphere light within 0.5 %.
 constexpr int kProbes = 5;                     ///< Odd, so that a symmetrical wave is not met at its zeros.
-constexpr double kRounding = 1e-3;
+constexpr double kRounding = 1e-3;            ///< Half a circle is twelve polygons, whatever its sum of angles rounds to.
+constexpr float kLeastChord = 1e-4f;          ///< Of its distance: the direction of a shorter one has no digits left.
 constexpr double kMostQuads = 1 << 20, kMostQuadsOfLevels = 1 << 22;  ///< Of a patch; levels are diced where rays come.
 
 float angleBetween(const vec3& a, const vec3& b) {
@@ -41,8 +42,9 @@ LineFigures linesOf(const Grid& g, const Camera& camera, int alongStride, int ac
       const float pixel = std::max(camera.pixelSize(0.5f * (p + q)), camera.pixelSize(0.5f * (q - p)));
       sum.length_px += glm::length(q - p) / std::max(pixel, 1e-20f);
       sum.turn += angleBetween(g.normal(a), g.normal(b));
-      if (k > 0 && chord != vec3(0) && q != p) bend += angleBetween(chord, q - p);
-      chord = q - p;
+      const bool clear = glm::length(q - p) > kLeastChord * glm::length(p);
+      if (k > 0 && clear && chord != vec3(0)) bend += angleBetween(chord, q - p);
+      chord = clear ? q - p : vec3(0);
     }
     out.length_px = std::max(out.length_px, sum.length_px);
     out.turn = std::max({out.turn, sum.turn, bend * kProbes / (kProbes - 1)});

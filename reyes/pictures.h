@@ -99,6 +99,9 @@ bool makeTexture(const TextureRecipe& recipe, std::string& error);
 /// A file's reader. Null: `error` says why.
 std::unique_ptr<PictureReader> openPicture(const std::string& path, std::string& error);
 
+/// How OpenEXR spells the name of an attribute.
+std::string exrAttributeName(const std::string& name);
+
 /// What a picture that a Display of type "shadow", "zfile" or "deepshad" has left says of its camera.
 struct DepthCamera {
   mat4 cameraFromWorld{1.0f};

@@ -2,12 +2,14 @@
 
 #include <numeric>
 
+#include "reyes/base/simd.h"
+
 namespace tomales {
 
 namespace {
 
 // Each output bit depends only on lower input bits; on a bit-reversed number that is Owen's tree.
-uint32_t laineKarras(uint32_t x, uint32_t seed) {
+inline uint32_t laineKarras(uint32_t x, uint32_t seed) {
   x ^= x * 0x3d20adeaU;
   x += seed;
   x *= (seed >> 16) | 1U;
@@ -19,7 +21,7 @@ uint32_t laineKarras(uint32_t x, uint32_t seed) {
 // Second Sobol dimension, bits reversed. Its direction numbers are the rows of Pascal's triangle modulo 2, so
 // (Lucas) bit i of the result is the sum of all bits of the index whose number contains the bits of i: a sum
 // over supersets, one step for each of the five bits of a bit's number.
-uint32_t sobolSecondReversed(uint32_t x) {
+inline uint32_t sobolSecondReversed(uint32_t x) {
   x ^= (x >> 1) & 0x55555555U;
   x ^= (x >> 2) & 0x33333333U;
   x ^= (x >> 4) & 0x0f0f0f0fU;
@@ -28,19 +30,37 @@ uint32_t sobolSecondReversed(uint32_t x) {
   return x;
 }
 
-}  // namespace
+inline uint32_t scramble(uint32_t x, uint32_t seed) { return reverseBits(laineKarras(reverseBits(x), seed)); }
 
-uint32_t owenScramble(uint32_t x, uint32_t seed) { return reverseBits(laineKarras(reverseBits(x), seed)); }
-
-vec2 sobol2(uint32_t index, uint32_t seed) {
-  const uint32_t shuffled = owenScramble(index, seed);
-  // Owen scrambling of a number that is known reversed: laineKarras works on reversed bits anyway.
-  return {unitFloat(reverseBits(laineKarras(shuffled, hash32(seed ^ 0x9c8f2d35U)))),
-          unitFloat(reverseBits(laineKarras(sobolSecondReversed(shuffled), hash32(seed ^ 0x1b56c4e9U))))};
+// Owen scrambling of a number that is known reversed: laineKarras works on reversed bits anyway.
+inline float firstOf(uint32_t shuffled, uint32_t seed) { return unitFloat(reverseBits(laineKarras(shuffled, hash32(seed ^ 0x9c8f2d35U)))); }
+inline float secondOf(uint32_t shuffled, uint32_t seed) {
+  return unitFloat(reverseBits(laineKarras(sobolSecondReversed(shuffled), hash32(seed ^ 0x1b56c4e9U))));
+}
+inline float onlyOf(uint32_t index, uint32_t seed) {
+  return unitFloat(scramble(reverseBits(scramble(index, seed)), hash32(seed ^ 0x68bc21ebU)));
 }
 
-float sobol1(uint32_t index, uint32_t seed) {
-  return unitFloat(owenScramble(reverseBits(owenScramble(index, seed)), hash32(seed ^ 0x68bc21ebU)));
+}  // namespace
+
+uint32_t owenScramble(uint32_t x, uint32_t seed) { return scramble(x, seed); }
+
+vec2 sobol2(uint32_t index, uint32_t seed) {
+  const uint32_t shuffled = scramble(index, seed);
+  return {firstOf(shuffled, seed), secondOf(shuffled, seed)};
+}
+
+float sobol1(uint32_t index, uint32_t seed) { return onlyOf(index, seed); }
+
+TOMALES_HOT void sobol2(std::span<const uint32_t> index, std::span<const uint32_t> seed, std::span<vec2> out) {
+  for (size_t i = 0; i < out.size(); ++i) {
+    const uint32_t shuffled = scramble(index[i], seed[i]);
+    out[i].x = firstOf(shuffled, seed[i]), out[i].y = secondOf(shuffled, seed[i]);
+  }
+}
+
+TOMALES_HOT void sobol1(std::span<const uint32_t> index, std::span<const uint32_t> seed, std::span<float> out) {
+  for (size_t i = 0; i < out.size(); ++i) out[i] = onlyOf(index[i], seed[i]);
 }
 
 std::vector<int> permutation(int count, uint32_t seed) {

@@ -2,6 +2,7 @@
 // dimension, seed), so results never depend on the schedule of threads or buckets.
 // Threads: everything here is pure.
 #pragma once
+#include <span>
 #include <vector>
 
 #include "reyes/base/math.h"
@@ -41,6 +42,10 @@ vec2 sobol2(uint32_t index, uint32_t seed);
 
 /// The one-dimensional companion: van der Corput, Owen-scrambled and shuffled.
 float sobol1(uint32_t index, uint32_t seed);
+
+/// The same numbers, many at once: of index[i] and seed[i].
+void sobol2(std::span<const uint32_t> index, std::span<const uint32_t> seed, std::span<vec2> out);
+void sobol1(std::span<const uint32_t> index, std::span<const uint32_t> seed, std::span<float> out);
 
 /// A random order of 0 .. count-1.
 std::vector<int> permutation(int count, uint32_t seed);

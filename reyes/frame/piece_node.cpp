@@ -106,25 +106,36 @@ std::shared_ptr<const RasterGrid> PieceNode::acquire(Stack& stack) {
   if (!stack.made.load(std::memory_order_relaxed)) {
     stack.grid = makeGrid(stack.pieces);
     stack.extent = *stack.grid;
+    stack.wanted = bitsOf(stack.range & context_.buckets.touched(stack.extent.bound));
     stack.made.store(true, std::memory_order_release);
   }
   return stack.grid;
 }
 
-void PieceNode::release(size_t) {
+void PieceNode::release(size_t bucket) {
   const std::lock_guard lock(mutex_);
-  if (--users_ > 0) return;
-  stacks_.clear();
-  pool_.reset();
+  done_ |= bitsOf(context_.buckets.only(bucket)) & ~kFarBuckets;
+  for (Stack& stack : stacks_)
+    if (!(stack.wanted & ~done_)) stack.grid.reset();
+  if (--users_ == 0) stacks_.clear();
+}
+
+uint64_t PieceNode::bitsOf(const BucketRange& buckets) const {
+  uint64_t bits = 0;
+  for (int row = buckets.r0; row <= buckets.r1; ++row)
+    for (int column = buckets.c0; column <= buckets.c1; ++column) {
+      const int number = (row - range().r0) * range().columns() + column - range().c0;
+      bits |= number < 63 ? uint64_t{1} << number : kFarBuckets;
+    }
+  return bits;
 }
 
 std::shared_ptr<const RasterGrid> PieceNode::makeGrid(const PieceStack& stack) {
   const Object& o = context_.scene.objects[static_cast<size_t>(stack.object)];
-  if (!pool_) pool_ = makePool();
-  const size_t before = pool_->bytes();
+  const std::shared_ptr<Pool> pool = makePool(stack);
   auto grid = std::allocate_shared<Grid>(
-      KeepingPool<Grid>(pool_),
-      dice(context_.scene, stack.object, stack.pieces, stack.nu, stack.nv, {o.keyTimes, o.cameraFromObject}, pool_.get()));
+      KeepingPool<Grid>(pool),
+      dice(context_.scene, stack.object, stack.pieces, stack.nu, stack.nv, {o.keyTimes, o.cameraFromObject}, pool.get()));
   if ((grid->round = stack.round)) widenToSquares(*grid);
   context_.shading.displace(*grid);
   Stats& stats = context_.stats;
@@ -136,20 +147,16 @@ std::shared_ptr<const RasterGrid> PieceNode::makeGrid(const PieceStack& stack) {
                         fmt::format("{}: displaced vertices are not finite or lie behind the eye; the micropolygons there are "
                                     "left out (is displacementbound too small?)",
                                     objectName(o)));
-  auto raster = project(std::move(grid), context_.scene, context_.camera, context_.shading.opaque(o.group), stack.place.zMin, pool_);
-  keepPeak(stats.memoryBytes.grids, context_.liveGrids_bytes += static_cast<int64_t>(pool_->bytes() - before));
+  auto raster = project(std::move(grid), context_.scene, context_.camera, context_.shading.opaque(o.group), stack.place.zMin, pool);
+  keepPeak(stats.memoryBytes.grids, context_.liveGrids_bytes += static_cast<int64_t>(pool->bytes()));
   return raster;
 }
 
-std::shared_ptr<Pool> PieceNode::makePool() const {
+std::shared_ptr<Pool> PieceNode::makePool(const PieceStack& stack) const {
   // A vertex takes a dozen floats without motion and primitive variables, and a grid about as much as this without vertices.
-  constexpr size_t kVertex_bytes = 48, kGrid_bytes = 768, kMost_bytes = 65536;
-  size_t bytes = 0;
-  for (const auto& stack : stacks_) {
-    const PieceStack& p = stack.pieces;
-    bytes += kGrid_bytes + kVertex_bytes * static_cast<size_t>(padded(static_cast<int>(p.pieces.size()) * (p.nu + 1) * (p.nv + 1)));
-  }
-  return {new Pool(std::min(bytes, kMost_bytes)), [&live = context_.liveGrids_bytes](const Pool* pool) {
+  constexpr size_t kVertex_bytes = 48, kGrid_bytes = 768;
+  const size_t bytes = kGrid_bytes + kVertex_bytes * static_cast<size_t>(padded(static_cast<int>(stack.pieces.size()) * (stack.nu + 1) * (stack.nv + 1)));
+  return {new Pool(bytes), [&live = context_.liveGrids_bytes](const Pool* pool) {
             live -= static_cast<int64_t>(pool->bytes());
             delete pool;
           }};

@@ -29,6 +29,7 @@ class PieceNode : public HideNode {
     BucketRange range;
     std::shared_ptr<const RasterGrid> grid{};
     RasterExtent extent{};            ///< Of the grid: displacement rarely takes it as far as it may.
+    uint64_t wanted = 0;              ///< Buckets that the grid touches, as in done_.
     std::atomic<bool> made{false};
 
     Stack(PieceStack p, const BucketRange& r) : pieces(std::move(p)), range(r) {}
@@ -36,14 +37,16 @@ class PieceNode : public HideNode {
   };
   std::shared_ptr<const RasterGrid> acquire(Stack& stack);
   std::shared_ptr<const RasterGrid> makeGrid(const PieceStack& stack);
-  std::shared_ptr<Pool> makePool() const;
+  static constexpr uint64_t kFarBuckets = uint64_t{1} << 63;  ///< Those past the 63rd of a node, which are never done.
+  uint64_t bitsOf(const BucketRange& buckets) const;
+  std::shared_ptr<Pool> makePool(const PieceStack& stack) const;
   /// Takes away the cells with vertices that are nearer than the eye plane at some key or not finite. True if there are.
   bool leaveOutUnseeable(Grid& grid) const;
 
   HideContext& context_;
   std::vector<Stack> stacks_;
   std::mutex mutex_;
-  std::shared_ptr<Pool> pool_;  ///< Of the grids. Hiders keep them longer than nodes do.
+  uint64_t done_ = 0;  ///< Buckets of the range, row by row: a grid that no other wants goes before its node.
   int users_;
 };
 

@@ -1,6 +1,6 @@
 // Samples that a cell of a still, sharp grid covers, kLanes of a pixel at a time. Private to the hider; included once for each vector width, after
-// reyes/base/vector.h. A Shape has covers(x, y, depth): which of some samples lie in it, and their depth keys; and vague(): how far those
-// may be off.
+// reyes/base/vector.h. A Shape has covers(samples, lane): which lie in it (mask), depth(x, y, those): their depth keys, and vague(): how far
+// those may be off.
 #include "reyes/hide/raster.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,12 +17,14 @@ struct Reach {
 template <class Shape>
 HWY_INLINE Reach reachOf(const RasterJob& job, const Shape& shape, size_t lane, uint32_t cell, Kept kept) {
   const SampleBuffer& out = job.out;
-  Reach r;
-  const Mask in = shape.covers(hn::Load(kF, out.x.data() + lane), hn::Load(kF, out.y.data() + lane), r.depth);
+  const auto in = shape.covers(out, lane);
+  Reach r{in.mask, all(0.0f), all(0.0f)};
+  if (hn::AllFalse(kF, in.mask)) return r;
+  r.depth = shape.depth(hn::Load(kF, out.x.data() + lane), hn::Load(kF, out.y.data() + lane), in);
   r.before = hn::Load(kF, out.depth.data() + lane);
   // A solid is decided by all of it; padding still covers nothing.
   const Mask reaches = job.raster.inSolid ? hn::Gt(r.before, all(-kInfinity)) : hn::Le(r.depth, r.before);
-  r.mask = hn::And(in, reaches);
+  r.mask = hn::And(in.mask, reaches);
   if (HWY_UNLIKELY(kept == Kept::Part) && !hn::AllFalse(kF, r.mask)) {
     const uint64_t left = keptLanes(job, cell, lane, bitsOf(r.mask));
     r.mask = hn::LoadMaskBits(kF, reinterpret_cast<const uint8_t*>(&left));
@@ -49,19 +51,44 @@ HWY_INLINE bool claim(const RasterJob& job, const Shape& shape, size_t lane, uin
   return true;
 }
 
+/// Writes what a cell covers into a vector of a film: where it does not, what was there, or nothing in one that is fresh.
+HWY_INLINE void write(Films& films, uint32_t film, bool fresh, size_t first, Mask on, Floats depth, uint32_t cell) {
+  float* depths = films.depths(film) + first;
+  uint32_t* cells = films.cells(film) + first;
+  Floats otherDepths = all(Films::kUncovered_d);
+  auto otherCells = hn::Set(kU, kNoCell);
+  if (!fresh) otherDepths = hn::Load(kF, depths), otherCells = hn::Load(kU, cells);
+  hn::Store(hn::IfThenElse(on, depth, otherDepths), kF, depths);
+  hn::Store(hn::IfThenElse(hn::RebindMask(kU, on), hn::Set(kU, cell), otherCells), kU, cells);
+}
+
 /// Notes which samples of a pixel a transparent cell covers in front of what is opaque.
 template <class Shape>
 HWY_INLINE void film(const RasterJob& job, const Shape& shape, size_t pixel, uint32_t cell, Kept kept) {
-  SampleBuffer& out = job.out;
-  Films& films = out.filmsOf(job.raster);
-  const size_t first = pixel * static_cast<size_t>(out.lanes), lanes = static_cast<size_t>(out.lanes);
-  for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) {
-    const Reach r = reachOf(job, shape, first + g, cell, kept);
-    if (hn::AllFalse(kF, r.mask)) continue;
-    hn::StoreU(hn::Compress(r.depth, r.mask), kF, films.next());
-    const float nearest = hn::GetLane(hn::MinOfLanes(kF, hn::IfThenElse(r.mask, r.depth, all(kInfinity))));
-    const float farthest = hn::GetLane(hn::MaxOfLanes(kF, hn::IfThenElse(r.mask, r.depth, all(-kInfinity))));
-    films.add(static_cast<uint32_t>(pixel), cell, static_cast<uint32_t>(g / 64), bitsOf(r.mask) << (g % 64), nearest, farthest);
+  Films& films = job.out.filmsOf(job.raster);
+  const size_t lanes = static_cast<size_t>(job.out.lanes), first = pixel * lanes;
+  if (lanes == hn::Lanes(kF)) {  // Nothing need leave the registers.
+    const Reach r = reachOf(job, shape, first, cell, kept);
+    const uint64_t samples = bitsOf(r.mask);
+    if (samples == 0) return;
+    const uint32_t to = films.take(static_cast<uint32_t>(pixel), samples);
+    return write(films, to, films.film(to).samples == samples, 0, r.mask, r.depth, cell);
+  }
+  for (size_t word = 0; word < films.wordsOfPixel(); ++word) {
+    HWY_ALIGN float depths[64];
+    uint64_t samples = 0;
+    for (size_t g = 0, end = std::min(films.width(), lanes - 64 * word); g < end; g += hn::Lanes(kF)) {
+      const Reach r = reachOf(job, shape, first + 64 * word + g, cell, kept);
+      hn::Store(r.depth, kF, depths + g);
+      samples |= bitsOf(r.mask) << g;
+    }
+    if (samples == 0) continue;
+    const uint32_t to = films.take(static_cast<uint32_t>(pixel * films.wordsOfPixel() + word), samples);
+    const bool fresh = films.film(to).samples == samples;
+    for (size_t g = 0; g < films.width(); g += hn::Lanes(kF)) {
+      const uint64_t here = samples >> g;
+      write(films, to, fresh, g, hn::LoadMaskBits(kF, reinterpret_cast<const uint8_t*>(&here)), hn::Load(kF, depths + g), cell);
+    }
   }
 }
 
@@ -71,6 +98,10 @@ HWY_INLINE void sampleCell(const RasterJob& job, const PixelRect& pixels, float 
   SampleBuffer& out = job.out;
   const size_t lanes = static_cast<size_t>(out.lanes);
   if (out.hides(pixels, dMin)) return;
+  if constexpr (!kOpaque) {
+    Films& films = out.filmsOf(job.raster);
+    films.makeRoom(static_cast<size_t>(pixels.width()) * static_cast<size_t>(pixels.height()) * films.wordsOfPixel());
+  }
   const auto shape = make();
   for (int y = pixels.y0; y < pixels.y1; ++y)
     for (int x = pixels.x0; x < pixels.x1; ++x) {

@@ -9,64 +9,108 @@
 
 namespace tomales {
 
-/// The samples of a pixel, up to 64, that one transparent micropolygon covers.
+/// What cells of one grid cover of up to 64 samples of a pixel, each sample once: mostly all that a surface shows there.
 struct Film {
-  uint32_t pixel, cell;
-  uint32_t firstDepth;  ///< In Films::depths: one depth key a sample, lowest bit first.
-  uint32_t word;        ///< Bit s of `samples` is lane 64 * word + s of the pixel.
+  uint32_t word;     ///< Bit s of `samples` is lane 64 * (word % Films::wordsOfPixel()) + s of pixel word / wordsOfPixel().
   uint64_t samples;
-  float nearest, farthest;  ///< Of the depth keys.
 };
 
 /// Grows in memory that its thread keeps from bucket to bucket, up to some size: one bucket of very many layers is no reason to hold as much for
 /// the rest of the frame.
-struct Films {
-  Films() { list.swap(spare().list), depths.swap(spare().depths); }
+class Films {
+ public:
+  static constexpr float kUncovered_d = __builtin_inff();
+  static constexpr uint32_t kNoCell = ~0U, kNone = ~0U;  ///< Of cells; of films.
+
+  Films(size_t pixels, size_t lanes) : width_(std::min<size_t>(lanes, 64)), words_((lanes + 63) / 64), last_(pixels * words_, kNone) {
+    list_.swap(spare().list), depths_.swap(spare().depths), cells_.swap(spare().cells);
+  }
   ~Films() {
-    list.clear();
-    if (worthKeeping(list, spare().list)) list.swap(spare().list);
-    if (worthKeeping(depths, spare().depths)) depths.swap(spare().depths);
+    if (worthKeeping(list_, spare().list)) list_.swap(spare().list);
+    if (worthKeeping(depths_, spare().depths)) depths_.swap(spare().depths);
+    if (worthKeeping(cells_, spare().cells)) cells_.swap(spare().cells);
   }
   Films(const Films&) = delete;
 
-  std::vector<Film> list;
-  std::vector<float> depths;  ///< The first `depthCount` are in use.
-  size_t depthCount = 0;
+  size_t count() const { return count_; }
+  Film& film(size_t i) { return list_[i]; }
+  const Film& film(size_t i) const { return list_[i]; }
+  size_t width() const { return width_; }  ///< Lanes of a film, a multiple of kLanes.
+  size_t wordsOfPixel() const { return words_; }
+  /// Of a film: a depth key and a cell for each lane; kUncovered_d and kNoCell where it covers none.
+  float* depths(size_t film) { return depths_.data() + film * width_; }
+  const float* depths(size_t film) const { return depths_.data() + film * width_; }
+  uint32_t* cells(size_t film) { return cells_.data() + film * width_; }
+  const uint32_t* cells(size_t film) const { return cells_.data() + film * width_; }
 
-  /// Where the depths of the next samples go; there is room for a vector of them.
-  float* next() {
-    if (depths.size() < depthCount + kLanes) depths.resize(2 * depths.size() + kLanes);
-    return depths.data() + depthCount;
+  /// Films of the next grid have no cells of those before.
+  void beginGrid() { firstOfGrid_ = count_; }
+  /// For as many more. take() has none of it: a call there would put all vectors of its caller's loops aside.
+  void makeRoom(size_t more) {
+    const size_t films = count_ + more;
+    if (list_.size() < films) list_.resize(2 * films);
+    if (depths_.size() < films * width_) depths_.resize(2 * films * width_);
+    if (cells_.size() < films * width_) cells_.resize(2 * films * width_);
   }
-  /// Notes samples, as bits of a word of the pixel, whose depths are at next(). A cell's samples arrive in order.
-  void add(uint32_t pixel, uint32_t cell, uint32_t word, uint64_t samples, float nearest, float farthest) {
-    const auto first = static_cast<uint32_t>(depthCount);
-    depthCount += static_cast<size_t>(std::popcount(samples));
-    if (!list.empty() && list.back().pixel == pixel && list.back().cell == cell && list.back().word == word) {
-      Film& film = list.back();
-      film.samples |= samples, film.nearest = std::min(film.nearest, nearest), film.farthest = std::max(film.farthest, farthest);
-      return;
+  /// The film of the grid that gets some samples of a cell: the last of that word, or a new one if that has one of them. It has them now, but not
+  /// yet their depths and cells; a new one has no others: its `samples` are these, and nothing is written to it.
+  /// Pre: there is room.
+  uint32_t take(uint32_t word, uint64_t samples) {
+    uint32_t& last = last_[word];
+    if (last - firstOfGrid_ < count_ - firstOfGrid_ && (list_[last].samples & samples) == 0) {
+      list_[last].samples |= samples;
+      return last;
     }
-    // In place: a copy would wait for its parts to be written.
-    Film& film = list.emplace_back();
-    film.pixel = pixel, film.cell = cell, film.firstDepth = first, film.word = word, film.samples = samples;
-    film.nearest = nearest, film.farthest = farthest;
+    list_[count_] = {word, samples};
+    return last = count_++;
+  }
+
+  /// Samples one by one: those of a cell stay together until the next flush().
+  void add(uint32_t word, uint32_t sample, uint32_t cell, float depth) {
+    if (word != openWord_ || cell != openCell_) flush();
+    openWord_ = word, openCell_ = cell;
+    open_ |= uint64_t{1} << sample;
+    openDepths_[sample] = depth;
+  }
+  void flush() {
+    if (open_ == 0) return;
+    makeRoom(1);
+    const uint32_t film = take(openWord_, open_);
+    if (list_[film].samples == open_) {
+      std::fill_n(depths(film), width_, kUncovered_d);
+      std::fill_n(cells(film), width_, kNoCell);
+    }
+    for (; open_; open_ &= open_ - 1) {
+      const int s = std::countr_zero(open_);
+      depths(film)[s] = openDepths_[s], cells(film)[s] = openCell_;
+    }
   }
 
  private:
   static constexpr size_t kMostKept_bytes = size_t{32} << 20;
   template <class T>
-  static bool worthKeeping(const std::vector<T>& mine, const std::vector<T>& kept) {
-    return mine.capacity() > kept.capacity() && mine.capacity() * sizeof(T) <= kMostKept_bytes;
+  static bool worthKeeping(const T& mine, const T& kept) {
+    return mine.capacity() > kept.capacity() && mine.capacity() * sizeof(typename T::value_type) <= kMostKept_bytes;
   }
   struct Spare {
-    std::vector<Film> list;
-    std::vector<float> depths;
+    UnsetVector<Film> list;
+    UnsetVector<float> depths;
+    UnsetVector<uint32_t> cells;
   };
   static Spare& spare() {
     static thread_local Spare ofThread;
     return ofThread;
   }
+
+  const size_t width_, words_;
+  UnsetVector<Film> list_;
+  UnsetVector<float> depths_;
+  UnsetVector<uint32_t> cells_;
+  std::vector<uint32_t> last_;  ///< Film of a word, kNone: there is none yet.
+  uint32_t count_ = 0, firstOfGrid_ = 0;
+  uint64_t open_ = 0;
+  uint32_t openWord_ = 0, openCell_ = 0;
+  float openDepths_[64];
 };
 
 }  // namespace tomales

@@ -64,10 +64,9 @@ namespace {
 /// Calls f(sample, depth) for the samples of a sight.
 template <class F>
 void forSamples(const Sight& sight, const F& f) {
-  int k = 0;
-  for (uint64_t left = sight.samples; left; left &= left - 1, ++k) {
-    const int bit = std::countr_zero(left);
-    f(size_t{sight.word} * 64 + static_cast<size_t>(bit), sight.depths[sight.opaque ? bit : k]);
+  for (uint64_t left = sight.samples; left; left &= left - 1) {
+    const auto bit = static_cast<size_t>(std::countr_zero(left));
+    f(size_t{sight.word} * 64 + bit, sight.depths[bit]);
   }
 }
 

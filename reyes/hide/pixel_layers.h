@@ -14,8 +14,7 @@ struct Sight {
   uint32_t cell, word;
   uint64_t samples;
   float d;              ///< Of the nearest of its samples.
-  const float* depths;  ///< Opaque: a depth key for each of the word's 64 samples. Else one for each of `samples`.
-  bool opaque;
+  const float* depths;  ///< A depth key for each of the word's samples, meaningless where it is not one of these.
   float far = __builtin_inff();  ///< No less than the depth key of any of its samples.
 };
 

@@ -3,9 +3,8 @@
 // A sample is inside a triangle if it lies on the inner side of each edge. Every edge is evaluated from its
 // lexicographically smaller end, so both neighbours get the same value with opposite signs, and the value
 // zero belongs to the right of the edge seen from that end: as if every sample were moved by (e^2, -e) for an
-// infinitesimal e. Vertices of still grids and samples lie on a lattice (kLattice), which makes the values
-// exact in float for micropolygons up to about 4 px, so that a fan round a vertex neither misses a sample nor
-// hits it twice.
+// infinitesimal e. Vertices of still grids and samples lie on a lattice (kLattice), on which the values of micropolygons up to
+// 8 px are whole numbers (reyes/hide/quad.h), so that a fan round a vertex neither misses a sample nor hits it twice.
 #pragma once
 #include "reyes/hide/lattice.h"
 #include "reyes/hide/samples.h"

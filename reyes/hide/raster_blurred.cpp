@@ -253,6 +253,7 @@ class Descent {
         if (kept == Kept::All || keepsSample(job_, cell, samples.lane[k + s])) give(samples.lane[k + s], depths[s], cell);
       }
     }
+    job_.out.filmsOf(job_.raster).flush();
   }
 
   void give(uint32_t lane, float depth, uint32_t cell) {
@@ -261,10 +262,8 @@ class Descent {
     if (depth > before && !job_.raster.inSolid) return;
     const uint32_t pixel = out.pixelOf[lane / kLanes];
     if (!job_.raster.opaque || job_.raster.inSolid) {
-      Films& films = out.filmsOf(job_.raster);
       const uint32_t s = lane - pixel * static_cast<uint32_t>(out.lanes);
-      *films.next() = depth;
-      return films.add(pixel, cell, s / 64, uint64_t{1} << (s % 64), depth, depth);
+      return out.filmsOf(job_.raster).add(out.wordOf(pixel, s), s % 64, cell, depth);
     }
     if (depth == before) return settleTies(job_, lane, 1, cell);
     before = depth, out.cell[lane] = cell, out.nearer[pixel] = 1;

@@ -36,13 +36,19 @@ class Round {
         vy_(all(o.e.x / o.area)), d_(all(o.d)), gx_(all(o.slope.x)), gy_(all(o.slope.y)), dMin_(all(o.dMin)), dMax_(all(o.dMax)),
         vague_(vagueDepth(std::abs(o.slope.x) + std::abs(o.slope.y), o.d)) {}
 
-  HWY_INLINE Mask covers(Floats sampleX, Floats sampleY, Floats& depth) const {
-    const Floats x = hn::Sub(sampleX, x_), y = hn::Sub(sampleY, y_);
+  struct Covered {
+    Mask mask;
+  };
+  HWY_INLINE Covered covers(const SampleBuffer& samples, size_t lane) const {
+    const Floats x = hn::Sub(hn::Load(kF, samples.x.data() + lane), x_), y = hn::Sub(hn::Load(kF, samples.y.data() + lane), y_);
     const Floats u = hn::Add(hn::Mul(x, ux_), hn::Mul(y, uy_)), v = hn::Add(hn::Mul(x, vx_), hn::Mul(y, vy_));
+    return {hn::Lt(hn::Add(hn::Mul(u, u), hn::Mul(v, v)), all(1.0f))};
+  }
+  HWY_INLINE Floats depth(Floats sampleX, Floats sampleY, const Covered&) const {
+    const Floats x = hn::Sub(sampleX, x_), y = hn::Sub(sampleY, y_);
     const Floats d = hn::Add(d_, hn::Add(hn::Mul(x, gx_), hn::Mul(y, gy_)));
     // Never outside the cell, or culling by dMin would depend on rounding.
-    depth = hn::Min(hn::Max(d, dMin_), dMax_);
-    return hn::Lt(hn::Add(hn::Mul(u, u), hn::Mul(v, v)), all(1.0f));
+    return hn::Min(hn::Max(d, dMin_), dMax_);
   }
   float vague() const { return vague_; }
 

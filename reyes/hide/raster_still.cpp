@@ -9,42 +9,27 @@
 #include <cstring>
 
 #include "reyes/hide/claim.h"
+#include "reyes/hide/quad.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tomales {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Coefficients of kLanes edges: inside where dx * (y - oy) - dy * (x - ox) > limit.
-struct EdgeBlock {
-  float ox[kLanes], oy[kLanes], dx[kLanes], dy[kLanes], limit[kLanes];
-
-  /// From p to q with the inside on the left if `side` is 1, on the right if -1.
-  HWY_INLINE void set(int i, float px, float py, float qx, float qy, float side) {
-    const bool swapped = (qx < px) | ((qx == px) & (qy < py));
-    ox[i] = swapped ? qx : px;
-    oy[i] = swapped ? qy : py;
-    dx[i] = side * (qx - px);
-    dy[i] = side * (qy - py);
-    limit[i] = (swapped ? -side : side) > 0 ? 0.0f : -kTiny;
-  }
-};
-
-/// kLanes micropolygons abcd that follow each other in the vertex order of a grid. That at the last vertex of
-/// a row is no cell.
-struct alignas(64) QuadBlock {
-  float x[4][kLanes], y[4][kLanes], d[4][kLanes];  ///< Corners
-  EdgeBlock ab, ca, bd, dc, bc;
-  float fold[kLanes], foldLimit[kLanes];  ///< The diagonal's value, seen from triangle bdc.
-  float gx0[kLanes], gy0[kLanes], gx1[kLanes], gy1[kLanes];  ///< Depth gradients of abc, bdc.
-  float xMin[kLanes], xMax[kLanes], yMin[kLanes], yMax[kLanes], dMin[kLanes], dMax[kLanes];
-};
-
 HWY_INLINE void loadCorners(float to[4][kLanes], const float* from, int row) {
   std::copy_n(from, kLanes, to[0]);
   std::copy_n(from + 1, kLanes, to[1]);
   std::copy_n(from + row, kLanes, to[2]);
   std::copy_n(from + row + 1, kLanes, to[3]);
+}
+
+HWY_INLINE void setLattice(const float from[4][kLanes], float origin, int32_t to[4][kLanes]) {
+  const Floats zero = all(origin), scale = all(kLattice), far = all(65536.0f);
+  for (int k = 0; k < 4; ++k)
+    for (size_t g = 0; g < kLanes; g += hn::Lanes(kF)) {
+      const Floats at = hn::Mul(hn::Sub(hn::Load(kF, from[k] + g), zero), scale);
+      hn::Store(hn::ConvertTo(kI, hn::Min(hn::Max(at, hn::Neg(far)), far)), kI, to[k] + g);
+    }
 }
 
 HWY_INLINE void setBounds(const float v[4][kLanes], float* lo, float* hi) {
@@ -56,35 +41,44 @@ HWY_INLINE void setBounds(const float v[4][kLanes], float* lo, float* hi) {
   }
 }
 
-/// facing: RasterGrid::facing
-HWY_INLINE void setTriangles(QuadBlock& q, float facing) {
+/// Which of kLanes vertices of a grid begin a cell, and its number.
+class CellNumbers {
+ public:
+  explicit CellNumbers(const Grid& g) : nu_(g.nu), nv_(g.nv), perRow_(1 / static_cast<float>(nu_ + 1)), perPiece_(1 / static_cast<float>(nv_ + 1)) {}
+
+  HWY_INLINE uint64_t set(Corners& q, int first, int end) const {
+    HWY_ALIGN int32_t begins[kLanes];
+    for (int i = 0; i < kLanes; ++i) {
+      // Halves keep the quotients of whole numbers below 2^21 away from where rounding would matter.
+      const int a = first + i, row = static_cast<int>((static_cast<float>(a) + 0.5f) * perRow_);
+      const int piece = static_cast<int>((static_cast<float>(row) + 0.5f) * perPiece_), u = a - row * (nu_ + 1);
+      q.cell[i] = row * nu_ + u;
+      begins[i] = (u != nu_) & (row - piece * (nv_ + 1) != nv_) & (a < end);
+    }
+    uint64_t bits = 0;
+    for (size_t g = 0; g < kLanes; g += hn::Lanes(kI)) bits |= bitsOf(hn::RebindMask(kF, hn::Ne(hn::Load(kI, begins + g), hn::Zero(kI)))) << g;
+    return bits;
+  }
+
+ private:
+  int nu_, nv_;
+  float perRow_, perPiece_;
+};
+
+/// Pixels of the bucket that bounds touch, as SampleBuffer::touched has them.
+HWY_INLINE void setPixels(const float* lo, const float* hi, int first, int end, int32_t* from, int32_t* to) {
+  const float origin = static_cast<float>(first), size = static_cast<float>(end - first);
   for (int i = 0; i < kLanes; ++i) {
-    const float ax = q.x[0][i], bx = q.x[1][i], cx = q.x[2][i], dx = q.x[3][i];
-    const float ay = q.y[0][i], by = q.y[1][i], cy = q.y[2][i], dy = q.y[3][i];
-    const float ad = q.d[0][i], bd = q.d[1][i], cd = q.d[2][i], dd = q.d[3][i];
-    const float area0 = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
-    const float area1 = (dx - bx) * (cy - by) - (dy - by) * (cx - bx);
-    const float side0 = area0 > 0 ? 1.0f : -1.0f, side1 = area1 > 0 ? 1.0f : -1.0f;
-    q.ab.set(i, ax, ay, bx, by, side0);
-    q.bc.set(i, bx, by, cx, cy, side0);
-    q.ca.set(i, cx, cy, ax, ay, side0);
-    q.bd.set(i, bx, by, dx, dy, side1);
-    q.dc.set(i, dx, dy, cx, cy, side1);
-    q.fold[i] = -side0 * side1;
-    q.foldLimit[i] = (q.bc.limit[i] < 0 ? -1.0f : 1.0f) * q.fold[i] > 0 ? 0.0f : -kTiny;
-    // A triangle without area has no inside, and one that turns away is not seen.
-    q.ab.limit[i] = (area0 == 0) | (facing * side0 < 0) ? FLT_MAX : q.ab.limit[i];
-    q.bd.limit[i] = (area1 == 0) | (facing * side1 < 0) ? FLT_MAX : q.bd.limit[i];
-    const float inverse0 = 1.0f / (area0 == 0 ? 1.0f : area0), inverse1 = 1.0f / (area1 == 0 ? 1.0f : area1);
-    q.gx0[i] = ((bd - ad) * (cy - ay) - (cd - ad) * (by - ay)) * inverse0;
-    q.gy0[i] = ((cd - ad) * (bx - ax) - (bd - ad) * (cx - ax)) * inverse0;
-    q.gx1[i] = ((dd - bd) * (cy - by) - (cd - bd) * (dy - by)) * inverse1;
-    q.gy1[i] = ((cd - bd) * (dx - bx) - (dd - bd) * (cx - bx)) * inverse1;
+    const float a = lo[i] - origin, b = hi[i] - origin;
+    const int32_t x0 = static_cast<int32_t>((a < -1 ? -1 : a > size ? size : a) + 1) - 1, x1 = static_cast<int32_t>((b < -1 ? -1 : b > size ? size : b) + 1);
+    from[i] = first + (x0 < 0 ? 0 : x0);
+    to[i] = x1 < end - first ? first + x1 : end;
   }
 }
 
-/// Corners and bounds of the micropolygons from `first` on, and which of them touch the bucket; if any does, their edges too.
-HWY_INLINE uint64_t setUp(QuadBlock& q, const RasterGrid& r, int first, int row, const PixelRect& bucket) {
+/// Corners, bounds and numbers of the cells from vertex `first` on, and which of them touch the bucket.
+HWY_INLINE uint64_t setUp(Corners& q, const RasterGrid& r, const CellNumbers& numbers, int first, int end, const PixelRect& bucket) {
+  const int row = r.grid->nu + 1;
   loadCorners(q.x, r.x.data() + first, row);
   loadCorners(q.y, r.y.data() + first, row);
   setBounds(q.x, q.xMin, q.xMax);
@@ -100,75 +94,52 @@ HWY_INLINE uint64_t setUp(QuadBlock& q, const RasterGrid& r, int first, int row,
   if (touching == 0) return 0;
   loadCorners(q.d, r.d.data() + first, row);
   setBounds(q.d, q.dMin, q.dMax);
-  setTriangles(q, r.facing);
-  return touching;
+  setPixels(q.xMin, q.xMax, bucket.x0, bucket.x1, q.x0, q.x1);
+  setPixels(q.yMin, q.yMax, bucket.y0, bucket.y1, q.y0, q.y1);
+  return touching & numbers.set(q, first, end);
 }
 
-struct Edge {
-  Floats ox, oy, dx, dy, limit;
-  Edge(const EdgeBlock& b, int i)
-      : ox(all(b.ox[i])), oy(all(b.oy[i])), dx(all(b.dx[i])), dy(all(b.dy[i])), limit(all(b.limit[i])) {}
-  HWY_INLINE Floats at(Floats x, Floats y) const {
-    return hn::Sub(hn::Mul(dx, hn::Sub(y, oy)), hn::Mul(dy, hn::Sub(x, ox)));
+/// Are edges of some cells short enough for the lattice?
+HWY_INLINE bool fitLattice(const Corners& q, uint64_t cells, const SampleBuffer& samples) {
+  uint64_t large = 0;
+  for (size_t g = 0; g < kLanes; g += hn::Lanes(kF)) {
+    const Floats width = hn::Sub(hn::Load(kF, q.xMax + g), hn::Load(kF, q.xMin + g)), height = hn::Sub(hn::Load(kF, q.yMax + g), hn::Load(kF, q.yMin + g));
+    large |= bitsOf(hn::Gt(hn::Max(width, height), all(LatticeEdges::kMost_px))) << g;
   }
-  HWY_INLINE Mask holds(Floats x, Floats y) const { return hn::Gt(at(x, y), limit); }
-};
+  return samples.fitsLattice() && (large & cells) == 0;
+}
 
-/// One micropolygon, ready to be asked about samples.
-class Quad {
- public:
-  Quad(const QuadBlock& q, int i)
-      : ab_(q.ab, i), ca_(q.ca, i), bd_(q.bd, i), dc_(q.dc, i), bc_(q.bc, i), fold_(all(q.fold[i])),
-        foldLimit_(all(q.foldLimit[i])), bx_(all(q.x[1][i])), by_(all(q.y[1][i])), bDepth_(all(q.d[1][i])),
-        dMin_(all(q.dMin[i])), dMax_(all(q.dMax[i])), gx0_(all(q.gx0[i])), gy0_(all(q.gy0[i])), gx1_(all(q.gx1[i])),
-        gy1_(all(q.gy1[i])) {
-    const float slope0 = std::abs(q.gx0[i]) + std::abs(q.gy0[i]), slope1 = std::abs(q.gx1[i]) + std::abs(q.gy1[i]);
-    vague_ = vagueDepth(slope0 > slope1 ? slope0 : slope1, q.dMin[i]);
+template <class Edges>
+void sampleCells(const RasterJob& job, const Corners& q, uint64_t cells) {
+  const RasterGrid& r = job.raster;
+  Triangles<Edges> triangles;
+  triangles.set(q, r.facing);
+  for (uint64_t left = cells; left; left &= left - 1) {
+    const int i = std::countr_zero(left);
+    const Kept kept = keptOf(job, q.cell[i]);
+    if (kept == Kept::None) continue;
+    const uint32_t cell = job.firstCell + static_cast<uint32_t>(q.cell[i]);
+    const PixelRect pixels{q.x0[i], q.y0[i], q.x1[i], q.y1[i]};
+    const auto quad = [&] { return Quad<Edges>(q, triangles, i); };
+    if (r.opaque && !r.inSolid)
+      sampleCell<true>(job, pixels, q.dMin[i], cell, kept, quad);
+    else
+      sampleCell<false>(job, pixels, r.inSolid ? r.dMin : q.dMin[i], cell, kept, quad);
   }
-
-  /// Which samples are covered, and their depth keys.
-  HWY_INLINE Mask covers(Floats x, Floats y, Floats& depth) const {
-    const Floats diagonal = bc_.at(x, y);
-    const Mask in0 = hn::And(hn::And(ab_.holds(x, y), ca_.holds(x, y)), hn::Gt(diagonal, bc_.limit));
-    const Mask in1 =
-        hn::And(hn::And(bd_.holds(x, y), dc_.holds(x, y)), hn::Gt(hn::Mul(fold_, diagonal), foldLimit_));
-    const Floats gx = hn::IfThenElse(in0, gx0_, gx1_), gy = hn::IfThenElse(in0, gy0_, gy1_);
-    const Floats d =
-        hn::Add(hn::Add(bDepth_, hn::Mul(gx, hn::Sub(x, bx_))), hn::Mul(gy, hn::Sub(y, by_)));
-    // Never outside the cell, or culling by dMin would depend on rounding.
-    depth = hn::Min(hn::Max(d, dMin_), dMax_);
-    return hn::Or(in0, in1);
-  }
-  float vague() const { return vague_; }
-
- private:
-  float vague_;
-  Edge ab_, ca_, bd_, dc_, bc_;
-  Floats fold_, foldLimit_, bx_, by_, bDepth_, dMin_, dMax_, gx0_, gy0_, gx1_, gy1_;
-};
+}
 
 /// The micropolygons whose first vertices are those from `first` to before `end`.
-void rasterizeRun(const RasterJob& job, int first, int end, QuadBlock& q) {
-  const RasterGrid& r = job.raster;
-  const Grid& g = *r.grid;
-  const int row = g.nu + 1;
+void rasterizeRun(const RasterJob& job, int first, int end, Corners& q) {
+  const CellNumbers numbers(*job.raster.grid);
   for (int k = first; k < end; k += kLanes) {
-    uint64_t left = setUp(q, r, k, row, job.out.rect);
-    for (; left; left &= left - 1) {
-      const int i = std::countr_zero(left), a = k + i, v = a / row, u = a - v * row;
-      if (a >= end) break;
-      if (u == g.nu) continue;
-      const int index = v * g.nu + u;
-      if (!g.isCell(index)) continue;
-      const Kept kept = keptOf(job, index);
-      if (kept == Kept::None) continue;
-      const uint32_t cell = job.firstCell + static_cast<uint32_t>(index);
-      const PixelRect pixels = job.out.touched({q.xMin[i], q.yMin[i]}, {q.xMax[i], q.yMax[i]});
-      const auto quad = [&] { return Quad(q, i); };
-      if (r.opaque && !r.inSolid)
-        sampleCell<true>(job, pixels, q.dMin[i], cell, kept, quad);
-      else
-        sampleCell<false>(job, pixels, r.inSolid ? r.dMin : q.dMin[i], cell, kept, quad);
+    const uint64_t cells = setUp(q, job.raster, numbers, k, end, job.out.rect);
+    if (cells == 0) continue;
+    if (fitLattice(q, cells, job.out)) {
+      setLattice(q.x, job.out.origin.x, q.latticeX);
+      setLattice(q.y, job.out.origin.y, q.latticeY);
+      sampleCells<LatticeEdges>(job, q, cells);
+    } else {
+      sampleCells<FloatEdges>(job, q, cells);
     }
   }
 }
@@ -184,7 +155,7 @@ void rasterize(const RasterJob& job) {
     const bool touches = (e.bound.lo.x < hi.x) & (e.bound.hi.x >= lo.x) & (e.bound.lo.y < hi.y) & (e.bound.hi.y >= lo.y);
     return touches && !job.out.hides(e.bound, e.dMin);
   };
-  QuadBlock q;
+  Corners q;
   if (pieces.empty()) return rasterizeRun(job, 0, ofPiece - withoutCells, q);
   for (size_t p = 0; p < pieces.size(); ++p) {
     const size_t first = p;

@@ -1,18 +1,27 @@
 #include "reyes/hide/resolve.h"
 
+#include <algorithm>
 #include <bit>
 #include <numeric>
 
 #include "reyes/hide/facets.h"
-#include "reyes/hide/pixel_layers.h"
+#include "reyes/hide/sights.h"
 
 namespace tomales {
 namespace {
 
+/// What opaque surfaces leave of a film.
+struct Sheet {
+  FilmExtent extent;
+  uint32_t film;
+  bool operator<(const Sheet& o) const { return extent.nearest < o.extent.nearest; }
+};
+
 /// What outlives a tile: the memory of its lists.
 struct Scratch {
   std::vector<uint32_t> filmsOfPixel, firstFilm;
-  std::vector<Sight> sights, sorted;
+  std::vector<Sheet> sheets;
+  std::vector<Sight> sights, opaque, sorted;
   std::vector<uint64_t> keys;
   PixelLayers layers;
   std::vector<Facet> facets;
@@ -38,7 +47,7 @@ class Lent {
 };
 
 class TileBuilder {
-  static constexpr size_t kAhead = 12;  ///< Films that are on their way while one is looked at.
+  static constexpr size_t kAhead = 24;  ///< Films that are on their way while one is looked at.
 
  public:
   TileBuilder(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples, Scratch& scratch)
@@ -60,24 +69,77 @@ class TileBuilder {
   }
 
  private:
-  /// Counts, then places: films of a pixel stand together, in order of insertion.
+  /// Counts, then places: films of a pixel stand together.
   void sortFilms(size_t pixels) {
-    const std::vector<Film>& films = samples_.films.list;
+    const Films& films = samples_.films;
+    const auto words = static_cast<uint32_t>(films.wordsOfPixel());
     std::vector<uint32_t>& first = scratch_.firstFilm;
     first.assign(pixels + 1, 0);
-    for (const Film& f : films) ++first[f.pixel + 1];
+    const auto count = static_cast<uint32_t>(films.count());
+    for (uint32_t i = 0; i < count; ++i) ++first[films.film(i).word / words + 1];
     std::partial_sum(first.begin(), first.end(), first.begin());
-    scratch_.filmsOfPixel.resize(films.size());
-    for (uint32_t i = 0; i < films.size(); ++i) scratch_.filmsOfPixel[first[films[i].pixel]++] = i;
+    scratch_.filmsOfPixel.resize(count);
+    for (uint32_t i = 0; i < count; ++i) scratch_.filmsOfPixel[first[films.film(i).word / words]++] = i;
     for (size_t p = pixels; p > 0; --p) first[p] = first[p - 1];
     first[0] = 0;
   }
 
   void addPixel(size_t pixel) {
-    sights_.clear();
-    collectOpaque(samples_, pixel, sights_);
-    const bool films = scratch_.firstFilm[pixel] < scratch_.firstFilm[pixel + 1];
-    if (films) seeFilms(pixel);
+    const auto first = static_cast<uint32_t>(tile_.fragments.size());
+    if (scratch_.firstFilm[pixel] < scratch_.firstFilm[pixel + 1]) {
+      addFilms(pixel);
+    } else {
+      sights_.clear();
+      collectOpaque(samples_, pixel, sights_);
+      addSights(pixel, false);
+    }
+    tile_.pixels.push_back({first, static_cast<uint32_t>(tile_.fragments.size()) - first});
+  }
+
+  /// Sheets that lie behind all before them need not be looked at together with them.
+  void addFilms(size_t pixel) {
+    findSheets(pixel);
+    const std::vector<Sheet>& sheets = scratch_.sheets;
+    for (size_t i = 0, end = 0; i < sheets.size(); i = end) {
+      sights_.clear();
+      float far = -kInfinity;
+      for (; end < sheets.size() && (end == i || sheets[end].extent.nearest <= far); ++end) {
+        const Sheet& sheet = sheets[end];
+        far = std::max(far, sheet.extent.farthest);
+        if (sheet.film == Films::kNone)
+          sights_.insert(sights_.end(), scratch_.opaque.begin(), scratch_.opaque.end());
+        else
+          collectFilm(samples_.films, sheet.film, sheet.extent.farthest, sights_);
+      }
+      addSights(pixel, end - i > 1);
+    }
+  }
+
+  /// Nearest first.
+  void findSheets(size_t pixel) {
+    std::vector<Sheet>& sheets = scratch_.sheets;
+    std::vector<Sight>& opaque = scratch_.opaque;
+    sheets.clear();
+    opaque.clear();
+    collectOpaque(samples_, pixel, opaque);
+    if (!opaque.empty()) {
+      const auto nearest = std::min_element(opaque.begin(), opaque.end(), [](const Sight& a, const Sight& b) { return a.d < b.d; });
+      sheets.push_back({{nearest->d, kInfinity}, Films::kNone});
+    }
+    const std::vector<uint32_t>& order = scratch_.filmsOfPixel;
+    Films& films = samples_.films;
+    for (uint32_t k = scratch_.firstFilm[pixel]; k < scratch_.firstFilm[pixel + 1]; ++k) {
+      // Those of a pixel are scattered over the list, which is larger than a cache near the processor.
+      const uint32_t next = order[std::min(size_t{k} + kAhead, order.size() - 1)];
+      __builtin_prefetch(films.depths(next)), __builtin_prefetch(films.cells(next)), __builtin_prefetch(&films.film(next));
+      const FilmExtent extent = cullFilm(samples_, grids_, order[k]);
+      if (films.film(order[k]).samples) sheets.push_back({extent, order[k]});
+    }
+    std::sort(sheets.begin(), sheets.end());
+  }
+
+  /// overlapping: a sample may see several of them.
+  void addSights(size_t pixel, bool overlapping) {
     // Nearest first; equal depths in an order that no schedule changes.
     const auto nearer = [this](const Sight& a, const Sight& b) {
       if (a.d != b.d) return a.d < b.d;
@@ -85,8 +147,7 @@ class TileBuilder {
       return a.word < b.word;
     };
     if (!sortByRank() && !sortByKey()) std::sort(sights_.begin(), sights_.end(), nearer);
-    if (films) scratch_.layers.order(sights_, nearer);
-    tile_.pixels.push_back({static_cast<uint32_t>(tile_.fragments.size()), static_cast<uint32_t>(sights_.size())});
+    if (overlapping) scratch_.layers.order(sights_, nearer);
     for (const Sight& s : sights_) {
       facets_.see(s.cell);
       Fragment& f = tile_.fragments.emplace_back();
@@ -131,36 +192,6 @@ class TileBuilder {
     for (const uint64_t key : keys) scratch_.sorted.push_back(sights_[key & 0xffffffffU]);
     sights_.swap(scratch_.sorted);
     return true;
-  }
-
-  void seeFilms(size_t pixel) {
-    const size_t first = pixel * static_cast<size_t>(samples_.lanes);
-    const bool open = sights_.empty();
-    const std::vector<uint32_t>& order = scratch_.filmsOfPixel;
-    const Film* all = samples_.films.list.data();
-    for (uint32_t k = scratch_.firstFilm[pixel]; k < scratch_.firstFilm[pixel + 1]; ++k) {
-      // Those of a pixel are scattered over the list, which is larger than a cache near the processor.
-      __builtin_prefetch(all + order[std::min(size_t{k} + kAhead, order.size() - 1)]);
-      const Film& film = all[order[k]];
-      float* depths = samples_.films.depths.data() + film.firstDepth;
-      // In place: a copy would wait for its parts to be written.
-      Sight& sight = sights_.emplace_back();
-      sight.cell = film.cell, sight.word = film.word, sight.depths = depths, sight.opaque = false;
-      sight.samples = film.samples, sight.d = film.nearest, sight.far = film.farthest;
-      if (open) continue;
-      sight.samples = 0, sight.d = kInfinity, sight.far = -kInfinity;
-      // What an opaque surface hides is closed up.
-      int kept = 0, k0 = 0;
-      for (uint64_t left = film.samples; left; left &= left - 1, ++k0) {
-        const size_t lane = first + size_t{64} * film.word + static_cast<size_t>(std::countr_zero(left));
-        const float d = depths[k0], opaque = samples_.depth[lane];
-        if (d > opaque || (d == opaque && !grids_.precedes(film.cell, samples_.cell[lane]))) continue;
-        depths[kept++] = d;
-        sight.samples |= left & (~left + 1);
-        sight.d = std::min(sight.d, d), sight.far = std::max(sight.far, d);
-      }
-      if (kept == 0) sights_.pop_back();
-    }
   }
 
   void setPosition(Fragment& fragment, uint32_t cellNumber, size_t pixel) const {

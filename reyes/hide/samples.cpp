@@ -2,6 +2,8 @@
 
 #include <tuple>
 
+#include "reyes/hide/lattice.h"
+
 namespace tomales {
 
 const GridTable::Entry& GridTable::add(const std::shared_ptr<const RasterGrid>& raster, std::vector<float> keyTimes) {
@@ -56,24 +58,31 @@ bool GridTable::precedes(uint32_t a, uint32_t b) const {
 
 namespace {
 
+size_t countOf(const PixelRect& pixels) { return static_cast<size_t>(pixels.width()) * static_cast<size_t>(pixels.height()); }
+
 /// The samples of a row of pixels, from the pattern of each.
-TOMALES_HOT void placeRow(const SamplePattern& pattern, const int* patternAt, const PixelRect& rect, int row, int lanes, float* __restrict x,
-                          float* __restrict y) {
+TOMALES_HOT void placeRow(const SamplePattern& pattern, const int* patternAt, const PixelRect& rect, int row, int lanes, const vec2& origin,
+                          float* __restrict x, float* __restrict y, int32_t* __restrict xy) {
   for (int column = rect.x0; column < rect.x1; ++column, ++patternAt) {
     const float *fromX = pattern.x(*patternAt), *fromY = pattern.y(*patternAt), byX = static_cast<float>(column), byY = static_cast<float>(row);
-    for (int k = 0; k < lanes; k += kLanes, x += kLanes, y += kLanes)
+    for (int k = 0; k < lanes; k += kLanes, x += kLanes, y += kLanes, xy += kLanes)
 #pragma GCC ivdep
-      for (int i = 0; i < kLanes; ++i) x[i] = byX + fromX[k + i], y[i] = byY + fromY[k + i];
+      for (int i = 0; i < kLanes; ++i) {
+        x[i] = byX + fromX[k + i], y[i] = byY + fromY[k + i];
+        const auto latticeX = static_cast<int32_t>((x[i] - origin.x) * kLattice), latticeY = static_cast<int32_t>((y[i] - origin.y) * kLattice);
+        xy[i] = static_cast<int32_t>(static_cast<uint32_t>(latticeY) << 16 | (static_cast<uint32_t>(latticeX) & 0xffffU));
+      }
   }
 }
 
 }  // namespace
 
 SampleBuffer::SampleBuffer(const SamplePattern& pattern, const Camera& camera, const PixelRect& pixels)
-    : rect(pixels), lanes(pattern.padded()), pattern_(pattern), lens_(camera.lens()) {
-  const size_t count = static_cast<size_t>(rect.width()) * static_cast<size_t>(rect.height());
+    : rect(pixels), lanes(pattern.padded()), origin(rect.x0 + kHalf_px, rect.y0 + kHalf_px), films(countOf(pixels), static_cast<size_t>(lanes)),
+      crossings(countOf(pixels), static_cast<size_t>(lanes)), pattern_(pattern), lens_(camera.lens()) {
+  const size_t count = countOf(rect);
   const size_t width = static_cast<size_t>(lanes), samples = static_cast<size_t>(pattern.count());
-  x.resize(count * width), y.resize(count * width);
+  x.resize(count * width), y.resize(count * width), xy.resize(count * width);
   depth.assign(count * width, kNothing);
   cell.assign(count * width, kNoCell);
   far.assign(count, kNothing);
@@ -84,7 +93,8 @@ SampleBuffer::SampleBuffer(const SamplePattern& pattern, const Camera& camera, c
   for (int row = rect.y0; row < rect.y1; ++row) {
     const size_t first = patternAt_.size();
     for (int column = rect.x0; column < rect.x1; ++column) patternAt_.push_back(pattern.patternOf(column, row));
-    placeRow(pattern, patternAt_.data() + first, rect, row, lanes, x.data() + first * width, y.data() + first * width);
+    placeRow(pattern, patternAt_.data() + first, rect, row, lanes, origin, x.data() + first * width, y.data() + first * width,
+             xy.data() + first * width);
   }
   for (size_t p = 0; p < count && samples < width; ++p) std::fill_n(depth.data() + p * width + samples, width - samples, -kInfinity);
 }
@@ -107,7 +117,8 @@ std::vector<uint32_t> SampleBuffer::seen() const {
   std::vector<uint32_t> out;
   std::copy_if(cell.begin(), cell.end(), std::back_inserter(out), [](uint32_t c) { return c != kNoCell; });
   for (const Films* covered : {&films, &crossings})
-    for (const Film& film : covered->list) out.push_back(film.cell);
+    for (size_t k = 0, end = covered->count() * covered->width(); k < end; ++k)
+      if (const uint32_t c = covered->cells(0)[k]; c != kNoCell && (out.empty() || out.back() != c)) out.push_back(c);
   std::sort(out.begin(), out.end());
   return out;
 }

@@ -10,7 +10,7 @@
 namespace tomales {
 
 constexpr float kNothing = FLT_MAX;  ///< Depth key of a sample that nothing opaque covers.
-constexpr uint32_t kNoCell = ~0U;
+constexpr uint32_t kNoCell = Films::kNoCell;
 
 /// Grids in order of insertion.
 class GridTable {
@@ -54,7 +54,9 @@ struct SampleBuffer {
 
   PixelRect rect;
   int lanes;                       ///< Of a pixel, a multiple of kLanes.
+  vec2 origin;                     ///< Raster position from which the lattice counts here.
   UnsetVector<float> x, y;         ///< Raster position.
+  UnsetVector<int32_t> xy;         ///< The same on the lattice if it fits: y in the upper half, x in the lower.
   UnsetVector<float> time;         ///< Fraction of the shutter; this and the lens are empty before showBlur().
   UnsetVector<float> lensX, lensY;  ///< Raster shift of what has a depth key of Camera::focusKey() + 1.
   AlignedVector<float> depth;      ///< Key of the nearest opaque hit; -infinity in padding, which so never counts.
@@ -66,6 +68,8 @@ struct SampleBuffer {
   Films crossings;                 ///< Everything of solids that covers a sample, however deep.
   std::vector<Contest> contests;   ///< Of what is opaque, still and in focus; some may since have been hidden.
 
+  /// Do 16 bits hold the positions on the lattice?
+  bool fitsLattice() const { return rect.width() <= 2 * kHalf_px && rect.height() <= 2 * kHalf_px; }
   /// Makes times and lens positions: the first grid that moves or is out of focus asks for them.
   void showBlur();
   /// What DetailShare divides, of a lane.
@@ -75,6 +79,8 @@ struct SampleBuffer {
   }
   /// Where transparent grids, and solids, note what they cover.
   Films& filmsOf(const RasterGrid& raster) { return raster.inSolid ? crossings : films; }
+  /// Of a sample of a pixel: Film::word.
+  uint32_t wordOf(uint32_t pixel, uint32_t sample) const { return pixel * static_cast<uint32_t>(films.wordsOfPixel()) + sample / 64; }
   /// Brings `far` up to date.
   void settle(const PixelRect& pixels);
 
@@ -107,14 +113,10 @@ struct SampleBuffer {
   bool hides(const Bound2& bound, float d) const;
 
  private:
-  static constexpr int kFew_px = 4;
+  static constexpr int kFew_px = 4, kHalf_px = 32;
   const SamplePattern& pattern_;
   const vec2 lens_;
   std::vector<int> patternAt_;  ///< A pixel
 };
-
-struct Sight;
-/// Appends what the samples of a pixel see of opaque surfaces.
-void collectOpaque(const SampleBuffer& samples, size_t pixel, std::vector<Sight>& sights);
 
 }  // namespace tomales

@@ -28,6 +28,7 @@ class SolidResolver {
 
   void resolve() {
     const std::vector<Crossing> all = sorted();
+    samples_.films.beginGrid();
     for (size_t first = 0, last = 0; first < all.size(); first = last) {
       while (last < all.size() && sameLine(all[first], all[last])) ++last;
       resolveLine({all.data() + first, last - first});
@@ -41,11 +42,16 @@ class SolidResolver {
 
   std::vector<Crossing> sorted() {
     std::vector<Crossing> all;
-    for (const Film& film : samples_.crossings.list) {
-      const float* depth = samples_.crossings.depths.data() + film.firstDepth;
-      const uint32_t first = film.pixel * static_cast<uint32_t>(samples_.lanes) + 64 * film.word;
-      for (uint64_t left = film.samples; left; left &= left - 1)
-        all.push_back({first + static_cast<uint32_t>(std::countr_zero(left)), objectOf(film.cell).solid, *depth++, film.cell});
+    const Films& crossings = samples_.crossings;
+    const auto lanes = static_cast<uint32_t>(samples_.lanes), words = static_cast<uint32_t>(crossings.wordsOfPixel());
+    for (size_t i = 0; i < crossings.count(); ++i) {
+      const Film& film = crossings.film(i);
+      const uint32_t first = film.word / words * lanes + 64 * (film.word % words);
+      for (uint64_t left = film.samples; left; left &= left - 1) {
+        const auto s = static_cast<uint32_t>(std::countr_zero(left));
+        const uint32_t cell = crossings.cells(i)[s];
+        all.push_back({first + s, objectOf(cell).solid, crossings.depths(i)[s], cell});
+      }
     }
     std::sort(all.begin(), all.end(), [this](const Crossing& p, const Crossing& q) {
       const auto key = [](const Crossing& c) { return std::tie(c.lane, c.solid, c.d); };
@@ -91,8 +97,8 @@ class SolidResolver {
     if (c.d > depth) return false;
     if (!grids_.of(c.cell).raster->opaque) {
       const uint32_t lanes = static_cast<uint32_t>(samples_.lanes), s = c.lane % lanes;
-      *samples_.films.next() = c.d;
-      samples_.films.add(c.lane / lanes, c.cell, s / 64, uint64_t{1} << (s % 64), c.d, c.d);
+      samples_.films.add(samples_.wordOf(c.lane / lanes, s), s % 64, c.cell, c.d);
+      samples_.films.flush();
       return false;
     }
     uint32_t& owner = samples_.cell[c.lane];
@@ -112,7 +118,7 @@ class SolidResolver {
 }  // namespace
 
 void resolveSolids(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples) {
-  if (!samples.crossings.list.empty()) SolidResolver(scene, camera, grids, samples).resolve();
+  if (samples.crossings.count() > 0) SolidResolver(scene, camera, grids, samples).resolve();
 }
 
 }  // namespace tomales

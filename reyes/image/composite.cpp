@@ -120,9 +120,9 @@ void Compositor::shadeFacets(const DeepTile& tile) {
   }
 }
 
-Compositor::KnownShade Compositor::blended(const DeepTile& tile, const Fragment& fragment) const {
+const Compositor::KnownShade& Compositor::blended(const DeepTile& tile, const Fragment& fragment) {
   const FacetShade shade = facetShade(tile, fragment);
-  return {shade, true, hasDepth(shade)};
+  return blended_.emplace_back(shade, true, hasDepth(shade));
 }
 
 ResolvedTile Compositor::resolve(const DeepTile& tile) {
@@ -136,6 +136,8 @@ ResolvedTile Compositor::resolve(const DeepTile& tile) {
     const Fragment* begin = tile.fragments.data() + pixel.first;
     const Fragment* end = begin + pixel.count;
     if (begin == end) continue;
+    blended_.clear();
+    blended_.reserve(pixel.count);
     if (end - begin == 1 || disjoint(begin, end))
       resolveEach(tile, begin, end, out);
     else
@@ -156,7 +158,7 @@ float* Compositor::room(size_t contributions, ResolvedTile& out) const {
 void Compositor::resolveEach(const DeepTile& tile, const Fragment* begin, const Fragment* end, ResolvedTile& out) {
   float* value = room(static_cast<size_t>(end - begin), out);
   for (const Fragment* f = begin; f != end; ++f, value += width()) {
-    const auto [s, known, deep] = shadeOf(tile, *f);
+    const auto& [s, known, deep] = shadeOf(tile, *f);
     out.contributions.push_back({f->samples, f->word, f->z, deep ? f->z : kInfinity});
     value[0] = s.color.x, value[1] = s.color.y, value[2] = s.color.z, value[3] = meanOf(s.coverage);
     if (!extras_.empty()) extraValues(tile, *f, value + 4);
@@ -189,16 +191,16 @@ void Compositor::resolveStack(const DeepTile& tile, const Fragment* begin, const
     stack_.reset(samples_.size(), static_cast<size_t>(width()), withAir);
   lays_.clear();
   for (const Fragment* f = begin; f != end; ++f) {
-    auto [shade, known, deep] = shadeOf(tile, *f);
-    if (deep) noteDepth(tile, *f);
-    const Air air = withAir ? takeAir(tile, *f, shade) : Air{};
-    const Lay lay{f->samples, shade.color, shade.opacity, shade.coverage, f->z, f->word};
+    const KnownShade& known = shadeOf(tile, *f);
+    if (known.deep) noteDepth(tile, *f);
     if (atOnce) {
-      lays_.push_back(lay);
+      lays_.push_back({&known.shade, f->samples, f->z, f->word});
       continue;
     }
+    FacetShade shade = known.shade;
+    const Air air = withAir ? takeAir(tile, *f, shade) : Air{};
     extraValues(tile, *f, facetValues_.data());
-    stack_.lay(lay, {extras_, facetValues_.data(), withAir ? &air : nullptr});
+    stack_.lay({&shade, f->samples, f->z, f->word}, {extras_, facetValues_.data(), withAir ? &air : nullptr});
   }
   if (atOnce)
     stack_.layAll(lays_);

@@ -22,11 +22,6 @@ struct ResolvedTile {
   std::vector<uint32_t> first;
 };
 
-/// What a fragment shows: coverage is its opacity, or 0 where it is matte.
-struct FacetShade {
-  vec3 color, opacity, coverage;
-};
-
 /// Keeps scratch memory; one a thread.
 class Compositor {
  public:
@@ -50,12 +45,12 @@ class Compositor {
     bool deep = false;  ///< hasDepth
   };
   void shadeFacets(const DeepTile& tile);
-  /// After shadeFacets().
-  KnownShade shadeOf(const DeepTile& tile, const Fragment& fragment) const {
+  /// After shadeFacets(). Good until the next tile, or where it is blended until as many as `blended_` has room for follow.
+  const KnownShade& shadeOf(const DeepTile& tile, const Fragment& fragment) {
     const KnownShade& known = shades_[fragment.facet];
     return known.known ? known : blended(tile, fragment);
   }
-  KnownShade blended(const DeepTile& tile, const Fragment& fragment) const;
+  const KnownShade& blended(const DeepTile& tile, const Fragment& fragment);
   /// What `shade` has of air, which is taken off it: that of all but the last thing that a sample sees.
   static Air takeAir(const DeepTile& tile, const Fragment& fragment, FacetShade& shade);
   bool disjoint(const Fragment* begin, const Fragment* end);
@@ -69,6 +64,7 @@ class Compositor {
   const Options& options_;
   std::vector<ExtraFloat> extras_;
   std::vector<KnownShade> shades_;      ///< Of all facets of a tile.
+  std::vector<KnownShade> blended_;     ///< Of fragments of a pixel whose facets have several points.
   std::vector<uint64_t> seen_;          ///< Samples that any fragment covers.
   /// What a sample saw last while layers() runs, and through what.
   struct Last {

@@ -13,7 +13,6 @@ FileFormat formatOfType(const std::string& type) {
   return {"", SampleType::Float};
 }
 
-constexpr std::string_view kCompressions[] = {"none", "rle", "zip", "zips", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
 constexpr std::string_view kOnlyExr[] = {"exrpixeltype", "type", "tiled", "multipart", "chromaticities", "mergedepth", "mergeopacity"};
 constexpr std::string_view kHeader = "exrheader_";
 
@@ -56,28 +55,29 @@ bool flag(const DisplayCall& display, const char* name) {
 
 void setExr(const DisplayCall& display, FileFormat& format) {
   if (pixelTypeOf(display) == "half") format.type = SampleType::Half;
-  const std::string compression = compressionOf(display);
-  if (std::find(std::begin(kCompressions), std::end(kCompressions), compression) != std::end(kCompressions))
-    format.compression = compression;
   if (flag(display, "tiled")) format.tile = PictureFile::kBandRows;
   format.multipart = flag(display, "multipart");
   format.metadata = metadataOf(display);
 }
 
-/// TIFF takes some of OpenEXR's compressions; what else only OpenEXR has is named.
-void setOther(const DisplayCall& display, FileFormat& format, Log& log) {
-  const auto warn = [&](const char* code, const std::string& what) {
-    log.report(Severity::Warning, code, display.where, "Display \"" + display.name + "\": " + what + "; ignored");
-  };
-  const std::string compression = compressionOf(display);
-  const bool known = compression == "none" || compression == "rle" || compression == "zip" || compression == "zips";
-  if (format.name == "tiff" && known)
-    format.compression = compression;
-  else if (!compression.empty())
-    warn("display-compression", "a file of type " + format.name + " cannot be compressed by \"" + compression + "\"");
+void setCompression(const DisplayCall& display, FileFormat& format, Log& log) {
+  static const std::vector<std::string_view> kExr = {"none", "rle", "zip", "zips", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
+  static const std::vector<std::string_view> kTiff = {"none", "rle", "zip", "zips", "lzw"}, kPng = {"zip"};
+  const std::vector<std::string_view>& known = format.name == "openexr" ? kExr : format.name == "tiff" ? kTiff : kPng;
+  const std::string asked = compressionOf(display);
+  if (asked.empty()) return;
+  if (std::find(known.begin(), known.end(), asked) != known.end())
+    format.compression = asked;
+  else
+    log.report(Severity::Warning, "display-compression", display.where,
+               "Display \"" + display.name + "\": files of type " + format.name + " have no compression \"" + asked + "\"; ignored");
+}
+
+void warnOfWhatOnlyExrHas(const DisplayCall& display, const FileFormat& format, Log& log) {
   for (const Param& p : display.params)
     if (p.name.starts_with(kHeader) || std::find(std::begin(kOnlyExr), std::end(kOnlyExr), p.name) != std::end(kOnlyExr))
-      warn("display-parameter", "only OpenEXR files have \"" + p.name + "\"");
+      log.report(Severity::Warning, "display-parameter", display.where,
+                 "Display \"" + display.name + "\": files of type " + format.name + " have no \"" + p.name + "\"; ignored");
 }
 
 }  // namespace
@@ -96,13 +96,10 @@ void warnAboutParams(const DisplayCall& display, Log& log) {
   };
   for (const Param& p : display.params)
     if (!knowsParam(p.name)) warn("no parameter \"" + p.name + "\"");
-  const std::string transfer = displayText(display, "transfer"), type = pixelTypeOf(display), compression = compressionOf(display);
+  const std::string transfer = displayText(display, "transfer"), type = pixelTypeOf(display);
   if (!transfer.empty() && transfer != "srgb" && transfer != "linear")
     warn("no transfer \"" + transfer + "\"");
   if (!type.empty() && type != "half" && type != "float") warn("no pixel type \"" + type + "\"");
-  if (!compression.empty() &&
-      std::find(std::begin(kCompressions), std::end(kCompressions), compression) == std::end(kCompressions))
-    warn("no compression \"" + compression + "\"");
 }
 
 FileFormat formatOf(const DisplayCall& display, std::string& path, Log& log) {
@@ -118,10 +115,11 @@ FileFormat formatOf(const DisplayCall& display, std::string& path, Log& log) {
     format = {"openexr", SampleType::Float};
     path = std::filesystem::path(path).replace_extension(".exr").string();
   }
+  setCompression(display, format, log);
   if (format.name == "openexr")
     setExr(display, format);
   else
-    setOther(display, format, log);
+    warnOfWhatOnlyExrHas(display, format, log);
   return format;
 }
 

@@ -25,6 +25,7 @@
 
 #include "reyes/base/parallel.h"
 #include "reyes/image/format_writer.h"
+#include "reyes/pictures.h"
 
 namespace tomales {
 namespace {
@@ -71,8 +72,7 @@ Imf::Compression compressionOf(const FileFormat& format) {
 
 void setMetadata(const Metadata& m, Imf::Header& header) {
   const std::vector<float>& n = m.numbers;
-  // As OpenImageIO spells them, which reads the maps.
-  const std::string name = m.name == "worldtocamera" ? "worldToCamera" : m.name == "worldtoscreen" ? "worldToScreen" : m.name;
+  const std::string name = exrAttributeName(m.name);
   if (n.empty()) {
     header.insert(name, Imf::StringAttribute(m.text));
   } else if (n.size() == 16) {

@@ -34,8 +34,9 @@ class PngFile : public FormatWriter {
     if (channels < 1 || channels > 4) throw std::runtime_error(fmt::format("PNG holds 1 to 4 channels, not {}", channels));
     file_.stream = std::fopen(path.c_str(), "wb");
     if (!file_.stream) throw std::runtime_error(std::strerror(errno));
-    file_.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &problem_, keepMessage, nullptr);
+    file_.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &problem_, keepMessage, [](png_structp, png_const_charp) {});
     file_.info = png_create_info_struct(file_.png);
+    if (!file_.info) throw std::runtime_error("PNG: out of memory");
     guarded([&] {
       png_init_io(file_.png, file_.stream);
       png_set_IHDR(file_.png, file_.info, static_cast<png_uint_32>(shape.width), static_cast<png_uint_32>(shape.height),

@@ -56,10 +56,10 @@ void layAt(const Lay& l, const LayMore& more, Mask covered, SampleStack& stack, 
       put(v, hn::And(on, hn::Eq(before, all(kInfinity))), hn::Load(kF, to), to);
     }
   }
-  add(0, hn::Mul(clear.x, all(l.color.x)));
-  add(1, hn::Mul(clear.y, all(l.color.y)));
-  add(2, hn::Mul(clear.z, all(l.color.z)));
-  add(3, clear.mean(l.coverage));
+  add(0, hn::Mul(clear.x, all(l.shade->color.x)));
+  add(1, hn::Mul(clear.y, all(l.shade->color.y)));
+  add(2, hn::Mul(clear.z, all(l.shade->color.z)));
+  add(3, clear.mean(l.shade->coverage));
   if (more.air) {
     const vec3& color = more.air->color;
     const Floats seen[4] = {hn::Mul(clear.x, all(color.x)), hn::Mul(clear.y, all(color.y)), hn::Mul(clear.z, all(color.z)), clear.mean(more.air->opacity)};
@@ -69,7 +69,7 @@ void layAt(const Lay& l, const LayMore& more, Mask covered, SampleStack& stack, 
     }
   }
   put(hn::Min(before, all(l.z)), on, before, nearest);
-  const Clear behind = clear.behind(l.opacity);
+  const Clear behind = clear.behind(l.shade->opacity);
   put(behind.x, on, clear.x, cx), put(behind.y, on, clear.y, cy), put(behind.z, on, clear.z, cz);
 }
 
@@ -89,12 +89,12 @@ void layAll(std::span<const Lay> lays, SampleStack& stack) {
       if (!coveredFrom(l, first, covered)) continue;
       const Mask on = hn::AndNot(clear.atMost(stack.hidden), covered);
       const auto add = [on](Floats& sum, Floats v) { sum = hn::IfThenElse(on, hn::Add(sum, v), sum); };
-      add(r, hn::Mul(clear.x, all(l.color.x)));
-      add(g, hn::Mul(clear.y, all(l.color.y)));
-      add(b, hn::Mul(clear.z, all(l.color.z)));
-      add(a, clear.mean(l.coverage));
+      add(r, hn::Mul(clear.x, all(l.shade->color.x)));
+      add(g, hn::Mul(clear.y, all(l.shade->color.y)));
+      add(b, hn::Mul(clear.z, all(l.shade->color.z)));
+      add(a, clear.mean(l.shade->coverage));
       nearest = hn::IfThenElse(on, hn::Min(nearest, all(l.z)), nearest);
-      const Clear behind = clear.behind(l.opacity);
+      const Clear behind = clear.behind(l.shade->opacity);
       clear = {hn::IfThenElse(on, behind.x, clear.x), hn::IfThenElse(on, behind.y, clear.y), hn::IfThenElse(on, behind.z, clear.z)};
     }
     hn::Store(nearest, kF, stack.nearest.data() + first);

@@ -20,10 +20,15 @@ struct Air {
   vec3 color{0.0f}, opacity{0.0f};
 };
 
-/// What a fragment shows to some samples. Coverage is its opacity, or 0 where it is matte.
-struct Lay {
-  uint64_t samples;
+/// What a fragment shows: coverage is its opacity, or 0 where it is matte.
+struct FacetShade {
   vec3 color, opacity, coverage;
+};
+
+/// To some samples.
+struct Lay {
+  const FacetShade* shade;
+  uint64_t samples;
   float z;
   uint16_t word;
 };
@@ -31,7 +36,7 @@ struct Lay {
 struct LayMore {
   std::span<const ExtraFloat> extras;
   const float* extraValues;
-  const Air* air = nullptr;  ///< Left out of color, opacity and coverage. Null: there is none in all of the tile.
+  const Air* air = nullptr;  ///< Left out of the shade. Null: there is none in all of the tile.
 };
 
 /// Arrays have a lane for each sample.

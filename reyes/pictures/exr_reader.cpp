@@ -13,12 +13,13 @@
 #include <OpenEXR/ImfTestFile.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <tuple>
 
 namespace tomales {
 namespace {
 
-/// As OpenImageIO orders channels: by layer, and within it colour, alpha, depth, then the rest as stored (by name).
+/// Channels that we write, in OpenImageIO's order: by layer, and within it colour, alpha, depth, then the rest by name.
 auto rank(const std::string& channel) {
   static constexpr std::string_view kFirst[] = {"R", "G", "B", "A", "AR", "AG", "AB", "Z", "ZBack"};
   const size_t dot = channel.rfind('.'), name = dot == std::string::npos ? 0 : dot + 1;
@@ -40,15 +41,14 @@ class ExrReader : public PictureReader {
     const std::string type = header().hasType() ? header().type() : "";
     deep_ = type == Imf::DEEPSCANLINE;
     plain_ = plain_ && file_.parts() == 1 && type != Imf::DEEPTILE;
+    refuseMoreThanMemory(static_cast<double>(shape_.width) * shape_.height);
   }
   bool plain() const { return plain_; }
 
   const PictureShape& shape() const override { return shape_; }
   bool deep() const override { return deep_; }
   bool matrix(const char* name, float* out) const override {
-    // As OpenEXR spells them.
-    const std::string stored = std::string(name) == "worldtocamera" ? "worldToCamera" : std::string(name) == "worldtoscreen" ? "worldToScreen" : name;
-    const auto* found = header().findTypedAttribute<Imf::M44fAttribute>(stored);
+    const auto* found = header().findTypedAttribute<Imf::M44fAttribute>(exrAttributeName(name));
     if (found) std::copy_n(&found->value().x[0][0], 16, out);
     return found;
   }
@@ -81,6 +81,7 @@ class ExrReader : public PictureReader {
       part.readPixelSampleCounts(window.min.y, window.max.y);
       size_t samples = 0;
       for (const uint32_t count : counts) samples += count;
+      refuseMoreThanMemory(static_cast<double>(samples));
       values.resize(samples * channels);
       float* next = values.data();
       for (size_t i = 0; i < pixels; next += counts[i++] * channels)
@@ -91,6 +92,11 @@ class ExrReader : public PictureReader {
   std::string error() const override { return error_; }
 
  private:
+  /// A damaged header may claim any size.
+  void refuseMoreThanMemory(double pixels) const {
+    constexpr double kMostBytes = 32e9;
+    if (pixels * static_cast<double>(shape_.channels.size() * sizeof(float)) > kMostBytes) throw std::runtime_error("it claims to hold more than 32 GB");
+  }
   const Imf::Header& header() const { return file_.header(0); }
 
   Imf::Slice slice(float* out, size_t step) const {

@@ -52,6 +52,10 @@ std::unique_ptr<PictureReader> openPicture(const std::string& path, std::string&
   return library ? library->open(path, error) : nullptr;
 }
 
+std::string exrAttributeName(const std::string& name) {
+  return name == "worldtocamera" ? "worldToCamera" : name == "worldtoscreen" ? "worldToScreen" : name;
+}
+
 std::optional<DepthCamera> depthCameraOf(const PictureReader& picture) {
   const auto& channels = picture.shape().channels;
   DepthCamera out;

@@ -21,21 +21,24 @@ struct Crossing {
       const uint64_t lanes = uint64_t{hashCombine(seed, cell, 1U)} << 32 | hashCombine(seed, cell, 2U);
       const uint64_t samples = word ? lanes & 0x3f : lanes;
       if (samples == 0) continue;
-      std::vector<float>& d = depths.emplace_back();
-      for (int k = 0; k < std::popcount(samples); ++k)
-        d.push_back(static_cast<float>(hashCombine(seed, cell, 3U, static_cast<uint32_t>(k)) % 50));
-      const auto [nearest, farthest] = std::minmax_element(d.begin(), d.end());
-      sights.push_back({cell, word, samples, *nearest, nullptr, false, seed % 2 ? *farthest : kInfinity});
+      std::vector<float>& d = depths.emplace_back(64, 1e3f);
+      float nearest = kInfinity, farthest = -kInfinity;
+      for (uint64_t left = samples; left; left &= left - 1) {
+        const int k = std::countr_zero(left);
+        d[static_cast<size_t>(k)] = static_cast<float>(hashCombine(seed, cell, 3U, static_cast<uint32_t>(k)) % 50);
+        nearest = std::min(nearest, d[static_cast<size_t>(k)]), farthest = std::max(farthest, d[static_cast<size_t>(k)]);
+      }
+      sights.push_back({cell, word, samples, nearest, nullptr, seed % 2 ? farthest : kInfinity});
     }
     for (size_t i = 0; i < sights.size(); ++i) sights[i].depths = depths[i].data();
     std::sort(sights.begin(), sights.end(), nearer);
   }
 };
 
-/// Depth of the k-th sample of a mask among those of a sight.
+/// Depth of a sample, a bit of the mask of a sight.
 float depthAt(const Sight& s, const std::vector<Sight>& given, uint64_t bit) {
   const auto it = std::find_if(given.begin(), given.end(), [&](const Sight& g) { return g.cell == s.cell; });
-  return it->depths[std::popcount(it->samples & (bit - 1))];
+  return it->depths[std::countr_zero(bit)];
 }
 
 TEST(PixelLayers, EverySampleSeesEachOfItsLayersOnceAndNearestFirst) {
@@ -64,7 +67,7 @@ TEST(PixelLayers, EverySampleSeesEachOfItsLayersOnceAndNearestFirst) {
 
 TEST(PixelLayers, WhatIsInOrderStaysWhole) {
   const float near[2] = {1, 2}, far[2] = {3, 4};
-  std::vector<Sight> sights{{7, 0, 0b11, 1, near, false}, {8, 0, 0b11, 3, far, false}};
+  std::vector<Sight> sights{{7, 0, 0b11, 1, near}, {8, 0, 0b11, 3, far}};
   PixelLayers().order(sights, nearer);
   ASSERT_EQ(sights.size(), 2U);
   EXPECT_EQ(sights[0].samples, 0b11U);

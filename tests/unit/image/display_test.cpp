@@ -140,7 +140,7 @@ TEST_F(Display, TiffKeepsItsWindowAndEveryBitUnderEachCompression) {
   Image large{150, 130, {"R", "G", "B", "A", "Z"}, {}, 3, 5, 200, 210};
   for (int i = 0; i < 150 * 130 * 5; ++i) large.pixels.push_back(static_cast<float>(i % 977) / 977);
   options_.rgbaQuantize = {0, 0, 0, 0};
-  for (const char* name : {"none", "rle", "zip"}) {
+  for (const char* name : {"", "none", "rle", "zip", "lzw"}) {
     Param compression;
     compression.name = "compression", compression.type = ValueType::String, compression.strings = {name};
     ASSERT_TRUE(writeDisplay(large, {path("a.tif"), "tiff", "rgbaz", {compression}, {}}, options_, log_)) << name;

@@ -235,7 +235,7 @@ TEST_F(Sl, TheExamplesCompileOutOfTree) {
   std::vector<fs::path> examples = {source / "docs/example_plugin/kinds.cpp"};
   for (const auto& entry : fs::directory_iterator(source / "docs/rsl_plugins"))
     if (entry.path().extension() == ".cpp") examples.push_back(entry.path());
-  EXPECT_EQ(examples.size(), 8u);
+  EXPECT_EQ(examples.size(), 9u);
   for (const fs::path& example : examples) {
     const fs::path plugin = folder / example.filename().replace_extension(".so");
     const std::string command = std::string(TOMALES_CXX) + " -std=c++17 -Wall -Wextra -Wshadow -Werror -shared -fPIC -I" +

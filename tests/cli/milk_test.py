@@ -1,0 +1,53 @@
+"""docs/rsl_plugins/milk.cpp marches through the volume photon map: light of any number of bounces in a ball against closed forms."""
+import json
+import math
+import os
+import pathlib
+import subprocess
+
+from program import Suite
+
+t = Suite()
+source = pathlib.Path(__file__).resolve().parent.parent.parent
+subprocess.run([os.environ["CXX"], "-O1", "-std=c++17", "-shared", "-fPIC", "-I", source, source / "docs/rsl_plugins/milk.cpp", "-o", t.folder / "milk.so"], check=True)
+
+
+def ball(name, light, scattering, absorption):
+    """Of the middle of a ball of radius 1, what it sends to the eye and what it hides, in red."""
+    medium = f'"color scattering" [{scattering} {scattering} {scattering}] "color absorption" [{absorption} {absorption} {absorption}]'
+    t.write(name + ".rib", f"""Display "{name}.exr" "file" "rgba"
+Format 32 32 1
+PixelSamples 2 2
+Projection "orthographic"
+ScreenWindow -0.6 0.6 -0.6 0.6
+Option "searchpath" "string shader" ["."]
+Translate 0 0 4
+WorldBegin
+{light}
+Attribute "photon" "string shadingmodel" ["transparent"]
+Interior "fog" "float distance" [1e30] {medium}
+Surface "milk" "string map" ["{name}/scene.volume.bkm"] {medium}
+Sides 1
+Sphere 1 -1 1 360
+WorldEnd
+""")
+    t.expect_run(name + " renders", [name + ".rib", "--gi", "atlas", "--atlas", name, "--photons", "200000", "--bounces", "100", "-q"], 0)
+    channels = {c["name"]: c["mean"] for c in json.loads(t.run("info", "--json", name + ".exr").stdout)["channels"]}
+    return channels["R"], channels["A"]
+
+
+def is_near(value, expected, what, tolerance):
+    t.expect(abs(value - expected) < tolerance * expected, f"{what}: {value:.4f}, by the closed form {expected:.4f}")
+
+
+# A furnace: what scatters everything hides as much light as it sends.
+sent, hidden = ball("furnace", 'LightSource "environmentlight" 1 "intensity" [1]', 2, 0)
+is_near(sent / hidden, 1, "in a furnace of radiance 1, over what it hides", 0.03)
+# So thin that light is scattered once: a beam of E = pi has the fluence pi everywhere, the mean radiance 1/4, of which half is scattered.
+sent, hidden = ball("thin", 'LightSource "distantlight" 1 "from" [1 0 0] "to" [0 0 0] "intensity" [1]', 0.01, 0.01)
+is_near(sent / hidden, 0.125, "thin smoke in a beam, over what it hides", 0.05)
+# Over the window of 1.2 by 1.2, the mean of 1 - exp(-0.02 chord).
+n = 200
+at = [1.2 * (i + 0.5) / n - 0.6 for i in range(n)]
+is_near(hidden, sum(1 - math.exp(-0.04 * math.sqrt(1 - x * x - y * y)) for x in at for y in at) / n**2, "and it hides", 0.01)
+t.finish()
