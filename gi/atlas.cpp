@@ -226,6 +226,7 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
     const StageTimer timer(stats, "photons");
     writePhotons(photons, scene, rays, shading, names, settings, progress, stats, log);
   }
+  std::vector<MapFigures> made;
   for (const std::string& name : maps) {
     const fs::path from = atlasFile(photons, name, ".ptc"), points = atlasFile(irradiance, name, ".ptc"), bricks = atlasFile(folder, name, ".bkm");
     const PhotonIrradianceSettings& estimate = name.ends_with(kCaustic) ? settings.caustics : settings.irradiance;
@@ -233,10 +234,11 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
       const StageTimer timer(stats, "irradiance");
       EstimateFigures figures;
       writeIrradiance(from, points, estimate, kPointsInMemory, &figures);
-      warnOfEstimates(scene, names, name, figures, log);
+      if (name != names.volume) made.push_back({name, PointFile(from.string()).count(), figures});
     }
     if (!renewIrradianceBricks(points, bricks, settings.bricks, stats)) ++stats.photons.groupsKept;
   }
+  warnOfEstimates(scene, names, made, log);
 }
 
 bool isMadeByHand(const fs::path& folder) {

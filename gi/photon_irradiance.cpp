@@ -45,10 +45,10 @@ float nearRadius(const std::vector<NearPhoton>& photons, int every) {
   return diskRadius(kPi * photons[few - 1].distance2, few, every);
 }
 
-/// EstimateFigures::clumps of one. The farthest of the few does not count, nor that of all, `inside`. Pre: sorted.
+/// EstimateFigures::clumps of one. Neither the farthest of the few counts, nor that of all, `inside`, nor the photon at the middle. Pre: sorted.
 float clumpOf(const std::vector<NearPhoton>& photons, float area, size_t inside) {
   if (photons.size() <= kFew || !(photons[kFew - 1].distance2 > 0)) return 1;
-  return static_cast<float>(kFew - 1) / (kPi * photons[kFew - 1].distance2) * area / static_cast<float>(inside);
+  return static_cast<float>(kFew - 2) / (kPi * photons[kFew - 1].distance2) * area / static_cast<float>(inside - 1);
 }
 
 Estimate estimate(const PointCloud& photons, const PhotonTree& tree, int power, uint32_t at,

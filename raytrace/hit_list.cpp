@@ -36,7 +36,7 @@ bool isCrowded(const HitList& sorted, int origin, const RayStart& start) {
   if (origin < 0 || sorted.size() < 2) return false;
   const PolygonHit& from = sorted[static_cast<size_t>(origin)];
   return std::any_of(sorted.begin(), sorted.end(), [&](const PolygonHit& hit) {
-    return std::abs(hit.t) <= start.offset && !sameSurface(from, hit, mergeDistance(start.offset));
+    return std::abs(hit.t) <= start.offset && hit.group == from.group && hit.leaving != from.leaving;
   });
 }
 

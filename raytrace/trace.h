@@ -50,7 +50,7 @@ struct Hit {
   vec3 normal{0};               ///< Of the coarse surface, RISpec side, interpolated, unit length.
   vec3 geometricNormal{0};      ///< Of the coarse polygon, RISpec side, unit length.
   bool adjusted = false;        ///< The origin was moved to a recorded hit,
-  bool crowded = false;         ///< and within the offset lay a second surface: which of them is left is a guess.
+  bool crowded = false;         ///< and within the offset lay the other side of its wall: which is left is a guess.
   vec3 atOpen{0};               ///< Where the point that was met is when the shutter opens; normals are those of that time too.
 };
 

@@ -76,7 +76,7 @@ struct HideDoubts {
   /// Pixels in which either of two objects, the first with the lower number, is seen by chance: in a quarter of the samples or more they lie
   /// at the same place, as far as depths can tell. Of what is opaque, still and in focus.
   std::map<std::pair<int, int>, int> samePlaces;
-  /// Visible micropolygons by shade group: those that are round, still and in focus, and turn so far that their outline has corners; and all.
+  /// Visible micropolygons by object: those that are round, still and in focus, and turn so far that their outline has corners; and all.
   struct Turns { int64_t turned = 0, all = 0; };
   std::map<int, Turns> turns;
 };

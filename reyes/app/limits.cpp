@@ -68,7 +68,7 @@ void warnOfNoise(std::span<const PreparedCache> caches, Log& log) {
                  fmt::format("{:.0f} % of {} irradiance records are uncertain by more than {:.0f} %: {} rays a record are few for this light "
                              "(\"samples\" of indirectlight, --samples)",
                              100 * share, records.size(), 100 * kUncertain, c.plan.gather.samples));
-    else if (noise > kUncertainLight * sum)
+    else if (sum > 0 && noise > kUncertainLight * sum)
       log.report(Severity::Warning, "gather-few", {},
                  fmt::format("indirect light is uncertain by {:.0f} %: most of it comes by a few of the {} rays a record, from something small and bright, which others "
                              "miss (\"samples\" of indirectlight, --samples)",

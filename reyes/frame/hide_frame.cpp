@@ -19,7 +19,7 @@ std::optional<DeepTile> hideBucket(size_t bucket, const PixelRect& rect, const N
   if (context.isCancelled()) return {};
   HideDoubts doubts;
   DeepTile tile = hider.resolve(&doubts);
-  warnings.add(doubts);
+  warnings.add(doubts, context.scene);
   return tile;
 }
 
@@ -112,7 +112,7 @@ bool FrameHider::hide(std::span<const uint32_t> tiles, const TileSink& sink) {
   parallelInOrder(tiles.size(), [&](size_t i) {
     if (!impl_->hide(tiles[i], sink)) skipped = true;
   });
-  impl_->warnings.report(impl_->context.scene, impl_->context.log);
+  impl_->warnings.report(impl_->context.log);
   return !skipped;
 }
 

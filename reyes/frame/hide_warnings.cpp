@@ -11,36 +11,37 @@ constexpr double kMostTurned = 0.5;   // of what is visible
 
 }  // namespace
 
-void HideWarnings::add(const HideDoubts& bucket) {
+HideWarnings::Site HideWarnings::siteOf(const Scene& scene, int object) {
+  const Object& o = scene.objects[static_cast<size_t>(object)];
+  return {o.where, objectName(o)};
+}
+
+void HideWarnings::add(const HideDoubts& bucket, const Scene& scene) {
   if (bucket.samePlaces.empty() && bucket.turns.empty()) return;
   const std::lock_guard lock(mutex_);
-  for (const auto& [pair, pixels] : bucket.samePlaces) sum_.samePlaces[pair] += pixels;
-  for (const auto& [group, turns] : bucket.turns) {
-    HideDoubts::Turns& sum = sum_.turns[group];
-    sum.turned += turns.turned, sum.all += turns.all;
+  for (const auto& [pair, pixels] : bucket.samePlaces) {
+    auto sites = std::pair(siteOf(scene, pair.first), siteOf(scene, pair.second));
+    if (sites.second < sites.first) std::swap(sites.first, sites.second);
+    samePlaces_[sites] += pixels;
+  }
+  for (const auto& [object, turns] : bucket.turns) {
+    all_.turned += turns.turned, all_.all += turns.all;
+    if (turns.turned > 0) turned_[siteOf(scene, object)] += turns.turned;
   }
 }
 
-void HideWarnings::report(const Scene& scene, Log& log) const {
-  const auto objectOf = [&](int o) -> const Object& { return scene.objects[static_cast<size_t>(o)]; };
-  for (const auto& [pair, pixels] : sum_.samePlaces) {
+void HideWarnings::report(Log& log) const {
+  for (const auto& [sites, pixels] : samePlaces_) {
     if (pixels < kFew_px) continue;
-    const Object &first = objectOf(pair.first), &second = objectOf(pair.second);
-    log.report(Severity::Warning, "hide-coincident", second.where,
-               fmt::format("{} lies where {} does, as far as depths can tell: which of them is seen is chance; move them apart or leave one out", objectName(second),
-                           objectName(first)));
+    log.report(Severity::Warning, "hide-coincident", sites.second.where,
+               fmt::format("{} lies where {} does, as far as depths can tell: which of them is seen is chance; move them apart or leave one out", sites.second.name,
+                           sites.first.name));
   }
-  HideDoubts::Turns all;
-  int worst = -1;
-  for (const auto& [group, turns] : sum_.turns) {
-    all.turned += turns.turned, all.all += turns.all;
-    if (turns.turned > 0 && (worst < 0 || turns.turned > sum_.turns.at(worst).turned)) worst = group;
-  }
-  if (worst < 0 || all.all < kFewFacets || static_cast<double>(all.turned) <= kMostTurned * static_cast<double>(all.all)) return;
-  const int example = scene.groups[static_cast<size_t>(worst)].exampleObject;
-  const std::string name = example < 0 ? "the picture" : objectName(objectOf(example));
-  log.report(Severity::Warning, "dice-turned", example < 0 ? SourceLoc{} : objectOf(example).where,
-             fmt::format("{}: most micropolygons turn by 23 degrees or more, so that what is round looks like a polyhedron and loses some of its size (ShadingRate, --shading-rate)", name));
+  if (all_.all < kFewFacets || static_cast<double>(all_.turned) <= kMostTurned * static_cast<double>(all_.all)) return;
+  const auto worst = std::max_element(turned_.begin(), turned_.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  log.report(Severity::Warning, "dice-turned", worst->first.where,
+             fmt::format("{}: most micropolygons turn by 23 degrees or more, so that what is round looks like a polyhedron and loses some of its size (ShadingRate, --shading-rate)",
+                         worst->first.name));
 }
 
 }  // namespace tomales

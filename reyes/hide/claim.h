@@ -40,7 +40,7 @@ HWY_INLINE bool claim(const RasterJob& job, const Shape& shape, size_t lane, uin
   if (hn::AllFalse(kF, r.mask)) return false;
   const Mask tight = hn::And(r.mask, hn::Lt(hn::Sub(r.before, r.depth), all(shape.vague())));
   if (HWY_UNLIKELY(!hn::AllFalse(kF, tight))) {
-    noteContest(job, lane, bitsOf(tight));
+    noteContest(job, lane, bitsOf(tight), shape.vague());
     if (const Mask ties = hn::And(r.mask, hn::Eq(r.depth, r.before)); !hn::AllFalse(kF, ties)) settleTies(job, lane, bitsOf(ties), cell);
   }
   const Mask won = hn::And(r.mask, hn::Lt(r.depth, r.before));

@@ -146,7 +146,7 @@ void FacetTable::countTurns(const GridTable::Entry& entry, HideDoubts& doubts) c
     return glm::length(vec2(r.x[i] - r.x[j], r.y[i] - r.y[j])) * std::acos(std::max(cosine, -1.0f)) > 8 * kSagitta_px;
   };
   const bool shown = !g.displaced && !g.round && !r.blur;  // displacement is as rough as it likes
-  HideDoubts::Turns& out = doubts.turns[scene_.objects[static_cast<size_t>(g.object)].group];
+  HideDoubts::Turns& out = doubts.turns[g.object];
   for (int cell = 0, end = g.cellNumbers(); cell < end; ++cell) {
     if (!seen_[entry.firstCell + static_cast<uint32_t>(cell)]) continue;
     const int a = firstVertex(g, cell);

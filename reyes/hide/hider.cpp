@@ -28,7 +28,7 @@ void countSamePlaces(SampleBuffer& samples, const GridTable& grids, int samplesP
   std::vector<Contest>& contests = samples.contests;
   std::erase_if(contests, [&](const Contest& c) {
     const int seen = grids.of(samples.cell[c.lane]).grid().object;
-    return seen != c.first && seen != c.second;
+    return (seen != c.first && seen != c.second) || samples.depth[c.lane] < c.least;
   });
   // Those of a pixel and two objects together, each sample once.
   const auto keyOf = [width](const Contest& c) { return std::tuple(c.lane / width, c.first, c.second); };

@@ -45,7 +45,8 @@ class GridTable {
 struct Contest {
   uint32_t lane;
   int first, second;  ///< first < second
-  bool operator==(const Contest&) const = default;
+  float least;        ///< Depth key: what is nearer hides both.
+  bool operator==(const Contest& o) const { return lane == o.lane && first == o.first && second == o.second; }
 };
 
 /// Arrays have a lane for each sample: those of a pixel stand together, padded to `lanes`. Padding hides everything.

@@ -219,12 +219,36 @@ EstimateFigures figuresOf(const PointCloud& photons, float reach = 0) {
   return figures;
 }
 
+/// Photons on the unit square as dense as a function says, at most 1.
+template <class Density>
+PointCloud uneven(const Density& density) {
+  PointCloud photons;
+  photons.channels = {{"power", 3}};
+  const vec3 power(1e-3f);
+  for (uint32_t i = 0; i < 60000; ++i) {
+    const vec2 at(unitFloat(hashCombine(21u, i, 0u)), unitFloat(hashCombine(21u, i, 1u)));
+    if (unitFloat(hashCombine(21u, i, 2u)) < density(at)) photons.add({at.x, at.y, 0}, {0, 0, 1}, 0, &power.x);
+  }
+  return photons;
+}
+
+TEST(PhotonIrradiance, UnevenLightIsNotTakenForClumps) {
+  const auto meanOf = [](const PointCloud& photons) {
+    const EstimateFigures f = figuresOf(photons);
+    return f.clumps / static_cast<double>(f.made);
+  };
+  const auto nearLamp = [](const vec2& at) { const vec2 d = (at - 0.5f) / 0.2f; return 1 / ((1 + dot(d, d)) * (1 + dot(d, d))); };
+  const auto penumbra = [](const vec2& at) { return 0.1f + 0.9f * glm::clamp((at.x - 0.45f) / 0.1f, 0.0f, 1.0f); };
+  EXPECT_NEAR(meanOf(uneven(nearLamp)), 1, 0.05);
+  EXPECT_NEAR(meanOf(uneven(penumbra)), 1, 0.05);
+}
+
 TEST(PhotonIrradiance, TellsHowManyEstimatesStandOnWeakGround) {
   PointCloud plenty, few, tiles, ball;
   addSquare(plenty, 40000, 0, {0, 0, 1}, vec3(1), 3);
   const EstimateFigures good = figuresOf(plenty);
   EXPECT_EQ(good.few, 0);
-  EXPECT_NEAR(good.clumps / static_cast<double>(good.made), 1, 0.1);
+  EXPECT_NEAR(good.clumps / static_cast<double>(good.made), 1, 0.05);
   EXPECT_EQ(good.bent, 0);
   addSquare(few, 2000, 0, {0, 0, 1}, vec3(1), 4);
   EXPECT_GT(figuresOf(few, 0.05f).few, 400);  // 16 in a disk

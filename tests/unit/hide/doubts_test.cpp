@@ -43,6 +43,17 @@ TEST(Doubts, WhatIsHiddenAfterwardsIsNotInDoubt) {
   EXPECT_EQ(contestedPixels(0, true), 0);
 }
 
+TEST(Doubts, WhatStandsInFrontOfTheContestIsNotInDoubtEvenIfItIsOneOfTheTwo) {
+  World w;
+  w.add(), w.add();
+  w.freeze();
+  // A box on a floor: its bottom lies in the floor, and its top hides both.
+  const auto floor = makeGrid(0, 1, 24, 24, rectangle(0, 0, 32, 32, 9)), bottom = makeGrid(1, 2, 17, 19, rectangle(4, 4, 28, 28, 9));
+  const auto top = makeGrid(1, 3, 9, 9, rectangle(4, 4, 28, 28, 5));
+  EXPECT_FALSE(doubtsOf(w, {raster(w, floor), raster(w, bottom)}).samePlaces.empty());
+  EXPECT_TRUE(doubtsOf(w, {raster(w, floor), raster(w, bottom), raster(w, top)}).samePlaces.empty());
+}
+
 TEST(Doubts, WallsThatMeetAreNotInDoubt) {
   World w;
   w.add(), w.add();
