@@ -5,9 +5,9 @@
 Debian's packages: povray blender time python3-numpy python3-openimageio. One thread each. Seconds: user and system time above the same program's
 render of direct light alone (of Cycles, which has no use for direct light alone: above its start). Error: mean |test - truth| / (truth + 1 % of the mean) of the indirect light, over the pixels that see one shape,
 in windows of 16 x 16 pixels. The truth is ours of many paths, in two halves, which say how noisy it is; that noise is taken off every error (in squares, as noises that are independent add up). Where a
-program that errs by noise alone was not rendered long enough, the seconds to an error are extrapolated (four times the paths, half the error), and marked ~.
+program that errs by noise alone was not rendered long enough, the seconds to an error are extrapolated along its last two points, and marked ~.
 
-How far the programs are from each other is printed first, a check on the physics: the difference of the means and its standard error; and the root mean square difference of blocks of 16 x 16 pixels beside what
+With --agreement, how far the programs are from each other is printed first, a check on the physics: the difference of the means and its standard error; and the root mean square difference of blocks of 16 x 16 pixels beside what
 the noise of their pixels leaves, so that differences of one place show.
 """
 import argparse
@@ -166,12 +166,15 @@ def seconds_to(rows, error):
                 return after["cpu_s"], False
             share = math.log(before["error"] / error) / math.log(before["error"] / max(after["error"], 1e-6))
             return before["cpu_s"] * (after["cpu_s"] / before["cpu_s"])**share, False
-    last = rows[-1]
-    return (last["cpu_s"] * (last["error"] / error)**2, True) if last["program"] in ("tomales reference", "Cycles") else None
+    if len(rows) < 2 or rows[0]["program"] not in ("tomales reference", "Cycles"):
+        return None
+    before, last = rows[-2:]
+    slope = math.log(last["cpu_s"] / before["cpu_s"]) / math.log(before["error"] / last["error"])
+    return last["cpu_s"] * (last["error"] / error)**slope, True
 
 
 def compare(rows):
-    """Seconds to the asked error, and how many times those of our fastest others take."""
+    """Seconds to the asked error."""
     print(f"\n| room | bounces | program | CPU s to {100 * ASKED_ERROR:g} % |\n|---|---|---|---|")
     for key in dict.fromkeys((r["room"], r["bounces"], r["program"]) for r in rows):
         mine = [r for r in rows if (r["room"], r["bounces"], r["program"]) == key]
@@ -188,15 +191,15 @@ def agreement(bench, bounces, paths):
 
     print("\n| room | compared with ours | mean | rms of blocks | of these, noise |\n|---|---|---|---|---|")
     direct = bench.ours("--gi", "none")[0]
-    pov_direct = bench.povray(None, lamps=16)[0]
-    say("POV-Ray, direct", pov_direct, direct)
+    say("POV-Ray, direct", bench.povray(None, lamps=16)[0], direct)
+    pov_direct = bench.povray(None)[0]
     for b in bounces:
         indirect = bench.ours("--gi", "reference", "--bounces", b, "--samples", paths, "--indirect-only")[0]
         c_direct, c_indirect, _, _ = bench.cycles(paths, b)
         if b == bounces[0]:
             say("Cycles, direct", c_direct, direct)
         say(f"Cycles, {b} bounces", c_indirect, indirect)
-        say(f"POV-Ray, {b} bounces", bench.povray(radiosity(*POV_SETTINGS[2], min(b, 20)), lamps=16)[0] - pov_direct, indirect)
+        say(f"POV-Ray, {b} bounces", bench.povray(radiosity(*POV_SETTINGS[1], min(b, 20)))[0] - pov_direct, indirect)
 
 
 def main():

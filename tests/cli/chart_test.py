@@ -115,7 +115,8 @@ suite.expect(all(s.startswith("data:image/png;base64,iVBOR") for s in page.loads
 broken = [link for link in page.links if link.lstrip("#") not in page.ids and link != "report.json"]
 suite.expect(not broken, f"links lead somewhere: {broken}")
 drawings = [xml.etree.ElementTree.fromstring(s) for s in re.findall(r"<svg.*?</svg>", text, re.S)]
-suite.expect(len(drawings) == 4, "two plots, each for wide and narrow windows")
+suite.expect(len(drawings) == 6, "three plots, each for wide and narrow windows")
+suite.expect([p["value"] for p in points] == [16, 50, 150, 450, 1350, 4000], "the last against what varies")
 for drawing in drawings:
     width, height = (float(v) for v in drawing.get("viewBox").split()[2:])
     circles = [e for e in drawing.iter() if e.tag == "circle"]
@@ -175,5 +176,5 @@ suite.expect_run("a laboratory whose limit is the first value", lab, 2, "none of
 if browser := shutil.which("chromium"):  # looks, where there is something to look with
     seen = subprocess.run([browser, "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", (suite.folder / "report.html").as_uri()],
                           capture_output=True, text=True, timeout=120).stdout
-    suite.expect(seen.count("<circle") == 24, "a browser shows the same")
+    suite.expect(seen.count("<circle") == 36, "a browser shows the same")
 suite.finish()

@@ -33,12 +33,33 @@ Arguments operator+(Arguments a, const Arguments& b) {
   return a;
 }
 
-/// Names of options without their dashes, and no word about what all points of a sweep share.
+/// Of a prelude, its requests; nothing of other arguments.
+std::string preludeIn(const std::string& argument) {
+  const std::string mark = kPrelude;
+  return argument.starts_with(mark) ? argument.substr(mark.size()) : "";
+}
+
+/// Names of options without their dashes, requests as they are, and no word about what the name of a curve says.
 std::string inShort(const Arguments& arguments) {
   std::string out;
-  for (size_t i = 0; i + 1 < arguments.size(); i += 2)
-    if (arguments[i] != "--gi" && arguments[i] != "--error-function") out += (out.empty() ? "" : ", ") + arguments[i].substr(2) + ' ' + arguments[i + 1];
-  return out.empty() ? joined(arguments) : out;
+  const auto add = [&](const std::string& piece) { out += (out.empty() ? "" : ", ") + piece; };
+  for (size_t i = 0; i < arguments.size(); ++i) {
+    if (const std::string requests = preludeIn(arguments[i]); !requests.empty()) {
+      add(requests);
+      continue;
+    }
+    const bool hasValue = i + 1 < arguments.size() && !arguments[i + 1].starts_with("--") && preludeIn(arguments[i + 1]).empty();
+    if (arguments[i] != "--gi" && arguments[i] != "--error-function") add(arguments[i].substr(2) + (hasValue ? ' ' + arguments[i + 1] : ""));
+    i += hasValue;
+  }
+  return out;
+}
+
+/// The number that the last argument ends with: of 4x4 it is 4, of 300K 300,000.
+double lastNumber(const Arguments& arguments) {
+  const std::string& last = arguments.back();
+  const std::string word = last.substr(last.rfind(' ') + 1);
+  return std::atof(word.c_str()) * (word.ends_with('K') ? 1e3 : word.ends_with('M') ? 1e6 : 1);
 }
 
 LabSettings labOf(const ChartSettings& s, const ChartSweep& sweep) {
@@ -54,7 +75,7 @@ class Chart {
   Chart(const ChartSettings& settings, const ChartSweep& sweep)
       : settings_(settings), sweep_(sweep), labSettings_(labOf(settings, sweep)), lab_(labSettings_) {
     report_.scene = fs::path(settings.files.front()).filename().string();
-    report_.title = sweep.title, report_.budget_s = settings.budget_s;
+    report_.title = sweep.title, report_.oneKnob = sweep.oneKnob(), report_.budget_s = settings.budget_s;
     report_.commandLine = joined(Arguments{"tomales", "chart"} + settings.files + Arguments{"--sweep", sweep.name} + sharedArguments(settings) +
                                  Arguments{"--budget", fmt::format("{:g}s", settings.budget_s), "-o", settings.output});
     for (const ChartCurve& curve : sweep.curves) report_.curves.push_back(curve.name);
@@ -85,19 +106,27 @@ class Chart {
     return code;
   }
 
+  /// As bash takes it: requests before the scene are a file of their own.
   std::string commandLine(const Arguments& arguments) const {
-    return joined(Arguments{"tomales", "render"} + settings_.files + labSettings_.arguments + arguments);
+    std::string out = "tomales render";
+    Arguments options;
+    for (const std::string& a : arguments)
+      if (const std::string requests = preludeIn(a); !requests.empty())
+        out += " <(echo '" + requests + "')";
+      else
+        options.push_back(a);
+    return out + ' ' + joined(settings_.files + labSettings_.arguments + options);
   }
 
   /// A prelude becomes a file of its own before the scene.
   std::optional<Run> render(const Arguments& arguments) {
     Arguments out;
     for (const std::string& a : arguments) {
-      if (!a.starts_with(kPrelude)) {
+      const std::string text = preludeIn(a);
+      if (text.empty()) {
         out.push_back(a);
         continue;
       }
-      const std::string text = a.substr(std::string(kPrelude).size());
       const std::string file = (fs::path(labSettings_.folder) / fmt::format("{:016x}.rib", std::hash<std::string>{}(text))).string();
       writeAtOnce(file, text + '\n');
       out.push_back(file);
@@ -162,7 +191,7 @@ class Chart {
       return kInfinity;
     }
     takeWarnings(*run);
-    ChartPoint point{curve, inShort(arguments), commandLine(arguments), *run, reference_.errorOf(*image), false, false, {}, {}};
+    ChartPoint point{curve, inShort(arguments), sweep_.oneKnob() ? lastNumber(arguments) : 0, commandLine(arguments), *run, reference_.errorOf(*image), false, false, {}, {}};
     log(report_.curves[curve], fmt::format("{}: {:.3g} % in {:.3g} CPU s{}", point.setting, 100 * point.error.mean, run->cpu_s, run->recalled ? " (recalled)" : ""));
     report_.points.push_back(std::move(point));
     return run->cpu_s;

@@ -27,14 +27,14 @@ void set(Image& image, int x, int y, const vec3& color) {
   p[0] = color.x, p[1] = color.y, p[2] = color.z;
 }
 
-/// Calls visit(test, reference) for each colour of each pixel that counts.
+/// Calls visit(test, reference) for each colour of each pixel that `lit` has any light in.
 template <class Visit>
-void eachValue(const Image& test, const Image& reference, Visit&& visit) {
-  const auto t = colors(test), r = colors(reference);
+void eachValue(const Image& test, const Image& reference, const Image& lit, Visit&& visit) {
+  const auto t = colors(test), r = colors(reference), l = colors(lit);
   for (int y = 0; y < reference.height; ++y)
     for (int x = 0; x < reference.width; ++x) {
       const vec3 a = colorAt(test, t, x, y), b = colorAt(reference, r, x, y);
-      if (b == vec3(0)) continue;
+      if (colorAt(lit, l, x, y) == vec3(0)) continue;
       for (int c = 0; c < 3; ++c) visit(a[c], b[c]);
     }
 }
@@ -48,10 +48,10 @@ Image blend(float a, const Image& A, float b, const Image& B) {
   return out;
 }
 
-double meanError(const Image& test, const Image& reference) {
+double meanError(const Image& test, const Image& reference, const Image& lit) {
   double sum = 0;
   int64_t count = 0;
-  eachValue(test, reference, [&](float t, float r) { sum += std::abs(t - r) / (std::abs(r) + ChartReference::kFloor), ++count; });
+  eachValue(test, reference, lit, [&](float t, float r) { sum += std::abs(t - r) / (std::abs(r) + ChartReference::kFloor), ++count; });
   return count ? sum / static_cast<double>(count) : 0;
 }
 
@@ -66,7 +66,7 @@ bool ChartReference::add(const Image& batch) {
 }
 
 bool ChartReference::isBlack() const {
-  return std::all_of(mean_.pixels.begin(), mean_.pixels.end(), [](float v) { return v == 0; });
+  return std::all_of(mean_.pixels.begin(), mean_.pixels.end(), [](float v) { return std::abs(v) < 1e-12f; });
 }
 
 Image ChartReference::meanWithout(size_t batch) const {
@@ -79,7 +79,7 @@ double ChartReference::noiseFloor() const {
   if (n < 2) return kInfinity;
   // A batch is off the mean of the others by its own noise and theirs, sqrt(n + n / (n - 1)) times that of the mean of all.
   double sum = 0;
-  for (size_t b = 0; b < batches_.size(); ++b) sum += meanError(batches_[b], meanWithout(b));
+  for (size_t b = 0; b < batches_.size(); ++b) sum += meanError(batches_[b], meanWithout(b), mean_);
   return sum / n / std::sqrt(n + n / (n - 1));
 }
 
@@ -87,7 +87,7 @@ ErrorFigures ChartReference::errorOf(const Image& test) const {
   ErrorFigures out;
   std::vector<float> errors;
   double squares = 0, tests = 0, references = 0;
-  eachValue(test, mean_, [&](float t, float r) {
+  eachValue(test, mean_, mean_, [&](float t, float r) {
     errors.push_back(std::abs(t - r) / (std::abs(r) + kFloor));
     out.mean += errors.back(), squares += double{t - r} * (t - r), tests += t, references += r;
   });
@@ -101,7 +101,7 @@ ErrorFigures ChartReference::errorOf(const Image& test) const {
   out.rms = references != 0 ? std::sqrt(squares / count) / (references / count) : 0;
   if (batches() < 2) return out;
   double spread = 0;
-  for (size_t b = 0; b < batches_.size(); ++b) spread += std::pow(meanError(test, meanWithout(b)) - out.mean, 2);
+  for (size_t b = 0; b < batches_.size(); ++b) spread += std::pow(meanError(test, meanWithout(b), mean_) - out.mean, 2);
   out.confidence = 2 * std::sqrt(spread * (batches() - 1) / batches());
   return out;
 }

@@ -15,7 +15,7 @@ constexpr const char* kPageStyle = R"(
 :root{font:16px/1.5 system-ui,sans-serif;color:#1b1b1b;background:#fff}
 body{max-width:1200px;margin:0 auto;padding:0 16px 48px}
 h1{font-size:1.5rem;margin:1.2em 0 .2em}h2{font-size:1.15rem;margin:2em 0 .5em}
-p{max-width:46em;margin:.5em 0}code{font:12px/1.5 ui-monospace,monospace;overflow-wrap:anywhere}
+h1,p,li{overflow-wrap:anywhere}p{max-width:46em;margin:.5em 0}code{font:12px/1.5 ui-monospace,monospace;overflow-wrap:anywhere}
 a{color:#0058a3}
 ul{margin:.3em 0;padding-left:1.2em;font-size:14px}
 .scroll{overflow-x:auto}table{border-collapse:collapse;font-size:14px}
@@ -26,7 +26,7 @@ tr.best td:first-child{font-weight:600}
 .key{display:inline-block;width:.8em;height:.8em;border-radius:50%;margin:0 .35em 0 0}
 .legend{display:flex;flex-wrap:wrap;gap:4px 20px;margin:.6em 0;padding:0;list-style:none;font-size:14px}
 svg{display:block;width:100%;height:auto;font:12px system-ui,sans-serif}
-.grid{stroke:#ececec}.axis{stroke:#555;fill:none}.tick,.label{fill:#333}
+.grid{stroke:#ececec}.axis{stroke:#555;fill:none}.tick,.label{fill:#333}.name{fill:#555;font-size:11px}
 .curve{fill:none;stroke-width:1.8}.point{stroke:#fff;stroke-width:1.2}.best{stroke:#111;stroke-width:2}
 .front{fill:none;stroke:#ffd84d;stroke-width:9;stroke-linecap:round;stroke-linejoin:round;opacity:.55}
 path.floor{stroke:#888;stroke-dasharray:3 4}text.floor{fill:#666}

@@ -27,6 +27,8 @@ class Page : Markup {
          [](const ChartPoint& p) { return p.bestInTime; });
     plot("Error against memory", "peak resident memory, MB", [](const ChartPoint& p) { return p.run.peakBytes / 1048576; },
          [](const ChartPoint& p) { return p.bestInMemory; });
+    if (r_.oneKnob)
+      plot("Error against the setting", r_.title.c_str(), [](const ChartPoint& p) { return p.value; }, [](const ChartPoint&) { return false; });
     put("</div>\n");
     table();
     cards();
@@ -36,6 +38,12 @@ class Page : Markup {
 
  private:
   std::string key(size_t curve) const { return fmt::format("<span class=\"key\" style=\"background:{}\"></span>{}", plotColor(curve), escapeXml(r_.curves[curve])); }
+
+  /// The value of what varies, where there is room for it: along a single curve.
+  std::string nameOf(const ChartPoint& p) const {
+    if (r_.curves.size() > 1) return "";
+    return p.setting.substr(p.setting.rfind(' ') + 1);
+  }
 
   void summary(const std::string& jsonName) {
     put("<p>Error: mean of |test &minus; reference| / (reference + {}) over all colours of all pixels that the reference lights. Yellow: the "
@@ -81,7 +89,7 @@ class Page : Markup {
       const ChartPoint& p = r_.points[i];
       const std::string tip = fmt::format("{}, {}: {} in {} s, {}", r_.curves[p.curve], p.setting, percent(p.error.mean), shortNumber(p.run.cpu_s),
                                           megabytes(p.run.peakBytes));
-      plot.curves[p.curve].points.push_back({cost(p), p.error.mean, tip, fmt::format("#p{}", i), best(p)});
+      plot.curves[p.curve].points.push_back({cost(p), p.error.mean, tip, fmt::format("#p{}", i), best(p), false, nameOf(p)});
     }
     put("<section><h2>{}</h2><div class=\"wide\">{}</div><div class=\"narrow\">{}</div></section>\n", title, drawPlot(plot, 580, 420),
         drawPlot(plot, 358, 340));

@@ -117,7 +117,14 @@ class Drawing : Markup {
       if (p.warned) put("<circle class=\"warned\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"8.5\"/>", x_.at(p.x), y_.at(p.y));
       put("<a href=\"{}\"><circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" fill=\"{}\"><title>{}</title></circle></a>\n",
           escapeXml(p.link), p.best ? "point best" : "point", x_.at(p.x), y_.at(p.y), plotColor(c), escapeXml(p.tip));
+      if (!p.name.empty()) name(p);
     }
+  }
+
+  /// To the right, or where the drawing ends to the left.
+  void name(const PlotPoint& p) {
+    const bool left = x_.at(p.x) > width_ - kRight - 10 - 7 * static_cast<double>(p.name.size());
+    put("<text class=\"name\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x_.at(p.x) + (left ? -8 : 8), y_.at(p.y) - 5, left ? "end" : "start", escapeXml(p.name));
   }
 
   const Plot& plot_;

@@ -11,6 +11,7 @@ struct PlotPoint {
   std::string link;  ///< Where a click goes.
   bool best = false; ///< Nothing else is both cheaper and more accurate.
   bool warned = false;  ///< Drawn with a ring.
+  std::string name{};   ///< Written beside it.
 };
 
 struct PlotCurve {

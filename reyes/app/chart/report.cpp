@@ -22,6 +22,7 @@ bool isBest(const ChartReport& report, const ChartPoint& p, Cost&& cost) {
 Json pointJson(const ChartReport& report, const ChartPoint& p) {
   return {{"method", report.curves[p.curve]},
           {"setting", p.setting},
+          {"value", p.value},
           {"command", p.commandLine},
           {"cpu_s", p.run.cpu_s},
           {"wall_s", p.run.wall_s},

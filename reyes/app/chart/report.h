@@ -11,6 +11,7 @@ namespace tomales {
 struct ChartPoint {
   size_t curve;
   std::string setting;      ///< In short.
+  double value;             ///< Of what varies along the curve; 0: not one number.
   std::string commandLine;
   Run run;
   ErrorFigures error;
@@ -19,6 +20,7 @@ struct ChartPoint {
 };
 
 struct ChartReport {
+  bool oneKnob = false;  ///< Curves vary one number: ChartPoint::value.
   std::string scene, title, commandLine, referenceCommandLine;
   std::vector<std::string> curves;
   std::vector<ChartPoint> points;  ///< Curve by curve, as the sweep has them.

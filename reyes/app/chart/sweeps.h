@@ -18,6 +18,7 @@ struct ChartSweep {
   std::vector<std::string> reference;  ///< Of a batch; batches differ in `seed`.
   std::string seed;                    ///< The option that makes batches independent.
   bool tracedReference = false;        ///< Its batches take --samples, by what the budget allows.
+  bool oneKnob() const { return name != "gi"; }  ///< The last word of a setting is what varies.
   std::vector<ChartCurve> curves;
 };
 
