@@ -38,6 +38,7 @@ struct Scratch {
   std::vector<int> fineCells, aimedCells, raysOfCell;
   std::vector<float> shares;                       ///< Of the light of bright spots that arrive.
   std::vector<CellSpread> spread;
+  std::vector<float> upright;
 };
 
 /// Where light changes fast: cells whose neighbours differ by more than kContrast times the mean. A cell's own ray has no say, so
@@ -78,12 +79,10 @@ class Hemisphere {
         known_(known.hits),
         aim_(spots_, point.position, point.normal) {
     orthonormalBasis(point.normal, tangent_, bitangent_);
-    first_.spread = 1 / std::sqrt(static_cast<float>(count_));
+    first_.spread = spreadOfRays(static_cast<int>(count_));
     scene.prepareOrigin(point.group, point.position, point.edgeLength, first_);
     const OcclusionQuery* occlusion = settings.occlusion ? &*settings.occlusion : nullptr;
-    const std::string& asked = occlusion ? occlusion->subset : settings.subset;
-    const std::string& own = scene.scene().groups[static_cast<size_t>(point.group)].attributes->trace.subset;
-    filter_.groups = scene.groupsIn(asked.empty() ? own : asked, occlusion ? occlusion->excludeSubset : "");
+    filter_.groups = groupsSeenFrom(scene, point.group, settings);
     if (occlusion) filter_.sides = occlusion->sides;
     if (occlusion && occlusion->bias >= 0) first_.offset = 0, first_.bias = occlusion->bias;
     if (!filter_.passesAll()) first_.filter = &filter_;
@@ -110,6 +109,8 @@ class Hemisphere {
     weigh();
     return {cells_, tangent_, bitangent_, point_.normal, scratch_.directions, scratch_.radiance, scratch_.distances, scratch_.spread};
   }
+
+  std::vector<float>& upright() { return scratch_.upright; }
 
  private:
   vec3 inCell(int cell, const vec2& xi) const {
@@ -321,7 +322,29 @@ class Hemisphere {
   Scratch& scratch_ = emptyScratch();
 };
 
+/// Light under a sheet changes over its height, whatever the size of a pixel: a record there reaches as far from its edge and no farther,
+/// but for a quarter of a pixel. A tenth of the rays that leave upright are to meet a sheet: a hair is none.
+float reachUnderSheet(const HemisphereSamples& samples, float pixelSize, std::vector<float>& upright) {
+  constexpr float kUpright = 0.8f;  // cosine
+  constexpr size_t kTenth = 10;
+  constexpr float kFinestPixels = 0.25f;
+  upright.clear();
+  for (size_t i = 0; i < samples.directions.size(); ++i)
+    if (dot(samples.directions[i], samples.normal) > kUpright) upright.push_back(samples.distances[i]);
+  if (upright.empty()) return kInfinity;
+  const auto height = upright.begin() + static_cast<ptrdiff_t>(upright.size() / kTenth);
+  std::nth_element(upright.begin(), height, upright.end());
+  return std::max(*height, kFinestPixels * pixelSize);
+}
+
 }  // namespace
+
+const std::vector<uint8_t>* groupsSeenFrom(const RayScene& rays, int group, const GatherSettings& settings) {
+  const OcclusionQuery* occlusion = settings.occlusion ? &*settings.occlusion : nullptr;
+  const std::string& asked = occlusion ? occlusion->subset : settings.subset;
+  const std::string& own = rays.scene().groups[static_cast<size_t>(group)].attributes->trace.subset;
+  return rays.groupsIn(asked.empty() ? own : asked, occlusion ? occlusion->excludeSubset : "");
+}
 
 IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point,
                         const GatherSettings& settings, const KnownLight& known, Stats& stats, BrightFind* find) {
@@ -330,6 +353,7 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
   IrradianceRecord record = summarize(samples);
   record.position = point.position;
   record.pixelSize = point.pixelSize;
+  if (!settings.occlusion) record.limit = reachUnderSheet(samples, point.pixelSize, hemisphere.upright());
   if (settings.curvature) {
     const IrradianceCurvature curvature = curvatureOf(samples);
     std::copy_n(curvature.gradient, 3, record.translationGradient);

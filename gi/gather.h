@@ -44,6 +44,11 @@ struct KnownLight {
 IrradianceRecord gather(const RayScene& rays, const ShadingSystem& shading, const GatherPoint& point, const GatherSettings& settings,
                         const KnownLight& known, Stats& stats, BrightFind* find = nullptr);
 
+/// The shade groups that rays from a group are to see.
+const std::vector<uint8_t>* groupsSeenFrom(const RayScene& rays, int group, const GatherSettings& settings);
+/// Radius of the footprint of one of the hemisphere's rays at its pole, for each unit of distance.
+inline float spreadOfRays(int samples) { return 1 / std::sqrt(static_cast<float>(samples)); }
+
 /// Hit-list distance of a ray at this cosine to the normal. Coarse and fine surface are up to `offset` apart along the normal, so
 /// a slanted ray meets the coarse one later; the floor keeps grazing rays from reaching through other objects.
 inline float slantedOffset(float offset, float cosine) { return offset / std::max(cosine, 0.25f); }

@@ -14,6 +14,8 @@ constexpr int kLastPhases = 8;  // for points beyond the first of each pixel, in
 constexpr int kPhases = kLatticePhases + kLastPhases;
 constexpr int kScoutPhases = 3;  // after which bright spots are known
 constexpr float kEnough = 0.05f;  // sum of weights below which a point gets its own record
+constexpr float kSheetPixels = 2;  // length of rays that look for a sheet overhead: farther, records know of it
+constexpr float kUnmet = 0.9f;     // of the closest distance of a record: what is nearer it has not met
 constexpr size_t kPointsPerSlice = 256;
 
 /// Of the lattice that this phase completes; 0: none.
@@ -51,7 +53,7 @@ class GatherPass {
 
   void run(const std::function<void(float)>& progress, const std::atomic<bool>* cancelled, const std::function<void(int stride)>& covered) {
     progress_ = &progress, cancelled_ = cancelled;
-    if (!prepareCaches()) return;
+    if (!prepareCaches() || !(tools_ = gatherTools(state_))) return;
     for (phase_ = 0; phase_ < kPhases && !isCancelled(); ++phase_) {
       const std::vector<Site> sites = uncovered();
       if (phase_ == 0) prepareBounces(sites);
@@ -100,7 +102,7 @@ class GatherPass {
     std::vector<GatherPoint> points;
     for (const Site& s : sites)
       if (isLight(s.cache)) points.push_back(s.point);
-    if (bounces == 1 || points.empty() || !(tools_ = gatherTools(state_))) return;
+    if (bounces == 1 || points.empty()) return;
     // What gathers anywhere may look them up: as many rays, as far, as any plan asks, whatever pixel comes first.
     size_t first = 0;
     while (!isLight(first)) ++first;
@@ -196,15 +198,40 @@ class GatherPass {
     for (const Site& s : asked) places.push_back({s.point.position, s.point.normal, s.point.normal, s.point.pixelSize});
     std::vector<IrradianceEstimate> known(places.size());
     state_.caches[cache].cache.lookup(places, known.data());
-    // What was given is appended to, not refined.
     for (size_t i = 0; i < asked.size(); ++i)
-      if (known[i].weight < kEnough || (known[i].disputed && !state_.cachesGiven)) out.push_back(asked[i]);
+      if (known[i].weight < kEnough || (!state_.cachesGiven && wantsItsOwn(cache, asked[i].point, known[i]))) out.push_back(asked[i]);
+  }
+
+  // What was given is appended to, not refined.
+  bool wantsItsOwn(size_t cache, const GatherPoint& p, const IrradianceEstimate& known) const {
+    return known.disputed || (isLight(cache) && isUnderSheet(cache, p, known.closest));
+  }
+
+  // Records in front of a slot that is narrower than they reach see the sheet over it edge-on, if at all. Of two rays that leave upwards and
+  // aside one meets it, even below its very edge.
+  bool isUnderSheet(size_t cache, const GatherPoint& p, float closestOfRecord) const {
+    constexpr float kSlant = 0.70710678f;
+    const GatherSettings& gather = state_.caches[cache].plan.gather;
+    const RayFilter filter{groupsSeenFrom(*tools_->rays, p.group, gather)};
+    vec3 tangent, bitangent;
+    orthonormalBasis(p.normal, tangent, bitangent);
+    const float azimuth = 2 * kPi * unitFloat(hash32(p.key ^ 0x73686565U));
+    const vec3 aside = std::cos(azimuth) * tangent + std::sin(azimuth) * bitangent;
+    for (const float side : {-kSlant, kSlant}) {
+      Ray ray{p.position, kSlant * p.normal + side * aside, std::min({kSheetPixels * p.pixelSize, kUnmet * closestOfRecord, gather.maxDistance})};
+      ray.spread = spreadOfRays(gather.samples);
+      if (!filter.passesAll()) ray.filter = &filter;
+      tools_->rays->prepareOrigin(p.group, p.position, p.edgeLength, ray);
+      ray.offset = slantedOffset(ray.offset, kSlant);
+      const Hit hit = tools_->rays->closest(ray, kMaskDiffuse);
+      if (hit.object >= 0 && std::abs(dot(hit.geometricNormal, p.normal)) > kSlant) return true;
+    }
+    return false;
   }
 
   // The records of a phase are inserted when all have been made.
   void gatherAt(const std::vector<Site>& sites) {
-    if (!sites.empty() && !tools_) tools_ = gatherTools(state_);
-    if (sites.empty() || !tools_) return report(1);
+    if (sites.empty()) return report(1);
     std::vector<IrradianceRecord> records(sites.size());
     std::vector<BrightFind> finds(phase_ < kScoutPhases ? sites.size() : 0);
     size_t done = makeRecords(sites, records, finds);

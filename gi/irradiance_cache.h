@@ -22,7 +22,7 @@ struct IrradianceRecord {
   float closest;                   ///< least of them; the paper's R_i
   float smoothRadius;              ///< within which E is nearly linear (ErrorFunction::Hessian alone)
   float noise;                     ///< standard error of the luminance of E, at most
-  float limit = kInfinity;         ///< beyond which neighbours have shown it to be wrong
+  float limit = kInfinity;         ///< beyond which neighbours have shown it to be wrong, or a sheet over it ends
   float pixelSize;                 ///< root of the projected pixel area at the record, for R+ and R- (eq. 3)
 };
 
@@ -44,6 +44,7 @@ struct IrradianceEstimate {
   vec3 dominant[3];
   float weight = 0;                ///< Sum of weights; 0: nothing usable was found.
   bool disputed = false;           ///< Records differ by more than their noise explains.
+  float closest = kInfinity;       ///< Of the record of the largest weight.
 };
 
 /// Where irradiance is looked up: records that serve `normal`, turned to `shadingNormal`.

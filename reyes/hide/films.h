@@ -65,6 +65,12 @@ class Films {
     return last = count_++;
   }
 
+  /// Some of a film's samples are no longer its.
+  void drop(size_t film, uint64_t samples) {
+    list_[film].samples &= ~samples;
+    for (; samples; samples &= samples - 1) cells(film)[std::countr_zero(samples)] = kNoCell;
+  }
+
   /// Samples one by one: those of a cell stay together until the next flush().
   void add(uint32_t word, uint32_t sample, uint32_t cell, float depth) {
     if (word != openWord_ || cell != openCell_) flush();

@@ -91,7 +91,8 @@ struct LatticeEdges {
     hn::Store(hn::IfThenElse(hn::RebindMask(kI, empty), hn::Set(kI, INT32_MAX), least), kI, limit + g);
   }
 
-  static constexpr float kMost_px = 8;  ///< Edges may be as long.
+  /// Edges may be as long: so that floats are exact too, up to a pixel beyond the cell, and which of the two is asked shows in no bit.
+  static constexpr float kMost_px = 3.5f;
 };
 
 /// The triangles abc and bdc of kLanes micropolygons.

@@ -4,7 +4,7 @@
 // lexicographically smaller end, so both neighbours get the same value with opposite signs, and the value
 // zero belongs to the right of the edge seen from that end: as if every sample were moved by (e^2, -e) for an
 // infinitesimal e. Vertices of still grids and samples lie on a lattice (kLattice), on which the values of micropolygons up to
-// 8 px are whole numbers (reyes/hide/quad.h), so that a fan round a vertex neither misses a sample nor hits it twice.
+// 3.5 px are whole numbers (reyes/hide/quad.h) and exact in float too, so that a fan round a vertex neither misses a sample nor hits it twice.
 #pragma once
 #include "reyes/hide/lattice.h"
 #include "reyes/hide/samples.h"

@@ -280,6 +280,7 @@ void rasterize(const RasterJob& job) {
   const bool moves = job.raster.grid->keyCount > 1;
   for (int key = 0; key + 1 < std::max(2, job.raster.grid->keyCount); ++key) {
     const size_t k = static_cast<size_t>(key);
+    job.out.filmsOf(job.raster).beginGrid();  // A cell's films are of one interval, whatever hides it.
     const Interval when = moves ? Interval{job.keyTimes[k], job.keyTimes[k + 1]} : Interval{0, 1};
     if (!moves)
       Descent<Blur<false, true>>(job, key).run(when);

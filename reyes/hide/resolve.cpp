@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "reyes/hide/facets.h"
+#include "reyes/hide/reach.h"
 #include "reyes/hide/sights.h"
 
 namespace tomales {
@@ -14,6 +15,7 @@ namespace {
 struct Sheet {
   FilmExtent extent;
   uint32_t film;
+  uint64_t twice = 0;  ///< Samples that a neighbour shows.
   bool operator<(const Sheet& o) const { return extent.nearest < o.extent.nearest; }
 };
 
@@ -48,6 +50,7 @@ class Lent {
 
 class TileBuilder {
   static constexpr size_t kAhead = 24;  ///< Films that are on their way while one is looked at.
+  static constexpr float kRounding = 1e-5f;  ///< Of depth keys.
 
  public:
   TileBuilder(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples, Scratch& scratch)
@@ -136,6 +139,32 @@ class TileBuilder {
       if (films.film(order[k]).samples) sheets.push_back({extent, order[k]});
     }
     std::sort(sheets.begin(), sheets.end());
+    dropTwice();
+  }
+
+  /// What neighbours reach over each other counts once.
+  void dropTwice() {
+    std::vector<Sheet>& sheets = scratch_.sheets;
+    Films& films = samples_.films;
+    const auto compare = [&](Sheet& a, const Sheet& b) { a.twice |= shownTwice(samples_, grids_, camera_, a.film, b.film); };
+    // Neighbours have a slope, of which a few samples show nothing.
+    float most = 0;
+    bool any = false;
+    for (const Sheet& s : sheets)
+      if (s.film != Films::kNone && std::popcount(films.film(s.film).samples) < samples_.sampleCount())
+        any = true, most = std::max(most, depthOfCell(films, grids_, s.film));
+    if (!any) return;  // Where a border is seen, some film ends.
+    for (size_t i = 0; i < sheets.size(); ++i) {
+      Sheet& a = sheets[i];
+      const float reach = a.extent.farthest + 2 * most + kRounding * std::abs(a.extent.farthest);
+      for (size_t k = i + 1; a.film != Films::kNone && k < sheets.size() && sheets[k].extent.nearest <= reach; ++k) {
+        Sheet& b = sheets[k];
+        if (b.film == Films::kNone || (films.film(a.film).samples & films.film(b.film).samples) == 0) continue;
+        compare(a, b), compare(b, a);
+      }
+    }
+    for (const Sheet& sheet : sheets)
+      if (sheet.twice) films.drop(sheet.film, sheet.twice);
   }
 
   /// overlapping: a sample may see several of them.

@@ -15,31 +15,11 @@ const GridTable::Entry& GridTable::add(const std::shared_ptr<const RasterGrid>& 
   return entries_.back();
 }
 
-namespace {
-
-constexpr size_t kMuchMore = 4;
-
-/// A small grid shares the memory of its neighbours (reyes/base/pool.h), and would hold it as long as it is seen: where that is several times
-/// its own, it is copied. Raster positions are about a third of a grid.
-std::shared_ptr<const RasterGrid> onItsOwn(const std::shared_ptr<const RasterGrid>& shared) {
-  const Pool* pool = shared->x.get_allocator().pool;
-  const size_t own_bytes = 9 * shared->x.size() * sizeof(float);
-  if (!pool || pool->bytes() < kMuchMore * own_bytes || shared->blur) return shared;
-  auto own = std::make_shared<RasterGrid>(*shared);
-  own->grid = std::make_shared<const Grid>(*shared->grid);
-  return own;
-}
-
-}  // namespace
-
 void GridTable::keepOnly(const std::vector<uint32_t>& cells) {
   for (Entry& e : entries_) {
     if (!e.raster) continue;
     const auto first = std::lower_bound(cells.begin(), cells.end(), e.firstCell);
-    if (first != cells.end() && *first < e.firstCell + static_cast<uint32_t>(e.grid().cellNumbers())) {
-      e.raster = onItsOwn(e.raster);
-      continue;
-    }
+    if (first != cells.end() && *first < e.firstCell + static_cast<uint32_t>(e.grid().cellNumbers())) continue;
     e.raster.reset();
     --held_;
   }

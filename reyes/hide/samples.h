@@ -26,7 +26,7 @@ class GridTable {
   const Entry& of(uint32_t cell) const { return entries_[entryOfPage_[cell / kPage]]; }
   const std::vector<Entry>& entries() const { return entries_; }
   uint32_t cellCount() const { return static_cast<uint32_t>(entryOfPage_.size()) * kPage; }  ///< Numbers in use, gaps included.
-  /// Lets go of every grid that has none of these cells, and keeps copies of the rest where it would keep others' memory too. Pre: sorted.
+  /// Lets go of every grid that has none of these cells. Pre: sorted.
   void keepOnly(const std::vector<uint32_t>& cells);
   size_t held() const { return held_; }  ///< Grids not let go of.
   bool anySmooth() const { return anySmooth_; }  ///< Has one RasterGrid::smooth?
@@ -70,7 +70,9 @@ struct SampleBuffer {
   std::vector<Contest> contests;   ///< Of what is opaque, still and in focus; some may since have been hidden.
 
   /// Do 16 bits hold the positions on the lattice?
-  bool fitsLattice() const { return rect.width() <= 2 * kHalf_px && rect.height() <= 2 * kHalf_px; }
+  bool fitsLattice() const {
+    return rect.width() <= 2 * kHalf_px && rect.height() <= 2 * kHalf_px && std::max(rect.x1, rect.y1) <= kMostExact_px;
+  }
   /// Makes times and lens positions: the first grid that moves or is out of focus asks for them.
   void showBlur();
   /// What DetailShare divides, of a lane.
@@ -80,6 +82,8 @@ struct SampleBuffer {
   }
   /// Where transparent grids, and solids, note what they cover.
   Films& filmsOf(const RasterGrid& raster) { return raster.inSolid ? crossings : films; }
+  /// Of a pixel.
+  int sampleCount() const { return pattern_.count(); }
   /// Of a sample of a pixel: Film::word.
   uint32_t wordOf(uint32_t pixel, uint32_t sample) const { return pixel * static_cast<uint32_t>(films.wordsOfPixel()) + sample / 64; }
   /// Brings `far` up to date.
@@ -115,6 +119,7 @@ struct SampleBuffer {
 
  private:
   static constexpr int kFew_px = 4, kHalf_px = 32;
+  static constexpr int kMostExact_px = 16384;  ///< Beyond, floats round positions, some to the next pixel.
   const SamplePattern& pattern_;
   const vec2 lens_;
   std::vector<int> patternAt_;  ///< A pixel

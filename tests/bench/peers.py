@@ -84,7 +84,7 @@ class Bench:
             for x, y in self.corners():
                 crop = ",".join(f"{v / self.size:.9g}" for v in (x, x + WINDOW, y, y + WINDOW))
                 part = self.ours("--gi", "reference", "--bounces", bounces, "--samples", paths // 2, "--indirect-only", "--light-seed", seed, "--crop", crop)[0]
-                image[y:y + WINDOW, x:x + WINDOW] = part[:WINDOW, :WINDOW] if part.shape[0] < self.size else part[y:y + WINDOW, x:x + WINDOW]
+                image[y:y + WINDOW, x:x + WINDOW] = part
             halves.append(self.in_windows(image))
         mean = (halves[0] + halves[1]) / 2
         return mean, relative(halves[0] - halves[1], mean) / 2
@@ -159,7 +159,7 @@ def measure(bench, bounces, who, truth_paths, paths, pov_settings):
 
 def seconds_to(rows, error):
     """On straight lines between points in logarithmic axes, and whether that is an extrapolation; None where it is not reached."""
-    rows = sorted(rows, key=lambda r: r["cpu_s"])
+    rows = sorted(({**r, "cpu_s": max(r["cpu_s"], 1e-3)} for r in rows), key=lambda r: r["cpu_s"])  # a difference, which noise may take below 0
     for before, after in zip([None] + rows[:-1], rows):
         if after["error"] <= error:
             if before is None:
@@ -199,7 +199,7 @@ def agreement(bench, bounces, paths):
         if b == bounces[0]:
             say("Cycles, direct", c_direct, direct)
         say(f"Cycles, {b} bounces", c_indirect, indirect)
-        say(f"POV-Ray, {b} bounces", bench.povray(radiosity(*POV_SETTINGS[1], min(b, 20)))[0] - pov_direct, indirect)
+        say(f"POV-Ray, {b} bounces", bench.povray(radiosity(*POV_SETTINGS[-1], min(b, 20)))[0] - pov_direct, indirect)
 
 
 def main():
@@ -215,6 +215,8 @@ def main():
     parser.add_argument("--agreement", type=int, default=0, help="paths of a pixel to see whether the programs agree; 0: not asked")
     parser.add_argument("--json", type=pathlib.Path)
     given = parser.parse_args()
+    if given.size < WINDOW * WINDOWS_A_SIDE:
+        parser.error(f"--size: the windows need {WINDOW * WINDOWS_A_SIDE}")
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         for name in given.rooms:

@@ -42,7 +42,7 @@ class Shot:
     def picture(self, name, *arguments, given=None):
         icf, out = self.rib.with_suffix(f".{name}.icf"), self.folder / "picture.exr"
         run("gather", self.dfb, "-q", "-o", icf, *arguments, *(["--irradiance", given] if given else []))
-        run("shade", self.dfb, "-q", "--irradiance", icf, "--indirect-only", "-o", out)
+        run("shade", self.dfb, "-q", "--irradiance", icf, "--indirect-only", "-o", out, *arguments)  # what no record serves is gathered as the truth is
         return [v if v < LAMP else 0 for color in pixels(out).values() for v in color[:3]], icf
 
 

@@ -1,7 +1,6 @@
 #include "reyes/app/chart/chart.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -66,10 +65,6 @@ LabSettings labOf(const ChartSettings& s, const ChartSweep& sweep) {
   return {s.folder.empty() ? chartCacheFolder() : s.folder, s.files, sweep.common + sharedArguments(s), s.budget_s};
 }
 
-bool isWritableFolder(const fs::path& folder) {
-  return fs::is_directory(folder.empty() ? "." : folder) && access(folder.empty() ? "." : folder.c_str(), W_OK) == 0;
-}
-
 class Chart {
  public:
   Chart(const ChartSettings& settings, const ChartSweep& sweep)
@@ -84,12 +79,11 @@ class Chart {
   /// A few batches of the reference, all points, and what is left of the budget for more batches: a chart whose reference is noisy says
   /// so, and grows quieter when it is asked for again; points that are missing say nothing.
   int run() {
-    const fs::path folder = fs::path(settings_.output).parent_path();
-    if (!isWritableFolder(folder)) return fail(kUnwritable, "\"" + settings_.output + "\" cannot be written: no such folder, or one that must not be written to");
-    if (!isWritableFolder(labSettings_.folder)) return fail(kUnwritable, "\"" + labSettings_.folder + "\" cannot hold what is measured: no folder that can be written to");
+    if (const std::string problem = placesProblem(settings_.output, labSettings_.folder); !problem.empty()) return fail(kUnwritable, problem);
     chooseReference();
     while (reference_.batches() < kFirstBatches && (reference_.batches() < 2 || reference_.noiseFloor() > kSilent) && addBatch()) {}
-    if (reference_.batches() == 0) return fail(interruptExitCode() ? interruptExitCode() : kUnreadable, "no reference: " + lab_.why());
+    if (reference_.batches() == 0)
+      return fail(interruptExitCode() ? interruptExitCode() : kUnreadable, "no reference: " + (badBatch_.empty() ? lab_.why() : badBatch_));
     if (reference_.isBlack())
       return fail(kUnreadable, "the reference is black, so there is no error to speak of; the sweep \"" + sweep_.name + "\" needs " + sweep_.needs);
     measure();
@@ -152,9 +146,9 @@ class Chart {
     report_.referenceSeconds += run->cpu_s;
     if (!run->recalled) batchSeconds_ = run->wall_s;
     takeWarnings(*run);
-    std::string error;
-    const auto image = readImage(run->picture, error);
-    if (!image || !reference_.add(*image)) return false;
+    const auto image = readImage(run->picture, badBatch_);
+    if (!image) return false;
+    if (!reference_.add(*image)) return badBatch_ = "\"" + run->picture + "\" has another size than the batches before it", false;
     log("reference", fmt::format("batch {}, noise {:.3g} %", reference_.batches(), 100 * reference_.noiseFloor()));
     return true;
   }
@@ -230,6 +224,7 @@ class Chart {
   mutable Log log_;
   Arguments referenceArguments_;
   ChartReference reference_;
+  std::string badBatch_;     ///< Why the last one cannot be used; empty: it can, or was not rendered.
   double batchSeconds_ = 0;  ///< Of the last that was rendered.
   ChartReport report_;
 };

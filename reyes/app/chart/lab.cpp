@@ -58,9 +58,9 @@ void addContents(const fs::path& path, std::set<fs::path>& seen, std::string& su
   }
 }
 
-/// Of what the renderer said: its first error, or else the first word.
+/// Of what the renderer said: its first error, or else the first line.
 std::string complaint(const std::string& messages) {
-  const size_t error = messages.find("error"), before = error == std::string::npos ? error : messages.rfind('\n', error);
+  const size_t error = std::min(messages.find(": error: "), messages.find(": output error: ")), before = error == std::string::npos ? error : messages.rfind('\n', error);
   const size_t begin = before == std::string::npos ? 0 : before + 1;
   return messages.substr(begin, messages.find('\n', begin) - begin);
 }
@@ -113,6 +113,15 @@ Ended await(pid_t child, Clock::time_point deadline) {
 
 }  // namespace
 
+std::string placesProblem(const std::string& page, const std::string& folder) {
+  std::error_code error;
+  const auto isWritable = [&error](const fs::path& path) { return fs::is_directory(path, error) && access(path.c_str(), W_OK) == 0; };
+  const fs::path beside = fs::path(page).parent_path();
+  if (!isWritable(beside.empty() ? "." : beside)) return "\"" + page + "\" cannot be written: no such folder, or one that must not be written to";
+  fs::create_directories(folder, error);
+  return isWritable(folder) ? "" : "\"" + folder + "\" cannot hold what is measured: no folder that can be written to";
+}
+
 uint64_t contentsOf(const std::vector<std::string>& files) {
   std::set<fs::path> seen;
   std::string sums;
@@ -123,7 +132,7 @@ uint64_t contentsOf(const std::vector<std::string>& files) {
 Lab::Lab(LabSettings settings)
     : settings_(std::move(settings)), contents_(contentsOf(settings_.scene) ^ sumOf(readAll(kSelf))), start_(Clock::now()) {
   std::error_code error;
-  fs::create_directories(settings_.folder, error);  // run() says if that failed
+  fs::create_directories(settings_.folder, error);  // placesProblem() says if that fails
 }
 
 double Lab::secondsUsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }

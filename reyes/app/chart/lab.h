@@ -47,6 +47,9 @@ class Lab {
   std::string why_;
 };
 
+/// Why a page cannot be written there or measurements kept in that folder, which is made if it is missing; empty: they can.
+std::string placesProblem(const std::string& page, const std::string& folder);
+
 /// Sum over the contents of these files and of all files that they name in strings, archives included.
 uint64_t contentsOf(const std::vector<std::string>& files);
 

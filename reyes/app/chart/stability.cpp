@@ -71,7 +71,6 @@ class Laboratory {
   void measure(StabilityCurve& out, const std::string& value) {
     const LabScene& scene = out.scene;
     out.truths.emplace_back();
-    fs::create_directories(settings_.folder);
     const uint64_t place = std::hash<std::string>{}(fs::weakly_canonical(scene.file).string());  // others may have this name too
     const std::string stem = (fs::path(settings_.folder) / fmt::format("{}_{:08x}_{}", fs::path(scene.file).stem().string(), place & 0xffffffff, value)).string();
     const std::string rib = stem + ".rib", truthRib = stem + ".truth.rib", text = replaced(scene.text, "$knob", value);
@@ -131,6 +130,10 @@ int stabilityCommand(const ChartSettings& given) {
   ChartSettings settings = given;
   if (settings.folder.empty()) settings.folder = chartCacheFolder();
   Log log;
+  if (const std::string problem = placesProblem(settings.output, settings.folder); !problem.empty()) {
+    log.report(Severity::Output, "chart", {}, problem);
+    return kUnwritable;
+  }
   std::vector<StabilityCurve> curves;
   Laboratory laboratory(settings, log);
   bool whole = true;

@@ -133,6 +133,30 @@ TEST(GatherPass, BumpsTakeNoRecordsAndAreStillSeen) {
   EXPECT_LT(error / mean, 0.08f);
 }
 
+TEST(GatherPass, UnderASheetAsHighAsAPixelLightIsThatOfTheSlot) {
+  SceneBuilder room = cornell(indirect(128));
+  room.quad({0.2f, -0.96f, 2.6f}, {0.9f, -0.96f, 2.6f}, {0.9f, -0.96f, 3.0f}, {0.2f, -0.96f, 3.0f}, vec3(0.7f));
+  World world(std::move(room.scene));
+  const DeepFrame frame = frameOf(world, 16);
+  const auto services = world.use({});
+  gatherFrame(*services, frame);
+  const std::vector<vec3> E = indirectOf(*services, world, frame);
+  const auto everyPoint = world.use({.maxError = 0});
+  const std::vector<vec3> truth = indirectOf(*everyPoint, world, frame);
+  float error = 0, light = 0;
+  int seen = 0;
+  for (const DeepTile& tile : frame.tiles)
+    for (const ShadePoints& batch : tile.batches)
+      for (int i = 0; i < batch.count(); ++i) {
+        const vec3 P = batch.position(i);
+        if (!(P.y < -0.999f && P.x > 0.2f && P.x < 0.9f && P.z > 2.62f && P.z < 3)) continue;
+        const size_t pixel = batch.key(i) / 10000 * 64 + batch.key(i) % 10000;
+        error += std::abs(luminance(E[pixel]) - luminance(truth[pixel])), light += luminance(truth[pixel]), ++seen;
+      }
+  EXPECT_GT(seen, 5);
+  EXPECT_LT(error / light, 0.25f);
+}
+
 TEST(GatherPass, ASmallerMaxErrorTakesMoreRecords) {
   int64_t last = 0;
   for (const float maxError : {2.0f, 1.0f, 0.5f}) {

@@ -196,5 +196,56 @@ TEST(Facing, UnderPerspectiveIsDecidedAtThePoint) {
   EXPECT_TRUE(hide(w, pattern, rect, {raster(w, wall(4, 2))}).fragments.empty());
 }
 
+/// What the samples of a pixel see, without names.
+std::vector<std::tuple<float, uint64_t, uint16_t>> seenIn(const DeepTile& t, int x, int y) {
+  std::vector<std::tuple<float, uint64_t, uint16_t>> out;
+  const DeepPixel& p = t.pixel(x, y);
+  for (uint32_t k = 0; k < p.count; ++k) out.emplace_back(begin(t, p)[k].z, begin(t, p)[k].samples, begin(t, p)[k].word);
+  return out;
+}
+
+TEST(Coverage, OfCellsThatFitTheLatticeAndOthersIsTheSameInBucketsOfAnySize) {
+  for (const auto& [columns, rows] : {std::pair{4, 4}, {10, 8}})
+    for (const int n : {5, 9, 16}) {  // Edges of about 2.5 to 18 px.
+      World w;
+      w.add();
+      w.freeze();
+      const SamplePattern pattern(columns, rows, true, 3);
+      const Rasters grids = {raster(w, makeGrid(0, 1, n, n, wobbly(n, 0.2f, 0, 64)), false)};
+      const DeepTile whole = hide(w, pattern, kFrame, grids);
+      expectOneHitInside(whole, pattern, 0, 64);
+      for (const int size : {32, 16})
+        for (int y0 = 0; y0 < 64; y0 += size)
+          for (int x0 = 0; x0 < 64; x0 += size) {
+            const DeepTile part = hide(w, pattern, {x0, y0, x0 + size, y0 + size}, grids);
+            for (int y = y0; y < y0 + size; ++y)
+              for (int x = x0; x < x0 + size; ++x) ASSERT_EQ(seenIn(part, x, y), seenIn(whole, x, y)) << n << " " << size << " " << x << "," << y;
+          }
+    }
+}
+
+TEST(Coverage, OfStackedPiecesIsThatOfTheirCells) {
+  World w;
+  w.add();
+  w.freeze();
+  for (int nu = 1; nu < 20; nu += 3)
+    for (int nv = 1; nv < 5; ++nv) {
+      const auto g = std::make_shared<Grid>();
+      g->object = 0, g->pieces.resize(3);
+      for (uint32_t p = 0; p < 3; ++p) g->pieces[p].name = p, g->pieces[p].openEdges = kAllEdges;
+      g->allocate(nu, nv, 1, 0);
+      const int row = nu + 1;
+      for (int k = 0; k < g->vertexCount(); ++k) {
+        const auto u = static_cast<float>(k % row), v = static_cast<float>(k / row % (nv + 1)), p = static_cast<float>(k / (row * (nv + 1)));
+        const vec3 at_ = at(2 + 2 * u, 3 + 20 * p + 2 * v);
+        for (int axis = 0; axis < 3; ++axis) g->P(0, axis)[k] = at_[axis];
+        g->N(2)[k] = -1;
+      }
+      size_t cells = 0;
+      for (int number = 0; number < g->cellNumbers(); ++number) cells += g->isCell(number);
+      EXPECT_EQ(hide(w, SamplePattern(4, 4, true, 1), kFrame, {raster(w, g)}).facets.size(), cells) << nu << " x " << nv;
+    }
+}
+
 }  // namespace
 }  // namespace tomales::test
