@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "gi/atlas_limits.h"
 #include "gi/medium.h"
 #include "gi/point_tiles.h"
 #include "gi/world_from_current.h"
@@ -176,11 +177,11 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
   return figures;
 }
 
-void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonIrradianceSettings& given, uint64_t most) {
+void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonIrradianceSettings& given, uint64_t most, EstimateFigures* figures) {
   const PointFile file(photons.string());
   if (offsetOf(file.channels(), kPathPower, 3) < 0) requirePhotons(file);
   const MadeFrom madeFrom{file.madeFrom().world, irradianceInputs(file, given)};
-  if (file.count() <= most) return writePointFile(estimateIrradiance(file.readAll(), given), out.string(), madeFrom);
+  if (file.count() <= most) return writePointFile(estimateIrradiance(file.readAll(), given, {}, figures), out.string(), madeFrom);
   PhotonIrradianceSettings settings = given;
   settings.maxRadius = reachOf(given, file.bound());
   const TemporaryFolder temporary(out.parent_path().empty() ? "." : out.parent_path());
@@ -191,7 +192,7 @@ void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonI
   PointFileWriter writer(out.string(), irradianceChannels(sorted.channels()));
   forEachTile(tiles, most, [&](int level, const glm::ivec3& place) {
     const auto inside = [&](const vec3& P) { return tiles.contains(level, place, P); };
-    const PointCloud points = estimateIrradiance(tiles.around(tiles.box(level, place), settings.maxRadius), settings, inside);
+    const PointCloud points = estimateIrradiance(tiles.around(tiles.box(level, place), settings.maxRadius), settings, inside, figures);
     for (size_t i = 0; i < points.count(); ++i) writer.add(points.position[i], points.normal[i], points.radius[i], points.at(i));
   });
   writer.finish(madeFrom);
@@ -225,15 +226,19 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
     const StageTimer timer(stats, "photons");
     writePhotons(photons, scene, rays, shading, names, settings, progress, stats, log);
   }
+  std::vector<MapFigures> made;
   for (const std::string& name : maps) {
     const fs::path from = atlasFile(photons, name, ".ptc"), points = atlasFile(irradiance, name, ".ptc"), bricks = atlasFile(folder, name, ".bkm");
     const PhotonIrradianceSettings& estimate = name.ends_with(kCaustic) ? settings.caustics : settings.irradiance;
     if (pointsMadeFrom(points).inputs != irradianceInputs(PointFile(from.string()), estimate)) {
       const StageTimer timer(stats, "irradiance");
-      writeIrradiance(from, points, estimate);
+      EstimateFigures figures;
+      writeIrradiance(from, points, estimate, kPointsInMemory, &figures);
+      if (name != names.volume) made.push_back({name, PointFile(from.string()).count(), figures});
     }
     if (!renewIrradianceBricks(points, bricks, settings.bricks, stats)) ++stats.photons.groupsKept;
   }
+  warnOfEstimates(scene, names, made, log);
 }
 
 bool isMadeByHand(const fs::path& folder) {

@@ -52,7 +52,7 @@ PhotonFigures writePhotons(const std::filesystem::path& folder, const Scene& sce
                            const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log);
 /// One photon map -> irradiance points, in cubes of about `most` photons where there are more. Throws FileError.
 void writeIrradiance(const std::filesystem::path& photons, const std::filesystem::path& out, const PhotonIrradianceSettings& settings,
-                     uint64_t most = kPointsInMemory);
+                     uint64_t most = kPointsInMemory, EstimateFigures* figures = nullptr);
 /// Irradiance points -> brick map; its maxError is relative to their mean. Throws FileError.
 BuiltBricks writeIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out, BrickSettings settings);
 

@@ -148,6 +148,9 @@ class Hemisphere {
   void meet(Stats& stats, bool measures) {
     stats.rays.hitlistAdjusted += scratch_.layers.meet(scene_, kMaskDiffuse, scratch_.hits);
     stats.rays.gather += static_cast<int64_t>(scratch_.hits.size());
+    if (measures)
+      scene_.noteStarts(point_.group, static_cast<int64_t>(scratch_.hits.size()),
+                        std::count_if(scratch_.hits.begin(), scratch_.hits.end(), [](const Hit& h) { return h.crowded; }));
     for (size_t i = 0; measures && i < scratch_.hits.size(); ++i) {
       const Hit& hit = scratch_.hits[i];
       if (hit.object < 0) continue;

@@ -24,9 +24,13 @@ vec2 segment(float theta) {
   return {area / kPi, area > 0 ? 2 * s * s * s / (3 * area) : 1.0f};
 }
 
+constexpr float kMuchBent = 0.95f;   ///< Length of the mean normal: a hemisphere's within 60 degrees has 3/4.
+
 struct Estimate {
   vec3 irradiance{0.0f};
   float radius = 0;  ///< 0: none was made.
+  bool few = false, bent = false;  ///< EstimateFigures
+  float clump = 1;
 };
 
 /// Of the disk that stands for `every` of `count` photons on an area.
@@ -41,6 +45,12 @@ float nearRadius(const std::vector<NearPhoton>& photons, int every) {
   return diskRadius(kPi * photons[few - 1].distance2, few, every);
 }
 
+/// EstimateFigures::clumps of one. Neither the farthest of the few counts, nor that of all, `inside`, nor the photon at the middle. Pre: sorted.
+float clumpOf(const std::vector<NearPhoton>& photons, float area, size_t inside) {
+  if (photons.size() <= kFew || !(photons[kFew - 1].distance2 > 0)) return 1;
+  return static_cast<float>(kFew - 2) / (kPi * photons[kFew - 1].distance2) * area / static_cast<float>(inside - 1);
+}
+
 Estimate estimate(const PointCloud& photons, const PhotonTree& tree, int power, uint32_t at,
                   const PhotonIrradianceSettings& settings, std::vector<NearPhoton>& heap) {
   const vec3 P = tree.position(at), N = tree.normal(at);
@@ -53,18 +63,20 @@ Estimate estimate(const PointCloud& photons, const PhotonTree& tree, int power, 
   if (!(r2 > 0)) return {vec3(0.0f), 0};
   std::sort(heap.begin(), heap.end());  // sums in the order of distance, which no thread decides
   const size_t inside = heap.size() - byFarthest;
-  vec3 sum(0.0f), centroid(0.0f);
+  vec3 sum(0.0f), centroid(0.0f), normal(0.0f);
   for (size_t i = 0; i < inside; ++i) {
     const float* w = photons.at(tree.order()[heap[i].photon]) + power;
     sum += vec3(w[0], w[1], w[2]);
     centroid += tree.position(heap[i].photon) - P;
+    normal += tree.normal(heap[i].photon);
   }
-  centroid /= static_cast<float>(std::max<size_t>(inside, 1));
+  const float count = static_cast<float>(std::max<size_t>(inside, 1));
+  centroid /= count;
   const float distance = glm::length(centroid - dot(centroid, N) * N) / std::sqrt(r2);
   const float belief = glm::smoothstep(kChanceEnds, kBorderBegins, distance);
-  const float area = kPi * r2 * glm::mix(1.0f, coveredShare(distance), belief);
+  const float covered = glm::mix(1.0f, coveredShare(distance), belief), area = kPi * r2 * covered;
   const float wide = diskRadius(area, inside, settings.every), close = nearRadius(heap, settings.every);
-  return {sum / area, close < kMuchCloser * wide ? close : wide};
+  return {sum / area, close < kMuchCloser * wide ? close : wide, heap.size() < most, glm::length(normal) < kMuchBent * count, clumpOf(heap, area, inside)};
 }
 
 /// Where photons fly: as estimate(), of a ball.
@@ -120,7 +132,8 @@ std::vector<CloudChannel> irradianceChannels(const std::vector<CloudChannel>& ph
   return out;
 }
 
-PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& given, const std::function<bool(const vec3& P)>& wanted) {
+PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& given, const std::function<bool(const vec3& P)>& wanted,
+                              EstimateFigures* figures) {
   PhotonIrradianceSettings settings = given;
   settings.maxRadius = reachOf(given, photons.bound());
   PointCloud out;
@@ -145,7 +158,10 @@ PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceS
     const auto at = static_cast<uint32_t>(i * every);
     const vec3& E = estimates[i].irradiance;
     const std::array values{E.x, E.y, E.z, static_cast<float>(tree.surface(at))};
-    if (estimates[i].radius > 0) out.add(tree.position(at), tree.normal(at), estimates[i].radius, values.data());
+    const Estimate& e = estimates[i];
+    if (!(e.radius > 0)) continue;
+    out.add(tree.position(at), tree.normal(at), e.radius, values.data());
+    if (figures && !inMedia) *figures += {1, e.few, e.bent, e.clump};
   }
   return out;
 }

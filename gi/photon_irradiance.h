@@ -19,10 +19,21 @@ struct PhotonIrradianceSettings {
 /// with the free path for what scatters).
 inline constexpr const char* kPathPower = "pathpower";
 
+/// Estimates, and those of them that stand on weak ground.
+struct EstimateFigures {
+  int64_t made = 0;
+  int64_t few = 0;   ///< Fewer photons were in reach than were asked for: light is smeared as far as that, and noisy all the same.
+  int64_t bent = 0;  ///< The surface bends within the disk, which is no disk then.
+  double clumps = 0; ///< Density of the nearest few over that of the disk, summed: 1 each in the mean on even ground; photons lie in clumps where surfaces
+                     ///< are smaller than the disk.
+  EstimateFigures& operator+=(const EstimateFigures& o) { return made += o.made, few += o.few, bent += o.bent, clumps += o.clumps, *this; }
+};
+
 /// `photons` needs a channel "power" of three floats (W), and normals, or kPathPower. The result has the channel "irradiance" or "fluence"; its disks, or balls, overlap enough
 /// to cover the surface, or fill the volume. No photons make an empty cloud.
-/// `wanted`: only at photons there; null: at all.
-PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& settings, const std::function<bool(const vec3& P)>& wanted = {});
+/// `wanted`: only at photons there; null: at all. `figures`: gains what was made on surfaces; may be null.
+PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& settings, const std::function<bool(const vec3& P)>& wanted = {},
+                              EstimateFigures* figures = nullptr);
 
 /// The channels of the result: `irradiance` or `fluence`, and which surface it is of where photons tell.
 std::vector<CloudChannel> irradianceChannels(const std::vector<CloudChannel>& photons);

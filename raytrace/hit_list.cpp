@@ -32,6 +32,14 @@ int effectiveOrigin(const HitList& sorted, const RayStart& start) {
   return best;
 }
 
+bool isCrowded(const HitList& sorted, int origin, const RayStart& start) {
+  if (origin < 0 || sorted.size() < 2) return false;
+  const PolygonHit& from = sorted[static_cast<size_t>(origin)];
+  return std::any_of(sorted.begin(), sorted.end(), [&](const PolygonHit& hit) {
+    return std::abs(hit.t) <= start.offset && hit.group == from.group && hit.leaving != from.leaving;
+  });
+}
+
 int nextHit(const HitList& sorted, int origin, const RayStart& start) {
   const auto follows = [&](const PolygonHit& hit) {
     if (origin < 0) return hit.t > 0;

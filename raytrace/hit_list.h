@@ -48,6 +48,10 @@ struct RayStart {
   int group = -1;      ///< Shade group that the ray leaves, -1: unknown.
 };
 
+/// Does the other side of a wall lie within the offset, besides the origin (-1: none)? Blades and leaves side by side are no walls: it must be of the
+/// same group and turned away.
+bool isCrowded(const HitList& sorted, int origin, const RayStart& start);
+
 /// The hit that becomes the effective origin: the one closest to t = 0 within the offset. -1: the origin
 /// stays. At the line where two walls meet both are there, and the ray may leave one into the other: of
 /// equally close hits the one of the ray's own group is its origin, or else one that it leaves.

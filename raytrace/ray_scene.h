@@ -47,6 +47,8 @@ struct RayScene::Impl {
   bool moves = false;                     ///< Some polygon does.
   mutable std::mutex subsetsMutex;
   mutable std::map<std::pair<std::string, std::string>, std::vector<uint8_t>> subsets;
+  mutable std::mutex startsMutex;
+  mutable std::map<int, Starts> starts;
   std::vector<float> displacementBounds;  ///< Of each group, where rays do not see the displacement.
 };
 

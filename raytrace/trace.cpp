@@ -136,14 +136,14 @@ Hit RayScene::Impl::resolve(const Ray& ray, const PolygonHit& polygon) const {
     normal = instance->normals * normal;
   }
   const int object = instance ? instance->object : l.object;
-  return {polygon.t, object, l.patch, uv.x, uv.y, normalizeOr(normal, geometric), geometric, false, atOpen};
+  return {polygon.t, object, l.patch, uv.x, uv.y, normalizeOr(normal, geometric), geometric, false, false, atOpen};
 }
 
 Hit RayScene::Impl::resolveChunk(const Ray& ray, const PolygonHit& hit) const {
   const Tile& tile = chunks.all()[static_cast<size_t>(hit.chunk)].tiles[hit.quad];
   const vec3 along = groups[hit.group].flipsNormal ? -hit.normal : hit.normal, normal = embree.normal(hit);
   return {hit.t,  tile.object, tile.patch, lerp(tile.rect.u0, tile.rect.u1, hit.u), lerp(tile.rect.v0, tile.rect.v1, hit.v),
-          normal, normalizeOr(along, normal), false, ray.origin + hit.t * ray.direction};
+          normal, normalizeOr(along, normal), false, false, ray.origin + hit.t * ray.direction};
 }
 
 /// As wide as the polygons of a level are from the eye, as if what is met were as far from P as that is from the eye.
@@ -195,6 +195,7 @@ Hit RayScene::closest(const Ray& ray, RayMask mask) const {
   Hit out;
   if (next >= 0 ? hit.t < ray.tMax : beyond) out = impl_->resolve(ray, hit);
   out.adjusted = origin >= 0;
+  out.crowded = isCrowded(list, origin, start);
   return out;
 }
 
@@ -212,6 +213,17 @@ void RayScene::prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ra
   ray.group = group;
   ray.offset = impl_->hitList ? std::max(given.offset.value_or(automatic), 0.0f) : 0.0f;
   ray.bias = given.bias.value_or(kBias * scale);
+}
+
+void RayScene::noteStarts(int group, int64_t rays, int64_t crowded) const {
+  const std::lock_guard lock(impl_->startsMutex);
+  Starts& sum = impl_->starts[group];
+  sum.rays += rays, sum.crowded += crowded;
+}
+
+std::map<int, RayScene::Starts> RayScene::starts() const {
+  const std::lock_guard lock(impl_->startsMutex);
+  return impl_->starts;
 }
 
 void RayScene::lookAround(const Ray& one, float largestOffset, RayMask mask, Surroundings& out) const {

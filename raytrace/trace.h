@@ -9,6 +9,7 @@
 // objects with Attribute "trace" "samplemotion" 1 are given times; all others see the scene at shutter open.
 // Space: current (camera space at shutter open). Threads: const members may be called concurrently.
 #pragma once
+#include <map>
 #include <optional>
 
 #include "raytrace/level.h"
@@ -48,7 +49,8 @@ struct Hit {
   float u = 0, v = 0;           ///< Patch parameters.
   vec3 normal{0};               ///< Of the coarse surface, RISpec side, interpolated, unit length.
   vec3 geometricNormal{0};      ///< Of the coarse polygon, RISpec side, unit length.
-  bool adjusted = false;        ///< The origin was moved to a recorded hit.
+  bool adjusted = false;        ///< The origin was moved to a recorded hit,
+  bool crowded = false;         ///< and within the offset lay the other side of its wall: which is left is a guess.
   vec3 atOpen{0};               ///< Where the point that was met is when the shutter opens; normals are those of that time too.
 };
 
@@ -97,6 +99,11 @@ class RayScene {
   /// (0: a point of the true surface): trace:offset and trace:bias, or by default more than the largest distance between the
   /// coarse surface, the true one (displacement bound included) and the micropolygon.
   void prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ray) const;
+
+  /// Of rays that left a group: how many there were, and how many Hit::crowded.
+  struct Starts { int64_t rays = 0, crowded = 0; };
+  void noteStarts(int group, int64_t rays, int64_t crowded) const;
+  std::map<int, Starts> starts() const;  ///< Noted so far.
 
   /// For many rays of this mask that leave the origin of one of them and are of its level: with Ray::surroundings the hit list costs each of
   /// them little. What they meet is the same. `largestOffset`: of any of them.

@@ -6,6 +6,8 @@
 // leave no crack (docs/decisions/0003).
 // Threads: one Hider a bucket, each on its own thread; grids are shared and read only.
 #pragma once
+#include <map>
+
 #include "reyes/deep.h"
 #include "reyes/grid.h"
 
@@ -69,6 +71,16 @@ struct RasterGrid : RasterExtent {
 std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene, const Camera& camera, bool opaque,
                                           float zMin = kInfinity, const std::shared_ptr<Pool>& pool = nullptr);
 
+/// What the hider cannot know, or shows badly.
+struct HideDoubts {
+  /// Pixels in which either of two objects, the first with the lower number, is seen by chance: in a quarter of the samples or more they lie
+  /// at the same place, as far as depths can tell. Of what is opaque, still and in focus.
+  std::map<std::pair<int, int>, int> samePlaces;
+  /// Visible micropolygons by object: those that are round, still and in focus, and turn so far that their outline has corners; and all.
+  struct Turns { int64_t turned = 0, all = 0; };
+  std::map<int, Turns> turns;
+};
+
 class Hider {
  public:
   /// All but `rect` must outlive the Hider.
@@ -80,7 +92,7 @@ class Hider {
   bool hidden(const RasterExtent& extent) const;
   void insert(const std::shared_ptr<const RasterGrid>& grid);
   /// Collects visible micropolygons into points to shade. The Hider is spent.
-  DeepTile resolve();
+  DeepTile resolve(HideDoubts* doubts = nullptr);
 
  private:
   struct Impl;

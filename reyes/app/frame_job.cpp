@@ -89,6 +89,7 @@ void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
   if (preview_) show = [&](int stride) { preview_->show(sketch(layout, tiles, stride, scene_, *shading_, context, interrupted())); };
   services_->gatherPass(layout, tiles, meter_.stage(0.3f, 0.7f), &interrupted(), show);
   warnOfNoise(services_->caches(), log_);
+  if (rays_) warnOfThinWalls(*rays_, log_);
   if (!settings_.bakedFolder.empty() && !interrupted()) bakeGathered(*services_, layout, tiles, scene_, settings_, log_);
 }
 

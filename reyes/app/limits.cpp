@@ -13,6 +13,9 @@ constexpr float kShift_px = 0.25f;
 constexpr float kCoarse_px2 = 16;
 constexpr float kUncertain = 0.1f, kDark = 0.1f;
 constexpr float kShareOfRecords = 0.5f;
+constexpr double kUncertainLight = 0.25;
+constexpr double kShareOfStarts = 0.42;
+constexpr int64_t kFewStarts = 10'000;  // rays of a few points
 constexpr size_t kFewRecords = 32;  // say nothing about the whole
 
 }  // namespace
@@ -53,8 +56,8 @@ void warnOfNoise(std::span<const PreparedCache> caches, Log& log) {
     if (c.plan.gather.occlusion) continue;  // asks for its rays itself, and is told how far it may be off
     const std::vector<IrradianceRecord>& records = c.cache.records();
     if (records.size() < kFewRecords) continue;
-    double sum = 0;
-    for (const IrradianceRecord& r : records) sum += luminance(r.E);
+    double sum = 0, noise = 0;
+    for (const IrradianceRecord& r : records) sum += luminance(r.E), noise += r.noise;
     const float dark = kDark * static_cast<float>(sum / static_cast<double>(records.size()));
     const auto uncertain = std::count_if(records.begin(), records.end(), [&](const IrradianceRecord& r) {
       return r.noise > kUncertain * std::max(luminance(r.E), dark);
@@ -65,6 +68,24 @@ void warnOfNoise(std::span<const PreparedCache> caches, Log& log) {
                  fmt::format("{:.0f} % of {} irradiance records are uncertain by more than {:.0f} %: {} rays a record are few for this light "
                              "(\"samples\" of indirectlight, --samples)",
                              100 * share, records.size(), 100 * kUncertain, c.plan.gather.samples));
+    else if (sum > 0 && noise > kUncertainLight * sum)
+      log.report(Severity::Warning, "gather-few", {},
+                 fmt::format("indirect light is uncertain by {:.0f} %: most of it comes by a few of the {} rays a record, from something small and bright, which others "
+                             "miss (\"samples\" of indirectlight, --samples)",
+                             100 * noise / sum, c.plan.gather.samples));
+  }
+}
+
+void warnOfThinWalls(const RayScene& rays, Log& log) {
+  const Scene& scene = rays.scene();
+  for (const auto& [group, starts] : rays.starts()) {
+    const int example = scene.groups[static_cast<size_t>(group)].exampleObject;
+    if (example < 0 || starts.rays < kFewStarts || static_cast<double>(starts.crowded) <= kShareOfStarts * static_cast<double>(starts.rays)) continue;
+    const Object& o = scene.objects[static_cast<size_t>(example)];
+    log.report(Severity::Warning, "offset-thin", o.where,
+               fmt::format("{}: {:.0f} % of the rays that leave it start where two surfaces are nearer to each other than rays know them to lie; light may "
+                           "come through (Attribute \"trace\" \"tessellationmode\" \"fixed\" and \"tessellation\" above 1, or \"offset\")",
+                           objectName(o), 100.0 * static_cast<double>(starts.crowded) / static_cast<double>(starts.rays)));
   }
 }
 

@@ -15,7 +15,10 @@ void warnOfFloatRange(const Scene& scene, Log& log);
 void warnOfCoarseDicing(const Scene& scene, Log& log);
 
 /// More than half of the irradiance records are uncertain by a tenth or more (standard errors of their luminance; darker ones
-/// than a tenth of the mean are measured against that).
+/// than a tenth of the mean are measured against that); or their light is, by a quarter, because few rays bring it.
 void warnOfNoise(std::span<const PreparedCache> caches, Log& log);
+
+/// Rays leave a group by guesses (RayScene::starts): its walls are thinner than rays know where they are. Once a group.
+void warnOfThinWalls(const RayScene& rays, Log& log);
 
 }  // namespace tomales

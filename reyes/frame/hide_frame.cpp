@@ -2,6 +2,7 @@
 #include "reyes/frame.h"
 #include "reyes/frame/bucket_order.h"
 #include "reyes/frame/hide_node.h"
+#include "reyes/frame/hide_warnings.h"
 #include "reyes/frame/sampling.h"
 
 namespace tomales {
@@ -9,14 +10,17 @@ namespace {
 
 /// Nothing: cancelled on the way.
 std::optional<DeepTile> hideBucket(size_t bucket, const PixelRect& rect, const NodeList& nodes, const HideContext& context,
-                    const SamplePattern& pattern) {
+                    const SamplePattern& pattern, HideWarnings& warnings) {
   Hider hider(context.scene, context.camera, pattern, rect);
   NodeQueue queue;
   for (HideNode* node : nodes.in(bucket)) queue.push(node);
   while (const auto node = context.isCancelled() ? nullptr : queue.pop())
     if (!hider.hidden(node->raster(), node->zMin())) node->visit(bucket, queue, hider);
   if (context.isCancelled()) return {};
-  return hider.resolve();
+  HideDoubts doubts;
+  DeepTile tile = hider.resolve(&doubts);
+  warnings.add(doubts, context.scene);
+  return tile;
 }
 
 // Buckets hold all their samples, and of crowds a grid for each sample or so. Those of more are halved, which no picture shows.
@@ -73,7 +77,7 @@ struct FrameHider::Impl {
     if (!sink.has || !sink.has(index)) {
       std::optional<DeepTile> tile;
       if (sink.find && !context.isCancelled()) tile = sink.find(index);
-      if (!tile) tile = hideBucket(index, layout.rectOf(index), nodes, context, pattern);
+      if (!tile) tile = hideBucket(index, layout.rectOf(index), nodes, context, pattern, warnings);
       if (!tile) return false;
       context.stats.geometry.micropolygonsVisible += static_cast<int64_t>(tile->facets.size());
       context.stats.memoryBytes.deepFrame += static_cast<int64_t>(tile->bytes());
@@ -91,6 +95,7 @@ struct FrameHider::Impl {
   const BucketGrid buckets;
   HideContext context;
   const NodeList nodes;
+  HideWarnings warnings;
   std::atomic<size_t> done{0};
 };
 
@@ -107,6 +112,7 @@ bool FrameHider::hide(std::span<const uint32_t> tiles, const TileSink& sink) {
   parallelInOrder(tiles.size(), [&](size_t i) {
     if (!impl_->hide(tiles[i], sink)) skipped = true;
   });
+  impl_->warnings.report(impl_->context.log);
   return !skipped;
 }
 

@@ -1,5 +1,6 @@
 // Samples that a cell of a still, sharp grid covers, kLanes of a pixel at a time. Private to the hider; included once for each vector width, after
-// reyes/base/vector.h. A Shape has covers(samples, lane): which lie in it (mask), and depth(x, y, those): their depth keys.
+// reyes/base/vector.h. A Shape has covers(samples, lane): which lie in it (mask), depth(x, y, those): their depth keys, and vague(): how far
+// those may be off.
 #include "reyes/hide/raster.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -37,8 +38,11 @@ HWY_INLINE bool claim(const RasterJob& job, const Shape& shape, size_t lane, uin
   SampleBuffer& out = job.out;
   const Reach r = reachOf(job, shape, lane, cell, kept);
   if (hn::AllFalse(kF, r.mask)) return false;
-  const Mask ties = hn::And(r.mask, hn::Eq(r.depth, r.before));
-  if (!hn::AllFalse(kF, ties)) settleTies(job, lane, bitsOf(ties), cell);
+  const Mask tight = hn::And(r.mask, hn::Lt(hn::Sub(r.before, r.depth), all(shape.vague())));
+  if (HWY_UNLIKELY(!hn::AllFalse(kF, tight))) {
+    noteContest(job, lane, bitsOf(tight), shape.vague());
+    if (const Mask ties = hn::And(r.mask, hn::Eq(r.depth, r.before)); !hn::AllFalse(kF, ties)) settleTies(job, lane, bitsOf(ties), cell);
+  }
   const Mask won = hn::And(r.mask, hn::Lt(r.depth, r.before));
   uint32_t* cells = out.cell.data() + lane;
   // Whole vectors: the next cell reads them back, and could not from a masked store that is still on its way.

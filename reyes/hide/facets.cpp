@@ -81,11 +81,14 @@ FacetTable::FacetTable(const Scene& scene, const Camera& camera, const GridTable
       seen_(grids.cellCount(), 0),
       facetOf_(grids.cellCount(), ~0U) {}
 
-void FacetTable::make(std::vector<Fragment>& fragments) {
+void FacetTable::make(std::vector<Fragment>& fragments, HideDoubts* doubts) {
   tile_.facets.reserve(static_cast<size_t>(std::count(seen_.begin(), seen_.end(), 1)));
   for (Fragment& f : fragments) {
     const uint32_t cell = f.facet;
-    if (facetOf_[cell] == ~0U) makeFacets(grids_.of(cell));
+    if (facetOf_[cell] == ~0U) {
+      makeFacets(grids_.of(cell));
+      if (doubts) countTurns(grids_.of(cell), *doubts);
+    }
     f.facet = facetOf_[cell];
   }
   tile_.batches.reserve(wishes_.size());
@@ -127,6 +130,27 @@ void FacetTable::makeFacets(const GridTable::Entry& entry) {
     } else {
       std::fill_n(facet.point, 4, wish(cell));
     }
+  }
+}
+
+void FacetTable::countTurns(const GridTable::Entry& entry, HideDoubts& doubts) const {
+  const RasterGrid& r = *entry.raster;
+  const Grid& g = *r.grid;
+  constexpr float kCosine = 0.92f;      // 23 degrees
+  constexpr float kSagitta_px = 0.05f;  // of the arc over an edge; what is thinner has no outline to spoil
+  const auto turns = [&](int a, int b) {
+    const vec3 n = normalizeOr(g.normal(a), vec3(0)), m = normalizeOr(g.normal(b), vec3(0));
+    const float cosine = dot(n, m);
+    if (cosine >= kCosine || n == vec3(0) || m == vec3(0)) return false;
+    const auto i = static_cast<size_t>(a), j = static_cast<size_t>(b);
+    return glm::length(vec2(r.x[i] - r.x[j], r.y[i] - r.y[j])) * std::acos(std::max(cosine, -1.0f)) > 8 * kSagitta_px;
+  };
+  const bool shown = !g.displaced && !g.round && !r.blur;  // displacement is as rough as it likes
+  HideDoubts::Turns& out = doubts.turns[g.object];
+  for (int cell = 0, end = g.cellNumbers(); cell < end; ++cell) {
+    if (!seen_[entry.firstCell + static_cast<uint32_t>(cell)]) continue;
+    const int a = firstVertex(g, cell);
+    out.turned += shown && (turns(a, a + 1) || turns(a, a + g.nu + 1)), ++out.all;
   }
 }
 

@@ -12,8 +12,8 @@ class FacetTable {
   /// A cell that some sample sees.
   void see(uint32_t cell) { seen_[cell] = 1; }
   /// Makes the facets of all cells that are seen, and their points; before, the tile has none. Everything in them depends on the
-  /// grid alone. Fragments have cells instead of facets, each one that is seen.
-  void make(std::vector<Fragment>& fragments);
+  /// grid alone. Fragments have cells instead of facets, each one that is seen. doubts: may be null.
+  void make(std::vector<Fragment>& fragments, HideDoubts* doubts);
 
  private:
   /// A point to be made: at the centre of a cell, or at a vertex.
@@ -26,6 +26,7 @@ class FacetTable {
     std::vector<Wish> list;
   };
   void makeFacets(const GridTable::Entry& entry);
+  void countTurns(const GridTable::Entry& entry, HideDoubts& doubts) const;
   int batchOf(int group);
   void fill(const Wishes& wishes, ShadePoints& points) const;
   void addSteps(std::span<const Wish> wishes, ShadePoints& points, int first) const;

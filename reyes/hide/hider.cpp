@@ -1,3 +1,5 @@
+#include <tuple>
+
 #include "reyes/base/check.h"
 #include "reyes/hide/lattice.h"
 #include "reyes/hide/raster.h"
@@ -19,13 +21,34 @@ std::vector<float> shutterTimes(const Scene& scene, const Grid& grid) {
   return times;
 }
 
+/// Contests whose winner is still seen.
+void countSamePlaces(SampleBuffer& samples, const GridTable& grids, int samplesPerPixel, HideDoubts& doubts) {
+  constexpr int kShare = 4;
+  const auto width = static_cast<uint32_t>(samples.lanes);
+  std::vector<Contest>& contests = samples.contests;
+  std::erase_if(contests, [&](const Contest& c) {
+    const int seen = grids.of(samples.cell[c.lane]).grid().object;
+    return (seen != c.first && seen != c.second) || samples.depth[c.lane] < c.least;
+  });
+  // Those of a pixel and two objects together, each sample once.
+  const auto keyOf = [width](const Contest& c) { return std::tuple(c.lane / width, c.first, c.second); };
+  std::sort(contests.begin(), contests.end(), [&](const Contest& a, const Contest& b) { return std::pair(keyOf(a), a.lane) < std::pair(keyOf(b), b.lane); });
+  contests.erase(std::unique(contests.begin(), contests.end()), contests.end());
+  for (auto at = contests.begin(); at != contests.end();) {
+    const auto end = std::find_if(at, contests.end(), [&](const Contest& c) { return keyOf(c) != keyOf(*at); });
+    if (kShare * (end - at) >= samplesPerPixel) ++doubts.samePlaces[{at->first, at->second}];
+    at = end;
+  }
+}
+
 }  // namespace
 
 struct Hider::Impl {
   const Scene& scene;
   Camera camera;
   SampleBuffer samples;
-  GridTable grids;
+  int samplesPerPixel;
+  GridTable grids{};
   size_t enough = kManyGrids;
 
   /// Grids that no sample sees any more make room, now and then.
@@ -37,7 +60,7 @@ struct Hider::Impl {
 };
 
 Hider::Hider(const Scene& scene, const Camera& camera, const SamplePattern& pattern, const PixelRect& rect)
-    : impl_(new Impl{scene, camera, SampleBuffer(pattern, camera, rect), {}}) {}
+    : impl_(new Impl{scene, camera, SampleBuffer(pattern, camera, rect), pattern.count()}) {}
 
 Hider::~Hider() = default;
 
@@ -68,10 +91,11 @@ void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
   s.settle(s.touched(raster->bound.lo, raster->bound.hi));
 }
 
-DeepTile Hider::resolve() {
+DeepTile Hider::resolve(HideDoubts* doubts) {
   const std::unique_ptr<Impl> spent = std::move(impl_);
   resolveSolids(spent->scene, spent->camera, spent->grids, spent->samples);
-  return resolveTile(spent->scene, spent->camera, spent->grids, spent->samples);
+  if (doubts) countSamePlaces(spent->samples, spent->grids, spent->samplesPerPixel, *doubts);
+  return resolveTile(spent->scene, spent->camera, spent->grids, spent->samples, doubts);
 }
 
 }  // namespace tomales

@@ -142,7 +142,8 @@ class Quad {
   HWY_INLINE Quad(const Corners& q, const Triangles<Edges>& t, int i)
       : ab_(t.ab, i), bc_(t.bc, i), ca_(t.ca, i), bd_(t.bd, i), dc_(t.dc, i), cb_(t.cb, i), bx_(all(q.x[1][i])), by_(all(q.y[1][i])),
         bDepth_(all(q.d[1][i])), dMin_(all(q.dMin[i])), dMax_(all(q.dMax[i])), gx0_(all(t.gx0[i])), gy0_(all(t.gy0[i])),
-        gx1_(all(t.gx1[i])), gy1_(all(t.gy1[i])) {}
+        gx1_(all(t.gx1[i])), gy1_(all(t.gy1[i])),
+        vague_(vagueDepth(std::max(std::abs(t.gx0[i]) + std::abs(t.gy0[i]), std::abs(t.gx1[i]) + std::abs(t.gy1[i])), q.dMin[i])) {}
 
   struct Covered {
     Mask mask, first;  ///< By any triangle; by abc.
@@ -159,10 +160,12 @@ class Quad {
     // Never outside the cell, or culling by dMin would depend on rounding.
     return hn::Min(hn::Max(d, dMin_), dMax_);
   }
+  float vague() const { return vague_; }
 
  private:
   typename Edges::Edge ab_, bc_, ca_, bd_, dc_, cb_;
   Floats bx_, by_, bDepth_, dMin_, dMax_, gx0_, gy0_, gx1_, gy1_;
+  float vague_;
 };
 
 }  // namespace

@@ -47,4 +47,9 @@ uint64_t keptLanes(const RasterJob& job, uint32_t cell, size_t firstLane, uint64
 /// Gives samples at equal depths, lane by lane of a mask, to the cell whose name comes first.
 void settleTies(const RasterJob& job, size_t firstLane, uint64_t lanes, uint32_t cell);
 
+/// How far a depth key may be off because vertices lie on the lattice and numbers are floats; `slope`: of the depth key, per pixel. Above 0.
+inline float vagueDepth(float slope, float depth) { return slope / kLattice + 4e-7f * std::abs(depth) + kTiny; }
+/// A cell of the job comes so close to what samples have had, lane by lane of a mask, that vague depths decide: noted if that is of another object.
+void noteContest(const RasterJob& job, size_t firstLane, uint64_t lanes, float vague);
+
 }  // namespace tomales

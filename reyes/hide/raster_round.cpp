@@ -33,7 +33,8 @@ class Round {
  public:
   explicit Round(const Oval& o)
       : x_(all(o.center.x)), y_(all(o.center.y)), ux_(all(o.f.y / o.area)), uy_(all(-o.f.x / o.area)), vx_(all(-o.e.y / o.area)),
-        vy_(all(o.e.x / o.area)), d_(all(o.d)), gx_(all(o.slope.x)), gy_(all(o.slope.y)), dMin_(all(o.dMin)), dMax_(all(o.dMax)) {}
+        vy_(all(o.e.x / o.area)), d_(all(o.d)), gx_(all(o.slope.x)), gy_(all(o.slope.y)), dMin_(all(o.dMin)), dMax_(all(o.dMax)),
+        vague_(vagueDepth(std::abs(o.slope.x) + std::abs(o.slope.y), o.d)) {}
 
   struct Covered {
     Mask mask;
@@ -49,9 +50,11 @@ class Round {
     // Never outside the cell, or culling by dMin would depend on rounding.
     return hn::Min(hn::Max(d, dMin_), dMax_);
   }
+  float vague() const { return vague_; }
 
  private:
   Floats x_, y_, ux_, uy_, vx_, vy_, d_, gx_, gy_, dMin_, dMax_;
+  float vague_;
 };
 
 void rasterizeOvals(const RasterJob& job) {

@@ -57,7 +57,7 @@ class TileBuilder {
       : camera_(camera), grids_(grids), samples_(samples), scratch_(scratch), sights_(scratch.sights),
         facets_(scene, camera, grids, tile_) {}
 
-  DeepTile build() {
+  DeepTile build(HideDoubts* doubts) {
     tile_.rect = samples_.rect;
     const size_t count = samples_.far.size();
     tile_.pixels.reserve(count);
@@ -66,7 +66,7 @@ class TileBuilder {
       const Lent fragments(tile_.fragments, scratch_.fragments);
       for (size_t pixel = 0; pixel < count; ++pixel) addPixel(pixel);
     }
-    facets_.make(tile_.fragments);
+    facets_.make(tile_.fragments, doubts);
     tile_.shrink();
     return std::move(tile_);
   }
@@ -253,9 +253,9 @@ class TileBuilder {
 
 }  // namespace
 
-DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples) {
+DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples, HideDoubts* doubts) {
   static thread_local Scratch scratch;
-  return TileBuilder(scene, camera, grids, samples, scratch).build();
+  return TileBuilder(scene, camera, grids, samples, scratch).build(doubts);
 }
 
 }  // namespace tomales

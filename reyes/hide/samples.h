@@ -41,6 +41,14 @@ class GridTable {
   bool anySmooth_ = false;
 };
 
+/// A sample for which two objects compete whose depths are too close to tell.
+struct Contest {
+  uint32_t lane;
+  int first, second;  ///< first < second
+  float least;        ///< Depth key: what is nearer hides both.
+  bool operator==(const Contest& o) const { return lane == o.lane && first == o.first && second == o.second; }
+};
+
 /// Arrays have a lane for each sample: those of a pixel stand together, padded to `lanes`. Padding hides everything.
 struct SampleBuffer {
   SampleBuffer(const SamplePattern& pattern, const Camera& camera, const PixelRect& rect);
@@ -59,6 +67,7 @@ struct SampleBuffer {
   std::vector<uint8_t> nearer;     ///< A pixel: 1 if depths changed since `far` was computed.
   Films films;
   Films crossings;                 ///< Everything of solids that covers a sample, however deep.
+  std::vector<Contest> contests;   ///< Of what is opaque, still and in focus; some may since have been hidden.
 
   /// Do 16 bits hold the positions on the lattice?
   bool fitsLattice() const {

@@ -39,11 +39,14 @@ ResolvedFrame::TileNoise ResolvedFrame::noiseOf(const ResolvedTile& tile) const 
 }
 
 PixelNoise ResolvedFrame::noise() const {
-  constexpr int64_t kEnough = 1000;
+  constexpr double kShareOfPicture = 0.005;
+  constexpr int64_t kMostAsked = 1000;
+  const double pixels = static_cast<double>(frame_.crop.width()) * frame_.crop.height();
+  const int64_t enough = std::min(kMostAsked, static_cast<int64_t>(kShareOfPicture * pixels));
   PixelNoise out;
   int64_t lit = 0;
   for (const TileNoise& tile : noise_) out.light += tile.sums.light, out.error += tile.sums.error, lit += tile.lit;
-  return lit < kEnough ? PixelNoise{} : out;
+  return lit < enough ? PixelNoise{} : out;
 }
 
 std::unique_ptr<Compositor> ResolvedFrame::takeCompositor() {

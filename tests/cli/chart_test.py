@@ -170,6 +170,8 @@ suite.write("lab/bars.rib", LAB.replace("##lab truth", "##lab tooth"))
 suite.expect_run("a laboratory with a word that nobody knows", lab, 2, "cannot be understood: ##lab tooth")
 suite.write("lab/bars.rib", LAB.replace("##lab knob", "# knob"))
 suite.expect_run("a laboratory without a knob", lab, 2, "knob")
+suite.write("lab/bars.rib", LAB.replace("##lab note", "##lab limit pixel-noise: 9\n##lab note"))
+suite.expect_run("a laboratory whose limit is the first value", lab, 2, "none of the knob's values after the first")
 
 if browser := shutil.which("chromium"):  # looks, where there is something to look with
     seen = subprocess.run([browser, "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", (suite.folder / "report.html").as_uri()],

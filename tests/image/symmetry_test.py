@@ -114,14 +114,15 @@ def check_bits(name, text, base, folder):
 
 
 def check_means(name, text, folder, mean):
-    seeds = [blocks(render(text, folder, f"seed_{n}", (WIDTH, HEIGHT), "--seed", str(n))) for n in (1, 2)]
+    pictures = [render(text, folder, f"seed_{n}", (WIDTH, HEIGHT), "--seed", str(n)) for n in (1, 2)]
+    seeds = [blocks(p) for p in pictures]
     noise, noise_of_mean = distance(*seeds)
     others = {"a third seed": blocks(render(text, folder, "seed_3", (WIDTH, HEIGHT), "--seed", "3"))}
     against = {}
     if "indirectlight" in text:  # else check_bits
         window = {"x0": WIDTH // 4, "width": 3 * WIDTH // 4, "y0": HEIGHT // 3}
         others["cropped"] = blocks(render(text, folder, "cropped", (WIDTH, HEIGHT), "--seed", "1", "--crop", f"0.25,0.75,{1 / 3},1"), **window)
-        against["cropped"] = blocks(render(text, folder, "whole", (WIDTH, HEIGHT), "--seed", "1"), **window)
+        against["cropped"] = blocks(pictures[0], **window)
     if not ON_SCREEN.search(text):
         flipped = render(re.sub(r"^(Projection.*)$", r"\1\nScale -1 1 1", text, count=1, flags=re.M), folder, "mirrored")
         others["mirrored"] = blocks({(WIDTH - 1 - x, y): p for (x, y), p in flipped.items()})

@@ -72,9 +72,12 @@ std::optional<LabScene> readLabScene(const std::string& file, std::string& error
     error = "cannot be understood: " + line;
     return std::nullopt;
   }
+  const auto& values = out.values;
+  const bool limitIsElsewhere = out.limit && (values.empty() || std::find(values.begin() + 1, values.end(), out.limit->value) == values.end());
   for (const auto& [missing, what] : {std::pair{!stream.is_open(), "cannot be read"}, {out.title.empty(), "has no \"##lab title\""},
                                       {out.values.empty(), "has no \"##lab knob\""}, {out.truth.empty(), "has no \"##lab truth\""},
-                                      {out.methods.empty(), "has no \"##lab method\""}, {out.text.find("$knob") == std::string::npos, "has no $knob"}})
+                                      {out.methods.empty(), "has no \"##lab method\""}, {out.text.find("$knob") == std::string::npos, "has no $knob"},
+                                      {limitIsElsewhere, "has a \"##lab limit\" that is none of the knob's values after the first"}})
     if (missing) {
       error = what;
       return std::nullopt;

@@ -38,7 +38,7 @@ struct LabScene {
   std::string text;  ///< Of the whole file.
 };
 
-/// Nothing, and why, if the file cannot be read or lacks a title, a knob, a truth or a method.
+/// Nothing, and why, if the file cannot be read or lacks a title, a knob, a truth or a method, or its limit is none of the knob's values after the first.
 std::optional<LabScene> readLabScene(const std::string& file, std::string& error);
 /// The text with every `name`, a word that begins with $, replaced.
 std::string replaced(std::string text, const std::string& name, const std::string& value);

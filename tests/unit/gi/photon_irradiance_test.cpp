@@ -210,5 +210,62 @@ TEST(PointFile, ComesBackAsItWasWritten) {
   std::filesystem::remove(path);
 }
 
+EstimateFigures figuresOf(const PointCloud& photons, float reach = 0) {
+  PhotonIrradianceSettings settings;
+  settings.maxRadius = reach;
+  EstimateFigures figures;
+  const PointCloud out = estimateIrradiance(photons, settings, {}, &figures);
+  EXPECT_EQ(figures.made, static_cast<int64_t>(out.count()));
+  return figures;
+}
+
+/// Photons on the unit square as dense as a function says, at most 1.
+template <class Density>
+PointCloud uneven(const Density& density) {
+  PointCloud photons;
+  photons.channels = {{"power", 3}};
+  const vec3 power(1e-3f);
+  for (uint32_t i = 0; i < 60000; ++i) {
+    const vec2 at(unitFloat(hashCombine(21u, i, 0u)), unitFloat(hashCombine(21u, i, 1u)));
+    if (unitFloat(hashCombine(21u, i, 2u)) < density(at)) photons.add({at.x, at.y, 0}, {0, 0, 1}, 0, &power.x);
+  }
+  return photons;
+}
+
+TEST(PhotonIrradiance, UnevenLightIsNotTakenForClumps) {
+  const auto meanOf = [](const PointCloud& photons) {
+    const EstimateFigures f = figuresOf(photons);
+    return f.clumps / static_cast<double>(f.made);
+  };
+  const auto nearLamp = [](const vec2& at) { const vec2 d = (at - 0.5f) / 0.2f; return 1 / ((1 + dot(d, d)) * (1 + dot(d, d))); };
+  const auto penumbra = [](const vec2& at) { return 0.1f + 0.9f * glm::clamp((at.x - 0.45f) / 0.1f, 0.0f, 1.0f); };
+  EXPECT_NEAR(meanOf(uneven(nearLamp)), 1, 0.05);
+  EXPECT_NEAR(meanOf(uneven(penumbra)), 1, 0.05);
+}
+
+TEST(PhotonIrradiance, TellsHowManyEstimatesStandOnWeakGround) {
+  PointCloud plenty, few, tiles, ball;
+  addSquare(plenty, 40000, 0, {0, 0, 1}, vec3(1), 3);
+  const EstimateFigures good = figuresOf(plenty);
+  EXPECT_EQ(good.few, 0);
+  EXPECT_NEAR(good.clumps / static_cast<double>(good.made), 1, 0.05);
+  EXPECT_EQ(good.bent, 0);
+  addSquare(few, 2000, 0, {0, 0, 1}, vec3(1), 4);
+  EXPECT_GT(figuresOf(few, 0.05f).few, 400);  // 16 in a disk
+  const vec3 power(1e-3f);
+  tiles.channels = ball.channels = {{"power", 3}};
+  for (uint32_t i = 0; i < 6400; ++i) {
+    const vec2 in(unitFloat(hashCombine(7u, i, 0u)), unitFloat(hashCombine(7u, i, 1u)));
+    tiles.add({static_cast<float>(i % 20) + 0.3f * in.x, static_cast<float>(i / 20 % 20) + 0.1f * in.y, 0}, {0, 0, 1}, 0, &power.x);  // 16 on each
+    const float z = 1 - 2 * in.x, r = std::sqrt(1 - z * z), phi = 2 * kPi * in.y;
+    const vec3 n(r * std::cos(phi), r * std::sin(phi), z);
+    if (i < 200) ball.add(n, n, 0, &power.x);
+  }
+  const EstimateFigures clumped = figuresOf(tiles, 2);
+  EXPECT_GT(clumped.clumps, 1.3 * static_cast<double>(clumped.made));
+  const EstimateFigures bent = figuresOf(ball, 2);
+  EXPECT_GT(bent.bent, bent.made / 2);
+}
+
 }  // namespace
 }  // namespace tomales

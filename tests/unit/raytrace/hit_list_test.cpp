@@ -93,4 +93,18 @@ TEST(HitList, HundredsOfHitsAreAllKept) {
 }
 
 }  // namespace
+TEST(HitList, IsCrowdedWhereASecondSurfaceLiesWithinTheOffset) {
+  const auto hit = [](float t, bool leaving) {
+    PolygonHit h;
+    h.t = t, h.leaving = leaving;
+    return h;
+  };
+  const RayStart start{1, 1e-6f, -1};
+  EXPECT_FALSE(isCrowded({hit(0.2f, true)}, 0, start));
+  EXPECT_FALSE(isCrowded({hit(0.2f, true), hit(0.21f, true)}, 0, start)) << "an edge of two polygons";
+  EXPECT_TRUE(isCrowded({hit(-0.5f, false), hit(0.2f, true)}, 1, start)) << "the other side of a thin wall";
+  EXPECT_FALSE(isCrowded({hit(0.2f, true), hit(1.01f, false)}, 0, start)) << "recorded for the sake of pairs, but beyond";
+  EXPECT_FALSE(isCrowded({hit(0.2f, true)}, -1, start));
+}
+
 }  // namespace tomales
