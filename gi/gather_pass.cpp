@@ -199,17 +199,17 @@ class GatherPass {
     std::vector<IrradianceEstimate> known(places.size());
     state_.caches[cache].cache.lookup(places, known.data());
     for (size_t i = 0; i < asked.size(); ++i)
-      if (known[i].weight < kEnough || (!state_.cachesGiven && wantsItsOwn(cache, asked[i].point, known[i]))) out.push_back(asked[i]);
+      if (known[i].weight < kEnough || wantsItsOwn(cache, asked[i].point, known[i])) out.push_back(asked[i]);
   }
 
-  // What was given is appended to, not refined.
+  // What was given is appended to, not refined: the same frame again adds nothing.
   bool wantsItsOwn(size_t cache, const GatherPoint& p, const IrradianceEstimate& known) const {
-    return known.disputed || (isLight(cache) && isUnderSheet(cache, p, known.closest));
+    return (known.disputed && !state_.cachesGiven) || (isLight(cache) && isUnderSheet(cache, p, known.closest));
   }
 
   // Records in front of a slot that is narrower than they reach see the sheet over it edge-on, if at all. Of two rays that leave upwards and
   // aside one meets it, even below its very edge.
-  bool isUnderSheet(size_t cache, const GatherPoint& p, float closestOfRecord) const {
+  bool isUnderSheet(size_t cache, const GatherPoint& p, float closestOfRecords) const {
     constexpr float kSlant = 0.70710678f;
     const GatherSettings& gather = state_.caches[cache].plan.gather;
     const RayFilter filter{groupsSeenFrom(*tools_->rays, p.group, gather)};
@@ -218,7 +218,7 @@ class GatherPass {
     const float azimuth = 2 * kPi * unitFloat(hash32(p.key ^ 0x73686565U));
     const vec3 aside = std::cos(azimuth) * tangent + std::sin(azimuth) * bitangent;
     for (const float side : {-kSlant, kSlant}) {
-      Ray ray{p.position, kSlant * p.normal + side * aside, std::min({kSheetPixels * p.pixelSize, kUnmet * closestOfRecord, gather.maxDistance})};
+      Ray ray{p.position, kSlant * p.normal + side * aside, std::min({kSheetPixels * p.pixelSize, kUnmet * closestOfRecords, gather.maxDistance})};
       ray.spread = spreadOfRays(gather.samples);
       if (!filter.passesAll()) ray.filter = &filter;
       tools_->rays->prepareOrigin(p.group, p.position, p.edgeLength, ray);

@@ -227,7 +227,7 @@ struct IrradianceCache::Impl {
 
   IrradianceEstimate blend(const std::vector<Candidate>& candidates, const vec3& x, const vec3& n, float pixelSize) const {
     IrradianceEstimate out{vec3(0.0f), {vec3(0.0f), vec3(0.0f), vec3(0.0f)}};
-    float nearest = kInfinity, heaviest = 0;
+    float nearest = kInfinity;
     Dispute worst = Dispute::None;
     for (const Candidate& candidate : candidates) {
       const IrradianceRecord& r = records[candidate.record];
@@ -235,7 +235,7 @@ struct IrradianceCache::Impl {
       const float distance = glm::length(x - r.position);
       if (&candidate != &candidates.front()) worst = std::max(worst, disputeOf(E, out.E / out.weight, 2 * noiseAt(r, distance)));
       nearest = std::min(nearest, distance);
-      if (candidate.weight > heaviest) heaviest = candidate.weight, out.closest = r.closest;
+      out.closest = std::min(out.closest, r.closest);
       out.E += candidate.weight * E;
       for (int c = 0; c < 3; ++c) out.dominant[c] += candidate.weight * r.dominant[c];  // eq. 7
       out.weight += candidate.weight;
