@@ -204,7 +204,7 @@ class GatherPass {
 
   // What was given is appended to, not refined: the same frame again adds nothing.
   bool wantsItsOwn(size_t cache, const GatherPoint& p, const IrradianceEstimate& known) const {
-    return (known.disputed && !state_.cachesGiven) || (isLight(cache) && isUnderSheet(cache, p, known.closest));
+    return (known.disputed && !state_.cachesGiven) || (isLight(cache) && !known.hasRecord && isUnderSheet(cache, p, known.closest));
   }
 
   // Records in front of a slot that is narrower than they reach see the sheet over it edge-on, if at all. Of two rays that leave upwards and

@@ -235,7 +235,7 @@ struct IrradianceCache::Impl {
       const float distance = glm::length(x - r.position);
       if (&candidate != &candidates.front()) worst = std::max(worst, disputeOf(E, out.E / out.weight, 2 * noiseAt(r, distance)));
       nearest = std::min(nearest, distance);
-      out.closest = std::min(out.closest, r.closest);
+      out.closest = std::min(out.closest, r.closest), out.hasRecord |= distance == 0;
       out.E += candidate.weight * E;
       for (int c = 0; c < 3; ++c) out.dominant[c] += candidate.weight * r.dominant[c];  // eq. 7
       out.weight += candidate.weight;

@@ -44,6 +44,7 @@ struct IrradianceEstimate {
   vec3 dominant[3];
   float weight = 0;                ///< Sum of weights; 0: nothing usable was found.
   bool disputed = false;           ///< Records differ by more than their noise explains.
+  bool hasRecord = false;          ///< At this very place.
   float closest = kInfinity;       ///< The least of the records used: the more there are, the less.
 };
 

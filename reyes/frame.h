@@ -46,7 +46,7 @@ class FrameHider {
   /// Where tiles leave before the last is hidden, groups that are found on the way are missed by what lists all of them: open
   /// all procedurals first.
   FrameHider(const DeepFrame& layout, Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log);
-  ~FrameHider();
+  ~FrameHider();  ///< Warns of what is doubtful in what was hidden.
   /// Each bucket once, in any order. False: cancelled, some were not hidden.
   bool hide(std::span<const uint32_t> buckets, const TileSink& sink);
 

@@ -105,14 +105,14 @@ FrameHider::FrameHider(const DeepFrame& layout, Scene& scene, ShadingSystem& sha
     log.report(Severity::Warning, "defocus-orthographic", scene.where,
                "DepthOfField needs a perspective projection: all is in focus");
 }
-FrameHider::~FrameHider() = default;
+// What is doubtful is judged of the frame as a whole, which may be hidden in parts.
+FrameHider::~FrameHider() { impl_->warnings.report(impl_->context.log); }
 
 bool FrameHider::hide(std::span<const uint32_t> tiles, const TileSink& sink) {
   std::atomic<bool> skipped{false};
   parallelInOrder(tiles.size(), [&](size_t i) {
     if (!impl_->hide(tiles[i], sink)) skipped = true;
   });
-  impl_->warnings.report(impl_->context.log);
   return !skipped;
 }
 

@@ -150,8 +150,9 @@ class TileBuilder {
     // Neighbours have a slope, of which a few samples show nothing.
     float most = 0;
     bool any = false;
+    const auto lanesOf = [&](const Film& f) { return std::min(64, samples_.sampleCount() - 64 * static_cast<int>(f.word % films.wordsOfPixel())); };
     for (const Sheet& s : sheets)
-      if (s.film != Films::kNone && std::popcount(films.film(s.film).samples) < samples_.sampleCount())
+      if (s.film != Films::kNone && std::popcount(films.film(s.film).samples) < lanesOf(films.film(s.film)))
         any = true, most = std::max(most, depthOfCell(films, grids_, s.film));
     if (!any) return;  // Where a border is seen, some film ends.
     for (size_t i = 0; i < sheets.size(); ++i) {

@@ -39,14 +39,11 @@ ResolvedFrame::TileNoise ResolvedFrame::noiseOf(const ResolvedTile& tile) const 
 }
 
 PixelNoise ResolvedFrame::noise() const {
-  constexpr double kShareOfPicture = 0.005;
-  constexpr int64_t kMostAsked = 1000;
-  const double pixels = static_cast<double>(frame_.crop.width()) * frame_.crop.height();
-  const int64_t enough = std::min(kMostAsked, static_cast<int64_t>(kShareOfPicture * pixels));
+  constexpr int64_t kEnough = 1000;
   PixelNoise out;
   int64_t lit = 0;
   for (const TileNoise& tile : noise_) out.light += tile.sums.light, out.error += tile.sums.error, lit += tile.lit;
-  return lit < enough ? PixelNoise{} : out;
+  return lit < kEnough ? PixelNoise{} : out;
 }
 
 std::unique_ptr<Compositor> ResolvedFrame::takeCompositor() {

@@ -82,6 +82,11 @@ def verdict(scene, what, good, figure):
         failures.append((scene, what))
 
 
+def has_records(text):
+    """Of indirect light; RIS scenes ask for it by their integrator."""
+    return "indirectlight" in text or "PxrPathTracer" in text
+
+
 def check(path, folder):
     name = str(path.relative_to(root / "scenes"))
     text = path.read_text(errors="replace")
@@ -89,7 +94,7 @@ def check(path, folder):
     base = render(text, folder, "base")
     mean = statistics.fmean(sum(p) / 3 for p in base.values())
     verdict(name, "shows something", mean > 0, f"mean {mean:.3g}")
-    most = 0.05 if "indirectlight" in text else 0.02  # where irradiance records lie is decided by a hair's breadth
+    most = 0.05 if has_records(text) else 0.02  # where irradiance records lie is decided by a hair's breadth
     check_bits(name, text, base, folder)
     turned = render(moved(text, "Rotate 37 1 2 3", "Rotate -37 1 2 3"), folder, "turned")
     share = differing(base, turned)
@@ -106,7 +111,7 @@ def check(path, folder):
 
 def check_bits(name, text, base, folder):
     """A crop has irradiance records of its own."""
-    crop = [] if "indirectlight" in text else ["--crop", "0.25,0.75,0.25,1"]
+    crop = [] if has_records(text) else ["--crop", "0.25,0.75,0.25,1"]
     other = render(text, folder, "bits", (WIDTH, HEIGHT), "-t", "3", "--bucket-size", "8", *crop)
     seen = [(x, y) for x, y in base if not crop or WIDTH <= 4 * x < 3 * WIDTH and HEIGHT <= 4 * y]
     count = sum(base[key] != other[key] for key in seen)
@@ -119,7 +124,7 @@ def check_means(name, text, folder, mean):
     noise, noise_of_mean = distance(*seeds)
     others = {"a third seed": blocks(render(text, folder, "seed_3", (WIDTH, HEIGHT), "--seed", "3"))}
     against = {}
-    if "indirectlight" in text:  # else check_bits
+    if has_records(text):  # else check_bits
         window = {"x0": WIDTH // 4, "width": 3 * WIDTH // 4, "y0": HEIGHT // 3}
         others["cropped"] = blocks(render(text, folder, "cropped", (WIDTH, HEIGHT), "--seed", "1", "--crop", f"0.25,0.75,{1 / 3},1"), **window)
         against["cropped"] = blocks(pictures[0], **window)
