@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "reyes/base/block_vector.h"
 #include "reyes/base/math.h"
 
 namespace tomales {
@@ -25,6 +26,8 @@ struct IrradianceRecord {
   float limit = kInfinity;         ///< beyond which neighbours have shown it to be wrong, or a sheet over it ends
   float pixelSize;                 ///< root of the projected pixel area at the record, for R+ and R- (eq. 3)
 };
+
+using IrradianceRecords = BlockVector<IrradianceRecord>;
 
 enum class ErrorFunction {
   Screen,   ///< approximate-gi eq. 2 to 5
@@ -72,7 +75,7 @@ class IrradianceCache {
   IrradianceEstimate lookup(const vec3& x, const vec3& normal, float pixelSize) const { return lookup(x, normal, normal, pixelSize); }
   /// The same for many, to out[0] and on: several times as fast where successive places lie close together.
   void lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out) const;
-  const std::vector<IrradianceRecord>& records() const;
+  const IrradianceRecords& records() const;
   const Bound3& bound() const;
 
  private:

@@ -32,7 +32,8 @@ struct EstimateFigures {
 /// `photons` needs a channel "power" of three floats (W), and normals, or kPathPower. The result has the channel "irradiance" or "fluence"; its disks, or balls, overlap enough
 /// to cover the surface, or fill the volume. No photons make an empty cloud.
 /// `wanted`: only at photons there; null: at all. `figures`: gains what was made on surfaces; may be null.
-PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& settings, const std::function<bool(const vec3& P)>& wanted = {},
+PointCloud estimateIrradiance(PointCloud photons, const PhotonIrradianceSettings& settings,
+                              const std::function<bool(const vec3& P)>& wanted = {},
                               EstimateFigures* figures = nullptr);
 
 /// The channels of the result: `irradiance` or `fluence`, and which surface it is of where photons tell.

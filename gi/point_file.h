@@ -28,7 +28,6 @@ class PointFileWriter {
   ChunkWriter file_;
   ContentSum contents_;
   PointCloud pending_;
-  Bytes packed_{};
   size_t written_ = 0;
   std::vector<Bound3> bounds_;
 };
