@@ -45,8 +45,8 @@ void fields(A& a, EmitterLight& x) {
 
 template <class A>
 void fields(A& a, GiSettings& x) {
-  auto& [mode, samples, bounces, maxError, seed, errorFunction] = x;
-  each(a, mode, samples, bounces, maxError, seed, errorFunction);
+  auto& [mode, samples, bounces, maxError, seed, errorFunction, storesDirect] = x;
+  each(a, mode, samples, bounces, maxError, seed, errorFunction, storesDirect);
 }
 
 template <class A>

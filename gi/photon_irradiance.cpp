@@ -128,7 +128,11 @@ float reachOf(const PhotonIrradianceSettings& settings, const Bound3& map) {
 }
 
 std::vector<CloudChannel> irradianceChannels(const std::vector<CloudChannel>& photons) {
-  std::vector<CloudChannel> out{{offsetOf(photons, kPathPower, 3) >= 0 ? "fluence" : "irradiance", 3}};
+  const auto has = [&](const char* power) { return offsetOf(photons, power, 3) >= 0; };
+  std::vector<CloudChannel> out{{has(kPathPower)       ? "fluence"
+                                 : has(kIndirectPower) ? kIndirectIrradiance
+                                                       : kIrradiance,
+                                 3}};
   if (tellsSurfaces(photons)) out.push_back(kSurfaceChannel);
   return out;
 }
@@ -141,7 +145,8 @@ PointCloud estimateIrradiance(PointCloud photons, const PhotonIrradianceSettings
   out.channels = irradianceChannels(photons.channels);
   if (photons.count() == 0) return out;
   const bool inMedia = offsetOf(photons.channels, kPathPower, 3) >= 0;
-  const int power = offsetOf(photons.channels, inMedia ? kPathPower : "power");
+  const int power = std::max({offsetOf(photons.channels, kPathPower), offsetOf(photons.channels, kPower),
+                              offsetOf(photons.channels, kIndirectPower)});
   CHECK_GE(power, 0);
   const PhotonTree tree(std::move(photons));
   const auto every = static_cast<size_t>(std::max(1, settings.every));

@@ -109,7 +109,7 @@ PointCloud PointFile::readAll() const {
 }
 
 void requirePhotons(const PointFile& file) {
-  if (offsetOf(file.channels(), "power", 3) < 0)
+  if (offsetOf(file.channels(), "power", 3) < 0 && offsetOf(file.channels(), "indirectpower", 3) < 0)
     throw FileError(fmt::format("\"{}\" is no photon map: it has no channel \"power\" of three floats", file.path()));
 }
 

@@ -57,7 +57,7 @@ class PointFile {
   std::vector<Bound3> bounds_;
 };
 
-/// Throws FileError unless it has a channel "power" of three floats.
+/// Throws FileError unless it has a channel "power" or "indirectpower" of three floats.
 void requirePhotons(const PointFile& file);
 
 /// Along a Morton curve, so that chunks are compact in space. Throws FileError.
