@@ -248,6 +248,8 @@ namespace {
 constexpr float kLongest = 1.5f;
 /// So much smaller than the cells along two lines, as fractions, may their whole numbers be.
 constexpr float kFewer = 0.9f;
+/// Less than this is better by rounding alone: which way a square piece is cut must not depend on where it stands.
+constexpr float kSquarer = 0.9999f;
 
 /// Whole numbers for two lines that take so many cells: as few as cover the area, the squarest of these.
 Cells fewest(float alongU, float alongV, int leastU, int leastV) {
@@ -258,7 +260,7 @@ Cells fewest(float alongU, float alongV, int leastU, int leastV) {
     const int nv = std::max(leastV, static_cast<int>(std::ceil(kFewer * alongU * alongV / static_cast<float>(nu))));
     const float edge = std::max(alongU / static_cast<float>(nu), alongV / static_cast<float>(nv));
     const int64_t count = int64_t{nu} * nv, fewestYet = int64_t{best.nu} * best.nv;
-    if (best.nu > 0 && (count > fewestYet || (count == fewestYet && edge >= bestEdge))) continue;
+    if (best.nu > 0 && (count > fewestYet || (count == fewestYet && edge >= kSquarer * bestEdge))) continue;
     best = {nu, nv}, bestEdge = edge;
   }
   return best;

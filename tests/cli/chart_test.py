@@ -1,6 +1,7 @@
 """tomales chart: a page that stands alone, figures beside it, and nothing measured twice."""
 import html.parser
 import json
+import os
 import pathlib
 import re
 import shutil
@@ -83,13 +84,28 @@ def left_behind():
     return [p.name for p in pathlib.Path("/proc").glob("[0-9]*") if folder(p) == suite.folder.resolve()]
 
 
+def within_two_seconds(condition):
+    for _ in range(100):
+        if condition():
+            return True
+        time.sleep(0.02)
+    return False
+
+
 code = broken_off(signal.SIGKILL, 1)
 suite.expect(code == -signal.SIGKILL and 1 <= measured() < 9, f"a chart that is killed keeps what was measured ({code}, {measured()})")
-for _ in range(100):
-    if not left_behind():
-        break
-    time.sleep(0.02)
-suite.expect(not left_behind(), "and takes its renderer with it")
+suite.expect(within_two_seconds(lambda: not left_behind()), "and its renderer ends")
+# A picture of minutes, which nobody waits for.
+suite.write("long.rib", SCENE.replace("24 24", "2048 2048").replace("PixelSamples 2 2", "PixelSamples 16 16"))
+charting = subprocess.Popen([suite.program, "chart", "long.rib", *chart[2:]], cwd=suite.folder, stderr=subprocess.DEVNULL)
+suite.expect(within_two_seconds(lambda: len(left_behind()) == 2), "a chart of a long picture renders in a process of its own")
+time.sleep(0.5)  # in the midst of it
+charting.kill()
+charting.wait()
+ended = within_two_seconds(lambda: not left_behind())
+suite.expect(ended, "which ends when the chart is killed")
+for process in left_behind():
+    os.kill(int(process), signal.SIGKILL)
 code = broken_off(signal.SIGINT, 2)
 suite.expect(code == 130, f"an interrupted chart ends as one ({code})")
 kept = measured()

@@ -186,7 +186,7 @@ class Chart {
     }
     takeWarnings(*run);
     ChartPoint point{curve, inShort(arguments), sweep_.oneKnob() ? lastNumber(arguments) : 0, commandLine(arguments), *run, reference_.errorOf(*image), false, false, {}, {}};
-    log(report_.curves[curve], fmt::format("{}: {:.3g} % in {:.3g} CPU s{}", point.setting, 100 * point.error.mean, run->cpu_s, run->recalled ? " (recalled)" : ""));
+    log(report_.curves[curve], fmt::format("{}: {:.3g} % in {:.3g} CPU s{}{}", point.setting, 100 * point.error.mean, run->cpu_s, notFiniteNote(point.error), run->recalled ? " (recalled)" : ""));
     report_.points.push_back(std::move(point));
     return run->cpu_s;
   }

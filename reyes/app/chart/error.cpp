@@ -1,5 +1,7 @@
 #include "reyes/app/chart/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -27,16 +29,20 @@ void set(Image& image, int x, int y, const vec3& color) {
   p[0] = color.x, p[1] = color.y, p[2] = color.z;
 }
 
-/// Calls visit(test, reference) for each colour of each pixel that `lit` has any light in.
+/// Calls visit(test, reference) for each colour of each pixel that `lit` has any light in. How many pixels are not finite (ErrorFigures::notFinite).
 template <class Visit>
-void eachValue(const Image& test, const Image& reference, const Image& lit, Visit&& visit) {
+int64_t eachValue(const Image& test, const Image& reference, const Image& lit, Visit&& visit) {
   const auto t = colors(test), r = colors(reference), l = colors(lit);
+  int64_t notFinite = 0;
   for (int y = 0; y < reference.height; ++y)
     for (int x = 0; x < reference.width; ++x) {
-      const vec3 a = colorAt(test, t, x, y), b = colorAt(reference, r, x, y);
-      if (colorAt(lit, l, x, y) == vec3(0)) continue;
+      vec3 a = colorAt(test, t, x, y);
+      const vec3 b = colorAt(reference, r, x, y);
+      if (!isFinite(a) || !isFinite(b)) ++notFinite, a = vec3(0);
+      if (!isFinite(b) || colorAt(lit, l, x, y) == vec3(0)) continue;
       for (int c = 0; c < 3; ++c) visit(a[c], b[c]);
     }
+  return notFinite;
 }
 
 /// a * A + b * B, of colours.
@@ -66,7 +72,7 @@ bool ChartReference::add(const Image& batch) {
 }
 
 bool ChartReference::isBlack() const {
-  return std::all_of(mean_.pixels.begin(), mean_.pixels.end(), [](float v) { return std::abs(v) < 1e-12f; });
+  return std::none_of(mean_.pixels.begin(), mean_.pixels.end(), [](float v) { return std::isfinite(v) && std::abs(v) >= 1e-12f; });
 }
 
 Image ChartReference::meanWithout(size_t batch) const {
@@ -87,7 +93,7 @@ ErrorFigures ChartReference::errorOf(const Image& test) const {
   ErrorFigures out;
   std::vector<float> errors;
   double squares = 0, tests = 0, references = 0;
-  eachValue(test, mean_, mean_, [&](float t, float r) {
+  out.notFinite = eachValue(test, mean_, mean_, [&](float t, float r) {
     errors.push_back(std::abs(t - r) / (std::abs(r) + kFloor));
     out.mean += errors.back(), squares += double{t - r} * (t - r), tests += t, references += r;
   });
@@ -112,10 +118,18 @@ Image ChartReference::errorMap(const Image& test, float range) const {
   for (int y = 0; y < out.height; ++y)
     for (int x = 0; x < out.width; ++x) {
       const float b = luminance(colorAt(mean_, r, x, y)), d = luminance(colorAt(test, t, x, y)) - b;
+      if (!std::isfinite(d)) {
+        set(out, x, y, vec3(0, 1, 0));
+        continue;
+      }
       const float off = b == 0 ? 0 : std::clamp(d / (std::abs(b) + kFloor) / range, -1.0f, 1.0f);
       set(out, x, y, off > 0 ? vec3(1, 1 - off, 1 - off) : vec3(1 + off, 1 + off, 1));
     }
   return out;
+}
+
+std::string notFiniteNote(const ErrorFigures& error) {
+  return error.notFinite > 0 ? fmt::format(", {} pixels not finite", error.notFinite) : "";
 }
 
 Image thumbnail(const Image& image, int size) {

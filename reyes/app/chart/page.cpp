@@ -52,6 +52,10 @@ class Page : Markup {
         r_.referenceSeconds, escapeXml(r_.referenceCommandLine), std::isfinite(r_.noiseFloor) ? percent(r_.noiseFloor) : "unknown");
     put("<p>Figures: <a href=\"{0}\">{0}</a>. Made with tomales {1}: <code>{2}</code></p>\n", escapeXml(jsonName), kVersion, escapeXml(r_.commandLine));
     if (!r_.warnings.empty()) put("<p>The renderer warned of: {}. The command lines below say more.</p>\n", escapeXml(fmt::format("{}", fmt::join(r_.warnings, ", "))));
+    for (const ChartPoint& p : r_.points)
+      if (p.error.notFinite > 0)
+        put("<p><strong>{}, {}{}</strong>: of the picture they count as black, of the reference not at all; green in the error map.</p>\n", escapeXml(r_.curves[p.curve]),
+            escapeXml(p.setting), notFiniteNote(p.error));
     if (r_.missing.empty()) return;
     put("<p><strong>Not measured:</strong></p>\n<ul>");
     for (const std::string& m : r_.missing) put("<li>{}</li>", escapeXml(m));

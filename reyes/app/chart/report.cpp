@@ -33,6 +33,7 @@ Json pointJson(const ChartReport& report, const ChartPoint& p) {
           {"p99", p.error.p99},
           {"bias", p.error.bias},
           {"rms", p.error.rms},
+          {"pixels_not_finite", p.error.notFinite},
           {"best_in_time", p.bestInTime},
           {"best_in_memory", p.bestInMemory},
           {"recalled", p.run.recalled}};

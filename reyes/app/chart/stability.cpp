@@ -113,8 +113,8 @@ class Laboratory {
     const bool warned = limit && std::find(run->warnings.begin(), run->warnings.end(), limit->warning) != run->warnings.end();
     StabilityPoint point{method, value, truth.errorOf(*image), *run, joined(command), run->picture + ".error.png", warned};
     writeImage(point.errorMap, thumbnail(truth.errorMap(*image, kMapRange), kPictureSize), true, log_);
-    fmt::print(stderr, "{}, {}, {} {}: {:.3g} %{}{}\n", fs::path(out.scene.file).stem().string(), m.name, out.scene.knob, value, 100 * point.error.mean,
-               warned ? ", warned" : "", run->recalled ? " (recalled)" : "");
+    fmt::print(stderr, "{}, {}, {} {}: {:.3g} %{}{}{}\n", fs::path(out.scene.file).stem().string(), m.name, out.scene.knob, value, 100 * point.error.mean,
+               notFiniteNote(point.error), warned ? ", warned" : "", run->recalled ? " (recalled)" : "");
     out.points.push_back(std::move(point));
   }
 
@@ -173,7 +173,8 @@ bool writeStabilityJson(const std::string& path, const std::vector<StabilityCurv
                                  {"mean_absolute_relative_error", p.error.mean},
                                  {"p99", p.error.p99},
                                  {"bias", p.error.bias},
-                                 {"rms", p.error.rms}});
+                                 {"rms", p.error.rms},
+                                 {"pixels_not_finite", p.error.notFinite}});
     out["scenes"].push_back(std::move(scene));
   }
   return writeAtOnce(path, out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');

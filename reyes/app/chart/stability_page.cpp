@@ -35,6 +35,10 @@ class Page : Markup {
   void section(const StabilityCurve& c, size_t scene) {
     put("<h2 id=\"s{}\">{}</h2>\n<p>{}</p>\n", scene, escapeXml(c.scene.title), escapeXml(c.scene.note));
     for (const std::string& m : c.missing) put("<p><strong>Not measured:</strong> {}</p>\n", escapeXml(m));
+    for (const StabilityPoint& p : c.points)
+      if (p.error.notFinite > 0)
+        put("<p><strong>{}, {} {}{}</strong>: of the picture they count as black, of the truth not at all; green in the error map.</p>\n",
+            escapeXml(c.scene.methods[p.method].name), escapeXml(c.scene.knob), p.knob, notFiniteNote(p.error));
     Plot plot{c.scene.title, c.scene.knob, "mean relative error", {}, c.noiseFloor};
     if (c.scene.limit) {
       plot.limit = std::stod(c.scene.limit->value), plot.limitName = "limit: " + c.scene.limit->warning;

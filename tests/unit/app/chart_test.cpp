@@ -48,6 +48,36 @@ TEST(ChartError, TheNoiseFloorIsWhatATruePictureIsFoundToBeOff) {
   EXPECT_NEAR(reference.noiseFloor() / found, 1, 0.1);
 }
 
+TEST(ChartError, PixelsThatAreNoNumbersCountAsBlackAndAreToldOf) {
+  ChartReference reference;
+  reference.add(grey(4, 4, 0.99f));
+  reference.add(grey(4, 4, 0.99f));
+  Image test = grey(4, 4, 0.99f);
+  test.pixels[0] = std::numeric_limits<float>::quiet_NaN(), test.pixels[4] = kInfinity;
+  const ErrorFigures error = reference.errorOf(test);
+  EXPECT_EQ(error.notFinite, 2);
+  EXPECT_NEAR(error.mean, 0.99 * 2 / 16, 1e-5);
+  EXPECT_NEAR(error.bias, -2.0 / 16, 1e-5);
+  EXPECT_NEAR(error.confidence, 0, 1e-5);
+  EXPECT_EQ(notFiniteNote(error), ", 2 pixels not finite");
+  EXPECT_EQ(reference.errorMap(test, 0.1f).pixels[1], 1) << "green";
+}
+
+TEST(ChartError, PixelsThatTheReferenceDoesNotKnowDoNotCount) {
+  Image broken = grey(4, 4, 1);
+  broken.pixels[0] = kInfinity;
+  ChartReference reference;
+  reference.add(broken);
+  reference.add(grey(4, 4, 1));
+  EXPECT_EQ(reference.noiseFloor(), 0);
+  const ErrorFigures error = reference.errorOf(grey(4, 4, 1));
+  EXPECT_EQ(error.notFinite, 1);
+  EXPECT_EQ(error.mean, 0);
+  ChartReference dark;
+  dark.add(grey(4, 4, std::numeric_limits<float>::quiet_NaN()));
+  EXPECT_TRUE(dark.isBlack());
+}
+
 TEST(ChartError, BatchesOfAnotherSizeAreRefused) {
   ChartReference reference;
   EXPECT_TRUE(reference.add(grey(4, 4, 1)));

@@ -58,6 +58,23 @@ TEST(GatherPass, CoversEveryPointOfTheFrameWithFarFewerRecords) {
   EXPECT_EQ(world.stats.rays.gather, rays);
 }
 
+/// Attribute "grouping" "tracesubset" decides what a record sees, so neighbours with another one cannot use it.
+TEST(GatherPass, ObjectsWhoseRaysSeeDifferentSubsetsShareNoRecords) {
+  SceneBuilder b = cornell(indirect(64));
+  auto blind = std::make_shared<Attributes>(*b.scene.objects[2].attributes);  // the back wall
+  blind->trace.subset = "nothing";
+  b.scene.objects[2].attributes = blind;
+  World world(std::move(b.scene));
+  const DeepFrame frame = frameOf(world, 16);
+  const auto services = world.use({});
+  gatherFrame(*services, frame);
+  ASSERT_EQ(services->caches().size(), 2U);
+  int dark = 0;
+  for (const PreparedCache& c : services->caches())
+    dark += !c.cache.records().empty() && std::all_of(c.cache.records().begin(), c.cache.records().end(), [](const IrradianceRecord& r) { return r.E == vec3(0); });
+  EXPECT_EQ(dark, 1);
+}
+
 TEST(GatherPass, TheCacheDoesNotDependOnThreadsOrBuckets) {
   World world(cornell(indirect(32)).scene);
   std::vector<vec3> first;

@@ -173,5 +173,20 @@ TEST(Rate, DisksThatAreTakenForDotsUnmeasuredWouldTakeFewCells) {
   }
 }
 
+TEST(Rate, RoundingDoesNotTurnTheCellsOfASquare) {
+  const auto cut = [](float u_px, float v_px) {
+    PatchSize size;
+    size.u.px = u_px, size.v.px = v_px, size.area_px2 = u_px * v_px;
+    return cells(size, 1, 1, false, false);
+  };
+  for (const float px : {9.77f, 3.4f, 17.6f, 5.2f}) {
+    const Cells even = cut(px, px);
+    for (const float other : {std::nextafter(px, 0.0f), std::nextafter(px, 100.0f), px * 1.00001f, px * 0.99999f}) {
+      EXPECT_EQ(cut(px, other).nu, even.nu) << px;
+      EXPECT_EQ(cut(px, other).nv, even.nv) << px;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tomales
