@@ -10,6 +10,7 @@
 #include "gi/medium.h"
 #include "gi/point_tiles.h"
 #include "gi/world_from_current.h"
+#include "reyes/base/process.h"
 #include "reyes/base/temporary_folder.h"
 
 namespace tomales {
@@ -38,8 +39,9 @@ std::vector<double> boxAreas(const Scene& scene) {
 constexpr uint32_t kMethod = 5;
 
 uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
-  const auto& [emit, maxDepth, seed] = settings.photons;
-  return contentSum(kMethod, settings.world, names.global, names.caustic, names.volume, emit, maxDepth, seed);
+  const auto& [emit, maxDepth, seed, direct] = settings.photons;
+  return contentSum(kMethod, settings.world, names.global, names.caustic, names.volume, emit, maxDepth, seed,
+                    direct);
 }
 
 uint64_t irradianceInputs(const PointFile& photons, const PhotonIrradianceSettings& settings) {
@@ -144,10 +146,12 @@ MapNames MapNames::ofSurfaces() const {
 PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                            const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
   makeAtlasFolder(folder);
+  const char* power = settings.photons.direct ? kPower : kIndirectPower;
   std::map<std::string, PointFileWriter> files;
   for (const std::string& name : names.all())
     files.try_emplace(name, atlasFile(folder, name, ".ptc").string(),
-                      name == names.volume ? std::vector<CloudChannel>{{kPathPower, 3}} : std::vector<CloudChannel>{{"power", 3}, kSurfaceChannel});
+                      name == names.volume ? std::vector<CloudChannel>{{kPathPower, 3}}
+                                           : std::vector<CloudChannel>{{power, 3}, kSurfaceChannel});
   const auto filesOf = [&](const std::vector<std::string>& groups) {
     std::vector<PointFileWriter*> out;
     for (const std::string& name : groups) out.push_back(name.empty() ? nullptr : &files.at(name));
@@ -170,7 +174,9 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
   for (auto& [name, file] : files) {
     file.finish({settings.world, photonInputs(names, settings)});
     if (file.count() == 0)
-      log.report(Severity::Warning, "photons-none-" + name, {}, fmt::format("no photon came to the objects of photon map \"{}\"", name));
+      log.report(settings.photons.direct ? Severity::Warning : Severity::Info, "photons-none-" + name, {},
+                 fmt::format("no photon came to the objects of photon map \"{}\"{}", name,
+                             settings.photons.direct ? "" : " but straight from lights"));
   }
   stats.photons.emitted += figures.emitted, stats.photons.stored += figures.stored;
   stats.photons.groups += static_cast<int64_t>(files.size());
@@ -226,6 +232,7 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
     const StageTimer timer(stats, "photons");
     writePhotons(photons, scene, rays, shading, names, settings, progress, stats, log);
   }
+  returnFreeMemory();
   std::vector<MapFigures> made;
   for (const std::string& name : maps) {
     const fs::path from = atlasFile(photons, name, ".ptc"), points = atlasFile(irradiance, name, ".ptc"), bricks = atlasFile(folder, name, ".bkm");
@@ -237,67 +244,9 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
       if (name != names.volume) made.push_back({name, PointFile(from.string()).count(), figures});
     }
     if (!renewIrradianceBricks(points, bricks, settings.bricks, stats)) ++stats.photons.groupsKept;
+    returnFreeMemory();
   }
   warnOfEstimates(scene, names, made, log);
-}
-
-bool isMadeByHand(const fs::path& folder) {
-  std::error_code error;
-  if (fs::exists(folder / "photons", error)) return false;
-  const fs::directory_iterator files(folder, error);
-  return !error && std::any_of(begin(files), end(files), [](const auto& entry) { return entry.path().extension() == ".bkm"; });
-}
-
-IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, const MapNames& names, size_t cacheBytes, Log& log)
-    : cache_(cacheBytes),
-      worldFromCurrent_(glm::inverse(scene.cameraFromWorldAtOpen())),
-      worldFromCurrentScale_(std::cbrt(std::abs(glm::determinant(mat3(worldFromCurrent_))))),
-      log_(log) {
-  std::map<std::string, const BrickMap*> byName{{"", nullptr}};
-  for (const std::string& name : names.ofReflectors()) byName[name] = open(atlasFile(folder, name, ".bkm"));
-  for (const std::string& name : names.global) mapOfGroup_.push_back(byName.at(name));
-  for (const std::string& name : names.caustic) causticOfGroup_.push_back(byName.at(name));
-  surfaceOfGroup_ = names.surface, world_ = names.world;
-}
-
-const BrickMap* IrradianceAtlas::open(const fs::path& file) {
-  if (!fs::exists(file)) {
-    log_.report(Severity::Missing, "atlas-no-map-" + file.stem().string(), {},
-                fmt::format("irradiance map \"{}\" is missing: its objects reflect no indirect light", file.string()));
-    return nullptr;
-  }
-  maps_.push_back(std::make_unique<const BrickMap>(file.string(), cache_));
-  if (maps_.back()->width() != 3) throw FileError(fmt::format("\"{}\" is no irradiance map: it has not three channels", file.string()));
-  return maps_.back().get();
-}
-
-std::optional<std::string> IrradianceAtlas::strange(uint64_t world) const {
-  for (const auto& map : maps_)
-    if (const uint64_t from = map->file().madeFrom().world; from != 0 && world != 0 && from != world) return map->file().path();
-  return std::nullopt;
-}
-
-std::optional<vec3> IrradianceAtlas::look(const MapOfGroup& maps, int group, const vec3& P, const vec3& N, float radius) const {
-  const BrickMap* map = maps[static_cast<size_t>(group)];
-  if (!map) return std::nullopt;
-  try {
-    vec3 E(0.0f);
-    const vec3 normal = normalizeOr(transformVector(worldFromCurrent_, N), N);
-    // Maps of another scene have numbered their surfaces otherwise.
-    const int surface = world_ != 0 && map->file().madeFrom().world == world_ ? surfaceOfGroup_[static_cast<size_t>(group)] : 0;
-    if (map->lookup(transformPoint(worldFromCurrent_, P), normal, radius * worldFromCurrentScale_, &E.x, surface)) return E / kPi;
-  } catch (const FileError& e) {
-    log_.report(Severity::Missing, "atlas-damaged", {}, fmt::format("{}: no indirect light from there", e.what()));
-  }
-  return std::nullopt;
-}
-
-void IrradianceAtlas::report(Stats& stats) const {
-  int64_t total = 0, onDisk = 0;
-  for (const auto& map : maps_) total += static_cast<int64_t>(map->file().tree().nodes.size()), onDisk += static_cast<int64_t>(map->file().fileBytes());
-  stats.bricks.total += total, stats.bricks.bytesOnDisk += onDisk;
-  stats.bricks.lookups += cache_.lookups(), stats.bricks.misses += cache_.misses();
-  stats.bricks.cacheBytes += static_cast<int64_t>(cache_.bytes());
 }
 
 }  // namespace tomales

@@ -68,6 +68,8 @@ void writeAtlas(const std::filesystem::path& folder, const Scene& scene, const R
 
 /// Brick maps without the photons that they came from: somebody put them there, and they are used as they are.
 bool isMadeByHand(const std::filesystem::path& folder);
+/// Do the brick maps of a folder hold light that came straight from lights (PhotonSettings::direct)?
+bool holdsDirect(const std::filesystem::path& folder);
 
 /// The brick maps of a folder. Threads: lookups are concurrent.
 class IrradianceAtlas {

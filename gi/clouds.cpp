@@ -151,7 +151,10 @@ bool CloudFiles::photons(const CloudQuery& q, const TmPhotonLookup& given, TmVec
   lookup.estimator = std::max(1, lookup.estimator), lookup.maxDistance = std::max(0.0f, lookup.maxDistance);
   const Opened<BrickMap>& file = opened(q.file, &lookup);
   problem = file.problem;
-  const int place = file.data ? offsetOf(file.data->channels(), "irradiance", 3) : -1;
+  const auto placeOf = [&](const char* channel) {
+    return file.data ? offsetOf(file.data->channels(), channel, 3) : -1;
+  };
+  const int place = std::max(placeOf(kIrradiance), placeOf(kIndirectIrradiance));
   if (file.data && place < 0) problem = "is no photon map";
   if (place < 0) return false;
   std::vector<float> data(static_cast<size_t>(file.data->width()));

@@ -45,8 +45,8 @@ void fields(A& a, EmitterLight& x) {
 
 template <class A>
 void fields(A& a, GiSettings& x) {
-  auto& [mode, samples, bounces, maxError, seed, errorFunction] = x;
-  each(a, mode, samples, bounces, maxError, seed, errorFunction);
+  auto& [mode, samples, bounces, maxError, seed, errorFunction, storesDirect] = x;
+  each(a, mode, samples, bounces, maxError, seed, errorFunction, storesDirect);
 }
 
 template <class A>
@@ -129,7 +129,8 @@ bool IcfWriter::finish(const IrradianceShot& shot) {
   const auto asksSurface = [](const EmitterLattice& l) { return l.surface != nullptr; };
   for (const auto& light : shot.emitters.value_or(EmitterTable{}))
     if (std::any_of(light.lattices.begin(), light.lattices.end(), asksSurface)) stored.emitters.reset();
-  for (const PreparedCache& c : shot.caches) stored.caches.push_back({c.plan, c.cache.bound(), c.cache.records()});
+  for (const PreparedCache& c : shot.caches)
+    stored.caches.push_back({c.plan, c.cache.bound(), {c.cache.records().begin(), c.cache.records().end()}});
   return records_->write(kShotRecord, pack(stored)) && records_->finish();
 }
 

@@ -190,7 +190,9 @@ GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) 
   plan.gather.seed = settings.seed;
   plan.gather.subset = query.subset.empty() ? attributes.trace.subset : query.subset;
   plan.gather.indirect = bouncesFor(state, query) > 1;
-  if (settings.mode == GiMode::Atlas) plan.gather.light = Illumination::Stored, plan.gather.mirrored = attributes.photon.causticMap.empty();
+  if (settings.mode == GiMode::Atlas)
+    plan.gather.light = settings.storesDirect ? Illumination::Stored : Illumination::LightsAndStored,
+    plan.gather.mirrored = attributes.photon.causticMap.empty();
   return plan;
 }
 

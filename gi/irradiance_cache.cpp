@@ -89,7 +89,7 @@ struct IrradianceCache::Impl {
   CacheSettings settings;
   Bound3 bound;
   RecordTree tree{bound};
-  std::vector<IrradianceRecord> records{};
+  IrradianceRecords records{};
   double luminanceSum = 0;  // of their E
 
   float size(const IrradianceRecord& r) const {
@@ -286,7 +286,7 @@ void IrradianceCache::lookup(std::span<const IrradiancePlace> places, Irradiance
   for (const IrradiancePlace& p : places) *out++ = impl_->blend({}, p.position, p.shadingNormal, p.pixelSize);
 }
 
-const std::vector<IrradianceRecord>& IrradianceCache::records() const { return impl_->records; }
+const IrradianceRecords& IrradianceCache::records() const { return impl_->records; }
 const Bound3& IrradianceCache::bound() const { return impl_->bound; }
 
 }  // namespace tomales

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "reyes/base/block_vector.h"
 #include "reyes/base/math.h"
 
 namespace tomales {
@@ -26,6 +27,8 @@ struct IrradianceRecord {
   float pixelSize;                 ///< root of the projected pixel area at the record, for R+ and R- (eq. 3)
   float relief = 0;                ///< So far from the surface that its rays see lies the true one, at most: bumps.
 };
+
+using IrradianceRecords = BlockVector<IrradianceRecord>;
 
 enum class ErrorFunction {
   Screen,   ///< approximate-gi eq. 2 to 5
@@ -73,7 +76,7 @@ class IrradianceCache {
   IrradianceEstimate lookup(const vec3& x, const vec3& normal, float pixelSize) const { return lookup(x, normal, normal, pixelSize); }
   /// The same for many, to out[0] and on: several times as fast where successive places lie close together.
   void lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out) const;
-  const std::vector<IrradianceRecord>& records() const;
+  const IrradianceRecords& records() const;
   const Bound3& bound() const;
 
  private:

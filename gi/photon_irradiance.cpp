@@ -1,6 +1,7 @@
 #include "gi/photon_irradiance.h"
 
 #include <array>
+#include <utility>
 
 #include "gi/photon_tree.h"
 #include "reyes/base/check.h"
@@ -51,8 +52,8 @@ float clumpOf(const std::vector<NearPhoton>& photons, float area, size_t inside)
   return static_cast<float>(kFew - 2) / (kPi * photons[kFew - 1].distance2) * area / static_cast<float>(inside - 1);
 }
 
-Estimate estimate(const PointCloud& photons, const PhotonTree& tree, int power, uint32_t at,
-                  const PhotonIrradianceSettings& settings, std::vector<NearPhoton>& heap) {
+Estimate estimate(const PhotonTree& tree, int power, uint32_t at, const PhotonIrradianceSettings& settings,
+                  std::vector<NearPhoton>& heap) {
   const vec3 P = tree.position(at), N = tree.normal(at);
   const auto most = static_cast<size_t>(settings.nearest);
   tree.nearest(P, N, tree.surface(at), most, settings.maxRadius, heap);
@@ -65,7 +66,7 @@ Estimate estimate(const PointCloud& photons, const PhotonTree& tree, int power, 
   const size_t inside = heap.size() - byFarthest;
   vec3 sum(0.0f), centroid(0.0f), normal(0.0f);
   for (size_t i = 0; i < inside; ++i) {
-    const float* w = photons.at(tree.order()[heap[i].photon]) + power;
+    const float* w = tree.photons().at(heap[i].photon) + power;
     sum += vec3(w[0], w[1], w[2]);
     centroid += tree.position(heap[i].photon) - P;
     normal += tree.normal(heap[i].photon);
@@ -80,8 +81,8 @@ Estimate estimate(const PointCloud& photons, const PhotonTree& tree, int power, 
 }
 
 /// Where photons fly: as estimate(), of a ball.
-Estimate estimateInMedium(const PointCloud& photons, const PhotonTree& tree, int power, uint32_t at, const PhotonIrradianceSettings& settings,
-                          std::vector<NearPhoton>& heap) {
+Estimate estimateInMedium(const PhotonTree& tree, int power, uint32_t at,
+                          const PhotonIrradianceSettings& settings, std::vector<NearPhoton>& heap) {
   const vec3 P = tree.position(at);
   const auto most = static_cast<size_t>(settings.nearest);
   tree.nearest(P, vec3(0), 0, most, settings.maxRadius, heap);
@@ -92,7 +93,7 @@ Estimate estimateInMedium(const PointCloud& photons, const PhotonTree& tree, int
   const size_t inside = heap.size() - byFarthest;
   vec3 sum(0.0f), centroid(0.0f);
   for (size_t i = 0; i < inside; ++i) {
-    const float* w = photons.at(tree.order()[heap[i].photon]) + power;
+    const float* w = tree.photons().at(heap[i].photon) + power;
     sum += vec3(w[0], w[1], w[2]), centroid += tree.position(heap[i].photon) - P;
   }
   const float count = static_cast<float>(std::max<size_t>(inside, 1)), distance = glm::length(centroid) / (count * r);
@@ -127,30 +128,36 @@ float reachOf(const PhotonIrradianceSettings& settings, const Bound3& map) {
 }
 
 std::vector<CloudChannel> irradianceChannels(const std::vector<CloudChannel>& photons) {
-  std::vector<CloudChannel> out{{offsetOf(photons, kPathPower, 3) >= 0 ? "fluence" : "irradiance", 3}};
+  const auto has = [&](const char* power) { return offsetOf(photons, power, 3) >= 0; };
+  std::vector<CloudChannel> out{{has(kPathPower)       ? "fluence"
+                                 : has(kIndirectPower) ? kIndirectIrradiance
+                                                       : kIrradiance,
+                                 3}};
   if (tellsSurfaces(photons)) out.push_back(kSurfaceChannel);
   return out;
 }
 
-PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& given, const std::function<bool(const vec3& P)>& wanted,
-                              EstimateFigures* figures) {
+PointCloud estimateIrradiance(PointCloud photons, const PhotonIrradianceSettings& given,
+                              const std::function<bool(const vec3& P)>& wanted, EstimateFigures* figures) {
   PhotonIrradianceSettings settings = given;
   settings.maxRadius = reachOf(given, photons.bound());
   PointCloud out;
   out.channels = irradianceChannels(photons.channels);
   if (photons.count() == 0) return out;
   const bool inMedia = offsetOf(photons.channels, kPathPower, 3) >= 0;
-  const int power = offsetOf(photons.channels, inMedia ? kPathPower : "power");
+  const int power = std::max({offsetOf(photons.channels, kPathPower), offsetOf(photons.channels, kPower),
+                              offsetOf(photons.channels, kIndirectPower)});
   CHECK_GE(power, 0);
-  const PhotonTree tree(photons);
+  const PhotonTree tree(std::move(photons));
   const auto every = static_cast<size_t>(std::max(1, settings.every));
-  const size_t count = (photons.count() + every - 1) / every;
+  const size_t count = (tree.photons().count() + every - 1) / every;
   std::vector<Estimate> estimates(count);
   parallelFor(count, kEstimatesPerTask, [&](size_t begin, size_t end) {
     std::vector<NearPhoton> heap;
     for (size_t i = begin; i < end; ++i) {
       const auto at = static_cast<uint32_t>(i * every);
-      if (!wanted || wanted(tree.position(at))) estimates[i] = (inMedia ? estimateInMedium : estimate)(photons, tree, power, at, settings, heap);
+      if (!wanted || wanted(tree.position(at)))
+        estimates[i] = (inMedia ? estimateInMedium : estimate)(tree, power, at, settings, heap);
     }
   });
   out.reserve(count);

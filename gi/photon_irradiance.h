@@ -18,6 +18,10 @@ struct PhotonIrradianceSettings {
 /// Of photons in media: W m, from which comes "fluence" (W/m2), 4 pi times the mean radiance from all sides (Jensen and Christensen 1998, eq. 7
 /// with the free path for what scatters).
 inline constexpr const char* kPathPower = "pathpower";
+/// Of photons on surfaces, W; and where those that came straight from lights are left out, from which comes
+/// "indirect" (W/m2).
+inline constexpr const char *kPower = "power", *kIndirectPower = "indirectpower";
+inline constexpr const char *kIrradiance = "irradiance", *kIndirectIrradiance = "indirect";
 
 /// Estimates, and those of them that stand on weak ground.
 struct EstimateFigures {
@@ -29,13 +33,16 @@ struct EstimateFigures {
   EstimateFigures& operator+=(const EstimateFigures& o) { return made += o.made, few += o.few, bent += o.bent, clumps += o.clumps, *this; }
 };
 
-/// `photons` needs a channel "power" of three floats (W), and normals, or kPathPower. The result has the channel "irradiance" or "fluence"; its disks, or balls, overlap enough
-/// to cover the surface, or fill the volume. No photons make an empty cloud.
-/// `wanted`: only at photons there; null: at all. `figures`: gains what was made on surfaces; may be null.
-PointCloud estimateIrradiance(const PointCloud& photons, const PhotonIrradianceSettings& settings, const std::function<bool(const vec3& P)>& wanted = {},
+/// `photons` needs a channel kPower or kIndirectPower of three floats, and normals, or kPathPower. The result
+/// has the channel of irradianceChannels(); its disks, or balls, overlap enough to cover the surface, or fill
+/// the volume. No photons make an empty cloud. `wanted`: only at photons there; null: at all. `figures`:
+/// gains what was made on surfaces; may be null.
+PointCloud estimateIrradiance(PointCloud photons, const PhotonIrradianceSettings& settings,
+                              const std::function<bool(const vec3& P)>& wanted = {},
                               EstimateFigures* figures = nullptr);
 
-/// The channels of the result: `irradiance` or `fluence`, and which surface it is of where photons tell.
+/// The channels of the result: `irradiance`, `indirect` or `fluence`, and which surface it is of where
+/// photons tell.
 std::vector<CloudChannel> irradianceChannels(const std::vector<CloudChannel>& photons);
 
 /// The radius beyond which photons do not count, on a map of this bound.

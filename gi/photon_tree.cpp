@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <utility>
 
 namespace tomales {
 namespace {
@@ -15,33 +16,46 @@ constexpr float kAlongNormal = 15.0f;   ///< A photon off the plane looks four t
 /// looks at the back of the other.
 constexpr float kOffSheet = 160e3f;
 
-}  // namespace
-
-PhotonTree::PhotonTree(const PointCloud& photons) : order_(photons.count()) {
-  std::iota(order_.begin(), order_.end(), 0u);
-  build(0, static_cast<uint32_t>(order_.size()), 0, photons);
-  position_.reserve(order_.size()), normal_.reserve(order_.size()), surface_.reserve(order_.size());
-  for (const uint32_t i : order_) {
-    position_.push_back(photons.position[i]), normal_.push_back(photons.normal[i]);
-    surface_.push_back(static_cast<uint8_t>(photons.surface(i)));
-  }
+/// Elements of `width` values into this order, with one copy of them beside.
+template <class T>
+void reorder(std::vector<T>& values, size_t width, const std::vector<uint32_t>& order) {
+  std::vector<T> out;
+  out.reserve(values.size());
+  for (const uint32_t i : order)
+    out.insert(out.end(), values.begin() + static_cast<ptrdiff_t>(i * width),
+               values.begin() + static_cast<ptrdiff_t>((i + 1) * width));
+  values = std::move(out);
 }
 
-void PhotonTree::build(uint32_t begin, uint32_t end, uint32_t node, const PointCloud& photons) {
+}  // namespace
+
+PhotonTree::PhotonTree(PointCloud photons) : photons_(std::move(photons)) {
+  std::vector<uint32_t> order(photons_.count());
+  std::iota(order.begin(), order.end(), 0u);
+  build(order, 0, static_cast<uint32_t>(order.size()), 0);
+  const auto width = static_cast<size_t>(photons_.width());
+  reorder(photons_.position, 1, order), reorder(photons_.normal, 1, order),
+      reorder(photons_.radius, 1, order), reorder(photons_.data, width, order);
+  surface_.reserve(order.size());
+  for (size_t i = 0; i < order.size(); ++i) surface_.push_back(static_cast<uint8_t>(photons_.surface(i)));
+}
+
+void PhotonTree::build(std::vector<uint32_t>& order, uint32_t begin, uint32_t end, uint32_t node) {
   if (end - begin <= kLeaf) return;
   Bound3 bound;
-  for (uint32_t i = begin; i < end; ++i) bound.extend(photons.position[order_[i]]);
+  for (uint32_t i = begin; i < end; ++i) bound.extend(position(order[i]));
   const vec3 size = bound.size();
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const uint32_t middle = begin + (end - begin) / 2;
-  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](uint32_t a, uint32_t b) {
-    const float pa = photons.position[a][axis], pb = photons.position[b][axis];
-    return pa != pb ? pa < pb : a < b;
-  });
+  std::nth_element(order.begin() + begin, order.begin() + middle, order.begin() + end,
+                   [&](uint32_t a, uint32_t b) {
+                     const float pa = position(a)[axis], pb = position(b)[axis];
+                     return pa != pb ? pa < pb : a < b;
+                   });
   if (splits_.size() <= node) splits_.resize(node + 1);
-  splits_[node] = {photons.position[order_[middle]][axis], axis};
-  build(begin, middle, 2 * node + 1, photons);
-  build(middle, end, 2 * node + 2, photons);
+  splits_[node] = {position(order[middle])[axis], axis};
+  build(order, begin, middle, 2 * node + 1);
+  build(order, middle, end, 2 * node + 2);
 }
 
 void PhotonTree::nearest(const vec3& P, const vec3& N, int surface, size_t most, float radius, std::vector<NearPhoton>& heap) const {
@@ -54,7 +68,7 @@ void PhotonTree::nearest(const vec3& P, const vec3& N, int surface, size_t most,
   float limit = radius * radius;
   std::array<Range, 64> stack;
   size_t depth = 0;
-  stack[depth++] = {0, static_cast<uint32_t>(order_.size()), 0, 0};
+  stack[depth++] = {0, static_cast<uint32_t>(photons_.count()), 0, 0};
   while (depth > 0) {
     Range r = stack[--depth];
     if (r.distance2 > limit) continue;
@@ -69,11 +83,11 @@ void PhotonTree::nearest(const vec3& P, const vec3& N, int surface, size_t most,
       r = d < 0 ? low : high;
     }
     for (uint32_t i = r.begin; i < r.end; ++i) {
-      const vec3 off = position_[i] - P;
+      const vec3 off = position(i) - P;
       const bool same = surface == 0 || surface_[i] == 0 || surface_[i] == surface;
-      const float apart = same ? dot(off, N) : 0.5f * dot(off, N + normal_[i]);
+      const float apart = same ? dot(off, N) : 0.5f * dot(off, N + normal(i));
       const float distance2 = dot(off, off) + (same ? kAlongNormal : kOffSheet) * apart * apart;
-      if (distance2 > limit || (oriented && dot(normal_[i], N) < kSameSide)) continue;
+      if (distance2 > limit || (oriented && dot(normal(i), N) < kSameSide)) continue;
       heap.push_back({distance2, i});
       std::push_heap(heap.begin(), heap.end());
       if (heap.size() > most) std::pop_heap(heap.begin(), heap.end()), heap.pop_back();

@@ -15,12 +15,12 @@ struct NearPhoton {
 
 class PhotonTree {
  public:
-  explicit PhotonTree(const PointCloud& photons);
+  explicit PhotonTree(PointCloud photons);
 
-  /// The order of the tree: neighbours in it are neighbours in space.
-  const std::vector<uint32_t>& order() const { return order_; }
-  const vec3& position(uint32_t i) const { return position_[i]; }
-  const vec3& normal(uint32_t i) const { return normal_[i]; }
+  /// In the order of the tree: neighbours in it are neighbours in space.
+  const PointCloud& photons() const { return photons_; }
+  const vec3& position(uint32_t i) const { return photons_.position[i]; }
+  const vec3& normal(uint32_t i) const { return photons_.normal[i]; }
 
   int surface(uint32_t i) const { return surface_[i]; }  ///< 0: not known.
 
@@ -33,10 +33,9 @@ class PhotonTree {
     float at;
     int axis;
   };
-  void build(uint32_t begin, uint32_t end, uint32_t node, const PointCloud& photons);
+  void build(std::vector<uint32_t>& order, uint32_t begin, uint32_t end, uint32_t node);
 
-  std::vector<uint32_t> order_;
-  std::vector<vec3> position_, normal_;
+  PointCloud photons_;
   std::vector<uint8_t> surface_;
   std::vector<Split> splits_;  ///< Node n has children 2n + 1 and 2n + 2; each halves its range.
 };

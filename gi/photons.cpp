@@ -20,7 +20,8 @@ struct Path {
   uint32_t number;
   int depth = 0;
   uint32_t collisions = 0;  ///< With media.
-  bool specular = true;  ///< So far it has met nothing diffuse.
+  bool specular = true;     ///< So far it has met nothing diffuse,
+  bool straight = true;     ///< and nothing at all but what shadow rays go through.
 };
 
 struct Scratch {
@@ -143,7 +144,7 @@ class Tracer {
       return true;
     }
     if (++path.depth >= settings_.maxDepth) return false;
-    path.specular = false;
+    path.specular = path.straight = false;
     path.ray = {P, onSphere(sobol2(path.number, hashCombine(name, 2u)))};
     return true;
   }
@@ -216,11 +217,13 @@ class Tracer {
     const bool front = dot(d, hit.geometricNormal) < 0;
     const vec3 N = front ? hit.normal : -hit.normal, Ng = front ? hit.geometricNormal : -hit.geometricNormal;
     const uint32_t name = nameOf(path, stream);
+    const PhotonModel model = models_[static_cast<size_t>(group)];
     vec3 direction, passed;
-    switch (const PhotonModel model = models_[static_cast<size_t>(group)]) {
+    switch (model) {
       case PhotonModel::Matte:
       case PhotonModel::Translucent: {
-        out.push_back({P, Ng, path.power, group, path.depth, path.specular && path.depth > 0});
+        if (settings_.direct || !path.straight)
+          out.push_back({P, Ng, path.power, group, path.depth, path.specular && path.depth > 0});
         path.specular = false;
         passed = isFinite(reflectance) ? glm::clamp(reflectance, 0.0f, 1.0f) : vec3(0);
         const bool through = model == PhotonModel::Translucent && sobol1(path.number, hashCombine(name, 2u)) < 0.5f;
@@ -241,6 +244,7 @@ class Tracer {
         passed = attributes.color;
         direction = dielectric(d, N, front, model == PhotonModel::Water ? 1.33f : 1.5f, sobol1(path.number, hashCombine(name, 2u)));
     }
+    path.straight &= model == PhotonModel::Transparent;
     if (++path.depth >= settings_.maxDepth) return false;
     // Surviving photons keep the power that they came with, so that all that are stored weigh about the same.
     const vec3 power = path.power * passed;

@@ -15,6 +15,8 @@ struct PhotonSettings {
   int64_t emit = 1'000'000;  ///< Of all lights together.
   int maxDepth = 10;         ///< Most surfaces that a photon may arrive at; being scattered counts as well.
   uint32_t seed = 0;
+  bool direct = true;  ///< Store those that come straight from a light, too: else who looks their irradiance
+                       ///< up samples lights himself.
 };
 
 struct StoredPhoton {

@@ -34,15 +34,13 @@ void PointFileWriter::addChunk(const PointCloud& points) {
   if (points.count() == 0) return;
   std::vector<uint32_t> normals(points.count());
   std::transform(points.normal.begin(), points.normal.end(), normals.begin(), packNormal);
-  ByteWriter w{std::move(packed_)};
-  w.bytes.clear();
+  ByteWriter w;  // of many files that are written at once, each would keep its own
   w.put(points.position);
   w.put(normals);
   w.put(points.radius);
   w.put(points.data);
   contents_.raw(w.bytes.data(), w.bytes.size());
   file_.add(w.bytes);
-  packed_ = std::move(w.bytes);
   bounds_.push_back(points.bound());
   written_ += points.count();
 }
@@ -105,12 +103,13 @@ void PointFile::read(size_t chunk, PointCloud& to) const {
 PointCloud PointFile::readAll() const {
   PointCloud cloud;
   cloud.channels = channels_;
+  cloud.reserve(std::min<size_t>(count_, chunkCount() * PointFileWriter::kChunkPoints));
   for (size_t i = 0; i < chunkCount(); ++i) read(i, cloud);
   return cloud;
 }
 
 void requirePhotons(const PointFile& file) {
-  if (offsetOf(file.channels(), "power", 3) < 0)
+  if (offsetOf(file.channels(), "power", 3) < 0 && offsetOf(file.channels(), "indirectpower", 3) < 0)
     throw FileError(fmt::format("\"{}\" is no photon map: it has no channel \"power\" of three floats", file.path()));
 }
 

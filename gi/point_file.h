@@ -28,7 +28,6 @@ class PointFileWriter {
   ChunkWriter file_;
   ContentSum contents_;
   PointCloud pending_;
-  Bytes packed_{};
   size_t written_ = 0;
   std::vector<Bound3> bounds_;
 };
@@ -58,7 +57,7 @@ class PointFile {
   std::vector<Bound3> bounds_;
 };
 
-/// Throws FileError unless it has a channel "power" of three floats.
+/// Throws FileError unless it has a channel "power" or "indirectpower" of three floats.
 void requirePhotons(const PointFile& file);
 
 /// Along a Morton curve, so that chunks are compact in space. Throws FileError.

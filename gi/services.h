@@ -29,6 +29,8 @@ struct GiSettings {
   float maxError = -1;    ///< As the `maxerror` of indirectlight; < 0: as the light asks.
   uint32_t seed = 0;
   std::optional<ErrorFunction> errorFunction{};  ///< None: as the light asks.
+  bool storesDirect = true;  ///< GiMode::Atlas: its maps hold what comes straight from lights; else gather
+                             ///< rays sample that where they hit.
 };
 
 /// Everything that decides the value of an irradiance record, and how far it may be used.

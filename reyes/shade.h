@@ -22,10 +22,11 @@ enum class RayKind : uint8_t {
 
 /// What a batch is lit by.
 enum class Illumination : uint8_t {
-  Lights,  ///< Those of the scene.
-  Stored,  ///< ShadeServices::storedIrradiance alone, as one light along the normal.
-  Unit,    ///< E/pi = 1 everywhere, likewise: what comes back is the diffuse reflectance.
-  None,    ///< Nothing: what comes back is emitted.
+  Lights,           ///< Those of the scene.
+  Stored,           ///< ShadeServices::storedIrradiance alone, as one light along the normal.
+  Unit,             ///< E/pi = 1 everywhere, likewise: what comes back is the diffuse reflectance.
+  None,             ///< Nothing: what comes back is emitted.
+  LightsAndStored,  ///< Both of the first two: what is stored leaves out what comes straight from lights.
 };
 enum class HitSides : uint8_t { Both, Front, Back };
 

@@ -61,11 +61,18 @@ AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene) 
   out.world = worldSum(scene);
   out.photons.emit = settings.photons;
   out.photons.seed = lightSeedOf(settings);
+  out.photons.direct = settings.atlasDirect;
   out.bricks.maxError = settings.brickMaxError;
   const Param* bounces = indirectParam(scene, "bounces");
   if (bounces) out.photons.maxDepth = std::max(1, static_cast<int>(bounces->number(10)));
   if (settings.bounces > 0) out.photons.maxDepth = settings.bounces;
   return out;
+}
+
+bool storesDirect(const RenderSettings& settings, const Scene& scene) {
+  const std::string folder = atlasFolder(settings, scene);
+  if (asksPoints(settings, scene)) return true;
+  return !folder.empty() && isMadeByHand(folder) ? holdsDirect(folder) : settings.atlasDirect;
 }
 
 std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,

@@ -9,6 +9,8 @@ namespace tomales {
 std::string atlasFolder(const RenderSettings& settings, const Scene& scene);
 
 AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene);
+/// Do the maps of GiMode::Atlas hold direct light? Those made by hand say so themselves.
+bool storesDirect(const RenderSettings& settings, const Scene& scene);
 
 /// In the atlasFolder(), where what is still true is used and the rest made; without
 /// one in a temporary folder. Maps put there by hand are used as they are. Null after an error, which has been reported.

@@ -76,7 +76,13 @@ void FrameJob::prepareRays(RaySource rays) {
 }
 
 GiSettings FrameJob::giSettings() const {
-  return {mode_, settings_.samples, settings_.bounces, settings_.maxError, lightSeedOf(settings_), settings_.errorFunction};
+  return {mode_,
+          settings_.samples,
+          settings_.bounces,
+          settings_.maxError,
+          lightSeedOf(settings_),
+          settings_.errorFunction,
+          mode_ != GiMode::Atlas || storesDirect(settings_, scene_)};
 }
 
 void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {

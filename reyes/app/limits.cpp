@@ -54,7 +54,7 @@ void warnOfCoarseDicing(const Scene& scene, Log& log) {
 void warnOfNoise(std::span<const PreparedCache> caches, Log& log) {
   for (const PreparedCache& c : caches) {
     if (c.plan.gather.occlusion) continue;  // asks for its rays itself, and is told how far it may be off
-    const std::vector<IrradianceRecord>& records = c.cache.records();
+    const IrradianceRecords& records = c.cache.records();
     if (records.size() < kFewRecords) continue;
     double sum = 0, noise = 0;
     for (const IrradianceRecord& r : records) sum += luminance(r.E), noise += r.noise;

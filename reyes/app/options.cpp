@@ -58,6 +58,12 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--light-samples", s.lightSamples, "Samples of each area light and of the sky where the eye looks (default: as the lights ask)")->check(CLI::Range(1, 4096));
   app.add_option("--light-seed", s.lightSeed, "Of the random numbers of light alone");
   app.add_option("--photons", s.photons, "Photons to emit for --gi atlas")->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
+  app.add_option_function<std::string>(
+         "--atlas-direct", [&s](const std::string& t) { s.atlasDirect = t == "stored"; },
+         "Direct light where gather rays of --gi atlas hit: stored in the maps that are made, or sampled "
+         "there (default)")
+      ->check(CLI::IsMember({"stored", "sampled"}))
+      ->type_name("stored|sampled");
   app.add_option("--atlas", s.atlasFolder, "Folder of brick maps: used if they are there, else made and kept; for --gi radiosity likewise, of direct light; for --gi points of point clouds")->type_name("FOLDER");
   app.add_option("--radiosity-texels", s.radiosityTexels, "Times as many texels along each edge of a radiosity map as objects ask, for --gi radiosity")
       ->check(CLI::Range(1e-3, 1e3));

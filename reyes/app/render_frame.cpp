@@ -114,6 +114,8 @@ void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats&
     job.hide(layout, sink);
     returnFreeMemory();  // the grids
     afterStage();
+    if (settings.memoryLimit && job.mode() == GiMode::Atlas)
+      store.shrinkTo(0, spill);  // photons need the room; buckets come back as they are read
     if (!given) job.prepareRays();
     if (settings.memoryLimit) {
       store.shrinkTo(tileBudget(settings, store.held_bytes()), spill);

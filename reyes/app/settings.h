@@ -32,6 +32,8 @@ struct RenderSettings {
   uint32_t seed = 0;
   std::optional<uint32_t> lightSeed;  ///< Of the random numbers of light alone; none: seed.
   int64_t photons = 1'000'000;     ///< To emit for --gi atlas.
+  bool atlasDirect =
+      false;  ///< Maps of --gi atlas hold direct light; else gather rays sample lights where they hit.
   float brickMaxError = 0.03f;     ///< Of the brick maps of --gi atlas: bricks whose voxels vary by less of the map's mean are left out.
   float radiosityTexels = 1;       ///< Times as many along each edge of a radiosity map as objects ask.
   std::string radiosityFolder;     ///< Radiosity maps are written there too; empty: nowhere.

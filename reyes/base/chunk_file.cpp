@@ -17,7 +17,7 @@ namespace {
 constexpr uint32_t kByteOrder = 0x01020304;
 constexpr char kEnd[9] = "TOMALESX";
 constexpr int kCompression = -5;  // floats have little to give, and what they have zstd's fastest finds too
-constexpr size_t kKeptBytes = 1 << 20;  ///< Of what a thread reads into.
+constexpr size_t kKeptBytes = 1 << 20;  ///< Of what a thread reads into and packs.
 constexpr uint64_t kMostChunkBytes = uint64_t{1} << 30;
 
 struct Preamble {
@@ -41,8 +41,6 @@ struct ChunkWriter::Impl {
   std::FILE* file = nullptr;
   uint64_t offset = 0;
   std::vector<Entry> entries;
-  Bytes packed;
-  std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> zstd{ZSTD_createCCtx(), &ZSTD_freeCCtx};
 
   void write(const void* data, size_t size) {
     if (std::fwrite(data, 1, size, file) != size) fail();
@@ -54,6 +52,9 @@ struct ChunkWriter::Impl {
   /// Where the bytes went.
   Entry writeFrame(std::span<const std::byte> bytes) {
     if (bytes.size() > kMostChunkBytes) throw FileError(fmt::format("\"{}\": a chunk of {} bytes is too large", path, bytes.size()));
+    // Of each thread and not of each file, because many may be open.
+    thread_local std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> zstd{ZSTD_createCCtx(), &ZSTD_freeCCtx};
+    thread_local Bytes packed;
     packed.resize(ZSTD_compressBound(bytes.size()));
     ZSTD_CCtx_setParameter(zstd.get(), ZSTD_c_compressionLevel, kCompression);
     ZSTD_CCtx_setParameter(zstd.get(), ZSTD_c_checksumFlag, 1);
@@ -61,6 +62,7 @@ struct ChunkWriter::Impl {
     if (ZSTD_isError(stored)) throw FileError(fmt::format("\"{}\" cannot be compressed: {}", path, ZSTD_getErrorName(stored)));
     const Entry entry{offset, static_cast<uint32_t>(stored), static_cast<uint32_t>(bytes.size())};
     write(packed.data(), stored);
+    if (packed.size() > kKeptBytes) packed = Bytes();
     return entry;
   }
 };

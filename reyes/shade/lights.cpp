@@ -12,6 +12,13 @@
 namespace tomales {
 namespace {
 
+bool bringsLights(Illumination light) {
+  return light == Illumination::Lights || light == Illumination::LightsAndStored;
+}
+bool bringsStored(Illumination light) {
+  return light == Illumination::Stored || light == Illumination::LightsAndStored;
+}
+
 /// For what the batch is.
 bool isOn(const BoundLight& light, const Batch& batch) {
   if (!(batch.context.kind == RayKind::Diffuse ? light.indirect : light.direct)) return false;
@@ -21,7 +28,8 @@ bool isOn(const BoundLight& light, const Batch& batch) {
 
 bool applies(const BoundLight& light, const Batch& batch) {
   if (batch.points == nullptr) return false;  // displacement shaders see no light
-  return batch.context.light == Illumination::Lights && batch.context.kind != RayKind::Transmission && isOn(light, batch);
+  return bringsLights(batch.context.light) && batch.context.kind != RayKind::Transmission &&
+         isOn(light, batch);
 }
 
 /// Of the points, without neighbours; what the light brings has room for those.
@@ -167,7 +175,7 @@ std::vector<LightSample>& Lights::samples(Batch& batch) {
   return chosen_;
 }
 
-/// One light along the normal in place of all.
+/// One light along the normal in place of all, or beside them.
 void Lights::substitute(Batch& batch) {
   if (batch.context.light == Illumination::None || batch.points->inAir()) return;  // stored light is of surfaces
   const TmVec3 L = batch.arena.vec3(batch.tm.count), Cl = batch.arena.vec3(batch.tm.count);
@@ -175,7 +183,7 @@ void Lights::substitute(Batch& batch) {
     set(L, i, batch.points->facingNormal(i));
     set(Cl, i, vec3(batch.context.light == Illumination::Unit ? 1.0f : 0.0f));
   }
-  if (batch.context.light == Illumination::Stored && batch.scene.services)
+  if (bringsStored(batch.context.light) && batch.scene.services)
     batch.scene.services->storedIrradiance(*batch.points, batch.tm.active, Cl);
   samples_.push_back({&batch.scene.stored, L, Cl, L, {}, nullptr, 0, nullptr, nullptr, L});
 }
@@ -248,7 +256,7 @@ void Lights::along(Batch& batch, const LobeDirections& lobe, TmVec3 Cl) {
 }
 
 void Lights::addSkies(Batch& batch, TmConstVec3 direction, const uint8_t* leaves, TmConstVec3 opacity, TmVec3 color) const {
-  const bool lit = batch.context.light == Illumination::Lights || batch.context.light == Illumination::Stored;
+  const bool lit = bringsLights(batch.context.light) || bringsStored(batch.context.light);
   if (!lit || std::none_of(leaves, leaves + batch.points->count(), [](uint8_t l) { return l != 0; })) return;
   for (const BoundLight* light : batch.group.lights) {
     if (!light->can(TM_LIGHT_SKY) || !light->visible || light->nonspecular || !isOn(*light, batch) || (group_ && light->group != *group_)) continue;

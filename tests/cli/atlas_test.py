@@ -1,6 +1,7 @@
 """The irradiance atlas as files: what is made again and what is kept, and what damaged, foreign, empty and cut-off files say."""
 import json
 import resource
+import shutil
 import signal
 import subprocess
 
@@ -129,6 +130,15 @@ t.expect_run("baked light that is not there", ["room.rib", "--gi", "baked", "--b
 (t.folder / "light" / "room.bkm").write_bytes(b"TMBRICKS" + bytes(40))
 t.expect(lit("red.rib", "--gi", "baked", "--baked", "light", "-o", "out.exr")[0] == 3, "a damaged map is said")
 
+# Direct light in the maps, or of samples where gather rays hit.
+sampled = ("--gi", "atlas", "--atlas", "sampled", "--photons", "20000", "--samples", "400", "-q", "-o")
+t.run("render", "room.rib", *sampled, "sampled.exr")
+t.run("render", "room.rib", "--gi", "atlas", "--atlas", "byhand", "--samples", "400", "-q", "-o", "stored.exr")
+t.expect(apart("sampled.exr", "stored.exr") < 0.03, f"lights that gather rays sample bring as much as photons of theirs: {apart('sampled.exr', 'stored.exr')}")
+shutil.rmtree(t.folder / "sampled" / "photons")
+t.run("render", "room.rib", *sampled, "again.exr", "--atlas-direct", "stored")
+t.expect(apart("again.exr", "sampled.exr") == 0, "and maps say themselves which of both they need")
+
 # Point clouds in place of brick maps.
 t.run("render", "room.rib", "--gi", "atlas", "--atlas", "byhand", "-o", "bricks.exr", "-q")
 t.expect_run("gather rays look up points", ["room.rib", "--gi", "points", "--atlas", "byhand_points", "-o", "points.exr", "-q"], 0)
@@ -169,7 +179,9 @@ t.expect(apart("landed.exr", "seen.exr") < 0.25, f"light from mirrors counts onc
 t.write("dark.rib", ROOM.format(camera="0", light="2", color="0.5").replace('LightSource "pointlight"', '# LightSource "pointlight"'))
 t.expect_run("a scene without light", ["dark.rib", "--gi", "atlas", "-o", "dark.exr"], 0, "emits photons")
 t.write("lonely.rib", ROOM.format(camera="0", light="2", color="0.5").replace("LightSource \"pointlight\" 3", "# LightSource \"pointlight\" 3"))
-t.expect_run("a group that no photon reaches", ["lonely.rib", "--gi", "atlas", "-o", "lonely.exr"], 0, 'no photon came to the objects of photon map "closet"')
+t.expect_run("a group that no photon reaches", ["lonely.rib", "--gi", "atlas", "--atlas-direct", "stored", "-o", "lonely.exr"], 0, 'no photon came to the objects of photon map "closet"')
+said = t.run("lonely.rib", "--gi", "atlas", "-o", "lonely.exr").stderr
+t.expect("no photon came" not in said, f"which is no fault where gather rays sample lights ({said})")
 full = limited(20000, "room.rib", "--gi", "atlas", "--atlas", "full", "--photons", "50000", "-o", "full.exr")
 t.expect(full.returncode == 3 and "room.ptc" in full.stderr and "cannot be written" in full.stderr, f"a disk too full for photons (exit {full.returncode})")
 t.expect(not [f for f in (t.folder / "full").rglob("*") if f.is_file() and "room" in f.name], "leaves nothing half-written")

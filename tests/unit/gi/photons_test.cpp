@@ -55,6 +55,25 @@ TEST(Photons, StoredPowerIsTheGeometricSeriesOfTheAlbedo) {
   EXPECT_NEAR(powerOf(traced(world, {200000, 40})), kPower / (1 - double{kAlbedo}), 0.005 * kPower / (1 - double{kAlbedo}));
 }
 
+TEST(Photons, WithoutThoseStraightFromLightsAreWhatSurfacesSendOn) {
+  World world(insideOfASphere());
+  const double expected = kPower * double{kAlbedo} / (1 - double{kAlbedo});
+  EXPECT_NEAR(powerOf(traced(world, {200000, 40, 0, false})), expected, 0.005 * expected);
+}
+
+TEST(Photons, ThroughWhatShadowRaysPassComeStraight) {
+  SceneBuilder b;
+  b.light("distantlight",
+          {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {0, 0, 1})});
+  for (const float z : {4.0f, 5.0f}) b.quad({-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}, vec3(1));
+  auto sheet = std::make_shared<Attributes>(*b.scene.objects[0].attributes);
+  sheet->photon.shadingModel = "transparent";
+  b.scene.objects[0].attributes = sheet;
+  World world(b.scene);
+  EXPECT_NEAR(powerOf(traced(world, {20000, 2})), 2 * double{kPi} * 4, 0.02 * 8 * double{kPi});
+  EXPECT_TRUE(traced(world, {20000, 2, 0, false}).empty());
+}
+
 TEST(Photons, RouletteKeepsPowersEven) {
   World world(insideOfASphere());
   const std::vector<StoredPhoton> photons = traced(world, {20000, 10});
@@ -258,11 +277,11 @@ TEST(PhotonIrradiance, ABallThatABorderCutsIsKnownByItsCentroid) {
 }
 
 /// Of the inside of the sphere, by the atlas.
-std::vector<vec3> gatheredInside(const fs::path& folder, float tessellation) {
+std::vector<vec3> gatheredInside(const fs::path& folder, float tessellation, bool storesDirect = true) {
   World world(insideOfASphere("matte", tessellation));
-  const auto services = world.use({.mode = GiMode::Atlas});
+  const auto services = world.use({.mode = GiMode::Atlas, .storesDirect = storesDirect});
   AtlasSettings settings;
-  settings.photons = {200000, 30};
+  settings.photons = {200000, 30, 0, storesDirect};
   const MapNames names = mapNames(world.scene, settings);
   writeAtlas(folder, world.scene, world.rays, world.shading, names, settings, {}, world.stats, world.log);
   services->setAtlas(std::make_unique<IrradianceAtlas>(folder, world.scene, names, 1 << 20, world.log));
@@ -284,6 +303,12 @@ TEST_F(Atlas, GivesTheIntegratingSphereItsLight) {
   // Photons lie on polygons, and face as those do: smooth normals would lean over them, and photons of the same polygon look farther off than they are.
   for (const float tessellation : {1.0f, 2.0f})
     for (const vec3& E : gatheredInside(folder / std::to_string(tessellation), tessellation)) EXPECT_NEAR(E.x, expected, 0.03f * expected) << tessellation;
+}
+
+TEST_F(Atlas, GivesTheSameWhereRaysSampleDirectLight) {
+  const float expected = kAlbedo * kIntensity / (kRadius * kRadius) / (1 - kAlbedo);
+  for (const vec3& E : gatheredInside(folder, 2, false)) EXPECT_NEAR(E.x, expected, 0.03f * expected);
+  EXPECT_FALSE(holdsDirect(folder));
 }
 
 /// Writes an atlas into `folder`; which stages had work to do.
@@ -342,6 +367,7 @@ TEST_F(Atlas, MapsWithoutTheirPhotonsAreUsedAndKnownForStrangers) {
   EXPECT_FALSE(isMadeByHand(folder));
   fs::remove_all(folder / "photons");
   EXPECT_TRUE(isMadeByHand(folder));
+  EXPECT_TRUE(holdsDirect(folder));
   SceneBuilder b;
   World world(b.scene);
   const IrradianceAtlas atlas(folder, world.scene, {{"left", "right"}, {}, {}, {0, 0}}, 1 << 20, world.log);
