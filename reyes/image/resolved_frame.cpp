@@ -39,7 +39,7 @@ ResolvedFrame::TileNoise ResolvedFrame::noiseOf(const ResolvedTile& tile) const 
 }
 
 PixelNoise ResolvedFrame::noise() const {
-  constexpr int64_t kEnough = 100;
+  constexpr int64_t kEnough = 1000;
   PixelNoise out;
   int64_t lit = 0;
   for (const TileNoise& tile : noise_) out.light += tile.sums.light, out.error += tile.sums.error, lit += tile.lit;

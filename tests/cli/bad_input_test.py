@@ -63,13 +63,6 @@ for what, away, samples, says in (("far from the origin", 1000000, 256, "float-r
     t.expect_run("a scene " + what, ["limit.rib", "-o", "limit.exr", "--format", "64x64"], 0, says)
 t.write("limit.rib", room(1000, 256))
 t.expect(not t.run("limit.rib", "-o", "limit.exr", "--format", "64x64").stderr, "a scene near the origin and with rays enough is no reason for a warning")
-def bars(width_px):
-    polygons = "".join(f'Polygon "P" [{x} -9 5  {x} 33 5  {x + width_px} 33 5  {x + width_px} -9 5]\n' for x in range(1, 30, 3))
-    return f'Format 32 32 1\nPixelFilter "box" 1 1\nProjection "orthographic"\nScreenWindow 0 32 0 32\nWorldBegin\nRotate 7 0 0 1\nSurface "constant"\n{polygons}WorldEnd\n'
-t.write("bars.rib", bars(1.5))
-t.expect("pixel-noise" not in t.run("bars.rib", "-o", "limit.exr", "--pixel-samples", "4x4").stderr, "wide bars in a small picture are no reason for a warning")
-t.write("bars.rib", bars(0.4))
-t.expect_run("bars thinner than a pixel in a small picture", ["bars.rib", "-o", "limit.exr"], 0, "pixel-noise")
 
 # Something missing: the frame is complete, exit 3.
 t.write("archive.rib", WORLD % 'Sphere 1 -1 1 360\nReadArchive "nowhere.rib"')
