@@ -74,9 +74,8 @@ void LightNoise::warn(const BoundScene& scene) const {
   const BoundLight& light = *scene.lights[static_cast<size_t>(worst - uncertain_.begin())];
   scene.log.report(Severity::Warning, "light-noise", light.bound->where,
                    fmt::format("{}: its samples leave {:.0f} % of the points that are seen uncertain by more than {:.0f} % of their light: most of the light is "
-                               "hidden, or small ({}\"samples\" of the light, --light-samples)",
-                               light.bound->user, 100 * static_cast<double>(worst->load()) / lit, 100 * kUncertain,
-                               light.can(TM_LIGHT_SKY) ? "\"portals\" where it comes by windows; " : ""));
+                               "hidden, or small (\"samples\" of the light, --light-samples; \"portals\" of a sky behind windows)",
+                               light.bound->user, 100 * static_cast<double>(worst->load()) / lit, 100 * kUncertain));
 }
 
 }  // namespace tomales
