@@ -15,6 +15,10 @@ constexpr int kGrid = 128;                 ///< Cells along the side of a distan
 constexpr uint32_t kSecondPair = 0x70686f74U;
 /// Share of the brightest cell that cells where no probe saw light are given: a beam between the probes is not lost.
 constexpr double kFloor = 1e-3;
+constexpr float kPointBias = 1e-5f;        ///< Of the size of the scene and the distance of its origin: point lights may lie on surfaces.
+constexpr float kLeastCosine = 1.0f / 16;  ///< Of photons that leave area lights: what is flatter, one in 256, may still meet the lamp's own polygons.
+constexpr float kSunMargin = 1.2f;         ///< Of its width: the outermost direction is none of those.
+constexpr uint32_t kSunPlaces = 64;        ///< Of a distant light that is sampled: directions by which its width is known.
 
 vec3 sphereDirection(size_t cell, vec2 at) {
   const auto row = static_cast<float>(cell / kColumns), column = static_cast<float>(cell % kColumns);
@@ -60,7 +64,7 @@ PhotonSource::PhotonSource(int light, const ShadingSystem& shading, const RaySce
 }
 
 void PhotonSource::surveyPoint() {
-  LightProbe where{{center_}, {vec3(0, 0, 1)}, {}, {}, {}, {}};
+  LightProbe where{{center_}, {vec3(0, 0, 1)}, {}, {}, {}, {}, {}};
   shading_.probe(light_, where);
   position_ = center_ + where.L[0];
   const vec3 toScene = center_ - position_;
@@ -89,9 +93,16 @@ void PhotonSource::surveyPoint() {
 }
 
 void PhotonSource::surveyDistant(const PhotonTarget& target) {
-  LightProbe probe{{center_}, {vec3(0, 0, 1)}, {}, {}, {}, {}};
-  shading_.probe(light_, probe);
-  direction_ = normalizeOr(-probe.L[0], vec3(0, 0, 1));
+  std::vector<vec2> xi;
+  for (uint32_t i = 0; i < kSunPlaces; ++i) xi.push_back(sobol2(i, kSecondPair));
+  const LightProbe probe = askedFromMiddle(xi);
+  direction_ = normalizeOr(-std::accumulate(probe.L.begin(), probe.L.end(), vec3(0)), vec3(0, 0, 1));
+  // Shadows along any of its directions lie about those along the middle one (emitFromDistance).
+  float spread = 0, brightness = 0;
+  for (size_t i = 0; i < kSunPlaces; ++i) {
+    spread = std::max(spread, kSunMargin * radius_ * glm::length(probe.L[i] + direction_));
+    brightness += luminance(probe.Cl[i]) / kSunPlaces;
+  }
   vec3 tangent, bitangent;
   orthonormalBasis(direction_, tangent, bitangent);
   // The shadow of every object's box on the square: nothing is sent to where there is nothing.
@@ -105,12 +116,12 @@ void PhotonSource::surveyDistant(const PhotonTarget& target) {
       const vec3 off = b.corner(k) - center_;
       shadow.extend(vec2(dot(off, tangent), dot(off, bitangent)));
     }
-    for (int y = cellAt(shadow.lo.y); y <= cellAt(shadow.hi.y); ++y)
-      std::fill_n(weights.begin() + y * kGrid + cellAt(shadow.lo.x), cellAt(shadow.hi.x) - cellAt(shadow.lo.x) + 1, 1.0);
+    const int left = cellAt(shadow.lo.x - spread), right = cellAt(shadow.hi.x + spread);
+    for (int y = cellAt(shadow.lo.y - spread); y <= cellAt(shadow.hi.y + spread); ++y) std::fill_n(weights.begin() + y * kGrid + left, right - left + 1, 1.0);
   }
   for (const double w : weights) cells_.add(w);
   const double cellArea = std::pow(2 * double{radius_} / kGrid, 2);
-  power_ = double{luminance(probe.Cl[0])} * double{kPi} * cellArea * cells_.total();
+  power_ = double{brightness} * double{kPi} * cellArea * cells_.total();
 }
 
 void PhotonSource::surveySky() {
@@ -143,40 +154,55 @@ void PhotonSource::emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton
     return xi;
   };
   const std::vector<vec2> a = pairs(stream), b = pairs(hashCombine(stream, kSecondPair));
-  if (kind_ == LightKind::Point) emitFromPoint(a, out);
-  if (kind_ == LightKind::Distant) emitFromDistance(a, out);
+  if (kind_ == LightKind::Point) emitFromPoint(a, b, out);
+  if (kind_ == LightKind::Distant) emitFromDistance(a, b, out);
   if (kind_ == LightKind::Sky) emitFromSky(a, b, out);
   if (kind_ == LightKind::Area) emitFromArea(a, b, out);
 }
 
-void PhotonSource::emitFromPoint(const std::vector<vec2>& a, std::vector<EmittedPhoton>& out) const {
+LightProbe PhotonSource::askedFromMiddle(const std::vector<vec2>& xi) const {
   LightProbe probe;
+  probe.P.assign(xi.size(), center_), probe.N.assign(xi.size(), vec3(0, 0, 1)), probe.xi = xi;
+  shading_.probe(light_, probe);
+  for (vec3& L : probe.L) L = kind_ == LightKind::Distant ? normalizeOr(L, vec3(0, 0, -1)) : L;
+  return probe;
+}
+
+void PhotonSource::emitFromPoint(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const {
+  const LightProbe place = askedFromMiddle(b);  // a light that is sampled is not at one place alone
+  LightProbe probe;
+  probe.xi = b;
   std::vector<double> density;
   for (size_t i = 0; i < out.size(); ++i) {
     double x{a[i].x};
     const size_t cell = cells_.pick(x);
-    out[i].origin = position_;
-    out[i].direction = sphereDirection(cell, {static_cast<float>(x), a[i].y});
+    const vec3 from = center_ + place.L[i], d = sphereDirection(cell, {static_cast<float>(x), a[i].y});
+    out[i].ray = {from, d};
+    out[i].ray.bias = kPointBias * (radius_ + glm::length(from));
     density.push_back(cells_.weight(cell) / (cells_.total() * kCellSolidAngle));
-    probe.P.push_back(position_ + out[i].direction), probe.N.push_back(-out[i].direction);
+    probe.P.push_back(from + d), probe.N.push_back(-d);
   }
   shading_.probe(light_, probe);  // intensity I = E r^2, one unit away
   for (size_t i = 0; i < out.size(); ++i) out[i].power = probe.Cl[i] * kPi / static_cast<float>(density[i]);
 }
 
-void PhotonSource::emitFromDistance(const std::vector<vec2>& a, std::vector<EmittedPhoton>& out) const {
+void PhotonSource::emitFromDistance(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const {
   vec3 tangent, bitangent;
   orthonormalBasis(direction_, tangent, bitangent);
+  const LightProbe sun = askedFromMiddle(b);
   LightProbe probe;
+  probe.xi = b;
   const float side = 2 * radius_ / kGrid;
   for (size_t i = 0; i < out.size(); ++i) {
     double x{a[i].x};
     const size_t cell = cells_.pick(x);
     const vec2 at = side * vec2(static_cast<float>(cell % kGrid) + static_cast<float>(x), static_cast<float>(cell / kGrid) + a[i].y) -
                     vec2(radius_);
-    out[i].origin = center_ + at.x * tangent + at.y * bitangent - 1.01f * radius_ * direction_;
-    out[i].direction = direction_;
-    probe.P.push_back(out[i].origin), probe.N.push_back(-direction_);
+    // The square turns with the direction by the shortest way: whatever its shadow, it moves by less than that does.
+    const vec3 d = -sun.L[i], across = at.x * tangent + at.y * bitangent;
+    const vec3 turned = across - dot(across, d) / std::max(1 + dot(direction_, d), 1e-6f) * (direction_ + d);
+    out[i].ray = {center_ + turned - 1.01f * radius_ * d, d};
+    probe.P.push_back(out[i].ray.origin), probe.N.push_back(-d);
   }
   shading_.probe(light_, probe);
   const float area = side * side * static_cast<float>(cells_.total());
@@ -192,8 +218,8 @@ void PhotonSource::emitFromSky(const std::vector<vec2>& a, const std::vector<vec
     orthonormalBasis(toSky, tangent, bitangent);
     const vec2 at = radius_ * concentricDisk(b[i]);
     const auto density = static_cast<float>(cells_.weight(cell) / (cells_.total() * kCellSolidAngle));
-    out[i] = {center_ + at.x * tangent + at.y * bitangent + 1.01f * radius_ * toSky, -toSky,
-              shading_.skyRadiance(light_, toSky) * (kPi * radius_ * radius_ / density)};
+    out[i].ray = {center_ + at.x * tangent + at.y * bitangent + 1.01f * radius_ * toSky, -toSky};
+    out[i].power = shading_.skyRadiance(light_, toSky) * (kPi * radius_ * radius_ / density);
   }
 }
 
@@ -204,8 +230,9 @@ void PhotonSource::emitFromArea(const std::vector<vec2>& a, const std::vector<ve
     for (int k = 0; k < 3; ++k) v[k].resize(n);
   for (size_t i = 0; i < n; ++i) xi0[i] = a[i].x, xi1[i] = a[i].y;
   const TmVec3 P{place[0].data(), place[1].data(), place[2].data()}, N{normal[0].data(), normal[1].data(), normal[2].data()};
-  if (!rays_.emitters().sample(light_, static_cast<int>(n), xi0.data(), xi1.data(), P, N, area.data())) {
-    std::fill(out.begin(), out.end(), EmittedPhoton{vec3(0), vec3(0, 0, 1), vec3(0)});
+  std::vector<int> group(n);
+  if (!rays_.emitters().sample(light_, static_cast<int>(n), xi0.data(), xi1.data(), P, N, area.data(), group.data())) {
+    std::fill(out.begin(), out.end(), EmittedPhoton{});
     return;
   }
   LightProbe probe;
@@ -213,10 +240,13 @@ void PhotonSource::emitFromArea(const std::vector<vec2>& a, const std::vector<ve
     const vec3 Nl(N.x[i], N.y[i], N.z[i]), local = cosineHemisphere(b[i]);
     vec3 tangent, bitangent;
     orthonormalBasis(Nl, tangent, bitangent);
-    out[i].origin = vec3(P.x[i], P.y[i], P.z[i]);
-    out[i].direction = local.x * tangent + local.y * bitangent + local.z * Nl;
-    probe.Pl.push_back(out[i].origin), probe.Nl.push_back(Nl);
-    probe.P.push_back(out[i].origin + out[i].direction), probe.N.push_back(-out[i].direction);
+    Ray& ray = out[i].ray;
+    ray = {vec3(P.x[i], P.y[i], P.z[i]), local.x * tangent + local.y * bitangent + local.z * Nl};
+    // The polygons that rays see may lie before the surface that shines.
+    rays_.prepareOrigin(group[i], ray.origin, 0, ray);
+    ray.offset /= std::max(local.z, kLeastCosine);
+    probe.Pl.push_back(ray.origin), probe.Nl.push_back(Nl);
+    probe.P.push_back(ray.origin + ray.direction), probe.N.push_back(-ray.direction);
   }
   shading_.probe(light_, probe);
   // A Lambertian emitter of radiance L sends pi L from each unit of area.

@@ -9,7 +9,7 @@ namespace tomales {
 
 /// Current space.
 struct EmittedPhoton {
-  vec3 origin, direction;
+  Ray ray;
   vec3 power{0.0f};  ///< As if this were the only photon; zero: the light sends nothing there.
 };
 
@@ -37,8 +37,10 @@ class PhotonSource {
   void surveyDistant(const PhotonTarget& target);
   void surveySky();
   void surveyArea();
-  void emitFromPoint(const std::vector<vec2>& a, std::vector<EmittedPhoton>& out) const;
-  void emitFromDistance(const std::vector<vec2>& a, std::vector<EmittedPhoton>& out) const;
+  /// At the middle of the scene; L of a distant light is unit.
+  LightProbe askedFromMiddle(const std::vector<vec2>& xi) const;
+  void emitFromPoint(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const;
+  void emitFromDistance(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const;
   void emitFromSky(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const;
   void emitFromArea(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const;
 
@@ -48,9 +50,9 @@ class PhotonSource {
   const LightKind kind_;
   double power_ = 0;
   Distribution cells_;      ///< Point, Sky: of the sphere of directions. Distant: of the square that the scene's shadow fits in.
-  vec3 position_{0.0f};     ///< Point
-  vec3 direction_{0.0f};    ///< Distant: of its light.
-  vec3 center_{0.0f};       ///< Distant, Sky: of the scene.
+  vec3 position_{0.0f};     ///< Point: of its middle.
+  vec3 direction_{0.0f};    ///< Distant: of the middle of its light.
+  vec3 center_{0.0f};       ///< Of the scene.
   float radius_ = 0;        ///< Likewise
 };
 

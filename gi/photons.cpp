@@ -18,6 +18,7 @@ struct Path {
   Ray ray;
   vec3 power;
   uint32_t number;
+  int light;
   int depth = 0;
   uint32_t collisions = 0;  ///< With media.
   bool specular = true;  ///< So far it has met nothing diffuse.
@@ -48,6 +49,11 @@ vec3 dielectric(const vec3& d, const vec3& towards, bool entering, float index, 
   return xi < 0.5f * (rs * rs + rp * rp) ? mirrored : eta * d + (eta * cosine - inside) * towards;
 }
 
+bool isOnFor(const ShadeGroup& group, int light) {
+  const std::vector<int>& on = group.attributes->lights;
+  return std::find(on.begin(), on.end(), light) != on.end();
+}
+
 class Tracer {
  public:
   Tracer(const Scene& scene, const RayScene& rays, const ShadingSystem& shading, const PhotonSettings& settings, Log& log)
@@ -73,16 +79,13 @@ class Tracer {
     for (size_t i = 0; i < count; ++i) {
       const EmittedPhoton& e = emitted[i];
       if (!(maxComponent(e.power) > 0) || !isFinite(e.power)) continue;
-      Ray ray{e.origin, e.direction};
-      ray.bias = kEmitterBias * (1 + glm::length(e.origin));
-      paths.push_back({ray, e.power * share, first + static_cast<uint32_t>(i)});
+      paths.push_back({e.ray, e.power * share, first + static_cast<uint32_t>(i), source.light()});
     }
     Scratch scratch;
     while (!paths.empty()) step(paths, stream, scratch, out);
   }
 
  private:
-  static constexpr float kEmitterBias = 1e-4f;
   static constexpr float kDiffuseSpread = 0.1f;  ///< As a gather ray of about a hundred; irradiance is estimated over more.
 
   /// Every path to its next surface; those that end there leave the list.
@@ -124,15 +127,15 @@ class Tracer {
       const uint32_t name = hashCombine(hashCombine(stream, static_cast<uint32_t>(path.depth)), kMediumStream, path.collisions);
       const float flight = -std::log(1 - sobol1(path.number, name)) / majorant;
       if (!(flight < hit.t)) continue;
-      s.scattered[i] = collides(path, medium, flight, name, out);
+      s.scattered[i] = collides(path, medium, landsOn(path, groupOf(hit)), flight, name, out);
       hit.object = -1;
     }
   }
 
   /// False: it ends there.
-  bool collides(Path& path, const Medium& medium, float flight, uint32_t name, std::vector<StoredPhoton>& out) const {
+  bool collides(Path& path, const Medium& medium, bool isLit, float flight, uint32_t name, std::vector<StoredPhoton>& out) const {
     const vec3 P = path.ray.origin + flight * path.ray.direction;
-    out.push_back({P, vec3(0), path.power / (medium.majorant(path.power) * worldUnit_), -1, path.depth, false});
+    if (isLit) out.push_back({P, vec3(0), path.power / (medium.majorant(path.power) * worldUnit_), -1, path.depth, false});
     const Collision collision = collide(medium, path.power, sobol1(path.number, hashCombine(name, 1u)));
     if (collision.event == Collision::Absorbed) return false;
     path.power = collision.power;
@@ -142,7 +145,7 @@ class Tracer {
       path.ray.offset = std::max(0.0f, path.ray.offset - flight), path.ray.bias = std::max(0.0f, path.ray.bias - flight);
       return true;
     }
-    if (++path.depth >= settings_.maxDepth) return false;
+    if (!isLit || ++path.depth >= settings_.maxDepth) return false;
     path.specular = false;
     path.ray = {P, onSphere(sobol2(path.number, hashCombine(name, 2u)))};
     return true;
@@ -201,6 +204,9 @@ class Tracer {
     return lit;
   }
 
+  /// Light that comes straight from a lamp, or by mirrors, is seen by what that lamp is switched on for.
+  bool landsOn(const Path& path, int group) const { return !path.specular || isOnFor(scene_.groups[static_cast<size_t>(group)], path.light); }
+
   int groupOf(const Hit& hit) const { return scene_.objects[static_cast<size_t>(hit.object)].group; }
 
   struct Draw {
@@ -220,6 +226,7 @@ class Tracer {
     switch (const PhotonModel model = models_[static_cast<size_t>(group)]) {
       case PhotonModel::Matte:
       case PhotonModel::Translucent: {
+        if (!landsOn(path, group)) return false;
         out.push_back({P, Ng, path.power, group, path.depth, path.specular && path.depth > 0});
         path.specular = false;
         passed = isFinite(reflectance) ? glm::clamp(reflectance, 0.0f, 1.0f) : vec3(0);
@@ -273,7 +280,8 @@ std::vector<PhotonSource> sourcesOf(const Scene& scene, const RayScene& rays, co
   std::vector<PhotonSource> sources;
   for (const auto& light : scene.lights) {
     const LightKind kind = shading.lightKind(light->index);
-    if (kind == LightKind::None || kind == LightKind::Indirect) continue;
+    const bool isOn = std::any_of(scene.groups.begin(), scene.groups.end(), [&](const ShadeGroup& g) { return isOnFor(g, light->index); });
+    if (!isOn || kind == LightKind::None || kind == LightKind::Indirect) continue;
     if (kind == LightKind::Ambient) {
       log.report(Severity::Warning, "photons-ambient", light->shader.where,
                  "light \"" + light->handle + "\" comes from nowhere: it emits no photons");

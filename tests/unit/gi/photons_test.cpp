@@ -177,7 +177,7 @@ struct Atlas : ::testing::Test {
   ~Atlas() override { fs::remove_all(folder); }
 };
 
-/// A ball of radius 1 around (0, 0, 4) that photons fly through, with a medium in it.
+/// A ball of radius 1 around (0, 0, 4) that photons fly through, with a medium in it that the first light lights.
 SceneBuilder cloud(const vec3& scattering, const vec3& absorption) {
   SceneBuilder b;
   b.sphere(1, vec3(1), {0, 0, 4});
@@ -185,6 +185,7 @@ SceneBuilder cloud(const vec3& scattering, const vec3& absorption) {
   attributes->photon.shadingModel = "transparent";
   const auto color = [](const char* name, const vec3& c) { return Param{name, Storage::Uniform, ValueType::Color, 1, {c.x, c.y, c.z}, {}, {}}; };
   attributes->interior = std::make_shared<ShaderCall>(call("fog", {color("scattering", scattering), color("absorption", absorption)}));
+  attributes->lights = {0};
   b.scene.objects[0].attributes = attributes;
   return b;
 }
