@@ -17,8 +17,9 @@ constexpr uint32_t kSecondPair = 0x70686f74U;
 constexpr double kFloor = 1e-3;
 constexpr float kPointBias = 1e-5f;        ///< Of the size of the scene and the distance of its origin: point lights may lie on surfaces.
 constexpr float kLeastCosine = 1.0f / 16;  ///< Of photons that leave area lights: what is flatter, one in 256, may still meet the lamp's own polygons.
-constexpr float kSunMargin = 1.2f;         ///< Of its width: the outermost direction is none of those.
-constexpr uint32_t kSunPlaces = 64;        ///< Of a distant light that is sampled: directions by which its width is known.
+constexpr uint32_t kFewSamples = 64;       ///< Of a light that is sampled: places or directions by which its width is known,
+constexpr float kSampledMargin = 1.2f;     ///< and how much wider it is taken for: the outermost is none of those.
+constexpr float kSkyDistance = 1.01f;      ///< From the middle of the scene to where photons from outside begin, in radii.
 
 vec3 sphereDirection(size_t cell, vec2 at) {
   const auto row = static_cast<float>(cell / kColumns), column = static_cast<float>(cell % kColumns);
@@ -33,8 +34,14 @@ vec2 probePlace(int probe) { return {probe & 1 ? 0.75f : 0.25f, probe & 2 ? 0.75
 Distribution withFloor(const std::vector<double>& weights) {
   const double floor = kFloor * *std::max_element(weights.begin(), weights.end());
   Distribution out;
-  for (const double w : weights) out.add(w < 0 ? 0 : std::max(w, floor));
+  for (const double w : weights) out.add(std::max(w, floor));
   return out;
+}
+
+std::vector<vec2> fewSamples() {
+  std::vector<vec2> xi;
+  for (uint32_t i = 0; i < kFewSamples; ++i) xi.push_back(sobol2(i, kSecondPair));
+  return xi;
 }
 
 vec2 concentricDisk(vec2 xi) {
@@ -64,44 +71,72 @@ PhotonSource::PhotonSource(int light, const ShadingSystem& shading, const RaySce
 }
 
 void PhotonSource::surveyPoint() {
-  LightProbe where{{center_}, {vec3(0, 0, 1)}, {}, {}, {}, {}, {}};
-  shading_.probe(light_, where);
-  position_ = center_ + where.L[0];
-  const vec3 toScene = center_ - position_;
-  const float distance = glm::length(toScene);
-  // Outside the scene's sphere, only the cone to it counts, wider by a cell.
-  const float least = distance > radius_ ? std::cos(std::min(kPi, std::asin(radius_ / distance) + 0.06f)) : -2.0f;
+  middle_ = askedFromMiddle({vec2(0.5f)}).L[0];
+  float spread = 0;
+  for (const vec3& place : askedFromMiddle(fewSamples()).L) spread = std::max(spread, kSampledMargin * glm::distance(place, middle_));
+  aimAt(radius_ + spread);
   LightProbe probe;
-  std::vector<double> weights(kRows * kColumns, -1.0);
-  std::vector<size_t> cells;
-  for (size_t c = 0; c < weights.size(); ++c) {
-    if (dot(sphereDirection(c, vec2(0.5f)), normalizeOr(toScene, vec3(0))) < least) continue;
-    cells.push_back(c);
-    for (int k = 0; k < kProbes; ++k) {
-      const vec3 d = sphereDirection(c, probePlace(k));
-      probe.P.push_back(position_ + d), probe.N.push_back(-d);
-    }
-  }
+  for (size_t c = 0; c < kRows * kColumns; ++c)
+    for (int k = 0; k < kProbes; ++k) askAlong(inCone(c, probePlace(k)), vec3(0), probe);
   shading_.probe(light_, probe);
-  for (size_t i = 0; i < cells.size(); ++i) {
+  std::vector<double> weights;
+  for (size_t c = 0; c < kRows * kColumns; ++c) {
     double sum = 0;
-    for (size_t k = 0; k < kProbes; ++k) sum += double{luminance(probe.Cl[i * kProbes + k])};
-    weights[cells[i]] = sum / kProbes;
-    power_ += sum / kProbes * double{kPi} * kCellSolidAngle;
+    for (size_t k = 0; k < kProbes; ++k) sum += double{luminance(intensity(probe, c * kProbes + k))};
+    weights.push_back(sum / kProbes);
+    power_ += sum / kProbes * double{kPi} * cellSolidAngle();
   }
   if (power_ > 0) cells_ = withFloor(weights);
 }
 
+/// From outside a sphere around the scene only the cone to it counts, however far away the light is.
+void PhotonSource::aimAt(float radius) {
+  const float distance = glm::length(middle_);
+  if (distance <= radius) return;
+  const vec3 axis = -middle_ / distance;
+  vec3 tangent, bitangent;
+  orthonormalBasis(axis, tangent, bitangent);
+  const double sine = double{radius} / double{distance};
+  cone_ = {mat3(tangent, bitangent, axis), static_cast<float>(sine * sine / (1 + std::sqrt(1 - sine * sine))), distance,
+           std::max(0.0f, distance - kSkyDistance * radius)};
+}
+
+/// A direction by its place in the frame of the cone, but for its height, of which it is what is missing from 1: narrow cones keep their precision.
+vec3 PhotonSource::inCone(size_t cell, vec2 at) const {
+  const auto row = static_cast<float>(cell / kColumns), column = static_cast<float>(cell % kColumns);
+  const float missing = cone_.height * (row + at.y) / kRows, phi = 2 * kPi * (column + at.x) / kColumns;
+  const float r = std::sqrt(std::max(0.0f, missing * (2 - missing)));
+  return {r * std::cos(phi), r * std::sin(phi), missing};
+}
+
+double PhotonSource::cellSolidAngle() const { return 2 * double{kPi} * double{cone_.height} / (kRows * kColumns); }
+
+vec3 PhotonSource::directionOf(const vec3& inCone) const { return cone_.frame * vec3(inCone.x, inCone.y, 1 - inCone.z); }
+
+/// So far from the light. Places far from it are known by their distance from the middle of the scene.
+vec3 PhotonSource::placeAlong(const vec3& inCone, float distance) const {
+  const vec3 from = cone_.distance > 0 ? vec3(0) : middle_;
+  return center_ + from + cone_.frame * vec3(distance * inCone.x, distance * inCone.y, (distance - cone_.distance) - distance * inCone.z);
+}
+
+/// At the scene if the light is outside: what its distance does to it is its shader's affair.
+float PhotonSource::askingDistance() const { return cone_.distance > 0 ? cone_.distance : 1.0f; }
+
+void PhotonSource::askAlong(const vec3& inCone, const vec3& offset, LightProbe& probe) const {
+  probe.P.push_back(placeAlong(inCone, askingDistance()) + offset), probe.N.push_back(-directionOf(inCone));
+}
+
+/// I = E r^2 over pi.
+vec3 PhotonSource::intensity(const LightProbe& probe, size_t i) const { return probe.Cl[i] * (askingDistance() * askingDistance()); }
+
 void PhotonSource::surveyDistant(const PhotonTarget& target) {
-  std::vector<vec2> xi;
-  for (uint32_t i = 0; i < kSunPlaces; ++i) xi.push_back(sobol2(i, kSecondPair));
-  const LightProbe probe = askedFromMiddle(xi);
+  const LightProbe probe = askedFromMiddle(fewSamples());
   direction_ = normalizeOr(-std::accumulate(probe.L.begin(), probe.L.end(), vec3(0)), vec3(0, 0, 1));
   // Shadows along any of its directions lie about those along the middle one (emitFromDistance).
   float spread = 0, brightness = 0;
-  for (size_t i = 0; i < kSunPlaces; ++i) {
-    spread = std::max(spread, kSunMargin * radius_ * glm::length(probe.L[i] + direction_));
-    brightness += luminance(probe.Cl[i]) / kSunPlaces;
+  for (size_t i = 0; i < kFewSamples; ++i) {
+    spread = std::max(spread, kSampledMargin * radius_ * glm::length(probe.L[i] + direction_));
+    brightness += luminance(probe.Cl[i]) / kFewSamples;
   }
   vec3 tangent, bitangent;
   orthonormalBasis(direction_, tangent, bitangent);
@@ -176,14 +211,15 @@ void PhotonSource::emitFromPoint(const std::vector<vec2>& a, const std::vector<v
   for (size_t i = 0; i < out.size(); ++i) {
     double x{a[i].x};
     const size_t cell = cells_.pick(x);
-    const vec3 from = center_ + place.L[i], d = sphereDirection(cell, {static_cast<float>(x), a[i].y});
-    out[i].ray = {from, d};
-    out[i].ray.bias = kPointBias * (radius_ + glm::length(from));
-    density.push_back(cells_.weight(cell) / (cells_.total() * kCellSolidAngle));
-    probe.P.push_back(from + d), probe.N.push_back(-d);
+    const vec3 local = inCone(cell, {static_cast<float>(x), a[i].y}), offset = place.L[i] - middle_;
+    Ray& ray = out[i].ray;
+    ray = {placeAlong(local, cone_.start) + offset, directionOf(local)};
+    ray.bias = kPointBias * (radius_ + glm::length(ray.origin));
+    density.push_back(cells_.weight(cell) / (cells_.total() * cellSolidAngle()));
+    askAlong(local, offset, probe);
   }
-  shading_.probe(light_, probe);  // intensity I = E r^2, one unit away
-  for (size_t i = 0; i < out.size(); ++i) out[i].power = probe.Cl[i] * kPi / static_cast<float>(density[i]);
+  shading_.probe(light_, probe);
+  for (size_t i = 0; i < out.size(); ++i) out[i].power = intensity(probe, i) * kPi / static_cast<float>(density[i]);
 }
 
 void PhotonSource::emitFromDistance(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const {
@@ -201,7 +237,7 @@ void PhotonSource::emitFromDistance(const std::vector<vec2>& a, const std::vecto
     // The square turns with the direction by the shortest way: whatever its shadow, it moves by less than that does.
     const vec3 d = -sun.L[i], across = at.x * tangent + at.y * bitangent;
     const vec3 turned = across - dot(across, d) / std::max(1 + dot(direction_, d), 1e-6f) * (direction_ + d);
-    out[i].ray = {center_ + turned - 1.01f * radius_ * d, d};
+    out[i].ray = {center_ + turned - kSkyDistance * radius_ * d, d};
     probe.P.push_back(out[i].ray.origin), probe.N.push_back(-d);
   }
   shading_.probe(light_, probe);
@@ -218,7 +254,7 @@ void PhotonSource::emitFromSky(const std::vector<vec2>& a, const std::vector<vec
     orthonormalBasis(toSky, tangent, bitangent);
     const vec2 at = radius_ * concentricDisk(b[i]);
     const auto density = static_cast<float>(cells_.weight(cell) / (cells_.total() * kCellSolidAngle));
-    out[i].ray = {center_ + at.x * tangent + at.y * bitangent + 1.01f * radius_ * toSky, -toSky};
+    out[i].ray = {center_ + at.x * tangent + at.y * bitangent + kSkyDistance * radius_ * toSky, -toSky};
     out[i].power = shading_.skyRadiance(light_, toSky) * (kPi * radius_ * radius_ / density);
   }
 }

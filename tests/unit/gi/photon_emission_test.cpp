@@ -198,5 +198,78 @@ TEST(PhotonEmission, ALightThatIsNotDiffuseSendsNone) {
   EXPECT_TRUE(traced(world, {1000, 5}).empty());
 }
 
+TEST(PhotonEmission, FarLightsBringWhatNearOnesDo) {
+  for (const float distance : {10.0f, 1e3f, 1e5f}) {
+    SceneBuilder b;
+    b.light("pointlight", {floatParam("intensity", distance * distance), pointParam("from", {0, 0, 5 - distance})});
+    b.quad({-1, -1, 5}, {1, -1, 5}, {1, 1, 5}, {-1, 1, 5}, vec3(0));
+    World world(b.scene);
+    const std::vector<StoredPhoton> photons = traced(world, {20000, 1});
+    EXPECT_GT(photons.size(), 10000u) << distance;
+    EXPECT_NEAR(powerOf(photons), 4 * double{kPi}, 0.02 * 4 * double{kPi}) << distance;
+  }
+}
+
+/// A wall that a sheet shades from the light.
+SceneBuilder shaded() {
+  SceneBuilder b;
+  b.light("distantlight", {floatParam("intensity", 1), pointParam("from", {0, 0, 0}), pointParam("to", {0, 0, 1})});
+  b.quad({-1, -1, 8}, {1, -1, 8}, {1, 1, 8}, {-1, 1, 8}, vec3(0.5f));
+  b.quad({-1, -1, 5}, {1, -1, 5}, {1, 1, 5}, {-1, 1, 5}, vec3(1));
+  return b;
+}
+
+TEST(PhotonEmission, WhatASheetLetsPassArrivesStraightFromTheLight) {
+  SceneBuilder b = shaded();
+  latest(b).opacity = vec3(0.2f, 0.5f, 0.8f);
+  World world(b.scene);
+  vec3 onWall(0), onSheet(0);
+  for (const StoredPhoton& p : traced(world, {50000, 1})) {
+    EXPECT_TRUE(p.depth == 0 && !p.caustic);
+    (p.P.z > 6 ? onWall : onSheet) += p.power / (4 * kPi);
+  }
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(onSheet[c], 1, 0.02f) << c;
+    EXPECT_NEAR(onWall[c], 0.8f - 0.3f * static_cast<float>(c), 0.02f) << c;
+  }
+}
+
+TEST(PhotonEmission, ASheetThatIsHalfThereSendsHalfBack) {
+  SceneBuilder b;
+  b.light("pointlight", {floatParam("intensity", 1), pointParam("from", {0, 0, 5})});
+  b.sphere(1, vec3(1), {0, 0, 5});
+  latest(b).opacity = vec3(0.5f);
+  b.sphere(2, vec3(0), {0, 0, 5});
+  World world(b.scene);
+  double inner = 0, outer = 0;
+  for (const StoredPhoton& p : traced(world, {50000, 200})) (glm::distance(p.P, vec3(0, 0, 5)) < 1.5f ? inner : outer) += double{p.power.y};
+  // All leaves in the end, and half of what arrives inside goes on inside.
+  const double power = 4 * double{kPi} * double{kPi};
+  EXPECT_NEAR(outer, power, 0.01 * power);
+  EXPECT_NEAR(inner, 2 * power, 0.02 * power);
+}
+
+TEST(PhotonEmission, OfAnInvisibleSheetNothingIsStored) {
+  SceneBuilder b = shaded();
+  latest(b).opacity = vec3(0);
+  World world(b.scene);
+  const std::vector<StoredPhoton> photons = traced(world, {20000, 1});
+  for (const StoredPhoton& p : photons) EXPECT_GT(p.P.z, 7);
+  EXPECT_NEAR(powerOf(photons), 4 * double{kPi}, 0.02 * 4 * double{kPi});
+}
+
+TEST(PhotonEmission, TransparentObjectsAreNoBounceAndMakeNoCaustic) {
+  SceneBuilder b = shaded();
+  Attributes& glass = latest(b);
+  glass.photon.shadingModel = "transparent", glass.color = vec3(1, 0.5f, 0.25f);
+  World world(b.scene);
+  vec3 onWall(0);
+  for (const StoredPhoton& p : traced(world, {50000, 1})) {
+    EXPECT_TRUE(p.P.z > 7 && p.depth == 0 && !p.caustic);
+    onWall += p.power / (4 * kPi);
+  }
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(onWall[c], c == 0 ? 1 : c == 1 ? 0.5f : 0.25f, 0.02f) << c;
+}
+
 }  // namespace
 }  // namespace tomales

@@ -205,7 +205,8 @@ TEST(PhotonsInMedia, OfAFurnaceBringEachColourItsLight) {
   b.light("environmentlight", {});
   World world(b.scene);
   const float r = 0.8f;
-  const vec3 light = lightBetween(world, {200000, 200}, 0, r) / (4.0f / 3 * kPi * r * r * r);
+  vec3 light(0);  // one seed alone is off by a hundredth
+  for (const uint32_t seed : {0u, 1u, 2u, 3u}) light += lightBetween(world, {100000, 200, seed}, 0, r) / (4 * 4.0f / 3 * kPi * r * r * r);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(light[c], 1, 0.02f) << c;
 }
 
@@ -376,7 +377,7 @@ TEST_F(Atlas, OfAFurnaceHasTheSameLightEverywhereInItsMedium) {
   SceneBuilder b = cloud(vec3(1), vec3(0));
   b.light("environmentlight", {});
   World world(b.scene);
-  for (const float distance : {0.3f, 0.6f, 0.8f}) EXPECT_NEAR(meanRadianceAt(folder, world, {300000, 100}, distance).y, 1, 0.02f) << distance;
+  for (const float distance : {0.3f, 0.6f, 0.8f}) EXPECT_NEAR(meanRadianceAt(folder, world, {600000, 100}, distance).y, 1, 0.02f) << distance;
 }
 
 TEST_F(Atlas, AMissingMapIsBlackAndNamed) {
