@@ -18,7 +18,8 @@ constexpr size_t kLeastAimed = 8;
 constexpr size_t kRaysOfProbe = 8;  ///< Of the hemisphere, for each ray that finds out whether a spot can be seen.
 constexpr size_t kLeastPerSpot = 4;   ///< Rays of the hemisphere; with fewer, probes would cost too much.
 constexpr float kLeastShare = 0.05f;  ///< Of the light of a spot, when its probes have seen none: they are few.
-constexpr float kFoundByChance = 160;  ///< Rays of the hemisphere on spheres around spots: so many find out without help.
+constexpr float kFoundByChance = 160;  ///< Rays of the hemisphere on spots: so many find out without help.
+constexpr float kUnhidden = 1.5f;      ///< Times as many, if it is not known yet what is hidden: no ray is spent on finding out.
 
 const BrightSpots kNoSpots;
 
@@ -240,8 +241,9 @@ class Hemisphere {
   /// More rays the more of the light is expected from the spots. What this hemisphere has seen of them has no say in it.
   void aim(Stats& stats) {
     scratch_.aimedDirections.clear(), scratch_.aimedCells.clear();
-    if (worthAiming() >= kLeastAimed) probe(stats);
-    aims_ = aim_.coverage() * static_cast<float>(count_) < kFoundByChance ? worthAiming() : 0;
+    const auto byChance = [&] { return aim_.coverage() * static_cast<float>(count_); };
+    if (byChance() < kUnhidden * kFoundByChance && worthAiming() >= kLeastAimed) probe(stats);
+    aims_ = byChance() < kFoundByChance ? worthAiming() : 0;
     if (aims_ < kLeastAimed) aims_ = 0;
     for (size_t i = 0; i < aims_; ++i) {
       const float choice = (static_cast<float>(i) + sobol1(static_cast<uint32_t>(i), key_ ^ 0x73706f74U)) / static_cast<float>(aims_);

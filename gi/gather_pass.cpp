@@ -3,6 +3,7 @@
 #include <optional>
 #include <unordered_set>
 
+#include "gi/sheet_search.h"
 #include "gi/state.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"
@@ -14,8 +15,6 @@ constexpr int kLastPhases = 8;  // for points beyond the first of each pixel, in
 constexpr int kPhases = kLatticePhases + kLastPhases;
 constexpr int kScoutPhases = 3;  // after which bright spots are known
 constexpr float kEnough = 0.05f;  // sum of weights below which a point gets its own record
-constexpr float kSheetPixels = 2;  // length of rays that look for a sheet overhead: farther, records know of it
-constexpr float kUnmet = 0.9f;     // of the closest distance of a record: what is nearer it has not met
 constexpr size_t kPointsPerSlice = 256;
 
 /// Of the lattice that this phase completes; 0: none.
@@ -54,6 +53,7 @@ class GatherPass {
   void run(const std::function<void(float)>& progress, const std::atomic<bool>* cancelled, const std::function<void(int stride)>& covered) {
     progress_ = &progress, cancelled_ = cancelled;
     if (!prepareCaches() || !(tools_ = gatherTools(state_))) return;
+    measureRelief();
     for (phase_ = 0; phase_ < kPhases && !isCancelled(); ++phase_) {
       const std::vector<Site> sites = uncovered();
       if (phase_ == 0) prepareBounces(sites);
@@ -92,6 +92,15 @@ class GatherPass {
     }
     sites_.resize(state_.caches.size());
     return true;
+  }
+
+  void measureRelief() {
+    reliefOfGroup_.assign(cachesOfGroup_.size(), 0.0f);
+    for (const Object& o : tools_->rays->scene().objects)
+      if (!o.attributes->trace.displacements) {
+        float& relief = reliefOfGroup_[static_cast<size_t>(o.group)];
+        relief = std::max(relief, o.displacementBound);
+      }
   }
 
   void prepareBounces(const std::vector<Site>& sites) {
@@ -198,35 +207,15 @@ class GatherPass {
     for (const Site& s : asked) places.push_back({s.point.position, s.point.normal, s.point.normal, s.point.pixelSize});
     std::vector<IrradianceEstimate> known(places.size());
     state_.caches[cache].cache.lookup(places, known.data());
-    for (size_t i = 0; i < asked.size(); ++i)
-      if (known[i].weight < kEnough || wantsItsOwn(cache, asked[i].point, known[i])) out.push_back(asked[i]);
-  }
-
-  // What was given is appended to, not refined: the same frame again adds nothing.
-  bool wantsItsOwn(size_t cache, const GatherPoint& p, const IrradianceEstimate& known) const {
-    return (known.disputed && !state_.cachesGiven) || (isLight(cache) && !known.hasRecord && isUnderSheet(cache, p, known.closest));
-  }
-
-  // Records in front of a slot that is narrower than they reach see the sheet over it edge-on, if at all. Of two rays that leave upwards and
-  // aside one meets it, even below its very edge.
-  bool isUnderSheet(size_t cache, const GatherPoint& p, float closestOfRecords) const {
-    constexpr float kSlant = 0.70710678f;
-    const GatherSettings& gather = state_.caches[cache].plan.gather;
-    const RayFilter filter{groupsSeenFrom(*tools_->rays, p.group, gather)};
-    vec3 tangent, bitangent;
-    orthonormalBasis(p.normal, tangent, bitangent);
-    const float azimuth = 2 * kPi * unitFloat(hash32(p.key ^ 0x73686565U));
-    const vec3 aside = std::cos(azimuth) * tangent + std::sin(azimuth) * bitangent;
-    for (const float side : {-kSlant, kSlant}) {
-      Ray ray{p.position, kSlant * p.normal + side * aside, std::min({kSheetPixels * p.pixelSize, kUnmet * closestOfRecords, gather.maxDistance})};
-      ray.spread = spreadOfRays(gather.samples);
-      if (!filter.passesAll()) ray.filter = &filter;
-      tools_->rays->prepareOrigin(p.group, p.position, p.edgeLength, ray);
-      ray.offset = slantedOffset(ray.offset, kSlant);
-      const Hit hit = tools_->rays->closest(ray, kMaskDiffuse);
-      if (hit.object >= 0 && std::abs(dot(hit.geometricNormal, p.normal)) > kSlant) return true;
+    SheetSearch sheets(*tools_->rays, state_.caches[cache].plan.gather);
+    for (size_t i = 0; i < asked.size(); ++i) {
+      const IrradianceEstimate& k = known[i];
+      // What was given is appended to, not refined: the same frame again adds nothing.
+      if (k.weight < kEnough || (k.disputed && !state_.cachesGiven) ||
+          (isLight(cache) && !k.hasRecord && sheets.isUnderSheet(asked[i].point, k.closest)))
+        out.push_back(asked[i]);
     }
-    return false;
+    state_.stats.rays.gather += sheets.raysTraced();
   }
 
   // The records of a phase are inserted when all have been made.
@@ -262,8 +251,10 @@ class GatherPass {
 
   IrradianceRecord gatherAt(const Site& site, BrightFind* find) const {
     const bool light = isLight(site.cache);
-    return gather(*tools_->rays, *tools_->shading, site.point, state_.caches[site.cache].plan.gather,
-                  light ? KnownLight{&state_.spots, state_.radiosity.get()} : KnownLight{}, state_.stats, light ? find : nullptr);
+    IrradianceRecord record = gather(*tools_->rays, *tools_->shading, site.point, state_.caches[site.cache].plan.gather,
+                                     light ? KnownLight{&state_.spots, state_.radiosity.get()} : KnownLight{}, state_.stats, light ? find : nullptr);
+    record.relief = reliefOfGroup_[static_cast<size_t>(site.point.group)];
+    return record;
   }
 
   void report(float fractionOfPhase) const {
@@ -275,6 +266,7 @@ class GatherPass {
   const TileReader& tiles_;
   const RayTools* tools_ = nullptr;
   std::vector<std::vector<size_t>> cachesOfGroup_;
+  std::vector<float> reliefOfGroup_;  ///< Displacement that rays do not see.
   std::optional<PointBits> seen_;
   std::vector<std::unordered_set<uint64_t>> sites_;  ///< Of each cache: those that have a record.
   const std::function<void(float)>* progress_ = nullptr;

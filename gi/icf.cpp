@@ -7,8 +7,8 @@ namespace tomales {
 // Found by the structures' namespace, so they cannot stand in the unnamed one. The structured bindings stop the compiler at a structure that has gained a field which its list lacks.
 template <class A>
 void fields(A& a, IrradianceRecord& x) {
-  auto& [position, normal, E, rotation, translation, dominant, harmonicMean, closest, smoothRadius, noise, limit, pixelSize] = x;
-  each(a, position, normal, E, rotation, translation, dominant, harmonicMean, closest, smoothRadius, noise, limit, pixelSize);
+  auto& [position, normal, E, rotation, translation, dominant, harmonicMean, closest, smoothRadius, noise, limit, pixelSize, relief] = x;
+  each(a, position, normal, E, rotation, translation, dominant, harmonicMean, closest, smoothRadius, noise, limit, pixelSize, relief);
 }
 
 template <class A>
@@ -176,16 +176,44 @@ PointCloud recordsOf(const IrradianceShot& shot) {
   return out;
 }
 
+namespace {
+
+/// Lengths grow by the scale, and a rotation gradient, which a cross product meets, turns over where the handedness changes.
+class RecordMove {
+ public:
+  explicit RecordMove(const mat4& to) : to_(to), scale_(std::cbrt(std::abs(glm::determinant(mat3(to))))), hand_(glm::determinant(mat3(to)) < 0 ? -1.0f : 1.0f) {
+    if (std::abs(scale_ - 1) < 1e-5f) scale_ = 1;  // rigid, but for rounding
+  }
+
+  void apply(IrradianceRecord& r) const {
+    r.position = transformPoint(to_, r.position);
+    r.normal = turned(r.normal);
+    for (int c = 0; c < 3; ++c) {
+      r.dominant[c] = turned(r.dominant[c]);
+      r.rotationGradient[c] = hand_ * turned(r.rotationGradient[c]);
+      r.translationGradient[c] = turned(r.translationGradient[c]) / scale_;
+    }
+    for (float* length : {&r.harmonicMean, &r.closest, &r.smoothRadius, &r.limit, &r.pixelSize, &r.relief}) *length *= scale_;
+  }
+
+ private:
+  vec3 turned(const vec3& v) const { return transformVector(to_, v) / scale_; }
+
+  const mat4 to_;
+  float scale_;
+  const float hand_;
+};
+
+}  // namespace
+
 void moveToCamera(IrradianceShot& shot, const mat4& cameraFromWorld) {
   if (shot.cameraFromWorld == cameraFromWorld) return;
   const mat4 m = cameraFromWorld * glm::inverse(shot.cameraFromWorld);
-  const auto turn = [&](vec3& v) { v = transformVector(m, v); };
+  const RecordMove move(m);
   for (PreparedCache& prepared : shot.caches) {
     IrradianceCache moved(transformBound(m, prepared.cache.bound()), prepared.plan.cache);
     for (IrradianceRecord r : prepared.cache.records()) {
-      r.position = transformPoint(m, r.position);
-      turn(r.normal);
-      for (int c = 0; c < 3; ++c) turn(r.rotationGradient[c]), turn(r.translationGradient[c]), turn(r.dominant[c]);
+      move.apply(r);
       moved.restore(r);
     }
     prepared.cache = std::move(moved);

@@ -188,7 +188,7 @@ GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) 
   plan.gather.samples = std::max(1, settings.samples > 0 ? settings.samples : query.samples);
   plan.gather.maxDistance = query.maxDistance;
   plan.gather.seed = settings.seed;
-  plan.gather.subset = query.subset;
+  plan.gather.subset = query.subset.empty() ? attributes.trace.subset : query.subset;
   plan.gather.indirect = bouncesFor(state, query) > 1;
   if (settings.mode == GiMode::Atlas) plan.gather.light = Illumination::Stored, plan.gather.mirrored = attributes.photon.causticMap.empty();
   return plan;

@@ -155,8 +155,9 @@ struct IrradianceCache::Impl {
     const vec3 step = x - r.position;
     const float distance2 = dot(step, step);
     if (!(distance2 < radius * radius)) return 0;
-    // A point behind the record sees other things than the record did (Ward et al. 1988, section 4).
-    const float tolerance = std::min(kBehindTolerance * radius, kBehindPixels * pixelSize / settings.kappa);
+    // A point behind the record sees other things than the record did (Ward et al. 1988, section 4), unless it is no farther than bumps that
+    // rays do not see.
+    const float tolerance = std::max(std::min(kBehindTolerance * radius, kBehindPixels * pixelSize / settings.kappa), r.relief);
     const float behind = -0.5f * dot(step, n + r.normal) / tolerance;
     if (behind >= 1) return 0;
     // One as high above it as what is closest lies on another surface: R- spans a slot of parallel sides.

@@ -24,6 +24,7 @@ struct IrradianceRecord {
   float noise;                     ///< standard error of the luminance of E, at most
   float limit = kInfinity;         ///< beyond which neighbours have shown it to be wrong, or a sheet over it ends
   float pixelSize;                 ///< root of the projected pixel area at the record, for R+ and R- (eq. 3)
+  float relief = 0;                ///< So far from the surface that its rays see lies the true one, at most: bumps.
 };
 
 enum class ErrorFunction {

@@ -88,7 +88,8 @@ RadiosityBricks::RadiosityBricks(const fs::path& folder, const RayScene& rays, c
 bool RadiosityBricks::lookup(const Ray& ray, const Hit& hit, vec3& radiance) const {
   const uint8_t sides = sides_[static_cast<size_t>(hit.object)];
   if (sides == 0) return false;
-  const bool back = sides == 2 && dot(ray.direction, hit.geometricNormal) > 0;
+  const bool back = dot(ray.direction, hit.geometricNormal) > 0;
+  if (back && sides == 1) return false;
   const auto found = maps_->bakedOverPi(scene_.objects[static_cast<size_t>(hit.object)].group, hit.atOpen, back ? -hit.normal : hit.normal, ray.radius + ray.spread * hit.t);
   radiance = found.value_or(vec3(0));
   return found.has_value();

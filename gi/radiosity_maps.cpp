@@ -98,7 +98,7 @@ const std::vector<RadiosityChart>& RadiosityMaps::charts(int object, bool back) 
 bool RadiosityMaps::lookup(const Ray& ray, const Hit& hit, vec3& radiance) const {
   const SurfaceCharts& map = surfaces_[static_cast<size_t>(hit.object)];
   const bool back = dot(ray.direction, hit.geometricNormal) > 0;
-  const std::vector<RadiosityChart>& charts = map.side(back && !map.back.empty());
+  const std::vector<RadiosityChart>& charts = map.side(back);
   if (charts.empty()) return false;
   radiance = charts[hit.patch].lookup(hit.u, hit.v, 2 * (ray.radius + ray.spread * hit.t));
   return true;

@@ -262,6 +262,9 @@ class ShadingSystem {
   /// Surface shader and lights over a batch of one group. `out` is resized.
   void shade(const ShadePoints& points, const ShadeContext& context, ShadedPoints& out) const;
 
+  /// Of all that the camera has been shown: most of it is lit by too few samples of a light.
+  void warnOfLightNoise() const;
+
   /// Atmosphere between the eye and points that the camera sees, over their colours in place, and ShadedPoints::airCi. No-op without one.
   void atmosphere(const ShadePoints& points, ShadedPoints& out) const;
   /// Does a volume shader stand inside (Interior) or outside (Exterior) of the group's surfaces?

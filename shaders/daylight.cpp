@@ -11,6 +11,7 @@ rsl::VectorParam zenith("zenith", {0, 1, 0}, "up");
 rsl::FloatParam turbidity("turbidity", 2, "haziness, 1.7 to 10");
 rsl::FloatParam skySamples("samples", 64, "directions for each shaded point");
 rsl::FloatParam visible("visible", 1, "0: specular rays do not see it");
+rsl::StringParam portals("portals", "", "CoordinateSystems, the unit squares of which are windows that the sky shines through");
 rsl::FloatParam sunSamples("samples", 8, "directions for each shaded point");
 rsl::FloatParam sunsize("sunsize", 1, "scale of the sun's diameter of 0.53 degrees; its light stays");
 
@@ -102,7 +103,7 @@ void shadeSun(const TmGrid* g) {
 extern const rsl::Shader daylightShader, sunlightShader;
 const rsl::Shader daylightShader(TM_LIGHT, "daylight", "a clear sky by the place of the sun, without the sun itself",
                                  TM_LIGHT_SOLAR | TM_LIGHT_SHADOWED | TM_LIGHT_SKY, shadeSky,
-                                 {&intensity, &lightcolor, &sundirection, &zenith, &turbidity, &skySamples, &visible});
+                                 {&intensity, &lightcolor, &sundirection, &zenith, &turbidity, &skySamples, &visible, &portals});
 const rsl::Shader sunlightShader(TM_LIGHT, "sunlight", "the sun behind its atmosphere: red when it is low",
                                  TM_LIGHT_SOLAR | TM_LIGHT_SHADOWED | TM_LIGHT_SAMPLED, shadeSun,
                                  {&intensity, &lightcolor, &sundirection, &zenith, &turbidity, &sunSamples, &sunsize});

@@ -2,13 +2,16 @@
 //
 //   light slidespot(float intensity = 1, coneangle = radians(30), conedeltaangle = radians(5), shadowsamples = 16, samplecone = 0;
 //                   color lightcolor = 1; point from = (0, 0, 0), to = (0, 0, 1); vector up = (0, 1, 0); string slidename = "") {
-//     vector A = normalize(to - from), right = normalize(A ^ up), top = right ^ A;
+//     vector A = normalize(to - from);
+//     /* the slide in the space of the light: in that of a camera that mirrors, the product would point the other way, and the slide be mirrored */
+//     vector axis = normalize(vtransform("shader", A)), right = normalize(axis ^ vtransform("shader", up)), top = right ^ axis;
 //     illuminate (from, A, coneangle) {
 //       float c = normalize(L) . A, width = tan(coneangle);
 //       Cl = intensity * lightcolor * smoothstep(cos(coneangle), cos(coneangle - conedeltaangle), c) / (L . L);
 //       if (slidename != "") {
-//         float depth = L . A;
-//         float ss = .5 - (L . right) / (2 * width * depth), tt = .5 - (L . top) / (2 * width * depth);
+//         vector Ls = vtransform("shader", L);
+//         float depth = Ls . axis;
+//         float ss = .5 - (Ls . right) / (2 * width * depth), tt = .5 - (Ls . top) / (2 * width * depth);
 //         Cl *= color texture(slidename, ss, tt);
 //       }
 //       Cl *= transmission(Ps, from, "samples", shadowsamples, "samplecone", samplecone);
@@ -30,13 +33,14 @@ rsl::StringParam slidename("slidename", "", "picture in the lamp; none: white");
 
 struct slidespot : Light {
   void main() {
-    Vector A = normalize(to - from), right = normalize(cross(A, up)), top = cross(right, A);
+    Vector A = normalize(to - from), axis = normalize(vtransform("shader", A)), right = normalize(cross(axis, vtransform("shader", up))), top = cross(right, axis);
     illuminate(from, A, coneangle, [&] {
       Float c = dot(normalize(L), A), width = tan(coneangle);
       Cl = intensity * lightcolor * smoothstep(cos(coneangle), cos(coneangle - conedeltaangle), c) / dot(L, L);
       if (slidename != "") {
-        Float depth = dot(L, A);
-        Float ss = 0.5 - dot(L, right) / (2 * width * depth), tt = 0.5 - dot(L, top) / (2 * width * depth);
+        Vector Ls = vtransform("shader", L);
+        Float depth = dot(Ls, axis);
+        Float ss = 0.5 - dot(Ls, right) / (2 * width * depth), tt = 0.5 - dot(Ls, top) / (2 * width * depth);
         Cl *= texture(uniform(slidename), ss, tt);
       }
       Cl *= transmission(Ps, from, "samples", shadowsamples, "samplecone", samplecone);

@@ -131,6 +131,7 @@ void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer,
   }
   files.close();
   warnOfNoise(filter.noise(), options, log);
+  shading.warnOfLightNoise();
 }
 
 }  // namespace tomales

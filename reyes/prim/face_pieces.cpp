@@ -45,13 +45,13 @@ class PointGrid {
 
   void remove(int i) { std::erase(cellOf(p_[static_cast<size_t>(i)]), i); }
 
-  /// Does any point satisfy a condition that only those in the box can?
+  /// Does any point, by its number, satisfy a condition that only those in the box can?
   template <class Condition>
   bool any(const Point2& lo, const Point2& hi, const Condition& condition) const {
     for (int row = index(lo, 1); row <= index(hi, 1); ++row)
       for (int column = index(lo, 0); column <= index(hi, 0); ++column)
         for (const int i : cells_[static_cast<size_t>(row * side_ + column)])
-          if (condition(p_[static_cast<size_t>(i)])) return true;
+          if (condition(i)) return true;
     return false;
   }
 
@@ -76,6 +76,8 @@ class EarClipper {
   EarClipper(const Outlines& keys, int start) : p_(keys), left_(keys.begin(), keys.end()), count_(keys[0].size()), next_(start) {
     for (size_t i = 0; i < count_; ++i)
       before_.push_back(static_cast<int>((i + count_ - 1) % count_)), after_.push_back(static_cast<int>((i + 1) % count_));
+    suspects_ = before_;
+    dropSpikes();
   }
 
   Pieces clip() {
@@ -105,11 +107,33 @@ class EarClipper {
     return false;
   }
 
+  /// A corner between edges that lie on each other encloses nothing.
+  bool isSpike(int i) const {
+    for (size_t key = 0; key < p_.size(); ++key)
+      if (area(key, i) != 0 || glm::dot(at(key, before(i)) - at(key, i), at(key, after(i)) - at(key, i)) < 0)
+        return false;
+    return true;
+  }
+
+  /// Is vertex i in the triangle abc? Where the outline touches itself, one at a corner of the triangle is if
+  /// an edge of it goes inside.
+  bool isWithin(size_t key, int i, const std::array<Point2, 3>& abc) const {
+    const Point2& p = at(key, i);
+    for (size_t k = 0; k < 3; ++k) {
+      const Point2 &from = abc[(k + 2) % 3], &to = abc[(k + 1) % 3];
+      const auto goesInside = [&](const Point2& end) {
+        return turn(p, to, end) > 0 && turn(from, p, end) > 0;
+      };
+      if (p == abc[k]) return goesInside(at(key, before(i))) || goesInside(at(key, after(i)));
+    }
+    return contains(abc[0], abc[1], abc[2], p);
+  }
+
   bool isEar(size_t key, int i) const {
     if (!(area(key, i) > 0)) return false;
     const Point2 &a = at(key, before(i)), &b = at(key, i), &c = at(key, after(i));
-    return !left_[key].any(glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), [&](const Point2& p) {
-      return p != a && p != b && p != c && contains(a, b, c, p);
+    return !left_[key].any(glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), [&](int k) {
+      return k != before(i) && k != i && k != after(i) && isWithin(key, k, {a, b, c});
     });
   }
 
@@ -149,17 +173,35 @@ class EarClipper {
 
   void cut(int i) {
     addPiece(i);
+    next_ = after(i);
+    remove(i);
+    dropSpikes();
+  }
+
+  void remove(int i) {
     for (PointGrid& left : left_) left.remove(i);
     after_[static_cast<size_t>(before(i))] = after(i);
     before_[static_cast<size_t>(after(i))] = before(i);
-    next_ = after(i);
+    suspects_.insert(suspects_.end(), {before(i), after(i)});
     --count_;
+  }
+
+  /// At once: a corner at the foot of a spike looks like an ear.
+  void dropSpikes() {
+    while (!suspects_.empty()) {
+      const int i = suspects_.back();
+      suspects_.pop_back();
+      if (count_ <= 3 || after(before(i)) != i || !isSpike(i)) continue;
+      if (next_ == i) next_ = after(i);
+      remove(i);
+    }
   }
 
   const Outlines& p_;
   std::vector<PointGrid> left_;  ///< By key.
   size_t count_;
   std::vector<int> before_, after_;  ///< Of those that are left.
+  std::vector<int> suspects_;        ///< May have become spikes.
   int next_;
   Pieces out_;
 };

@@ -24,11 +24,13 @@ bool cross(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
 
 class Bridger {
  public:
-  Bridger(const Outlines& keys, Walk outline) : keys_(keys), p_(keys[0]), walk_(std::move(outline)) {}
+  Bridger(const Outlines& keys, Walk outline)
+      : keys_(keys), p_(keys[0]), walk_(std::move(outline)), shared_(shared(keys[0])) {}
 
   /// The hole goes clockwise and begins with its rightmost vertex; `later` are those that will be added behind it. False: it lies outside.
   bool add(Walk hole, std::span<const Walk> later) {
-    int at = findCorner(p_[hole[0]]);
+    int at = findContact(hole);
+    if (at < 0) at = findCorner(p_[hole[0]]);
     if (at < 0) return false;
     if (keys_.size() > 1 && !isClear(hole, at, later)) at = findClear(hole, at, later);
     hole.insert(hole.end(), {hole[0], walk_[at]});
@@ -42,6 +44,33 @@ class Bridger {
  private:
   int size() const { return static_cast<int>(walk_.size()); }
   const Point2& corner(int i) const { return p_[walk_[(i + size()) % size()]]; }
+
+  static bool isLess(const Point2& a, const Point2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
+  /// Places where there are several points, in order.
+  static std::vector<Point2> shared(std::vector<Point2> p) {
+    std::sort(p.begin(), p.end(), isLess);
+    std::vector<Point2> out;
+    for (size_t i = 1; i < p.size(); ++i)
+      if (p[i] == p[i - 1]) out.push_back(p[i]);
+    return out;
+  }
+
+  /// Position in the walk of a corner that the hole touches from inside, the hole turned to begin there; -1
+  /// if there is none. Another bridge might cross the walk where it passes between the two.
+  int findContact(Walk& hole) const {
+    for (size_t k = 0; k < hole.size(); ++k) {
+      const Point2& m = p_[hole[k]];
+      if (!std::binary_search(shared_.begin(), shared_.end(), m, isLess)) continue;
+      const Point2 &before = p_[hole[(k + hole.size() - 1) % hole.size()]],
+                   &after = p_[hole[(k + 1) % hole.size()]];
+      for (int at = 0; at < size(); ++at) {
+        if (corner(at) != m || !sees(at, before) || !sees(at, after)) continue;
+        std::rotate(hole.begin(), hole.begin() + static_cast<ptrdiff_t>(k), hole.end());
+        return at;
+      }
+    }
+    return -1;
+  }
 
   /// Position in the walk of a corner that m can be joined to; -1 if there is none.
   int findCorner(const Point2& m) const {
@@ -84,7 +113,11 @@ class Bridger {
   bool sees(int i, const Point2& m) const { return sees(p_, i, m); }
   bool sees(const std::vector<Point2>& p, int i, const Point2& m) const {
     const auto at = [&](int k) { return p[walk_[(k + size()) % size()]]; };
-    const Point2 a = at(i - 1), b = at(i), c = at(i + 1);
+    const Point2 b = at(i);
+    int before = i - 1, after = i + 1;  // over bridges of no length
+    while (at(before) == b && before > i - size()) --before;
+    while (at(after) == b && after < i + size()) ++after;
+    const Point2 a = at(before), c = at(after);
     const bool leftOfIn = turn(a, b, m) >= 0, leftOfOut = turn(b, c, m) >= 0;
     return turn(a, b, c) >= 0 ? leftOfIn && leftOfOut : leftOfIn || leftOfOut;
   }
@@ -122,6 +155,7 @@ class Bridger {
   const Outlines& keys_;
   const std::vector<Point2>& p_;  ///< Of the first key.
   Walk walk_;
+  const std::vector<Point2> shared_;
   bool simple_ = true;
 };
 

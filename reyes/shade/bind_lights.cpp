@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <sstream>
+
 #include "reyes/shade/binder.h"
 
 namespace tomales {
@@ -97,6 +99,25 @@ bool hasGeometry(const LightCall& call, const Scene& scene) {
 
 }  // namespace
 
+std::shared_ptr<const Sky> Binder::sky(const BoundShader& light) {
+  const std::string picture = light.text("map", ""), space = light.text("mapspace", "world");
+  if (space != "world" && space != "shader")
+    log_.report(Severity::Warning, "light-mapspace", light.where, fmt::format("{}: mapspace \"{}\" is neither \"world\" nor \"shader\"; world is used", light.user, space));
+  const mat4& currentFromSky = space == "shader" ? light.currentFromShader : cameraFromWorld_;
+  auto sky = picture.empty() ? std::make_shared<Sky>() : std::make_shared<Sky>(textures_, picture, light.where, light.user, skyFromCurrent(currentFromSky));
+  Portals portals;
+  std::istringstream names(light.text("portals", ""));
+  for (std::string name; names >> name;) {
+    mat4 currentFromPortal;
+    if (!scene_.cameraFromNamed(name, currentFromPortal))
+      log_.report(Severity::Warning, "light-portal", light.where, fmt::format("{}: no CoordinateSystem is named \"{}\"; it has no such portal", light.user, name));
+    else if (!portals.add(currentFromPortal))
+      log_.report(Severity::Warning, "light-portal", light.where, fmt::format("{}: the portal \"{}\" has no area; it is left out", light.user, name));
+  }
+  sky->setPortals(std::move(portals));
+  return sky;
+}
+
 std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index) {
   BoundShaderPtr bound =
       bind(&call.shader, call.shader.where, fmt::format("light \"{}\"", call.handle), TM_LIGHT);
@@ -111,14 +132,7 @@ std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index
                 bound->user + ": no geometry follows the AreaLightSource; it casts no light");
   light->shadows = light->shadows && !indirect;
   light->visible = bound->number("visible", 1) != 0;
-  if (light->can(TM_LIGHT_SKY)) {
-    const std::string picture = bound->text("map", ""), space = bound->text("mapspace", "world");
-    if (space != "world" && space != "shader")
-      log_.report(Severity::Warning, "light-mapspace", bound->where, fmt::format("{}: mapspace \"{}\" is neither \"world\" nor \"shader\"; world is used", bound->user, space));
-    light->sky = picture.empty() ? std::make_shared<const Sky>()
-                                 : std::make_shared<const Sky>(textures_, picture, bound->where, bound->user,
-                                                               skyFromCurrent(space == "shader" ? bound->currentFromShader : cameraFromWorld_));
-  }
+  if (light->can(TM_LIGHT_SKY)) light->sky = sky(*bound);
   if (light->can(TM_LIGHT_AREA) || light->can(TM_LIGHT_SKY) || light->can(TM_LIGHT_SAMPLED))
     light->samples = countOf(*bound, "samples", 16, 1, kMostLightSamples, log_);
   if (indirect) light->samples = 3, light->query = queryOf(*bound, log_);

@@ -55,6 +55,8 @@ class Binder {
     return it->second;
   }
   BoundShaderPtr bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind);
+  /// Of a light that can TM_LIGHT_SKY.
+  std::shared_ptr<const Sky> sky(const BoundShader& light);
 
   const Scene& scene_;
   const Textures& textures_;

@@ -89,7 +89,7 @@ bool sampleEmitter(Batch& batch, const BoundLight& light, TmGrid& g, const Emitt
 
 void sampleSky(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPoints& points) {
   for (int i = 0; i < g.count; ++i) {
-    set(g.L, i, light.sky->sample(batch.points->facingNormal(i), {g.xi0[i], g.xi1[i]}, points.density[i]));
+    set(g.L, i, light.sky->sample(get(g.P, i), batch.points->facingNormal(i), {g.xi0[i], g.xi1[i]}, points.density[i]));
     points.meetDensity[i] = points.density[i];
   }
 }
@@ -116,7 +116,7 @@ bool meetLight(Batch& batch, const BoundLight& light, TmGrid& g, const LobeDirec
       if (points.density[i] > 0) set(g.L, i, get(g.Pl, i) - get(g.P, i));
     return true;
   }
-  for (int i = 0; i < g.count; ++i) points.density[i] = light.sky->density(batch.points->facingNormal(i), get(g.L, i));
+  for (int i = 0; i < g.count; ++i) points.density[i] = light.sky->density(get(g.P, i), batch.points->facingNormal(i), get(g.L, i));
   return true;
 }
 

@@ -69,6 +69,8 @@ class Lights {
   /// All samples of all lights that have a direction, in the order of Attributes::lights. Unshadowed until
   /// `shadow`.
   std::vector<LightSample>& samples(Batch& batch);
+  /// Those that have been asked for so far, of all groups.
+  const std::vector<LightSample>& evaluated() const { return samples_; }
   /// Traces what is pending at the points of `want`, but for those whose light passes to an accuracy that the light is content with.
   void shadow(Batch& batch, LightSample& sample, const uint8_t* want) const;
 

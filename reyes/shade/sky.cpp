@@ -66,22 +66,28 @@ Sky::Sky(const Textures& textures, const std::string& picture, const SourceLoc& 
   if (!read || !(rows_.total() > 0)) row_.clear();
 }
 
-vec3 Sky::sample(const vec3& N, vec2 xi, float& density) const {
-  const float share = row_.empty() ? 0 : kPictureShare;
-  vec3 L;
-  if (xi.x < share) {
-    double s{xi.x / share}, t{xi.y};
-    const size_t j = rows_.pick(t), i = row_[j].pick(s);
-    L = latLongDirection({(static_cast<float>(i) + static_cast<float>(s)) / kColumns, (static_cast<float>(j) + static_cast<float>(t)) / kRows});
-    L = normalizeOr(glm::transpose(worldFromCurrent_) * L, vec3(0.0f, 0.0f, 1.0f));
-  } else {
-    L = cosineDirection(N, {(xi.x - share) / (1 - share), xi.y});
-  }
-  density = this->density(N, L);
+vec3 Sky::sample(const vec3& P, const vec3& N, vec2 xi, float& density) const {
+  const float share = portals_.share(P, N);
+  const vec3 L = xi.x < share ? portals_.sample(P, N, {xi.x / share, xi.y}) : openSample(N, {(xi.x - share) / (1 - share), xi.y});
+  density = this->density(P, N, L);
   return L;
 }
 
-float Sky::density(const vec3& N, const vec3& L) const {
+float Sky::density(const vec3& P, const vec3& N, const vec3& L) const {
+  const float share = portals_.share(P, N), open = (1 - share) * openDensity(N, L);
+  return share > 0 ? share * portals_.density(P, N, L) + open : open;
+}
+
+vec3 Sky::openSample(const vec3& N, vec2 xi) const {
+  const float share = row_.empty() ? 0 : kPictureShare;
+  if (xi.x >= share) return cosineDirection(N, {(xi.x - share) / (1 - share), xi.y});
+  double s{xi.x / share}, t{xi.y};
+  const size_t j = rows_.pick(t), i = row_[j].pick(s);
+  const vec3 L = latLongDirection({(static_cast<float>(i) + static_cast<float>(s)) / kColumns, (static_cast<float>(j) + static_cast<float>(t)) / kRows});
+  return normalizeOr(glm::transpose(worldFromCurrent_) * L, vec3(0.0f, 0.0f, 1.0f));
+}
+
+float Sky::openDensity(const vec3& N, const vec3& L) const {
   const float byCosine = cosineDensity(N, L);
   return row_.empty() ? byCosine : kPictureShare * pictureDensity(L) + (1 - kPictureShare) * byCosine;
 }

@@ -1,5 +1,6 @@
 // Where a light that is all around, at infinity, is sampled: half by the brightness of its picture, half by the cosine with the normal;
-// without a picture by the cosine alone. A bright sun of a few texels is found by as many samples as it is worth.
+// without a picture by the cosine alone. A bright sun of a few texels is found by as many samples as it is worth. Before that, most go
+// through portals if there are any.
 // Space: current. Threads: const members may be called concurrently.
 #pragma once
 #include <map>
@@ -10,6 +11,7 @@
 #include "reyes/base/distribution.h"
 #include "reyes/base/math.h"
 #include "reyes/base/simd.h"
+#include "reyes/shade/portals.h"
 #include "reyes/shade/texture.h"
 
 namespace tomales {
@@ -29,16 +31,21 @@ class Sky {
   Sky(const Textures& textures, const std::string& picture, const SourceLoc& where, const std::string& user,
       const mat3& worldFromCurrent);
 
-  /// A unit direction to light a point with unit normal N by; density over solid angle. N of 0: in the air, lit evenly from all sides.
-  vec3 sample(const vec3& N, vec2 xi, float& density) const;
-  float density(const vec3& N, const vec3& L) const;
+  void setPortals(Portals portals) { portals_ = std::move(portals); }
+
+  /// A unit direction to light a point P with unit normal N by; density over solid angle. N of 0: in the air, lit evenly from all sides.
+  vec3 sample(const vec3& P, const vec3& N, vec2 xi, float& density) const;
+  float density(const vec3& P, const vec3& N, const vec3& L) const;
 
  private:
+  vec3 openSample(const vec3& N, vec2 xi) const;
+  float openDensity(const vec3& N, const vec3& L) const;
   float pictureDensity(const vec3& L) const;
 
   Distribution rows_;
   std::vector<Distribution> row_;  ///< Cells of each; none: no picture.
   mat3 worldFromCurrent_{1.0f};
+  Portals portals_;
 };
 
 /// The orientation of a sky that stands in a space, whatever the scale of that.

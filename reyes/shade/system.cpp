@@ -73,9 +73,12 @@ void ShadingSystem::shade(const ShadePoints& points, const ShadeContext& context
     repair(batch, shader, batch.run(shader, batch.tm));
     batch.closeOutputs(variables, out, begin);
     storeVariables(variables, batch, shader, out, begin);
+    impl_->lightNoise.add(batch);
   }
   impl_->stats.shade.verticesShaded += count;
 }
+
+void ShadingSystem::warnOfLightNoise() const { impl_->lightNoise.warn(*impl_); }
 
 vec3 ShadingSystem::visibleEmission(int group) const {
   const int index = impl_->groups[static_cast<size_t>(group)].group->attributes->areaLight;

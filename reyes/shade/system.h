@@ -3,11 +3,13 @@
 #include <chrono>
 
 #include "reyes/shade/bound_scene.h"
+#include "reyes/shade/light_noise.h"
 
 namespace tomales {
 
 struct ShadingSystem::Impl : BoundScene {
   using BoundScene::BoundScene;
+  LightNoise lightNoise{lights.size()};
 };
 
 /// Adds the time until its end to the figures of a shader.

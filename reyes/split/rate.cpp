@@ -2,7 +2,6 @@
 // at each step: most scenes with many patches have small ones.
 #include "reyes/split/rate.h"
 
-#include <bit>
 #include <cmath>
 
 #include "reyes/base/simd.h"
@@ -10,9 +9,8 @@
 namespace tomales {
 namespace {
 
-/// How far a chord may leave its arc, at any shading rate: a silhouette's error (docs/decisions/0034).
-constexpr float kFlat_px = 0.25f;
-constexpr float kMostCells = 65536;
+/// Keys of a motion at which what moves is measured: it may grow, or come nearer.
+constexpr size_t kMostKeys = 5;
 
 /// Probes of kPatches patches; point k of all of them stands together. Rows of points run along u.
 template <int kProbesT, int kPatchesT>
@@ -178,25 +176,49 @@ void measureHot(Lattice<kProbes, 1>& at, const mat4& m, const Camera& camera, bo
   measureLattice(at, m, camera, asSeen, out);
 }
 
+/// An object at a time: its shape, between two that it has then unless `after` is null, and its place.
+struct Pose {
+  const Prim *before, *after;
+  float t;
+  mat4 cameraFromObject;
+};
+Pose poseAt(const Object& o, float time) {
+  size_t k = 0;
+  while (k + 1 < o.shapes.size() && o.shapeTimes[k + 1] <= time) ++k;
+  const bool between = k + 1 < o.shapes.size() && time > o.shapeTimes[k];
+  return {o.shapes[k].get(), between ? o.shapes[k + 1].get() : nullptr,
+          between ? (time - o.shapeTimes[k]) / (o.shapeTimes[k + 1] - o.shapeTimes[k]) : 0.0f,
+          o.cameraFromObject.at(time)};
+}
+
 /// patchAt(i): one of up to kPatches patches; put(i, size).
 template <int kProbes, int kPatches, class PatchAt, class Put>
-void measureSome(const Object& o, const Camera& camera, int count, const PatchAt& patchAt, const UvRect& r, const Put& put) {
+void measureSome(const Object& o, const Pose& pose, const Camera& camera, int count, const PatchAt& patchAt,
+                 const UvRect& r, const Put& put) {
   using L = Lattice<kProbes, kPatches>;
   L at;
-  float u[L::kCount], v[L::kCount], data[12][L::kCount];
+  float u[L::kCount], v[L::kCount];
   for (int j = 0, k = 0; j < L::kRow; ++j)
     for (int i = 0; i < L::kRow; ++i, ++k) {
       u[k] = lerp(r.u0, r.u1, static_cast<float>(i) / kProbes);
       v[k] = lerp(r.v0, r.v1, static_cast<float>(j) / kProbes);
     }
+  float data[12][L::kCount], next[12][L::kCount];
+  const auto evaluate = [&](const Prim& shape, int i, float(&to)[12][L::kCount]) {
+    shape.evaluate(patchAt(i), L::kCount, u, v,
+                   {to[0], to[1], to[2], to[3], to[4], to[5], to[6], to[7], to[8], to[9], to[10], to[11]});
+  };
   for (int i = 0; i < kPatches; ++i) {
-    if (i < count)
-      o.shape().evaluate(patchAt(i), L::kCount, u, v,
-                         {data[0], data[1], data[2], data[3], data[4], data[5], data[6], data[7], data[8], data[9], data[10], data[11]});
+    if (i < count) evaluate(*pose.before, i, data);
+    if (i < count && pose.after) {
+      evaluate(*pose.after, i, next);
+      for (int axis = 0; axis < 3; ++axis)
+        for (int k = 0; k < L::kCount; ++k) data[axis][k] = lerp(data[axis][k], next[axis][k], pose.t);
+    }
     for (int k = 0; k < L::kCount; ++k) at.x[k][i] = data[0][k], at.y[k][i] = data[1][k], at.z[k][i] = data[2][k];
   }
   Sizes<kPatches> sizes;
-  measureHot(at, o.cameraFromObject.at(o.keyTimes.front()), camera, o.attributes->rasterOrient, sizes);
+  measureHot(at, pose.cameraFromObject, camera, o.attributes->rasterOrient, sizes);
   for (int i = 0; i < count; ++i) {
     const auto &su = sizes.u, &sv = sizes.v;
     constexpr int c = L::kCount - L::kRow, d = L::kCount - 1;
@@ -209,82 +231,67 @@ void measureSome(const Object& o, const Camera& camera, int count, const PatchAt
   }
 }
 
-template <int kProbes>
-void measureThose(bool planar, const Object& o, const Camera& camera, std::span<const uint32_t> patches, const UvRect& r, std::vector<PatchSize>& out) {
+/// put(pose, put of sizes) at each key that counts; out(i) is the size of patch i, the larger of those at the
+/// keys. Behind the eye, or out of the picture, something may be as large as it likes.
+template <class MeasureAt, class Out>
+void measureAtKeys(const Object& o, const Camera& camera, const MeasureAt& measureAt, const Out& out) {
+  const size_t last = o.keyTimes.size() - 1, keys = std::min(last + 1, kMostKeys);
+  measureAt(poseAt(o, o.keyTimes.front()), [&](size_t i, const PatchSize& size) { out(i) = size; });
+  for (size_t k = 1; k < keys; ++k)
+    measureAt(poseAt(o, o.keyTimes[k * last / (keys - 1)]), [&](size_t i, const PatchSize& size) {
+      const bool behind = camera.perspective() && size.probes.lo.z < camera.eyePlane();
+      if (!behind && !camera.outsideWindow(size.probes, {0, 0, camera.xResolution(), camera.yResolution()}))
+        out(i).extend(size);
+    });
+}
+
+template <int kProbes, class Put>
+void measureThose(bool planar, const Object& o, const Pose& pose, const Camera& camera,
+                  std::span<const uint32_t> patches, const Put& put) {
   std::vector<uint32_t> these;
   for (uint32_t i = 0; i < patches.size(); ++i)
     if (o.shape().info(patches[i]).planar == planar) these.push_back(i);
   for (size_t first = 0; first < these.size(); first += kLanes) {
     const int count = static_cast<int>(std::min<size_t>(kLanes, these.size() - first));
     measureSome<kProbes, kLanes>(
-        o, camera, count, [&](int i) { return patches[these[first + static_cast<size_t>(i)]]; }, r,
-        [&](int i, const PatchSize& size) { out[these[first + static_cast<size_t>(i)]] = size; });
+        o, pose, camera, count, [&](int i) { return patches[these[first + static_cast<size_t>(i)]]; },
+        UvRect{}, [&](int i, const PatchSize& size) { put(these[first + static_cast<size_t>(i)], size); });
   }
 }
 
 }  // namespace
 
+void PatchSize::extend(const PatchSize& other) {
+  for (const auto& [line, more] : {std::pair(&u, &other.u), std::pair(&v, &other.v)})
+    *line = {std::max(line->px, more->px), std::max(line->length, more->length),
+             std::max(line->least, more->least), std::max(line->bend_px, more->bend_px)};
+  area_px2 = std::max(area_px2, other.area_px2);
+  probes.extend(other.probes);
+}
+
 std::vector<PatchSize> measureWhole(const Object& o, const Camera& camera, std::span<const uint32_t> patches) {
   std::vector<PatchSize> out(patches.size());
-  measureThose<kFlatProbes>(true, o, camera, patches, UvRect{}, out);
-  measureThose<kCurvedProbes>(false, o, camera, patches, UvRect{}, out);
+  const auto measureAt = [&](const Pose& pose, const auto& put) {
+    measureThose<kFlatProbes>(true, o, pose, camera, patches, put);
+    measureThose<kCurvedProbes>(false, o, pose, camera, patches, put);
+  };
+  measureAtKeys(o, camera, measureAt, [&](size_t i) -> PatchSize& { return out[i]; });
   return out;
 }
 
 PatchSize measure(const Object& o, const Camera& camera, uint32_t patch, const UvRect& r) {
-  PatchSize size;
+  PatchSize out;
   const auto patchAt = [&](int) { return patch; };
-  const auto put = [&](int, const PatchSize& s) { size = s; };
-  if (o.shape().info(patch).planar)
-    measureSome<kFlatProbes, 1>(o, camera, 1, patchAt, r, put);
-  else
-    measureSome<kCurvedProbes, 1>(o, camera, 1, patchAt, r, put);
-  return size;
-}
-
-namespace {
-
-/// An edge may be this much longer than that of a square of the area asked.
-constexpr float kLongest = 1.5f;
-/// So much smaller than the cells along two lines, as fractions, may their whole numbers be.
-constexpr float kFewer = 0.9f;
-
-/// Whole numbers for two lines that take so many cells: as few as cover the area, the squarest of these.
-Cells fewest(float alongU, float alongV, int leastU, int leastV) {
-  Cells best{0, 0};
-  float bestEdge = kInfinity;
-  for (const float tried : {std::floor(alongU), std::ceil(alongU), alongU / kLongest}) {
-    const int nu = std::max(leastU, static_cast<int>(std::ceil(tried)));
-    const int nv = std::max(leastV, static_cast<int>(std::ceil(kFewer * alongU * alongV / static_cast<float>(nu))));
-    const float edge = std::max(alongU / static_cast<float>(nu), alongV / static_cast<float>(nv));
-    const int64_t count = int64_t{nu} * nv, fewestYet = int64_t{best.nu} * best.nv;
-    if (best.nu > 0 && (count > fewestYet || (count == fewestYet && edge >= bestEdge))) continue;
-    best = {nu, nv}, bestEdge = edge;
-  }
-  return best;
-}
-
-/// Whatever the rate asks: so that the shape does not collapse where blur lets edges grow, and chords are flat.
-int leastOf(const LineSize& line, float edge_px, float coarsening, bool joins) {
-  constexpr float kLeastOfCoarse = 4;
-  // The hider knows how far a line bulges from two chords on, and closes cracks by that (docs/decisions/0003).
-  constexpr float kOneChord_px = 0.05f;
-  // A line that a quarter of it leaves by `bend_px` as a second difference: its n-th part bulges by 2 bend / n^2.
-  const float flat = std::min(std::ceil(std::sqrt(2 * line.bend_px / (kFlat_px * coarsening))), 64.0f);
-  const float fine = std::ceil(line.px / (kLongest * edge_px)), coarse = std::ceil(line.px / (kLongest * edge_px * coarsening));
-  const float n = std::max({coarse, std::min(fine, kLeastOfCoarse), static_cast<float>(line.least), flat, joins && 2 * line.bend_px > kOneChord_px ? 2.0f : 1.0f});
-  return n >= 1.0f ? static_cast<int>(std::min(n, kMostCells)) : 1;
-}
-
-}  // namespace
-
-Cells cells(const PatchSize& size, float edge_px, float coarsening, bool binary, bool joins) {
-  const float square = size.area_px2 / (size.u.px * size.v.px);
-  const float edges = std::sqrt(square < 1.0f ? square : 1.0f) / (edge_px * coarsening);
-  const auto along = [&](const LineSize& line) { return line.px > 0 && edges > 0 ? std::min(line.px * edges, kMostCells) : 0.0f; };
-  const Cells n = fewest(along(size.u), along(size.v), leastOf(size.u, edge_px, coarsening, joins), leastOf(size.v, edge_px, coarsening, joins));
-  const auto whole = [binary](int count) { return binary ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(count))) : count; };
-  return {whole(n.nu), whole(n.nv)};
+  const bool planar = o.shape().info(patch).planar;
+  const auto measureAt = [&](const Pose& pose, const auto& put) {
+    const auto putIt = [&](int, const PatchSize& size) { put(0, size); };
+    if (planar)
+      measureSome<kFlatProbes, 1>(o, pose, camera, 1, patchAt, r, putIt);
+    else
+      measureSome<kCurvedProbes, 1>(o, pose, camera, 1, patchAt, r, putIt);
+  };
+  measureAtKeys(o, camera, measureAt, [&](size_t) -> PatchSize& { return out; });
+  return out;
 }
 
 }  // namespace tomales

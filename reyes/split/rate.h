@@ -1,4 +1,5 @@
-// How many micropolygons a rectangle of a patch takes along u and v, from lines measured on it as the camera sees them.
+// How many micropolygons a rectangle of a patch takes along u and v, from lines measured on it as the camera
+// sees them, at several times if it moves.
 #pragma once
 #include <span>
 
@@ -16,6 +17,8 @@ struct PatchSize {
   LineSize u, v;
   float area_px2 = 0;  ///< u.px * v.px or less, as the lines cross at a slant: of the largest part, for all.
   Bound3 probes;  ///< Around the points that were measured, in camera space.
+  /// What is larger of either.
+  void extend(const PatchSize& other);
 };
 PatchSize measure(const Object& object, const Camera& camera, uint32_t patch, const UvRect& rect);
 /// Of each of some patches as a whole.

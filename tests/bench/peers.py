@@ -115,8 +115,9 @@ def relative(difference, truth):
 
 
 def radiosity(count, error_bound, nearest, bounces):
+    """adc_bailout: rays of level n weigh 2^-n whatever they meet, so that the default, 0.01, would end at 6 bounces."""
     return (f"count {count} error_bound {error_bound} nearest_count {nearest} recursion_limit {bounces} gray_threshold 0 normal off low_error_factor 0.5 "
-            "pretrace_start 0.08 pretrace_end 0.005 always_sample off brightness 1")
+            "pretrace_start 0.08 pretrace_end 0.005 always_sample off brightness 1 adc_bailout 0.0001")
 
 
 def measure(bench, bounces, who, truth_paths, paths, pov_settings):

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 
+from gallery import make_brick_map
 from pictures import pixels
 
 tomales, root = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
@@ -18,19 +19,10 @@ def run(*arguments, cwd):
     return subprocess.run([tomales, *map(str, arguments)], cwd=cwd, capture_output=True, text=True)
 
 
-def make_brick_map(folder):
-    """As scenes/primitives/brickmap.rib says, of fewer photons."""
-    for step in (("photons", root / "scenes/cornell/cornell.rib", "-o", "photons", "--photons", "20000"), ("irradiance", "photons", "-o", "irradiance"),
-                 ("brickmake", "irradiance", "-o", "cornell.bkm", "--relative", "--maxerror", "0.1")):
-        done = run(*step, cwd=folder)
-        if done.returncode:
-            failures.append(f"{step[0]}: {done.stderr}")
-
-
 with tempfile.TemporaryDirectory() as temporary:
     folder = pathlib.Path(temporary)
     os.environ["TOMALES_TEXTURE_CACHE"] = str(folder / "textures")
-    make_brick_map(folder)
+    make_brick_map(tomales, root, folder)
     for scene in sorted([*root.glob("scenes/primitives/*.rib"), *root.glob("scenes/motion/*.rib")]):
         name = f"{scene.parent.name}/{scene.stem}"
         text = scene.read_text().replace("../../docs", str(root / "docs"))

@@ -5,16 +5,19 @@ scene of the gallery.
 
 Threads and buckets must leave no trace, crops only in records of indirect light.
 What only rounding tells apart (turned, far away, scaled) must agree in almost every pixel. What draws other random numbers or dices otherwise
-(mirrored, a third seed, twice the resolution, told in another order, as one mesh or in halves, crops of indirect light) must agree in means of blocks as two seeds do. Without --all: bits, and what moving and scaling change.
+(mirrored, a third seed, twice the resolution, told in another order, as one mesh or in halves, crops of indirect light; where there are photons, turned and far
+away too) must agree in means of blocks as two seeds do. Without --all: bits, and what moving and scaling change, of scenes that need nothing made.
 """
 import os
 import pathlib
 import re
+import shutil
 import statistics
 import subprocess
 import sys
 import tempfile
 
+from gallery import furnish, has_to_be_furnished, pictures_of
 from pictures import pixels
 from rewrite import merged, reordered, split
 
@@ -25,33 +28,61 @@ WIDTH, HEIGHT, BLOCK = (96, 72, 8) if every_check else (64, 48, 8)
 failures = []
 
 # Why some scenes are left out of some checks.
-FALLS_OFF = re.compile(r'"(pointlight|spotlight|shadowspot|sl_shadowspot)"')  # I / d^2 knows the unit of length
+FALLS_OFF = re.compile(r'"(pointlight|spotlight|shadowspot|sl_shadowspot|slidespot)"')  # I / d^2 knows the unit of length
 IN_UNITS = re.compile(r"DepthOfField|[Dd]isplace|fog|Atmosphere|Interior|filterlight")  # so do lengths that are parameters,
 ON_SCREEN = re.compile(r"ScreenWindow|orthographic")                                      # and windows on the screen
 BY_PIXELS = re.compile(r"motionfactor|DetailRange")                                       # is coarser, or another shape, by so many pixels
-NEEDS_FILES = re.compile(r"MakeTexture|\.bkm")  # made by other commands
+KNOWS_WORLD = re.compile(r'"smoke"')                                                     # has heights in the world as parameters
 BY_PARAMETERS = re.compile(r"[Tt]exture|[Dd]isplace|primvar|vertex|varying|wood|grid")  # halves have other u, v and bounds
 SLOW = ("furnace", "rectlight", "ris")
+MOVES = {"turned": ("Rotate 37 1 2 3", "Rotate -37 1 2 3"), "far from the origin": ("Translate 300 -200 500", "Translate -300 200 -500")}
 
 
-def render(text, folder, name, size=(WIDTH, HEIGHT), *options):
-    scene, out = folder / f"{name}.rib", folder / f"{name}.exr"
-    scene.write_text(text)
-    done = subprocess.run([tomales, "render", str(scene), "-o", str(out), "-q", "--format", f"{size[0]}x{size[1]}", *options], capture_output=True, text=True)
-    if not out.exists():
-        sys.exit(f"{name}: no picture: {done.stderr[-500:]}")
-    return {key: value[:3] for key, value in pixels(out).items()}
+class Scene:
+    """One picture of the gallery in a folder of its own, which is where the renderer runs."""
+
+    def __init__(self, picture, folder):
+        self.name, self.maps, self.options, self.has_photons, self.folder = picture.name, picture.maps, picture.options, picture.has_photons, folder
+        self.text = re.sub(r"^PixelFilter.*$", "", picture.text, flags=re.M).replace("WorldBegin", 'PixelFilter "box" 1 1\nWorldBegin', 1)
+
+    def render(self, text, *options, size=(WIDTH, HEIGHT)):
+        (self.folder / "scene.rib").write_text(text)
+        shutil.rmtree(self.folder / "maps", ignore_errors=True)  # of photons: they would be taken as they are
+        out = self.folder / "out.exr"
+        out.unlink(missing_ok=True)
+        done = subprocess.run([tomales, "render", "scene.rib", "-o", "out.exr", "-q", "--format", f"{size[0]}x{size[1]}", *self.options, *options],
+                              capture_output=True, text=True)
+        if not out.exists() or re.search(r"\[(shader|texture)-missing", done.stderr):
+            sys.exit(f"{self.name}: not the picture that is meant: {done.stderr[-500:]}")
+        return {key: value[:3] for key, value in pixels(out).items()}
+
+    def render_moved(self, there, back):
+        """With its maps, which know where the world stands."""
+        picture = self.make_maps(there, back).render(moved(self.text, there, back))
+        self.make_maps()
+        return picture
+
+    def make_maps(self, there="", back=""):
+        if self.maps:
+            (self.folder / "maps.rib").write_text(moved(self.maps, there, back))
+            subprocess.run([tomales, "render", "maps.rib", "-q"], check=True, capture_output=True)
+        return self
+
+    def verdict(self, what, good, figure):
+        print(("ok      " if good else "FAILED  ") + f"{self.name}: {what}: {figure}", flush=True)
+        if not good:
+            failures.append((self.name, what))
 
 
 def moved(text, there, back):
-    return text.replace("WorldBegin", f"{there}\nWorldBegin\n{back}", 1)
+    return text.replace("WorldBegin", f"{there}\nWorldBegin\n{back}")
 
 
 def scaled(text, k):
     def clip(match):
         return f"Clipping {float(match[1]) * k} {float(match[2]) * k}"
     text = re.sub(r"Clipping\s+([\d.e+-]+)\s+([\d.e+-]+)", clip, text)
-    return re.sub(r"^(Projection.*)$", rf"\1\nScale {k} {k} {k}", text, count=1, flags=re.M)
+    return re.sub(r"^(\s*Projection.*)$", rf"\1\nScale {k} {k} {k}", text, count=1, flags=re.M)
 
 
 def finer(text):
@@ -76,84 +107,82 @@ def distance(a, b):
     return statistics.fmean(squares)**0.5, abs(statistics.fmean(sum(u) - sum(v) for u, v in zip(a, b))) / 3
 
 
-def verdict(scene, what, good, figure):
-    print(("ok      " if good else "FAILED  ") + f"{scene}: {what}: {figure}", flush=True)
-    if not good:
-        failures.append((scene, what))
-
-
 def has_records(text):
     """Of indirect light; RIS scenes ask for it by their integrator."""
     return "indirectlight" in text or "PxrPathTracer" in text
 
 
-def check(path, folder):
-    name = str(path.relative_to(root / "scenes"))
-    text = path.read_text(errors="replace")
-    text = re.sub(r"^PixelFilter.*$", "", text, flags=re.M).replace("WorldBegin", 'PixelFilter "box" 1 1\nWorldBegin', 1)
-    base = render(text, folder, "base")
+def check(scene):
+    text = scene.text
+    base = scene.make_maps().render(text)
     mean = statistics.fmean(sum(p) / 3 for p in base.values())
-    verdict(name, "shows something", mean > 0, f"mean {mean:.3g}")
+    scene.verdict("shows something", mean > 0, f"mean {mean:.3g}")
+    check_bits(scene, base)
     most = 0.05 if has_records(text) else 0.02  # where irradiance records lie is decided by a hair's breadth
-    check_bits(name, text, base, folder)
-    turned = render(moved(text, "Rotate 37 1 2 3", "Rotate -37 1 2 3"), folder, "turned")
-    share = differing(base, turned)
-    verdict(name, "turned", share < most, f"{100 * share:.2f} % of the pixels differ")
-    share = differing(base, render(moved(text, "Translate 300 -200 500", "Translate -300 200 -500"), folder, "far"))
-    verdict(name, "far from the origin", share < most, f"{100 * share:.2f} % of the pixels differ")
+
+    def check_pixels(what, other):
+        share = differing(base, other)
+        scene.verdict(what, share < most, f"{100 * share:.2f} % of the pixels differ")
+
+    for what, (there, back) in MOVES.items():
+        if not scene.has_photons and not KNOWS_WORLD.search(text):
+            check_pixels(what, scene.render_moved(there, back))
     if not any(reason.search(text) for reason in (FALLS_OFF, IN_UNITS, ON_SCREEN)):
         for k in (0.01, 1000) if every_check else (1000,):
-            share = differing(base, render(scaled(text, k), folder, f"scaled_{k}"))
-            verdict(name, f"{k} times as large", share < most, f"{100 * share:.2f} % of the pixels differ")
+            check_pixels(f"{k} times as large", scene.render(scaled(text, k)))
     if every_check:
-        check_means(name, text, folder, mean)
+        check_means(scene, mean)
 
 
-def check_bits(name, text, base, folder):
+def check_bits(scene, base):
     """A crop has irradiance records of its own."""
-    crop = [] if has_records(text) else ["--crop", "0.25,0.75,0.25,1"]
-    other = render(text, folder, "bits", (WIDTH, HEIGHT), "-t", "3", "--bucket-size", "8", *crop)
+    crop = [] if has_records(scene.text) else ["--crop", "0.25,0.75,0.25,1"]
+    other = scene.render(scene.text, "-t", "3", "--bucket-size", "8", *crop)
     seen = [(x, y) for x, y in base if not crop or WIDTH <= 4 * x < 3 * WIDTH and HEIGHT <= 4 * y]
     count = sum(base[key] != other[key] for key in seen)
-    verdict(name, "three threads, buckets of 8" + (", cropped" if crop else ""), count == 0, f"{count} of {len(seen)} pixels differ")
+    scene.verdict("three threads, buckets of 8" + (", cropped" if crop else ""), count == 0, f"{count} of {len(seen)} pixels differ")
 
 
-def check_means(name, text, folder, mean):
-    pictures = [render(text, folder, f"seed_{n}", (WIDTH, HEIGHT), "--seed", str(n)) for n in (1, 2)]
+def check_means(scene, mean):
+    text = scene.text
+    pictures = [scene.render(text, "--seed", str(n)) for n in (1, 2)]
     seeds = [blocks(p) for p in pictures]
     noise, noise_of_mean = distance(*seeds)
-    others = {"a third seed": blocks(render(text, folder, "seed_3", (WIDTH, HEIGHT), "--seed", "3"))}
+    others = {"a third seed": blocks(scene.render(text, "--seed", "3"))}
     against = {}
+    if scene.has_photons:
+        others.update({what: blocks(scene.render_moved(there, back)) for what, (there, back) in MOVES.items()})
     if has_records(text):  # else check_bits
         window = {"x0": WIDTH // 4, "width": 3 * WIDTH // 4, "y0": HEIGHT // 3}
-        others["cropped"] = blocks(render(text, folder, "cropped", (WIDTH, HEIGHT), "--seed", "1", "--crop", f"0.25,0.75,{1 / 3},1"), **window)
+        others["cropped"] = blocks(scene.render(text, "--seed", "1", "--crop", f"0.25,0.75,{1 / 3},1"), **window)
         against["cropped"] = blocks(pictures[0], **window)
     if not ON_SCREEN.search(text):
-        flipped = render(re.sub(r"^(Projection.*)$", r"\1\nScale -1 1 1", text, count=1, flags=re.M), folder, "mirrored")
+        flipped = scene.render(re.sub(r"^(\s*Projection.*)$", r"\1\nScale -1 1 1", text, count=1, flags=re.M))
         others["mirrored"] = blocks({(WIDTH - 1 - x, y): p for (x, y), p in flipped.items()})
     if not BY_PIXELS.search(text):
-        others["twice the resolution"] = blocks(render(text, folder, "doubled", (2 * WIDTH, 2 * HEIGHT)), 2 * WIDTH, 2 * HEIGHT, 2 * BLOCK)
-        against["twice the resolution"] = blocks(render(finer(text), folder, "finer"))
+        others["twice the resolution"] = blocks(scene.render(text, size=(2 * WIDTH, 2 * HEIGHT)), 2 * WIDTH, 2 * HEIGHT, 2 * BLOCK)
+        against["twice the resolution"] = blocks(scene.render(finer(text)))
     rewritten = {"told in another order": reordered(text), "polygons as one mesh": merged(text)}
     if not BY_PARAMETERS.search(text):
         rewritten["primitives in halves"] = split(text)
-    others.update({what: blocks(render(other, folder, "rewritten")) for what, other in rewritten.items() if other != text})
+    others.update({what: blocks(scene.render(other)) for what, other in rewritten.items() if other != text})
     for what, other in others.items():
         rms, of_mean = distance(against.get(what, seeds[0]), other)
         good = rms < 2 * noise + 0.01 * mean and of_mean < 4 * noise_of_mean + 0.005 * mean
-        verdict(name, what, good, f"blocks differ by {rms / mean:.4f} of the mean, two seeds by {noise / mean:.4f}; means by {of_mean / mean:.4f}")
+        scene.verdict(what, good, f"blocks differ by {rms / mean:.4f} of the mean, two seeds by {noise / mean:.4f}; means by {of_mean / mean:.4f}")
 
 
-for scene in sorted((root / "scenes").rglob("*.rib")):
-    if not every_check and not only and scene.parent.name in SLOW:
+for path in sorted((root / "scenes").rglob("*.rib")):
+    if only not in str(path) or not every_check and not only and path.parent.name in SLOW:
         continue
-    content = scene.read_text(errors="replace")
-    if only not in str(scene) or content.count("WorldBegin") != 1 or "Projection" not in content or NEEDS_FILES.search(content):
-        continue
-    with tempfile.TemporaryDirectory() as where:
-        os.chdir(where)  # pictures that a scene names stay here
-        for beside in scene.parent.iterdir():
-            (pathlib.Path(where) / beside.name).symlink_to(beside)
-        check(scene, pathlib.Path(where))
-        os.chdir(root)
+    for picture in pictures_of(path, root):
+        if not every_check and (picture.maps or has_to_be_furnished(picture.text)):
+            continue
+        with tempfile.TemporaryDirectory() as where:
+            os.chdir(where)  # pictures that a scene names stay here
+            for beside in path.parent.iterdir():
+                (pathlib.Path(where) / beside.name).symlink_to(beside)
+            furnish(tomales, root, picture.text, pathlib.Path(where))
+            check(Scene(picture, pathlib.Path(where)))
+            os.chdir(root)
 sys.exit(bool(failures))

@@ -50,8 +50,12 @@ def povray(room, radiosity, lamps):
 
 
 def cycles(room, size, samples, bounces, out):
-    """A script for Blender, whose z is our y. Light passes are written apart."""
-    quads = [([(x, z, y) for x, y, z in q.corners], q.color) for q in room.quads]
+    """A script for Blender, whose z is our y. Light passes are written apart. Lamps of Cycles let light through, ours and POV-Ray's are black on
+    both sides: a black sheet lies on this one."""
+    x, y, z = room.lamp.centre
+    w, d = room.lamp.width / 2, room.lamp.depth / 2
+    sheet = [(x - w, y + 1e-4, z - d), (x + w, y + 1e-4, z - d), (x + w, y + 1e-4, z + d), (x - w, y + 1e-4, z + d)]
+    quads = [([(x, z, y) for x, y, z in corners], color) for corners, color in [*((q.corners, q.color) for q in room.quads), (sheet, (0, 0, 0))]]
     balls = [((b.centre[0], b.centre[2], b.centre[1]), b.radius, b.color) for b in room.balls]
     lamp = room.lamp
     energy = lamp.radiance * 4 * lamp.width * lamp.depth

@@ -107,6 +107,23 @@ TEST(Gather, SpotsBehindAScreenTakeNoRaysFromWhatCanBeSeen) {
   EXPECT_LT(noise(both), 1.5 * noise(visible));
 }
 
+TEST(Gather, SpotsThatChanceFindsTakeNoRays) {
+  SceneBuilder b;
+  b.quad({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}, vec3(0.8f));
+  World world(b.scene);
+  BrightSpots spots;
+  spots.learn({disk({0, 0, 5}, 1, 300, 50)});  // a twentieth of the hemisphere
+  for (const int samples : {1000, 8000}) {
+    GatherSettings settings;
+    settings.samples = samples;
+    const HemisphereCells cells = hemisphereCells(samples);
+    const int64_t before = world.stats.rays.gather;
+    gather(world.rays, world.shading, {0, {0, 0, 0}, {0, 0, 1}, 1, 0.01f, 0.01f}, settings, {&spots}, world.stats);
+    const int64_t more = world.stats.rays.gather - before - cells.rings * cells.sectors;
+    EXPECT_EQ(more > 0, samples == 1000) << more;
+  }
+}
+
 TEST(BrightSpots, ASingleHitIsChance) {
   BrightSpots spots;
   spots.learn({disk({0, 0, 5}, 0.2f, 1, 50)});

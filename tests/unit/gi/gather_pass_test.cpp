@@ -3,6 +3,7 @@
 #include <map>
 #include <numeric>
 
+#include "gi/sheet_search.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"
 #include "tests/unit/gi/fixture.h"
@@ -51,11 +52,28 @@ TEST(GatherPass, CoversEveryPointOfTheFrameWithFarFewerRecords) {
   EXPECT_GT(samples, 64 * 64 / 300);
   const int64_t rays = world.stats.rays.gather;
   EXPECT_GE(rays, samples * 65);  // 64 asked for: 5 x 13 cells
-  EXPECT_LE(rays, samples * 65 * 3 / 2) << "up to half as many more where light changes fast";
+  EXPECT_LE(rays, samples * 65 * 3 / 2 + 2 * 64 * 64) << "up to half as many more where light changes fast, and two for each point that may lie in a slot";
   indirectOf(*services, world, frame);
   EXPECT_EQ(world.stats.irradianceCache.interpolated, world.stats.irradianceCache.lookups);
   EXPECT_GT(world.stats.irradianceCache.lookups, 3000);
   EXPECT_EQ(world.stats.rays.gather, rays);
+}
+
+/// Attribute "grouping" "tracesubset" decides what a record sees, so neighbours with another one cannot use it.
+TEST(GatherPass, ObjectsWhoseRaysSeeDifferentSubsetsShareNoRecords) {
+  SceneBuilder b = cornell(indirect(64));
+  auto blind = std::make_shared<Attributes>(*b.scene.objects[2].attributes);  // the back wall
+  blind->trace.subset = "nothing";
+  b.scene.objects[2].attributes = blind;
+  World world(std::move(b.scene));
+  const DeepFrame frame = frameOf(world, 16);
+  const auto services = world.use({});
+  gatherFrame(*services, frame);
+  ASSERT_EQ(services->caches().size(), 2U);
+  int dark = 0;
+  for (const PreparedCache& c : services->caches())
+    dark += !c.cache.records().empty() && std::all_of(c.cache.records().begin(), c.cache.records().end(), [](const IrradianceRecord& r) { return r.E == vec3(0); });
+  EXPECT_EQ(dark, 1);
 }
 
 TEST(GatherPass, TheCacheDoesNotDependOnThreadsOrBuckets) {
@@ -155,6 +173,30 @@ TEST(GatherPass, UnderASheetAsHighAsAPixelLightIsThatOfTheSlot) {
       }
   EXPECT_GT(seen, 5);
   EXPECT_LT(error / light, 0.25f);
+}
+
+TEST(SheetSearch, NoRayLooksForSheetsNearerThanWhatRaysTakeForTheSurface) {
+  for (const float bound : {0.0f, 0.1f}) {
+    SceneBuilder b;
+    b.quad({-1, -1, 2}, {1, -1, 2}, {1, -1, 4}, {-1, -1, 4}, vec3(0.7f));
+    b.quad({-0.5f, -0.97f, 2}, {0.5f, -0.97f, 2}, {0.5f, -0.97f, 4}, {-0.5f, -0.97f, 4}, vec3(0.7f));
+    for (Object& o : b.scene.objects) {
+      auto attributes = std::make_shared<Attributes>(*o.attributes);
+      attributes->displacement = std::make_shared<ShaderCall>(call("noisybump", {}));
+      attributes->displacementBound = bound;  // which rays do not see
+      o.attributes = attributes;
+    }
+    World world(b.scene);
+    GatherSettings settings;
+    SheetSearch search(world.rays, settings);
+    EXPECT_EQ(search.isUnderSheet({0, {0, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, kInfinity), bound == 0);
+    EXPECT_FALSE(search.isUnderSheet({0, {0.8f, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, kInfinity));
+    EXPECT_FALSE(search.isUnderSheet({0, {0, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, 0.03f)) << "records have met it";
+    if (bound == 0)
+      EXPECT_GE(search.raysTraced(), 1 + 2 + 2);
+    else
+      EXPECT_EQ(search.raysTraced(), 0);
+  }
 }
 
 TEST(GatherPass, ASmallerMaxErrorTakesMoreRecords) {

@@ -98,6 +98,32 @@ TEST(RadiosityMaps, HoldWhatAHitSendsBack) {
   EXPECT_LT(off / sum, 0.02) << "the edges of shadows alone";
 }
 
+/// Its shader lights the side that is seen, of which maps of one-sided surfaces know nothing.
+TEST(RadiosityMaps, DoNotAnswerForTheBackOfWhatIsOneSided) {
+  for (const int sides : {1, 2}) {
+    SceneBuilder b;
+    b.quad({-1, -1, 3}, {1, -1, 3}, {1, 1, 3}, {-1, 1, 3}, vec3(0.5f));
+    auto attributes = std::make_shared<Attributes>(*b.scene.objects[0].attributes);
+    attributes->sides = sides;
+    b.scene.objects[0].attributes = attributes;
+    World world(std::move(b.scene));
+    const auto services = world.use({.mode = GiMode::Radiosity});
+    const RadiosityMaps maps(world.rays, world.shading, world.camera, {}, world.log);
+    int answers = 0;
+    for (const float from : {0.0f, 6.0f}) {
+      const Ray ray{{0.1f, 0.2f, from}, {0, 0, from < 3 ? 1.0f : -1.0f}};
+      const Hit hit = world.rays.closest(ray, kMaskDiffuse);
+      ASSERT_EQ(hit.object, 0);
+      vec3 mapped;
+      const bool back = dot(ray.direction, hit.geometricNormal) > 0;
+      const bool answered = maps.lookup(ray, hit, mapped);
+      EXPECT_EQ(answered, sides == 2 || !back);
+      answers += answered;
+    }
+    EXPECT_EQ(answers, sides);
+  }
+}
+
 TEST(RadiosityMaps, OfATrimmedPatchAreNotDarkAlongItsEdge) {
   SceneBuilder b;
   TrimLoops triangle;

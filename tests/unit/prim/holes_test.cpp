@@ -1,3 +1,5 @@
+#include <set>
+
 #include "tests/unit/prim/support.h"
 
 namespace tomales {
@@ -103,6 +105,76 @@ TEST(PolygonWithHoles, AHoleThatTouchesTheOutlineOrAnotherHole) {
   expectHolesAreOut({kSquare, {{2, 1}, {4, 2}, {2, 3}}});                            // a corner on an edge
   expectHolesAreOut({kSquare, {{2, 1}, {4, 4}, {1, 3}}});                            // on a corner
   expectHolesAreOut({kSquare, {{1, 1}, {2, 2}, {1, 3}}, {{2, 2}, {3, 1}, {3, 3}}});  // two holes at a corner
+}
+
+TEST(PolygonWithHoles, HolesThatTouchTheOutlineAtCorners) {
+  const Loop spike = {{0, 0}, {2, 3.25f}, {3.25f, 3.25f}};  // widens from a corner of the outline
+  expectHolesAreOut({kSquare, spike});
+  expectHolesAreOut({kSquare, spike, {{0, 0}, {1, 0.5f}, {0.5f, 0.25f}}, {{0, 0}, {0.5f, 3}, {0.25f, 3}}});
+  expectHolesAreOut({kSquare, {{0, 0}, {4, 4}, {3, 0.5f}}});  // cuts it in two
+  expectHolesAreOut(
+      {kSquare, {{4, 0}, {1, 1}, {2, 3}}, {{1, 1}, {0.5f, 3}, {0.5f, 1}}});  // one behind the other
+}
+
+/// The loops around a connected set of unit squares, the outline first; where two squares touch at a corner
+/// the walk stays at its own, or passes over.
+std::vector<Loop> loopsAround(const std::set<std::pair<int, int>>& squares, bool stay,
+                              const glm::mat2& place) {
+  using Way = std::array<int, 4>;  // from x, y by dx, dy; the set is to the left
+  std::set<Way> ways;
+  for (const auto& [x, y] : squares) {
+    if (!squares.contains({x, y - 1})) ways.insert({x, y, 1, 0});
+    if (!squares.contains({x + 1, y})) ways.insert({x + 1, y, 0, 1});
+    if (!squares.contains({x, y + 1})) ways.insert({x + 1, y + 1, -1, 0});
+    if (!squares.contains({x - 1, y})) ways.insert({x, y + 1, 0, -1});
+  }
+  std::vector<Loop> loops;
+  while (!ways.empty()) {
+    Loop loop;
+    double twice = 0;
+    for (Way way = *ways.begin(); ways.erase(way);) {
+      loop.push_back(place * vec2(way[0], way[1]));
+      twice += way[0] * way[3] - way[1] * way[2];
+      const int x = way[0] + way[2], y = way[1] + way[3], turned = stay ? 1 : -1;
+      for (const Way& next : {Way{x, y, -turned * way[3], turned * way[2]}, Way{x, y, way[2], way[3]},
+                              Way{x, y, turned * way[3], -turned * way[2]}})
+        if (ways.contains(next)) {
+          way = next;
+          break;
+        }
+    }
+    loops.insert(twice > 0 ? loops.begin() : loops.end(), loop);
+  }
+  return loops;
+}
+
+TEST(PolygonWithHoles, AreaIsExactWhereLoopsTouchThemselvesAndEachOtherAtVertices) {
+  for (uint32_t seed = 0; seed < 400; ++seed) {
+    const auto isGiven = [&](int x, int y) {
+      return x >= 0 && y >= 0 && x < 7 && y < 7 &&
+             unitFloat(hashCombine(seed, static_cast<uint32_t>(x), static_cast<uint32_t>(y))) < 0.65f;
+    };
+    std::set<std::pair<int, int>> squares;
+    std::vector<std::pair<int, int>> found = {{3, 3}};
+    while (!found.empty()) {
+      const auto [x, y] = found.back();
+      found.pop_back();
+      if (!squares.insert({x, y}).second) continue;
+      for (const auto& next :
+           {std::pair(x + 1, y), std::pair(x - 1, y), std::pair(x, y + 1), std::pair(x, y - 1)})
+        if (isGiven(next.first, next.second)) found.push_back(next);
+    }
+    for (const bool stay : {false, true})
+      for (const glm::mat2& place : {glm::mat2(1), glm::mat2(0.8f, 0.6f, -0.5f, 0.9f)}) {
+        const std::vector<Loop> loops = loopsAround(squares, stay, place);
+        double area = areaOf(loops[0]);
+        for (size_t k = 1; k < loops.size(); ++k) area -= areaOf(loops[k]);
+        EXPECT_NEAR(area, static_cast<double>(squares.size()) * glm::determinant(place), 1e-4)
+            << "the test is wrong";
+        expectHolesAreOut(loops);
+        if (HasFailure()) FAIL() << "seed " << seed << " stay " << stay;
+      }
+  }
 }
 
 TEST(PolygonWithHoles, EdgesOfTheHoleAreOpenAndBridgesAreNot) {

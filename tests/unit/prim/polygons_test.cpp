@@ -153,6 +153,8 @@ TEST(Polygon, AreaIsExactForEveryShape) {
              11);                                                   // comb
   expectArea({{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}, 4);          // collinear vertex
   expectArea({{0, 0}, {2, 0}, {2, 0}, {2, 2}, {0, 2}, {0, 0}}, 4);  // repeated vertices
+  expectArea({{0, 0}, {2, 0}, {2, 2}, {4, 2}, {4, 4}, {2, 4}, {2, 2}, {0, 2}},
+             8);  // touches itself at a vertex
   expectArea({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}},
              12);  // a hole by a bridge
 }

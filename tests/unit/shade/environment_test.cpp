@@ -3,6 +3,7 @@
 #include <OpenImageIO/imagebuf.h>
 
 #include <filesystem>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "tests/unit/shade/stage.h"
 
@@ -77,6 +78,31 @@ TEST_F(Environment, AWallThatHidesHalfOfTheSkyTakesHalfOfTheLight) {
     return dot(toward, vec3(std::sin(a), 0, -std::cos(a))) > 0 ? 1.0f : 0.0f;
   };
   EXPECT_NEAR(litBy({0, 0, -1}).x, (1 + std::cos(a)) / 2, 3e-3f);
+}
+
+/// As far as 4 samples tell: behind an opening of 0.2 x 0.2, which fills a 90th of the sky, without portals most pixels would be black.
+TEST_F(Environment, APortalIsTheUnitSquareOfACoordinateSystem) {
+  surface("matte");
+  scene.worldFromNamed["window"] = glm::scale(glm::translate(mat4(1.0f), vec3(0, 0, 4)), vec3(0.2f));  // over (0, 0, 5), whose normal is -z
+  light("environmentlight", {text("portals", "window")});
+  services.visible = [](const vec3& from, const vec3& toward) {
+    const vec3 there = toward.z < 0 ? from - toward * (from.z - 4) / toward.z : vec3(kInfinity);
+    return std::max(std::abs(there.x), std::abs(there.y)) <= 0.1f ? 1.0f : 0.0f;
+  };
+  // Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-3: four quarters of 0.1 x 0.1 at a distance of 1.
+  const float x = 0.1f, root = std::sqrt(1 + x * x), factor = 4 * 2 * x / root * std::atan(x / root) / (2 * kPi);
+  const float lit = litBy({0, 0, -1}, 4).x;
+  EXPECT_NEAR(lit, factor, 0.25f * factor);
+  EXPECT_NEAR(litBy({0, 0, -1}).x, factor, 0.01f * factor);
+  EXPECT_EQ(log.entries().size(), 0u);
+}
+
+TEST_F(Environment, APortalThatIsNotNamedAnywhereIsTold) {
+  surface("matte");
+  scene.worldFromNamed["flat"] = glm::scale(mat4(1.0f), vec3(1, 0, 1));
+  light("environmentlight", {text("portals", "door flat")});
+  expectColor(litBy({0, 0, -1}), vec3(1), 1e-4f);
+  EXPECT_EQ(log.count("light-portal"), 2);
 }
 
 TEST_F(Environment, LinearSkyHasTheIrradianceOfItsClosedForm) {

@@ -70,6 +70,44 @@ TEST(Rate, MotionFactorDicesWhatMovesFarCoarser) {
   EXPECT_NEAR(fine / static_cast<double>(micropolygons(withFactors(scene, 1, 1))), 7.5, 2);
 }
 
+mat4 placed(float z, float size) { return translation({0, 0, z}) * mat4(mat3(size)); }
+
+/// A ball that has these places, evenly over the shutter.
+Scene moving(const std::vector<mat4>& places) {
+  Scene scene = sceneOf({sphere()}, places[0]);
+  scene.options.shutterClose = 1;
+  Motion& motion = scene.objects[0].worldFromObject;
+  motion = {{}, places};
+  for (size_t k = 0; k < places.size(); ++k)
+    motion.times.push_back(static_cast<float>(k) / static_cast<float>(places.size() - 1));
+  scene.freeze();
+  return scene;
+}
+
+TEST(Rate, WhatGrowsOverTheShutterIsDicedForItsLargestSize) {
+  const size_t still = micropolygons(sceneOf({sphere()}, placed(4, 1)));
+  EXPECT_EQ(micropolygons(moving({placed(4, 0.05f), placed(4, 1)})), still);
+  EXPECT_EQ(micropolygons(moving({placed(4, 1), placed(4, 0.05f)})), still);
+  EXPECT_EQ(micropolygons(moving({placed(80, 1), placed(4, 1)})), still);
+  EXPECT_EQ(micropolygons(moving({placed(4, 0.05f), placed(4, 1), placed(4, 0.05f)})), still);
+
+  Scene deforming = sceneOf({sphere(0.05f)}, placed(4, 1));
+  deforming.options.shutterClose = 1;
+  Object& o = deforming.objects[0];
+  o.shapes.push_back(sphere()), o.shapeTimes = {0, 1};
+  deforming.freeze();
+  EXPECT_EQ(micropolygons(deforming), still);
+  deforming.options.shutterClose = 0.5f;  // as large as 0.525
+  deforming.freeze();
+  EXPECT_EQ(micropolygons(deforming), micropolygons(sceneOf({sphere(0.525f)}, placed(4, 1))));
+}
+
+TEST(Rate, WhatLeavesThePictureOrPassesTheEyeIsDicedForWhereItIsSeen) {
+  const size_t still = micropolygons(sceneOf({sphere()}, placed(40, 1)));
+  EXPECT_EQ(micropolygons(moving({placed(40, 1), placed(-4, 1)})), still);
+  EXPECT_EQ(micropolygons(moving({placed(40, 1), translation({3, 0, 1.1f})})), still);
+}
+
 TEST(Rate, MicropolygonsAreInTheMeanAsLargeAsTheShadingRateAsksAndNowhereMuchLarger) {
   for (const float rate : {0.25f, 1.0f, 4.0f}) {
     const Scene scene = sceneOf({sphere()}, translation({0, 0, 4}), rate);
@@ -170,6 +208,21 @@ TEST(Rate, DisksThatAreTakenForDotsUnmeasuredWouldTakeFewCells) {
     }
     EXPECT_GT(dots, 500);
     EXPECT_LT(dots, 1900);
+  }
+}
+
+TEST(Rate, RoundingDoesNotTurnTheCellsOfASquare) {
+  const auto cut = [](float u_px, float v_px) {
+    PatchSize size;
+    size.u.px = u_px, size.v.px = v_px, size.area_px2 = u_px * v_px;
+    return cells(size, 1, 1, false, false);
+  };
+  for (const float px : {9.77f, 3.4f, 17.6f, 5.2f}) {
+    const Cells even = cut(px, px);
+    for (const float other : {std::nextafter(px, 0.0f), std::nextafter(px, 100.0f), px * 1.00001f, px * 0.99999f}) {
+      EXPECT_EQ(cut(px, other).nu, even.nu) << px;
+      EXPECT_EQ(cut(px, other).nv, even.nv) << px;
+    }
   }
 }
 

@@ -1,0 +1,73 @@
+#include "reyes/shade/portals.h"
+
+namespace tomales {
+namespace {
+
+/// The rest goes by the sky itself: as small as keeps what one such sample brings within four times its share.
+constexpr float kShare = 0.75f;
+
+}  // namespace
+
+bool Portals::add(const mat4& currentFromSpace) {
+  const auto at = [&](float x, float y) { return vec3(currentFromSpace * vec4(x, y, 0, 1)); };
+  const vec3 corner = at(-0.5f, -0.5f), u = at(0.5f, -0.5f) - corner, v = at(-0.5f, 0.5f) - corner, normal = cross(u, v);
+  if (!(glm::length(normal) > 0) || !isFinite(normal) || !isFinite(corner)) return false;
+  portals_.push_back({corner, u, v, normal});
+  return true;
+}
+
+/// Its solid angle as if all of it were at its middle, at most half of all directions; 0 behind the horizon.
+float Portals::Portal::weight(const vec3& P, const vec3& N) const {
+  const vec3 corners[] = {corner, corner + u, corner + v, corner + u + v};
+  float highest = N == vec3(0.0f) ? 1.0f : 0.0f;
+  for (const vec3& c : corners) highest = std::max(highest, dot(N, c - P));
+  if (!(highest > 0)) return 0;
+  const vec3 to = corner + 0.5f * (u + v) - P;
+  const float distance = glm::length(to), seen = std::abs(dot(normal, to));
+  return seen < 2 * kPi * distance * distance * distance ? seen / (distance * distance * distance) : 2 * kPi;
+}
+
+float Portals::Portal::density(const vec3& P, const vec3& L) const {
+  const vec3 to = corner - P;
+  const float along = dot(normal, L), area = glm::length(normal);
+  if (along == 0) return 0;
+  const float t = dot(normal, to) / along;
+  if (!(t > 0)) return 0;
+  const vec3 place = t * L - to;
+  const float a = dot(cross(place, v), normal) / (area * area), b = dot(cross(u, place), normal) / (area * area);
+  if (a < 0 || a > 1 || b < 0 || b > 1) return 0;
+  return t * t / std::abs(along);
+}
+
+float Portals::weights(const vec3& P, const vec3& N) const {
+  float sum = 0;
+  for (const Portal& p : portals_) sum += p.weight(P, N);
+  return sum;
+}
+
+float Portals::share(const vec3& P, const vec3& N) const { return weights(P, N) > 0 ? kShare : 0.0f; }
+
+vec3 Portals::sample(const vec3& P, const vec3& N, vec2 xi) const {
+  float left = xi.x * weights(P, N);
+  size_t last = 0;
+  for (size_t k = 0; k < portals_.size(); ++k) {
+    const float weight = portals_[k].weight(P, N);
+    if (!(weight > 0)) continue;
+    last = k, xi.x = std::min(left / weight, 1.0f);
+    if (left < weight) break;
+    left -= weight;
+  }
+  const Portal& p = portals_[last];
+  return normalizeOr(p.corner + xi.x * p.u + xi.y * p.v - P, normalizeOr(p.normal, p.normal));
+}
+
+float Portals::density(const vec3& P, const vec3& N, const vec3& L) const {
+  const float sum = weights(P, N);
+  if (!(sum > 0)) return 0;
+  float density = 0;
+  for (const Portal& p : portals_)
+    if (const float weight = p.weight(P, N); weight > 0) density += weight * p.density(P, L);
+  return density / sum;
+}
+
+}  // namespace tomales

@@ -1,0 +1,70 @@
+// Whole numbers of cells along two lines that have been measured.
+#include <bit>
+#include <cmath>
+
+#include "reyes/split/rate.h"
+
+namespace tomales {
+namespace {
+
+/// How far a chord may leave its arc, at any shading rate: a silhouette's error (docs/decisions/0034).
+constexpr float kFlat_px = 0.25f;
+constexpr float kMostCells = 65536;
+
+/// An edge may be this much longer than that of a square of the area asked.
+constexpr float kLongest = 1.5f;
+/// So much smaller than the cells along two lines, as fractions, may their whole numbers be.
+constexpr float kFewer = 0.9f;
+/// Less than this is better by rounding alone: which way a square piece is cut must not depend on where it stands.
+constexpr float kSquarer = 0.9999f;
+
+/// Whole numbers for two lines that take so many cells: as few as cover the area, the squarest of these.
+Cells fewest(float alongU, float alongV, int leastU, int leastV) {
+  Cells best{0, 0};
+  float bestEdge = kInfinity;
+  for (const float tried : {std::floor(alongU), std::ceil(alongU), alongU / kLongest}) {
+    const int nu = std::max(leastU, static_cast<int>(std::ceil(tried)));
+    const int nv =
+        std::max(leastV, static_cast<int>(std::ceil(kFewer * alongU * alongV / static_cast<float>(nu))));
+    const float edge = std::max(alongU / static_cast<float>(nu), alongV / static_cast<float>(nv));
+    const int64_t count = int64_t{nu} * nv, fewestYet = int64_t{best.nu} * best.nv;
+    if (best.nu > 0 && (count > fewestYet || (count == fewestYet && edge >= kSquarer * bestEdge))) continue;
+    best = {nu, nv}, bestEdge = edge;
+  }
+  return best;
+}
+
+/// Whatever the rate asks: so that the shape does not collapse where blur lets edges grow, and chords are
+/// flat.
+int leastOf(const LineSize& line, float edge_px, float coarsening, bool joins) {
+  constexpr float kLeastOfCoarse = 4;
+  // The hider knows how far a line bulges from two chords on, and closes cracks by that
+  // (docs/decisions/0003).
+  constexpr float kOneChord_px = 0.05f;
+  // A line that a quarter of it leaves by `bend_px` as a second difference: its n-th part bulges by 2 bend /
+  // n^2.
+  const float flat = std::min(std::ceil(std::sqrt(2 * line.bend_px / (kFlat_px * coarsening))), 64.0f);
+  const float fine = std::ceil(line.px / (kLongest * edge_px)),
+              coarse = std::ceil(line.px / (kLongest * edge_px * coarsening));
+  const float n = std::max({coarse, std::min(fine, kLeastOfCoarse), static_cast<float>(line.least), flat,
+                            joins && 2 * line.bend_px > kOneChord_px ? 2.0f : 1.0f});
+  return n >= 1.0f ? static_cast<int>(std::min(n, kMostCells)) : 1;
+}
+
+}  // namespace
+
+Cells cells(const PatchSize& size, float edge_px, float coarsening, bool binary, bool joins) {
+  const float square = size.area_px2 / (size.u.px * size.v.px);
+  const float edges = std::sqrt(square < 1.0f ? square : 1.0f) / (edge_px * coarsening);
+  const auto along = [&](const LineSize& line) {
+    return line.px > 0 && edges > 0 ? std::min(line.px * edges, kMostCells) : 0.0f;
+  };
+  const Cells n = fewest(along(size.u), along(size.v), leastOf(size.u, edge_px, coarsening, joins),
+                         leastOf(size.v, edge_px, coarsening, joins));
+  const auto whole = [binary](int count) {
+    return binary ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(count))) : count;
+  };
+  return {whole(n.nu), whole(n.nv)};
+}
+
+}  // namespace tomales

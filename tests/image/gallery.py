@@ -1,0 +1,64 @@
+"""The gallery's scenes as pictures of one world each, and what they name, made beside them: plugins, brick maps, maps that earlier frames render."""
+import dataclasses
+import os
+import pathlib
+import re
+import subprocess
+
+# What the files' comments and READMEs say that they are rendered with; of fewer photons.
+BEFORE = {"displaced/full.rib": "displaced/displaced.rib"}
+OPTIONS = {"shading/milk.rib": ("--gi", "atlas", "--atlas", "maps", "--photons", "100000", "--bounces", "20")}
+# File -> its source, where that has another name.
+PLUGINS = {"stonesurface": "stone"}
+
+
+@dataclasses.dataclass
+class Picture:
+    name: str
+    text: str    # RIB of one world
+    maps: str    # what has to be rendered first, "" for most: the frames before
+    options: tuple
+
+    @property
+    def has_photons(self):
+        return "--photons" in self.options
+
+
+def pictures_of(path, root):
+    """Frames that only make maps are none."""
+    name = str(path.relative_to(root / "scenes"))
+    text = path.read_text(errors="replace").replace("../../docs", str(root / "docs"))
+    text = re.sub(r"^Transform \[", "ConcatTransform [", text, flags=re.M)  # the same before the world, but for what tests put before it
+    if name in BEFORE:
+        text += (root / "scenes" / BEFORE[name]).read_text()
+    head, *frames = re.split(r"^(?=FrameBegin)", text, flags=re.M)
+    if not frames:
+        return [Picture(name, text, "", OPTIONS.get(name, ()))]
+    alone = [head + re.sub(r"^Frame(Begin.*|End[^$]*)", "", frame, flags=re.M) for frame in frames]
+    return [Picture(f"{name}, frame {k + 1}", alone[k], head + "".join(frames[:k]) if k else "", ()) for k, frame in enumerate(frames)
+            if re.search(r'^\s*Display .*"rgba?"', frame, flags=re.M)]
+
+
+def has_to_be_furnished(text):
+    return "plugins:" in text or "slide.png" in text or ".bkm" in text
+
+
+def furnish(tomales, root, text, folder):
+    """Makes what RIB names that other commands make."""
+    if "plugins:" in text:
+        (folder / "plugins").mkdir()
+        for plugin in sorted(set(re.findall(r'"(\w+)"', text))):
+            source = root / "docs/rsl_plugins" / f"{PLUGINS.get(plugin, plugin)}.cpp"
+            if source.exists():
+                subprocess.run([os.environ.get("CXX", "c++"), "-O1", "-std=c++17", "-shared", "-fPIC", "-I", root, source, "-o", folder / f"plugins/{plugin}.so"], check=True)
+    if "slide.png" in text:
+        (folder / "slide.png").symlink_to(root / "docs/images/displaced.png")
+    if "cornell.bkm" in text:
+        make_brick_map(tomales, root, folder)
+
+
+def make_brick_map(tomales, root, folder):
+    """As scenes/primitives/brickmap.rib says."""
+    for step in (("photons", root / "scenes/cornell/cornell.rib", "-o", "photons", "--photons", "20000"), ("irradiance", "photons", "-o", "irradiance"),
+                 ("brickmake", "irradiance", "-o", "cornell.bkm", "--relative", "--maxerror", "0.1")):
+        subprocess.run([tomales, *map(str, step)], cwd=folder, check=True, capture_output=True)
