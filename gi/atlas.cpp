@@ -36,7 +36,7 @@ std::vector<double> boxAreas(const Scene& scene) {
 }
 
 /// Counted up when the same inputs begin to make other files.
-constexpr uint32_t kMethod = 5;
+constexpr uint32_t kMethod = 7;
 
 uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
   const auto& [emit, maxDepth, seed, direct] = settings.photons;
@@ -162,11 +162,11 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
   const PhotonFigures figures = tracePhotons(
       scene, rays, shading, settings.photons,
       [&](const StoredPhoton& p) {
-        const vec3 P = transformPoint(world.points, p.P);
-        if (p.group < 0) return files.at(names.volume).add(P, vec3(0), 0, &p.power.x);
+        const vec3 P = transformPoint(world.points, p.P), power = world.scale * world.scale * p.power;
+        if (p.group < 0) return files.at(names.volume).add(P, vec3(0), 0, &power.x);
         const vec3 N = normalizeOr(world.normals * p.N, vec3(0, 0, 1));
         const auto group = static_cast<size_t>(p.group);
-        const std::array values{p.power.x, p.power.y, p.power.z, static_cast<float>(names.surface[group])};
+        const std::array values{power.x, power.y, power.z, static_cast<float>(names.surface[group])};
         global[group]->add(P, N, 0, values.data());
         if (p.caustic && caustic[group]) caustic[group]->add(P, N, 0, values.data());
       },

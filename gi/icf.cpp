@@ -27,13 +27,13 @@ void fields(A& a, GatherPlan& x) {
 
 template <class A>
 void fields(A& a, EmitterLattice& x) {
-  auto& [columns, rows, flips, quads, normals, curved, surface, firstQuad] = x;
+  auto& [columns, rows, flips, quads, normals, curved, surface, firstQuad, group] = x;
   each(a, columns, rows, flips, quads, normals);
 }
 
 template <class A>
 void fields(A& a, EmitterShape& x) {
-  auto& [kind, center, u, v, normal] = x;
+  auto& [kind, center, u, v, normal, group] = x;
   each(a, kind, center, u, v, normal);
 }
 

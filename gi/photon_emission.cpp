@@ -15,6 +15,11 @@ constexpr int kGrid = 128;                 ///< Cells along the side of a distan
 constexpr uint32_t kSecondPair = 0x70686f74U;
 /// Share of the brightest cell that cells where no probe saw light are given: a beam between the probes is not lost.
 constexpr double kFloor = 1e-3;
+constexpr float kPointBias = 1e-5f;        ///< Of the size of the scene and the distance of its origin: point lights may lie on surfaces.
+constexpr float kLeastCosine = 1.0f / 16;  ///< Of photons that leave area lights: what is flatter, one in 256, may still meet the lamp's own polygons.
+constexpr uint32_t kFewSamples = 64;       ///< Of a light that is sampled: places or directions by which its width is known,
+constexpr float kSampledMargin = 1.2f;     ///< and how much wider it is taken for: the outermost is none of those.
+constexpr float kSkyDistance = 1.01f;      ///< From the middle of the scene to where photons from outside begin, in radii.
 
 vec3 sphereDirection(size_t cell, vec2 at) {
   const auto row = static_cast<float>(cell / kColumns), column = static_cast<float>(cell % kColumns);
@@ -29,8 +34,14 @@ vec2 probePlace(int probe) { return {probe & 1 ? 0.75f : 0.25f, probe & 2 ? 0.75
 Distribution withFloor(const std::vector<double>& weights) {
   const double floor = kFloor * *std::max_element(weights.begin(), weights.end());
   Distribution out;
-  for (const double w : weights) out.add(w < 0 ? 0 : std::max(w, floor));
+  for (const double w : weights) out.add(std::max(w, floor));
   return out;
+}
+
+std::vector<vec2> fewSamples() {
+  std::vector<vec2> xi;
+  for (uint32_t i = 0; i < kFewSamples; ++i) xi.push_back(sobol2(i, kSecondPair));
+  return xi;
 }
 
 vec2 concentricDisk(vec2 xi) {
@@ -60,38 +71,73 @@ PhotonSource::PhotonSource(int light, const ShadingSystem& shading, const RaySce
 }
 
 void PhotonSource::surveyPoint() {
-  LightProbe where{{center_}, {vec3(0, 0, 1)}, {}, {}, {}, {}};
-  shading_.probe(light_, where);
-  position_ = center_ + where.L[0];
-  const vec3 toScene = center_ - position_;
-  const float distance = glm::length(toScene);
-  // Outside the scene's sphere, only the cone to it counts, wider by a cell.
-  const float least = distance > radius_ ? std::cos(std::min(kPi, std::asin(radius_ / distance) + 0.06f)) : -2.0f;
+  middle_ = askedFromMiddle({vec2(0.5f)}).L[0];
+  float spread = 0;
+  for (const vec3& place : askedFromMiddle(fewSamples()).L) spread = std::max(spread, kSampledMargin * glm::distance(place, middle_));
+  aimAt(radius_ + spread);
   LightProbe probe;
-  std::vector<double> weights(kRows * kColumns, -1.0);
-  std::vector<size_t> cells;
-  for (size_t c = 0; c < weights.size(); ++c) {
-    if (dot(sphereDirection(c, vec2(0.5f)), normalizeOr(toScene, vec3(0))) < least) continue;
-    cells.push_back(c);
-    for (int k = 0; k < kProbes; ++k) {
-      const vec3 d = sphereDirection(c, probePlace(k));
-      probe.P.push_back(position_ + d), probe.N.push_back(-d);
-    }
-  }
+  for (size_t c = 0; c < kRows * kColumns; ++c)
+    for (int k = 0; k < kProbes; ++k) askAlong(inCone(c, probePlace(k)), vec3(0), probe);
   shading_.probe(light_, probe);
-  for (size_t i = 0; i < cells.size(); ++i) {
+  std::vector<double> weights;
+  for (size_t c = 0; c < kRows * kColumns; ++c) {
     double sum = 0;
-    for (size_t k = 0; k < kProbes; ++k) sum += double{luminance(probe.Cl[i * kProbes + k])};
-    weights[cells[i]] = sum / kProbes;
-    power_ += sum / kProbes * double{kPi} * kCellSolidAngle;
+    for (size_t k = 0; k < kProbes; ++k) sum += double{luminance(intensity(probe, c * kProbes + k))};
+    weights.push_back(sum / kProbes);
+    power_ += sum / kProbes * double{kPi} * cellSolidAngle();
   }
   if (power_ > 0) cells_ = withFloor(weights);
 }
 
+/// From outside a sphere around the scene only the cone to it counts, however far away the light is.
+void PhotonSource::aimAt(float radius) {
+  const float distance = glm::length(middle_);
+  if (distance <= radius) return;
+  const vec3 axis = -middle_ / distance;
+  vec3 tangent, bitangent;
+  orthonormalBasis(axis, tangent, bitangent);
+  const double sine = double{radius} / double{distance};
+  cone_ = {mat3(tangent, bitangent, axis), static_cast<float>(sine * sine / (1 + std::sqrt(1 - sine * sine))), distance,
+           std::max(0.0f, distance - kSkyDistance * radius)};
+}
+
+/// A direction by its place in the frame of the cone, but for its height, of which it is what is missing from 1: narrow cones keep their precision.
+vec3 PhotonSource::inCone(size_t cell, vec2 at) const {
+  const auto row = static_cast<float>(cell / kColumns), column = static_cast<float>(cell % kColumns);
+  const float missing = cone_.height * (row + at.y) / kRows, phi = 2 * kPi * (column + at.x) / kColumns;
+  const float r = std::sqrt(std::max(0.0f, missing * (2 - missing)));
+  return {r * std::cos(phi), r * std::sin(phi), missing};
+}
+
+double PhotonSource::cellSolidAngle() const { return 2 * double{kPi} * double{cone_.height} / (kRows * kColumns); }
+
+vec3 PhotonSource::directionOf(const vec3& inCone) const { return cone_.frame * vec3(inCone.x, inCone.y, 1 - inCone.z); }
+
+/// So far from the light. Places far from it are known by their distance from the middle of the scene.
+vec3 PhotonSource::placeAlong(const vec3& inCone, float distance) const {
+  const vec3 from = cone_.distance > 0 ? vec3(0) : middle_;
+  return center_ + from + cone_.frame * vec3(distance * inCone.x, distance * inCone.y, (distance - cone_.distance) - distance * inCone.z);
+}
+
+/// At the scene if the light is outside: what its distance does to it is its shader's affair.
+float PhotonSource::askingDistance() const { return cone_.distance > 0 ? cone_.distance : 1.0f; }
+
+void PhotonSource::askAlong(const vec3& inCone, const vec3& offset, LightProbe& probe) const {
+  probe.P.push_back(placeAlong(inCone, askingDistance()) + offset), probe.N.push_back(-directionOf(inCone));
+}
+
+/// I = E r^2 over pi.
+vec3 PhotonSource::intensity(const LightProbe& probe, size_t i) const { return probe.Cl[i] * (askingDistance() * askingDistance()); }
+
 void PhotonSource::surveyDistant(const PhotonTarget& target) {
-  LightProbe probe{{center_}, {vec3(0, 0, 1)}, {}, {}, {}, {}};
-  shading_.probe(light_, probe);
-  direction_ = normalizeOr(-probe.L[0], vec3(0, 0, 1));
+  const LightProbe probe = askedFromMiddle(fewSamples());
+  direction_ = normalizeOr(-std::accumulate(probe.L.begin(), probe.L.end(), vec3(0)), vec3(0, 0, 1));
+  // Shadows along any of its directions lie about those along the middle one (emitFromDistance).
+  float spread = 0, brightness = 0;
+  for (size_t i = 0; i < kFewSamples; ++i) {
+    spread = std::max(spread, kSampledMargin * radius_ * glm::length(probe.L[i] + direction_));
+    brightness += luminance(probe.Cl[i]) / kFewSamples;
+  }
   vec3 tangent, bitangent;
   orthonormalBasis(direction_, tangent, bitangent);
   // The shadow of every object's box on the square: nothing is sent to where there is nothing.
@@ -105,12 +151,12 @@ void PhotonSource::surveyDistant(const PhotonTarget& target) {
       const vec3 off = b.corner(k) - center_;
       shadow.extend(vec2(dot(off, tangent), dot(off, bitangent)));
     }
-    for (int y = cellAt(shadow.lo.y); y <= cellAt(shadow.hi.y); ++y)
-      std::fill_n(weights.begin() + y * kGrid + cellAt(shadow.lo.x), cellAt(shadow.hi.x) - cellAt(shadow.lo.x) + 1, 1.0);
+    const int left = cellAt(shadow.lo.x - spread), right = cellAt(shadow.hi.x + spread);
+    for (int y = cellAt(shadow.lo.y - spread); y <= cellAt(shadow.hi.y + spread); ++y) std::fill_n(weights.begin() + y * kGrid + left, right - left + 1, 1.0);
   }
   for (const double w : weights) cells_.add(w);
   const double cellArea = std::pow(2 * double{radius_} / kGrid, 2);
-  power_ = double{luminance(probe.Cl[0])} * double{kPi} * cellArea * cells_.total();
+  power_ = double{brightness} * double{kPi} * cellArea * cells_.total();
 }
 
 void PhotonSource::surveySky() {
@@ -143,40 +189,56 @@ void PhotonSource::emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton
     return xi;
   };
   const std::vector<vec2> a = pairs(stream), b = pairs(hashCombine(stream, kSecondPair));
-  if (kind_ == LightKind::Point) emitFromPoint(a, out);
-  if (kind_ == LightKind::Distant) emitFromDistance(a, out);
+  if (kind_ == LightKind::Point) emitFromPoint(a, b, out);
+  if (kind_ == LightKind::Distant) emitFromDistance(a, b, out);
   if (kind_ == LightKind::Sky) emitFromSky(a, b, out);
   if (kind_ == LightKind::Area) emitFromArea(a, b, out);
 }
 
-void PhotonSource::emitFromPoint(const std::vector<vec2>& a, std::vector<EmittedPhoton>& out) const {
+LightProbe PhotonSource::askedFromMiddle(const std::vector<vec2>& xi) const {
   LightProbe probe;
+  probe.P.assign(xi.size(), center_), probe.N.assign(xi.size(), vec3(0, 0, 1)), probe.xi = xi;
+  shading_.probe(light_, probe);
+  for (vec3& L : probe.L) L = kind_ == LightKind::Distant ? normalizeOr(L, vec3(0, 0, -1)) : L;
+  return probe;
+}
+
+void PhotonSource::emitFromPoint(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const {
+  const LightProbe place = askedFromMiddle(b);  // a light that is sampled is not at one place alone
+  LightProbe probe;
+  probe.xi = b;
   std::vector<double> density;
   for (size_t i = 0; i < out.size(); ++i) {
     double x{a[i].x};
     const size_t cell = cells_.pick(x);
-    out[i].origin = position_;
-    out[i].direction = sphereDirection(cell, {static_cast<float>(x), a[i].y});
-    density.push_back(cells_.weight(cell) / (cells_.total() * kCellSolidAngle));
-    probe.P.push_back(position_ + out[i].direction), probe.N.push_back(-out[i].direction);
+    const vec3 local = inCone(cell, {static_cast<float>(x), a[i].y}), offset = place.L[i] - middle_;
+    Ray& ray = out[i].ray;
+    ray = {placeAlong(local, cone_.start) + offset, directionOf(local)};
+    ray.bias = kPointBias * (radius_ + glm::length(ray.origin));
+    density.push_back(cells_.weight(cell) / (cells_.total() * cellSolidAngle()));
+    askAlong(local, offset, probe);
   }
-  shading_.probe(light_, probe);  // intensity I = E r^2, one unit away
-  for (size_t i = 0; i < out.size(); ++i) out[i].power = probe.Cl[i] * kPi / static_cast<float>(density[i]);
+  shading_.probe(light_, probe);
+  for (size_t i = 0; i < out.size(); ++i) out[i].power = intensity(probe, i) * kPi / static_cast<float>(density[i]);
 }
 
-void PhotonSource::emitFromDistance(const std::vector<vec2>& a, std::vector<EmittedPhoton>& out) const {
+void PhotonSource::emitFromDistance(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const {
   vec3 tangent, bitangent;
   orthonormalBasis(direction_, tangent, bitangent);
+  const LightProbe sun = askedFromMiddle(b);
   LightProbe probe;
+  probe.xi = b;
   const float side = 2 * radius_ / kGrid;
   for (size_t i = 0; i < out.size(); ++i) {
     double x{a[i].x};
     const size_t cell = cells_.pick(x);
     const vec2 at = side * vec2(static_cast<float>(cell % kGrid) + static_cast<float>(x), static_cast<float>(cell / kGrid) + a[i].y) -
                     vec2(radius_);
-    out[i].origin = center_ + at.x * tangent + at.y * bitangent - 1.01f * radius_ * direction_;
-    out[i].direction = direction_;
-    probe.P.push_back(out[i].origin), probe.N.push_back(-direction_);
+    // The square turns with the direction by the shortest way: whatever its shadow, it moves by less than that does.
+    const vec3 d = -sun.L[i], across = at.x * tangent + at.y * bitangent;
+    const vec3 turned = across - dot(across, d) / std::max(1 + dot(direction_, d), 1e-6f) * (direction_ + d);
+    out[i].ray = {center_ + turned - kSkyDistance * radius_ * d, d};
+    probe.P.push_back(out[i].ray.origin), probe.N.push_back(-d);
   }
   shading_.probe(light_, probe);
   const float area = side * side * static_cast<float>(cells_.total());
@@ -192,8 +254,8 @@ void PhotonSource::emitFromSky(const std::vector<vec2>& a, const std::vector<vec
     orthonormalBasis(toSky, tangent, bitangent);
     const vec2 at = radius_ * concentricDisk(b[i]);
     const auto density = static_cast<float>(cells_.weight(cell) / (cells_.total() * kCellSolidAngle));
-    out[i] = {center_ + at.x * tangent + at.y * bitangent + 1.01f * radius_ * toSky, -toSky,
-              shading_.skyRadiance(light_, toSky) * (kPi * radius_ * radius_ / density)};
+    out[i].ray = {center_ + at.x * tangent + at.y * bitangent + kSkyDistance * radius_ * toSky, -toSky};
+    out[i].power = shading_.skyRadiance(light_, toSky) * (kPi * radius_ * radius_ / density);
   }
 }
 
@@ -204,8 +266,9 @@ void PhotonSource::emitFromArea(const std::vector<vec2>& a, const std::vector<ve
     for (int k = 0; k < 3; ++k) v[k].resize(n);
   for (size_t i = 0; i < n; ++i) xi0[i] = a[i].x, xi1[i] = a[i].y;
   const TmVec3 P{place[0].data(), place[1].data(), place[2].data()}, N{normal[0].data(), normal[1].data(), normal[2].data()};
-  if (!rays_.emitters().sample(light_, static_cast<int>(n), xi0.data(), xi1.data(), P, N, area.data())) {
-    std::fill(out.begin(), out.end(), EmittedPhoton{vec3(0), vec3(0, 0, 1), vec3(0)});
+  std::vector<int> group(n);
+  if (!rays_.emitters().sample(light_, static_cast<int>(n), xi0.data(), xi1.data(), P, N, area.data(), group.data())) {
+    std::fill(out.begin(), out.end(), EmittedPhoton{});
     return;
   }
   LightProbe probe;
@@ -213,10 +276,13 @@ void PhotonSource::emitFromArea(const std::vector<vec2>& a, const std::vector<ve
     const vec3 Nl(N.x[i], N.y[i], N.z[i]), local = cosineHemisphere(b[i]);
     vec3 tangent, bitangent;
     orthonormalBasis(Nl, tangent, bitangent);
-    out[i].origin = vec3(P.x[i], P.y[i], P.z[i]);
-    out[i].direction = local.x * tangent + local.y * bitangent + local.z * Nl;
-    probe.Pl.push_back(out[i].origin), probe.Nl.push_back(Nl);
-    probe.P.push_back(out[i].origin + out[i].direction), probe.N.push_back(-out[i].direction);
+    Ray& ray = out[i].ray;
+    ray = {vec3(P.x[i], P.y[i], P.z[i]), local.x * tangent + local.y * bitangent + local.z * Nl};
+    // The polygons that rays see may lie before the surface that shines.
+    rays_.prepareOrigin(group[i], ray.origin, 0, ray);
+    ray.offset /= std::max(local.z, kLeastCosine);
+    probe.Pl.push_back(ray.origin), probe.Nl.push_back(Nl);
+    probe.P.push_back(ray.origin + ray.direction), probe.N.push_back(-ray.direction);
   }
   shading_.probe(light_, probe);
   // A Lambertian emitter of radiance L sends pi L from each unit of area.

@@ -9,7 +9,7 @@ namespace tomales {
 
 /// Current space.
 struct EmittedPhoton {
-  vec3 origin, direction;
+  Ray ray;
   vec3 power{0.0f};  ///< As if this were the only photon; zero: the light sends nothing there.
 };
 
@@ -37,8 +37,18 @@ class PhotonSource {
   void surveyDistant(const PhotonTarget& target);
   void surveySky();
   void surveyArea();
-  void emitFromPoint(const std::vector<vec2>& a, std::vector<EmittedPhoton>& out) const;
-  void emitFromDistance(const std::vector<vec2>& a, std::vector<EmittedPhoton>& out) const;
+  void aimAt(float radius);
+  vec3 inCone(size_t cell, vec2 at) const;
+  double cellSolidAngle() const;
+  vec3 directionOf(const vec3& inCone) const;
+  vec3 placeAlong(const vec3& inCone, float distance) const;
+  float askingDistance() const;
+  void askAlong(const vec3& inCone, const vec3& offset, LightProbe& probe) const;
+  vec3 intensity(const LightProbe& probe, size_t i) const;
+  /// At the middle of the scene; L of a distant light is unit.
+  LightProbe askedFromMiddle(const std::vector<vec2>& xi) const;
+  void emitFromPoint(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const;
+  void emitFromDistance(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const;
   void emitFromSky(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const;
   void emitFromArea(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const;
 
@@ -47,10 +57,16 @@ class PhotonSource {
   const RayScene& rays_;
   const LightKind kind_;
   double power_ = 0;
-  Distribution cells_;      ///< Point, Sky: of the sphere of directions. Distant: of the square that the scene's shadow fits in.
-  vec3 position_{0.0f};     ///< Point
-  vec3 direction_{0.0f};    ///< Distant: of its light.
-  vec3 center_{0.0f};       ///< Distant, Sky: of the scene.
+  Distribution cells_;      ///< Point: of the cone. Sky: of the sphere of directions. Distant: of the square that the scene's shadow fits in.
+  vec3 middle_{0.0f};       ///< Point: from the middle of the scene to that of the light.
+  struct Cone {
+    mat3 frame{1.0f};       ///< The third axis towards the scene.
+    float height = 2;       ///< 1 - the cosine of half its angle.
+    float distance = 0;     ///< Of the light from the middle of the scene. 0: it is within, and sends photons all around.
+    float start = 0;        ///< How far from the light its photons begin.
+  } cone_;                  ///< Point: of directions.
+  vec3 direction_{0.0f};    ///< Distant: of the middle of its light.
+  vec3 center_{0.0f};       ///< Of the scene.
   float radius_ = 0;        ///< Likewise
 };
 

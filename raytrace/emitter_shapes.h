@@ -14,6 +14,7 @@ struct EmitterShape {
   vec3 center{0};
   vec3 u{1, 0, 0}, v{0, 1, 0};  ///< Perpendicular. Rectangle: halves of its edges; disk: radii; sphere: u alone is a radius.
   vec3 normal{0, 0, 1};         ///< Unit, of the shining side; spheres shine outwards.
+  int group = -1;               ///< Of Scene::groups, that it is of; -1: not known.
 
   float area() const;
 };

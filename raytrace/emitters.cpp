@@ -31,7 +31,7 @@ bool isCurved(const Scene& scene, const Lattice& lattice) {
 
 EmitterLattice latticeOf(const Scene& scene, const CoarseGroup& g, const Lattice& lattice) {
   const bool curved = isCurved(scene, lattice);
-  EmitterLattice out{lattice.nu, lattice.nv, g.flipsNormal, {}, {}, curved, curved || lattice.trim ? &g : nullptr, lattice.firstQuad};
+  EmitterLattice out{lattice.nu, lattice.nv, g.flipsNormal, {}, {}, curved, curved || lattice.trim ? &g : nullptr, lattice.firstQuad, -1};
   for (uint32_t quad = lattice.firstQuad; quad < lattice.firstQuad + lattice.nu * lattice.nv; ++quad) {
     out.quads.push_back({g.corner(quad, 0), g.corner(quad, 1), g.corner(quad, 2), g.corner(quad, 3)});
     out.normals.push_back(g.geometricNormal(quad));
@@ -66,22 +66,24 @@ std::optional<EmitterShape> roundShape(const Scene& scene, int object) {
 std::optional<EmitterShape> rectangle(const EmitterLattice& lattice) {
   if (lattice.surface || lattice.quads.size() != 1) return std::nullopt;
   const auto& [a, b, c, d] = lattice.quads[0];
-  const EmitterShape out{EmitterShape::Kind::Rectangle, 0.5f * (a + c), 0.5f * (b - a), 0.5f * (d - a), lattice.normals[0]};
+  const EmitterShape out{EmitterShape::Kind::Rectangle, 0.5f * (a + c), 0.5f * (b - a), 0.5f * (d - a), lattice.normals[0], lattice.group};
   const float u = glm::length(out.u), v = glm::length(out.v);
   const bool straight = glm::length(a + c - b - d) <= 1e-5f * (u + v) && std::abs(dot(out.u, out.v)) <= 1e-5f * u * v;
   return u > 0 && v > 0 && straight ? std::optional(out) : std::nullopt;
 }
 
-void addEmitters(const Scene& scene, const CoarseGroup& group, EmitterLight& out) {
+void addEmitters(const Scene& scene, const CoarseGroup& group, int number, EmitterLight& out) {
   int round = -1;  // the last object that was
   for (const Lattice& lattice : group.lattices) {
     if (lattice.object == round) continue;
     if (const auto shape = roundShape(scene, lattice.object)) {
       out.shapes.push_back(*shape);
+      out.shapes.back().group = number;
       round = lattice.object;
       continue;
     }
     EmitterLattice quads = latticeOf(scene, group, lattice);
+    quads.group = number;
     if (const auto shape = rectangle(quads))
       out.shapes.push_back(*shape);
     else
@@ -96,7 +98,7 @@ EmitterTable tableOf(const Scene& scene, const std::vector<CoarseGroup>& groups)
     if (light < 0 || light >= static_cast<int>(table.size())) continue;
     EmitterLight& out = table[static_cast<size_t>(light)];
     out.reach = std::max(out.reach, kOffsetFactor * groups[g].deviation);
-    addEmitters(scene, groups[g], out);
+    addEmitters(scene, groups[g], static_cast<int>(g), out);
   }
   return table;
 }
@@ -168,6 +170,7 @@ Emitters::AreaPoint Emitters::onLattice(const EmitterLight& light, const Source&
   const size_t row = source.rows.pick(v), column = source.row[row].pick(u);
   const size_t quad = row * lattice.columns + column;
   AreaPoint out;
+  out.group = lattice.group;
   vec3 normal;
   place(lattice, quad, static_cast<float>(u), static_cast<float>(v), out.P, normal);
   const double quadArea = source.row[row].weight(column);
@@ -226,7 +229,7 @@ void Emitters::meet(int light, int count, TmConstVec3 from, TmConstVec3 directio
 }
 
 bool Emitters::sample(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N,
-                      float* area) const {
+                      float* area, int* group) const {
   if (!shines(light)) return false;
   const EmitterLight& emitters = given(light);
   const Light& l = sources(light);
@@ -236,11 +239,12 @@ bool Emitters::sample(int light, int count, const float* xi0, const float* xi1, 
     AreaPoint p;
     if (pick < emitters.shapes.size()) {
       const SeenPoint onShape = sampleArea(emitters.shapes[pick], {static_cast<float>(u), xi1[i]});
-      p = {onShape.P, onShape.N, 1 / double{onShape.density}};
+      p = {onShape.P, onShape.N, 1 / double{onShape.density}, emitters.shapes[pick].group};
     } else {
       p = onLattice(emitters, l.sources[pick - emitters.shapes.size()], u, double{xi1[i]});
     }
     area[i] = static_cast<float>(p.area * l.areas.total() / l.areas.weight(pick));
+    if (group) group[i] = p.group;
     P.x[i] = p.P.x, P.y[i] = p.P.y, P.z[i] = p.P.z;
     N.x[i] = p.N.x, N.y[i] = p.N.y, N.z[i] = p.N.z;
   }

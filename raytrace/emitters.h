@@ -20,6 +20,7 @@ struct EmitterLattice {
   bool curved = false;                     ///< The quads stand for another surface.
   const CoarseGroup* surface = nullptr;    ///< Asked for every point where it is curved or trim curves cut it; else null.
   uint32_t firstQuad = 0;                  ///< Number of the first quad there.
+  int group = -1;                          ///< As EmitterShape::group.
 };
 struct EmitterLight {
   std::vector<EmitterShape> shapes;
@@ -49,9 +50,9 @@ class Emitters {
   /// Points of the light as a whole, wherever they are seen from. xi0 picks the lattice, xi1 its row and v, what is left of xi0 the
   /// column and u, all by area: a continuous warp of the unit square over each lattice, so that stratified points
   /// stay stratified. `area` is the Jacobian over the probability of the quad: the total area wherever quads are
-  /// parallelograms.
+  /// parallelograms. `group`: as EmitterShape::group; may be null.
   bool sample(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N,
-              float* area) const;
+              float* area, int* group = nullptr) const;
 
  private:
   struct Source {
@@ -70,6 +71,7 @@ class Emitters {
   struct AreaPoint {
     vec3 P{0}, N{0};
     double area = 0;                ///< That it stands for; 0: trimmed away
+    int group = -1;
   };
   bool known(int light) const { return light >= 0 && light < static_cast<int>(lights_.size()); }
   const EmitterLight& given(int light) const { return table_[static_cast<size_t>(light)]; }

@@ -209,6 +209,7 @@ enum class LightKind { None, Ambient, Point, Distant, Sky, Area, Indirect };
 struct LightProbe {
   std::vector<vec3> P, N;    ///< In: points to be lit, with their normals.
   std::vector<vec3> Pl, Nl;  ///< In, for LightKind::Area alone: points on the emitter.
+  std::vector<vec2> xi;      ///< In, for lights that are sampled: where one of one sample lies; none: in the middle.
   std::vector<vec3> L;       ///< Out: from P to the light.
   std::vector<vec3> Cl;      ///< Out: E/pi at normal incidence; for LightKind::Area the radiance of the emitter.
 };
@@ -284,7 +285,7 @@ class ShadingSystem {
   bool tracesRays(int group) const;     ///< Does its surface shader ask for rays, and not for occlusion() or highlights alone?
   bool asksOcclusion(int group) const;  ///< May a shader of the group call occlusion() so that answers may be interpolated?
 
-  LightKind lightKind(int light) const;  ///< None: its shader is missing, or it lights only what the camera sees.
+  LightKind lightKind(int light) const;  ///< None: its shader is missing, or it lights nothing diffuse that gather rays see.
   void probe(int light, LightProbe& probe) const;
   /// Radiance that a LightKind::Sky sends from infinity in a direction (current space, unit) that points to it.
   vec3 skyRadiance(int light, const vec3& direction) const;

@@ -148,6 +148,9 @@ void Batch::setLit(const LightProbe& probe, const BoundShader& shader) {
   if (!probe.Pl.empty()) tm.Pl = view(copy(probe.Pl)), tm.Nl = view(copy(probe.Nl));
   tm.L = arena.vec3(n), tm.Cl = arena.vec3(n);
   tm.sample = 0, tm.samples = 1;
+  float *xi0 = arena.floats(n), *xi1 = arena.floats(n);
+  for (size_t i = 0; i < probe.P.size(); ++i) xi0[i] = probe.xi.empty() ? 0.5f : probe.xi[i].x, xi1[i] = probe.xi.empty() ? 0.5f : probe.xi[i].y;
+  tm.xi0 = xi0, tm.xi1 = xi1;
 }
 
 void Batch::setPixels(ShadedPixels& p, const BoundShader& shader) {

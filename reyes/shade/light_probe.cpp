@@ -15,12 +15,12 @@ void ShadeServices::storedIrradiance(const ShadePoints& points, const uint8_t* a
 
 LightKind ShadingSystem::lightKind(int light) const {
   const auto& l = impl_->lights[static_cast<size_t>(light)];
-  if (!l || !l->indirect) return LightKind::None;
+  if (!l || !l->indirect || l->nondiffuse) return LightKind::None;
   if (l->can(TM_LIGHT_INDIRECT)) return LightKind::Indirect;
   if (l->can(TM_LIGHT_AMBIENT)) return LightKind::Ambient;
   if (l->can(TM_LIGHT_AREA)) return LightKind::Area;
   if (l->can(TM_LIGHT_SKY)) return LightKind::Sky;
-  if (l->can(TM_LIGHT_SOLAR)) return l->can(TM_LIGHT_SAMPLED) ? LightKind::None : LightKind::Distant;
+  if (l->can(TM_LIGHT_SOLAR)) return LightKind::Distant;
   return LightKind::Point;
 }
 
@@ -46,7 +46,7 @@ vec3 ShadingSystem::skyRadiance(int light, const vec3& direction) const {
   const ShadeContext context;
   ArenaLease arena;
   Batch batch(*impl_, impl_->pixels, context, *arena);
-  batch.setLit({{vec3(0.0f)}, {direction}, {}, {}, {}, {}}, sky);
+  batch.setLit({{vec3(0.0f)}, {direction}, {}, {}, {}, {}, {}}, sky);
   set(batch.tm.L, 0, direction);
   return batch.run(sky, batch.tm) ? get(batch.tm.Cl, 0) : vec3(0.0f);
 }

@@ -196,7 +196,7 @@ struct Atlas : ::testing::Test {
   ~Atlas() override { fs::remove_all(folder); }
 };
 
-/// A ball of radius 1 around (0, 0, 4) that photons fly through, with a medium in it.
+/// A ball of radius 1 around (0, 0, 4) that photons fly through, with a medium in it that the first light lights.
 SceneBuilder cloud(const vec3& scattering, const vec3& absorption) {
   SceneBuilder b;
   b.sphere(1, vec3(1), {0, 0, 4});
@@ -204,6 +204,7 @@ SceneBuilder cloud(const vec3& scattering, const vec3& absorption) {
   attributes->photon.shadingModel = "transparent";
   const auto color = [](const char* name, const vec3& c) { return Param{name, Storage::Uniform, ValueType::Color, 1, {c.x, c.y, c.z}, {}, {}}; };
   attributes->interior = std::make_shared<ShaderCall>(call("fog", {color("scattering", scattering), color("absorption", absorption)}));
+  attributes->lights = {0};
   b.scene.objects[0].attributes = attributes;
   return b;
 }
@@ -223,7 +224,8 @@ TEST(PhotonsInMedia, OfAFurnaceBringEachColourItsLight) {
   b.light("environmentlight", {});
   World world(b.scene);
   const float r = 0.8f;
-  const vec3 light = lightBetween(world, {200000, 200}, 0, r) / (4.0f / 3 * kPi * r * r * r);
+  vec3 light(0);  // one seed alone is off by a hundredth
+  for (const uint32_t seed : {0u, 1u, 2u, 3u}) light += lightBetween(world, {100000, 200, seed}, 0, r) / (4 * 4.0f / 3 * kPi * r * r * r);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(light[c], 1, 0.02f) << c;
 }
 
@@ -401,7 +403,7 @@ TEST_F(Atlas, OfAFurnaceHasTheSameLightEverywhereInItsMedium) {
   SceneBuilder b = cloud(vec3(1), vec3(0));
   b.light("environmentlight", {});
   World world(b.scene);
-  for (const float distance : {0.3f, 0.6f, 0.8f}) EXPECT_NEAR(meanRadianceAt(folder, world, {300000, 100}, distance).y, 1, 0.02f) << distance;
+  for (const float distance : {0.3f, 0.6f, 0.8f}) EXPECT_NEAR(meanRadianceAt(folder, world, {600000, 100}, distance).y, 1, 0.02f) << distance;
 }
 
 TEST_F(Atlas, AMissingMapIsBlackAndNamed) {

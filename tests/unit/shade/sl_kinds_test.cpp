@@ -1,4 +1,5 @@
 // Lights, imagers and globals of shaders in RSL's manner (reyes/sl.h).
+#include "reyes/base/rng.h"
 #include "reyes/sl.h"
 #include "tests/unit/shade/stage.h"
 
@@ -61,6 +62,21 @@ TEST_F(SlKinds, ASunOfAConeShinesEvenlyOverIt) {
   surface("matte");
   light("hazysun");
   EXPECT_NEAR(shadeOne().x, (1 + std::cos(kCone)) / 2, 1e-3f);
+}
+
+TEST_F(SlKinds, LightsThatAreSampledMayBeAskedAlone) {
+  surface("matte");
+  light("hazysun");
+  EXPECT_EQ(system().lightKind(0), LightKind::Distant);
+  LightProbe probe;
+  for (uint32_t i = 0; i < 1024; ++i) probe.P.emplace_back(0, 0, 5), probe.N.emplace_back(0, 0, -1), probe.xi.push_back(sobol2(i, 3U));
+  system().probe(0, probe);
+  float mean = 0;
+  for (const vec3& L : probe.L) mean -= normalizeOr(L, vec3(0)).z / 1024;
+  EXPECT_NEAR(mean, (1 + std::cos(kCone)) / 2, 1e-3f);
+  LightProbe middle{{vec3(0, 0, 5)}, {vec3(0, 0, -1)}, {}, {}, {}, {}, {}};
+  system().probe(0, middle);
+  EXPECT_GT(middle.Cl[0].x, 0.5f);
 }
 
 // Radiance 1 + cosine is E/pi 1 + 2/3.

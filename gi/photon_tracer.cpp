@@ -1,0 +1,267 @@
+#include "gi/photon_tracer.h"
+
+#include <numeric>
+
+#include "gi/gather.h"
+#include "reyes/base/rng.h"
+
+namespace tomales {
+namespace {
+
+constexpr uint32_t kBounceStream = 0x626f756eU, kMediumStream = 0x6d656469U;
+constexpr float kDiffuseSpread = 0.1f;   ///< As a gather ray of about a hundred; irradiance is estimated over more.
+constexpr uint32_t kMostPasses = 1000;   ///< Of one path: layers of leaves and smoke end somewhere, faults of geometry may not.
+
+vec3 onSphere(const vec2& xi) {
+  const float z = 1 - 2 * xi.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * xi.y;
+  return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
+/// Reflection and refraction at a smooth dielectric.
+vec3 dielectric(const vec3& d, const vec3& towards, bool entering, float index, float xi) {
+  const float eta = entering ? 1 / index : index, cosine = -dot(d, towards);
+  const float k = 1 - eta * eta * (1 - cosine * cosine);
+  const vec3 mirrored = d + 2 * cosine * towards;
+  if (k < 0) return mirrored;
+  const float inside = std::sqrt(k);
+  const float rs = (eta * cosine - inside) / (eta * cosine + inside), rp = (cosine - eta * inside) / (cosine + eta * inside);
+  return xi < 0.5f * (rs * rs + rp * rp) ? mirrored : eta * d + (eta * cosine - inside) * towards;
+}
+
+bool isDiffuse(PhotonModel model) { return model == PhotonModel::Matte || model == PhotonModel::Translucent; }
+
+vec3 shareOf(const vec3& given, const vec3& otherwise) { return isFinite(given) ? glm::clamp(given, 0.0f, 1.0f) : otherwise; }
+
+}  // namespace
+
+bool isOnFor(const ShadeGroup& group, int light) {
+  const std::vector<int>& on = group.attributes->lights;
+  return std::find(on.begin(), on.end(), light) != on.end();
+}
+
+PhotonTracer::PhotonTracer(const Scene& scene, const RayScene& rays, const ShadingSystem& shading, const PhotonSettings& settings, Log& log)
+    : scene_(scene), rays_(rays), shading_(shading), settings_(settings), worldUnit_(std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))))) {
+  for (const ShadeGroup& g : scene.groups) {
+    const std::string& name = g.attributes->photon.shadingModel;
+    const std::optional<PhotonModel> model = photonModel(name);
+    if (!model)
+      log.report(Severity::Warning, "photons-model-" + name, scene.where,
+                 "photon shadingmodel \"" + name + "\" is not known; matte is used");
+    models_.push_back(model.value_or(PhotonModel::Matte));
+    media_.push_back({mediumOf(g.attributes->interior.get(), worldUnit_), mediumOf(g.attributes->exterior.get(), worldUnit_)});
+    anyMedium_ |= !media_.back().inside.empty() || !media_.back().outside.empty();
+  }
+  askEvenSurfaces();
+}
+
+void PhotonTracer::trace(const PhotonSource& source, uint32_t first, size_t count, float share, std::vector<StoredPhoton>& out) const {
+  std::vector<EmittedPhoton> emitted(count);
+  source.emit(first, settings_.seed, emitted);
+  const uint32_t stream = hashCombine(settings_.seed, static_cast<uint32_t>(source.light()), kBounceStream);
+  std::vector<Path> paths;
+  for (size_t i = 0; i < count; ++i) {
+    const EmittedPhoton& e = emitted[i];
+    if (!(maxComponent(e.power) > 0) || !isFinite(e.power)) continue;
+    paths.push_back({e.ray, e.power * share, first + static_cast<uint32_t>(i), source.light()});
+  }
+  Scratch scratch;
+  while (!paths.empty()) step(paths, stream, scratch, out);
+}
+
+/// Every path to its next surface; those that end there leave the list.
+void PhotonTracer::step(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const {
+  s.hits.clear();
+  for (const Path& path : paths) s.hits.push_back(rays_.closest(path.ray, kMaskPhoton));
+  crossMedia(paths, stream, s, out);
+  ask(paths, stream, s);
+  draw(paths, stream, s);
+  size_t kept = 0;
+  for (size_t i = 0; i < paths.size(); ++i) {
+    if (!s.scattered[i] && (s.hits[i].object < 0 || !meets(paths[i], s.hits[i], s.answers[i], {s.direction[i], s.survival[i]}, stream, out))) continue;
+    if (kept != i) paths[kept] = paths[i];
+    ++kept;
+  }
+  paths.resize(kept);
+}
+
+void PhotonTracer::draw(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const {
+  const size_t count = paths.size();
+  s.number.resize(count), s.name.resize(count), s.direction.resize(count), s.survival.resize(count);
+  for (size_t i = 0; i < count; ++i) s.number[i] = paths[i].number, s.name[i] = nameOf(paths[i], stream);
+  sobol2(s.number, s.name, s.direction);
+  for (uint32_t& name : s.name) name = hashCombine(name, 1u);
+  sobol1(s.number, s.name, s.survival);
+}
+
+/// What collides before it arrives is stored there, and meets no surface in this step.
+void PhotonTracer::crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const {
+  s.scattered.assign(paths.size(), 0);
+  for (size_t i = 0; anyMedium_ && i < paths.size(); ++i) {
+    Path& path = paths[i];
+    Hit& hit = s.hits[i];
+    if (hit.object < 0) continue;
+    const Media& media = media_[static_cast<size_t>(groupOf(hit))];
+    const Medium& medium = dot(path.ray.direction, hit.geometricNormal) > 0 ? media.inside : media.outside;
+    const float majorant = medium.majorant(path.power);
+    if (!(majorant > 0)) continue;
+    const uint32_t name = hashCombine(nameOf(path, stream), kMediumStream, path.collisions);
+    const float flight = -std::log(1 - sobol1(path.number, name)) / majorant;
+    if (!(flight < hit.t)) continue;
+    s.scattered[i] = collides(path, medium, landsOn(path, groupOf(hit)), flight, name, out);
+    hit.object = -1;
+  }
+}
+
+/// False: it ends there.
+bool PhotonTracer::collides(Path& path, const Medium& medium, bool isLit, float flight, uint32_t name, std::vector<StoredPhoton>& out) const {
+  const vec3 P = path.ray.origin + flight * path.ray.direction;
+  if (isLit) out.push_back({P, vec3(0), path.power / (medium.majorant(path.power) * worldUnit_), -1, path.depth, false});
+  const Collision collision = collide(medium, path.power, sobol1(path.number, hashCombine(name, 1u)));
+  if (collision.event == Collision::Absorbed) return false;
+  path.power = collision.power;
+  ++path.collisions;
+  if (collision.event == Collision::None) {  // the same ray, from there
+    path.ray.origin = P;
+    path.ray.offset = std::max(0.0f, path.ray.offset - flight), path.ray.bias = std::max(0.0f, path.ray.bias - flight);
+    return true;
+  }
+  if (!isLit || ++path.depth >= settings_.maxDepth) return false;
+  path.specular = false;
+  path.ray = {P, onSphere(sobol2(path.number, hashCombine(name, 2u)))};
+  return true;
+}
+
+/// Surfaces that do the same with light everywhere, at any place of theirs; and those that are not asked.
+void PhotonTracer::askEvenSurfaces() {
+  even_.resize(scene_.groups.size());
+  for (size_t g = 0; g < even_.size(); ++g) {
+    if (!isDiffuse(models_[g])) {
+      even_[g] = Answer{};
+      continue;
+    }
+    if (!shading_.reflectsEvenly(static_cast<int>(g))) continue;
+    Hit hit;
+    hit.t = 1, hit.object = scene_.groups[g].exampleObject, hit.u = hit.v = 0.5f;
+    hit.normal = hit.geometricNormal = {0, 0, -1};
+    even_[g] = shaded({{vec3(0), vec3(0, 0, 1)}}, {hit}, {{}}).front();
+  }
+}
+
+/// The surface at every hit: one that is even, or its shader.
+void PhotonTracer::ask(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const {
+  s.answers.assign(s.hits.size(), {});
+  std::vector<Ray> rays;
+  std::vector<Hit> hits;
+  std::vector<SampleName> names;
+  std::vector<size_t> which;
+  for (size_t i = 0; i < s.hits.size(); ++i) {
+    if (s.hits[i].object < 0) continue;
+    if (const auto& even = even_[static_cast<size_t>(groupOf(s.hits[i]))]) {
+      s.answers[i] = *even;
+      continue;
+    }
+    rays.push_back(paths[i].ray), hits.push_back(s.hits[i]), which.push_back(i);
+    names.push_back({hashCombine(stream, paths[i].number, static_cast<uint32_t>(paths[i].depth)), 0});
+  }
+  if (which.empty()) return;
+  const std::vector<Answer> found = shaded(rays, hits, names);
+  for (size_t k = 0; k < which.size(); ++k) s.answers[which[k]] = found[k];
+}
+
+/// Reflected is what comes back of E/pi = 1, less what is emitted.
+std::vector<PhotonTracer::Answer> PhotonTracer::shaded(const std::vector<Ray>& rays, const std::vector<Hit>& hits, const std::vector<SampleName>& names) const {
+  ShadeContext context{RayKind::Diffuse, 1, settings_.seed, 1, false};
+  context.light = Illumination::Unit;
+  HitAnswers lit;
+  lit.mode = HitMode::Shader;
+  rays_.shadeHits(rays, hits, names, shading_, context, lit);
+  if (std::any_of(hits.begin(), hits.end(), [&](const Hit& h) { return shading_.emits(groupOf(h)); })) {
+    context.light = Illumination::None;
+    std::vector<vec3> dark;
+    rays_.shadeHits(rays, hits, names, shading_, context, dark);
+    for (size_t i = 0; i < dark.size(); ++i) lit.color[i] -= dark[i];
+  }
+  std::vector<Answer> out(hits.size());
+  for (size_t i = 0; i < out.size(); ++i) out[i] = {shareOf(lit.color[i], vec3(0)), shareOf(lit.opacity[i], vec3(1))};
+  return out;
+}
+
+/// Light that comes straight from a lamp, or by mirrors, is seen by what that lamp is switched on for.
+bool PhotonTracer::landsOn(const Path& path, int group) const {
+  return !path.specular || isOnFor(scene_.groups[static_cast<size_t>(group)], path.light);
+}
+
+uint32_t PhotonTracer::nameOf(const Path& path, uint32_t stream) { return hashCombine(stream, static_cast<uint32_t>(path.depth) | path.passes << 16); }
+
+/// False: it ends there.
+bool PhotonTracer::meets(Path& path, const Hit& hit, const Answer& answer, const Draw& xi, uint32_t stream, std::vector<StoredPhoton>& out) const {
+  const int group = groupOf(hit);
+  const PhotonModel model = models_[static_cast<size_t>(group)];
+  const uint32_t name = nameOf(path, stream);
+  if (model == PhotonModel::Transparent) return passes(path, hit, scene_.groups[static_cast<size_t>(group)].attributes->color, xi.survival);
+  if (!isDiffuse(model)) return isMirrored(path, hit, xi.survival, sobol1(path.number, hashCombine(name, 2u)));
+  // What is not there, as the rest of a leaf's card, holds no light.
+  const vec3 transmitted = 1.0f - answer.opacity;
+  const float passing = (transmitted.x + transmitted.y + transmitted.z) / 3;
+  const bool lands = passing < 1 && landsOn(path, group);
+  if (lands && (settings_.direct || path.depth > 0)) {
+    const vec3 P = path.ray.origin + hit.t * path.ray.direction, Ng = hit.geometricNormal;
+    out.push_back({P, dot(path.ray.direction, Ng) < 0 ? Ng : -Ng, path.power, group, path.depth, path.specular && path.depth > 0});
+  }
+  if (passing > 0 && sobol1(path.number, hashCombine(name, 3u)) < passing) return passes(path, hit, transmitted / passing, xi.survival);
+  return lands && isScattered(path, hit, answer.reflected / (1 - passing), xi, sobol1(path.number, hashCombine(name, 2u)));
+}
+
+/// As if nothing were there, but for its colour: no arrival, and what comes so is no caustic.
+bool PhotonTracer::passes(Path& path, const Hit& hit, const vec3& transmitted, float xi) const {
+  if (++path.passes > kMostPasses || !survives(path, transmitted, xi)) return false;
+  leave(path, hit, path.ray.direction);
+  return true;
+}
+
+bool PhotonTracer::isScattered(Path& path, const Hit& hit, const vec3& reflected, const Draw& xi, float side) const {
+  path.specular = false;
+  if (++path.depth >= settings_.maxDepth || !survives(path, reflected, xi.survival)) return false;
+  // Around the interpolated normal some photons would go into the polygon, and be caught in what it bounds.
+  const bool through = models_[static_cast<size_t>(groupOf(hit))] == PhotonModel::Translucent && side < 0.5f;
+  const vec3 axis = (dot(path.ray.direction, hit.geometricNormal) < 0) != through ? hit.geometricNormal : -hit.geometricNormal;
+  vec3 tangent, bitangent;
+  orthonormalBasis(axis, tangent, bitangent);
+  const vec3 local = cosineHemisphere(xi.direction);
+  leave(path, hit, local.x * tangent + local.y * bitangent + local.z * axis);
+  return true;
+}
+
+bool PhotonTracer::isMirrored(Path& path, const Hit& hit, float survival, float xi) const {
+  const auto group = static_cast<size_t>(groupOf(hit));
+  if (++path.depth >= settings_.maxDepth || !survives(path, scene_.groups[group].attributes->color, survival)) return false;
+  const vec3 d = path.ray.direction;
+  const bool front = dot(d, hit.geometricNormal) < 0;
+  const vec3 N = front ? hit.normal : -hit.normal;
+  if (models_[group] == PhotonModel::Chrome)
+    leave(path, hit, d - 2 * dot(d, N) * N);
+  else
+    leave(path, hit, dielectric(d, N, front, models_[group] == PhotonModel::Water ? 1.33f : 1.5f, xi));
+  return true;
+}
+
+/// Surviving photons keep the power that they came with, so that all that are stored weigh about the same.
+bool PhotonTracer::survives(Path& path, const vec3& left, float xi) {
+  const vec3 power = path.power * left;
+  const float survival = std::min(1.0f, maxComponent(power) / maxComponent(path.power));
+  if (!(xi < survival)) return false;
+  path.power = power / survival;
+  return true;
+}
+
+void PhotonTracer::leave(Path& path, const Hit& hit, const vec3& direction) const {
+  const vec3 P = path.ray.origin + hit.t * path.ray.direction, N = dot(path.ray.direction, hit.geometricNormal) < 0 ? hit.normal : -hit.normal;
+  path.ray = {P, normalizeOr(direction, N)};
+  // The level of what it meets follows from its width; textures there do not.
+  path.ray.spread = path.specular ? 0.0f : kDiffuseSpread;
+  rays_.prepareOrigin(groupOf(hit), P, 0, path.ray);
+  path.ray.spread = 0;
+  path.ray.offset = slantedOffset(path.ray.offset, std::abs(dot(path.ray.direction, N)));
+}
+
+}  // namespace tomales
