@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "reyes/output.h"
+#include "reyes/rib/collapsed.h"
 #include "reyes/rib/contents.h"
 #include "reyes/rib/request_table.h"
 #include "reyes/rib/scene_builder.h"
@@ -38,14 +39,6 @@ bool sameTopology(const Prim& a, const Prim& b) {
   };
   return a.patchCount() == b.patchCount() && std::equal(a.primvars().begin(), a.primvars().end(),
                                                         b.primvars().begin(), b.primvars().end(), alike);
-}
-
-// Writers leave these where an object has vanished: nothing is missing from the picture.
-bool isEmptyMesh(const Request& r) {
-  static constexpr std::string_view kMeshes[] = {"PointsPolygons", "PointsGeneralPolygons", "SubdivisionMesh",
-                                                  "HierarchicalSubdivisionMesh"};
-  if (std::find(std::begin(kMeshes), std::end(kMeshes), r.name) == std::end(kMeshes)) return false;
-  return r.args[r.name.ends_with("SubdivisionMesh") ? 1 : 0].integers.empty();
 }
 
 /// Surface "null": nobody sees the object, but it may emit. In passes for depth alone it means, by custom, that no shader need run.
@@ -129,6 +122,10 @@ Master::Shapes SceneBuilder::buildShapes(const Keys& keys, const std::vector<flo
 PrimPtr SceneBuilder::buildShape(const Request& r, const MotionKeys& motion) {
   if (isEmptyMesh(r)) {
     state_.log.report(Severity::Warning, "rib-empty-mesh", r.where, description(r) + ": it has no faces");
+    return nullptr;
+  }
+  if (hasNoArea(r)) {
+    state_.log.report(Severity::Warning, "rib-no-area", r.where, description(r) + ": it has no area");
     return nullptr;
   }
   Problems problems;
@@ -216,11 +213,12 @@ void SceneBuilder::endMotion() {
                             block.surplus ? "more" : "fewer"));
   if (block.keys.empty()) return;
   times.resize(block.keys.size());
-  const Request& first = block.keys[0];
-  Keys keys;
-  for (const Request& key : block.keys) keys.push_back(&key);
   const bool moves =
-      keys.size() > 1 && std::all_of(keys.begin(), keys.end(), [](auto* k) { return usableArguments(*k); });
+      block.keys.size() > 1 && std::all_of(block.keys.begin(), block.keys.end(), usableArguments);
+  const std::vector<Request> requests = moves ? grown(block.keys) : block.keys;
+  const Request& first = requests[0];
+  Keys keys;
+  for (const Request& key : requests) keys.push_back(&key);
   const size_t resume = std::exchange(masterRequest_, block.masterRequest);
   if (moves && isTransformation(first.name)) {
     applyTransformation(state_, keys, times);

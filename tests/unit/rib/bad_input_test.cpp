@@ -34,9 +34,7 @@ TEST(BadInput, JunkBetweenRequestsCostsNothingElse) {
 }
 
 TEST(BadInput, ObjectsThatCannotBeDrawnAreDroppedByName) {
-  const char* bad[] = {"Sphere 0 -1 1 360",
-                       "Sphere nan -1 1 360",
-                       "Disk 0 0 360",
+  const char* bad[] = {"Sphere nan -1 1 360",
                        "Cylinder 1e999 0 1 360",
                        "Polygon \"P\" [0 0 nan 1 0 0 0 1 0]",
                        "Polygon \"P\" [0 0 inf 1 0 0 0 1 0]",
@@ -57,6 +55,19 @@ TEST(BadInput, ObjectsThatCannotBeDrawnAreDroppedByName) {
     EXPECT_NE(e.message.find("culprit"), std::string::npos) << text << ": " << r.codes();
     EXPECT_EQ(e.where.line, 4) << text;
     EXPECT_EQ(e.severity, Severity::Missing);
+  }
+}
+
+TEST(BadInput, QuadricsWithoutAreaLeaveNothingOut) {
+  for (const char* text :
+       {"Sphere 0 -1 1 360", "Sphere 1 -1 1 0", "Disk 0 0 360", "Cone 1 0 360", "Cylinder 1 2 2 360",
+        "Torus 1 0 0 360 360", "Paraboloid 1 2 2 360", "Hyperboloid 1 2 3 1 2 3 360"}) {
+    const Reading r(inWorld(std::string(text) + "\n" + kSphere));
+    EXPECT_EQ(r.scene().objects.size(), 1u) << text;
+    const LogEntry e = r.message("rib-no-area");
+    EXPECT_EQ(e.severity, Severity::Warning) << text;
+    EXPECT_EQ(e.where.line, 2) << text;
+    EXPECT_EQ(r.log.entries().size(), 1u) << text << r.codes();
   }
 }
 

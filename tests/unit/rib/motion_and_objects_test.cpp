@@ -40,6 +40,28 @@ TEST(Motion, DeformsGeometry) {
             1.9f * r.object(0).shapes[0]->bound(0, all).size().x);
 }
 
+TEST(Motion, WhatGrowsFromNothingIsKeptAtAllKeys) {
+  for (const char* keys : {"Sphere 0 0 0 360 Sphere 2 -2 2 360", "Sphere 2 -2 2 360 Sphere 0 0 0 360",
+                           "Sphere 2 -2 2 0 Sphere 2 -2 2 360", "Disk 0 0 360 Disk 0 2 360",
+                           "Hyperboloid 0 0 0 0 0 0 360 Hyperboloid 1 0 0 2 0 0 360"}) {
+    const Reading r(std::string("Shutter 0 1") +
+                    inWorld(std::string("MotionBegin [0 1] ") + keys + " MotionEnd"));
+    ASSERT_EQ(r.scene().objects.size(), 1u) << keys << r.codes();
+    EXPECT_EQ(r.object(0).shapes.size(), 2u) << keys;
+    EXPECT_TRUE(r.log.entries().empty()) << keys << r.codes();
+  }
+  for (const char* keys : {"Scale 0 0 0 Scale 1 1 1", "Scale 1 1 1 Scale 1 0 1",
+                           "ConcatTransform [0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1] ConcatTransform [1 0 0 0 0 1 0 "
+                           "0 0 0 1 0 0 0 0 1]"}) {
+    const Reading r(std::string("Shutter 0 1") +
+                    inWorld(std::string("MotionBegin [0 1] ") + keys + " MotionEnd " + kSphere));
+    ASSERT_EQ(r.scene().objects.size(), 1u) << keys << r.codes();
+    EXPECT_TRUE(r.log.entries().empty()) << keys << r.codes();
+  }
+  const Reading r(inWorld("MotionBegin [0 1] Scale 0 0 0 Scale 0 1 1 MotionEnd " + kSphere));
+  EXPECT_EQ(r.log.count("rib-object-dropped"), 1) << "flat at all keys";
+}
+
 TEST(Motion, KeepsTheFirstShapeWhereTopologiesDiffer) {
   const Reading r(
       inWorld("MotionBegin [0 1]\nPolygon \"P\" [0 0 0 1 0 0 0 1 0]\n"
