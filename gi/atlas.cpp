@@ -146,12 +146,12 @@ MapNames MapNames::ofSurfaces() const {
 PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                            const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
   makeAtlasFolder(folder);
-  const char* power = settings.photons.direct ? kPower : kIndirectPower;
+  const char* channel = settings.photons.direct ? kPower : kIndirectPower;
   std::map<std::string, PointFileWriter> files;
   for (const std::string& name : names.all())
     files.try_emplace(name, atlasFile(folder, name, ".ptc").string(),
                       name == names.volume ? std::vector<CloudChannel>{{kPathPower, 3}}
-                                           : std::vector<CloudChannel>{{power, 3}, kSurfaceChannel});
+                                           : std::vector<CloudChannel>{{channel, 3}, kSurfaceChannel});
   const auto filesOf = [&](const std::vector<std::string>& groups) {
     std::vector<PointFileWriter*> out;
     for (const std::string& name : groups) out.push_back(name.empty() ? nullptr : &files.at(name));
