@@ -93,7 +93,8 @@ std::vector<BoundVariable> bindVariables(const FrameOutput& output, const BoundG
   std::vector<BoundVariable> out;
   for (const Variable& wanted : output.variables) {
     BoundVariable v;
-    v.first = wanted.first, v.width = floatsPerValue(wanted.type), v.fill = wanted.fill;
+    v.first = wanted.first, v.width = floatsPerValue(wanted.type), v.fill = wanted.fill,
+    v.composited = wanted.type == ValueType::Color;
     find(wanted, group, v);
     out.push_back(std::move(v));
   }
@@ -136,6 +137,8 @@ void storeVariables(const std::vector<BoundVariable>& variables, Batch& batch, c
     };
     if (v.from == From::Channel) copyChannel(v, batch, out, begin);
     // Premultiplied, as every colour that is composited.
+    if (v.from == From::Channel && v.composited)
+      each([&](int i) { return get(destination(v, out, begin), i) * get(batch.tm.Oi, i); });
     if (v.from == From::Color) each([&](int i) { return get(batch.tm.Cs, i) * get(batch.tm.Oi, i); });
     if (v.from == From::Opacity) each([&](int i) { return get(batch.tm.Oi, i); });
     if (v.from == From::Normal) each([&](int i) { return normalizeOr(batch.points->facingNormal(i), vec3(0.0f)); });

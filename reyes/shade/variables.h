@@ -14,6 +14,7 @@ struct BoundGroup;
 struct BoundVariable {
   enum class From { Nothing, Channel, Color, Opacity, Normal, Output, LightGroup } from = From::Nothing;
   int index = 0;        ///< Channel: of ShadePoints. Output: of TmShader::params.
+  bool composited = false;  ///< Channel: a colour, which arrives premultiplied.
   std::string lights;   ///< LightGroup: its name; empty: what no light brings.
   int first = 0, width = 1;  ///< In ShadedPoints::variables.
   float fill = 0;

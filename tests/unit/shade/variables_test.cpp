@@ -87,6 +87,19 @@ TEST_F(Variables, PrimitiveVariablesAreFoundByName) {
   EXPECT_FLOAT_EQ(stored(shade(p, context), 0, 0).y, 0.5f);
 }
 
+TEST_F(Variables, ColoursAmongThePrimitiveVariablesArePremultiplied) {
+  attributes.opacity = vec3(0.5f, 0.25f, 1);
+  primvar("wear", ValueType::Color);
+  surface("matte");
+  scene.options.channels["wear"] = {"wear", ValueType::Color, {}, at(3)};
+  show("wear");
+  ShadePoints p = points({vec3(0, 0, 5)});
+  for (int k = 0; k < 3; ++k) p.primvar(k)[0] = 0.5f;
+  ShadeContext context;
+  context.variables = true;
+  expectColor(stored(shade(p, context), 0, 0), {0.25f, 0.125f, 0.5f});
+}
+
 TEST_F(Variables, WhatNobodyWritesIsReportedAndHoldsItsFill) {
   surface("matte");
   scene.options.channels["fruit"] = {"fruit", ValueType::Color, {number("fill", 0.5f)}, at(3)};
