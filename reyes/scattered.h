@@ -1,5 +1,5 @@
-// Noun: shapes of very many patches that are asked for in another order than they lie in memory. Of a particle the way from memory took longer than
-// all that was computed of it.
+// Noun: shapes of very many patches that are asked for in another order than they lie in memory. Of a
+// particle the way from memory took longer than all that was computed of it.
 #pragma once
 #include <cstdint>
 
