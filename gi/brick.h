@@ -20,6 +20,13 @@ constexpr int kBrickVoxels = kBrickWidth * kBrickWidth * kBrickWidth;
 /// Normals farther apart than this do not share a layer, and do not answer each other's lookups.
 constexpr float kLayerCosine = 0.70710678f;  ///< 45 degrees (irradiance-atlas 3.2, 3.3)
 
+/// Channels 0 .. width - 1: three, as most data have, without a loop.
+template <class Work>
+inline void forEachChannel(size_t width, const Work& work) {
+  if (width == 3) return work(size_t{0}), work(size_t{1}), work(size_t{2});
+  for (size_t k = 0; k < width; ++k) work(k);
+}
+
 inline int voxelIndex(int x, int y, int z) { return (z * kBrickWidth + y) * kBrickWidth + x; }
 
 /// Which way the data of a layer face, in 32 bits.
@@ -29,7 +36,12 @@ struct BrickLayer {
   uint8_t surface : 7 = 0;     ///< As PointCloud::surface(); 0: not known, or of several.
 
   BrickLayer() = default;
-  BrickLayer(const vec3& unitNormal, bool isIncoherent, int surface = 0);
+  BrickLayer(const vec3& unitNormal, bool isIncoherent, int of = 0)
+      : x(part(unitNormal.x)),
+        y(part(unitNormal.y)),
+        z(part(unitNormal.z)),
+        incoherent(isIncoherent),
+        surface(static_cast<uint8_t>(of & kMostSurfaces)) {}
   vec3 normal() const { return normalizeOr(vec3(x, y, z), vec3(0.0f)); }
   /// N: of unit length; zero: asks for whatever is there. of: 0: likewise, of any surface.
   bool answers(const vec3& N, int of = 0) const {
@@ -37,6 +49,13 @@ struct BrickLayer {
     const vec3 n(x, y, z);
     const float along = dot(N, n), length2 = dot(n, n);
     return N == vec3(0.0f) || length2 == 0 || (along > 0 && along * along >= kLayerCosine * kLayerCosine * length2);
+  }
+
+ private:
+  /// As std::lround(), which is a call; in double, because floats would round t + 0.5.
+  static int8_t part(float v) {
+    const double t = 127 * v;
+    return static_cast<int8_t>(t + std::copysign(0.5, t));
   }
 };
 
@@ -73,11 +92,12 @@ class Brick {
       const auto* low = at<float>(dataAt());
       const float* const step = low + width_;
       const auto* q = reinterpret_cast<const uint16_t*>(step + width_) + layer * width_;
-      for (size_t k = 0; k < width_; ++k) sum[k] += weight * (low[k] + step[k] * static_cast<float>(q[k]));
+      forEachChannel(width_,
+                     [&](size_t k) { sum[k] += weight * (low[k] + step[k] * static_cast<float>(q[k])); });
       return;
     }
     const auto* data = at<float>(dataAt()) + layer * width_;
-    for (size_t k = 0; k < width_; ++k) sum[k] += weight * data[k];
+    forEachChannel(width_, [&](size_t k) { sum[k] += weight * data[k]; });
   }
 
   const std::vector<std::byte>& bytes() const { return bytes_; }
