@@ -16,6 +16,7 @@ namespace tomales {
 
 constexpr int kBrickWidth = 8;  ///< Voxels along an edge.
 constexpr int kBrickVoxels = kBrickWidth * kBrickWidth * kBrickWidth;
+constexpr int kMostLevels = 24;  ///< Of a brick map: voxel coordinates stay exact in int.
 
 /// Normals farther apart than this do not share a layer, and do not answer each other's lookups.
 constexpr float kLayerCosine = 0.70710678f;  ///< 45 degrees (irradiance-atlas 3.2, 3.3)
@@ -48,7 +49,8 @@ struct BrickLayer {
     if (of != 0 && surface != 0 && of != surface) return false;
     const vec3 n(x, y, z);
     const float along = dot(N, n), length2 = dot(n, n);
-    return N == vec3(0.0f) || length2 == 0 || (along > 0 && along * along >= kLayerCosine * kLayerCosine * length2);
+    return (along > 0 && along * along >= kLayerCosine * kLayerCosine * length2) || length2 == 0 ||
+           N == vec3(0.0f);
   }
 
  private:
@@ -73,6 +75,7 @@ class Brick {
   /// Of bytes(); nothing if they make no brick of that width.
   static std::optional<Brick> of(std::vector<std::byte> bytes, int width);
 
+  bool fills(int voxel) const { return head().filled[static_cast<size_t>(voxel) / 64] >> voxel % 64 & 1; }
   /// Layers [first, end) of a voxel.
   struct Range { size_t first, end; };
   Range layersOf(int voxel) const {
@@ -80,7 +83,7 @@ class Brick {
     const auto slab = static_cast<size_t>(voxel) / 64;
     const uint64_t bit = uint64_t{1} << voxel % 64;
     if (!(h.filled[slab] & bit)) return {0, 0};
-    const size_t rank = h.before[slab] + static_cast<size_t>(std::popcount(h.filled[slab] & (bit - 1)));
+    const size_t rank = h.before[slab] + countOnes(h.filled[slab] & (bit - 1));
     if (!h.several) return {rank, rank + 1};
     const auto* first = at<uint16_t>(firstAt());
     return {first[rank], first[rank + 1]};
@@ -115,6 +118,12 @@ class Brick {
   static_assert(sizeof(Head) == 88);
 
   Brick(std::vector<std::byte> bytes, size_t width) : bytes_(std::move(bytes)), width_(width) {}
+  /// std::popcount(), which is a call for processors that may lack the instruction.
+  static size_t countOnes(uint64_t bits) {
+    bits -= bits >> 1 & 0x5555555555555555u;
+    bits = (bits & 0x3333333333333333u) + (bits >> 2 & 0x3333333333333333u);
+    return ((bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0fu) * 0x0101010101010101u >> 56;
+  }
   template <class T>
   const T* at(size_t offset) const { return reinterpret_cast<const T*>(bytes_.data() + offset); }
   const Head& head() const { return *at<Head>(0); }
@@ -138,7 +147,7 @@ struct BrickNode {
 struct BrickCube {
   vec3 lo{0.0f};
   float size = 1;
-  float voxelSize(int level) const { return std::ldexp(size / kBrickWidth, -level); }
+  float voxelSize(int level) const { return size / static_cast<float>(kBrickWidth << level); }
 };
 
 /// The octree of a brick map: children come before their parents, the root last.
