@@ -10,16 +10,22 @@ namespace {
 
 constexpr int kRows = 64, kColumns = 128;  ///< Cells of equal solid angle on the sphere of directions.
 constexpr double kCellSolidAngle = 4 * double{kPi} / (kRows * kColumns);
-constexpr int kProbes = 4;                 ///< In each cell
-constexpr int kGrid = 128;                 ///< Cells along the side of a distant light's square
+constexpr int kProbes = 4;  ///< In each cell
+constexpr int kGrid = 128;  ///< Cells along the side of a distant light's square
 constexpr uint32_t kSecondPair = 0x70686f74U;
-/// Share of the brightest cell that cells where no probe saw light are given: a beam between the probes is not lost.
+/// Share of the brightest cell that cells where no probe saw light are given: a beam between the probes is
+/// not lost.
 constexpr double kFloor = 1e-3;
-constexpr float kPointBias = 1e-5f;        ///< Of the size of the scene and the distance of its origin: point lights may lie on surfaces.
-constexpr float kLeastCosine = 1.0f / 16;  ///< Of photons that leave area lights: what is flatter, one in 256, may still meet the lamp's own polygons.
-constexpr uint32_t kFewSamples = 64;       ///< Of a light that is sampled: places or directions by which its width is known,
-constexpr float kSampledMargin = 1.2f;     ///< and how much wider it is taken for: the outermost is none of those.
-constexpr float kSkyDistance = 1.01f;      ///< From the middle of the scene to where photons from outside begin, in radii.
+constexpr float kPointBias =
+    1e-5f;  ///< Of the size of the scene and the distance of its origin: point lights may lie on surfaces.
+constexpr float kLeastCosine = 1.0f / 16;  ///< Of photons that leave area lights: what is flatter, one in
+                                           ///< 256, may still meet the lamp's own polygons.
+constexpr uint32_t kFewSamples =
+    64;  ///< Of a light that is sampled: places or directions by which its width is known,
+constexpr float kSampledMargin =
+    1.2f;  ///< and how much wider it is taken for: the outermost is none of those.
+constexpr float kSkyDistance =
+    1.01f;  ///< From the middle of the scene to where photons from outside begin, in radii.
 
 vec3 sphereDirection(size_t cell, vec2 at) {
   const auto row = static_cast<float>(cell / kColumns), column = static_cast<float>(cell % kColumns);
@@ -55,15 +61,22 @@ PhotonTarget::PhotonTarget(const Scene& scene) {
   for (const Object& o : scene.objects) {
     if (!o.attributes->visibility.photon) continue;
     for (uint32_t patch = 0; patch < o.shape().patchCount(); ++patch) {
-      objects.push_back(transformBound(o.cameraFromObject.keys.front(), o.shape().bound(patch, {})).grown(o.displacementBound));
+      objects.push_back(transformBound(o.cameraFromObject.keys.front(), o.shape().bound(patch, {}))
+                            .grown(o.displacementBound));
       bound.extend(objects.back());
     }
   }
   if (bound.empty()) bound = {vec3(-1), vec3(1)};
 }
 
-PhotonSource::PhotonSource(int light, const ShadingSystem& shading, const RayScene& rays, const PhotonTarget& target)
-    : light_(light), shading_(shading), rays_(rays), kind_(shading.lightKind(light)), center_(target.center()), radius_(target.radius()) {
+PhotonSource::PhotonSource(int light, const ShadingSystem& shading, const RayScene& rays,
+                           const PhotonTarget& target)
+    : light_(light),
+      shading_(shading),
+      rays_(rays),
+      kind_(shading.lightKind(light)),
+      center_(target.center()),
+      radius_(target.radius()) {
   if (kind_ == LightKind::Point) surveyPoint();
   if (kind_ == LightKind::Distant) surveyDistant(target);
   if (kind_ == LightKind::Sky) surveySky();
@@ -73,7 +86,8 @@ PhotonSource::PhotonSource(int light, const ShadingSystem& shading, const RaySce
 void PhotonSource::surveyPoint() {
   middle_ = askedFromMiddle({vec2(0.5f)}).L[0];
   float spread = 0;
-  for (const vec3& place : askedFromMiddle(fewSamples()).L) spread = std::max(spread, kSampledMargin * glm::distance(place, middle_));
+  for (const vec3& place : askedFromMiddle(fewSamples()).L)
+    spread = std::max(spread, kSampledMargin * glm::distance(place, middle_));
   aimAt(radius_ + spread);
   LightProbe probe;
   for (size_t c = 0; c < kRows * kColumns; ++c)
@@ -97,11 +111,12 @@ void PhotonSource::aimAt(float radius) {
   vec3 tangent, bitangent;
   orthonormalBasis(axis, tangent, bitangent);
   const double sine = double{radius} / double{distance};
-  cone_ = {mat3(tangent, bitangent, axis), static_cast<float>(sine * sine / (1 + std::sqrt(1 - sine * sine))), distance,
-           std::max(0.0f, distance - kSkyDistance * radius)};
+  cone_ = {mat3(tangent, bitangent, axis), static_cast<float>(sine * sine / (1 + std::sqrt(1 - sine * sine))),
+           distance, std::max(0.0f, distance - kSkyDistance * radius)};
 }
 
-/// A direction by its place in the frame of the cone, but for its height, of which it is what is missing from 1: narrow cones keep their precision.
+/// A direction by its place in the frame of the cone, but for its height, of which it is what is missing from
+/// 1: narrow cones keep their precision.
 vec3 PhotonSource::inCone(size_t cell, vec2 at) const {
   const auto row = static_cast<float>(cell / kColumns), column = static_cast<float>(cell % kColumns);
   const float missing = cone_.height * (row + at.y) / kRows, phi = 2 * kPi * (column + at.x) / kColumns;
@@ -109,14 +124,20 @@ vec3 PhotonSource::inCone(size_t cell, vec2 at) const {
   return {r * std::cos(phi), r * std::sin(phi), missing};
 }
 
-double PhotonSource::cellSolidAngle() const { return 2 * double{kPi} * double{cone_.height} / (kRows * kColumns); }
+double PhotonSource::cellSolidAngle() const {
+  return 2 * double{kPi} * double{cone_.height} / (kRows * kColumns);
+}
 
-vec3 PhotonSource::directionOf(const vec3& inCone) const { return cone_.frame * vec3(inCone.x, inCone.y, 1 - inCone.z); }
+vec3 PhotonSource::directionOf(const vec3& inCone) const {
+  return cone_.frame * vec3(inCone.x, inCone.y, 1 - inCone.z);
+}
 
 /// So far from the light. Places far from it are known by their distance from the middle of the scene.
 vec3 PhotonSource::placeAlong(const vec3& inCone, float distance) const {
   const vec3 from = cone_.distance > 0 ? vec3(0) : middle_;
-  return center_ + from + cone_.frame * vec3(distance * inCone.x, distance * inCone.y, (distance - cone_.distance) - distance * inCone.z);
+  return center_ + from +
+         cone_.frame * vec3(distance * inCone.x, distance * inCone.y,
+                            (distance - cone_.distance) - distance * inCone.z);
 }
 
 /// At the scene if the light is outside: what its distance does to it is its shader's affair.
@@ -127,7 +148,9 @@ void PhotonSource::askAlong(const vec3& inCone, const vec3& offset, LightProbe& 
 }
 
 /// I = E r^2 over pi.
-vec3 PhotonSource::intensity(const LightProbe& probe, size_t i) const { return probe.Cl[i] * (askingDistance() * askingDistance()); }
+vec3 PhotonSource::intensity(const LightProbe& probe, size_t i) const {
+  return probe.Cl[i] * (askingDistance() * askingDistance());
+}
 
 void PhotonSource::surveyDistant(const PhotonTarget& target) {
   const LightProbe probe = askedFromMiddle(fewSamples());
@@ -152,7 +175,8 @@ void PhotonSource::surveyDistant(const PhotonTarget& target) {
       shadow.extend(vec2(dot(off, tangent), dot(off, bitangent)));
     }
     const int left = cellAt(shadow.lo.x - spread), right = cellAt(shadow.hi.x + spread);
-    for (int y = cellAt(shadow.lo.y - spread); y <= cellAt(shadow.hi.y + spread); ++y) std::fill_n(weights.begin() + y * kGrid + left, right - left + 1, 1.0);
+    for (int y = cellAt(shadow.lo.y - spread); y <= cellAt(shadow.hi.y + spread); ++y)
+      std::fill_n(weights.begin() + y * kGrid + left, right - left + 1, 1.0);
   }
   for (const double w : weights) cells_.add(w);
   const double cellArea = std::pow(2 * double{radius_} / kGrid, 2);
@@ -164,7 +188,8 @@ void PhotonSource::surveySky() {
   double sum = 0;
   for (size_t c = 0; c < kRows * kColumns; ++c) {
     double radiance = 0;
-    for (int k = 0; k < kProbes; ++k) radiance += double{luminance(shading_.skyRadiance(light_, sphereDirection(c, probePlace(k))))};
+    for (int k = 0; k < kProbes; ++k)
+      radiance += double{luminance(shading_.skyRadiance(light_, sphereDirection(c, probePlace(k))))};
     weights.push_back(radiance / kProbes);
     sum += radiance / kProbes;
   }
@@ -175,7 +200,8 @@ void PhotonSource::surveySky() {
 void PhotonSource::surveyArea() {
   std::vector<EmittedPhoton> photons(256);
   emit(0, 0, photons);
-  for (const EmittedPhoton& p : photons) power_ += double{luminance(p.power)} / static_cast<double>(photons.size());
+  for (const EmittedPhoton& p : photons)
+    power_ += double{luminance(p.power)} / static_cast<double>(photons.size());
 }
 
 void PhotonSource::emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>& out) const {
@@ -203,7 +229,8 @@ LightProbe PhotonSource::askedFromMiddle(const std::vector<vec2>& xi) const {
   return probe;
 }
 
-void PhotonSource::emitFromPoint(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const {
+void PhotonSource::emitFromPoint(const std::vector<vec2>& a, const std::vector<vec2>& b,
+                                 std::vector<EmittedPhoton>& out) const {
   const LightProbe place = askedFromMiddle(b);  // a light that is sampled is not at one place alone
   LightProbe probe;
   probe.xi = b;
@@ -219,10 +246,12 @@ void PhotonSource::emitFromPoint(const std::vector<vec2>& a, const std::vector<v
     askAlong(local, offset, probe);
   }
   shading_.probe(light_, probe);
-  for (size_t i = 0; i < out.size(); ++i) out[i].power = intensity(probe, i) * kPi / static_cast<float>(density[i]);
+  for (size_t i = 0; i < out.size(); ++i)
+    out[i].power = intensity(probe, i) * kPi / static_cast<float>(density[i]);
 }
 
-void PhotonSource::emitFromDistance(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const {
+void PhotonSource::emitFromDistance(const std::vector<vec2>& a, const std::vector<vec2>& b,
+                                    std::vector<EmittedPhoton>& out) const {
   vec3 tangent, bitangent;
   orthonormalBasis(direction_, tangent, bitangent);
   const LightProbe sun = askedFromMiddle(b);
@@ -232,9 +261,11 @@ void PhotonSource::emitFromDistance(const std::vector<vec2>& a, const std::vecto
   for (size_t i = 0; i < out.size(); ++i) {
     double x{a[i].x};
     const size_t cell = cells_.pick(x);
-    const vec2 at = side * vec2(static_cast<float>(cell % kGrid) + static_cast<float>(x), static_cast<float>(cell / kGrid) + a[i].y) -
+    const vec2 at = side * vec2(static_cast<float>(cell % kGrid) + static_cast<float>(x),
+                                static_cast<float>(cell / kGrid) + a[i].y) -
                     vec2(radius_);
-    // The square turns with the direction by the shortest way: whatever its shadow, it moves by less than that does.
+    // The square turns with the direction by the shortest way: whatever its shadow, it moves by less than
+    // that does.
     const vec3 d = -sun.L[i], across = at.x * tangent + at.y * bitangent;
     const vec3 turned = across - dot(across, d) / std::max(1 + dot(direction_, d), 1e-6f) * (direction_ + d);
     out[i].ray = {center_ + turned - kSkyDistance * radius_ * d, d};
@@ -245,7 +276,8 @@ void PhotonSource::emitFromDistance(const std::vector<vec2>& a, const std::vecto
   for (size_t i = 0; i < out.size(); ++i) out[i].power = probe.Cl[i] * kPi * area;
 }
 
-void PhotonSource::emitFromSky(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const {
+void PhotonSource::emitFromSky(const std::vector<vec2>& a, const std::vector<vec2>& b,
+                               std::vector<EmittedPhoton>& out) const {
   for (size_t i = 0; i < out.size(); ++i) {
     double x{a[i].x};
     const size_t cell = cells_.pick(x);
@@ -259,15 +291,18 @@ void PhotonSource::emitFromSky(const std::vector<vec2>& a, const std::vector<vec
   }
 }
 
-void PhotonSource::emitFromArea(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const {
+void PhotonSource::emitFromArea(const std::vector<vec2>& a, const std::vector<vec2>& b,
+                                std::vector<EmittedPhoton>& out) const {
   const size_t n = out.size();
   std::vector<float> xi0(n), xi1(n), area(n), place[3], normal[3];
   for (auto* v : {place, normal})
     for (int k = 0; k < 3; ++k) v[k].resize(n);
   for (size_t i = 0; i < n; ++i) xi0[i] = a[i].x, xi1[i] = a[i].y;
-  const TmVec3 P{place[0].data(), place[1].data(), place[2].data()}, N{normal[0].data(), normal[1].data(), normal[2].data()};
+  const TmVec3 P{place[0].data(), place[1].data(), place[2].data()},
+      N{normal[0].data(), normal[1].data(), normal[2].data()};
   std::vector<int> group(n);
-  if (!rays_.emitters().sample(light_, static_cast<int>(n), xi0.data(), xi1.data(), P, N, area.data(), group.data())) {
+  if (!rays_.emitters().sample(light_, static_cast<int>(n), xi0.data(), xi1.data(), P, N, area.data(),
+                               group.data())) {
     std::fill(out.begin(), out.end(), EmittedPhoton{});
     return;
   }

@@ -3,19 +3,17 @@
 #include <numeric>
 
 #include "gi/gather.h"
+#include "raytrace/emitter_shapes.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
 namespace {
 
 constexpr uint32_t kBounceStream = 0x626f756eU, kMediumStream = 0x6d656469U;
-constexpr float kDiffuseSpread = 0.1f;   ///< As a gather ray of about a hundred; irradiance is estimated over more.
-constexpr uint32_t kMostPasses = 1000;   ///< Of one path: layers of leaves and smoke end somewhere, faults of geometry may not.
-
-vec3 onSphere(const vec2& xi) {
-  const float z = 1 - 2 * xi.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * xi.y;
-  return {r * std::cos(phi), r * std::sin(phi), z};
-}
+constexpr float kDiffuseSpread =
+    0.1f;  ///< As a gather ray of about a hundred; irradiance is estimated over more.
+constexpr uint32_t kMostPasses =
+    1000;  ///< Of one path: layers of leaves and smoke end somewhere, faults of geometry may not.
 
 /// Reflection and refraction at a smooth dielectric.
 vec3 dielectric(const vec3& d, const vec3& towards, bool entering, float index, float xi) {
@@ -24,13 +22,16 @@ vec3 dielectric(const vec3& d, const vec3& towards, bool entering, float index, 
   const vec3 mirrored = d + 2 * cosine * towards;
   if (k < 0) return mirrored;
   const float inside = std::sqrt(k);
-  const float rs = (eta * cosine - inside) / (eta * cosine + inside), rp = (cosine - eta * inside) / (cosine + eta * inside);
+  const float rs = (eta * cosine - inside) / (eta * cosine + inside),
+              rp = (cosine - eta * inside) / (cosine + eta * inside);
   return xi < 0.5f * (rs * rs + rp * rp) ? mirrored : eta * d + (eta * cosine - inside) * towards;
 }
 
 bool isDiffuse(PhotonModel model) { return model == PhotonModel::Matte || model == PhotonModel::Translucent; }
 
-vec3 shareOf(const vec3& given, const vec3& otherwise) { return isFinite(given) ? glm::clamp(given, 0.0f, 1.0f) : otherwise; }
+vec3 shareOf(const vec3& given, const vec3& otherwise) {
+  return isFinite(given) ? glm::clamp(given, 0.0f, 1.0f) : otherwise;
+}
 
 }  // namespace
 
@@ -39,8 +40,13 @@ bool isOnFor(const ShadeGroup& group, int light) {
   return std::find(on.begin(), on.end(), light) != on.end();
 }
 
-PhotonTracer::PhotonTracer(const Scene& scene, const RayScene& rays, const ShadingSystem& shading, const PhotonSettings& settings, Log& log)
-    : scene_(scene), rays_(rays), shading_(shading), settings_(settings), worldUnit_(std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))))) {
+PhotonTracer::PhotonTracer(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
+                           const PhotonSettings& settings, Log& log)
+    : scene_(scene),
+      rays_(rays),
+      shading_(shading),
+      settings_(settings),
+      worldUnit_(std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))))) {
   for (const ShadeGroup& g : scene.groups) {
     const std::string& name = g.attributes->photon.shadingModel;
     const std::optional<PhotonModel> model = photonModel(name);
@@ -48,13 +54,15 @@ PhotonTracer::PhotonTracer(const Scene& scene, const RayScene& rays, const Shadi
       log.report(Severity::Warning, "photons-model-" + name, scene.where,
                  "photon shadingmodel \"" + name + "\" is not known; matte is used");
     models_.push_back(model.value_or(PhotonModel::Matte));
-    media_.push_back({mediumOf(g.attributes->interior.get(), worldUnit_), mediumOf(g.attributes->exterior.get(), worldUnit_)});
+    media_.push_back({mediumOf(g.attributes->interior.get(), worldUnit_),
+                      mediumOf(g.attributes->exterior.get(), worldUnit_)});
     anyMedium_ |= !media_.back().inside.empty() || !media_.back().outside.empty();
   }
   askEvenSurfaces();
 }
 
-void PhotonTracer::trace(const PhotonSource& source, uint32_t first, size_t count, float share, std::vector<StoredPhoton>& out) const {
+void PhotonTracer::trace(const PhotonSource& source, uint32_t first, size_t count, float share,
+                         std::vector<StoredPhoton>& out) const {
   std::vector<EmittedPhoton> emitted(count);
   source.emit(first, settings_.seed, emitted);
   const uint32_t stream = hashCombine(settings_.seed, static_cast<uint32_t>(source.light()), kBounceStream);
@@ -69,7 +77,8 @@ void PhotonTracer::trace(const PhotonSource& source, uint32_t first, size_t coun
 }
 
 /// Every path to its next surface; those that end there leave the list.
-void PhotonTracer::step(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const {
+void PhotonTracer::step(std::vector<Path>& paths, uint32_t stream, Scratch& s,
+                        std::vector<StoredPhoton>& out) const {
   s.hits.clear();
   for (const Path& path : paths) s.hits.push_back(rays_.closest(path.ray, kMaskPhoton));
   crossMedia(paths, stream, s, out);
@@ -77,7 +86,9 @@ void PhotonTracer::step(std::vector<Path>& paths, uint32_t stream, Scratch& s, s
   draw(paths, stream, s);
   size_t kept = 0;
   for (size_t i = 0; i < paths.size(); ++i) {
-    if (!s.scattered[i] && (s.hits[i].object < 0 || !meets(paths[i], s.hits[i], s.answers[i], {s.direction[i], s.survival[i]}, stream, out))) continue;
+    if (!s.scattered[i] && (s.hits[i].object < 0 || !meets(paths[i], s.hits[i], s.answers[i],
+                                                           {s.direction[i], s.survival[i]}, stream, out)))
+      continue;
     if (kept != i) paths[kept] = paths[i];
     ++kept;
   }
@@ -94,7 +105,8 @@ void PhotonTracer::draw(const std::vector<Path>& paths, uint32_t stream, Scratch
 }
 
 /// What collides before it arrives is stored there, and meets no surface in this step.
-void PhotonTracer::crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const {
+void PhotonTracer::crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch& s,
+                              std::vector<StoredPhoton>& out) const {
   s.scattered.assign(paths.size(), 0);
   for (size_t i = 0; anyMedium_ && i < paths.size(); ++i) {
     Path& path = paths[i];
@@ -113,21 +125,25 @@ void PhotonTracer::crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch
 }
 
 /// False: it ends there.
-bool PhotonTracer::collides(Path& path, const Medium& medium, bool isLit, float flight, uint32_t name, std::vector<StoredPhoton>& out) const {
+bool PhotonTracer::collides(Path& path, const Medium& medium, bool isLit, float flight, uint32_t name,
+                            std::vector<StoredPhoton>& out) const {
   const vec3 P = path.ray.origin + flight * path.ray.direction;
-  if (isLit) out.push_back({P, vec3(0), path.power / (medium.majorant(path.power) * worldUnit_), -1, path.depth, false});
+  if (isLit)
+    out.push_back(
+        {P, vec3(0), path.power / (medium.majorant(path.power) * worldUnit_), -1, path.depth, false});
   const Collision collision = collide(medium, path.power, sobol1(path.number, hashCombine(name, 1u)));
   if (collision.event == Collision::Absorbed) return false;
   path.power = collision.power;
   ++path.collisions;
   if (collision.event == Collision::None) {  // the same ray, from there
     path.ray.origin = P;
-    path.ray.offset = std::max(0.0f, path.ray.offset - flight), path.ray.bias = std::max(0.0f, path.ray.bias - flight);
+    path.ray.offset = std::max(0.0f, path.ray.offset - flight),
+    path.ray.bias = std::max(0.0f, path.ray.bias - flight);
     return true;
   }
   if (!isLit || ++path.depth >= settings_.maxDepth) return false;
   path.specular = false;
-  path.ray = {P, onSphere(sobol2(path.number, hashCombine(name, 2u)))};
+  path.ray = {P, directionOnSphere(sobol2(path.number, hashCombine(name, 2u)))};
   return true;
 }
 
@@ -169,7 +185,9 @@ void PhotonTracer::ask(const std::vector<Path>& paths, uint32_t stream, Scratch&
 }
 
 /// Reflected is what comes back of E/pi = 1, less what is emitted.
-std::vector<PhotonTracer::Answer> PhotonTracer::shaded(const std::vector<Ray>& rays, const std::vector<Hit>& hits, const std::vector<SampleName>& names) const {
+std::vector<PhotonTracer::Answer> PhotonTracer::shaded(const std::vector<Ray>& rays,
+                                                       const std::vector<Hit>& hits,
+                                                       const std::vector<SampleName>& names) const {
   ShadeContext context{RayKind::Diffuse, 1, settings_.seed, 1, false};
   context.light = Illumination::Unit;
   HitAnswers lit;
@@ -182,7 +200,8 @@ std::vector<PhotonTracer::Answer> PhotonTracer::shaded(const std::vector<Ray>& r
     for (size_t i = 0; i < dark.size(); ++i) lit.color[i] -= dark[i];
   }
   std::vector<Answer> out(hits.size());
-  for (size_t i = 0; i < out.size(); ++i) out[i] = {shareOf(lit.color[i], vec3(0)), shareOf(lit.opacity[i], vec3(1))};
+  for (size_t i = 0; i < out.size(); ++i)
+    out[i] = {shareOf(lit.color[i], vec3(0)), shareOf(lit.opacity[i], vec3(1))};
   return out;
 }
 
@@ -191,25 +210,33 @@ bool PhotonTracer::landsOn(const Path& path, int group) const {
   return !path.specular || isOnFor(scene_.groups[static_cast<size_t>(group)], path.light);
 }
 
-uint32_t PhotonTracer::nameOf(const Path& path, uint32_t stream) { return hashCombine(stream, static_cast<uint32_t>(path.depth) | path.passes << 16); }
+uint32_t PhotonTracer::nameOf(const Path& path, uint32_t stream) {
+  return hashCombine(stream, static_cast<uint32_t>(path.depth) | path.passes << 16);
+}
 
 /// False: it ends there.
-bool PhotonTracer::meets(Path& path, const Hit& hit, const Answer& answer, const Draw& xi, uint32_t stream, std::vector<StoredPhoton>& out) const {
+bool PhotonTracer::meets(Path& path, const Hit& hit, const Answer& answer, const Draw& xi, uint32_t stream,
+                         std::vector<StoredPhoton>& out) const {
   const int group = groupOf(hit);
   const PhotonModel model = models_[static_cast<size_t>(group)];
   const uint32_t name = nameOf(path, stream);
-  if (model == PhotonModel::Transparent) return passes(path, hit, scene_.groups[static_cast<size_t>(group)].attributes->color, xi.survival);
-  if (!isDiffuse(model)) return isMirrored(path, hit, xi.survival, sobol1(path.number, hashCombine(name, 2u)));
+  if (model == PhotonModel::Transparent)
+    return passes(path, hit, scene_.groups[static_cast<size_t>(group)].attributes->color, xi.survival);
+  if (!isDiffuse(model))
+    return isMirrored(path, hit, xi.survival, sobol1(path.number, hashCombine(name, 2u)));
   // What is not there, as the rest of a leaf's card, holds no light.
   const vec3 transmitted = 1.0f - answer.opacity;
   const float passing = (transmitted.x + transmitted.y + transmitted.z) / 3;
   const bool lands = passing < 1 && landsOn(path, group);
   if (lands && (settings_.direct || path.depth > 0)) {
     const vec3 P = path.ray.origin + hit.t * path.ray.direction, Ng = hit.geometricNormal;
-    out.push_back({P, dot(path.ray.direction, Ng) < 0 ? Ng : -Ng, path.power, group, path.depth, path.specular && path.depth > 0});
+    out.push_back({P, dot(path.ray.direction, Ng) < 0 ? Ng : -Ng, path.power, group, path.depth,
+                   path.specular && path.depth > 0});
   }
-  if (passing > 0 && sobol1(path.number, hashCombine(name, 3u)) < passing) return passes(path, hit, transmitted / passing, xi.survival);
-  return lands && isScattered(path, hit, answer.reflected / (1 - passing), xi, sobol1(path.number, hashCombine(name, 2u)));
+  if (passing > 0 && sobol1(path.number, hashCombine(name, 3u)) < passing)
+    return passes(path, hit, transmitted / passing, xi.survival);
+  return lands && isScattered(path, hit, answer.reflected / (1 - passing), xi,
+                              sobol1(path.number, hashCombine(name, 2u)));
 }
 
 /// As if nothing were there, but for its colour: no arrival, and what comes so is no caustic.
@@ -219,12 +246,14 @@ bool PhotonTracer::passes(Path& path, const Hit& hit, const vec3& transmitted, f
   return true;
 }
 
-bool PhotonTracer::isScattered(Path& path, const Hit& hit, const vec3& reflected, const Draw& xi, float side) const {
+bool PhotonTracer::isScattered(Path& path, const Hit& hit, const vec3& reflected, const Draw& xi,
+                               float side) const {
   path.specular = false;
   if (++path.depth >= settings_.maxDepth || !survives(path, reflected, xi.survival)) return false;
   // Around the interpolated normal some photons would go into the polygon, and be caught in what it bounds.
   const bool through = models_[static_cast<size_t>(groupOf(hit))] == PhotonModel::Translucent && side < 0.5f;
-  const vec3 axis = (dot(path.ray.direction, hit.geometricNormal) < 0) != through ? hit.geometricNormal : -hit.geometricNormal;
+  const vec3 axis = (dot(path.ray.direction, hit.geometricNormal) < 0) != through ? hit.geometricNormal
+                                                                                  : -hit.geometricNormal;
   vec3 tangent, bitangent;
   orthonormalBasis(axis, tangent, bitangent);
   const vec3 local = cosineHemisphere(xi.direction);
@@ -234,7 +263,8 @@ bool PhotonTracer::isScattered(Path& path, const Hit& hit, const vec3& reflected
 
 bool PhotonTracer::isMirrored(Path& path, const Hit& hit, float survival, float xi) const {
   const auto group = static_cast<size_t>(groupOf(hit));
-  if (++path.depth >= settings_.maxDepth || !survives(path, scene_.groups[group].attributes->color, survival)) return false;
+  if (++path.depth >= settings_.maxDepth || !survives(path, scene_.groups[group].attributes->color, survival))
+    return false;
   const vec3 d = path.ray.direction;
   const bool front = dot(d, hit.geometricNormal) < 0;
   const vec3 N = front ? hit.normal : -hit.normal;
@@ -255,7 +285,8 @@ bool PhotonTracer::survives(Path& path, const vec3& left, float xi) {
 }
 
 void PhotonTracer::leave(Path& path, const Hit& hit, const vec3& direction) const {
-  const vec3 P = path.ray.origin + hit.t * path.ray.direction, N = dot(path.ray.direction, hit.geometricNormal) < 0 ? hit.normal : -hit.normal;
+  const vec3 P = path.ray.origin + hit.t * path.ray.direction,
+             N = dot(path.ray.direction, hit.geometricNormal) < 0 ? hit.normal : -hit.normal;
   path.ray = {P, normalizeOr(direction, N)};
   // The level of what it meets follows from its width; textures there do not.
   path.ray.spread = path.specular ? 0.0f : kDiffuseSpread;
