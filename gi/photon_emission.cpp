@@ -88,6 +88,7 @@ void PhotonSource::surveyPoint() {
   float spread = 0;
   for (const vec3& place : askedFromMiddle(fewSamples()).L)
     spread = std::max(spread, kSampledMargin * glm::distance(place, middle_));
+  isDrawn_ = spread > 0;
   aimAt(radius_ + spread);
   LightProbe probe;
   for (size_t c = 0; c < kRows * kColumns; ++c)
@@ -160,6 +161,7 @@ void PhotonSource::surveyDistant(const PhotonTarget& target) {
   for (size_t i = 0; i < kFewSamples; ++i) {
     spread = std::max(spread, kSampledMargin * radius_ * glm::length(probe.L[i] + direction_));
     brightness += luminance(probe.Cl[i]) / kFewSamples;
+    isDrawn_ |= probe.L[i] != probe.L[0];
   }
   vec3 tangent, bitangent;
   orthonormalBasis(direction_, tangent, bitangent);
@@ -231,14 +233,14 @@ LightProbe PhotonSource::askedFromMiddle(const std::vector<vec2>& xi) const {
 
 void PhotonSource::emitFromPoint(const std::vector<vec2>& a, const std::vector<vec2>& b,
                                  std::vector<EmittedPhoton>& out) const {
-  const LightProbe place = askedFromMiddle(b);  // a light that is sampled is not at one place alone
+  const LightProbe place = isDrawn_ ? askedFromMiddle(b) : LightProbe();
   LightProbe probe;
   probe.xi = b;
   std::vector<double> density;
   for (size_t i = 0; i < out.size(); ++i) {
     double x{a[i].x};
     const size_t cell = cells_.pick(x);
-    const vec3 local = inCone(cell, {static_cast<float>(x), a[i].y}), offset = place.L[i] - middle_;
+    const vec3 local = inCone(cell, {static_cast<float>(x), a[i].y}), offset = isDrawn_ ? place.L[i] - middle_ : vec3(0);
     Ray& ray = out[i].ray;
     ray = {placeAlong(local, cone_.start) + offset, directionOf(local)};
     ray.bias = kPointBias * (radius_ + glm::length(ray.origin));
@@ -254,7 +256,7 @@ void PhotonSource::emitFromDistance(const std::vector<vec2>& a, const std::vecto
                                     std::vector<EmittedPhoton>& out) const {
   vec3 tangent, bitangent;
   orthonormalBasis(direction_, tangent, bitangent);
-  const LightProbe sun = askedFromMiddle(b);
+  const LightProbe sun = isDrawn_ ? askedFromMiddle(b) : LightProbe();
   LightProbe probe;
   probe.xi = b;
   const float side = 2 * radius_ / kGrid;
@@ -266,7 +268,7 @@ void PhotonSource::emitFromDistance(const std::vector<vec2>& a, const std::vecto
                     vec2(radius_);
     // The square turns with the direction by the shortest way: whatever its shadow, it moves by less than
     // that does.
-    const vec3 d = -sun.L[i], across = at.x * tangent + at.y * bitangent;
+    const vec3 d = isDrawn_ ? -sun.L[i] : direction_, across = at.x * tangent + at.y * bitangent;
     const vec3 turned = across - dot(across, d) / std::max(1 + dot(direction_, d), 1e-6f) * (direction_ + d);
     out[i].ray = {center_ + turned - kSkyDistance * radius_ * d, d};
     probe.P.push_back(out[i].ray.origin), probe.N.push_back(-d);

@@ -63,6 +63,7 @@ class PhotonSource {
   const RayScene& rays_;
   const LightKind kind_;
   double power_ = 0;
+  bool isDrawn_ = false;  ///< Point, Distant: its place or direction is another for every photon.
   Distribution cells_;  ///< Point: of the cone. Sky: of the sphere of directions. Distant: of the square that
                         ///< the scene's shadow fits in.
   vec3 middle_{0.0f};   ///< Point: from the middle of the scene to that of the light.

@@ -67,38 +67,52 @@ void PhotonTracer::trace(const PhotonSource& source, uint32_t first, size_t coun
   source.emit(first, settings_.seed, emitted);
   const uint32_t stream = hashCombine(settings_.seed, static_cast<uint32_t>(source.light()), kBounceStream);
   std::vector<Path> paths;
+  Scratch scratch;
   for (size_t i = 0; i < count; ++i) {
     const EmittedPhoton& e = emitted[i];
     if (!(maxComponent(e.power) > 0) || !isFinite(e.power)) continue;
+    scratch.flying.push_back(static_cast<uint32_t>(paths.size()));
     paths.push_back({e.ray, e.power * share, first + static_cast<uint32_t>(i), source.light()});
   }
-  Scratch scratch;
-  while (!paths.empty()) step(paths, stream, scratch, out);
+  while (!scratch.flying.empty()) step(paths, stream, scratch, out);
 }
 
-/// Every path to its next surface; those that end there leave the list.
+/// Every path that flies to its next surface; those that end there fly no more.
 void PhotonTracer::step(std::vector<Path>& paths, uint32_t stream, Scratch& s,
                         std::vector<StoredPhoton>& out) const {
-  s.hits.clear();
-  for (const Path& path : paths) s.hits.push_back(rays_.closest(path.ray, kMaskPhoton));
+  fly(paths, s);
   crossMedia(paths, stream, s, out);
   ask(paths, stream, s);
   draw(paths, stream, s);
   size_t kept = 0;
-  for (size_t i = 0; i < paths.size(); ++i) {
-    if (!s.scattered[i] && (s.hits[i].object < 0 || !meets(paths[i], s.hits[i], s.answers[i],
-                                                           {s.direction[i], s.survival[i]}, stream, out)))
-      continue;
-    if (kept != i) paths[kept] = paths[i];
-    ++kept;
+  for (size_t k = 0; k < s.flying.size(); ++k) {
+    Path& path = paths[s.flying[k]];
+    if (s.scattered[k] || (s.hits[k].object >= 0 && meets(path, s.hits[k], *s.answers[k],
+                                                          {s.direction[k], s.survival[k]}, stream, out)))
+      s.flying[kept++] = s.flying[k];
   }
-  paths.resize(kept);
+  s.flying.resize(kept);
+}
+
+/// Those that meet nothing leave the scene.
+void PhotonTracer::fly(const std::vector<Path>& paths, Scratch& s) const {
+  s.hits.resize(s.flying.size());
+  size_t kept = 0;
+  for (const uint32_t i : s.flying) {
+    // In place: a copy of what has just been written in smaller pieces waits for them.
+    const Hit& hit = *::new (&s.hits[kept]) Hit(rays_.closest(paths[i].ray, kMaskPhoton));
+    if (hit.object >= 0) s.flying[kept++] = i;
+  }
+  s.flying.resize(kept), s.hits.resize(kept);
 }
 
 void PhotonTracer::draw(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const {
-  const size_t count = paths.size();
+  const size_t count = s.flying.size();
   s.number.resize(count), s.name.resize(count), s.direction.resize(count), s.survival.resize(count);
-  for (size_t i = 0; i < count; ++i) s.number[i] = paths[i].number, s.name[i] = nameOf(paths[i], stream);
+  for (size_t k = 0; k < count; ++k) {
+    const Path& path = paths[s.flying[k]];
+    s.number[k] = path.number, s.name[k] = nameOf(path, stream);
+  }
   sobol2(s.number, s.name, s.direction);
   for (uint32_t& name : s.name) name = hashCombine(name, 1u);
   sobol1(s.number, s.name, s.survival);
@@ -107,11 +121,10 @@ void PhotonTracer::draw(const std::vector<Path>& paths, uint32_t stream, Scratch
 /// What collides before it arrives is stored there, and meets no surface in this step.
 void PhotonTracer::crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch& s,
                               std::vector<StoredPhoton>& out) const {
-  s.scattered.assign(paths.size(), 0);
-  for (size_t i = 0; anyMedium_ && i < paths.size(); ++i) {
-    Path& path = paths[i];
-    Hit& hit = s.hits[i];
-    if (hit.object < 0) continue;
+  s.scattered.assign(s.flying.size(), 0);
+  for (size_t k = 0; anyMedium_ && k < s.flying.size(); ++k) {
+    Path& path = paths[s.flying[k]];
+    Hit& hit = s.hits[k];
     const Media& media = media_[static_cast<size_t>(groupOf(hit))];
     const Medium& medium = dot(path.ray.direction, hit.geometricNormal) > 0 ? media.inside : media.outside;
     const float majorant = medium.majorant(path.power);
@@ -119,7 +132,7 @@ void PhotonTracer::crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch
     const uint32_t name = hashCombine(nameOf(path, stream), kMediumStream, path.collisions);
     const float flight = -std::log(1 - sobol1(path.number, name)) / majorant;
     if (!(flight < hit.t)) continue;
-    s.scattered[i] = collides(path, medium, landsOn(path, groupOf(hit)), flight, name, out);
+    s.scattered[k] = collides(path, medium, landsOn(path, groupOf(hit)), flight, name, out);
     hit.object = -1;
   }
 }
@@ -165,23 +178,24 @@ void PhotonTracer::askEvenSurfaces() {
 
 /// The surface at every hit: one that is even, or its shader.
 void PhotonTracer::ask(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const {
-  s.answers.assign(s.hits.size(), {});
+  s.answers.resize(s.hits.size());
   std::vector<Ray> rays;
   std::vector<Hit> hits;
   std::vector<SampleName> names;
   std::vector<size_t> which;
-  for (size_t i = 0; i < s.hits.size(); ++i) {
-    if (s.hits[i].object < 0) continue;
-    if (const auto& even = even_[static_cast<size_t>(groupOf(s.hits[i]))]) {
-      s.answers[i] = *even;
+  for (size_t k = 0; k < s.hits.size(); ++k) {
+    if (s.hits[k].object < 0) continue;
+    if (const auto& even = even_[static_cast<size_t>(groupOf(s.hits[k]))]) {
+      s.answers[k] = &*even;
       continue;
     }
-    rays.push_back(paths[i].ray), hits.push_back(s.hits[i]), which.push_back(i);
-    names.push_back({hashCombine(stream, paths[i].number, static_cast<uint32_t>(paths[i].depth)), 0});
+    const Path& path = paths[s.flying[k]];
+    rays.push_back(path.ray), hits.push_back(s.hits[k]), which.push_back(k);
+    names.push_back({hashCombine(stream, path.number, static_cast<uint32_t>(path.depth)), 0});
   }
   if (which.empty()) return;
-  const std::vector<Answer> found = shaded(rays, hits, names);
-  for (size_t k = 0; k < which.size(); ++k) s.answers[which[k]] = found[k];
+  s.found = shaded(rays, hits, names);
+  for (size_t i = 0; i < which.size(); ++i) s.answers[which[i]] = &s.found[i];
 }
 
 /// Reflected is what comes back of E/pi = 1, less what is emitted.
@@ -235,8 +249,7 @@ bool PhotonTracer::meets(Path& path, const Hit& hit, const Answer& answer, const
   }
   if (passing > 0 && sobol1(path.number, hashCombine(name, 3u)) < passing)
     return passes(path, hit, transmitted / passing, xi.survival);
-  return lands && isScattered(path, hit, answer.reflected / (1 - passing), xi,
-                              sobol1(path.number, hashCombine(name, 2u)));
+  return lands && isScattered(path, hit, answer.reflected / (1 - passing), xi, hashCombine(name, 2u));
 }
 
 /// As if nothing were there, but for its colour: no arrival, and what comes so is no caustic.
@@ -247,11 +260,12 @@ bool PhotonTracer::passes(Path& path, const Hit& hit, const vec3& transmitted, f
 }
 
 bool PhotonTracer::isScattered(Path& path, const Hit& hit, const vec3& reflected, const Draw& xi,
-                               float side) const {
+                               uint32_t side) const {
   path.specular = false;
   if (++path.depth >= settings_.maxDepth || !survives(path, reflected, xi.survival)) return false;
   // Around the interpolated normal some photons would go into the polygon, and be caught in what it bounds.
-  const bool through = models_[static_cast<size_t>(groupOf(hit))] == PhotonModel::Translucent && side < 0.5f;
+  const bool through = models_[static_cast<size_t>(groupOf(hit))] == PhotonModel::Translucent &&
+                       sobol1(path.number, side) < 0.5f;
   const vec3 axis = (dot(path.ray.direction, hit.geometricNormal) < 0) != through ? hit.geometricNormal
                                                                                   : -hit.geometricNormal;
   vec3 tangent, bitangent;

@@ -42,9 +42,11 @@ class PhotonTracer {
     float survival;
   };
   struct Scratch {
-    std::vector<Hit> hits;
-    std::vector<Answer> answers;     ///< At each.
-    std::vector<uint8_t> scattered;  ///< Before it was reached.
+    std::vector<uint32_t> flying;        ///< Which paths do.
+    std::vector<Hit> hits;               ///< Of each of those,
+    std::vector<const Answer*> answers;  ///< and of the surface there.
+    std::vector<Answer> found;           ///< Those that are not even_.
+    std::vector<uint8_t> scattered;      ///< Before it was reached.
     std::vector<uint32_t> number, name;
     std::vector<vec2> direction;  ///< Random numbers: of where a path goes on,
     std::vector<float> survival;  ///< and of whether it does.
@@ -55,6 +57,7 @@ class PhotonTracer {
 
   void askEvenSurfaces();
   void step(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const;
+  void fly(const std::vector<Path>& paths, Scratch& s) const;
   void draw(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const;
   void crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch& s,
                   std::vector<StoredPhoton>& out) const;
@@ -67,7 +70,7 @@ class PhotonTracer {
   bool meets(Path& path, const Hit& hit, const Answer& answer, const Draw& xi, uint32_t stream,
              std::vector<StoredPhoton>& out) const;
   bool passes(Path& path, const Hit& hit, const vec3& transmitted, float xi) const;
-  bool isScattered(Path& path, const Hit& hit, const vec3& reflected, const Draw& xi, float side) const;
+  bool isScattered(Path& path, const Hit& hit, const vec3& reflected, const Draw& xi, uint32_t side) const;
   bool isMirrored(Path& path, const Hit& hit, float survival, float xi) const;
   void leave(Path& path, const Hit& hit, const vec3& direction) const;
   static bool survives(Path& path, const vec3& left, float xi);
