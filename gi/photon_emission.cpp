@@ -4,6 +4,7 @@
 
 #include "raytrace/emitters.h"
 #include "reyes/base/rng.h"
+#include "reyes/base/simd.h"
 
 namespace tomales {
 namespace {
@@ -56,6 +57,20 @@ vec2 concentricDisk(vec2 xi) {
 }
 
 }  // namespace
+
+// Sines and cosines of an eighth of a turn at most.
+TOMALES_HOT void cosineHemispheres(std::span<const vec2> xi, std::span<vec3> out) {
+  for (size_t i = 0; i < out.size(); ++i) {
+    const float a = 2 * xi[i].x - 1, b = 2 * xi[i].y - 1;
+    const bool swapped = std::abs(a) <= std::abs(b);
+    const float r = swapped ? b : a, x = (kPi / 4) * (swapped ? a : b) / (r == 0 ? 1 : r), x2 = x * x;
+    const float sine =
+        x * (1 - x2 * (1.0f / 6 - x2 * (1.0f / 120 - x2 * (1.0f / 5040 - x2 * (1.0f / 362880)))));
+    const float cosine = 1 - x2 * (0.5f - x2 * (1.0f / 24 - x2 * (1.0f / 720 - x2 * (1.0f / 40320))));
+    out[i].x = r * (swapped ? sine : cosine), out[i].y = r * (swapped ? cosine : sine);
+    out[i].z = std::sqrt(std::max(0.0f, 1 - r * r));
+  }
+}
 
 PhotonTarget::PhotonTarget(const Scene& scene) {
   for (const Object& o : scene.objects) {
@@ -240,7 +255,8 @@ void PhotonSource::emitFromPoint(const std::vector<vec2>& a, const std::vector<v
   for (size_t i = 0; i < out.size(); ++i) {
     double x{a[i].x};
     const size_t cell = cells_.pick(x);
-    const vec3 local = inCone(cell, {static_cast<float>(x), a[i].y}), offset = isDrawn_ ? place.L[i] - middle_ : vec3(0);
+    const vec3 local = inCone(cell, {static_cast<float>(x), a[i].y}),
+               offset = isDrawn_ ? place.L[i] - middle_ : vec3(0);
     Ray& ray = out[i].ray;
     ray = {placeAlong(local, cone_.start) + offset, directionOf(local)};
     ray.bias = kPointBias * (radius_ + glm::length(ray.origin));
@@ -308,16 +324,21 @@ void PhotonSource::emitFromArea(const std::vector<vec2>& a, const std::vector<ve
     std::fill(out.begin(), out.end(), EmittedPhoton{});
     return;
   }
+  std::vector<vec3> directions(n);
+  cosineHemispheres(b, directions);
   LightProbe probe;
+  for (auto* v : {&probe.P, &probe.N, &probe.Pl, &probe.Nl}) v->reserve(n);
   for (size_t i = 0; i < n; ++i) {
-    const vec3 Nl(N.x[i], N.y[i], N.z[i]), local = cosineHemisphere(b[i]);
+    const vec3 Nl(N.x[i], N.y[i], N.z[i]), &local = directions[i];
     vec3 tangent, bitangent;
     orthonormalBasis(Nl, tangent, bitangent);
     Ray& ray = out[i].ray;
-    ray = {vec3(P.x[i], P.y[i], P.z[i]), local.x * tangent + local.y * bitangent + local.z * Nl};
+    ray.origin = vec3(P.x[i], P.y[i], P.z[i]);
+    ray.direction = local.x * tangent + local.y * bitangent + local.z * Nl;
     // The polygons that rays see may lie before the surface that shines.
     rays_.prepareOrigin(group[i], ray.origin, 0, ray);
     ray.offset /= std::max(local.z, kLeastCosine);
+    out[i].normal = Nl;
     probe.Pl.push_back(ray.origin), probe.Nl.push_back(Nl);
     probe.P.push_back(ray.origin + ray.direction), probe.N.push_back(-ray.direction);
   }

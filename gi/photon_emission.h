@@ -2,15 +2,21 @@
 // Power: W, of RSL's convention E/pi = Cl: a light shader's Cl is irradiance over pi at normal incidence, so
 // E = pi Cl. Threads: const members may be called concurrently.
 #pragma once
+#include <span>
+
 #include "raytrace/trace.h"
 #include "reyes/base/distribution.h"
 
 namespace tomales {
 
+/// As cosineHemisphere(), of each.
+void cosineHemispheres(std::span<const vec2> xi, std::span<vec3> out);
+
 /// Current space.
 struct EmittedPhoton {
   Ray ray;
-  vec3 power{0.0f};  ///< As if this were the only photon; zero: the light sends nothing there.
+  vec3 power{0.0f};   ///< As if this were the only photon; zero: the light sends nothing there.
+  vec3 normal{0.0f};  ///< Of the surface that it leaves; zero: it comes from the air.
 };
 
 /// What photons are aimed at.

@@ -4,6 +4,7 @@
 
 #include "gi/gather.h"
 #include "raytrace/emitter_shapes.h"
+#include "raytrace/hit_list.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
@@ -47,6 +48,7 @@ PhotonTracer::PhotonTracer(const Scene& scene, const RayScene& rays, const Shadi
       shading_(shading),
       settings_(settings),
       worldUnit_(std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))))) {
+  for (const Object& o : scene.objects) groups_.push_back(o.group);
   for (const ShadeGroup& g : scene.groups) {
     const std::string& name = g.attributes->photon.shadingModel;
     const std::optional<PhotonModel> model = photonModel(name);
@@ -68,11 +70,13 @@ void PhotonTracer::trace(const PhotonSource& source, uint32_t first, size_t coun
   const uint32_t stream = hashCombine(settings_.seed, static_cast<uint32_t>(source.light()), kBounceStream);
   std::vector<Path> paths;
   Scratch scratch;
+  paths.reserve(count), scratch.flying.reserve(count);
   for (size_t i = 0; i < count; ++i) {
     const EmittedPhoton& e = emitted[i];
     if (!(maxComponent(e.power) > 0) || !isFinite(e.power)) continue;
     scratch.flying.push_back(static_cast<uint32_t>(paths.size()));
     paths.push_back({e.ray, e.power * share, first + static_cast<uint32_t>(i), source.light()});
+    paths.back().lift = liftOf(e.ray, e.normal);
   }
   while (!scratch.flying.empty()) step(paths, stream, scratch, out);
 }
@@ -100,20 +104,37 @@ void PhotonTracer::fly(const std::vector<Path>& paths, Scratch& s) const {
   size_t kept = 0;
   for (const uint32_t i : s.flying) {
     // In place: a copy of what has just been written in smaller pieces waits for them.
-    const Hit& hit = *::new (&s.hits[kept]) Hit(rays_.closest(paths[i].ray, kMaskPhoton));
+    const Hit& hit = *::new (&s.hits[kept]) Hit(firstHit(paths[i]));
     if (hit.object >= 0) s.flying[kept++] = i;
   }
   s.flying.resize(kept), s.hits.resize(kept);
 }
 
+/// Photons leave polygons, not the surfaces that those stand for: just before its polygon most of them meet
+/// nothing near, and the hit list would not change what they meet.
+Hit PhotonTracer::firstHit(const Path& path) const {
+  Ray free = path.ray;
+  const bool hasList = free.offset > 0;
+  if (hasList) free.origin += path.lift, free.offset = free.bias = 0;
+  Hit hit = rays_.closest(free, kMaskPhoton);
+  if (hasList && hit.t <= recordingWindow(path.ray.offset)) hit = rays_.closest(path.ray, kMaskPhoton);
+  return hit;
+}
+
+vec3 PhotonTracer::liftOf(const Ray& ray, const vec3& normal) {
+  return std::copysign(roundingAt(ray.origin), dot(ray.direction, normal)) * normal;
+}
+
 void PhotonTracer::draw(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const {
   const size_t count = s.flying.size();
-  s.number.resize(count), s.name.resize(count), s.direction.resize(count), s.survival.resize(count);
+  s.number.resize(count), s.name.resize(count), s.xi.resize(count), s.direction.resize(count),
+      s.survival.resize(count);
   for (size_t k = 0; k < count; ++k) {
     const Path& path = paths[s.flying[k]];
     s.number[k] = path.number, s.name[k] = nameOf(path, stream);
   }
-  sobol2(s.number, s.name, s.direction);
+  sobol2(s.number, s.name, s.xi);
+  cosineHemispheres(s.xi, s.direction);
   for (uint32_t& name : s.name) name = hashCombine(name, 1u);
   sobol1(s.number, s.name, s.survival);
 }
@@ -270,7 +291,7 @@ bool PhotonTracer::isScattered(Path& path, const Hit& hit, const vec3& reflected
                                                                                   : -hit.geometricNormal;
   vec3 tangent, bitangent;
   orthonormalBasis(axis, tangent, bitangent);
-  const vec3 local = cosineHemisphere(xi.direction);
+  const vec3& local = xi.direction;
   leave(path, hit, local.x * tangent + local.y * bitangent + local.z * axis);
   return true;
 }
@@ -282,10 +303,11 @@ bool PhotonTracer::isMirrored(Path& path, const Hit& hit, float survival, float 
   const vec3 d = path.ray.direction;
   const bool front = dot(d, hit.geometricNormal) < 0;
   const vec3 N = front ? hit.normal : -hit.normal;
-  if (models_[group] == PhotonModel::Chrome)
-    leave(path, hit, d - 2 * dot(d, N) * N);
-  else
-    leave(path, hit, dielectric(d, N, front, models_[group] == PhotonModel::Water ? 1.33f : 1.5f, xi));
+  const vec3 mirrored = d - 2 * dot(d, N) * N;
+  const float index = models_[group] == PhotonModel::Water ? 1.33f : 1.5f;
+  leave(
+      path, hit,
+      normalizeOr(models_[group] == PhotonModel::Chrome ? mirrored : dielectric(d, N, front, index, xi), N));
   return true;
 }
 
@@ -298,15 +320,18 @@ bool PhotonTracer::survives(Path& path, const vec3& left, float xi) {
   return true;
 }
 
+/// In a direction of unit length.
 void PhotonTracer::leave(Path& path, const Hit& hit, const vec3& direction) const {
-  const vec3 P = path.ray.origin + hit.t * path.ray.direction,
-             N = dot(path.ray.direction, hit.geometricNormal) < 0 ? hit.normal : -hit.normal;
-  path.ray = {P, normalizeOr(direction, N)};
+  Ray& ray = path.ray;
+  const vec3& N = hit.normal;
+  ray.origin += hit.t * ray.direction;
+  ray.direction = direction;
   // The level of what it meets follows from its width; textures there do not.
-  path.ray.spread = path.specular ? 0.0f : kDiffuseSpread;
-  rays_.prepareOrigin(groupOf(hit), P, 0, path.ray);
-  path.ray.spread = 0;
-  path.ray.offset = slantedOffset(path.ray.offset, std::abs(dot(path.ray.direction, N)));
+  ray.spread = path.specular ? 0.0f : kDiffuseSpread;
+  rays_.prepareOrigin(groupOf(hit), ray.origin, 0, ray);
+  ray.spread = 0;
+  ray.offset = slantedOffset(ray.offset, std::abs(dot(direction, N)));
+  path.lift = liftOf(ray, hit.geometricNormal);
 }
 
 }  // namespace tomales

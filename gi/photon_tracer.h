@@ -31,6 +31,7 @@ class PhotonTracer {
     uint32_t passes = 0;      ///< Through surfaces that have let it pass as if they were not there.
     uint32_t collisions = 0;  ///< With media.
     bool specular = true;     ///< So far it has met nothing diffuse.
+    vec3 lift{0.0f};          ///< From the origin to just before the polygon that it leaves.
   };
   /// What a surface does with light that falls on it.
   struct Answer {
@@ -38,7 +39,7 @@ class PhotonTracer {
     vec3 opacity{1.0f};
   };
   struct Draw {
-    vec2 direction;
+    const vec3& direction;  ///< Of a cosine hemisphere around +z.
     float survival;
   };
   struct Scratch {
@@ -48,8 +49,9 @@ class PhotonTracer {
     std::vector<Answer> found;           ///< Those that are not even_.
     std::vector<uint8_t> scattered;      ///< Before it was reached.
     std::vector<uint32_t> number, name;
-    std::vector<vec2> direction;  ///< Random numbers: of where a path goes on,
-    std::vector<float> survival;  ///< and of whether it does.
+    std::vector<vec2> xi;
+    std::vector<vec3> direction;  ///< Random: where a path goes on,
+    std::vector<float> survival;  ///< and whether it does.
   };
   struct Media {
     Medium inside, outside;
@@ -58,6 +60,8 @@ class PhotonTracer {
   void askEvenSurfaces();
   void step(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const;
   void fly(const std::vector<Path>& paths, Scratch& s) const;
+  Hit firstHit(const Path& path) const;
+  static vec3 liftOf(const Ray& ray, const vec3& normal);
   void draw(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const;
   void crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch& s,
                   std::vector<StoredPhoton>& out) const;
@@ -75,13 +79,14 @@ class PhotonTracer {
   void leave(Path& path, const Hit& hit, const vec3& direction) const;
   static bool survives(Path& path, const vec3& left, float xi);
   static uint32_t nameOf(const Path& path, uint32_t stream);
-  int groupOf(const Hit& hit) const { return scene_.objects[static_cast<size_t>(hit.object)].group; }
+  int groupOf(const Hit& hit) const { return groups_[static_cast<size_t>(hit.object)]; }
 
   const Scene& scene_;
   const RayScene& rays_;
   const ShadingSystem& shading_;
   const PhotonSettings& settings_;
   const float worldUnit_;     ///< Length of one of the world.
+  std::vector<int> groups_;   ///< Of each object.
   std::vector<Media> media_;  ///< On both sides of the surfaces of each group.
   bool anyMedium_ = false;
   std::vector<PhotonModel> models_;          ///< Of each group,

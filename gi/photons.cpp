@@ -9,7 +9,8 @@
 namespace tomales {
 namespace {
 
-constexpr size_t kPhotonsPerTask = 2048, kTasksPerWave = 64;
+constexpr size_t kPhotonsPerTask = 2048,
+                 kTasksPerThread = 8;  ///< Before they are stored, from the processor's cache.
 
 std::vector<PhotonSource> sourcesOf(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                                     Log& log) {
@@ -45,7 +46,7 @@ std::optional<PhotonModel> photonModel(const std::string& name) {
 
 PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                            const PhotonSettings& settings,
-                           const std::function<void(const StoredPhoton&)>& store,
+                           const std::function<void(std::span<const StoredPhoton>)>& store,
                            const std::function<void(float)>& progress, Stats& stats, Log& log) {
   const std::vector<PhotonSource> sources = sourcesOf(scene, rays, shading, log);
   const double total = std::accumulate(sources.begin(), sources.end(), 0.0,
@@ -56,12 +57,13 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
   const PhotonTracer tracer(scene, rays, shading, settings, log);
   PhotonFigures figures;
   std::vector<std::vector<StoredPhoton>> stored;
+  const size_t photonsPerWave = kPhotonsPerTask * kTasksPerThread * static_cast<size_t>(threadCount());
   for (const PhotonSource& source : sources) {
     const auto count = static_cast<size_t>(
         std::max(1.0, std::round(static_cast<double>(settings.emit) * source.power() / total)));
     const float share = 1 / static_cast<float>(count);
-    for (size_t wave = 0; wave < count; wave += kPhotonsPerTask * kTasksPerWave) {
-      const size_t end = std::min(count, wave + kPhotonsPerTask * kTasksPerWave);
+    for (size_t wave = 0; wave < count; wave += photonsPerWave) {
+      const size_t end = std::min(count, wave + photonsPerWave);
       stored.resize((end - wave + kPhotonsPerTask - 1) / kPhotonsPerTask);
       parallelFor(stored.size(), 1, [&](size_t begin, size_t last) {
         for (size_t task = begin; task < last; ++task) {
@@ -72,7 +74,7 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
         }
       });
       for (const auto& photons : stored) {
-        for (const StoredPhoton& p : photons) store(p);
+        store(photons);
         figures.stored += static_cast<int64_t>(photons.size());
       }
       if (progress)

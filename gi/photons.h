@@ -5,6 +5,7 @@
 #pragma once
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "raytrace/trace.h"
@@ -36,7 +37,7 @@ struct PhotonFigures {
 /// nothing, with a warning.
 PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                            const PhotonSettings& settings,
-                           const std::function<void(const StoredPhoton&)>& store,
+                           const std::function<void(std::span<const StoredPhoton>)>& store,
                            const std::function<void(float)>& progress, Stats& stats, Log& log);
 
 /// Attribute "photon" "shadingmodel": what a surface does to photons.

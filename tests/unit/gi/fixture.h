@@ -115,9 +115,8 @@ struct World {
 inline std::vector<StoredPhoton> traced(World& world, const PhotonSettings& settings) {
   const auto services = world.use({.mode = GiMode::None});
   std::vector<StoredPhoton> out;
-  tracePhotons(
-      world.scene, world.rays, world.shading, settings, [&](const StoredPhoton& p) { out.push_back(p); }, {}, world.stats,
-      world.log);
+  const auto store = [&](std::span<const StoredPhoton> photons) { out.insert(out.end(), photons.begin(), photons.end()); };
+  tracePhotons(world.scene, world.rays, world.shading, settings, store, {}, world.stats, world.log);
   return out;
 }
 
