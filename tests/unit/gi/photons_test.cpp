@@ -126,6 +126,23 @@ TEST(Photons, NoneComesIntoAClosedBody) {
   EXPECT_EQ(inside, 0);
 }
 
+TEST(Photons, NoneLeavesAClosedBoxByItsEdges) {
+  // However flat they leave a wall, whose edge is another's.
+  SceneBuilder b;
+  b.light("pointlight", {floatParam("intensity", 3), pointParam("from", {0.1f, 0.2f, 3})});
+  const auto box = [&](float r) {
+    const auto at = [&](int i) { return vec3(i & 1 ? r : -r, i & 2 ? r : -r, (i & 4 ? r : -r) + 3); };
+    constexpr int kFaces[6][4] = {{0, 4, 5, 1}, {2, 3, 7, 6}, {4, 6, 7, 5},
+                                  {0, 1, 3, 2}, {0, 2, 6, 4}, {5, 7, 3, 1}};
+    for (const auto& f : kFaces) b.quad(at(f[0]), at(f[1]), at(f[2]), at(f[3]), vec3(0.75f));
+  };
+  box(1), box(3);
+  World world(b.scene);
+  const std::vector<StoredPhoton> photons = traced(world, {150000, 200});
+  EXPECT_GT(photons.size(), 590000u);
+  for (const StoredPhoton& p : photons) EXPECT_LT(maxComponent(glm::abs(p.P - vec3(0, 0, 3))), 1.001f);
+}
+
 TEST(Photons, AMirrorStoresNothing) {
   World world(insideOfASphere("chrome"));
   EXPECT_TRUE(traced(world, {1000, 5}).empty());
