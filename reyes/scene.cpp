@@ -80,13 +80,15 @@ void Scene::derive(Object& o) const {
   o.currentFromObject = heldCamera(o.worldFromObject, options.shutterOpen, m);
   turnToEye(o, m, options.projection == ProjectionKind::Perspective);
   o.flipsNormal = (glm::determinant(mat3(m)) < 0) != o.attributes->insideOut;
-  o.displacementBound = displacementBoundOf(*o.attributes, m);
+  o.displacementBound = 0;  // What grows carries its displacement along.
+  for (const float t : o.keyTimes) o.displacementBound = std::max(o.displacementBound, displacementBoundOf(*o.attributes, o.cameraFromObject.at(t)));
 }
 
 void Scene::derive(Procedural& p) const {
   p.cameraFromObject = cameraFromWorld * p.worldFromObject;
   p.keyTimes = keyTimesOf({}, p.cameraFromObject, options);
-  p.displacementBound = displacementBoundOf(*p.attributes, p.cameraFromObject.at(options.shutterOpen));
+  p.displacementBound = 0;
+  for (const float t : p.keyTimes) p.displacementBound = std::max(p.displacementBound, displacementBoundOf(*p.attributes, p.cameraFromObject.at(t)));
 }
 
 void Scene::findGroup(Object& o, int index) {

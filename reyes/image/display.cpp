@@ -73,6 +73,7 @@ struct DisplayFile::Impl {
       : display(o.displays[index]), options(o), log(l), path(display.name), selection(output.displays[index]) {
     warnAboutParams(display, log);
     format = formatOf(display, path, log);
+    format.pixelAspect = options.pixelAspect;
     shape = whole;
     shape.channels.clear(), shape.pixels.clear();
     if (writesDeep(display)) openDeep();

@@ -95,7 +95,10 @@ void warnAboutParams(const DisplayCall& display, Log& log) {
                "Display \"" + display.name + "\": " + what + "; ignored");
   };
   for (const Param& p : display.params)
-    if (!knowsParam(p.name)) warn("no parameter \"" + p.name + "\"");
+    if (!knowsParam(p.name))
+      warn("no parameter \"" + p.name + "\"");
+    else if (p.name == "origin" && std::any_of(p.ints.begin(), p.ints.end(), [](int at) { return at != 0; }))
+      warn("\"origin\" is a place in a frame buffer, and this is a file");
   const std::string transfer = displayText(display, "transfer"), type = pixelTypeOf(display);
   if (!transfer.empty() && transfer != "srgb" && transfer != "linear")
     warn("no transfer \"" + transfer + "\"");
@@ -104,17 +107,15 @@ void warnAboutParams(const DisplayCall& display, Log& log) {
 
 FileFormat formatOf(const DisplayCall& display, std::string& path, Log& log) {
   FileFormat format = formatOfType(display.type);
-  if (format.name.empty()) {
-    if (display.type != "file")
-      log.report(
-          Severity::Warning, "display-type", display.where,
-          "Display \"" + display.name + "\": no display type \"" + display.type + "\"; written as a file");
-    format = formatOfExtension(path);
-  }
+  const bool unknown = format.name.empty() && display.type != "file";
+  if (format.name.empty()) format = formatOfExtension(path);
   if (format.name.empty()) {
     format = {"openexr", SampleType::Float};
     path = std::filesystem::path(path).replace_extension(".exr").string();
   }
+  if (unknown)
+    log.report(Severity::Warning, "display-type", display.where,
+               "Display \"" + display.name + "\": no display type \"" + display.type + "\"; \"" + path + "\" is written, of type " + format.name);
   setCompression(display, format, log);
   if (format.name == "openexr")
     setExr(display, format);

@@ -102,6 +102,7 @@ Imf::Header headerOf(const Image& image, const FileFormat& format, const Part& p
   const int height = image.displayHeight > 0 ? image.displayHeight : image.height;
   const Imath::V2i origin(image.originX, image.originY);
   Imf::Header header({{0, 0}, {width - 1, height - 1}}, {origin, origin + Imath::V2i(image.width - 1, image.height - 1)});
+  header.pixelAspectRatio() = format.pixelAspect;
   header.compression() = compressionOf(format);
   header.zipCompressionLevel() = kZipLevel;
   for (const size_t c : part.channels) header.channels().insert(image.channels[c], Imf::Channel(typeOf(format, image.channels[c])));

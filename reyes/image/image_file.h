@@ -23,6 +23,7 @@ struct FileFormat {
   bool multipart = false;               ///< OpenEXR: one part for each layer.
   std::vector<std::string> precise = {};///< Channels that stay float in a file of halves.
   std::vector<Metadata> metadata = {};
+  float pixelAspect = 1;                ///< Width of a pixel over its height.
 };
 
 /// Format of a file by its name's extension; empty name: none that can be written.

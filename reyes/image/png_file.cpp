@@ -2,6 +2,7 @@
 #include <png.h>
 
 #include <bit>
+#include <cmath>
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
@@ -43,6 +44,10 @@ class PngFile : public FormatWriter {
                    format_.type == SampleType::UInt16 ? 16 : 8, kColours[channels - 1], PNG_INTERLACE_NONE,
                    PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
       if (shape.originX != 0 || shape.originY != 0) png_set_oFFs(file_.png, file_.info, shape.originX, shape.originY, PNG_OFFSET_PIXEL);
+      constexpr float kUnits = 1000;  // pixels across, of whatever
+      if (format_.pixelAspect != 1)
+        png_set_pHYs(file_.png, file_.info, static_cast<png_uint_32>(kUnits), static_cast<png_uint_32>(std::lround(kUnits * format_.pixelAspect)),
+                     PNG_RESOLUTION_UNKNOWN);
       char key[] = "Software", text[] = "Tomales";
       png_text software{};
       software.compression = PNG_TEXT_COMPRESSION_NONE, software.key = key, software.text = text;

@@ -86,13 +86,14 @@ class TiffFile : public FormatWriter {
     TIFFSetField(file_, TIFFTAG_ROWSPERSTRIP, PictureFile::kBandRows);
   }
 
-  /// Positions are in units of the resolution: pixels. TIFF has none that are negative.
+  /// Positions are in units of which the resolution says how many pixels they are: across, a pixel; down, as long a way. TIFF has none that are
+  /// negative.
   void setWindow(const Image& shape) {
     TIFFSetField(file_, TIFFTAG_RESOLUTIONUNIT, RESUNIT_NONE);
     TIFFSetField(file_, TIFFTAG_XRESOLUTION, 1.0f);
-    TIFFSetField(file_, TIFFTAG_YRESOLUTION, 1.0f);
+    TIFFSetField(file_, TIFFTAG_YRESOLUTION, format_.pixelAspect);
     TIFFSetField(file_, TIFFTAG_XPOSITION, static_cast<float>(std::max(shape.originX, 0)));
-    TIFFSetField(file_, TIFFTAG_YPOSITION, static_cast<float>(std::max(shape.originY, 0)));
+    TIFFSetField(file_, TIFFTAG_YPOSITION, static_cast<float>(std::max(shape.originY, 0)) / format_.pixelAspect);
     TIFFSetField(file_, TIFFTAG_PIXAR_IMAGEFULLWIDTH, shape.displayWidth > 0 ? shape.displayWidth : shape.width);
     TIFFSetField(file_, TIFFTAG_PIXAR_IMAGEFULLLENGTH, shape.displayHeight > 0 ? shape.displayHeight : shape.height);
   }

@@ -42,6 +42,7 @@ void splitTextureCoordinates(const Param& param, const std::vector<float>& value
 void takePrimvar(const Param& param, const PrimvarCounts& counts, std::vector<Primvar>& out,
                  Problems& problems) {
   if (param.type == ValueType::String) {
+    if (param.strings.size() == 1 && (param.storage == Storage::Constant || param.storage == Storage::Uniform)) return;  // its shaders have it
     problems.push_back(
         fmt::format("{} is a string, which a surface cannot interpolate; it was dropped", param.name));
     return;

@@ -3,9 +3,9 @@
 
 #include <utility>
 
-#include "reyes/output.h"
 #include "reyes/rib/collapsed.h"
 #include "reyes/rib/contents.h"
+#include "reyes/rib/object_attributes.h"
 #include "reyes/rib/request_table.h"
 #include "reyes/rib/scene_builder.h"
 
@@ -41,14 +41,12 @@ bool sameTopology(const Prim& a, const Prim& b) {
                                                         b.primvars().begin(), b.primvars().end(), alike);
 }
 
-/// Surface "null": nobody sees the object, but it may emit. In passes for depth alone it means, by custom, that no shader need run.
-std::shared_ptr<Attributes> attributesOf(const Scope& scope, const Options& options) {
-  const std::shared_ptr<Attributes>& given = scope.attributes;
-  if (!given->surface || given->surface->name != "null") return given;
-  auto bare = std::make_shared<Attributes>(*given);
-  bare->surface = nullptr;
-  if (shades(options)) bare->visibility = {false, false, false, false, false};
-  return bare;
+/// Collapsed to a point or a line all the time, so that none of it has an area.
+bool vanishes(const Motion& m) {
+  return std::all_of(m.keys.begin(), m.keys.end(), [](const mat4& k) {
+    const glm::dmat3 a(k);
+    return cross(a[0], a[1]) == glm::dvec3(0) && cross(a[1], a[2]) == glm::dvec3(0) && cross(a[2], a[0]) == glm::dvec3(0);
+  });
 }
 
 bool sameBasis(const Basis& a, const Basis& b) { return a.step == b.step && a.matrix == b.matrix; }
@@ -61,6 +59,9 @@ void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times
     return state_.warnOnce("outside", r, "rib-outside-world",
                            description(r) + ": geometry outside of WorldBegin and WorldEnd is ignored");
   const Motion cameraFromObject = state_.cameraFromObject();
+  if (isFinite(cameraFromObject) && vanishes(cameraFromObject))
+    return state_.warnOnce("collapsed:" + description(r), r, "rib-collapsed",
+                           description(r) + ": its transformation collapses it to a point or a line; nothing of it is drawn");
   if (!isFinite(cameraFromObject) || !isInvertible(cameraFromObject)) {
     state_.log.report(
         Severity::Missing, "rib-object-dropped", r.where,
@@ -81,7 +82,7 @@ void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times
   object.shapeTimes = std::move(shapes.times);
   object.worldFromObject = state_.scope.ctm;
   state_.scope.attributes = state_.attributes(state_.scope.attributes);
-  object.attributes = state_.attributes(attributesOf(state_.scope, state_.globals.options));
+  object.attributes = state_.attributes(attributesOf(r, state_));
   object.where = r.where;
   object.contents = shapes.contents;
   placeInSolid(state_, object);

@@ -102,8 +102,8 @@ BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const 
     for (size_t k = 0; k < std::min<size_t>(bound->floats[i].size(), 3); ++k) value.c[k] = bound->floats[i].data() + k;
   }
   if (call)
-    for (const Param& p : call->params)
-      if (!bound->find(p.name) && std::find(hostParams.begin(), hostParams.end(), p.name) == hostParams.end())
+    for (const Param& p : call->params)  // constants are those of a primitive, which no shader need have
+      if (p.storage != Storage::Constant && !bound->find(p.name) && std::find(hostParams.begin(), hostParams.end(), p.name) == hostParams.end())
         warn("shader-parameter-unknown", p.name, fmt::format("has no parameter \"{}\"; it is ignored", p.name));
   return bound;
 }

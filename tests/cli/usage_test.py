@@ -30,6 +30,13 @@ t.expect_run("a scene without Display", ["plain.rib"], 0)
 t.expect((t.folder / "ri.exr").exists(), "writes ri.exr")
 
 display, rest = GOOD.split("\n", 1)
+for aspect in (1, 2):
+    t.write("wide.rib", f"Format 32 24 {aspect}\n" + "\n".join(line for line in GOOD.splitlines() if not line.startswith("Format")))
+    for extension in ("exr", "tif", "png"):
+        t.expect_run(f"pixels {aspect} times as wide as high, {extension}", ["wide.rib", "-o", "wide." + extension], 0)
+        said = subprocess.run(["oiiotool", "--info", "-v", "wide." + extension], cwd=t.folder, capture_output=True, text=True).stdout
+        shown = [line.split(":")[1].strip() for line in said.splitlines() if "PixelAspectRatio" in line] or ["1"]
+        t.expect(shown == [str(aspect)], f"are so in {extension}: {shown}")
 t.write("project.rib", 'Display "renderman/images/scene.exr" "it" "rgba" "int[4] quantize" [0 0 0 0] "int asrgba" 1\n' + rest)
 made = t.expect_run("folders of a modeller's project", ["project.rib"], 0)
 t.expect((t.folder / "renderman/images/scene.exr").exists(), "are made")

@@ -171,6 +171,23 @@ TEST_F(Display, ANameWithoutAFormatBecomesOpenExr) {
   EXPECT_TRUE(fs::exists(path("ri.exr")));
 }
 
+TEST_F(Display, ATypeThatNobodyKnowsIsToldWithTheFileThatIsWritten) {
+  ASSERT_TRUE(writeDisplay(gradient(), {path("x.jpg"), "jpeg", "rgba", {}, {}}, options_, log_));
+  ASSERT_EQ(log_.count("display-type"), 1);
+  EXPECT_NE(log_.entries()[0].message.find(path("x.exr")), std::string::npos);
+  EXPECT_TRUE(fs::exists(path("x.exr")));
+}
+
+TEST_F(Display, AnOriginInAFrameBufferIsToldToBeIgnored) {
+  Param origin;
+  origin.name = "origin", origin.type = ValueType::Integer, origin.arrayLength = 2, origin.ints = {0, 0};
+  ASSERT_TRUE(writeDisplay(gradient(), {path("a.exr"), "file", "rgba", {origin}, {}}, options_, log_));
+  EXPECT_EQ(log_.count("display-parameter"), 0);
+  origin.ints = {0, 20};
+  ASSERT_TRUE(writeDisplay(gradient(), {path("a.exr"), "file", "rgba", {origin}, {}}, options_, log_));
+  EXPECT_EQ(log_.count("display-parameter"), 1);
+}
+
 TEST_F(Display, APathThatCannotBeWrittenIsAnOutputErrorNamingIt) {
   const std::string bad = path("no/such/folder/a.exr");
   EXPECT_FALSE(writeDisplay(gradient(), {bad, "file", "rgba", {}, {}}, options_, log_));

@@ -32,7 +32,7 @@ TEST(Primvars, IntegersBecomeFloats) {
 
 TEST(Primvars, StringsAndWrongCountsAreDroppedWithASentence) {
   Param text;
-  text.name = "label", text.type = ValueType::String, text.strings = {"a"};
+  text.name = "label", text.storage = Storage::Varying, text.type = ValueType::String, text.strings = {"a"};
   Problems problems;
   const auto vars = takePrimvars({text, floats("Cs", Storage::Varying, ValueType::Color, {1, 2, 3}),
                                   floats("k", Storage::Constant, ValueType::Float, {4})},
@@ -41,6 +41,17 @@ TEST(Primvars, StringsAndWrongCountsAreDroppedWithASentence) {
   EXPECT_EQ(vars[0].name, "k");
   ASSERT_EQ(problems.size(), 2u);
   EXPECT_EQ(problems[1], "Cs has 3 values where 4 elements need 12 floats; it was dropped");
+}
+
+TEST(Primvars, AStringOfTheWholePrimitiveIsLeftToItsShaders) {
+  Param text;
+  text.name = "label", text.type = ValueType::String, text.strings = {"a"};
+  Problems problems;
+  for (const Storage storage : {Storage::Constant, Storage::Uniform}) {
+    text.storage = storage;
+    EXPECT_TRUE(takePrimvars({text}, {}, problems).empty());
+  }
+  EXPECT_TRUE(problems.empty());
 }
 
 TEST(Primvars, MatricesAndArraysKeepTheirWidth) {

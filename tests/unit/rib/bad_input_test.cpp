@@ -92,6 +92,15 @@ TEST(BadInput, SingularAndInfiniteTransformationsDropTheirObjects) {
   EXPECT_EQ(r.log.entries().size(), 2u) << r.codes();
 }
 
+TEST(BadInput, WhatIsCollapsedToAPointOrALineIsNotDrawnAndNothingIsMissing) {
+  for (const char* text : {"Scale 0 0 0", "Scale 0 0 2"}) {
+    const Reading r(inWorld(std::string("AttributeBegin ") + text + " " + kSphere + kSphere + "AttributeEnd " + kSphere));
+    EXPECT_EQ(r.scene().objects.size(), 1u) << text;
+    EXPECT_EQ(r.log.count("rib-collapsed"), 1) << text;
+    EXPECT_EQ(r.log.worst(), Severity::Warning) << text;
+  }
+}
+
 TEST(BadInput, SingularCamerasBecomeIdentity) {
   const Reading r("Scale 0 0 0" + inWorld(kSphere));
   EXPECT_EQ(r.log.count("rib-camera"), 1);

@@ -62,6 +62,14 @@ TEST(Motion, WhatGrowsFromNothingIsKeptAtAllKeys) {
   EXPECT_EQ(r.log.count("rib-object-dropped"), 1) << "flat at all keys";
 }
 
+TEST(Motion, DisplacementIsBoundWhereWhatGrowsIsLargest) {
+  const std::string bumpy = "Displacement \"bumpy\" Attribute \"displacementbound\" \"sphere\" [0.1] ";
+  for (const char* keys : {"Scale 1 1 1 Scale 3 3 3", "Scale 3 3 3 Scale 1 1 1"}) {
+    const Reading r(std::string("Shutter 0 1") + inWorld(bumpy + "MotionBegin [0 1] " + keys + " MotionEnd " + kSphere));
+    EXPECT_NEAR(r.object(0).displacementBound, 0.3f, 1e-6f) << keys;
+  }
+}
+
 TEST(Motion, KeepsTheFirstShapeWhereTopologiesDiffer) {
   const Reading r(
       inWorld("MotionBegin [0 1]\nPolygon \"P\" [0 0 0 1 0 0 0 1 0]\n"

@@ -31,6 +31,17 @@ TEST(Attributes, OfRaysAreRead) {
   EXPECT_EQ(r.codes(), "");
 }
 
+TEST(Attributes, StringsOfAPrimitiveTakeThePlaceOfThoseOfItsShaders) {
+  const Reading r(inWorld("Surface \"paintedplastic\" \"string texturename\" [\"a.tx\"]\n"
+                          "Sphere 1 -1 1 360 \"constant string texturename\" [\"b.tx\"] \"string other\" [\"c\"]\n"
+                          "Sphere 1 -1 1 360 \"string texturename\" [\"b.tx\"] \"constant string other\" [\"c\"]\n" + kSphere));
+  const auto texture = [&](int object) { return findParam(r.object(static_cast<size_t>(object)).attributes->surface->params, "texturename")->strings; };
+  EXPECT_EQ(texture(0), std::vector<std::string>{"b.tx"});
+  EXPECT_EQ(texture(2), std::vector<std::string>{"a.tx"});
+  EXPECT_EQ(r.object(0).attributes, r.object(1).attributes) << "they may be shaded together";
+  EXPECT_EQ(r.codes(), "");
+}
+
 TEST(Attributes, AreReadFromEveryRequest) {
   const Reading r(
       inWorld(R"(Color .1 .2 .3 Opacity [.5 .5 .5] TextureCoordinates 0 0 2 0 0 2 2 2 ShadingRate 4

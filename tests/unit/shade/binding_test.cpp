@@ -86,6 +86,14 @@ TEST_F(Binding, UnknownAndMistypedParametersAreWarnedAboutAndDefaulted) {
   EXPECT_EQ(log.count("shader-parameter-type-matte-Kd"), 1);
 }
 
+TEST_F(Binding, WhatAPrimitiveHasAndTheShaderHasNotIsNoMistake) {
+  Param ofPrimitive = number("Kx", 3);
+  ofPrimitive.storage = Storage::Constant;
+  surface("matte", {ofPrimitive});
+  shadeOne();
+  EXPECT_EQ(log.entries().size(), 0u);
+}
+
 TEST_F(Binding, WhatPhotonsReadOfAMediumIsKnownToEveryVolumeShader) {
   surface("matte");
   attributes.interior = std::make_shared<ShaderCall>(call("fog", {color("scattering", {1, 1, 1}), color("absorption", {0, 0, 0}), number("density", 1)}));

@@ -1,0 +1,47 @@
+#include "reyes/rib/object_attributes.h"
+
+#include "reyes/output.h"
+
+namespace tomales::rib {
+namespace {
+
+/// Strings that a primitive has of its own, which surfaces cannot interpolate: those of one value, which are that of all of it.
+ParamList stringsOf(const Request& r) {
+  ParamList out;
+  const bool has = r.name != "Points" && r.name != "Geometry";  // theirs say what they are
+  for (const Param& p : r.params)
+    if (has && p.type == ValueType::String && p.strings.size() == 1 && (p.storage == Storage::Constant || p.storage == Storage::Uniform)) {
+      out.push_back(p);
+      out.back().storage = Storage::Constant;
+    }
+  return out;
+}
+
+/// The call as a primitive has it whose values take the place of the shader's own (RISpec 3.2 section 5, primitive variables).
+std::shared_ptr<const ShaderCall> overridden(const ShaderCall& given, const ParamList& values) {
+  auto call = std::make_shared<ShaderCall>(given);
+  for (const Param& p : values) {
+    std::erase_if(call->params, [&](const Param& old) { return old.name == p.name; });
+    call->params.push_back(p);
+  }
+  return call;
+}
+
+}  // namespace
+
+std::shared_ptr<Attributes> attributesOf(const Request& r, GraphicsState& s) {
+  const std::shared_ptr<Attributes>& given = s.scope.attributes;
+  const ParamList strings = stringsOf(r);
+  const bool unseen = given->surface && given->surface->name == "null";
+  if (!unseen && strings.empty()) return given;
+  auto out = std::make_shared<Attributes>(*given);
+  if (unseen) {
+    out->surface = nullptr;
+    if (shades(s.globals.options)) out->visibility = {false, false, false, false, false};
+  }
+  for (auto* call : {&out->surface, &out->displacement, &out->atmosphere})
+    if (*call && !strings.empty()) *call = s.shaders(overridden(**call, strings));
+  return out;
+}
+
+}  // namespace tomales::rib
