@@ -189,9 +189,8 @@ Bytes ChunkReader::read(uint32_t chunk) const {
 }
 
 void ByteWriter::append(const void* data, size_t size) {
-  const size_t end = bytes.size();
-  bytes.resize(end + size);
-  if (size > 0) std::memcpy(bytes.data() + end, data, size);
+  const auto* from = static_cast<const std::byte*>(data);
+  bytes.insert(bytes.end(), from, from + size);
 }
 
 void ByteReader::copyTo(void* to, size_t count, size_t size) {
