@@ -36,7 +36,7 @@ std::vector<double> boxAreas(const Scene& scene) {
 }
 
 /// Counted up when the same inputs begin to make other files.
-constexpr uint32_t kMethod = 7;
+constexpr uint32_t kMethod = 8;
 
 uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
   const auto& [emit, maxDepth, seed, direct] = settings.photons;
@@ -159,18 +159,18 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
   };
   const std::vector<PointFileWriter*> global = filesOf(names.global), caustic = filesOf(names.caustic);
   const WorldFromCurrent world(scene);
+  const auto add = [&](const StoredPhoton& p) {
+    const vec3 P = transformPoint(world.points, p.P), power = world.scale * world.scale * p.power;
+    if (p.group < 0) return files.at(names.volume).add(P, vec3(0), 0, &power.x);
+    const vec3 N = normalizeOr(world.normals * p.N, vec3(0, 0, 1));
+    const auto group = static_cast<size_t>(p.group);
+    const std::array values{power.x, power.y, power.z, static_cast<float>(names.surface[group])};
+    global[group]->add(P, N, 0, values.data());
+    if (p.caustic && caustic[group]) caustic[group]->add(P, N, 0, values.data());
+  };
   const PhotonFigures figures = tracePhotons(
       scene, rays, shading, settings.photons,
-      [&](const StoredPhoton& p) {
-        const vec3 P = transformPoint(world.points, p.P), power = world.scale * world.scale * p.power;
-        if (p.group < 0) return files.at(names.volume).add(P, vec3(0), 0, &power.x);
-        const vec3 N = normalizeOr(world.normals * p.N, vec3(0, 0, 1));
-        const auto group = static_cast<size_t>(p.group);
-        const std::array values{power.x, power.y, power.z, static_cast<float>(names.surface[group])};
-        global[group]->add(P, N, 0, values.data());
-        if (p.caustic && caustic[group]) caustic[group]->add(P, N, 0, values.data());
-      },
-      progress, stats, log);
+      [&](std::span<const StoredPhoton> photons) { std::for_each(photons.begin(), photons.end(), add); }, progress, stats, log);
   for (auto& [name, file] : files) {
     file.finish({settings.world, photonInputs(names, settings)});
     if (file.count() == 0)

@@ -13,19 +13,33 @@ constexpr float kShareOfTolerance = 1.0f / 16;  ///< That rounding may take of i
 struct Steps {
   std::vector<float> low, step;
 
-  Steps(std::span<const float> data, size_t width) : low(width, kInfinity), step(width, 0.0f) {
-    std::vector<float> high(width, -kInfinity);
-    for (size_t i = 0; i < data.size(); i += width)
-      for (size_t k = 0; k < width; ++k) low[k] = std::min(low[k], data[i + k]), high[k] = std::max(high[k], data[i + k]);
+  Steps(std::span<const float> data, size_t width) : low(width, 0.0f), step(width, 0.0f) {
+    if (data.empty()) return;
     const bool finite = std::all_of(data.begin(), data.end(), [](float v) { return std::isfinite(v); });
-    for (size_t k = 0; k < width; ++k) step[k] = finite ? (high[k] - low[k]) / kMostSteps : kInfinity;
-    if (data.empty()) low.assign(width, 0.0f), step.assign(width, 0.0f);
+    for (size_t k = 0; k < width; ++k) {
+      float least = data[k], most = data[k];
+      for (size_t i = k; i < data.size(); i += width)
+        least = std::min(least, data[i]), most = std::max(most, data[i]);
+      low[k] = least, step[k] = finite ? (most - least) / kMostSteps : kInfinity;
+    }
   }
   bool suffice(float tolerance) const {
     return std::all_of(step.begin(), step.end(), [&](float s) { return 0.5f * s <= kShareOfTolerance * tolerance; });
   }
-  uint16_t of(float value, size_t k) const {
-    return step[k] > 0 ? static_cast<uint16_t>(std::clamp(std::round((value - low[k]) / step[k]), 0.0f, kMostSteps)) : uint16_t{0};
+  std::vector<uint16_t> of(std::span<const float> data) const {
+    std::vector<uint16_t> out(data.size());
+    for (size_t k = 0; k < step.size(); ++k) {
+      if (!(step[k] > 0)) continue;
+      for (size_t i = k; i < data.size(); i += step.size()) out[i] = nearest((data[i] - low[k]) / step[k]);
+    }
+    return out;
+  }
+
+ private:
+  static uint16_t nearest(float steps) {
+    const float t = std::min(steps, kMostSteps);
+    const auto below = static_cast<int>(t);
+    return static_cast<uint16_t>(below + (t - static_cast<float>(below) >= 0.5f));  // std::round() is a call
   }
 };
 
@@ -37,14 +51,10 @@ void append(std::vector<std::byte>& bytes, const T* values, size_t count) {
 
 }  // namespace
 
-BrickLayer::BrickLayer(const vec3& n, bool isIncoherent, int of) : incoherent(isIncoherent), surface(static_cast<uint8_t>(of & kMostSurfaces)) {
-  const auto part = [](float v) { return static_cast<int8_t>(std::lround(127 * std::clamp(v, -1.0f, 1.0f))); };
-  x = part(n.x), y = part(n.y), z = part(n.z);
-}
-
 Brick::Brick(const Parts& parts, int width, float tolerance) : width_(static_cast<size_t>(width)) {
   Head head;
   std::vector<uint16_t> first;
+  first.reserve(std::min(parts.voxels.size(), size_t{kBrickVoxels}) + 1);
   for (size_t i = 0; i < parts.voxels.size(); ++i) {
     const uint16_t v = parts.voxels[i];
     if (i > 0 && parts.voxels[i - 1] == v) continue;
@@ -61,18 +71,17 @@ Brick::Brick(const Parts& parts, int width, float tolerance) : width_(static_cas
   head.rounded = steps.suffice(tolerance);
 
   append(bytes_, &head, 1);
+  bytes_.reserve(wholeSize());
   append(bytes_, parts.layers.data(), parts.layers.size());
   if (head.rounded) {
     append(bytes_, steps.low.data(), width_);
     append(bytes_, steps.step.data(), width_);
-    std::vector<uint16_t> rounded(parts.data.size());
-    for (size_t i = 0; i < rounded.size(); ++i) rounded[i] = steps.of(parts.data[i], i % width_);
+    const std::vector<uint16_t> rounded = steps.of(parts.data);
     append(bytes_, rounded.data(), rounded.size());
   } else {
     append(bytes_, parts.data.data(), parts.data.size());
   }
   if (head.several) append(bytes_, first.data(), first.size());
-  bytes_.shrink_to_fit();
 }
 
 std::optional<Brick> Brick::of(std::vector<std::byte> bytes, int width) {

@@ -16,9 +16,17 @@ namespace tomales {
 
 constexpr int kBrickWidth = 8;  ///< Voxels along an edge.
 constexpr int kBrickVoxels = kBrickWidth * kBrickWidth * kBrickWidth;
+constexpr int kMostLevels = 24;  ///< Of a brick map: voxel coordinates stay exact in int.
 
 /// Normals farther apart than this do not share a layer, and do not answer each other's lookups.
 constexpr float kLayerCosine = 0.70710678f;  ///< 45 degrees (irradiance-atlas 3.2, 3.3)
+
+/// Channels 0 .. width - 1: three, as most data have, without a loop.
+template <class Work>
+inline void forEachChannel(size_t width, const Work& work) {
+  if (width == 3) return work(size_t{0}), work(size_t{1}), work(size_t{2});
+  for (size_t k = 0; k < width; ++k) work(k);
+}
 
 inline int voxelIndex(int x, int y, int z) { return (z * kBrickWidth + y) * kBrickWidth + x; }
 
@@ -29,14 +37,27 @@ struct BrickLayer {
   uint8_t surface : 7 = 0;     ///< As PointCloud::surface(); 0: not known, or of several.
 
   BrickLayer() = default;
-  BrickLayer(const vec3& unitNormal, bool isIncoherent, int surface = 0);
+  BrickLayer(const vec3& unitNormal, bool isIncoherent, int of = 0)
+      : x(part(unitNormal.x)),
+        y(part(unitNormal.y)),
+        z(part(unitNormal.z)),
+        incoherent(isIncoherent),
+        surface(static_cast<uint8_t>(of & kMostSurfaces)) {}
   vec3 normal() const { return normalizeOr(vec3(x, y, z), vec3(0.0f)); }
   /// N: of unit length; zero: asks for whatever is there. of: 0: likewise, of any surface.
   bool answers(const vec3& N, int of = 0) const {
     if (of != 0 && surface != 0 && of != surface) return false;
     const vec3 n(x, y, z);
     const float along = dot(N, n), length2 = dot(n, n);
-    return N == vec3(0.0f) || length2 == 0 || (along > 0 && along * along >= kLayerCosine * kLayerCosine * length2);
+    return (along > 0 && along * along >= kLayerCosine * kLayerCosine * length2) || length2 == 0 ||
+           N == vec3(0.0f);
+  }
+
+ private:
+  /// As std::lround(), which is a call; in double, because floats would round t + 0.5.
+  static int8_t part(float v) {
+    const double t = 127 * v;
+    return static_cast<int8_t>(t + std::copysign(0.5, t));
   }
 };
 
@@ -54,6 +75,7 @@ class Brick {
   /// Of bytes(); nothing if they make no brick of that width.
   static std::optional<Brick> of(std::vector<std::byte> bytes, int width);
 
+  bool fills(int voxel) const { return head().filled[static_cast<size_t>(voxel) / 64] >> voxel % 64 & 1; }
   /// Layers [first, end) of a voxel.
   struct Range { size_t first, end; };
   Range layersOf(int voxel) const {
@@ -61,7 +83,7 @@ class Brick {
     const auto slab = static_cast<size_t>(voxel) / 64;
     const uint64_t bit = uint64_t{1} << voxel % 64;
     if (!(h.filled[slab] & bit)) return {0, 0};
-    const size_t rank = h.before[slab] + static_cast<size_t>(std::popcount(h.filled[slab] & (bit - 1)));
+    const size_t rank = h.before[slab] + countOnes(h.filled[slab] & (bit - 1));
     if (!h.several) return {rank, rank + 1};
     const auto* first = at<uint16_t>(firstAt());
     return {first[rank], first[rank + 1]};
@@ -73,11 +95,12 @@ class Brick {
       const auto* low = at<float>(dataAt());
       const float* const step = low + width_;
       const auto* q = reinterpret_cast<const uint16_t*>(step + width_) + layer * width_;
-      for (size_t k = 0; k < width_; ++k) sum[k] += weight * (low[k] + step[k] * static_cast<float>(q[k]));
+      forEachChannel(width_,
+                     [&](size_t k) { sum[k] += weight * (low[k] + step[k] * static_cast<float>(q[k])); });
       return;
     }
     const auto* data = at<float>(dataAt()) + layer * width_;
-    for (size_t k = 0; k < width_; ++k) sum[k] += weight * data[k];
+    forEachChannel(width_, [&](size_t k) { sum[k] += weight * data[k]; });
   }
 
   const std::vector<std::byte>& bytes() const { return bytes_; }
@@ -95,6 +118,12 @@ class Brick {
   static_assert(sizeof(Head) == 88);
 
   Brick(std::vector<std::byte> bytes, size_t width) : bytes_(std::move(bytes)), width_(width) {}
+  /// std::popcount(), which is a call for processors that may lack the instruction.
+  static size_t countOnes(uint64_t bits) {
+    bits -= bits >> 1 & 0x5555555555555555u;
+    bits = (bits & 0x3333333333333333u) + (bits >> 2 & 0x3333333333333333u);
+    return ((bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0fu) * 0x0101010101010101u >> 56;
+  }
   template <class T>
   const T* at(size_t offset) const { return reinterpret_cast<const T*>(bytes_.data() + offset); }
   const Head& head() const { return *at<Head>(0); }
@@ -118,7 +147,7 @@ struct BrickNode {
 struct BrickCube {
   vec3 lo{0.0f};
   float size = 1;
-  float voxelSize(int level) const { return std::ldexp(size / kBrickWidth, -level); }
+  float voxelSize(int level) const { return size / static_cast<float>(kBrickWidth << level); }
 };
 
 /// The octree of a brick map: children come before their parents, the root last.

@@ -14,32 +14,48 @@ constexpr int kSharedFrom = 6;
 
 void BrickAccumulator::clear() {
   head_.fill(-1);
-  layers_.clear(), data_.clear();
+  layers_.clear();
 }
 
-int32_t BrickAccumulator::findLayer(int voxel, const LayerSum& like, bool& merged) const {
-  const vec3& normal = like.normal;
-  const bool oriented = normal != vec3(0.0f);
+int32_t BrickAccumulator::findLayer(int voxel, const vec3& normal, uint8_t surface, bool& merged) const {
+  // Nearly always one layer or none continues this, which needs no root.
   const float length2 = dot(normal, normal);
-  if (const int32_t only = head_[static_cast<size_t>(voxel)]; oriented && only >= 0 && layers_[static_cast<size_t>(only)].next < 0) {
-    const auto& [mean, weight, next, incoherent, surface] = layers_[static_cast<size_t>(only)];  // nearly always so, and needs no root
-    const float along = surface == like.surface ? dot(mean, normal) : 0.0f;
-    // Squares of tiny weights underflow; then the roots below decide.
-    if (along > 1e-15f && along * along >= kLayerCosine * kLayerCosine * dot(mean, mean) * length2) return only;
+  int32_t within = -1;
+  int count = 0;
+  bool doubtful = length2 == 0;
+  for (int32_t l = head_[static_cast<size_t>(voxel)]; l >= 0;
+       l = layers_[static_cast<size_t>(l)].next, ++count) {
+    const LayerSum& layer = layers_[static_cast<size_t>(l)];
+    const float along = dot(layer.normal, normal);
+    // As continues(), but all of it whatever comes first: chance decides, and a processor guesses chance
+    // wrong.
+    const bool candidate = static_cast<bool>((layer.surface == surface) & (along > 0));
+    const bool near =
+        static_cast<bool>(candidate & (along * along >= kLayerCosine * kLayerCosine *
+                                                            dot(layer.normal, layer.normal) * length2));
+    doubtful |= (candidate & (along < kTinyProduct)) | (near & (within >= 0));
+    within = near ? l : within;
   }
+  return doubtful || (within < 0 && count >= kSharedFrom) ? findNearest(voxel, normal, surface, merged)
+                                                          : within;
+}
+
+int32_t BrickAccumulator::findNearest(int voxel, const vec3& normal, uint8_t surface, bool& merged) const {
+  const bool oriented = normal != vec3(0.0f);
   const float length = glm::length(normal);
   int32_t own = -1, any = -1;
   float ownCosine = -2, anyCosine = -2;
   int count = 0;
   for (int32_t l = head_[static_cast<size_t>(voxel)]; l >= 0; l = layers_[static_cast<size_t>(l)].next, ++count) {
-    const auto& [mean, weight, next, incoherent, surface] = layers_[static_cast<size_t>(l)];
+    const LayerSum& layer = layers_[static_cast<size_t>(l)];
+    const vec3& mean = layer.normal;
     float cosine = -1;
     if (oriented && mean != vec3(0.0f))
       cosine = dot(mean, normal) / (glm::length(mean) * length);
     else if (!oriented && mean == vec3(0.0f))
       cosine = 1;
     if (cosine > anyCosine) any = l, anyCosine = cosine;
-    if (cosine > ownCosine && surface == like.surface) own = l, ownCosine = cosine;
+    if (cosine > ownCosine && layer.surface == surface) own = l, ownCosine = cosine;
   }
   if (ownCosine >= kLayerCosine) return own;
   const bool alike = anyCosine >= kLayerCosine;
@@ -48,29 +64,27 @@ int32_t BrickAccumulator::findLayer(int voxel, const LayerSum& like, bool& merge
   return any;
 }
 
-int32_t BrickAccumulator::add(int voxel, const LayerSum& sum, const float* data, float share) {
+int32_t BrickAccumulator::addToOneOfMany(int voxel, const vec3& normal, float weight, uint8_t surface,
+                                         const float* data, float share) {
   bool merged = false;
-  int32_t l = findLayer(voxel, sum, merged);
+  int32_t l = findLayer(voxel, normal, surface, merged);
   if (l < 0) {
     l = static_cast<int32_t>(layers_.size());
-    layers_.push_back(sum);
-    layers_.back().next = std::exchange(head_[static_cast<size_t>(voxel)], l);
-    for (int k = 0; k < width_; ++k) data_.push_back(share * data[k]);
+    layers_.push_back({normal, weight, std::exchange(head_[static_cast<size_t>(voxel)], l), false, surface});
+    if (data_.size() < layers_.size() * width_) data_.resize(2 * layers_.size() * width_);
+    float* to = data_.data() + static_cast<size_t>(l) * width_;
+    forEachChannel(width_, [&](size_t k) { to[k] = share * data[k]; });
     return l;
   }
+  addTo(l, normal, weight, data, share);
   LayerSum& layer = layers_[static_cast<size_t>(l)];
-  layer.normal += sum.normal;
-  layer.weight += sum.weight;
-  layer.incoherent |= merged | sum.incoherent;
-  if (layer.surface != sum.surface) layer.surface = 0;
-  float* to = data_.data() + l * width_;
-  for (int k = 0; k < width_; ++k) to[k] += share * data[k];
+  layer.incoherent |= merged;
+  if (layer.surface != surface) layer.surface = 0;
   return l;
 }
 
 float BrickAccumulator::addChild(const BrickAccumulator& child, int octant) {
   constexpr int half = kBrickWidth / 2;
-  const auto width = static_cast<size_t>(width_);
   const size_t firstNew = layers_.size();  // the octants of a brick share no voxel, so all that is added to is new
   least_.clear(), most_.clear();
   float spread = 0;
@@ -80,16 +94,19 @@ float BrickAccumulator::addChild(const BrickAccumulator& child, int octant) {
     const int to = voxelIndex((octant & 1 ? half : 0) + x / 2, (octant & 2 ? half : 0) + y / 2, (octant & 4 ? half : 0) + z / 2);
     for (int32_t l = child.head_[static_cast<size_t>(v)]; l >= 0; l = child.layers_[static_cast<size_t>(l)].next) {
       const LayerSum& sum = child.layers_[static_cast<size_t>(l)];
-      const float* data = child.data_.data() + static_cast<size_t>(l) * width;
-      const auto into = static_cast<size_t>(add(to, sum, data, 1)) - firstNew;
-      if (layers_[into + firstNew].incoherent) spread = kInfinity;
-      if (least_.size() < (into + 1) * width) least_.resize((into + 1) * width, kInfinity), most_.resize((into + 1) * width, -kInfinity);
-      for (size_t k = 0; k < width; ++k) {
+      const float* data = child.data_.data() + static_cast<size_t>(l) * width_;
+      const auto layer = static_cast<size_t>(add(to, sum.normal, sum.weight, sum.surface, data, 1)),
+                 into = layer - firstNew;
+      layers_[layer].incoherent |= sum.incoherent;
+      if (layers_[layer].incoherent) spread = kInfinity;
+      if (least_.size() < (into + 1) * width_)
+        least_.resize((into + 1) * width_, kInfinity), most_.resize((into + 1) * width_, -kInfinity);
+      forEachChannel(width_, [&](size_t k) {
         const float mean = data[k] / sum.weight;
-        float &lo = least_[into * width + k], &hi = most_[into * width + k];
+        float &lo = least_[into * width_ + k], &hi = most_[into * width_ + k];
         lo = std::min(lo, mean), hi = std::max(hi, mean);
         spread = std::max(spread, hi - lo);
-      }
+      });
     }
   }
   return spread;
@@ -97,15 +114,20 @@ float BrickAccumulator::addChild(const BrickAccumulator& child, int octant) {
 
 Brick BrickAccumulator::finish(float tolerance) const {
   Brick::Parts parts;
-  parts.voxels.reserve(layers_.size()), parts.layers.reserve(layers_.size()), parts.data.reserve(data_.size());
+  parts.voxels.resize(layers_.size()), parts.layers.resize(layers_.size()),
+      parts.data.resize(layers_.size() * width_);
+  size_t i = 0;
   for (size_t v = 0; v < kBrickVoxels; ++v)
     for (int32_t l = head_[v]; l >= 0; l = layers_[static_cast<size_t>(l)].next) {
       const LayerSum& sum = layers_[static_cast<size_t>(l)];
-      parts.voxels.push_back(static_cast<uint16_t>(v));
-      parts.layers.emplace_back(normalizeOr(sum.normal, vec3(0.0f)), sum.incoherent, sum.surface);
-      for (int k = 0; k < width_; ++k) parts.data.push_back(data_[static_cast<size_t>(l * width_ + k)] / sum.weight);
+      parts.voxels[i] = static_cast<uint16_t>(v);
+      parts.layers[i] = {normalizeOr(sum.normal, vec3(0.0f)), sum.incoherent, sum.surface};
+      const float* from = data_.data() + static_cast<size_t>(l) * width_;
+      float* to = parts.data.data() + i * width_;
+      forEachChannel(width_, [&](size_t k) { to[k] = from[k] / sum.weight; });
+      ++i;
     }
-  return {parts, width_, tolerance};
+  return {parts, static_cast<int>(width_), tolerance};
 }
 
 }  // namespace tomales

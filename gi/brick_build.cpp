@@ -19,23 +19,26 @@ struct Spot {
   uint8_t surface;
 };
 
-/// One dimension of the voxels that a box meets: which, and how much of the box lies in each.
+/// One dimension of the voxels that a point's box meets: which, how much of the box lies in each, and how far
+/// their middles are from its plane.
 struct Shares {
-  int first, last;
-  std::array<float, kBrickWidth> share;
+  size_t first, last;
+  std::array<float, kBrickWidth> share, height;
 
   /// `center` and `half` in voxels.
-  Shares(float center, float half) {
+  Shares(float center, float half, float normal) {
     const float lo = center - half, hi = center + half;
-    first = std::clamp(static_cast<int>(std::floor(lo)), 0, kBrickWidth - 1);
-    last = std::clamp(static_cast<int>(std::floor(hi)), 0, kBrickWidth - 1);
-    for (int i = first; i <= last; ++i) {
-      // A side without length lies inside as a whole.
+    first = voxelOf(lo), last = voxelOf(hi);
+    const bool hasLength = half > 1e-5f;  // or it lies inside as a whole
+    for (size_t i = first; i <= last; ++i) {
       const auto at = static_cast<float>(i);
-      share[static_cast<size_t>(i)] = half > 1e-5f ? std::max(0.0f, std::min(hi, at + 1) - std::max(lo, at)) / (2 * half) : 1.0f;
+      share[i] = hasLength ? std::max(0.0f, std::min(hi, at + 1) - std::max(lo, at)) / (2 * half) : 1.0f;
+      height[i] = normal * (at + 0.5f - center);
     }
   }
-  float operator[](int i) const { return share[static_cast<size_t>(i)]; }
+
+ private:
+  static size_t voxelOf(float at) { return static_cast<size_t>(std::clamp(at, 0.0f, kBrickWidth - 1.0f)); }
 };
 
 class Builder {
@@ -62,7 +65,7 @@ class Builder {
  private:
   /// What one level works on: all that is ever in memory besides the points.
   struct Level {
-    explicit Level(int width) : sums(width) {}
+    explicit Level(size_t width) : sums(width) {}
     BrickAccumulator sums;
     std::array<Members, 8> parts;
   };
@@ -88,7 +91,7 @@ class Builder {
   }
 
   Level& at(int level) {
-    while (static_cast<int>(levels_.size()) <= level) levels_.emplace_back(static_cast<int>(width_));
+    while (static_cast<int>(levels_.size()) <= level) levels_.emplace_back(width_);
     return levels_[static_cast<size_t>(level)];
   }
 
@@ -187,15 +190,16 @@ class Builder {
     const float r = std::max(s.radius / voxel, 1e-3f);
     const float size = oriented ? r * r : r * r * r;  // area or volume, but for a constant
     const float reach = 0.5f * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
-    const Shares xs(p.x, h.x), ys(p.y, h.y), zs(p.z, h.z);
+    const Shares xs(p.x, h.x, n.x), ys(p.y, h.y, n.y), zs(p.z, h.z, n.z);
     const float* data = cloud_->at(i);
-    for (int z = zs.first; z <= zs.last; ++z)
-      for (int y = ys.first; y <= ys.last; ++y)
-        for (int x = xs.first; x <= xs.last; ++x) {
-          const vec3 off = vec3(x, y, z) + vec3(0.5f) - p;
-          if (oriented && std::abs(dot(n, off)) > reach) continue;
-          const float weight = size * xs[x] * ys[y] * zs[z];
-          if (weight > 0) to.add(voxelIndex(x, y, z), {weight * n, weight, -1, false, s.surface}, data, weight);
+    for (size_t z = zs.first; z <= zs.last; ++z)
+      for (size_t y = ys.first; y <= ys.last; ++y)
+        for (size_t x = xs.first; x <= xs.last; ++x) {
+          if (std::abs(xs.height[x] + ys.height[y] + zs.height[z]) > reach) continue;
+          const float weight = size * xs.share[x] * ys.share[y] * zs.share[z];
+          if (weight > 0)
+            to.add(voxelIndex(static_cast<int>(x), static_cast<int>(y), static_cast<int>(z)), weight * n,
+                   weight, s.surface, data, weight);
         }
   }
 

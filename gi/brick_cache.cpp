@@ -1,6 +1,6 @@
 #include "gi/brick_cache.h"
 
-#include <list>
+#include <algorithm>
 #include <mutex>
 #include <unordered_map>
 
@@ -10,28 +10,43 @@ namespace tomales {
 namespace {
 
 constexpr size_t kShards = 16;  // each with its own lock and share of the budget
-constexpr size_t kBytesOfEntry = 192;  // of the list, the index and the allocator, in about
+constexpr size_t kBytesOfEntry = 192;  // of the index, the turns and the allocator, in about
 
 }  // namespace
 
 struct BrickCache::Shard {
   struct Entry {
-    uint64_t key;
     BrickPtr brick;
+    int64_t used;  ///< The last of the lookups that asked for it.
+  };
+  /// When a brick may have to go: a heap whose first was used the longest ago, as far as it knows. A brick
+  /// that is found again keeps its place in it, so that lookups write nothing but `used`, and gets the right
+  /// one when its turn comes.
+  struct Turn {
+    int64_t used;
+    uint64_t key;
+    bool operator<(const Turn& other) const { return used > other.used; }
   };
   std::mutex mutex;
-  std::list<Entry> byUse;  ///< The last used first.
-  std::unordered_map<uint64_t, std::list<Entry>::iterator> index;
+  std::unordered_map<uint64_t, Entry> held;
+  std::vector<Turn> turns;  ///< One of each that is held.
   size_t budget = 0, bytes = 0;
   int64_t lookups = 0, misses = 0;
 
   static size_t bytesOf(const Brick& brick) { return brick.bytes().capacity() + sizeof(Brick) + kBytesOfEntry; }
 
   void makeRoom() {
-    while (bytes > budget && !byUse.empty()) {
-      bytes -= bytesOf(*byUse.back().brick);
-      index.erase(byUse.back().key);
-      byUse.pop_back();
+    while (bytes > budget && !turns.empty()) {
+      std::pop_heap(turns.begin(), turns.end());
+      const auto entry = held.find(turns.back().key);
+      if (turns.back().used != entry->second.used) {
+        turns.back().used = entry->second.used;
+        std::push_heap(turns.begin(), turns.end());
+        continue;
+      }
+      bytes -= bytesOf(*entry->second.brick);
+      held.erase(entry);
+      turns.pop_back();
     }
   }
 };
@@ -49,15 +64,16 @@ BrickPtr BrickCache::get(uint32_t map, uint32_t brick, const std::function<Brick
   Shard& shard = shards_[hashCombine(map, brick) % kShards];
   const std::lock_guard lock(shard.mutex);
   ++shard.lookups;
-  if (const auto found = shard.index.find(key); found != shard.index.end()) {
-    shard.byUse.splice(shard.byUse.begin(), shard.byUse, found->second);
-    return found->second->brick;
+  if (const auto found = shard.held.find(key); found != shard.held.end()) {
+    found->second.used = shard.lookups;
+    return found->second.brick;
   }
   ++shard.misses;
   auto made = std::make_shared<const Brick>(read());
   shard.bytes += Shard::bytesOf(*made);
-  shard.byUse.push_front({key, made});
-  shard.index[key] = shard.byUse.begin();
+  shard.held[key] = {made, shard.lookups};
+  shard.turns.push_back({shard.lookups, key});
+  std::push_heap(shard.turns.begin(), shard.turns.end());
   shard.makeRoom();
   return made;
 }

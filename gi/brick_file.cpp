@@ -7,7 +7,6 @@ namespace {
 
 constexpr char kKind[9] = "TMBRICKS";
 constexpr uint32_t kVersion = 4;
-constexpr int kMostLevels = 24;  ///< Voxel coordinates stay exact in int.
 
 bool sound(const BrickTree& tree) {
   const auto count = static_cast<int32_t>(tree.nodes.size());

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <utility>
 
 namespace tomales {
@@ -13,9 +14,16 @@ struct BrickMap::Sum {
   // Most voxels of a lookup lie in one brick:
   int level = -1;                ///< The last was asked for at this level,
   glm::ivec3 place{0};           ///< here, in bricks of that level,
-  int32_t node = -1;             ///< and is this one,
-  int foundLevel = 0;            ///< which is at this level.
+  int foundLevel = -1;           ///< was found at this one,
+  std::array<int32_t, kMostLevels> path;  ///< below these nodes, the last of which is its own.
   BrickPtr brick;
+
+  static_assert(kBrickWidth == 1 << 3);
+  bool isOf(int l, const glm::ivec3& p) const { return l == level && p == place; }
+  int indexOf(const glm::ivec3& voxel) const {
+    const int up = level - foundLevel;
+    return voxelIndex(voxel.x >> up & 7, voxel.y >> up & 7, voxel.z >> up & 7);
+  }
 };
 
 BrickMap::BrickMap(const PointCloud& cloud) : channels_(dataOf(cloud.channels)), width_(widthOf(channels_)) {
@@ -49,26 +57,48 @@ bool BrickMap::lookup(const vec3& P, const vec3& N, float radius, float* out, in
   return true;
 }
 
+namespace {
+
+/// One dimension of the voxels that a lookup meets: which, and how much of it lies in each.
+struct Reach {
+  int first, last;
+  std::array<float, 4> overlap;
+
+  /// In voxels, of which there are `end`; `half`: at most one. So it meets three, or four by rounding.
+  Reach(float center, float half, int end) {
+    const float lo = center - half, hi = center + half;
+    first = std::min(static_cast<int>(std::max(lo, 0.0f)), end - 1),
+    last = std::min(static_cast<int>(std::max(hi, 0.0f)), end - 1);
+    for (int i = first; i <= last; ++i)
+      overlap[static_cast<size_t>(i - first)] =
+          std::min(hi, static_cast<float>(i + 1)) - std::max(lo, static_cast<float>(i));
+  }
+  float operator[](int i) const { return overlap[static_cast<size_t>(i - first)]; }
+};
+
+}  // namespace
+
+inline void BrickMap::addVoxel(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum,
+                               int depth) const {
+  if (const glm::ivec3 place = voxel >> 3; !sum.isOf(level, place)) find(level, place, sum);
+  if (sum.brick->fills(sum.indexOf(voxel))) addLayers(level, voxel, N, weight, sum, depth);
+}
+
 void BrickMap::addLevel(int level, const vec3& P, const vec3& N, float halfWidth, float weight, Sum& sum) const {
   const float voxel = tree().cube.voxelSize(level);
   const int end = kBrickWidth << level;
   const vec3 p = (P - tree().cube.lo) / voxel;
   const float h = std::min(halfWidth / voxel, 1.0f);  // farther than two voxels only where the root is still too fine
   if (glm::any(glm::lessThan(p, vec3(-2.0f))) || glm::any(glm::greaterThan(p, vec3(static_cast<float>(end) + 2)))) return;
-  const glm::ivec3 first = glm::clamp(glm::ivec3(glm::floor(p - h)), 0, end - 1);
-  const glm::ivec3 last = glm::clamp(glm::ivec3(glm::floor(p + h)), 0, end - 1);
+  const Reach xs(p.x, h, end), ys(p.y, h, end), zs(p.z, h, end);
   std::array<float, kMostWidth> own;
   std::fill_n(own.begin(), width(), 0.0f);
   const float before = std::exchange(sum.weight, 0.0f);
   float* const all = std::exchange(sum.data, own.data());
-  for (int z = first.z; z <= last.z; ++z)
-    for (int y = first.y; y <= last.y; ++y)
-      for (int x = first.x; x <= last.x; ++x) {
-        const glm::ivec3 v(x, y, z);
-        const vec3 overlap = glm::min(p + h, vec3(v + 1)) - glm::max(p - h, vec3(v));
-        const float share = overlap.x * overlap.y * overlap.z;
-        if (overlap.x > 0 && overlap.y > 0 && overlap.z > 0) addVoxel(level, v, N, share, sum, 0);
-      }
+  for (int z = zs.first; z <= zs.last; ++z)
+    for (int y = ys.first; y <= ys.last; ++y)
+      for (int x = xs.first; x <= xs.last; ++x)
+        if (xs[x] > 0 && ys[y] > 0 && zs[z] > 0) addVoxel(level, {x, y, z}, N, xs[x] * ys[y] * zs[z], sum, 0);
   const float found = std::exchange(sum.weight, before);
   sum.data = all;
   if (!(found > 0)) return;
@@ -77,43 +107,53 @@ void BrickMap::addLevel(int level, const vec3& P, const vec3& N, float halfWidth
 }
 
 /// The brick at this level, or the finest above it: what was left out there says the same.
-void BrickMap::find(int level, const glm::ivec3& voxel, Sum& sum) const {
-  const glm::ivec3 place = voxel >> 3;
-  static_assert(kBrickWidth == 1 << 3);
-  if (level == sum.level && place == sum.place) return;
-  int32_t node = tree().root();
-  int at = 0;
+void BrickMap::find(int level, const glm::ivec3& place, Sum& sum) const {
+  int at = 0;  // the level of the last node above both this brick and the one before
+  if (sum.foundLevel < 0) {
+    sum.path[0] = tree().root();
+  } else {
+    const int both = std::min(level, sum.foundLevel);
+    const glm::ivec3 apart = (place >> (level - both)) ^ (sum.place >> (sum.level - both));
+    at = both - std::bit_width(static_cast<unsigned>(apart.x | apart.y | apart.z));
+  }
+  const int32_t before = sum.foundLevel < 0 ? -1 : sum.path[static_cast<size_t>(sum.foundLevel)];
   while (at < level) {
     const glm::ivec3 octant = (place >> (level - at - 1)) & 1;
-    const int32_t child = tree().nodes[static_cast<size_t>(node)].child[static_cast<size_t>(octant.x | octant.y << 1 | octant.z << 2)];
+    const BrickNode& node = tree().nodes[static_cast<size_t>(sum.path[static_cast<size_t>(at)])];
+    const int32_t child = node.child[static_cast<size_t>(octant.x | octant.y << 1 | octant.z << 2)];
     if (child < 0) break;
-    node = child, ++at;
+    sum.path[static_cast<size_t>(++at)] = child;
   }
-  if (node != sum.node) sum.brick = cached(node);
-  sum.level = level, sum.place = place, sum.node = node, sum.foundLevel = at;
+  if (const int32_t node = sum.path[static_cast<size_t>(at)]; node != before) sum.brick = cached(node);
+  sum.level = level, sum.place = place, sum.foundLevel = at;
 }
 
-void BrickMap::addVoxel(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum, int depth) const {
-  find(level, voxel, sum);
-  const glm::ivec3 local = (voxel >> (level - sum.foundLevel)) & (kBrickWidth - 1);
-  const int v = voxelIndex(local.x, local.y, local.z);
-  const Brick::Range layers = sum.brick->layersOf(v);
-  const bool finer = sum.foundLevel == level && level < tree().deepest && depth < 2 && N != vec3(0.0f);
-  bool incoherent = false;
-  for (size_t l = layers.first; finer && l < layers.end; ++l) incoherent |= sum.brick->layer(l).incoherent != 0;
-  if (incoherent) {
-    // Too many directions met here: finer voxels tell them apart (3.3). That covers every layer of the voxel.
-    const float before = sum.weight;
-    for (int k = 0; k < 8; ++k)
-      addVoxel(level + 1, voxel * 2 + glm::ivec3(k & 1, k >> 1 & 1, k >> 2 & 1), N, weight / 8, sum, depth + 1);
-    if (sum.weight > before) return;
-    find(level, voxel, sum);
+/// Pre: the voxel is filled, and its brick is found.
+void BrickMap::addLayers(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum,
+                         int depth) const {
+  const Brick::Range layers = sum.brick->layersOf(sum.indexOf(voxel));
+  if (sum.foundLevel == level && level < tree().deepest && depth < 2 && N != vec3(0.0f)) {
+    bool incoherent = false;
+    for (size_t l = layers.first; l < layers.end; ++l) incoherent |= sum.brick->layer(l).incoherent != 0;
+    if (incoherent && addFiner(level, voxel, N, weight, sum, depth)) return;
   }
   for (size_t l = layers.first; l < layers.end; ++l) {
     if (!sum.brick->layer(l).answers(N, sum.surface)) continue;
     sum.brick->add(l, weight, sum.data);
     sum.weight += weight;
   }
+}
+
+/// Where too many directions met in a voxel, finer ones tell them apart (3.3). That covers every layer of it.
+/// False: nothing is found there.
+bool BrickMap::addFiner(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum,
+                        int depth) const {
+  const float before = sum.weight;
+  for (int k = 0; k < 8; ++k)
+    addVoxel(level + 1, voxel * 2 + glm::ivec3(k & 1, k >> 1 & 1, k >> 2 & 1), N, weight / 8, sum, depth + 1);
+  if (sum.weight > before) return true;
+  find(level, voxel >> 3, sum);
+  return false;
 }
 
 namespace {

@@ -30,8 +30,11 @@ class BrickMap {
  private:
   struct Sum;
   void addLevel(int level, const vec3& P, const vec3& N, float halfWidth, float weight, Sum& sum) const;
-  void addVoxel(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum, int depth) const;
-  void find(int level, const glm::ivec3& voxel, Sum& sum) const;
+  inline void addVoxel(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum,
+                       int depth) const;
+  void addLayers(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum, int depth) const;
+  bool addFiner(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum, int depth) const;
+  void find(int level, const glm::ivec3& place, Sum& sum) const;
   BrickPtr cached(int32_t node) const;
   const BrickTree& tree() const { return file_ ? file_->tree() : tree_; }
 

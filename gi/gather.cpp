@@ -1,10 +1,8 @@
 #include "gi/gather.h"
 
+#include "gi/gather_rays.h"
 #include "gi/hemisphere.h"
 #include "gi/hessian.h"
-#include "gi/hit_radiance.h"
-#include "gi/layers.h"
-#include "gi/ray_strata.h"
 
 namespace tomales {
 namespace {
@@ -23,17 +21,10 @@ constexpr float kUnhidden = 1.5f;      ///< Times as many, if it is not known ye
 
 const BrightSpots kNoSpots;
 
-/// Kept by each thread from one record to the next. What gather rays hit asks for indirect light of frozen caches and paths, so
-/// gathering never nests.
+/// Kept by each thread from one record to the next.
 struct Scratch {
-  RayLayers layers;
-  Surroundings surroundings;
-  std::vector<Hit> hits, unknown;                  ///< unknown: those whose radiance is not known.
-  std::vector<std::pair<size_t, vec3>> mapped;
-  HitAnswers answers;
+  FirstHits firstHits;
   std::vector<vec3> directions, radiance;          ///< One ray of each cell,
-  std::vector<float> distances;
-  std::vector<vec3> normals;                       ///< Of what they hit, on the side that they see.
   std::vector<vec3> fineDirections, fine;          ///< more of some cells,
   std::vector<vec3> aimedDirections, aimed;        ///< and those at bright spots.
   std::vector<int> fineCells, aimedCells, raysOfCell;
@@ -68,47 +59,35 @@ class Hemisphere {
  public:
   Hemisphere(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point, const GatherSettings& settings,
              const KnownLight& known)
-      : scene_(scene),
-        shading_(shading),
-        point_(point),
-        settings_(settings),
+      : point_(point),
         cells_(hemisphereCells(settings.samples)),
         count_(static_cast<size_t>(cells_.rings) * static_cast<size_t>(cells_.sectors)),
         key_(hashCombine(point.key, settings.seed)),
-        times_(scene, point, count_, key_),
+        rays_(scene, shading, point, settings, known.hits, count_, key_),
         spots_(known.spots ? *known.spots : kNoSpots),
-        known_(known.hits),
-        aim_(spots_, point.position, point.normal) {
-    orthonormalBasis(point.normal, tangent_, bitangent_);
-    first_.spread = spreadOfRays(static_cast<int>(count_));
-    scene.prepareOrigin(point.group, point.position, point.edgeLength, first_);
-    const OcclusionQuery* occlusion = settings.occlusion ? &*settings.occlusion : nullptr;
-    filter_.groups = groupsSeenFrom(scene, point.group, settings);
-    if (occlusion) filter_.sides = occlusion->sides;
-    if (occlusion && occlusion->bias >= 0) first_.offset = 0, first_.bias = occlusion->bias;
-    if (!filter_.passesAll()) first_.filter = &filter_;
-    if (first_.offset > 0) {
-      scene.lookAround(first_, slantedOffset(first_.offset, 0), kMaskDiffuse, scratch_.surroundings);
-      first_.surroundings = &scratch_.surroundings;
-    }
-  }
+        aim_(spots_, point.position, point.normal) {}
 
   HemisphereSamples trace(Stats& stats, BrightFind* find) {
     const CellJitter jitter(cells_, key_);
     scratch_.directions.clear();
     for (size_t i = 0; i < count_; ++i) {
       const int ring = static_cast<int>(i) / cells_.sectors, sector = static_cast<int>(i) % cells_.sectors;
-      add(static_cast<int>(i), static_cast<int>(i), inCell(static_cast<int>(i), jitter(ring, sector, static_cast<uint32_t>(i))), count_);
-      scratch_.directions.push_back(scratch_.layers.rays.back().direction);
+      const vec3 local = inCell(static_cast<int>(i), jitter(ring, sector, static_cast<uint32_t>(i)));
+      scratch_.directions.push_back(rays_.add(static_cast<int>(i), static_cast<int>(i), local, count_));
     }
-    scratch_.distances.assign(count_, kInfinity);
-    scratch_.normals.resize(count_);
-    see(stats, scratch_.radiance, count_);
+    rays_.see(stats, count_, scratch_.radiance, &scratch_.firstHits);
     if (find) tell(*find);
     refine(stats);
     aim(stats);
     weigh();
-    return {cells_, tangent_, bitangent_, point_.normal, scratch_.directions, scratch_.radiance, scratch_.distances, scratch_.spread};
+    return {cells_,
+            rays_.tangent(),
+            rays_.bitangent(),
+            point_.normal,
+            scratch_.directions,
+            scratch_.radiance,
+            scratch_.firstHits.distances,
+            scratch_.spread};
   }
 
   std::vector<float>& upright() { return scratch_.upright; }
@@ -118,82 +97,13 @@ class Hemisphere {
     return hemisphereDirection(cells_, cell / cells_.sectors, cell % cells_.sectors, xi);
   }
 
-  void add(int element, int cell, const vec3& local, size_t raysOfHemisphere) {
-    Ray r = first_;
-    r.direction = local.x * tangent_ + local.y * bitangent_ + local.z * point_.normal;
-    r.offset = slantedOffset(first_.offset, local.z);
-    r.time = times_(static_cast<size_t>(cell));
-    if (r.time > 0) r.origin = scene_.placeAt(point_.group, point_.position, point_.drift, r.time);
-    // A cell of a cosine-weighted hemisphere has the solid angle pi / (n cos).
-    r.spread = 1 / std::sqrt(static_cast<float>(raysOfHemisphere) * std::max(local.z, 0.05f));
-    scratch_.layers.add(element, r, {key_, number_++});
-  }
-
-  /// What the added rays see, by their elements; of the first rays also how far.
-  void see(Stats& stats, std::vector<vec3>& radiance, size_t elements) {
-    if (settings_.occlusion)
-      uncover(stats, radiance, elements);
-    else
-      shade(stats, radiance, elements);
-    scratch_.layers = {};
-  }
-
-  void uncover(Stats& stats, std::vector<vec3>& radiance, size_t elements) {
-    radiance.assign(elements, vec3(1));
-    meet(stats, &radiance == &scratch_.radiance);
-    for (size_t r = 0; r < scratch_.hits.size(); ++r)
-      if (scratch_.hits[r].object >= 0)
-        radiance[static_cast<size_t>(scratch_.layers.elements[r])] -= vec3(settings_.occlusion->coveredAt(std::max(0.0f, scratch_.hits[r].t)));
-  }
-
-  void meet(Stats& stats, bool measures) {
-    stats.rays.hitlistAdjusted += scratch_.layers.meet(scene_, kMaskDiffuse, scratch_.hits);
-    stats.rays.gather += static_cast<int64_t>(scratch_.hits.size());
-    if (measures)
-      scene_.noteStarts(point_.group, static_cast<int64_t>(scratch_.hits.size()),
-                        std::count_if(scratch_.hits.begin(), scratch_.hits.end(), [](const Hit& h) { return h.crowded; }));
-    for (size_t i = 0; measures && i < scratch_.hits.size(); ++i) {
-      const Hit& hit = scratch_.hits[i];
-      if (hit.object < 0) continue;
-      scratch_.distances[i] = std::max(0.0f, hit.t);
-      scratch_.normals[i] = dot(hit.geometricNormal, scratch_.directions[i]) > 0 ? -hit.geometricNormal : hit.geometricNormal;
-    }
-  }
-
-  void shade(Stats& stats, std::vector<vec3>& radiance, size_t elements) {
-    radiance.assign(elements, vec3(0));
-    ShadeContext context{RayKind::Diffuse, settings_.depth, settings_.seed, 1, settings_.indirect};
-    context.light = settings_.light;
-    context.mirrored = settings_.mirrored;
-    context.diffuseLimit = 0;  // of direct light the diffuse component alone; mirrors and glass show what they show
-    scratch_.answers.mode = HitMode::Shader;
-    for (int layer = 0; layer < kMostLayers && !scratch_.layers.rays.empty(); ++layer) {
-      meet(stats, layer == 0 && &radiance == &scratch_.radiance);
-      answer(context);
-      scratch_.layers.goOn(scene_, scratch_.hits, scratch_.answers, 1,
-                           [&](int element, const vec3& seen, const vec3&) { radiance[static_cast<size_t>(element)] += seen; });
-    }
-  }
-
-  /// From what is known, as far as it goes.
-  void answer(const ShadeContext& context) {
-    const auto& rays = scratch_.layers.rays;
-    if (!known_) return scene_.shadeHits(rays, scratch_.hits, scratch_.layers.names, shading_, context, scratch_.answers);
-    scratch_.unknown = scratch_.hits, scratch_.mapped.clear();
-    vec3 radiance;
-    for (size_t r = 0; r < rays.size(); ++r)
-      if (scratch_.hits[r].object >= 0 && known_->lookup(rays[r], scratch_.hits[r], radiance))
-        scratch_.unknown[r].object = -1, scratch_.mapped.emplace_back(r, radiance);
-    scene_.shadeHits(rays, scratch_.unknown, scratch_.layers.names, shading_, context, scratch_.answers);
-    for (const auto& [r, L] : scratch_.mapped) scratch_.answers.color[r] = L, scratch_.answers.opacity[r] = vec3(1);
-  }
-
   void tell(BrightFind& find) const {
     find = {};
     for (const vec3& L : scratch_.radiance) find.irradiance += luminance(L) / static_cast<float>(count_);
+    const auto& [distances, normals] = scratch_.firstHits;
     for (size_t i = 0; i < count_; ++i)
-      if (const float L = luminance(scratch_.radiance[i]); L > kContrast * find.irradiance && scratch_.distances[i] < kInfinity)
-        find.hits.push_back({point_.position + scratch_.distances[i] * scratch_.directions[i], L, scratch_.normals[i]});
+      if (const float L = luminance(scratch_.radiance[i]); L > kContrast * find.irradiance && distances[i] < kInfinity)
+        find.hits.push_back({point_.position + distances[i] * scratch_.directions[i], L, normals[i]});
   }
 
   /// Up to half as many rays again, in strata of the cells where light changes fast.
@@ -208,15 +118,15 @@ class Hemisphere {
     for (const int cell : chosen) {
       scratch_.raysOfCell[static_cast<size_t>(cell)] += strata;
       for (int s = 0; s < strata; ++s) {
-        const uint32_t name = hashCombine(key_, number_, 0x66696e65U);
+        const uint32_t name = hashCombine(key_, rays_.number(), 0x66696e65U);
         const vec2 inside{unitFloat(hash32(name)), unitFloat(hash32(name ^ 0x9e3779b9U))};
-        add(static_cast<int>(scratch_.fineCells.size()), cell, inCell(cell, (vec2(s / split, s % split) + inside) / static_cast<float>(split)),
-            count_ * static_cast<size_t>(strata));
+        const vec3 local = inCell(cell, (vec2(s / split, s % split) + inside) / static_cast<float>(split));
+        scratch_.fineDirections.push_back(rays_.add(static_cast<int>(scratch_.fineCells.size()), cell, local,
+                                                    count_ * static_cast<size_t>(strata)));
         scratch_.fineCells.push_back(cell);
-        scratch_.fineDirections.push_back(scratch_.layers.rays.back().direction);
       }
     }
-    see(stats, scratch_.fine, scratch_.fineCells.size());
+    rays_.see(stats, scratch_.fineCells.size(), scratch_.fine);
   }
 
   /// What arrives of the light of each spot: something may be in between, or it shines elsewhere. These rays count for no light, so that
@@ -226,11 +136,11 @@ class Hemisphere {
     if (targets == 0 || count_ < kLeastPerSpot * targets) return;
     const size_t probes = std::max<size_t>(1, count_ / (kRaysOfProbe * targets));
     for (size_t i = 0; i < targets * probes; ++i) {
-      const vec3 d = aim_.probe(i / probes, sobol2(static_cast<uint32_t>(i), key_ ^ 0x70726f62U));
-      const vec3 local{dot(d, tangent_), dot(d, bitangent_), dot(d, point_.normal)};
-      if (local.z > 0) add(static_cast<int>(i), cellOf(cells_, local), local, 4 * count_);
+      const vec3 local =
+          rays_.toLocal(aim_.probe(i / probes, sobol2(static_cast<uint32_t>(i), key_ ^ 0x70726f62U)));
+      if (local.z > 0) rays_.add(static_cast<int>(i), cellOf(cells_, local), local, 4 * count_);
     }
-    see(stats, scratch_.aimed, targets * probes);
+    rays_.see(stats, targets * probes, scratch_.aimed);
     scratch_.shares.assign(targets, 0);
     for (size_t i = 0; i < scratch_.aimed.size(); ++i)
       scratch_.shares[i / probes] += luminance(scratch_.aimed[i]) / (aim_.radiance(i / probes) * static_cast<float>(probes));
@@ -248,14 +158,14 @@ class Hemisphere {
     for (size_t i = 0; i < aims_; ++i) {
       const float choice = (static_cast<float>(i) + sobol1(static_cast<uint32_t>(i), key_ ^ 0x73706f74U)) / static_cast<float>(aims_);
       const vec3 d = aim_.direction(choice, sobol2(static_cast<uint32_t>(i), key_ ^ 0x61696d73U));
-      const vec3 local{dot(d, tangent_), dot(d, bitangent_), dot(d, point_.normal)};
+      const vec3 local = rays_.toLocal(d);
       if (local.z <= 0) continue;
       const int cell = cellOf(cells_, local);
-      add(static_cast<int>(scratch_.aimedCells.size()), cell, local, 4 * count_);
+      rays_.add(static_cast<int>(scratch_.aimedCells.size()), cell, local, 4 * count_);
       scratch_.aimedCells.push_back(cell);
       scratch_.aimedDirections.push_back(d);
     }
-    see(stats, scratch_.aimed, scratch_.aimedCells.size());
+    rays_.see(stats, scratch_.aimedCells.size(), scratch_.aimed);
   }
 
   size_t worthAiming() const {
@@ -299,29 +209,20 @@ class Hemisphere {
     return 1 / rays;
   }
 
-  static Scratch& emptyScratch() {
+  static Scratch& scratchOfThread() {
     thread_local Scratch scratch;
-    scratch.layers = {};
     return scratch;
   }
 
-  const RayScene& scene_;
-  const ShadingSystem& shading_;
   const GatherPoint& point_;
-  const GatherSettings& settings_;
   const HemisphereCells cells_;
   const size_t count_;
   const uint32_t key_;
-  const RayTimes times_;
+  GatherRays rays_;
   const BrightSpots& spots_;
-  const HitRadiance* known_;
   SpotAim aim_;
-  RayFilter filter_;
-  Ray first_{point_.position, point_.normal, settings_.maxDistance};
-  vec3 tangent_, bitangent_;
-  uint32_t number_ = 0;
   size_t aims_ = 0;
-  Scratch& scratch_ = emptyScratch();
+  Scratch& scratch_ = scratchOfThread();
 };
 
 /// Light under a sheet changes over its height, whatever the size of a pixel: a record there reaches as far from its edge and no farther,
@@ -340,13 +241,6 @@ float reachUnderSheet(const HemisphereSamples& samples, float pixelSize, std::ve
 }
 
 }  // namespace
-
-const std::vector<uint8_t>* groupsSeenFrom(const RayScene& rays, int group, const GatherSettings& settings) {
-  const OcclusionQuery* occlusion = settings.occlusion ? &*settings.occlusion : nullptr;
-  const std::string& asked = occlusion ? occlusion->subset : settings.subset;
-  const std::string& own = rays.scene().groups[static_cast<size_t>(group)].attributes->trace.subset;
-  return rays.groupsIn(asked.empty() ? own : asked, occlusion ? occlusion->excludeSubset : "");
-}
 
 IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point,
                         const GatherSettings& settings, const KnownLight& known, Stats& stats, BrightFind* find) {

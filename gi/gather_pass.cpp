@@ -6,6 +6,7 @@
 #include "gi/sheet_search.h"
 #include "gi/state.h"
 #include "reyes/base/parallel.h"
+#include "reyes/base/process.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
@@ -55,9 +56,10 @@ class GatherPass {
     if (!prepareCaches() || !(tools_ = gatherTools(state_))) return;
     measureRelief();
     for (phase_ = 0; phase_ < kPhases && !isCancelled(); ++phase_) {
-      const std::vector<Site> sites = uncovered();
+      std::vector<Site> sites = uncovered();
       if (phase_ == 0) prepareBounces(sites);
-      gatherAt(sites);
+      gatherAt(std::move(sites));
+      returnFreeMemory();  // every phase unpacks all tiles, between what stays
       const int stride = strideAfter(phase_);
       if (covered && stride > 1 && !isCancelled()) covered(stride);
     }
@@ -219,7 +221,7 @@ class GatherPass {
   }
 
   // The records of a phase are inserted when all have been made.
-  void gatherAt(const std::vector<Site>& sites) {
+  void gatherAt(std::vector<Site> sites) {
     if (sites.empty()) return report(1);
     std::vector<IrradianceRecord> records(sites.size());
     std::vector<BrightFind> finds(phase_ < kScoutPhases ? sites.size() : 0);

@@ -4,22 +4,29 @@
 
 #include "raytrace/emitters.h"
 #include "reyes/base/rng.h"
+#include "reyes/base/simd.h"
 
 namespace tomales {
 namespace {
 
 constexpr int kRows = 64, kColumns = 128;  ///< Cells of equal solid angle on the sphere of directions.
 constexpr double kCellSolidAngle = 4 * double{kPi} / (kRows * kColumns);
-constexpr int kProbes = 4;                 ///< In each cell
-constexpr int kGrid = 128;                 ///< Cells along the side of a distant light's square
+constexpr int kProbes = 4;  ///< In each cell
+constexpr int kGrid = 128;  ///< Cells along the side of a distant light's square
 constexpr uint32_t kSecondPair = 0x70686f74U;
-/// Share of the brightest cell that cells where no probe saw light are given: a beam between the probes is not lost.
+/// Share of the brightest cell that cells where no probe saw light are given: a beam between the probes is
+/// not lost.
 constexpr double kFloor = 1e-3;
-constexpr float kPointBias = 1e-5f;        ///< Of the size of the scene and the distance of its origin: point lights may lie on surfaces.
-constexpr float kLeastCosine = 1.0f / 16;  ///< Of photons that leave area lights: what is flatter, one in 256, may still meet the lamp's own polygons.
-constexpr uint32_t kFewSamples = 64;       ///< Of a light that is sampled: places or directions by which its width is known,
-constexpr float kSampledMargin = 1.2f;     ///< and how much wider it is taken for: the outermost is none of those.
-constexpr float kSkyDistance = 1.01f;      ///< From the middle of the scene to where photons from outside begin, in radii.
+constexpr float kPointBias =
+    1e-5f;  ///< Of the size of the scene and the distance of its origin: point lights may lie on surfaces.
+constexpr float kLeastCosine = 1.0f / 16;  ///< Of photons that leave area lights: what is flatter, one in
+                                           ///< 256, may still meet the lamp's own polygons.
+constexpr uint32_t kFewSamples =
+    64;  ///< Of a light that is sampled: places or directions by which its width is known,
+constexpr float kSampledMargin =
+    1.2f;  ///< and how much wider it is taken for: the outermost is none of those.
+constexpr float kSkyDistance =
+    1.01f;  ///< From the middle of the scene to where photons from outside begin, in radii.
 
 vec3 sphereDirection(size_t cell, vec2 at) {
   const auto row = static_cast<float>(cell / kColumns), column = static_cast<float>(cell % kColumns);
@@ -51,19 +58,40 @@ vec2 concentricDisk(vec2 xi) {
 
 }  // namespace
 
+// Sines and cosines of an eighth of a turn at most.
+TOMALES_HOT void cosineHemispheres(std::span<const vec2> xi, std::span<vec3> out) {
+  for (size_t i = 0; i < out.size(); ++i) {
+    const float a = 2 * xi[i].x - 1, b = 2 * xi[i].y - 1;
+    const bool swapped = std::abs(a) <= std::abs(b);
+    const float r = swapped ? b : a, x = (kPi / 4) * (swapped ? a : b) / (r == 0 ? 1 : r), x2 = x * x;
+    const float sine =
+        x * (1 - x2 * (1.0f / 6 - x2 * (1.0f / 120 - x2 * (1.0f / 5040 - x2 * (1.0f / 362880)))));
+    const float cosine = 1 - x2 * (0.5f - x2 * (1.0f / 24 - x2 * (1.0f / 720 - x2 * (1.0f / 40320))));
+    out[i].x = r * (swapped ? sine : cosine), out[i].y = r * (swapped ? cosine : sine);
+    out[i].z = std::sqrt(std::max(0.0f, 1 - r * r));
+  }
+}
+
 PhotonTarget::PhotonTarget(const Scene& scene) {
   for (const Object& o : scene.objects) {
     if (!o.attributes->visibility.photon) continue;
     for (uint32_t patch = 0; patch < o.shape().patchCount(); ++patch) {
-      objects.push_back(transformBound(o.cameraFromObject.keys.front(), o.shape().bound(patch, {})).grown(o.displacementBound));
+      objects.push_back(transformBound(o.cameraFromObject.keys.front(), o.shape().bound(patch, {}))
+                            .grown(o.displacementBound));
       bound.extend(objects.back());
     }
   }
   if (bound.empty()) bound = {vec3(-1), vec3(1)};
 }
 
-PhotonSource::PhotonSource(int light, const ShadingSystem& shading, const RayScene& rays, const PhotonTarget& target)
-    : light_(light), shading_(shading), rays_(rays), kind_(shading.lightKind(light)), center_(target.center()), radius_(target.radius()) {
+PhotonSource::PhotonSource(int light, const ShadingSystem& shading, const RayScene& rays,
+                           const PhotonTarget& target)
+    : light_(light),
+      shading_(shading),
+      rays_(rays),
+      kind_(shading.lightKind(light)),
+      center_(target.center()),
+      radius_(target.radius()) {
   if (kind_ == LightKind::Point) surveyPoint();
   if (kind_ == LightKind::Distant) surveyDistant(target);
   if (kind_ == LightKind::Sky) surveySky();
@@ -73,7 +101,9 @@ PhotonSource::PhotonSource(int light, const ShadingSystem& shading, const RaySce
 void PhotonSource::surveyPoint() {
   middle_ = askedFromMiddle({vec2(0.5f)}).L[0];
   float spread = 0;
-  for (const vec3& place : askedFromMiddle(fewSamples()).L) spread = std::max(spread, kSampledMargin * glm::distance(place, middle_));
+  for (const vec3& place : askedFromMiddle(fewSamples()).L)
+    spread = std::max(spread, kSampledMargin * glm::distance(place, middle_));
+  isDrawn_ = spread > 0;
   aimAt(radius_ + spread);
   LightProbe probe;
   for (size_t c = 0; c < kRows * kColumns; ++c)
@@ -97,11 +127,12 @@ void PhotonSource::aimAt(float radius) {
   vec3 tangent, bitangent;
   orthonormalBasis(axis, tangent, bitangent);
   const double sine = double{radius} / double{distance};
-  cone_ = {mat3(tangent, bitangent, axis), static_cast<float>(sine * sine / (1 + std::sqrt(1 - sine * sine))), distance,
-           std::max(0.0f, distance - kSkyDistance * radius)};
+  cone_ = {mat3(tangent, bitangent, axis), static_cast<float>(sine * sine / (1 + std::sqrt(1 - sine * sine))),
+           distance, std::max(0.0f, distance - kSkyDistance * radius)};
 }
 
-/// A direction by its place in the frame of the cone, but for its height, of which it is what is missing from 1: narrow cones keep their precision.
+/// A direction by its place in the frame of the cone, but for its height, of which it is what is missing from
+/// 1: narrow cones keep their precision.
 vec3 PhotonSource::inCone(size_t cell, vec2 at) const {
   const auto row = static_cast<float>(cell / kColumns), column = static_cast<float>(cell % kColumns);
   const float missing = cone_.height * (row + at.y) / kRows, phi = 2 * kPi * (column + at.x) / kColumns;
@@ -109,14 +140,20 @@ vec3 PhotonSource::inCone(size_t cell, vec2 at) const {
   return {r * std::cos(phi), r * std::sin(phi), missing};
 }
 
-double PhotonSource::cellSolidAngle() const { return 2 * double{kPi} * double{cone_.height} / (kRows * kColumns); }
+double PhotonSource::cellSolidAngle() const {
+  return 2 * double{kPi} * double{cone_.height} / (kRows * kColumns);
+}
 
-vec3 PhotonSource::directionOf(const vec3& inCone) const { return cone_.frame * vec3(inCone.x, inCone.y, 1 - inCone.z); }
+vec3 PhotonSource::directionOf(const vec3& inCone) const {
+  return cone_.frame * vec3(inCone.x, inCone.y, 1 - inCone.z);
+}
 
 /// So far from the light. Places far from it are known by their distance from the middle of the scene.
 vec3 PhotonSource::placeAlong(const vec3& inCone, float distance) const {
   const vec3 from = cone_.distance > 0 ? vec3(0) : middle_;
-  return center_ + from + cone_.frame * vec3(distance * inCone.x, distance * inCone.y, (distance - cone_.distance) - distance * inCone.z);
+  return center_ + from +
+         cone_.frame * vec3(distance * inCone.x, distance * inCone.y,
+                            (distance - cone_.distance) - distance * inCone.z);
 }
 
 /// At the scene if the light is outside: what its distance does to it is its shader's affair.
@@ -127,7 +164,9 @@ void PhotonSource::askAlong(const vec3& inCone, const vec3& offset, LightProbe& 
 }
 
 /// I = E r^2 over pi.
-vec3 PhotonSource::intensity(const LightProbe& probe, size_t i) const { return probe.Cl[i] * (askingDistance() * askingDistance()); }
+vec3 PhotonSource::intensity(const LightProbe& probe, size_t i) const {
+  return probe.Cl[i] * (askingDistance() * askingDistance());
+}
 
 void PhotonSource::surveyDistant(const PhotonTarget& target) {
   const LightProbe probe = askedFromMiddle(fewSamples());
@@ -137,6 +176,7 @@ void PhotonSource::surveyDistant(const PhotonTarget& target) {
   for (size_t i = 0; i < kFewSamples; ++i) {
     spread = std::max(spread, kSampledMargin * radius_ * glm::length(probe.L[i] + direction_));
     brightness += luminance(probe.Cl[i]) / kFewSamples;
+    isDrawn_ |= probe.L[i] != probe.L[0];
   }
   vec3 tangent, bitangent;
   orthonormalBasis(direction_, tangent, bitangent);
@@ -152,7 +192,8 @@ void PhotonSource::surveyDistant(const PhotonTarget& target) {
       shadow.extend(vec2(dot(off, tangent), dot(off, bitangent)));
     }
     const int left = cellAt(shadow.lo.x - spread), right = cellAt(shadow.hi.x + spread);
-    for (int y = cellAt(shadow.lo.y - spread); y <= cellAt(shadow.hi.y + spread); ++y) std::fill_n(weights.begin() + y * kGrid + left, right - left + 1, 1.0);
+    for (int y = cellAt(shadow.lo.y - spread); y <= cellAt(shadow.hi.y + spread); ++y)
+      std::fill_n(weights.begin() + y * kGrid + left, right - left + 1, 1.0);
   }
   for (const double w : weights) cells_.add(w);
   const double cellArea = std::pow(2 * double{radius_} / kGrid, 2);
@@ -164,7 +205,8 @@ void PhotonSource::surveySky() {
   double sum = 0;
   for (size_t c = 0; c < kRows * kColumns; ++c) {
     double radiance = 0;
-    for (int k = 0; k < kProbes; ++k) radiance += double{luminance(shading_.skyRadiance(light_, sphereDirection(c, probePlace(k))))};
+    for (int k = 0; k < kProbes; ++k)
+      radiance += double{luminance(shading_.skyRadiance(light_, sphereDirection(c, probePlace(k))))};
     weights.push_back(radiance / kProbes);
     sum += radiance / kProbes;
   }
@@ -175,7 +217,8 @@ void PhotonSource::surveySky() {
 void PhotonSource::surveyArea() {
   std::vector<EmittedPhoton> photons(256);
   emit(0, 0, photons);
-  for (const EmittedPhoton& p : photons) power_ += double{luminance(p.power)} / static_cast<double>(photons.size());
+  for (const EmittedPhoton& p : photons)
+    power_ += double{luminance(p.power)} / static_cast<double>(photons.size());
 }
 
 void PhotonSource::emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>& out) const {
@@ -203,15 +246,17 @@ LightProbe PhotonSource::askedFromMiddle(const std::vector<vec2>& xi) const {
   return probe;
 }
 
-void PhotonSource::emitFromPoint(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const {
-  const LightProbe place = askedFromMiddle(b);  // a light that is sampled is not at one place alone
+void PhotonSource::emitFromPoint(const std::vector<vec2>& a, const std::vector<vec2>& b,
+                                 std::vector<EmittedPhoton>& out) const {
+  const LightProbe place = isDrawn_ ? askedFromMiddle(b) : LightProbe();
   LightProbe probe;
   probe.xi = b;
   std::vector<double> density;
   for (size_t i = 0; i < out.size(); ++i) {
     double x{a[i].x};
     const size_t cell = cells_.pick(x);
-    const vec3 local = inCone(cell, {static_cast<float>(x), a[i].y}), offset = place.L[i] - middle_;
+    const vec3 local = inCone(cell, {static_cast<float>(x), a[i].y}),
+               offset = isDrawn_ ? place.L[i] - middle_ : vec3(0);
     Ray& ray = out[i].ray;
     ray = {placeAlong(local, cone_.start) + offset, directionOf(local)};
     ray.bias = kPointBias * (radius_ + glm::length(ray.origin));
@@ -219,23 +264,27 @@ void PhotonSource::emitFromPoint(const std::vector<vec2>& a, const std::vector<v
     askAlong(local, offset, probe);
   }
   shading_.probe(light_, probe);
-  for (size_t i = 0; i < out.size(); ++i) out[i].power = intensity(probe, i) * kPi / static_cast<float>(density[i]);
+  for (size_t i = 0; i < out.size(); ++i)
+    out[i].power = intensity(probe, i) * kPi / static_cast<float>(density[i]);
 }
 
-void PhotonSource::emitFromDistance(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const {
+void PhotonSource::emitFromDistance(const std::vector<vec2>& a, const std::vector<vec2>& b,
+                                    std::vector<EmittedPhoton>& out) const {
   vec3 tangent, bitangent;
   orthonormalBasis(direction_, tangent, bitangent);
-  const LightProbe sun = askedFromMiddle(b);
+  const LightProbe sun = isDrawn_ ? askedFromMiddle(b) : LightProbe();
   LightProbe probe;
   probe.xi = b;
   const float side = 2 * radius_ / kGrid;
   for (size_t i = 0; i < out.size(); ++i) {
     double x{a[i].x};
     const size_t cell = cells_.pick(x);
-    const vec2 at = side * vec2(static_cast<float>(cell % kGrid) + static_cast<float>(x), static_cast<float>(cell / kGrid) + a[i].y) -
+    const vec2 at = side * vec2(static_cast<float>(cell % kGrid) + static_cast<float>(x),
+                                static_cast<float>(cell / kGrid) + a[i].y) -
                     vec2(radius_);
-    // The square turns with the direction by the shortest way: whatever its shadow, it moves by less than that does.
-    const vec3 d = -sun.L[i], across = at.x * tangent + at.y * bitangent;
+    // The square turns with the direction by the shortest way: whatever its shadow, it moves by less than
+    // that does.
+    const vec3 d = isDrawn_ ? -sun.L[i] : direction_, across = at.x * tangent + at.y * bitangent;
     const vec3 turned = across - dot(across, d) / std::max(1 + dot(direction_, d), 1e-6f) * (direction_ + d);
     out[i].ray = {center_ + turned - kSkyDistance * radius_ * d, d};
     probe.P.push_back(out[i].ray.origin), probe.N.push_back(-d);
@@ -245,7 +294,8 @@ void PhotonSource::emitFromDistance(const std::vector<vec2>& a, const std::vecto
   for (size_t i = 0; i < out.size(); ++i) out[i].power = probe.Cl[i] * kPi * area;
 }
 
-void PhotonSource::emitFromSky(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const {
+void PhotonSource::emitFromSky(const std::vector<vec2>& a, const std::vector<vec2>& b,
+                               std::vector<EmittedPhoton>& out) const {
   for (size_t i = 0; i < out.size(); ++i) {
     double x{a[i].x};
     const size_t cell = cells_.pick(x);
@@ -259,28 +309,36 @@ void PhotonSource::emitFromSky(const std::vector<vec2>& a, const std::vector<vec
   }
 }
 
-void PhotonSource::emitFromArea(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const {
+void PhotonSource::emitFromArea(const std::vector<vec2>& a, const std::vector<vec2>& b,
+                                std::vector<EmittedPhoton>& out) const {
   const size_t n = out.size();
   std::vector<float> xi0(n), xi1(n), area(n), place[3], normal[3];
   for (auto* v : {place, normal})
     for (int k = 0; k < 3; ++k) v[k].resize(n);
   for (size_t i = 0; i < n; ++i) xi0[i] = a[i].x, xi1[i] = a[i].y;
-  const TmVec3 P{place[0].data(), place[1].data(), place[2].data()}, N{normal[0].data(), normal[1].data(), normal[2].data()};
+  const TmVec3 P{place[0].data(), place[1].data(), place[2].data()},
+      N{normal[0].data(), normal[1].data(), normal[2].data()};
   std::vector<int> group(n);
-  if (!rays_.emitters().sample(light_, static_cast<int>(n), xi0.data(), xi1.data(), P, N, area.data(), group.data())) {
+  if (!rays_.emitters().sample(light_, static_cast<int>(n), xi0.data(), xi1.data(), P, N, area.data(),
+                               group.data())) {
     std::fill(out.begin(), out.end(), EmittedPhoton{});
     return;
   }
+  std::vector<vec3> directions(n);
+  cosineHemispheres(b, directions);
   LightProbe probe;
+  for (auto* v : {&probe.P, &probe.N, &probe.Pl, &probe.Nl}) v->reserve(n);
   for (size_t i = 0; i < n; ++i) {
-    const vec3 Nl(N.x[i], N.y[i], N.z[i]), local = cosineHemisphere(b[i]);
+    const vec3 Nl(N.x[i], N.y[i], N.z[i]), &local = directions[i];
     vec3 tangent, bitangent;
     orthonormalBasis(Nl, tangent, bitangent);
     Ray& ray = out[i].ray;
-    ray = {vec3(P.x[i], P.y[i], P.z[i]), local.x * tangent + local.y * bitangent + local.z * Nl};
+    ray.origin = vec3(P.x[i], P.y[i], P.z[i]);
+    ray.direction = local.x * tangent + local.y * bitangent + local.z * Nl;
     // The polygons that rays see may lie before the surface that shines.
     rays_.prepareOrigin(group[i], ray.origin, 0, ray);
     ray.offset /= std::max(local.z, kLeastCosine);
+    out[i].normal = Nl;
     probe.Pl.push_back(ray.origin), probe.Nl.push_back(Nl);
     probe.P.push_back(ray.origin + ray.direction), probe.N.push_back(-ray.direction);
   }

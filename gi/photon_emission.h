@@ -1,16 +1,22 @@
 // Private to gi: photons as they leave a light, in proportion to what it sends, and only where the scene is.
-// Power: W, of RSL's convention E/pi = Cl: a light shader's Cl is irradiance over pi at normal incidence, so E = pi Cl.
-// Threads: const members may be called concurrently.
+// Power: W, of RSL's convention E/pi = Cl: a light shader's Cl is irradiance over pi at normal incidence, so
+// E = pi Cl. Threads: const members may be called concurrently.
 #pragma once
+#include <span>
+
 #include "raytrace/trace.h"
 #include "reyes/base/distribution.h"
 
 namespace tomales {
 
+/// As cosineHemisphere(), of each.
+void cosineHemispheres(std::span<const vec2> xi, std::span<vec3> out);
+
 /// Current space.
 struct EmittedPhoton {
   Ray ray;
-  vec3 power{0.0f};  ///< As if this were the only photon; zero: the light sends nothing there.
+  vec3 power{0.0f};   ///< As if this were the only photon; zero: the light sends nothing there.
+  vec3 normal{0.0f};  ///< Of the surface that it leaves; zero: it comes from the air.
 };
 
 /// What photons are aimed at.
@@ -27,7 +33,9 @@ class PhotonSource {
   PhotonSource(int light, const ShadingSystem& shading, const RayScene& rays, const PhotonTarget& target);
 
   int light() const { return light_; }
-  double power() const { return power_; }  ///< Estimate, W; what photons are shared out by. 0: the light emits none.
+  double power() const {
+    return power_;
+  }  ///< Estimate, W; what photons are shared out by. 0: the light emits none.
 
   /// Photons number `first` .. first + out.size() - 1 of this light.
   void emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>& out) const;
@@ -47,27 +55,34 @@ class PhotonSource {
   vec3 intensity(const LightProbe& probe, size_t i) const;
   /// At the middle of the scene; L of a distant light is unit.
   LightProbe askedFromMiddle(const std::vector<vec2>& xi) const;
-  void emitFromPoint(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const;
-  void emitFromDistance(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const;
-  void emitFromSky(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const;
-  void emitFromArea(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const;
+  void emitFromPoint(const std::vector<vec2>& a, const std::vector<vec2>& b,
+                     std::vector<EmittedPhoton>& out) const;
+  void emitFromDistance(const std::vector<vec2>& a, const std::vector<vec2>& b,
+                        std::vector<EmittedPhoton>& out) const;
+  void emitFromSky(const std::vector<vec2>& a, const std::vector<vec2>& b,
+                   std::vector<EmittedPhoton>& out) const;
+  void emitFromArea(const std::vector<vec2>& a, const std::vector<vec2>& b,
+                    std::vector<EmittedPhoton>& out) const;
 
   const int light_;
   const ShadingSystem& shading_;
   const RayScene& rays_;
   const LightKind kind_;
   double power_ = 0;
-  Distribution cells_;      ///< Point: of the cone. Sky: of the sphere of directions. Distant: of the square that the scene's shadow fits in.
-  vec3 middle_{0.0f};       ///< Point: from the middle of the scene to that of the light.
+  bool isDrawn_ = false;  ///< Point, Distant: its place or direction is another for every photon.
+  Distribution cells_;  ///< Point: of the cone. Sky: of the sphere of directions. Distant: of the square that
+                        ///< the scene's shadow fits in.
+  vec3 middle_{0.0f};   ///< Point: from the middle of the scene to that of the light.
   struct Cone {
-    mat3 frame{1.0f};       ///< The third axis towards the scene.
-    float height = 2;       ///< 1 - the cosine of half its angle.
-    float distance = 0;     ///< Of the light from the middle of the scene. 0: it is within, and sends photons all around.
-    float start = 0;        ///< How far from the light its photons begin.
-  } cone_;                  ///< Point: of directions.
-  vec3 direction_{0.0f};    ///< Distant: of the middle of its light.
-  vec3 center_{0.0f};       ///< Of the scene.
-  float radius_ = 0;        ///< Likewise
+    mat3 frame{1.0f};  ///< The third axis towards the scene.
+    float height = 2;  ///< 1 - the cosine of half its angle.
+    float distance =
+        0;  ///< Of the light from the middle of the scene. 0: it is within, and sends photons all around.
+    float start = 0;      ///< How far from the light its photons begin.
+  } cone_;                ///< Point: of directions.
+  vec3 direction_{0.0f};  ///< Distant: of the middle of its light.
+  vec3 center_{0.0f};     ///< Of the scene.
+  float radius_ = 0;      ///< Likewise
 };
 
 }  // namespace tomales

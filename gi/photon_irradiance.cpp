@@ -10,11 +10,14 @@
 namespace tomales {
 namespace {
 
-// Chance alone moves the centroid of 50 photons by 0.09 radii on average; from there on a border is believed in gradually.
+// Chance alone moves the centroid of 50 photons by 0.09 radii on average; from there on a border is believed
+// in gradually.
 constexpr float kChanceEnds = 0.18f, kBorderBegins = 0.34f;
-constexpr float kOverlap = 1.6f;  ///< Radius of a disk over that of the area it stands for: few gaps between random disks.
-constexpr size_t kFew = 8;        ///< Fewer photons tell nothing about how far the next are.
-/// By chance, the nearest eight of 50 are so much closer once in a thousand times. Radii that follow chance make bricks finer than the data.
+constexpr float kOverlap =
+    1.6f;  ///< Radius of a disk over that of the area it stands for: few gaps between random disks.
+constexpr size_t kFew = 8;  ///< Fewer photons tell nothing about how far the next are.
+/// By chance, the nearest eight of 50 are so much closer once in a thousand times. Radii that follow chance
+/// make bricks finer than the data.
 constexpr float kMuchCloser = 0.5f;
 constexpr float kMostOfMap = 0.05f;
 constexpr size_t kEstimatesPerTask = 256;
@@ -25,31 +28,34 @@ vec2 segment(float theta) {
   return {area / kPi, area > 0 ? 2 * s * s * s / (3 * area) : 1.0f};
 }
 
-constexpr float kMuchBent = 0.95f;   ///< Length of the mean normal: a hemisphere's within 60 degrees has 3/4.
+constexpr float kMuchBent = 0.95f;  ///< Length of the mean normal: a hemisphere's within 60 degrees has 3/4.
 
 struct Estimate {
   vec3 irradiance{0.0f};
-  float radius = 0;  ///< 0: none was made.
+  float radius = 0;                ///< 0: none was made.
   bool few = false, bent = false;  ///< EstimateFigures
   float clump = 1;
 };
 
 /// Of the disk that stands for `every` of `count` photons on an area.
 float diskRadius(float area, size_t count, int every) {
-  return kOverlap * std::sqrt(area * static_cast<float>(every) / (kPi * static_cast<float>(std::max<size_t>(count, 1))));
+  return kOverlap *
+         std::sqrt(area * static_cast<float>(every) / (kPi * static_cast<float>(std::max<size_t>(count, 1))));
 }
 
-/// By the nearest few alone: where photons are rare, those that the search has to reach for lie on other surfaces, and the disk must
-/// not reach there. Pre: sorted.
+/// By the nearest few alone: where photons are rare, those that the search has to reach for lie on other
+/// surfaces, and the disk must not reach there. Pre: sorted.
 float nearRadius(const std::vector<NearPhoton>& photons, int every) {
   const size_t few = std::min(photons.size(), std::max(kFew, 2 * static_cast<size_t>(every)));
   return diskRadius(kPi * photons[few - 1].distance2, few, every);
 }
 
-/// EstimateFigures::clumps of one. Neither the farthest of the few counts, nor that of all, `inside`, nor the photon at the middle. Pre: sorted.
+/// EstimateFigures::clumps of one. Neither the farthest of the few counts, nor that of all, `inside`, nor the
+/// photon at the middle. Pre: sorted.
 float clumpOf(const std::vector<NearPhoton>& photons, float area, size_t inside) {
   if (photons.size() <= kFew || !(photons[kFew - 1].distance2 > 0)) return 1;
-  return static_cast<float>(kFew - 2) / (kPi * photons[kFew - 1].distance2) * area / static_cast<float>(inside - 1);
+  return static_cast<float>(kFew - 2) / (kPi * photons[kFew - 1].distance2) * area /
+         static_cast<float>(inside - 1);
 }
 
 Estimate estimate(const PhotonTree& tree, int power, uint32_t at, const PhotonIrradianceSettings& settings,
@@ -57,8 +63,8 @@ Estimate estimate(const PhotonTree& tree, int power, uint32_t at, const PhotonIr
   const vec3 P = tree.position(at), N = tree.normal(at);
   const auto most = static_cast<size_t>(settings.nearest);
   tree.nearest(P, N, tree.surface(at), most, settings.maxRadius, heap);
-  // The farthest gives the radius and does not count: n - 1 inside is what a disk that just excludes the n-th has. So few that two
-  // which happen to be close would shine: all of the reach is the disk.
+  // The farthest gives the radius and does not count: n - 1 inside is what a disk that just excludes the n-th
+  // has. So few that two which happen to be close would shine: all of the reach is the disk.
   const bool byFarthest = heap.size() >= std::min(kFew, most);
   const float r2 = byFarthest ? heap.front().distance2 : settings.maxRadius * settings.maxRadius;
   if (!(r2 > 0)) return {vec3(0.0f), 0};
@@ -77,7 +83,8 @@ Estimate estimate(const PhotonTree& tree, int power, uint32_t at, const PhotonIr
   const float belief = glm::smoothstep(kChanceEnds, kBorderBegins, distance);
   const float covered = glm::mix(1.0f, coveredShare(distance), belief), area = kPi * r2 * covered;
   const float wide = diskRadius(area, inside, settings.every), close = nearRadius(heap, settings.every);
-  return {sum / area, close < kMuchCloser * wide ? close : wide, heap.size() < most, glm::length(normal) < kMuchBent * count, clumpOf(heap, area, inside)};
+  return {sum / area, close < kMuchCloser * wide ? close : wide, heap.size() < most,
+          glm::length(normal) < kMuchBent * count, clumpOf(heap, area, inside)};
 }
 
 /// Where photons fly: as estimate(), of a ball.
@@ -96,8 +103,10 @@ Estimate estimateInMedium(const PhotonTree& tree, int power, uint32_t at,
     const float* w = tree.photons().at(heap[i].photon) + power;
     sum += vec3(w[0], w[1], w[2]), centroid += tree.position(heap[i].photon) - P;
   }
-  const float count = static_cast<float>(std::max<size_t>(inside, 1)), distance = glm::length(centroid) / (count * r);
-  const float covered = glm::mix(1.0f, coveredShareOfBall(distance), glm::smoothstep(kChanceEnds, kBorderBegins, distance));
+  const float count = static_cast<float>(std::max<size_t>(inside, 1)),
+              distance = glm::length(centroid) / (count * r);
+  const float covered =
+      glm::mix(1.0f, coveredShareOfBall(distance), glm::smoothstep(kChanceEnds, kBorderBegins, distance));
   const float volume = 4.0f / 3 * kPi * r * r * r * covered;
   return {sum / volume, kOverlap * r * std::cbrt(covered * static_cast<float>(settings.every) / count)};
 }
@@ -105,7 +114,8 @@ Estimate estimateInMedium(const PhotonTree& tree, int power, uint32_t at,
 }  // namespace
 
 float coveredShareOfBall(float centroidDistance) {
-  float lo = -1, hi = 1, share = 1;  // the plane, seen from the centre; the centroid moves out as it comes nearer
+  float lo = -1, hi = 1,
+        share = 1;  // the plane, seen from the centre; the centroid moves out as it comes nearer
   for (int i = 0; i < 24; ++i) {
     const float a = 0.5f * (lo + hi), circle = 1 - a * a;
     share = 1 - 0.25f * (1 - a) * (1 - a) * (2 + a);

@@ -3,19 +3,18 @@
 #include <numeric>
 
 #include "gi/gather.h"
+#include "raytrace/emitter_shapes.h"
+#include "raytrace/hit_list.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
 namespace {
 
 constexpr uint32_t kBounceStream = 0x626f756eU, kMediumStream = 0x6d656469U;
-constexpr float kDiffuseSpread = 0.1f;   ///< As a gather ray of about a hundred; irradiance is estimated over more.
-constexpr uint32_t kMostPasses = 1000;   ///< Of one path: layers of leaves and smoke end somewhere, faults of geometry may not.
-
-vec3 onSphere(const vec2& xi) {
-  const float z = 1 - 2 * xi.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * xi.y;
-  return {r * std::cos(phi), r * std::sin(phi), z};
-}
+constexpr float kDiffuseSpread =
+    0.1f;  ///< As a gather ray of about a hundred; irradiance is estimated over more.
+constexpr uint32_t kMostPasses =
+    1000;  ///< Of one path: layers of leaves and smoke end somewhere, faults of geometry may not.
 
 /// Reflection and refraction at a smooth dielectric.
 vec3 dielectric(const vec3& d, const vec3& towards, bool entering, float index, float xi) {
@@ -24,13 +23,16 @@ vec3 dielectric(const vec3& d, const vec3& towards, bool entering, float index, 
   const vec3 mirrored = d + 2 * cosine * towards;
   if (k < 0) return mirrored;
   const float inside = std::sqrt(k);
-  const float rs = (eta * cosine - inside) / (eta * cosine + inside), rp = (cosine - eta * inside) / (cosine + eta * inside);
+  const float rs = (eta * cosine - inside) / (eta * cosine + inside),
+              rp = (cosine - eta * inside) / (cosine + eta * inside);
   return xi < 0.5f * (rs * rs + rp * rp) ? mirrored : eta * d + (eta * cosine - inside) * towards;
 }
 
 bool isDiffuse(PhotonModel model) { return model == PhotonModel::Matte || model == PhotonModel::Translucent; }
 
-vec3 shareOf(const vec3& given, const vec3& otherwise) { return isFinite(given) ? glm::clamp(given, 0.0f, 1.0f) : otherwise; }
+vec3 shareOf(const vec3& given, const vec3& otherwise) {
+  return isFinite(given) ? glm::clamp(given, 0.0f, 1.0f) : otherwise;
+}
 
 }  // namespace
 
@@ -39,8 +41,14 @@ bool isOnFor(const ShadeGroup& group, int light) {
   return std::find(on.begin(), on.end(), light) != on.end();
 }
 
-PhotonTracer::PhotonTracer(const Scene& scene, const RayScene& rays, const ShadingSystem& shading, const PhotonSettings& settings, Log& log)
-    : scene_(scene), rays_(rays), shading_(shading), settings_(settings), worldUnit_(std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))))) {
+PhotonTracer::PhotonTracer(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
+                           const PhotonSettings& settings, Log& log)
+    : scene_(scene),
+      rays_(rays),
+      shading_(shading),
+      settings_(settings),
+      worldUnit_(std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))))) {
+  for (const Object& o : scene.objects) groups_.push_back(o.group);
   for (const ShadeGroup& g : scene.groups) {
     const std::string& name = g.attributes->photon.shadingModel;
     const std::optional<PhotonModel> model = photonModel(name);
@@ -48,58 +56,96 @@ PhotonTracer::PhotonTracer(const Scene& scene, const RayScene& rays, const Shadi
       log.report(Severity::Warning, "photons-model-" + name, scene.where,
                  "photon shadingmodel \"" + name + "\" is not known; matte is used");
     models_.push_back(model.value_or(PhotonModel::Matte));
-    media_.push_back({mediumOf(g.attributes->interior.get(), worldUnit_), mediumOf(g.attributes->exterior.get(), worldUnit_)});
+    media_.push_back({mediumOf(g.attributes->interior.get(), worldUnit_),
+                      mediumOf(g.attributes->exterior.get(), worldUnit_)});
     anyMedium_ |= !media_.back().inside.empty() || !media_.back().outside.empty();
   }
   askEvenSurfaces();
 }
 
-void PhotonTracer::trace(const PhotonSource& source, uint32_t first, size_t count, float share, std::vector<StoredPhoton>& out) const {
+void PhotonTracer::trace(const PhotonSource& source, uint32_t first, size_t count, float share,
+                         std::vector<StoredPhoton>& out) const {
   std::vector<EmittedPhoton> emitted(count);
   source.emit(first, settings_.seed, emitted);
   const uint32_t stream = hashCombine(settings_.seed, static_cast<uint32_t>(source.light()), kBounceStream);
   std::vector<Path> paths;
+  Scratch scratch;
+  paths.reserve(count), scratch.flying.reserve(count);
   for (size_t i = 0; i < count; ++i) {
     const EmittedPhoton& e = emitted[i];
     if (!(maxComponent(e.power) > 0) || !isFinite(e.power)) continue;
+    scratch.flying.push_back(static_cast<uint32_t>(paths.size()));
     paths.push_back({e.ray, e.power * share, first + static_cast<uint32_t>(i), source.light()});
+    paths.back().lift = liftOf(e.ray, e.normal);
   }
-  Scratch scratch;
-  while (!paths.empty()) step(paths, stream, scratch, out);
+  while (!scratch.flying.empty()) step(paths, stream, scratch, out);
 }
 
-/// Every path to its next surface; those that end there leave the list.
-void PhotonTracer::step(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const {
-  s.hits.clear();
-  for (const Path& path : paths) s.hits.push_back(rays_.closest(path.ray, kMaskPhoton));
+/// Every path that flies to its next surface; those that end there fly no more.
+void PhotonTracer::step(std::vector<Path>& paths, uint32_t stream, Scratch& s,
+                        std::vector<StoredPhoton>& out) const {
+  fly(paths, s);
   crossMedia(paths, stream, s, out);
   ask(paths, stream, s);
   draw(paths, stream, s);
   size_t kept = 0;
-  for (size_t i = 0; i < paths.size(); ++i) {
-    if (!s.scattered[i] && (s.hits[i].object < 0 || !meets(paths[i], s.hits[i], s.answers[i], {s.direction[i], s.survival[i]}, stream, out))) continue;
-    if (kept != i) paths[kept] = paths[i];
-    ++kept;
+  for (size_t k = 0; k < s.flying.size(); ++k) {
+    Path& path = paths[s.flying[k]];
+    if (s.scattered[k] || (s.hits[k].object >= 0 && meets(path, s.hits[k], *s.answers[k],
+                                                          {s.direction[k], s.survival[k]}, stream, out)))
+      s.flying[kept++] = s.flying[k];
   }
-  paths.resize(kept);
+  s.flying.resize(kept);
+}
+
+/// Those that meet nothing leave the scene.
+void PhotonTracer::fly(const std::vector<Path>& paths, Scratch& s) const {
+  s.hits.resize(s.flying.size());
+  size_t kept = 0;
+  for (const uint32_t i : s.flying) {
+    // In place: a copy of what has just been written in smaller pieces waits for them.
+    const Hit& hit = *::new (&s.hits[kept]) Hit(firstHit(paths[i]));
+    if (hit.object >= 0) s.flying[kept++] = i;
+  }
+  s.flying.resize(kept), s.hits.resize(kept);
+}
+
+/// Photons leave polygons, not the surfaces that those stand for: just before its polygon most of them meet
+/// nothing near, and the hit list would not change what they meet.
+Hit PhotonTracer::firstHit(const Path& path) const {
+  Ray free = path.ray;
+  const bool hasList = free.offset > 0;
+  if (hasList) free.origin += path.lift, free.offset = free.bias = 0;
+  Hit hit = rays_.closest(free, kMaskPhoton);
+  if (hasList && hit.t <= recordingWindow(path.ray.offset)) hit = rays_.closest(path.ray, kMaskPhoton);
+  return hit;
+}
+
+vec3 PhotonTracer::liftOf(const Ray& ray, const vec3& normal) {
+  return std::copysign(roundingAt(ray.origin), dot(ray.direction, normal)) * normal;
 }
 
 void PhotonTracer::draw(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const {
-  const size_t count = paths.size();
-  s.number.resize(count), s.name.resize(count), s.direction.resize(count), s.survival.resize(count);
-  for (size_t i = 0; i < count; ++i) s.number[i] = paths[i].number, s.name[i] = nameOf(paths[i], stream);
-  sobol2(s.number, s.name, s.direction);
+  const size_t count = s.flying.size();
+  s.number.resize(count), s.name.resize(count), s.xi.resize(count), s.direction.resize(count),
+      s.survival.resize(count);
+  for (size_t k = 0; k < count; ++k) {
+    const Path& path = paths[s.flying[k]];
+    s.number[k] = path.number, s.name[k] = nameOf(path, stream);
+  }
+  sobol2(s.number, s.name, s.xi);
+  cosineHemispheres(s.xi, s.direction);
   for (uint32_t& name : s.name) name = hashCombine(name, 1u);
   sobol1(s.number, s.name, s.survival);
 }
 
 /// What collides before it arrives is stored there, and meets no surface in this step.
-void PhotonTracer::crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const {
-  s.scattered.assign(paths.size(), 0);
-  for (size_t i = 0; anyMedium_ && i < paths.size(); ++i) {
-    Path& path = paths[i];
-    Hit& hit = s.hits[i];
-    if (hit.object < 0) continue;
+void PhotonTracer::crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch& s,
+                              std::vector<StoredPhoton>& out) const {
+  s.scattered.assign(s.flying.size(), 0);
+  for (size_t k = 0; anyMedium_ && k < s.flying.size(); ++k) {
+    Path& path = paths[s.flying[k]];
+    Hit& hit = s.hits[k];
     const Media& media = media_[static_cast<size_t>(groupOf(hit))];
     const Medium& medium = dot(path.ray.direction, hit.geometricNormal) > 0 ? media.inside : media.outside;
     const float majorant = medium.majorant(path.power);
@@ -107,27 +153,31 @@ void PhotonTracer::crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch
     const uint32_t name = hashCombine(nameOf(path, stream), kMediumStream, path.collisions);
     const float flight = -std::log(1 - sobol1(path.number, name)) / majorant;
     if (!(flight < hit.t)) continue;
-    s.scattered[i] = collides(path, medium, landsOn(path, groupOf(hit)), flight, name, out);
+    s.scattered[k] = collides(path, medium, landsOn(path, groupOf(hit)), flight, name, out);
     hit.object = -1;
   }
 }
 
 /// False: it ends there.
-bool PhotonTracer::collides(Path& path, const Medium& medium, bool isLit, float flight, uint32_t name, std::vector<StoredPhoton>& out) const {
+bool PhotonTracer::collides(Path& path, const Medium& medium, bool isLit, float flight, uint32_t name,
+                            std::vector<StoredPhoton>& out) const {
   const vec3 P = path.ray.origin + flight * path.ray.direction;
-  if (isLit) out.push_back({P, vec3(0), path.power / (medium.majorant(path.power) * worldUnit_), -1, path.depth, false});
+  if (isLit)
+    out.push_back(
+        {P, vec3(0), path.power / (medium.majorant(path.power) * worldUnit_), -1, path.depth, false});
   const Collision collision = collide(medium, path.power, sobol1(path.number, hashCombine(name, 1u)));
   if (collision.event == Collision::Absorbed) return false;
   path.power = collision.power;
   ++path.collisions;
   if (collision.event == Collision::None) {  // the same ray, from there
     path.ray.origin = P;
-    path.ray.offset = std::max(0.0f, path.ray.offset - flight), path.ray.bias = std::max(0.0f, path.ray.bias - flight);
+    path.ray.offset = std::max(0.0f, path.ray.offset - flight),
+    path.ray.bias = std::max(0.0f, path.ray.bias - flight);
     return true;
   }
   if (!isLit || ++path.depth >= settings_.maxDepth) return false;
   path.specular = false;
-  path.ray = {P, onSphere(sobol2(path.number, hashCombine(name, 2u)))};
+  path.ray = {P, directionOnSphere(sobol2(path.number, hashCombine(name, 2u)))};
   return true;
 }
 
@@ -149,27 +199,30 @@ void PhotonTracer::askEvenSurfaces() {
 
 /// The surface at every hit: one that is even, or its shader.
 void PhotonTracer::ask(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const {
-  s.answers.assign(s.hits.size(), {});
+  s.answers.resize(s.hits.size());
   std::vector<Ray> rays;
   std::vector<Hit> hits;
   std::vector<SampleName> names;
   std::vector<size_t> which;
-  for (size_t i = 0; i < s.hits.size(); ++i) {
-    if (s.hits[i].object < 0) continue;
-    if (const auto& even = even_[static_cast<size_t>(groupOf(s.hits[i]))]) {
-      s.answers[i] = *even;
+  for (size_t k = 0; k < s.hits.size(); ++k) {
+    if (s.hits[k].object < 0) continue;
+    if (const auto& even = even_[static_cast<size_t>(groupOf(s.hits[k]))]) {
+      s.answers[k] = &*even;
       continue;
     }
-    rays.push_back(paths[i].ray), hits.push_back(s.hits[i]), which.push_back(i);
-    names.push_back({hashCombine(stream, paths[i].number, static_cast<uint32_t>(paths[i].depth)), 0});
+    const Path& path = paths[s.flying[k]];
+    rays.push_back(path.ray), hits.push_back(s.hits[k]), which.push_back(k);
+    names.push_back({hashCombine(stream, path.number, static_cast<uint32_t>(path.depth)), 0});
   }
   if (which.empty()) return;
-  const std::vector<Answer> found = shaded(rays, hits, names);
-  for (size_t k = 0; k < which.size(); ++k) s.answers[which[k]] = found[k];
+  s.found = shaded(rays, hits, names);
+  for (size_t i = 0; i < which.size(); ++i) s.answers[which[i]] = &s.found[i];
 }
 
 /// Reflected is what comes back of E/pi = 1, less what is emitted.
-std::vector<PhotonTracer::Answer> PhotonTracer::shaded(const std::vector<Ray>& rays, const std::vector<Hit>& hits, const std::vector<SampleName>& names) const {
+std::vector<PhotonTracer::Answer> PhotonTracer::shaded(const std::vector<Ray>& rays,
+                                                       const std::vector<Hit>& hits,
+                                                       const std::vector<SampleName>& names) const {
   ShadeContext context{RayKind::Diffuse, 1, settings_.seed, 1, false};
   context.light = Illumination::Unit;
   HitAnswers lit;
@@ -182,7 +235,8 @@ std::vector<PhotonTracer::Answer> PhotonTracer::shaded(const std::vector<Ray>& r
     for (size_t i = 0; i < dark.size(); ++i) lit.color[i] -= dark[i];
   }
   std::vector<Answer> out(hits.size());
-  for (size_t i = 0; i < out.size(); ++i) out[i] = {shareOf(lit.color[i], vec3(0)), shareOf(lit.opacity[i], vec3(1))};
+  for (size_t i = 0; i < out.size(); ++i)
+    out[i] = {shareOf(lit.color[i], vec3(0)), shareOf(lit.opacity[i], vec3(1))};
   return out;
 }
 
@@ -191,25 +245,32 @@ bool PhotonTracer::landsOn(const Path& path, int group) const {
   return !path.specular || isOnFor(scene_.groups[static_cast<size_t>(group)], path.light);
 }
 
-uint32_t PhotonTracer::nameOf(const Path& path, uint32_t stream) { return hashCombine(stream, static_cast<uint32_t>(path.depth) | path.passes << 16); }
+uint32_t PhotonTracer::nameOf(const Path& path, uint32_t stream) {
+  return hashCombine(stream, static_cast<uint32_t>(path.depth) | path.passes << 16);
+}
 
 /// False: it ends there.
-bool PhotonTracer::meets(Path& path, const Hit& hit, const Answer& answer, const Draw& xi, uint32_t stream, std::vector<StoredPhoton>& out) const {
+bool PhotonTracer::meets(Path& path, const Hit& hit, const Answer& answer, const Draw& xi, uint32_t stream,
+                         std::vector<StoredPhoton>& out) const {
   const int group = groupOf(hit);
   const PhotonModel model = models_[static_cast<size_t>(group)];
   const uint32_t name = nameOf(path, stream);
-  if (model == PhotonModel::Transparent) return passes(path, hit, scene_.groups[static_cast<size_t>(group)].attributes->color, xi.survival);
-  if (!isDiffuse(model)) return isMirrored(path, hit, xi.survival, sobol1(path.number, hashCombine(name, 2u)));
+  if (model == PhotonModel::Transparent)
+    return passes(path, hit, scene_.groups[static_cast<size_t>(group)].attributes->color, xi.survival);
+  if (!isDiffuse(model))
+    return isMirrored(path, hit, xi.survival, sobol1(path.number, hashCombine(name, 2u)));
   // What is not there, as the rest of a leaf's card, holds no light.
   const vec3 transmitted = 1.0f - answer.opacity;
   const float passing = (transmitted.x + transmitted.y + transmitted.z) / 3;
   const bool lands = passing < 1 && landsOn(path, group);
   if (lands && (settings_.direct || path.depth > 0)) {
     const vec3 P = path.ray.origin + hit.t * path.ray.direction, Ng = hit.geometricNormal;
-    out.push_back({P, dot(path.ray.direction, Ng) < 0 ? Ng : -Ng, path.power, group, path.depth, path.specular && path.depth > 0});
+    out.push_back({P, dot(path.ray.direction, Ng) < 0 ? Ng : -Ng, path.power, group, path.depth,
+                   path.specular && path.depth > 0});
   }
-  if (passing > 0 && sobol1(path.number, hashCombine(name, 3u)) < passing) return passes(path, hit, transmitted / passing, xi.survival);
-  return lands && isScattered(path, hit, answer.reflected / (1 - passing), xi, sobol1(path.number, hashCombine(name, 2u)));
+  if (passing > 0 && sobol1(path.number, hashCombine(name, 3u)) < passing)
+    return passes(path, hit, transmitted / passing, xi.survival);
+  return lands && isScattered(path, hit, answer.reflected / (1 - passing), xi, hashCombine(name, 2u));
 }
 
 /// As if nothing were there, but for its colour: no arrival, and what comes so is no caustic.
@@ -219,29 +280,34 @@ bool PhotonTracer::passes(Path& path, const Hit& hit, const vec3& transmitted, f
   return true;
 }
 
-bool PhotonTracer::isScattered(Path& path, const Hit& hit, const vec3& reflected, const Draw& xi, float side) const {
+bool PhotonTracer::isScattered(Path& path, const Hit& hit, const vec3& reflected, const Draw& xi,
+                               uint32_t side) const {
   path.specular = false;
   if (++path.depth >= settings_.maxDepth || !survives(path, reflected, xi.survival)) return false;
   // Around the interpolated normal some photons would go into the polygon, and be caught in what it bounds.
-  const bool through = models_[static_cast<size_t>(groupOf(hit))] == PhotonModel::Translucent && side < 0.5f;
-  const vec3 axis = (dot(path.ray.direction, hit.geometricNormal) < 0) != through ? hit.geometricNormal : -hit.geometricNormal;
+  const bool through = models_[static_cast<size_t>(groupOf(hit))] == PhotonModel::Translucent &&
+                       sobol1(path.number, side) < 0.5f;
+  const vec3 axis = (dot(path.ray.direction, hit.geometricNormal) < 0) != through ? hit.geometricNormal
+                                                                                  : -hit.geometricNormal;
   vec3 tangent, bitangent;
   orthonormalBasis(axis, tangent, bitangent);
-  const vec3 local = cosineHemisphere(xi.direction);
+  const vec3& local = xi.direction;
   leave(path, hit, local.x * tangent + local.y * bitangent + local.z * axis);
   return true;
 }
 
 bool PhotonTracer::isMirrored(Path& path, const Hit& hit, float survival, float xi) const {
   const auto group = static_cast<size_t>(groupOf(hit));
-  if (++path.depth >= settings_.maxDepth || !survives(path, scene_.groups[group].attributes->color, survival)) return false;
+  if (++path.depth >= settings_.maxDepth || !survives(path, scene_.groups[group].attributes->color, survival))
+    return false;
   const vec3 d = path.ray.direction;
   const bool front = dot(d, hit.geometricNormal) < 0;
   const vec3 N = front ? hit.normal : -hit.normal;
-  if (models_[group] == PhotonModel::Chrome)
-    leave(path, hit, d - 2 * dot(d, N) * N);
-  else
-    leave(path, hit, dielectric(d, N, front, models_[group] == PhotonModel::Water ? 1.33f : 1.5f, xi));
+  const vec3 mirrored = d - 2 * dot(d, N) * N;
+  const float index = models_[group] == PhotonModel::Water ? 1.33f : 1.5f;
+  leave(
+      path, hit,
+      normalizeOr(models_[group] == PhotonModel::Chrome ? mirrored : dielectric(d, N, front, index, xi), N));
   return true;
 }
 
@@ -254,14 +320,18 @@ bool PhotonTracer::survives(Path& path, const vec3& left, float xi) {
   return true;
 }
 
+/// In a direction of unit length.
 void PhotonTracer::leave(Path& path, const Hit& hit, const vec3& direction) const {
-  const vec3 P = path.ray.origin + hit.t * path.ray.direction, N = dot(path.ray.direction, hit.geometricNormal) < 0 ? hit.normal : -hit.normal;
-  path.ray = {P, normalizeOr(direction, N)};
+  Ray& ray = path.ray;
+  const vec3& N = hit.normal;
+  ray.origin += hit.t * ray.direction;
+  ray.direction = direction;
   // The level of what it meets follows from its width; textures there do not.
-  path.ray.spread = path.specular ? 0.0f : kDiffuseSpread;
-  rays_.prepareOrigin(groupOf(hit), P, 0, path.ray);
-  path.ray.spread = 0;
-  path.ray.offset = slantedOffset(path.ray.offset, std::abs(dot(path.ray.direction, N)));
+  ray.spread = path.specular ? 0.0f : kDiffuseSpread;
+  rays_.prepareOrigin(groupOf(hit), ray.origin, 0, ray);
+  ray.spread = 0;
+  ray.offset = slantedOffset(ray.offset, std::abs(dot(direction, N)));
+  path.lift = liftOf(ray, hit.geometricNormal);
 }
 
 }  // namespace tomales

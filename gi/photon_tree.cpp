@@ -9,11 +9,11 @@ namespace tomales {
 namespace {
 
 constexpr uint32_t kLeaf = 16;
-constexpr float kSameSide = 0.5f;       ///< Photons of surfaces turned away by more than 60 degrees do not count.
-constexpr float kAlongNormal = 15.0f;   ///< A photon off the plane looks four times as far.
-/// And one of another surface four hundred times as far as it is off the sheet: tiles of one floor continue each other, a ball does not
-/// continue the floor it lies on. On one sphere or plane a chord makes the same angle with both normals; of two parallel sheets, one
-/// looks at the back of the other.
+constexpr float kSameSide = 0.5f;  ///< Photons of surfaces turned away by more than 60 degrees do not count.
+constexpr float kAlongNormal = 15.0f;  ///< A photon off the plane looks four times as far.
+/// And one of another surface four hundred times as far as it is off the sheet: tiles of one floor continue
+/// each other, a ball does not continue the floor it lies on. On one sphere or plane a chord makes the same
+/// angle with both normals; of two parallel sheets, one looks at the back of the other.
 constexpr float kOffSheet = 160e3f;
 
 /// Elements of `width` values into this order, with one copy of them beside.
@@ -58,7 +58,8 @@ void PhotonTree::build(std::vector<uint32_t>& order, uint32_t begin, uint32_t en
   build(order, middle, end, 2 * node + 2);
 }
 
-void PhotonTree::nearest(const vec3& P, const vec3& N, int surface, size_t most, float radius, std::vector<NearPhoton>& heap) const {
+void PhotonTree::nearest(const vec3& P, const vec3& N, int surface, size_t most, float radius,
+                         std::vector<NearPhoton>& heap) const {
   struct Range {
     uint32_t begin, end, node;
     float distance2;
@@ -76,7 +77,8 @@ void PhotonTree::nearest(const vec3& P, const vec3& N, int surface, size_t most,
       const Split& split = splits_[r.node];
       const uint32_t middle = r.begin + (r.end - r.begin) / 2;
       const float d = P[split.axis] - split.at;
-      const Range low{r.begin, middle, 2 * r.node + 1, r.distance2}, high{middle, r.end, 2 * r.node + 2, r.distance2};
+      const Range low{r.begin, middle, 2 * r.node + 1, r.distance2},
+          high{middle, r.end, 2 * r.node + 2, r.distance2};
       Range& far = stack[depth++];
       far = d < 0 ? high : low;
       far.distance2 = std::max(r.distance2, d * d);

@@ -6,7 +6,8 @@
 namespace tomales {
 
 struct NearPhoton {
-  float distance2;  ///< Squared; along the normal it counts four times, and more to another surface (a disk, not a sphere).
+  float distance2;  ///< Squared; along the normal it counts four times, and more to another surface (a disk,
+                    ///< not a sphere).
   uint32_t photon;  ///< In the order of the tree.
   bool operator<(const NearPhoton& o) const {
     return distance2 != o.distance2 ? distance2 < o.distance2 : photon < o.photon;
@@ -24,9 +25,11 @@ class PhotonTree {
 
   int surface(uint32_t i) const { return surface_[i]; }  ///< 0: not known.
 
-  /// The `most` nearest photons within `radius` that face as `N` does (zero: whatever they face, in a ball), as a heap with the farthest in front. Those of another surface
-  /// than `surface` (0: all are of this one) count only if they continue it.
-  void nearest(const vec3& P, const vec3& N, int surface, size_t most, float radius, std::vector<NearPhoton>& heap) const;
+  /// The `most` nearest photons within `radius` that face as `N` does (zero: whatever they face, in a ball),
+  /// as a heap with the farthest in front. Those of another surface than `surface` (0: all are of this one)
+  /// count only if they continue it.
+  void nearest(const vec3& P, const vec3& N, int surface, size_t most, float radius,
+               std::vector<NearPhoton>& heap) const;
 
  private:
   struct Split {

@@ -73,8 +73,11 @@ int offsetOf(const std::vector<CloudChannel>& channels, const std::string& name,
 }
 
 bool isValidPoint(const vec3& P, const vec3& N, float radius, std::span<const float> values) {
-  return isFinite(P) && isFinite(N) && radius >= 0 && std::isfinite(radius) &&
-         std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
+  // Zero times what is finite is zero, and not a number times all else.
+  const vec3 ofPlace = 0.0f * P + 0.0f * N;
+  float sum = ofPlace.x + ofPlace.y + ofPlace.z + 0.0f * radius;
+  for (const float v : values) sum += 0.0f * v;
+  return sum == 0 && radius >= 0;
 }
 
 }  // namespace tomales

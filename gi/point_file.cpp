@@ -35,6 +35,8 @@ void PointFileWriter::addChunk(const PointCloud& points) {
   std::vector<uint32_t> normals(points.count());
   std::transform(points.normal.begin(), points.normal.end(), normals.begin(), packNormal);
   ByteWriter w;  // of many files that are written at once, each would keep its own
+  const size_t floats = 5 + static_cast<size_t>(points.width());
+  w.bytes.reserve(4 * sizeof(uint64_t) + points.count() * floats * sizeof(float));
   w.put(points.position);
   w.put(normals);
   w.put(points.radius);

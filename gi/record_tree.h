@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "reyes/base/block_vector.h"
 #include "reyes/base/math.h"
 
 namespace tomales {
@@ -12,7 +13,9 @@ class RecordTree {
  public:
   /// `bound` should hold all records; what falls outside still works, only slower.
   explicit RecordTree(const Bound3& bound)
-      : root_(bound.empty() ? Box{vec3(0.0f), 0.0f} : Box{bound.center(), 0.5001f * maxComponent(bound.size())}) {}
+      : root_(bound.empty() ? Box{vec3(0.0f), 0.0f} : Box{bound.center(), 0.5001f * maxComponent(bound.size())}) {
+    nodes_.push_back({});
+  }
 
   void insert(uint32_t record, const vec3& position, float size, float radius) {
     if (!root_.contains(position)) return outside_.push_back(record);
@@ -21,7 +24,7 @@ class RecordTree {
     for (int depth = 0;; ++depth) {
       Node& here = nodes_[static_cast<size_t>(node)];
       here.largest = std::max(here.largest, size);
-      if (depth == kMaxDepth || box.half < 2 * radius) return here.records.push_back(record);
+      if (depth == kMaxDepth || box.half < 2 * radius) return append(here, record);
       const int i = box.childIndex(position);
       box = box.child(i);
       node = descend(node, i);
@@ -38,11 +41,12 @@ class RecordTree {
 
  private:
   static constexpr int kMaxDepth = 24, kNone = -1;
+  static constexpr uint32_t kNoRecord = ~uint32_t{0};
 
   struct Node {
     float largest = 0;  ///< Size, of this node and all below.
     int child[8] = {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
-    std::vector<uint32_t> records;
+    uint32_t first = kNoRecord, last = kNoRecord;  ///< A list: next_.
   };
 
   struct Box {
@@ -61,12 +65,18 @@ class RecordTree {
     }
   };
 
+  void append(Node& node, uint32_t record) {
+    while (next_.size() <= record) next_.push_back(kNoRecord);
+    (node.first == kNoRecord ? node.first : next_[node.last]) = record;
+    node.last = record;
+  }
+
   int descend(int node, int i) {
     const int child = nodes_[static_cast<size_t>(node)].child[i];
     if (child != kNone) return child;
     const int added = static_cast<int>(nodes_.size());
     nodes_[static_cast<size_t>(node)].child[i] = added;
-    nodes_.emplace_back();
+    nodes_.push_back({});
     return added;
   }
 
@@ -74,13 +84,14 @@ class RecordTree {
   void visitNode(int node, const Box& box, const Bound3& region, const Reach& reach, const Visit& visit) const {
     const Node& here = nodes_[static_cast<size_t>(node)];
     if (!box.touches(region, reach(here.largest))) return;
-    for (const uint32_t record : here.records) visit(record);
+    for (uint32_t record = here.first; record != kNoRecord; record = next_[record]) visit(record);
     for (int i = 0; i < 8; ++i)
       if (here.child[i] != kNone) visitNode(here.child[i], box.child(i), region, reach, visit);
   }
 
   Box root_;
-  std::vector<Node> nodes_{Node{}};
+  BlockVector<Node> nodes_;  ///< Most hold a record or two: memory counts.
+  BlockVector<uint32_t> next_;  ///< Behind each record in its node.
   std::vector<uint32_t> outside_;  ///< Records beyond the root box.
 };
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <tuple>
 
+#include "raytrace/embree_buffers.h"
 #include "raytrace/embree_chunks.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"
@@ -77,52 +78,12 @@ struct EmbreeScene::Impl {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
     rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(like.laterP.size() + 1));
     if (runs.size() == 1)
-      share(geometry, like, runs.front());
+      shareBuffers(geometry, like, runs.front());
     else
-      copy(geometry, std::move(runs), out);
+      copyBuffers(geometry, std::move(runs), out);
     rtcSetGeometryMask(geometry, mask);
     if (like.trimmed || !like.detail.whole()) filterAbsent(geometry);
     attach(scene, geometry, id, &out);
-  }
-
-  static const std::vector<vec3>& positions(const CoarseGroup& g, size_t step) { return step == 0 ? g.P : g.laterP[step - 1]; }
-
-  static void share(RTCGeometry geometry, const CoarseGroup& g, const Geometry::Run& run) {
-    for (unsigned step = 0; step <= g.laterP.size(); ++step)
-      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT3, positions(g, step).data(), 0, sizeof(vec3),
-                                 positions(g, step).size());
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, g.quads.data(), sizeof(Quad) * run.firstQuad, sizeof(Quad), run.count);
-  }
-
-  /// Embree pads the vertex buffer that it allocates, of which it reads 16 bytes at the last.
-  void copy(RTCGeometry geometry, std::vector<Geometry::Run> runs, Geometry& out) const {
-    const size_t steps = groups[runs.front().mesh].laterP.size() + 1;
-    size_t vertexCount = 0, quadCount = 0;
-    for (const Geometry::Run& r : runs) vertexCount += groups[r.mesh].P.size(), quadCount += r.count;
-    std::vector<vec3*> vertices;
-    for (unsigned step = 0; step < steps; ++step)
-      vertices.push_back(static_cast<vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT3,
-                                                                    sizeof(vec3), vertexCount)));
-    auto* quads = static_cast<Quad*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, sizeof(Quad), quadCount));
-    uint32_t firstVertex = 0;
-    out.runOfQuad.reserve(quadCount);
-    for (size_t r = 0; r < runs.size(); ++r) {
-      if (!vertices.back() || !quads) break;  // out of memory: the device's error tells
-      const CoarseGroup& g = groups[runs[r].mesh];
-      runs[r].firstPrimitive = static_cast<uint32_t>(out.runOfQuad.size());
-      out.runOfQuad.insert(out.runOfQuad.end(), runs[r].count, static_cast<uint32_t>(r));
-      for (size_t step = 0; step < steps; ++step) vertices[step] = std::copy(positions(g, step).begin(), positions(g, step).end(), vertices[step]);
-      for (const Quad& q : std::span(g.quads).subspan(runs[r].firstQuad, runs[r].count))
-        *quads++ = {q[0] + firstVertex, q[1] + firstVertex, q[2] + firstVertex, q[3] + firstVertex};
-      firstVertex += static_cast<uint32_t>(g.P.size());
-    }
-    out.runs = std::move(runs);
-  }
-
-  static void filterAbsent(RTCGeometry geometry) {
-    rtcSetGeometryIntersectFilterFunction(geometry, rejectAbsent);
-    rtcSetGeometryOccludedFilterFunction(geometry, rejectAbsent);
   }
 
   static void attach(RTCScene to, RTCGeometry geometry, unsigned id, void* user) {
@@ -137,7 +98,7 @@ struct EmbreeScene::Impl {
     const Geometry::Run whole{0, 0, static_cast<uint32_t>(mesh.quads.size())};
     Geometry& described = masters.emplace_back(Geometry{true, mesh.flipsNormal, 0, {}, &mesh, whole});
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
-    share(geometry, mesh, whole);
+    shareBuffers(geometry, mesh, whole);
     if (mesh.trimmed) filterAbsent(geometry);
     attach(out, geometry, 0, &described);
     rtcCommitScene(out);

@@ -200,6 +200,11 @@ double solidAngleDensity(const vec3& from, const vec3& P, const vec3& N, double 
   return d2 > 0 && cosine > kLeastCosine ? areaDensity * d2 / cosine : 0;
 }
 
+vec3 directionOnSphere(const vec2& xi) {
+  const float z = 1 - 2 * xi.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * xi.y;
+  return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
 float EmitterShape::area() const {
   if (kind == Kind::Sphere) return 4 * kPi * dot(u, u);
   return (kind == Kind::Disk ? kPi : 4) * glm::length(u) * glm::length(v);
@@ -208,8 +213,7 @@ float EmitterShape::area() const {
 SeenPoint sampleArea(const EmitterShape& shape, const vec2& xi) {
   const float density = 1 / shape.area();
   if (shape.kind == EmitterShape::Kind::Sphere) {
-    const float z = 1 - 2 * xi.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * xi.y;
-    const vec3 N(r * std::cos(phi), r * std::sin(phi), z);
+    const vec3 N = directionOnSphere(xi);
     return {shape.center + glm::length(shape.u) * N, N, density};
   }
   const vec2 at = shape.kind == EmitterShape::Kind::Disk ? vec2(cosineHemisphere(xi)) : 2.0f * xi - 1.0f;

@@ -32,6 +32,9 @@ SeenPoint meet(const EmitterShape& shape, const vec3& from, const vec3& directio
 /// Of a sample whose density over area is known; 0: its back is seen.
 double solidAngleDensity(const vec3& from, const vec3& P, const vec3& N, double areaDensity);
 
+/// Evenly over all directions.
+vec3 directionOnSphere(const vec2& xi);
+
 /// Evenly by area; density is over area.
 SeenPoint sampleArea(const EmitterShape& shape, const vec2& xi);
 

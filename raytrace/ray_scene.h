@@ -18,7 +18,7 @@ inline RayStart startOf(const Ray& ray) { return {ray.offset, roundingAt(ray.ori
 struct RayScene::Impl {
   Impl(const Scene& scene, const Camera& camera, const ShadingSystem& shading, const RaySettings& settings, Log& log);
 
-  Hit resolve(const Ray& ray, const PolygonHit& hit) const;
+  void resolve(const Ray& ray, const PolygonHit& hit, Hit& out) const;
   Hit resolveChunk(const Ray& ray, const PolygonHit& hit) const;
   /// Is the opacity of the whole group that of its attributes?
   bool knowsOpacity(uint32_t group) const { return opacityIsConstant[group]; }

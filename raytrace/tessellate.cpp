@@ -180,6 +180,7 @@ vec3 CoarseGroup::pointOn(uint32_t quad, float u, float v) const {
 
 vec2 CoarseGroup::patchParameters(uint32_t quad, float u, float v) const {
   const Lattice& l = latticeOf(quad);
+  if (l.nu == 1 && l.nv == 1) return {lerp(l.rect.u0, l.rect.u1, u), lerp(l.rect.v0, l.rect.v1, v)};
   const uint32_t cell = quad - l.firstQuad;
   const float fu = (static_cast<float>(cell % l.nu) + u) / static_cast<float>(l.nu);
   const float fv = (static_cast<float>(cell / l.nu) + v) / static_cast<float>(l.nv);

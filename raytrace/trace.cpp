@@ -115,8 +115,11 @@ bool RayScene::Impl::addSolids(const Ray& ray, float window, uint32_t mask, HitL
   return found;
 }
 
-Hit RayScene::Impl::resolve(const Ray& ray, const PolygonHit& polygon) const {
-  if (polygon.chunk >= 0) return resolveChunk(ray, polygon);
+void RayScene::Impl::resolve(const Ray& ray, const PolygonHit& polygon, Hit& out) const {
+  if (polygon.chunk >= 0) {
+    out = resolveChunk(ray, polygon);
+    return;
+  }
   const CoarseInstance* instance =
       polygon.instance >= 0 ? &shapes.instances[static_cast<size_t>(polygon.instance)] : nullptr;
   const CoarseGroup& g = instance ? shapes.masters[instance->master] : groups[polygon.group];
@@ -135,8 +138,12 @@ Hit RayScene::Impl::resolve(const Ray& ray, const PolygonHit& polygon) const {
     geometric = normalizeOr(instance->normals * geometric, geometric);
     normal = instance->normals * normal;
   }
-  const int object = instance ? instance->object : l.object;
-  return {polygon.t, object, l.patch, uv.x, uv.y, normalizeOr(normal, geometric), geometric, false, false, atOpen};
+  // Each in its place: a copy of what has just been written in smaller pieces waits for them.
+  out.t = polygon.t;
+  out.object = instance ? instance->object : l.object, out.patch = l.patch;
+  out.u = uv.x, out.v = uv.y;
+  out.normal = normalizeOr(normal, geometric), out.geometricNormal = geometric;
+  out.atOpen = atOpen;
 }
 
 Hit RayScene::Impl::resolveChunk(const Ray& ray, const PolygonHit& hit) const {
@@ -148,6 +155,7 @@ Hit RayScene::Impl::resolveChunk(const Ray& ray, const PolygonHit& hit) const {
 
 /// As wide as the polygons of a level are from the eye, as if what is met were as far from P as that is from the eye.
 Level RayScene::Impl::levelOf(const Ray& ray, const vec3& P) const {
+  if (chunks.all().empty()) return Level::Fine;
   const float width_px = 2 * std::max(ray.spread * glm::length(P), ray.radius) / std::max(camera.pixelSize(P), 1e-20f);
   return width_px >= kCoarseWidth_px ? Level::Coarse : width_px >= kMediumWidth_px ? Level::Medium : Level::Fine;
 }
@@ -178,12 +186,14 @@ void RayScene::report(Stats& stats) const {
 }
 
 Hit RayScene::closest(const Ray& ray, RayMask mask) const {
-  if (!traceable(ray)) return {};
+  Hit out;
+  if (!traceable(ray)) return out;
   PolygonHit hit;
   HitList& list = scratchList();
   if (!(ray.offset > 0)) {
     const bool found = impl_->embree.nearest(ray, mask, hit);
-    return impl_->addSolids(ray, std::max(ray.bias, 0.0f), mask, list, found, hit) ? impl_->resolve(ray, hit) : Hit{};
+    if (impl_->addSolids(ray, std::max(ray.bias, 0.0f), mask, list, found, hit)) impl_->resolve(ray, hit, out);
+    return out;
   }
   const float window = recordingWindow(ray.offset);
   const bool beyond =
@@ -191,9 +201,8 @@ Hit RayScene::closest(const Ray& ray, RayMask mask) const {
   sortAlongRay(list);
   const RayStart start = startOf(ray);
   const int origin = effectiveOrigin(list, start), next = nextHit(list, origin, start);
-  if (next >= 0) hit = list[static_cast<size_t>(next)];
-  Hit out;
-  if (next >= 0 ? hit.t < ray.tMax : beyond) out = impl_->resolve(ray, hit);
+  const PolygonHit& met = next >= 0 ? list[static_cast<size_t>(next)] : hit;
+  if (next >= 0 ? met.t < ray.tMax : beyond) impl_->resolve(ray, met, out);
   out.adjusted = origin >= 0;
   out.crowded = isCrowded(list, origin, start);
   return out;

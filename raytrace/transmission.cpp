@@ -74,7 +74,7 @@ std::vector<vec3> RayScene::transmission(const std::vector<Ray>& rays, const std
     for (const PolygonHit& hit : layers.hits) {
       if (impl_->knowsOpacity(hit.group)) continue;
       asked.rayOf.push_back(r), asked.rays.push_back(rays[r]);
-      asked.hits.push_back(impl_->resolve(rays[r], hit)), asked.names.push_back(names[r]);
+      impl_->resolve(rays[r], hit, asked.hits.emplace_back()), asked.names.push_back(names[r]);
     }
   }
   if (asked.hits.empty()) return clear;

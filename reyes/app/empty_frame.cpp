@@ -7,11 +7,6 @@
 namespace tomales {
 namespace {
 
-bool showsWholeFrame(const Camera& camera) {
-  const PixelRect crop = camera.crop();
-  return crop.width() == camera.xResolution() && crop.height() == camera.yResolution();
-}
-
 Bound3 cameraBound(const Object& object) {
   Bound3 bound;
   for (const PrimPtr& shape : object.shapes)
@@ -32,8 +27,9 @@ std::string sideOf(const Bound3& bound, const Camera& camera) {
 }  // namespace
 
 void explainEmptyFrame(const Scene& scene, Log& log) {
+  const bool whole = scene.options.cropWindow == Options().cropWindow;
+  if (!whole || !hasGeometry(scene)) return;
   const Camera camera(scene.options);
-  if (!showsWholeFrame(camera) || !hasGeometry(scene)) return;
   size_t unseen = 0;
   Bound3 bound;
   for (const Object& object : scene.objects)

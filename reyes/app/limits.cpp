@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <map>
+#include <string>
 
 #include "reyes/camera.h"
 
@@ -77,16 +79,31 @@ void warnOfNoise(std::span<const PreparedCache> caches, Log& log) {
 }
 
 void warnOfThinWalls(const RayScene& rays, Log& log) {
+  struct Thin {
+    const Object* worst;
+    double share;
+    int others;
+  };
   const Scene& scene = rays.scene();
+  std::map<std::string, Thin> thin;  // by name: a house is many attribute states
   for (const auto& [group, starts] : rays.starts()) {
     const int example = scene.groups[static_cast<size_t>(group)].exampleObject;
-    if (example < 0 || starts.rays < kFewStarts || static_cast<double>(starts.crowded) <= kShareOfStarts * static_cast<double>(starts.rays)) continue;
+    if (example < 0 || starts.rays < kFewStarts) continue;
+    const double share = static_cast<double>(starts.crowded) / static_cast<double>(starts.rays);
+    if (share <= kShareOfStarts) continue;
     const Object& o = scene.objects[static_cast<size_t>(example)];
-    log.report(Severity::Warning, "offset-thin", o.where,
-               fmt::format("{}: {:.0f} % of the rays that leave it start where two surfaces are nearer to each other than rays know them to lie; light may "
-                           "come through (Attribute \"trace\" \"tessellationmode\" \"fixed\" and \"tessellation\" above 1, or \"offset\")",
-                           objectName(o), 100.0 * static_cast<double>(starts.crowded) / static_cast<double>(starts.rays)));
+    const auto [at, first] = thin.try_emplace(objectName(o), Thin{&o, share, 0});
+    if (first) continue;
+    ++at->second.others;
+    if (share > at->second.share) at->second.worst = &o, at->second.share = share;
   }
+  for (const auto& [name, t] : thin)
+    log.report(Severity::Warning, "offset-thin", t.worst->where,
+               fmt::format("{}: {:.0f} % of the rays that leave it start where two surfaces are nearer to each other "
+                           "than rays know them to lie; light may come through{} (Attribute \"trace\" "
+                           "\"tessellationmode\" \"fixed\" and \"tessellation\" above 1, or \"offset\")",
+                           name, 100 * t.share,
+                           t.others ? fmt::format("; so do {} more of that name", t.others) : ""));
 }
 
 }  // namespace tomales

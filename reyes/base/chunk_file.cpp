@@ -18,6 +18,7 @@ constexpr uint32_t kByteOrder = 0x01020304;
 constexpr char kEnd[9] = "TOMALESX";
 constexpr int kCompression = -5;  // floats have little to give, and what they have zstd's fastest finds too
 constexpr size_t kKeptBytes = 1 << 20;  ///< Of what a thread reads into and packs.
+constexpr size_t kWrittenAtOnce = 1 << 15;  ///< A call of the system costs more than a small chunk.
 constexpr uint64_t kMostChunkBytes = uint64_t{1} << 30;
 
 struct Preamble {
@@ -72,6 +73,7 @@ ChunkWriter::ChunkWriter(const std::string& path, const char (&kind)[9], uint32_
   impl_->temporary = fmt::format("{}.{}.part", path, ::getpid());
   impl_->file = std::fopen(impl_->temporary.c_str(), "wb");
   if (!impl_->file) impl_->fail();
+  std::setvbuf(impl_->file, nullptr, _IOFBF, kWrittenAtOnce);
   Preamble preamble{{}, version, kByteOrder};
   std::memcpy(preamble.kind, kind, sizeof preamble.kind);
   impl_->write(&preamble, sizeof preamble);
@@ -187,9 +189,8 @@ Bytes ChunkReader::read(uint32_t chunk) const {
 }
 
 void ByteWriter::append(const void* data, size_t size) {
-  const size_t end = bytes.size();
-  bytes.resize(end + size);
-  if (size > 0) std::memcpy(bytes.data() + end, data, size);
+  const auto* from = static_cast<const std::byte*>(data);
+  bytes.insert(bytes.end(), from, from + size);
 }
 
 void ByteReader::copyTo(void* to, size_t count, size_t size) {

@@ -1,5 +1,6 @@
 #include "reyes/base/rng.h"
 #include "reyes/dice/evaluated.h"
+#include "reyes/scattered.h"
 
 namespace tomales {
 namespace {
@@ -90,6 +91,7 @@ Grid dice(const Scene& scene, int object, std::span<const PatchPiece> pieces, in
   const Object& o = scene.objects[static_cast<size_t>(object)];
   const int keyCount = static_cast<int>(keys.times.size());
   const Prim& prim = o.shape();
+  prefetch(prim, pieces, [](const PatchPiece& p) { return p.patch; });
   int floats = 0;
   for (const Primvar& p : prim.primvars()) floats += p.width;
 

@@ -158,13 +158,15 @@ struct DisplayFile::Impl {
   Image picked(const Image& rows) const {
     Image out = shape;
     out.originY = rows.originY, out.height = rows.height;
-    out.pixels.reserve(rows.pixels.size() / rows.channels.size() * from.size());
-    for (size_t i = 0; i < rows.pixels.size(); i += rows.channels.size())
-      for (size_t c = 0; c < from.size(); ++c) {
-        const float v = from[c] < 0 ? 0.0f : rows.pixels[i + static_cast<size_t>(from[c])];
-        const auto& exposure = selection[c].encoding.exposure;
-        out.pixels.push_back(exposure && !depth[c] ? exposed(v, (*exposure)[0], (*exposure)[1]) : v);
-      }
+    const size_t step = rows.channels.size(), pixels = rows.pixels.size() / step;
+    out.pixels.resize(pixels * from.size());
+    for (size_t c = 0; c < from.size(); ++c) {
+      float* to = out.pixels.data() + c;
+      const float* value = rows.pixels.data() + from[c];
+      for (size_t i = 0; from[c] >= 0 && i < pixels; ++i) to[i * from.size()] = value[i * step];
+      const auto& exposure = selection[c].encoding.exposure;
+      for (size_t i = 0; exposure && !depth[c] && i < pixels; ++i) to[i * from.size()] = exposed(to[i * from.size()], (*exposure)[0], (*exposure)[1]);
+    }
     return out;
   }
 

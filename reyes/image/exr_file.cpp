@@ -24,7 +24,7 @@
 #include <system_error>
 
 #include "reyes/base/parallel.h"
-#include "reyes/image/format_writer.h"
+#include "reyes/image/exr_rows.h"
 #include "reyes/pictures.h"
 
 namespace tomales {
@@ -236,6 +236,9 @@ class ExrFile : public FormatWriter {
 }  // namespace
 
 std::unique_ptr<FormatWriter> openExr(const std::string& path, const Image& shape, const FileFormat& format) {
+  const std::vector<Part> parts = partsOf(shape.channels, format.multipart);
+  const bool rows = parts.size() == 1 && !format.deep && format.tile == 0 && compressionOf(format) == Imf::ZIP_COMPRESSION;
+  if (rows) return openExrRows(path, shape, headerOf(shape, format, parts[0]));
   return std::make_unique<ExrFile>(path, shape, format);
 }
 

@@ -144,11 +144,9 @@ void CurveSegments::findMitres() {
   mitres_.resize(segments_.size());
   for (size_t k = 0; k < segments_.size(); ++k) {
     const CurveSegment& s = segments_[k];
-    const size_t begin = k - s.number, before = begin + (s.number + s.of - 1) % s.of,
-                 after = begin + (s.number + 1) % s.of;
     const vec3 here = chord(k);
-    mitres_[k] = {s.first ? here : normalizeOr(here + chord(before), here),
-                  s.last ? here : normalizeOr(here + chord(after), here)};
+    mitres_[k] = {s.first ? here : normalizeOr(here + chord(neighbour(k, false)), here),
+                  s.last ? here : normalizeOr(here + chord(neighbour(k, true)), here)};
   }
 }
 

@@ -50,6 +50,11 @@ class CurveSegments {
   /// of a polyline it is the mean of two directions, so that neighbours meet.
   void direction(size_t k, float v, vec3& along, vec3& slope) const;
   bool cubic() const { return cubic_; }
+  /// The segment before or after it in its curve. Pre: it has one there.
+  size_t neighbour(size_t k, bool after) const {
+    const CurveSegment& s = segments_[k];
+    return k - s.number + (s.number + (after ? 1 : s.of - 1)) % s.of;
+  }
   /// Of a polyline: a segment's unit direction (0 if it has no length), and at its ends the means with its
   /// neighbours'.
   vec3 chord(size_t k) const;

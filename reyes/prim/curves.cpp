@@ -125,7 +125,8 @@ class Ribbons : public Prim {
     float width = 0;
     for (const vec4& c : piece(segments_.line(patch), r.v0, r.v1))
       line.extend(vec3(c)), width = std::max(width, c.w);
-    const Bound3 ribbon = line.grown(width * std::max(std::abs(r.u0 - 0.5f), std::abs(r.u1 - 0.5f)));
+    const float longer = segments_.cubic() ? 1 : std::max(mitreAt(patch, false).length(), mitreAt(patch, true).length());
+    const Bound3 ribbon = line.grown(longer * width * std::max(std::abs(r.u0 - 0.5f), std::abs(r.u1 - 0.5f)));
     return paddedForRounding(ribbon, ribbon);
   }
 
@@ -167,18 +168,56 @@ class Ribbons : public Prim {
     for (int i = 0; i < n; ++i) {
       const vec3 slope = c.slope.get(i);
       c.along.set(i, slope);
-      if (segments_.cubic() && slope != vec3(0)) continue;
+      if (slope != vec3(0)) continue;
       vec3 along, alongSlope;
       segments_.direction(patch, c.v[i], along, alongSlope);
       c.along.set(i, along), c.alongSlope.set(i, alongSlope);
     }
     setUp(patch, n, c);
     turnSides(n, c);
+    if (!segments_.cubic()) mitre(patch, n, c);
     for (int i = 0; i < n; ++i) {
       if (c.side.x[i] != 0 || c.side.y[i] != 0 || c.side.z[i] != 0) continue;
       vec3 side, other;
       orthonormalBasis(normalizeOr(c.up.get(i), vec3(0, 0, 1)), side, other);
       c.side.set(i, side);
+    }
+  }
+
+  /// Where two segments of a polyline meet: what lies on the bisector of their sides, so long that both are as wide there as elsewhere (but
+  /// no longer than 3), as a part that lies across the segment and one along it.
+  struct Mitre {
+    float across = 1, along = 0;
+    float length() const { return std::hypot(across, along); }
+  };
+  Mitre mitreAt(uint32_t patch, bool last) const {
+    constexpr float kLongest = 3;
+    const CurveSegment& s = segments_[patch];
+    if (last ? s.last : s.first) return {};
+    const size_t end = last ? 3 : 0;
+    const vec3 up = normals_.empty() ? eye_.towards(vec3(segments_.line(patch)[end])) : normals_[patch][end];
+    const vec3 side = normalizeOr(cross(segments_.chord(patch), up), vec3(0));
+    const vec3 other = normalizeOr(cross(segments_.chord(segments_.neighbour(patch, last)), up), vec3(0));
+    const vec3 bisector = normalizeOr(side + other, vec3(0));
+    const float cosine = dot(bisector, side);
+    if (side == vec3(0) || other == vec3(0) || !(cosine > 1e-4f)) return {};
+    const float longer = std::min(1 / cosine, kLongest);
+    return {longer * cosine, longer * dot(bisector, normalizeOr(cross(up, side), vec3(0)))};
+  }
+
+  /// Turns sides, which lie across the segment, towards the mitres at its ends; the borders stay straight.
+  void mitre(uint32_t patch, int n, const Sections& c) const {
+    const Mitre from = mitreAt(patch, false), to = mitreAt(patch, true);
+    const float acrossSlope = to.across - from.across, alongSlope = to.along - from.along;
+    for (int i = 0; i < n; ++i) {
+      const vec3 side = c.side.get(i), sideSlope = c.sideSlope.get(i), up = c.up.get(i);
+      const vec3 ahead = cross(up, side), aheadSlope = cross(c.upSlope.get(i), side) + cross(up, sideSlope);
+      const float length = glm::length(ahead);
+      if (!(length > 0)) continue;
+      const vec3 unit = ahead / length, unitSlope = (aheadSlope - unit * dot(unit, aheadSlope)) / length;
+      const float across = from.across + acrossSlope * c.v[i], along = from.along + alongSlope * c.v[i];
+      c.side.set(i, across * side + along * unit);
+      c.sideSlope.set(i, acrossSlope * side + across * sideSlope + alongSlope * unit + along * unitSlope);
     }
   }
 

@@ -1,36 +1,16 @@
 // Particles as disks, squares or spheres (RISpec 3.2, Points).
 #include <fmt/format.h>
 
-#include "reyes/base/simd.h"
+#include "reyes/prim/disk_lattice.h"
 #include "reyes/prim/facing.h"
 #include "reyes/prim/interpolation.h"
 #include "reyes/prim/primvars.h"
 #include "reyes/prim/revolution.h"
 #include "reyes/prim/sampled_bound.h"
+#include "reyes/scattered.h"
 
 namespace tomales {
 namespace {
-
-/// Area of the polygon that a lattice of nu x nv makes of the unit disk: half a sine for each of its sides.
-double latticeDiskArea(int nu, int nv) {
-  const auto quarter = [](int n) {
-    double area = 0, last = -M_PI / 4;
-    for (int k = 1; k <= n; ++k) {
-      const double angle = std::asin((2.0 * k / n - 1) / std::sqrt(2.0));
-      area += std::sin(angle - last) / 2;
-      last = angle;
-    }
-    return area;
-  };
-  constexpr int kUsual = 32;
-  static const auto usual = [&] {
-    std::array<double, kUsual> areas{};
-    for (int n = 1; n < kUsual; ++n) areas[static_cast<size_t>(n)] = quarter(n);
-    return areas;
-  }();
-  const auto known = [&](int n) { return n < kUsual ? usual[static_cast<size_t>(n)] : quarter(n); };
-  return 2 * (known(nu) + known(nv));
-}
 
 /// Of the trapezoids that a lattice of nu meridians and nv zones makes of the unit sphere.
 double latticeSphereArea(int nu, int nv) {
@@ -44,35 +24,13 @@ double latticeSphereArea(int nu, int nv) {
   return area;
 }
 
-struct Disk {
-  vec3 center, normal, tangent, bitangent;  ///< Right-handed in this order: tangent, bitangent, normal.
-  float radius;
-};
-
-/// The square -1..1 onto the disk without a seam (elliptical grid mapping: P. Nowell 2005). Derivatives are parallel at the four
-/// corners only.
-TOMALES_HOT void evaluateDisk(const Disk& disk, int n, const float* u, const float* v, const SurfacePoints& out) {
-  const float r = disk.radius;
-  const vec3 c = disk.center, s = disk.tangent, t = disk.bitangent;
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) {
-    const float a = 2 * u[i] - 1, b = 2 * v[i] - 1;
-    const float sx = std::sqrt(1 - 0.5f * b * b), sy = std::sqrt(1 - 0.5f * a * a);
-    const float x = a * sx, y = b * sy;
-    const float xByU = 2 * sx, yByU = 2 * (-0.5f * a * b / sy), xByV = 2 * (-0.5f * a * b / sx), yByV = 2 * sy;
-    out.px[i] = c.x + r * (x * s.x + y * t.x), out.py[i] = c.y + r * (x * s.y + y * t.y), out.pz[i] = c.z + r * (x * s.z + y * t.z);
-    out.dux[i] = r * (xByU * s.x + yByU * t.x), out.duy[i] = r * (xByU * s.y + yByU * t.y), out.duz[i] = r * (xByU * s.z + yByU * t.z);
-    out.dvx[i] = r * (xByV * s.x + yByV * t.x), out.dvy[i] = r * (xByV * s.y + yByV * t.y), out.dvz[i] = r * (xByV * s.z + yByV * t.z);
-    out.nx[i] = disk.normal.x, out.ny[i] = disk.normal.y, out.nz[i] = disk.normal.z;
-  }
-}
-
-class PointCloud : public Prim {
+class PointCloud : public Prim, public Scattered {
  public:
   PointCloud(std::vector<vec3> points, std::vector<Primvar> primvars)
       : Prim(std::move(primvars)), points_(std::move(points)), width_(widthOf(primvars_)) {}
 
   uint32_t patchCount() const override { return static_cast<uint32_t>(points_.size()); }
+  void prefetch(uint32_t patch) const override { __builtin_prefetch(&points_[patch]); }
 
   void evaluateLattice(uint32_t patch, int nu, int nv, const float* u, const float* v, SurfacePoints out) const override {
     evaluate(patch, (nu + 1) * (nv + 1), u, v, out);
@@ -167,6 +125,13 @@ class Disks : public FlatPoints<Disks> {
 
   void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const override {
     evaluateDisk(diskOf(patch), n, u, v, out);
+  }
+
+  /// Most particles are one cell: its corners, to the bit, without loops and tables.
+  void evaluateLattice(uint32_t patch, int nu, int nv, const float* u, const float* v, SurfacePoints out) const override {
+    if (nu != 1 || nv != 1) return PointCloud::evaluateLattice(patch, nu, nv, u, v, out);
+    static const float more = static_cast<float>(inflation(1, 1) - 1);
+    evaluateDot(diskOf(patch), more, out);
   }
 
   double inflation(int nu, int nv) const override { return std::sqrt(M_PI / latticeDiskArea(nu, nv)); }

@@ -122,6 +122,10 @@ PrimPtr makeGeneralPolygons(const std::vector<int>& loopCounts, const std::vecto
   std::vector<vec3> positions = takePositions(params, used, false, problems);
   const PrimvarCounts counts{loopCounts.size(), positions.size(), positions.size(), vertices.size()};
   std::vector<Primvar> primvars = takePrimvars(params, counts, problems);
+  // RISpec section 5.1: the normal of a face's plane, where vertices have none of their own.
+  if (offsetOf(primvars, "N") < 0)
+    for (Primvar& var : primvars)
+      if (var.name == "Np" && var.width == 3) var.name = "N";
   Decomposition parts = decompose(loopCounts, vertexCounts, vertices, positions, keys, problems);
   return std::make_shared<Polygons>(std::move(parts), std::move(positions), vertices, std::move(primvars));
 }

@@ -1,3 +1,4 @@
+#include <array>
 #include <numeric>
 
 #include "reyes/base/morton.h"
@@ -5,6 +6,26 @@
 #include "reyes/split.h"
 
 namespace tomales {
+namespace {
+
+/// 0, 1, ... in the order of their places, which have 30 bits; equals stay in order. Digit by digit, the lowest first.
+std::vector<uint32_t> inOrderOf(const std::vector<uint32_t>& places) {
+  constexpr uint32_t kBits = 10, kDigits = 1U << kBits;
+  std::vector<uint32_t> order(places.size()), next(places.size());
+  std::iota(order.begin(), order.end(), 0U);
+  for (uint32_t shift = 0; shift < 30; shift += kBits) {
+    const auto digit = [&](uint32_t p) { return places[p] >> shift & (kDigits - 1); };
+    std::array<uint32_t, kDigits + 1> first{};
+    for (const uint32_t place : places) ++first[(place >> shift & (kDigits - 1)) + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    for (const uint32_t p : order) next[first[digit(p)]++] = p;
+    order.swap(next);
+  }
+  return order;
+}
+
+}  // namespace
+
 PatchTree::PatchTree(const std::vector<PrimPtr>& shapes, StopFlag stop) : order_(shapes.front()->patchCount()) {
   std::vector<Bound3> ofPatch(order_.size());
   parallelFor(ofPatch.size(), kLeaf, [&](size_t begin, size_t end) {
@@ -16,10 +37,9 @@ PatchTree::PatchTree(const std::vector<PrimPtr>& shapes, StopFlag stop) : order_
     Bound3 all;
     for (const Bound3& b : ofPatch)
       if (isFinite(b.lo) && isFinite(b.hi)) all.extend(b);
-    std::vector<std::pair<uint32_t, uint32_t>> places(order_.size());
-    for (uint32_t p = 0; p < places.size(); ++p) places[p] = {mortonPlace(ofPatch[p].center(), all), p};
-    std::sort(places.begin(), places.end());
-    for (size_t k = 0; k < places.size(); ++k) order_[k] = places[k].second;
+    std::vector<uint32_t> places(order_.size());
+    for (size_t p = 0; p < places.size(); ++p) places[p] = mortonPlace(ofPatch[p].center(), all);
+    order_ = inOrderOf(places);
   }
   std::vector<Bound3> boxes((order_.size() + kLeaf - 1) / kLeaf);
   for (size_t k = 0; k < order_.size(); ++k) boxes[k / kLeaf].extend(ofPatch[order_[k]]);

@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "reyes/scattered.h"
 #include "reyes/split.h"
 #include "reyes/split/placement.h"
 #include "reyes/split/rate.h"
@@ -282,6 +283,7 @@ std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<con
   return piecesBy(Splitter(scene, object, camera, window, stats, splitting, stop), scene.objects[static_cast<size_t>(object)], stats, log,
                   [&](Splitter& splitter, std::vector<SubPatch>& out) {
                     const Object& o = scene.objects[static_cast<size_t>(object)];
+                    prefetch(o.shape(), patches, [](uint32_t patch) { return patch; });
                     std::vector<uint32_t> others;
                     std::vector<Bound3> bounds;
                     const bool dots = !patches.empty() && splitter.hasDots(patches[0]);

@@ -1,15 +1,12 @@
 """Writes city.rib and what it reads: a street of houses, cars and trees of NURBS and subdivision surfaces, displaced, painted with textures,
 lit by the sun alone; a photon map for every house, car and tree and for the ground, as in "An Irradiance Atlas for Global Illumination in
-Complex Production Scenes" (2004), section 5.
-
-make_city.py FOLDER [SCALE] [VIEW]: 1 is 36,000 primitives and 300 textures; 0.01 the same street of fewer, larger parts. The same files every time.
-VIEW: "irradiance" shows the brick maps in FOLDER/maps (atlasview.cpp), "reflected" their irradiance times the colours.
+Complex Production Scenes" (2004), section 5. The same files every time.
 """
+import argparse
 import math
 import pathlib
 import random
 import struct
-import sys
 import zlib
 
 HOUSES, CARS, TREES = 20, 12, 12
@@ -272,5 +269,16 @@ Attribute "trace" "tessellation" [{0.5 * math.sqrt(SHADING_RATE):.3g}]
         return f"{self.primitives} primitives, {self.groups} photon maps, {self.textures} textures"
 
 
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("scale", type=float, nargs="?", default=1.0,
+                        help="1 (default) is 36,000 primitives and 300 textures; 0.01 the same street of fewer, larger parts")
+    parser.add_argument("view", nargs="?", choices=["irradiance", "reflected"],
+                        help="show the brick maps in FOLDER/maps (atlasview.cpp), or their irradiance times the colours")
+    args = parser.parse_args()
+    print(City(args.folder, args.scale, args.view).write())
+
+
 if __name__ == "__main__":
-    print(City(pathlib.Path(sys.argv[1]), float(sys.argv[2]) if len(sys.argv) > 2 else 1.0, *sys.argv[3:4]).write())
+    main()

@@ -173,6 +173,28 @@ TEST_F(BrickMaps, PointsOnDiskMakeTheSameMapHoweverFewFitIntoMemory) {
   }
 }
 
+TEST_F(BrickMaps, ThreeChannelsAreThreeMapsOfOne) {
+  std::array<PointCloud, 4> clouds;  // of all three, and of each
+  clouds[0].channels = {{"value", 3}};
+  for (size_t k = 1; k < clouds.size(); ++k) clouds[k].channels = {{"value", 1}};
+  for (uint32_t i = 0; i < 3000; ++i) {
+    const vec2 at = sobol2(i, 5);
+    const vec3 N = i % 3 == 0 ? vec3(0, 0, 1) : normalize(vec3(at.x, 1, 0));
+    const std::array values{at.x, std::sin(9 * at.y), i % 3 == 0 ? 1.0f : 0.0f};
+    clouds[0].add({at, 0}, N, 0.02f, values.data());
+    for (size_t k = 0; k < 3; ++k) clouds[k + 1].add({at, 0}, N, 0.02f, &values[k]);
+  }
+  const std::array<BrickMap, 4> maps{BrickMap(clouds[0]), BrickMap(clouds[1]), BrickMap(clouds[2]),
+                                     BrickMap(clouds[3])};
+  for (uint32_t i = 0; i < 200; ++i) {
+    const vec2 at = sobol2(i, 6);
+    std::array<float, 3> all;
+    ASSERT_TRUE(maps[0].lookup({at, 0}, {0, 0, 1}, 0.02f, all.data()));
+    for (size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(all[k], lookedUp(maps[k + 1], {at, 0}, {0, 0, 1}, 0.02f), 1e-5f) << k;
+  }
+}
+
 /// Layers of some voxels: one, none, or several, each with two floats.
 Brick::Parts someParts(float scale) {
   Brick::Parts parts;
@@ -200,12 +222,26 @@ TEST(Brick, HoldsItsLayersWithinASixteenthOfTheTolerance) {
         EXPECT_EQ(parts.voxels[l], v);
         EXPECT_EQ(brick.layer(i).normal(), parts.layers[l].normal());
         EXPECT_EQ(brick.layer(i).incoherent, parts.layers[l].incoherent);
-        float got[2] = {1, 1};
+        float got[3] = {1, 1, 7};
         brick.add(i, 0.5f, got);
+        EXPECT_EQ(got[2], 7) << "beyond its width";
         for (int k = 0; k < 2; ++k) EXPECT_NEAR(got[k], 1 + 0.5f * parts.data[2 * l + static_cast<size_t>(k)], tolerance / 32 + 1e-5f);
       }
     EXPECT_EQ(l, parts.voxels.size());
   }
+}
+
+TEST(BrickCache, KeepsWhatIsAskedForAgainAndAgain) {
+  BrickCache cache(16 * 20'000);  // some ten bricks in each of its parts
+  int read = 0;
+  const auto make = [&] { return Brick(someParts(1), 2, 0); };
+  for (uint32_t i = 1; i < 2000; ++i) {
+    cache.get(0, 0, [&] { return ++read, make(); });
+    cache.get(0, i, make);
+    ASSERT_LE(cache.bytes(), size_t{16 * 20'000});
+  }
+  EXPECT_EQ(read, 1);
+  EXPECT_EQ(cache.misses(), 2000);
 }
 
 TEST(Brick, IsMadeOfItsBytesAndOfNoOthers) {
@@ -222,7 +258,7 @@ TEST(Brick, IsMadeOfItsBytesAndOfNoOthers) {
     std::vector<std::byte> changed = brick.bytes();
     changed[at] ^= std::byte{0x55};
     const auto other = Brick::of(changed, 2);
-    float sum[2] = {0, 0};
+    float sum[3] = {0, 0, 0};
     for (int v = 0; other && v < kBrickVoxels; ++v)
       for (auto [i, end] = other->layersOf(v); i < end; ++i) other->add(i, other->layer(i).normal().x, sum);
   }

@@ -45,6 +45,7 @@ class Clouds : public ::testing::Test {
     fs::remove_all(folder);
     fs::create_directories(folder);
   }
+  ~Clouds() override { fs::remove_all(folder); }
   std::string path(const std::string& name) const { return (folder / name).string(); }
   std::string bakeWall() {
     CloudFiles files("");

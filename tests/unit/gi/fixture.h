@@ -1,5 +1,6 @@
 // Small scenes in camera space, with everything that GiServices stands on.
 #pragma once
+#include "gi/photons.h"
 #include "gi/services.h"
 #include "gi/state.h"
 #include "reyes/dice.h"
@@ -110,6 +111,21 @@ struct World {
   ShadingSystem shading;
   RayScene rays;
 };
+
+inline std::vector<StoredPhoton> traced(World& world, const PhotonSettings& settings) {
+  const auto services = world.use({.mode = GiMode::None});
+  std::vector<StoredPhoton> out;
+  const auto store = [&](std::span<const StoredPhoton> photons) { out.insert(out.end(), photons.begin(), photons.end()); };
+  tracePhotons(world.scene, world.rays, world.shading, settings, store, {}, world.stats, world.log);
+  return out;
+}
+
+/// Green
+inline double powerOf(const std::vector<StoredPhoton>& photons) {
+  double sum = 0;
+  for (const StoredPhoton& p : photons) sum += double{p.power.y};
+  return sum;
+}
 
 /// What a hider would leave of the frame with one sample a pixel, by rays; a facet for each pixel.
 inline DeepFrame frameOf(const World& world, int bucket) {

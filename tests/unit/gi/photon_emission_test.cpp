@@ -13,19 +13,6 @@ namespace {
 using namespace test;
 namespace fs = std::filesystem;
 
-std::vector<StoredPhoton> traced(World& world, const PhotonSettings& settings) {
-  const auto services = world.use({.mode = GiMode::None});
-  std::vector<StoredPhoton> out;
-  tracePhotons(world.scene, world.rays, world.shading, settings, [&](const StoredPhoton& p) { out.push_back(p); }, {}, world.stats, world.log);
-  return out;
-}
-
-double powerOf(const std::vector<StoredPhoton>& photons) {
-  double sum = 0;
-  for (const StoredPhoton& p : photons) sum += double{p.power.y};
-  return sum;
-}
-
 /// Changes what the latest object of a scene is.
 Attributes& latest(SceneBuilder& b) {
   auto attributes = std::make_shared<Attributes>(*b.scene.objects.back().attributes);
@@ -75,7 +62,8 @@ TEST(PhotonEmission, AHollowLampLightsItselfByAllBounces) {
 TEST(PhotonEmission, SmallRoomsHaveTheLightOfLargeOnes) {
   for (const float size : {1.0f, 1e-4f, 1e-6f}) {
     SceneBuilder b;
-    b.light("pointlight", {floatParam("intensity", size * size), pointParam("from", {0.1f * size, 0, 3 * size})});
+    b.light("pointlight",
+            {floatParam("intensity", size * size), pointParam("from", {0.1f * size, 0, 3 * size})});
     b.sphere(2 * size, vec3(0.5f), {0, 0, 3 * size});
     World world(b.scene);
     const double power = 4 * double{kPi} * double{kPi} * double{size} * double{size};
@@ -93,7 +81,8 @@ struct PhotonFiles : ::testing::Test {
     const auto services = world.use({.mode = GiMode::None});
     AtlasSettings settings;
     settings.photons = {100000, 1};
-    writePhotons(folder, world.scene, world.rays, world.shading, mapNames(world.scene, settings), settings, {}, world.stats, world.log);
+    writePhotons(folder, world.scene, world.rays, world.shading, mapNames(world.scene, settings), settings,
+                 {}, world.stats, world.log);
     const PointCloud cloud = PointFile(atlasFile(folder, map, ".ptc").string()).readAll();
     double sum = 0;
     for (size_t i = 0; i < cloud.count(); ++i) sum += double{cloud.at(i)[1]};
@@ -103,20 +92,23 @@ struct PhotonFiles : ::testing::Test {
 
 TEST_F(PhotonFiles, HoldThePowerOfTheWorldWhateverTheScaleOfTheCamera) {
   const double power = 4 * double{kPi} * double{kPi} * 4 * double{kLamp};
-  for (const float scale : {1.0f, 10.0f, 0.1f}) EXPECT_NEAR(powerIn(hollowLamp(vec3(2), 0, scale), "scene0"), power, 0.005 * power) << scale;
+  for (const float scale : {1.0f, 10.0f, 0.1f})
+    EXPECT_NEAR(powerIn(hollowLamp(vec3(2), 0, scale), "scene0"), power, 0.005 * power) << scale;
 }
 
 TEST_F(PhotonFiles, OfMediaHoldItToo) {
   const auto fog = [](float scale) {
     Scene scene = hollowLamp(vec3(2), 0, scale);
     auto attributes = std::make_shared<Attributes>(*scene.objects[0].attributes);
-    attributes->interior = attributes->exterior = std::make_shared<ShaderCall>(call("fog", {{"absorption", Storage::Uniform, ValueType::Color, 1, {1, 1, 1}, {}, {}}}));
+    attributes->interior = attributes->exterior = std::make_shared<ShaderCall>(
+        call("fog", {{"absorption", Storage::Uniform, ValueType::Color, 1, {1, 1, 1}, {}, {}}}));
     scene.objects[0].attributes = attributes;
     return scene;
   };
   const double once = powerIn(fog(1), "scene.volume");
   EXPECT_GT(once, 1);
-  for (const float scale : {10.0f, 0.1f}) EXPECT_NEAR(powerIn(fog(scale), "scene.volume"), once, 0.01 * once) << scale;
+  for (const float scale : {10.0f, 0.1f})
+    EXPECT_NEAR(powerIn(fog(scale), "scene.volume"), once, 0.01 * once) << scale;
 }
 
 /// Two sheets at different depths that face the sun, and nothing between.
@@ -139,10 +131,12 @@ TEST(PhotonEmission, TheSunSendsPhotonsAtWhatItsWidthReaches) {
     World world(b.scene);
     ASSERT_EQ(world.shading.lightKind(0), LightKind::Distant);
     LightProbe probe;
-    for (uint32_t i = 0; i < 4096; ++i) probe.P.emplace_back(0, 0, 5), probe.N.emplace_back(0, 0, -1), probe.xi.push_back(sobol2(i, 3U));
+    for (uint32_t i = 0; i < 4096; ++i)
+      probe.P.emplace_back(0, 0, 5), probe.N.emplace_back(0, 0, -1), probe.xi.push_back(sobol2(i, 3U));
     world.shading.probe(0, probe);
     double E = 0;  // on what faces the middle
-    for (size_t i = 0; i < probe.L.size(); ++i) E -= double{kPi} / 4096 * double{probe.Cl[i].y * probe.L[i].z};
+    for (size_t i = 0; i < probe.L.size(); ++i)
+      E -= double{kPi} / 4096 * double{probe.Cl[i].y * probe.L[i].z};
     ASSERT_GT(E, 1);
     EXPECT_NEAR(powerOf(traced(world, {100000, 1})), 2 * E, 0.01 * 2 * E) << size;
   }
@@ -157,7 +151,8 @@ TEST(PhotonEmission, APenumbraHasTheWidthOfTheSun) {
   b.quad({-9, -9, 8}, {9, -9, 8}, {9, 9, 8}, {-9, 9, 8}, vec3(0.5f));
   World world(b.scene);
   int beyond = 0;  // the edge, as far as half the width of a penumbra
-  for (const StoredPhoton& p : traced(world, {100000, 1})) beyond += p.P.z > 7.9f && std::abs(p.P.y) < 3 && p.P.x > 0.1f && p.P.x < 0.5f;
+  for (const StoredPhoton& p : traced(world, {100000, 1}))
+    beyond += p.P.z > 7.9f && std::abs(p.P.y) < 3 && p.P.x > 0.1f && p.P.x < 0.5f;
   EXPECT_GT(beyond, 40);
 }
 
@@ -201,7 +196,8 @@ TEST(PhotonEmission, ALightThatIsNotDiffuseSendsNone) {
 TEST(PhotonEmission, FarLightsBringWhatNearOnesDo) {
   for (const float distance : {10.0f, 1e3f, 1e5f}) {
     SceneBuilder b;
-    b.light("pointlight", {floatParam("intensity", distance * distance), pointParam("from", {0, 0, 5 - distance})});
+    b.light("pointlight",
+            {floatParam("intensity", distance * distance), pointParam("from", {0, 0, 5 - distance})});
     b.quad({-1, -1, 5}, {1, -1, 5}, {1, 1, 5}, {-1, 1, 5}, vec3(0));
     World world(b.scene);
     const std::vector<StoredPhoton> photons = traced(world, {20000, 1});
@@ -213,7 +209,8 @@ TEST(PhotonEmission, FarLightsBringWhatNearOnesDo) {
 /// A wall that a sheet shades from the light.
 SceneBuilder shaded() {
   SceneBuilder b;
-  b.light("distantlight", {floatParam("intensity", 1), pointParam("from", {0, 0, 0}), pointParam("to", {0, 0, 1})});
+  b.light("distantlight",
+          {floatParam("intensity", 1), pointParam("from", {0, 0, 0}), pointParam("to", {0, 0, 1})});
   b.quad({-1, -1, 8}, {1, -1, 8}, {1, 1, 8}, {-1, 1, 8}, vec3(0.5f));
   b.quad({-1, -1, 5}, {1, -1, 5}, {1, 1, 5}, {-1, 1, 5}, vec3(1));
   return b;
@@ -242,7 +239,8 @@ TEST(PhotonEmission, ASheetThatIsHalfThereSendsHalfBack) {
   b.sphere(2, vec3(0), {0, 0, 5});
   World world(b.scene);
   double inner = 0, outer = 0;
-  for (const StoredPhoton& p : traced(world, {50000, 200})) (glm::distance(p.P, vec3(0, 0, 5)) < 1.5f ? inner : outer) += double{p.power.y};
+  for (const StoredPhoton& p : traced(world, {50000, 200}))
+    (glm::distance(p.P, vec3(0, 0, 5)) < 1.5f ? inner : outer) += double{p.power.y};
   // All leaves in the end, and half of what arrives inside goes on inside.
   const double power = 4 * double{kPi} * double{kPi};
   EXPECT_NEAR(outer, power, 0.01 * power);

@@ -16,7 +16,8 @@ namespace {
 using namespace test;
 namespace fs = std::filesystem;
 
-// Inside a sphere, a light in the middle gives pi I / R^2 everywhere, and all bounces together 1 / (1 - rho) times that.
+// Inside a sphere, a light in the middle gives pi I / R^2 everywhere, and all bounces together 1 / (1 - rho)
+// times that.
 constexpr float kRadius = 2, kAlbedo = 0.5f, kIntensity = 3;
 constexpr double kPower = 4 * double{kPi} * double{kPi} * double{kIntensity};
 
@@ -32,19 +33,6 @@ Scene insideOfASphere(const std::string& model = "matte", float tessellation = 1
   return b.scene;
 }
 
-std::vector<StoredPhoton> traced(World& world, const PhotonSettings& settings) {
-  const auto services = world.use({.mode = GiMode::None});
-  std::vector<StoredPhoton> out;
-  tracePhotons(world.scene, world.rays, world.shading, settings, [&](const StoredPhoton& p) { out.push_back(p); }, {}, world.stats, world.log);
-  return out;
-}
-
-double powerOf(const std::vector<StoredPhoton>& photons) {
-  double sum = 0;
-  for (const StoredPhoton& p : photons) sum += double{p.power.y};
-  return sum;
-}
-
 TEST(Photons, AllThatALightSendsIntoAClosedSphereArrives) {
   World world(insideOfASphere());
   EXPECT_NEAR(powerOf(traced(world, {20000, 1})), kPower, 0.002 * kPower);
@@ -52,7 +40,8 @@ TEST(Photons, AllThatALightSendsIntoAClosedSphereArrives) {
 
 TEST(Photons, StoredPowerIsTheGeometricSeriesOfTheAlbedo) {
   World world(insideOfASphere());
-  EXPECT_NEAR(powerOf(traced(world, {200000, 40})), kPower / (1 - double{kAlbedo}), 0.005 * kPower / (1 - double{kAlbedo}));
+  EXPECT_NEAR(powerOf(traced(world, {200000, 40})), kPower / (1 - double{kAlbedo}),
+              0.005 * kPower / (1 - double{kAlbedo}));
 }
 
 TEST(Photons, WithoutThoseStraightFromLightsAreWhatSurfacesSendOn) {
@@ -77,8 +66,8 @@ TEST(Photons, ThroughWhatShadowRaysPassComeStraight) {
 TEST(Photons, RouletteKeepsPowersEven) {
   World world(insideOfASphere());
   const std::vector<StoredPhoton> photons = traced(world, {20000, 10});
-  const auto [least, most] = std::minmax_element(photons.begin(), photons.end(),
-                                                 [](const auto& a, const auto& b) { return a.power.y < b.power.y; });
+  const auto [least, most] = std::minmax_element(
+      photons.begin(), photons.end(), [](const auto& a, const auto& b) { return a.power.y < b.power.y; });
   EXPECT_LT(most->power.y, 1.02f * least->power.y);
 }
 
@@ -110,12 +99,15 @@ TEST(Photons, GoTheSameWayWhetherASurfaceIsAskedOnceOrAtEveryHit) {
 TEST(Photons, AskSurfacesWhosePrimitiveVariablesColourThem) {
   SceneBuilder b;
   Problems problems;
-  Param P{"P", Storage::Vertex, ValueType::Point, 1, {0, 0, 0, 1, 0, 0, 1, 1, 0}, {}, {}}, Cs{"Cs", Storage::Vertex, ValueType::Color, 1, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {}, {}},
+  Param P{"P", Storage::Vertex, ValueType::Point, 1, {0, 0, 0, 1, 0, 0, 1, 1, 0}, {}, {}},
+      Cs{"Cs", Storage::Vertex, ValueType::Color, 1, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {}, {}},
       Kd{"Kd", Storage::Vertex, ValueType::Float, 1, {0, 1, 0.5f}, {}, {}};
-  for (const ParamList& params : {ParamList{P}, {P, Cs}, {P, Kd}}) b.add(makePolygons({3}, {0, 1, 2}, params, problems), vec3(1));
+  for (const ParamList& params : {ParamList{P}, {P, Cs}, {P, Kd}})
+    b.add(makePolygons({3}, {0, 1, 2}, params, problems), vec3(1));
   World world(b.scene);
   for (const auto& [object, even] : {std::pair{0, true}, {1, false}, {2, false}})
-    EXPECT_EQ(world.shading.reflectsEvenly(world.scene.objects[static_cast<size_t>(object)].group), even) << object;
+    EXPECT_EQ(world.shading.reflectsEvenly(world.scene.objects[static_cast<size_t>(object)].group), even)
+        << object;
 }
 
 TEST(Photons, NoneComesIntoAClosedBody) {
@@ -134,6 +126,23 @@ TEST(Photons, NoneComesIntoAClosedBody) {
   EXPECT_EQ(inside, 0);
 }
 
+TEST(Photons, NoneLeavesAClosedBoxByItsEdges) {
+  // However flat they leave a wall, whose edge is another's.
+  SceneBuilder b;
+  b.light("pointlight", {floatParam("intensity", 3), pointParam("from", {0.1f, 0.2f, 3})});
+  const auto box = [&](float r) {
+    const auto at = [&](int i) { return vec3(i & 1 ? r : -r, i & 2 ? r : -r, (i & 4 ? r : -r) + 3); };
+    constexpr int kFaces[6][4] = {{0, 4, 5, 1}, {2, 3, 7, 6}, {4, 6, 7, 5},
+                                  {0, 1, 3, 2}, {0, 2, 6, 4}, {5, 7, 3, 1}};
+    for (const auto& f : kFaces) b.quad(at(f[0]), at(f[1]), at(f[2]), at(f[3]), vec3(0.75f));
+  };
+  box(1), box(3);
+  World world(b.scene);
+  const std::vector<StoredPhoton> photons = traced(world, {150000, 200});
+  EXPECT_GT(photons.size(), 590000u);
+  for (const StoredPhoton& p : photons) EXPECT_LT(maxComponent(glm::abs(p.P - vec3(0, 0, 3))), 1.001f);
+}
+
 TEST(Photons, AMirrorStoresNothing) {
   World world(insideOfASphere("chrome"));
   EXPECT_TRUE(traced(world, {1000, 5}).empty());
@@ -148,7 +157,8 @@ TEST(Photons, AModelThatIsNotKnownIsNamedAndMatte) {
 TEST(Photons, WhatComesByAMirrorAloneIsACaustic) {
   // Light falls aslant on a mirror that lies flat, and from there on a wall, which it reaches by itself too.
   SceneBuilder b;
-  b.light("distantlight", {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {1, -1, 0})});
+  b.light("distantlight",
+          {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {1, -1, 0})});
   b.quad({-1, -1, 2}, {1, -1, 2}, {1, -1, 4}, {-1, -1, 4}, vec3(1));
   b.quad({4, -6, -6}, {4, 10, -6}, {4, 10, 12}, {4, -6, 12}, vec3(0.5f));
   auto mirror = std::make_shared<Attributes>(*b.scene.objects[0].attributes);
@@ -166,7 +176,8 @@ TEST(Photons, WhatComesByAMirrorAloneIsACaustic) {
 
 TEST(Photons, ADistantLightIsAimedAtTheObjectsAlone) {
   SceneBuilder b;
-  b.light("distantlight", {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {0, 0, 1})});
+  b.light("distantlight",
+          {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {0, 0, 1})});
   for (const float x : {-5.0f, 5.0f})  // one unit of area each, far apart
     b.quad({x, 0, 5}, {x + 1, 0, 5}, {x + 1, 1, 5}, {x, 1, 5}, vec3(0.5f));
   World world(b.scene);
@@ -180,7 +191,8 @@ TEST(Photons, ASkyGivesAFloorPiTimesItsRadiance) {
   b.light("environmentlight", {floatParam("intensity", 1.5f)});
   b.quad({-1, -1, 5}, {1, -1, 5}, {1, 1, 5}, {-1, 1, 5}, vec3(0));
   World world(b.scene);
-  EXPECT_NEAR(powerOf(traced(world, {100000, 1})), 2 * 4 * 1.5 * double{kPi}, 0.03 * 12 * double{kPi});  // both sides
+  EXPECT_NEAR(powerOf(traced(world, {100000, 1})), 2 * 4 * 1.5 * double{kPi},
+              0.03 * 12 * double{kPi});  // both sides
 }
 
 TEST(Photons, ASceneWithoutLightSaysSo) {
@@ -196,14 +208,18 @@ struct Atlas : ::testing::Test {
   ~Atlas() override { fs::remove_all(folder); }
 };
 
-/// A ball of radius 1 around (0, 0, 4) that photons fly through, with a medium in it that the first light lights.
+/// A ball of radius 1 around (0, 0, 4) that photons fly through, with a medium in it that the first light
+/// lights.
 SceneBuilder cloud(const vec3& scattering, const vec3& absorption) {
   SceneBuilder b;
   b.sphere(1, vec3(1), {0, 0, 4});
   auto attributes = std::make_shared<Attributes>(*b.scene.objects[0].attributes);
   attributes->photon.shadingModel = "transparent";
-  const auto color = [](const char* name, const vec3& c) { return Param{name, Storage::Uniform, ValueType::Color, 1, {c.x, c.y, c.z}, {}, {}}; };
-  attributes->interior = std::make_shared<ShaderCall>(call("fog", {color("scattering", scattering), color("absorption", absorption)}));
+  const auto color = [](const char* name, const vec3& c) {
+    return Param{name, Storage::Uniform, ValueType::Color, 1, {c.x, c.y, c.z}, {}, {}};
+  };
+  attributes->interior = std::make_shared<ShaderCall>(
+      call("fog", {color("scattering", scattering), color("absorption", absorption)}));
   attributes->lights = {0};
   b.scene.objects[0].attributes = attributes;
   return b;
@@ -225,7 +241,8 @@ TEST(PhotonsInMedia, OfAFurnaceBringEachColourItsLight) {
   World world(b.scene);
   const float r = 0.8f;
   vec3 light(0);  // one seed alone is off by a hundredth
-  for (const uint32_t seed : {0u, 1u, 2u, 3u}) light += lightBetween(world, {100000, 200, seed}, 0, r) / (4 * 4.0f / 3 * kPi * r * r * r);
+  for (const uint32_t seed : {0u, 1u, 2u, 3u})
+    light += lightBetween(world, {100000, 200, seed}, 0, r) / (4 * 4.0f / 3 * kPi * r * r * r);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(light[c], 1, 0.02f) << c;
 }
 
@@ -236,7 +253,8 @@ TEST(PhotonsInMedia, AreAbsorbedOnTheirWay) {
   World world(b.scene);
   const vec3 light = lightBetween(world, {200000, 10}, 0.5f, 0.7f);
   for (int c = 0; c < 3; ++c) {
-    const float expected = kPi * (std::exp(-0.5f * absorption[c]) - std::exp(-0.7f * absorption[c])) / absorption[c];  // of a power of 4 pi^2
+    const float expected = kPi * (std::exp(-0.5f * absorption[c]) - std::exp(-0.7f * absorption[c])) /
+                           absorption[c];  // of a power of 4 pi^2
     EXPECT_NEAR(light[c], expected, 0.015f * expected) << c;
   }
 }
@@ -250,7 +268,8 @@ TEST(PhotonsInMedia, GoOnAsFarAsTheColoursThatTheyHaveLeftReach) {
   EXPECT_NEAR(lightBetween(world, {200000, 10}, 0.5f, 0.7f).z, expected, 0.03f * expected);
 }
 
-/// What the atlas has of the media of a scene, in the mean over places at this distance from the middle of the ball.
+/// What the atlas has of the media of a scene, in the mean over places at this distance from the middle of
+/// the ball.
 vec3 meanRadianceAt(const fs::path& folder, World& world, const PhotonSettings& photons, float distance) {
   AtlasSettings settings;
   settings.photons = photons;
@@ -266,7 +285,9 @@ vec3 meanRadianceAt(const fs::path& folder, World& world, const PhotonSettings& 
   for (uint32_t i = 0; i < kPlaces; ++i) {
     const vec3 up = cosineHemisphere(sobol2(i, 5U));  // both halves are alike
     vec3 here(0);
-    EXPECT_TRUE(fluence.lookup(transformPoint(worldFromCurrent, vec3(0, 0, 4) + distance * (i % 2 ? up : -up)), vec3(0), 0.02f, &here.x));
+    EXPECT_TRUE(
+        fluence.lookup(transformPoint(worldFromCurrent, vec3(0, 0, 4) + distance * (i % 2 ? up : -up)),
+                       vec3(0), 0.02f, &here.x));
     sum += here / static_cast<float>(kPlaces);
   }
   return sum / (4 * kPi);
@@ -302,9 +323,11 @@ std::vector<vec3> gatheredInside(const fs::path& folder, float tessellation, boo
 TEST_F(Atlas, GivesTheIntegratingSphereItsLight) {
   // What the walls receive, all bounces, times their albedo.
   const float expected = kAlbedo * kIntensity / (kRadius * kRadius) / (1 - kAlbedo);
-  // Photons lie on polygons, and face as those do: smooth normals would lean over them, and photons of the same polygon look farther off than they are.
+  // Photons lie on polygons, and face as those do: smooth normals would lean over them, and photons of the
+  // same polygon look farther off than they are.
   for (const float tessellation : {1.0f, 2.0f})
-    for (const vec3& E : gatheredInside(folder / std::to_string(tessellation), tessellation)) EXPECT_NEAR(E.x, expected, 0.03f * expected) << tessellation;
+    for (const vec3& E : gatheredInside(folder / std::to_string(tessellation), tessellation))
+      EXPECT_NEAR(E.x, expected, 0.03f * expected) << tessellation;
 }
 
 TEST_F(Atlas, GivesTheSameWhereRaysSampleDirectLight) {
@@ -314,7 +337,8 @@ TEST_F(Atlas, GivesTheSameWhereRaysSampleDirectLight) {
 }
 
 /// Writes an atlas into `folder`; which stages had work to do.
-std::string stagesOf(const fs::path& folder, const AtlasSettings& settings, float wall, int64_t* kept = nullptr) {
+std::string stagesOf(const fs::path& folder, const AtlasSettings& settings, float wall,
+                     int64_t* kept = nullptr) {
   // Two closed rooms, so that what happens in one changes nothing in the other.
   SceneBuilder b;
   for (const float x : {0.0f, 10.0f}) {
@@ -328,7 +352,8 @@ std::string stagesOf(const fs::path& folder, const AtlasSettings& settings, floa
   const auto services = world.use({.mode = GiMode::None});
   AtlasSettings all = settings;
   all.world = worldSum(world.scene);
-  writeAtlas(folder, world.scene, world.rays, world.shading, mapNames(world.scene, all), all, {}, world.stats, world.log);
+  writeAtlas(folder, world.scene, world.rays, world.shading, mapNames(world.scene, all), all, {}, world.stats,
+             world.log);
   if (kept) *kept = world.stats.photons.groupsKept;
   std::string out;
   for (const auto& [name, figures] : world.stats.stages()) out += name + " ";
@@ -347,7 +372,8 @@ TEST_F(Atlas, WhatHasNotChangedIsNotMadeAgain) {
   settings.photons.seed = 1;
   EXPECT_EQ(stagesOf(folder, settings, 0.5f), "brickmake irradiance photons ");
   fs::remove(folder / "irradiance" / "left.ptc");
-  EXPECT_EQ(stagesOf(folder, settings, 0.5f), "irradiance ");  // and gives the same points, so that the bricks stay
+  EXPECT_EQ(stagesOf(folder, settings, 0.5f),
+            "irradiance ");  // and gives the same points, so that the bricks stay
 }
 
 TEST_F(Atlas, GroupsThatTheSamePhotonsReachKeepTheirMaps) {
@@ -379,10 +405,12 @@ TEST_F(Atlas, MapsWithoutTheirPhotonsAreUsedAndKnownForStrangers) {
 
 TEST_F(Atlas, CausticsHaveMapsOfTheirOwn) {
   SceneBuilder b;
-  b.light("distantlight", {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {1, -1, 0})});
+  b.light("distantlight",
+          {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {1, -1, 0})});
   b.quad({-1, -1, 2}, {1, -1, 2}, {1, -1, 4}, {-1, -1, 4}, vec3(1));
   b.quad({4, -6, -6}, {4, 10, -6}, {4, 10, 12}, {4, -6, 12}, vec3(0.5f));
-  auto mirror = std::make_shared<Attributes>(*b.scene.objects[0].attributes), wall = std::make_shared<Attributes>(*b.scene.objects[1].attributes);
+  auto mirror = std::make_shared<Attributes>(*b.scene.objects[0].attributes),
+       wall = std::make_shared<Attributes>(*b.scene.objects[1].attributes);
   mirror->photon.shadingModel = "chrome", wall->photon.causticMap = "wall";
   b.scene.objects[0].attributes = mirror, b.scene.objects[1].attributes = wall;
   World world(b.scene);
@@ -403,7 +431,8 @@ TEST_F(Atlas, OfAFurnaceHasTheSameLightEverywhereInItsMedium) {
   SceneBuilder b = cloud(vec3(1), vec3(0));
   b.light("environmentlight", {});
   World world(b.scene);
-  for (const float distance : {0.3f, 0.6f, 0.8f}) EXPECT_NEAR(meanRadianceAt(folder, world, {600000, 100}, distance).y, 1, 0.02f) << distance;
+  for (const float distance : {0.3f, 0.6f, 0.8f})
+    EXPECT_NEAR(meanRadianceAt(folder, world, {600000, 100}, distance).y, 1, 0.02f) << distance;
 }
 
 TEST_F(Atlas, AMissingMapIsBlackAndNamed) {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "reyes/base/rng.h"
 #include "reyes/image/image_file.h"
 #include "reyes/pictures.h"
 
@@ -60,6 +61,20 @@ TEST_F(ExrReader, PicturesAreWhatOpenImageIOReads) {
       EXPECT_EQ(a, b);
     }
   }
+}
+
+TEST_F(ExrReader, NoiseThatDoesNotCompressAndLongNamesAreWhatOpenImageIOReads) {
+  Image image{33, 37, {"a_name_longer_than_the_31_bytes_of_old_files", "k"}, {}, 0, 0, 33, 37};
+  for (uint32_t i = 0; i < 33 * 37 * 2; ++i) image.pixels.push_back(__builtin_bit_cast(float, hash32(i) & ~0x00800000U));  // no infinities
+  FileFormat format{"openexr", SampleType::Float};
+  format.metadata = {{"another_name_that_is_longer_than_31_bytes", "text", {}}};
+  write(image, format);
+  EXPECT_GE(fs::file_size(path_), image.pixels.size() * sizeof(float));
+  const auto [ours, theirs] = both();
+  std::vector<float> a(image.pixels.size()), b(a.size());
+  ASSERT_TRUE(ours->read(0, 2, a.data()) && theirs->read(0, 2, b.data())) << ours->error() << theirs->error();
+  EXPECT_EQ(a, image.pixels);
+  EXPECT_EQ(b, image.pixels);
 }
 
 TEST_F(ExrReader, DeepPixelsAreWhatOpenImageIOReads) {

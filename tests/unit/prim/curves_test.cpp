@@ -99,6 +99,32 @@ TEST(Curves, SegmentsMeetAtMitres) {
   EXPECT_EQ(prim->info(4).openEdges, kAllEdges);
 }
 
+TEST(Curves, LinesKeepTheirWidthRoundCorners) {
+  const std::vector<vec3> zigzag = {{0, 0, 0}, {1, 2, 0}, {2, 0, 0}, {3, 2, 0}};
+  std::vector<float> p;
+  for (const vec3& q : zigzag) p.insert(p.end(), {q.x, q.y, q.z});
+  const PrimPtr prim = curves(false, bezierBasis(), {4}, false, {positions(p), width(Storage::Constant, {.2f})})->facing({0, 0, -9}, {0, 0, 1}, false);
+  for (uint32_t patch = 0; patch < 3; ++patch)
+    for (const float v : {0.0f, 0.3f, 0.7f, 1.0f})
+      for (const float u : {0.0f, 1.0f}) {
+        const vec3 along = glm::normalize(zigzag[patch + 1] - zigzag[patch]), from = sampleAt(*prim, patch, u, v).p - zigzag[patch];
+        EXPECT_NEAR(glm::length(from - along * dot(along, from)), 0.1f, 1e-6f) << patch << " " << u << " " << v;
+      }
+  EXPECT_GT(glm::length(sampleAt(*prim, 0, 0, 1).p - sampleAt(*prim, 0, 1, 1).p), 0.4f);
+}
+
+TEST(Curves, CornersOfLinesReachNoFartherThanThreeWidths) {
+  const PrimPtr prim = curves(false, bezierBasis(), {3}, false, {positions({0, 0, 0, 3, 0.1f, 0, 0, 0.2f, 0}), width(Storage::Constant, {.2f})})
+                           ->facing({0, 0, -9}, {0, 0, 1}, false);
+  EXPECT_NEAR(glm::length(sampleAt(*prim, 0, 0, 1).p - sampleAt(*prim, 0, 1, 1).p), 0.6f, 1e-4f);
+}
+
+TEST(Curves, CornersThatTheEyeDoesNotSeeAreNoWider) {
+  const PrimPtr prim = curves(false, bezierBasis(), {3}, false, {positions({0, 0, 0, 1, 0, 2, 2, 0, 0}), width(Storage::Constant, {.2f})})
+                           ->facing({0, 0, 0}, {0, 0, 1}, false);
+  EXPECT_NEAR(glm::length(sampleAt(*prim, 0, 0, 1).p - sampleAt(*prim, 0, 1, 1).p), 0.2f, 1e-6f);
+}
+
 TEST(Curves, InterpolateEveryStorageAndRunAlongV) {
   const PrimPtr prim = curves(false, bezierBasis(), {3, 2}, false,
                               {positions(wiggle(5)), floats("k", Storage::Uniform, ValueType::Float, {7, 8}),

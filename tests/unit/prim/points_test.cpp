@@ -65,6 +65,26 @@ Param typed(const char* name) {
   return type;
 }
 
+TEST(Points, OfOneCellHaveTheCornersOfTheirDiskMovedOutward) {
+  const PrimPtr prim = seen(points({positions(wiggle(2)), width(Storage::Varying, {1, 0.3f})}));
+  const std::vector<float> u{0, 1, 0, 1}, v{0, 0, 1, 1};
+  for (uint32_t patch = 0; patch < 2; ++patch) {
+    const std::vector<Sample> rim = samplesAt(*prim, patch, u, v);
+    std::vector<float> f[12];
+    for (auto& array : f) array.resize(4);
+    prim->evaluateLattice(patch, 1, 1, u.data(), v.data(),
+                          {f[0].data(), f[1].data(), f[2].data(), f[3].data(), f[4].data(), f[5].data(), f[6].data(), f[7].data(),
+                           f[8].data(), f[9].data(), f[10].data(), f[11].data()});
+    const vec3 center = sampleAt(*prim, patch, 0.5f, 0.5f).p;
+    for (size_t i = 0; i < 4; ++i) {
+      EXPECT_NEAR(glm::length(vec3(f[0][i], f[1][i], f[2][i]) - (center + std::sqrt(kPi / 2) * (rim[i].p - center))), 0, 1e-6f);
+      EXPECT_EQ(vec3(f[3][i], f[4][i], f[5][i]), rim[i].du);
+      EXPECT_EQ(vec3(f[6][i], f[7][i], f[8][i]), rim[i].dv);
+      EXPECT_EQ(vec3(f[9][i], f[10][i], f[11][i]), rim[i].n);
+    }
+  }
+}
+
 TEST(Points, OfTypeSphereAreSpheres) {
   const Param type = typed("sphere");
   const PrimPtr prim = points({positions({1, 2, 3, 0, 0, 0}), width(Storage::Vertex, {0.5f, 4}), type});

@@ -65,6 +65,23 @@ void expectCutsCover(const std::vector<std::vector<float>>& keys, const std::vec
   }
 }
 
+TEST(Polygons, ShadeByThePlaneNormalThatIsGivenUnlessVerticesHaveTheirs) {
+  const Param positionsOfTwo = positions({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
+  const Param ofPlanes = floats("Np", Storage::Uniform, ValueType::Normal, {1, 0, 0, 0, 1, 0});
+  const Param ofVertices = floats("N", Storage::Varying, ValueType::Normal, {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
+  Problems problems;
+  const auto named = [&](const ParamList& params) {
+    return offsetOf(makePolygons({3, 3}, {0, 1, 2, 0, 2, 3}, params, problems)->primvars(), "N");
+  };
+  EXPECT_EQ(named({positionsOfTwo}), -1);
+  const PrimPtr prim = makePolygons({3, 3}, {0, 1, 2, 0, 2, 3}, {positionsOfTwo, ofPlanes}, problems);
+  ASSERT_EQ(offsetOf(prim->primvars(), "N"), 0);
+  EXPECT_EQ(primvarAt(*prim, 0, 0, 0.5f, 0.5f), (std::vector<float>{1, 0, 0}));
+  EXPECT_EQ(primvarAt(*prim, 1, 0, 0.5f, 0.5f), (std::vector<float>{0, 1, 0}));
+  EXPECT_EQ(named({positionsOfTwo, ofPlanes, ofVertices}), 3);
+  EXPECT_TRUE(problems.empty());
+}
+
 TEST(Polygon, AllKeysOfAMotionAreCutAlike) {
   std::mt19937 rng(7);
   std::uniform_real_distribution<float> at(-1, 1);

@@ -121,6 +121,27 @@ TEST(Camera, MayMove) {
   EXPECT_EQ(r.object(0).keyTimes.size(), 2u);
 }
 
+TEST(Camera, FitsAFrameOfAnotherAspectIntoTheUpperLeftOfTheDisplay) {
+  const auto of = [](const std::string& options) { return Camera(Reading(options + " Projection \"perspective\" " + inWorld(kSphere)).scene().options); };
+  const auto expectFrame = [](const Camera& camera, const vec2& corner, const std::array<int, 4>& pixels) {
+    expectNear(vec3(camera.raster({0, 0, 1}), 0), vec3(0.5f * corner, 0));  // fov 90: the smaller side spans -1..1 at z = 1
+    const vec2 side = camera.raster({1, -1, 1}) - camera.raster({-1, 1, 1});
+    EXPECT_NEAR(std::max(side.x, side.y), std::min(corner.x, corner.y), 1e-3f);
+    EXPECT_EQ((std::array<int, 4>{camera.crop().x0, camera.crop().y0, camera.crop().x1, camera.crop().y1}), pixels);
+  };
+  expectFrame(of("Format 200 100 1"), {200, 100}, {0, 0, 200, 100});
+  expectFrame(of("Format 200 100 1 FrameAspectRatio 1"), {100, 100}, {0, 0, 100, 100});
+  expectFrame(of("Format 100 100 1 FrameAspectRatio 2"), {100, 50}, {0, 0, 100, 50});
+  expectFrame(of("Format 100 100 1 FrameAspectRatio 2 CropWindow 0.5 1 0.5 1"), {100, 50}, {50, 25, 100, 50});
+  const Camera rounded = of("Format 640 480 1 FrameAspectRatio 1.3333");
+  EXPECT_EQ(rounded.crop().width(), 640);
+  EXPECT_EQ(rounded.crop().height(), 480);
+  // Pixels twice as wide as high: a square frame has half as many columns as rows.
+  const Camera wide = of("Format 100 100 2 FrameAspectRatio 1");
+  EXPECT_EQ(wide.crop().width(), 50);
+  EXPECT_EQ(wide.crop().height(), 100);
+}
+
 TEST(Transformations, ApplyTheLastOneFirst) {
   const Reading r(inWorld("Translate 1 2 3 Rotate 90 0 0 1 Scale 2 2 2 " + kSphere));
   expectNear(inWorldSpace(r.object(0), {1, 0, 0}), {1, 4, 3});

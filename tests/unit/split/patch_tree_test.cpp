@@ -1,3 +1,5 @@
+#include "reyes/base/morton.h"
+#include "reyes/base/rng.h"
 #include "tests/unit/split/test_scene.h"
 
 namespace tomales {
@@ -33,6 +35,22 @@ TEST(PatchTree, BoxesOfEveryLevelHoldThePatchesBelow) {
   }
   for (const int times : found) EXPECT_EQ(times, 1);
   EXPECT_LT(longest, 30);  // Row by row a leaf is 60 long.
+}
+
+TEST(PatchTree, PatchesFollowMortonsCurveAndThoseOfOnePlaceStayInOrder) {
+  std::vector<Param> params(1);
+  params[0].name = "P", params[0].type = ValueType::Point, params[0].storage = Storage::Vertex;
+  for (uint32_t i = 0; i < 3 * 5000; ++i) params[0].floats.push_back(i / 3 < 4000 ? unitFloat(hash32(i)) : 0.5f);
+  Problems problems;
+  const PrimPtr points = makePoints(params, problems);
+  const PatchTree tree({points});
+  Bound3 all;
+  for (uint32_t p = 0; p < points->patchCount(); ++p) all.extend(points->bound(p, {}));
+  std::vector<std::pair<uint32_t, uint32_t>> order;
+  for (uint32_t leaf = 0; leaf < tree.count(0); ++leaf)
+    for (const uint32_t p : tree.patches(leaf)) order.emplace_back(mortonPlace(points->bound(p, {}).center(), all), p);
+  EXPECT_EQ(order.size(), 5000u);
+  EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
 }
 
 TEST(PlaceBox, ACrossedEyePlaneIsTheWholeWindowAndWhatIsBehindIsNowhere) {

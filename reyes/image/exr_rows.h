@@ -1,0 +1,15 @@
+// Private to the OpenEXR writer: pictures of scanlines in one part, in OpenEXR's ZIP. The same files as
+// OpenEXR's own writer makes, which has zlib compress them (until 3.2): libdeflate takes half its time
+// (docs/decisions/0090).
+#pragma once
+#include <OpenEXR/ImfHeader.h>
+
+#include "reyes/image/format_writer.h"
+
+namespace tomales {
+
+/// header: of all channels of `shape`, with ZIP_COMPRESSION.
+std::unique_ptr<FormatWriter> openExrRows(const std::string& path, const Image& shape,
+                                          const Imf::Header& header);
+
+}  // namespace tomales
