@@ -13,17 +13,24 @@ constexpr int kRaysOfPoint = 48;        ///< That look for places where records 
 constexpr size_t kMostPoints = 1024, kMostRecords = 1 << 14;
 constexpr int kPhases = 8;              ///< In which candidates double.
 constexpr float kEnough = 0.05f;        ///< As in the gather pass.
-constexpr CacheSettings kCoarse{.kappa = 0.7f};
+constexpr CacheSettings kCoarse{};
 constexpr float kPixelsAcross = 64;     ///< Records are as dense as for a picture of so many pixels.
 constexpr int kSamplesShare = 4, kLeastSamples = 48, kMostSamples = 256;
 constexpr int kLeastDeepSamples = 24;   ///< Each further level has half the rays of the one before, down to these: all levels together cost about
                                         ///< as much as the first two.
-constexpr double kSettled = 0.002;      ///< What a level may lack.
+constexpr double kSettled = 0.002;      ///< What two levels together must add.
 
 int phaseOf(uint32_t key) {
   int phase = kPhases - 1;
   for (uint32_t h = hash32(key ^ 0x626f756eU); phase > 0 && (h & 1); h >>= 1) --phase;
   return phase;
+}
+
+/// How far things are is known best from the first level, which has the most rays, and so a level serves what the first does. What a few rays
+/// say of gradients is noise, of which clamping at 0 would keep the bright half.
+void reachAs(const IrradianceRecord& first, IrradianceRecord& record) {
+  record.closest = first.closest, record.harmonicMean = first.harmonicMean, record.limit = first.limit;
+  std::fill_n(record.rotationGradient, 3, vec3(0)), std::fill_n(record.translationGradient, 3, vec3(0));
 }
 
 }  // namespace
@@ -96,9 +103,10 @@ void BounceCaches::cover(const RayTools& tools, const std::vector<GatherPoint>& 
   }
 }
 
+// Of two levels, as what one adds may be less than its noise.
 bool BounceCaches::settled() const {
   const size_t n = light_.size();
-  return n > 1 && light_[n - 1] - light_[n - 2] <= kSettled * light_[n - 1];
+  return n > 2 && light_[n - 1] - light_[n - 3] <= kSettled * light_[n - 1];
 }
 
 void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::vector<GatherPoint>& from, const GatherSettings& gather, int bounces, const Run& run) {
@@ -118,9 +126,12 @@ void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::
   settings.indirect = true;
   for (int b = 2; b < bounces && !settled() && !run.isCancelled(); ++b) {
     settings.depth = bounces - b + 1;
+    // With the same rays on every level what they are off by would be multiplied as light is, and not average out.
+    settings.seed = hashCombine(gather.seed, static_cast<uint32_t>(b));
     settings.samples = std::max(kLeastDeepSamples, settings.samples / 2);
     IrradianceCache level(bound, kCoarse);
-    const std::vector<IrradianceRecord> records = recordsAt(tools, points_, settings, run);
+    std::vector<IrradianceRecord> records = recordsAt(tools, points_, settings, run);
+    for (size_t i = 0; i < records.size(); ++i) reachAs(levels_[0].records()[i], records[i]);
     light_.push_back(0);
     insert(level, records);
     levels_.push_back(std::move(level));

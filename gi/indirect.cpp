@@ -20,7 +20,9 @@ constexpr float kWardKappa = 4;
 constexpr float kHessianMaxPixels = 40;  // it knows where light is even
 
 ErrorFunction errorFunctionNamed(const std::string& name) {
-  return name == "ward" ? ErrorFunction::Ward : name == "hessian" ? ErrorFunction::Hessian : ErrorFunction::Screen;
+  if (name == "ward") return ErrorFunction::Ward;
+  if (name == "hessian") return ErrorFunction::Hessian;
+  return name == "split" ? ErrorFunction::Split : ErrorFunction::Screen;
 }
 
 vec3 unitNormal(const ShadePoints& points, TmConstVec3 N, int i) {
@@ -182,9 +184,12 @@ GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) 
   plan.gather.curvature = plan.cache.errorFunction == ErrorFunction::Hessian;
   const float maxError =
       settings.maxError >= 0 ? settings.maxError : attributes.irradianceMaxError.value_or(query.maxError);
-  const float kappaAtOne = plan.cache.errorFunction == ErrorFunction::Ward ? kWardKappa : 1.0f;
+  const bool split = plan.cache.errorFunction == ErrorFunction::Split;
+  const float kappaAtOne = split || plan.cache.errorFunction == ErrorFunction::Ward ? kWardKappa : 1.0f;
   plan.cache.kappa = maxError > 0 ? kappaAtOne / maxError : kInfinity;
-  plan.cache.maxPixels = attributes.irradianceMaxPixelDist.value_or(plan.gather.curvature ? kHessianMaxPixels : plan.cache.maxPixels);
+  if (plan.gather.curvature) plan.cache.maxPixels = kHessianMaxPixels;
+  if (split) plan.cache.maxPixels = kInfinity;
+  plan.cache.maxPixels = attributes.irradianceMaxPixelDist.value_or(plan.cache.maxPixels);
   plan.gather.samples = std::max(1, settings.samples > 0 ? settings.samples : query.samples);
   plan.gather.maxDistance = query.maxDistance;
   plan.gather.seed = settings.seed;

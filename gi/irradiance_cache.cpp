@@ -95,6 +95,7 @@ struct IrradianceCache::Impl {
   float size(const IrradianceRecord& r) const {
     switch (settings.errorFunction) {
       case ErrorFunction::Ward:
+      case ErrorFunction::Split:
         return r.harmonicMean;
       case ErrorFunction::Hessian:
         return std::min(r.smoothRadius, r.closest * settings.kappa);
@@ -102,11 +103,16 @@ struct IrradianceCache::Impl {
         return r.closest * 0.5f;
     }
   }
+  bool isWard() const {
+    return settings.errorFunction == ErrorFunction::Ward || settings.errorFunction == ErrorFunction::Split;
+  }
+  float minPixels() const { return settings.errorFunction == ErrorFunction::Split ? 0 : kMinPixels; }
+
   // Distance at which the error reaches 1: the denominator of eq. 3 over kappa. Ward's split sphere has the
   // same limits.
   float reach(float recordSize, float pixelSize) const {
     const float radius =
-        std::max(std::min(recordSize, settings.maxPixels * pixelSize), kMinPixels * pixelSize);
+        std::max(std::min(recordSize, settings.maxPixels * pixelSize), minPixels() * pixelSize);
     return radius / settings.kappa;
   }
 
@@ -118,6 +124,7 @@ struct IrradianceCache::Impl {
   enum class Dispute { None, Steep, Torn };
 
   Dispute disputeOf(const vec3& a, const vec3& b, float noise) const {
+    if (settings.errorFunction == ErrorFunction::Split) return Dispute::None;
     const float tolerance = settings.errorFunction == ErrorFunction::Ward ? 4 * kDispute : kDispute;  // as kappa counts there
     const float larger = std::max(luminance(a), luminance(b)), off = std::abs(luminance(a) - luminance(b)) - kNoiseMargin * noise;
     const auto dark = static_cast<float>(kDark * luminanceSum / static_cast<double>(records.size()));
@@ -167,7 +174,7 @@ struct IrradianceCache::Impl {
     const float front = upright * (1 - std::max(0.0f, behind));
     const float position = std::sqrt(distance2) / radius;
     const float angle = std::sqrt(std::max(0.0f, 1 - dot(n, r.normal)));
-    if (settings.errorFunction != ErrorFunction::Ward) {
+    if (!isWard()) {
       const float error = std::max(position, settings.kappa * angle / std::sqrt(kMaxAngleTerm));  // eq. 2
       return front * std::max(0.0f, 1 - error);                                                      // eq. 5
     }
@@ -189,8 +196,10 @@ struct IrradianceCache::Impl {
 
   Reach reachAt(float pixelSize) const {
     constexpr float kRounding = 1e-4f;
-    const float angle = settings.errorFunction == ErrorFunction::Ward ? 1 / (settings.kappa * settings.kappa) : kMaxAngleTerm / (settings.kappa * settings.kappa);
-    return {kMinPixels * pixelSize, settings.maxPixels * pixelSize, (1 + kRounding) / settings.kappa, 1 - angle - kRounding};
+    const float angle =
+        isWard() ? 1 / (settings.kappa * settings.kappa) : kMaxAngleTerm / (settings.kappa * settings.kappa);
+    return {minPixels() * pixelSize, settings.maxPixels * pixelSize, (1 + kRounding) / settings.kappa,
+            1 - angle - kRounding};
   }
 
   /// Lookups that lie close together share one walk through the tree.

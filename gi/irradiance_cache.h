@@ -32,8 +32,9 @@ using IrradianceRecords = BlockVector<IrradianceRecord>;
 
 enum class ErrorFunction {
   Screen,   ///< approximate-gi eq. 2 to 5
-  Ward,     ///< Split sphere.
+  Ward,     ///< Split sphere, with the limits of Screen.
   Hessian,  ///< Schwarzhaupt, Jensen, Jarosz 2012
+  Split,    ///< Ward and Heckbert 1992: no limits in pixels, no disputes. To compare with.
 };
 
 struct CacheSettings {

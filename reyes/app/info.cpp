@@ -22,7 +22,16 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const char* nameOf(ErrorFunction function) {
-  return function == ErrorFunction::Ward ? "ward" : function == ErrorFunction::Hessian ? "hessian" : "screen";
+  switch (function) {
+    case ErrorFunction::Ward:
+      return "ward";
+    case ErrorFunction::Hessian:
+      return "hessian";
+    case ErrorFunction::Split:
+      return "split";
+    default:
+      return "screen";
+  }
 }
 
 Json sceneInfo(const Scene& scene) {

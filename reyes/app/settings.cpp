@@ -106,6 +106,7 @@ std::optional<ErrorFunction> parseErrorFunction(const std::string& text) {
   if (text == "screen") return ErrorFunction::Screen;
   if (text == "ward") return ErrorFunction::Ward;
   if (text == "hessian") return ErrorFunction::Hessian;
+  if (text == "split") return ErrorFunction::Split;
   return std::nullopt;
 }
 

@@ -32,7 +32,8 @@ void warnAboutUnsupported(const BoundShader& light, const IndirectQuery& q, Log&
     log.report(Severity::Warning, fmt::format("light-{}", name), light.where,
                fmt::format("{}: {} \"{}\" is not supported; {}", light.user, name, value, consequence));
   };
-  if (q.errorFunction != "screen" && q.errorFunction != "ward" && q.errorFunction != "hessian")
+  if (q.errorFunction != "screen" && q.errorFunction != "ward" && q.errorFunction != "hessian" &&
+      q.errorFunction != "split")
     warn("errorfunction", q.errorFunction, "\"screen\" is used");
   if (q.radiance != "shader" && q.radiance != "atlas" && q.radiance != "radiosity") warn("radiance", q.radiance, "gather rays run the shaders");
   if (!q.atlas.empty()) warn("atlas", q.atlas, "it is not read");

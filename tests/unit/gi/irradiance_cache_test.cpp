@@ -317,9 +317,26 @@ TEST(IrradianceCache, TheHessianReachesAsFarAsLightIsSmoothButNotPastWhatItSees)
   EXPECT_NEAR(weightOfOne(hessian, r, {0.05f, 0, 0}, kUp, 0.01f), 0.5f, 1e-5f);
 }
 
+TEST(IrradianceCache, TheSplitSphereAsPublishedKnowsNoPixelsAndNoDisputes) {
+  const CacheSettings split{ErrorFunction::Split, 4, kInfinity};
+  IrradianceRecord far = recordAt(vec3(0), vec3(1), 9), near = recordAt(vec3(0), vec3(1), 0.01f);
+  far.harmonicMean = 2, near.harmonicMean = 0.02f;
+  for (const float pixelSize : {0.001f, 0.1f}) {
+    EXPECT_NEAR(weightOfOne(split, far, {0.25f, 0, 0}, kUp, pixelSize), 1, 1e-5f);
+    EXPECT_EQ(weightOfOne(split, near, {0.006f, 0, 0}, kUp, pixelSize), 0);
+  }
+  IrradianceCache cache(kBox, split);
+  cache.insert(recordAt(vec3(0), vec3(1)));
+  cache.insert(recordAt({0.05f, 0, 0}, vec3(3)));
+  EXPECT_EQ(cache.records()[0].limit, kInfinity);
+}
+
 TEST(IrradianceCache, ManyLookupsAtOnceHaveTheBitsOfOneAtATime) {
-  for (const ErrorFunction function : {ErrorFunction::Screen, ErrorFunction::Ward, ErrorFunction::Hessian}) {
-    IrradianceCache cache(kBox, {function, function == ErrorFunction::Ward ? 4.0f : 1.0f});
+  for (const ErrorFunction function :
+       {ErrorFunction::Screen, ErrorFunction::Ward, ErrorFunction::Hessian, ErrorFunction::Split}) {
+    const bool ward = function == ErrorFunction::Ward || function == ErrorFunction::Split;
+    IrradianceCache cache(
+        kBox, {function, ward ? 4.0f : 1.0f, function == ErrorFunction::Split ? kInfinity : 10.0f});
     for (uint32_t i = 0; i < 3000; ++i) {
       IrradianceRecord r = recordAt(1.1f * randomIn(i, 1), vec3(1) + 0.02f * randomIn(i, 2), 0.5f * unitFloat(hashCombine(i, 3)));  // some outside
       r.normal = glm::normalize(kUp + 0.12f * randomIn(i, 4)), r.smoothRadius = 0.3f;
