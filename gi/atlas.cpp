@@ -36,7 +36,7 @@ std::vector<double> boxAreas(const Scene& scene) {
 }
 
 /// Counted up when the same inputs begin to make other files.
-constexpr uint32_t kMethod = 8;
+constexpr uint32_t kMethod = 9;
 
 uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
   const auto& [emit, maxDepth, seed, direct] = settings.photons;

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "gi/photon_sky.h"
 #include "raytrace/emitters.h"
 #include "reyes/base/rng.h"
 #include "reyes/base/simd.h"
@@ -10,30 +11,18 @@ namespace tomales {
 namespace {
 
 constexpr int kRows = 64, kColumns = 128;  ///< Cells of equal solid angle on the sphere of directions.
-constexpr double kCellSolidAngle = 4 * double{kPi} / (kRows * kColumns);
-constexpr int kProbes = 4;  ///< In each cell
-constexpr int kGrid = 128;  ///< Cells along the side of a distant light's square
+constexpr int kProbes = 4;                 ///< In each cell
+constexpr int kGrid = 128;                 ///< Cells along the side of a distant light's square
 constexpr uint32_t kSecondPair = 0x70686f74U;
-/// Share of the brightest cell that cells where no probe saw light are given: a beam between the probes is
-/// not lost.
+/// Share of the brightest cell that cells where no probe saw light get: a beam between the probes is not
+/// lost.
 constexpr double kFloor = 1e-3;
-constexpr float kPointBias =
-    1e-5f;  ///< Of the size of the scene and the distance of its origin: point lights may lie on surfaces.
-constexpr float kLeastCosine = 1.0f / 16;  ///< Of photons that leave area lights: what is flatter, one in
-                                           ///< 256, may still meet the lamp's own polygons.
-constexpr uint32_t kFewSamples =
-    64;  ///< Of a light that is sampled: places or directions by which its width is known,
-constexpr float kSampledMargin =
-    1.2f;  ///< and how much wider it is taken for: the outermost is none of those.
-constexpr float kSkyDistance =
-    1.01f;  ///< From the middle of the scene to where photons from outside begin, in radii.
-
-vec3 sphereDirection(size_t cell, vec2 at) {
-  const auto row = static_cast<float>(cell / kColumns), column = static_cast<float>(cell % kColumns);
-  const float z = 1 - 2 * (row + at.y) / kRows, phi = 2 * kPi * (column + at.x) / kColumns;
-  const float r = std::sqrt(std::max(0.0f, 1 - z * z));
-  return {r * std::cos(phi), r * std::sin(phi), z};
-}
+/// Of the size of the scene and the distance of its origin: point lights may lie on surfaces.
+constexpr float kPointBias = 1e-5f;
+/// Of photons that leave area lights: what is flatter, one in 256, may still meet the lamp's own polygons.
+constexpr float kLeastCosine = 1.0f / 16;
+constexpr uint32_t kFewSamples = 64;    ///< Of a light that is sampled: by which its width is known,
+constexpr float kSampledMargin = 1.2f;  ///< and how much wider it is: the outermost is none of those.
 
 /// Places in a cell: the corners of a smaller square.
 vec2 probePlace(int probe) { return {probe & 1 ? 0.75f : 0.25f, probe & 2 ? 0.75f : 0.25f}; }
@@ -49,11 +38,6 @@ std::vector<vec2> fewSamples() {
   std::vector<vec2> xi;
   for (uint32_t i = 0; i < kFewSamples; ++i) xi.push_back(sobol2(i, kSecondPair));
   return xi;
-}
-
-vec2 concentricDisk(vec2 xi) {
-  const float r = std::sqrt(xi.x), phi = 2 * kPi * xi.y;
-  return {r * std::cos(phi), r * std::sin(phi)};
 }
 
 }  // namespace
@@ -94,8 +78,10 @@ PhotonSource::PhotonSource(int light, const ShadingSystem& shading, const RaySce
       radius_(target.radius()) {
   if (kind_ == LightKind::Point) surveyPoint();
   if (kind_ == LightKind::Distant) surveyDistant(target);
-  if (kind_ == LightKind::Sky) surveySky();
   if (kind_ == LightKind::Area) surveyArea();
+  if (kind_ != LightKind::Sky) return;
+  sky_ = std::make_shared<SkyPhotons>(light, shading, rays, target);
+  power_ = sky_->power();
 }
 
 void PhotonSource::surveyPoint() {
@@ -128,7 +114,7 @@ void PhotonSource::aimAt(float radius) {
   orthonormalBasis(axis, tangent, bitangent);
   const double sine = double{radius} / double{distance};
   cone_ = {mat3(tangent, bitangent, axis), static_cast<float>(sine * sine / (1 + std::sqrt(1 - sine * sine))),
-           distance, std::max(0.0f, distance - kSkyDistance * radius)};
+           distance, std::max(0.0f, distance - kOutside * radius)};
 }
 
 /// A direction by its place in the frame of the cone, but for its height, of which it is what is missing from
@@ -200,20 +186,6 @@ void PhotonSource::surveyDistant(const PhotonTarget& target) {
   power_ = double{brightness} * double{kPi} * cellArea * cells_.total();
 }
 
-void PhotonSource::surveySky() {
-  std::vector<double> weights;
-  double sum = 0;
-  for (size_t c = 0; c < kRows * kColumns; ++c) {
-    double radiance = 0;
-    for (int k = 0; k < kProbes; ++k)
-      radiance += double{luminance(shading_.skyRadiance(light_, sphereDirection(c, probePlace(k))))};
-    weights.push_back(radiance / kProbes);
-    sum += radiance / kProbes;
-  }
-  power_ = sum * kCellSolidAngle * double{kPi * radius_ * radius_};
-  if (power_ > 0) cells_ = withFloor(weights);
-}
-
 void PhotonSource::surveyArea() {
   std::vector<EmittedPhoton> photons(256);
   emit(0, 0, photons);
@@ -234,7 +206,7 @@ void PhotonSource::emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton
   const std::vector<vec2> a = pairs(stream), b = pairs(hashCombine(stream, kSecondPair));
   if (kind_ == LightKind::Point) emitFromPoint(a, b, out);
   if (kind_ == LightKind::Distant) emitFromDistance(a, b, out);
-  if (kind_ == LightKind::Sky) emitFromSky(a, b, out);
+  if (kind_ == LightKind::Sky) sky_->emit(a, b, out);
   if (kind_ == LightKind::Area) emitFromArea(a, b, out);
 }
 
@@ -286,27 +258,12 @@ void PhotonSource::emitFromDistance(const std::vector<vec2>& a, const std::vecto
     // that does.
     const vec3 d = isDrawn_ ? -sun.L[i] : direction_, across = at.x * tangent + at.y * bitangent;
     const vec3 turned = across - dot(across, d) / std::max(1 + dot(direction_, d), 1e-6f) * (direction_ + d);
-    out[i].ray = {center_ + turned - kSkyDistance * radius_ * d, d};
+    out[i].ray = {center_ + turned - kOutside * radius_ * d, d};
     probe.P.push_back(out[i].ray.origin), probe.N.push_back(-d);
   }
   shading_.probe(light_, probe);
   const float area = side * side * static_cast<float>(cells_.total());
   for (size_t i = 0; i < out.size(); ++i) out[i].power = probe.Cl[i] * kPi * area;
-}
-
-void PhotonSource::emitFromSky(const std::vector<vec2>& a, const std::vector<vec2>& b,
-                               std::vector<EmittedPhoton>& out) const {
-  for (size_t i = 0; i < out.size(); ++i) {
-    double x{a[i].x};
-    const size_t cell = cells_.pick(x);
-    const vec3 toSky = sphereDirection(cell, {static_cast<float>(x), a[i].y});
-    vec3 tangent, bitangent;
-    orthonormalBasis(toSky, tangent, bitangent);
-    const vec2 at = radius_ * concentricDisk(b[i]);
-    const auto density = static_cast<float>(cells_.weight(cell) / (cells_.total() * kCellSolidAngle));
-    out[i].ray = {center_ + at.x * tangent + at.y * bitangent + kSkyDistance * radius_ * toSky, -toSky};
-    out[i].power = shading_.skyRadiance(light_, toSky) * (kPi * radius_ * radius_ / density);
-  }
 }
 
 void PhotonSource::emitFromArea(const std::vector<vec2>& a, const std::vector<vec2>& b,

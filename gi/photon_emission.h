@@ -12,6 +12,9 @@ namespace tomales {
 /// As cosineHemisphere(), of each.
 void cosineHemispheres(std::span<const vec2> xi, std::span<vec3> out);
 
+/// From the middle of the scene to where photons from outside begin, in radii.
+constexpr float kOutside = 1.01f;
+
 /// Current space.
 struct EmittedPhoton {
   Ray ray;
@@ -28,6 +31,8 @@ struct PhotonTarget {
   float radius() const { return 0.5f * glm::length(bound.size()); }
 };
 
+class SkyPhotons;
+
 class PhotonSource {
  public:
   PhotonSource(int light, const ShadingSystem& shading, const RayScene& rays, const PhotonTarget& target);
@@ -43,7 +48,6 @@ class PhotonSource {
  private:
   void surveyPoint();
   void surveyDistant(const PhotonTarget& target);
-  void surveySky();
   void surveyArea();
   void aimAt(float radius);
   vec3 inCone(size_t cell, vec2 at) const;
@@ -59,8 +63,6 @@ class PhotonSource {
                      std::vector<EmittedPhoton>& out) const;
   void emitFromDistance(const std::vector<vec2>& a, const std::vector<vec2>& b,
                         std::vector<EmittedPhoton>& out) const;
-  void emitFromSky(const std::vector<vec2>& a, const std::vector<vec2>& b,
-                   std::vector<EmittedPhoton>& out) const;
   void emitFromArea(const std::vector<vec2>& a, const std::vector<vec2>& b,
                     std::vector<EmittedPhoton>& out) const;
 
@@ -69,10 +71,11 @@ class PhotonSource {
   const RayScene& rays_;
   const LightKind kind_;
   double power_ = 0;
+  std::shared_ptr<const SkyPhotons> sky_;  ///< Sky alone.
   bool isDrawn_ = false;  ///< Point, Distant: its place or direction is another for every photon.
-  Distribution cells_;  ///< Point: of the cone. Sky: of the sphere of directions. Distant: of the square that
-                        ///< the scene's shadow fits in.
-  vec3 middle_{0.0f};   ///< Point: from the middle of the scene to that of the light.
+  Distribution cells_;    ///< Point: of the cone. Distant: of the square that
+                          ///< the scene's shadow fits in.
+  vec3 middle_{0.0f};     ///< Point: from the middle of the scene to that of the light.
   struct Cone {
     mat3 frame{1.0f};  ///< The third axis towards the scene.
     float height = 2;  ///< 1 - the cosine of half its angle.

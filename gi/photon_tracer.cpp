@@ -99,7 +99,7 @@ void PhotonTracer::step(std::vector<Path>& paths, uint32_t stream, Scratch& s,
 }
 
 /// Those that meet nothing leave the scene.
-void PhotonTracer::fly(const std::vector<Path>& paths, Scratch& s) const {
+void PhotonTracer::fly(std::vector<Path>& paths, Scratch& s) const {
   s.hits.resize(s.flying.size());
   size_t kept = 0;
   for (const uint32_t i : s.flying) {
@@ -112,12 +112,15 @@ void PhotonTracer::fly(const std::vector<Path>& paths, Scratch& s) const {
 
 /// Photons leave polygons, not the surfaces that those stand for: just before its polygon most of them meet
 /// nothing near, and the hit list would not change what they meet.
-Hit PhotonTracer::firstHit(const Path& path) const {
+Hit PhotonTracer::firstHit(Path& path) const {
   Ray free = path.ray;
   const bool hasList = free.offset > 0;
   if (hasList) free.origin += path.lift, free.offset = free.bias = 0;
   Hit hit = rays_.closest(free, kMaskPhoton);
-  if (hasList && hit.t <= recordingWindow(path.ray.offset)) hit = rays_.closest(path.ray, kMaskPhoton);
+  if (hasList && hit.t <= recordingWindow(path.ray.offset))
+    hit = rays_.closest(path.ray, kMaskPhoton);
+  else
+    path.ray.origin = free.origin;  // that is where t counts from
   return hit;
 }
 

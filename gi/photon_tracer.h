@@ -59,8 +59,8 @@ class PhotonTracer {
 
   void askEvenSurfaces();
   void step(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const;
-  void fly(const std::vector<Path>& paths, Scratch& s) const;
-  Hit firstHit(const Path& path) const;
+  void fly(std::vector<Path>& paths, Scratch& s) const;
+  Hit firstHit(Path& path) const;
   static vec3 liftOf(const Ray& ray, const vec3& normal);
   void draw(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const;
   void crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch& s,

@@ -1,6 +1,8 @@
 // What photons bring of lights of every kind, where the power that arrives is known.
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "gi/atlas.h"
 #include "gi/photons.h"
 #include "gi/point_file.h"
@@ -154,6 +156,46 @@ TEST(PhotonEmission, APenumbraHasTheWidthOfTheSun) {
   for (const StoredPhoton& p : traced(world, {100000, 1}))
     beyond += p.P.z > 7.9f && std::abs(p.P.y) < 3 && p.P.x > 0.1f && p.P.x < 0.5f;
   EXPECT_GT(beyond, 40);
+}
+
+/// A black room around (0, 0, 8) whose wall at the right has an opening of 0.4 x 0.6, under a sky.
+SceneBuilder roomWithAWindow(const std::string& portals) {
+  SceneBuilder b;
+  ParamList params{floatParam("intensity", 1.5f)};
+  if (!portals.empty())
+    params.push_back({"portals", Storage::Uniform, ValueType::String, 1, {}, {}, {portals}});
+  b.light("environmentlight", params);
+  const auto at = [](float x, float y, float z) { return vec3(x, y, 8 + z); };
+  const vec3 black(0);
+  b.quad(at(-1, -1, -1), at(-1, 1, -1), at(-1, 1, 1), at(-1, -1, 1), black);
+  for (const float s : {-1.0f, 1.0f}) {
+    b.quad(at(-1, s, -1), at(1, s, -1), at(1, s, 1), at(-1, s, 1), black);
+    b.quad(at(-1, -1, s), at(1, -1, s), at(1, 1, s), at(-1, 1, s), black);
+    b.quad(at(1, s, -1), at(1, s * 0.2f, -1), at(1, s * 0.2f, 1), at(1, s, 1), black);
+    b.quad(at(1, -0.2f, s), at(1, 0.2f, s), at(1, 0.2f, s * 0.3f), at(1, -0.2f, s * 0.3f), black);
+  }
+  mat4 window(1.0f);
+  window[0] = vec4(0, 0.4f, 0, 0), window[1] = vec4(0, 0, 0.6f, 0), window[2] = vec4(1, 0, 0, 0);
+  window[3] = vec4(at(1, 0, 0), 1);
+  b.scene.worldFromNamed["window"] = window;
+  return b;
+}
+
+TEST(PhotonEmission, ASkySendsPhotonsThroughItsPortals) {
+  const double truth = double{kPi} * 1.5 * 0.4 * 0.6;
+  std::map<std::string, double> noise;
+  for (const std::string portals : {"", "window"}) {
+    World world(roomWithAWindow(portals).scene);
+    double power = 0, squares = 0;
+    for (const StoredPhoton& p : traced(world, {200000, 1})) {
+      const vec3 off = p.P - kMiddle;
+      if (dot(off, p.N) > 0) continue;
+      power += double{p.power.y}, squares += double{p.power.y} * double{p.power.y};
+    }
+    noise[portals] = std::sqrt(squares);
+    EXPECT_NEAR(power, truth, (portals.empty() ? 0.15 : 0.01) * truth) << portals;
+  }
+  EXPECT_LT(noise["window"], 0.1 * noise[""]);
 }
 
 /// A lamp between two sheets.
