@@ -16,15 +16,25 @@ constexpr float kAlongNormal = 15.0f;  ///< A photon off the plane looks four ti
 /// angle with both normals; of two parallel sheets, one looks at the back of the other.
 constexpr float kOffSheet = 160e3f;
 
-/// Elements of `width` values into this order, with one copy of them beside.
-template <class T>
-void reorder(std::vector<T>& values, size_t width, const std::vector<uint32_t>& order) {
-  std::vector<T> out;
-  out.reserve(values.size());
-  for (const uint32_t i : order)
-    out.insert(out.end(), values.begin() + static_cast<ptrdiff_t>(i * width),
-               values.begin() + static_cast<ptrdiff_t>((i + 1) * width));
-  values = std::move(out);
+/// Photons into this order, in place: along each cycle, with one of them beside. A copy of all would be the most that
+/// estimates need.
+void reorder(PointCloud& photons, std::vector<uint32_t> order) {
+  const auto width = static_cast<size_t>(photons.width());
+  std::vector<float> data(width);
+  const auto valuesOf = [&](size_t i) { return photons.data.begin() + static_cast<ptrdiff_t>(i * width); };
+  for (uint32_t start = 0; start < order.size(); ++start) {
+    const vec3 position = photons.position[start], normal = photons.normal[start];
+    const float radius = photons.radius[start];
+    std::copy_n(valuesOf(start), width, data.begin());
+    uint32_t to = start;
+    for (uint32_t from; (from = std::exchange(order[to], to)) != start; to = from) {
+      photons.position[to] = photons.position[from], photons.normal[to] = photons.normal[from];
+      photons.radius[to] = photons.radius[from];
+      std::copy_n(valuesOf(from), width, valuesOf(to));
+    }
+    photons.position[to] = position, photons.normal[to] = normal, photons.radius[to] = radius;
+    std::copy_n(data.begin(), width, valuesOf(to));
+  }
 }
 
 }  // namespace
@@ -33,11 +43,9 @@ PhotonTree::PhotonTree(PointCloud photons) : photons_(std::move(photons)) {
   std::vector<uint32_t> order(photons_.count());
   std::iota(order.begin(), order.end(), 0u);
   build(order, 0, static_cast<uint32_t>(order.size()), 0);
-  const auto width = static_cast<size_t>(photons_.width());
-  reorder(photons_.position, 1, order), reorder(photons_.normal, 1, order),
-      reorder(photons_.radius, 1, order), reorder(photons_.data, width, order);
-  surface_.reserve(order.size());
-  for (size_t i = 0; i < order.size(); ++i) surface_.push_back(static_cast<uint8_t>(photons_.surface(i)));
+  reorder(photons_, std::move(order));
+  surface_.reserve(photons_.count());
+  for (size_t i = 0; i < photons_.count(); ++i) surface_.push_back(static_cast<uint8_t>(photons_.surface(i)));
 }
 
 void PhotonTree::build(std::vector<uint32_t>& order, uint32_t begin, uint32_t end, uint32_t node) {

@@ -72,8 +72,13 @@ uint64_t PointTiles::count(int level, const glm::ivec3& place) const {
 PointCloud PointTiles::around(const Bound3& box, float margin, float radiusScale) const {
   PointCloud out, part;
   out.channels = file_.channels();
-  for (size_t chunk = 0; chunk < file_.chunkCount(); ++chunk) {
-    if (!meet(file_.chunkBound(chunk), box.grown(std::max(margin, largestRadius_ * radiusScale)))) continue;
+  std::vector<size_t> chunks;
+  for (size_t chunk = 0; chunk < file_.chunkCount(); ++chunk)
+    if (meet(file_.chunkBound(chunk), box.grown(std::max(margin, largestRadius_ * radiusScale))))
+      chunks.push_back(chunk);
+  // Room that is not written to is no memory; vectors that grow leave holes of half their size.
+  out.reserve(chunks.size() * PointFileWriter::kChunkPoints);
+  for (const size_t chunk : chunks) {
     part = {};
     file_.read(chunk, part);
     for (size_t i = 0; i < part.count(); ++i) {
