@@ -208,10 +208,10 @@ enum class LightKind { None, Ambient, Point, Distant, Sky, Area, Indirect };
 /// A light shader alone, at points that nothing shades: how photons learn what it sends where. Current space.
 struct LightProbe {
   std::vector<vec3> P, N;    ///< In: points to be lit, with their normals.
-  std::vector<vec3> Pl, Nl;  ///< In, for LightKind::Area alone: points on the emitter.
+  std::vector<vec3> Pl, Nl;  ///< In, for LightKind::Area: points on the emitter; for Sky: towards it, and unit directions there.
   std::vector<vec2> xi;      ///< In, for lights that are sampled: where one of one sample lies; none: in the middle.
   std::vector<vec3> L;       ///< Out: from P to the light.
-  std::vector<vec3> Cl;      ///< Out: E/pi at normal incidence; for LightKind::Area the radiance of the emitter.
+  std::vector<vec3> Cl;      ///< Out: E/pi at normal incidence; for LightKind::Area and Sky the radiance of the emitter.
 };
 
 /// Shaders by name: built-ins and plugins come through the same table.
@@ -287,8 +287,6 @@ class ShadingSystem {
 
   LightKind lightKind(int light) const;  ///< None: its shader is missing, or it lights nothing diffuse that gather rays see.
   void probe(int light, LightProbe& probe) const;
-  /// Radiance that a LightKind::Sky sends from infinity in a direction (current space, unit) that points to it.
-  vec3 skyRadiance(int light, const vec3& direction) const;
   /// Does the surface of a group add radiance of its own?
   bool emits(int group) const;
   /// Does it reflect the same share of Illumination::Unit everywhere (TM_EVEN, and no primitive variable says otherwise)?

@@ -41,16 +41,6 @@ void ShadingSystem::probe(int light, LightProbe& probe) const {
   }
 }
 
-vec3 ShadingSystem::skyRadiance(int light, const vec3& direction) const {
-  const BoundShader& sky = *impl_->lights[static_cast<size_t>(light)]->bound;
-  const ShadeContext context;
-  ArenaLease arena;
-  Batch batch(*impl_, impl_->pixels, context, *arena);
-  batch.setLit({{vec3(0.0f)}, {direction}, {}, {}, {}, {}, {}}, sky);
-  set(batch.tm.L, 0, direction);
-  return batch.run(sky, batch.tm) ? get(batch.tm.Cl, 0) : vec3(0.0f);
-}
-
 bool ShadingSystem::emits(int group) const {
   return impl_->groups[static_cast<size_t>(group)].forDiffuseRays().can(TM_EMITS);
 }
