@@ -162,9 +162,10 @@ struct DisplayFile::Impl {
     const size_t step = rows.channels.size(), pixels = rows.pixels.size() / step;
     out.pixels.resize(pixels * from.size());
     for (size_t c = 0; c < from.size(); ++c) {
+      if (from[c] < 0) continue;  // not there: 0
       float* to = out.pixels.data() + c;
       const float* value = rows.pixels.data() + from[c];
-      for (size_t i = 0; from[c] >= 0 && i < pixels; ++i) to[i * from.size()] = value[i * step];
+      for (size_t i = 0; i < pixels; ++i) to[i * from.size()] = value[i * step];
       const auto& exposure = selection[c].encoding.exposure;
       for (size_t i = 0; exposure && !depth[c] && i < pixels; ++i) to[i * from.size()] = exposed(to[i * from.size()], (*exposure)[0], (*exposure)[1]);
     }
