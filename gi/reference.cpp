@@ -20,9 +20,15 @@ struct PathSum {
 // The hemisphere of each active point, one cosine-weighted ray a path, in batches large enough to shade well.
 class PathBatches {
  public:
-  PathBatches(const GiState& state, const RayTools& tools, const ShadePoints& points, TmConstVec3 N, const IndirectQuery& query,
-              const ShadeContext& hitContext)
-      : state_(state), tools_(tools), points_(points), places_(state, points), N_(N), maxDistance_(query.maxDistance), context_(hitContext) {
+  PathBatches(const GiState& state, const RayTools& tools, const ShadePoints& points, TmConstVec3 N,
+              const IndirectQuery& query, const ShadeContext& hitContext)
+      : state_(state),
+        tools_(tools),
+        points_(points),
+        places_(state, points),
+        N_(N),
+        maxDistance_(query.maxDistance),
+        context_(hitContext) {
     const std::string& own = state.scene.groups[static_cast<size_t>(points.group())].attributes->trace.subset;
     filter_.groups = tools.rays->groupsIn(query.subset.empty() ? own : query.subset, "");
   }
@@ -34,7 +40,8 @@ class PathBatches {
     orthonormalBasis(normal, tangent, bitangent);
     // The hits of one record share a key and continue each other's sequence.
     const SampleName name = points_.name(i);
-    const uint32_t pointKey = hashCombine(name.key, state_.settings.seed, static_cast<uint32_t>(context_.depth));
+    const uint32_t pointKey =
+        hashCombine(name.key, state_.settings.seed, static_cast<uint32_t>(context_.depth));
     for (int path = 0; path < paths; ++path) {
       const uint32_t number = name.sequence * static_cast<uint32_t>(paths) + static_cast<uint32_t>(path);
       Ray ray;
@@ -93,7 +100,8 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
   const int paths = context.depth > 0 ? 1 : planFor(state, points.group(), query).gather.samples;
   const int depth = context.depth + 1;
   ShadeContext hitContext{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
-  hitContext.diffuseLimit = bounces;  // of wide lobes that shaders follow, too; mirrors reflect as deep as their objects allow
+  hitContext.diffuseLimit =
+      bounces;  // of wide lobes that shaders follow, too; mirrors reflect as deep as their objects allow
   hitContext.highlights = true;
   PathBatches batches(state, *tools, points, N, query, hitContext);
   std::vector<PathSum> sums;
