@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <bit>
 #include <mutex>
 #include <optional>
 #include <unordered_set>
 
+#include "gi/frame_survey.h"
 #include "gi/sheet_search.h"
 #include "gi/state.h"
 #include "reyes/base/parallel.h"
@@ -27,25 +29,6 @@ struct Site {
   int x, y;  ///< The pixel that sees it.
 };
 
-/// One bit for every point of a frame.
-class PointBits {
- public:
-  /// points[t]: of tile t.
-  explicit PointBits(const std::vector<uint32_t>& points) : first_(points.size() + 1) {
-    for (size_t t = 0; t < points.size(); ++t) first_[t + 1] = first_[t] + (points[t] + 63) / 64;  // no two tiles share a word
-    words_.resize(first_.back());
-  }
-  /// Sets a bit. False: it was set.
-  bool set(size_t tile, size_t point) {
-    uint64_t &word = words_[first_[tile] + point / 64], bit = uint64_t{1} << point % 64;
-    return !(word & bit) && (word |= bit);
-  }
-
- private:
-  std::vector<size_t> first_;
-  std::vector<uint64_t> words_;
-};
-
 /// Goes over the tiles once in every phase, so that they need not be in memory.
 class GatherPass {
  public:
@@ -63,6 +46,7 @@ class GatherPass {
       const int stride = strideAfter(phase_);
       if (covered && stride > 1 && !isCancelled()) covered(stride);
     }
+    rememberFrame();
   }
 
  private:
@@ -85,15 +69,42 @@ class GatherPass {
       if (plan.cache.kappa < kInfinity) plans.emplace_back(g, plan);
     }
     if (plans.empty()) return false;
-    const Bound3 bound = measureFrame();
+    const FrameSurvey survey = surveyOf(layout_, tiles_, cachesOfGroup_.size(), cancelled_);
+    seen_.emplace(survey.points);
     for (const auto& [group, plan] : plans) {
       size_t c = 0;
       while (c < state_.caches.size() && !(state_.caches[c].plan == plan)) ++c;
-      if (c == state_.caches.size()) state_.caches.push_back({plan, IrradianceCache(bound, plan.cache)});
+      if (c == state_.caches.size())
+        state_.caches.push_back({plan, IrradianceCache(survey.bound, plan.cache)});
       cachesOfGroup_[group].push_back(c);
+      frames_.resize(state_.caches.size());
+      frames_[c] += survey.seenOfGroup[group];
     }
-    sites_.resize(state_.caches.size());
-    return true;
+    sites_.resize(state_.caches.size()), frames_.resize(state_.caches.size());
+    return state_.anew || forgetKnownCaches();
+  }
+
+  bool isAnew(const Site& s) const { return state_.anew && state_.anew->contains(s.x, s.y); }
+  bool isNew(size_t cache) const {
+    return std::ranges::count(state_.caches[cache].frames, frames_[cache]) == 0;
+  }
+
+  // What has been gathered for this very frame is asked for nothing more: what disagrees after its last phase
+  // would add records each time. False: that is all.
+  bool forgetKnownCaches() {
+    bool left = false;
+    for (std::vector<size_t>& caches : cachesOfGroup_) {
+      std::erase_if(caches, [&](size_t c) { return !isNew(c); });
+      left |= !caches.empty();
+    }
+    return left;
+  }
+
+  void rememberFrame() {
+    if (isCancelled()) return;
+    for (const std::vector<size_t>& caches : cachesOfGroup_)
+      for (const size_t c : caches)
+        if (isNew(c)) state_.caches[c].frames.push_back(frames_[c]);
   }
 
   void measureRelief() {
@@ -124,25 +135,6 @@ class GatherPass {
       gather.maxDistance = std::max(gather.maxDistance, c.plan.gather.maxDistance);
     }
     state_.bounces.fill(*tools_, state_.camera, points, gather, bounces, {state_.stats, cancelled_});
-  }
-
-  Bound3 measureFrame() {
-    std::vector<uint32_t> points(layout_.tileCount());
-    Bound3 bound;
-    std::mutex merging;
-    parallelFor(points.size(), 1, [&](size_t t, size_t) {
-      const auto tile = isCancelled() ? nullptr : tiles_(t);
-      if (!tile) return;
-      Bound3 here;
-      for (const ShadePoints& batch : tile->batches) {
-        points[t] += static_cast<uint32_t>(batch.count());
-        for (int i = 0; i < batch.count(); ++i) here.extend(batch.position(i));
-      }
-      const std::lock_guard lock(merging);
-      bound.extend(here);
-    });
-    seen_.emplace(points);
-    return bound;
   }
 
   // Points of this phase that the records of earlier ones leave without, in the order of pixels, whatever the buckets are. A
@@ -210,10 +202,10 @@ class GatherPass {
     std::vector<IrradianceEstimate> known(places.size());
     state_.caches[cache].cache.lookup(places, known.data());
     SheetSearch sheets(*tools_->rays, state_.caches[cache].plan.gather);
+    const bool isNew = this->isNew(cache);
     for (size_t i = 0; i < asked.size(); ++i) {
       const IrradianceEstimate& k = known[i];
-      // What was given is appended to, not refined: the same frame again adds nothing.
-      if (k.weight < kEnough || (k.disputed && !state_.cachesGiven) ||
+      if (k.weight < kEnough || (k.disputed && (isNew || isAnew(asked[i]))) ||
           (isLight(cache) && !k.hasRecord && sheets.isUnderSheet(asked[i].point, k.closest)))
         out.push_back(asked[i]);
     }
@@ -269,6 +261,7 @@ class GatherPass {
   const RayTools* tools_ = nullptr;
   std::vector<std::vector<size_t>> cachesOfGroup_;
   std::vector<float> reliefOfGroup_;  ///< Displacement that rays do not see.
+  std::vector<uint64_t> frames_;      ///< This one, as each cache sees it.
   std::optional<PointBits> seen_;
   std::vector<std::unordered_set<uint64_t>> sites_;  ///< Of each cache: those that have a record.
   const std::function<void(float)>* progress_ = nullptr;

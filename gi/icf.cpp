@@ -77,6 +77,7 @@ struct StoredCache {
   GatherPlan plan;
   Bound3 bound;
   std::vector<IrradianceRecord> records;
+  std::vector<uint64_t> frames;
 };
 
 struct StoredShot {
@@ -89,7 +90,7 @@ struct StoredShot {
 
 template <class A>
 void fields(A& a, StoredCache& x) {
-  each(a, x.plan, x.bound.lo, x.bound.hi, x.records);
+  each(a, x.plan, x.bound.lo, x.bound.hi, x.records, x.frames);
 }
 
 template <class A>
@@ -130,7 +131,8 @@ bool IcfWriter::finish(const IrradianceShot& shot) {
   for (const auto& light : shot.emitters.value_or(EmitterTable{}))
     if (std::any_of(light.lattices.begin(), light.lattices.end(), asksSurface)) stored.emitters.reset();
   for (const PreparedCache& c : shot.caches)
-    stored.caches.push_back({c.plan, c.cache.bound(), {c.cache.records().begin(), c.cache.records().end()}});
+    stored.caches.push_back(
+        {c.plan, c.cache.bound(), {c.cache.records().begin(), c.cache.records().end()}, c.frames});
   return records_->write(kShotRecord, pack(stored)) && records_->finish();
 }
 
@@ -146,7 +148,8 @@ std::unique_ptr<IcfFile> IcfFile::open(const std::string& path, std::string& err
   }
   file->shot_ = {stored.shot, stored.settings, stored.cameraFromWorld, {}, std::move(stored.emitters)};
   for (const StoredCache& c : stored.caches) {
-    IrradianceCache& cache = file->shot_.caches.emplace_back(PreparedCache{c.plan, {c.bound, c.plan.cache}}).cache;
+    IrradianceCache& cache =
+        file->shot_.caches.emplace_back(PreparedCache{c.plan, {c.bound, c.plan.cache}, c.frames}).cache;
     for (const IrradianceRecord& record : c.records) cache.restore(record);
   }
   return file;

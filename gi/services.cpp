@@ -42,8 +42,8 @@ void GiServices::bake(const DeepFrame& layout, const TileReader& tiles, const st
 
 const std::vector<PreparedCache>& GiServices::caches() const { return impl_->caches; }
 std::vector<PreparedCache> GiServices::takeCaches() { return std::exchange(impl_->caches, {}); }
-void GiServices::useCaches(std::vector<PreparedCache> caches) {
-  impl_->caches = std::move(caches);
+void GiServices::useCaches(std::vector<PreparedCache> caches, std::optional<PixelRect> anew) {
+  impl_->caches = std::move(caches), impl_->anew = anew;
   impl_->cachesGiven = !impl_->caches.empty();
 }
 void GiServices::useEmitters(EmitterTable emitters) { impl_->emitters.emplace(std::move(emitters)); }

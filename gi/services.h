@@ -43,6 +43,7 @@ struct GatherPlan {
 struct PreparedCache {
   GatherPlan plan;
   IrradianceCache cache;
+  std::vector<uint64_t> frames{};  ///< That it has been refined for: sums of what their pixels see.
 };
 
 /// What it takes to answer a ray.
@@ -89,8 +90,9 @@ class GiServices final : public ShadeServices {
   /// What gatherPass has left; frozen while shading.
   const std::vector<PreparedCache>& caches() const;
   std::vector<PreparedCache> takeCaches();  ///< Leaves none.
-  /// Instead of a gather pass, or before one: which then gathers only what these records leave uncovered.
-  void useCaches(std::vector<PreparedCache> caches);
+  /// Instead of a gather pass, or before one: which then gathers what these records leave uncovered or, in a
+  /// frame that is new to them, disagree about. anew: records have been taken out of these pixels.
+  void useCaches(std::vector<PreparedCache> caches, std::optional<PixelRect> anew = {});
   /// So that area lights can be sampled without geometry.
   void useEmitters(EmitterTable emitters);
 

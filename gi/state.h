@@ -21,6 +21,7 @@ struct GiState {
   BounceCaches bounces{};             ///< and these.
   mutable std::vector<std::vector<OcclusionQuery>> occlusionAsked{};  ///< By each group: written by rehearse() alone.
   bool cachesGiven = false;           ///< Not gathered for this very frame.
+  std::optional<PixelRect> anew{};    ///< Pixels out of which given records have been taken.
   AtlasSource atlasSource{};          ///< May be empty,
   RadiositySource radiositySource{};  ///< and this.
   mutable std::unique_ptr<const HitRadiance> radiosity{};  ///< GiMode::Radiosity alone.

@@ -45,7 +45,8 @@ void buildRender(CLI::App& app, Invocation& in, int& code) {
   addWatching(*c, in.render);
   c->add_flag("--resume", in.render.resume, "Keep finished buckets beside the picture until it is written, and use those of an interrupted run");
   c->add_option("--irradiance", in.render.irradiance, "Indirect light from these records instead of a gather pass")->type_name("SHOT.icf");
-  c->add_flag("--irradiance-append", in.render.appendIrradiance, "Gather where those records leave points uncovered");
+  c->add_flag("--irradiance-append", in.render.appendIrradiance,
+              "Gather where those records leave points uncovered or disagree");
   c->add_option("--baked", in.render.bakedFolder, "Brick maps of gathered light: made, or added to; with --gi baked used instead of gathering, by any camera")
       ->type_name("FOLDER");
   addParsed(*c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M", "Limits textures, bricks and the buckets of the frame; what exceeds it rests in a file");
@@ -73,7 +74,10 @@ void addShotOptions(CLI::App& app, RenderSettings& s) {
 void buildGather(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c = app.add_subcommand("gather", "A shot's irradiance cache, and all else that its rays say");
   addParsed(*c, "-o", in.render.output, parseNamed(".icf"), "SHOT.icf", "Write here")->required();
-  c->add_option("--irradiance", in.render.irradiance, "Start from these records and add what they leave uncovered; with --crop those inside are gathered anew")->type_name("OTHER.icf");
+  c->add_option("--irradiance", in.render.irradiance,
+                "Start from these records and add where they leave points uncovered or disagree; with --crop "
+                "those inside are gathered anew")
+      ->type_name("OTHER.icf");
   addCrop(*c, in.render);
   addLightOptions(*c, in.render);
   addRunOptions(*c, in.render);

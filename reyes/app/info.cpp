@@ -195,6 +195,7 @@ Json icfInfo(const std::string& file, Log& log) {
     vec3 mean(0.0f);
     for (const IrradianceRecord& r : c.cache.records()) mean += r.E / static_cast<float>(c.cache.records().size());
     caches.push_back({{"records", c.cache.records().size()},
+                      {"frames", c.frames.size()},
                       {"error_function", nameOf(c.plan.cache.errorFunction)},
                       {"kappa", c.plan.cache.kappa},
                       {"samples", c.plan.gather.samples},

@@ -79,8 +79,9 @@ void ShotJob::prepareLight() {
   IrradianceShot given = irradiance_->takeShot();
   if (given.emitters && given.shot == file_->shotSum()) job_->services()->useEmitters(std::move(*given.emitters));
   moveToCamera(given, shot_.scene.cameraFromWorldAtOpen());
-  if (gathersAnew_) dropRecordsOfCrop(given.caches);
-  job_->services()->useCaches(std::move(given.caches));
+  std::optional<PixelRect> anew;
+  if (gathersAnew_) dropRecordsOfCrop(given.caches), anew = shot_.frame.crop;
+  job_->services()->useCaches(std::move(given.caches), anew);
 }
 
 std::optional<DeepTile> ShotJob::load(size_t index) {

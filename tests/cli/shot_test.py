@@ -207,6 +207,11 @@ inside, outside = (sum(before[xy] != after[xy] for xy in before if (xy[0] < 24) 
 gathered = json.loads((suite.folder / "region.json").read_text())["irradiance_cache"]["samples"]
 suite.expect(gathered > 0 and inside > 200 and outside < 100, f"a region is gathered anew ({gathered} records, {inside} pixels, {outside} elsewhere)")
 suite.expect(json.loads((suite.folder / "region.part.json").read_text())["rays"]["gather"] == 0, "and needs no rays to be shaded")
+for name in ("indirect", "region"):
+    suite.run("gather", "indirect.dfb", "-o", "again.icf", "--irradiance", f"{name}.icf", "--stats", "again.json", "-q")
+    suite.run("shade", "indirect.dfb", "--irradiance", "again.icf", "-o", f"{name}.again.exr", "--indirect-only", "-q")
+    suite.expect(json.loads((suite.folder / "again.json").read_text())["irradiance_cache"]["samples"] == 0, f"{name}.icf gets no record when its frame is gathered again")
+    expect_same(f"and {name}.icf has the same bits", f"{name}.part.exr", f"{name}.again.exr")
 suite.run("render", "indirect.rib", "-o", "given.exr", "--irradiance", "indirect.icf", "--irradiance-append", "--stats", "given.json", "-q")
 suite.expect(json.loads((suite.folder / "given.json").read_text())["irradiance_cache"]["samples"] == 0, "nothing is appended where all is covered")
 suite.expect_run("a frame beyond memory is refused", ["render", "direct.rib", "-o", "huge.exr", "--format", "65536x65536", "--bucket-size", "16"], 4, "--crop")

@@ -91,6 +91,35 @@ TEST(GatherPass, TheCacheDoesNotDependOnThreadsOrBuckets) {
     }
 }
 
+/// How many records a frame adds to those given.
+int64_t added(World& world, std::vector<PreparedCache>& caches, const DeepFrame& frame) {
+  const auto records = [&] { return static_cast<int64_t>(caches[0].cache.records().size()); };
+  const auto services = world.use({});
+  const int64_t before = records();
+  services->useCaches(std::move(caches));
+  gatherFrame(*services, frame);
+  caches = services->takeCaches();
+  return records() - before;
+}
+
+TEST(GatherPass, AFrameAddsRecordsOnceAndIsKnownByWhatItsPixelsSee) {
+  World world(cornell(indirect(16)).scene);
+  const auto services = world.use({});
+  gatherFrame(*services, frameOf(world, 16));
+  std::vector<PreparedCache> caches = services->takeCaches();
+  EXPECT_EQ(added(world, caches, frameOf(world, 16)), 0);
+  EXPECT_EQ(added(world, caches, frameOf(world, 64)), 0) << "other buckets";
+
+  World closer(cornell(indirect(16), 72).scene);
+  EXPECT_GT(added(closer, caches, frameOf(closer, 16)), 0) << "other pixels";
+  EXPECT_EQ(added(closer, caches, frameOf(closer, 16)), 0);
+  EXPECT_EQ(added(world, caches, frameOf(world, 16)), 0) << "not the last frame, but one of them";
+  ASSERT_EQ(caches.size(), 1U);
+  caches[0].frames.clear();
+  EXPECT_GT(added(world, caches, frameOf(world, 16)), 0)
+      << "what disagrees is refined in frames that are new";
+}
+
 TEST(GatherPass, BouncesDoNotDependOnThreadsOrBuckets) {
   World world(cornell(indirect(32)).scene);
   std::vector<vec3> first, one;
