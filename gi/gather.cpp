@@ -17,7 +17,8 @@ constexpr size_t kRaysOfProbe = 8;  ///< Of the hemisphere, for each ray that fi
 constexpr size_t kLeastPerSpot = 4;   ///< Rays of the hemisphere; with fewer, probes would cost too much.
 constexpr float kLeastShare = 0.05f;  ///< Of the light of a spot, when its probes have seen none: they are few.
 constexpr float kFoundByChance = 160;  ///< Rays of the hemisphere on spots: so many find out without help.
-constexpr float kUnhidden = 1.5f;      ///< Times as many, if it is not known yet what is hidden: no ray is spent on finding out.
+constexpr float kUnhidden = 1.5f;  ///< Times as many before what is hidden is known: no ray finds that out,
+constexpr float kHidden = 0.25f;   ///< but where less than this share of what they would send is seen.
 
 const BrightSpots kNoSpots;
 
@@ -98,8 +99,7 @@ class Hemisphere {
   }
 
   void tell(BrightFind& find) const {
-    find = {};
-    for (const vec3& L : scratch_.radiance) find.irradiance += luminance(L) / static_cast<float>(count_);
+    find = {irradianceSeen(), {}};
     const auto& [distances, normals] = scratch_.firstHits;
     for (size_t i = 0; i < count_; ++i)
       if (const float L = luminance(scratch_.radiance[i]); L > kContrast * find.irradiance && distances[i] < kInfinity)
@@ -148,11 +148,14 @@ class Hemisphere {
     aim_.dim(scratch_.shares);
   }
 
-  /// More rays the more of the light is expected from the spots. What this hemisphere has seen of them has no say in it.
+  /// More rays the more of the light is expected from the spots. What this hemisphere has seen of them has no
+  /// say in it, but for whether to ask what is hidden: three quarters of so much are not missed by chance.
   void aim(Stats& stats) {
     scratch_.aimedDirections.clear(), scratch_.aimedCells.clear();
     const auto byChance = [&] { return aim_.coverage() * static_cast<float>(count_); };
-    if (byChance() < kUnhidden * kFoundByChance && worthAiming() >= kLeastAimed) probe(stats);
+    const bool asks =
+        byChance() < kUnhidden * kFoundByChance || irradianceSeen() < kHidden * aim_.irradiance();
+    if (asks && worthAiming() >= kLeastAimed) probe(stats);
     aims_ = byChance() < kFoundByChance ? worthAiming() : 0;
     if (aims_ < kLeastAimed) aims_ = 0;
     for (size_t i = 0; i < aims_; ++i) {
@@ -171,6 +174,13 @@ class Hemisphere {
   size_t worthAiming() const {
     const float spots = aim_.irradiance();
     return spots > 0 && std::isfinite(spots) ? static_cast<size_t>(kMostAimed * static_cast<float>(count_) * spots / (spots + dimIrradiance())) : 0;
+  }
+
+  /// E/pi by the rays of the hemisphere alone.
+  float irradianceSeen() const {
+    float sum = 0;
+    for (const vec3& L : scratch_.radiance) sum += luminance(L);
+    return sum / static_cast<float>(count_);
   }
 
   /// E/pi but for what is as bright as a spot. Colours may be negative, but no share of rays.

@@ -1,6 +1,6 @@
 """How far interpolated indirect light is from path tracing: error, its 99th percentile, noise of the reference, time, error maps.
 
-    tests/bench/indirect_error.py build/release/tomales FOLDER [--scenes cornell film hot_spot box_ball] [--batches 2] [--bounces 1]
+    tests/bench/indirect_error.py build/release/tomales FOLDER [--scenes cornell film hot_spot sun_room box_ball] [--batches 2] [--bounces 1]
                                   [-t 1] [--json out.json] [-- ARGUMENTS OF tomales render ...]
 
 Debian's packages: python3-numpy python3-openimageio. The reference is `--gi reference`, each batch with a seed of its own, in square windows whose
@@ -34,6 +34,7 @@ CASES = {
     "cornell": Case("scenes/cornell/cornell.rib", (512, 512), 64, 16, 512),
     "film": Case("scenes/film/film.rib", (1828, 1102), 32, 12, 48),
     "hot_spot": Case("tests/stability/irradiance_cache/hot_spot.rib", (256, 256), 64, 4, 65536),
+    "sun_room": Case("tests/stability/irradiance_cache/sun_room.rib", (256, 192), 64, 4, 16384),
     "box_ball": Case("tests/stability/irradiance_cache/box_ball.rib", (512, 512), 64, 16, 1024),
 }
 FLOOR = 0.01

@@ -107,21 +107,66 @@ TEST(Gather, SpotsBehindAScreenTakeNoRaysFromWhatCanBeSeen) {
   EXPECT_LT(noise(both), 1.5 * noise(visible));
 }
 
-TEST(Gather, SpotsThatChanceFindsTakeNoRays) {
+// A glow 2 wide, a twentieth of the hemisphere of the point below, over a floor.
+SceneBuilder floorUnderAGlow() {
   SceneBuilder b;
   b.quad({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}, vec3(0.8f));
-  World world(b.scene);
+  b.light("distantlight", {pointParam("from", {0, 0, 0}), pointParam("to", {0, 0, 1})});
+  b.quad({-1, -1, 5}, {1, -1, 5}, {1, 1, 5}, {-1, 1, 5}, vec3(0.8f));
+  return b;
+}
+
+constexpr GatherPoint kBelow{0, {0, 0, 0}, {0, 0, 1}, 1, 0.01f, 0.01f};
+
+BrightSpots spotsOfTheGlow() {
   BrightSpots spots;
-  spots.learn({disk({0, 0, 5}, 1, 300, 50)});  // a twentieth of the hemisphere
+  spots.learn({disk({0, 0, 5}, 1, 300, 0.8f)});
+  return spots;
+}
+
+TEST(Gather, SpotsThatChanceFindsTakeNoRays) {
+  World world(floorUnderAGlow().scene);
+  const BrightSpots spots = spotsOfTheGlow(), none;
   for (const int samples : {1000, 8000}) {
     GatherSettings settings;
     settings.samples = samples;
-    const HemisphereCells cells = hemisphereCells(samples);
-    const int64_t before = world.stats.rays.gather;
-    gather(world.rays, world.shading, {0, {0, 0, 0}, {0, 0, 1}, 1, 0.01f, 0.01f}, settings, {&spots}, world.stats);
-    const int64_t more = world.stats.rays.gather - before - cells.rings * cells.sectors;
+    const auto raysWith = [&](const BrightSpots& known) {
+      const int64_t before = world.stats.rays.gather;
+      gather(world.rays, world.shading, kBelow, settings, {&known}, world.stats);
+      return world.stats.rays.gather - before;
+    };
+    const int64_t more = raysWith(spots) - raysWith(none);
     EXPECT_EQ(more > 0, samples == 1000) << more;
   }
+}
+
+TEST(Gather, LargeSpotsThatAreMostlyHiddenAreAimedAtWhereTheyAreNot) {
+  SceneBuilder b = floorUnderAGlow();
+  // Before all of the glow but the last 0.08 of 2.
+  b.quad({-1, -1, 2.5f}, {0.46f, -1, 2.5f}, {0.46f, 1, 2.5f}, {-1, 1, 2.5f}, vec3(0));
+  World world(b.scene);
+  const BrightSpots spots = spotsOfTheGlow(), none;
+  const auto figures = [&](const BrightSpots& known) {
+    double sum = 0, squares = 0;
+    constexpr int kCount = 40;
+    for (uint32_t i = 0; i < kCount; ++i) {
+      GatherSettings settings;
+      settings.samples = 8000;
+      GatherPoint point = kBelow;
+      point.key = i;
+      const double E = luminance(gather(world.rays, world.shading, point, settings, {&known}, world.stats).E);
+      sum += E / kCount, squares += E * E / kCount;
+    }
+    return std::pair(sum, std::sqrt(std::max(0.0, squares - sum * sum)) / sum);
+  };
+  double truth = 0;
+  for (int i = 0; i < 200; ++i) {
+    const double y = (i + 0.5) / 100 - 1, square = 25 + 0.96 * 0.96 + y * y;
+    truth += 0.8 * 25 / (kPi * square * square) * 0.08 / 100;
+  }
+  const auto [aimed, noise] = figures(spots);
+  EXPECT_NEAR(aimed / truth, 1, 0.04);
+  EXPECT_LT(noise, 0.6 * figures(none).second);
 }
 
 TEST(BrightSpots, ASingleHitIsChance) {
