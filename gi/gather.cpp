@@ -262,10 +262,13 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
   if (!settings.occlusion) record.limit = reachUnderSheet(samples, point.pixelSize, hemisphere.upright());
   if (settings.curvature) {
     const IrradianceCurvature curvature = curvatureOf(samples);
-    std::copy_n(curvature.gradient, 3, record.translationGradient);
+    record.tangent = samples.tangent;
+    record.hessian[0] = curvature.xx, record.hessian[1] = curvature.xy, record.hessian[2] = curvature.yy;
     // What is near bends light faster the nearer one comes, so that the curvature of the record's own place holds half way at best.
-    record.smoothRadius = settings.occlusion ? std::min(variationRadius(curvature, settings.occlusion->maxVariation), 0.5f * record.closest)
-                                             : hessianRadius(curvature, luminance(record.E), point.pixelSize, kHessianTolerance);
+    if (settings.occlusion)
+      record.smoothRadius = std::min(variationRadius(curvature, settings.occlusion->maxVariation), 0.5f * record.closest);
+    else
+      record.smoothRadius = 1 / (1 / hessianRadius(curvature, luminance(record.E), point.pixelSize, kHessianTolerance) + 1 / record.closest);
   }
   return record;
 }

@@ -9,7 +9,6 @@ using dvec3 = glm::dvec3;
 
 /// The integrals over a segment r(t), t in [0, 1], that the derivatives of its term take.
 struct EdgeIntegrals {
-  double i2;      ///< Of 1 / |r|^2.
   dvec3 r4;       ///< Of r / |r|^4.
   double i4;      ///< Of 1 / |r|^4.
   double hh, hd, dd;  ///< Of r r^T / |r|^6, in the axes foot, along.
@@ -36,7 +35,6 @@ bool integrate(const dvec3& r1, const dvec3& d, EdgeIntegrals& out) {
   const double c3s = 0.25 * (c1 * c1 * c1 * c1 - c2 * c2 * c2 * c2);             // of cos^3 sin
   const double over = 1 / (length * h);
   out.foot = foot / h, out.along = along;
-  out.i2 = over * angle;
   out.r4 = over / h * (cc * out.foot + 0.5 * ss * along);
   out.i4 = over / h2 * cc;
   out.hh = over / h2 * cccc, out.hd = over / h2 * c3s, out.dd = over / h2 * (cc - cccc);
@@ -109,24 +107,17 @@ class Mesh {
     if (!integrate(r1, d, i)) return;
     const double area = dot(n_, cross(r1, d));
     const dvec3 nd = cross(n_, d);  // n . (d x a) = a . (n x d)
-    double g[2], turn[2], slope[2];
-    for (int a = 0; a < 2; ++a) {
-      turn[a] = dot(nd, axes_[a]);
-      slope[a] = 2 * dot(i.r4, axes_[a]);
-      g[a] = turn[a] * i.i2 + area * slope[a];
-    }
+    double turn[2], slope[2];
+    for (int a = 0; a < 2; ++a) turn[a] = dot(nd, axes_[a]), slope[a] = 2 * dot(i.r4, axes_[a]);
     const auto second = [&](int a, int b) {
       const double fa = dot(i.foot, axes_[a]), fb = dot(i.foot, axes_[b]), la = dot(i.along, axes_[a]), lb = dot(i.along, axes_[b]);
       const double rr = fa * fb * i.hh + (fa * lb + la * fb) * i.hd + la * lb * i.dd;
       return turn[a] * slope[b] + turn[b] * slope[a] + area * (8 * rr - (a == b ? 2 * i.i4 : 0.0));
     };
-    const double scale = 1 / (2 * static_cast<double>(kPi));
-    const vec3 gradient = static_cast<float>(scale * g[0]) * s_.tangent + static_cast<float>(scale * g[1]) * s_.bitangent;
-    for (int c = 0; c < 3; ++c) out_.gradient[c] += step[c] * gradient;
-    const double light = scale * static_cast<double>(luminance(step));
-    out_.xx += static_cast<float>(light * second(0, 0));
-    out_.xy += static_cast<float>(light * second(0, 1));
-    out_.yy += static_cast<float>(light * second(1, 1));
+    constexpr double kScale = 1 / (2 * static_cast<double>(kPi));
+    out_.xx += static_cast<float>(kScale * second(0, 0)) * step;
+    out_.xy += static_cast<float>(kScale * second(0, 1)) * step;
+    out_.yy += static_cast<float>(kScale * second(1, 1)) * step;
   }
 
   const HemisphereSamples& s_;
@@ -145,9 +136,10 @@ IrradianceCurvature curvatureOf(const HemisphereSamples& samples) { return Mesh(
 
 namespace {
 
-/// Magnitudes of the eigenvalues.
+/// Magnitudes of the eigenvalues, of the luminance.
 vec2 bendsOf(const IrradianceCurvature& h) {
-  const float mean = 0.5f * (h.xx + h.yy), half = std::sqrt(0.25f * (h.xx - h.yy) * (h.xx - h.yy) + h.xy * h.xy);
+  const float xx = luminance(h.xx), xy = luminance(h.xy), yy = luminance(h.yy);
+  const float mean = 0.5f * (xx + yy), half = std::sqrt(0.25f * (xx - yy) * (xx - yy) + xy * xy);
   return {std::abs(mean + half), std::abs(mean - half)};
 }
 

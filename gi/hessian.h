@@ -1,16 +1,16 @@
 // Private to gi: how irradiance changes as a point moves in its tangent plane, to the second order, with occlusion.
 // Schwarzhaupt, Jensen, Jarosz 2012, "Practical Hessian-Based Error Control for Irradiance Caching": what neighbouring rays hit is joined
 // by triangles, of the radiance of their farthest corner (a nearer surface ends at its own hit, and what lies behind appears). The
-// irradiance of such a mesh is a sum over its edges, and so are its derivatives.
+// irradiance of such a mesh is a sum over its edges, and so are its derivatives. What appears behind an edge is taken to be of one radiance: where
+// the edge of something far passes behind that of something near, the mixed derivative is up to a half too small, however many rays there are.
 #pragma once
 #include "gi/hemisphere.h"
 
 namespace tomales {
 
-/// Derivatives of E/pi along the tangent and the bitangent of the samples.
+/// Second derivatives of E/pi, per channel, along the tangent and the bitangent of the samples.
 struct IrradianceCurvature {
-  vec3 gradient[3];              ///< Per channel, in the space of the record.
-  float xx = 0, xy = 0, yy = 0;  ///< Hessian of the luminance.
+  vec3 xx{0.0f}, xy{0.0f}, yy{0.0f};
 };
 
 IrradianceCurvature curvatureOf(const HemisphereSamples& samples);

@@ -7,8 +7,8 @@ namespace tomales {
 // Found by the structures' namespace, so they cannot stand in the unnamed one. The structured bindings stop the compiler at a structure that has gained a field which its list lacks.
 template <class A>
 void fields(A& a, IrradianceRecord& x) {
-  auto& [position, normal, E, rotation, translation, dominant, harmonicMean, closest, smoothRadius, noise, limit, pixelSize, relief] = x;
-  each(a, position, normal, E, rotation, translation, dominant, harmonicMean, closest, smoothRadius, noise, limit, pixelSize, relief);
+  auto& [position, normal, E, rotation, translation, tangent, hessian, dominant, harmonicMean, closest, smoothRadius, noise, limit, pixelSize, relief] = x;
+  each(a, position, normal, E, rotation, translation, tangent, hessian, dominant, harmonicMean, closest, smoothRadius, noise, limit, pixelSize, relief);
 }
 
 template <class A>
@@ -197,6 +197,9 @@ class RecordMove {
       r.rotationGradient[c] = hand_ * turned(r.rotationGradient[c]);
       r.translationGradient[c] = turned(r.translationGradient[c]) / scale_;
     }
+    r.tangent = turned(r.tangent);
+    for (vec3& second : r.hessian) second /= scale_ * scale_;
+    r.hessian[1] *= hand_;
     for (float* length : {&r.harmonicMean, &r.closest, &r.smoothRadius, &r.limit, &r.pixelSize, &r.relief}) *length *= scale_;
   }
 

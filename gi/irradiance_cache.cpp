@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "gi/extrapolation.h"
 #include "gi/record_tree.h"
 #include "reyes/base/simd.h"
 
@@ -60,26 +61,6 @@ TOMALES_HOT void findSlack(const Vicinity& v, const vec3& p, const vec3& n, cons
     const float radius = std::min(reach.scale * std::max(std::min(size[i], reach.most), reach.least), limit[i]);
     const float near = radius * radius - (dx * dx + dy * dy + dz * dz);
     slack[i] = std::min(near, n.x * nx[i] + n.y * ny[i] + n.z * nz[i] - reach.cosine);
-  }
-}
-
-vec3 extrapolate(const IrradianceRecord& r, const vec3& x, const vec3& n) {
-  const vec3 turn = cross(r.normal, n), step = x - r.position;
-  vec3 E;
-  for (int c = 0; c < 3; ++c)
-    E[c] = std::max(0.0f, r.E[c] + dot(turn, r.rotationGradient[c]) + dot(step, r.translationGradient[c]));
-  return E;
-}
-
-// A gradient holds near the record alone; over the validity radius it may at most double or extinguish E.
-void limitTranslation(IrradianceRecord& r, float radius) {
-  for (int c = 0; c < 3; ++c) {
-    vec3& gradient = r.translationGradient[c];
-    const float change = glm::length(gradient) * radius;
-    if (!(change < kInfinity))
-      gradient = vec3(0.0f);
-    else if (change > r.E[c])
-      gradient *= r.E[c] / change;
   }
 }
 
@@ -235,6 +216,14 @@ struct IrradianceCache::Impl {
     }
   }
 
+  vec3 secondOrder(const std::vector<Candidate>& candidates, const vec3& x, const vec3& n, float weight) const {
+    MeanExtrapolation mean(x, n);
+    for (const Candidate& c : candidates) mean.add(records[c.record], c.weight / weight);
+    vec3 out = -0.5f * mean.covariance();
+    for (const Candidate& c : candidates) out += 0.5f * c.weight / weight * bentBy(records[c.record], mean.step());
+    return out;
+  }
+
   IrradianceEstimate blend(const std::vector<Candidate>& candidates, const vec3& x, const vec3& n, float pixelSize) const {
     IrradianceEstimate out{vec3(0.0f), {vec3(0.0f), vec3(0.0f), vec3(0.0f)}};
     float nearest = kInfinity;
@@ -251,6 +240,7 @@ struct IrradianceCache::Impl {
       out.weight += candidate.weight;
     }
     if (out.weight > 0) out.E /= out.weight;
+    if (settings.errorFunction == ErrorFunction::Hessian) out.E = glm::max(out.E + secondOrder(candidates, x, n, out.weight), vec3(0.0f));
     out.disputed = limitBy(worst, nearest, pixelSize) <= nearest;
     for (vec3& d : out.dominant) d = normalizeOr(d, n);
     return out;
@@ -269,7 +259,7 @@ void IrradianceCache::insert(const IrradianceRecord& record) {
   impl.records.push_back(record);
   impl.luminanceSum += luminance(record.E);
   if (!(impl.settings.kappa < kInfinity)) return;
-  limitTranslation(impl.records.back(), impl.reach(impl.size(record), record.pixelSize));
+  limitDerivatives(impl.records.back(), impl.reach(impl.size(record), record.pixelSize));
   impl.settleDisputes(static_cast<uint32_t>(impl.records.size() - 1));
   impl.insert(static_cast<uint32_t>(impl.records.size() - 1));
 }

@@ -18,6 +18,8 @@ struct IrradianceRecord {
   vec3 E;                          ///< E/pi per channel
   vec3 rotationGradient[3];        ///< per channel; E(n) ~ E + dot(cross(ni, n), gradient) (Ward and Heckbert 1992)
   vec3 translationGradient[3];     ///< per channel; E(x) ~ E + dot(x - xi, gradient)
+  vec3 tangent;                    ///< and cross(normal, tangent), along which
+  vec3 hessian[3];                 ///< E has these second derivatives: xx, xy, yy (ErrorFunction::Hessian alone)
   vec3 dominant[3];                ///< unit; for red, green, blue (eq. 7)
   float harmonicMean;              ///< of distances to what the rays hit; Ward's R
   float closest;                   ///< least of them; the paper's R_i

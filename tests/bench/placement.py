@@ -1,5 +1,5 @@
 """Error functions of the irradiance cache at equal numbers of records (docs/gi.md): indirect light alone against a gather at every point.
-    placement.py TOMALES [--scenes box_ball contact grazing] [--size 128] [--samples 1600] [--truth 3000] [--crop X0,X1,Y0,Y1] [--keep FOLDER]
+    placement.py TOMALES [--scenes flush_box spot_room box_ball contact grazing] [--size 128] [--samples 1600] [--truth 3000] [--crop X0,X1,Y0,Y1] [--keep FOLDER]
 Corners: pixels that are open to less than 97 % within 0.12 units. `screen` has the records it asks for at maxerror 1, the others as many."""
 import argparse
 import json
@@ -14,11 +14,12 @@ sys.path.insert(0, str(TESTS / "image"))
 from pictures import pixels  # noqa: E402
 
 NEAR, OPEN = 0.12, 0.97
+FOLDERS = (TESTS / "bench" / "placement", TESTS / "stability" / "irradiance_cache")
 FUNCTIONS = ("screen", "ward", "hessian")
 
 parser = argparse.ArgumentParser()
 parser.add_argument("tomales")
-parser.add_argument("--scenes", nargs="+", default=["box_ball", "contact", "grazing"])
+parser.add_argument("--scenes", nargs="+", default=["flush_box", "spot_room", "box_ball", "contact", "grazing"])
 parser.add_argument("--functions", nargs="+", default=FUNCTIONS)
 parser.add_argument("--size", type=int, default=128)
 parser.add_argument("--samples", type=int, default=1600)
@@ -61,7 +62,7 @@ def corners_of(scene, folder):
     open_scene = folder / f"{scene.stem}_open.rib"
     light = f'LightSource "occlusionlight" "open" "float samples" [256] "float maxdist" [{NEAR}] "float maxvariation" [0]'
     plain = "\n".join(line for line in (text[:begin] + light + text[text.index("\n", begin):]).splitlines() if "AreaLightSource" not in line
-                      and "Illuminate" not in line and "Color" not in line)
+                      and "spotlight" not in line and "Illuminate" not in line and "Color" not in line)
     open_scene.write_text(plain)
     picture = folder / f"{scene.stem}_open.exr"
     render(open_scene, picture)
@@ -102,4 +103,4 @@ with tempfile.TemporaryDirectory() as name:
     folder = options.keep or pathlib.Path(name)
     folder.mkdir(parents=True, exist_ok=True)
     for name in options.scenes:
-        report(TESTS / "stability" / "irradiance_cache" / f"{name}.rib", folder)
+        report(next(f / f"{name}.rib" for f in FOLDERS if (f / f"{name}.rib").exists()), folder)

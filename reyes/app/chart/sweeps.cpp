@@ -31,7 +31,7 @@ ChartCurve gatherCurve(const std::string& name, const Arguments& method, double 
 }
 
 /// As many records as `screen` at maxerror 1 are made at these (docs/gi.md, the mean of three rooms).
-constexpr double kWard = 1.4, kHessian = 0.63;
+constexpr double kWard = 1.4, kHessian = 1;
 ChartCurve errorFunctionCurve(const std::string& name, double coarser) {
   return gatherCurve("gather, " + name, {"--gi", "gather", "--error-function", name}, coarser);
 }

@@ -317,6 +317,48 @@ TEST(IrradianceCache, TheHessianReachesAsFarAsLightIsSmoothButNotPastWhatItSees)
   EXPECT_NEAR(weightOfOne(hessian, r, {0.05f, 0, 0}, kUp, 0.01f), 0.5f, 1e-5f);
 }
 
+TEST(IrradianceCache, AQuadraticFieldIsReproducedByRecordsThatKnowTheirSecondDerivatives) {
+  const auto field = [](const vec3& p) { return 2 + 0.3f * p.x + 0.8f * p.x * p.x - 0.6f * p.x * p.y + 0.4f * p.y * p.y; };
+  IrradianceCache cache(kBox, {ErrorFunction::Hessian, 1, 40});
+  for (uint32_t i = 0; i < 200; ++i) {
+    const vec3 p = randomIn(i, 4) * vec3(1, 1, 0);
+    auto record = recordAt(p, vec3(field(p)), 1, 0.01f);
+    for (vec3& g : record.translationGradient) g = {0.3f + 1.6f * p.x - 0.6f * p.y, 0.8f * p.y - 0.6f * p.x, 0};
+    record.smoothRadius = 0.3f, record.tangent = normalizeOr(vec3(1, 2, 0), vec3(0));
+    // Of 0.8 xx - 0.6 xy + 0.4 yy, along (1, 2) and (-2, 1).
+    record.hessian[0] = vec3(0.48f), record.hessian[1] = vec3(0.04f), record.hessian[2] = vec3(1.92f);
+    cache.insert(record);
+  }
+  for (uint32_t i = 0; i < 100; ++i) {
+    const vec3 x = randomIn(i, 5) * vec3(1, 1, 0);
+    ASSERT_GT(cache.lookup(x, kUp, 0.01f).weight, 0);
+    EXPECT_NEAR(cache.lookup(x, kUp, 0.01f).E.y, field(x), 1e-4f);
+  }
+}
+
+TEST(IrradianceCache, AmongRecordsOnAllSidesGradientsAloneSayHowLightBends) {
+  IrradianceCache cache(kBox, {ErrorFunction::Hessian, 1, 40});
+  for (const vec3& p : {vec3(0.1f, 0, 0), vec3(-0.1f, 0, 0)}) {
+    auto record = recordAt(p, vec3(1 + 4 * p.x * p.x));
+    for (vec3& g : record.translationGradient) g = {8 * p.x, 0, 0};
+    record.smoothRadius = 0.3f;
+    cache.insert(record);
+  }
+  EXPECT_NEAR(cache.lookup(vec3(0), kUp, 0.01f).E.x, 1, 1e-5f);
+}
+
+TEST(IrradianceCache, NoSecondDerivativeMakesLightNegativeOrMoreThanDoublesIt) {
+  for (const float bend : {-1e6f, 1e6f, kInfinity}) {
+    auto record = recordAt(vec3(0), vec3(1));
+    record.smoothRadius = 0.3f, record.tangent = {1, 0, 0}, record.hessian[0] = vec3(bend);
+    IrradianceCache cache(kBox, {ErrorFunction::Hessian, 1, 40});
+    cache.insert(record);
+    const float E = cache.lookup({0.25f, 0, 0}, kUp, 0.01f).E.x;
+    EXPECT_GE(E, 0);
+    EXPECT_LE(E, 2);
+  }
+}
+
 TEST(IrradianceCache, TheSplitSphereAsPublishedKnowsNoPixelsAndNoDisputes) {
   const CacheSettings split{ErrorFunction::Split, 4, kInfinity};
   IrradianceRecord far = recordAt(vec3(0), vec3(1), 9), near = recordAt(vec3(0), vec3(1), 0.01f);

@@ -1,0 +1,65 @@
+// Private to gi/irradiance_cache: what records say of E/pi at other places.
+#pragma once
+#include "gi/irradiance_cache.h"
+
+namespace tomales {
+
+inline vec3 extrapolate(const IrradianceRecord& r, const vec3& x, const vec3& n) {
+  const vec3 turn = cross(r.normal, n), step = x - r.position;
+  vec3 E;
+  for (int c = 0; c < 3; ++c)
+    E[c] = std::max(0.0f, r.E[c] + dot(turn, r.rotationGradient[c]) + dot(step, r.translationGradient[c]));
+  return E;
+}
+
+/// step H step of each channel.
+inline vec3 bentBy(const IrradianceRecord& r, const vec3& step) {
+  const float a = dot(step, r.tangent), b = dot(step, cross(r.normal, r.tangent));
+  return a * a * r.hessian[0] + 2 * a * b * r.hessian[1] + b * b * r.hessian[2];
+}
+
+/// Of records that are all extrapolated to one place, weights of sum 1. From a step s away, by the gradient there, E is off by -s H s / 2; and
+/// gradients so far away differ by H s. So the mean over the records is off by half the covariance of gradient and step, which takes no second
+/// derivative, and by the mean step's -s H s / 2, which is little where records lie on all sides.
+class MeanExtrapolation {
+ public:
+  MeanExtrapolation(const vec3& x, const vec3& n) : x_(x), n_(n) {}
+
+  void add(const IrradianceRecord& r, float weight) {
+    const vec3 turn = cross(r.normal, n_), step = x_ - r.position;
+    step_ += weight * step, turn_ += weight * turn;
+    for (int c = 0; c < 3; ++c) {
+      translation_[c] += weight * r.translationGradient[c], rotation_[c] += weight * r.rotationGradient[c];
+      change_[c] += weight * (dot(turn, r.rotationGradient[c]) + dot(step, r.translationGradient[c]));
+    }
+  }
+  const vec3& step() const { return step_; }
+  vec3 covariance() const {
+    vec3 out = change_;
+    for (int c = 0; c < 3; ++c) out[c] -= dot(turn_, rotation_[c]) + dot(step_, translation_[c]);
+    return out;
+  }
+
+ private:
+  const vec3 x_, n_;
+  vec3 step_{0.0f}, turn_{0.0f}, change_{0.0f};
+  vec3 translation_[3] = {vec3(0), vec3(0), vec3(0)}, rotation_[3] = {vec3(0), vec3(0), vec3(0)};
+};
+
+/// Derivatives hold near the record alone: over its validity radius each may at most double or extinguish E.
+inline void limitDerivatives(IrradianceRecord& r, float radius) {
+  for (int c = 0; c < 3; ++c) {
+    vec3& gradient = r.translationGradient[c];
+    const float change = glm::length(gradient) * radius;
+    if (!(change < kInfinity))
+      gradient = vec3(0.0f);
+    else if (change > r.E[c])
+      gradient *= r.E[c] / change;
+    const float xx = r.hessian[0][c], xy = r.hessian[1][c], yy = r.hessian[2][c];
+    const float bend = 0.5f * radius * radius * std::sqrt(xx * xx + 2 * xy * xy + yy * yy);
+    if (!(bend <= r.E[c]))
+      for (vec3& second : r.hessian) second[c] = bend < kInfinity ? second[c] * r.E[c] / bend : 0.0f;
+  }
+}
+
+}  // namespace tomales
