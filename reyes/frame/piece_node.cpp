@@ -153,9 +153,12 @@ std::shared_ptr<const RasterGrid> PieceNode::makeGrid(const PieceStack& stack) {
 }
 
 std::shared_ptr<Pool> PieceNode::makePool(const PieceStack& stack) const {
-  // A vertex takes a dozen floats without motion and primitive variables, and a grid about as much as this without vertices.
-  constexpr size_t kVertex_bytes = 48, kGrid_bytes = 768;
-  const size_t bytes = kGrid_bytes + kVertex_bytes * static_cast<size_t>(padded(static_cast<int>(stack.pieces.size()) * (stack.nu + 1) * (stack.nv + 1)));
+  // A vertex takes a dozen floats without motion and primitive variables, each further key six and a box and a third, and a grid about as much as
+  // this without vertices.
+  constexpr size_t kVertex_bytes = 48, kKey_bytes = 72, kGrid_bytes = 768;
+  const size_t keys = context_.scene.objects[static_cast<size_t>(stack.object)].keyTimes.size();
+  const auto vertices = static_cast<size_t>(padded(static_cast<int>(stack.pieces.size()) * (stack.nu + 1) * (stack.nv + 1)));
+  const size_t bytes = kGrid_bytes + (kVertex_bytes + kKey_bytes * (keys - 1)) * vertices;
   return {new Pool(bytes), [&live = context_.liveGrids_bytes](const Pool* pool) {
             live -= static_cast<int64_t>(pool->bytes());
             delete pool;

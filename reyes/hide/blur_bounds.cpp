@@ -1,7 +1,5 @@
 #include "reyes/hide/blur_bounds.h"
 
-#include <array>
-
 #include "reyes/base/check.h"
 
 namespace tomales {
@@ -10,25 +8,82 @@ namespace {
 constexpr float kMargin_px = 1.0f / 64;
 constexpr float kRounding = 0x1p-20f;  ///< Of the largest coordinate: some units in the last place.
 
-/// Raster x, y and depth key: least and greatest at the two keys of a segment.
-struct Extent {
-  vec3 lo[2]{vec3(kInfinity), vec3(kInfinity)}, hi[2]{vec3(-kInfinity), vec3(-kInfinity)};
+/// For a level, a row after the other, each with one box more than there are: of raster x, y and depth key the least and the greatest at the two keys
+/// of a segment.
+struct Extents {
+  int columns, rows;
+  std::vector<float> lo[2][3], hi[2][3];
 
-  void extend(int key, const vec3& p) { lo[key] = glm::min(lo[key], p), hi[key] = glm::max(hi[key], p); }
-  void extend(const Extent& e) {
-    for (int key = 0; key < 2; ++key) lo[key] = glm::min(lo[key], e.lo[key]), hi[key] = glm::max(hi[key], e.hi[key]);
+  int pitch() const { return columns + 1; }
+  int count() const { return pitch() * rows; }
+  void resize(int c, int r) {
+    columns = c, rows = r;
+    for (int key = 0; key < 2; ++key)
+      for (int axis = 0; axis < 3; ++axis)
+        for (auto* values : {&lo[key][axis], &hi[key][axis]}) values->resize(static_cast<size_t>(count()) + 1);
   }
 };
 
-BlurBox boxOf(const Extent& e, const vec2& lens) {
-  const vec3 center[2] = {0.5f * (e.lo[0] + e.hi[0]), 0.5f * (e.lo[1] + e.hi[1])};
-  // Linear motion keeps every vertex within the box whose sides move linearly; the larger half size serves all times.
-  const vec3 reach = glm::max(e.hi[0] - center[0], e.hi[1] - center[1]);
-  const vec3 most = glm::max(glm::max(glm::abs(e.lo[0]), glm::abs(e.hi[0])), glm::max(glm::abs(e.lo[1]), glm::abs(e.hi[1])));
-  const vec2 margin = kMargin_px + kRounding * (vec2(most) + glm::abs(lens) * most.z);
-  const vec2 wide = vec2(reach) + glm::abs(lens) * reach.z + margin;
-  const vec3 step = center[1] - center[0];
-  return {center[0].x, center[0].y, center[0].z, step.x, step.y, step.z, wide.x, wide.y, std::min(e.lo[0].z, e.lo[1].z)};
+float least(float a, float b) { return b < a ? b : a; }
+float greatest(float a, float b) { return b > a ? b : a; }
+
+/// Of the cells of a lattice; the last of a row, which begins no cell, has any.
+TOMALES_HOT void extendCells(const float* v, int row, int count, float* __restrict lo, float* __restrict hi) {
+  const float *b = v + 1, *c = v + row, *d = c + 1;
+  for (int i = 0; i < count; ++i) {
+    lo[i] = least(least(v[i], b[i]), least(c[i], d[i]));
+    hi[i] = greatest(greatest(v[i], b[i]), greatest(c[i], d[i]));
+  }
+}
+
+/// Two boxes of two rows each; odd ends are looked at twice.
+template <class Extreme>
+void halve(const Extents& from, std::vector<float>& values, const Extreme& extreme, float* out) {
+  const int columns = from.columns, pitch = from.pitch();
+  for (int j = 0; j < from.rows; j += 2, out += (columns + 1) / 2 + 1) {
+    float *a = values.data() + j * pitch, *b = values.data() + std::min(j + 1, from.rows - 1) * pitch;
+    a[columns] = a[columns - 1], b[columns] = b[columns - 1];
+    for (int i = 0; i < (columns + 1) / 2; ++i) out[i] = extreme(extreme(a[2 * i], a[2 * i + 1]), extreme(b[2 * i], b[2 * i + 1]));
+  }
+}
+
+void halve(Extents& from, Extents& to) {
+  to.resize((from.columns + 1) / 2, (from.rows + 1) / 2);
+  for (int key = 0; key < 2; ++key)
+    for (int axis = 0; axis < 3; ++axis)
+      halve(from, from.lo[key][axis], least, to.lo[key][axis].data()), halve(from, from.hi[key][axis], greatest, to.hi[key][axis].data());
+}
+
+/// Linear motion keeps every vertex within the box whose sides move linearly; the larger half size serves all times.
+struct Motions {
+  std::vector<float> center, step, reach, most;
+
+  void set(const Extents& e, int axis) {
+    for (auto* values : {&center, &step, &reach, &most}) values->resize(static_cast<size_t>(e.count()));
+    set(e.count(), e.lo[0][axis].data(), e.hi[0][axis].data(), e.lo[1][axis].data(), e.hi[1][axis].data(), center.data(), step.data(), reach.data(), most.data());
+  }
+
+ private:
+  TOMALES_HOT static void set(int count, const float* lo0, const float* hi0, const float* lo1, const float* hi1, float* __restrict center, float* __restrict step,
+                              float* __restrict reach, float* __restrict most) {
+    for (int i = 0; i < count; ++i) {
+      const float c0 = 0.5f * (lo0[i] + hi0[i]), c1 = 0.5f * (lo1[i] + hi1[i]);
+      center[i] = c0, step[i] = c1 - c0, reach[i] = greatest(hi0[i] - c0, hi1[i] - c1);
+      most[i] = greatest(greatest(std::abs(lo0[i]), std::abs(hi0[i])), greatest(std::abs(lo1[i]), std::abs(hi1[i])));
+    }
+  }
+};
+
+void appendBoxes(const Extents& e, const vec2& lens, PooledVector<BlurBox>& out) {
+  static thread_local Motions x, y, d;
+  x.set(e, 0), y.set(e, 1), d.set(e, 2);
+  const vec2 blur = glm::abs(lens);
+  for (int j = 0; j < e.rows; ++j)
+    for (size_t i = static_cast<size_t>(j * e.pitch()), end = i + static_cast<size_t>(e.columns); i < end; ++i) {
+      const float xMargin = kMargin_px + kRounding * (x.most[i] + blur.x * d.most[i]), yMargin = kMargin_px + kRounding * (y.most[i] + blur.y * d.most[i]);
+      out.push_back({x.center[i], y.center[i], d.center[i], x.step[i], y.step[i], d.step[i], x.reach[i] + blur.x * d.reach[i] + xMargin,
+                     y.reach[i] + blur.y * d.reach[i] + yMargin, least(e.lo[0][2][i], e.lo[1][2][i])});
+    }
 }
 
 std::vector<BlurBounds::Level> levelsOf(const Grid& g) {
@@ -42,33 +97,32 @@ std::vector<BlurBounds::Level> levelsOf(const Grid& g) {
 
 }  // namespace
 
-std::shared_ptr<const BlurBounds> boundBlur(const RasterGrid& r, const Camera& camera) {
+std::shared_ptr<const BlurBounds> boundBlur(const RasterGrid& r, const Camera& camera, Pool* pool) {
   const Grid& g = *r.grid;
   CHECK_EQ(g.pieceCount(), 1);
-  const int row = g.nu + 1, segments = std::max(1, g.keyCount - 1);
+  const int segments = std::max(1, g.keyCount - 1), row = g.nu + 1;
   auto bounds = std::make_shared<BlurBounds>();
   bounds->levels = levelsOf(g);
   bounds->boxesPerSegment = bounds->levels.back().first + 1;
+  bounds->boxes = PooledVector<BlurBox>(pool);
   bounds->boxes.reserve(bounds->boxesPerSegment * static_cast<size_t>(segments));
-  std::vector<Extent> extents;
+  static thread_local Extents fine, coarse;
   for (int segment = 0; segment < segments; ++segment) {
-    extents.assign(bounds->boxesPerSegment, {});
-    for (int cell = 0; cell < g.cellCount(); ++cell) {
-      const int a = cell / g.nu * row + cell % g.nu;
-      for (int k = 0; k < 2; ++k)
-        for (const int corner : {a, a + 1, a + row, a + row + 1}) {
-          const size_t v = static_cast<size_t>(std::min(segment + k, g.keyCount - 1) * g.stride() + corner);
-          extents[static_cast<size_t>(cell)].extend(k, {r.x[v], r.y[v], r.d[v]});
-        }
+    fine.resize(g.nu, g.nv);
+    for (int k = 0; k < 2; ++k) {
+      const ptrdiff_t first = ptrdiff_t{std::min(segment + k, g.keyCount - 1)} * g.stride();
+      int axis = 0;
+      for (const float* v : {r.x.data(), r.y.data(), r.d.data()}) {
+        extendCells(v + first, row, fine.count() - 1, fine.lo[k][axis].data(), fine.hi[k][axis].data());
+        ++axis;
+      }
     }
+    appendBoxes(fine, camera.lens(), bounds->boxes);
     for (size_t l = 1; l < bounds->levels.size(); ++l) {
-      const BlurBounds::Level &fine = bounds->levels[l - 1], &coarse = bounds->levels[l];
-      for (int j = 0; j < fine.rows; ++j)
-        for (int i = 0; i < fine.columns; ++i)
-          extents[coarse.first + static_cast<size_t>(j / 2 * coarse.columns + i / 2)].extend(
-              extents[fine.first + static_cast<size_t>(j * fine.columns + i)]);
+      halve(fine, coarse);
+      std::swap(fine, coarse);
+      appendBoxes(fine, camera.lens(), bounds->boxes);
     }
-    for (const Extent& e : extents) bounds->boxes.push_back(boxOf(e, camera.lens()));
   }
   return bounds;
 }

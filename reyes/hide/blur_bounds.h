@@ -22,13 +22,14 @@ struct BlurBounds {
   };
   std::vector<Level> levels;   ///< levels[0]: one micropolygon a box; the last: one box.
   size_t boxesPerSegment = 0;
-  std::vector<BlurBox> boxes;  ///< A segment lies between two motion keys; a still grid has one.
+  PooledVector<BlurBox> boxes;  ///< A segment lies between two motion keys; a still grid has one.
 
   const BlurBox& box(int segment, const Level& level, int i, int j) const {
     return boxes[static_cast<size_t>(segment) * boxesPerSegment + level.first + static_cast<size_t>(j * level.columns + i)];
   }
 };
 
-std::shared_ptr<const BlurBounds> boundBlur(const RasterGrid& raster, const Camera& camera);
+/// pool: where they are kept; may be null.
+std::shared_ptr<const BlurBounds> boundBlur(const RasterGrid& raster, const Camera& camera, Pool* pool);
 
 }  // namespace tomales

@@ -257,7 +257,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
   if (r->inSolid && zMin < kInfinity) r->dMin = std::min(r->dMin, camera.leastDepthKey(zMin));
   r->trimReach_px = std::min(r->trimReach_px, borderReach_px(0));
   CHECK_EQ(pieces > 1 && (g.keyCount > 1 || camera.defocuses() || r->inSolid), false);
-  if (g.keyCount > 1 || r->defocused) r->blur = boundBlur(*r, camera);
+  if (g.keyCount > 1 || r->defocused) r->blur = boundBlur(*r, camera, pool.get());
   return r;
 }
 

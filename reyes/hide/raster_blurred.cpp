@@ -83,7 +83,7 @@ HWY_INLINE void sieve(const Box<B>& box, const SampleList& from, SampleList& to)
   for (size_t i = 0; i < from.count; i += width) {
     const SampleVector s = loadSamples<B>(from, i);
     const Mask in = hn::And(box.holds(s), hn::FirstN(kF, from.count - i));
-    if (!hn::AllFalse(kF, in)) keep<B>(s, hn::LoadU(kU, from.lane + i), in, to);
+    keep<B>(s, hn::LoadU(kU, from.lane + i), in, to);
   }
 }
 
