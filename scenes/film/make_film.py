@@ -104,6 +104,8 @@ Patch "bilinear" "P" [-9 -0.92 -5  9 -0.92 -5  -9 -0.92 14  9 -0.92 14]
 AttributeEnd
 {eyes}AttributeBegin
 Attribute "identifier" "name" ["toad"]
+Attribute "trace" "int displacements" [1] "float tessellation" [0.25]
+Attribute "irradiance" "float maxerror" [1.3]
 Surface "plastic" "Kd" [0.8] "Ks" [0.25] "roughness" [0.12]
 Displacement "noisybump" "float Km" [0.075] "float frequency" [5] "float octaves" [6]
 Attribute "displacementbound" "sphere" [0.08]
