@@ -216,11 +216,13 @@ struct IrradianceCache::Impl {
     }
   }
 
+  // What extrapolating each record by its own gradient leaves out of their mean.
   vec3 secondOrder(const std::vector<Candidate>& candidates, const vec3& x, const vec3& n, float weight) const {
     MeanExtrapolation mean(x, n);
     for (const Candidate& c : candidates) mean.add(records[c.record], c.weight / weight);
     vec3 out = -0.5f * mean.covariance();
-    for (const Candidate& c : candidates) out += 0.5f * c.weight / weight * bentBy(records[c.record], mean.step());
+    if (settings.errorFunction == ErrorFunction::Hessian)
+      for (const Candidate& c : candidates) out += 0.5f * c.weight / weight * bentBy(records[c.record], mean.step());
     return out;
   }
 
@@ -240,7 +242,7 @@ struct IrradianceCache::Impl {
       out.weight += candidate.weight;
     }
     if (out.weight > 0) out.E /= out.weight;
-    if (settings.errorFunction == ErrorFunction::Hessian) out.E = glm::max(out.E + secondOrder(candidates, x, n, out.weight), vec3(0.0f));
+    if (settings.errorFunction != ErrorFunction::Split) out.E = glm::max(out.E + secondOrder(candidates, x, n, out.weight), vec3(0.0f));
     out.disputed = limitBy(worst, nearest, pixelSize) <= nearest;
     for (vec3& d : out.dominant) d = normalizeOr(d, n);
     return out;

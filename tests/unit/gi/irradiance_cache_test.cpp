@@ -337,14 +337,16 @@ TEST(IrradianceCache, AQuadraticFieldIsReproducedByRecordsThatKnowTheirSecondDer
 }
 
 TEST(IrradianceCache, AmongRecordsOnAllSidesGradientsAloneSayHowLightBends) {
-  IrradianceCache cache(kBox, {ErrorFunction::Hessian, 1, 40});
-  for (const vec3& p : {vec3(0.1f, 0, 0), vec3(-0.1f, 0, 0)}) {
-    auto record = recordAt(p, vec3(1 + 4 * p.x * p.x));
-    for (vec3& g : record.translationGradient) g = {8 * p.x, 0, 0};
-    record.smoothRadius = 0.3f;
-    cache.insert(record);
+  for (const ErrorFunction function : {ErrorFunction::Screen, ErrorFunction::Ward, ErrorFunction::Hessian}) {
+    IrradianceCache cache(kBox, {function, 1, 40});
+    for (const vec3& p : {vec3(0.1f, 0, 0), vec3(-0.1f, 0, 0)}) {
+      auto record = recordAt(p, vec3(1 + 4 * p.x * p.x));
+      for (vec3& g : record.translationGradient) g = {8 * p.x, 0, 0};
+      record.smoothRadius = 0.3f;
+      cache.insert(record);
+    }
+    EXPECT_NEAR(cache.lookup(vec3(0), kUp, 0.01f).E.x, 1, 1e-5f);
   }
-  EXPECT_NEAR(cache.lookup(vec3(0), kUp, 0.01f).E.x, 1, 1e-5f);
 }
 
 TEST(IrradianceCache, NoSecondDerivativeMakesLightNegativeOrMoreThanDoublesIt) {
