@@ -60,12 +60,13 @@ struct Motions {
 
   void set(const Extents& e, int axis) {
     for (auto* values : {&center, &step, &reach, &most}) values->resize(static_cast<size_t>(e.count()));
-    set(e.count(), e.lo[0][axis].data(), e.hi[0][axis].data(), e.lo[1][axis].data(), e.hi[1][axis].data(), center.data(), step.data(), reach.data(), most.data());
+    set(e.count(), e.lo[0][axis].data(), e.hi[0][axis].data(), e.lo[1][axis].data(), e.hi[1][axis].data(), center.data(), step.data(), reach.data(),
+        most.data());
   }
 
  private:
-  TOMALES_HOT static void set(int count, const float* lo0, const float* hi0, const float* lo1, const float* hi1, float* __restrict center, float* __restrict step,
-                              float* __restrict reach, float* __restrict most) {
+  TOMALES_HOT static void set(int count, const float* lo0, const float* hi0, const float* lo1, const float* hi1, float* __restrict center,
+                              float* __restrict step, float* __restrict reach, float* __restrict most) {
     for (int i = 0; i < count; ++i) {
       const float c0 = 0.5f * (lo0[i] + hi0[i]), c1 = 0.5f * (lo1[i] + hi1[i]);
       center[i] = c0, step[i] = c1 - c0, reach[i] = greatest(hi0[i] - c0, hi1[i] - c1);

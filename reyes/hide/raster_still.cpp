@@ -109,13 +109,15 @@ HWY_INLINE bool fitLattice(const Corners& q, uint64_t cells, const SampleBuffer&
   return samples.fitsLattice() && (large & cells) == 0;
 }
 
-/// Which pixels are to be asked about which of some cells: those where not everything is nearer.
-size_t listAsks(SampleBuffer& out, const Corners& q, uint64_t cells) {
-  size_t count = 0;
+/// Which pixels are to be asked about which of some cells: those where not everything is nearer. Takes cells, as many as make a list that is long
+/// enough.
+size_t listAsks(SampleBuffer& out, const Corners& q, uint64_t& cells) {
+  constexpr size_t kLong = 1024;
   const size_t width = static_cast<size_t>(out.rect.width());
   const float* far = out.far.data();
-  for (uint64_t left = cells; left; left &= left - 1) {
-    const int i = std::countr_zero(left);
+  size_t count = 0;
+  for (; cells && count < kLong; cells &= cells - 1) {
+    const int i = std::countr_zero(cells);
     const size_t columns = static_cast<size_t>(q.x1[i] - q.x0[i]), rows = static_cast<size_t>(q.y1[i] - q.y0[i]);
     if (out.asks.size() < count + columns * rows) out.asks.resize(2 * (count + columns * rows));
     Ask* asks = out.asks.data();
@@ -129,14 +131,10 @@ size_t listAsks(SampleBuffer& out, const Corners& q, uint64_t cells) {
   return count;
 }
 
-/// One list for many cells: which of few pixels a small cell covers is no branch that could be foreseen.
 template <class Edges>
-void claimCells(const RasterJob& job, const Corners& q, uint64_t cells) {
+HWY_INLINE void ask(const RasterJob& job, const Corners& q, const Triangles<Edges>& triangles, size_t count) {
   SampleBuffer& out = job.out;
-  const size_t count = listAsks(out, q, cells), lanes = static_cast<size_t>(out.lanes);
-  if (count == 0) return;
-  Triangles<Edges> triangles;
-  triangles.set(q, job.raster.facing);
+  const size_t lanes = static_cast<size_t>(out.lanes);
   const Ask* asks = out.asks.data();
   const bool whole = keepsAll(job);
   for (size_t k = 0; k < count; ++k) {
@@ -147,6 +145,20 @@ void claimCells(const RasterJob& job, const Corners& q, uint64_t cells) {
     const uint32_t cell = job.firstCell + static_cast<uint32_t>(q.cell[i]);
     for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) claim(job, quad, pixel * lanes + g, cell, kept);
     out.nearer[pixel] = 1;
+  }
+}
+
+/// One list for many cells: which of few pixels a small cell covers is no branch that could be foreseen (docs/decisions/0098).
+template <class Edges>
+void claimCells(const RasterJob& job, const Corners& q, uint64_t cells) {
+  size_t count = listAsks(job.out, q, cells);
+  if (count == 0 && cells == 0) return;
+  Triangles<Edges> triangles;
+  triangles.set(q, job.raster.facing);
+  ask(job, q, triangles, count);
+  while (cells) {
+    count = listAsks(job.out, q, cells);
+    ask(job, q, triangles, count);
   }
 }
 

@@ -182,6 +182,25 @@ TEST(Resolve, EveryFragmentOfAPixelIsNearestFirstAndHasItsOwnSamples) {
     }
 }
 
+/// Every sample of a frame that one grid of nu x nv cells fills, of which each is seen.
+void expectWhole(const SamplePattern& pattern, const PixelRect& rect, int nu, int nv) {
+  World w;
+  w.add();
+  w.freeze();
+  const auto x0 = static_cast<float>(rect.x0), y0 = static_cast<float>(rect.y0), x1 = static_cast<float>(rect.x1), y1 = static_cast<float>(rect.y1);
+  const Surface slope = [=](float u, float v, int) { return at(lerp(x0, x1, u), lerp(y0, y1, v), 5 - u - 0.1f * v); };
+  const DeepTile t = hide(w, pattern, rect, {raster(w, makeGrid(0, 1, nu, nv, slope))});
+  EXPECT_EQ(t.facets.size(), static_cast<size_t>(nu * nv));
+  forSamples(pattern, rect, [&](int x, int y, int s, const vec2&, float) { ASSERT_EQ(hits(t, x, y, s), 1) << x << "," << y; });
+  for (const DeepPixel& p : t.pixels)
+    for (uint32_t k = 1; k < p.count; ++k) ASSERT_LE(begin(t, p)[k - 1].z, begin(t, p)[k].z);
+}
+
+// More pixels than are listed at once.
+TEST(Resolve, SixteenLargeCellsOfOneBucketAreAllSeen) { expectWhole(SamplePattern(4, 4, true, 1), {0, 0, 64, 64}, 4, 4); }
+
+TEST(Resolve, MoreCellsOfAPixelThanAVectorHoldsAreAllSeen) { expectWhole(SamplePattern(8, 8, false, 1), {3, 5, 4, 6}, 8, 8); }
+
 TEST(Resolve, MoreThanSixtyFourSamplesTakeSeveralWords) {
   World w;
   w.add();
