@@ -16,6 +16,7 @@ struct Sheet {
   FilmExtent extent;
   uint32_t film;
   int object;          ///< Film::object
+  float depth = 0;     ///< Of what is there of that object: how far a cell's depth keys lie apart.
   uint64_t twice = 0;  ///< Samples that a neighbour shows.
   bool operator<(const Sheet& o) const { return extent.nearest < o.extent.nearest; }
 };
@@ -179,19 +180,20 @@ class TileBuilder {
       return std::popcount(f.samples) < std::min(64, samples_.sampleCount() - 64 * static_cast<int>(f.word % films.wordsOfPixel()));
     };
     // Neighbours have a slope. Films that fill a pixel show it; a few samples show nothing.
-    const auto depthOf = [&](const Sheet& s) {
-      return ends(films.film(s.film)) ? depthOfCell(films, grids_, s.film) : s.extent.farthest - s.extent.nearest;
-    };
-    const auto mayShare = [&](const Sheet& a, const Sheet& b) {
-      if ((films.film(a.film).samples & films.film(b.film).samples) == 0) return false;
-      return b.extent.nearest <= a.extent.farthest + 2 * (depthOf(a) + depthOf(b)) + kRounding * std::abs(a.extent.farthest);
-    };
+    float most = 0;
+    for (Sheet& s : sheets) {
+      if (s.object < 0) continue;
+      s.depth = ends(films.film(s.film)) ? depthOfCell(films, grids_, s.film) : s.extent.farthest - s.extent.nearest;
+      most = std::max(most, s.depth);
+    }
+    const auto reachOf = [](const Sheet& a, float other) { return a.extent.farthest + 2 * (a.depth + other) + kRounding * std::abs(a.extent.farthest); };
     for (size_t i = 0; i < sheets.size(); ++i) {
       Sheet& a = sheets[i];
       if (a.object < 0) continue;
-      for (size_t k = i + 1; k < sheets.size(); ++k) {
+      const float reach = reachOf(a, most);
+      for (size_t k = i + 1; k < sheets.size() && sheets[k].extent.nearest <= reach; ++k) {
         Sheet& b = sheets[k];
-        if (b.object != a.object || !mayShare(a, b)) continue;
+        if (b.object != a.object || b.extent.nearest > reachOf(a, b.depth) || (films.film(a.film).samples & films.film(b.film).samples) == 0) continue;
         const ShownTwice twice = shownTwice(samples_, grids_, camera_, a.film, b.film);
         a.twice |= twice.first, b.twice |= twice.second;
       }
