@@ -12,6 +12,7 @@ namespace tomales {
 /// What cells of one grid cover of up to 64 samples of a pixel, each sample once: mostly all that a surface shows there.
 struct Film {
   uint32_t word;     ///< Bit s of `samples` is lane 64 * (word % Films::wordsOfPixel()) + s of pixel word / wordsOfPixel().
+  int object;        ///< Whose neighbouring pieces may show the same (reyes/hide/reach.h); -1: none does.
   uint64_t samples;
 };
 
@@ -43,8 +44,8 @@ class Films {
   uint32_t* cells(size_t film) { return cells_.data() + film * width_; }
   const uint32_t* cells(size_t film) const { return cells_.data() + film * width_; }
 
-  /// Films of the next grid have no cells of those before.
-  void beginGrid() { firstOfGrid_ = count_; }
+  /// Films of the next grid have no cells of those before. object: Film::object
+  void beginGrid(int object = -1) { firstOfGrid_ = count_, object_ = object; }
   /// For as many more. take() has none of it: a call there would put all vectors of its caller's loops aside.
   void makeRoom(size_t more) {
     const size_t films = count_ + more;
@@ -61,7 +62,7 @@ class Films {
       list_[last].samples |= samples;
       return last;
     }
-    list_[count_] = {word, samples};
+    list_[count_] = {word, object_, samples};
     return last = count_++;
   }
 
@@ -114,6 +115,7 @@ class Films {
   UnsetVector<uint32_t> cells_;
   std::vector<uint32_t> last_;  ///< Film of a word, kNone: there is none yet.
   uint32_t count_ = 0, firstOfGrid_ = 0;
+  int object_ = -1;
   uint64_t open_ = 0;
   uint32_t openWord_ = 0, openCell_ = 0;
   float openDepths_[64];

@@ -21,6 +21,13 @@ std::vector<float> shutterTimes(const Scene& scene, const Grid& grid) {
   return times;
 }
 
+/// Film::object of what a grid covers.
+int joinedObject(const RasterGrid& raster) {
+  const std::vector<Grid::Piece>& pieces = raster.grid->pieces;
+  const bool ends = std::all_of(pieces.begin(), pieces.end(), [](const Grid::Piece& p) { return p.openEdges == kAllEdges; });
+  return ends || raster.blur || raster.inSolid ? -1 : raster.grid->object;
+}
+
 /// Contests whose winner is still seen.
 void countSamePlaces(SampleBuffer& samples, const GridTable& grids, int samplesPerPixel, HideDoubts& doubts) {
   constexpr int kShare = 4;
@@ -78,7 +85,7 @@ void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
   if (hidden(*raster)) return;
   impl_->dropUnseen();
   const GridTable::Entry& entry = impl_->grids.add(raster, shutterTimes(impl_->scene, *raster->grid));
-  s.films.beginGrid(), s.crossings.beginGrid();
+  s.films.beginGrid(joinedObject(*raster)), s.crossings.beginGrid();
   const RasterJob job{*raster, impl_->grids, entry.firstCell, entry.keyTimes, impl_->camera, s};
   if (raster->blur) {
     s.showBlur();

@@ -58,17 +58,15 @@ float depthOfCell(const Films& films, const GridTable& grids, size_t film) {
   return extentOf(*entry.raster, firstVertex(entry.grid(), static_cast<int>(cell - entry.firstCell)));
 }
 
-uint64_t shownTwice(const SampleBuffer& samples, const GridTable& grids, const Camera& camera, size_t film, size_t other) {
+ShownTwice shownTwice(const SampleBuffer& samples, const GridTable& grids, const Camera& camera, size_t film, size_t other) {
   const Films& films = samples.films;
   const uint64_t common = films.film(film).samples & films.film(other).samples;
-  if (common == 0 || films.film(film).word != films.film(other).word) return 0;
+  ShownTwice out;
+  if (common == 0 || films.film(film).word != films.film(other).word) return out;
   const uint32_t *cells = films.cells(film), *otherCells = films.cells(other);
   const GridTable::Entry &entry = grids.of(cells[std::countr_zero(common)]), &otherEntry = grids.of(otherCells[std::countr_zero(common)]);
-  if (entry.grid().object != otherEntry.grid().object || entry.raster->blur || otherEntry.raster->blur || entry.raster->inSolid)
-    return 0;
   const size_t words = films.wordsOfPixel(), word = films.film(film).word;
   const size_t first = word / words * static_cast<size_t>(samples.lanes) + 64 * (word % words);
-  uint64_t out = 0;
   for (uint64_t left = common; left; left &= left - 1) {
     const auto s = static_cast<size_t>(std::countr_zero(left));
     const BorderCell mine(entry, camera, cells[s]), theirs(otherEntry, camera, otherCells[s]);
@@ -76,11 +74,12 @@ uint64_t shownTwice(const SampleBuffer& samples, const GridTable& grids, const C
     const float d = films.depths(film)[s], otherD = films.depths(other)[s];
     if (std::abs(d - otherD) > mine.extent() + theirs.extent() + kRounding * std::abs(d)) continue;
     const vec2 at(samples.x[first + s], samples.y[first + s]);
-    if (!mine.reachesTo(at)) continue;
+    const bool reaches = mine.reachesTo(at), otherReaches = theirs.reachesTo(at);
     // Where both reach, the nearer stays.
     const bool nearer = d < otherD || (d == otherD && grids.precedes(cells[s], otherCells[s]));
-    if (nearer && theirs.reachesTo(at)) continue;
-    out |= left & (~left + 1);
+    const uint64_t sample = left & (~left + 1);
+    if (reaches && !(otherReaches && nearer)) out.first |= sample;
+    if (otherReaches && !(reaches && !nearer)) out.second |= sample;
   }
   return out;
 }

@@ -6,9 +6,12 @@ namespace tomales {
 
 /// How far the depth keys of one of a film's cells lie apart.
 float depthOfCell(const Films& films, const GridTable& grids, size_t film);
-/// Samples of a film that its cells cover by reaching beyond a border alone, where another film of the same surface is there as well. It depends on
-/// what the samples see of the two, not on how cells came to share films. Of films that move or are out of focus: none; nor of solids, which
-/// count a crossing once.
-uint64_t shownTwice(const SampleBuffer& samples, const GridTable& grids, const Camera& camera, size_t film, size_t other);
+/// Samples of two films that their cells cover by reaching beyond a border alone, where the other film is there as well.
+struct ShownTwice {
+  uint64_t first = 0, second = 0;
+};
+/// It depends on what the samples see of the two, not on how cells came to share films. Pre: Film::object of both is the same. Films that move or
+/// are out of focus have none; nor have those of solids, which count a crossing once.
+ShownTwice shownTwice(const SampleBuffer& samples, const GridTable& grids, const Camera& camera, size_t film, size_t other);
 
 }  // namespace tomales

@@ -15,6 +15,8 @@ namespace {
 struct Sheet {
   FilmExtent extent;
   uint32_t film;
+  int object;          ///< Film::object
+  float depth = 0;     ///< Of what is there of that object: how far a cell's depth keys lie apart.
   uint64_t twice = 0;  ///< Samples that a neighbour shows.
   bool operator<(const Sheet& o) const { return extent.nearest < o.extent.nearest; }
 };
@@ -101,9 +103,17 @@ class TileBuilder {
 
   /// Most pixels: a few opaque surfaces. False, and nothing done, if there are more.
   bool addRanked(size_t pixel) {
-    OpaqueSight seen[kMostRanked];
-    const int count = rankOpaque(samples_, pixel, seen);
-    for (int i = 0; i < count; ++i) addFragment(pixel, seen[i].cell, seen[i].d, seen[i].samples, 0);
+    RankedSight seen[kMostRanked];
+    return addRanked(pixel, seen, rankOpaque(samples_, pixel, seen), 0);
+  }
+  /// Most films: no other comes near.
+  bool addRanked(size_t pixel, uint32_t film) {
+    RankedSight seen[kMostRanked];
+    const Films& films = samples_.films;
+    return addRanked(pixel, seen, rankFilm(films, film, seen), static_cast<uint32_t>(films.film(film).word % films.wordsOfPixel()));
+  }
+  bool addRanked(size_t pixel, const RankedSight* seen, int count, uint32_t word) {
+    for (int i = 0; i < count; ++i) addFragment(pixel, seen[i].cell, seen[i].d, seen[i].samples, word);
     return count >= 0;
   }
 
@@ -119,6 +129,11 @@ class TileBuilder {
     findSheets(pixel);
     const std::vector<Sheet>& sheets = scratch_.sheets;
     for (size_t i = 0, end = 0; i < sheets.size(); i = end) {
+      const bool alone = sheets[i].film != Films::kNone && (i + 1 == sheets.size() || sheets[i + 1].extent.nearest > sheets[i].extent.farthest);
+      if (alone && addRanked(pixel, sheets[i].film)) {
+        end = i + 1;
+        continue;
+      }
       sights_.clear();
       float far = -kInfinity;
       for (; end < sheets.size() && (end == i || sheets[end].extent.nearest <= far); ++end) {
@@ -142,7 +157,7 @@ class TileBuilder {
     collectOpaque(samples_, pixel, opaque);
     if (!opaque.empty()) {
       const auto nearest = std::min_element(opaque.begin(), opaque.end(), [](const Sight& a, const Sight& b) { return a.d < b.d; });
-      sheets.push_back({{nearest->d, kInfinity}, Films::kNone});
+      sheets.push_back({{nearest->d, kInfinity}, Films::kNone, -1});
     }
     const std::vector<uint32_t>& order = scratch_.filmsOfPixel;
     Films& films = samples_.films;
@@ -151,7 +166,7 @@ class TileBuilder {
       const uint32_t next = order[std::min(size_t{k} + kAhead, order.size() - 1)];
       __builtin_prefetch(films.depths(next)), __builtin_prefetch(films.cells(next)), __builtin_prefetch(&films.film(next));
       const FilmExtent extent = cullFilm(samples_, grids_, order[k]);
-      if (films.film(order[k]).samples) sheets.push_back({extent, order[k]});
+      if (films.film(order[k]).samples) sheets.push_back({extent, order[k], films.film(order[k]).object});
     }
     std::sort(sheets.begin(), sheets.end());
     dropTwice();
@@ -161,22 +176,26 @@ class TileBuilder {
   void dropTwice() {
     std::vector<Sheet>& sheets = scratch_.sheets;
     Films& films = samples_.films;
-    const auto compare = [&](Sheet& a, const Sheet& b) { a.twice |= shownTwice(samples_, grids_, camera_, a.film, b.film); };
-    // Neighbours have a slope, of which a few samples show nothing.
+    const auto ends = [&](const Film& f) {
+      return std::popcount(f.samples) < std::min(64, samples_.sampleCount() - 64 * static_cast<int>(f.word % films.wordsOfPixel()));
+    };
+    // Neighbours have a slope. Films that fill a pixel show it; a few samples show nothing.
     float most = 0;
-    bool any = false;
-    const auto lanesOf = [&](const Film& f) { return std::min(64, samples_.sampleCount() - 64 * static_cast<int>(f.word % films.wordsOfPixel())); };
-    for (const Sheet& s : sheets)
-      if (s.film != Films::kNone && std::popcount(films.film(s.film).samples) < lanesOf(films.film(s.film)))
-        any = true, most = std::max(most, depthOfCell(films, grids_, s.film));
-    if (!any) return;  // Where a border is seen, some film ends.
+    for (Sheet& s : sheets) {
+      if (s.object < 0) continue;
+      s.depth = ends(films.film(s.film)) ? depthOfCell(films, grids_, s.film) : s.extent.farthest - s.extent.nearest;
+      most = std::max(most, s.depth);
+    }
+    const auto reachOf = [](const Sheet& a, float other) { return a.extent.farthest + 2 * (a.depth + other) + kRounding * std::abs(a.extent.farthest); };
     for (size_t i = 0; i < sheets.size(); ++i) {
       Sheet& a = sheets[i];
-      const float reach = a.extent.farthest + 2 * most + kRounding * std::abs(a.extent.farthest);
-      for (size_t k = i + 1; a.film != Films::kNone && k < sheets.size() && sheets[k].extent.nearest <= reach; ++k) {
+      if (a.object < 0) continue;
+      const float reach = reachOf(a, most);
+      for (size_t k = i + 1; k < sheets.size() && sheets[k].extent.nearest <= reach; ++k) {
         Sheet& b = sheets[k];
-        if (b.film == Films::kNone || (films.film(a.film).samples & films.film(b.film).samples) == 0) continue;
-        compare(a, b), compare(b, a);
+        if (b.object != a.object || b.extent.nearest > reachOf(a, b.depth) || (films.film(a.film).samples & films.film(b.film).samples) == 0) continue;
+        const ShownTwice twice = shownTwice(samples_, grids_, camera_, a.film, b.film);
+        a.twice |= twice.first, b.twice |= twice.second;
       }
     }
     for (const Sheet& sheet : sheets)

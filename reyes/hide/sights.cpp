@@ -48,22 +48,16 @@ void opaque(const SampleBuffer& samples, size_t pixel, std::vector<Sight>& sight
   }
 }
 
-/// Ranks without a branch that depends on depths: how many are nearer.
-int rank(const SampleBuffer& samples, size_t pixel, OpaqueSight* out) {
-  const size_t lanes = static_cast<size_t>(samples.lanes), most = std::min<size_t>(hn::Lanes(kF), kMostRanked);
-  if (lanes > 64) return -1;
-  const uint32_t* cells = samples.cell.data() + pixel * lanes;
-  const float* depths = samples.depth.data() + pixel * lanes;
+/// Ranks the cells of some lanes without a branch that depends on depths: how many are nearer.
+HWY_INLINE int rank(const uint32_t* cells, const float* depths, size_t lanes, uint64_t left, RankedSight* out) {
+  const size_t most = std::min<size_t>(hn::Lanes(kF), kMostRanked);
   const auto numbers = hn::Iota(kU, 0);
-  OpaqueSight found[kMostRanked];
+  RankedSight found[kMostRanked];
   Floats all_d = all(kInfinity);
   uint32_t count = 0;
-  float unused;
-  uint64_t left = ~lanesOf(cells, depths, lanes, kNoCell, unused);
-  if (lanes < 64) left &= (uint64_t{1} << lanes) - 1;
   for (; left; ++count) {
     if (count == most) return -1;
-    OpaqueSight& s = found[count];
+    RankedSight& s = found[count];
     s.cell = cells[std::countr_zero(left)];
     s.samples = lanesOf(cells, depths, lanes, s.cell, s.d);
     all_d = hn::IfThenElse(hn::RebindMask(kF, hn::Eq(numbers, hn::Set(kU, count))), all(s.d), all_d);
@@ -76,6 +70,21 @@ int rank(const SampleBuffer& samples, size_t pixel, OpaqueSight* out) {
     taken |= uint64_t{1} << nearer;
   }
   return taken == (uint64_t{1} << count) - 1 ? static_cast<int>(count) : -1;
+}
+
+int opaqueRanked(const SampleBuffer& samples, size_t pixel, RankedSight* out) {
+  const size_t lanes = static_cast<size_t>(samples.lanes);
+  if (lanes > 64) return -1;
+  const uint32_t* cells = samples.cell.data() + pixel * lanes;
+  const float* depths = samples.depth.data() + pixel * lanes;
+  float unused;
+  uint64_t left = ~lanesOf(cells, depths, lanes, kNoCell, unused);
+  if (lanes < 64) left &= (uint64_t{1} << lanes) - 1;
+  return rank(cells, depths, lanes, left, out);
+}
+
+int filmRanked(const Films& films, size_t film, RankedSight* out) {
+  return rank(films.cells(film), films.depths(film), films.width(), films.film(film).samples, out);
 }
 
 FilmExtent cull(SampleBuffer& samples, const GridTable& grids, size_t index) {
@@ -122,13 +131,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tomales {
 HWY_EXPORT(opaque);
-HWY_EXPORT(rank);
+HWY_EXPORT(opaqueRanked);
+HWY_EXPORT(filmRanked);
 HWY_EXPORT(cull);
 HWY_EXPORT(ofFilm);
 void collectOpaque(const SampleBuffer& samples, size_t pixel, std::vector<Sight>& sights) {
   HWY_DYNAMIC_DISPATCH(opaque)(samples, pixel, sights);
 }
-int rankOpaque(const SampleBuffer& samples, size_t pixel, OpaqueSight* out) { return HWY_DYNAMIC_DISPATCH(rank)(samples, pixel, out); }
+int rankOpaque(const SampleBuffer& samples, size_t pixel, RankedSight* out) { return HWY_DYNAMIC_DISPATCH(opaqueRanked)(samples, pixel, out); }
+int rankFilm(const Films& films, size_t film, RankedSight* out) { return HWY_DYNAMIC_DISPATCH(filmRanked)(films, film, out); }
 FilmExtent cullFilm(SampleBuffer& samples, const GridTable& grids, size_t film) { return HWY_DYNAMIC_DISPATCH(cull)(samples, grids, film); }
 void collectFilm(const Films& films, size_t film, float farthest, std::vector<Sight>& sights) {
   HWY_DYNAMIC_DISPATCH(ofFilm)(films, film, farthest, sights);
