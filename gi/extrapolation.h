@@ -1,6 +1,6 @@
 // Private to gi/irradiance_cache: what records say of E/pi at other places.
 #pragma once
-#include "gi/irradiance_cache.h"
+#include "gi/irradiance_record.h"
 
 namespace tomales {
 
