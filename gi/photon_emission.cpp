@@ -10,9 +10,8 @@
 namespace tomales {
 namespace {
 
-constexpr int kRows = 64, kColumns = 128;  ///< Cells of equal solid angle on the sphere of directions.
-constexpr int kProbes = 4;                 ///< In each cell
-constexpr int kGrid = 128;                 ///< Cells along the side of a distant light's square
+constexpr int kProbes = 4;  ///< In each cell of a cone
+constexpr int kGrid = 128;  ///< Cells along the side of a distant light's square
 constexpr uint32_t kSecondPair = 0x70686f74U;
 /// Share of the brightest cell that cells where no probe saw light get: a beam between the probes is not
 /// lost.
@@ -90,68 +89,29 @@ void PhotonSource::surveyPoint() {
   for (const vec3& place : askedFromMiddle(fewSamples()).L)
     spread = std::max(spread, kSampledMargin * glm::distance(place, middle_));
   isDrawn_ = spread > 0;
-  aimAt(radius_ + spread);
+  cone_ = PhotonCone(center_, middle_, radius_ + spread);
   LightProbe probe;
-  for (size_t c = 0; c < kRows * kColumns; ++c)
-    for (int k = 0; k < kProbes; ++k) askAlong(inCone(c, probePlace(k)), vec3(0), probe);
+  for (size_t c = 0; c < PhotonCone::kCells; ++c)
+    for (int k = 0; k < kProbes; ++k) askAlong(cone_.local(c, probePlace(k)), vec3(0), probe);
   shading_.probe(light_, probe);
   std::vector<double> weights;
-  for (size_t c = 0; c < kRows * kColumns; ++c) {
+  for (size_t c = 0; c < PhotonCone::kCells; ++c) {
     double sum = 0;
     for (size_t k = 0; k < kProbes; ++k) sum += double{luminance(intensity(probe, c * kProbes + k))};
     weights.push_back(sum / kProbes);
-    power_ += sum / kProbes * double{kPi} * cellSolidAngle();
+    power_ += sum / kProbes * double{kPi} * cone_.cellSolidAngle();
   }
   if (power_ > 0) cells_ = withFloor(weights);
 }
 
-/// From outside a sphere around the scene only the cone to it counts, however far away the light is.
-void PhotonSource::aimAt(float radius) {
-  const float distance = glm::length(middle_);
-  if (distance <= radius) return;
-  const vec3 axis = -middle_ / distance;
-  vec3 tangent, bitangent;
-  orthonormalBasis(axis, tangent, bitangent);
-  const double sine = double{radius} / double{distance};
-  cone_ = {mat3(tangent, bitangent, axis), static_cast<float>(sine * sine / (1 + std::sqrt(1 - sine * sine))),
-           distance, std::max(0.0f, distance - kOutside * radius)};
-}
-
-/// A direction by its place in the frame of the cone, but for its height, of which it is what is missing from
-/// 1: narrow cones keep their precision.
-vec3 PhotonSource::inCone(size_t cell, vec2 at) const {
-  const auto row = static_cast<float>(cell / kColumns), column = static_cast<float>(cell % kColumns);
-  const float missing = cone_.height * (row + at.y) / kRows, phi = 2 * kPi * (column + at.x) / kColumns;
-  const float r = std::sqrt(std::max(0.0f, missing * (2 - missing)));
-  return {r * std::cos(phi), r * std::sin(phi), missing};
-}
-
-double PhotonSource::cellSolidAngle() const {
-  return 2 * double{kPi} * double{cone_.height} / (kRows * kColumns);
-}
-
-vec3 PhotonSource::directionOf(const vec3& inCone) const {
-  return cone_.frame * vec3(inCone.x, inCone.y, 1 - inCone.z);
-}
-
-/// So far from the light. Places far from it are known by their distance from the middle of the scene.
-vec3 PhotonSource::placeAlong(const vec3& inCone, float distance) const {
-  const vec3 from = cone_.distance > 0 ? vec3(0) : middle_;
-  return center_ + from +
-         cone_.frame * vec3(distance * inCone.x, distance * inCone.y,
-                            (distance - cone_.distance) - distance * inCone.z);
-}
-
-/// At the scene if the light is outside: what its distance does to it is its shader's affair.
-float PhotonSource::askingDistance() const { return cone_.distance > 0 ? cone_.distance : 1.0f; }
-
-void PhotonSource::askAlong(const vec3& inCone, const vec3& offset, LightProbe& probe) const {
-  probe.P.push_back(placeAlong(inCone, askingDistance()) + offset), probe.N.push_back(-directionOf(inCone));
+void PhotonSource::askAlong(const vec3& local, const vec3& offset, LightProbe& probe) const {
+  probe.P.push_back(cone_.place(local, cone_.askingDistance()) + offset),
+      probe.N.push_back(-cone_.direction(local));
 }
 
 /// I = E r^2 over pi.
 vec3 PhotonSource::intensity(const LightProbe& probe, size_t i) const {
-  return probe.Cl[i] * (askingDistance() * askingDistance());
+  return probe.Cl[i] * (cone_.askingDistance() * cone_.askingDistance());
 }
 
 void PhotonSource::surveyDistant(const PhotonTarget& target) {
@@ -227,12 +187,12 @@ void PhotonSource::emitFromPoint(const std::vector<vec2>& a, const std::vector<v
   for (size_t i = 0; i < out.size(); ++i) {
     double x{a[i].x};
     const size_t cell = cells_.pick(x);
-    const vec3 local = inCone(cell, {static_cast<float>(x), a[i].y}),
+    const vec3 local = cone_.local(cell, {static_cast<float>(x), a[i].y}),
                offset = isDrawn_ ? place.L[i] - middle_ : vec3(0);
     Ray& ray = out[i].ray;
-    ray = {placeAlong(local, cone_.start) + offset, directionOf(local)};
+    ray = {cone_.place(local, cone_.start()) + offset, cone_.direction(local)};
     ray.bias = kPointBias * (radius_ + glm::length(ray.origin));
-    density.push_back(cells_.weight(cell) / (cells_.total() * cellSolidAngle()));
+    density.push_back(cells_.weight(cell) / (cells_.total() * cone_.cellSolidAngle()));
     askAlong(local, offset, probe);
   }
   shading_.probe(light_, probe);

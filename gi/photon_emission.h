@@ -4,6 +4,7 @@
 #pragma once
 #include <span>
 
+#include "gi/photon_cone.h"
 #include "raytrace/trace.h"
 #include "reyes/base/distribution.h"
 
@@ -49,13 +50,7 @@ class PhotonSource {
   void surveyPoint();
   void surveyDistant(const PhotonTarget& target);
   void surveyArea();
-  void aimAt(float radius);
-  vec3 inCone(size_t cell, vec2 at) const;
-  double cellSolidAngle() const;
-  vec3 directionOf(const vec3& inCone) const;
-  vec3 placeAlong(const vec3& inCone, float distance) const;
-  float askingDistance() const;
-  void askAlong(const vec3& inCone, const vec3& offset, LightProbe& probe) const;
+  void askAlong(const vec3& local, const vec3& offset, LightProbe& probe) const;
   vec3 intensity(const LightProbe& probe, size_t i) const;
   /// At the middle of the scene; L of a distant light is unit.
   LightProbe askedFromMiddle(const std::vector<vec2>& xi) const;
@@ -76,13 +71,7 @@ class PhotonSource {
   Distribution cells_;    ///< Point: of the cone. Distant: of the square that
                           ///< the scene's shadow fits in.
   vec3 middle_{0.0f};     ///< Point: from the middle of the scene to that of the light.
-  struct Cone {
-    mat3 frame{1.0f};  ///< The third axis towards the scene.
-    float height = 2;  ///< 1 - the cosine of half its angle.
-    float distance =
-        0;  ///< Of the light from the middle of the scene. 0: it is within, and sends photons all around.
-    float start = 0;      ///< How far from the light its photons begin.
-  } cone_;                ///< Point: of directions.
+  PhotonCone cone_;       ///< Point: of directions.
   vec3 direction_{0.0f};  ///< Distant: of the middle of its light.
   vec3 center_{0.0f};     ///< Of the scene.
   float radius_ = 0;      ///< Likewise

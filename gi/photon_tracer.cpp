@@ -28,12 +28,6 @@ vec3 dielectric(const vec3& d, const vec3& towards, bool entering, float index, 
   return xi < 0.5f * (rs * rs + rp * rp) ? mirrored : eta * d + (eta * cosine - inside) * towards;
 }
 
-bool isDiffuse(PhotonModel model) { return model == PhotonModel::Matte || model == PhotonModel::Translucent; }
-
-vec3 shareOf(const vec3& given, const vec3& otherwise) {
-  return isFinite(given) ? glm::clamp(given, 0.0f, 1.0f) : otherwise;
-}
-
 }  // namespace
 
 bool isOnFor(const ShadeGroup& group, int light) {
@@ -45,22 +39,15 @@ PhotonTracer::PhotonTracer(const Scene& scene, const RayScene& rays, const Shadi
                            const PhotonSettings& settings, Log& log)
     : scene_(scene),
       rays_(rays),
-      shading_(shading),
+      surfaces_(rays, shading, settings.seed, log),
       settings_(settings),
       worldUnit_(std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))))) {
   for (const Object& o : scene.objects) groups_.push_back(o.group);
   for (const ShadeGroup& g : scene.groups) {
-    const std::string& name = g.attributes->photon.shadingModel;
-    const std::optional<PhotonModel> model = photonModel(name);
-    if (!model)
-      log.report(Severity::Warning, "photons-model-" + name, scene.where,
-                 "photon shadingmodel \"" + name + "\" is not known; matte is used");
-    models_.push_back(model.value_or(PhotonModel::Matte));
     media_.push_back({mediumOf(g.attributes->interior.get(), worldUnit_),
                       mediumOf(g.attributes->exterior.get(), worldUnit_)});
     anyMedium_ |= !media_.back().inside.empty() || !media_.back().outside.empty();
   }
-  askEvenSurfaces();
 }
 
 void PhotonTracer::trace(const PhotonSource& source, uint32_t first, size_t count, float share,
@@ -184,22 +171,6 @@ bool PhotonTracer::collides(Path& path, const Medium& medium, bool isLit, float 
   return true;
 }
 
-/// Surfaces that do the same with light everywhere, at any place of theirs; and those that are not asked.
-void PhotonTracer::askEvenSurfaces() {
-  even_.resize(scene_.groups.size());
-  for (size_t g = 0; g < even_.size(); ++g) {
-    if (!isDiffuse(models_[g])) {
-      even_[g] = Answer{};
-      continue;
-    }
-    if (!shading_.reflectsEvenly(static_cast<int>(g))) continue;
-    Hit hit;
-    hit.t = 1, hit.object = scene_.groups[g].exampleObject, hit.u = hit.v = 0.5f;
-    hit.normal = hit.geometricNormal = {0, 0, -1};
-    even_[g] = shaded({{vec3(0), vec3(0, 0, 1)}}, {hit}, {{}}).front();
-  }
-}
-
 /// The surface at every hit: one that is even, or its shader.
 void PhotonTracer::ask(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const {
   s.answers.resize(s.hits.size());
@@ -209,38 +180,14 @@ void PhotonTracer::ask(const std::vector<Path>& paths, uint32_t stream, Scratch&
   std::vector<size_t> which;
   for (size_t k = 0; k < s.hits.size(); ++k) {
     if (s.hits[k].object < 0) continue;
-    if (const auto& even = even_[static_cast<size_t>(groupOf(s.hits[k]))]) {
-      s.answers[k] = &*even;
-      continue;
-    }
+    if ((s.answers[k] = surfaces_.even(groupOf(s.hits[k])))) continue;
     const Path& path = paths[s.flying[k]];
     rays.push_back(path.ray), hits.push_back(s.hits[k]), which.push_back(k);
     names.push_back({hashCombine(stream, path.number, static_cast<uint32_t>(path.depth)), 0});
   }
   if (which.empty()) return;
-  s.found = shaded(rays, hits, names);
+  s.found = surfaces_.ask(rays, hits, names);
   for (size_t i = 0; i < which.size(); ++i) s.answers[which[i]] = &s.found[i];
-}
-
-/// Reflected is what comes back of E/pi = 1, less what is emitted.
-std::vector<PhotonTracer::Answer> PhotonTracer::shaded(const std::vector<Ray>& rays,
-                                                       const std::vector<Hit>& hits,
-                                                       const std::vector<SampleName>& names) const {
-  ShadeContext context{RayKind::Diffuse, 1, settings_.seed, 1, false};
-  context.light = Illumination::Unit;
-  HitAnswers lit;
-  lit.mode = HitMode::Shader;
-  rays_.shadeHits(rays, hits, names, shading_, context, lit);
-  if (std::any_of(hits.begin(), hits.end(), [&](const Hit& h) { return shading_.emits(groupOf(h)); })) {
-    context.light = Illumination::None;
-    std::vector<vec3> dark;
-    rays_.shadeHits(rays, hits, names, shading_, context, dark);
-    for (size_t i = 0; i < dark.size(); ++i) lit.color[i] -= dark[i];
-  }
-  std::vector<Answer> out(hits.size());
-  for (size_t i = 0; i < out.size(); ++i)
-    out[i] = {shareOf(lit.color[i], vec3(0)), shareOf(lit.opacity[i], vec3(1))};
-  return out;
 }
 
 /// Light that comes straight from a lamp, or by mirrors, is seen by what that lamp is switched on for.
@@ -256,11 +203,11 @@ uint32_t PhotonTracer::nameOf(const Path& path, uint32_t stream) {
 bool PhotonTracer::meets(Path& path, const Hit& hit, const Answer& answer, const Draw& xi, uint32_t stream,
                          std::vector<StoredPhoton>& out) const {
   const int group = groupOf(hit);
-  const PhotonModel model = models_[static_cast<size_t>(group)];
+  const PhotonModel model = surfaces_.model(group);
   const uint32_t name = nameOf(path, stream);
   if (model == PhotonModel::Transparent)
     return passes(path, hit, scene_.groups[static_cast<size_t>(group)].attributes->color, xi.survival);
-  if (!isDiffuse(model))
+  if (!surfaces_.isDiffuse(group))
     return isMirrored(path, hit, xi.survival, sobol1(path.number, hashCombine(name, 2u)));
   // What is not there, as the rest of a leaf's card, holds no light.
   const vec3 transmitted = 1.0f - answer.opacity;
@@ -288,8 +235,8 @@ bool PhotonTracer::isScattered(Path& path, const Hit& hit, const vec3& reflected
   path.specular = false;
   if (++path.depth >= settings_.maxDepth || !survives(path, reflected, xi.survival)) return false;
   // Around the interpolated normal some photons would go into the polygon, and be caught in what it bounds.
-  const bool through = models_[static_cast<size_t>(groupOf(hit))] == PhotonModel::Translucent &&
-                       sobol1(path.number, side) < 0.5f;
+  const bool through =
+      surfaces_.model(groupOf(hit)) == PhotonModel::Translucent && sobol1(path.number, side) < 0.5f;
   const vec3 axis = (dot(path.ray.direction, hit.geometricNormal) < 0) != through ? hit.geometricNormal
                                                                                   : -hit.geometricNormal;
   vec3 tangent, bitangent;
@@ -300,17 +247,16 @@ bool PhotonTracer::isScattered(Path& path, const Hit& hit, const vec3& reflected
 }
 
 bool PhotonTracer::isMirrored(Path& path, const Hit& hit, float survival, float xi) const {
-  const auto group = static_cast<size_t>(groupOf(hit));
-  if (++path.depth >= settings_.maxDepth || !survives(path, scene_.groups[group].attributes->color, survival))
-    return false;
+  const PhotonModel model = surfaces_.model(groupOf(hit));
+  const vec3& tint = scene_.groups[static_cast<size_t>(groupOf(hit))].attributes->color;
+  if (++path.depth >= settings_.maxDepth || !survives(path, tint, survival)) return false;
   const vec3 d = path.ray.direction;
   const bool front = dot(d, hit.geometricNormal) < 0;
   const vec3 N = front ? hit.normal : -hit.normal;
   const vec3 mirrored = d - 2 * dot(d, N) * N;
-  const float index = models_[group] == PhotonModel::Water ? 1.33f : 1.5f;
-  leave(
-      path, hit,
-      normalizeOr(models_[group] == PhotonModel::Chrome ? mirrored : dielectric(d, N, front, index, xi), N));
+  const float index = model == PhotonModel::Water ? 1.33f : 1.5f;
+  leave(path, hit,
+        normalizeOr(model == PhotonModel::Chrome ? mirrored : dielectric(d, N, front, index, xi), N));
   return true;
 }
 

@@ -4,7 +4,7 @@
 #pragma once
 #include "gi/medium.h"
 #include "gi/photon_emission.h"
-#include "gi/photons.h"
+#include "gi/photon_surfaces.h"
 
 namespace tomales {
 
@@ -33,11 +33,7 @@ class PhotonTracer {
     bool specular = true;     ///< So far it has met nothing diffuse.
     vec3 lift{0.0f};          ///< From the origin to just before the polygon that it leaves.
   };
-  /// What a surface does with light that falls on it.
-  struct Answer {
-    vec3 reflected{0.0f};  ///< Diffusely
-    vec3 opacity{1.0f};
-  };
+  using Answer = PhotonSurfaces::Answer;
   struct Draw {
     const vec3& direction;  ///< Of a cosine hemisphere around +z.
     float survival;
@@ -46,7 +42,7 @@ class PhotonTracer {
     std::vector<uint32_t> flying;        ///< Which paths do.
     std::vector<Hit> hits;               ///< Of each of those,
     std::vector<const Answer*> answers;  ///< and of the surface there.
-    std::vector<Answer> found;           ///< Those that are not even_.
+    std::vector<Answer> found;           ///< Those that are not even.
     std::vector<uint8_t> scattered;      ///< Before it was reached.
     std::vector<uint32_t> number, name;
     std::vector<vec2> xi;
@@ -57,7 +53,6 @@ class PhotonTracer {
     Medium inside, outside;
   };
 
-  void askEvenSurfaces();
   void step(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const;
   void fly(std::vector<Path>& paths, Scratch& s) const;
   Hit firstHit(Path& path) const;
@@ -68,8 +63,6 @@ class PhotonTracer {
   bool collides(Path& path, const Medium& medium, bool isLit, float flight, uint32_t name,
                 std::vector<StoredPhoton>& out) const;
   void ask(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const;
-  std::vector<Answer> shaded(const std::vector<Ray>& rays, const std::vector<Hit>& hits,
-                             const std::vector<SampleName>& names) const;
   bool landsOn(const Path& path, int group) const;
   bool meets(Path& path, const Hit& hit, const Answer& answer, const Draw& xi, uint32_t stream,
              std::vector<StoredPhoton>& out) const;
@@ -83,14 +76,12 @@ class PhotonTracer {
 
   const Scene& scene_;
   const RayScene& rays_;
-  const ShadingSystem& shading_;
+  const PhotonSurfaces surfaces_;
   const PhotonSettings& settings_;
   const float worldUnit_;     ///< Length of one of the world.
   std::vector<int> groups_;   ///< Of each object.
   std::vector<Media> media_;  ///< On both sides of the surfaces of each group.
   bool anyMedium_ = false;
-  std::vector<PhotonModel> models_;          ///< Of each group,
-  std::vector<std::optional<Answer>> even_;  ///< and what it does with light if that is the same everywhere.
 };
 
 }  // namespace tomales

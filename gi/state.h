@@ -119,6 +119,8 @@ void traceForShader(const GiState&, const ShadePoints&, const uint8_t* active, T
 /// Of a point that no record serves, or what rays answered there before, if `answers` has it.
 IndirectAnswer gatherOrRecall(const GiState&, const GatherPoint&, const GatherSettings&, RayAnswers* answers);
 
+/// The normal that a shader asks with, of unit length; facing if it has none.
+vec3 unitNormal(const ShadePoints& points, TmConstVec3 N, int i);
 /// E and dominant directions into element i of a result.
 void store(const IndirectResult& out, int i, const vec3& E, const vec3 dominant[3]);
 

@@ -14,6 +14,12 @@ struct Reach {
   Floats depth, before;  ///< Depth keys of the cell, and of what was nearest.
 };
 
+/// What trim curves and clipping leave of some samples.
+inline Mask keptOfMask(const RasterJob& job, uint32_t cell, size_t lane, Mask samples) {
+  const uint64_t left = keptLanes(job, cell, lane, bitsOf(samples));
+  return hn::LoadMaskBits(kF, reinterpret_cast<const uint8_t*>(&left));
+}
+
 template <class Shape>
 HWY_INLINE Reach reachOf(const RasterJob& job, const Shape& shape, size_t lane, uint32_t cell, Kept kept) {
   const SampleBuffer& out = job.out;
@@ -25,30 +31,30 @@ HWY_INLINE Reach reachOf(const RasterJob& job, const Shape& shape, size_t lane, 
   // A solid is decided by all of it; padding still covers nothing.
   const Mask reaches = job.raster.inSolid ? hn::Gt(r.before, all(-kInfinity)) : hn::Le(r.depth, r.before);
   r.mask = hn::And(in.mask, reaches);
-  if (HWY_UNLIKELY(kept == Kept::Part) && !hn::AllFalse(kF, r.mask)) {
-    const uint64_t left = keptLanes(job, cell, lane, bitsOf(r.mask));
-    r.mask = hn::LoadMaskBits(kF, reinterpret_cast<const uint8_t*>(&left));
-  }
+  if (HWY_UNLIKELY(kept == Kept::Part)) r.mask = keptOfMask(job, cell, lane, r.mask);
   return r;
 }
 
-/// Gives the samples from `lane` on to an opaque cell that covers them nearer than what they had.
+/// Gives the samples from `lane` on to an opaque cell that covers them nearer than what they had. Without a branch for those that it does not
+/// cover, which nobody could foresee.
 template <class Shape>
-HWY_INLINE bool claim(const RasterJob& job, const Shape& shape, size_t lane, uint32_t cell, Kept kept) {
+HWY_INLINE void claim(const RasterJob& job, const Shape& shape, size_t lane, uint32_t cell, Kept kept) {
   SampleBuffer& out = job.out;
-  const Reach r = reachOf(job, shape, lane, cell, kept);
-  if (hn::AllFalse(kF, r.mask)) return false;
-  const Mask tight = hn::And(r.mask, hn::Lt(hn::Sub(r.before, r.depth), all(shape.vague())));
+  const auto in = shape.covers(out, lane);
+  const Floats depth = shape.depth(hn::Load(kF, out.x.data() + lane), hn::Load(kF, out.y.data() + lane), in);
+  const Floats before = hn::Load(kF, out.depth.data() + lane);
+  Mask reached = hn::And(in.mask, hn::Le(depth, before));
+  if (HWY_UNLIKELY(kept == Kept::Part)) reached = keptOfMask(job, cell, lane, reached);
+  const Mask tight = hn::And(reached, hn::Lt(hn::Sub(before, depth), all(shape.vague())));
   if (HWY_UNLIKELY(!hn::AllFalse(kF, tight))) {
     noteContest(job, lane, bitsOf(tight), shape.vague());
-    if (const Mask ties = hn::And(r.mask, hn::Eq(r.depth, r.before)); !hn::AllFalse(kF, ties)) settleTies(job, lane, bitsOf(ties), cell);
+    if (const Mask ties = hn::And(reached, hn::Eq(depth, before)); !hn::AllFalse(kF, ties)) settleTies(job, lane, bitsOf(ties), cell);
   }
-  const Mask won = hn::And(r.mask, hn::Lt(r.depth, r.before));
+  const Mask won = hn::And(reached, hn::Lt(depth, before));
   uint32_t* cells = out.cell.data() + lane;
   // Whole vectors: the next cell reads them back, and could not from a masked store that is still on its way.
-  hn::Store(hn::IfThenElse(won, r.depth, r.before), kF, out.depth.data() + lane);
+  hn::Store(hn::IfThenElse(won, depth, before), kF, out.depth.data() + lane);
   hn::Store(hn::IfThenElse(hn::RebindMask(kU, won), hn::Set(kU, cell), hn::Load(kU, cells)), kU, cells);
-  return true;
 }
 
 /// Writes what a cell covers into a vector of a film: where it does not, what was there, or nothing in one that is fresh.
@@ -108,9 +114,8 @@ HWY_INLINE void sampleCell(const RasterJob& job, const PixelRect& pixels, float 
       const size_t pixel = out.pixelIndex(x, y);
       if (dMin > out.far[pixel]) continue;
       if constexpr (kOpaque) {
-        bool changed = false;
-        for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) changed |= claim(job, shape, pixel * lanes + g, cell, kept);
-        out.nearer[pixel] |= static_cast<uint8_t>(changed);
+        for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) claim(job, shape, pixel * lanes + g, cell, kept);
+        out.nearer[pixel] = 1;
       } else {
         film(job, shape, pixel, cell, kept);
       }

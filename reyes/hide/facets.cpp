@@ -48,6 +48,19 @@ vec3 driftOf(const Scene& scene, const Grid& g, const Mean& mean) {
   return transformPoint(openFromLast, there) - here;
 }
 
+/// Which cells, by their first vertices, may turn by more than a cosine says along u or v: without the roots that would tell for certain.
+TOMALES_HOT void markTurning(const Grid& g, float cosine, int32_t* __restrict turning) {
+  const float *x = g.N(0), *y = g.N(1), *z = g.N(2);
+  for (int a = 0, row = g.nu + 1, end = g.vertexCount() - row - 1; a < end; ++a) {
+    const auto turns = [&](int b) {
+      const float d = x[a] * x[b] + y[a] * y[b] + z[a] * z[b];
+      const float lengths2 = (x[a] * x[a] + y[a] * y[a] + z[a] * z[a]) * (x[b] * x[b] + y[b] * y[b] + z[b] * z[b]);
+      return (d > 0) & (d * d > cosine * cosine * lengths2) ? 0 : 1;
+    };
+    turning[a] = turns(a + 1) | turns(a + row);
+  }
+}
+
 int primvarFloats(const ShadeGroup& group) {
   int n = 0;
   for (const Primvar& p : group.primvars) n += p.width;
@@ -133,7 +146,7 @@ void FacetTable::makeFacets(const GridTable::Entry& entry) {
   }
 }
 
-void FacetTable::countTurns(const GridTable::Entry& entry, HideDoubts& doubts) const {
+void FacetTable::countTurns(const GridTable::Entry& entry, HideDoubts& doubts) {
   const RasterGrid& r = *entry.raster;
   const Grid& g = *r.grid;
   constexpr float kCosine = 0.92f;      // 23 degrees
@@ -145,13 +158,18 @@ void FacetTable::countTurns(const GridTable::Entry& entry, HideDoubts& doubts) c
     const auto i = static_cast<size_t>(a), j = static_cast<size_t>(b);
     return glm::length(vec2(r.x[i] - r.x[j], r.y[i] - r.y[j])) * std::acos(std::max(cosine, -1.0f)) > 8 * kSagitta_px;
   };
-  const bool shown = !g.displaced && !g.round && !r.blur;  // displacement is as rough as it likes
+  const uint8_t* seen = seen_.data() + entry.firstCell;
+  const int cells = g.cellNumbers();
   HideDoubts::Turns& out = doubts.turns[g.object];
-  for (int cell = 0, end = g.cellNumbers(); cell < end; ++cell) {
-    if (!seen_[entry.firstCell + static_cast<uint32_t>(cell)]) continue;
-    const int a = firstVertex(g, cell);
-    out.turned += shown && (turns(a, a + 1) || turns(a, a + g.nu + 1)), ++out.all;
-  }
+  out.all += std::count(seen, seen + cells, 1);
+  if (g.displaced || g.round || r.blur) return;  // displacement is as rough as it likes
+  turning_.resize(static_cast<size_t>(g.stride()));
+  markTurning(g, 1.01f * kCosine, turning_.data());
+  for (int row = 0, cell = 0; cell < cells; ++row)
+    for (const int end = cell + g.nu; cell < end; ++cell) {
+      const int a = cell + row;
+      if (seen[cell] & turning_[static_cast<size_t>(a)]) out.turned += turns(a, a + 1) || turns(a, a + g.nu + 1);
+    }
 }
 
 int FacetTable::batchOf(int group) {

@@ -26,7 +26,7 @@ class FacetTable {
     std::vector<Wish> list;
   };
   void makeFacets(const GridTable::Entry& entry);
-  void countTurns(const GridTable::Entry& entry, HideDoubts& doubts) const;
+  void countTurns(const GridTable::Entry& entry, HideDoubts& doubts);
   int batchOf(int group);
   void fill(const Wishes& wishes, ShadePoints& points) const;
   void addSteps(std::span<const Wish> wishes, ShadePoints& points, int first) const;
@@ -41,6 +41,7 @@ class FacetTable {
   std::vector<uint32_t> facetOf_;  ///< A cell, ~0: not made yet.
   std::vector<int> batchOf_;       ///< A group, -1: none yet.
   std::vector<Wishes> wishes_;     ///< A batch
+  std::vector<int32_t> turning_;   ///< A vertex of a grid.
   std::vector<int> corners_;       ///< Points of a grid's vertices, -1: none yet.
 };
 

@@ -9,6 +9,7 @@ TOMALES_HOT void Gathered::readBlock(const Sources& from, int row, int i) {
 
 /// No branches: all lanes of a vector take both ways.
 TOMALES_HOT void derive(const Gathered& g, bool perspective, const PointBlock& out) {
+#pragma GCC ivdep
   for (int i = 0; i < kLanes; ++i) {
     const float ux = g.uEdge[0][i], uy = g.uEdge[1][i], uz = g.uEdge[2][i];
     const float vx = g.vEdge[0][i], vy = g.vEdge[1][i], vz = g.vEdge[2][i];
@@ -30,15 +31,18 @@ TOMALES_HOT void derive(const Gathered& g, bool perspective, const PointBlock& o
     out.channel[kPx][i] = g.P[0][i], out.channel[kPy][i] = g.P[1][i], out.channel[kPz][i] = g.P[2][i];
     out.channel[kNx][i] = Nx, out.channel[kNy][i] = Ny, out.channel[kNz][i] = Nz;
     out.channel[kNgx][i] = flat ? Nx : gx, out.channel[kNgy][i] = flat ? Ny : gy, out.channel[kNgz][i] = flat ? Nz : gz;
-    out.channel[kIx][i] = perspective ? g.P[0][i] : 0.0f;
-    out.channel[kIy][i] = perspective ? g.P[1][i] : 0.0f;
-    out.channel[kIz][i] = perspective ? g.P[2][i] : 1.0f;
     out.channel[kDpduX][i] = ux / du, out.channel[kDpduY][i] = uy / du, out.channel[kDpduZ][i] = uz / du;
     out.channel[kDpdvX][i] = vx / dv, out.channel[kDpdvY][i] = vy / dv, out.channel[kDpdvZ][i] = vz / dv;
     out.channel[kU][i] = g.u[i], out.channel[kV][i] = g.v[i];
     out.channel[kDu][i] = du, out.channel[kDv][i] = dv;
     out.channel[kArea][i] = std::sqrt(span2);
   }
+  // Apart: the compiler makes no vectors of a choice that is the same for all lanes.
+  for (int axis = 0; axis < 3; ++axis)
+    if (perspective)
+      std::copy_n(g.P[axis], kLanes, out.channel[kIx + axis]);
+    else
+      std::fill_n(out.channel[kIx + axis], kLanes, axis == 2 ? 1.0f : 0.0f);
 }
 
 }  // namespace tomales

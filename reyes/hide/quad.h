@@ -100,6 +100,7 @@ template <class Edges>
 struct alignas(64) Triangles {
   Edges ab, bc, ca, bd, dc, cb;
   float gx0[kLanes], gy0[kLanes], gx1[kLanes], gy1[kLanes];  ///< Depth gradients of abc, bdc.
+  float vague[kLanes];                                       ///< vagueDepth
 
   /// facing: RasterGrid::facing
   HWY_INLINE void set(const Corners& q, float facing) {
@@ -107,6 +108,10 @@ struct alignas(64) Triangles {
   }
 
  private:
+  static HWY_INLINE Floats vagueDepth(Floats slope, Floats depth) {
+    return hn::Add(hn::Add(hn::Div(slope, all(kLattice)), hn::Mul(all(4e-7f), hn::Abs(depth))), all(kTiny));
+  }
+
   /// Twice the signed area of a triangle by two of its sides.
   static HWY_INLINE Floats area(Floats ux, Floats uy, Floats vx, Floats vy) { return hn::Sub(hn::Mul(ux, vy), hn::Mul(uy, vx)); }
 
@@ -128,10 +133,11 @@ struct alignas(64) Triangles {
     dc.set(g, q, 3, 2, left1, flat1);
     cb.set(g, q, 2, 1, left1, flat1);
     const Floats one = all(1.0f), inverse0 = hn::Div(one, hn::IfThenElse(flat0, one, area0)), inverse1 = hn::Div(one, hn::IfThenElse(flat1, one, area1));
-    hn::Store(hn::Mul(hn::Sub(hn::Mul(abz, acy), hn::Mul(acz, aby)), inverse0), kF, gx0 + g);
-    hn::Store(hn::Mul(hn::Sub(hn::Mul(acz, abx), hn::Mul(abz, acx)), inverse0), kF, gy0 + g);
-    hn::Store(hn::Mul(hn::Sub(hn::Mul(bdz, bcy), hn::Mul(bcz, bdy)), inverse1), kF, gx1 + g);
-    hn::Store(hn::Mul(hn::Sub(hn::Mul(bcz, bdx), hn::Mul(bdz, bcx)), inverse1), kF, gy1 + g);
+    const Floats x0 = hn::Mul(hn::Sub(hn::Mul(abz, acy), hn::Mul(acz, aby)), inverse0), y0 = hn::Mul(hn::Sub(hn::Mul(acz, abx), hn::Mul(abz, acx)), inverse0);
+    const Floats x1 = hn::Mul(hn::Sub(hn::Mul(bdz, bcy), hn::Mul(bcz, bdy)), inverse1), y1 = hn::Mul(hn::Sub(hn::Mul(bcz, bdx), hn::Mul(bdz, bcx)), inverse1);
+    hn::Store(x0, kF, gx0 + g), hn::Store(y0, kF, gy0 + g), hn::Store(x1, kF, gx1 + g), hn::Store(y1, kF, gy1 + g);
+    const Floats slope = hn::Max(hn::Add(hn::Abs(x0), hn::Abs(y0)), hn::Add(hn::Abs(x1), hn::Abs(y1)));
+    hn::Store(vagueDepth(slope, hn::Load(kF, q.dMin + g)), kF, vague + g);
   }
 };
 
@@ -142,8 +148,7 @@ class Quad {
   HWY_INLINE Quad(const Corners& q, const Triangles<Edges>& t, int i)
       : ab_(t.ab, i), bc_(t.bc, i), ca_(t.ca, i), bd_(t.bd, i), dc_(t.dc, i), cb_(t.cb, i), bx_(all(q.x[1][i])), by_(all(q.y[1][i])),
         bDepth_(all(q.d[1][i])), dMin_(all(q.dMin[i])), dMax_(all(q.dMax[i])), gx0_(all(t.gx0[i])), gy0_(all(t.gy0[i])),
-        gx1_(all(t.gx1[i])), gy1_(all(t.gy1[i])),
-        vague_(vagueDepth(std::max(std::abs(t.gx0[i]) + std::abs(t.gy0[i]), std::abs(t.gx1[i]) + std::abs(t.gy1[i])), q.dMin[i])) {}
+        gx1_(all(t.gx1[i])), gy1_(all(t.gy1[i])), vague_(t.vague[i]) {}
 
   struct Covered {
     Mask mask, first;  ///< By any triangle; by abc.

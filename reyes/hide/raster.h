@@ -33,7 +33,9 @@ void rasterizeRound(const RasterJob& job);
 /// point of the lens.
 void rasterizeBlurred(const RasterJob& job);
 
-/// What trim curves, clipping and levels of detail leave of a cell of the job's grid.
+/// Do trim curves, clipping and levels of detail leave all of the job's grid?
+inline bool keepsAll(const RasterJob& job) { return job.raster.grid->kept.empty() && !job.raster.clipped && job.raster.detail.whole(); }
+/// What they leave of a cell.
 inline Kept keptOf(const RasterJob& job, int cell) {
   const std::vector<Kept>& given = job.raster.grid->kept;
   const Kept kept = given.empty() ? Kept::All : given[static_cast<size_t>(cell)];

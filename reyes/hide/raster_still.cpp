@@ -109,8 +109,50 @@ HWY_INLINE bool fitLattice(const Corners& q, uint64_t cells, const SampleBuffer&
   return samples.fitsLattice() && (large & cells) == 0;
 }
 
+/// Which pixels are to be asked about which of some cells: those where not everything is nearer.
+size_t listAsks(SampleBuffer& out, const Corners& q, uint64_t cells) {
+  size_t count = 0;
+  const size_t width = static_cast<size_t>(out.rect.width());
+  const float* far = out.far.data();
+  for (uint64_t left = cells; left; left &= left - 1) {
+    const int i = std::countr_zero(left);
+    const size_t columns = static_cast<size_t>(q.x1[i] - q.x0[i]), rows = static_cast<size_t>(q.y1[i] - q.y0[i]);
+    if (out.asks.size() < count + columns * rows) out.asks.resize(2 * (count + columns * rows));
+    Ask* asks = out.asks.data();
+    size_t first = out.pixelIndex(q.x0[i], q.y0[i]);
+    for (size_t y = 0; y < rows; ++y, first += width)
+      for (size_t pixel = first; pixel < first + columns; ++pixel) {
+        asks[count] = {static_cast<uint32_t>(pixel), i};
+        count += q.dMin[i] <= far[pixel];
+      }
+  }
+  return count;
+}
+
+/// One list for many cells: which of few pixels a small cell covers is no branch that could be foreseen.
 template <class Edges>
-void sampleCells(const RasterJob& job, const Corners& q, uint64_t cells) {
+void claimCells(const RasterJob& job, const Corners& q, uint64_t cells) {
+  SampleBuffer& out = job.out;
+  const size_t count = listAsks(out, q, cells), lanes = static_cast<size_t>(out.lanes);
+  if (count == 0) return;
+  Triangles<Edges> triangles;
+  triangles.set(q, job.raster.facing);
+  const Ask* asks = out.asks.data();
+  const bool whole = keepsAll(job);
+  for (size_t k = 0; k < count; ++k) {
+    const auto [pixel, i] = asks[k];
+    const Kept kept = whole ? Kept::All : keptOf(job, q.cell[i]);
+    if (kept == Kept::None) continue;
+    const Quad<Edges> quad(q, triangles, i);
+    const uint32_t cell = job.firstCell + static_cast<uint32_t>(q.cell[i]);
+    for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) claim(job, quad, pixel * lanes + g, cell, kept);
+    out.nearer[pixel] = 1;
+  }
+}
+
+/// Of transparent grids and of solids.
+template <class Edges>
+void filmCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   const RasterGrid& r = job.raster;
   Triangles<Edges> triangles;
   triangles.set(q, r.facing);
@@ -121,11 +163,16 @@ void sampleCells(const RasterJob& job, const Corners& q, uint64_t cells) {
     const uint32_t cell = job.firstCell + static_cast<uint32_t>(q.cell[i]);
     const PixelRect pixels{q.x0[i], q.y0[i], q.x1[i], q.y1[i]};
     const auto quad = [&] { return Quad<Edges>(q, triangles, i); };
-    if (r.opaque && !r.inSolid)
-      sampleCell<true>(job, pixels, q.dMin[i], cell, kept, quad);
-    else
-      sampleCell<false>(job, pixels, r.inSolid ? r.dMin : q.dMin[i], cell, kept, quad);
+    sampleCell<false>(job, pixels, r.inSolid ? r.dMin : q.dMin[i], cell, kept, quad);
   }
+}
+
+template <class Edges>
+void sampleCells(const RasterJob& job, const Corners& q, uint64_t cells) {
+  if (job.raster.opaque && !job.raster.inSolid)
+    claimCells<Edges>(job, q, cells);
+  else
+    filmCells<Edges>(job, q, cells);
 }
 
 /// The micropolygons whose first vertices are those from `first` to before `end`.

@@ -91,12 +91,27 @@ class TileBuilder {
     const auto first = static_cast<uint32_t>(tile_.fragments.size());
     if (scratch_.firstFilm[pixel] < scratch_.firstFilm[pixel + 1]) {
       addFilms(pixel);
-    } else {
+    } else if (!addRanked(pixel)) {
       sights_.clear();
       collectOpaque(samples_, pixel, sights_);
       addSights(pixel, false);
     }
     tile_.pixels.push_back({first, static_cast<uint32_t>(tile_.fragments.size()) - first});
+  }
+
+  /// Most pixels: a few opaque surfaces. False, and nothing done, if there are more.
+  bool addRanked(size_t pixel) {
+    OpaqueSight seen[kMostRanked];
+    const int count = rankOpaque(samples_, pixel, seen);
+    for (int i = 0; i < count; ++i) addFragment(pixel, seen[i].cell, seen[i].d, seen[i].samples, 0);
+    return count >= 0;
+  }
+
+  void addFragment(size_t pixel, uint32_t cell, float d, uint64_t samples, uint32_t word) {
+    facets_.see(cell);
+    // The facet is found later.
+    Fragment& f = tile_.fragments.emplace_back(Fragment{cell, camera_.zFromDepthKey(d), samples, static_cast<uint16_t>(word)});
+    if (grids_.anySmooth() && grids_.of(cell).raster->smooth) setPosition(f, cell, pixel);
   }
 
   /// Sheets that lie behind all before them need not be looked at together with them.
@@ -178,13 +193,7 @@ class TileBuilder {
     };
     if (!sortByRank() && !sortByKey()) std::sort(sights_.begin(), sights_.end(), nearer);
     if (overlapping) scratch_.layers.order(sights_, nearer);
-    for (const Sight& s : sights_) {
-      facets_.see(s.cell);
-      Fragment& f = tile_.fragments.emplace_back();
-      f.facet = s.cell;  // The facet is found later.
-      f.z = camera_.zFromDepthKey(s.d), f.samples = s.samples, f.word = static_cast<uint16_t>(s.word);
-      if (grids_.anySmooth() && grids_.of(s.cell).raster->smooth) setPosition(f, s.cell, pixel);
-    }
+    for (const Sight& s : sights_) addFragment(pixel, s.cell, s.d, s.samples, s.word);
   }
 
   /// Sorts a few sights by depth without a branch that depends on it; false, and nothing done, if they are many or depths

@@ -49,6 +49,12 @@ struct Contest {
   bool operator==(const Contest& o) const { return lane == o.lane && first == o.first && second == o.second; }
 };
 
+/// The samples of a pixel are to be asked about a micropolygon, one of kLanes.
+struct Ask {
+  uint32_t pixel;
+  int cell;
+};
+
 /// Arrays have a lane for each sample: those of a pixel stand together, padded to `lanes`. Padding hides everything.
 struct SampleBuffer {
   SampleBuffer(const SamplePattern& pattern, const Camera& camera, const PixelRect& rect);
@@ -64,9 +70,10 @@ struct SampleBuffer {
   AlignedVector<uint32_t> cell;    ///< That hit.
   std::vector<uint32_t> pixelOf;   ///< Of kLanes lanes.
   AlignedVector<float> far;        ///< A pixel: no less than the greatest depth of its lanes.
-  std::vector<uint8_t> nearer;     ///< A pixel: 1 if depths changed since `far` was computed.
+  std::vector<uint8_t> nearer;     ///< A pixel: 1 if depths may have changed since `far` was computed.
   Films films;
   Films crossings;                 ///< Everything of solids that covers a sample, however deep.
+  std::vector<Ask> asks;           ///< Memory for those who rasterise.
   std::vector<Contest> contests;   ///< Of what is opaque, still and in focus; some may since have been hidden.
 
   /// Do 16 bits hold the positions on the lattice?

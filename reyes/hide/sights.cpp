@@ -48,6 +48,36 @@ void opaque(const SampleBuffer& samples, size_t pixel, std::vector<Sight>& sight
   }
 }
 
+/// Ranks without a branch that depends on depths: how many are nearer.
+int rank(const SampleBuffer& samples, size_t pixel, OpaqueSight* out) {
+  const size_t lanes = static_cast<size_t>(samples.lanes), most = std::min<size_t>(hn::Lanes(kF), kMostRanked);
+  if (lanes > 64) return -1;
+  const uint32_t* cells = samples.cell.data() + pixel * lanes;
+  const float* depths = samples.depth.data() + pixel * lanes;
+  const auto numbers = hn::Iota(kU, 0);
+  OpaqueSight found[kMostRanked];
+  Floats all_d = all(kInfinity);
+  uint32_t count = 0;
+  float unused;
+  uint64_t left = ~lanesOf(cells, depths, lanes, kNoCell, unused);
+  if (lanes < 64) left &= (uint64_t{1} << lanes) - 1;
+  for (; left; ++count) {
+    if (count == most) return -1;
+    OpaqueSight& s = found[count];
+    s.cell = cells[std::countr_zero(left)];
+    s.samples = lanesOf(cells, depths, lanes, s.cell, s.d);
+    all_d = hn::IfThenElse(hn::RebindMask(kF, hn::Eq(numbers, hn::Set(kU, count))), all(s.d), all_d);
+    left &= ~s.samples;
+  }
+  uint64_t taken = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    const size_t nearer = hn::CountTrue(kF, hn::Lt(all_d, all(found[i].d)));
+    out[nearer] = found[i];
+    taken |= uint64_t{1} << nearer;
+  }
+  return taken == (uint64_t{1} << count) - 1 ? static_cast<int>(count) : -1;
+}
+
 FilmExtent cull(SampleBuffer& samples, const GridTable& grids, size_t index) {
   Films& films = samples.films;
   Film& film = films.film(index);
@@ -92,11 +122,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tomales {
 HWY_EXPORT(opaque);
+HWY_EXPORT(rank);
 HWY_EXPORT(cull);
 HWY_EXPORT(ofFilm);
 void collectOpaque(const SampleBuffer& samples, size_t pixel, std::vector<Sight>& sights) {
   HWY_DYNAMIC_DISPATCH(opaque)(samples, pixel, sights);
 }
+int rankOpaque(const SampleBuffer& samples, size_t pixel, OpaqueSight* out) { return HWY_DYNAMIC_DISPATCH(rank)(samples, pixel, out); }
 FilmExtent cullFilm(SampleBuffer& samples, const GridTable& grids, size_t film) { return HWY_DYNAMIC_DISPATCH(cull)(samples, grids, film); }
 void collectFilm(const Films& films, size_t film, float farthest, std::vector<Sight>& sights) {
   HWY_DYNAMIC_DISPATCH(ofFilm)(films, film, farthest, sights);
