@@ -19,6 +19,9 @@ constexpr int kPhases = kLatticePhases + kLastPhases;
 constexpr int kScoutPhases = 3;  // after which bright spots are known
 constexpr float kEnough = 0.05f;  // sum of weights below which a point gets its own record
 constexpr size_t kPointsPerSlice = 256;
+// From so many on, all records have the same rays: what those miss then changes little between records, and is no more than others miss
+// (docs/decisions/0095).
+constexpr int kManyRays = 512;
 
 /// Of the lattice that this phase completes; 0: none.
 int strideAfter(int phase) { return phase < kLatticePhases && phase % 2 == 0 ? 16 >> phase / 2 : 0; }
@@ -245,7 +248,10 @@ class GatherPass {
 
   IrradianceRecord gatherAt(const Site& site, BrightFind* find) const {
     const bool light = isLight(site.cache);
-    IrradianceRecord record = gather(*tools_->rays, *tools_->shading, site.point, state_.caches[site.cache].plan.gather,
+    const GatherSettings& settings = state_.caches[site.cache].plan.gather;
+    GatherPoint point = site.point;
+    if (settings.samples >= kManyRays) point.key = 0;
+    IrradianceRecord record = gather(*tools_->rays, *tools_->shading, point, settings,
                                      light ? KnownLight{&state_.spots, state_.radiosity.get()} : KnownLight{}, state_.stats, light ? find : nullptr);
     record.relief = reliefOfGroup_[static_cast<size_t>(site.point.group)];
     return record;
