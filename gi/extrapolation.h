@@ -4,12 +4,16 @@
 
 namespace tomales {
 
-inline vec3 extrapolate(const IrradianceRecord& r, const vec3& x, const vec3& n) {
-  const vec3 turn = cross(r.normal, n), step = x - r.position;
-  vec3 E;
+/// By its gradients, from its place by a step, and from its normal by a turn, cross(of the record, other).
+inline vec3 changeBy(const IrradianceRecord& r, const vec3& step, const vec3& turn) {
+  vec3 change;
   for (int c = 0; c < 3; ++c)
-    E[c] = std::max(0.0f, r.E[c] + dot(turn, r.rotationGradient[c]) + dot(step, r.translationGradient[c]));
-  return E;
+    change[c] = dot(turn, r.rotationGradient[c]) + dot(step, r.translationGradient[c]);
+  return change;
+}
+
+inline vec3 extrapolate(const IrradianceRecord& r, const vec3& x, const vec3& n) {
+  return glm::max(vec3(0.0f), r.E + changeBy(r, x - r.position, cross(r.normal, n)));
 }
 
 /// step H step of each channel.
@@ -18,30 +22,33 @@ inline vec3 bentBy(const IrradianceRecord& r, const vec3& step) {
   return a * a * r.hessian[0] + 2 * a * b * r.hessian[1] + b * b * r.hessian[2];
 }
 
-/// Of records that are all extrapolated to one place, weights of sum 1. From a step s away, by the gradient there, E is off by -s H s / 2; and
-/// gradients so far away differ by H s. So the mean over the records is off by half the covariance of gradient and step, which takes no second
-/// derivative, and by the mean step's -s H s / 2, which is little where records lie on all sides.
+/// Of records that are all extrapolated to one place. From a step s away, by the gradient there, E is off by
+/// -s H s / 2; and gradients so far away differ by H s. So the mean over the records is off by half the
+/// covariance of gradient and step, which takes no second derivative, and by the mean step's -s H s / 2,
+/// which is little where records lie on all sides.
 class MeanExtrapolation {
  public:
   MeanExtrapolation(const vec3& x, const vec3& n) : x_(x), n_(n) {}
 
-  void add(const IrradianceRecord& r, float weight) {
-    const vec3 turn = cross(r.normal, n_), step = x_ - r.position;
-    step_ += weight * step, turn_ += weight * turn;
-    for (int c = 0; c < 3; ++c) {
+  /// As extrapolate().
+  vec3 add(const IrradianceRecord& r, float weight) {
+    const vec3 turn = cross(r.normal, n_), step = x_ - r.position, change = changeBy(r, step, turn);
+    weight_ += weight, step_ += weight * step, turn_ += weight * turn, change_ += weight * change;
+    for (int c = 0; c < 3; ++c)
       translation_[c] += weight * r.translationGradient[c], rotation_[c] += weight * r.rotationGradient[c];
-      change_[c] += weight * (dot(turn, r.rotationGradient[c]) + dot(step, r.translationGradient[c]));
-    }
+    return glm::max(vec3(0.0f), r.E + change);
   }
-  const vec3& step() const { return step_; }
+  // Pre: something was added.
+  vec3 step() const { return step_ / weight_; }
   vec3 covariance() const {
     vec3 out = change_;
-    for (int c = 0; c < 3; ++c) out[c] -= dot(turn_, rotation_[c]) + dot(step_, translation_[c]);
-    return out;
+    for (int c = 0; c < 3; ++c) out[c] -= (dot(turn_, rotation_[c]) + dot(step_, translation_[c])) / weight_;
+    return out / weight_;
   }
 
  private:
   const vec3 x_, n_;
+  float weight_ = 0;
   vec3 step_{0.0f}, turn_{0.0f}, change_{0.0f};
   vec3 translation_[3] = {vec3(0), vec3(0), vec3(0)}, rotation_[3] = {vec3(0), vec3(0), vec3(0)};
 };

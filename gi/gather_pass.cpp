@@ -250,7 +250,8 @@ class GatherPass {
     const bool light = isLight(site.cache);
     const GatherSettings& settings = state_.caches[site.cache].plan.gather;
     GatherPoint point = site.point;
-    if (settings.samples >= kManyRays) point.key = 0;
+    // Bright spots are found by other rays than those that look for them again: else what all have missed is missed for good.
+    if (settings.samples >= kManyRays && !find) point.key = 0;
     IrradianceRecord record = gather(*tools_->rays, *tools_->shading, point, settings,
                                      light ? KnownLight{&state_.spots, state_.radiosity.get()} : KnownLight{}, state_.stats, light ? find : nullptr);
     record.relief = reliefOfGroup_[static_cast<size_t>(site.point.group)];

@@ -217,12 +217,12 @@ struct IrradianceCache::Impl {
   }
 
   // What extrapolating each record by its own gradient leaves out of their mean.
-  vec3 secondOrder(const std::vector<Candidate>& candidates, const vec3& x, const vec3& n, float weight) const {
-    MeanExtrapolation mean(x, n);
-    for (const Candidate& c : candidates) mean.add(records[c.record], c.weight / weight);
+  vec3 secondOrder(const std::vector<Candidate>& candidates, const MeanExtrapolation& mean, float weight) const {
+    if (settings.errorFunction == ErrorFunction::Split) return vec3(0.0f);
+    const vec3 step = mean.step();
     vec3 out = -0.5f * mean.covariance();
     if (settings.errorFunction == ErrorFunction::Hessian)
-      for (const Candidate& c : candidates) out += 0.5f * c.weight / weight * bentBy(records[c.record], mean.step());
+      for (const Candidate& c : candidates) out += 0.5f * c.weight / weight * bentBy(records[c.record], step);
     return out;
   }
 
@@ -230,9 +230,10 @@ struct IrradianceCache::Impl {
     IrradianceEstimate out{vec3(0.0f), {vec3(0.0f), vec3(0.0f), vec3(0.0f)}};
     float nearest = kInfinity;
     Dispute worst = Dispute::None;
+    MeanExtrapolation mean(x, n);
     for (const Candidate& candidate : candidates) {
       const IrradianceRecord& r = records[candidate.record];
-      const vec3 E = extrapolate(r, x, n);
+      const vec3 E = mean.add(r, candidate.weight);
       const float distance = glm::length(x - r.position);
       if (&candidate != &candidates.front()) worst = std::max(worst, disputeOf(E, out.E / out.weight, 2 * noiseAt(r, distance)));
       nearest = std::min(nearest, distance);
@@ -241,8 +242,7 @@ struct IrradianceCache::Impl {
       for (int c = 0; c < 3; ++c) out.dominant[c] += candidate.weight * r.dominant[c];  // eq. 7
       out.weight += candidate.weight;
     }
-    if (out.weight > 0) out.E /= out.weight;
-    if (settings.errorFunction != ErrorFunction::Split) out.E = glm::max(out.E + secondOrder(candidates, x, n, out.weight), vec3(0.0f));
+    if (out.weight > 0) out.E = glm::max(vec3(0.0f), out.E / out.weight + secondOrder(candidates, mean, out.weight));
     out.disputed = limitBy(worst, nearest, pixelSize) <= nearest;
     for (vec3& d : out.dominant) d = normalizeOr(d, n);
     return out;

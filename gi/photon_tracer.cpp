@@ -1,7 +1,5 @@
 #include "gi/photon_tracer.h"
 
-#include <numeric>
-
 #include "gi/gather.h"
 #include "raytrace/emitter_shapes.h"
 #include "raytrace/hit_list.h"

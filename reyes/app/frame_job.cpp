@@ -59,6 +59,12 @@ bool FrameJob::hide(const DeepFrame& layout, const TileSink& sink) {
   return hideTiles(layout, scene_, *shading_, control(0, gathers() ? 0.3f : 0.5f), stats_, log_, sink);
 }
 
+void FrameJob::checkRecords(const GiSettings& gathered, const std::string& file) const {
+  if (gathers_ && gathered.mode == GiMode::None)
+    log_.report(Severity::Warning, "icf-without-light", {std::make_shared<std::string>(file), 0},
+                "was gathered with --gi none: all indirect light is gathered while shading (with --gi none it is left out)");
+}
+
 void FrameJob::prepareRays() {
   if (!traces()) return;
   const StageTimer timer(stats_, "raytrace");

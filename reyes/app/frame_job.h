@@ -36,6 +36,8 @@ class FrameJob {
                     const std::function<void(size_t tile, const DeepTile&)>& keep);
 
   bool gathers() const { return gathers_; }
+  /// Warns if records that stand in for a gather pass were made without one. file: where they come from.
+  void checkRecords(const GiSettings& gathered, const std::string& file) const;
   GiMode mode() const { return mode_; }
   const Camera& camera() const { return camera_; }
   GiSettings giSettings() const;

@@ -67,7 +67,7 @@ void reportMemory(int64_t limit, const std::string& done, const Stats& stats, Lo
 bool mayStream(const Scene& scene) { return scene.procedurals.empty() && scene.options.bucketOrder == "horizontal"; }
 
 /// False: the file cannot be read, which is reported.
-bool useIrradiance(const Scene& scene, const RenderSettings& settings, GiServices& services, Log& log) {
+bool useIrradiance(const Scene& scene, const RenderSettings& settings, FrameJob& job, Log& log) {
   std::string error;
   const auto file = IcfFile::open(settings.irradiance, error);
   if (!file) {
@@ -77,7 +77,8 @@ bool useIrradiance(const Scene& scene, const RenderSettings& settings, GiService
   }
   IrradianceShot given = file->takeShot();
   moveToCamera(given, scene.cameraFromWorldAtOpen());
-  services.useCaches(std::move(given.caches));
+  if (!settings.appendIrradiance) job.checkRecords(given.settings, settings.irradiance);
+  job.services()->useCaches(std::move(given.caches));
   return true;
 }
 
@@ -100,7 +101,7 @@ void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats&
   BucketFile file(scene, layout, world, settings, log);
   const std::function<std::optional<DeepTile>(size_t)> find = [&](size_t i) { return file.tile(i); };
   if (streams || given) job.prepareRays();
-  if (given && job.services() && !useIrradiance(scene, settings, *job.services(), log)) return;
+  if (given && job.services() && !useIrradiance(scene, settings, job, log)) return;
   if (streams) {
     job.hideAndWrite(layout, find, [&](size_t i, const DeepTile& tile) { file.keepForResume(i, tile); });
   } else {

@@ -108,9 +108,7 @@ void ShotJob::shadePicture() {
   prepareLight();
   const auto load = [this](size_t index) { return this->load(index); };
   if (!job_->gathers() || (irradiance_ && !settings_.appendIrradiance)) {
-    if (irradiance_ && job_->gathers() && irradiance_->shot().settings.mode == GiMode::None)
-      log_.report(Severity::Warning, "icf-without-light", wholeFile(settings_.irradiance),
-                  "was gathered with --gi none: all indirect light is gathered while shading (with --gi none it is left out)");
+    if (irradiance_) job_->checkRecords(irradiance_->shot().settings, settings_.irradiance);
     job_->write(shot_.frame, load);
   } else {
     TileStore tiles(shot_.frame.tileCount(), kTilesInMemory_bytes, load);

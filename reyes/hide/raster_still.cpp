@@ -155,11 +155,7 @@ void claimCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   if (count == 0 && cells == 0) return;
   Triangles<Edges> triangles;
   triangles.set(q, job.raster.facing);
-  ask(job, q, triangles, count);
-  while (cells) {
-    count = listAsks(job.out, q, cells);
-    ask(job, q, triangles, count);
-  }
+  for (; count > 0 || cells; count = listAsks(job.out, q, cells)) ask(job, q, triangles, count);
 }
 
 /// Of transparent grids and of solids.

@@ -216,6 +216,7 @@ suite.run("render", "indirect.rib", "-o", "given.exr", "--irradiance", "indirect
 suite.expect(json.loads((suite.folder / "given.json").read_text())["irradiance_cache"]["samples"] == 0, "nothing is appended where all is covered")
 suite.run("gather", "indirect.dfb", "-o", "dark.icf", "--gi", "none", "-q")
 suite.expect_run("light that was not gathered is gathered while shading, and said so", ["shade", "indirect.dfb", "--irradiance", "dark.icf", "-o", "lit.exr"], 0, "icf-without-light")
+suite.expect_run("by a render too", ["render", "indirect.rib", "--irradiance", "dark.icf", "-o", "lit.exr"], 0, "icf-without-light")
 suite.expect("icf-without-light" not in suite.run("shade", "indirect.dfb", "--irradiance", "dark.icf", "--gi", "none", "-o", "dark.exr").stderr, "or left out again, and nothing is said")
 suite.expect_run("a frame beyond memory is refused", ["render", "direct.rib", "-o", "huge.exr", "--format", "65536x65536", "--bucket-size", "16"], 4, "--crop")
 suite.finish()

@@ -120,6 +120,42 @@ TEST(GatherPass, AFrameAddsRecordsOnceAndIsKnownByWhatItsPixelsSee) {
       << "what disagrees is refined in frames that are new";
 }
 
+/// E of the records of a floor over which light from far away is the same everywhere.
+std::vector<double> recordsUnderAFarCeiling(float samples, uint32_t seed = 0) {
+  SceneBuilder b(64);
+  b.light("distantlight", {pointParam("from", {0, 0, 0}), pointParam("to", {0, 1, 0})});
+  b.light("indirectlight", indirect(samples, 0.1f));
+  b.quad({-1, -1, 2.2f}, {1, -1, 2.2f}, {1, -1, 4.2f}, {-1, -1, 4.2f}, vec3(0));
+  b.quad({-3e3f, 9e3f, -3e3f}, {3e3f, 9e3f, -3e3f}, {3e3f, 9e3f, 3e3f}, {-3e3f, 9e3f, 3e3f}, vec3(0.7f));
+  World world(std::move(b.scene));
+  GiSettings settings;
+  settings.seed = seed;
+  const auto services = world.use(settings);
+  gatherFrame(*services, frameOf(world, 64));
+  std::vector<double> E;
+  for (const IrradianceRecord& r : services->caches().at(0).cache.records()) E.push_back(double{luminance(r.E)});
+  std::sort(E.begin(), E.end());
+  return E;
+}
+
+/// docs/decisions/0095
+TEST(GatherPass, RecordsOfManyRaysMissTheSameAndAreRightInTheMean) {
+  const auto quantile = [](const std::vector<double>& E, double q) { return E[static_cast<size_t>(q * static_cast<double>(E.size() - 1))]; };
+  constexpr int kSeeds = 8;
+  double mean = 0;
+  for (uint32_t seed = 0; seed < kSeeds; ++seed) {
+    const std::vector<double> own = recordsUnderAFarCeiling(500, seed), shared = recordsUnderAFarCeiling(520, seed);
+    ASSERT_GT(shared.size(), 100U);
+    // The few that look for bright spots first have rays of their own.
+    EXPECT_LT(quantile(shared, 0.8) - quantile(shared, 0.2), 0.2 * (quantile(own, 0.8) - quantile(own, 0.2)));
+    mean += quantile(shared, 0.5) / kSeeds;
+  }
+  // Form factor of a parallel square, whose quarters are a third of its height wide.
+  const double side = 1.0 / 3, reach = std::sqrt(1 + side * side);
+  const double exact = 0.7 * 4 / double{kPi} * side / reach * std::atan(side / reach);
+  EXPECT_NEAR(mean, exact, 0.03 * exact);
+}
+
 TEST(GatherPass, BouncesDoNotDependOnThreadsOrBuckets) {
   World world(cornell(indirect(32)).scene);
   std::vector<vec3> first, one;
