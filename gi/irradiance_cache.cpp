@@ -223,7 +223,7 @@ struct IrradianceCache::Impl {
     vec3 out = -0.5f * mean.covariance();
     if (settings.errorFunction == ErrorFunction::Hessian)
       for (const Candidate& c : candidates) out += 0.5f * c.weight / weight * bentBy(records[c.record], step);
-    return out;
+    return mean.agreement() * out;
   }
 
   IrradianceEstimate blend(const std::vector<Candidate>& candidates, const vec3& x, const vec3& n, float pixelSize) const {

@@ -349,6 +349,25 @@ TEST(IrradianceCache, AmongRecordsOnAllSidesGradientsAloneSayHowLightBends) {
   }
 }
 
+TEST(IrradianceCache, BeyondAShadowsEdgeBendingLightsNoDark) {
+  // Light that falls to nothing as a parabola does, and stays there.
+  const auto light = [](float x) { return x > 0 ? x * x : 0; };
+  for (const ErrorFunction f : {ErrorFunction::Screen, ErrorFunction::Hessian}) {
+    IrradianceCache cache(kBox, {f, 1});
+    for (const float x : {-0.05f, 0.05f}) {
+      IrradianceRecord r = recordAt({x, 0, 0}, vec3(light(x)), 9);
+      r.smoothRadius = 0.1f, r.tangent = {1, 0, 0};
+      for (int c = 0; c < 3; ++c) r.translationGradient[c].x = x > 0 ? 2 * x : 0;
+      r.hessian[0] = vec3(x > 0 ? 2.0f : 0.0f);
+      cache.insert(r);
+    }
+    for (const float x : {-0.04f, -0.02f, 0.0f}) {
+      const float lit = (x + 0.05f) / 0.1f;  // the share of the lit record, whose light ends with its reach
+      EXPECT_LE(cache.lookup({x, 0, 0}, kUp, 0.01f).E.x, 1.001f * lit * lit * light(0.05f)) << x;
+    }
+  }
+}
+
 TEST(IrradianceCache, NoSecondDerivativeMakesLightNegativeOrMoreThanDoublesIt) {
   for (const float bend : {-1e6f, 1e6f, kInfinity}) {
     auto record = recordAt(vec3(0), vec3(1));
