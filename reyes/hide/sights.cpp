@@ -105,20 +105,20 @@ HWY_INLINE void rank(Lanes* pixels, size_t count, size_t lanes, RankedSights* ou
 
 void opaqueRanked(const SampleBuffer& samples, std::span<const uint32_t> pixels, RankedSights* out) {
   const size_t lanes = static_cast<size_t>(samples.lanes);
-  Lanes all[kRankedTogether];
+  Lanes ofPixels[kRankedTogether];
   for (size_t k = 0; k < pixels.size(); ++k) {
     const size_t first = pixels[k] * lanes;
-    all[k] = {samples.cell.data() + first, samples.depth.data() + first, 0};
+    ofPixels[k] = {samples.cell.data() + first, samples.depth.data() + first, 0};
     float unused;
-    all[k].left = ~lanesOf(all[k].cells, all[k].depths, lanes, kNoCell, unused);
-    if (lanes < 64) all[k].left &= (uint64_t{1} << lanes) - 1;
+    ofPixels[k].left = ~lanesOf(ofPixels[k].cells, ofPixels[k].depths, lanes, kNoCell, unused);
+    if (lanes < 64) ofPixels[k].left &= (uint64_t{1} << lanes) - 1;
   }
-  rank(all, pixels.size(), lanes, out);
+  rank(ofPixels, pixels.size(), lanes, out);
 }
 
 void filmRanked(const Films& films, size_t film, RankedSights* out) {
-  Lanes all{films.cells(film), films.depths(film), films.film(film).samples};
-  rank(&all, 1, films.width(), out);
+  Lanes ofPixel{films.cells(film), films.depths(film), films.film(film).samples};
+  rank(&ofPixel, 1, films.width(), out);
 }
 
 FilmExtent cull(SampleBuffer& samples, const GridTable& grids, size_t index) {
