@@ -16,9 +16,11 @@ inline vec3 extrapolate(const IrradianceRecord& r, const vec3& x, const vec3& n)
   return glm::max(vec3(0.0f), r.E + changeBy(r, x - r.position, cross(r.normal, n)));
 }
 
-/// step H step of each channel.
-inline vec3 bentBy(const IrradianceRecord& r, const vec3& step) {
-  const float a = dot(step, r.tangent), b = dot(step, cross(r.normal, r.tangent));
+/// step H step of each channel. The step may be that of records that reach farther: beyond its own reach this
+/// one knows nothing.
+inline vec3 bentBy(const IrradianceRecord& r, const vec3& step, float reach) {
+  const vec3 known = step * std::min(1.0f, reach / std::max(glm::length(step), 1e-30f));
+  const float a = dot(known, r.tangent), b = dot(known, cross(r.normal, r.tangent));
   return a * a * r.hessian[0] + 2 * a * b * r.hessian[1] + b * b * r.hessian[2];
 }
 

@@ -349,6 +349,18 @@ TEST(IrradianceCache, AmongRecordsOnAllSidesGradientsAloneSayHowLightBends) {
   }
 }
 
+TEST(IrradianceCache, ASecondDerivativeHoldsAsFarAsItsRecordReaches) {
+  // Of two records on one side the nearer one is beside an edge, where light bends a lot for a short way.
+  IrradianceCache cache(kBox, {ErrorFunction::Hessian, 1, 40});
+  for (const bool edge : {false, true}) {
+    auto r = recordAt({edge ? -0.015f : -0.25f, 0, 0}, vec3(1));
+    r.smoothRadius = edge ? 0.02f : 0.3f, r.tangent = {1, 0, 0};
+    r.hessian[0] = vec3(edge ? -200.0f : 0.0f);
+    cache.insert(r);
+  }
+  EXPECT_NEAR(cache.lookup(vec3(0), kUp, 0.01f).E.x, 1, 0.05f);
+}
+
 TEST(IrradianceCache, BeyondAShadowsEdgeBendingLightsNoDark) {
   // Light that falls to nothing as a parabola does, and stays there.
   const auto light = [](float x) { return x > 0 ? x * x : 0; };
