@@ -148,6 +148,7 @@ class Descent {
     const int a = j * (g.nu + 1) + i;
     const Kept kept = keptOf(job_, j * g.nu + i);
     if (kept == Kept::None) return;
+    const bool opaque = job_.raster.opaque && !job_.raster.inSolid;
     const BlurredQuad<B> quad(job_.raster, key_, a);
     const uint32_t cell = job_.firstCell + static_cast<uint32_t>(j * g.nu + i);
     for (size_t k = 0; k < samples.count; k += hn::Lanes(kF)) {
@@ -157,6 +158,10 @@ class Descent {
                   hn::FirstN(kF, samples.count - k));
       HWY_ALIGN float depths[kLanes];
       hn::Store(depth, kF, depths);
+      if (opaque && kept == Kept::All) {
+        giveOpaque(samples.lane + k, depths, bitsOf(in), cell);
+        continue;
+      }
       for (uint64_t left = bitsOf(in); left; left &= left - 1) {
         const size_t s = static_cast<size_t>(std::countr_zero(left));
         if (kept == Kept::All || keepsSample(job_, cell, samples.lane[k + s])) give(samples.lane[k + s], depths[s], cell);
@@ -176,6 +181,21 @@ class Descent {
     }
     if (depth == before) return settleTies(job_, lane, 1, cell);
     before = depth, out.cell[lane] = cell, out.nearer[pixel] = 1;
+  }
+
+  /// The same for most samples, with pointers that need not be read again after every flag: it may alias all.
+  HWY_INLINE void giveOpaque(const uint32_t* lanes, const float* depths, uint64_t samples, uint32_t cell) {
+    float* depth = job_.out.depth.data();
+    uint32_t* cells = job_.out.cell.data();
+    const uint32_t* pixelOf = job_.out.pixelOf.data();
+    uint8_t* nearer = job_.out.nearer.data();
+    for (; samples; samples &= samples - 1) {
+      const size_t s = static_cast<size_t>(std::countr_zero(samples));
+      const uint32_t lane = lanes[s];
+      if (depths[s] == depth[lane]) settleTies(job_, lane, 1, cell);
+      if (depths[s] >= depth[lane]) continue;
+      depth[lane] = depths[s], cells[lane] = cell, nearer[pixelOf[lane / kLanes]] = 1;
+    }
   }
 
   const RasterJob& job_;
