@@ -16,16 +16,19 @@ inline vec3 extrapolate(const IrradianceRecord& r, const vec3& x, const vec3& n)
   return glm::max(vec3(0.0f), r.E + changeBy(r, x - r.position, cross(r.normal, n)));
 }
 
-/// step H step of each channel.
-inline vec3 bentBy(const IrradianceRecord& r, const vec3& step) {
-  const float a = dot(step, r.tangent), b = dot(step, cross(r.normal, r.tangent));
+/// step H step of each channel. The step may be that of records that reach farther: beyond its own reach this
+/// one knows nothing.
+inline vec3 bentBy(const IrradianceRecord& r, const vec3& step, float reach) {
+  const vec3 known = step * std::min(1.0f, reach / std::max(glm::length(step), 1e-30f));
+  const float a = dot(known, r.tangent), b = dot(known, cross(r.normal, r.tangent));
   return a * a * r.hessian[0] + 2 * a * b * r.hessian[1] + b * b * r.hessian[2];
 }
 
 /// Of records that are all extrapolated to one place. From a step s away, by the gradient there, E is off by
 /// -s H s / 2; and gradients so far away differ by H s. So the mean over the records is off by half the
 /// covariance of gradient and step, which takes no second derivative, and by the mean step's -s H s / 2,
-/// which is little where records lie on all sides.
+/// which is little where records lie on all sides. That holds where light bends evenly. Where it ends between
+/// records, as at a shadow's edge, what they say there is apart, and a parabola through it lights the dark.
 class MeanExtrapolation {
  public:
   MeanExtrapolation(const vec3& x, const vec3& n) : x_(x), n_(n) {}
@@ -36,7 +39,9 @@ class MeanExtrapolation {
     weight_ += weight, step_ += weight * step, turn_ += weight * turn, change_ += weight * change;
     for (int c = 0; c < 3; ++c)
       translation_[c] += weight * r.translationGradient[c], rotation_[c] += weight * r.rotationGradient[c];
-    return glm::max(vec3(0.0f), r.E + change);
+    const vec3 E = glm::max(vec3(0.0f), r.E + change);
+    E_ += weight * E, square_ += weight * E * E;
+    return E;
   }
   // Pre: something was added.
   vec3 step() const { return step_ / weight_; }
@@ -45,11 +50,17 @@ class MeanExtrapolation {
     for (int c = 0; c < 3; ++c) out[c] -= (dot(turn_, rotation_[c]) + dot(step_, translation_[c])) / weight_;
     return out / weight_;
   }
+  /// How far the second order may be believed: 1 where all say the same, 0 where they are kApart off, rms.
+  vec3 agreement() const {
+    constexpr float kApart = 0.3f, kLeast = 1e-30f;
+    const vec3 mean = E_ / weight_, variance = square_ / weight_ - mean * mean;
+    return glm::clamp(1.0f - variance / glm::max(kApart * kApart * mean * mean, kLeast), 0.0f, 1.0f);
+  }
 
  private:
   const vec3 x_, n_;
   float weight_ = 0;
-  vec3 step_{0.0f}, turn_{0.0f}, change_{0.0f};
+  vec3 step_{0.0f}, turn_{0.0f}, change_{0.0f}, E_{0.0f}, square_{0.0f};
   vec3 translation_[3] = {vec3(0), vec3(0), vec3(0)}, rotation_[3] = {vec3(0), vec3(0), vec3(0)};
 };
 

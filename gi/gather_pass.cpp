@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <bit>
 #include <mutex>
 #include <optional>
 #include <unordered_set>
@@ -21,6 +20,7 @@ constexpr size_t kPointsPerSlice = 256;
 // From so many on, all records have the same rays: what those miss then changes little between records, and is no more than others miss
 // (docs/decisions/0095).
 constexpr int kManyRays = 512;
+constexpr int kRaysPerScoutRay = 4;  // and scouts have so many times fewer, of their own
 
 /// Of the lattice that this phase completes; 0: none.
 int strideAfter(int phase) { return phase < kLatticePhases && phase % 2 == 0 ? 16 >> phase / 2 : 0; }
@@ -225,35 +225,45 @@ class GatherPass {
     for (size_t i = 0; i < finds.size(); ++i)
       if (isLight(sites[i].cache)) std::swap(finds[lights++], finds[i]);
     finds.resize(lights);
-    if (!finds.empty()) state_.spots.learn(finds);
-    finds.clear();
-    if (phase_ == 0 && !state_.spots.spots().empty()) done = makeRecords(sites, records, finds);  // the first found them, and could not aim
+    if (!finds.empty()) state_.spots.learn(finds), finds.clear(), done = makeRecords(sites, records, finds);
     for (size_t i = 0; i < done; ++i) state_.caches[sites[i].cache].cache.insert(records[i]);
     state_.stats.irradianceCache.samples += static_cast<int64_t>(done);
     report(1);
   }
 
-  /// How many: fewer than there are sites if cancelled. finds: none, or as many as sites.
+  bool sharesRays(size_t cache) const { return state_.caches[cache].plan.gather.samples >= kManyRays; }
+  /// Is what has been made while looking for bright spots no record? The first could not aim at them.
+  bool isScoutAlone(size_t cache) const {
+    return isLight(cache) && (sharesRays(cache) || (phase_ == 0 && !state_.spots.spots().empty()));
+  }
+
+  /// How many: fewer than there are sites if cancelled. finds: none, when scouts alone are replaced, or as
+  /// many as sites.
   size_t makeRecords(const std::vector<Site>& sites, std::vector<IrradianceRecord>& records, std::vector<BrightFind>& finds) {
+    const bool isFirst = phase_ >= kScoutPhases || !finds.empty();
     size_t done = 0;
     for (; done < sites.size() && !isCancelled(); done = std::min(done + kPointsPerSlice, sites.size())) {
-      if (phase_ > 0 || !finds.empty()) report(static_cast<float>(done) / static_cast<float>(sites.size()));
+      if (isFirst) report(static_cast<float>(done) / static_cast<float>(sites.size()));
       const size_t count = std::min(kPointsPerSlice, sites.size() - done);
       parallelFor(count, 1, [&](size_t begin, size_t end) {
-        for (size_t i = done + begin; i < done + end; ++i) records[i] = gatherAt(sites[i], finds.empty() ? nullptr : &finds[i]);
+        for (size_t i = done + begin; i < done + end; ++i)
+          if (isFirst || isScoutAlone(sites[i].cache))
+            records[i] = gatherAt(sites[i], finds.empty() || !isLight(sites[i].cache) ? nullptr : &finds[i]);
       });
     }
     return done;
   }
 
   IrradianceRecord gatherAt(const Site& site, BrightFind* find) const {
-    const bool light = isLight(site.cache);
-    const GatherSettings& settings = state_.caches[site.cache].plan.gather;
+    const KnownLight known =
+        isLight(site.cache) ? KnownLight{&state_.spots, state_.radiosity.get()} : KnownLight{};
+    GatherSettings settings = state_.caches[site.cache].plan.gather;
     GatherPoint point = site.point;
     // Bright spots are found by other rays than those that look for them again: else what all have missed is missed for good.
-    if (settings.samples >= kManyRays && !find) point.key = 0;
-    IrradianceRecord record = gather(*tools_->rays, *tools_->shading, point, settings,
-                                     light ? KnownLight{&state_.spots, state_.radiosity.get()} : KnownLight{}, state_.stats, light ? find : nullptr);
+    if (sharesRays(site.cache) && find) settings.samples /= kRaysPerScoutRay;
+    if (sharesRays(site.cache) && !find) point.key = 0;
+    IrradianceRecord record =
+        gather(*tools_->rays, *tools_->shading, point, settings, known, state_.stats, find);
     record.relief = reliefOfGroup_[static_cast<size_t>(site.point.group)];
     return record;
   }
@@ -277,13 +287,6 @@ class GatherPass {
 };
 
 }  // namespace
-
-int latticePhase(int x, int y) {
-  const int level = std::min(std::countr_zero(static_cast<unsigned>(x | y)), 4);
-  if (level == 4) return 0;
-  const int half = 1 << level;
-  return 1 + 2 * (3 - level) + (x & y & half ? 0 : 1);
-}
 
 void fillCaches(GiState& state, const DeepFrame& layout, const TileReader& tiles, const std::function<void(float)>& progress,
                 const std::atomic<bool>* cancelled, const std::function<void(int stride)>& covered) {

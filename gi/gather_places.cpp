@@ -22,6 +22,13 @@ float projectedPixelSize(const Camera& camera, const vec3& P, const vec3& n) {
   return camera.pixelSize(P) / std::sqrt(std::max(cosine, kLeastCosine));
 }
 
+int latticePhase(int x, int y) {
+  const int level = std::min(std::countr_zero(static_cast<unsigned>(x | y)), 4);
+  if (level == 4) return 0;
+  const int half = 1 << level;
+  return 1 + 2 * (3 - level) + (x & y & half ? 0 : 1);
+}
+
 GatherPlaces::GatherPlaces(const GiState& state, const ShadePoints& points) : state_(state), points_(points) {
   const ShadeGroup& group = state.scene.groups[static_cast<size_t>(points.group())];
   positions_ = tripleOf(group.primvars, "gatherP"), normals_ = tripleOf(group.primvars, "gatherN");

@@ -215,13 +215,16 @@ struct IrradianceCache::Impl {
   }
 
   // What extrapolating each record by its own gradient leaves out of their mean.
-  vec3 secondOrder(const std::vector<Candidate>& candidates, const MeanExtrapolation& mean, float weight) const {
+  vec3 secondOrder(const std::vector<Candidate>& candidates, const MeanExtrapolation& mean, float weight, float pixelSize) const {
     if (settings.errorFunction == ErrorFunction::Split) return vec3(0.0f);
     const vec3 step = mean.step();
     vec3 out = -0.5f * mean.covariance();
     if (settings.errorFunction == ErrorFunction::Hessian)
-      for (const Candidate& c : candidates) out += 0.5f * c.weight / weight * bentBy(records[c.record], step);
-    return out;
+      for (const Candidate& c : candidates) {
+        const IrradianceRecord& r = records[c.record];
+        out += 0.5f * c.weight / weight * bentBy(r, step, reach(size(r), pixelSize));
+      }
+    return mean.agreement() * out;
   }
 
   IrradianceEstimate blend(const std::vector<Candidate>& candidates, const vec3& x, const vec3& n, float pixelSize) const {
@@ -242,7 +245,7 @@ struct IrradianceCache::Impl {
       for (int c = 0; c < 3; ++c) out.dominant[c] += candidate.weight * r.dominant[c];  // eq. 7
       out.weight += candidate.weight;
     }
-    if (out.weight > 0) out.E = glm::max(vec3(0.0f), out.E / out.weight + secondOrder(candidates, mean, out.weight));
+    if (out.weight > 0) out.E = glm::max(vec3(0.0f), out.E / out.weight + secondOrder(candidates, mean, out.weight, pixelSize));
     out.disputed = limitBy(worst, nearest, pixelSize) <= nearest;
     for (vec3& d : out.dominant) d = normalizeOr(d, n);
     return out;

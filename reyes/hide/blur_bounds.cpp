@@ -8,18 +8,18 @@ namespace {
 constexpr float kMargin_px = 1.0f / 64;
 constexpr float kRounding = 0x1p-20f;  ///< Of the largest coordinate: some units in the last place.
 
-/// For a level, a row after the other, each with one box more than there are: of raster x, y and depth key the least and the greatest at the two keys
-/// of a segment.
+/// For a level, a row after the other, each with one box more than there are: of raster x, y and, if the lens
+/// counts, depth key the least and the greatest at the two keys of a segment.
 struct Extents {
-  int columns, rows;
+  int columns, rows, axes;
   std::vector<float> lo[2][3], hi[2][3];
 
   int pitch() const { return columns + 1; }
   int count() const { return pitch() * rows; }
-  void resize(int c, int r) {
-    columns = c, rows = r;
+  void resize(int c, int r, int a) {
+    columns = c, rows = r, axes = a;
     for (int key = 0; key < 2; ++key)
-      for (int axis = 0; axis < 3; ++axis)
+      for (int axis = 0; axis < axes; ++axis)
         for (auto* values : {&lo[key][axis], &hi[key][axis]}) values->resize(static_cast<size_t>(count()) + 1);
   }
 };
@@ -36,6 +36,17 @@ TOMALES_HOT void extendCells(const float* v, int row, int count, float* __restri
   }
 }
 
+/// Lanes of a vector keep their own.
+TOMALES_HOT float leastOf(const float* v, int count) {
+  float lanes[kLanes];
+  for (float& l : lanes) l = kInfinity;
+  int i = 0;
+  for (; i + kLanes <= count; i += kLanes)
+    for (int k = 0; k < kLanes; ++k) lanes[k] = least(lanes[k], v[i + k]);
+  for (; i < count; ++i) lanes[0] = least(lanes[0], v[i]);
+  return *std::min_element(lanes, lanes + kLanes);
+}
+
 /// Two boxes of two rows each; odd ends are looked at twice.
 template <class Extreme>
 void halve(const Extents& from, std::vector<float>& values, const Extreme& extreme, float* out) {
@@ -48,9 +59,9 @@ void halve(const Extents& from, std::vector<float>& values, const Extreme& extre
 }
 
 void halve(Extents& from, Extents& to) {
-  to.resize((from.columns + 1) / 2, (from.rows + 1) / 2);
+  to.resize((from.columns + 1) / 2, (from.rows + 1) / 2, from.axes);
   for (int key = 0; key < 2; ++key)
-    for (int axis = 0; axis < 3; ++axis)
+    for (int axis = 0; axis < from.axes; ++axis)
       halve(from, from.lo[key][axis], least, to.lo[key][axis].data()), halve(from, from.hi[key][axis], greatest, to.hi[key][axis].data());
 }
 
@@ -77,13 +88,25 @@ struct Motions {
 
 void appendBoxes(const Extents& e, const vec2& lens, PooledVector<BlurBox>& out) {
   static thread_local Motions x, y, d;
-  x.set(e, 0), y.set(e, 1), d.set(e, 2);
+  x.set(e, 0), y.set(e, 1);
+  const bool defocused = e.axes == 3;
+  if (defocused) d.set(e, 2);
   const vec2 blur = glm::abs(lens);
   for (int j = 0; j < e.rows; ++j)
     for (size_t i = static_cast<size_t>(j * e.pitch()), end = i + static_cast<size_t>(e.columns); i < end; ++i) {
-      const float xMargin = kMargin_px + kRounding * (x.most[i] + blur.x * d.most[i]), yMargin = kMargin_px + kRounding * (y.most[i] + blur.y * d.most[i]);
-      out.push_back({x.center[i], y.center[i], d.center[i], x.step[i], y.step[i], d.step[i], x.reach[i] + blur.x * d.reach[i] + xMargin,
-                     y.reach[i] + blur.y * d.reach[i] + yMargin, least(e.lo[0][2][i], e.lo[1][2][i])});
+      BlurBox& box = out.emplace_back();
+      box = {x.center[i],
+             y.center[i],
+             0,
+             x.step[i],
+             y.step[i],
+             0,
+             x.reach[i] + kMargin_px + kRounding * x.most[i],
+             y.reach[i] + kMargin_px + kRounding * y.most[i]};
+      if (!defocused) continue;
+      box.d = d.center[i], box.dStep = d.step[i];
+      box.xReach += blur.x * (d.reach[i] + kRounding * d.most[i]),
+          box.yReach += blur.y * (d.reach[i] + kRounding * d.most[i]);
     }
 }
 
@@ -101,7 +124,7 @@ std::vector<BlurBounds::Level> levelsOf(const Grid& g) {
 std::shared_ptr<const BlurBounds> boundBlur(const RasterGrid& r, const Camera& camera, Pool* pool) {
   const Grid& g = *r.grid;
   CHECK_EQ(g.pieceCount(), 1);
-  const int segments = std::max(1, g.keyCount - 1), row = g.nu + 1;
+  const int segments = std::max(1, g.keyCount - 1), row = g.nu + 1, axes = r.defocused ? 3 : 2;
   auto bounds = std::make_shared<BlurBounds>();
   bounds->levels = levelsOf(g);
   bounds->boxesPerSegment = bounds->levels.back().first + 1;
@@ -109,14 +132,14 @@ std::shared_ptr<const BlurBounds> boundBlur(const RasterGrid& r, const Camera& c
   bounds->boxes.reserve(bounds->boxesPerSegment * static_cast<size_t>(segments));
   static thread_local Extents fine, coarse;
   for (int segment = 0; segment < segments; ++segment) {
-    fine.resize(g.nu, g.nv);
+    float& dMin = bounds->dMin.emplace_back(kInfinity);
+    fine.resize(g.nu, g.nv, axes);
     for (int k = 0; k < 2; ++k) {
       const ptrdiff_t first = ptrdiff_t{std::min(segment + k, g.keyCount - 1)} * g.stride();
-      int axis = 0;
-      for (const float* v : {r.x.data(), r.y.data(), r.d.data()}) {
-        extendCells(v + first, row, fine.count() - 1, fine.lo[k][axis].data(), fine.hi[k][axis].data());
-        ++axis;
-      }
+      const float* of[3] = {r.x.data() + first, r.y.data() + first, r.d.data() + first};
+      for (int axis = 0; axis < axes; ++axis)
+        extendCells(of[axis], row, fine.count() - 1, fine.lo[k][axis].data(), fine.hi[k][axis].data());
+      dMin = std::min(dMin, leastOf(of[2], g.vertexCount()));
     }
     appendBoxes(fine, camera.lens(), bounds->boxes);
     for (size_t l = 1; l < bounds->levels.size(); ++l) {

@@ -9,10 +9,9 @@ namespace tomales {
 /// At fraction t between two motion keys, through lens shift l (SampleBuffer::lensX, lensY), all of it lies within `reach` of
 /// center + t * step, moved by l * (d + t * dStep - Camera::focusKey()).
 struct BlurBox {
-  float x, y, d;              ///< Centre at the first key.
+  float x, y, d;              ///< Centre at the first key. Depth keys count if RasterGrid::defocused.
   float xStep, yStep, dStep;  ///< Way to its place at the second.
   float xReach, yReach;       ///< With a margin for rounding (docs/decisions/0012).
-  float dMin;                 ///< Nearest depth key at either.
 };
 
 struct BlurBounds {
@@ -22,6 +21,7 @@ struct BlurBounds {
   };
   std::vector<Level> levels;   ///< levels[0]: one micropolygon a box; the last: one box.
   size_t boxesPerSegment = 0;
+  std::vector<float> dMin;      ///< Of a segment: the nearest depth key at either end.
   PooledVector<BlurBox> boxes;  ///< A segment lies between two motion keys; a still grid has one.
 
   const BlurBox& box(int segment, const Level& level, int i, int j) const {

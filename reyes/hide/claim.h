@@ -49,12 +49,12 @@ HWY_INLINE void claim(const RasterJob& job, const Shape& shape, size_t lane, uin
   if (HWY_UNLIKELY(!hn::AllFalse(kF, tight))) {
     noteContest(job, lane, bitsOf(tight), shape.vague());
     if (const Mask ties = hn::And(reached, hn::Eq(depth, before)); !hn::AllFalse(kF, ties)) settleTies(job, lane, bitsOf(ties), cell);
+    reached = hn::And(reached, hn::Lt(depth, before));
   }
-  const Mask won = hn::And(reached, hn::Lt(depth, before));
   uint32_t* cells = out.cell.data() + lane;
   // Whole vectors: the next cell reads them back, and could not from a masked store that is still on its way.
-  hn::Store(hn::IfThenElse(won, depth, before), kF, out.depth.data() + lane);
-  hn::Store(hn::IfThenElse(hn::RebindMask(kU, won), hn::Set(kU, cell), hn::Load(kU, cells)), kU, cells);
+  hn::Store(hn::IfThenElse(reached, depth, before), kF, out.depth.data() + lane);
+  hn::Store(hn::IfThenElse(hn::RebindMask(kU, reached), hn::Set(kU, cell), hn::Load(kU, cells)), kU, cells);
 }
 
 /// Writes what a cell covers into a vector of a film: where it does not, what was there, or nothing in one that is fresh.

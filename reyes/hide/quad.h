@@ -32,7 +32,11 @@ struct alignas(64) Corners {
   int32_t x0[kLanes], y0[kLanes], x1[kLanes], y1[kLanes];     ///< Pixels of the bucket that they touch.
 };
 
-/// Edges of kLanes micropolygons: inside where dx * (y - oy) - dy * (x - ox) > limit.
+// Edges of kLanes micropolygons, two kinds. What Edge::inside tells of a sample is the sign of its lane,
+// below 0 if it is inside: signs are joined by operations on vectors, of which the processor has more than on
+// masks.
+
+/// Inside where dx * (y - oy) - dy * (x - ox) > limit.
 struct FloatEdges {
   float ox[kLanes], oy[kLanes], dx[kLanes], dy[kLanes], limit[kLanes];
 
@@ -44,13 +48,16 @@ struct FloatEdges {
   struct Edge {
     Floats ox, oy, dx, dy, limit;
     HWY_INLINE Edge(const FloatEdges& e, int i) : ox(all(e.ox[i])), oy(all(e.oy[i])), dx(all(e.dx[i])), dy(all(e.dy[i])), limit(all(e.limit[i])) {}
-    HWY_INLINE Mask holds(const At& at) const {
-      return hn::Gt(hn::Sub(hn::Mul(dx, hn::Sub(at.y, oy)), hn::Mul(dy, hn::Sub(at.x, ox))), limit);
+    HWY_INLINE Ints inside(const At& at) const {
+      const Mask holds =
+          hn::Gt(hn::Sub(hn::Mul(dx, hn::Sub(at.y, oy)), hn::Mul(dy, hn::Sub(at.x, ox))), limit);
+      return hn::BitCast(kI, hn::VecFromMask(kF, holds));
     }
   };
 
-  /// From corner p to q, with the inside on the left where `left` holds, else on the right; never inside where `empty` holds. For the lanes from g on.
-  HWY_INLINE void set(size_t g, const Corners& c, int p, int q, Mask left, Mask empty) {
+  /// From corner p to q, with the inside on the left where `left` holds, else on the right. For the lanes
+  /// from g on.
+  HWY_INLINE void set(size_t g, const Corners& c, int p, int q, Mask left) {
     const Floats px = hn::Load(kF, c.x[p] + g), py = hn::Load(kF, c.y[p] + g), qx = hn::Load(kF, c.x[q] + g), qy = hn::Load(kF, c.y[q] + g);
     const Mask swapped = hn::Or(hn::Lt(qx, px), hn::And(hn::Eq(qx, px), hn::Lt(qy, py)));
     const Floats x = hn::Sub(qx, px), y = hn::Sub(qy, py);
@@ -59,7 +66,11 @@ struct FloatEdges {
     hn::Store(hn::IfThenElse(left, x, hn::Neg(x)), kF, dx + g);
     hn::Store(hn::IfThenElse(left, y, hn::Neg(y)), kF, dy + g);
     const Floats least = hn::IfThenElse(hn::Xor(swapped, left), hn::Zero(kF), all(-kTiny));
-    hn::Store(hn::IfThenElse(empty, all(FLT_MAX), least), kF, limit + g);
+    hn::Store(least, kF, limit + g);
+  }
+  /// Nothing is inside of those of a mask.
+  HWY_INLINE void close(size_t g, Mask closed) {
+    hn::Store(hn::IfThenElse(closed, all(FLT_MAX), hn::Load(kF, limit + g)), kF, limit + g);
   }
 };
 
@@ -74,12 +85,10 @@ struct LatticeEdges {
   struct Edge {
     Ints pair, limit;
     HWY_INLINE Edge(const LatticeEdges& e, int i) : pair(hn::Set(kI, e.pair[i])), limit(hn::Set(kI, e.limit[i])) {}
-    HWY_INLINE Mask holds(const At& at) const {
-      return hn::RebindMask(kF, hn::Gt(products(pair, at.xy), limit));
-    }
+    HWY_INLINE Ints inside(const At& at) const { return hn::Sub(limit, products(pair, at.xy)); }
   };
 
-  HWY_INLINE void set(size_t g, const Corners& c, int p, int q, Mask left, Mask empty) {
+  HWY_INLINE void set(size_t g, const Corners& c, int p, int q, Mask left) {
     const Ints px = hn::Load(kI, c.latticeX[p] + g), py = hn::Load(kI, c.latticeY[p] + g);
     const Ints qx = hn::Load(kI, c.latticeX[q] + g), qy = hn::Load(kI, c.latticeY[q] + g);
     const auto onLeft = hn::RebindMask(kI, left), swapped = hn::Or(hn::Lt(qx, px), hn::And(hn::Eq(qx, px), hn::Lt(qy, py)));
@@ -88,7 +97,12 @@ struct LatticeEdges {
     hn::Store(hn::Or(hn::ShiftLeft<16>(dx), hn::And(hn::Neg(dy), hn::Set(kI, 0xffff))), kI, pair + g);
     const Ints here = hn::Sub(hn::Mul(dx, py), hn::Mul(dy, px));
     const Ints least = hn::IfThenElse(hn::Xor(swapped, onLeft), here, hn::Sub(here, hn::Set(kI, 1)));
-    hn::Store(hn::IfThenElse(hn::RebindMask(kI, empty), hn::Set(kI, INT32_MAX), least), kI, limit + g);
+    hn::Store(least, kI, limit + g);
+  }
+  HWY_INLINE void close(size_t g, Mask closed) {
+    // Values lie within 2^28, so that no difference leaves 32 bits.
+    hn::Store(hn::IfThenElse(hn::RebindMask(kI, closed), hn::Set(kI, 1 << 30), hn::Load(kI, limit + g)), kI,
+              limit + g);
   }
 
   /// Edges may be as long: so that floats are exact too, up to a pixel beyond the cell, and which of the two is asked shows in no bit.
@@ -98,7 +112,9 @@ struct LatticeEdges {
 /// The triangles abc and bdc of kLanes micropolygons.
 template <class Edges>
 struct alignas(64) Triangles {
-  Edges ab, bc, ca, bd, dc, cb;
+  Edges ab, bc, ca, bd, dc;
+  int32_t flipped[kLanes];  ///< -1: what is inside of bc for abc is outside for bdc; 0: the quad is folded
+                            ///< along bc.
   float gx0[kLanes], gy0[kLanes], gx1[kLanes], gy1[kLanes];  ///< Depth gradients of abc, bdc.
   float vague[kLanes];                                       ///< vagueDepth
 
@@ -122,16 +138,19 @@ struct alignas(64) Triangles {
     const Floats abx = hn::Sub(bx, ax), aby = hn::Sub(by, ay), abz = hn::Sub(bz, az), acx = hn::Sub(cx, ax), acy = hn::Sub(cy, ay), acz = hn::Sub(cz, az);
     const Floats bdx = hn::Sub(dx, bx), bdy = hn::Sub(dy, by), bdz = hn::Sub(dz, bz), bcx = hn::Sub(cx, bx), bcy = hn::Sub(cy, by), bcz = hn::Sub(cz, bz);
     const Floats zero = hn::Zero(kF), area0 = area(abx, aby, acx, acy), area1 = area(bdx, bdy, bcx, bcy);
-    const Mask left0 = hn::Gt(area0, zero), left1 = hn::Gt(area1, zero), flat0 = hn::Eq(area0, zero), flat1 = hn::Eq(area1, zero);
-    // A triangle without area has no inside, and one that turns away is not seen.
+    const Mask left0 = hn::Gt(area0, zero), left1 = hn::Gt(area1, zero), flat0 = hn::Eq(area0, zero),
+               flat1 = hn::Eq(area1, zero);
     const Floats side = all(facing);
     const Mask away0 = hn::Lt(hn::IfThenElse(left0, side, hn::Neg(side)), zero), away1 = hn::Lt(hn::IfThenElse(left1, side, hn::Neg(side)), zero);
-    ab.set(g, q, 0, 1, left0, hn::Or(flat0, away0));
-    bc.set(g, q, 1, 2, left0, flat0);
-    ca.set(g, q, 2, 0, left0, flat0);
-    bd.set(g, q, 1, 3, left1, hn::Or(flat1, away1));
-    dc.set(g, q, 3, 2, left1, flat1);
-    cb.set(g, q, 2, 1, left1, flat1);
+    ab.set(g, q, 0, 1, left0);
+    bc.set(g, q, 1, 2, left0);
+    ca.set(g, q, 2, 0, left0);
+    bd.set(g, q, 1, 3, left1);
+    dc.set(g, q, 3, 2, left1);
+    hn::Store(hn::BitCast(kI, hn::VecFromMask(kF, hn::Not(hn::Xor(left0, left1)))), kI, flipped + g);
+    // A triangle without area has no inside, and one that turns away is not seen.
+    ab.close(g, hn::Or(flat0, away0));
+    bd.close(g, hn::Or(flat1, away1));
     const Floats one = all(1.0f), inverse0 = hn::Div(one, hn::IfThenElse(flat0, one, area0)), inverse1 = hn::Div(one, hn::IfThenElse(flat1, one, area1));
     const Floats x0 = hn::Mul(hn::Sub(hn::Mul(abz, acy), hn::Mul(acz, aby)), inverse0), y0 = hn::Mul(hn::Sub(hn::Mul(acz, abx), hn::Mul(abz, acx)), inverse0);
     const Floats x1 = hn::Mul(hn::Sub(hn::Mul(bdz, bcy), hn::Mul(bcz, bdy)), inverse1), y1 = hn::Mul(hn::Sub(hn::Mul(bcz, bdx), hn::Mul(bdz, bcx)), inverse1);
@@ -146,18 +165,32 @@ template <class Edges>
 class Quad {
  public:
   HWY_INLINE Quad(const Corners& q, const Triangles<Edges>& t, int i)
-      : ab_(t.ab, i), bc_(t.bc, i), ca_(t.ca, i), bd_(t.bd, i), dc_(t.dc, i), cb_(t.cb, i), bx_(all(q.x[1][i])), by_(all(q.y[1][i])),
-        bDepth_(all(q.d[1][i])), dMin_(all(q.dMin[i])), dMax_(all(q.dMax[i])), gx0_(all(t.gx0[i])), gy0_(all(t.gy0[i])),
-        gx1_(all(t.gx1[i])), gy1_(all(t.gy1[i])), vague_(t.vague[i]) {}
+      : ab_(t.ab, i),
+        bc_(t.bc, i),
+        ca_(t.ca, i),
+        bd_(t.bd, i),
+        dc_(t.dc, i),
+        flipped_(hn::Set(kI, t.flipped[i])),
+        bx_(all(q.x[1][i])),
+        by_(all(q.y[1][i])),
+        bDepth_(all(q.d[1][i])),
+        dMin_(all(q.dMin[i])),
+        dMax_(all(q.dMax[i])),
+        gx0_(all(t.gx0[i])),
+        gy0_(all(t.gy0[i])),
+        gx1_(all(t.gx1[i])),
+        gy1_(all(t.gy1[i])),
+        vague_(t.vague[i]) {}
 
   struct Covered {
     Mask mask, first;  ///< By any triangle; by abc.
   };
   HWY_INLINE Covered covers(const SampleBuffer& samples, size_t lane) const {
     const typename Edges::At at(samples, lane);
-    const Mask first = hn::And(hn::And(ab_.holds(at), ca_.holds(at)), bc_.holds(at));
-    const Mask second = hn::And(hn::And(bd_.holds(at), dc_.holds(at)), cb_.holds(at));
-    return {hn::Or(first, second), first};
+    const Ints diagonal = bc_.inside(at);
+    const Ints first = hn::And(hn::And(ab_.inside(at), ca_.inside(at)), diagonal);
+    const Ints second = hn::And(hn::And(bd_.inside(at), dc_.inside(at)), hn::Xor(diagonal, flipped_));
+    return {negative(hn::Or(first, second)), negative(first)};
   }
   HWY_INLINE Floats depth(Floats x, Floats y, const Covered& in) const {
     const Floats gx = hn::IfThenElse(in.first, gx0_, gx1_), gy = hn::IfThenElse(in.first, gy0_, gy1_);
@@ -168,7 +201,10 @@ class Quad {
   float vague() const { return vague_; }
 
  private:
-  typename Edges::Edge ab_, bc_, ca_, bd_, dc_, cb_;
+  static HWY_INLINE Mask negative(Ints v) { return hn::RebindMask(kF, hn::Lt(v, hn::Zero(kI))); }
+
+  typename Edges::Edge ab_, bc_, ca_, bd_, dc_;
+  Ints flipped_;
   Floats bx_, by_, bDepth_, dMin_, dMax_, gx0_, gy0_, gx1_, gy1_;
   float vague_;
 };

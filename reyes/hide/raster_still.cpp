@@ -131,20 +131,23 @@ size_t listAsks(SampleBuffer& out, const Corners& q, uint64_t& cells) {
   return count;
 }
 
+/// Cells one after the other: what is asked stays in registers for all pixels of one.
 template <class Edges>
 HWY_INLINE void ask(const RasterJob& job, const Corners& q, const Triangles<Edges>& triangles, size_t count) {
   SampleBuffer& out = job.out;
   const size_t lanes = static_cast<size_t>(out.lanes);
   const Ask* asks = out.asks.data();
   const bool whole = keepsAll(job);
-  for (size_t k = 0; k < count; ++k) {
-    const auto [pixel, i] = asks[k];
+  for (size_t k = 0; k < count;) {
+    const int i = asks[k].cell;
     const Kept kept = whole ? Kept::All : keptOf(job, q.cell[i]);
-    if (kept == Kept::None) continue;
     const Quad<Edges> quad(q, triangles, i);
     const uint32_t cell = job.firstCell + static_cast<uint32_t>(q.cell[i]);
-    for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) claim(job, quad, pixel * lanes + g, cell, kept);
-    out.nearer[pixel] = 1;
+    do {
+      const size_t pixel = asks[k].pixel;
+      for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) claim(job, quad, pixel * lanes + g, cell, kept);
+      out.nearer[pixel] = 1;
+    } while (++k < count && asks[k].cell == i);
   }
 }
 
@@ -167,12 +170,19 @@ void filmCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   for (uint64_t left = cells; left; left &= left - 1) {
     const int i = std::countr_zero(left);
     const Kept kept = keptOf(job, q.cell[i]);
-    if (kept == Kept::None) continue;
     const uint32_t cell = job.firstCell + static_cast<uint32_t>(q.cell[i]);
     const PixelRect pixels{q.x0[i], q.y0[i], q.x1[i], q.y1[i]};
     const auto quad = [&] { return Quad<Edges>(q, triangles, i); };
     sampleCell<false>(job, pixels, r.inSolid ? r.dMin : q.dMin[i], cell, kept, quad);
   }
+}
+
+/// Without those of which trim curves leave nothing.
+HWY_INLINE uint64_t keptCells(const RasterJob& job, const Corners& q, uint64_t cells) {
+  if (keepsAll(job)) return cells;
+  for (uint64_t left = cells; left; left &= left - 1)
+    if (keptOf(job, q.cell[std::countr_zero(left)]) == Kept::None) cells &= ~(left & (~left + 1));
+  return cells;
 }
 
 template <class Edges>
@@ -187,7 +197,7 @@ void sampleCells(const RasterJob& job, const Corners& q, uint64_t cells) {
 void rasterizeRun(const RasterJob& job, int first, int end, Corners& q) {
   const CellNumbers numbers(*job.raster.grid);
   for (int k = first; k < end; k += kLanes) {
-    const uint64_t cells = setUp(q, job.raster, numbers, k, end, job.out.rect);
+    const uint64_t cells = keptCells(job, q, setUp(q, job.raster, numbers, k, end, job.out.rect));
     if (cells == 0) continue;
     if (fitLattice(q, cells, job.out)) {
       setLattice(q.x, job.out.origin.x, q.latticeX);

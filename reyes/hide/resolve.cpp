@@ -4,6 +4,7 @@
 #include <bit>
 #include <numeric>
 
+#include "reyes/base/lent.h"
 #include "reyes/hide/facets.h"
 #include "reyes/hide/reach.h"
 #include "reyes/hide/sights.h"
@@ -32,24 +33,6 @@ struct Scratch {
   std::vector<Fragment> fragments;
 };
 
-/// Lends an empty list memory, and takes it back for a copy that has no more than it needs.
-template <class T>
-class Lent {
- public:
-  Lent(std::vector<T>& list, std::vector<T>& memory) : list_(list), memory_(memory) {
-    list_.swap(memory_);
-    list_.clear();
-  }
-  ~Lent() {
-    memory_.assign(list_.begin(), list_.end());
-    list_.swap(memory_);
-  }
-  Lent(const Lent&) = delete;
-
- private:
-  std::vector<T>&list_, &memory_;
-};
-
 class TileBuilder {
   static constexpr size_t kAhead = 24;  ///< Films that are on their way while one is looked at.
   static constexpr float kRounding = 1e-5f;  ///< Of depth keys.
@@ -66,7 +49,8 @@ class TileBuilder {
     sortFilms(count);
     {
       const Lent fragments(tile_.fragments, scratch_.fragments);
-      for (size_t pixel = 0; pixel < count; ++pixel) addPixel(pixel);
+      for (size_t first = 0; first < count; first += kRankedTogether)
+        addPixels(first, std::min(first + kRankedTogether, count));
     }
     facets_.make(tile_.fragments, doubts);
     tile_.shrink();
@@ -89,32 +73,44 @@ class TileBuilder {
     first[0] = 0;
   }
 
-  void addPixel(size_t pixel) {
-    const auto first = static_cast<uint32_t>(tile_.fragments.size());
-    if (scratch_.firstFilm[pixel] < scratch_.firstFilm[pixel + 1]) {
-      addFilms(pixel);
-    } else if (!addRanked(pixel)) {
-      sights_.clear();
-      collectOpaque(samples_, pixel, sights_);
-      addSights(pixel, false);
+  bool hasFilms(size_t pixel) const { return scratch_.firstFilm[pixel] < scratch_.firstFilm[pixel + 1]; }
+
+  void addPixels(size_t begin, size_t end) {
+    uint32_t opaque[kRankedTogether];
+    size_t count = 0;
+    for (size_t pixel = begin; pixel < end; ++pixel)
+      opaque[count] = static_cast<uint32_t>(pixel), count += !hasFilms(pixel);
+    RankedSights seen[kRankedTogether];
+    rankOpaque(samples_, {opaque, count}, seen);
+    const RankedSights* next = seen;
+    for (size_t pixel = begin; pixel < end; ++pixel) {
+      const auto first = static_cast<uint32_t>(tile_.fragments.size());
+      if (hasFilms(pixel))
+        addFilms(pixel);
+      else
+        addOpaque(pixel, *next++);
+      tile_.pixels.push_back({first, static_cast<uint32_t>(tile_.fragments.size()) - first});
     }
-    tile_.pixels.push_back({first, static_cast<uint32_t>(tile_.fragments.size()) - first});
   }
 
-  /// Most pixels: a few opaque surfaces. False, and nothing done, if there are more.
-  bool addRanked(size_t pixel) {
-    RankedSight seen[kMostRanked];
-    return addRanked(pixel, seen, rankOpaque(samples_, pixel, seen), 0);
+  void addOpaque(size_t pixel, const RankedSights& seen) {
+    if (addRanked(pixel, seen, 0)) return;
+    sights_.clear();
+    collectOpaque(samples_, pixel, sights_);
+    addSights(pixel, false);
   }
-  /// Most films: no other comes near.
+
+  /// Most of what is seen: a few surfaces. False, and nothing done, if there are more.
+  bool addRanked(size_t pixel, const RankedSights& seen, uint32_t word) {
+    for (int i = 0; i < seen.count; ++i)
+      addFragment(pixel, seen.sights[i].cell, seen.sights[i].d, seen.sights[i].samples, word);
+    return seen.count >= 0;
+  }
   bool addRanked(size_t pixel, uint32_t film) {
-    RankedSight seen[kMostRanked];
-    const Films& films = samples_.films;
-    return addRanked(pixel, seen, rankFilm(films, film, seen), static_cast<uint32_t>(films.film(film).word % films.wordsOfPixel()));
-  }
-  bool addRanked(size_t pixel, const RankedSight* seen, int count, uint32_t word) {
-    for (int i = 0; i < count; ++i) addFragment(pixel, seen[i].cell, seen[i].d, seen[i].samples, word);
-    return count >= 0;
+    RankedSights seen;
+    rankFilm(samples_.films, film, seen);
+    return addRanked(pixel, seen,
+                     static_cast<uint32_t>(samples_.films.film(film).word % samples_.films.wordsOfPixel()));
   }
 
   void addFragment(size_t pixel, uint32_t cell, float d, uint64_t samples, uint32_t word) {

@@ -3,6 +3,8 @@
 #define HWY_TARGET_INCLUDE "reyes/hide/sights.cpp"
 #include "reyes/base/vector.h"  // Includes this file again for each target.
 
+#include <utility>
+
 #include "reyes/hide/sights.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -48,43 +50,75 @@ void opaque(const SampleBuffer& samples, size_t pixel, std::vector<Sight>& sight
   }
 }
 
-/// Ranks the cells of some lanes without a branch that depends on depths: how many are nearer.
-HWY_INLINE int rank(const uint32_t* cells, const float* depths, size_t lanes, uint64_t left, RankedSight* out) {
-  const size_t most = std::min<size_t>(hn::Lanes(kF), kMostRanked);
-  const auto numbers = hn::Iota(kU, 0);
-  RankedSight found[kMostRanked];
-  Floats all_d = all(kInfinity);
-  uint32_t count = 0;
-  for (; left; ++count) {
-    if (count == most) return -1;
-    RankedSight& s = found[count];
-    s.cell = cells[std::countr_zero(left)];
-    s.samples = lanesOf(cells, depths, lanes, s.cell, s.d);
-    all_d = hn::IfThenElse(hn::RebindMask(kF, hn::Eq(numbers, hn::Set(kU, count))), all(s.d), all_d);
-    left &= ~s.samples;
-  }
+/// Up to 64 lanes, and which of them are left.
+struct Lanes {
+  const uint32_t* cells;
+  const float* depths;
+  uint64_t left;
+};
+
+/// Orders what was found without a branch that depends on depths: how many are nearer. nearest: their depths,
+/// and infinity beyond them.
+HWY_INLINE int order(const RankedSight* found, const float* nearest, int count, RankedSight* out) {
   uint64_t taken = 0;
-  for (uint32_t i = 0; i < count; ++i) {
-    const size_t nearer = hn::CountTrue(kF, hn::Lt(all_d, all(found[i].d)));
+  for (int i = 0; i < count; ++i) {
+    size_t nearer = 0;
+    for (size_t g = 0; g < kMostRanked; g += hn::Lanes(kF))
+      nearer += hn::CountTrue(kF, hn::Lt(hn::Load(kF, nearest + g), all(found[i].d)));
     out[nearer] = found[i];
     taken |= uint64_t{1} << nearer;
   }
-  return taken == (uint64_t{1} << count) - 1 ? static_cast<int>(count) : -1;
+  return taken == (uint64_t{1} << count) - 1 ? count : -1;
 }
 
-int opaqueRanked(const SampleBuffer& samples, size_t pixel, RankedSight* out) {
+/// In step: the next cell of a pixel is known when all lanes of the one before are, and meanwhile other
+/// pixels find theirs.
+HWY_INLINE void rank(Lanes* pixels, size_t count, size_t lanes, RankedSights* out) {
+  RankedSight found[kRankedTogether][kMostRanked];
+  HWY_ALIGN float nearest[kRankedTogether][kMostRanked];
+  uint32_t active[kRankedTogether];
+  size_t actives = 0;
+  for (size_t p = 0; p < count; ++p) {
+    std::fill_n(nearest[p], kMostRanked, kInfinity);
+    out[p].count = 0;
+    active[actives] = static_cast<uint32_t>(p);
+    actives += pixels[p].left != 0;
+  }
+  for (int round = 0; round < kMostRanked && actives > 0; ++round) {
+    const size_t before = std::exchange(actives, 0);
+    for (size_t k = 0; k < before; ++k) {
+      const uint32_t p = active[k];
+      Lanes& pixel = pixels[p];
+      RankedSight& s = found[p][round];
+      s.cell = pixel.cells[std::countr_zero(pixel.left)];
+      s.samples = lanesOf(pixel.cells, pixel.depths, lanes, s.cell, s.d);
+      nearest[p][round] = s.d;
+      pixel.left &= ~s.samples;
+      out[p].count = round + 1;
+      active[actives] = p;
+      actives += pixel.left != 0;
+    }
+  }
+  for (size_t p = 0; p < count; ++p)
+    out[p].count = pixels[p].left ? -1 : order(found[p], nearest[p], out[p].count, out[p].sights);
+}
+
+void opaqueRanked(const SampleBuffer& samples, std::span<const uint32_t> pixels, RankedSights* out) {
   const size_t lanes = static_cast<size_t>(samples.lanes);
-  if (lanes > 64) return -1;
-  const uint32_t* cells = samples.cell.data() + pixel * lanes;
-  const float* depths = samples.depth.data() + pixel * lanes;
-  float unused;
-  uint64_t left = ~lanesOf(cells, depths, lanes, kNoCell, unused);
-  if (lanes < 64) left &= (uint64_t{1} << lanes) - 1;
-  return rank(cells, depths, lanes, left, out);
+  Lanes ofPixels[kRankedTogether];
+  for (size_t k = 0; k < pixels.size(); ++k) {
+    const size_t first = pixels[k] * lanes;
+    ofPixels[k] = {samples.cell.data() + first, samples.depth.data() + first, 0};
+    float unused;
+    ofPixels[k].left = ~lanesOf(ofPixels[k].cells, ofPixels[k].depths, lanes, kNoCell, unused);
+    if (lanes < 64) ofPixels[k].left &= (uint64_t{1} << lanes) - 1;
+  }
+  rank(ofPixels, pixels.size(), lanes, out);
 }
 
-int filmRanked(const Films& films, size_t film, RankedSight* out) {
-  return rank(films.cells(film), films.depths(film), films.width(), films.film(film).samples, out);
+void filmRanked(const Films& films, size_t film, RankedSights* out) {
+  Lanes ofPixel{films.cells(film), films.depths(film), films.film(film).samples};
+  rank(&ofPixel, 1, films.width(), out);
 }
 
 FilmExtent cull(SampleBuffer& samples, const GridTable& grids, size_t index) {
@@ -138,8 +172,15 @@ HWY_EXPORT(ofFilm);
 void collectOpaque(const SampleBuffer& samples, size_t pixel, std::vector<Sight>& sights) {
   HWY_DYNAMIC_DISPATCH(opaque)(samples, pixel, sights);
 }
-int rankOpaque(const SampleBuffer& samples, size_t pixel, RankedSight* out) { return HWY_DYNAMIC_DISPATCH(opaqueRanked)(samples, pixel, out); }
-int rankFilm(const Films& films, size_t film, RankedSight* out) { return HWY_DYNAMIC_DISPATCH(filmRanked)(films, film, out); }
+void rankOpaque(const SampleBuffer& samples, std::span<const uint32_t> pixels, RankedSights* out) {
+  if (samples.lanes <= 64)
+    HWY_DYNAMIC_DISPATCH(opaqueRanked)(samples, pixels, out);
+  else
+    for (size_t k = 0; k < pixels.size(); ++k) out[k].count = -1;
+}
+void rankFilm(const Films& films, size_t film, RankedSights& out) {
+  HWY_DYNAMIC_DISPATCH(filmRanked)(films, film, &out);
+}
 FilmExtent cullFilm(SampleBuffer& samples, const GridTable& grids, size_t film) { return HWY_DYNAMIC_DISPATCH(cull)(samples, grids, film); }
 void collectFilm(const Films& films, size_t film, float farthest, std::vector<Sight>& sights) {
   HWY_DYNAMIC_DISPATCH(ofFilm)(films, film, farthest, sights);

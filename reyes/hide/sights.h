@@ -1,5 +1,7 @@
 // Which cells the samples of a pixel see: lists of lanes become one Sight a cell. Private to the hider.
 #pragma once
+#include <span>
+
 #include "reyes/hide/pixel_layers.h"
 #include "reyes/hide/samples.h"
 
@@ -15,11 +17,16 @@ struct RankedSight {
   float d;
 };
 constexpr int kMostRanked = kLanes;
-/// What the samples of a pixel see of opaque surfaces, nearest first, and how many that is. Less than 0: they see more than are looked at here,
-/// or some at equal depths.
-int rankOpaque(const SampleBuffer& samples, size_t pixel, RankedSight out[kMostRanked]);
-/// The same of a film.
-int rankFilm(const Films& films, size_t film, RankedSight out[kMostRanked]);
+/// Nearest first. count: less than 0 if samples see more than are looked at here, or some at equal depths.
+struct RankedSights {
+  int count;
+  RankedSight sights[kMostRanked];
+};
+constexpr size_t kRankedTogether = 32;
+/// What the samples of some pixels see of opaque surfaces. Pre: no more than kRankedTogether.
+void rankOpaque(const SampleBuffer& samples, std::span<const uint32_t> pixels, RankedSights* out);
+/// What those of a pixel see of a film.
+void rankFilm(const Films& films, size_t film, RankedSights& out);
 
 /// What is left of a film: the depth keys between which it lies.
 struct FilmExtent {

@@ -349,6 +349,37 @@ TEST(IrradianceCache, AmongRecordsOnAllSidesGradientsAloneSayHowLightBends) {
   }
 }
 
+TEST(IrradianceCache, ASecondDerivativeHoldsAsFarAsItsRecordReaches) {
+  // Of two records on one side the nearer one is beside an edge, where light bends a lot for a short way.
+  IrradianceCache cache(kBox, {ErrorFunction::Hessian, 1, 40});
+  for (const bool edge : {false, true}) {
+    auto r = recordAt({edge ? -0.015f : -0.25f, 0, 0}, vec3(1));
+    r.smoothRadius = edge ? 0.02f : 0.3f, r.tangent = {1, 0, 0};
+    r.hessian[0] = vec3(edge ? -200.0f : 0.0f);
+    cache.insert(r);
+  }
+  EXPECT_NEAR(cache.lookup(vec3(0), kUp, 0.01f).E.x, 1, 0.05f);
+}
+
+TEST(IrradianceCache, BeyondAShadowsEdgeBendingLightsNoDark) {
+  // Light that falls to nothing as a parabola does, and stays there.
+  const auto light = [](float x) { return x > 0 ? x * x : 0; };
+  for (const ErrorFunction f : {ErrorFunction::Screen, ErrorFunction::Hessian}) {
+    IrradianceCache cache(kBox, {f, 1});
+    for (const float x : {-0.05f, 0.05f}) {
+      IrradianceRecord r = recordAt({x, 0, 0}, vec3(light(x)), 9);
+      r.smoothRadius = 0.1f, r.tangent = {1, 0, 0};
+      for (int c = 0; c < 3; ++c) r.translationGradient[c].x = x > 0 ? 2 * x : 0;
+      r.hessian[0] = vec3(x > 0 ? 2.0f : 0.0f);
+      cache.insert(r);
+    }
+    for (const float x : {-0.04f, -0.02f, 0.0f}) {
+      const float lit = (x + 0.05f) / 0.1f;  // the share of the lit record, whose light ends with its reach
+      EXPECT_LE(cache.lookup({x, 0, 0}, kUp, 0.01f).E.x, 1.001f * lit * lit * light(0.05f)) << x;
+    }
+  }
+}
+
 TEST(IrradianceCache, NoSecondDerivativeMakesLightNegativeOrMoreThanDoublesIt) {
   for (const float bend : {-1e6f, 1e6f, kInfinity}) {
     auto record = recordAt(vec3(0), vec3(1));
