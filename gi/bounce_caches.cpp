@@ -11,8 +11,7 @@ namespace {
 
 constexpr int kRaysOfPoint = 48;        ///< That look for places where records are needed.
 constexpr size_t kMostPoints = 1024, kMostRecords = 1 << 14;
-constexpr int kPhases = 8;              ///< In which candidates double.
-constexpr float kEnough = 0.05f;        ///< As in the gather pass.
+constexpr int kPhases = 8;  ///< In which candidates double.
 constexpr CacheSettings kCoarse{};
 constexpr float kPixelsAcross = 64;     ///< Records are as dense as for a picture of so many pixels.
 constexpr int kSamplesShare = 4, kLeastSamples = 48, kMostSamples = 256;
@@ -92,7 +91,8 @@ void BounceCaches::cover(const RayTools& tools, const std::vector<GatherPoint>& 
     parallelFor(candidates.size(), 64, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i) {
         const GatherPoint& p = candidates[i];
-        open[i] = phaseOf(p.key) == phase && levels_[0].lookup(p.position, p.normal, p.pixelSize).weight < kEnough;
+        open[i] = phaseOf(p.key) == phase &&
+                  levels_[0].lookup(p.position, p.normal, p.pixelSize).weight < kCoarse.enough;
       }
     });
     std::vector<GatherPoint> fresh;

@@ -16,7 +16,6 @@ namespace {
 constexpr int kLastPhases = 8;  // for points beyond the first of each pixel, in the order of a hash
 constexpr int kPhases = kLatticePhases + kLastPhases;
 constexpr int kScoutPhases = 3;  // after which bright spots are known
-constexpr float kEnough = 0.05f;  // sum of weights below which a point gets its own record
 constexpr size_t kPointsPerSlice = 256;
 // From so many on, all records have the same rays: what those miss then changes little between records, and is no more than others miss
 // (docs/decisions/0095).
@@ -206,10 +205,11 @@ class GatherPass {
     state_.caches[cache].cache.lookup(places, known.data());
     SheetSearch sheets(*tools_->rays, state_.caches[cache].plan.gather);
     const bool isNew = this->isNew(cache);
+    const float enough = state_.caches[cache].plan.cache.enough;
     for (size_t i = 0; i < asked.size(); ++i) {
       const IrradianceEstimate& k = known[i];
-      if (k.weight < kEnough || (k.disputed && (isNew || isAnew(asked[i]))) ||
-          (isLight(cache) && !k.hasRecord && sheets.isUnderSheet(asked[i].point, k.closest)))
+      if (k.weight < enough || (k.disputed && (isNew || isAnew(asked[i]))) ||
+          (isLight(cache) && !k.hasRecord && sheets.isUnderSheet(asked[i].point, k.closest, k.headroom)))
         out.push_back(asked[i]);
     }
     state_.stats.rays.gather += sheets.raysTraced();

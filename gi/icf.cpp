@@ -20,9 +20,10 @@ void fields(A& a, OcclusionQuery& x) {
 template <class A>
 void fields(A& a, GatherPlan& x) {
   auto& [cache, gather] = x;
-  auto& [errorFunction, kappa, maxPixels] = cache;
+  auto& [errorFunction, kappa, maxPixels, minPixels, enough] = cache;
   auto& [samples, maxDistance, seed, light, curvature, depth, indirect, mirrored, subset, occlusion] = gather;
-  each(a, errorFunction, kappa, maxPixels, samples, maxDistance, seed, light, curvature, depth, indirect, mirrored, subset, occlusion);
+  each(a, errorFunction, kappa, maxPixels, minPixels, enough, samples, maxDistance, seed, light, curvature,
+       depth, indirect, mirrored, subset, occlusion);
 }
 
 template <class A>

@@ -8,11 +8,21 @@
 namespace tomales {
 namespace {
 
-// Ward's split sphere needs a = 1/4 for the error that the paper's function has at kappa = 1 (docs/gi.md), so that `maxerror`
-// means the same for both.
-constexpr float kWardKappa = 4;
-
-constexpr float kHessianMaxPixels = 40;  // it knows where light is even
+/// At `maxerror` 1. Ward's split sphere needs a = 1/4 for the error that the paper's function has at kappa =
+/// 1 (docs/gi.md), so that `maxerror` means the same for both; and the Hessian, which knows where light is
+/// even and where it is not, has about as many records as that.
+CacheSettings settingsOf(ErrorFunction function) {
+  switch (function) {
+    case ErrorFunction::Ward:
+      return {.errorFunction = function, .kappa = 4};
+    case ErrorFunction::Split:
+      return {.errorFunction = function, .kappa = 4, .maxPixels = kInfinity, .minPixels = 0};
+    case ErrorFunction::Hessian:
+      return {.errorFunction = function, .kappa = 0.87f, .maxPixels = 40, .minPixels = 1, .enough = 0.2f};
+    default:
+      return {.errorFunction = function};
+  }
+}
 
 ErrorFunction errorFunctionNamed(const std::string& name) {
   if (name == "ward") return ErrorFunction::Ward;
@@ -100,15 +110,11 @@ GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) 
   const Attributes& attributes = *state.scene.groups[static_cast<size_t>(group)].attributes;
   const GiSettings& settings = state.settings;
   GatherPlan plan;
-  plan.cache.errorFunction = settings.errorFunction.value_or(errorFunctionNamed(query.errorFunction));
+  plan.cache = settingsOf(settings.errorFunction.value_or(errorFunctionNamed(query.errorFunction)));
   plan.gather.curvature = plan.cache.errorFunction == ErrorFunction::Hessian;
   const float maxError =
       settings.maxError >= 0 ? settings.maxError : attributes.irradianceMaxError.value_or(query.maxError);
-  const bool split = plan.cache.errorFunction == ErrorFunction::Split;
-  const float kappaAtOne = split || plan.cache.errorFunction == ErrorFunction::Ward ? kWardKappa : 1.0f;
-  plan.cache.kappa = maxError > 0 ? kappaAtOne / maxError : kInfinity;
-  if (plan.gather.curvature) plan.cache.maxPixels = kHessianMaxPixels;
-  if (split) plan.cache.maxPixels = kInfinity;
+  plan.cache.kappa = maxError > 0 ? plan.cache.kappa / maxError : kInfinity;
   plan.cache.maxPixels = attributes.irradianceMaxPixelDist.value_or(plan.cache.maxPixels);
   plan.gather.samples = std::max(1, settings.samples > 0 ? settings.samples : query.samples);
   plan.gather.maxDistance = query.maxDistance;

@@ -9,7 +9,6 @@
 namespace tomales {
 namespace {
 
-constexpr float kMinPixels = 1.5f;              // R- of eq. 3
 constexpr float kFinestPixels = 1;             // of a dispute, at kappa 1
 constexpr float kMaxAngleTerm = 0.0151922470f;  // 1 - cos(alpha+), alpha+ = 10 degrees (eq. 4)
 constexpr float kBehindTolerance = 0.1f;        // of the validity radius,
@@ -87,13 +86,12 @@ struct IrradianceCache::Impl {
   bool isWard() const {
     return settings.errorFunction == ErrorFunction::Ward || settings.errorFunction == ErrorFunction::Split;
   }
-  float minPixels() const { return settings.errorFunction == ErrorFunction::Split ? 0 : kMinPixels; }
 
   // Distance at which the error reaches 1: the denominator of eq. 3 over kappa. Ward's split sphere has the
   // same limits.
   float reach(float recordSize, float pixelSize) const {
     const float radius =
-        std::max(std::min(recordSize, settings.maxPixels * pixelSize), minPixels() * pixelSize);
+        std::max(std::min(recordSize, settings.maxPixels * pixelSize), settings.minPixels * pixelSize);
     return radius / settings.kappa;
   }
 
@@ -179,7 +177,7 @@ struct IrradianceCache::Impl {
     constexpr float kRounding = 1e-4f;
     const float angle =
         isWard() ? 1 / (settings.kappa * settings.kappa) : kMaxAngleTerm / (settings.kappa * settings.kappa);
-    return {minPixels() * pixelSize, settings.maxPixels * pixelSize, (1 + kRounding) / settings.kappa,
+    return {settings.minPixels * pixelSize, settings.maxPixels * pixelSize, (1 + kRounding) / settings.kappa,
             1 - angle - kRounding};
   }
 
@@ -240,7 +238,9 @@ struct IrradianceCache::Impl {
       const float distance = glm::length(x - r.position);
       if (&candidate != &candidates.front()) worst = std::max(worst, disputeOf(E, out.E / out.weight, 2 * noiseAt(r, distance)));
       nearest = std::min(nearest, distance);
-      out.closest = std::min(out.closest, r.closest), out.hasRecord |= distance == 0;
+      out.closest = std::min(out.closest, r.closest),
+      out.headroom = std::min(out.headroom, std::max(r.closest, r.limit));
+      out.hasRecord |= distance == 0;
       out.E += candidate.weight * E;
       for (int c = 0; c < 3; ++c) out.dominant[c] += candidate.weight * r.dominant[c];  // eq. 7
       out.weight += candidate.weight;

@@ -25,7 +25,9 @@ enum class ErrorFunction {
 struct CacheSettings {
   ErrorFunction errorFunction = ErrorFunction::Screen;
   float kappa = 1;                 ///< Eq. 2: records reach 1 / kappa as far. Infinite: nothing is ever reused.
-  float maxPixels = 10;            ///< R+ of eq. 3, in roots of the projected pixel area (Attribute "irradiance" "maxpixeldist")
+  float maxPixels = 10;            ///< R+ of eq. 3, in roots of the projected pixel area (Attribute "irradiance" "maxpixeldist"),
+  float minPixels = 1.5f;          ///< and R-
+  float enough = 0.05f;            ///< Sum of weights that a point is to find; else it gets its own record.
   bool operator==(const CacheSettings&) const = default;
 };
 
@@ -36,6 +38,7 @@ struct IrradianceEstimate {
   bool disputed = false;           ///< Records differ by more than their noise explains.
   bool hasRecord = false;          ///< At this very place.
   float closest = kInfinity;       ///< The least of the records used: the more there are, the less.
+  float headroom = kInfinity;      ///< No sheet over any of them is lower, though some may have met its edge.
 };
 
 /// Where irradiance is looked up: records that serve `normal`, turned to `shadingNormal`.

@@ -8,8 +8,8 @@ namespace tomales {
 class SheetSearch {
  public:
   SheetSearch(const RayScene& rays, const GatherSettings& gather) : rays_(rays), gather_(gather) {}
-  /// `closest`: that any record in use at the point has met.
-  bool isUnderSheet(const GatherPoint& p, float closest);
+  /// `closest`: that any record in use at the point has met; `headroom`: no sheet over any of them is lower.
+  bool isUnderSheet(const GatherPoint& p, float closest, float headroom);
   int64_t raysTraced() const { return traced_; }
 
  private:

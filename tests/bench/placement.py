@@ -1,4 +1,4 @@
-"""Error functions of the irradiance cache at equal numbers of records (docs/gi.md): indirect light alone against a gather at every point.
+"""Error functions of the irradiance cache at equal numbers of records (docs/gi.md): indirect light alone against two gathers at every point.
     placement.py TOMALES [--scenes flush_box spot_room box_ball contact grazing] [--size 128] [--samples 1600] [--truth 3000] [--crop X0,X1,Y0,Y1] [--keep FOLDER]
 Corners: pixels that are open to less than 97 % within 0.12 units. `screen` has the records it asks for at maxerror 1, the others as many."""
 import argparse
@@ -15,7 +15,7 @@ from pictures import pixels  # noqa: E402
 
 NEAR, OPEN = 0.12, 0.97
 FOLDERS = (TESTS / "bench" / "placement", TESTS / "stability" / "irradiance_cache")
-FUNCTIONS = ("screen", "ward", "hessian")
+FUNCTIONS = ("screen", "ward", "split", "hessian")
 
 parser = argparse.ArgumentParser()
 parser.add_argument("tomales")
@@ -26,7 +26,7 @@ parser.add_argument("--samples", type=int, default=1600)
 parser.add_argument("--truth", type=int, default=3000)
 parser.add_argument("--crop", default="0,1,0,1")
 parser.add_argument("--records", type=int, default=0, help="instead of those of screen")
-parser.add_argument("--keep", type=pathlib.Path, help="pictures stay there, and truths that are there are used")
+parser.add_argument("--keep", type=pathlib.Path, help="pictures stay there, and truths (SCENE_truth1.exr, SCENE_truth2.exr) that are there are used")
 parser.add_argument("-t", default="2")
 options = parser.parse_args()
 
@@ -44,15 +44,18 @@ def gather(scene, out, function, max_error):
 
 
 def with_as_many(scene, out, function, records):
-    """maxerror and records, within 1 % or as near as bisection comes."""
-    low, high = math.log(0.1), math.log(10)
-    for _ in range(12):
-        middle = (low + high) / 2
-        made = gather(scene, out, function, math.exp(middle))
+    """maxerror and records, within 1 % or as near as it comes."""
+    low, high, at = math.log(0.05), math.log(20), 0.0
+    for step in range(12):
+        made = gather(scene, out, function, math.exp(at))
         if abs(made - records) <= 0.01 * records:
             break
-        low, high = (middle, high) if made > records else (low, middle)
-    return math.exp(middle), made
+        low, high = (at, high) if made > records else (low, at)
+        guess = at + math.log(made / records) / 1.2  # so many fewer the larger maxerror is
+        at, last = (guess if step < 8 and low < guess < high else (low + high) / 2), at
+    else:
+        at = last
+    return math.exp(at), made
 
 
 def corners_of(scene, folder):
@@ -69,34 +72,41 @@ def corners_of(scene, folder):
     return {xy for xy, color in pixels(picture).items() if color[1] < OPEN}
 
 
-def rms(errors):
-    return math.sqrt(sum(errors) / max(len(errors), 1))
+def rms(squares):
+    """Products of the differences from two truths, whose noise is not in their mean."""
+    return math.sqrt(max(0, sum(squares) / max(len(squares), 1)))
 
 
-def describe(seen, truth, corners, mean):
-    squares = {xy: sum((a - b) ** 2 for a, b in zip(seen[xy][:3], truth[xy][:3])) / 3 / mean ** 2 for xy in truth}
-    relative = sorted(abs(a - b) / (b + 0.01) for xy in truth for a, b in zip(seen[xy][:3], truth[xy][:3]))
+def describe(seen, truths, corners, mean):
+    truth = {xy: [(a + b) / 2 for a, b in zip(truths[0][xy][:3], truths[1][xy][:3])] for xy in truths[0] if xy in truths[1]}
+    squares = {xy: sum((s - a) * (s - b) for s, a, b in zip(seen[xy][:3], truths[0][xy][:3], truths[1][xy][:3])) / 3 / mean ** 2 for xy in truth}
+    relative = sorted(abs(a - b) / (b + 0.01) for xy in truth for a, b in zip(seen[xy][:3], truth[xy]))
     parts = {"rms": squares, "outside corners": squares.keys() - corners, "in corners": squares.keys() & corners}
     text = ", ".join(f"{part} {100 * rms([squares[xy] for xy in places]):5.2f} %" for part, places in parts.items())
     return (f"mean {100 * sum(relative) / len(relative):5.2f} %, p99 {100 * relative[int(0.99 * len(relative))]:5.1f} %, {text}, worst pixel "
             f"{100 * math.sqrt(max(squares.values())):4.0f} % ({len(parts['in corners'])} of {len(squares)} pixels in corners)")
 
 
+def truth_of(scene, folder, seed):
+    """Inside the crop."""
+    picture = folder / f"{scene.stem}_truth{seed}.exr"
+    if not picture.exists():
+        render(scene, picture, "--gi", "gather", "--indirect-only", "--max-error", 0, "--samples", options.truth, "--light-seed", seed)
+    return {xy: color for xy, color in pixels(picture).items() if max(color[:3]) > 0}
+
+
 def report(scene, folder):
-    truth_file = folder / f"{scene.stem}_truth.exr"
-    if not truth_file.exists():
-        render(scene, truth_file, "--gi", "gather", "--indirect-only", "--max-error", 0, "--samples", options.truth, "--light-seed", 1)
+    truths = [truth_of(scene, folder, seed) for seed in (1, 2)]
     emission = folder / f"{scene.stem}_emission.exr"
     render(scene, emission, "--gi", "none", "--indirect-only")
     corners, lamps = corners_of(scene, folder), pixels(emission)
-    truth = {xy: color for xy, color in pixels(truth_file).items() if max(color[:3]) > 0}  # inside the crop
-    mean = sum(sum(c[:3]) - sum(lamps[xy][:3]) for xy, c in truth.items()) / (3 * len(truth))
+    mean = sum(sum(c[:3]) - sum(lamps[xy][:3]) for xy, c in truths[0].items()) / (3 * len(truths[0]))
     records = options.records
     for function in options.functions:
         out = folder / f"{scene.stem}_{function}.exr"
         max_error, made = with_as_many(scene, out, function, records) if records else (1, gather(scene, out, function, 1))
         records = records or made
-        print(f"{scene.stem:<10} {function:<8} maxerror {max_error:5.3f} {made:6} records, {describe(pixels(out), truth, corners, mean)}", flush=True)
+        print(f"{scene.stem:<10} {function:<8} maxerror {max_error:5.3f} {made:6} records, {describe(pixels(out), truths, corners, mean)}", flush=True)
 
 
 with tempfile.TemporaryDirectory() as name:

@@ -255,11 +255,17 @@ TEST(SheetSearch, NoRayLooksForSheetsNearerThanWhatRaysTakeForTheSurface) {
     World world(b.scene);
     GatherSettings settings;
     SheetSearch search(world.rays, settings);
-    EXPECT_EQ(search.isUnderSheet({0, {0, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, kInfinity), bound == 0);
-    EXPECT_FALSE(search.isUnderSheet({0, {0.8f, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, kInfinity));
-    EXPECT_FALSE(search.isUnderSheet({0, {0, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, 0.03f)) << "records have met it";
+    EXPECT_EQ(search.isUnderSheet({0, {0, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, kInfinity, kInfinity),
+              bound == 0);
+    EXPECT_FALSE(search.isUnderSheet({0, {0.8f, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, kInfinity, kInfinity));
+    EXPECT_FALSE(search.isUnderSheet({0, {0, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, 0.03f, 0.03f))
+        << "records have met it";
+    EXPECT_EQ(search.isUnderSheet({0, {0.49f, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, 0.02f, kInfinity),
+              bound == 0)
+        << "records have met its edge";
+    EXPECT_FALSE(search.isUnderSheet({0, {0.51f, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, 0.02f, kInfinity));
     if (bound == 0)
-      EXPECT_GE(search.raysTraced(), 1 + 2 + 2);
+      EXPECT_GE(search.raysTraced(), 1 + 2 + 2 + 1 + 1);
     else
       EXPECT_EQ(search.raysTraced(), 0);
   }

@@ -393,7 +393,7 @@ TEST(IrradianceCache, NoSecondDerivativeMakesLightNegativeOrMoreThanDoublesIt) {
 }
 
 TEST(IrradianceCache, TheSplitSphereAsPublishedKnowsNoPixelsAndNoDisputes) {
-  const CacheSettings split{ErrorFunction::Split, 4, kInfinity};
+  const CacheSettings split{ErrorFunction::Split, 4, kInfinity, 0};
   IrradianceRecord far = recordAt(vec3(0), vec3(1), 9), near = recordAt(vec3(0), vec3(1), 0.01f);
   far.harmonicMean = 2, near.harmonicMean = 0.02f;
   for (const float pixelSize : {0.001f, 0.1f}) {
@@ -406,12 +406,24 @@ TEST(IrradianceCache, TheSplitSphereAsPublishedKnowsNoPixelsAndNoDisputes) {
   EXPECT_EQ(cache.records()[0].limit, kInfinity);
 }
 
+TEST(IrradianceCache, AnEdgeThatARecordHasMetIsNoSheetOverIt) {
+  IrradianceCache cache(kBox, {});
+  IrradianceRecord beside = recordAt(vec3(0), vec3(1), 0.01f),
+                   disputed = recordAt({0.02f, 0, 0}, vec3(1), 0.3f);
+  beside.limit = 2, disputed.limit = 0.02f;
+  cache.insert(beside);
+  EXPECT_EQ(cache.lookup({0.01f, 0, 0}, kUp, 0.02f).headroom, 2);
+  cache.insert(disputed);
+  EXPECT_EQ(cache.lookup({0.01f, 0, 0}, kUp, 0.02f).headroom, 0.3f);
+}
+
 TEST(IrradianceCache, ManyLookupsAtOnceHaveTheBitsOfOneAtATime) {
   for (const ErrorFunction function :
        {ErrorFunction::Screen, ErrorFunction::Ward, ErrorFunction::Hessian, ErrorFunction::Split}) {
     const bool ward = function == ErrorFunction::Ward || function == ErrorFunction::Split;
-    IrradianceCache cache(
-        kBox, {function, ward ? 4.0f : 1.0f, function == ErrorFunction::Split ? kInfinity : 10.0f});
+    IrradianceCache cache(kBox,
+                          {function, ward ? 4.0f : 1.0f, function == ErrorFunction::Split ? kInfinity : 10.0f,
+                           function == ErrorFunction::Split ? 0 : 1.5f});
     for (uint32_t i = 0; i < 3000; ++i) {
       IrradianceRecord r = recordAt(1.1f * randomIn(i, 1), vec3(1) + 0.02f * randomIn(i, 2), 0.5f * unitFloat(hashCombine(i, 3)));  // some outside
       r.normal = glm::normalize(kUp + 0.12f * randomIn(i, 4)), r.smoothRadius = 0.3f;
