@@ -7,6 +7,9 @@ namespace tomales {
 namespace HWY_NAMESPACE {
 namespace {
 
+constexpr hn::RebindToSigned<decltype(kF)> kI;
+using Ints = hn::Vec<decltype(kI)>;
+
 /// Samples as vectors.
 struct SampleVector {
   Floats x, y, t, lensX, lensY;
@@ -77,41 +80,47 @@ HWY_INLINE Floats edge(const SeenVertex& p, const SeenVertex& q, bool swapped, c
                  hn::Mul(hn::Sub(q.y, p.y), hn::Sub(s.x, origin.x)));
 }
 
-/// `side`: 1 if the inside of pq is on its left, -1 on its right. Zero belongs to the right seen from the
-/// canonical end.
-HWY_INLINE Mask inside(Floats value, bool swapped, Floats side) {
-  const Floats limit =
-      hn::IfThenElse(hn::Gt(swapped ? hn::Neg(side) : side, hn::Zero(kF)), hn::Zero(kF), all(-kTiny));
-  return hn::Gt(hn::Mul(value, side), limit);
+/// Below 0 where a sample is on the left of an edge. Zero belongs to the right seen from the canonical end.
+HWY_INLINE Ints leftOf(Floats value, bool swapped) {
+  return hn::BitCast(kI, hn::Sub(all(swapped ? -kTiny : 0.0f), value));
 }
 
-HWY_INLINE Floats sideOf(const SeenVertex& p, const SeenVertex& q, const SeenVertex& r) {
+/// -1 where the inside of a triangle is on the right of its edges.
+HWY_INLINE Ints turnsRight(const SeenVertex& p, const SeenVertex& q, const SeenVertex& r) {
   const Floats area =
       hn::Sub(hn::Mul(hn::Sub(q.x, p.x), hn::Sub(r.y, p.y)), hn::Mul(hn::Sub(q.y, p.y), hn::Sub(r.x, p.x)));
-  return hn::IfThenElse(hn::Lt(area, hn::Zero(kF)), all(-1), all(1));
+  return hn::BitCast(kI, hn::VecFromMask(kF, hn::Lt(area, hn::Zero(kF))));
+}
+
+/// Inside of three edges, all on their left or all on their right, of a triangle that may be seen.
+HWY_INLINE Mask inside(Ints left0, Ints left1, Ints left2, Ints right, float facing) {
+  Ints in = hn::And(hn::And(hn::Xor(left0, right), hn::Xor(left1, right)), hn::Xor(left2, right));
+  if (facing != 0) in = facing > 0 ? hn::AndNot(right, in) : hn::And(right, in);
+  return hn::RebindMask(kF, hn::Lt(in, hn::Zero(kI)));
 }
 
 /// Which samples the quad covers, and their depth keys. facing: RasterGrid::facing, there and then.
 template <class B>
-HWY_INLINE Mask covers(const BlurredQuad<B>& q, const SampleVector& s, Floats focus, Floats facing,
+HWY_INLINE Mask covers(const BlurredQuad<B>& q, const SampleVector& s, Floats focus, float facing,
                        Floats& depth) {
   const SeenVertex a = seen(q, 0, s, focus), b = seen(q, 1, s, focus), c = seen(q, 2, s, focus),
                    d = seen(q, 3, s, focus);
   const Floats ab = edge(a, b, q.swapped[0], s), bc = edge(b, c, q.swapped[1], s),
                ca = edge(c, a, q.swapped[2], s);
   const Floats bd = edge(b, d, q.swapped[3], s), dc = edge(d, c, q.swapped[4], s);
-  const Floats side0 = sideOf(a, b, c), side1 = sideOf(b, d, c);
-  const auto faces = [facing](Floats side) { return hn::Ge(hn::Mul(facing, side), hn::Zero(kF)); };
-  const Mask in0 = hn::And(hn::And(inside(ab, q.swapped[0], side0), inside(bc, q.swapped[1], side0)),
-                           hn::And(inside(ca, q.swapped[2], side0), faces(side0)));
-  const Mask in1 = hn::And(hn::And(inside(bd, q.swapped[3], side1), inside(dc, q.swapped[4], side1)),
-                           hn::And(inside(hn::Neg(bc), !q.swapped[1], side1), faces(side1)));
+  const Ints diagonal = leftOf(bc, q.swapped[1]);
+  const Mask in0 =
+      inside(leftOf(ab, q.swapped[0]), diagonal, leftOf(ca, q.swapped[2]), turnsRight(a, b, c), facing);
+  const Mask in1 = inside(leftOf(bd, q.swapped[3]), hn::Not(diagonal), leftOf(dc, q.swapped[4]),
+                          turnsRight(b, d, c), facing);
   const Floats p = hn::IfThenElse(in0, bc, dc), r = hn::IfThenElse(in0, ca, hn::Neg(bc)),
                t = hn::IfThenElse(in0, ab, bd);
   const Floats pd = hn::IfThenElse(in0, a.d, b.d), rd = hn::IfThenElse(in0, b.d, d.d);
-  const Floats weighted = hn::Add(hn::Add(hn::Mul(p, pd), hn::Mul(r, rd)), hn::Mul(t, c.d));
-  depth = hn::Min(hn::Max(hn::Div(weighted, hn::Add(hn::Add(p, r), t)), all(q.dMin)), all(q.dMax));
-  return hn::Or(in0, in1);
+  const Floats weighted = hn::Add(hn::Add(hn::Mul(p, pd), hn::Mul(r, rd)), hn::Mul(t, c.d)),
+               sum = hn::Add(hn::Add(p, r), t);
+  depth = hn::Min(hn::Max(hn::Div(weighted, sum), all(q.dMin)), all(q.dMax));
+  // What has no number, of vertices as far out as floats go, has a sign.
+  return hn::And(hn::Or(in0, in1), hn::Eq(sum, sum));
 }
 
 }  // namespace

@@ -152,7 +152,9 @@ class Descent {
     const uint32_t cell = job_.firstCell + static_cast<uint32_t>(j * g.nu + i);
     for (size_t k = 0; k < samples.count; k += hn::Lanes(kF)) {
       Floats depth;
-      const Mask in = hn::And(covers(quad, loadSamples<B>(samples, k), all(focus_), all(job_.raster.facing), depth), hn::FirstN(kF, samples.count - k));
+      const Mask in =
+          hn::And(covers(quad, loadSamples<B>(samples, k), all(focus_), job_.raster.facing, depth),
+                  hn::FirstN(kF, samples.count - k));
       HWY_ALIGN float depths[kLanes];
       hn::Store(depth, kF, depths);
       for (uint64_t left = bitsOf(in); left; left &= left - 1) {
