@@ -24,6 +24,10 @@ CacheSettings settingsOf(ErrorFunction function) {
   }
 }
 
+// Than they cover: to the second order, more records add less error than they take noise
+// (docs/decisions/0103).
+constexpr float kServesWider = 1.25f;
+
 ErrorFunction errorFunctionNamed(const std::string& name) {
   if (name == "ward") return ErrorFunction::Ward;
   if (name == "hessian") return ErrorFunction::Hessian;
@@ -149,7 +153,9 @@ std::optional<vec3> gatheredOverPi(const GiState& state, const GatherPoint& at) 
   if (!query) return std::nullopt;
   const auto prepared = preparedFor(state, planFor(state, at.group, *query));
   if (prepared == state.caches.end()) return std::nullopt;
-  const IrradianceEstimate estimate = prepared->cache.lookup(at.position, at.normal, at.pixelSize);
+  const IrradiancePlace place{at.position, at.normal, at.normal, at.pixelSize};
+  IrradianceEstimate estimate;
+  prepared->cache.lookup({&place, 1}, &estimate, kServesWider);
   if (!(estimate.weight > 0)) return std::nullopt;
   return estimate.E + causticAt(state, at.group, at.position, at.normal, at.pixelSize);
 }
@@ -161,7 +167,7 @@ BatchLookup lookUp(const GiState& state, const IrradianceCache* cache, const Gat
     if (active[i]) out.points.push_back(i), out.at.push_back(places.lookupAt(i, unitNormal(points, N, i)));
   out.known.resize(out.at.size());
   if (!cache) return out;
-  cache->lookup(out.at, out.known.data());
+  cache->lookup(out.at, out.known.data(), kServesWider);
   const auto served = std::count_if(out.known.begin(), out.known.end(), [](const IrradianceEstimate& e) { return e.weight > 0; });
   state.stats.irradianceCache.lookups += static_cast<int64_t>(out.at.size());
   state.stats.irradianceCache.interpolated += served;

@@ -136,13 +136,13 @@ struct IrradianceCache::Impl {
   }
 
   // Smooth down to 0 where the record stops being used, so that interpolation has no seams.
-  float weight(const IrradianceRecord& r, const vec3& x, const vec3& n, float pixelSize) const {
-    const float radius = std::min(reach(size(r), pixelSize), r.limit);
+  float weight(const IrradianceRecord& r, const vec3& x, const vec3& n, float pixelSize, float wider) const {
+    const float radius = std::min(wider * reach(size(r), pixelSize), r.limit);
     const vec3 step = x - r.position;
     const float distance2 = dot(step, step);
     if (!(distance2 < radius * radius)) return 0;
-    // A point behind the record sees other things than the record did (Ward et al. 1988, section 4), unless it is no farther than bumps that
-    // rays do not see.
+    // A point behind the record sees other things than the record did (Ward et al. 1988, section 4), unless
+    // it is no wider than bumps that rays do not see.
     const float tolerance = std::max(std::min(kBehindTolerance * radius, kBehindPixels * pixelSize / settings.kappa), r.relief);
     const float behind = -0.5f * dot(step, n + r.normal) / tolerance;
     if (behind >= 1) return 0;
@@ -164,35 +164,36 @@ struct IrradianceCache::Impl {
   // In the order of the records, so that the shape of the tree leaves no trace.
   std::vector<Candidate> candidatesAt(const vec3& x, const vec3& n, float pixelSize) const {
     std::vector<Candidate> out;
-    tree.visit({x, x}, [&](float recordSize) { return reach(recordSize, pixelSize); },
-               [&](uint32_t i) {
-                 const float w = weight(records[i], x, n, pixelSize);
-                 if (w > 0) out.push_back({i, w});
-               });
+    tree.visit(
+        {x, x}, [&](float recordSize) { return reach(recordSize, pixelSize); },
+        [&](uint32_t i) {
+          if (const float w = weight(records[i], x, n, pixelSize, 1); w > 0) out.push_back({i, w});
+        });
     std::sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) { return a.record < b.record; });
     return out;
   }
 
-  Reach reachAt(float pixelSize) const {
+  Reach reachAt(float pixelSize, float wider) const {
     constexpr float kRounding = 1e-4f;
     const float angle =
         isWard() ? 1 / (settings.kappa * settings.kappa) : kMaxAngleTerm / (settings.kappa * settings.kappa);
-    return {settings.minPixels * pixelSize, settings.maxPixels * pixelSize, (1 + kRounding) / settings.kappa,
-            1 - angle - kRounding};
+    return {settings.minPixels * pixelSize, settings.maxPixels * pixelSize,
+            wider * (1 + kRounding) / settings.kappa, 1 - angle - kRounding};
   }
 
   /// Lookups that lie close together share one walk through the tree.
-  void lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, Vicinity& near, std::vector<Candidate>& found) const {
+  void lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider, Vicinity& near,
+              std::vector<Candidate>& found) const {
     Bound3 region;
     float pixelSize = 0;
     for (const IrradiancePlace& p : places) region.extend(p.position), pixelSize = std::max(pixelSize, p.pixelSize);
     const size_t half = places.size() / 2;
     if (places.size() > kRun || (half > 0 && !(glm::length(region.size()) <= kRunPixels * pixelSize))) {
-      lookup(places.first(half), out, near, found);
-      return lookup(places.subspan(half), out + half, near, found);
+      lookup(places.first(half), out, wider, near, found);
+      return lookup(places.subspan(half), out + half, wider, near, found);
     }
     near.clear();
-    const Reach farthest = reachAt(pixelSize);
+    const Reach farthest = reachAt(pixelSize, wider);
     const auto reachOf = [&](float recordSize) { return farthest.scale * std::max(std::min(recordSize, farthest.most), farthest.least); };
     tree.visit(region, reachOf, [&](uint32_t i) {
       const IrradianceRecord& r = records[i];
@@ -202,11 +203,11 @@ struct IrradianceCache::Impl {
     });
     near.slack.resize(near.records.size());
     for (const IrradiancePlace& p : places) {
-      findSlack(near, p.position, p.normal, reachAt(p.pixelSize), near.slack.data());
+      findSlack(near, p.position, p.normal, reachAt(p.pixelSize, wider), near.slack.data());
       found.clear();
       for (size_t k = 0; k < near.records.size(); ++k) {
         if (!(near.slack[k] > 0)) continue;
-        const float w = weight(records[near.records[k]], p.position, p.normal, p.pixelSize);
+        const float w = weight(records[near.records[k]], p.position, p.normal, p.pixelSize, wider);
         if (w > 0) found.push_back({near.records[k], w});
       }
       std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) { return a.record < b.record; });
@@ -280,12 +281,14 @@ IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, co
   return impl_->blend(impl_->candidatesAt(x, normal, pixelSize), x, shadingNormal, pixelSize);
 }
 
-void IrradianceCache::lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out) const {
+void IrradianceCache::lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out,
+                             float wider) const {
   if (places.empty()) return;
+  if (impl_->settings.errorFunction == ErrorFunction::Split) wider = 1;  // as published
   if (impl_->settings.kappa < kInfinity) {
     thread_local Vicinity near;
     thread_local std::vector<Candidate> found;
-    return impl_->lookup(places, out, near, found);
+    return impl_->lookup(places, out, wider, near, found);
   }
   for (const IrradiancePlace& p : places) *out++ = impl_->blend({}, p.position, p.shadingNormal, p.pixelSize);
 }

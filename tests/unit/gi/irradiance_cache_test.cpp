@@ -268,6 +268,28 @@ TEST(IrradianceCache, ARecordThatIsWrongAtANewOneEndsBeforeIt) {
   EXPECT_NEAR(cache.lookup({0.051f, 0, 0}, kUp, 0.01f).E.x, 2, 1e-5f);
 }
 
+TEST(IrradianceCache, RecordsServeWiderThanTheyCoverButNotBeyondDisputes) {
+  const auto served = [](const IrradianceCache& cache, float x) {
+    const IrradiancePlace place{{x, 0, 0}, kUp, kUp, 0.01f};
+    IrradianceEstimate found;
+    cache.lookup({&place, 1}, &found, 1.25f);
+    return found;
+  };
+  IrradianceCache alone(kBox, {});
+  IrradianceRecord record = recordAt(vec3(0), vec3(1));
+  for (vec3& gradient : record.translationGradient) gradient = {2, 0, 0};
+  alone.insert(record);
+  EXPECT_EQ(alone.lookup({0.11f, 0, 0}, kUp, 0.01f).weight, 0);
+  EXPECT_NEAR(served(alone, 0.1f).weight, 0.2f, 1e-5f);
+  EXPECT_NEAR(served(alone, 0.1f).E.x, 1.2f, 1e-5f);
+  EXPECT_EQ(served(alone, 0.126f).weight, 0);
+
+  IrradianceCache disputed(kBox, {});
+  disputed.insert(recordAt(vec3(0), vec3(1)));
+  disputed.insert(recordAt({0.05f, 0, 0}, vec3(2)));
+  EXPECT_NEAR(served(disputed, 0.051f).E.x, 2, 1e-5f);
+}
+
 TEST(IrradianceCache, DisputesShortenNoRecordBelowAPixelOverKappa) {
   for (const float kappa : {1.0f, 2.0f}) {
     IrradianceCache cache(kBox, {ErrorFunction::Screen, kappa});
