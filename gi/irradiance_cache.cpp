@@ -19,6 +19,7 @@ constexpr float kDispute = 0.1f;              // relative difference of extrapol
 constexpr float kTorn = 0.5f;                 // the same between points that see other things
 constexpr float kNoiseMargin = 3;             // standard errors
 constexpr float kDark = 0.1f;                 // of the mean E: what is darker is off by fractions of this, not of itself
+constexpr float kSteep = 0.3f;                // of E over a record's reach: it serves no wider
 constexpr size_t kRun = 64;                     // lookups that share their candidates, at most
 constexpr float kRunPixels = 24;                // diagonal of what they cover, at most: incoherent points would share too many
 
@@ -135,9 +136,17 @@ struct IrradianceCache::Impl {
     }
   }
 
+  // 1 where light does not change over the radius, 0 where it does so by kSteep of itself: beyond, it may end.
+  static float evenness(const IrradianceRecord& r, float radius) {
+    const vec3 change = radius * (r.translationGradient[0] + r.translationGradient[1] + r.translationGradient[2]);
+    const float most = kSteep * (r.E.x + r.E.y + r.E.z);
+    return dot(change, change) < most * most ? 1 - dot(change, change) / (most * most) : 0.0f;
+  }
+
   // Smooth down to 0 where the record stops being used, so that interpolation has no seams.
   float weight(const IrradianceRecord& r, const vec3& x, const vec3& n, float pixelSize, float wider) const {
-    const float radius = std::min(wider * reach(size(r), pixelSize), r.limit);
+    const float covers = reach(size(r), pixelSize);
+    const float radius = std::min(covers * (1 + (wider - 1) * evenness(r, covers)), r.limit);
     const vec3 step = x - r.position;
     const float distance2 = dot(step, step);
     if (!(distance2 < radius * radius)) return 0;
@@ -284,7 +293,8 @@ IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, co
 void IrradianceCache::lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out,
                              float wider) const {
   if (places.empty()) return;
-  if (impl_->settings.errorFunction == ErrorFunction::Split) wider = 1;  // as published
+  const ErrorFunction function = impl_->settings.errorFunction;
+  if (function == ErrorFunction::Split || function == ErrorFunction::Hessian) wider = 1;
   if (impl_->settings.kappa < kInfinity) {
     thread_local Vicinity near;
     thread_local std::vector<Candidate> found;

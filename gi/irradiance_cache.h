@@ -64,7 +64,8 @@ class IrradianceCache {
   IrradianceEstimate lookup(const vec3& x, const vec3& normal, const vec3& shadingNormal, float pixelSize) const;
   IrradianceEstimate lookup(const vec3& x, const vec3& normal, float pixelSize) const { return lookup(x, normal, normal, pixelSize); }
   /// The same for many, to out[0] and on: several times as fast where successive places lie close together.
-  /// Records serve so many times wider than they cover, but not beyond disputes.
+  /// Records serve so many times wider than they cover, but not beyond disputes, and less where they are
+  /// steep; those of `split` do not, as published, nor those of `hessian`, of which enough overlap.
   void lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider = 1) const;
   const IrradianceRecords& records() const;
   const Bound3& bound() const;

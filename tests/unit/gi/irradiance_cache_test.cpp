@@ -268,21 +268,24 @@ TEST(IrradianceCache, ARecordThatIsWrongAtANewOneEndsBeforeIt) {
   EXPECT_NEAR(cache.lookup({0.051f, 0, 0}, kUp, 0.01f).E.x, 2, 1e-5f);
 }
 
-TEST(IrradianceCache, RecordsServeWiderThanTheyCoverButNotBeyondDisputes) {
+TEST(IrradianceCache, RecordsServeWiderThanTheyCoverButNotBeyondDisputesNorWhereLightIsSteep) {
   const auto served = [](const IrradianceCache& cache, float x) {
     const IrradiancePlace place{{x, 0, 0}, kUp, kUp, 0.01f};
     IrradianceEstimate found;
     cache.lookup({&place, 1}, &found, 1.25f);
     return found;
   };
-  IrradianceCache alone(kBox, {});
-  IrradianceRecord record = recordAt(vec3(0), vec3(1));
-  for (vec3& gradient : record.translationGradient) gradient = {2, 0, 0};
-  alone.insert(record);
-  EXPECT_EQ(alone.lookup({0.11f, 0, 0}, kUp, 0.01f).weight, 0);
-  EXPECT_NEAR(served(alone, 0.1f).weight, 0.2f, 1e-5f);
-  EXPECT_NEAR(served(alone, 0.1f).E.x, 1.2f, 1e-5f);
-  EXPECT_EQ(served(alone, 0.126f).weight, 0);
+  for (const float change : {0.0f, 0.15f, 0.31f}) {  // over its reach
+    IrradianceCache alone(kBox, {});
+    IrradianceRecord record = recordAt(vec3(0), vec3(1));
+    for (vec3& gradient : record.translationGradient) gradient = {10 * change, 0, 0};
+    alone.insert(record);
+    EXPECT_EQ(alone.lookup({0.1001f, 0, 0}, kUp, 0.01f).weight, 0);
+    const float reach = 0.1f * (change > 0.3f ? 1 : change > 0 ? 1 + 0.25f * 0.75f : 1.25f);
+    EXPECT_NEAR(served(alone, 0.09f).weight, 1 - 0.09f / reach, 1e-5f);
+    EXPECT_NEAR(served(alone, 0.09f).E.x, 1 + 0.9f * change, 1e-5f);
+    EXPECT_EQ(served(alone, 1.001f * reach).weight, 0);
+  }
 
   IrradianceCache disputed(kBox, {});
   disputed.insert(recordAt(vec3(0), vec3(1)));
