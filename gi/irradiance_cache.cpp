@@ -151,7 +151,7 @@ struct IrradianceCache::Impl {
     const float distance2 = dot(step, step);
     if (!(distance2 < radius * radius)) return 0;
     // A point behind the record sees other things than the record did (Ward et al. 1988, section 4), unless
-    // it is no wider than bumps that rays do not see.
+    // it is no farther than bumps that rays do not see.
     const float tolerance = std::max(std::min(kBehindTolerance * radius, kBehindPixels * pixelSize / settings.kappa), r.relief);
     const float behind = -0.5f * dot(step, n + r.normal) / tolerance;
     if (behind >= 1) return 0;
@@ -248,7 +248,7 @@ struct IrradianceCache::Impl {
       const float distance = glm::length(x - r.position);
       if (&candidate != &candidates.front()) worst = std::max(worst, disputeOf(E, out.E / out.weight, 2 * noiseAt(r, distance)));
       nearest = std::min(nearest, distance);
-      out.closest = std::min(out.closest, r.closest),
+      out.closest = std::min(out.closest, r.closest);
       out.headroom = std::min(out.headroom, std::max(r.closest, r.limit));
       out.hasRecord |= distance == 0;
       out.E += candidate.weight * E;

@@ -39,7 +39,7 @@ own_arguments, _, gather = " ".join(sys.argv[1:]).partition(" -- ")
 options = parser.parse_args(own_arguments.split())
 size, samples, frames = options.numbers or (24, 128, 4)
 rays = samples if options.truth is None else options.truth
-LIMITS = {"own": 0.01, "shared": 0.01} if options.numbers else {"own": 0.065, "shared": 0.026}  # few rays and large pixels make a coarser picture
+LIMITS = {"own": 0.01, "shared": 0.01} if options.numbers else {"own": 0.06, "shared": 0.024}  # few rays and large pixels make a coarser picture
 edges = [size * float(x) for x in options.crop.split(",")] if options.crop else [0, size, 0, size]
 
 
