@@ -2,6 +2,7 @@
 #include "reyes/base/check.h"
 #include "reyes/hide/blur_bounds.h"
 #include "reyes/hide/lattice.h"
+#include "reyes/hide/sides.h"
 
 namespace tomales {
 namespace {
@@ -10,6 +11,9 @@ constexpr float kLeastSlant = 0.05f;  // Faces seen edge on.
 // A neighbour with edges twice as long has four times the sagitta of ours.
 constexpr float kReach = 4;
 constexpr float kMinReach_px = 2 / kLattice;
+// Of what displaced borders that face the eye reach out by, and of a pixel: past the horizon more would show
+// as a dark line around the body.
+constexpr float kShareAway = 0.1f;
 constexpr float kTrimReach = 2;  // The reach is tried along x and y only, and trim curves run aslant.
 
 /// One border of a piece as vertex indices: first + k * step for k in 0..count; the inner neighbour is
@@ -80,10 +84,12 @@ float areaSign(const float* x, const float* y, const Border& b, int k) {
   return b.edge == kEdgeU0 || b.edge == kEdgeV1 ? turn : -turn;
 }
 
-/// least_px: what the border reaches out by where it looks straight. What faces away goes no farther than to twice its last cell: past the horizon
-/// it would show as a dark line around the body.
-void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, float least_px, float facing, std::vector<vec2>& push) {
+/// least_px: what the border reaches out by where it looks straight; more than kMinReach_px if it is
+/// displaced.
+void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, float least_px, float facing,
+                std::vector<vec2>& push) {
   const float most_px = std::max(borderReach_px(0), least_px);
+  const float away_px = least_px > kMinReach_px ? kShareAway * std::max(1.0f, least_px) : most_px;
   for (int k = 0; k <= b.count; ++k) {
     const int v = b.first + k * b.step;
     const vec2 outward{x[v] - x[v + b.inward], y[v] - y[v + b.inward]};
@@ -93,7 +99,7 @@ void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, 
     // Along the lattice, so that the other borders stay where they are, until the border itself has moved by as much.
     const float slant = std::max(slantOf(outward / length, x, y, b, k), kLeastSlant);
     const bool faces = facing * areaSign(x, y, b, k) > 0;
-    push[static_cast<size_t>(v)] += outward * (std::min(reach / slant, faces ? most_px : std::max(borderReach_px(0), length)) / length);
+    push[static_cast<size_t>(v)] += outward * (std::min(reach / slant, faces ? most_px : away_px) / length);
   }
 }
 
@@ -152,13 +158,6 @@ bool anyClipped(const Vertices& from, const Camera& camera, bool planes) {
   for (int v = 0; v < from.count; ++v)
     if (const vec3 p = from.at(v); camera.seeable(p) && camera.clips(p)) return true;
   return false;
-}
-
-/// Sign of the raster area, u before v, of what turns dP/du x dP/dv to the eye. By the shape alone, which is closed where a body is: shading
-/// normals of a micropolygon at a fold may point either way, and leave a hole (docs/decisions/0003).
-float facingSign(const Camera& camera) {
-  const vec2 o = camera.raster({0, 0, 1}), x = camera.raster({1, 0, 1}) - o, y = camera.raster({0, 1, 1}) - o;
-  return x.x * y.y - x.y * y.x > 0 ? -1.0f : 1.0f;
 }
 
 TOMALES_HOT void snap(float* __restrict x, float* __restrict y, int count) {
