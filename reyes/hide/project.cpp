@@ -28,8 +28,14 @@ struct Border {
 float sagitta_px(const Grid& g, const float* x, const float* y, const Border& b, int k) {
   const int v = b.first + std::clamp(k, 1, std::max(1, b.count - 1)) * b.step;
   if (b.count > 1) {
-    const vec2 bend{x[v - b.step] - 2 * x[v] + x[v + b.step], y[v - b.step] - 2 * y[v] + y[v + b.step]};
-    return glm::length(bend) / 8;
+    const vec2 before{x[v] - x[v - b.step], y[v] - y[v - b.step]},
+        after{x[v + b.step] - x[v], y[v + b.step] - y[v]};
+    const float one = glm::length(before), other = glm::length(after), longer = std::max(one, other);
+    if (!(dot(before, after) > 0)) return glm::length(after - before) / 8;
+    // By the turn alone: that points of a straight border are not evenly apart, as near the tip of a
+    // paraboloid, opens nothing.
+    const float turn = std::abs(before.x * after.y - before.y * after.x) / (one * other);
+    return turn * 2 / (one + other) * longer * longer / 8;
   }
   // A single chord says nothing of its curve, but the normals turn as the tangents do.
   const int w = b.first;
