@@ -1,7 +1,5 @@
 #include "gi/photon_sky.h"
 
-#include <sstream>
-
 #include "reyes/base/rng.h"
 
 namespace tomales {
@@ -47,15 +45,16 @@ std::vector<float> survey(int light, const ShadingSystem& shading) {
 }
 
 /// Of the sky on the side of a normal of a portal, the share that nothing is in the way of.
-float freeSky(const RayScene& rays, const vec3& middle, const vec3& u, const vec3& v, const vec3& normal) {
+float freeSky(const RayScene& rays, const Portal& portal, const vec3& normal) {
   const vec3 axis = normalizeOr(normal, normal);
   vec3 tangent, bitangent;
   orthonormalBasis(axis, tangent, bitangent);
   float free = 0;
   for (uint32_t i = 0; i < kRays; ++i) {
-    const vec2 at = sobol2(i, kPlaces) - 0.5f;
+    const vec2 at = sobol2(i, kPlaces);
     const vec3 local = cosineHemisphere(sobol2(i, kDirections));
-    const Ray ray{middle + at.x * u + at.y * v, local.x * tangent + local.y * bitangent + local.z * axis};
+    const Ray ray{portal.corner + at.x * portal.u + at.y * portal.v,
+                  local.x * tangent + local.y * bitangent + local.z * axis};
     free += rays.closest(ray, kMaskPhoton).object < 0 ? 1.0f / kRays : 0.0f;
   }
   return std::max(free, kLeastFree);
@@ -101,11 +100,9 @@ float SkyCells::density(const Cell& cell) const {
 
 SkyPhotons::SkyPhotons(int light, const ShadingSystem& shading, const RayScene& rays,
                        const PhotonTarget& target)
-    : light_(light),
-      shading_(shading),
-      center_(target.center()),
-      radius_(target.radius()),
-      portals_(portalsOf(light, rays)) {
+    : light_(light), shading_(shading), center_(target.center()), radius_(target.radius()) {
+  for (const Portal& p : shading.portals(light))
+    portals_.push_back({p, {freeSky(rays, p, p.normal), freeSky(rays, p, -p.normal)}});
   const std::vector<float> radiance = survey(light, shading);
   open_ = SkyCells(radiance, [](const vec3&) { return 1.0f; });
   power_ = open_.integral() * double{kPi * radius_ * radius_};
@@ -117,30 +114,9 @@ SkyPhotons::SkyPhotons(int light, const ShadingSystem& shading, const RayScene& 
       through_.integral() / double{share_};  // what the house is met by from outside is not worth its photons
 }
 
-/// As the renderer's own samples of this light find them (reyes/shade/portals.h), which has reported those
-/// that it cannot use.
-std::vector<SkyPhotons::Portal> SkyPhotons::portalsOf(int light, const RayScene& rays) {
-  const Scene& scene = rays.scene();
-  const Param* named = findParam(scene.lights[static_cast<size_t>(light)]->shader.params, "portals");
-  std::istringstream names(named && !named->strings.empty() ? named->strings[0] : std::string());
-  std::vector<Portal> out;
-  for (std::string name; names >> name;) {
-    mat4 m;
-    if (!scene.cameraFromNamed(name, m)) continue;
-    const vec3 u(m[0]), v(m[1]), normal = cross(u, v);
-    if (!(glm::length(normal) > 0) || !isFinite(normal)) continue;
-    out.push_back({vec3(m[3]) - 0.5f * (u + v),
-                   u,
-                   v,
-                   normal,
-                   {freeSky(rays, vec3(m[3]), u, v, normal), freeSky(rays, vec3(m[3]), u, v, -normal)}});
-  }
-  return out;
-}
-
 float SkyPhotons::across(const vec3& toSky) const {
   float sum = 0;
-  for (const Portal& p : portals_) sum += p.across(toSky);
+  for (const Opening& p : portals_) sum += p.across(toSky);
   return sum;
 }
 
@@ -148,15 +124,15 @@ float SkyPhotons::across(const vec3& toSky) const {
 vec3 SkyPhotons::onPortal(const vec3& toSky, vec2 xi) const {
   double x{xi.x};
   Distribution parts;
-  for (const Portal& p : portals_) parts.add(double{p.across(toSky)});
-  const Portal& p = portals_[parts.pick(x)];
+  for (const Opening& p : portals_) parts.add(double{p.across(toSky)});
+  const Opening& p = portals_[parts.pick(x)];
   return p.corner + static_cast<float>(x) * p.u + xi.y * p.v;
 }
 
 /// Of onPortal(), over area across the direction: of all portals on the line through P.
 float SkyPhotons::portalDensity(const vec3& P, const vec3& toSky) const {
   float met = 0, sum = 0;
-  for (const Portal& p : portals_) {
+  for (const Opening& p : portals_) {
     const float along = dot(p.normal, toSky), part = p.across(toSky);
     sum += part;
     if (!(part > 0)) continue;

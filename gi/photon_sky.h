@@ -39,16 +39,13 @@ class SkyPhotons {
   void emit(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const;
 
  private:
-  struct Portal {
-    vec3 corner, u, v;  ///< u, v: edges.
-    vec3 normal;        ///< As long as the area.
-    float free[2];      ///< Of the sky before and behind it, what nothing is in the way of.
+  struct Opening : Portal {
+    float free[2];  ///< Of the sky before and behind it, what nothing is in the way of.
     float across(const vec3& toSky) const {
       const float area = dot(normal, toSky);
       return std::abs(area) * free[area < 0];
     }
   };
-  static std::vector<Portal> portalsOf(int light, const RayScene& rays);
   float across(const vec3& toSky) const;
   vec3 onPortal(const vec3& toSky, vec2 xi) const;
   float portalDensity(const vec3& P, const vec3& toSky) const;
@@ -58,7 +55,7 @@ class SkyPhotons {
   const ShadingSystem& shading_;
   const vec3 center_;   ///< Of the scene.
   const float radius_;  ///< Likewise
-  std::vector<Portal> portals_;
+  std::vector<Opening> portals_;
   SkyCells open_, through_;  ///< Of photons by a disk before the whole scene, of those by portals.
   float share_ = 0;          ///< Of those by portals.
   double power_ = 0;

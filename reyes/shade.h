@@ -5,6 +5,7 @@
 #pragma once
 #include <functional>
 #include <optional>
+#include <span>
 
 #include "reyes/base/stats.h"
 #include "reyes/grid.h"
@@ -205,6 +206,12 @@ class CloudServices {
 /// Where a light is, as far as one can tell without asking it.
 enum class LightKind { None, Ambient, Point, Distant, Sky, Area, Indirect };
 
+/// An opening through which a sky lights a room. Current space.
+struct Portal {
+  vec3 corner, u, v;  ///< u, v: edges.
+  vec3 normal;        ///< As long as the area.
+};
+
 /// A light shader alone, at points that nothing shades: how photons learn what it sends where. Current space.
 struct LightProbe {
   std::vector<vec3> P, N;    ///< In: points to be lit, with their normals.
@@ -287,6 +294,8 @@ class ShadingSystem {
 
   LightKind lightKind(int light) const;  ///< None: its shader is missing, or it lights nothing diffuse that gather rays see.
   void probe(int light, LightProbe& probe) const;
+  /// Of a light of LightKind::Sky, those of its parameter `portals` that have a place and an area.
+  std::span<const Portal> portals(int light) const;
   /// Does the surface of a group add radiance of its own?
   bool emits(int group) const;
   /// Does it reflect the same share of Illumination::Unit everywhere (TM_EVEN, and no primitive variable says otherwise)?

@@ -1,5 +1,7 @@
 #include "reyes/hide/facets.h"
 
+#include <bit>
+
 #include "reyes/base/rng.h"
 #include "reyes/hide/gathered.h"
 
@@ -61,6 +63,8 @@ TOMALES_HOT void markTurning(const Grid& g, float cosine, int32_t* __restrict tu
   }
 }
 
+constexpr auto kFront = static_cast<int>(Side::Front), kBack = static_cast<int>(Side::Back);
+
 int primvarFloats(const ShadeGroup& group) {
   int n = 0;
   for (const Primvar& p : group.primvars) n += p.width;
@@ -86,24 +90,32 @@ void setTextureCoordinates(const ShadeGroup& group, ShadePoints& points) {
 
 }  // namespace
 
-FacetTable::FacetTable(const Scene& scene, const Camera& camera, const GridTable& grids, DeepTile& tile)
+FacetTable::FacetTable(const Scene& scene, const Camera& camera, const GridTable& grids,
+                       const SampleBuffer& samples, DeepTile& tile)
     : scene_(scene),
       camera_(camera),
+      facingSign_(facingSign(camera)),
       grids_(grids),
+      samples_(samples),
       tile_(tile),
       seen_(grids.cellCount(), 0),
-      facetOf_(grids.cellCount(), ~0U) {}
+      facetOf_(grids.cellCount(), kNotMade) {}
 
-void FacetTable::make(std::vector<Fragment>& fragments, HideDoubts* doubts) {
+void FacetTable::make(HideDoubts* doubts) {
   tile_.facets.reserve(static_cast<size_t>(std::count(seen_.begin(), seen_.end(), 1)));
-  for (Fragment& f : fragments) {
+  std::vector<uint32_t> ofFolded;
+  for (Fragment& f : tile_.fragments) {
     const uint32_t cell = f.facet;
-    if (facetOf_[cell] == ~0U) {
+    if (facetOf_[cell] == kNotMade) {
       makeFacets(grids_.of(cell));
       if (doubts) countTurns(grids_.of(cell), *doubts);
     }
-    f.facet = facetOf_[cell];
+    if (facetOf_[cell] == kFolded)
+      ofFolded.push_back(static_cast<uint32_t>(&f - tile_.fragments.data()));
+    else
+      f.facet = facetOf_[cell];
   }
+  for (const uint32_t i : ofFolded) tile_.fragments[i].facet = facetOfFolded(i);
   tile_.batches.reserve(wishes_.size());
   for (const Wishes& wishes : wishes_) {
     const ShadeGroup& group = scene_.groups[static_cast<size_t>(wishes.group)];
@@ -120,30 +132,63 @@ void FacetTable::makeFacets(const GridTable::Entry& entry) {
   const uint8_t* seen = seen_.data() + entry.firstCell;
   const int batch = batchOf(scene_.objects[static_cast<size_t>(g.object)].group), row = g.nu + 1;
   std::vector<Wish>& list = wishes_[static_cast<size_t>(batch)].list;
-  const auto wish = [&](int index) {
-    list.push_back({number, index});
+  const auto wish = [&](int index, Side side) {
+    list.push_back({number, index, side});
     return static_cast<int>(list.size()) - 1;
   };
-  const auto corner = [&](int vertex) {
-    int& point = corners_[static_cast<size_t>(vertex)];
-    if (point < 0) point = wish(vertex);
+  const auto corner = [&](int vertex, Side side) {
+    int& point = corners_[2 * static_cast<size_t>(vertex) + (side == Side::Back)];
+    if (point < 0) point = wish(vertex, side);
     return point;
   };
   const bool smooth = entry.raster->smooth;
-  if (smooth) corners_.assign(static_cast<size_t>(g.vertexCount()), -1);
-  for (int cell = 0, end = g.cellNumbers(); cell < end; ++cell) {
-    if (!seen[cell]) continue;
-    facetOf_[entry.firstCell + static_cast<uint32_t>(cell)] = static_cast<uint32_t>(tile_.facets.size());
-    Facet& facet = tile_.facets.emplace_back();
-    facet.batch = batch, facet.matte = entry.raster->matte;
-    if (smooth) {
-      const int a = firstVertex(g, cell);
-      const int vertices[4] = {a, a + 1, a + row, a + row + 1};
-      for (int k = 0; k < 4; ++k) facet.point[k] = corner(vertices[k]);
-    } else {
-      std::fill_n(facet.point, 4, wish(cell));
+  if (smooth) corners_.assign(2 * static_cast<size_t>(g.vertexCount()), -1);
+  findSides(*entry.raster, facingSign_, sides_);
+  for (int cell = 0, line = 0, end = g.cellNumbers(); cell < end; ++line)
+    for (const int last = cell + g.nu; cell < last; ++cell) {
+      if (!seen[cell]) continue;
+      const int a = cell + line, sides = sides_[static_cast<size_t>(a)];
+      uint32_t& made = facetOf_[entry.firstCell + static_cast<uint32_t>(cell)];
+      made = sides == (kFront | kBack) ? kFolded : static_cast<uint32_t>(tile_.facets.size());
+      if (made == kFolded) continue;
+      const Side side = sides == kBack ? Side::Back : Side::Front;
+      Facet& facet = tile_.facets.emplace_back();
+      facet.batch = batch, facet.matte = entry.raster->matte;
+      if (smooth) {
+        const int vertices[4] = {a, a + 1, a + row, a + row + 1};
+        for (int k = 0; k < 4; ++k) facet.point[k] = corner(vertices[k], side);
+      } else {
+        std::fill_n(facet.point, 4, wish(cell, side));
+      }
     }
+}
+
+uint32_t FacetTable::facetOfFolded(uint32_t number) {
+  const Fragment& fragment = tile_.fragments[number];
+  const auto after = std::upper_bound(tile_.pixels.begin(), tile_.pixels.end(), number,
+                                      [](uint32_t n, const DeepPixel& p) { return n < p.first; });
+  const auto pixel = static_cast<size_t>(after - tile_.pixels.begin()) - 1;
+  const GridTable::Entry& entry = grids_.of(fragment.facet);
+  const Grid& g = entry.grid();
+  const int cell = static_cast<int>(fragment.facet - entry.firstCell);
+  const size_t lane = pixel * static_cast<size_t>(samples_.lanes) + size_t{64} * fragment.word +
+                      static_cast<size_t>(std::countr_zero(fragment.samples));
+  const Side side = sideAt(entry, camera_, cell, samplePoint(samples_, lane));
+  const auto [at, isNew] =
+      folded_.try_emplace({fragment.facet, side}, static_cast<uint32_t>(tile_.facets.size()));
+  if (!isNew) return at->second;
+  Facet& facet = tile_.facets.emplace_back();
+  facet.batch = batchOf(scene_.objects[static_cast<size_t>(g.object)].group),
+  facet.matte = entry.raster->matte;
+  std::vector<Wish>& list = wishes_[static_cast<size_t>(facet.batch)].list;
+  const int a = firstVertex(g, cell), row = g.nu + 1, points[] = {a, a + 1, a + row, a + row + 1};
+  for (int k = 0; k < 4; ++k) {
+    if (k == 0 || entry.raster->smooth)
+      list.push_back({static_cast<uint32_t>(&entry - grids_.entries().data()),
+                      entry.raster->smooth ? points[k] : cell, side});
+    facet.point[k] = static_cast<int>(list.size()) - 1;
   }
+  return at->second;
 }
 
 void FacetTable::countTurns(const GridTable::Entry& entry, HideDoubts& doubts) {
@@ -203,8 +248,12 @@ void FacetTable::fill(const Wishes& wishes, ShadePoints& points) const {
       const int ofPiece = vertex ? g.verticesOfPiece() : g.nu * (g.nv + 1), piece = w.index / ofPiece;
       const uint32_t name = g.pieces[static_cast<size_t>(piece)].name;
       for (int k = 0; k < run; ++k, ++i) {
-        const int point = points.add(hashCombine(name, static_cast<uint32_t>(w.index - piece * ofPiece + k))), c = a + k + g.nu + 1;
-        const auto mean = [&](const float* f) { return vertex ? f[a] : 0.25f * (f[a + k] + f[a + k + 1] + f[c] + f[c + 1]); };
+        const int point = points.add(hashCombine(name, static_cast<uint32_t>(w.index - piece * ofPiece + k))),
+                  c = a + k + g.nu + 1;
+        gathered.side[i] = block[i].side == Side::Back ? 1.0f : -1.0f;
+        const auto mean = [&](const float* f) {
+          return vertex ? f[a] : 0.25f * (f[a + k] + f[a + k + 1] + f[c] + f[c + 1]);
+        };
         for (int p = 0; p < floats; ++p) points.primvar(p)[point] = mean(g.primvar(p));
         if (g.keyCount > 1) points.set3(kDriftX, point, driftOf(scene_, g, mean));
       }

@@ -1,31 +1,37 @@
 // Visible micropolygons become facets and points to shade, grid by grid in order of first use. Private to the hider.
 #pragma once
+#include <map>
 #include <span>
 
-#include "reyes/hide/samples.h"
+#include "reyes/hide/sides.h"
 
 namespace tomales {
 
 class FacetTable {
  public:
-  FacetTable(const Scene& scene, const Camera& camera, const GridTable& grids, DeepTile& tile);
+  FacetTable(const Scene& scene, const Camera& camera, const GridTable& grids, const SampleBuffer& samples,
+             DeepTile& tile);
   /// A cell that some sample sees.
   void see(uint32_t cell) { seen_[cell] = 1; }
-  /// Makes the facets of all cells that are seen, and their points; before, the tile has none. Everything in them depends on the
-  /// grid alone. Fragments have cells instead of facets, each one that is seen. doubts: may be null.
-  void make(std::vector<Fragment>& fragments, HideDoubts* doubts);
+  /// Makes the facets of all cells that are seen, and their points; before, the tile has none. Everything in
+  /// them depends on the grid alone, and on the side that is seen. The tile's fragments have cells instead of
+  /// facets, each one that is seen. doubts: may be null.
+  void make(HideDoubts* doubts);
 
  private:
   /// A point to be made: at the centre of a cell, or at a vertex.
   struct Wish {
     uint32_t entry;  ///< In GridTable::entries.
     int index;       ///< Of the cell or vertex.
+    Side side;       ///< That is seen.
   };
   struct Wishes {
     int group;
     std::vector<Wish> list;
   };
   void makeFacets(const GridTable::Entry& entry);
+  /// That of a fragment of a cell that may be seen from both sides: of the side that it sees.
+  uint32_t facetOfFolded(uint32_t fragment);
   void countTurns(const GridTable::Entry& entry, HideDoubts& doubts);
   int batchOf(int group);
   void fill(const Wishes& wishes, ShadePoints& points) const;
@@ -33,16 +39,23 @@ class FacetTable {
   /// How many wishes from the first on are for cells that follow each other in a row of a grid.
   static int runLength(const Grid& g, std::span<const Wish> wishes);
 
+  static constexpr uint32_t kNotMade = ~0U, kFolded = ~0U - 1;
+
   const Scene& scene_;
   const Camera& camera_;
+  const float facingSign_;
   const GridTable& grids_;
+  const SampleBuffer& samples_;
   DeepTile& tile_;
   std::vector<uint8_t> seen_;      ///< A cell
-  std::vector<uint32_t> facetOf_;  ///< A cell, ~0: not made yet.
+  std::vector<uint32_t> facetOf_;  ///< A cell; kNotMade yet, kFolded: ask folded_.
   std::vector<int> batchOf_;       ///< A group, -1: none yet.
   std::vector<Wishes> wishes_;     ///< A batch
   std::vector<int32_t> turning_;   ///< A vertex of a grid.
-  std::vector<int> corners_;       ///< Points of a grid's vertices, -1: none yet.
+  std::vector<int32_t> sides_;     ///< As findSides()
+  std::vector<int> corners_;       ///< Points of a grid's vertices, Front before Back; -1: none yet.
+  std::map<std::pair<uint32_t, Side>, uint32_t>
+      folded_;  ///< Facets of cells that may be seen from both sides.
 };
 
 }  // namespace tomales

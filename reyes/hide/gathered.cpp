@@ -1,6 +1,11 @@
 #include "reyes/hide/gathered.h"
 
 namespace tomales {
+namespace {
+
+constexpr float kOutline = 1e-3f;  ///< Cosine to the line of sight of a normal at an outline.
+
+}  // namespace
 
 TOMALES_HOT void Gathered::readBlock(const Sources& from, int row, int i) {
 #pragma GCC ivdep
@@ -9,16 +14,24 @@ TOMALES_HOT void Gathered::readBlock(const Sources& from, int row, int i) {
 
 /// No branches: all lanes of a vector take both ways.
 TOMALES_HOT void derive(const Gathered& g, bool perspective, const PointBlock& out) {
+  const float fromEye = perspective ? 1.0f : 0.0f, parallel = 1 - fromEye;  // factors: see below
 #pragma GCC ivdep
   for (int i = 0; i < kLanes; ++i) {
     const float ux = g.uEdge[0][i], uy = g.uEdge[1][i], uz = g.uEdge[2][i];
     const float vx = g.vEdge[0][i], vy = g.vEdge[1][i], vz = g.vEdge[2][i];
     // For a cell this is half the cross product of the diagonals: its area, exactly so where it is flat.
-    const float sx = uy * vz - uz * vy, sy = uz * vx - ux * vz, sz = ux * vy - uy * vx;
+    const float spanX = uy * vz - uz * vy, spanY = uz * vx - ux * vz, spanZ = ux * vy - uy * vx;
+    const float area2 = spanX * spanX + spanY * spanY + spanZ * spanZ;
+    // Where it has turned away from the eye though that side is seen, it is taken for the outline's, a little
+    // this side of it.
+    const float ix = fromEye * g.P[0][i], iy = fromEye * g.P[1][i], iz = fromEye * g.P[2][i] + parallel;
+    const float along = spanX * ix + spanY * iy + spanZ * iz, i2 = ix * ix + iy * iy + iz * iz;
+    const float back = (g.side[i] * kOutline * std::sqrt(area2 * i2) - along) / i2;
+    const float turn = along * g.side[i] < 0 ? back : 0.0f;
+    const float sx = spanX + turn * ix, sy = spanY + turn * iy, sz = spanZ + turn * iz;
     const float nx = g.N[0][i], ny = g.N[1][i], nz = g.N[2][i];
-    const float span2 = sx * sx + sy * sy + sz * sz;
     const float toRiSide = sx * nx + sy * ny + sz * nz < 0 ? -1.0f : 1.0f;
-    const float perSpan = toRiSide * reciprocalLength(span2);
+    const float perSpan = toRiSide * reciprocalLength(sx * sx + sy * sy + sz * sz);
     const float perNormal = reciprocalLength(nx * nx + ny * ny + nz * nz);
     const bool flat = perSpan == 0, noNormal = perNormal == 0;
     // A direction that is missing is taken from the other normal, and if both are, from the eye.
@@ -35,7 +48,7 @@ TOMALES_HOT void derive(const Gathered& g, bool perspective, const PointBlock& o
     out.channel[kDpdvX][i] = vx / dv, out.channel[kDpdvY][i] = vy / dv, out.channel[kDpdvZ][i] = vz / dv;
     out.channel[kU][i] = g.u[i], out.channel[kV][i] = g.v[i];
     out.channel[kDu][i] = du, out.channel[kDv][i] = dv;
-    out.channel[kArea][i] = std::sqrt(span2);
+    out.channel[kArea][i] = std::sqrt(area2);
   }
   // Apart: the compiler makes no vectors of a choice that is the same for all lanes.
   for (int axis = 0; axis < 3; ++axis)

@@ -49,6 +49,7 @@ struct alignas(64) Gathered {
   using Array = float[2 * kLanes];
   Array P[3], N[3];
   Array uEdge[3], vEdge[3];  ///< Of P, one micropolygon long.
+  Array side;                ///< -1: seen is the one that uEdge x vEdge points to; 1: the other.
   Array u, v, du, dv;
 
   void readVertex(const Grid& g, int vertex, int i) {

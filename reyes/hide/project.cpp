@@ -2,6 +2,7 @@
 #include "reyes/base/check.h"
 #include "reyes/hide/blur_bounds.h"
 #include "reyes/hide/lattice.h"
+#include "reyes/hide/sides.h"
 
 namespace tomales {
 namespace {
@@ -10,6 +11,9 @@ constexpr float kLeastSlant = 0.05f;  // Faces seen edge on.
 // A neighbour with edges twice as long has four times the sagitta of ours.
 constexpr float kReach = 4;
 constexpr float kMinReach_px = 2 / kLattice;
+// Of what displaced borders that face the eye reach out by, and of a pixel: past the horizon more would show
+// as a dark line around the body.
+constexpr float kShareAway = 0.1f;
 constexpr float kTrimReach = 2;  // The reach is tried along x and y only, and trim curves run aslant.
 
 /// One border of a piece as vertex indices: first + k * step for k in 0..count; the inner neighbour is
@@ -24,8 +28,14 @@ struct Border {
 float sagitta_px(const Grid& g, const float* x, const float* y, const Border& b, int k) {
   const int v = b.first + std::clamp(k, 1, std::max(1, b.count - 1)) * b.step;
   if (b.count > 1) {
-    const vec2 bend{x[v - b.step] - 2 * x[v] + x[v + b.step], y[v - b.step] - 2 * y[v] + y[v + b.step]};
-    return glm::length(bend) / 8;
+    const vec2 before{x[v] - x[v - b.step], y[v] - y[v - b.step]},
+        after{x[v + b.step] - x[v], y[v + b.step] - y[v]};
+    const float one = glm::length(before), other = glm::length(after), longer = std::max(one, other);
+    if (!(dot(before, after) > 0)) return glm::length(after - before) / 8;
+    // By the turn alone: that points of a straight border are not evenly apart, as near the tip of a
+    // paraboloid, opens nothing.
+    const float turn = std::abs(before.x * after.y - before.y * after.x) / (one * other);
+    return turn * 2 / (one + other) * longer * longer / 8;
   }
   // A single chord says nothing of its curve, but the normals turn as the tangents do.
   const int w = b.first;
@@ -80,10 +90,12 @@ float areaSign(const float* x, const float* y, const Border& b, int k) {
   return b.edge == kEdgeU0 || b.edge == kEdgeV1 ? turn : -turn;
 }
 
-/// least_px: what the border reaches out by where it looks straight. What faces away goes no farther than to twice its last cell: past the horizon
-/// it would show as a dark line around the body.
-void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, float least_px, float facing, std::vector<vec2>& push) {
+/// least_px: what the border reaches out by where it looks straight; more than kMinReach_px if it is
+/// displaced.
+void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, float least_px, float facing,
+                std::vector<vec2>& push) {
   const float most_px = std::max(borderReach_px(0), least_px);
+  const float away_px = least_px > kMinReach_px ? kShareAway * std::max(1.0f, least_px) : most_px;
   for (int k = 0; k <= b.count; ++k) {
     const int v = b.first + k * b.step;
     const vec2 outward{x[v] - x[v + b.inward], y[v] - y[v + b.inward]};
@@ -93,7 +105,7 @@ void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, 
     // Along the lattice, so that the other borders stay where they are, until the border itself has moved by as much.
     const float slant = std::max(slantOf(outward / length, x, y, b, k), kLeastSlant);
     const bool faces = facing * areaSign(x, y, b, k) > 0;
-    push[static_cast<size_t>(v)] += outward * (std::min(reach / slant, faces ? most_px : std::max(borderReach_px(0), length)) / length);
+    push[static_cast<size_t>(v)] += outward * (std::min(reach / slant, faces ? most_px : away_px) / length);
   }
 }
 
@@ -152,13 +164,6 @@ bool anyClipped(const Vertices& from, const Camera& camera, bool planes) {
   for (int v = 0; v < from.count; ++v)
     if (const vec3 p = from.at(v); camera.seeable(p) && camera.clips(p)) return true;
   return false;
-}
-
-/// Sign of the raster area, u before v, of what turns dP/du x dP/dv to the eye. By the shape alone, which is closed where a body is: shading
-/// normals of a micropolygon at a fold may point either way, and leave a hole (docs/decisions/0003).
-float facingSign(const Camera& camera) {
-  const vec2 o = camera.raster({0, 0, 1}), x = camera.raster({1, 0, 1}) - o, y = camera.raster({0, 1, 1}) - o;
-  return x.x * y.y - x.y * y.x > 0 ? -1.0f : 1.0f;
 }
 
 TOMALES_HOT void snap(float* __restrict x, float* __restrict y, int count) {

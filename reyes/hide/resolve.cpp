@@ -38,9 +38,14 @@ class TileBuilder {
   static constexpr float kRounding = 1e-5f;  ///< Of depth keys.
 
  public:
-  TileBuilder(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples, Scratch& scratch)
-      : camera_(camera), grids_(grids), samples_(samples), scratch_(scratch), sights_(scratch.sights),
-        facets_(scene, camera, grids, tile_) {}
+  TileBuilder(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples,
+              Scratch& scratch)
+      : camera_(camera),
+        grids_(grids),
+        samples_(samples),
+        scratch_(scratch),
+        sights_(scratch.sights),
+        facets_(scene, camera, grids, samples, tile_) {}
 
   DeepTile build(HideDoubts* doubts) {
     tile_.rect = samples_.rect;
@@ -52,7 +57,7 @@ class TileBuilder {
       for (size_t first = 0; first < count; first += kRankedTogether)
         addPixels(first, std::min(first + kRankedTogether, count));
     }
-    facets_.make(tile_.fragments, doubts);
+    facets_.make(doubts);
     tile_.shrink();
     return std::move(tile_);
   }

@@ -41,6 +41,10 @@ void ShadingSystem::probe(int light, LightProbe& probe) const {
   }
 }
 
+std::span<const Portal> ShadingSystem::portals(int light) const {
+  return impl_->lights[static_cast<size_t>(light)]->sky->portals().all();
+}
+
 bool ShadingSystem::emits(int group) const {
   return impl_->groups[static_cast<size_t>(group)].forDiffuseRays().can(TM_EMITS);
 }

@@ -6,18 +6,9 @@ namespace {
 /// The rest goes by the sky itself: as small as keeps what one such sample brings within four times its share.
 constexpr float kShare = 0.75f;
 
-}  // namespace
-
-bool Portals::add(const mat4& currentFromSpace) {
-  const auto at = [&](float x, float y) { return vec3(currentFromSpace * vec4(x, y, 0, 1)); };
-  const vec3 corner = at(-0.5f, -0.5f), u = at(0.5f, -0.5f) - corner, v = at(-0.5f, 0.5f) - corner, normal = cross(u, v);
-  if (!(glm::length(normal) > 0) || !isFinite(normal) || !isFinite(corner)) return false;
-  portals_.push_back({corner, u, v, normal});
-  return true;
-}
-
 /// Its solid angle as if all of it were at its middle, at most half of all directions; 0 behind the horizon.
-float Portals::Portal::weight(const vec3& P, const vec3& N) const {
+float weightOf(const Portal& portal, const vec3& P, const vec3& N) {
+  const auto& [corner, u, v, normal] = portal;
   const vec3 corners[] = {corner, corner + u, corner + v, corner + u + v};
   float highest = N == vec3(0.0f) ? 1.0f : 0.0f;
   for (const vec3& c : corners) highest = std::max(highest, dot(N, c - P));
@@ -27,7 +18,9 @@ float Portals::Portal::weight(const vec3& P, const vec3& N) const {
   return seen < 2 * kPi * distance * distance * distance ? seen / (distance * distance * distance) : 2 * kPi;
 }
 
-float Portals::Portal::density(const vec3& P, const vec3& L) const {
+/// Over solid angle, of places that are even on the portal.
+float densityOf(const Portal& portal, const vec3& P, const vec3& L) {
+  const auto& [corner, u, v, normal] = portal;
   const vec3 to = corner - P;
   const float along = dot(normal, L), area = glm::length(normal);
   if (along == 0) return 0;
@@ -39,9 +32,20 @@ float Portals::Portal::density(const vec3& P, const vec3& L) const {
   return t * t / std::abs(along);
 }
 
+}  // namespace
+
+bool Portals::add(const mat4& currentFromSpace) {
+  const auto at = [&](float x, float y) { return vec3(currentFromSpace * vec4(x, y, 0, 1)); };
+  const vec3 corner = at(-0.5f, -0.5f), u = at(0.5f, -0.5f) - corner, v = at(-0.5f, 0.5f) - corner,
+             normal = cross(u, v);
+  if (!(glm::length(normal) > 0) || !isFinite(normal) || !isFinite(corner)) return false;
+  portals_.push_back({corner, u, v, normal});
+  return true;
+}
+
 float Portals::weights(const vec3& P, const vec3& N) const {
   float sum = 0;
-  for (const Portal& p : portals_) sum += p.weight(P, N);
+  for (const Portal& p : portals_) sum += weightOf(p, P, N);
   return sum;
 }
 
@@ -51,7 +55,7 @@ vec3 Portals::sample(const vec3& P, const vec3& N, vec2 xi) const {
   float left = xi.x * weights(P, N);
   size_t last = 0;
   for (size_t k = 0; k < portals_.size(); ++k) {
-    const float weight = portals_[k].weight(P, N);
+    const float weight = weightOf(portals_[k], P, N);
     if (!(weight > 0)) continue;
     last = k, xi.x = std::min(left / weight, 1.0f);
     if (left < weight) break;
@@ -66,7 +70,7 @@ float Portals::density(const vec3& P, const vec3& N, const vec3& L) const {
   if (!(sum > 0)) return 0;
   float density = 0;
   for (const Portal& p : portals_)
-    if (const float weight = p.weight(P, N); weight > 0) density += weight * p.density(P, L);
+    if (const float weight = weightOf(p, P, N); weight > 0) density += weight * densityOf(p, P, L);
   return density / sum;
 }
 

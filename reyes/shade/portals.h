@@ -4,7 +4,7 @@
 #pragma once
 #include <vector>
 
-#include "reyes/base/math.h"
+#include "reyes/shade.h"
 
 namespace tomales {
 
@@ -12,7 +12,7 @@ class Portals {
  public:
   /// The square of -0.5 .. 0.5 in x and y of a space. False, and not added: it has no area.
   bool add(const mat4& currentFromSpace);
-  bool empty() const { return portals_.empty(); }
+  const std::vector<Portal>& all() const { return portals_; }
 
   /// Of the samples of a point P with normal N that are to go to portals; 0: it lies behind all of them. N of 0: in the air.
   float share(const vec3& P, const vec3& N) const;
@@ -22,13 +22,6 @@ class Portals {
   float density(const vec3& P, const vec3& N, const vec3& L) const;
 
  private:
-  struct Portal {
-    vec3 corner, u, v;  ///< u, v: edges.
-    vec3 normal;        ///< As long as the area.
-    float weight(const vec3& P, const vec3& N) const;
-    /// Over solid angle, of places that are even on the portal.
-    float density(const vec3& P, const vec3& L) const;
-  };
   float weights(const vec3& P, const vec3& N) const;
 
   std::vector<Portal> portals_;

@@ -32,6 +32,7 @@ class Sky {
       const mat3& worldFromCurrent);
 
   void setPortals(Portals portals) { portals_ = std::move(portals); }
+  const Portals& portals() const { return portals_; }
 
   /// A unit direction to light a point P with unit normal N by; density over solid angle. N of 0: in the air, lit evenly from all sides.
   vec3 sample(const vec3& P, const vec3& N, vec2 xi, float& density) const;

@@ -140,5 +140,15 @@ INSTANTIATE_TEST_SUITE_P(Bodies, Crack,
                                          Body{"DisplacedTorus", kBumpyTorus}, Body{"DisplacedNurbs", kBumpyNurbs}),
                          [](const auto& p) { return p.param.name; });
 
+/// Rows of a paraboloid are far apart at its tip, so that points of a meridian are not evenly spaced, though
+/// it is seen straight.
+TEST(Overlap, OfTheMeridiansOfATransparentParaboloidIsNoneAtItsTip) {
+  const DeepFrame frame = hide("Opacity 0.5 0.5 0.5 Paraboloid 1 0 1 360", "", "Translate 0 0 3 ");
+  int layers = 0, samples = 0;
+  for (int y = 44; y < 84; ++y)
+    for (int x = 44; x < 84; ++x) layers += covered(frame, x, y), samples += frame.samplesPerPixel;
+  EXPECT_NEAR(layers, samples, samples / 5000);
+}
+
 }  // namespace
 }  // namespace tomales

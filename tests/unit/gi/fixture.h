@@ -81,11 +81,12 @@ inline SceneBuilder cornell(ParamList indirect = {}, int resolution = 64) {
 
 /// Shading and rays over a scene; services are switched in by `use`.
 struct World {
-  explicit World(Scene s)
+  /// `plugins`: beside the built-in shaders.
+  explicit World(Scene s, const TmShaderLibrary* plugins = nullptr)
       : scene(frozen(std::move(s))),
         camera(scene.options),
         registry(log),
-        shading(bind(scene, registry, log, stats)),
+        shading(bind(scene, registry, plugins, log, stats)),
         rays(scene, camera, shading, {}, stats, log) {}
 
   std::unique_ptr<GiServices> use(const GiSettings& settings) {
@@ -98,8 +99,10 @@ struct World {
     s.freeze();
     return s;
   }
-  static ShadingSystem bind(const Scene& scene, ShaderRegistry& registry, Log& log, Stats& stats) {
+  static ShadingSystem bind(const Scene& scene, ShaderRegistry& registry, const TmShaderLibrary* plugins,
+                            Log& log, Stats& stats) {
     registry.addLibrary(tomales_builtin_shaders(), "built-in");
+    if (plugins) registry.addLibrary(plugins, "test");
     return ShadingSystem(scene, registry, nullptr, log, stats);
   }
 

@@ -7,6 +7,7 @@
 #include "gi/photons.h"
 #include "gi/point_file.h"
 #include "reyes/base/rng.h"
+#include "reyes/shader.h"
 #include "tests/unit/gi/fixture.h"
 
 namespace tomales {
@@ -159,12 +160,12 @@ TEST(PhotonEmission, APenumbraHasTheWidthOfTheSun) {
 }
 
 /// A black room around (0, 0, 8) whose wall at the right has an opening of 0.4 x 0.6, under a sky.
-SceneBuilder roomWithAWindow(const std::string& portals) {
+SceneBuilder roomWithAWindow(const std::string& portals, const std::string& shader = "environmentlight") {
   SceneBuilder b;
   ParamList params{floatParam("intensity", 1.5f)};
   if (!portals.empty())
     params.push_back({"portals", Storage::Uniform, ValueType::String, 1, {}, {}, {portals}});
-  b.light("environmentlight", params);
+  b.light(shader, params);
   const auto at = [](float x, float y, float z) { return vec3(x, y, 8 + z); };
   const vec3 black(0);
   b.quad(at(-1, -1, -1), at(-1, 1, -1), at(-1, 1, 1), at(-1, -1, 1), black);
@@ -196,6 +197,23 @@ TEST(PhotonEmission, ASkySendsPhotonsThroughItsPortals) {
     EXPECT_NEAR(power, truth, (portals.empty() ? 0.15 : 0.01) * truth) << portals;
   }
   EXPECT_LT(noise["window"], 0.1 * noise[""]);
+}
+
+rsl::StringParam defaultPortals("portals", "window", "");
+void shine(const TmGrid* g) {
+  for (int i : rsl::Batch(g)) rsl::set(g->Cl, i, {1.5f, 1.5f, 1.5f});
+}
+const rsl::Shader windowlight(TM_LIGHT, "windowlight", "", TM_LIGHT_SOLAR | TM_LIGHT_SKY, shine,
+                              {&defaultPortals});
+
+TEST(PhotonEmission, PortalsMayBeTheDefaultOfTheSkysShader) {
+  const TmShader* const shaders[] = {windowlight};
+  const TmShaderLibrary library{TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 1};
+  const auto photons = [&](const std::string& portals, const std::string& shader) {
+    World world(roomWithAWindow(portals, shader).scene, &library);
+    return powerOf(traced(world, {20000, 1}));
+  };
+  EXPECT_FLOAT_EQ(photons("", "windowlight"), photons("window", "environmentlight"));
 }
 
 /// A lamp between two sheets.

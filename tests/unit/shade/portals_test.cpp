@@ -86,7 +86,7 @@ TEST(SkyPortals, SquaresWithoutAreaAreRefused) {
   Portals portals;
   EXPECT_FALSE(portals.add(window(0, 1, 2)));
   EXPECT_FALSE(portals.add(window(std::numeric_limits<float>::quiet_NaN(), 1, 2)));
-  EXPECT_TRUE(portals.empty());
+  EXPECT_TRUE(portals.all().empty());
 }
 
 }  // namespace

@@ -1,0 +1,61 @@
+// Closed bodies show their outside alone, whatever turns at their outlines: what is lit is the side that is
+// seen.
+#include "tests/unit/frame/hidden_body.h"
+
+namespace tomales {
+namespace {
+using namespace test;
+
+constexpr const char* kSphere = "Sphere 1 -1 1 360";
+constexpr const char* kBumpy =
+    "Attribute \"displacementbound\" \"float sphere\" [0.12] "
+    "Displacement \"noisybump\" \"float Km\" [0.1] \"float frequency\" [5] \"float octaves\" [3] Sphere 0.9 "
+    "-0.9 0.9 360";
+constexpr const char* kPlaced = "Translate 0 0 3.2 Rotate 25 1 0.3 0.1 ";
+
+struct Sides {
+  int front = 0, back = 0;
+};
+
+/// Samples by the side that is lit of what they see.
+Sides sides(const DeepFrame& frame) {
+  Sides out;
+  for (const DeepTile& tile : frame.tiles)
+    for (const Fragment& f : tile.fragments) {
+      const Facet& facet = tile.facets[f.facet];
+      const ShadePoints& points = tile.batches[static_cast<size_t>(facet.batch)];
+      const bool front = points.facingNormal(facet.point[0]) == points.get3(kNx, facet.point[0]);
+      (front ? out.front : out.back) += std::popcount(f.samples);
+    }
+  return out;
+}
+
+struct Outline : ::testing::TestWithParam<std::tuple<const char*, const char*>> {
+  static std::string options(const char* more = "") { return std::string(std::get<1>(GetParam())) + more; }
+};
+
+// What is left: cells that turn away at borders of pieces, which reach a tenth of a pixel beyond them.
+TEST_P(Outline, OfAClosedBodyShowsItsOutsideAlone) {
+  for (const char* rate : {"0.3", "1", "7"}) {
+    const Sides seen = sides(hide(std::get<0>(GetParam()), options(" ShadingRate ") + rate, kPlaced));
+    EXPECT_GT(seen.front, 200000);
+    EXPECT_LT(seen.back, seen.front / 3000) << rate;
+  }
+}
+
+TEST_P(Outline, OfWhatSpinsWhileTheShutterIsOpenIsLitOnTheOutsideToo) {
+  const Sides seen = sides(hide(
+      std::string("MotionBegin [0 1] Rotate 0 0 1 0 Rotate 60 0 1 0 MotionEnd ") + std::get<0>(GetParam()),
+      options(" Shutter 0 1"), kPlaced));
+  EXPECT_LT(seen.back, seen.front / 1000);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Bodies, Outline,
+    ::testing::Combine(::testing::Values(kSphere, kBumpy),
+                       ::testing::Values("ShadingInterpolation \"constant\"",
+                                         "ShadingInterpolation \"smooth\"",
+                                         "Projection \"orthographic\" ScreenWindow -1.3 1.3 -1.3 1.3")));
+
+}  // namespace
+}  // namespace tomales
