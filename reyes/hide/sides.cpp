@@ -18,7 +18,6 @@ float depthIn(const vec3& p, const vec3& q, const vec3& r, const vec2& at) {
   return p.z + b * (q.z - p.z) + c * (r.z - p.z);
 }
 
-/// Of what is seen at one key.
 TOMALES_HOT void addSides(const float* x, const float* y, int vertices, int row, float facingSign,
                           int32_t* __restrict sides) {
   constexpr auto kFront = static_cast<int32_t>(Side::Front), kBack = static_cast<int32_t>(Side::Back);
@@ -39,13 +38,10 @@ float facingSign(const Camera& camera) {
 
 void findSides(const RasterGrid& raster, float facingSign, std::vector<int32_t>& sides) {
   const Grid& g = *raster.grid;
-  sides.assign(
-      static_cast<size_t>(g.stride()),
-      raster.facing == 0 ? 0 : static_cast<int32_t>(raster.facing == facingSign ? Side::Front : Side::Back));
-  if (raster.facing == 0)
-    for (int key = 0; key < g.keyCount; ++key)
-      addSides(raster.x.data() + key * g.stride(), raster.y.data() + key * g.stride(), g.vertexCount(),
-               g.nu + 1, facingSign, sides.data());
+  const bool one = raster.facing != 0 && g.keyCount == 1;
+  const Side only = raster.facing == facingSign ? Side::Front : Side::Back;
+  sides.assign(static_cast<size_t>(g.stride()), one ? static_cast<int32_t>(only) : 0);
+  if (!one) addSides(raster.x.data(), raster.y.data(), g.vertexCount(), g.nu + 1, facingSign, sides.data());
 }
 
 Side sideAt(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample) {

@@ -1,6 +1,5 @@
 // Which side of a micropolygon samples see: it is lit there. Its mean normal does not say, for at an outline
-// one of its triangles may face the eye and the other turn away, and what moves may turn while the shutter is
-// open. Private to the hider.
+// one of its triangles may face the eye and the other turn away. Private to the hider.
 #pragma once
 #include "reyes/hide/resolve.h"
 
@@ -15,7 +14,8 @@ enum class Side : uint8_t {
   Front = 1,  ///< The one that dP/du x dP/dv of the lattice points to.
   Back = 2,
 };
-/// What may be seen of cells, by their first vertices: bits of Side; both: it depends on the sample.
+/// What may be seen of cells, by their first vertices: bits of Side; both: it depends on the sample. Of what
+/// moves, at shutter open, where it is shaded.
 void findSides(const RasterGrid& raster, float facingSign, std::vector<int32_t>& sides);
 /// What a sample that the cell covers sees of it.
 Side sideAt(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);

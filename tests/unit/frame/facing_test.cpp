@@ -43,9 +43,10 @@ TEST_P(Outline, OfAClosedBodyShowsItsOutsideAlone) {
   }
 }
 
-TEST_P(Outline, OfWhatSpinsWhileTheShutterIsOpenIsLitOnTheOutsideToo) {
+// As if it stood still: shading is that of shutter open.
+TEST_P(Outline, OfWhatMovesByIsLitOnTheOutsideToo) {
   const Sides seen = sides(hide(
-      std::string("MotionBegin [0 1] Rotate 0 0 1 0 Rotate 60 0 1 0 MotionEnd ") + std::get<0>(GetParam()),
+      std::string("MotionBegin [0 1] Translate 0 0 0 Translate 0.1 0 0 MotionEnd ") + std::get<0>(GetParam()),
       options(" Shutter 0 1"), kPlaced));
   EXPECT_LT(seen.back, seen.front / 1000);
 }
