@@ -131,7 +131,7 @@ Grid dice(const Scene& scene, int object, std::span<const PatchPiece> pieces, in
     const float time = keys.times[static_cast<size_t>(key)];
     const mat4 m = keys.currentFromObject.at(time);
     if (keyCount > 1) g.turns.push_back(mat3(m) * glm::inverse(mat3(keys.currentFromObject.at(keys.times.front()))));
-    evaluateAt(o, time, n, e, vertices);
+    if (key == 0 || o.shapes.size() > 1) evaluateAt(o, time, n, e, vertices);
     transformPoints(m, n, e.triple(0), {g.P(key, 0), g.P(key, 1), g.P(key, 2)});
     if (key == 0) {
       const mat3 normals = normalMatrix(o, m);

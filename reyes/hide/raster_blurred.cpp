@@ -1,7 +1,7 @@
-// Micropolygons that move or are out of focus: every sample meets the vertices where they are at its time through its point
-// of the lens. A box round many micropolygons, at that time and through that point, is no larger than when it is still; so
-// the samples of a bucket are sieved through the boxes of the grid, of its quarters, of their quarters, down to
-// micropolygons, and few are left that miss.
+// Micropolygons that move or are out of focus: every sample meets the vertices where they are at its time
+// through its point of the lens. A box round many micropolygons, at that time and through that point, is no
+// larger than when it is still; so the samples of a bucket are sieved through the boxes of the grid, of its
+// quarters, of their quarters, down to micropolygons, and few are left that miss.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reyes/hide/raster_blurred.cpp"
 #include "reyes/base/vector.h"  // Includes this file again for each target.
@@ -22,24 +22,35 @@ struct Interval {
   float begin, end;
 };
 
+using Numbers = hn::Vec<decltype(kU)>;
+
 template <class B>
 HWY_INLINE SampleVector loadSamples(const SampleList& s, size_t i) {
+  const auto at = [&](SampleList::Array a) { return hn::BitCast(kF, hn::LoadU(kU, s.array(a) + i)); };
   SampleVector v;
-  v.x = load(s.x + i), v.y = load(s.y + i);
-  v.t = B::kMoves ? load(s.t + i) : all(0);
-  v.lensX = B::kDefocuses ? load(s.lensX + i) : all(0);
-  v.lensY = B::kDefocuses ? load(s.lensY + i) : all(0);
+  v.x = at(SampleList::kX), v.y = at(SampleList::kY);
+  v.t = B::kMoves ? at(SampleList::kT) : all(0);
+  v.lensX = B::kDefocuses ? at(SampleList::kLensX) : all(0);
+  v.lensY = B::kDefocuses ? at(SampleList::kLensY) : all(0);
   return v;
 }
 
 /// A BlurBox, ready to be asked.
 template <class B>
 struct Box {
-  Floats x, y, d, xStep, yStep, dStep, xReach, yReach;
+  Floats x, y, d, xStep, yStep, dStep, xReach, yReach, xSlant, ySlant;
 
-  Box(const BlurBox& b, float focus)
-      : x(all(b.x)), y(all(b.y)), d(all(b.d - focus)), xStep(all(b.xStep)), yStep(all(b.yStep)), dStep(all(b.dStep)),
-        xReach(all(b.xReach)), yReach(all(b.yReach)) {}
+  Box(const BlurBox& b, const vec2& slant, float focus)
+      : x(all(b.x)),
+        y(all(b.y)),
+        d(all(b.d - focus)),
+        xStep(all(b.xStep)),
+        yStep(all(b.yStep)),
+        dStep(all(b.dStep)),
+        xReach(all(b.xReach)),
+        yReach(all(b.yReach)),
+        xSlant(all(slant.x)),
+        ySlant(all(slant.y)) {}
 
   HWY_INLINE Mask holds(const SampleVector& s) const {
     Floats cx = x, cy = y, cd = d;
@@ -47,43 +58,59 @@ struct Box {
       cx = hn::Add(cx, hn::Mul(xStep, s.t)), cy = hn::Add(cy, hn::Mul(yStep, s.t));
       if constexpr (B::kDefocuses) cd = hn::Add(cd, hn::Mul(dStep, s.t));
     }
-    if constexpr (B::kDefocuses) cx = hn::Add(cx, hn::Mul(s.lensX, cd)), cy = hn::Add(cy, hn::Mul(s.lensY, cd));
-    return hn::And(hn::Le(hn::Abs(hn::Sub(s.x, cx)), xReach), hn::Le(hn::Abs(hn::Sub(s.y, cy)), yReach));
+    if constexpr (B::kDefocuses)
+      cx = hn::Add(cx, hn::Mul(s.lensX, cd)), cy = hn::Add(cy, hn::Mul(s.lensY, cd));
+    const Floats dx = hn::Sub(s.x, cx), dy = hn::Sub(s.y, cy);
+    return hn::And(hn::Le(hn::Abs(hn::Add(dx, hn::Mul(xSlant, dy))), xReach),
+                   hn::Le(hn::Abs(hn::Add(dy, hn::Mul(ySlant, dx))), yReach));
   }
 };
 
-/// Appends the lanes of a mask to a list; writes up to a vector beyond its end.
+/// Writes the lanes of a mask to the end of a list, and up to a vector beyond. The new end.
 template <class B>
-HWY_INLINE void keep(const SampleVector& s, hn::Vec<decltype(kU)> lane, Mask mask, SampleList& to) {
-  const size_t n = to.count;
-  hn::StoreU(hn::Compress(s.x, mask), kF, to.x + n);
-  hn::StoreU(hn::Compress(s.y, mask), kF, to.y + n);
-  if constexpr (B::kMoves) hn::StoreU(hn::Compress(s.t, mask), kF, to.t + n);
-  if constexpr (B::kDefocuses) {
-    hn::StoreU(hn::Compress(s.lensX, mask), kF, to.lensX + n);
-    hn::StoreU(hn::Compress(s.lensY, mask), kF, to.lensY + n);
-  }
-  hn::StoreU(hn::Compress(lane, hn::RebindMask(kU, mask)), kU, to.lane + n);
-  to.count += hn::CountTrue(kF, mask);
+HWY_INLINE uint32_t* keep(const SampleVector& s, Numbers lane, Mask mask, uint32_t* end, size_t stride) {
+  const auto put = [&](SampleList::Array a, Numbers v) {
+    hn::StoreU(hn::Compress(v, hn::RebindMask(kU, mask)), kU, end + a * stride);
+  };
+  put(SampleList::kX, hn::BitCast(kU, s.x)), put(SampleList::kY, hn::BitCast(kU, s.y));
+  put(SampleList::kLane, lane);
+  if constexpr (B::kMoves) put(SampleList::kT, hn::BitCast(kU, s.t));
+  if constexpr (B::kDefocuses)
+    put(SampleList::kLensX, hn::BitCast(kU, s.lensX)), put(SampleList::kLensY, hn::BitCast(kU, s.lensY));
+  return end + hn::CountTrue(kF, mask);
 }
 
-/// Those samples of a list that a box holds.
+/// Of the samples of a list, those that each of four boxes holds. All at once: one loop that ends when nobody
+/// foresees it instead of four, and no list is read just after it was written.
 template <class B>
-HWY_INLINE void sieve(const Box<B>& box, const SampleList& from, SampleList& to) {
-  const size_t width = hn::Lanes(kF);
+HWY_INLINE void sieve(const Box<B>& a, const Box<B>& b, const Box<B>& c, const Box<B>& d,
+                      const SampleList& from, SampleList (&to)[4]) {
+  const size_t width = hn::Lanes(kF), stride = to[0].stride;
+  uint32_t *endA = to[0].first, *endB = to[1].first, *endC = to[2].first, *endD = to[3].first;
   for (size_t i = 0; i < from.count; i += width) {
     const SampleVector s = loadSamples<B>(from, i);
-    const Mask in = hn::And(box.holds(s), hn::FirstN(kF, from.count - i));
-    keep<B>(s, hn::LoadU(kU, from.lane + i), in, to);
+    const Numbers lane = hn::LoadU(kU, from.array(SampleList::kLane) + i);
+    const Mask on = hn::FirstN(kF, from.count - i);
+    endA = keep<B>(s, lane, hn::And(a.holds(s), on), endA, stride);
+    endB = keep<B>(s, lane, hn::And(b.holds(s), on), endB, stride);
+    endC = keep<B>(s, lane, hn::And(c.holds(s), on), endC, stride);
+    endD = keep<B>(s, lane, hn::And(d.holds(s), on), endD, stride);
   }
+  to[0].count = static_cast<size_t>(endA - to[0].first),
+  to[1].count = static_cast<size_t>(endB - to[1].first);
+  to[2].count = static_cast<size_t>(endC - to[2].first),
+  to[3].count = static_cast<size_t>(endD - to[3].first);
 }
 
-/// Those samples of the bucket that a box holds, whose time is in the segment and that see nothing nearer yet.
+/// Those samples of the bucket that a box holds, whose time is in the segment and that see nothing nearer
+/// yet.
 template <class B>
-HWY_INLINE void sieveBucket(const SampleBuffer& out, const PixelRect& pixels, const Interval& when, const Box<B>& box,
-                            float dMin, SampleList& to) {
+HWY_INLINE void sieveBucket(const SampleBuffer& out, const PixelRect& pixels, const Interval& when,
+                            const Box<B>& box, float dMin, SampleList& to) {
   const size_t width = hn::Lanes(kF), lanes = static_cast<size_t>(out.lanes);
+  const Numbers first = hn::Iota(kU, 0);
   const Floats begin = all(when.begin), end = all(when.end), inverse = all(1.0f / (when.end - when.begin));
+  uint32_t* listEnd = to.first;
   for (int y = pixels.y0; y < pixels.y1; ++y)
     for (size_t pixel = out.pixelIndex(pixels.x0, y), last = pixel + static_cast<size_t>(pixels.width());
          pixel < last; ++pixel) {
@@ -97,21 +124,29 @@ HWY_INLINE void sieveBucket(const SampleBuffer& out, const PixelRect& pixels, co
         s.lensX = hn::Load(kF, out.lensX.data() + i), s.lensY = hn::Load(kF, out.lensY.data() + i);
         Mask in = hn::And(open, box.holds(s));
         if constexpr (B::kMoves) in = hn::And(in, hn::And(hn::Ge(time, begin), hn::Lt(time, end)));
-        if (!hn::AllFalse(kF, in)) keep<B>(s, hn::Iota(kU, static_cast<uint32_t>(i)), in, to);
+        if (!hn::AllFalse(kF, in))
+          listEnd = keep<B>(s, hn::Add(first, hn::Set(kU, static_cast<uint32_t>(i))), in, listEnd, to.stride);
       }
     }
+  to.count = static_cast<size_t>(listEnd - to.first);
 }
 
 /// Descends the boxes of one grid between two motion keys.
 template <class B>
 class Descent {
  public:
-  Descent(const RasterJob& job, int key) : job_(job), bounds_(*job.raster.blur), key_(key), focus_(job.camera.focusKey()) {}
+  Descent(const RasterJob& job, int key)
+      : job_(job),
+        bounds_(*job.raster.blur),
+        key_(key),
+        segment_(bounds_.segments[static_cast<size_t>(key)]),
+        focus_(job.camera.focusKey()) {}
 
   /// In bands of pixel rows, so that lists stay short in large buckets.
   void run(const Interval& when) {
     const PixelRect pixels = job_.out.touched(job_.raster.bound.lo, job_.raster.bound.hi);
-    const int rowLanes = std::max(1, pixels.width() * job_.out.lanes), rows = std::max(1, kMostLanes / rowLanes);
+    const int rowLanes = std::max(1, pixels.width() * job_.out.lanes),
+              rows = std::max(1, kMostLanes / rowLanes);
     for (int y = pixels.y0; y < pixels.y1; y += rows)
       runBand(when, {pixels.x0, y, pixels.x1, std::min(y + rows, pixels.y1)});
   }
@@ -120,12 +155,13 @@ class Descent {
   static constexpr int kMostLanes = 1 << 16;
 
   void runBand(const Interval& when, const PixelRect& pixels) {
-    const size_t top = bounds_.levels.size() - 1, most = static_cast<size_t>(pixels.width() * pixels.height() * job_.out.lanes);
+    const size_t top = bounds_.levels.size() - 1,
+                 most = static_cast<size_t>(pixels.width() * pixels.height() * job_.out.lanes);
     const BlurBox& box = bounds_.box(key_, bounds_.levels[top], 0, 0);
-    stack_ = &SieveStack::ofThread(bounds_.levels.size(), most);
+    stack_ = &SieveStack::ofThread(4 * bounds_.levels.size(), most);
     SampleList list = stack_->push(most);
-    sieveBucket<B>(job_.out, pixels, when, Box<B>(box, focus_),
-                   job_.raster.inSolid ? job_.raster.dMin : bounds_.dMin[static_cast<size_t>(key_)], list);
+    sieveBucket<B>(job_.out, pixels, when, Box<B>(box, segment_.slant, focus_),
+                   job_.raster.inSolid ? job_.raster.dMin : segment_.dMin, list);
     descend(top, 0, 0, list);
     stack_->pop(most);
   }
@@ -134,13 +170,26 @@ class Descent {
     if (samples.count == 0) return;
     if (level == 0) return meet(i, j, samples);
     const BlurBounds::Level& fine = bounds_.levels[level - 1];
-    for (int y = 2 * j; y < std::min(2 * j + 2, fine.rows); ++y)
-      for (int x = 2 * i; x < std::min(2 * i + 2, fine.columns); ++x) {
-        SampleList kept = stack_->push(samples.count);
-        sieve<B>(Box<B>(bounds_.box(key_, fine, x, y), focus_), samples, kept);
-        descend(level - 1, x, y, kept);
-        stack_->pop(samples.count);
-      }
+    if (level > 1) fetch(bounds_.levels[level - 2], 4 * i, 4 * j);
+    const int x0 = 2 * i, y0 = 2 * j, x1 = std::min(x0 + 1, fine.columns - 1),
+              y1 = std::min(y0 + 1, fine.rows - 1);
+    const auto boxAt = [&](int x, int y) {
+      return Box<B>(bounds_.box(key_, fine, x, y), segment_.slant, focus_);
+    };
+    SampleList quarters[4];
+    for (SampleList& q : quarters) q = stack_->push(samples.count);
+    sieve<B>(boxAt(x0, y0), boxAt(x1, y0), boxAt(x0, y1), boxAt(x1, y1), samples, quarters);
+    for (int y = y0; y <= y1; ++y)
+      for (int x = x0; x <= x1; ++x) descend(level - 1, x, y, quarters[2 * (y - y0) + x - x0]);
+    stack_->pop(samples.count, 4);
+  }
+
+  /// Boxes that are asked next are far away in memory if another bucket was the last to ask them.
+  void fetch(const BlurBounds::Level& level, int i, int j) const {
+    for (int y = j; y < std::min(j + 4, level.rows); ++y) {
+      const BlurBox* box = &bounds_.box(key_, level, i, y);
+      __builtin_prefetch(box), __builtin_prefetch(box + 2);
+    }
   }
 
   void meet(int i, int j, const SampleList& samples) {
@@ -151,6 +200,7 @@ class Descent {
     const bool opaque = job_.raster.opaque && !job_.raster.inSolid;
     const BlurredQuad<B> quad(job_.raster, key_, a);
     const uint32_t cell = job_.firstCell + static_cast<uint32_t>(j * g.nu + i);
+    const uint32_t* lanes = samples.array(SampleList::kLane);
     for (size_t k = 0; k < samples.count; k += hn::Lanes(kF)) {
       Floats depth;
       const Mask in =
@@ -159,12 +209,12 @@ class Descent {
       HWY_ALIGN float depths[kLanes];
       hn::Store(depth, kF, depths);
       if (opaque && kept == Kept::All) {
-        giveOpaque(samples.lane + k, depths, bitsOf(in), cell);
+        giveOpaque(lanes + k, depths, bitsOf(in), cell);
         continue;
       }
       for (uint64_t left = bitsOf(in); left; left &= left - 1) {
         const size_t s = static_cast<size_t>(std::countr_zero(left));
-        if (kept == Kept::All || keepsSample(job_, cell, samples.lane[k + s])) give(samples.lane[k + s], depths[s], cell);
+        if (kept == Kept::All || keepsSample(job_, cell, lanes[k + s])) give(lanes[k + s], depths[s], cell);
       }
     }
     job_.out.filmsOf(job_.raster).flush();
@@ -201,6 +251,7 @@ class Descent {
   const RasterJob& job_;
   const BlurBounds& bounds_;
   const int key_;
+  const BlurBounds::Segment& segment_;
   const float focus_;
   SieveStack* stack_ = nullptr;
 };

@@ -12,7 +12,7 @@ constexpr float kRound =
 
 /// Turns meridian vectors by the angles.
 TOMALES_HOT void rotate(int n, const float* sine, const float* cosine, const float* x, const float* y,
-                        const float* z, float scale, float* outX, float* outY, float* outZ) {
+                        const float* z, float scale, float* __restrict outX, float* __restrict outY, float* __restrict outZ) {
   for (int i = 0; i < n; ++i) {
     outX[i] = scale * (x[i] * cosine[i] - y[i] * sine[i]);
     outY[i] = scale * (x[i] * sine[i] + y[i] * cosine[i]);
@@ -20,8 +20,8 @@ TOMALES_HOT void rotate(int n, const float* sine, const float* cosine, const flo
   }
 }
 
-TOMALES_HOT void sweepDerivative(int n, float scale, const float* px, const float* py, float* dux, float* duy,
-                                 float* duz) {
+TOMALES_HOT void sweepDerivative(int n, float scale, const float* px, const float* py, float* __restrict dux, float* __restrict duy,
+                                 float* __restrict duz) {
   for (int i = 0; i < n; ++i) dux[i] = -scale * py[i], duy[i] = scale * px[i], duz[i] = 0;
 }
 

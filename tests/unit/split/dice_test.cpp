@@ -104,6 +104,33 @@ TEST(Dice, MotionKeysFollowTheTransformation) {
   for (int i = 0; i < g.vertexCount(); ++i) EXPECT_NEAR(g.P(1, 0)[i] - g.P(0, 0)[i], 2.0f, 1e-6f);
 }
 
+/// A square that counts how often it is evaluated.
+struct Counting : Prim {
+  int* count;
+
+  explicit Counting(int* c) : Prim({}), count(c) {}
+  uint32_t patchCount() const override { return 1; }
+  PatchInfo info(uint32_t) const override { return {}; }
+  Bound3 bound(uint32_t, const UvRect&) const override { return {vec3(0), vec3(1)}; }
+  void evaluate(uint32_t, int n, const float* u, const float* v, SurfacePoints s) const override {
+    ++*count;
+    for (int i = 0; i < n; ++i) s.px[i] = u[i], s.py[i] = v[i], s.pz[i] = 0;
+  }
+  void interpolate(uint32_t, int, int, const float*, const float*, float*, int) const override {}
+};
+
+TEST(Dice, WhatMovesWithoutDeformingIsEvaluatedOnce) {
+  int count = 0;
+  Scene scene = sceneOf({std::make_shared<Counting>(&count)}, translation({0, 0, 5}));
+  scene.options.shutterClose = 1;
+  scene.objects[0].worldFromObject = {{0, 0.5f, 1}, {translation({0, 0, 5}), translation({1, 0, 5}), translation({2, 0, 5})}};
+  scene.objects[0].group = -1;
+  scene.freeze();
+  const Grid g = dice(scene, 0, 0, {0, 0.5f, 0, 0.5f}, 4, 4, 3);
+  EXPECT_EQ(count, 1);
+  for (int key = 0; key < 3; ++key) EXPECT_EQ(g.P(key, 0)[1], 0.125f + static_cast<float>(key));
+}
+
 TEST(Dice, APointOfARayHitIsTheSamePointAsAVertex) {
   const Scene scene = sceneOf({sphere()}, translation({0, 0, 5}));
   const Grid g = dice(scene, 0, 0, {}, 8, 8, 1);
