@@ -31,7 +31,8 @@ constexpr float kServesWider = 1.25f;
 ErrorFunction errorFunctionNamed(const std::string& name) {
   if (name == "ward") return ErrorFunction::Ward;
   if (name == "hessian") return ErrorFunction::Hessian;
-  return name == "split" ? ErrorFunction::Split : ErrorFunction::Screen;
+  if (name == "split") return ErrorFunction::Split;
+  return name == "plain" ? ErrorFunction::Plain : ErrorFunction::Screen;
 }
 
 /// Light by way of mirrors and glass, which gather rays do not find.
