@@ -21,8 +21,8 @@ template <class A>
 void fields(A& a, GatherPlan& x) {
   auto& [cache, gather] = x;
   auto& [errorFunction, kappa, maxPixels, minPixels, enough] = cache;
-  auto& [samples, maxDistance, seed, light, curvature, depth, indirect, mirrored, subset, occlusion] = gather;
-  each(a, errorFunction, kappa, maxPixels, minPixels, enough, samples, maxDistance, seed, light, curvature,
+  auto& [samples, maxDistance, seed, light, curvature, maxError, depth, indirect, mirrored, subset, occlusion] = gather;
+  each(a, errorFunction, kappa, maxPixels, minPixels, enough, samples, maxDistance, seed, light, curvature, maxError,
        depth, indirect, mirrored, subset, occlusion);
 }
 
