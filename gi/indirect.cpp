@@ -20,7 +20,11 @@ CacheSettings settingsOf(ErrorFunction function, float maxError) {
     case ErrorFunction::Split:
       return {.errorFunction = function, .kappa = 4, .maxPixels = kInfinity, .minPixels = 0};
     case ErrorFunction::Hessian:
-      return {.errorFunction = function, .kappa = 0.87f, .maxPixels = 40, .minPixels = maxError, .enough = 0.2f / std::max(1.0f, maxError)};
+      return {.errorFunction = function,
+              .kappa = 0.87f,
+              .maxPixels = 40,
+              .minPixels = maxError,
+              .enough = 0.2f / std::max(1.0f, maxError)};
     default:
       return {.errorFunction = function};
   }

@@ -286,8 +286,8 @@ TEST(GatherPass, TheHessiansOwnRadiusGrowsWithTheFourthRootOfMaxErrorAndItsFloor
   World world(cornell(indirect(16)).scene);
   const auto byHessian = [&](float maxError) {
     const GatherSettings settings{.samples = 600, .curvature = true, .maxError = maxError};
-    const IrradianceRecord r =
-        gather(world.rays, world.shading, {0, {0.3f, -1, 3}, {0, 1, 0}, 7, 0.01f, 0.01f}, settings, {}, world.stats);
+    const IrradianceRecord r = gather(
+        world.rays, world.shading, {0, {0.3f, -1, 3}, {0, 1, 0}, 7, 0.01f, 0.01f}, settings, {}, world.stats);
     return maxError / (1 / r.smoothRadius - 1 / r.closest);
   };
   EXPECT_NEAR(byHessian(16) / byHessian(1), 2, 1e-3f);

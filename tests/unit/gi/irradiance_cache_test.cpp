@@ -465,8 +465,8 @@ TEST(IrradianceCache, AnEdgeThatARecordHasMetIsNoSheetOverIt) {
 }
 
 TEST(IrradianceCache, ManyLookupsAtOnceHaveTheBitsOfOneAtATime) {
-  for (const ErrorFunction function :
-       {ErrorFunction::Screen, ErrorFunction::Ward, ErrorFunction::Hessian, ErrorFunction::Split, ErrorFunction::Plain}) {
+  for (const ErrorFunction function : {ErrorFunction::Screen, ErrorFunction::Ward, ErrorFunction::Hessian,
+                                       ErrorFunction::Split, ErrorFunction::Plain}) {
     const bool ward = function == ErrorFunction::Ward || function == ErrorFunction::Split;
     IrradianceCache cache(kBox,
                           {function, ward ? 4.0f : 1.0f, function == ErrorFunction::Split ? kInfinity : 10.0f,

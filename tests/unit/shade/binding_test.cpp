@@ -269,7 +269,8 @@ TEST_F(Binding, WhatAnIndirectLightCannotDoIsSaidOnce) {
 }
 
 TEST_F(Binding, EveryErrorFunctionIsKnown) {
-  for (const char* name : {"screen", "ward", "hessian", "split", "plain"}) light("indirectlight", {text("errorfunction", name)});
+  for (const char* name : {"screen", "ward", "hessian", "split", "plain"})
+    light("indirectlight", {text("errorfunction", name)});
   system();
   EXPECT_EQ(log.count("light-errorfunction"), 0);
 }
