@@ -250,6 +250,13 @@ float reachUnderSheet(const HemisphereSamples& samples, float pixelSize, std::ve
   return std::max(*height, kFinestPixels * pixelSize);
 }
 
+/// So many times as far off the light may be over the radius that the Hessian gives, which grows by the
+/// fourth root of that. The cache, which makes all radii so many times as large, is not to do so to this one
+/// as well.
+float radiusByHessian(const IrradianceCurvature& curvature, const IrradianceRecord& r, float maxError) {
+  return hessianRadius(curvature, luminance(r.E), r.pixelSize, kHessianTolerance * maxError) / maxError;
+}
+
 }  // namespace
 
 IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point,
@@ -268,7 +275,8 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
     if (settings.occlusion)
       record.smoothRadius = std::min(variationRadius(curvature, settings.occlusion->maxVariation), 0.5f * record.closest);
     else
-      record.smoothRadius = 1 / (1 / hessianRadius(curvature, luminance(record.E), point.pixelSize, kHessianTolerance) + 1 / record.closest);
+      record.smoothRadius =
+          1 / (1 / radiusByHessian(curvature, record, settings.maxError) + 1 / record.closest);
   }
   return record;
 }

@@ -14,7 +14,8 @@ struct GatherSettings {
   float maxDistance = 1e30f;
   uint32_t seed = 0;
   Illumination light = Illumination::Lights;  ///< Of what the rays hit.
-  bool curvature = false;                     ///< Fill smoothRadius and the second derivatives, which see occlusion.
+  bool curvature = false;                     ///< Fill smoothRadius and the second derivatives, which see occlusion;
+  float maxError = 1;                         ///< smoothRadius is for light that may be so many times as far off.
   int depth = 1;                              ///< Diffuse bounces between the eye and what the rays hit,
   bool indirect = false;                      ///< whose shaders ask for indirect light in turn.
   bool mirrored = true;                       ///< As ShadeContext::mirrored.

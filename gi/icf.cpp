@@ -21,9 +21,10 @@ template <class A>
 void fields(A& a, GatherPlan& x) {
   auto& [cache, gather] = x;
   auto& [errorFunction, kappa, maxPixels, minPixels, enough] = cache;
-  auto& [samples, maxDistance, seed, light, curvature, depth, indirect, mirrored, subset, occlusion] = gather;
+  auto& [samples, maxDistance, seed, light, curvature, maxError, depth, indirect, mirrored, subset,
+         occlusion] = gather;
   each(a, errorFunction, kappa, maxPixels, minPixels, enough, samples, maxDistance, seed, light, curvature,
-       depth, indirect, mirrored, subset, occlusion);
+       maxError, depth, indirect, mirrored, subset, occlusion);
 }
 
 template <class A>

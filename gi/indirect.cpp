@@ -10,15 +10,21 @@ namespace {
 
 /// At `maxerror` 1. Ward's split sphere needs a = 1/4 for the error that the paper's function has at kappa =
 /// 1 (docs/gi.md), so that `maxerror` means the same for both; and the Hessian, which knows where light is
-/// even and where it is not, has about as many records as that.
-CacheSettings settingsOf(ErrorFunction function) {
+/// even and where it is not, has about as many records as that. Where it may be off by more, its records lie
+/// less close to edges, so that some are left elsewhere, and fewer overlap: what they are off by is then no
+/// noise (docs/decisions/0106).
+CacheSettings settingsOf(ErrorFunction function, float maxError) {
   switch (function) {
     case ErrorFunction::Ward:
       return {.errorFunction = function, .kappa = 4};
     case ErrorFunction::Split:
       return {.errorFunction = function, .kappa = 4, .maxPixels = kInfinity, .minPixels = 0};
     case ErrorFunction::Hessian:
-      return {.errorFunction = function, .kappa = 0.87f, .maxPixels = 40, .minPixels = 1, .enough = 0.2f};
+      return {.errorFunction = function,
+              .kappa = 0.87f,
+              .maxPixels = 40,
+              .minPixels = maxError,
+              .enough = 0.2f / std::max(1.0f, maxError)};
     default:
       return {.errorFunction = function};
   }
@@ -31,7 +37,8 @@ constexpr float kServesWider = 1.25f;
 ErrorFunction errorFunctionNamed(const std::string& name) {
   if (name == "ward") return ErrorFunction::Ward;
   if (name == "hessian") return ErrorFunction::Hessian;
-  return name == "split" ? ErrorFunction::Split : ErrorFunction::Screen;
+  if (name == "split") return ErrorFunction::Split;
+  return name == "plain" ? ErrorFunction::Plain : ErrorFunction::Screen;
 }
 
 /// Light by way of mirrors and glass, which gather rays do not find.
@@ -114,10 +121,11 @@ GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) 
   const Attributes& attributes = *state.scene.groups[static_cast<size_t>(group)].attributes;
   const GiSettings& settings = state.settings;
   GatherPlan plan;
-  plan.cache = settingsOf(settings.errorFunction.value_or(errorFunctionNamed(query.errorFunction)));
-  plan.gather.curvature = plan.cache.errorFunction == ErrorFunction::Hessian;
   const float maxError =
       settings.maxError >= 0 ? settings.maxError : attributes.irradianceMaxError.value_or(query.maxError);
+  plan.cache = settingsOf(settings.errorFunction.value_or(errorFunctionNamed(query.errorFunction)), maxError);
+  plan.gather.curvature = plan.cache.errorFunction == ErrorFunction::Hessian && maxError > 0;
+  if (plan.gather.curvature) plan.gather.maxError = maxError;
   plan.cache.kappa = maxError > 0 ? plan.cache.kappa / maxError : kInfinity;
   plan.cache.maxPixels = attributes.irradianceMaxPixelDist.value_or(plan.cache.maxPixels);
   plan.gather.samples = std::max(1, settings.samples > 0 ? settings.samples : query.samples);

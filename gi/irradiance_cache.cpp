@@ -88,6 +88,10 @@ struct IrradianceCache::Impl {
     return settings.errorFunction == ErrorFunction::Ward || settings.errorFunction == ErrorFunction::Split;
   }
 
+  bool isPublished() const {
+    return settings.errorFunction == ErrorFunction::Split || settings.errorFunction == ErrorFunction::Plain;
+  }
+
   // Distance at which the error reaches 1: the denominator of eq. 3 over kappa. Ward's split sphere has the
   // same limits.
   float reach(float recordSize, float pixelSize) const {
@@ -104,7 +108,7 @@ struct IrradianceCache::Impl {
   enum class Dispute { None, Steep, Torn };
 
   Dispute disputeOf(const vec3& a, const vec3& b, float noise) const {
-    if (settings.errorFunction == ErrorFunction::Split) return Dispute::None;
+    if (isPublished()) return Dispute::None;
     const float tolerance = settings.errorFunction == ErrorFunction::Ward ? 4 * kDispute : kDispute;  // as kappa counts there
     const float larger = std::max(luminance(a), luminance(b)), off = std::abs(luminance(a) - luminance(b)) - kNoiseMargin * noise;
     const auto dark = static_cast<float>(kDark * luminanceSum / static_cast<double>(records.size()));
@@ -226,7 +230,7 @@ struct IrradianceCache::Impl {
 
   // What extrapolating each record by its own gradient leaves out of their mean.
   vec3 secondOrder(const std::vector<Candidate>& candidates, const MeanExtrapolation& mean, float weight, float pixelSize) const {
-    if (settings.errorFunction == ErrorFunction::Split) return vec3(0.0f);
+    if (isPublished()) return vec3(0.0f);
     const vec3 step = mean.step();
     vec3 out = -0.5f * mean.covariance();
     if (settings.errorFunction == ErrorFunction::Hessian)
@@ -293,8 +297,7 @@ IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, co
 void IrradianceCache::lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out,
                              float wider) const {
   if (places.empty()) return;
-  const ErrorFunction function = impl_->settings.errorFunction;
-  if (function == ErrorFunction::Split || function == ErrorFunction::Hessian) wider = 1;
+  if (impl_->isPublished() || impl_->settings.errorFunction == ErrorFunction::Hessian) wider = 1;
   if (impl_->settings.kappa < kInfinity) {
     thread_local Vicinity near;
     thread_local std::vector<Candidate> found;

@@ -19,7 +19,8 @@ enum class ErrorFunction {
   Screen,   ///< approximate-gi eq. 2 to 5
   Ward,     ///< Split sphere, with the limits of Screen.
   Hessian,  ///< Schwarzhaupt, Jensen, Jarosz 2012
-  Split,    ///< Ward and Heckbert 1992: no limits in pixels, no disputes. To compare with.
+  Split,    ///< Ward and Heckbert 1992: no limits in pixels, no disputes. To compare with,
+  Plain,    ///< and Screen as published: no disputes, and each record says what its own gradients do.
 };
 
 struct CacheSettings {
@@ -65,7 +66,7 @@ class IrradianceCache {
   IrradianceEstimate lookup(const vec3& x, const vec3& normal, float pixelSize) const { return lookup(x, normal, normal, pixelSize); }
   /// The same for many, to out[0] and on: several times as fast where successive places lie close together.
   /// Records serve so many times wider than they cover, but not beyond disputes, and less where they are
-  /// steep; those of `split` do not, as published, nor those of `hessian`, of which enough overlap.
+  /// steep; those of `split` and `plain` do not, as published, nor those of `hessian`, of which enough overlap.
   void lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider = 1) const;
   const IrradianceRecords& records() const;
   const Bound3& bound() const;

@@ -7,7 +7,7 @@ rsl::FloatParam samples("samples", 600, "rays for each irradiance sample");
 rsl::FloatParam maxerror("maxerror", 1, "kappa of the error function; 0 computes every point");
 rsl::StringParam errorfunction(
     "errorfunction", "screen",
-    "screen, ward, hessian, or split: that of Ward and Heckbert as published, to compare with");
+    "screen, ward, hessian; split and plain: ward and screen as published, to compare with");
 rsl::StringParam radiance("radiance", "shader", "what a gather ray sees: shader, radiosity, atlas or points");
 rsl::StringParam atlas("atlas", "", "directory of brick maps");
 rsl::FloatParam bounces("bounces", 1, "diffuse bounces accounted for");

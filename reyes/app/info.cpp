@@ -29,6 +29,8 @@ const char* nameOf(ErrorFunction function) {
       return "hessian";
     case ErrorFunction::Split:
       return "split";
+    case ErrorFunction::Plain:
+      return "plain";
     default:
       return "screen";
   }

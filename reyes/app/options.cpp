@@ -53,7 +53,7 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--max-error", s.maxError,
                  "Error allowed in irradiance interpolation; 0 computes every point")
       ->check(CLI::Range(0.0, 1e6));
-  addParsed(app, "--error-function", s.errorFunction, parseErrorFunction, "screen|ward|hessian|split",
+  addParsed(app, "--error-function", s.errorFunction, parseErrorFunction, "screen|ward|hessian|split|plain",
             "How far an irradiance record may be used");
   app.add_flag_callback("--indirect-only", [&s] { s.direct = false; }, "Leave out direct light where the eye looks");
   app.add_option("--light-samples", s.lightSamples, "Samples of each area light and of the sky where the eye looks (default: as the lights ask)")->check(CLI::Range(1, 4096));

@@ -107,6 +107,7 @@ std::optional<ErrorFunction> parseErrorFunction(const std::string& text) {
   if (text == "ward") return ErrorFunction::Ward;
   if (text == "hessian") return ErrorFunction::Hessian;
   if (text == "split") return ErrorFunction::Split;
+  if (text == "plain") return ErrorFunction::Plain;
   return std::nullopt;
 }
 

@@ -33,7 +33,7 @@ void warnAboutUnsupported(const BoundShader& light, const IndirectQuery& q, Log&
                fmt::format("{}: {} \"{}\" is not supported; {}", light.user, name, value, consequence));
   };
   if (q.errorFunction != "screen" && q.errorFunction != "ward" && q.errorFunction != "hessian" &&
-      q.errorFunction != "split")
+      q.errorFunction != "split" && q.errorFunction != "plain")
     warn("errorfunction", q.errorFunction, "\"screen\" is used");
   if (q.radiance != "shader" && q.radiance != "atlas" && q.radiance != "radiosity") warn("radiance", q.radiance, "gather rays run the shaders");
   if (!q.atlas.empty()) warn("atlas", q.atlas, "it is not read");

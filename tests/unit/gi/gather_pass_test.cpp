@@ -282,6 +282,30 @@ TEST(GatherPass, ASmallerMaxErrorTakesMoreRecords) {
   }
 }
 
+TEST(GatherPass, TheHessiansOwnRadiusGrowsWithTheFourthRootOfMaxErrorAndItsFloorWithTheSquare) {
+  World world(cornell(indirect(16)).scene);
+  const auto byHessian = [&](float maxError) {
+    const GatherSettings settings{.samples = 600, .curvature = true, .maxError = maxError};
+    const IrradianceRecord r = gather(
+        world.rays, world.shading, {0, {0.3f, -1, 3}, {0, 1, 0}, 7, 0.01f, 0.01f}, settings, {}, world.stats);
+    return maxError / (1 / r.smoothRadius - 1 / r.closest);
+  };
+  EXPECT_NEAR(byHessian(16) / byHessian(1), 2, 1e-3f);
+  EXPECT_NEAR(byHessian(1.0f / 16) / byHessian(1), 0.5f, 1e-3f);
+
+  const auto planned = [&](float maxError) {
+    const auto services = world.use({.maxError = maxError, .errorFunction = ErrorFunction::Hessian});
+    gatherFrame(*services, frameOf(world, 64));
+    return services->caches().at(0).plan;
+  };
+  for (const float maxError : {0.5f, 4.0f}) {
+    const CacheSettings &some = planned(maxError).cache, &one = planned(1).cache;
+    EXPECT_NEAR(some.minPixels / some.kappa, maxError * maxError * one.minPixels / one.kappa, 1e-4f);
+    EXPECT_NEAR(some.enough, maxError > 1 ? one.enough / maxError : one.enough, 1e-6f) << "so fewer overlap";
+    EXPECT_EQ(planned(maxError).gather.maxError, maxError);
+  }
+}
+
 TEST(GatherPass, AMaxErrorOfZeroGathersEveryPointWhileShading) {
   World world(cornell(indirect(16), 16).scene);
   const DeepFrame frame = frameOf(world, 16);

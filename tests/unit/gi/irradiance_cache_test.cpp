@@ -431,6 +431,28 @@ TEST(IrradianceCache, TheSplitSphereAsPublishedKnowsNoPixelsAndNoDisputes) {
   EXPECT_EQ(cache.records()[0].limit, kInfinity);
 }
 
+TEST(IrradianceCache, PlainIsScreenAsPublished) {
+  const auto bent = [](float x) {
+    IrradianceRecord r = recordAt({x, 0, 0}, vec3(1 + 40 * x * x), 9);
+    for (vec3& g : r.translationGradient) g = {80 * x, 0, 0};
+    return r;
+  };
+  IrradianceCache screen(kBox, {}), plain(kBox, {ErrorFunction::Plain});
+  for (auto* cache : {&screen, &plain}) cache->insert(bent(-0.05f)), cache->insert(bent(0.05f));
+  const IrradianceEstimate between = plain.lookup(vec3(0), kUp, 0.01f);
+  EXPECT_FLOAT_EQ(between.weight, screen.lookup(vec3(0), kUp, 0.01f).weight);
+  EXPECT_NEAR(between.E.x, 0.9f, 1e-5f) << "each record says 1.1 - 0.2; blended to the second order it is 1";
+
+  IrradianceCache torn(kBox, {ErrorFunction::Plain});
+  torn.insert(recordAt(vec3(0), vec3(1)));
+  torn.insert(recordAt({0.05f, 0, 0}, vec3(3)));
+  EXPECT_EQ(torn.records()[0].limit, kInfinity);
+  const IrradiancePlace beyond{{-0.11f, 0, 0}, kUp, kUp, 0.01f};
+  IrradianceEstimate found;
+  torn.lookup({&beyond, 1}, &found, 1.25f);
+  EXPECT_EQ(found.weight, 0) << "11 pixels from the first";
+}
+
 TEST(IrradianceCache, AnEdgeThatARecordHasMetIsNoSheetOverIt) {
   IrradianceCache cache(kBox, {});
   IrradianceRecord beside = recordAt(vec3(0), vec3(1), 0.01f),
@@ -443,8 +465,8 @@ TEST(IrradianceCache, AnEdgeThatARecordHasMetIsNoSheetOverIt) {
 }
 
 TEST(IrradianceCache, ManyLookupsAtOnceHaveTheBitsOfOneAtATime) {
-  for (const ErrorFunction function :
-       {ErrorFunction::Screen, ErrorFunction::Ward, ErrorFunction::Hessian, ErrorFunction::Split}) {
+  for (const ErrorFunction function : {ErrorFunction::Screen, ErrorFunction::Ward, ErrorFunction::Hessian,
+                                       ErrorFunction::Split, ErrorFunction::Plain}) {
     const bool ward = function == ErrorFunction::Ward || function == ErrorFunction::Split;
     IrradianceCache cache(kBox,
                           {function, ward ? 4.0f : 1.0f, function == ErrorFunction::Split ? kInfinity : 10.0f,

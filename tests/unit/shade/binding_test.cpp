@@ -268,6 +268,13 @@ TEST_F(Binding, WhatAnIndirectLightCannotDoIsSaidOnce) {
   EXPECT_EQ(log.entries().size(), 3u);
 }
 
+TEST_F(Binding, EveryErrorFunctionIsKnown) {
+  for (const char* name : {"screen", "ward", "hessian", "split", "plain"})
+    light("indirectlight", {text("errorfunction", name)});
+  system();
+  EXPECT_EQ(log.count("light-errorfunction"), 0);
+}
+
 TEST_F(Binding, AnAreaLightWithoutGeometryIsReported) {
   light("arealight", {}, true);
   system();
