@@ -9,13 +9,20 @@ namespace {
 
 /// How far a chord may leave its arc, at any shading rate: a silhouette's error (docs/decisions/0034).
 constexpr float kFlat_px = 0.25f;
+/// What is blurred may leave its arcs by more, but not so that it covers less: a cell turns by so much at
+/// most, in radians, so that circles have 0.97 of their area, if it would not turn by more if it were sharp.
+constexpr float kTurn = 0.4f;
+/// Up to so many cells of what bends round are even in number: its middle, where a ball is widest, is a line
+/// of the grid.
+constexpr int kFewOfRound = 10;
 constexpr float kMostCells = 65536;
 
 /// An edge may be this much longer than that of a square of the area asked.
 constexpr float kLongest = 1.5f;
 /// So much smaller than the cells along two lines, as fractions, may their whole numbers be.
 constexpr float kFewer = 0.9f;
-/// Less than this is better by rounding alone: which way a square piece is cut must not depend on where it stands.
+/// Less than this is better by rounding alone: which way a square piece is cut must not depend on where it
+/// stands.
 constexpr float kSquarer = 0.9999f;
 
 /// Whole numbers for two lines that take so many cells: as few as cover the area, the squarest of these.
@@ -34,6 +41,13 @@ Cells fewest(float alongU, float alongV, int leastU, int leastV) {
   return best;
 }
 
+/// Of an arc, in radians: if it turns by t over its length r t, a quarter of it leaves it by 2 r (1 - cos(t /
+/// 4)) as a second difference; the inverse of that within 3 % up to a full circle.
+float turnOf(const LineSize& line) {
+  const float bend = line.px > 0 ? line.bend_px / line.px : 0.0f;
+  return 16 * bend * (1 + 2.3f * bend * bend);
+}
+
 /// Whatever the rate asks: so that the shape does not collapse where blur lets edges grow, and chords are
 /// flat.
 int leastOf(const LineSize& line, float edge_px, float coarsening, bool joins) {
@@ -43,9 +57,12 @@ int leastOf(const LineSize& line, float edge_px, float coarsening, bool joins) {
   constexpr float kOneChord_px = 0.05f;
   // A line that a quarter of it leaves by `bend_px` as a second difference: its n-th part bulges by 2 bend /
   // n^2.
-  const float flat = std::min(std::ceil(std::sqrt(2 * line.bend_px / (kFlat_px * coarsening))), 64.0f);
+  const auto within = [&](float px) { return std::min(std::ceil(std::sqrt(2 * line.bend_px / px)), 64.0f); };
   const float fine = std::ceil(line.px / (kLongest * edge_px)),
               coarse = std::ceil(line.px / (kLongest * edge_px * coarsening));
+  const float turning = std::ceil(turnOf(line) / kTurn);
+  const float flat =
+      std::max(within(kFlat_px * coarsening), std::min(turning, std::max(within(kFlat_px), fine)));
   const float n = std::max({coarse, std::min(fine, kLeastOfCoarse), static_cast<float>(line.least), flat,
                             joins && 2 * line.bend_px > kOneChord_px ? 2.0f : 1.0f});
   return n >= 1.0f ? static_cast<int>(std::min(n, kMostCells)) : 1;
@@ -61,10 +78,11 @@ Cells cells(const PatchSize& size, float edge_px, float coarsening, bool binary,
   };
   const Cells n = fewest(along(size.u), along(size.v), leastOf(size.u, edge_px, coarsening, joins),
                          leastOf(size.v, edge_px, coarsening, joins));
-  const auto whole = [binary](int count) {
-    return binary ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(count))) : count;
+  const auto whole = [binary](int count, const LineSize& line) {
+    if (binary) return static_cast<int>(std::bit_ceil(static_cast<unsigned>(count)));
+    return line.least > 1 && count < kFewOfRound ? count + count % 2 : count;
   };
-  return {whole(n.nu), whole(n.nv)};
+  return {whole(n.nu, size.u), whole(n.nv, size.v)};
 }
 
 }  // namespace tomales

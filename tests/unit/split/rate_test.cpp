@@ -44,8 +44,8 @@ TEST(Rate, FocusFactorDicesWhatIsBlurredCoarser) {
   // Circle of confusion at z = 4: 128 / (2 tan 30) * lens diameter * |1/12 - 1/4| = 18.5 d; 32 px.
   scene.options.fStop = 1, scene.options.focalDistance = 12, scene.options.focalLength = 32 / 18.475f;
   const double sharp = static_cast<double>(micropolygons(withFactors(scene, 0, 0)));
-  // Edges of 8 px, the bounds of pieces letting some off.
-  EXPECT_LT(static_cast<double>(micropolygons(withFactors(scene, 0, 1))), sharp / 25);
+  // Edges of 8 px, the bounds of pieces and what keeps it round letting some off.
+  EXPECT_LT(static_cast<double>(micropolygons(withFactors(scene, 0, 1))), sharp / 20);
   EXPECT_GT(static_cast<double>(micropolygons(withFactors(scene, 0, 0.25f))), sharp / 10);
 }
 
@@ -61,13 +61,13 @@ TEST(Rate, ASmallBallFarOutOfFocusKeepsAShape) {
 }
 
 TEST(Rate, MotionFactorDicesWhatMovesFarCoarser) {
-  Scene scene = sceneOf({sphere(0.3f)}, translation({0, 0, 4}));
+  Scene scene = sceneOf({sphere(1)}, translation({0, 0, 4}));
   scene.options.shutterClose = 1;
   scene.objects[0].worldFromObject = {{0, 1}, {translation({-0.5f, 0, 4}), translation({0.5f, 0, 4})}};
   // 128 / (2 tan 30) / 4 = 27.7 px, and 30 px where it is nearest: areas of 6.9 to 7.5 px2 with factor 1. Whole numbers of cells are up to a tenth off
   // either way: a ratio of 5.6 to 9.2, and the few cells of the coarse ball are a little fewer yet.
   const double fine = static_cast<double>(micropolygons(withFactors(scene, 0, 1)));
-  EXPECT_NEAR(fine / static_cast<double>(micropolygons(withFactors(scene, 1, 1))), 7.5, 2);
+  EXPECT_NEAR(fine / static_cast<double>(micropolygons(withFactors(scene, 1, 1))), 7.2, 2);
 }
 
 mat4 placed(float z, float size) { return translation({0, 0, z}) * mat4(mat3(size)); }
