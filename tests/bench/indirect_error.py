@@ -32,7 +32,7 @@ class Case:
 
 CASES = {
     "cornell": Case("scenes/cornell/cornell.rib", (512, 512), 64, 16, 512),
-    "film": Case("scenes/film/film.rib", (1828, 1102), 32, 12, 48),
+    "film": Case("scenes/film/film.rib", (1828, 1102), 64, 12, 48),
     "hot_spot": Case("tests/stability/irradiance_cache/hot_spot.rib", (256, 256), 64, 4, 65536),
     "sun_room": Case("tests/stability/irradiance_cache/sun_room.rib", (256, 192), 64, 4, 16384),
     "box_ball": Case("tests/stability/irradiance_cache/box_ball.rib", (512, 512), 64, 16, 1024),
