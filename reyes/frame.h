@@ -47,7 +47,8 @@ class FrameHider {
   /// all procedurals first.
   FrameHider(const DeepFrame& layout, Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log);
   ~FrameHider();  ///< Warns of what is doubtful in what was hidden.
-  /// Each bucket once, in any order. False: cancelled, some were not hidden.
+  /// Each bucket once, in any order. False: cancelled, some were not hidden. Threads begin far apart in the list: those that hide neighbours wait for
+  /// each other to open what touches both.
   bool hide(std::span<const uint32_t> buckets, const TileSink& sink);
 
  private:
@@ -75,7 +76,7 @@ using TilePlace = std::function<void(size_t index, DeepTile&& tile)>;
 using TileFill = std::function<void(std::span<const uint32_t> tiles, const TilePlace& place)>;
 /// Sees the rows that go to the Displays. May be empty.
 using RowViewer = std::function<void(const Image& rows)>;
-/// Asks for the tiles that the next rows of the picture need, each once and in rows from the top, and forgets those that no
+/// Asks for the tiles that the next rows of the picture need, each once, in bands of rows from the top and there column by column, and forgets those that no
 /// row needs any more. What cannot be written is reported; the other Displays are written all the same.
 void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer, const Scene& scene, const ShadingSystem& shading,
                 const FrameControl& control, Stats& stats, Log& log);

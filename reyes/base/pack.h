@@ -86,7 +86,7 @@ template <class A>
 void field(A& a, bool& x) {
   uint8_t byte = x;
   field(a, byte);
-  x = byte != 0;
+  if constexpr (kUnpacks<A>) x = byte != 0;
 }
 
 /// The number of elements that follow, each at least one byte; 0 for a schema.

@@ -110,7 +110,7 @@ FrameHider::~FrameHider() { impl_->warnings.report(impl_->context.log); }
 
 bool FrameHider::hide(std::span<const uint32_t> tiles, const TileSink& sink) {
   std::atomic<bool> skipped{false};
-  parallelInOrder(tiles.size(), [&](size_t i) {
+  parallelFor(tiles.size(), 1, [&](size_t i, size_t) {
     if (!impl_->hide(tiles[i], sink)) skipped = true;
   });
   return !skipped;
@@ -118,8 +118,15 @@ bool FrameHider::hide(std::span<const uint32_t> tiles, const TileSink& sink) {
 
 bool hideTiles(const DeepFrame& layout, Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log,
                const TileSink& sink) {
+  // In parts: what lies between finished and unfinished buckets stays in memory.
+  constexpr size_t kOfThread = 64;
+  const std::vector<uint32_t> order = bucketOrder(scene.options.bucketOrder, layout.columns, layout.rows);
+  const size_t part = kOfThread * static_cast<size_t>(threadCount());
   FrameHider hider(layout, scene, shading, control, stats, log);
-  return hider.hide(bucketOrder(scene.options.bucketOrder, layout.columns, layout.rows), sink);
+  bool complete = true;
+  for (size_t first = 0; first < order.size(); first += part)
+    complete = hider.hide(std::span(order).subspan(first, std::min(part, order.size() - first)), sink) && complete;
+  return complete;
 }
 
 DeepFrame hideFrame(Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log) {

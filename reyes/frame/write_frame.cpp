@@ -37,6 +37,9 @@ class MovingBand {
     const auto from = needed_.begin() + static_cast<std::ptrdiff_t>(filled_);
     const auto to = std::lower_bound(from, needed_.end(), static_cast<uint32_t>(last * frame_.columns));
     filled_ = static_cast<size_t>(to - needed_.begin());
+    // Column by column: threads that begin far apart in the list are to begin far apart in the picture (FrameHider::hide).
+    const auto columns = static_cast<uint32_t>(frame_.columns);
+    std::stable_sort(from, to, [columns](uint32_t a, uint32_t b) { return a % columns < b % columns; });
     fill_({from, to}, [this](size_t index, DeepTile&& tile) {
       // Now, while it is in the cache.
       filter_.resolve(index, tile);
