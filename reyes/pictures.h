@@ -27,6 +27,8 @@ class PictureReader {
   virtual bool deep() const = 0;
   /// 16 floats, as the file stores them. False: it has no such matrix.
   virtual bool matrix(const char* name, float* out) const = 0;
+  /// Two floats, likewise.
+  virtual bool pair(const char* name, float* out) const = 0;
   /// Channels [first, end) of all pixels, interleaved. False: error() says why.
   virtual bool read(int first, int end, float* out) = 0;
   /// How many samples each pixel has, then all their channels. False: error() says why.
@@ -101,6 +103,9 @@ std::unique_ptr<PictureReader> openPicture(const std::string& path, std::string&
 
 /// How OpenEXR spells the name of an attribute.
 std::string exrAttributeName(const std::string& name);
+
+/// Attribute of deep pictures: two floats, how many pixels wide and high the region is whose depths a pixel holds.
+inline constexpr const char* kSampleRegion = "sampleregion";
 
 /// What a picture that a Display of type "shadow", "zfile" or "deepshad" has left says of its camera.
 struct DepthCamera {

@@ -221,6 +221,9 @@ struct LightProbe {
   std::vector<vec3> Cl;      ///< Out: E/pi at normal incidence; for LightKind::Area and Sky the radiance of the emitter.
 };
 
+/// "surface" ... "imager".
+const char* kindName(TmKind kind);
+
 /// Shaders by name: built-ins and plugins come through the same table.
 class ShaderRegistry {
  public:

@@ -194,7 +194,7 @@ class Batch {
   Vec3Array forAll(const Body& body) const {
     Vec3Array out(g);
     const TmVec3 to = out;
-#ifdef __GNUC__
+#if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC ivdep
 #endif
     for (int i = 0; i < g->count; ++i) rsl::set(to, i, body(i));

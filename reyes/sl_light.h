@@ -110,11 +110,12 @@ void gather(const char* category, const Point& p, const Vector& direction, float
   TmRayOptions options = list;
   options.samples = samples, options.coneAngle = angle;
   constexpr std::string_view kEnvironment = "environment:";
-  if (std::string_view(category) == "samplepattern")
+  const std::string_view kind(category);
+  if (kind == "samplepattern")
     options.maxDistance = 0;
-  else if (std::string_view(category).substr(0, kEnvironment.size()) == kEnvironment)
-    options.environment = category + kEnvironment.size();
-  else if (*category && std::string_view(category) != "illuminance")
+  else if (kind.substr(0, kEnvironment.size()) == kEnvironment)
+    options.environment = kind.substr(kEnvironment.size()).data();
+  else if (!kind.empty() && kind != "illuminance")
     throw std::invalid_argument(std::string("gathers \"") + category + "\", which there is not");
   std::vector<TmRayOutput> outputs;
   for (const Gathered& w : wanted) outputs.push_back(w.output);

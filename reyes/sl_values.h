@@ -110,6 +110,23 @@ void If(const Mask& condition, const Then& then, const Else& otherwise) {
   where(condition.on.data(), false, otherwise);
 }
 
+/// RSL's while: `body` again and again for the points for which `condition`, a function that returns a Mask, has always held.
+template <class Condition, class Body>
+void While(const Condition& condition, const Body& body) {
+  TmGrid& g = Run::now().grid;
+  const uint8_t* outer = g.active;
+  std::vector<uint8_t> left(outer, outer + g.padded);
+  g.active = left.data();
+  for (;;) {
+    const Mask goesOn = condition();
+    bool any = false;
+    for (int i = 0; i < g.count; ++i) any |= left[size_t(i)] = left[size_t(i)] && goesOn.on[size_t(i)];
+    if (!any) break;
+    body();
+  }
+  g.active = outer;
+}
+
 class Float {
  public:
   Float(double v = 0) { std::fill_n(x_.data(), x_.size(), static_cast<float>(v)); }
@@ -166,6 +183,8 @@ class Triple {
   Triple& operator-=(const Triple& v) { return assign([&](int i) { return (*this)[i] - v[i]; }); }
   Triple& operator*=(const Triple& v) { return assign([&](int i) { return (*this)[i] * v[i]; }); }
   Triple& operator*=(const Float& v) { return assign([&](int i) { return (*this)[i] * v[i]; }); }
+  Triple& operator/=(const Float& v) { return assign([&](int i) { return (*this)[i] / v[i]; }); }
+  Triple& operator/=(const Triple& v) { return assign([&](int i) { return rsl::Vec3{(*this)[i].x / v[i].x, (*this)[i].y / v[i].y, (*this)[i].z / v[i].z}; }); }
 
   rsl::Vec3 operator[](int i) const { return {x_.data()[i], y_.data()[i], z_.data()[i]}; }
   TmVec3 out() const { return {x_.data(), y_.data(), z_.data()}; }
@@ -203,11 +222,26 @@ inline const char* uniform(const rsl::StringParam& p) { return p(grid()); }
 inline bool operator==(const rsl::StringParam& a, std::string_view b) { return uniform(a) == b; }
 inline bool operator!=(const rsl::StringParam& a, std::string_view b) { return uniform(a) != b; }
 
+// --- Output parameters
+
+/// RSL's assignment to an output parameter: does nothing where no Display wants it. Colours come premultiplied, as Ci.
+inline void output(const rsl::FloatOutput& o, const Float& v) {
+  if (o.wanted(grid())) forActive([&](int i) { o.set(grid(), i, v[i]); });
+}
+template <int32_t type>
+void output(const rsl::Output<type, rsl::Vec3>& o, const Triple& v) {
+  if (o.wanted(grid())) forActive([&](int i) { o.set(grid(), i, v[i]); });
+}
+
 // --- Operators, point by point
 
 inline Float operator-(const Float& a) { return Float::of([&](int i) { return -a[i]; }); }
 inline Triple operator-(const Triple& a) { return Triple::of([&](int i) { return -a[i]; }); }
 inline Triple operator/(const Triple& a, const Float& b) { return Triple::of([&](int i) { return a[i] / b[i]; }); }
+inline Triple operator/(const Triple& a, const Triple& b) {
+  return Triple::of([&](int i) { return rsl::Vec3{a[i].x / b[i].x, a[i].y / b[i].y, a[i].z / b[i].z}; });
+}
+inline Triple operator/(const Float& a, const Triple& b) { return Triple(a) / b; }
 inline Float operator/(const Float& a, const Float& b) { return Float::of([&](int i) { return a[i] / b[i]; }); }
 #define SL_OPERATOR(op)                                                                                              \
   inline Float operator op(const Float& a, const Float& b) { return Float::of([&](int i) { return a[i] op b[i]; }); } \
@@ -230,6 +264,10 @@ SL_COMPARISON(<=)
 SL_COMPARISON(>=)
 SL_COMPARISON(==)
 SL_COMPARISON(!=)
+inline Mask operator==(const Triple& a, const Triple& b) {
+  return Mask::of([&](int i) { return a[i].x == b[i].x && a[i].y == b[i].y && a[i].z == b[i].z; });
+}
+inline Mask operator!=(const Triple& a, const Triple& b) { return !(a == b); }
 #undef SL_OPERATOR
 #undef SL_COMPARISON
 

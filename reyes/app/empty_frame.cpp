@@ -39,7 +39,7 @@ void explainEmptyFrame(const Scene& scene, Log& log) {
       ++unseen;
   std::string why;
   if (scene.objects.empty())
-    why = scene.procedurals.empty() ? "there is no geometry between WorldBegin and WorldEnd" : "no procedural is in view";
+    why = scene.procedurals.empty() ? "there is no geometry between WorldBegin and WorldEnd" : "no procedural in view brings geometry";
   else if (unseen == scene.objects.size())
     why = fmt::format("every object ({} in all) is hidden from the camera by Surface \"null\" or Attribute \"visibility\"", unseen);
   else

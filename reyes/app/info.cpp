@@ -124,11 +124,10 @@ Json paramInfo(const TmParamDecl& p) {
 }
 
 Json shaderInfo(const TmShader& s) {
-  static constexpr const char* kKinds[] = {"surface", "displacement", "light", "volume", "imager"};
   Json params = Json::array();
   for (int i = 0; i < s.paramCount; ++i) params.push_back(paramInfo(s.params[i]));
   return {{"name", s.name},
-          {"kind", s.kind >= 0 && s.kind <= TM_IMAGER ? kKinds[s.kind] : "?"},
+          {"kind", s.kind >= 0 && s.kind <= TM_IMAGER ? kindName(static_cast<TmKind>(s.kind)) : "?"},
           {"doc", s.doc ? s.doc : ""},
           {"parameters", params}};
 }

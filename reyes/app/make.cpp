@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <set>
+#include <span>
 
 #include "reyes/app/atlas_commands.h"
 #include "reyes/image.h"
@@ -10,6 +12,19 @@
 
 namespace tomales {
 namespace {
+
+void warnAboutParams(const Request& r, std::span<const std::string_view> known, Log& log) {
+  for (const Param& p : r.params)
+    if (std::find(known.begin(), known.end(), p.name) == known.end())
+      log.report(Severity::Warning, "make-parameter", r.where, fmt::format("{}: there is no \"{}\"; ignored", r.name, p.name));
+}
+
+/// As for a Display. One that cannot be made is found out when the file is written.
+void makeFolderOf(const std::string& file) {
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  std::error_code failed;
+  if (folder.is_relative() && !folder.empty()) std::filesystem::create_directories(folder, failed);
+}
 
 /// RenderMan's names of filters, as OpenImageIO has them.
 std::string filterOf(const Request& r, const std::string& name, Log& log) {
@@ -52,9 +67,8 @@ TextureRecipe recipeOf(const Request& r, Log& log) {
 /// PRMan's arguments are those of its brickmake.
 BrickmakeCommand brickmakeOf(const Request& r, Log& log) {
   static constexpr std::string_view kKnown[] = {"maxerror", "maxdepth", "radiusscale", "ignorenormals"};
-  for (const Param& p : r.params)
-    if (std::find(std::begin(kKnown), std::end(kKnown), p.name) == std::end(kKnown))
-      log.report(Severity::Warning, "make-brickmap", r.where, fmt::format("{}: there is no \"{}\"; ignored", r.name, p.name));
+  warnAboutParams(r, kKnown, log);
+  makeFolderOf(r.args[1].strings[0]);
   BrickmakeCommand command{r.args[0].strings, r.args[1].strings[0], {}};
   BrickSettings& s = command.settings;
   const auto number = [&](std::string_view name, float fallback, float least, float most) {
@@ -85,12 +99,15 @@ void makeBrickMap(const Request& r, Log& log) {
 }  // namespace
 
 void performMake(const Request& r, Log& log) {
+  if (r.name == "MakeBrickMap") return makeBrickMap(r, log);
+  warnAboutParams(r, {}, log);
   if (r.name == "MakeShadow") {
+    makeFolderOf(r.args[1].strings[0]);
     makeShadow(r.args[0].strings[0], r.args[1].strings[0], r.where, log);
     return;
   }
-  if (r.name == "MakeBrickMap") return makeBrickMap(r, log);
   const TextureRecipe recipe = recipeOf(r, log);
+  makeFolderOf(recipe.file);
   std::string error;
   if (!makeTexture(recipe, error))
     log.report(Severity::Missing, "make-texture", r.where,

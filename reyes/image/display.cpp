@@ -1,6 +1,8 @@
 #include "reyes/base/rng.h"
 #include "reyes/image/cryptomatte.h"
+#include "reyes/image/deep_rows.h"
 #include "reyes/image/display_format.h"
+#include "reyes/pictures.h"
 
 namespace tomales {
 namespace {
@@ -80,6 +82,10 @@ struct DisplayFile::Impl {
     if (writesDeep(display) || writesShadowMap(display)) {
       format.metadata.push_back(matrix("worldtocamera", view.cameraFromWorld));
       format.metadata.push_back(matrix("worldtoscreen", view.screenFromWorld));
+    }
+    if (writesDeep(display)) {
+      const PixelFilter filter = positiveFilter(options);
+      format.metadata.push_back({kSampleRegion, "", {2.0f * static_cast<float>(filter.reachX()) + 1, 2.0f * static_cast<float>(filter.reachY()) + 1}});
     }
     const std::vector<std::string> floats = output.names();
     for (const SelectedFloat& f : selection) {

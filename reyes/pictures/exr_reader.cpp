@@ -11,6 +11,7 @@
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfTestFile.h>
+#include <OpenEXR/ImfVecAttribute.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -50,6 +51,11 @@ class ExrReader : public PictureReader {
   bool matrix(const char* name, float* out) const override {
     const auto* found = header().findTypedAttribute<Imf::M44fAttribute>(exrAttributeName(name));
     if (found) std::copy_n(&found->value().x[0][0], 16, out);
+    return found;
+  }
+  bool pair(const char* name, float* out) const override {
+    const auto* found = header().findTypedAttribute<Imf::V2fAttribute>(name);
+    if (found) out[0] = found->value().x, out[1] = found->value().y;
     return found;
   }
 

@@ -19,6 +19,7 @@ class Reader : public PictureReader {
   const PictureShape& shape() const override { return shape_; }
   bool deep() const override { return in_->spec().deep; }
   bool matrix(const char* name, float* out) const override { return in_->spec().getattribute(name, OIIO::TypeMatrix44, out); }
+  bool pair(const char* name, float* out) const override { return in_->spec().getattribute(name, OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::VEC2), out); }
   bool read(int first, int end, float* out) override { return in_->read_image(0, 0, first, end, OIIO::TypeDesc::FLOAT, out); }
   bool readDeep(std::vector<uint32_t>& counts, std::vector<float>& values) override {
     OIIO::DeepData data;

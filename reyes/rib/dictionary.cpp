@@ -28,7 +28,7 @@ constexpr Standard kStandard[] = {
     // Parameters of the standard shaders (RISpec 3.2 appendix A)
     {"float",
      "Ka Kd Ks Kr roughness intensity coneangle conedeltaangle beamdistribution amplitude mindistance "
-     "maxdistance distance km opacity samples blur shadowbias"},
+     "maxdistance distance Km opacity samples blur shadowbias"},
     {"color", "lightcolor specularcolor background bgcolor color"},
     {"point", "from to"},
     {"string", "filename texturename shadowname mapname sfpx sfnx sfpy sfny sfpz sfnz"},

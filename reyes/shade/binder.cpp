@@ -19,13 +19,12 @@ BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, cons
     const ParamNames& known = kind == TM_LIGHT ? kLightParams : kind == TM_VOLUME ? kMediumParams : kNone;
     return bindShader(*shader, call, where, user, currentFromShader, known, log_);
   }
-  static constexpr const char* kKinds[] = {"surface", "displacement", "light", "volume", "imager"};
   static constexpr const char* kConsequences[] = {"a magenta checker is rendered", "nothing is displaced",
                                                   "it casts no light", "the air is clear",
                                                   "the picture stays as it is"};
   log_.report(
       Severity::Missing, "shader-missing", where,
-      fmt::format("{}: {} shader \"{}\" is unknown; {}", user, kKinds[kind], name, kConsequences[kind]));
+      fmt::format("{}: {} shader \"{}\" is unknown; {}", user, kindName(kind), name, kConsequences[kind]));
   if (kind != TM_SURFACE) return nullptr;
   return bindShader(kSubstituteSurface, nullptr, where, user, currentFromShader, {}, log_);
 }

@@ -9,11 +9,20 @@
 
 namespace tomales {
 
+const char* kindName(TmKind kind) {
+  static constexpr const char* kNames[] = {"surface", "displacement", "light", "volume", "imager"};
+  return kNames[kind];
+}
+
 struct ShaderRegistry::Impl {
   Log& log;
   std::mutex mutex;  // over what follows: find() loads plugins while other frames bind
   std::map<std::pair<int, std::string>, const TmShader*> shaders;
-  std::map<std::string, bool> plugins;  // by path: did it load
+  struct Plugin {
+    bool loaded = false;
+    std::vector<const TmShader*> shaders;
+  };
+  std::map<std::string, Plugin> plugins;  // by path
   PluginTrial trial;
   bool untriedSaid = false;
 
@@ -21,8 +30,9 @@ struct ShaderRegistry::Impl {
     const SourceLoc where{std::make_shared<const std::string>(origin), 0};
     log.report(Severity::Missing, "shader-plugin", where, origin + ": " + problem);
   }
-  bool add(const TmShaderLibrary* library, const std::string& origin);
+  bool add(const TmShaderLibrary* library, const std::string& origin, std::vector<const TmShader*>* added = nullptr);
   bool load(const std::string& path);
+  std::string heldBy(const std::string& path) const;
   const TmShader* known(const std::string& name, TmKind kind) const {
     const auto it = shaders.find({kind, name});
     return it == shaders.end() ? nullptr : it->second;
@@ -57,7 +67,7 @@ std::string expected(const char* what) {
 
 }  // namespace
 
-bool ShaderRegistry::Impl::add(const TmShaderLibrary* library, const std::string& origin) {
+bool ShaderRegistry::Impl::add(const TmShaderLibrary* library, const std::string& origin, std::vector<const TmShader*>* added) {
   if (!matches(library)) return refuse(origin, expected("the shader library")), false;
   for (int32_t i = 0; i < library->count; ++i) {
     const TmShader* shader = library->shaders[i];
@@ -65,16 +75,23 @@ bool ShaderRegistry::Impl::add(const TmShaderLibrary* library, const std::string
       refuse(origin, expected(fmt::format("shader number {}", i + 1).c_str()));
     else if (const std::string lack = lackOf(*shader); !lack.empty())
       refuse(origin, fmt::format("shader number {} lacks {}", i + 1, lack));
-    else
-      shaders[{shader->kind, shader->name}] = shader;
+    else if (shaders[{shader->kind, shader->name}] = shader; added)
+      added->push_back(shader);
   }
   return true;
 }
 
+std::string ShaderRegistry::Impl::heldBy(const std::string& path) const {
+  std::string out;
+  for (const TmShader* s : plugins.at(path).shaders)
+    out += fmt::format("{}{} \"{}\"", out.empty() ? "" : ", ", kindName(static_cast<TmKind>(s->kind)), s->name);
+  return out.empty() ? "no shader at all" : out;
+}
+
 // Plugins are never closed: a bound shader may outlive the registry.
 bool ShaderRegistry::Impl::load(const std::string& path) {
-  if (const auto it = plugins.find(path); it != plugins.end()) return it->second;
-  bool& loaded = plugins[path] = false;
+  if (const auto it = plugins.find(path); it != plugins.end()) return it->second.loaded;
+  Plugin& plugin = plugins[path];
   if (const std::string fate = trial.fateOf(path); !fate.empty()) return refuse(path, fate + "; it is left out"), false;
   if (!trial.works() && !untriedSaid)
     untriedSaid = true, log.report(Severity::Warning, "shader-plugin", {std::make_shared<const std::string>(path), 0},
@@ -83,7 +100,7 @@ bool ShaderRegistry::Impl::load(const std::string& path) {
   if (!handle) return refuse(path, fmt::format("cannot be loaded: {}", dlerror())), false;
   const auto function = reinterpret_cast<TmShadersFunction>(dlsym(handle, TM_SHADERS_SYMBOL));
   if (!function) return refuse(path, "is not a shader plugin: it does not export " TM_SHADERS_SYMBOL), false;
-  return loaded = add(function(), path);
+  return plugin.loaded = add(function(), path, &plugin.shaders);
 }
 
 ShaderRegistry::ShaderRegistry(Log& log) : impl_(new Impl{log, {}, {}, {}, {}, false}) {}
@@ -102,12 +119,15 @@ bool ShaderRegistry::loadPlugin(const std::string& path) {
 const TmShader* ShaderRegistry::find(const std::string& name, TmKind kind, const std::string& searchPath) {
   const std::lock_guard lock(impl_->mutex);
   if (const TmShader* s = impl_->known(name, kind)) return s;
+  std::vector<std::string> others;  // plugins of that name without such a shader
   for (const std::filesystem::path folder : foldersOf(searchPath.empty() ? "." : searchPath)) {
     const std::filesystem::path file = folder / (name + ".so");
     std::error_code none;
-    if (std::filesystem::is_regular_file(file, none) && impl_->load(file.string()))
-      if (const TmShader* s = impl_->known(name, kind)) return s;
+    if (!std::filesystem::is_regular_file(file, none) || !impl_->load(file.string())) continue;
+    if (const TmShader* s = impl_->known(name, kind)) return s;
+    others.push_back(file.string());
   }
+  for (const std::string& file : others) impl_->refuse(file, fmt::format("has no {} \"{}\", but {}", kindName(kind), name, impl_->heldBy(file)));
   return nullptr;
 }
 

@@ -43,6 +43,7 @@ std::unique_ptr<const ShadowMap> ShadowMap::read(const std::string& path, std::s
     if (!in->read(z, z + 1, map->depth_.data())) return error = in->error(), nullptr;
     return map;
   }
+  in->pair(kSampleRegion, &map->spread_.x);
   std::vector<uint32_t> counts;
   std::vector<float> values;
   if (!in->readDeep(counts, values)) return error = in->error(), nullptr;
@@ -133,9 +134,9 @@ vec3 ShadowMap::shadow(const ShadowReceiver& r, const ShadowLookup& lookup) cons
     const float z = view.depth(middle, reach);
     float bias = lookup.bias;
     if (bias < 0) {
-      // The map holds the nearest depth within a texel.
-      const float slope = std::abs(view.depth(middle + vec2(0.5f, 0), reach) - z) + std::abs(view.depth(middle + vec2(0, 0.5f), reach) - z);
-      bias = 1.5f * slope + 0.05f * view.texel + 1e-5f * view.P.z;
+      // The map holds the nearest depth within a texel; a deep one all depths that its filter reaches. Half a texel more for what is bent.
+      const vec2 rise(view.depth(middle + vec2(0.5f, 0), reach) - z, view.depth(middle + vec2(0, 0.5f), reach) - z);
+      bias = dot(spread_ + 0.5f, glm::abs(rise)) + 0.05f * view.texel + 1e-5f * view.P.z;
     }
     sum += blocked(static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)), z - bias);
   }

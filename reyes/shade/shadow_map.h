@@ -49,6 +49,7 @@ class ShadowMap {
   mat4 cameraFromWorld_{1.0f}, ndcFromWorld_{1.0f};
   mat3 cameraNormalFromWorld_{1.0f};
   bool perspective_ = false;
+  vec2 spread_{1.0f};                ///< Texels, wide and high, of the region whose depths a texel holds.
   std::vector<float> depth_;         ///< Empty: a deep map.
   std::vector<size_t> first_;        ///< Of the steps of a texel, one more than there are texels.
   std::vector<Step> steps_;

@@ -75,8 +75,8 @@ t.expect((t.folder / "rib.bkm").read_bytes() == (t.folder / "both.bkm").read_byt
 t.write("absent.rib", 'MakeBrickMap ["nowhere.ptc"] "a.bkm"')
 t.expect_run("of a cloud that is not there", ["absent.rib"], 3, "absent.rib:1", "nowhere.ptc", "a.bkm")
 
-t.write("nowhere.rib", 'MakeBrickMap ["byhand_points/room.ptc" "byhand_points/closet.ptc"] "missing/x.bkm"')
-t.expect_run("and one for a folder that is not there", ["nowhere.rib"], 3, "nowhere.rib:1", "missing/x.bkm")
+t.write("nowhere.rib", 'MakeBrickMap ["byhand_points/room.ptc" "byhand_points/closet.ptc"] "nowhere.rib/x.bkm"')
+t.expect_run("and one for a folder that cannot be", ["nowhere.rib"], 3, "nowhere.rib:1", "nowhere.rib/x.bkm")
 
 # Bad files.
 points = (t.folder / "byhand_points" / "room.ptc").read_bytes()

@@ -53,6 +53,10 @@ suite.expect_run("six faces make an environment", [scene("cube", "cube.env", 'Ma
 suite.expect_run("a wrong filter and wrap mode are named",
                  [scene("odd", "o.tex", 'MakeTexture "grain.png" "o.tex" "round" "black" "star" 1 1')], 0, '"round"', '"star"')
 
+suite.expect_run("folders are made, and a parameter that there is not is named",
+                 [scene("deep", "maps/of/grain.tex", 'MakeTexture "grain.png" "maps/of/grain.tex" "black" "black" "box" 1 1 "string shape" "round"')],
+                 0, '"shape"')
+
 suite.run("st.rib", "-o", "st.tif")
 for whole in ("grain.png", "st.tif", "st.exr", "made.tex"):
     data = (suite.folder / whole).read_bytes()

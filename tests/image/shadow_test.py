@@ -72,6 +72,17 @@ for channel, opacity in enumerate((0.75, 0.5, 0.25)):
 floor = lit("shadow", "1 1 1")
 check(min(floor[x, y][0] for x in range(128) for y in range(128) if x < 15 or y < 15) > 0.999, "the floor does not shadow itself")
 
+# A bare floor, at a slant to the lamp: no filter of a deep map may let it shadow itself.
+BARE = """Surface "matte" Patch "bilinear" "P" [-8 0 -8  8 0 -8  -8 0 8  8 0 8]"""
+for filter in ('"gaussian" 2 2', '"triangle" 4 4', '"catmull-rom" 4 4'):
+    with tempfile.TemporaryDirectory() as folder:
+        rib = pathlib.Path(folder) / "a.rib"
+        rib.write_text(MAP.format(folder=folder, type="deepshad", hider="", world=BARE).replace('"box" 1 1', filter).replace("Rotate -90", "Rotate -30") +
+                       VIEW.format(folder=folder, world=BARE))
+        subprocess.run([tomales, "render", str(rib), "-q"], check=True)
+        darkest = min(p[0] for p in pixels(pathlib.Path(folder) / "out.exr").values())
+        check(darkest > 0.999, f"darkest pixel of a floor that nothing shadows, deep map filtered by {filter}: {darkest:.5f}")
+
 with tempfile.TemporaryDirectory() as folder:
     subprocess.run([tomales, "render", str(root / "scenes/displays/shadows.rib"), "-q"],
                    check=True, cwd=folder)

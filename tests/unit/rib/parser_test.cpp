@@ -69,6 +69,16 @@ TEST(Parser, KnowsTheNamesOfACategoryOnlyThere) {
   EXPECT_EQ(r.log.count("rib-undeclared"), 1);
 }
 
+TEST(Parser, ParametersOfTheStandardShadersNeedNoDeclaration) {
+  const Requests r("Surface \"plastic\" \"Ka\" 1 \"Kd\" 1 \"Ks\" 1 \"roughness\" 1 \"specularcolor\" [1 1 1] Surface \"shinymetal\" \"Kr\" 1 \"texturename\" \"a\"\n"
+                   "LightSource \"spotlight\" 1 \"intensity\" 1 \"lightcolor\" [1 1 1] \"from\" [0 0 0] \"to\" [0 0 1] \"coneangle\" 1 \"conedeltaangle\" 1 \"beamdistribution\" 1\n"
+                   "LightSource \"shadowspot\" 2 \"shadowname\" \"a\" \"width\" 1 \"samples\" 1\n"
+                   "Atmosphere \"depthcue\" \"mindistance\" 0 \"maxdistance\" 1 \"background\" [0 0 0] Atmosphere \"fog\" \"distance\" 1\n"
+                   "Displacement \"bumpy\" \"Km\" 1 \"amplitude\" 1 Imager \"background\" \"bgcolor\" [1 1 1]\n");
+  EXPECT_TRUE(r.log.entries().empty());
+  EXPECT_EQ(r.list.size(), 8u);
+}
+
 TEST(Parser, ReadsInlineDeclarations) {
   const Requests r(
       R"(Surface "x" "float a" 1 "uniform color b" [1 2 3] "varying float[2] c" [1 2] "constant int d" 3.0

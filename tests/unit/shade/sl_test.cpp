@@ -28,6 +28,26 @@ struct conditional : sl::Surface {
   }
 };
 
+/// Each point goes round as often as its number says, 0 to 9; those that If leaves out do not.
+rsl::FloatOutput rounds("rounds", "");
+rsl::ColorOutput quotient("quotient", "");
+struct looping : sl::Surface {
+  void main() {
+    Float n = 0, sum = 0;
+    If(u >= 0.25, [&] {
+      While([&] { return n < 10 * u - 0.5; }, [&] {
+        n += 1;
+        While([&] { return sum < 2 * n; }, [&] { sum += 1; });
+      });
+    });
+    output(rounds, n);
+    Color q = Color(n, sum, 6) / Color(1, 2, 3);
+    If(q == Color(3, 3, 2), [&] { q /= 2; }, [&] { q /= Color(1, 1, 2); });
+    If(u > 0.65, [&] { output(quotient, q); });
+    Ci = Color(n, sum, zcomp(q)), Oi = Color(1);
+  }
+};
+
 /// A masked service of every kind that has a batch: what is not asked keeps its value.
 struct asking : sl::Surface {
   void main() {
@@ -95,6 +115,7 @@ struct curious : sl::Surface {
 };
 
 const rsl::Shader conditionalShader(TM_SURFACE, "conditional", "", 0, sl::shade<conditional>, {&lift});
+const rsl::Shader loopingShader(TM_SURFACE, "looping", "", 0, sl::shade<looping>, {&rounds, &quotient});
 const rsl::Shader askingShader(TM_SURFACE, "asking", "", TM_TRACES | TM_DERIVATIVES, sl::shade<asking>, {});
 const rsl::Shader differingShader(TM_SURFACE, "differing", "", TM_NEIGHBOURS, sl::shade<differing>, {});
 const rsl::Shader choosingShader(TM_SURFACE, "choosing", "", 0, sl::shade<choosing>, {&category});
@@ -106,8 +127,8 @@ const rsl::Shader curiousShader(TM_SURFACE, "curious", "", 0, sl::shade<curious>
 class Sl : public Stage {
  protected:
   Sl() {
-    static const TmShader* const shaders[] = {conditionalShader, askingShader, differingShader, choosingShader, talkativeShader, nanShader, curiousShader};
-    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 7};
+    static const TmShader* const shaders[] = {conditionalShader, askingShader, differingShader, choosingShader, talkativeShader, nanShader, curiousShader, loopingShader};
+    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 8};
     registry.addLibrary(&library, "test");
   }
 };
@@ -119,6 +140,30 @@ TEST_F(Sl, ConditionalsAssignWhereTheyHold) {
     const float at = static_cast<float>(i) / 10;
     EXPECT_FLOAT_EQ(out.color(i).x, at < 0.5f ? (at > 0.2f ? 4 : 11) : 2 * at) << i;
   }
+}
+
+TEST_F(Sl, LoopsGoOnForThePointsForWhichTheirConditionHolds) {
+  surface("looping");
+  const ShadedPoints out = shade(points(std::vector<vec3>(10, vec3(0, 0, 5))));
+  for (int i = 0; i < 10; ++i) {
+    const float n = i < 3 ? 0.0f : static_cast<float>(i);
+    expectColor(out.color(i), {n, 2 * n, 1});
+  }
+}
+
+TEST_F(Sl, OutputsAreStoredWhereTheyAreWanted) {
+  surface("looping");
+  for (const char* name : {"rounds", "quotient"})
+    scene.options.channels[name] = {name, *name == 'r' ? ValueType::Float : ValueType::Color, {}, at(3)};
+  scene.options.displays.push_back({"a.exr", "openexr", "rounds,quotient", {}, {}});
+  ShadeContext context;
+  context.variables = true;
+  const ShadedPoints out = shade(points(std::vector<vec3>(10, vec3(0, 0, 5))), context);
+  ASSERT_EQ(out.variables.size(), 4u);
+  EXPECT_EQ(out.variables[0][8], 8);
+  EXPECT_EQ(out.variables[1][8], 8) << "where the mask lets it";
+  EXPECT_EQ(out.variables[1][6], 0);
+  EXPECT_EQ(out.variables[3][8], 1);
 }
 
 TEST_F(Sl, AVaryingParameterIsReadPointByPoint) {
