@@ -168,6 +168,13 @@ std::optional<std::vector<RayAnswers>> IcfFile::answers(size_t tile, std::string
   return std::nullopt;
 }
 
+bool IcfFile::intact(std::string& error) const {
+  const std::vector<RecordName> names = records_->names();
+  return std::all_of(names.begin(), names.end(), [&](const RecordName& name) {
+    return name.kind == kAnswerRecords ? answers(name.index, error).has_value() : records_->read(name, error).has_value();
+  });
+}
+
 PointCloud recordsOf(const IrradianceShot& shot) {
   PointCloud out;
   out.channels = {{"record", 1}, {"irradiance", 3}, {"closest", 1}, {"harmonicmean", 1}, {"noise", 1}};

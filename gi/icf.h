@@ -36,6 +36,8 @@ class IcfFile {
   const IrradianceShot& shot() const { return shot_; }
   /// One a batch; empty: the file has none. Nothing: damaged.
   std::optional<std::vector<RayAnswers>> answers(size_t tile, std::string& error) const;
+  /// Is every bucket's as it was written?
+  bool intact(std::string& error) const;
   uint64_t size() const { return records_->size(); }
 
  private:

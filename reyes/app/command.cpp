@@ -1,5 +1,7 @@
 #include "reyes/app/command.h"
 
+#include <csignal>
+
 #include "reyes/app/atlas_commands.h"
 #include "reyes/app/catrib.h"
 #include "reyes/app/chart/chart.h"
@@ -243,6 +245,7 @@ int parseAndRun(int argc, char** argv) {
 }  // namespace
 
 int run(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file too large (ulimit -f) is then an error of write(), told as a full disk is
   try {
     return parseAndRun(argc, argv);
   } catch (const std::bad_alloc&) {

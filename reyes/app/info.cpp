@@ -190,7 +190,7 @@ Json dfbInfo(const std::string& file, Log& log) {
 Json icfInfo(const std::string& file, Log& log) {
   std::string error;
   const auto icf = IcfFile::open(file, error);
-  if (!icf) return unreadable(file, "an irradiance cache", error, log), Json{};
+  if (!icf || !icf->intact(error)) return unreadable(file, "an irradiance cache", error, log), Json{};
   Json caches = Json::array();
   for (const PreparedCache& c : icf->shot().caches) {
     vec3 mean(0.0f);

@@ -40,6 +40,8 @@ class SceneEditor : public RiSink {
 
   void editOptions(const Request& r) {
     optionHandlers().at(r.name)(state_, r);
+    std::optional<ShaderCall>& imager = state_.globals.options.imager;
+    if (r.name == "Imager" && imager && scene_.options.imager) imager = merged(*scene_.options.imager, r, state_);
     scene_.options = state_.globals.options;
   }
 
@@ -51,6 +53,12 @@ class SceneEditor : public RiSink {
       for (const Param& p : old.params)
         if (!findParam(call.params, p.name)) call.params.push_back(p);
     return call;
+  }
+
+  /// Unless the request or the old attributes have no shader.
+  void keep(const Request& r, std::shared_ptr<const ShaderCall> Attributes::* which, const Attributes& old) {
+    auto& shader = state_.scope.edit().*which;
+    if (shader && old.*which) shader = std::make_shared<const ShaderCall>(merged(*(old.*which), r, state_));
   }
 
   void editLight(const Request& r) {
@@ -75,8 +83,8 @@ class SceneEditor : public RiSink {
       if (copy) continue;
       state_.scope.attributes = std::make_shared<Attributes>(*group.attributes);
       table.at(r.name)(state_, r);
-      if (const auto& old = group.attributes->surface; old && r.name == "Surface")
-        state_.scope.edit().surface = std::make_shared<const ShaderCall>(merged(*old, r, state_));
+      if (r.name == "Surface") keep(r, &Attributes::surface, *group.attributes);
+      if (r.name == "Atmosphere") keep(r, &Attributes::atmosphere, *group.attributes);
       copy = state_.scope.attributes;
     }
     // The originals stay alive until here, so that no copy can take the address of one.

@@ -16,7 +16,7 @@ t.write("good.rib", GOOD)
 def limited(size, *arguments):
     """With files of no more than `size` bytes: as on a full disk."""
     def limit():
-        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        signal.signal(signal.SIGXFSZ, signal.SIG_DFL)  # as under ulimit -f
         resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
     return subprocess.run([t.program, *arguments], cwd=t.folder, capture_output=True, text=True, preexec_fn=limit, timeout=60)
 

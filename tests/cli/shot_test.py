@@ -106,6 +106,14 @@ suite.expect_run("edits of surface and light", ["shade", "direct.dfb", "--irradi
                                                 "edit.exr", "--stats", "edit.json"], 0)
 expect_same("edits give the bits of an edited scene", "edited.exr", "edit.exr")
 suite.expect(rays("edit.json") == 0, "edits that move nothing trace no ray")
+foggy = 'Imager "background" "background" [0.1 0.2 0.3]\n' + DIRECT.replace("WorldBegin\n", 'WorldBegin\nAtmosphere "fog" "distance" [20] "background" [0.5 0.6 0.9]\n')
+suite.write("foggy.rib", foggy)
+suite.write("foggier.rib", foggy.replace("[20]", "[7]"))
+suite.write("fog.rib", 'Atmosphere "fog" "distance" [7]\nImager "background"\n')
+suite.run("hide", "foggy.rib", "-o", "foggy.dfb", "-q")
+suite.run("render", "foggier.rib", "-o", "foggier.exr", "-q")
+suite.expect_run("edits of air", ["shade", "foggy.dfb", "--edit", "fog.rib", "-o", "fog.exr"], 0)
+expect_same("air and imager keep the parameters that are not given", "foggier.exr", "fog.exr")
 suite.write("move.rib", 'LightSource "pointlight" "key" "from" [-2 3 -3]\n')
 suite.write("moved.rib", DIRECT.replace("[2 3 -3]", "[-2 3 -3]"))
 suite.run("render", "moved.rib", "-o", "moved.exr", "-q")
@@ -156,6 +164,8 @@ for at in (3, 9, 40, 200, len(middle) // 2, len(middle) - 500, len(middle) - 5):
     middle[at] ^= 1
     if result.returncode != 2:
         suite.expect(False, f"a flip at {at} of an .icf: exit {result.returncode}")
+    if suite.run("info", "damaged.icf").returncode != 2:
+        suite.expect(False, f"a flip at {at} of an .icf: info calls it sound")
 
 # A disk that fills up: a limit on file size is its model.
 def limited(*arguments):
