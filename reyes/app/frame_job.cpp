@@ -1,5 +1,6 @@
 #include "reyes/app/frame_job.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -41,6 +42,11 @@ FrameJob::FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, L
     });
   gathers_ = mode_ == GiMode::Gather || mode_ == GiMode::Atlas || mode_ == GiMode::Radiosity;
   for (size_t g = 0; g < scene.groups.size() && mode_ == GiMode::None && keepsOcclusion(giSettings()); ++g) gathers_ |= shading_->asksOcclusion(static_cast<int>(g));
+  const PixelRect inside = layOutFrame(scene).padded;
+  for (const auto& [x, y] : settings.pixels)
+    if (!inside.contains(x, y))
+      log.report(Severity::Warning, fmt::format("pixel-outside {},{}", x, y), {},
+                 fmt::format("--pixel {},{} lies outside of the picture: nothing can be told of it", x, y));
 }
 
 FrameJob::~FrameJob() = default;

@@ -99,10 +99,13 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
   pixels.group = &picture, pixels.object = "the picture";
   imager = binder_->imager(scene.options.imager, pixels.object);
   bindNewGroups();
-  warnAboutUnwritten(output_, *this);
+  grows_ = !scene.procedurals.empty();
+  if (!grows_) warnAboutUnwritten(output_, *this);
 }
 
-BoundScene::~BoundScene() = default;
+BoundScene::~BoundScene() {
+  if (grows_) warnAboutUnwritten(output_, *this);
+}
 
 void BoundScene::bindNewGroups() {
   while (groups.size() < scene.groups.size()) groups.push_back(bound(scene.groups[groups.size()]));

@@ -80,6 +80,7 @@ struct BoundScene {
   BoundGroup bound(const ShadeGroup& group) const;
   std::unique_ptr<Binder> binder_;
   FrameOutput output_;
+  bool grows_ = false;  ///< What procedurals bring is known in the end.
 };
 
 }  // namespace tomales

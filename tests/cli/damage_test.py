@@ -56,6 +56,10 @@ t.expect_run("a .dfb of another version", ["shade", "newer.dfb", "-o", "cut.exr"
 t.write("aov.rib", 'Display "a.exr" "file" "rgba"\nDisplay "+b.exr" "file" "color nobody"\n' + GOOD.split("\n", 1)[1])
 t.expect_run("a channel that no shader writes", ["aov.rib"], 0, "aov.rib:2", "nobody")
 t.expect((t.folder / "b.exr").exists(), "is written with its fill")
+t.write("late.rib", 'Display "a.exr" "file" "rgba"\nDisplay "+b.exr" "file" "color nobody"\nDisplay "+c.exr" "file" "color diffuse"\nArchiveBegin "ball"\nSphere 1 -1 1 360\nArchiveEnd\n' +
+        GOOD.split("\n", 1)[1].replace("Sphere 1 -1 1 360", 'Procedural "DelayedReadArchive" ["ball"] [-1 1 -1 1 -1 1]'))
+late = t.expect_run("or none of a procedural", ["late.rib"], 0, "late.rib:2", "nobody")
+t.expect("diffuse" not in late.stderr, "while what those of a procedural write is known " + late.stderr)
 t.write("deep.rib", 'Display "deep.exr" "deepexr" "rgba"\n' + GOOD.split("\n", 1)[1])
 t.expect_run("a deep picture beyond all memory", ["deep.rib", "--format", "65536x65536", "--bucket-size", "16"], 4, "--crop")
 t.finish()

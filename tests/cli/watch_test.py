@@ -121,6 +121,8 @@ mean = [float(v) for v in re.search(r"75: .*?mean of its samples: (\S+) (\S+) (\
 t.expect(abs(depth - 3) < 0.01, f"at its depth ({depth})")
 t.expect(all(abs(a - b) < 0.02 for a, b in zip(mean, dumped[45, 75])), f"and nearly the colour of the picture ({mean}, {dumped[45, 75][:3]})")
 t.expect_run("--pixel that is none", ["good.rib", "--pixel", "12"], 1, "X,Y")
+for outside in (["--pixel", "900,75"], ["--pixel", "5,5", "--crop", "0.5,1,0.5,1"]):
+    t.expect_run("--pixel outside of the picture", ["good.rib", "-o", "part.exr", *outside], 0, "lies outside of the picture")
 t.run("hide", "good.rib", "-o", "good.dfb", "-q")
 again = t.expect_run("--pixel of a shot", ["shade", "good.dfb", "-o", "again.exr", "--pixel", "45,75"], 0, '"ball" (', "good.rib:9")
 t.expect(mean == [float(v) for v in re.search(r"mean of its samples: (\S+) (\S+) (\S+)", again.stdout).groups()], "sees the same")
