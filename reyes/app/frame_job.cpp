@@ -42,11 +42,16 @@ FrameJob::FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, L
     });
   gathers_ = mode_ == GiMode::Gather || mode_ == GiMode::Atlas || mode_ == GiMode::Radiosity;
   for (size_t g = 0; g < scene.groups.size() && mode_ == GiMode::None && keepsOcclusion(giSettings()); ++g) gathers_ |= shading_->asksOcclusion(static_cast<int>(g));
-  const PixelRect inside = layOutFrame(scene).padded;
-  for (const auto& [x, y] : settings.pixels)
-    if (!inside.contains(x, y))
-      log.report(Severity::Warning, fmt::format("pixel-outside {},{}", x, y), {},
-                 fmt::format("--pixel {},{} lies outside of the picture: nothing can be told of it", x, y));
+  warnAboutPixels();
+}
+
+void FrameJob::warnAboutPixels() const {
+  if (settings_.pixels.empty()) return;
+  const PixelRect inside = layOutFrame(scene_).padded;
+  std::string outside;
+  for (const auto& [x, y] : settings_.pixels)
+    if (!inside.contains(x, y)) outside += fmt::format("{}{},{}", outside.empty() ? "" : " and ", x, y);
+  if (!outside.empty()) log_.report(Severity::Warning, "pixel-outside", {}, fmt::format("--pixel: {} lies outside of the picture: nothing can be told of it", outside));
 }
 
 FrameJob::~FrameJob() = default;
@@ -209,6 +214,12 @@ int FrameJob::referenceLightSamples() const {
   return std::min(samples, kMostReferenceLightSamples);
 }
 
+void makeFolderOf(const std::string& file) {
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  std::error_code failed;  // then the folder is missing still
+  if (folder.is_relative() && !folder.empty()) std::filesystem::create_directories(folder, failed);
+}
+
 bool hasFolder(const std::string& file, const SourceLoc& where, Log& log) {
   std::filesystem::path folder = std::filesystem::path(file).parent_path();
   if (folder.empty()) folder = ".";
@@ -221,9 +232,7 @@ bool hasFolder(const std::string& file, const SourceLoc& where, Log& log) {
 bool displaysHaveFolders(const Options& options, Log& log) {
   bool all = true;
   for (const DisplayCall& display : options.displays) {
-    const std::filesystem::path folder = std::filesystem::path(display.name).parent_path();
-    std::error_code failed;  // then the folder is missing still
-    if (folder.is_relative() && !folder.empty()) std::filesystem::create_directories(folder, failed);
+    makeFolderOf(display.name);
     all = hasFolder(display.name, display.where, log) && all;
   }
   return all;

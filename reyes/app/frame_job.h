@@ -46,6 +46,7 @@ class FrameJob {
   FrameControl control(float begin, float end);
 
  private:
+  void warnAboutPixels() const;
   bool traces() const { return mode_ != GiMode::None || shading_->needsRays(); }
   /// A ray may go anywhere, so what rays may meet is read before the first of them, on screen or not, and kept.
   void open(const std::function<bool(const Attributes&)>& wanted);
@@ -75,7 +76,9 @@ class FrameJob {
 
 /// Hours of rendering must not end at a folder that never existed. False: reported.
 bool hasFolder(const std::string& file, const SourceLoc& where, Log& log);
-/// Makes those that are relative: scenes of modellers name folders of their project.
+/// Only if it is relative: scenes of modellers name folders of their project. One that cannot be made is found out when the file is written.
+void makeFolderOf(const std::string& file);
+/// Makes those that are relative.
 bool displaysHaveFolders(const Options& options, Log& log);
 
 }  // namespace tomales

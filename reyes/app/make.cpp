@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <set>
 #include <span>
 
 #include "reyes/app/atlas_commands.h"
+#include "reyes/app/frame_job.h"
 #include "reyes/image.h"
 #include "reyes/pictures.h"
 
@@ -17,13 +17,6 @@ void warnAboutParams(const Request& r, std::span<const std::string_view> known, 
   for (const Param& p : r.params)
     if (std::find(known.begin(), known.end(), p.name) == known.end())
       log.report(Severity::Warning, "make-parameter", r.where, fmt::format("{}: there is no \"{}\"; ignored", r.name, p.name));
-}
-
-/// As for a Display. One that cannot be made is found out when the file is written.
-void makeFolderOf(const std::string& file) {
-  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-  std::error_code failed;
-  if (folder.is_relative() && !folder.empty()) std::filesystem::create_directories(folder, failed);
 }
 
 /// RenderMan's names of filters, as OpenImageIO has them.
