@@ -12,8 +12,8 @@
 #include <set>
 
 #include "gi/brick_map.h"
-#include "gi/photon_irradiance.h"
 #include "gi/photons.h"
+#include "gi/photons/irradiance.h"
 
 namespace tomales {
 

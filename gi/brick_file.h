@@ -5,7 +5,7 @@
 #pragma once
 #include <string>
 
-#include "gi/brick.h"
+#include "gi/bricks/brick.h"
 #include "gi/point_cloud.h"
 #include "reyes/base/chunk_file.h"
 

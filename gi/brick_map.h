@@ -3,9 +3,9 @@
 #pragma once
 #include <memory>
 
-#include "gi/brick_build.h"
-#include "gi/brick_cache.h"
 #include "gi/brick_file.h"
+#include "gi/bricks/build.h"
+#include "gi/bricks/cache.h"
 
 namespace tomales {
 

@@ -6,8 +6,8 @@
 #include <mutex>
 
 #include "gi/brick_map.h"
-#include "gi/diffusion.h"
-#include "gi/disks.h"
+#include "gi/clouds/diffusion.h"
+#include "gi/clouds/disks.h"
 #include "reyes/base/log.h"
 #include "reyes/shade.h"
 

@@ -2,7 +2,7 @@
 // hits shaded with direct diffuse light (approximate-gi 4.1, 4.2), and from the same rays the gradients, distances and
 // dominant directions. Also the plain Monte Carlo estimate that the reference uses. Irradiance: results are E/pi.
 #pragma once
-#include "gi/bright_spots.h"
+#include "gi/cache/bright_spots.h"
 #include "gi/irradiance_cache.h"
 #include "raytrace/trace.h"
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "gi/irradiance_record.h"
+#include "gi/cache/irradiance_record.h"
 #include "reyes/base/block_vector.h"
 
 namespace tomales {

@@ -1,6 +1,6 @@
 // Verb: photons from the lights through the scene (irradiance-atlas 4). Each photon that arrives on a diffuse
 // surface is stored; what goes on is decided by Russian roulette, so that powers stay even. In a medium
-// (gi/medium.h: what the Interior or Exterior of the surface that a photon flies to says of that side of it)
+// (gi/photons/medium.h: what the Interior or Exterior of the surface that a photon flies to says of that side of it)
 // photons are stored where they collide. Power: W. Space: current. Same photons for any number of threads.
 #pragma once
 #include <functional>

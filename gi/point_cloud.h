@@ -20,7 +20,7 @@ struct CloudChannel {
 };
 
 /// The last channel of clouds that tell surfaces apart: which one a point lies on, 1 .. kMostSurfaces; 0: not known. No
-/// datum of its own: brick maps keep it with their layers (gi/brick.h).
+/// datum of its own: brick maps keep it with their layers (gi/bricks/brick.h).
 inline const CloudChannel kSurfaceChannel{"__surface", 1};
 constexpr int kMostSurfaces = 127;
 bool tellsSurfaces(const std::vector<CloudChannel>& channels);

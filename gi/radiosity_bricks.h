@@ -5,7 +5,7 @@
 // Channel "radiosity": pi L in W/m2, world space. The camera of the frame that first bakes decides how fine they are.
 #pragma once
 #include "gi/atlas.h"
-#include "gi/radiosity_maps.h"
+#include "gi/radiosity/maps.h"
 
 namespace tomales {
 

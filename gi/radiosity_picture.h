@@ -1,7 +1,7 @@
 // Verb: radiosity maps -> pictures, to look at and for shaders. Charts are packed so that each lies at a multiple of
 // its own width and height: levels of the picture down to a chart's shorter edge hold no texel of two patches.
 #pragma once
-#include "gi/radiosity_maps.h"
+#include "gi/radiosity/maps.h"
 #include "reyes/image.h"
 
 namespace tomales {

@@ -3,7 +3,7 @@
 #pragma once
 #include "gi/atlas.h"
 #include "gi/gather.h"
-#include "gi/hit_radiance.h"
+#include "gi/gather/hit_radiance.h"
 #include "raytrace/emitters.h"
 #include "reyes/deep.h"
 

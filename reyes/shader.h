@@ -9,8 +9,8 @@
 #include <memory>
 #include <new>
 
-#include "reyes/shadenoise.h"
-#include "reyes/shader_params.h"
+#include "reyes/shader/noise.h"
+#include "reyes/shader/params.h"
 
 namespace rsl {
 

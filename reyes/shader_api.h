@@ -10,7 +10,7 @@
  * Threads: one shader runs on many threads at once, on different batches. It must keep no state.
  * Growth: fields and functions are only ever appended; check structBytes before using a later one. */
 #pragma once
-#include "reyes/shader_services.h"
+#include "reyes/shader/services.h"
 
 #ifdef __cplusplus
 extern "C" {

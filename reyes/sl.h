@@ -1,4 +1,4 @@
-// Shaders that read like RSL: values of a whole batch at once, with masks (reyes/sl_values.h), shadeops
+// Shaders that read like RSL: values of a whole batch at once, with masks (reyes/shader/sl_values.h), shadeops
 // (sl_shadeops.h) and services (sl_services.h, sl_pictures.h, sl_light.h, sl_clouds.h). What a compiler from RSL would
 // emit.
 //   struct matte : sl::Surface { void main() { Normal Nf = faceforward(normalize(N), I);  Oi = Os;  Ci = Os * Cs *
@@ -8,9 +8,9 @@
 #pragma once
 #include <type_traits>
 
-#include "reyes/sl_clouds.h"
-#include "reyes/sl_light.h"
-#include "reyes/sl_pictures.h"
+#include "reyes/shader/sl_clouds.h"
+#include "reyes/shader/sl_light.h"
+#include "reyes/shader/sl_pictures.h"
 
 namespace sl {
 

@@ -1,7 +1,7 @@
 // A principled surface after Burley 2012, "Physically-based shading at Disney" (sections 5.3 to 5.6), without
 // anisotropy and subsurface. Highlights are samples of the lights and of its own two lobes together; reflected rays are
 // drawn from the lobes.
-#include "reyes/shadeops.h"
+#include "reyes/shader/shadeops.h"
 
 namespace {
 

@@ -4,22 +4,29 @@ import re
 import sys
 
 root = pathlib.Path(sys.argv[1])
-rank, public = {}, set()
+rank, public, unit_named = {}, {}, {}  # rank: line of a unit; public: the folders that may read a unit's own; unit_named: by prefix
 for line_number, line in enumerate((root / "tests/layers.txt").read_text().splitlines()):
-    for unit in line.split("#")[0].split():
-        rank[unit.rstrip("*")] = line_number
-        if unit.endswith("*"):
-            public.add(unit.rstrip("*"))
+    for names in line.split("#")[0].split():
+        folder, *headers = names.split(":")
+        unit = folder.rstrip("*~")
+        rank[unit] = line_number
+        public[unit] = "" if folder.endswith("*") else unit.split("/")[0] + "/" if folder.endswith("~") else unit
+        unit_named.update({name: unit for name in (unit, *headers)})
 
 
 def unit_of(path):
-    """The longest listed prefix: gi/irradiance_cache.h is its own unit, gi/gather.h belongs to gi."""
+    """By the longest prefix that is listed: reyes/shade/batch.h and reyes/shade.h belong to reyes/shade."""
     parts = path.rsplit(".", 1)[0].split("/")
     prefixes = ("/".join(parts[:k]) for k in range(len(parts), 0, -1))
-    return next((p for p in prefixes if p in rank), None)
+    return next((unit_named[p] for p in prefixes if p in unit_named), None)
 
 
-SHADER_HEADERS = {"reyes/shader_api", "reyes/shader", "reyes/shadenoise", "reyes/shadeops", "reyes/sl"}
+def is_private(path, unit):
+    """Is it in the folder of the unit?"""
+    return path.startswith(unit + "/")
+
+
+SHADER_HEADERS = {"reyes/shader_api", "reyes/shader", "reyes/shader/noise", "reyes/shader/shadeops", "reyes/sl"}
 # Each third-party library is included by the units named here and nowhere else.
 THIRD_PARTY = {
     "embree3/": ["raytrace/embree_"],
@@ -55,7 +62,7 @@ for folder in ("reyes", "raytrace", "gi", "shaders"):
                 bad.append(f"{me}:{line_number}: {m[1]} or this file is not in tests/layers.txt")
             elif a != b and (
                 rank[b] >= rank[a]
-                or ("/" in m[1][len(b):] and b not in public)
+                or (is_private(m[1], b) and not me.startswith(public[b]))
                 or (a == "shaders" and b not in SHADER_HEADERS)
             ):
                 bad.append(f"{me}:{line_number}: {a} may not include {m[1]}")

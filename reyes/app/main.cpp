@@ -1,3 +1,3 @@
-#include "reyes/app/command.h"
+#include "reyes/app/commands/command.h"
 
 int main(int argc, char** argv) { return tomales::run(argc, argv); }

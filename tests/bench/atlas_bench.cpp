@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "gi/brick_map.h"
-#include "gi/photon_irradiance.h"
+#include "gi/photons/irradiance.h"
 #include "gi/point_file.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"

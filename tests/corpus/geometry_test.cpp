@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "places.h"
 #include "raytrace/trace.h"
 #include "reyes/base/rng.h"
 #include "reyes/dice.h"

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "places.h"
 #include "reyes/rib.h"
 
 namespace tomales {

@@ -11,8 +11,8 @@
 #include "reyes/app/chart/html.h"
 #include "reyes/app/chart/report.h"
 #include "reyes/app/chart/sweeps.h"
-#include "reyes/app/interrupt.h"
-#include "reyes/app/render.h"
+#include "reyes/app/exit_code.h"
+#include "reyes/app/watch/interrupt.h"
 
 namespace tomales {
 namespace {

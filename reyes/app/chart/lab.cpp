@@ -13,7 +13,7 @@
 #include <set>
 #include <thread>
 
-#include "reyes/app/interrupt.h"
+#include "reyes/app/watch/interrupt.h"
 #include "reyes/base/checksum.h"
 
 namespace tomales {

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "reyes/app/chart/html.h"
-#include "reyes/app/interrupt.h"
-#include "reyes/app/render.h"
+#include "reyes/app/exit_code.h"
+#include "reyes/app/watch/interrupt.h"
 
 namespace tomales {
 namespace {

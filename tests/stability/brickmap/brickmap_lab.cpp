@@ -11,7 +11,7 @@
 #include <fstream>
 
 #include "gi/brick_map.h"
-#include "gi/photon_irradiance.h"
+#include "gi/photons/irradiance.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {

@@ -1,4 +1,4 @@
-#include "reyes/app/overrides.h"
+#include "reyes/app/frame/overrides.h"
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "places.h"
 #include "tests/unit/frame/hidden_body.h"
 
 namespace tomales {

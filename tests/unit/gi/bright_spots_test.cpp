@@ -1,4 +1,4 @@
-#include "gi/bright_spots.h"
+#include "gi/cache/bright_spots.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Light that diffuses through a body: against closed forms, published reflectances, and sums over all points.
-#include "gi/diffusion.h"
+#include "gi/clouds/diffusion.h"
 
 #include <gtest/gtest.h>
 

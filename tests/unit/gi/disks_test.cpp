@@ -1,5 +1,5 @@
 // What disks hide of a hemisphere, against form factors.
-#include "gi/disks.h"
+#include "gi/clouds/disks.h"
 
 #include <gtest/gtest.h>
 

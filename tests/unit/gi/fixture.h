@@ -1,8 +1,8 @@
 // Small scenes in camera space, with everything that GiServices stands on.
 #pragma once
+#include "gi/frame/state.h"
 #include "gi/photons.h"
 #include "gi/services.h"
-#include "gi/state.h"
 #include "reyes/dice.h"
 
 namespace tomales::test {

@@ -3,7 +3,7 @@
 #include <map>
 #include <numeric>
 
-#include "gi/sheet_search.h"
+#include "gi/frame/sheet_search.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"
 #include "tests/unit/gi/fixture.h"

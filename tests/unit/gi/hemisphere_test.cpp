@@ -1,5 +1,5 @@
-#include "gi/hemisphere.h"
-#include "gi/hessian.h"
+#include "gi/gather/hemisphere.h"
+#include "gi/gather/hessian.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Rays through what is transparent.
-#include "gi/layers.h"
+#include "gi/gather/layers.h"
 
 #include <gtest/gtest.h>
 

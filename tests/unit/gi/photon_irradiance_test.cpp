@@ -1,4 +1,4 @@
-#include "gi/photon_irradiance.h"
+#include "gi/photons/irradiance.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "gi/atlas.h"
-#include "gi/photon_tree.h"
+#include "gi/photons/tree.h"
 #include "gi/point_file.h"
 #include "reyes/base/rng.h"
 

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <random>
 
+#include "places.h"
 #include "rib_test_tools.h"
 
 namespace tomales {

@@ -1,4 +1,4 @@
-// Pictures, environments and shadow maps as shaders in RSL's manner look them up (reyes/sl_pictures.h).
+// Pictures, environments and shadow maps as shaders in RSL's manner look them up (reyes/shader/sl_pictures.h).
 #include <OpenImageIO/imagebuf.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Rays of shaders in RSL's manner (reyes/sl_light.h): what they are asked, what they tell, how wide they are.
+// Rays of shaders in RSL's manner (reyes/shader/sl_light.h): what they are asked, what they tell, how wide they are.
 #include <OpenImageIO/imagebuf.h>
 
 #include "tests/unit/shade/obedient.h"

@@ -1,5 +1,5 @@
-// What shaders in RSL's manner ask of the renderer (reyes/sl_services.h), under masks: random numbers, derivatives,
-// spaces, parameter lists, messages.
+// What shaders in RSL's manner ask of the renderer (reyes/shader/sl_services.h), under masks: random numbers,
+// derivatives, spaces, parameter lists, messages.
 #include <cstdlib>
 #include <set>
 

@@ -1,8 +1,9 @@
-// Every service of reyes/shader_services.h that gives values to points leaves those alone that are masked out.
+// Every service of reyes/shader/services.h that gives values to points leaves those alone that are masked out.
 #include <fstream>
 #include <regex>
 #include <set>
 
+#include "places.h"
 #include "reyes/shader.h"
 #include "tests/unit/shade/stage.h"
 
@@ -129,7 +130,7 @@ TEST_F(Masks, AreObeyedByEveryService) {
 }
 
 TEST_F(Masks, AreTestedForEveryService) {
-  std::ifstream file(std::string(TOMALES_SOURCE_DIR) + "/reyes/shader_services.h");
+  std::ifstream file(std::string(TOMALES_SOURCE_DIR) + "/reyes/shader/services.h");
   const std::string header{std::istreambuf_iterator<char>(file), {}};
   std::set<std::string> there, tested = kOfTheWholeBatch;
   const std::regex service("\\(\\*(\\w+)\\)\\(void\\* host");

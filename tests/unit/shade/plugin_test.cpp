@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "reyes/shader.h"
+#include "tests/unit/shade/installed_headers.h"
 #include "tests/unit/shade/stage.h"
 
 namespace tomales {

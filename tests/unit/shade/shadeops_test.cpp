@@ -1,6 +1,6 @@
 // Shadeops against closed forms and against scalar references written here, in double precision where that says
 // something.
-#include "reyes/shadeops.h"
+#include "reyes/shader/shadeops.h"
 
 #include <gtest/gtest.h>
 

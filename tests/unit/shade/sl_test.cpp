@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "tests/unit/shade/installed_headers.h"
 #include "tests/unit/shade/stage.h"
 
 namespace tomales {

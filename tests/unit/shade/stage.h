@@ -191,14 +191,6 @@ class Stage : public ::testing::Test {
   std::unique_ptr<ShadingSystem> shading;
 };
 
-/// As `cmake --install` does.
-inline void installHeaders(const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder / "reyes");
-  std::istringstream headers(TOMALES_PLUGIN_HEADERS);
-  for (std::string header; std::getline(headers, header, ':');)
-    std::filesystem::copy(std::filesystem::path(TOMALES_SOURCE_DIR) / header, folder / header);
-}
-
 inline void expectColor(const vec3& is, const vec3& should, float tolerance = 1e-5f) {
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(is[k], should[k], tolerance) << "channel " << k;
 }

@@ -1,0 +1,269 @@
+#include "gi/atlas.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <map>
+#include <numeric>
+
+#include "gi/atlas/limits.h"
+#include "gi/atlas/world_from_current.h"
+#include "gi/bricks/point_tiles.h"
+#include "gi/photons/medium.h"
+#include "reyes/base/process.h"
+#include "reyes/base/temporary_folder.h"
+
+namespace tomales {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kCaustic = ".caustic";  ///< What the names of caustic maps end in.
+constexpr const char* kVolume = "scene.volume";
+constexpr double kStoredBytes = 2.5 * 36;  ///< Of one emitted photon: so many surfaces, so many bytes.
+constexpr double kLeastOfMap =
+    1e-3;  ///< Share of its map, by area, that a surface needs for a number: leaves share their photons.
+
+/// Size of the objects of each group, as the area of their boxes in the world, so that every camera finds the same
+/// maps.
+std::vector<double> boxAreas(const Scene& scene) {
+  std::vector<double> areas(scene.groups.size(), 0.0);
+  for (const Object& o : scene.objects) {
+    Bound3 bound;
+    for (uint32_t patch = 0; patch < o.shape().patchCount(); ++patch) bound.extend(o.shape().bound(patch, {}));
+    const vec3 s = bound.empty() ? vec3(0) : transformBound(o.worldFromObject.keys.front(), bound).size();
+    areas[static_cast<size_t>(o.group)] += double{s.x * s.y + s.y * s.z + s.z * s.x};
+  }
+  return areas;
+}
+
+/// Counted up when the same inputs begin to make other files.
+constexpr uint32_t kMethod = 9;
+
+uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
+  const auto& [emit, maxDepth, seed, direct] = settings.photons;
+  return contentSum(kMethod, settings.world, names.global, names.caustic, names.volume, emit, maxDepth, seed, direct);
+}
+
+uint64_t irradianceInputs(const PointFile& photons, const PhotonIrradianceSettings& settings) {
+  const auto& [nearest, every, maxRadius] = settings;
+  return contentSum(kMethod, photons.contents(), nearest, every, maxRadius);
+}
+
+uint64_t brickInputs(const PointFile& points, const BrickSettings& settings) {
+  const auto& [maxError, maxDepth, radiusScale, ignoreNormals, coarseness] = settings;
+  return contentSum(kMethod, points.contents(), maxError, maxDepth, radiusScale, ignoreNormals, coarseness);
+}
+
+/// Of a file that may be missing or damaged: then not known.
+MadeFrom bricksMadeFrom(const fs::path& path) {
+  try {
+    return BrickFile(path.string()).madeFrom();
+  } catch (const FileError&) {
+    return {};
+  }
+}
+
+/// The groups of each map from 1 on; 0: small ones.
+std::vector<int> numbered(const std::vector<std::string>& maps, const std::vector<double>& areas) {
+  struct Map {
+    double area = 0;
+    int groups = 0;
+  };
+  std::map<std::string, Map> byName;
+  for (size_t g = 0; g < maps.size(); ++g) byName[maps[g]].area += areas[g];
+  std::vector<int> out;
+  for (size_t g = 0; g < maps.size(); ++g) {
+    Map& map = byName[maps[g]];
+    const int number =
+        1 + map.groups++ % kMostSurfaces;  // small ones count too, so that who is small changes no number
+    out.push_back(areas[g] >= kLeastOfMap * map.area ? number : 0);
+  }
+  return out;
+}
+
+}  // namespace
+
+MadeFrom pointsMadeFrom(const fs::path& path) {
+  try {
+    return PointFile(path.string()).madeFrom();
+  } catch (const FileError&) {
+    return {};
+  }
+}
+
+fs::path atlasFile(const fs::path& folder, const std::string& map, const char* extension) {
+  std::string name = map;
+  for (char& c : name)
+    if (c == '/' || c == '\0') c = '_';
+  return folder / (name + extension);
+}
+
+void makeAtlasFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder))
+    throw FileError(fmt::format("folder \"{}\" cannot be made: {}", folder.string(), error.message()));
+}
+
+MapNames mapNames(const Scene& scene, const AtlasSettings& settings) {
+  const std::vector<double> own = boxAreas(scene);
+  std::vector<double> areas = own;
+  for (size_t g = 0; g < areas.size(); ++g)
+    if (!scene.groups[g].attributes->photon.globalMap.empty()) areas[g] = 0;
+  const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
+  const double share = total * std::min(1.0, static_cast<double>(settings.mostPhotonBytes) /
+                                                 (kStoredBytes * static_cast<double>(settings.photons.emit)));
+  MapNames names;
+  names.world = settings.world;
+  double before = 0;  // groups follow each other as objects do in the scene: neighbours in its hierarchy stay together
+  for (size_t g = 0; g < areas.size(); ++g) {
+    const std::string& given = scene.groups[g].attributes->photon.globalMap;
+    const std::string& caustic = scene.groups[g].attributes->photon.causticMap;
+    names.global.push_back(!given.empty() ? given
+                                          : fmt::format("scene{}", share > 0 ? static_cast<int>(before / share) : 0));
+    names.caustic.push_back(!caustic.empty() ? caustic + std::string(kCaustic) : "");
+    before += areas[g];
+  }
+  names.surface = numbered(names.global, own);
+  const auto hasMedium = [](const ShadeGroup& g) {
+    return !mediumOf(g.attributes->interior.get(), 1).empty() || !mediumOf(g.attributes->exterior.get(), 1).empty();
+  };
+  if (std::any_of(scene.groups.begin(), scene.groups.end(), hasMedium)) names.volume = kVolume;
+  return names;
+}
+
+std::set<std::string> MapNames::ofReflectors() const {
+  std::set<std::string> out(global.begin(), global.end());
+  out.insert(caustic.begin(), caustic.end());
+  out.erase("");
+  return out;
+}
+
+std::set<std::string> MapNames::all() const {
+  std::set<std::string> out = ofReflectors();
+  if (!volume.empty()) out.insert(volume);
+  return out;
+}
+
+MapNames MapNames::ofSurfaces() const {
+  MapNames out = *this;
+  out.caustic.assign(caustic.size(), ""), out.volume.clear();
+  return out;
+}
+
+PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const RayScene& rays,
+                           const ShadingSystem& shading, const MapNames& names, const AtlasSettings& settings,
+                           const AtlasProgress& progress, Stats& stats, Log& log) {
+  makeAtlasFolder(folder);
+  const char* channel = settings.photons.direct ? kPower : kIndirectPower;
+  std::map<std::string, PointFileWriter> files;
+  for (const std::string& name : names.all())
+    files.try_emplace(name, atlasFile(folder, name, ".ptc").string(),
+                      name == names.volume ? std::vector<CloudChannel>{{kPathPower, 3}}
+                                           : std::vector<CloudChannel>{{channel, 3}, kSurfaceChannel});
+  const auto filesOf = [&](const std::vector<std::string>& groups) {
+    std::vector<PointFileWriter*> out;
+    for (const std::string& name : groups) out.push_back(name.empty() ? nullptr : &files.at(name));
+    return out;
+  };
+  const std::vector<PointFileWriter*> global = filesOf(names.global), caustic = filesOf(names.caustic);
+  const WorldFromCurrent world(scene);
+  const auto add = [&](const StoredPhoton& p) {
+    const vec3 P = transformPoint(world.points, p.P), power = world.scale * world.scale * p.power;
+    if (p.group < 0) return files.at(names.volume).add(P, vec3(0), 0, &power.x);
+    const vec3 N = normalizeOr(world.normals * p.N, vec3(0, 0, 1));
+    const auto group = static_cast<size_t>(p.group);
+    const std::array values{power.x, power.y, power.z, static_cast<float>(names.surface[group])};
+    global[group]->add(P, N, 0, values.data());
+    if (p.caustic && caustic[group]) caustic[group]->add(P, N, 0, values.data());
+  };
+  const PhotonFigures figures = tracePhotons(
+      scene, rays, shading, settings.photons,
+      [&](std::span<const StoredPhoton> photons) { std::for_each(photons.begin(), photons.end(), add); }, progress,
+      stats, log);
+  for (auto& [name, file] : files) {
+    file.finish({settings.world, photonInputs(names, settings)});
+    if (file.count() == 0)
+      log.report(settings.photons.direct ? Severity::Warning : Severity::Info, "photons-none-" + name, {},
+                 fmt::format("no photon came to the objects of photon map \"{}\"{}", name,
+                             settings.photons.direct ? "" : " but straight from lights"));
+  }
+  stats.photons.emitted += figures.emitted, stats.photons.stored += figures.stored;
+  stats.photons.groups += static_cast<int64_t>(files.size());
+  return figures;
+}
+
+void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonIrradianceSettings& given, uint64_t most,
+                     EstimateFigures* figures) {
+  const PointFile file(photons.string());
+  if (offsetOf(file.channels(), kPathPower, 3) < 0) requirePhotons(file);
+  const MadeFrom madeFrom{file.madeFrom().world, irradianceInputs(file, given)};
+  if (file.count() <= most)
+    return writePointFile(estimateIrradiance(file.readAll(), given, {}, figures), out.string(), madeFrom);
+  PhotonIrradianceSettings settings = given;
+  settings.maxRadius = reachOf(given, file.bound());
+  const TemporaryFolder temporary(out.parent_path().empty() ? "." : out.parent_path());
+  const fs::path compact = temporary.path() / "photons.ptc";  // their own chunks lie everywhere, as photons do
+  PointTiles(file).writeCompact(compact.string());
+  const PointFile sorted(compact.string());
+  const PointTiles tiles(sorted);
+  PointFileWriter writer(out.string(), irradianceChannels(sorted.channels()));
+  forEachTile(tiles, most, [&](int level, const glm::ivec3& place) {
+    const auto inside = [&](const vec3& P) { return tiles.contains(level, place, P); };
+    const PointCloud points =
+        estimateIrradiance(tiles.around(tiles.box(level, place), settings.maxRadius), settings, inside, figures);
+    for (size_t i = 0; i < points.count(); ++i)
+      writer.add(points.position[i], points.normal[i], points.radius[i], points.at(i));
+  });
+  writer.finish(madeFrom);
+}
+
+BuiltBricks writeIrradianceBricks(const fs::path& points, const fs::path& out, BrickSettings settings) {
+  const PointFile file(points.string());
+  const MadeFrom madeFrom{file.madeFrom().world, brickInputs(file, settings)};
+  const PointTiles tiles(file);
+  settings.maxError *= static_cast<float>(tiles.meanOfData());
+  return writeBrickMap(tiles, settings, out.string(), madeFrom);
+}
+
+bool renewIrradianceBricks(const fs::path& points, const fs::path& out, const BrickSettings& settings, Stats& stats) {
+  if (bricksMadeFrom(out).inputs == brickInputs(PointFile(points.string()), settings)) return false;
+  const StageTimer timer(stats, "brickmake");
+  writeIrradianceBricks(points, out, settings);
+  return true;
+}
+
+void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
+                const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats,
+                Log& log) {
+  const fs::path photons = folder / "photons", irradiance = folder / "irradiance";
+  makeAtlasFolder(irradiance);
+  const std::set<std::string> maps = names.all();
+  const uint64_t inputs = photonInputs(names, settings);
+  const bool traced = std::all_of(maps.begin(), maps.end(), [&](const std::string& name) {
+    return pointsMadeFrom(atlasFile(photons, name, ".ptc")).inputs == inputs;
+  });
+  if (!traced) {
+    const StageTimer timer(stats, "photons");
+    writePhotons(photons, scene, rays, shading, names, settings, progress, stats, log);
+  }
+  returnFreeMemory();
+  std::vector<MapFigures> made;
+  for (const std::string& name : maps) {
+    const fs::path from = atlasFile(photons, name, ".ptc"), points = atlasFile(irradiance, name, ".ptc"),
+                   bricks = atlasFile(folder, name, ".bkm");
+    const PhotonIrradianceSettings& estimate = name.ends_with(kCaustic) ? settings.caustics : settings.irradiance;
+    if (pointsMadeFrom(points).inputs != irradianceInputs(PointFile(from.string()), estimate)) {
+      const StageTimer timer(stats, "irradiance");
+      EstimateFigures figures;
+      writeIrradiance(from, points, estimate, kPointsInMemory, &figures);
+      if (name != names.volume) made.push_back({name, PointFile(from.string()).count(), figures});
+    }
+    if (!renewIrradianceBricks(points, bricks, settings.bricks, stats)) ++stats.photons.groupsKept;
+    returnFreeMemory();
+  }
+  warnOfEstimates(scene, names, made, log);
+}
+
+}  // namespace tomales

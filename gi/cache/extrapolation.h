@@ -1,0 +1,82 @@
+// Private to gi/irradiance_cache: what records say of E/pi at other places.
+#pragma once
+#include "gi/cache/irradiance_record.h"
+
+namespace tomales {
+
+/// By its gradients, from its place by a step, and from its normal by a turn, cross(of the record, other).
+inline vec3 changeBy(const IrradianceRecord& r, const vec3& step, const vec3& turn) {
+  vec3 change;
+  for (int c = 0; c < 3; ++c) change[c] = dot(turn, r.rotationGradient[c]) + dot(step, r.translationGradient[c]);
+  return change;
+}
+
+inline vec3 extrapolate(const IrradianceRecord& r, const vec3& x, const vec3& n) {
+  return glm::max(vec3(0.0f), r.E + changeBy(r, x - r.position, cross(r.normal, n)));
+}
+
+/// step H step of each channel. The step may be that of records that reach farther: beyond its own reach this
+/// one knows nothing.
+inline vec3 bentBy(const IrradianceRecord& r, const vec3& step, float reach) {
+  const vec3 known = step * std::min(1.0f, reach / std::max(glm::length(step), 1e-30f));
+  const float a = dot(known, r.tangent), b = dot(known, cross(r.normal, r.tangent));
+  return a * a * r.hessian[0] + 2 * a * b * r.hessian[1] + b * b * r.hessian[2];
+}
+
+/// Of records that are all extrapolated to one place. From a step s away, by the gradient there, E is off by
+/// -s H s / 2; and gradients so far away differ by H s. So the mean over the records is off by half the
+/// covariance of gradient and step, which takes no second derivative, and by the mean step's -s H s / 2,
+/// which is little where records lie on all sides. That holds where light bends evenly. Where it ends between
+/// records, as at a shadow's edge, what they say there is apart, and a parabola through it lights the dark.
+class MeanExtrapolation {
+ public:
+  MeanExtrapolation(const vec3& x, const vec3& n) : x_(x), n_(n) {}
+
+  /// As extrapolate().
+  vec3 add(const IrradianceRecord& r, float weight) {
+    const vec3 turn = cross(r.normal, n_), step = x_ - r.position, change = changeBy(r, step, turn);
+    weight_ += weight, step_ += weight * step, turn_ += weight * turn, change_ += weight * change;
+    for (int c = 0; c < 3; ++c)
+      translation_[c] += weight * r.translationGradient[c], rotation_[c] += weight * r.rotationGradient[c];
+    const vec3 E = glm::max(vec3(0.0f), r.E + change);
+    E_ += weight * E, square_ += weight * E * E;
+    return E;
+  }
+  // Pre: something was added.
+  vec3 step() const { return step_ / weight_; }
+  vec3 covariance() const {
+    vec3 out = change_;
+    for (int c = 0; c < 3; ++c) out[c] -= (dot(turn_, rotation_[c]) + dot(step_, translation_[c])) / weight_;
+    return out / weight_;
+  }
+  /// How far the second order may be believed: 1 where all say the same, 0 where they are kApart off, rms.
+  vec3 agreement() const {
+    constexpr float kApart = 0.3f, kLeast = 1e-30f;
+    const vec3 mean = E_ / weight_, variance = square_ / weight_ - mean * mean;
+    return glm::clamp(1.0f - variance / glm::max(kApart * kApart * mean * mean, kLeast), 0.0f, 1.0f);
+  }
+
+ private:
+  const vec3 x_, n_;
+  float weight_ = 0;
+  vec3 step_{0.0f}, turn_{0.0f}, change_{0.0f}, E_{0.0f}, square_{0.0f};
+  vec3 translation_[3] = {vec3(0), vec3(0), vec3(0)}, rotation_[3] = {vec3(0), vec3(0), vec3(0)};
+};
+
+/// Derivatives hold near the record alone: over its validity radius each may at most double or extinguish E.
+inline void limitDerivatives(IrradianceRecord& r, float radius) {
+  for (int c = 0; c < 3; ++c) {
+    vec3& gradient = r.translationGradient[c];
+    const float change = glm::length(gradient) * radius;
+    if (!(change < kInfinity))
+      gradient = vec3(0.0f);
+    else if (change > r.E[c])
+      gradient *= r.E[c] / change;
+    const float xx = r.hessian[0][c], xy = r.hessian[1][c], yy = r.hessian[2][c];
+    const float bend = 0.5f * radius * radius * std::sqrt(xx * xx + 2 * xy * xy + yy * yy);
+    if (!(bend <= r.E[c]))
+      for (vec3& second : r.hessian) second[c] = bend < kInfinity ? second[c] * r.E[c] / bend : 0.0f;
+  }
+}
+
+}  // namespace tomales

@@ -1,0 +1,322 @@
+#include "gi/irradiance_cache.h"
+
+#include <utility>
+
+#include "gi/cache/extrapolation.h"
+#include "gi/cache/record_tree.h"
+#include "reyes/base/simd.h"
+
+namespace tomales {
+namespace {
+
+constexpr float kFinestPixels = 1;              // of a dispute, at kappa 1
+constexpr float kMaxAngleTerm = 0.0151922470f;  // 1 - cos(alpha+), alpha+ = 10 degrees (eq. 4)
+constexpr float kBehindTolerance = 0.1f;        // of the validity radius,
+constexpr float kBehindPixels = 0.45f;  // and at kappa 1: thin sheets have two sides, however far their records reach
+constexpr float kHeight = 0.5f;         // above a record's plane, of its closest distance,
+constexpr float kHeightFade = 4;        // and from three quarters of that on it counts less
+constexpr float kDispute = 0.1f;   // relative difference of extrapolated values, at kappa 1, that is no longer smooth
+constexpr float kTorn = 0.5f;      // the same between points that see other things
+constexpr float kNoiseMargin = 3;  // standard errors
+constexpr float kDark = 0.1f;      // of the mean E: what is darker is off by fractions of this, not of itself
+constexpr float kSteep = 0.3f;     // of E over a record's reach: it serves no wider
+constexpr size_t kRun = 64;        // lookups that share their candidates, at most
+constexpr float kRunPixels = 24;   // diagonal of what they cover, at most: incoherent points would share too many
+
+struct Candidate {
+  uint32_t record;
+  float weight;
+};
+
+/// The records that may serve some of the places of a run, as arrays.
+struct Vicinity {
+  std::vector<uint32_t> records;
+  AlignedVector<float> x, y, z, nx, ny, nz, size, limit, slack;
+
+  void clear() {
+    records.clear();
+    for (auto* a : {&x, &y, &z, &nx, &ny, &nz, &size, &limit}) a->clear();
+  }
+  void add(uint32_t record, const IrradianceRecord& r, float recordSize) {
+    records.push_back(record);
+    x.push_back(r.position.x), y.push_back(r.position.y), z.push_back(r.position.z);
+    nx.push_back(r.normal.x), ny.push_back(r.normal.y), nz.push_back(r.normal.z);
+    size.push_back(recordSize), limit.push_back(r.limit);
+  }
+};
+
+/// What a record may serve, but for rounding.
+struct Reach {
+  float least, most, scale;  ///< Its radius is its size between least and most, times scale.
+  float cosine;              ///< Of the angle between normals, at least.
+};
+
+/// slack[i] > 0: record i may serve a point at p with normal n.
+TOMALES_HOT void findSlack(const Vicinity& v, const vec3& p, const vec3& n, const Reach& reach, float* slack) {
+  const float *x = v.x.data(), *y = v.y.data(), *z = v.z.data(), *nx = v.nx.data(), *ny = v.ny.data(),
+              *nz = v.nz.data();
+  const float *size = v.size.data(), *limit = v.limit.data();
+  const size_t count = v.records.size();
+  for (size_t i = 0; i < count; ++i) {
+    const float dx = p.x - x[i], dy = p.y - y[i], dz = p.z - z[i];
+    const float radius = std::min(reach.scale * std::max(std::min(size[i], reach.most), reach.least), limit[i]);
+    const float near = radius * radius - (dx * dx + dy * dy + dz * dz);
+    slack[i] = std::min(near, n.x * nx[i] + n.y * ny[i] + n.z * nz[i] - reach.cosine);
+  }
+}
+
+}  // namespace
+
+struct IrradianceCache::Impl {
+  CacheSettings settings;
+  Bound3 bound;
+  RecordTree tree{bound};
+  IrradianceRecords records{};
+  double luminanceSum = 0;  // of their E
+
+  float size(const IrradianceRecord& r) const {
+    switch (settings.errorFunction) {
+      case ErrorFunction::Ward:
+      case ErrorFunction::Split:
+        return r.harmonicMean;
+      case ErrorFunction::Hessian:
+        return std::min(r.smoothRadius, r.closest * settings.kappa);
+      default:
+        return r.closest * 0.5f;
+    }
+  }
+  bool isWard() const {
+    return settings.errorFunction == ErrorFunction::Ward || settings.errorFunction == ErrorFunction::Split;
+  }
+
+  bool isPublished() const {
+    return settings.errorFunction == ErrorFunction::Split || settings.errorFunction == ErrorFunction::Plain;
+  }
+
+  // Distance at which the error reaches 1: the denominator of eq. 3 over kappa. Ward's split sphere has the
+  // same limits.
+  float reach(float recordSize, float pixelSize) const {
+    const float radius = std::max(std::min(recordSize, settings.maxPixels * pixelSize), settings.minPixels * pixelSize);
+    return radius / settings.kappa;
+  }
+
+  void insert(uint32_t index) {
+    const IrradianceRecord& r = records[index];
+    tree.insert(index, r.position, size(r), reach(size(r), r.pixelSize));
+  }
+
+  enum class Dispute { None, Steep, Torn };
+
+  Dispute disputeOf(const vec3& a, const vec3& b, float noise) const {
+    if (isPublished()) return Dispute::None;
+    const float tolerance =
+        settings.errorFunction == ErrorFunction::Ward ? 4 * kDispute : kDispute;  // as kappa counts there
+    const float larger = std::max(luminance(a), luminance(b)),
+                off = std::abs(luminance(a) - luminance(b)) - kNoiseMargin * noise;
+    const auto dark = static_cast<float>(kDark * luminanceSum / static_cast<double>(records.size()));
+    if (!(off > tolerance / settings.kappa * std::max(larger, dark))) return Dispute::None;
+    return off > kTorn * std::max(larger, dark) ? Dispute::Torn : Dispute::Steep;
+  }
+
+  // Steep light needs no record nearer than a pixel: they would be noise of single pixels, paid with a hemisphere each.
+  // What is torn lies on both sides of something thinner than that.
+  float least(float pixelSize) const { return kFinestPixels * pixelSize / settings.kappa; }
+  float limitBy(Dispute dispute, float distance, float pixelSize) const {
+    if (dispute == Dispute::None) return kInfinity;
+    return dispute == Dispute::Torn ? distance : std::max(distance, least(pixelSize));
+  }
+
+  // Of an extrapolated value: gradients are as noisy as E over the mean distance of what is seen.
+  static float noiseAt(const IrradianceRecord& r, float distance) { return r.noise * (1 + distance / r.harmonicMean); }
+
+  // The new record knows E at its place, which older ones have been guessing, and they at theirs.
+  void settleDisputes(uint32_t index) {
+    IrradianceRecord& fresh = records[index];
+    for (const Candidate& candidate : candidatesAt(fresh.position, fresh.normal, fresh.pixelSize)) {
+      IrradianceRecord& old = records[candidate.record];
+      const float distance = glm::length(fresh.position - old.position), fromOld = noiseAt(old, distance),
+                  fromFresh = noiseAt(fresh, distance);
+      const Dispute ofOld = disputeOf(extrapolate(old, fresh.position, fresh.normal), fresh.E, fromOld + fresh.noise);
+      const Dispute ofFresh = disputeOf(extrapolate(fresh, old.position, old.normal), old.E, fromFresh + old.noise);
+      old.limit = std::min(old.limit, limitBy(ofOld, distance, old.pixelSize));
+      fresh.limit = std::min(fresh.limit, limitBy(ofFresh, distance, fresh.pixelSize));
+    }
+  }
+
+  // 1 where light does not change over the radius, 0 where it does so by kSteep of itself: beyond, it may end.
+  static float evenness(const IrradianceRecord& r, float radius) {
+    const vec3 change = radius * (r.translationGradient[0] + r.translationGradient[1] + r.translationGradient[2]);
+    const float most = kSteep * (r.E.x + r.E.y + r.E.z);
+    return dot(change, change) < most * most ? 1 - dot(change, change) / (most * most) : 0.0f;
+  }
+
+  // Smooth down to 0 where the record stops being used, so that interpolation has no seams.
+  float weight(const IrradianceRecord& r, const vec3& x, const vec3& n, float pixelSize, float wider) const {
+    const float covers = reach(size(r), pixelSize);
+    const float radius = std::min(covers * (1 + (wider - 1) * evenness(r, covers)), r.limit);
+    const vec3 step = x - r.position;
+    const float distance2 = dot(step, step);
+    if (!(distance2 < radius * radius)) return 0;
+    // A point behind the record sees other things than the record did (Ward et al. 1988, section 4), unless
+    // it is no farther than bumps that rays do not see.
+    const float tolerance =
+        std::max(std::min(kBehindTolerance * radius, kBehindPixels * pixelSize / settings.kappa), r.relief);
+    const float behind = -0.5f * dot(step, n + r.normal) / tolerance;
+    if (behind >= 1) return 0;
+    // One as high above it as what is closest lies on another surface: R- spans a slot of parallel sides.
+    const float above = dot(step, r.normal), highest = kHeight * r.closest;
+    if (above > 0 && above >= highest) return 0;
+    const float upright = above > 0 ? std::min(1.0f, kHeightFade * (1 - above / highest)) : 1.0f;
+    const float front = upright * (1 - std::max(0.0f, behind));
+    const float position = std::sqrt(distance2) / radius;
+    const float angle = std::sqrt(std::max(0.0f, 1 - dot(n, r.normal)));
+    if (!isWard()) {
+      const float error = std::max(position, settings.kappa * angle / std::sqrt(kMaxAngleTerm));  // eq. 2
+      return front * std::max(0.0f, 1 - error);                                                   // eq. 5
+    }
+    const float error = position + settings.kappa * angle;
+    return front * std::max(0.0f, 1 / std::max(error, 1e-4f) - 1);
+  }
+
+  // In the order of the records, so that the shape of the tree leaves no trace.
+  std::vector<Candidate> candidatesAt(const vec3& x, const vec3& n, float pixelSize) const {
+    std::vector<Candidate> out;
+    tree.visit(
+        {x, x}, [&](float recordSize) { return reach(recordSize, pixelSize); },
+        [&](uint32_t i) {
+          if (const float w = weight(records[i], x, n, pixelSize, 1); w > 0) out.push_back({i, w});
+        });
+    std::sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) { return a.record < b.record; });
+    return out;
+  }
+
+  Reach reachAt(float pixelSize, float wider) const {
+    constexpr float kRounding = 1e-4f;
+    const float angle =
+        isWard() ? 1 / (settings.kappa * settings.kappa) : kMaxAngleTerm / (settings.kappa * settings.kappa);
+    return {settings.minPixels * pixelSize, settings.maxPixels * pixelSize, wider * (1 + kRounding) / settings.kappa,
+            1 - angle - kRounding};
+  }
+
+  /// Lookups that lie close together share one walk through the tree.
+  void lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider, Vicinity& near,
+              std::vector<Candidate>& found) const {
+    Bound3 region;
+    float pixelSize = 0;
+    for (const IrradiancePlace& p : places) region.extend(p.position), pixelSize = std::max(pixelSize, p.pixelSize);
+    const size_t half = places.size() / 2;
+    if (places.size() > kRun || (half > 0 && !(glm::length(region.size()) <= kRunPixels * pixelSize))) {
+      lookup(places.first(half), out, wider, near, found);
+      return lookup(places.subspan(half), out + half, wider, near, found);
+    }
+    near.clear();
+    const Reach farthest = reachAt(pixelSize, wider);
+    const auto reachOf = [&](float recordSize) {
+      return farthest.scale * std::max(std::min(recordSize, farthest.most), farthest.least);
+    };
+    tree.visit(region, reachOf, [&](uint32_t i) {
+      const IrradianceRecord& r = records[i];
+      const vec3 off = r.position - glm::clamp(r.position, region.lo, region.hi);
+      const float radius = std::min(reachOf(size(r)), (1 + 1e-4f) * r.limit);
+      if (dot(off, off) <= radius * radius) near.add(i, r, size(r));
+    });
+    near.slack.resize(near.records.size());
+    for (const IrradiancePlace& p : places) {
+      findSlack(near, p.position, p.normal, reachAt(p.pixelSize, wider), near.slack.data());
+      found.clear();
+      for (size_t k = 0; k < near.records.size(); ++k) {
+        if (!(near.slack[k] > 0)) continue;
+        const float w = weight(records[near.records[k]], p.position, p.normal, p.pixelSize, wider);
+        if (w > 0) found.push_back({near.records[k], w});
+      }
+      std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) { return a.record < b.record; });
+      *out++ = blend(found, p.position, p.shadingNormal, p.pixelSize);
+    }
+  }
+
+  // What extrapolating each record by its own gradient leaves out of their mean.
+  vec3 secondOrder(const std::vector<Candidate>& candidates, const MeanExtrapolation& mean, float weight,
+                   float pixelSize) const {
+    if (isPublished()) return vec3(0.0f);
+    const vec3 step = mean.step();
+    vec3 out = -0.5f * mean.covariance();
+    if (settings.errorFunction == ErrorFunction::Hessian)
+      for (const Candidate& c : candidates) {
+        const IrradianceRecord& r = records[c.record];
+        out += 0.5f * c.weight / weight * bentBy(r, step, reach(size(r), pixelSize));
+      }
+    return mean.agreement() * out;
+  }
+
+  IrradianceEstimate blend(const std::vector<Candidate>& candidates, const vec3& x, const vec3& n,
+                           float pixelSize) const {
+    IrradianceEstimate out{vec3(0.0f), {vec3(0.0f), vec3(0.0f), vec3(0.0f)}};
+    float nearest = kInfinity;
+    Dispute worst = Dispute::None;
+    MeanExtrapolation mean(x, n);
+    for (const Candidate& candidate : candidates) {
+      const IrradianceRecord& r = records[candidate.record];
+      const vec3 E = mean.add(r, candidate.weight);
+      const float distance = glm::length(x - r.position);
+      if (&candidate != &candidates.front())
+        worst = std::max(worst, disputeOf(E, out.E / out.weight, 2 * noiseAt(r, distance)));
+      nearest = std::min(nearest, distance);
+      out.closest = std::min(out.closest, r.closest);
+      out.headroom = std::min(out.headroom, std::max(r.closest, r.limit));
+      out.hasRecord |= distance == 0;
+      out.E += candidate.weight * E;
+      for (int c = 0; c < 3; ++c) out.dominant[c] += candidate.weight * r.dominant[c];  // eq. 7
+      out.weight += candidate.weight;
+    }
+    if (out.weight > 0)
+      out.E = glm::max(vec3(0.0f), out.E / out.weight + secondOrder(candidates, mean, out.weight, pixelSize));
+    out.disputed = limitBy(worst, nearest, pixelSize) <= nearest;
+    for (vec3& d : out.dominant) d = normalizeOr(d, n);
+    return out;
+  }
+};
+
+IrradianceCache::IrradianceCache(const Bound3& bound, const CacheSettings& settings)
+    : impl_(new Impl{settings, bound}) {}
+
+IrradianceCache::IrradianceCache(IrradianceCache&&) noexcept = default;
+IrradianceCache& IrradianceCache::operator=(IrradianceCache&&) noexcept = default;
+IrradianceCache::~IrradianceCache() = default;
+
+void IrradianceCache::insert(const IrradianceRecord& record) {
+  Impl& impl = *impl_;
+  impl.records.push_back(record);
+  impl.luminanceSum += luminance(record.E);
+  if (!(impl.settings.kappa < kInfinity)) return;
+  limitDerivatives(impl.records.back(), impl.reach(impl.size(record), record.pixelSize));
+  impl.settleDisputes(static_cast<uint32_t>(impl.records.size() - 1));
+  impl.insert(static_cast<uint32_t>(impl.records.size() - 1));
+}
+
+void IrradianceCache::restore(const IrradianceRecord& record) {
+  impl_->records.push_back(record);
+  impl_->luminanceSum += luminance(record.E);
+  if (impl_->settings.kappa < kInfinity) impl_->insert(static_cast<uint32_t>(impl_->records.size() - 1));
+}
+
+IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, const vec3& shadingNormal,
+                                           float pixelSize) const {
+  if (!(impl_->settings.kappa < kInfinity)) return impl_->blend({}, x, shadingNormal, pixelSize);
+  return impl_->blend(impl_->candidatesAt(x, normal, pixelSize), x, shadingNormal, pixelSize);
+}
+
+void IrradianceCache::lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider) const {
+  if (places.empty()) return;
+  if (impl_->isPublished() || impl_->settings.errorFunction == ErrorFunction::Hessian) wider = 1;
+  if (impl_->settings.kappa < kInfinity) {
+    thread_local Vicinity near;
+    thread_local std::vector<Candidate> found;
+    return impl_->lookup(places, out, wider, near, found);
+  }
+  for (const IrradiancePlace& p : places) *out++ = impl_->blend({}, p.position, p.shadingNormal, p.pixelSize);
+}
+
+const IrradianceRecords& IrradianceCache::records() const { return impl_->records; }
+const Bound3& IrradianceCache::bound() const { return impl_->bound; }
+
+}  // namespace tomales

@@ -1,0 +1,169 @@
+#include "gi/clouds/disks.h"
+
+#include <algorithm>
+
+namespace tomales {
+namespace {
+
+constexpr uint32_t kLeaf = 8;
+constexpr int kDirections = 1024;
+constexpr float kGoldenAngle = 2.399963f;  // of a spiral, whose points are nowhere dense
+constexpr float kReach = 0.625f;
+constexpr float kOwnPlane = 0.3f;  // of its radius: nearer, a disk is that of the point itself, or of its neighbours
+
+}  // namespace
+
+void Disks::Sum::add(const Sum& o) {
+  P += o.area * o.P;  // divided by the area when all are in
+  area += o.area, facing += o.facing, front += o.front, light += o.light, lightFront += o.lightFront;
+}
+
+Disks::Sum Disks::sumOf(const Disk& d) {
+  const bool sphere = d.N == vec3(0);
+  return {d.P,
+          d.area,
+          d.area * (sphere ? mat3(1.0f) : glm::outerProduct(d.N, d.N)),
+          sphere ? vec3(0) : d.area * d.N,
+          d.area * d.light,
+          glm::outerProduct(d.area * d.light, d.N)};
+}
+
+Disks::Disks(const PointCloud& cloud, const std::string& channel) {
+  const int area = offsetOf(cloud.channels, "_area", 1), light = offsetOf(cloud.channels, channel, 3);
+  sends_ = light >= 0;
+  disks_.reserve(cloud.count());
+  for (size_t i = 0; i < cloud.count(); ++i) {
+    const float r = cloud.radius[i], *values = cloud.at(i),
+                a = area >= 0                    ? values[area]
+                    : cloud.normal[i] == vec3(0) ? kPi * r * r
+                                                 : 2 * r * r;
+    if (!(a > 0)) continue;
+    const vec3 L = light >= 0 ? vec3(values[light], values[light + 1], values[light + 2]) : vec3(0);
+    disks_.push_back({cloud.position[i], cloud.normal[i], r > 0 ? r : std::sqrt(a / kPi), a, L});
+  }
+  for (int k = 0; k < kDirections; ++k) {
+    const float r2 = (static_cast<float>(k) + 0.5f) / kDirections, r = std::sqrt(r2),
+                phi = kGoldenAngle * static_cast<float>(k);
+    directions_.push_back({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - r2)});
+  }
+  if (!disks_.empty()) build(0, static_cast<uint32_t>(disks_.size()));
+}
+
+uint32_t Disks::build(uint32_t begin, uint32_t end) {
+  const auto node = static_cast<uint32_t>(groups_.size());
+  Group group{{}, {}, 0, begin, end, 0};
+  for (uint32_t i = begin; i < end; ++i) {
+    group.sum.add(sumOf(disks_[i]));
+    group.bound.extend(disks_[i].P - disks_[i].radius), group.bound.extend(disks_[i].P + disks_[i].radius);
+  }
+  group.sum.P /= group.sum.area;
+  const vec3 size = group.bound.size();
+  group.seen = std::max(group.sum.area, 0.5f * dot(size, size));  // however sparse it is
+  groups_.push_back(group);
+  if (end - begin <= kLeaf) return node;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const uint32_t middle = begin + (end - begin) / 2;
+  std::nth_element(disks_.begin() + begin, disks_.begin() + middle, disks_.begin() + end,
+                   [axis](const Disk& a, const Disk& b) { return a.P[axis] < b.P[axis]; });
+  build(begin, middle);
+  const uint32_t second = build(middle, end);
+  groups_[node].second = second;
+  return node;
+}
+
+/// One line of sight on its way through the tree.
+class Disks::Sight {
+ public:
+  Sight(const Disks& disks, const vec3& P, const vec3& d, const DisksQuery& query)
+      : disks_(disks), P_(P), d_(d), over_(1.0f / d), query_(query), reach_(query.falloff.maxDistance) {}
+
+  void walk() {
+    uint32_t open[64];  // halving 2^32 disks goes no deeper
+    size_t depth = 0;
+    if (!disks_.groups_.empty()) open[depth++] = 0;
+    while (depth > 0) {
+      const uint32_t node = open[--depth];
+      const Group& group = disks_.groups_[node];
+      if (!crosses(group.bound)) continue;
+      const vec3 way = group.sum.P - P_,
+                 outside = glm::max(glm::max(group.bound.lo - P_, P_ - group.bound.hi), vec3(0));
+      if (outside != vec3(0) && group.seen < query_.maxSolidAngle * dot(way, way)) {
+        meet(group.sum);
+      } else if (group.second != 0) {
+        open[depth++] = group.second, open[depth++] = node + 1;
+      } else {
+        for (uint32_t i = group.begin; i < group.end; ++i) meet(disks_.disks_[i]);
+      }
+    }
+  }
+
+  float covered = 0;
+  vec3 light{0.0f};
+
+ private:
+  bool crosses(const Bound3& b) const {
+    const vec3 a = (b.lo - P_) * over_, c = (b.hi - P_) * over_, first = glm::min(a, c), last = glm::max(a, c);
+    return std::max({first.x, first.y, first.z, 0.0f}) <= std::min({last.x, last.y, last.z, reach_});
+  }
+
+  /// As the part of its bound that lies within a disk across the way, which reaches the corners of a rectangle of what
+  /// it covers and of two to one: then no light comes between neighbours.
+  void meet(const Sum& sum) {
+    const vec3 way = sum.P - P_;
+    const float t = dot(way, d_);
+    const float all = std::sqrt(std::max(0.0f, sum.area * dot(d_, sum.facing * d_))),
+                facing = std::clamp(-dot(sum.front, d_), -all, all);
+    const float front = 0.5f * (all + facing), back = 0.5f * (all - facing),
+                across = std::max(front, back);  // fronts of what is closed hide its backs
+    if (!(across > 0) || !(t > std::max(query_.falloff.bias, 0.0f)) || dot(way, way) - t * t > kReach * across) return;
+    add(t, 1 / (kPi * kReach), front / across, back / across,
+        glm::max(0.5f * (all / sum.area * sum.light - sum.lightFront * d_), vec3(0)) / across);
+  }
+
+  void meet(const Disk& disk) {
+    const vec3 way = disk.P - P_, n = disk.N == vec3(0) ? -d_ : disk.N;
+    const float least = query_.falloff.bias >= 0 ? query_.falloff.bias : kOwnPlane * disk.radius,
+                r2 = disk.radius * disk.radius;
+    const float facing = dot(n, d_), t = dot(n, way) / facing;
+    const vec3 off = t * d_ - way;
+    if (!(t > least) || !(dot(off, off) <= r2)) return;
+    const float front = facing < 0 ? 1.0f : 0.0f;
+    add(t, std::min(1.0f, disk.area / (kPi * r2)), front, 1 - front, front * disk.light);
+  }
+
+  /// share: of what counts, where all of it does: disks overlap.
+  void add(float t, float share, float front, float back, const vec3& sends) {
+    const HitSides sides = query_.falloff.sides;
+    const float shown = sides == HitSides::Both ? 1.0f : sides == HitSides::Front ? front : back;
+    if (t > reach_ || !(shown > 0)) return;
+    if (!query_.clamp) {
+      covered += share * shown * query_.falloff.coveredAt(t), light += share * sends;
+      return;
+    }
+    reach_ = t;
+    covered = shown * query_.falloff.coveredAt(t), light = sends;
+  }
+
+  const Disks& disks_;
+  const vec3 P_, d_, over_;
+  const DisksQuery& query_;
+  float reach_;  ///< Of what still counts
+};
+
+HemisphereView Disks::seenFrom(const vec3& P, const vec3& N, const DisksQuery& query) const {
+  vec3 tangent, bitangent;
+  orthonormalBasis(N, tangent, bitangent);
+  const float spread = std::sin(std::clamp(query.coneAngle, 0.0f, kPi / 2));
+  HemisphereView out;
+  for (const vec3& whole : directions_) {
+    const vec2 d = spread * vec2(whole);
+    const vec3 local(d, std::sqrt(std::max(0.0f, 1 - dot(d, d))));
+    Sight sight(*this, P, local.x * tangent + local.y * bitangent + local.z * N, query);
+    sight.walk();
+    out.covered += sight.covered / kDirections, out.radiance += sight.light / static_cast<float>(kDirections);
+  }
+  out.covered = std::min(1.0f, out.covered);
+  return out;
+}
+
+}  // namespace tomales

@@ -1,0 +1,150 @@
+#include "gi/frame/bounce_caches.h"
+
+#include <mutex>
+
+#include "reyes/base/parallel.h"
+#include "reyes/base/rng.h"
+#include "reyes/camera.h"
+
+namespace tomales {
+namespace {
+
+constexpr int kRaysOfPoint = 48;  ///< That look for places where records are needed.
+constexpr size_t kMostPoints = 1024, kMostRecords = 1 << 14;
+constexpr int kPhases = 8;  ///< In which candidates double.
+constexpr CacheSettings kCoarse{};
+constexpr float kPixelsAcross = 64;  ///< Records are as dense as for a picture of so many pixels.
+constexpr int kSamplesShare = 4, kLeastSamples = 48, kMostSamples = 256;
+constexpr int kLeastDeepSamples = 24;  ///< Each further level has half the rays of the one before, down to these: all
+                                       ///< levels together cost about as much as the first two.
+constexpr double kSettled = 0.002;     ///< What two levels together must add.
+
+int phaseOf(uint32_t key) {
+  int phase = kPhases - 1;
+  for (uint32_t h = hash32(key ^ 0x626f756eU); phase > 0 && (h & 1); h >>= 1) --phase;
+  return phase;
+}
+
+/// How far things are is known best from the first level, which has the most rays, and so a level serves what the first
+/// does. What a few rays say of gradients is noise, of which clamping at 0 would keep the bright half.
+void reachAs(const IrradianceRecord& first, IrradianceRecord& record) {
+  record.closest = first.closest, record.harmonicMean = first.harmonicMean, record.limit = first.limit;
+  std::fill_n(record.rotationGradient, 3, vec3(0)), std::fill_n(record.translationGradient, 3, vec3(0));
+}
+
+}  // namespace
+
+float BounceCaches::pixelSize(const Camera& camera, const vec3& P) const {
+  const float across = static_cast<float>(std::max(camera.xResolution(), camera.yResolution()));
+  return camera.pixelSize({0, 0, std::max(glm::length(P), leastDistance_)}) * across / kPixelsAcross;
+}
+
+IrradianceEstimate BounceCaches::lookup(int bounces, const Camera& camera, const vec3& P, const vec3& normal,
+                                        const vec3& shadingNormal) const {
+  if (bounces < 1 || levels_.empty()) return {};
+  return levels_[std::min(static_cast<size_t>(bounces), levels_.size()) - 1].lookup(P, normal, shadingNormal,
+                                                                                    pixelSize(camera, P));
+}
+
+std::vector<GatherPoint> BounceCaches::hitsFrom(const RayScene& rays, const Camera& camera,
+                                                const std::vector<GatherPoint>& from, uint32_t name) const {
+  const size_t stride = (from.size() + kMostPoints - 1) / kMostPoints,
+               used = stride ? (from.size() + stride - 1) / stride : 0;
+  std::vector<std::optional<GatherPoint>> found(used * kRaysOfPoint);
+  parallelFor(used, 1, [&](size_t begin, size_t end) {
+    for (size_t p = begin; p < end; ++p) {
+      const GatherPoint& start = from[p * stride];
+      vec3 tangent, bitangent;
+      orthonormalBasis(start.normal, tangent, bitangent);
+      const uint32_t key = hashCombine(start.key, name);
+      for (uint32_t k = 0; k < kRaysOfPoint; ++k) {
+        const vec3 local = cosineHemisphere(sobol2(k, key));
+        Ray ray{start.position, local.x * tangent + local.y * bitangent + local.z * start.normal};
+        ray.spread = 1 / std::sqrt(static_cast<float>(kRaysOfPoint));
+        rays.prepareOrigin(start.group, start.position, start.edgeLength, ray);
+        ray.offset = slantedOffset(ray.offset, local.z);
+        const Hit hit = rays.closest(ray, kMaskDiffuse);
+        if (hit.object < 0) continue;
+        const vec3 P = ray.origin + hit.t * ray.direction,
+                   n = dot(ray.direction, hit.geometricNormal) > 0 ? -hit.normal : hit.normal;
+        found[p * kRaysOfPoint + k] =
+            GatherPoint{rays.groupOf(hit), P, n, hashCombine(key, k), pixelSize(camera, P), 0, vec3(0), 0};
+      }
+    }
+  });
+  std::vector<GatherPoint> out;
+  for (const auto& point : found)
+    if (point) out.push_back(*point);
+  return out;
+}
+
+std::vector<IrradianceRecord> BounceCaches::recordsAt(const RayTools& tools, const std::vector<GatherPoint>& points,
+                                                      const GatherSettings& settings, const Run& run) const {
+  std::vector<IrradianceRecord> records(points.size());
+  parallelFor(points.size(), 1, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end && !run.isCancelled(); ++i)
+      records[i] = gather(*tools.rays, *tools.shading, points[i], settings, {}, run.stats);
+  });
+  return records;
+}
+
+void BounceCaches::insert(IrradianceCache& level, const std::vector<IrradianceRecord>& records) {
+  for (const IrradianceRecord& r : records) level.insert(r), light_.back() += luminance(r.E);
+}
+
+void BounceCaches::cover(const RayTools& tools, const std::vector<GatherPoint>& candidates,
+                         const GatherSettings& settings, const Run& run) {
+  for (int phase = 0; phase < kPhases && points_.size() < kMostRecords && !run.isCancelled(); ++phase) {
+    std::vector<uint8_t> open(candidates.size(), 0);
+    parallelFor(candidates.size(), 64, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) {
+        const GatherPoint& p = candidates[i];
+        open[i] =
+            phaseOf(p.key) == phase && levels_[0].lookup(p.position, p.normal, p.pixelSize).weight < kCoarse.enough;
+      }
+    });
+    std::vector<GatherPoint> fresh;
+    for (size_t i = 0; i < candidates.size(); ++i)
+      if (open[i] && points_.size() + fresh.size() < kMostRecords) fresh.push_back(candidates[i]);
+    insert(levels_[0], recordsAt(tools, fresh, settings, run));
+    points_.insert(points_.end(), fresh.begin(), fresh.end());
+  }
+}
+
+// Of two levels, as what one adds may be less than its noise.
+bool BounceCaches::settled() const {
+  const size_t n = light_.size();
+  return n > 2 && light_[n - 1] - light_[n - 3] <= kSettled * light_[n - 1];
+}
+
+void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::vector<GatherPoint>& from,
+                        const GatherSettings& gather, int bounces, const Run& run) {
+  levels_.clear(), light_.assign(1, 0.0), points_.clear();
+  float distance = 0;
+  for (const GatherPoint& p : from) distance += glm::length(p.position) / static_cast<float>(from.size());
+  leastDistance_ = 0.5f * distance;
+  GatherSettings settings = gather;
+  settings.samples = std::clamp(gather.samples / kSamplesShare, kLeastSamples, kMostSamples);
+  settings.curvature = false, settings.indirect = false, settings.depth = bounces;
+  const std::vector<GatherPoint> seen = hitsFrom(*tools.rays, camera, from, 0x68697473U);
+  Bound3 bound;
+  for (const GatherPoint& p : seen) bound.extend(p.position);
+  levels_.emplace_back(bound, kCoarse);
+  cover(tools, seen, settings, run);
+  cover(tools, hitsFrom(*tools.rays, camera, points_, 0x6d6f7265U), settings, run);
+  settings.indirect = true;
+  for (int b = 2; b < bounces && !settled() && !run.isCancelled(); ++b) {
+    settings.depth = bounces - b + 1;
+    // With the same rays on every level what they are off by would be multiplied as light is, and not average out.
+    settings.seed = hashCombine(gather.seed, static_cast<uint32_t>(b));
+    settings.samples = std::max(kLeastDeepSamples, settings.samples / 2);
+    IrradianceCache level(bound, kCoarse);
+    std::vector<IrradianceRecord> records = recordsAt(tools, points_, settings, run);
+    for (size_t i = 0; i < records.size(); ++i) reachAs(levels_[0].records()[i], records[i]);
+    light_.push_back(0);
+    insert(level, records);
+    levels_.push_back(std::move(level));
+  }
+}
+
+}  // namespace tomales

@@ -1,0 +1,57 @@
+#include "gi/frame/frame_survey.h"
+
+#include <array>
+#include <bit>
+#include <mutex>
+
+#include "reyes/base/checksum.h"
+#include "reyes/base/parallel.h"
+
+namespace tomales {
+namespace {
+
+/// What a pixel sees first, as one number.
+uint64_t nameOf(int x, int y, int group, const vec3& P) {
+  const std::array<uint32_t, 6> seen{static_cast<uint32_t>(x),     static_cast<uint32_t>(y),
+                                     static_cast<uint32_t>(group), std::bit_cast<uint32_t>(P.x),
+                                     std::bit_cast<uint32_t>(P.y), std::bit_cast<uint32_t>(P.z)};
+  return checksum(std::as_bytes(std::span(seen)));
+}
+
+/// Of each batch, sums of the names of the pixels that see it first.
+std::vector<uint64_t> seenOfBatches(const DeepTile& tile) {
+  std::vector<uint64_t> seen(tile.batches.size());
+  for (int y = tile.rect.y0; y < tile.rect.y1; ++y)
+    for (int x = tile.rect.x0; x < tile.rect.x1; ++x) {
+      const DeepPixel& pixel = tile.pixel(x, y);
+      if (pixel.count == 0) continue;
+      const Facet& facet = tile.facets[tile.fragments[pixel.first].facet];
+      const auto b = static_cast<size_t>(facet.batch);
+      seen[b] += nameOf(x, y, tile.batches[b].group(), tile.batches[b].position(facet.point[0]));
+    }
+  return seen;
+}
+
+}  // namespace
+
+FrameSurvey surveyOf(const DeepFrame& layout, const TileReader& tiles, size_t groups,
+                     const std::atomic<bool>* cancelled) {
+  FrameSurvey out{std::vector<uint32_t>(layout.tileCount()), {}, std::vector<uint64_t>(groups)};
+  std::mutex merging;
+  parallelFor(out.points.size(), 1, [&](size_t t, size_t) {
+    const auto tile = cancelled && cancelled->load(std::memory_order_relaxed) ? nullptr : tiles(t);
+    if (!tile) return;
+    Bound3 here;
+    for (const ShadePoints& batch : tile->batches) {
+      out.points[t] += static_cast<uint32_t>(batch.count());
+      for (int i = 0; i < batch.count(); ++i) here.extend(batch.position(i));
+    }
+    const std::vector<uint64_t> seen = seenOfBatches(*tile);
+    const std::lock_guard lock(merging);
+    out.bound.extend(here);
+    for (size_t b = 0; b < seen.size(); ++b) out.seenOfGroup[static_cast<size_t>(tile->batches[b].group())] += seen[b];
+  });
+  return out;
+}
+
+}  // namespace tomales

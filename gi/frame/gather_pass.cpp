@@ -1,0 +1,301 @@
+#include <algorithm>
+#include <mutex>
+#include <optional>
+#include <unordered_set>
+
+#include "gi/frame/frame_survey.h"
+#include "gi/frame/sheet_search.h"
+#include "gi/frame/state.h"
+#include "reyes/base/parallel.h"
+#include "reyes/base/process.h"
+#include "reyes/base/rng.h"
+
+namespace tomales {
+namespace {
+
+constexpr int kLastPhases = 8;  // for points beyond the first of each pixel, in the order of a hash
+constexpr int kPhases = kLatticePhases + kLastPhases;
+constexpr int kScoutPhases = 3;  // after which bright spots are known
+constexpr size_t kPointsPerSlice = 256;
+// From so many on, all records have the same rays: what those miss then changes little between records, and is no more
+// than others miss (docs/decisions/0095).
+constexpr int kManyRays = 512;
+constexpr int kRaysPerScoutRay = 4;  // and scouts have so many times fewer, of their own
+
+/// Of the lattice that this phase completes; 0: none.
+int strideAfter(int phase) { return phase < kLatticePhases && phase % 2 == 0 ? 16 >> phase / 2 : 0; }
+
+struct Site {
+  GatherPoint point;
+  size_t cache;
+  int x, y;  ///< The pixel that sees it.
+};
+
+/// Goes over the tiles once in every phase, so that they need not be in memory.
+class GatherPass {
+ public:
+  GatherPass(GiState& state, const DeepFrame& layout, const TileReader& tiles)
+      : state_(state), layout_(layout), tiles_(tiles) {}
+
+  void run(const std::function<void(float)>& progress, const std::atomic<bool>* cancelled,
+           const std::function<void(int stride)>& covered) {
+    progress_ = &progress, cancelled_ = cancelled;
+    if (!prepareCaches() || !(tools_ = gatherTools(state_))) return;
+    measureRelief();
+    for (phase_ = 0; phase_ < kPhases && !isCancelled(); ++phase_) {
+      std::vector<Site> sites = uncovered();
+      if (phase_ == 0) prepareBounces(sites);
+      gatherAt(std::move(sites));
+      returnFreeMemory();  // every phase unpacks all tiles, between what stays
+      const int stride = strideAfter(phase_);
+      if (covered && stride > 1 && !isCancelled()) covered(stride);
+    }
+    rememberFrame();
+  }
+
+ private:
+  bool isLight(size_t cache) const { return !state_.caches[cache].plan.gather.occlusion; }
+  bool isCancelled() const { return cancelled_ && cancelled_->load(std::memory_order_relaxed); }
+
+  // Groups whose lights and shaders ask for the same share a cache. With maxerror 0 nothing could be reused. False: no
+  // group asks.
+  bool prepareCaches() {
+    cachesOfGroup_.assign(state_.scene.groups.size(), {});
+    rehearse(state_, layout_, tiles_, cancelled_);
+    std::vector<std::pair<size_t, GatherPlan>> plans;
+    for (size_t g = 0; g < cachesOfGroup_.size(); ++g) {
+      const int group = static_cast<int>(g);
+      const IndirectQuery* query = state_.shading.indirectQuery(group);
+      const Attributes& attributes = *state_.scene.groups[g].attributes;
+      if (attributes.matte) continue;
+      for (const OcclusionQuery& asked : state_.occlusionAsked[g]) plans.emplace_back(g, planFor(state_, group, asked));
+      if (!query || !attributes.indirect.receive || !interpolatesIndirect(state_)) continue;
+      const GatherPlan plan = planFor(state_, group, *query);
+      if (plan.cache.kappa < kInfinity) plans.emplace_back(g, plan);
+    }
+    if (plans.empty()) return false;
+    const FrameSurvey survey = surveyOf(layout_, tiles_, cachesOfGroup_.size(), cancelled_);
+    seen_.emplace(survey.points);
+    for (const auto& [group, plan] : plans) {
+      size_t c = 0;
+      while (c < state_.caches.size() && !(state_.caches[c].plan == plan)) ++c;
+      if (c == state_.caches.size()) state_.caches.push_back({plan, IrradianceCache(survey.bound, plan.cache)});
+      cachesOfGroup_[group].push_back(c);
+      frames_.resize(state_.caches.size());
+      frames_[c] += survey.seenOfGroup[group];
+    }
+    sites_.resize(state_.caches.size()), frames_.resize(state_.caches.size());
+    return state_.anew || forgetKnownCaches();
+  }
+
+  bool isAnew(const Site& s) const { return state_.anew && state_.anew->contains(s.x, s.y); }
+  bool isNew(size_t cache) const { return std::ranges::count(state_.caches[cache].frames, frames_[cache]) == 0; }
+
+  // What has been gathered for this very frame is asked for nothing more: what disagrees after its last phase
+  // would add records each time. False: that is all.
+  bool forgetKnownCaches() {
+    bool left = false;
+    for (std::vector<size_t>& caches : cachesOfGroup_) {
+      std::erase_if(caches, [&](size_t c) { return !isNew(c); });
+      left |= !caches.empty();
+    }
+    return left;
+  }
+
+  void rememberFrame() {
+    if (isCancelled()) return;
+    for (const std::vector<size_t>& caches : cachesOfGroup_)
+      for (const size_t c : caches)
+        if (isNew(c)) state_.caches[c].frames.push_back(frames_[c]);
+  }
+
+  void measureRelief() {
+    reliefOfGroup_.assign(cachesOfGroup_.size(), 0.0f);
+    for (const Object& o : tools_->rays->scene().objects)
+      if (!o.attributes->trace.displacements) {
+        float& relief = reliefOfGroup_[static_cast<size_t>(o.group)];
+        relief = std::max(relief, o.displacementBound);
+      }
+  }
+
+  void prepareBounces(const std::vector<Site>& sites) {
+    int bounces = 1;
+    for (size_t g = 0; g < cachesOfGroup_.size(); ++g)
+      for (const size_t c : cachesOfGroup_[g])
+        if (isLight(c))
+          bounces = std::max(bounces, bouncesFor(state_, *state_.shading.indirectQuery(static_cast<int>(g))));
+    std::vector<GatherPoint> points;
+    for (const Site& s : sites)
+      if (isLight(s.cache)) points.push_back(s.point);
+    if (bounces == 1 || points.empty()) return;
+    // What gathers anywhere may look them up: as many rays, as far, as any plan asks, whatever pixel comes first.
+    size_t first = 0;
+    while (!isLight(first)) ++first;
+    GatherSettings gather = state_.caches[first].plan.gather;
+    for (const PreparedCache& c : state_.caches) {
+      if (c.plan.gather.occlusion) continue;
+      gather.samples = std::max(gather.samples, c.plan.gather.samples);
+      gather.maxDistance = std::max(gather.maxDistance, c.plan.gather.maxDistance);
+    }
+    state_.bounces.fill(*tools_, state_.camera, points, gather, bounces, {state_.stats, cancelled_});
+  }
+
+  // Points of this phase that the records of earlier ones leave without, in the order of pixels, whatever the buckets
+  // are. A point that several pixels or buckets see counts where it comes first.
+  std::vector<Site> uncovered() {
+    std::vector<Site> sites;
+    std::mutex merging;
+    parallelFor(layout_.tileCount(), 1, [&](size_t t, size_t) {
+      const auto tile = isCancelled() ? nullptr : tiles_(t);
+      if (!tile) return;
+      std::vector<Site> here;
+      collectTile(t, *tile, here);
+      const std::lock_guard lock(merging);
+      sites.insert(sites.end(), here.begin(), here.end());
+    });
+    std::stable_sort(sites.begin(), sites.end(),
+                     [](const Site& a, const Site& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+    std::erase_if(sites, [&](const Site& s) {
+      return !sites_[s.cache].insert(static_cast<uint64_t>(s.point.group) << 32 | s.point.key).second;
+    });
+    return sites;
+  }
+
+  void collectTile(size_t t, const DeepTile& tile, std::vector<Site>& out) {
+    std::vector<size_t> firstOfBatch{0};
+    std::vector<GatherPlaces> places;
+    for (const ShadePoints& batch : tile.batches) {
+      firstOfBatch.push_back(firstOfBatch.back() + static_cast<size_t>(batch.count()));
+      places.emplace_back(state_, batch);
+    }
+    std::vector<std::vector<Site>> asked(state_.caches.size());
+    const auto ask = [&](const Facet& facet, int point, int x, int y) {
+      const auto b = static_cast<size_t>(facet.batch);
+      // Of the lattice every pixel asks, and later every point once, in a phase that is its own: so it does not matter
+      // which tiles see it.
+      if (phase_ >= kLatticePhases && !seen_->set(t, firstOfBatch[b] + static_cast<size_t>(point))) return;
+      const GatherPoint p = places[b].at(point);
+      for (const size_t c : cachesOfGroup_[static_cast<size_t>(tile.batches[b].group())])
+        asked[c].push_back({p, c, x, y});
+    };
+    for (int y = tile.rect.y0; y < tile.rect.y1; ++y)
+      for (int x = tile.rect.x0; x < tile.rect.x1; ++x) {
+        const int latticed = latticePhase(x, y);
+        if (phase_ < kLatticePhases && phase_ != latticed) continue;
+        const DeepPixel& pixel = tile.pixel(x, y);
+        bool first = true;
+        for (uint32_t f = pixel.first; f < pixel.first + pixel.count; ++f) {
+          const Facet& facet = tile.facets[tile.fragments[f].facet];
+          const ShadePoints& batch = tile.batches[static_cast<size_t>(facet.batch)];
+          if (cachesOfGroup_[static_cast<size_t>(batch.group())].empty()) continue;
+          for (int corner = 0; corner < 4; ++corner) {
+            const int point = facet.point[corner];
+            if (corner > 0 && point == facet.point[0]) continue;
+            const int phase =
+                first ? latticed : kLatticePhases + static_cast<int>(hash32(batch.key(point)) % kLastPhases);
+            if (phase == phase_) ask(facet, point, x, y);
+            first = false;
+          }
+          if (phase_ < kLatticePhases) break;  // its first point alone
+        }
+      }
+    for (size_t c = 0; c < asked.size(); ++c) keepUncovered(c, asked[c], out);
+  }
+
+  void keepUncovered(size_t cache, const std::vector<Site>& asked, std::vector<Site>& out) const {
+    std::vector<IrradiancePlace> places;
+    for (const Site& s : asked) places.push_back({s.point.position, s.point.normal, s.point.normal, s.point.pixelSize});
+    std::vector<IrradianceEstimate> known(places.size());
+    state_.caches[cache].cache.lookup(places, known.data());
+    SheetSearch sheets(*tools_->rays, state_.caches[cache].plan.gather);
+    const bool isNew = this->isNew(cache);
+    const float enough = state_.caches[cache].plan.cache.enough;
+    for (size_t i = 0; i < asked.size(); ++i) {
+      const IrradianceEstimate& k = known[i];
+      if (k.weight < enough || (k.disputed && (isNew || isAnew(asked[i]))) ||
+          (isLight(cache) && !k.hasRecord && sheets.isUnderSheet(asked[i].point, k.closest, k.headroom)))
+        out.push_back(asked[i]);
+    }
+    state_.stats.rays.gather += sheets.raysTraced();
+  }
+
+  // The records of a phase are inserted when all have been made.
+  void gatherAt(std::vector<Site> sites) {
+    if (sites.empty()) return report(1);
+    std::vector<IrradianceRecord> records(sites.size());
+    std::vector<BrightFind> finds(phase_ < kScoutPhases ? sites.size() : 0);
+    size_t done = makeRecords(sites, records, finds);
+    size_t lights = 0;
+    for (size_t i = 0; i < finds.size(); ++i)
+      if (isLight(sites[i].cache)) std::swap(finds[lights++], finds[i]);
+    finds.resize(lights);
+    if (!finds.empty()) state_.spots.learn(finds), finds.clear(), done = makeRecords(sites, records, finds);
+    for (size_t i = 0; i < done; ++i) state_.caches[sites[i].cache].cache.insert(records[i]);
+    state_.stats.irradianceCache.samples += static_cast<int64_t>(done);
+    report(1);
+  }
+
+  bool sharesRays(size_t cache) const { return state_.caches[cache].plan.gather.samples >= kManyRays; }
+  /// Is what has been made while looking for bright spots no record? The first could not aim at them.
+  bool isScoutAlone(size_t cache) const {
+    return isLight(cache) && (sharesRays(cache) || (phase_ == 0 && !state_.spots.spots().empty()));
+  }
+
+  /// How many: fewer than there are sites if cancelled. finds: none, when scouts alone are replaced, or as
+  /// many as sites.
+  size_t makeRecords(const std::vector<Site>& sites, std::vector<IrradianceRecord>& records,
+                     std::vector<BrightFind>& finds) {
+    const bool isFirst = phase_ >= kScoutPhases || !finds.empty();
+    size_t done = 0;
+    for (; done < sites.size() && !isCancelled(); done = std::min(done + kPointsPerSlice, sites.size())) {
+      if (isFirst) report(static_cast<float>(done) / static_cast<float>(sites.size()));
+      const size_t count = std::min(kPointsPerSlice, sites.size() - done);
+      parallelFor(count, 1, [&](size_t begin, size_t end) {
+        for (size_t i = done + begin; i < done + end; ++i)
+          if (isFirst || isScoutAlone(sites[i].cache))
+            records[i] = gatherAt(sites[i], finds.empty() || !isLight(sites[i].cache) ? nullptr : &finds[i]);
+      });
+    }
+    return done;
+  }
+
+  IrradianceRecord gatherAt(const Site& site, BrightFind* find) const {
+    const KnownLight known = isLight(site.cache) ? KnownLight{&state_.spots, state_.radiosity.get()} : KnownLight{};
+    GatherSettings settings = state_.caches[site.cache].plan.gather;
+    GatherPoint point = site.point;
+    // Bright spots are found by other rays than those that look for them again: else what all have missed is missed for
+    // good.
+    if (sharesRays(site.cache) && find) settings.samples /= kRaysPerScoutRay;
+    if (sharesRays(site.cache) && !find) point.key = 0;
+    IrradianceRecord record = gather(*tools_->rays, *tools_->shading, point, settings, known, state_.stats, find);
+    record.relief = reliefOfGroup_[static_cast<size_t>(site.point.group)];
+    return record;
+  }
+
+  void report(float fractionOfPhase) const {
+    if (*progress_) (*progress_)((static_cast<float>(phase_) + fractionOfPhase) / kPhases);
+  }
+
+  GiState& state_;
+  const DeepFrame& layout_;
+  const TileReader& tiles_;
+  const RayTools* tools_ = nullptr;
+  std::vector<std::vector<size_t>> cachesOfGroup_;
+  std::vector<float> reliefOfGroup_;  ///< Displacement that rays do not see.
+  std::vector<uint64_t> frames_;      ///< This one, as each cache sees it.
+  std::optional<PointBits> seen_;
+  std::vector<std::unordered_set<uint64_t>> sites_;  ///< Of each cache: those that have a record.
+  const std::function<void(float)>* progress_ = nullptr;
+  const std::atomic<bool>* cancelled_ = nullptr;
+  int phase_ = 0;
+};
+
+}  // namespace
+
+void fillCaches(GiState& state, const DeepFrame& layout, const TileReader& tiles,
+                const std::function<void(float)>& progress, const std::atomic<bool>* cancelled,
+                const std::function<void(int stride)>& covered) {
+  GatherPass(state, layout, tiles).run(progress, cancelled, covered);
+}
+
+}  // namespace tomales

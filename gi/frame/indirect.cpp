@@ -1,0 +1,232 @@
+// indirectDiffuse() from the irradiance cache, and what stands in where it has nothing.
+#include <bit>
+
+#include "gi/frame/state.h"
+#include "reyes/base/checksum.h"
+#include "reyes/base/rng.h"
+
+namespace tomales {
+namespace {
+
+/// At `maxerror` 1. Ward's split sphere needs a = 1/4 for the error that the paper's function has at kappa =
+/// 1 (docs/gi_measured.md), so that `maxerror` means the same for both; and the Hessian, which knows where light is
+/// even and where it is not, has about as many records as that. Where it may be off by more, its records lie
+/// less close to edges, so that some are left elsewhere, and fewer overlap: what they are off by is then no
+/// noise (docs/decisions/0106).
+CacheSettings settingsOf(ErrorFunction function, float maxError) {
+  switch (function) {
+    case ErrorFunction::Ward:
+      return {.errorFunction = function, .kappa = 4};
+    case ErrorFunction::Split:
+      return {.errorFunction = function, .kappa = 4, .maxPixels = kInfinity, .minPixels = 0};
+    case ErrorFunction::Hessian:
+      return {.errorFunction = function,
+              .kappa = 0.87f,
+              .maxPixels = 40,
+              .minPixels = maxError,
+              .enough = 0.2f / std::max(1.0f, maxError)};
+    default:
+      return {.errorFunction = function};
+  }
+}
+
+// Than they cover: to the second order, more records add less error than they take noise
+// (docs/decisions/0103).
+constexpr float kServesWider = 1.25f;
+
+ErrorFunction errorFunctionNamed(const std::string& name) {
+  if (name == "ward") return ErrorFunction::Ward;
+  if (name == "hessian") return ErrorFunction::Hessian;
+  if (name == "split") return ErrorFunction::Split;
+  return name == "plain" ? ErrorFunction::Plain : ErrorFunction::Screen;
+}
+
+/// Light by way of mirrors and glass, which gather rays do not find.
+vec3 causticAt(const GiState& state, int group, const vec3& P, const vec3& n, float pixelSize) {
+  if (state.settings.mode != GiMode::Atlas ||
+      state.scene.groups[static_cast<size_t>(group)].attributes->photon.causticMap.empty())
+    return vec3(0.0f);
+  gatherTools(state);
+  return state.atlas ? state.atlas->causticOverPi(group, P, n, 0.5f * pixelSize) : vec3(0.0f);
+}
+
+/// The cache of a plan. Records that were given serve even where a light has since been edited to ask for others.
+std::vector<PreparedCache>::const_iterator preparedFor(const GiState& state, const GatherPlan& plan) {
+  const auto prepared =
+      std::find_if(state.caches.begin(), state.caches.end(), [&](const PreparedCache& c) { return c.plan == plan; });
+  if (prepared != state.caches.end() || !state.cachesGiven || !(plan.cache.kappa < kInfinity)) return prepared;
+  return std::find_if(state.caches.begin(), state.caches.end(),
+                      [](const PreparedCache& c) { return !c.plan.gather.occlusion; });
+}
+
+uint32_t nameOf(const std::string& text) { return static_cast<uint32_t>(checksum(std::as_bytes(std::span(text)))); }
+
+/// Of what GatherSettings do not hold as well.
+uint32_t nameOf(const std::optional<OcclusionQuery>& q) {
+  const auto bits = [](float x) { return std::bit_cast<uint32_t>(x); };
+  return q ? hashCombine(bits(q->bias), bits(q->falloff), static_cast<uint32_t>(q->falloffMode),
+                         static_cast<uint32_t>(q->sides), nameOf(q->subset), nameOf(q->excludeSubset))
+           : 0;
+}
+
+}  // namespace
+
+IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, const GatherSettings& settings,
+                              RayAnswers* answers) {
+  const struct {
+    vec3 position, normal;
+    uint32_t key, seed;
+    int group, samples;
+    float maxDistance, time;
+    vec3 drift;
+    uint32_t light, indirect, subset, radiosity, occlusion;
+  } asked{point.position,
+          point.normal,
+          point.key,
+          settings.seed,
+          point.group,
+          settings.samples,
+          settings.maxDistance,
+          point.time,
+          point.drift,
+          static_cast<uint32_t>(settings.light),
+          static_cast<uint32_t>(settings.indirect) | static_cast<uint32_t>(!settings.mirrored) << 1,
+          nameOf(settings.subset),
+          state.settings.mode == GiMode::Radiosity,
+          nameOf(settings.occlusion)};
+  static_assert(sizeof asked == 20 * sizeof(uint32_t), "no padding, whose bytes would be names too");
+  const uint64_t name = answers ? checksum(std::as_bytes(std::span(&asked, 1))) : 0;
+  if (answers)
+    if (const auto it = answers->indirect.find(name); it != answers->indirect.end()) return it->second;
+  const RayTools* tools = gatherTools(state);
+  if (!tools) return {vec3(settings.occlusion ? 1.0f : 0.0f), point.normal, point.normal, point.normal};
+  const KnownLight known = settings.occlusion ? KnownLight{} : KnownLight{&state.spots, state.radiosity.get()};
+  const IrradianceRecord record = gather(*tools->rays, *tools->shading, point, settings, known, state.stats);
+  const IndirectAnswer answer{record.E, record.dominant[0], record.dominant[1], record.dominant[2]};
+  if (answers && answers->recording) answers->indirect[name] = answer;
+  return answer;
+}
+
+const RayTools* gatherTools(const GiState& state) {
+  const RayTools* tools = state.rays();
+  if (tools)
+    std::call_once(state.sourcesOnce, [&] {
+      if (state.atlasSource) state.atlas = state.atlasSource();
+      if (state.radiositySource) state.radiosity = state.radiositySource();
+    });
+  return tools;
+}
+
+bool interpolatesIndirect(const GiState& state) {
+  const GiMode mode = state.settings.mode;
+  return mode == GiMode::Gather || mode == GiMode::Atlas || mode == GiMode::Radiosity;
+}
+
+GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) {
+  const Attributes& attributes = *state.scene.groups[static_cast<size_t>(group)].attributes;
+  const GiSettings& settings = state.settings;
+  GatherPlan plan;
+  const float maxError =
+      settings.maxError >= 0 ? settings.maxError : attributes.irradianceMaxError.value_or(query.maxError);
+  plan.cache = settingsOf(settings.errorFunction.value_or(errorFunctionNamed(query.errorFunction)), maxError);
+  plan.gather.curvature = plan.cache.errorFunction == ErrorFunction::Hessian && maxError > 0;
+  if (plan.gather.curvature) plan.gather.maxError = maxError;
+  plan.cache.kappa = maxError > 0 ? plan.cache.kappa / maxError : kInfinity;
+  plan.cache.maxPixels = attributes.irradianceMaxPixelDist.value_or(plan.cache.maxPixels);
+  plan.gather.samples = std::max(1, settings.samples > 0 ? settings.samples : query.samples);
+  plan.gather.maxDistance = query.maxDistance;
+  plan.gather.seed = settings.seed;
+  plan.gather.subset = query.subset.empty() ? attributes.trace.subset : query.subset;
+  plan.gather.indirect = bouncesFor(state, query) > 1;
+  if (settings.mode == GiMode::Atlas)
+    plan.gather.light = settings.storesDirect ? Illumination::Stored : Illumination::LightsAndStored,
+    plan.gather.mirrored = attributes.photon.causticMap.empty();
+  return plan;
+}
+
+int bouncesFor(const GiState& state, const IndirectQuery& query) {
+  const int asked = state.settings.bounces > 0 ? state.settings.bounces : query.bounces;
+  const GiMode mode = state.settings.mode;
+  return mode == GiMode::None ? 0 : mode == GiMode::Atlas || mode == GiMode::Radiosity ? std::min(asked, 1) : asked;
+}
+
+vec3 unitNormal(const ShadePoints& points, TmConstVec3 N, int i) {
+  return normalizeOr({N.x[i], N.y[i], N.z[i]}, points.facingNormal(i));
+}
+
+void store(const IndirectResult& out, int i, const vec3& E, const vec3 dominant[3]) {
+  const auto put = [i](TmVec3 to, const vec3& v) { to.x[i] = v.x, to.y[i] = v.y, to.z[i] = v.z; };
+  put(out.E, E);
+  for (int c = 0; c < 3; ++c)
+    if (out.dominant[c].x) put(out.dominant[c], dominant[c]);
+}
+
+std::optional<vec3> gatheredOverPi(const GiState& state, const GatherPoint& at) {
+  const IndirectQuery* query = state.shading.indirectQuery(at.group);
+  if (!query) return std::nullopt;
+  const auto prepared = preparedFor(state, planFor(state, at.group, *query));
+  if (prepared == state.caches.end()) return std::nullopt;
+  const IrradiancePlace place{at.position, at.normal, at.normal, at.pixelSize};
+  IrradianceEstimate estimate;
+  prepared->cache.lookup({&place, 1}, &estimate, kServesWider);
+  if (!(estimate.weight > 0)) return std::nullopt;
+  return estimate.E + causticAt(state, at.group, at.position, at.normal, at.pixelSize);
+}
+
+BatchLookup lookUp(const GiState& state, const IrradianceCache* cache, const GatherPlaces& places,
+                   const ShadePoints& points, const uint8_t* active, TmConstVec3 N) {
+  BatchLookup out;
+  for (int i = 0; i < points.count(); ++i)
+    if (active[i]) out.points.push_back(i), out.at.push_back(places.lookupAt(i, unitNormal(points, N, i)));
+  out.known.resize(out.at.size());
+  if (!cache) return out;
+  cache->lookup(out.at, out.known.data(), kServesWider);
+  const auto served =
+      std::count_if(out.known.begin(), out.known.end(), [](const IrradianceEstimate& e) { return e.weight > 0; });
+  state.stats.irradianceCache.lookups += static_cast<int64_t>(out.at.size());
+  state.stats.irradianceCache.interpolated += served;
+  return out;
+}
+
+void interpolateIndirect(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
+                         const IndirectQuery& query, const ShadeContext& context, const IndirectResult& out) {
+  const GatherPlan plan = planFor(state, points.group(), query);
+  const auto prepared = preparedFor(state, plan);
+  const GatherPlaces places(state, points);
+  const BatchLookup found =
+      lookUp(state, prepared != state.caches.end() ? &prepared->cache : nullptr, places, points, active, N);
+  for (size_t k = 0; k < found.points.size(); ++k) {
+    const int i = found.points[k];
+    const IrradianceEstimate& known = found.known[k];
+    const vec3& n = found.at[k].shadingNormal;
+    const vec3 caustic = causticAt(state, points.group(), found.at[k].position, n, found.at[k].pixelSize);
+    if (known.weight > 0) {
+      store(out, i, known.E + caustic, known.dominant);
+      continue;
+    }
+    // Kept out of the cache: what other points find there must not depend on the order of shading.
+    GatherPoint point = places.at(i);
+    point.normal = n;
+    const IndirectAnswer answer = gatherOrRecall(state, point, plan.gather, context.answers);
+    store(out, i, answer[0] + caustic, &answer[1]);
+  }
+}
+
+void bounceIndirect(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
+                    const IndirectQuery& query, const ShadeContext& context, int bounces, const IndirectResult& out) {
+  const GatherPlaces places(state, points);
+  std::vector<uint8_t> unknown(active, active + points.count());
+  bool all = true;
+  for (int i = 0; i < points.count(); ++i) {
+    if (!active[i]) continue;
+    const GatherPoint point = places.at(i);
+    const IrradianceEstimate estimate = state.bounces.lookup(bounces - context.depth, state.camera, point.position,
+                                                             point.normal, places.shading(i, unitNormal(points, N, i)));
+    if (estimate.weight > 0) store(out, i, estimate.E, estimate.dominant);
+    unknown[static_cast<size_t>(i)] = estimate.weight <= 0;
+    all &= estimate.weight > 0;
+  }
+  if (!all) traceIndirect(state, points, unknown.data(), N, query, context, bounces, out);
+}
+
+}  // namespace tomales

@@ -1,0 +1,115 @@
+// indirectDiffuse() by path tracing: the reference, and hits that no cache of their bounce knows.
+#include "gi/frame/state.h"
+#include "gi/gather/layers.h"
+#include "reyes/base/rng.h"
+
+namespace tomales {
+namespace {
+
+constexpr size_t kRaysPerBatch = 4096;         // shaded together
+constexpr uint32_t kPathStream = 0x70617468U;  // keeps directions independent of the light samples at the same point
+
+// Sums of one point over its paths.
+struct PathSum {
+  int point;
+  vec3 radiance{0.0f};
+  vec3 directions[3] = {vec3(0.0f), vec3(0.0f), vec3(0.0f)};
+};
+
+// The hemisphere of each active point, one cosine-weighted ray a path, in batches large enough to shade well.
+class PathBatches {
+ public:
+  PathBatches(const GiState& state, const RayTools& tools, const ShadePoints& points, TmConstVec3 N,
+              const IndirectQuery& query, const ShadeContext& hitContext)
+      : state_(state),
+        tools_(tools),
+        points_(points),
+        places_(state, points),
+        N_(N),
+        maxDistance_(query.maxDistance),
+        context_(hitContext) {
+    const std::string& own = state.scene.groups[static_cast<size_t>(points.group())].attributes->trace.subset;
+    filter_.groups = tools.rays->groupsIn(query.subset.empty() ? own : query.subset, "");
+  }
+
+  void add(PathSum& sum, int paths) {
+    const int i = sum.point;
+    const vec3 normal = places_.shading(i, unitNormal(points_, N_, i));
+    vec3 tangent, bitangent;
+    orthonormalBasis(normal, tangent, bitangent);
+    // The hits of one record share a key and continue each other's sequence.
+    const SampleName name = points_.name(i);
+    const uint32_t pointKey = hashCombine(name.key, state_.settings.seed, static_cast<uint32_t>(context_.depth));
+    for (int path = 0; path < paths; ++path) {
+      const uint32_t number = name.sequence * static_cast<uint32_t>(paths) + static_cast<uint32_t>(path);
+      Ray ray;
+      places_.aim(*tools_.rays, i, rayTime(*tools_.rays, points_, i, path, paths, state_.settings.seed), ray);
+      ray.tMax = maxDistance_;
+      if (!filter_.passesAll()) ray.filter = &filter_;
+      const vec3 local = cosineHemisphere(sobol2(number, pointKey));
+      ray.direction = local.x * tangent + local.y * bitangent + local.z * normal;
+      ray.offset = slantedOffset(ray.offset, local.z);
+      layers_.add(static_cast<int>(sums_.size()), ray, {hashCombine(pointKey, number), 0});
+      sums_.push_back(&sum), directions_.push_back(ray.direction);
+      if (sums_.size() == kRaysPerBatch) flush();
+    }
+  }
+
+  void flush() {
+    HitAnswers answers;
+    answers.mode = HitMode::Shader;
+    for (int layer = 0; layer < kMostLayers && !layers_.rays.empty(); ++layer) {
+      state_.stats.rays.hitlistAdjusted += layers_.meet(*tools_.rays, kMaskDiffuse, hits_);
+      state_.stats.rays.reference += static_cast<int64_t>(layers_.rays.size());
+      tools_.rays->shadeHits(layers_.rays, hits_, layers_.names, *tools_.shading, context_, answers);
+      layers_.goOn(*tools_.rays, hits_, answers, 1, [&](int path, const vec3& radiance, const vec3&) {
+        const auto p = static_cast<size_t>(path);
+        sums_[p]->radiance += radiance;
+        for (int c = 0; c < 3; ++c) sums_[p]->directions[c] += radiance[c] * directions_[p];
+      });
+    }
+    layers_ = {}, sums_.clear(), directions_.clear();
+  }
+
+ private:
+  const GiState& state_;
+  const RayTools& tools_;
+  const ShadePoints& points_;
+  const GatherPlaces places_;
+  const TmConstVec3 N_;
+  const float maxDistance_;
+  const ShadeContext context_;
+  RayFilter filter_;
+  RayLayers layers_;
+  std::vector<Hit> hits_;
+  std::vector<PathSum*> sums_;    ///< Of each path since the last flush,
+  std::vector<vec3> directions_;  ///< and where it left.
+};
+
+}  // namespace
+
+void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
+                   const IndirectQuery& query, const ShadeContext& context, int bounces, const IndirectResult& out) {
+  const RayTools* tools = state.rays();
+  if (!tools) return;
+  // Paths branch at the eye's points alone; a hit continues because its own shader asks for indirect light
+  // again.
+  const int paths = context.depth > 0 ? 1 : planFor(state, points.group(), query).gather.samples;
+  const int depth = context.depth + 1;
+  ShadeContext hitContext{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
+  hitContext.diffuseLimit =
+      bounces;  // of wide lobes that shaders follow, too; mirrors reflect as deep as their objects allow
+  hitContext.highlights = true;
+  PathBatches batches(state, *tools, points, N, query, hitContext);
+  std::vector<PathSum> sums;
+  for (int i = 0; i < points.count(); ++i)
+    if (active[i]) sums.push_back({i});
+  for (PathSum& sum : sums) batches.add(sum, paths);
+  batches.flush();
+  for (PathSum& sum : sums) {
+    for (vec3& d : sum.directions) d = normalizeOr(d, unitNormal(points, N, sum.point));
+    store(out, sum.point, sum.radiance / static_cast<float>(paths), sum.directions);
+  }
+}
+
+}  // namespace tomales

@@ -1,0 +1,159 @@
+#include "gi/services.h"
+
+#include <numeric>
+#include <utility>
+
+#include "gi/frame/state.h"
+
+namespace tomales {
+namespace {
+
+constexpr int kTimesOfLight = 16;  ///< Least number of times that the shadows of one light see, over all its samples.
+
+}  // namespace
+
+struct GiServices::Impl : GiState {
+  /// Null: neither a file nor geometry tells of them.
+  const Emitters* knownEmitters() const {
+    if (emitters) return &*emitters;
+    const RayTools* tools = rays();
+    return tools ? &tools->rays->emitters() : nullptr;
+  }
+};
+
+GiServices::GiServices(const Scene& scene, const Camera& camera, const RayScene& rays, const ShadingSystem& shading,
+                       const GiSettings& settings, Stats& stats)
+    : GiServices(
+          scene, camera, [tools = RayTools{&rays, &shading}] { return &tools; }, shading, settings, stats) {}
+
+GiServices::GiServices(const Scene& scene, const Camera& camera, RaySource rays, const ShadingSystem& shading,
+                       const GiSettings& settings, Stats& stats)
+    : impl_(new Impl{{scene, camera, std::move(rays), shading, settings, stats, nullptr, {}, {}}}) {}
+
+GiServices::~GiServices() = default;
+
+void GiServices::gatherPass(const DeepFrame& layout, const TileReader& tiles,
+                            const std::function<void(float)>& progress, const std::atomic<bool>* cancelled,
+                            const std::function<void(int stride)>& covered) {
+  if (impl_->settings.mode != GiMode::Reference) fillCaches(*impl_, layout, tiles, progress, cancelled, covered);
+}
+
+void GiServices::bake(const DeepFrame& layout, const TileReader& tiles, const std::filesystem::path& folder,
+                      const MapNames& names, uint64_t world) const {
+  bakeLight(*impl_, layout, tiles, folder, names, world);
+}
+
+const std::vector<PreparedCache>& GiServices::caches() const { return impl_->caches; }
+std::vector<PreparedCache> GiServices::takeCaches() { return std::exchange(impl_->caches, {}); }
+void GiServices::useCaches(std::vector<PreparedCache> caches, std::optional<PixelRect> anew) {
+  impl_->caches = std::move(caches), impl_->anew = anew;
+  impl_->cachesGiven = !impl_->caches.empty();
+}
+void GiServices::useEmitters(EmitterTable emitters) { impl_->emitters.emplace(std::move(emitters)); }
+
+void GiServices::transmission(const ShadePoints& points, const uint8_t* active, TmConstVec3 toward,
+                              const ShadowRays& rays, const ShadeContext& context, TmVec3 light) const {
+  const RayTools* tools = context.rehearsal ? nullptr : impl_->rays();
+  if (!tools) return;
+  const RayScene& scene = *tools->rays;
+  const Attributes& own = *impl_->scene.groups[static_cast<size_t>(points.group())].attributes;
+  const int times = scene.samplesTime(points.group()) && context.kind == RayKind::Camera
+                        ? std::max(1, kTimesOfLight / rays.samples)
+                        : 1;
+  const RayFilter filter = rays.query ? filterOf(scene, *rays.query, own) : filterOf(scene, {}, own);
+  std::vector<Ray> shadowRays;
+  std::vector<SampleName> names;
+  std::vector<int> pointOf;
+  for (int i = 0; i < points.count(); ++i) {
+    const vec3 arriving{light.x[i], light.y[i], light.z[i]}, path{toward.x[i], toward.y[i], toward.z[i]};
+    const float length = glm::length(path);
+    if (!active[i] || arriving == vec3(0.0f) || !(length > 0)) continue;
+    pointOf.push_back(i);
+    for (int k = 0; k < times; ++k) {
+      const int strata = rays.samples * times, stratum = rays.sample * times + k;
+      Ray ray{points.position(i), path / length, rays.solar ? kInfinity : length};
+      aim(scene, points, i, rayTime(scene, points, i, stratum, strata, context.seed), ray);
+      ray.offset = slantedOffset(ray.offset, std::abs(dot(ray.direction, points.get3(kNgx, i))));
+      if (rays.query) setBias(*rays.query, ray);
+      ray.filter = filter.passesAll() ? nullptr : &filter;
+      shadowRays.push_back(ray), names.push_back(points.name(i));
+    }
+  }
+  int64_t adjusted = 0;
+  const std::vector<vec3> clear = scene.transmission(shadowRays, names, *tools->shading, context, adjusted);
+  for (size_t p = 0; p < pointOf.size(); ++p) {
+    const auto first = clear.begin() + static_cast<ptrdiff_t>(p) * times;
+    const vec3 share = std::accumulate(first, first + times, vec3(0)) / static_cast<float>(times);
+    const int i = pointOf[p];
+    light.x[i] *= share.x, light.y[i] *= share.y, light.z[i] *= share.z;
+  }
+  impl_->stats.rays.transmission += static_cast<int64_t>(shadowRays.size());
+  impl_->stats.rays.hitlistAdjusted += adjusted;
+}
+
+void GiServices::trace(const ShadePoints& points, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction,
+                       const RayQuery& query, const ShadeContext& context, const RayResult& result) const {
+  traceForShader(*impl_, points, active, P, direction, query, context, result);
+}
+
+bool GiServices::sampleEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1,
+                               const EmitterPoints& out) const {
+  const Emitters* emitters = impl_->knownEmitters();
+  return emitters && emitters->sampleFrom(light, count, from, xi0, xi1, out);
+}
+
+void GiServices::meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction,
+                             const EmitterPoints& out) const {
+  if (const Emitters* emitters = impl_->knownEmitters()) return emitters->meet(light, count, from, direction, out);
+  std::fill_n(out.density, count, 0.0f);
+}
+
+void GiServices::setAtlas(std::unique_ptr<const IrradianceAtlas> atlas) { impl_->atlas = std::move(atlas); }
+
+void GiServices::setAtlasSource(AtlasSource source) { impl_->atlasSource = std::move(source); }
+
+void GiServices::setRadiositySource(RadiositySource source) { impl_->radiositySource = std::move(source); }
+
+void GiServices::reportAtlas(Stats& stats) const {
+  if (impl_->atlas) impl_->atlas->report(stats);
+  if (impl_->radiosity) impl_->radiosity->report(stats);
+}
+
+void GiServices::storedIrradiance(const ShadePoints& points, const uint8_t* active, TmVec3 E) const {
+  for (int i = 0; i < points.count(); ++i) {
+    if (!active[i]) continue;
+    const float radius = std::sqrt(points.channel(kArea)[i] / kPi);
+    const vec3 e = impl_->atlas ? impl_->atlas->irradianceOverPi(points.group(), points.position(i),
+                                                                 points.facingNormal(i), radius)
+                                : vec3(0.0f);
+    E.x[i] = e.x, E.y[i] = e.y, E.z[i] = e.z;
+  }
+}
+
+bool GiServices::interpolatedOcclusion(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
+                                       const OcclusionQuery& query, const ShadeContext& context, float* covered) const {
+  return interpolateOcclusion(*impl_, points, active, N, query, context, covered);
+}
+
+float GiServices::emitterReach(int light) const {
+  const Emitters* emitters = impl_->knownEmitters();
+  return emitters ? emitters->reach(light) : 0.0f;
+}
+
+void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
+                                 const IndirectQuery& query, const ShadeContext& context, IndirectResult out) const {
+  if (impl_->settings.mode == GiMode::Baked) return bakedIndirect(*impl_, points, active, out);
+  const int bounces = bouncesFor(*impl_, query);
+  if (context.depth < bounces) {
+    const bool cached = interpolatesIndirect(*impl_);
+    if (cached && context.depth > 0) return bounceIndirect(*impl_, points, active, N, query, context, bounces, out);
+    if (cached) return interpolateIndirect(*impl_, points, active, N, query, context, out);
+    return traceIndirect(*impl_, points, active, N, query, context, bounces, out);
+  }
+  for (int i = 0; i < points.count(); ++i) {
+    const vec3 n = points.facingNormal(i), dominant[3] = {n, n, n};
+    if (active[i]) store(out, i, vec3(0.0f), dominant);
+  }
+}
+
+}  // namespace tomales

@@ -1,0 +1,136 @@
+#include "gi/gather/rays.h"
+
+#include "gi/gather/layers.h"
+
+namespace tomales {
+
+/// Kept by each thread from one record to the next. What gather rays hit asks for indirect light of frozen caches and
+/// paths, so gathering never nests.
+struct GatherRays::Scratch {
+  RayLayers layers;
+  Surroundings surroundings;
+  std::vector<Hit> hits, unknown;  ///< unknown: those whose radiance is not known.
+  std::vector<std::pair<size_t, vec3>> mapped;
+  HitAnswers answers;
+};
+
+GatherRays::Scratch& GatherRays::emptyScratch() {
+  thread_local Scratch scratch;
+  scratch.layers = {};
+  return scratch;
+}
+
+GatherRays::GatherRays(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point,
+                       const GatherSettings& settings, const HitRadiance* known, size_t count, uint32_t key)
+    : scene_(scene),
+      shading_(shading),
+      point_(point),
+      settings_(settings),
+      known_(known),
+      key_(key),
+      times_(scene, point, count, key),
+      first_{point.position, point.normal, settings.maxDistance},
+      scratch_(emptyScratch()) {
+  orthonormalBasis(point.normal, tangent_, bitangent_);
+  first_.spread = spreadOfRays(static_cast<int>(count));
+  scene.prepareOrigin(point.group, point.position, point.edgeLength, first_);
+  const OcclusionQuery* occlusion = settings.occlusion ? &*settings.occlusion : nullptr;
+  filter_.groups = groupsSeenFrom(scene, point.group, settings);
+  if (occlusion) filter_.sides = occlusion->sides;
+  if (occlusion && occlusion->bias >= 0) first_.offset = 0, first_.bias = occlusion->bias;
+  if (!filter_.passesAll()) first_.filter = &filter_;
+  if (first_.offset > 0) {
+    scene.lookAround(first_, slantedOffset(first_.offset, 0), kMaskDiffuse, scratch_.surroundings);
+    first_.surroundings = &scratch_.surroundings;
+  }
+}
+
+vec3 GatherRays::toWorld(const vec3& local) const {
+  return local.x * tangent_ + local.y * bitangent_ + local.z * point_.normal;
+}
+
+vec3 GatherRays::toLocal(const vec3& direction) const {
+  return {dot(direction, tangent_), dot(direction, bitangent_), dot(direction, point_.normal)};
+}
+
+vec3 GatherRays::add(int element, int cell, const vec3& local, size_t raysOfHemisphere) {
+  Ray r = first_;
+  r.direction = toWorld(local);
+  r.offset = slantedOffset(first_.offset, local.z);
+  r.time = times_(static_cast<size_t>(cell));
+  if (r.time > 0) r.origin = scene_.placeAt(point_.group, point_.position, point_.drift, r.time);
+  // A cell of a cosine-weighted hemisphere has the solid angle pi / (n cos).
+  r.spread = 1 / std::sqrt(static_cast<float>(raysOfHemisphere) * std::max(local.z, 0.05f));
+  scratch_.layers.add(element, r, {key_, number_++});
+  return r.direction;
+}
+
+void GatherRays::see(Stats& stats, size_t elements, std::vector<vec3>& radiance, FirstHits* first) {
+  radiance.assign(elements, vec3(settings_.occlusion ? 1 : 0));
+  if (first) first->distances.assign(elements, kInfinity), first->normals.resize(elements);
+  if (settings_.occlusion)
+    uncover(stats, radiance, first);
+  else
+    shade(stats, radiance, first);
+  scratch_.layers = {};
+}
+
+void GatherRays::uncover(Stats& stats, std::vector<vec3>& radiance, FirstHits* first) {
+  meet(stats, first);
+  for (size_t r = 0; r < scratch_.hits.size(); ++r)
+    if (const Hit& hit = scratch_.hits[r]; hit.object >= 0)
+      radiance[static_cast<size_t>(scratch_.layers.elements[r])] -=
+          vec3(settings_.occlusion->coveredAt(std::max(0.0f, hit.t)));
+}
+
+void GatherRays::shade(Stats& stats, std::vector<vec3>& radiance, FirstHits* first) {
+  ShadeContext context{RayKind::Diffuse, settings_.depth, settings_.seed, 1, settings_.indirect};
+  context.light = settings_.light;
+  context.mirrored = settings_.mirrored;
+  context.diffuseLimit = 0;  // of direct light the diffuse component alone; mirrors and glass show what they show
+  scratch_.answers.mode = HitMode::Shader;
+  for (int layer = 0; layer < kMostLayers && !scratch_.layers.rays.empty(); ++layer) {
+    meet(stats, layer == 0 ? first : nullptr);
+    answer(context);
+    scratch_.layers.goOn(scene_, scratch_.hits, scratch_.answers, 1, [&](int element, const vec3& seen, const vec3&) {
+      radiance[static_cast<size_t>(element)] += seen;
+    });
+  }
+}
+
+void GatherRays::meet(Stats& stats, FirstHits* first) {
+  const std::vector<Hit>& hits = scratch_.hits;
+  stats.rays.hitlistAdjusted += scratch_.layers.meet(scene_, kMaskDiffuse, scratch_.hits);
+  stats.rays.gather += static_cast<int64_t>(hits.size());
+  if (!first) return;
+  scene_.noteStarts(point_.group, static_cast<int64_t>(hits.size()),
+                    std::count_if(hits.begin(), hits.end(), [](const Hit& h) { return h.crowded; }));
+  for (size_t i = 0; i < hits.size(); ++i) {
+    if (hits[i].object < 0) continue;
+    const vec3& n = hits[i].geometricNormal;
+    first->distances[i] = std::max(0.0f, hits[i].t);
+    first->normals[i] = dot(n, scratch_.layers.rays[i].direction) > 0 ? -n : n;
+  }
+}
+
+// From what is known, as far as it goes.
+void GatherRays::answer(const ShadeContext& context) {
+  const auto& rays = scratch_.layers.rays;
+  if (!known_) return scene_.shadeHits(rays, scratch_.hits, scratch_.layers.names, shading_, context, scratch_.answers);
+  scratch_.unknown = scratch_.hits, scratch_.mapped.clear();
+  vec3 radiance;
+  for (size_t r = 0; r < rays.size(); ++r)
+    if (scratch_.hits[r].object >= 0 && known_->lookup(rays[r], scratch_.hits[r], radiance))
+      scratch_.unknown[r].object = -1, scratch_.mapped.emplace_back(r, radiance);
+  scene_.shadeHits(rays, scratch_.unknown, scratch_.layers.names, shading_, context, scratch_.answers);
+  for (const auto& [r, L] : scratch_.mapped) scratch_.answers.color[r] = L, scratch_.answers.opacity[r] = vec3(1);
+}
+
+const std::vector<uint8_t>* groupsSeenFrom(const RayScene& rays, int group, const GatherSettings& settings) {
+  const OcclusionQuery* occlusion = settings.occlusion ? &*settings.occlusion : nullptr;
+  const std::string& asked = occlusion ? occlusion->subset : settings.subset;
+  const std::string& own = rays.scene().groups[static_cast<size_t>(group)].attributes->trace.subset;
+  return rays.groupsIn(asked.empty() ? own : asked, occlusion ? occlusion->excludeSubset : "");
+}
+
+}  // namespace tomales

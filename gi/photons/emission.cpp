@@ -1,0 +1,261 @@
+#include "gi/photons/emission.h"
+
+#include <numeric>
+
+#include "gi/photons/sky.h"
+#include "raytrace/emitters.h"
+#include "reyes/base/rng.h"
+#include "reyes/base/simd.h"
+
+namespace tomales {
+namespace {
+
+constexpr int kProbes = 4;  ///< In each cell of a cone
+constexpr int kGrid = 128;  ///< Cells along the side of a distant light's square
+constexpr uint32_t kSecondPair = 0x70686f74U;
+/// Share of the brightest cell that cells where no probe saw light get: a beam between the probes is not
+/// lost.
+constexpr double kFloor = 1e-3;
+/// Of the size of the scene and the distance of its origin: point lights may lie on surfaces.
+constexpr float kPointBias = 1e-5f;
+/// Of photons that leave area lights: what is flatter, one in 256, may still meet the lamp's own polygons.
+constexpr float kLeastCosine = 1.0f / 16;
+constexpr uint32_t kFewSamples = 64;    ///< Of a light that is sampled: by which its width is known,
+constexpr float kSampledMargin = 1.2f;  ///< and how much wider it is: the outermost is none of those.
+
+/// Places in a cell: the corners of a smaller square.
+vec2 probePlace(int probe) { return {probe & 1 ? 0.75f : 0.25f, probe & 2 ? 0.75f : 0.25f}; }
+
+Distribution withFloor(const std::vector<double>& weights) {
+  const double floor = kFloor * *std::max_element(weights.begin(), weights.end());
+  Distribution out;
+  for (const double w : weights) out.add(std::max(w, floor));
+  return out;
+}
+
+std::vector<vec2> fewSamples() {
+  std::vector<vec2> xi;
+  for (uint32_t i = 0; i < kFewSamples; ++i) xi.push_back(sobol2(i, kSecondPair));
+  return xi;
+}
+
+}  // namespace
+
+// Sines and cosines of an eighth of a turn at most.
+TOMALES_HOT void cosineHemispheres(std::span<const vec2> xi, std::span<vec3> out) {
+  for (size_t i = 0; i < out.size(); ++i) {
+    const float a = 2 * xi[i].x - 1, b = 2 * xi[i].y - 1;
+    const bool swapped = std::abs(a) <= std::abs(b);
+    const float r = swapped ? b : a, x = (kPi / 4) * (swapped ? a : b) / (r == 0 ? 1 : r), x2 = x * x;
+    const float sine = x * (1 - x2 * (1.0f / 6 - x2 * (1.0f / 120 - x2 * (1.0f / 5040 - x2 * (1.0f / 362880)))));
+    const float cosine = 1 - x2 * (0.5f - x2 * (1.0f / 24 - x2 * (1.0f / 720 - x2 * (1.0f / 40320))));
+    out[i].x = r * (swapped ? sine : cosine), out[i].y = r * (swapped ? cosine : sine);
+    out[i].z = std::sqrt(std::max(0.0f, 1 - r * r));
+  }
+}
+
+PhotonTarget::PhotonTarget(const Scene& scene) {
+  for (const Object& o : scene.objects) {
+    if (!o.attributes->visibility.photon) continue;
+    for (uint32_t patch = 0; patch < o.shape().patchCount(); ++patch) {
+      objects.push_back(
+          transformBound(o.cameraFromObject.keys.front(), o.shape().bound(patch, {})).grown(o.displacementBound));
+      bound.extend(objects.back());
+    }
+  }
+  if (bound.empty()) bound = {vec3(-1), vec3(1)};
+}
+
+PhotonSource::PhotonSource(int light, const ShadingSystem& shading, const RayScene& rays, const PhotonTarget& target)
+    : light_(light),
+      shading_(shading),
+      rays_(rays),
+      kind_(shading.lightKind(light)),
+      center_(target.center()),
+      radius_(target.radius()) {
+  if (kind_ == LightKind::Point) surveyPoint();
+  if (kind_ == LightKind::Distant) surveyDistant(target);
+  if (kind_ == LightKind::Area) surveyArea();
+  if (kind_ != LightKind::Sky) return;
+  sky_ = std::make_shared<SkyPhotons>(light, shading, rays, target);
+  power_ = sky_->power();
+}
+
+void PhotonSource::surveyPoint() {
+  middle_ = askedFromMiddle({vec2(0.5f)}).L[0];
+  float spread = 0;
+  for (const vec3& place : askedFromMiddle(fewSamples()).L)
+    spread = std::max(spread, kSampledMargin * glm::distance(place, middle_));
+  isDrawn_ = spread > 0;
+  cone_ = PhotonCone(center_, middle_, radius_ + spread);
+  LightProbe probe;
+  for (size_t c = 0; c < PhotonCone::kCells; ++c)
+    for (int k = 0; k < kProbes; ++k) askAlong(cone_.local(c, probePlace(k)), vec3(0), probe);
+  shading_.probe(light_, probe);
+  std::vector<double> weights;
+  for (size_t c = 0; c < PhotonCone::kCells; ++c) {
+    double sum = 0;
+    for (size_t k = 0; k < kProbes; ++k) sum += double{luminance(intensity(probe, c * kProbes + k))};
+    weights.push_back(sum / kProbes);
+    power_ += sum / kProbes * double{kPi} * cone_.cellSolidAngle();
+  }
+  if (power_ > 0) cells_ = withFloor(weights);
+}
+
+void PhotonSource::askAlong(const vec3& local, const vec3& offset, LightProbe& probe) const {
+  probe.P.push_back(cone_.place(local, cone_.askingDistance()) + offset), probe.N.push_back(-cone_.direction(local));
+}
+
+/// I = E r^2 over pi.
+vec3 PhotonSource::intensity(const LightProbe& probe, size_t i) const {
+  return probe.Cl[i] * (cone_.askingDistance() * cone_.askingDistance());
+}
+
+void PhotonSource::surveyDistant(const PhotonTarget& target) {
+  const LightProbe probe = askedFromMiddle(fewSamples());
+  direction_ = normalizeOr(-std::accumulate(probe.L.begin(), probe.L.end(), vec3(0)), vec3(0, 0, 1));
+  // Shadows along any of its directions lie about those along the middle one (emitFromDistance).
+  float spread = 0, brightness = 0;
+  for (size_t i = 0; i < kFewSamples; ++i) {
+    spread = std::max(spread, kSampledMargin * radius_ * glm::length(probe.L[i] + direction_));
+    brightness += luminance(probe.Cl[i]) / kFewSamples;
+    isDrawn_ |= probe.L[i] != probe.L[0];
+  }
+  vec3 tangent, bitangent;
+  orthonormalBasis(direction_, tangent, bitangent);
+  // The shadow of every object's box on the square: nothing is sent to where there is nothing.
+  std::vector<double> weights(kGrid * kGrid, 0.0);
+  const auto cellAt = [&](float along) {
+    return std::clamp(static_cast<int>((along / radius_ + 1) * 0.5f * kGrid), 0, kGrid - 1);
+  };
+  for (const Bound3& b : target.objects) {
+    Bound2 shadow;
+    for (int k = 0; k < 8; ++k) {
+      const vec3 off = b.corner(k) - center_;
+      shadow.extend(vec2(dot(off, tangent), dot(off, bitangent)));
+    }
+    const int left = cellAt(shadow.lo.x - spread), right = cellAt(shadow.hi.x + spread);
+    for (int y = cellAt(shadow.lo.y - spread); y <= cellAt(shadow.hi.y + spread); ++y)
+      std::fill_n(weights.begin() + y * kGrid + left, right - left + 1, 1.0);
+  }
+  for (const double w : weights) cells_.add(w);
+  const double cellArea = std::pow(2 * double{radius_} / kGrid, 2);
+  power_ = double{brightness} * double{kPi} * cellArea * cells_.total();
+}
+
+void PhotonSource::surveyArea() {
+  std::vector<EmittedPhoton> photons(256);
+  emit(0, 0, photons);
+  for (const EmittedPhoton& p : photons) power_ += double{luminance(p.power)} / static_cast<double>(photons.size());
+}
+
+void PhotonSource::emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>& out) const {
+  // Two pairs of one photon: each stratified over all photons of the light, unrelated to the other.
+  const uint32_t stream = hashCombine(seed, static_cast<uint32_t>(light_));
+  std::vector<uint32_t> number(out.size());
+  std::iota(number.begin(), number.end(), first);
+  const auto pairs = [&](uint32_t name) {
+    std::vector<vec2> xi(out.size());
+    sobol2(number, std::vector(out.size(), name), xi);
+    return xi;
+  };
+  const std::vector<vec2> a = pairs(stream), b = pairs(hashCombine(stream, kSecondPair));
+  if (kind_ == LightKind::Point) emitFromPoint(a, b, out);
+  if (kind_ == LightKind::Distant) emitFromDistance(a, b, out);
+  if (kind_ == LightKind::Sky) sky_->emit(a, b, out);
+  if (kind_ == LightKind::Area) emitFromArea(a, b, out);
+}
+
+LightProbe PhotonSource::askedFromMiddle(const std::vector<vec2>& xi) const {
+  LightProbe probe;
+  probe.P.assign(xi.size(), center_), probe.N.assign(xi.size(), vec3(0, 0, 1)), probe.xi = xi;
+  shading_.probe(light_, probe);
+  for (vec3& L : probe.L) L = kind_ == LightKind::Distant ? normalizeOr(L, vec3(0, 0, -1)) : L;
+  return probe;
+}
+
+void PhotonSource::emitFromPoint(const std::vector<vec2>& a, const std::vector<vec2>& b,
+                                 std::vector<EmittedPhoton>& out) const {
+  const LightProbe place = isDrawn_ ? askedFromMiddle(b) : LightProbe();
+  LightProbe probe;
+  probe.xi = b;
+  std::vector<double> density;
+  for (size_t i = 0; i < out.size(); ++i) {
+    double x{a[i].x};
+    const size_t cell = cells_.pick(x);
+    const vec3 local = cone_.local(cell, {static_cast<float>(x), a[i].y}),
+               offset = isDrawn_ ? place.L[i] - middle_ : vec3(0);
+    Ray& ray = out[i].ray;
+    ray = {cone_.place(local, cone_.start()) + offset, cone_.direction(local)};
+    ray.bias = kPointBias * (radius_ + glm::length(ray.origin));
+    density.push_back(cells_.weight(cell) / (cells_.total() * cone_.cellSolidAngle()));
+    askAlong(local, offset, probe);
+  }
+  shading_.probe(light_, probe);
+  for (size_t i = 0; i < out.size(); ++i) out[i].power = intensity(probe, i) * kPi / static_cast<float>(density[i]);
+}
+
+void PhotonSource::emitFromDistance(const std::vector<vec2>& a, const std::vector<vec2>& b,
+                                    std::vector<EmittedPhoton>& out) const {
+  vec3 tangent, bitangent;
+  orthonormalBasis(direction_, tangent, bitangent);
+  const LightProbe sun = isDrawn_ ? askedFromMiddle(b) : LightProbe();
+  LightProbe probe;
+  probe.xi = b;
+  const float side = 2 * radius_ / kGrid;
+  for (size_t i = 0; i < out.size(); ++i) {
+    double x{a[i].x};
+    const size_t cell = cells_.pick(x);
+    const vec2 at = side * vec2(static_cast<float>(cell % kGrid) + static_cast<float>(x),
+                                static_cast<float>(cell / kGrid) + a[i].y) -
+                    vec2(radius_);
+    // The square turns with the direction by the shortest way: whatever its shadow, it moves by less than
+    // that does.
+    const vec3 d = isDrawn_ ? -sun.L[i] : direction_, across = at.x * tangent + at.y * bitangent;
+    const vec3 turned = across - dot(across, d) / std::max(1 + dot(direction_, d), 1e-6f) * (direction_ + d);
+    out[i].ray = {center_ + turned - kOutside * radius_ * d, d};
+    probe.P.push_back(out[i].ray.origin), probe.N.push_back(-d);
+  }
+  shading_.probe(light_, probe);
+  const float area = side * side * static_cast<float>(cells_.total());
+  for (size_t i = 0; i < out.size(); ++i) out[i].power = probe.Cl[i] * kPi * area;
+}
+
+void PhotonSource::emitFromArea(const std::vector<vec2>& a, const std::vector<vec2>& b,
+                                std::vector<EmittedPhoton>& out) const {
+  const size_t n = out.size();
+  std::vector<float> xi0(n), xi1(n), area(n), place[3], normal[3];
+  for (auto* v : {place, normal})
+    for (int k = 0; k < 3; ++k) v[k].resize(n);
+  for (size_t i = 0; i < n; ++i) xi0[i] = a[i].x, xi1[i] = a[i].y;
+  const TmVec3 P{place[0].data(), place[1].data(), place[2].data()},
+      N{normal[0].data(), normal[1].data(), normal[2].data()};
+  std::vector<int> group(n);
+  if (!rays_.emitters().sample(light_, static_cast<int>(n), xi0.data(), xi1.data(), P, N, area.data(), group.data())) {
+    std::fill(out.begin(), out.end(), EmittedPhoton{});
+    return;
+  }
+  std::vector<vec3> directions(n);
+  cosineHemispheres(b, directions);
+  LightProbe probe;
+  for (auto* v : {&probe.P, &probe.N, &probe.Pl, &probe.Nl}) v->reserve(n);
+  for (size_t i = 0; i < n; ++i) {
+    const vec3 Nl(N.x[i], N.y[i], N.z[i]), &local = directions[i];
+    vec3 tangent, bitangent;
+    orthonormalBasis(Nl, tangent, bitangent);
+    Ray& ray = out[i].ray;
+    ray.origin = vec3(P.x[i], P.y[i], P.z[i]);
+    ray.direction = local.x * tangent + local.y * bitangent + local.z * Nl;
+    // The polygons that rays see may lie before the surface that shines.
+    rays_.prepareOrigin(group[i], ray.origin, 0, ray);
+    ray.offset /= std::max(local.z, kLeastCosine);
+    out[i].normal = Nl;
+    probe.Pl.push_back(ray.origin), probe.Nl.push_back(Nl);
+    probe.P.push_back(ray.origin + ray.direction), probe.N.push_back(-ray.direction);
+  }
+  shading_.probe(light_, probe);
+  // A Lambertian emitter of radiance L sends pi L from each unit of area.
+  for (size_t i = 0; i < n; ++i) out[i].power = probe.Cl[i] * kPi * area[i];
+}
+
+}  // namespace tomales

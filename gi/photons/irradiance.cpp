@@ -1,0 +1,184 @@
+#include "gi/photons/irradiance.h"
+
+#include <array>
+#include <utility>
+
+#include "gi/photons/tree.h"
+#include "reyes/base/check.h"
+#include "reyes/base/parallel.h"
+
+namespace tomales {
+namespace {
+
+// Chance alone moves the centroid of 50 photons by 0.09 radii on average; from there on a border is believed
+// in gradually.
+constexpr float kChanceEnds = 0.18f, kBorderBegins = 0.34f;
+constexpr float kOverlap =
+    1.6f;                   ///< Radius of a disk over that of the area it stands for: few gaps between random disks.
+constexpr size_t kFew = 8;  ///< Fewer photons tell nothing about how far the next are.
+/// By chance, the nearest eight of 50 are so much closer once in a thousand times. Radii that follow chance
+/// make bricks finer than the data.
+constexpr float kMuchCloser = 0.5f;
+constexpr float kMostOfMap = 0.05f;
+constexpr size_t kEstimatesPerTask = 256;
+
+/// A circular segment of half angle theta: its area over pi, and the distance of its centroid, in radii.
+vec2 segment(float theta) {
+  const float area = theta - std::sin(theta) * std::cos(theta), s = std::sin(theta);
+  return {area / kPi, area > 0 ? 2 * s * s * s / (3 * area) : 1.0f};
+}
+
+constexpr float kMuchBent = 0.95f;  ///< Length of the mean normal: a hemisphere's within 60 degrees has 3/4.
+
+struct Estimate {
+  vec3 irradiance{0.0f};
+  float radius = 0;                ///< 0: none was made.
+  bool few = false, bent = false;  ///< EstimateFigures
+  float clump = 1;
+};
+
+/// Of the disk that stands for `every` of `count` photons on an area.
+float diskRadius(float area, size_t count, int every) {
+  return kOverlap *
+         std::sqrt(area * static_cast<float>(every) / (kPi * static_cast<float>(std::max<size_t>(count, 1))));
+}
+
+/// By the nearest few alone: where photons are rare, those that the search has to reach for lie on other
+/// surfaces, and the disk must not reach there. Pre: sorted.
+float nearRadius(const std::vector<NearPhoton>& photons, int every) {
+  const size_t few = std::min(photons.size(), std::max(kFew, 2 * static_cast<size_t>(every)));
+  return diskRadius(kPi * photons[few - 1].distance2, few, every);
+}
+
+/// EstimateFigures::clumps of one. Neither the farthest of the few counts, nor that of all, `inside`, nor the
+/// photon at the middle. Pre: sorted.
+float clumpOf(const std::vector<NearPhoton>& photons, float area, size_t inside) {
+  if (photons.size() <= kFew || !(photons[kFew - 1].distance2 > 0)) return 1;
+  return static_cast<float>(kFew - 2) / (kPi * photons[kFew - 1].distance2) * area / static_cast<float>(inside - 1);
+}
+
+Estimate estimate(const PhotonTree& tree, int power, uint32_t at, const PhotonIrradianceSettings& settings,
+                  std::vector<NearPhoton>& heap) {
+  const vec3 P = tree.position(at), N = tree.normal(at);
+  const auto most = static_cast<size_t>(settings.nearest);
+  tree.nearest(P, N, tree.surface(at), most, settings.maxRadius, heap);
+  // The farthest gives the radius and does not count: n - 1 inside is what a disk that just excludes the n-th
+  // has. So few that two which happen to be close would shine: all of the reach is the disk.
+  const bool byFarthest = heap.size() >= std::min(kFew, most);
+  const float r2 = byFarthest ? heap.front().distance2 : settings.maxRadius * settings.maxRadius;
+  if (!(r2 > 0)) return {vec3(0.0f), 0};
+  std::sort(heap.begin(), heap.end());  // sums in the order of distance, which no thread decides
+  const size_t inside = heap.size() - byFarthest;
+  vec3 sum(0.0f), centroid(0.0f), normal(0.0f);
+  for (size_t i = 0; i < inside; ++i) {
+    const float* w = tree.photons().at(heap[i].photon) + power;
+    sum += vec3(w[0], w[1], w[2]);
+    centroid += tree.position(heap[i].photon) - P;
+    normal += tree.normal(heap[i].photon);
+  }
+  const float count = static_cast<float>(std::max<size_t>(inside, 1));
+  centroid /= count;
+  const float distance = glm::length(centroid - dot(centroid, N) * N) / std::sqrt(r2);
+  const float belief = glm::smoothstep(kChanceEnds, kBorderBegins, distance);
+  const float covered = glm::mix(1.0f, coveredShare(distance), belief), area = kPi * r2 * covered;
+  const float wide = diskRadius(area, inside, settings.every), close = nearRadius(heap, settings.every);
+  return {sum / area, close < kMuchCloser * wide ? close : wide, heap.size() < most,
+          glm::length(normal) < kMuchBent * count, clumpOf(heap, area, inside)};
+}
+
+/// Where photons fly: as estimate(), of a ball.
+Estimate estimateInMedium(const PhotonTree& tree, int power, uint32_t at, const PhotonIrradianceSettings& settings,
+                          std::vector<NearPhoton>& heap) {
+  const vec3 P = tree.position(at);
+  const auto most = static_cast<size_t>(settings.nearest);
+  tree.nearest(P, vec3(0), 0, most, settings.maxRadius, heap);
+  const bool byFarthest = heap.size() >= std::min(kFew, most);
+  const float r = byFarthest ? std::sqrt(heap.front().distance2) : settings.maxRadius;
+  if (!(r > 0)) return {vec3(0.0f), 0};
+  std::sort(heap.begin(), heap.end());
+  const size_t inside = heap.size() - byFarthest;
+  vec3 sum(0.0f), centroid(0.0f);
+  for (size_t i = 0; i < inside; ++i) {
+    const float* w = tree.photons().at(heap[i].photon) + power;
+    sum += vec3(w[0], w[1], w[2]), centroid += tree.position(heap[i].photon) - P;
+  }
+  const float count = static_cast<float>(std::max<size_t>(inside, 1)), distance = glm::length(centroid) / (count * r);
+  const float covered =
+      glm::mix(1.0f, coveredShareOfBall(distance), glm::smoothstep(kChanceEnds, kBorderBegins, distance));
+  const float volume = 4.0f / 3 * kPi * r * r * r * covered;
+  return {sum / volume, kOverlap * r * std::cbrt(covered * static_cast<float>(settings.every) / count)};
+}
+
+}  // namespace
+
+float coveredShareOfBall(float centroidDistance) {
+  float lo = -1, hi = 1,
+        share = 1;  // the plane, seen from the centre; the centroid moves out as it comes nearer
+  for (int i = 0; i < 24; ++i) {
+    const float a = 0.5f * (lo + hi), circle = 1 - a * a;
+    share = 1 - 0.25f * (1 - a) * (1 - a) * (2 + a);
+    (share > 0 && 0.1875f * circle * circle / share < centroidDistance ? hi : lo) = a;
+  }
+  return share;
+}
+
+float coveredShare(float centroidDistance) {
+  float lo = 0, hi = kPi;  // the centroid moves in as the segment grows
+  for (int i = 0; i < 24; ++i) {
+    const float middle = 0.5f * (lo + hi);
+    (segment(middle).y > centroidDistance ? lo : hi) = middle;
+  }
+  return segment(hi).x;
+}
+
+float reachOf(const PhotonIrradianceSettings& settings, const Bound3& map) {
+  return settings.maxRadius > 0 || map.empty() ? settings.maxRadius : kMostOfMap * glm::length(map.size());
+}
+
+std::vector<CloudChannel> irradianceChannels(const std::vector<CloudChannel>& photons) {
+  const auto has = [&](const char* power) { return offsetOf(photons, power, 3) >= 0; };
+  std::vector<CloudChannel> out{{has(kPathPower)       ? "fluence"
+                                 : has(kIndirectPower) ? kIndirectIrradiance
+                                                       : kIrradiance,
+                                 3}};
+  if (tellsSurfaces(photons)) out.push_back(kSurfaceChannel);
+  return out;
+}
+
+PointCloud estimateIrradiance(PointCloud photons, const PhotonIrradianceSettings& given,
+                              const std::function<bool(const vec3& P)>& wanted, EstimateFigures* figures) {
+  PhotonIrradianceSettings settings = given;
+  settings.maxRadius = reachOf(given, photons.bound());
+  PointCloud out;
+  out.channels = irradianceChannels(photons.channels);
+  if (photons.count() == 0) return out;
+  const bool inMedia = offsetOf(photons.channels, kPathPower, 3) >= 0;
+  const int power = std::max({offsetOf(photons.channels, kPathPower), offsetOf(photons.channels, kPower),
+                              offsetOf(photons.channels, kIndirectPower)});
+  CHECK_GE(power, 0);
+  const PhotonTree tree(std::move(photons));
+  const auto every = static_cast<size_t>(std::max(1, settings.every));
+  const size_t count = (tree.photons().count() + every - 1) / every;
+  std::vector<Estimate> estimates(count);
+  parallelFor(count, kEstimatesPerTask, [&](size_t begin, size_t end) {
+    std::vector<NearPhoton> heap;
+    for (size_t i = begin; i < end; ++i) {
+      const auto at = static_cast<uint32_t>(i * every);
+      if (!wanted || wanted(tree.position(at)))
+        estimates[i] = (inMedia ? estimateInMedium : estimate)(tree, power, at, settings, heap);
+    }
+  });
+  out.reserve(count);
+  for (size_t i = 0; i < count; ++i) {
+    const auto at = static_cast<uint32_t>(i * every);
+    const vec3& E = estimates[i].irradiance;
+    const std::array values{E.x, E.y, E.z, static_cast<float>(tree.surface(at))};
+    const Estimate& e = estimates[i];
+    if (!(e.radius > 0)) continue;
+    out.add(tree.position(at), tree.normal(at), e.radius, values.data());
+    if (figures && !inMedia) *figures += {1, e.few, e.bent, e.clump};
+  }
+  return out;
+}
+
+}  // namespace tomales

@@ -1,0 +1,87 @@
+#include "gi/photons.h"
+
+#include <numeric>
+
+#include "gi/photons/tracer.h"
+#include "reyes/base/parallel.h"
+
+namespace tomales {
+namespace {
+
+constexpr size_t kPhotonsPerTask = 2048,
+                 kTasksPerThread = 8;  ///< Before they are stored, from the processor's cache.
+
+std::vector<PhotonSource> sourcesOf(const Scene& scene, const RayScene& rays, const ShadingSystem& shading, Log& log) {
+  const PhotonTarget target(scene);
+  std::vector<PhotonSource> sources;
+  for (const auto& light : scene.lights) {
+    const LightKind kind = shading.lightKind(light->index);
+    const bool isOn = std::any_of(scene.groups.begin(), scene.groups.end(),
+                                  [&](const ShadeGroup& g) { return isOnFor(g, light->index); });
+    if (!isOn || kind == LightKind::None || kind == LightKind::Indirect) continue;
+    if (kind == LightKind::Ambient) {
+      log.report(Severity::Warning, "photons-ambient", light->shader.where,
+                 "light \"" + light->handle + "\" comes from nowhere: it emits no photons");
+      continue;
+    }
+    PhotonSource source(light->index, shading, rays, target);
+    if (source.power() > 0) sources.push_back(std::move(source));
+  }
+  return sources;
+}
+
+}  // namespace
+
+std::optional<PhotonModel> photonModel(const std::string& name) {
+  static constexpr std::pair<std::string_view, PhotonModel> kModels[] = {
+      {"matte", PhotonModel::Matte},   {"translucent", PhotonModel::Translucent},
+      {"chrome", PhotonModel::Chrome}, {"glass", PhotonModel::Glass},
+      {"water", PhotonModel::Water},   {"transparent", PhotonModel::Transparent}};
+  for (const auto& [known, model] : kModels)
+    if (known == name) return model;
+  return std::nullopt;
+}
+
+PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
+                           const PhotonSettings& settings,
+                           const std::function<void(std::span<const StoredPhoton>)>& store,
+                           const std::function<void(float)>& progress, Stats& stats, Log& log) {
+  const std::vector<PhotonSource> sources = sourcesOf(scene, rays, shading, log);
+  const double total = std::accumulate(sources.begin(), sources.end(), 0.0,
+                                       [](double sum, const PhotonSource& s) { return sum + s.power(); });
+  if (sources.empty())
+    log.report(Severity::Warning, "photons-no-light", scene.where,
+               "no light of the scene emits photons: indirect light is black");
+  const PhotonTracer tracer(scene, rays, shading, settings, log);
+  PhotonFigures figures;
+  std::vector<std::vector<StoredPhoton>> stored;
+  const size_t photonsPerWave = kPhotonsPerTask * kTasksPerThread * static_cast<size_t>(threadCount());
+  for (const PhotonSource& source : sources) {
+    const auto count =
+        static_cast<size_t>(std::max(1.0, std::round(static_cast<double>(settings.emit) * source.power() / total)));
+    const float share = 1 / static_cast<float>(count);
+    for (size_t wave = 0; wave < count; wave += photonsPerWave) {
+      const size_t end = std::min(count, wave + photonsPerWave);
+      stored.resize((end - wave + kPhotonsPerTask - 1) / kPhotonsPerTask);
+      parallelFor(stored.size(), 1, [&](size_t begin, size_t last) {
+        for (size_t task = begin; task < last; ++task) {
+          const size_t first = wave + task * kPhotonsPerTask;
+          stored[task].clear();
+          tracer.trace(source, static_cast<uint32_t>(first), std::min(kPhotonsPerTask, end - first), share,
+                       stored[task]);
+        }
+      });
+      for (const auto& photons : stored) {
+        store(photons);
+        figures.stored += static_cast<int64_t>(photons.size());
+      }
+      if (progress)
+        progress(static_cast<float>(figures.emitted + static_cast<int64_t>(end)) / static_cast<float>(settings.emit));
+    }
+    figures.emitted += static_cast<int64_t>(count);
+  }
+  stats.rays.photon += figures.emitted;
+  return figures;
+}
+
+}  // namespace tomales

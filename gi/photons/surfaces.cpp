@@ -1,0 +1,57 @@
+#include "gi/photons/surfaces.h"
+
+namespace tomales {
+namespace {
+
+vec3 shareOf(const vec3& given, const vec3& otherwise) {
+  return isFinite(given) ? glm::clamp(given, 0.0f, 1.0f) : otherwise;
+}
+
+}  // namespace
+
+PhotonSurfaces::PhotonSurfaces(const RayScene& rays, const ShadingSystem& shading, uint32_t seed, Log& log)
+    : rays_(rays), shading_(shading), seed_(seed) {
+  const Scene& scene = rays.scene();
+  for (const ShadeGroup& g : scene.groups) {
+    const std::string& name = g.attributes->photon.shadingModel;
+    const std::optional<PhotonModel> model = photonModel(name);
+    if (!model)
+      log.report(Severity::Warning, "photons-model-" + name, scene.where,
+                 "photon shadingmodel \"" + name + "\" is not known; matte is used");
+    models_.push_back(model.value_or(PhotonModel::Matte));
+  }
+  for (size_t g = 0; g < models_.size(); ++g) even_.push_back(evenAnswer(static_cast<int>(g)));
+}
+
+std::optional<PhotonSurfaces::Answer> PhotonSurfaces::evenAnswer(int group) const {
+  if (!isDiffuse(group)) return Answer{};
+  if (!shading_.reflectsEvenly(group)) return std::nullopt;
+  Hit hit;
+  hit.t = 1, hit.object = rays_.scene().groups[static_cast<size_t>(group)].exampleObject, hit.u = hit.v = 0.5f;
+  hit.normal = hit.geometricNormal = {0, 0, -1};
+  return ask({{vec3(0), vec3(0, 0, 1)}}, {hit}, {{}}).front();
+}
+
+/// Reflected is what comes back of E/pi = 1, less what is emitted.
+std::vector<PhotonSurfaces::Answer> PhotonSurfaces::ask(const std::vector<Ray>& rays, const std::vector<Hit>& hits,
+                                                        const std::vector<SampleName>& names) const {
+  ShadeContext context{RayKind::Diffuse, 1, seed_, 1, false};
+  context.light = Illumination::Unit;
+  HitAnswers lit;
+  lit.mode = HitMode::Shader;
+  rays_.shadeHits(rays, hits, names, shading_, context, lit);
+  const auto emits = [&](const Hit& h) {
+    return shading_.emits(rays_.scene().objects[static_cast<size_t>(h.object)].group);
+  };
+  if (std::any_of(hits.begin(), hits.end(), emits)) {
+    context.light = Illumination::None;
+    std::vector<vec3> dark;
+    rays_.shadeHits(rays, hits, names, shading_, context, dark);
+    for (size_t i = 0; i < dark.size(); ++i) lit.color[i] -= dark[i];
+  }
+  std::vector<Answer> out(hits.size());
+  for (size_t i = 0; i < out.size(); ++i) out[i] = {shareOf(lit.color[i], vec3(0)), shareOf(lit.opacity[i], vec3(1))};
+  return out;
+}
+
+}  // namespace tomales

@@ -1,0 +1,276 @@
+#include "gi/photons/tracer.h"
+
+#include "gi/gather.h"
+#include "raytrace/emitter_shapes.h"
+#include "raytrace/hit_list.h"
+#include "reyes/base/rng.h"
+
+namespace tomales {
+namespace {
+
+constexpr uint32_t kBounceStream = 0x626f756eU, kMediumStream = 0x6d656469U;
+constexpr float kDiffuseSpread = 0.1f;  ///< As a gather ray of about a hundred; irradiance is estimated over more.
+constexpr uint32_t kMostPasses =
+    1000;  ///< Of one path: layers of leaves and smoke end somewhere, faults of geometry may not.
+
+/// Reflection and refraction at a smooth dielectric.
+vec3 dielectric(const vec3& d, const vec3& towards, bool entering, float index, float xi) {
+  const float eta = entering ? 1 / index : index, cosine = -dot(d, towards);
+  const float k = 1 - eta * eta * (1 - cosine * cosine);
+  const vec3 mirrored = d + 2 * cosine * towards;
+  if (k < 0) return mirrored;
+  const float inside = std::sqrt(k);
+  const float rs = (eta * cosine - inside) / (eta * cosine + inside),
+              rp = (cosine - eta * inside) / (cosine + eta * inside);
+  return xi < 0.5f * (rs * rs + rp * rp) ? mirrored : eta * d + (eta * cosine - inside) * towards;
+}
+
+}  // namespace
+
+bool isOnFor(const ShadeGroup& group, int light) {
+  const std::vector<int>& on = group.attributes->lights;
+  return std::find(on.begin(), on.end(), light) != on.end();
+}
+
+PhotonTracer::PhotonTracer(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
+                           const PhotonSettings& settings, Log& log)
+    : scene_(scene),
+      rays_(rays),
+      surfaces_(rays, shading, settings.seed, log),
+      settings_(settings),
+      worldUnit_(std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))))) {
+  for (const Object& o : scene.objects) groups_.push_back(o.group);
+  for (const ShadeGroup& g : scene.groups) {
+    media_.push_back(
+        {mediumOf(g.attributes->interior.get(), worldUnit_), mediumOf(g.attributes->exterior.get(), worldUnit_)});
+    anyMedium_ |= !media_.back().inside.empty() || !media_.back().outside.empty();
+  }
+}
+
+void PhotonTracer::trace(const PhotonSource& source, uint32_t first, size_t count, float share,
+                         std::vector<StoredPhoton>& out) const {
+  std::vector<EmittedPhoton> emitted(count);
+  source.emit(first, settings_.seed, emitted);
+  const uint32_t stream = hashCombine(settings_.seed, static_cast<uint32_t>(source.light()), kBounceStream);
+  std::vector<Path> paths;
+  Scratch scratch;
+  paths.reserve(count), scratch.flying.reserve(count);
+  for (size_t i = 0; i < count; ++i) {
+    const EmittedPhoton& e = emitted[i];
+    if (!(maxComponent(e.power) > 0) || !isFinite(e.power)) continue;
+    scratch.flying.push_back(static_cast<uint32_t>(paths.size()));
+    paths.push_back({e.ray, e.power * share, first + static_cast<uint32_t>(i), source.light()});
+    paths.back().lift = liftOf(e.ray, e.normal);
+  }
+  while (!scratch.flying.empty()) step(paths, stream, scratch, out);
+}
+
+/// Every path that flies to its next surface; those that end there fly no more.
+void PhotonTracer::step(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const {
+  fly(paths, s);
+  crossMedia(paths, stream, s, out);
+  ask(paths, stream, s);
+  draw(paths, stream, s);
+  size_t kept = 0;
+  for (size_t k = 0; k < s.flying.size(); ++k) {
+    Path& path = paths[s.flying[k]];
+    if (s.scattered[k] ||
+        (s.hits[k].object >= 0 && meets(path, s.hits[k], *s.answers[k], {s.direction[k], s.survival[k]}, stream, out)))
+      s.flying[kept++] = s.flying[k];
+  }
+  s.flying.resize(kept);
+}
+
+/// Those that meet nothing leave the scene.
+void PhotonTracer::fly(std::vector<Path>& paths, Scratch& s) const {
+  s.hits.resize(s.flying.size());
+  size_t kept = 0;
+  for (const uint32_t i : s.flying) {
+    // In place: a copy of what has just been written in smaller pieces waits for them.
+    const Hit& hit = *::new (&s.hits[kept]) Hit(firstHit(paths[i]));
+    if (hit.object >= 0) s.flying[kept++] = i;
+  }
+  s.flying.resize(kept), s.hits.resize(kept);
+}
+
+/// Photons leave polygons, not the surfaces that those stand for: just before its polygon most of them meet
+/// nothing near, and the hit list would not change what they meet.
+Hit PhotonTracer::firstHit(Path& path) const {
+  Ray free = path.ray;
+  const bool hasList = free.offset > 0;
+  if (hasList) free.origin += path.lift, free.offset = free.bias = 0;
+  Hit hit = rays_.closest(free, kMaskPhoton);
+  if (hasList && hit.t <= recordingWindow(path.ray.offset))
+    hit = rays_.closest(path.ray, kMaskPhoton);
+  else
+    path.ray.origin = free.origin;  // that is where t counts from
+  return hit;
+}
+
+vec3 PhotonTracer::liftOf(const Ray& ray, const vec3& normal) {
+  return std::copysign(roundingAt(ray.origin), dot(ray.direction, normal)) * normal;
+}
+
+void PhotonTracer::draw(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const {
+  const size_t count = s.flying.size();
+  s.number.resize(count), s.name.resize(count), s.xi.resize(count), s.direction.resize(count), s.survival.resize(count);
+  for (size_t k = 0; k < count; ++k) {
+    const Path& path = paths[s.flying[k]];
+    s.number[k] = path.number, s.name[k] = nameOf(path, stream);
+  }
+  sobol2(s.number, s.name, s.xi);
+  cosineHemispheres(s.xi, s.direction);
+  for (uint32_t& name : s.name) name = hashCombine(name, 1u);
+  sobol1(s.number, s.name, s.survival);
+}
+
+/// What collides before it arrives is stored there, and meets no surface in this step.
+void PhotonTracer::crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch& s,
+                              std::vector<StoredPhoton>& out) const {
+  s.scattered.assign(s.flying.size(), 0);
+  for (size_t k = 0; anyMedium_ && k < s.flying.size(); ++k) {
+    Path& path = paths[s.flying[k]];
+    Hit& hit = s.hits[k];
+    const Media& media = media_[static_cast<size_t>(groupOf(hit))];
+    const Medium& medium = dot(path.ray.direction, hit.geometricNormal) > 0 ? media.inside : media.outside;
+    const float majorant = medium.majorant(path.power);
+    if (!(majorant > 0)) continue;
+    const uint32_t name = hashCombine(nameOf(path, stream), kMediumStream, path.collisions);
+    const float flight = -std::log(1 - sobol1(path.number, name)) / majorant;
+    if (!(flight < hit.t)) continue;
+    s.scattered[k] = collides(path, medium, landsOn(path, groupOf(hit)), flight, name, out);
+    hit.object = -1;
+  }
+}
+
+/// False: it ends there.
+bool PhotonTracer::collides(Path& path, const Medium& medium, bool isLit, float flight, uint32_t name,
+                            std::vector<StoredPhoton>& out) const {
+  const vec3 P = path.ray.origin + flight * path.ray.direction;
+  if (isLit)
+    out.push_back({P, vec3(0), path.power / (medium.majorant(path.power) * worldUnit_), -1, path.depth, false});
+  const Collision collision = collide(medium, path.power, sobol1(path.number, hashCombine(name, 1u)));
+  if (collision.event == Collision::Absorbed) return false;
+  path.power = collision.power;
+  ++path.collisions;
+  if (collision.event == Collision::None) {  // the same ray, from there
+    path.ray.origin = P;
+    path.ray.offset = std::max(0.0f, path.ray.offset - flight), path.ray.bias = std::max(0.0f, path.ray.bias - flight);
+    return true;
+  }
+  if (!isLit || ++path.depth >= settings_.maxDepth) return false;
+  path.specular = false;
+  path.ray = {P, directionOnSphere(sobol2(path.number, hashCombine(name, 2u)))};
+  return true;
+}
+
+/// The surface at every hit: one that is even, or its shader.
+void PhotonTracer::ask(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const {
+  s.answers.resize(s.hits.size());
+  std::vector<Ray> rays;
+  std::vector<Hit> hits;
+  std::vector<SampleName> names;
+  std::vector<size_t> which;
+  for (size_t k = 0; k < s.hits.size(); ++k) {
+    if (s.hits[k].object < 0) continue;
+    if ((s.answers[k] = surfaces_.even(groupOf(s.hits[k])))) continue;
+    const Path& path = paths[s.flying[k]];
+    rays.push_back(path.ray), hits.push_back(s.hits[k]), which.push_back(k);
+    names.push_back({hashCombine(stream, path.number, static_cast<uint32_t>(path.depth)), 0});
+  }
+  if (which.empty()) return;
+  s.found = surfaces_.ask(rays, hits, names);
+  for (size_t i = 0; i < which.size(); ++i) s.answers[which[i]] = &s.found[i];
+}
+
+/// Light that comes straight from a lamp, or by mirrors, is seen by what that lamp is switched on for.
+bool PhotonTracer::landsOn(const Path& path, int group) const {
+  return !path.specular || isOnFor(scene_.groups[static_cast<size_t>(group)], path.light);
+}
+
+uint32_t PhotonTracer::nameOf(const Path& path, uint32_t stream) {
+  return hashCombine(stream, static_cast<uint32_t>(path.depth) | path.passes << 16);
+}
+
+/// False: it ends there.
+bool PhotonTracer::meets(Path& path, const Hit& hit, const Answer& answer, const Draw& xi, uint32_t stream,
+                         std::vector<StoredPhoton>& out) const {
+  const int group = groupOf(hit);
+  const PhotonModel model = surfaces_.model(group);
+  const uint32_t name = nameOf(path, stream);
+  if (model == PhotonModel::Transparent)
+    return passes(path, hit, scene_.groups[static_cast<size_t>(group)].attributes->color, xi.survival);
+  if (!surfaces_.isDiffuse(group))
+    return isMirrored(path, hit, xi.survival, sobol1(path.number, hashCombine(name, 2u)));
+  // What is not there, as the rest of a leaf's card, holds no light.
+  const vec3 transmitted = 1.0f - answer.opacity;
+  const float passing = (transmitted.x + transmitted.y + transmitted.z) / 3;
+  const bool lands = passing < 1 && landsOn(path, group);
+  if (lands && (settings_.direct || path.depth > 0)) {
+    const vec3 P = path.ray.origin + hit.t * path.ray.direction, Ng = hit.geometricNormal;
+    out.push_back({P, dot(path.ray.direction, Ng) < 0 ? Ng : -Ng, path.power, group, path.depth,
+                   path.specular && path.depth > 0});
+  }
+  if (passing > 0 && sobol1(path.number, hashCombine(name, 3u)) < passing)
+    return passes(path, hit, transmitted / passing, xi.survival);
+  return lands && isScattered(path, hit, answer.reflected / (1 - passing), xi, hashCombine(name, 2u));
+}
+
+/// As if nothing were there, but for its colour: no arrival, and what comes so is no caustic.
+bool PhotonTracer::passes(Path& path, const Hit& hit, const vec3& transmitted, float xi) const {
+  if (++path.passes > kMostPasses || !survives(path, transmitted, xi)) return false;
+  leave(path, hit, path.ray.direction);
+  return true;
+}
+
+bool PhotonTracer::isScattered(Path& path, const Hit& hit, const vec3& reflected, const Draw& xi, uint32_t side) const {
+  path.specular = false;
+  if (++path.depth >= settings_.maxDepth || !survives(path, reflected, xi.survival)) return false;
+  // Around the interpolated normal some photons would go into the polygon, and be caught in what it bounds.
+  const bool through = surfaces_.model(groupOf(hit)) == PhotonModel::Translucent && sobol1(path.number, side) < 0.5f;
+  const vec3 axis =
+      (dot(path.ray.direction, hit.geometricNormal) < 0) != through ? hit.geometricNormal : -hit.geometricNormal;
+  vec3 tangent, bitangent;
+  orthonormalBasis(axis, tangent, bitangent);
+  const vec3& local = xi.direction;
+  leave(path, hit, local.x * tangent + local.y * bitangent + local.z * axis);
+  return true;
+}
+
+bool PhotonTracer::isMirrored(Path& path, const Hit& hit, float survival, float xi) const {
+  const PhotonModel model = surfaces_.model(groupOf(hit));
+  const vec3& tint = scene_.groups[static_cast<size_t>(groupOf(hit))].attributes->color;
+  if (++path.depth >= settings_.maxDepth || !survives(path, tint, survival)) return false;
+  const vec3 d = path.ray.direction;
+  const bool front = dot(d, hit.geometricNormal) < 0;
+  const vec3 N = front ? hit.normal : -hit.normal;
+  const vec3 mirrored = d - 2 * dot(d, N) * N;
+  const float index = model == PhotonModel::Water ? 1.33f : 1.5f;
+  leave(path, hit, normalizeOr(model == PhotonModel::Chrome ? mirrored : dielectric(d, N, front, index, xi), N));
+  return true;
+}
+
+/// Surviving photons keep the power that they came with, so that all that are stored weigh about the same.
+bool PhotonTracer::survives(Path& path, const vec3& left, float xi) {
+  const vec3 power = path.power * left;
+  const float survival = std::min(1.0f, maxComponent(power) / maxComponent(path.power));
+  if (!(xi < survival)) return false;
+  path.power = power / survival;
+  return true;
+}
+
+/// In a direction of unit length.
+void PhotonTracer::leave(Path& path, const Hit& hit, const vec3& direction) const {
+  Ray& ray = path.ray;
+  const vec3& N = hit.normal;
+  ray.origin += hit.t * ray.direction;
+  ray.direction = direction;
+  // The level of what it meets follows from its width; textures there do not.
+  ray.spread = path.specular ? 0.0f : kDiffuseSpread;
+  rays_.prepareOrigin(groupOf(hit), ray.origin, 0, ray);
+  ray.spread = 0;
+  ray.offset = slantedOffset(ray.offset, std::abs(dot(direction, N)));
+  path.lift = liftOf(ray, hit.geometricNormal);
+}
+
+}  // namespace tomales

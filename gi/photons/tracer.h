@@ -1,0 +1,86 @@
+// Private to gi: photons on their way through the scene, from a light until they are absorbed or have gone
+// far enough. Space: current. Power: W. Same photons for any number of threads. Threads: const members may be
+// called concurrently.
+#pragma once
+#include "gi/photons/emission.h"
+#include "gi/photons/medium.h"
+#include "gi/photons/surfaces.h"
+
+namespace tomales {
+
+/// Is a light switched on for the objects of a group?
+bool isOnFor(const ShadeGroup& group, int light);
+
+class PhotonTracer {
+ public:
+  PhotonTracer(const Scene& scene, const RayScene& rays, const ShadingSystem& shading, const PhotonSettings& settings,
+               Log& log);
+
+  /// Photons number `first` .. first + count - 1 of a source, each of this share of its power; what they
+  /// leave is added to `out`.
+  void trace(const PhotonSource& source, uint32_t first, size_t count, float share,
+             std::vector<StoredPhoton>& out) const;
+
+ private:
+  struct Path {
+    Ray ray;
+    vec3 power;
+    uint32_t number;
+    int light;
+    int depth = 0;
+    uint32_t passes = 0;      ///< Through surfaces that have let it pass as if they were not there.
+    uint32_t collisions = 0;  ///< With media.
+    bool specular = true;     ///< So far it has met nothing diffuse.
+    vec3 lift{0.0f};          ///< From the origin to just before the polygon that it leaves.
+  };
+  using Answer = PhotonSurfaces::Answer;
+  struct Draw {
+    const vec3& direction;  ///< Of a cosine hemisphere around +z.
+    float survival;
+  };
+  struct Scratch {
+    std::vector<uint32_t> flying;        ///< Which paths do.
+    std::vector<Hit> hits;               ///< Of each of those,
+    std::vector<const Answer*> answers;  ///< and of the surface there.
+    std::vector<Answer> found;           ///< Those that are not even.
+    std::vector<uint8_t> scattered;      ///< Before it was reached.
+    std::vector<uint32_t> number, name;
+    std::vector<vec2> xi;
+    std::vector<vec3> direction;  ///< Random: where a path goes on,
+    std::vector<float> survival;  ///< and whether it does.
+  };
+  struct Media {
+    Medium inside, outside;
+  };
+
+  void step(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const;
+  void fly(std::vector<Path>& paths, Scratch& s) const;
+  Hit firstHit(Path& path) const;
+  static vec3 liftOf(const Ray& ray, const vec3& normal);
+  void draw(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const;
+  void crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const;
+  bool collides(Path& path, const Medium& medium, bool isLit, float flight, uint32_t name,
+                std::vector<StoredPhoton>& out) const;
+  void ask(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const;
+  bool landsOn(const Path& path, int group) const;
+  bool meets(Path& path, const Hit& hit, const Answer& answer, const Draw& xi, uint32_t stream,
+             std::vector<StoredPhoton>& out) const;
+  bool passes(Path& path, const Hit& hit, const vec3& transmitted, float xi) const;
+  bool isScattered(Path& path, const Hit& hit, const vec3& reflected, const Draw& xi, uint32_t side) const;
+  bool isMirrored(Path& path, const Hit& hit, float survival, float xi) const;
+  void leave(Path& path, const Hit& hit, const vec3& direction) const;
+  static bool survives(Path& path, const vec3& left, float xi);
+  static uint32_t nameOf(const Path& path, uint32_t stream);
+  int groupOf(const Hit& hit) const { return groups_[static_cast<size_t>(hit.object)]; }
+
+  const Scene& scene_;
+  const RayScene& rays_;
+  const PhotonSurfaces surfaces_;
+  const PhotonSettings& settings_;
+  const float worldUnit_;     ///< Length of one of the world.
+  std::vector<int> groups_;   ///< Of each object.
+  std::vector<Media> media_;  ///< On both sides of the surfaces of each group.
+  bool anyMedium_ = false;
+};
+
+}  // namespace tomales

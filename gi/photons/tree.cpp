@@ -1,0 +1,107 @@
+#include "gi/photons/tree.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <utility>
+
+namespace tomales {
+namespace {
+
+constexpr uint32_t kLeaf = 16;
+constexpr float kSameSide = 0.5f;      ///< Photons of surfaces turned away by more than 60 degrees do not count.
+constexpr float kAlongNormal = 15.0f;  ///< A photon off the plane looks four times as far.
+/// And one of another surface four hundred times as far as it is off the sheet: tiles of one floor continue
+/// each other, a ball does not continue the floor it lies on. On one sphere or plane a chord makes the same
+/// angle with both normals; of two parallel sheets, one looks at the back of the other.
+constexpr float kOffSheet = 160e3f;
+
+/// Photons into this order, in place: along each cycle, with one of them beside. A copy of all would be the most that
+/// estimates need.
+void reorder(PointCloud& photons, std::vector<uint32_t> order) {
+  const auto width = static_cast<size_t>(photons.width());
+  std::vector<float> data(width);
+  const auto valuesOf = [&](size_t i) { return photons.data.begin() + static_cast<ptrdiff_t>(i * width); };
+  for (uint32_t start = 0; start < order.size(); ++start) {
+    const vec3 position = photons.position[start], normal = photons.normal[start];
+    const float radius = photons.radius[start];
+    std::copy_n(valuesOf(start), width, data.begin());
+    uint32_t to = start;
+    for (uint32_t from; (from = std::exchange(order[to], to)) != start; to = from) {
+      photons.position[to] = photons.position[from], photons.normal[to] = photons.normal[from];
+      photons.radius[to] = photons.radius[from];
+      std::copy_n(valuesOf(from), width, valuesOf(to));
+    }
+    photons.position[to] = position, photons.normal[to] = normal, photons.radius[to] = radius;
+    std::copy_n(data.begin(), width, valuesOf(to));
+  }
+}
+
+}  // namespace
+
+PhotonTree::PhotonTree(PointCloud photons) : photons_(std::move(photons)) {
+  std::vector<uint32_t> order(photons_.count());
+  std::iota(order.begin(), order.end(), 0u);
+  build(order, 0, static_cast<uint32_t>(order.size()), 0);
+  reorder(photons_, std::move(order));
+  surface_.reserve(photons_.count());
+  for (size_t i = 0; i < photons_.count(); ++i) surface_.push_back(static_cast<uint8_t>(photons_.surface(i)));
+}
+
+void PhotonTree::build(std::vector<uint32_t>& order, uint32_t begin, uint32_t end, uint32_t node) {
+  if (end - begin <= kLeaf) return;
+  Bound3 bound;
+  for (uint32_t i = begin; i < end; ++i) bound.extend(position(order[i]));
+  const vec3 size = bound.size();
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const uint32_t middle = begin + (end - begin) / 2;
+  std::nth_element(order.begin() + begin, order.begin() + middle, order.begin() + end, [&](uint32_t a, uint32_t b) {
+    const float pa = position(a)[axis], pb = position(b)[axis];
+    return pa != pb ? pa < pb : a < b;
+  });
+  if (splits_.size() <= node) splits_.resize(node + 1);
+  splits_[node] = {position(order[middle])[axis], axis};
+  build(order, begin, middle, 2 * node + 1);
+  build(order, middle, end, 2 * node + 2);
+}
+
+void PhotonTree::nearest(const vec3& P, const vec3& N, int surface, size_t most, float radius,
+                         std::vector<NearPhoton>& heap) const {
+  struct Range {
+    uint32_t begin, end, node;
+    float distance2;
+  };
+  heap.clear();
+  const bool oriented = N != vec3(0.0f);
+  float limit = radius * radius;
+  std::array<Range, 64> stack;
+  size_t depth = 0;
+  stack[depth++] = {0, static_cast<uint32_t>(photons_.count()), 0, 0};
+  while (depth > 0) {
+    Range r = stack[--depth];
+    if (r.distance2 > limit) continue;
+    while (r.end - r.begin > kLeaf) {
+      const Split& split = splits_[r.node];
+      const uint32_t middle = r.begin + (r.end - r.begin) / 2;
+      const float d = P[split.axis] - split.at;
+      const Range low{r.begin, middle, 2 * r.node + 1, r.distance2}, high{middle, r.end, 2 * r.node + 2, r.distance2};
+      Range& far = stack[depth++];
+      far = d < 0 ? high : low;
+      far.distance2 = std::max(r.distance2, d * d);
+      r = d < 0 ? low : high;
+    }
+    for (uint32_t i = r.begin; i < r.end; ++i) {
+      const vec3 off = position(i) - P;
+      const bool same = surface == 0 || surface_[i] == 0 || surface_[i] == surface;
+      const float apart = same ? dot(off, N) : 0.5f * dot(off, N + normal(i));
+      const float distance2 = dot(off, off) + (same ? kAlongNormal : kOffSheet) * apart * apart;
+      if (distance2 > limit || (oriented && dot(normal(i), N) < kSameSide)) continue;
+      heap.push_back({distance2, i});
+      std::push_heap(heap.begin(), heap.end());
+      if (heap.size() > most) std::pop_heap(heap.begin(), heap.end()), heap.pop_back();
+      if (heap.size() == most) limit = heap.front().distance2;
+    }
+  }
+}
+
+}  // namespace tomales

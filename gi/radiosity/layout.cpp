@@ -1,0 +1,146 @@
+#include "gi/radiosity/layout.h"
+
+#include <fmt/format.h>
+
+#include "reyes/base/parallel.h"
+#include "reyes/dice.h"
+
+namespace tomales {
+namespace {
+
+constexpr int kProbes = 4;               ///< Edges across a patch that its size is measured along.
+constexpr uint32_t kManyPatches = 4096;  ///< Of an object: each is small then, and measured by its corners alone.
+constexpr int kMostTexels = 2048;        ///< Along an edge.
+constexpr size_t kTexelsPerRun = 1024;   ///< That one thread bakes at a time.
+
+int powerOfTwoNear(float texels) {
+  const float clamped = std::clamp(texels, 1.0f, static_cast<float>(kMostTexels));
+  return 1 << static_cast<int>(std::lround(std::log2(clamped)));
+}
+
+/// Why an object has no map; null: it has one.
+const char* refusal(const ShadingSystem& shading, const Object& o) {
+  const Attributes& a = *o.attributes;
+  if (o.solid >= 0) return "it is part of a solid";
+  if (o.shape().facing(vec3(0), vec3(0, 0, 1), true)) return "it turns to the eye";
+  if (a.displacement && a.trace.displacements) return "rays see its displacement";
+  if (!shading.opaque(o.group)) return "it is not opaque";
+  if (shading.tracesRays(o.group)) return "its shader traces rays";
+  return nullptr;
+}
+
+RadiosityChart chartOf(const Scene& scene, const Camera& camera, int object, uint32_t patch, float texels) {
+  const int probes = scene.objects[static_cast<size_t>(object)].shape().patchCount() > kManyPatches ? 1 : kProbes;
+  vec3 at[kProbes + 1][kProbes + 1];
+  vec3 middle(0);
+  for (int j = 0; j <= probes; ++j)
+    for (int i = 0; i <= probes; ++i) {
+      at[j][i] = surfaceAt(scene, object, patch, static_cast<float>(i) / static_cast<float>(probes),
+                           static_cast<float>(j) / static_cast<float>(probes))
+                     .P;
+      middle += at[j][i] / static_cast<float>((probes + 1) * (probes + 1));
+    }
+  float alongU = 0, alongV = 0;
+  for (int j = 0; j <= probes; ++j) {
+    float u = 0, v = 0;
+    for (int i = 0; i < probes; ++i)
+      u += glm::length(at[j][i + 1] - at[j][i]), v += glm::length(at[i + 1][j] - at[i][j]);
+    alongU = std::max(alongU, u), alongV = std::max(alongV, v);
+  }
+  const Attributes::Radiosity& asked = scene.objects[static_cast<size_t>(object)].attributes->radiosity;
+  // By its distance, so that what the camera does not see is no coarser than what it sees as far away.
+  const float unit = asked.screen ? camera.pixelSize({0, 0, glm::length(middle)})
+                                  : std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))));
+  const float texel = std::max(asked.texelSize * unit / texels, 1e-12f);
+  RadiosityChart chart;
+  chart.width = powerOfTwoNear(alongU / texel), chart.height = powerOfTwoNear(alongV / texel);
+  chart.texelSize =
+      std::max(std::sqrt(alongU / static_cast<float>(chart.width) * alongV / static_cast<float>(chart.height)), 1e-20f);
+  return chart;
+}
+
+void halveUntilFew(std::vector<SurfaceCharts>& surfaces, const RadiositySettings& settings, Log& log) {
+  const auto forEachChart = [&](const auto& visit) {
+    for (SurfaceCharts& s : surfaces)
+      for (const bool back : {false, true})
+        for (RadiosityChart& c : s.side(back)) visit(c);
+  };
+  const auto count = [&] {
+    int64_t sum = 0;
+    forEachChart([&](const RadiosityChart& c) { sum += static_cast<int64_t>(c.texelCount()); });
+    return sum;
+  };
+  int64_t most = 0;  // at least one of each chart
+  forEachChart([&](const RadiosityChart&) { ++most; });
+  most = std::max(most, settings.mostTexels);
+  int halvings = 0;
+  for (; count() > most; ++halvings) forEachChart([](RadiosityChart& c) { c.halve(); });
+  if (halvings > 0)
+    log.report(Severity::Warning, "radiosity-texels", {},
+               fmt::format("all radiosity maps together would have more than {} million texels: their edges have 1/{} "
+                           "of what was asked",
+                           settings.mostTexels >> 20, 1 << halvings));
+}
+
+}  // namespace
+
+std::vector<int> bakedObjects(const Scene& scene, const ShadingSystem& shading, Log& log) {
+  std::vector<int> mapped;
+  for (size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& o = scene.objects[i];
+    const Attributes& a = *o.attributes;
+    if (!a.visibility.diffuse || a.radiosity.texelSize <= 0) continue;
+    const char* why = refusal(shading, o);
+    if (!why)
+      mapped.push_back(static_cast<int>(i));
+    else
+      log.report(
+          Severity::Info, fmt::format("radiosity-map-{}", why), o.where,
+          fmt::format("\"{}\" has no radiosity map, because {}; it is shaded where gather rays hit it", a.name, why));
+  }
+  return mapped;
+}
+
+std::vector<SurfaceCharts> layOutCharts(const Scene& scene, const std::vector<int>& mapped, const Camera& camera,
+                                        const RadiositySettings& settings, Log& log) {
+  std::vector<SurfaceCharts> surfaces(scene.objects.size());
+  struct Patch {
+    int object;
+    uint32_t number;
+  };
+  std::vector<Patch> patches;
+  for (const int object : mapped) {
+    const uint32_t count = scene.objects[static_cast<size_t>(object)].shape().patchCount();
+    surfaces[static_cast<size_t>(object)].front.resize(count);
+    for (uint32_t p = 0; p < count; ++p) patches.push_back({object, p});
+  }
+  parallelFor(patches.size(), kChartsPerTask, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i)
+      surfaces[static_cast<size_t>(patches[i].object)].front[patches[i].number] =
+          chartOf(scene, camera, patches[i].object, patches[i].number, settings.texels);
+  });
+  for (const int object : mapped)
+    if (SurfaceCharts& s = surfaces[static_cast<size_t>(object)];
+        scene.objects[static_cast<size_t>(object)].attributes->sides == 2)
+      s.back = s.front;
+  halveUntilFew(surfaces, settings, log);
+  return surfaces;
+}
+
+std::vector<TexelRun> texelRuns(std::span<const SurfaceCharts> surfaces) {
+  std::vector<TexelRun> runs;
+  for (size_t object = 0; object < surfaces.size(); ++object)
+    for (const bool back : {false, true}) {
+      const std::vector<RadiosityChart>& charts = surfaces[object].side(back);
+      size_t room = 0;
+      for (size_t p = 0; p < charts.size(); ++p)
+        for (size_t t = 0; t < charts[p].texelCount();) {
+          if (room == 0) runs.push_back({static_cast<int>(object), back, p, t, 0}), room = kTexelsPerRun;
+          const size_t taken = std::min(room, charts[p].texelCount() - t);
+          runs.back().count += taken, room -= taken, t += taken;
+        }
+    }
+  return runs;
+}
+
+}  // namespace tomales

@@ -1,0 +1,223 @@
+#include "reyes/app/commands/atlas_commands.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "gi/brick_file.h"
+#include "gi/icf.h"
+#include "gi/ply.h"
+#include "gi/point_picture.h"
+#include "reyes/app/exit_code.h"
+#include "reyes/app/frame/atlas_job.h"
+#include "reyes/app/frame/overrides.h"
+#include "reyes/app/watch/stats_json.h"
+#include "reyes/base/parallel.h"
+#include "reyes/base/temporary_folder.h"
+#include "reyes/rib.h"
+
+namespace tomales {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Runs `work`; what it throws is an error of `severity`.
+template <class Work>
+void guarded(Log& log, Severity severity, const Work& work) {
+  try {
+    work();
+  } catch (const FileError& e) {
+    log.report(severity, "file", {}, e.what());
+  } catch (const fs::filesystem_error& e) {
+    log.report(severity, "file", {}, e.what());
+  }
+}
+
+/// Folders stand for the point clouds in them.
+std::vector<fs::path> pointFiles(const std::vector<std::string>& inputs) {
+  std::vector<fs::path> out;
+  for (const std::string& input : inputs) {
+    if (!fs::is_directory(input)) {
+      out.emplace_back(input);
+      continue;
+    }
+    for (const auto& entry : fs::directory_iterator(input))
+      if (entry.path().extension() == ".ptc") out.push_back(entry.path());
+  }
+  std::sort(out.begin(), out.end());
+  if (out.empty()) throw FileError("there is no point cloud (.ptc) to read");
+  return out;
+}
+
+void makeFolder(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder))
+    throw FileError(fmt::format("folder \"{}\" cannot be made: {}", folder, error.message()));
+}
+
+/// One cloud of several, chunk by chunk.
+void joinPointFiles(const std::vector<fs::path>& files, const fs::path& out) {
+  const PointFile first(files.front().string());
+  PointFileWriter writer(out.string(), first.channels());
+  for (const fs::path& path : files) {
+    const PointFile file(path.string());
+    if (file.channels() != first.channels())
+      throw FileError(fmt::format("\"{}\" has other channels than the files before", path.string()));
+    for (size_t chunk = 0; chunk < file.chunkCount(); ++chunk) {
+      PointCloud part;
+      file.read(chunk, part);
+      for (size_t i = 0; i < part.count(); ++i)
+        writer.add(part.position[i], part.normal[i], part.radius[i], part.at(i));
+    }
+  }
+  writer.finish(first.madeFrom());
+}
+
+/// The first frame of RIB files, ready to be traced.
+std::optional<Scene> firstScene(const RenderSettings& settings, Log& log) {
+  std::optional<Scene> scene;
+  RibSettings rib;
+  rib.allowSystem = settings.allowSystem;
+  rib.onScene = [&](Scene&& s) {
+    if (!scene) scene = std::move(s);
+  };
+  const bool read = readRib(settings.files, rib, log);
+  if (read && !scene) log.report(Severity::Error, "no-world", {}, "no WorldBegin ... WorldEnd was found");
+  if (!read) scene.reset();
+  return scene;
+}
+
+void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, Log& log) {
+  applyOverrides(scene, settings);
+  scene.open([](const Attributes& a) { return a.visibility.photon; });
+  ShaderRegistry registry(log, pluginTrust(settings));
+  registry.addLibrary(tomales_builtin_shaders(), "built-in");
+  ShadingSystem shading(scene, registry, nullptr, log, stats);
+  const Camera camera(scene.options);
+  const RayScene rays(scene, camera, shading, raySettings(settings, scene.options), stats, log);
+  const StageTimer timer(stats, "photons");
+  AtlasSettings atlas = atlasSettings(settings, scene);
+  atlas.photons.direct = true;  // whoever looks into the maps finds all light
+  const PhotonFigures figures =
+      writePhotons(settings.output, scene, rays, shading, mapNames(scene, atlas), atlas, {}, stats, log);
+  if (settings.verbosity != Log::Verbosity::Quiet)
+    fmt::print("{} photons emitted, {} stored in {}\n", figures.emitted, figures.stored, settings.output);
+}
+
+/// Of a .ptc, or the records of an .icf.
+PointCloud cloudOf(const std::string& path) {
+  if (fs::path(path).extension() != ".icf") return PointFile(path).readAll();
+  std::string error;
+  const std::unique_ptr<IcfFile> file = IcfFile::open(path, error);
+  if (!file) throw FileError(fmt::format("\"{}\": {}", path, error));
+  return recordsOf(file->shot());
+}
+
+}  // namespace
+
+int photonsCommand(const RenderSettings& settings) {
+  const ThreadLimit threads(settings.threads);
+  const auto start = std::chrono::steady_clock::now();
+  Log log(settings.verbosity);
+  Stats stats;
+  guarded(log, Severity::Output, [&] {
+    if (std::optional<Scene> scene = firstScene(settings, log)) tracePhotonsOf(*scene, settings, stats, log);
+  });
+  writeLastStats(settings, stats, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), log);
+  return exitCodeOf(log);
+}
+
+int irradianceCommand(const IrradianceCommand& command) {
+  Log log;
+  guarded(log, Severity::Error, [&] {
+    makeFolder(command.output);
+    for (const fs::path& file : pointFiles(command.inputs))
+      writeIrradiance(file, fs::path(command.output) / file.filename(), command.settings);
+  });
+  return exitCodeOf(log);
+}
+
+void makeBrickMaps(const BrickmakeCommand& command, const std::function<void(const std::string&)>& made) {
+  const std::vector<fs::path> files = pointFiles(command.inputs);
+  const bool one = command.oneFile || fs::path(command.output).extension() == ".bkm";
+  if (!one) makeFolder(command.output);
+  const auto make = [&](const fs::path& in, const fs::path& out) {
+    const PointFile file(in.string());
+    const PointTiles tiles(file);
+    BrickSettings settings = command.settings;
+    if (command.relative) settings.maxError *= static_cast<float>(tiles.meanOfData());
+    const BuiltBricks built = writeBrickMap(tiles, settings, out.string(), {file.madeFrom().world, 0});
+    if (made)
+      made(fmt::format("{}: {} points, {} bricks, {} left out, {} levels", out.string(), file.count(),
+                       built.tree.nodes.size(), built.eliminated, built.tree.deepest + 1));
+  };
+  if (one && files.size() > 1) {
+    const fs::path folder = fs::path(command.output).parent_path();
+    const TemporaryFolder temporary(folder.empty() ? "." : folder);
+    const fs::path all = temporary.path() / "all.ptc";
+    joinPointFiles(files, all);
+    make(all, command.output);
+  } else {
+    for (const fs::path& file : files)
+      make(file, one ? fs::path(command.output)
+                     : fs::path(command.output) / fs::path(file).filename().replace_extension(".bkm"));
+  }
+}
+
+int brickmakeCommand(const BrickmakeCommand& command) {
+  Log log;
+  guarded(log, Severity::Error,
+          [&] { makeBrickMaps(command, [](const std::string& what) { fmt::print("{}\n", what); }); });
+  return exitCodeOf(log);
+}
+
+int viewCommand(const ViewCommand& command) {
+  Log log;
+  guarded(log, Severity::Error, [&] {
+    PointPictureSettings settings{command.size[0], command.size[1], command.channel, command.gain, {}};
+    std::optional<Scene> scene;
+    std::optional<Camera> camera;
+    if (!command.camera.empty()) {
+      RenderSettings look;
+      look.files = {command.camera};
+      scene = firstScene(look, log);
+      if (!scene) return;
+      scene->options.xResolution = command.size[0], scene->options.yResolution = command.size[1];
+      camera.emplace(scene->options);
+      settings.project = [&](const vec3& p) -> std::optional<vec3> {
+        const vec3 at = transformPoint(scene->cameraFromWorldAtOpen(), p);
+        if (camera->perspective() && at.z < camera->nearClip()) return std::nullopt;
+        return vec3(camera->raster(at), at.z);
+      };
+    }
+    const PointCloud cloud = fs::path(command.input).extension() == ".bkm"
+                                 ? voxelsOf(BrickFile(command.input), command.level)
+                                 : cloudOf(command.input);
+    writeImage(command.output, pictureOf(cloud, settings), fs::path(command.output).extension() == ".png", log);
+  });
+  return exitCodeOf(log);
+}
+
+int convertCommand(const ConvertCommand& command) {
+  Log log;
+  guarded(log, Severity::Error, [&] {
+    const fs::path from = fs::path(command.input).extension(), to = fs::path(command.output).extension();
+    if (from == ".ptc" && to == ".ply") {
+      writePly(PointFile(command.input), command.output);
+    } else if (from == ".ply" && to == ".ptc") {
+      const PlyFigures figures = convertPly(command.input, command.output, command.radius);
+      if (figures.dropped > 0)
+        log.report(Severity::Warning, "ply-points", {},
+                   fmt::format("\"{}\": {} of {} points are not finite or have a negative radius; dropped",
+                               command.input, figures.dropped, figures.points + figures.dropped));
+    } else if (from == ".icf" && to == ".ptc") {
+      writePointFile(cloudOf(command.input), command.output);
+    } else {
+      throw FileError("point clouds are converted from .ptc to .ply, from .ply to .ptc, or from .icf to .ptc");
+    }
+  });
+  return exitCodeOf(log);
+}
+
+}  // namespace tomales

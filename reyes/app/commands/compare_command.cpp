@@ -1,0 +1,58 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "reyes/app/commands/info.h"
+#include "reyes/app/exit_code.h"
+#include "reyes/image.h"
+
+namespace tomales {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::optional<Image> load(const std::string& path, Log& log) {
+  std::string error;
+  std::optional<Image> image = readImage(path, error);
+  if (!image)
+    log.report(Severity::Error, "image-read", {std::make_shared<std::string>(path), 0},
+               "cannot be read as a picture: " + error);
+  return image;
+}
+
+Json figuresOf(const Comparison& c) {
+  return {{"rmse", c.rmse},
+          {"relative_mse", c.relativeMse},
+          {"mean_absolute_relative_error", c.meanAbsoluteRelativeError},
+          {"max_error", c.maxError},
+          {"psnr_dB", c.psnr_dB},
+          {"ssim", c.ssim},
+          {"flip_like", c.flip},
+          {"different_pixels", c.differentPixels}};
+}
+
+}  // namespace
+
+int compareCommand(const std::string& test, const std::string& reference, const std::string& differenceFile,
+                   bool json) {
+  Log log;
+  const std::optional<Image> a = load(test, log), b = load(reference, log);
+  if (!a || !b) return exitCodeOf(log);
+  if (a->width != b->width || a->height != b->height) {
+    log.report(Severity::Error, "image-size", {std::make_shared<std::string>(test), 0},
+               fmt::format("{}x{} pixels cannot be compared with {}x{} of \"{}\"", a->width, a->height, b->width,
+                           b->height, reference));
+    return exitCodeOf(log);
+  }
+  const Json figures = figuresOf(compare(*a, *b));
+  if (json)
+    std::puts(figures.dump(2).c_str());
+  else
+    for (const auto& [name, value] : figures.items())
+      std::puts(fmt::format("{:<30} {:.8g}", name, value.get<double>()).c_str());
+  if (!differenceFile.empty()) writeImage(differenceFile, differenceImage(*a, *b), true, log);
+  return exitCodeOf(log);
+}
+
+}  // namespace tomales

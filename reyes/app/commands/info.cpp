@@ -1,0 +1,289 @@
+#include "reyes/app/commands/info.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "gi/brick_file.h"
+#include "gi/icf.h"
+#include "gi/point_file.h"
+#include "reyes/app/exit_code.h"
+#include "reyes/dfb.h"
+#include "reyes/image.h"
+#include "reyes/rib.h"
+#include "reyes/shade.h"
+
+namespace tomales {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* nameOf(ErrorFunction function) {
+  switch (function) {
+    case ErrorFunction::Ward:
+      return "ward";
+    case ErrorFunction::Hessian:
+      return "hessian";
+    case ErrorFunction::Split:
+      return "split";
+    case ErrorFunction::Plain:
+      return "plain";
+    default:
+      return "screen";
+  }
+}
+
+Json sceneInfo(const Scene& scene) {
+  std::set<std::string> shaders;
+  int64_t patches = 0;
+  for (const Object& object : scene.objects) {
+    patches += object.shape().patchCount();
+    for (const auto& call : {object.attributes->surface, object.attributes->displacement})
+      if (call) shaders.insert(call->name);
+  }
+  for (const auto& light : scene.lights) shaders.insert(light->shader.name);
+  Json displays = Json::array();
+  for (const DisplayCall& d : scene.options.displays)
+    displays.push_back({{"name", d.name}, {"type", d.type}, {"mode", d.mode}});
+  return {{"frame", scene.options.frame},
+          {"resolution", {scene.options.xResolution, scene.options.yResolution}},
+          {"pixel_samples", {scene.options.xSamples, scene.options.ySamples}},
+          {"objects", scene.objects.size()},
+          {"procedurals", scene.procedurals.size()},
+          {"patches", patches},
+          {"lights", scene.lights.size()},
+          {"shade_groups", scene.groups.size()},
+          {"shaders", shaders},
+          {"displays", displays}};
+}
+
+Json ribInfo(const std::string& file, Log& log) {
+  Json frames = Json::array();
+  RibSettings rib;
+  rib.onScene = [&](Scene&& scene) { frames.push_back(sceneInfo(scene)); };
+  readRib({file}, rib, log);
+  return {{"file", file}, {"kind", "rib"}, {"frames", frames}};
+}
+
+Json channelInfo(const Image& image, size_t channel) {
+  double sum = 0;
+  float low = kInfinity, high = -kInfinity;
+  int64_t finite = 0, strange = 0;
+  for (size_t i = channel; i < image.pixels.size(); i += image.channels.size()) {
+    const float v = image.pixels[i];
+    if (!std::isfinite(v)) {
+      ++strange;
+      continue;
+    }
+    low = std::min(low, v), high = std::max(high, v), sum += static_cast<double>(v), ++finite;
+  }
+  return {{"name", image.channels[channel]},
+          {"min", low},
+          {"max", high},
+          {"mean", finite > 0 ? sum / static_cast<double>(finite) : 0.0},
+          {"not_finite", strange}};
+}
+
+Json imageInfo(const std::string& file, Log& log) {
+  std::string error;
+  const std::optional<Image> image = readImage(file, error);
+  if (!image) {
+    log.report(Severity::Error, "image-read", {std::make_shared<std::string>(file), 0},
+               "cannot be read as a picture: " + error);
+    return {};
+  }
+  Json channels = Json::array();
+  for (size_t c = 0; c < image->channels.size(); ++c) channels.push_back(channelInfo(*image, c));
+  return {{"file", file},
+          {"kind", "image"},
+          {"size", {image->width, image->height}},
+          {"origin", {image->originX, image->originY}},
+          {"display_size", {image->displayWidth, image->displayHeight}},
+          {"channels", channels}};
+}
+
+Json paramInfo(const TmParamDecl& p) {
+  static constexpr const char* kTypes[] = {"float", "color", "point", "vector", "normal", "string", "matrix"};
+  static constexpr int kFloats[] = {1, 3, 3, 3, 3, 0, 16};
+  const int32_t type = TM_TYPE_OF(p.type);
+  const bool known = type >= TM_FLOAT && type <= TM_MATRIX, output = (p.type & TM_OUTPUT) != 0;
+  if (output)
+    return {
+        {"name", p.name}, {"type", known ? std::string("output ") + kTypes[type] : "?"}, {"doc", p.doc ? p.doc : ""}};
+  Json value = Json::array();
+  for (int i = 0; known && i < p.arrayLength * kFloats[type]; ++i) value.push_back(p.floats ? p.floats[i] : 0.0f);
+  for (int i = 0; known && type == TM_STRING && p.strings && i < p.arrayLength; ++i) value.push_back(p.strings[i]);
+  return {{"name", p.name}, {"type", known ? kTypes[type] : "?"}, {"default", value}, {"doc", p.doc ? p.doc : ""}};
+}
+
+Json shaderInfo(const TmShader& s) {
+  Json params = Json::array();
+  for (int i = 0; i < s.paramCount; ++i) params.push_back(paramInfo(s.params[i]));
+  return {{"name", s.name},
+          {"kind", s.kind >= 0 && s.kind <= TM_IMAGER ? kindName(static_cast<TmKind>(s.kind)) : "?"},
+          {"doc", s.doc ? s.doc : ""},
+          {"parameters", params}};
+}
+
+Json pluginInfo(const std::string& file, Log& log) {
+  ShaderRegistry registry(log);
+  if (!registry.loadPlugin(std::filesystem::absolute(file).string())) {
+    log.report(Severity::Error, "plugin-read", {std::make_shared<std::string>(file), 0},
+               "is not a shader plugin of this version");
+    return {};
+  }
+  Json shaders = Json::array();
+  for (const TmShader* shader : registry.all()) shaders.push_back(shaderInfo(*shader));
+  return {{"file", file}, {"kind", "shaders"}, {"shaders", shaders}};
+}
+
+void unreadable(const std::string& file, const char* kind, const std::string& error, Log& log) {
+  log.report(Severity::Error, "file-read", {std::make_shared<std::string>(file), 0},
+             fmt::format("cannot be read as {}: {}", kind, error));
+}
+
+Json dfbInfo(const std::string& file, Log& log) {
+  std::string error;
+  const auto dfb = DfbFile::open(file, error);
+  if (!dfb) return unreadable(file, "a deep frame buffer", error, log), Json{};
+  const Shot& shot = dfb->shot();
+  int64_t points = 0, facets = 0, fragments = 0;
+  for (size_t i = 0; i < shot.frame.tileCount(); ++i) {
+    const auto tile = dfb->tile(i, error);
+    if (!tile) return unreadable(file, "a deep frame buffer", error, log), Json{};
+    for (const ShadePoints& batch : tile->batches) points += batch.count();
+    facets += static_cast<int64_t>(tile->facets.size()), fragments += static_cast<int64_t>(tile->fragments.size());
+  }
+  Json sources = Json::array(), lights = Json::array(), objects = Json::array();
+  for (const SourceFile& source : shot.sources) sources.push_back(source.path);
+  for (const auto& light : shot.scene.lights)
+    lights.push_back({{"handle", light->handle}, {"shader", light->shader.name}});
+  std::set<std::string> names;
+  for (const ShadeGroup& group : shot.scene.groups)
+    if (!group.attributes->name.empty()) names.insert(group.attributes->name);
+  const PixelRect& crop = shot.frame.crop;
+  return {{"file", file},
+          {"kind", "dfb"},
+          {"bytes", dfb->size()},
+          {"shot", fmt::format("{:016x}", dfb->shotSum())},
+          {"frame", shot.scene.options.frame},
+          {"resolution", {shot.scene.options.xResolution, shot.scene.options.yResolution}},
+          {"crop", {crop.x0, crop.y0, crop.x1, crop.y1}},
+          {"samples_per_pixel", shot.frame.samplesPerPixel},
+          {"bucket", {shot.frame.bucketWidth, shot.frame.bucketHeight}},
+          {"buckets", shot.frame.tileCount()},
+          {"micropolygons_visible", facets},
+          {"points", points},
+          {"fragments", fragments},
+          {"shade_groups", shot.scene.groups.size()},
+          {"names", names},
+          {"lights", lights},
+          {"sources", sources}};
+}
+
+Json icfInfo(const std::string& file, Log& log) {
+  std::string error;
+  const auto icf = IcfFile::open(file, error);
+  if (!icf || !icf->intact(error)) return unreadable(file, "an irradiance cache", error, log), Json{};
+  Json caches = Json::array();
+  for (const PreparedCache& c : icf->shot().caches) {
+    vec3 mean(0.0f);
+    for (const IrradianceRecord& r : c.cache.records()) mean += r.E / static_cast<float>(c.cache.records().size());
+    caches.push_back({{"records", c.cache.records().size()},
+                      {"frames", c.frames.size()},
+                      {"error_function", nameOf(c.plan.cache.errorFunction)},
+                      {"kappa", c.plan.cache.kappa},
+                      {"samples", c.plan.gather.samples},
+                      {"mean_irradiance_over_pi", {mean.x, mean.y, mean.z}}});
+  }
+  return {{"file", file},
+          {"kind", "icf"},
+          {"bytes", icf->size()},
+          {"shot", fmt::format("{:016x}", icf->shot().shot)},
+          {"caches", caches}};
+}
+
+bool isScalarList(const Json& j) {
+  return j.is_array() && std::none_of(j.begin(), j.end(), [](const Json& e) { return e.is_structured(); });
+}
+
+/// One "name: value" a line, indented by depth.
+void printText(const Json& j, int depth) {
+  for (const auto& [key, value] : j.items()) {
+    const std::string indent(static_cast<size_t>(2 * depth), ' ');
+    if (value.is_structured() && !isScalarList(value)) {
+      std::puts(fmt::format("{}{}:", indent, j.is_array() ? "- " + key : key).c_str());
+      printText(value, depth + 1);
+    } else {
+      const std::string text =
+          value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+      std::puts(fmt::format("{}{}: {}", indent, key, text).c_str());
+    }
+  }
+}
+
+Json channelsOf(const std::vector<CloudChannel>& channels) {
+  Json out = Json::array();
+  for (const CloudChannel& c : channels) out.push_back({{"name", c.name}, {"floats", c.width}});
+  return out;
+}
+
+Json pointsInfo(const std::string& file) {
+  const PointFile points(file);
+  const Bound3 b = points.bound();
+  return {{"file", file},
+          {"kind", "points"},
+          {"points", points.count()},
+          {"channels", channelsOf(points.channels())},
+          {"bound", {{"min", {b.lo.x, b.lo.y, b.lo.z}}, {"max", {b.hi.x, b.hi.y, b.hi.z}}}},
+          {"chunks", points.chunkCount()},
+          {"bytes", points.fileBytes()}};
+}
+
+Json bricksInfo(const std::string& file) {
+  const BrickFile map(file);
+  const BrickCube& c = map.tree().cube;
+  return {{"file", file},
+          {"kind", "bricks"},
+          {"bricks", map.tree().nodes.size()},
+          {"levels", map.tree().nodes.empty() ? 0 : map.tree().deepest + 1},
+          {"channels", channelsOf(map.channels())},
+          {"cube", {{"corner", {c.lo.x, c.lo.y, c.lo.z}}, {"size", c.size}}},
+          {"bytes", map.fileBytes()}};
+}
+
+/// Files of our own that say themselves what is wrong with them.
+Json ownInfo(const std::string& file, Json (*infoOfKind)(const std::string&), Log& log) {
+  try {
+    return infoOfKind(file);
+  } catch (const FileError& e) {
+    log.report(Severity::Error, "file", {}, e.what());
+    return {};
+  }
+}
+
+Json infoOf(const std::string& file, Log& log) {
+  if (const auto extension = std::filesystem::path(file).extension(); extension == ".ptc" || extension == ".bkm")
+    return ownInfo(file, extension == ".ptc" ? pointsInfo : bricksInfo, log);
+  if (namesPicture(file)) return imageInfo(file, log);
+  if (file.ends_with(".dfb")) return dfbInfo(file, log);
+  if (file.ends_with(".icf")) return icfInfo(file, log);
+  return std::filesystem::path(file).extension() == ".so" ? pluginInfo(file, log) : ribInfo(file, log);
+}
+
+}  // namespace
+
+int infoCommand(const std::string& file, bool json) {
+  Log log;
+  const Json info = infoOf(file, log);
+  if (json && !info.is_null())
+    std::puts(info.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+  else if (!info.is_null())
+    printText(info, 0);
+  return exitCodeOf(log);
+}
+
+}  // namespace tomales

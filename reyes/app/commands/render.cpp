@@ -1,0 +1,142 @@
+#include "reyes/app/commands/render.h"
+#include "reyes/app/exit_code.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "reyes/app/commands/make.h"
+#include "reyes/app/frame/empty_frame.h"
+#include "reyes/app/frame/hide.h"
+#include "reyes/app/frame/limits.h"
+#include "reyes/app/frame/overrides.h"
+#include "reyes/app/frame/render_frame.h"
+#include "reyes/app/watch/interrupt.h"
+#include "reyes/app/watch/stats_json.h"
+#include "reyes/base/parallel.h"
+#include "reyes/image.h"
+#include "reyes/rib.h"
+
+namespace tomales {
+namespace {
+
+class RenderRun {
+ public:
+  /// `job` takes a frame and the number of its scene in the stream.
+  using Job = std::function<void(Scene&, int world, const RenderSettings&, Stats&, Log&,
+                                 const std::function<void()>& afterStage)>;
+
+  RenderRun(const RenderSettings& settings, Job job)
+      : settings_(settings),
+        job_(std::move(job)),
+        threads_(settings.threads),
+        log_(settings.verbosity),
+        start_(std::chrono::steady_clock::now()) {}
+
+  int run() {
+    RibSettings rib;
+    rib.allowSystem = settings_.allowSystem;
+    rib.onScene = [this](Scene&& scene) { takeScene(std::move(scene)); };
+    rib.onMake = [this](const Request& request) {
+      made_ = true;
+      if (!interrupted()) performMake(request, log_);
+    };
+    parse_.emplace(stats_, "parse");
+    const bool read = readRib(settings_.files, rib, log_);
+    parse_.reset();
+    if (read && scenes_ == 0 && !made_ && !interrupted())
+      log_.report(Severity::Error, "no-world", {std::make_shared<std::string>(settings_.files.front()), 0},
+                  "nothing to render: no WorldBegin ... WorldEnd was found");
+    if (scenes_ > 0 && rendered_ == 0 && settings_.frames && !interrupted())
+      log_.report(Severity::Error, "no-frame", {std::make_shared<std::string>(settings_.files.front()), 0},
+                  "none of the frames that --frames names is in the scene");
+    if (rendered_ > 0 && namesPicture(settings_.output) && !outputUsed_)
+      log_.report(Severity::Output, "output-unused", {std::make_shared<std::string>(settings_.output), 0},
+                  "not written: -o takes the place of a picture, and the Displays of the scene are all maps");
+    writeLastStats(settings_, stats_, secondsSoFar(), log_);
+    if (const int code = interruptExitCode()) return code;
+    return !read ? std::max(exitCodeOf(log_), kUnreadable) : exitCodeOf(log_);
+  }
+
+ private:
+  void takeScene(Scene&& scene) {
+    parse_.reset();
+    ++scenes_;
+    if (wanted(scene) && !interrupted()) {
+      ++rendered_;
+      applyOverrides(scene, settings_);
+      dropDisplays(scene.options, log_);
+      warnAboutOverwriting(scene);
+      warnOfFloatRange(scene, log_);
+      if (!settings_.draft) warnOfCoarseDicing(scene, log_);
+      const int64_t seenBefore = stats_.geometry.micropolygonsVisible;
+      const int errorsBefore = errors();
+      job_(scene, scenes_ - 1, settings_, stats_, log_, [this] { flush(); });
+      if (stats_.geometry.micropolygonsVisible == seenBefore && !settings_.resume && !interrupted() &&
+          errors() == errorsBefore)  // else it may have been refused
+        explainEmptyFrame(scene, log_);
+      flush();
+    }
+    parse_.emplace(stats_, "parse");
+  }
+
+  bool wanted(const Scene& scene) const {
+    return !settings_.frames ||
+           std::binary_search(settings_.frames->begin(), settings_.frames->end(), scene.options.frame);
+  }
+
+  int errors() const {
+    int out = 0;
+    for (const LogEntry& e : log_.entries()) out += e.severity >= Severity::Error ? e.count : 0;
+    return out;
+  }
+
+  void warnAboutOverwriting(const Scene& scene) {
+    if (!settings_.output.empty() && !namesPicture(settings_.output))
+      return warnAboutOverwriting(withFrameNumber(settings_.output, scene.options.frame), scene.where);
+    for (const DisplayCall& display : scene.options.displays) {
+      warnAboutOverwriting(display.name, display.where);
+      outputUsed_ |= display.name == withFrameNumber(settings_.output, scene.options.frame);
+    }
+  }
+
+  void warnAboutOverwriting(const std::string& file, const SourceLoc& where) {
+    if (written_.insert(file).second) return;
+    log_.report(
+        Severity::Warning, "output-overwritten", where,
+        "\"" + file + "\" of an earlier frame is written over; with -o, # in the name stands for the frame number");
+  }
+
+  double secondsSoFar() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  void flush() { writeStats(settings_, stats_, secondsSoFar(), log_); }
+
+  const RenderSettings& settings_;
+  const Job job_;
+  const ThreadLimit threads_;
+  Log log_;
+  Stats stats_;
+  const std::chrono::steady_clock::time_point start_;
+  std::optional<StageTimer> parse_;
+  std::set<std::string> written_;
+  int scenes_ = 0, rendered_ = 0;
+  bool made_ = false;  // by a Make request
+  bool outputUsed_ = false;
+};
+
+}  // namespace
+
+int renderCommand(const RenderSettings& settings) {
+  catchInterrupts();
+  return RenderRun(settings, renderFrame).run();
+}
+
+int hideCommand(const RenderSettings& settings) {
+  catchInterrupts();
+  const auto job = [](Scene& scene, int world, const RenderSettings& s, Stats& stats, Log& log,
+                      const std::function<void()>&) { hideToFile(scene, world, s, stats, log); };
+  return RenderRun(settings, job).run();
+}
+
+}  // namespace tomales

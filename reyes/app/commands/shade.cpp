@@ -1,0 +1,30 @@
+#include "reyes/app/commands/shade.h"
+
+#include "reyes/app/exit_code.h"
+#include "reyes/app/frame/shot.h"
+#include "reyes/app/watch/interrupt.h"
+#include "reyes/app/watch/stats_json.h"
+#include "reyes/base/parallel.h"
+
+namespace tomales {
+namespace {
+
+int runOnShot(const RenderSettings& settings, void (ShotJob::*work)()) {
+  catchInterrupts();
+  const auto start = std::chrono::steady_clock::now();
+  const ThreadLimit threads(settings.threads);
+  Log log(settings.verbosity);
+  Stats stats;
+  if (const auto job = ShotJob::open(settings, stats, log)) (job.get()->*work)();
+  const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start;
+  writeLastStats(settings, stats, total.count(), log);
+  const int code = interruptExitCode();
+  return code ? code : exitCodeOf(log);
+}
+
+}  // namespace
+
+int shadeCommand(const RenderSettings& settings) { return runOnShot(settings, &ShotJob::shadePicture); }
+int gatherCommand(const RenderSettings& settings) { return runOnShot(settings, &ShotJob::gatherIrradiance); }
+
+}  // namespace tomales

@@ -1,0 +1,258 @@
+#include "reyes/app/frame/frame_job.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "reyes/app/frame/atlas_job.h"
+#include "reyes/app/frame/limits.h"
+#include "reyes/app/frame/overrides.h"
+#include "reyes/app/frame/radiosity_job.h"
+#include "reyes/app/frame/turns_timer.h"
+#include "reyes/app/watch/interrupt.h"
+#include "reyes/app/watch/pixel_report.h"
+#include "reyes/app/watch/preview.h"
+#include "reyes/app/watch/sketch.h"
+#include "reyes/base/search_path.h"
+
+namespace tomales {
+namespace {
+
+constexpr int kMostReferenceLightSamples = 256, kReferenceLightSamples = 64;
+
+}  // namespace
+
+FrameJob::FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, Log& log)
+    : scene_(scene),
+      settings_(settings),
+      stats_(stats),
+      log_(log),
+      mode_(giModeOf(settings.gi, scene)),
+      camera_(scene.options),
+      registry_(log, pluginTrust(settings)),
+      meter_(settings.progress),
+      clouds_(pathOf(scene.options.searchPaths, "texture")) {
+  registry_.addLibrary(tomales_builtin_shaders(), "built-in");
+  shading_ = std::make_unique<ShadingSystem>(scene, registry_, nullptr, log, stats);
+  shading_->setClouds(&clouds_);
+  if (traces())
+    open([](const Attributes& a) {
+      const Visibility& v = a.visibility;
+      return v.diffuse || v.specular || v.transmission || v.photon;
+    });
+  gathers_ = mode_ == GiMode::Gather || mode_ == GiMode::Atlas || mode_ == GiMode::Radiosity;
+  for (size_t g = 0; g < scene.groups.size() && mode_ == GiMode::None && keepsOcclusion(giSettings()); ++g)
+    gathers_ |= shading_->asksOcclusion(static_cast<int>(g));
+  warnAboutPixels();
+}
+
+void FrameJob::warnAboutPixels() const {
+  if (settings_.pixels.empty()) return;
+  const PixelRect inside = layOutFrame(scene_).padded;
+  std::string outside;
+  for (const auto& [x, y] : settings_.pixels)
+    if (!inside.contains(x, y)) outside += fmt::format("{}{},{}", outside.empty() ? "" : " and ", x, y);
+  if (!outside.empty())
+    log_.report(Severity::Warning, "pixel-outside", {},
+                fmt::format("--pixel: {} lies outside of the picture: nothing can be told of it", outside));
+}
+
+FrameJob::~FrameJob() = default;
+
+void FrameJob::open(const std::function<bool(const Attributes&)>& wanted) {
+  scene_.open(wanted);
+  shading_->bindNewGroups();
+}
+
+void FrameJob::openAll() {
+  open([](const Attributes&) { return true; });
+}
+
+bool FrameJob::hide(const DeepFrame& layout, const TileSink& sink) {
+  const StageTimer timer(stats_, "hide");
+  return hideTiles(layout, scene_, *shading_, control(0, gathers() ? 0.3f : 0.5f), stats_, log_, sink);
+}
+
+void FrameJob::checkRecords(const GiSettings& gathered, const std::string& file) const {
+  if (gathers_ && gathered.mode == GiMode::None)
+    log_.report(
+        Severity::Warning, "icf-without-light", {std::make_shared<std::string>(file), 0},
+        "was gathered with --gi none: all indirect light is gathered while shading (with --gi none it is left out)");
+}
+
+void FrameJob::prepareRays() {
+  if (!traces()) return;
+  const StageTimer timer(stats_, "raytrace");
+  rays_ = std::make_unique<RayScene>(scene_, camera_, *shading_, raySettings(settings_, scene_.options), stats_, log_);
+  prepareRays([tools = RayTools{rays_.get(), shading_.get()}] { return &tools; });
+  if (mode_ == GiMode::Atlas) services_->setAtlas(prepareAtlas(scene_, *rays_, *shading_, settings_, stats_, log_));
+  if (mode_ == GiMode::Radiosity)
+    services_->setRadiositySource([this] {
+      return prepareRadiosity({rays_.get(), shading_.get()}, camera_, settings_, stats_, log_);
+    });
+  if (mode_ == GiMode::Baked) services_->setAtlas(openBaked(scene_, settings_, log_));
+}
+
+void FrameJob::prepareRays(RaySource rays) {
+  services_ = std::make_unique<GiServices>(scene_, camera_, std::move(rays), *shading_, giSettings(), stats_);
+  shading_->setServices(services_.get());
+}
+
+GiSettings FrameJob::giSettings() const {
+  return {mode_,
+          settings_.samples,
+          settings_.bounces,
+          settings_.maxError,
+          lightSeedOf(settings_),
+          settings_.errorFunction,
+          mode_ != GiMode::Atlas || storesDirect(settings_, scene_)};
+}
+
+void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
+  if (!gathers() || interrupted()) return;
+  const StageTimer timer(stats_, "gather");
+  openPreview(layout);
+  std::function<void(int)> show;
+  ShadeContext context = shadeContext();
+  context.sketch = true;
+  if (preview_)
+    show = [&](int stride) {
+      preview_->show(sketch(layout, tiles, stride, scene_, *shading_, context, interrupted()));
+    };
+  services_->gatherPass(layout, tiles, meter_.stage(0.3f, 0.7f), &interrupted(), show);
+  warnOfNoise(services_->caches(), log_);
+  if (rays_) warnOfThinWalls(*rays_, log_);
+  if (!settings_.bakedFolder.empty() && !interrupted())
+    bakeGathered(*services_, layout, tiles, scene_, settings_, log_);
+}
+
+ShadeContext FrameJob::shadeContext() const {
+  ShadeContext context;
+  context.seed = lightSeedOf(settings_);
+  context.direct = settings_.direct;
+  context.lightSamples = settings_.lightSamples > 0   ? settings_.lightSamples
+                         : mode_ == GiMode::Reference ? referenceLightSamples()
+                                                      : 0;
+  return context;
+}
+
+bool FrameJob::shade(std::span<const uint32_t> tiles, const ShadeSteps& steps) {
+  const StageTimer timer(stats_, "shade");
+  return shadeTiles(tiles, steps, scene_, *shading_, shadeContext(), {{}, &interrupted(), settings_.seed});
+}
+
+void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<DeepTile>(size_t tile)>& load) {
+  ShadeContext context = shadeContext();
+  const bool cut = interrupted();
+  if (cut) {
+    // What is hidden is worth its light; a second signal ends this too.
+    log_.report(Severity::Warning, "interrupted", {},
+                "interrupted: finished buckets are shaded with direct light and written");
+    context.indirect = false;
+  }
+  DeepFrame frame = layout;
+  const float begin = gathers() ? 0.7f : 0.5f;
+  size_t shaded = 0;
+  bool complete = true;
+  finish(frame, [&](std::span<const uint32_t> tiles, const TilePlace& put) {
+    const StageTimer timer(stats_, "shade");
+    const auto share = [&](size_t done) {
+      return begin + (0.99f - begin) * static_cast<float>(done) / static_cast<float>(frame.tileCount());
+    };
+    const ShadeSteps steps{[&](size_t index, DeepTile& tile) {
+                             auto loaded = load(index);
+                             if (loaded) tile = std::move(*loaded);
+                             return loaded.has_value();
+                           },
+                           [&](size_t index, DeepTile&& tile) { place(index, std::move(tile), put); }};
+    const FrameControl control{meter_.stage(share(shaded), share(shaded + tiles.size())),
+                               cut ? nullptr : &interrupted(), settings_.seed};
+    complete = shadeTiles(tiles, steps, scene_, *shading_, context, control) && complete;
+    shaded += tiles.size();
+  });
+  if (!complete) log_.report(Severity::Warning, "interrupted", {}, "interrupted: finished buckets are written");
+}
+
+void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::optional<DeepTile>(size_t tile)>& find,
+                            const std::function<void(size_t tile, const DeepTile&)>& keep) {
+  DeepFrame frame = layout;
+  FrameHider hider(layout, scene_, *shading_, control(0, 0.99f), stats_, log_);
+  bool complete = true;
+  finish(frame, [&](std::span<const uint32_t> tiles, const TilePlace& put) {
+    TurnsTimer timer(stats_, "hide", "shade");
+    const TileSink sink{{},
+                        [&](size_t index, DeepTile&& tile) {
+                          keep(index, tile);
+                          const TurnsTimer::Turn turn(timer);
+                          tomales::shadeTile(tile, scene_, *shading_, shadeContext());
+                          place(index, std::move(tile), put);
+                        },
+                        find};
+    complete = hider.hide(tiles, sink) && complete;
+  });
+  if (!complete) log_.report(Severity::Warning, "interrupted", {}, "interrupted: finished buckets are written");
+}
+
+void FrameJob::place(size_t index, DeepTile&& tile, const TilePlace& put) const {
+  for (const auto& [x, y] : settings_.pixels)
+    if (tile.rect.contains(x, y))
+      std::fputs(pixelReport(tile, x, y, layOutFrame(scene_).samplesPerPixel, scene_).c_str(), stdout);
+  put(index, std::move(tile));
+}
+
+void FrameJob::openPreview(const DeepFrame& layout) {
+  if (!preview_ && !settings_.preview.empty())
+    preview_ = std::make_unique<Preview>(settings_.preview, scene_.options.displays.front().name, layout, log_);
+}
+
+void FrameJob::finish(DeepFrame& frame, const TileFill& fill) {
+  openPreview(frame);
+  const RowViewer viewer = preview_ ? [&](const Image& rows) { preview_->show(rows); } : RowViewer{};
+  writeFrame(frame, fill, viewer, scene_, *shading_, {{}, &interrupted(), settings_.seed}, stats_, log_);
+  if (services_) services_->reportAtlas(stats_);
+  if (rays_) rays_->report(stats_);
+  preview_.reset();
+  clouds_.write(log_);
+  meter_.report(1);
+}
+
+FrameControl FrameJob::control(float begin, float end) {
+  return {meter_.stage(begin, end), &interrupted(), settings_.seed};
+}
+
+// The reference must not be noisier in direct light than in indirect.
+int FrameJob::referenceLightSamples() const {
+  int samples = settings_.samples > 0 ? settings_.samples : kReferenceLightSamples;
+  for (const auto& light : scene_.lights)
+    if (const Param* p = findParam(light->shader.params, "samples"); p && light->area)
+      samples =
+          std::max(samples, static_cast<int>(std::min(p->number(0), static_cast<float>(kMostReferenceLightSamples))));
+  return std::min(samples, kMostReferenceLightSamples);
+}
+
+void makeFolderOf(const std::string& file) {
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  std::error_code failed;  // then the folder is missing still
+  if (folder.is_relative() && !folder.empty()) std::filesystem::create_directories(folder, failed);
+}
+
+bool hasFolder(const std::string& file, const SourceLoc& where, Log& log) {
+  std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  if (folder.empty()) folder = ".";
+  if (::access(folder.c_str(), W_OK | X_OK) == 0) return true;
+  log.report(Severity::Output, "output-folder", where,
+             "\"" + file + "\" cannot be written: its folder is missing or closed to us; the frame was not rendered");
+  return false;
+}
+
+bool displaysHaveFolders(const Options& options, Log& log) {
+  bool all = true;
+  for (const DisplayCall& display : options.displays) {
+    makeFolderOf(display.name);
+    all = hasFolder(display.name, display.where, log) && all;
+  }
+  return all;
+}
+
+}  // namespace tomales

@@ -1,0 +1,200 @@
+#include "reyes/app/frame/overrides.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <set>
+
+#include "reyes/output.h"
+
+namespace tomales {
+namespace {
+
+/// Gives every object a changed copy of its attributes; objects that shared one keep sharing.
+template <class Change>
+void changeAttributes(Scene& scene, Change&& change) {
+  std::map<const Attributes*, std::shared_ptr<const Attributes>> changed;
+  const auto copyOf = [&](const std::shared_ptr<const Attributes>& original) {
+    std::shared_ptr<const Attributes>& copy = changed[original.get()];
+    if (copy) return;
+    auto fresh = std::make_shared<Attributes>(*original);
+    change(*fresh);
+    copy = std::move(fresh);
+  };
+  for (const Object& object : scene.objects) copyOf(object.attributes);
+  for (const ShadeGroup& group : scene.groups) copyOf(group.attributes);
+  // The originals stay alive until here, so that no copy can take the address of one.
+  for (Object& object : scene.objects) object.attributes = changed.at(object.attributes.get());
+  for (ShadeGroup& group : scene.groups) group.attributes = changed.at(group.attributes.get());
+  if (hasGeometry(scene)) scene.freeze();
+}
+
+void addIndirectLight(Scene& scene) {
+  auto light = std::make_shared<LightCall>();
+  light->shader.name = "indirectlight";
+  light->shader.where = scene.where;
+  light->handle = "--gi";
+  light->index = static_cast<int>(scene.lights.size());
+  scene.lights.push_back(light);
+  changeAttributes(scene, [&](Attributes& a) { a.lights.push_back(light->index); });
+}
+
+/// The low quality of approximate-gi 5.2; what the command line asks for besides wins.
+void makeDraft(Scene& scene) {
+  constexpr float kRays = 50, kCoarser = 16;
+  constexpr int kSamples = 2;
+  Options& o = scene.options;
+  o.xSamples = std::min(o.xSamples, kSamples), o.ySamples = std::min(o.ySamples, kSamples);
+  changeAttributes(scene,
+                   [](Attributes& a) { a.displacement = nullptr, a.displacementBound = 0, a.shadingRate *= kCoarser; });
+  for (auto& light : scene.lights) {
+    if (light->shader.name != "indirectlight") continue;
+    auto draft = std::make_shared<LightCall>(*light);
+    std::erase_if(draft->shader.params, [](const Param& p) { return p.name == "samples"; });
+    Param samples;
+    samples.name = "samples", samples.type = ValueType::Float, samples.floats = {kRays};
+    draft->shader.params.push_back(std::move(samples));
+    light = std::move(draft);
+  }
+}
+
+bool isMap(const DisplayCall& d) { return writesShadowMap(d) || d.type == "deepshad"; }
+
+/// -o replaces the first Display that is no map for later frames; a frame of such maps alone keeps them all. PNG is for
+/// looking at: no alpha, and sRGB unless the scene's Exposure encodes already.
+void overrideOutput(Options& options, const std::string& output, bool onePicture) {
+  const auto first = std::find_if_not(options.displays.begin(), options.displays.end(), isMap);
+  if (first == options.displays.end()) return;
+  if (onePicture)
+    options.displays.erase(std::remove_if(first + 1, options.displays.end(), std::not_fn(isMap)),
+                           options.displays.end());
+  DisplayCall& display = *first;
+  display.name = withFrameNumber(output, options.frame);
+  display.type = "file";
+  std::string extension = std::filesystem::path(output).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (extension != ".png") return;
+  display.mode = "rgb";
+  if (options.exposureGamma == 1 && !findParam(display.params, "transfer")) {
+    Param transfer;
+    transfer.name = "transfer", transfer.type = ValueType::String, transfer.strings = {"sRGB"};
+    display.params.push_back(std::move(transfer));
+  }
+}
+
+}  // namespace
+
+void dropDisplays(Options& options, Log& log) {
+  const auto isWindow = [](const DisplayCall& d) {
+    return d.type == "framebuffer" || d.type == "it" || d.type == "windows" || d.type == "x11";
+  };
+  const bool someFile =
+      std::any_of(options.displays.begin(), options.displays.end(), [&](const DisplayCall& d) { return !isWindow(d); });
+  std::set<std::string> files;
+  std::erase_if(options.displays, [&](const DisplayCall& d) {
+    if (someFile && isWindow(d)) {
+      log.report(Severity::Warning, "display-window", d.where,
+                 "Display \"" + d.name + "\" of type " + d.type + ": there are no windows; left out beside the file");
+      return true;
+    }
+    const std::string path = std::filesystem::path(d.name).lexically_normal().string();
+    if (files.insert(namesPicture(path) ? path : path + " " + d.type).second) return false;
+    log.report(Severity::Warning, "display-twice", d.where,
+               "Display \"" + d.name + "\" would write over an earlier Display of this frame; left out");
+    return true;
+  });
+}
+
+bool hasIndirectLight(const Scene& scene) {
+  return std::any_of(scene.lights.begin(), scene.lights.end(),
+                     [](const auto& light) { return light->shader.name == "indirectlight"; });
+}
+
+/// Does an indirectlight say so: "string radiance" "atlas"?
+bool asksFor(const char* what, const Scene& scene) {
+  return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const auto& light) {
+    const Param* radiance = findParam(light->shader.params, "radiance");
+    return light->shader.name == "indirectlight" && radiance && !radiance->strings.empty() &&
+           radiance->strings[0] == what;
+  });
+}
+
+GiMode giModeOf(GiChoice choice, const Scene& scene) {
+  switch (choice) {
+    case GiChoice::Gather:
+      return GiMode::Gather;
+    case GiChoice::Reference:
+      return GiMode::Reference;
+    case GiChoice::Atlas:
+    case GiChoice::Points:
+      return GiMode::Atlas;
+    case GiChoice::Radiosity:
+      return GiMode::Radiosity;
+    case GiChoice::Baked:
+      return GiMode::Baked;
+    case GiChoice::Scene:
+      if (!hasIndirectLight(scene)) return GiMode::None;
+      return asksFor("atlas", scene) || asksFor("points", scene) ? GiMode::Atlas
+             : asksFor("radiosity", scene)                       ? GiMode::Radiosity
+                                                                 : GiMode::Gather;
+    default:
+      return GiMode::None;
+  }
+}
+
+/// What renderers of old made do with is no use to anybody: 64 MB are the least that a scene may ask for.
+void raiseTextureMemory(Options& options) {
+  constexpr float kLeast_KB = 1 << 16;
+  const auto it = options.user.find("limits:texturememory");
+  if (it != options.user.end()) it->second.floats = {std::max(kLeast_KB, it->second.number(0))};
+}
+
+/// If the scene does not ask for less.
+void limitTextures(Options& options, int64_t limit_bytes) {
+  Param& p = options.user["limits:texturememory"];
+  const float most_KB = static_cast<float>(textureShare(limit_bytes)) / 1024;
+  const float asked_KB = p.number(most_KB);
+  p = {};
+  p.name = "texturememory", p.floats = {std::min(asked_KB, most_KB)};
+}
+
+RaySettings raySettings(const RenderSettings& settings, const Options& options) {
+  RaySettings out{settings.hitList};
+  const auto it = options.user.find("limits:geocachememory");
+  if (it != options.user.end())
+    out.geometryCacheBytes = static_cast<size_t>(std::clamp(it->second.number(0), 0.0f, 1e15f) * 1024);
+  if (settings.geometryCache) out.geometryCacheBytes = static_cast<size_t>(*settings.geometryCache);
+  return out;
+}
+
+bool tracesFullGeometry(const RenderSettings& settings) {
+  return settings.fullGeometry.value_or(settings.gi == GiChoice::Reference);
+}
+
+void applyOverrides(Scene& scene, const RenderSettings& settings) {
+  raiseTextureMemory(scene.options);
+  if (settings.textureMemory) {
+    Param kilobytes;
+    kilobytes.name = "texturememory", kilobytes.type = ValueType::Float;
+    kilobytes.floats = {static_cast<float>(*settings.textureMemory >> 10)};
+    scene.options.user["limits:texturememory"] = kilobytes;
+  }
+  if (!settings.textureCache.empty()) scene.options.searchPaths["texturecache"] = settings.textureCache;
+  Options& o = scene.options;
+  if (settings.memoryLimit) limitTextures(o, *settings.memoryLimit);
+  if (settings.format) o.xResolution = (*settings.format)[0], o.yResolution = (*settings.format)[1];
+  if (settings.crop) o.cropWindow = *settings.crop;
+  const bool wantsIndirect = settings.gi != GiChoice::Scene && settings.gi != GiChoice::None;
+  if (wantsIndirect && !hasIndirectLight(scene)) addIndirectLight(scene);
+  if (settings.draft) makeDraft(scene);
+  if (settings.pixelSamples) o.xSamples = (*settings.pixelSamples)[0], o.ySamples = (*settings.pixelSamples)[1];
+  if (settings.bucketSize) o.bucketWidth = o.bucketHeight = *settings.bucketSize;
+  if (o.displays.empty()) o.displays.emplace_back();
+  if (namesPicture(settings.output))
+    overrideOutput(o, settings.output, settings.onePicture);  // else it is a .dfb or .icf
+  if (settings.shadingRate) changeAttributes(scene, [&](Attributes& a) { a.shadingRate = *settings.shadingRate; });
+  if (tracesFullGeometry(settings))
+    changeAttributes(scene, [](Attributes& a) { a.trace.displacements = true, a.trace.rate = TessellationMode::Full; });
+}
+
+}  // namespace tomales

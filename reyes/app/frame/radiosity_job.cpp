@@ -1,0 +1,90 @@
+#include "reyes/app/frame/radiosity_job.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "gi/radiosity_bricks.h"
+#include "gi/radiosity_picture.h"
+#include "reyes/app/frame/atlas_job.h"
+#include "reyes/app/frame/overrides.h"
+#include "reyes/base/chunk_file.h"
+#include "reyes/pictures.h"
+#include "reyes/world_sum.h"
+
+namespace tomales {
+namespace {
+
+/// Without what file systems take amiss, and without dots, which set suffixes off; no two alike.
+std::string fileName(const Object& object, int index, std::set<std::string>& used) {
+  std::string name = object.attributes->name.empty() ? fmt::format("object_{}", index) : object.attributes->name;
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
+  while (!used.insert(name).second) name += fmt::format("_{}", index);
+  return name;
+}
+
+void writeMap(const std::vector<RadiosityChart>& charts, const std::filesystem::path& file, Log& log) {
+  std::filesystem::path base = file;
+  base.replace_extension(".base.exr");
+  std::string error;
+  const bool written = writeImage(base.string(), pictureOf(charts), false, log);
+  const bool made =
+      written &&
+      makeTexture({.pictures = {base.string()}, .file = file.string(), .sWrap = "clamp", .tWrap = "clamp"}, error);
+  std::error_code ignored;
+  std::filesystem::remove(base, ignored);
+  if (!made) throw FileError(fmt::format("\"{}\": {}", file.string(), written ? error : "cannot be written"));
+}
+
+void writeRadiosityMaps(const RadiosityMaps& maps, const Scene& scene, const std::filesystem::path& folder, Log& log) {
+  std::filesystem::create_directories(folder);
+  std::set<std::string> used;
+  for (int i = 0; i < static_cast<int>(scene.objects.size()); ++i) {
+    if (maps.charts(i, false).empty()) continue;
+    const std::string name = fileName(scene.objects[static_cast<size_t>(i)], i, used);
+    writeMap(maps.charts(i, false), folder / (name + ".exr"), log);
+    if (!maps.charts(i, true).empty()) writeMap(maps.charts(i, true), folder / (name + ".back.exr"), log);
+  }
+}
+
+std::unique_ptr<const HitRadiance> bricksIn(const std::string& folder, const RayTools& tools, const Camera& camera,
+                                            const RadiositySettings& radiosity, const RenderSettings& settings,
+                                            Stats& stats, Log& log) {
+  try {
+    AtlasSettings atlas = atlasSettings(settings, tools.rays->scene());
+    atlas.world = worldSum(tools.rays->scene(), false);  // gather rays meet what photons do not
+    if (!settings.radiosityFolder.empty())
+      log.report(Severity::Warning, "radiosity-maps", {},
+                 "--radiosity-maps: left out, since radiosity goes to brick maps in the folder of --atlas");
+    const RadiosityBrickSettings bricks{.points = radiosity};
+    return std::make_unique<const RadiosityBricks>(folder, *tools.rays, *tools.shading, camera,
+                                                   mapNames(tools.rays->scene(), atlas), bricks,
+                                                   brickCacheBytes(settings), stats, log);
+  } catch (const std::runtime_error& e) {  // FileError, or of the file system
+    log.report(Severity::Missing, "radiosity-bricks", {},
+               std::string(e.what()) + ": hits of gather rays are shaded instead");
+    return nullptr;
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<const HitRadiance> prepareRadiosity(const RayTools& tools, const Camera& camera,
+                                                    const RenderSettings& settings, Stats& stats, Log& log) {
+  const StageTimer timer(stats, "radiosity");
+  const Scene& scene = tools.rays->scene();
+  const RadiositySettings radiosity{settings.radiosityTexels, lightSeedOf(settings)};
+  if (const std::string folder = atlasFolder(settings, scene); !folder.empty())
+    return bricksIn(folder, tools, camera, radiosity, settings, stats, log);
+  auto maps = std::make_unique<const RadiosityMaps>(*tools.rays, *tools.shading, camera, radiosity, log);
+  try {
+    if (!settings.radiosityFolder.empty()) writeRadiosityMaps(*maps, scene, settings.radiosityFolder, log);
+  } catch (const std::runtime_error& e) {  // FileError, or of the file system
+    log.report(Severity::Missing, "radiosity-maps", {},
+               fmt::format("radiosity maps cannot be written: {}; they are used all the same", e.what()));
+  }
+  return maps;
+}
+
+}  // namespace tomales

@@ -1,0 +1,102 @@
+#include "reyes/app/frame/ray_world.h"
+
+#include "reyes/app/frame/hide.h"
+#include "reyes/app/frame/overrides.h"
+#include "reyes/rib.h"
+
+namespace tomales {
+
+struct RayWorld::Built {
+  Built(Scene s, const RenderSettings& settings, const ShadeServices* services, Stats& stats, Log& log)
+      : scene(std::move(s)), camera(scene.options), registry(log, pluginTrust(settings)) {
+    registry.addLibrary(tomales_builtin_shaders(), "built-in");
+    shading = std::make_unique<ShadingSystem>(scene, registry, services, log, stats);
+    rays = std::make_unique<RayScene>(scene, camera, *shading, raySettings(settings, scene.options), stats, log);
+    tools = {rays.get(), shading.get()};
+  }
+  const Scene scene;
+  const Camera camera;
+  ShaderRegistry registry;
+  std::unique_ptr<ShadingSystem> shading;
+  std::unique_ptr<RayScene> rays;
+  RayTools tools;
+};
+
+namespace {
+
+/// Points of a group are shaded as another object's if the groups of the two scenes are not the same.
+bool sameGroups(const Scene& a, const Scene& b) {
+  const auto alike = [](const ShadeGroup& x, const ShadeGroup& y) {
+    return x.cameraFromObject == y.cameraFromObject && x.primvars.size() == y.primvars.size() &&
+           x.attributes->name == y.attributes->name;
+  };
+  return a.lights.size() == b.lights.size() &&
+         std::equal(a.groups.begin(), a.groups.end(), b.groups.begin(), b.groups.end(), alike);
+}
+
+}  // namespace
+
+RayWorld::RayWorld(const Shot& shot, const RenderSettings& settings, Stats& stats, Log& log)
+    : shot_(shot), settings_(settings), stats_(stats), log_(log) {}
+RayWorld::~RayWorld() = default;
+
+const RayTools* RayWorld::tools() {
+  std::call_once(once_, [this] { built_ = build(); });
+  return built_ ? &built_->tools : nullptr;
+}
+
+void RayWorld::report() const {
+  if (built_) built_->rays->report(stats_);
+}
+
+bool RayWorld::sourcesAreUnchanged() const {
+  std::vector<std::string> files;
+  for (const SourceFile& source : shot_.sources) files.push_back(source.path);
+  return sourcesOf(files) == shot_.sources;
+}
+
+// The shot has been edited since; its geometry has not.
+void RayWorld::dress(Scene& scene) const {
+  for (Object& object : scene.objects)
+    object.attributes = shot_.scene.groups[static_cast<size_t>(object.group)].attributes;
+  scene.lights = shot_.scene.lights;
+  scene.options = shot_.scene.options;
+  scene.freeze();
+}
+
+std::unique_ptr<RayWorld::Built> RayWorld::build() {
+  const StageTimer timer(stats_, "geometry");
+  const auto give = [&](const std::string& why) {
+    log_.report(Severity::Missing, "rays-geometry", shot_.scene.where,
+                "rays are needed, and the geometry cannot be read again: " + why +
+                    "; light is not shadowed and indirect light is left out where an .icf does not give it, and the "
+                    "rays of shaders meet nothing");
+    return nullptr;
+  };
+  for (const SourceFile& source : shot_.sources)
+    if (source.path == "-") return give("the RIB came from standard input");
+  if (!sourcesAreUnchanged())
+    return give("\"" + shot_.sources.front().path + "\" or what follows it is gone or has changed");
+  std::optional<Scene> scene;
+  int world = 0;
+  RibSettings rib;
+  rib.archivePath = {shot_.folder};
+  rib.allowSystem = settings_.allowSystem;
+  rib.onScene = [&](Scene&& s) {
+    if (world++ == shot_.world) scene = std::move(s);
+  };
+  std::vector<std::string> files;
+  for (const SourceFile& source : shot_.sources) files.push_back(source.path);
+  readRib(files, rib, log_);
+  if (!scene) return give("the RIB holds no such frame any more");
+  scene->options = shot_.scene.options;
+  scene->open([](const Attributes&) { return true; });
+  if (shot_.scene.lights.size() == scene->lights.size() + 1)
+    scene->lights.push_back(shot_.scene.lights.back());  // --gi
+  if (!sameGroups(*scene, shot_.scene)) return give("its objects are not those of the shot any more");
+  dress(*scene);
+  if (!sameGroups(*scene, shot_.scene)) return give("its objects are not those of the shot any more");
+  return std::make_unique<Built>(std::move(*scene), settings_, services_, stats_, log_);
+}
+
+}  // namespace tomales

@@ -1,0 +1,144 @@
+#include "reyes/app/frame/render_frame.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "gi/icf.h"
+#include "reyes/app/frame/bucket_file.h"
+#include "reyes/app/frame/frame_job.h"
+#include "reyes/app/frame/tile_store.h"
+#include "reyes/app/watch/interrupt.h"
+#include "reyes/base/process.h"
+
+namespace tomales {
+namespace {
+
+constexpr int64_t kBytesOfTilePixel = 64;  ///< Of a shaded tile without its points and variables,
+constexpr int64_t kBytesOfPoints = 192;    ///< and of its points; all for shading rate 1.
+constexpr int64_t kBytesOfBucket = 96;     ///< Of lists of what is where.
+constexpr int64_t kRowsInMemory = 128;     ///< Of pixels, while a picture is made row by row.
+constexpr int64_t kUsualLimit = int64_t{1} << 30;
+
+int64_t pixelsOf(const Scene& scene) {
+  const PixelRect crop = Camera(scene.options).crop();
+  return int64_t{crop.width()} * crop.height();
+}
+
+int64_t bytesOfTilePixel(const Scene& scene) {
+  return kBytesOfTilePixel + outputOf(scene.options).floatsPerPoint * static_cast<int64_t>(sizeof(float));
+}
+
+/// A frame that cannot fit must not take the machine down with it.
+bool fitsMemory(const Scene& scene, const DeepFrame& layout, Log& log) {
+  const int64_t needed = layout.padded.width() * kRowsInMemory * bytesOfTilePixel(scene) +
+                         static_cast<int64_t>(layout.tileCount()) * kBytesOfBucket;
+  const int64_t there = int64_t{::sysconf(_SC_PHYS_PAGES)} * ::sysconf(_SC_PAGESIZE);
+  if (needed < there && static_cast<int64_t>(layout.tileCount()) < kMostTiles) return true;
+  log.report(Severity::Output, "frame-too-large", {},
+             fmt::format("a frame of {} million pixels in {} buckets needs about {} GB, and the machine has {}: render "
+                         "it in parts with "
+                         "--crop, or in larger buckets with --bucket-size",
+                         pixelsOf(scene) / 1000000, layout.tileCount(), needed >> 30, there >> 30));
+  return false;
+}
+
+/// For hidden buckets: what --memory-limit leaves beside what is in memory now, `held` bytes of buckets not counted,
+/// and what caches may grow to.
+int64_t tileBudget(const RenderSettings& settings, int64_t held) {
+  if (!settings.memoryLimit) return kUsualLimit;
+  const int64_t caches = textureShare(*settings.memoryLimit) + static_cast<int64_t>(brickCacheBytes(settings));
+  return std::max<int64_t>(0, *settings.memoryLimit - (residentBytes() - held) - caches);
+}
+
+void reportMemory(int64_t limit, const std::string& done, const Stats& stats, Log& log) {
+  const auto MB = [](int64_t bytes) { return static_cast<double>(bytes) / 1e6; };
+  log.report(Severity::Info, "memory-limit", {},
+             fmt::format("--memory-limit: {}; textures get {:.0f} MB at most; {:.0f} MB were used at the peak", done,
+                         MB(textureShare(limit)), MB(peakResidentBytes())));
+  if (peakResidentBytes() > limit)
+    log.report(Severity::Warning, "memory-exceeded", {},
+               fmt::format("--memory-limit {:.0f} MB cannot be kept, {:.0f} MB were used: besides the program itself "
+                           "geometry took {:.1f} MB, grids {:.1f}, what rays "
+                           "meet {:.1f}",
+                           MB(limit), MB(peakResidentBytes()), MB(stats.memoryBytes.geometry),
+                           MB(stats.memoryBytes.grids), MB(stats.raytrace.bytes)));
+}
+
+/// What is hidden is shaded and filtered while it is in the cache, row by row, unless that would take more geometry
+/// into memory or the scene asks for another order.
+bool mayStream(const Scene& scene) { return scene.procedurals.empty() && scene.options.bucketOrder == "horizontal"; }
+
+/// False: the file cannot be read, which is reported.
+bool useIrradiance(const Scene& scene, const RenderSettings& settings, FrameJob& job, Log& log) {
+  std::string error;
+  const auto file = IcfFile::open(settings.irradiance, error);
+  if (!file) {
+    log.report(Severity::Error, "icf-read", {std::make_shared<std::string>(settings.irradiance), 0},
+               "cannot be read as an irradiance cache: " + error);
+    return false;
+  }
+  IrradianceShot given = file->takeShot();
+  moveToCamera(given, scene.cameraFromWorldAtOpen());
+  if (!settings.appendIrradiance) job.checkRecords(given.settings, settings.irradiance);
+  job.services()->useCaches(std::move(given.caches));
+  return true;
+}
+
+}  // namespace
+
+void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats& stats, Log& log,
+                 const std::function<void()>& afterStage) {
+  const DeepFrame layout = layOutFrame(scene);
+  if (!displaysHaveFolders(scene.options, log) || !fitsMemory(scene, layout, log)) return;
+  checkDisplays(scene.options, log);
+  FrameJob job(scene, settings, stats, log);
+  const bool given = !settings.irradiance.empty(), gathers = job.gathers() && (!given || settings.appendIrradiance);
+  if (!settings.bakedFolder.empty() && !gathers && job.mode() != GiMode::Baked)
+    log.report(Severity::Warning, "baked-unused", {},
+               "--baked: nothing is gathered that could be kept; it is for --gi gather, atlas or baked");
+  const int64_t budget_bytes = tileBudget(settings, 0);
+  const bool large = pixelsOf(scene) * (bytesOfTilePixel(scene) + kBytesOfPoints) > budget_bytes;
+  const bool streams =
+      !gathers && (large || !settings.preview.empty() || mayStream(scene));  // a preview wants the first rows first
+
+  if (streams || given || settings.resume) job.openAll();
+  BucketFile file(scene, layout, world, settings, log);
+  const std::function<std::optional<DeepTile>(size_t)> find = [&](size_t i) { return file.tile(i); };
+  if (streams || given) job.prepareRays();
+  if (given && job.services() && !useIrradiance(scene, settings, job, log)) return;
+  if (streams) {
+    job.hideAndWrite(layout, find, [&](size_t i, const DeepTile& tile) { file.keepForResume(i, tile); });
+  } else {
+    // What rays will meet needs room too, nobody knows yet how much.
+    TileStore store(layout.tileCount(), settings.memoryLimit && gathers && !given ? budget_bytes / 2 : budget_bytes,
+                    find);
+    const TileStore::Spill spill = [&](size_t i, const DeepTile& tile) { file.spill(i, tile); };
+    const TileSink sink{{},
+                        [&](size_t i, DeepTile&& tile) {
+                          file.keepForResume(i, tile);
+                          if (!store.keep(i, tile)) spill(i, tile);
+                        },
+                        settings.resume ? find : nullptr};
+    job.hide(layout, sink);
+    returnFreeMemory();  // the grids
+    afterStage();
+    if (settings.memoryLimit && job.mode() == GiMode::Atlas)
+      store.shrinkTo(0, spill);  // photons need the room; buckets come back as they are read
+    if (!given) job.prepareRays();
+    if (settings.memoryLimit) {
+      store.shrinkTo(tileBudget(settings, store.held_bytes()), spill);
+      returnFreeMemory();
+    }
+    if (gathers) job.gather(layout, store.reader());
+    afterStage();
+    job.write(layout, [&](size_t i) { return store.take(i); });
+  }
+  if (settings.memoryLimit)
+    reportMemory(*settings.memoryLimit,
+                 streams ? "the picture was made row by row, and the buckets of earlier rows were dropped"
+                         : fmt::format("{} of {} buckets rested in a file", file.spilled(), layout.tileCount()),
+                 stats, log);
+  if (!interrupted() && log.worst() != Severity::Output) file.forget();
+}
+
+}  // namespace tomales
