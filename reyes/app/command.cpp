@@ -1,6 +1,5 @@
 #include "reyes/app/command.h"
 
-#include <csignal>
 
 #include "reyes/app/atlas_commands.h"
 #include "reyes/app/catrib.h"
@@ -8,6 +7,7 @@
 #include "reyes/app/chart/stability.h"
 #include "reyes/app/chart/sweeps.h"
 #include "reyes/app/info.h"
+#include "reyes/app/interrupt.h"
 #include "reyes/app/options.h"
 #include "reyes/app/render.h"
 #include "reyes/app/shade.h"
@@ -19,8 +19,8 @@ namespace {
 constexpr const char* kExitCodes =
     "Exit codes: 0 done; 1 wrong usage; 2 the scene could not be read; 3 the frame is complete but something "
     "was missing and a\n"
-    "loud substitute was rendered; 4 output could not be written; 130, 143 interrupted, finished buckets "
-    "written.";
+    "loud substitute was rendered; 4 output could not be written; 129, 130, 143 interrupted by SIGHUP,\n"
+    "SIGINT or SIGTERM, finished buckets written.";
 
 /// Everything that the arguments may fill.
 struct Invocation {
@@ -245,8 +245,9 @@ int parseAndRun(int argc, char** argv) {
 }  // namespace
 
 int run(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file too large (ulimit -f) is then an error of write(), told as a full disk is
+  openStandardFiles();
   try {
+    watchSignals();
     return parseAndRun(argc, argv);
   } catch (const std::bad_alloc&) {
     std::fputs("tomales: error: out of memory\n", stderr);

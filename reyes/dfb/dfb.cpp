@@ -41,8 +41,8 @@ bool consistent(const Shot& shot) {
 
 }  // namespace
 
-std::unique_ptr<DfbWriter> DfbWriter::create(const std::string& path, const Shot& shot, bool resume, std::string& error) {
-  auto records = RecordWriter::create(path, dfbKind(), resume, error);
+std::unique_ptr<DfbWriter> DfbWriter::create(const std::string& path, const Shot& shot, Unfinished unfinished, std::string& error) {
+  auto records = RecordWriter::create(path, dfbKind(), unfinished, error);
   if (!records) return nullptr;
   const Bytes packed = pack(Shot{withoutGeometry(shot.scene), shot.frame, shot.seed, shot.sources, shot.folder, shot.world});
   std::unique_ptr<DfbWriter> writer(new DfbWriter(std::move(records)));

@@ -13,6 +13,7 @@
 #include "reyes/app/chart/sweeps.h"
 #include "reyes/app/interrupt.h"
 #include "reyes/app/render.h"
+#include "reyes/base/unfinished_file.h"
 
 namespace tomales {
 namespace {
@@ -122,7 +123,8 @@ class Chart {
         continue;
       }
       const std::string file = (fs::path(labSettings_.folder) / fmt::format("{:016x}.rib", std::hash<std::string>{}(text))).string();
-      writeAtOnce(file, text + '\n');
+      std::string why;
+      writeFile(file, text + '\n', why);  // the renderer says that it is missing
       out.push_back(file);
     }
     return lab_.run(out);
@@ -252,7 +254,7 @@ std::string chartCacheFolder() {
 }
 
 int chartCommand(const ChartSettings& settings) {
-  catchInterrupts();
+  const OrderlyEnd orderly;
   return Chart(settings, *chartSweep(settings.sweep)).run();
 }
 
