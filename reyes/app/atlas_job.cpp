@@ -92,7 +92,8 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
     const fs::path folder = temporary ? temporary->path() : fs::path(given);
     const MapNames names = mapNames(scene, atlas);
     makeAtlasFolder(folder);
-    const FolderLock lock(folder, [&] { log.report(Severity::Info, "atlas-wait", {}, "waits for another program that uses the atlas in \"" + folder.string() + "\""); });
+    std::optional<FolderLock> lock;
+    if (!temporary) lock.emplace(folder, [&] { log.report(Severity::Info, "atlas-wait", {}, "waits for another program that uses the atlas in \"" + folder.string() + "\""); });
     const bool byHand = points || isMadeByHand(folder);
     if (points) bricksOfPoints(given, folder, names, {.maxError = settings.brickMaxError}, log);
     if (!byHand) writeAtlas(folder, scene, rays, shading, names, atlas, {}, stats, log);

@@ -31,7 +31,7 @@ bool toStandardOutput(const CatribSettings& settings, std::string& error, Log& l
 bool toFile(const CatribSettings& settings, std::string& error, Log& log) {
   const auto file = UnfinishedFile::create(settings.output, UnfinishedKind::Stream, error);
   if (!file || !copyTo(file->stream(), settings, error, log)) return false;
-  if (log.worst() >= Severity::Error && isAmong(settings.output, settings.files)) {
+  if (log.worst() >= Severity::Missing && isAmong(settings.output, settings.files)) {
     error = "it is the scene itself, of which not everything could be read: it stays as it was";
     return false;
   }

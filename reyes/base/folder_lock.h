@@ -9,7 +9,8 @@ namespace tomales {
 class FolderLock {
  public:
   /// Waits for other processes, after it has called `waits` if it must; throws Stopped (reyes/base/stop.h). Where folders cannot be locked, as
-  /// over networks, nobody waits. Pre: the folder is there.
+  /// over networks, nobody waits. Pre: the folder is there, and no TemporaryFolder,
+  /// which is locked already.
   FolderLock(const std::filesystem::path& folder, const std::function<void()>& waits);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

@@ -12,11 +12,13 @@ namespace tomales {
 namespace {
 
 TEST(FolderLocks, LetTheSecondWaitUntilTheFirstIsGone) {
-  const TemporaryFolder folder(std::filesystem::temp_directory_path());
-  std::optional<FolderLock> first(std::in_place, folder.path(), [] { FAIL() << "nobody has it"; });
+  const TemporaryFolder parent(std::filesystem::temp_directory_path());
+  const std::filesystem::path folder = parent.path() / "shared";
+  std::filesystem::create_directory(folder);
+  std::optional<FolderLock> first(std::in_place, folder, [] { FAIL() << "nobody has it"; });
   std::atomic<bool> waited{false}, released{false};
   std::thread second([&] {
-    const FolderLock lock(folder.path(), [&] { waited = true; });
+    const FolderLock lock(folder, [&] { waited = true; });
     EXPECT_TRUE(released);
   });
   while (!waited) std::this_thread::yield();
@@ -26,9 +28,11 @@ TEST(FolderLocks, LetTheSecondWaitUntilTheFirstIsGone) {
 }
 
 TEST(FolderLocks, AreNotWaitedForWhenTheProcessIsToEnd) {
-  const TemporaryFolder folder(std::filesystem::temp_directory_path());
-  const FolderLock first(folder.path(), [] {});
-  EXPECT_THROW(FolderLock(folder.path(), [] { requestStop(); }), Stopped);
+  const TemporaryFolder parent(std::filesystem::temp_directory_path());
+  const std::filesystem::path folder = parent.path() / "shared";
+  std::filesystem::create_directory(folder);
+  const FolderLock first(folder, [] {});
+  EXPECT_THROW(FolderLock(folder, [] { requestStop(); }), Stopped);
   requestStop(false);
 }
 
