@@ -45,7 +45,8 @@ int catribCommand(const CatribSettings& settings) {
   std::string error;
   if (!(settings.output.empty() ? toStandardOutput : toFile)(settings, error, log))
     log.report(Severity::Output, "output-write",
-               {std::make_shared<std::string>(settings.output.empty() ? "standard output" : settings.output), 0}, "cannot be written: " + error);
+               {std::make_shared<std::string>(settings.output.empty() ? "standard output" : settings.output), 0},
+               "cannot be written: " + error);
   return exitCodeOf(log);
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are stored as they are in memory");
 
-constexpr int kCompression = 1;                   ///< Faster than most disks, and half the size of memory.
+constexpr int kCompression = 1;                         ///< Faster than most disks, and half the size of memory.
 constexpr uint64_t kLargestRecord = uint64_t{1} << 32;  ///< A damaged length must not ask for all memory.
 constexpr uint32_t kDirectory = ~uint32_t{0};
 constexpr char kTrailerMagic[] = "TomalEND";
@@ -38,7 +38,8 @@ struct DirectoryEntry {
   RecordName name;
   uint64_t offset;
 };
-static_assert(sizeof(Header) == 32 && sizeof(RecordHeader) == 32 && sizeof(Trailer) == 32 && sizeof(DirectoryEntry) == 16);
+static_assert(sizeof(Header) == 32 && sizeof(RecordHeader) == 32 && sizeof(Trailer) == 32 &&
+              sizeof(DirectoryEntry) == 16);
 
 uint64_t sumOf(const void* data, size_t size) { return checksum({static_cast<const std::byte*>(data), size}); }
 
@@ -107,9 +108,10 @@ std::string lastProblem() { return std::strerror(errno); }
 
 }  // namespace
 
-std::unique_ptr<RecordWriter> RecordWriter::create(const std::string& path, const RecordFileKind& kind, Unfinished unfinished,
-                                                   std::string& error) {
-  auto file = UnfinishedFile::create(path, unfinished == Unfinished::Removed ? UnfinishedKind::Scratch : UnfinishedKind::Resumable, error);
+std::unique_ptr<RecordWriter> RecordWriter::create(const std::string& path, const RecordFileKind& kind,
+                                                   Unfinished unfinished, std::string& error) {
+  auto file = UnfinishedFile::create(
+      path, unfinished == Unfinished::Removed ? UnfinishedKind::Scratch : UnfinishedKind::Resumable, error);
   if (!file) return nullptr;
   std::unique_ptr<RecordWriter> writer(new RecordWriter(std::move(file), kind));
   if (unfinished == Unfinished::Resumed) writer->keepWholeRecords();

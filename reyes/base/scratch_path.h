@@ -1,10 +1,10 @@
 // A new file or folder that is for this process alone and does not outlive it.
 //
-// Its name, `.STEM.RANDOM.part`, cannot be guessed, and what has the name already is never opened: neither another process of the same number,
-// as containers have, nor a link that somebody has put there can come between. It is locked (flock) while its owner lives. What a killed
-// process has left is therefore told from what is in use, and the next ScratchPath of the same stem in the same folder removes it. Where there
-// are no locks, nothing is removed.
-// Threads: plain object.
+// Its name, `.STEM.RANDOM.part`, cannot be guessed, and what has the name already is never opened: neither another
+// process of the same number, as containers have, nor a link that somebody has put there can come between. It is locked
+// (flock) while its owner lives. What a killed process has left is therefore told from what is in use, and the next
+// ScratchPath of the same stem in the same folder removes it. Where there are no locks, nothing is removed. Threads:
+// plain object.
 #pragma once
 #include <filesystem>
 #include <optional>

@@ -22,8 +22,8 @@ std::string oiioError() {
   return text.empty() ? "it cannot be read" : text;
 }
 
-/// Every texel is read here: a truncated picture is found out before anything is made of it. By an ImageInput, since an ImageBuf takes strips
-/// of TIFF that are cut off for read: OpenImageIO returns true and leaves a message.
+/// Every texel is read here: a truncated picture is found out before anything is made of it. By an ImageInput, since an
+/// ImageBuf takes strips of TIFF that are cut off for read: OpenImageIO returns true and leaves a message.
 bool readWhole(const std::string& file, OIIO::ImageBuf& picture, std::string& error) {
   const auto in = OIIO::ImageInput::open(file);
   if (!in) return error = oiioError(), false;
@@ -45,7 +45,8 @@ bool write(const OIIO::ImageBuf& picture, const TextureRecipe& recipe, const std
   config.attribute("maketx:filtername", recipe.filter);
   config.attribute("wrapmodes", recipe.sWrap + "," + recipe.tWrap);
   try {
-    // A folder, because OpenImageIO makes a file of its own beside the one that it is asked for, which a killed process would leave.
+    // A folder, because OpenImageIO makes a file of its own beside the one that it is asked for, which a killed process
+    // would leave.
     const TemporaryFolder folder(throughLinks(file).parent_path());
     const fs::path made = folder.path() / "texture";
     if (!OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, picture, made.string(), config))

@@ -23,9 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kPollEvery_s = 0.1;  ///< The wish to stop wakes nobody.
 
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 }  // namespace
 
@@ -68,8 +66,7 @@ void Program::closeInput() {
 }
 
 void Program::writeInput() {
-  const ssize_t n =
-      send(toChild_, input_.data() + written_, input_.size() - written_, MSG_NOSIGNAL | MSG_DONTWAIT);
+  const ssize_t n = send(toChild_, input_.data() + written_, input_.size() - written_, MSG_NOSIGNAL | MSG_DONTWAIT);
   if (n > 0) written_ += static_cast<size_t>(n);
   const bool broken = n < 0 && errno != EAGAIN && errno != EINTR;
   if (broken) closeInput();
@@ -103,7 +100,8 @@ std::string Program::finish() {
     if (info.si_pid == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     hung_ = info.si_pid == 0 && (secondsSince(start) > patience_s_ || stopRequested());
   }
-  if (info.si_pid == 0) return stopRequested() ? "was killed, because this program is to end" : "did not answer in time and was killed";
+  if (info.si_pid == 0)
+    return stopRequested() ? "was killed, because this program is to end" : "did not answer in time and was killed";
   kill(-id_, SIGKILL);  // what it has left running; it can be no other's group before the wait
   guard_.reset();
   int status = 0;
