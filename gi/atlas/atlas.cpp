@@ -10,6 +10,7 @@
 #include "gi/atlas/world_from_current.h"
 #include "gi/bricks/point_tiles.h"
 #include "gi/photons/medium.h"
+#include "reyes/base/folder_lock.h"
 #include "reyes/base/process.h"
 #include "reyes/base/temporary_folder.h"
 
@@ -156,6 +157,10 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
                            const ShadingSystem& shading, const MapNames& names, const AtlasSettings& settings,
                            const AtlasProgress& progress, Stats& stats, Log& log) {
   makeAtlasFolder(folder);
+  const FolderLock lock(folder, [&] {
+    log.report(Severity::Info, "photons-wait", {},
+               "waits for another program that writes photons to \"" + folder.string() + "\"");
+  });
   const char* channel = settings.photons.direct ? kPower : kIndirectPower;
   std::map<std::string, PointFileWriter> files;
   for (const std::string& name : names.all())

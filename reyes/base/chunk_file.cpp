@@ -11,6 +11,8 @@
 #include <cstring>
 #include <utility>
 
+#include "reyes/base/unfinished_file.h"
+
 namespace tomales {
 namespace {
 
@@ -38,17 +40,17 @@ static_assert(sizeof(Preamble) == 16 && sizeof(Entry) == 16 && sizeof(Footer) ==
 }  // namespace
 
 struct ChunkWriter::Impl {
-  std::string path, temporary;
-  std::FILE* file = nullptr;
+  std::string path;
+  std::unique_ptr<UnfinishedFile> file;
   uint64_t offset = 0;
   std::vector<Entry> entries;
 
   void write(const void* data, size_t size) {
-    if (std::fwrite(data, 1, size, file) != size) fail();
+    if (std::fwrite(data, 1, size, file->stream()) != size) fail(std::strerror(errno));
     offset += size;
   }
-  [[noreturn]] void fail() const {
-    throw FileError(fmt::format("\"{}\" cannot be written: {}", path, std::strerror(errno)));
+  [[noreturn]] void fail(const std::string& why) const {
+    throw FileError(fmt::format("\"{}\" cannot be written: {}", path, why));
   }
   /// Where the bytes went.
   Entry writeFrame(std::span<const std::byte> bytes) {
@@ -72,10 +74,10 @@ struct ChunkWriter::Impl {
 
 ChunkWriter::ChunkWriter(const std::string& path, const char (&kind)[9], uint32_t version) : impl_(new Impl) {
   impl_->path = path;
-  impl_->temporary = fmt::format("{}.{}.part", path, ::getpid());
-  impl_->file = std::fopen(impl_->temporary.c_str(), "wb");
-  if (!impl_->file) impl_->fail();
-  std::setvbuf(impl_->file, nullptr, _IOFBF, kWrittenAtOnce);
+  std::string why;
+  impl_->file = UnfinishedFile::create(path, UnfinishedKind::Scratch, why);
+  if (!impl_->file) impl_->fail(why);
+  std::setvbuf(impl_->file->stream(), nullptr, _IOFBF, kWrittenAtOnce);
   Preamble preamble{{}, version, kByteOrder};
   std::memcpy(preamble.kind, kind, sizeof preamble.kind);
   impl_->write(&preamble, sizeof preamble);
@@ -83,11 +85,7 @@ ChunkWriter::ChunkWriter(const std::string& path, const char (&kind)[9], uint32_
 
 ChunkWriter::ChunkWriter(ChunkWriter&&) noexcept = default;
 
-ChunkWriter::~ChunkWriter() {
-  if (!impl_ || !impl_->file) return;
-  std::fclose(impl_->file);
-  ::unlink(impl_->temporary.c_str());
-}
+ChunkWriter::~ChunkWriter() = default;
 
 uint32_t ChunkWriter::add(std::span<const std::byte> bytes) {
   impl_->entries.push_back(impl_->writeFrame(bytes));
@@ -102,13 +100,9 @@ void ChunkWriter::finish(std::span<const std::byte> header) {
   Footer footer{w.writeFrame(std::as_bytes(std::span(w.entries))), {}};
   std::memcpy(footer.end, kEnd, sizeof footer.end);
   w.write(&footer, sizeof footer);
-  const bool flushed = std::fflush(w.file) == 0 && ::fsync(::fileno(w.file)) == 0;
-  const bool closed = std::fclose(std::exchange(w.file, nullptr)) == 0;
-  if (flushed && closed && std::rename(w.temporary.c_str(), w.path.c_str()) == 0) return;
-  const int error = errno;
-  ::unlink(w.temporary.c_str());
-  errno = error;
-  w.fail();
+  std::string why;
+  if (!w.file->finish(why)) w.fail(why);
+  w.file.reset();
 }
 
 struct ChunkReader::Impl {

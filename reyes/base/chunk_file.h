@@ -5,7 +5,7 @@
 //   header     one more chunk: what a reader needs to know first
 //   directory  8 bytes offset, 4 bytes stored size, 4 bytes size of every chunk, the header last; itself a zstd frame
 //   footer     8 bytes offset of the directory, 4 bytes its stored size, 4 bytes its size, "TOMALESX"
-// Numbers are little-endian. A file under its final name is whole: the writer works on a temporary one.
+// Numbers are little-endian. The writer works on an UnfinishedFile.
 #pragma once
 #include <cstddef>
 #include <cstdint>

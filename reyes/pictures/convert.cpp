@@ -3,13 +3,13 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <atomic>
 #include <filesystem>
 #include <fstream>
 
 #include "reyes/base/checksum.h"
+#include "reyes/base/temporary_folder.h"
+#include "reyes/base/unfinished_file.h"
 
 namespace tomales {
 namespace {
@@ -20,19 +20,6 @@ std::string oiioError() {
   std::string text = OIIO::geterror();
   while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
   return text.empty() ? "it cannot be read" : text;
-}
-
-/// A name beside `file` that no other thread or process writes to.
-std::string temporaryName(const std::string& file) {
-  static std::atomic<int> number{0};
-  return fmt::format("{}.{}.{}.part", file, ::getpid(), number++);
-}
-
-bool moveInto(const std::string& temporary, const std::string& file, std::string& error) {
-  std::error_code problem;
-  fs::rename(temporary, file, problem);
-  if (problem) error = fmt::format("\"{}\" cannot be written: {}", file, problem.message());
-  return !problem;
 }
 
 /// Every texel is read here: a truncated picture is found out before anything is made of it. By an ImageInput, since an
@@ -57,13 +44,19 @@ bool write(const OIIO::ImageBuf& picture, const TextureRecipe& recipe, const std
   config.attribute("maketx:fileformatname", exr ? "openexr" : "tiff");
   config.attribute("maketx:filtername", recipe.filter);
   config.attribute("wrapmodes", recipe.sWrap + "," + recipe.tWrap);
-  const std::string temporary = temporaryName(file);
-  if (OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, picture, temporary, config))
-    return moveInto(temporary, file, error);
-  error = oiioError();
-  std::error_code none;
-  fs::remove(temporary, none);
-  return false;
+  try {
+    // A folder, because OpenImageIO makes a file of its own beside the one that it is asked for, which a killed process
+    // would leave.
+    const TemporaryFolder folder(throughLinks(file).parent_path());
+    const fs::path made = folder.path() / "texture";
+    if (!OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, picture, made.string(), config))
+      error = oiioError();
+    else if (!moveFinished(made, file, error))
+      error = fmt::format("\"{}\" cannot be written: {}", file, error);
+  } catch (const fs::filesystem_error& e) {
+    error = fmt::format("\"{}\" cannot be written: {}", file, e.code().message());
+  }
+  return error.empty();
 }
 
 bool isTiledMip(const std::string& file, std::string& error) {

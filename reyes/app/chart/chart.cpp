@@ -13,6 +13,7 @@
 #include "reyes/app/chart/sweeps.h"
 #include "reyes/app/exit_code.h"
 #include "reyes/app/watch/interrupt.h"
+#include "reyes/base/unfinished_file.h"
 
 namespace tomales {
 namespace {
@@ -132,7 +133,8 @@ class Chart {
       }
       const std::string file =
           (fs::path(labSettings_.folder) / fmt::format("{:016x}.rib", std::hash<std::string>{}(text))).string();
-      writeAtOnce(file, text + '\n');
+      std::string why;
+      writeFile(file, text + '\n', why);  // the renderer says that it is missing
       out.push_back(file);
     }
     return lab_.run(out);
@@ -283,7 +285,7 @@ std::string chartCacheFolder() {
 }
 
 int chartCommand(const ChartSettings& settings) {
-  catchInterrupts();
+  const OrderlyEnd orderly;
   return Chart(settings, *chartSweep(settings.sweep)).run();
 }
 

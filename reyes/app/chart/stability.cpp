@@ -10,6 +10,7 @@
 #include "reyes/app/exit_code.h"
 #include "reyes/app/settings.h"
 #include "reyes/app/watch/interrupt.h"
+#include "reyes/base/unfinished_file.h"
 
 namespace tomales {
 namespace {
@@ -81,8 +82,10 @@ class Laboratory {
          fmt::format("{}_{:08x}_{}", fs::path(scene.file).stem().string(), place & 0xffffffff, value))
             .string();
     const std::string rib = stem + ".rib", truthRib = stem + ".truth.rib", text = replaced(scene.text, "$knob", value);
-    if (!writeAtOnce(rib, replaced(text, "$truth", "0")) || !writeAtOnce(truthRib, replaced(text, "$truth", "1"))) {
-      out.missing.push_back(fmt::format("{} {}: \"{}\" cannot be written", scene.knob, value, rib));
+    std::string why;
+    if (!writeFile(rib, replaced(text, "$truth", "0"), why) ||
+        !writeFile(truthRib, replaced(text, "$truth", "1"), why)) {
+      out.missing.push_back(fmt::format("{} {}: \"{}\" cannot be written: {}", scene.knob, value, rib, why));
       return;
     }
     Lab truths({settings_.folder, {truthRib}, common(scene), secondsLeft()});
@@ -138,7 +141,7 @@ class Laboratory {
 }  // namespace
 
 int stabilityCommand(const ChartSettings& given) {
-  catchInterrupts();
+  const OrderlyEnd orderly;
   ChartSettings settings = given;
   if (settings.folder.empty()) settings.folder = chartCacheFolder();
   Log log;
@@ -194,7 +197,8 @@ bool writeStabilityJson(const std::string& path, const std::vector<StabilityCurv
                                  {"pixels_not_finite", p.error.notFinite}});
     out["scenes"].push_back(std::move(scene));
   }
-  return writeAtOnce(path, out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  std::string why;
+  return writeFile(path, out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n', why);
 }
 
 }  // namespace tomales

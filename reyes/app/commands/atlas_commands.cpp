@@ -14,6 +14,7 @@
 #include "reyes/app/watch/stats_json.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/temporary_folder.h"
+#include "reyes/base/unfinished_file.h"
 #include "reyes/rib.h"
 
 namespace tomales {
@@ -54,6 +55,10 @@ void makeFolder(const std::string& folder) {
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder))
     throw FileError(fmt::format("folder \"{}\" cannot be made: {}", folder, error.message()));
+}
+
+void refuseInput(const fs::path& output, const std::vector<std::string>& inputs) {
+  if (isAmong(output, inputs)) throw FileError(fmt::format("\"{}\" would replace what it is made of", output.string()));
 }
 
 /// One cloud of several, chunk by chunk.
@@ -132,8 +137,11 @@ int irradianceCommand(const IrradianceCommand& command) {
   Log log;
   guarded(log, Severity::Error, [&] {
     makeFolder(command.output);
-    for (const fs::path& file : pointFiles(command.inputs))
-      writeIrradiance(file, fs::path(command.output) / file.filename(), command.settings);
+    for (const fs::path& file : pointFiles(command.inputs)) {
+      const fs::path out = fs::path(command.output) / file.filename();
+      refuseInput(out, {file.string()});
+      writeIrradiance(file, out, command.settings);
+    }
   });
   return exitCodeOf(log);
 }
@@ -143,6 +151,7 @@ void makeBrickMaps(const BrickmakeCommand& command, const std::function<void(con
   const bool one = command.oneFile || fs::path(command.output).extension() == ".bkm";
   if (!one) makeFolder(command.output);
   const auto make = [&](const fs::path& in, const fs::path& out) {
+    refuseInput(out, command.inputs);
     const PointFile file(in.string());
     const PointTiles tiles(file);
     BrickSettings settings = command.settings;
@@ -175,6 +184,7 @@ int brickmakeCommand(const BrickmakeCommand& command) {
 int viewCommand(const ViewCommand& command) {
   Log log;
   guarded(log, Severity::Error, [&] {
+    refuseInput(command.output, {command.input, command.camera});
     PointPictureSettings settings{command.size[0], command.size[1], command.channel, command.gain, {}};
     std::optional<Scene> scene;
     std::optional<Camera> camera;
@@ -202,6 +212,7 @@ int viewCommand(const ViewCommand& command) {
 int convertCommand(const ConvertCommand& command) {
   Log log;
   guarded(log, Severity::Error, [&] {
+    refuseInput(command.output, {command.input});
     const fs::path from = fs::path(command.input).extension(), to = fs::path(command.output).extension();
     if (from == ".ptc" && to == ".ply") {
       writePly(PointFile(command.input), command.output);

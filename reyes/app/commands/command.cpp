@@ -13,6 +13,7 @@
 #include "reyes/app/commands/shade.h"
 #include "reyes/app/commands/shadetest.h"
 #include "reyes/app/exit_code.h"
+#include "reyes/app/watch/interrupt.h"
 
 namespace tomales {
 namespace {
@@ -20,8 +21,8 @@ namespace {
 constexpr const char* kExitCodes =
     "Exit codes: 0 done; 1 wrong usage; 2 the scene could not be read; 3 the frame is complete but something "
     "was missing and a\n"
-    "loud substitute was rendered; 4 output could not be written; 130, 143 interrupted, finished buckets "
-    "written.";
+    "loud substitute was rendered; 4 output could not be written; 129, 130, 143 interrupted by SIGHUP,\n"
+    "SIGINT or SIGTERM, finished buckets written.";
 
 /// Everything that the arguments may fill.
 struct Invocation {
@@ -287,8 +288,9 @@ int parseAndRun(int argc, char** argv) {
 }  // namespace
 
 int run(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file too large (ulimit -f) is then an error of write(), told as a full disk is
+  openStandardFiles();
   try {
+    watchSignals();
     return parseAndRun(argc, argv);
   } catch (const std::bad_alloc&) {
     std::fputs("tomales: error: out of memory\n", stderr);

@@ -14,6 +14,7 @@
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/app/watch/stats_json.h"
 #include "reyes/base/parallel.h"
+#include "reyes/base/stop.h"
 #include "reyes/image.h"
 #include "reyes/rib.h"
 
@@ -39,10 +40,10 @@ class RenderRun {
     rib.onScene = [this](Scene&& scene) { takeScene(std::move(scene)); };
     rib.onMake = [this](const Request& request) {
       made_ = true;
-      if (!interrupted()) performMake(request, log_);
+      performMake(request, log_);
     };
     parse_.emplace(stats_, "parse");
-    const bool read = readRib(settings_.files, rib, log_);
+    const bool read = readAll(rib);
     parse_.reset();
     if (read && scenes_ == 0 && !made_ && !interrupted())
       log_.report(Severity::Error, "no-world", {std::make_shared<std::string>(settings_.files.front()), 0},
@@ -59,10 +60,20 @@ class RenderRun {
   }
 
  private:
+  /// Interrupted frames are the last: what follows them is not read.
+  bool readAll(const RibSettings& rib) {
+    try {
+      return readRib(settings_.files, rib, log_);
+    } catch (const Stopped&) {
+      return true;
+    }
+  }
+
   void takeScene(Scene&& scene) {
     parse_.reset();
     ++scenes_;
-    if (wanted(scene) && !interrupted()) {
+    if (wanted(scene)) {
+      const OrderlyEnd orderly;
       ++rendered_;
       applyOverrides(scene, settings_);
       dropDisplays(scene.options, log_);
@@ -76,6 +87,7 @@ class RenderRun {
           errors() == errorsBefore)  // else it may have been refused
         explainEmptyFrame(scene, log_);
       flush();
+      throwIfStopped();
     }
     parse_.emplace(stats_, "parse");
   }
@@ -127,13 +139,9 @@ class RenderRun {
 
 }  // namespace
 
-int renderCommand(const RenderSettings& settings) {
-  catchInterrupts();
-  return RenderRun(settings, renderFrame).run();
-}
+int renderCommand(const RenderSettings& settings) { return RenderRun(settings, renderFrame).run(); }
 
 int hideCommand(const RenderSettings& settings) {
-  catchInterrupts();
   const auto job = [](Scene& scene, int world, const RenderSettings& s, Stats& stats, Log& log,
                       const std::function<void()>&) { hideToFile(scene, world, s, stats, log); };
   return RenderRun(settings, job).run();

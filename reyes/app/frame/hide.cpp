@@ -46,7 +46,7 @@ void hideToFile(Scene& scene, int world, const RenderSettings& settings, Stats& 
       scene, layOutFrame(scene), settings.seed, sourcesOf(settings.files), std::filesystem::current_path().string(),
       world};
   std::string error;
-  const auto file = DfbWriter::create(path, shot, settings.resume, error);
+  const auto file = DfbWriter::create(path, shot, settings.resume ? Unfinished::Resumed : Unfinished::Kept, error);
   if (!file) return unwritten(error);
   if (settings.resume)
     log.report(Severity::Info, "resume", {},
@@ -60,12 +60,12 @@ void hideToFile(Scene& scene, int world, const RenderSettings& settings, Stats& 
                       {}};
   const bool complete = job.hide(shot.frame, sink);
   if (full)
-    return unwritten(file->error() + "; finished buckets are in \"" + file->temporary() +
+    return unwritten(file->error() + "; finished buckets are in \"" + file->unfinishedPath() +
                      "\", and --resume adds the others");
   if (!complete)
     return log.report(
         Severity::Warning, "interrupted", {},
-        "interrupted: finished buckets are in \"" + file->temporary() + "\", and --resume adds the others");
+        "interrupted: finished buckets are in \"" + file->unfinishedPath() + "\", and --resume adds the others");
   if (!file->finish()) unwritten(file->error());
 }
 
