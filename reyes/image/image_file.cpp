@@ -121,24 +121,24 @@ bool PictureFile::write(const DeepRows& rows) { return !impl_->failed && impl_->
 bool PictureFile::close() { return impl_->close(); }
 const std::string& PictureFile::error() const { return impl_->problem; }
 
-bool copyShadowMap(const std::string& from, const std::string& to, std::string& error) {
+Making copyShadowMap(const std::string& from, const std::string& to, std::string& error) {
   {
     const auto in = openPicture(from, error);
     float matrix[16];
-    if (!in) return false;
+    if (!in) return Making::Unreadable;
     const std::vector<std::string>& channels = in->shape().channels;
     if (std::find(channels.begin(), channels.end(), "Z") == channels.end() || !in->matrix("worldtocamera", matrix))
-      return error = "it is no shadow map: depth or the matrices of its camera are missing", false;
+      return error = "it is no shadow map: depth or the matrices of its camera are missing", Making::Unreadable;
   }
   const fs::path target(to), temporary = target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid());
   std::error_code problem;
-  if (fs::equivalent(from, target, problem)) return true;
+  if (fs::equivalent(from, target, problem)) return Making::Done;
   fs::copy_file(from, temporary, fs::copy_options::overwrite_existing, problem);
   if (!problem) fs::rename(temporary, target, problem);
-  if (!problem) return true;
+  if (!problem) return Making::Done;
   error = problem.message();
   fs::remove(temporary, problem);
-  return false;
+  return Making::Unwritable;
 }
 
 std::optional<Image> readImage(const std::string& path, std::string& error) {

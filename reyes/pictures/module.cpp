@@ -46,7 +46,7 @@ class Library : public PictureLibrary {
     return std::make_unique<Reader>(std::move(in));
   }
   std::unique_ptr<TextureCache> textures(const TextureSettings& settings) const override { return makeTextureCache(settings); }
-  bool makeTexture(const TextureRecipe& recipe, std::string& error) const override { return convert(recipe, error); }
+  Making makeTexture(const TextureRecipe& recipe, std::string& error) const override { return convert(recipe, error); }
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "reyes/base/input_file.h"
 #include "reyes/base/search_path.h"
 #include "reyes/shade.h"
 #include "reyes/shade/plugin_trial.h"
@@ -92,6 +93,7 @@ std::string ShaderRegistry::Impl::heldBy(const std::string& path) const {
 bool ShaderRegistry::Impl::load(const std::string& path) {
   if (const auto it = plugins.find(path); it != plugins.end()) return it->second.loaded;
   Plugin& plugin = plugins[path];
+  if (const std::string problem = inputProblem(path); !problem.empty()) return refuse(path, "cannot be loaded: " + problem), false;
   if (const std::string fate = trial.fateOf(path); !fate.empty()) return refuse(path, fate + "; it is left out"), false;
   if (!trial.works() && !untriedSaid)
     untriedSaid = true, log.report(Severity::Warning, "shader-plugin", {std::make_shared<const std::string>(path), 0},
