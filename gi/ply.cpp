@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -11,6 +12,8 @@
 #include <limits>
 #include <optional>
 #include <sstream>
+
+#include "reyes/base/input_file.h"
 
 namespace tomales {
 namespace {
@@ -68,8 +71,9 @@ struct Element {
 /// A file from behind its header, number by number.
 class PlyReader {
  public:
-  explicit PlyReader(const std::string& path) : path_(path), in_(path, std::ios::binary) {
-    if (!in_) fail(path, "cannot be opened");
+  explicit PlyReader(const std::string& path) : path_(path) {
+    if (const std::string problem = inputProblem(path); !problem.empty()) fail(path, "cannot be read: " + problem);
+    in_.open(path, std::ios::binary);
     readHeader();
   }
 
@@ -266,13 +270,13 @@ void writePly(const PointFile& cloud, const std::string& path) {
   const std::string part = path + ".part";
   std::error_code error;
   try {
+    errno = 0;
     std::ofstream out(part, std::ios::binary);
     out << headerOf(cloud);
     for (size_t chunk = 0; chunk < cloud.chunkCount() && out; ++chunk) writeRows(cloud, chunk, out);
     out.close();
-    if (!out) fail(path, "cannot be written");
-    std::filesystem::rename(part, path, error);
-    if (error) fail(path, "cannot be written: " + error.message());
+    if (out) std::filesystem::rename(part, path, error);
+    if (!out || error) throw WriteError(fmt::format("\"{}\" cannot be written: {}", path, std::strerror(error ? error.value() : errno)));
   } catch (const FileError&) {
     std::filesystem::remove(part, error);
     throw;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "reyes/app/render.h"
+#include "reyes/app/exit_code.h"
 
 namespace tomales {
 

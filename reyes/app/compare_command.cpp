@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reyes/app/info.h"
-#include "reyes/app/render.h"
+#include "reyes/app/exit_code.h"
 #include "reyes/image.h"
 
 namespace tomales {

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "reyes/app/atlas_commands.h"
+#include "reyes/app/exit_code.h"
 #include "reyes/app/frame_job.h"
 #include "reyes/image.h"
 #include "reyes/pictures.h"
@@ -85,7 +86,7 @@ void makeBrickMap(const Request& r, Log& log) {
   try {
     makeBrickMaps(brickmakeOf(r, log));
   } catch (const std::runtime_error& e) {  // FileError, or of the file system
-    log.report(Severity::Missing, "make-brickmap", r.where, fmt::format("{}: \"{}\" cannot be made ({})", r.name, r.args[1].strings[0], e.what()));
+    log.report(severityOfLoss(e), "make-brickmap", r.where, fmt::format("{}: \"{}\" cannot be made ({})", r.name, r.args[1].strings[0], e.what()));
   }
 }
 
@@ -102,8 +103,8 @@ void performMake(const Request& r, Log& log) {
   const TextureRecipe recipe = recipeOf(r, log);
   makeFolderOf(recipe.file);
   std::string error;
-  if (!makeTexture(recipe, error))
-    log.report(Severity::Missing, "make-texture", r.where,
+  if (const Making made = makeTexture(recipe, error); made != Making::Done)
+    log.report(severityOf(made), "make-texture", r.where,
                fmt::format("{}: \"{}\" cannot be made of \"{}\" ({})", r.name, recipe.file, recipe.pictures.front(), error));
 }
 

@@ -7,6 +7,7 @@
 #include "gi/radiosity_bricks.h"
 #include "gi/radiosity_picture.h"
 #include "reyes/app/atlas_job.h"
+#include "reyes/app/exit_code.h"
 #include "reyes/app/overrides.h"
 #include "reyes/base/chunk_file.h"
 #include "reyes/pictures.h"
@@ -27,12 +28,12 @@ std::string fileName(const Object& object, int index, std::set<std::string>& use
 void writeMap(const std::vector<RadiosityChart>& charts, const std::filesystem::path& file, Log& log) {
   std::filesystem::path base = file;
   base.replace_extension(".base.exr");
-  std::string error;
-  const bool written = writeImage(base.string(), pictureOf(charts), false, log);
-  const bool made = written && makeTexture({.pictures = {base.string()}, .file = file.string(), .sWrap = "clamp", .tWrap = "clamp"}, error);
+  std::string error = "cannot be written";
+  const bool written = writeImage(base.string(), pictureOf(charts), false, log) &&
+                       makeTexture({.pictures = {base.string()}, .file = file.string(), .sWrap = "clamp", .tWrap = "clamp"}, error) == Making::Done;
   std::error_code ignored;
   std::filesystem::remove(base, ignored);
-  if (!made) throw FileError(fmt::format("\"{}\": {}", file.string(), written ? error : "cannot be written"));
+  if (!written) throw WriteError(fmt::format("\"{}\": {}", file.string(), error));
 }
 
 void writeRadiosityMaps(const RadiosityMaps& maps, const Scene& scene, const std::filesystem::path& folder, Log& log) {
@@ -54,10 +55,16 @@ std::unique_ptr<const HitRadiance> bricksIn(const std::string& folder, const Ray
     if (!settings.radiosityFolder.empty())
       log.report(Severity::Warning, "radiosity-maps", {}, "--radiosity-maps: left out, since radiosity goes to brick maps in the folder of --atlas");
     const RadiosityBrickSettings bricks{.points = radiosity};
-    return std::make_unique<const RadiosityBricks>(folder, *tools.rays, *tools.shading, camera, mapNames(tools.rays->scene(), atlas), bricks, brickCacheBytes(settings),
-                                                   stats, log);
+    std::unique_ptr<const RadiosityBricks> out;
+    makeAnewWhatIsDamaged(
+        [&] {
+          out = std::make_unique<const RadiosityBricks>(folder, *tools.rays, *tools.shading, camera, mapNames(tools.rays->scene(), atlas), bricks,
+                                                        brickCacheBytes(settings), stats, log);
+        },
+        log);
+    return out;
   } catch (const std::runtime_error& e) {  // FileError, or of the file system
-    log.report(Severity::Missing, "radiosity-bricks", {}, std::string(e.what()) + ": hits of gather rays are shaded instead");
+    log.report(severityOfLoss(e), "radiosity-bricks", {}, std::string(e.what()) + ": hits of gather rays are shaded instead");
     return nullptr;
   }
 }
@@ -73,7 +80,7 @@ std::unique_ptr<const HitRadiance> prepareRadiosity(const RayTools& tools, const
   try {
     if (!settings.radiosityFolder.empty()) writeRadiosityMaps(*maps, scene, settings.radiosityFolder, log);
   } catch (const std::runtime_error& e) {  // FileError, or of the file system
-    log.report(Severity::Missing, "radiosity-maps", {}, fmt::format("radiosity maps cannot be written: {}; they are used all the same", e.what()));
+    log.report(severityOfLoss(e), "radiosity-maps", {}, fmt::format("radiosity maps cannot be written: {}; they are used all the same", e.what()));
   }
   return maps;
 }

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "reyes/app/render.h"
+#include "reyes/app/exit_code.h"
 #include "reyes/dice.h"
 #include "reyes/frame.h"
 #include "reyes/image.h"

@@ -8,7 +8,9 @@
 
 #include "reyes/app/chart/html.h"
 #include "reyes/app/interrupt.h"
-#include "reyes/app/render.h"
+#include "reyes/app/exit_code.h"
+#include "reyes/app/settings.h"
+#include "reyes/base/output_file.h"
 
 namespace tomales {
 namespace {
@@ -74,7 +76,7 @@ class Laboratory {
     const uint64_t place = std::hash<std::string>{}(fs::weakly_canonical(scene.file).string());  // others may have this name too
     const std::string stem = (fs::path(settings_.folder) / fmt::format("{}_{:08x}_{}", fs::path(scene.file).stem().string(), place & 0xffffffff, value)).string();
     const std::string rib = stem + ".rib", truthRib = stem + ".truth.rib", text = replaced(scene.text, "$knob", value);
-    if (!writeAtOnce(rib, replaced(text, "$truth", "0")) || !writeAtOnce(truthRib, replaced(text, "$truth", "1"))) {
+    if (!writeAtOnce(rib, replaced(text, "$truth", "0")).empty() || !writeAtOnce(truthRib, replaced(text, "$truth", "1")).empty()) {
       out.missing.push_back(fmt::format("{} {}: \"{}\" cannot be written", scene.knob, value, rib));
       return;
     }
@@ -132,7 +134,7 @@ int stabilityCommand(const ChartSettings& given) {
   Log log;
   if (const std::string problem = placesProblem(settings.output, settings.folder); !problem.empty()) {
     log.report(Severity::Output, "chart", {}, problem);
-    return kUnwritable;
+    return exitCodeOf(log);
   }
   std::vector<StabilityCurve> curves;
   Laboratory laboratory(settings, log);
@@ -142,7 +144,7 @@ int stabilityCommand(const ChartSettings& given) {
     auto scene = readLabScene(file, error);
     if (!scene) {
       log.report(Severity::Error, "lab-scene", {std::make_shared<std::string>(file), 0}, "is no scene of a laboratory: " + error);
-      return kUnreadable;
+      return exitCodeOf(log);
     }
     curves.push_back(laboratory.measure(std::move(*scene)));
     whole = whole && curves.back().missing.empty();
@@ -152,10 +154,10 @@ int stabilityCommand(const ChartSettings& given) {
   if (!writeStabilityPage(settings.output, curves, joined(command)) ||
       !writeStabilityJson(fs::path(settings.output).replace_extension(".json").string(), curves, joined(command))) {
     log.report(Severity::Output, "chart", {}, "\"" + settings.output + "\" could not be written");
-    return kUnwritable;
+    return exitCodeOf(log);
   }
-  if (const int code = interruptExitCode()) return code;
-  return whole ? kDone : kIncomplete;
+  if (!whole) log.report(Severity::Missing, "chart-missing", {}, "points are missing; the page names them");
+  return interruptExitCode() ? interruptExitCode() : exitCodeOf(log);
 }
 
 bool writeStabilityJson(const std::string& path, const std::vector<StabilityCurve>& curves, const std::string& commandLine) {
@@ -177,7 +179,7 @@ bool writeStabilityJson(const std::string& path, const std::vector<StabilityCurv
                                  {"pixels_not_finite", p.error.notFinite}});
     out["scenes"].push_back(std::move(scene));
   }
-  return writeAtOnce(path, out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  return writeAtOnce(path, out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n').empty();
 }
 
 }  // namespace tomales

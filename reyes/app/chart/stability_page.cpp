@@ -6,6 +6,7 @@
 #include "reyes/app/chart/plot.h"
 #include "reyes/app/chart/stability.h"
 #include "reyes/app/settings.h"
+#include "reyes/base/output_file.h"
 
 namespace tomales {
 namespace {
@@ -103,7 +104,7 @@ class Page : Markup {
 
 bool writeStabilityPage(const std::string& path, const std::vector<StabilityCurve>& curves, const std::string& commandLine) {
   const std::string json = std::filesystem::path(path).filename().replace_extension(".json").string();
-  return writeAtOnce(path, Page().write(curves, commandLine, json));
+  return writeAtOnce(path, Page().write(curves, commandLine, json)).empty();
 }
 
 }  // namespace tomales

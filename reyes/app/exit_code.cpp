@@ -1,0 +1,53 @@
+#include "reyes/app/exit_code.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <new>
+#include <optional>
+#include <system_error>
+
+#include "reyes/base/chunk_file.h"
+
+namespace tomales {
+namespace {
+
+struct Ending {
+  ExitCode code;
+  std::optional<Severity> least;  ///< Of what is reported; none: no report leads here.
+  const char* meaning;
+};
+constexpr Ending kEndings[] = {{kDone, Severity::Info, "done"},
+                               {kUsage, std::nullopt, "wrong usage"},
+                               {kUnreadable, Severity::Error, "the scene could not be read"},
+                               {kIncomplete, Severity::Missing, "the frame is complete but something was missing and a loud substitute was rendered"},
+                               {kUnwritable, Severity::Output, "output could not be written"}};
+
+}  // namespace
+
+ExitCode exitCodeOf(Severity severity) {
+  const Ending* out = std::begin(kEndings);
+  for (const Ending& e : kEndings)
+    if (e.least && *e.least <= severity && *e.least >= *out->least) out = &e;
+  return out->code;
+}
+
+ExitCode exitCodeOf(const Log& log) { return exitCodeOf(log.worst()); }
+
+std::string exitCodeHelp() {
+  std::string out = "Exit codes:";
+  for (const Ending& e : kEndings) out += fmt::format("\n  {}  {}", static_cast<int>(e.code), e.meaning);
+  return out + "\n  130, 143  interrupted; finished buckets are written";
+}
+
+Severity severityOf(const std::exception& e) {
+  const bool unwritten = dynamic_cast<const WriteError*>(&e) || dynamic_cast<const std::system_error*>(&e) || dynamic_cast<const std::bad_alloc*>(&e);
+  return unwritten ? Severity::Output : Severity::Error;
+}
+
+Severity severityOfLoss(const std::exception& e) { return severityOf(e) == Severity::Error ? Severity::Missing : severityOf(e); }
+
+std::string messageOf(const std::exception& e) { return dynamic_cast<const std::bad_alloc*>(&e) ? "out of memory" : e.what(); }
+
+}  // namespace tomales

@@ -1,0 +1,35 @@
+// How a command ends: what went wrong, by its severity, and the exit code that this leads to. One table has them all (exit_code.cpp).
+#pragma once
+#include <exception>
+#include <string>
+
+#include "reyes/base/log.h"
+
+namespace tomales {
+
+enum ExitCode { kDone = 0, kUsage = 1, kUnreadable = 2, kIncomplete = 3, kUnwritable = 4 };
+
+ExitCode exitCodeOf(Severity severity);
+/// Of the worst that was reported.
+ExitCode exitCodeOf(const Log& log);
+/// All exit codes and their meanings, for --help.
+std::string exitCodeHelp();
+
+/// Of an exception that ends what was to be done: Output if something cannot be written, or memory does not suffice to make it; else Error.
+Severity severityOf(const std::exception& e);
+/// The same where a substitute is rendered instead: Missing takes the place of Error.
+Severity severityOfLoss(const std::exception& e);
+/// What the user is told of it.
+std::string messageOf(const std::exception& e);
+
+/// Runs `work` and reports what it throws.
+template <class Work>
+void guarded(Log& log, const Work& work) {
+  try {
+    work();
+  } catch (const std::exception& e) {
+    log.report(severityOf(e), "file", {}, messageOf(e));
+  }
+}
+
+}  // namespace tomales
