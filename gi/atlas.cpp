@@ -226,6 +226,7 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
   }
   returnFreeMemory();
   std::vector<MapFigures> made;
+  int64_t kept = 0;
   for (const std::string& name : maps) {
     const fs::path from = atlasFile(photons, name, ".ptc"), points = atlasFile(irradiance, name, ".ptc"), bricks = atlasFile(folder, name, ".bkm");
     const PhotonIrradianceSettings& estimate = name.ends_with(kCaustic) ? settings.caustics : settings.irradiance;
@@ -235,9 +236,10 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
       writeIrradiance(from, points, estimate, kPointsInMemory, &figures);
       if (name != names.volume) made.push_back({name, PointFile(from.string()).count(), figures});
     }
-    if (!renewIrradianceBricks(points, bricks, settings.bricks, stats)) ++stats.photons.groupsKept;
+    if (!renewIrradianceBricks(points, bricks, settings.bricks, stats)) ++kept;
     returnFreeMemory();
   }
+  stats.photons.groupsKept += kept;
   warnOfEstimates(scene, names, made, log);
 }
 

@@ -243,6 +243,7 @@ int parseAndRun(int argc, char** argv) {
 
 int run(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file too large (ulimit -f) is then an error of write(), told as a full disk is
+  endWithMessages();
   Log log;
   int code = kDone;
   guarded(log, [&] { code = parseAndRun(argc, argv); });

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <iterator>
 #include <new>
 #include <optional>
-#include <system_error>
 
 #include "reyes/base/chunk_file.h"
 
@@ -24,7 +24,20 @@ constexpr Ending kEndings[] = {{kDone, Severity::Info, "done"},
                                {kIncomplete, Severity::Missing, "the frame is complete but something was missing and a loud substitute was rendered"},
                                {kUnwritable, Severity::Output, "output could not be written"}};
 
+[[noreturn]] void endWithMessage() {
+  try {
+    if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::exception& e) {
+    std::fputs(("tomales: output error: " + messageOf(e) + "\n").c_str(), stderr);
+    std::_Exit(exitCodeOf(severityOf(e)));
+  } catch (...) {
+  }
+  std::abort();
+}
+
 }  // namespace
+
+void endWithMessages() { std::set_terminate(endWithMessage); }
 
 ExitCode exitCodeOf(Severity severity) {
   const Ending* out = std::begin(kEndings);
@@ -42,8 +55,8 @@ std::string exitCodeHelp() {
 }
 
 Severity severityOf(const std::exception& e) {
-  const bool unwritten = dynamic_cast<const WriteError*>(&e) || dynamic_cast<const std::system_error*>(&e) || dynamic_cast<const std::bad_alloc*>(&e);
-  return unwritten ? Severity::Output : Severity::Error;
+  const bool unread = dynamic_cast<const FileError*>(&e) && !dynamic_cast<const WriteError*>(&e);
+  return unread ? Severity::Error : Severity::Output;
 }
 
 Severity severityOfLoss(const std::exception& e) { return severityOf(e) == Severity::Error ? Severity::Missing : severityOf(e); }

