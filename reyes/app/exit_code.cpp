@@ -24,15 +24,22 @@ constexpr Ending kEndings[] = {{kDone, Severity::Info, "done"},
                                {kIncomplete, Severity::Missing, "the frame is complete but something was missing and a loud substitute was rendered"},
                                {kUnwritable, Severity::Output, "output could not be written"}};
 
+constexpr const char* kOutOfMemory = "out of memory";
+
+/// Allocates nothing.
 [[noreturn]] void endWithMessage() {
+  const char* message = kOutOfMemory;  // there was none for an exception either
+  const std::exception_ptr thrown = std::current_exception();
   try {
-    if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
+    if (thrown) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
   } catch (const std::exception& e) {
-    std::fputs(("tomales: output error: " + messageOf(e) + "\n").c_str(), stderr);
-    std::_Exit(exitCodeOf(severityOf(e)));
+    message = e.what();  // lives as long as `thrown`
   } catch (...) {
+    message = "something unknown was thrown";
   }
-  std::abort();
+  for (const char* part : {"tomales: output error: ", message, "\n"}) std::fputs(part, stderr);
+  std::_Exit(kUnwritable);
 }
 
 }  // namespace
@@ -61,6 +68,6 @@ Severity severityOf(const std::exception& e) {
 
 Severity severityOfLoss(const std::exception& e) { return severityOf(e) == Severity::Error ? Severity::Missing : severityOf(e); }
 
-std::string messageOf(const std::exception& e) { return dynamic_cast<const std::bad_alloc*>(&e) ? "out of memory" : e.what(); }
+std::string messageOf(const std::exception& e) { return dynamic_cast<const std::bad_alloc*>(&e) ? kOutOfMemory : e.what(); }
 
 }  // namespace tomales
