@@ -224,16 +224,25 @@ struct LightProbe {
 /// "surface" ... "imager".
 const char* kindName(TmKind kind);
 
+/// Which folders shader plugins may be loaded from. A plugin is native code, while a scene, which names shaders and search paths, may
+/// come from a stranger.
+struct PluginTrust {
+  std::string folders{};        ///< Folders that the user named, separated by colons: searched before those of the scene.
+  bool sceneFolders = false;    ///< Folders that the scene names, and the working folder, are trusted too.
+};
+
 /// Shaders by name: built-ins and plugins come through the same table.
 class ShaderRegistry {
  public:
-  explicit ShaderRegistry(Log& log);
+  explicit ShaderRegistry(Log& log, PluginTrust trust = {});
   ~ShaderRegistry();
   /// Checks versions and sizes before anything else is touched; later libraries win over earlier names.
   bool addLibrary(const TmShaderLibrary* library, const std::string& origin);
   /// Opens a .so and adds it. False and a message if it is not a shader plugin of this ABI.
   bool loadPlugin(const std::string& path);
-  /// By name and kind; looks for NAME.so along `searchPath` (colon-separated, & and @ are the built-in default) if not known yet.
+  /// By name and kind. A shader that is not known yet is looked for as NAME.so in the trusted folders and then along `searchPath` (the
+  /// scene's; folders separated by colons, empty: the working folder). A plugin in a folder that is not trusted is reported, once, and
+  /// not loaded; so is one outside of a trusted folder that a name with ".." or an absolute name leads to.
   const TmShader* find(const std::string& name, TmKind kind, const std::string& searchPath);
   std::vector<const TmShader*> all() const;
 

@@ -30,7 +30,7 @@ FrameJob::FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, L
       log_(log),
       mode_(giModeOf(settings.gi, scene)),
       camera_(scene.options),
-      registry_(log),
+      registry_(log, pluginTrust(settings)),
       meter_(settings.progress),
       clouds_(pathOf(scene.options.searchPaths, "texture")) {
   registry_.addLibrary(tomales_builtin_shaders(), "built-in");

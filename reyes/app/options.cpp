@@ -89,6 +89,14 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
       "--no-hit-list", [&s] { s.hitList = false; }, "Rays leave surfaces by a bias alone");
 }
 
+void addTrust(CLI::App& app, bool& allowSystem, std::string& shaderFolders) {
+  app.add_flag("--allow-system", allowSystem,
+               "The RIB may run code that it brings: programs by System and Procedural \"RunProgram\", plugins by \"DynamicLoad\", and shader "
+               "plugins in the working folder and on its search path");
+  app.add_option("--shaders", shaderFolders, "Folders of shader plugins that you trust, separated by colons; they are searched before those of the RIB")
+      ->type_name("FOLDERS")->envname("TOMALES_SHADERS");
+}
+
 void addRunOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("-t", s.threads, "Threads (default: all)")->check(CLI::Range(1, 4096));
   app.add_option("--stats", s.statsFile, "Statistics as JSON")->type_name("FILE.json");
@@ -97,8 +105,7 @@ void addRunOptions(CLI::App& app, RenderSettings& s) {
   addParsed(app, "--texture-memory", s.textureMemory, parseBytes, "600M", "Memory for tiles of pictures (default 1G)");
   app.add_option("--texture-cache", s.textureCache, "Where converted pictures are kept (default: $TOMALES_TEXTURE_CACHE, or the user's cache folder)")
       ->type_name("FOLDER");
-  app.add_flag("--allow-system", s.allowSystem,
-               "System and Procedural \"RunProgram\" of the RIB may start programs, \"DynamicLoad\" plugins");
+  addTrust(app, s.allowSystem, s.shaderFolders);
   app.add_flag_callback(
       "-q", [&s] { s.verbosity = Log::Verbosity::Quiet; }, "No warnings");
   app.add_flag_callback(

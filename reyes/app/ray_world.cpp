@@ -8,7 +8,7 @@ namespace tomales {
 
 struct RayWorld::Built {
   Built(Scene s, const RenderSettings& settings, const ShadeServices* services, Stats& stats, Log& log)
-      : scene(std::move(s)), camera(scene.options), registry(log) {
+      : scene(std::move(s)), camera(scene.options), registry(log, pluginTrust(settings)) {
     registry.addLibrary(tomales_builtin_shaders(), "built-in");
     shading = std::make_unique<ShadingSystem>(scene, registry, services, log, stats);
     rays = std::make_unique<RayScene>(scene, camera, *shading, raySettings(settings, scene.options), stats, log);

@@ -56,11 +56,15 @@ struct RenderSettings {
   bool progress = false;
   std::string preview;  ///< host:port of a viewer; empty: none.
   std::vector<std::array<int, 2>> pixels;  ///< To explain.
-  bool allowSystem = false;  ///< The RIB may start programs.
+  bool allowSystem = false;  ///< The RIB may start programs and load plugins.
+  std::string shaderFolders; ///< The user's, separated by colons: their plugins are trusted whatever the RIB may do.
   Log::Verbosity verbosity = Log::Verbosity::Normal;
   std::string commandLine;
 };
 
+inline PluginTrust pluginTrust(const RenderSettings& settings) {
+  return {.folders = settings.shaderFolders, .sceneFolders = settings.allowSystem};
+}
 inline uint32_t lightSeedOf(const RenderSettings& settings) { return settings.lightSeed.value_or(settings.seed); }
 
 // Each returns nothing when the text is not of its form.

@@ -20,11 +20,11 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A unit square that faces the eye from five units away, under an ambient and a distant light.
-std::string sceneFor(const TmShader& shader, const std::string& path) {
+std::string sceneFor(const TmShader& shader) {
   static constexpr const char* kRequests[] = {"Surface \"{}\"", "Displacement \"{}\"", "LightSource \"{}\" \"tested\"", "Atmosphere \"{}\"", "Imager \"{}\""};
   const std::string request = fmt::format(fmt::runtime(kRequests[shader.kind]), shader.name);
   const bool isImager = shader.kind == TM_IMAGER;
-  return "Option \"searchpath\" \"string shader\" [\"" + path + "\"]\nProjection \"perspective\" \"fov\" [20]\nClipping 1 10\n" + (isImager ? request : "") +
+  return "Projection \"perspective\" \"fov\" [20]\nClipping 1 10\n" + (isImager ? request : "") +
          "\nWorldBegin\n" +
          (shader.kind == TM_LIGHT ? "" : "LightSource \"ambientlight\" \"a\" \"intensity\" [0.2] LightSource \"distantlight\" \"d\" \"to\" [0.3 -0.4 1]\n") +
          (shader.kind == TM_SURFACE ? "" : "Surface \"matte\"\n") + (isImager ? "" : request) +
@@ -154,7 +154,7 @@ void testImager(const ShadetestCommand& command, const ShadingSystem& shading, L
 int shadetestCommand(const ShadetestCommand& command) {
   Log log;
   Stats stats;
-  ShaderRegistry registry(log);
+  ShaderRegistry registry(log, {.folders = "."});  // the user names the shader, no scene does
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
   const TmShader* shader = findShader(command.shader, registry, log);
   if (!shader) return std::max(exitCodeOf(log), kUnreadable);
@@ -169,7 +169,7 @@ int shadetestCommand(const ShadetestCommand& command) {
     else
       testPoints(command, scene, shading, shader->kind == TM_VOLUME, log);
   };
-  readRibText(sceneFor(*shader, "."), "shadetest", rib, log);
+  readRibText(sceneFor(*shader), "shadetest", rib, log);
   return exitCodeOf(log);
 }
 

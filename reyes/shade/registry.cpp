@@ -1,7 +1,9 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "reyes/base/input_file.h"
 #include "reyes/base/search_path.h"
@@ -10,6 +12,8 @@
 
 namespace tomales {
 
+namespace fs = std::filesystem;
+
 const char* kindName(TmKind kind) {
   static constexpr const char* kNames[] = {"surface", "displacement", "light", "volume", "imager"};
   return kNames[kind];
@@ -17,6 +21,7 @@ const char* kindName(TmKind kind) {
 
 struct ShaderRegistry::Impl {
   Log& log;
+  const PluginTrust trust;
   std::mutex mutex;  // over what follows: find() loads plugins while other frames bind
   std::map<std::pair<int, std::string>, const TmShader*> shaders;
   struct Plugin {
@@ -26,6 +31,7 @@ struct ShaderRegistry::Impl {
   std::map<std::string, Plugin> plugins;  // by path
   PluginTrial trial;
   bool untriedSaid = false;
+  std::set<std::string> distrusted;  // plugins that were reported as such
 
   void refuse(const std::string& origin, const std::string& problem) {
     const SourceLoc where{std::make_shared<const std::string>(origin), 0};
@@ -33,6 +39,7 @@ struct ShaderRegistry::Impl {
   }
   bool add(const TmShaderLibrary* library, const std::string& origin, std::vector<const TmShader*>* added = nullptr);
   bool load(const std::string& path);
+  std::vector<std::string> trustedFiles(const std::string& name, const std::string& searchPath);
   std::string heldBy(const std::string& path) const;
   const TmShader* known(const std::string& name, TmKind kind) const {
     const auto it = shaders.find({kind, name});
@@ -105,7 +112,36 @@ bool ShaderRegistry::Impl::load(const std::string& path) {
   return plugin.loaded = add(function(), path, &plugin.shaders);
 }
 
-ShaderRegistry::ShaderRegistry(Log& log) : impl_(new Impl{log, {}, {}, {}, {}, false}) {}
+namespace {
+
+std::vector<std::string> pluginFiles(const std::string& name, const std::string& searchPath) {
+  std::vector<std::string> out;
+  for (const fs::path folder : foldersOf(searchPath)) {
+    std::error_code none;
+    if (const fs::path file = folder / (name + ".so"); fs::is_regular_file(file, none)) out.push_back(file.string());
+  }
+  return out;
+}
+
+/// Does the name of a shader lead out of the folders that it is looked for in?
+bool leavesFolders(const fs::path& name) { return name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end(); }
+
+}  // namespace
+
+std::vector<std::string> ShaderRegistry::Impl::trustedFiles(const std::string& name, const std::string& searchPath) {
+  std::vector<std::string> out;
+  if (!leavesFolders(name)) out = pluginFiles(name, trust.folders);
+  for (const std::string& file : pluginFiles(name, searchPath.empty() ? "." : searchPath)) {
+    if (trust.sceneFolders)
+      out.push_back(file);
+    else if (out.empty() && distrusted.insert(file).second)
+      refuse(file, "is native code in a folder that the scene names, and is not loaded; --shaders FOLDER names a folder whose plugins you trust, "
+                   "--allow-system trusts those of the scene");
+  }
+  return out;
+}
+
+ShaderRegistry::ShaderRegistry(Log& log, PluginTrust trust) : impl_(new Impl{log, std::move(trust), {}, {}, {}, {}, false, {}}) {}
 ShaderRegistry::~ShaderRegistry() = default;
 
 bool ShaderRegistry::addLibrary(const TmShaderLibrary* library, const std::string& origin) {
@@ -122,12 +158,10 @@ const TmShader* ShaderRegistry::find(const std::string& name, TmKind kind, const
   const std::lock_guard lock(impl_->mutex);
   if (const TmShader* s = impl_->known(name, kind)) return s;
   std::vector<std::string> others;  // plugins of that name without such a shader
-  for (const std::filesystem::path folder : foldersOf(searchPath.empty() ? "." : searchPath)) {
-    const std::filesystem::path file = folder / (name + ".so");
-    std::error_code none;
-    if (!std::filesystem::is_regular_file(file, none) || !impl_->load(file.string())) continue;
+  for (const std::string& file : impl_->trustedFiles(name, searchPath)) {
+    if (!impl_->load(file)) continue;
     if (const TmShader* s = impl_->known(name, kind)) return s;
-    others.push_back(file.string());
+    others.push_back(file);
   }
   for (const std::string& file : others) impl_->refuse(file, fmt::format("has no {} \"{}\", but {}", kindName(kind), name, impl_->heldBy(file)));
   return nullptr;

@@ -17,9 +17,11 @@ struct ChartSettings {
   int batches = 32;                ///< Most independent pictures of the reference, at least 2.
   int bounces = 0;                 ///< 0: as the scene's indirect light asks.
   int threads = 0;                 ///< Of each rendering. 0: as many as the machine has.
+  bool allowSystem = false;        ///< The RIB may start programs and load plugins.
+  std::string shaderFolders;       ///< Whose plugins are trusted, separated by colons.
 };
 
-/// What every rendering is told beside the scene: --format, --bounces, -t.
+/// What every rendering is told beside the scene: --format, --bounces, -t, --allow-system, --shaders.
 std::vector<std::string> sharedArguments(const ChartSettings& settings);
 
 /// As a shell would take them.

@@ -172,7 +172,12 @@ TEST_F(Plugins, TheExamplePluginCompilesOutOfTreeAndShades) {
                               " " + (source / "docs/example_plugin/dots.cpp").string();
   ASSERT_EQ(std::system(command.c_str()), 0) << command;
 
-  scene.options.searchPaths["shader"] = "/nowhere:" + folder.string();
+  ShaderRegistry trusting(log, {.folders = "/nowhere:" + folder.string()});
+  EXPECT_NE(trusting.find("dots", TM_SURFACE, "/elsewhere"), nullptr);
+  ShaderRegistry allowing(log, {.sceneFolders = true});
+  EXPECT_NE(allowing.find("dots", TM_SURFACE, "/nowhere:" + folder.string()), nullptr);
+
+  ASSERT_TRUE(registry.loadPlugin((folder / "dots.so").string()));
   surface("dots", {number("frequency", 2), number("Kd", 1), color("dotcolor", {0, 1, 0})});
   light("distantlight");
   ShadePoints p = points({vec3(0, 0, 5), vec3(0, 0, 5)});
