@@ -9,8 +9,8 @@
 #include "gi/ply.h"
 #include "gi/point_picture.h"
 #include "reyes/app/atlas_job.h"
-#include "reyes/app/overrides.h"
 #include "reyes/app/exit_code.h"
+#include "reyes/app/overrides.h"
 #include "reyes/app/stats_json.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/temporary_folder.h"
@@ -45,11 +45,13 @@ void joinPointFiles(const std::vector<fs::path>& files, const fs::path& out) {
   PointFileWriter writer(out.string(), first.channels());
   for (const fs::path& path : files) {
     const PointFile file(path.string());
-    if (file.channels() != first.channels()) throw FileError(fmt::format("\"{}\" has other channels than the files before", path.string()));
+    if (file.channels() != first.channels())
+      throw FileError(fmt::format("\"{}\" has other channels than the files before", path.string()));
     for (size_t chunk = 0; chunk < file.chunkCount(); ++chunk) {
       PointCloud part;
       file.read(chunk, part);
-      for (size_t i = 0; i < part.count(); ++i) writer.add(part.position[i], part.normal[i], part.radius[i], part.at(i));
+      for (size_t i = 0; i < part.count(); ++i)
+        writer.add(part.position[i], part.normal[i], part.radius[i], part.at(i));
     }
   }
   writer.finish(first.madeFrom());
@@ -130,8 +132,8 @@ void makeBrickMaps(const BrickmakeCommand& command, const std::function<void(con
     if (command.relative) settings.maxError *= static_cast<float>(tiles.meanOfData());
     const BuiltBricks built = writeBrickMap(tiles, settings, out.string(), {file.madeFrom().world, 0});
     if (made)
-      made(fmt::format("{}: {} points, {} bricks, {} left out, {} levels", out.string(), file.count(), built.tree.nodes.size(), built.eliminated,
-               built.tree.deepest + 1));
+      made(fmt::format("{}: {} points, {} bricks, {} left out, {} levels", out.string(), file.count(),
+                       built.tree.nodes.size(), built.eliminated, built.tree.deepest + 1));
   };
   if (one && files.size() > 1) {
     const fs::path folder = fs::path(command.output).parent_path();
@@ -140,7 +142,9 @@ void makeBrickMaps(const BrickmakeCommand& command, const std::function<void(con
     joinPointFiles(files, all);
     make(all, command.output);
   } else {
-    for (const fs::path& file : files) make(file, one ? fs::path(command.output) : fs::path(command.output) / fs::path(file).filename().replace_extension(".bkm"));
+    for (const fs::path& file : files)
+      make(file, one ? fs::path(command.output)
+                     : fs::path(command.output) / fs::path(file).filename().replace_extension(".bkm"));
   }
 }
 
@@ -169,7 +173,9 @@ int viewCommand(const ViewCommand& command) {
         return vec3(camera->raster(at), at.z);
       };
     }
-    const PointCloud cloud = fs::path(command.input).extension() == ".bkm" ? voxelsOf(BrickFile(command.input), command.level) : cloudOf(command.input);
+    const PointCloud cloud = fs::path(command.input).extension() == ".bkm"
+                                 ? voxelsOf(BrickFile(command.input), command.level)
+                                 : cloudOf(command.input);
     writeImage(command.output, pictureOf(cloud, settings), fs::path(command.output).extension() == ".png", log);
   });
   return exitCodeOf(log);
@@ -185,8 +191,8 @@ int convertCommand(const ConvertCommand& command) {
       const PlyFigures figures = convertPly(command.input, command.output, command.radius);
       if (figures.dropped > 0)
         log.report(Severity::Warning, "ply-points", {},
-                   fmt::format("\"{}\": {} of {} points are not finite or have a negative radius; dropped", command.input,
-                               figures.dropped, figures.points + figures.dropped));
+                   fmt::format("\"{}\": {} of {} points are not finite or have a negative radius; dropped",
+                               command.input, figures.dropped, figures.points + figures.dropped));
     } else if (from == ".icf" && to == ".ptc") {
       writePointFile(cloudOf(command.input), command.output);
     } else {

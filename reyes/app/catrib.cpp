@@ -15,13 +15,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Standard output, a pipe or a device, or else a temporary name that becomes the file at the end: the output may be one of the inputs.
+/// Standard output, a pipe or a device, or else a temporary name that becomes the file at the end: the output may be
+/// one of the inputs.
 class Output {
  public:
   explicit Output(const std::string& path) : path_(path) {
     std::error_code none;
     const fs::file_status there = fs::status(path, none);
-    if (!path.empty() && (!fs::exists(there) || fs::is_regular_file(there))) temporary_ = fmt::format("{}.{}.part", path, ::getpid());
+    if (!path.empty() && (!fs::exists(there) || fs::is_regular_file(there)))
+      temporary_ = fmt::format("{}.{}.part", path, ::getpid());
     file_ = path.empty() ? stdout : std::fopen((temporary_.empty() ? path : temporary_).c_str(), "wb");
     if (!file_) fail();
   }
@@ -61,9 +63,12 @@ int catribCommand(const CatribSettings& settings) {
   Log log;
   Output out(settings.output);
   if (out.error().empty())
-    out.finish(parseRib(settings.files, *makeRibWriter({settings.binary, settings.gzip, [&](std::string_view text) { out.write(text); }}), log));
+    out.finish(parseRib(
+        settings.files,
+        *makeRibWriter({settings.binary, settings.gzip, [&](std::string_view text) { out.write(text); }}), log));
   if (!out.error().empty())
-    log.report(Severity::Output, "output-write", {std::make_shared<std::string>(settings.output.empty() ? "standard output" : settings.output), 0},
+    log.report(Severity::Output, "output-write",
+               {std::make_shared<std::string>(settings.output.empty() ? "standard output" : settings.output), 0},
                "cannot be written: " + out.error());
   return exitCodeOf(log);
 }

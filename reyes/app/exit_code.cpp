@@ -21,7 +21,8 @@ struct Ending {
 constexpr Ending kEndings[] = {{kDone, Severity::Info, "done"},
                                {kUsage, std::nullopt, "wrong usage"},
                                {kUnreadable, Severity::Error, "the scene could not be read"},
-                               {kIncomplete, Severity::Missing, "the frame is complete but something was missing and a loud substitute was rendered"},
+                               {kIncomplete, Severity::Missing,
+                                "the frame is complete but something was missing and a loud substitute was rendered"},
                                {kUnwritable, Severity::Output, "output could not be written"}};
 
 constexpr const char* kOutOfMemory = "out of memory";
@@ -66,8 +67,12 @@ Severity severityOf(const std::exception& e) {
   return unread ? Severity::Error : Severity::Output;
 }
 
-Severity severityOfLoss(const std::exception& e) { return severityOf(e) == Severity::Error ? Severity::Missing : severityOf(e); }
+Severity severityOfLoss(const std::exception& e) {
+  return severityOf(e) == Severity::Error ? Severity::Missing : severityOf(e);
+}
 
-std::string messageOf(const std::exception& e) { return dynamic_cast<const std::bad_alloc*>(&e) ? kOutOfMemory : e.what(); }
+std::string messageOf(const std::exception& e) {
+  return dynamic_cast<const std::bad_alloc*>(&e) ? kOutOfMemory : e.what();
+}
 
 }  // namespace tomales

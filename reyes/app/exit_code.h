@@ -1,4 +1,5 @@
-// How a command ends: what went wrong, by its severity, and the exit code that this leads to. One table has them all (exit_code.cpp).
+// How a command ends: what went wrong, by its severity, and the exit code that this leads to. One table has them all
+// (exit_code.cpp).
 #pragma once
 #include <exception>
 #include <string>
@@ -15,16 +16,16 @@ ExitCode exitCodeOf(const Log& log);
 /// All exit codes and their meanings, for --help.
 std::string exitCodeHelp();
 
-/// Of an exception that ends what was to be done: Error if a file cannot be read; else Output, as where something cannot be written, or
-/// memory or threads do not suffice to make it.
+/// Of an exception that ends what was to be done: Error if a file cannot be read; else Output, as where something
+/// cannot be written, or memory or threads do not suffice to make it.
 Severity severityOf(const std::exception& e);
 /// The same where a substitute is rendered instead: Missing takes the place of Error.
 Severity severityOfLoss(const std::exception& e);
 /// What the user is told of it.
 std::string messageOf(const std::exception& e);
 
-/// From now on an exception that a thread lets out ends the program with its message and the exit code for it. (oneTBB starts threads from
-/// threads of its own, and throws there if the system has none left.)
+/// From now on an exception that a thread lets out ends the program with its message and the exit code for it. (oneTBB
+/// starts threads from threads of its own, and throws there if the system has none left.)
 void endWithMessages();
 
 /// Runs `work` and reports what it throws.

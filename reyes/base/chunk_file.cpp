@@ -19,8 +19,8 @@ namespace {
 
 constexpr uint32_t kByteOrder = 0x01020304;
 constexpr char kEnd[9] = "TOMALESX";
-constexpr int kCompression = -5;  // floats have little to give, and what they have zstd's fastest finds too
-constexpr size_t kKeptBytes = 1 << 20;  ///< Of what a thread reads into and packs.
+constexpr int kCompression = -5;            // floats have little to give, and what they have zstd's fastest finds too
+constexpr size_t kKeptBytes = 1 << 20;      ///< Of what a thread reads into and packs.
 constexpr size_t kWrittenAtOnce = 1 << 15;  ///< A call of the system costs more than a small chunk.
 constexpr uint64_t kMostChunkBytes = uint64_t{1} << 30;
 
@@ -46,7 +46,8 @@ void makeAnewWhatIsDamaged(const std::function<void()>& make, Log& log) {
     } catch (const DamageError& e) {
       std::error_code problem;
       if (!std::filesystem::remove(e.path, problem)) throw;
-      log.report(Severity::Warning, "cache-damaged", {std::make_shared<const std::string>(e.path), 0}, std::string(e.what()) + "; it is made anew");
+      log.report(Severity::Warning, "cache-damaged", {std::make_shared<const std::string>(e.path), 0},
+                 std::string(e.what()) + "; it is made anew");
     }
 }
 
@@ -65,7 +66,8 @@ struct ChunkWriter::Impl {
   }
   /// Where the bytes went.
   Entry writeFrame(std::span<const std::byte> bytes) {
-    if (bytes.size() > kMostChunkBytes) throw WriteError(fmt::format("\"{}\": a chunk of {} bytes is too large", path, bytes.size()));
+    if (bytes.size() > kMostChunkBytes)
+      throw WriteError(fmt::format("\"{}\": a chunk of {} bytes is too large", path, bytes.size()));
     // Of each thread and not of each file, because many may be open.
     thread_local std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> zstd{ZSTD_createCCtx(), &ZSTD_freeCCtx};
     thread_local Bytes packed;
@@ -73,7 +75,8 @@ struct ChunkWriter::Impl {
     ZSTD_CCtx_setParameter(zstd.get(), ZSTD_c_compressionLevel, kCompression);
     ZSTD_CCtx_setParameter(zstd.get(), ZSTD_c_checksumFlag, 1);
     const size_t stored = ZSTD_compress2(zstd.get(), packed.data(), packed.size(), bytes.data(), bytes.size());
-    if (ZSTD_isError(stored)) throw WriteError(fmt::format("\"{}\" cannot be compressed: {}", path, ZSTD_getErrorName(stored)));
+    if (ZSTD_isError(stored))
+      throw WriteError(fmt::format("\"{}\" cannot be compressed: {}", path, ZSTD_getErrorName(stored)));
     const Entry entry{offset, static_cast<uint32_t>(stored), static_cast<uint32_t>(bytes.size())};
     write(packed.data(), stored);
     if (packed.size() > kKeptBytes) packed = Bytes();
@@ -132,7 +135,9 @@ struct ChunkReader::Impl {
   ~Impl() {
     if (file >= 0) ::close(file);
   }
-  [[noreturn]] void fail(const std::string& problem) const { throw DamageError(path, fmt::format("\"{}\" {}", path, problem)); }
+  [[noreturn]] void fail(const std::string& problem) const {
+    throw DamageError(path, fmt::format("\"{}\" {}", path, problem));
+  }
 
   void readAt(uint64_t offset, void* to, size_t size) const {
     auto* out = static_cast<char*>(to);
@@ -145,7 +150,8 @@ struct ChunkReader::Impl {
   }
 
   Bytes unpack(const Entry& e) const {
-    if (e.offset > bytes || e.stored > bytes - e.offset || e.size > kMostChunkBytes) fail("is damaged: a chunk lies outside of it");
+    if (e.offset > bytes || e.stored > bytes - e.offset || e.size > kMostChunkBytes)
+      fail("is damaged: a chunk lies outside of it");
     // Of each thread, because making them takes longer than a small chunk.
     thread_local std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> zstd{ZSTD_createDCtx(), &ZSTD_freeDCtx};
     thread_local Bytes stored;
@@ -178,7 +184,8 @@ ChunkReader::ChunkReader(const std::string& path, const char (&kind)[9], uint32_
   std::string problem;
   impl_->file = openInput(path, problem);
   struct stat status;
-  if (impl_->file < 0 || ::fstat(impl_->file, &status) != 0) throw FileError(fmt::format("\"{}\" cannot be read: {}", path, problem.empty() ? std::strerror(errno) : problem));
+  if (impl_->file < 0 || ::fstat(impl_->file, &status) != 0)
+    throw FileError(fmt::format("\"{}\" cannot be read: {}", path, problem.empty() ? std::strerror(errno) : problem));
   impl_->bytes = static_cast<uint64_t>(status.st_size);
   Preamble preamble{};
   if (impl_->bytes >= sizeof preamble) impl_->readAt(0, &preamble, sizeof preamble);

@@ -1,4 +1,5 @@
-// A file of numbered chunks that can be read one by one: point clouds, brick maps and whatever else is larger than memory.
+// A file of numbered chunks that can be read one by one: point clouds, brick maps and whatever else is larger than
+// memory.
 //   8 bytes    what is in it ("TMPOINTS"), 4 bytes version, 4 bytes 0x01020304 in the writer's byte order
 //   chunks     one after the other, each a zstd frame with its checksum
 //   header     one more chunk: what a reader needs to know first
@@ -20,17 +21,21 @@
 namespace tomales {
 
 /// Says in a sentence what is wrong with which file.
-struct FileError : std::runtime_error { using std::runtime_error::runtime_error; };
+struct FileError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 /// Of a file that cannot be written.
-struct WriteError : FileError { using FileError::FileError; };
+struct WriteError : FileError {
+  using FileError::FileError;
+};
 /// Of a file that is there and makes no sense: cut off, rotten, of another kind or version.
 struct DamageError : FileError {
   DamageError(std::string file, const std::string& problem) : FileError(problem), path(std::move(file)) {}
   std::string path;
 };
 
-/// Runs `make`, which keeps files for itself. If one of them turns out to be damaged, that is reported, the file is removed, and `make` runs
-/// once more, to make what is missing.
+/// Runs `make`, which keeps files for itself. If one of them turns out to be damaged, that is reported, the file is
+/// removed, and `make` runs once more, to make what is missing.
 void makeAnewWhatIsDamaged(const std::function<void()>& make, Log& log);
 
 using Bytes = std::vector<std::byte>;
@@ -63,10 +68,10 @@ class ChunkReader {
   ChunkReader(ChunkReader&&) noexcept;
 
   const std::string& path() const;
-  uint32_t count() const;             ///< Of chunks, without the header.
-  Bytes takeHeader();                 ///< Leaves none: it may be large, and whoever asks makes something else of it.
-  Bytes read(uint32_t chunk) const;   ///< Throws FileError.
-  void readAll() const;               ///< Throws FileError unless every chunk can be read.
+  uint32_t count() const;            ///< Of chunks, without the header.
+  Bytes takeHeader();                ///< Leaves none: it may be large, and whoever asks makes something else of it.
+  Bytes read(uint32_t chunk) const;  ///< Throws FileError.
+  void readAll() const;              ///< Throws FileError unless every chunk can be read.
   uint64_t fileBytes() const;
 
  private:

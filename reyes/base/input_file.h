@@ -1,5 +1,5 @@
-// Files that are read by a name that a scene or a command gives. What is no regular file is refused before it is opened: a pipe without a
-// writer would hold up its reader for ever, and most readers come back to what they have read.
+// Files that are read by a name that a scene or a command gives. What is no regular file is refused before it is
+// opened: a pipe without a writer would hold up its reader for ever, and most readers come back to what they have read.
 // What is meant to be a stream (the RIB of a command line) does not come here.
 // Threads: any.
 #pragma once

@@ -52,8 +52,8 @@ std::optional<Bytes> bytesOf(const std::string& file) {
   return in ? std::optional(std::move(bytes)) : std::nullopt;
 }
 
-/// Files of the cache end in a sum of what comes before, which readers of TIFF pass over: one that was cut off or has rotted would else be
-/// noticed where its texels are wanted, in the middle of a frame, or not at all.
+/// Files of the cache end in a sum of what comes before, which readers of TIFF pass over: one that was cut off or has
+/// rotted would else be noticed where its texels are wanted, in the middle of a frame, or not at all.
 bool seal(const std::string& file) {
   const auto bytes = bytesOf(file);
   if (!bytes) return false;
@@ -70,11 +70,12 @@ bool isSealed(const std::string& file) {
   Seal s{};
   if (!bytes || bytes->size() < sizeof s) return false;
   std::memcpy(&s, bytes->data() + bytes->size() - sizeof s, sizeof s);
-  return std::memcmp(s.magic, kSealMagic, sizeof s.magic) == 0 && s.sum == checksum(BytesView(*bytes).first(bytes->size() - sizeof s));
+  return std::memcmp(s.magic, kSealMagic, sizeof s.magic) == 0 &&
+         s.sum == checksum(BytesView(*bytes).first(bytes->size() - sizeof s));
 }
 
-/// Every texel is read here: a truncated picture is found out before anything is made of it. By an ImageInput, since an ImageBuf takes strips
-/// of TIFF that are cut off for read: OpenImageIO returns true and leaves a message.
+/// Every texel is read here: a truncated picture is found out before anything is made of it. By an ImageInput, since an
+/// ImageBuf takes strips of TIFF that are cut off for read: OpenImageIO returns true and leaves a message.
 bool readTexels(const std::string& file, OIIO::ImageBuf& picture, std::string& error) {
   const auto in = OIIO::ImageInput::open(file);
   if (!in) return error = oiioError(), false;
@@ -89,7 +90,8 @@ bool readTexels(const std::string& file, OIIO::ImageBuf& picture, std::string& e
   return error.empty();
 }
 
-bool write(const OIIO::ImageBuf& picture, const TextureRecipe& recipe, const std::string& file, bool sealed, std::string& error) {
+bool write(const OIIO::ImageBuf& picture, const TextureRecipe& recipe, const std::string& file, bool sealed,
+           std::string& error) {
   OIIO::ImageSpec config;
   const bool exr = fs::path(file).extension() == ".exr";
   config.attribute("maketx:fileformatname", exr ? "openexr" : "tiff");

@@ -17,8 +17,8 @@ bool readWhole(const std::string& file, OIIO::ImageBuf& picture, std::string& er
 /// Six faces as one latitude-longitude picture that resolves them everywhere.
 std::optional<OIIO::ImageBuf> unfoldCube(const TextureRecipe& recipe, std::string& error);
 
-/// The tiled MIP file that stands for a picture: itself, or its conversion in `folder`, made now if need be. Empty: unreadable. `note`: what
-/// had to be made anew because it was damaged.
+/// The tiled MIP file that stands for a picture: itself, or its conversion in `folder`, made now if need be. Empty:
+/// unreadable. `note`: what had to be made anew because it was damaged.
 std::string tiledFile(const std::string& picture, const std::string& folder, std::string& error, std::string& note);
 
 }  // namespace tomales

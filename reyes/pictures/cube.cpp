@@ -26,7 +26,8 @@ std::optional<OIIO::ImageBuf> unfoldCube(const TextureRecipe& recipe, std::strin
   std::vector<OIIO::ImageBuf> faces(6);
   int edge = 0, channels = 0;
   for (size_t k = 0; k < 6; ++k) {
-    if (!readWhole(recipe.pictures[k], faces[k], error)) return error = "\"" + recipe.pictures[k] + "\": " + error, std::nullopt;
+    if (!readWhole(recipe.pictures[k], faces[k], error))
+      return error = "\"" + recipe.pictures[k] + "\": " + error, std::nullopt;
     edge = std::max(edge, faces[k].spec().width);
     channels = k == 0 ? faces[k].nchannels() : std::min(channels, faces[k].nchannels());
   }
@@ -49,8 +50,8 @@ std::optional<OIIO::ImageBuf> unfoldCube(const TextureRecipe& recipe, std::strin
         const OIIO::ImageBuf& picture = faces[static_cast<size_t>(f)];
         const vec2 slope = vec2(dot(d, face.right), dot(d, face.down)) * (perSlope / dot(d, face.forward));
         const vec2 at = (0.5f * slope + 0.5f) * vec2(picture.spec().width, picture.spec().height);
-        picture.interppixel(at.x + static_cast<float>(picture.xbegin()), at.y + static_cast<float>(picture.ybegin()), texel.data(),
-                            OIIO::ImageBuf::WrapClamp);
+        picture.interppixel(at.x + static_cast<float>(picture.xbegin()), at.y + static_cast<float>(picture.ybegin()),
+                            texel.data(), OIIO::ImageBuf::WrapClamp);
         for (size_t c = 0; c < sum.size(); ++c) sum[c] += texel[c] / (kSide * kSide);
       }
       out.setpixel(x, y, sum.data());

@@ -42,12 +42,12 @@ size_t tileMark(const std::string& name, size_t& length) {
 struct Picture {
   std::map<int, Handle*> tiles;  ///< By UDIM number; 0: the one.
   bool tiled = false;
-  std::string error;             ///< Why there is none.
+  std::string error;  ///< Why there is none.
 };
 
-/// OpenImageIO's texture system, one for the process and never destroyed. Threads keep tiles of a system for longer than it lives, under its
-/// address, and OpenImageIO 2.4 hands them to the next system that lies there (boost::thread_specific_ptr, which it keeps them in, knows of
-/// the thread that destroys it alone).
+/// OpenImageIO's texture system, one for the process and never destroyed. Threads keep tiles of a system for longer
+/// than it lives, under its address, and OpenImageIO 2.4 hands them to the next system that lies there
+/// (boost::thread_specific_ptr, which it keeps them in, knows of the thread that destroys it alone).
 class SharedSystem {
  public:
   OIIO::TextureSystem* const textures = OIIO::TextureSystem::create(false);
@@ -75,7 +75,8 @@ class SharedSystem {
     textures->getattribute("stat:bytes_read", OIIO::TypeDesc::INT64, &now.bytesRead);
     now.tileMisses = misses;
     const TextureFigures before = std::exchange(taken, now);
-    return {now.tileRequests - before.tileRequests, now.tileMisses - before.tileMisses, now.bytesRead - before.bytesRead};
+    return {now.tileRequests - before.tileRequests, now.tileMisses - before.tileMisses,
+            now.bytesRead - before.bytesRead};
   }
 
  private:
@@ -97,14 +98,17 @@ OIIO::TextureOpt optionsOf(const TextureQuery& q) {
   const std::string_view filter = q.filter ? q.filter : "";
   const bool straight = filter.empty() || filter == "box" || filter == "disk" || filter == "lerp";
   o.interpmode = straight ? Opt::InterpBilinear : Opt::InterpSmartBicubic;
-  if (q.sWidth == 0 && q.tWidth == 0 && q.sBlur == 0 && q.tBlur == 0) o.mipmode = Opt::MipModeNoMIP, o.interpmode = Opt::InterpClosest;
+  if (q.sWidth == 0 && q.tWidth == 0 && q.sBlur == 0 && q.tBlur == 0)
+    o.mipmode = Opt::MipModeNoMIP, o.interpmode = Opt::InterpClosest;
   if (q.latlong) o.swrap = Opt::WrapPeriodic, o.twrap = Opt::WrapClamp;
   return o;
 }
 
 class Cache : public TextureCache {
  public:
-  explicit Cache(const TextureSettings& s) : settings(s), cacheFolder(cacheFolderOf(s)) { SharedSystem::get().enter(settings.memory_bytes); }
+  explicit Cache(const TextureSettings& s) : settings(s), cacheFolder(cacheFolderOf(s)) {
+    SharedSystem::get().enter(settings.memory_bytes);
+  }
   ~Cache() override { SharedSystem::get().leave(); }
   bool lookup(const TextureQuery& query, TmVec3 out, int64_t& lookups, std::string& error) override;
   bool info(const std::string& name, const std::string& what, std::vector<float>& numbers, std::string& text) override;
@@ -136,7 +140,8 @@ class Cache : public TextureCache {
       add(std::string(name).replace(mark, length, std::to_string(tile)), tile, *picture);
     if (!picture->tiled) add(name, 0, *picture);
     std::error_code none;
-    if (picture->tiles.empty() && picture->error.empty()) picture->error = fs::exists(name, none) ? inputProblem(name) : "not found";
+    if (picture->tiles.empty() && picture->error.empty())
+      picture->error = fs::exists(name, none) ? inputProblem(name) : "not found";
     return picture;
   }
 
@@ -202,7 +207,9 @@ bool Cache::info(const std::string& name, const std::string& what, std::vector<f
   const auto get = [&](const char* fact, OIIO::TypeDesc type, void* to) {
     return system->get_texture_info(handle, nullptr, 0, OIIO::ustring(fact), type, to);
   };
-  const auto matrix = [&](const char* fact) { return numbers.resize(16), get(fact, OIIO::TypeMatrix44, numbers.data()); };
+  const auto matrix = [&](const char* fact) {
+    return numbers.resize(16), get(fact, OIIO::TypeMatrix44, numbers.data());
+  };
   if (what == "viewingmatrix") return matrix("worldtocamera");
   if (what == "projectionmatrix") return matrix("worldtoscreen");
   if (what == "resolution") {
@@ -212,21 +219,27 @@ bool Cache::info(const std::string& name, const std::string& what, std::vector<f
   }
   if (what == "channels" || what == "bitsperchannel") {
     int value = 0;
-    const bool good = get(what == "channels" ? "channels" : "oiio:BitsPerSample", OIIO::TypeInt, &value) ||
-                      (what != "channels" && get("cachedpixeltype", OIIO::TypeInt, &value) &&
-                       (value = static_cast<int>(8 * OIIO::TypeDesc(static_cast<OIIO::TypeDesc::BASETYPE>(value)).size()), true));
+    const bool good =
+        get(what == "channels" ? "channels" : "oiio:BitsPerSample", OIIO::TypeInt, &value) ||
+        (what != "channels" && get("cachedpixeltype", OIIO::TypeInt, &value) &&
+         (value = static_cast<int>(8 * OIIO::TypeDesc(static_cast<OIIO::TypeDesc::BASETYPE>(value)).size()), true));
     return numbers = {static_cast<float>(value)}, good;
   }
   if (what != "type" && what != "textureformat") return false;
   const char* format = nullptr;
   if (!get("textureformat", OIIO::TypeString, &format)) return false;
   const std::string_view kind = format;
-  text = what == "textureformat" ? format : kind == "Shadow" ? "shadow" : kind.find("Env") != kind.npos ? "environment" : "texture";
+  text = what == "textureformat"         ? format
+         : kind == "Shadow"              ? "shadow"
+         : kind.find("Env") != kind.npos ? "environment"
+                                         : "texture";
   return true;
 }
 
 }  // namespace
 
-std::unique_ptr<TextureCache> makeTextureCache(const TextureSettings& settings) { return std::make_unique<Cache>(settings); }
+std::unique_ptr<TextureCache> makeTextureCache(const TextureSettings& settings) {
+  return std::make_unique<Cache>(settings);
+}
 
 }  // namespace tomales

@@ -63,19 +63,21 @@ std::string lackOf(const TmShader& s) {
   if (s.paramCount < 0 || (s.paramCount > 0 && !s.params)) return "its parameters";
   for (int32_t k = 0; k < s.paramCount; ++k) {
     const TmParamDecl& p = s.params[k];
-    if (!p.name || p.arrayLength < 1 || TM_TYPE_OF(p.type) > TM_MATRIX) return fmt::format("a name, length or type of parameter {}", k + 1);
+    if (!p.name || p.arrayLength < 1 || TM_TYPE_OF(p.type) > TM_MATRIX)
+      return fmt::format("a name, length or type of parameter {}", k + 1);
   }
   return {};
 }
 
 std::string expected(const char* what) {
-  return fmt::format("{} is of another shader ABI than {}; compile it against the headers of this version",
-                     what, TM_SHADER_ABI);
+  return fmt::format("{} is of another shader ABI than {}; compile it against the headers of this version", what,
+                     TM_SHADER_ABI);
 }
 
 }  // namespace
 
-bool ShaderRegistry::Impl::add(const TmShaderLibrary* library, const std::string& origin, std::vector<const TmShader*>* added) {
+bool ShaderRegistry::Impl::add(const TmShaderLibrary* library, const std::string& origin,
+                               std::vector<const TmShader*>* added) {
   if (!matches(library)) return refuse(origin, expected("the shader library")), false;
   for (int32_t i = 0; i < library->count; ++i) {
     const TmShader* shader = library->shaders[i];
@@ -100,11 +102,13 @@ std::string ShaderRegistry::Impl::heldBy(const std::string& path) const {
 bool ShaderRegistry::Impl::load(const std::string& path) {
   if (const auto it = plugins.find(path); it != plugins.end()) return it->second.loaded;
   Plugin& plugin = plugins[path];
-  if (const std::string problem = inputProblem(path); !problem.empty()) return refuse(path, "cannot be loaded: " + problem), false;
+  if (const std::string problem = inputProblem(path); !problem.empty())
+    return refuse(path, "cannot be loaded: " + problem), false;
   if (const std::string fate = trial.fateOf(path); !fate.empty()) return refuse(path, fate + "; it is left out"), false;
   if (!trial.works() && !untriedSaid)
-    untriedSaid = true, log.report(Severity::Warning, "shader-plugin", {std::make_shared<const std::string>(path), 0},
-                                   "plugins are loaded untried, and may end the program: tomales_plugin_trial cannot be started");
+    untriedSaid = true,
+    log.report(Severity::Warning, "shader-plugin", {std::make_shared<const std::string>(path), 0},
+               "plugins are loaded untried, and may end the program: tomales_plugin_trial cannot be started");
   void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle) return refuse(path, fmt::format("cannot be loaded: {}", dlerror())), false;
   const auto function = reinterpret_cast<TmShadersFunction>(dlsym(handle, TM_SHADERS_SYMBOL));
@@ -124,7 +128,9 @@ std::vector<std::string> pluginFiles(const std::string& name, const std::string&
 }
 
 /// Does the name of a shader lead out of the folders that it is looked for in?
-bool leavesFolders(const fs::path& name) { return name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end(); }
+bool leavesFolders(const fs::path& name) {
+  return name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end();
+}
 
 }  // namespace
 
@@ -135,13 +141,16 @@ std::vector<std::string> ShaderRegistry::Impl::trustedFiles(const std::string& n
     if (trust.sceneFolders)
       out.push_back(file);
     else if (out.empty() && distrusted.insert(file).second)
-      refuse(file, "is native code in a folder that the scene names, and is not loaded; --shaders FOLDER names a folder whose plugins you trust, "
-                   "--allow-system trusts those of the scene");
+      refuse(file,
+             "is native code in a folder that the scene names, and is not loaded; --shaders FOLDER names a folder "
+             "whose plugins you trust, "
+             "--allow-system trusts those of the scene");
   }
   return out;
 }
 
-ShaderRegistry::ShaderRegistry(Log& log, PluginTrust trust) : impl_(new Impl{log, std::move(trust), {}, {}, {}, {}, false, {}}) {}
+ShaderRegistry::ShaderRegistry(Log& log, PluginTrust trust)
+    : impl_(new Impl{log, std::move(trust), {}, {}, {}, {}, false, {}}) {}
 ShaderRegistry::~ShaderRegistry() = default;
 
 bool ShaderRegistry::addLibrary(const TmShaderLibrary* library, const std::string& origin) {
@@ -163,7 +172,8 @@ const TmShader* ShaderRegistry::find(const std::string& name, TmKind kind, const
     if (const TmShader* s = impl_->known(name, kind)) return s;
     others.push_back(file);
   }
-  for (const std::string& file : others) impl_->refuse(file, fmt::format("has no {} \"{}\", but {}", kindName(kind), name, impl_->heldBy(file)));
+  for (const std::string& file : others)
+    impl_->refuse(file, fmt::format("has no {} \"{}\", but {}", kindName(kind), name, impl_->heldBy(file)));
   return nullptr;
 }
 
