@@ -219,7 +219,10 @@ bool renewIrradianceBricks(const fs::path& points, const fs::path& out, const Br
   std::error_code none;
   if (fs::exists(out, none)) {
     const BrickFile kept(out.string());
-    if (kept.madeFrom().inputs == brickInputs(PointFile(points.string()), settings)) return kept.readAll(), false;
+    if (kept.madeFrom().inputs == brickInputs(PointFile(points.string()), settings)) {
+      kept.readAll();
+      return false;
+    }
   }
   const StageTimer timer(stats, "brickmake");
   writeIrradianceBricks(points, out, settings);

@@ -26,8 +26,10 @@ std::optional<OIIO::ImageBuf> unfoldCube(const TextureRecipe& recipe, std::strin
   std::vector<OIIO::ImageBuf> faces(6);
   int edge = 0, channels = 0;
   for (size_t k = 0; k < 6; ++k) {
-    if (!readWhole(recipe.pictures[k], faces[k], error))
-      return error = "\"" + recipe.pictures[k] + "\": " + error, std::nullopt;
+    if (!readWhole(recipe.pictures[k], faces[k], error)) {
+      error = "\"" + recipe.pictures[k] + "\": " + error;
+      return std::nullopt;
+    }
     edge = std::max(edge, faces[k].spec().width);
     channels = k == 0 ? faces[k].nchannels() : std::min(channels, faces[k].nchannels());
   }

@@ -70,8 +70,10 @@ bool take(LabScene& scene, const std::string& word, const std::string& rest) {
 }  // namespace
 
 std::optional<LabScene> readLabScene(const std::string& file, std::string& error) {
-  if (const std::string problem = inputProblem(file); !problem.empty())
-    return error = "cannot be read: " + problem, std::nullopt;
+  if (const std::string problem = inputProblem(file); !problem.empty()) {
+    error = "cannot be read: " + problem;
+    return std::nullopt;
+  }
   std::ifstream stream(file);
   LabScene out{file, {}, {}, {}, {}, {}, {}, {}, {}, {std::istreambuf_iterator<char>(stream), {}}};
   std::istringstream lines(out.text);
