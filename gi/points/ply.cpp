@@ -12,6 +12,7 @@
 #include <optional>
 #include <sstream>
 
+#include "reyes/base/input_file.h"
 #include "reyes/base/unfinished_file.h"
 
 namespace tomales {
@@ -70,8 +71,9 @@ struct Element {
 /// A file from behind its header, number by number.
 class PlyReader {
  public:
-  explicit PlyReader(const std::string& path) : path_(path), in_(path, std::ios::binary) {
-    if (!in_) fail(path, "cannot be opened");
+  explicit PlyReader(const std::string& path) : path_(path) {
+    if (const std::string problem = inputProblem(path); !problem.empty()) fail(path, "cannot be read: " + problem);
+    in_.open(path, std::ios::binary);
     readHeader();
   }
 
@@ -277,7 +279,9 @@ void writeRows(const PointFile& cloud, size_t chunk, const std::function<void(co
 void writePly(const PointFile& cloud, const std::string& path) {
   std::string why;
   const auto file = UnfinishedFile::create(path, UnfinishedKind::Stream, why);
-  const auto failed = [&](const std::string& problem) { fail(path, "cannot be written: " + problem); };
+  const auto failed = [&](const std::string& problem) {
+    throw WriteError(fmt::format("\"{}\" cannot be written: {}", path, problem));
+  };
   const auto write = [&](const void* data, size_t size) {
     if (std::fwrite(data, 1, size, file->stream()) != size) failed(std::strerror(errno));
   };

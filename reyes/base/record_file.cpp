@@ -10,6 +10,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "reyes/base/input_file.h"
+
 namespace tomales {
 namespace {
 
@@ -215,11 +217,8 @@ RecordFile::~RecordFile() {
 
 std::unique_ptr<RecordFile> RecordFile::open(const std::string& path, const RecordFileKind& kind, std::string& error) {
   std::unique_ptr<RecordFile> out(new RecordFile);
-  out->file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (out->file_ < 0) {
-    error = lastProblem();
-    return nullptr;
-  }
+  out->file_ = openInput(path, error);
+  if (out->file_ < 0) return nullptr;
   return out->readDirectory(kind, error) ? std::move(out) : nullptr;
 }
 

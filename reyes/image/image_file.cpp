@@ -103,23 +103,23 @@ bool PictureFile::write(const DeepRows& rows) { return !impl_->failed && impl_->
 bool PictureFile::close() { return impl_->close(); }
 const std::string& PictureFile::error() const { return impl_->problem; }
 
-bool copyShadowMap(const std::string& from, const std::string& to, std::string& error) {
+Making copyShadowMap(const std::string& from, const std::string& to, std::string& error) {
   {
     const auto in = openPicture(from, error);
     float matrix[16];
-    if (!in) return false;
+    if (!in) return Making::Unreadable;
     const std::vector<std::string>& channels = in->shape().channels;
     if (std::find(channels.begin(), channels.end(), "Z") == channels.end() || !in->matrix("worldtocamera", matrix))
-      return error = "it is no shadow map: depth or the matrices of its camera are missing", false;
+      return error = "it is no shadow map: depth or the matrices of its camera are missing", Making::Unreadable;
   }
   std::error_code problem;
-  if (fs::equivalent(from, to, problem)) return true;
+  if (fs::equivalent(from, to, problem)) return Making::Done;
   const auto file = UnfinishedFile::create(to, UnfinishedKind::Scratch, error);
-  if (!file) return false;
+  if (!file) return Making::Unwritable;
   fs::copy_file(from, file->path(), fs::copy_options::overwrite_existing, problem);
-  if (!problem) return file->finish(error);
+  if (!problem) return file->finish(error) ? Making::Done : Making::Unwritable;
   error = problem.message();
-  return false;
+  return Making::Unwritable;
 }
 
 std::optional<Image> readImage(const std::string& path, std::string& error) {

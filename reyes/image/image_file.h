@@ -1,6 +1,7 @@
 // Private to reyes/image: pixels to and from files, whatever their format.
 #pragma once
 #include "reyes/image.h"
+#include "reyes/pictures.h"
 
 namespace tomales {
 
@@ -47,8 +48,8 @@ class PictureFile {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Copies a shadow map. False: it is none, or cannot be copied.
-bool copyShadowMap(const std::string& from, const std::string& to, std::string& error);
+/// Copies a shadow map. Unless done `error` says why.
+Making copyShadowMap(const std::string& from, const std::string& to, std::string& error);
 
 /// IEC 61966-2-1 transfer of one linear value, clamped to [0,1].
 float encodeSrgb(float linear);

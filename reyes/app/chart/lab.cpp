@@ -17,6 +17,7 @@
 #include "reyes/base/child_process.h"
 #include "reyes/base/temporary_folder.h"
 #include "reyes/base/unfinished_file.h"
+#include "reyes/image.h"
 
 namespace tomales {
 namespace {
@@ -181,16 +182,26 @@ std::optional<Run> Lab::run(const std::vector<std::string>& arguments) {
 }
 
 std::optional<Run> Lab::recall(const std::string& stem, const std::vector<std::string>& arguments) const {
-  const Json j = Json::parse(readAll(stem + ".json"), nullptr, false);
-  if (!j.is_object() || !fs::exists(stem + ".exr")) return std::nullopt;
-  return Run{arguments,
-             stem + ".exr",
-             j.value("cpu_s", 0.0),
-             j.value("wall_s", 0.0),
-             j.value("peak_bytes", 0.0),
-             j.value("records", int64_t{0}),
-             j.value("warnings", std::vector<std::string>{}),
-             true};
+  const std::string figures = stem + ".json", picture = stem + ".exr";
+  std::error_code none;
+  if (!fs::exists(figures, none) || !fs::exists(picture, none)) return std::nullopt;
+  std::string problem;
+  try {
+    const Json j = Json::parse(readAll(figures));
+    Run known{.arguments = arguments,
+              .picture = picture,
+              .cpu_s = j.at("cpu_s"),
+              .wall_s = j.at("wall_s"),
+              .peakBytes = j.at("peak_bytes"),
+              .records = j.at("records"),
+              .warnings = j.at("warnings"),
+              .recalled = true};
+    if (readImage(picture, problem)) return known;
+  } catch (const Json::exception& e) {
+    problem = e.what();
+  }
+  fmt::print(stderr, "\"{}\" of earlier measurements is damaged ({}): measured anew\n", stem, problem);
+  return std::nullopt;
 }
 
 bool Lab::remember(const std::string& stem, const Run& run) const {

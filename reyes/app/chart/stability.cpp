@@ -147,7 +147,7 @@ int stabilityCommand(const ChartSettings& given) {
   Log log;
   if (const std::string problem = placesProblem(settings.output, settings.folder); !problem.empty()) {
     log.report(Severity::Output, "chart", {}, problem);
-    return kUnwritable;
+    return exitCodeOf(log);
   }
   std::vector<StabilityCurve> curves;
   Laboratory laboratory(settings, log);
@@ -158,7 +158,7 @@ int stabilityCommand(const ChartSettings& given) {
     if (!scene) {
       log.report(Severity::Error, "lab-scene", {std::make_shared<std::string>(file), 0},
                  "is no scene of a laboratory: " + error);
-      return kUnreadable;
+      return exitCodeOf(log);
     }
     curves.push_back(laboratory.measure(std::move(*scene)));
     whole = whole && curves.back().missing.empty();
@@ -169,10 +169,10 @@ int stabilityCommand(const ChartSettings& given) {
   if (!writeStabilityPage(settings.output, curves, joined(command)) ||
       !writeStabilityJson(fs::path(settings.output).replace_extension(".json").string(), curves, joined(command))) {
     log.report(Severity::Output, "chart", {}, "\"" + settings.output + "\" could not be written");
-    return kUnwritable;
+    return exitCodeOf(log);
   }
-  if (const int code = interruptExitCode()) return code;
-  return whole ? kDone : kIncomplete;
+  if (!whole) log.report(Severity::Missing, "chart-missing", {}, "points are missing; the page names them");
+  return interruptExitCode() ? interruptExitCode() : exitCodeOf(log);
 }
 
 bool writeStabilityJson(const std::string& path, const std::vector<StabilityCurve>& curves,

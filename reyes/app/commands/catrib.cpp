@@ -24,7 +24,9 @@ bool copyTo(std::FILE* out, const CatribSettings& settings, std::string& error, 
 
 bool toStandardOutput(const CatribSettings& settings, std::string& error, Log& log) {
   ::signal(SIGPIPE, SIG_DFL);  // there is nothing to lose, and nobody reads the rest
-  return copyTo(stdout, settings, error, log);
+  const bool written = copyTo(stdout, settings, error, log);
+  std::clearerr(stdout);  // it is told with its reason
+  return written;
 }
 
 /// The file may be one of those that are read.

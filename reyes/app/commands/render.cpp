@@ -82,7 +82,11 @@ class RenderRun {
       if (!settings_.draft) warnOfCoarseDicing(scene, log_);
       const int64_t seenBefore = stats_.geometry.micropolygonsVisible;
       const int errorsBefore = errors();
-      job_(scene, scenes_ - 1, settings_, stats_, log_, [this] { flush(); });
+      try {
+        job_(scene, scenes_ - 1, settings_, stats_, log_, [this] { flush(); });
+      } catch (const std::exception& e) {  // later frames may be smaller, and what is finished keeps its statistics
+        log_.report(severityOf(e), "frame-failed", scene.where, messageOf(e) + "; the frame was not finished");
+      }
       if (stats_.geometry.micropolygonsVisible == seenBefore && !settings_.resume && !interrupted() &&
           errors() == errorsBefore)  // else it may have been refused
         explainEmptyFrame(scene, log_);

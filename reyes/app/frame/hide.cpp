@@ -7,6 +7,7 @@
 
 #include "reyes/app/frame/frame_job.h"
 #include "reyes/app/watch/interrupt.h"
+#include "reyes/base/input_file.h"
 
 namespace tomales {
 namespace {
@@ -20,13 +21,15 @@ uint64_t sumOfFile(const std::string& path) {
   return sum;
 }
 
+bool isReadOnce(const std::string& file) { return file == "-" || !inputProblem(file).empty(); }
+
 }  // namespace
 
 std::vector<SourceFile> sourcesOf(const std::vector<std::string>& files) {
   std::vector<SourceFile> out;
   for (const std::string& file : files)
-    out.push_back(file == "-" ? SourceFile{file, 0}
-                              : SourceFile{std::filesystem::absolute(file).string(), sumOfFile(file)});
+    out.push_back(isReadOnce(file) ? SourceFile{"-", 0}
+                                   : SourceFile{std::filesystem::absolute(file).string(), sumOfFile(file)});
   return out;
 }
 
