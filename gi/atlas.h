@@ -44,7 +44,7 @@ MapNames mapNames(const Scene& scene, const AtlasSettings& settings);
 
 /// The file of a map in a folder.
 std::filesystem::path atlasFile(const std::filesystem::path& folder, const std::string& map, const char* extension);
-void makeAtlasFolder(const std::filesystem::path& folder);  ///< Throws FileError.
+void makeAtlasFolder(const std::filesystem::path& folder);  ///< Throws WriteError.
 
 using AtlasProgress = std::function<void(float)>;
 

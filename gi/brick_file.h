@@ -21,7 +21,8 @@ class BrickFile {
   const MadeFrom& madeFrom() const { return madeFrom_; }
   const std::string& path() const { return file_.path(); }
   uint64_t fileBytes() const { return file_.fileBytes(); }
-  Brick brick(int32_t node) const;  ///< Throws FileError where the file is damaged.
+  Brick brick(int32_t node) const;           ///< Throws DamageError where the file is damaged.
+  void readAll() const { file_.readAll(); }  ///< Throws DamageError if it is damaged anywhere.
 
  private:
   ChunkReader file_;

@@ -1,6 +1,7 @@
 #include "raytrace/embree_chunks.h"
 
 #include <map>
+#include <new>
 
 namespace tomales {
 namespace {
@@ -120,7 +121,12 @@ std::shared_ptr<const EmbreeChunks::Resident> EmbreeChunks::met(uint32_t chunk, 
     const auto meets = [&](const Bound3& part) { return slabs.meets(part); };
     if (!meets(extent.whole) || std::none_of(extent.parts.begin(), extent.parts.end(), meets)) return nullptr;
   }
-  return resident(chunk);
+  try {
+    return resident(chunk);
+  } catch (const std::bad_alloc&) {
+    failed_ = true;
+    return nullptr;
+  }
 }
 
 std::shared_ptr<const EmbreeChunks::Resident> EmbreeChunks::resident(uint32_t chunk) const {
@@ -179,6 +185,7 @@ std::shared_ptr<const EmbreeChunks::Resident> EmbreeChunks::build(uint32_t chunk
   rtcAttachGeometryByID(out->scene, geometry, 0);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(out->scene);
+  if (rtcGetDeviceError(device_) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
   out->sceneBytes += kSceneBytes;
   return out;
 }

@@ -30,6 +30,8 @@ class EmbreeChunks {
   /// Unit normal on the RISpec side where a hit lies.
   vec3 normal(const PolygonHit& hit) const;
   ResidentFigures figures() const { return cache_.figures(); }
+  /// A ray has passed through a chunk for which there was no memory: Embree lets no exception through.
+  bool failed() const { return failed_.load(std::memory_order_relaxed); }
 
  private:
   struct Resident {
@@ -72,6 +74,7 @@ class EmbreeChunks {
   std::vector<Geometry> described_;  ///< Of each group.
   std::deque<Members> members_;      ///< Embree keeps their addresses.
   mutable ResidentCache<Resident> cache_;
+  mutable std::atomic<bool> failed_{false};
   mutable std::vector<Extent> extents_;  ///< Of each chunk.
 };
 

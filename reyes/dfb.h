@@ -26,8 +26,9 @@ struct Shot {
 
 class DfbWriter {
  public:
-  /// `resume`: tiles of an interrupted run with the same shot are kept. Null: `error` says why.
-  static std::unique_ptr<DfbWriter> create(const std::string& path, const Shot& shot, bool resume, std::string& error);
+  /// Resumed: only if the shot is the same. Null: `error` says why.
+  static std::unique_ptr<DfbWriter> create(const std::string& path, const Shot& shot, Unfinished unfinished,
+                                           std::string& error);
 
   size_t tilesKept() const { return kept_; }
   bool has(size_t tile) const;
@@ -36,7 +37,9 @@ class DfbWriter {
   bool write(size_t index, const DeepTile& tile);
   bool finish();
   std::string error() const { return records_->error(); }
-  const std::string& temporary() const { return records_->temporary(); }
+  const std::string& unfinishedPath() const { return records_->unfinishedPath(); }
+  /// Takes the name of the unfinished file away; tiles can still be written and read.
+  void discard() { records_->discard(); }
 
  private:
   explicit DfbWriter(std::unique_ptr<RecordWriter> records) : records_(std::move(records)) {}

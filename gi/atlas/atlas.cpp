@@ -10,6 +10,7 @@
 #include "gi/atlas/world_from_current.h"
 #include "gi/bricks/point_tiles.h"
 #include "gi/photons/medium.h"
+#include "reyes/base/folder_lock.h"
 #include "reyes/base/process.h"
 #include "reyes/base/temporary_folder.h"
 
@@ -55,15 +56,6 @@ uint64_t brickInputs(const PointFile& points, const BrickSettings& settings) {
   return contentSum(kMethod, points.contents(), maxError, maxDepth, radiusScale, ignoreNormals, coarseness);
 }
 
-/// Of a file that may be missing or damaged: then not known.
-MadeFrom bricksMadeFrom(const fs::path& path) {
-  try {
-    return BrickFile(path.string()).madeFrom();
-  } catch (const FileError&) {
-    return {};
-  }
-}
-
 /// The groups of each map from 1 on; 0: small ones.
 std::vector<int> numbered(const std::vector<std::string>& maps, const std::vector<double>& areas) {
   struct Map {
@@ -85,11 +77,8 @@ std::vector<int> numbered(const std::vector<std::string>& maps, const std::vecto
 }  // namespace
 
 MadeFrom pointsMadeFrom(const fs::path& path) {
-  try {
-    return PointFile(path.string()).madeFrom();
-  } catch (const FileError&) {
-    return {};
-  }
+  std::error_code none;
+  return fs::exists(path, none) ? PointFile(path.string()).madeFrom() : MadeFrom{};
 }
 
 fs::path atlasFile(const fs::path& folder, const std::string& map, const char* extension) {
@@ -102,8 +91,8 @@ fs::path atlasFile(const fs::path& folder, const std::string& map, const char* e
 void makeAtlasFolder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (!fs::is_directory(folder))
-    throw FileError(fmt::format("folder \"{}\" cannot be made: {}", folder.string(), error.message()));
+  if (!fs::is_directory(folder, error))
+    throw WriteError(fmt::format("folder \"{}\" cannot be made: {}", folder.string(), error.message()));
 }
 
 MapNames mapNames(const Scene& scene, const AtlasSettings& settings) {
@@ -156,6 +145,10 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
                            const ShadingSystem& shading, const MapNames& names, const AtlasSettings& settings,
                            const AtlasProgress& progress, Stats& stats, Log& log) {
   makeAtlasFolder(folder);
+  const FolderLock lock(folder, [&] {
+    log.report(Severity::Info, "photons-wait", {},
+               "waits for another program that writes photons to \"" + folder.string() + "\"");
+  });
   const char* channel = settings.photons.direct ? kPower : kIndirectPower;
   std::map<std::string, PointFileWriter> files;
   for (const std::string& name : names.all())
@@ -228,7 +221,14 @@ BuiltBricks writeIrradianceBricks(const fs::path& points, const fs::path& out, B
 }
 
 bool renewIrradianceBricks(const fs::path& points, const fs::path& out, const BrickSettings& settings, Stats& stats) {
-  if (bricksMadeFrom(out).inputs == brickInputs(PointFile(points.string()), settings)) return false;
+  std::error_code none;
+  if (fs::exists(out, none)) {
+    const BrickFile kept(out.string());
+    if (kept.madeFrom().inputs == brickInputs(PointFile(points.string()), settings)) {
+      kept.readAll();
+      return false;
+    }
+  }
   const StageTimer timer(stats, "brickmake");
   writeIrradianceBricks(points, out, settings);
   return true;
@@ -250,6 +250,7 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
   }
   returnFreeMemory();
   std::vector<MapFigures> made;
+  int64_t kept = 0;
   for (const std::string& name : maps) {
     const fs::path from = atlasFile(photons, name, ".ptc"), points = atlasFile(irradiance, name, ".ptc"),
                    bricks = atlasFile(folder, name, ".bkm");
@@ -260,9 +261,10 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
       writeIrradiance(from, points, estimate, kPointsInMemory, &figures);
       if (name != names.volume) made.push_back({name, PointFile(from.string()).count(), figures});
     }
-    if (!renewIrradianceBricks(points, bricks, settings.bricks, stats)) ++stats.photons.groupsKept;
+    if (!renewIrradianceBricks(points, bricks, settings.bricks, stats)) ++kept;
     returnFreeMemory();
   }
+  stats.photons.groupsKept += kept;
   warnOfEstimates(scene, names, made, log);
 }
 

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "gi/bricks/accumulate.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
@@ -124,6 +125,7 @@ class Builder {
   /// Fills the sums of `level` with the cube at `place`, in cubes of that level, and `node` with the children that are
   /// kept.
   void accumulate(int level, const glm::ivec3& place, const Members& members, BrickNode& node) {
+    throwIfStopped();
     Level& here = at(level);
     here.sums.clear();
     const vec3 lo = corner(level, place);

@@ -1,5 +1,7 @@
 #include "gi/bricks/point_tiles.h"
 
+#include "reyes/base/stop.h"
+
 namespace tomales {
 namespace {
 
@@ -106,6 +108,7 @@ void PointTiles::writeCompact(const std::string& path) const {
   empty.channels = file_.channels();
   std::vector<PointCloud> piles(kPiles, empty);
   for (size_t chunk = 0; chunk < file_.chunkCount(); ++chunk) {
+    throwIfStopped();
     part = {};
     file_.read(chunk, part);
     for (size_t i = 0; i < part.count(); ++i) {

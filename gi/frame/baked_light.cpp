@@ -7,6 +7,7 @@
 #include "gi/frame/state.h"
 #include "gi/point_file.h"
 #include "reyes/base/parallel.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
@@ -37,6 +38,7 @@ class Baking {
     for (const std::string& name : names_.all()) out[name];
     std::mutex merging;
     parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
+      throwIfStopped();
       const auto tile = tiles(t);
       if (!tile) return;
       for (const ShadePoints& batch : tile->batches) {

@@ -252,9 +252,10 @@ class GatherPass {
       const size_t count = std::min(kPointsPerSlice, sites.size() - done);
       parallelFor(count, 1, [&](size_t begin, size_t end) {
         for (size_t i = done + begin; i < done + end; ++i)
-          if (isFirst || isScoutAlone(sites[i].cache))
+          if (!isCancelled() && (isFirst || isScoutAlone(sites[i].cache)))
             records[i] = gatherAt(sites[i], finds.empty() || !isLight(sites[i].cache) ? nullptr : &finds[i]);
       });
+      if (isCancelled()) break;  // of this slice some are missing
     }
     return done;
   }

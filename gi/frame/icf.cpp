@@ -121,7 +121,7 @@ bool consistent(const StoredShot& stored) {
 }  // namespace
 
 std::unique_ptr<IcfWriter> IcfWriter::create(const std::string& path, std::string& error) {
-  auto records = RecordWriter::create(path, icfKind(), false, error);
+  auto records = RecordWriter::create(path, icfKind(), Unfinished::Removed, error);
   return records ? std::unique_ptr<IcfWriter>(new IcfWriter(std::move(records))) : nullptr;
 }
 

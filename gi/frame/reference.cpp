@@ -2,6 +2,7 @@
 #include "gi/frame/state.h"
 #include "gi/gather/layers.h"
 #include "reyes/base/rng.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
@@ -58,7 +59,9 @@ class PathBatches {
   void flush() {
     HitAnswers answers;
     answers.mode = HitMode::Shader;
-    for (int layer = 0; layer < kMostLayers && !layers_.rays.empty(); ++layer) {
+    // A bucket of many paths takes long; one that is shaded while the process is asked to end is dropped
+    // (reyes/frame.h).
+    for (int layer = 0; layer < kMostLayers && !layers_.rays.empty() && !stopRequested(); ++layer) {
       state_.stats.rays.hitlistAdjusted += layers_.meet(*tools_.rays, kMaskDiffuse, hits_);
       state_.stats.rays.reference += static_cast<int64_t>(layers_.rays.size());
       tools_.rays->shadeHits(layers_.rays, hits_, layers_.names, *tools_.shading, context_, answers);

@@ -6,6 +6,7 @@
 #include "gi/photons/tree.h"
 #include "reyes/base/check.h"
 #include "reyes/base/parallel.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
@@ -161,6 +162,7 @@ PointCloud estimateIrradiance(PointCloud photons, const PhotonIrradianceSettings
   const size_t count = (tree.photons().count() + every - 1) / every;
   std::vector<Estimate> estimates(count);
   parallelFor(count, kEstimatesPerTask, [&](size_t begin, size_t end) {
+    throwIfStopped();
     std::vector<NearPhoton> heap;
     for (size_t i = begin; i < end; ++i) {
       const auto at = static_cast<uint32_t>(i * every);

@@ -4,6 +4,7 @@
 #include "raytrace/emitter_shapes.h"
 #include "raytrace/hit_list.h"
 #include "reyes/base/rng.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
@@ -62,7 +63,10 @@ void PhotonTracer::trace(const PhotonSource& source, uint32_t first, size_t coun
     paths.push_back({e.ray, e.power * share, first + static_cast<uint32_t>(i), source.light()});
     paths.back().lift = liftOf(e.ray, e.normal);
   }
-  while (!scratch.flying.empty()) step(paths, stream, scratch, out);
+  while (!scratch.flying.empty()) {
+    throwIfStopped();
+    step(paths, stream, scratch, out);
+  }
 }
 
 /// Every path that flies to its next surface; those that end there fly no more.

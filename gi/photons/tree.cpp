@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "reyes/base/stop.h"
+
 namespace tomales {
 namespace {
 
@@ -49,6 +51,7 @@ PhotonTree::PhotonTree(PointCloud photons) : photons_(std::move(photons)) {
 }
 
 void PhotonTree::build(std::vector<uint32_t>& order, uint32_t begin, uint32_t end, uint32_t node) {
+  throwIfStopped();
   if (end - begin <= kLeaf) return;
   Bound3 bound;
   for (uint32_t i = begin; i < end; ++i) bound.extend(position(order[i]));

@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <bit>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <optional>
 #include <sstream>
+
+#include "reyes/base/input_file.h"
+#include "reyes/base/unfinished_file.h"
 
 namespace tomales {
 namespace {
@@ -68,8 +71,9 @@ struct Element {
 /// A file from behind its header, number by number.
 class PlyReader {
  public:
-  explicit PlyReader(const std::string& path) : path_(path), in_(path, std::ios::binary) {
-    if (!in_) fail(path, "cannot be opened");
+  explicit PlyReader(const std::string& path) : path_(path) {
+    if (const std::string problem = inputProblem(path); !problem.empty()) fail(path, "cannot be read: " + problem);
+    in_.open(path, std::ios::binary);
     readHeader();
   }
 
@@ -258,7 +262,7 @@ std::string headerOf(const PointFile& cloud) {
   return h + "end_header\n";
 }
 
-void writeRows(const PointFile& cloud, size_t chunk, std::ofstream& out) {
+void writeRows(const PointFile& cloud, size_t chunk, const std::function<void(const void* data, size_t size)>& write) {
   PointCloud points;
   cloud.read(chunk, points);
   std::vector<float> rows;
@@ -267,26 +271,25 @@ void writeRows(const PointFile& cloud, size_t chunk, std::ofstream& out) {
     rows.insert(rows.end(), {p.x, p.y, p.z, n.x, n.y, n.z, points.radius[i]});
     rows.insert(rows.end(), points.at(i), points.at(i) + points.width());
   }
-  out.write(reinterpret_cast<const char*>(rows.data()), static_cast<std::streamsize>(rows.size() * sizeof(float)));
+  write(rows.data(), rows.size() * sizeof(float));
 }
 
 }  // namespace
 
 void writePly(const PointFile& cloud, const std::string& path) {
-  const std::string part = path + ".part";
-  std::error_code error;
-  try {
-    std::ofstream out(part, std::ios::binary);
-    out << headerOf(cloud);
-    for (size_t chunk = 0; chunk < cloud.chunkCount() && out; ++chunk) writeRows(cloud, chunk, out);
-    out.close();
-    if (!out) fail(path, "cannot be written");
-    std::filesystem::rename(part, path, error);
-    if (error) fail(path, "cannot be written: " + error.message());
-  } catch (const FileError&) {
-    std::filesystem::remove(part, error);
-    throw;
-  }
+  std::string why;
+  const auto file = UnfinishedFile::create(path, UnfinishedKind::Stream, why);
+  const auto failed = [&](const std::string& problem) {
+    throw WriteError(fmt::format("\"{}\" cannot be written: {}", path, problem));
+  };
+  const auto write = [&](const void* data, size_t size) {
+    if (std::fwrite(data, 1, size, file->stream()) != size) failed(std::strerror(errno));
+  };
+  if (!file) failed(why);
+  const std::string header = headerOf(cloud);
+  write(header.data(), header.size());
+  for (size_t chunk = 0; chunk < cloud.chunkCount(); ++chunk) writeRows(cloud, chunk, write);
+  if (!file->finish(why)) failed(why);
 }
 
 PlyFigures convertPly(const std::string& path, const std::string& out, float radius) {

@@ -70,10 +70,10 @@ PointFile::PointFile(const std::string& path) : file_(path, kKind, kVersion) {
   madeFrom_ = r.get<MadeFrom>();
   contents_ = r.get<uint64_t>();
   if (bounds_.size() != file_.count())
-    throw FileError(fmt::format("\"{}\" is damaged: its chunks do not add up", path));
+    throw DamageError(path, fmt::format("\"{}\" is damaged: its chunks do not add up", path));
   if (!std::all_of(bounds_.begin(), bounds_.end(),
                    [](const Bound3& b) { return isFinite(b.lo) && isFinite(b.hi) && !b.empty(); }))
-    throw FileError(fmt::format("\"{}\" is damaged: a chunk has no place", path));
+    throw DamageError(path, fmt::format("\"{}\" is damaged: a chunk has no place", path));
 }
 
 Bound3 PointFile::bound() const {
@@ -92,7 +92,7 @@ void PointFile::read(size_t chunk, PointCloud& to) const {
   const auto data = r.getVector<float>();
   const size_t n = positions.size();
   if (normals.size() != n || radii.size() != n || data.size() != n * static_cast<size_t>(to.width()))
-    throw FileError(fmt::format("\"{}\" is damaged: a chunk does not add up", file_.path()));
+    throw DamageError(file_.path(), fmt::format("\"{}\" is damaged: a chunk does not add up", file_.path()));
   const auto finite = [](float v) { return std::isfinite(v); };
   const Bound3& b = bounds_[chunk];  // finite, so that what lies within is
   if (!std::all_of(positions.begin(), positions.end(),
@@ -101,7 +101,8 @@ void PointFile::read(size_t chunk, PointCloud& to) const {
                    }) ||
       !std::all_of(radii.begin(), radii.end(), [](float radius) { return std::isfinite(radius) && radius >= 0; }) ||
       !std::all_of(data.begin(), data.end(), finite))
-    throw FileError(fmt::format("\"{}\" is damaged: a point is not finite, or not where it should be", file_.path()));
+    throw DamageError(file_.path(),
+                      fmt::format("\"{}\" is damaged: a point is not finite, or not where it should be", file_.path()));
   to.position.insert(to.position.end(), positions.begin(), positions.end());
   for (const uint32_t p : normals) to.normal.push_back(unpackNormal(p));
   to.radius.insert(to.radius.end(), radii.begin(), radii.end());

@@ -2,6 +2,7 @@
 
 #include "gi/radiosity/bake.h"
 #include "reyes/base/parallel.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 
@@ -87,6 +88,7 @@ RadiosityMaps::RadiosityMaps(const RayScene& rays, const ShadingSystem& shading,
   const std::vector<TexelRun> runs = texelRuns(surfaces_);
   const RadiosityBake bake{rays, shading, settings};
   parallelFor(runs.size(), 1, [&](size_t r, size_t) {
+    throwIfStopped();
     std::vector<RadiosityChart>& of = surfaces_[static_cast<size_t>(runs[r].object)].side(runs[r].back);
     const std::vector<BakedTexel> baked = bakeTexels(bake, of, runs[r]);
     size_t k = 0;

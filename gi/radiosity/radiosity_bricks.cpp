@@ -6,6 +6,7 @@
 #include "gi/atlas/world_from_current.h"
 #include "gi/radiosity/bake.h"
 #include "reyes/base/parallel.h"
+#include "reyes/base/stop.h"
 #include "reyes/dice.h"
 
 namespace tomales {
@@ -31,8 +32,10 @@ class Baking {
     const std::vector<TexelRun> runs = texelRuns(surfaces_);
     for (size_t wave = 0; wave < runs.size(); wave += kRunsPerWave) {
       std::vector<std::vector<BakedTexel>> baked(std::min(kRunsPerWave, runs.size() - wave));
-      parallelFor(baked.size(), 1,
-                  [&](size_t r, size_t) { baked[r] = bakeTexels(bake_, chartsOf(runs[wave + r]), runs[wave + r]); });
+      parallelFor(baked.size(), 1, [&](size_t r, size_t) {
+        throwIfStopped();
+        baked[r] = bakeTexels(bake_, chartsOf(runs[wave + r]), runs[wave + r]);
+      });
       for (size_t r = 0; r < baked.size(); ++r) write(runs[wave + r], baked[r], files);
     }
   }

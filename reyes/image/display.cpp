@@ -247,8 +247,9 @@ View viewOf(const Camera& camera, const mat4& cameraFromWorld) {
 
 bool makeShadow(const std::string& picture, const std::string& map, const SourceLoc& where, Log& log) {
   std::string error;
-  if (copyShadowMap(picture, map, error)) return true;
-  log.report(Severity::Missing, "make-shadow", where,
+  const Making made = copyShadowMap(picture, map, error);
+  if (made == Making::Done) return true;
+  log.report(severityOf(made), "make-shadow", where,
              "MakeShadow: no map \"" + map + "\" was made of \"" + picture + "\": " + error);
   return false;
 }

@@ -1,6 +1,7 @@
 // Private to reyes/image: pixels to and from files, whatever their format.
 #pragma once
 #include "reyes/image.h"
+#include "reyes/pictures.h"
 
 namespace tomales {
 
@@ -29,8 +30,7 @@ struct FileFormat {
 /// Format of a file by its name's extension; empty name: none that can be written.
 FileFormat formatOfExtension(const std::string& path);
 
-/// A picture on its way to a temporary name in the same directory; close() renames. What is not closed leaves nothing
-/// behind.
+/// An UnfinishedFile of pixels: what is not closed leaves nothing behind.
 class PictureFile {
  public:
   static constexpr int kBandRows = 64;
@@ -48,8 +48,8 @@ class PictureFile {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Copies a shadow map to a temporary name, then renames. False: it is none, or cannot be copied.
-bool copyShadowMap(const std::string& from, const std::string& to, std::string& error);
+/// Copies a shadow map. Unless done `error` says why.
+Making copyShadowMap(const std::string& from, const std::string& to, std::string& error);
 
 /// IEC 61966-2-1 transfer of one linear value, clamped to [0,1].
 float encodeSrgb(float linear);

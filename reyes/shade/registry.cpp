@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "reyes/base/input_file.h"
 #include "reyes/base/search_path.h"
 #include "reyes/shade.h"
 #include "reyes/shade/plugin_trial.h"
@@ -101,6 +102,10 @@ std::string ShaderRegistry::Impl::heldBy(const std::string& path) const {
 bool ShaderRegistry::Impl::load(const std::string& path) {
   if (const auto it = plugins.find(path); it != plugins.end()) return it->second.loaded;
   Plugin& plugin = plugins[path];
+  if (const std::string problem = inputProblem(path); !problem.empty()) {
+    refuse(path, "cannot be loaded: " + problem);
+    return false;
+  }
   if (const std::string fate = trial.fateOf(path); !fate.empty()) return refuse(path, fate + "; it is left out"), false;
   if (!trial.works() && !untriedSaid)
     untriedSaid = true,

@@ -13,15 +13,11 @@
 #include "reyes/app/commands/shade.h"
 #include "reyes/app/commands/shadetest.h"
 #include "reyes/app/exit_code.h"
+#include "reyes/app/watch/interrupt.h"
+#include "reyes/base/input_file.h"
 
 namespace tomales {
 namespace {
-
-constexpr const char* kExitCodes =
-    "Exit codes: 0 done; 1 wrong usage; 2 the scene could not be read; 3 the frame is complete but something "
-    "was missing and a\n"
-    "loud substitute was rendered; 4 output could not be written; 130, 143 interrupted, finished buckets "
-    "written.";
 
 /// Everything that the arguments may fill.
 struct Invocation {
@@ -173,16 +169,16 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   bricks->add_option("FILES", in.brickmake.inputs, "Point clouds, or folders of them")->required();
   bricks->add_option("-o", in.brickmake.output, "FILE.bkm for all, or a folder for one each")->required();
   bricks->add_option("--maxerror", in.brickmake.settings.maxError, "Variation that needs no finer bricks")
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(between(0.0, 1e9));
   bricks->add_flag("--relative", in.brickmake.relative, "maxerror is a share of the mean of the data");
   bricks->add_option("--maxdepth", in.brickmake.settings.maxDepth, "Most levels below the first")
       ->check(CLI::Range(0, 20));
   bricks->add_option("--radiusscale", in.brickmake.settings.radiusScale, "Scale of the points' radii")
-      ->check(CLI::Range(1e-3, 1e3));
+      ->check(between(1e-3, 1e3));
   bricks
       ->add_option("--coarseness", in.brickmake.settings.coarseness,
                    "Widths of the finest voxels, over what the radii ask: 2 for irradiance of photons")
-      ->check(CLI::Range(0.1, 100.0));
+      ->check(between(0.1, 100.0));
   bricks->add_flag("--ignorenormals", in.brickmake.settings.ignoreNormals, "The data fill a volume");
   bricks->callback([&] { code = brickmakeCommand(in.brickmake); });
 
@@ -193,7 +189,8 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   view->add_option("--channel", in.view.channel, "Channel to show; also normal, radius (default: the first)");
   view->add_option("--level", in.view.level, "Level of a brick map, 0 the coarsest (default: the finest)");
   view->add_option("--camera", in.view.camera, "Look with the camera of this RIB file")->type_name("SCENE.rib");
-  view->add_option("--gain", in.view.gain, "Multiplies the values (default: so that they can be seen)");
+  view->add_option("--gain", in.view.gain, "Multiplies the values (default: so that they can be seen)")
+      ->check(between(0, 1e30));
   addParsed(
       *view, "--format", in.view.size, [](const std::string& t) { return parsePair(t, 1, 16384); }, "WxH",
       "Resolution in pixels");
@@ -204,8 +201,7 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
       "Point clouds from and to PLY, for other programs; the records of an irradiance cache as a point cloud");
   convert->add_option("IN", in.convert.input, "FILE.ptc, FILE.ply or SHOT.icf")->required();
   convert->add_option("OUT", in.convert.output, "FILE.ply or FILE.ptc")->required();
-  convert->add_option("--radius", in.convert.radius, "Of points that name none (default: 0)")
-      ->check(CLI::Range(0.0, 1e9));
+  convert->add_option("--radius", in.convert.radius, "Of points that name none (default: 0)")->check(between(0.0, 1e9));
   convert->callback([&] { code = convertCommand(in.convert); });
 }
 
@@ -240,8 +236,9 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
       return;
     }
     for (const std::string& file : in.chart.files)
-      if (const std::string problem = CLI::ExistingFile(file); !problem.empty())
-        throw CLI::ValidationError("SCENE", problem + " (only --stability takes folders)");
+      if (const std::string problem = inputProblem(file); !problem.empty())
+        throw CLI::ValidationError("SCENE", "\"" + file + "\" cannot be read again and again: " + problem +
+                                                " (only --stability takes folders)");
     code = chartCommand(in.chart);
   });
 }
@@ -256,7 +253,7 @@ bool namesCommand(const std::string& text) {
 int parseAndRun(int argc, char** argv) {
   CLI::App app("A Reyes renderer with global illumination", "tomales");
   app.set_version_flag("--version", std::string("tomales ") + kVersion);
-  app.footer(kExitCodes);
+  app.footer(exitCodeHelp());
   app.require_subcommand(1);
   Invocation in;
   int code = kDone;
@@ -287,15 +284,16 @@ int parseAndRun(int argc, char** argv) {
 }  // namespace
 
 int run(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file too large (ulimit -f) is then an error of write(), told as a full disk is
-  try {
-    return parseAndRun(argc, argv);
-  } catch (const std::bad_alloc&) {
-    std::fputs("tomales: error: out of memory\n", stderr);
-  } catch (const std::exception& e) {
-    std::fputs((std::string("tomales: error: ") + e.what() + "\n").c_str(), stderr);
-  }
-  return kUnreadable;
+  openStandardFiles();
+  endWithMessages();
+  watchSignals();
+  Log log;
+  int code = kDone;
+  guarded(log, [&] { code = parseAndRun(argc, argv); });
+  if (std::fflush(stdout) != 0 || std::ferror(stdout))
+    log.report(Severity::Output, "output-write", {std::make_shared<std::string>("standard output"), 0},
+               "cannot be written");
+  return log.worst() > Severity::Info && !interruptExitCode() ? exitCodeOf(log) : code;
 }
 
 }  // namespace tomales

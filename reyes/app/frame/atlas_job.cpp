@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "reyes/app/exit_code.h"
+#include "reyes/base/folder_lock.h"
+#include "reyes/base/stop.h"
 #include "reyes/base/temporary_folder.h"
 #include "reyes/world_sum.h"
 
@@ -95,14 +98,24 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
     if (given.empty() || points) temporary.emplace(fs::temp_directory_path());
     const fs::path folder = temporary ? temporary->path() : fs::path(given);
     const MapNames names = mapNames(scene, atlas);
+    makeAtlasFolder(folder);
+    std::optional<FolderLock> lock;
+    if (!temporary)
+      lock.emplace(folder, [&] {
+        log.report(Severity::Info, "atlas-wait", {},
+                   "waits for another program that uses the atlas in \"" + folder.string() + "\"");
+      });
     const bool byHand = points || isMadeByHand(folder);
     if (points) bricksOfPoints(given, folder, names, {.maxError = settings.brickMaxError}, log);
-    if (!byHand) writeAtlas(folder, scene, rays, shading, names, atlas, {}, stats, log);
+    if (!byHand)
+      makeAnewWhatIsDamaged([&] { writeAtlas(folder, scene, rays, shading, names, atlas, {}, stats, log); }, log);
     auto maps = std::make_unique<const IrradianceAtlas>(folder, scene, names, brickCacheBytes(settings), log);
     if (byHand) warnOfStrangers(*maps, atlas.world, log);
     return maps;
+  } catch (const Stopped&) {
+    return nullptr;
   } catch (const std::runtime_error& e) {  // FileError, or of the file system
-    log.report(Severity::Missing, "atlas", {}, std::string(e.what()) + ": rendered without indirect light");
+    log.report(severityOfLoss(e), "atlas", {}, std::string(e.what()) + ": rendered without indirect light");
     return nullptr;
   }
 }
@@ -120,7 +133,7 @@ std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const Rende
     warnOfStrangers(*maps, atlas.world, log);
     return maps;
   } catch (const std::runtime_error& e) {  // FileError, or of the file system
-    log.report(Severity::Missing, "baked", {}, std::string(e.what()) + ": rendered without indirect light");
+    log.report(severityOfLoss(e), "baked", {}, std::string(e.what()) + ": rendered without indirect light");
     return nullptr;
   }
 }
@@ -129,7 +142,10 @@ void bakeGathered(const GiServices& services, const DeepFrame& layout, const Til
                   const RenderSettings& settings, Log& log) {
   try {
     const AtlasSettings atlas = atlasSettings(settings, scene);
-    services.bake(layout, tiles, settings.bakedFolder, mapNames(scene, atlas).ofSurfaces(), atlas.world);
+    makeAnewWhatIsDamaged(
+        [&] { services.bake(layout, tiles, settings.bakedFolder, mapNames(scene, atlas).ofSurfaces(), atlas.world); },
+        log);
+  } catch (const Stopped&) {  // what was gathered before stays
   } catch (const std::runtime_error& e) {
     log.report(Severity::Output, "baked-write", {}, std::string(e.what()) + ": the gathered light is not kept");
   }

@@ -179,6 +179,7 @@ void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::op
   DeepFrame frame = layout;
   FrameHider hider(layout, scene_, *shading_, control(0, 0.99f), stats_, log_);
   bool complete = true;
+  std::atomic<bool> dropped{false};
   finish(frame, [&](std::span<const uint32_t> tiles, const TilePlace& put) {
     TurnsTimer timer(stats_, "hide", "shade");
     const TileSink sink{{},
@@ -186,12 +187,17 @@ void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::op
                           keep(index, tile);
                           const TurnsTimer::Turn turn(timer);
                           tomales::shadeTile(tile, scene_, *shading_, shadeContext());
+                          if (interrupted()) {  // as shadeTiles() does
+                            dropped = true;
+                            return;
+                          }
                           place(index, std::move(tile), put);
                         },
                         find};
     complete = hider.hide(tiles, sink) && complete;
   });
-  if (!complete) log_.report(Severity::Warning, "interrupted", {}, "interrupted: finished buckets are written");
+  if (!complete || dropped)
+    log_.report(Severity::Warning, "interrupted", {}, "interrupted: finished buckets are written");
 }
 
 void FrameJob::place(size_t index, DeepTile&& tile, const TilePlace& put) const {

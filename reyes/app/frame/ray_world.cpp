@@ -74,7 +74,7 @@ std::unique_ptr<RayWorld::Built> RayWorld::build() {
     return nullptr;
   };
   for (const SourceFile& source : shot_.sources)
-    if (source.path == "-") return give("the RIB came from standard input");
+    if (source.path == "-") return give("the RIB came from standard input or a pipe");
   if (!sourcesAreUnchanged())
     return give("\"" + shot_.sources.front().path + "\" or what follows it is gone or has changed");
   std::optional<Scene> scene;
