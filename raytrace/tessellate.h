@@ -63,7 +63,7 @@ struct CoarseGroup {
   size_t bytes() const;
 };
 
-/// Rays keep away from a coarse surface by so much of its deviation: docs/decisions/0006-hit-list-offset.md
+/// Rays keep away from a coarse surface by so much of its deviation: docs/decisions/0006
 constexpr float kOffsetFactor = 1.5f;
 
 /// One for each of scene.groups; empty for what no ray may meet and no light is made of, for objects that are

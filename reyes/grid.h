@@ -1,6 +1,6 @@
 // Noun: diced pieces of one object, all of (nu+1) x (nv+1) vertices and nu x nv micropolygons, structure of arrays in
 // one aligned block. Large pieces are alone; small ones share a grid, so that what is done once a grid is done once for
-// dozens (docs/decisions/0040-stacked-grids.md). They are stacked: vertex (i, j) of piece p has index (p * (nv+1) + j)
+// dozens (docs/decisions/0040). They are stacked: vertex (i, j) of piece p has index (p * (nv+1) + j)
 // * (nu+1) + i, and micropolygon (i, j) number (p * (nv+1) + j) * nu + i; numbers between the last row of a piece and
 // the next piece name nothing. A grid is diced once, shared by the buckets that its bound touches, and freed after the
 // last of them.

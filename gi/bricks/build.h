@@ -1,7 +1,7 @@
 // Verb: point cloud -> bricks and their octree (irradiance-atlas 3.2), with one brick of each level in memory at a time
 // (6.1). What differs from the paper: a point is its disk's box, cut by its plane, and weighs by its area, so that a
 // voxel holds the mean over the surface in it; and coarse voxels too keep a layer for every direction
-// (docs/decisions/0021-brick-layers.md). Deterministic: depends on the order of points, not on threads.
+// (docs/decisions/0021). Deterministic: depends on the order of points, not on threads.
 #pragma once
 #include <functional>
 

@@ -9,10 +9,10 @@ namespace tomales {
 namespace {
 
 /// At `maxerror` 1. Ward's split sphere needs a = 1/4 for the error that the paper's function has at kappa =
-/// 1 (docs/gi_measured.md), so that `maxerror` means the same for both; and the Hessian, which knows where light is
-/// even and where it is not, has about as many records as that. Where it may be off by more, its records lie
-/// less close to edges, so that some are left elsewhere, and fewer overlap: what they are off by is then no
-/// noise (docs/decisions/0106).
+/// 1 (docs/measured/irradiance_cache.md), so that `maxerror` means the same for both; and the Hessian, which knows
+/// where light is even and where it is not, has about as many records as that. Where it may be off by more, its records
+/// lie less close to edges, so that some are left elsewhere, and fewer overlap: what they are off by is then no noise
+/// (docs/decisions/0106).
 CacheSettings settingsOf(ErrorFunction function, float maxError) {
   switch (function) {
     case ErrorFunction::Ward:

@@ -7,7 +7,8 @@
 namespace tomales {
 namespace {
 
-/// At `maxerror` 1, in squared pixels: about as many records as the paper's function (docs/gi_measured.md).
+/// At `maxerror` 1, in squared pixels: about as many records as the paper's function
+/// (docs/measured/irradiance_cache.md).
 constexpr float kHessianTolerance = 4;
 constexpr float kContrast = 4;  ///< Between neighbours of a cell, in means of the hemisphere: a small bright source.
 constexpr int kMostSplit = 8;

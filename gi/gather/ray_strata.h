@@ -8,7 +8,7 @@ namespace tomales {
 /// Where in each cell its ray goes: correlated multi-jitter (Kensler 2013). The columns of a ring take
 /// different heights in their cells and the rings of a sector different angles, so both projections are
 /// stratified as finely as there are rays; plain jitter in the cells costs a third more rays for the same
-/// error (docs/performance/indirect.md).
+/// error (docs/measured/indirect.md).
 class CellJitter {
  public:
   CellJitter(const HemisphereCells& cells, uint32_t key)

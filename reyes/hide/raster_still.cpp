@@ -164,7 +164,7 @@ HWY_INLINE void ask(const RasterJob& job, const Corners& q, const Triangles<Edge
 }
 
 /// One list for many cells: which of few pixels a small cell covers is no branch that could be foreseen
-/// (docs/decisions/0098).
+/// (docs/decisions/0102).
 template <class Edges>
 void claimCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   size_t count = listAsks(job.out, q, cells);

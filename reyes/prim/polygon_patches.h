@@ -1,6 +1,6 @@
 // Faces of polygons cut into bilinear patches. A convex quadrilateral is one patch, and so is a triangle, with an edge
 // of no length; every other face becomes triangles and quadrilaterals around the centres of its convex pieces, which
-// meet at the midpoints of the edges (docs/decisions/0041-a-triangle-is-one-patch.md). Private to polygons.
+// meet at the midpoints of the edges (docs/decisions/0041). Private to polygons.
 #pragma once
 #include <span>
 

@@ -138,7 +138,7 @@ void lightAlong(void* host, const TmGrid* g, TmConstVec3 L, const float* density
 }
 
 // Half as many as of the light: twice as many win little where the lobe is narrow, and cost something where it is wide
-// (docs/performance/rays.md).
+// (docs/measured/rays.md).
 int32_t lobeSamples(void* host, const TmGrid*) { return (batchOf(host).lights.mostSamples(batchOf(host)) + 1) / 2; }
 
 void stratified(void* host, const TmGrid* g, int32_t sample, int32_t samples, float* xi0, float* xi1) {
