@@ -147,7 +147,10 @@ MapNames MapNames::ofSurfaces() const {
 PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                            const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
   makeAtlasFolder(folder);
-  const FolderLock lock(folder, [&] { log.report(Severity::Info, "photons-wait", {}, "waits for another program that writes photons to \"" + folder.string() + "\""); });
+  const FolderLock lock(folder, [&] {
+    log.report(Severity::Info, "photons-wait", {},
+               "waits for another program that writes photons to \"" + folder.string() + "\"");
+  });
   const char* channel = settings.photons.direct ? kPower : kIndirectPower;
   std::map<std::string, PointFileWriter> files;
   for (const std::string& name : names.all())

@@ -250,7 +250,8 @@ std::string headerOf(const PointFile& cloud) {
   return h + "end_header\n";
 }
 
-void writeRows(const PointFile& cloud, size_t chunk, const std::function<void(const void* data, size_t size)>& write) {
+void writeRows(const PointFile& cloud, size_t chunk,
+               const std::function<void(const void* data, size_t size)>& write) {
   PointCloud points;
   cloud.read(chunk, points);
   std::vector<float> rows;

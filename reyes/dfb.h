@@ -27,7 +27,8 @@ struct Shot {
 class DfbWriter {
  public:
   /// Resumed: only if the shot is the same. Null: `error` says why.
-  static std::unique_ptr<DfbWriter> create(const std::string& path, const Shot& shot, Unfinished unfinished, std::string& error);
+  static std::unique_ptr<DfbWriter> create(const std::string& path, const Shot& shot, Unfinished unfinished,
+                                           std::string& error);
 
   size_t tilesKept() const { return kept_; }
   bool has(size_t tile) const;

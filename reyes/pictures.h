@@ -89,8 +89,8 @@ class PictureLibrary {
   /// Null: `error` says why; likewise below.
   virtual std::unique_ptr<PictureReader> open(const std::string& path, std::string& error) const = 0;
   virtual std::unique_ptr<TextureCache> textures(const TextureSettings& settings) const = 0;
-  /// The file is there when it is whole. A cube becomes a latitude-longitude picture, which is what environment lookups read.
-  /// False: `error` says why, and no file is left behind.
+  /// The file is there when it is whole. A cube becomes a latitude-longitude picture, which is what
+  /// environment lookups read. False: `error` says why, and no file is left behind.
   virtual bool makeTexture(const TextureRecipe& recipe, std::string& error) const = 0;
 };
 

@@ -57,7 +57,8 @@ void makeFolder(const std::string& folder) {
 }
 
 void refuseInput(const fs::path& output, const std::vector<std::string>& inputs) {
-  if (isAmong(output, inputs)) throw FileError(fmt::format("\"{}\" would replace what it is made of", output.string()));
+  if (isAmong(output, inputs))
+    throw FileError(fmt::format("\"{}\" would replace what it is made of", output.string()));
 }
 
 /// One cloud of several, chunk by chunk.

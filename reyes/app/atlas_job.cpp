@@ -93,7 +93,11 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
     const MapNames names = mapNames(scene, atlas);
     makeAtlasFolder(folder);
     std::optional<FolderLock> lock;
-    if (!temporary) lock.emplace(folder, [&] { log.report(Severity::Info, "atlas-wait", {}, "waits for another program that uses the atlas in \"" + folder.string() + "\""); });
+    if (!temporary)
+      lock.emplace(folder, [&] {
+        log.report(Severity::Info, "atlas-wait", {},
+                   "waits for another program that uses the atlas in \"" + folder.string() + "\"");
+      });
     const bool byHand = points || isMadeByHand(folder);
     if (points) bricksOfPoints(given, folder, names, {.maxError = settings.brickMaxError}, log);
     if (!byHand) writeAtlas(folder, scene, rays, shading, names, atlas, {}, stats, log);

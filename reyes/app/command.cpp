@@ -1,6 +1,5 @@
 #include "reyes/app/command.h"
 
-
 #include "reyes/app/atlas_commands.h"
 #include "reyes/app/catrib.h"
 #include "reyes/app/chart/chart.h"

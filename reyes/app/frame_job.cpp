@@ -180,7 +180,8 @@ void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::op
                         }, find};
     complete = hider.hide(tiles, sink) && complete;
   });
-  if (!complete || dropped) log_.report(Severity::Warning, "interrupted", {}, "interrupted: finished buckets are written");
+  if (!complete || dropped)
+    log_.report(Severity::Warning, "interrupted", {}, "interrupted: finished buckets are written");
 }
 
 void FrameJob::place(size_t index, DeepTile&& tile, const TilePlace& put) const {

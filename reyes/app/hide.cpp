@@ -42,7 +42,8 @@ void hideToFile(Scene& scene, int world, const RenderSettings& settings, Stats& 
   job.openAll();
   Shot shot{scene, layOutFrame(scene), settings.seed, sourcesOf(settings.files), std::filesystem::current_path().string(), world};
   std::string error;
-  const auto file = DfbWriter::create(path, shot, settings.resume ? Unfinished::Resumed : Unfinished::Kept, error);
+  const auto file =
+      DfbWriter::create(path, shot, settings.resume ? Unfinished::Resumed : Unfinished::Kept, error);
   if (!file) return unwritten(error);
   if (settings.resume)
     log.report(Severity::Info, "resume", {},
@@ -54,10 +55,13 @@ void hideToFile(Scene& scene, int world, const RenderSettings& settings, Stats& 
                         if (!file->write(index, tile)) full = true;
                       }, {}};
   const bool complete = job.hide(shot.frame, sink);
-  if (full) return unwritten(file->error() + "; finished buckets are in \"" + file->unfinishedPath() + "\", and --resume adds the others");
+  if (full)
+    return unwritten(file->error() + "; finished buckets are in \"" + file->unfinishedPath() +
+                     "\", and --resume adds the others");
   if (!complete)
     return log.report(Severity::Warning, "interrupted", {},
-                      "interrupted: finished buckets are in \"" + file->unfinishedPath() + "\", and --resume adds the others");
+                      "interrupted: finished buckets are in \"" + file->unfinishedPath() +
+                          "\", and --resume adds the others");
   if (!file->finish()) unwritten(file->error());
 }
 

@@ -34,7 +34,8 @@ bool isIgnored(int number) {
 
 void openStandardFiles() {
   for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (::fcntl(number, F_GETFD) < 0) ::open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY);  // takes the lowest number
+    if (::fcntl(number, F_GETFD) < 0)
+      ::open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY);  // takes the lowest number
 }
 
 void watchSignals() {

@@ -31,7 +31,10 @@ void writeMap(const std::vector<RadiosityChart>& charts, const std::filesystem::
   const std::filesystem::path base = folder.path() / "base.exr";
   std::string error;
   const bool written = writeImage(base.string(), pictureOf(charts), false, log);
-  const bool made = written && makeTexture({.pictures = {base.string()}, .file = file.string(), .sWrap = "clamp", .tWrap = "clamp"}, error);
+  const bool made =
+      written &&
+      makeTexture({.pictures = {base.string()}, .file = file.string(), .sWrap = "clamp", .tWrap = "clamp"},
+                  error);
   if (!made) throw FileError(fmt::format("\"{}\": {}", file.string(), written ? error : "cannot be written"));
 }
 
@@ -76,7 +79,7 @@ std::unique_ptr<const HitRadiance> prepareRadiosity(const RayTools& tools, const
   try {
     maps = std::make_unique<const RadiosityMaps>(*tools.rays, *tools.shading, camera, radiosity, log);
     if (!settings.radiosityFolder.empty()) writeRadiosityMaps(*maps, scene, settings.radiosityFolder, log);
-  } catch (const Stopped&) {  // what there is may be used
+  } catch (const Stopped&) {               // what there is may be used
   } catch (const std::runtime_error& e) {  // FileError, or of the file system
     log.report(Severity::Missing, "radiosity-maps", {}, fmt::format("radiosity maps cannot be written: {}; they are used all the same", e.what()));
   }

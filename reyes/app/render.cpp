@@ -147,9 +147,7 @@ ExitCode exitCodeOf(const Log& log) {
   }
 }
 
-int renderCommand(const RenderSettings& settings) {
-  return RenderRun(settings, renderFrame).run();
-}
+int renderCommand(const RenderSettings& settings) { return RenderRun(settings, renderFrame).run(); }
 
 int hideCommand(const RenderSettings& settings) {
   const auto job = [](Scene& scene, int world, const RenderSettings& s, Stats& stats, Log& log,

@@ -132,7 +132,8 @@ void writeStats(const RenderSettings& settings, const Stats& stats, double total
       statsJson(settings, stats, total_s, log).dump(2, ' ', false, Json::error_handler_t::replace);
   std::string why = "it would replace what is read";
   if (isAmong(settings.statsFile, settings.files) || !writeFile(settings.statsFile, text + '\n', why))
-    log.report(Severity::Output, "stats-write", {}, "\"" + settings.statsFile + "\" could not be written: " + why);
+    log.report(Severity::Output, "stats-write", {},
+               "\"" + settings.statsFile + "\" could not be written: " + why);
 }
 
 void writeLastStats(const RenderSettings& settings, const Stats& stats, double total_s, Log& log) {

@@ -49,7 +49,9 @@ struct ChunkWriter::Impl {
     if (std::fwrite(data, 1, size, file->stream()) != size) fail(std::strerror(errno));
     offset += size;
   }
-  [[noreturn]] void fail(const std::string& why) const { throw FileError(fmt::format("\"{}\" cannot be written: {}", path, why)); }
+  [[noreturn]] void fail(const std::string& why) const {
+    throw FileError(fmt::format("\"{}\" cannot be written: {}", path, why));
+  }
   /// Where the bytes went.
   Entry writeFrame(std::span<const std::byte> bytes) {
     if (bytes.size() > kMostChunkBytes) throw FileError(fmt::format("\"{}\": a chunk of {} bytes is too large", path, bytes.size()));

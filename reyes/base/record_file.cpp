@@ -107,9 +107,10 @@ std::string lastProblem() { return std::strerror(errno); }
 
 }  // namespace
 
-std::unique_ptr<RecordWriter> RecordWriter::create(const std::string& path, const RecordFileKind& kind, Unfinished unfinished,
-                                                   std::string& error) {
-  auto file = UnfinishedFile::create(path, unfinished == Unfinished::Removed ? UnfinishedKind::Scratch : UnfinishedKind::Resumable, error);
+std::unique_ptr<RecordWriter> RecordWriter::create(const std::string& path, const RecordFileKind& kind,
+                                                   Unfinished unfinished, std::string& error) {
+  auto file = UnfinishedFile::create(
+      path, unfinished == Unfinished::Removed ? UnfinishedKind::Scratch : UnfinishedKind::Resumable, error);
   if (!file) return nullptr;
   std::unique_ptr<RecordWriter> writer(new RecordWriter(std::move(file), kind));
   if (unfinished == Unfinished::Resumed) writer->keepWholeRecords();
@@ -122,7 +123,8 @@ void RecordWriter::keepWholeRecords() {
   if (!problemOf(file_->descriptor(), kind_).empty()) return;
   const uint64_t size = sizeOf(file_->descriptor());
   uint64_t at = sizeof(Header), next = 0;
-  for (RecordHeader h{}; readRecord(file_->descriptor(), size, at, h, next) && h.kind != kDirectory; at = next)
+  for (RecordHeader h{}; readRecord(file_->descriptor(), size, at, h, next) && h.kind != kDirectory;
+       at = next)
     offsets_[{h.kind, h.index}] = at;
   if (::ftruncate(file_->descriptor(), static_cast<off_t>(at)) == 0)
     end_ = at;

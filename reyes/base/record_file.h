@@ -40,7 +40,8 @@ enum class Unfinished {
 class RecordWriter {
  public:
   /// Null: cannot be written, `error` says why.
-  static std::unique_ptr<RecordWriter> create(const std::string& path, const RecordFileKind& kind, Unfinished unfinished, std::string& error);
+  static std::unique_ptr<RecordWriter> create(const std::string& path, const RecordFileKind& kind,
+                                              Unfinished unfinished, std::string& error);
 
   bool has(RecordName name) const;
   /// A record kept or written before; nothing if there is none.
@@ -58,7 +59,8 @@ class RecordWriter {
   uint64_t bytesWritten() const { return end_; }
 
  private:
-  RecordWriter(std::unique_ptr<UnfinishedFile> file, const RecordFileKind& kind) : file_(std::move(file)), kind_(kind) {}
+  RecordWriter(std::unique_ptr<UnfinishedFile> file, const RecordFileKind& kind)
+      : file_(std::move(file)), kind_(kind) {}
   bool append(const void* data, size_t size);
   bool fail(const std::string& what);
   void keepWholeRecords();

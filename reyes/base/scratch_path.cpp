@@ -29,7 +29,9 @@ std::string randomDigits() {
 }
 
 bool isScratchName(const std::string& name, const std::string& prefix) {
-  if (name.size() != prefix.size() + kRandomDigits + kSuffix.size() || !name.starts_with(prefix) || !name.ends_with(kSuffix)) return false;
+  if (name.size() != prefix.size() + kRandomDigits + kSuffix.size() || !name.starts_with(prefix) ||
+      !name.ends_with(kSuffix))
+    return false;
   const auto digits = name.begin() + static_cast<std::ptrdiff_t>(prefix.size());
   return std::all_of(digits, digits + kRandomDigits, [](unsigned char c) { return std::isxdigit(c); });
 }
@@ -77,7 +79,8 @@ bool ScratchPath::create(Kind kind) {
     descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   else if (::mkdir(path_.c_str(), 0700) == 0)
     descriptor_ = openToLock(path_);
-  if (descriptor_ < 0 && errno != EEXIST) throw fs::filesystem_error("cannot be made", path_, {errno, std::generic_category()});
+  if (descriptor_ < 0 && errno != EEXIST)
+    throw fs::filesystem_error("cannot be made", path_, {errno, std::generic_category()});
   if (descriptor_ < 0) return false;
   ::flock(descriptor_, LOCK_EX);  // waits only for who finds out whether it is stale
   struct stat s {};

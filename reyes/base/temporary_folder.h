@@ -9,7 +9,8 @@ namespace tomales {
 class TemporaryFolder {
  public:
   /// In `parent`. Throws std::filesystem::filesystem_error.
-  explicit TemporaryFolder(const std::filesystem::path& parent) : place_(parent, "tomales", ScratchPath::Kind::Folder) {}
+  explicit TemporaryFolder(const std::filesystem::path& parent)
+      : place_(parent, "tomales", ScratchPath::Kind::Folder) {}
 
   const std::filesystem::path& path() const { return place_.path(); }
 

@@ -39,8 +39,10 @@ bool writtenBack(int descriptor) { return ::fsync(descriptor) == 0 || errno == E
 
 /// Is this still the file of that name?
 bool isNamed(int descriptor, const std::string& path) {
-  struct stat open {}, named {};
-  return ::fstat(descriptor, &open) == 0 && ::lstat(path.c_str(), &named) == 0 && open.st_dev == named.st_dev && open.st_ino == named.st_ino;
+  struct stat open {
+  }, named{};
+  return ::fstat(descriptor, &open) == 0 && ::lstat(path.c_str(), &named) == 0 &&
+         open.st_dev == named.st_dev && open.st_ino == named.st_ino;
 }
 
 }  // namespace
@@ -48,11 +50,13 @@ bool isNamed(int descriptor, const std::string& path) {
 fs::path throughLinks(const fs::path& target) {
   fs::path out = target;
   std::error_code none;
-  for (int i = 0; i < kMostLinks && fs::is_symlink(out, none) && !isOfProcesses(out); ++i) out = out.parent_path() / fs::read_symlink(out, none);
+  for (int i = 0; i < kMostLinks && fs::is_symlink(out, none) && !isOfProcesses(out); ++i)
+    out = out.parent_path() / fs::read_symlink(out, none);
   return out;
 }
 
-std::unique_ptr<UnfinishedFile> UnfinishedFile::create(const std::string& target, UnfinishedKind kind, std::string& error) {
+std::unique_ptr<UnfinishedFile> UnfinishedFile::create(const std::string& target, UnfinishedKind kind,
+                                                       std::string& error) {
   std::unique_ptr<UnfinishedFile> file(new UnfinishedFile);
   std::error_code none;
   file->target_ = throughLinks(target);
@@ -60,17 +64,23 @@ std::unique_ptr<UnfinishedFile> UnfinishedFile::create(const std::string& target
     error = why;
     return nullptr;
   };
-  if (!file->target_.has_filename() || fs::is_directory(file->target_, none)) return refused("the name is that of a directory");
-  if (fs::is_symlink(file->target_, none) && !isOfProcesses(file->target_)) return refused("it is a link that leads nowhere");
+  if (!file->target_.has_filename() || fs::is_directory(file->target_, none))
+    return refused("the name is that of a directory");
+  if (fs::is_symlink(file->target_, none) && !isOfProcesses(file->target_))
+    return refused("it is a link that leads nowhere");
   const bool stream = isStream(target);
-  if (stream && kind != UnfinishedKind::Stream) return refused("it is a pipe or a device, and no file that can be replaced");
-  const bool opened = kind == UnfinishedKind::Resumable ? file->openResumable(error) : stream ? file->openStream(error) : file->openScratch(error);
+  if (stream && kind != UnfinishedKind::Stream)
+    return refused("it is a pipe or a device, and no file that can be replaced");
+  const bool opened = kind == UnfinishedKind::Resumable ? file->openResumable(error)
+                      : stream                          ? file->openStream(error)
+                                                        : file->openScratch(error);
   return opened ? std::move(file) : nullptr;
 }
 
 bool UnfinishedFile::openScratch(std::string& error) {
   try {
-    scratch_ = std::make_unique<ScratchPath>(target_.parent_path(), target_.filename().string(), ScratchPath::Kind::File);
+    scratch_ = std::make_unique<ScratchPath>(target_.parent_path(), target_.filename().string(),
+                                             ScratchPath::Kind::File);
   } catch (const fs::filesystem_error& e) {
     error = e.code().message();
     return false;
@@ -84,7 +94,8 @@ bool UnfinishedFile::openStream(std::string& error) {
   return descriptor_ >= 0 || failedWith(errno, error);
 }
 
-/// Another process may give the file its name, or discard it, between the two calls here: what is locked then must not be written to.
+/// Another process may give the file its name, or discard it, between the two calls here: what is locked then
+/// must not be written to.
 bool UnfinishedFile::openResumable(std::string& error) {
   path_ = target_.string() + ".part";
   do {
@@ -130,13 +141,15 @@ void UnfinishedFile::discard() {
 bool writeFile(const std::string& target, const std::string& content, std::string& error) {
   const auto file = UnfinishedFile::create(target, UnfinishedKind::Stream, error);
   if (!file) return false;
-  if (std::fwrite(content.data(), 1, content.size(), file->stream()) != content.size()) return failedWith(errno, error);
+  if (std::fwrite(content.data(), 1, content.size(), file->stream()) != content.size())
+    return failedWith(errno, error);
   return file->finish(error);
 }
 
 bool isAmong(const fs::path& target, const std::vector<std::string>& files) {
   std::error_code none;
-  return std::any_of(files.begin(), files.end(), [&](const std::string& file) { return fs::equivalent(file, target, none); });
+  return std::any_of(files.begin(), files.end(),
+                     [&](const std::string& file) { return fs::equivalent(file, target, none); });
 }
 
 bool moveFinished(const fs::path& from, const fs::path& target, std::string& error) {

@@ -143,7 +143,8 @@ std::optional<Run> Lab::run(const std::vector<std::string>& arguments) {
   if (interrupted() || secondsLeft() <= 0) return std::nullopt;
 
   const TemporaryFolder folder(settings_.folder);
-  const std::string picture = folder.path() / "picture.exr", statistics = folder.path() / "stats.json", messages = folder.path() / "messages";
+  const std::string picture = folder.path() / "picture.exr", statistics = folder.path() / "stats.json",
+                    messages = folder.path() / "messages";
   all.insert(all.begin(), {"tomales", "render", "-q"});
   all.insert(all.end(), {"-o", picture, "--one-picture", "--stats", statistics});
   all.insert(all.end(), settings_.scene.begin(), settings_.scene.end());

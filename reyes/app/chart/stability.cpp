@@ -76,7 +76,8 @@ class Laboratory {
     const std::string stem = (fs::path(settings_.folder) / fmt::format("{}_{:08x}_{}", fs::path(scene.file).stem().string(), place & 0xffffffff, value)).string();
     const std::string rib = stem + ".rib", truthRib = stem + ".truth.rib", text = replaced(scene.text, "$knob", value);
     std::string why;
-    if (!writeFile(rib, replaced(text, "$truth", "0"), why) || !writeFile(truthRib, replaced(text, "$truth", "1"), why)) {
+    if (!writeFile(rib, replaced(text, "$truth", "0"), why) ||
+        !writeFile(truthRib, replaced(text, "$truth", "1"), why)) {
       out.missing.push_back(fmt::format("{} {}: \"{}\" cannot be written: {}", scene.knob, value, rib, why));
       return;
     }

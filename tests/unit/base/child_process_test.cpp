@@ -65,7 +65,8 @@ TEST(ChildProcesses, EndWithAllThatTheyHaveStartedAtAnAbruptEnd) {
   const pid_t parent = ::fork();
   if (parent == 0) {
     int problem = 0;
-    const pid_t shell = startChild({"/bin/sh", {"sh", "-c", "sleep 1000 & wait"}, {{pipe.ends[1], STDOUT_FILENO}}}, problem);
+    const pid_t shell =
+        startChild({"/bin/sh", {"sh", "-c", "sleep 1000 & wait"}, {{pipe.ends[1], STDOUT_FILENO}}}, problem);
     const ChildGuard guard(shell);
     ::usleep(100000);  // the shell starts the other one
     endAbruptly(0);

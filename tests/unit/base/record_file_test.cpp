@@ -27,7 +27,9 @@ class RecordFiles : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  std::unique_ptr<RecordWriter> writer(Unfinished unfinished = Unfinished::Kept) { return RecordWriter::create(path_, kKind, unfinished, error_); }
+  std::unique_ptr<RecordWriter> writer(Unfinished unfinished = Unfinished::Kept) {
+    return RecordWriter::create(path_, kKind, unfinished, error_);
+  }
   std::string content() const {
     std::ifstream file(path_, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};

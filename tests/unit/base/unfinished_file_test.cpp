@@ -25,14 +25,18 @@ class UnfinishedFiles : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   std::string path(const char* name) const { return (folder_ / name).string(); }
-  std::unique_ptr<UnfinishedFile> create(const char* name, UnfinishedKind kind = UnfinishedKind::Scratch) { return UnfinishedFile::create(path(name), kind, error_); }
+  std::unique_ptr<UnfinishedFile> create(const char* name, UnfinishedKind kind = UnfinishedKind::Scratch) {
+    return UnfinishedFile::create(path(name), kind, error_);
+  }
   void write(const char* name, const std::string& text) const { std::ofstream(path(name)) << text; }
   std::string read(const char* name) const {
     std::ifstream file(path(name));
     return {std::istreambuf_iterator<char>(file), {}};
   }
   static void put(UnfinishedFile& file, const std::string& text) { std::fputs(text.c_str(), file.stream()); }
-  int count() const { return static_cast<int>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator())); }
+  int count() const {
+    return static_cast<int>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
   /// The exit code of another process that does this and then ends without destructors.
   static int inAnotherProcess(const std::function<void()>& work) {
     const pid_t child = ::fork();
