@@ -12,9 +12,10 @@ bool sameLayout(const std::vector<Primvar>& a, const std::vector<Primvar>& b) {
   });
 }
 
-// Key times inside the shutter, its opening first. Still, or a closed shutter: that one time. shapeTimes: empty if it keeps its
-// shape.
-std::vector<float> keyTimesOf(const std::vector<float>& shapeTimes, const Motion& cameraFromObject, const Options& options) {
+// Key times inside the shutter, its opening first. Still, or a closed shutter: that one time. shapeTimes: empty if it
+// keeps its shape.
+std::vector<float> keyTimesOf(const std::vector<float>& shapeTimes, const Motion& cameraFromObject,
+                              const Options& options) {
   std::vector<float> times{options.shutterOpen};
   const bool open = options.sampleMotion && options.shutterClose > options.shutterOpen;
   if (open && (cameraFromObject.moving() || !shapeTimes.empty())) {
@@ -34,8 +35,9 @@ float largestScale(const mat4& m) {
   return std::max({glm::length(vec3(m[0])), glm::length(vec3(m[1])), glm::length(vec3(m[2]))});
 }
 
-// Motion in the frame of the camera at shutter open, where `m` is the place of the object. Not the camera's own motion at that
-// time, which may lie between two keys: what stands still must not be a rounding away from where the camera sees it.
+// Motion in the frame of the camera at shutter open, where `m` is the place of the object. Not the camera's own motion
+// at that time, which may lie between two keys: what stands still must not be a rounding away from where the camera
+// sees it.
 Motion heldCamera(const Motion& worldFromObject, float open, const mat4& m) {
   if (!worldFromObject.moving()) return Motion::still(m);
   return Motion::still(m * glm::inverse(worldFromObject.at(open))) * worldFromObject;
@@ -44,7 +46,8 @@ Motion heldCamera(const Motion& worldFromObject, float open, const mat4& m) {
 // Points and curves turn to the eye as it stands when the shutter opens.
 void turnToEye(Object& o, const mat4& cameraFromObject, bool perspective) {
   const mat4 objectFromCamera = glm::inverse(cameraFromObject);
-  const vec3 eye = transformPoint(objectFromCamera, vec3(0)), forward = transformVector(objectFromCamera, vec3(0, 0, 1));
+  const vec3 eye = transformPoint(objectFromCamera, vec3(0)),
+             forward = transformVector(objectFromCamera, vec3(0, 0, 1));
   for (PrimPtr& shape : o.shapes)
     if (PrimPtr turned = shape->facing(eye, forward, perspective)) shape = std::move(turned);
 }
@@ -81,14 +84,16 @@ void Scene::derive(Object& o) const {
   turnToEye(o, m, options.projection == ProjectionKind::Perspective);
   o.flipsNormal = (glm::determinant(mat3(m)) < 0) != o.attributes->insideOut;
   o.displacementBound = 0;  // What grows carries its displacement along.
-  for (const float t : o.keyTimes) o.displacementBound = std::max(o.displacementBound, displacementBoundOf(*o.attributes, o.cameraFromObject.at(t)));
+  for (const float t : o.keyTimes)
+    o.displacementBound = std::max(o.displacementBound, displacementBoundOf(*o.attributes, o.cameraFromObject.at(t)));
 }
 
 void Scene::derive(Procedural& p) const {
   p.cameraFromObject = cameraFromWorld * p.worldFromObject;
   p.keyTimes = keyTimesOf({}, p.cameraFromObject, options);
   p.displacementBound = 0;
-  for (const float t : p.keyTimes) p.displacementBound = std::max(p.displacementBound, displacementBoundOf(*p.attributes, p.cameraFromObject.at(t)));
+  for (const float t : p.keyTimes)
+    p.displacementBound = std::max(p.displacementBound, displacementBoundOf(*p.attributes, p.cameraFromObject.at(t)));
 }
 
 void Scene::findGroup(Object& o, int index) {

@@ -15,8 +15,7 @@ namespace {
 /// False: not all of it could be written, as `error` says.
 bool copyTo(std::FILE* out, const CatribSettings& settings, std::string& error, Log& log) {
   const auto write = [&](std::string_view text) {
-    if (error.empty() && std::fwrite(text.data(), 1, text.size(), out) != text.size())
-      error = std::strerror(errno);
+    if (error.empty() && std::fwrite(text.data(), 1, text.size(), out) != text.size()) error = std::strerror(errno);
   };
   parseRib(settings.files, *makeRibWriter({settings.binary, settings.gzip, write}), log);
   if (std::fflush(out) != 0 && error.empty()) error = std::strerror(errno);
@@ -45,10 +44,9 @@ int catribCommand(const CatribSettings& settings) {
   Log log;
   std::string error;
   if (!(settings.output.empty() ? toStandardOutput : toFile)(settings, error, log))
-    log.report(
-        Severity::Output, "output-write",
-        {std::make_shared<std::string>(settings.output.empty() ? "standard output" : settings.output), 0},
-        "cannot be written: " + error);
+    log.report(Severity::Output, "output-write",
+               {std::make_shared<std::string>(settings.output.empty() ? "standard output" : settings.output), 0},
+               "cannot be written: " + error);
   return exitCodeOf(log);
 }
 

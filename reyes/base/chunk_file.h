@@ -19,7 +19,9 @@
 namespace tomales {
 
 /// Says in a sentence what is wrong with which file.
-struct FileError : std::runtime_error { using std::runtime_error::runtime_error; };
+struct FileError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 using Bytes = std::vector<std::byte>;
 
@@ -51,9 +53,9 @@ class ChunkReader {
   ChunkReader(ChunkReader&&) noexcept;
 
   const std::string& path() const;
-  uint32_t count() const;             ///< Of chunks, without the header.
-  Bytes takeHeader();                 ///< Leaves none: it may be large, and whoever asks makes something else of it.
-  Bytes read(uint32_t chunk) const;   ///< Throws FileError.
+  uint32_t count() const;            ///< Of chunks, without the header.
+  Bytes takeHeader();                ///< Leaves none: it may be large, and whoever asks makes something else of it.
+  Bytes read(uint32_t chunk) const;  ///< Throws FileError.
   uint64_t fileBytes() const;
 
  private:

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <atomic>
 
-// oneTBB is not built for ThreadSanitizer, which therefore does not see that a loop starts after what its caller wrote and
-// ends before what its caller reads: tell it.
+// oneTBB is not built for ThreadSanitizer, which therefore does not see that a loop starts after what its caller wrote
+// and ends before what its caller reads: tell it.
 #ifdef __SANITIZE_THREAD__
 extern "C" void __tsan_acquire(void*);
 extern "C" void __tsan_release(void*);
@@ -25,8 +25,7 @@ struct ThreadLimit::Impl {
 };
 
 ThreadLimit::ThreadLimit(int threads) {
-  if (threads > 0)
-    impl_ = std::make_unique<Impl>(static_cast<size_t>(threads));
+  if (threads > 0) impl_ = std::make_unique<Impl>(static_cast<size_t>(threads));
 }
 ThreadLimit::~ThreadLimit() = default;
 

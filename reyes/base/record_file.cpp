@@ -15,7 +15,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are stored as they are in memory");
 
-constexpr int kCompression = 1;                   ///< Faster than most disks, and half the size of memory.
+constexpr int kCompression = 1;                         ///< Faster than most disks, and half the size of memory.
 constexpr uint64_t kLargestRecord = uint64_t{1} << 32;  ///< A damaged length must not ask for all memory.
 constexpr uint32_t kDirectory = ~uint32_t{0};
 constexpr char kTrailerMagic[] = "TomalEND";
@@ -38,7 +38,8 @@ struct DirectoryEntry {
   RecordName name;
   uint64_t offset;
 };
-static_assert(sizeof(Header) == 32 && sizeof(RecordHeader) == 32 && sizeof(Trailer) == 32 && sizeof(DirectoryEntry) == 16);
+static_assert(sizeof(Header) == 32 && sizeof(RecordHeader) == 32 && sizeof(Trailer) == 32 &&
+              sizeof(DirectoryEntry) == 16);
 
 uint64_t sumOf(const void* data, size_t size) { return checksum({static_cast<const std::byte*>(data), size}); }
 
@@ -123,8 +124,7 @@ void RecordWriter::keepWholeRecords() {
   if (!problemOf(file_->descriptor(), kind_).empty()) return;
   const uint64_t size = sizeOf(file_->descriptor());
   uint64_t at = sizeof(Header), next = 0;
-  for (RecordHeader h{}; readRecord(file_->descriptor(), size, at, h, next) && h.kind != kDirectory;
-       at = next)
+  for (RecordHeader h{}; readRecord(file_->descriptor(), size, at, h, next) && h.kind != kDirectory; at = next)
     offsets_[{h.kind, h.index}] = at;
   if (::ftruncate(file_->descriptor(), static_cast<off_t>(at)) == 0)
     end_ = at;

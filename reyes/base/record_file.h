@@ -20,7 +20,7 @@ namespace tomales {
 
 /// What kind of file this is, and which description of its contents the writer had.
 struct RecordFileKind {
-  char magic[9];     ///< Eight characters.
+  char magic[9];  ///< Eight characters.
   uint32_t version;
   uint64_t schema = 0;  ///< Builds whose structures differ must not read each other's files.
 };

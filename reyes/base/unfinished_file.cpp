@@ -42,8 +42,8 @@ bool writtenBack(int descriptor) { return ::fsync(descriptor) == 0 || errno == E
 bool isNamed(int descriptor, const std::string& path) {
   struct stat open {
   }, named{};
-  return ::fstat(descriptor, &open) == 0 && ::lstat(path.c_str(), &named) == 0 &&
-         open.st_dev == named.st_dev && open.st_ino == named.st_ino;
+  return ::fstat(descriptor, &open) == 0 && ::lstat(path.c_str(), &named) == 0 && open.st_dev == named.st_dev &&
+         open.st_ino == named.st_ino;
 }
 
 }  // namespace
@@ -70,8 +70,7 @@ std::unique_ptr<UnfinishedFile> UnfinishedFile::create(const std::string& target
   if (fs::is_symlink(file->target_, none) && !isOfProcesses(file->target_))
     return refused("it is a link that leads nowhere");
   const bool stream = isStream(target);
-  if (stream && kind != UnfinishedKind::Stream)
-    return refused(kIsStream);
+  if (stream && kind != UnfinishedKind::Stream) return refused(kIsStream);
   const bool opened = kind == UnfinishedKind::Resumable ? file->openResumable(error)
                       : stream                          ? file->openStream(error)
                                                         : file->openScratch(error);
@@ -80,8 +79,8 @@ std::unique_ptr<UnfinishedFile> UnfinishedFile::create(const std::string& target
 
 bool UnfinishedFile::openScratch(std::string& error) {
   try {
-    scratch_ = std::make_unique<ScratchPath>(target_.parent_path(), target_.filename().string(),
-                                             ScratchPath::Kind::File);
+    scratch_ =
+        std::make_unique<ScratchPath>(target_.parent_path(), target_.filename().string(), ScratchPath::Kind::File);
   } catch (const fs::filesystem_error& e) {
     error = e.code().message();
     return false;
@@ -143,8 +142,7 @@ void UnfinishedFile::discard() {
 bool writeFile(const std::string& target, const std::string& content, std::string& error) {
   const auto file = UnfinishedFile::create(target, UnfinishedKind::Stream, error);
   if (!file) return false;
-  if (std::fwrite(content.data(), 1, content.size(), file->stream()) != content.size())
-    return failedWith(errno, error);
+  if (std::fwrite(content.data(), 1, content.size(), file->stream()) != content.size()) return failedWith(errno, error);
   return file->finish(error);
 }
 

@@ -19,9 +19,9 @@
 namespace tomales {
 
 enum class UnfinishedKind {
-  Scratch,  ///< Its name is a ScratchPath, and it is gone unless finished. The target must be a regular file,
-            ///< or not be there.
-  Stream,   ///< The same; but devices, pipes and what /dev/stdout and /dev/fd lead to are written directly.
+  Scratch,    ///< Its name is a ScratchPath, and it is gone unless finished. The target must be a regular file,
+              ///< or not be there.
+  Stream,     ///< The same; but devices, pipes and what /dev/stdout and /dev/fd lead to are written directly.
   Resumable,  ///< It is called NAME.part, is locked, and stays until it is finished or discarded. Contents
               ///< are those of an earlier one.
 };
@@ -29,8 +29,7 @@ enum class UnfinishedKind {
 class UnfinishedFile {
  public:
   /// Null: `error` says why, without naming the file.
-  static std::unique_ptr<UnfinishedFile> create(const std::string& target, UnfinishedKind kind,
-                                                std::string& error);
+  static std::unique_ptr<UnfinishedFile> create(const std::string& target, UnfinishedKind kind, std::string& error);
   ~UnfinishedFile();
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;

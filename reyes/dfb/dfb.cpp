@@ -45,7 +45,8 @@ std::unique_ptr<DfbWriter> DfbWriter::create(const std::string& path, const Shot
                                              std::string& error) {
   auto records = RecordWriter::create(path, dfbKind(), unfinished, error);
   if (!records) return nullptr;
-  const Bytes packed = pack(Shot{withoutGeometry(shot.scene), shot.frame, shot.seed, shot.sources, shot.folder, shot.world});
+  const Bytes packed =
+      pack(Shot{withoutGeometry(shot.scene), shot.frame, shot.seed, shot.sources, shot.folder, shot.world});
   std::unique_ptr<DfbWriter> writer(new DfbWriter(std::move(records)));
   const auto kept = writer->records_->read(kShotRecord);
   if (kept == packed) {

@@ -22,8 +22,8 @@ std::string oiioError() {
   return text.empty() ? "it cannot be read" : text;
 }
 
-/// Every texel is read here: a truncated picture is found out before anything is made of it. By an ImageInput, since an ImageBuf takes strips
-/// of TIFF that are cut off for read: OpenImageIO returns true and leaves a message.
+/// Every texel is read here: a truncated picture is found out before anything is made of it. By an ImageInput, since an
+/// ImageBuf takes strips of TIFF that are cut off for read: OpenImageIO returns true and leaves a message.
 bool readWhole(const std::string& file, OIIO::ImageBuf& picture, std::string& error) {
   const auto in = OIIO::ImageInput::open(file);
   if (!in) return error = oiioError(), false;

@@ -176,15 +176,13 @@ class Evaluator {
     skipBlanks();
     size_t n = 0;
     const auto inWord = [&](char c) {
-      const bool exponentSign = (c == '-' || c == '+') && n > 0 &&
-                                (rest_[n - 1] == 'e' || rest_[n - 1] == 'E') &&
+      const bool exponentSign = (c == '-' || c == '+') && n > 0 && (rest_[n - 1] == 'e' || rest_[n - 1] == 'E') &&
                                 std::isdigit(static_cast<unsigned char>(rest_[0]));
       return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == ':' || c == '.' || exponentSign;
     };
     while (n < rest_.size() && inWord(rest_[n])) ++n;
     if (n == 0)
-      throw ExpressionError(rest_.empty() ? "it ends early"
-                                          : fmt::format("'{}' is not understood", rest_[0]));
+      throw ExpressionError(rest_.empty() ? "it ends early" : fmt::format("'{}' is not understood", rest_[0]));
     const std::string out(rest_.substr(0, n));
     rest_.remove_prefix(n);
     return out;

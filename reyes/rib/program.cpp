@@ -23,15 +23,12 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kPollEvery_s = 0.1;  ///< The wish to stop wakes nobody.
 
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// The shell becomes the program, so that what ends one of them when we are killed (startChild()) ends the
 /// other. It cannot where the command is more than a program and its arguments; "exit" is the shell's own.
 std::string forShell(const std::string& command) {
-  const bool simple =
-      command.find_first_of("|&;()<>`={}!\n") == std::string::npos && !command.starts_with("exit");
+  const bool simple = command.find_first_of("|&;()<>`={}!\n") == std::string::npos && !command.starts_with("exit");
   return simple ? "exec " + command : command;
 }
 
@@ -50,9 +47,8 @@ Program::Program(const std::string& command) {
     return;
   }
   toChild_ = in[0], fromChild_ = out[0];
-  id_ = startChild(
-      {"/bin/sh", {"sh", "-c", forShell(command)}, {{in[1], STDIN_FILENO}, {out[1], STDOUT_FILENO}}},
-      startError_);
+  id_ = startChild({"/bin/sh", {"sh", "-c", forShell(command)}, {{in[1], STDIN_FILENO}, {out[1], STDOUT_FILENO}}},
+                   startError_);
   if (id_ > 0) guard_.emplace(id_);
   close(in[1]), close(out[1]);
 }
@@ -78,8 +74,7 @@ void Program::closeInput() {
 }
 
 void Program::writeInput() {
-  const ssize_t n =
-      send(toChild_, input_.data() + written_, input_.size() - written_, MSG_NOSIGNAL | MSG_DONTWAIT);
+  const ssize_t n = send(toChild_, input_.data() + written_, input_.size() - written_, MSG_NOSIGNAL | MSG_DONTWAIT);
   if (n > 0) written_ += static_cast<size_t>(n);
   const bool broken = n < 0 && errno != EAGAIN && errno != EINTR;
   if (broken) closeInput();
@@ -90,8 +85,7 @@ size_t Program::read(char* buffer, size_t size) {
     pollfd ends[] = {{fromChild_, POLLIN, 0}, {toChild_, POLLOUT, 0}};
     const auto start = Clock::now();
     const bool writing = toChild_ >= 0 && written_ < input_.size();
-    const int ready =
-        poll(ends, writing ? 2 : 1, static_cast<int>(1000 * std::min(patience_s_, kPollEvery_s)) + 1);
+    const int ready = poll(ends, writing ? 2 : 1, static_cast<int>(1000 * std::min(patience_s_, kPollEvery_s)) + 1);
     patience_s_ -= secondsSince(start);
     hung_ = patience_s_ <= 0 || stopRequested();
     if (ready < 0 && errno != EINTR) break;
@@ -115,8 +109,7 @@ std::string Program::finish() {
     hung_ = info.si_pid == 0 && (secondsSince(start) > patience_s_ || stopRequested());
   }
   if (info.si_pid == 0)
-    return stopRequested() ? "was killed, because this program is to end"
-                           : "did not answer in time and was killed";
+    return stopRequested() ? "was killed, because this program is to end" : "did not answer in time and was killed";
   kill(-id_, SIGKILL);  // what it has left running; it can be no other's group before the wait
   guard_.reset();
   int status = 0;

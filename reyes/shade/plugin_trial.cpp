@@ -35,12 +35,10 @@ void PluginTrial::start() {
   if (programs.empty() || socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) return;
   const std::string program = programs.front();
   const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
-  const std::pair<int, int> silent[] = {{nothing, STDIN_FILENO},
-                                        {nothing, STDOUT_FILENO},
-                                        {nothing, STDERR_FILENO}};  // nothing is to be said twice
+  const std::pair<int, int> silent[] = {
+      {nothing, STDIN_FILENO}, {nothing, STDOUT_FILENO}, {nothing, STDERR_FILENO}};  // nothing is to be said twice
   int problem = 0;
-  child_ =
-      startChild({program, {program}, {silent[0], silent[1], silent[2], {ends[1], trial::kSocket}}}, problem);
+  child_ = startChild({program, {program}, {silent[0], silent[1], silent[2], {ends[1], trial::kSocket}}}, problem);
   if (child_ > 0) guard_.emplace(child_);
   close(nothing);
   close(ends[1]);

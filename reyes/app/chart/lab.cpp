@@ -62,7 +62,8 @@ void addContents(const fs::path& path, std::set<fs::path>& seen, std::string& su
 
 /// Of what the renderer said: its first error, or else the first line.
 std::string complaint(const std::string& messages) {
-  const size_t error = std::min(messages.find(": error: "), messages.find(": output error: ")), before = error == std::string::npos ? error : messages.rfind('\n', error);
+  const size_t error = std::min(messages.find(": error: "), messages.find(": output error: ")),
+               before = error == std::string::npos ? error : messages.rfind('\n', error);
   const size_t begin = before == std::string::npos ? 0 : before + 1;
   return messages.substr(begin, messages.find('\n', begin) - begin);
 }
@@ -109,9 +110,12 @@ Ended await(pid_t child, Clock::time_point deadline) {
 
 std::string placesProblem(const std::string& page, const std::string& folder) {
   std::error_code error;
-  const auto isWritable = [&error](const fs::path& path) { return fs::is_directory(path, error) && access(path.c_str(), W_OK) == 0; };
+  const auto isWritable = [&error](const fs::path& path) {
+    return fs::is_directory(path, error) && access(path.c_str(), W_OK) == 0;
+  };
   const fs::path beside = fs::path(page).parent_path();
-  if (!isWritable(beside.empty() ? "." : beside)) return "\"" + page + "\" cannot be written: no such folder, or one that must not be written to";
+  if (!isWritable(beside.empty() ? "." : beside))
+    return "\"" + page + "\" cannot be written: no such folder, or one that must not be written to";
   fs::create_directories(folder, error);
   return isWritable(folder) ? "" : "\"" + folder + "\" cannot hold what is measured: no folder that can be written to";
 }
@@ -124,7 +128,9 @@ uint64_t contentsOf(const std::vector<std::string>& files) {
 }
 
 Lab::Lab(LabSettings settings)
-    : settings_(std::move(settings)), contents_(contentsOf(settings_.scene) ^ sumOf(readAll(kSelf))), start_(Clock::now()) {
+    : settings_(std::move(settings)),
+      contents_(contentsOf(settings_.scene) ^ sumOf(readAll(kSelf))),
+      start_(Clock::now()) {
   std::error_code error;
   fs::create_directories(settings_.folder, error);  // placesProblem() says if that fails
 }
@@ -151,7 +157,8 @@ std::optional<Run> Lab::run(const std::vector<std::string>& arguments) {
   const pid_t child = start(all, messages);
   why_ = "the renderer could not be started";
   if (child < 0) return std::nullopt;
-  const Ended ended = await(child, Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(secondsLeft())));
+  const Ended ended = await(
+      child, Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(secondsLeft())));
   why_ = ended.why;
   if (std::string why; !ended.good || !moveFinished(picture, stem + ".exr", why)) {
     if (!interrupted() && why_ != "over the budget") {
@@ -163,7 +170,8 @@ std::optional<Run> Lab::run(const std::vector<std::string>& arguments) {
   const Json counted = Json::parse(readAll(statistics), nullptr, false);
   Run out{arguments, stem + ".exr", ended.cpu_s, ended.wall_s, 0, 0, {}, false};
   if (counted.is_object()) {
-    out.peakBytes = counted.value("/memory_bytes/peak_rss"_json_pointer, 0.0);  // wait4() would count this process's memory at the fork
+    out.peakBytes = counted.value("/memory_bytes/peak_rss"_json_pointer,
+                                  0.0);  // wait4() would count this process's memory at the fork
     out.records = counted.value("/irradiance_cache/samples"_json_pointer, int64_t{0});
     for (const Json& w : counted.value("warnings", Json::array())) out.warnings.push_back(w.value("code", ""));
   }
@@ -186,7 +194,11 @@ std::optional<Run> Lab::recall(const std::string& stem, const std::vector<std::s
 }
 
 bool Lab::remember(const std::string& stem, const Run& run) const {
-  const Json j{{"cpu_s", run.cpu_s}, {"wall_s", run.wall_s}, {"peak_bytes", run.peakBytes}, {"records", run.records}, {"warnings", run.warnings}};
+  const Json j{{"cpu_s", run.cpu_s},
+               {"wall_s", run.wall_s},
+               {"peak_bytes", run.peakBytes},
+               {"records", run.records},
+               {"warnings", run.warnings}};
   std::string why;
   return writeFile(stem + ".json", j.dump(2) + '\n', why);
 }

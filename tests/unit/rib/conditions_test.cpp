@@ -48,8 +48,8 @@ TEST(Expression, FollowsItsGrammar) {
   for (const char* text : {"0", "''", "false", "$n != 3", "$name =~ 'x*'", "1 && 0", "!$n"})
     EXPECT_FALSE(isTrue(text)) << text;
   for (const std::string& text : {std::string(""), std::string("1 +"), std::string("$m"), std::string("(1"),
-                                  std::string("1 2"), std::string("'a"), std::string("hero + 1"),
-                                  std::string("&"), std::string(100000, '('), std::string(100000, '!')})
+                                  std::string("1 2"), std::string("'a"), std::string("hero + 1"), std::string("&"),
+                                  std::string(100000, '('), std::string(100000, '!')})
     EXPECT_THROW(isTrue(text), rib::ExpressionError) << text.substr(0, 20);
 }
 
@@ -72,22 +72,21 @@ TEST(Conditional, ReadsTheFirstBranchThatHolds) {
 TEST(Conditional, SeesFrameAndAttributesInArchivesToo) {
   const Reading r(
       "FrameBegin 7 " +
-      inWorld(
-          "ArchiveBegin \"a\" IfBegin \"$Attribute:identifier:name =~ 'x*' && $Frame == 7\" " + kSphere +
-          "IfEnd ArchiveEnd ReadArchive \"a\" Attribute \"identifier\" \"name\" \"xy\" ReadArchive \"a\"") +
+      inWorld("ArchiveBegin \"a\" IfBegin \"$Attribute:identifier:name =~ 'x*' && $Frame == 7\" " + kSphere +
+              "IfEnd ArchiveEnd ReadArchive \"a\" Attribute \"identifier\" \"name\" \"xy\" ReadArchive \"a\"") +
       "FrameEnd");
   EXPECT_EQ(r.scene().objects.size(), 1u);
 }
 
 TEST(Conditional, BranchesThatAreNotReadMaySpeakToOthers) {
-  const Reading r(inWorld("IfBegin \"0\" Spheer 1 Sphere 1 \"nope\" 2 Color 1 IfBegin \"1\" Cubic IfEnd Else " + kSphere + "Spheer IfEnd\nCuboid"));
+  const Reading r(inWorld("IfBegin \"0\" Spheer 1 Sphere 1 \"nope\" 2 Color 1 IfBegin \"1\" Cubic IfEnd Else " +
+                          kSphere + "Spheer IfEnd\nCuboid"));
   EXPECT_EQ(r.scene().objects.size(), 1u);
   EXPECT_EQ(r.codes(), "rib-unknown-request@3 rib-unknown-request@4 ");
 }
 
 TEST(Conditional, BadOnesAreFalseAndUnbalancedOnesEndWithTheFile) {
-  const Reading r("Else IfEnd\n" + inWorld("IfBegin \"1 +\"\n" + kSphere + "IfEnd\n" + kSphere) +
-                  "IfBegin \"1\"");
+  const Reading r("Else IfEnd\n" + inWorld("IfBegin \"1 +\"\n" + kSphere + "IfEnd\n" + kSphere) + "IfBegin \"1\"");
   EXPECT_EQ(r.scene().objects.size(), 1u);
   EXPECT_EQ(r.message("rib-condition").where.line, 3);
   EXPECT_EQ(r.log.count("rib-unbalanced"), 3) << r.codes();
@@ -130,11 +129,16 @@ TEST(SearchPath, MapsFoldersOfTheZoneOfUnix) {
                 .scene()
                 .objects.size(),
             1u);
-  EXPECT_EQ(Reading("Option \"searchpath\" \"archive\" \"/z/\"\n" + map + inWorld("ReadArchive \"mapped.rib\"")).scene().objects.size(), 1u) << "in either order";
+  EXPECT_EQ(Reading("Option \"searchpath\" \"archive\" \"/z/\"\n" + map + inWorld("ReadArchive \"mapped.rib\""))
+                .scene()
+                .objects.size(),
+            1u)
+      << "in either order";
 }
 
 TEST(SearchPath, IsMappedOnceThoughEveryFrameSaysItAgain) {
-  const std::string map = "Option \"searchpath\" \"string dirmap\" [\"NFS\" \"/a\" \"/a/b\"]\n", path = "Option \"searchpath\" \"texture\" \"&:/a\"\n";
+  const std::string map = "Option \"searchpath\" \"string dirmap\" [\"NFS\" \"/a\" \"/a/b\"]\n",
+                    path = "Option \"searchpath\" \"texture\" \"&:/a\"\n";
   const Reading r(map + "Option \"searchpath\" \"texture\" \"/a\"\n" + map + path + map + inWorld(""));
   EXPECT_EQ(r.scene().options.searchPaths.at("texture"), "/a/b:/a/b");
 }
