@@ -66,8 +66,8 @@ DeepFrame hideFrame(Scene& scene, ShadingSystem& shading, const FrameControl& co
 std::vector<uint32_t> tilesOf(const DeepFrame& frame, const Options& options);
 /// Surface shaders, lights and atmosphere over the points of a tile.
 void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading, const ShadeContext& context);
-/// Starts them in the order given. False: cancelled; those that were at work then are dropped, because parts of them
-/// may be missing.
+/// Starts them in the order given. False: cancelled; those that were at work then are dropped, because parts
+/// of them may be missing.
 bool shadeTiles(std::span<const uint32_t> tiles, const ShadeSteps& steps, const Scene& scene,
                 const ShadingSystem& shading, const ShadeContext& context, const FrameControl& control);
 

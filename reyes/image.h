@@ -112,9 +112,10 @@ bool checkDisplays(const Options& options, Log& log);
 /// Applies exposure to colour and alpha-independent gamma, per Options.
 void expose(Image& image, const Options& options);
 
-/// The file of one Display: picks its floats, encodes, quantises and writes band after band to an UnfinishedFile; the
-/// last step renames. Type by `display.type` or the name's extension (.exr .tif .png); 8-bit types are sRGB only where
-/// the Display's "string transfer" says so. Failures are reported to the log, once.
+/// The file of one Display: picks its floats, encodes, quantises and writes band after band to an
+/// UnfinishedFile; the last step renames. Type by `display.type` or the name's extension (.exr .tif .png);
+/// 8-bit types are sRGB only where the Display's "string transfer" says so. Failures are reported to the log,
+/// once.
 class DisplayFile {
  public:
   /// `shape`: a picture without pixels. `output`: outputOf(options); `index`: of the Display.

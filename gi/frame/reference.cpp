@@ -34,6 +34,7 @@ class PathBatches {
   }
 
   void add(PathSum& sum, int paths) {
+    if (stopRequested()) return;  // a bucket of many paths takes long, and is dropped then (reyes/frame.h)
     const int i = sum.point;
     const vec3 normal = places_.shading(i, unitNormal(points_, N_, i));
     vec3 tangent, bitangent;
@@ -59,8 +60,6 @@ class PathBatches {
   void flush() {
     HitAnswers answers;
     answers.mode = HitMode::Shader;
-    // A bucket of many paths takes long; one that is shaded while the process is asked to end is dropped
-    // (reyes/frame.h).
     for (int layer = 0; layer < kMostLayers && !layers_.rays.empty() && !stopRequested(); ++layer) {
       state_.stats.rays.hitlistAdjusted += layers_.meet(*tools_.rays, kMaskDiffuse, hits_);
       state_.stats.rays.reference += static_cast<int64_t>(layers_.rays.size());

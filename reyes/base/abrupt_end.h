@@ -1,5 +1,5 @@
-// What a process that ends without a return from main() must still undo: files that nobody will finish, programs that
-// nobody will wait for. Threads: any.
+// What a process that ends without a return from main() must still undo: files that nobody will finish,
+// programs that nobody will wait for. Threads: any.
 #pragma once
 #include <functional>
 #include <list>

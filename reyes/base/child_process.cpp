@@ -24,8 +24,9 @@ void restoreSignals() {
 
 }  // namespace
 
-// vfork() and not fork(), which would copy the page tables of a large scene; and not posix_spawn(), which cannot ask
-// for PR_SET_PDEATHSIG. Between it and execv() the child runs in our memory and only calls the system.
+// vfork() and not fork(), which would copy the page tables of a large scene; and not posix_spawn(), which
+// cannot ask for PR_SET_PDEATHSIG. Between it and execv() the child runs in our memory and only calls the
+// system.
 pid_t startChild(const ChildProgram& program, int& problem) {
   std::vector<char*> argv;
   for (const std::string& a : program.arguments) argv.push_back(const_cast<char*>(a.c_str()));

@@ -1,10 +1,11 @@
-// A file of numbered chunks that can be read one by one: point clouds, brick maps and whatever else is larger than
-// memory.
+// A file of numbered chunks that can be read one by one: point clouds, brick maps and whatever else is larger
+// than memory.
 //   8 bytes    what is in it ("TMPOINTS"), 4 bytes version, 4 bytes 0x01020304 in the writer's byte order
 //   chunks     one after the other, each a zstd frame with its checksum
 //   header     one more chunk: what a reader needs to know first
-//   directory  8 bytes offset, 4 bytes stored size, 4 bytes size of every chunk, the header last; itself a zstd frame
-//   footer     8 bytes offset of the directory, 4 bytes its stored size, 4 bytes its size, "TOMALESX"
+//   directory  8 bytes offset, 4 bytes stored size, 4 bytes size of every chunk, the header last; itself a
+//   zstd frame footer     8 bytes offset of the directory, 4 bytes its stored size, 4 bytes its size,
+//   "TOMALESX"
 // Numbers are little-endian. The writer works on an UnfinishedFile.
 #pragma once
 #include <cstddef>

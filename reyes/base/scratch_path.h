@@ -1,10 +1,10 @@
 // A new file or folder that is for this process alone and does not outlive it.
 //
-// Its name, `.STEM.RANDOM.part`, cannot be guessed, and what has the name already is never opened: neither another
-// process of the same number, as containers have, nor a link that somebody has put there can come between. It is locked
-// (flock) while its owner lives. What a killed process has left is therefore told from what is in use, and the next
-// ScratchPath of the same stem in the same folder removes it. Where there are no locks, nothing is removed. Threads:
-// plain object.
+// Its name, `.STEM.RANDOM.part`, cannot be guessed, and what has the name already is never opened: neither
+// another process of the same number, as containers have, nor a link that somebody has put there can come
+// between. It is locked (flock) while its owner lives. What a killed process has left is therefore told from
+// what is in use, and the next ScratchPath of the same stem in the same folder removes it. Where there are no
+// locks, nothing is removed. Threads: plain object.
 #pragma once
 #include <filesystem>
 #include <optional>
@@ -26,7 +26,8 @@ class ScratchPath {
   ScratchPath& operator=(const ScratchPath&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Of the file, open for reading and writing, and of the lock: the caller closes it. Pre: was not called before.
+  /// Of the file, open for reading and writing, and of the lock: the caller closes it. Pre: was not called
+  /// before.
   int takeDescriptor() { return std::exchange(descriptor_, -1); }
   /// It has another name by now, or none.
   void release();

@@ -14,6 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kIsStream = "it is a pipe or a device, and no file that can be replaced";
 constexpr int kMostLinks = 40;  ///< As Linux has it.
 
 bool failedWith(int number, std::string& error) {
@@ -69,8 +70,7 @@ std::unique_ptr<UnfinishedFile> UnfinishedFile::create(const std::string& target
   if (fs::is_symlink(file->target_, none) && !isOfProcesses(file->target_))
     return refused("it is a link that leads nowhere");
   const bool stream = isStream(target);
-  if (stream && kind != UnfinishedKind::Stream)
-    return refused("it is a pipe or a device, and no file that can be replaced");
+  if (stream && kind != UnfinishedKind::Stream) return refused(kIsStream);
   const bool opened = kind == UnfinishedKind::Resumable ? file->openResumable(error)
                       : stream                          ? file->openStream(error)
                                                         : file->openScratch(error);
@@ -85,7 +85,8 @@ bool UnfinishedFile::openScratch(std::string& error) {
     error = e.code().message();
     return false;
   }
-  path_ = scratch_->path().string(), descriptor_ = scratch_->takeDescriptor();
+  path_ = scratch_->path().string();
+  descriptor_ = scratch_->takeDescriptor();
   return true;
 }
 
@@ -94,8 +95,8 @@ bool UnfinishedFile::openStream(std::string& error) {
   return descriptor_ >= 0 || failedWith(errno, error);
 }
 
-/// Another process may give the file its name, or discard it, between the two calls here: what is locked then must not
-/// be written to.
+/// Another process may give the file its name, or discard it, between the two calls here: what is locked then
+/// must not be written to.
 bool UnfinishedFile::openResumable(std::string& error) {
   path_ = target_.string() + ".part";
   do {
@@ -152,6 +153,10 @@ bool isAmong(const fs::path& target, const std::vector<std::string>& files) {
 }
 
 bool moveFinished(const fs::path& from, const fs::path& target, std::string& error) {
+  if (isStream(target)) {
+    error = kIsStream;
+    return false;
+  }
   const int file = ::open(from.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return failedWith(errno, error);
   const bool written = writtenBack(file) && std::rename(from.c_str(), throughLinks(target).c_str()) == 0;

@@ -1,10 +1,12 @@
-// A file on its way to its name. Every file that this program leaves is made here, so that what has its name is whole.
+// A file on its way to its name. Every file that this program leaves is made here, so that what has its name
+// is whole.
 //
-// It is written under another name in the same folder and renamed when it is complete. Of two processes that write the
-// same file, the last one to finish wins as a whole. A target that is a link stays one: what it leads to is replaced,
-// as with `>` of the shell. Another hard link to the old file keeps the old contents. So whoever reads the old file
-// goes on reading it, and a program's input may be its output. finish() calls fsync() before the rename: else a name
-// could stand for an empty file after the machine has lost power. Threads: plain object.
+// It is written under another name in the same folder and renamed when it is complete. Of two processes that
+// write the same file, the last one to finish wins as a whole. A target that is a link stays one: what it
+// leads to is replaced, as with `>` of the shell. Another hard link to the old file keeps the old contents.
+// So whoever reads the old file goes on reading it, and a program's input may be its output. finish() calls
+// fsync() before the rename: else a name could stand for an empty file after the machine has lost power.
+// Threads: plain object.
 #pragma once
 #include <cstdio>
 #include <filesystem>
@@ -17,11 +19,11 @@
 namespace tomales {
 
 enum class UnfinishedKind {
-  Scratch,  ///< Its name is a ScratchPath, and it is gone unless finished. The target must be a regular file, or not be
-            ///< there.
-  Stream,   ///< The same; but devices, pipes and what /dev/stdout and /dev/fd lead to are written directly.
-  Resumable,  ///< It is called NAME.part, is locked, and stays until it is finished or discarded. Contents are those of
-              ///< an earlier one.
+  Scratch,    ///< Its name is a ScratchPath, and it is gone unless finished. The target must be a regular file,
+              ///< or not be there.
+  Stream,     ///< The same; but devices, pipes and what /dev/stdout and /dev/fd lead to are written directly.
+  Resumable,  ///< It is called NAME.part, is locked, and stays until it is finished or discarded. Contents
+              ///< are those of an earlier one.
 };
 
 class UnfinishedFile {
@@ -63,10 +65,12 @@ bool writeFile(const std::string& target, const std::string& content, std::strin
 /// UnfinishedFile::finish() does.
 bool moveFinished(const std::filesystem::path& from, const std::filesystem::path& target, std::string& error);
 
-/// Where `target` leads by links; not necessarily there. A TemporaryFolder for moveFinished() belongs beside it.
+/// Where `target` leads by links; not necessarily there. A TemporaryFolder for moveFinished() belongs beside
+/// it.
 std::filesystem::path throughLinks(const std::filesystem::path& target);
 
-/// Is `target`, by whatever name, one of these? A command says so before it replaces what it was given to read.
+/// Is `target`, by whatever name, one of these? A command says so before it replaces what it was given to
+/// read.
 bool isAmong(const std::filesystem::path& target, const std::vector<std::string>& files);
 
 }  // namespace tomales

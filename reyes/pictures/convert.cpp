@@ -86,8 +86,8 @@ bool write(const OIIO::ImageBuf& picture, const TextureRecipe& recipe, const std
   config.attribute("maketx:filtername", recipe.filter);
   config.attribute("wrapmodes", recipe.sWrap + "," + recipe.tWrap);
   try {
-    // A folder, because OpenImageIO makes a file of its own beside the one that it is asked for, which a killed process
-    // would leave.
+    // A folder, because OpenImageIO makes a file of its own beside the one that it is asked for, which a
+    // killed process would leave.
     const TemporaryFolder folder(throughLinks(file).parent_path());
     const fs::path made = folder.path() / "texture";
     if (!OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, picture, made.string(), config))

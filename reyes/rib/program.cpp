@@ -25,6 +25,13 @@ constexpr double kPollEvery_s = 0.1;  ///< The wish to stop wakes nobody.
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+/// The shell becomes the program, so that what ends one of them when we are killed (startChild()) ends the
+/// other. It cannot where the command is more than a program and its arguments; "exit" is the shell's own.
+std::string forShell(const std::string& command) {
+  const bool simple = command.find_first_of("|&;()<>`={}!\n") == std::string::npos && !command.starts_with("exit");
+  return simple ? "exec " + command : command;
+}
+
 }  // namespace
 
 // Its input is a socket, because writing to a closed socket can be told not to raise SIGPIPE.
@@ -40,7 +47,8 @@ Program::Program(const std::string& command) {
     return;
   }
   toChild_ = in[0], fromChild_ = out[0];
-  id_ = startChild({"/bin/sh", {"sh", "-c", command}, {{in[1], STDIN_FILENO}, {out[1], STDOUT_FILENO}}}, startError_);
+  id_ = startChild({"/bin/sh", {"sh", "-c", forShell(command)}, {{in[1], STDIN_FILENO}, {out[1], STDOUT_FILENO}}},
+                   startError_);
   if (id_ > 0) guard_.emplace(id_);
   close(in[1]), close(out[1]);
 }

@@ -37,7 +37,8 @@ TEST(ChildProcesses, ThatCannotBeStartedAreToldWithTheReason) {
 TEST(ChildProcesses, ReactToSignalsThatThisProcessIgnoresOrBlocks) {
   const auto before = ::signal(SIGPIPE, SIG_IGN);
   sigset_t set, old;
-  sigemptyset(&set), sigaddset(&set, SIGTERM);
+  sigemptyset(&set);
+  sigaddset(&set, SIGTERM);
   ::sigprocmask(SIG_BLOCK, &set, &old);
   for (const char* text : {"kill -PIPE $$", "kill -TERM $$"}) {
     int problem = 0, status = 0;

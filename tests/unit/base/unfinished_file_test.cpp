@@ -40,7 +40,10 @@ class UnfinishedFiles : public testing::Test {
   /// The exit code of another process that does this and then ends without destructors.
   static int inAnotherProcess(const std::function<void()>& work) {
     const pid_t child = ::fork();
-    if (child == 0) work(), ::_exit(0);
+    if (child == 0) {
+      work();
+      ::_exit(0);
+    }
     int status = 0;
     ::waitpid(child, &status, 0);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -73,7 +76,8 @@ TEST_F(UnfinishedFiles, LeaveTheOldFileAndNothingElseIfTheyAreNotFinished) {
 TEST_F(UnfinishedFiles, OfOneTargetDoNotMixAndTheLastToFinishWins) {
   const auto first = create("a"), second = create("a");
   ASSERT_TRUE(first && second);
-  put(*first, "first"), put(*second, "2nd");
+  put(*first, "first");
+  put(*second, "2nd");
   EXPECT_TRUE(second->finish(error_)) << error_;
   EXPECT_TRUE(first->finish(error_)) << error_;
   EXPECT_EQ(read("a"), "first");
@@ -113,6 +117,8 @@ TEST_F(UnfinishedFiles, ArePipesAndDevicesOnlyForStreams) {
   EXPECT_EQ(::read(reader, text, 7), 7);
   ::close(reader);
   EXPECT_STREQ(text, "through");
+  write("made", "made");
+  EXPECT_FALSE(moveFinished(path("made"), path("pipe"), error_));
   EXPECT_TRUE(writeFile("/dev/null", "nothing", error_)) << error_;
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
@@ -152,13 +158,15 @@ TEST_F(UnfinishedFiles, TemporaryFoldersOfKilledProcessesGoWithTheNext) {
 
 TEST_F(UnfinishedFiles, ThatAreResumableStayAndAreWrittenByOneProcessAtATime) {
   const auto first = create("a", UnfinishedKind::Resumable);
-  put(*first, "half"), std::fflush(first->stream());
+  put(*first, "half");
+  std::fflush(first->stream());
   EXPECT_FALSE(create("a", UnfinishedKind::Resumable));
   EXPECT_EQ(error_, "another program is writing \"" + path("a.part") + "\"");
   ASSERT_TRUE(first->finish(error_));
   const auto second = create("a", UnfinishedKind::Resumable);  // while the first still has its file open
   ASSERT_TRUE(second) << error_;
-  put(*second, "other"), std::fflush(second->stream());
+  put(*second, "other");
+  std::fflush(second->stream());
   EXPECT_EQ(read("a") + read("a.part"), "halfother");
 }
 
