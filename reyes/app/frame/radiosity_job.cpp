@@ -52,14 +52,14 @@ std::unique_ptr<const HitRadiance> bricksIn(const std::string& folder, const Ray
                                             const RadiositySettings& radiosity, const RenderSettings& settings,
                                             Stats& stats, Log& log) {
   try {
-    AtlasSettings atlas = atlasSettings(settings, tools.rays->scene());
+    AtlasSettings atlas = atlasSettings(settings, tools.rays->scene(), *tools.shading);
     atlas.world = worldSum(tools.rays->scene(), false);  // gather rays meet what photons do not
     if (!settings.radiosityFolder.empty())
       log.report(Severity::Warning, "radiosity-maps", {},
                  "--radiosity-maps: left out, since radiosity goes to brick maps in the folder of --atlas");
     const RadiosityBrickSettings bricks{.points = radiosity};
     return std::make_unique<const RadiosityBricks>(folder, *tools.rays, *tools.shading, camera,
-                                                   mapNames(tools.rays->scene(), atlas), bricks,
+                                                   mapNames(tools.rays->scene(), *tools.shading, atlas), bricks,
                                                    brickCacheBytes(settings), stats, log);
   } catch (const std::runtime_error& e) {  // FileError, or of the file system
     log.report(Severity::Missing, "radiosity-bricks", {},
@@ -75,7 +75,7 @@ std::unique_ptr<const HitRadiance> prepareRadiosity(const RayTools& tools, const
   const StageTimer timer(stats, "radiosity");
   const Scene& scene = tools.rays->scene();
   const RadiositySettings radiosity{settings.radiosityTexels, lightSeedOf(settings)};
-  if (const std::string folder = atlasFolder(settings, scene); !folder.empty())
+  if (const std::string folder = atlasFolder(settings, *tools.shading); !folder.empty())
     return bricksIn(folder, tools, camera, radiosity, settings, stats, log);
   auto maps = std::make_unique<const RadiosityMaps>(*tools.rays, *tools.shading, camera, radiosity, log);
   try {
