@@ -252,6 +252,7 @@ struct LightProbe {
   std::vector<vec2> xi;  ///< In, for lights that are sampled: where one of one sample lies; none: in the middle.
   std::vector<vec3> L;   ///< Out: from P to the light.
   std::vector<vec3> Cl;  ///< Out: E/pi at normal incidence; for LightKind::Area and Sky the radiance of the emitter.
+  bool finite = true;    ///< Out: what was not is dark.
 };
 
 /// "surface" ... "imager".

@@ -54,7 +54,7 @@ struct LightCall {
   ShaderCall shader;
   std::string handle;
   bool area = false;          ///< AreaLightSource: its emitters are the Objects whose attributes name it.
-  bool castsShadows = false;  ///< Attribute "light" "shadows" "on", or shadowname "raytrace"; area lights always do.
+  bool castsShadows = false;  ///< Attribute "light" "shadows" "on"; area lights always do. Its shader may ask for more.
   int index = -1;             ///< In Scene::lights.
 };
 

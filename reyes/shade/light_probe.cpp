@@ -1,4 +1,6 @@
 // Lights and surfaces as photons see them, and lamps as the eye does: asked alone, outside the shading of any object.
+#include <fmt/format.h>
+
 #include "reyes/shade/batch.h"
 #include "reyes/shade/system.h"
 
@@ -38,7 +40,10 @@ void ShadingSystem::probe(int light, LightProbe& probe) const {
   probe.L.assign(n, vec3(0.0f)), probe.Cl.assign(n, vec3(0.0f));
   for (size_t i = 0; finished && i < n; ++i) {
     const vec3 L = get(batch.tm.L, static_cast<int>(i)), Cl = get(batch.tm.Cl, static_cast<int>(i));
-    if (isFinite(L) && isFinite(Cl)) probe.L[i] = L, probe.Cl[i] = glm::max(Cl, vec3(0.0f));
+    if (isFinite(L) && isFinite(Cl))
+      probe.L[i] = L, probe.Cl[i] = glm::max(Cl, vec3(0.0f));
+    else
+      probe.finite = false;
   }
 }
 
@@ -59,6 +64,10 @@ void ShadingSystem::emission(const ShadePoints& points, std::vector<vec3>& radia
   }
   radiance.assign(static_cast<size_t>(points.count()), vec3(0.0f));
   if (!front.empty()) probe(index, seen);
+  if (!seen.finite)
+    impl_->log.report(Severity::Warning, "light-not-finite", light->bound->where,
+                      fmt::format("{}: shader \"{}\" returned NaN or infinity; the lamp is dark there",
+                                  light->bound->user, light->bound->shader->name));
   for (size_t k = 0; k < front.size(); ++k) radiance[front[k]] = seen.Cl[k];
 }
 

@@ -78,6 +78,7 @@ Surface "plastic"
 Sphere 0.5 -0.5 0.5 360
 AttributeEnd
 AttributeBegin
+Attribute "photon" "shadingmodel" ["chrome"]
 Translate 0.6 -0.5 0
 Surface "mirror"
 Sphere 0.5 -0.5 0.5 360
@@ -103,13 +104,14 @@ def light(variant, shader, handle, **params):
     for name, value in params.items():
         kind, name = types.get(name, ("string " if name in strings else "float ") + name).split()
         z = "z" if variant == "copy" and name in declared[shader] else ""
-        text += f' "{kind} {z}{name}" [{value}]'
+        text += f' "{kind} {z}{name}" [{str(value).replace("{v}", variant)}]'
     request = f'"{"copy_" if variant == "copy" else ""}{shader}" "{handle}"{text}\n'
     return LAMP.format(light="AreaLightSource " + request) if shader == "arealight" else "LightSource " + request
 
 
 def said(text):
-    return sorted(set(re.sub(r'"z(?=\w)', '"', re.sub(r"\bz(?=(shadowname|samples|source) )", "", text.replace("copy_", "").replace("copy", "built"))).splitlines()))
+    """Messages, with the names of the built-in lights and without those of temporary folders."""
+    return sorted(set(re.sub(r"/tmp/tomales_\w+", "", text.replace("copy", "built").replace("built_", "")).splitlines()))
 
 
 def alike(what, lights, *commands):
@@ -180,12 +182,12 @@ alike("radiosity", asking(), [*RENDER, "--gi", "radiosity"])
 alike("radiosity of the light", asking(radiance='"radiosity"'), RENDER)
 PHOTONS = ["--photons", "3000"]
 by_option = alike("atlas", asking(bounces=3), [*RENDER, "--gi", "atlas", *PHOTONS])
-by_light = alike("atlas of the light", asking(bounces=3, radiance='"atlas"', atlas='"built_maps"'), [*RENDER, *PHOTONS])
+by_light = alike("atlas of the light", asking(bounces=3, radiance='"atlas"', atlas='"{v}_maps"'), [*RENDER, *PHOTONS])
 t.expect(by_option == by_light != gathered, "the light asks for it as the option does")
-t.expect((t.folder / "built_maps").is_dir(), "and for the folder")
+t.expect((t.folder / "copy_maps").is_dir(), "and for the folder")
 CLOUDS = [["photons", "{v}.rib", "-o", "{v}_photons", *PHOTONS], ["irradiance", "{v}_photons", "-o", "{v}_clouds"]]
 by_option = alike("points", asking(bounces=3), *CLOUDS, [*RENDER, "--gi", "points", "--atlas", "{v}_clouds"])
-by_light = alike("points of the light", asking(bounces=3, radiance='"points"', atlas='"built_clouds"'), RENDER)
+by_light = alike("points of the light", asking(bounces=3, radiance='"points"', atlas='"{v}_clouds"'), RENDER)
 t.expect(by_option == by_light != gathered, "the light asks for it as the option does")
 KEEP = [*RENDER, "--baked", "{v}_baked"]
 alike("baked", asking(), KEEP, [*RENDER, "--gi", "baked", "--baked", "{v}_baked"])

@@ -1,4 +1,8 @@
 // What the host knows of shaders by the roles of their parameters, whatever these are called.
+#include <fstream>
+#include <regex>
+
+#include "places.h"
 #include "reyes/shader.h"
 #include "tests/unit/shade/stage.h"
 
@@ -35,7 +39,7 @@ void shadeFilter(const TmGrid* g) {
 }
 const rsl::Shader filter(TM_LIGHT, "filter", "", TM_LIGHT_INDIRECT, shadeFilter, {&of});
 
-rsl::StringParam company("company", "", "", TM_ROLE_GROUP), picture("picture", "", "", TM_ROLE_SHADOW_MAP);
+rsl::StringParam picture("picture", "", "", TM_ROLE_SHADOW_MAP);
 rsl::FloatOutput unseen("unseen", "", TM_ROLE_NONDIFFUSE);
 void shadeBeam(const TmGrid* g) {
   const rsl::Batch b(g);
@@ -44,7 +48,7 @@ void shadeBeam(const TmGrid* g) {
     if (unseen.wanted(g)) unseen.set(g, i, 0.75f);
   }
 }
-const rsl::Shader beam(TM_LIGHT, "beam", "", TM_LIGHT_SOLAR, shadeBeam, {&company, &picture, &unseen});
+const rsl::Shader beam(TM_LIGHT, "beam", "", TM_LIGHT_SOLAR, shadeBeam, {&picture, &unseen});
 
 rsl::ColorParam drops("drops", {1, 2, 3}, "", TM_ROLE_SCATTERING);
 const rsl::Shader mist(TM_VOLUME, "mist", "", 0, shadeNothing, {&drops});
@@ -77,6 +81,15 @@ TEST_F(Roles, ALampIsSeenAsItsShaderSaysWhereAndFromWhereItIsSeen) {
   expectColor(out[3], vec3(0), 0);
 }
 
+TEST_F(Roles, ALampThatIsNotFiniteIsDarkAndItIsSaid) {
+  light("lamp", {number("power", kInfinity)}, true);
+  attributes.areaLight = 0;
+  const std::vector<vec3> out = emissionOf(system(), points({vec3(1, 0, 5)}));
+  ASSERT_EQ(out.size(), 1u);
+  expectColor(out[0], vec3(0), 0);
+  EXPECT_EQ(log.count("light-not-finite"), 1);
+}
+
 TEST_F(Roles, ALampIsHiddenByItsRole) {
   light("lamp", {number("seen", 0)}, true);
   attributes.areaLight = 0;
@@ -106,8 +119,8 @@ TEST_F(Roles, AFilterBringsItsSourceWithScaleAndTint) {
   expectColor(shadeOne(), {2, 4, 6});
 }
 
-TEST_F(Roles, ALightNamesItsGroupAndItsShadowMap) {
-  light("beam", {text("company", "key"), text("picture", "raytrace")});
+TEST_F(Roles, AShadowMapIsKnownByItsRole) {
+  light("beam", {text("picture", "raytrace")});
   shadeOne();
   EXPECT_EQ(services.shadowRays, 1) << "the host traces the shadows of a map called raytrace";
   ASSERT_EQ(log.entries().size(), 0u);
@@ -134,6 +147,29 @@ TEST_F(Roles, ANameAloneIsNoRole) {
   attributes.areaLight = 0;
   EXPECT_EQ(emissionOf(system(), points({vec3(0, 0, 5)})).size(), 1u);
   EXPECT_EQ(system().mostAreaSamples(), 16);
+}
+
+std::string contentOf(const std::string& file) {
+  std::ifstream in(std::string(TOMALES_SOURCE_DIR) + "/" + file);
+  std::stringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+TEST_F(Roles, EachIsExplainedAndSoAreTheStandardParameters) {
+  const std::string page = contentOf("docs/shader_writing.md"), header = contentOf("reyes/shader/types.h");
+  const std::regex role("(TM_ROLE_[A-Z_]+) = (\\d+)");
+  int count = 0;
+  for (std::sregex_iterator it(header.begin(), header.end(), role), end; it != end; ++it) {
+    if ((*it)[2] == "0") continue;
+    EXPECT_NE(page.find("`" + (*it)[1].str() + "`"), std::string::npos) << (*it)[1];
+    EXPECT_NE(roleName(std::stoi((*it)[2])), nullptr) << (*it)[1];
+    ++count;
+  }
+  EXPECT_GT(count, 20);
+  for (const TmKind kind : {TM_LIGHT, TM_VOLUME})
+    for (const TmParamDecl& p : standardParams(kind))
+      EXPECT_TRUE(page.find(p.name) != std::string::npos || std::string(p.name).starts_with("sf")) << p.name;
 }
 
 TEST_F(Roles, AShaderWithARoleThatDoesNotFitIsRefused) {
