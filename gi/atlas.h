@@ -40,7 +40,7 @@ struct MapNames {
       const;                    ///< Those that gather rays look up: all but that of media, which shaders read.
   MapNames ofSurfaces() const;  ///< Without what came by mirrors or flies in media: baked light has no maps of these.
 };
-MapNames mapNames(const Scene& scene, const AtlasSettings& settings);
+MapNames mapNames(const Scene& scene, const ShadingSystem& shading, const AtlasSettings& settings);
 
 /// The file of a map in a folder.
 std::filesystem::path atlasFile(const std::filesystem::path& folder, const std::string& map, const char* extension);

@@ -161,6 +161,7 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
   const std::vector<uint32_t> order = byGroup(scene, hits, groupOf);
   const bool diffuse = context.kind == RayKind::Diffuse;
   ShadedPoints shaded;
+  std::vector<vec3> emission;
   for (size_t first = 0, last = 0; first < order.size(); first = last) {
     const int g = groupOf[order[first]];
     while (last < order.size() && groupOf[order[last]] == g) ++last;
@@ -172,15 +173,15 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
     const bool shades =
         answers.wantsColor && answers.mode.value_or(modeOf(attributes, context.kind)) == HitMode::Shader;
     if (shades) shading.shade(points, hitContext, shaded);
-    const vec3 emission = diffuse || !context.lampsGlow ? vec3(0) : shading.visibleEmission(g);
+    emission.clear();
+    if (!diffuse && context.lampsGlow) shading.emission(points, emission);
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = order[k];
       const int p = static_cast<int>(k - first);
       const vec3 opacity = shades ? shaded.opacity(p) : primitiveColor(group, points, p, "Os", attributes.opacity);
       const vec3 color = shades ? shaded.color(p) : opacity * primitiveColor(group, points, p, "Cs", attributes.color);
-      const bool front = dot(points.get3(kIx, p), points.get3(kNgx, p)) < 0;
       answers.opacity[i] = opacity;
-      answers.color[i] = diffuse ? bled(color, attributes) : color + (front ? emission : vec3(0));
+      answers.color[i] = diffuse ? bled(color, attributes) : emission.empty() ? color : color + emission[k - first];
       tell(group, points, p, i, shades ? &shaded : nullptr, answers);
     }
   }

@@ -54,7 +54,7 @@ struct LightCall {
   ShaderCall shader;
   std::string handle;
   bool area = false;          ///< AreaLightSource: its emitters are the Objects whose attributes name it.
-  bool castsShadows = false;  ///< Attribute "light" "shadows" "on", or shadowname "raytrace"; area lights always do.
+  bool castsShadows = false;  ///< Attribute "light" "shadows" "on"; area lights always do. Its shader may ask for more.
   int index = -1;             ///< In Scene::lights.
 };
 
@@ -124,6 +124,8 @@ struct Options {
   bool jitter = true;
   float relativeDetail = 1;          ///< Factor of every level-of-detail ruler.
   std::vector<vec4> clippingPlanes;  ///< Camera space: a point p with dot(plane, (p, 1)) > 0 is not seen.
+  bool wantsIndirect = false;        ///< --gi: a scene without an indirect light gets one, for all objects.
+  int indirectSamples = 0;           ///< --draft: rays of an irradiance record; 0: as indirect lights ask.
   int frame = 0;
   std::map<std::string, std::string> searchPaths;  ///< "archive", "texture", "shader", "display", ...
   std::map<std::string, Param> user;               ///< "category:name" of options that shaders may read

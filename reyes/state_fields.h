@@ -67,13 +67,13 @@ void fields(A& a, Options& x) {
          dofAspect, xSamples, ySamples, filter, xFilterWidth, yFilterWidth, exposureGain, exposureGamma, rgbaQuantize,
          depthQuantize, quantizeGiven, displays, channels, depthFilter, opaqueThreshold, depthThreshold, imager,
          bucketWidth, bucketHeight, bucketOrder, maxRayDepth, gridSize, hider, jitter, relativeDetail, clippingPlanes,
-         frame, searchPaths, user] = x;
+         wantsIndirect, indirectSamples, frame, searchPaths, user] = x;
   each(a, xResolution, yResolution, pixelAspect, frameAspect, screenWindow, cropWindow, projection, fov, nearClip,
        farClip, shutterOpen, shutterClose, shutterOffset, sampleMotion, fStop, focalLength, focalDistance, aperture,
        dofAspect, xSamples, ySamples, filter, xFilterWidth, yFilterWidth, exposureGain, exposureGamma, rgbaQuantize,
        depthQuantize, quantizeGiven, displays, channels, depthFilter, opaqueThreshold, depthThreshold, imager,
        bucketWidth, bucketHeight, bucketOrder, maxRayDepth, gridSize, hider, jitter, relativeDetail, clippingPlanes,
-       frame, searchPaths, user);
+       wantsIndirect, indirectSamples, frame, searchPaths, user);
 }
 
 template <class A>

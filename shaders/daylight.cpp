@@ -9,11 +9,12 @@ rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "tint");
 rsl::VectorParam sundirection("sundirection", {0, 1, 0}, "towards the sun");
 rsl::VectorParam zenith("zenith", {0, 1, 0}, "up");
 rsl::FloatParam turbidity("turbidity", 2, "haziness, 1.7 to 10");
-rsl::FloatParam skySamples("samples", 64, "directions for each shaded point");
-rsl::FloatParam visible("visible", 1, "0: specular rays do not see it");
+rsl::FloatParam skySamples("samples", 64, "directions for each shaded point", TM_ROLE_SAMPLES);
+rsl::FloatParam visible("visible", 1, "0: specular rays do not see it", TM_ROLE_VISIBLE);
 rsl::StringParam portals("portals", "",
-                         "CoordinateSystems, the unit squares of which are windows that the sky shines through");
-rsl::FloatParam sunSamples("samples", 8, "directions for each shaded point");
+                         "CoordinateSystems, the unit squares of which are windows that the sky shines through",
+                         TM_ROLE_SKY_PORTALS);
+rsl::FloatParam sunSamples("samples", 8, "directions for each shaded point", TM_ROLE_SAMPLES);
 rsl::FloatParam sunsize("sunsize", 1, "scale of the sun's diameter of 0.53 degrees; its light stays");
 
 constexpr float kUnit_kcd_m2 = 30;      // a radiance of 1

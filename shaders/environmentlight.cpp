@@ -5,12 +5,13 @@
 namespace {
 rsl::FloatParam intensity("intensity", 1, "scale");
 rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "radiance of the sky, or what multiplies its map");
-rsl::StringParam map("map", "", "latitude-longitude picture, +z at its top; none: uniform");
-rsl::StringParam mapspace("mapspace", "world", "the space whose +z that is: world or shader");
-rsl::FloatParam samples("samples", 64, "directions for each shaded point");
-rsl::FloatParam visible("visible", 1, "0: specular rays do not see it");
+rsl::StringParam map("map", "", "latitude-longitude picture, +z at its top; none: uniform", TM_ROLE_SKY_MAP);
+rsl::StringParam mapspace("mapspace", "world", "the space whose +z that is: world or shader", TM_ROLE_SKY_SPACE);
+rsl::FloatParam samples("samples", 64, "directions for each shaded point", TM_ROLE_SAMPLES);
+rsl::FloatParam visible("visible", 1, "0: specular rays do not see it", TM_ROLE_VISIBLE);
 rsl::StringParam portals("portals", "",
-                         "CoordinateSystems, the unit squares of which are windows that the sky shines through");
+                         "CoordinateSystems, the unit squares of which are windows that the sky shines through",
+                         TM_ROLE_SKY_PORTALS);
 
 // The map is seen through a filter of this angle, radians: that of the cells by which its brightness is known.
 constexpr float kCell = 0.00614f;

@@ -3,7 +3,7 @@
 #include "shaders/indirect.h"
 
 namespace {
-rsl::StringParam source("source", "", "handle of the indirect light to filter");
+rsl::StringParam source("source", "", "handle of the indirect light to filter", TM_ROLE_INDIRECT_SOURCE);
 rsl::PointParam from("from", {0, 0, 0}, "position");
 rsl::PointParam to("to", {0, 0, 1}, "a point on the axis");
 rsl::FloatParam coneangle("coneangle", 3.14159265f, "half angle of the cone, radians; pi: everywhere");

@@ -5,9 +5,10 @@ rsl::FloatParam intensity("intensity", 1, "scale: the light at distance 1");
 rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "colour");
 rsl::PointParam from("from", {0, 0, 0}, "position");
 ShadowParams shadow;
-rsl::StringParam sfpx("sfpx", "", "shadow map towards +x"), sfnx("sfnx", "", "towards -x"),
-    sfpy("sfpy", "", "towards +y"), sfny("sfny", "", "towards -y"), sfpz("sfpz", "", "towards +z"),
-    sfnz("sfnz", "", "towards -z");
+rsl::StringParam sfpx("sfpx", "", "shadow map towards +x", TM_ROLE_SHADOW_MAP),
+    sfnx("sfnx", "", "towards -x", TM_ROLE_SHADOW_MAP), sfpy("sfpy", "", "towards +y", TM_ROLE_SHADOW_MAP),
+    sfny("sfny", "", "towards -y", TM_ROLE_SHADOW_MAP), sfpz("sfpz", "", "towards +z", TM_ROLE_SHADOW_MAP),
+    sfnz("sfnz", "", "towards -z", TM_ROLE_SHADOW_MAP);
 
 void shade(const TmGrid* g) {
   const rsl::Batch b(g);

@@ -4,7 +4,7 @@
 #include "reyes/shader.h"
 
 struct ShadowParams {
-  rsl::StringParam shadowname{"shadowname", "", "shadow map, or `raytrace`"};
+  rsl::StringParam shadowname{"shadowname", "", "shadow map, or `raytrace`", TM_ROLE_SHADOW_MAP};
   rsl::UniformFloatParam samples{"samples", 16, "lookups in the map for each point"};
   rsl::UniformFloatParam blur{"blur", 0, "softness, as a fraction of the map"};
   rsl::UniformFloatParam width{"width", 1, "scale of the region that is looked up"};

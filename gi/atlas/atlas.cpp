@@ -95,7 +95,7 @@ void makeAtlasFolder(const fs::path& folder) {
     throw WriteError(fmt::format("folder \"{}\" cannot be made: {}", folder.string(), error.message()));
 }
 
-MapNames mapNames(const Scene& scene, const AtlasSettings& settings) {
+MapNames mapNames(const Scene& scene, const ShadingSystem& shading, const AtlasSettings& settings) {
   const std::vector<double> own = boxAreas(scene);
   std::vector<double> areas = own;
   for (size_t g = 0; g < areas.size(); ++g)
@@ -115,10 +115,9 @@ MapNames mapNames(const Scene& scene, const AtlasSettings& settings) {
     before += areas[g];
   }
   names.surface = numbered(names.global, own);
-  const auto hasMedium = [](const ShadeGroup& g) {
-    return !mediumOf(g.attributes->interior.get(), 1).empty() || !mediumOf(g.attributes->exterior.get(), 1).empty();
-  };
-  if (std::any_of(scene.groups.begin(), scene.groups.end(), hasMedium)) names.volume = kVolume;
+  for (int g = 0; g < static_cast<int>(scene.groups.size()); ++g)
+    for (const bool inside : {true, false})
+      if (!mediumOf(shading.medium(g, inside), 1).empty()) names.volume = kVolume;
   return names;
 }
 

@@ -2,8 +2,7 @@
 // directions (Jensen and Christensen 1998, "Efficient Simulation of Light Transport in Scenes with Participating Media
 // using Photon Maps").
 #pragma once
-#include "reyes/base/math.h"
-#include "reyes/state.h"
+#include "reyes/shade.h"
 
 namespace tomales {
 
@@ -19,9 +18,8 @@ struct Medium {
   }
 };
 
-/// Of the parameters "scattering" and "absorption" of a volume shader, colours per unit of the world, where one has
-/// them. `worldUnit`: length of one of the world in the space of the result. Null: nothing.
-Medium mediumOf(const ShaderCall* volume, float worldUnit);
+/// `worldUnit`: length of one of the world in the space of the result.
+Medium mediumOf(const MediumColors& colors, float worldUnit);
 
 /// What becomes of a photon of this power where it has collided. xi: even in [0, 1).
 struct Collision {

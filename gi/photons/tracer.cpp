@@ -41,9 +41,8 @@ PhotonTracer::PhotonTracer(const Scene& scene, const RayScene& rays, const Shadi
       settings_(settings),
       worldUnit_(std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))))) {
   for (const Object& o : scene.objects) groups_.push_back(o.group);
-  for (const ShadeGroup& g : scene.groups) {
-    media_.push_back(
-        {mediumOf(g.attributes->interior.get(), worldUnit_), mediumOf(g.attributes->exterior.get(), worldUnit_)});
+  for (int g = 0; g < static_cast<int>(scene.groups.size()); ++g) {
+    media_.push_back({mediumOf(shading.medium(g, true), worldUnit_), mediumOf(shading.medium(g, false), worldUnit_)});
     anyMedium_ |= !media_.back().inside.empty() || !media_.back().outside.empty();
   }
 }

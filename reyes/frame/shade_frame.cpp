@@ -7,11 +7,11 @@ namespace tomales {
 namespace {
 
 /// Camera rays see the radiance of an area light added to what its surface reflects (docs/gi.md).
-void addVisibleEmission(const ShadePoints& points, const vec3& emission, ShadedPoints& out) {
-  for (int i = 0; i < points.count(); ++i) {
-    if (dot(points.get3(kIx, i), points.get3(kNgx, i)) >= 0) continue;
-    for (int c = 0; c < 3; ++c) out.Ci[c][static_cast<size_t>(i)] += emission[c];
-  }
+void addEmission(const ShadePoints& points, const ShadingSystem& shading, ShadedPoints& out) {
+  std::vector<vec3> emission;
+  shading.emission(points, emission);
+  for (size_t i = 0; i < emission.size(); ++i)
+    for (int c = 0; c < 3; ++c) out.Ci[c][i] += emission[i][c];
 }
 
 /// Opaque and black: what needs no shader.
@@ -44,8 +44,7 @@ void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading,
     batchContext.variables = true;
     if (b < tile.answers.size()) batchContext.answers = &tile.answers[b];
     shading.shade(points, batchContext, out);
-    const vec3 emission = shading.visibleEmission(points.group());
-    if (maxComponent(emission) > 0) addVisibleEmission(points, emission, out);
+    addEmission(points, shading, out);
     shading.atmosphere(points, out);
   }
 }

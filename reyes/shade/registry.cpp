@@ -9,6 +9,7 @@
 #include "reyes/base/search_path.h"
 #include "reyes/shade.h"
 #include "reyes/shade/plugin_trial.h"
+#include "reyes/shade/roles.h"
 
 namespace tomales {
 
@@ -65,6 +66,11 @@ std::string lackOf(const TmShader& s) {
     const TmParamDecl& p = s.params[k];
     if (!p.name || p.arrayLength < 1 || TM_TYPE_OF(p.type) > TM_MATRIX)
       return fmt::format("a name, length or type of parameter {}", k + 1);
+    if (p.role == TM_ROLE_NONE) continue;
+    const RoleInfo* role = roleInfo(p.role);
+    if (!role) return fmt::format("a role that there is of parameter \"{}\"", p.name);
+    if (role->type != TM_TYPE_OF(p.type) || role->kind != s.kind)
+      return fmt::format("a type or kind that fits the role {} of parameter \"{}\"", role->name, p.name);
   }
   return {};
 }

@@ -87,10 +87,10 @@ void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, 
   const Camera camera(scene.options);
   const RayScene rays(scene, camera, shading, raySettings(settings, scene.options), stats, log);
   const StageTimer timer(stats, "photons");
-  AtlasSettings atlas = atlasSettings(settings, scene);
+  AtlasSettings atlas = atlasSettings(settings, scene, shading);
   atlas.photons.direct = true;  // whoever looks into the maps finds all light
   const PhotonFigures figures =
-      writePhotons(settings.output, scene, rays, shading, mapNames(scene, atlas), atlas, {}, stats, log);
+      writePhotons(settings.output, scene, rays, shading, mapNames(scene, shading, atlas), atlas, {}, stats, log);
   if (settings.verbosity != Log::Verbosity::Quiet)
     fmt::print("{} photons emitted, {} stored in {}\n", figures.emitted, figures.stored, settings.output);
 }

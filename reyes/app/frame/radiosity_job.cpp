@@ -54,17 +54,17 @@ std::unique_ptr<const HitRadiance> bricksIn(const std::string& folder, const Ray
                                             const RadiositySettings& radiosity, const RenderSettings& settings,
                                             Stats& stats, Log& log) {
   try {
-    AtlasSettings atlas = atlasSettings(settings, tools.rays->scene());
+    AtlasSettings atlas = atlasSettings(settings, tools.rays->scene(), *tools.shading);
     atlas.world = worldSum(tools.rays->scene(), false);  // gather rays meet what photons do not
     if (!settings.radiosityFolder.empty())
       log.report(Severity::Warning, "radiosity-maps", {},
                  "--radiosity-maps: left out, since radiosity goes to brick maps in the folder of --atlas");
     const RadiosityBrickSettings bricks{.points = radiosity};
+    const MapNames names = mapNames(tools.rays->scene(), *tools.shading, atlas);
     std::unique_ptr<const RadiosityBricks> out;
     makeAnewWhatIsDamaged(
         [&] {
-          out = std::make_unique<const RadiosityBricks>(folder, *tools.rays, *tools.shading, camera,
-                                                        mapNames(tools.rays->scene(), atlas), bricks,
+          out = std::make_unique<const RadiosityBricks>(folder, *tools.rays, *tools.shading, camera, names, bricks,
                                                         brickCacheBytes(settings), stats, log);
         },
         log);
@@ -85,7 +85,7 @@ std::unique_ptr<const HitRadiance> prepareRadiosity(const RayTools& tools, const
   const StageTimer timer(stats, "radiosity");
   const Scene& scene = tools.rays->scene();
   const RadiositySettings radiosity{settings.radiosityTexels, lightSeedOf(settings)};
-  if (const std::string folder = atlasFolder(settings, scene); !folder.empty())
+  if (const std::string folder = atlasFolder(settings, *tools.shading); !folder.empty())
     return bricksIn(folder, tools, camera, radiosity, settings, stats, log);
   std::unique_ptr<const RadiosityMaps> maps;
   try {

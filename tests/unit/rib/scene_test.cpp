@@ -121,11 +121,11 @@ TEST(Lights, AreSwitchedByIlluminateWithinTheScope) {
   EXPECT_EQ(r.attributes(2).lights, (std::vector<int>{0, 1}));
 }
 
-TEST(Lights, CastShadowsWhenAskedTo) {
+TEST(Lights, CastShadowsByTheAttributeWhateverTheirShadersAsk) {
   const Reading r(inWorld(
       R"(LightSource "spotlight" 1 "shadowname" "raytrace" LightSource "spotlight" 2 "shadowname" "a.shad"
     AttributeBegin Attribute "light" "shadows" "on" LightSource "pointlight" 3 AttributeEnd LightSource "pointlight" 4)"));
-  const bool expected[] = {true, false, true, false};
+  const bool expected[] = {false, false, true, false};
   for (size_t i = 0; i < 4; ++i) EXPECT_EQ(r.scene().lights.at(i)->castsShadows, expected[i]) << i;
 }
 
