@@ -99,11 +99,14 @@ class Batch {
   std::deque<std::string> answers_;
 };
 
-/// What a caller of another release gives of an options struct that begins with structBytes: as many fields as it knows
-/// of. Null: none.
+/// The defaults, but for what a caller gives of an options struct that begins with structBytes: as many fields as its
+/// release knows of. Null: none.
 template <class Options>
-Options givenOptions(Options options, const Options* given) {
-  if (given)
+Options givenOptions(const Batch& batch, Options options, const Options* given) {
+  if (given && given->structBytes < sizeof given->structBytes)
+    batch.report(Severity::Missing, "shader-options",
+                 "gives options whose structBytes is 0, which no function of defaults has made; the defaults count");
+  else if (given)
     std::copy_n(reinterpret_cast<const char*>(given), std::min<size_t>(given->structBytes, sizeof options),
                 reinterpret_cast<char*>(&options));
   return options;

@@ -39,8 +39,8 @@ vec3 transformAs(TmType type, const mat4& m, const vec3& v) {
 }
 
 const TmValue* BoundShader::find(std::string_view name) const {
-  for (size_t i = 0; i < values.size(); ++i)
-    if (shader->params[i].name == name) return &values[i];
+  for (int i = 0; i < shader->paramCount; ++i)
+    if (shader->params[i].name == name) return &values[static_cast<size_t>(i)];
   return nullptr;
 }
 
@@ -72,7 +72,7 @@ BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const 
   auto bound = std::make_shared<BoundShader>();
   bound->shader = &shader, bound->where = where, bound->user = user, bound->currentFromShader = currentFromShader;
   const size_t n = static_cast<size_t>(shader.paramCount);
-  bound->floats.resize(n), bound->strings.resize(n), bound->values.resize(n);
+  bound->floats.resize(n), bound->strings.resize(n), bound->values.resize(n + 1);
 
   const auto warn = [&](const char* code, std::string_view parameter, const std::string& problem) {
     log.report(Severity::Warning, fmt::format("{}-{}-{}", code, shader.name, parameter), where,
