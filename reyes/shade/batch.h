@@ -1,6 +1,7 @@
 // One chunk of points (or one grid to displace) while its shader runs: what TmGrid::host points to.
 // Threads: used by one; its BoundScene is shared and constant.
 #pragma once
+#include "reyes/base/crash_note.h"
 #include "reyes/grid.h"
 #include "reyes/shade/arena.h"
 #include "reyes/shade/bound_scene.h"
@@ -91,6 +92,7 @@ class Batch {
  private:
   void setCommon(int count, const BoundShader& shader, const std::vector<Override>& overrides,
                  const std::function<const float*(int offset)>& primvar);
+  CrashNote::Text crashText() const;
   TmConstVec3 constant(const vec3& v);
   TmConstVec3 velocity();
   bool hasNeighbours() const { return points && tm.count > points->count(); }

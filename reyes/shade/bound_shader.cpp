@@ -73,6 +73,7 @@ BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const 
   bound->shader = &shader, bound->where = where, bound->user = user, bound->currentFromShader = currentFromShader;
   const size_t n = static_cast<size_t>(shader.paramCount);
   bound->floats.resize(n), bound->strings.resize(n), bound->values.resize(n + 1);
+  bound->values[n] = {{nullptr, nullptr, nullptr}, 1, 1, nullptr};  // to read it is to crash
 
   const auto warn = [&](const char* code, std::string_view parameter, const std::string& problem) {
     log.report(Severity::Warning, fmt::format("{}-{}-{}", code, shader.name, parameter), where,

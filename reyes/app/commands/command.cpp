@@ -13,6 +13,7 @@
 #include "reyes/app/commands/shade.h"
 #include "reyes/app/commands/shadetest.h"
 #include "reyes/app/exit_code.h"
+#include "reyes/base/crash_note.h"
 
 namespace tomales {
 namespace {
@@ -135,6 +136,8 @@ void buildShadetest(CLI::App& app, Invocation& in, int& code) {
       *c, "--grid", in.shadetest.grid, [](const std::string& t) { return parsePair(t, 2, 4096); }, "NxM",
       "Points along u and v (default 64x64)");
   addParsed(*c, "-o", in.shadetest.output, parseOutput, "FILE.exr|.tif|.png", "Picture of Ci");
+  c->add_flag("--check", in.shadetest.check,
+              "Does the shader, or do all of the file, what they declare? Exit code 3 if not");
   c->callback([&] { code = shadetestCommand(in.shadetest); });
 }
 
@@ -287,6 +290,7 @@ int parseAndRun(int argc, char** argv) {
 }  // namespace
 
 int run(int argc, char** argv) {
+  reportCrashes();
   std::signal(SIGXFSZ, SIG_IGN);  // a file too large (ulimit -f) is then an error of write(), told as a full disk is
   try {
     return parseAndRun(argc, argv);
