@@ -8,6 +8,7 @@
 
 #include "reyes/app/chart/html.h"
 #include "reyes/app/exit_code.h"
+#include "reyes/app/settings.h"
 #include "reyes/app/watch/interrupt.h"
 
 namespace tomales {

@@ -11,6 +11,7 @@
 #include "gi/icf.h"
 #include "gi/point_file.h"
 #include "reyes/app/exit_code.h"
+#include "reyes/app/settings.h"
 #include "reyes/dfb.h"
 #include "reyes/image.h"
 #include "reyes/rib.h"
