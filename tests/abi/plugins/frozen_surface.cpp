@@ -1,4 +1,5 @@
-// A surface of ABI 1: parameters, an output, a texture, rays, light. It is compiled against the headers of ABI 1 for ever.
+// A surface of ABI 1: parameters, an output, a texture, rays, light. It is compiled against the headers of ABI 1 for
+// ever.
 #include <reyes/shader.h>
 
 namespace {
@@ -24,7 +25,8 @@ void shade(const TmGrid* g) {
   for (TmIlluminance sample = tmIlluminanceDefaults(); b.illuminance(sample);)
     for (int i : b)
       if (sample.lit[i])
-        light.set(i, light[i] + std::max(0.0f, rsl::dot(Nf[i], rsl::get(sample.direction, i))) * rsl::get(sample.Cl, i));
+        light.set(i,
+                  light[i] + std::max(0.0f, rsl::dot(Nf[i], rsl::get(sample.direction, i))) * rsl::get(sample.Cl, i));
   for (int i : b) {
     const rsl::Color c{textureweight(g, i) * picture[i].x, seen[i].y + coverweight(g, i) * covered[i], light[i].z};
     b.output(i, {scales(g, 0) * c.x, scales(g, 1) * c.y, scales(g, 2) * c.z}, b.Os(i));

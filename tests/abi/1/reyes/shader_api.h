@@ -10,12 +10,12 @@
  * Threads: one shader runs on many threads at once, on different batches. It must keep no state.
  *
  * Growth: what ABI 1 holds stays where it is, with the same meaning and the same values of enumerations. A later
- * release of ABI 1 may append fields to structs that begin with structBytes, functions to TmServices, and values to
- * enumerations; 0, or the value that the struct's function of defaults gives, then means what it meant before. A new
- * field begins where the earlier struct ended, padding included, and no field leaves a hole before it. Structs without
- * structBytes never change: TmVec3, TmConstVec3, TmValue, TmChannel, TmMessage. A plugin that uses what is new looks at
- * structBytes of TmGrid or TmServices first; the renderer looks at structBytes of all that plugins give, and takes what
- * they do not know of as the defaults. Anything else is ABI 2. tests/abi/ keeps the headers of ABI 1 and plugins that
+ * release of ABI 1 may append fields to structs that begin with structBytes (and to TmParamDecl: paramBytes), functions
+ * to TmServices, and values to enumerations; 0, or the value that the struct's function of defaults gives, then means
+ * what it meant before. A new field begins where the earlier struct ended, padding included, and no field leaves a hole
+ * before it. Other structs never change. A plugin that uses what is new looks at structBytes of TmGrid or TmServices
+ * first; the renderer looks at structBytes of all that plugins give, and takes what they do not know of as the
+ * defaults. Anything else is ABI 2. tests/abi/ keeps the headers of ABI 1, and plugins that
  * are compiled against them. */
 #pragma once
 #include "reyes/shader/services.h"
