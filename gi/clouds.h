@@ -20,9 +20,9 @@ class CloudFiles final : public CloudServices {
 
   bool bake(const CloudQuery&, const std::vector<CloudValue>&, std::string& problem) override;
   bool lookUp(const CloudQuery&, const std::vector<CloudValue>&, float* found, std::string& problem) override;
-  bool photons(const CloudQuery&, const TmPhotonLookup&, TmVec3 E, std::string& problem) override;
+  bool photons(const CloudQuery&, const TmPhotonOptions&, TmVec3 E, std::string& problem) override;
   bool occlusion(const CloudQuery&, const DisksQuery&, float* covered, TmVec3 radiance, std::string& problem) override;
-  bool subsurface(const CloudQuery&, const TmSubsurface&, TmVec3 out, std::string& problem) override;
+  bool subsurface(const CloudQuery&, const TmSubsurfaceOptions&, TmVec3 out, std::string& problem) override;
 
   /// All that was baked, as FILE.ptc. The points of a file are sorted by what they are, so that no bit depends on
   /// threads or buckets.
@@ -39,7 +39,7 @@ class CloudFiles final : public CloudServices {
     std::string problem;
   };
   /// With `photons`: a photon map, as the irradiance that the nearest tell of. Brick maps hold irradiance as it is.
-  const Opened<BrickMap>& opened(const std::string& file, const TmPhotonLookup* photons = nullptr);
+  const Opened<BrickMap>& opened(const std::string& file, const TmPhotonOptions* photons = nullptr);
   /// What `make` makes of all points of a file.
   template <class Data, class Key, class Make>
   const Opened<Data>& openedWhole(std::map<Key, Opened<Data>>& known, const Key& key, const std::string& file,

@@ -147,6 +147,23 @@ PrimPtr makeDisk(float height, float radius, float thetaMax_degrees, const Param
 PrimPtr makeTorus(float major, float minor, float phiMin_degrees, float phiMax_degrees, float thetaMax_degrees,
                   const ParamList&, Problems&);
 
+/// What RIB must know of a quadric: its request, the numbers before its parameter list, and when they leave nothing of
+/// it, which while it moves is no error. One entry of quadrics() in reyes/prim/quadrics.cpp is all that RIB needs of a
+/// new one; plugins call it by reyes/ri.h.
+struct Quadric {
+  std::string_view name;
+  int numberCount;
+  PrimPtr (*make)(const float* numbers, const ParamList&, Problems&);
+  std::vector<int> sizes;  ///< Those of the numbers that must not be 0.
+  int from = 0, to = 0,
+      extentCount = 0;  ///< Where two places begin that must differ, and of how many numbers they are.
+
+  bool hasNoArea(const float* numbers) const;
+};
+const std::vector<Quadric>& quadrics();
+/// Null: no quadric is called so.
+const Quadric* findQuadric(std::string_view name);
+
 /// Faces of any size and convexity, without holes. `vertexCounts` per face, `vertices` concatenated.
 /// Polygon is the same with one face. Degenerate faces (fewer than three distinct vertices) are dropped with a problem.
 /// `keys`: where the points of one that moves are at every key, so that all are cut, and faces dropped, alike.

@@ -226,13 +226,13 @@ class CloudServices {
   virtual bool bake(const CloudQuery&, const std::vector<CloudValue>&, std::string& problem) = 0;
   virtual bool lookUp(const CloudQuery&, const std::vector<CloudValue>&, float* found, std::string& problem) = 0;
   /// E/pi of a photon map.
-  virtual bool photons(const CloudQuery&, const TmPhotonLookup&, TmVec3 E, std::string& problem) = 0;
+  virtual bool photons(const CloudQuery&, const TmPhotonOptions&, TmVec3 E, std::string& problem) = 0;
   /// Share of the hemisphere around N, weighted by the cosine, and (unless x is null) the mean radiance that arrives
   /// from it.
   virtual bool occlusion(const CloudQuery&, const DisksQuery&, float* covered, TmVec3 radiance,
                          std::string& problem) = 0;
   /// Baked light that leaves after diffusion, E/pi.
-  virtual bool subsurface(const CloudQuery&, const TmSubsurface&, TmVec3 out, std::string& problem) = 0;
+  virtual bool subsurface(const CloudQuery&, const TmSubsurfaceOptions&, TmVec3 out, std::string& problem) = 0;
 };
 
 /// Where a light is, as far as one can tell without asking it.

@@ -52,7 +52,6 @@ class Vec3Array : public Array {
 };
 
 enum class RayType { Camera, Diffuse, Specular, Transmission };  ///< rayInfo("type")
-inline TmRayOptions defaultRays() { return TM_RAY_DEFAULTS; }
 
 /// `for (int i : batch)` visits the active points. Services are one call for the whole batch: ask before the
 /// loop.
@@ -93,56 +92,60 @@ class Batch {
   Vec3Array ambient() const {
     return filled([&](TmVec3 out) { g->call->ambient(g->host, g, out); });
   }
-  Vec3Array diffuse(TmConstVec3 N) const {
-    return filled([&](TmVec3 out) { g->call->diffuse(g->host, g, N, out); });
-  }
+  Vec3Array diffuse(TmConstVec3 N) const { return diffuse(TM_ALL_LIGHT, N); }
   /// The part of diffuse(N) that TM_DIRECT_LIGHT or TM_INDIRECT_LIGHT brings; lights are evaluated once for all.
-  Vec3Array diffuseOf(TmLightChoice which, TmConstVec3 N) const {
-    return filled([&](TmVec3 out) { g->call->diffuseOf(g->host, g, which, N, out); });
+  Vec3Array diffuse(TmLightChoice which, TmConstVec3 N) const {
+    return filled([&](TmVec3 out) { g->call->diffuse(g->host, g, which, N, out); });
   }
+  /// The next sample of a light: `for (TmIlluminance light = tmIlluminanceDefaults(); b.illuminance(light);)`.
+  bool illuminance(TmIlluminance& light) const { return g->call->illuminance(g->host, g, &light) != 0; }
   Vec3Array specular(TmConstVec3 N, TmConstVec3 V, const FloatParam& roughness) const {
     Array r(g);
     for (int i : *this) r[i] = roughness(g, i);
     return filled([&](TmVec3 out) { g->call->specular(g->host, g, N, V, r.data(), out); });
   }
   /// Three channels of a texture at the surface's s, t. False: missing, reported, `out` is loud.
-  bool texture(const char* name, Vec3Array& out) const {
-    return g->call->texture(g->host, g, name, 0, 3, g->s, g->t, out) != 0;
+  bool texture(const char* name, Vec3Array& out, const TmTextureOptions& options = tmTextureDefaults()) const {
+    return g->call->texture(g->host, g, name, &options, g->s, g->t, out) != 0;
   }
-  /// Radiance of a latitude-longitude picture of the surroundings, in world space. Return: as texture().
-  bool environment(const char* name, TmConstVec3 direction, const float* width_radians, Vec3Array& out) const {
-    return g->call->environment(g->host, g, name, direction, width_radians, out) != 0;
+  /// Radiance of a latitude-longitude picture of the surroundings, in world space. Returns as texture().
+  bool environment(const char* name, TmConstVec3 direction, Vec3Array& out,
+                   const TmTextureOptions& options = tmTextureDefaults()) const {
+    return g->call->environment(g->host, g, name, &options, direction, out) != 0;
   }
   /// Colour along rays from P; see TmServices::trace.
-  Vec3Array trace(TmConstVec3 direction, const TmRayOptions& options = defaultRays()) const {
-    return filled([&](TmVec3 out) { g->call->trace(g->host, g, view(g->P), direction, &options, out, nullptr); });
+  Vec3Array trace(TmConstVec3 direction, const TmRayOptions& options = tmRayDefaults()) const {
+    return filled([&](TmVec3 out) { g->call->trace(g->host, g, &options, view(g->P), direction, out, nullptr); });
   }
   /// How far rays from P go; 1e30 where they meet nothing.
-  Array traceDistance(TmConstVec3 direction, const TmRayOptions& options = defaultRays()) const {
+  Array traceDistance(TmConstVec3 direction, const TmRayOptions& options = tmRayDefaults()) const {
     Array out(g);
-    g->call->trace(g->host, g, view(g->P), direction, &options, TmVec3{}, out.data());
+    g->call->trace(g->host, g, &options, view(g->P), direction, TmVec3{}, out.data());
     return out;
   }
   /// Light that passes from P to P + toward.
-  Vec3Array transmission(TmConstVec3 toward, const TmRayOptions& options = defaultRays()) const {
-    return filled([&](TmVec3 out) { g->call->transmissionWith(g->host, g, view(g->P), toward, &options, out); });
+  Vec3Array transmission(TmConstVec3 toward, const TmRayOptions& options = tmRayDefaults()) const {
+    return filled([&](TmVec3 out) { g->call->transmission(g->host, g, &options, view(g->P), toward, out); });
   }
   /// Share of the hemisphere (or cone) around N that is covered.
-  Array occlusion(TmConstVec3 N, const TmRayOptions& options) const {
+  Array occlusion(TmConstVec3 N, const TmRayOptions& rays, TmOcclusion options = tmOcclusionDefaults()) const {
     Array out(g);
-    g->call->occlusion(g->host, g, view(g->P), N, &options, out.data(), TmVec3{});
+    options.covered = out.data();
+    g->call->occlusion(g->host, g, &rays, view(g->P), N, &options);
     return out;
   }
   /// Mean radiance that arrives from the hemisphere (or cone) around N: rays for every point, nothing interpolated.
-  Vec3Array incoming(TmConstVec3 N, const TmRayOptions& options) const {
-    Array covered(g);
-    return filled([&](TmVec3 out) { g->call->occlusion(g->host, g, view(g->P), N, &options, covered.data(), out); });
+  Vec3Array incoming(TmConstVec3 N, const TmRayOptions& rays, TmOcclusion options = tmOcclusionDefaults()) const {
+    Vec3Array out(g);
+    options.radiance = out;
+    g->call->occlusion(g->host, g, &rays, view(g->P), N, &options);
+    return out;
   }
   /// Ray `ray` of options.samples around an axis; false when there are no more.
   bool gather(TmConstVec3 axis, const TmRayOptions& options, int ray, std::vector<uint8_t>& hit,
-              std::initializer_list<TmRayOutput> outputs) const {
+              std::initializer_list<TmChannel> outputs) const {
     hit.assign(static_cast<size_t>(g->padded), 0);
-    return g->call->gather(g->host, g, view(g->P), axis, &options, ray, hit.data(), outputs.begin(),
+    return g->call->gather(g->host, g, &options, view(g->P), axis, ray, hit.data(), outputs.begin(),
                            static_cast<int32_t>(outputs.size())) != 0;
   }
   /// rayInfo() of the ray that came to these points: the same for all.
@@ -210,10 +213,9 @@ class Batch {
 }  // namespace rsl
 
 /// Exports rsl::Shader objects from a plugin.
-#define TM_SHADER_LIBRARY(...)                                                                       \
-  extern "C" __attribute__((visibility("default"))) const TmShaderLibrary* tomales_shaders(void) {   \
-    static const TmShader* const shaders[] = {__VA_ARGS__};                                          \
-    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders,         \
-                                            static_cast<int32_t>(sizeof shaders / sizeof *shaders)}; \
-    return &library;                                                                                 \
+#define TM_SHADER_LIBRARY(...)                                                                     \
+  extern "C" __attribute__((visibility("default"))) const TmShaderLibrary* tomales_shaders(void) { \
+    static const TmShader* const shaders[] = {__VA_ARGS__};                                        \
+    static const TmShaderLibrary library = rsl::libraryOf(shaders, rsl::faultOfParameters());      \
+    return &library;                                                                               \
   }

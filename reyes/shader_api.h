@@ -8,7 +8,15 @@
  * Space: "current" is camera space at shutter open (left-handed, +z into the scene). Colours are linear.
  * Irradiance: diffuse(), ambient() and indirect light are E/pi, the RSL convention: Ci = Cs * diffuse(N).
  * Threads: one shader runs on many threads at once, on different batches. It must keep no state.
- * Growth: fields and functions are only ever appended; check structBytes before using a later one. */
+ *
+ * Growth: what ABI 1 holds stays where it is, with the same meaning and the same values of enumerations. A later
+ * release of ABI 1 may append fields to structs that begin with structBytes (and to TmParamDecl: paramBytes), functions
+ * to TmServices, and values to enumerations; 0, or the value that the struct's function of defaults gives, then means
+ * what it meant before. A new field begins where the earlier struct ended, padding included, and no field leaves a hole
+ * before it. Other structs never change. A plugin that uses what is new looks at structBytes of TmGrid or TmServices
+ * first; the renderer looks at structBytes of all that plugins give, and takes what they do not know of as the
+ * defaults. Anything else is ABI 2. tests/abi/ keeps the headers of ABI 1, and plugins that
+ * are compiled against them. */
 #pragma once
 #include "reyes/shader/services.h"
 
@@ -18,18 +26,27 @@ extern "C" {
 
 typedef struct TmShader {
   uint32_t abi, structBytes; /* TM_SHADER_ABI and sizeof(TmShader) of the plugin's header: checked before all else */
-  const char* name;
-  int32_t kind;          /* TmKind */
-  uint32_t capabilities; /* of TmCapability */
-  const TmParamDecl* params;
+  int32_t kind;              /* TmKind */
+  uint32_t capabilities;     /* of TmCapability */
   int32_t paramCount;
+  uint32_t paramBytes; /* sizeof(TmParamDecl) of the plugin's header */
+  const TmParamDecl* params;
   void (*shade)(const TmGrid* grid);
+  const char* name;
   const char* doc;
+  /* What the author has to mend, such as a parameter that is listed at two places: told, and the shader is left out.
+   * NULL: nothing. */
+  const char* fault;
+  /* For `tomales shadetest --check`; NULL where a plugin has no such function. Makes the k-th parameter of the plugin's
+   * code that this shader does not list lie behind its last one, every other where it belongs, and returns its name.
+   * NULL: there are not so many, and all lie where they belong. */
+  const char* (*unlist)(const struct TmShader*, int32_t k);
 } TmShader;
 
 typedef struct TmShaderLibrary {
   uint32_t abi, structBytes;
   const TmShader* const* shaders;
+  const char* fault; /* as TmShader::fault, of the whole plugin */
   int32_t count;
 } TmShaderLibrary;
 

@@ -109,8 +109,8 @@ struct Lit : Globals {
 
  private:
   static TmIlluminance question(const char* category) {
-    TmIlluminance query{};
-    query.structBytes = sizeof query, query.category = category;
+    TmIlluminance query = tmIlluminanceDefaults();
+    query.category = category;
     return query;
   }
   template <class Body>

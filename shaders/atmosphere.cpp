@@ -22,7 +22,8 @@ void shadeFog(const TmGrid* g) {
 void shadeDepthcue(const TmGrid* g) {
   const rsl::Batch b(g);
   const float range = g->clip[1] - g->clip[0];
-  if (!(range < 1e20f)) g->call->report(g->host, g, 1, "fades between clipping planes: the scene has no Clipping");
+  if (!(range < 1e20f))
+    g->call->report(g->host, g, TM_WARNING, "fades between clipping planes: the scene has no Clipping");
   for (int i : b) {
     const float depth = (b.P(i).z - g->clip[0]) / range;
     const float amount = (depth - mindistance(g, i)) / (maxdistance(g, i) - mindistance(g, i));

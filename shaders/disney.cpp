@@ -126,11 +126,11 @@ class Glossy {
   }
   const Lobes& operator[](int i) const { return lobes_[static_cast<size_t>(i)]; }
 
-  /// What sample `k` of the lights adds: the rest comes by addLobeSamples().
-  void addLightSample(int k, const TmLightSample& sample, rsl::Vec3Array& sum) {
-    g_->call->lightDensity(g_->host, g_, k, density_.data());
+  /// What a sample of the lights adds: the rest comes by addLobeSamples().
+  void addLightSample(const TmIlluminance& sample, rsl::Vec3Array& sum) {
+    g_->call->lightDensity(g_->host, g_, sample.light, density_.data());
     for (int i : b_) {
-      const Vec3 L = rsl::get(sample.L, i);
+      const Vec3 L = rsl::get(sample.direction, i);
       if (rsl::dot((*this)[i].N, L) <= 0) continue;
       const float other = density_[i] > 0 ? static_cast<float>(ofLights_) * (*this)[i].density(L) / density_[i] : 0.0f;
       sum.set(i, sum[i] + rsl::get(sample.Cl, i) * (*this)[i].value(L) / (1 + other * other));
@@ -145,7 +145,7 @@ class Glossy {
   }
   /// What the scene looks like in it. Lamps are left out: light samples bring those.
   void addReflections(int rays, rsl::Vec3Array& sum) {
-    TmRayOptions options = rsl::defaultRays();
+    TmRayOptions options = tmRayDefaults();
     options.drawn = rays, options.passLamps = 1;
     for (int& k = options.number; k < rays; ++k) {
       draw(k, rays);
@@ -185,17 +185,16 @@ void shade(const TmGrid* g) {
   // Gather rays carry diffuse light alone.
   const bool shiny = b.wantsHighlights();
   Glossy glossy(b, N, V, paint);
-  TmLightSample sample;
-  for (int k = 0; g->call->light(g->host, g, k, &sample); ++k) {
+  for (TmIlluminance sample = tmIlluminanceDefaults(); b.illuminance(sample);) {
     for (int i : b) {
-      const Vec3 L = rsl::get(sample.L, i), H = rsl::normalize(L + V[i]);
+      const Vec3 L = rsl::get(sample.direction, i), H = rsl::normalize(L + V[i]);
       const float nl = rsl::dot(N[i], L);
       if (nl > 0 && !sample.nondiffuse)
         diffuse.set(
             i, diffuse[i] + nl * rsl::get(sample.Cl, i) * glossy[i].material.diffuse(nl, glossy[i].nv, rsl::dot(L, H)));
     }
     // Indirect light is diffuse light: of its direction no more is known than the main one.
-    if (shiny && !sample.nonspecular && !sample.isIndirect) glossy.addLightSample(k, sample, highlight);
+    if (shiny && !sample.nonspecular && !sample.isIndirect) glossy.addLightSample(sample, highlight);
   }
   if (shiny) {
     glossy.addLobeSamples(highlight);

@@ -31,7 +31,9 @@ void shade(const TmGrid* g) {
   rsl::Vec3Array sky(g);
   rsl::Array width(g);
   for (int i : b) sky.set(i, {1, 1, 1}), width[i] = kCell;
-  if (*map(g) != '\0') b.environment(map(g), rsl::view(TmVec3(directions(g))), width.data(), sky);
+  TmTextureOptions options = tmTextureDefaults();
+  options.angle = width.data();
+  if (*map(g) != '\0') b.environment(map(g), directions(g), sky, options);
   for (int i : b) rsl::set(g->Cl, i, intensity(g, i) * lightcolor(g, i) * sky[i]);
 }
 }  // namespace

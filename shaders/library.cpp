@@ -17,7 +17,6 @@ const TmShaderLibrary* tomales_builtin_shaders(void) {
                                             clamptoalphaShader,  bumpyShader,          noisybumpShader,
                                             mirrorShader,        glassShader,          occlusionlightShader,
                                             disneyShader,        daylightShader,       sunlightShader};
-  static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders,
-                                          static_cast<int32_t>(sizeof shaders / sizeof *shaders)};
+  static const TmShaderLibrary library = rsl::libraryOf(shaders);
   return &library;
 }

@@ -10,7 +10,7 @@ rsl::UniformFloatParam samples("samples", 1, "reflected rays a point");
 void shade(const TmGrid* g) {
   const rsl::Batch b(g);
   rsl::Vec3Array R(g);
-  TmRayOptions rays = rsl::defaultRays();
+  TmRayOptions rays = tmRayDefaults();
   rays.coneAngle = blur(g), rays.samples = static_cast<int32_t>(samples(g));
   for (int i : b) R.set(i, rsl::reflect(rsl::normalize(b.I(i)), b.facingNormal(i)));
   const rsl::Vec3Array mirrored = b.trace(R, rays);

@@ -23,7 +23,7 @@ struct DiffuseParts {
   static void storeOf(const rsl::Batch& b, const rsl::ColorOutput& to, TmLightChoice which, TmConstVec3 Nf,
                       const Diffuse& ofDiffuse) {
     if (!to.wanted(b.g)) return;
-    const rsl::Vec3Array light = b.diffuseOf(which, Nf);
+    const rsl::Vec3Array light = b.diffuse(which, Nf);
     for (int i : b) to.set(b.g, i, ofDiffuse(i) * light[i]);
   }
 };

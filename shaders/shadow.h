@@ -15,9 +15,11 @@ struct ShadowParams {
   void dim(const rsl::Batch& b, const char* map) const {
     const TmGrid* g = b.g;
     if (*map == '\0') return;
-    const TmShadowLookup lookup{shadowbias(g), blur(g), width(g), static_cast<int32_t>(samples(g))};
+    TmShadowOptions options = tmShadowDefaults();
+    options.bias = shadowbias(g), options.blur = blur(g), options.width = width(g);
+    options.samples = static_cast<int32_t>(samples(g));
     rsl::Vec3Array shadow(g);
-    g->call->shadow(g->host, g, map, rsl::view(g->P), &lookup, shadow);
+    g->call->shadow(g->host, g, map, &options, rsl::view(g->P), shadow);
     for (int i : b) rsl::set(g->Cl, i, rsl::get(g->Cl, i) * (rsl::Color{1, 1, 1} - shadow[i]));
   }
 };

@@ -19,7 +19,7 @@ void shade(const TmGrid* g) {
   if (std::string(texturename(g)) == "raytrace")
     mirrored = b.trace(R);
   else if (*texturename(g) != '\0')
-    g->call->environmentWith(g->host, g, texturename(g), nullptr, R, mirrored);
+    b.environment(texturename(g), R, mirrored);
   for (int i : b) {
     const rsl::Color fromAmbient = b.Cs(i) * (Ka(g, i) * ambient[i]), shine = b.Cs(i) * (Ks(g, i) * specular[i]);
     const rsl::Color mirror = b.Cs(i) * (Kr(g, i) * mirrored[i]);

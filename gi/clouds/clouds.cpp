@@ -54,7 +54,7 @@ PointCloud sorted(const PointCloud& cloud) {
 }
 
 /// None: of a name that there is not.
-std::optional<Translucency> materialOf(const TmSubsurface& s) {
+std::optional<Translucency> materialOf(const TmSubsurfaceOptions& s) {
   const auto triple = [](const float(&v)[3]) { return vec3(v[0], v[1], v[2]); };
   if (s.material) return translucencyOf(s.material);
   if (s.meanFreePath[0] != 0) return translucencyOf(triple(s.albedo), triple(s.meanFreePath), s.ior);
@@ -62,7 +62,7 @@ std::optional<Translucency> materialOf(const TmSubsurface& s) {
 }
 
 /// What subsurface() cannot reckon with; empty: nothing.
-std::string problemOf(const TmSubsurface& given, const std::optional<Translucency>& material) {
+std::string problemOf(const TmSubsurfaceOptions& given, const std::optional<Translucency>& material) {
   if (!material) return fmt::format("subsurface material \"{}\" is not known", given.material);
   if (!(material->ior >= 1 && material->ior <= kMostIor))
     return fmt::format("subsurface \"ior\" {} is not between 1 and {}", material->ior, kMostIor);
@@ -74,7 +74,7 @@ std::string problemOf(const TmSubsurface& given, const std::optional<Translucenc
 }
 
 /// Throws FileError.
-PointCloud cloudOf(const fs::path& path, const TmPhotonLookup* photons) {
+PointCloud cloudOf(const fs::path& path, const TmPhotonOptions* photons) {
   const PointFile file(path.string());
   if (!photons) return file.readAll();
   requirePhotons(file);
@@ -108,7 +108,7 @@ bool CloudFiles::bake(const CloudQuery& q, const std::vector<CloudValue>& values
   return true;
 }
 
-const CloudFiles::Opened<BrickMap>& CloudFiles::opened(const std::string& file, const TmPhotonLookup* photons) {
+const CloudFiles::Opened<BrickMap>& CloudFiles::opened(const std::string& file, const TmPhotonOptions* photons) {
   const fs::path path = found(file, searchPath_);
   const bool isCloud = path.extension() == ".ptc";
   const std::lock_guard lock(mutex_);
@@ -152,8 +152,8 @@ bool CloudFiles::lookUp(const CloudQuery& q, const std::vector<CloudValue>& valu
   return problem.empty();
 }
 
-bool CloudFiles::photons(const CloudQuery& q, const TmPhotonLookup& given, TmVec3 E, std::string& problem) {
-  TmPhotonLookup lookup = given;
+bool CloudFiles::photons(const CloudQuery& q, const TmPhotonOptions& given, TmVec3 E, std::string& problem) {
+  TmPhotonOptions lookup = given;
   lookup.estimator = std::max(1, lookup.estimator), lookup.maxDistance = std::max(0.0f, lookup.maxDistance);
   const Opened<BrickMap>& file = opened(q.file, &lookup);
   problem = file.problem;
@@ -209,7 +209,7 @@ bool CloudFiles::occlusion(const CloudQuery& q, const DisksQuery& query, float* 
   return true;
 }
 
-bool CloudFiles::subsurface(const CloudQuery& q, const TmSubsurface& given, TmVec3 out, std::string& problem) {
+bool CloudFiles::subsurface(const CloudQuery& q, const TmSubsurfaceOptions& given, TmVec3 out, std::string& problem) {
   const Opened<Diffusion>& file = openedWhole(
       diffusing_, q.file, q.file, [](const PointCloud& cloud) { return std::make_unique<const Diffusion>(cloud); });
   problem = file.problem;

@@ -217,4 +217,75 @@ PrimPtr makeParaboloid(float rmax, float zmin, float zmax, float thetaMax_degree
   return std::make_shared<Paraboloid>(rmax, zmin, zmax, thetaMax_degrees, params, problems);
 }
 
+namespace {
+
+template <auto Make, int... I>
+PrimPtr makeOf(const float* numbers, std::integer_sequence<int, I...>, const ParamList& params, Problems& problems) {
+  return Make(numbers[I]..., params, problems);
+}
+template <int count, auto Make>
+PrimPtr makeOf(const float* numbers, const ParamList& params, Problems& problems) {
+  return makeOf<Make>(numbers, std::make_integer_sequence<int, count>(), params, problems);
+}
+
+PrimPtr hyperboloidOf(const float* n, const ParamList& params, Problems& problems) {
+  return makeHyperboloid({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, n[6], params, problems);
+}
+
+}  // namespace
+
+bool Quadric::hasNoArea(const float* n) const {
+  const bool empty = extentCount > 0 && std::equal(n + from, n + from + extentCount, n + to);
+  return empty || std::any_of(sizes.begin(), sizes.end(), [&](int i) { return n[i] == 0; });
+}
+
+const std::vector<Quadric>& quadrics() {
+  static const std::vector<Quadric> table = {
+      {.name = "Sphere",
+       .numberCount = 4,
+       .make = makeOf<4, makeSphere>,
+       .sizes = {0, 3},
+       .from = 1,
+       .to = 2,
+       .extentCount = 1},
+      {.name = "Cone", .numberCount = 3, .make = makeOf<3, makeCone>, .sizes = {1, 2}},
+      {.name = "Cylinder",
+       .numberCount = 4,
+       .make = makeOf<4, makeCylinder>,
+       .sizes = {0, 3},
+       .from = 1,
+       .to = 2,
+       .extentCount = 1},
+      {.name = "Hyperboloid",
+       .numberCount = 7,
+       .make = hyperboloidOf,
+       .sizes = {6},
+       .from = 0,
+       .to = 3,
+       .extentCount = 3},
+      {.name = "Paraboloid",
+       .numberCount = 4,
+       .make = makeOf<4, makeParaboloid>,
+       .sizes = {0, 3},
+       .from = 1,
+       .to = 2,
+       .extentCount = 1},
+      {.name = "Disk", .numberCount = 3, .make = makeOf<3, makeDisk>, .sizes = {1, 2}},
+      {.name = "Torus",
+       .numberCount = 5,
+       .make = makeOf<5, makeTorus>,
+       .sizes = {1, 4},
+       .from = 2,
+       .to = 3,
+       .extentCount = 1},
+  };
+  return table;
+}
+
+const Quadric* findQuadric(std::string_view name) {
+  for (const Quadric& q : quadrics())
+    if (q.name == name) return &q;
+  return nullptr;
+}
+
 }  // namespace tomales

@@ -136,28 +136,8 @@ PrimPtr geometry(const Request& r, const Scope& s, Problems& problems) {
   throw PrimError("there is no geometry \"" + name + "\"");
 }
 
-template <size_t... I, class Make>
-PrimPtr quadric(Make make, std::index_sequence<I...>, const Request& r, Problems& problems) {
-  return make(r.args[0].numbers[I]..., r.params, problems);
-}
-template <size_t N, auto Make>
-PrimPtr quadric(const Request& r, const Scope&, Problems& problems) {
-  return quadric(Make, std::make_index_sequence<N>(), r, problems);
-}
-
-PrimPtr hyperboloid(const Request& r, const Scope&, Problems& problems) {
-  return makeHyperboloid(asVec3(r.args[0]), asVec3(r.args[0], 3), r.args[0].numbers[6], r.params, problems);
-}
-
 const std::unordered_map<std::string_view, Builder>& builders() {
   static const std::unordered_map<std::string_view, Builder> table = {
-      {"Sphere", quadric<4, makeSphere>},
-      {"Cone", quadric<3, makeCone>},
-      {"Cylinder", quadric<4, makeCylinder>},
-      {"Hyperboloid", hyperboloid},
-      {"Paraboloid", quadric<4, makeParaboloid>},
-      {"Disk", quadric<3, makeDisk>},
-      {"Torus", quadric<5, makeTorus>},
       {"Patch", patch},
       {"PatchMesh", patchMesh},
       {"NuPatch", nuPatch},
@@ -211,7 +191,9 @@ float reachOf(const Request& r) {
   return reach;
 }
 
-bool isGeometry(std::string_view name) { return builders().contains(name) || keyBuilders().contains(name); }
+bool isGeometry(std::string_view name) {
+  return findQuadric(name) || builders().contains(name) || keyBuilders().contains(name);
+}
 
 PrimPtr buildPrim(const Request& r, const Scope& scope, const MotionKeys& motion, const GroundReader& grounds,
                   Problems& problems) {
@@ -221,6 +203,8 @@ PrimPtr buildPrim(const Request& r, const Scope& scope, const MotionKeys& motion
     if (const std::optional<Request> joined = blobbyOfPoints(request))
       return blobby(*joined, motion.first, grounds, problems);
     if (request.name == "Blobby") return blobby(request, motion.first, grounds, problems);
+    if (const Quadric* quadric = findQuadric(request.name))
+      return quadric->make(request.args[0].numbers.data(), request.params, problems);
     const auto keyed = keyBuilders().find(request.name);
     return keyed != keyBuilders().end() ? keyed->second(request, motion, problems)
                                         : builders().at(request.name)(request, scope, problems);

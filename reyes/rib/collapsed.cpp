@@ -5,14 +5,6 @@
 namespace tomales::rib {
 namespace {
 
-/// Of a quadric's numbers, those that must not be 0, and where two begin that must differ: so many numbers
-/// each.
-struct Extent {
-  std::string_view name;
-  std::vector<size_t> sizes;
-  std::ptrdiff_t from = 0, to = 0, count = 0;
-};
-
 /// A place, or a scale, at which nothing has a volume.
 bool flattens(const Request& r) {
   if (r.name == "Scale") return asVec3(r.args[0]).x * asVec3(r.args[0]).y * asVec3(r.args[0]).z == 0;
@@ -40,16 +32,8 @@ bool isEmptyMesh(const Request& r) {
 }
 
 bool hasNoArea(const Request& r) {
-  static const Extent kQuadrics[] = {
-      {"Sphere", {0, 3}, 1, 2, 1},     {"Cone", {1, 2}}, {"Cylinder", {0, 3}, 1, 2, 1}, {"Hyperboloid", {6}, 0, 3, 3},
-      {"Paraboloid", {0, 3}, 1, 2, 1}, {"Disk", {1, 2}}, {"Torus", {1, 4}, 2, 3, 1}};
-  for (const Extent& e : kQuadrics) {
-    if (e.name != r.name) continue;
-    const std::vector<float>& n = r.args[0].numbers;
-    const bool empty = e.count > 0 && std::equal(n.begin() + e.from, n.begin() + e.from + e.count, n.begin() + e.to);
-    return empty || std::any_of(e.sizes.begin(), e.sizes.end(), [&](size_t i) { return n[i] == 0; });
-  }
-  return false;
+  const Quadric* quadric = findQuadric(r.name);
+  return quadric && quadric->hasNoArea(r.args[0].numbers.data());
 }
 
 std::vector<Request> grown(std::vector<Request> keys) {

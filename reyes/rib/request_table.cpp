@@ -2,6 +2,8 @@
 
 #include <unordered_map>
 
+#include "reyes/prim.h"
+
 namespace tomales::rib {
 namespace {
 
@@ -123,13 +125,6 @@ constexpr Signature kTable[] = {
     {"CoordSysTransform", "s", kNone, kWorks},
     // Geometry
     {"Basis", "bibi", kNone, kWorks},
-    {"Sphere", "4", kParams, kDraws},
-    {"Cone", "3", kParams, kDraws},
-    {"Cylinder", "4", kParams, kDraws},
-    {"Hyperboloid", "7", kParams, kDraws},
-    {"Paraboloid", "4", kParams, kDraws},
-    {"Disk", "3", kParams, kDraws},
-    {"Torus", "5", kParams, kDraws},
     {"Polygon", "", kParams, kDraws},
     {"GeneralPolygon", "I", kParams, kDraws},
     {"PointsPolygons", "II", kParams, kDraws},
@@ -158,16 +153,23 @@ constexpr Signature kTable[] = {
     {"MakeTexture3D", "ss", kParams, kNotYet},
 };
 
+/// Quadrics are known by what makes them.
+Signature signatureOf(const Quadric& quadric) {
+  static constexpr std::string_view kCounts = "0123456789";
+  return {quadric.name, kCounts.substr(static_cast<size_t>(quadric.numberCount), 1), kParams, kDraws};
+}
+
 }  // namespace
 
 const Signature* findSignature(std::string_view name) {
   static const auto index = [] {
-    std::unordered_map<std::string_view, const Signature*> map;
-    for (const Signature& s : kTable) map.emplace(s.name, &s);
+    std::unordered_map<std::string_view, Signature> map;
+    for (const Signature& s : kTable) map.emplace(s.name, s);
+    for (const Quadric& q : quadrics()) map.emplace(q.name, signatureOf(q));
     return map;
   }();
   const auto it = index.find(name);
-  return it == index.end() ? nullptr : it->second;
+  return it == index.end() ? nullptr : &it->second;
 }
 
 }  // namespace tomales::rib

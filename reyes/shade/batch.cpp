@@ -226,6 +226,7 @@ void Batch::blackOutNonFinite(const BoundShader& shader) {
 
 bool Batch::run(const BoundShader& shader, const TmGrid& tmGrid) {
   const BoundShader* caller = std::exchange(running, &shader);
+  const CrashNote note(crashText());
   bool finished = true;
   const auto threw = [&](const char* what) {
     report(Severity::Missing, "shader-exception",
@@ -241,6 +242,18 @@ bool Batch::run(const BoundShader& shader, const TmGrid& tmGrid) {
   }
   running = caller;
   return finished;
+}
+
+CrashNote::Text Batch::crashText() const {
+  static constexpr const char* kKinds[] = {"surface shader", "displacement shader", "light shader", "volume shader",
+                                           "imager shader"};
+  const SourceLoc& where = running->where;
+  return {.kind = kKinds[running->shader->kind],
+          .name = running->shader->name,
+          .user = running->user.c_str(),
+          .other = running->user == group.object ? nullptr : group.object.c_str(),
+          .file = where.file ? where.file->c_str() : nullptr,
+          .line = where.line};
 }
 
 void Batch::report(Severity severity, const char* code, const std::string& problem) const {

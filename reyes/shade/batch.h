@@ -1,6 +1,7 @@
 // One chunk of points (or one grid to displace) while its shader runs: what TmGrid::host points to.
 // Threads: used by one; its BoundScene is shared and constant.
 #pragma once
+#include "reyes/base/crash_note.h"
 #include "reyes/grid.h"
 #include "reyes/shade/arena.h"
 #include "reyes/shade/bound_scene.h"
@@ -91,6 +92,7 @@ class Batch {
  private:
   void setCommon(int count, const BoundShader& shader, const std::vector<Override>& overrides,
                  const std::function<const float*(int offset)>& primvar);
+  CrashNote::Text crashText() const;
   TmConstVec3 constant(const vec3& v);
   TmConstVec3 velocity();
   bool hasNeighbours() const { return points && tm.count > points->count(); }
@@ -99,11 +101,14 @@ class Batch {
   std::deque<std::string> answers_;
 };
 
-/// What a caller of another release gives of an options struct that begins with structBytes: as many fields as it knows
-/// of. Null: none.
+/// The defaults, but for what a caller gives of an options struct that begins with structBytes: as many fields as its
+/// release knows of. Null: none.
 template <class Options>
-Options givenOptions(Options options, const Options* given) {
-  if (given)
+Options givenOptions(const Batch& batch, Options options, const Options* given) {
+  if (given && given->structBytes < sizeof given->structBytes)
+    batch.report(Severity::Missing, "shader-options",
+                 "gives options whose structBytes is 0, which no function of defaults has made; the defaults count");
+  else if (given)
     std::copy_n(reinterpret_cast<const char*>(given), std::min<size_t>(given->structBytes, sizeof options),
                 reinterpret_cast<char*>(&options));
   return options;

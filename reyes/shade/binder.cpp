@@ -18,7 +18,7 @@ BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, cons
   log_.report(Severity::Missing, "shader-missing", where,
               fmt::format("{}: {} shader \"{}\" is unknown; {}", user, kindName(kind), name, kConsequences[kind]));
   if (kind != TM_SURFACE) return nullptr;
-  return bindShader(kSubstituteSurface, nullptr, where, user, currentFromShader, log_);
+  return bindShader(substituteSurface(), nullptr, where, user, currentFromShader, log_);
 }
 
 }  // namespace tomales

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "reyes/shade/binder.h"
+#include "reyes/shader/params.h"
 
 namespace tomales {
 namespace {
@@ -75,10 +76,9 @@ int64_t textureMemoryOf(const Options& options) {
 
 /// Its shader never runs.
 BoundShaderPtr storedLight() {
-  static const TmShader shader{
-      TM_SHADER_ABI, sizeof(TmShader), "stored irradiance", TM_LIGHT, 0, nullptr, 0, nullptr, ""};
+  static const rsl::Shader shader(TM_LIGHT, "stored irradiance", "", 0, nullptr, {});
   auto bound = std::make_shared<BoundShader>();
-  bound->shader = &shader;
+  bound->shader = shader;
   return bound;
 }
 

@@ -25,7 +25,7 @@ struct BoundLight {
   IndirectQuery query;                           ///< TM_LIGHT_INDIRECT alone,
   IndirectRequest request;                       ///< and what it asks of the whole frame.
   bool filters = false;                          ///< It brings what another indirect light brings.
-  float maxVariation = 0;                        ///< TM_OCCLUDED alone: TmRayOptions::maxVariation.
+  float maxVariation = 0;                        ///< TM_OCCLUDED alone: TmOcclusion::maxVariation.
   std::string group;                             ///< As it names it; else the handle.
   std::string category;                          ///< Names by commas.
   std::shared_ptr<const Sky> sky;                ///< TM_LIGHT_SKY alone.

@@ -96,7 +96,8 @@ class Binding {
   void bind() {
     const TmShader& shader = *bound_.shader;
     const auto n = static_cast<size_t>(shader.paramCount);
-    bound_.floats.resize(n), bound_.strings.resize(n), bound_.values.resize(n);
+    bound_.floats.resize(n), bound_.strings.resize(n), bound_.values.resize(n + 1);
+    bound_.values[n] = {{nullptr, nullptr, nullptr}, 1, 1, nullptr};  // to read it is to crash
     for (size_t i = 0; i < n; ++i) bindDeclared(shader.params[i], i);
     if (!call_) return;
     const std::span<const TmParamDecl> standard = standardParams(static_cast<TmKind>(shader.kind));

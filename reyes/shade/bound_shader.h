@@ -1,7 +1,6 @@
 // A shader with its parameters resolved: defaults, what RIB gave, and points moved from shader to current
 // space.
 #pragma once
-
 #include "reyes/shader_api.h"
 #include "reyes/state.h"
 
@@ -22,7 +21,9 @@ struct BoundShader {
   SourceLoc where;   ///< Of the request, or of the object that has none.
   std::string user;  ///< What it is bound for, in messages: an object or a light.
   mat4 currentFromShader{1.0f};
-  std::vector<TmValue> values;  ///< In the order of TmShader::params; they point into the arrays below.
+  /// In the order of TmShader::params, and one more that no shader may read (TmGrid::params); they point into the
+  /// arrays below.
+  std::vector<TmValue> values;
 
   bool can(TmCapability capability) const { return (shader->capabilities & capability) != 0; }
   /// Of the output parameter of that name, in TmShader::params; -1: none.

@@ -1,3 +1,4 @@
+// Point clouds and brick maps behind TmServices.
 #include "reyes/shade/cloud_services.h"
 
 #include <fmt/format.h>
@@ -6,17 +7,16 @@
 
 #include "reyes/shade/footprint.h"
 #include "reyes/shade/primary.h"
+#include "reyes/shade/services.h"
 #include "reyes/shade/spaces.h"
 
 namespace tomales {
 namespace {
 
-TmCloudLookup optionsOf(const TmCloudLookup* given) { return givenOptions<TmCloudLookup>(TM_CLOUD_DEFAULTS, given); }
-
-std::vector<CloudValue> valuesOf(const TmCloudValue* values, int32_t count) {
+std::vector<CloudValue> valuesOf(const TmChannel* values, int32_t count) {
   std::vector<CloudValue> out;
-  for (const TmCloudValue& v : std::span(values, static_cast<size_t>(std::max(0, count))))
-    out.push_back({v.name, v.floats == 3 ? 3 : 1, {v.c[0], v.c[1], v.c[2]}});
+  for (const TmChannel& v : std::span(values, static_cast<size_t>(std::max(0, count))))
+    out.push_back({v.name, v.value.y ? 3 : 1, {v.value.x, v.value.y, v.value.z}});
   return out;
 }
 
@@ -30,8 +30,8 @@ bool refuse(const Batch& batch, const char* file, const std::string& problem) {
 float scaleOf(const mat4& m) { return std::cbrt(std::abs(glm::determinant(mat3(m)))); }
 
 /// Points and their radii in the space of the file. False: there is none of that name, which has been reported.
-bool toFile(Batch& batch, const TmGrid* g, const char* file, TmConstVec3 P, TmConstVec3 N, const TmCloudLookup& options,
-            CloudQuery& query) {
+bool toFile(Batch& batch, const TmGrid* g, const char* file, TmConstVec3 P, TmConstVec3 N,
+            const TmCloudOptions& options, CloudQuery& query) {
   const char* name = options.coordSystem ? options.coordSystem : "world";
   const std::optional<Space> space = findSpace(batch, name);
   if (!space || space->kind != Space::Linear)
@@ -52,12 +52,10 @@ bool toFile(Batch& batch, const TmGrid* g, const char* file, TmConstVec3 P, TmCo
   return true;
 }
 
-}  // namespace
-
 // Each point once: not for the neighbours that serve derivatives, for what rays meet, or where a shader runs again for
 // a light group.
-int32_t bake3d(void* host, const TmGrid* all, const char* file, TmConstVec3 P, TmConstVec3 N,
-               const TmCloudLookup* given, const TmCloudValue* values, int32_t valueCount) {
+int32_t bake3d(void* host, const TmGrid* all, const char* file, const TmCloudOptions* given, TmConstVec3 P,
+               TmConstVec3 N, const TmChannel* values, int32_t valueCount) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
   if (!batch.points || batch.context.kind != RayKind::Camera || batch.context.rehearsal || batch.context.sketch ||
@@ -65,54 +63,64 @@ int32_t bake3d(void* host, const TmGrid* all, const char* file, TmConstVec3 P, T
     return 1;
   if (!batch.scene.clouds) return refuse(batch, file, "nothing is baked here");
   CloudQuery query;
-  if (!toFile(batch, primary.grid(), file, P, N, optionsOf(given), query)) return 0;
+  if (!toFile(batch, primary.grid(), file, P, N, givenOptions(batch, tmCloudDefaults(), given), query)) return 0;
   std::string problem;
   return batch.scene.clouds->bake(query, valuesOf(values, valueCount), problem) || refuse(batch, file, problem);
 }
 
-int32_t texture3d(void* host, const TmGrid* all, const char* file, TmConstVec3 P, TmConstVec3 N,
-                  const TmCloudLookup* given, const TmCloudValue* values, int32_t valueCount, float* found) {
+int32_t texture3d(void* host, const TmGrid* all, const char* file, const TmCloudOptions* given, TmConstVec3 P,
+                  TmConstVec3 N, const TmChannel* values, int32_t valueCount, float* found) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
   forActive(all, [&](int i) { found[i] = 0; });
   if (!batch.scene.clouds) return refuse(batch, file, "nothing is looked up here");
   CloudQuery query;
-  if (!toFile(batch, primary.grid(), file, P, N, optionsOf(given), query)) return 0;
+  if (!toFile(batch, primary.grid(), file, P, N, givenOptions(batch, tmCloudDefaults(), given), query)) return 0;
   std::string problem;
   const bool isKnown = batch.scene.clouds->lookUp(query, valuesOf(values, valueCount), found, problem);
   primary.spread(found);
-  for (const TmCloudValue& v : std::span(values, static_cast<size_t>(std::max(0, valueCount))))
-    for (int k = 0; k < (v.floats == 3 ? 3 : 1); ++k) primary.spread(v.c[k]);
+  for (const TmChannel& v : std::span(values, static_cast<size_t>(std::max(0, valueCount)))) primary.spread(v.value);
   return isKnown || refuse(batch, file, problem);
 }
 
-int32_t photonMap(void* host, const TmGrid* all, const char* file, TmConstVec3 P, TmConstVec3 N, int32_t estimator,
-                  TmVec3 out) {
-  TmPhotonLookup options = TM_PHOTON_DEFAULTS;
-  options.estimator = estimator;
-  return photonMapWith(host, all, file, P, N, &options, out);
-}
-
-int32_t photonMapWith(void* host, const TmGrid* all, const char* file, TmConstVec3 P, TmConstVec3 N,
-                      const TmPhotonLookup* given, TmVec3 out) {
+int32_t photonMap(void* host, const TmGrid* all, const char* file, const TmPhotonOptions* given, TmConstVec3 P,
+                  TmConstVec3 N, TmVec3 out) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
   forActive(all, [&](int i) { set(out, i, vec3(0)); });
   if (!batch.scene.clouds) return refuse(batch, file, "nothing is looked up here");
   CloudQuery query;
-  if (!toFile(batch, primary.grid(), file, P, N, TM_CLOUD_DEFAULTS, query)) return 0;
+  if (!toFile(batch, primary.grid(), file, P, N, tmCloudDefaults(), query)) return 0;
   std::string problem;
-  const bool isKnown =
-      batch.scene.clouds->photons(query, givenOptions<TmPhotonLookup>(TM_PHOTON_DEFAULTS, given), out, problem);
+  const bool isKnown = batch.scene.clouds->photons(query, givenOptions(batch, tmPhotonDefaults(), given), out, problem);
   primary.spread(out);
   return isKnown || refuse(batch, file, problem);
 }
+
+int32_t subsurface(void* host, const TmGrid* all, const char* file, const TmSubsurfaceOptions* given, TmConstVec3 P,
+                   TmVec3 out) {
+  Batch& batch = batchOf(host);
+  const Primary primary(batch, all);
+  forActive(all, [&](int i) { set(out, i, vec3(0)); });
+  if (!batch.scene.clouds) return refuse(batch, file, "nothing is looked up here");
+  const TmSubsurfaceOptions material = givenOptions(batch, tmSubsurfaceDefaults(), given);
+  TmCloudOptions options = tmCloudDefaults();
+  options.coordSystem = material.coordSystem;
+  CloudQuery query;
+  if (!toFile(batch, primary.grid(), file, P, TmConstVec3{}, options, query)) return 0;
+  std::string problem;
+  const bool isKnown = batch.scene.clouds->subsurface(query, material, out, problem);
+  primary.spread(out);
+  return isKnown || refuse(batch, file, problem);
+}
+
+}  // namespace
 
 bool occlusionByDisks(Batch& batch, const TmGrid* g, const char* file, TmConstVec3 P, TmConstVec3 N,
                       const DisksQuery& disks, float* covered, TmVec3 radiance) {
   if (!batch.scene.clouds) return refuse(batch, file, "nothing is looked up here");
   CloudQuery query;
-  if (!toFile(batch, g, file, P, N, TM_CLOUD_DEFAULTS, query)) return false;
+  if (!toFile(batch, g, file, P, N, tmCloudDefaults(), query)) return false;
   DisksQuery inFile = disks;
   const float scale = 1 / scaleOf(batch.scene.cameraFromWorld);
   OcclusionQuery& far = inFile.falloff;
@@ -123,21 +131,11 @@ bool occlusionByDisks(Batch& batch, const TmGrid* g, const char* file, TmConstVe
   return batch.scene.clouds->occlusion(query, inFile, covered, radiance, problem) || refuse(batch, file, problem);
 }
 
-int32_t subsurface(void* host, const TmGrid* all, const char* file, TmConstVec3 P, const TmSubsurface* given,
-                   TmVec3 out) {
-  Batch& batch = batchOf(host);
-  const Primary primary(batch, all);
-  forActive(all, [&](int i) { set(out, i, vec3(0)); });
-  if (!batch.scene.clouds) return refuse(batch, file, "nothing is looked up here");
-  const TmSubsurface material = givenOptions<TmSubsurface>(TM_SUBSURFACE_DEFAULTS, given);
-  TmCloudLookup options = TM_CLOUD_DEFAULTS;
-  options.coordSystem = material.coordSystem;
-  CloudQuery query;
-  if (!toFile(batch, primary.grid(), file, P, TmConstVec3{}, options, query)) return 0;
-  std::string problem;
-  const bool isKnown = batch.scene.clouds->subsurface(query, material, out, problem);
-  primary.spread(out);
-  return isKnown || refuse(batch, file, problem);
+void addCloudServices(TmServices& services) {
+  services.bake3d = bake3d;
+  services.texture3d = texture3d;
+  services.photonMap = photonMap;
+  services.subsurface = subsurface;
 }
 
 }  // namespace tomales

@@ -20,7 +20,7 @@ vec2 randomOf(const Batch& batch, int i, int ray, int samples) {
 }  // namespace
 
 int32_t gatherEnvironment(Batch& batch, const TmGrid* all, TmConstVec3 P, const TmRayOptions& options, int32_t ray,
-                          uint8_t* hit, const TmRayOutput* outputs, int32_t outputCount) {
+                          uint8_t* hit, const TmChannel* outputs, int32_t outputCount) {
   if (!batch.points || ray < 0 || ray >= options.samples) return 0;
   const Primary primary(batch, all);
   const TmGrid* g = primary.grid();
@@ -37,7 +37,9 @@ int32_t gatherEnvironment(Batch& batch, const TmGrid* all, TmConstVec3 P, const 
     solidAngle[i] = 1 / (density * static_cast<float>(options.samples)), width[i] = kSkyCell, far[i] = kFarAway;
     hit[i] = 0;
   });
-  environment(&batch, g, options.environment, view(along), width, color);
+  TmTextureOptions lookup = tmTextureDefaults();
+  lookup.angle = width;
+  environment(&batch, g, options.environment, &lookup, view(along), color);
   primary.spread(hit);
   setRayOutputs(primary, outputs, outputCount,
                 {{"environment:color", view(color)},

@@ -1,3 +1,4 @@
+// The calls behind TmServices that are about light.
 #include "reyes/shade/light_services.h"
 
 #include <cstring>
@@ -6,6 +7,7 @@
 #include "reyes/shade/elsewhere.h"
 #include "reyes/shade/illuminate.h"
 #include "reyes/shade/primary.h"
+#include "reyes/shade/services.h"
 
 namespace tomales {
 namespace {
@@ -87,10 +89,8 @@ const uint8_t* litPoints(Batch& place, const TmGrid* g, const TmIlluminance& con
   return lit;
 }
 
-}  // namespace
-
 /// RISpec 15.6: illuminance(P, N, PI/2).
-void diffuseOf(void* host, const TmGrid* all, int32_t which, TmConstVec3 N, TmVec3 out) {
+void diffuse(void* host, const TmGrid* all, int32_t which, TmConstVec3 N, TmVec3 out) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
   const TmGrid* g = primary.grid();
@@ -101,17 +101,14 @@ void diffuseOf(void* host, const TmGrid* all, int32_t which, TmConstVec3 N, TmVe
   float* share = batch.arena.floats(g->count);
   for (LightSample& sample : batch.lights.samples(batch)) {
     const BoundLight& light = *sample.light;
-    if (light.nondiffuse || !(which & (light.can(TM_LIGHT_INDIRECT) ? TM_INDIRECT_LIGHT : TM_DIRECT_LIGHT))) continue;
+    const TmLightChoice is = light.can(TM_LIGHT_INDIRECT) ? TM_INDIRECT_LIGHT : TM_DIRECT_LIGHT;
+    if (light.nondiffuse || (which != TM_ALL_LIGHT && which != is)) continue;
     markFacing(g->count, g->active, view(n), view(sample.L), lit);
     batch.lights.shadow(batch, sample, lit);
     setShares(g->count, lit, sample.nondiffuse, share);
     addDiffuse(g->count, share, view(n), view(sample.L), view(sample.Cl), out);
   }
   primary.spread(out);
-}
-
-void diffuse(void* host, const TmGrid* g, TmConstVec3 N, TmVec3 out) {
-  diffuseOf(host, g, TM_DIRECT_LIGHT | TM_INDIRECT_LIGHT, N, out);
 }
 
 void ambient(void* host, const TmGrid* g, TmVec3 out) {
@@ -121,18 +118,69 @@ void ambient(void* host, const TmGrid* g, TmVec3 out) {
   primary.spread(out);
 }
 
-int32_t light(void* host, const TmGrid* g, int32_t index, TmLightSample* out) {
+int32_t illuminance(void* host, const TmGrid* g, TmIlluminance* out) {
   Batch& batch = batchOf(host);
-  std::vector<LightSample>& samples = batch.lights.samples(batch);
-  if (index < 0 || index >= static_cast<int32_t>(samples.size())) return 0;
-  LightSample& sample = samples[static_cast<size_t>(index)];
+  const TmIlluminance query = givenOptions(batch, tmIlluminanceDefaults(), out);
+  if (out->structBytes < offsetof(TmIlluminance, nonspecular)) return 0;  // no room for the answer
+  Batch& place = placeOf(batch, g, query);
+  std::vector<LightSample>& samples = place.lights.samples(place);
+  const std::string_view category = query.category ? query.category : "";
+  auto next = static_cast<size_t>(std::max(query.next, 0));
+  while (next < samples.size() && !inCategory(samples[next].light->category, category)) ++next;
+  if (next >= samples.size()) return 0;
+  LightSample& sample = samples[next];
   const Primary primary(batch, g);
-  batch.lights.shadow(batch, sample, primary.grid()->active);
-  primary.spread(sample.L), primary.spread(sample.Cl);
-  *out = {view(sample.L), view(sample.Cl), sample.light->can(TM_LIGHT_INDIRECT), sample.light->nondiffuse,
-          sample.light->nonspecular};
+  const uint8_t* lit = litPoints(place, primary.grid(), query, sample);
+  place.lights.shadow(place, sample, lit);
+  const bool distant = sample.light->can(TM_LIGHT_SOLAR) || sample.light->can(TM_LIGHT_INDIRECT);
+  const TmVec3 L = distant ? sample.L : sample.far;
+  primary.spread(L), primary.spread(sample.L), primary.spread(sample.Cl), primary.spread(const_cast<uint8_t*>(lit));
+  out->next = static_cast<int32_t>(next) + 1, out->light = lightNumber(batch, place, next);
+  out->L = view(L), out->direction = view(sample.L), out->Cl = view(sample.Cl), out->lit = lit;
+  out->isIndirect = sample.light->can(TM_LIGHT_INDIRECT);
+  out->nondiffuse = sample.light->nondiffuse, out->nonspecular = sample.light->nonspecular;
   return 1;
 }
+
+void shadow(void* host, const TmGrid* all, const char* name, const TmShadowOptions* given, TmConstVec3 P, TmVec3 out) {
+  const Batch& batch = batchOf(host);
+  const Primary primary(batch, all);
+  const TmGrid* g = primary.grid();
+  fill(all, out, vec3(0.0f));
+  if (!batch.points || std::string_view(name) == "raytrace") return;
+  const ShadowMap* map = batch.scene.shadowMaps.find(name, batch.running->where, batch.running->user);
+  if (!map) return;
+  const TmShadowOptions options = givenOptions(batch, tmShadowDefaults(), given);
+  const mat4 worldFromCurrent = glm::inverse(batch.scene.cameraFromWorld);
+  forActive(g, [&](int i) {
+    const ShadePoints& p = *batch.points;
+    const auto edge = [&](int tangent, const float* step) {
+      return transformVector(worldFromCurrent, p.get3(tangent, i) * step[i]);
+    };
+    const ShadowReceiver receiver{transformPoint(worldFromCurrent, get(P, i)),
+                                  transformAs(TM_NORMAL, worldFromCurrent, p.get3(kNgx, i)), edge(kDpduX, g->du),
+                                  edge(kDpdvX, g->dv)};
+    const uint32_t seed = hashCombine(p.key(i), p.name(i).sequence, batch.context.seed);
+    const float bias = options.bias < 0 ? shadowBias(batch.scene.scene.options, seed) : options.bias;
+    set(out, i, map->shadow(receiver, {bias, options.blur, options.width, options.samples, seed}));
+  });
+  primary.spread(out);
+}
+
+void indirectDiffuse(void* host, const TmGrid* all, TmConstVec3 N, TmVec3 out, TmVec3* dominant) {
+  Batch& batch = batchOf(host);
+  const Primary primary(batch, all);
+  const TmGrid* g = primary.grid();
+  gather(batch, g, N);
+  forActive(g, [&](int i) {
+    set(out, i, get(batch.gathered.E, i));
+    for (int k = 0; dominant && k < 3; ++k) set(dominant[k], i, get(batch.gathered.dominant[k], i));
+  });
+  primary.spread(out);
+  for (int k = 0; dominant && k < 3; ++k) primary.spread(dominant[k]);
+}
+
+}  // namespace
 
 bool inCategory(std::string_view categories, std::string_view expression) {
   if (expression.empty()) return true;
@@ -151,64 +199,12 @@ bool inCategory(std::string_view categories, std::string_view expression) {
   return false;
 }
 
-int32_t illuminance(void* host, const TmGrid* g, TmIlluminance* out) {
-  Batch& batch = batchOf(host);
-  const auto query = givenOptions<TmIlluminance>({}, out);
-  Batch& place = placeOf(batch, g, query);
-  std::vector<LightSample>& samples = place.lights.samples(place);
-  const std::string_view category = query.category ? query.category : "";
-  auto next = static_cast<size_t>(std::max(query.next, 0));
-  while (next < samples.size() && !inCategory(samples[next].light->category, category)) ++next;
-  if (next >= samples.size()) return 0;
-  LightSample& sample = samples[next];
-  const Primary primary(batch, g);
-  const uint8_t* lit = litPoints(place, primary.grid(), query, sample);
-  place.lights.shadow(place, sample, lit);
-  const bool distant = sample.light->can(TM_LIGHT_SOLAR) || sample.light->can(TM_LIGHT_INDIRECT);
-  const TmVec3 L = distant ? sample.L : sample.far;
-  primary.spread(L), primary.spread(sample.Cl), primary.spread(const_cast<uint8_t*>(lit));
-  out->next = static_cast<int32_t>(next) + 1, out->light = lightNumber(batch, place, next);
-  out->L = view(L), out->Cl = view(sample.Cl), out->lit = lit;
-  out->isIndirect = sample.light->can(TM_LIGHT_INDIRECT);
-  out->nondiffuse = sample.light->nondiffuse, out->nonspecular = sample.light->nonspecular;
-  return 1;
-}
-
-void shadow(void* host, const TmGrid* all, const char* name, TmConstVec3 P, const TmShadowLookup* lookup, TmVec3 out) {
-  const Batch& batch = batchOf(host);
-  const Primary primary(batch, all);
-  const TmGrid* g = primary.grid();
-  fill(all, out, vec3(0.0f));
-  if (!batch.points || std::string_view(name) == "raytrace") return;
-  const ShadowMap* map = batch.scene.shadowMaps.find(name, batch.running->where, batch.running->user);
-  if (!map) return;
-  const mat4 worldFromCurrent = glm::inverse(batch.scene.cameraFromWorld);
-  forActive(g, [&](int i) {
-    const ShadePoints& p = *batch.points;
-    const auto edge = [&](int tangent, const float* step) {
-      return transformVector(worldFromCurrent, p.get3(tangent, i) * step[i]);
-    };
-    const ShadowReceiver receiver{transformPoint(worldFromCurrent, get(P, i)),
-                                  transformAs(TM_NORMAL, worldFromCurrent, p.get3(kNgx, i)), edge(kDpduX, g->du),
-                                  edge(kDpdvX, g->dv)};
-    const uint32_t seed = hashCombine(p.key(i), p.name(i).sequence, batch.context.seed);
-    const float bias = lookup->bias < 0 ? shadowBias(batch.scene.scene.options, seed) : lookup->bias;
-    set(out, i, map->shadow(receiver, {bias, lookup->blur, lookup->width, lookup->samples, seed}));
-  });
-  primary.spread(out);
-}
-
-void indirectDiffuse(void* host, const TmGrid* all, TmConstVec3 N, TmVec3 out, TmVec3* dominant) {
-  Batch& batch = batchOf(host);
-  const Primary primary(batch, all);
-  const TmGrid* g = primary.grid();
-  gather(batch, g, N);
-  forActive(g, [&](int i) {
-    set(out, i, get(batch.gathered.E, i));
-    for (int k = 0; dominant && k < 3; ++k) set(dominant[k], i, get(batch.gathered.dominant[k], i));
-  });
-  primary.spread(out);
-  for (int k = 0; dominant && k < 3; ++k) primary.spread(dominant[k]);
+void addLightServices(TmServices& services) {
+  services.ambient = ambient;
+  services.diffuse = diffuse;
+  services.illuminance = illuminance;
+  services.indirectDiffuse = indirectDiffuse;
+  services.shadow = shadow;
 }
 
 }  // namespace tomales

@@ -42,7 +42,7 @@ TmGrid lightGrid(Batch& batch, const BoundLight& light) {
 
 /// Gives the outputs of a light room, so that lightsource() can read them.
 void openOutputs(Batch& batch, const BoundShader& light, std::vector<TmValue>& params) {
-  for (size_t i = 0; i < params.size(); ++i) {
+  for (size_t i = 0; i < static_cast<size_t>(light.shader->paramCount); ++i) {
     if (!isOutput(light.shader->params[i])) continue;
     const int width = typeOf(light.shader->params[i]) == TM_FLOAT ? 1 : 3;
     for (int k = 0; k < width; ++k) params[i].c[k] = batch.arena.floats(batch.tm.count);
@@ -197,7 +197,7 @@ void Lights::substitute(Batch& batch) {
 void Lights::tell(Batch& batch, const BoundShader& light, std::vector<TmValue>& params) const {
   if (!request_) return;
   for (const LightMessage& m : request_->sent)
-    for (size_t k = 0; k < params.size(); ++k) {
+    for (size_t k = 0; k < static_cast<size_t>(light.shader->paramCount); ++k) {
       const TmParamDecl& decl = light.shader->params[k];
       if (decl.name != m.name || isOutput(decl)) continue;
       const bool fits = floatsOf(typeOf(decl)) == floatsOf(m.type) && decl.arrayLength == 1 &&

@@ -1,8 +1,11 @@
-#include "reyes/shade/lobe.h"
-
+// Glossy surfaces under lights that have an extent. A highlight is a sum over samples of the light and over samples of
+// the surface's own lobe, weighted by the power heuristic (Veach and Guibas 1995, "Optimally Combining Sampling
+// Techniques for Monte Carlo Rendering"): small lights are found by their own samples, narrow lobes by theirs.
 #include "reyes/base/rng.h"
+#include "reyes/shade/elsewhere.h"
 #include "reyes/shade/illuminate.h"
 #include "reyes/shade/primary.h"
+#include "reyes/shade/services.h"
 
 namespace tomales {
 namespace {
@@ -17,6 +20,28 @@ SampleName nameOf(const Batch& batch, const TmGrid* g, int i) {
   const Object& object = batch.scene.scene.objects[static_cast<size_t>(batch.grid->object)];
   return {hashCombine(object.name, __builtin_bit_cast(uint32_t, g->u[i]), __builtin_bit_cast(uint32_t, g->v[i])), 0};
 }
+
+void lightAlong(void* host, const TmGrid* g, TmConstVec3 L, const float* density, int32_t sample, int32_t samples,
+                TmVec3 Cl) {
+  Batch& batch = batchOf(host);
+  forActive(g, [&](int i) { set(Cl, i, vec3(0.0f)); });
+  batch.lights.along(batch, {L, density, sample, samples}, Cl);
+  Primary(batch, g).spread(Cl);
+}
+
+void stratified(void* host, const TmGrid* g, int32_t sample, int32_t samples, float* xi0, float* xi1) {
+  const Batch& batch = batchOf(host);
+  forActive(g, [&](int i) {
+    const SampleName name = nameOf(batch, g, i);
+    const vec2 xi = sobol2(name.sequence * static_cast<uint32_t>(samples) + static_cast<uint32_t>(sample),
+                           hashCombine(name.key, kLobeStream, batch.context.seed));
+    xi0[i] = xi.x, xi1[i] = xi.y;
+  });
+}
+
+// Half as many as of the light: twice as many win little where the lobe is narrow, and cost something where it is wide
+// (docs/measured/rays.md).
+int32_t lobeSamples(void* host, const TmGrid*) { return (batchOf(host).lights.mostSamples(batchOf(host)) + 1) / 2; }
 
 /// The lobe of RISpec 15.6, (N.H)^e, with the exponent of docs/decisions/0004. Directions are drawn by H with density
 /// (e + 1) / 2 pi cos^e.
@@ -105,8 +130,6 @@ class Highlight {
   const int drawn_;
 };
 
-}  // namespace
-
 void specular(void* host, const TmGrid* g, TmConstVec3 N, TmConstVec3 V, const float* roughness, TmVec3 out) {
   Batch& batch = batchOf(host);
   if (batch.context.kind == RayKind::Diffuse && !batch.context.highlights)
@@ -118,37 +141,24 @@ void specular(void* host, const TmGrid* g, TmConstVec3 N, TmConstVec3 V, const f
   primary.spread(out);
 }
 
-void lightDensity(void* host, const TmGrid* all, int32_t index, float* out) {
+void lightDensity(void* host, const TmGrid* all, int32_t light, float* out) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
   const TmGrid* g = primary.grid();
-  const std::vector<LightSample>& samples = batch.lights.samples(batch);
-  const bool exists = index >= 0 && index < static_cast<int32_t>(samples.size());
-  const float* density = exists ? samples[static_cast<size_t>(index)].density : nullptr;
+  const LightSample* sample = lightNumbered(batch, light);
+  const float* density = sample ? sample->density : nullptr;
   forActive(g, [&](int i) { out[i] = density ? density[i] : 0.0f; });
   primary.spread(out);
 }
 
-void lightAlong(void* host, const TmGrid* g, TmConstVec3 L, const float* density, int32_t sample, int32_t samples,
-                TmVec3 Cl) {
-  Batch& batch = batchOf(host);
-  forActive(g, [&](int i) { set(Cl, i, vec3(0.0f)); });
-  batch.lights.along(batch, {L, density, sample, samples}, Cl);
-  Primary(batch, g).spread(Cl);
-}
+}  // namespace
 
-// Half as many as of the light: twice as many win little where the lobe is narrow, and cost something where it is wide
-// (docs/measured/rays.md).
-int32_t lobeSamples(void* host, const TmGrid*) { return (batchOf(host).lights.mostSamples(batchOf(host)) + 1) / 2; }
-
-void stratified(void* host, const TmGrid* g, int32_t sample, int32_t samples, float* xi0, float* xi1) {
-  const Batch& batch = batchOf(host);
-  forActive(g, [&](int i) {
-    const SampleName name = nameOf(batch, g, i);
-    const vec2 xi = sobol2(name.sequence * static_cast<uint32_t>(samples) + static_cast<uint32_t>(sample),
-                           hashCombine(name.key, kLobeStream, batch.context.seed));
-    xi0[i] = xi.x, xi1[i] = xi.y;
-  });
+void addLobeServices(TmServices& services) {
+  services.specular = specular;
+  services.lobeSamples = lobeSamples;
+  services.lightDensity = lightDensity;
+  services.lightAlong = lightAlong;
+  services.stratified = stratified;
 }
 
 }  // namespace tomales

@@ -1,9 +1,9 @@
-#include "reyes/shade/messages.h"
-
+// RSL's message passing: what shaders may know of each other, of attributes, options and the renderer.
 #include <string_view>
 
 #include "reyes/shade/elsewhere.h"
 #include "reyes/shade/primary.h"
+#include "reyes/shade/services.h"
 
 namespace tomales {
 namespace {
@@ -151,8 +151,6 @@ int32_t tellVolume(Batch& batch, const TmGrid* g, bool incident, std::string_vie
   return 1;
 }
 
-}  // namespace
-
 int32_t ask(void* host, const TmGrid* g, int32_t whom, int32_t light, const char* name, int32_t* type, TmValue* out) {
   Batch& batch = batchOf(host);
   const BoundGroup& group = batch.group;
@@ -184,5 +182,9 @@ int32_t ask(void* host, const TmGrid* g, int32_t whom, int32_t light, const char
       return 0;
   }
 }
+
+}  // namespace
+
+void addMessageServices(TmServices& services) { services.ask = ask; }
 
 }  // namespace tomales

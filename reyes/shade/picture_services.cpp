@@ -1,3 +1,4 @@
+// The calls behind TmServices that look pictures up.
 #include "reyes/shade/picture_services.h"
 
 #include <string_view>
@@ -5,24 +6,21 @@
 #include "reyes/base/rng.h"
 #include "reyes/shade/footprint.h"
 #include "reyes/shade/primary.h"
+#include "reyes/shade/services.h"
 #include "reyes/shade/sky.h"
 
 namespace tomales {
 namespace {
 
-TmTextureLookup optionsOf(const TmTextureLookup* given) {
-  return givenOptions<TmTextureLookup>(TM_TEXTURE_DEFAULTS, given);
-}
-
 /// Option "texture" "width" scales all filters, and "filter" is that of lookups which name none.
-TextureQuery queryOf(const Batch& batch, const TmGrid* g, const char* name, const TmTextureLookup& o) {
+TextureQuery queryOf(const Batch& batch, const TmGrid* g, const char* name, const TmTextureOptions& o, TmVec3 out) {
   const auto& options = batch.scene.scene.options.user;
   const auto width = options.find("texture:width"), filter = options.find("texture:filter");
   const float scale = width != options.end() ? std::max(0.0f, width->second.number(1)) : 1.0f;
   const bool names = filter != options.end() && !filter->second.strings.empty();
   TextureQuery q;
   q.name = name;
-  q.channel = o.channel, q.channels = o.channels == 1 ? 1 : 3, q.fill = o.fill;
+  q.channel = o.channel, q.channels = out.y ? 3 : 1, q.fill = o.fill;
   q.filter = !o.filter && names ? filter->second.strings[0].c_str() : o.filter;
   const float level = scale * std::exp2(-o.mipBias);
   q.sWidth = level * o.swidth, q.tWidth = level * o.twidth, q.sBlur = o.sblur, q.tBlur = o.tblur;
@@ -67,14 +65,13 @@ int32_t lookUpBelow(Batch& batch, const TextureQuery& query, float most, TmVec3 
   return 1;
 }
 
-int32_t lookUp(Batch& batch, const TextureQuery& query, const TmTextureLookup& o, TmVec3 out) {
-  return o.ignoreAbove < TmTextureLookup(TM_TEXTURE_DEFAULTS).ignoreAbove
-             ? lookUpBelow(batch, query, o.ignoreAbove, out)
-             : lookUp(batch, query, out);
+int32_t lookUp(Batch& batch, const TextureQuery& query, const TmTextureOptions& o, TmVec3 out) {
+  return o.ignoreAbove < tmTextureDefaults().ignoreAbove ? lookUpBelow(batch, query, o.ignoreAbove, out)
+                                                         : lookUp(batch, query, out);
 }
 
 /// The picture stands in world space, +z at its top.
-int32_t lookUpLatLong(Batch& batch, const TmGrid* g, const char* name, const TmTextureLookup& options,
+int32_t lookUpLatLong(Batch& batch, const TmGrid* g, const char* name, const TmTextureOptions& options,
                       TmConstVec3 direction, const float* angle, TmVec3 out) {
   const mat3 worldFromCurrent = glm::inverse(mat3(batch.scene.cameraFromWorld));
   const int n = g->count;
@@ -88,30 +85,14 @@ int32_t lookUpLatLong(Batch& batch, const TmGrid* g, const char* name, const TmT
     tv[i] = std::min(1.0f, angle[i] / kPi);
     su[i] = std::min(1.0f, angle[i] / (2 * kPi * std::max(std::sqrt(d.x * d.x + d.y * d.y), 1e-6f)));
   });
-  TextureQuery query = queryOf(batch, g, name, options);
+  TextureQuery query = queryOf(batch, g, name, options, out);
   query.s = s, query.t = t, query.su = su, query.tu = zero, query.sv = zero, query.tv = tv;
   query.latlong = true;
   return lookUp(batch, query, options, out);
 }
 
-}  // namespace
-
-int32_t textureOver(void* host, const TmGrid* g, const char* name, const TmTextureLookup* given, const float* s,
-                    const float* t, const float* const* sides, TmVec3 out) {
-  Batch& batch = batchOf(host);
-  const TmTextureLookup options = optionsOf(given);
-  TextureQuery query = queryOf(batch, g, name, options);
-  query.s = s, query.t = t;
-  query.su = sides[0], query.tu = sides[1], query.sv = sides[2], query.tv = sides[3];
-  return lookUp(batch, query, options, out);
-}
-
-int32_t textureWith(void* host, const TmGrid* g, const char* name, const TmTextureLookup* given, const float* s,
-                    const float* t, TmVec3 out) {
-  Batch& batch = batchOf(host);
-  const TmTextureLookup options = optionsOf(given);
-  TextureQuery query = queryOf(batch, g, name, options);
-  query.s = s, query.t = t;
+/// The parallelogram that the micropolygon covers in (s, t). A shader that has not said that it looks up there is told.
+void setMicropolygon(Batch& batch, const TmGrid* g, const float* s, const float* t, TextureQuery& query) {
   float* steps[4];
   for (float*& step : steps) step = batch.arena.floats(g->count);
   const bool known = batch.stepsOf(g, false, s, steps[0]) && batch.stepsOf(g, false, t, steps[1]) &&
@@ -123,36 +104,30 @@ int32_t textureWith(void* host, const TmGrid* g, const char* name, const TmTextu
     batch.report(Severity::Warning, "shader-footprint",
                  "looks a picture up at places that it has computed, without TM_NEIGHBOURS (or at s, t without "
                  "TM_DERIVATIVES); it is not filtered");
+}
+
+int32_t texture(void* host, const TmGrid* g, const char* name, const TmTextureOptions* given, const float* s,
+                const float* t, TmVec3 out) {
+  Batch& batch = batchOf(host);
+  const TmTextureOptions options = givenOptions(batch, tmTextureDefaults(), given);
+  TextureQuery query = queryOf(batch, g, name, options, out);
+  query.s = s, query.t = t;
+  const float* const* sides = options.region;
+  if (sides[0])
+    query.su = sides[0], query.tu = sides[1], query.sv = sides[2], query.tv = sides[3];
+  else
+    setMicropolygon(batch, g, s, t, query);
   return lookUp(batch, query, options, out);
 }
 
-int32_t texture(void* host, const TmGrid* g, const char* name, int32_t channel, int32_t channels, const float* s,
-                const float* t, TmVec3 out) {
-  TmTextureLookup lookup = TM_TEXTURE_DEFAULTS;
-  lookup.channel = channel, lookup.channels = channels;
-  return textureWith(host, g, name, &lookup, s, t, out);
-}
-
-int32_t environment(void* host, const TmGrid* g, const char* name, TmConstVec3 direction, const float* angle,
-                    TmVec3 out) {
-  Batch& batch = batchOf(host);
-  return lookUpLatLong(batch, g, name, TM_TEXTURE_DEFAULTS, direction, angle ? angle : batch.arena.floats(g->count),
-                       out);
-}
-
-int32_t environmentWith(void* host, const TmGrid* g, const char* name, const TmTextureLookup* given,
-                        TmConstVec3 direction, TmVec3 out) {
-  Batch& batch = batchOf(host);
-  const TmTextureLookup options = optionsOf(given);
-  if (std::string_view(name) == "raytrace") {
-    TmRayOptions rays = TM_RAY_DEFAULTS;
-    rays.samples = options.samples, rays.coneAngle = std::min(options.sblur, 1.0f) * kPi;
-    g->call->trace(host, g, view(g->P), direction, &rays, out, nullptr);
-    return 1;
-  }
-  float* angle = batch.arena.floats(g->count);
-  turnOf(batch, g, direction, angle);
-  return lookUpLatLong(batch, g, name, options, direction, angle, out);
+/// environment() of "raytrace".
+void traceEnvironment(const TmGrid* g, const TmTextureOptions& options, TmConstVec3 direction, TmVec3 out,
+                      TmVec3 color) {
+  TmRayOptions rays = tmRayDefaults();
+  rays.samples = options.samples, rays.coneAngle = std::min(options.sblur, 1.0f) * kPi;
+  g->call->trace(g->host, g, &rays, view(g->P), direction, out.y ? out : color, nullptr);
+  const int channel = std::clamp(options.channel, 0, 2);
+  if (!out.y) forActive(g, [&](int i) { out.x[i] = get(color, i)[channel]; });
 }
 
 int32_t textureInfo(void* host, const TmGrid*, const char* name, const char* what, int32_t* type, TmValue* out) {
@@ -162,6 +137,26 @@ int32_t textureInfo(void* host, const TmGrid*, const char* name, const char* wha
   if (!batch.scene.textures.info(name, what, numbers, text)) return 0;
   batch.answer(numbers, text, numbers.size() == 16 ? TM_MATRIX : numbers.empty() ? TM_STRING : TM_FLOAT, *type, *out);
   return 1;
+}
+
+}  // namespace
+
+int32_t environment(void* host, const TmGrid* g, const char* name, const TmTextureOptions* given, TmConstVec3 direction,
+                    TmVec3 out) {
+  Batch& batch = batchOf(host);
+  const TmTextureOptions options = givenOptions(batch, tmTextureDefaults(), given);
+  if (std::string_view(name) == "raytrace")
+    return traceEnvironment(g, options, direction, out, batch.arena.vec3(g->count)), 1;
+  if (options.angle) return lookUpLatLong(batch, g, name, options, direction, options.angle, out);
+  float* angle = batch.arena.floats(g->count);
+  turnOf(batch, g, direction, angle);
+  return lookUpLatLong(batch, g, name, options, direction, angle, out);
+}
+
+void addPictureServices(TmServices& services) {
+  services.texture = texture;
+  services.environment = environment;
+  services.textureInfo = textureInfo;
 }
 
 }  // namespace tomales

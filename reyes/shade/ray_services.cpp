@@ -1,3 +1,4 @@
+// The ray-traced calls behind TmServices: sums here, cones in ray_shots.h, rays behind ShadeServices.
 #include "reyes/shade/ray_services.h"
 
 #include <algorithm>
@@ -7,35 +8,39 @@
 #include "reyes/shade/environment_rays.h"
 #include "reyes/shade/primary.h"
 #include "reyes/shade/ray_shots.h"
+#include "reyes/shade/services.h"
 #include "reyes/shade/volumes.h"
 
 namespace tomales {
 namespace {
 
-int floatsOf(const TmRayOutput& o) { return o.floats == 3 ? 3 : 1; }
+int floatsOf(const TmChannel& c) { return c.value.y ? 3 : 1; }
 
 }  // namespace
 
-void setRayOutputs(const Primary& primary, const TmRayOutput* outputs, int32_t outputCount,
+void setRayOutputs(const Primary& primary, const TmChannel* outputs, int32_t outputCount,
                    std::initializer_list<RayValue> known) {
-  for (const TmRayOutput& o : std::span(outputs, static_cast<size_t>(outputCount))) {
+  for (const TmChannel& o : std::span(outputs, static_cast<size_t>(outputCount))) {
     const auto* const it =
         std::find_if(known.begin(), known.end(), [&](const RayValue& v) { return v.name == o.name; });
     const float* const from[3] = {it != known.end() ? it->value.x : nullptr, it != known.end() ? it->value.y : nullptr,
                                   it != known.end() ? it->value.z : nullptr};
+    float* const to[3] = {o.value.x, o.value.y, o.value.z};
     for (int k = 0; k < floatsOf(o); ++k) {
-      if (from[k]) forActive(primary.grid(), [&](int i) { o.c[k][i] = from[k][i]; });
-      primary.spread(o.c[k]);
+      if (from[k]) forActive(primary.grid(), [&](int i) { to[k][i] = from[k][i]; });
+      primary.spread(to[k]);
     }
   }
 }
 
-void traceRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 direction, const TmRayOptions* given,
-               TmVec3 color, float* distance) {
+namespace {
+
+void trace(void* host, const TmGrid* all, const TmRayOptions* given, TmConstVec3 P, TmConstVec3 direction, TmVec3 color,
+           float* distance) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
   const TmGrid* g = primary.grid();
-  const TmRayOptions options = drawnRayOptions(given);
+  const TmRayOptions options = drawnRayOptions(batch, given);
   forActive(all, [&](int i) {
     if (color.x) set(color, i, vec3(0));
     if (distance) distance[i] = kFarAway;
@@ -67,12 +72,12 @@ void traceRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 directi
   primary.spread(color), primary.spread(distance);
 }
 
-int32_t gatherRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 axis, const TmRayOptions* given,
-                   int32_t ray, uint8_t* hit, const TmRayOutput* outputs, int32_t outputCount) {
+int32_t gather(void* host, const TmGrid* all, const TmRayOptions* given, TmConstVec3 P, TmConstVec3 axis, int32_t ray,
+               uint8_t* hit, const TmChannel* outputs, int32_t outputCount) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
   const TmGrid* g = primary.grid();
-  const TmRayOptions options = rayOptions(given);
+  const TmRayOptions options = rayOptions(batch, given);
   const Batch::Scratch scratch(batch);
   if (options.environment) return gatherEnvironment(batch, all, P, options, ray, hit, outputs, outputCount);
   if (ray < 0 || ray >= options.samples || !traces(batch)) return 0;
@@ -84,11 +89,11 @@ int32_t gatherRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 axi
   RayResult result;
   result.distance = batch.arena.floats(g->count);
   bool wantsEffective = false;
-  for (const TmRayOutput& o : std::span(outputs, static_cast<size_t>(outputCount))) {
+  for (const TmChannel& o : std::span(outputs, static_cast<size_t>(outputCount))) {
     const std::string_view name = o.name;
     wantsEffective |= name == "effectivedistance";
     if (!name.starts_with("ray:") && name != "effectivedistance")
-      result.outputs.push_back({o.name, floatsOf(o), {o.c[0], o.c[1], o.c[2]}});
+      result.outputs.push_back({o.name, floatsOf(o), {o.value.x, o.value.y, o.value.z}});
   }
   if (wantsEffective) result.effective = batch.arena.floats(g->count), result.color = batch.arena.vec3(g->count);
   std::fill_n(result.distance, g->count, kInfinity);
@@ -110,12 +115,12 @@ int32_t gatherRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 axi
   return 1;
 }
 
-void transmissionWith(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 toward, const TmRayOptions* given,
-                      TmVec3 out) {
+void transmission(void* host, const TmGrid* all, const TmRayOptions* given, TmConstVec3 P, TmConstVec3 toward,
+                  TmVec3 out) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
   const TmGrid* g = primary.grid();
-  const TmRayOptions options = rayOptions(given);
+  const TmRayOptions options = rayOptions(batch, given);
   forActive(all, [&](int i) { set(out, i, vec3(1)); });
   if (!traces(batch) || batch.context.kind == RayKind::Transmission) return;
   Cone cone(batch, g, options);
@@ -164,5 +169,15 @@ int32_t rayInfo(void* host, const TmGrid* g, const char* name, TmVec3 out) {
 }
 
 const char* rayLabel(void* host, const TmGrid*) { return batchOf(host).context.label.c_str(); }
+
+}  // namespace
+
+void addRayServices(TmServices& services) {
+  services.trace = trace;
+  services.transmission = transmission;
+  services.gather = gather;
+  services.rayInfo = rayInfo;
+  services.rayLabel = rayLabel;
+}
 
 }  // namespace tomales

@@ -13,8 +13,8 @@ constexpr uint32_t kConeStream = 0x636f6e65U, kBaseStream = 0x62617365U;
 
 }  // namespace
 
-TmRayOptions drawnRayOptions(const TmRayOptions* given) {
-  TmRayOptions options = givenOptions<TmRayOptions>(TM_RAY_DEFAULTS, given);
+TmRayOptions drawnRayOptions(const Batch& batch, const TmRayOptions* given) {
+  TmRayOptions options = givenOptions(batch, tmRayDefaults(), given);
   options.samples = std::clamp(options.samples, 1, 1 << 16);
   options.drawn = std::clamp(options.drawn, 0, 1 << 14);
   options.number = std::clamp(options.number, 0, std::max(0, options.drawn - 1));
@@ -22,8 +22,8 @@ TmRayOptions drawnRayOptions(const TmRayOptions* given) {
   return options;
 }
 
-TmRayOptions rayOptions(const TmRayOptions* given) {
-  TmRayOptions options = drawnRayOptions(given);
+TmRayOptions rayOptions(const Batch& batch, const TmRayOptions* given) {
+  TmRayOptions options = drawnRayOptions(batch, given);
   options.drawn = options.number = 0;
   return options;
 }

@@ -7,8 +7,8 @@ namespace tomales {
 constexpr float kFarAway = 1e30f;  ///< RI_INFINITY: the distance to nothing.
 
 /// Of trace(), whose directions the caller may draw itself, and of the other services.
-TmRayOptions drawnRayOptions(const TmRayOptions* given);
-TmRayOptions rayOptions(const TmRayOptions* given);
+TmRayOptions drawnRayOptions(const Batch& batch, const TmRayOptions* given);
+TmRayOptions rayOptions(const Batch& batch, const TmRayOptions* given);
 
 RayQuery rayQuery(const TmRayOptions&, RayKind);
 /// Narrow cones are specular, wide ones diffuse.

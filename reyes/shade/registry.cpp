@@ -50,10 +50,17 @@ struct ShaderRegistry::Impl {
 
 namespace {
 
-// A later release only appends fields (shader_api.h), so a larger struct of the same ABI starts with ours.
+/// What is wrong with the version of a struct of a plugin; empty: nothing. A later release only appends fields
+/// (shader_api.h), so a larger struct of the same ABI starts with ours.
 template <class Versioned>
-bool matches(const Versioned* v) {
-  return v && v->abi == TM_SHADER_ABI && v->structBytes >= sizeof(Versioned);
+std::string otherVersion(const Versioned* v) {
+  if (!v) return "is NULL";
+  if (v->abi == TM_SHADER_ABI && v->structBytes >= sizeof(Versioned)) return {};
+  return fmt::format(
+      "is built for shader ABI {}, {} bytes; this renderer has ABI {}, {} bytes: compile it against the headers of "
+      "this "
+      "version",
+      v->abi, v->structBytes, TM_SHADER_ABI, sizeof(Versioned));
 }
 
 /// What a shader of our ABI lacks; empty: nothing.
@@ -62,6 +69,8 @@ std::string lackOf(const TmShader& s) {
   if (!s.shade) return "a function";
   if (s.kind < TM_SURFACE || s.kind > TM_IMAGER) return "a kind that there is";
   if (s.paramCount < 0 || (s.paramCount > 0 && !s.params)) return "its parameters";
+  if (s.paramCount > 0 && s.paramBytes != sizeof(TmParamDecl))
+    return fmt::format("parameters of {} bytes each, and has them of {}", sizeof(TmParamDecl), s.paramBytes);
   for (int32_t k = 0; k < s.paramCount; ++k) {
     const TmParamDecl& p = s.params[k];
     if (!p.name || p.arrayLength < 1 || TM_TYPE_OF(p.type) > TM_MATRIX)
@@ -75,22 +84,21 @@ std::string lackOf(const TmShader& s) {
   return {};
 }
 
-std::string expected(const char* what) {
-  return fmt::format("{} is of another shader ABI than {}; compile it against the headers of this version", what,
-                     TM_SHADER_ABI);
-}
-
 }  // namespace
 
 bool ShaderRegistry::Impl::add(const TmShaderLibrary* library, const std::string& origin,
                                std::vector<const TmShader*>* added) {
-  if (!matches(library)) return refuse(origin, expected("the shader library")), false;
+  if (const std::string problem = otherVersion(library); !problem.empty())
+    return refuse(origin, "the shader library " + problem), false;
+  if (library->fault) return refuse(origin, library->fault), false;
   for (int32_t i = 0; i < library->count; ++i) {
     const TmShader* shader = library->shaders[i];
-    if (!matches(shader))
-      refuse(origin, expected(fmt::format("shader number {}", i + 1).c_str()));
+    if (const std::string problem = otherVersion(shader); !problem.empty())
+      refuse(origin, fmt::format("shader number {} {}", i + 1, problem));
     else if (const std::string lack = lackOf(*shader); !lack.empty())
       refuse(origin, fmt::format("shader number {} lacks {}", i + 1, lack));
+    else if (shader->fault)
+      refuse(origin, fmt::format("shader \"{}\" {}", shader->name, shader->fault));
     else if (shaders[{shader->kind, shader->name}] = shader; added)
       added->push_back(shader);
   }

@@ -1,4 +1,4 @@
-// The functions behind TmServices: their table, and those that are about the surface itself.
+// The calls behind TmServices: their table, and those that are about the surface itself.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -6,13 +6,8 @@
 #include <span>
 
 #include "reyes/base/checksum.h"
-#include "reyes/shade/cloud_services.h"
-#include "reyes/shade/light_services.h"
-#include "reyes/shade/lobe.h"
-#include "reyes/shade/messages.h"
-#include "reyes/shade/picture_services.h"
 #include "reyes/shade/primary.h"
-#include "reyes/shade/ray_services.h"
+#include "reyes/shade/services.h"
 #include "reyes/shade/spaces.h"
 
 namespace tomales {
@@ -101,10 +96,6 @@ void calculateNormal(void* host, const TmGrid* g, TmConstVec3 P, TmVec3 out) {
   });
 }
 
-void transmission(void* host, const TmGrid* g, TmConstVec3 P, TmConstVec3 toward, TmVec3 out) {
-  transmissionWith(host, g, P, toward, nullptr, out);
-}
-
 void report(void* host, const TmGrid*, int32_t severity, const char* message) {
   const Batch& batch = batchOf(host);
   // Messages are told apart by how they begin, since a value may follow, and into so many codes: what a shader makes up
@@ -112,7 +103,7 @@ void report(void* host, const TmGrid*, int32_t severity, const char* message) {
   constexpr size_t kAlike = 24, kCodes = 4096;
   const std::string text = message;
   const uint64_t site = checksum(std::as_bytes(std::span(text).first(std::min(kAlike, text.size())))) % kCodes;
-  const bool misses = severity >= 2;
+  const bool misses = severity >= TM_MISSING;
   batch.report(misses ? Severity::Missing : Severity::Warning,
                fmt::format("shader-{}-{}", misses ? "misses" : "says", site).c_str(), text);
 }
@@ -122,45 +113,26 @@ void print(void* host, const TmGrid*, const char* text) {
   if (!context.rehearsal && !context.sketch) std::fputs((std::string(text) + "\n").c_str(), stderr);
 }
 
+TmServices table() {
+  TmServices services{};
+  services.structBytes = sizeof services;
+  services.abi = TM_SHADER_ABI;
+  for (const auto add : {addSurfaceServices, addLightServices, addLobeServices, addRayServices, addOcclusionServices,
+                         addPictureServices, addCloudServices, addMessageServices})
+    add(services);
+  return services;
+}
+
 }  // namespace
 
-const TmServices kServices = {sizeof(TmServices),
-                              diffuse,
-                              specular,
-                              ambient,
-                              light,
-                              transform,
-                              texture,
-                              calculateNormal,
-                              transmission,
-                              indirectDiffuse,
-                              report,
-                              environment,
-                              diffuseOf,
-                              shadow,
-                              traceRays,
-                              gatherRays,
-                              occlusion,
-                              transmissionWith,
-                              rayInfo,
-                              rayLabel,
-                              lightDensity,
-                              lightAlong,
-                              lobeSamples,
-                              stratified,
-                              derivative,
-                              textureWith,
-                              environmentWith,
-                              illuminance,
-                              ask,
-                              textureInfo,
-                              textureOver,
-                              bake3d,
-                              texture3d,
-                              photonMap,
-                              print,
-                              subsurface,
-                              hemisphere,
-                              photonMapWith};
+void addSurfaceServices(TmServices& services) {
+  services.transform = transform;
+  services.calculateNormal = calculateNormal;
+  services.derivative = derivative;
+  services.report = report;
+  services.print = print;
+}
+
+const TmServices kServices = table();
 
 }  // namespace tomales

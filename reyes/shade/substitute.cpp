@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "reyes/shader/params.h"
+
 namespace tomales {
 namespace {
 
@@ -17,14 +19,10 @@ void shadeSubstitute(const TmGrid* g) {
 
 }  // namespace
 
-const TmShader kSubstituteSurface = {TM_SHADER_ABI,
-                                     sizeof(TmShader),
-                                     "(missing shader)",
-                                     TM_SURFACE,
-                                     0,
-                                     nullptr,
-                                     0,
-                                     shadeSubstitute,
-                                     "stands in for a missing surface shader"};
+const TmShader& substituteSurface() {
+  static const rsl::Shader shader(TM_SURFACE, "(missing shader)", "stands in for a missing surface shader", 0,
+                                  shadeSubstitute, {});
+  return *shader;
+}
 
 }  // namespace tomales

@@ -3,5 +3,5 @@
 #include "reyes/shader_api.h"
 
 namespace tomales {
-extern const TmShader kSubstituteSurface;  ///< Magenta and black checks in u, v; no light.
+const TmShader& substituteSurface();  ///< Magenta and black checks in u, v; no light.
 }  // namespace tomales

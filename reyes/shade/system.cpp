@@ -12,7 +12,7 @@ constexpr int kChunk = 256;  // points: a few hundred kB of light samples, so a 
 void repair(Batch& batch, const BoundShader& shader, bool finished) {
   if (finished) return batch.blackOutNonFinite(shader);
   for (int i = 0; i < batch.tm.count; ++i) set(batch.tm.Ci, i, vec3(0.0f)), set(batch.tm.Oi, i, vec3(0.0f));
-  kSubstituteSurface.shade(&batch.tm);
+  substituteSurface().shade(&batch.tm);
 }
 
 }  // namespace

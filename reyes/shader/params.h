@@ -2,6 +2,7 @@
 #pragma once
 #include <initializer_list>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reyes/shader/math.h"
@@ -9,7 +10,7 @@
 
 namespace rsl {
 
-/// A declared parameter. Make one of the typed ones below at namespace scope and list it in one Shader of the
+/// A declared parameter. Make one of the typed ones below at namespace scope and list it in a Shader of the
 /// same file. With a role (TmRole) it also tells the renderer something; its name is free.
 class Param {
  public:
@@ -25,11 +26,29 @@ class Param {
 
  private:
   friend class Shader;
+  friend const char* faultOfParameters();
   std::vector<float> floats_;
   std::vector<const char*> strings_;
   TmParamDecl decl_;
-  int index_ = 0;
+  int place_ = 0, index_ = 0;  // in the lists of shaders, the same in all so that reading costs no question; of TmGrid
+  std::vector<const TmShader*> listedBy_;
+  Param* const older_ = std::exchange(newest(), this);
+
+  // All of the plugin. Hidden, since each plugin has its own, and the renderer as well.
+  __attribute__((visibility("hidden"))) static Param*& newest() {
+    static Param* param = nullptr;
+    return param;
+  }
 };
+
+/// Of TmShaderLibrary: a parameter that no shader lists has no value.
+inline const char* faultOfParameters() {
+  static std::string fault;
+  for (const Param* p = Param::newest(); p; p = p->older_)
+    if (p->listedBy_.empty())
+      fault = std::string("no shader lists the parameter \"") + p->decl_.name + "\", which would have no value";
+  return fault.empty() ? nullptr : fault.c_str();
+}
 
 class FloatParam : public Param {
  public:
@@ -146,35 +165,65 @@ using PointOutput = Output<TM_POINT, Vec3>;
 using VectorOutput = Output<TM_VECTOR, Vec3>;
 using NormalOutput = Output<TM_NORMAL, Vec3>;
 
-/// A shader as the renderer sees it.
+/// A shader as the renderer sees it. Lists every parameter that it reads; shaders that share a parameter list it at the
+/// same place.
 class Shader {
  public:
   Shader(TmKind kind, const char* name, const char* doc, uint32_t capabilities, void (*shade)(const TmGrid*),
-         std::initializer_list<Param*> params)
-      : decls_(declare(params)),
-        shader_{TM_SHADER_ABI,
-                sizeof(TmShader),
-                name,
-                kind,
-                capabilities,
-                decls_.data(),
-                static_cast<int32_t>(decls_.size()),
-                shade,
-                doc} {}
+         std::initializer_list<Param*> params) {
+    shader_.abi = TM_SHADER_ABI;
+    shader_.structBytes = sizeof shader_;
+    shader_.kind = kind;
+    shader_.capabilities = capabilities;
+    shader_.paramBytes = sizeof(TmParamDecl);
+    shader_.shade = shade;
+    shader_.name = name;
+    shader_.doc = doc;
+    shader_.unlist = unlist;
+    for (Param* p : params) list(*p);
+    shader_.paramCount = static_cast<int32_t>(decls_.size());
+    shader_.params = decls_.data();
+    shader_.fault = fault_.empty() ? nullptr : fault_.c_str();
+  }
   Shader(const Shader&) = delete;
   operator const TmShader*() const { return &shader_; }
 
  private:
-  static std::vector<TmParamDecl> declare(std::initializer_list<Param*> params) {
-    std::vector<TmParamDecl> decls;
-    for (Param* p : params) {
-      p->index_ = static_cast<int>(decls.size());
-      decls.push_back(p->decl_);
+  void list(Param& p) {
+    const int place = static_cast<int>(decls_.size());
+    if (!p.listedBy_.empty() && p.place_ != place)
+      fault_ = std::string("lists the parameter \"") + p.decl_.name + "\" at place " + std::to_string(place + 1) +
+               ", and shader \"" + p.listedBy_.back()->name + "\" lists it at place " + std::to_string(p.place_ + 1) +
+               ": give each a parameter of its own";
+    p.place_ = p.index_ = place;
+    p.listedBy_.push_back(&shader_);
+    decls_.push_back(p.decl_);
+  }
+  /// TmShader::unlist.
+  static const char* unlist(const TmShader* shader, int32_t k) {
+    const char* name = nullptr;
+    for (Param* p = Param::newest(); p; p = p->older_) {
+      if (std::find(p->listedBy_.begin(), p->listedBy_.end(), shader) != p->listedBy_.end()) continue;
+      const bool chosen = k-- == 0;
+      if (chosen) name = p->decl_.name;
+      p->index_ = chosen ? shader->paramCount : p->place_;
     }
-    return decls;
+    return name;
   }
   std::vector<TmParamDecl> decls_;
-  TmShader shader_;
+  std::string fault_;
+  TmShader shader_{};
 };
+
+template <size_t count>
+TmShaderLibrary libraryOf(const TmShader* const (&shaders)[count], const char* fault = nullptr) {
+  TmShaderLibrary library{};
+  library.abi = TM_SHADER_ABI;
+  library.structBytes = sizeof library;
+  library.shaders = shaders;
+  library.fault = fault;
+  library.count = static_cast<int32_t>(count);
+  return library;
+}
 
 }  // namespace rsl

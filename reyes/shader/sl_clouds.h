@@ -6,16 +6,15 @@ namespace sl {
 
 /// A number or a triple of the batch under the name of a channel.
 struct Channel {
-  Channel(const char* name, const Float& x) : value{name, 1, {x.data(), nullptr, nullptr}} {}
-  Channel(const char* name, const Triple& v) : value{name, 3, {v.out().x, v.out().y, v.out().z}} {}
-  TmCloudValue value;
+  Channel(const char* name, const Float& x) : value{name, {x.data(), nullptr, nullptr}} {}
+  Channel(const char* name, const Triple& v) : value{name, v.out()} {}
+  TmChannel value;
 };
-inline TmCloudLookup cloudLookup() { return TM_CLOUD_DEFAULTS; }
 inline bool bake3d(const char* file, const Point& p, const Normal& n, const std::vector<Channel>& channels,
-                   const TmCloudLookup& options = cloudLookup()) {
-  std::vector<TmCloudValue> values;
+                   const TmCloudOptions& options = tmCloudDefaults()) {
+  std::vector<TmChannel> values;
   for (const Channel& c : channels) values.push_back(c.value);
-  return grid()->call->bake3d(grid()->host, grid(), file, p, n, &options, values.data(), int32_t(values.size())) != 0;
+  return grid()->call->bake3d(grid()->host, grid(), file, &options, p, n, values.data(), int32_t(values.size())) != 0;
 }
 template <class... List>
 bool bake3d(const char* file, const Point& p, const Normal& n, const std::vector<Channel>& channels, const char* first,
@@ -25,11 +24,11 @@ bool bake3d(const char* file, const Point& p, const Normal& n, const std::vector
 }
 /// 1 where the file has data, which the channels then hold.
 inline Float texture3d(const char* file, const Point& p, const Normal& n, const std::vector<Channel>& channels,
-                       const TmCloudLookup& options = cloudLookup()) {
-  std::vector<TmCloudValue> values;
+                       const TmCloudOptions& options = tmCloudDefaults()) {
+  std::vector<TmChannel> values;
   for (const Channel& c : channels) values.push_back(c.value);
   Float found;
-  grid()->call->texture3d(grid()->host, grid(), file, p, n, &options, values.data(), int32_t(values.size()),
+  grid()->call->texture3d(grid()->host, grid(), file, &options, p, n, values.data(), int32_t(values.size()),
                           found.data());
   return found;
 }
@@ -40,17 +39,20 @@ Float texture3d(const char* file, const Point& p, const Normal& n, const std::ve
   return texture3d(file, p, n, channels, all.options());
 }
 /// E/pi of the nearest photons.
+inline Color photonmap(const char* file, const Point& p, const Normal& n, const TmPhotonOptions& options) {
+  return tripleFrom([&](TmVec3 out) { grid()->call->photonMap(grid()->host, grid(), file, &options, p, n, out); });
+}
 inline Color photonmap(const char* file, const Point& p, const Normal& n, int estimator = 50) {
-  return tripleFrom([&](TmVec3 out) { grid()->call->photonMap(grid()->host, grid(), file, p, n, estimator, out); });
+  TmPhotonOptions options = tmPhotonDefaults();
+  options.estimator = estimator;
+  return photonmap(file, p, n, options);
 }
 template <class... List>
 Color photonmap(const char* file, const Point& p, const Normal& n, const char* first, const List&... list) {
   const PhotonList all = listed(PhotonList(), first, list...);
+  if (!all.radiance) return photonmap(file, p, n, all.photons);
   Color found;
-  if (all.radiance)
-    texture3d(file, p, n, {{"_radiosity", found}});
-  else
-    grid()->call->photonMapWith(grid()->host, grid(), file, p, n, &all.photons, found.out());
+  texture3d(file, p, n, {{"_radiosity", found}});
   return found;
 }
 
@@ -63,8 +65,8 @@ inline Color caustic(const Point& p, const Normal& n) {
 /// else of marble. E/pi. The approximation does not look at the normal.
 template <class... List>
 Color subsurface(const Point& p, const Normal&, const char* file, const List&... list) {
-  const TmSubsurface material = listed(TmSubsurface(TM_SUBSURFACE_DEFAULTS), list...);
-  return tripleFrom([&](TmVec3 out) { grid()->call->subsurface(grid()->host, grid(), file, p, &material, out); });
+  const TmSubsurfaceOptions material = listed(tmSubsurfaceDefaults(), list...);
+  return tripleFrom([&](TmVec3 out) { grid()->call->subsurface(grid()->host, grid(), file, &material, p, out); });
 }
 
 }  // namespace sl

@@ -8,7 +8,7 @@ inline Color ambient() {
   return tripleFrom([](TmVec3 out) { grid()->call->ambient(grid()->host, grid(), out); });
 }
 inline Color diffuse(const Normal& n) {
-  return tripleFrom([&](TmVec3 out) { grid()->call->diffuse(grid()->host, grid(), n, out); });
+  return tripleFrom([&](TmVec3 out) { grid()->call->diffuse(grid()->host, grid(), TM_ALL_LIGHT, n, out); });
 }
 inline Color specular(const Normal& n, const Vector& v, const Float& roughness) {
   return tripleFrom([&](TmVec3 out) { grid()->call->specular(grid()->host, grid(), n, v, roughness.data(), out); });
@@ -19,8 +19,8 @@ inline Color phong(const Normal& n, const Vector& v, const Float& size) {
   const Vector R = reflect(-normalize(v), N);
   Color sum;
   if (!rsl::Batch(grid()).wantsHighlights()) return sum;
-  TmIlluminance query{};
-  query.structBytes = sizeof query, query.axis = N, query.angle = float(rsl::kPi / 2);
+  TmIlluminance query = tmIlluminanceDefaults();
+  query.axis = N, query.angle = float(rsl::kPi / 2);
   while (grid()->call->illuminance(grid()->host, grid(), &query)) {
     if (query.nonspecular) continue;
     where(query.lit, true, [&] { sum += Color(query.Cl) * pow(max(0, dot(R, normalize(Vector(query.L)))), size); });
@@ -45,51 +45,51 @@ inline Float randomGrid() {
   return double(rsl::latticeHash(int32_t(hash), Run::now().randoms++, 1) >> 8) * 0x1p-24;
 }
 
-inline Color trace(const Point& p, const Vector& r, const TmRayOptions& options = rsl::defaultRays()) {
-  return tripleFrom([&](TmVec3 out) { grid()->call->trace(grid()->host, grid(), p, r, &options, out, nullptr); });
+inline Color trace(const Point& p, const Vector& r, const TmRayOptions& options = tmRayDefaults()) {
+  return tripleFrom([&](TmVec3 out) { grid()->call->trace(grid()->host, grid(), &options, p, r, out, nullptr); });
 }
 template <class... List>
 Color trace(const Point& p, const Vector& r, const char* first, const List&... list) {
-  return trace(p, r, listed(rsl::defaultRays(), first, list...));
+  return trace(p, r, listed(tmRayDefaults(), first, list...));
 }
 /// RSL's float trace(): how far the ray goes, 1e30 where it meets nothing.
-inline Float traceDistance(const Point& p, const Vector& r, const TmRayOptions& options = rsl::defaultRays()) {
+inline Float traceDistance(const Point& p, const Vector& r, const TmRayOptions& options = tmRayDefaults()) {
   Float out;
-  grid()->call->trace(grid()->host, grid(), p, r, &options, TmVec3{}, out.data());
+  grid()->call->trace(grid()->host, grid(), &options, p, r, TmVec3{}, out.data());
   return out;
 }
 template <class... List>
 Float traceDistance(const Point& p, const Vector& r, const char* first, const List&... list) {
-  return traceDistance(p, r, listed(rsl::defaultRays(), first, list...));
+  return traceDistance(p, r, listed(tmRayDefaults(), first, list...));
 }
-inline Color transmission(const Point& from, const Point& to, const TmRayOptions& options = rsl::defaultRays()) {
+inline Color transmission(const Point& from, const Point& to, const TmRayOptions& options = tmRayDefaults()) {
   return tripleFrom(
-      [&](TmVec3 out) { grid()->call->transmissionWith(grid()->host, grid(), from, to - from, &options, out); });
+      [&](TmVec3 out) { grid()->call->transmission(grid()->host, grid(), &options, from, to - from, out); });
 }
 template <class... List>
 Color transmission(const Point& from, const Point& to, const char* first, const List&... list) {
-  return transmission(from, to, listed(rsl::defaultRays(), first, list...));
+  return transmission(from, to, listed(tmRayDefaults(), first, list...));
 }
-inline void hemisphere(const Point& p, const Normal& n, int samples, const HemisphereList& list, Float* covered,
-                       Triple* radiance) {
-  const auto of = [](Triple* t) { return t ? t->out() : TmVec3{}; };
-  const TmHemisphere out{sizeof(TmHemisphere), covered ? covered->data() : nullptr, of(radiance),
-                         of(list.environmentColor), of(list.environmentDirection)};
-  const TmRayOptions options = list.options(samples);
-  grid()->call->hemisphere(grid()->host, grid(), p, n, &options, &out);
+inline void occlusion(const Point& p, const Normal& n, int samples, HemisphereList list) {
+  list.rays.samples = samples;
+  list.options.pointCloud = list.pointBased ? list.file : nullptr;
+  grid()->call->occlusion(grid()->host, grid(), &list.rays, p, n, &list.options);
 }
 template <class... List>
 Float occlusion(const Point& p, const Normal& n, int samples, const List&... list) {
+  HemisphereList all = listed(HemisphereList(), list...);
   Float covered;
-  hemisphere(p, n, samples, listed(HemisphereList(), list...), &covered, nullptr);
+  all.options.covered = covered.data();
+  occlusion(p, n, samples, all);
   return covered;
 }
 /// Mean radiance that arrives from the hemisphere around n (or the cone of the list): not multiplied by Cs or pi.
 template <class... List>
 Color indirectdiffuse(const Point& p, const Normal& n, int samples, const List&... list) {
-  const HemisphereList all = listed(HemisphereList(), list...);
+  HemisphereList all = listed(HemisphereList(), list...);
   Color radiance;
-  hemisphere(p, n, samples, all, all.covered, &radiance);
+  all.options.radiance = radiance.out();
+  occlusion(p, n, samples, all);
   return radiance;
 }
 /// Its old name.
@@ -100,14 +100,14 @@ Color indirect(const Point& p, const Normal& n, int samples, const List&... list
 
 /// One value of each hit, by its gather() name.
 struct Gathered {
-  Gathered(const char* name, Triple* t) : output{name, 3, {t->out().x, t->out().y, t->out().z}} {}
-  Gathered(const char* name, Float* f) : output{name, 1, {f->data(), nullptr, nullptr}} {}
-  TmRayOutput output;
+  Gathered(const char* name, Triple* t) : output{name, t->out()} {}
+  Gathered(const char* name, Float* f) : output{name, {f->data(), nullptr, nullptr}} {}
+  TmChannel output;
 };
 /// Of gather(): evenly over the cone, unless "distribution" is "cosine".
 template <class... List>
 TmRayOptions rays(const List&... list) {
-  TmRayOptions even = rsl::defaultRays();
+  TmRayOptions even = tmRayDefaults();
   even.uniform = 1;
   return listed(even, list...);
 }
@@ -128,10 +128,10 @@ void gather(const char* category, const Point& p, const Vector& direction, float
     options.environment = kind.substr(kEnvironment.size()).data();
   else if (!kind.empty() && kind != "illuminance")
     throw std::invalid_argument(std::string("gathers \"") + category + "\", which there is not");
-  std::vector<TmRayOutput> outputs;
+  std::vector<TmChannel> outputs;
   for (const Gathered& w : wanted) outputs.push_back(w.output);
   std::vector<uint8_t> met(static_cast<size_t>(grid()->padded));
-  for (int ray = 0; grid()->call->gather(grid()->host, grid(), p, direction, &options, ray, met.data(), outputs.data(),
+  for (int ray = 0; grid()->call->gather(grid()->host, grid(), &options, p, direction, ray, met.data(), outputs.data(),
                                          int32_t(outputs.size()));
        ++ray) {
     where(met.data(), true, hit);

@@ -38,7 +38,8 @@ struct Setting {
 /// about it.
 inline bool isIdle(std::string_view name, std::initializer_list<std::string_view> idle, const char* why) {
   if (std::find(idle.begin(), idle.end(), name) == idle.end()) return false;
-  grid()->call->report(grid()->host, grid(), 1, ("\"" + std::string(name) + "\" has no effect: " + why).c_str());
+  grid()->call->report(grid()->host, grid(), TM_WARNING,
+                       ("\"" + std::string(name) + "\" has no effect: " + why).c_str());
   return true;
 }
 
@@ -68,12 +69,6 @@ inline bool set(TmRayOptions& o, std::string_view name, const Setting& v) {
     o.hitMode = text == "primitive" ? TM_HIT_PRIMITIVE : text == "shader" ? TM_HIT_SHADER : TM_HIT_DEFAULT;
   else if (name == "othreshold")
     o.opacityThreshold = v.number;
-  else if (name == "falloff")
-    o.falloff = v.number;
-  else if (name == "falloffmode")
-    o.falloffMode = v.whole();
-  else if (name == "maxvariation")
-    o.maxVariation = v.number;
   else if (name == "weight")
     o.importance = v.number;
   else if (name == "environmentspace")
@@ -86,18 +81,10 @@ inline bool set(TmRayOptions& o, std::string_view name, const Setting& v) {
 
 /// Of occlusion() and indirectdiffuse(): as rays, and a point cloud, an environment and what else is to be filled in.
 struct HemisphereList {
-  TmRayOptions rays = rsl::defaultRays();
+  TmRayOptions rays = tmRayDefaults();
+  TmOcclusion options = tmOcclusionDefaults();
   bool pointBased = false;
   const char* file = nullptr;
-  Triple *environmentColor = nullptr, *environmentDirection = nullptr;
-  Float* covered = nullptr;
-
-  /// As TmServices wants them.
-  TmRayOptions options(int samples) const {
-    TmRayOptions o = rays;
-    o.samples = samples, o.pointCloud = pointBased ? file : nullptr;
-    return o;
-  }
 };
 inline bool set(HemisphereList& o, std::string_view name, const Setting& v) {
   if (name == "pointbased")
@@ -105,19 +92,25 @@ inline bool set(HemisphereList& o, std::string_view name, const Setting& v) {
   else if (name == "filename")
     o.file = v.text;
   else if (name == "channel")
-    o.rays.pointChannel = v.text;
+    o.options.pointChannel = v.text;
   else if (name == "clamp")
-    o.rays.clamp = v.whole();
+    o.options.clamp = v.whole();
   else if (name == "maxsolidangle")
-    o.rays.maxSolidAngle = v.number;
+    o.options.maxSolidAngle = v.number;
+  else if (name == "falloff")
+    o.options.falloff = v.number;
+  else if (name == "falloffmode")
+    o.options.falloffMode = v.whole();
+  else if (name == "maxvariation")
+    o.options.maxVariation = v.number;
   else if (name == "environmentmap")
     o.rays.environment = *v.text ? v.text : nullptr;
-  else if (name == "environmentcolor")
-    o.environmentColor = v.triples;
-  else if (name == "environmentdir")
-    o.environmentDirection = v.triples;
-  else if (name == "occlusion")
-    o.covered = v.numbers;
+  else if (name == "environmentcolor" && v.triples)
+    o.options.environmentColor = v.triples->out();
+  else if (name == "environmentdir" && v.triples)
+    o.options.environmentDirection = v.triples->out();
+  else if (name == "occlusion" && v.numbers)
+    o.options.covered = v.numbers->data();
   else
     return set(o.rays, name, v) ||
            isIdle(name, {"adaptive", "brightnesswarp", "sortbleeding", "rasterresolution"},
@@ -127,7 +120,7 @@ inline bool set(HemisphereList& o, std::string_view name, const Setting& v) {
 
 /// Of photonmap().
 struct PhotonList {
-  TmPhotonLookup photons = TM_PHOTON_DEFAULTS;
+  TmPhotonOptions photons = tmPhotonDefaults();
   bool radiance = false;  ///< Of baked "_radiosity", instead of irradiance.
 };
 inline bool set(PhotonList& o, std::string_view name, const Setting& v) {
@@ -144,12 +137,12 @@ inline bool set(PhotonList& o, std::string_view name, const Setting& v) {
 
 /// Of bake3d() and texture3d(). A radius is in current space.
 struct CloudList {
-  TmCloudLookup cloud = TM_CLOUD_DEFAULTS;
+  TmCloudOptions cloud = tmCloudDefaults();
   Float radius;
   bool hasRadius = false;
 
-  TmCloudLookup options() const {
-    TmCloudLookup o = cloud;
+  TmCloudOptions options() const {
+    TmCloudOptions o = cloud;
     if (hasRadius) o.radius = radius.data();
     return o;
   }
@@ -167,7 +160,7 @@ inline bool set(CloudList& o, std::string_view name, const Setting& v) {
   return true;
 }
 
-inline bool set(TmTextureLookup& o, std::string_view name, const Setting& v) {
+inline bool set(TmTextureOptions& o, std::string_view name, const Setting& v) {
   if (name == "blur")
     o.sblur = o.tblur = v.number;
   else if (name == "sblur")
@@ -195,7 +188,7 @@ inline bool set(TmTextureLookup& o, std::string_view name, const Setting& v) {
   return true;
 }
 
-inline bool set(TmShadowLookup& o, std::string_view name, const Setting& v) {
+inline bool set(TmShadowOptions& o, std::string_view name, const Setting& v) {
   if (name == "bias")
     o.bias = v.number;
   else if (name == "blur")
@@ -209,7 +202,7 @@ inline bool set(TmShadowLookup& o, std::string_view name, const Setting& v) {
   return true;
 }
 
-inline bool set(TmSubsurface& o, std::string_view name, const Setting& v) {
+inline bool set(TmSubsurfaceOptions& o, std::string_view name, const Setting& v) {
   const auto setColor = [&](float(&to)[3]) {
     to[0] = v.color.x, to[1] = v.color.y, to[2] = v.color.z, o.material = nullptr;
   };
@@ -269,8 +262,8 @@ struct LightList {
     std::vector<TmMessage> out;
     for (const Sent& s : sent)
       out.push_back({s.name.c_str(),
-                     s.type,
-                     {{s.values[0].data(), s.values[1].data(), s.values[2].data()}, s.step, 1, s.text.c_str()}});
+                     {{s.values[0].data(), s.values[1].data(), s.values[2].data()}, s.step, 1, s.text.c_str()},
+                     s.type});
     return out;
   }
 };

@@ -29,34 +29,39 @@ typedef enum TmType { TM_FLOAT = 0, TM_COLOR, TM_POINT, TM_VECTOR, TM_NORMAL, TM
 #define TM_UNIFORM 0x200
 #define TM_TYPE_OF(declared) ((declared)&0xff) /* the TmType alone */
 
-/* What a shader declares about itself, so that the core shades no more than needed. */
+/* What a shader declares about itself, so that the core shades no more than needed. `tomales shadetest --check` holds
+ * what it can against what the shader does. */
 typedef enum TmCapability {
-  TM_KEEPS_OPACITY = 1 << 0,  /* surface: Oi = Os always, so an object with Os = 1 hides what is behind it */
-  TM_LIGHT_AMBIENT = 1 << 1,  /* light: no direction; seen by ambient() alone */
-  TM_LIGHT_SOLAR = 1 << 2,    /* light: L is a direction, the source is at infinity */
-  TM_LIGHT_AREA = 1 << 3,     /* light: the host samples the geometry of an AreaLightSource and sets Pl, Nl, L */
-  TM_LIGHT_INDIRECT = 1 << 4, /* light: brings indirect light; never run at the hits of gather rays */
-  TM_LIGHT_SHADOWED = 1 << 5, /* light: the host traces a shadow ray along L for every sample */
-  TM_EMITS = 1 << 6,          /* surface: adds emitted radiance of its own, beside light that it reflects */
-  TM_LIGHT_SAMPLED = 1 << 7,  /* light: asked for as many samples as its TM_ROLE_SAMPLES says, with xi0 and xi1; Cl is
-                                 the share of one sample */
-  TM_TRACES = 1 << 8,         /* surface, light, volume: calls trace(), gather(), occlusion() or transmission() */
-  TM_LIGHT_SKY = 1 << 9, /* light, with TM_LIGHT_SOLAR: all around, at infinity. The host chooses L, by the brightness
-                            of the latitude-longitude picture that its TM_ROLE_SKY_MAP names and by the cosine,
-                            TM_ROLE_SAMPLES times; Cl is the radiance from there */
-  TM_DERIVATIVES = 1 << 10, /* surface: looks pictures up at s, t or at primitive variables, or asks for derivatives of
-                              those: the host keeps how they change over a micropolygon */
-  TM_OCCLUDED = 1 << 12, /* surface, light, with TM_TRACES: answers of occlusion() may be interpolated between records
-                           that are made before anything is shaded (TmRayOptions::maxVariation) */
-  TM_TRACES_HIGHLIGHTS = 1 << 14, /* surface, with TM_TRACES: asks for rays only where highlights are wanted, so that
-                                without them it looks the same from every side */
-  TM_EVEN = 1 << 13, /* surface: under light that is the same from everywhere it looks the same wherever and from
-                       whichever side it is seen: its colour comes of Cs, Os and its parameters, not of places,
-                       coordinates or pictures. Photons ask it once, instead of at every hit */
-  TM_NEIGHBOURS =
-      1 << 11 /* surface: asks for derivatives of what it has computed, or looks pictures up at such places: the
-                 host shades four points around each point as well, so that differences are centred. The batch
-                 holds them after the points themselves; light and rays are asked for the points alone */
+  /* --- Surfaces */
+  TM_KEEPS_OPACITY = 1 << 0, /* Oi = Os always, so an object with Os = 1 hides what is behind it */
+  TM_EMITS = 1 << 1,         /* adds emitted radiance of its own, beside light that it reflects */
+  TM_EVEN = 1 << 2,        /* under light that is the same from everywhere it looks the same wherever and from whichever
+                              side it is seen: its colour comes of Cs, Os and its parameters, not of places, coordinates or
+                              pictures. Photons ask it once, instead of at every hit */
+  TM_DERIVATIVES = 1 << 3, /* looks pictures up at s, t or at primitive variables, or asks for derivatives of those: the
+                              host keeps how they change over a micropolygon */
+  TM_NEIGHBOURS = 1 << 4, /* asks for derivatives of what it has computed, or looks pictures up at such places: the host
+                             shades four points around each point as well, so that differences are centred. The batch
+                             holds them after the points themselves; light and rays are asked for the points alone */
+
+  /* --- Rays */
+  TM_TRACES = 1 << 5,            /* surface, light, volume: calls trace(), gather(), occlusion() or transmission() */
+  TM_TRACES_HIGHLIGHTS = 1 << 6, /* surface, with TM_TRACES: asks for rays only where highlights are wanted, so that
+                                    without them it looks the same from every side */
+  TM_OCCLUDED = 1 << 7, /* surface, light, with TM_TRACES: answers of occlusion() may be interpolated between records
+                           that are made before anything is shaded (TmOcclusion::maxVariation) */
+
+  /* --- Lights */
+  TM_LIGHT_AMBIENT = 1 << 8, /* no direction; seen by ambient() alone */
+  TM_LIGHT_SOLAR = 1 << 9,   /* L is a direction, the source is at infinity */
+  TM_LIGHT_AREA = 1 << 10,   /* the host samples the geometry of an AreaLightSource and sets Pl, Nl, L */
+  TM_LIGHT_SKY = 1 << 11, /* with TM_LIGHT_SOLAR: all around, at infinity. The host chooses L, by the brightness of the
+                             latitude-longitude picture that its TM_ROLE_SKY_MAP names and by the cosine,
+                             TM_ROLE_SAMPLES times; Cl is the radiance from there */
+  TM_LIGHT_INDIRECT = 1 << 12, /* brings indirect light; never run at the hits of gather rays */
+  TM_LIGHT_SAMPLED = 1 << 13,  /* asked for as many samples as its TM_ROLE_SAMPLES says, with xi0 and xi1; Cl is the
+                                  share of one sample */
+  TM_LIGHT_SHADOWED = 1 << 14  /* the host traces a shadow ray along L for every sample */
 } TmCapability;
 
 /* What the host understands of a parameter, whatever its name: how a shader says which of its parameters is the number
@@ -81,7 +86,7 @@ typedef enum TmRole {
   TM_ROLE_INDIRECT_SOURCE = 13, /* string. TM_LIGHT_INDIRECT: handle of the indirect light that this one filters */
   TM_ROLE_SCALE = 14,           /* float. TM_LIGHT_INDIRECT: multiplies what it brings, for its filters too */
   TM_ROLE_TINT = 15,            /* color. Likewise */
-  TM_ROLE_MAX_VARIATION = 16,   /* float. Light with TM_OCCLUDED: the TmRayOptions::maxVariation that it asks for */
+  TM_ROLE_MAX_VARIATION = 16,   /* float. Light with TM_OCCLUDED: the TmOcclusion::maxVariation that it asks for */
   TM_ROLE_LIGHTING = 17,        /* string. Any light: direct, indirect or both */
   TM_ROLE_NONDIFFUSE = 18,      /* float, or output float. Any light: 1 where diffuse() leaves it out */
   TM_ROLE_NONSPECULAR = 19,     /* float, or output float. Any light: 1 where specular() leaves it out */
@@ -111,9 +116,9 @@ typedef struct TmParamDecl {
 typedef struct TmValue {
   const float* c[3];
   int32_t step;
-  int32_t length; /* array length */
-  const char*
-      string; /* never NULL for a string parameter; the elements of an array follow each other, each ended by 0 */
+  int32_t length;     /* array length */
+  const char* string; /* never NULL for a string parameter; the elements of an array follow each other, each ended by 0
+                       */
 } TmValue;
 
 struct TmServices;
@@ -121,35 +126,30 @@ struct TmServices;
 typedef struct TmGrid {
   uint32_t structBytes;
   int32_t count, padded; /* live points; length of every array, a multiple of TM_LANES */
+  float time, dtime;     /* when the shutter opens, and how long it is open */
+  float clip[2];         /* camera-space depths of the near and far clipping planes */
+  float E[3];            /* the eye, current space */
   const uint8_t* active; /* 1: this point wants a result */
-  const TmValue* params; /* in the order of TmShader::params */
+  const TmValue* params; /* in the order of TmShader::params. One more follows, which no parameter has: a shader that
+                            reads a parameter that it did not list crashes there under `tomales shadetest --check` */
   const struct TmServices* call;
   void* host; /* pass it to every service */
 
   TmVec3 P, N;       /* position and shading normal (not normalised); a displacement may write both */
   TmConstVec3 Ng, I; /* geometric normal; incident direction, from the eye or ray origin to P */
   TmConstVec3 dPdu, dPdv;
+  TmConstVec3 dPdtime; /* surface: where P goes per unit of time; 0 where nothing moves */
   const float *u, *v, *s, *t, *du, *dv;
   TmConstVec3 Cs, Os;
   TmVec3 Ci, Oi; /* surface, volume, imager: the result, premultiplied by opacity */
-  float E[3];    /* the eye, current space */
-  float time;
+  float* alpha;  /* imager alone: alpha of the pixel, in and out */
 
   /* Light shaders alone. P and N above are the point being lit (RSL's Ps) and its normal. */
-  int32_t sample, samples; /* which of how many samples of this light */
   TmVec3 L;                /* out (area: in): from P towards the light; its length is the distance for shadows */
   TmVec3 Cl;               /* out: light colour arriving at P, whole light (host divides area samples) */
   TmConstVec3 Pl, Nl;      /* area: sampled point on the emitter and its RISpec normal, unit length */
-
-  /* Imager shaders alone: alpha of the pixel, in and out. */
-  float* alpha;
-
-  /* Lights with TM_LIGHT_SAMPLED alone: a point of [0,1)^2; those of all samples of a point are stratified. */
-  const float *xi0, *xi1;
-  float clip[2]; /* camera-space depths of the near and far clipping planes */
-
-  float dtime;         /* how long the shutter is open */
-  TmConstVec3 dPdtime; /* surface: where P goes per unit of time; 0 where nothing moves */
+  const float *xi0, *xi1;  /* TM_LIGHT_SAMPLED: a point of [0,1)^2; those of all samples of a point are stratified */
+  int32_t sample, samples; /* which of how many samples of this light */
 } TmGrid;
 
 #ifdef __cplusplus

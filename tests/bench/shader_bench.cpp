@@ -83,7 +83,7 @@ int main() {
   ShaderRegistry registry(log);
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
   static const TmShader* const shaders[] = {shader};
-  static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 1};
+  static const TmShaderLibrary library = rsl::libraryOf(shaders);
   registry.addLibrary(&library, "bench");
   std::string text = "Projection \"perspective\"\nWorldBegin\n";
   for (int k = 0; k < 3; ++k)

@@ -1,6 +1,7 @@
 """Shader plugins that are broken in every way that can be told: located errors, and the frame goes on with a loud substitute."""
 import os
 import pathlib
+import signal
 import subprocess
 
 from program import Suite
@@ -70,7 +71,7 @@ said = t.expect_run("plugins are tried while other threads run", ["later.rib", "
 t.expect(said.count("crashes while it is loaded") == 6 and "good.so" not in said, "each is told once, and nothing else is lost")
 
 build("old", (SHADER % ("0.5f", "old", "")).replace("#include", "#include <reyes/shader_api.h>\n#undef TM_SHADER_ABI\n#define TM_SHADER_ABI 0u\n#include"))
-render("old", 3, "old.so", "another shader ABI", "scene.rib:8")
+render("old", 3, "old.so", "is built for shader ABI 0, 32 bytes; this renderer has ABI 1, 32 bytes: compile it against the headers", "scene.rib:8")
 build("empty", "extern \"C\" int unrelated() { return 1; }")
 render("empty", 3, "empty.so", "does not export tomales_shaders")
 build("nameless", (SHADER % ("0.5f", "", "")))
@@ -84,4 +85,33 @@ t.expect(said.count("dividing\"") == 1, "NaN is told once")
 build("throwing", "#include <stdexcept>\n" + (SHADER % ("0.5f", "throwing", "")).replace("void shade(const TmGrid* g) {", "void shade(const TmGrid* g) {\n  if (g) throw std::runtime_error(\"no bananas\");"))
 said = render("throwing", 3, "\"ball\"", "no bananas", "scene.rib:8").stderr
 t.expect(said.count("no bananas") == 1, "an exception is told once")
+
+# Parameters that are listed wrongly are found when the plugin is loaded; each plugin counts its own.
+build("unlisted", (SHADER % ("Ks(g, i)", "unlisted", "")).replace("void shade", 'rsl::FloatParam Ks("Ks", 0.5f, "");\nvoid shade'))
+render("unlisted", 3, "unlisted.so", 'no shader lists the parameter "Ks"', "magenta")
+build("placed", (SHADER % ("b(g, i)", "placed", 'const rsl::Shader second(TM_SURFACE, "second", "", 0, shade, {&b});'))
+      .replace("void shade", 'rsl::FloatParam a("a", 0, ""), b("b", 1, "");\nvoid shade').replace("shade, {});", "shade, {&a, &b});", 1).replace("(shader)", "(shader, second)"))
+render("placed", 3, "placed.so", 'shader "second" lists the parameter "b" at place 1, and shader "placed" lists it at place 2')
+t.write("both.rib", (SCENE % "unlisted").replace("WorldEnd", 'Surface "good"\nSphere 1 -1 1 360\nWorldEnd'))
+said = t.expect_run("a sound plugin beside one with an unlisted parameter", ["both.rib"], 3, "unlisted.so").stderr
+t.expect("good.so" not in said, "is not blamed for it")
+
+# A crash inside a shader ends the program as before, but says where it was.
+CRASHES = {
+    "segv": ("*(volatile int*)8 = 1;", -signal.SIGSEGV, "SIGSEGV"),
+    "deep": ("volatile char a[4096]; a[0] = 1; if (g) { void shade(const TmGrid*); shade(g); } a[1] = a[0];", -signal.SIGSEGV, "SIGSEGV"),
+    "zero": ("raise(SIGFPE);", -signal.SIGFPE, "SIGFPE"),
+    "stop": ("abort();", -signal.SIGABRT, "SIGABRT"),
+}
+for name, (code, status, says) in CRASHES.items():
+    build(name, "#include <csignal>\n#include <cstdlib>\n" + (SHADER % ("0.5f", name, "")).replace("void shade(const TmGrid* g) {", "void shade(const TmGrid* g) {\n  " + code))
+    for threads in ("1", "4"):
+        t.write("scene.rib", SCENE % name)
+        t.expect_run(f"a shader that ends by {says}: {name}, {threads} threads", ["scene.rib", "-t", threads], status,
+                     f'scene.rib:8: sphere "ball": surface shader "{name}" crashes ({says}')
+t.write("scene.rib", (SCENE % "good").replace('LightSource "distantlight" 1', 'LightSource "segv" "lamp"'))
+build("segv", "#include <csignal>\n" + (SHADER % ("0.5f", "segv", "")).replace("TM_SURFACE", "TM_LIGHT").replace("void shade(const TmGrid* g) {", "void shade(const TmGrid* g) {\n  *(volatile int*)8 = 1;"))
+build("lit", (SHADER % ("0.5f", "lit", "")).replace("void shade(const TmGrid* g) {", "void shade(const TmGrid* g) {\n  rsl::Batch(g).diffuse(g->Ng);"))
+t.write("scene.rib", (SCENE % "lit").replace('LightSource "distantlight" 1', 'LightSource "segv" "lamp"'))
+t.expect_run("a light that crashes", ["scene.rib"], -signal.SIGSEGV, 'scene.rib:6: light "lamp", on sphere "ball": light shader "segv" crashes')
 t.finish()

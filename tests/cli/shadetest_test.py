@@ -1,5 +1,8 @@
 """One shader over a grid: what it says of values that are known, and of shaders that there are not."""
+import os
+import pathlib
 import re
+import subprocess
 
 from program import GOOD, Suite
 
@@ -28,4 +31,56 @@ t.expect_run("a file that is no plugin", ["shadetest", t.write("no.so", "text")]
 t.expect_run("a grid of one point", ["shadetest", "matte", "--grid", "1x1"], 1)
 profile = t.expect_run("--profile-shaders", [t.write("good.rib", GOOD), "--profile-shaders"], 0, "matte", "ns a point")
 t.expect(int(re.search(r"^matte +(\d+) ", profile.stdout, re.MULTILINE)[1]) > 0, "counts the points of matte")
+for shader in ("glass", "mirror", "occlusionlight", "arealight"):
+    t.expect(not t.expect_run(f"{shader} asks for rays", ["shadetest", shader, "--grid", "4x4"], 0).stderr, "and there are some")
+arealight = t.run("shadetest", "arealight", "--grid", "4x4")
+t.expect(figure(arealight, "Ci greatest")[0] > 0.01, "an area light has a lamp to shine from")
+
+# --check: what a shader declares, and what it does.
+source = pathlib.Path(__file__).resolve().parent.parent.parent
+PLUGIN = """#include <reyes/shader.h>
+namespace {
+%s
+void shade(const TmGrid* g) {
+  const rsl::Batch b(g);
+  %s
+}
+const rsl::Shader shader(%s, "tried", "", %s, shade, {%s});
+%s
+}
+TM_SHADER_LIBRARY(shader%s)
+"""
+
+
+def check(what, body, faults, kind="TM_SURFACE", capabilities="0", before="", params="", after="", also=""):
+    t.write("tried.cpp", PLUGIN % (before, body, kind, capabilities, params, after, also))
+    subprocess.run([os.environ["CXX"], "-std=c++17", "-shared", "-fPIC", "-I", source, t.folder / "tried.cpp", "-o", t.folder / "tried.so"], check=True)
+    return t.expect_run("check: " + what, ["shadetest", "./tried.so", "--check"], 3 if faults else 0, f"faults: {len(faults)}", *faults)
+
+
+MATTE = "const auto light = b.diffuse(b.facingNormals()); for (int i : b) b.output(i, b.Cs(i) * light[i], %s);"
+check("a sound shader", MATTE % "b.Os(i)", [], capabilities="TM_KEEPS_OPACITY | TM_EVEN")
+check("another opacity", MATTE % "0.5f * b.Os(i)", ['shader "tried" has another Oi than Os, and has declared TM_KEEPS_OPACITY'], capabilities="TM_KEEPS_OPACITY")
+check("which it may have", MATTE % "0.5f * b.Os(i)", [])
+check("a glow", "for (int i : b) b.output(i, {1, 1, 1}, b.Os(i));", ["adds light where there is none, and has not declared TM_EMITS"])
+check("that is declared", "for (int i : b) b.output(i, {1, 1, 1}, b.Os(i));", [], capabilities="TM_EMITS")
+check("dots on an even surface", "const auto light = b.diffuse(b.facingNormals()); for (int i : b) b.output(i, g->s[i] * light[i], b.Os(i));",
+      ["does not look the same everywhere"], capabilities="TM_EVEN")
+check("points that are not active", "for (int i = 0; i < g->count; ++i) b.output(i, {0, 0, 0}, b.Os(i));", ["writes Oi of points that are not active"])
+check("the tail", "for (int i = g->count; i < g->padded; ++i) g->Ci.y[i] = 1;", ["writes Ci of points that are not active"])
+check("beyond the tail", "g->Oi.y[g->padded] = 1;", ["writes outside of its arrays, beside Oi"])
+check("NaN", "for (int i : b) b.output(i, b.Cs(i) * std::sqrt(-1 - g->s[i]) * b.diffuse(b.facingNormals())[i].x, b.Os(i));", ["leaves NaN or infinity in Ci"] * 1 + ["NaN or infinity; such points are black"])
+check("an output", "if (out.wanted(g)) for (int i = 0; i < g->count; ++i) out.set(g, i, 1);", ['writes output "out" of points that are not active'],
+      before='rsl::FloatOutput out("out", "");', params="&out")
+check("rays that are not declared", "b.trace(b.facingNormals());", ["has not declared TM_TRACES"])
+check("a displacement", "rsl::Array far(g); for (int i = 0; i < g->count; ++i) g->P.x[i] += 1;", ["writes P of points that are not active"], kind="TM_DISPLACEMENT")
+check("a light", "for (int i : b) b.illuminate(i, {0, 0, -1 / g->s[0] * 0}, {1, 1, 1}); for (int i = 0; i < g->count; ++i) g->Cl.x[i] = 1;", ["writes Cl of points that are not active"],
+      kind="TM_LIGHT", capabilities="TM_LIGHT_SOLAR")
+check("a crash", "*(volatile int*)8 = 1;", ['shader "tried" crashes (Segmentation fault)'])
+second = {"before": 'rsl::FloatParam mine("mine", 1, ""), its("its", 1, "");\nvoid other(const TmGrid* g) { for (int i : rsl::Batch(g)) rsl::Batch(g).output(i, {0, 0, 0}, {its(g, i), 1, 1}); }',
+          "params": "&mine", "after": 'const rsl::Shader second(TM_SURFACE, "second", "", 0, other, {&its});', "also": ", second"}
+check("its own parameter", "for (int i : b) b.output(i, {0, 0, 0}, {mine(g, i), 1, 1});", [], **second)
+check("another shader's parameter", "for (int i : b) b.output(i, {0, 0, 0}, {its(g, i), 1, 1});", ['shader "tried" reads the parameter "its", which it does not list'][:1], **second)
+for shader in ("matte", "plastic", "disney", "glass", "constant", "noisybump", "fog", "background", "distantlight", "arealight", "environmentlight", "sunlight"):
+    t.expect_run(f"check: {shader} is what it says", ["shadetest", shader, "--check"], 0, "faults: 0")
 t.finish()

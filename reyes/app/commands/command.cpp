@@ -14,6 +14,7 @@
 #include "reyes/app/commands/shadetest.h"
 #include "reyes/app/exit_code.h"
 #include "reyes/app/watch/interrupt.h"
+#include "reyes/base/crash_note.h"
 #include "reyes/base/input_file.h"
 
 namespace tomales {
@@ -131,6 +132,8 @@ void buildShadetest(CLI::App& app, Invocation& in, int& code) {
       *c, "--grid", in.shadetest.grid, [](const std::string& t) { return parsePair(t, 2, 4096); }, "NxM",
       "Points along u and v (default 64x64)");
   addParsed(*c, "-o", in.shadetest.output, parseOutput, "FILE.exr|.tif|.png", "Picture of Ci");
+  c->add_flag("--check", in.shadetest.check,
+              "Does the shader, or do all of the file, what they declare? Exit code 3 if not");
   c->callback([&] { code = shadetestCommand(in.shadetest); });
 }
 
@@ -286,6 +289,7 @@ int parseAndRun(int argc, char** argv) {
 int run(int argc, char** argv) {
   openStandardFiles();
   endWithMessages();
+  reportCrashes();
   watchSignals();
   Log log;
   int code = kDone;

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <functional>
 
+#include "reyes/app/commands/shader_check.h"
+#include "reyes/app/commands/shader_scene.h"
 #include "reyes/app/exit_code.h"
 #include "reyes/dice.h"
 #include "reyes/frame.h"
@@ -19,49 +21,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A unit square that faces the eye from five units away, under an ambient and a distant light.
-std::string sceneFor(const TmShader& shader) {
-  static constexpr const char* kRequests[] = {"Surface \"{}\"", "Displacement \"{}\"", "LightSource \"{}\" \"tested\"",
-                                              "Atmosphere \"{}\"", "Imager \"{}\""};
-  const std::string request = fmt::format(fmt::runtime(kRequests[shader.kind]), shader.name);
-  const bool isImager = shader.kind == TM_IMAGER;
-  return "Projection \"perspective\" \"fov\" [20]\nClipping 1 10\n" + (isImager ? request : "") + "\nWorldBegin\n" +
-         (shader.kind == TM_LIGHT ? ""
-                                  : "LightSource \"ambientlight\" \"a\" \"intensity\" [0.2] LightSource "
-                                    "\"distantlight\" \"d\" \"to\" [0.3 -0.4 1]\n") +
-         (shader.kind == TM_SURFACE ? "" : "Surface \"matte\"\n") + (isImager ? "" : request) +
-         "\nTranslate 0 0 5\nPatch \"bilinear\" \"P\" [-.5 .5 0  .5 .5 0  -.5 -.5 0  .5 -.5 0]\nWorldEnd\n";
-}
-
-/// A name, or the first shader of a plugin. Null: there is none, which is reported.
-const TmShader* findShader(const std::string& name, ShaderRegistry& registry, Log& log) {
+/// A shader of that name, or all of a plugin file. None: there is none, which is reported.
+std::vector<const TmShader*> findShaders(const std::string& name, ShaderRegistry& registry, Log& log) {
   if (fs::path(name).extension() == ".so") {
     ShaderRegistry plugin(log);
-    if (!plugin.loadPlugin(fs::absolute(name).string())) return nullptr;
+    if (!plugin.loadPlugin(fs::absolute(name).string())) return {};
     registry.loadPlugin(fs::absolute(name).string());
-    return plugin.all().empty() ? nullptr : plugin.all().front();
+    return plugin.all();
   }
   for (const TmKind kind : {TM_SURFACE, TM_DISPLACEMENT, TM_LIGHT, TM_VOLUME, TM_IMAGER})
-    if (const TmShader* shader = registry.find(name, kind, ".")) return shader;
+    if (const TmShader* shader = registry.find(name, kind, ".")) return {shader};
   log.report(Severity::Error, "shadetest", {}, "no shader \"" + name + "\" is built in or in this folder");
-  return nullptr;
-}
-
-ShadePoints pointsOf(const Scene& scene, const ShadingSystem& shading, const std::array<int, 2>& size) {
-  ShadePoints points(0, 0, shading.wantsSteps(0));
-  for (int j = 0; j < size[1]; ++j)
-    for (int i = 0; i < size[0]; ++i) {
-      const float u = (static_cast<float>(i) + 0.5f) / static_cast<float>(size[0]),
-                  v = (static_cast<float>(j) + 0.5f) / static_cast<float>(size[1]);
-      const int k = points.add(static_cast<uint32_t>(j * size[0] + i));
-      evaluatePoint(scene, 0, 0, u, v, points, k);
-      if (points.hasSteps())
-        evaluateSteps(scene, 0, 0, u, v, 0.5f / static_cast<float>(std::max(size[0], size[1])), points, k);
-      points.channel(kDu)[k] = 1 / static_cast<float>(size[0]),
-      points.channel(kDv)[k] = 1 / static_cast<float>(size[1]);
-      points.set3(kIx, k, points.position(k)), points.channel(kTime)[k] = -1;
-    }
-  return points;
+  return {};
 }
 
 /// What is timed, and what has to be done anew before each call, which is not.
@@ -126,7 +97,7 @@ Image blankImage(const std::array<int, 2>& size, std::vector<std::string> channe
 /// Surfaces and lights by what the surface looks like, volumes by what the air leaves of it.
 void testPoints(const ShadetestCommand& command, const Scene& scene, const ShadingSystem& shading, bool volume,
                 Log& log) {
-  const ShadePoints points = pointsOf(scene, shading, command.grid);
+  const ShadePoints points = shaderScenePoints(scene, shading, command.grid);
   ShadedPoints surface, out;
   shading.shade(points, {}, surface);
   const auto prepare = [&] {
@@ -161,27 +132,40 @@ void testImager(const ShadetestCommand& command, const ShadingSystem& shading, L
       command, {[&] { image = wedge; }, [&] { runImager(image, shading); }}, [&] { return image; }, log);
 }
 
+void test(const ShadetestCommand& command, const TmShader& shader, ShaderRegistry& registry, Log& log) {
+  Stats stats;
+  const std::unique_ptr<ShadeServices> space = emptySpaceFor(shader);
+  RibSettings rib;
+  rib.onScene = [&](Scene&& scene) {
+    const ShadingSystem shading(scene, registry, space.get(), log, stats);
+    std::puts(fmt::format("shader: {}\npoints: {} x {}", shader.name, command.grid[0], command.grid[1]).c_str());
+    if (shader.kind == TM_DISPLACEMENT)
+      testDisplacement(scene, shading, command.grid);
+    else if (shader.kind == TM_IMAGER)
+      testImager(command, shading, log);
+    else
+      testPoints(command, scene, shading, shader.kind == TM_VOLUME, log);
+  };
+  readRibText(shaderSceneRib(shader), "shadetest", rib, log);
+}
+
+void check(const TmShader& shader, Log& log) {
+  const std::vector<std::string> faults = faultsOf(shader);
+  std::puts(fmt::format("shader: {}\nfaults: {}", shader.name, faults.size()).c_str());
+  for (size_t k = 0; k < faults.size(); ++k)
+    log.report(Severity::Missing, fmt::format("shadetest-check-{}-{}", shader.name, k), {}, faults[k]);
+}
+
 }  // namespace
 
 int shadetestCommand(const ShadetestCommand& command) {
   Log log;
-  Stats stats;
   ShaderRegistry registry(log, {.folders = "."});  // the user names the shader, no scene does
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
-  const TmShader* shader = findShader(command.shader, registry, log);
-  if (!shader) return std::max(exitCodeOf(log), kUnreadable);
-  RibSettings rib;
-  rib.onScene = [&](Scene&& scene) {
-    const ShadingSystem shading(scene, registry, nullptr, log, stats);
-    std::puts(fmt::format("shader: {}\npoints: {} x {}", shader->name, command.grid[0], command.grid[1]).c_str());
-    if (shader->kind == TM_DISPLACEMENT)
-      testDisplacement(scene, shading, command.grid);
-    else if (shader->kind == TM_IMAGER)
-      testImager(command, shading, log);
-    else
-      testPoints(command, scene, shading, shader->kind == TM_VOLUME, log);
-  };
-  readRibText(sceneFor(*shader), "shadetest", rib, log);
+  const std::vector<const TmShader*> shaders = findShaders(command.shader, registry, log);
+  if (shaders.empty()) return std::max(exitCodeOf(log), kUnreadable);
+  if (!command.check) test(command, *shaders.front(), registry, log);
+  for (size_t k = 0; command.check && k < shaders.size(); ++k) check(*shaders[k], log);
   return exitCodeOf(log);
 }
 

@@ -9,9 +9,11 @@ struct ShadetestCommand {
   std::string shader;               ///< A name, or a plugin file whose first shader is meant.
   std::array<int, 2> grid{64, 64};  ///< Points along u and v.
   std::string output;               ///< Picture of Ci; empty: none.
+  bool check = false;               ///< Instead: does the shader, or do all of the file, what they declare?
 };
 
-/// Says how long a point takes and what comes out.
+/// Says how long a point takes and what comes out, or (check) what a shader does otherwise than it declares: exit code
+/// 3.
 int shadetestCommand(const ShadetestCommand& command);
 
 }  // namespace tomales

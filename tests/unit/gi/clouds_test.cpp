@@ -84,7 +84,7 @@ TEST_F(Clouds, WhatIsNoPhotonMapSaysSo) {
   std::string problem;
   std::vector<float> e(static_cast<size_t>(wall.count));
   EXPECT_FALSE(
-      files.photons(wall.query(file, 0, wall.count), TM_PHOTON_DEFAULTS, {e.data(), e.data(), e.data()}, problem));
+      files.photons(wall.query(file, 0, wall.count), tmPhotonDefaults(), {e.data(), e.data(), e.data()}, problem));
   EXPECT_NE(problem.find("power"), std::string::npos) << problem;
 }
 
@@ -157,7 +157,7 @@ TEST_F(Clouds, MistakesAreTold) {
   EXPECT_FALSE(files.lookUp(wall.query(bakeWall(), 0, 4), {{"colour", 3, {sum.data(), sum.data(), sum.data()}}},
                             found.data(), problem));
   EXPECT_NE(problem.find("colour"), std::string::npos) << problem;
-  EXPECT_FALSE(files.photons(wall.query(path("wall.ptc"), 0, 4), TM_PHOTON_DEFAULTS,
+  EXPECT_FALSE(files.photons(wall.query(path("wall.ptc"), 0, 4), tmPhotonDefaults(),
                              {sum.data(), sum.data(), sum.data()}, problem));
   EXPECT_NE(problem.find("photon map"), std::string::npos) << problem;
   std::ofstream(path("short.ptc")) << contents(path("wall.ptc")).substr(0, 2000);
@@ -182,7 +182,7 @@ TEST_F(Clouds, APhotonMapTellsOfItsIrradiance) {
   std::vector<float> e[3];
   for (auto& c : e) c.assign(1024, 0);
   std::string problem;
-  ASSERT_TRUE(files.photons(wall.query(path("photons.ptc"), 0, 1024), TM_PHOTON_DEFAULTS,
+  ASSERT_TRUE(files.photons(wall.query(path("photons.ptc"), 0, 1024), tmPhotonDefaults(),
                             {e[0].data(), e[1].data(), e[2].data()}, problem))
       << problem;
   for (const size_t i : {size_t{16 * 32 + 16}, size_t{12 * 32 + 20}})

@@ -135,7 +135,7 @@ TEST(Diffusion, FilesAreAskedThroughTheSeamOfShaders) {
   const uint8_t active[] = {1, 0, 1};
   float r[] = {-1, -1, -1}, g[] = {-1, -1, -1}, b[] = {-1, -1, -1};
   const CloudQuery query{file, 3, active, {x, x, z}, {none, none, none}, none};
-  TmSubsurface material = TM_SUBSURFACE_DEFAULTS;
+  TmSubsurfaceOptions material = tmSubsurfaceDefaults();
   material.material = nullptr, material.ior = 1.3f;
   for (int k = 0; k < 3; ++k) material.albedo[k] = 0.6f, material.meanFreePath[k] = 1;
   std::string problem;
@@ -144,18 +144,19 @@ TEST(Diffusion, FilesAreAskedThroughTheSeamOfShaders) {
   EXPECT_EQ(r[1], -1) << "not asked for";
   EXPECT_LT(r[2], 1e-6f);
   const auto refused = [&](const auto& spoil) {
-    TmSubsurface bad = material;
+    TmSubsurfaceOptions bad = material;
     spoil(bad), problem.clear();
     return !files.subsurface(query, bad, {r, g, b}, problem) && !problem.empty();
   };
-  for (const float ior : {0.0f, 0.5f, 4.0f, NAN}) EXPECT_TRUE(refused([&](TmSubsurface& m) { m.ior = ior; })) << ior;
+  for (const float ior : {0.0f, 0.5f, 4.0f, NAN})
+    EXPECT_TRUE(refused([&](TmSubsurfaceOptions& m) { m.ior = ior; })) << ior;
   for (const float length : {0.0f, -1.0f, NAN, INFINITY})
-    EXPECT_TRUE(refused([&](TmSubsurface& m) { m.unitLength = length; })) << length;
-  EXPECT_TRUE(refused([](TmSubsurface& m) { m.meanFreePath[0] = 0, m.scattering[1] = NAN; }));
+    EXPECT_TRUE(refused([&](TmSubsurfaceOptions& m) { m.unitLength = length; })) << length;
+  EXPECT_TRUE(refused([](TmSubsurfaceOptions& m) { m.meanFreePath[0] = 0, m.scattering[1] = NAN; }));
   material.material = "granite";
   EXPECT_FALSE(files.subsurface(query, material, {r, g, b}, problem));
   EXPECT_NE(problem.find("granite"), std::string::npos);
-  EXPECT_FALSE(files.subsurface({"/absent.ptc", 3, active, {x, x, z}, {none, none, none}, none}, TM_SUBSURFACE_DEFAULTS,
+  EXPECT_FALSE(files.subsurface({"/absent.ptc", 3, active, {x, x, z}, {none, none, none}, none}, tmSubsurfaceDefaults(),
                                 {r, g, b}, problem));
 }
 

@@ -203,7 +203,7 @@ const rsl::Shader windowlight(TM_LIGHT, "windowlight", "", TM_LIGHT_SOLAR | TM_L
 
 TEST(PhotonEmission, PortalsMayBeTheDefaultOfTheSkysShader) {
   const TmShader* const shaders[] = {windowlight};
-  const TmShaderLibrary library{TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 1};
+  const TmShaderLibrary library = rsl::libraryOf(shaders);
   const auto photons = [&](const std::string& portals, const std::string& shader) {
     World world(roomWithAWindow(portals, shader).scene, &library);
     return powerOf(traced(world, {20000, 1}));

@@ -119,7 +119,7 @@ TEST_F(Imager, SeesRasterPositionsAndOneThatThrowsChangesNothing) {
   static const rsl::Shader place(TM_IMAGER, "place", "", 0, showPosition, {});
   static const rsl::Shader thrower(TM_IMAGER, "thrower", "", 0, throwUp, {});
   static const TmShader* const shaders[] = {place, thrower};
-  static const TmShaderLibrary library{TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 2};
+  static const TmShaderLibrary library = rsl::libraryOf(shaders);
   registry.addLibrary(&library, "test");
   EXPECT_FALSE(system().hasImager());
   shading.reset(), scene.objects.clear();

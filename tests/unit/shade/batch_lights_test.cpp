@@ -23,7 +23,7 @@ class BatchLights : public BatchServices {
  protected:
   BatchLights() {
     static const TmShader* const shaders[] = {conedShader, sunnyShader};
-    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 2};
+    static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
   }
 };

@@ -26,10 +26,8 @@ std::string stepPicture(const std::string& name) {
 
 /// The mean over a quadrilateral of a picture, from s = `from` to `to`.
 Float meanOver(const std::string& path, double from, double to) {
-  TmTextureLookup one = lookup();
-  one.channels = 1;
   const Float s[4] = {from, to, from, to}, t[4] = {0.4, 0.4, 0.6, 0.6};
-  return xcomp(texture(path.c_str(), s, t, one));
+  return xcomp(texture(path.c_str(), s, t));
 }
 
 TEST_F(BatchPictures, ATextureOfFourCornersIsTheMeanBetweenThem) {

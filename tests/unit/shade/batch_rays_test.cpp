@@ -207,7 +207,7 @@ class Widths : public ShadeServices {
 TEST_F(BatchRays, RaysAreAsWideAsWhatTheyLeave) {
   const Widths wide;
   body = [](sl::Surface& s) {
-    TmRayOptions cone = rsl::defaultRays();
+    TmRayOptions cone = tmRayDefaults();
     cone.coneAngle = 0.1f, cone.samples = 4;
     s.Ci = trace(s.P, -s.I);
     s.Ci += trace(s.P, -s.I, cone);

@@ -74,15 +74,18 @@ TEST_F(BatchServices, ParameterListsSetWhatTheyName) {
   EXPECT_EQ(q.sides, HitSides::Front);
   EXPECT_EQ(q.mode, HitMode::Shader);
   EXPECT_EQ(q.opacityThreshold, 0.5f);
-  const TmRayOptions rays = listed(rsl::defaultRays(), "samples", 7, "samplecone", 0.1, "distribution", "uniform",
-                                   "samplebase", 0.5, "falloff", 2, "falloffmode", 1);
-  EXPECT_EQ(std::tie(rays.samples, rays.coneAngle, rays.uniform, rays.sampleBase, rays.falloff, rays.falloffMode),
-            std::tuple(7, 0.1f, 1, 0.5f, 2.0f, 1));
-  const TmTextureLookup l = listed(lookup(), "blur", 0.1, "twidth", 3, "fill", 0.5, "filter", "gaussian", "samples", 4);
+  const auto [rays, options, pointBased, file] =
+      listed(HemisphereList(), "samples", 7, "samplecone", 0.1, "distribution", "uniform", "samplebase", 0.5, "falloff",
+             2, "falloffmode", 1);
+  EXPECT_EQ(
+      std::tuple(rays.samples, rays.coneAngle, rays.uniform, rays.sampleBase, options.falloff, options.falloffMode),
+      std::tuple(7, 0.1f, 1, 0.5f, 2.0f, 1));
+  const TmTextureOptions l =
+      listed(tmTextureDefaults(), "blur", 0.1, "twidth", 3, "fill", 0.5, "filter", "gaussian", "samples", 4);
   EXPECT_EQ(std::tuple(l.sblur, l.tblur, l.swidth, l.twidth, l.fill, l.samples),
             std::tuple(0.1f, 0.1f, 1.0f, 3.0f, 0.5f, 4));
   EXPECT_STREQ(l.filter, "gaussian");
-  const TmShadowLookup w = listed(kShadowDefaults, "bias", 0.01, "blur", 0.2, "width", 2, "samples", 64);
+  const TmShadowOptions w = listed(tmShadowDefaults(), "bias", 0.01, "blur", 0.2, "width", 2, "samples", 64);
   EXPECT_EQ(std::tuple(w.bias, w.blur, w.width, w.samples), std::tuple(0.01f, 0.2f, 2.0f, 64));
 }
 

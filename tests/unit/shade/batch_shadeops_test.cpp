@@ -393,7 +393,7 @@ class BatchShadeops : public Stage {
  protected:
   BatchShadeops() {
     static const TmShader* const shaders[] = {trialShader};
-    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 1};
+    static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
     surface("trial");
   }

@@ -32,7 +32,7 @@ TEST_F(Binding, APointAmongThePrimitiveVariablesArrivesAsThePointsHoldIt) {
                                     },
                                     {&where});
   static const TmShader* const shaders[] = {pointing};
-  const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 1};
+  const TmShaderLibrary library = rsl::libraryOf(shaders);
   registry.addLibrary(&library, "test");
   surface("pointing");
   primvar("where", ValueType::Point);
@@ -172,7 +172,7 @@ class Shapes : public Stage {
  protected:
   Shapes() {
     static const TmShader* const shaders[] = {shapesShader};
-    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 1};
+    static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
   }
 };

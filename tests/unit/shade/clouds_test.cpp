@@ -29,7 +29,7 @@ class FakeClouds : public CloudServices {
     }
     return true;
   }
-  bool photons(const CloudQuery& q, const TmPhotonLookup& lookup, TmVec3 E, std::string&) override {
+  bool photons(const CloudQuery& q, const TmPhotonOptions& lookup, TmVec3 E, std::string&) override {
     for (int i = 0; i < q.count; ++i)
       if (q.active[i]) E.x[i] = static_cast<float>(lookup.estimator), E.y[i] = q.N.z[i], E.z[i] = lookup.maxDistance;
     return true;
@@ -51,7 +51,7 @@ class FakeClouds : public CloudServices {
   }
 
   /// Tells what it was asked.
-  bool subsurface(const CloudQuery& q, const TmSubsurface& s, TmVec3 out, std::string& problem) override {
+  bool subsurface(const CloudQuery& q, const TmSubsurfaceOptions& s, TmVec3 out, std::string& problem) override {
     if (q.file != "known.ptc") return problem = "is not there", false;
     for (int i = 0; i < q.count; ++i)
       if (q.active[i])
@@ -67,7 +67,7 @@ class FakeClouds : public CloudServices {
 rsl::StringParam file("file", "left.ptc", "");
 struct baking : sl::Surface {
   void main() {
-    TmCloudLookup object = sl::cloudLookup();
+    TmCloudOptions object = tmCloudDefaults();
     object.coordSystem = "object";
     sl::If(u < 0.5, [&] { sl::bake3d(file(sl::grid()), P, N, {{"u", u}}, object); });
     Ci = sl::diffuse(N), Oi = sl::Color(1.0);
@@ -139,7 +139,7 @@ class CloudCalls : public Stage {
   CloudCalls() {
     static const TmShader* const shaders[] = {bakingShader,  neighbourShader,  findingShader, waxShader,
                                               causticShader, pointbasedShader, listingShader, distantShader};
-    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 8};
+    static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
   }
   ShadePoints row() {

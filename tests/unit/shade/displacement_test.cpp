@@ -29,7 +29,7 @@ class Displacement : public Stage {
  protected:
   Displacement() {
     static const TmShader* const shaders[] = {tiltingShader, raisingShader, roughShader};
-    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 3};
+    static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
     attributes.displacementBound = 10;
   }
@@ -169,7 +169,7 @@ class Spaces : public Stage {
  protected:
   Spaces() {
     static const TmShader* const shaders[] = {travellingShader};
-    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 1};
+    static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
     scene.options.projection = ProjectionKind::Perspective;
     scene.options.xResolution = 200, scene.options.yResolution = 100;

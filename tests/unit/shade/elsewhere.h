@@ -42,7 +42,7 @@ class Elsewhere : public Stage {
  protected:
   Elsewhere() {
     static const TmShader* const shaders[] = {outsideShader, betweenShader, countingShader};
-    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 3};
+    static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
     surface("outside");
     litPoints = 0;

@@ -23,7 +23,7 @@ class BatchServices : public Stage {
  protected:
   BatchServices() {
     static const TmShader* const shaders[] = {obedientShader};
-    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 1};
+    static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
     surface("obedient");
   }

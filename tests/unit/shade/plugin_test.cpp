@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
@@ -34,12 +36,12 @@ void masked(const TmGrid* g) {
     N.set(i, {0, 0, -1}), roughness[i] = 0.1f;
     for (auto& out : outs) out.set(i, {kUntouched, kUntouched, kUntouched});
   }
-  call.diffuse(g->host, &some, N, outs[0]);
+  call.diffuse(g->host, &some, TM_ALL_LIGHT, N, outs[0]);
   call.specular(g->host, &some, N, N, roughness.data(), outs[1]);
   call.ambient(g->host, &some, outs[2]);
   call.transform(g->host, &some, TM_AS_POINT, "current", "world", N, outs[3]);
-  call.texture(g->host, &some, "absent.tif", 0, 3, g->s, g->t, outs[4]);
-  call.transmission(g->host, &some, rsl::view(g->P), N, outs[5]);
+  call.texture(g->host, &some, "absent.tif", nullptr, g->s, g->t, outs[4]);
+  call.transmission(g->host, &some, nullptr, rsl::view(g->P), N, outs[5]);
   call.indirectDiffuse(g->host, &some, N, outs[6], nullptr);
   for (int i : rsl::Batch(g)) {
     int touched = 0;
@@ -50,8 +52,7 @@ void masked(const TmGrid* g) {
 
 // illuminance() loop: number of samples, their sum, and whether any came from an indirect light.
 void looping(const TmGrid* g) {
-  TmLightSample sample;
-  for (int k = 0; g->call->light(g->host, g, k, &sample); ++k)
+  for (TmIlluminance sample = tmIlluminanceDefaults(); g->call->illuminance(g->host, g, &sample);)
     for (int i : rsl::Batch(g)) {
       rsl::set(g->Ci, i,
                rsl::get(g->Ci, i) + rsl::Vec3{1, rsl::get(sample.Cl, i).x, static_cast<float>(sample.isIndirect)});
@@ -68,7 +69,7 @@ class Plugins : public Stage {
  protected:
   Plugins() {
     static const TmShader* const shaders[] = {throwingShader, dividingShader, maskedShader, loopingShader};
-    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 4};
+    static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
   }
 };
@@ -122,12 +123,21 @@ const T* poison() {
 }
 
 TEST_F(Plugins, ALibraryOfAnotherAbiOrSizeIsRefusedBeforeAnythingElseIsRead) {
-  const TmShaderLibrary otherAbi = {TM_SHADER_ABI + 1, sizeof(TmShaderLibrary), poison<const TmShader*>(), 1};
-  const TmShaderLibrary tooSmall = {TM_SHADER_ABI, sizeof(TmShaderLibrary) - 1, poison<const TmShader*>(), 1};
+  TmShaderLibrary otherAbi{}, tooSmall{};
+  otherAbi.abi = TM_SHADER_ABI + 1, otherAbi.structBytes = sizeof otherAbi;
+  tooSmall.abi = TM_SHADER_ABI, tooSmall.structBytes = sizeof tooSmall - 1;
+  for (TmShaderLibrary* l : {&otherAbi, &tooSmall})
+    l->shaders = poison<const TmShader*>(), l->fault = poison<char>(), l->count = 1;
   EXPECT_FALSE(registry.addLibrary(&otherAbi, "a.so"));
   EXPECT_FALSE(registry.addLibrary(&tooSmall, "b.so"));
   EXPECT_FALSE(registry.addLibrary(nullptr, "c.so"));
   EXPECT_EQ(log.count("shader-plugin"), 3);
+  EXPECT_NE(
+      log.entries()[0].message.find(fmt::format("is built for shader ABI {}, {} bytes; this renderer has ABI {}, "
+                                                "{} bytes: compile it against the headers of this version",
+                                                TM_SHADER_ABI + 1, sizeof otherAbi, TM_SHADER_ABI, sizeof otherAbi)),
+      std::string::npos)
+      << log.entries()[0].message;
 }
 
 TEST_F(Plugins, AShaderOfAnotherAbiOrSizeIsSkippedAndItsNeighboursStay) {
@@ -137,21 +147,30 @@ TEST_F(Plugins, AShaderOfAnotherAbiOrSizeIsSkippedAndItsNeighboursStay) {
   TmShader good = *loopingShader;
   good.name = "good";
   const TmShader* const shaders[] = {&otherAbi, &good, &tooSmall};
-  const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 3};
+  const TmShaderLibrary library = rsl::libraryOf(shaders);
   EXPECT_TRUE(registry.addLibrary(&library, "d.so"));
   EXPECT_EQ(registry.find("good", TM_SURFACE, ""), &good);
   EXPECT_EQ(registry.find("good", TM_LIGHT, ""), nullptr);
   EXPECT_EQ(log.count("shader-plugin"), 2);
 }
 
-// What the first release that had these fields compiled: offsets that a later one must not move, and no field where an
-// earlier struct ended in padding.
-TEST_F(Plugins, StructsOfOptionsHaveGrownAtTheirEnds) {
-  if (sizeof(void*) != 8) GTEST_SKIP() << "offsets of 64-bit machines";
-  EXPECT_EQ(offsetof(TmIlluminance, light), 44u);
-  EXPECT_EQ(offsetof(TmIlluminance, P), 120u) << "its first release had 120 bytes";
-  EXPECT_EQ(offsetof(TmTextureLookup, mipBias), 48u) << "and this 48";
-  EXPECT_EQ(offsetof(TmRayOptions, environment), 96u);
+TEST_F(Plugins, AShaderWhoseParametersHaveAnotherSizeOrAFaultIsSkippedAndSaysWhy) {
+  static rsl::FloatParam a("a", 1, ""), b("b", 2, "");
+  static const rsl::Shader first(TM_SURFACE, "first", "", 0, looping, {&a, &b});
+  static const rsl::Shader second(TM_SURFACE, "second", "", 0, looping, {&b});
+  TmShader wide = *first;
+  wide.paramBytes += 8;
+  const TmShader* const shaders[] = {first, second, &wide};
+  const TmShaderLibrary library = rsl::libraryOf(shaders);
+  EXPECT_TRUE(registry.addLibrary(&library, "e.so"));
+  EXPECT_EQ(registry.find("first", TM_SURFACE, ""), static_cast<const TmShader*>(first));
+  EXPECT_EQ(registry.find("second", TM_SURFACE, ""), nullptr);
+  ASSERT_EQ(log.count("shader-plugin"), 2);
+  const std::string fault = log.entries()[0].message;
+  EXPECT_NE(fault.find("shader \"second\" lists the parameter \"b\" at place 1, and shader \"first\" lists it at "
+                       "place 2: give each a parameter of its own"),
+            std::string::npos)
+      << fault;
 }
 
 TEST_F(Plugins, AFileThatIsNoPluginIsRefusedWithAReason) {

@@ -5,7 +5,9 @@
 namespace tomales {
 namespace {
 
-TmRayOptions options = TM_RAY_DEFAULTS;  ///< Of the one test shader, which runs on the test's thread.
+// Of the one test shader, which runs on the test's thread.
+TmRayOptions options = tmRayDefaults();
+TmOcclusion falloff = tmOcclusionDefaults();
 enum class Ask { Occlusion, Trace, Gather, Info } ask;
 
 void probe(const TmGrid* g) {
@@ -13,7 +15,7 @@ void probe(const TmGrid* g) {
   rsl::Vec3Array N(g), out(g);
   for (int i : b) N.set(i, b.N(i));
   if (ask == Ask::Occlusion) {
-    const rsl::Array covered = b.occlusion(N, options);
+    const rsl::Array covered = b.occlusion(N, options, falloff);
     for (int i : b) out.set(i, {covered[i], 0, 0});
   } else if (ask == Ask::Trace) {
     const rsl::Array distance = b.traceDistance(N, options);
@@ -21,7 +23,7 @@ void probe(const TmGrid* g) {
   } else if (ask == Ask::Gather) {
     std::vector<uint8_t> hit;
     rsl::Array length(g);
-    for (int ray = 0; b.gather(N, options, ray, hit, {{"ray:length", 1, {length.data(), nullptr, nullptr}}}); ++ray)
+    for (int ray = 0; b.gather(N, options, ray, hit, {{"ray:length", {length.data(), nullptr, nullptr}}}); ++ray)
       for (int i : b) out.set(i, out[i] + rsl::Vec3{hit[static_cast<size_t>(i)] ? length[i] : 0, 1, 0});
   } else {
     rsl::Vec3Array type(g), depth(g);
@@ -39,10 +41,10 @@ class RayServices : public Stage {
  protected:
   RayServices() {
     static const TmShader* const shaders[] = {probeShader};
-    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 1};
+    static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
     surface("probe");
-    options = TM_RAY_DEFAULTS;
+    options = tmRayDefaults(), falloff = tmOcclusionDefaults();
   }
   /// Points all alike look along -z; their results are averaged.
   vec3 mean(Ask question, int points_ = 16, const ShadeContext& context = {}) {
@@ -73,9 +75,9 @@ TEST_F(RayServices, ACosineConeFillsItsProjectedDiskAndAUniformOneItsSolidAngle)
 TEST_F(RayServices, OcclusionFallsOffWithDistance) {
   services.met = [](const vec3&, const vec3&) { return 2.0f; };
   EXPECT_NEAR(mean(Ask::Occlusion).x, 1, 1e-5f);
-  options.falloff = 0.5f;
+  falloff.falloff = 0.5f;
   EXPECT_NEAR(mean(Ask::Occlusion).x, std::exp(-1.0f), 1e-5f);
-  options.falloffMode = 1, options.maxDistance = 8, options.falloff = 2;
+  falloff.falloffMode = 1, options.maxDistance = 8, falloff.falloff = 2;
   EXPECT_NEAR(mean(Ask::Occlusion).x, 0.5625f, 1e-5f);
 }
 
@@ -112,11 +114,31 @@ TEST_F(RayServices, APointKnowsTheRayThatCame) {
   EXPECT_EQ(mean(Ask::Info, 1, context), vec3(2, 3, 1));
 }
 
-TEST_F(RayServices, OldCallersOptionsAreReadAsFarAsTheyGo) {
-  options.structBytes = offsetof(TmRayOptions, falloff);
-  options.falloff = 5;
-  services.met = [](const vec3&, const vec3&) { return 2.0f; };
-  EXPECT_NEAR(mean(Ask::Occlusion).x, 1, 1e-5f);
+TEST_F(RayServices, OptionsOfAnotherReleaseAreReadAsFarAsTheyGo) {
+  options.structBytes = offsetof(TmRayOptions, maxDistance);
+  options.bias = 0.5f, options.maxDistance = 5;
+  mean(Ask::Trace, 1);
+  EXPECT_EQ(services.asked.back().bias, 0.5f);
+  EXPECT_EQ(services.asked.back().maxDistance, 1e30f) << "the default";
+  struct Later {
+    TmRayOptions known = tmRayDefaults();
+    float more = 7;
+  } later;
+  later.known.structBytes = sizeof later, later.known.bias = 0.25f;
+  options = later.known;
+  mean(Ask::Trace, 1);
+  EXPECT_EQ(services.asked.back().bias, 0.25f);
+  EXPECT_TRUE(log.entries().empty());
+}
+
+TEST_F(RayServices, OptionsThatNoFunctionOfDefaultsHasMadeAreReportedAndNotUsed) {
+  options = TmRayOptions{};
+  options.samples = 5, options.coneAngle = 0.1f;
+  mean(Ask::Trace, 1);
+  EXPECT_EQ(services.asked.size(), 1u) << "one ray, the default";
+  ASSERT_EQ(log.entries().size(), 1u);
+  EXPECT_EQ(log.entries()[0].severity, Severity::Missing);
+  EXPECT_NE(log.entries()[0].message.find("structBytes is 0"), std::string::npos) << log.entries()[0].message;
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ class SlKinds : public Stage {
   SlKinds() {
     static const TmShader* const shaders[] = {hazysunShader, gradedskyShader, panelShader,
                                               placedShader,  dimmerShader,    curiousShader};
-    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 6};
+    static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
     services.emitter = [](float a, float b, vec3& P, vec3& N, float& area) {
       P = {-1 + 2 * a, -0.5f + b, 3}, N = {0, 0, 1}, area = 2;

@@ -137,7 +137,7 @@ class Sl : public Stage {
   Sl() {
     static const TmShader* const shaders[] = {conditionalShader, askingShader, differingShader, choosingShader,
                                               talkativeShader,   nanShader,    curiousShader,   loopingShader};
-    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 8};
+    static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
   }
 };

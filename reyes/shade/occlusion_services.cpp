@@ -4,8 +4,8 @@
 #include "reyes/shade/cloud_services.h"
 #include "reyes/shade/picture_services.h"
 #include "reyes/shade/primary.h"
-#include "reyes/shade/ray_services.h"
 #include "reyes/shade/ray_shots.h"
+#include "reyes/shade/services.h"
 #include "reyes/shade/spaces.h"
 
 namespace tomales {
@@ -15,9 +15,16 @@ constexpr float kWholeCone = 0.999f * kPi / 2;  ///< Shaders say pi/2 with few d
 constexpr float kVariationOfError = 0.05f;      ///< That maxerror 1 allows.
 
 /// What occlusion() asks.
-OcclusionQuery occlusionOf(const TmRayOptions& o, const RayQuery& rays, const Attributes& a) {
-  OcclusionQuery q{o.samples,   o.maxDistance,      o.bias,    o.falloff, o.falloffMode, o.maxVariation,
-                   rays.subset, rays.excludeSubset, rays.sides};
+OcclusionQuery occlusionOf(const TmRayOptions& o, const TmOcclusion& asked, const RayQuery& rays, const Attributes& a) {
+  OcclusionQuery q{.samples = o.samples,
+                   .maxDistance = o.maxDistance,
+                   .bias = o.bias,
+                   .falloff = asked.falloff,
+                   .falloffMode = asked.falloffMode,
+                   .maxVariation = asked.maxVariation,
+                   .subset = rays.subset,
+                   .excludeSubset = rays.excludeSubset,
+                   .sides = rays.sides};
   if (q.maxVariation < 0) q.maxVariation = kVariationOfError * a.irradianceMaxError.value_or(0.0f);
   return q;
 }
@@ -55,16 +62,18 @@ struct OpenSky {
   }
   void lookUp(Batch& batch, const TmGrid& open, TmConstVec3 along) {
     forActive(&open, [&](int i) { set(direction, i, toMap * get(along, i)); });
-    environment(&batch, &open, picture, view(direction), angle, color);
+    TmTextureOptions options = tmTextureDefaults();
+    options.angle = angle;
+    environment(&batch, &open, picture, &options, view(direction), color);
   }
 };
 
 void traceHemisphere(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& options,
-                     const TmHemisphere& out) {
+                     const TmOcclusion& out) {
   const bool looksUp = options.environment && (out.radiance.x || out.environmentColor.x),
              directs = out.environmentDirection.x != nullptr;
   RayQuery query = rayQuery(options, RayKind::Diffuse);
-  const OcclusionQuery asked = occlusionOf(options, query, *batch.group.group->attributes);
+  const OcclusionQuery asked = occlusionOf(options, out, query, *batch.group.group->attributes);
   TmGrid traced = *g;
   if (out.covered && !out.radiance.x && !looksUp && !directs)
     traced.active = interpolate(batch, g, P, N, options, asked, out.covered);
@@ -103,43 +112,39 @@ void traceHemisphere(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N
 
 /// The same of a point cloud.
 bool hemisphereOfDisks(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& o,
-                       const TmHemisphere& out) {
+                       const TmOcclusion& out) {
   if (o.environment || out.environmentColor.x || out.environmentDirection.x || o.uniform || o.sampleBase > 0)
     batch.report(Severity::Missing, "shader-pointbased",
                  "asks a point cloud for environments, an even distribution or a sample base, which rays alone know; "
                  "they are left out");
-  const DisksQuery query{o.pointChannel ? o.pointChannel : "_radiosity", std::max(o.maxSolidAngle, 1e-4f), o.clamp != 0,
-                         o.coneAngle, occlusionOf(o, rayQuery(o), *batch.group.group->attributes)};
+  const DisksQuery query{out.pointChannel ? out.pointChannel : "_radiosity", std::max(out.maxSolidAngle, 1e-4f),
+                         out.clamp != 0, o.coneAngle, occlusionOf(o, out, rayQuery(o), *batch.group.group->attributes)};
   float* covered = out.covered ? out.covered : batch.arena.floats(g->count);
-  return occlusionByDisks(batch, g, o.pointCloud, P, N, query, covered, out.radiance);
+  return occlusionByDisks(batch, g, out.pointCloud, P, N, query, covered, out.radiance);
 }
 
-}  // namespace
-
-void occlusion(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 N, const TmRayOptions* given, float* covered,
-               TmVec3 radiance) {
-  TmHemisphere out{sizeof(TmHemisphere), covered, radiance, {}, {}};
-  hemisphere(host, all, P, N, given, &out);
-}
-
-int32_t hemisphere(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 N, const TmRayOptions* given,
-                   const TmHemisphere* wanted) {
+int32_t occlusion(void* host, const TmGrid* all, const TmRayOptions* given, TmConstVec3 P, TmConstVec3 N,
+                  const TmOcclusion* wanted) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
-  TmRayOptions options = rayOptions(given);
+  TmRayOptions options = rayOptions(batch, given);
   if (options.coneAngle == 0) options.coneAngle = kPi / 2;
-  const TmHemisphere out = givenOptions<TmHemisphere>({}, wanted);
+  const TmOcclusion out = givenOptions(batch, tmOcclusionDefaults(), wanted);
   forActive(all, [&](int i) {
     if (out.covered) out.covered[i] = 0;
     for (const TmVec3& v : {out.radiance, out.environmentColor, out.environmentDirection})
       if (v.x) set(v, i, vec3(0));
   });
-  const bool known = options.pointCloud
+  const bool known = out.pointCloud
                          ? hemisphereOfDisks(batch, primary.grid(), P, N, options, out)
                          : traces(batch) && (traceHemisphere(batch, primary.grid(), P, N, options, out), true);
   primary.spread(out.covered);
   for (const TmVec3& v : {out.radiance, out.environmentColor, out.environmentDirection}) primary.spread(v);
   return known;
 }
+
+}  // namespace
+
+void addOcclusionServices(TmServices& services) { services.occlusion = occlusion; }
 
 }  // namespace tomales

@@ -1,0 +1,22 @@
+// The scene that `tomales shadetest` tries a shader in: a unit square that faces the eye from five units away, under an
+// ambient and a distant light, in empty space.
+#pragma once
+#include <array>
+#include <memory>
+#include <string>
+
+#include "reyes/scene.h"
+#include "reyes/shade.h"
+
+namespace tomales {
+
+std::string shaderSceneRib(const TmShader& shader);
+
+/// Points along u and v, as the eye sees the square.
+ShadePoints shaderScenePoints(const Scene& scene, const ShadingSystem& shading, const std::array<int, 2>& size);
+
+/// Rays that meet nothing, and a lamp for shaders that are sampled on one. Null for a shader that needs neither: if it
+/// asks for rays nevertheless, it is told to declare so.
+std::unique_ptr<ShadeServices> emptySpaceFor(const TmShader& shader);
+
+}  // namespace tomales

@@ -1,0 +1,95 @@
+#include "reyes/base/crash_note.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstring>
+#include <memory>
+
+namespace tomales {
+namespace {
+
+constinit thread_local const CrashNote::Text* current = nullptr;
+std::atomic<bool> reports{false};
+
+// What follows runs in a signal handler: no allocation, no streams.
+
+void put(const char* text) {
+  if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return;  // nobody is left to be told
+}
+
+void put(int number) {
+  char digits[12] = {}, *at = digits + sizeof digits - 1;
+  for (; number > 0; number /= 10) *--at = static_cast<char>('0' + number % 10);
+  put(at);
+}
+
+const char* nameOf(int signal) {
+  switch (signal) {
+    case SIGSEGV:
+      return "SIGSEGV: memory that is not its own";
+    case SIGBUS:
+      return "SIGBUS: memory that is not there";
+    case SIGFPE:
+      return "SIGFPE: integers divided by zero";
+    case SIGILL:
+      return "SIGILL: an instruction that this machine does not have";
+    default:
+      return "SIGABRT: it gave up";
+  }
+}
+
+extern "C" void onCrash(int signal) {
+  if (const CrashNote::Text* t = current) {
+    put("tomales: error: ");
+    if (t->file) put(t->file), put(":"), put(t->line), put(": ");
+    put(t->user);
+    if (t->other) put(", on "), put(t->other);
+    put(": "), put(t->kind), put(" \""), put(t->name), put("\" crashes ("), put(nameOf(signal));
+    put("); this ends the program\n");
+  }
+  raise(signal);  // the default, which kills, is back: SA_RESETHAND
+}
+
+/// Shaders may crash because they have used up their stack: the handler needs another one.
+class HandlerStack {
+ public:
+  HandlerStack() : memory_(new char[kBytes]) {
+    stack_t stack{};
+    stack.ss_sp = memory_.get(), stack.ss_size = kBytes;
+    sigaltstack(&stack, nullptr);
+  }
+  ~HandlerStack() {
+    stack_t none{};
+    none.ss_flags = SS_DISABLE;
+    sigaltstack(&none, nullptr);
+  }
+  HandlerStack(const HandlerStack&) = delete;
+
+ private:
+  static constexpr size_t kBytes = 64 << 10;
+  std::unique_ptr<char[]> memory_;
+};
+
+}  // namespace
+
+CrashNote::CrashNote(const Text& text) : text_(text), outer_(current) {
+  if (reports.load(std::memory_order_relaxed)) thread_local const HandlerStack stack;
+  current = &text_;
+}
+
+CrashNote::~CrashNote() { current = outer_; }
+
+void reportCrashes() {
+#ifndef TOMALES_SANITIZED  // sanitizers tell more
+  struct sigaction action {};
+  action.sa_handler = onCrash;
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_ONSTACK);
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigaction(signal, &action, nullptr);
+  reports = true;
+#endif
+}
+
+}  // namespace tomales

@@ -1,0 +1,17 @@
+// The table of TmServices, in parts: each function fills in, by name, the calls that its file implements, so that a new
+// call is written down in shader_api.h and in that file alone.
+#pragma once
+#include "reyes/shade/batch.h"
+
+namespace tomales {
+
+void addSurfaceServices(TmServices&);  // services.cpp
+void addLightServices(TmServices&);
+void addLobeServices(TmServices&);
+void addRayServices(TmServices&);
+void addOcclusionServices(TmServices&);
+void addPictureServices(TmServices&);
+void addCloudServices(TmServices&);
+void addMessageServices(TmServices&);
+
+}  // namespace tomales

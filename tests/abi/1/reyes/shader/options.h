@@ -1,0 +1,259 @@
+/* How a shader asks: the options of each service, and what answers hold. Part of reyes/shader_api.h; plain C.
+ *
+ * A struct that begins with structBytes is made by the function below it, which fills in the defaults; then set what is
+ * to differ:  TmRayOptions rays = tmRayDefaults();  rays.samples = 16;
+ * Wherever a service takes such a struct, NULL stands for the defaults. A struct whose structBytes is 0 was not made
+ * so; it is reported, and the defaults count instead. */
+#pragma once
+#include <string.h>
+
+#include "reyes/shader/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* An array of the batch under a name: a number for each point (y and z NULL) or a triple. */
+typedef struct TmChannel {
+  const char* name;
+  TmVec3 value;
+} TmChannel;
+
+/* Which lights diffuse() counts. */
+typedef enum TmLightChoice { TM_ALL_LIGHT = 0, TM_DIRECT_LIGHT = 1, TM_INDIRECT_LIGHT = 2 } TmLightChoice;
+
+typedef enum TmTransformKind { TM_AS_POINT = 0, TM_AS_VECTOR = 1, TM_AS_NORMAL = 2 } TmTransformKind;
+
+/* What report() tells. TM_MISSING: a substitute is rendered, and the exit code says so. */
+typedef enum TmSeverity { TM_WARNING = 1, TM_MISSING = 2 } TmSeverity;
+
+typedef enum TmHitSides { TM_HIT_BOTH = 0, TM_HIT_FRONT = 1, TM_HIT_BACK = 2 } TmHitSides;
+/* TM_HIT_DEFAULT: as the attributes of what is met say. */
+typedef enum TmHitMode { TM_HIT_DEFAULT = 0, TM_HIT_PRIMITIVE = 1, TM_HIT_SHADER = 2 } TmHitMode;
+
+/* Whose value ask() looks for. Parameters and outputs by name; "__shadername" is a shader's own name. */
+typedef enum TmWhom {
+  TM_OF_SURFACE = 0,
+  TM_OF_DISPLACEMENT = 1,
+  TM_OF_ATMOSPHERE = 2,
+  TM_OF_INCIDENT = 3,   /* the volume shader on the side of the surface that I arrives at (Exterior, Interior) */
+  TM_OF_OPPOSITE = 4,   /* the volume shader on the other side */
+  TM_OF_LIGHT = 5,      /* a light: TmIlluminance::light */
+  TM_OF_ATTRIBUTES = 6, /* "Ri:ShadingRate", "user:name", "category:name" (rispec-table section 4) */
+  TM_OF_OPTIONS = 7,    /* "Format", "Shutter", "Clipping", "Frame", "user:name", "category:name" */
+  TM_OF_RENDERER = 8    /* "renderer", "version" (four numbers), "versionstring" */
+} TmWhom;
+
+/* How rays are shot. Directions are stratified over the rays of a point and reproducible. */
+typedef struct TmRayOptions {
+  uint32_t structBytes;
+  int32_t samples;           /* rays a point; default 1 */
+  float coneAngle;           /* half angle around the axis, radians, up to pi/2; 0: all along it */
+  int32_t uniform;           /* 1: evenly over the cone's solid angle; 0: by the cosine with its axis */
+  float bias;                /* hits nearer do not count; default: < 0, as the object's attributes say */
+  float maxDistance;         /* default 1e30 */
+  float sampleBase;          /* share of its micropolygon, 0..1, that the rays of a point start from */
+  float opacityThreshold;    /* rays go on behind what is transparent until this much is covered; default 1 */
+  int32_t hitSides, hitMode; /* TmHitSides, TmHitMode */
+  /* trace() along directions that the caller draws itself, one a call: how many, and which one this is. */
+  int32_t drawn, number;
+  int32_t passLamps; /* 1: area lights do not glow for these rays, since lightAlong() or specular() has brought them */
+  float importance;  /* default 1: of what the rays bring. rayInfo("importance") where they arrive is the product of all
+                        on the way */
+  const char* label; /* seen by rayLabel() at what they meet; NULL: "" */
+  const char *subset, *excludeSubset; /* sets of Attribute "grouping" "membership", separated by commas or spaces; NULL:
+                                         all, none */
+  /* occlusion(): the latitude-longitude picture that rays see which meet nothing (NULL: black). gather(): the picture
+   * that directions are drawn from (NULL: none). */
+  const char* environment;
+  const char* environmentSpace; /* the space whose +z is the top of that picture; NULL: "world" */
+} TmRayOptions;
+
+static inline TmRayOptions tmRayDefaults(void) {
+  TmRayOptions o;
+  memset(&o, 0, sizeof o);
+  o.structBytes = sizeof o;
+  o.samples = 1;
+  o.bias = -1;
+  o.maxDistance = 1e30f;
+  o.opacityThreshold = 1;
+  o.importance = 1;
+  return o;
+}
+
+/* occlusion(): what counts as covered, and what is wanted. */
+typedef struct TmOcclusion {
+  uint32_t structBytes;
+  float falloff;       /* what is met at distance d counts exp(-falloff d), or in mode 1 */
+  int32_t falloffMode; /* (1 - d / maxDistance)^falloff; falloff 0: wholly */
+  /* Of a whole hemisphere by the cosine: how far an answer may be off that is interpolated between records
+   * (docs/gi.md). 0: traced at every point; < 0: as Attribute "irradiance" "maxerror" says, if it is given. */
+  float maxVariation;
+  float maxSolidAngle;      /* disks that together are seen under less count as one; default 0.01 */
+  int32_t clamp;            /* default 1: disks behind others do not count; 0: all do */
+  const char* pointCloud;   /* the disks of this file (.ptc, world space) are in the way, not geometry; NULL: rays */
+  const char* pointChannel; /* the channel of the light that the disks send; NULL: "_radiosity" */
+  /* The answers, where the arrays are not NULL. */
+  float* covered;              /* share of the hemisphere, with falloff */
+  TmVec3 radiance;             /* mean of what arrives from there, the environment included */
+  TmVec3 environmentColor;     /* the same of the environment alone */
+  TmVec3 environmentDirection; /* mean direction of the rays that meet nothing, unit length, or 0 */
+} TmOcclusion;
+
+static inline TmOcclusion tmOcclusionDefaults(void) {
+  TmOcclusion o;
+  memset(&o, 0, sizeof o);
+  o.structBytes = sizeof o;
+  o.maxSolidAngle = 0.01f;
+  o.clamp = 1;
+  return o;
+}
+
+/* How texture() and environment() look up (rispec-table section 10). */
+typedef struct TmTextureOptions {
+  uint32_t structBytes;
+  int32_t channel;      /* the first of one or three */
+  float fill;           /* of channels that the picture lacks */
+  float swidth, twidth; /* scale of the region; default 1; 0: a point */
+  float sblur, tblur;   /* added to the region, as a fraction of the picture */
+  int32_t samples;      /* environment() of "raytrace": rays; default 1 */
+  float mipBias;        /* so many levels of the picture finer than the region asks for; negative: coarser */
+  float ignoreAbove;    /* values greater than this are left out of what is averaged, texel by texel; default 1e30 */
+  const char* filter;   /* NULL: "box" */
+  /* texture(): a parallelogram of the caller's own, s and t along one side and s and t along the other, for each point.
+   * region[0] NULL: the parallelogram that the micropolygon covers in (s, t). */
+  const float* region[4];
+  const float* angle; /* environment(): angle to filter over, radians, for each point; NULL: that of the micropolygon */
+} TmTextureOptions;
+
+static inline TmTextureOptions tmTextureDefaults(void) {
+  TmTextureOptions o;
+  memset(&o, 0, sizeof o);
+  o.structBytes = sizeof o;
+  o.swidth = 1;
+  o.twidth = 1;
+  o.samples = 1;
+  o.ignoreAbove = 1e30f;
+  return o;
+}
+
+/* How a shadow map is looked up. */
+typedef struct TmShadowOptions {
+  uint32_t structBytes;
+  float bias;      /* depth that an occluder must be nearer to the light by; default: < 0, the scene's, or as needed */
+  float blur;      /* added region, as a fraction of the map */
+  float width;     /* scale of the micropolygon's own region; default 1 */
+  int32_t samples; /* default 16 */
+} TmShadowOptions;
+
+static inline TmShadowOptions tmShadowDefaults(void) {
+  TmShadowOptions o;
+  memset(&o, 0, sizeof o);
+  o.structBytes = sizeof o;
+  o.bias = -1;
+  o.width = 1;
+  o.samples = 16;
+  return o;
+}
+
+/* RSL's "send:light:NAME": the parameter of that name, of lights that have one, takes this value, which is as a
+ * parameter of the sender would be: a number, a triple or a string. */
+typedef struct TmMessage {
+  const char* name;
+  TmValue value;
+  int32_t type; /* TmType */
+} TmMessage;
+
+/* One sample of one light after another: call illuminance() with the same struct until it returns 0. */
+typedef struct TmIlluminance {
+  uint32_t structBytes;
+  int32_t next;         /* the host's own: 0 at first */
+  const char* category; /* "", NULL: all lights; "a,b": one of these; "-a": without; "a&-b" (parameter __category) */
+  TmConstVec3 axis;     /* x NULL: from all around; else from the cone around it */
+  const float* angles;  /* half angle of that cone, radians, for each point; NULL: `angle` */
+  float angle;          /* the same for all points */
+  int32_t refresh;      /* 1: lights run again ("lightcache" "refresh") even if they have for the same P, category and
+                           messages */
+  /* Where the light arrives; x NULL: at the shaded points. Volumes that give it ask in the air, which no indirect light
+   * reaches, where light shaders see an N of 0 and rays start at once: not for the surface itself. */
+  TmConstVec3 P;
+  const TmMessage* sent; /* for the lights that run */
+  int32_t sentCount;
+  /* The answer. */
+  int32_t light;         /* its number, for ask() and lightDensity() */
+  TmConstVec3 L;         /* from P to the light, of full length; unit length where it is at infinity */
+  TmConstVec3 direction; /* the same, of unit length */
+  TmConstVec3 Cl;        /* shadowed, divided by the number of samples */
+  const uint8_t* lit;    /* 1: active, and the sample comes from the cone */
+  int32_t isIndirect, nondiffuse, nonspecular;
+} TmIlluminance;
+
+static inline TmIlluminance tmIlluminanceDefaults(void) {
+  TmIlluminance o;
+  memset(&o, 0, sizeof o);
+  o.structBytes = sizeof o;
+  return o;
+}
+
+/* How bake3d() and texture3d() see space. */
+typedef struct TmCloudOptions {
+  uint32_t structBytes;
+  float radiusScale;       /* default 1 */
+  const float* radius;     /* current space: of the disk that is baked, of what is averaged over; NULL: of the
+                              micropolygon */
+  const char* coordSystem; /* of the file; NULL: "world" */
+} TmCloudOptions;
+
+static inline TmCloudOptions tmCloudDefaults(void) {
+  TmCloudOptions o;
+  memset(&o, 0, sizeof o);
+  o.structBytes = sizeof o;
+  o.radiusScale = 1;
+  return o;
+}
+
+/* How photonMap() looks photons up. */
+typedef struct TmPhotonOptions {
+  uint32_t structBytes;
+  int32_t estimator; /* the nearest photons that count; default 50 */
+  float maxDistance; /* none farther away does, in units of the file's space; 0: a twentieth of the map's diagonal */
+} TmPhotonOptions;
+
+static inline TmPhotonOptions tmPhotonDefaults(void) {
+  TmPhotonOptions o;
+  memset(&o, 0, sizeof o);
+  o.structBytes = sizeof o;
+  o.estimator = 50;
+  return o;
+}
+
+/* What light diffuses through in subsurface(). The default is marble. */
+typedef struct TmSubsurfaceOptions {
+  uint32_t structBytes;
+  float ior;                          /* default 1.3 */
+  float unitLength;                   /* millimetres in one unit of the file's space; default 1 */
+  float maxSolidAngle;                /* points that together are seen under less count as one; 0: each for itself;
+                                         default 0.1 */
+  float scattering[3], absorption[3]; /* reduced scattering and absorption, 1/mm */
+  /* Unless meanFreePath[0] is 0, these count instead: diffuse albedo, and diffuse mean free path in mm. */
+  float albedo[3], meanFreePath[3];
+  const char* coordSystem; /* of the file; NULL: "world" */
+  /* "apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skimmilk", "skin1", "skin2",
+   * "spectralon", "wholemilk" (Jensen et al. 2001, figure 5); NULL: as the numbers above say. */
+  const char* material;
+} TmSubsurfaceOptions;
+
+static inline TmSubsurfaceOptions tmSubsurfaceDefaults(void) {
+  TmSubsurfaceOptions o;
+  memset(&o, 0, sizeof o);
+  o.structBytes = sizeof o;
+  o.ior = 1.3f;
+  o.unitLength = 1;
+  o.maxSolidAngle = 0.1f;
+  o.material = "marble";
+  return o;
+}
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,0 +1,161 @@
+// What shaders ask of the renderer, on values of a batch: spaces, derivatives, random numbers, the ray that came,
+// messages (rispec-table 9.1 to 9.4). Part of reyes/sl.h.
+#pragma once
+#include "reyes/shader/sl_lists.h"
+#include "reyes/shader/sl_shadeops.h"
+
+namespace sl {
+
+template <class Service>
+Triple tripleFrom(const Service& service) {
+  Triple out;
+  service(out.out());
+  return out;
+}
+
+inline Triple transform(const char* from, const char* to, const Triple& p, TmTransformKind as = TM_AS_POINT) {
+  return tripleFrom([&](TmVec3 out) { grid()->call->transform(grid()->host, grid(), as, from, to, p, out); });
+}
+inline Triple transform(const char* to, const Triple& p) { return transform("current", to, p); }
+inline Triple vtransform(const char* to, const Triple& v) { return transform("current", to, v, TM_AS_VECTOR); }
+inline Triple ntransform(const char* to, const Triple& n) { return transform("current", to, n, TM_AS_NORMAL); }
+
+inline Float derivative(int direction, const Float& x) {
+  Float out;
+  grid()->call->derivative(grid()->host, grid(), direction, x.data(), out.data());
+  return out;
+}
+inline Float Du(const Float& x) { return derivative(0, x); }
+inline Float Dv(const Float& x) { return derivative(1, x); }
+inline Triple Du(const Triple& p) { return {Du(xcomp(p)), Du(ycomp(p)), Du(zcomp(p))}; }
+inline Triple Dv(const Triple& p) { return {Dv(xcomp(p)), Dv(ycomp(p)), Dv(zcomp(p))}; }
+inline Float Deriv(const Float& a, const Float& b) { return Du(a) / Du(b) + Dv(a) / Dv(b); }
+inline Triple Deriv(const Triple& a, const Float& b) { return Du(a) / Du(b) + Dv(a) / Dv(b); }
+/// step() averaged over how x changes across the micropolygon.
+inline Float filterstep(const Float& edge, const Float& x) {
+  return filterstep(edge, x, abs(Du(x) * Float(grid()->du)) + abs(Dv(x) * Float(grid()->dv)));
+}
+/// Another number in [0, 1) at every call, by what the point is: the 48 bits of its first stratified sample name it,
+/// and a hash keeps its numbers apart from the directions that its lobes draw.
+inline Float randomNumber() {
+  const int call = Run::now().randoms++;
+  Float x, y;
+  grid()->call->stratified(grid()->host, grid(), 0, 1, x.data(), y.data());
+  forActive([&](int i) {
+    x.data()[i] = float(rsl::latticeHash(int32_t(x[i] * 0x1p24f), int32_t(y[i] * 0x1p24f), call) >> 8) * 0x1p-24f;
+  });
+  return x;
+}
+/// Three of them.
+inline Triple random3() {
+  const Float x = randomNumber(), y = randomNumber();
+  return {x, y, randomNumber()};
+}
+/// filterstep() over `width` times how x changes across the micropolygon.
+inline Float filterstep(const Float& edge, const Float& x, const char*, double width) {
+  return filterstep(edge, x, width * (abs(Du(x) * Float(grid()->du)) + abs(Dv(x) * Float(grid()->dv))));
+}
+/// Of a micropolygon whose points were at p.
+inline Float area(const Triple& p) { return length(cross(Du(p) * Float(grid()->du), Dv(p) * Float(grid()->dv))); }
+/// "shading" and "dicing" are the same here: one point is shaded for each micropolygon.
+inline Float area(const Triple& p, const char*) { return area(p); }
+inline Normal calculatenormal(const Triple& p) {
+  return tripleFrom([&](TmVec3 out) { grid()->call->calculateNormal(grid()->host, grid(), p, out); });
+}
+/// 0 at the near clipping plane, 1 at the far one.
+inline Float depth(const Triple& p) {
+  return (zcomp(p) - double(grid()->clip[0])) / double(grid()->clip[1] - grid()->clip[0]);
+}
+
+// --- The ray that came to these points
+
+/// By its RSL name; false: there is none.
+inline bool rayinfo(const char* name, Triple& out) {
+  Triple value;
+  if (!grid()->call->rayInfo(grid()->host, grid(), name, value.out())) return false;
+  out = value;
+  return true;
+}
+inline bool rayinfo(const char* name, Float& out) {
+  Triple value;
+  if (!grid()->call->rayInfo(grid()->host, grid(), name, value.out())) return false;
+  out = xcomp(value);
+  return true;
+}
+/// "type": camera, diffuse, specular, transmission; "label".
+inline bool rayinfo(const char* name, std::string& out) {
+  static const char* const kTypes[] = {"camera", "diffuse", "specular", "transmission"};
+  if (std::string_view(name) == "label") return out = grid()->call->rayLabel(grid()->host, grid()), true;
+  if (std::string_view(name) == "type") return out = kTypes[rsl::Batch(grid()).rayNumber("type")], true;
+  return false;
+}
+inline int raydepth() { return rsl::Batch(grid()).rayDepth(); }
+inline bool isshadowray() { return rsl::Batch(grid()).isShadowRay(); }
+inline bool isindirectray() { return rsl::Batch(grid()).rayType() == rsl::RayType::Diffuse; }
+inline std::string raylabel() { return grid()->call->rayLabel(grid()->host, grid()); }
+
+// --- Other shaders, attributes, options
+
+/// One of these types, or nothing.
+inline bool askFor(TmWhom whom, int light, const char* name, int first, int last, TmValue& out) {
+  int32_t type;
+  return grid()->call->ask(grid()->host, grid(), whom, light, name, &type, &out) && type >= first && type <= last;
+}
+/// A value of another shader, of the attributes, ... False, and `out` as it was, where there is none of that name and
+/// type.
+inline bool ask(TmWhom whom, const char* name, Float& out, int light = -1) {
+  TmValue v;
+  if (!askFor(whom, light, name, TM_FLOAT, TM_FLOAT, v)) return false;
+  out = Float::of([&](int i) { return v.c[0][v.step * std::min(i, grid()->count - 1)]; });
+  return true;
+}
+inline bool ask(TmWhom whom, const char* name, Triple& out, int light = -1) {
+  TmValue v;
+  if (!askFor(whom, light, name, TM_COLOR, TM_NORMAL, v)) return false;
+  out = Triple::of([&](int i) {
+    const int k = v.step * std::min(i, grid()->count - 1);
+    return rsl::Vec3{v.c[0][k], v.c[1][k], v.c[2][k]};
+  });
+  return true;
+}
+inline bool ask(TmWhom whom, const char* name, Matrix& out, int light = -1) {
+  TmValue v;
+  if (!askFor(whom, light, name, TM_MATRIX, TM_MATRIX, v)) return false;
+  out = Matrix(rsl::Matrix::of(v.c[0]));
+  return true;
+}
+inline bool ask(TmWhom whom, const char* name, std::string& out, int light = -1) {
+  TmValue v;
+  if (!askFor(whom, light, name, TM_STRING, TM_STRING, v)) return false;
+  out = v.string;
+  return true;
+}
+/// Empty: there is none.
+inline std::string askText(TmWhom whom, const char* name) {
+  std::string text;
+  ask(whom, name, text);
+  return text;
+}
+
+/// Inside illuminance(): of that light.
+template <class T>
+bool lightsource(int light, const char* name, T& out) {
+  return ask(TM_OF_LIGHT, name, out, light);
+}
+// What print() prints of a value at one point.
+inline float at(const Float& x, int i) { return x[i]; }
+inline rsl::Vec3 at(const Triple& v, int i) { return v[i]; }
+inline rsl::Matrix at(const Matrix& m, int i) { return m[i]; }
+template <class T>
+const T& at(const T& uniform, int) {
+  return uniform;
+}
+/// A line for each active point; the letters are rsl::format's.
+template <class... Values>
+void print(const std::string& pattern, const Values&... values) {
+  forActive([&](int i) { grid()->call->print(grid()->host, grid(), rsl::format(pattern, at(values, i)...).c_str()); });
+}
+
+inline std::string shadername(TmWhom whom = TM_OF_SURFACE) { return askText(whom, "__shadername"); }
+
+}  // namespace sl

@@ -1,0 +1,69 @@
+// RSL's shadeops on strings (rispec-table 9.3): concat, format, match. Strings are uniform.
+#pragma once
+#include <regex.h>
+
+#include <cstdio>
+#include <string>
+
+#include "reyes/shader/shadeops.h"
+
+namespace rsl {
+
+namespace text_detail {
+
+inline std::string written(float x) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, "%f", static_cast<double>(x));
+  return buffer;
+}
+inline std::string written(int x) { return std::to_string(x); }
+inline std::string written(double x) { return written(static_cast<float>(x)); }
+inline std::string written(const char* s) { return s; }
+inline std::string written(const std::string& s) { return s; }
+inline std::string written(Vec3 v) { return written(v.x) + " " + written(v.y) + " " + written(v.z); }
+inline std::string written(const Matrix& m) {
+  std::string out;
+  for (const auto& row : m.m)
+    for (const float x : row) out += (out.empty() ? "" : " ") + written(x);
+  return out;
+}
+
+}  // namespace text_detail
+
+template <class... Parts>
+std::string concat(const Parts&... parts) {
+  return (std::string() + ... + parts);
+}
+
+/// %f a float, %d a whole number, %c a colour, %p a point, vector or normal, %m a matrix, %s a string: numbers are
+/// separated by spaces and written by what they are, whichever letter asks. %% is one. What has no value stays as it
+/// is.
+inline std::string format(const std::string& pattern) {
+  std::string out;
+  for (size_t i = 0; i < pattern.size(); ++i) {
+    out += pattern[i];
+    if (pattern[i] == '%' && i + 1 < pattern.size() && pattern[i + 1] == '%') ++i;
+  }
+  return out;
+}
+template <class First, class... Rest>
+std::string format(const std::string& pattern, const First& first, const Rest&... rest) {
+  for (size_t i = 0; i + 1 < pattern.size(); ++i) {
+    if (pattern[i] != '%') continue;
+    if (pattern[i + 1] != '%')
+      return format(pattern.substr(0, i)) + text_detail::written(first) + format(pattern.substr(i + 2), rest...);
+    ++i;
+  }
+  return format(pattern);
+}
+
+/// Does an extended regular expression fit any part of the text? One that is no regular expression fits nothing.
+inline bool match(const std::string& pattern, const std::string& text) {
+  regex_t expression;
+  if (regcomp(&expression, pattern.c_str(), REG_EXTENDED | REG_NOSUB) != 0) return false;
+  const bool fits = regexec(&expression, text.c_str(), 0, nullptr, 0) == 0;
+  regfree(&expression);
+  return fits;
+}
+
+}  // namespace rsl
