@@ -12,6 +12,7 @@
 #include "reyes/app/render.h"
 #include "reyes/app/shade.h"
 #include "reyes/app/shadetest.h"
+#include "reyes/base/deep_stack.h"
 
 namespace tomales {
 namespace {
@@ -137,7 +138,7 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   CLI::App* photons = app.add_subcommand("photons", "Photon maps of a scene, one file for each group of objects");
   photons->add_option("-o", in.render.output, "Folder to write to")->required()->type_name("FOLDER");
   photons->add_option("--photons", in.render.photons, "Photons to emit")->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
-  photons->add_option("--bounces", in.render.bounces, "Most surfaces that a photon may arrive at")->check(CLI::Range(1, 1000));
+  photons->add_option("--bounces", in.render.bounces, "Most surfaces that a photon may arrive at")->check(CLI::Range(1, kMostBounces));
   photons->add_option("--seed", in.render.seed, "Of all random numbers");
   addRunOptions(*photons, in.render);
   photons->add_option("SCENE", in.render.files, "RIB files")->required();
@@ -189,7 +190,7 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
   addParsed(*c, "--budget", s.budget_s, parseSeconds, "10m", "Wall time, as 90s, 10m or 2h (default 10m)");
   addParsed(*c, "--format", s.format, [](const std::string& t) { return parsePair(t, 1, 65536); }, "WxH", "Resolution in pixels");
   c->add_option("--batches", s.batches, "Most independent pictures that make the reference")->check(CLI::Range(2, 10000));
-  c->add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, 1000));
+  c->add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, kMostBounces));
   c->add_option("-t", s.threads, "Threads of each rendering (default: all)")->check(CLI::Range(1, 4096));
   c->add_option("--cache", s.folder, "Keep what has been measured here (default: the user's cache)")->type_name("FOLDER");
   c->add_option("SCENE", s.files, "RIB files")->required()->check(CLI::ExistingPath);

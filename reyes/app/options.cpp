@@ -1,5 +1,7 @@
 #include "reyes/app/options.h"
 
+#include "reyes/base/deep_stack.h"
+
 namespace tomales {
 namespace {
 
@@ -49,7 +51,7 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--samples", s.samples,
                  "Gather rays of an irradiance sample, or paths of a point for the reference")
       ->check(CLI::Range(1, 1 << 20));
-  app.add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, 1000));
+  app.add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, kMostBounces));
   app.add_option("--max-error", s.maxError,
                  "Error allowed in irradiance interpolation; 0 computes every point")
       ->check(CLI::Range(0.0, 1e6));

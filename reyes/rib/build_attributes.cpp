@@ -1,6 +1,7 @@
 // Attributes other than shaders (RISpec 3.2 section 4.2).
 #include <fmt/format.h>
 
+#include "reyes/base/deep_stack.h"
 #include "reyes/rib/handlers.h"
 #include "reyes/rib/refusals.h"
 
@@ -168,9 +169,9 @@ const std::unordered_map<std::string_view, Setter>& numberSetters() {
        [](Attributes& a, const Param& p) { a.trace.displacements = p.number(0) != 0; }},
       {"trace:samplemotion", [](Attributes& a, const Param& p) { a.trace.sampleMotion = p.number(0) != 0; }},
       {"trace:maxdiffusedepth",
-       [](Attributes& a, const Param& p) { a.trace.maxDiffuseDepth = static_cast<int>(std::clamp(p.number(1), 0.0f, 1000.0f)); }},
+       [](Attributes& a, const Param& p) { a.trace.maxDiffuseDepth = static_cast<int>(std::clamp<float>(p.number(1), 0, kMostBounces)); }},
       {"trace:maxspeculardepth",
-       [](Attributes& a, const Param& p) { a.trace.maxSpecularDepth = static_cast<int>(std::clamp(p.number(2), 0.0f, 1000.0f)); }},
+       [](Attributes& a, const Param& p) { a.trace.maxSpecularDepth = static_cast<int>(std::clamp<float>(p.number(2), 0, kMostBounces)); }},
       {"trace:tessellation", [](Attributes& a, const Param& p) { a.trace.tessellation = p.number(1); }},
       {"indirect:receive", [](Attributes& a, const Param& p) { a.indirect.receive = p.number(1) != 0; }},
       {"indirect:gain", [](Attributes& a, const Param& p) { a.indirect.gain = p.number(1); }},

@@ -2,6 +2,7 @@
 
 #include <sstream>
 
+#include "reyes/base/deep_stack.h"
 #include "reyes/shade/binder.h"
 
 namespace tomales {
@@ -15,7 +16,6 @@ namespace {
 const ParamNames kShadowMaps{"shadowname", "sfpx", "sfnx", "sfpy", "sfny", "sfpz", "sfnz"};
 
 constexpr int kMostRays = 1 << 16;  ///< Of one irradiance sample.
-constexpr int kMostBounces = 1000;  ///< Beyond these no picture changes any more.
 
 /// A count among the parameters of a light.
 int countOf(const BoundShader& light, const char* name, int fallback, int least, int most, Log& log) {
