@@ -122,7 +122,7 @@ TEST(Variables, ThatDoubleEndWithAMessage) {
   const Reading r(text + inWorld(kSphere));
   EXPECT_LE(r.scene().options.user.at("user:a").strings[0].size(), rib::kLongestText);
   EXPECT_NE(r.message("rib-variable").message.find("longer than 1048576 bytes"), std::string::npos) << r.codes();
-  EXPECT_EQ(r.message("rib-variable").where.line, 19);
+  EXPECT_EQ(r.message("rib-variable").where.line, 18);
 }
 
 TEST(SearchPath, ThatDoublesEndsWithAMessageAndKeepsWhatItWas) {
