@@ -37,6 +37,10 @@ limited("30000 archives in archives", "deep.rib", 'ArchiveBegin "a"\n' * 30000 +
 limited("a program that dies", "dies.rib", 'Procedural "RunProgram" ["exit 3" ""] [-1 1 -1 1 -1 1]\nWorldEnd\n', 3, "dies.rib:2")
 t.expect_run("and may run", ["dies.rib", "--allow-system"], 3, "dies.rib:2", "exit code 3")
 
+limited("2^40 archives of archives", "doubles.rib", f'ArchiveBegin "a0" {DOT} ArchiveEnd\n' + "".join(
+    f'ArchiveBegin "a{k}" ReadArchive "a{k - 1}" ReadArchive "a{k - 1}" ArchiveEnd\n' for k in range(1, 41)) + 'ReadArchive "a40"\nWorldEnd\n',
+    3, "stands for more than 1000000 requests")
+
 # What holds its own old value doubles with every line.
 limited("a search path that doubles", "path.rib", 'Option "searchpath" "string archive" "a"\n' + 'Option "searchpath" "string archive" "&:&"\n' * 60 + DOT + "\nWorldEnd\n",
         0, "path.rib:18", "longer than 65536 bytes")
