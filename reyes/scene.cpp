@@ -13,8 +13,9 @@ bool sameLayout(const std::vector<Primvar>& a, const std::vector<Primvar>& b) {
 }
 
 bool sameGroup(const ShadeGroup& a, const ShadeGroup& b) {
-  return a.attributes == b.attributes && a.solid == b.solid && a.subtracted == b.subtracted && a.cameraFromObject == b.cameraFromObject &&
-         a.currentFromOpen == b.currentFromOpen && sameLayout(a.primvars, b.primvars);
+  return a.attributes == b.attributes && a.solid == b.solid && a.subtracted == b.subtracted &&
+         a.cameraFromObject == b.cameraFromObject && a.currentFromOpen == b.currentFromOpen &&
+         sameLayout(a.primvars, b.primvars);
 }
 
 /// Of what sameGroup() compares.
@@ -123,9 +124,14 @@ void Scene::derive(Procedural& p) const {
 
 ShadeGroup Scene::groupFor(const Object& o, int index) const {
   const mat4 m = o.cameraFromObject.at(options.shutterOpen);
-  ShadeGroup g{.attributes = o.attributes, .cameraFromObject = m, .exampleObject = index, .solid = o.solid >= 0, .subtracted = o.subtracted};
+  ShadeGroup g{.attributes = o.attributes,
+               .cameraFromObject = m,
+               .exampleObject = index,
+               .solid = o.solid >= 0,
+               .subtracted = o.subtracted};
   if (o.currentFromObject.moving()) g.currentFromOpen = o.currentFromObject * Motion::still(glm::inverse(m));
-  for (const Primvar& p : o.shape().primvars()) g.primvars.push_back({p.name, p.storage, p.type, p.width, {}});
+  for (const Primvar& p : o.shape().primvars())
+    g.primvars.push_back({p.name, p.storage, p.type, p.width, {}});
   return g;
 }
 
@@ -134,7 +140,9 @@ void Scene::findGroup(Object& o, int index) {
   ShadeGroup group = groupFor(o, index);
   const uint64_t hash = GroupHash(group).value();
   const auto [begin, end] = groupsByHash_.equal_range(hash);
-  const auto known = std::find_if(begin, end, [&](const auto& entry) { return sameGroup(groups[static_cast<size_t>(entry.second)], group); });
+  const auto known = std::find_if(begin, end, [&](const auto& entry) {
+    return sameGroup(groups[static_cast<size_t>(entry.second)], group);
+  });
   if (known != end) {
     o.group = known->second;
     return;

@@ -115,7 +115,8 @@ struct Scene {
   ShadeGroup groupFor(const Object& object, int index) const;
   float displacementBoundOf(const Attributes& attributes, const mat4& cameraFromObject) const;
 
-  /// By a hash of all that objects of a group have in common. Requests share one Attributes until something changes, so equal pointers tell.
+  /// By a hash of all that objects of a group have in common. Requests share one Attributes until something
+  /// changes, so equal pointers tell.
   std::unordered_multimap<uint64_t, int> groupsByHash_;
   std::vector<int> dropped_;  ///< Indices that may be used again.
 };

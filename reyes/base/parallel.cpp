@@ -38,7 +38,8 @@ void runOnDeepStack(const std::function<void()>& body) {
   pthread_attr_init(&attributes);
   pthread_attr_setstacksize(&attributes, kStack_bytes);
   pthread_t thread;
-  const bool started = pthread_create(&thread, &attributes, call, const_cast<std::function<void()>*>(&body)) == 0;
+  const bool started =
+      pthread_create(&thread, &attributes, call, const_cast<std::function<void()>*>(&body)) == 0;
   pthread_attr_destroy(&attributes);
   if (started)
     pthread_join(thread, nullptr);

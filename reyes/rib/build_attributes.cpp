@@ -159,9 +159,13 @@ const std::unordered_map<std::string_view, Setter>& numberSetters() {
       {"visibility:transmission",
        [](Attributes& a, const Param& p) { a.visibility.transmission = p.number(1) != 0; }},
       {"visibility:trace",  // until PRMan 12
-       [](Attributes& a, const Param& p) { a.visibility.diffuse = a.visibility.specular = p.number(1) != 0; }},
+       [](Attributes& a, const Param& p) {
+         a.visibility.diffuse = a.visibility.specular = p.number(1) != 0;
+       }},
       {"visibility:indirect",  // of the RIS era
-       [](Attributes& a, const Param& p) { a.visibility.diffuse = a.visibility.specular = p.number(1) != 0; }},
+       [](Attributes& a, const Param& p) {
+         a.visibility.diffuse = a.visibility.specular = p.number(1) != 0;
+       }},
       {"visibility:photon", [](Attributes& a, const Param& p) { a.visibility.photon = p.number(1) != 0; }},
       {"trace:bias", [](Attributes& a, const Param& p) { a.trace.bias = p.number(0); }},
       {"trace:offset", [](Attributes& a, const Param& p) { a.trace.offset = p.number(0); }},
@@ -169,16 +173,26 @@ const std::unordered_map<std::string_view, Setter>& numberSetters() {
        [](Attributes& a, const Param& p) { a.trace.displacements = p.number(0) != 0; }},
       {"trace:samplemotion", [](Attributes& a, const Param& p) { a.trace.sampleMotion = p.number(0) != 0; }},
       {"trace:maxdiffusedepth",
-       [](Attributes& a, const Param& p) { a.trace.maxDiffuseDepth = static_cast<int>(std::clamp<float>(p.number(1), 0, kMostBounces)); }},
+       [](Attributes& a, const Param& p) {
+         a.trace.maxDiffuseDepth = static_cast<int>(std::clamp<float>(p.number(1), 0, kMostBounces));
+       }},
       {"trace:maxspeculardepth",
-       [](Attributes& a, const Param& p) { a.trace.maxSpecularDepth = static_cast<int>(std::clamp<float>(p.number(2), 0, kMostBounces)); }},
+       [](Attributes& a, const Param& p) {
+         a.trace.maxSpecularDepth = static_cast<int>(std::clamp<float>(p.number(2), 0, kMostBounces));
+       }},
       {"trace:tessellation", [](Attributes& a, const Param& p) { a.trace.tessellation = p.number(1); }},
       {"indirect:receive", [](Attributes& a, const Param& p) { a.indirect.receive = p.number(1) != 0; }},
       {"indirect:gain", [](Attributes& a, const Param& p) { a.indirect.gain = p.number(1); }},
       {"indirect:bleeding", [](Attributes& a, const Param& p) { a.indirect.bleeding = p.number(1); }},
       {"indirect:bleedingcolor", [](Attributes& a, const Param& p) { a.indirect.bleedingColor = color(p); }},
-      {"radiosity:screentexels", [](Attributes& a, const Param& p) { a.radiosity = {true, p.number(0)}; }},
-      {"radiosity:worldtexels", [](Attributes& a, const Param& p) { a.radiosity = {false, p.number(0)}; }},
+      {"radiosity:screentexels",
+       [](Attributes& a, const Param& p) {
+         a.radiosity = {true, p.number(0)};
+       }},
+      {"radiosity:worldtexels",
+       [](Attributes& a, const Param& p) {
+         a.radiosity = {false, p.number(0)};
+       }},
       {"irradiance:maxerror", [](Attributes& a, const Param& p) { a.irradianceMaxError = p.number(0); }},
       {"irradiance:maxpixeldist",
        [](Attributes& a, const Param& p) { a.irradianceMaxPixelDist = p.number(0); }},

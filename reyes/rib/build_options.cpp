@@ -159,7 +159,9 @@ void setSearchPath(GraphicsState& s, const Request& r, const std::string& catego
   Globals& g = s.globals;
   const std::string inPlace = mappedPath(path, g.dirMap);
   if (std::max(path.size(), inPlace.size()) > kLongestSearchPath)
-    return reject(s, r, fmt::format("the search path \"{}\" would be longer than {} bytes", category.substr(0, 80), kLongestSearchPath));
+    return reject(s, r,
+                  fmt::format("the search path \"{}\" would be longer than {} bytes", category.substr(0, 80),
+                              kLongestSearchPath));
   g.unmappedPaths[category] = path;
   g.options.searchPaths[category] = inPlace;
 }

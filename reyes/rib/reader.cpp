@@ -143,14 +143,16 @@ Request Reader::substituted(const Request& r) const {
       if (s.find(mark_) == std::string::npos) continue;
       s = substitute(s, mark_, find, unknown);
       bytes += s.size();
-      if (bytes > kLongestText) throw ExpressionError(fmt::format("its strings would be longer than {} bytes", kLongestText));
+      if (bytes > kLongestText)
+        throw ExpressionError(fmt::format("its strings would be longer than {} bytes", kLongestText));
     }
   };
   try {
     for (RibArg& a : out.args) replace(a.strings);
     for (Param& p : out.params) replace(p.strings);
   } catch (const ExpressionError& e) {
-    report(Severity::Warning, "rib-variable", r, fmt::format("with the values of variables {}; all of them are left as written", e.what()));
+    report(Severity::Warning, "rib-variable", r,
+           fmt::format("with the values of variables {}; all of them are left as written", e.what()));
     return r;
   }
   if (!unknown.empty())

@@ -91,7 +91,8 @@ bool Reader::mayEnter(const Request& r, const std::string& key, size_t cost) {
   if (open_.size() > static_cast<size_t>(settings_.maxArchiveDepth))
     return refuse(fmt::format("more than {} archives within archives", settings_.maxArchiveDepth));
   if (!spend(cost))
-    return refuse(fmt::format("the outermost archive stands for more than {} requests", kBudget / kReplayCost));
+    return refuse(
+        fmt::format("the outermost archive stands for more than {} requests", kBudget / kReplayCost));
   return true;
 }
 

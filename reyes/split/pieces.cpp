@@ -16,10 +16,10 @@ constexpr int kMaxDepth = 48;     ///< Halvings of one patch; beyond, the piece 
 /// ever be culled.
 constexpr float kSlack = 8;
 constexpr int kSlackDepth = 8;
-/// Pieces that one patch may visit: so many times those that cover the window once, and some for small windows. A ground plane up to its horizon
-/// takes about ten, as its grids lie over each other there. Only
-/// coordinates beyond float's precision or reach, which no halving makes small, come near it. Patches of one object share what
-/// exceeds the least, or a mesh of them would take hours.
+/// Pieces that one patch may visit: so many times those that cover the window once, and some for small
+/// windows. A ground plane up to its horizon takes about ten, as its grids lie over each other there. Only
+/// coordinates beyond float's precision or reach, which no halving makes small, come near it. Patches of one
+/// object share what exceeds the least, or a mesh of them would take hours.
 constexpr double kLayersOfObject = 128, kLayersOfPatch = 16;
 constexpr double kVisitsOfObject = 1 << 14, kVisitsOfPatch = 1 << 9;
 constexpr float kLeastReach_px = 0.05f;  ///< What vertices are snapped by, and what closes T-vertices.
@@ -110,8 +110,8 @@ class Splitter {
   const GivenUp& givenUp() const { return givenUp_; }
 
  private:
-  /// Coarse pieces inherit what is left of the visits, in proportion to those that they are expected to take: however deep they are nested,
-  /// a patch takes no more than it was given.
+  /// Coarse pieces inherit what is left of the visits, in proportion to those that they are expected to take:
+  /// however deep they are nested, a patch takes no more than it was given.
   void splitWithin(int64_t visits, uint32_t patch, const UvRect& rect, int depth, const Known* known, std::vector<SubPatch>& out) {
     const auto first = static_cast<ptrdiff_t>(out.size());
     start_ = depth, budget_ = visits, flat_ = isFlat(object_, patch), alone_ = isAlone(object_, patch);
@@ -162,8 +162,8 @@ class Splitter {
         out.push_back({index_, patch, rect, 1, 1, rasterOf(bound, reach_px), bound.lo.z, false, 0, false, 0, true});
       else
         out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, reach_px), bound.lo.z, crossesEye, depth, false});
-    } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && gridsOf(nu, nv) >= kGridsOfCoarse && !crossesEye &&
-               isOfOneScale(bare) && glm::length(bare.size()) <= kSlack * reach) {
+    } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && gridsOf(nu, nv) >= kGridsOfCoarse &&
+               !crossesEye && isOfOneScale(bare) && glm::length(bare.size()) <= kSlack * reach) {
       // Halving shrinks such a piece and its bound as it should, so that its grids can be foretold.
       out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, reach_px), bound.lo.z, crossesEye, depth, true});
     } else if (depth == kMaxDepth || !(hasMiddle(rect.u0, rect.u1) || hasMiddle(rect.v0, rect.v1))) {
@@ -177,8 +177,10 @@ class Splitter {
     }
   }
 
-  /// Of a plane, what floats cannot name a part of is one cell, however large it is in the picture; but none may reach through the eye plane.
-  void takeSmallest(uint32_t patch, const UvRect& rect, int depth, const Bound3& bound, bool crossesEye, const Bound2& raster, std::vector<SubPatch>& out) {
+  /// Of a plane, what floats cannot name a part of is one cell, however large it is in the picture; but none
+  /// may reach through the eye plane.
+  void takeSmallest(uint32_t patch, const UvRect& rect, int depth, const Bound3& bound, bool crossesEye,
+                    const Bound2& raster, std::vector<SubPatch>& out) {
     if (object_.shape().info(patch).planar && !crossesEye)
       out.push_back({index_, patch, rect, 1, 1, raster, bound.lo.z, false, depth, false});
     else
@@ -212,7 +214,9 @@ class Splitter {
   }
 
   /// Is all of it seen at about the same scale? Else what its near end takes says nothing about most of it.
-  bool isOfOneScale(const Bound3& bare) const { return !camera_.perspective() || bare.hi.z <= kDeepest * bare.lo.z; }
+  bool isOfOneScale(const Bound3& bare) const {
+    return !camera_.perspective() || bare.hi.z <= kDeepest * bare.lo.z;
+  }
 
   int64_t visitsOfBlur(const Bound2& raster) const {
     const double keys = 1 + static_cast<double>(object_.keyTimes.size()) / kKeysOfBlur;
@@ -228,14 +232,16 @@ class Splitter {
     const glm::dvec2 size = sizeInView_px(raster);
     return size.x * size.y;
   }
-  /// Of a coarse piece: its share of grids by area, those that the window's border may cut, and the halvings that lead from all of it to
-  /// them. Towards a horizon many grids lie over each other; beside the eye next to nothing of a huge piece is seen.
+  /// Of a coarse piece: its share of grids by area, those that the window's border may cut, and the halvings
+  /// that lead from all of it to them. Towards a horizon many grids lie over each other; beside the eye next
+  /// to nothing of a huge piece is seen.
   double expectedVisits(const SubPatch& p) const {
     const int64_t grids = gridsOf(p.nu, p.nv);
     const glm::dvec2 size = p.raster.hi - p.raster.lo, seen = sizeInView_px(p.raster);
     const glm::dvec2 gridsAcross = seen / (double{edge_px_} * std::sqrt(gridSize_)) + 1.0;
     const double inView = static_cast<double>(grids) * (seen.x / size.x) * (seen.y / size.y);
-    return std::min(static_cast<double>(grids), inView + gridsAcross.x * gridsAcross.y) + std::bit_width(static_cast<uint64_t>(grids));
+    return std::min(static_cast<double>(grids), inView + gridsAcross.x * gridsAcross.y) +
+           std::bit_width(static_cast<uint64_t>(grids));
   }
   /// That a layer of surface over so many pixels takes.
   double gridsOver(double area_px) const { return area_px / (double{edge_px_} * edge_px_ * gridSize_); }

@@ -65,7 +65,8 @@ TEST(Blobby, AFieldIsTheSameWithinABoxHoweverLongItsChainOfOperations) {
   constexpr uint32_t kOperations = 500'000;
   BlobField field({{glm::dmat3(1), glm::dvec3(0), glm::dvec3(0), glm::dvec3(0), 1}});
   field.addLeaf(0);
-  for (uint32_t k = 0; k < kOperations; ++k) field.addOperation(k % 2 ? BlobOp::Identity : BlobOp::Negate, {&k, 1});
+  for (uint32_t k = 0; k < kOperations; ++k)
+    field.addOperation(k % 2 ? BlobOp::Identity : BlobOp::Negate, {&k, 1});
   const glm::dvec3 p(0.25, 0.125, -0.5);
   const BlobField part = field.within({p - 0.1, p + 0.1});
   EXPECT_EQ(part.leavesUsed(), 1u);

@@ -117,11 +117,13 @@ TEST(Variables, AreSubstitutedInStringsOnceAsked) {
 }
 
 TEST(Variables, ThatDoubleEndWithAMessage) {
-  std::string text = "Option \"ribparse\" \"string varsubst\" \"$\" Option \"user\" \"string a\" \"0123456789\"\n";
+  std::string text =
+      "Option \"ribparse\" \"string varsubst\" \"$\" Option \"user\" \"string a\" \"0123456789\"\n";
   for (int k = 0; k < 60; ++k) text += "Option \"user\" \"string a\" \"${a}${a}\"\n";
   const Reading r(text + inWorld(kSphere));
   EXPECT_LE(r.scene().options.user.at("user:a").strings[0].size(), rib::kLongestText);
-  EXPECT_NE(r.message("rib-variable").message.find("longer than 1048576 bytes"), std::string::npos) << r.codes();
+  EXPECT_NE(r.message("rib-variable").message.find("longer than 1048576 bytes"), std::string::npos)
+      << r.codes();
   EXPECT_EQ(r.message("rib-variable").where.line, 18);
 }
 
@@ -135,7 +137,9 @@ TEST(SearchPath, ThatDoublesEndsWithAMessageAndKeepsWhatItWas) {
 }
 
 TEST(SearchPath, OfMappedFoldersIsBoundedToo) {
-  const Reading r("Option \"searchpath\" \"string archive\" \"a:a:a\" \"string[3] dirmap\" [\"NFS\" \"a\" \"" + std::string(60000, 'b') + "\"]" + inWorld(kSphere));
+  const Reading r(
+      "Option \"searchpath\" \"string archive\" \"a:a:a\" \"string[3] dirmap\" [\"NFS\" \"a\" \"" +
+      std::string(60000, 'b') + "\"]" + inWorld(kSphere));
   EXPECT_EQ(r.scene().options.searchPaths.at("archive"), "a:a:a");
   EXPECT_NE(r.message("rib-option").message.find("longer than"), std::string::npos) << r.codes();
 }

@@ -213,11 +213,14 @@ TEST(Split, AHugeGroundPlaneBelowTheEyeIsWhole) {
 }
 
 TEST(Split, GroundPlanesAreWholeHoweverLargeAndNearTheEyeTheyAre) {
-  // The sizes as multiples of the eye's height. The last is where floats end: none lie between the parameters of what is nearest.
+  // The sizes as multiples of the eye's height. The last is where floats end: none lie between the parameters
+  // of what is nearest.
   for (const float size : {400.0f, 1e4f, 1e6f})
     for (const float yaw : {0.0f, 0.5f}) {
-      Scene scene = sceneOf({quad(size, -1)}, glm::rotate(glm::rotate(mat4(1.0f), 0.2f, vec3(0, 0, 1)), yaw, vec3(0, 1, 0)));
-      scene.options.xResolution = 1920, scene.options.yResolution = 1080, scene.options.fov_degrees = 40, scene.options.nearClip = 1e-6f;
+      Scene scene = sceneOf({quad(size, -1)},
+                            glm::rotate(glm::rotate(mat4(1.0f), 0.2f, vec3(0, 0, 1)), yaw, vec3(0, 1, 0)));
+      scene.options.xResolution = 1920, scene.options.yResolution = 1080, scene.options.fov_degrees = 40,
+      scene.options.nearClip = 1e-6f;
       scene.freeze();
       const Camera camera(scene.options);
       Stats stats;
@@ -233,7 +236,10 @@ TEST(Split, GroundPlanesAreWholeHoweverLargeAndNearTheEyeTheyAre) {
         const vec3 p = direction * (-1 / direction.y);
         const vec2 at(0.5f * (p.x / size + 1), 0.5f * (p.z / size + 1));
         if (!(direction.y < 0) || std::max(std::abs(p.x), std::abs(p.z)) > size) continue;
-        const auto holds = [&](const SubPatch& s) { return !s.coarse && s.rect.u0 <= at.x && at.x <= s.rect.u1 && s.rect.v0 <= at.y && at.y <= s.rect.v1; };
+        const auto holds = [&](const SubPatch& s) {
+          return !s.coarse && s.rect.u0 <= at.x && at.x <= s.rect.u1 && s.rect.v0 <= at.y &&
+                 at.y <= s.rect.v1;
+        };
         EXPECT_TRUE(std::any_of(pieces.begin(), pieces.end(), holds)) << size << ' ' << yaw << ' ' << k;
       }
     }
