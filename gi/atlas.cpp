@@ -21,9 +21,11 @@ namespace fs = std::filesystem;
 constexpr std::string_view kCaustic = ".caustic";  ///< What the names of caustic maps end in.
 constexpr const char* kVolume = "scene.volume";
 constexpr double kStoredBytes = 2.5 * 36;  ///< Of one emitted photon: so many surfaces, so many bytes.
-constexpr double kLeastOfMap = 1e-3;       ///< Share of its map, by area, that a surface needs for a number: leaves share their photons.
+constexpr double kLeastOfMap =
+    1e-3;  ///< Share of its map, by area, that a surface needs for a number: leaves share their photons.
 
-/// Size of the objects of each group, as the area of their boxes in the world, so that every camera finds the same maps.
+/// Size of the objects of each group, as the area of their boxes in the world, so that every camera finds the same
+/// maps.
 std::vector<double> boxAreas(const Scene& scene) {
   std::vector<double> areas(scene.groups.size(), 0.0);
   for (const Object& o : scene.objects) {
@@ -40,8 +42,7 @@ constexpr uint32_t kMethod = 9;
 
 uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
   const auto& [emit, maxDepth, seed, direct] = settings.photons;
-  return contentSum(kMethod, settings.world, names.global, names.caustic, names.volume, emit, maxDepth, seed,
-                    direct);
+  return contentSum(kMethod, settings.world, names.global, names.caustic, names.volume, emit, maxDepth, seed, direct);
 }
 
 uint64_t irradianceInputs(const PointFile& photons, const PhotonIrradianceSettings& settings) {
@@ -65,13 +66,17 @@ MadeFrom bricksMadeFrom(const fs::path& path) {
 
 /// The groups of each map from 1 on; 0: small ones.
 std::vector<int> numbered(const std::vector<std::string>& maps, const std::vector<double>& areas) {
-  struct Map { double area = 0; int groups = 0; };
+  struct Map {
+    double area = 0;
+    int groups = 0;
+  };
   std::map<std::string, Map> byName;
   for (size_t g = 0; g < maps.size(); ++g) byName[maps[g]].area += areas[g];
   std::vector<int> out;
   for (size_t g = 0; g < maps.size(); ++g) {
     Map& map = byName[maps[g]];
-    const int number = 1 + map.groups++ % kMostSurfaces;  // small ones count too, so that who is small changes no number
+    const int number =
+        1 + map.groups++ % kMostSurfaces;  // small ones count too, so that who is small changes no number
     out.push_back(areas[g] >= kLeastOfMap * map.area ? number : 0);
   }
   return out;
@@ -97,7 +102,8 @@ fs::path atlasFile(const fs::path& folder, const std::string& map, const char* e
 void makeAtlasFolder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (!fs::is_directory(folder)) throw FileError(fmt::format("folder \"{}\" cannot be made: {}", folder.string(), error.message()));
+  if (!fs::is_directory(folder))
+    throw FileError(fmt::format("folder \"{}\" cannot be made: {}", folder.string(), error.message()));
 }
 
 MapNames mapNames(const Scene& scene, const AtlasSettings& settings) {
@@ -114,12 +120,15 @@ MapNames mapNames(const Scene& scene, const AtlasSettings& settings) {
   for (size_t g = 0; g < areas.size(); ++g) {
     const std::string& given = scene.groups[g].attributes->photon.globalMap;
     const std::string& caustic = scene.groups[g].attributes->photon.causticMap;
-    names.global.push_back(!given.empty() ? given : fmt::format("scene{}", share > 0 ? static_cast<int>(before / share) : 0));
+    names.global.push_back(!given.empty() ? given
+                                          : fmt::format("scene{}", share > 0 ? static_cast<int>(before / share) : 0));
     names.caustic.push_back(!caustic.empty() ? caustic + std::string(kCaustic) : "");
     before += areas[g];
   }
   names.surface = numbered(names.global, own);
-  const auto hasMedium = [](const ShadeGroup& g) { return !mediumOf(g.attributes->interior.get(), 1).empty() || !mediumOf(g.attributes->exterior.get(), 1).empty(); };
+  const auto hasMedium = [](const ShadeGroup& g) {
+    return !mediumOf(g.attributes->interior.get(), 1).empty() || !mediumOf(g.attributes->exterior.get(), 1).empty();
+  };
   if (std::any_of(scene.groups.begin(), scene.groups.end(), hasMedium)) names.volume = kVolume;
   return names;
 }
@@ -143,8 +152,9 @@ MapNames MapNames::ofSurfaces() const {
   return out;
 }
 
-PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
-                           const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
+PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const RayScene& rays,
+                           const ShadingSystem& shading, const MapNames& names, const AtlasSettings& settings,
+                           const AtlasProgress& progress, Stats& stats, Log& log) {
   makeAtlasFolder(folder);
   const char* channel = settings.photons.direct ? kPower : kIndirectPower;
   std::map<std::string, PointFileWriter> files;
@@ -170,7 +180,8 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
   };
   const PhotonFigures figures = tracePhotons(
       scene, rays, shading, settings.photons,
-      [&](std::span<const StoredPhoton> photons) { std::for_each(photons.begin(), photons.end(), add); }, progress, stats, log);
+      [&](std::span<const StoredPhoton> photons) { std::for_each(photons.begin(), photons.end(), add); }, progress,
+      stats, log);
   for (auto& [name, file] : files) {
     file.finish({settings.world, photonInputs(names, settings)});
     if (file.count() == 0)
@@ -183,11 +194,13 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
   return figures;
 }
 
-void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonIrradianceSettings& given, uint64_t most, EstimateFigures* figures) {
+void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonIrradianceSettings& given, uint64_t most,
+                     EstimateFigures* figures) {
   const PointFile file(photons.string());
   if (offsetOf(file.channels(), kPathPower, 3) < 0) requirePhotons(file);
   const MadeFrom madeFrom{file.madeFrom().world, irradianceInputs(file, given)};
-  if (file.count() <= most) return writePointFile(estimateIrradiance(file.readAll(), given, {}, figures), out.string(), madeFrom);
+  if (file.count() <= most)
+    return writePointFile(estimateIrradiance(file.readAll(), given, {}, figures), out.string(), madeFrom);
   PhotonIrradianceSettings settings = given;
   settings.maxRadius = reachOf(given, file.bound());
   const TemporaryFolder temporary(out.parent_path().empty() ? "." : out.parent_path());
@@ -198,8 +211,10 @@ void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonI
   PointFileWriter writer(out.string(), irradianceChannels(sorted.channels()));
   forEachTile(tiles, most, [&](int level, const glm::ivec3& place) {
     const auto inside = [&](const vec3& P) { return tiles.contains(level, place, P); };
-    const PointCloud points = estimateIrradiance(tiles.around(tiles.box(level, place), settings.maxRadius), settings, inside, figures);
-    for (size_t i = 0; i < points.count(); ++i) writer.add(points.position[i], points.normal[i], points.radius[i], points.at(i));
+    const PointCloud points =
+        estimateIrradiance(tiles.around(tiles.box(level, place), settings.maxRadius), settings, inside, figures);
+    for (size_t i = 0; i < points.count(); ++i)
+      writer.add(points.position[i], points.normal[i], points.radius[i], points.at(i));
   });
   writer.finish(madeFrom);
 }
@@ -220,7 +235,8 @@ bool renewIrradianceBricks(const fs::path& points, const fs::path& out, const Br
 }
 
 void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
-                const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
+                const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats,
+                Log& log) {
   const fs::path photons = folder / "photons", irradiance = folder / "irradiance";
   makeAtlasFolder(irradiance);
   const std::set<std::string> maps = names.all();
@@ -235,7 +251,8 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
   returnFreeMemory();
   std::vector<MapFigures> made;
   for (const std::string& name : maps) {
-    const fs::path from = atlasFile(photons, name, ".ptc"), points = atlasFile(irradiance, name, ".ptc"), bricks = atlasFile(folder, name, ".bkm");
+    const fs::path from = atlasFile(photons, name, ".ptc"), points = atlasFile(irradiance, name, ".ptc"),
+                   bricks = atlasFile(folder, name, ".bkm");
     const PhotonIrradianceSettings& estimate = name.ends_with(kCaustic) ? settings.caustics : settings.irradiance;
     if (pointsMadeFrom(points).inputs != irradianceInputs(PointFile(from.string()), estimate)) {
       const StageTimer timer(stats, "irradiance");

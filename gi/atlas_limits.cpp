@@ -5,15 +5,16 @@
 namespace tomales {
 namespace {
 
-constexpr int64_t kFewEstimates = 32;   // say nothing about the whole
+constexpr int64_t kFewEstimates = 32;  // say nothing about the whole
 constexpr double kLeastOfPhotons = 0.01;
-constexpr double kMost = 0.5;           // of them on weak ground
+constexpr double kMost = 0.5;  // of them on weak ground
 constexpr double kClumped = 1.1;
 
 /// The first object whose light a map has; null: none.
 const Object* objectOf(const Scene& scene, const MapNames& names, const std::string& map) {
   for (size_t g = 0; g < scene.groups.size(); ++g)
-    if (const int example = scene.groups[g].exampleObject; example >= 0 && (names.global[g] == map || names.caustic[g] == map))
+    if (const int example = scene.groups[g].exampleObject;
+        example >= 0 && (names.global[g] == map || names.caustic[g] == map))
       return &scene.objects[static_cast<size_t>(example)];
   return nullptr;
 }
@@ -29,20 +30,29 @@ void warnOfEstimates(const Scene& scene, const MapNames& names, const std::vecto
     double worstMean = 0;
     int count = 0;
     for (const MapFigures& m : maps) {
-      if (m.estimates.made < kFewEstimates || static_cast<double>(m.photons) <= kLeastOfPhotons * static_cast<double>(photons)) continue;
+      if (m.estimates.made < kFewEstimates ||
+          static_cast<double>(m.photons) <= kLeastOfPhotons * static_cast<double>(photons))
+        continue;
       const double mean = static_cast<double>(weight(m.estimates)) / static_cast<double>(m.estimates.made);
       count += mean > most;
       if (mean > most && mean > worstMean) worst = &m, worstMean = mean;
     }
     const Object* o = worst ? objectOf(scene, names, worst->map) : nullptr;
     if (o)
-      log.report(Severity::Warning, code, o->where,
-                 fmt::format("{}: irradiance estimates of photon map \"{}\" {}{} (more photons, --photons)", objectName(*o), worst->map, why,
-                             count > 1 ? fmt::format("; likewise {} other maps", count - 1) : ""));
+      log.report(
+          Severity::Warning, code, o->where,
+          fmt::format("{}: irradiance estimates of photon map \"{}\" {}{} (more photons, --photons)", objectName(*o),
+                      worst->map, why, count > 1 ? fmt::format("; likewise {} other maps", count - 1) : ""));
   };
-  report("photon-few", [](const EstimateFigures& f) { return f.few; }, kMost, "have fewer photons in reach than they ask for: light is smeared and noisy");
-  report("photon-bent", [](const EstimateFigures& f) { return f.bent; }, kMost, "reach round what is curved: light is smeared over it");
-  report("photon-boundary", [](const EstimateFigures& f) { return f.clumps; }, kClumped, "reach over surfaces that are smaller, and take in what is between: too dark");
+  report(
+      "photon-few", [](const EstimateFigures& f) { return f.few; }, kMost,
+      "have fewer photons in reach than they ask for: light is smeared and noisy");
+  report(
+      "photon-bent", [](const EstimateFigures& f) { return f.bent; }, kMost,
+      "reach round what is curved: light is smeared over it");
+  report(
+      "photon-boundary", [](const EstimateFigures& f) { return f.clumps; }, kClumped,
+      "reach over surfaces that are smaller, and take in what is between: too dark");
 }
 
 }  // namespace tomales

@@ -1,5 +1,5 @@
-// Private to gi: where photon maps come to their limits on the scene at hand, as warnings. The laboratory of docs/chart.md shows what happens beyond.
-// Each names an object of the worst map, with file and line. Deterministic.
+// Private to gi: where photon maps come to their limits on the scene at hand, as warnings. The laboratory of
+// docs/chart.md shows what happens beyond. Each names an object of the worst map, with file and line. Deterministic.
 #pragma once
 #include "gi/atlas.h"
 

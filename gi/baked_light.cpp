@@ -13,13 +13,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr BrickSettings kBricks{0.01f};  ///< Of the mean: a third of what photons, which are only gathered over, are allowed.
-constexpr float kOverlap = 0.8f;         ///< Radius of a point's disk over the edge of its micropolygon: neighbours meet.
+constexpr BrickSettings kBricks{
+    0.01f};                       ///< Of the mean: a third of what photons, which are only gathered over, are allowed.
+constexpr float kOverlap = 0.8f;  ///< Radius of a point's disk over the edge of its micropolygon: neighbours meet.
 
 struct LitPoint {
   vec3 P, N;  ///< World.
   float radius;
-  vec3 E;     ///< W/m2
+  vec3 E;  ///< W/m2
   int surface;
   auto key() const { return std::tuple(P.x, P.y, P.z, N.x, N.y, N.z, radius, E.x, E.y, E.z, surface); }
 };
@@ -28,8 +29,7 @@ using PointsOfMap = std::map<std::string, std::vector<LitPoint>>;
 
 class Baking {
  public:
-  Baking(const GiState& state, const MapNames& names)
-      : state_(state), names_(names), world_(state.scene) {}
+  Baking(const GiState& state, const MapNames& names) : state_(state), names_(names), world_(state.scene) {}
 
   /// In an order that depends on what the points are alone, each once, however many buckets see it.
   PointsOfMap run(const DeepFrame& layout, const TileReader& tiles) const {
@@ -48,7 +48,9 @@ class Baking {
     });
     for (auto& [name, points] : out) {
       std::sort(points.begin(), points.end(), [](const LitPoint& a, const LitPoint& b) { return a.key() < b.key(); });
-      points.erase(std::unique(points.begin(), points.end(), [](const LitPoint& a, const LitPoint& b) { return a.key() == b.key(); }), points.end());
+      points.erase(std::unique(points.begin(), points.end(),
+                               [](const LitPoint& a, const LitPoint& b) { return a.key() == b.key(); }),
+                   points.end());
     }
     return out;
   }
@@ -62,7 +64,8 @@ class Baking {
       const std::optional<vec3> light = gatheredOverPi(state_, at);
       if (!light) continue;
       const vec3& N = at.normal;
-      out.push_back({transformPoint(world_.points, batch.position(i)), normalizeOr(world_.normals * N, N), kOverlap * world_.scale * batch.edgeLength(i), kPi * *light,
+      out.push_back({transformPoint(world_.points, batch.position(i)), normalizeOr(world_.normals * N, N),
+                     kOverlap * world_.scale * batch.edgeLength(i), kPi * *light,
                      names_.surface[static_cast<size_t>(batch.group())]});
     }
     return out;
@@ -87,7 +90,8 @@ void copyEarlier(const fs::path& path, uint64_t world, PointFileWriter& to) {
 
 }  // namespace
 
-void bakeLight(const GiState& state, const DeepFrame& layout, const TileReader& tiles, const fs::path& folder, const MapNames& names, uint64_t world) {
+void bakeLight(const GiState& state, const DeepFrame& layout, const TileReader& tiles, const fs::path& folder,
+               const MapNames& names, uint64_t world) {
   const fs::path kept = folder / "points";
   makeAtlasFolder(kept);
   for (const auto& [name, points] : Baking(state, names).run(layout, tiles)) {
@@ -110,7 +114,8 @@ void bakedIndirect(const GiState& state, const ShadePoints& points, const uint8_
     if (!active[i]) continue;
     const vec3 n = places.at(i).normal, dominant[3] = {n, n, n};
     const float radius = std::sqrt(points.channel(kArea)[i] / kPi);
-    const std::optional<vec3> light = state.atlas ? state.atlas->bakedOverPi(points.group(), points.position(i), n, radius) : std::nullopt;
+    const std::optional<vec3> light =
+        state.atlas ? state.atlas->bakedOverPi(points.group(), points.position(i), n, radius) : std::nullopt;
     ++lookups, found += light.has_value();
     store(out, i, light.value_or(vec3(0.0f)), dominant);
   }

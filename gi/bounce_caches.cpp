@@ -9,15 +9,15 @@
 namespace tomales {
 namespace {
 
-constexpr int kRaysOfPoint = 48;        ///< That look for places where records are needed.
+constexpr int kRaysOfPoint = 48;  ///< That look for places where records are needed.
 constexpr size_t kMostPoints = 1024, kMostRecords = 1 << 14;
 constexpr int kPhases = 8;  ///< In which candidates double.
 constexpr CacheSettings kCoarse{};
-constexpr float kPixelsAcross = 64;     ///< Records are as dense as for a picture of so many pixels.
+constexpr float kPixelsAcross = 64;  ///< Records are as dense as for a picture of so many pixels.
 constexpr int kSamplesShare = 4, kLeastSamples = 48, kMostSamples = 256;
-constexpr int kLeastDeepSamples = 24;   ///< Each further level has half the rays of the one before, down to these: all levels together cost about
-                                        ///< as much as the first two.
-constexpr double kSettled = 0.002;      ///< What two levels together must add.
+constexpr int kLeastDeepSamples = 24;  ///< Each further level has half the rays of the one before, down to these: all
+                                       ///< levels together cost about as much as the first two.
+constexpr double kSettled = 0.002;  ///< What two levels together must add.
 
 int phaseOf(uint32_t key) {
   int phase = kPhases - 1;
@@ -25,8 +25,8 @@ int phaseOf(uint32_t key) {
   return phase;
 }
 
-/// How far things are is known best from the first level, which has the most rays, and so a level serves what the first does. What a few rays
-/// say of gradients is noise, of which clamping at 0 would keep the bright half.
+/// How far things are is known best from the first level, which has the most rays, and so a level serves what the first
+/// does. What a few rays say of gradients is noise, of which clamping at 0 would keep the bright half.
 void reachAs(const IrradianceRecord& first, IrradianceRecord& record) {
   record.closest = first.closest, record.harmonicMean = first.harmonicMean, record.limit = first.limit;
   std::fill_n(record.rotationGradient, 3, vec3(0)), std::fill_n(record.translationGradient, 3, vec3(0));
@@ -39,13 +39,17 @@ float BounceCaches::pixelSize(const Camera& camera, const vec3& P) const {
   return camera.pixelSize({0, 0, std::max(glm::length(P), leastDistance_)}) * across / kPixelsAcross;
 }
 
-IrradianceEstimate BounceCaches::lookup(int bounces, const Camera& camera, const vec3& P, const vec3& normal, const vec3& shadingNormal) const {
+IrradianceEstimate BounceCaches::lookup(int bounces, const Camera& camera, const vec3& P, const vec3& normal,
+                                        const vec3& shadingNormal) const {
   if (bounces < 1 || levels_.empty()) return {};
-  return levels_[std::min(static_cast<size_t>(bounces), levels_.size()) - 1].lookup(P, normal, shadingNormal, pixelSize(camera, P));
+  return levels_[std::min(static_cast<size_t>(bounces), levels_.size()) - 1].lookup(P, normal, shadingNormal,
+                                                                                    pixelSize(camera, P));
 }
 
-std::vector<GatherPoint> BounceCaches::hitsFrom(const RayScene& rays, const Camera& camera, const std::vector<GatherPoint>& from, uint32_t name) const {
-  const size_t stride = (from.size() + kMostPoints - 1) / kMostPoints, used = stride ? (from.size() + stride - 1) / stride : 0;
+std::vector<GatherPoint> BounceCaches::hitsFrom(const RayScene& rays, const Camera& camera,
+                                                const std::vector<GatherPoint>& from, uint32_t name) const {
+  const size_t stride = (from.size() + kMostPoints - 1) / kMostPoints,
+               used = stride ? (from.size() + stride - 1) / stride : 0;
   std::vector<std::optional<GatherPoint>> found(used * kRaysOfPoint);
   parallelFor(used, 1, [&](size_t begin, size_t end) {
     for (size_t p = begin; p < end; ++p) {
@@ -61,8 +65,10 @@ std::vector<GatherPoint> BounceCaches::hitsFrom(const RayScene& rays, const Came
         ray.offset = slantedOffset(ray.offset, local.z);
         const Hit hit = rays.closest(ray, kMaskDiffuse);
         if (hit.object < 0) continue;
-        const vec3 P = ray.origin + hit.t * ray.direction, n = dot(ray.direction, hit.geometricNormal) > 0 ? -hit.normal : hit.normal;
-        found[p * kRaysOfPoint + k] = GatherPoint{rays.groupOf(hit), P, n, hashCombine(key, k), pixelSize(camera, P), 0, vec3(0), 0};
+        const vec3 P = ray.origin + hit.t * ray.direction,
+                   n = dot(ray.direction, hit.geometricNormal) > 0 ? -hit.normal : hit.normal;
+        found[p * kRaysOfPoint + k] =
+            GatherPoint{rays.groupOf(hit), P, n, hashCombine(key, k), pixelSize(camera, P), 0, vec3(0), 0};
       }
     }
   });
@@ -72,11 +78,12 @@ std::vector<GatherPoint> BounceCaches::hitsFrom(const RayScene& rays, const Came
   return out;
 }
 
-std::vector<IrradianceRecord> BounceCaches::recordsAt(const RayTools& tools, const std::vector<GatherPoint>& points, const GatherSettings& settings,
-                                                      const Run& run) const {
+std::vector<IrradianceRecord> BounceCaches::recordsAt(const RayTools& tools, const std::vector<GatherPoint>& points,
+                                                      const GatherSettings& settings, const Run& run) const {
   std::vector<IrradianceRecord> records(points.size());
   parallelFor(points.size(), 1, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end && !run.isCancelled(); ++i) records[i] = gather(*tools.rays, *tools.shading, points[i], settings, {}, run.stats);
+    for (size_t i = begin; i < end && !run.isCancelled(); ++i)
+      records[i] = gather(*tools.rays, *tools.shading, points[i], settings, {}, run.stats);
   });
   return records;
 }
@@ -85,14 +92,15 @@ void BounceCaches::insert(IrradianceCache& level, const std::vector<IrradianceRe
   for (const IrradianceRecord& r : records) level.insert(r), light_.back() += luminance(r.E);
 }
 
-void BounceCaches::cover(const RayTools& tools, const std::vector<GatherPoint>& candidates, const GatherSettings& settings, const Run& run) {
+void BounceCaches::cover(const RayTools& tools, const std::vector<GatherPoint>& candidates,
+                         const GatherSettings& settings, const Run& run) {
   for (int phase = 0; phase < kPhases && points_.size() < kMostRecords && !run.isCancelled(); ++phase) {
     std::vector<uint8_t> open(candidates.size(), 0);
     parallelFor(candidates.size(), 64, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i) {
         const GatherPoint& p = candidates[i];
-        open[i] = phaseOf(p.key) == phase &&
-                  levels_[0].lookup(p.position, p.normal, p.pixelSize).weight < kCoarse.enough;
+        open[i] =
+            phaseOf(p.key) == phase && levels_[0].lookup(p.position, p.normal, p.pixelSize).weight < kCoarse.enough;
       }
     });
     std::vector<GatherPoint> fresh;
@@ -109,7 +117,8 @@ bool BounceCaches::settled() const {
   return n > 2 && light_[n - 1] - light_[n - 3] <= kSettled * light_[n - 1];
 }
 
-void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::vector<GatherPoint>& from, const GatherSettings& gather, int bounces, const Run& run) {
+void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::vector<GatherPoint>& from,
+                        const GatherSettings& gather, int bounces, const Run& run) {
   levels_.clear(), light_.assign(1, 0.0), points_.clear();
   float distance = 0;
   for (const GatherPoint& p : from) distance += glm::length(p.position) / static_cast<float>(from.size());

@@ -1,6 +1,6 @@
-// Private to gi: irradiance caches for the points that gather rays meet, one for each further bounce. They are coarse, as one record
-// averages hundreds of lookups; a hit that none of their records serves goes on as a path.
-// Threads: filled before anything is shaded, frozen after. While a level is filled, the one before is looked up.
+// Private to gi: irradiance caches for the points that gather rays meet, one for each further bounce. They are coarse,
+// as one record averages hundreds of lookups; a hit that none of their records serves goes on as a path. Threads:
+// filled before anything is shaded, frozen after. While a level is filled, the one before is looked up.
 #pragma once
 #include <atomic>
 
@@ -16,18 +16,21 @@ class BounceCaches {
     const std::atomic<bool>* cancelled;  ///< May be null.
     bool isCancelled() const { return cancelled && cancelled->load(std::memory_order_relaxed); }
   };
-  /// Levels for `bounces` of light at points that are gathered at as `gather` says: records where rays from `from` end, and where those
-  /// of these records do. Ends early when another level would add nothing.
-  void fill(const RayTools& tools, const Camera& camera, const std::vector<GatherPoint>& from, const GatherSettings& gather, int bounces,
-            const Run& run);
+  /// Levels for `bounces` of light at points that are gathered at as `gather` says: records where rays from `from` end,
+  /// and where those of these records do. Ends early when another level would add nothing.
+  void fill(const RayTools& tools, const Camera& camera, const std::vector<GatherPoint>& from,
+            const GatherSettings& gather, int bounces, const Run& run);
   /// E/pi after so many bounces. Weight 0: unknown.
-  IrradianceEstimate lookup(int bounces, const Camera& camera, const vec3& P, const vec3& normal, const vec3& shadingNormal) const;
+  IrradianceEstimate lookup(int bounces, const Camera& camera, const vec3& P, const vec3& normal,
+                            const vec3& shadingNormal) const;
 
  private:
-  std::vector<GatherPoint> hitsFrom(const RayScene& rays, const Camera& camera, const std::vector<GatherPoint>& from, uint32_t name) const;
-  void cover(const RayTools& tools, const std::vector<GatherPoint>& candidates, const GatherSettings& gather, const Run& run);
-  std::vector<IrradianceRecord> recordsAt(const RayTools& tools, const std::vector<GatherPoint>& points, const GatherSettings& gather,
-                                          const Run& run) const;
+  std::vector<GatherPoint> hitsFrom(const RayScene& rays, const Camera& camera, const std::vector<GatherPoint>& from,
+                                    uint32_t name) const;
+  void cover(const RayTools& tools, const std::vector<GatherPoint>& candidates, const GatherSettings& gather,
+             const Run& run);
+  std::vector<IrradianceRecord> recordsAt(const RayTools& tools, const std::vector<GatherPoint>& points,
+                                          const GatherSettings& gather, const Run& run) const;
   void insert(IrradianceCache& level, const std::vector<IrradianceRecord>& records);
   bool settled() const;
   float pixelSize(const Camera& camera, const vec3& P) const;

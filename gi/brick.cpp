@@ -18,8 +18,7 @@ struct Steps {
     const bool finite = std::all_of(data.begin(), data.end(), [](float v) { return std::isfinite(v); });
     for (size_t k = 0; k < width; ++k) {
       float least = data[k], most = data[k];
-      for (size_t i = k; i < data.size(); i += width)
-        least = std::min(least, data[i]), most = std::max(most, data[i]);
+      for (size_t i = k; i < data.size(); i += width) least = std::min(least, data[i]), most = std::max(most, data[i]);
       low[k] = least, step[k] = finite ? (most - least) / kMostSteps : kInfinity;
     }
   }
@@ -88,7 +87,9 @@ std::optional<Brick> Brick::of(std::vector<std::byte> bytes, int width) {
   if (bytes.size() < sizeof(Head)) return std::nullopt;
   Brick out(std::move(bytes), static_cast<size_t>(width));
   const Head& h = out.head();
-  if (h.layers > std::numeric_limits<uint16_t>::max() || h.voxels > kBrickVoxels || out.bytes_.size() != out.wholeSize()) return std::nullopt;
+  if (h.layers > std::numeric_limits<uint16_t>::max() || h.voxels > kBrickVoxels ||
+      out.bytes_.size() != out.wholeSize())
+    return std::nullopt;
   size_t filled = 0;
   for (size_t slab = 0; slab < h.filled.size(); ++slab) {
     if (h.before[slab] != filled) return std::nullopt;
@@ -97,7 +98,8 @@ std::optional<Brick> Brick::of(std::vector<std::byte> bytes, int width) {
   if (h.voxels != filled || (!h.several && h.layers != filled)) return std::nullopt;
   if (h.several) {
     const std::span first(out.at<uint16_t>(out.firstAt()), filled + 1);
-    if (first.front() != 0 || first.back() != h.layers || !std::is_sorted(first.begin(), first.end())) return std::nullopt;
+    if (first.front() != 0 || first.back() != h.layers || !std::is_sorted(first.begin(), first.end()))
+      return std::nullopt;
   }
   const std::span numbers(out.at<float>(out.dataAt()), h.rounded ? 2 * out.width_ : h.layers * out.width_);
   if (!std::all_of(numbers.begin(), numbers.end(), [](float v) { return std::isfinite(v); })) return std::nullopt;

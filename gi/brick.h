@@ -1,6 +1,6 @@
-// Noun: a brick, the tile of a brick map (irradiance-atlas 3.1): 8^3 voxels, of which few are filled. A voxel has a layer for
-// every surface and direction that it faces, each with the mean of the data there. Over point clouds and reyes/base.
-// Threads: plain data.
+// Noun: a brick, the tile of a brick map (irradiance-atlas 3.1): 8^3 voxels, of which few are filled. A voxel has a
+// layer for every surface and direction that it faces, each with the mean of the data there. Over point clouds and
+// reyes/base. Threads: plain data.
 #pragma once
 #include <array>
 #include <bit>
@@ -32,7 +32,8 @@ inline int voxelIndex(int x, int y, int z) { return (z * kBrickWidth + y) * kBri
 
 /// Which way the data of a layer face, in 32 bits.
 struct BrickLayer {
-  int8_t x = 0, y = 0, z = 0;  ///< Mean normal, in 127ths of its length: off by less than half a degree. Zero: volume data.
+  int8_t x = 0, y = 0,
+         z = 0;  ///< Mean normal, in 127ths of its length: off by less than half a degree. Zero: volume data.
   uint8_t incoherent : 1 = 0;  ///< Different layers had to be merged: finer bricks tell them apart.
   uint8_t surface : 7 = 0;     ///< As PointCloud::surface(); 0: not known, or of several.
 
@@ -49,8 +50,7 @@ struct BrickLayer {
     if (of != 0 && surface != 0 && of != surface) return false;
     const vec3 n(x, y, z);
     const float along = dot(N, n), length2 = dot(n, n);
-    return (along > 0 && along * along >= kLayerCosine * kLayerCosine * length2) || length2 == 0 ||
-           N == vec3(0.0f);
+    return (along > 0 && along * along >= kLayerCosine * kLayerCosine * length2) || length2 == 0 || N == vec3(0.0f);
   }
 
  private:
@@ -66,9 +66,9 @@ class Brick {
  public:
   /// While it is made: layers in the order of their voxels.
   struct Parts {
-    std::vector<uint16_t> voxels;    ///< Of each layer.
+    std::vector<uint16_t> voxels;  ///< Of each layer.
     std::vector<BrickLayer> layers;
-    std::vector<float> data;         ///< `width` floats a layer.
+    std::vector<float> data;  ///< `width` floats a layer.
   };
   /// Data that may be off by `tolerance` are kept in 16 bits where that suffices.
   Brick(const Parts& parts, int width, float tolerance);
@@ -77,7 +77,9 @@ class Brick {
 
   bool fills(int voxel) const { return head().filled[static_cast<size_t>(voxel) / 64] >> voxel % 64 & 1; }
   /// Layers [first, end) of a voxel.
-  struct Range { size_t first, end; };
+  struct Range {
+    size_t first, end;
+  };
   Range layersOf(int voxel) const {
     const Head& h = head();
     const auto slab = static_cast<size_t>(voxel) / 64;
@@ -95,8 +97,7 @@ class Brick {
       const auto* low = at<float>(dataAt());
       const float* const step = low + width_;
       const auto* q = reinterpret_cast<const uint16_t*>(step + width_) + layer * width_;
-      forEachChannel(width_,
-                     [&](size_t k) { sum[k] += weight * (low[k] + step[k] * static_cast<float>(q[k])); });
+      forEachChannel(width_, [&](size_t k) { sum[k] += weight * (low[k] + step[k] * static_cast<float>(q[k])); });
       return;
     }
     const auto* data = at<float>(dataAt()) + layer * width_;
@@ -106,14 +107,14 @@ class Brick {
   const std::vector<std::byte>& bytes() const { return bytes_; }
 
  private:
-  /// Then the layers; the data, or for each channel the lowest and the step and then data in steps; and where the layers of each
-  /// filled voxel begin, if some have several.
+  /// Then the layers; the data, or for each channel the lowest and the step and then data in steps; and where the
+  /// layers of each filled voxel begin, if some have several.
   struct Head {
     std::array<uint64_t, kBrickVoxels / 64> filled{};  ///< A bit a voxel.
     std::array<uint16_t, kBrickVoxels / 64> before{};  ///< Filled voxels of lower slabs.
     uint32_t layers = 0;
     uint8_t rounded = 0, several = 0;
-    uint16_t voxels = 0;                               ///< Filled.
+    uint16_t voxels = 0;  ///< Filled.
   };
   static_assert(sizeof(Head) == 88);
 
@@ -125,12 +126,15 @@ class Brick {
     return ((bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0fu) * 0x0101010101010101u >> 56;
   }
   template <class T>
-  const T* at(size_t offset) const { return reinterpret_cast<const T*>(bytes_.data() + offset); }
+  const T* at(size_t offset) const {
+    return reinterpret_cast<const T*>(bytes_.data() + offset);
+  }
   const Head& head() const { return *at<Head>(0); }
   size_t dataAt() const { return sizeof(Head) + head().layers * sizeof(BrickLayer); }
   size_t firstAt() const {
     const size_t values = head().layers * width_;
-    return dataAt() + (head().rounded ? 2 * width_ * sizeof(float) + values * sizeof(uint16_t) : values * sizeof(float));
+    return dataAt() +
+           (head().rounded ? 2 * width_ * sizeof(float) + values * sizeof(uint16_t) : values * sizeof(float));
   }
   size_t wholeSize() const { return firstAt() + (head().several ? (head().voxels + size_t{1}) * sizeof(uint16_t) : 0); }
 
@@ -154,7 +158,7 @@ struct BrickCube {
 struct BrickTree {
   BrickCube cube;
   std::vector<BrickNode> nodes;
-  int deepest = 0;  ///< Level of the finest node; the root's is 0.
+  int deepest = 0;                            ///< Level of the finest node; the root's is 0.
   std::bitset<kMostSurfaces + 1> surfaces{};  ///< That the points told; 0: some told none.
   int32_t root() const { return static_cast<int32_t>(nodes.size()) - 1; }
 };

@@ -7,7 +7,8 @@ namespace {
 
 /// Six sides of a box and a few between: more directions than that in one voxel are foliage or noise.
 constexpr int kMostLayers = 12;
-/// From so many on, surfaces that face alike share one: coarse voxels meet many, and are not asked what finer ones know.
+/// From so many on, surfaces that face alike share one: coarse voxels meet many, and are not asked what finer ones
+/// know.
 constexpr int kSharedFrom = 6;
 
 }  // namespace
@@ -23,21 +24,18 @@ int32_t BrickAccumulator::findLayer(int voxel, const vec3& normal, uint8_t surfa
   int32_t within = -1;
   int count = 0;
   bool doubtful = length2 == 0;
-  for (int32_t l = head_[static_cast<size_t>(voxel)]; l >= 0;
-       l = layers_[static_cast<size_t>(l)].next, ++count) {
+  for (int32_t l = head_[static_cast<size_t>(voxel)]; l >= 0; l = layers_[static_cast<size_t>(l)].next, ++count) {
     const LayerSum& layer = layers_[static_cast<size_t>(l)];
     const float along = dot(layer.normal, normal);
     // As continues(), but all of it whatever comes first: chance decides, and a processor guesses chance
     // wrong.
     const bool candidate = static_cast<bool>((layer.surface == surface) & (along > 0));
-    const bool near =
-        static_cast<bool>(candidate & (along * along >= kLayerCosine * kLayerCosine *
-                                                            dot(layer.normal, layer.normal) * length2));
+    const bool near = static_cast<bool>(
+        candidate & (along * along >= kLayerCosine * kLayerCosine * dot(layer.normal, layer.normal) * length2));
     doubtful |= (candidate & (along < kTinyProduct)) | (near & (within >= 0));
     within = near ? l : within;
   }
-  return doubtful || (within < 0 && count >= kSharedFrom) ? findNearest(voxel, normal, surface, merged)
-                                                          : within;
+  return doubtful || (within < 0 && count >= kSharedFrom) ? findNearest(voxel, normal, surface, merged) : within;
 }
 
 int32_t BrickAccumulator::findNearest(int voxel, const vec3& normal, uint8_t surface, bool& merged) const {
@@ -91,7 +89,8 @@ float BrickAccumulator::addChild(const BrickAccumulator& child, int octant) {
   for (int v = 0; v < kBrickVoxels; ++v) {
     if (child.head_[static_cast<size_t>(v)] < 0) continue;
     const int x = v % kBrickWidth, y = v / kBrickWidth % kBrickWidth, z = v / (kBrickWidth * kBrickWidth);
-    const int to = voxelIndex((octant & 1 ? half : 0) + x / 2, (octant & 2 ? half : 0) + y / 2, (octant & 4 ? half : 0) + z / 2);
+    const int to =
+        voxelIndex((octant & 1 ? half : 0) + x / 2, (octant & 2 ? half : 0) + y / 2, (octant & 4 ? half : 0) + z / 2);
     for (int32_t l = child.head_[static_cast<size_t>(v)]; l >= 0; l = child.layers_[static_cast<size_t>(l)].next) {
       const LayerSum& sum = child.layers_[static_cast<size_t>(l)];
       const float* data = child.data_.data() + static_cast<size_t>(l) * width_;
@@ -114,8 +113,7 @@ float BrickAccumulator::addChild(const BrickAccumulator& child, int octant) {
 
 Brick BrickAccumulator::finish(float tolerance) const {
   Brick::Parts parts;
-  parts.voxels.resize(layers_.size()), parts.layers.resize(layers_.size()),
-      parts.data.resize(layers_.size() * width_);
+  parts.voxels.resize(layers_.size()), parts.layers.resize(layers_.size()), parts.data.resize(layers_.size() * width_);
   size_t i = 0;
   for (size_t v = 0; v < kBrickVoxels; ++v)
     for (int32_t l = head_[v]; l >= 0; l = layers_[static_cast<size_t>(l)].next) {

@@ -45,8 +45,7 @@ class BrickAccumulator {
   static bool continues(const LayerSum& layer, const vec3& normal, uint8_t surface) {
     const float along = dot(layer.normal, normal);
     return layer.surface == surface && along > kTinyProduct &&
-           along * along >=
-               kLayerCosine * kLayerCosine * dot(layer.normal, layer.normal) * dot(normal, normal);
+           along * along >= kLayerCosine * kLayerCosine * dot(layer.normal, layer.normal) * dot(normal, normal);
   }
   void addTo(int32_t l, const vec3& normal, float weight, const float* data, float share) {
     LayerSum& layer = layers_[static_cast<size_t>(l)];
@@ -55,8 +54,7 @@ class BrickAccumulator {
     float* to = data_.data() + static_cast<size_t>(l) * width_;
     forEachChannel(width_, [&](size_t k) { to[k] += share * data[k]; });
   }
-  int32_t addToOneOfMany(int voxel, const vec3& normal, float weight, uint8_t surface, const float* data,
-                         float share);
+  int32_t addToOneOfMany(int voxel, const vec3& normal, float weight, uint8_t surface, const float* data, float share);
   /// merged: there is no room for another, and the one that is found faces elsewhere.
   int32_t findLayer(int voxel, const vec3& normal, uint8_t surface, bool& merged) const;
   int32_t findNearest(int voxel, const vec3& normal, uint8_t surface, bool& merged) const;

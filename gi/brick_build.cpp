@@ -13,8 +13,8 @@ using Members = std::vector<uint32_t>;
 /// A point as voxels meet it. Flat along its normal, or a sphere where it has none.
 struct Spot {
   vec3 center;
-  vec3 half;     ///< Half the sides of the box around it.
-  vec3 normal;   ///< Zero: a sphere.
+  vec3 half;    ///< Half the sides of the box around it.
+  vec3 normal;  ///< Zero: a sphere.
   float radius;
   uint8_t surface;
 };
@@ -43,7 +43,8 @@ struct Shares {
 
 class Builder {
  public:
-  Builder(const BrickCube& cube, int width, const BrickSettings& settings, const std::function<void(const Brick&)>& store)
+  Builder(const BrickCube& cube, int width, const BrickSettings& settings,
+          const std::function<void(const Brick&)>& store)
       : settings_(settings), store_(store), width_(static_cast<size_t>(width)) {
     out_.tree.cube = cube;
   }
@@ -113,10 +114,15 @@ class Builder {
     });
   }
 
-  vec3 corner(int level, const glm::ivec3& place) const { return out_.tree.cube.lo + std::ldexp(out_.tree.cube.size, -level) * vec3(place); }
-  static glm::ivec3 placeOfChild(const glm::ivec3& place, int octant) { return place * 2 + glm::ivec3(octant & 1, octant >> 1 & 1, octant >> 2 & 1); }
+  vec3 corner(int level, const glm::ivec3& place) const {
+    return out_.tree.cube.lo + std::ldexp(out_.tree.cube.size, -level) * vec3(place);
+  }
+  static glm::ivec3 placeOfChild(const glm::ivec3& place, int octant) {
+    return place * 2 + glm::ivec3(octant & 1, octant >> 1 & 1, octant >> 2 & 1);
+  }
 
-  /// Fills the sums of `level` with the cube at `place`, in cubes of that level, and `node` with the children that are kept.
+  /// Fills the sums of `level` with the cube at `place`, in cubes of that level, and `node` with the children that are
+  /// kept.
   void accumulate(int level, const glm::ivec3& place, const Members& members, BrickNode& node) {
     Level& here = at(level);
     here.sums.clear();
@@ -143,7 +149,8 @@ class Builder {
       Members members = use(cloud);
       std::erase_if(members, [&](uint32_t i) {  // as partition() does
         const Spot& s = spots_[i];
-        return glm::any(glm::greaterThanEqual(s.center - s.half, box.hi)) || glm::any(glm::lessThan(s.center + s.half, box.lo));
+        return glm::any(glm::greaterThanEqual(s.center - s.half, box.hi)) ||
+               glm::any(glm::lessThan(s.center + s.half, box.lo));
       });
       accumulate(level, place, members, node);
       return !members.empty();
@@ -151,8 +158,7 @@ class Builder {
     at(level).sums.clear();
     for (int octant = 0; octant < 8; ++octant) {
       BrickNode child;
-      if (accumulate(tiles, most, level + 1, placeOfChild(place, octant), child))
-        addChild(level, octant, child, node);
+      if (accumulate(tiles, most, level + 1, placeOfChild(place, octant), child)) addChild(level, octant, child, node);
     }
     return true;
   }
@@ -198,8 +204,8 @@ class Builder {
           if (std::abs(xs.height[x] + ys.height[y] + zs.height[z]) > reach) continue;
           const float weight = size * xs.share[x] * ys.share[y] * zs.share[z];
           if (weight > 0)
-            to.add(voxelIndex(static_cast<int>(x), static_cast<int>(y), static_cast<int>(z)), weight * n,
-                   weight, s.surface, data, weight);
+            to.add(voxelIndex(static_cast<int>(x), static_cast<int>(y), static_cast<int>(z)), weight * n, weight,
+                   s.surface, data, weight);
         }
   }
 
@@ -214,12 +220,14 @@ class Builder {
 
 }  // namespace
 
-BuiltBricks buildBricks(const PointCloud& cloud, const BrickSettings& settings, const std::function<void(const Brick&)>& store) {
+BuiltBricks buildBricks(const PointCloud& cloud, const BrickSettings& settings,
+                        const std::function<void(const Brick&)>& store) {
   if (cloud.count() == 0) return {};
   return Builder(cubeAround(cloud.bound()), widthOf(dataOf(cloud.channels)), settings, store).run(cloud);
 }
 
-BuiltBricks buildBricks(const PointTiles& tiles, const BrickSettings& settings, const std::function<void(const Brick&)>& store, uint64_t most) {
+BuiltBricks buildBricks(const PointTiles& tiles, const BrickSettings& settings,
+                        const std::function<void(const Brick&)>& store, uint64_t most) {
   if (tiles.file().count() == 0) return {};
   return Builder(tiles.cube(), widthOf(dataOf(tiles.file().channels())), settings, store).run(tiles, most);
 }

@@ -9,7 +9,7 @@
 namespace tomales {
 namespace {
 
-constexpr size_t kShards = 16;  // each with its own lock and share of the budget
+constexpr size_t kShards = 16;         // each with its own lock and share of the budget
 constexpr size_t kBytesOfEntry = 192;  // of the index, the turns and the allocator, in about
 
 }  // namespace

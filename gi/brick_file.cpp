@@ -29,7 +29,8 @@ BrickFile::BrickFile(const std::string& path) : file_(path, kKind, kVersion) {
   tree_.nodes = r.getVector<BrickNode>();
   for (const uint8_t surface : r.getVector<uint8_t>()) tree_.surfaces.set(surface & kMostSurfaces);
   madeFrom_ = r.get<MadeFrom>();
-  if (!sound(tree_) || tree_.nodes.size() != file_.count()) throw FileError(fmt::format("\"{}\" is damaged: its octree does not add up", path));
+  if (!sound(tree_) || tree_.nodes.size() != file_.count())
+    throw FileError(fmt::format("\"{}\" is damaged: its octree does not add up", path));
 }
 
 Brick BrickFile::brick(int32_t node) const {
@@ -42,7 +43,8 @@ BrickFileWriter::BrickFileWriter(const std::string& path) : file_(path, kKind, k
 
 void BrickFileWriter::add(const Brick& brick) { file_.add(brick.bytes()); }
 
-void BrickFileWriter::finish(const std::vector<CloudChannel>& channels, const BrickTree& tree, const MadeFrom& madeFrom) {
+void BrickFileWriter::finish(const std::vector<CloudChannel>& channels, const BrickTree& tree,
+                             const MadeFrom& madeFrom) {
   ByteWriter header;
   putChannels(header, channels);
   header.put(tree.cube);
@@ -61,7 +63,11 @@ PointCloud voxelsOf(const BrickFile& file, int level) {
   PointCloud out;
   out.channels = file.channels();
   std::vector<float> values(static_cast<size_t>(file.width()));
-  struct Place { int32_t node; int level; vec3 lo; };
+  struct Place {
+    int32_t node;
+    int level;
+    vec3 lo;
+  };
   std::vector<Place> todo;
   if (tree.root() >= 0) todo.push_back({tree.root(), 0, tree.cube.lo});
   while (!todo.empty()) {
@@ -72,17 +78,20 @@ PointCloud voxelsOf(const BrickFile& file, int level) {
     const float half = std::ldexp(tree.cube.size, -p.level - 1), voxel = tree.cube.voxelSize(p.level);
     for (size_t octant = 0; octant < 8; ++octant)
       if (deeper && node.child[octant] >= 0)
-        todo.push_back({node.child[octant], p.level + 1, p.lo + half * vec3(octant & 1, octant >> 1 & 1, octant >> 2 & 1)});
+        todo.push_back(
+            {node.child[octant], p.level + 1, p.lo + half * vec3(octant & 1, octant >> 1 & 1, octant >> 2 & 1)});
     const Brick brick = file.brick(p.node);
     for (int v = 0; v < kBrickVoxels; ++v) {
       const int x = v % kBrickWidth, y = v / kBrickWidth % kBrickWidth, z = v / (kBrickWidth * kBrickWidth);
-      const auto octant = static_cast<size_t>((x >= kBrickWidth / 2) | (y >= kBrickWidth / 2) << 1 | (z >= kBrickWidth / 2) << 2);
+      const auto octant =
+          static_cast<size_t>((x >= kBrickWidth / 2) | (y >= kBrickWidth / 2) << 1 | (z >= kBrickWidth / 2) << 2);
       if (deeper && node.child[octant] >= 0) continue;
       const Brick::Range layers = brick.layersOf(v);
       for (size_t l = layers.first; l < layers.end; ++l) {
         std::fill(values.begin(), values.end(), 0.0f);
         brick.add(l, 1, values.data());
-        out.add(p.lo + voxel * (vec3(x, y, z) + 0.5f), brick.layer(l).normal(), 0.5f * std::sqrt(3.0f) * voxel, values.data());
+        out.add(p.lo + voxel * (vec3(x, y, z) + 0.5f), brick.layer(l).normal(), 0.5f * std::sqrt(3.0f) * voxel,
+                values.data());
       }
     }
   }

@@ -1,6 +1,7 @@
-// Noun: a brick map (irradiance-atlas 3) on disk, .bkm: a tiled 3D MIP map of data on surfaces or in volumes. A file of chunks
-// (reyes/base/chunk_file.h), one a brick; its header has the channels, the octree, and what the map was made of.
-// Space: that of the points it was made from (world). Threads: const members may be called concurrently; a writer belongs to one thread.
+// Noun: a brick map (irradiance-atlas 3) on disk, .bkm: a tiled 3D MIP map of data on surfaces or in volumes. A file of
+// chunks (reyes/base/chunk_file.h), one a brick; its header has the channels, the octree, and what the map was made of.
+// Space: that of the points it was made from (world). Threads: const members may be called concurrently; a writer
+// belongs to one thread.
 #pragma once
 #include <string>
 
@@ -33,15 +34,15 @@ class BrickFile {
 class BrickFileWriter {
  public:
   explicit BrickFileWriter(const std::string& path);  ///< Throws FileError, as every member.
-  void add(const Brick& brick);  ///< In the order of the nodes.
+  void add(const Brick& brick);                       ///< In the order of the nodes.
   void finish(const std::vector<CloudChannel>& channels, const BrickTree& tree, const MadeFrom& madeFrom);
 
  private:
   ChunkWriter file_;
 };
 
-/// The voxels of one level, and of coarser bricks where that level has none; level < 0: the finest. They are disks as wide as the voxel is
-/// across its corners, so that neighbours meet whichever way their surface goes. Throws FileError.
+/// The voxels of one level, and of coarser bricks where that level has none; level < 0: the finest. They are disks as
+/// wide as the voxel is across its corners, so that neighbours meet whichever way their surface goes. Throws FileError.
 PointCloud voxelsOf(const BrickFile& file, int level);
 
 }  // namespace tomales

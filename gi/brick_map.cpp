@@ -10,11 +10,11 @@ namespace tomales {
 struct BrickMap::Sum {
   float* data = nullptr;
   float weight = 0;
-  int surface = 0;               ///< That is asked for.
+  int surface = 0;  ///< That is asked for.
   // Most voxels of a lookup lie in one brick:
-  int level = -1;                ///< The last was asked for at this level,
-  glm::ivec3 place{0};           ///< here, in bricks of that level,
-  int foundLevel = -1;           ///< was found at this one,
+  int level = -1;                         ///< The last was asked for at this level,
+  glm::ivec3 place{0};                    ///< here, in bricks of that level,
+  int foundLevel = -1;                    ///< was found at this one,
   std::array<int32_t, kMostLevels> path;  ///< below these nodes, the last of which is its own.
   BrickPtr brick;
 
@@ -30,7 +30,9 @@ BrickMap::BrickMap(const PointCloud& cloud) : channels_(dataOf(cloud.channels)),
   if (width_ > kMostWidth) throw FileError(fmt::format("more than {} floats a point", kMostWidth));
   BrickSettings settings;
   settings.maxError = 0;
-  tree_ = buildBricks(cloud, settings, [&](const Brick& brick) { bricks_.push_back(std::make_shared<const Brick>(brick)); }).tree;
+  tree_ = buildBricks(cloud, settings, [&](const Brick& brick) {
+            bricks_.push_back(std::make_shared<const Brick>(brick));
+          }).tree;
 }
 
 BrickPtr BrickMap::cached(int32_t node) const {
@@ -89,7 +91,8 @@ void BrickMap::addLevel(int level, const vec3& P, const vec3& N, float halfWidth
   const int end = kBrickWidth << level;
   const vec3 p = (P - tree().cube.lo) / voxel;
   const float h = std::min(halfWidth / voxel, 1.0f);  // farther than two voxels only where the root is still too fine
-  if (glm::any(glm::lessThan(p, vec3(-2.0f))) || glm::any(glm::greaterThan(p, vec3(static_cast<float>(end) + 2)))) return;
+  if (glm::any(glm::lessThan(p, vec3(-2.0f))) || glm::any(glm::greaterThan(p, vec3(static_cast<float>(end) + 2))))
+    return;
   const Reach xs(p.x, h, end), ys(p.y, h, end), zs(p.z, h, end);
   std::array<float, kMostWidth> own;
   std::fill_n(own.begin(), width(), 0.0f);
@@ -129,8 +132,7 @@ void BrickMap::find(int level, const glm::ivec3& place, Sum& sum) const {
 }
 
 /// Pre: the voxel is filled, and its brick is found.
-void BrickMap::addLayers(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum,
-                         int depth) const {
+void BrickMap::addLayers(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum, int depth) const {
   const Brick::Range layers = sum.brick->layersOf(sum.indexOf(voxel));
   if (sum.foundLevel == level && level < tree().deepest && depth < 2 && N != vec3(0.0f)) {
     bool incoherent = false;
@@ -146,8 +148,7 @@ void BrickMap::addLayers(int level, const glm::ivec3& voxel, const vec3& N, floa
 
 /// Where too many directions met in a voxel, finer ones tell them apart (3.3). That covers every layer of it.
 /// False: nothing is found there.
-bool BrickMap::addFiner(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum,
-                        int depth) const {
+bool BrickMap::addFiner(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum, int depth) const {
   const float before = sum.weight;
   for (int k = 0; k < 8; ++k)
     addVoxel(level + 1, voxel * 2 + glm::ivec3(k & 1, k >> 1 & 1, k >> 2 & 1), N, weight / 8, sum, depth + 1);
@@ -160,8 +161,8 @@ namespace {
 
 /// `points`: in memory or on disk.
 template <class Points>
-BuiltBricks write(const Points& points, const std::vector<CloudChannel>& channels, const BrickSettings& settings, const std::string& path,
-                  const MadeFrom& madeFrom) {
+BuiltBricks write(const Points& points, const std::vector<CloudChannel>& channels, const BrickSettings& settings,
+                  const std::string& path, const MadeFrom& madeFrom) {
   BrickFileWriter file(path);
   BuiltBricks built = buildBricks(points, settings, [&](const Brick& brick) { file.add(brick); });
   file.finish(channels, built.tree, madeFrom);
@@ -170,12 +171,14 @@ BuiltBricks write(const Points& points, const std::vector<CloudChannel>& channel
 
 }  // namespace
 
-BuiltBricks writeBrickMap(const PointCloud& cloud, const BrickSettings& settings, const std::string& path, const MadeFrom& madeFrom) {
+BuiltBricks writeBrickMap(const PointCloud& cloud, const BrickSettings& settings, const std::string& path,
+                          const MadeFrom& madeFrom) {
   if (cloud.width() > kMostWidth) throw FileError(fmt::format("\"{}\": more than {} floats a point", path, kMostWidth));
   return write(cloud, dataOf(cloud.channels), settings, path, madeFrom);
 }
 
-BuiltBricks writeBrickMap(const PointTiles& points, const BrickSettings& settings, const std::string& path, const MadeFrom& madeFrom) {
+BuiltBricks writeBrickMap(const PointTiles& points, const BrickSettings& settings, const std::string& path,
+                          const MadeFrom& madeFrom) {
   return write(points, dataOf(points.file().channels()), settings, path, madeFrom);
 }
 

@@ -1,5 +1,5 @@
-// Verb: lookups in a brick map (irradiance-atlas 3.3), of which the octree is in memory and bricks come through a cache.
-// Space: that of the points it was made from (world). Threads: const members may be called concurrently.
+// Verb: lookups in a brick map (irradiance-atlas 3.3), of which the octree is in memory and bricks come through a
+// cache. Space: that of the points it was made from (world). Threads: const members may be called concurrently.
 #pragma once
 #include <memory>
 
@@ -12,26 +12,28 @@ namespace tomales {
 class BrickMap {
  public:
   /// Throws FileError. The cache must outlive the map.
-  BrickMap(const std::string& path, BrickCache& cache) : file_(std::make_unique<const BrickFile>(path)), cache_(&cache), id_(cache.addMap()) {}
+  BrickMap(const std::string& path, BrickCache& cache)
+      : file_(std::make_unique<const BrickFile>(path)), cache_(&cache), id_(cache.addMap()) {}
   /// Of a cloud that is small enough to be held whole, nothing left out. Throws FileError.
   explicit BrickMap(const PointCloud& cloud);
 
   const BrickFile& file() const { return *file_; }  ///< Pre: it was made of one.
   const std::vector<CloudChannel>& channels() const { return file_ ? file_->channels() : channels_; }
   int width() const { return file_ ? file_->width() : width_; }  ///< Floats of one lookup.
-  bool knows(int surface) const { return surface > 0 && surface <= kMostSurfaces && tree().surfaces[static_cast<size_t>(surface)]; }
+  bool knows(int surface) const {
+    return surface > 0 && surface <= kMostSurfaces && tree().surfaces[static_cast<size_t>(surface)];
+  }
 
-  /// Data around P on surfaces that face as N does (N zero: whatever they face), averaged over a cube of half width `radius`:
-  /// linear between voxels and between levels (3.3). Where the finest voxels there are empty, coarser ones answer. False: there
-  /// is nothing near, and `out` (width() floats) is zero. `surface`: what lies on another does not count, where the map knows() this one.
-  /// Throws FileError where the file is damaged.
+  /// Data around P on surfaces that face as N does (N zero: whatever they face), averaged over a cube of half width
+  /// `radius`: linear between voxels and between levels (3.3). Where the finest voxels there are empty, coarser ones
+  /// answer. False: there is nothing near, and `out` (width() floats) is zero. `surface`: what lies on another does not
+  /// count, where the map knows() this one. Throws FileError where the file is damaged.
   bool lookup(const vec3& P, const vec3& N, float radius, float* out, int surface = 0) const;
 
  private:
   struct Sum;
   void addLevel(int level, const vec3& P, const vec3& N, float halfWidth, float weight, Sum& sum) const;
-  inline void addVoxel(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum,
-                       int depth) const;
+  inline void addVoxel(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum, int depth) const;
   void addLayers(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum, int depth) const;
   bool addFiner(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum, int depth) const;
   void find(int level, const glm::ivec3& place, Sum& sum) const;
@@ -48,7 +50,9 @@ class BrickMap {
 };
 
 /// Makes FILE.bkm of a cloud in memory or on disk. Throws FileError.
-BuiltBricks writeBrickMap(const PointTiles& points, const BrickSettings& settings, const std::string& path, const MadeFrom& madeFrom = {});
-BuiltBricks writeBrickMap(const PointCloud& cloud, const BrickSettings& settings, const std::string& path, const MadeFrom& madeFrom = {});
+BuiltBricks writeBrickMap(const PointTiles& points, const BrickSettings& settings, const std::string& path,
+                          const MadeFrom& madeFrom = {});
+BuiltBricks writeBrickMap(const PointCloud& cloud, const BrickSettings& settings, const std::string& path,
+                          const MadeFrom& madeFrom = {});
 
 }  // namespace tomales

@@ -7,12 +7,13 @@ namespace tomales {
 namespace {
 
 constexpr size_t kMostSpots = 64, kMostHits = 1 << 15;
-constexpr size_t kLeastHits = 4;   ///< Of a spot: one hit may be a mirror's, or chance.
+constexpr size_t kLeastHits = 4;  ///< Of a spot: one hit may be a mirror's, or chance.
 constexpr size_t kHitsToSplit = 16;
-constexpr float kNearest = 3;      ///< Radii: the rays of the hemisphere find what is nearer.
+constexpr float kNearest = 3;  ///< Radii: the rays of the hemisphere find what is nearer.
 constexpr float kRounding = 1e-3f;
-constexpr float kFlat = 0.02f;     ///< Radii, and one less the length of the mean normal: what is flatter is a rectangle.
-constexpr float kGap = 1.4f;        ///< Mean distances between hits, by which they may fall short of a border. Less leaves noise, more rays miss.
+constexpr float kFlat = 0.02f;  ///< Radii, and one less the length of the mean normal: what is flatter is a rectangle.
+constexpr float kGap = 1.4f;    ///< Mean distances between hits, by which they may fall short of a border. Less leaves
+                                ///< noise, more rays miss.
 constexpr float kNarrowest = 0.05f;  ///< Of a rectangle's other edge.
 
 /// Hits close to each other that look the same way.
@@ -32,7 +33,9 @@ struct Cluster {
     turn *= dot(bound.size(), bound.size());
   }
   static int widest(const vec3& v) { return v.x >= v.y && v.x >= v.z ? 0 : v.y >= v.z ? 1 : 2; }
-  float spread() const { return hits.size() < kHitsToSplit ? 0.0f : std::max(variance[widest(variance)], turn[widest(turn)]); }
+  float spread() const {
+    return hits.size() < kHitsToSplit ? 0.0f : std::max(variance[widest(variance)], turn[widest(turn)]);
+  }
   size_t splitAtMean() {
     const bool byPosition = variance[widest(variance)] >= turn[widest(turn)];
     const int axis = byPosition ? widest(variance) : widest(turn);
@@ -42,16 +45,19 @@ struct Cluster {
     return static_cast<size_t>(middle - hits.begin());
   }
 
-  /// Hits do not reach the borders of what they hit, and its corners by even less: by about the distance between hits. What is left out is
-  /// found by the rays of the hemisphere alone, with all their noise.
+  /// Hits do not reach the borders of what they hit, and its corners by even less: by about the distance between hits.
+  /// What is left out is found by the rays of the hemisphere alone, with all their noise.
   float margin() const { return 1 + 2 * kGap / std::sqrt(static_cast<float>(hits.size())); }
   BrightSpots::Spot spot() const {
     float radiance = 0;
     for (const BrightHit& h : hits) radiance += h.radiance / static_cast<float>(hits.size());
     const float radius = 0.5f * margin() * glm::length(bound.size()), agreement = glm::length(normal);
     const vec3 n = agreement > 1 - kFlat ? normal / agreement : vec3(0);
-    const bool flat = n != vec3(0) && std::all_of(hits.begin(), hits.end(), [&](const BrightHit& h) { return std::abs(dot(h.position - mean, n)) < kFlat * radius; });
-    return flat ? rectangle(n, radiance) : BrightSpots::Spot{bound.center(), radius, radiance, vec3(0), vec2(1 / margin())};
+    const bool flat = n != vec3(0) && std::all_of(hits.begin(), hits.end(), [&](const BrightHit& h) {
+                        return std::abs(dot(h.position - mean, n)) < kFlat * radius;
+                      });
+    return flat ? rectangle(n, radiance)
+                : BrightSpots::Spot{bound.center(), radius, radiance, vec3(0), vec2(1 / margin())};
   }
   BrightSpots::Spot rectangle(const vec3& n, float radiance) const {
     vec3 u(0), v;
@@ -62,8 +68,10 @@ struct Cluster {
       const vec2 at(dot(h.position - mean, u), dot(h.position - mean, v));
       low = glm::min(low, at), high = glm::max(high, at);
     }
-    const vec2 middle = 0.5f * (low + high), found = 0.5f * margin() * (high - low), half = glm::max(found, kNarrowest * vec2(found.y, found.x));
-    return {mean + middle.x * u + middle.y * v, glm::length(half), radiance, n, 0.5f * (high - low) / half, half.x * u, half.y * v};
+    const vec2 middle = 0.5f * (low + high), found = 0.5f * margin() * (high - low),
+               half = glm::max(found, kNarrowest * vec2(found.y, found.x));
+    return {mean + middle.x * u + middle.y * v, glm::length(half), radiance,  n,
+            0.5f * (high - low) / half,         half.x * u,        half.y * v};
   }
 };
 
@@ -73,12 +81,14 @@ void BrightSpots::learn(const std::vector<BrightFind>& finds) {
   for (const BrightFind& find : finds) {
     irradiance_ += find.irradiance, ++records_;
     const size_t room = kMostHits - hits_.size();
-    hits_.insert(hits_.end(), find.hits.begin(), find.hits.begin() + static_cast<ptrdiff_t>(std::min(room, find.hits.size())));
+    hits_.insert(hits_.end(), find.hits.begin(),
+                 find.hits.begin() + static_cast<ptrdiff_t>(std::min(room, find.hits.size())));
   }
   std::vector<BrightHit> hits = hits_;
   std::vector<Cluster> clusters{Cluster(hits)};
   while (clusters.size() < kMostSpots) {
-    const auto widest = std::max_element(clusters.begin(), clusters.end(), [](const Cluster& a, const Cluster& b) { return a.spread() < b.spread(); });
+    const auto widest = std::max_element(clusters.begin(), clusters.end(),
+                                         [](const Cluster& a, const Cluster& b) { return a.spread() < b.spread(); });
     const std::span<BrightHit> members = widest->hits;
     const size_t middle = widest->spread() > 0 ? widest->splitAtMean() : 0;
     if (middle == 0 || middle == members.size()) break;
@@ -96,11 +106,13 @@ SpotAim::SpotAim(const BrightSpots& spots, const vec3& position, const vec3& nor
     const float distance = glm::length(path), sine = s.radius / distance;
     if (!(distance > kNearest * s.radius)) continue;
     const vec3 axis = path / distance;
-    const float area = s.normal == vec3(0) ? kPi * s.radius * s.radius
-                                           : 4 * glm::length(s.halfU) * glm::length(s.halfV) * std::max(0.0f, -dot(axis, s.normal));
+    const float area = s.normal == vec3(0)
+                           ? kPi * s.radius * s.radius
+                           : 4 * glm::length(s.halfU) * glm::length(s.halfV) * std::max(0.0f, -dot(axis, s.normal));
     const float covered = area / (kPi * distance * distance) * std::min(1.0f, dot(axis, normal) + sine);
     if (covered <= 0 || s.radiance <= 0) continue;
-    targets_.push_back({path, axis, s.normal, s.halfU, s.halfV, s.found, sine * sine / (1 + std::sqrt(1 - sine * sine)), s.radiance * covered, covered});
+    targets_.push_back({path, axis, s.normal, s.halfU, s.halfV, s.found, sine * sine / (1 + std::sqrt(1 - sine * sine)),
+                        s.radiance * covered, covered});
   }
   settle();
 }
@@ -135,7 +147,8 @@ vec3 SpotAim::probe(size_t target, const vec2& xi) const {
 }
 
 vec3 SpotAim::direction(float choice, const vec2& xi) const {
-  const auto found = std::find_if(targets_.begin(), targets_.end() - 1, [&](const Target& t) { return choice * irradiance_ < t.upTo; });
+  const auto found = std::find_if(targets_.begin(), targets_.end() - 1,
+                                  [&](const Target& t) { return choice * irradiance_ < t.upTo; });
   return normalizeOr(found->toward(xi), found->axis);
 }
 
@@ -149,7 +162,8 @@ float SpotAim::density(const vec3& direction) const {
     }
     const float cosine = -dot(direction, t.normal), distance = -dot(t.path, t.normal) / cosine;
     const vec3 off = distance * direction - t.path;
-    const bool inside = std::abs(dot(off, t.u)) <= (1 + kRounding) * dot(t.u, t.u) && std::abs(dot(off, t.v)) <= (1 + kRounding) * dot(t.v, t.v);
+    const bool inside = std::abs(dot(off, t.u)) <= (1 + kRounding) * dot(t.u, t.u) &&
+                        std::abs(dot(off, t.v)) <= (1 + kRounding) * dot(t.v, t.v);
     if (cosine > 0 && inside) sum += t.density * distance * distance / cosine;
   }
   return sum;

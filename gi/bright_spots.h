@@ -1,6 +1,6 @@
-// Noun: where gather rays have found light much brighter than what is around, as rectangles and spheres at which later records aim some
-// of their rays. Over reyes/base alone. Radiance and E/pi are luminances here.
-// Space: that of the caller. Threads: const members may be called concurrently.
+// Noun: where gather rays have found light much brighter than what is around, as rectangles and spheres at which later
+// records aim some of their rays. Over reyes/base alone. Radiance and E/pi are luminances here. Space: that of the
+// caller. Threads: const members may be called concurrently.
 #pragma once
 #include <vector>
 
@@ -25,15 +25,17 @@ class BrightSpots {
   struct Spot {
     vec3 center;
     float radius, radiance;
-    vec3 normal;                ///< Of a rectangle that shines to that side; 0: a sphere.
-    vec2 found{1};              ///< Share of its extents in which hits were: around them is a margin.
-    vec3 halfU{0}, halfV{0};    ///< From the rectangle's centre to the middles of two edges, perpendicular.
+    vec3 normal;              ///< Of a rectangle that shines to that side; 0: a sphere.
+    vec2 found{1};            ///< Share of its extents in which hits were: around them is a margin.
+    vec3 halfU{0}, halfV{0};  ///< From the rectangle's centre to the middles of two edges, perpendicular.
   };
   /// The same spots for the same finds in the same order.
   void learn(const std::vector<BrightFind>& finds);
   const std::vector<Spot>& spots() const { return spots_; }
   /// Mean of all finds.
-  float irradiance() const { return records_ > 0 ? static_cast<float>(irradiance_ / static_cast<double>(records_)) : 0.0f; }
+  float irradiance() const {
+    return records_ > 0 ? static_cast<float>(irradiance_ / static_cast<double>(records_)) : 0.0f;
+  }
 
  private:
   std::vector<BrightHit> hits_;
@@ -65,15 +67,16 @@ class SpotAim {
   float density(const vec3& direction) const;
 
  private:
-  /// A cone of directions, or a rectangle, whose points are chosen evenly: seen from the side it is much less than the cone around it.
+  /// A cone of directions, or a rectangle, whose points are chosen evenly: seen from the side it is much less than the
+  /// cone around it.
   struct Target {
-    vec3 path, axis;        ///< To its centre; axis: along it, unit.
-    vec3 normal, u, v;      ///< As Spot's; normal 0: a cone.
+    vec3 path, axis;    ///< To its centre; axis: along it, unit.
+    vec3 normal, u, v;  ///< As Spot's; normal 0: a cone.
     vec2 found;
-    float versine;          ///< One less the cosine of a cone's half angle.
-    float share, covered;   ///< Of irradiance() and coverage().
-    float upTo = 0;         ///< Of the choice.
-    float density = 0;      ///< Of the choice and of the place: of a cone over solid angle, of a rectangle over area.
+    float versine;         ///< One less the cosine of a cone's half angle.
+    float share, covered;  ///< Of irradiance() and coverage().
+    float upTo = 0;        ///< Of the choice.
+    float density = 0;     ///< Of the choice and of the place: of a cone over solid angle, of a rectangle over area.
 
     vec3 toward(const vec2& xi) const;
     float densityOfPlace() const;

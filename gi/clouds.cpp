@@ -55,7 +55,7 @@ PointCloud sorted(const PointCloud& cloud) {
 
 /// None: of a name that there is not.
 std::optional<Translucency> materialOf(const TmSubsurface& s) {
-  const auto triple = [](const float (&v)[3]) { return vec3(v[0], v[1], v[2]); };
+  const auto triple = [](const float(&v)[3]) { return vec3(v[0], v[1], v[2]); };
   if (s.material) return translucencyOf(s.material);
   if (s.meanFreePath[0] != 0) return translucencyOf(triple(s.albedo), triple(s.meanFreePath), s.ior);
   return Translucency{triple(s.scattering), triple(s.absorption), s.ior};
@@ -64,9 +64,12 @@ std::optional<Translucency> materialOf(const TmSubsurface& s) {
 /// What subsurface() cannot reckon with; empty: nothing.
 std::string problemOf(const TmSubsurface& given, const std::optional<Translucency>& material) {
   if (!material) return fmt::format("subsurface material \"{}\" is not known", given.material);
-  if (!(material->ior >= 1 && material->ior <= kMostIor)) return fmt::format("subsurface \"ior\" {} is not between 1 and {}", material->ior, kMostIor);
-  if (!(given.unitLength > 0 && std::isfinite(given.unitLength))) return fmt::format("subsurface \"unitlength\" {} is no length", given.unitLength);
-  if (!isFinite(material->scattering) || !isFinite(material->absorption)) return "subsurface scattering and absorption are not finite";
+  if (!(material->ior >= 1 && material->ior <= kMostIor))
+    return fmt::format("subsurface \"ior\" {} is not between 1 and {}", material->ior, kMostIor);
+  if (!(given.unitLength > 0 && std::isfinite(given.unitLength)))
+    return fmt::format("subsurface \"unitlength\" {} is no length", given.unitLength);
+  if (!isFinite(material->scattering) || !isFinite(material->absorption))
+    return "subsurface scattering and absorption are not finite";
   return {};
 }
 
@@ -110,7 +113,8 @@ const CloudFiles::Opened<BrickMap>& CloudFiles::opened(const std::string& file, 
   const bool isCloud = path.extension() == ".ptc";
   const std::lock_guard lock(mutex_);
   const bool estimates = isCloud && photons;
-  const auto [it, isNew] = opened_.try_emplace({file, estimates ? photons->estimator : 0, estimates ? photons->maxDistance : 0});
+  const auto [it, isNew] =
+      opened_.try_emplace({file, estimates ? photons->estimator : 0, estimates ? photons->maxDistance : 0});
   if (!isNew) return it->second;
   try {
     if (isCloud)
@@ -123,7 +127,8 @@ const CloudFiles::Opened<BrickMap>& CloudFiles::opened(const std::string& file, 
   return it->second;
 }
 
-bool CloudFiles::lookUp(const CloudQuery& q, const std::vector<CloudValue>& values, float* isFound, std::string& problem) {
+bool CloudFiles::lookUp(const CloudQuery& q, const std::vector<CloudValue>& values, float* isFound,
+                        std::string& problem) {
   const Opened<BrickMap>& file = opened(q.file);
   problem = file.problem;
   if (!file.data) return false;
@@ -138,7 +143,8 @@ bool CloudFiles::lookUp(const CloudQuery& q, const std::vector<CloudValue>& valu
       if (!q.active[i]) continue;
       isFound[i] = file.data->lookup(at(q.P, i), at(q.N, i), q.radius[i], data.data()) ? 1.0f : 0.0f;
       for (size_t v = 0; isFound[i] != 0 && v < values.size(); ++v)
-        for (int k = 0; places[v] >= 0 && k < values[v].floats; ++k) values[v].c[k][i] = data[static_cast<size_t>(places[v] + k)];
+        for (int k = 0; places[v] >= 0 && k < values[v].floats; ++k)
+          values[v].c[k][i] = data[static_cast<size_t>(places[v] + k)];
     }
   } catch (const FileError& e) {
     problem = e.what();
@@ -172,7 +178,8 @@ bool CloudFiles::photons(const CloudQuery& q, const TmPhotonLookup& given, TmVec
 }
 
 template <class Data, class Key, class Make>
-const CloudFiles::Opened<Data>& CloudFiles::openedWhole(std::map<Key, Opened<Data>>& known, const Key& key, const std::string& file, const Make& make) {
+const CloudFiles::Opened<Data>& CloudFiles::openedWhole(std::map<Key, Opened<Data>>& known, const Key& key,
+                                                        const std::string& file, const Make& make) {
   const std::lock_guard lock(mutex_);
   const auto [it, isNew] = known.try_emplace(key);
   if (!isNew) return it->second;
@@ -184,11 +191,14 @@ const CloudFiles::Opened<Data>& CloudFiles::openedWhole(std::map<Key, Opened<Dat
   return it->second;
 }
 
-bool CloudFiles::occlusion(const CloudQuery& q, const DisksQuery& query, float* covered, TmVec3 radiance, std::string& problem) {
-  const Opened<Disks>& file = openedWhole(disks_, std::pair(q.file, query.channel), q.file,
-                                          [&](const PointCloud& cloud) { return std::make_unique<const Disks>(cloud, query.channel); });
+bool CloudFiles::occlusion(const CloudQuery& q, const DisksQuery& query, float* covered, TmVec3 radiance,
+                           std::string& problem) {
+  const Opened<Disks>& file =
+      openedWhole(disks_, std::pair(q.file, query.channel), q.file,
+                  [&](const PointCloud& cloud) { return std::make_unique<const Disks>(cloud, query.channel); });
   problem = file.problem;
-  if (file.data && radiance.x && !file.data->sends()) problem = fmt::format("has no channel \"{}\" of 3 floats", query.channel);
+  if (file.data && radiance.x && !file.data->sends())
+    problem = fmt::format("has no channel \"{}\" of 3 floats", query.channel);
   if (!problem.empty()) return false;
   for (int i = 0; i < q.count; ++i) {
     if (!q.active[i] || at(q.N, i) == vec3(0)) continue;
@@ -200,8 +210,8 @@ bool CloudFiles::occlusion(const CloudQuery& q, const DisksQuery& query, float* 
 }
 
 bool CloudFiles::subsurface(const CloudQuery& q, const TmSubsurface& given, TmVec3 out, std::string& problem) {
-  const Opened<Diffusion>& file =
-      openedWhole(diffusing_, q.file, q.file, [](const PointCloud& cloud) { return std::make_unique<const Diffusion>(cloud); });
+  const Opened<Diffusion>& file = openedWhole(
+      diffusing_, q.file, q.file, [](const PointCloud& cloud) { return std::make_unique<const Diffusion>(cloud); });
   problem = file.problem;
   const std::optional<Translucency> material = materialOf(given);
   if (problem.empty()) problem = problemOf(given, material);
@@ -220,7 +230,8 @@ void CloudFiles::write(Log& log) {
     const SourceLoc where{std::make_shared<const std::string>(file), 0};
     if (baked.dropped > 0)
       log.report(Severity::Warning, "bake3d-points-" + file, where,
-                 fmt::format("{} of {} baked points are not finite or have a negative radius; dropped", baked.dropped, baked.dropped + baked.cloud.count()));
+                 fmt::format("{} of {} baked points are not finite or have a negative radius; dropped", baked.dropped,
+                             baked.dropped + baked.cloud.count()));
     try {
       writePointFile(sorted(baked.cloud), file);
     } catch (const FileError& e) {

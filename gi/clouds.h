@@ -1,6 +1,6 @@
-// Composer: point clouds and brick maps as shaders know them, bake3d() and texture3d(). What is baked rests in memory until it is written;
-// what is looked up is opened once: brick maps (.bkm) brick by brick, point clouds (.ptc) whole, as bricks.
-// Threads: bake() and lookUp() may be called concurrently; write() after the last of them.
+// Composer: point clouds and brick maps as shaders know them, bake3d() and texture3d(). What is baked rests in memory
+// until it is written; what is looked up is opened once: brick maps (.bkm) brick by brick, point clouds (.ptc) whole,
+// as bricks. Threads: bake() and lookUp() may be called concurrently; write() after the last of them.
 #pragma once
 #include <map>
 #include <mutex>
@@ -24,7 +24,8 @@ class CloudFiles final : public CloudServices {
   bool occlusion(const CloudQuery&, const DisksQuery&, float* covered, TmVec3 radiance, std::string& problem) override;
   bool subsurface(const CloudQuery&, const TmSubsurface&, TmVec3 out, std::string& problem) override;
 
-  /// All that was baked, as FILE.ptc. The points of a file are sorted by what they are, so that no bit depends on threads or buckets.
+  /// All that was baked, as FILE.ptc. The points of a file are sorted by what they are, so that no bit depends on
+  /// threads or buckets.
   void write(Log& log);
 
  private:
@@ -41,12 +42,14 @@ class CloudFiles final : public CloudServices {
   const Opened<BrickMap>& opened(const std::string& file, const TmPhotonLookup* photons = nullptr);
   /// What `make` makes of all points of a file.
   template <class Data, class Key, class Make>
-  const Opened<Data>& openedWhole(std::map<Key, Opened<Data>>& known, const Key& key, const std::string& file, const Make& make);
+  const Opened<Data>& openedWhole(std::map<Key, Opened<Data>>& known, const Key& key, const std::string& file,
+                                  const Make& make);
 
   const std::string searchPath_;
   std::mutex mutex_;
   std::map<std::string, Baked> baked_;
-  std::map<std::tuple<std::string, int, float>, Opened<BrickMap>> opened_;  ///< By file, estimator and greatest distance.
+  std::map<std::tuple<std::string, int, float>, Opened<BrickMap>>
+      opened_;  ///< By file, estimator and greatest distance.
   std::map<std::string, Opened<Diffusion>> diffusing_;
   std::map<std::pair<std::string, std::string>, Opened<Disks>> disks_;  ///< By file and channel.
   BrickCache cache_;

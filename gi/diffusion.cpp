@@ -13,7 +13,8 @@ constexpr uint32_t kLeaf = 8;
 
 Diffusion::Diffusion(const PointCloud& cloud) {
   const int area = offsetOf(cloud.channels, "_area", 1), light = offsetOf(cloud.channels, "_radiance_t", 3);
-  if (area < 0 || light < 0) throw FileError(area < 0 ? "has no channel \"_area\" of 1 float" : "has no channel \"_radiance_t\" of 3 floats");
+  if (area < 0 || light < 0)
+    throw FileError(area < 0 ? "has no channel \"_area\" of 1 float" : "has no channel \"_radiance_t\" of 3 floats");
   entries_.reserve(cloud.count());
   for (size_t i = 0; i < cloud.count(); ++i) {
     const float *a = cloud.at(i) + area, *E = cloud.at(i) + light;
@@ -34,7 +35,8 @@ uint32_t Diffusion::build(uint32_t begin, uint32_t end) {
   }
   group.all.P = weights > 0 ? group.all.P / weights : group.bound.center();
   const vec3 size = group.bound.size();
-  group.seen = std::max(group.all.area, 0.5f * dot(size, size));  // however few points it has: of a flat square both are its area
+  group.seen = std::max(group.all.area,
+                        0.5f * dot(size, size));  // however few points it has: of a flat square both are its area
   groups_.push_back(group);
   if (end - begin <= kLeaf) return node;
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;

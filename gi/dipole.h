@@ -1,6 +1,6 @@
-// Light that diffuses under the surface of a translucent material: the dipole of Jensen, Marschner, Levoy, Hanrahan 2001 ("A practical model
-// for subsurface light transport"), and its inverse for artists of Jensen, Buhler 2002 ("A rapid hierarchical rendering technique for translucent
-// materials"). Lengths in millimetres. Private to gi.
+// Light that diffuses under the surface of a translucent material: the dipole of Jensen, Marschner, Levoy, Hanrahan
+// 2001 ("A practical model for subsurface light transport"), and its inverse for artists of Jensen, Buhler 2002 ("A
+// rapid hierarchical rendering technique for translucent materials"). Lengths in millimetres. Private to gi.
 #pragma once
 #include <optional>
 #include <string_view>

@@ -9,7 +9,7 @@ constexpr uint32_t kLeaf = 8;
 constexpr int kDirections = 1024;
 constexpr float kGoldenAngle = 2.399963f;  // of a spiral, whose points are nowhere dense
 constexpr float kReach = 0.625f;
-constexpr float kOwnPlane = 0.3f;          // of its radius: nearer, a disk is that of the point itself, or of its neighbours
+constexpr float kOwnPlane = 0.3f;  // of its radius: nearer, a disk is that of the point itself, or of its neighbours
 
 }  // namespace
 
@@ -20,7 +20,11 @@ void Disks::Sum::add(const Sum& o) {
 
 Disks::Sum Disks::sumOf(const Disk& d) {
   const bool sphere = d.N == vec3(0);
-  return {d.P, d.area, d.area * (sphere ? mat3(1.0f) : glm::outerProduct(d.N, d.N)), sphere ? vec3(0) : d.area * d.N, d.area * d.light,
+  return {d.P,
+          d.area,
+          d.area * (sphere ? mat3(1.0f) : glm::outerProduct(d.N, d.N)),
+          sphere ? vec3(0) : d.area * d.N,
+          d.area * d.light,
           glm::outerProduct(d.area * d.light, d.N)};
 }
 
@@ -29,13 +33,17 @@ Disks::Disks(const PointCloud& cloud, const std::string& channel) {
   sends_ = light >= 0;
   disks_.reserve(cloud.count());
   for (size_t i = 0; i < cloud.count(); ++i) {
-    const float r = cloud.radius[i], *values = cloud.at(i), a = area >= 0 ? values[area] : cloud.normal[i] == vec3(0) ? kPi * r * r : 2 * r * r;
+    const float r = cloud.radius[i], *values = cloud.at(i),
+                a = area >= 0                    ? values[area]
+                    : cloud.normal[i] == vec3(0) ? kPi * r * r
+                                                 : 2 * r * r;
     if (!(a > 0)) continue;
     const vec3 L = light >= 0 ? vec3(values[light], values[light + 1], values[light + 2]) : vec3(0);
     disks_.push_back({cloud.position[i], cloud.normal[i], r > 0 ? r : std::sqrt(a / kPi), a, L});
   }
   for (int k = 0; k < kDirections; ++k) {
-    const float r2 = (static_cast<float>(k) + 0.5f) / kDirections, r = std::sqrt(r2), phi = kGoldenAngle * static_cast<float>(k);
+    const float r2 = (static_cast<float>(k) + 0.5f) / kDirections, r = std::sqrt(r2),
+                phi = kGoldenAngle * static_cast<float>(k);
     directions_.push_back({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - r2)});
   }
   if (!disks_.empty()) build(0, static_cast<uint32_t>(disks_.size()));
@@ -77,7 +85,8 @@ class Disks::Sight {
       const uint32_t node = open[--depth];
       const Group& group = disks_.groups_[node];
       if (!crosses(group.bound)) continue;
-      const vec3 way = group.sum.P - P_, outside = glm::max(glm::max(group.bound.lo - P_, P_ - group.bound.hi), vec3(0));
+      const vec3 way = group.sum.P - P_,
+                 outside = glm::max(glm::max(group.bound.lo - P_, P_ - group.bound.hi), vec3(0));
       if (outside != vec3(0) && group.seen < query_.maxSolidAngle * dot(way, way)) {
         meet(group.sum);
       } else if (group.second != 0) {
@@ -97,20 +106,24 @@ class Disks::Sight {
     return std::max({first.x, first.y, first.z, 0.0f}) <= std::min({last.x, last.y, last.z, reach_});
   }
 
-  /// As the part of its bound that lies within a disk across the way, which reaches the corners of a rectangle of what it covers and of two
-  /// to one: then no light comes between neighbours.
+  /// As the part of its bound that lies within a disk across the way, which reaches the corners of a rectangle of what
+  /// it covers and of two to one: then no light comes between neighbours.
   void meet(const Sum& sum) {
     const vec3 way = sum.P - P_;
     const float t = dot(way, d_);
-    const float all = std::sqrt(std::max(0.0f, sum.area * dot(d_, sum.facing * d_))), facing = std::clamp(-dot(sum.front, d_), -all, all);
-    const float front = 0.5f * (all + facing), back = 0.5f * (all - facing), across = std::max(front, back);  // fronts of what is closed hide its backs
+    const float all = std::sqrt(std::max(0.0f, sum.area * dot(d_, sum.facing * d_))),
+                facing = std::clamp(-dot(sum.front, d_), -all, all);
+    const float front = 0.5f * (all + facing), back = 0.5f * (all - facing),
+                across = std::max(front, back);  // fronts of what is closed hide its backs
     if (!(across > 0) || !(t > std::max(query_.falloff.bias, 0.0f)) || dot(way, way) - t * t > kReach * across) return;
-    add(t, 1 / (kPi * kReach), front / across, back / across, glm::max(0.5f * (all / sum.area * sum.light - sum.lightFront * d_), vec3(0)) / across);
+    add(t, 1 / (kPi * kReach), front / across, back / across,
+        glm::max(0.5f * (all / sum.area * sum.light - sum.lightFront * d_), vec3(0)) / across);
   }
 
   void meet(const Disk& disk) {
     const vec3 way = disk.P - P_, n = disk.N == vec3(0) ? -d_ : disk.N;
-    const float least = query_.falloff.bias >= 0 ? query_.falloff.bias : kOwnPlane * disk.radius, r2 = disk.radius * disk.radius;
+    const float least = query_.falloff.bias >= 0 ? query_.falloff.bias : kOwnPlane * disk.radius,
+                r2 = disk.radius * disk.radius;
     const float facing = dot(n, d_), t = dot(n, way) / facing;
     const vec3 off = t * d_ - way;
     if (!(t > least) || !(dot(off, off) <= r2)) return;

@@ -1,7 +1,8 @@
-// The disks of a point cloud as what covers a hemisphere and sends light into it (P. Christensen 2008, "Point-Based Approximate Color
-// Bleeding"): a tree, whose groups count as one disk where they are seen under a small angle. Where the paper rasterises disks on a hemisphere,
-// lines of sight meet them here: what is nearer hides what is behind it wherever it is.
-// Private to gi. Threads: built by one; lookups are concurrent. The answer depends on the cloud alone, not on threads.
+// The disks of a point cloud as what covers a hemisphere and sends light into it (P. Christensen 2008, "Point-Based
+// Approximate Color Bleeding"): a tree, whose groups count as one disk where they are seen under a small angle. Where
+// the paper rasterises disks on a hemisphere, lines of sight meet them here: what is nearer hides what is behind it
+// wherever it is. Private to gi. Threads: built by one; lookups are concurrent. The answer depends on the cloud alone,
+// not on threads.
 #pragma once
 #include "gi/point_cloud.h"
 #include "reyes/shade.h"
@@ -16,8 +17,8 @@ struct HemisphereView {
 
 class Disks {
  public:
-  /// channel: of 3 floats, what the front of each disk sends; where there is none, nothing. Areas are those of the channel "_area", else of the squares whose
-  /// diagonals are the diameters, as bake3d() makes them.
+  /// channel: of 3 floats, what the front of each disk sends; where there is none, nothing. Areas are those of the
+  /// channel "_area", else of the squares whose diagonals are the diameters, as bake3d() makes them.
   Disks(const PointCloud& cloud, const std::string& channel);
   bool sends() const { return sends_; }
 
@@ -32,11 +33,12 @@ class Disks {
   };
   /// Of a group or one disk, area by area: what it shows in any direction.
   struct Sum {
-    vec3 P{0.0f};        ///< Mean
+    vec3 P{0.0f};  ///< Mean
     float area = 0;
-    mat3 facing{0.0f};   ///< Sum of N N^T: sqrt(area d.facing.d) is what it covers along d, exactly where all faces alike.
-    vec3 front{0.0f};    ///< Sum of N
-    vec3 light{0.0f};    ///< and of the light,
+    mat3 facing{
+        0.0f};  ///< Sum of N N^T: sqrt(area d.facing.d) is what it covers along d, exactly where all faces alike.
+    vec3 front{0.0f};       ///< Sum of N
+    vec3 light{0.0f};       ///< and of the light,
     mat3 lightFront{0.0f};  ///< and of the light by N, a column for each axis.
     void add(const Sum& other);
   };

@@ -7,8 +7,7 @@ namespace tomales {
 /// By its gradients, from its place by a step, and from its normal by a turn, cross(of the record, other).
 inline vec3 changeBy(const IrradianceRecord& r, const vec3& step, const vec3& turn) {
   vec3 change;
-  for (int c = 0; c < 3; ++c)
-    change[c] = dot(turn, r.rotationGradient[c]) + dot(step, r.translationGradient[c]);
+  for (int c = 0; c < 3; ++c) change[c] = dot(turn, r.rotationGradient[c]) + dot(step, r.translationGradient[c]);
   return change;
 }
 

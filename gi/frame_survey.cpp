@@ -49,8 +49,7 @@ FrameSurvey surveyOf(const DeepFrame& layout, const TileReader& tiles, size_t gr
     const std::vector<uint64_t> seen = seenOfBatches(*tile);
     const std::lock_guard lock(merging);
     out.bound.extend(here);
-    for (size_t b = 0; b < seen.size(); ++b)
-      out.seenOfGroup[static_cast<size_t>(tile->batches[b].group())] += seen[b];
+    for (size_t b = 0; b < seen.size(); ++b) out.seenOfGroup[static_cast<size_t>(tile->batches[b].group())] += seen[b];
   });
   return out;
 }

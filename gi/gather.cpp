@@ -13,29 +13,29 @@ constexpr float kContrast = 4;  ///< Between neighbours of a cell, in means of t
 constexpr int kMostSplit = 8;
 constexpr float kMostAimed = 0.5f;  ///< Rays at bright spots, for each of the hemisphere.
 constexpr size_t kLeastAimed = 8;
-constexpr size_t kRaysOfProbe = 8;  ///< Of the hemisphere, for each ray that finds out whether a spot can be seen.
-constexpr size_t kLeastPerSpot = 4;   ///< Rays of the hemisphere; with fewer, probes would cost too much.
-constexpr float kLeastShare = 0.05f;  ///< Of the light of a spot, when its probes have seen none: they are few.
+constexpr size_t kRaysOfProbe = 8;     ///< Of the hemisphere, for each ray that finds out whether a spot can be seen.
+constexpr size_t kLeastPerSpot = 4;    ///< Rays of the hemisphere; with fewer, probes would cost too much.
+constexpr float kLeastShare = 0.05f;   ///< Of the light of a spot, when its probes have seen none: they are few.
 constexpr float kFoundByChance = 160;  ///< Rays of the hemisphere on spots: so many find out without help.
-constexpr float kUnhidden = 1.5f;  ///< Times as many before what is hidden is known: no ray finds that out,
-constexpr float kHidden = 0.25f;   ///< but where less than this share of what they would send is seen.
+constexpr float kUnhidden = 1.5f;      ///< Times as many before what is hidden is known: no ray finds that out,
+constexpr float kHidden = 0.25f;       ///< but where less than this share of what they would send is seen.
 
 const BrightSpots kNoSpots;
 
 /// Kept by each thread from one record to the next.
 struct Scratch {
   FirstHits firstHits;
-  std::vector<vec3> directions, radiance;          ///< One ray of each cell,
-  std::vector<vec3> fineDirections, fine;          ///< more of some cells,
-  std::vector<vec3> aimedDirections, aimed;        ///< and those at bright spots.
+  std::vector<vec3> directions, radiance;    ///< One ray of each cell,
+  std::vector<vec3> fineDirections, fine;    ///< more of some cells,
+  std::vector<vec3> aimedDirections, aimed;  ///< and those at bright spots.
   std::vector<int> fineCells, aimedCells, raysOfCell;
-  std::vector<float> shares;                       ///< Of the light of bright spots that arrive.
+  std::vector<float> shares;  ///< Of the light of bright spots that arrive.
   std::vector<CellSpread> spread;
   std::vector<float> upright;
 };
 
-/// Where light changes fast: cells whose neighbours differ by more than kContrast times the mean. A cell's own ray has no say, so
-/// that choosing cells for more rays leaves the estimate unbiased.
+/// Where light changes fast: cells whose neighbours differ by more than kContrast times the mean. A cell's own ray has
+/// no say, so that choosing cells for more rays leaves the estimate unbiased.
 std::vector<int> contrastCells(const HemisphereCells& cells, std::span<const vec3> radiance) {
   const int M = cells.rings, N = cells.sectors;
   const auto light = [&](int j, int k) { return luminance(radiance[static_cast<size_t>(j * N + (k + N) % N)]); };
@@ -58,8 +58,8 @@ std::vector<int> contrastCells(const HemisphereCells& cells, std::span<const vec
 /// The rays of one record.
 class Hemisphere {
  public:
-  Hemisphere(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point, const GatherSettings& settings,
-             const KnownLight& known)
+  Hemisphere(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point,
+             const GatherSettings& settings, const KnownLight& known)
       : point_(point),
         cells_(hemisphereCells(settings.samples)),
         count_(static_cast<size_t>(cells_.rings) * static_cast<size_t>(cells_.sectors)),
@@ -112,7 +112,8 @@ class Hemisphere {
     scratch_.fineDirections.clear(), scratch_.fineCells.clear();
     const std::vector<int> chosen = contrastCells(cells_, scratch_.radiance);
     if (chosen.empty()) return;
-    const int split = std::min(kMostSplit, static_cast<int>(std::sqrt(0.5f * static_cast<float>(count_) / static_cast<float>(chosen.size()))));
+    const int split = std::min(
+        kMostSplit, static_cast<int>(std::sqrt(0.5f * static_cast<float>(count_) / static_cast<float>(chosen.size()))));
     if (split < 2) return;
     const int strata = split * split;
     for (const int cell : chosen) {
@@ -121,29 +122,29 @@ class Hemisphere {
         const uint32_t name = hashCombine(key_, rays_.number(), 0x66696e65U);
         const vec2 inside{unitFloat(hash32(name)), unitFloat(hash32(name ^ 0x9e3779b9U))};
         const vec3 local = inCell(cell, (vec2(s / split, s % split) + inside) / static_cast<float>(split));
-        scratch_.fineDirections.push_back(rays_.add(static_cast<int>(scratch_.fineCells.size()), cell, local,
-                                                    count_ * static_cast<size_t>(strata)));
+        scratch_.fineDirections.push_back(
+            rays_.add(static_cast<int>(scratch_.fineCells.size()), cell, local, count_ * static_cast<size_t>(strata)));
         scratch_.fineCells.push_back(cell);
       }
     }
     rays_.see(stats, scratch_.fineCells.size(), scratch_.fine);
   }
 
-  /// What arrives of the light of each spot: something may be in between, or it shines elsewhere. These rays count for no light, so that
-  /// where to aim does not depend on what counts.
+  /// What arrives of the light of each spot: something may be in between, or it shines elsewhere. These rays count for
+  /// no light, so that where to aim does not depend on what counts.
   void probe(Stats& stats) {
     const size_t targets = aim_.targets();
     if (targets == 0 || count_ < kLeastPerSpot * targets) return;
     const size_t probes = std::max<size_t>(1, count_ / (kRaysOfProbe * targets));
     for (size_t i = 0; i < targets * probes; ++i) {
-      const vec3 local =
-          rays_.toLocal(aim_.probe(i / probes, sobol2(static_cast<uint32_t>(i), key_ ^ 0x70726f62U)));
+      const vec3 local = rays_.toLocal(aim_.probe(i / probes, sobol2(static_cast<uint32_t>(i), key_ ^ 0x70726f62U)));
       if (local.z > 0) rays_.add(static_cast<int>(i), cellOf(cells_, local), local, 4 * count_);
     }
     rays_.see(stats, targets * probes, scratch_.aimed);
     scratch_.shares.assign(targets, 0);
     for (size_t i = 0; i < scratch_.aimed.size(); ++i)
-      scratch_.shares[i / probes] += luminance(scratch_.aimed[i]) / (aim_.radiance(i / probes) * static_cast<float>(probes));
+      scratch_.shares[i / probes] +=
+          luminance(scratch_.aimed[i]) / (aim_.radiance(i / probes) * static_cast<float>(probes));
     for (float& share : scratch_.shares) share = std::clamp(share, kLeastShare, 1.0f);
     aim_.dim(scratch_.shares);
   }
@@ -153,13 +154,13 @@ class Hemisphere {
   void aim(Stats& stats) {
     scratch_.aimedDirections.clear(), scratch_.aimedCells.clear();
     const auto byChance = [&] { return aim_.coverage() * static_cast<float>(count_); };
-    const bool asks =
-        byChance() < kUnhidden * kFoundByChance || irradianceSeen() < kHidden * aim_.irradiance();
+    const bool asks = byChance() < kUnhidden * kFoundByChance || irradianceSeen() < kHidden * aim_.irradiance();
     if (asks && worthAiming() >= kLeastAimed) probe(stats);
     aims_ = byChance() < kFoundByChance ? worthAiming() : 0;
     if (aims_ < kLeastAimed) aims_ = 0;
     for (size_t i = 0; i < aims_; ++i) {
-      const float choice = (static_cast<float>(i) + sobol1(static_cast<uint32_t>(i), key_ ^ 0x73706f74U)) / static_cast<float>(aims_);
+      const float choice =
+          (static_cast<float>(i) + sobol1(static_cast<uint32_t>(i), key_ ^ 0x73706f74U)) / static_cast<float>(aims_);
       const vec3 d = aim_.direction(choice, sobol2(static_cast<uint32_t>(i), key_ ^ 0x61696d73U));
       const vec3 local = rays_.toLocal(d);
       if (local.z <= 0) continue;
@@ -173,7 +174,9 @@ class Hemisphere {
 
   size_t worthAiming() const {
     const float spots = aim_.irradiance();
-    return spots > 0 && std::isfinite(spots) ? static_cast<size_t>(kMostAimed * static_cast<float>(count_) * spots / (spots + dimIrradiance())) : 0;
+    return spots > 0 && std::isfinite(spots)
+               ? static_cast<size_t>(kMostAimed * static_cast<float>(count_) * spots / (spots + dimIrradiance()))
+               : 0;
   }
 
   /// E/pi by the rays of the hemisphere alone.
@@ -199,8 +202,10 @@ class Hemisphere {
       scratch_.radiance[c] *= weight(static_cast<int>(c), scratch_.directions[c]);
       scratch_.spread[c].add(luminance(scratch_.radiance[c]));
     }
-    for (size_t i = 0; i < scratch_.fineCells.size(); ++i) addTo(scratch_.fineCells[i], scratch_.fineDirections[i], scratch_.fine[i]);
-    for (size_t i = 0; i < scratch_.aimedCells.size(); ++i) addTo(scratch_.aimedCells[i], scratch_.aimedDirections[i], scratch_.aimed[i]);
+    for (size_t i = 0; i < scratch_.fineCells.size(); ++i)
+      addTo(scratch_.fineCells[i], scratch_.fineDirections[i], scratch_.fine[i]);
+    for (size_t i = 0; i < scratch_.aimedCells.size(); ++i)
+      addTo(scratch_.aimedCells[i], scratch_.aimedDirections[i], scratch_.aimed[i]);
   }
 
   void addTo(int cell, const vec3& direction, const vec3& L) {
@@ -235,8 +240,9 @@ class Hemisphere {
   Scratch& scratch_ = scratchOfThread();
 };
 
-/// Light under a sheet changes over its height, whatever the size of a pixel: a record there reaches as far from its edge and no farther,
-/// but for a quarter of a pixel. A tenth of the rays that leave upright are to meet a sheet: a hair is none.
+/// Light under a sheet changes over its height, whatever the size of a pixel: a record there reaches as far from its
+/// edge and no farther, but for a quarter of a pixel. A tenth of the rays that leave upright are to meet a sheet: a
+/// hair is none.
 float reachUnderSheet(const HemisphereSamples& samples, float pixelSize, std::vector<float>& upright) {
   constexpr float kUpright = 0.8f;  // cosine
   constexpr size_t kTenth = 10;
@@ -271,12 +277,13 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
     const IrradianceCurvature curvature = curvatureOf(samples);
     record.tangent = samples.tangent;
     record.hessian[0] = curvature.xx, record.hessian[1] = curvature.xy, record.hessian[2] = curvature.yy;
-    // What is near bends light faster the nearer one comes, so that the curvature of the record's own place holds half way at best.
+    // What is near bends light faster the nearer one comes, so that the curvature of the record's own place holds half
+    // way at best.
     if (settings.occlusion)
-      record.smoothRadius = std::min(variationRadius(curvature, settings.occlusion->maxVariation), 0.5f * record.closest);
-    else
       record.smoothRadius =
-          1 / (1 / radiusByHessian(curvature, record, settings.maxError) + 1 / record.closest);
+          std::min(variationRadius(curvature, settings.occlusion->maxVariation), 0.5f * record.closest);
+    else
+      record.smoothRadius = 1 / (1 / radiusByHessian(curvature, record, settings.maxError) + 1 / record.closest);
   }
   return record;
 }

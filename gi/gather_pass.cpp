@@ -17,8 +17,8 @@ constexpr int kLastPhases = 8;  // for points beyond the first of each pixel, in
 constexpr int kPhases = kLatticePhases + kLastPhases;
 constexpr int kScoutPhases = 3;  // after which bright spots are known
 constexpr size_t kPointsPerSlice = 256;
-// From so many on, all records have the same rays: what those miss then changes little between records, and is no more than others miss
-// (docs/decisions/0095).
+// From so many on, all records have the same rays: what those miss then changes little between records, and is no more
+// than others miss (docs/decisions/0095).
 constexpr int kManyRays = 512;
 constexpr int kRaysPerScoutRay = 4;  // and scouts have so many times fewer, of their own
 
@@ -34,9 +34,11 @@ struct Site {
 /// Goes over the tiles once in every phase, so that they need not be in memory.
 class GatherPass {
  public:
-  GatherPass(GiState& state, const DeepFrame& layout, const TileReader& tiles) : state_(state), layout_(layout), tiles_(tiles) {}
+  GatherPass(GiState& state, const DeepFrame& layout, const TileReader& tiles)
+      : state_(state), layout_(layout), tiles_(tiles) {}
 
-  void run(const std::function<void(float)>& progress, const std::atomic<bool>* cancelled, const std::function<void(int stride)>& covered) {
+  void run(const std::function<void(float)>& progress, const std::atomic<bool>* cancelled,
+           const std::function<void(int stride)>& covered) {
     progress_ = &progress, cancelled_ = cancelled;
     if (!prepareCaches() || !(tools_ = gatherTools(state_))) return;
     measureRelief();
@@ -55,7 +57,8 @@ class GatherPass {
   bool isLight(size_t cache) const { return !state_.caches[cache].plan.gather.occlusion; }
   bool isCancelled() const { return cancelled_ && cancelled_->load(std::memory_order_relaxed); }
 
-  // Groups whose lights and shaders ask for the same share a cache. With maxerror 0 nothing could be reused. False: no group asks.
+  // Groups whose lights and shaders ask for the same share a cache. With maxerror 0 nothing could be reused. False: no
+  // group asks.
   bool prepareCaches() {
     cachesOfGroup_.assign(state_.scene.groups.size(), {});
     rehearse(state_, layout_, tiles_, cancelled_);
@@ -76,8 +79,7 @@ class GatherPass {
     for (const auto& [group, plan] : plans) {
       size_t c = 0;
       while (c < state_.caches.size() && !(state_.caches[c].plan == plan)) ++c;
-      if (c == state_.caches.size())
-        state_.caches.push_back({plan, IrradianceCache(survey.bound, plan.cache)});
+      if (c == state_.caches.size()) state_.caches.push_back({plan, IrradianceCache(survey.bound, plan.cache)});
       cachesOfGroup_[group].push_back(c);
       frames_.resize(state_.caches.size());
       frames_[c] += survey.seenOfGroup[group];
@@ -87,9 +89,7 @@ class GatherPass {
   }
 
   bool isAnew(const Site& s) const { return state_.anew && state_.anew->contains(s.x, s.y); }
-  bool isNew(size_t cache) const {
-    return std::ranges::count(state_.caches[cache].frames, frames_[cache]) == 0;
-  }
+  bool isNew(size_t cache) const { return std::ranges::count(state_.caches[cache].frames, frames_[cache]) == 0; }
 
   // What has been gathered for this very frame is asked for nothing more: what disagrees after its last phase
   // would add records each time. False: that is all.
@@ -122,7 +122,8 @@ class GatherPass {
     int bounces = 1;
     for (size_t g = 0; g < cachesOfGroup_.size(); ++g)
       for (const size_t c : cachesOfGroup_[g])
-        if (isLight(c)) bounces = std::max(bounces, bouncesFor(state_, *state_.shading.indirectQuery(static_cast<int>(g))));
+        if (isLight(c))
+          bounces = std::max(bounces, bouncesFor(state_, *state_.shading.indirectQuery(static_cast<int>(g))));
     std::vector<GatherPoint> points;
     for (const Site& s : sites)
       if (isLight(s.cache)) points.push_back(s.point);
@@ -139,8 +140,8 @@ class GatherPass {
     state_.bounces.fill(*tools_, state_.camera, points, gather, bounces, {state_.stats, cancelled_});
   }
 
-  // Points of this phase that the records of earlier ones leave without, in the order of pixels, whatever the buckets are. A
-  // point that several pixels or buckets see counts where it comes first.
+  // Points of this phase that the records of earlier ones leave without, in the order of pixels, whatever the buckets
+  // are. A point that several pixels or buckets see counts where it comes first.
   std::vector<Site> uncovered() {
     std::vector<Site> sites;
     std::mutex merging;
@@ -152,7 +153,8 @@ class GatherPass {
       const std::lock_guard lock(merging);
       sites.insert(sites.end(), here.begin(), here.end());
     });
-    std::stable_sort(sites.begin(), sites.end(), [](const Site& a, const Site& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+    std::stable_sort(sites.begin(), sites.end(),
+                     [](const Site& a, const Site& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
     std::erase_if(sites, [&](const Site& s) {
       return !sites_[s.cache].insert(static_cast<uint64_t>(s.point.group) << 32 | s.point.key).second;
     });
@@ -169,10 +171,12 @@ class GatherPass {
     std::vector<std::vector<Site>> asked(state_.caches.size());
     const auto ask = [&](const Facet& facet, int point, int x, int y) {
       const auto b = static_cast<size_t>(facet.batch);
-      // Of the lattice every pixel asks, and later every point once, in a phase that is its own: so it does not matter which tiles see it.
+      // Of the lattice every pixel asks, and later every point once, in a phase that is its own: so it does not matter
+      // which tiles see it.
       if (phase_ >= kLatticePhases && !seen_->set(t, firstOfBatch[b] + static_cast<size_t>(point))) return;
       const GatherPoint p = places[b].at(point);
-      for (const size_t c : cachesOfGroup_[static_cast<size_t>(tile.batches[b].group())]) asked[c].push_back({p, c, x, y});
+      for (const size_t c : cachesOfGroup_[static_cast<size_t>(tile.batches[b].group())])
+        asked[c].push_back({p, c, x, y});
     };
     for (int y = tile.rect.y0; y < tile.rect.y1; ++y)
       for (int x = tile.rect.x0; x < tile.rect.x1; ++x) {
@@ -239,7 +243,8 @@ class GatherPass {
 
   /// How many: fewer than there are sites if cancelled. finds: none, when scouts alone are replaced, or as
   /// many as sites.
-  size_t makeRecords(const std::vector<Site>& sites, std::vector<IrradianceRecord>& records, std::vector<BrightFind>& finds) {
+  size_t makeRecords(const std::vector<Site>& sites, std::vector<IrradianceRecord>& records,
+                     std::vector<BrightFind>& finds) {
     const bool isFirst = phase_ >= kScoutPhases || !finds.empty();
     size_t done = 0;
     for (; done < sites.size() && !isCancelled(); done = std::min(done + kPointsPerSlice, sites.size())) {
@@ -255,15 +260,14 @@ class GatherPass {
   }
 
   IrradianceRecord gatherAt(const Site& site, BrightFind* find) const {
-    const KnownLight known =
-        isLight(site.cache) ? KnownLight{&state_.spots, state_.radiosity.get()} : KnownLight{};
+    const KnownLight known = isLight(site.cache) ? KnownLight{&state_.spots, state_.radiosity.get()} : KnownLight{};
     GatherSettings settings = state_.caches[site.cache].plan.gather;
     GatherPoint point = site.point;
-    // Bright spots are found by other rays than those that look for them again: else what all have missed is missed for good.
+    // Bright spots are found by other rays than those that look for them again: else what all have missed is missed for
+    // good.
     if (sharesRays(site.cache) && find) settings.samples /= kRaysPerScoutRay;
     if (sharesRays(site.cache) && !find) point.key = 0;
-    IrradianceRecord record =
-        gather(*tools_->rays, *tools_->shading, point, settings, known, state_.stats, find);
+    IrradianceRecord record = gather(*tools_->rays, *tools_->shading, point, settings, known, state_.stats, find);
     record.relief = reliefOfGroup_[static_cast<size_t>(site.point.group)];
     return record;
   }
@@ -288,8 +292,9 @@ class GatherPass {
 
 }  // namespace
 
-void fillCaches(GiState& state, const DeepFrame& layout, const TileReader& tiles, const std::function<void(float)>& progress,
-                const std::atomic<bool>* cancelled, const std::function<void(int stride)>& covered) {
+void fillCaches(GiState& state, const DeepFrame& layout, const TileReader& tiles,
+                const std::function<void(float)>& progress, const std::atomic<bool>* cancelled,
+                const std::function<void(int stride)>& covered) {
   GatherPass(state, layout, tiles).run(progress, cancelled, covered);
 }
 

@@ -6,11 +6,14 @@
 namespace tomales {
 namespace {
 
-uint32_t nameOf(const vec3& v) { return hashCombine(std::bit_cast<uint32_t>(v.x), std::bit_cast<uint32_t>(v.y), std::bit_cast<uint32_t>(v.z)); }
+uint32_t nameOf(const vec3& v) {
+  return hashCombine(std::bit_cast<uint32_t>(v.x), std::bit_cast<uint32_t>(v.y), std::bit_cast<uint32_t>(v.z));
+}
 
 /// As offsetOf; -1 too where it is of another width.
 int tripleOf(const std::vector<Primvar>& primvars, std::string_view name) {
-  const bool known = std::any_of(primvars.begin(), primvars.end(), [&](const Primvar& p) { return p.name == name && p.width == 3; });
+  const bool known =
+      std::any_of(primvars.begin(), primvars.end(), [&](const Primvar& p) { return p.name == name && p.width == 3; });
   return known ? offsetOf(primvars, name) : -1;
 }
 
@@ -49,15 +52,22 @@ vec3 GatherPlaces::normal(int i) const {
 
 GatherPoint GatherPlaces::at(int i) const {
   const bool own = positions_ < 0;
-  GatherPoint p{points_.group(), own ? points_.position(i) : named(positions_, i), normal(i), points_.key(i), 0, points_.edgeLength(i),
-                own ? points_.get3(kDriftX, i) : vec3(0), points_.channel(kTime)[i]};
+  GatherPoint p{points_.group(),
+                own ? points_.position(i) : named(positions_, i),
+                normal(i),
+                points_.key(i),
+                0,
+                points_.edgeLength(i),
+                own ? points_.get3(kDriftX, i) : vec3(0),
+                points_.channel(kTime)[i]};
   if (!own) p.key = hashCombine(nameOf(p.position), nameOf(p.normal));
   p.pixelSize = projectedPixelSize(state_.camera, p.position, p.normal);
   return p;
 }
 
 IrradiancePlace GatherPlaces::lookupAt(int i, const vec3& normal) const {
-  IrradiancePlace p{positions_ < 0 ? points_.position(i) : named(positions_, i), this->normal(i), shading(i, normal), 0};
+  IrradiancePlace p{positions_ < 0 ? points_.position(i) : named(positions_, i), this->normal(i), shading(i, normal),
+                    0};
   p.pixelSize = projectedPixelSize(state_.camera, p.position, p.normal);
   return p;
 }

@@ -4,8 +4,8 @@
 
 namespace tomales {
 
-/// Kept by each thread from one record to the next. What gather rays hit asks for indirect light of frozen caches and paths, so
-/// gathering never nests.
+/// Kept by each thread from one record to the next. What gather rays hit asks for indirect light of frozen caches and
+/// paths, so gathering never nests.
 struct GatherRays::Scratch {
   RayLayers layers;
   Surroundings surroundings;
@@ -116,8 +116,7 @@ void GatherRays::meet(Stats& stats, FirstHits* first) {
 // From what is known, as far as it goes.
 void GatherRays::answer(const ShadeContext& context) {
   const auto& rays = scratch_.layers.rays;
-  if (!known_)
-    return scene_.shadeHits(rays, scratch_.hits, scratch_.layers.names, shading_, context, scratch_.answers);
+  if (!known_) return scene_.shadeHits(rays, scratch_.hits, scratch_.layers.names, shading_, context, scratch_.answers);
   scratch_.unknown = scratch_.hits, scratch_.mapped.clear();
   vec3 radiance;
   for (size_t r = 0; r < rays.size(); ++r)

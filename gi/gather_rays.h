@@ -1,6 +1,6 @@
 // Private to gi/gather: the rays of one record, and what they see. Which rays are worth tracing is gi/gather.cpp's.
-// Space: current; local directions have the point's normal along z. Radiance is what comes along a ray, or for occlusion the share
-// of it that is not covered.
+// Space: current; local directions have the point's normal along z. Radiance is what comes along a ray, or for
+// occlusion the share of it that is not covered.
 #pragma once
 #include "gi/gather.h"
 #include "gi/hit_radiance.h"

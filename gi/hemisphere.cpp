@@ -12,10 +12,7 @@ float fraction(int i, int count) { return static_cast<float>(i) / static_cast<fl
 // phi from 2 pi k/N to 2 pi (k+1)/N.
 struct Gradients {
   explicit Gradients(const HemisphereSamples& samples)
-      : s(samples),
-        M(samples.cells.rings),
-        N(samples.cells.sectors),
-        sectorAngle(2 * kPi / static_cast<float>(N)) {}
+      : s(samples), M(samples.cells.rings), N(samples.cells.sectors), sectorAngle(2 * kPi / static_cast<float>(N)) {}
 
   size_t cell(int j, int k) const { return static_cast<size_t>(j * N + k); }
   vec3 inPlane(float phi) const { return std::cos(phi) * s.tangent + std::sin(phi) * s.bitangent; }
@@ -87,9 +84,7 @@ float noiseOf(const HemisphereSamples& s) {
 
 HemisphereCells hemisphereCells(int samples) {
   const int rings = std::max(1, static_cast<int>(std::lround(std::sqrt(static_cast<float>(samples) / kPi))));
-  return {
-      rings,
-      std::max(1, static_cast<int>(std::lround(static_cast<float>(samples) / static_cast<float>(rings))))};
+  return {rings, std::max(1, static_cast<int>(std::lround(static_cast<float>(samples) / static_cast<float>(rings))))};
 }
 
 vec3 hemisphereDirection(const HemisphereCells& cells, int ring, int sector, vec2 xi) {
@@ -102,7 +97,9 @@ vec3 hemisphereDirection(const HemisphereCells& cells, int ring, int sector, vec
 int cellOf(const HemisphereCells& cells, const vec3& direction) {
   const float sin2 = direction.x * direction.x + direction.y * direction.y, phi = std::atan2(direction.y, direction.x);
   const float turn = phi / (2 * kPi) + (phi < 0 ? 1.0f : 0.0f);
-  const auto index = [](float part, int count) { return std::clamp(static_cast<int>(part * static_cast<float>(count)), 0, count - 1); };
+  const auto index = [](float part, int count) {
+    return std::clamp(static_cast<int>(part * static_cast<float>(count)), 0, count - 1);
+  };
   return index(sin2, cells.rings) * cells.sectors + index(turn, cells.sectors);
 }
 

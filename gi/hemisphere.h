@@ -25,7 +25,7 @@ struct HemisphereSamples {
   vec3 tangent, bitangent, normal;  ///< directions = hemisphereDirection() in this frame
   std::span<const vec3> directions;
   std::span<const vec3> radiance;
-  std::span<const float> distances;  ///< infinite: missed
+  std::span<const float> distances;      ///< infinite: missed
   std::span<const CellSpread> spread{};  ///< Of cells with several rays; may be empty.
 };
 

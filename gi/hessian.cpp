@@ -9,14 +9,14 @@ using dvec3 = glm::dvec3;
 
 /// The integrals over a segment r(t), t in [0, 1], that the derivatives of its term take.
 struct EdgeIntegrals {
-  dvec3 r4;       ///< Of r / |r|^4.
-  double i4;      ///< Of 1 / |r|^4.
+  dvec3 r4;           ///< Of r / |r|^4.
+  double i4;          ///< Of 1 / |r|^4.
   double hh, hd, dd;  ///< Of r r^T / |r|^6, in the axes foot, along.
   dvec3 foot, along;
 };
 
-/// With phi the angle from the foot of the perpendicular, h its length: |r| = h / cos(phi), dt = h / (|d| cos^2) dphi. False: the
-/// segment points at the origin and has no term.
+/// With phi the angle from the foot of the perpendicular, h its length: |r| = h / cos(phi), dt = h / (|d| cos^2) dphi.
+/// False: the segment points at the origin and has no term.
 bool integrate(const dvec3& r1, const dvec3& d, EdgeIntegrals& out) {
   const double dd = dot(d, d), length = std::sqrt(dd);
   if (!(dd > 0)) return false;
@@ -29,10 +29,10 @@ bool integrate(const dvec3& r1, const dvec3& d, EdgeIntegrals& out) {
   const double c1 = h / l1, c2 = h / l2, t1 = s1 / l1, t2 = s2 / l2;  // cosines and sines
   const double angle = std::atan2(h * length, h2 + s1 * s2);
   const double sc = t2 * c2 - t1 * c1, ss = t2 * t2 - t1 * t1;
-  const double cc = 0.5 * (angle + sc);                                          // of cos^2
+  const double cc = 0.5 * (angle + sc);  // of cos^2
   const double cccs = t2 * c2 * c2 * c2 - t1 * c1 * c1 * c1;
-  const double cccc = 0.25 * cccs + 0.75 * cc;                                   // of cos^4
-  const double c3s = 0.25 * (c1 * c1 * c1 * c1 - c2 * c2 * c2 * c2);             // of cos^3 sin
+  const double cccc = 0.25 * cccs + 0.75 * cc;                        // of cos^4
+  const double c3s = 0.25 * (c1 * c1 * c1 * c1 - c2 * c2 * c2 * c2);  // of cos^3 sin
   const double over = 1 / (length * h);
   out.foot = foot / h, out.along = along;
   out.r4 = over / h * (cc * out.foot + 0.5 * ss * along);
@@ -44,7 +44,11 @@ bool integrate(const dvec3& r1, const dvec3& d, EdgeIntegrals& out) {
 class Mesh {
  public:
   explicit Mesh(const HemisphereSamples& samples)
-      : s_(samples), M_(samples.cells.rings), N_(samples.cells.sectors), n_(samples.normal), radiance_(samples.radiance.begin(), samples.radiance.end()) {
+      : s_(samples),
+        M_(samples.cells.rings),
+        N_(samples.cells.sectors),
+        n_(samples.normal),
+        radiance_(samples.radiance.begin(), samples.radiance.end()) {
     axes_[0] = samples.tangent, axes_[1] = samples.bitangent;
     double farthest = 0;
     for (const float d : s_.distances)
@@ -97,8 +101,8 @@ class Mesh {
   const vec3& inner(int j, int k) const { return farthest(cell(j, k), cell(j + 1, k), cell(j + 1, k + 1)); }
   const vec3& outer(int j, int k) const { return farthest(cell(j, k), cell(j + 1, k + 1), cell(j, k + 1)); }
 
-  /// The term of an edge in E/pi is n . (r1 x r2) / (2 pi) times the integral of 1 / |r|^2 (Lambert's formula), for the radiance on its
-  /// left less that on its right. As the point moves by x, every r becomes r - x.
+  /// The term of an edge in E/pi is n . (r1 x r2) / (2 pi) times the integral of 1 / |r|^2 (Lambert's formula), for the
+  /// radiance on its left less that on its right. As the point moves by x, every r becomes r - x.
   void edge(size_t from, size_t to, const vec3& left, const vec3& right) {
     const vec3 step = left - right;
     if (step == vec3(0)) return;
@@ -110,7 +114,8 @@ class Mesh {
     double turn[2], slope[2];
     for (int a = 0; a < 2; ++a) turn[a] = dot(nd, axes_[a]), slope[a] = 2 * dot(i.r4, axes_[a]);
     const auto second = [&](int a, int b) {
-      const double fa = dot(i.foot, axes_[a]), fb = dot(i.foot, axes_[b]), la = dot(i.along, axes_[a]), lb = dot(i.along, axes_[b]);
+      const double fa = dot(i.foot, axes_[a]), fb = dot(i.foot, axes_[b]), la = dot(i.along, axes_[a]),
+                   lb = dot(i.along, axes_[b]);
       const double rr = fa * fb * i.hh + (fa * lb + la * fb) * i.hd + la * lb * i.dd;
       return turn[a] * slope[b] + turn[b] * slope[a] + area * (8 * rr - (a == b ? 2 * i.i4 : 0.0));
     };

@@ -1,8 +1,9 @@
 // Private to gi: how irradiance changes as a point moves in its tangent plane, to the second order, with occlusion.
-// Schwarzhaupt, Jensen, Jarosz 2012, "Practical Hessian-Based Error Control for Irradiance Caching": what neighbouring rays hit is joined
-// by triangles, of the radiance of their farthest corner (a nearer surface ends at its own hit, and what lies behind appears). The
-// irradiance of such a mesh is a sum over its edges, and so are its derivatives. What appears behind an edge is taken to be of one radiance: where
-// the edge of something far passes behind that of something near, the mixed derivative is up to a half too small, however many rays there are.
+// Schwarzhaupt, Jensen, Jarosz 2012, "Practical Hessian-Based Error Control for Irradiance Caching": what neighbouring
+// rays hit is joined by triangles, of the radiance of their farthest corner (a nearer surface ends at its own hit, and
+// what lies behind appears). The irradiance of such a mesh is a sum over its edges, and so are its derivatives. What
+// appears behind an edge is taken to be of one radiance: where the edge of something far passes behind that of
+// something near, the mixed derivative is up to a half too small, however many rays there are.
 #pragma once
 #include "gi/hemisphere.h"
 

@@ -4,11 +4,14 @@
 
 namespace tomales {
 
-// Found by the structures' namespace, so they cannot stand in the unnamed one. The structured bindings stop the compiler at a structure that has gained a field which its list lacks.
+// Found by the structures' namespace, so they cannot stand in the unnamed one. The structured bindings stop the
+// compiler at a structure that has gained a field which its list lacks.
 template <class A>
 void fields(A& a, IrradianceRecord& x) {
-  auto& [position, normal, E, rotation, translation, tangent, hessian, dominant, harmonicMean, closest, smoothRadius, noise, limit, pixelSize, relief] = x;
-  each(a, position, normal, E, rotation, translation, tangent, hessian, dominant, harmonicMean, closest, smoothRadius, noise, limit, pixelSize, relief);
+  auto& [position, normal, E, rotation, translation, tangent, hessian, dominant, harmonicMean, closest, smoothRadius,
+         noise, limit, pixelSize, relief] = x;
+  each(a, position, normal, E, rotation, translation, tangent, hessian, dominant, harmonicMean, closest, smoothRadius,
+       noise, limit, pixelSize, relief);
 }
 
 template <class A>
@@ -21,10 +24,9 @@ template <class A>
 void fields(A& a, GatherPlan& x) {
   auto& [cache, gather] = x;
   auto& [errorFunction, kappa, maxPixels, minPixels, enough] = cache;
-  auto& [samples, maxDistance, seed, light, curvature, maxError, depth, indirect, mirrored, subset,
-         occlusion] = gather;
-  each(a, errorFunction, kappa, maxPixels, minPixels, enough, samples, maxDistance, seed, light, curvature,
-       maxError, depth, indirect, mirrored, subset, occlusion);
+  auto& [samples, maxDistance, seed, light, curvature, maxError, depth, indirect, mirrored, subset, occlusion] = gather;
+  each(a, errorFunction, kappa, maxPixels, minPixels, enough, samples, maxDistance, seed, light, curvature, maxError,
+       depth, indirect, mirrored, subset, occlusion);
 }
 
 template <class A>
@@ -133,8 +135,7 @@ bool IcfWriter::finish(const IrradianceShot& shot) {
   for (const auto& light : shot.emitters.value_or(EmitterTable{}))
     if (std::any_of(light.lattices.begin(), light.lattices.end(), asksSurface)) stored.emitters.reset();
   for (const PreparedCache& c : shot.caches)
-    stored.caches.push_back(
-        {c.plan, c.cache.bound(), {c.cache.records().begin(), c.cache.records().end()}, c.frames});
+    stored.caches.push_back({c.plan, c.cache.bound(), {c.cache.records().begin(), c.cache.records().end()}, c.frames});
   return records_->write(kShotRecord, pack(stored)) && records_->finish();
 }
 
@@ -171,7 +172,8 @@ std::optional<std::vector<RayAnswers>> IcfFile::answers(size_t tile, std::string
 bool IcfFile::intact(std::string& error) const {
   const std::vector<RecordName> names = records_->names();
   return std::all_of(names.begin(), names.end(), [&](const RecordName& name) {
-    return name.kind == kAnswerRecords ? answers(name.index, error).has_value() : records_->read(name, error).has_value();
+    return name.kind == kAnswerRecords ? answers(name.index, error).has_value()
+                                       : records_->read(name, error).has_value();
   });
 }
 
@@ -183,7 +185,8 @@ PointCloud recordsOf(const IrradianceShot& shot) {
   const float scale = std::cbrt(std::abs(glm::determinant(mat3(worldFromCamera))));
   for (const PreparedCache& c : shot.caches)
     for (const IrradianceRecord& r : c.cache.records()) {
-      const float data[] = {1, r.E.x, r.E.y, r.E.z, std::min(scale * r.closest, 1e30f), std::min(scale * r.harmonicMean, 1e30f), r.noise};
+      const float data[] = {
+          1, r.E.x, r.E.y, r.E.z, std::min(scale * r.closest, 1e30f), std::min(scale * r.harmonicMean, 1e30f), r.noise};
       out.add(transformPoint(worldFromCamera, r.position), glm::normalize(normalsFromCamera * r.normal), 0, data);
     }
   return out;
@@ -191,10 +194,14 @@ PointCloud recordsOf(const IrradianceShot& shot) {
 
 namespace {
 
-/// Lengths grow by the scale, and a rotation gradient, which a cross product meets, turns over where the handedness changes.
+/// Lengths grow by the scale, and a rotation gradient, which a cross product meets, turns over where the handedness
+/// changes.
 class RecordMove {
  public:
-  explicit RecordMove(const mat4& to) : to_(to), scale_(std::cbrt(std::abs(glm::determinant(mat3(to))))), hand_(glm::determinant(mat3(to)) < 0 ? -1.0f : 1.0f) {
+  explicit RecordMove(const mat4& to)
+      : to_(to),
+        scale_(std::cbrt(std::abs(glm::determinant(mat3(to))))),
+        hand_(glm::determinant(mat3(to)) < 0 ? -1.0f : 1.0f) {
     if (std::abs(scale_ - 1) < 1e-5f) scale_ = 1;  // rigid, but for rounding
   }
 
@@ -209,7 +216,8 @@ class RecordMove {
     r.tangent = turned(r.tangent);
     for (vec3& second : r.hessian) second /= scale_ * scale_;
     r.hessian[1] *= hand_;
-    for (float* length : {&r.harmonicMean, &r.closest, &r.smoothRadius, &r.limit, &r.pixelSize, &r.relief}) *length *= scale_;
+    for (float* length : {&r.harmonicMean, &r.closest, &r.smoothRadius, &r.limit, &r.pixelSize, &r.relief})
+      *length *= scale_;
   }
 
  private:

@@ -1,5 +1,5 @@
-// Noun and file: the irradiance cache of a shot (.icf, docs/dfb.md), and what rays answered when it was shaded. With it a
-// .dfb is shaded without a ray: indirect light comes from the records, shadows and emitters from the answers.
+// Noun and file: the irradiance cache of a shot (.icf, docs/dfb.md), and what rays answered when it was shaded. With it
+// a .dfb is shaded without a ray: indirect light comes from the records, shadows and emitters from the answers.
 // Threads: answers may be written and read concurrently.
 #pragma once
 #include "gi/point_cloud.h"
@@ -13,7 +13,7 @@ struct IrradianceShot {
   uint64_t shot = 0;  ///< DfbFile::shotSum() of the shot that the answers belong to; 0: none do.
   GiSettings settings;
   mat4 cameraFromWorld{1.0f};
-  std::vector<PreparedCache> caches;  ///< In camera space.
+  std::vector<PreparedCache> caches;     ///< In camera space.
   std::optional<EmitterTable> emitters;  ///< None: curved or cut by trim curves, so that they need their geometry.
 };
 
@@ -46,8 +46,8 @@ class IcfFile {
   IrradianceShot shot_;
 };
 
-/// Where the records of all caches lie, in world space and without extent: "record", which is 1; "irradiance" (E/pi), "closest" and
-/// "harmonicmean" (units of the world, 1e30 where rays meet nothing), "noise" (of E/pi).
+/// Where the records of all caches lie, in world space and without extent: "record", which is 1; "irradiance" (E/pi),
+/// "closest" and "harmonicmean" (units of the world, 1e30 where rays meet nothing), "noise" (of E/pi).
 PointCloud recordsOf(const IrradianceShot& shot);
 
 /// Moves records to the camera of another frame; the same bits if it is the same.

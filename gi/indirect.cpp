@@ -43,16 +43,20 @@ ErrorFunction errorFunctionNamed(const std::string& name) {
 
 /// Light by way of mirrors and glass, which gather rays do not find.
 vec3 causticAt(const GiState& state, int group, const vec3& P, const vec3& n, float pixelSize) {
-  if (state.settings.mode != GiMode::Atlas || state.scene.groups[static_cast<size_t>(group)].attributes->photon.causticMap.empty()) return vec3(0.0f);
+  if (state.settings.mode != GiMode::Atlas ||
+      state.scene.groups[static_cast<size_t>(group)].attributes->photon.causticMap.empty())
+    return vec3(0.0f);
   gatherTools(state);
   return state.atlas ? state.atlas->causticOverPi(group, P, n, 0.5f * pixelSize) : vec3(0.0f);
 }
 
 /// The cache of a plan. Records that were given serve even where a light has since been edited to ask for others.
 std::vector<PreparedCache>::const_iterator preparedFor(const GiState& state, const GatherPlan& plan) {
-  const auto prepared = std::find_if(state.caches.begin(), state.caches.end(), [&](const PreparedCache& c) { return c.plan == plan; });
+  const auto prepared =
+      std::find_if(state.caches.begin(), state.caches.end(), [&](const PreparedCache& c) { return c.plan == plan; });
   if (prepared != state.caches.end() || !state.cachesGiven || !(plan.cache.kappa < kInfinity)) return prepared;
-  return std::find_if(state.caches.begin(), state.caches.end(), [](const PreparedCache& c) { return !c.plan.gather.occlusion; });
+  return std::find_if(state.caches.begin(), state.caches.end(),
+                      [](const PreparedCache& c) { return !c.plan.gather.occlusion; });
 }
 
 uint32_t nameOf(const std::string& text) { return static_cast<uint32_t>(checksum(std::as_bytes(std::span(text)))); }
@@ -60,14 +64,15 @@ uint32_t nameOf(const std::string& text) { return static_cast<uint32_t>(checksum
 /// Of what GatherSettings do not hold as well.
 uint32_t nameOf(const std::optional<OcclusionQuery>& q) {
   const auto bits = [](float x) { return std::bit_cast<uint32_t>(x); };
-  return q ? hashCombine(bits(q->bias), bits(q->falloff), static_cast<uint32_t>(q->falloffMode), static_cast<uint32_t>(q->sides), nameOf(q->subset),
-                         nameOf(q->excludeSubset))
+  return q ? hashCombine(bits(q->bias), bits(q->falloff), static_cast<uint32_t>(q->falloffMode),
+                         static_cast<uint32_t>(q->sides), nameOf(q->subset), nameOf(q->excludeSubset))
            : 0;
 }
 
 }  // namespace
 
-IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, const GatherSettings& settings, RayAnswers* answers) {
+IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, const GatherSettings& settings,
+                              RayAnswers* answers) {
   const struct {
     vec3 position, normal;
     uint32_t key, seed;
@@ -168,27 +173,28 @@ std::optional<vec3> gatheredOverPi(const GiState& state, const GatherPoint& at) 
   return estimate.E + causticAt(state, at.group, at.position, at.normal, at.pixelSize);
 }
 
-BatchLookup lookUp(const GiState& state, const IrradianceCache* cache, const GatherPlaces& places, const ShadePoints& points, const uint8_t* active,
-                   TmConstVec3 N) {
+BatchLookup lookUp(const GiState& state, const IrradianceCache* cache, const GatherPlaces& places,
+                   const ShadePoints& points, const uint8_t* active, TmConstVec3 N) {
   BatchLookup out;
   for (int i = 0; i < points.count(); ++i)
     if (active[i]) out.points.push_back(i), out.at.push_back(places.lookupAt(i, unitNormal(points, N, i)));
   out.known.resize(out.at.size());
   if (!cache) return out;
   cache->lookup(out.at, out.known.data(), kServesWider);
-  const auto served = std::count_if(out.known.begin(), out.known.end(), [](const IrradianceEstimate& e) { return e.weight > 0; });
+  const auto served =
+      std::count_if(out.known.begin(), out.known.end(), [](const IrradianceEstimate& e) { return e.weight > 0; });
   state.stats.irradianceCache.lookups += static_cast<int64_t>(out.at.size());
   state.stats.irradianceCache.interpolated += served;
   return out;
 }
 
-void interpolateIndirect(const GiState& state, const ShadePoints& points, const uint8_t* active,
-                         TmConstVec3 N, const IndirectQuery& query, const ShadeContext& context,
-                         const IndirectResult& out) {
+void interpolateIndirect(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
+                         const IndirectQuery& query, const ShadeContext& context, const IndirectResult& out) {
   const GatherPlan plan = planFor(state, points.group(), query);
   const auto prepared = preparedFor(state, plan);
   const GatherPlaces places(state, points);
-  const BatchLookup found = lookUp(state, prepared != state.caches.end() ? &prepared->cache : nullptr, places, points, active, N);
+  const BatchLookup found =
+      lookUp(state, prepared != state.caches.end() ? &prepared->cache : nullptr, places, points, active, N);
   for (size_t k = 0; k < found.points.size(); ++k) {
     const int i = found.points[k];
     const IrradianceEstimate& known = found.known[k];
@@ -214,8 +220,8 @@ void bounceIndirect(const GiState& state, const ShadePoints& points, const uint8
   for (int i = 0; i < points.count(); ++i) {
     if (!active[i]) continue;
     const GatherPoint point = places.at(i);
-    const IrradianceEstimate estimate =
-        state.bounces.lookup(bounces - context.depth, state.camera, point.position, point.normal, places.shading(i, unitNormal(points, N, i)));
+    const IrradianceEstimate estimate = state.bounces.lookup(bounces - context.depth, state.camera, point.position,
+                                                             point.normal, places.shading(i, unitNormal(points, N, i)));
     if (estimate.weight > 0) store(out, i, estimate.E, estimate.dominant);
     unknown[static_cast<size_t>(i)] = estimate.weight <= 0;
     all &= estimate.weight > 0;

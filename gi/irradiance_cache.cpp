@@ -9,19 +9,19 @@
 namespace tomales {
 namespace {
 
-constexpr float kFinestPixels = 1;             // of a dispute, at kappa 1
+constexpr float kFinestPixels = 1;              // of a dispute, at kappa 1
 constexpr float kMaxAngleTerm = 0.0151922470f;  // 1 - cos(alpha+), alpha+ = 10 degrees (eq. 4)
 constexpr float kBehindTolerance = 0.1f;        // of the validity radius,
-constexpr float kBehindPixels = 0.45f;          // and at kappa 1: thin sheets have two sides, however far their records reach
-constexpr float kHeight = 0.5f;                 // above a record's plane, of its closest distance,
-constexpr float kHeightFade = 4;                // and from three quarters of that on it counts less
-constexpr float kDispute = 0.1f;              // relative difference of extrapolated values, at kappa 1, that is no longer smooth
-constexpr float kTorn = 0.5f;                 // the same between points that see other things
-constexpr float kNoiseMargin = 3;             // standard errors
-constexpr float kDark = 0.1f;                 // of the mean E: what is darker is off by fractions of this, not of itself
-constexpr float kSteep = 0.3f;                // of E over a record's reach: it serves no wider
-constexpr size_t kRun = 64;                     // lookups that share their candidates, at most
-constexpr float kRunPixels = 24;                // diagonal of what they cover, at most: incoherent points would share too many
+constexpr float kBehindPixels = 0.45f;  // and at kappa 1: thin sheets have two sides, however far their records reach
+constexpr float kHeight = 0.5f;         // above a record's plane, of its closest distance,
+constexpr float kHeightFade = 4;        // and from three quarters of that on it counts less
+constexpr float kDispute = 0.1f;   // relative difference of extrapolated values, at kappa 1, that is no longer smooth
+constexpr float kTorn = 0.5f;      // the same between points that see other things
+constexpr float kNoiseMargin = 3;  // standard errors
+constexpr float kDark = 0.1f;      // of the mean E: what is darker is off by fractions of this, not of itself
+constexpr float kSteep = 0.3f;     // of E over a record's reach: it serves no wider
+constexpr size_t kRun = 64;        // lookups that share their candidates, at most
+constexpr float kRunPixels = 24;   // diagonal of what they cover, at most: incoherent points would share too many
 
 struct Candidate {
   uint32_t record;
@@ -53,7 +53,8 @@ struct Reach {
 
 /// slack[i] > 0: record i may serve a point at p with normal n.
 TOMALES_HOT void findSlack(const Vicinity& v, const vec3& p, const vec3& n, const Reach& reach, float* slack) {
-  const float *x = v.x.data(), *y = v.y.data(), *z = v.z.data(), *nx = v.nx.data(), *ny = v.ny.data(), *nz = v.nz.data();
+  const float *x = v.x.data(), *y = v.y.data(), *z = v.z.data(), *nx = v.nx.data(), *ny = v.ny.data(),
+              *nz = v.nz.data();
   const float *size = v.size.data(), *limit = v.limit.data();
   const size_t count = v.records.size();
   for (size_t i = 0; i < count; ++i) {
@@ -95,8 +96,7 @@ struct IrradianceCache::Impl {
   // Distance at which the error reaches 1: the denominator of eq. 3 over kappa. Ward's split sphere has the
   // same limits.
   float reach(float recordSize, float pixelSize) const {
-    const float radius =
-        std::max(std::min(recordSize, settings.maxPixels * pixelSize), settings.minPixels * pixelSize);
+    const float radius = std::max(std::min(recordSize, settings.maxPixels * pixelSize), settings.minPixels * pixelSize);
     return radius / settings.kappa;
   }
 
@@ -109,15 +109,17 @@ struct IrradianceCache::Impl {
 
   Dispute disputeOf(const vec3& a, const vec3& b, float noise) const {
     if (isPublished()) return Dispute::None;
-    const float tolerance = settings.errorFunction == ErrorFunction::Ward ? 4 * kDispute : kDispute;  // as kappa counts there
-    const float larger = std::max(luminance(a), luminance(b)), off = std::abs(luminance(a) - luminance(b)) - kNoiseMargin * noise;
+    const float tolerance =
+        settings.errorFunction == ErrorFunction::Ward ? 4 * kDispute : kDispute;  // as kappa counts there
+    const float larger = std::max(luminance(a), luminance(b)),
+                off = std::abs(luminance(a) - luminance(b)) - kNoiseMargin * noise;
     const auto dark = static_cast<float>(kDark * luminanceSum / static_cast<double>(records.size()));
     if (!(off > tolerance / settings.kappa * std::max(larger, dark))) return Dispute::None;
     return off > kTorn * std::max(larger, dark) ? Dispute::Torn : Dispute::Steep;
   }
 
-  // Steep light needs no record nearer than a pixel: they would be noise of single pixels, paid with a hemisphere each. What is torn lies on
-  // both sides of something thinner than that.
+  // Steep light needs no record nearer than a pixel: they would be noise of single pixels, paid with a hemisphere each.
+  // What is torn lies on both sides of something thinner than that.
   float least(float pixelSize) const { return kFinestPixels * pixelSize / settings.kappa; }
   float limitBy(Dispute dispute, float distance, float pixelSize) const {
     if (dispute == Dispute::None) return kInfinity;
@@ -132,7 +134,8 @@ struct IrradianceCache::Impl {
     IrradianceRecord& fresh = records[index];
     for (const Candidate& candidate : candidatesAt(fresh.position, fresh.normal, fresh.pixelSize)) {
       IrradianceRecord& old = records[candidate.record];
-      const float distance = glm::length(fresh.position - old.position), fromOld = noiseAt(old, distance), fromFresh = noiseAt(fresh, distance);
+      const float distance = glm::length(fresh.position - old.position), fromOld = noiseAt(old, distance),
+                  fromFresh = noiseAt(fresh, distance);
       const Dispute ofOld = disputeOf(extrapolate(old, fresh.position, fresh.normal), fresh.E, fromOld + fresh.noise);
       const Dispute ofFresh = disputeOf(extrapolate(fresh, old.position, old.normal), old.E, fromFresh + old.noise);
       old.limit = std::min(old.limit, limitBy(ofOld, distance, old.pixelSize));
@@ -156,7 +159,8 @@ struct IrradianceCache::Impl {
     if (!(distance2 < radius * radius)) return 0;
     // A point behind the record sees other things than the record did (Ward et al. 1988, section 4), unless
     // it is no farther than bumps that rays do not see.
-    const float tolerance = std::max(std::min(kBehindTolerance * radius, kBehindPixels * pixelSize / settings.kappa), r.relief);
+    const float tolerance =
+        std::max(std::min(kBehindTolerance * radius, kBehindPixels * pixelSize / settings.kappa), r.relief);
     const float behind = -0.5f * dot(step, n + r.normal) / tolerance;
     if (behind >= 1) return 0;
     // One as high above it as what is closest lies on another surface: R- spans a slot of parallel sides.
@@ -168,7 +172,7 @@ struct IrradianceCache::Impl {
     const float angle = std::sqrt(std::max(0.0f, 1 - dot(n, r.normal)));
     if (!isWard()) {
       const float error = std::max(position, settings.kappa * angle / std::sqrt(kMaxAngleTerm));  // eq. 2
-      return front * std::max(0.0f, 1 - error);                                                      // eq. 5
+      return front * std::max(0.0f, 1 - error);                                                   // eq. 5
     }
     const float error = position + settings.kappa * angle;
     return front * std::max(0.0f, 1 / std::max(error, 1e-4f) - 1);
@@ -190,8 +194,8 @@ struct IrradianceCache::Impl {
     constexpr float kRounding = 1e-4f;
     const float angle =
         isWard() ? 1 / (settings.kappa * settings.kappa) : kMaxAngleTerm / (settings.kappa * settings.kappa);
-    return {settings.minPixels * pixelSize, settings.maxPixels * pixelSize,
-            wider * (1 + kRounding) / settings.kappa, 1 - angle - kRounding};
+    return {settings.minPixels * pixelSize, settings.maxPixels * pixelSize, wider * (1 + kRounding) / settings.kappa,
+            1 - angle - kRounding};
   }
 
   /// Lookups that lie close together share one walk through the tree.
@@ -207,7 +211,9 @@ struct IrradianceCache::Impl {
     }
     near.clear();
     const Reach farthest = reachAt(pixelSize, wider);
-    const auto reachOf = [&](float recordSize) { return farthest.scale * std::max(std::min(recordSize, farthest.most), farthest.least); };
+    const auto reachOf = [&](float recordSize) {
+      return farthest.scale * std::max(std::min(recordSize, farthest.most), farthest.least);
+    };
     tree.visit(region, reachOf, [&](uint32_t i) {
       const IrradianceRecord& r = records[i];
       const vec3 off = r.position - glm::clamp(r.position, region.lo, region.hi);
@@ -229,7 +235,8 @@ struct IrradianceCache::Impl {
   }
 
   // What extrapolating each record by its own gradient leaves out of their mean.
-  vec3 secondOrder(const std::vector<Candidate>& candidates, const MeanExtrapolation& mean, float weight, float pixelSize) const {
+  vec3 secondOrder(const std::vector<Candidate>& candidates, const MeanExtrapolation& mean, float weight,
+                   float pixelSize) const {
     if (isPublished()) return vec3(0.0f);
     const vec3 step = mean.step();
     vec3 out = -0.5f * mean.covariance();
@@ -241,7 +248,8 @@ struct IrradianceCache::Impl {
     return mean.agreement() * out;
   }
 
-  IrradianceEstimate blend(const std::vector<Candidate>& candidates, const vec3& x, const vec3& n, float pixelSize) const {
+  IrradianceEstimate blend(const std::vector<Candidate>& candidates, const vec3& x, const vec3& n,
+                           float pixelSize) const {
     IrradianceEstimate out{vec3(0.0f), {vec3(0.0f), vec3(0.0f), vec3(0.0f)}};
     float nearest = kInfinity;
     Dispute worst = Dispute::None;
@@ -250,7 +258,8 @@ struct IrradianceCache::Impl {
       const IrradianceRecord& r = records[candidate.record];
       const vec3 E = mean.add(r, candidate.weight);
       const float distance = glm::length(x - r.position);
-      if (&candidate != &candidates.front()) worst = std::max(worst, disputeOf(E, out.E / out.weight, 2 * noiseAt(r, distance)));
+      if (&candidate != &candidates.front())
+        worst = std::max(worst, disputeOf(E, out.E / out.weight, 2 * noiseAt(r, distance)));
       nearest = std::min(nearest, distance);
       out.closest = std::min(out.closest, r.closest);
       out.headroom = std::min(out.headroom, std::max(r.closest, r.limit));
@@ -259,7 +268,8 @@ struct IrradianceCache::Impl {
       for (int c = 0; c < 3; ++c) out.dominant[c] += candidate.weight * r.dominant[c];  // eq. 7
       out.weight += candidate.weight;
     }
-    if (out.weight > 0) out.E = glm::max(vec3(0.0f), out.E / out.weight + secondOrder(candidates, mean, out.weight, pixelSize));
+    if (out.weight > 0)
+      out.E = glm::max(vec3(0.0f), out.E / out.weight + secondOrder(candidates, mean, out.weight, pixelSize));
     out.disputed = limitBy(worst, nearest, pixelSize) <= nearest;
     for (vec3& d : out.dominant) d = normalizeOr(d, n);
     return out;
@@ -289,13 +299,13 @@ void IrradianceCache::restore(const IrradianceRecord& record) {
   if (impl_->settings.kappa < kInfinity) impl_->insert(static_cast<uint32_t>(impl_->records.size() - 1));
 }
 
-IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, const vec3& shadingNormal, float pixelSize) const {
+IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, const vec3& shadingNormal,
+                                           float pixelSize) const {
   if (!(impl_->settings.kappa < kInfinity)) return impl_->blend({}, x, shadingNormal, pixelSize);
   return impl_->blend(impl_->candidatesAt(x, normal, pixelSize), x, shadingNormal, pixelSize);
 }
 
-void IrradianceCache::lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out,
-                             float wider) const {
+void IrradianceCache::lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider) const {
   if (places.empty()) return;
   if (impl_->isPublished() || impl_->settings.errorFunction == ErrorFunction::Hessian) wider = 1;
   if (impl_->settings.kappa < kInfinity) {

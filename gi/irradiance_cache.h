@@ -25,27 +25,27 @@ enum class ErrorFunction {
 
 struct CacheSettings {
   ErrorFunction errorFunction = ErrorFunction::Screen;
-  float kappa = 1;                 ///< Eq. 2: records reach 1 / kappa as far. Infinite: nothing is ever reused.
-  float maxPixels = 10;            ///< R+ of eq. 3, in roots of the projected pixel area (Attribute "irradiance" "maxpixeldist"),
-  float minPixels = 1.5f;          ///< and R-
-  float enough = 0.05f;            ///< Sum of weights that a point is to find; else it gets its own record.
+  float kappa = 1;       ///< Eq. 2: records reach 1 / kappa as far. Infinite: nothing is ever reused.
+  float maxPixels = 10;  ///< R+ of eq. 3, in roots of the projected pixel area (Attribute "irradiance" "maxpixeldist"),
+  float minPixels = 1.5f;  ///< and R-
+  float enough = 0.05f;    ///< Sum of weights that a point is to find; else it gets its own record.
   bool operator==(const CacheSettings&) const = default;
 };
 
 struct IrradianceEstimate {
   vec3 E;
   vec3 dominant[3];
-  float weight = 0;                ///< Sum of weights; 0: nothing usable was found.
-  bool disputed = false;           ///< Records differ by more than their noise explains.
-  bool hasRecord = false;          ///< At this very place.
-  float closest = kInfinity;       ///< The least of the records used: the more there are, the less.
-  float headroom = kInfinity;      ///< No sheet over any of them is lower, though some may have met its edge.
+  float weight = 0;            ///< Sum of weights; 0: nothing usable was found.
+  bool disputed = false;       ///< Records differ by more than their noise explains.
+  bool hasRecord = false;      ///< At this very place.
+  float closest = kInfinity;   ///< The least of the records used: the more there are, the less.
+  float headroom = kInfinity;  ///< No sheet over any of them is lower, though some may have met its edge.
 };
 
 /// Where irradiance is looked up: records that serve `normal`, turned to `shadingNormal`.
 struct IrradiancePlace {
   vec3 position, normal, shadingNormal;
-  float pixelSize;                 ///< Root of the projected pixel area.
+  float pixelSize;  ///< Root of the projected pixel area.
 };
 
 class IrradianceCache {
@@ -56,14 +56,17 @@ class IrradianceCache {
   IrradianceCache& operator=(IrradianceCache&&) noexcept;
   ~IrradianceCache();
 
-  /// A record that is off at the place of a new one, by more than noise explains, ends before it; and the new one before the old.
+  /// A record that is off at the place of a new one, by more than noise explains, ends before it; and the new one
+  /// before the old.
   void insert(const IrradianceRecord& record);
   /// One of records() of an earlier cache with these settings: goes in as it is.
   void restore(const IrradianceRecord& record);
-  /// Weighted mean of the extrapolated records (eq. 5, 7): those that serve `normal`, turned to `shadingNormal`. pixelSize: root of the
-  /// projected pixel area at x.
+  /// Weighted mean of the extrapolated records (eq. 5, 7): those that serve `normal`, turned to `shadingNormal`.
+  /// pixelSize: root of the projected pixel area at x.
   IrradianceEstimate lookup(const vec3& x, const vec3& normal, const vec3& shadingNormal, float pixelSize) const;
-  IrradianceEstimate lookup(const vec3& x, const vec3& normal, float pixelSize) const { return lookup(x, normal, normal, pixelSize); }
+  IrradianceEstimate lookup(const vec3& x, const vec3& normal, float pixelSize) const {
+    return lookup(x, normal, normal, pixelSize);
+  }
   /// The same for many, to out[0] and on: several times as fast where successive places lie close together.
   /// Records serve so many times wider than they cover, but not beyond disputes, and less where they are
   /// steep; those of `split` and `plain` do not, as published, nor those of `hessian`, of which enough overlap.

@@ -1,4 +1,5 @@
-// Private to gi: rays on their way through what is transparent. Each goes on behind what it meets until enough of it is covered.
+// Private to gi: rays on their way through what is transparent. Each goes on behind what it meets until enough of it is
+// covered.
 #pragma once
 #include "raytrace/trace.h"
 
@@ -19,10 +20,11 @@ struct RayLayers {
   /// Nearest hits, of those rays that go on. Returns how many started at a recorded hit.
   int64_t meet(const RayScene& scene, RayMask mask, std::vector<Hit>& hits) const;
 
-  /// Given the colours and opacities of what they met, tells `brings(element, colour at its start, what stays clear)` and keeps the rays that go
-  /// on, which are covered by less than `opacityThreshold`.
+  /// Given the colours and opacities of what they met, tells `brings(element, colour at its start, what stays clear)`
+  /// and keeps the rays that go on, which are covered by less than `opacityThreshold`.
   template <class Brings>
-  void goOn(const RayScene& scene, const std::vector<Hit>& hits, const HitAnswers& answers, float opacityThreshold, const Brings& brings) {
+  void goOn(const RayScene& scene, const std::vector<Hit>& hits, const HitAnswers& answers, float opacityThreshold,
+            const Brings& brings) {
     size_t kept = 0;
     came.clear(), left.clear();
     for (size_t r = 0; r < rays.size(); ++r) {

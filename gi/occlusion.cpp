@@ -16,7 +16,8 @@ struct Scout {
   bool operator<(const Scout& o) const { return order != o.order ? order < o.order : tile < o.tile; }
 };
 
-std::vector<Scout> scoutsOf(const GiState& state, const DeepFrame& layout, const TileReader& tiles, const std::atomic<bool>* cancelled) {
+std::vector<Scout> scoutsOf(const GiState& state, const DeepFrame& layout, const TileReader& tiles,
+                            const std::atomic<bool>* cancelled) {
   std::vector<Scout> scouts(state.scene.groups.size());
   std::mutex merging;
   parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
@@ -26,7 +27,8 @@ std::vector<Scout> scoutsOf(const GiState& state, const DeepFrame& layout, const
       const ShadePoints& batch = tile->batches[b];
       if (!state.shading.asksOcclusion(batch.group())) continue;
       Scout best;
-      for (int i = 0; i < batch.count(); ++i) best = std::min(best, Scout{hash32(batch.key(i)), t, static_cast<int>(b), i});
+      for (int i = 0; i < batch.count(); ++i)
+        best = std::min(best, Scout{hash32(batch.key(i)), t, static_cast<int>(b), i});
       const std::lock_guard lock(merging);
       Scout& known = scouts[static_cast<size_t>(batch.group())];
       known = std::min(known, best);
@@ -64,7 +66,8 @@ void rehearse(GiState& state, const DeepFrame& layout, const TileReader& tiles, 
 GatherPlan planFor(const GiState& state, int group, const OcclusionQuery& query) {
   GatherPlan plan;
   plan.cache.errorFunction = ErrorFunction::Hessian;
-  plan.cache.maxPixels = state.scene.groups[static_cast<size_t>(group)].attributes->irradianceMaxPixelDist.value_or(kMostPixels);
+  plan.cache.maxPixels =
+      state.scene.groups[static_cast<size_t>(group)].attributes->irradianceMaxPixelDist.value_or(kMostPixels);
   plan.gather.curvature = true;
   plan.gather.samples = query.samples;
   plan.gather.maxDistance = query.maxDistance;
@@ -73,8 +76,8 @@ GatherPlan planFor(const GiState& state, int group, const OcclusionQuery& query)
   return plan;
 }
 
-bool interpolateOcclusion(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N, const OcclusionQuery& query,
-                          const ShadeContext& context, float* covered) {
+bool interpolateOcclusion(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
+                          const OcclusionQuery& query, const ShadeContext& context, float* covered) {
   if (!keepsOcclusion(state.settings)) return false;
   if (context.rehearsal) {
     auto& asked = state.occlusionAsked[static_cast<size_t>(points.group())];
@@ -82,7 +85,8 @@ bool interpolateOcclusion(const GiState& state, const ShadePoints& points, const
     return true;
   }
   const GatherPlan plan = planFor(state, points.group(), query);
-  const auto prepared = std::find_if(state.caches.begin(), state.caches.end(), [&](const PreparedCache& c) { return c.plan == plan; });
+  const auto prepared =
+      std::find_if(state.caches.begin(), state.caches.end(), [&](const PreparedCache& c) { return c.plan == plan; });
   if (prepared == state.caches.end()) return false;
   const GatherPlaces places(state, points);
   const BatchLookup found = lookUp(state, &prepared->cache, places, points, active, N);

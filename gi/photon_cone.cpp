@@ -28,8 +28,7 @@ vec3 PhotonCone::local(size_t cell, vec2 at) const {
 double PhotonCone::cellSolidAngle() const { return 2 * double{kPi} * double{height_} / kCells; }
 
 vec3 PhotonCone::place(const vec3& local, float distance) const {
-  return origin_ +
-         frame_ * vec3(distance * local.x, distance * local.y, (distance - distance_) - distance * local.z);
+  return origin_ + frame_ * vec3(distance * local.x, distance * local.y, (distance - distance_) - distance * local.z);
 }
 
 }  // namespace tomales

@@ -47,8 +47,7 @@ TOMALES_HOT void cosineHemispheres(std::span<const vec2> xi, std::span<vec3> out
     const float a = 2 * xi[i].x - 1, b = 2 * xi[i].y - 1;
     const bool swapped = std::abs(a) <= std::abs(b);
     const float r = swapped ? b : a, x = (kPi / 4) * (swapped ? a : b) / (r == 0 ? 1 : r), x2 = x * x;
-    const float sine =
-        x * (1 - x2 * (1.0f / 6 - x2 * (1.0f / 120 - x2 * (1.0f / 5040 - x2 * (1.0f / 362880)))));
+    const float sine = x * (1 - x2 * (1.0f / 6 - x2 * (1.0f / 120 - x2 * (1.0f / 5040 - x2 * (1.0f / 362880)))));
     const float cosine = 1 - x2 * (0.5f - x2 * (1.0f / 24 - x2 * (1.0f / 720 - x2 * (1.0f / 40320))));
     out[i].x = r * (swapped ? sine : cosine), out[i].y = r * (swapped ? cosine : sine);
     out[i].z = std::sqrt(std::max(0.0f, 1 - r * r));
@@ -59,16 +58,15 @@ PhotonTarget::PhotonTarget(const Scene& scene) {
   for (const Object& o : scene.objects) {
     if (!o.attributes->visibility.photon) continue;
     for (uint32_t patch = 0; patch < o.shape().patchCount(); ++patch) {
-      objects.push_back(transformBound(o.cameraFromObject.keys.front(), o.shape().bound(patch, {}))
-                            .grown(o.displacementBound));
+      objects.push_back(
+          transformBound(o.cameraFromObject.keys.front(), o.shape().bound(patch, {})).grown(o.displacementBound));
       bound.extend(objects.back());
     }
   }
   if (bound.empty()) bound = {vec3(-1), vec3(1)};
 }
 
-PhotonSource::PhotonSource(int light, const ShadingSystem& shading, const RayScene& rays,
-                           const PhotonTarget& target)
+PhotonSource::PhotonSource(int light, const ShadingSystem& shading, const RayScene& rays, const PhotonTarget& target)
     : light_(light),
       shading_(shading),
       rays_(rays),
@@ -105,8 +103,7 @@ void PhotonSource::surveyPoint() {
 }
 
 void PhotonSource::askAlong(const vec3& local, const vec3& offset, LightProbe& probe) const {
-  probe.P.push_back(cone_.place(local, cone_.askingDistance()) + offset),
-      probe.N.push_back(-cone_.direction(local));
+  probe.P.push_back(cone_.place(local, cone_.askingDistance()) + offset), probe.N.push_back(-cone_.direction(local));
 }
 
 /// I = E r^2 over pi.
@@ -149,8 +146,7 @@ void PhotonSource::surveyDistant(const PhotonTarget& target) {
 void PhotonSource::surveyArea() {
   std::vector<EmittedPhoton> photons(256);
   emit(0, 0, photons);
-  for (const EmittedPhoton& p : photons)
-    power_ += double{luminance(p.power)} / static_cast<double>(photons.size());
+  for (const EmittedPhoton& p : photons) power_ += double{luminance(p.power)} / static_cast<double>(photons.size());
 }
 
 void PhotonSource::emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>& out) const {
@@ -196,8 +192,7 @@ void PhotonSource::emitFromPoint(const std::vector<vec2>& a, const std::vector<v
     askAlong(local, offset, probe);
   }
   shading_.probe(light_, probe);
-  for (size_t i = 0; i < out.size(); ++i)
-    out[i].power = intensity(probe, i) * kPi / static_cast<float>(density[i]);
+  for (size_t i = 0; i < out.size(); ++i) out[i].power = intensity(probe, i) * kPi / static_cast<float>(density[i]);
 }
 
 void PhotonSource::emitFromDistance(const std::vector<vec2>& a, const std::vector<vec2>& b,
@@ -236,8 +231,7 @@ void PhotonSource::emitFromArea(const std::vector<vec2>& a, const std::vector<ve
   const TmVec3 P{place[0].data(), place[1].data(), place[2].data()},
       N{normal[0].data(), normal[1].data(), normal[2].data()};
   std::vector<int> group(n);
-  if (!rays_.emitters().sample(light_, static_cast<int>(n), xi0.data(), xi1.data(), P, N, area.data(),
-                               group.data())) {
+  if (!rays_.emitters().sample(light_, static_cast<int>(n), xi0.data(), xi1.data(), P, N, area.data(), group.data())) {
     std::fill(out.begin(), out.end(), EmittedPhoton{});
     return;
   }

@@ -39,9 +39,7 @@ class PhotonSource {
   PhotonSource(int light, const ShadingSystem& shading, const RayScene& rays, const PhotonTarget& target);
 
   int light() const { return light_; }
-  double power() const {
-    return power_;
-  }  ///< Estimate, W; what photons are shared out by. 0: the light emits none.
+  double power() const { return power_; }  ///< Estimate, W; what photons are shared out by. 0: the light emits none.
 
   /// Photons number `first` .. first + out.size() - 1 of this light.
   void emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>& out) const;
@@ -54,12 +52,9 @@ class PhotonSource {
   vec3 intensity(const LightProbe& probe, size_t i) const;
   /// At the middle of the scene; L of a distant light is unit.
   LightProbe askedFromMiddle(const std::vector<vec2>& xi) const;
-  void emitFromPoint(const std::vector<vec2>& a, const std::vector<vec2>& b,
-                     std::vector<EmittedPhoton>& out) const;
-  void emitFromDistance(const std::vector<vec2>& a, const std::vector<vec2>& b,
-                        std::vector<EmittedPhoton>& out) const;
-  void emitFromArea(const std::vector<vec2>& a, const std::vector<vec2>& b,
-                    std::vector<EmittedPhoton>& out) const;
+  void emitFromPoint(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const;
+  void emitFromDistance(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const;
+  void emitFromArea(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const;
 
   const int light_;
   const ShadingSystem& shading_;
@@ -67,14 +62,14 @@ class PhotonSource {
   const LightKind kind_;
   double power_ = 0;
   std::shared_ptr<const SkyPhotons> sky_;  ///< Sky alone.
-  bool isDrawn_ = false;  ///< Point, Distant: its place or direction is another for every photon.
-  Distribution cells_;    ///< Point: of the cone. Distant: of the square that
-                          ///< the scene's shadow fits in.
-  vec3 middle_{0.0f};     ///< Point: from the middle of the scene to that of the light.
-  PhotonCone cone_;       ///< Point: of directions.
-  vec3 direction_{0.0f};  ///< Distant: of the middle of its light.
-  vec3 center_{0.0f};     ///< Of the scene.
-  float radius_ = 0;      ///< Likewise
+  bool isDrawn_ = false;                   ///< Point, Distant: its place or direction is another for every photon.
+  Distribution cells_;                     ///< Point: of the cone. Distant: of the square that
+                                           ///< the scene's shadow fits in.
+  vec3 middle_{0.0f};                      ///< Point: from the middle of the scene to that of the light.
+  PhotonCone cone_;                        ///< Point: of directions.
+  vec3 direction_{0.0f};                   ///< Distant: of the middle of its light.
+  vec3 center_{0.0f};                      ///< Of the scene.
+  float radius_ = 0;                       ///< Likewise
 };
 
 }  // namespace tomales

@@ -14,7 +14,7 @@ namespace {
 // in gradually.
 constexpr float kChanceEnds = 0.18f, kBorderBegins = 0.34f;
 constexpr float kOverlap =
-    1.6f;  ///< Radius of a disk over that of the area it stands for: few gaps between random disks.
+    1.6f;                   ///< Radius of a disk over that of the area it stands for: few gaps between random disks.
 constexpr size_t kFew = 8;  ///< Fewer photons tell nothing about how far the next are.
 /// By chance, the nearest eight of 50 are so much closer once in a thousand times. Radii that follow chance
 /// make bricks finer than the data.
@@ -54,8 +54,7 @@ float nearRadius(const std::vector<NearPhoton>& photons, int every) {
 /// photon at the middle. Pre: sorted.
 float clumpOf(const std::vector<NearPhoton>& photons, float area, size_t inside) {
   if (photons.size() <= kFew || !(photons[kFew - 1].distance2 > 0)) return 1;
-  return static_cast<float>(kFew - 2) / (kPi * photons[kFew - 1].distance2) * area /
-         static_cast<float>(inside - 1);
+  return static_cast<float>(kFew - 2) / (kPi * photons[kFew - 1].distance2) * area / static_cast<float>(inside - 1);
 }
 
 Estimate estimate(const PhotonTree& tree, int power, uint32_t at, const PhotonIrradianceSettings& settings,
@@ -88,8 +87,8 @@ Estimate estimate(const PhotonTree& tree, int power, uint32_t at, const PhotonIr
 }
 
 /// Where photons fly: as estimate(), of a ball.
-Estimate estimateInMedium(const PhotonTree& tree, int power, uint32_t at,
-                          const PhotonIrradianceSettings& settings, std::vector<NearPhoton>& heap) {
+Estimate estimateInMedium(const PhotonTree& tree, int power, uint32_t at, const PhotonIrradianceSettings& settings,
+                          std::vector<NearPhoton>& heap) {
   const vec3 P = tree.position(at);
   const auto most = static_cast<size_t>(settings.nearest);
   tree.nearest(P, vec3(0), 0, most, settings.maxRadius, heap);
@@ -103,8 +102,7 @@ Estimate estimateInMedium(const PhotonTree& tree, int power, uint32_t at,
     const float* w = tree.photons().at(heap[i].photon) + power;
     sum += vec3(w[0], w[1], w[2]), centroid += tree.position(heap[i].photon) - P;
   }
-  const float count = static_cast<float>(std::max<size_t>(inside, 1)),
-              distance = glm::length(centroid) / (count * r);
+  const float count = static_cast<float>(std::max<size_t>(inside, 1)), distance = glm::length(centroid) / (count * r);
   const float covered =
       glm::mix(1.0f, coveredShareOfBall(distance), glm::smoothstep(kChanceEnds, kBorderBegins, distance));
   const float volume = 4.0f / 3 * kPi * r * r * r * covered;

@@ -28,8 +28,8 @@ inline constexpr const char *kIrradiance = "irradiance", *kIndirectIrradiance = 
 /// Estimates, and those of them that stand on weak ground.
 struct EstimateFigures {
   int64_t made = 0;
-  int64_t few = 0;  ///< Fewer photons were in reach than were asked for: light is smeared as far as that, and
-                    ///< noisy all the same.
+  int64_t few = 0;    ///< Fewer photons were in reach than were asked for: light is smeared as far as that, and
+                      ///< noisy all the same.
   int64_t bent = 0;   ///< The surface bends within the disk, which is no disk then.
   double clumps = 0;  ///< Density of the nearest few over that of the disk, summed: 1 each in the mean on
                       ///< even ground; photons lie in clumps where surfaces are smaller than the disk.

@@ -69,11 +69,9 @@ SkyCells::SkyCells(const std::vector<float>& radiance, const Share& share) {
     for (size_t column = 0; column < kColumns; ++column) {
       const size_t next = (column + 1) % kColumns;
       const double mean =
-          0.25 *
-          (double{radiance[row * kColumns + column]} + double{radiance[row * kColumns + next]} +
-           double{radiance[(row + 1) * kColumns + column]} + double{radiance[(row + 1) * kColumns + next]});
-      const vec3 middle =
-          direction(cosineAt(static_cast<double>(row) + 0.5), phiAt(static_cast<double>(column) + 0.5));
+          0.25 * (double{radiance[row * kColumns + column]} + double{radiance[row * kColumns + next]} +
+                  double{radiance[(row + 1) * kColumns + column]} + double{radiance[(row + 1) * kColumns + next]});
+      const vec3 middle = direction(cosineAt(static_cast<double>(row) + 0.5), phiAt(static_cast<double>(column) + 0.5));
       weights.push_back(mean * double{share(middle)} * solidAngle(row));
       integral_ += weights.back();
     }
@@ -89,8 +87,7 @@ vec3 SkyCells::sample(vec2 xi, Cell& cell) const {
   double x{xi.x}, y{xi.y};
   cell.row = rows_.pick(y);
   cell.column = row_[cell.row].pick(x);
-  const double top = cosineAt(static_cast<double>(cell.row)),
-               bottom = cosineAt(static_cast<double>(cell.row) + 1);
+  const double top = cosineAt(static_cast<double>(cell.row)), bottom = cosineAt(static_cast<double>(cell.row) + 1);
   return direction(top + y * (bottom - top), phiAt(static_cast<double>(cell.column) + x));
 }
 
@@ -98,8 +95,7 @@ float SkyCells::density(const Cell& cell) const {
   return static_cast<float>(row_[cell.row].weight(cell.column) / (rows_.total() * solidAngle(cell.row)));
 }
 
-SkyPhotons::SkyPhotons(int light, const ShadingSystem& shading, const RayScene& rays,
-                       const PhotonTarget& target)
+SkyPhotons::SkyPhotons(int light, const ShadingSystem& shading, const RayScene& rays, const PhotonTarget& target)
     : light_(light), shading_(shading), center_(target.center()), radius_(target.radius()) {
   for (const Portal& p : shading.portals(light))
     portals_.push_back({p, {freeSky(rays, p, p.normal), freeSky(rays, p, -p.normal)}});
@@ -110,8 +106,7 @@ SkyPhotons::SkyPhotons(int light, const ShadingSystem& shading, const RayScene& 
   through_ = SkyCells(radiance, [&](const vec3& toSky) { return across(toSky); });
   if (!(through_.integral() > 0)) return;
   share_ = kThroughPortals;
-  power_ =
-      through_.integral() / double{share_};  // what the house is met by from outside is not worth its photons
+  power_ = through_.integral() / double{share_};  // what the house is met by from outside is not worth its photons
 }
 
 float SkyPhotons::across(const vec3& toSky) const {
@@ -152,8 +147,7 @@ vec3 SkyPhotons::onDisk(const vec3& toSky, const vec2& xi) const {
 }
 
 /// Both ways are weighed by the balance heuristic (Veach 1997), over directions and area across them.
-void SkyPhotons::emit(const std::vector<vec2>& a, const std::vector<vec2>& b,
-                      std::vector<EmittedPhoton>& out) const {
+void SkyPhotons::emit(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const {
   LightProbe probe;
   std::vector<float> density;
   for (size_t i = 0; i < out.size(); ++i) {

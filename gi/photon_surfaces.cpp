@@ -27,15 +27,13 @@ std::optional<PhotonSurfaces::Answer> PhotonSurfaces::evenAnswer(int group) cons
   if (!isDiffuse(group)) return Answer{};
   if (!shading_.reflectsEvenly(group)) return std::nullopt;
   Hit hit;
-  hit.t = 1, hit.object = rays_.scene().groups[static_cast<size_t>(group)].exampleObject,
-  hit.u = hit.v = 0.5f;
+  hit.t = 1, hit.object = rays_.scene().groups[static_cast<size_t>(group)].exampleObject, hit.u = hit.v = 0.5f;
   hit.normal = hit.geometricNormal = {0, 0, -1};
   return ask({{vec3(0), vec3(0, 0, 1)}}, {hit}, {{}}).front();
 }
 
 /// Reflected is what comes back of E/pi = 1, less what is emitted.
-std::vector<PhotonSurfaces::Answer> PhotonSurfaces::ask(const std::vector<Ray>& rays,
-                                                        const std::vector<Hit>& hits,
+std::vector<PhotonSurfaces::Answer> PhotonSurfaces::ask(const std::vector<Ray>& rays, const std::vector<Hit>& hits,
                                                         const std::vector<SampleName>& names) const {
   ShadeContext context{RayKind::Diffuse, 1, seed_, 1, false};
   context.light = Illumination::Unit;
@@ -52,8 +50,7 @@ std::vector<PhotonSurfaces::Answer> PhotonSurfaces::ask(const std::vector<Ray>& 
     for (size_t i = 0; i < dark.size(); ++i) lit.color[i] -= dark[i];
   }
   std::vector<Answer> out(hits.size());
-  for (size_t i = 0; i < out.size(); ++i)
-    out[i] = {shareOf(lit.color[i], vec3(0)), shareOf(lit.opacity[i], vec3(1))};
+  for (size_t i = 0; i < out.size(); ++i) out[i] = {shareOf(lit.color[i], vec3(0)), shareOf(lit.opacity[i], vec3(1))};
   return out;
 }
 

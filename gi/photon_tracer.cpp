@@ -9,8 +9,7 @@ namespace tomales {
 namespace {
 
 constexpr uint32_t kBounceStream = 0x626f756eU, kMediumStream = 0x6d656469U;
-constexpr float kDiffuseSpread =
-    0.1f;  ///< As a gather ray of about a hundred; irradiance is estimated over more.
+constexpr float kDiffuseSpread = 0.1f;  ///< As a gather ray of about a hundred; irradiance is estimated over more.
 constexpr uint32_t kMostPasses =
     1000;  ///< Of one path: layers of leaves and smoke end somewhere, faults of geometry may not.
 
@@ -42,8 +41,8 @@ PhotonTracer::PhotonTracer(const Scene& scene, const RayScene& rays, const Shadi
       worldUnit_(std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))))) {
   for (const Object& o : scene.objects) groups_.push_back(o.group);
   for (const ShadeGroup& g : scene.groups) {
-    media_.push_back({mediumOf(g.attributes->interior.get(), worldUnit_),
-                      mediumOf(g.attributes->exterior.get(), worldUnit_)});
+    media_.push_back(
+        {mediumOf(g.attributes->interior.get(), worldUnit_), mediumOf(g.attributes->exterior.get(), worldUnit_)});
     anyMedium_ |= !media_.back().inside.empty() || !media_.back().outside.empty();
   }
 }
@@ -67,8 +66,7 @@ void PhotonTracer::trace(const PhotonSource& source, uint32_t first, size_t coun
 }
 
 /// Every path that flies to its next surface; those that end there fly no more.
-void PhotonTracer::step(std::vector<Path>& paths, uint32_t stream, Scratch& s,
-                        std::vector<StoredPhoton>& out) const {
+void PhotonTracer::step(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const {
   fly(paths, s);
   crossMedia(paths, stream, s, out);
   ask(paths, stream, s);
@@ -76,8 +74,8 @@ void PhotonTracer::step(std::vector<Path>& paths, uint32_t stream, Scratch& s,
   size_t kept = 0;
   for (size_t k = 0; k < s.flying.size(); ++k) {
     Path& path = paths[s.flying[k]];
-    if (s.scattered[k] || (s.hits[k].object >= 0 && meets(path, s.hits[k], *s.answers[k],
-                                                          {s.direction[k], s.survival[k]}, stream, out)))
+    if (s.scattered[k] ||
+        (s.hits[k].object >= 0 && meets(path, s.hits[k], *s.answers[k], {s.direction[k], s.survival[k]}, stream, out)))
       s.flying[kept++] = s.flying[k];
   }
   s.flying.resize(kept);
@@ -115,8 +113,7 @@ vec3 PhotonTracer::liftOf(const Ray& ray, const vec3& normal) {
 
 void PhotonTracer::draw(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const {
   const size_t count = s.flying.size();
-  s.number.resize(count), s.name.resize(count), s.xi.resize(count), s.direction.resize(count),
-      s.survival.resize(count);
+  s.number.resize(count), s.name.resize(count), s.xi.resize(count), s.direction.resize(count), s.survival.resize(count);
   for (size_t k = 0; k < count; ++k) {
     const Path& path = paths[s.flying[k]];
     s.number[k] = path.number, s.name[k] = nameOf(path, stream);
@@ -151,16 +148,14 @@ bool PhotonTracer::collides(Path& path, const Medium& medium, bool isLit, float 
                             std::vector<StoredPhoton>& out) const {
   const vec3 P = path.ray.origin + flight * path.ray.direction;
   if (isLit)
-    out.push_back(
-        {P, vec3(0), path.power / (medium.majorant(path.power) * worldUnit_), -1, path.depth, false});
+    out.push_back({P, vec3(0), path.power / (medium.majorant(path.power) * worldUnit_), -1, path.depth, false});
   const Collision collision = collide(medium, path.power, sobol1(path.number, hashCombine(name, 1u)));
   if (collision.event == Collision::Absorbed) return false;
   path.power = collision.power;
   ++path.collisions;
   if (collision.event == Collision::None) {  // the same ray, from there
     path.ray.origin = P;
-    path.ray.offset = std::max(0.0f, path.ray.offset - flight),
-    path.ray.bias = std::max(0.0f, path.ray.bias - flight);
+    path.ray.offset = std::max(0.0f, path.ray.offset - flight), path.ray.bias = std::max(0.0f, path.ray.bias - flight);
     return true;
   }
   if (!isLit || ++path.depth >= settings_.maxDepth) return false;
@@ -228,15 +223,13 @@ bool PhotonTracer::passes(Path& path, const Hit& hit, const vec3& transmitted, f
   return true;
 }
 
-bool PhotonTracer::isScattered(Path& path, const Hit& hit, const vec3& reflected, const Draw& xi,
-                               uint32_t side) const {
+bool PhotonTracer::isScattered(Path& path, const Hit& hit, const vec3& reflected, const Draw& xi, uint32_t side) const {
   path.specular = false;
   if (++path.depth >= settings_.maxDepth || !survives(path, reflected, xi.survival)) return false;
   // Around the interpolated normal some photons would go into the polygon, and be caught in what it bounds.
-  const bool through =
-      surfaces_.model(groupOf(hit)) == PhotonModel::Translucent && sobol1(path.number, side) < 0.5f;
-  const vec3 axis = (dot(path.ray.direction, hit.geometricNormal) < 0) != through ? hit.geometricNormal
-                                                                                  : -hit.geometricNormal;
+  const bool through = surfaces_.model(groupOf(hit)) == PhotonModel::Translucent && sobol1(path.number, side) < 0.5f;
+  const vec3 axis =
+      (dot(path.ray.direction, hit.geometricNormal) < 0) != through ? hit.geometricNormal : -hit.geometricNormal;
   vec3 tangent, bitangent;
   orthonormalBasis(axis, tangent, bitangent);
   const vec3& local = xi.direction;
@@ -253,8 +246,7 @@ bool PhotonTracer::isMirrored(Path& path, const Hit& hit, float survival, float 
   const vec3 N = front ? hit.normal : -hit.normal;
   const vec3 mirrored = d - 2 * dot(d, N) * N;
   const float index = model == PhotonModel::Water ? 1.33f : 1.5f;
-  leave(path, hit,
-        normalizeOr(model == PhotonModel::Chrome ? mirrored : dielectric(d, N, front, index, xi), N));
+  leave(path, hit, normalizeOr(model == PhotonModel::Chrome ? mirrored : dielectric(d, N, front, index, xi), N));
   return true;
 }
 

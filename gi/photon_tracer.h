@@ -13,8 +13,8 @@ bool isOnFor(const ShadeGroup& group, int light);
 
 class PhotonTracer {
  public:
-  PhotonTracer(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
-               const PhotonSettings& settings, Log& log);
+  PhotonTracer(const Scene& scene, const RayScene& rays, const ShadingSystem& shading, const PhotonSettings& settings,
+               Log& log);
 
   /// Photons number `first` .. first + count - 1 of a source, each of this share of its power; what they
   /// leave is added to `out`.
@@ -58,8 +58,7 @@ class PhotonTracer {
   Hit firstHit(Path& path) const;
   static vec3 liftOf(const Ray& ray, const vec3& normal);
   void draw(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const;
-  void crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch& s,
-                  std::vector<StoredPhoton>& out) const;
+  void crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const;
   bool collides(Path& path, const Medium& medium, bool isLit, float flight, uint32_t name,
                 std::vector<StoredPhoton>& out) const;
   void ask(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const;

@@ -9,7 +9,7 @@ namespace tomales {
 namespace {
 
 constexpr uint32_t kLeaf = 16;
-constexpr float kSameSide = 0.5f;  ///< Photons of surfaces turned away by more than 60 degrees do not count.
+constexpr float kSameSide = 0.5f;      ///< Photons of surfaces turned away by more than 60 degrees do not count.
 constexpr float kAlongNormal = 15.0f;  ///< A photon off the plane looks four times as far.
 /// And one of another surface four hundred times as far as it is off the sheet: tiles of one floor continue
 /// each other, a ball does not continue the floor it lies on. On one sphere or plane a chord makes the same
@@ -55,11 +55,10 @@ void PhotonTree::build(std::vector<uint32_t>& order, uint32_t begin, uint32_t en
   const vec3 size = bound.size();
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const uint32_t middle = begin + (end - begin) / 2;
-  std::nth_element(order.begin() + begin, order.begin() + middle, order.begin() + end,
-                   [&](uint32_t a, uint32_t b) {
-                     const float pa = position(a)[axis], pb = position(b)[axis];
-                     return pa != pb ? pa < pb : a < b;
-                   });
+  std::nth_element(order.begin() + begin, order.begin() + middle, order.begin() + end, [&](uint32_t a, uint32_t b) {
+    const float pa = position(a)[axis], pb = position(b)[axis];
+    return pa != pb ? pa < pb : a < b;
+  });
   if (splits_.size() <= node) splits_.resize(node + 1);
   splits_[node] = {position(order[middle])[axis], axis};
   build(order, begin, middle, 2 * node + 1);
@@ -85,8 +84,7 @@ void PhotonTree::nearest(const vec3& P, const vec3& N, int surface, size_t most,
       const Split& split = splits_[r.node];
       const uint32_t middle = r.begin + (r.end - r.begin) / 2;
       const float d = P[split.axis] - split.at;
-      const Range low{r.begin, middle, 2 * r.node + 1, r.distance2},
-          high{middle, r.end, 2 * r.node + 2, r.distance2};
+      const Range low{r.begin, middle, 2 * r.node + 1, r.distance2}, high{middle, r.end, 2 * r.node + 2, r.distance2};
       Range& far = stack[depth++];
       far = d < 0 ? high : low;
       far.distance2 = std::max(r.distance2, d * d);

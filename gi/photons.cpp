@@ -12,8 +12,7 @@ namespace {
 constexpr size_t kPhotonsPerTask = 2048,
                  kTasksPerThread = 8;  ///< Before they are stored, from the processor's cache.
 
-std::vector<PhotonSource> sourcesOf(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
-                                    Log& log) {
+std::vector<PhotonSource> sourcesOf(const Scene& scene, const RayScene& rays, const ShadingSystem& shading, Log& log) {
   const PhotonTarget target(scene);
   std::vector<PhotonSource> sources;
   for (const auto& light : scene.lights) {
@@ -59,8 +58,8 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
   std::vector<std::vector<StoredPhoton>> stored;
   const size_t photonsPerWave = kPhotonsPerTask * kTasksPerThread * static_cast<size_t>(threadCount());
   for (const PhotonSource& source : sources) {
-    const auto count = static_cast<size_t>(
-        std::max(1.0, std::round(static_cast<double>(settings.emit) * source.power() / total)));
+    const auto count =
+        static_cast<size_t>(std::max(1.0, std::round(static_cast<double>(settings.emit) * source.power() / total)));
     const float share = 1 / static_cast<float>(count);
     for (size_t wave = 0; wave < count; wave += photonsPerWave) {
       const size_t end = std::min(count, wave + photonsPerWave);
@@ -78,8 +77,7 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
         figures.stored += static_cast<int64_t>(photons.size());
       }
       if (progress)
-        progress(static_cast<float>(figures.emitted + static_cast<int64_t>(end)) /
-                 static_cast<float>(settings.emit));
+        progress(static_cast<float>(figures.emitted + static_cast<int64_t>(end)) / static_cast<float>(settings.emit));
     }
     figures.emitted += static_cast<int64_t>(count);
   }

@@ -21,11 +21,11 @@ struct PhotonSettings {
 };
 
 struct StoredPhoton {
-  vec3 P, N;   ///< N: unit, of the polygon that P lies on, towards the side that the photon came from; zero:
-               ///< in a medium.
-  vec3 power;  ///< In a medium times the free path there, in lengths of the world: W m.
-  int group;   ///< Of Scene::groups; -1: in a medium.
-  int depth;   ///< 0: straight from a light.
+  vec3 P, N;     ///< N: unit, of the polygon that P lies on, towards the side that the photon came from; zero:
+                 ///< in a medium.
+  vec3 power;    ///< In a medium times the free path there, in lengths of the world: W m.
+  int group;     ///< Of Scene::groups; -1: in a medium.
+  int depth;     ///< 0: straight from a light.
   bool caustic;  ///< It has met mirrors and glass alone on its way, and at least one.
 };
 

@@ -86,7 +86,8 @@ class PlyReader {
       return v;
     }
     std::byte bytes[8];
-    if (!in_.read(reinterpret_cast<char*>(bytes), static_cast<std::streamsize>(type.bytes))) fail(path_, "ends too early");
+    if (!in_.read(reinterpret_cast<char*>(bytes), static_cast<std::streamsize>(type.bytes)))
+      fail(path_, "ends too early");
     if (encoding_ == Encoding::Big) std::reverse(bytes, bytes + type.bytes);
     return type.value(bytes);
   }
@@ -189,16 +190,23 @@ class VertexLayout {
   double scale(size_t property) const { return places_[property].scale; }
 
  private:
-  struct Place { size_t at; double scale; };
+  struct Place {
+    size_t at;
+    double scale;
+  };
 
-  static int colorPart(const std::string& name) { return name == "red" ? 0 : name == "green" ? 1 : name == "blue" ? 2 : -1; }
+  static int colorPart(const std::string& name) {
+    return name == "red" ? 0 : name == "green" ? 1 : name == "blue" ? 2 : -1;
+  }
 
   /// Its float among those of all channels.
   size_t addToChannel(const std::string& name) {
     const size_t bar = name.rfind('_');
     const int part = colorPart(name);
     const std::string stem = part >= 0 ? "Cs" : bar == std::string::npos ? name : name.substr(0, bar);
-    const std::string number = part >= 0 ? std::to_string(part) : bar == std::string::npos ? std::string() : name.substr(bar + 1);
+    const std::string number = part >= 0                  ? std::to_string(part)
+                               : bar == std::string::npos ? std::string()
+                                                          : name.substr(bar + 1);
     if (!channels_.empty() && channels_.back().name == stem && number == std::to_string(channels_.back().width))
       ++channels_.back().width;
     else
@@ -212,7 +220,8 @@ class VertexLayout {
   size_t width_ = 0;
 };
 
-PlyFigures readVertices(PlyReader& in, const Element& element, const std::string& path, const std::string& out, float radius) {
+PlyFigures readVertices(PlyReader& in, const Element& element, const std::string& path, const std::string& out,
+                        float radius) {
   for (const Property& p : element.properties)
     if (p.length) fail(path, fmt::format("vertices with a list (\"{}\") are not supported", p.name));
   const VertexLayout layout(element.properties);
@@ -240,7 +249,8 @@ PlyFigures readVertices(PlyReader& in, const Element& element, const std::string
 }
 
 std::string headerOf(const PointFile& cloud) {
-  std::string h = fmt::format("ply\nformat binary_little_endian 1.0\ncomment point cloud of Tomales\nelement vertex {}\n", cloud.count());
+  std::string h = fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment point cloud of Tomales\nelement vertex {}\n", cloud.count());
   const auto property = [&](const std::string& name) { h += "property float " + name + "\n"; };
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "radius"}) property(name);
   for (const CloudChannel& c : cloud.channels())

@@ -4,7 +4,9 @@
 
 namespace tomales {
 
-bool tellsSurfaces(const std::vector<CloudChannel>& channels) { return !channels.empty() && channels.back() == kSurfaceChannel; }
+bool tellsSurfaces(const std::vector<CloudChannel>& channels) {
+  return !channels.empty() && channels.back() == kSurfaceChannel;
+}
 
 std::vector<CloudChannel> dataOf(std::vector<CloudChannel> channels) {
   if (tellsSurfaces(channels)) channels.pop_back();

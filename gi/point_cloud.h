@@ -19,8 +19,8 @@ struct CloudChannel {
   bool operator==(const CloudChannel&) const = default;
 };
 
-/// The last channel of clouds that tell surfaces apart: which one a point lies on, 1 .. kMostSurfaces; 0: not known. No datum of its own:
-/// brick maps keep it with their layers (gi/brick.h).
+/// The last channel of clouds that tell surfaces apart: which one a point lies on, 1 .. kMostSurfaces; 0: not known. No
+/// datum of its own: brick maps keep it with their layers (gi/brick.h).
 inline const CloudChannel kSurfaceChannel{"__surface", 1};
 constexpr int kMostSurfaces = 127;
 bool tellsSurfaces(const std::vector<CloudChannel>& channels);
@@ -29,7 +29,8 @@ int widthOf(const std::vector<CloudChannel>& channels);                ///< Floa
 
 constexpr int kMostWidth = 256;  ///< Floats of a point in a file.
 
-/// As headers of point clouds and brick maps hold them. Reading throws FileError, naming `path`, where they do not add up.
+/// As headers of point clouds and brick maps hold them. Reading throws FileError, naming `path`, where they do not add
+/// up.
 void putChannels(ByteWriter& w, const std::vector<CloudChannel>& channels);
 std::vector<CloudChannel> getChannels(ByteReader& r, const std::string& path);
 
@@ -43,7 +44,8 @@ struct MadeFrom {
 class CloudChannels {
  public:
   CloudChannels() = default;
-  CloudChannels(std::vector<CloudChannel> channels) : all_(std::move(channels)), width_(widthOf(all_)), tellsSurfaces_(tomales::tellsSurfaces(all_)) {}
+  CloudChannels(std::vector<CloudChannel> channels)
+      : all_(std::move(channels)), width_(widthOf(all_)), tellsSurfaces_(tomales::tellsSurfaces(all_)) {}
   CloudChannels(std::initializer_list<CloudChannel> channels) : CloudChannels(std::vector<CloudChannel>(channels)) {}
   operator const std::vector<CloudChannel>&() const { return all_; }
 
@@ -75,7 +77,7 @@ struct PointCloud {
   void add(const vec3& P, const vec3& N, float r, const float* values);
   int surface(size_t point) const;  ///< Of kSurfaceChannel; 0: not known.
   void reserve(size_t points);
-  void clear();  ///< Keeps the channels.
+  void clear();          ///< Keeps the channels.
   Bound3 bound() const;  ///< Of the positions.
 };
 

@@ -19,7 +19,8 @@ constexpr uint32_t kVersion = 2;
 PointFileWriter::PointFileWriter(const std::string& path, const std::vector<CloudChannel>& channels)
     : file_(path, kKind, kVersion) {
   pending_.channels = channels;
-  if (pending_.width() > kMostWidth) throw FileError(fmt::format("\"{}\": more than {} floats a point", path, kMostWidth));
+  if (pending_.width() > kMostWidth)
+    throw FileError(fmt::format("\"{}\": more than {} floats a point", path, kMostWidth));
 }
 
 void PointFileWriter::add(const vec3& P, const vec3& N, float radius, const float* values) {
@@ -68,8 +69,10 @@ PointFile::PointFile(const std::string& path) : file_(path, kKind, kVersion) {
   bounds_ = r.getVector<Bound3>();
   madeFrom_ = r.get<MadeFrom>();
   contents_ = r.get<uint64_t>();
-  if (bounds_.size() != file_.count()) throw FileError(fmt::format("\"{}\" is damaged: its chunks do not add up", path));
-  if (!std::all_of(bounds_.begin(), bounds_.end(), [](const Bound3& b) { return isFinite(b.lo) && isFinite(b.hi) && !b.empty(); }))
+  if (bounds_.size() != file_.count())
+    throw FileError(fmt::format("\"{}\" is damaged: its chunks do not add up", path));
+  if (!std::all_of(bounds_.begin(), bounds_.end(),
+                   [](const Bound3& b) { return isFinite(b.lo) && isFinite(b.hi) && !b.empty(); }))
     throw FileError(fmt::format("\"{}\" is damaged: a chunk has no place", path));
 }
 
@@ -93,8 +96,11 @@ void PointFile::read(size_t chunk, PointCloud& to) const {
   const auto finite = [](float v) { return std::isfinite(v); };
   const Bound3& b = bounds_[chunk];  // finite, so that what lies within is
   if (!std::all_of(positions.begin(), positions.end(),
-                   [&](const vec3& P) { return glm::all(glm::greaterThanEqual(P, b.lo)) && glm::all(glm::lessThanEqual(P, b.hi)); }) ||
-      !std::all_of(radii.begin(), radii.end(), [](float radius) { return std::isfinite(radius) && radius >= 0; }) || !std::all_of(data.begin(), data.end(), finite))
+                   [&](const vec3& P) {
+                     return glm::all(glm::greaterThanEqual(P, b.lo)) && glm::all(glm::lessThanEqual(P, b.hi));
+                   }) ||
+      !std::all_of(radii.begin(), radii.end(), [](float radius) { return std::isfinite(radius) && radius >= 0; }) ||
+      !std::all_of(data.begin(), data.end(), finite))
     throw FileError(fmt::format("\"{}\" is damaged: a point is not finite, or not where it should be", file_.path()));
   to.position.insert(to.position.end(), positions.begin(), positions.end());
   for (const uint32_t p : normals) to.normal.push_back(unpackNormal(p));
@@ -122,7 +128,8 @@ void writePointFile(const PointCloud& cloud, const std::string& path, const Made
   for (size_t i = 0; i < code.size(); ++i) code[i] = mortonPlace(glm::uvec3((cloud.position[i] - bound.lo) * scale));
   std::vector<uint32_t> order(cloud.count());
   std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return code[a] != code[b] ? code[a] < code[b] : a < b; });
+  std::sort(order.begin(), order.end(),
+            [&](uint32_t a, uint32_t b) { return code[a] != code[b] ? code[a] < code[b] : a < b; });
   PointFileWriter file(path, cloud.channels);
   for (const uint32_t i : order) file.add(cloud.position[i], cloud.normal[i], cloud.radius[i], cloud.at(i));
   file.finish(madeFrom);

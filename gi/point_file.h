@@ -1,7 +1,7 @@
-// Noun: a point cloud on disk (.ptc), the one container for photons, irradiance points and baked data. Written as a stream and read
-// chunk by chunk, so that neither ever needs the whole cloud in memory.
-//   header   channels, the count of points, the bound of every chunk, what the file was made of, and a sum of the points
-//   chunk    at most kChunkPoints points: positions, normals (octahedral, 2 x 16 bits; 0: none), radii, data
+// Noun: a point cloud on disk (.ptc), the one container for photons, irradiance points and baked data. Written as a
+// stream and read chunk by chunk, so that neither ever needs the whole cloud in memory.
+//   header   channels, the count of points, the bound of every chunk, what the file was made of, and a sum of the
+//   points chunk    at most kChunkPoints points: positions, normals (octahedral, 2 x 16 bits; 0: none), radii, data
 // Threads: a reader may be shared; a writer belongs to one thread.
 #pragma once
 #include "gi/point_cloud.h"

@@ -21,7 +21,8 @@ std::vector<vec3> valuesOf(const PointCloud& cloud, const std::string& name) {
   const std::string& wanted = name.empty() && !cloud.channels.empty() ? cloud.channels.front().name : name;
   const int offset = offsetOf(cloud.channels, wanted);
   if (offset < 0) throw FileError(fmt::format("there is no channel \"{}\"", wanted));
-  const auto channel = std::find_if(cloud.channels.begin(), cloud.channels.end(), [&](const auto& c) { return c.name == wanted; });
+  const auto channel =
+      std::find_if(cloud.channels.begin(), cloud.channels.end(), [&](const auto& c) { return c.name == wanted; });
   for (size_t i = 0; i < cloud.count(); ++i) {
     const float* v = cloud.at(i) + offset;
     out.push_back(channel->width >= 3 ? vec3(v[0], v[1], v[2]) : vec3(v[0]));
@@ -59,7 +60,8 @@ struct Overview {
 
 class Splatter {
  public:
-  explicit Splatter(const PointPictureSettings& s) : depth_(static_cast<size_t>(s.width) * static_cast<size_t>(s.height), kInfinity) {
+  explicit Splatter(const PointPictureSettings& s)
+      : depth_(static_cast<size_t>(s.width) * static_cast<size_t>(s.height), kInfinity) {
     image.width = image.displayWidth = s.width, image.height = image.displayHeight = s.height;
     image.channels = {"R", "G", "B", "A"};
     image.pixels.assign(depth_.size() * 4, 0.0f);
@@ -68,14 +70,17 @@ class Splatter {
   /// The ellipse that `center` and two half axes span.
   void disk(const vec3& center, const vec2& a, const vec2& b, const vec3& color) {
     const vec2 reach = glm::min(glm::sqrt(a * a + b * b) + 0.5f, vec2(kMostRadius_px));
-    const int x0 = std::max(0, static_cast<int>(center.x - reach.x)), x1 = std::min(image.width - 1, static_cast<int>(center.x + reach.x));
-    const int y0 = std::max(0, static_cast<int>(center.y - reach.y)), y1 = std::min(image.height - 1, static_cast<int>(center.y + reach.y));
+    const int x0 = std::max(0, static_cast<int>(center.x - reach.x)),
+              x1 = std::min(image.width - 1, static_cast<int>(center.x + reach.x));
+    const int y0 = std::max(0, static_cast<int>(center.y - reach.y)),
+              y1 = std::min(image.height - 1, static_cast<int>(center.y + reach.y));
     const float det = a.x * b.y - a.y * b.x;
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) {
         const vec2 off = vec2(x, y) + 0.5f - vec2(center);
         const float s = (off.x * b.y - off.y * b.x) / det, t = (off.y * a.x - off.x * a.y) / det;
-        const bool inside = std::abs(det) > 0.2f ? s * s + t * t <= 1 : std::max(std::abs(off.x), std::abs(off.y)) <= 0.5f;
+        const bool inside =
+            std::abs(det) > 0.2f ? s * s + t * t <= 1 : std::max(std::abs(off.x), std::abs(off.y)) <= 0.5f;
         if (inside) put(x, y, center.z, color);
       }
   }
@@ -100,14 +105,17 @@ Image pictureOf(const PointCloud& cloud, const PointPictureSettings& settings) {
   const std::vector<vec3> values = valuesOf(cloud, settings.channel);
   const float gain = settings.gain > 0 ? settings.gain : automaticGain(values);
   const Overview overview(cloud.bound(), settings.width, settings.height);
-  const auto project = [&](const vec3& p) { return settings.project ? settings.project(p) : std::optional(overview(p)); };
+  const auto project = [&](const vec3& p) {
+    return settings.project ? settings.project(p) : std::optional(overview(p));
+  };
   Splatter picture(settings);
   for (size_t i = 0; i < cloud.count(); ++i) {
     const std::optional<vec3> at = project(cloud.position[i]);
     if (!at || !isFinite(*at)) continue;
     vec3 tangent(1, 0, 0), bitangent(0, 1, 0);
     if (cloud.normal[i] != vec3(0)) orthonormalBasis(cloud.normal[i], tangent, bitangent);
-    const auto a = project(cloud.position[i] + cloud.radius[i] * tangent), b = project(cloud.position[i] + cloud.radius[i] * bitangent);
+    const auto a = project(cloud.position[i] + cloud.radius[i] * tangent),
+               b = project(cloud.position[i] + cloud.radius[i] * bitangent);
     picture.disk(*at, a ? vec2(*a - *at) : vec2(0), b ? vec2(*b - *at) : vec2(0), gain * values[i]);
   }
   return std::move(picture.image);

@@ -11,8 +11,8 @@ namespace tomales {
 
 struct PointPictureSettings {
   int width = 640, height = 480;
-  std::string channel;      ///< Of three floats or one; empty: the first. "normal", "radius": those.
-  float gain = 0;           ///< Values are multiplied by it; 0: so that their 98th percentile is 0.8.
+  std::string channel;  ///< Of three floats or one; empty: the first. "normal", "radius": those.
+  float gain = 0;       ///< Values are multiplied by it; 0: so that their 98th percentile is 0.8.
   /// Raster position and depth of a world-space point; empty: a view of the whole.
   std::function<std::optional<vec3>(const vec3&)> project;
 };

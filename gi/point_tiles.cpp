@@ -30,7 +30,8 @@ BrickCube cubeAround(const Bound3& b) {
   return {b.center() - vec3(0.5f * size), size};
 }
 
-PointTiles::PointTiles(const PointFile& file) : file_(file), cube_(cubeAround(file.bound())), counts_(kSide * kSide * kSide) {
+PointTiles::PointTiles(const PointFile& file)
+    : file_(file), cube_(cubeAround(file.bound())), counts_(kSide * kSide * kSide) {
   double sum = 0, values = 0;
   const auto width = static_cast<size_t>(widthOf(dataOf(file.channels())));
   for (size_t chunk = 0; chunk < file.chunkCount(); ++chunk) {
@@ -49,7 +50,9 @@ glm::ivec3 PointTiles::cellOf(const vec3& P) const {
   glm::ivec3 cell(0);
   for (int k = 0; k < 3; ++k) {
     const float at = (P[k] - cube_.lo[k]) / cube_.size * static_cast<float>(kSide);
-    if (at > 0) cell[k] = at < kSide ? static_cast<int>(at) : kSide - 1;  // a cube too large for floats leaves NaN: the first cell
+    if (at > 0)
+      cell[k] =
+          at < kSide ? static_cast<int>(at) : kSide - 1;  // a cube too large for floats leaves NaN: the first cell
   }
   return cell;
 }
@@ -83,7 +86,8 @@ PointCloud PointTiles::around(const Bound3& box, float margin, float radiusScale
     file_.read(chunk, part);
     for (size_t i = 0; i < part.count(); ++i) {
       const vec3& P = part.position[i];
-      if (meet({P, P}, box.grown(std::max(margin, part.radius[i] * radiusScale)))) out.add(P, part.normal[i], part.radius[i], part.at(i));
+      if (meet({P, P}, box.grown(std::max(margin, part.radius[i] * radiusScale))))
+        out.add(P, part.normal[i], part.radius[i], part.at(i));
     }
   }
   return out;

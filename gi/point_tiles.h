@@ -1,5 +1,5 @@
-// Private to gi: a cloud on disk as an octree of cubes, so that one with more points than memory holds is worked on cube by cube.
-// Threads: one.
+// Private to gi: a cloud on disk as an octree of cubes, so that one with more points than memory holds is worked on
+// cube by cube. Threads: one.
 #pragma once
 #include "gi/brick.h"
 #include "gi/point_file.h"
@@ -18,16 +18,20 @@ class PointTiles {
 
   const PointFile& file() const { return file_; }
   const BrickCube& cube() const { return cube_; }
-  /// Of a cube of some level, at `place` in cubes of that level from the low corner. Neighbours share their border to the bit.
+  /// Of a cube of some level, at `place` in cubes of that level from the low corner. Neighbours share their border to
+  /// the bit.
   Bound3 box(int level, const glm::ivec3& place) const;
   uint64_t count(int level, const glm::ivec3& place) const;
   /// Whether count() counts this point: every point lies in one cube of each level.
-  bool contains(int level, const glm::ivec3& place, const vec3& P) const { return cellOf(P) >> (kDeepest - level) == place; }
+  bool contains(int level, const glm::ivec3& place, const vec3& P) const {
+    return cellOf(P) >> (kDeepest - level) == place;
+  }
   double meanOfData() const { return mean_; }
   /// Points that lie within `margin` of the box, in the order of the file, or whose radius, scaled, reaches it.
   PointCloud around(const Bound3& box, float margin, float radiusScale = 1) const;
 
-  /// The same points in chunks that are compact in space, whatever the order of the file: so around() reads little. Throws FileError.
+  /// The same points in chunks that are compact in space, whatever the order of the file: so around() reads little.
+  /// Throws FileError.
   void writeCompact(const std::string& path) const;
 
  private:
@@ -40,13 +44,16 @@ class PointTiles {
   double mean_ = 0;
 };
 
-/// Calls `work` with level and place of cubes of no more than `most` points that together are the cloud, in the order of octants.
+/// Calls `work` with level and place of cubes of no more than `most` points that together are the cloud, in the order
+/// of octants.
 template <class Work>
-void forEachTile(const PointTiles& tiles, uint64_t most, const Work& work, int level = 0, const glm::ivec3& place = glm::ivec3(0)) {
+void forEachTile(const PointTiles& tiles, uint64_t most, const Work& work, int level = 0,
+                 const glm::ivec3& place = glm::ivec3(0)) {
   const uint64_t count = tiles.count(level, place);
   if (count == 0) return;
   if (count <= most || level == PointTiles::kDeepest) return work(level, place);
-  for (int k = 0; k < 8; ++k) forEachTile(tiles, most, work, level + 1, place * 2 + glm::ivec3(k & 1, k >> 1 & 1, k >> 2 & 1));
+  for (int k = 0; k < 8; ++k)
+    forEachTile(tiles, most, work, level + 1, place * 2 + glm::ivec3(k & 1, k >> 1 & 1, k >> 2 & 1));
 }
 
 }  // namespace tomales

@@ -6,7 +6,7 @@
 namespace tomales {
 namespace {
 
-constexpr int kSamples = 2;         ///< Along each edge of a texel.
+constexpr int kSamples = 2;  ///< Along each edge of a texel.
 constexpr float kShare = 1.0f / (kSamples * kSamples);
 constexpr size_t kSamplesPerBatch = 1024;
 constexpr uint32_t kBakeStream = 0x72616469U;
@@ -14,12 +14,14 @@ constexpr uint32_t kBakeStream = 0x72616469U;
 /// Samples of texels on their way to be shaded together.
 class Samples {
  public:
-  explicit Samples(const RadiosityBake& bake) : bake_(bake), context_{RayKind::Diffuse, 1, bake.settings.seed, 1, false} {
+  explicit Samples(const RadiosityBake& bake)
+      : bake_(bake), context_{RayKind::Diffuse, 1, bake.settings.seed, 1, false} {
     context_.diffuseLimit = 0;  // as where gather rays hit
     answers_.mode = HitMode::Shader;
   }
 
-  /// A look at a point from `radius` in front of it; its share of the colour goes to `sum`, and of the texel if it has a colour.
+  /// A look at a point from `radius` in front of it; its share of the colour goes to `sum`, and of the texel if it has
+  /// a colour.
   void add(const Ray& ray, const Hit& hit, SampleName name, BakedTexel& sum) {
     rays_.push_back(ray), hits_.push_back(hit), names_.push_back(name), sums_.push_back(&sum);
     if (rays_.size() == kSamplesPerBatch) flush();
@@ -47,7 +49,7 @@ struct Texel {
   uint32_t patch;
   bool back;
   TexelSquare square;
-  float radius;       ///< Of what one sample stands for.
+  float radius;  ///< Of what one sample stands for.
   uint32_t key;
 };
 
@@ -57,7 +59,8 @@ void sample(const RadiosityBake& bake, const Texel& texel, Samples& samples, Bak
   for (int k = 0; k < kSamples * kSamples; ++k) {
     const uint32_t name = hashCombine(texel.key, static_cast<uint32_t>(k));
     const vec2 jitter{unitFloat(hash32(name)), unitFloat(hash32(name ^ 0x9e3779b9U))};
-    const vec2 uv = texel.square.corner + texel.square.size * (vec2(k % kSamples, k / kSamples) + jitter) / float{kSamples};
+    const vec2 uv =
+        texel.square.corner + texel.square.size * (vec2(k % kSamples, k / kSamples) + jitter) / float{kSamples};
     if (!object.shape().keeps(texel.patch, uv.x, uv.y)) continue;
     const TrueSurface surface = surfaceAt(scene, texel.object, texel.patch, uv.x, uv.y);
     const vec3 n = normalizeOr(surface.normal, vec3(0));
@@ -76,18 +79,22 @@ void sample(const RadiosityBake& bake, const Texel& texel, Samples& samples, Bak
 
 TexelSquare texelSquare(const RadiosityChart& chart, size_t t) {
   const vec2 size = 1.0f / vec2(chart.width, chart.height);
-  const vec2 cell(static_cast<float>(t % static_cast<size_t>(chart.width)), static_cast<float>(t / static_cast<size_t>(chart.width)));
+  const vec2 cell(static_cast<float>(t % static_cast<size_t>(chart.width)),
+                  static_cast<float>(t / static_cast<size_t>(chart.width)));
   return {cell * size, size};
 }
 
-std::vector<BakedTexel> bakeTexels(const RadiosityBake& bake, std::span<const RadiosityChart> charts, const TexelRun& run) {
+std::vector<BakedTexel> bakeTexels(const RadiosityBake& bake, std::span<const RadiosityChart> charts,
+                                   const TexelRun& run) {
   std::vector<BakedTexel> out;
   out.reserve(run.count);  // samples keep pointers to them
   Samples samples(bake);
   forEachTexel(charts, run, [&](uint32_t patch, size_t t) {
     const RadiosityChart& chart = charts[patch];
-    const uint32_t key = hashCombine(hashCombine(kBakeStream, static_cast<uint32_t>(run.object), patch), static_cast<uint32_t>(t));
-    sample(bake, {run.object, patch, run.back, texelSquare(chart, t), 0.5f * chart.texelSize / kSamples, key}, samples, out.emplace_back());
+    const uint32_t key =
+        hashCombine(hashCombine(kBakeStream, static_cast<uint32_t>(run.object), patch), static_cast<uint32_t>(t));
+    sample(bake, {run.object, patch, run.back, texelSquare(chart, t), 0.5f * chart.texelSize / kSamples, key}, samples,
+           out.emplace_back());
   });
   samples.flush();
   for (BakedTexel& texel : out)

@@ -16,10 +16,13 @@ struct BakedTexel {
 };
 
 /// Shades the texels of a run, one after the other. `charts`: of its object and side.
-std::vector<BakedTexel> bakeTexels(const RadiosityBake& bake, std::span<const RadiosityChart> charts, const TexelRun& run);
+std::vector<BakedTexel> bakeTexels(const RadiosityBake& bake, std::span<const RadiosityChart> charts,
+                                   const TexelRun& run);
 
 /// Texel t of a chart as a quadrilateral in (u, v).
-struct TexelSquare { vec2 corner, size; };
+struct TexelSquare {
+  vec2 corner, size;
+};
 TexelSquare texelSquare(const RadiosityChart& chart, size_t t);
 
 }  // namespace tomales

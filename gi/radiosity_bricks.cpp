@@ -13,31 +13,37 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr float kOverlap = 0.8f;       ///< Radius of a point's disk over the edge of its texel: neighbours meet.
-constexpr size_t kRunsPerWave = 256;   ///< Baked before they are written.
-constexpr uint32_t kMethod = 1;        ///< Counted up when the same inputs begin to make other files.
+constexpr float kOverlap = 0.8f;      ///< Radius of a point's disk over the edge of its texel: neighbours meet.
+constexpr size_t kRunsPerWave = 256;  ///< Baked before they are written.
+constexpr uint32_t kMethod = 1;       ///< Counted up when the same inputs begin to make other files.
 
-uint64_t inputsOf(const MapNames& names, const RadiositySettings& s) { return contentSum(kMethod, names.world, names.global, names.surface, s.texels, s.seed, s.mostTexels); }
+uint64_t inputsOf(const MapNames& names, const RadiositySettings& s) {
+  return contentSum(kMethod, names.world, names.global, names.surface, s.texels, s.seed, s.mostTexels);
+}
 
 class Baking {
  public:
-  Baking(const RayScene& rays, const ShadingSystem& shading, const MapNames& names, const std::vector<SurfaceCharts>& surfaces, const RadiositySettings& settings)
-      : bake_{rays, shading, settings}, scene_(rays.scene()), names_(names), surfaces_(surfaces),
-        world_(scene_) {}
+  Baking(const RayScene& rays, const ShadingSystem& shading, const MapNames& names,
+         const std::vector<SurfaceCharts>& surfaces, const RadiositySettings& settings)
+      : bake_{rays, shading, settings}, scene_(rays.scene()), names_(names), surfaces_(surfaces), world_(scene_) {}
 
   void run(std::map<std::string, PointFileWriter>& files) const {
     const std::vector<TexelRun> runs = texelRuns(surfaces_);
     for (size_t wave = 0; wave < runs.size(); wave += kRunsPerWave) {
       std::vector<std::vector<BakedTexel>> baked(std::min(kRunsPerWave, runs.size() - wave));
-      parallelFor(baked.size(), 1, [&](size_t r, size_t) { baked[r] = bakeTexels(bake_, chartsOf(runs[wave + r]), runs[wave + r]); });
+      parallelFor(baked.size(), 1,
+                  [&](size_t r, size_t) { baked[r] = bakeTexels(bake_, chartsOf(runs[wave + r]), runs[wave + r]); });
       for (size_t r = 0; r < baked.size(); ++r) write(runs[wave + r], baked[r], files);
     }
   }
 
  private:
-  const std::vector<RadiosityChart>& chartsOf(const TexelRun& run) const { return surfaces_[static_cast<size_t>(run.object)].side(run.back); }
+  const std::vector<RadiosityChart>& chartsOf(const TexelRun& run) const {
+    return surfaces_[static_cast<size_t>(run.object)].side(run.back);
+  }
 
-  void write(const TexelRun& run, const std::vector<BakedTexel>& baked, std::map<std::string, PointFileWriter>& files) const {
+  void write(const TexelRun& run, const std::vector<BakedTexel>& baked,
+             std::map<std::string, PointFileWriter>& files) const {
     const auto group = static_cast<size_t>(scene_.objects[static_cast<size_t>(run.object)].group);
     PointFileWriter& file = files.at(names_.global[group]);
     const std::vector<RadiosityChart>& charts = chartsOf(run);
@@ -50,7 +56,9 @@ class Baking {
       const TrueSurface surface = surfaceAt(scene_, run.object, patch, middle.x, middle.y);
       const vec3 N = normalizeOr(world_.normals * surface.normal, vec3(0)), B = kPi * texel.radiance;
       const std::array values{B.x, B.y, B.z, static_cast<float>(names_.surface[group])};
-      if (N != vec3(0)) file.add(transformPoint(world_.points, surface.P), run.back ? -N : N, kOverlap * world_.scale * charts[patch].texelSize, values.data());
+      if (N != vec3(0))
+        file.add(transformPoint(world_.points, surface.P), run.back ? -N : N,
+                 kOverlap * world_.scale * charts[patch].texelSize, values.data());
     });
   }
 
@@ -63,25 +71,32 @@ class Baking {
 
 }  // namespace
 
-RadiosityBricks::RadiosityBricks(const fs::path& folder, const RayScene& rays, const ShadingSystem& shading, const Camera& camera, const MapNames& atlas,
-                                 const RadiosityBrickSettings& settings, size_t cacheBytes, Stats& stats, Log& log)
+RadiosityBricks::RadiosityBricks(const fs::path& folder, const RayScene& rays, const ShadingSystem& shading,
+                                 const Camera& camera, const MapNames& atlas, const RadiosityBrickSettings& settings,
+                                 size_t cacheBytes, Stats& stats, Log& log)
     : scene_(rays.scene()) {
   const MapNames names = atlas.ofSurfaces();
   const fs::path own = folder / "radiosity";  // so that it may be the folder of an atlas as well
   makeAtlasFolder(own);
   const std::vector<int> objects = bakedObjects(scene_, shading, log);
   sides_.resize(scene_.objects.size());
-  for (const int object : objects) sides_[static_cast<size_t>(object)] = scene_.objects[static_cast<size_t>(object)].attributes->sides == 2 ? 2 : 1;
+  for (const int object : objects)
+    sides_[static_cast<size_t>(object)] = scene_.objects[static_cast<size_t>(object)].attributes->sides == 2 ? 2 : 1;
   const std::set<std::string> maps = names.all();
   const uint64_t inputs = inputsOf(names, settings.points);
-  if (!std::all_of(maps.begin(), maps.end(), [&](const std::string& name) { return pointsMadeFrom(atlasFile(own, name, ".ptc")).inputs == inputs; })) {
+  if (!std::all_of(maps.begin(), maps.end(), [&](const std::string& name) {
+        return pointsMadeFrom(atlasFile(own, name, ".ptc")).inputs == inputs;
+      })) {
     std::map<std::string, PointFileWriter> files;
-    for (const std::string& name : maps) files.try_emplace(name, atlasFile(own, name, ".ptc").string(), std::vector<CloudChannel>{{"radiosity", 3}, kSurfaceChannel});
+    for (const std::string& name : maps)
+      files.try_emplace(name, atlasFile(own, name, ".ptc").string(),
+                        std::vector<CloudChannel>{{"radiosity", 3}, kSurfaceChannel});
     const std::vector<SurfaceCharts> surfaces = layOutCharts(scene_, objects, camera, settings.points, log);
     Baking(rays, shading, names, surfaces, settings.points).run(files);
     for (auto& [name, file] : files) file.finish({names.world, inputs});
   }
-  for (const std::string& name : maps) renewIrradianceBricks(atlasFile(own, name, ".ptc"), atlasFile(own, name, ".bkm"), settings.bricks, stats);
+  for (const std::string& name : maps)
+    renewIrradianceBricks(atlasFile(own, name, ".ptc"), atlasFile(own, name, ".bkm"), settings.bricks, stats);
   maps_ = std::make_unique<const IrradianceAtlas>(own, scene_, names, cacheBytes, log);
 }
 
@@ -90,7 +105,8 @@ bool RadiosityBricks::lookup(const Ray& ray, const Hit& hit, vec3& radiance) con
   if (sides == 0) return false;
   const bool back = dot(ray.direction, hit.geometricNormal) > 0;
   if (back && sides == 1) return false;
-  const auto found = maps_->bakedOverPi(scene_.objects[static_cast<size_t>(hit.object)].group, hit.atOpen, back ? -hit.normal : hit.normal, ray.radius + ray.spread * hit.t);
+  const auto found = maps_->bakedOverPi(scene_.objects[static_cast<size_t>(hit.object)].group, hit.atOpen,
+                                        back ? -hit.normal : hit.normal, ray.radius + ray.spread * hit.t);
   radiance = found.value_or(vec3(0));
   return found.has_value();
 }

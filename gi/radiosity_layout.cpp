@@ -35,22 +35,27 @@ RadiosityChart chartOf(const Scene& scene, const Camera& camera, int object, uin
   vec3 middle(0);
   for (int j = 0; j <= probes; ++j)
     for (int i = 0; i <= probes; ++i) {
-      at[j][i] = surfaceAt(scene, object, patch, static_cast<float>(i) / static_cast<float>(probes), static_cast<float>(j) / static_cast<float>(probes)).P;
+      at[j][i] = surfaceAt(scene, object, patch, static_cast<float>(i) / static_cast<float>(probes),
+                           static_cast<float>(j) / static_cast<float>(probes))
+                     .P;
       middle += at[j][i] / static_cast<float>((probes + 1) * (probes + 1));
     }
   float alongU = 0, alongV = 0;
   for (int j = 0; j <= probes; ++j) {
     float u = 0, v = 0;
-    for (int i = 0; i < probes; ++i) u += glm::length(at[j][i + 1] - at[j][i]), v += glm::length(at[i + 1][j] - at[i][j]);
+    for (int i = 0; i < probes; ++i)
+      u += glm::length(at[j][i + 1] - at[j][i]), v += glm::length(at[i + 1][j] - at[i][j]);
     alongU = std::max(alongU, u), alongV = std::max(alongV, v);
   }
   const Attributes::Radiosity& asked = scene.objects[static_cast<size_t>(object)].attributes->radiosity;
   // By its distance, so that what the camera does not see is no coarser than what it sees as far away.
-  const float unit = asked.screen ? camera.pixelSize({0, 0, glm::length(middle)}) : std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))));
+  const float unit = asked.screen ? camera.pixelSize({0, 0, glm::length(middle)})
+                                  : std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))));
   const float texel = std::max(asked.texelSize * unit / texels, 1e-12f);
   RadiosityChart chart;
   chart.width = powerOfTwoNear(alongU / texel), chart.height = powerOfTwoNear(alongV / texel);
-  chart.texelSize = std::max(std::sqrt(alongU / static_cast<float>(chart.width) * alongV / static_cast<float>(chart.height)), 1e-20f);
+  chart.texelSize =
+      std::max(std::sqrt(alongU / static_cast<float>(chart.width) * alongV / static_cast<float>(chart.height)), 1e-20f);
   return chart;
 }
 
@@ -69,11 +74,12 @@ void halveUntilFew(std::vector<SurfaceCharts>& surfaces, const RadiositySettings
   forEachChart([&](const RadiosityChart&) { ++most; });
   most = std::max(most, settings.mostTexels);
   int halvings = 0;
-  for (; count() > most; ++halvings)
-    forEachChart([](RadiosityChart& c) { c.halve(); });
+  for (; count() > most; ++halvings) forEachChart([](RadiosityChart& c) { c.halve(); });
   if (halvings > 0)
     log.report(Severity::Warning, "radiosity-texels", {},
-               fmt::format("all radiosity maps together would have more than {} million texels: their edges have 1/{} of what was asked", settings.mostTexels >> 20, 1 << halvings));
+               fmt::format("all radiosity maps together would have more than {} million texels: their edges have 1/{} "
+                           "of what was asked",
+                           settings.mostTexels >> 20, 1 << halvings));
 }
 
 }  // namespace
@@ -88,13 +94,15 @@ std::vector<int> bakedObjects(const Scene& scene, const ShadingSystem& shading, 
     if (!why)
       mapped.push_back(static_cast<int>(i));
     else
-      log.report(Severity::Info, fmt::format("radiosity-map-{}", why), o.where,
-                 fmt::format("\"{}\" has no radiosity map, because {}; it is shaded where gather rays hit it", a.name, why));
+      log.report(
+          Severity::Info, fmt::format("radiosity-map-{}", why), o.where,
+          fmt::format("\"{}\" has no radiosity map, because {}; it is shaded where gather rays hit it", a.name, why));
   }
   return mapped;
 }
 
-std::vector<SurfaceCharts> layOutCharts(const Scene& scene, const std::vector<int>& mapped, const Camera& camera, const RadiositySettings& settings, Log& log) {
+std::vector<SurfaceCharts> layOutCharts(const Scene& scene, const std::vector<int>& mapped, const Camera& camera,
+                                        const RadiositySettings& settings, Log& log) {
   std::vector<SurfaceCharts> surfaces(scene.objects.size());
   struct Patch {
     int object;
@@ -108,10 +116,13 @@ std::vector<SurfaceCharts> layOutCharts(const Scene& scene, const std::vector<in
   }
   parallelFor(patches.size(), kChartsPerTask, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i)
-      surfaces[static_cast<size_t>(patches[i].object)].front[patches[i].number] = chartOf(scene, camera, patches[i].object, patches[i].number, settings.texels);
+      surfaces[static_cast<size_t>(patches[i].object)].front[patches[i].number] =
+          chartOf(scene, camera, patches[i].object, patches[i].number, settings.texels);
   });
   for (const int object : mapped)
-    if (SurfaceCharts& s = surfaces[static_cast<size_t>(object)]; scene.objects[static_cast<size_t>(object)].attributes->sides == 2) s.back = s.front;
+    if (SurfaceCharts& s = surfaces[static_cast<size_t>(object)];
+        scene.objects[static_cast<size_t>(object)].attributes->sides == 2)
+      s.back = s.front;
   halveUntilFew(surfaces, settings, log);
   return surfaces;
 }

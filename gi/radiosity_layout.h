@@ -18,7 +18,8 @@ struct SurfaceCharts {
 /// Objects whose radiosity is baked. Says in the log which are not, and why.
 std::vector<int> bakedObjects(const Scene& scene, const ShadingSystem& shading, Log& log);
 /// Their charts without texels, by object. Says in the log where all together are too fine.
-std::vector<SurfaceCharts> layOutCharts(const Scene& scene, const std::vector<int>& objects, const Camera& camera, const RadiositySettings& settings, Log& log);
+std::vector<SurfaceCharts> layOutCharts(const Scene& scene, const std::vector<int>& objects, const Camera& camera,
+                                        const RadiositySettings& settings, Log& log);
 
 /// Texels of one side of an object that are baked together: so many of its charts, from one of them on.
 struct TexelRun {

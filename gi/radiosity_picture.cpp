@@ -4,19 +4,23 @@
 #include <numeric>
 
 namespace tomales {
-// The highest first, and of those the widest: so every row of charts begins, and every chart in it, at a multiple of its own size.
+// The highest first, and of those the widest: so every row of charts begins, and every chart in it, at a multiple of
+// its own size.
 ChartLayout layOutPicture(const std::vector<RadiosityChart>& charts) {
   std::vector<size_t> order(charts.size());
   std::iota(order.begin(), order.end(), size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
-    return charts[a].height != charts[b].height ? charts[a].height > charts[b].height : charts[a].width > charts[b].width;
+    return charts[a].height != charts[b].height ? charts[a].height > charts[b].height
+                                                : charts[a].width > charts[b].width;
   });
   int64_t area = 0;
   int widest = 1;
-  for (const RadiosityChart& c : charts) area += static_cast<int64_t>(c.width) * c.height, widest = std::max(widest, c.width);
+  for (const RadiosityChart& c : charts)
+    area += static_cast<int64_t>(c.width) * c.height, widest = std::max(widest, c.width);
   ChartLayout out;
   out.corner.resize(charts.size());
-  out.width = std::max(widest, static_cast<int>(std::bit_ceil(static_cast<uint64_t>(std::sqrt(static_cast<double>(area))))));
+  out.width =
+      std::max(widest, static_cast<int>(std::bit_ceil(static_cast<uint64_t>(std::sqrt(static_cast<double>(area))))));
   int x = 0, y = 0, rowHeight = 0;
   for (const size_t i : order) {
     const RadiosityChart& c = charts[i];

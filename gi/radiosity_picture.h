@@ -1,5 +1,5 @@
-// Verb: radiosity maps -> pictures, to look at and for shaders. Charts are packed so that each lies at a multiple of its own width and
-// height: levels of the picture down to a chart's shorter edge hold no texel of two patches.
+// Verb: radiosity maps -> pictures, to look at and for shaders. Charts are packed so that each lies at a multiple of
+// its own width and height: levels of the picture down to a chart's shorter edge hold no texel of two patches.
 #pragma once
 #include "gi/radiosity_maps.h"
 #include "reyes/image.h"

@@ -6,7 +6,8 @@
 namespace tomales {
 namespace {
 
-/// Depths and limits of the points that such rays meet: an object's limit counts from its own depth, and never lifts an earlier one.
+/// Depths and limits of the points that such rays meet: an object's limit counts from its own depth, and never lifts an
+/// earlier one.
 ShadeContext contextOfHits(const Attributes& own, const RayQuery& query, const ShadeContext& context, GiMode mode) {
   ShadeContext hit = context;
   hit.highlights = mode == GiMode::Reference;
@@ -31,7 +32,8 @@ bool isTooDeep(const ShadeContext& hit, const Options& options) {
 /// The rays of one call, layer by layer.
 class ShaderRays {
  public:
-  ShaderRays(const GiState& state, const RayTools& tools, const RayQuery& query, const ShadeContext& hitContext, const RayResult& result)
+  ShaderRays(const GiState& state, const RayTools& tools, const RayQuery& query, const ShadeContext& hitContext,
+             const RayResult& result)
       : state_(state), tools_(tools), query_(query), context_(hitContext), result_(result) {}
 
   void add(int element, const Ray& ray, SampleName name) {
@@ -44,14 +46,16 @@ class ShaderRays {
     for (int layer = 0; layer < (wantsColor ? kMostLayers : 1) && !layers_.rays.empty(); ++layer) {
       meet();
       setLeaves();
-      answers_.mode = query_.mode, answers_.wantsColor = wantsColor || asksForSurface(), answers_.elements = layers_.elements;
+      answers_.mode = query_.mode, answers_.wantsColor = wantsColor || asksForSurface(),
+      answers_.elements = layers_.elements;
       answers_.outputs = layer == 0 ? result_.outputs : std::vector<RayOutput>{};
       if (answers_.wantsColor || !answers_.outputs.empty())
         tools_.rays->shadeHits(layers_.rays, hits_, layers_.names, *tools_.shading, context_, answers_);
       if (layer == 0)
         setDistances();  // the shader's own surface knows what lies before the first
       else
-        tools_.rays->crossVolumes(layers_.came, layers_.left, layers_.rays, hits_, layers_.names, *tools_.shading, context_, answers_);
+        tools_.rays->crossVolumes(layers_.came, layers_.left, layers_.rays, hits_, layers_.names, *tools_.shading,
+                                  context_, answers_);
       if (result_.effective) addCovered();
       if (wantsColor)
         layers_.goOn(*tools_.rays, hits_, answers_, query_.opacityThreshold,
@@ -68,12 +72,14 @@ class ShaderRays {
   }
 
   bool asksForSurface() const {
-    return std::any_of(result_.outputs.begin(), result_.outputs.end(), [](const RayOutput& o) { return o.name.starts_with("surface:"); });
+    return std::any_of(result_.outputs.begin(), result_.outputs.end(),
+                       [](const RayOutput& o) { return o.name.starts_with("surface:"); });
   }
 
   void setDistances() {
     if (!result_.distance) return;
-    for (size_t r = 0; r < hits_.size(); ++r) result_.distance[layers_.elements[r]] = hits_[r].object < 0 ? kInfinity : std::max(hits_[r].t, 0.0f);
+    for (size_t r = 0; r < hits_.size(); ++r)
+      result_.distance[layers_.elements[r]] = hits_[r].object < 0 ? kInfinity : std::max(hits_[r].t, 0.0f);
   }
 
   void setLeaves() {
@@ -86,7 +92,8 @@ class ShaderRays {
     for (size_t r = 0; r < hits_.size(); ++r) {
       if (hits_[r].object < 0) continue;
       Covered& c = covered_[layers_.elements[r]];
-      const vec3 covers = layers_.clear[r] * glm::clamp(answers_.opacity[r], 0.0f, 1.0f), end = layers_.rays[r].origin + hits_[r].t * layers_.rays[r].direction;
+      const vec3 covers = layers_.clear[r] * glm::clamp(answers_.opacity[r], 0.0f, 1.0f),
+                 end = layers_.rays[r].origin + hits_[r].t * layers_.rays[r].direction;
       const float share = (covers.x + covers.y + covers.z) / 3;
       c.share += share, c.distance += share * glm::length(end - c.start);
     }
@@ -94,7 +101,8 @@ class ShaderRays {
 
   void add(int i, const vec3& color, const vec3& clear) {
     if (result_.color.x) result_.color.x[i] += color.x, result_.color.y[i] += color.y, result_.color.z[i] += color.z;
-    if (result_.opacity.x) result_.opacity.x[i] = 1 - clear.x, result_.opacity.y[i] = 1 - clear.y, result_.opacity.z[i] = 1 - clear.z;
+    if (result_.opacity.x)
+      result_.opacity.x[i] = 1 - clear.x, result_.opacity.y[i] = 1 - clear.y, result_.opacity.z[i] = 1 - clear.z;
   }
 
   const GiState& state_;
@@ -134,8 +142,9 @@ void setBias(const RayQuery& query, Ray& ray) {
   if (query.bias >= 0) ray.offset = 0, ray.bias = query.bias;
 }
 
-void traceForShader(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction,
-                    const RayQuery& query, const ShadeContext& context, const RayResult& result) {
+void traceForShader(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 P,
+                    TmConstVec3 direction, const RayQuery& query, const ShadeContext& context,
+                    const RayResult& result) {
   clearResult(points, active, result);
   if (context.rehearsal) return;
   const Attributes& own = *state.scene.groups[static_cast<size_t>(points.group())].attributes;
@@ -156,8 +165,9 @@ void traceForShader(const GiState& state, const ShadePoints& points, const uint8
     setBias(query, ray);
     ray.filter = filter.passesAll() ? nullptr : &filter;
     const SampleName name = points.name(i);
-    rays.add(i, ray, {hashCombine(name.key, 0x74726163U, static_cast<uint32_t>(hitContext.depth + hitContext.specularDepth)),
-                      name.sequence * static_cast<uint32_t>(query.count) + static_cast<uint32_t>(query.number)});
+    rays.add(i, ray,
+             {hashCombine(name.key, 0x74726163U, static_cast<uint32_t>(hitContext.depth + hitContext.specularDepth)),
+              name.sequence * static_cast<uint32_t>(query.count) + static_cast<uint32_t>(query.number)});
   }
   rays.trace();
 }

@@ -33,8 +33,10 @@ class CellJitter {
 /// When each ray is shot: equal strata of the shutter in an order that has nothing to do with the cells.
 class RayTimes {
  public:
-  RayTimes(const RayScene& scene, const GatherPoint& point, size_t count, uint32_t key) : fixed_(std::max(point.time, 0.0f)), key_(key) {
-    if (point.time < 0 && scene.samplesTime(point.group)) strata_ = permutation(static_cast<int>(count), key ^ 0x74696d65U);
+  RayTimes(const RayScene& scene, const GatherPoint& point, size_t count, uint32_t key)
+      : fixed_(std::max(point.time, 0.0f)), key_(key) {
+    if (point.time < 0 && scene.samplesTime(point.group))
+      strata_ = permutation(static_cast<int>(count), key ^ 0x74696d65U);
   }
   float operator()(size_t ray) const {
     if (strata_.empty()) return fixed_;

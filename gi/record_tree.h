@@ -1,5 +1,6 @@
-// Private to gi/irradiance_cache: an octree of numbered records. Each lies in the node that matches its radius (Ward et al. 1988). How far a
-// record reaches depends on who asks (approximate-gi eq. 3), so nodes know the size of their largest record, of which that is a function.
+// Private to gi/irradiance_cache: an octree of numbered records. Each lies in the node that matches its radius (Ward et
+// al. 1988). How far a record reaches depends on who asks (approximate-gi eq. 3), so nodes know the size of their
+// largest record, of which that is a function.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -31,8 +32,8 @@ class RecordTree {
     }
   }
 
-  /// visit(record), in any order, at least for all that lie within `reach` of `region`. reach(size): of a record of that size; it may not
-  /// fall with the size.
+  /// visit(record), in any order, at least for all that lie within `reach` of `region`. reach(size): of a record of
+  /// that size; it may not fall with the size.
   template <class Reach, class Visit>
   void visit(const Bound3& region, const Reach& reach, const Visit& visit) const {
     for (const uint32_t record : outside_) visit(record);
@@ -53,7 +54,9 @@ class RecordTree {
     vec3 center;
     float half;
 
-    int childIndex(const vec3& p) const { return (p.x >= center.x ? 1 : 0) | (p.y >= center.y ? 2 : 0) | (p.z >= center.z ? 4 : 0); }
+    int childIndex(const vec3& p) const {
+      return (p.x >= center.x ? 1 : 0) | (p.y >= center.y ? 2 : 0) | (p.z >= center.z ? 4 : 0);
+    }
     Box child(int i) const {
       const float h = half * 0.5f;
       return {center + vec3(i & 1 ? h : -h, i & 2 ? h : -h, i & 4 ? h : -h), h};
@@ -90,8 +93,8 @@ class RecordTree {
   }
 
   Box root_;
-  BlockVector<Node> nodes_;  ///< Most hold a record or two: memory counts.
-  BlockVector<uint32_t> next_;  ///< Behind each record in its node.
+  BlockVector<Node> nodes_;        ///< Most hold a record or two: memory counts.
+  BlockVector<uint32_t> next_;     ///< Behind each record in its node.
   std::vector<uint32_t> outside_;  ///< Records beyond the root box.
 };
 

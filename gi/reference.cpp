@@ -6,9 +6,8 @@
 namespace tomales {
 namespace {
 
-constexpr size_t kRaysPerBatch = 4096;  // shaded together
-constexpr uint32_t kPathStream =
-    0x70617468U;  // keeps directions independent of the light samples at the same point
+constexpr size_t kRaysPerBatch = 4096;         // shaded together
+constexpr uint32_t kPathStream = 0x70617468U;  // keeps directions independent of the light samples at the same point
 
 // Sums of one point over its paths.
 struct PathSum {
@@ -40,8 +39,7 @@ class PathBatches {
     orthonormalBasis(normal, tangent, bitangent);
     // The hits of one record share a key and continue each other's sequence.
     const SampleName name = points_.name(i);
-    const uint32_t pointKey =
-        hashCombine(name.key, state_.settings.seed, static_cast<uint32_t>(context_.depth));
+    const uint32_t pointKey = hashCombine(name.key, state_.settings.seed, static_cast<uint32_t>(context_.depth));
     for (int path = 0; path < paths; ++path) {
       const uint32_t number = name.sequence * static_cast<uint32_t>(paths) + static_cast<uint32_t>(path);
       Ray ray;
@@ -91,8 +89,7 @@ class PathBatches {
 }  // namespace
 
 void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
-                   const IndirectQuery& query, const ShadeContext& context, int bounces,
-                   const IndirectResult& out) {
+                   const IndirectQuery& query, const ShadeContext& context, int bounces, const IndirectResult& out) {
   const RayTools* tools = state.rays();
   if (!tools) return;
   // Paths branch at the eye's points alone; a hit continues because its own shader asks for indirect light

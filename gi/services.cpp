@@ -21,9 +21,10 @@ struct GiServices::Impl : GiState {
   }
 };
 
-GiServices::GiServices(const Scene& scene, const Camera& camera, const RayScene& rays,
-                       const ShadingSystem& shading, const GiSettings& settings, Stats& stats)
-    : GiServices(scene, camera, [tools = RayTools{&rays, &shading}] { return &tools; }, shading, settings, stats) {}
+GiServices::GiServices(const Scene& scene, const Camera& camera, const RayScene& rays, const ShadingSystem& shading,
+                       const GiSettings& settings, Stats& stats)
+    : GiServices(
+          scene, camera, [tools = RayTools{&rays, &shading}] { return &tools; }, shading, settings, stats) {}
 
 GiServices::GiServices(const Scene& scene, const Camera& camera, RaySource rays, const ShadingSystem& shading,
                        const GiSettings& settings, Stats& stats)
@@ -31,12 +32,14 @@ GiServices::GiServices(const Scene& scene, const Camera& camera, RaySource rays,
 
 GiServices::~GiServices() = default;
 
-void GiServices::gatherPass(const DeepFrame& layout, const TileReader& tiles, const std::function<void(float)>& progress,
-                            const std::atomic<bool>* cancelled, const std::function<void(int stride)>& covered) {
+void GiServices::gatherPass(const DeepFrame& layout, const TileReader& tiles,
+                            const std::function<void(float)>& progress, const std::atomic<bool>* cancelled,
+                            const std::function<void(int stride)>& covered) {
   if (impl_->settings.mode != GiMode::Reference) fillCaches(*impl_, layout, tiles, progress, cancelled, covered);
 }
 
-void GiServices::bake(const DeepFrame& layout, const TileReader& tiles, const std::filesystem::path& folder, const MapNames& names, uint64_t world) const {
+void GiServices::bake(const DeepFrame& layout, const TileReader& tiles, const std::filesystem::path& folder,
+                      const MapNames& names, uint64_t world) const {
   bakeLight(*impl_, layout, tiles, folder, names, world);
 }
 
@@ -88,17 +91,19 @@ void GiServices::transmission(const ShadePoints& points, const uint8_t* active, 
   impl_->stats.rays.hitlistAdjusted += adjusted;
 }
 
-void GiServices::trace(const ShadePoints& points, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction, const RayQuery& query,
-                       const ShadeContext& context, const RayResult& result) const {
+void GiServices::trace(const ShadePoints& points, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction,
+                       const RayQuery& query, const ShadeContext& context, const RayResult& result) const {
   traceForShader(*impl_, points, active, P, direction, query, context, result);
 }
 
-bool GiServices::sampleEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1, const EmitterPoints& out) const {
+bool GiServices::sampleEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1,
+                               const EmitterPoints& out) const {
   const Emitters* emitters = impl_->knownEmitters();
   return emitters && emitters->sampleFrom(light, count, from, xi0, xi1, out);
 }
 
-void GiServices::meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction, const EmitterPoints& out) const {
+void GiServices::meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction,
+                             const EmitterPoints& out) const {
   if (const Emitters* emitters = impl_->knownEmitters()) return emitters->meet(light, count, from, direction, out);
   std::fill_n(out.density, count, 0.0f);
 }
@@ -118,14 +123,15 @@ void GiServices::storedIrradiance(const ShadePoints& points, const uint8_t* acti
   for (int i = 0; i < points.count(); ++i) {
     if (!active[i]) continue;
     const float radius = std::sqrt(points.channel(kArea)[i] / kPi);
-    const vec3 e = impl_->atlas ? impl_->atlas->irradianceOverPi(points.group(), points.position(i), points.facingNormal(i), radius)
+    const vec3 e = impl_->atlas ? impl_->atlas->irradianceOverPi(points.group(), points.position(i),
+                                                                 points.facingNormal(i), radius)
                                 : vec3(0.0f);
     E.x[i] = e.x, E.y[i] = e.y, E.z[i] = e.z;
   }
 }
 
-bool GiServices::interpolatedOcclusion(const ShadePoints& points, const uint8_t* active, TmConstVec3 N, const OcclusionQuery& query,
-                                       const ShadeContext& context, float* covered) const {
+bool GiServices::interpolatedOcclusion(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
+                                       const OcclusionQuery& query, const ShadeContext& context, float* covered) const {
   return interpolateOcclusion(*impl_, points, active, N, query, context, covered);
 }
 
@@ -135,8 +141,7 @@ float GiServices::emitterReach(int light) const {
 }
 
 void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
-                                 const IndirectQuery& query, const ShadeContext& context,
-                                 IndirectResult out) const {
+                                 const IndirectQuery& query, const ShadeContext& context, IndirectResult out) const {
   if (impl_->settings.mode == GiMode::Baked) return bakedIndirect(*impl_, points, active, out);
   const int bounces = bouncesFor(*impl_, query);
   if (context.depth < bounces) {

@@ -1,5 +1,5 @@
-// Composer: the ShadeServices that rays and global illumination stand behind (injected by reyes/app), and the gather pass
-// that fills the irradiance cache from the deep frame buffer before anything is shaded.
+// Composer: the ShadeServices that rays and global illumination stand behind (injected by reyes/app), and the gather
+// pass that fills the irradiance cache from the deep frame buffer before anything is shaded.
 #pragma once
 #include "gi/atlas.h"
 #include "gi/gather.h"
@@ -24,9 +24,9 @@ enum class GiMode {
 
 struct GiSettings {
   GiMode mode = GiMode::Gather;
-  int samples = 0;        ///< Rays per record, or paths per point of the reference; 0: as the indirect light asks.
-  int bounces = 0;        ///< 0: as the indirect light asks (1 by default).
-  float maxError = -1;    ///< As the `maxerror` of indirectlight; < 0: as the light asks.
+  int samples = 0;      ///< Rays per record, or paths per point of the reference; 0: as the indirect light asks.
+  int bounces = 0;      ///< 0: as the indirect light asks (1 by default).
+  float maxError = -1;  ///< As the `maxerror` of indirectlight; < 0: as the light asks.
   uint32_t seed = 0;
   std::optional<ErrorFunction> errorFunction{};  ///< None: as the light asks.
   bool storesDirect = true;  ///< GiMode::Atlas: its maps hold what comes straight from lights; else gather
@@ -51,8 +51,8 @@ struct RayTools {
   const RayScene* rays;
   const ShadingSystem* shading;  ///< Of the scene that the rays meet.
 };
-/// Asked when the first ray is wanted, from any thread: a shot from a file may never need its geometry. Null: there is no
-/// geometry to be had, which has been reported; rays then meet nothing.
+/// Asked when the first ray is wanted, from any thread: a shot from a file may never need its geometry. Null: there is
+/// no geometry to be had, which has been reported; rays then meet nothing.
 using RaySource = std::function<const RayTools*()>;
 using AtlasSource = std::function<std::unique_ptr<const IrradianceAtlas>()>;
 using RadiositySource = std::function<std::unique_ptr<const HitRadiance>()>;
@@ -68,9 +68,10 @@ class GiServices final : public ShadeServices {
              const GiSettings& settings, Stats& stats);
   ~GiServices() override;
 
-  /// Adds E at every point that the gather pass has served to what FOLDER/points has of this world, and makes FOLDER/NAME.bkm of it: for
-  /// GiMode::Baked. `world`: worldSum() of the scene. Throws FileError.
-  void bake(const DeepFrame& layout, const TileReader& tiles, const std::filesystem::path& folder, const MapNames& names, uint64_t world) const;
+  /// Adds E at every point that the gather pass has served to what FOLDER/points has of this world, and makes
+  /// FOLDER/NAME.bkm of it: for GiMode::Baked. `world`: worldSum() of the scene. Throws FileError.
+  void bake(const DeepFrame& layout, const TileReader& tiles, const std::filesystem::path& folder,
+            const MapNames& names, uint64_t world) const;
 
   /// What gather rays look up in GiMode::Atlas, before the gather pass; and points themselves in GiMode::Baked.
   void setAtlas(std::unique_ptr<const IrradianceAtlas> atlas);
@@ -80,10 +81,10 @@ class GiServices final : public ShadeServices {
   void setRadiositySource(RadiositySource source);
   void reportAtlas(Stats& stats) const;  ///< After the last lookup.
 
-  /// Fills the irradiance cache for every point that a shaded frame will ask about, coarse to fine. Records of one level are
-  /// frozen before the next reads them, and their order is that of the pixels, so the cache does not depend on threads or buckets.
-  /// Reads the tiles again in every phase.
-  /// covered: told when the nearest points of every `stride`th pixel and row can be shaded without rays: 16, 8, 4, 2. May be empty.
+  /// Fills the irradiance cache for every point that a shaded frame will ask about, coarse to fine. Records of one
+  /// level are frozen before the next reads them, and their order is that of the pixels, so the cache does not depend
+  /// on threads or buckets. Reads the tiles again in every phase. covered: told when the nearest points of every
+  /// `stride`th pixel and row can be shaded without rays: 16, 8, 4, 2. May be empty.
   void gatherPass(const DeepFrame& layout, const TileReader& tiles, const std::function<void(float)>& progress,
                   const std::atomic<bool>* cancelled, const std::function<void(int stride)>& covered = {});
 
@@ -96,18 +97,20 @@ class GiServices final : public ShadeServices {
   /// So that area lights can be sampled without geometry.
   void useEmitters(EmitterTable emitters);
 
-  void transmission(const ShadePoints&, const uint8_t* active, TmConstVec3 toward, const ShadowRays&, const ShadeContext&,
-                    TmVec3 light) const override;
-  void trace(const ShadePoints&, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction, const RayQuery&, const ShadeContext&,
-             const RayResult&) const override;
-  bool sampleEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1, const EmitterPoints& out) const override;
-  void meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction, const EmitterPoints& out) const override;
+  void transmission(const ShadePoints&, const uint8_t* active, TmConstVec3 toward, const ShadowRays&,
+                    const ShadeContext&, TmVec3 light) const override;
+  void trace(const ShadePoints&, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction, const RayQuery&,
+             const ShadeContext&, const RayResult&) const override;
+  bool sampleEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1,
+                     const EmitterPoints& out) const override;
+  void meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction,
+                   const EmitterPoints& out) const override;
   void storedIrradiance(const ShadePoints&, const uint8_t* active, TmVec3 E) const override;
   float emitterReach(int light) const override;
-  bool interpolatedOcclusion(const ShadePoints&, const uint8_t* active, TmConstVec3 N, const OcclusionQuery&, const ShadeContext&,
-                             float* covered) const override;
-  void indirectDiffuse(const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&, const ShadeContext&,
-                       IndirectResult out) const override;
+  bool interpolatedOcclusion(const ShadePoints&, const uint8_t* active, TmConstVec3 N, const OcclusionQuery&,
+                             const ShadeContext&, float* covered) const override;
+  void indirectDiffuse(const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&,
+                       const ShadeContext&, IndirectResult out) const override;
 
  private:
   struct Impl;

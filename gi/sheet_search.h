@@ -1,4 +1,5 @@
-// Private to gi: sheets that lie over points nearer than the records that cover these have met anything (docs/decisions/0061).
+// Private to gi: sheets that lie over points nearer than the records that cover these have met anything
+// (docs/decisions/0061).
 #pragma once
 #include "gi/gather.h"
 

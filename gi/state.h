@@ -14,16 +14,16 @@ struct GiState {
   const ShadingSystem& shading;
   const GiSettings settings;
   Stats& stats;
-  mutable std::unique_ptr<const IrradianceAtlas> atlas;  ///< GiMode::Atlas and Baked alone.
-  std::vector<PreparedCache> caches;  ///< Written by fillCaches, frozen while shading.
-  std::optional<Emitters> emitters;   ///< Known without rays.
-  BrightSpots spots{};                ///< Likewise,
-  BounceCaches bounces{};             ///< and these.
+  mutable std::unique_ptr<const IrradianceAtlas> atlas;               ///< GiMode::Atlas and Baked alone.
+  std::vector<PreparedCache> caches;                                  ///< Written by fillCaches, frozen while shading.
+  std::optional<Emitters> emitters;                                   ///< Known without rays.
+  BrightSpots spots{};                                                ///< Likewise,
+  BounceCaches bounces{};                                             ///< and these.
   mutable std::vector<std::vector<OcclusionQuery>> occlusionAsked{};  ///< By each group: written by rehearse() alone.
-  bool cachesGiven = false;           ///< Not gathered for this very frame.
-  std::optional<PixelRect> anew{};    ///< Pixels out of which given records have been taken.
-  AtlasSource atlasSource{};          ///< May be empty,
-  RadiositySource radiositySource{};  ///< and this.
+  bool cachesGiven = false;                                           ///< Not gathered for this very frame.
+  std::optional<PixelRect> anew{};                         ///< Pixels out of which given records have been taken.
+  AtlasSource atlasSource{};                               ///< May be empty,
+  RadiositySource radiositySource{};                       ///< and this.
   mutable std::unique_ptr<const HitRadiance> radiosity{};  ///< GiMode::Radiosity alone.
   mutable std::once_flag sourcesOnce{};
 };
@@ -50,9 +50,9 @@ int bouncesFor(const GiState&, const IndirectQuery&);
 /// section 4.5).
 float projectedPixelSize(const Camera&, const vec3& P, const vec3& n);
 
-/// Where the indirect light of a batch is gathered and looked up (approximate-gi 4.5): at its points, or where their primitive variable
-/// "gatherP" says, on the side of the normal without bumps or of "gatherN". The same places for all that names them alike, as all of one
-/// hair does its root.
+/// Where the indirect light of a batch is gathered and looked up (approximate-gi 4.5): at its points, or where their
+/// primitive variable "gatherP" says, on the side of the normal without bumps or of "gatherN". The same places for all
+/// that names them alike, as all of one hair does its root.
 class GatherPlaces {
  public:
   GatherPlaces(const GiState&, const ShadePoints&);
@@ -82,7 +82,8 @@ struct BatchLookup {
 };
 
 /// cache: null knows nothing. Counts what is looked up and found.
-BatchLookup lookUp(const GiState&, const IrradianceCache* cache, const GatherPlaces&, const ShadePoints&, const uint8_t* active, TmConstVec3 N);
+BatchLookup lookUp(const GiState&, const IrradianceCache* cache, const GatherPlaces&, const ShadePoints&,
+                   const uint8_t* active, TmConstVec3 N);
 
 /// Phase of the gather pass in which the nearest point of a pixel is considered: 0 is a lattice of stride 16,
 /// and each phase after it halves the area for each point, down to every pixel (quincunx first, then the rest
@@ -94,14 +95,16 @@ int latticePhase(int x, int y);
 std::optional<vec3> gatheredOverPi(const GiState&, const GatherPoint& at);
 
 /// GiServices::bake().
-void bakeLight(const GiState&, const DeepFrame& layout, const TileReader&, const std::filesystem::path& folder, const MapNames&, uint64_t world);
+void bakeLight(const GiState&, const DeepFrame& layout, const TileReader&, const std::filesystem::path& folder,
+               const MapNames&, uint64_t world);
 
 /// GiServices::gatherPass().
 void fillCaches(GiState&, const DeepFrame& layout, const TileReader&, const std::function<void(float)>& progress,
                 const std::atomic<bool>* cancelled, const std::function<void(int stride)>& covered);
 
-/// When ray `number` of the `count` that leave a point is shot: the point's own time, or a stratified one if it is seen over the
-/// whole shutter and its object samples motion. Successive points of one SampleName continue each other's sequence.
+/// When ray `number` of the `count` that leave a point is shot: the point's own time, or a stratified one if it is seen
+/// over the whole shutter and its object samples motion. Successive points of one SampleName continue each other's
+/// sequence.
 float rayTime(const RayScene&, const ShadePoints&, int i, int number, int count, uint32_t seed);
 
 /// Moves the start of a ray to where the point is at that time, keeping its end if it has one, and prepares it.
@@ -113,8 +116,8 @@ RayFilter filterOf(const RayScene&, const RayQuery&, const Attributes&);
 void setBias(const RayQuery&, Ray&);
 
 /// ShadeServices::trace().
-void traceForShader(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction, const RayQuery&,
-                    const ShadeContext&, const RayResult&);
+void traceForShader(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction,
+                    const RayQuery&, const ShadeContext&, const RayResult&);
 
 /// Of a point that no record serves, or what rays answered there before, if `answers` has it.
 IndirectAnswer gatherOrRecall(const GiState&, const GatherPoint&, const GatherSettings&, RayAnswers* answers);
@@ -128,15 +131,15 @@ void store(const IndirectResult& out, int i, const vec3& E, const vec3 dominant[
 void bakedIndirect(const GiState&, const ShadePoints&, const uint8_t* active, const IndirectResult& out);
 
 // indirectDiffuse() in the others. Pre: the light may still bounce at these points.
-void interpolateIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N,
-                         const IndirectQuery&, const ShadeContext&, const IndirectResult& out);
-void traceIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N,
-                   const IndirectQuery&, const ShadeContext&, int bounces, const IndirectResult& out);
+void interpolateIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&,
+                         const ShadeContext&, const IndirectResult& out);
+void traceIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&,
+                   const ShadeContext&, int bounces, const IndirectResult& out);
 /// ShadeServices::interpolatedOcclusion().
-bool interpolateOcclusion(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N, const OcclusionQuery&, const ShadeContext&,
-                          float* covered);
+bool interpolateOcclusion(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N,
+                          const OcclusionQuery&, const ShadeContext&, float* covered);
 /// At what gather rays hit: from the caches of further bounces, or traced.
-void bounceIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N,
-                    const IndirectQuery&, const ShadeContext&, int bounces, const IndirectResult& out);
+void bounceIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&,
+                    const ShadeContext&, int bounces, const IndirectResult& out);
 
 }  // namespace tomales

@@ -9,7 +9,8 @@ struct WorldFromCurrent {
   mat3 normals;
   float scale;  ///< Length of one of current space.
   explicit WorldFromCurrent(const Scene& scene)
-      : points(glm::inverse(scene.cameraFromWorldAtOpen())), normals(glm::transpose(mat3(scene.cameraFromWorldAtOpen()))),
+      : points(glm::inverse(scene.cameraFromWorldAtOpen())),
+        normals(glm::transpose(mat3(scene.cameraFromWorldAtOpen()))),
         scale(std::cbrt(std::abs(glm::determinant(mat3(points))))) {}
 };
 

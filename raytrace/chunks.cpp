@@ -18,17 +18,20 @@
 namespace tomales {
 namespace {
 
-constexpr int kTile = 64;               ///< Fine polygons of a tile along u or v.
+constexpr int kTile = 64;                ///< Fine polygons of a tile along u or v.
 constexpr int kChunkPolygons = 64 * 64;  ///< At which a chunk is full: docs/decisions/0036-geometry-cache.md
-constexpr size_t kChunkTiles = 1024;    ///< Of more Embree would build with several threads, and bits would depend on how many.
-constexpr int kProbes = 8;              ///< Cells along u and v of the lattice over a tile that shows where its bound is too small.
-constexpr int kSampled = 4;             ///< Polygons along u and v of the part of a tile whose deviation is measured.
+constexpr size_t kChunkTiles =
+    1024;                   ///< Of more Embree would build with several threads, and bits would depend on how many.
+constexpr int kProbes = 8;  ///< Cells along u and v of the lattice over a tile that shows where its bound is too small.
+constexpr int kSampled = 4;  ///< Polygons along u and v of the part of a tile whose deviation is measured.
 constexpr size_t index(Level level) { return static_cast<size_t>(level); }
 
 int64_t polygons(const CoarseRate& r) { return int64_t{r.nu} * r.nv; }
 
 /// Vertices that are diced later lie in it whatever rounds, and Embree's arithmetic with it.
-Bound3 withRounding(const Bound3& b) { return b.grown(1e-6f * std::max(maxComponent(glm::abs(b.lo)), maxComponent(glm::abs(b.hi)))); }
+Bound3 withRounding(const Bound3& b) {
+  return b.grown(1e-6f * std::max(maxComponent(glm::abs(b.lo)), maxComponent(glm::abs(b.hi))));
+}
 
 void reportNotFinite(const Object& o, Log& log) {
   log.report(Severity::Warning, "trace-not-finite", o.where,
@@ -54,11 +57,12 @@ struct Chunks::Planned {
 
 bool hasLevels(const Object& o, uint32_t patch, bool moves) {
   const Attributes& a = *o.attributes;
-  return a.trace.rate != TessellationMode::Fixed && !moves && a.areaLight < 0 && o.solid < 0 && a.detail.whole() && raysNeed(a) &&
-         !isExactQuad(o, patch) && o.shape().kept(patch, UvRect{}) == Kept::All;
+  return a.trace.rate != TessellationMode::Fixed && !moves && a.areaLight < 0 && o.solid < 0 && a.detail.whole() &&
+         raysNeed(a) && !isExactQuad(o, patch) && o.shape().kept(patch, UvRect{}) == Kept::All;
 }
 
-Chunks::Chunks(const Scene& scene, const Camera& camera, const ShadingSystem& shading, const std::vector<bool>& elsewhere, Log& log)
+Chunks::Chunks(const Scene& scene, const Camera& camera, const ShadingSystem& shading,
+               const std::vector<bool>& elsewhere, Log& log)
     : scene_(scene), shading_(shading), log_(log), present_(scene.groups.size()), deviations_(scene.groups.size()) {
   for (const ShadeGroup& g : scene.groups) full_.push_back(g.attributes->trace.rate == TessellationMode::Full);
   if (std::all_of(scene.groups.begin(), scene.groups.end(),
@@ -68,7 +72,8 @@ Chunks::Chunks(const Scene& scene, const Camera& camera, const ShadingSystem& sh
   std::vector<std::pair<int, uint32_t>> patches;
   for (size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& o = scene.objects[i];
-    for (uint32_t p = 0; !elsewhere[i] && o.attributes->trace.rate != TessellationMode::Fixed && p < o.shape().patchCount(); ++p)
+    for (uint32_t p = 0;
+         !elsewhere[i] && o.attributes->trace.rate != TessellationMode::Fixed && p < o.shape().patchCount(); ++p)
       if (hasLevels(o, p, times[static_cast<size_t>(o.group)].size() > 1)) patches.emplace_back(static_cast<int>(i), p);
   }
   std::vector<Planned> planned(patches.size());
@@ -88,8 +93,10 @@ Chunks::Planned Chunks::plan(int object, uint32_t patch, const Camera& camera) c
   for (int j = 0; j < along; ++j)
     for (int i = 0; i < across; ++i) {
       Piece piece{{at(i, across), at(i + 1, across), at(j, along), at(j + 1, along)}, {}, {}};
-      for (size_t l = 0; l < kLevelsInChunks; ++l) piece.rate[l] = {(rates[l].nu + across - 1) / across, (rates[l].nv + along - 1) / along};
-      const Bound3 bound = transformBound(o.cameraFromObject.at(o.keyTimes.front()), o.shape().bound(patch, piece.rect));
+      for (size_t l = 0; l < kLevelsInChunks; ++l)
+        piece.rate[l] = {(rates[l].nu + across - 1) / across, (rates[l].nv + along - 1) / along};
+      const Bound3 bound =
+          transformBound(o.cameraFromObject.at(o.keyTimes.front()), o.shape().bound(patch, piece.rect));
       if (!isFinite(bound.lo) || !isFinite(bound.hi)) {
         reportNotFinite(o, log_);
         continue;
@@ -119,10 +126,13 @@ void Chunks::measure(Planned& planned, Piece& piece) const {
     if (levelOf(static_cast<uint32_t>(o.group), level) != level) continue;  // no ray sees it
     const auto [nu, nv] = piece.rate[index(level)];
     const int u = std::min(nu, kSampled), v = std::min(nv, kSampled);
-    const uint32_t name = hashCombine(o.name, planned.patch, static_cast<uint32_t>(planned.pieces.size()), static_cast<uint32_t>(level));
+    const uint32_t name =
+        hashCombine(o.name, planned.patch, static_cast<uint32_t>(planned.pieces.size()), static_cast<uint32_t>(level));
     const int i = static_cast<int>(unitFloat(name) * static_cast<float>(nu - u + 1));
     const int j = static_cast<int>(unitFloat(hash32(name)) * static_cast<float>(nv - v + 1));
-    const auto within = [](float a, float b, int k, int n) { return lerp(a, b, static_cast<float>(k) / static_cast<float>(n)); };
+    const auto within = [](float a, float b, int k, int n) {
+      return lerp(a, b, static_cast<float>(k) / static_cast<float>(n));
+    };
     const UvRect part{within(piece.rect.u0, piece.rect.u1, i, nu), within(piece.rect.u0, piece.rect.u1, i + u, nu),
                       within(piece.rect.v0, piece.rect.v1, j, nv), within(piece.rect.v0, piece.rect.v1, j + v, nv)};
     if (const Grid g = displaced(part, 2 * u, 2 * v); isFinite(g))
@@ -140,7 +150,8 @@ void Chunks::pack(const std::vector<Planned>& planned) {
   std::vector<Placed> placed;
   for (const Planned& p : planned) {
     const auto group = static_cast<uint32_t>(scene_.objects[static_cast<size_t>(p.object)].group);
-    for (size_t l = 0; l < kLevelsInChunks; ++l) deviations_[group][l] = std::max(deviations_[group][l], p.deviation[l]);
+    for (size_t l = 0; l < kLevelsInChunks; ++l)
+      deviations_[group][l] = std::max(deviations_[group][l], p.deviation[l]);
     for (const Piece& piece : p.pieces) {
       present_[group] = true;
       ofGroup[group].extend(piece.bound);
@@ -149,14 +160,16 @@ void Chunks::pack(const std::vector<Planned>& planned) {
     }
   }
   for (Placed& p : placed) p.place = mortonPlace(p.piece->bound.center(), ofGroup[p.group]);
-  std::stable_sort(placed.begin(), placed.end(),
-                   [](const Placed& a, const Placed& b) { return std::tie(a.group, a.place) < std::tie(b.group, b.place); });
+  std::stable_sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
+    return std::tie(a.group, a.place) < std::tie(b.group, b.place);
+  });
   for (const Level level : {Level::Fine, Level::Medium}) {
     int64_t held = kChunkPolygons;
     for (const Placed& p : placed) {
       if (levelOf(p.group, level) != level) continue;
       const CoarseRate& rate = p.piece->rate[index(level)];
-      const bool fits = held + polygons(rate) <= kChunkPolygons && chunks_.back().group == p.group && chunks_.back().tiles.size() < kChunkTiles;
+      const bool fits = held + polygons(rate) <= kChunkPolygons && chunks_.back().group == p.group &&
+                        chunks_.back().tiles.size() < kChunkTiles;
       if (!fits) chunks_.push_back({p.group, level, {}, {}}), held = 0;
       held += polygons(rate);
       chunks_.back().tiles.push_back({p.of->object, p.of->patch, p.piece->rect, rate});
@@ -195,7 +208,8 @@ vec3 Chunks::normal(const ChunkMesh& mesh, size_t chunk, uint32_t tile, float u,
   const auto [nu, nv] = chunks_[chunk].tiles[tile].rate;
   const auto cell = [](float x, int n) { return std::clamp(static_cast<int>(x * static_cast<float>(n)), 0, n - 1); };
   const int i = cell(u, nu), j = cell(v, nv);
-  const float fu = u * static_cast<float>(nu) - static_cast<float>(i), fv = v * static_cast<float>(nv) - static_cast<float>(j);
+  const float fu = u * static_cast<float>(nu) - static_cast<float>(i),
+              fv = v * static_cast<float>(nv) - static_cast<float>(j);
   const int row = nu + 1;
   const auto N = [&](int di, int dj) {
     return unpackNormal(mesh.N[mesh.firstVertex[tile] + static_cast<uint32_t>((j + dj) * row + i + di)]);

@@ -11,19 +11,20 @@ constexpr float kPolygon_px = 16;
 constexpr float kMediumEdge = 3;          ///< Of medium polygons, in edges of micropolygons.
 constexpr float kLeastPolygon_px = 1.5f;  ///< No polygon is smaller for the sake of its turn: far objects need few.
 constexpr float kTurn = 15 * kPi / 180;   ///< Radians between the normals at the ends of a polygon.
-constexpr float kMostTurn = 100 * kPi / 180;  ///< However small: half a circle of one polygon would be its diameter, without area.
+constexpr float kMostTurn =
+    100 * kPi / 180;  ///< However small: half a circle of one polygon would be its diameter, without area.
 constexpr float kEmitterTurn = 5 * kPi / 180;  ///< Brings the area of a sphere light within 0.5 %.
 constexpr int kProbes = 5;                     ///< Odd, so that a symmetrical wave is not met at its zeros.
-constexpr double kRounding = 1e-3;            ///< Half a circle is twelve polygons, whatever its sum of angles rounds to.
-constexpr float kLeastChord = 1e-4f;          ///< Of its distance: the direction of a shorter one has no digits left.
+constexpr double kRounding = 1e-3;    ///< Half a circle is twelve polygons, whatever its sum of angles rounds to.
+constexpr float kLeastChord = 1e-4f;  ///< Of its distance: the direction of a shorter one has no digits left.
 constexpr double kMostQuads = 1 << 20, kMostQuadsOfLevels = 1 << 22;  ///< Of a patch; levels are diced where rays come.
 
 float angleBetween(const vec3& a, const vec3& b) {
   return std::acos(std::clamp(dot(normalizeOr(a, vec3(0)), normalizeOr(b, vec3(0))), -1.0f, 1.0f));
 }
 
-/// Longest lattice line of a patch, in pixels, and the most that the normal turns along one, or the line itself: the rim of a disk turns
-/// within its plane.
+/// Longest lattice line of a patch, in pixels, and the most that the normal turns along one, or the line itself: the
+/// rim of a disk turns within its plane.
 struct LineFigures {
   float length_px = 0, turn = 0;
 };
@@ -37,8 +38,8 @@ LineFigures linesOf(const Grid& g, const Camera& camera, int alongStride, int ac
     for (int k = 0; k < kProbes; ++k) {
       const int a = line * acrossStride + k * alongStride, b = a + alongStride;
       const vec3 p = g.position(0, a), q = g.position(0, b);
-      // The pixel size by distance is defined all around the eye, unlike raster coordinates. A chord past the eye counts as
-      // if it were half its length away: it fills the view whatever it is cut into.
+      // The pixel size by distance is defined all around the eye, unlike raster coordinates. A chord past the eye
+      // counts as if it were half its length away: it fills the view whatever it is cut into.
       const float pixel = std::max(camera.pixelSize(0.5f * (p + q)), camera.pixelSize(0.5f * (q - p)));
       sum.length_px += glm::length(q - p) / std::max(pixel, 1e-20f);
       sum.turn += angleBetween(g.normal(a), g.normal(b));
@@ -53,11 +54,9 @@ LineFigures linesOf(const Grid& g, const Camera& camera, int alongStride, int ac
 }
 
 bool mayBeSeen(const Object& o, uint32_t patch, const Camera& camera) {
-  const Bound3 bound =
-      transformBound(o.cameraFromObject.at(o.keyTimes.front()), o.shape().bound(patch, UvRect{}));
+  const Bound3 bound = transformBound(o.cameraFromObject.at(o.keyTimes.front()), o.shape().bound(patch, UvRect{}));
   return o.attributes->visibility.camera &&
-         !camera.outside(bound.grown(o.displacementBound),
-                         {0, 0, camera.xResolution(), camera.yResolution()});
+         !camera.outside(bound.grown(o.displacementBound), {0, 0, camera.xResolution(), camera.yResolution()});
 }
 
 /// Without a log: silently.
@@ -66,7 +65,8 @@ CoarseRate limited(const Object& o, double nu, double nv, const char* remedy, Lo
   if (nu * nv <= most) return {static_cast<int>(nu), static_cast<int>(nv)};
   if (log)
     log->report(Severity::Warning, "trace-tessellation", o.where,
-                fmt::format("{} asks for {:.0f} x {:.0f} polygons for rays in one patch: limited to {:.0f}; {}", objectName(o), nu, nv, most, remedy));
+                fmt::format("{} asks for {:.0f} x {:.0f} polygons for rays in one patch: limited to {:.0f}; {}",
+                            objectName(o), nu, nv, most, remedy));
   // Halving keeps the proportions until one side is a single polygon.
   while (nu * nv > most) (nu > nv ? nu : nv) = std::ceil(std::max(nu, nv) / 2);
   return {static_cast<int>(nu), static_cast<int>(nv)};
@@ -130,9 +130,7 @@ class PatchLines {
 
 }  // namespace
 
-bool displacesForRays(const Object& o) {
-  return o.attributes->trace.displacements && o.attributes->displacement;
-}
+bool displacesForRays(const Object& o) { return o.attributes->trace.displacements && o.attributes->displacement; }
 
 CoarseRate coarseRate(const Scene& scene, const Camera& camera, int object, uint32_t patch, Log& log) {
   const Object& o = scene.objects[static_cast<size_t>(object)];
@@ -140,10 +138,13 @@ CoarseRate coarseRate(const Scene& scene, const Camera& camera, int object, uint
   return PatchLines(scene, camera, object, patch).rate(fixedFineness(o), &log);
 }
 
-std::array<CoarseRate, kLevelsInChunks> levelRates(const Scene& scene, const Camera& camera, int object, uint32_t patch, Log& log) {
+std::array<CoarseRate, kLevelsInChunks> levelRates(const Scene& scene, const Camera& camera, int object, uint32_t patch,
+                                                   Log& log) {
   const Attributes& a = *scene.objects[static_cast<size_t>(object)].attributes;
   const PatchLines lines(scene, camera, object, patch);
-  const auto atLeast = [](const CoarseRate& x, const CoarseRate& y) { return CoarseRate{std::max(x.nu, y.nu), std::max(x.nv, y.nv)}; };
+  const auto atLeast = [](const CoarseRate& x, const CoarseRate& y) {
+    return CoarseRate{std::max(x.nu, y.nu), std::max(x.nv, y.nv)};
+  };
   const CoarseRate coarse = lines.rate(fixedFineness(scene.objects[static_cast<size_t>(object)]), nullptr);
   const CoarseRate medium = atLeast(lines.rate(micropolygons(a, kMediumEdge), &log), coarse);
   return {atLeast(lines.rate(micropolygons(a, 1), &log), medium), medium};

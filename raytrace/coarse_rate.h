@@ -14,10 +14,13 @@ struct CoarseRate {
 /// A patch that asks for millions is reported and gets fewer.
 CoarseRate coarseRate(const Scene& scene, const Camera& camera, int object, uint32_t patch, Log& log);
 /// Of the levels in chunks, the first no coarser than the next and that no coarser than coarseRate().
-std::array<CoarseRate, kLevelsInChunks> levelRates(const Scene& scene, const Camera& camera, int object, uint32_t patch, Log& log);
+std::array<CoarseRate, kLevelsInChunks> levelRates(const Scene& scene, const Camera& camera, int object, uint32_t patch,
+                                                   Log& log);
 
 bool displacesForRays(const Object& object);
 /// Is the patch one exact quadrilateral?
-inline bool isExactQuad(const Object& o, uint32_t patch) { return o.shape().info(patch).planar && !displacesForRays(o); }
+inline bool isExactQuad(const Object& o, uint32_t patch) {
+  return o.shape().info(patch).planar && !displacesForRays(o);
+}
 
 }  // namespace tomales

@@ -14,7 +14,9 @@ float doubledDeviation(const Grid& g, int key, int i, int j) {
   const auto P = [&](int di, int dj) { return g.position(key, k + dj * row + di); };
   const vec3 a = P(0, 0), b = P(2, 0), c = P(2, 2), d = P(0, 2);
   const vec3 n = normalizeOr(cross(c - a, d - b), vec3(0));
-  const auto off = [&](const vec3& p, const vec3& q, const vec3& middle) { return std::abs(dot(middle - 0.5f * (p + q), n)); };
+  const auto off = [&](const vec3& p, const vec3& q, const vec3& middle) {
+    return std::abs(dot(middle - 0.5f * (p + q), n));
+  };
   return std::max({off(b, d, P(1, 1)), off(a, b, P(1, 0)), off(b, c, P(2, 1)), off(c, d, P(1, 2)), off(d, a, P(0, 1))});
 }
 

@@ -25,8 +25,8 @@ void copyBuffers(RTCGeometry geometry, std::vector<Geometry::Run> runs, Geometry
   for (const Geometry::Run& r : runs) vertexCount += out.meshes[r.mesh].P.size(), quadCount += r.count;
   std::vector<vec3*> vertices;
   for (unsigned step = 0; step < steps; ++step)
-    vertices.push_back(static_cast<vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, step,
-                                                                  RTC_FORMAT_FLOAT3, sizeof(vec3), vertexCount)));
+    vertices.push_back(static_cast<vec3*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT3, sizeof(vec3), vertexCount)));
   auto* quads = static_cast<Quad*>(
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, sizeof(Quad), quadCount));
   uint32_t firstVertex = 0;

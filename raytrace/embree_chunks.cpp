@@ -8,15 +8,19 @@ namespace {
 // What Embree allocates, as its memory monitor tells it: for each grid polygon, and for a scene.
 constexpr size_t kPolygonBytes = 22, kSceneBytes = 10000;
 
-constexpr int kPartEdge = 16, kPartPolygons = kPartEdge * kPartEdge;  ///< Of what an Extent has a box for: 24 bytes where polygons take 9000.
+constexpr int kPartEdge = 16,
+              kPartPolygons =
+                  kPartEdge * kPartEdge;  ///< Of what an Extent has a box for: 24 bytes where polygons take 9000.
 
 /// A ray among boxes that are a little larger than they say.
 class Slabs {
  public:
-  explicit Slabs(const RTCRay& r) : origin_(r.org_x, r.org_y, r.org_z), direction_(r.dir_x, r.dir_y, r.dir_z), first_(r.tnear), last_(r.tfar) {}
+  explicit Slabs(const RTCRay& r)
+      : origin_(r.org_x, r.org_y, r.org_z), direction_(r.dir_x, r.dir_y, r.dir_z), first_(r.tnear), last_(r.tfar) {}
 
   bool meets(const Bound3& box) const {
-    const float margin = 1e-5f * (glm::length(origin_) + std::max(maxComponent(glm::abs(box.lo)), maxComponent(glm::abs(box.hi))));
+    const float margin =
+        1e-5f * (glm::length(origin_) + std::max(maxComponent(glm::abs(box.lo)), maxComponent(glm::abs(box.hi))));
     float first = first_, last = last_;
     for (int k = 0; k < 3; ++k) {
       const float lo = box.lo[k] - margin - origin_[k], hi = box.hi[k] + margin - origin_[k];
@@ -48,8 +52,9 @@ EmbreeChunks::~EmbreeChunks() {
   if (device_) rtcReleaseDevice(device_);
 }
 
-void EmbreeChunks::attach(RTCDevice device, RTCScene to, unsigned id, uint32_t firstInstance, const std::vector<CoarseGroup>& groups,
-                          const std::vector<uint32_t>& masks, const std::vector<bool>& opaque) {
+void EmbreeChunks::attach(RTCDevice device, RTCScene to, unsigned id, uint32_t firstInstance,
+                          const std::vector<CoarseGroup>& groups, const std::vector<uint32_t>& masks,
+                          const std::vector<bool>& opaque) {
   device_ = device, firstInstance_ = firstInstance;
   rtcRetainDevice(device);
   for (uint32_t g = 0; g < groups.size(); ++g)
@@ -140,7 +145,8 @@ void EmbreeChunks::learnExtent(uint32_t chunk, const ChunkMesh& mesh) const {
         held += more;
         for (int j = v; j <= v1; ++j)
           for (int i = u; i <= u1; ++i) {
-            const vec3& p = mesh.P[mesh.firstVertex[t] + static_cast<size_t>(j) * static_cast<size_t>(nu + 1) + static_cast<size_t>(i)];
+            const vec3& p = mesh.P[mesh.firstVertex[t] + static_cast<size_t>(j) * static_cast<size_t>(nu + 1) +
+                                   static_cast<size_t>(i)];
             if (isFinite(p)) out.parts.back().extend(p);
           }
       }
@@ -154,15 +160,18 @@ std::shared_ptr<const EmbreeChunks::Resident> EmbreeChunks::build(uint32_t chunk
   auto out = std::make_shared<Resident>();
   out->mesh = chunks_.dice(chunk);
   out->scene = rtcNewScene(device_);
-  rtcSetSceneFlags(out->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+  rtcSetSceneFlags(out->scene,
+                   static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
   RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_GRID);
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, out->mesh.P.data(), 0, sizeof(vec3), out->mesh.P.size());
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, out->mesh.P.data(), 0,
+                             sizeof(vec3), out->mesh.P.size());
   const std::vector<Tile>& tiles = chunks_.all()[chunk].tiles;
   auto* grids = static_cast<RTCGrid*>(
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_GRID, 0, RTC_FORMAT_GRID, sizeof(RTCGrid), tiles.size()));
   for (size_t t = 0; grids && t < tiles.size(); ++t) {
     const auto [nu, nv] = tiles[t].rate;
-    grids[t] = {out->mesh.firstVertex[t], static_cast<unsigned>(nu + 1), static_cast<uint16_t>(nu + 1), static_cast<uint16_t>(nv + 1)};
+    grids[t] = {out->mesh.firstVertex[t], static_cast<unsigned>(nu + 1), static_cast<uint16_t>(nu + 1),
+                static_cast<uint16_t>(nv + 1)};
     out->sceneBytes += kPolygonBytes * static_cast<size_t>(nu) * static_cast<size_t>(nv);
   }
   rtcSetGeometryUserData(geometry, const_cast<Geometry*>(&described_[chunks_.all()[chunk].group]));

@@ -1,5 +1,6 @@
-// Private to the files that know Embree: chunks (raytrace/chunks.h) as user geometry. A ray that comes to one goes on in a scene of Embree grids,
-// built when it is not in the cache. Chunks of all levels stand in one scene: rays see those of theirs by mask. Threads: any.
+// Private to the files that know Embree: chunks (raytrace/chunks.h) as user geometry. A ray that comes to one goes on
+// in a scene of Embree grids, built when it is not in the cache. Chunks of all levels stand in one scene: rays see
+// those of theirs by mask. Threads: any.
 #pragma once
 #include <atomic>
 #include <deque>
@@ -19,8 +20,9 @@ class EmbreeChunks {
 
   /// Adds geometries to a scene, from this ID on, one for each mask. `groups`, `masks` and
   /// `opaque`: see EmbreeScene. Hits have instance IDs from firstInstance on.
-  void attach(RTCDevice device, RTCScene to, unsigned id, uint32_t firstInstance, const std::vector<CoarseGroup>& groups,
-              const std::vector<uint32_t>& masks, const std::vector<bool>& opaque);
+  void attach(RTCDevice device, RTCScene to, unsigned id, uint32_t firstInstance,
+              const std::vector<CoarseGroup>& groups, const std::vector<uint32_t>& masks,
+              const std::vector<bool>& opaque);
 
   /// Of rays that see some of what was attached as this geometry, counted from the first; as Embree knows it.
   uint32_t maskOf(size_t geometry) const { return members_[geometry].mask; }
@@ -47,7 +49,8 @@ class EmbreeChunks {
     std::vector<uint32_t> chunks;
   };
 
-  /// Where the vertices of a chunk lie: tighter than Chunk::bound. Known once they have been made, and kept when they go.
+  /// Where the vertices of a chunk lie: tighter than Chunk::bound. Known once they have been made, and kept when they
+  /// go.
   struct Extent {
     Bound3 whole;
     std::vector<Bound3> parts;

@@ -4,8 +4,7 @@ namespace tomales {
 namespace {
 
 PolygonHit hitOf(const RTCFilterFunctionNArguments& args, const Traversal& traversal) {
-  const vec3 direction(RTCRayN_dir_x(args.ray, 1, 0), RTCRayN_dir_y(args.ray, 1, 0),
-                       RTCRayN_dir_z(args.ray, 1, 0));
+  const vec3 direction(RTCRayN_dir_x(args.ray, 1, 0), RTCRayN_dir_y(args.ray, 1, 0), RTCRayN_dir_z(args.ray, 1, 0));
   const vec3 normal(RTCHitN_Ng_x(args.hit, 1, 0), RTCHitN_Ng_y(args.hit, 1, 0), RTCHitN_Ng_z(args.hit, 1, 0));
   const Geometry& geometry = *static_cast<const Geometry*>(args.geometryUserPtr);
   return traversal.hit(geometry, RTCRayN_tfar(args.ray, 1, 0) - traversal.shift, RTCHitN_instID(args.hit, 1, 0, 0),

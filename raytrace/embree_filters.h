@@ -12,10 +12,12 @@ namespace tomales {
 
 /// Embree's mask of what rays with these bits of RayMask see at a level, or of such a ray.
 inline uint32_t maskAt(uint32_t mask, Level level) { return mask << 4 * static_cast<int>(level); }
-inline uint32_t maskAtAllLevels(uint32_t mask) { return maskAt(mask, Level::Fine) | maskAt(mask, Level::Medium) | maskAt(mask, Level::Coarse); }
+inline uint32_t maskAtAllLevels(uint32_t mask) {
+  return maskAt(mask, Level::Fine) | maskAt(mask, Level::Medium) | maskAt(mask, Level::Coarse);
+}
 
-/// The small groups that rays treat alike share one Embree geometry: a geometry of its own for each would cost 65 kB, and a scene
-/// may have a group for every object. Positions and indices are copied for that, about 31 bytes a polygon.
+/// The small groups that rays treat alike share one Embree geometry: a geometry of its own for each would cost 65 kB,
+/// and a scene may have a group for every object. Positions and indices are copied for that, about 31 bytes a polygon.
 struct Geometry {
   /// Quads of one mesh, behind each other there and here.
   struct Run {
@@ -24,14 +26,17 @@ struct Geometry {
   };
 
   bool opaque, flips;
-  uint32_t mask;  ///< Of rays that see it, as Embree knows it; 0 for masters and chunks, which are seen as what they belong to.
+  uint32_t mask;  ///< Of rays that see it, as Embree knows it; 0 for masters and chunks, which are seen as what they
+                  ///< belong to.
   DetailShare detail;
-  const CoarseGroup* meshes;           ///< All groups, or the one master.
+  const CoarseGroup* meshes;  ///< All groups, or the one master.
   Run only;
   std::vector<Run> runs{};
   std::vector<uint32_t> runOfQuad{};  ///< Empty: all belong to `only`.
 
-  struct Place { uint32_t mesh, quad; };
+  struct Place {
+    uint32_t mesh, quad;
+  };
   Place place(uint32_t primitive) const {
     const Run& run = runOfQuad.empty() ? only : runs[runOfQuad[primitive]];
     return {run.mesh, run.firstQuad + (primitive - run.firstPrimitive)};
@@ -45,7 +50,8 @@ struct Instances {
   std::vector<bool> opaque;
   std::vector<bool> mirrors;   ///< Takes polygons to such of the other sense.
   std::vector<uint32_t> mask;  ///< As Embree knows it.
-  uint32_t firstChunk = 0;  ///< Hits of chunks have such instance IDs, in their order; what they belong to is their Geometry's.
+  uint32_t firstChunk =
+      0;  ///< Hits of chunks have such instance IDs, in their order; what they belong to is their Geometry's.
 };
 
 /// What filters are given beside the hit. Embree hands back the address of its first member.
@@ -72,14 +78,17 @@ struct Traversal {
 static_assert(std::is_standard_layout_v<Traversal>);
 
 /// Does a ray that meets a polygon with this normal, along d/du x d/dv, go to the side of the RISpec normal?
-inline bool leaves(const vec3& direction, const vec3& normal, bool flips) { return (dot(direction, normal) > 0) != flips; }
+inline bool leaves(const vec3& direction, const vec3& normal, bool flips) {
+  return (dot(direction, normal) > 0) != flips;
+}
 
 // Filters of traversals: the context's is asked after the geometry's.
 void rejectUnseen(const RTCFilterFunctionNArguments* args);  ///< Rejects what the ray's RayFilter does.
-void recordNear(const RTCFilterFunctionNArguments* args);    ///< Records and rejects hits in the window, accepts those beyond.
+void recordNear(
+    const RTCFilterFunctionNArguments* args);  ///< Records and rejects hits in the window, accepts those beyond.
 /// Accepts what is opaque beyond the window, which ends the traversal; records and rejects all else.
 void recordShadow(const RTCFilterFunctionNArguments* args);
-void recordAll(const RTCFilterFunctionNArguments* args);     ///< Records and rejects every hit.
+void recordAll(const RTCFilterFunctionNArguments* args);  ///< Records and rejects every hit.
 /// Of a geometry: rejects hits that trim curves have cut away, and levels of detail that the ray does not see.
 void rejectAbsent(const RTCFilterFunctionNArguments* args);
 

@@ -14,7 +14,8 @@
 namespace tomales {
 namespace {
 
-constexpr size_t kManyQuads = 4096;  ///< A geometry of its own costs less than copies of so many (Geometry in raytrace/embree_filters.h).
+constexpr size_t kManyQuads =
+    4096;  ///< A geometry of its own costs less than copies of so many (Geometry in raytrace/embree_filters.h).
 
 /// Embree takes no negative tnear: the ray starts `shift` before its origin.
 RTCRay rayFrom(const Ray& ray, float shift, float tNear, uint32_t mask) {
@@ -74,7 +75,8 @@ struct EmbreeScene::Impl {
   void attach(std::vector<Geometry::Run> runs, uint32_t mask, bool opaque) {
     const CoarseGroup& like = groups[runs.front().mesh];
     const auto id = static_cast<unsigned>(geometries.size());
-    Geometry& out = geometries.emplace_back(Geometry{opaque, like.flipsNormal, mask, like.detail, groups.data(), runs.front()});
+    Geometry& out =
+        geometries.emplace_back(Geometry{opaque, like.flipsNormal, mask, like.detail, groups.data(), runs.front()});
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
     rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(like.laterP.size() + 1));
     if (runs.size() == 1)
@@ -147,11 +149,11 @@ struct EmbreeScene::Impl {
     const std::array<vec3, 4> corners = g.corners(quad);
     std::array<vec3, 4> placed = corners;
     for (vec3& p : placed) p = transformPoint(cameraFromObject, p);
-    out.add(instances.group[instance], quad, g.flipsNormal != instances.mirrors[instance], placed, static_cast<int>(instance), corners);
+    out.add(instances.group[instance], quad, g.flipsNormal != instances.mirrors[instance], placed,
+            static_cast<int>(instance), corners);
   }
 
-  bool trace(const Ray& ray, float shift, float tNear, uint32_t mask, Traversal& traversal,
-             PolygonHit& out) const {
+  bool trace(const Ray& ray, float shift, float tNear, uint32_t mask, Traversal& traversal, PolygonHit& out) const {
     RTCRayHit r{rayFrom(ray, shift, tNear, mask), {}};
     r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene, &traversal.embree, &r);
@@ -173,8 +175,8 @@ struct EmbreeScene::Impl {
 
 EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const SharedShapes& shapes,
                          const std::vector<uint32_t>& groupOf, const std::vector<uint32_t>& masks,
-                         const std::vector<bool>& opaque, bool solids, Log& log,
-                         const Chunks* chunks, size_t chunkBytes)
+                         const std::vector<bool>& opaque, bool solids, Log& log, const Chunks* chunks,
+                         size_t chunkBytes)
     : impl_(std::make_unique<Impl>(groups, shapes)) {
   impl_->device = rtcNewDevice(nullptr);
   rtcSetDeviceMemoryMonitorFunction(impl_->device, &Impl::countBytes, impl_.get());
@@ -184,11 +186,14 @@ EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const SharedSha
     const CoarseGroup& g = groups[i];
     impl_->fades |= !g.detail.whole();
     if (g.solid != solids) continue;
-    const auto plain = static_cast<uint32_t>(g.quads.size() - g.onlyCoarse), coarse = static_cast<uint32_t>(g.onlyCoarse);
+    const auto plain = static_cast<uint32_t>(g.quads.size() - g.onlyCoarse),
+               coarse = static_cast<uint32_t>(g.onlyCoarse);
     for (const auto& [run, mask] : {std::pair(Geometry::Run{i, 0, plain}, maskAtAllLevels(masks[i])),
                                     std::pair(Geometry::Run{i, plain, coarse}, maskAt(masks[i], Level::Coarse))})
       if (run.count > 0)
-        alike[{mask, opaque[i], g.flipsNormal, g.trimmed, g.laterP.size(), g.detail.lo, g.detail.hi, g.quads.size() < kManyQuads ? 0 : i + 1}].push_back(run);
+        alike[{mask, opaque[i], g.flipsNormal, g.trimmed, g.laterP.size(), g.detail.lo, g.detail.hi,
+               g.quads.size() < kManyQuads ? 0 : i + 1}]
+            .push_back(run);
   }
   for (auto& [kind, runs] : alike) impl_->attach(std::move(runs), std::get<0>(kind), std::get<1>(kind));
   // With several threads the order of primitives in a leaf, and with it which of two hits at equal t is found
@@ -239,13 +244,13 @@ void EmbreeScene::around(const vec3& P, float reach, uint32_t mask, Level level,
   rtcPointQuery(impl_->scene, &query, &context, meets, &asked);
 }
 
-bool EmbreeScene::nearestBeyond(const Ray& ray, float window, uint32_t mask, HitList& list,
-                                PolygonHit& beyond) const {
+bool EmbreeScene::nearestBeyond(const Ray& ray, float window, uint32_t mask, HitList& list, PolygonHit& beyond) const {
   list.clear();
   if (ray.surroundings && ray.time == 0 && ray.surroundings->know(ray.origin, window)) {
     // Rather twice what lies at the end of the window than not at all.
     ray.surroundings->meet(ray.direction, window + roundingAt(ray.origin), list);
-    if (ray.filter) std::erase_if(list, [&](const PolygonHit& hit) { return !ray.filter->passes(hit.group, hit.leaving); });
+    if (ray.filter)
+      std::erase_if(list, [&](const PolygonHit& hit) { return !ray.filter->passes(hit.group, hit.leaving); });
     Traversal traversal = impl_->traversalOf(ray, ray.filter ? &rejectUnseen : nullptr, 0, 0, nullptr);
     return impl_->trace(ray, 0, window, mask, traversal, beyond);
   }
@@ -273,7 +278,9 @@ void EmbreeScene::all(const Ray& ray, float window, HitList& list) const {
 
 vec3 EmbreeScene::normal(const PolygonHit& hit) const { return impl_->chunks->normal(hit); }
 
-ResidentFigures EmbreeScene::chunkFigures() const { return impl_->chunks ? impl_->chunks->figures() : ResidentFigures{}; }
+ResidentFigures EmbreeScene::chunkFigures() const {
+  return impl_->chunks ? impl_->chunks->figures() : ResidentFigures{};
+}
 
 size_t EmbreeScene::bytes() const { return static_cast<size_t>(std::max<int64_t>(0, impl_->bytes)); }
 

@@ -1,6 +1,5 @@
-// Coarse quads in a BVH of two levels (instances, chunks), and the two traversals that the hit list needs. Embree is known to the files
-// raytrace/embree_* alone.
-// Space: current. Threads: const members may be called concurrently.
+// Coarse quads in a BVH of two levels (instances, chunks), and the two traversals that the hit list needs. Embree is
+// known to the files raytrace/embree_* alone. Space: current. Threads: const members may be called concurrently.
 #pragma once
 #include "raytrace/chunks.h"
 #include "raytrace/hit_list.h"
@@ -14,11 +13,11 @@ namespace tomales {
 
 class EmbreeScene {
  public:
-  /// What belongs to shade group i is visible to rays of masks[i] and opaque if opaque[i]; groupOf: of each instance. Holds
-  /// the groups that are parts of solids, or all others and the instances. `groups` and `shapes` must outlive this.
-  /// Of groups that fade a ray sees those that have its number in their share: a hash of the ray, within the share of what it
-  /// leaves, so that one level of detail does not shadow another in its place.
-  /// `chunks`, if there are any, must outlive this too; at most about `chunkBytes` of them are kept.
+  /// What belongs to shade group i is visible to rays of masks[i] and opaque if opaque[i]; groupOf: of each instance.
+  /// Holds the groups that are parts of solids, or all others and the instances. `groups` and `shapes` must outlive
+  /// this. Of groups that fade a ray sees those that have its number in their share: a hash of the ray, within the
+  /// share of what it leaves, so that one level of detail does not shadow another in its place. `chunks`, if there are
+  /// any, must outlive this too; at most about `chunkBytes` of them are kept.
   EmbreeScene(const std::vector<CoarseGroup>& groups, const SharedShapes& shapes, const std::vector<uint32_t>& groupOf,
               const std::vector<uint32_t>& masks, const std::vector<bool>& opaque, bool solids, Log& log,
               const Chunks* chunks = nullptr, size_t chunkBytes = 0);
@@ -27,7 +26,8 @@ class EmbreeScene {
   /// Nearest hit with ray.bias < t < ray.tMax; ray.offset plays no part.
   bool nearest(const Ray& ray, uint32_t mask, PolygonHit& hit) const;
 
-  /// Whatever rays of this mask and level may meet within `reach` of P at shutter open. Gives up at chunks and at what is trimmed or fades.
+  /// Whatever rays of this mask and level may meet within `reach` of P at shutter open. Gives up at chunks and at what
+  /// is trimmed or fades.
   void around(const vec3& P, float reach, uint32_t mask, Level level, Surroundings& out) const;
 
   /// One traversal: fills `list` with all hits at |t| <= window, unsorted, and `beyond` with the nearest

@@ -12,7 +12,8 @@ float beside(const EmitterFacet& f, size_t k, const vec3& P) {
 
 std::optional<EmitterFacet> facetOf(const std::array<vec3, 4>& corners, const vec3& normal) {
   EmitterFacet out{corners, normal};
-  if (dot(normal, cross(corners[2] - corners[0], corners[3] - corners[1])) < 0) std::swap(out.corners[1], out.corners[3]);
+  if (dot(normal, cross(corners[2] - corners[0], corners[3] - corners[1])) < 0)
+    std::swap(out.corners[1], out.corners[3]);
   const float size = glm::length(corners[2] - corners[0]) + glm::length(corners[3] - corners[1]);
   for (size_t k = 0; k < 4; ++k) {
     if (std::abs(dot(normal, corners[k] - corners[0])) > 1e-5f * size) return std::nullopt;

@@ -25,7 +25,8 @@ class SphericalRectangle {
     z0_ = dot(d, z_);
     if (z0_ > 0) z_ = -z_, z0_ = -z0_;
     x0_ = dot(d, x_) - hx, y0_ = dot(d, y_) - hy, x1_ = x0_ + 2 * hx, y1_ = y0_ + 2 * hy;
-    const std::array<dvec3, 4> corners = {dvec3(x0_, y0_, z0_), dvec3(x1_, y0_, z0_), dvec3(x1_, y1_, z0_), dvec3(x0_, y1_, z0_)};
+    const std::array<dvec3, 4> corners = {dvec3(x0_, y0_, z0_), dvec3(x1_, y0_, z0_), dvec3(x1_, y1_, z0_),
+                                          dvec3(x0_, y1_, z0_)};
     std::array<dvec3, 4> n;  // of the planes through the eye and an edge
     for (size_t i = 0; i < 4; ++i) {
       n[i] = cross(corners[i], corners[(i + 1) % 4]);
@@ -58,8 +59,8 @@ class SphericalRectangle {
   double x0_ = 0, x1_ = 0, y0_ = 0, y1_ = 0, z0_ = 0, b0_ = 0, b1_ = 0, k_ = 0, solidAngle_ = 0;
 };
 
-/// The cone x^2 / a^2 + y^2 / b^2 < z^2 that a disk fills. Its four quadrants mirror each other. Density over the azimuth is linear in each of a
-/// number of steps, so that it is known exactly however eccentric the ellipse.
+/// The cone x^2 / a^2 + y^2 / b^2 < z^2 that a disk fills. Its four quadrants mirror each other. Density over the
+/// azimuth is linear in each of a number of steps, so that it is known exactly however eccentric the ellipse.
 class EllipticalCone {
  public:
   EllipticalCone(const EmitterShape& disk, const vec3& from) {
@@ -72,7 +73,8 @@ class EllipticalCone {
     // The nearest and the farthest point of the rim, and the ray that halves their angle.
     const double nearAngle = std::atan2(off - r, height), farAngle = std::atan2(off + r, height);
     const double middle = 0.5 * (nearAngle + farAngle);
-    z_ = std::sin(middle) * y - std::cos(middle) * n, y_ = std::cos(middle) * y + std::sin(middle) * n, x_ = cross(y_, z_);
+    z_ = std::sin(middle) * y - std::cos(middle) * n, y_ = std::cos(middle) * y + std::sin(middle) * n,
+    x_ = cross(y_, z_);
     const double at = height * std::tan(middle) - off;  // where it meets the plane, from the centre
     const double halfChord = std::sqrt(std::max(0.0, r * r - at * at));
     a_ = halfChord * std::cos(middle) / height, b_ = std::tan(0.5 * (farAngle - nearAngle));
@@ -94,7 +96,8 @@ class EllipticalCone {
     const double phi = (static_cast<double>(step) + within) * kStep;
     const double versine = xi.y * versineAt(phi), sine = std::sqrt(versine * (2 - versine));
     density = densityAt(phi);
-    return (quadrant & 1 ? -sine : sine) * std::cos(phi) * x_ + (quadrant & 2 ? -sine : sine) * std::sin(phi) * y_ + (1 - versine) * z_;
+    return (quadrant & 1 ? -sine : sine) * std::cos(phi) * x_ + (quadrant & 2 ? -sine : sine) * std::sin(phi) * y_ +
+           (1 - versine) * z_;
   }
 
   /// Pre: the direction is inside.
@@ -138,11 +141,13 @@ SeenPoint sampleSphere(const EmitterShape& sphere, const vec3& from, const vec2&
   const double distance = glm::length(d), r = glm::length(dvec3(sphere.u));
   const double versine = xi.x * cone, sine2 = versine * (2 - versine), phi = kTurn * static_cast<double>(xi.y);
   // Along the ray, from the point nearest to the centre to where it enters.
-  const double miss2 = distance * distance * sine2, t = (1 - versine) * distance - std::sqrt(std::max(0.0, r * r - miss2));
+  const double miss2 = distance * distance * sine2,
+               t = (1 - versine) * distance - std::sqrt(std::max(0.0, r * r - miss2));
   vec3 tangent, bitangent;
   const dvec3 axis = d / distance;
   orthonormalBasis(vec3(axis), tangent, bitangent);
-  const dvec3 direction = std::sqrt(sine2) * (std::cos(phi) * dvec3(tangent) + std::sin(phi) * dvec3(bitangent)) + (1 - versine) * axis;
+  const dvec3 direction =
+      std::sqrt(sine2) * (std::cos(phi) * dvec3(tangent) + std::sin(phi) * dvec3(bitangent)) + (1 - versine) * axis;
   const dvec3 N = glm::normalize(t * direction - d);
   return {vec3(dvec3(sphere.center) + r * N), vec3(N), static_cast<float>(1 / (kTurn * cone))};
 }
@@ -163,11 +168,13 @@ struct PlanePoint {
   double u = 0, v = 0;
   bool seen = false;
 };
-/// Points of the emitter itself, its back above all, lie on either side of its plane by rounding: they must not see half the sky shine.
+/// Points of the emitter itself, its back above all, lie on either side of its plane by rounding: they must not see
+/// half the sky shine.
 bool behind(const EmitterShape& flat, const vec3& from) {
   constexpr double kRounding = 5e-6;
   const dvec3 center = flat.center;
-  const double reach = glm::length(dvec3(from)) + glm::length(center) + glm::length(dvec3(flat.u)) + glm::length(dvec3(flat.v));
+  const double reach =
+      glm::length(dvec3(from)) + glm::length(center) + glm::length(dvec3(flat.u)) + glm::length(dvec3(flat.v));
   return !(dot(dvec3(from) - center, dvec3(flat.normal)) > kRounding * reach);
 }
 
@@ -183,7 +190,8 @@ SeenPoint onFlat(const EmitterShape& flat, const dvec3& fromCenter, double densi
   return {vec3(dvec3(flat.center) + fromCenter), flat.normal, static_cast<float>(density)};
 }
 
-/// Rounding must not lose the whole shape, nor a wrong solid angle brighten it: far or edge-on shapes are sampled by area.
+/// Rounding must not lose the whole shape, nor a wrong solid angle brighten it: far or edge-on shapes are sampled by
+/// area.
 bool isSmall(double solidAngle) { return !(solidAngle > kLeastSolidAngle); }
 
 SeenPoint byArea(const EmitterShape& flat, const vec3& from, const vec2& xi) {

@@ -1,4 +1,5 @@
-// Emitters of simple shape, sampled by solid angle: every direction in which a point sees one is as likely as any other.
+// Emitters of simple shape, sampled by solid angle: every direction in which a point sees one is as likely as any
+// other.
 //   rectangle  Urena, Fajardo and King 2013, "An Area-Preserving Parametrization for Spherical Rectangles"
 //   sphere     the cone that it fills
 //   disk       the elliptical cone that it fills: azimuth from a table of its angular width, height evenly
@@ -12,9 +13,10 @@ struct EmitterShape {
   enum class Kind : uint8_t { Rectangle, Disk, Sphere };
   Kind kind = Kind::Rectangle;
   vec3 center{0};
-  vec3 u{1, 0, 0}, v{0, 1, 0};  ///< Perpendicular. Rectangle: halves of its edges; disk: radii; sphere: u alone is a radius.
-  vec3 normal{0, 0, 1};         ///< Unit, of the shining side; spheres shine outwards.
-  int group = -1;               ///< Of Scene::groups, that it is of; -1: not known.
+  vec3 u{1, 0, 0},
+      v{0, 1, 0};        ///< Perpendicular. Rectangle: halves of its edges; disk: radii; sphere: u alone is a radius.
+  vec3 normal{0, 0, 1};  ///< Unit, of the shining side; spheres shine outwards.
+  int group = -1;        ///< Of Scene::groups, that it is of; -1: not known.
 
   float area() const;
 };

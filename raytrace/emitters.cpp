@@ -9,7 +9,8 @@ namespace {
 
 using Corners = std::array<vec3, 4>;
 
-constexpr size_t kMostFacets = 256;  ///< That directions are tried against, which costs as much as a ray; of more none are met.
+constexpr size_t kMostFacets =
+    256;  ///< That directions are tried against, which costs as much as a ray; of more none are met.
 
 float areaOf(const Corners& q) {
   const auto& [a, b, c, d] = q;
@@ -31,7 +32,9 @@ bool isCurved(const Scene& scene, const Lattice& lattice) {
 
 EmitterLattice latticeOf(const Scene& scene, const CoarseGroup& g, const Lattice& lattice) {
   const bool curved = isCurved(scene, lattice);
-  EmitterLattice out{lattice.nu, lattice.nv, g.flipsNormal, {}, {}, curved, curved || lattice.trim ? &g : nullptr, lattice.firstQuad, -1};
+  EmitterLattice out{
+      lattice.nu,        lattice.nv, g.flipsNormal, {}, {}, curved, curved || lattice.trim ? &g : nullptr,
+      lattice.firstQuad, -1};
   for (uint32_t quad = lattice.firstQuad; quad < lattice.firstQuad + lattice.nu * lattice.nv; ++quad) {
     out.quads.push_back({g.corner(quad, 0), g.corner(quad, 1), g.corner(quad, 2), g.corner(quad, 3)});
     out.normals.push_back(g.geometricNormal(quad));
@@ -66,7 +69,8 @@ std::optional<EmitterShape> roundShape(const Scene& scene, int object) {
 std::optional<EmitterShape> rectangle(const EmitterLattice& lattice) {
   if (lattice.surface || lattice.quads.size() != 1) return std::nullopt;
   const auto& [a, b, c, d] = lattice.quads[0];
-  const EmitterShape out{EmitterShape::Kind::Rectangle, 0.5f * (a + c), 0.5f * (b - a), 0.5f * (d - a), lattice.normals[0], lattice.group};
+  const EmitterShape out{
+      EmitterShape::Kind::Rectangle, 0.5f * (a + c), 0.5f * (b - a), 0.5f * (d - a), lattice.normals[0], lattice.group};
   const float u = glm::length(out.u), v = glm::length(out.v);
   const bool straight = glm::length(a + c - b - d) <= 1e-5f * (u + v) && std::abs(dot(out.u, out.v)) <= 1e-5f * u * v;
   return u > 0 && v > 0 && straight ? std::optional(out) : std::nullopt;
@@ -114,7 +118,9 @@ vec3 at(TmConstVec3 v, int i) { return {v.x[i], v.y[i], v.z[i]}; }
 
 }  // namespace
 
-Emitters::Emitters(const Scene& scene, const std::vector<CoarseGroup>& groups) : Emitters(tableOf(scene, groups)) { scene_ = &scene; }
+Emitters::Emitters(const Scene& scene, const std::vector<CoarseGroup>& groups) : Emitters(tableOf(scene, groups)) {
+  scene_ = &scene;
+}
 
 Emitters::Emitters(EmitterTable table) : table_(std::move(table)), lights_(table_.size()) {
   for (size_t light = 0; light < table_.size(); ++light) {
@@ -123,7 +129,8 @@ Emitters::Emitters(EmitterTable table) : table_(std::move(table)), lights_(table
       const EmitterLattice& lattice = table_[light].lattices[l];
       Source source{l, {}, std::vector<Distribution>(lattice.rows)};
       for (uint32_t j = 0; j < lattice.rows; ++j) {
-        for (uint32_t i = 0; i < lattice.columns; ++i) source.row[j].add(double{areaOf(lattice.quads[j * lattice.columns + i])});
+        for (uint32_t i = 0; i < lattice.columns; ++i)
+          source.row[j].add(double{areaOf(lattice.quads[j * lattice.columns + i])});
         source.rows.add(source.row[j].total());
       }
       if (!(source.rows.total() > 0)) continue;
@@ -181,7 +188,8 @@ Emitters::AreaPoint Emitters::onLattice(const EmitterLight& light, const Source&
   return out;
 }
 
-bool Emitters::sampleFrom(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1, const EmitterPoints& out) const {
+bool Emitters::sampleFrom(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1,
+                          const EmitterPoints& out) const {
   if (!shines(light)) return false;
   const EmitterLight& emitters = given(light);
   const Light& l = sources(light);
@@ -228,8 +236,8 @@ void Emitters::meet(int light, int count, TmConstVec3 from, TmConstVec3 directio
   }
 }
 
-bool Emitters::sample(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N,
-                      float* area, int* group) const {
+bool Emitters::sample(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N, float* area,
+                      int* group) const {
   if (!shines(light)) return false;
   const EmitterLight& emitters = given(light);
   const Light& l = sources(light);

@@ -1,7 +1,7 @@
-// Points on area lights. Rectangles, disks and spheres are sampled by solid angle (emitter_shapes.h). All else is by area: places of
-// the true surface, chosen by the coarse quads of all objects that emit for a light in proportion to area, and weighted so that any
-// surface shines as much as it does, not as its polygons would. Where rays see displacement the polygons stand for the surface.
-// Directions meet the simple shapes, and meshes of few flat polygons.
+// Points on area lights. Rectangles, disks and spheres are sampled by solid angle (emitter_shapes.h). All else is by
+// area: places of the true surface, chosen by the coarse quads of all objects that emit for a light in proportion to
+// area, and weighted so that any surface shines as much as it does, not as its polygons would. Where rays see
+// displacement the polygons stand for the surface. Directions meet the simple shapes, and meshes of few flat polygons.
 // Space: current. Threads: const members may be called concurrently.
 #pragma once
 #include "raytrace/emitter_facets.h"
@@ -18,14 +18,14 @@ struct EmitterLattice {
   std::vector<std::array<vec3, 4>> quads;  ///< Corners as CoarseGroup's, rows * columns.
   std::vector<vec3> normals;               ///< Unit, of the shining side.
   bool curved = false;                     ///< The quads stand for another surface.
-  const CoarseGroup* surface = nullptr;    ///< Asked for every point where it is curved or trim curves cut it; else null.
-  uint32_t firstQuad = 0;                  ///< Number of the first quad there.
-  int group = -1;                          ///< As EmitterShape::group.
+  const CoarseGroup* surface = nullptr;  ///< Asked for every point where it is curved or trim curves cut it; else null.
+  uint32_t firstQuad = 0;                ///< Number of the first quad there.
+  int group = -1;                        ///< As EmitterShape::group.
 };
 struct EmitterLight {
   std::vector<EmitterShape> shapes;
   std::vector<EmitterLattice> lattices;
-  float reach = 0;                         ///< ShadeServices::emitterReach
+  float reach = 0;  ///< ShadeServices::emitterReach
 };
 /// Of every light of a scene.
 using EmitterTable = std::vector<EmitterLight>;
@@ -43,16 +43,17 @@ class Emitters {
   bool shines(int light) const { return known(light) && sources(light).areas.count() > 0; }
 
   /// As ShadeServices::sampleEmitter. xi0 picks the emitter.
-  bool sampleFrom(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1, const EmitterPoints& out) const;
+  bool sampleFrom(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1,
+                  const EmitterPoints& out) const;
   /// As ShadeServices::meetEmitter.
   void meet(int light, int count, TmConstVec3 from, TmConstVec3 direction, const EmitterPoints& out) const;
 
-  /// Points of the light as a whole, wherever they are seen from. xi0 picks the lattice, xi1 its row and v, what is left of xi0 the
-  /// column and u, all by area: a continuous warp of the unit square over each lattice, so that stratified points
-  /// stay stratified. `area` is the Jacobian over the probability of the quad: the total area wherever quads are
-  /// parallelograms. `group`: as EmitterShape::group; may be null.
-  bool sample(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N,
-              float* area, int* group = nullptr) const;
+  /// Points of the light as a whole, wherever they are seen from. xi0 picks the lattice, xi1 its row and v, what is
+  /// left of xi0 the column and u, all by area: a continuous warp of the unit square over each lattice, so that
+  /// stratified points stay stratified. `area` is the Jacobian over the probability of the quad: the total area
+  /// wherever quads are parallelograms. `group`: as EmitterShape::group; may be null.
+  bool sample(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N, float* area,
+              int* group = nullptr) const;
 
  private:
   struct Source {
@@ -62,15 +63,18 @@ class Emitters {
     bool met = false;               ///< Its quads are facets.
   };
   struct Light {
-    Distribution areas;             ///< Shapes come first.
-    std::vector<Source> sources;    ///< Lattices with area.
+    Distribution areas;           ///< Shapes come first.
+    std::vector<Source> sources;  ///< Lattices with area.
     std::vector<EmitterFacet> facets;
-    /// By which samples of the light and directions that meet it weigh each other: as if all polygons were sampled evenly.
-    double facetDensity(const vec3& from, const vec3& P, const vec3& N) const { return solidAngleDensity(from, P, N, 1 / areas.total()); }
+    /// By which samples of the light and directions that meet it weigh each other: as if all polygons were sampled
+    /// evenly.
+    double facetDensity(const vec3& from, const vec3& P, const vec3& N) const {
+      return solidAngleDensity(from, P, N, 1 / areas.total());
+    }
   };
   struct AreaPoint {
     vec3 P{0}, N{0};
-    double area = 0;                ///< That it stands for; 0: trimmed away
+    double area = 0;  ///< That it stands for; 0: trimmed away
     int group = -1;
   };
   bool known(int light) const { return light >= 0 && light < static_cast<int>(lights_.size()); }

@@ -48,8 +48,8 @@ struct RayStart {
   int group = -1;      ///< Shade group that the ray leaves, -1: unknown.
 };
 
-/// Does the other side of a wall lie within the offset, besides the origin (-1: none)? Blades and leaves side by side are no walls: it must be of the
-/// same group and turned away.
+/// Does the other side of a wall lie within the offset, besides the origin (-1: none)? Blades and leaves side by side
+/// are no walls: it must be of the same group and turned away.
 bool isCrowded(const HitList& sorted, int origin, const RayStart& start);
 
 /// The hit that becomes the effective origin: the one closest to t = 0 within the offset. -1: the origin

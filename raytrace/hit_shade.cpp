@@ -8,7 +8,8 @@
 namespace tomales {
 namespace {
 
-constexpr float kLeastSpread = 5e-4f;  ///< Radius of the footprint of a ray that has none, for each unit of its length: about a pixel.
+constexpr float kLeastSpread =
+    5e-4f;  ///< Radius of the footprint of a ray that has none, for each unit of its length: about a pixel.
 
 int primvarFloats(const ShadeGroup& group) {
   return std::accumulate(group.primvars.begin(), group.primvars.end(), 0,
@@ -38,8 +39,8 @@ std::vector<uint32_t> byGroup(const Scene& scene, const std::vector<Hit>& hits, 
   return order;
 }
 
-/// A hit later than shutter open is shaded as all else is: the surface stands where it was then, and the ray comes to it as it
-/// came to the moved one. Drift is whatever takes it from there to where the ray met it.
+/// A hit later than shutter open is shaded as all else is: the surface stands where it was then, and the ray comes to
+/// it as it came to the moved one. Drift is whatever takes it from there to where the ray met it.
 void bringToOpen(const Scene& scene, const Ray& ray, const Hit& hit, ShadePoints& points, int i) {
   const ShadeGroup& group = scene.groups[static_cast<size_t>(points.group())];
   const float shutter = lerp(scene.options.shutterOpen, scene.options.shutterClose, ray.time);
@@ -57,7 +58,8 @@ void addPoint(const RayScene::Impl& rays, const Ray& ray, const Hit& hit, Sample
   const int i = points.add(name);
   evaluatePoint(scene, hit.object, hit.patch, hit.u, hit.v, points, i);
   const float radius = ray.radius + ray.spread * hit.t;
-  if (points.hasSteps()) evaluateSteps(scene, hit.object, hit.patch, hit.u, hit.v, std::max(radius, kLeastSpread * hit.t), points, i);
+  if (points.hasSteps())
+    evaluateSteps(scene, hit.object, hit.patch, hit.u, hit.v, std::max(radius, kLeastSpread * hit.t), points, i);
   const vec3 I = ray.direction * hit.t;
   points.set3(kPx, i, ray.origin + I);
   points.set3(kNx, i, hit.normal);
@@ -65,7 +67,8 @@ void addPoint(const RayScene::Impl& rays, const Ray& ray, const Hit& hit, Sample
   points.set3(kIx, i, I);
   points.channel(kTime)[i] = ray.time;
   if (ray.time > 0) bringToOpen(scene, ray, hit, points, i);
-  const float stands = std::max(radius, rays.leastRadius(static_cast<uint32_t>(points.group()), ray.level, ray.origin + I));
+  const float stands =
+      std::max(radius, rays.leastRadius(static_cast<uint32_t>(points.group()), ray.level, ray.origin + I));
   if (stands > 0) points.channel(kArea)[i] = kPi * stands * stands;
 }
 
@@ -75,16 +78,18 @@ HitMode modeOf(const Attributes& a, RayKind kind) {
 }
 
 /// Cs and Os of a point: its primitive variable's or its attribute's.
-vec3 primitiveColor(const ShadeGroup& group, const ShadePoints& points, int i, std::string_view name, const vec3& attribute) {
+vec3 primitiveColor(const ShadeGroup& group, const ShadePoints& points, int i, std::string_view name,
+                    const vec3& attribute) {
   const int offset = offsetOf(group.primvars, name);
-  return offset < 0 ? attribute : vec3(points.primvar(offset)[i], points.primvar(offset + 1)[i], points.primvar(offset + 2)[i]);
+  return offset < 0 ? attribute
+                    : vec3(points.primvar(offset)[i], points.primvar(offset + 1)[i], points.primvar(offset + 2)[i]);
 }
 
 /// Value i of an output that hits can tell. False: there is no such value.
-bool readOutput(const ShadeGroup& group, const ShadePoints& points, int i, const std::string& name, const HitAnswers& answers,
-                uint32_t hit, vec3& out) {
-  static const std::map<std::string_view, int> kVectors = {
-      {"P", kPx}, {"N", kNx}, {"Ng", kNgx}, {"I", kIx}, {"dPdu", kDpduX}, {"dPdv", kDpdvX}};
+bool readOutput(const ShadeGroup& group, const ShadePoints& points, int i, const std::string& name,
+                const HitAnswers& answers, uint32_t hit, vec3& out) {
+  static const std::map<std::string_view, int> kVectors = {{"P", kPx}, {"N", kNx},       {"Ng", kNgx},
+                                                           {"I", kIx}, {"dPdu", kDpduX}, {"dPdv", kDpdvX}};
   static const std::map<std::string_view, int> kNumbers = {{"u", kU}, {"v", kV}, {"s", kS}, {"t", kT}};
   const size_t colon = name.find(':');
   const std::string_view what = std::string_view(name).substr(0, colon), key = std::string_view(name).substr(colon + 1);
@@ -116,7 +121,8 @@ bool readOutput(const ShadeGroup& group, const ShadePoints& points, int i, const
 }
 
 /// Of hits that shaders ran at `shaded` has what they put out, as ShadeContext::told says.
-void tell(const ShadeGroup& group, const ShadePoints& points, int i, uint32_t hit, const ShadedPoints* shaded, HitAnswers& answers) {
+void tell(const ShadeGroup& group, const ShadePoints& points, int i, uint32_t hit, const ShadedPoints* shaded,
+          HitAnswers& answers) {
   size_t first = 0;
   for (const RayOutput& output : answers.outputs) {
     const auto put = [&](int k) -> float& { return output.c[k][answers.elements[hit]]; };
@@ -124,7 +130,8 @@ void tell(const ShadeGroup& group, const ShadePoints& points, int i, uint32_t hi
     if (readOutput(group, points, i, output.name, answers, hit, value)) {
       for (int k = 0; k < output.floats; ++k) put(k) = value[k];
     } else if (shaded && !std::isnan(shaded->variables[first][static_cast<size_t>(i)])) {
-      for (int k = 0; k < output.floats; ++k) put(k) = shaded->variables[first + static_cast<size_t>(k)][static_cast<size_t>(i)];
+      for (int k = 0; k < output.floats; ++k)
+        put(k) = shaded->variables[first + static_cast<size_t>(k)][static_cast<size_t>(i)];
     }
     first += static_cast<size_t>(output.floats);
   }
@@ -162,7 +169,8 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
     ShadePoints points(g, primvarFloats(group), shading.wantsSteps(g));
     points.reserve(static_cast<int>(last - first));
     for (size_t k = first; k < last; ++k) addPoint(*impl_, rays[order[k]], hits[order[k]], names[order[k]], points);
-    const bool shades = answers.wantsColor && answers.mode.value_or(modeOf(attributes, context.kind)) == HitMode::Shader;
+    const bool shades =
+        answers.wantsColor && answers.mode.value_or(modeOf(attributes, context.kind)) == HitMode::Shader;
     if (shades) shading.shade(points, hitContext, shaded);
     const vec3 emission = diffuse || !context.lampsGlow ? vec3(0) : shading.visibleEmission(g);
     for (size_t k = first; k < last; ++k) {
@@ -178,8 +186,9 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
   }
 }
 
-void RayScene::crossVolumes(const std::vector<Ray>& came, const std::vector<Hit>& left, const std::vector<Ray>& rays, const std::vector<Hit>& hits,
-                            const std::vector<SampleName>& names, const ShadingSystem& shading, const ShadeContext& context, HitAnswers& answers) const {
+void RayScene::crossVolumes(const std::vector<Ray>& came, const std::vector<Hit>& left, const std::vector<Ray>& rays,
+                            const std::vector<Hit>& hits, const std::vector<SampleName>& names,
+                            const ShadingSystem& shading, const ShadeContext& context, HitAnswers& answers) const {
   ShadeContext crossing = context;
   crossing.answers = nullptr;  // they are those of the points that the rays leave first
   std::vector<int> groupOf;
@@ -201,10 +210,12 @@ void RayScene::crossVolumes(const std::vector<Ray>& came, const std::vector<Hit>
         which.push_back(i);
       }
       colors.resize(ends.count());
-      for (size_t k = 0; k < which.size(); ++k) colors.set(static_cast<int>(k), answers.color[which[k]], answers.opacity[which[k]]);
+      for (size_t k = 0; k < which.size(); ++k)
+        colors.set(static_cast<int>(k), answers.color[which[k]], answers.opacity[which[k]]);
       if (which.empty() || !shading.crossVolume(ends, inside, crossing, colors)) continue;
       for (size_t k = 0; k < which.size(); ++k)
-        answers.color[which[k]] = colors.color(static_cast<int>(k)), answers.opacity[which[k]] = colors.opacity(static_cast<int>(k));
+        answers.color[which[k]] = colors.color(static_cast<int>(k)),
+        answers.opacity[which[k]] = colors.opacity(static_cast<int>(k));
     }
   }
 }

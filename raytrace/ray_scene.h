@@ -22,14 +22,14 @@ struct RayScene::Impl {
   Hit resolveChunk(const Ray& ray, const PolygonHit& hit) const;
   /// Is the opacity of the whole group that of its attributes?
   bool knowsOpacity(uint32_t group) const { return opacityIsConstant[group]; }
-  /// Adds the surfaces of solids to what a traversal of all else has found: those up to `window` to the list, and the nearest
-  /// after that, if it is nearer than `beyond`. Returns whether there is a `beyond`.
+  /// Adds the surfaces of solids to what a traversal of all else has found: those up to `window` to the list, and the
+  /// nearest after that, if it is nearer than `beyond`. Returns whether there is a `beyond`.
   bool addSolids(const Ray& ray, float window, uint32_t mask, HitList& list, bool found, PolygonHit& beyond) const;
   vec3 clearness(const PolygonHit& hit) const { return 1.0f - scene.groups[hit.group].attributes->opacity; }
 
   Level levelOf(const Ray& ray, const vec3& P) const;
-  /// Radius from which on a point stands for polygons of the level at which a ray has met it: what leaves it must see none finer, because it
-  /// lies on those. 0 for groups without levels.
+  /// Radius from which on a point stands for polygons of the level at which a ray has met it: what leaves it must see
+  /// none finer, because it lies on those. 0 for groups without levels.
   float leastRadius(uint32_t group, Level met, const vec3& P) const;
 
   const Scene& scene;
@@ -44,7 +44,7 @@ struct RayScene::Impl {
   const EmbreeScene embree;
   const SolidHits solids;
   const Emitters emitters;
-  bool moves = false;                     ///< Some polygon does.
+  bool moves = false;  ///< Some polygon does.
   mutable std::mutex subsetsMutex;
   mutable std::map<std::pair<std::string, std::string>, std::vector<uint8_t>> subsets;
   mutable std::mutex startsMutex;

@@ -3,14 +3,15 @@
 namespace tomales {
 namespace {
 
-constexpr int kMostSteps = 32;          ///< A key that none of so many parts ends at is passed within a 64th of the shutter.
+constexpr int kMostSteps = 32;  ///< A key that none of so many parts ends at is passed within a 64th of the shutter.
 constexpr float kSameTime = 1.0f / 512;  ///< Of the shutter
 
 /// Motion keys inside the shutter, as parts of it. Empty: the object stands still.
 std::vector<float> keysOf(const Object& o, const Options& options) {
   std::vector<float> keys;
   const auto add = [&](const std::vector<float>& times) {
-    for (const float t : times) keys.push_back((t - options.shutterOpen) / (options.shutterClose - options.shutterOpen));
+    for (const float t : times)
+      keys.push_back((t - options.shutterOpen) / (options.shutterClose - options.shutterOpen));
   };
   if (o.attributes->areaLight >= 0) return keys;
   if (o.currentFromObject.moving()) add(o.currentFromObject.times);
@@ -39,9 +40,8 @@ int stepsFor(const std::vector<float>& keys) {
 }  // namespace
 
 bool raysHaveTimes(const Scene& scene) {
-  return scene.shutterIsOpen() && std::any_of(scene.groups.begin(), scene.groups.end(), [](const ShadeGroup& g) {
-           return g.attributes->trace.sampleMotion;
-         });
+  return scene.shutterIsOpen() && std::any_of(scene.groups.begin(), scene.groups.end(),
+                                              [](const ShadeGroup& g) { return g.attributes->trace.sampleMotion; });
 }
 
 std::vector<std::vector<float>> rayTimes(const Scene& scene) {
@@ -57,7 +57,8 @@ std::vector<std::vector<float>> rayTimes(const Scene& scene) {
     const int steps = stepsFor(k);
     auto& out = times.emplace_back(1, scene.options.shutterOpen);
     for (int i = 1; i <= steps; ++i)
-      out.push_back(lerp(scene.options.shutterOpen, scene.options.shutterClose, static_cast<float>(i) / static_cast<float>(steps)));
+      out.push_back(lerp(scene.options.shutterOpen, scene.options.shutterClose,
+                         static_cast<float>(i) / static_cast<float>(steps)));
   }
   return times;
 }

@@ -1,6 +1,5 @@
-// Slots that are filled when somebody first asks, and emptied, least recently used first, when together they are larger than allowed: then
-// an eighth goes at once.
-// What somebody still holds lives until it is given back. Threads: any.
+// Slots that are filled when somebody first asks, and emptied, least recently used first, when together they are larger
+// than allowed: then an eighth goes at once. What somebody still holds lives until it is given back. Threads: any.
 #pragma once
 #include <algorithm>
 #include <atomic>
@@ -19,7 +18,8 @@ struct ResidentFigures {
 template <class T>
 class ResidentCache {
  public:
-  ResidentCache(size_t slots, size_t budget) : slots_(slots), budget_(static_cast<int64_t>(std::min(budget, size_t{1} << 62))) {}
+  ResidentCache(size_t slots, size_t budget)
+      : slots_(slots), budget_(static_cast<int64_t>(std::min(budget, size_t{1} << 62))) {}
 
   /// What slot i holds; make() gives it, as a shared_ptr<const T>, if it is empty. make() asks for no other slot.
   template <class Make>
@@ -28,7 +28,8 @@ class ResidentCache {
     if (auto found = slot.take(clock_.load(std::memory_order_relaxed))) return found;
     Gone gone;  // freed after the lock
     const std::lock_guard building(making_[i % kStripes]);
-    if (auto found = slot.take(clock_.load(std::memory_order_relaxed))) return found;  // another thread has made it meanwhile
+    if (auto found = slot.take(clock_.load(std::memory_order_relaxed)))
+      return found;  // another thread has made it meanwhile
     std::shared_ptr<const T> made = make();
     slot.put(made, clock_++);
     gone = admit(i, made->bytes());
@@ -93,7 +94,8 @@ class ResidentCache {
     bytes_ += residents_.back().bytes;
     if (bytes_ > budget_) {
       std::vector<std::pair<int64_t, Resident>> byAge;  // without the newest
-      for (size_t i = 0; i + 1 < residents_.size(); ++i) byAge.emplace_back(slots_[residents_[i].slot].used(), residents_[i]);
+      for (size_t i = 0; i + 1 < residents_.size(); ++i)
+        byAge.emplace_back(slots_[residents_[i].slot].used(), residents_[i]);
       std::sort(byAge.begin(), byAge.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
       residents_ = {residents_.back()};
       for (const auto& [used, r] : byAge) {

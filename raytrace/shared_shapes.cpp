@@ -13,7 +13,8 @@ bool isAffine(const mat4& m) { return m[0].w == 0 && m[1].w == 0 && m[2].w == 0 
 bool mayShare(const Object& o) {
   const Attributes& a = *o.attributes;
   return raysNeed(a) && o.shapes.size() == 1 && !o.cameraFromObject.moving() && a.areaLight < 0 && o.solid < 0 &&
-         a.detail.whole() && !displacesForRays(o) && o.shape().patchCount() > kFewPatches && isAffine(o.cameraFromObject.keys.front());
+         a.detail.whole() && !displacesForRays(o) && o.shape().patchCount() > kFewPatches &&
+         isAffine(o.cameraFromObject.keys.front());
 }
 
 /// Largest factor by which lengths grow, from above: the Frobenius norm, exact within sqrt(3).
@@ -37,7 +38,8 @@ Bound3 wholeBound(const Prim& prim) {
 std::pair<bool, float> looks(const Object& o, const Bound3& bound, const Camera& camera) {
   const Bound3 box = transformBound(o.cameraFromObject.keys.front(), bound);
   const vec3 nearest = glm::clamp(vec3(0), box.lo, box.hi);
-  const bool seen = o.attributes->visibility.camera && !camera.outside(box, {0, 0, camera.xResolution(), camera.yResolution()});
+  const bool seen =
+      o.attributes->visibility.camera && !camera.outside(box, {0, 0, camera.xResolution(), camera.yResolution()});
   return {seen, glm::length(box.size()) / (std::max(camera.pixelSize(nearest), 1e-20f) *
                                            std::sqrt(std::max(o.attributes->shadingRate, 1e-4f)))};
 }
@@ -57,7 +59,8 @@ SharedShapes shareShapes(const Scene& scene, const Camera& camera, const Shading
   // Objects with the same shape and the same side out, in order.
   std::map<std::pair<PrimPtr, bool>, std::vector<int>> alike;
   for (size_t i = 0; i < scene.objects.size(); ++i)
-    if (const Object& o = scene.objects[i]; mayShare(o)) alike[{o.shapes[0], o.attributes->insideOut}].push_back(static_cast<int>(i));
+    if (const Object& o = scene.objects[i]; mayShare(o))
+      alike[{o.shapes[0], o.attributes->insideOut}].push_back(static_cast<int>(i));
   std::vector<const std::vector<int>*> uses;
   for (const auto& [key, objects] : alike)
     if (objects.size() > 1) uses.push_back(&objects);
@@ -79,7 +82,8 @@ SharedShapes shareShapes(const Scene& scene, const Camera& camera, const Shading
     mesh.deviation *= shrink, mesh.size *= shrink;
     for (const int i : *objects) {
       const mat4& m = object(i).cameraFromObject.keys.front();
-      out.instances.push_back({i, static_cast<uint32_t>(out.masters.size() - 1), m, glm::transpose(glm::inverse(mat3(m)))});
+      out.instances.push_back(
+          {i, static_cast<uint32_t>(out.masters.size() - 1), m, glm::transpose(glm::inverse(mat3(m)))});
       out.shared[static_cast<size_t>(i)] = true;
     }
   }

@@ -1,8 +1,6 @@
-// Objects that share their shapes (ObjectInstance) are tessellated once, in object space, as finely as the one of them that
-// looks largest asks.
-// Not shared: what moves, emits, or is displaced for rays, because each such object has polygons of its own; parts of solids and
-// what fades into another level of detail.
-// Threads: immutable once made.
+// Objects that share their shapes (ObjectInstance) are tessellated once, in object space, as finely as the one of them
+// that looks largest asks. Not shared: what moves, emits, or is displaced for rays, because each such object has
+// polygons of its own; parts of solids and what fades into another level of detail. Threads: immutable once made.
 #pragma once
 #include "raytrace/tessellate.h"
 
@@ -18,7 +16,7 @@ struct CoarseInstance {
 struct SharedShapes {
   std::vector<CoarseGroup> masters;  ///< In object space.
   std::vector<CoarseInstance> instances;
-  std::vector<bool> shared;          ///< By object: it is one of `instances`.
+  std::vector<bool> shared;  ///< By object: it is one of `instances`.
 };
 
 SharedShapes shareShapes(const Scene& scene, const Camera& camera, const ShadingSystem& shading, Log& log);

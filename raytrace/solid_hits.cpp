@@ -10,7 +10,8 @@ constexpr float kRounding = 1e-5f;  ///< Of a hit's place: surfaces no farther a
 
 }  // namespace
 
-SolidHits::SolidHits(const Scene& scene, const std::vector<CoarseGroup>& groups, const std::vector<uint32_t>& masks, Log& log)
+SolidHits::SolidHits(const Scene& scene, const std::vector<CoarseGroup>& groups, const std::vector<uint32_t>& masks,
+                     Log& log)
     : scene_(scene), groups_(groups), masks_(masks) {
   if (!scene.solids.empty())
     embree_.emplace(groups, noShapes_, std::vector<uint32_t>(), std::vector<uint32_t>(groups.size(), ~0U),

@@ -1,5 +1,6 @@
-// What rays meet of solids (SolidBegin ... SolidEnd): everything of them along the whole line, resolved by reyes/solid.h as the
-// hider does for samples (docs/decisions/0032-solids.md). Space: current. Threads: const members may be called concurrently.
+// What rays meet of solids (SolidBegin ... SolidEnd): everything of them along the whole line, resolved by
+// reyes/solid.h as the hider does for samples (docs/decisions/0032-solids.md). Space: current. Threads: const members
+// may be called concurrently.
 #pragma once
 #include <optional>
 
@@ -13,7 +14,8 @@ class SolidHits {
   SolidHits(const Scene& scene, const std::vector<CoarseGroup>& groups, const std::vector<uint32_t>& masks, Log& log);
 
   bool none() const { return !embree_; }
-  /// The surfaces of the solids at -window <= t < ray.tMax that the ray, of `mask`, sees, by t; bias and offset play no part.
+  /// The surfaces of the solids at -window <= t < ray.tMax that the ray, of `mask`, sees, by t; bias and offset play no
+  /// part.
   void surfaces(const Ray& ray, float window, uint32_t mask, HitList& out) const;
   size_t bytes() const { return embree_ ? embree_->bytes() : 0; }
 

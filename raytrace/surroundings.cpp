@@ -11,7 +11,9 @@ void Surroundings::reset(const vec3& origin, float reach) {
 
 namespace {
 
-std::array<vec3, 2> trianglesOf(const std::array<vec3, 4>& p) { return {cross(p[1] - p[0], p[3] - p[0]), cross(p[3] - p[2], p[1] - p[2])}; }
+std::array<vec3, 2> trianglesOf(const std::array<vec3, 4>& p) {
+  return {cross(p[1] - p[0], p[3] - p[0]), cross(p[3] - p[2], p[1] - p[2])};
+}
 
 }  // namespace
 
@@ -43,7 +45,8 @@ void Surroundings::meet(const vec3& direction, float window, HitList& list) cons
       if (!(std::abs(p.heights[k]) <= window * std::abs(whole)) || whole == 0) return;
       u /= whole, v /= whole;
       if (k == 1) u = 1 - u, v = 1 - v;
-      list.push_back({p.heights[k] / whole, p.group, p.quad, u, v, (whole > 0) != p.flips, p.instance, p.normals[k], -1});
+      list.push_back(
+          {p.heights[k] / whole, p.group, p.quad, u, v, (whole > 0) != p.flips, p.instance, p.normals[k], -1});
     };
     meetTriangle(0, bd, da, ab);
     meetTriangle(1, -bd, bc, cd);

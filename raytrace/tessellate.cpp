@@ -38,7 +38,8 @@ class Tessellator {
     const Object& o = objectOf(object);
     const Kept keptOfTile = o.shape().kept(patch, rect);
     if (keptOfTile == Kept::None) return;
-    Grid g = dice(scene_, object, patch, rect, 2 * nu, 2 * nv, {times_[static_cast<size_t>(o.group)], o.currentFromObject});
+    Grid g =
+        dice(scene_, object, patch, rect, 2 * nu, 2 * nv, {times_[static_cast<size_t>(o.group)], o.currentFromObject});
     if (displacesForRays(o)) shading_.displace(g);
     if (!isFinite(g)) {
       log_.report(Severity::Warning, "trace-not-finite", o.where,
@@ -53,11 +54,11 @@ class Tessellator {
         const int k = 2 * j * (2 * nu + 1) + 2 * i;
         out.P.push_back(g.position(0, k));
         out.N.push_back(side * normalizeOr(g.normal(k), vec3(0)));
-        for (int key = 1; key < g.keyCount; ++key) out.laterP[static_cast<size_t>(key) - 1].push_back(g.position(key, k));
+        for (int key = 1; key < g.keyCount; ++key)
+          out.laterP[static_cast<size_t>(key) - 1].push_back(g.position(key, k));
       }
     out.lattices.push_back({object, patch, rect, static_cast<uint32_t>(nu), static_cast<uint32_t>(nv),
-                            static_cast<uint32_t>(out.quads.size()),
-                            keptOfTile == Kept::All ? nullptr : &o.shape()});
+                            static_cast<uint32_t>(out.quads.size()), keptOfTile == Kept::All ? nullptr : &o.shape()});
     out.trimmed |= keptOfTile != Kept::All;
     const auto row = static_cast<uint32_t>(nu + 1);
     for (int j = 0; j < nv; ++j)
@@ -69,7 +70,8 @@ class Tessellator {
           continue;
         }
         out.quads.push_back({a, a + 1, a + row + 1, a + row});
-        for (int key = 0; key < g.keyCount; ++key) out.deviation = std::max(out.deviation, doubledDeviation(g, key, 2 * i, 2 * j));
+        for (int key = 0; key < g.keyCount; ++key)
+          out.deviation = std::max(out.deviation, doubledDeviation(g, key, 2 * i, 2 * j));
       }
   }
 
@@ -96,8 +98,7 @@ void append(CoarseGroup& to, const CoarseGroup& from) {
   to.laterP.resize(from.laterP.size());
   for (size_t k = 0; k < from.laterP.size(); ++k)
     to.laterP[k].insert(to.laterP[k].end(), from.laterP[k].begin(), from.laterP[k].end());
-  for (const Quad& q : from.quads)
-    to.quads.push_back({q[0] + vertex, q[1] + vertex, q[2] + vertex, q[3] + vertex});
+  for (const Quad& q : from.quads) to.quads.push_back({q[0] + vertex, q[1] + vertex, q[2] + vertex, q[3] + vertex});
   for (const uint32_t l : from.latticeOfQuad) to.latticeOfQuad.push_back(l + lattice);
   for (Lattice l : from.lattices) {
     l.firstQuad += quad;
@@ -153,7 +154,8 @@ std::vector<CoarseGroup> tessellateAll(const Scene& scene, const Camera& camera,
   const auto wanted = [&](int object, uint32_t patch) {
     const Object& o = scene.objects[static_cast<size_t>(object)];
     const bool withLevels = which == Patches::WithLevels;
-    if (withLevels && o.attributes->trace.rate != TessellationMode::Multiresolution) return false;  // or no ray sees its coarse polygons
+    if (withLevels && o.attributes->trace.rate != TessellationMode::Multiresolution)
+      return false;  // or no ray sees its coarse polygons
     return which == Patches::All || hasLevels(o, patch, tessellator.moves(object)) == withLevels;
   };
   parallelFor(work.size(), 1, [&](size_t begin, size_t end) {
@@ -162,7 +164,8 @@ std::vector<CoarseGroup> tessellateAll(const Scene& scene, const Camera& camera,
         if (wanted(work[w].object, p)) tessellator.addPatch(work[w].object, p, pieces[w]);
   });
   if (which == Patches::WithLevels)
-    for (CoarseGroup& piece : pieces) piece.onlyCoarse = piece.quads.size(), piece.coarseDeviation = std::exchange(piece.deviation, 0.0f);
+    for (CoarseGroup& piece : pieces)
+      piece.onlyCoarse = piece.quads.size(), piece.coarseDeviation = std::exchange(piece.deviation, 0.0f);
   return pieces;
 }
 
@@ -190,8 +193,8 @@ vec2 CoarseGroup::patchParameters(uint32_t quad, float u, float v) const {
 size_t CoarseGroup::bytes() const {
   size_t vertices = P.capacity() + N.capacity();
   for (const auto& later : laterP) vertices += later.capacity();
-  return vertices * sizeof(vec3) + quads.capacity() * sizeof(Quad) +
-         latticeOfQuad.capacity() * sizeof(uint32_t) + lattices.capacity() * sizeof(Lattice);
+  return vertices * sizeof(vec3) + quads.capacity() * sizeof(Quad) + latticeOfQuad.capacity() * sizeof(uint32_t) +
+         lattices.capacity() * sizeof(Lattice);
 }
 
 bool raysNeed(const Attributes& a) {
@@ -199,8 +202,8 @@ bool raysNeed(const Attributes& a) {
   return v.diffuse || v.specular || v.transmission || v.photon || a.areaLight >= 0;
 }
 
-std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, const ShadingSystem& shading,
-                                    Log& log, const std::vector<bool>& elsewhere) {
+std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, const ShadingSystem& shading, Log& log,
+                                    const std::vector<bool>& elsewhere) {
   std::vector<Work> work;
   for (size_t i = 0; i < scene.objects.size(); ++i) {
     // What no ray may see still cuts its solid.
@@ -218,13 +221,15 @@ std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, co
     group.flipsNormal = o.flipsNormal != o.subtracted;
     if (w.first == 0) group.size = std::max(group.size, diagonalOf(o));
   }
-  const bool anyLevels = std::any_of(scene.groups.begin(), scene.groups.end(),
-                                     [](const ShadeGroup& g) { return g.attributes->trace.rate == TessellationMode::Multiresolution; });
+  const bool anyLevels = std::any_of(scene.groups.begin(), scene.groups.end(), [](const ShadeGroup& g) {
+    return g.attributes->trace.rate == TessellationMode::Multiresolution;
+  });
   for (const Patches which : {Patches::WithoutLevels, Patches::WithLevels}) {
     if (which == Patches::WithLevels && !anyLevels) break;
     std::vector<CoarseGroup> pieces = tessellateAll(scene, camera, shading, work, which, log);
     for (size_t w = 0; w < work.size(); ++w) {
-      if (!pieces[w].P.empty()) append(groups[static_cast<size_t>(scene.objects[static_cast<size_t>(work[w].object)].group)], pieces[w]);
+      if (!pieces[w].P.empty())
+        append(groups[static_cast<size_t>(scene.objects[static_cast<size_t>(work[w].object)].group)], pieces[w]);
       pieces[w] = {};
     }
   }
@@ -232,7 +237,8 @@ std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, co
   return groups;
 }
 
-CoarseGroup tessellateObject(const Scene& scene, const Camera& camera, const ShadingSystem& shading, int object, Log& log) {
+CoarseGroup tessellateObject(const Scene& scene, const Camera& camera, const ShadingSystem& shading, int object,
+                             Log& log) {
   std::vector<Work> work;
   addWork(scene, static_cast<size_t>(object), work);
   const Object& o = scene.objects[static_cast<size_t>(object)];

@@ -8,9 +8,8 @@ namespace {
 // A chord that turns the surface by 45 degrees lies at most a tenth of its length inside. Long micropolygons stand at
 // silhouettes, where dicing by raster size is coarse in space.
 constexpr float kChordShare = 0.1f;
-constexpr float kOffsetEpsilon =
-    1e-5f;                      ///< Of distance and size: rounding, where the coarse surface is exact.
-constexpr float kBias = 1e-4f;  ///< The same for rays without a hit list.
+constexpr float kOffsetEpsilon = 1e-5f;  ///< Of distance and size: rounding, where the coarse surface is exact.
+constexpr float kBias = 1e-4f;           ///< The same for rays without a hit list.
 constexpr float kMediumWidth_px = 3, kCoarseWidth_px = 16;  ///< Of rays, from which on they see these levels.
 
 std::vector<uint32_t> masksOf(const Scene& scene) {
@@ -27,7 +26,8 @@ std::vector<uint32_t> masksOf(const Scene& scene) {
 std::vector<bool> constantOpacityOf(const Scene& scene, const ShadingSystem& shading) {
   std::vector<bool> constant;
   for (const ShadeGroup& g : scene.groups) {
-    const bool varies = std::any_of(g.primvars.begin(), g.primvars.end(), [](const Primvar& p) { return p.name == "Os"; });
+    const bool varies =
+        std::any_of(g.primvars.begin(), g.primvars.end(), [](const Primvar& p) { return p.name == "Os"; });
     const bool asks = g.attributes->transmissionHitMode == HitMode::Shader;
     constant.push_back(!varies && (!asks || shading.keepsOpacity(static_cast<int>(constant.size()))));
   }
@@ -78,7 +78,8 @@ RayScene::Impl::Impl(const Scene& s, const Camera& c, const ShadingSystem& shadi
       opacityIsConstant(constantOpacityOf(s, shading)),
       masks(masksOf(s)),
       opaque(opaqueOf(s, opacityIsConstant)),
-      embree(groups, shapes, groupsOfInstances(s, shapes), masks, opaque, false, log, &chunks, settings.geometryCacheBytes),
+      embree(groups, shapes, groupsOfInstances(s, shapes), masks, opaque, false, log, &chunks,
+             settings.geometryCacheBytes),
       solids(s, groups, masks, log),
       emitters(s, groups),
       displacementBounds(groups.size(), 0.0f) {
@@ -95,8 +96,9 @@ RayScene::Impl::Impl(const Scene& s, const Camera& c, const ShadingSystem& shadi
   for (const Object& o : scene.objects)
     if (o.solid >= 0 && o.attributes->areaLight >= 0)
       log.report(Severity::Warning, "light-in-solid", o.where,
-                 objectName(o) + ": part of a solid and of an area light: it shines from the whole of its surface, also from "
-                                 "where the solid takes it away");
+                 objectName(o) +
+                     ": part of a solid and of an area light: it shines from the whole of its surface, also from "
+                     "where the solid takes it away");
 }
 
 bool RayScene::Impl::addSolids(const Ray& ray, float window, uint32_t mask, HitList& list, bool found,
@@ -127,7 +129,8 @@ void RayScene::Impl::resolve(const Ray& ray, const PolygonHit& polygon, Hit& out
   const Lattice& l = g.latticeOf(polygon.quad);
   const vec2 uv = g.patchParameters(polygon.quad, polygon.u, polygon.v);
   vec3 geometric = normalizeOr(g.flipsNormal ? -polygon.normal : polygon.normal, vec3(0, 0, -1));
-  vec3 normal = glm::mix(glm::mix(g.N[q[0]], g.N[q[1]], polygon.u), glm::mix(g.N[q[3]], g.N[q[2]], polygon.u), polygon.v);
+  vec3 normal =
+      glm::mix(glm::mix(g.N[q[0]], g.N[q[1]], polygon.u), glm::mix(g.N[q[3]], g.N[q[2]], polygon.u), polygon.v);
   vec3 atOpen = ray.origin + polygon.t * ray.direction;
   if (ray.time > 0) {
     geometric = g.geometricNormal(polygon.quad);
@@ -149,8 +152,16 @@ void RayScene::Impl::resolve(const Ray& ray, const PolygonHit& polygon, Hit& out
 Hit RayScene::Impl::resolveChunk(const Ray& ray, const PolygonHit& hit) const {
   const Tile& tile = chunks.all()[static_cast<size_t>(hit.chunk)].tiles[hit.quad];
   const vec3 along = groups[hit.group].flipsNormal ? -hit.normal : hit.normal, normal = embree.normal(hit);
-  return {hit.t,  tile.object, tile.patch, lerp(tile.rect.u0, tile.rect.u1, hit.u), lerp(tile.rect.v0, tile.rect.v1, hit.v),
-          normal, normalizeOr(along, normal), false, false, ray.origin + hit.t * ray.direction};
+  return {hit.t,
+          tile.object,
+          tile.patch,
+          lerp(tile.rect.u0, tile.rect.u1, hit.u),
+          lerp(tile.rect.v0, tile.rect.v1, hit.v),
+          normal,
+          normalizeOr(along, normal),
+          false,
+          false,
+          ray.origin + hit.t * ray.direction};
 }
 
 /// As wide as the polygons of a level are from the eye, as if what is met were as far from P as that is from the eye.
@@ -217,8 +228,7 @@ void RayScene::prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ra
   const float deviation = std::max({coarse.deviation, ofCoarse, impl_->chunks.deviation(g, ray.level)});
   const float scale = glm::length(P) + coarse.size;
   const float automatic =
-      kOffsetFactor * (deviation + impl_->displacementBounds[g] + kChordShare * edgeLength) +
-      kOffsetEpsilon * scale;
+      kOffsetFactor * (deviation + impl_->displacementBounds[g] + kChordShare * edgeLength) + kOffsetEpsilon * scale;
   ray.group = group;
   ray.offset = impl_->hitList ? std::max(given.offset.value_or(automatic), 0.0f) : 0.0f;
   ray.bias = given.bias.value_or(kBias * scale);

@@ -32,8 +32,8 @@ Layers layersOf(const RayScene::Impl& scene, const Ray& ray) {
   const bool offsetting = ray.offset > 0;
   const float window = offsetting ? recordingWindow(ray.offset) : -1.0f;
   Layers out;
-  out.blocked =
-      scene.embree.blockedBeyond(shortened, window, kMaskTransmission, list) || !addSolids(scene, shortened, window, list);
+  out.blocked = scene.embree.blockedBeyond(shortened, window, kMaskTransmission, list) ||
+                !addSolids(scene, shortened, window, list);
   if (out.blocked) return out;
   sortAlongRay(list);
   const RayStart start = startOf(ray);
@@ -41,9 +41,8 @@ Layers layersOf(const RayScene::Impl& scene, const Ray& ray) {
   out.adjusted = origin >= 0;
   for (size_t i = static_cast<size_t>(first); first >= 0 && i < list.size(); ++i) {
     // An edge shared by two quads counts once; far hits are as far apart as their rounding.
-    const bool again =
-        i > static_cast<size_t>(first) &&
-        sameSurface(list[i - 1], list[i], std::max(mergeDistance(ray.offset), 1e-6f * list[i].t));
+    const bool again = i > static_cast<size_t>(first) &&
+                       sameSurface(list[i - 1], list[i], std::max(mergeDistance(ray.offset), 1e-6f * list[i].t));
     if (!again) out.hits.push_back(list[i]);
   }
   return out;
@@ -60,7 +59,8 @@ struct Asked {
 }  // namespace
 
 std::vector<vec3> RayScene::transmission(const std::vector<Ray>& rays, const std::vector<SampleName>& names,
-                                         const ShadingSystem& shading, const ShadeContext& context, int64_t& adjusted) const {
+                                         const ShadingSystem& shading, const ShadeContext& context,
+                                         int64_t& adjusted) const {
   std::vector<vec3> clear(rays.size(), vec3(1));
   Asked asked;
   for (size_t r = 0; r < rays.size(); ++r) {
@@ -82,7 +82,8 @@ std::vector<vec3> RayScene::transmission(const std::vector<Ray>& rays, const std
   inside.kind = RayKind::Transmission;
   HitAnswers answers;
   shadeHits(asked.rays, asked.hits, asked.names, shading, inside, answers);
-  for (size_t k = 0; k < asked.hits.size(); ++k) clear[asked.rayOf[k]] *= 1.0f - glm::clamp(answers.opacity[k], 0.0f, 1.0f);
+  for (size_t k = 0; k < asked.hits.size(); ++k)
+    clear[asked.rayOf[k]] *= 1.0f - glm::clamp(answers.opacity[k], 0.0f, 1.0f);
   return clear;
 }
 

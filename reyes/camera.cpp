@@ -3,16 +3,21 @@
 namespace tomales {
 
 Camera::Camera(const Options& o)
-    : xResolution_(o.xResolution), yResolution_(o.yResolution),
-      perspective_(o.projection == ProjectionKind::Perspective), near_(o.nearClip), far_(o.farClip),
+    : xResolution_(o.xResolution),
+      yResolution_(o.yResolution),
+      perspective_(o.projection == ProjectionKind::Perspective),
+      near_(o.nearClip),
+      far_(o.farClip),
       planes_(o.clippingPlanes) {
-  // The picture fits into the display's pixels at their upper left, however wide those are (RISpec 3.2 section 4.1.1, FrameAspectRatio).
+  // The picture fits into the display's pixels at their upper left, however wide those are (RISpec 3.2 section 4.1.1,
+  // FrameAspectRatio).
   const vec2 display(xResolution_, yResolution_);
   const float displayAspect = display.x * o.pixelAspect / display.y, aspect = o.frameAspect.value_or(displayAspect);
-  const float x = display.x * std::min(aspect / displayAspect, 1.0f), y = display.y * std::min(displayAspect / aspect, 1.0f);
+  const float x = display.x * std::min(aspect / displayAspect, 1.0f),
+              y = display.y * std::min(displayAspect / aspect, 1.0f);
   // fov spans the smaller image dimension: screen space is +-1 along it (RISpec 3.2 section 4.1.2).
-  std::array<float, 4> w = aspect >= 1 ? std::array<float, 4>{-aspect, aspect, -1, 1}
-                                       : std::array<float, 4>{-1, 1, -1 / aspect, 1 / aspect};
+  std::array<float, 4> w =
+      aspect >= 1 ? std::array<float, 4>{-aspect, aspect, -1, 1} : std::array<float, 4>{-1, 1, -1 / aspect, 1 / aspect};
   if (o.screenWindow) w = *o.screenWindow;
   const float focal = perspective_ ? 1.0f / std::tan(o.fov_degrees * (kPi / 360.0f)) : 1.0f;
   scale_ = {x / (w[1] - w[0]) * focal, -y / (w[3] - w[2]) * focal};
@@ -28,15 +33,17 @@ Camera::Camera(const Options& o)
     const float e = std::ceil(static_cast<float>(resolution) * fraction + shift);
     return std::clamp(static_cast<int>(e), 0, resolution - 1);
   };
-  const int columns = std::max(1, static_cast<int>(std::lround(x))), rows = std::max(1, static_cast<int>(std::lround(y)));
-  crop_ = {edge(o.cropWindow[0], 0, columns), edge(o.cropWindow[2], 0, rows),
-           edge(o.cropWindow[1], -1, columns) + 1, edge(o.cropWindow[3], -1, rows) + 1};
+  const int columns = std::max(1, static_cast<int>(std::lround(x))),
+            rows = std::max(1, static_cast<int>(std::lround(y)));
+  crop_ = {edge(o.cropWindow[0], 0, columns), edge(o.cropWindow[2], 0, rows), edge(o.cropWindow[1], -1, columns) + 1,
+           edge(o.cropWindow[3], -1, rows) + 1};
 }
 
 bool Camera::rasterBound(const Bound3& b, Bound2& out) const {
   if (perspective_ && b.lo.z < eyePlane()) return false;
   out = {};
-  // For fixed x the reach to either side is convex in 1/z, so its extremes are at corners; two at either depth have all x and y.
+  // For fixed x the reach to either side is convex in 1/z, so its extremes are at corners; two at either depth have all
+  // x and y.
   for (const float z : {b.lo.z, b.hi.z}) {
     const vec2 blur = glm::abs(defocus(depthKey(z)));
     for (const vec2 corner : {vec2(b.lo), vec2(b.hi)}) {

@@ -35,8 +35,8 @@ class Camera {
   }
   /// Near and far clipping and clipping planes: is a point cut off? Not tested against the window.
   bool clips(const vec3& p) const;
-  /// The same for what a sample at raster position `at` meets at a depth key, through the point of the lens that shifts by `lens`
-  /// what has a key of focusKey() + 1.
+  /// The same for what a sample at raster position `at` meets at a depth key, through the point of the lens that shifts
+  /// by `lens` what has a key of focusKey() + 1.
   bool clips(const vec2& at, const vec2& lens, float key) const;
   /// A depth that grows with distance and is linear in raster space: -1/z under perspective, z otherwise.
   float depthKey(float z) const { return perspective_ ? -1.0f / z : z; }
@@ -64,9 +64,7 @@ class Camera {
 
   /// Width in camera space of one pixel's footprint at p, seen face on; `size / |cos|` of the viewing angle along
   /// the slope gives the projected area of approximate-gi section 4.5.
-  float pixelSize(const vec3& p) const {
-    return perspective_ ? glm::length(p) * pixelSizeAtUnit_ : pixelSizeAtUnit_;
-  }
+  float pixelSize(const vec3& p) const { return perspective_ ? glm::length(p) * pixelSizeAtUnit_ : pixelSizeAtUnit_; }
   /// Unit direction from the eye to p (orthographic: +z). RSL's I is not normalised; see `incident`.
   vec3 incident(const vec3& p) const { return perspective_ ? p : vec3(0, 0, 1); }
   /// Ray through raster position r: origin and unit direction in camera space.
@@ -78,7 +76,7 @@ class Camera {
   float near_, far_;
   vec2 scale_, offset_;  ///< raster = offset + scale * (x, y) [/ z]
   float pixelSizeAtUnit_;
-  vec2 lens_{0};       ///< Raster shift at the lens's rim for one unit of depth key; 0: a pinhole.
+  vec2 lens_{0};  ///< Raster shift at the lens's rim for one unit of depth key; 0: a pinhole.
   float focusKey_ = 0;
   PixelRect crop_;
   std::vector<vec4> planes_;

@@ -3,9 +3,11 @@
 namespace tomales {
 
 size_t DeepTile::bytes() const {
-  size_t n = facets.capacity() * sizeof(Facet) + fragments.capacity() * sizeof(Fragment) + pixels.capacity() * sizeof(DeepPixel);
+  size_t n = facets.capacity() * sizeof(Facet) + fragments.capacity() * sizeof(Fragment) +
+             pixels.capacity() * sizeof(DeepPixel);
   for (const ShadePoints& b : batches) n += b.bytes();
-  for (const ShadedPoints& s : shaded) n += ((6 + s.variables.size()) * s.Ci[0].capacity() + 6 * s.airCi[0].capacity()) * sizeof(float);
+  for (const ShadedPoints& s : shaded)
+    n += ((6 + s.variables.size()) * s.Ci[0].capacity() + 6 * s.airCi[0].capacity()) * sizeof(float);
   return n;
 }
 

@@ -16,7 +16,7 @@ namespace tomales {
 /// One visible micropolygon. Constant shading: all four are the same point, shaded at its centre. Smooth: its corners,
 /// in the order (0,0) (1,0) (0,1) (1,1) of its own (u,v).
 struct Facet {
-  int batch;      ///< In DeepTile::batches.
+  int batch;  ///< In DeepTile::batches.
   int point[4];
   bool matte = false;  ///< Attributes::matte: hides what is behind it and leaves no colour and no alpha.
   float edge = 0;      ///< Left of its points by DeepTile::forgetPoints: ask edgeOf.
@@ -24,9 +24,9 @@ struct Facet {
 
 /// What the samples of one pixel see of one facet.
 struct Fragment {
-  uint32_t facet;     ///< In DeepTile::facets.
-  float z;            ///< Camera-space depth of the nearest of its samples.
-  uint64_t samples;   ///< Bit s: sample 64 * word + s of the pixel.
+  uint32_t facet;    ///< In DeepTile::facets.
+  float z;           ///< Camera-space depth of the nearest of its samples.
+  uint64_t samples;  ///< Bit s: sample 64 * word + s of the pixel.
   uint16_t word = 0;
   uint8_t u = 0, v = 0;  ///< Mean position of its samples on the facet, 0..255; used by smooth shading.
 };
@@ -36,13 +36,13 @@ struct DeepPixel {
 };
 
 struct DeepTile {
-  PixelRect rect;                     ///< Pixels of the padded frame (crop plus filter margin).
+  PixelRect rect;  ///< Pixels of the padded frame (crop plus filter margin).
   std::vector<ShadePoints> batches;
   std::vector<Facet> facets;
   std::vector<Fragment> fragments;
-  std::vector<DeepPixel> pixels;      ///< rect.width() * rect.height(), rows from the top.
-  std::vector<ShadedPoints> shaded;   ///< Filled by the shade pass, one a batch.
-  std::vector<RayAnswers> answers;    ///< One a batch, of an earlier shade pass; or none.
+  std::vector<DeepPixel> pixels;     ///< rect.width() * rect.height(), rows from the top.
+  std::vector<ShadedPoints> shaded;  ///< Filled by the shade pass, one a batch.
+  std::vector<RayAnswers> answers;   ///< One a batch, of an earlier shade pass; or none.
 
   const DeepPixel& pixel(int x, int y) const {
     return pixels[static_cast<size_t>((y - rect.y0) * rect.width() + (x - rect.x0))];
@@ -63,13 +63,14 @@ struct DeepTile {
 constexpr int64_t kMostTiles = int64_t{1} << 24;
 
 struct DeepFrame {
-  PixelRect crop;       ///< Pixels to write.
-  PixelRect padded;     ///< Pixels that have samples: crop grown by the filter's reach.
+  PixelRect crop;    ///< Pixels to write.
+  PixelRect padded;  ///< Pixels that have samples: crop grown by the filter's reach.
   int bucketWidth = 32, bucketHeight = 32, columns = 0, rows = 0;
   int samplesPerPixel = 1;
-  bool complete = true; ///< False: interrupted, some tiles are empty.
-  std::vector<DeepTile> tiles;  ///< Of some rows of buckets, from the top: all of them, a band that moves down the frame, or none.
-  int firstRow = 0;     ///< Of those.
+  bool complete = true;  ///< False: interrupted, some tiles are empty.
+  std::vector<DeepTile>
+      tiles;         ///< Of some rows of buckets, from the top: all of them, a band that moves down the frame, or none.
+  int firstRow = 0;  ///< Of those.
 
   /// Tiles are numbered by rows from the top, held or not.
   size_t tileCount() const { return static_cast<size_t>(columns) * static_cast<size_t>(rows); }

@@ -1,7 +1,7 @@
-// Verb: deep frame buffer <-> .dfb file (docs/dfb.md). The file holds a bucket a record, and what shading needs of the scene:
-// options, camera, lights, named spaces, and the attributes, shaders and primitive variable layouts of every shade group.
-// No geometry: where rays are needed, the RIB is read again.
-// Threads: tiles may be written and read concurrently.
+// Verb: deep frame buffer <-> .dfb file (docs/dfb.md). The file holds a bucket a record, and what shading needs of the
+// scene: options, camera, lights, named spaces, and the attributes, shaders and primitive variable layouts of every
+// shade group. No geometry: where rays are needed, the RIB is read again. Threads: tiles may be written and read
+// concurrently.
 #pragma once
 #include "reyes/base/record_file.h"
 #include "reyes/deep.h"
@@ -20,8 +20,8 @@ struct Shot {
   DeepFrame frame;  ///< Layout, without tiles.
   uint32_t seed = 0;
   std::vector<SourceFile> sources;  ///< The RIB stream, in order.
-  std::string folder;  ///< Where the program ran: relative names start there.
-  int world = 0;       ///< Number of the scene in the stream, from 0.
+  std::string folder;               ///< Where the program ran: relative names start there.
+  int world = 0;                    ///< Number of the scene in the stream, from 0.
 };
 
 class DfbWriter {

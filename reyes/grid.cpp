@@ -8,7 +8,8 @@ namespace tomales {
 
 void Grid::allocate(int cellsU, int cellsV, int keys, int primvarFloats, Pool* pool) {
   nu = cellsU, nv = cellsV, keyCount = keys;
-  block_ = PooledVector<float>(static_cast<size_t>(stride()) * static_cast<size_t>(keys * 3 + 5 + primvarFloats), 0.0f, pool);
+  block_ = PooledVector<float>(static_cast<size_t>(stride()) * static_cast<size_t>(keys * 3 + 5 + primvarFloats), 0.0f,
+                               pool);
 }
 
 namespace {
@@ -19,7 +20,8 @@ struct Differences {
   int uFrom, uTo, vFrom, vTo;
 };
 
-/// The cross product of the differences, and what is left of it as a unit vector; a direction that is missing is (0, 0, -1).
+/// The cross product of the differences, and what is left of it as a unit vector; a direction that is missing is (0, 0,
+/// -1).
 struct Normal {
   float nx, ny, nz, length2;
 };
@@ -34,7 +36,8 @@ struct Normal {
 }
 
 /// Of vertices [first, end), which have the same differences. How many have no direction at all.
-TOMALES_HOT int fillNormals(const Differences& differences, int first, int end, float* __restrict nx, float* __restrict ny, float* __restrict nz) {
+TOMALES_HOT int fillNormals(const Differences& differences, int first, int end, float* __restrict nx,
+                            float* __restrict ny, float* __restrict nz) {
   const Differences d = differences;
   int missing = 0;
 #pragma GCC ivdep
@@ -56,8 +59,10 @@ void calculateNormals(const Grid& g, bool flip, float* nx, float* ny, float* nz)
     const Differences d{g.P(0, 0), g.P(0, 1), g.P(0, 2), uFrom, uTo, vFrom, vTo};
     return flip ? Differences{d.x, d.y, d.z, vFrom, vTo, uFrom, uTo} : d;
   };
-  // All rows between the first and the last at once, as if their ends had neighbours too; those are set right afterwards.
-  int missing = fillNormals(around(1, 0), 1, row - 1, nx, ny, nz) + fillNormals(around(1, g.nv), last + 1, count - 1, nx, ny, nz);
+  // All rows between the first and the last at once, as if their ends had neighbours too; those are set right
+  // afterwards.
+  int missing =
+      fillNormals(around(1, 0), 1, row - 1, nx, ny, nz) + fillNormals(around(1, g.nv), last + 1, count - 1, nx, ny, nz);
   if (g.nv > 1) missing += fillNormals(around(g.nu > 1 ? 1 : 0, 1), row, last, nx, ny, nz);
   for (int j = 0; j <= g.nv; ++j)
     for (const int i : {0, g.nu}) missing += fillNormals(around(i, j), j * row + i, j * row + i + 1, nx, ny, nz);

@@ -1,8 +1,9 @@
-// Noun: diced pieces of one object, all of (nu+1) x (nv+1) vertices and nu x nv micropolygons, structure of arrays in one
-// aligned block. Large pieces are alone; small ones share a grid, so that what is done once a grid is done once for dozens
-// (docs/decisions/0040-stacked-grids.md). They are stacked: vertex (i, j) of piece p has index (p * (nv+1) + j) * (nu+1) + i, and
-// micropolygon (i, j) number (p * (nv+1) + j) * nu + i; numbers between the last row of a piece and the next piece name nothing.
-// A grid is diced once, shared by the buckets that its bound touches, and freed after the last of them.
+// Noun: diced pieces of one object, all of (nu+1) x (nv+1) vertices and nu x nv micropolygons, structure of arrays in
+// one aligned block. Large pieces are alone; small ones share a grid, so that what is done once a grid is done once for
+// dozens (docs/decisions/0040-stacked-grids.md). They are stacked: vertex (i, j) of piece p has index (p * (nv+1) + j)
+// * (nu+1) + i, and micropolygon (i, j) number (p * (nv+1) + j) * nu + i; numbers between the last row of a piece and
+// the next piece name nothing. A grid is diced once, shared by the buckets that its bound touches, and freed after the
+// last of them.
 #pragma once
 #include "reyes/base/pool.h"
 #include "reyes/scene.h"
@@ -21,12 +22,13 @@ struct Grid {
     uint32_t name = 0;      ///< Stable name for random numbers.
   };
 
-  int object = -1;          ///< In Scene::objects.
-  int nu = 0, nv = 0;       ///< Micropolygons along u and v of a piece.
+  int object = -1;     ///< In Scene::objects.
+  int nu = 0, nv = 0;  ///< Micropolygons along u and v of a piece.
   std::vector<Piece> pieces = std::vector<Piece>(1);
-  int keyCount = 1;         ///< Motion keys of P (times: Object::keyTimes).
+  int keyCount = 1;  ///< Motion keys of P (times: Object::keyTimes).
   bool displaced = false;
-  bool round = false;       ///< Each piece is one cell and shows the ellipse that touches its four edges. Still and in focus.
+  bool round =
+      false;  ///< Each piece is one cell and shows the ellipse that touches its four edges. Still and in focus.
   std::vector<Kept> kept;   ///< What trim curves and the near plane leave of each cell number; empty: everything.
   std::vector<mat3> turns;  ///< Linear part of the motion from key 0 to each key.
 
@@ -46,9 +48,9 @@ struct Grid {
   /// Arrays, each stride() floats. P in camera space.
   float* P(int key, int axis) { return at(key * 3 + axis); }
   const float* P(int key, int axis) const { return at(key * 3 + axis); }
-  float* N(int axis) { return at(keyCount * 3 + axis); }   ///< Shading normal, RISpec side, not normalised.
+  float* N(int axis) { return at(keyCount * 3 + axis); }  ///< Shading normal, RISpec side, not normalised.
   const float* N(int axis) const { return at(keyCount * 3 + axis); }
-  float* u() { return at(keyCount * 3 + 3); }               ///< Shader's u, v.
+  float* u() { return at(keyCount * 3 + 3); }  ///< Shader's u, v.
   const float* u() const { return at(keyCount * 3 + 3); }
   float* v() { return at(keyCount * 3 + 4); }
   const float* v() const { return at(keyCount * 3 + 4); }
@@ -65,13 +67,15 @@ struct Grid {
   vec3 position(int key, int vertex) const { return {P(key, 0)[vertex], P(key, 1)[vertex], P(key, 2)[vertex]}; }
   vec3 normal(int vertex) const { return {N(0)[vertex], N(1)[vertex], N(2)[vertex]}; }
 
-  /// Sets the sizes of pieces and allocates `keys` positions, the normal, u, v and `primvarFloats` arrays for all there are, in a
-  /// pool if one is given.
+  /// Sets the sizes of pieces and allocates `keys` positions, the normal, u, v and `primvarFloats` arrays for all there
+  /// are, in a pool if one is given.
   void allocate(int nu, int nv, int keys, int primvarFloats, Pool* pool = nullptr);
 
  private:
   float* at(int array) { return block_.data() + static_cast<size_t>(array) * static_cast<size_t>(stride()); }
-  const float* at(int array) const { return block_.data() + static_cast<size_t>(array) * static_cast<size_t>(stride()); }
+  const float* at(int array) const {
+    return block_.data() + static_cast<size_t>(array) * static_cast<size_t>(stride());
+  }
   PooledVector<float> block_;
 };
 

@@ -1,4 +1,5 @@
-// Verbs: shaded DeepFrame -> pixels -> files. Filter, exposure, quantise, write (RISpec imaging pipeline, in that order).
+// Verbs: shaded DeepFrame -> pixels -> files. Filter, exposure, quantise, write (RISpec imaging pipeline, in that
+// order).
 #pragma once
 #include <functional>
 #include "reyes/base/stats.h"
@@ -13,23 +14,27 @@ struct Image {
   int width = 0, height = 0;
   std::vector<std::string> channels;  ///< "R" "G" "B" "A" "Z"
   std::vector<float> pixels;
-  int originX = 0, originY = 0;       ///< Of the data window inside the display window (crop).
+  int originX = 0, originY = 0;  ///< Of the data window inside the display window (crop).
   int displayWidth = 0, displayHeight = 0;
 
   int channelCount() const { return static_cast<int>(channels.size()); }
-  float* at(int x, int y) { return pixels.data() + (static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)) * channels.size(); }
+  float* at(int x, int y) {
+    return pixels.data() +
+           (static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)) * channels.size();
+  }
   const float* at(int x, int y) const { return const_cast<Image*>(this)->at(x, y); }
   int channelIndex(const std::string& name) const;  ///< -1: none
 };
 
-/// A separable or radial pixel filter; names and formulas of RISpec 3.2 section 5.1.2, with the repairs that docs/rib_support.md lists.
+/// A separable or radial pixel filter; names and formulas of RISpec 3.2 section 5.1.2, with the repairs that
+/// docs/rib_support.md lists.
 class PixelFilter {
  public:
   /// Unknown names fall back to gaussian and say so through `known`.
   PixelFilter(const std::string& name, float xWidth, float yWidth, bool* known = nullptr);
-  float operator()(float x, float y) const;   ///< Offset from the pixel centre, in pixels.
+  float operator()(float x, float y) const;  ///< Offset from the pixel centre, in pixels.
   bool hasNegativeLobes() const;
-  int reachX() const, reachY() const;         ///< Whole pixels beyond its own that a pixel's filter touches.
+  int reachX() const, reachY() const;  ///< Whole pixels beyond its own that a pixel's filter touches.
  private:
   int kind_;
   float xWidth_, yWidth_;
@@ -38,7 +43,7 @@ class PixelFilter {
 /// Sample offsets of a pixel pattern, as the filter needs them; supplied by the composer.
 struct SampleOffsets {
   int count = 0;
-  std::vector<std::vector<vec2>> byPattern;              ///< Position inside the pixel, [0,1)^2.
+  std::vector<std::vector<vec2>> byPattern;  ///< Position inside the pixel, [0,1)^2.
   std::function<int(int x, int y)> patternOf;
 };
 
@@ -54,8 +59,8 @@ struct MatteNames {
 
 View viewOf(const Camera& camera, const mat4& cameraFromWorld);
 
-/// How far the samples of a deep pixel may be merged: those within `depth` of their distance, those that together are no
-/// more opaque than `opacity`.
+/// How far the samples of a deep pixel may be merged: those within `depth` of their distance, those that together are
+/// no more opaque than `opacity`.
 struct DeepMerge {
   float depth = 1e-3f, opacity = 1.0f / 512;
   bool opacityOnly = false;  ///< AR AG AB Z ZBack instead of R G B A Z ZBack.
@@ -68,27 +73,28 @@ struct DeepRows {
   std::vector<float> values;
 };
 
-/// Sums over pixels: of their luminance, and of its standard error by how much the samples of each differ, as if they were independent
-/// (stratified ones are better).
+/// Sums over pixels: of their luminance, and of its standard error by how much the samples of each differ, as if they
+/// were independent (stratified ones are better).
 struct PixelNoise {
   double light = 0, error = 0;
 };
 
-/// Filters the crop window of a shaded frame, some rows at a time. Floats of a pixel are those of outputOf(options): R G B A Z
-/// first; colour premultiplied, linear, before exposure; Z by Options::depthFilter, infinite where nothing opaque was hit.
-/// The sums run in a fixed order (rows, columns, fragments), so that buckets, bands and threads leave no trace.
-/// All arguments must outlive it.
+/// Filters the crop window of a shaded frame, some rows at a time. Floats of a pixel are those of outputOf(options): R
+/// G B A Z first; colour premultiplied, linear, before exposure; Z by Options::depthFilter, infinite where nothing
+/// opaque was hit. The sums run in a fixed order (rows, columns, fragments), so that buckets, bands and threads leave
+/// no trace. All arguments must outlive it.
 class FrameFilter {
  public:
-  FrameFilter(const DeepFrame& frame, const Options& options, const SampleOffsets& samples, const MatteNames& names = {});
+  FrameFilter(const DeepFrame& frame, const Options& options, const SampleOffsets& samples,
+              const MatteNames& names = {});
   ~FrameFilter();
-  Image shape() const;                  ///< Of the whole: no pixels.
+  Image shape() const;  ///< Of the whole: no pixels.
   /// Takes what a tile shows, which then may go unless needsTiles(). Another tile at a time from any thread.
   void resolve(size_t index, const DeepTile& tile);
   bool needsTiles() const;
-  PixelNoise noise() const;             ///< Of what has been resolved.
-  /// Raster rows [y0, y1) of the crop window, from the top: none above those asked for before. Tiles that are not resolved are taken from
-  /// the frame. Afterwards what no lower row needs is forgotten.
+  PixelNoise noise() const;  ///< Of what has been resolved.
+  /// Raster rows [y0, y1) of the crop window, from the top: none above those asked for before. Tiles that are not
+  /// resolved are taken from the frame. Afterwards what no lower row needs is forgotten.
   Image rows(int y0, int y1);
   DeepRows deepRows(int y0, int y1, const DeepMerge& merge) const;  ///< The same, before exposure.
 
@@ -106,9 +112,9 @@ bool checkDisplays(const Options& options, Log& log);
 /// Applies exposure to colour and alpha-independent gamma, per Options.
 void expose(Image& image, const Options& options);
 
-/// The file of one Display: picks its floats, encodes, quantises and writes band after band to a temporary name; the last
-/// step renames. Type by `display.type` or the name's extension (.exr .tif .png); 8-bit types are sRGB only where the
-/// Display's "string transfer" says so. Failures are reported to the log, once.
+/// The file of one Display: picks its floats, encodes, quantises and writes band after band to a temporary name; the
+/// last step renames. Type by `display.type` or the name's extension (.exr .tif .png); 8-bit types are sRGB only where
+/// the Display's "string transfer" says so. Failures are reported to the log, once.
 class DisplayFile {
  public:
   /// `shape`: a picture without pixels. `output`: outputOf(options); `index`: of the Display.

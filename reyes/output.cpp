@@ -9,14 +9,29 @@ namespace tomales {
 namespace {
 
 /// Variables that every surface has (RISpec 3.2 table 12.1), and two for denoisers.
-const std::map<std::string, ValueType, std::less<>> kStandard = {
-    {"Ci", ValueType::Color},   {"Oi", ValueType::Color},     {"Cs", ValueType::Color},   {"Os", ValueType::Color},
-    {"cryptoobject", ValueType::Color}, {"cryptomaterial", ValueType::Color},
-    {"a", ValueType::Float},    {"alpha", ValueType::Float},  {"z", ValueType::Float},    {"P", ValueType::Point},
-    {"N", ValueType::Normal},   {"Ng", ValueType::Normal},    {"I", ValueType::Vector},   {"dPdu", ValueType::Vector},
-    {"dPdv", ValueType::Vector}, {"u", ValueType::Float},     {"v", ValueType::Float},    {"s", ValueType::Float},
-    {"t", ValueType::Float},    {"du", ValueType::Float},     {"dv", ValueType::Float},   {"albedo", ValueType::Color},
-    {"normal", ValueType::Normal}};
+const std::map<std::string, ValueType, std::less<>> kStandard = {{"Ci", ValueType::Color},
+                                                                 {"Oi", ValueType::Color},
+                                                                 {"Cs", ValueType::Color},
+                                                                 {"Os", ValueType::Color},
+                                                                 {"cryptoobject", ValueType::Color},
+                                                                 {"cryptomaterial", ValueType::Color},
+                                                                 {"a", ValueType::Float},
+                                                                 {"alpha", ValueType::Float},
+                                                                 {"z", ValueType::Float},
+                                                                 {"P", ValueType::Point},
+                                                                 {"N", ValueType::Normal},
+                                                                 {"Ng", ValueType::Normal},
+                                                                 {"I", ValueType::Vector},
+                                                                 {"dPdu", ValueType::Vector},
+                                                                 {"dPdv", ValueType::Vector},
+                                                                 {"u", ValueType::Float},
+                                                                 {"v", ValueType::Float},
+                                                                 {"s", ValueType::Float},
+                                                                 {"t", ValueType::Float},
+                                                                 {"du", ValueType::Float},
+                                                                 {"dv", ValueType::Float},
+                                                                 {"albedo", ValueType::Color},
+                                                                 {"normal", ValueType::Normal}};
 
 std::vector<std::string> namesIn(const std::string& mode) {
   if (!mode.empty() && mode.find_first_not_of("rgbaz") == std::string::npos) {
@@ -41,8 +56,11 @@ struct Asker {
   const SourceLoc& where;
 };
 
-const std::map<std::string, Reduce, std::less<>> kReductions = {
-    {"zmin", Reduce::ZMin}, {"zmax", Reduce::ZMax}, {"min", Reduce::Min}, {"max", Reduce::Max}, {"average", Reduce::Average}};
+const std::map<std::string, Reduce, std::less<>> kReductions = {{"zmin", Reduce::ZMin},
+                                                                {"zmax", Reduce::ZMax},
+                                                                {"min", Reduce::Min},
+                                                                {"max", Reduce::Max},
+                                                                {"average", Reduce::Average}};
 
 /// What `asker` says about sampling and encoding; what it leaves open stays.
 void amend(Channel& channel, Encoding& encoding, const Asker& asker, Log* log) {
@@ -50,7 +68,8 @@ void amend(Channel& channel, Encoding& encoding, const Asker& asker, Log* log) {
     const Param* p = findParam(asker.params, name);
     if (!p) return std::nullopt;
     if (p->floats.size() == count) return p->floats;
-    if (p->ints.size() == count) return std::vector<float>(p->ints.begin(), p->ints.end());  // RenderMan for Maya: "int[4] quantize"
+    if (p->ints.size() == count)
+      return std::vector<float>(p->ints.begin(), p->ints.end());  // RenderMan for Maya: "int[4] quantize"
     if (log)
       log->report(Severity::Warning, fmt::format("channel-{}", name), asker.where,
                   fmt::format("{}: \"{}\" needs {} numbers; ignored", asker.name, name, count));
@@ -71,7 +90,8 @@ void amend(Channel& channel, Encoding& encoding, const Asker& asker, Log* log) {
   if ((filter || width) && channel.kind != ChannelKind::Variable && log)
     log->report(Severity::Warning, "channel-filter", asker.where,
                 fmt::format("{}: Ci and a are filtered by PixelFilter, z by the Hider's depthfilter; \"filter\" is "
-                            "ignored for them", asker.name));
+                            "ignored for them",
+                            asker.name));
   if (const auto exposure = numbers("exposure", 2)) {
     if ((*exposure)[1] > 0)
       encoding.exposure = {(*exposure)[0], (*exposure)[1]};
@@ -158,11 +178,13 @@ class Planner {
     channel.sampling = {Reduce::Filter, options_.filter, options_.xFilterWidth, options_.yFilterWidth};
     if (isDeclared) {
       if (const Param* fill = findParam(declared->second.params, "fill")) channel.fill = fill->number(0);
-      amend(channel, encoding, {"DisplayChannel \"" + name + "\"", declared->second.params, declared->second.where}, log_);
+      amend(channel, encoding, {"DisplayChannel \"" + name + "\"", declared->second.params, declared->second.where},
+            log_);
     }
     amend(channel, encoding, {"Display \"" + display.name + "\"", display.params, display.where}, log_);
     if (channel.kind == ChannelKind::Variable)
-      channel.variable = variable({source, channel.type, channel.fill, 0, isDeclared ? declared->second.where : display.where});
+      channel.variable =
+          variable({source, channel.type, channel.fill, 0, isDeclared ? declared->second.where : display.where});
     return addChannel(std::move(channel));
   }
 
@@ -195,7 +217,8 @@ class Planner {
   }
 
   static bool same(const Channel& a, const Channel& b) {
-    return a.kind == b.kind && (a.kind != ChannelKind::Variable || (a.variable == b.variable && a.sampling == b.sampling));
+    return a.kind == b.kind &&
+           (a.kind != ChannelKind::Variable || (a.variable == b.variable && a.sampling == b.sampling));
   }
 
   void warn(const DisplayCall& display, const char* code, const std::string& what) const {
@@ -217,7 +240,8 @@ std::vector<std::string> FrameOutput::names() const {
 }
 
 bool shades(const Options& options) {
-  return options.displays.empty() || std::any_of(options.displays.begin(), options.displays.end(), [](const DisplayCall& d) {
+  return options.displays.empty() ||
+         std::any_of(options.displays.begin(), options.displays.end(), [](const DisplayCall& d) {
            return !writesShadowMap(d) && d.type != "deepshad" && d.mode != "z" && d.type != "null";
          });
 }

@@ -9,8 +9,8 @@
 
 namespace tomales {
 
-/// How the samples around a pixel become its value. Filter: the weighted mean. The others look at the samples that see a
-/// surface: the value of the nearest or the farthest one, the least or the greatest value, the plain mean.
+/// How the samples around a pixel become its value. Filter: the weighted mean. The others look at the samples that see
+/// a surface: the value of the nearest or the farthest one, the least or the greatest value, the plain mean.
 enum class Reduce : uint8_t { Filter, ZMin, ZMax, Min, Max, Average };
 
 struct Sampling {
@@ -23,17 +23,18 @@ struct Sampling {
 struct Variable {
   std::string source;  ///< Of a shader, the surface, a primitive variable, or "lightgroup:NAME".
   ValueType type = ValueType::Float;
-  float fill = 0;      ///< Where nobody writes it.
-  int first = 0;       ///< Of its arrays in ShadedPoints::variables.
-  SourceLoc where;     ///< The request that asks for it.
+  float fill = 0;   ///< Where nobody writes it.
+  int first = 0;    ///< Of its arrays in ShadedPoints::variables.
+  SourceLoc where;  ///< The request that asks for it.
 };
 
 /// Objects, Materials: Cryptomatte, six ranks of id and coverage.
 enum class ChannelKind : uint8_t { Color, Alpha, Depth, Variable, Objects, Materials };
 inline bool isMatte(ChannelKind kind) { return kind == ChannelKind::Objects || kind == ChannelKind::Materials; }
 /// Names of Cryptomatte layers.
-inline const char* matteLayer(ChannelKind kind) { return kind == ChannelKind::Objects ? "CryptoObject" : "CryptoMaterial"; }
-
+inline const char* matteLayer(ChannelKind kind) {
+  return kind == ChannelKind::Objects ? "CryptoObject" : "CryptoMaterial";
+}
 
 struct Channel {
   std::string name;
@@ -42,8 +43,8 @@ struct Channel {
   int variable = -1;        ///< In FrameOutput::variables.
   bool composited = false;  ///< Colours: what lies behind shines through. Else the nearest surface counts alone.
   Sampling sampling;
-  float fill = 0;           ///< Of samples that see nothing.
-  int first = 0;            ///< Its first float in a pixel of the frame's picture.
+  float fill = 0;  ///< Of samples that see nothing.
+  int first = 0;   ///< Its first float in a pixel of the frame's picture.
   int width() const { return isMatte(kind) ? 12 : floatsPerValue(type); }
 };
 

@@ -1,7 +1,7 @@
-// Noun: pictures that are read, as a library behind a door sees them. OpenImageIO brings 260 shared libraries along, which cost 0.15
-// to 0.25 s to link and are not needed to render a scene without textures: so it lives in a module of its own
-// (reyes/pictures/module.cpp) that is loaded when something is first asked of it. Pictures are written by reyes/image.
-// Threads: concurrent calls are safe, but for those of one reader.
+// Noun: pictures that are read, as a library behind a door sees them. OpenImageIO brings 260 shared libraries along,
+// which cost 0.15 to 0.25 s to link and are not needed to render a scene without textures: so it lives in a module of
+// its own (reyes/pictures/module.cpp) that is loaded when something is first asked of it. Pictures are written by
+// reyes/image. Threads: concurrent calls are safe, but for those of one reader.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -38,17 +38,17 @@ class PictureReader {
 
 /// Which texels a batch asks for: a parallelogram around (s[i], t[i]), with edges (su, tu) and (sv, tv).
 struct TextureQuery {
-  const char* name;             ///< <UDIM> or _MAPID_ stands for 1001 + floor(s) + 10 floor(t).
+  const char* name;  ///< <UDIM> or _MAPID_ stands for 1001 + floor(s) + 10 floor(t).
   int channel = 0, channels = 3;
-  float fill = 0;               ///< Of channels that the picture lacks.
-  const char* filter = "";      ///< "", box, disk, lerp: bilinear between texels; others: cubic where texels are magnified.
-  float sWidth = 1, tWidth = 1; ///< Scale the region; 0 looks up a point of the finest level.
-  float sBlur = 0, tBlur = 0;   ///< Widen it by a fraction of the picture.
+  float fill = 0;           ///< Of channels that the picture lacks.
+  const char* filter = "";  ///< "", box, disk, lerp: bilinear between texels; others: cubic where texels are magnified.
+  float sWidth = 1, tWidth = 1;  ///< Scale the region; 0 looks up a point of the finest level.
+  float sBlur = 0, tBlur = 0;    ///< Widen it by a fraction of the picture.
   int count = 0;
   const uint8_t* active = nullptr;
   const float *s = nullptr, *t = nullptr;
   const float *su = nullptr, *tu = nullptr, *sv = nullptr, *tv = nullptr;  ///< All null: points.
-  bool latlong = false;         ///< The left and right edge join; beyond top and bottom lies the edge.
+  bool latlong = false;  ///< The left and right edge join; beyond top and bottom lies the edge.
 };
 
 struct TextureSettings {
@@ -61,27 +61,29 @@ struct TextureFigures {
   int64_t tileRequests = 0, tileMisses = 0, bytesRead = 0;
 };
 
-/// Pictures by name. One that is not a tiled MIP file yet becomes one at its first use, in a folder where files are named by content, so
-/// that no picture is converted twice. Coordinates: s runs right, t down the picture, 0..1 (rispec-table section 10).
+/// Pictures by name. One that is not a tiled MIP file yet becomes one at its first use, in a folder where files are
+/// named by content, so that no picture is converted twice. Coordinates: s runs right, t down the picture, 0..1
+/// (rispec-table section 10).
 class TextureCache {
  public:
   virtual ~TextureCache() = default;
   /// Fills out.x (and y, z for three channels) and counts lookups. False: unreadable, `error` says why.
   virtual bool lookup(const TextureQuery& query, TmVec3 out, int64_t& lookups, std::string& error) = 0;
-  /// RSL textureinfo(): exists, resolution, channels, bitsperchannel, viewingmatrix, projectionmatrix into `numbers`, type and
-  /// textureformat into `text`. False: there is no such picture or no such fact.
-  virtual bool info(const std::string& name, const std::string& what, std::vector<float>& numbers, std::string& text) = 0;
+  /// RSL textureinfo(): exists, resolution, channels, bitsperchannel, viewingmatrix, projectionmatrix into `numbers`,
+  /// type and textureformat into `text`. False: there is no such picture or no such fact.
+  virtual bool info(const std::string& name, const std::string& what, std::vector<float>& numbers,
+                    std::string& text) = 0;
   virtual TextureFigures figures() const = 0;
 };
 
 /// A texture file to be made of pictures: MakeTexture and its kin.
 struct TextureRecipe {
   enum class Shape { Picture, LatLong, Cube } shape = Shape::Picture;
-  std::vector<std::string> pictures;           ///< One; Cube: px nx py ny pz nz.
+  std::vector<std::string> pictures;  ///< One; Cube: px nx py ny pz nz.
   std::string file;
   std::string sWrap = "black", tWrap = "black";  ///< black, clamp, periodic, mirror
-  std::string filter = "box";                  ///< Of the MIP levels.
-  float fov_degrees = 90;                      ///< Of the faces of a Cube.
+  std::string filter = "box";                    ///< Of the MIP levels.
+  float fov_degrees = 90;                        ///< Of the faces of a Cube.
 };
 class PictureLibrary {
  public:
@@ -89,8 +91,8 @@ class PictureLibrary {
   /// Null: `error` says why; likewise below.
   virtual std::unique_ptr<PictureReader> open(const std::string& path, std::string& error) const = 0;
   virtual std::unique_ptr<TextureCache> textures(const TextureSettings& settings) const = 0;
-  /// Writes to a temporary name, then renames. A cube becomes a latitude-longitude picture, which is what environment lookups read.
-  /// False: `error` says why, and no file is left behind.
+  /// Writes to a temporary name, then renames. A cube becomes a latitude-longitude picture, which is what environment
+  /// lookups read. False: `error` says why, and no file is left behind.
   virtual bool makeTexture(const TextureRecipe& recipe, std::string& error) const = 0;
 };
 

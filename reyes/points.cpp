@@ -35,7 +35,8 @@ void ShadePoints::setCapacity(int points) {
   const int wanted = padded(points);
   UnsetVector<float> block(static_cast<size_t>(channels_) * static_cast<size_t>(wanted));
   for (int c = 0; c < channels_; ++c)
-    std::copy_n(channel(c), std::min({capacity_, wanted, padded(count())}), block.data() + static_cast<size_t>(c) * static_cast<size_t>(wanted));
+    std::copy_n(channel(c), std::min({capacity_, wanted, padded(count())}),
+                block.data() + static_cast<size_t>(c) * static_cast<size_t>(wanted));
   block_ = std::move(block);
   capacity_ = wanted;
 }

@@ -11,33 +11,54 @@ namespace tomales {
 
 /// The fixed channels of a point; primitive variables follow them.
 enum PointChannel : int {
-  kPx, kPy, kPz,           ///< position
-  kNx, kNy, kNz,           ///< shading normal (RISpec side, not flipped towards the viewer), unit length
-  kNgx, kNgy, kNgz,        ///< geometric normal, unit length
-  kIx, kIy, kIz,           ///< incident direction: from the eye or ray origin to P (orthographic: +z), not normalised
-  kDpduX, kDpduY, kDpduZ, kDpdvX, kDpdvY, kDpdvZ,  ///< by the shader's u and v
-  kU, kV, kS, kT, kDu, kDv,
-  kArea,                   ///< of the micropolygon, or of the ray's footprint
-  kTime,                   ///< the part of the shutter, 0..1, at which it is seen, itself at its place at shutter open; negative: all of it
-  kDriftX, kDriftY, kDriftZ,  ///< how far deformation takes it over the shutter (ShadeGroup::currentFromOpen does the rest)
+  kPx,
+  kPy,
+  kPz,  ///< position
+  kNx,
+  kNy,
+  kNz,  ///< shading normal (RISpec side, not flipped towards the viewer), unit length
+  kNgx,
+  kNgy,
+  kNgz,  ///< geometric normal, unit length
+  kIx,
+  kIy,
+  kIz,  ///< incident direction: from the eye or ray origin to P (orthographic: +z), not normalised
+  kDpduX,
+  kDpduY,
+  kDpduZ,
+  kDpdvX,
+  kDpdvY,
+  kDpdvZ,  ///< by the shader's u and v
+  kU,
+  kV,
+  kS,
+  kT,
+  kDu,
+  kDv,
+  kArea,  ///< of the micropolygon, or of the ray's footprint
+  kTime,  ///< the part of the shutter, 0..1, at which it is seen, itself at its place at shutter open; negative: all of
+          ///< it
+  kDriftX,
+  kDriftY,
+  kDriftZ,  ///< how far deformation takes it over the shutter (ShadeGroup::currentFromOpen does the rest)
   kFixedChannels
 };
 
-/// What may change from one micropolygon to the next, as a batch with steps holds it: two arrays for each, the change along the
-/// whole of a micropolygon's u edge and of its v edge. Primitive variables follow.
+/// What may change from one micropolygon to the next, as a batch with steps holds it: two arrays for each, the change
+/// along the whole of a micropolygon's u edge and of its v edge. Primitive variables follow.
 enum PointStep : int { kStepN = 0, kStepS = 3, kStepT = 4, kStepU = 5, kStepV = 6, kStepPrimvars = 7 };
 
 /// Names a point for random numbers: the same point must have the same name for any thread count, bucket size and crop.
-/// Points that share a key and differ in `sequence` draw successive parts of one low-discrepancy sequence, so that what is
-/// averaged over them (the rays of one irradiance record) is stratified as a whole.
+/// Points that share a key and differ in `sequence` draw successive parts of one low-discrepancy sequence, so that what
+/// is averaged over them (the rays of one irradiance record) is stratified as a whole.
 struct SampleName {
   uint32_t key = 0, sequence = 0;
 };
 
 class ShadePoints {
  public:
-  /// `group`: Scene::groups; `primvarFloats`: the sum of widths of the group's primvars; `steps`: for shaders that ask how values
-  /// change over the surface.
+  /// `group`: Scene::groups; `primvarFloats`: the sum of widths of the group's primvars; `steps`: for shaders that ask
+  /// how values change over the surface.
   ShadePoints(int group, int primvarFloats, bool steps = false)
       : group_(group),
         primvarFloats_(primvarFloats),
@@ -53,7 +74,8 @@ class ShadePoints {
   int add(SampleName name);
   int add(uint32_t key) { return add(SampleName{key, 0}); }
   void reserve(int count);
-  void assign(const ShadePoints& from, int begin, int end);  ///< Pre: of the same group, and like this with steps or without.
+  void assign(const ShadePoints& from, int begin,
+              int end);  ///< Pre: of the same group, and like this with steps or without.
   void clear();
   void rename(int i, SampleName name) { names_[static_cast<size_t>(i)] = name; }
   /// Points of the air before a surface: they do not move with it, and rays leave them without an offset.
@@ -96,8 +118,9 @@ class ShadePoints {
 
   int group_, primvarFloats_, channels_;
   bool inAir_ = false;
-  int capacity_ = 0;            ///< Points that the block has room for, a multiple of kLanes.
-  UnsetVector<float> block_;    ///< One array of capacity_ floats a channel; what lies between count() and padded(count()) is finite.
+  int capacity_ = 0;  ///< Points that the block has room for, a multiple of kLanes.
+  UnsetVector<float>
+      block_;  ///< One array of capacity_ floats a channel; what lies between count() and padded(count()) is finite.
   std::vector<SampleName> names_;
 };
 
@@ -105,15 +128,19 @@ class ShadePoints {
 struct ShadedPoints {
   AlignedVector<float> Ci[3], Oi[3];
   std::vector<AlignedVector<float>> variables;  ///< As FrameOutput::variables; empty where nobody stores them.
-  /// What of Ci and Oi is air before a transparent point, seen beside its surface: where another surface follows behind, that one's air holds it
-  /// too. Empty: there is none.
+  /// What of Ci and Oi is air before a transparent point, seen beside its surface: where another surface follows
+  /// behind, that one's air holds it too. Empty: there is none.
   AlignedVector<float> airCi[3], airOi[3];
   void resize(int count);
-  vec3 color(int i) const { return {Ci[0][static_cast<size_t>(i)], Ci[1][static_cast<size_t>(i)], Ci[2][static_cast<size_t>(i)]}; }
+  vec3 color(int i) const {
+    return {Ci[0][static_cast<size_t>(i)], Ci[1][static_cast<size_t>(i)], Ci[2][static_cast<size_t>(i)]};
+  }
   void set(int i, const vec3& color, const vec3& opacity) {
     for (int k = 0; k < 3; ++k) Ci[k][static_cast<size_t>(i)] = color[k], Oi[k][static_cast<size_t>(i)] = opacity[k];
   }
-  vec3 opacity(int i) const { return {Oi[0][static_cast<size_t>(i)], Oi[1][static_cast<size_t>(i)], Oi[2][static_cast<size_t>(i)]}; }
+  vec3 opacity(int i) const {
+    return {Oi[0][static_cast<size_t>(i)], Oi[1][static_cast<size_t>(i)], Oi[2][static_cast<size_t>(i)]};
+  }
 };
 
 }  // namespace tomales

@@ -21,7 +21,9 @@
 
 namespace tomales {
 
-struct UvRect { float u0 = 0, u1 = 1, v0 = 0, v1 = 1; };
+struct UvRect {
+  float u0 = 0, u1 = 1, v0 = 0, v1 = 1;
+};
 
 /// Bits for the four edges of a patch, in the order of PatchInfo::openEdges.
 enum PatchEdge : uint8_t { kEdgeU0 = 1, kEdgeU1 = 2, kEdgeV0 = 4, kEdgeV1 = 8, kAllEdges = 15 };
@@ -40,8 +42,8 @@ struct SurfacePoints {
   float *px, *py, *pz;
   float *dux, *duy, *duz;  ///< dP/du by patch parameter
   float *dvx, *dvy, *dvz;
-  float *nx, *ny, *nz;     ///< Outward RISpec normal for Orientation "outside": dPdu x dPdv where that is defined, its
-                           ///< limit at poles and degenerate corners. Not normalised; never zero for a real surface.
+  float *nx, *ny, *nz;  ///< Outward RISpec normal for Orientation "outside": dPdu x dPdv where that is defined, its
+                        ///< limit at poles and degenerate corners. Not normalised; never zero for a real surface.
 };
 
 /// A primitive variable as it came in RIB, values in element order.
@@ -77,7 +79,8 @@ class Prim {
 
   /// The vertices of a lattice of nu x nv over a whole patch, rows along u. Like evaluate(), except that a small round
   /// shape pushes them outward, so that its few polygons have the area of what they stand for.
-  virtual void evaluateLattice(uint32_t patch, int nu, int nv, const float* u, const float* v, SurfacePoints out) const {
+  virtual void evaluateLattice(uint32_t patch, int nu, int nv, const float* u, const float* v,
+                               SurfacePoints out) const {
     evaluate(patch, (nu + 1) * (nv + 1), u, v, out);
   }
 
@@ -113,18 +116,25 @@ class Prim {
   /// Beside its primvars.
   virtual size_t shapeBytes() const { return 0; }
   template <class T>
-  static size_t bytesOf(const std::vector<T>& v) { return v.capacity() * sizeof(T); }
+  static size_t bytesOf(const std::vector<T>& v) {
+    return v.capacity() * sizeof(T);
+  }
   std::vector<Primvar> primvars_;
 };
 using PrimPtr = std::shared_ptr<const Prim>;
 
 // The make* functions check their input and throw PrimError with a sentence for the user; the caller adds file:line.
-struct PrimError : std::runtime_error { using std::runtime_error::runtime_error; };
+struct PrimError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// Turns a RIB parameter list into primvars for `counts` elements of each storage. Values of a wrong count are an error
 /// for P/Pw/Pz, and dropped with a sentence in `problems` for all others.
-struct PrimvarCounts { size_t uniform = 1, varying = 4, vertex = 4, faceVarying = 4; };
-std::vector<Primvar> takePrimvars(const ParamList& params, const PrimvarCounts& counts, std::vector<std::string>& problems);
+struct PrimvarCounts {
+  size_t uniform = 1, varying = 4, vertex = 4, faceVarying = 4;
+};
+std::vector<Primvar> takePrimvars(const ParamList& params, const PrimvarCounts& counts,
+                                  std::vector<std::string>& problems);
 
 // Every factory takes the parameter list after the positional arguments and appends to `problems` what it dropped.
 using Problems = std::vector<std::string>;
@@ -141,14 +151,17 @@ PrimPtr makeTorus(float major, float minor, float phiMin_degrees, float phiMax_d
 /// Polygon is the same with one face. Degenerate faces (fewer than three distinct vertices) are dropped with a problem.
 /// `keys`: where the points of one that moves are at every key, so that all are cut, and faces dropped, alike.
 using PointKeys = std::vector<std::vector<vec3>>;
-PrimPtr makePolygons(const std::vector<int>& vertexCounts, const std::vector<int>& vertices, const ParamList&, Problems&,
-                     const PointKeys& keys = {});
+PrimPtr makePolygons(const std::vector<int>& vertexCounts, const std::vector<int>& vertices, const ParamList&,
+                     Problems&, const PointKeys& keys = {});
 /// With holes: `loopCounts` loops per face, the first its outline; `vertexCounts` per loop. Holes may go either way.
 PrimPtr makeGeneralPolygons(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
                             const std::vector<int>& vertices, const ParamList&, Problems&, const PointKeys& keys = {});
 
 /// A spline basis (rows as RISpec prints them, power-basis coefficients from control values) and its step.
-struct Basis { mat4 matrix; int step; };
+struct Basis {
+  mat4 matrix;
+  int step;
+};
 Basis bezierBasis();
 Basis bsplineBasis();
 Basis catmullRomBasis();
@@ -166,7 +179,8 @@ struct NurbsDirection {
   float min, max;
   bool operator==(const NurbsDirection&) const = default;
 };
-/// A rational B-spline curve in the parameter plane of a NuPatch; `controls` are (u w, v w, w), with weights above zero.
+/// A rational B-spline curve in the parameter plane of a NuPatch; `controls` are (u w, v w, w), with weights above
+/// zero.
 struct TrimCurve {
   NurbsDirection line;
   std::vector<vec3> controls;
@@ -181,14 +195,16 @@ struct TrimLoops {
 /// Positions are "P", or "Pw" with weights above zero. Orders 2 to 32. u,v run from 0 to 1 over min..max.
 PrimPtr makeNuPatch(const NurbsDirection& u, const NurbsDirection& v, const TrimLoops&, const ParamList&, Problems&);
 
-/// Disks: round, as wide as "constantwidth" or "width" says (1 if absent), facing "N" or else the eye. "type" makes them spheres
-/// ("sphere") or cards ("patch", with "patchaspectratio", width over height, and "patchangle" in degrees). One patch each.
+/// Disks: round, as wide as "constantwidth" or "width" says (1 if absent), facing "N" or else the eye. "type" makes
+/// them spheres
+/// ("sphere") or cards ("patch", with "patchaspectratio", width over height, and "patchangle" in degrees). One patch
+/// each.
 PrimPtr makePoints(const ParamList&, Problems&);
 
 /// Ribbons, u across and v along, as wide as "width" or "constantwidth" says (1 if absent), with the normal "N" or else
 /// facing the eye. One patch a segment. `basis` is for cubic curves.
-PrimPtr makeCurves(bool cubic, const Basis& basis, const std::vector<int>& vertexCounts, bool periodic, const ParamList&,
-                   Problems&);
+PrimPtr makeCurves(bool cubic, const Basis& basis, const std::vector<int>& vertexCounts, bool periodic,
+                   const ParamList&, Problems&);
 /// The same as tubes: u around. Loose ends wider than 0 are closed by flat disks, patches that follow the segments.
 PrimPtr makeTubes(bool cubic, const Basis& basis, const std::vector<int>& vertexCounts, bool periodic, const ParamList&,
                   Problems&);
@@ -199,9 +215,9 @@ PrimPtr makeTeapot(const ParamList&, Problems&);
 /// A picture of depth, seen by its camera, whose surfaces keep a Blobby away.
 struct GroundPicture {
   int width = 0, height = 0;
-  std::vector<float> depth;      ///< Row by row; infinite where there is nothing.
+  std::vector<float> depth;  ///< Row by row; infinite where there is nothing.
   mat4 cameraFromObject{1.0f};
-  mat4 texelFromObject{1.0f};    ///< Homogeneous; texel (0, 0) is the square from there to (1, 1).
+  mat4 texelFromObject{1.0f};  ///< Homogeneous; texel (0, 0) is the square from there to (1, 1).
 };
 /// That of a string of the request. Nothing: it cannot be read, and the user knows.
 using GroundReader = std::function<std::optional<GroundPicture>(int string)>;
@@ -210,8 +226,8 @@ using GroundReader = std::function<std::optional<GroundPicture>(int string)>;
 /// (reyes/prim/blobby_code.h); varying and vertex primvars have a value for each leaf and blend.
 PrimPtr makeBlobby(int leafCount, const std::vector<int>& code, const std::vector<float>& floats, const GroundReader&,
                    const ParamList&, Problems&);
-/// A later key of a moving one: the mesh of `first` goes where its leaves go, and from there onto the new surface. If `first` is no
-/// Blobby of as many leaves: makeBlobby().
+/// A later key of a moving one: the mesh of `first` goes where its leaves go, and from there onto the new surface. If
+/// `first` is no Blobby of as many leaves: makeBlobby().
 PrimPtr makeBlobbyKey(const Prim& first, int leafCount, const std::vector<int>& code, const std::vector<float>& floats,
                       const GroundReader&, const ParamList&, Problems&);
 
@@ -223,7 +239,7 @@ struct SubdivisionTags {
   std::vector<float> floats;
   std::vector<std::string> strings;
 };
-PrimPtr makeSubdivisionMesh(const std::string& scheme, const std::vector<int>& vertexCounts, const std::vector<int>& vertices,
-                            const SubdivisionTags& tags, const ParamList&, Problems&);
+PrimPtr makeSubdivisionMesh(const std::string& scheme, const std::vector<int>& vertexCounts,
+                            const std::vector<int>& vertices, const SubdivisionTags& tags, const ParamList&, Problems&);
 
 }  // namespace tomales

@@ -1,14 +1,15 @@
-/* The RenderMan C binding (RISpec 3.2, appendix C) for plugins of Procedural "DynamicLoad": attributes, transformations and
- * geometry. A plugin defines, with C linkage,
+/* The RenderMan C binding (RISpec 3.2, appendix C) for plugins of Procedural "DynamicLoad": attributes, transformations
+ * and geometry. A plugin defines, with C linkage,
  *
- *   RtPointer ConvertParameters(char* text);             text: the second string of the Procedural; makes the plugin's own data of it
- *   void Subdivide(RtPointer data, RtFloat detail_px2);  describes geometry by the calls below; detail: pixels that the bound covers
- *   void Free(RtPointer data);
+ *   RtPointer ConvertParameters(char* text);             text: the second string of the Procedural; makes the plugin's
+ * own data of it void Subdivide(RtPointer data, RtFloat detail_px2);  describes geometry by the calls below; detail:
+ * pixels that the bound covers void Free(RtPointer data);
  *
  * and is built as a shared library without linking anything: the renderer has the functions (docs/procedurals.md).
- * Threads: one plugin function runs at a time in the whole process. Calls are kept until Subdivide returns and then read as if they stood
- * in the RIB; they may be made by the thread that Subdivide runs in, until it returns. Pointers are read before a call returns.
- * Values of a token: as many as its declaration and the primitive ask for, as in RIB. Strings are arrays of RtString. */
+ * Threads: one plugin function runs at a time in the whole process. Calls are kept until Subdivide returns and then
+ * read as if they stood in the RIB; they may be made by the thread that Subdivide runs in, until it returns. Pointers
+ * are read before a call returns. Values of a token: as many as its declaration and the primitive ask for, as in RIB.
+ * Strings are arrays of RtString. */
 #ifndef TOMALES_RI_H
 #define TOMALES_RI_H
 
@@ -93,7 +94,8 @@ RtVoid RiAttribute(RtToken name, ...);
 RtVoid RiAttributeV(RtToken name, RI_ARRAYS);
 RtVoid RiColor(const RtFloat color[]);
 RtVoid RiOpacity(const RtFloat opacity[]);
-RtVoid RiTextureCoordinates(RtFloat s1, RtFloat t1, RtFloat s2, RtFloat t2, RtFloat s3, RtFloat t3, RtFloat s4, RtFloat t4);
+RtVoid RiTextureCoordinates(RtFloat s1, RtFloat t1, RtFloat s2, RtFloat t2, RtFloat s3, RtFloat t3, RtFloat s4,
+                            RtFloat t4);
 RtVoid RiSurface(RtToken name, ...);
 RtVoid RiSurfaceV(RtToken name, RI_ARRAYS);
 RtVoid RiDisplacement(RtToken name, ...);
@@ -140,23 +142,27 @@ RtVoid RiGeneralPolygon(RtInt nloops, const RtInt nvertices[], ...);
 RtVoid RiGeneralPolygonV(RtInt nloops, const RtInt nvertices[], RI_ARRAYS);
 RtVoid RiPointsPolygons(RtInt npolys, const RtInt nvertices[], const RtInt vertices[], ...);
 RtVoid RiPointsPolygonsV(RtInt npolys, const RtInt nvertices[], const RtInt vertices[], RI_ARRAYS);
-RtVoid RiPointsGeneralPolygons(RtInt npolys, const RtInt nloops[], const RtInt nvertices[], const RtInt vertices[], ...);
-RtVoid RiPointsGeneralPolygonsV(RtInt npolys, const RtInt nloops[], const RtInt nvertices[], const RtInt vertices[], RI_ARRAYS);
+RtVoid RiPointsGeneralPolygons(RtInt npolys, const RtInt nloops[], const RtInt nvertices[], const RtInt vertices[],
+                               ...);
+RtVoid RiPointsGeneralPolygonsV(RtInt npolys, const RtInt nloops[], const RtInt nvertices[], const RtInt vertices[],
+                                RI_ARRAYS);
 RtVoid RiBasis(RtBasis ubasis, RtInt ustep, RtBasis vbasis, RtInt vstep);
 RtVoid RiPatch(RtToken type, ...);
 RtVoid RiPatchV(RtToken type, RI_ARRAYS);
 RtVoid RiPatchMesh(RtToken type, RtInt nu, RtToken uwrap, RtInt nv, RtToken vwrap, ...);
 RtVoid RiPatchMeshV(RtToken type, RtInt nu, RtToken uwrap, RtInt nv, RtToken vwrap, RI_ARRAYS);
-RtVoid RiNuPatch(RtInt nu, RtInt uorder, const RtFloat uknot[], RtFloat umin, RtFloat umax, RtInt nv, RtInt vorder, const RtFloat vknot[],
-                 RtFloat vmin, RtFloat vmax, ...);
-RtVoid RiNuPatchV(RtInt nu, RtInt uorder, const RtFloat uknot[], RtFloat umin, RtFloat umax, RtInt nv, RtInt vorder, const RtFloat vknot[],
-                  RtFloat vmin, RtFloat vmax, RI_ARRAYS);
-RtVoid RiTrimCurve(RtInt nloops, const RtInt ncurves[], const RtInt order[], const RtFloat knot[], const RtFloat min[], const RtFloat max[],
-                   const RtInt n[], const RtFloat u[], const RtFloat v[], const RtFloat w[]);
-RtVoid RiSubdivisionMesh(RtToken scheme, RtInt nfaces, const RtInt nvertices[], const RtInt vertices[], RtInt ntags, const RtToken tags[],
-                         const RtInt nargs[], const RtInt intargs[], const RtFloat floatargs[], ...);
-RtVoid RiSubdivisionMeshV(RtToken scheme, RtInt nfaces, const RtInt nvertices[], const RtInt vertices[], RtInt ntags, const RtToken tags[],
-                          const RtInt nargs[], const RtInt intargs[], const RtFloat floatargs[], RI_ARRAYS);
+RtVoid RiNuPatch(RtInt nu, RtInt uorder, const RtFloat uknot[], RtFloat umin, RtFloat umax, RtInt nv, RtInt vorder,
+                 const RtFloat vknot[], RtFloat vmin, RtFloat vmax, ...);
+RtVoid RiNuPatchV(RtInt nu, RtInt uorder, const RtFloat uknot[], RtFloat umin, RtFloat umax, RtInt nv, RtInt vorder,
+                  const RtFloat vknot[], RtFloat vmin, RtFloat vmax, RI_ARRAYS);
+RtVoid RiTrimCurve(RtInt nloops, const RtInt ncurves[], const RtInt order[], const RtFloat knot[], const RtFloat min[],
+                   const RtFloat max[], const RtInt n[], const RtFloat u[], const RtFloat v[], const RtFloat w[]);
+RtVoid RiSubdivisionMesh(RtToken scheme, RtInt nfaces, const RtInt nvertices[], const RtInt vertices[], RtInt ntags,
+                         const RtToken tags[], const RtInt nargs[], const RtInt intargs[], const RtFloat floatargs[],
+                         ...);
+RtVoid RiSubdivisionMeshV(RtToken scheme, RtInt nfaces, const RtInt nvertices[], const RtInt vertices[], RtInt ntags,
+                          const RtToken tags[], const RtInt nargs[], const RtInt intargs[], const RtFloat floatargs[],
+                          RI_ARRAYS);
 RtVoid RiSphere(RtFloat radius, RtFloat zmin, RtFloat zmax, RtFloat thetamax, ...);
 RtVoid RiSphereV(RtFloat radius, RtFloat zmin, RtFloat zmax, RtFloat thetamax, RI_ARRAYS);
 RtVoid RiCone(RtFloat height, RtFloat radius, RtFloat thetamax, ...);
@@ -175,14 +181,16 @@ RtVoid RiPoints(RtInt npoints, ...);
 RtVoid RiPointsV(RtInt npoints, RI_ARRAYS);
 RtVoid RiCurves(RtToken type, RtInt ncurves, const RtInt nvertices[], RtToken wrap, ...);
 RtVoid RiCurvesV(RtToken type, RtInt ncurves, const RtInt nvertices[], RtToken wrap, RI_ARRAYS);
-RtVoid RiBlobby(RtInt nleaf, RtInt ncode, const RtInt code[], RtInt nfloats, const RtFloat floats[], RtInt nstrings, const RtString strings[], ...);
-RtVoid RiBlobbyV(RtInt nleaf, RtInt ncode, const RtInt code[], RtInt nfloats, const RtFloat floats[], RtInt nstrings, const RtString strings[],
-                 RI_ARRAYS);
+RtVoid RiBlobby(RtInt nleaf, RtInt ncode, const RtInt code[], RtInt nfloats, const RtFloat floats[], RtInt nstrings,
+                const RtString strings[], ...);
+RtVoid RiBlobbyV(RtInt nleaf, RtInt ncode, const RtInt code[], RtInt nfloats, const RtFloat floats[], RtInt nstrings,
+                 const RtString strings[], RI_ARRAYS);
 RtVoid RiGeometry(RtToken type, ...);
 RtVoid RiGeometryV(RtToken type, RI_ARRAYS);
 
-/* `free` is called when `data` is not needed any more; it may be null. subdivide: a function of the plugin or one of the three below,
- * whose data are arrays of one or two RtString: a file; a program and its data; a plugin and its text. */
+/* `free` is called when `data` is not needed any more; it may be null. subdivide: a function of the plugin or one of
+ * the three below, whose data are arrays of one or two RtString: a file; a program and its data; a plugin and its text.
+ */
 RtVoid RiProcedural(RtPointer data, const RtBound bound, RtProcSubdivFunc subdivide, RtProcFreeFunc free);
 RtVoid RiProcDelayedReadArchive(RtPointer data, RtFloat detail);
 RtVoid RiProcRunProgram(RtPointer data, RtFloat detail);

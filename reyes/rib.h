@@ -1,5 +1,7 @@
-// Verb: text -> Scene. A streaming reader of RIB (ASCII and binary; gzip is detected) in three steps that meet in the Request:
-//   lexer  bytes -> tokens       parser  tokens -> Request, checked against the request table       RiSink  takes Requests
+// Verb: text -> Scene. A streaming reader of RIB (ASCII and binary; gzip is detected) in three steps that meet in the
+// Request:
+//   lexer  bytes -> tokens       parser  tokens -> Request, checked against the request table       RiSink  takes
+//   Requests
 // Bad input is reported with file:line and the reader goes on at the next request.
 #pragma once
 #include <functional>
@@ -25,12 +27,14 @@ struct Request {
   std::vector<RibArg> args;
   ParamList params;
   SourceLoc where;
-  /// Parameters of type string that name outputs of Patterns ("handle:output"), and the type that they stand in for ("reference color c").
+  /// Parameters of type string that name outputs of Patterns ("handle:output"), and the type that they stand in for
+  /// ("reference color c").
   std::vector<std::pair<std::string, ValueType>> references{};
 };
 
 inline bool isReference(const Request& request, std::string_view name) {
-  return std::any_of(request.references.begin(), request.references.end(), [&](const auto& r) { return r.first == name; });
+  return std::any_of(request.references.begin(), request.references.end(),
+                     [&](const auto& r) { return r.first == name; });
 }
 
 /// The seam behind the parser: the scene builder, a recorder, a writer.
@@ -43,11 +47,12 @@ class RiSink {
 struct RibSettings {
   /// Called at every WorldEnd with the frozen scene, in stream order.
   std::function<void(Scene&&)> onScene;
-  /// MakeTexture, MakeShadow and their kin: what earlier worlds have written becomes a map for later ones. Empty: they do nothing.
+  /// MakeTexture, MakeShadow and their kin: what earlier worlds have written becomes a map for later ones. Empty: they
+  /// do nothing.
   std::function<void(const Request&)> onMake;
   std::vector<std::string> archivePath{"."};
   int maxArchiveDepth = 64;
-  bool allowSystem = false;       ///< System and Procedural "RunProgram" may start programs, "DynamicLoad" load plugins.
+  bool allowSystem = false;  ///< System and Procedural "RunProgram" may start programs, "DynamicLoad" load plugins.
   double programPatience_s = 60;  ///< The longest that a RunProgram may keep us waiting.
 };
 
@@ -61,10 +66,10 @@ bool readRibText(const std::string& text, const std::string& name, const RibSett
 bool parseRib(const std::vector<std::string>& files, RiSink& sink, Log& log);
 bool parseRibText(const std::string& text, const std::string& name, RiSink& sink, Log& log);
 
-/// Changes a scene that is hidden already: Surface, Atmosphere, Color, Illuminate and Attribute go to the objects that the last
-/// Attribute "identifier" "name" has named (none: all), LightSource to the light of that handle, Exposure, Imager and Quantize to
-/// the frame. A shader that stays the same keeps the parameters that are not given. Other requests are ignored with a
-/// warning. False as readRib.
+/// Changes a scene that is hidden already: Surface, Atmosphere, Color, Illuminate and Attribute go to the objects that
+/// the last Attribute "identifier" "name" has named (none: all), LightSource to the light of that handle, Exposure,
+/// Imager and Quantize to the frame. A shader that stays the same keeps the parameters that are not given. Other
+/// requests are ignored with a warning. False as readRib.
 bool editScene(const std::vector<std::string>& files, Scene& scene, Log& log);
 
 struct RibWriterSettings {

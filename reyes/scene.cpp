@@ -43,9 +43,10 @@ class GroupHash {
   uint64_t value_ = 0;
 };
 
-// Key times inside the shutter, its opening first. Still, or a closed shutter: that one time. shapeTimes: empty if it keeps its
-// shape.
-std::vector<float> keyTimesOf(const std::vector<float>& shapeTimes, const Motion& cameraFromObject, const Options& options) {
+// Key times inside the shutter, its opening first. Still, or a closed shutter: that one time. shapeTimes: empty if it
+// keeps its shape.
+std::vector<float> keyTimesOf(const std::vector<float>& shapeTimes, const Motion& cameraFromObject,
+                              const Options& options) {
   std::vector<float> times{options.shutterOpen};
   const bool open = options.sampleMotion && options.shutterClose > options.shutterOpen;
   if (open && (cameraFromObject.moving() || !shapeTimes.empty())) {
@@ -65,8 +66,9 @@ float largestScale(const mat4& m) {
   return std::max({glm::length(vec3(m[0])), glm::length(vec3(m[1])), glm::length(vec3(m[2]))});
 }
 
-// Motion in the frame of the camera at shutter open, where `m` is the place of the object. Not the camera's own motion at that
-// time, which may lie between two keys: what stands still must not be a rounding away from where the camera sees it.
+// Motion in the frame of the camera at shutter open, where `m` is the place of the object. Not the camera's own motion
+// at that time, which may lie between two keys: what stands still must not be a rounding away from where the camera
+// sees it.
 Motion heldCamera(const Motion& worldFromObject, float open, const mat4& m) {
   if (!worldFromObject.moving()) return Motion::still(m);
   return Motion::still(m * glm::inverse(worldFromObject.at(open))) * worldFromObject;
@@ -75,7 +77,8 @@ Motion heldCamera(const Motion& worldFromObject, float open, const mat4& m) {
 // Points and curves turn to the eye as it stands when the shutter opens.
 void turnToEye(Object& o, const mat4& cameraFromObject, bool perspective) {
   const mat4 objectFromCamera = glm::inverse(cameraFromObject);
-  const vec3 eye = transformPoint(objectFromCamera, vec3(0)), forward = transformVector(objectFromCamera, vec3(0, 0, 1));
+  const vec3 eye = transformPoint(objectFromCamera, vec3(0)),
+             forward = transformVector(objectFromCamera, vec3(0, 0, 1));
   for (PrimPtr& shape : o.shapes)
     if (PrimPtr turned = shape->facing(eye, forward, perspective)) shape = std::move(turned);
 }
@@ -112,14 +115,16 @@ void Scene::derive(Object& o) const {
   turnToEye(o, m, options.projection == ProjectionKind::Perspective);
   o.flipsNormal = (glm::determinant(mat3(m)) < 0) != o.attributes->insideOut;
   o.displacementBound = 0;  // What grows carries its displacement along.
-  for (const float t : o.keyTimes) o.displacementBound = std::max(o.displacementBound, displacementBoundOf(*o.attributes, o.cameraFromObject.at(t)));
+  for (const float t : o.keyTimes)
+    o.displacementBound = std::max(o.displacementBound, displacementBoundOf(*o.attributes, o.cameraFromObject.at(t)));
 }
 
 void Scene::derive(Procedural& p) const {
   p.cameraFromObject = cameraFromWorld * p.worldFromObject;
   p.keyTimes = keyTimesOf({}, p.cameraFromObject, options);
   p.displacementBound = 0;
-  for (const float t : p.keyTimes) p.displacementBound = std::max(p.displacementBound, displacementBoundOf(*p.attributes, p.cameraFromObject.at(t)));
+  for (const float t : p.keyTimes)
+    p.displacementBound = std::max(p.displacementBound, displacementBoundOf(*p.attributes, p.cameraFromObject.at(t)));
 }
 
 ShadeGroup Scene::groupFor(const Object& o, int index) const {
@@ -130,8 +135,7 @@ ShadeGroup Scene::groupFor(const Object& o, int index) const {
                .solid = o.solid >= 0,
                .subtracted = o.subtracted};
   if (o.currentFromObject.moving()) g.currentFromOpen = o.currentFromObject * Motion::still(glm::inverse(m));
-  for (const Primvar& p : o.shape().primvars())
-    g.primvars.push_back({p.name, p.storage, p.type, p.width, {}});
+  for (const Primvar& p : o.shape().primvars()) g.primvars.push_back({p.name, p.storage, p.type, p.width, {}});
   return g;
 }
 
@@ -140,9 +144,8 @@ void Scene::findGroup(Object& o, int index) {
   ShadeGroup group = groupFor(o, index);
   const uint64_t hash = GroupHash(group).value();
   const auto [begin, end] = groupsByHash_.equal_range(hash);
-  const auto known = std::find_if(begin, end, [&](const auto& entry) {
-    return sameGroup(groups[static_cast<size_t>(entry.second)], group);
-  });
+  const auto known = std::find_if(
+      begin, end, [&](const auto& entry) { return sameGroup(groups[static_cast<size_t>(entry.second)], group); });
   if (known != end) {
     o.group = known->second;
     return;

@@ -1,6 +1,6 @@
 // Noun: everything that one WorldBegin/WorldEnd describes, frozen. Owns the geometry.
-// Threads: once freeze() has run, it changes by add() and drop() alone, which one thread may call while others use the objects and
-// groups that they know of.
+// Threads: once freeze() has run, it changes by add() and drop() alone, which one thread may call while others use the
+// objects and groups that they know of.
 #pragma once
 #include <functional>
 #include <map>
@@ -24,34 +24,36 @@ struct Object {
   Motion worldFromObject;
   std::shared_ptr<const Attributes> attributes;
   SourceLoc where;
-  int solid = -1;                ///< In Scene::solids: part of the surface of
-  int solidBlock = -1;           ///< this primitive of it.
-  uint64_t contents = 0;         ///< Sum of what describes its shapes, whatever file that stands in.
+  int solid = -1;         ///< In Scene::solids: part of the surface of
+  int solidBlock = -1;    ///< this primitive of it.
+  uint64_t contents = 0;  ///< Sum of what describes its shapes, whatever file that stands in.
 
   // Filled by Scene::freeze().
-  Motion cameraFromObject;       ///< Over the shutter; one key when nothing moves.
-  Motion currentFromObject;      ///< The same with the camera held where it is at shutter open: the motion that rays see.
-  std::vector<float> keyTimes;   ///< Union of transformation and deformation keys inside the shutter; front() is its opening.
-  float displacementBound = 0;   ///< Camera space.
-  bool flipsNormal = false;      ///< cameraFromObject mirrors, or Orientation is inside (not both).
-  bool subtracted = false;       ///< Its solid lies on the side of its normals, which are turned for shading.
-  int group = -1;                ///< Its ShadeGroup.
-  uint32_t name = 0;             ///< For random numbers: the same for any order in which procedurals are opened.
+  Motion cameraFromObject;   ///< Over the shutter; one key when nothing moves.
+  Motion currentFromObject;  ///< The same with the camera held where it is at shutter open: the motion that rays see.
+  std::vector<float>
+      keyTimes;  ///< Union of transformation and deformation keys inside the shutter; front() is its opening.
+  float displacementBound = 0;  ///< Camera space.
+  bool flipsNormal = false;     ///< cameraFromObject mirrors, or Orientation is inside (not both).
+  bool subtracted = false;      ///< Its solid lies on the side of its normals, which are turned for shading.
+  int group = -1;               ///< Its ShadeGroup.
+  uint32_t name = 0;            ///< For random numbers: the same for any order in which procedurals are opened.
 
   const Prim& shape() const { return *shapes.front(); }
 };
 
-/// Objects whose points may be shaded together: the same attributes, transformation, motion and primvar names, and alike in or
-/// outside of solids.
+/// Objects whose points may be shaded together: the same attributes, transformation, motion and primvar names, and
+/// alike in or outside of solids.
 struct ShadeGroup {
   std::shared_ptr<const Attributes> attributes;
   mat4 cameraFromObject{1.0f};
   std::vector<Primvar> primvars;  ///< Layout only: name, storage, type, width; no values.
   int exampleObject = -1;         ///< Some object of the group, for messages.
-  Motion currentFromOpen{};       ///< Takes places of the group at shutter open to where they are at a time, the camera held still.
-  bool solid = false;             ///< Parts of solids.
-  bool subtracted = false;        ///< As Object::subtracted.
-  bool steps = false;             ///< Its points have steps (reyes/points.h): set by whoever knows the shaders.
+  Motion currentFromOpen{};  ///< Takes places of the group at shutter open to where they are at a time, the camera held
+                             ///< still.
+  bool solid = false;        ///< Parts of solids.
+  bool subtracted = false;   ///< As Object::subtracted.
+  bool steps = false;        ///< Its points have steps (reyes/points.h): set by whoever knows the shaders.
 };
 
 struct Expansion;
@@ -84,19 +86,20 @@ struct Scene {
   Motion cameraFromWorld;
   StableVector<Object> objects;
   StableVector<Solid> solids;
-  std::vector<Procedural> procedurals;         ///< Not opened yet.
+  std::vector<Procedural> procedurals;  ///< Not opened yet.
   std::vector<std::shared_ptr<LightCall>> lights;
   std::map<std::string, mat4> worldFromNamed;  ///< CoordinateSystem
   SourceLoc where;                             ///< Of WorldBegin.
 
-  StableVector<ShadeGroup> groups;             ///< Filled by freeze() and add().
+  StableVector<ShadeGroup> groups;  ///< Filled by freeze() and add().
   /// Fills the derived fields above. Call when all objects and lights are in, and again after changing attributes.
   void freeze();
 
   bool shutterIsOpen() const { return options.shutterClose > options.shutterOpen; }  ///< Else nothing is blurred.
   /// Opens a procedural; what comes out has its derived fields but for its groups. Changes nothing here.
   Expansion opened(const Procedural& procedural) const;
-  /// Takes the objects of opened(), and their solids, and finds their groups: their indices. ShadingSystem::bindNewGroups comes next.
+  /// Takes the objects of opened(), and their solids, and finds their groups: their indices.
+  /// ShadingSystem::bindNewGroups comes next.
   std::vector<int> add(Expansion& expansion);
   /// Forgets the shapes of an object of add() that nobody needs any more.
   void drop(int object);

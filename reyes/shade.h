@@ -1,7 +1,6 @@
-// Verb: runs shaders over batches of points. Owns the bound shaders of a scene (parameters resolved, spaces transformed)
-// and the lights; asks ShadeServices for everything that needs rays or global illumination.
-// Irradiance: all light is in the RSL convention, E/pi.
-// Threads: after construction, every const member may be called concurrently.
+// Verb: runs shaders over batches of points. Owns the bound shaders of a scene (parameters resolved, spaces
+// transformed) and the lights; asks ShadeServices for everything that needs rays or global illumination. Irradiance:
+// all light is in the RSL convention, E/pi. Threads: after construction, every const member may be called concurrently.
 #pragma once
 #include <functional>
 #include <optional>
@@ -15,9 +14,10 @@
 namespace tomales {
 
 enum class RayKind : uint8_t {
-  Camera,    ///< Visible micropolygons: the whole shader.
-  Diffuse,   ///< Hits of gather rays: direct light, diffuse component only, no emission of area lights (approximate-gi 4.1, 4.2).
-  Specular,  ///< Hits of reflected and refracted rays: the whole shader, and the emission of area lights.
+  Camera,        ///< Visible micropolygons: the whole shader.
+  Diffuse,       ///< Hits of gather rays: direct light, diffuse component only, no emission of area lights
+                 ///< (approximate-gi 4.1, 4.2).
+  Specular,      ///< Hits of reflected and refracted rays: the whole shader, and the emission of area lights.
   Transmission,  ///< What shadow rays pass through: opacity alone, no light.
 };
 
@@ -41,48 +41,54 @@ struct RayOutput {
 /// Why and how a batch is being shaded.
 struct ShadeContext {
   RayKind kind = RayKind::Camera;
-  int depth = 0;               ///< Diffuse bounces between the eye and these points.
+  int depth = 0;  ///< Diffuse bounces between the eye and these points.
   uint32_t seed = 0;
-  int lightSamples = 0;        ///< Samples of each area light and of the sky; 0: as many as the light asks for.
-  bool indirect = true;        ///< Run indirect lights.
-  bool direct = true;          ///< Run the others where the eye looks.
-  bool variables = false;      ///< Store what outputOf(options) lists.
-  const std::vector<RayOutput>* told = nullptr;  ///< Store these instead, of "surface:NAME" the outputs of the shader; NaN: it has none of this name.
+  int lightSamples = 0;    ///< Samples of each area light and of the sky; 0: as many as the light asks for.
+  bool indirect = true;    ///< Run indirect lights.
+  bool direct = true;      ///< Run the others where the eye looks.
+  bool variables = false;  ///< Store what outputOf(options) lists.
+  const std::vector<RayOutput>* told =
+      nullptr;  ///< Store these instead, of "surface:NAME" the outputs of the shader; NaN: it has none of this name.
   Illumination light = Illumination::Lights;
-  int specularDepth = 0;       ///< Specular bounces between the eye and these points.
-  int diffuseLimit = 1 << 20, specularLimit = 1 << 20;  ///< Depths at which no ray follows, set by the objects on the way.
-  std::string label{};         ///< Of the ray that came here.
-  bool lampsGlow = true;       ///< For that ray.
-  bool mirrored = true;        ///< Specular rays bring lamps and skies: not where photons have brought what comes from them by mirrors.
-  bool highlights = false;     ///< Diffuse rays bring highlights too: those of the reference path tracer.
-  RayAnswers* answers = nullptr;  ///< Of this batch: asked before shadow and gather rays are traced. Null: all are traced.
-  bool sketch = false;         ///< Shaders run for a look in between: nothing is baked or printed.
-  bool rehearsal = false;      ///< Shaders run only to learn what they ask: no ray is traced, and nothing baked or printed.
-  float importance = 1;        ///< Of what is seen here, for the eye.
-  int chunk = 0;               ///< Set by ShadingSystem: which part of the batch is being shaded.
+  int specularDepth = 0;  ///< Specular bounces between the eye and these points.
+  int diffuseLimit = 1 << 20,
+      specularLimit = 1 << 20;  ///< Depths at which no ray follows, set by the objects on the way.
+  std::string label{};          ///< Of the ray that came here.
+  bool lampsGlow = true;        ///< For that ray.
+  bool mirrored =
+      true;  ///< Specular rays bring lamps and skies: not where photons have brought what comes from them by mirrors.
+  bool highlights = false;  ///< Diffuse rays bring highlights too: those of the reference path tracer.
+  RayAnswers* answers =
+      nullptr;             ///< Of this batch: asked before shadow and gather rays are traced. Null: all are traced.
+  bool sketch = false;     ///< Shaders run for a look in between: nothing is baked or printed.
+  bool rehearsal = false;  ///< Shaders run only to learn what they ask: no ray is traced, and nothing baked or printed.
+  float importance = 1;    ///< Of what is seen here, for the eye.
+  int chunk = 0;           ///< Set by ShadingSystem: which part of the batch is being shaded.
 };
 
 /// What one set of rays of a shader's call asks.
 struct RayQuery {
   RayKind kind = RayKind::Specular;
   float maxDistance = 1e30f;
-  float bias = -1;                 ///< < 0: as the object's attributes say.
+  float bias = -1;  ///< < 0: as the object's attributes say.
   std::string label, subset, excludeSubset;
   HitSides sides = HitSides::Both;
-  std::optional<HitMode> mode;     ///< Empty: as the attributes of what is met say.
-  float opacityThreshold = 1;      ///< A ray goes on behind what is transparent until this much is covered.
-  int number = 0, count = 1;       ///< These are rays `number` of `count` from each point.
-  bool lampsGlow = true;           ///< Area lights are seen.
-  float importance = 1;            ///< Of what these rays bring.
-  const float *radius = nullptr, *spread = nullptr;  ///< Of the footprint of each ray, at its start and added for each unit of length. Null: none.
+  std::optional<HitMode> mode;  ///< Empty: as the attributes of what is met say.
+  float opacityThreshold = 1;   ///< A ray goes on behind what is transparent until this much is covered.
+  int number = 0, count = 1;    ///< These are rays `number` of `count` from each point.
+  bool lampsGlow = true;        ///< Area lights are seen.
+  float importance = 1;         ///< Of what these rays bring.
+  const float
+      *radius = nullptr,
+      *spread = nullptr;  ///< Of the footprint of each ray, at its start and added for each unit of length. Null: none.
 };
 
 /// Arrays for count() points; null pointers: not wanted.
 struct RayResult {
-  float* distance = nullptr;       ///< kInfinity: nothing was met, and no output set.
-  TmVec3 color{}, opacity{};       ///< Of all that the ray went through,
-  float* effective = nullptr;      ///< and with them the mean distance of what covers it; kInfinity: nothing does.
-  uint8_t* leaves = nullptr;       ///< 1: the ray was traced and ends nowhere, whatever it has passed that is transparent.
+  float* distance = nullptr;   ///< kInfinity: nothing was met, and no output set.
+  TmVec3 color{}, opacity{};   ///< Of all that the ray went through,
+  float* effective = nullptr;  ///< and with them the mean distance of what covers it; kInfinity: nothing does.
+  uint8_t* leaves = nullptr;   ///< 1: the ray was traced and ends nowhere, whatever it has passed that is transparent.
   std::vector<RayOutput> outputs;  ///< Of the first hit.
 };
 
@@ -100,7 +106,7 @@ struct OcclusionQuery {
   float maxDistance = 1e30f, bias = -1;
   float falloff = 0;
   int falloffMode = 0;
-  float maxVariation = 0;          ///< How far they may be off.
+  float maxVariation = 0;  ///< How far they may be off.
   std::string subset, excludeSubset;
   HitSides sides = HitSides::Both;
   bool operator==(const OcclusionQuery&) const = default;
@@ -109,7 +115,8 @@ struct OcclusionQuery {
   float coveredAt(float distance) const {
     if (!(distance < 1e30f)) return 0;
     if (falloff <= 0) return 1;
-    return falloffMode == 1 ? std::pow(std::max(0.0f, 1 - distance / maxDistance), falloff) : std::exp(-falloff * distance);
+    return falloffMode == 1 ? std::pow(std::max(0.0f, 1 - distance / maxDistance), falloff)
+                            : std::exp(-falloff * distance);
   }
 };
 
@@ -138,32 +145,39 @@ class ShadeServices {
  public:
   virtual ~ShadeServices() = default;
 
-  /// Multiplies `light` by the fraction that arrives at each point from P + toward (solar: from infinity along it). Where things
-  /// move, it is the mean over the times at which the points are seen.
-  virtual void transmission(const ShadePoints& points, const uint8_t* active, TmConstVec3 toward, const ShadowRays& rays,
-                            const ShadeContext& context, TmVec3 light) const = 0;
+  /// Multiplies `light` by the fraction that arrives at each point from P + toward (solar: from infinity along it).
+  /// Where things move, it is the mean over the times at which the points are seen.
+  virtual void transmission(const ShadePoints& points, const uint8_t* active, TmConstVec3 toward,
+                            const ShadowRays& rays, const ShadeContext& context, TmVec3 light) const = 0;
 
-  /// One ray from P along the unit `direction` for each active point. Where the depth of rays is exhausted, none is traced.
+  /// One ray from P along the unit `direction` for each active point. Where the depth of rays is exhausted, none is
+  /// traced.
   virtual void trace(const ShadePoints& points, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction,
                      const RayQuery& query, const ShadeContext& context, const RayResult& result) const = 0;
 
-  /// A point on area light `light` for each xi in [0,1)^2, as seen from `from`. Returns false if the light has no geometry.
-  virtual bool sampleEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1, const EmitterPoints& out) const = 0;
+  /// A point on area light `light` for each xi in [0,1)^2, as seen from `from`. Returns false if the light has no
+  /// geometry.
+  virtual bool sampleEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1,
+                             const EmitterPoints& out) const = 0;
   /// The nearest point that shines along each unit direction, of those emitters of the light whose shape is simple.
-  virtual void meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction, const EmitterPoints& out) const = 0;
+  virtual void meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction,
+                           const EmitterPoints& out) const = 0;
 
-  /// Share of the hemisphere around N that is covered, interpolated. False: nothing is known, `covered` is left alone and rays must tell.
-  virtual bool interpolatedOcclusion(const ShadePoints& points, const uint8_t* active, TmConstVec3 N, const OcclusionQuery& query,
-                                     const ShadeContext& context, float* covered) const;
+  /// Share of the hemisphere around N that is covered, interpolated. False: nothing is known, `covered` is left alone
+  /// and rays must tell.
+  virtual bool interpolatedOcclusion(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
+                                     const OcclusionQuery& query, const ShadeContext& context, float* covered) const;
 
-  /// E/pi that an earlier pass stored around each point; kArea of the points is what to average over. Zero where there is none.
+  /// E/pi that an earlier pass stored around each point; kArea of the points is what to average over. Zero where there
+  /// is none.
   virtual void storedIrradiance(const ShadePoints& points, const uint8_t* active, TmVec3 E) const;
-  /// How far in front of the samples of an area light something that stands for it in rays may be: shadow rays end before that.
+  /// How far in front of the samples of an area light something that stands for it in rays may be: shadow rays end
+  /// before that.
   virtual float emitterReach(int light) const = 0;
 
   /// Indirect diffuse light on the side of N.
-  virtual void indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N, const IndirectQuery& query,
-                               const ShadeContext& context, IndirectResult out) const = 0;
+  virtual void indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
+                               const IndirectQuery& query, const ShadeContext& context, IndirectResult out) const = 0;
 };
 
 /// Data in space that shaders keep and look up: bake3d(), texture3d(). Arrays of one length, in the space of the file.
@@ -171,7 +185,7 @@ struct CloudQuery {
   std::string file;
   int count = 0;
   const uint8_t* active = nullptr;
-  TmConstVec3 P{}, N{};           ///< N: unit or zero.
+  TmConstVec3 P{}, N{};  ///< N: unit or zero.
   const float* radius = nullptr;
 };
 struct CloudValue {
@@ -182,14 +196,15 @@ struct CloudValue {
 
 /// What of a point cloud is in the way of a hemisphere.
 struct DisksQuery {
-  std::string channel;             ///< What the disks send.
-  float maxSolidAngle = 0.01f;     ///< Disks that together are seen under less count as one.
-  bool clamp = true;               ///< Those behind others do not count.
-  float coneAngle = kPi / 2;       ///< Half angle of what is looked at.
+  std::string channel;          ///< What the disks send.
+  float maxSolidAngle = 0.01f;  ///< Disks that together are seen under less count as one.
+  bool clamp = true;            ///< Those behind others do not count.
+  float coneAngle = kPi / 2;    ///< Half angle of what is looked at.
   OcclusionQuery falloff;
 };
 
-/// The seam to point clouds and brick maps (implemented in gi/clouds, injected by reyes/app). `problem` says why false is returned.
+/// The seam to point clouds and brick maps (implemented in gi/clouds, injected by reyes/app). `problem` says why false
+/// is returned.
 class CloudServices {
  public:
   virtual ~CloudServices() = default;
@@ -197,8 +212,10 @@ class CloudServices {
   virtual bool lookUp(const CloudQuery&, const std::vector<CloudValue>&, float* found, std::string& problem) = 0;
   /// E/pi of a photon map.
   virtual bool photons(const CloudQuery&, const TmPhotonLookup&, TmVec3 E, std::string& problem) = 0;
-  /// Share of the hemisphere around N, weighted by the cosine, and (unless x is null) the mean radiance that arrives from it.
-  virtual bool occlusion(const CloudQuery&, const DisksQuery&, float* covered, TmVec3 radiance, std::string& problem) = 0;
+  /// Share of the hemisphere around N, weighted by the cosine, and (unless x is null) the mean radiance that arrives
+  /// from it.
+  virtual bool occlusion(const CloudQuery&, const DisksQuery&, float* covered, TmVec3 radiance,
+                         std::string& problem) = 0;
   /// Baked light that leaves after diffusion, E/pi.
   virtual bool subsurface(const CloudQuery&, const TmSubsurface&, TmVec3 out, std::string& problem) = 0;
 };
@@ -214,26 +231,37 @@ struct Portal {
 
 /// A light shader alone, at points that nothing shades: how photons learn what it sends where. Current space.
 struct LightProbe {
-  std::vector<vec3> P, N;    ///< In: points to be lit, with their normals.
-  std::vector<vec3> Pl, Nl;  ///< In, for LightKind::Area: points on the emitter; for Sky: towards it, and unit directions there.
-  std::vector<vec2> xi;      ///< In, for lights that are sampled: where one of one sample lies; none: in the middle.
-  std::vector<vec3> L;       ///< Out: from P to the light.
-  std::vector<vec3> Cl;      ///< Out: E/pi at normal incidence; for LightKind::Area and Sky the radiance of the emitter.
+  std::vector<vec3> P, N;  ///< In: points to be lit, with their normals.
+  std::vector<vec3> Pl,
+      Nl;  ///< In, for LightKind::Area: points on the emitter; for Sky: towards it, and unit directions there.
+  std::vector<vec2> xi;  ///< In, for lights that are sampled: where one of one sample lies; none: in the middle.
+  std::vector<vec3> L;   ///< Out: from P to the light.
+  std::vector<vec3> Cl;  ///< Out: E/pi at normal incidence; for LightKind::Area and Sky the radiance of the emitter.
 };
 
 /// "surface" ... "imager".
 const char* kindName(TmKind kind);
 
+/// Which folders shader plugins may be loaded from. A plugin is native code, while a scene, which names shaders and
+/// search paths, may come from a stranger.
+struct PluginTrust {
+  std::string folders{};      ///< Folders that the user named, separated by colons: searched before those of the scene.
+  bool sceneFolders = false;  ///< Folders that the scene names, and the working folder, are trusted too.
+};
+
 /// Shaders by name: built-ins and plugins come through the same table.
 class ShaderRegistry {
  public:
-  explicit ShaderRegistry(Log& log);
+  explicit ShaderRegistry(Log& log, PluginTrust trust = {});
   ~ShaderRegistry();
   /// Checks versions and sizes before anything else is touched; later libraries win over earlier names.
   bool addLibrary(const TmShaderLibrary* library, const std::string& origin);
   /// Opens a .so and adds it. False and a message if it is not a shader plugin of this ABI.
   bool loadPlugin(const std::string& path);
-  /// By name and kind; looks for NAME.so along `searchPath` (colon-separated, & and @ are the built-in default) if not known yet.
+  /// By name and kind. A shader that is not known yet is looked for as NAME.so in the trusted folders and then along
+  /// `searchPath` (the scene's; folders separated by colons, empty: the working folder). A plugin in a folder that is
+  /// not trusted is reported, once, and not loaded; so is one outside of a trusted folder that a name with ".." or an
+  /// absolute name leads to.
   const TmShader* find(const std::string& name, TmKind kind, const std::string& searchPath);
   std::vector<const TmShader*> all() const;
 
@@ -268,7 +296,8 @@ class ShadingSystem {
   bool wantsSteps(int group) const;
   /// Does its shader leave Oi = Os?
   bool keepsOpacity(int group) const;
-  /// Runs the displacement shader of the grid's object, in place; recomputes N. No-op without one. Pre: one piece, if there is one.
+  /// Runs the displacement shader of the grid's object, in place; recomputes N. No-op without one. Pre: one piece, if
+  /// there is one.
   void displace(Grid& grid) const;
   /// Surface shader and lights over a batch of one group. `out` is resized.
   void shade(const ShadePoints& points, const ShadeContext& context, ShadedPoints& out) const;
@@ -276,32 +305,39 @@ class ShadingSystem {
   /// Of all that the camera has been shown: most of it is lit by too few samples of a light.
   void warnOfLightNoise() const;
 
-  /// Atmosphere between the eye and points that the camera sees, over their colours in place, and ShadedPoints::airCi. No-op without one.
+  /// Atmosphere between the eye and points that the camera sees, over their colours in place, and ShadedPoints::airCi.
+  /// No-op without one.
   void atmosphere(const ShadePoints& points, ShadedPoints& out) const;
   /// Does a volume shader stand inside (Interior) or outside (Exterior) of the group's surfaces?
   bool hasVolume(int group, bool inside) const;
-  /// Runs it over what rays bring through the volume to the surface that they leave, in place. The points are those of the surface, but for
-  /// kP, which is where each ray ends, and kI, the way there. False, and `out` is left alone: there is none, or it failed.
+  /// Runs it over what rays bring through the volume to the surface that they leave, in place. The points are those of
+  /// the surface, but for kP, which is where each ray ends, and kI, the way there. False, and `out` is left alone:
+  /// there is none, or it failed.
   bool crossVolume(ShadePoints& ends, bool inside, const ShadeContext& context, ShadedPoints& out) const;
   bool hasImager() const;
   /// Imager shader, in place. No-op without one.
   void image(ShadedPixels& pixels) const;
 
-  /// Radiance that an emitter's front adds for camera and specular rays: Cl of its area light, 0 if none or `visible` 0.
+  /// Radiance that an emitter's front adds for camera and specular rays: Cl of its area light, 0 if none or `visible`
+  /// 0.
   vec3 visibleEmission(int group) const;
   /// The indirect light switched on for a group, if any: what the gather pass must prepare.
   const IndirectQuery* indirectQuery(int group) const;
   bool needsRays() const;  ///< Some light or shader will trace.
-  bool tracesRays(int group) const;     ///< Does its surface shader ask for rays, and not for occlusion() or highlights alone?
-  bool asksOcclusion(int group) const;  ///< May a shader of the group call occlusion() so that answers may be interpolated?
+  bool tracesRays(
+      int group) const;  ///< Does its surface shader ask for rays, and not for occlusion() or highlights alone?
+  bool asksOcclusion(
+      int group) const;  ///< May a shader of the group call occlusion() so that answers may be interpolated?
 
-  LightKind lightKind(int light) const;  ///< None: its shader is missing, or it lights nothing diffuse that gather rays see.
+  LightKind lightKind(
+      int light) const;  ///< None: its shader is missing, or it lights nothing diffuse that gather rays see.
   void probe(int light, LightProbe& probe) const;
   /// Of a light of LightKind::Sky, those of its parameter `portals` that have a place and an area.
   std::span<const Portal> portals(int light) const;
   /// Does the surface of a group add radiance of its own?
   bool emits(int group) const;
-  /// Does it reflect the same share of Illumination::Unit everywhere (TM_EVEN, and no primitive variable says otherwise)?
+  /// Does it reflect the same share of Illumination::Unit everywhere (TM_EVEN, and no primitive variable says
+  /// otherwise)?
   bool reflectsEvenly(int group) const;
 
  private:

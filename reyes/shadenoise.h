@@ -1,5 +1,5 @@
-// RSL's noise, pnoise and cellnoise of one to four dimensions, and spline with all its bases and their inverses (rispec-table 9.1). The
-// same bits on every machine: integer hashes and IEEE arithmetic alone.
+// RSL's noise, pnoise and cellnoise of one to four dimensions, and spline with all its bases and their inverses
+// (rispec-table 9.1). The same bits on every machine: integer hashes and IEEE arithmetic alone.
 #pragma once
 #include <cstdint>
 #include <initializer_list>
@@ -87,7 +87,8 @@ RSL_INLINE float gradient4(uint32_t hash, const float* p) {
 
 }  // namespace noise_detail
 
-/// Gradient noise in [-1, 1] of four dimensions; of fewer where the rest is left out. Zero on the integer lattice, twice differentiable.
+/// Gradient noise in [-1, 1] of four dimensions; of fewer where the rest is left out. Zero on the integer lattice,
+/// twice differentiable.
 inline float signedNoise4(Vec3 p, float w, Vec3 period = {}, float wPeriod = 0) {
   using namespace noise_detail;
   const Axis axes[4] = {{p.x, period.x}, {p.y, period.y}, {p.z, period.z}, {w, wPeriod}};
@@ -114,11 +115,14 @@ inline float signedPeriodicNoise(Vec3 p, Vec3 period) {
     return gradient(latticeHash(i ? x.hi : x.lo, j ? y.hi : y.lo, k ? z.hi : z.lo), offset);
   };
   const float u = fade(x.f), v = fade(y.f), w = fade(z.f);
-  const auto face = [&](int k) { return mix(mix(corner(0, 0, k), corner(1, 0, k), u), mix(corner(0, 1, k), corner(1, 1, k), u), v); };
+  const auto face = [&](int k) {
+    return mix(mix(corner(0, 0, k), corner(1, 0, k), u), mix(corner(0, 1, k), corner(1, 1, k), u), v);
+  };
   return clamp(mix(face(0), face(1), w), -1, 1);
 }
 
-// One and two dimensions are cuts through three, between the lattice planes: on them the gradients would vanish more often than not.
+// One and two dimensions are cuts through three, between the lattice planes: on them the gradients would vanish more
+// often than not.
 constexpr float kNoiseCut = 0.5f;
 
 inline float noise(float x) { return noise(Vec3{x, kNoiseCut, kNoiseCut}); }
@@ -126,49 +130,81 @@ inline float noise(float x, float y) { return noise(Vec3{x, y, kNoiseCut}); }
 inline float noise(Vec3 p, float t) { return 0.5f + 0.5f * signedNoise4(p, t); }
 inline float pnoise(Vec3 p, Vec3 period) { return 0.5f + 0.5f * signedPeriodicNoise(p, period); }
 inline float pnoise(float x, float period) { return pnoise(Vec3{x, kNoiseCut, kNoiseCut}, {period, 0, 0}); }
-inline float pnoise(float x, float y, float xPeriod, float yPeriod) { return pnoise(Vec3{x, y, kNoiseCut}, {xPeriod, yPeriod, 0}); }
-inline float pnoise(Vec3 p, float t, Vec3 period, float tPeriod) { return 0.5f + 0.5f * signedNoise4(p, t, period, tPeriod); }
+inline float pnoise(float x, float y, float xPeriod, float yPeriod) {
+  return pnoise(Vec3{x, y, kNoiseCut}, {xPeriod, yPeriod, 0});
+}
+inline float pnoise(Vec3 p, float t, Vec3 period, float tPeriod) {
+  return 0.5f + 0.5f * signedNoise4(p, t, period, tPeriod);
+}
 /// Constant in each unit cell, [0, 1).
 inline float cellnoise(Vec3 p, float t = 0) {
   using noise_detail::Axis;
-  return static_cast<float>(noise_detail::hash4(Axis(p.x, 0).lo, Axis(p.y, 0).lo, Axis(p.z, 0).lo, Axis(t, 0).lo) >> 8) * 0x1p-24f;
+  return static_cast<float>(noise_detail::hash4(Axis(p.x, 0).lo, Axis(p.y, 0).lo, Axis(p.z, 0).lo, Axis(t, 0).lo) >>
+                            8) *
+         0x1p-24f;
 }
 inline float cellnoise(float x, float y = 0) { return cellnoise(Vec3{x, y, 0}); }
 
-/// Three values that have nothing to do with each other: `of` is asked at three places of the lattice far from each other.
+/// Three values that have nothing to do with each other: `of` is asked at three places of the lattice far from each
+/// other.
 template <class Of>
 Vec3 triple(Vec3 p, const Of& of) {
   return {of(p), of(p + Vec3{1031, 523, 259}), of(p + Vec3{2053, 4099, 131})};
 }
-inline Vec3 noise3(Vec3 p) { return triple(p, [](Vec3 q) { return noise(q); }); }
-inline Vec3 noise3(Vec3 p, float t) { return triple(p, [&](Vec3 q) { return noise(q, t); }); }
+inline Vec3 noise3(Vec3 p) {
+  return triple(p, [](Vec3 q) { return noise(q); });
+}
+inline Vec3 noise3(Vec3 p, float t) {
+  return triple(p, [&](Vec3 q) { return noise(q, t); });
+}
 inline Vec3 noise3(float x) { return noise3(Vec3{x, kNoiseCut, kNoiseCut}); }
 inline Vec3 noise3(float x, float y) { return noise3(Vec3{x, y, kNoiseCut}); }
-inline Vec3 pnoise3(Vec3 p, Vec3 period) { return triple(p, [&](Vec3 q) { return pnoise(q, period); }); }
-inline Vec3 cellnoise3(Vec3 p, float t = 0) { return triple(p, [&](Vec3 q) { return cellnoise(q, t); }); }
+inline Vec3 pnoise3(Vec3 p, Vec3 period) {
+  return triple(p, [&](Vec3 q) { return pnoise(q, period); });
+}
+inline Vec3 cellnoise3(Vec3 p, float t = 0) {
+  return triple(p, [&](Vec3 q) { return cellnoise(q, t); });
+}
 
 // --- Splines
 
 enum class Basis { CatmullRom, Bezier, BSpline, Hermite, Linear };
 /// Of RSL's name; catmull-rom for others.
 inline Basis basisOf(const std::string& name) {
-  return name == "bezier" ? Basis::Bezier : name == "b-spline" ? Basis::BSpline : name == "hermite" ? Basis::Hermite : name == "linear" ? Basis::Linear : Basis::CatmullRom;
+  return name == "bezier"     ? Basis::Bezier
+         : name == "b-spline" ? Basis::BSpline
+         : name == "hermite"  ? Basis::Hermite
+         : name == "linear"   ? Basis::Linear
+                              : Basis::CatmullRom;
 }
 /// Weights of four knots at t in [0, 1].
 inline void splineWeights(Basis basis, float t, float* w) {
   const float t2 = t * t, t3 = t2 * t, s = 1 - t;
   switch (basis) {
-    case Basis::Bezier: w[0] = s * s * s, w[1] = 3 * t * s * s, w[2] = 3 * t2 * s, w[3] = t3; break;
-    case Basis::BSpline: w[0] = s * s * s / 6, w[1] = (3 * t3 - 6 * t2 + 4) / 6, w[2] = (-3 * t3 + 3 * t2 + 3 * t + 1) / 6, w[3] = t3 / 6; break;
-    case Basis::Hermite: w[0] = 2 * t3 - 3 * t2 + 1, w[1] = t3 - 2 * t2 + t, w[2] = -2 * t3 + 3 * t2, w[3] = t3 - t2; break;
-    case Basis::Linear: w[0] = 0, w[1] = s, w[2] = t, w[3] = 0; break;
-    default: w[0] = 0.5f * (-t3 + 2 * t2 - t), w[1] = 0.5f * (3 * t3 - 5 * t2 + 2), w[2] = 0.5f * (-3 * t3 + 4 * t2 + t), w[3] = 0.5f * (t3 - t2);
+    case Basis::Bezier:
+      w[0] = s * s * s, w[1] = 3 * t * s * s, w[2] = 3 * t2 * s, w[3] = t3;
+      break;
+    case Basis::BSpline:
+      w[0] = s * s * s / 6, w[1] = (3 * t3 - 6 * t2 + 4) / 6, w[2] = (-3 * t3 + 3 * t2 + 3 * t + 1) / 6, w[3] = t3 / 6;
+      break;
+    case Basis::Hermite:
+      w[0] = 2 * t3 - 3 * t2 + 1, w[1] = t3 - 2 * t2 + t, w[2] = -2 * t3 + 3 * t2, w[3] = t3 - t2;
+      break;
+    case Basis::Linear:
+      w[0] = 0, w[1] = s, w[2] = t, w[3] = 0;
+      break;
+    default:
+      w[0] = 0.5f * (-t3 + 2 * t2 - t), w[1] = 0.5f * (3 * t3 - 5 * t2 + 2), w[2] = 0.5f * (-3 * t3 + 4 * t2 + t),
+      w[3] = 0.5f * (t3 - t2);
   }
 }
 /// At x in [0, 1] (clamped) of a curve through n >= 4 knots; Hermite knots are points and tangents by turns.
 template <class T>
 T spline(Basis basis, float x, const T* knots, int n) {
-  const int stride = basis == Basis::Bezier ? 3 : basis == Basis::Hermite ? 2 : 1, segments = std::max(1, (n - 4) / stride + 1);
+  const int stride = basis == Basis::Bezier    ? 3
+                     : basis == Basis::Hermite ? 2
+                                               : 1,
+            segments = std::max(1, (n - 4) / stride + 1);
   const float along = clamp(x, 0, 1) * static_cast<float>(segments);
   const int segment = std::min(static_cast<int>(along), segments - 1);
   float w[4];

@@ -1,5 +1,6 @@
-// RSL's shadeops as functions of one point: mathematics, geometry, colour, matrices, splines (rispec-table section 9). Plain C++17 over
-// reyes/shader.h; the same bits on every machine but for the C library's transcendental functions. reyes/sl.h applies them to batches.
+// RSL's shadeops as functions of one point: mathematics, geometry, colour, matrices, splines (rispec-table section 9).
+// Plain C++17 over reyes/shader.h; the same bits on every machine but for the C library's transcendental functions.
+// reyes/sl.h applies them to batches.
 #pragma once
 #include "reyes/shader.h"
 
@@ -43,7 +44,8 @@ inline Vec3 rotate(Vec3 Q, float angle, Vec3 P0, Vec3 P1) {
   const float c = std::cos(angle), s = std::sin(angle);
   return P0 + v * c + cross(k, v) * s + k * (dot(k, v) * (1 - c));
 }
-/// Share of reflected and of transmitted light, and their directions. Unit vectors; the transmitted solid angle is not accounted for.
+/// Share of reflected and of transmitted light, and their directions. Unit vectors; the transmitted solid angle is not
+/// accounted for.
 inline void fresnel(Vec3 I, Vec3 N, float eta, float& Kr, float& Kt, Vec3& R, Vec3& T) {
   Kr = fresnel(I, N, eta), Kt = 1 - Kr;
   R = reflect(I, N), T = refract(I, N, eta);
@@ -62,7 +64,8 @@ struct Matrix {
 inline Matrix operator*(const Matrix& a, const Matrix& b) {
   Matrix out;
   for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) out.m[i][j] = a.m[i][0] * b.m[0][j] + a.m[i][1] * b.m[1][j] + a.m[i][2] * b.m[2][j] + a.m[i][3] * b.m[3][j];
+    for (int j = 0; j < 4; ++j)
+      out.m[i][j] = a.m[i][0] * b.m[0][j] + a.m[i][1] * b.m[1][j] + a.m[i][2] * b.m[2][j] + a.m[i][3] * b.m[3][j];
   return out;
 }
 /// Gauss-Jordan with pivots. Returns the determinant; `inverse` (may be null) is left alone where that is 0.
@@ -74,7 +77,8 @@ inline float invert(const Matrix& a, Matrix* inverse) {
     for (int r = c + 1; r < 4; ++r)
       if (std::abs(left.m[r][c]) > std::abs(left.m[pivot][c])) pivot = r;
     if (left.m[pivot][c] == 0) return 0;
-    if (pivot != c) std::swap(left.m[pivot], left.m[c]), std::swap(right.m[pivot], right.m[c]), determinant = -determinant;
+    if (pivot != c)
+      std::swap(left.m[pivot], left.m[c]), std::swap(right.m[pivot], right.m[c]), determinant = -determinant;
     determinant *= left.m[c][c];
     const float by = 1 / left.m[c][c];
     for (int k = 0; k < 4; ++k) left.m[c][k] *= by, right.m[c][k] *= by;
@@ -100,7 +104,8 @@ inline Matrix scale(const Matrix& a, Vec3 s) {
 }
 inline Matrix rotate(const Matrix& a, float angle, Vec3 axis) {
   Matrix b;
-  const Vec3 rows[3] = {rotate(Vec3{1, 0, 0}, angle, {}, axis), rotate(Vec3{0, 1, 0}, angle, {}, axis), rotate(Vec3{0, 0, 1}, angle, {}, axis)};
+  const Vec3 rows[3] = {rotate(Vec3{1, 0, 0}, angle, {}, axis), rotate(Vec3{0, 1, 0}, angle, {}, axis),
+                        rotate(Vec3{0, 0, 1}, angle, {}, axis)};
   for (int i = 0; i < 3; ++i) b.m[i][0] = rows[i].x, b.m[i][1] = rows[i].y, b.m[i][2] = rows[i].z;
   return b * a;
 }
@@ -117,7 +122,8 @@ inline Vec3 transform(const Matrix& a, Vec3 p) {
 inline Vec3 ntransform(const Matrix& a, Vec3 n) {
   Matrix b;
   if (invert(a, &b) == 0) return {};
-  return {dot({b.m[0][0], b.m[0][1], b.m[0][2]}, n), dot({b.m[1][0], b.m[1][1], b.m[1][2]}, n), dot({b.m[2][0], b.m[2][1], b.m[2][2]}, n)};
+  return {dot({b.m[0][0], b.m[0][1], b.m[0][2]}, n), dot({b.m[1][0], b.m[1][1], b.m[1][2]}, n),
+          dot({b.m[2][0], b.m[2][1], b.m[2][2]}, n)};
 }
 
 // --- Colour
@@ -144,19 +150,24 @@ inline Color rgbFromHsl(Color c) {
 }
 /// Rec. 709 primaries, D65.
 inline Color xyzFromRgb(Color c) {
-  return {dot(c, {0.4123908f, 0.3575843f, 0.1804808f}), dot(c, {0.2126390f, 0.7151687f, 0.0721923f}), dot(c, {0.0193308f, 0.1191948f, 0.9505322f})};
+  return {dot(c, {0.4123908f, 0.3575843f, 0.1804808f}), dot(c, {0.2126390f, 0.7151687f, 0.0721923f}),
+          dot(c, {0.0193308f, 0.1191948f, 0.9505322f})};
 }
 inline Color rgbFromXyz(Color c) {
-  return {dot(c, {3.2409699f, -1.5373832f, -0.4986108f}), dot(c, {-0.9692436f, 1.8759675f, 0.0415551f}), dot(c, {0.0556301f, -0.2039770f, 1.0569715f})};
+  return {dot(c, {3.2409699f, -1.5373832f, -0.4986108f}), dot(c, {-0.9692436f, 1.8759675f, 0.0415551f}),
+          dot(c, {0.0556301f, -0.2039770f, 1.0569715f})};
 }
 inline Color xyYFromXyz(Color c) {
   const float sum = c.x + c.y + c.z;
   return sum != 0 ? Color{c.x / sum, c.y / sum, c.y} : Color{};
 }
-inline Color xyzFromXyY(Color c) { return c.y != 0 ? Color{c.x * c.z / c.y, c.z, (1 - c.x - c.y) * c.z / c.y} : Color{}; }
+inline Color xyzFromXyY(Color c) {
+  return c.y != 0 ? Color{c.x * c.z / c.y, c.z, (1 - c.x - c.y) * c.z / c.y} : Color{};
+}
 /// NTSC's.
 inline Color yiqFromRgb(Color c) {
-  return {dot(c, {0.299f, 0.587f, 0.114f}), dot(c, {0.595716f, -0.274453f, -0.321263f}), dot(c, {0.211456f, -0.522591f, 0.311135f})};
+  return {dot(c, {0.299f, 0.587f, 0.114f}), dot(c, {0.595716f, -0.274453f, -0.321263f}),
+          dot(c, {0.211456f, -0.522591f, 0.311135f})};
 }
 inline Color rgbFromYiq(Color c) {
   return {dot(c, {1, 0.9563f, 0.6210f}), dot(c, {1, -0.2721f, -0.6474f}), dot(c, {1, -1.1070f, 1.7046f})};

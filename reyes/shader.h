@@ -159,8 +159,7 @@ class Batch {
 
   /// P in a named space (current space where the name is unknown).
   Vec3Array positionsIn(const char* space) const {
-    return filled(
-        [&](TmVec3 out) { g->call->transform(g->host, g, TM_AS_POINT, "current", space, view(g->P), out); });
+    return filled([&](TmVec3 out) { g->call->transform(g->host, g, TM_AS_POINT, "current", space, view(g->P), out); });
   }
 
   /// A surface's result: radiance before opacity, and opacity.

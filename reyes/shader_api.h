@@ -17,10 +17,10 @@ extern "C" {
 #endif
 
 typedef struct TmShader {
-  uint32_t abi, structBytes;   /* TM_SHADER_ABI and sizeof(TmShader) of the plugin's header: checked before all else */
+  uint32_t abi, structBytes; /* TM_SHADER_ABI and sizeof(TmShader) of the plugin's header: checked before all else */
   const char* name;
-  int32_t kind;                /* TmKind */
-  uint32_t capabilities;       /* of TmCapability */
+  int32_t kind;          /* TmKind */
+  uint32_t capabilities; /* of TmCapability */
   const TmParamDecl* params;
   int32_t paramCount;
   void (*shade)(const TmGrid* grid);

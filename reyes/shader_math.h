@@ -18,16 +18,15 @@ inline Vec3 operator*(Vec3 a, float s) { return {a.x * s, a.y * s, a.z * s}; }
 inline Vec3 operator*(float s, Vec3 a) { return a * s; }
 inline Vec3 operator/(Vec3 a, float s) { return a * (1 / s); }
 inline float dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec3 cross(Vec3 a, Vec3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+inline Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 inline float length(Vec3 a) { return std::sqrt(dot(a, a)); }
 /// Zero stays zero, as in RSL.
 inline Vec3 normalize(Vec3 a) {
   const float l = length(a);
   return l > 0 ? a / l : Vec3{};
 }
-/// Two unit vectors across the unit vector n and each other (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
+/// Two unit vectors across the unit vector n and each other (Duff et al. 2017, "Building an Orthonormal Basis,
+/// Revisited").
 inline void orthonormalBasis(Vec3 n, Vec3& tangent, Vec3& bitangent) {
   const float sign = std::copysign(1.0f, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
   tangent = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
@@ -36,7 +35,8 @@ inline void orthonormalBasis(Vec3 n, Vec3& tangent, Vec3& bitangent) {
 /// RISpec faceforward with Nref = Ng: N on the side of the surface that I arrives at.
 inline Vec3 faceforward(Vec3 N, Vec3 I, Vec3 Ng) { return dot(I, Ng) > 0 ? -N : N; }
 inline Vec3 reflect(Vec3 I, Vec3 N) { return I - 2 * dot(I, N) * N; }
-/// I and N of unit length, N against I; eta: index of refraction before over behind. Total reflection: zero (RISpec 15.3).
+/// I and N of unit length, N against I; eta: index of refraction before over behind. Total reflection: zero
+/// (RISpec 15.3).
 inline Vec3 refract(Vec3 I, Vec3 N, float eta) {
   const float c = -dot(I, N), k = 1 - eta * eta * (1 - c * c);
   return k < 0 ? Vec3{} : eta * I + (eta * c - std::sqrt(k)) * N;
@@ -58,7 +58,8 @@ inline float smoothstep(float lo, float hi, float x) {
   return t * t * (3 - 2 * t);
 }
 
-/// Before a function of plain loops without branches: built for SSE2, AVX2 and AVX-512 and picked by CPU, with the same bits.
+/// Before a function of plain loops without branches: built for SSE2, AVX2 and AVX-512 and picked by CPU, with the same
+/// bits.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define RSL_HOT __attribute__((target_clones("avx512f", "avx2", "default")))
@@ -66,7 +67,8 @@ inline float smoothstep(float lo, float hi, float x) {
 #define RSL_HOT
 #endif
 #ifdef __GNUC__
-#define RSL_INLINE inline __attribute__((always_inline))  ///< Called in such loops: clones vectorise only what is part of them.
+#define RSL_INLINE \
+  inline __attribute__((always_inline))  ///< Called in such loops: clones vectorise only what is part of them.
 #else
 #define RSL_INLINE inline
 #endif

@@ -13,8 +13,11 @@ namespace rsl {
 /// same file.
 class Param {
  public:
-  Param(const char* name, int32_t type, std::vector<float> floats, std::vector<const char*> strings, const char* doc, int length = 1)
-      : floats_(std::move(floats)), strings_(std::move(strings)), decl_{name, type, length, floats_.data(), strings_.data(), doc} {}
+  Param(const char* name, int32_t type, std::vector<float> floats, std::vector<const char*> strings, const char* doc,
+        int length = 1)
+      : floats_(std::move(floats)),
+        strings_(std::move(strings)),
+        decl_{name, type, length, floats_.data(), strings_.data(), doc} {}
   Param(const Param&) = delete;
 
  protected:
@@ -40,7 +43,8 @@ class FloatParam : public Param {
 /// The same at all points, such as a number of rays: RSL's `uniform`. Primitive variables do not override it.
 class UniformFloatParam : public Param {
  public:
-  UniformFloatParam(const char* name, float value, const char* doc) : Param(name, TM_FLOAT | TM_UNIFORM, {value}, {}, doc) {}
+  UniformFloatParam(const char* name, float value, const char* doc)
+      : Param(name, TM_FLOAT | TM_UNIFORM, {value}, {}, doc) {}
   float operator()(const TmGrid* g) const { return value(g).c[0][0]; }
 };
 
@@ -60,8 +64,7 @@ using NormalParam = TripleParam<TM_NORMAL>;
 
 class StringParam : public Param {
  public:
-  StringParam(const char* name, const char* value, const char* doc)
-      : Param(name, TM_STRING, {}, {value}, doc) {}
+  StringParam(const char* name, const char* value, const char* doc) : Param(name, TM_STRING, {}, {value}, doc) {}
   const char* operator()(const TmGrid* g) const { return value(g).string; }
 };
 
@@ -69,12 +72,14 @@ class StringParam : public Param {
 
 class FloatArrayParam : public Param {
  public:
-  FloatArrayParam(const char* name, std::vector<float> values, const char* doc) : FloatArrayParam(name, values, int(values.size()), doc) {}
+  FloatArrayParam(const char* name, std::vector<float> values, const char* doc)
+      : FloatArrayParam(name, values, int(values.size()), doc) {}
   float operator()(const TmGrid* g, int element) const { return value(g).c[0][element]; }
   int length(const TmGrid* g) const { return value(g).length; }
 
  private:
-  FloatArrayParam(const char* name, const std::vector<float>& values, int length, const char* doc) : Param(name, TM_FLOAT, values, {}, doc, length) {}
+  FloatArrayParam(const char* name, const std::vector<float>& values, int length, const char* doc)
+      : Param(name, TM_FLOAT, values, {}, doc, length) {}
 };
 
 template <TmType type>
@@ -110,10 +115,12 @@ class StringArrayParam : public Param {
   int length(const TmGrid* g) const { return value(g).length; }
 };
 
-/// The identity unless given. 16 floats in RenderMan's order, from shader to current space; Matrix::of (reyes/shadeops.h) takes them.
+/// The identity unless given. 16 floats in RenderMan's order, from shader to current space; Matrix::of
+/// (reyes/shadeops.h) takes them.
 class MatrixParam : public Param {
  public:
-  MatrixParam(const char* name, const char* doc) : Param(name, TM_MATRIX, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, {}, doc) {}
+  MatrixParam(const char* name, const char* doc)
+      : Param(name, TM_MATRIX, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, {}, doc) {}
   const float* operator()(const TmGrid* g) const { return value(g).c[0]; }
 };
 

@@ -1,4 +1,5 @@
-/* What a batch of points is to a shader: arrays, declared parameters and their values. Part of reyes/shader_api.h; plain C. */
+/* What a batch of points is to a shader: arrays, declared parameters and their values. Part of reyes/shader_api.h;
+ * plain C. */
 #pragma once
 #include <stdint.h>
 
@@ -9,20 +10,24 @@ extern "C" {
 #define TM_SHADER_ABI 1u
 #define TM_LANES 16
 
-typedef struct TmVec3 { float *x, *y, *z; } TmVec3;                  /* structure of arrays, writable */
-typedef struct TmConstVec3 { const float *x, *y, *z; } TmConstVec3;  /* the same, read only */
+typedef struct TmVec3 {
+  float *x, *y, *z;
+} TmVec3; /* structure of arrays, writable */
+typedef struct TmConstVec3 {
+  const float *x, *y, *z;
+} TmConstVec3; /* the same, read only */
 
 typedef enum TmKind { TM_SURFACE = 0, TM_DISPLACEMENT = 1, TM_LIGHT = 2, TM_VOLUME = 3, TM_IMAGER = 4 } TmKind;
 typedef enum TmType { TM_FLOAT = 0, TM_COLOR, TM_POINT, TM_VECTOR, TM_NORMAL, TM_STRING, TM_MATRIX } TmType;
 
-/* Added to the type of a TmParamDecl: an output parameter, of float, color, point, vector or normal. Where a Display wants
- * the variable of this name, TmValue::step is 1 and c[k] may be written for active points (cast const away; a colour
- * premultiplied by opacity, as Ci is); elsewhere step is 0 and nothing may be written. */
+/* Added to the type of a TmParamDecl: an output parameter, of float, color, point, vector or normal. Where a Display
+ * wants the variable of this name, TmValue::step is 1 and c[k] may be written for active points (cast const away; a
+ * colour premultiplied by opacity, as Ci is); elsewhere step is 0 and nothing may be written. */
 #define TM_OUTPUT 0x100
-/* Likewise: a parameter that primitive variables of the same name do not override (the user is told), so TmValue::step is 0. For what a
- * whole batch must agree on: numbers of rays, names of sets. */
+/* Likewise: a parameter that primitive variables of the same name do not override (the user is told), so TmValue::step
+ * is 0. For what a whole batch must agree on: numbers of rays, names of sets. */
 #define TM_UNIFORM 0x200
-#define TM_TYPE_OF(declared) ((declared) & 0xff) /* the TmType alone */
+#define TM_TYPE_OF(declared) ((declared)&0xff) /* the TmType alone */
 
 /* What a shader declares about itself, so that the core shades no more than needed. */
 typedef enum TmCapability {
@@ -35,78 +40,81 @@ typedef enum TmCapability {
   TM_EMITS = 1 << 6,          /* surface: adds emitted radiance of its own, beside light that it reflects */
   TM_LIGHT_SAMPLED = 1 << 7,  /* light: asked for as many samples as its parameter `samples` says, with xi0 and xi1;
                                  Cl is the share of one sample */
-  TM_TRACES = 1 << 8,        /* surface, light, volume: calls trace(), gather(), occlusion() or transmission() */
-  TM_LIGHT_SKY = 1 << 9,     /* light, with TM_LIGHT_SOLAR: all around, at infinity. The host chooses L, by the brightness of the
-                                latitude-longitude picture that its parameter `map` names and by the cosine, parameter
-                                `samples` times; Cl is the radiance from there */
-  TM_DERIVATIVES = 1 << 10,   /* surface: looks pictures up at s, t or at primitive variables, or asks for derivatives of those:
-                                the host keeps how they change over a micropolygon */
-  TM_OCCLUDED = 1 << 12,      /* surface, light, with TM_TRACES: answers of occlusion() may be interpolated between records that are made
-                                before anything is shaded (TmRayOptions::maxVariation) */
-  TM_TRACES_HIGHLIGHTS = 1 << 14, /* surface, with TM_TRACES: asks for rays only where highlights are wanted, so that without them it looks
-                                the same from every side */
-  TM_EVEN = 1 << 13,          /* surface: under light that is the same from everywhere it looks the same wherever and from whichever side it is seen:
-                                its colour comes of Cs, Os and its parameters, not of places, coordinates or pictures. Photons ask it
-                                once, instead of at every hit */
-  TM_NEIGHBOURS = 1 << 11    /* surface: asks for derivatives of what it has computed, or looks pictures up at such places: the
-                                host shades four points around each point as well, so that differences are centred. The batch
-                                holds them after the points themselves; light and rays are asked for the points alone */
+  TM_TRACES = 1 << 8,         /* surface, light, volume: calls trace(), gather(), occlusion() or transmission() */
+  TM_LIGHT_SKY = 1 << 9, /* light, with TM_LIGHT_SOLAR: all around, at infinity. The host chooses L, by the brightness
+                            of the latitude-longitude picture that its parameter `map` names and by the cosine,
+                            parameter `samples` times; Cl is the radiance from there */
+  TM_DERIVATIVES = 1 << 10, /* surface: looks pictures up at s, t or at primitive variables, or asks for derivatives of
+                              those: the host keeps how they change over a micropolygon */
+  TM_OCCLUDED = 1 << 12, /* surface, light, with TM_TRACES: answers of occlusion() may be interpolated between records
+                           that are made before anything is shaded (TmRayOptions::maxVariation) */
+  TM_TRACES_HIGHLIGHTS = 1 << 14, /* surface, with TM_TRACES: asks for rays only where highlights are wanted, so that
+                                without them it looks the same from every side */
+  TM_EVEN = 1 << 13, /* surface: under light that is the same from everywhere it looks the same wherever and from
+                       whichever side it is seen: its colour comes of Cs, Os and its parameters, not of places,
+                       coordinates or pictures. Photons ask it once, instead of at every hit */
+  TM_NEIGHBOURS =
+      1 << 11 /* surface: asks for derivatives of what it has computed, or looks pictures up at such places: the
+                 host shades four points around each point as well, so that differences are centred. The batch
+                 holds them after the points themselves; light and rays are asked for the points alone */
 } TmCapability;
 
 /* One declared parameter. Points, vectors, normals and matrices are given in shader space and arrive in current. */
 typedef struct TmParamDecl {
   const char* name;
-  int32_t type;                /* TmType, and TM_OUTPUT or TM_UNIFORM */
-  int32_t arrayLength;         /* 1 for a single value */
-  const float* floats;         /* the default, arrayLength values; NULL is all zero */
-  const char* const* strings;  /* the default of a string parameter, arrayLength of them */
-  const char* doc;             /* one line for `tomales info` */
+  int32_t type;               /* TmType, and TM_OUTPUT or TM_UNIFORM */
+  int32_t arrayLength;        /* 1 for a single value */
+  const float* floats;        /* the default, arrayLength values; NULL is all zero */
+  const char* const* strings; /* the default of a string parameter, arrayLength of them */
+  const char* doc;            /* one line for `tomales info` */
 } TmParamDecl;
 
 /* One bound parameter: component k of point i is c[k][i * step]. step 0: uniform; 1: varying (a primitive
- * variable of the same name overrides the parameter). Arrays are uniform: element e of component k is c[k][e * components], and
- * matrices are 16 floats of c[0] in RenderMan's order (points are rows, the translation comes last). */
+ * variable of the same name overrides the parameter). Arrays are uniform: element e of component k is c[k][e *
+ * components], and matrices are 16 floats of c[0] in RenderMan's order (points are rows, the translation comes last).
+ */
 typedef struct TmValue {
   const float* c[3];
   int32_t step;
-  int32_t length;              /* array length */
-  const char* string;          /* never NULL for a string parameter; the elements of an array follow each other, each ended by 0 */
+  int32_t length; /* array length */
+  const char*
+      string; /* never NULL for a string parameter; the elements of an array follow each other, each ended by 0 */
 } TmValue;
 
 struct TmServices;
 
 typedef struct TmGrid {
   uint32_t structBytes;
-  int32_t count, padded;       /* live points; length of every array, a multiple of TM_LANES */
-  const uint8_t* active;       /* 1: this point wants a result */
-  const TmValue* params;       /* in the order of TmShader::params */
+  int32_t count, padded; /* live points; length of every array, a multiple of TM_LANES */
+  const uint8_t* active; /* 1: this point wants a result */
+  const TmValue* params; /* in the order of TmShader::params */
   const struct TmServices* call;
-  void* host;                  /* pass it to every service */
+  void* host; /* pass it to every service */
 
-  TmVec3 P, N;                 /* position and shading normal (not normalised); a displacement may write both */
-  TmConstVec3 Ng, I;           /* geometric normal; incident direction, from the eye or ray origin to P */
+  TmVec3 P, N;       /* position and shading normal (not normalised); a displacement may write both */
+  TmConstVec3 Ng, I; /* geometric normal; incident direction, from the eye or ray origin to P */
   TmConstVec3 dPdu, dPdv;
   const float *u, *v, *s, *t, *du, *dv;
   TmConstVec3 Cs, Os;
-  TmVec3 Ci, Oi;               /* surface, volume, imager: the result, premultiplied by opacity */
-  float E[3];                  /* the eye, current space */
+  TmVec3 Ci, Oi; /* surface, volume, imager: the result, premultiplied by opacity */
+  float E[3];    /* the eye, current space */
   float time;
 
   /* Light shaders alone. P and N above are the point being lit (RSL's Ps) and its normal. */
-  int32_t sample, samples;     /* which of how many samples of this light */
-  TmVec3 L;                    /* out (area: in): from P towards the light; its length is the distance for shadows */
-  TmVec3 Cl;                   /* out: light colour arriving at P, whole light (host divides area samples) */
-  TmConstVec3 Pl, Nl;          /* area: sampled point on the emitter and its RISpec normal, unit length */
+  int32_t sample, samples; /* which of how many samples of this light */
+  TmVec3 L;                /* out (area: in): from P towards the light; its length is the distance for shadows */
+  TmVec3 Cl;               /* out: light colour arriving at P, whole light (host divides area samples) */
+  TmConstVec3 Pl, Nl;      /* area: sampled point on the emitter and its RISpec normal, unit length */
 
   /* Imager shaders alone: alpha of the pixel, in and out. */
   float* alpha;
 
   /* Lights with TM_LIGHT_SAMPLED alone: a point of [0,1)^2; those of all samples of a point are stratified. */
   const float *xi0, *xi1;
-  float clip[2];               /* camera-space depths of the near and far clipping planes */
+  float clip[2]; /* camera-space depths of the near and far clipping planes */
 
-  float dtime;                 /* how long the shutter is open */
-  TmConstVec3 dPdtime;         /* surface: where P goes per unit of time; 0 where nothing moves */
+  float dtime;         /* how long the shutter is open */
+  TmConstVec3 dPdtime; /* surface: where P goes per unit of time; 0 where nothing moves */
 } TmGrid;
 
 #ifdef __cplusplus

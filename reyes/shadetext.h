@@ -31,10 +31,13 @@ inline std::string written(const Matrix& m) {
 }  // namespace text_detail
 
 template <class... Parts>
-std::string concat(const Parts&... parts) { return (std::string() + ... + parts); }
+std::string concat(const Parts&... parts) {
+  return (std::string() + ... + parts);
+}
 
-/// %f a float, %d a whole number, %c a colour, %p a point, vector or normal, %m a matrix, %s a string: numbers are separated by spaces and
-/// written by what they are, whichever letter asks. %% is one. What has no value stays as it is.
+/// %f a float, %d a whole number, %c a colour, %p a point, vector or normal, %m a matrix, %s a string: numbers are
+/// separated by spaces and written by what they are, whichever letter asks. %% is one. What has no value stays as it
+/// is.
 inline std::string format(const std::string& pattern) {
   std::string out;
   for (size_t i = 0; i < pattern.size(); ++i) {
@@ -47,7 +50,8 @@ template <class First, class... Rest>
 std::string format(const std::string& pattern, const First& first, const Rest&... rest) {
   for (size_t i = 0; i + 1 < pattern.size(); ++i) {
     if (pattern[i] != '%') continue;
-    if (pattern[i + 1] != '%') return format(pattern.substr(0, i)) + text_detail::written(first) + format(pattern.substr(i + 2), rest...);
+    if (pattern[i + 1] != '%')
+      return format(pattern.substr(0, i)) + text_detail::written(first) + format(pattern.substr(i + 2), rest...);
     ++i;
   }
   return format(pattern);

@@ -1,6 +1,6 @@
-// RSL's wnoise: wavelet noise (R. Cook, T. DeRose 2005, "Wavelet Noise"), a single band of frequencies, so that what is finer than a pixel can be left
-// out without taking away what is not. The same bits on every machine: integer hashes and IEEE arithmetic alone. A table of 1 MB is made at
-// the first use.
+// RSL's wnoise: wavelet noise (R. Cook, T. DeRose 2005, "Wavelet Noise"), a single band of frequencies, so that what is
+// finer than a pixel can be left out without taking away what is not. The same bits on every machine: integer hashes
+// and IEEE arithmetic alone. A table of 1 MB is made at the first use.
 #pragma once
 #include <vector>
 
@@ -29,7 +29,8 @@ class WaveletTile {
     for (int k = -1; k <= 1; ++k)
       for (int j = -1; j <= 1; ++j)
         for (int i = -1; i <= 1; ++i)
-          sum += weight[0][i + 1] * weight[1][j + 1] * weight[2][k + 1] * coefficients_[index(middle[0] + i, middle[1] + j, middle[2] + k)];
+          sum += weight[0][i + 1] * weight[1][j + 1] * weight[2][k + 1] *
+                 coefficients_[index(middle[0] + i, middle[1] + j, middle[2] + k)];
     return sum;
   }
 
@@ -55,7 +56,8 @@ class WaveletTile {
     for (int z = 0; z < kSize; z += 2)
       for (int y = 0; y < kSize; y += 2)
         for (int x = 0; x < kSize; x += 2) {
-          const double w = (*this)({static_cast<float>(x) + 0.3f, static_cast<float>(y) + 0.6f, static_cast<float>(z) + 0.1f});
+          const double w =
+              (*this)({static_cast<float>(x) + 0.3f, static_cast<float>(y) + 0.6f, static_cast<float>(z) + 0.1f});
           squares += w * w;
         }
     const double deviation = std::sqrt(squares * 8 / (static_cast<double>(kSize) * kSize * kSize));
@@ -72,12 +74,15 @@ class WaveletTile {
   /// One row: down to half the resolution and up again.
   static void leaveCoarse(std::vector<float>& values, int axis, int a, int b) {
     // The analysis filter that belongs to quadratic B-splines (appendix 1).
-    static const float down[32] = {0.000334f,  -0.001528f, 0.000410f,  0.003545f,  -0.000938f, -0.008233f, 0.002172f,  0.019120f,
-                                   -0.005040f, -0.044412f, 0.011655f,  0.103311f,  -0.025936f, -0.243780f, 0.033979f,  0.655340f,
-                                   0.655340f,  0.033979f,  -0.243780f, -0.025936f, 0.103311f,  0.011655f,  -0.044412f, -0.005040f,
-                                   0.019120f,  0.002172f,  -0.008233f, -0.000938f, 0.003546f,  0.000410f,  -0.001528f, 0.000334f};
+    static const float down[32] = {0.000334f, -0.001528f, 0.000410f,  0.003545f, -0.000938f, -0.008233f, 0.002172f,
+                                   0.019120f, -0.005040f, -0.044412f, 0.011655f, 0.103311f,  -0.025936f, -0.243780f,
+                                   0.033979f, 0.655340f,  0.655340f,  0.033979f, -0.243780f, -0.025936f, 0.103311f,
+                                   0.011655f, -0.044412f, -0.005040f, 0.019120f, 0.002172f,  -0.008233f, -0.000938f,
+                                   0.003546f, 0.000410f,  -0.001528f, 0.000334f};
     static const float up[4] = {0.25f, 0.75f, 0.75f, 0.25f};
-    const auto at = [&](int i) -> float& { return values[axis == 0 ? index(i, a, b) : axis == 1 ? index(a, i, b) : index(a, b, i)]; };
+    const auto at = [&](int i) -> float& {
+      return values[axis == 0 ? index(i, a, b) : axis == 1 ? index(a, i, b) : index(a, b, i)];
+    };
     float half[kSize / 2];
     for (int i = 0; i < kSize / 2; ++i) {
       half[i] = 0;
@@ -92,7 +97,8 @@ class WaveletTile {
   std::vector<float> coefficients_;
 };
 
-/// In [0, 1], mean 1/2, deviation 1/6. What of it is finer than `width`, the distance to the next point, fades to its mean.
+/// In [0, 1], mean 1/2, deviation 1/6. What of it is finer than `width`, the distance to the next point, fades to its
+/// mean.
 inline float wnoise(Vec3 p, float width = 0) {
   const float seen = 1 - smoothstep(0.5f, 1, width);  // the band ends at one wave a unit
   return clamp(0.5f + seen / 6 * (seen > 0 ? WaveletTile::get()(p) : 0), 0, 1);

@@ -1,9 +1,10 @@
 // Shaders that read like RSL: values of a whole batch at once, with masks (reyes/sl_values.h), shadeops
-// (sl_shadeops.h) and services (sl_services.h, sl_pictures.h, sl_light.h, sl_clouds.h). What a compiler from RSL would emit.
-//   struct matte : sl::Surface { void main() { Normal Nf = faceforward(normalize(N), I);  Oi = Os;  Ci = Os * Cs * diffuse(Nf); } };
-//   const rsl::Shader shader(TM_SURFACE, "matte", "doc", TM_KEEPS_OPACITY, sl::shade<matte>, {});
-// Declarations take all points; assignments (=, +=) only those of the conditionals and loops around them, and so do services.
-// Threads: a value belongs to the thread and the run of a shader that made it.
+// (sl_shadeops.h) and services (sl_services.h, sl_pictures.h, sl_light.h, sl_clouds.h). What a compiler from RSL would
+// emit.
+//   struct matte : sl::Surface { void main() { Normal Nf = faceforward(normalize(N), I);  Oi = Os;  Ci = Os * Cs *
+//   diffuse(Nf); } }; const rsl::Shader shader(TM_SURFACE, "matte", "doc", TM_KEEPS_OPACITY, sl::shade<matte>, {});
+// Declarations take all points; assignments (=, +=) only those of the conditionals and loops around them, and so do
+// services. Threads: a value belongs to the thread and the run of a shader that made it.
 #pragma once
 #include <type_traits>
 
@@ -26,9 +27,11 @@ struct Globals {
   static constexpr int ncomps = 3;
 
   // RSL's names that a C++ program may have given away already. `out` may be a Float, Triple, Matrix or std::string.
-#define SL_ASK(function, whom) \
-  template <class T>           \
-  static bool function(const char* name, T& out) { return ask(whom, name, out); }
+#define SL_ASK(function, whom)                     \
+  template <class T>                               \
+  static bool function(const char* name, T& out) { \
+    return ask(whom, name, out);                   \
+  }
   SL_ASK(surface, TM_OF_SURFACE)
   SL_ASK(displacement, TM_OF_DISPLACEMENT)
   SL_ASK(atmosphere, TM_OF_ATMOSPHERE)
@@ -41,10 +44,14 @@ struct Globals {
   static Float random() { return randomNumber(); }
   static Float randomgrid() { return randomGrid(); }
   template <class... Values>
-  static void printf(const std::string& pattern, const Values&... values) { print(pattern, values...); }
+  static void printf(const std::string& pattern, const Values&... values) {
+    print(pattern, values...);
+  }
 
  protected:
-  static void store(const Triple& from, TmVec3 to) { forActive([&](int i) { rsl::set(to, i, from[i]); }); }
+  static void store(const Triple& from, TmVec3 to) {
+    forActive([&](int i) { rsl::set(to, i, from[i]); });
+  }
 };
 
 /// Shaders that ask what light arrives.
@@ -53,10 +60,12 @@ struct Lit : Globals {
   Color Cl;
   int lightNumber = -1;  ///< Its number, for ask(TM_OF_LIGHT, ...).
 
-  /// RSL illuminance(): `body` once for each sample of each light, for the points that it reaches at p and that see it in the cone of half
-  /// angle `angle` around the axis (a number, or one for each point); without axis from all sides. Lists are made by lights().
+  /// RSL illuminance(): `body` once for each sample of each light, for the points that it reaches at p and that see it
+  /// in the cone of half angle `angle` around the axis (a number, or one for each point); without axis from all sides.
+  /// Lists are made by lights().
   template <class Angle, class Body>
-  void illuminance(const char* category, const Point& p, const Vector& axis, const Angle& angle, const LightList& list, const Body& body) {
+  void illuminance(const char* category, const Point& p, const Vector& axis, const Angle& angle, const LightList& list,
+                   const Body& body) {
     const Vector around = axis;
     TmIlluminance query = question(category);
     query.axis = around;
@@ -74,17 +83,29 @@ struct Lit : Globals {
     illuminance(category, p, axis, angle, LightList(), body);
   }
   template <class Angle, class Body>
-  void illuminance(const Point& p, const Vector& axis, const Angle& angle, const Body& body) { illuminance("", p, axis, angle, body); }
+  void illuminance(const Point& p, const Vector& axis, const Angle& angle, const Body& body) {
+    illuminance("", p, axis, angle, body);
+  }
   template <class Angle, class Body>
-  void illuminance(const Point& p, const Vector& axis, const Angle& angle, const LightList& list, const Body& body) { illuminance("", p, axis, angle, list, body); }
+  void illuminance(const Point& p, const Vector& axis, const Angle& angle, const LightList& list, const Body& body) {
+    illuminance("", p, axis, angle, list, body);
+  }
   template <class Body>
-  void illuminance(const char* category, const Point& p, const LightList& list, const Body& body) { forEachSample(question(category), p, list, body); }
+  void illuminance(const char* category, const Point& p, const LightList& list, const Body& body) {
+    forEachSample(question(category), p, list, body);
+  }
   template <class Body>
-  void illuminance(const Point& p, const LightList& list, const Body& body) { illuminance("", p, list, body); }
+  void illuminance(const Point& p, const LightList& list, const Body& body) {
+    illuminance("", p, list, body);
+  }
   template <class Body>
-  void illuminance(const char* category, const Point& p, const Body& body) { illuminance(category, p, LightList(), body); }
+  void illuminance(const char* category, const Point& p, const Body& body) {
+    illuminance(category, p, LightList(), body);
+  }
   template <class Body>
-  void illuminance(const Point& p, const Body& body) { illuminance("", p, body); }
+  void illuminance(const Point& p, const Body& body) {
+    illuminance("", p, body);
+  }
 
  private:
   static TmIlluminance question(const char* category) {
@@ -101,14 +122,18 @@ struct Lit : Globals {
     while (grid()->call->illuminance(grid()->host, grid(), &query))
       sl::where(query.lit, true, [&] {
         L = Vector(query.L), Cl = Color(query.Cl), lightNumber = query.light;
-        for (const LightList::Wanted& w : list.wanted) w.number ? lightsource(lightNumber, w.name.c_str(), *w.number) : lightsource(lightNumber, w.name.c_str(), *w.triple);
+        for (const LightList::Wanted& w : list.wanted)
+          w.number ? lightsource(lightNumber, w.name.c_str(), *w.number)
+                   : lightsource(lightNumber, w.name.c_str(), *w.triple);
         body();
       });
   }
 };
 /// Of illuminance(): lights("lightcache", "refresh", "send:light:NAME", value, "light:NAME", &out, ...).
 template <class... List>
-LightList lights(const List&... list) { return listed(LightList(), list...); }
+LightList lights(const List&... list) {
+  return listed(LightList(), list...);
+}
 
 struct Surface : Lit {
   Color Ci, Oi;
@@ -130,7 +155,8 @@ struct Light : Globals {
     if (ofArea()) P = Point(grid()->Pl), N = Normal(grid()->Nl);
   }
   Point Ps{rsl::view(grid()->P)};
-  Vector L{-Vector(rsl::view(grid()->L))};  ///< From the light to Ps, in illuminate() and solar(); of area lights and skies, whose it is, always.
+  Vector L{-Vector(rsl::view(grid()->L))};  ///< From the light to Ps, in illuminate() and solar(); of area lights and
+                                            ///< skies, whose it is, always.
   Color Cl;
 
   /// RSL illuminate(): `body` for the points in the cone (half angle); the others get no light.
@@ -159,7 +185,9 @@ struct Light : Globals {
   }
   /// From all around; with TM_LIGHT_SKY, whose L the renderer chooses.
   template <class Body>
-  void solar(const Body& body) { body(); }
+  void solar(const Body& body) {
+    body();
+  }
   void store() const {
     if (!ofArea()) Globals::store(-L, grid()->L);
     Globals::store(Cl, grid()->Cl);
@@ -170,7 +198,8 @@ struct Light : Globals {
   static Vector inCone(const Vector& axis, float angle) {
     return Vector::of([&](int i) {
       const int k = std::min(i, grid()->count - 1);
-      const float z = 1 - grid()->xi0[k] * (1 - std::cos(angle)), r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * float(rsl::kPi) * grid()->xi1[k];
+      const float z = 1 - grid()->xi0[k] * (1 - std::cos(angle)), r = std::sqrt(std::max(0.0f, 1 - z * z)),
+                  phi = 2 * float(rsl::kPi) * grid()->xi1[k];
       const rsl::Vec3 n = rsl::normalize(axis[i]);
       rsl::Vec3 tangent, bitangent;
       rsl::orthonormalBasis(n, tangent, bitangent);

@@ -11,26 +11,31 @@ struct Channel {
   TmCloudValue value;
 };
 inline TmCloudLookup cloudLookup() { return TM_CLOUD_DEFAULTS; }
-inline bool bake3d(const char* file, const Point& p, const Normal& n, const std::vector<Channel>& channels, const TmCloudLookup& options = cloudLookup()) {
+inline bool bake3d(const char* file, const Point& p, const Normal& n, const std::vector<Channel>& channels,
+                   const TmCloudLookup& options = cloudLookup()) {
   std::vector<TmCloudValue> values;
   for (const Channel& c : channels) values.push_back(c.value);
   return grid()->call->bake3d(grid()->host, grid(), file, p, n, &options, values.data(), int32_t(values.size())) != 0;
 }
 template <class... List>
-bool bake3d(const char* file, const Point& p, const Normal& n, const std::vector<Channel>& channels, const char* first, const List&... list) {
+bool bake3d(const char* file, const Point& p, const Normal& n, const std::vector<Channel>& channels, const char* first,
+            const List&... list) {
   const CloudList all = listed(CloudList(), first, list...);
   return bake3d(file, p, n, channels, all.options());
 }
 /// 1 where the file has data, which the channels then hold.
-inline Float texture3d(const char* file, const Point& p, const Normal& n, const std::vector<Channel>& channels, const TmCloudLookup& options = cloudLookup()) {
+inline Float texture3d(const char* file, const Point& p, const Normal& n, const std::vector<Channel>& channels,
+                       const TmCloudLookup& options = cloudLookup()) {
   std::vector<TmCloudValue> values;
   for (const Channel& c : channels) values.push_back(c.value);
   Float found;
-  grid()->call->texture3d(grid()->host, grid(), file, p, n, &options, values.data(), int32_t(values.size()), found.data());
+  grid()->call->texture3d(grid()->host, grid(), file, p, n, &options, values.data(), int32_t(values.size()),
+                          found.data());
   return found;
 }
 template <class... List>
-Float texture3d(const char* file, const Point& p, const Normal& n, const std::vector<Channel>& channels, const char* first, const List&... list) {
+Float texture3d(const char* file, const Point& p, const Normal& n, const std::vector<Channel>& channels,
+                const char* first, const List&... list) {
   const CloudList all = listed(CloudList(), first, list...);
   return texture3d(file, p, n, channels, all.options());
 }
@@ -54,8 +59,8 @@ inline Color caustic(const Point& p, const Normal& n) {
   const std::string file = askText(TM_OF_ATTRIBUTES, "photon:causticmap");
   return file.empty() ? Color() : photonmap(file.c_str(), p, n);
 }
-/// Light that was baked as "_radiance_t" with "_area", where it leaves after diffusion: of the material of the list, else of marble. E/pi. The
-/// approximation does not look at the normal.
+/// Light that was baked as "_radiance_t" with "_area", where it leaves after diffusion: of the material of the list,
+/// else of marble. E/pi. The approximation does not look at the normal.
 template <class... List>
 Color subsurface(const Point& p, const Normal&, const char* file, const List&... list) {
   const TmSubsurface material = listed(TmSubsurface(TM_SUBSURFACE_DEFAULTS), list...);

@@ -27,7 +27,8 @@ inline Color phong(const Normal& n, const Vector& v, const Float& size) {
   }
   return sum;
 }
-/// What specular() divides by the roughness to get its exponent, as Option "shade" "specular" says (docs/decisions/0004).
+/// What specular() divides by the roughness to get its exponent, as Option "shade" "specular" says
+/// (docs/decisions/0004).
 inline float specularScale() {
   float& scale = Run::now().specularScale;
   if (scale == 0) scale = askText(TM_OF_OPTIONS, "shade:specular") == "rispec" ? 1 : 8;
@@ -48,7 +49,9 @@ inline Color trace(const Point& p, const Vector& r, const TmRayOptions& options 
   return tripleFrom([&](TmVec3 out) { grid()->call->trace(grid()->host, grid(), p, r, &options, out, nullptr); });
 }
 template <class... List>
-Color trace(const Point& p, const Vector& r, const char* first, const List&... list) { return trace(p, r, listed(rsl::defaultRays(), first, list...)); }
+Color trace(const Point& p, const Vector& r, const char* first, const List&... list) {
+  return trace(p, r, listed(rsl::defaultRays(), first, list...));
+}
 /// RSL's float trace(): how far the ray goes, 1e30 where it meets nothing.
 inline Float traceDistance(const Point& p, const Vector& r, const TmRayOptions& options = rsl::defaultRays()) {
   Float out;
@@ -56,17 +59,22 @@ inline Float traceDistance(const Point& p, const Vector& r, const TmRayOptions& 
   return out;
 }
 template <class... List>
-Float traceDistance(const Point& p, const Vector& r, const char* first, const List&... list) { return traceDistance(p, r, listed(rsl::defaultRays(), first, list...)); }
+Float traceDistance(const Point& p, const Vector& r, const char* first, const List&... list) {
+  return traceDistance(p, r, listed(rsl::defaultRays(), first, list...));
+}
 inline Color transmission(const Point& from, const Point& to, const TmRayOptions& options = rsl::defaultRays()) {
-  return tripleFrom([&](TmVec3 out) { grid()->call->transmissionWith(grid()->host, grid(), from, to - from, &options, out); });
+  return tripleFrom(
+      [&](TmVec3 out) { grid()->call->transmissionWith(grid()->host, grid(), from, to - from, &options, out); });
 }
 template <class... List>
 Color transmission(const Point& from, const Point& to, const char* first, const List&... list) {
   return transmission(from, to, listed(rsl::defaultRays(), first, list...));
 }
-inline void hemisphere(const Point& p, const Normal& n, int samples, const HemisphereList& list, Float* covered, Triple* radiance) {
+inline void hemisphere(const Point& p, const Normal& n, int samples, const HemisphereList& list, Float* covered,
+                       Triple* radiance) {
   const auto of = [](Triple* t) { return t ? t->out() : TmVec3{}; };
-  const TmHemisphere out{sizeof(TmHemisphere), covered ? covered->data() : nullptr, of(radiance), of(list.environmentColor), of(list.environmentDirection)};
+  const TmHemisphere out{sizeof(TmHemisphere), covered ? covered->data() : nullptr, of(radiance),
+                         of(list.environmentColor), of(list.environmentDirection)};
   const TmRayOptions options = list.options(samples);
   grid()->call->hemisphere(grid()->host, grid(), p, n, &options, &out);
 }
@@ -86,7 +94,9 @@ Color indirectdiffuse(const Point& p, const Normal& n, int samples, const List&.
 }
 /// Its old name.
 template <class... List>
-Color indirect(const Point& p, const Normal& n, int samples, const List&... list) { return indirectdiffuse(p, n, samples, list...); }
+Color indirect(const Point& p, const Normal& n, int samples, const List&... list) {
+  return indirectdiffuse(p, n, samples, list...);
+}
 
 /// One value of each hit, by its gather() name.
 struct Gathered {
@@ -101,12 +111,13 @@ TmRayOptions rays(const List&... list) {
   even.uniform = 1;
   return listed(even, list...);
 }
-/// category: "illuminance" (or ""): rays are traced; "samplepattern": they are not, and all miss; "environment:NAME": nor are they, but leave by the
-/// light of that picture, whatever direction and angle, with "environment:color", "environment:direction" and "environment:solidangle" (the sum of color
-/// times solid angle over all is the light of the whole picture).
+/// category: "illuminance" (or ""): rays are traced; "samplepattern": they are not, and all miss; "environment:NAME":
+/// nor are they, but leave by the light of that picture, whatever direction and angle, with "environment:color",
+/// "environment:direction" and "environment:solidangle" (the sum of color times solid angle over all is the light of
+/// the whole picture).
 template <class Hit, class Miss>
-void gather(const char* category, const Point& p, const Vector& direction, float angle, int samples, const TmRayOptions& list,
-            std::initializer_list<Gathered> wanted, const Hit& hit, const Miss& miss) {
+void gather(const char* category, const Point& p, const Vector& direction, float angle, int samples,
+            const TmRayOptions& list, std::initializer_list<Gathered> wanted, const Hit& hit, const Miss& miss) {
   TmRayOptions options = list;
   options.samples = samples, options.coneAngle = angle;
   constexpr std::string_view kEnvironment = "environment:";
@@ -120,13 +131,16 @@ void gather(const char* category, const Point& p, const Vector& direction, float
   std::vector<TmRayOutput> outputs;
   for (const Gathered& w : wanted) outputs.push_back(w.output);
   std::vector<uint8_t> met(static_cast<size_t>(grid()->padded));
-  for (int ray = 0; grid()->call->gather(grid()->host, grid(), p, direction, &options, ray, met.data(), outputs.data(), int32_t(outputs.size())); ++ray) {
+  for (int ray = 0; grid()->call->gather(grid()->host, grid(), p, direction, &options, ray, met.data(), outputs.data(),
+                                         int32_t(outputs.size()));
+       ++ray) {
     where(met.data(), true, hit);
     where(met.data(), false, miss);
   }
 }
 template <class Hit, class Miss>
-void gather(const Point& p, const Vector& direction, float angle, int samples, std::initializer_list<Gathered> wanted, const Hit& hit, const Miss& miss) {
+void gather(const Point& p, const Vector& direction, float angle, int samples, std::initializer_list<Gathered> wanted,
+            const Hit& hit, const Miss& miss) {
   gather("", p, direction, angle, samples, rays(), wanted, hit, miss);
 }
 

@@ -6,14 +6,19 @@ namespace sl {
 
 inline TmTextureLookup lookup() { return TM_TEXTURE_DEFAULTS; }
 inline Triple texture(const char* name, const Float& s, const Float& t, const TmTextureLookup& options = lookup()) {
-  return tripleFrom([&](TmVec3 out) { grid()->call->textureWith(grid()->host, grid(), name, &options, s.data(), t.data(), out); });
+  return tripleFrom(
+      [&](TmVec3 out) { grid()->call->textureWith(grid()->host, grid(), name, &options, s.data(), t.data(), out); });
 }
 inline Triple texture(const char* name) { return texture(name, Float(grid()->s), Float(grid()->t)); }
 /// With a list, which begins with a name.
 template <class... List>
-Triple texture(const char* name, const Float& s, const Float& t, const char* first, const List&... list) { return texture(name, s, t, listed(lookup(), first, list...)); }
+Triple texture(const char* name, const Float& s, const Float& t, const char* first, const List&... list) {
+  return texture(name, s, t, listed(lookup(), first, list...));
+}
 template <class... List>
-Triple texture(const char* name, const char* first, const List&... list) { return texture(name, Float(grid()->s), Float(grid()->t), first, list...); }
+Triple texture(const char* name, const char* first, const List&... list) {
+  return texture(name, Float(grid()->s), Float(grid()->t), first, list...);
+}
 /// One channel.
 template <class... List>
 Float ftexture(const char* name, int channel, const Float& s, const Float& t, const List&... list) {
@@ -23,14 +28,18 @@ Float ftexture(const char* name, int channel, const Float& s, const Float& t, co
   grid()->call->textureWith(grid()->host, grid(), name, &one, s.data(), t.data(), {out.data(), nullptr, nullptr});
   return out;
 }
-/// RSL's texture(name, s1, t1, ... s4, t4): over the quadrilateral whose corners go round as a bilinear patch's, s1 and s4 opposite.
-inline Triple texture(const char* name, const Float (&s)[4], const Float (&t)[4], const TmTextureLookup& options = lookup()) {
-  const auto middle = [](const Float (&x)[4]) { return 0.25 * (x[0] + x[1] + x[2] + x[3]); };
-  const auto along = [](const Float (&x)[4]) { return 0.5 * (x[1] - x[0] + x[3] - x[2]); };
-  const auto across = [](const Float (&x)[4]) { return 0.5 * (x[2] - x[0] + x[3] - x[1]); };
+/// RSL's texture(name, s1, t1, ... s4, t4): over the quadrilateral whose corners go round as a bilinear patch's, s1 and
+/// s4 opposite.
+inline Triple texture(const char* name, const Float (&s)[4], const Float (&t)[4],
+                      const TmTextureLookup& options = lookup()) {
+  const auto middle = [](const Float(&x)[4]) { return 0.25 * (x[0] + x[1] + x[2] + x[3]); };
+  const auto along = [](const Float(&x)[4]) { return 0.5 * (x[1] - x[0] + x[3] - x[2]); };
+  const auto across = [](const Float(&x)[4]) { return 0.5 * (x[2] - x[0] + x[3] - x[1]); };
   const Float sides[4] = {along(s), along(t), across(s), across(t)}, s0 = middle(s), t0 = middle(t);
   const float* steps[4] = {sides[0].data(), sides[1].data(), sides[2].data(), sides[3].data()};
-  return tripleFrom([&](TmVec3 out) { grid()->call->textureOver(grid()->host, grid(), name, &options, s0.data(), t0.data(), steps, out); });
+  return tripleFrom([&](TmVec3 out) {
+    grid()->call->textureOver(grid()->host, grid(), name, &options, s0.data(), t0.data(), steps, out);
+  });
 }
 /// What texture() may look up instead of a micropolygon: RSL's filterregion.
 struct FilterRegion {
@@ -49,13 +58,17 @@ template <class... List>
 Triple texture(const char* name, const FilterRegion& over, const List&... list) {
   const TmTextureLookup options = listed(lookup(), list...);
   const float* steps[4] = {over.sides[0].data(), over.sides[1].data(), over.sides[2].data(), over.sides[3].data()};
-  return tripleFrom([&](TmVec3 out) { grid()->call->textureOver(grid()->host, grid(), name, &options, over.s.data(), over.t.data(), steps, out); });
+  return tripleFrom([&](TmVec3 out) {
+    grid()->call->textureOver(grid()->host, grid(), name, &options, over.s.data(), over.t.data(), steps, out);
+  });
 }
 inline Triple environment(const char* name, const Triple& R, const TmTextureLookup& options = lookup()) {
   return tripleFrom([&](TmVec3 out) { grid()->call->environmentWith(grid()->host, grid(), name, &options, R, out); });
 }
 template <class... List>
-Triple environment(const char* name, const Triple& R, const char* first, const List&... list) { return environment(name, R, listed(lookup(), first, list...)); }
+Triple environment(const char* name, const Triple& R, const char* first, const List&... list) {
+  return environment(name, R, listed(lookup(), first, list...));
+}
 /// One channel.
 template <class... List>
 Float fenvironment(const char* name, int channel, const Triple& R, const List&... list) {
@@ -69,19 +82,24 @@ inline Triple environment(const char* name, const Vector (&R)[4]) {
   Float least = 1;
   for (const Vector& r : R) least = min(least, dot(normalize(r), middle));
   const Float angle = 2 * acos(clamp(least, -1, 1)) / std::sqrt(2.0);
-  return tripleFrom([&](TmVec3 out) { grid()->call->environment(grid()->host, grid(), name, middle, angle.data(), out); });
+  return tripleFrom(
+      [&](TmVec3 out) { grid()->call->environment(grid()->host, grid(), name, middle, angle.data(), out); });
 }
 constexpr TmShadowLookup kShadowDefaults = {-1, 0, 1, 16};
 inline Triple shadow(const char* name, const Triple& p, const TmShadowLookup& options = kShadowDefaults) {
   return tripleFrom([&](TmVec3 out) { grid()->call->shadow(grid()->host, grid(), name, p, &options, out); });
 }
 template <class... List>
-Triple shadow(const char* name, const Triple& p, const char* first, const List&... list) { return shadow(name, p, listed(kShadowDefaults, first, list...)); }
+Triple shadow(const char* name, const Triple& p, const char* first, const List&... list) {
+  return shadow(name, p, listed(kShadowDefaults, first, list...));
+}
 
 /// Over the quadrilateral whose corners are four points, in the order of texture(): the mean of its quarters.
 template <class... List>
 Triple shadow(const char* name, const Point (&p)[4], const List&... list) {
-  const auto at = [&](double a, double b) { return (1 - b) * ((1 - a) * p[0] + a * p[1]) + b * ((1 - a) * p[2] + a * p[3]); };
+  const auto at = [&](double a, double b) {
+    return (1 - b) * ((1 - a) * p[0] + a * p[1]) + b * ((1 - a) * p[2] + a * p[3]);
+  };
   Triple sum;
   for (const double a : {0.25, 0.75})
     for (const double b : {0.25, 0.75}) sum += shadow(name, Point(at(a, b)), listed(kShadowDefaults, list...));

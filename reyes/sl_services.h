@@ -1,5 +1,5 @@
-// What shaders ask of the renderer, on values of a batch: spaces, derivatives, random numbers, the ray that came, messages (rispec-table 9.1
-// to 9.4). Part of reyes/sl.h.
+// What shaders ask of the renderer, on values of a batch: spaces, derivatives, random numbers, the ray that came,
+// messages (rispec-table 9.1 to 9.4). Part of reyes/sl.h.
 #pragma once
 #include "reyes/sl_lists.h"
 #include "reyes/sl_shadeops.h"
@@ -35,13 +35,15 @@ inline Triple Deriv(const Triple& a, const Float& b) { return Du(a) / Du(b) + Dv
 inline Float filterstep(const Float& edge, const Float& x) {
   return filterstep(edge, x, abs(Du(x) * Float(grid()->du)) + abs(Dv(x) * Float(grid()->dv)));
 }
-/// Another number in [0, 1) at every call, by what the point is: the 48 bits of its first stratified sample name it, and a hash keeps its
-/// numbers apart from the directions that its lobes draw.
+/// Another number in [0, 1) at every call, by what the point is: the 48 bits of its first stratified sample name it,
+/// and a hash keeps its numbers apart from the directions that its lobes draw.
 inline Float randomNumber() {
   const int call = Run::now().randoms++;
   Float x, y;
   grid()->call->stratified(grid()->host, grid(), 0, 1, x.data(), y.data());
-  forActive([&](int i) { x.data()[i] = float(rsl::latticeHash(int32_t(x[i] * 0x1p24f), int32_t(y[i] * 0x1p24f), call) >> 8) * 0x1p-24f; });
+  forActive([&](int i) {
+    x.data()[i] = float(rsl::latticeHash(int32_t(x[i] * 0x1p24f), int32_t(y[i] * 0x1p24f), call) >> 8) * 0x1p-24f;
+  });
   return x;
 }
 /// Three of them.
@@ -61,7 +63,9 @@ inline Normal calculatenormal(const Triple& p) {
   return tripleFrom([&](TmVec3 out) { grid()->call->calculateNormal(grid()->host, grid(), p, out); });
 }
 /// 0 at the near clipping plane, 1 at the far one.
-inline Float depth(const Triple& p) { return (zcomp(p) - double(grid()->clip[0])) / double(grid()->clip[1] - grid()->clip[0]); }
+inline Float depth(const Triple& p) {
+  return (zcomp(p) - double(grid()->clip[0])) / double(grid()->clip[1] - grid()->clip[0]);
+}
 
 // --- The ray that came to these points
 
@@ -97,7 +101,8 @@ inline bool askFor(TmWhom whom, int light, const char* name, int first, int last
   int32_t type;
   return grid()->call->ask(grid()->host, grid(), whom, light, name, &type, &out) && type >= first && type <= last;
 }
-/// A value of another shader, of the attributes, ... False, and `out` as it was, where there is none of that name and type.
+/// A value of another shader, of the attributes, ... False, and `out` as it was, where there is none of that name and
+/// type.
 inline bool ask(TmWhom whom, const char* name, Float& out, int light = -1) {
   TmValue v;
   if (!askFor(whom, light, name, TM_FLOAT, TM_FLOAT, v)) return false;
@@ -134,13 +139,17 @@ inline std::string askText(TmWhom whom, const char* name) {
 
 /// Inside illuminance(): of that light.
 template <class T>
-bool lightsource(int light, const char* name, T& out) { return ask(TM_OF_LIGHT, name, out, light); }
+bool lightsource(int light, const char* name, T& out) {
+  return ask(TM_OF_LIGHT, name, out, light);
+}
 // What print() prints of a value at one point.
 inline float at(const Float& x, int i) { return x[i]; }
 inline rsl::Vec3 at(const Triple& v, int i) { return v[i]; }
 inline rsl::Matrix at(const Matrix& m, int i) { return m[i]; }
 template <class T>
-const T& at(const T& uniform, int) { return uniform; }
+const T& at(const T& uniform, int) {
+  return uniform;
+}
 /// A line for each active point; the letters are rsl::format's.
 template <class... Values>
 void print(const std::string& pattern, const Values&... values) {

@@ -8,7 +8,8 @@
 
 namespace sl {
 
-/// One run of a shader: its batch, with the mask of the conditionals that are open. A thread has a stack: shaders that trace run others.
+/// One run of a shader: its batch, with the mask of the conditionals that are open. A thread has a stack: shaders that
+/// trace run others.
 class Run {
  public:
   explicit Run(const TmGrid* g) : grid(*g), outer_(std::exchange(current(), this)) {}
@@ -17,8 +18,8 @@ class Run {
   static Run& now() { return *current(); }
 
   TmGrid grid;
-  int randoms = 0;            ///< Calls of random() so far.
-  float specularScale = 0;    ///< Of sl::specularScale(); 0: not asked yet.
+  int randoms = 0;          ///< Calls of random() so far.
+  float specularScale = 0;  ///< Of sl::specularScale(); 0: not asked yet.
 
  private:
   static Run*& current() {
@@ -39,7 +40,8 @@ class Lanes {
       list.pop_back();
     } else {
       capacity_ = std::max(size_, 512);
-      data_ = static_cast<float*>(::operator new(static_cast<size_t>(capacity_) * sizeof(float), std::align_val_t{64}));
+      data_ =
+          static_cast<float*>(::operator new (static_cast<size_t>(capacity_) * sizeof(float), std::align_val_t{64}));
     }
   }
   ~Lanes() {
@@ -53,7 +55,7 @@ class Lanes {
  private:
   struct Spare : std::vector<std::pair<int, float*>> {
     ~Spare() {
-      for (auto& block : *this) ::operator delete(block.second, std::align_val_t{64});
+      for (auto& block : *this) ::operator delete (block.second, std::align_val_t{64});
     }
   };
   static Spare& spare() {
@@ -85,9 +87,15 @@ struct Mask {
     for (int i = 0; i < grid()->count; ++i) m.on[static_cast<size_t>(i)] = op(i);
     return m;
   }
-  friend Mask operator&&(const Mask& a, const Mask& b) { return of([&](int i) { return a.on[size_t(i)] && b.on[size_t(i)]; }); }
-  friend Mask operator||(const Mask& a, const Mask& b) { return of([&](int i) { return a.on[size_t(i)] || b.on[size_t(i)]; }); }
-  friend Mask operator!(const Mask& a) { return of([&](int i) { return !a.on[size_t(i)]; }); }
+  friend Mask operator&&(const Mask& a, const Mask& b) {
+    return of([&](int i) { return a.on[size_t(i)] && b.on[size_t(i)]; });
+  }
+  friend Mask operator||(const Mask& a, const Mask& b) {
+    return of([&](int i) { return a.on[size_t(i)] || b.on[size_t(i)]; });
+  }
+  friend Mask operator!(const Mask& a) {
+    return of([&](int i) { return !a.on[size_t(i)]; });
+  }
 };
 
 /// Runs `body` for the points that are active and in the mask; not at all where there are none.
@@ -103,14 +111,17 @@ void where(const uint8_t* mask, bool wanted, const Body& body) {
   g.active = outer;
 }
 template <class Then>
-void If(const Mask& condition, const Then& then) { where(condition.on.data(), true, then); }
+void If(const Mask& condition, const Then& then) {
+  where(condition.on.data(), true, then);
+}
 template <class Then, class Else>
 void If(const Mask& condition, const Then& then, const Else& otherwise) {
   where(condition.on.data(), true, then);
   where(condition.on.data(), false, otherwise);
 }
 
-/// RSL's while: `body` again and again for the points for which `condition`, a function that returns a Mask, has always held.
+/// RSL's while: `body` again and again for the points for which `condition`, a function that returns a Mask, has always
+/// held.
 template <class Condition, class Body>
 void While(const Condition& condition, const Body& body) {
   TmGrid& g = Run::now().grid;
@@ -136,11 +147,21 @@ class Float {
   }
   Float(const Float&) = default;
   Float(Float&&) = default;
-  Float& operator=(const Float& v) { return assign([&](int i) { return v[i]; }); }
-  Float& operator+=(const Float& v) { return assign([&](int i) { return (*this)[i] + v[i]; }); }
-  Float& operator-=(const Float& v) { return assign([&](int i) { return (*this)[i] - v[i]; }); }
-  Float& operator*=(const Float& v) { return assign([&](int i) { return (*this)[i] * v[i]; }); }
-  Float& operator/=(const Float& v) { return assign([&](int i) { return (*this)[i] / v[i]; }); }
+  Float& operator=(const Float& v) {
+    return assign([&](int i) { return v[i]; });
+  }
+  Float& operator+=(const Float& v) {
+    return assign([&](int i) { return (*this)[i] + v[i]; });
+  }
+  Float& operator-=(const Float& v) {
+    return assign([&](int i) { return (*this)[i] - v[i]; });
+  }
+  Float& operator*=(const Float& v) {
+    return assign([&](int i) { return (*this)[i] * v[i]; });
+  }
+  Float& operator/=(const Float& v) {
+    return assign([&](int i) { return (*this)[i] / v[i]; });
+  }
 
   float operator[](int i) const { return x_.data()[i]; }
   float* data() const { return x_.data(); }
@@ -154,7 +175,9 @@ class Float {
  private:
   explicit Float(Lanes&& lanes) : x_(std::move(lanes)) {}
   template <class Op>
-  void fill(const Op& op) { sl::fill(x_.data(), op); }
+  void fill(const Op& op) {
+    sl::fill(x_.data(), op);
+  }
   template <class Op>
   Float& assign(const Op& op) {
     forActive([&](int i) { x_.data()[i] = op(i); });
@@ -167,24 +190,49 @@ class Float {
 class Triple {
  public:
   Triple() : Triple(rsl::Vec3{}) {}
-  Triple(rsl::Vec3 v) { sl::fill(x_.data(), [&](int) { return v.x; }), sl::fill(y_.data(), [&](int) { return v.y; }), sl::fill(z_.data(), [&](int) { return v.z; }); }
+  Triple(rsl::Vec3 v) {
+    sl::fill(x_.data(), [&](int) { return v.x; }), sl::fill(y_.data(), [&](int) { return v.y; }),
+        sl::fill(z_.data(), [&](int) { return v.z; });
+  }
   explicit Triple(double v) : Triple(rsl::Vec3{float(v), float(v), float(v)}) {}
   explicit Triple(const Float& v) : Triple(v, v, v) {}
   Triple(const Float& x, const Float& y, const Float& z) {
-    std::copy_n(x.data(), x_.size(), x_.data()), std::copy_n(y.data(), x_.size(), y_.data()), std::copy_n(z.data(), x_.size(), z_.data());
+    std::copy_n(x.data(), x_.size(), x_.data()), std::copy_n(y.data(), x_.size(), y_.data()),
+        std::copy_n(z.data(), x_.size(), z_.data());
   }
-  explicit Triple(TmConstVec3 v) { std::copy_n(v.x, x_.size(), x_.data()), std::copy_n(v.y, x_.size(), y_.data()), std::copy_n(v.z, x_.size(), z_.data()); }
+  explicit Triple(TmConstVec3 v) {
+    std::copy_n(v.x, x_.size(), x_.data()), std::copy_n(v.y, x_.size(), y_.data()),
+        std::copy_n(v.z, x_.size(), z_.data());
+  }
   template <TmType type>
-  Triple(const rsl::TripleParam<type>& p) { setAll([&](int i) { return p(grid(), std::min(i, grid()->count - 1)); }); }
+  Triple(const rsl::TripleParam<type>& p) {
+    setAll([&](int i) { return p(grid(), std::min(i, grid()->count - 1)); });
+  }
   Triple(const Triple&) = default;
   Triple(Triple&&) = default;
-  Triple& operator=(const Triple& v) { return assign([&](int i) { return v[i]; }); }
-  Triple& operator+=(const Triple& v) { return assign([&](int i) { return (*this)[i] + v[i]; }); }
-  Triple& operator-=(const Triple& v) { return assign([&](int i) { return (*this)[i] - v[i]; }); }
-  Triple& operator*=(const Triple& v) { return assign([&](int i) { return (*this)[i] * v[i]; }); }
-  Triple& operator*=(const Float& v) { return assign([&](int i) { return (*this)[i] * v[i]; }); }
-  Triple& operator/=(const Float& v) { return assign([&](int i) { return (*this)[i] / v[i]; }); }
-  Triple& operator/=(const Triple& v) { return assign([&](int i) { return rsl::Vec3{(*this)[i].x / v[i].x, (*this)[i].y / v[i].y, (*this)[i].z / v[i].z}; }); }
+  Triple& operator=(const Triple& v) {
+    return assign([&](int i) { return v[i]; });
+  }
+  Triple& operator+=(const Triple& v) {
+    return assign([&](int i) { return (*this)[i] + v[i]; });
+  }
+  Triple& operator-=(const Triple& v) {
+    return assign([&](int i) { return (*this)[i] - v[i]; });
+  }
+  Triple& operator*=(const Triple& v) {
+    return assign([&](int i) { return (*this)[i] * v[i]; });
+  }
+  Triple& operator*=(const Float& v) {
+    return assign([&](int i) { return (*this)[i] * v[i]; });
+  }
+  Triple& operator/=(const Float& v) {
+    return assign([&](int i) { return (*this)[i] / v[i]; });
+  }
+  Triple& operator/=(const Triple& v) {
+    return assign([&](int i) {
+      return rsl::Vec3{(*this)[i].x / v[i].x, (*this)[i].y / v[i].y, (*this)[i].z / v[i].z};
+    });
+  }
 
   rsl::Vec3 operator[](int i) const { return {x_.data()[i], y_.data()[i], z_.data()[i]}; }
   TmVec3 out() const { return {x_.data(), y_.data(), z_.data()}; }
@@ -235,29 +283,45 @@ void output(const rsl::Output<type, rsl::Vec3>& o, const Triple& v) {
 
 // --- Operators, point by point
 
-inline Float operator-(const Float& a) { return Float::of([&](int i) { return -a[i]; }); }
-inline Triple operator-(const Triple& a) { return Triple::of([&](int i) { return -a[i]; }); }
-inline Triple operator/(const Triple& a, const Float& b) { return Triple::of([&](int i) { return a[i] / b[i]; }); }
+inline Float operator-(const Float& a) {
+  return Float::of([&](int i) { return -a[i]; });
+}
+inline Triple operator-(const Triple& a) {
+  return Triple::of([&](int i) { return -a[i]; });
+}
+inline Triple operator/(const Triple& a, const Float& b) {
+  return Triple::of([&](int i) { return a[i] / b[i]; });
+}
 inline Triple operator/(const Triple& a, const Triple& b) {
   return Triple::of([&](int i) { return rsl::Vec3{a[i].x / b[i].x, a[i].y / b[i].y, a[i].z / b[i].z}; });
 }
 inline Triple operator/(const Float& a, const Triple& b) { return Triple(a) / b; }
-inline Float operator/(const Float& a, const Float& b) { return Float::of([&](int i) { return a[i] / b[i]; }); }
-#define SL_OPERATOR(op)                                                                                              \
-  inline Float operator op(const Float& a, const Float& b) { return Float::of([&](int i) { return a[i] op b[i]; }); } \
-  inline Triple operator op(const Triple& a, const Triple& b) { return Triple::of([&](int i) { return a[i] op b[i]; }); }
+inline Float operator/(const Float& a, const Float& b) {
+  return Float::of([&](int i) { return a[i] / b[i]; });
+}
+#define SL_OPERATOR(op)                                         \
+  inline Float operator op(const Float& a, const Float& b) {    \
+    return Float::of([&](int i) { return a[i] op b[i]; });      \
+  }                                                             \
+  inline Triple operator op(const Triple& a, const Triple& b) { \
+    return Triple::of([&](int i) { return a[i] op b[i]; });     \
+  }
 SL_OPERATOR(+)
 SL_OPERATOR(-)
 SL_OPERATOR(*)
-inline Triple operator*(const Float& a, const Triple& b) { return Triple::of([&](int i) { return a[i] * b[i]; }); }
+inline Triple operator*(const Float& a, const Triple& b) {
+  return Triple::of([&](int i) { return a[i] * b[i]; });
+}
 inline Triple operator*(const Triple& a, const Float& b) { return b * a; }
 // A number beside a triple stands for three.
 inline Triple operator+(const Triple& a, const Float& b) { return a + Triple(b); }
 inline Triple operator+(const Float& a, const Triple& b) { return Triple(a) + b; }
 inline Triple operator-(const Triple& a, const Float& b) { return a - Triple(b); }
 inline Triple operator-(const Float& a, const Triple& b) { return Triple(a) - b; }
-#define SL_COMPARISON(op) \
-  inline Mask operator op(const Float& a, const Float& b) { return Mask::of([&](int i) { return a[i] op b[i]; }); }
+#define SL_COMPARISON(op)                                   \
+  inline Mask operator op(const Float& a, const Float& b) { \
+    return Mask::of([&](int i) { return a[i] op b[i]; });   \
+  }
 SL_COMPARISON(<)
 SL_COMPARISON(>)
 SL_COMPARISON(<=)

@@ -67,9 +67,8 @@ void SolidWalk::boundaries(std::span<const SolidCrossing> crossings, std::vector
       toggle(crossings[distinct_[last]].block);
       if ((inside_[0] != 0) != was) changes = distinct_[last];
       ++last;
-    } while (last < distinct_.size() &&
-             crossings[distinct_[last]].t - crossings[distinct_[last - 1]].t <=
-                 crossings[distinct_[last]].slack + crossings[distinct_[last - 1]].slack);
+    } while (last < distinct_.size() && crossings[distinct_[last]].t - crossings[distinct_[last - 1]].t <=
+                                            crossings[distinct_[last]].slack + crossings[distinct_[last - 1]].slack);
     if ((inside_[0] != 0) != before) out.push_back({changes, !before});
   }
 }

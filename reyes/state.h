@@ -17,9 +17,11 @@
 namespace tomales {
 
 /// A transformation that may move: keys at increasing times, constant outside. Between keys a rotation turns along its
-/// arc (the shorter one) and place, scale and shear are linear; where a mirror or a projection lies between, all is linear.
+/// arc (the shorter one) and place, scale and shear are linear; where a mirror or a projection lies between, all is
+/// linear.
 struct Motion {
-  static constexpr float kLargestTurn = 0.17453293f;  ///< 10 degrees: a chord then leaves its circle by 0.4 % of the radius.
+  static constexpr float kLargestTurn =
+      0.17453293f;  ///< 10 degrees: a chord then leaves its circle by 0.4 % of the radius.
 
   std::vector<float> times{0.0f};
   std::vector<mat4> keys{mat4(1.0f)};
@@ -51,9 +53,9 @@ struct ShaderCall {
 struct LightCall {
   ShaderCall shader;
   std::string handle;
-  bool area = false;         ///< AreaLightSource: its emitters are the Objects whose attributes name it.
-  bool castsShadows = false; ///< Attribute "light" "shadows" "on", or shadowname "raytrace"; area lights always do.
-  int index = -1;            ///< In Scene::lights.
+  bool area = false;          ///< AreaLightSource: its emitters are the Objects whose attributes name it.
+  bool castsShadows = false;  ///< Attribute "light" "shadows" "on", or shadowname "raytrace"; area lights always do.
+  int index = -1;             ///< In Scene::lights.
 };
 
 struct DisplayCall {
@@ -83,46 +85,48 @@ struct Aperture {
   float density = 0;                   ///< 1: dark in the middle, -1: dark at the rim, linearly in between.
 };
 
-struct Quantize { float one = 255, min = 0, max = 255, dither = 0.5f, zero = 0; };
+struct Quantize {
+  float one = 255, min = 0, max = 255, dither = 0.5f, zero = 0;
+};
 
 struct Options {
   int xResolution = 640, yResolution = 480;
   float pixelAspect = 1;
   std::optional<float> frameAspect;
-  std::optional<std::array<float, 4>> screenWindow;        ///< left right bottom top
-  std::array<float, 4> cropWindow{0, 1, 0, 1};             ///< xmin xmax ymin ymax of the frame, from the top left
+  std::optional<std::array<float, 4>> screenWindow;  ///< left right bottom top
+  std::array<float, 4> cropWindow{0, 1, 0, 1};       ///< xmin xmax ymin ymax of the frame, from the top left
   ProjectionKind projection = ProjectionKind::Orthographic;
   float fov_degrees = 90;
-  float nearClip = 1e-6f, farClip = 1e30f;                 ///< RI_EPSILON, RI_INFINITY
+  float nearClip = 1e-6f, farClip = 1e30f;  ///< RI_EPSILON, RI_INFINITY
   float shutterOpen = 0, shutterClose = 0;
-  float shutterOffset = 0;                                 ///< Added to the times of motion blocks as they are read.
-  bool sampleMotion = true;                                ///< Hider "samplemotion": the camera sees things move.
+  float shutterOffset = 0;   ///< Added to the times of motion blocks as they are read.
+  bool sampleMotion = true;  ///< Hider "samplemotion": the camera sees things move.
   float fStop = kInfinity, focalLength = 1, focalDistance = 1;
   Aperture aperture;
-  float dofAspect = 1;                                     ///< Width over height of the circle of confusion.
+  float dofAspect = 1;  ///< Width over height of the circle of confusion.
   int xSamples = 2, ySamples = 2;
   std::string filter = "gaussian";
   float xFilterWidth = 2, yFilterWidth = 2;
   float exposureGain = 1, exposureGamma = 1;
   Quantize rgbaQuantize{}, depthQuantize{0, 0, 0, 0};
-  bool quantizeGiven = false;                              ///< The RIB said Quantize; else the file's type decides.
-  std::vector<DisplayCall> displays;                       ///< Empty: the default Display.
-  std::map<std::string, ChannelCall> channels;             ///< By name.
+  bool quantizeGiven = false;                   ///< The RIB said Quantize; else the file's type decides.
+  std::vector<DisplayCall> displays;            ///< Empty: the default Display.
+  std::map<std::string, ChannelCall> channels;  ///< By name.
   DepthFilter depthFilter = DepthFilter::Min;
-  vec3 opaqueThreshold{0.996f};                            ///< Limits "othreshold": what is behind is not visible.
-  vec3 depthThreshold{1.0f};                               ///< Limits "zthreshold": what is clearer has no depth.
+  vec3 opaqueThreshold{0.996f};  ///< Limits "othreshold": what is behind is not visible.
+  vec3 depthThreshold{1.0f};     ///< Limits "zthreshold": what is clearer has no depth.
   std::optional<ShaderCall> imager;
   int bucketWidth = 32, bucketHeight = 32;
-  std::string bucketOrder = "horizontal";                  ///< Option "bucket" "order": reyes/frame/bucket_order.h
-  int maxRayDepth = 10;                                    ///< Bounces of any kind.
-  int gridSize = 256;                                      ///< Most micropolygons in a grid.
+  std::string bucketOrder = "horizontal";  ///< Option "bucket" "order": reyes/frame/bucket_order.h
+  int maxRayDepth = 10;                    ///< Bounces of any kind.
+  int gridSize = 256;                      ///< Most micropolygons in a grid.
   std::string hider = "hidden";
   bool jitter = true;
-  float relativeDetail = 1;                                ///< Factor of every level-of-detail ruler.
-  std::vector<vec4> clippingPlanes;                        ///< Camera space: a point p with dot(plane, (p, 1)) > 0 is not seen.
+  float relativeDetail = 1;          ///< Factor of every level-of-detail ruler.
+  std::vector<vec4> clippingPlanes;  ///< Camera space: a point p with dot(plane, (p, 1)) > 0 is not seen.
   int frame = 0;
-  std::map<std::string, std::string> searchPaths;          ///< "archive", "texture", "shader", "display", ...
-  std::map<std::string, Param> user;                       ///< "category:name" of options that shaders may read
+  std::map<std::string, std::string> searchPaths;  ///< "archive", "texture", "shader", "display", ...
+  std::map<std::string, Param> user;               ///< "category:name" of options that shaders may read
 };
 
 enum class ShadingInterpolation { Constant, Smooth };
@@ -135,8 +139,8 @@ struct Visibility {
   bool operator==(const Visibility&) const = default;
 };
 
-/// The part of 0..1 at which something is there: each sample and each ray has a number there, so that levels of detail that
-/// fade into each other divide them without overlap.
+/// The part of 0..1 at which something is there: each sample and each ray has a number there, so that levels of detail
+/// that fade into each other divide them without overlap.
 struct DetailShare {
   float lo = 0, hi = 1;
   bool operator==(const DetailShare&) const = default;
@@ -152,29 +156,31 @@ enum class TessellationMode : uint8_t { Fixed, Multiresolution, Full };
 struct Attributes {
   vec3 color{1.0f}, opacity{1.0f};
   std::array<vec2, 4> textureCoordinates{vec2{0, 0}, vec2{1, 0}, vec2{0, 1}, vec2{1, 1}};
-  float shadingRate = 1;                                    ///< px2 for one micropolygon
-  float motionFactor = 0, focusFactor = 1;                  ///< GeometricApproximation: coarser where blurred; 0: never
+  float shadingRate = 1;                    ///< px2 for one micropolygon
+  float motionFactor = 0, focusFactor = 1;  ///< GeometricApproximation: coarser where blurred; 0: never
   ShadingInterpolation interpolation = ShadingInterpolation::Constant;
   bool matte = false;
   int sides = 2;
-  DetailShare detail;                                       ///< Detail and DetailRange
-  bool insideOut = false;                                   ///< Orientation differs from "outside".
-  std::string name;                                         ///< Attribute "identifier" "name"
-  std::set<std::string> membership;                         ///< Attribute "grouping" "membership": the sets it is in
+  DetailShare detail;                ///< Detail and DetailRange
+  bool insideOut = false;            ///< Orientation differs from "outside".
+  std::string name;                  ///< Attribute "identifier" "name"
+  std::set<std::string> membership;  ///< Attribute "grouping" "membership": the sets it is in
   HitMode diffuseHitMode = HitMode::Shader, specularHitMode = HitMode::Shader, transmissionHitMode = HitMode::Shader;
   std::shared_ptr<const ShaderCall> surface, displacement, atmosphere;  ///< null: the default surface; none; none
-  std::shared_ptr<const ShaderCall> interior, exterior;     ///< Of what rays cross that leave the surface inwards, outwards.
-  std::vector<int> lights;                                  ///< Indices in Scene::lights of those switched on.
-  int areaLight = -1;                                       ///< This geometry emits for that light.
-  float displacementBound = 0;                              ///< Radius in the space below.
+  std::shared_ptr<const ShaderCall> interior,
+      exterior;                 ///< Of what rays cross that leave the surface inwards, outwards.
+  std::vector<int> lights;      ///< Indices in Scene::lights of those switched on.
+  int areaLight = -1;           ///< This geometry emits for that light.
+  float displacementBound = 0;  ///< Radius in the space below.
   std::string displacementBoundSpace = "object";
   Visibility visibility;
   struct Trace {
     std::optional<float> bias, offset;
     bool displacements = false;
     bool sampleMotion = false;  ///< Rays from here see things move.
-    int maxDiffuseDepth = 1, maxSpecularDepth = 2;  ///< Bounces that follow one from here, beyond none that an earlier object allows.
-    std::string subset;                             ///< Attribute "grouping" "tracesubset": what rays from here see; empty: all
+    int maxDiffuseDepth = 1,
+        maxSpecularDepth = 2;  ///< Bounces that follow one from here, beyond none that an earlier object allows.
+    std::string subset;        ///< Attribute "grouping" "tracesubset": what rays from here see; empty: all
     float tessellation = 1;
     TessellationMode rate = TessellationMode::Fixed;
     bool operator==(const Trace&) const = default;
@@ -187,22 +193,22 @@ struct Attributes {
     bool operator==(const Indirect&) const = default;
   } indirect;
   struct Photon {
-    std::string globalMap;                                  ///< Name of the map that this geometry shares; "": chosen for it.
-    std::string causticMap;                                 ///< Likewise of photons that come by mirrors and glass; "": none are kept.
+    std::string globalMap;   ///< Name of the map that this geometry shares; "": chosen for it.
+    std::string causticMap;  ///< Likewise of photons that come by mirrors and glass; "": none are kept.
     std::string shadingModel = "matte";
     bool operator==(const Photon&) const = default;
   } photon;
-  struct Radiosity {                                        ///< Of its radiosity map (docs/gi.md).
-    bool screen = true;                                     ///< texelSize is in pixels, else in units of the world;
-    float texelSize = 4;                                    ///< 0: it has none.
+  struct Radiosity {      ///< Of its radiosity map (docs/gi.md).
+    bool screen = true;   ///< texelSize is in pixels, else in units of the world;
+    float texelSize = 4;  ///< 0: it has none.
     bool operator==(const Radiosity&) const = default;
   } radiosity;
   std::optional<float> irradianceMaxError, irradianceMaxPixelDist;
-  bool rasterOrient = true;                                 ///< Attribute "dice" "rasterorient"
-  bool binaryDice = false;                                  ///< Attribute "dice" "binary": counts are powers of two.
-  std::map<std::string, Param> user;                        ///< "category:name" that shaders may read
+  bool rasterOrient = true;           ///< Attribute "dice" "rasterorient"
+  bool binaryDice = false;            ///< Attribute "dice" "binary": counts are powers of two.
+  std::map<std::string, Param> user;  ///< "category:name" that shaders may read
 
-  bool operator==(const Attributes&) const = default;       ///< Shaders are compared by pointer.
+  bool operator==(const Attributes&) const = default;  ///< Shaders are compared by pointer.
 
   /// Standard texture coordinates at surface parameters (u, v), where no primitive variable gives them.
   vec2 textureAt(float u, float v) const {

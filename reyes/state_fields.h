@@ -1,5 +1,5 @@
-// Which fields the structures of reyes/state.h have, for reyes/base/pack.h. A structure that gains a field stops the compiler here: add it
-// to the list, and files and sums have it.
+// Which fields the structures of reyes/state.h have, for reyes/base/pack.h. A structure that gains a field stops the
+// compiler here: add it to the list, and files and sums have it.
 #pragma once
 #include "reyes/base/pack.h"
 #include "reyes/state.h"
@@ -62,16 +62,18 @@ void fields(A& a, Aperture& x) {
 
 template <class A>
 void fields(A& a, Options& x) {
-  auto& [xResolution, yResolution, pixelAspect, frameAspect, screenWindow, cropWindow, projection, fov, nearClip, farClip,
-         shutterOpen, shutterClose, shutterOffset, sampleMotion, fStop, focalLength, focalDistance, aperture, dofAspect, xSamples,
-         ySamples, filter, xFilterWidth, yFilterWidth, exposureGain, exposureGamma, rgbaQuantize, depthQuantize, quantizeGiven,
-         displays, channels, depthFilter, opaqueThreshold, depthThreshold, imager, bucketWidth, bucketHeight, bucketOrder,
-         maxRayDepth, gridSize, hider, jitter, relativeDetail, clippingPlanes, frame, searchPaths, user] = x;
-  each(a, xResolution, yResolution, pixelAspect, frameAspect, screenWindow, cropWindow, projection, fov, nearClip, farClip,
-       shutterOpen, shutterClose, shutterOffset, sampleMotion, fStop, focalLength, focalDistance, aperture, dofAspect, xSamples,
-       ySamples, filter, xFilterWidth, yFilterWidth, exposureGain, exposureGamma, rgbaQuantize, depthQuantize, quantizeGiven,
-       displays, channels, depthFilter, opaqueThreshold, depthThreshold, imager, bucketWidth, bucketHeight, bucketOrder,
-       maxRayDepth, gridSize, hider, jitter, relativeDetail, clippingPlanes, frame, searchPaths, user);
+  auto& [xResolution, yResolution, pixelAspect, frameAspect, screenWindow, cropWindow, projection, fov, nearClip,
+         farClip, shutterOpen, shutterClose, shutterOffset, sampleMotion, fStop, focalLength, focalDistance, aperture,
+         dofAspect, xSamples, ySamples, filter, xFilterWidth, yFilterWidth, exposureGain, exposureGamma, rgbaQuantize,
+         depthQuantize, quantizeGiven, displays, channels, depthFilter, opaqueThreshold, depthThreshold, imager,
+         bucketWidth, bucketHeight, bucketOrder, maxRayDepth, gridSize, hider, jitter, relativeDetail, clippingPlanes,
+         frame, searchPaths, user] = x;
+  each(a, xResolution, yResolution, pixelAspect, frameAspect, screenWindow, cropWindow, projection, fov, nearClip,
+       farClip, shutterOpen, shutterClose, shutterOffset, sampleMotion, fStop, focalLength, focalDistance, aperture,
+       dofAspect, xSamples, ySamples, filter, xFilterWidth, yFilterWidth, exposureGain, exposureGamma, rgbaQuantize,
+       depthQuantize, quantizeGiven, displays, channels, depthFilter, opaqueThreshold, depthThreshold, imager,
+       bucketWidth, bucketHeight, bucketOrder, maxRayDepth, gridSize, hider, jitter, relativeDetail, clippingPlanes,
+       frame, searchPaths, user);
 }
 
 template <class A>
@@ -112,14 +114,15 @@ void fields(A& a, Attributes::Radiosity& x) {
 
 template <class A>
 void fields(A& a, Attributes& x) {
-  auto& [color, opacity, textureCoordinates, shadingRate, motionFactor, focusFactor, interpolation, matte, sides, detail, insideOut,
-         name, membership, diffuseHitMode, specularHitMode, transmissionHitMode, surface, displacement, atmosphere, interior, exterior, lights,
-         areaLight, displacementBound, displacementBoundSpace, visibility, trace, indirect, photon, radiosity, irradianceMaxError,
-         irradianceMaxPixelDist, rasterOrient, binaryDice, user] = x;
-  each(a, color, opacity, textureCoordinates, shadingRate, motionFactor, focusFactor, interpolation, matte, sides, detail, insideOut,
-       name, membership, diffuseHitMode, specularHitMode, transmissionHitMode, surface, displacement, atmosphere, interior, exterior, lights,
-       areaLight, displacementBound, displacementBoundSpace, visibility, trace, indirect, photon, radiosity, irradianceMaxError,
-       irradianceMaxPixelDist, rasterOrient, binaryDice, user);
+  auto& [color, opacity, textureCoordinates, shadingRate, motionFactor, focusFactor, interpolation, matte, sides,
+         detail, insideOut, name, membership, diffuseHitMode, specularHitMode, transmissionHitMode, surface,
+         displacement, atmosphere, interior, exterior, lights, areaLight, displacementBound, displacementBoundSpace,
+         visibility, trace, indirect, photon, radiosity, irradianceMaxError, irradianceMaxPixelDist, rasterOrient,
+         binaryDice, user] = x;
+  each(a, color, opacity, textureCoordinates, shadingRate, motionFactor, focusFactor, interpolation, matte, sides,
+       detail, insideOut, name, membership, diffuseHitMode, specularHitMode, transmissionHitMode, surface, displacement,
+       atmosphere, interior, exterior, lights, areaLight, displacementBound, displacementBoundSpace, visibility, trace,
+       indirect, photon, radiosity, irradianceMaxError, irradianceMaxPixelDist, rasterOrient, binaryDice, user);
 }
 
 }  // namespace tomales

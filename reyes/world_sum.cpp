@@ -29,7 +29,8 @@ void addFile(WorldSum& sum, const std::string& name, const char* kind) {
 void addPicture(WorldSum& sum, const std::string& name) {
   for (const std::string_view mark : {"<UDIM>", "_MAPID_"})
     if (const size_t at = name.find(mark); at != std::string::npos)
-      for (int tile = 1001; tile <= 1100; ++tile) addFile(sum, std::string(name).replace(at, mark.size(), std::to_string(tile)), "texture");
+      for (int tile = 1001; tile <= 1100; ++tile)
+        addFile(sum, std::string(name).replace(at, mark.size(), std::to_string(tile)), "texture");
   addFile(sum, name, "texture");
 }
 

@@ -2,8 +2,7 @@
 
 namespace {
 rsl::FloatParam intensity("intensity", 1, "scale");
-rsl::ColorParam lightcolor("lightcolor", {1, 1, 1},
-                           "radiance that the geometry emits from the side of its normal");
+rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "radiance that the geometry emits from the side of its normal");
 rsl::FloatParam samples("samples", 16, "points on the emitter for each shaded point");
 rsl::FloatParam visible("visible", 1, "0: camera and specular rays do not see it glow");
 
@@ -13,7 +12,6 @@ void shade(const TmGrid* g) {
 }  // namespace
 
 extern const rsl::Shader arealightShader;
-const rsl::Shader arealightShader(TM_LIGHT, "arealight",
-                                  "geometry that emits light; use with AreaLightSource",
+const rsl::Shader arealightShader(TM_LIGHT, "arealight", "geometry that emits light; use with AreaLightSource",
                                   TM_LIGHT_AREA | TM_LIGHT_SHADOWED, shade,
                                   {&intensity, &lightcolor, &samples, &visible});

@@ -22,8 +22,7 @@ void shadeFog(const TmGrid* g) {
 void shadeDepthcue(const TmGrid* g) {
   const rsl::Batch b(g);
   const float range = g->clip[1] - g->clip[0];
-  if (!(range < 1e20f))
-    g->call->report(g->host, g, 1, "fades between clipping planes: the scene has no Clipping");
+  if (!(range < 1e20f)) g->call->report(g->host, g, 1, "fades between clipping planes: the scene has no Clipping");
   for (int i : b) {
     const float depth = (b.P(i).z - g->clip[0]) / range;
     const float amount = (depth - mindistance(g, i)) / (maxdistance(g, i) - mindistance(g, i));
@@ -33,8 +32,7 @@ void shadeDepthcue(const TmGrid* g) {
 }  // namespace
 
 extern const rsl::Shader fogShader, depthcueShader;
-const rsl::Shader fogShader(TM_VOLUME, "fog",
-                            "fades to background by 1 - exp(-distance to the eye / distance)", 0, shadeFog,
-                            {&distance, &fogColor});
-const rsl::Shader depthcueShader(TM_VOLUME, "depthcue", "fades to background linearly in depth", 0,
-                                 shadeDepthcue, {&mindistance, &maxdistance, &cueColor});
+const rsl::Shader fogShader(TM_VOLUME, "fog", "fades to background by 1 - exp(-distance to the eye / distance)", 0,
+                            shadeFog, {&distance, &fogColor});
+const rsl::Shader depthcueShader(TM_VOLUME, "depthcue", "fades to background linearly in depth", 0, shadeDepthcue,
+                                 {&mindistance, &maxdistance, &cueColor});

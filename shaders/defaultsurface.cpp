@@ -14,6 +14,5 @@ void shade(const TmGrid* g) {
 }  // namespace
 
 extern const rsl::Shader defaultsurfaceShader;
-const rsl::Shader defaultsurfaceShader(TM_SURFACE, "defaultsurface",
-                                       "Os Cs (Ka + Kd |N.I|): visible without lights", TM_KEEPS_OPACITY | TM_EMITS,
-                                       shade, {&Kd, &Ka});
+const rsl::Shader defaultsurfaceShader(TM_SURFACE, "defaultsurface", "Os Cs (Ka + Kd |N.I|): visible without lights",
+                                       TM_KEEPS_OPACITY | TM_EMITS, shade, {&Kd, &Ka});

@@ -1,5 +1,6 @@
-// A principled surface after Burley 2012, "Physically-based shading at Disney" (sections 5.3 to 5.6), without anisotropy and subsurface.
-// Highlights are samples of the lights and of its own two lobes together; reflected rays are drawn from the lobes.
+// A principled surface after Burley 2012, "Physically-based shading at Disney" (sections 5.3 to 5.6), without
+// anisotropy and subsurface. Highlights are samples of the lights and of its own two lobes together; reflected rays are
+// drawn from the lobes.
 #include "reyes/shadeops.h"
 
 namespace {
@@ -7,15 +8,19 @@ namespace {
 using rsl::Color;
 using rsl::Vec3;
 
-rsl::FloatParam metallic("metallic", 0, "0: dielectric, 1: metal"), specular("specular", 0.5f, "reflection at normal incidence; 0.5: index 1.5");
-rsl::FloatParam speculartint("speculartint", 0, "tint of that towards the base colour"), roughness("roughness", 0.5f, "of both lobes");
+rsl::FloatParam metallic("metallic", 0, "0: dielectric, 1: metal"),
+    specular("specular", 0.5f, "reflection at normal incidence; 0.5: index 1.5");
+rsl::FloatParam speculartint("speculartint", 0, "tint of that towards the base colour"),
+    roughness("roughness", 0.5f, "of both lobes");
 rsl::FloatParam sheen("sheen", 0, "grazing reflection of cloth"), sheentint("sheentint", 0.5f, "its tint");
 rsl::FloatParam clearcoat("clearcoat", 0, "a second lobe"), clearcoatgloss("clearcoatgloss", 1, "1: glossy, 0: satin");
-rsl::UniformFloatParam reflections("reflections", 0, "rays that mirror the scene, a point that the camera sees; 0: lights alone");
+rsl::UniformFloatParam reflections("reflections", 0,
+                                   "rays that mirror the scene, a point that the camera sees; 0: lights alone");
 rsl::ColorParam emission("emission", {0, 0, 0}, "radiance that it adds");
 rsl::StringParam texturename("texturename", "", "picture that multiplies Cs, the base colour");
-rsl::ColorOutput diffusePart("diffuse", "share of diffuse light and sheen"), specularPart("specular", "share of highlights"),
-    reflectionPart("reflection", "share of the mirrored scene"), albedo("albedo", "base colour");
+rsl::ColorOutput diffusePart("diffuse", "share of diffuse light and sheen"),
+    specularPart("specular", "share of highlights"), reflectionPart("reflection", "share of the mirrored scene"),
+    albedo("albedo", "base colour");
 
 float luminance(Color c) { return rsl::dot(c, {0.2126f, 0.7152f, 0.0722f}); }
 float fresnelWeight(float cosine) {
@@ -42,7 +47,8 @@ struct Material {
   Color base, specular0, sheen;
   float roughness, alpha, coat, coatAlpha, matte;
 
-  Material(const TmGrid* g, int i, Color paint) : base(rsl::get(g->Cs, i) * paint), roughness(rsl::clamp(::roughness(g, i), 0, 1)) {
+  Material(const TmGrid* g, int i, Color paint)
+      : base(rsl::get(g->Cs, i) * paint), roughness(rsl::clamp(::roughness(g, i), 0, 1)) {
     const float bright = luminance(base), metal = rsl::clamp(metallic(g, i), 0, 1);
     const Color tint = bright > 0 ? base / bright : Color{1, 1, 1}, white{1, 1, 1};
     specular0 = rsl::mix(0.08f * ::specular(g, i) * rsl::mix(white, tint, speculartint(g, i)), base, metal);
@@ -60,7 +66,8 @@ struct Material {
   Color glossy(float nl, float nv, float nh, float lh) const {
     const float F = fresnelWeight(lh), G = smithGgx(nl, alpha) * smithGgx(nv, alpha);
     const Color lobe = gtr2(nh, alpha) * G * rsl::mix(specular0, Color{1, 1, 1}, F);
-    const float coatLobe = coat * gtr1(nh, coatAlpha) * rsl::mix(0.04f, 1, F) * smithGgx(nl, 0.25f) * smithGgx(nv, 0.25f);
+    const float coatLobe =
+        coat * gtr1(nh, coatAlpha) * rsl::mix(0.04f, 1, F) * smithGgx(nl, 0.25f) * smithGgx(nv, 0.25f);
     return rsl::kPi * (lobe + Color{coatLobe, coatLobe, coatLobe});
   }
 };
@@ -73,7 +80,8 @@ struct Lobes {
 
   Lobes(Vec3 n, Vec3 v, const Material& m) : N(n), V(v), material(m), nv(std::max(1e-4f, rsl::dot(n, v))) {
     rsl::orthonormalBasis(N, tangent, bitangent);
-    const float F = fresnelWeight(nv), coat = m.coat * rsl::mix(0.04f, 1, F), base = luminance(rsl::mix(m.specular0, Color{1, 1, 1}, F));
+    const float F = fresnelWeight(nv), coat = m.coat * rsl::mix(0.04f, 1, F),
+                base = luminance(rsl::mix(m.specular0, Color{1, 1, 1}, F));
     coatShare = coat > 0 ? coat / (coat + base) : 0;
   }
   /// The cosine included, for light that is E/pi; 0 below the surface.
@@ -105,7 +113,14 @@ struct Lobes {
 class Glossy {
  public:
   Glossy(const rsl::Batch& b, const rsl::Vec3Array& N, const rsl::Vec3Array& V, const rsl::Vec3Array& paint)
-      : b_(b), g_(b.g), ofLights_(static_cast<int>(g_->call->lobeSamples(g_->host, g_))), L_(g_), xi0_(g_), xi1_(g_), density_(g_), cl_(g_) {
+      : b_(b),
+        g_(b.g),
+        ofLights_(static_cast<int>(g_->call->lobeSamples(g_->host, g_))),
+        L_(g_),
+        xi0_(g_),
+        xi1_(g_),
+        density_(g_),
+        cl_(g_) {
     lobes_.reserve(static_cast<size_t>(g_->count));
     for (int i = 0; i < g_->count; ++i) lobes_.emplace_back(N[i], V[i], Material(g_, i, paint[i]));
   }
@@ -136,7 +151,8 @@ class Glossy {
       draw(k, rays);
       const rsl::Vec3Array seen = b_.trace(L_, options);
       for (int i : b_)
-        if (density_[i] > 0) sum.set(i, sum[i] + seen[i] * (*this)[i].value(L_[i]) / (rsl::kPi * density_[i] * static_cast<float>(rays)));
+        if (density_[i] > 0)
+          sum.set(i, sum[i] + seen[i] * (*this)[i].value(L_[i]) / (rsl::kPi * density_[i] * static_cast<float>(rays)));
     }
   }
 
@@ -175,7 +191,8 @@ void shade(const TmGrid* g) {
       const Vec3 L = rsl::get(sample.L, i), H = rsl::normalize(L + V[i]);
       const float nl = rsl::dot(N[i], L);
       if (nl > 0 && !sample.nondiffuse)
-        diffuse.set(i, diffuse[i] + nl * rsl::get(sample.Cl, i) * glossy[i].material.diffuse(nl, glossy[i].nv, rsl::dot(L, H)));
+        diffuse.set(
+            i, diffuse[i] + nl * rsl::get(sample.Cl, i) * glossy[i].material.diffuse(nl, glossy[i].nv, rsl::dot(L, H)));
     }
     // Indirect light is diffuse light: of its direction no more is known than the main one.
     if (shiny && !sample.nonspecular && !sample.isIndirect) glossy.addLightSample(k, sample, highlight);
@@ -183,7 +200,8 @@ void shade(const TmGrid* g) {
   if (shiny) {
     glossy.addLobeSamples(highlight);
     const int rays = static_cast<int>(rsl::clamp(reflections(g), 0, 1 << 14));
-    glossy.addReflections(b.rayDepth() > 0 ? std::min(rays, 1) : rays, mirrored);  // reflected again and again, rays would multiply
+    glossy.addReflections(b.rayDepth() > 0 ? std::min(rays, 1) : rays,
+                          mirrored);  // reflected again and again, rays would multiply
   }
   for (int i : b) {
     const Material& m = glossy[i].material;
@@ -200,5 +218,6 @@ void shade(const TmGrid* g) {
 extern const rsl::Shader disneyShader;
 const rsl::Shader disneyShader(TM_SURFACE, "disney", "principled surface of base colour Cs (Burley 2012)",
                                TM_KEEPS_OPACITY | TM_TRACES | TM_TRACES_HIGHLIGHTS | TM_DERIVATIVES, shade,
-                               {&metallic, &specular, &speculartint, &roughness, &sheen, &sheentint, &clearcoat, &clearcoatgloss, &reflections,
-                                &emission, &texturename, &diffusePart, &specularPart, &reflectionPart, &albedo});
+                               {&metallic, &specular, &speculartint, &roughness, &sheen, &sheentint, &clearcoat,
+                                &clearcoatgloss, &reflections, &emission, &texturename, &diffusePart, &specularPart,
+                                &reflectionPart, &albedo});

@@ -9,7 +9,8 @@ rsl::StringParam map("map", "", "latitude-longitude picture, +z at its top; none
 rsl::StringParam mapspace("mapspace", "world", "the space whose +z that is: world or shader");
 rsl::FloatParam samples("samples", 64, "directions for each shaded point");
 rsl::FloatParam visible("visible", 1, "0: specular rays do not see it");
-rsl::StringParam portals("portals", "", "CoordinateSystems, the unit squares of which are windows that the sky shines through");
+rsl::StringParam portals("portals", "",
+                         "CoordinateSystems, the unit squares of which are windows that the sky shines through");
 
 // The map is seen through a filter of this angle, radians: that of the cells by which its brightness is known.
 constexpr float kCell = 0.00614f;
@@ -35,7 +36,6 @@ void shade(const TmGrid* g) {
 }  // namespace
 
 extern const rsl::Shader environmentlightShader;
-const rsl::Shader environmentlightShader(TM_LIGHT, "environmentlight",
-                                         "light from all around, at infinity: a sky",
+const rsl::Shader environmentlightShader(TM_LIGHT, "environmentlight", "light from all around, at infinity: a sky",
                                          TM_LIGHT_SOLAR | TM_LIGHT_SHADOWED | TM_LIGHT_SKY, shade,
                                          {&intensity, &lightcolor, &map, &samples, &mapspace, &visible, &portals});

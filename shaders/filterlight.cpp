@@ -61,8 +61,7 @@ void shade(const TmGrid* g) {
 
 extern const rsl::Shader filterlightShader;
 const rsl::Shader filterlightShader(TM_LIGHT, "filterlight",
-                                    "another indirect light, with falloffs and colour correction",
-                                    TM_LIGHT_INDIRECT, shade,
-                                    {&source, &from, &to, &coneangle, &conedeltaangle, &distance,
-                                     &distancedelta, &directionality, &brightness, &contrast, &saturation,
-                                     &hue});
+                                    "another indirect light, with falloffs and colour correction", TM_LIGHT_INDIRECT,
+                                    shade,
+                                    {&source, &from, &to, &coneangle, &conedeltaangle, &distance, &distancedelta,
+                                     &directionality, &brightness, &contrast, &saturation, &hue});

@@ -12,8 +12,8 @@ float etaAt(const rsl::Batch& b, int i) {
   return enters ? 1 / eta(b.g, i) : eta(b.g, i);
 }
 
-// Seen through other glass or in mirrors, reflections weaker than this are left out, and their share is seen through the glass too: else
-// rays double at every surface.
+// Seen through other glass or in mirrors, reflections weaker than this are left out, and their share is seen through
+// the glass too: else rays double at every surface.
 constexpr float kLeastMirroring = 0.2f;
 
 void shade(const TmGrid* g) {
@@ -30,12 +30,15 @@ void shade(const TmGrid* g) {
   }
   const rsl::Vec3Array mirrored = b.trace(R), through = b.trace(T);
   for (int i : b)
-    b.output(i, Kr(g, i) * mirroring[i] * mirrored[i] + Kt(g, i) * (1 - mirroring[i]) * transmitcolor(g, i) * through[i], b.Os(i));
+    b.output(i,
+             Kr(g, i) * mirroring[i] * mirrored[i] + Kt(g, i) * (1 - mirroring[i]) * transmitcolor(g, i) * through[i],
+             b.Os(i));
 }
 }  // namespace
 
 extern const rsl::Shader glassShader;
-const rsl::Shader glassShader(TM_SURFACE, "glass",
-                              "what Fresnel's equations reflect and refract, traced; give the object Attribute \"trace\" "
-                              "\"maxspeculardepth\" 4 or more",
-                              TM_KEEPS_OPACITY | TM_TRACES, shade, {&eta, &Kr, &Kt, &transmitcolor});
+const rsl::Shader glassShader(
+    TM_SURFACE, "glass",
+    "what Fresnel's equations reflect and refract, traced; give the object Attribute \"trace\" "
+    "\"maxspeculardepth\" 4 or more",
+    TM_KEEPS_OPACITY | TM_TRACES, shade, {&eta, &Kr, &Kt, &transmitcolor});

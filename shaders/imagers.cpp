@@ -25,6 +25,6 @@ void shadeClamp(const TmGrid* g) {
 }  // namespace
 
 extern const rsl::Shader backgroundShader, clamptoalphaShader;
-const rsl::Shader backgroundShader(TM_IMAGER, "background", "a colour behind everything, alpha 1", 0,
-                                   shadeBackground, {&background, &bgcolor, &color});
+const rsl::Shader backgroundShader(TM_IMAGER, "background", "a colour behind everything, alpha 1", 0, shadeBackground,
+                                   {&background, &bgcolor, &color});
 const rsl::Shader clamptoalphaShader(TM_IMAGER, "clamptoalpha", "no colour above alpha", 0, shadeClamp, {});

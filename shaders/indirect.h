@@ -18,8 +18,7 @@ struct Indirect {
     // it.
     const rsl::Vec3 L = rsl::normalize(w + std::max(0.0f, 0.01f - rsl::dot(N, w)) * N);
     const float weight = 1 / std::max(1e-6f, rsl::dot(N, L));
-    b.illuminate(
-        i, L, {c == 0 ? weight * light.x : 0, c == 1 ? weight * light.y : 0, c == 2 ? weight * light.z : 0});
+    b.illuminate(i, L, {c == 0 ? weight * light.x : 0, c == 1 ? weight * light.y : 0, c == 2 ? weight * light.z : 0});
   }
   rsl::Vec3Array Nf, E, red, green, blue;
 };

@@ -1,21 +1,22 @@
 #include "reyes/shader.h"
 
 extern const rsl::Shader constantShader, matteShader, metalShader, plasticShader, paintedplasticShader,
-    defaultsurfaceShader, ambientlightShader, distantlightShader, pointlightShader, spotlightShader,
-    arealightShader, environmentlightShader, indirectlightShader, filterlightShader, shadowspotShader,
-    shadowpointShader, shadowdistantShader, shinymetalShader, fogShader, depthcueShader, backgroundShader,
-    clamptoalphaShader, bumpyShader, noisybumpShader, mirrorShader, glassShader, occlusionlightShader, disneyShader, daylightShader, sunlightShader;
+    defaultsurfaceShader, ambientlightShader, distantlightShader, pointlightShader, spotlightShader, arealightShader,
+    environmentlightShader, indirectlightShader, filterlightShader, shadowspotShader, shadowpointShader,
+    shadowdistantShader, shinymetalShader, fogShader, depthcueShader, backgroundShader, clamptoalphaShader, bumpyShader,
+    noisybumpShader, mirrorShader, glassShader, occlusionlightShader, disneyShader, daylightShader, sunlightShader;
 
 const TmShaderLibrary* tomales_builtin_shaders(void) {
-  static const TmShader* const shaders[] = {
-      constantShader,       matteShader,          metalShader,        plasticShader,
-      paintedplasticShader, defaultsurfaceShader, ambientlightShader, distantlightShader,
-      pointlightShader,     spotlightShader,      arealightShader,    environmentlightShader,
-      indirectlightShader,  filterlightShader,    shadowspotShader,   shadowpointShader,
-      shadowdistantShader,  shinymetalShader,     fogShader,          depthcueShader,
-      backgroundShader,     clamptoalphaShader,   bumpyShader,        noisybumpShader,
-      mirrorShader,         glassShader,          occlusionlightShader, disneyShader,
-      daylightShader,       sunlightShader};
+  static const TmShader* const shaders[] = {constantShader,      matteShader,          metalShader,
+                                            plasticShader,       paintedplasticShader, defaultsurfaceShader,
+                                            ambientlightShader,  distantlightShader,   pointlightShader,
+                                            spotlightShader,     arealightShader,      environmentlightShader,
+                                            indirectlightShader, filterlightShader,    shadowspotShader,
+                                            shadowpointShader,   shadowdistantShader,  shinymetalShader,
+                                            fogShader,           depthcueShader,       backgroundShader,
+                                            clamptoalphaShader,  bumpyShader,          noisybumpShader,
+                                            mirrorShader,        glassShader,          occlusionlightShader,
+                                            disneyShader,        daylightShader,       sunlightShader};
   static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders,
                                           static_cast<int32_t>(sizeof shaders / sizeof *shaders)};
   return &library;

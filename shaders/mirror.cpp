@@ -3,7 +3,8 @@
 namespace {
 rsl::FloatParam Kr("Kr", 1, "weight of what is mirrored");
 rsl::ColorParam specularcolor("specularcolor", {1, 1, 1}, "tint of what is mirrored");
-rsl::UniformFloatParam blur("blur", 0, "half angle of the cone of reflected rays, radians; up to 0.17 they are specular rays");
+rsl::UniformFloatParam blur("blur", 0,
+                            "half angle of the cone of reflected rays, radians; up to 0.17 they are specular rays");
 rsl::UniformFloatParam samples("samples", 1, "reflected rays a point");
 
 void shade(const TmGrid* g) {
@@ -18,5 +19,5 @@ void shade(const TmGrid* g) {
 }  // namespace
 
 extern const rsl::Shader mirrorShader;
-const rsl::Shader mirrorShader(TM_SURFACE, "mirror", "Os Kr specularcolor trace(P, R)", TM_KEEPS_OPACITY | TM_TRACES, shade,
-                               {&Kr, &specularcolor, &blur, &samples});
+const rsl::Shader mirrorShader(TM_SURFACE, "mirror", "Os Kr specularcolor trace(P, R)", TM_KEEPS_OPACITY | TM_TRACES,
+                               shade, {&Kr, &specularcolor, &blur, &samples});

@@ -12,8 +12,8 @@ struct Octave {
   float number;         ///< k
 };
 
-/// One layer over all points, inactive ones too: sum += weight * noise where the point has that layer. `octave` is a copy,
-/// or each store might change it.
+/// One layer over all points, inactive ones too: sum += weight * noise where the point has that layer. `octave` is a
+/// copy, or each store might change it.
 RSL_HOT void addOctave(const Octave octave, int n, TmConstVec3 p, const float* counts, float* sum, float* weights) {
   for (int i = 0; i < n; ++i) {
     const float weight = octave.number < counts[i] ? octave.weight : 0.0f;

@@ -7,8 +7,9 @@ rsl::UniformFloatParam samples("samples", 64, "rays a point");
 rsl::UniformFloatParam coneangle("coneangle", 1.5707963f, "half angle around the normal that is looked at");
 rsl::UniformFloatParam maxdist("maxdist", 1e30f, "what is farther covers nothing");
 rsl::UniformFloatParam falloff("falloff", 0, "what is at distance d covers exp(-falloff d); 0: wholly");
-rsl::UniformFloatParam maxvariation("maxvariation", -1,
-                                    "how far an interpolated share may be off; 0: traced at every point; negative: by irradiance:maxerror");
+rsl::UniformFloatParam maxvariation(
+    "maxvariation", -1,
+    "how far an interpolated share may be off; 0: traced at every point; negative: by irradiance:maxerror");
 rsl::StringParam subset("subset", "", "sets of objects that cover; none: all");
 
 void shade(const TmGrid* g) {
@@ -25,4 +26,5 @@ void shade(const TmGrid* g) {
 extern const rsl::Shader occlusionlightShader;
 const rsl::Shader occlusionlightShader(TM_LIGHT, "occlusionlight", "ambient light, darker where objects cover the sky",
                                        TM_LIGHT_AMBIENT | TM_TRACES | TM_OCCLUDED, shade,
-                                       {&intensity, &lightcolor, &samples, &coneangle, &maxdist, &falloff, &maxvariation, &subset});
+                                       {&intensity, &lightcolor, &samples, &coneangle, &maxdist, &falloff,
+                                        &maxvariation, &subset});

@@ -1,5 +1,5 @@
-// What Ci is the sum of, as output parameters of the standard surface shaders; each premultiplied, as Ci is. Indirect light is
-// left out of `diffuse`, so that ambient + diffuse + indirectdiffuse + specular + reflection = Ci.
+// What Ci is the sum of, as output parameters of the standard surface shaders; each premultiplied, as Ci is. Indirect
+// light is left out of `diffuse`, so that ambient + diffuse + indirectdiffuse + specular + reflection = Ci.
 #pragma once
 #include "reyes/shader.h"
 

@@ -44,12 +44,15 @@ void shadePainted(const TmGrid* g) {
 }  // namespace
 
 extern const rsl::Shader plasticShader, paintedplasticShader;
-const rsl::Shader plasticShader(
-    TM_SURFACE, "plastic",
-    "Os (Cs (Ka ambient() + Kd diffuse(Nf)) + specularcolor Ks specular(Nf, V, roughness))", TM_KEEPS_OPACITY,
-    shadePlastic, {&plain.Ka, &plain.Kd, &plain.Ks, &plain.roughness, &plain.specularcolor,
-                   &plain.parts.ambient, &plain.parts.diffuse, &plain.parts.indirectdiffuse, &plain.specular, &plain.albedo});
-const rsl::Shader paintedplasticShader(
-    TM_SURFACE, "paintedplastic", "plastic with Cs multiplied by a texture", TM_KEEPS_OPACITY | TM_DERIVATIVES, shadePainted,
-    {&painted.Ka, &painted.Kd, &painted.Ks, &painted.roughness, &painted.specularcolor, &texturename,
-     &painted.parts.ambient, &painted.parts.diffuse, &painted.parts.indirectdiffuse, &painted.specular, &painted.albedo});
+const rsl::Shader plasticShader(TM_SURFACE, "plastic",
+                                "Os (Cs (Ka ambient() + Kd diffuse(Nf)) + specularcolor Ks specular(Nf, V, roughness))",
+                                TM_KEEPS_OPACITY, shadePlastic,
+                                {&plain.Ka, &plain.Kd, &plain.Ks, &plain.roughness, &plain.specularcolor,
+                                 &plain.parts.ambient, &plain.parts.diffuse, &plain.parts.indirectdiffuse,
+                                 &plain.specular, &plain.albedo});
+const rsl::Shader paintedplasticShader(TM_SURFACE, "paintedplastic", "plastic with Cs multiplied by a texture",
+                                       TM_KEEPS_OPACITY | TM_DERIVATIVES, shadePainted,
+                                       {&painted.Ka, &painted.Kd, &painted.Ks, &painted.roughness,
+                                        &painted.specularcolor, &texturename, &painted.parts.ambient,
+                                        &painted.parts.diffuse, &painted.parts.indirectdiffuse, &painted.specular,
+                                        &painted.albedo});

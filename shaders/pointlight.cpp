@@ -5,8 +5,9 @@ rsl::FloatParam intensity("intensity", 1, "scale: the light at distance 1");
 rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "colour");
 rsl::PointParam from("from", {0, 0, 0}, "position");
 ShadowParams shadow;
-rsl::StringParam sfpx("sfpx", "", "shadow map towards +x"), sfnx("sfnx", "", "towards -x"), sfpy("sfpy", "", "towards +y"),
-    sfny("sfny", "", "towards -y"), sfpz("sfpz", "", "towards +z"), sfnz("sfnz", "", "towards -z");
+rsl::StringParam sfpx("sfpx", "", "shadow map towards +x"), sfnx("sfnx", "", "towards -x"),
+    sfpy("sfpy", "", "towards +y"), sfny("sfny", "", "towards -y"), sfpz("sfpz", "", "towards +z"),
+    sfnz("sfnz", "", "towards -z");
 
 void shade(const TmGrid* g) {
   const rsl::Batch b(g);
@@ -31,6 +32,5 @@ const rsl::Shader pointlightShader(TM_LIGHT, "pointlight", "light from a point, 
 const rsl::Shader shadowpointShader(TM_LIGHT, "shadowpoint",
                                     "pointlight with shadows: traced, or of a shadow map for each direction", 0,
                                     shadeShadowed,
-                                    {&intensity, &lightcolor, &from, &shadow.shadowname, &shadow.samples,
-                                     &shadow.blur, &shadow.width, &shadow.shadowbias, &sfpx, &sfnx, &sfpy, &sfny,
-                                     &sfpz, &sfnz});
+                                    {&intensity, &lightcolor, &from, &shadow.shadowname, &shadow.samples, &shadow.blur,
+                                     &shadow.width, &shadow.shadowbias, &sfpx, &sfnx, &sfpy, &sfny, &sfpz, &sfnz});

@@ -1,5 +1,5 @@
-// Shadow maps for lights: parameters, and the share of light that the maps let through. `raytrace` and maps that cannot be read
-// let all light through here; the renderer traces those shadows.
+// Shadow maps for lights: parameters, and the share of light that the maps let through. `raytrace` and maps that cannot
+// be read let all light through here; the renderer traces those shadows.
 #pragma once
 #include "reyes/shader.h"
 
@@ -8,8 +8,8 @@ struct ShadowParams {
   rsl::UniformFloatParam samples{"samples", 16, "lookups in the map for each point"};
   rsl::UniformFloatParam blur{"blur", 0, "softness, as a fraction of the map"};
   rsl::UniformFloatParam width{"width", 1, "scale of the region that is looked up"};
-  rsl::UniformFloatParam shadowbias{"shadowbias", -1,
-                             "depth that an occluder must be nearer by; negative: Option \"shadow\" \"bias\", or as needed"};
+  rsl::UniformFloatParam shadowbias{
+      "shadowbias", -1, "depth that an occluder must be nearer by; negative: Option \"shadow\" \"bias\", or as needed"};
 
   /// Dims Cl of the batch by one map.
   void dim(const rsl::Batch& b, const char* map) const {

@@ -5,8 +5,8 @@ rsl::FloatParam Ka("Ka", 1, "weight of ambient light");
 rsl::FloatParam Ks("Ks", 1, "weight of highlights");
 rsl::FloatParam Kr("Kr", 1, "weight of the mirrored surroundings");
 rsl::FloatParam roughness("roughness", 0.1f, "width of highlights");
-rsl::StringParam texturename("texturename", "",
-                             "latitude-longitude picture of the surroundings; \"raytrace\": the scene itself; none: metal");
+rsl::StringParam texturename(
+    "texturename", "", "latitude-longitude picture of the surroundings; \"raytrace\": the scene itself; none: metal");
 rsl::ColorOutput ambientPart("ambient", "share of ambient light"), specularPart("specular", "share of highlights"),
     reflectionPart("reflection", "share of the mirrored surroundings");
 
@@ -33,6 +33,6 @@ void shade(const TmGrid* g) {
 
 extern const rsl::Shader shinymetalShader;
 const rsl::Shader shinymetalShader(
-    TM_SURFACE, "shinymetal",
-    "Os Cs (Ka ambient() + Ks specular(Nf, V, roughness) + Kr environment(texturename, R))", TM_KEEPS_OPACITY | TM_TRACES,
-    shade, {&Ka, &Ks, &Kr, &roughness, &texturename, &ambientPart, &specularPart, &reflectionPart});
+    TM_SURFACE, "shinymetal", "Os Cs (Ka ambient() + Ks specular(Nf, V, roughness) + Kr environment(texturename, R))",
+    TM_KEEPS_OPACITY | TM_TRACES, shade,
+    {&Ka, &Ks, &Kr, &roughness, &texturename, &ambientPart, &specularPart, &reflectionPart});

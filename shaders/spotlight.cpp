@@ -6,8 +6,7 @@ rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "colour");
 rsl::PointParam from("from", {0, 0, 0}, "position");
 rsl::PointParam to("to", {0, 0, 1}, "a point on the axis");
 rsl::FloatParam coneangle("coneangle", 0.523598776f, "half angle of the cone, radians");
-rsl::FloatParam conedeltaangle("conedeltaangle", 0.0872664626f,
-                               "width of the soft edge inside the cone, radians");
+rsl::FloatParam conedeltaangle("conedeltaangle", 0.0872664626f, "width of the soft edge inside the cone, radians");
 rsl::FloatParam beamdistribution("beamdistribution", 2, "exponent of the falloff from the axis");
 ShadowParams shadow;
 
@@ -34,13 +33,12 @@ void shadeShadowed(const TmGrid* g) {
 }  // namespace
 
 extern const rsl::Shader spotlightShader, shadowspotShader;
-const rsl::Shader spotlightShader(TM_LIGHT, "spotlight", "light from a point into a soft-edged cone", 0,
-                                  shade,
+const rsl::Shader spotlightShader(TM_LIGHT, "spotlight", "light from a point into a soft-edged cone", 0, shade,
                                   {&intensity, &lightcolor, &from, &to, &coneangle, &conedeltaangle,
                                    &beamdistribution});
 // The same parameters at the same places: they may serve two shaders.
 const rsl::Shader shadowspotShader(TM_LIGHT, "shadowspot", "spotlight with shadows: traced, or of a shadow map", 0,
                                    shadeShadowed,
-                                   {&intensity, &lightcolor, &from, &to, &coneangle, &conedeltaangle,
-                                    &beamdistribution, &shadow.shadowname, &shadow.samples, &shadow.blur,
-                                    &shadow.width, &shadow.shadowbias});
+                                   {&intensity, &lightcolor, &from, &to, &coneangle, &conedeltaangle, &beamdistribution,
+                                    &shadow.shadowname, &shadow.samples, &shadow.blur, &shadow.width,
+                                    &shadow.shadowbias});

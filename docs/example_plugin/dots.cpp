@@ -8,9 +8,7 @@ rsl::FloatParam frequency("frequency", 8, "dots for each unit of s and t");
 rsl::FloatParam radius("radius", 0.3f, "of a dot, as a fraction of its cell");
 rsl::ColorParam dotcolor("dotcolor", {0.8f, 0.1f, 0.1f}, "colour of the dots");
 
-float distanceToDot(float s, float t) {
-  return std::hypot(s - std::floor(s) - 0.5f, t - std::floor(t) - 0.5f);
-}
+float distanceToDot(float s, float t) { return std::hypot(s - std::floor(s) - 0.5f, t - std::floor(t) - 0.5f); }
 
 void shade(const TmGrid* g) {
   const rsl::Batch b(g);

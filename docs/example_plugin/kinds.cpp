@@ -26,7 +26,8 @@ void shadeFlame(const TmGrid* g) {
     b.illuminate(i, L, intensity(g, i) * (1 - lost) / std::max(rsl::dot(L, L), 1e-20f) * rsl::Color{1, 0.7f, 0.3f});
   }
 }
-const rsl::Shader flame(TM_LIGHT, "flame", "a point light that flickers with time", 0, shadeFlame, {&intensity, &flicker, &from, &dimmed});
+const rsl::Shader flame(TM_LIGHT, "flame", "a point light that flickers with time", 0, shadeFlame,
+                        {&intensity, &flicker, &from, &dimmed});
 
 // A volume changes Ci and Oi of what is seen along I.
 rsl::FloatParam extinction("extinction", 0.1f, "share lost for each unit of length, at first");

@@ -1,16 +1,18 @@
-// A ball of milk or smoke: light that was scattered any number of times, from the photons in it. The ray is marched from where it enters to where it
-// leaves, through the fluence that `tomales render --gi atlas --atlas maps` leaves of what the ball's Interior scatters. In RSL:
+// A ball of milk or smoke: light that was scattered any number of times, from the photons in it. The ray is marched
+// from where it enters to where it leaves, through the fluence that `tomales render --gi atlas --atlas maps` leaves of
+// what the ball's Interior scatters. In RSL:
 //
-//   surface milk(color scattering = 1, absorption = 0; float steps = 32, radius = 0; string map = "maps/scene.volume.bkm") {
-//     vector In = normalize(I), Ib = vtransform("object", In);                              /* the ball: radius 1 around the origin */
-//     float chord = -2 * (vector(transform("object", P)) . Ib) / (Ib . Ib), stepsize = length(vtransform("world", chord * In)) / steps;
-//     color extinction = scattering + absorption, clear = 1, Cv = 0;
+//   surface milk(color scattering = 1, absorption = 0; float steps = 32, radius = 0; string map =
+//   "maps/scene.volume.bkm") {
+//     vector In = normalize(I), Ib = vtransform("object", In);                              /* the ball: radius 1
+//     around the origin */ float chord = -2 * (vector(transform("object", P)) . Ib) / (Ib . Ib), stepsize =
+//     length(vtransform("world", chord * In)) / steps; color extinction = scattering + absorption, clear = 1, Cv = 0;
 //     for (i = 0; i < steps; i += 1) {
 //       color fluence = 0;
 //       texture3d(map, P + (i + .5) / steps * chord * In, normal 0, "fluence", fluence, "filterradius", radius);
 //       color seen = exp(-extinction * stepsize);
-//       Cv += clear * (1 - seen) * scattering / extinction * fluence / (4 * PI);             /* scattered evenly in all directions */
-//       clear *= seen;
+//       Cv += clear * (1 - seen) * scattering / extinction * fluence / (4 * PI);             /* scattered evenly in all
+//       directions */ clear *= seen;
 //     }
 //     Ci = Cv;  Oi = 1 - clear;
 //   }
@@ -19,8 +21,10 @@
 using namespace sl;
 
 namespace {
-rsl::ColorParam scattering("scattering", {1, 1, 1}, "of the Interior, for each unit of the world"), absorption("absorption", {0, 0, 0}, "likewise");
-rsl::UniformFloatParam steps("steps", 32, "of the march"), radius("radius", 0, "of the mean that a step takes of the map: photons are noisy");
+rsl::ColorParam scattering("scattering", {1, 1, 1}, "of the Interior, for each unit of the world"),
+    absorption("absorption", {0, 0, 0}, "likewise");
+rsl::UniformFloatParam steps("steps", 32, "of the march"),
+    radius("radius", 0, "of the mean that a step takes of the map: photons are noisy");
 rsl::StringParam map("map", "maps/scene.volume.bkm", "brick map of the fluence");
 
 struct milk : Surface {
@@ -38,7 +42,8 @@ struct milk : Surface {
     }
     for (int i = 0; i < n; ++i) {
       Color fluence;
-      texture3d(file.c_str(), P + ((i + 0.5) / n) * chord * In, Normal(), {{"fluence", fluence}}, "filterradius", uniform(radius));
+      texture3d(file.c_str(), P + ((i + 0.5) / n) * chord * In, Normal(), {{"fluence", fluence}}, "filterradius",
+                uniform(radius));
       Cv += clear * (Color(1) - seen) * share * fluence;
       clear *= seen;
     }
@@ -46,8 +51,8 @@ struct milk : Surface {
     Oi = Color(1) - clear;
   }
 };
-const rsl::Shader shader(TM_SURFACE, "milk", "a ball that scatters light any number of times, by a volume photon map", 0, sl::shade<milk>,
-                         {&scattering, &absorption, &steps, &radius, &map});
+const rsl::Shader shader(TM_SURFACE, "milk", "a ball that scatters light any number of times, by a volume photon map",
+                         0, sl::shade<milk>, {&scattering, &absorption, &steps, &radius, &map});
 }  // namespace
 
 TM_SHADER_LIBRARY(shader)

@@ -1,7 +1,8 @@
-// Smoke, marched along the ray from the eye and lit on the way: lights shine into it, what stands in it casts shadows through it, and it dims
-// the light that has to cross it. In RSL:
+// Smoke, marched along the ray from the eye and lit on the way: lights shine into it, what stands in it casts shadows
+// through it, and it dims the light that has to cross it. In RSL:
 //
-//   volume smoke(float density = 1, frequency = 1, steps = 32, octaves = 3, top = 2, lightsteps = 4; color smokecolor = .8) {
+//   volume smoke(float density = 1, frequency = 1, steps = 32, octaves = 3, top = 2, lightsteps = 4; color smokecolor =
+//   .8) {
 //     float smokeat(point Q) {
 //       float d = 0, amp = 1, f = frequency;
 //       for (k = 0; k < octaves; k += 1) { d += amp * (2 * noise(f * Q) - 1);  f *= 2;  amp *= .5; }
@@ -30,7 +31,8 @@
 using namespace sl;
 
 namespace {
-rsl::FloatParam density("density", 1, "of the thickest smoke, for each unit of length"), frequency("frequency", 1, "lumps for each unit");
+rsl::FloatParam density("density", 1, "of the thickest smoke, for each unit of length"),
+    frequency("frequency", 1, "lumps for each unit");
 rsl::UniformFloatParam steps("steps", 32, "of the march"), octaves("octaves", 3, "layers of noise");
 rsl::FloatParam top("top", 2, "no smoke above this height in the world");
 rsl::UniformFloatParam lightsteps("lightsteps", 4, "of the march to each light; 0: smoke does not dim it");

@@ -35,9 +35,11 @@ struct stone : Displacement {
     N = calculatenormal(P);
   }
 };
-const rsl::Shader displacement(TM_DISPLACEMENT, "stone", "ridged hollows; bound: 2 Km", 0, sl::shade<stone>, {&Km, &lumps});
+const rsl::Shader displacement(TM_DISPLACEMENT, "stone", "ridged hollows; bound: 2 Km", 0, sl::shade<stone>,
+                               {&Km, &lumps});
 
-rsl::FloatParam Ka("Ka", 1, "weight of ambient light"), Kd("Kd", 0.8f, "weight of diffuse light"), Kb("Kb", 0.01f, "height of the grains");
+rsl::FloatParam Ka("Ka", 1, "weight of ambient light"), Kd("Kd", 0.8f, "weight of diffuse light"),
+    Kb("Kb", 0.01f, "height of the grains");
 rsl::FloatParam grains("frequency", 40, "grains for each unit");
 rsl::ColorParam dark("dark", {0.25f, 0.22f, 0.2f}, "colour between grains");
 
@@ -51,8 +53,8 @@ struct stonesurface : Surface {
     Ci = Os * mix(dark, Cs, smoothstep(0.2, 0.8, grain)) * (Ka * ambient() + Kd * diffuse(Nf));
   }
 };
-const rsl::Shader surface(TM_SURFACE, "stonesurface", "grains that are bumps", TM_KEEPS_OPACITY | TM_NEIGHBOURS, sl::shade<stonesurface>,
-                          {&Ka, &Kd, &Kb, &grains, &dark});
+const rsl::Shader surface(TM_SURFACE, "stonesurface", "grains that are bumps", TM_KEEPS_OPACITY | TM_NEIGHBOURS,
+                          sl::shade<stonesurface>, {&Ka, &Kd, &Kb, &grains, &dark});
 }  // namespace
 
 TM_SHADER_LIBRARY(displacement, surface)

@@ -11,16 +11,20 @@
 //     color base = mix(lightwood, darkwood, clamp(late + .25 * grain, 0, 1));
 //     normal Nf = faceforward(normalize(N), I);
 //     Oi = Os;
-//     Ci = Os * (base * (ambient() + Kd * diffuse(Nf)) + (1 - .5 * grain) * Ks * shine * specular(Nf, -normalize(I), roughness));
+//     Ci = Os * (base * (ambient() + Kd * diffuse(Nf)) + (1 - .5 * grain) * Ks * shine * specular(Nf, -normalize(I),
+//     roughness));
 //   }
 #include <reyes/sl.h>
 
 using namespace sl;
 
 namespace {
-rsl::FloatParam Kd("Kd", 0.7f, "weight of diffuse light"), Ks("Ks", 0.25f, "weight of highlights"), roughness("roughness", 0.12f, "width of highlights");
-rsl::FloatParam ringscale("ringscale", 12, "rings for each unit"), grainscale("grainscale", 60, "fineness of the pores");
-rsl::ColorParam lightwood("lightwood", {0.69f, 0.44f, 0.25f}, "early wood"), darkwood("darkwood", {0.35f, 0.18f, 0.08f}, "late wood");
+rsl::FloatParam Kd("Kd", 0.7f, "weight of diffuse light"), Ks("Ks", 0.25f, "weight of highlights"),
+    roughness("roughness", 0.12f, "width of highlights");
+rsl::FloatParam ringscale("ringscale", 12, "rings for each unit"),
+    grainscale("grainscale", 60, "fineness of the pores");
+rsl::ColorParam lightwood("lightwood", {0.69f, 0.44f, 0.25f}, "early wood"),
+    darkwood("darkwood", {0.35f, 0.18f, 0.08f}, "late wood");
 rsl::ColorParam shine("shine", {1, 1, 1}, "colour of highlights");
 
 struct wood : Surface {
@@ -34,10 +38,12 @@ struct wood : Surface {
     Color base = mix(lightwood, darkwood, clamp(late + 0.25 * grain, 0, 1));
     Normal Nf = faceforward(normalize(N), I);
     Oi = Os;
-    Ci = Os * (base * (ambient() + Kd * diffuse(Nf)) + (1 - 0.5 * grain) * Ks * shine * specular(Nf, -normalize(I), roughness));
+    Ci = Os * (base * (ambient() + Kd * diffuse(Nf)) +
+               (1 - 0.5 * grain) * Ks * shine * specular(Nf, -normalize(I), roughness));
   }
 };
-const rsl::Shader shader(TM_SURFACE, "wood", "rings and pores of a trunk along z of shader space", TM_KEEPS_OPACITY, sl::shade<wood>,
+const rsl::Shader shader(TM_SURFACE, "wood", "rings and pores of a trunk along z of shader space", TM_KEEPS_OPACITY,
+                         sl::shade<wood>,
                          {&Kd, &Ks, &roughness, &ringscale, &grainscale, &lightwood, &darkwood, &shine});
 }  // namespace
 

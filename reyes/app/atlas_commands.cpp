@@ -52,7 +52,8 @@ std::vector<fs::path> pointFiles(const std::vector<std::string>& inputs) {
 void makeFolder(const std::string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (!fs::is_directory(folder)) throw FileError(fmt::format("folder \"{}\" cannot be made: {}", folder, error.message()));
+  if (!fs::is_directory(folder))
+    throw FileError(fmt::format("folder \"{}\" cannot be made: {}", folder, error.message()));
 }
 
 /// One cloud of several, chunk by chunk.
@@ -61,11 +62,13 @@ void joinPointFiles(const std::vector<fs::path>& files, const fs::path& out) {
   PointFileWriter writer(out.string(), first.channels());
   for (const fs::path& path : files) {
     const PointFile file(path.string());
-    if (file.channels() != first.channels()) throw FileError(fmt::format("\"{}\" has other channels than the files before", path.string()));
+    if (file.channels() != first.channels())
+      throw FileError(fmt::format("\"{}\" has other channels than the files before", path.string()));
     for (size_t chunk = 0; chunk < file.chunkCount(); ++chunk) {
       PointCloud part;
       file.read(chunk, part);
-      for (size_t i = 0; i < part.count(); ++i) writer.add(part.position[i], part.normal[i], part.radius[i], part.at(i));
+      for (size_t i = 0; i < part.count(); ++i)
+        writer.add(part.position[i], part.normal[i], part.radius[i], part.at(i));
     }
   }
   writer.finish(first.madeFrom());
@@ -88,7 +91,7 @@ std::optional<Scene> firstScene(const RenderSettings& settings, Log& log) {
 void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, Log& log) {
   applyOverrides(scene, settings);
   scene.open([](const Attributes& a) { return a.visibility.photon; });
-  ShaderRegistry registry(log);
+  ShaderRegistry registry(log, pluginTrust(settings));
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
   ShadingSystem shading(scene, registry, nullptr, log, stats);
   const Camera camera(scene.options);
@@ -146,8 +149,8 @@ void makeBrickMaps(const BrickmakeCommand& command, const std::function<void(con
     if (command.relative) settings.maxError *= static_cast<float>(tiles.meanOfData());
     const BuiltBricks built = writeBrickMap(tiles, settings, out.string(), {file.madeFrom().world, 0});
     if (made)
-      made(fmt::format("{}: {} points, {} bricks, {} left out, {} levels", out.string(), file.count(), built.tree.nodes.size(), built.eliminated,
-               built.tree.deepest + 1));
+      made(fmt::format("{}: {} points, {} bricks, {} left out, {} levels", out.string(), file.count(),
+                       built.tree.nodes.size(), built.eliminated, built.tree.deepest + 1));
   };
   if (one && files.size() > 1) {
     const fs::path folder = fs::path(command.output).parent_path();
@@ -156,13 +159,16 @@ void makeBrickMaps(const BrickmakeCommand& command, const std::function<void(con
     joinPointFiles(files, all);
     make(all, command.output);
   } else {
-    for (const fs::path& file : files) make(file, one ? fs::path(command.output) : fs::path(command.output) / fs::path(file).filename().replace_extension(".bkm"));
+    for (const fs::path& file : files)
+      make(file, one ? fs::path(command.output)
+                     : fs::path(command.output) / fs::path(file).filename().replace_extension(".bkm"));
   }
 }
 
 int brickmakeCommand(const BrickmakeCommand& command) {
   Log log;
-  guarded(log, Severity::Error, [&] { makeBrickMaps(command, [](const std::string& what) { fmt::print("{}\n", what); }); });
+  guarded(log, Severity::Error,
+          [&] { makeBrickMaps(command, [](const std::string& what) { fmt::print("{}\n", what); }); });
   return exitCodeOf(log);
 }
 
@@ -185,7 +191,9 @@ int viewCommand(const ViewCommand& command) {
         return vec3(camera->raster(at), at.z);
       };
     }
-    const PointCloud cloud = fs::path(command.input).extension() == ".bkm" ? voxelsOf(BrickFile(command.input), command.level) : cloudOf(command.input);
+    const PointCloud cloud = fs::path(command.input).extension() == ".bkm"
+                                 ? voxelsOf(BrickFile(command.input), command.level)
+                                 : cloudOf(command.input);
     writeImage(command.output, pictureOf(cloud, settings), fs::path(command.output).extension() == ".png", log);
   });
   return exitCodeOf(log);
@@ -201,8 +209,8 @@ int convertCommand(const ConvertCommand& command) {
       const PlyFigures figures = convertPly(command.input, command.output, command.radius);
       if (figures.dropped > 0)
         log.report(Severity::Warning, "ply-points", {},
-                   fmt::format("\"{}\": {} of {} points are not finite or have a negative radius; dropped", command.input,
-                               figures.dropped, figures.points + figures.dropped));
+                   fmt::format("\"{}\": {} of {} points are not finite or have a negative radius; dropped",
+                               command.input, figures.dropped, figures.points + figures.dropped));
     } else if (from == ".icf" && to == ".ptc") {
       writePointFile(cloudOf(command.input), command.output);
     } else {

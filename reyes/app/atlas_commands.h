@@ -20,8 +20,8 @@ struct BrickmakeCommand {
   std::vector<std::string> inputs;  ///< Point clouds, or folders of them.
   std::string output;               ///< FILE.bkm for all, or a folder for one each.
   BrickSettings settings;
-  bool relative = false;            ///< maxError is a share of the mean of the data.
-  bool oneFile = false;             ///< `output` is a file, whatever it ends in.
+  bool relative = false;  ///< maxError is a share of the mean of the data.
+  bool oneFile = false;   ///< `output` is a file, whatever it ends in.
 };
 /// `made` hears of each. Throws FileError, or std::filesystem::filesystem_error.
 void makeBrickMaps(const BrickmakeCommand& command, const std::function<void(const std::string&)>& made = {});

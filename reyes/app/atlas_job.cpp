@@ -28,11 +28,13 @@ bool asksPoints(const RenderSettings& settings, const Scene& scene) {
 }
 
 /// Brick maps, so that a ray finds the mean over its footprint, of those point clouds that are there.
-void bricksOfPoints(const fs::path& clouds, const fs::path& folder, const MapNames& names, const BrickSettings& settings, Log& log) {
+void bricksOfPoints(const fs::path& clouds, const fs::path& folder, const MapNames& names,
+                    const BrickSettings& settings, Log& log) {
   for (const std::string& name : names.ofReflectors()) {
     const fs::path points = atlasFile(clouds, name, ".ptc");
     if (!fs::exists(points)) {
-      log.report(Severity::Missing, "points-none-" + name, {}, fmt::format("there are no points \"{}\": its objects reflect no indirect light", points.string()));
+      log.report(Severity::Missing, "points-none-" + name, {},
+                 fmt::format("there are no points \"{}\": its objects reflect no indirect light", points.string()));
       continue;
     }
     const std::vector<CloudChannel> channels = PointFile(points.string()).channels();
@@ -44,8 +46,10 @@ void bricksOfPoints(const fs::path& clouds, const fs::path& folder, const MapNam
 
 void warnOfStrangers(const IrradianceAtlas& maps, uint64_t world, Log& log) {
   if (const auto strange = maps.strange(world))
-    log.report(Severity::Warning, "atlas-stale", {},
-               fmt::format("irradiance map \"{}\" was made before the scene was changed, or from another; it is used as it is", *strange));
+    log.report(
+        Severity::Warning, "atlas-stale", {},
+        fmt::format("irradiance map \"{}\" was made before the scene was changed, or from another; it is used as it is",
+                    *strange));
 }
 
 }  // namespace
@@ -75,13 +79,15 @@ bool storesDirect(const RenderSettings& settings, const Scene& scene) {
   return !folder.empty() && isMadeByHand(folder) ? holdsDirect(folder) : settings.atlasDirect;
 }
 
-std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
-                                                    const RenderSettings& settings, Stats& stats, Log& log) {
+std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays,
+                                                    const ShadingSystem& shading, const RenderSettings& settings,
+                                                    Stats& stats, Log& log) {
   const AtlasSettings atlas = atlasSettings(settings, scene);
   const std::string given = atlasFolder(settings, scene);
   const bool points = asksPoints(settings, scene);
   if (points && given.empty()) {
-    log.report(Severity::Missing, "points-folder", {}, "--gi points needs --atlas FOLDER of point clouds with irradiance: rendered without indirect light");
+    log.report(Severity::Missing, "points-folder", {},
+               "--gi points needs --atlas FOLDER of point clouds with irradiance: rendered without indirect light");
     return nullptr;
   }
   std::optional<TemporaryFolder> temporary;  // an open map keeps its file readable
@@ -103,12 +109,14 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
 
 std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const RenderSettings& settings, Log& log) {
   if (settings.bakedFolder.empty()) {
-    log.report(Severity::Missing, "baked-folder", {}, "--gi baked needs --baked FOLDER: rendered without indirect light");
+    log.report(Severity::Missing, "baked-folder", {},
+               "--gi baked needs --baked FOLDER: rendered without indirect light");
     return nullptr;
   }
   try {
     const AtlasSettings atlas = atlasSettings(settings, scene);
-    auto maps = std::make_unique<const IrradianceAtlas>(settings.bakedFolder, scene, mapNames(scene, atlas).ofSurfaces(), brickCacheBytes(settings), log);
+    auto maps = std::make_unique<const IrradianceAtlas>(
+        settings.bakedFolder, scene, mapNames(scene, atlas).ofSurfaces(), brickCacheBytes(settings), log);
     warnOfStrangers(*maps, atlas.world, log);
     return maps;
   } catch (const std::runtime_error& e) {  // FileError, or of the file system
@@ -117,8 +125,8 @@ std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const Rende
   }
 }
 
-void bakeGathered(const GiServices& services, const DeepFrame& layout, const TileReader& tiles, const Scene& scene, const RenderSettings& settings,
-                  Log& log) {
+void bakeGathered(const GiServices& services, const DeepFrame& layout, const TileReader& tiles, const Scene& scene,
+                  const RenderSettings& settings, Log& log) {
   try {
     const AtlasSettings atlas = atlasSettings(settings, scene);
     services.bake(layout, tiles, settings.bakedFolder, mapNames(scene, atlas).ofSurfaces(), atlas.world);

@@ -13,14 +13,16 @@ AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene);
 bool storesDirect(const RenderSettings& settings, const Scene& scene);
 
 /// In the atlasFolder(), where what is still true is used and the rest made; without
-/// one in a temporary folder. Maps put there by hand are used as they are. Null after an error, which has been reported.
-std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
-                                                    const RenderSettings& settings, Stats& stats, Log& log);
+/// one in a temporary folder. Maps put there by hand are used as they are. Null after an error, which has been
+/// reported.
+std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays,
+                                                    const ShadingSystem& shading, const RenderSettings& settings,
+                                                    Stats& stats, Log& log);
 
 /// The light of settings.bakedFolder, for GiMode::Baked. Null after an error, which has been reported.
 std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const RenderSettings& settings, Log& log);
 /// What has been gathered goes to settings.bakedFolder. Errors are reported.
-void bakeGathered(const GiServices& services, const DeepFrame& layout, const TileReader& tiles, const Scene& scene, const RenderSettings& settings,
-                  Log& log);
+void bakeGathered(const GiServices& services, const DeepFrame& layout, const TileReader& tiles, const Scene& scene,
+                  const RenderSettings& settings, Log& log);
 
 }  // namespace tomales

@@ -12,13 +12,15 @@ namespace tomales {
 BucketFile::BucketFile(const Scene& scene, const DeepFrame& layout, int world, const RenderSettings& settings, Log& log)
     : picture_(scene.options.displays.front().name), layout_(layout), log_(log), resumes_(settings.resume) {
   if (!resumes_) return;
-  const Shot shot{scene, layout_, settings.seed, sourcesOf(settings.files), std::filesystem::current_path().string(), world};
+  const Shot shot{scene, layout_, settings.seed, sourcesOf(settings.files), std::filesystem::current_path().string(),
+                  world};
   std::string error;
   file_ = DfbWriter::create(picture_ + ".dfb", shot, true, error);
   if (!file_)
     log.report(Severity::Warning, "resume", {}, "buckets cannot be kept for --resume: " + error);
   else
-    log.report(Severity::Info, "resume", {}, fmt::format("{} of {} buckets were finished before", file_->tilesKept(), layout_.tileCount()));
+    log.report(Severity::Info, "resume", {},
+               fmt::format("{} of {} buckets were finished before", file_->tilesKept(), layout_.tileCount()));
 }
 
 void BucketFile::keepForResume(size_t index, const DeepTile& tile) {
@@ -34,8 +36,8 @@ void BucketFile::spill(size_t index, const DeepTile& tile) {
   }
   if (!file_ || (!file_->has(index) && !file_->write(index, tile)))
     log_.report(Severity::Output, "spill", {},
-                "the frame's buckets do not fit into memory, nor into a file beside \"" + picture_ + "\", and some are left out: " +
-                    (file_ ? file_->error() : error));
+                "the frame's buckets do not fit into memory, nor into a file beside \"" + picture_ +
+                    "\", and some are left out: " + (file_ ? file_->error() : error));
   ++spilled_;
 }
 

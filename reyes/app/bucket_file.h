@@ -1,5 +1,5 @@
-// Hidden buckets in a file beside the picture: with --resume all of them, those of an interrupted run among them; else those that
-// memory does not hold, in a file that is gone when the program is. Threads: any.
+// Hidden buckets in a file beside the picture: with --resume all of them, those of an interrupted run among them; else
+// those that memory does not hold, in a file that is gone when the program is. Threads: any.
 #pragma once
 #include <atomic>
 #include <mutex>

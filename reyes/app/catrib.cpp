@@ -11,8 +11,7 @@ int catribCommand(const CatribSettings& settings) {
   Log log;
   const bool toFile = !settings.output.empty();
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
-      toFile ? std::fopen(settings.output.c_str(), "wb") : nullptr,
-      [](std::FILE* f) { return std::fclose(f); });
+      toFile ? std::fopen(settings.output.c_str(), "wb") : nullptr, [](std::FILE* f) { return std::fclose(f); });
   std::FILE* out = toFile ? file.get() : stdout;
   bool written = out != nullptr;
   if (out) {
@@ -24,8 +23,7 @@ int catribCommand(const CatribSettings& settings) {
   written = written && std::fflush(out) == 0;
   if (!written)
     log.report(Severity::Output, "output-write",
-               {std::make_shared<std::string>(toFile ? settings.output : "standard output"), 0},
-               "cannot be written");
+               {std::make_shared<std::string>(toFile ? settings.output : "standard output"), 0}, "cannot be written");
   return exitCodeOf(log);
 }
 

@@ -39,27 +39,33 @@ struct Invocation {
 };
 
 void buildRender(CLI::App& app, Invocation& in, int& code) {
-  CLI::App* c = app.add_subcommand(
-      "render", "Render RIB files, taken as one stream; - is standard input (the default command)");
+  CLI::App* c =
+      app.add_subcommand("render", "Render RIB files, taken as one stream; - is standard input (the default command)");
   addOutput(*c, in.render);
   addPictureOptions(*c, in.render);
   addLightOptions(*c, in.render);
   addRunOptions(*c, in.render);
   addWatching(*c, in.render);
-  c->add_flag("--resume", in.render.resume, "Keep finished buckets beside the picture until it is written, and use those of an interrupted run");
-  c->add_option("--irradiance", in.render.irradiance, "Indirect light from these records instead of a gather pass")->type_name("SHOT.icf");
+  c->add_flag("--resume", in.render.resume,
+              "Keep finished buckets beside the picture until it is written, and use those of an interrupted run");
+  c->add_option("--irradiance", in.render.irradiance, "Indirect light from these records instead of a gather pass")
+      ->type_name("SHOT.icf");
   c->add_flag("--irradiance-append", in.render.appendIrradiance,
               "Gather where those records leave points uncovered or disagree");
-  c->add_option("--baked", in.render.bakedFolder, "Brick maps of gathered light: made, or added to; with --gi baked used instead of gathering, by any camera")
+  c->add_option(
+       "--baked", in.render.bakedFolder,
+       "Brick maps of gathered light: made, or added to; with --gi baked used instead of gathering, by any camera")
       ->type_name("FOLDER");
-  addParsed(*c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M", "Limits textures, bricks and the buckets of the frame; what exceeds it rests in a file");
+  addParsed(*c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M",
+            "Limits textures, bricks and the buckets of the frame; what exceeds it rests in a file");
   c->add_option("SCENE", in.render.files, "RIB files")->required();
   c->callback([&] { code = renderCommand(in.render); });
 }
 
 void buildHide(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c = app.add_subcommand("hide", "Geometry to a deep frame buffer of visible micropolygons");
-  addParsed(*c, "-o", in.render.output, parseNamed(".dfb"), "SHOT.dfb", "Write here; # stands for the frame number")->required();
+  addParsed(*c, "-o", in.render.output, parseNamed(".dfb"), "SHOT.dfb", "Write here; # stands for the frame number")
+      ->required();
   addPictureOptions(*c, in.render);
   addLightOptions(*c, in.render);
   addRunOptions(*c, in.render);
@@ -69,8 +75,11 @@ void buildHide(CLI::App& app, Invocation& in, int& code) {
 }
 
 void addShotOptions(CLI::App& app, RenderSettings& s) {
-  app.add_option("--edit", s.edits, "Changes to shaders, lights and attributes: RIB requests after Attribute \"identifier\" \"name\"")
-      ->expected(1)->take_all()->type_name("EDIT.rib");
+  app.add_option("--edit", s.edits,
+                 "Changes to shaders, lights and attributes: RIB requests after Attribute \"identifier\" \"name\"")
+      ->expected(1)
+      ->take_all()
+      ->type_name("EDIT.rib");
   app.add_option("SHOT", s.files, "A deep frame buffer")->required()->expected(1)->type_name("SHOT.dfb");
 }
 
@@ -91,7 +100,9 @@ void buildGather(CLI::App& app, Invocation& in, int& code) {
 void buildShade(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c = app.add_subcommand("shade", "The picture of a shot, without hiding it again");
   addOutput(*c, in.render);
-  c->add_option("--irradiance", in.render.irradiance, "Indirect light and shadows of tomales gather: no rays are traced")->type_name("SHOT.icf");
+  c->add_option("--irradiance", in.render.irradiance,
+                "Indirect light and shadows of tomales gather: no rays are traced")
+      ->type_name("SHOT.icf");
   addCrop(*c, in.render);
   addLightOptions(*c, in.render);
   addRunOptions(*c, in.render);
@@ -120,7 +131,9 @@ void buildCompare(CLI::App& app, Invocation& in, int& code) {
 void buildShadetest(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c = app.add_subcommand("shadetest", "One shader over a grid: time and values");
   c->add_option("SHADER", in.shadetest.shader, "A name, or a plugin .so")->required();
-  addParsed(*c, "--grid", in.shadetest.grid, [](const std::string& t) { return parsePair(t, 2, 4096); }, "NxM", "Points along u and v (default 64x64)");
+  addParsed(
+      *c, "--grid", in.shadetest.grid, [](const std::string& t) { return parsePair(t, 2, 4096); }, "NxM",
+      "Points along u and v (default 64x64)");
   addParsed(*c, "-o", in.shadetest.output, parseOutput, "FILE.exr|.tif|.png", "Picture of Ci");
   c->callback([&] { code = shadetestCommand(in.shadetest); });
 }
@@ -137,7 +150,8 @@ void buildCatrib(CLI::App& app, Invocation& in, int& code) {
 void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   CLI::App* photons = app.add_subcommand("photons", "Photon maps of a scene, one file for each group of objects");
   photons->add_option("-o", in.render.output, "Folder to write to")->required()->type_name("FOLDER");
-  photons->add_option("--photons", in.render.photons, "Photons to emit")->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
+  photons->add_option("--photons", in.render.photons, "Photons to emit")
+      ->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
   photons->add_option("--bounces", in.render.bounces, "Most surfaces that a photon may arrive at")
       ->check(CLI::Range(1, kMostBounces));
   photons->add_option("--seed", in.render.seed, "Of all random numbers");
@@ -145,55 +159,80 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   photons->add_option("SCENE", in.render.files, "RIB files")->required();
   photons->callback([&] { code = photonsCommand(in.render); });
 
-  CLI::App* irradiance = app.add_subcommand("irradiance", "Irradiance (W/m2) and area at photons: point clouds of disks");
+  CLI::App* irradiance =
+      app.add_subcommand("irradiance", "Irradiance (W/m2) and area at photons: point clouds of disks");
   irradiance->add_option("FILES", in.irradiance.inputs, "Photon maps, or folders of them")->required();
   irradiance->add_option("-o", in.irradiance.output, "Folder to write to")->required()->type_name("FOLDER");
-  irradiance->add_option("--nearest", in.irradiance.settings.nearest, "Photons of one estimate")->check(CLI::Range(2, 100000));
-  irradiance->add_option("--every", in.irradiance.settings.every, "One estimate for so many photons")->check(CLI::Range(1, 100000));
+  irradiance->add_option("--nearest", in.irradiance.settings.nearest, "Photons of one estimate")
+      ->check(CLI::Range(2, 100000));
+  irradiance->add_option("--every", in.irradiance.settings.every, "One estimate for so many photons")
+      ->check(CLI::Range(1, 100000));
   irradiance->callback([&] { code = irradianceCommand(in.irradiance); });
 
   CLI::App* bricks = app.add_subcommand("brickmake", "Brick maps of point clouds");
   bricks->add_option("FILES", in.brickmake.inputs, "Point clouds, or folders of them")->required();
   bricks->add_option("-o", in.brickmake.output, "FILE.bkm for all, or a folder for one each")->required();
-  bricks->add_option("--maxerror", in.brickmake.settings.maxError, "Variation that needs no finer bricks")->check(CLI::Range(0.0, 1e9));
+  bricks->add_option("--maxerror", in.brickmake.settings.maxError, "Variation that needs no finer bricks")
+      ->check(CLI::Range(0.0, 1e9));
   bricks->add_flag("--relative", in.brickmake.relative, "maxerror is a share of the mean of the data");
-  bricks->add_option("--maxdepth", in.brickmake.settings.maxDepth, "Most levels below the first")->check(CLI::Range(0, 20));
-  bricks->add_option("--radiusscale", in.brickmake.settings.radiusScale, "Scale of the points' radii")->check(CLI::Range(1e-3, 1e3));
-  bricks->add_option("--coarseness", in.brickmake.settings.coarseness, "Widths of the finest voxels, over what the radii ask: 2 for irradiance of photons")->check(CLI::Range(0.1, 100.0));
+  bricks->add_option("--maxdepth", in.brickmake.settings.maxDepth, "Most levels below the first")
+      ->check(CLI::Range(0, 20));
+  bricks->add_option("--radiusscale", in.brickmake.settings.radiusScale, "Scale of the points' radii")
+      ->check(CLI::Range(1e-3, 1e3));
+  bricks
+      ->add_option("--coarseness", in.brickmake.settings.coarseness,
+                   "Widths of the finest voxels, over what the radii ask: 2 for irradiance of photons")
+      ->check(CLI::Range(0.1, 100.0));
   bricks->add_flag("--ignorenormals", in.brickmake.settings.ignoreNormals, "The data fill a volume");
   bricks->callback([&] { code = brickmakeCommand(in.brickmake); });
 
-  CLI::App* view = app.add_subcommand("view", "A picture of a point cloud, photon map, brick map, or of the records of an irradiance cache");
+  CLI::App* view = app.add_subcommand(
+      "view", "A picture of a point cloud, photon map, brick map, or of the records of an irradiance cache");
   view->add_option("FILE", in.view.input)->required();
   addParsed(*view, "-o", in.view.output, parseOutput, "FILE.png|.exr|.tif", "The picture");
   view->add_option("--channel", in.view.channel, "Channel to show; also normal, radius (default: the first)");
   view->add_option("--level", in.view.level, "Level of a brick map, 0 the coarsest (default: the finest)");
   view->add_option("--camera", in.view.camera, "Look with the camera of this RIB file")->type_name("SCENE.rib");
   view->add_option("--gain", in.view.gain, "Multiplies the values (default: so that they can be seen)");
-  addParsed(*view, "--format", in.view.size, [](const std::string& t) { return parsePair(t, 1, 16384); }, "WxH", "Resolution in pixels");
+  addParsed(
+      *view, "--format", in.view.size, [](const std::string& t) { return parsePair(t, 1, 16384); }, "WxH",
+      "Resolution in pixels");
   view->callback([&] { code = viewCommand(in.view); });
 
-  CLI::App* convert = app.add_subcommand("convert", "Point clouds from and to PLY, for other programs; the records of an irradiance cache as a point cloud");
+  CLI::App* convert = app.add_subcommand(
+      "convert",
+      "Point clouds from and to PLY, for other programs; the records of an irradiance cache as a point cloud");
   convert->add_option("IN", in.convert.input, "FILE.ptc, FILE.ply or SHOT.icf")->required();
   convert->add_option("OUT", in.convert.output, "FILE.ply or FILE.ptc")->required();
-  convert->add_option("--radius", in.convert.radius, "Of points that name none (default: 0)")->check(CLI::Range(0.0, 1e9));
+  convert->add_option("--radius", in.convert.radius, "Of points that name none (default: 0)")
+      ->check(CLI::Range(0.0, 1e9));
   convert->callback([&] { code = convertCommand(in.convert); });
 }
 
 void buildChart(CLI::App& app, Invocation& in, int& code) {
-  CLI::App* c = app.add_subcommand("chart", "A page that shows what error a second and a megabyte buy on a scene, for every method");
+  CLI::App* c = app.add_subcommand(
+      "chart", "A page that shows what error a second and a megabyte buy on a scene, for every method");
   ChartSettings& s = in.chart;
-  addParsed(*c, "-o", s.output, parseNamed(".html"), "FILE.html", "Write here, and the figures to FILE.json")->required();
-  CLI::Option* sweep = c->add_option("--sweep", s.sweep, "What to vary: " + chartSweepNames())
-      ->check([](const std::string& name) { return chartSweep(name) ? std::string() : "none of " + chartSweepNames(); });
-  c->add_flag("--stability", in.stability, "SCENEs are laboratory scenes with a knob (docs/chart.md), or folders of them: error against the knob")
+  addParsed(*c, "-o", s.output, parseNamed(".html"), "FILE.html", "Write here, and the figures to FILE.json")
+      ->required();
+  CLI::Option* sweep =
+      c->add_option("--sweep", s.sweep, "What to vary: " + chartSweepNames())->check([](const std::string& name) {
+        return chartSweep(name) ? std::string() : "none of " + chartSweepNames();
+      });
+  c->add_flag("--stability", in.stability,
+              "SCENEs are laboratory scenes with a knob (docs/chart.md), or folders of them: error against the knob")
       ->excludes(sweep);
   addParsed(*c, "--budget", s.budget_s, parseSeconds, "10m", "Wall time, as 90s, 10m or 2h (default 10m)");
-  addParsed(*c, "--format", s.format, [](const std::string& t) { return parsePair(t, 1, 65536); }, "WxH", "Resolution in pixels");
-  c->add_option("--batches", s.batches, "Most independent pictures that make the reference")->check(CLI::Range(2, 10000));
+  addParsed(
+      *c, "--format", s.format, [](const std::string& t) { return parsePair(t, 1, 65536); }, "WxH",
+      "Resolution in pixels");
+  c->add_option("--batches", s.batches, "Most independent pictures that make the reference")
+      ->check(CLI::Range(2, 10000));
   c->add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, kMostBounces));
   c->add_option("-t", s.threads, "Threads of each rendering (default: all)")->check(CLI::Range(1, 4096));
-  c->add_option("--cache", s.folder, "Keep what has been measured here (default: the user's cache)")->type_name("FOLDER");
+  addTrust(*c, s.allowSystem, s.shaderFolders);
+  c->add_option("--cache", s.folder, "Keep what has been measured here (default: the user's cache)")
+      ->type_name("FOLDER");
   c->add_option("SCENE", s.files, "RIB files")->required()->check(CLI::ExistingPath);
   c->callback([&] {
     if (in.stability) {
@@ -201,14 +240,15 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
       return;
     }
     for (const std::string& file : in.chart.files)
-      if (const std::string problem = CLI::ExistingFile(file); !problem.empty()) throw CLI::ValidationError("SCENE", problem + " (only --stability takes folders)");
+      if (const std::string problem = CLI::ExistingFile(file); !problem.empty())
+        throw CLI::ValidationError("SCENE", problem + " (only --stability takes folders)");
     code = chartCommand(in.chart);
   });
 }
 
 bool namesCommand(const std::string& text) {
-  for (const char* name : {"render", "hide", "gather", "shade", "photons", "irradiance", "brickmake", "view", "convert", "info", "compare", "chart",
-                           "catrib", "shadetest", "-h", "--help", "--version"})
+  for (const char* name : {"render", "hide", "gather", "shade", "photons", "irradiance", "brickmake", "view", "convert",
+                           "info", "compare", "chart", "catrib", "shadetest", "-h", "--help", "--version"})
     if (text == name) return true;
   return false;
 }

@@ -41,8 +41,8 @@ int compareCommand(const std::string& test, const std::string& reference, const 
   if (!a || !b) return exitCodeOf(log);
   if (a->width != b->width || a->height != b->height) {
     log.report(Severity::Error, "image-size", {std::make_shared<std::string>(test), 0},
-               fmt::format("{}x{} pixels cannot be compared with {}x{} of \"{}\"", a->width, a->height,
-                           b->width, b->height, reference));
+               fmt::format("{}x{} pixels cannot be compared with {}x{} of \"{}\"", a->width, a->height, b->width,
+                           b->height, reference));
     return exitCodeOf(log);
   }
   const Json figures = figuresOf(compare(*a, *b));

@@ -39,12 +39,15 @@ void explainEmptyFrame(const Scene& scene, Log& log) {
       ++unseen;
   std::string why;
   if (scene.objects.empty())
-    why = scene.procedurals.empty() ? "there is no geometry between WorldBegin and WorldEnd" : "no procedural in view brings geometry";
+    why = scene.procedurals.empty() ? "there is no geometry between WorldBegin and WorldEnd"
+                                    : "no procedural in view brings geometry";
   else if (unseen == scene.objects.size())
-    why = fmt::format("every object ({} in all) is hidden from the camera by Surface \"null\" or Attribute \"visibility\"", unseen);
+    why = fmt::format(
+        "every object ({} in all) is hidden from the camera by Surface \"null\" or Attribute \"visibility\"", unseen);
   else
-    why = fmt::format("what the camera might see lies {}: in camera space from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g})",
-                      sideOf(bound, camera), bound.lo.x, bound.lo.y, bound.lo.z, bound.hi.x, bound.hi.y, bound.hi.z);
+    why = fmt::format(
+        "what the camera might see lies {}: in camera space from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g})",
+        sideOf(bound, camera), bound.lo.x, bound.lo.y, bound.lo.z, bound.hi.x, bound.hi.y, bound.hi.z);
   log.report(Severity::Warning, "frame-empty", scene.where, "nothing is to be seen in this frame: " + why);
 }
 

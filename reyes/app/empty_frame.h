@@ -5,8 +5,8 @@
 
 namespace tomales {
 
-/// For a frame in which no micropolygon was seen: reports where everything is, or who hides it. A frame that crops may well be empty:
-/// silent.
+/// For a frame in which no micropolygon was seen: reports where everything is, or who hides it. A frame that crops may
+/// well be empty: silent.
 void explainEmptyFrame(const Scene& scene, Log& log);
 
 }  // namespace tomales

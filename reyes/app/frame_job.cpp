@@ -30,18 +30,20 @@ FrameJob::FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, L
       log_(log),
       mode_(giModeOf(settings.gi, scene)),
       camera_(scene.options),
-      registry_(log),
+      registry_(log, pluginTrust(settings)),
       meter_(settings.progress),
       clouds_(pathOf(scene.options.searchPaths, "texture")) {
   registry_.addLibrary(tomales_builtin_shaders(), "built-in");
   shading_ = std::make_unique<ShadingSystem>(scene, registry_, nullptr, log, stats);
   shading_->setClouds(&clouds_);
-  if (traces()) open([](const Attributes& a) {
+  if (traces())
+    open([](const Attributes& a) {
       const Visibility& v = a.visibility;
       return v.diffuse || v.specular || v.transmission || v.photon;
     });
   gathers_ = mode_ == GiMode::Gather || mode_ == GiMode::Atlas || mode_ == GiMode::Radiosity;
-  for (size_t g = 0; g < scene.groups.size() && mode_ == GiMode::None && keepsOcclusion(giSettings()); ++g) gathers_ |= shading_->asksOcclusion(static_cast<int>(g));
+  for (size_t g = 0; g < scene.groups.size() && mode_ == GiMode::None && keepsOcclusion(giSettings()); ++g)
+    gathers_ |= shading_->asksOcclusion(static_cast<int>(g));
   warnAboutPixels();
 }
 
@@ -51,7 +53,9 @@ void FrameJob::warnAboutPixels() const {
   std::string outside;
   for (const auto& [x, y] : settings_.pixels)
     if (!inside.contains(x, y)) outside += fmt::format("{}{},{}", outside.empty() ? "" : " and ", x, y);
-  if (!outside.empty()) log_.report(Severity::Warning, "pixel-outside", {}, fmt::format("--pixel: {} lies outside of the picture: nothing can be told of it", outside));
+  if (!outside.empty())
+    log_.report(Severity::Warning, "pixel-outside", {},
+                fmt::format("--pixel: {} lies outside of the picture: nothing can be told of it", outside));
 }
 
 FrameJob::~FrameJob() = default;
@@ -72,8 +76,9 @@ bool FrameJob::hide(const DeepFrame& layout, const TileSink& sink) {
 
 void FrameJob::checkRecords(const GiSettings& gathered, const std::string& file) const {
   if (gathers_ && gathered.mode == GiMode::None)
-    log_.report(Severity::Warning, "icf-without-light", {std::make_shared<std::string>(file), 0},
-                "was gathered with --gi none: all indirect light is gathered while shading (with --gi none it is left out)");
+    log_.report(
+        Severity::Warning, "icf-without-light", {std::make_shared<std::string>(file), 0},
+        "was gathered with --gi none: all indirect light is gathered while shading (with --gi none it is left out)");
 }
 
 void FrameJob::prepareRays() {
@@ -83,7 +88,9 @@ void FrameJob::prepareRays() {
   prepareRays([tools = RayTools{rays_.get(), shading_.get()}] { return &tools; });
   if (mode_ == GiMode::Atlas) services_->setAtlas(prepareAtlas(scene_, *rays_, *shading_, settings_, stats_, log_));
   if (mode_ == GiMode::Radiosity)
-    services_->setRadiositySource([this] { return prepareRadiosity({rays_.get(), shading_.get()}, camera_, settings_, stats_, log_); });
+    services_->setRadiositySource([this] {
+      return prepareRadiosity({rays_.get(), shading_.get()}, camera_, settings_, stats_, log_);
+    });
   if (mode_ == GiMode::Baked) services_->setAtlas(openBaked(scene_, settings_, log_));
 }
 
@@ -109,18 +116,24 @@ void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
   std::function<void(int)> show;
   ShadeContext context = shadeContext();
   context.sketch = true;
-  if (preview_) show = [&](int stride) { preview_->show(sketch(layout, tiles, stride, scene_, *shading_, context, interrupted())); };
+  if (preview_)
+    show = [&](int stride) {
+      preview_->show(sketch(layout, tiles, stride, scene_, *shading_, context, interrupted()));
+    };
   services_->gatherPass(layout, tiles, meter_.stage(0.3f, 0.7f), &interrupted(), show);
   warnOfNoise(services_->caches(), log_);
   if (rays_) warnOfThinWalls(*rays_, log_);
-  if (!settings_.bakedFolder.empty() && !interrupted()) bakeGathered(*services_, layout, tiles, scene_, settings_, log_);
+  if (!settings_.bakedFolder.empty() && !interrupted())
+    bakeGathered(*services_, layout, tiles, scene_, settings_, log_);
 }
 
 ShadeContext FrameJob::shadeContext() const {
   ShadeContext context;
   context.seed = lightSeedOf(settings_);
   context.direct = settings_.direct;
-  context.lightSamples = settings_.lightSamples > 0 ? settings_.lightSamples : mode_ == GiMode::Reference ? referenceLightSamples() : 0;
+  context.lightSamples = settings_.lightSamples > 0   ? settings_.lightSamples
+                         : mode_ == GiMode::Reference ? referenceLightSamples()
+                                                      : 0;
   return context;
 }
 
@@ -153,7 +166,8 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
                              return loaded.has_value();
                            },
                            [&](size_t index, DeepTile&& tile) { place(index, std::move(tile), put); }};
-    const FrameControl control{meter_.stage(share(shaded), share(shaded + tiles.size())), cut ? nullptr : &interrupted(), settings_.seed};
+    const FrameControl control{meter_.stage(share(shaded), share(shaded + tiles.size())),
+                               cut ? nullptr : &interrupted(), settings_.seed};
     complete = shadeTiles(tiles, steps, scene_, *shading_, context, control) && complete;
     shaded += tiles.size();
   });
@@ -167,12 +181,14 @@ void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::op
   bool complete = true;
   finish(frame, [&](std::span<const uint32_t> tiles, const TilePlace& put) {
     TurnsTimer timer(stats_, "hide", "shade");
-    const TileSink sink{{}, [&](size_t index, DeepTile&& tile) {
+    const TileSink sink{{},
+                        [&](size_t index, DeepTile&& tile) {
                           keep(index, tile);
                           const TurnsTimer::Turn turn(timer);
                           tomales::shadeTile(tile, scene_, *shading_, shadeContext());
                           place(index, std::move(tile), put);
-                        }, find};
+                        },
+                        find};
     complete = hider.hide(tiles, sink) && complete;
   });
   if (!complete) log_.report(Severity::Warning, "interrupted", {}, "interrupted: finished buckets are written");
@@ -180,7 +196,8 @@ void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::op
 
 void FrameJob::place(size_t index, DeepTile&& tile, const TilePlace& put) const {
   for (const auto& [x, y] : settings_.pixels)
-    if (tile.rect.contains(x, y)) std::fputs(pixelReport(tile, x, y, layOutFrame(scene_).samplesPerPixel, scene_).c_str(), stdout);
+    if (tile.rect.contains(x, y))
+      std::fputs(pixelReport(tile, x, y, layOutFrame(scene_).samplesPerPixel, scene_).c_str(), stdout);
   put(index, std::move(tile));
 }
 
@@ -209,8 +226,8 @@ int FrameJob::referenceLightSamples() const {
   int samples = settings_.samples > 0 ? settings_.samples : kReferenceLightSamples;
   for (const auto& light : scene_.lights)
     if (const Param* p = findParam(light->shader.params, "samples"); p && light->area)
-      samples = std::max(samples, static_cast<int>(std::min(
-                                      p->number(0), static_cast<float>(kMostReferenceLightSamples))));
+      samples =
+          std::max(samples, static_cast<int>(std::min(p->number(0), static_cast<float>(kMostReferenceLightSamples))));
   return std::min(samples, kMostReferenceLightSamples);
 }
 

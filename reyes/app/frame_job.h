@@ -1,9 +1,10 @@
-// One frame through the stages, in the order of its members; rays and global illumination are built if the scene asks for them.
+// One frame through the stages, in the order of its members; rays and global illumination are built if the scene asks
+// for them.
 #pragma once
+#include "gi/clouds.h"
 #include "reyes/app/progress.h"
 #include "reyes/app/settings.h"
 #include "reyes/base/stats.h"
-#include "gi/clouds.h"
 #include "reyes/frame.h"
 
 namespace tomales {
@@ -16,8 +17,8 @@ class FrameJob {
   FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, Log& log);
   ~FrameJob();
 
-  /// Reads all procedurals that are still closed. Before `hide` where tiles leave it one by one, in a file or shaded: it then finds no
-  /// shade groups on its way.
+  /// Reads all procedurals that are still closed. Before `hide` where tiles leave it one by one, in a file or shaded:
+  /// it then finds no shade groups on its way.
   void openAll();
   /// All buckets; opens what it needs. False: interrupted.
   bool hide(const DeepFrame& layout, const TileSink& sink);
@@ -30,8 +31,8 @@ class FrameJob {
   bool shade(std::span<const uint32_t> tiles, const ShadeSteps& steps);
   /// The picture, of tiles that are shaded as its rows need them. They must not be interrupted any more if hiding was.
   void write(const DeepFrame& layout, const std::function<std::optional<DeepTile>(size_t tile)>& load);
-  /// The picture, of tiles that are hidden and shaded as its rows need them. `find`: what an interrupted run has left; `keep`: what
-  /// this one leaves.
+  /// The picture, of tiles that are hidden and shaded as its rows need them. `find`: what an interrupted run has left;
+  /// `keep`: what this one leaves.
   void hideAndWrite(const DeepFrame& layout, const std::function<std::optional<DeepTile>(size_t tile)>& find,
                     const std::function<void(size_t tile, const DeepTile&)>& keep);
 
@@ -76,7 +77,8 @@ class FrameJob {
 
 /// Hours of rendering must not end at a folder that never existed. False: reported.
 bool hasFolder(const std::string& file, const SourceLoc& where, Log& log);
-/// Only if it is relative: scenes of modellers name folders of their project. One that cannot be made is found out when the file is written.
+/// Only if it is relative: scenes of modellers name folders of their project. One that cannot be made is found out when
+/// the file is written.
 void makeFolderOf(const std::string& file);
 /// Makes those that are relative.
 bool displaysHaveFolders(const Options& options, Log& log);

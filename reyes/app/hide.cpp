@@ -25,7 +25,8 @@ uint64_t sumOfFile(const std::string& path) {
 std::vector<SourceFile> sourcesOf(const std::vector<std::string>& files) {
   std::vector<SourceFile> out;
   for (const std::string& file : files)
-    out.push_back(file == "-" ? SourceFile{file, 0} : SourceFile{std::filesystem::absolute(file).string(), sumOfFile(file)});
+    out.push_back(file == "-" ? SourceFile{file, 0}
+                              : SourceFile{std::filesystem::absolute(file).string(), sumOfFile(file)});
   return out;
 }
 
@@ -36,11 +37,14 @@ void hideToFile(Scene& scene, int world, const RenderSettings& settings, Stats& 
   };
   if (!hasFolder(path, {}, log)) return;
   const PixelRect crop = Camera(scene.options).crop();
-  if (int64_t{crop.width()} * crop.height() / (int64_t{scene.options.bucketWidth} * scene.options.bucketHeight) >= kMostTiles)
+  if (int64_t{crop.width()} * crop.height() / (int64_t{scene.options.bucketWidth} * scene.options.bucketHeight) >=
+      kMostTiles)
     return unwritten("there are too many buckets; use --bucket-size or --crop");
   FrameJob job(scene, settings, stats, log);
   job.openAll();
-  Shot shot{scene, layOutFrame(scene), settings.seed, sourcesOf(settings.files), std::filesystem::current_path().string(), world};
+  Shot shot{
+      scene, layOutFrame(scene), settings.seed, sourcesOf(settings.files), std::filesystem::current_path().string(),
+      world};
   std::string error;
   const auto file = DfbWriter::create(path, shot, settings.resume, error);
   if (!file) return unwritten(error);
@@ -52,12 +56,16 @@ void hideToFile(Scene& scene, int world, const RenderSettings& settings, Stats& 
   const TileSink sink{[&](size_t tile) { return full || file->has(tile); },
                       [&](size_t index, DeepTile&& tile) {
                         if (!file->write(index, tile)) full = true;
-                      }, {}};
+                      },
+                      {}};
   const bool complete = job.hide(shot.frame, sink);
-  if (full) return unwritten(file->error() + "; finished buckets are in \"" + file->temporary() + "\", and --resume adds the others");
+  if (full)
+    return unwritten(file->error() + "; finished buckets are in \"" + file->temporary() +
+                     "\", and --resume adds the others");
   if (!complete)
-    return log.report(Severity::Warning, "interrupted", {},
-                      "interrupted: finished buckets are in \"" + file->temporary() + "\", and --resume adds the others");
+    return log.report(
+        Severity::Warning, "interrupted", {},
+        "interrupted: finished buckets are in \"" + file->temporary() + "\", and --resume adds the others");
   if (!file->finish()) unwritten(file->error());
 }
 

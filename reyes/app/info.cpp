@@ -111,16 +111,12 @@ Json paramInfo(const TmParamDecl& p) {
   const int32_t type = TM_TYPE_OF(p.type);
   const bool known = type >= TM_FLOAT && type <= TM_MATRIX, output = (p.type & TM_OUTPUT) != 0;
   if (output)
-    return {{"name", p.name}, {"type", known ? std::string("output ") + kTypes[type] : "?"}, {"doc", p.doc ? p.doc : ""}};
+    return {
+        {"name", p.name}, {"type", known ? std::string("output ") + kTypes[type] : "?"}, {"doc", p.doc ? p.doc : ""}};
   Json value = Json::array();
-  for (int i = 0; known && i < p.arrayLength * kFloats[type]; ++i)
-    value.push_back(p.floats ? p.floats[i] : 0.0f);
-  for (int i = 0; known && type == TM_STRING && p.strings && i < p.arrayLength; ++i)
-    value.push_back(p.strings[i]);
-  return {{"name", p.name},
-          {"type", known ? kTypes[type] : "?"},
-          {"default", value},
-          {"doc", p.doc ? p.doc : ""}};
+  for (int i = 0; known && i < p.arrayLength * kFloats[type]; ++i) value.push_back(p.floats ? p.floats[i] : 0.0f);
+  for (int i = 0; known && type == TM_STRING && p.strings && i < p.arrayLength; ++i) value.push_back(p.strings[i]);
+  return {{"name", p.name}, {"type", known ? kTypes[type] : "?"}, {"default", value}, {"doc", p.doc ? p.doc : ""}};
 }
 
 Json shaderInfo(const TmShader& s) {
@@ -163,7 +159,8 @@ Json dfbInfo(const std::string& file, Log& log) {
   }
   Json sources = Json::array(), lights = Json::array(), objects = Json::array();
   for (const SourceFile& source : shot.sources) sources.push_back(source.path);
-  for (const auto& light : shot.scene.lights) lights.push_back({{"handle", light->handle}, {"shader", light->shader.name}});
+  for (const auto& light : shot.scene.lights)
+    lights.push_back({{"handle", light->handle}, {"shader", light->shader.name}});
   std::set<std::string> names;
   for (const ShadeGroup& group : shot.scene.groups)
     if (!group.attributes->name.empty()) names.insert(group.attributes->name);
@@ -221,8 +218,8 @@ void printText(const Json& j, int depth) {
       std::puts(fmt::format("{}{}:", indent, j.is_array() ? "- " + key : key).c_str());
       printText(value, depth + 1);
     } else {
-      const std::string text = value.is_string() ? value.get<std::string>()
-                                                 : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+      const std::string text =
+          value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', false, Json::error_handler_t::replace);
       std::puts(fmt::format("{}{}: {}", indent, key, text).c_str());
     }
   }

@@ -6,7 +6,6 @@ namespace tomales {
 
 /// Prints to standard output, as JSON or as text; returns the exit code.
 int infoCommand(const std::string& file, bool json);
-int compareCommand(const std::string& test, const std::string& reference, const std::string& differenceFile,
-                   bool json);
+int compareCommand(const std::string& test, const std::string& reference, const std::string& differenceFile, bool json);
 
 }  // namespace tomales

@@ -18,13 +18,13 @@ constexpr float kShareOfRecords = 0.5f;
 constexpr double kUncertainLight = 0.25;
 constexpr double kShareOfStarts = 0.42;
 constexpr int64_t kFewStarts = 10'000;  // rays of a few points
-constexpr size_t kFewRecords = 32;  // say nothing about the whole
+constexpr size_t kFewRecords = 32;      // say nothing about the whole
 
 }  // namespace
 
 void warnOfFloatRange(const Scene& scene, Log& log) {
-  // Object to camera is one matrix; its translation is the sum of two that cancel, each as long as this. What depth loses moves nothing in
-  // the picture.
+  // Object to camera is one matrix; its translation is the sum of two that cancel, each as long as this. What depth
+  // loses moves nothing in the picture.
   const float away = glm::length(vec2(scene.cameraFromWorldAtOpen()[3]));
   const float lost = away * std::numeric_limits<float>::epsilon();
   const Camera camera(scene.options);
@@ -34,7 +34,8 @@ void warnOfFloatRange(const Scene& scene, Log& log) {
     const float pixel = camera.pixelSize(bound.center());
     if (!(bound.lo.z > 0 && lost > kShift_px * pixel)) continue;
     log.report(Severity::Warning, "float-range", o.where,
-               fmt::format("{}: the camera is {:.3g} units beside the origin of the world, where floats are {:.2g} apart; a pixel is {:.2g} there: "
+               fmt::format("{}: the camera is {:.3g} units beside the origin of the world, where floats are {:.2g} "
+                           "apart; a pixel is {:.2g} there: "
                            "move camera and scene nearer to the origin",
                            objectName(o), away, lost, pixel));
     return;
@@ -47,8 +48,9 @@ void warnOfCoarseDicing(const Scene& scene, Log& log) {
     if (a.shadingRate < kCoarse_px2 || o.shapes.empty() || !a.visibility.camera) continue;
     if (!a.displacement && (o.shapes.front()->patchCount() == 0 || o.shapes.front()->info(0).planar)) continue;
     log.report(Severity::Warning, "dice-coarse", o.where,
-               fmt::format("{}: micropolygons of {:.3g} square pixels leave corners in outlines and miss what is finer (ShadingRate, --shading-rate)", objectName(o),
-                           a.shadingRate));
+               fmt::format("{}: micropolygons of {:.3g} square pixels leave corners in outlines and miss what is finer "
+                           "(ShadingRate, --shading-rate)",
+                           objectName(o), a.shadingRate));
     return;
   }
 }
@@ -67,12 +69,14 @@ void warnOfNoise(std::span<const PreparedCache> caches, Log& log) {
     const float share = static_cast<float>(uncertain) / static_cast<float>(records.size());
     if (share > kShareOfRecords)
       log.report(Severity::Warning, "gather-noise", {},
-                 fmt::format("{:.0f} % of {} irradiance records are uncertain by more than {:.0f} %: {} rays a record are few for this light "
+                 fmt::format("{:.0f} % of {} irradiance records are uncertain by more than {:.0f} %: {} rays a record "
+                             "are few for this light "
                              "(\"samples\" of indirectlight, --samples)",
                              100 * share, records.size(), 100 * kUncertain, c.plan.gather.samples));
     else if (sum > 0 && noise > kUncertainLight * sum)
       log.report(Severity::Warning, "gather-few", {},
-                 fmt::format("indirect light is uncertain by {:.0f} %: most of it comes by a few of the {} rays a record, from something small and bright, which others "
+                 fmt::format("indirect light is uncertain by {:.0f} %: most of it comes by a few of the {} rays a "
+                             "record, from something small and bright, which others "
                              "miss (\"samples\" of indirectlight, --samples)",
                              100 * noise / sum, c.plan.gather.samples));
   }
@@ -102,8 +106,7 @@ void warnOfThinWalls(const RayScene& rays, Log& log) {
                fmt::format("{}: {:.0f} % of the rays that leave it start where two surfaces are nearer to each other "
                            "than rays know them to lie; light may come through{} (Attribute \"trace\" "
                            "\"tessellationmode\" \"fixed\" and \"tessellation\" above 1, or \"offset\")",
-                           name, 100 * t.share,
-                           t.others ? fmt::format("; so do {} more of that name", t.others) : ""));
+                           name, 100 * t.share, t.others ? fmt::format("; so do {} more of that name", t.others) : ""));
 }
 
 }  // namespace tomales

@@ -16,22 +16,26 @@ namespace {
 void warnAboutParams(const Request& r, std::span<const std::string_view> known, Log& log) {
   for (const Param& p : r.params)
     if (std::find(known.begin(), known.end(), p.name) == known.end())
-      log.report(Severity::Warning, "make-parameter", r.where, fmt::format("{}: there is no \"{}\"; ignored", r.name, p.name));
+      log.report(Severity::Warning, "make-parameter", r.where,
+                 fmt::format("{}: there is no \"{}\"; ignored", r.name, p.name));
 }
 
 /// RenderMan's names of filters, as OpenImageIO has them.
 std::string filterOf(const Request& r, const std::string& name, Log& log) {
-  static const std::set<std::string> known = {"box", "triangle", "gaussian", "catmull-rom", "mitchell", "blackman-harris", "sinc", "disk", "lanczos3"};
+  static const std::set<std::string> known = {
+      "box", "triangle", "gaussian", "catmull-rom", "mitchell", "blackman-harris", "sinc", "disk", "lanczos3"};
   if (name == "lanczos") return "lanczos3";
   if (known.contains(name)) return name;
-  log.report(Severity::Warning, "make-filter", r.where, fmt::format("{}: there is no filter \"{}\"; box is used", r.name, name));
+  log.report(Severity::Warning, "make-filter", r.where,
+             fmt::format("{}: there is no filter \"{}\"; box is used", r.name, name));
   return "box";
 }
 
 std::string wrapOf(const Request& r, const std::string& name, Log& log) {
   static const std::set<std::string> known = {"black", "clamp", "periodic", "mirror"};
   if (known.contains(name)) return name;
-  log.report(Severity::Warning, "make-wrap", r.where, fmt::format("{}: there is no wrap mode \"{}\"; black is used", r.name, name));
+  log.report(Severity::Warning, "make-wrap", r.where,
+             fmt::format("{}: there is no wrap mode \"{}\"; black is used", r.name, name));
   return "black";
 }
 
@@ -43,7 +47,8 @@ TextureRecipe recipeOf(const Request& r, Log& log) {
     for (size_t face = 0; face < 6; ++face) recipe.pictures.push_back(text(face));
     recipe.file = text(6), recipe.fov_degrees = r.args[7].number(), recipe.filter = filterOf(r, text(8), log);
     if (!(recipe.fov_degrees >= 90 && recipe.fov_degrees < 179)) {
-      log.report(Severity::Warning, "make-fov", r.where, fmt::format("{}: faces of {} degrees do not close a cube; 90 is used", r.name, recipe.fov_degrees));
+      log.report(Severity::Warning, "make-fov", r.where,
+                 fmt::format("{}: faces of {} degrees do not close a cube; 90 is used", r.name, recipe.fov_degrees));
       recipe.fov_degrees = 90;
     }
   } else if (r.name == "MakeLatLongEnvironment") {
@@ -51,7 +56,8 @@ TextureRecipe recipeOf(const Request& r, Log& log) {
     recipe.pictures = {text(0)}, recipe.file = text(1), recipe.filter = filterOf(r, text(2), log);
   } else {
     recipe.pictures = {text(0)}, recipe.file = text(1);
-    recipe.sWrap = wrapOf(r, text(2), log), recipe.tWrap = wrapOf(r, text(3), log), recipe.filter = filterOf(r, text(4), log);
+    recipe.sWrap = wrapOf(r, text(2), log), recipe.tWrap = wrapOf(r, text(3), log),
+    recipe.filter = filterOf(r, text(4), log);
   }
   if (recipe.shape != TextureRecipe::Shape::Picture) recipe.sWrap = "periodic", recipe.tWrap = "clamp";
   return recipe;
@@ -70,7 +76,8 @@ BrickmakeCommand brickmakeOf(const Request& r, Log& log) {
     const float given = p->number(fallback);
     if (given >= least && given <= most) return given;
     log.report(Severity::Warning, "make-brickmap", r.where,
-               fmt::format("{}: \"{}\" is {:g} and must be from {:g} to {:g}; {:g} is used", r.name, name, given, least, most, fallback));
+               fmt::format("{}: \"{}\" is {:g} and must be from {:g} to {:g}; {:g} is used", r.name, name, given, least,
+                           most, fallback));
     return fallback;
   };
   s.maxError = number("maxerror", s.maxError, 0, 1e9f);
@@ -85,7 +92,8 @@ void makeBrickMap(const Request& r, Log& log) {
   try {
     makeBrickMaps(brickmakeOf(r, log));
   } catch (const std::runtime_error& e) {  // FileError, or of the file system
-    log.report(Severity::Missing, "make-brickmap", r.where, fmt::format("{}: \"{}\" cannot be made ({})", r.name, r.args[1].strings[0], e.what()));
+    log.report(Severity::Missing, "make-brickmap", r.where,
+               fmt::format("{}: \"{}\" cannot be made ({})", r.name, r.args[1].strings[0], e.what()));
   }
 }
 
@@ -103,8 +111,9 @@ void performMake(const Request& r, Log& log) {
   makeFolderOf(recipe.file);
   std::string error;
   if (!makeTexture(recipe, error))
-    log.report(Severity::Missing, "make-texture", r.where,
-               fmt::format("{}: \"{}\" cannot be made of \"{}\" ({})", r.name, recipe.file, recipe.pictures.front(), error));
+    log.report(
+        Severity::Missing, "make-texture", r.where,
+        fmt::format("{}: \"{}\" cannot be made of \"{}\" ({})", r.name, recipe.file, recipe.pictures.front(), error));
 }
 
 }  // namespace tomales

@@ -7,7 +7,8 @@ namespace {
 
 GiChoice giOrUsageError(const std::string& text) {
   if (const auto choice = parseGi(text)) return *choice;
-  throw CLI::ValidationError("--gi", "\"" + text + "\" is none of scene, none, gather, atlas, points, radiosity, baked, reference");
+  throw CLI::ValidationError(
+      "--gi", "\"" + text + "\" is none of scene, none, gather, atlas, points, radiosity, baked, reference");
 }
 
 }  // namespace
@@ -21,7 +22,8 @@ void addOutput(CLI::App& app, RenderSettings& s) {
             "Write here instead of to the first Display; # stands for the frame number. PNG: rgb, sRGB. A "
             "scene without Display writes "
             "ri.exr");
-  app.add_flag("--one-picture", s.onePicture, "With -o: leave out the scene's other Displays, shadow maps excepted")->needs("-o");
+  app.add_flag("--one-picture", s.onePicture, "With -o: leave out the scene's other Displays, shadow maps excepted")
+      ->needs("-o");
 }
 
 void addCrop(CLI::App& app, RenderSettings& s) {
@@ -37,7 +39,9 @@ void addPictureOptions(CLI::App& app, RenderSettings& s) {
   addParsed(app, "--pixel-samples", s.pixelSamples, pixelSamples, "NxM", "Samples of a pixel");
   app.add_option("--shading-rate", s.shadingRate, "Area of a micropolygon in pixels, for all objects")
       ->check(CLI::Range(1e-3, 1e6));
-  app.add_flag("--draft", s.draft, "Coarse and fast, to place lights by: 50 gather rays, no displacement, micropolygons of 16 times the area, 2x2 samples");
+  app.add_flag("--draft", s.draft,
+               "Coarse and fast, to place lights by: 50 gather rays, no displacement, micropolygons of 16 times the "
+               "area, 2x2 samples");
   addParsed(app, "--frames", s.frames, parseFrames, "1-10x2,15", "Only these frames");
   app.add_option("--seed", s.seed, "Of all random numbers");
   app.add_option("--bucket-size", s.bucketSize, "Edge of a bucket in pixels")->check(CLI::Range(1, 4096));
@@ -48,38 +52,64 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
          "--gi", [&s](const std::string& t) { s.gi = giOrUsageError(t); },
          "Indirect light: scene (as the RIB says), none, gather, atlas, points, radiosity, baked, reference")
       ->type_name("MODE");
-  app.add_option("--samples", s.samples,
-                 "Gather rays of an irradiance sample, or paths of a point for the reference")
+  app.add_option("--samples", s.samples, "Gather rays of an irradiance sample, or paths of a point for the reference")
       ->check(CLI::Range(1, 1 << 20));
   app.add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, kMostBounces));
-  app.add_option("--max-error", s.maxError,
-                 "Error allowed in irradiance interpolation; 0 computes every point")
+  app.add_option("--max-error", s.maxError, "Error allowed in irradiance interpolation; 0 computes every point")
       ->check(CLI::Range(0.0, 1e6));
   addParsed(app, "--error-function", s.errorFunction, parseErrorFunction, "screen|ward|hessian|split|plain",
             "How far an irradiance record may be used");
-  app.add_flag_callback("--indirect-only", [&s] { s.direct = false; }, "Leave out direct light where the eye looks");
-  app.add_option("--light-samples", s.lightSamples, "Samples of each area light and of the sky where the eye looks (default: as the lights ask)")->check(CLI::Range(1, 4096));
+  app.add_flag_callback(
+      "--indirect-only", [&s] { s.direct = false; }, "Leave out direct light where the eye looks");
+  app.add_option("--light-samples", s.lightSamples,
+                 "Samples of each area light and of the sky where the eye looks (default: as the lights ask)")
+      ->check(CLI::Range(1, 4096));
   app.add_option("--light-seed", s.lightSeed, "Of the random numbers of light alone");
-  app.add_option("--photons", s.photons, "Photons to emit for --gi atlas")->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
+  app.add_option("--photons", s.photons, "Photons to emit for --gi atlas")
+      ->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
   app.add_option_function<std::string>(
          "--atlas-direct", [&s](const std::string& t) { s.atlasDirect = t == "stored"; },
          "Direct light where gather rays of --gi atlas hit: stored in the maps that are made, or sampled "
          "there (default)")
       ->check(CLI::IsMember({"stored", "sampled"}))
       ->type_name("stored|sampled");
-  app.add_option("--atlas", s.atlasFolder, "Folder of brick maps: used if they are there, else made and kept; for --gi radiosity likewise, of direct light; for --gi points of point clouds")->type_name("FOLDER");
-  app.add_option("--radiosity-texels", s.radiosityTexels, "Times as many texels along each edge of a radiosity map as objects ask, for --gi radiosity")
+  app.add_option("--atlas", s.atlasFolder,
+                 "Folder of brick maps: used if they are there, else made and kept; for --gi radiosity likewise, of "
+                 "direct light; for --gi points of point clouds")
+      ->type_name("FOLDER");
+  app.add_option("--radiosity-texels", s.radiosityTexels,
+                 "Times as many texels along each edge of a radiosity map as objects ask, for --gi radiosity")
       ->check(CLI::Range(1e-3, 1e3));
-  app.add_option("--radiosity-maps", s.radiosityFolder, "Write the radiosity maps there: a tiled MIP EXR for each object and side; not with --atlas")->type_name("FOLDER");
-  app.add_option("--brick-cache", s.brickCacheBytes, "Memory for bricks (default 10M)")->transform(CLI::AsSizeValue(false));
-  app.add_option("--brick-maxerror", s.brickMaxError, "Bricks whose voxels vary by less, as a share of the mean, are left out of the maps of --gi atlas (default 0.03)")->check(CLI::Range(0.0f, 1e6f));
-  addParsed(app, "--geometry-cache", s.geometryCache, parseBytes, "30M", "Memory for geometry that rays see at several levels (default 30M)");
+  app.add_option("--radiosity-maps", s.radiosityFolder,
+                 "Write the radiosity maps there: a tiled MIP EXR for each object and side; not with --atlas")
+      ->type_name("FOLDER");
+  app.add_option("--brick-cache", s.brickCacheBytes, "Memory for bricks (default 10M)")
+      ->transform(CLI::AsSizeValue(false));
+  app.add_option("--brick-maxerror", s.brickMaxError,
+                 "Bricks whose voxels vary by less, as a share of the mean, are left out of the maps of --gi atlas "
+                 "(default 0.03)")
+      ->check(CLI::Range(0.0f, 1e6f));
+  addParsed(app, "--geometry-cache", s.geometryCache, parseBytes, "30M",
+            "Memory for geometry that rays see at several levels (default 30M)");
   app.add_option_function<std::string>(
          "--ray-geometry", [&s](const std::string& t) { s.fullGeometry = t == "full"; },
          "What rays see: scene (as the RIB says), or full: displaced micropolygons (the default of --gi reference)")
-      ->check(CLI::IsMember({"scene", "full"}))->type_name("scene|full");
+      ->check(CLI::IsMember({"scene", "full"}))
+      ->type_name("scene|full");
   app.add_flag_callback(
       "--no-hit-list", [&s] { s.hitList = false; }, "Rays leave surfaces by a bias alone");
+}
+
+void addTrust(CLI::App& app, bool& allowSystem, std::string& shaderFolders) {
+  app.add_flag("--allow-system", allowSystem,
+               "The RIB may run code that it brings: programs by System and Procedural \"RunProgram\", plugins by "
+               "\"DynamicLoad\", and shader "
+               "plugins in the working folder and on its search path");
+  app.add_option(
+         "--shaders", shaderFolders,
+         "Folders of shader plugins that you trust, separated by colons; they are searched before those of the RIB")
+      ->type_name("FOLDERS")
+      ->envname("TOMALES_SHADERS");
 }
 
 void addRunOptions(CLI::App& app, RenderSettings& s) {
@@ -88,10 +118,10 @@ void addRunOptions(CLI::App& app, RenderSettings& s) {
   app.add_flag("--profile-shaders", s.profileShaders, "Points and time of each shader, at the end");
   app.add_flag("--progress", s.progress, "Show progress: a bar on a terminal, else lines for render farms");
   addParsed(app, "--texture-memory", s.textureMemory, parseBytes, "600M", "Memory for tiles of pictures (default 1G)");
-  app.add_option("--texture-cache", s.textureCache, "Where converted pictures are kept (default: $TOMALES_TEXTURE_CACHE, or the user's cache folder)")
+  app.add_option("--texture-cache", s.textureCache,
+                 "Where converted pictures are kept (default: $TOMALES_TEXTURE_CACHE, or the user's cache folder)")
       ->type_name("FOLDER");
-  app.add_flag("--allow-system", s.allowSystem,
-               "System and Procedural \"RunProgram\" of the RIB may start programs, \"DynamicLoad\" plugins");
+  addTrust(app, s.allowSystem, s.shaderFolders);
   app.add_flag_callback(
       "-q", [&s] { s.verbosity = Log::Verbosity::Quiet; }, "No warnings");
   app.add_flag_callback(
@@ -99,7 +129,8 @@ void addRunOptions(CLI::App& app, RenderSettings& s) {
 }
 
 void addWatching(CLI::App& app, RenderSettings& s) {
-  app.add_flag("--preview{127.0.0.1:14158}", s.preview, "Show rows as they are made, in a tev viewer that listens there (--preview=HOST:PORT)");
+  app.add_flag("--preview{127.0.0.1:14158}", s.preview,
+               "Show rows as they are made, in a tev viewer that listens there (--preview=HOST:PORT)");
   app.add_option_function<std::vector<std::string>>(
          "--pixel",
          [&s](const std::vector<std::string>& texts) {
@@ -110,7 +141,9 @@ void addWatching(CLI::App& app, RenderSettings& s) {
            }
          },
          "Print what the samples of a pixel see; may be given again")
-      ->expected(1)->take_all()->type_name("X,Y");
+      ->expected(1)
+      ->take_all()
+      ->type_name("X,Y");
 }
 
 }  // namespace tomales

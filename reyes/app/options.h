@@ -8,8 +8,8 @@ namespace tomales {
 
 /// An option whose text must parse: stores the value or makes the usage error.
 template <class T, class Parse>
-CLI::Option* addParsed(CLI::App& app, const std::string& name, T& target, Parse parse,
-                       const std::string& form, const std::string& help) {
+CLI::Option* addParsed(CLI::App& app, const std::string& name, T& target, Parse parse, const std::string& form,
+                       const std::string& help) {
   const auto take = [&target, parse, name, form](const std::string& text) {
     const auto value = parse(text);
     if (!value) throw CLI::ValidationError(name, "\"" + text + "\" is not of the form " + form);
@@ -32,7 +32,9 @@ void addOutput(CLI::App& app, RenderSettings& s);
 void addCrop(CLI::App& app, RenderSettings& s);
 void addPictureOptions(CLI::App& app, RenderSettings& s);  ///< Of the frame; --crop among them.
 void addLightOptions(CLI::App& app, RenderSettings& s);
-void addRunOptions(CLI::App& app, RenderSettings& s);      ///< Threads, statistics, memory of textures, how much is said.
-void addWatching(CLI::App& app, RenderSettings& s);        ///< --preview, --pixel
+/// What code of others may run: --allow-system and --shaders.
+void addTrust(CLI::App& app, bool& allowSystem, std::string& shaderFolders);
+void addRunOptions(CLI::App& app, RenderSettings& s);  ///< Threads, statistics, memory of textures, how much is said.
+void addWatching(CLI::App& app, RenderSettings& s);    ///< --preview, --pixel
 
 }  // namespace tomales

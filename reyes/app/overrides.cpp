@@ -45,7 +45,8 @@ void makeDraft(Scene& scene) {
   constexpr int kSamples = 2;
   Options& o = scene.options;
   o.xSamples = std::min(o.xSamples, kSamples), o.ySamples = std::min(o.ySamples, kSamples);
-  changeAttributes(scene, [](Attributes& a) { a.displacement = nullptr, a.displacementBound = 0, a.shadingRate *= kCoarser; });
+  changeAttributes(scene,
+                   [](Attributes& a) { a.displacement = nullptr, a.displacementBound = 0, a.shadingRate *= kCoarser; });
   for (auto& light : scene.lights) {
     if (light->shader.name != "indirectlight") continue;
     auto draft = std::make_shared<LightCall>(*light);
@@ -59,12 +60,14 @@ void makeDraft(Scene& scene) {
 
 bool isMap(const DisplayCall& d) { return writesShadowMap(d) || d.type == "deepshad"; }
 
-/// -o replaces the first Display that is no map for later frames; a frame of such maps alone keeps them all. PNG is for looking at: no alpha, and sRGB unless the scene's Exposure
-/// encodes already.
+/// -o replaces the first Display that is no map for later frames; a frame of such maps alone keeps them all. PNG is for
+/// looking at: no alpha, and sRGB unless the scene's Exposure encodes already.
 void overrideOutput(Options& options, const std::string& output, bool onePicture) {
   const auto first = std::find_if_not(options.displays.begin(), options.displays.end(), isMap);
   if (first == options.displays.end()) return;
-  if (onePicture) options.displays.erase(std::remove_if(first + 1, options.displays.end(), std::not_fn(isMap)), options.displays.end());
+  if (onePicture)
+    options.displays.erase(std::remove_if(first + 1, options.displays.end(), std::not_fn(isMap)),
+                           options.displays.end());
   DisplayCall& display = *first;
   display.name = withFrameNumber(output, options.frame);
   display.type = "file";
@@ -82,8 +85,11 @@ void overrideOutput(Options& options, const std::string& output, bool onePicture
 }  // namespace
 
 void dropDisplays(Options& options, Log& log) {
-  const auto isWindow = [](const DisplayCall& d) { return d.type == "framebuffer" || d.type == "it" || d.type == "windows" || d.type == "x11"; };
-  const bool someFile = std::any_of(options.displays.begin(), options.displays.end(), [&](const DisplayCall& d) { return !isWindow(d); });
+  const auto isWindow = [](const DisplayCall& d) {
+    return d.type == "framebuffer" || d.type == "it" || d.type == "windows" || d.type == "x11";
+  };
+  const bool someFile =
+      std::any_of(options.displays.begin(), options.displays.end(), [&](const DisplayCall& d) { return !isWindow(d); });
   std::set<std::string> files;
   std::erase_if(options.displays, [&](const DisplayCall& d) {
     if (someFile && isWindow(d)) {
@@ -108,7 +114,8 @@ bool hasIndirectLight(const Scene& scene) {
 bool asksFor(const char* what, const Scene& scene) {
   return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const auto& light) {
     const Param* radiance = findParam(light->shader.params, "radiance");
-    return light->shader.name == "indirectlight" && radiance && !radiance->strings.empty() && radiance->strings[0] == what;
+    return light->shader.name == "indirectlight" && radiance && !radiance->strings.empty() &&
+           radiance->strings[0] == what;
   });
 }
 
@@ -127,7 +134,9 @@ GiMode giModeOf(GiChoice choice, const Scene& scene) {
       return GiMode::Baked;
     case GiChoice::Scene:
       if (!hasIndirectLight(scene)) return GiMode::None;
-      return asksFor("atlas", scene) || asksFor("points", scene) ? GiMode::Atlas : asksFor("radiosity", scene) ? GiMode::Radiosity : GiMode::Gather;
+      return asksFor("atlas", scene) || asksFor("points", scene) ? GiMode::Atlas
+             : asksFor("radiosity", scene)                       ? GiMode::Radiosity
+                                                                 : GiMode::Gather;
     default:
       return GiMode::None;
   }
@@ -178,13 +187,12 @@ void applyOverrides(Scene& scene, const RenderSettings& settings) {
   const bool wantsIndirect = settings.gi != GiChoice::Scene && settings.gi != GiChoice::None;
   if (wantsIndirect && !hasIndirectLight(scene)) addIndirectLight(scene);
   if (settings.draft) makeDraft(scene);
-  if (settings.pixelSamples)
-    o.xSamples = (*settings.pixelSamples)[0], o.ySamples = (*settings.pixelSamples)[1];
+  if (settings.pixelSamples) o.xSamples = (*settings.pixelSamples)[0], o.ySamples = (*settings.pixelSamples)[1];
   if (settings.bucketSize) o.bucketWidth = o.bucketHeight = *settings.bucketSize;
   if (o.displays.empty()) o.displays.emplace_back();
-  if (namesPicture(settings.output)) overrideOutput(o, settings.output, settings.onePicture);  // else it is a .dfb or .icf
-  if (settings.shadingRate)
-    changeAttributes(scene, [&](Attributes& a) { a.shadingRate = *settings.shadingRate; });
+  if (namesPicture(settings.output))
+    overrideOutput(o, settings.output, settings.onePicture);  // else it is a .dfb or .icf
+  if (settings.shadingRate) changeAttributes(scene, [&](Attributes& a) { a.shadingRate = *settings.shadingRate; });
   if (tracesFullGeometry(settings))
     changeAttributes(scene, [](Attributes& a) { a.trace.displacements = true, a.trace.rate = TessellationMode::Full; });
 }

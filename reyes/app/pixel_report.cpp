@@ -32,12 +32,14 @@ std::string pixelReport(const DeepTile& tile, int x, int y, int samplesPerPixel,
     const ShadeGroup& group = scene.groups[static_cast<size_t>(points.group())];
     const std::string place =
         group.exampleObject < 0 ? "no file" : scene.objects[static_cast<size_t>(group.exampleObject)].where.text();
-    const vec3 Ci = mean(facet, [&](int p) { return shaded.color(p); }), Oi = mean(facet, [&](int p) { return shaded.opacity(p); });
-    out += fmt::format("  z {:.6g}  {} samples  {} ({})  {}{}\n    Ci {}  Oi {}  P {}  N {}\n", f.z, std::popcount(f.samples),
-                       group.attributes->name.empty() ? "object" : "\"" + group.attributes->name + "\"", place,
-                       group.attributes->surface ? group.attributes->surface->name : "defaultsurface", facet.matte ? ", matte" : "",
-                       text(Ci), text(Oi), text(mean(facet, [&](int p) { return points.position(p); })),
-                       text(mean(facet, [&](int p) { return points.get3(kNx, p); })));
+    const vec3 Ci = mean(facet, [&](int p) { return shaded.color(p); }),
+               Oi = mean(facet, [&](int p) { return shaded.opacity(p); });
+    out += fmt::format(
+        "  z {:.6g}  {} samples  {} ({})  {}{}\n    Ci {}  Oi {}  P {}  N {}\n", f.z, std::popcount(f.samples),
+        group.attributes->name.empty() ? "object" : "\"" + group.attributes->name + "\"", place,
+        group.attributes->surface ? group.attributes->surface->name : "defaultsurface", facet.matte ? ", matte" : "",
+        text(Ci), text(Oi), text(mean(facet, [&](int p) { return points.position(p); })),
+        text(mean(facet, [&](int p) { return points.get3(kNx, p); })));
     for (uint64_t left = f.samples; left; left &= left - 1) {
       vec3& through = clear[size_t{f.word} * 64 + static_cast<size_t>(std::countr_zero(left))];
       if (!facet.matte) color += through * Ci, alpha += through * Oi;

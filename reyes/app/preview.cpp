@@ -63,8 +63,9 @@ void Preview::show(const Image& rows) {
   constexpr int32_t kCount = std::size(kChannels);
   Packet packet(kUpdateImage);
   packet << char{0} << name_ << kCount;
-  addChannels(packet) << int32_t{rows.originX - crop_.x0} << int32_t{rows.originY - crop_.y0} << int32_t{rows.width} << int32_t{rows.height};
-  for (int64_t c = 0; c < kCount; ++c) packet << c;  // where each channel begins,
+  addChannels(packet) << int32_t{rows.originX - crop_.x0} << int32_t{rows.originY - crop_.y0} << int32_t{rows.width}
+                      << int32_t{rows.height};
+  for (int64_t c = 0; c < kCount; ++c) packet << c;                // where each channel begins,
   for (int64_t c = 0; c < kCount; ++c) packet << int64_t{kCount};  // and from pixel to pixel
   for (size_t i = 0; i < rows.pixels.size(); i += rows.channels.size())
     for (int c = 0; c < kCount; ++c) packet << rows.pixels[i + static_cast<size_t>(c)];
@@ -81,7 +82,8 @@ void Preview::run() {
   create << char{1} << name_ << int32_t{crop_.width()} << int32_t{crop_.height()} << int32_t{std::size(kChannels)};
   bool open = connect() && send(addChannels(create).finish());
   if (!open)
-    log_.report(Severity::Warning, "preview", {}, "--preview: nobody listens at " + address_ + "; the picture is made without");
+    log_.report(Severity::Warning, "preview", {},
+                "--preview: nobody listens at " + address_ + "; the picture is made without");
   while (open) {
     std::string packet;
     {
@@ -101,7 +103,8 @@ void Preview::run() {
 
 bool Preview::connect() {
   const size_t colon = address_.rfind(':');
-  const std::string host = address_.substr(0, colon), port = colon == std::string::npos ? "14158" : address_.substr(colon + 1);
+  const std::string host = address_.substr(0, colon),
+                    port = colon == std::string::npos ? "14158" : address_.substr(colon + 1);
   addrinfo hints{}, *found = nullptr;
   hints.ai_socktype = SOCK_STREAM;
   if (::getaddrinfo(host.c_str(), port.c_str(), &hints, &found) != 0) return false;
@@ -111,7 +114,9 @@ bool Preview::connect() {
     int problem = 0;
     socklen_t size = sizeof(problem);
     const bool begun = socket_ >= 0 && (::connect(socket_, a->ai_addr, a->ai_addrlen) == 0 || errno == EINPROGRESS);
-    if (begun && ::poll(&waits, 1, kPatience_ms) == 1 && ::getsockopt(socket_, SOL_SOCKET, SO_ERROR, &problem, &size) == 0 && problem == 0) break;
+    if (begun && ::poll(&waits, 1, kPatience_ms) == 1 &&
+        ::getsockopt(socket_, SOL_SOCKET, SO_ERROR, &problem, &size) == 0 && problem == 0)
+      break;
     if (socket_ >= 0) ::close(socket_);
     socket_ = -1;
   }
@@ -131,7 +136,8 @@ bool Preview::send(const std::string& packet) {
     {
       const std::lock_guard lock(mutex_);
       const auto now = std::chrono::steady_clock::now();
-      if (done_ && deadline == std::chrono::steady_clock::time_point::max()) deadline = now + std::chrono::milliseconds(kPatience_ms);
+      if (done_ && deadline == std::chrono::steady_clock::time_point::max())
+        deadline = now + std::chrono::milliseconds(kPatience_ms);
       if (now > deadline) return false;
     }
     pollfd waits{socket_, POLLOUT, 0};

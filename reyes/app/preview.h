@@ -1,6 +1,6 @@
-// Shows a picture while it is made, in a viewer that listens to the protocol of tev (github.com/Tom94/tev): packets over TCP, each
-// 4 bytes of length, 1 of type, then the fields; numbers little-endian, strings ended by 0. Only CreateImage (4) and UpdateImage
-// with strides (6) are sent.
+// Shows a picture while it is made, in a viewer that listens to the protocol of tev (github.com/Tom94/tev): packets
+// over TCP, each 4 bytes of length, 1 of type, then the fields; numbers little-endian, strings ended by 0. Only
+// CreateImage (4) and UpdateImage with strides (6) are sent.
 #pragma once
 #include <condition_variable>
 #include <deque>

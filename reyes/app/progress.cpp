@@ -36,8 +36,8 @@ void ProgressMeter::showBar(int percent) const {
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
   const auto left = static_cast<int>(percent > 0 ? passed.count() * (100 - percent) / percent : 0);
   const auto filled = static_cast<size_t>(percent * 40 / 100);
-  std::fputs(fmt::format("\r[{}{}] {:3d}%  {:d}:{:02d} left ", std::string(filled, '#'),
-                         std::string(40 - filled, ' '), percent, left / 60, left % 60)
+  std::fputs(fmt::format("\r[{}{}] {:3d}%  {:d}:{:02d} left ", std::string(filled, '#'), std::string(40 - filled, ' '),
+                         percent, left / 60, left % 60)
                  .c_str(),
              stdout);
 }

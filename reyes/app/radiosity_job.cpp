@@ -29,7 +29,9 @@ void writeMap(const std::vector<RadiosityChart>& charts, const std::filesystem::
   base.replace_extension(".base.exr");
   std::string error;
   const bool written = writeImage(base.string(), pictureOf(charts), false, log);
-  const bool made = written && makeTexture({.pictures = {base.string()}, .file = file.string(), .sWrap = "clamp", .tWrap = "clamp"}, error);
+  const bool made =
+      written &&
+      makeTexture({.pictures = {base.string()}, .file = file.string(), .sWrap = "clamp", .tWrap = "clamp"}, error);
   std::error_code ignored;
   std::filesystem::remove(base, ignored);
   if (!made) throw FileError(fmt::format("\"{}\": {}", file.string(), written ? error : "cannot be written"));
@@ -46,34 +48,41 @@ void writeRadiosityMaps(const RadiosityMaps& maps, const Scene& scene, const std
   }
 }
 
-std::unique_ptr<const HitRadiance> bricksIn(const std::string& folder, const RayTools& tools, const Camera& camera, const RadiositySettings& radiosity,
-                                            const RenderSettings& settings, Stats& stats, Log& log) {
+std::unique_ptr<const HitRadiance> bricksIn(const std::string& folder, const RayTools& tools, const Camera& camera,
+                                            const RadiositySettings& radiosity, const RenderSettings& settings,
+                                            Stats& stats, Log& log) {
   try {
     AtlasSettings atlas = atlasSettings(settings, tools.rays->scene());
     atlas.world = worldSum(tools.rays->scene(), false);  // gather rays meet what photons do not
     if (!settings.radiosityFolder.empty())
-      log.report(Severity::Warning, "radiosity-maps", {}, "--radiosity-maps: left out, since radiosity goes to brick maps in the folder of --atlas");
+      log.report(Severity::Warning, "radiosity-maps", {},
+                 "--radiosity-maps: left out, since radiosity goes to brick maps in the folder of --atlas");
     const RadiosityBrickSettings bricks{.points = radiosity};
-    return std::make_unique<const RadiosityBricks>(folder, *tools.rays, *tools.shading, camera, mapNames(tools.rays->scene(), atlas), bricks, brickCacheBytes(settings),
-                                                   stats, log);
+    return std::make_unique<const RadiosityBricks>(folder, *tools.rays, *tools.shading, camera,
+                                                   mapNames(tools.rays->scene(), atlas), bricks,
+                                                   brickCacheBytes(settings), stats, log);
   } catch (const std::runtime_error& e) {  // FileError, or of the file system
-    log.report(Severity::Missing, "radiosity-bricks", {}, std::string(e.what()) + ": hits of gather rays are shaded instead");
+    log.report(Severity::Missing, "radiosity-bricks", {},
+               std::string(e.what()) + ": hits of gather rays are shaded instead");
     return nullptr;
   }
 }
 
 }  // namespace
 
-std::unique_ptr<const HitRadiance> prepareRadiosity(const RayTools& tools, const Camera& camera, const RenderSettings& settings, Stats& stats, Log& log) {
+std::unique_ptr<const HitRadiance> prepareRadiosity(const RayTools& tools, const Camera& camera,
+                                                    const RenderSettings& settings, Stats& stats, Log& log) {
   const StageTimer timer(stats, "radiosity");
   const Scene& scene = tools.rays->scene();
   const RadiositySettings radiosity{settings.radiosityTexels, lightSeedOf(settings)};
-  if (const std::string folder = atlasFolder(settings, scene); !folder.empty()) return bricksIn(folder, tools, camera, radiosity, settings, stats, log);
+  if (const std::string folder = atlasFolder(settings, scene); !folder.empty())
+    return bricksIn(folder, tools, camera, radiosity, settings, stats, log);
   auto maps = std::make_unique<const RadiosityMaps>(*tools.rays, *tools.shading, camera, radiosity, log);
   try {
     if (!settings.radiosityFolder.empty()) writeRadiosityMaps(*maps, scene, settings.radiosityFolder, log);
   } catch (const std::runtime_error& e) {  // FileError, or of the file system
-    log.report(Severity::Missing, "radiosity-maps", {}, fmt::format("radiosity maps cannot be written: {}; they are used all the same", e.what()));
+    log.report(Severity::Missing, "radiosity-maps", {},
+               fmt::format("radiosity maps cannot be written: {}; they are used all the same", e.what()));
   }
   return maps;
 }

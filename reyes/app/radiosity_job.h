@@ -5,9 +5,11 @@
 
 namespace tomales {
 
-/// Bakes them. With an atlasFolder() they are brick maps there, of all that was baked for this world; nothing is baked that is there already. Null
-/// after an error, which has been reported. Else they are textures in memory; with a settings.radiosityFolder each is written there too, as a tiled MIP EXR for each object and side: NAME.exr and
+/// Bakes them. With an atlasFolder() they are brick maps there, of all that was baked for this world; nothing is baked
+/// that is there already. Null after an error, which has been reported. Else they are textures in memory; with a
+/// settings.radiosityFolder each is written there too, as a tiled MIP EXR for each object and side: NAME.exr and
 /// NAME.back.exr, by Attribute "identifier" "name". What cannot be written is reported.
-std::unique_ptr<const HitRadiance> prepareRadiosity(const RayTools& tools, const Camera& camera, const RenderSettings& settings, Stats& stats, Log& log);
+std::unique_ptr<const HitRadiance> prepareRadiosity(const RayTools& tools, const Camera& camera,
+                                                    const RenderSettings& settings, Stats& stats, Log& log);
 
 }  // namespace tomales

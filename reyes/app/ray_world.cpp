@@ -8,7 +8,7 @@ namespace tomales {
 
 struct RayWorld::Built {
   Built(Scene s, const RenderSettings& settings, const ShadeServices* services, Stats& stats, Log& log)
-      : scene(std::move(s)), camera(scene.options), registry(log) {
+      : scene(std::move(s)), camera(scene.options), registry(log, pluginTrust(settings)) {
     registry.addLibrary(tomales_builtin_shaders(), "built-in");
     shading = std::make_unique<ShadingSystem>(scene, registry, services, log, stats);
     rays = std::make_unique<RayScene>(scene, camera, *shading, raySettings(settings, scene.options), stats, log);
@@ -57,7 +57,8 @@ bool RayWorld::sourcesAreUnchanged() const {
 
 // The shot has been edited since; its geometry has not.
 void RayWorld::dress(Scene& scene) const {
-  for (Object& object : scene.objects) object.attributes = shot_.scene.groups[static_cast<size_t>(object.group)].attributes;
+  for (Object& object : scene.objects)
+    object.attributes = shot_.scene.groups[static_cast<size_t>(object.group)].attributes;
   scene.lights = shot_.scene.lights;
   scene.options = shot_.scene.options;
   scene.freeze();
@@ -68,12 +69,14 @@ std::unique_ptr<RayWorld::Built> RayWorld::build() {
   const auto give = [&](const std::string& why) {
     log_.report(Severity::Missing, "rays-geometry", shot_.scene.where,
                 "rays are needed, and the geometry cannot be read again: " + why +
-                    "; light is not shadowed and indirect light is left out where an .icf does not give it, and the rays of shaders meet nothing");
+                    "; light is not shadowed and indirect light is left out where an .icf does not give it, and the "
+                    "rays of shaders meet nothing");
     return nullptr;
   };
   for (const SourceFile& source : shot_.sources)
     if (source.path == "-") return give("the RIB came from standard input");
-  if (!sourcesAreUnchanged()) return give("\"" + shot_.sources.front().path + "\" or what follows it is gone or has changed");
+  if (!sourcesAreUnchanged())
+    return give("\"" + shot_.sources.front().path + "\" or what follows it is gone or has changed");
   std::optional<Scene> scene;
   int world = 0;
   RibSettings rib;
@@ -88,7 +91,8 @@ std::unique_ptr<RayWorld::Built> RayWorld::build() {
   if (!scene) return give("the RIB holds no such frame any more");
   scene->options = shot_.scene.options;
   scene->open([](const Attributes&) { return true; });
-  if (shot_.scene.lights.size() == scene->lights.size() + 1) scene->lights.push_back(shot_.scene.lights.back());  // --gi
+  if (shot_.scene.lights.size() == scene->lights.size() + 1)
+    scene->lights.push_back(shot_.scene.lights.back());  // --gi
   if (!sameGroups(*scene, shot_.scene)) return give("its objects are not those of the shot any more");
   dress(*scene);
   if (!sameGroups(*scene, shot_.scene)) return give("its objects are not those of the shot any more");

@@ -1,4 +1,5 @@
-// The geometry behind a shot, for rays: read again from its RIB when a ray is first wanted, which for most re-shading is never.
+// The geometry behind a shot, for rays: read again from its RIB when a ray is first wanted, which for most re-shading
+// is never.
 #pragma once
 #include <mutex>
 

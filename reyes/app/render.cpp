@@ -22,7 +22,8 @@ namespace {
 class RenderRun {
  public:
   /// `job` takes a frame and the number of its scene in the stream.
-  using Job = std::function<void(Scene&, int world, const RenderSettings&, Stats&, Log&, const std::function<void()>& afterStage)>;
+  using Job = std::function<void(Scene&, int world, const RenderSettings&, Stats&, Log&,
+                                 const std::function<void()>& afterStage)>;
 
   RenderRun(const RenderSettings& settings, Job job)
       : settings_(settings),
@@ -100,11 +101,14 @@ class RenderRun {
 
   void warnAboutOverwriting(const std::string& file, const SourceLoc& where) {
     if (written_.insert(file).second) return;
-    log_.report(Severity::Warning, "output-overwritten", where,
-                "\"" + file + "\" of an earlier frame is written over; with -o, # in the name stands for the frame number");
+    log_.report(
+        Severity::Warning, "output-overwritten", where,
+        "\"" + file + "\" of an earlier frame is written over; with -o, # in the name stands for the frame number");
   }
 
-  double secondsSoFar() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  double secondsSoFar() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
   void flush() { writeStats(settings_, stats_, secondsSoFar(), log_); }
 
   const RenderSettings& settings_;

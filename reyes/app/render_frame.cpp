@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-
 #include "gi/icf.h"
 #include "reyes/app/bucket_file.h"
 #include "reyes/app/frame_job.h"
@@ -14,10 +13,10 @@
 namespace tomales {
 namespace {
 
-constexpr int64_t kBytesOfTilePixel = 64;   ///< Of a shaded tile without its points and variables,
-constexpr int64_t kBytesOfPoints = 192;     ///< and of its points; all for shading rate 1.
-constexpr int64_t kBytesOfBucket = 96;      ///< Of lists of what is where.
-constexpr int64_t kRowsInMemory = 128;      ///< Of pixels, while a picture is made row by row.
+constexpr int64_t kBytesOfTilePixel = 64;  ///< Of a shaded tile without its points and variables,
+constexpr int64_t kBytesOfPoints = 192;    ///< and of its points; all for shading rate 1.
+constexpr int64_t kBytesOfBucket = 96;     ///< Of lists of what is where.
+constexpr int64_t kRowsInMemory = 128;     ///< Of pixels, while a picture is made row by row.
 constexpr int64_t kUsualLimit = int64_t{1} << 30;
 
 int64_t pixelsOf(const Scene& scene) {
@@ -36,13 +35,15 @@ bool fitsMemory(const Scene& scene, const DeepFrame& layout, Log& log) {
   const int64_t there = int64_t{::sysconf(_SC_PHYS_PAGES)} * ::sysconf(_SC_PAGESIZE);
   if (needed < there && static_cast<int64_t>(layout.tileCount()) < kMostTiles) return true;
   log.report(Severity::Output, "frame-too-large", {},
-             fmt::format("a frame of {} million pixels in {} buckets needs about {} GB, and the machine has {}: render it in parts with "
+             fmt::format("a frame of {} million pixels in {} buckets needs about {} GB, and the machine has {}: render "
+                         "it in parts with "
                          "--crop, or in larger buckets with --bucket-size",
                          pixelsOf(scene) / 1000000, layout.tileCount(), needed >> 30, there >> 30));
   return false;
 }
 
-/// For hidden buckets: what --memory-limit leaves beside what is in memory now, `held` bytes of buckets not counted, and what caches may grow to.
+/// For hidden buckets: what --memory-limit leaves beside what is in memory now, `held` bytes of buckets not counted,
+/// and what caches may grow to.
 int64_t tileBudget(const RenderSettings& settings, int64_t held) {
   if (!settings.memoryLimit) return kUsualLimit;
   const int64_t caches = textureShare(*settings.memoryLimit) + static_cast<int64_t>(brickCacheBytes(settings));
@@ -56,14 +57,15 @@ void reportMemory(int64_t limit, const std::string& done, const Stats& stats, Lo
                          MB(textureShare(limit)), MB(peakResidentBytes())));
   if (peakResidentBytes() > limit)
     log.report(Severity::Warning, "memory-exceeded", {},
-               fmt::format("--memory-limit {:.0f} MB cannot be kept, {:.0f} MB were used: besides the program itself geometry took {:.1f} MB, grids {:.1f}, what rays "
+               fmt::format("--memory-limit {:.0f} MB cannot be kept, {:.0f} MB were used: besides the program itself "
+                           "geometry took {:.1f} MB, grids {:.1f}, what rays "
                            "meet {:.1f}",
-                           MB(limit), MB(peakResidentBytes()), MB(stats.memoryBytes.geometry), MB(stats.memoryBytes.grids),
-                           MB(stats.raytrace.bytes)));
+                           MB(limit), MB(peakResidentBytes()), MB(stats.memoryBytes.geometry),
+                           MB(stats.memoryBytes.grids), MB(stats.raytrace.bytes)));
 }
 
-/// What is hidden is shaded and filtered while it is in the cache, row by row, unless that would take more geometry into memory or
-/// the scene asks for another order.
+/// What is hidden is shaded and filtered while it is in the cache, row by row, unless that would take more geometry
+/// into memory or the scene asks for another order.
 bool mayStream(const Scene& scene) { return scene.procedurals.empty() && scene.options.bucketOrder == "horizontal"; }
 
 /// False: the file cannot be read, which is reported.
@@ -92,10 +94,12 @@ void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats&
   FrameJob job(scene, settings, stats, log);
   const bool given = !settings.irradiance.empty(), gathers = job.gathers() && (!given || settings.appendIrradiance);
   if (!settings.bakedFolder.empty() && !gathers && job.mode() != GiMode::Baked)
-    log.report(Severity::Warning, "baked-unused", {}, "--baked: nothing is gathered that could be kept; it is for --gi gather, atlas or baked");
+    log.report(Severity::Warning, "baked-unused", {},
+               "--baked: nothing is gathered that could be kept; it is for --gi gather, atlas or baked");
   const int64_t budget_bytes = tileBudget(settings, 0);
   const bool large = pixelsOf(scene) * (bytesOfTilePixel(scene) + kBytesOfPoints) > budget_bytes;
-  const bool streams = !gathers && (large || !settings.preview.empty() || mayStream(scene));  // a preview wants the first rows first
+  const bool streams =
+      !gathers && (large || !settings.preview.empty() || mayStream(scene));  // a preview wants the first rows first
 
   if (streams || given || settings.resume) job.openAll();
   BucketFile file(scene, layout, world, settings, log);
@@ -106,12 +110,15 @@ void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats&
     job.hideAndWrite(layout, find, [&](size_t i, const DeepTile& tile) { file.keepForResume(i, tile); });
   } else {
     // What rays will meet needs room too, nobody knows yet how much.
-    TileStore store(layout.tileCount(), settings.memoryLimit && gathers && !given ? budget_bytes / 2 : budget_bytes, find);
+    TileStore store(layout.tileCount(), settings.memoryLimit && gathers && !given ? budget_bytes / 2 : budget_bytes,
+                    find);
     const TileStore::Spill spill = [&](size_t i, const DeepTile& tile) { file.spill(i, tile); };
-    const TileSink sink{{}, [&](size_t i, DeepTile&& tile) {
+    const TileSink sink{{},
+                        [&](size_t i, DeepTile&& tile) {
                           file.keepForResume(i, tile);
                           if (!store.keep(i, tile)) spill(i, tile);
-                        }, settings.resume ? find : nullptr};
+                        },
+                        settings.resume ? find : nullptr};
     job.hide(layout, sink);
     returnFreeMemory();  // the grids
     afterStage();

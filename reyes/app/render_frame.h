@@ -6,8 +6,8 @@
 
 namespace tomales {
 
-/// Renders scene number `world` of the stream, overrides applied, and writes its Displays. Everything that goes wrong is in
-/// the log.
+/// Renders scene number `world` of the stream, overrides applied, and writes its Displays. Everything that goes wrong
+/// is in the log.
 void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats& stats, Log& log,
                  const std::function<void()>& afterStage);
 

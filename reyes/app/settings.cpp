@@ -84,7 +84,8 @@ std::optional<int64_t> parseBytes(const std::string& text) {
   const std::string units = "KMGT";
   const size_t unit = text.empty() ? std::string::npos : units.find(text.back());
   int64_t value = 0;
-  if (!number(std::string_view(text).substr(0, text.size() - (unit != std::string::npos)), value) || value < 1) return std::nullopt;
+  if (!number(std::string_view(text).substr(0, text.size() - (unit != std::string::npos)), value) || value < 1)
+    return std::nullopt;
   const int shift = unit == std::string::npos ? 0 : 10 * (static_cast<int>(unit) + 1);
   if (value > (std::numeric_limits<int64_t>::max() >> shift)) return std::nullopt;
   return value << shift;
@@ -115,7 +116,8 @@ std::optional<double> parseSeconds(const std::string& text) {
   const std::string units = "smh";
   const size_t unit = text.empty() ? std::string::npos : units.find(text.back());
   double value = 0;
-  if (!number(std::string_view(text).substr(0, text.size() - (unit != std::string::npos)), value) || !(value > 0)) return std::nullopt;
+  if (!number(std::string_view(text).substr(0, text.size() - (unit != std::string::npos)), value) || !(value > 0))
+    return std::nullopt;
   return value * std::array{1, 60, 3600}[unit == std::string::npos ? 0 : unit];
 }
 

@@ -21,59 +21,65 @@ struct RenderSettings {
   std::optional<std::array<int, 2>> format, pixelSamples;
   std::optional<std::array<float, 4>> crop;  ///< xmin xmax ymin ymax, 0..1
   std::optional<float> shadingRate;
-  bool draft = false;              ///< Coarse and fast, to place lights by.
+  bool draft = false;                      ///< Coarse and fast, to place lights by.
   std::optional<std::vector<int>> frames;  ///< Sorted. None: all.
   GiChoice gi = GiChoice::Scene;
-  int samples = 0, bounces = 0;  ///< 0: as the scene's indirect light asks.
-  float maxError = -1;           ///< < 0: likewise.
+  int samples = 0, bounces = 0;                ///< 0: as the scene's indirect light asks.
+  float maxError = -1;                         ///< < 0: likewise.
   std::optional<ErrorFunction> errorFunction;  ///< None: likewise.
-  int lightSamples = 0;          ///< Of each area light and of the sky, where the eye looks; 0: as many as the light asks for.
-  bool direct = true;            ///< False: the picture shows what indirect lights bring, and nothing else.
+  int lightSamples = 0;  ///< Of each area light and of the sky, where the eye looks; 0: as many as the light asks for.
+  bool direct = true;    ///< False: the picture shows what indirect lights bring, and nothing else.
   uint32_t seed = 0;
   std::optional<uint32_t> lightSeed;  ///< Of the random numbers of light alone; none: seed.
-  int64_t photons = 1'000'000;     ///< To emit for --gi atlas.
-  bool atlasDirect =
-      false;  ///< Maps of --gi atlas hold direct light; else gather rays sample lights where they hit.
-  float brickMaxError = 0.03f;     ///< Of the brick maps of --gi atlas: bricks whose voxels vary by less of the map's mean are left out.
-  float radiosityTexels = 1;       ///< Times as many along each edge of a radiosity map as objects ask.
-  std::string radiosityFolder;     ///< Radiosity maps are written there too; empty: nowhere.
-  std::string atlasFolder;         ///< Brick maps to use, or to make; empty: made in a temporary folder. For GiChoice::Points: point clouds.
-  std::string bakedFolder;         ///< Brick maps of gathered light: added to, or with GiChoice::Baked used; empty: none.
+  int64_t photons = 1'000'000;        ///< To emit for --gi atlas.
+  bool atlasDirect = false;  ///< Maps of --gi atlas hold direct light; else gather rays sample lights where they hit.
+  float brickMaxError =
+      0.03f;  ///< Of the brick maps of --gi atlas: bricks whose voxels vary by less of the map's mean are left out.
+  float radiosityTexels = 1;    ///< Times as many along each edge of a radiosity map as objects ask.
+  std::string radiosityFolder;  ///< Radiosity maps are written there too; empty: nowhere.
+  std::string atlasFolder;  ///< Brick maps to use, or to make; empty: made in a temporary folder. For GiChoice::Points:
+                            ///< point clouds.
+  std::string bakedFolder;  ///< Brick maps of gathered light: added to, or with GiChoice::Baked used; empty: none.
   size_t brickCacheBytes = BrickCache::kDefaultBytes;
   std::optional<int> bucketSize;
   std::vector<std::string> edits;  ///< RIB files of changes to a shot.
   std::string irradiance;          ///< An .icf to shade with.
   bool appendIrradiance = false;   ///< And to gather into what it leaves uncovered.
   bool resume = false;
-  std::optional<int64_t> memoryLimit;  ///< Bytes.
+  std::optional<int64_t> memoryLimit;    ///< Bytes.
   std::optional<int64_t> textureMemory;  ///< Bytes.
   std::string textureCache;
   bool hitList = true;
   std::optional<int64_t> geometryCache;  ///< Bytes.
   std::optional<bool> fullGeometry;      ///< Rays see displaced micropolygons; none: for the reference.
   std::string statsFile;
-  bool profileShaders = false;     ///< Say at the end what each shader has cost.
+  bool profileShaders = false;  ///< Say at the end what each shader has cost.
   bool progress = false;
-  std::string preview;  ///< host:port of a viewer; empty: none.
+  std::string preview;                     ///< host:port of a viewer; empty: none.
   std::vector<std::array<int, 2>> pixels;  ///< To explain.
-  bool allowSystem = false;  ///< The RIB may start programs.
+  bool allowSystem = false;                ///< The RIB may start programs and load plugins.
+  std::string shaderFolders;  ///< The user's, separated by colons: their plugins are trusted whatever the RIB may do.
   Log::Verbosity verbosity = Log::Verbosity::Normal;
   std::string commandLine;
 };
 
+inline PluginTrust pluginTrust(const RenderSettings& settings) {
+  return {.folders = settings.shaderFolders, .sceneFolders = settings.allowSystem};
+}
 inline uint32_t lightSeedOf(const RenderSettings& settings) { return settings.lightSeed.value_or(settings.seed); }
 
 // Each returns nothing when the text is not of its form.
 std::optional<std::array<int, 2>> parsePair(const std::string& text, int least, int most);  ///< "640x480"
-std::optional<std::array<int, 2>> parsePixel(const std::string& text);  ///< "120,80"
-std::optional<std::array<float, 4>> parseCrop(const std::string& text);  ///< "0,0.5,0.25,1"
-std::optional<std::vector<int>> parseFrames(const std::string& text);    ///< "1-10x2,15"
-std::optional<int64_t> parseBytes(const std::string& text);             ///< "600M", "2G", "1000000"
+std::optional<std::array<int, 2>> parsePixel(const std::string& text);                      ///< "120,80"
+std::optional<std::array<float, 4>> parseCrop(const std::string& text);                     ///< "0,0.5,0.25,1"
+std::optional<std::vector<int>> parseFrames(const std::string& text);                       ///< "1-10x2,15"
+std::optional<int64_t> parseBytes(const std::string& text);                                 ///< "600M", "2G", "1000000"
 std::optional<GiChoice> parseGi(const std::string& text);
 std::optional<ErrorFunction> parseErrorFunction(const std::string& text);
 std::optional<double> parseSeconds(const std::string& text);  ///< "90", "90s", "10m", "2h"
 
-/// Shares of --memory-limit: for textures a quarter, for bricks --brick-cache but no more than an eighth; at least 1 MB each.
+/// Shares of --memory-limit: for textures a quarter, for bricks --brick-cache but no more than an eighth; at least 1 MB
+/// each.
 int64_t textureShare(int64_t memoryLimit);
 size_t brickCacheBytes(const RenderSettings& settings);
 

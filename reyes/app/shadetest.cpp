@@ -20,13 +20,15 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A unit square that faces the eye from five units away, under an ambient and a distant light.
-std::string sceneFor(const TmShader& shader, const std::string& path) {
-  static constexpr const char* kRequests[] = {"Surface \"{}\"", "Displacement \"{}\"", "LightSource \"{}\" \"tested\"", "Atmosphere \"{}\"", "Imager \"{}\""};
+std::string sceneFor(const TmShader& shader) {
+  static constexpr const char* kRequests[] = {"Surface \"{}\"", "Displacement \"{}\"", "LightSource \"{}\" \"tested\"",
+                                              "Atmosphere \"{}\"", "Imager \"{}\""};
   const std::string request = fmt::format(fmt::runtime(kRequests[shader.kind]), shader.name);
   const bool isImager = shader.kind == TM_IMAGER;
-  return "Option \"searchpath\" \"string shader\" [\"" + path + "\"]\nProjection \"perspective\" \"fov\" [20]\nClipping 1 10\n" + (isImager ? request : "") +
-         "\nWorldBegin\n" +
-         (shader.kind == TM_LIGHT ? "" : "LightSource \"ambientlight\" \"a\" \"intensity\" [0.2] LightSource \"distantlight\" \"d\" \"to\" [0.3 -0.4 1]\n") +
+  return "Projection \"perspective\" \"fov\" [20]\nClipping 1 10\n" + (isImager ? request : "") + "\nWorldBegin\n" +
+         (shader.kind == TM_LIGHT ? ""
+                                  : "LightSource \"ambientlight\" \"a\" \"intensity\" [0.2] LightSource "
+                                    "\"distantlight\" \"d\" \"to\" [0.3 -0.4 1]\n") +
          (shader.kind == TM_SURFACE ? "" : "Surface \"matte\"\n") + (isImager ? "" : request) +
          "\nTranslate 0 0 5\nPatch \"bilinear\" \"P\" [-.5 .5 0  .5 .5 0  -.5 -.5 0  .5 -.5 0]\nWorldEnd\n";
 }
@@ -49,11 +51,14 @@ ShadePoints pointsOf(const Scene& scene, const ShadingSystem& shading, const std
   ShadePoints points(0, 0, shading.wantsSteps(0));
   for (int j = 0; j < size[1]; ++j)
     for (int i = 0; i < size[0]; ++i) {
-      const float u = (static_cast<float>(i) + 0.5f) / static_cast<float>(size[0]), v = (static_cast<float>(j) + 0.5f) / static_cast<float>(size[1]);
+      const float u = (static_cast<float>(i) + 0.5f) / static_cast<float>(size[0]),
+                  v = (static_cast<float>(j) + 0.5f) / static_cast<float>(size[1]);
       const int k = points.add(static_cast<uint32_t>(j * size[0] + i));
       evaluatePoint(scene, 0, 0, u, v, points, k);
-      if (points.hasSteps()) evaluateSteps(scene, 0, 0, u, v, 0.5f / static_cast<float>(std::max(size[0], size[1])), points, k);
-      points.channel(kDu)[k] = 1 / static_cast<float>(size[0]), points.channel(kDv)[k] = 1 / static_cast<float>(size[1]);
+      if (points.hasSteps())
+        evaluateSteps(scene, 0, 0, u, v, 0.5f / static_cast<float>(std::max(size[0], size[1])), points, k);
+      points.channel(kDu)[k] = 1 / static_cast<float>(size[0]),
+      points.channel(kDv)[k] = 1 / static_cast<float>(size[1]);
       points.set3(kIx, k, points.position(k)), points.channel(kTime)[k] = -1;
     }
   return points;
@@ -79,15 +84,20 @@ double timeOf(const Trial& trial) {
   return 1e9 * std::chrono::duration<double>(spent).count() / calls;
 }
 
-void say(const char* what, const vec3& v) { std::puts(fmt::format("{}: {:.6g} {:.6g} {:.6g}", what, v.x, v.y, v.z).c_str()); }
+void say(const char* what, const vec3& v) {
+  std::puts(fmt::format("{}: {:.6g} {:.6g} {:.6g}", what, v.x, v.y, v.z).c_str());
+}
 
 void testDisplacement(const Scene& scene, const ShadingSystem& shading, const std::array<int, 2>& size) {
   const Grid still = dice(scene, 0, 0, UvRect{}, size[0] - 1, size[1] - 1, 1);
   Grid moved;
   const double time_ns = timeOf({[&] { moved = still; }, [&] { shading.displace(moved); }});
   float longest = 0;
-  for (int i = 0; i < still.vertexCount(); ++i) longest = std::max(longest, glm::length(moved.position(0, i) - still.position(0, i)));
-  std::puts(fmt::format("nanoseconds a point: {:.1f}\nlongest displacement: {:.6g}", time_ns / still.vertexCount(), longest).c_str());
+  for (int i = 0; i < still.vertexCount(); ++i)
+    longest = std::max(longest, glm::length(moved.position(0, i) - still.position(0, i)));
+  std::puts(
+      fmt::format("nanoseconds a point: {:.1f}\nlongest displacement: {:.6g}", time_ns / still.vertexCount(), longest)
+          .c_str());
 }
 
 /// Times a trial, and says what is in the picture that it has left, three colours first.
@@ -114,7 +124,8 @@ Image blankImage(const std::array<int, 2>& size, std::vector<std::string> channe
 }
 
 /// Surfaces and lights by what the surface looks like, volumes by what the air leaves of it.
-void testPoints(const ShadetestCommand& command, const Scene& scene, const ShadingSystem& shading, bool volume, Log& log) {
+void testPoints(const ShadetestCommand& command, const Scene& scene, const ShadingSystem& shading, bool volume,
+                Log& log) {
   const ShadePoints points = pointsOf(scene, shading, command.grid);
   ShadedPoints surface, out;
   shading.shade(points, {}, surface);
@@ -146,7 +157,8 @@ void testImager(const ShadetestCommand& command, const ShadingSystem& shading, L
     const float alpha = static_cast<float>(i % width) / static_cast<float>(width - 1), grey = 0.5f * alpha;
     wedge.pixels.insert(wedge.pixels.end(), {grey, grey, grey, alpha});
   }
-  testColors(command, {[&] { image = wedge; }, [&] { runImager(image, shading); }}, [&] { return image; }, log);
+  testColors(
+      command, {[&] { image = wedge; }, [&] { runImager(image, shading); }}, [&] { return image; }, log);
 }
 
 }  // namespace
@@ -154,7 +166,7 @@ void testImager(const ShadetestCommand& command, const ShadingSystem& shading, L
 int shadetestCommand(const ShadetestCommand& command) {
   Log log;
   Stats stats;
-  ShaderRegistry registry(log);
+  ShaderRegistry registry(log, {.folders = "."});  // the user names the shader, no scene does
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
   const TmShader* shader = findShader(command.shader, registry, log);
   if (!shader) return std::max(exitCodeOf(log), kUnreadable);
@@ -169,7 +181,7 @@ int shadetestCommand(const ShadetestCommand& command) {
     else
       testPoints(command, scene, shading, shader->kind == TM_VOLUME, log);
   };
-  readRibText(sceneFor(*shader, "."), "shadetest", rib, log);
+  readRibText(sceneFor(*shader), "shadetest", rib, log);
   return exitCodeOf(log);
 }
 

@@ -6,9 +6,9 @@
 namespace tomales {
 
 struct ShadetestCommand {
-  std::string shader;                  ///< A name, or a plugin file whose first shader is meant.
-  std::array<int, 2> grid{64, 64};     ///< Points along u and v.
-  std::string output;                  ///< Picture of Ci; empty: none.
+  std::string shader;               ///< A name, or a plugin file whose first shader is meant.
+  std::array<int, 2> grid{64, 64};  ///< Points along u and v.
+  std::string output;               ///< Picture of Ci; empty: none.
 };
 
 /// Says how long a point takes and what comes out.

@@ -3,9 +3,9 @@
 #include <atomic>
 
 #include "reyes/app/atlas_job.h"
-#include "reyes/app/radiosity_job.h"
 #include "reyes/app/interrupt.h"
 #include "reyes/app/overrides.h"
+#include "reyes/app/radiosity_job.h"
 #include "reyes/rib.h"
 
 namespace tomales {
@@ -21,7 +21,8 @@ std::unique_ptr<ShotJob> ShotJob::open(const RenderSettings& settings, Stats& st
   std::string error;
   auto file = DfbFile::open(settings.files.front(), error);
   if (!file) {
-    log.report(Severity::Error, "dfb-read", wholeFile(settings.files.front()), "cannot be read as a deep frame buffer: " + error);
+    log.report(Severity::Error, "dfb-read", wholeFile(settings.files.front()),
+               "cannot be read as a deep frame buffer: " + error);
     return nullptr;
   }
   std::unique_ptr<ShotJob> job(new ShotJob(std::move(file), settings, stats, log));
@@ -52,7 +53,8 @@ bool ShotJob::openIrradiance() {
   std::string error;
   irradiance_ = IcfFile::open(settings_.irradiance, error);
   if (!irradiance_) {
-    log_.report(Severity::Error, "icf-read", wholeFile(settings_.irradiance), "cannot be read as an irradiance cache: " + error);
+    log_.report(Severity::Error, "icf-read", wholeFile(settings_.irradiance),
+                "cannot be read as an irradiance cache: " + error);
     return false;
   }
   if (irradiance_->shot().shot != file_->shotSum())
@@ -72,9 +74,11 @@ void ShotJob::prepareLight() {
       return prepareAtlas(tools.rays->scene(), *tools.rays, *tools.shading, settings_, stats_, log_);
     });
   if (job_->mode() == GiMode::Radiosity)
-    job_->services()->setRadiositySource([this] { return prepareRadiosity(*world_->tools(), job_->camera(), settings_, stats_, log_); });
+    job_->services()->setRadiositySource(
+        [this] { return prepareRadiosity(*world_->tools(), job_->camera(), settings_, stats_, log_); });
   if (job_->mode() == GiMode::Baked)
-    log_.report(Severity::Missing, "baked-folder", {}, "--gi baked is for tomales render: shaded without indirect light");
+    log_.report(Severity::Missing, "baked-folder", {},
+                "--gi baked is for tomales render: shaded without indirect light");
   if (!irradiance_) return;
   IrradianceShot given = irradiance_->takeShot();
   if (given.emitters && given.shot == file_->shotSum()) job_->services()->useEmitters(std::move(*given.emitters));
@@ -157,9 +161,14 @@ void ShotJob::gatherIrradiance() {
   const std::set<uint32_t> inCrop(asked.begin(), asked.end());
   TileStore tiles(shot_.frame.tileCount(), kTilesInMemory_bytes, [this](size_t index) { return load(index); });
   // What has lost records outside the crop, because those of inside reached there, is served too.
-  job_->gather(shot_.frame, [&](size_t index) { return irradiance_ || inCrop.contains(static_cast<uint32_t>(index)) ? tiles.read(index) : nullptr; });
+  job_->gather(shot_.frame, [&](size_t index) {
+    return irradiance_ || inCrop.contains(static_cast<uint32_t>(index)) ? tiles.read(index) : nullptr;
+  });
   const bool written = recordAnswers(tiles, *out) && copyAnswers(inCrop, *out);
-  IrradianceShot shot{interrupted() ? 0 : file_->shotSum(), job_->giSettings(), shot_.scene.cameraFromWorldAtOpen(), {},
+  IrradianceShot shot{interrupted() ? 0 : file_->shotSum(),
+                      job_->giSettings(),
+                      shot_.scene.cameraFromWorldAtOpen(),
+                      {},
                       tools->rays->emitters().table()};
   shot.caches = job_->services()->takeCaches();
   world_->report();

@@ -20,7 +20,8 @@ void append(const ShadePoints& from, int i, ShadePoints& to) {
 int roundUp(int value, int stride) { return (value + stride - 1) / stride * stride; }
 
 std::vector<Corner> cornersOf(const DeepTile& tile, int stride, DeepTile& reduced) {
-  for (const ShadePoints& batch : tile.batches) reduced.batches.emplace_back(batch.group(), batch.primvarFloats(), batch.hasSteps());
+  for (const ShadePoints& batch : tile.batches)
+    reduced.batches.emplace_back(batch.group(), batch.primvarFloats(), batch.hasSteps());
   std::vector<Corner> out;
   for (int y = roundUp(tile.rect.y0, stride); y < tile.rect.y1; y += stride)
     for (int x = roundUp(tile.rect.x0, stride); x < tile.rect.x1; x += stride) {
@@ -45,10 +46,11 @@ void fill(Image& image, const PixelRect& square, const vec3& color, float alpha)
 
 }  // namespace
 
-Image sketch(const DeepFrame& layout, const TileReader& tiles, int stride, const Scene& scene, const ShadingSystem& shading, const ShadeContext& context,
-             const std::atomic<bool>& cancelled) {
+Image sketch(const DeepFrame& layout, const TileReader& tiles, int stride, const Scene& scene,
+             const ShadingSystem& shading, const ShadeContext& context, const std::atomic<bool>& cancelled) {
   const PixelRect& crop = layout.crop;
-  Image out{crop.width(), crop.height(), {"R", "G", "B", "A"}, {}, crop.x0, crop.y0, scene.options.xResolution, scene.options.yResolution};
+  Image out{crop.width(), crop.height(), {"R", "G", "B", "A"},      {},
+            crop.x0,      crop.y0,       scene.options.xResolution, scene.options.yResolution};
   out.pixels.resize(static_cast<size_t>(out.width) * static_cast<size_t>(out.height) * out.channels.size());
   parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
     const auto tile = cancelled ? nullptr : tiles(t);
@@ -58,7 +60,8 @@ Image sketch(const DeepFrame& layout, const TileReader& tiles, int stride, const
     shadeTile(reduced, scene, shading, context);
     for (const Corner& c : corners) {
       const vec3 opacity = reduced.shaded[c.batch].opacity(c.point);
-      fill(out, {c.x, c.y, c.x + stride, c.y + stride}, reduced.shaded[c.batch].color(c.point), (opacity.x + opacity.y + opacity.z) / 3);
+      fill(out, {c.x, c.y, c.x + stride, c.y + stride}, reduced.shaded[c.batch].color(c.point),
+           (opacity.x + opacity.y + opacity.z) / 3);
     }
   });
   expose(out, scene.options);

@@ -64,8 +64,7 @@ Json countersOf(const Stats& s) {
             {"photon", s.rays.photon.load()},
             {"reference", s.rays.reference.load()},
             {"hitlist_adjusted", s.rays.hitlistAdjusted.load()}}},
-          {"raytrace",
-           {{"coarse_polygons", s.raytrace.coarsePolygons.load()}, {"bytes", s.raytrace.bytes.load()}}},
+          {"raytrace", {{"coarse_polygons", s.raytrace.coarsePolygons.load()}, {"bytes", s.raytrace.bytes.load()}}},
           {"geometry_cache",
            {{"lookups", s.geometryCache.lookups.load()},
             {"misses", s.geometryCache.misses.load()},
@@ -117,11 +116,13 @@ Json statsJson(const RenderSettings& settings, const Stats& stats, double total_
 void printShaderProfile(const Stats& stats) {
   const auto byName = stats.byShader();
   std::vector<std::pair<std::string, Stats::ShaderFigures>> shaders(byName.begin(), byName.end());
-  std::stable_sort(shaders.begin(), shaders.end(), [](const auto& a, const auto& b) { return a.second.time_s > b.second.time_s; });
+  std::stable_sort(shaders.begin(), shaders.end(),
+                   [](const auto& a, const auto& b) { return a.second.time_s > b.second.time_s; });
   std::puts(fmt::format("{:<24}{:>14}{:>12}{:>14}", "shader", "points", "seconds", "ns a point").c_str());
   for (const auto& [name, f] : shaders)
     std::puts(fmt::format("{:<24}{:>14}{:>12.3f}{:>14.0f}", name, f.vertices, f.time_s,
-                          f.vertices > 0 ? 1e9 * f.time_s / static_cast<double>(f.vertices) : 0.0).c_str());
+                          f.vertices > 0 ? 1e9 * f.time_s / static_cast<double>(f.vertices) : 0.0)
+                  .c_str());
 }
 
 }  // namespace
@@ -130,8 +131,7 @@ void writeStats(const RenderSettings& settings, const Stats& stats, double total
   if (settings.statsFile.empty()) return;
   const std::string temporary = settings.statsFile + ".part";
   // User input may hold bytes that are no UTF-8; they must not stop the report.
-  const std::string text =
-      statsJson(settings, stats, total_s, log).dump(2, ' ', false, Json::error_handler_t::replace);
+  const std::string text = statsJson(settings, stats, total_s, log).dump(2, ' ', false, Json::error_handler_t::replace);
   std::ofstream file(temporary);
   file << text << '\n';
   file.close();

@@ -11,8 +11,8 @@ namespace tomales {
 /// the log.
 void writeStats(const RenderSettings& settings, const Stats& stats, double total_s, Log& log);
 
-/// At the end of a run: the same and, for --profile-shaders, a table of what each shader has cost, the most expensive first, to standard
-/// output. Times include lights and rays that it asked for, and are summed over threads.
+/// At the end of a run: the same and, for --profile-shaders, a table of what each shader has cost, the most expensive
+/// first, to standard output. Times include lights and rays that it asked for, and are summed over threads.
 void writeLastStats(const RenderSettings& settings, const Stats& stats, double total_s, Log& log);
 
 }  // namespace tomales

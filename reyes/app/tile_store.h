@@ -1,5 +1,5 @@
-// The hidden buckets of a frame between the passes that read them: in memory as far as a budget goes, the others in a file.
-// Threads: any, but a bucket's own by one at a time.
+// The hidden buckets of a frame between the passes that read them: in memory as far as a budget goes, the others in a
+// file. Threads: any, but a bucket's own by one at a time.
 #pragma once
 #include <atomic>
 #include <optional>

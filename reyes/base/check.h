@@ -13,8 +13,8 @@ template <class A, class B>
 }
 }  // namespace tomales
 
-#define TOMALES_CHECK_OP(a, op, b) \
-  do {                             \
+#define TOMALES_CHECK_OP(a, op, b)                                                            \
+  do {                                                                                        \
     if (!((a)op(b))) ::tomales::checkFailed(__FILE__, __LINE__, #a " " #op " " #b, (a), (b)); \
   } while (0)
 #define CHECK_EQ(a, b) TOMALES_CHECK_OP(a, ==, b)

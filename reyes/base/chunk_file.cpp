@@ -16,8 +16,8 @@ namespace {
 
 constexpr uint32_t kByteOrder = 0x01020304;
 constexpr char kEnd[9] = "TOMALESX";
-constexpr int kCompression = -5;  // floats have little to give, and what they have zstd's fastest finds too
-constexpr size_t kKeptBytes = 1 << 20;  ///< Of what a thread reads into and packs.
+constexpr int kCompression = -5;            // floats have little to give, and what they have zstd's fastest finds too
+constexpr size_t kKeptBytes = 1 << 20;      ///< Of what a thread reads into and packs.
 constexpr size_t kWrittenAtOnce = 1 << 15;  ///< A call of the system costs more than a small chunk.
 constexpr uint64_t kMostChunkBytes = uint64_t{1} << 30;
 
@@ -52,7 +52,8 @@ struct ChunkWriter::Impl {
   }
   /// Where the bytes went.
   Entry writeFrame(std::span<const std::byte> bytes) {
-    if (bytes.size() > kMostChunkBytes) throw FileError(fmt::format("\"{}\": a chunk of {} bytes is too large", path, bytes.size()));
+    if (bytes.size() > kMostChunkBytes)
+      throw FileError(fmt::format("\"{}\": a chunk of {} bytes is too large", path, bytes.size()));
     // Of each thread and not of each file, because many may be open.
     thread_local std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> zstd{ZSTD_createCCtx(), &ZSTD_freeCCtx};
     thread_local Bytes packed;
@@ -60,7 +61,8 @@ struct ChunkWriter::Impl {
     ZSTD_CCtx_setParameter(zstd.get(), ZSTD_c_compressionLevel, kCompression);
     ZSTD_CCtx_setParameter(zstd.get(), ZSTD_c_checksumFlag, 1);
     const size_t stored = ZSTD_compress2(zstd.get(), packed.data(), packed.size(), bytes.data(), bytes.size());
-    if (ZSTD_isError(stored)) throw FileError(fmt::format("\"{}\" cannot be compressed: {}", path, ZSTD_getErrorName(stored)));
+    if (ZSTD_isError(stored))
+      throw FileError(fmt::format("\"{}\" cannot be compressed: {}", path, ZSTD_getErrorName(stored)));
     const Entry entry{offset, static_cast<uint32_t>(stored), static_cast<uint32_t>(bytes.size())};
     write(packed.data(), stored);
     if (packed.size() > kKeptBytes) packed = Bytes();
@@ -132,7 +134,8 @@ struct ChunkReader::Impl {
   }
 
   Bytes unpack(const Entry& e) const {
-    if (e.offset > bytes || e.stored > bytes - e.offset || e.size > kMostChunkBytes) fail("is damaged: a chunk lies outside of it");
+    if (e.offset > bytes || e.stored > bytes - e.offset || e.size > kMostChunkBytes)
+      fail("is damaged: a chunk lies outside of it");
     // Of each thread, because making them takes longer than a small chunk.
     thread_local std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> zstd{ZSTD_createDCtx(), &ZSTD_freeDCtx};
     thread_local Bytes stored;
@@ -164,7 +167,8 @@ ChunkReader::ChunkReader(const std::string& path, const char (&kind)[9], uint32_
   impl_->path = path;
   impl_->file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   struct stat status;
-  if (impl_->file < 0 || ::fstat(impl_->file, &status) != 0) impl_->fail(fmt::format("cannot be read: {}", std::strerror(errno)));
+  if (impl_->file < 0 || ::fstat(impl_->file, &status) != 0)
+    impl_->fail(fmt::format("cannot be read: {}", std::strerror(errno)));
   if (!S_ISREG(status.st_mode)) impl_->fail("is not a file");
   impl_->bytes = static_cast<uint64_t>(status.st_size);
   Preamble preamble{};

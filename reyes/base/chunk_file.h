@@ -1,4 +1,5 @@
-// A file of numbered chunks that can be read one by one: point clouds, brick maps and whatever else is larger than memory.
+// A file of numbered chunks that can be read one by one: point clouds, brick maps and whatever else is larger than
+// memory.
 //   8 bytes    what is in it ("TMPOINTS"), 4 bytes version, 4 bytes 0x01020304 in the writer's byte order
 //   chunks     one after the other, each a zstd frame with its checksum
 //   header     one more chunk: what a reader needs to know first
@@ -17,7 +18,9 @@
 namespace tomales {
 
 /// Says in a sentence what is wrong with which file.
-struct FileError : std::runtime_error { using std::runtime_error::runtime_error; };
+struct FileError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 using Bytes = std::vector<std::byte>;
 
@@ -49,9 +52,9 @@ class ChunkReader {
   ChunkReader(ChunkReader&&) noexcept;
 
   const std::string& path() const;
-  uint32_t count() const;             ///< Of chunks, without the header.
-  Bytes takeHeader();                 ///< Leaves none: it may be large, and whoever asks makes something else of it.
-  Bytes read(uint32_t chunk) const;   ///< Throws FileError.
+  uint32_t count() const;            ///< Of chunks, without the header.
+  Bytes takeHeader();                ///< Leaves none: it may be large, and whoever asks makes something else of it.
+  Bytes read(uint32_t chunk) const;  ///< Throws FileError.
   uint64_t fileBytes() const;
 
  private:

@@ -9,11 +9,10 @@ std::string SourceLoc::text() const {
   return line > 0 ? *file + ":" + std::to_string(line) : *file;
 }
 
-void Log::report(Severity severity, std::string_view code, const SourceLoc& where,
-                 const std::string& message) {
+void Log::report(Severity severity, std::string_view code, const SourceLoc& where, const std::string& message) {
   const std::lock_guard lock(mutex_);
-  const auto [it, fresh] = index_.try_emplace({std::string(code), where.file ? *where.file : "", where.line},
-                                              entries_.size());
+  const auto [it, fresh] =
+      index_.try_emplace({std::string(code), where.file ? *where.file : "", where.line}, entries_.size());
   if (!fresh) {
     ++entries_[it->second].count;
     return;
@@ -24,8 +23,8 @@ void Log::report(Severity severity, std::string_view code, const SourceLoc& wher
   static constexpr const char* kNames[] = {"info", "warning", "missing", "error", "output error"};
   const int line = wanted ? ++lines_[entries_.back().code] : 0;
   if (wanted && line <= kMostLinesOfCode)
-    std::fprintf(stderr, "%s: %s: %s [%s]\n", where.text().c_str(), kNames[static_cast<int>(severity)],
-                 message.c_str(), entries_.back().code.c_str());
+    std::fprintf(stderr, "%s: %s: %s [%s]\n", where.text().c_str(), kNames[static_cast<int>(severity)], message.c_str(),
+                 entries_.back().code.c_str());
   if (line == kMostLinesOfCode + 1)
     std::fprintf(stderr, "tomales: more of [%s] is not printed; the statistics have it\n",
                  entries_.back().code.c_str());

@@ -35,9 +35,7 @@ inline vec3 normalizeOr(const vec3& v, const vec3& fallback) {
   const float length2 = dot(v, v);
   return length2 > 0.0f && length2 < kInfinity ? v / std::sqrt(length2) : fallback;
 }
-inline bool isFinite(const vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+inline bool isFinite(const vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 inline float luminance(const vec3& c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 inline float maxComponent(const vec3& c) { return std::max(c.x, std::max(c.y, c.z)); }
 inline float lerp(float a, float b, float t) { return a + (b - a) * t; }

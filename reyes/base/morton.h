@@ -15,7 +15,9 @@ inline uint64_t spreadBits(uint64_t x) {
 }
 
 /// Of a cell; 21 bits an axis.
-inline uint64_t mortonPlace(const glm::uvec3& cell) { return spreadBits(cell.x) | spreadBits(cell.y) << 1 | spreadBits(cell.z) << 2; }
+inline uint64_t mortonPlace(const glm::uvec3& cell) {
+  return spreadBits(cell.x) | spreadBits(cell.y) << 1 | spreadBits(cell.z) << 2;
+}
 
 /// Of a point of a box that is cut into 1024 along each axis; what is not a number counts as 0.
 inline uint32_t mortonPlace(const vec3& p, const Bound3& box) {

@@ -14,16 +14,16 @@
 #include <set>
 #include <string>
 
-#include "reyes/base/record_file.h"
 #include "reyes/base/math.h"
+#include "reyes/base/record_file.h"
 
 namespace tomales {
 
 /// Stored as they are in memory.
 template <class T>
-constexpr bool kPacksRaw = (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) || std::is_enum_v<T> ||
-                           std::is_same_v<T, vec2> || std::is_same_v<T, vec3> || std::is_same_v<T, vec4> ||
-                           std::is_same_v<T, mat4>;
+constexpr bool kPacksRaw =
+    (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) || std::is_enum_v<T> || std::is_same_v<T, vec2> ||
+    std::is_same_v<T, vec3> || std::is_same_v<T, vec4> || std::is_same_v<T, mat4>;
 
 struct Packer {
   Bytes bytes;
@@ -74,7 +74,7 @@ void each(A& a, T&... x) {
 }
 
 template <class A, class T>
-  requires kPacksRaw<T>
+requires kPacksRaw<T>
 void field(A& a, T& x) {
   if constexpr (kIsSchema<A>)
     a.add(sizeof(T) << 8 | (std::is_floating_point_v<T> ? 1 : 2));
@@ -186,7 +186,7 @@ void field(A& a, std::set<T>& x) {
 }
 
 template <class A, class T>
-  requires requires(A& a, T& x) { fields(a, x); }
+requires requires(A& a, T& x) { fields(a, x); }
 void field(A& a, T& x) {
   if constexpr (kIsSchema<A>) a.add(5);
   fields(a, x);

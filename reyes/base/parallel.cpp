@@ -10,8 +10,8 @@
 
 #include "reyes/base/deep_stack.h"
 
-// oneTBB is not built for ThreadSanitizer, which therefore does not see that a loop starts after what its caller wrote and
-// ends before what its caller reads: tell it.
+// oneTBB is not built for ThreadSanitizer, which therefore does not see that a loop starts after what its caller wrote
+// and ends before what its caller reads: tell it.
 #ifdef __SANITIZE_THREAD__
 extern "C" void __tsan_acquire(void*);
 extern "C" void __tsan_release(void*);
@@ -38,8 +38,7 @@ void runOnDeepStack(const std::function<void()>& body) {
   pthread_attr_init(&attributes);
   pthread_attr_setstacksize(&attributes, kStack_bytes);
   pthread_t thread;
-  const bool started =
-      pthread_create(&thread, &attributes, call, const_cast<std::function<void()>*>(&body)) == 0;
+  const bool started = pthread_create(&thread, &attributes, call, const_cast<std::function<void()>*>(&body)) == 0;
   pthread_attr_destroy(&attributes);
   if (started)
     pthread_join(thread, nullptr);
@@ -53,8 +52,7 @@ struct ThreadLimit::Impl {
 };
 
 ThreadLimit::ThreadLimit(int threads) {
-  if (threads > 0)
-    impl_ = std::make_unique<Impl>(static_cast<size_t>(threads));
+  if (threads > 0) impl_ = std::make_unique<Impl>(static_cast<size_t>(threads));
 }
 ThreadLimit::~ThreadLimit() = default;
 

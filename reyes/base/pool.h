@@ -1,5 +1,5 @@
-// Memory of small things that end at about the same time: handed out in order from a few blocks, and freed with the last of them.
-// Threads: one at a time takes; anybody may give back.
+// Memory of small things that end at about the same time: handed out in order from a few blocks, and freed with the
+// last of them. Threads: one at a time takes; anybody may give back.
 #pragma once
 #include <algorithm>
 #include <memory>

@@ -17,7 +17,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are stored as they are in memory");
 
-constexpr int kCompression = 1;                   ///< Faster than most disks, and half the size of memory.
+constexpr int kCompression = 1;                         ///< Faster than most disks, and half the size of memory.
 constexpr uint64_t kLargestRecord = uint64_t{1} << 32;  ///< A damaged length must not ask for all memory.
 constexpr uint32_t kDirectory = ~uint32_t{0};
 constexpr char kTrailerMagic[] = "TomalEND";
@@ -40,7 +40,8 @@ struct DirectoryEntry {
   RecordName name;
   uint64_t offset;
 };
-static_assert(sizeof(Header) == 32 && sizeof(RecordHeader) == 32 && sizeof(Trailer) == 32 && sizeof(DirectoryEntry) == 16);
+static_assert(sizeof(Header) == 32 && sizeof(RecordHeader) == 32 && sizeof(Trailer) == 32 &&
+              sizeof(DirectoryEntry) == 16);
 
 uint64_t sumOf(const void* data, size_t size) { return checksum({static_cast<const std::byte*>(data), size}); }
 
@@ -113,7 +114,7 @@ RecordWriter::RecordWriter(std::string path, const RecordFileKind& kind)
     : path_(std::move(path)), temporary_(path_ + ".part"), kind_(kind) {}
 
 std::unique_ptr<RecordWriter> RecordWriter::create(const std::string& path, const RecordFileKind& kind, bool resume,
-                                                 std::string& error) {
+                                                   std::string& error) {
   std::unique_ptr<RecordWriter> writer(new RecordWriter(path, kind));
   return writer->open(resume, error) ? std::move(writer) : nullptr;
 }

@@ -19,7 +19,7 @@ namespace tomales {
 
 /// What kind of file this is, and which description of its contents the writer had.
 struct RecordFileKind {
-  char magic[9];     ///< Eight characters.
+  char magic[9];  ///< Eight characters.
   uint32_t version;
   uint64_t schema = 0;  ///< Builds whose structures differ must not read each other's files.
 };
@@ -33,7 +33,7 @@ class RecordWriter {
  public:
   /// `resume`: whole records of NAME.part are kept, if it is of this kind. Null: cannot be written, `error` says why.
   static std::unique_ptr<RecordWriter> create(const std::string& path, const RecordFileKind& kind, bool resume,
-                                             std::string& error);
+                                              std::string& error);
   ~RecordWriter();  ///< Leaves NAME.part unless finished.
 
   bool has(RecordName name) const;

@@ -12,7 +12,8 @@ std::vector<std::string> foldersOf(const std::string& searchPath);
 /// That of `kind`; empty: there is none.
 std::string pathOf(const std::map<std::string, std::string>& searchPaths, const std::string& kind);
 
-/// `name` in the first folder that has such a file, else `name` itself if it is one, else nothing. Absolute names are not searched for.
+/// `name` in the first folder that has such a file, else `name` itself if it is one, else nothing. Absolute names are
+/// not searched for.
 std::string findFile(const std::string& name, const std::string& searchPath);
 
 }  // namespace tomales

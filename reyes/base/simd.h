@@ -26,7 +26,8 @@ struct CacheAligned {
   CacheAligned() = default;
   template <class U>
   CacheAligned(const CacheAligned<U>&) {}
-  // Aligned by hand: glibc's aligned allocation takes no part in its caches of freed blocks, and grids come and go by millions.
+  // Aligned by hand: glibc's aligned allocation takes no part in its caches of freed blocks, and grids come and go by
+  // millions.
   T* allocate(size_t n) {
     void* block = ::operator new(n * sizeof(T) + kLine);
     void** aligned = reinterpret_cast<void**>((reinterpret_cast<uintptr_t>(block) + kLine) & ~(kLine - 1));
@@ -48,9 +49,13 @@ struct Unset : CacheAligned<T> {
   template <class U>
   Unset(const Unset<U>&) {}
   template <class U>
-  void construct(U* p) { ::new (static_cast<void*>(p)) U; }
+  void construct(U* p) {
+    ::new (static_cast<void*>(p)) U;
+  }
   template <class U, class... Args>
-  void construct(U* p, Args&&... args) { ::new (static_cast<void*>(p)) U(static_cast<Args&&>(args)...); }
+  void construct(U* p, Args&&... args) {
+    ::new (static_cast<void*>(p)) U(static_cast<Args&&>(args)...);
+  }
 };
 template <class T>
 using UnsetVector = std::vector<T, Unset<T>>;

@@ -1,5 +1,5 @@
-// A sequence that grows while others read it: elements never move. Threads: one may append while others use elements that they
-// know of; iterating and size() belong to whoever appends.
+// A sequence that grows while others read it: elements never move. Threads: one may append while others use elements
+// that they know of; iterating and size() belong to whoever appends.
 #pragma once
 #include <array>
 #include <bit>

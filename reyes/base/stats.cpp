@@ -42,7 +42,11 @@ double processCpuSeconds() { return secondsOf(CLOCK_PROCESS_CPUTIME_ID); }
 double threadCpuSeconds() { return secondsOf(CLOCK_THREAD_CPUTIME_ID); }
 
 StageTimer::StageTimer(Stats& stats, std::string name, double (*cpuSeconds)())
-    : stats_(stats), name_(std::move(name)), start_(std::chrono::steady_clock::now()), cpuSeconds_(cpuSeconds), cpuStart_(cpuSeconds()) {}
+    : stats_(stats),
+      name_(std::move(name)),
+      start_(std::chrono::steady_clock::now()),
+      cpuSeconds_(cpuSeconds),
+      cpuStart_(cpuSeconds()) {}
 
 StageTimer::~StageTimer() {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start_;

@@ -13,25 +13,50 @@ namespace tomales {
 using Counter = std::atomic<int64_t>;
 
 struct Stats {
-  struct { Counter primitives{0}, subpatches{0}, gridsDiced{0}, micropolygonsDiced{0}, micropolygonsVisible{0},
-           culled{0}, eyeSplitsGivenUp{0}, piecesVisited{0}; } geometry;
-  struct { Counter verticesShaded{0}; } shade;
-  struct { Counter gather{0}, transmission{0}, specular{0}, photon{0}, reference{0}, hitlistAdjusted{0}; } rays;
-  struct { Counter coarsePolygons{0}, bytes{0}; } raytrace;
-  struct { Counter lookups{0}, misses{0}, bytes{0}, finePolygons{0}; } geometryCache;
-  struct { Counter samples{0}, lookups{0}, interpolated{0}; } irradianceCache;
-  struct { Counter emitted{0}, stored{0}, groups{0}, groupsKept{0}; } photons;
-  struct { Counter total{0}, lookups{0}, misses{0}, cacheBytes{0}, bytesOnDisk{0}; } bricks;
-  struct { Counter lookups{0}, tileRequests{0}, tileMisses{0}, bytesRead{0}; } textures;
-  struct { Counter grids{0}, geometry{0}, deepFrame{0}; } memoryBytes;
+  struct {
+    Counter primitives{0}, subpatches{0}, gridsDiced{0}, micropolygonsDiced{0}, micropolygonsVisible{0}, culled{0},
+        eyeSplitsGivenUp{0}, piecesVisited{0};
+  } geometry;
+  struct {
+    Counter verticesShaded{0};
+  } shade;
+  struct {
+    Counter gather{0}, transmission{0}, specular{0}, photon{0}, reference{0}, hitlistAdjusted{0};
+  } rays;
+  struct {
+    Counter coarsePolygons{0}, bytes{0};
+  } raytrace;
+  struct {
+    Counter lookups{0}, misses{0}, bytes{0}, finePolygons{0};
+  } geometryCache;
+  struct {
+    Counter samples{0}, lookups{0}, interpolated{0};
+  } irradianceCache;
+  struct {
+    Counter emitted{0}, stored{0}, groups{0}, groupsKept{0};
+  } photons;
+  struct {
+    Counter total{0}, lookups{0}, misses{0}, cacheBytes{0}, bytesOnDisk{0};
+  } bricks;
+  struct {
+    Counter lookups{0}, tileRequests{0}, tileMisses{0}, bytesRead{0};
+  } textures;
+  struct {
+    Counter grids{0}, geometry{0}, deepFrame{0};
+  } memoryBytes;
 
   /// Adds to the figures of one named shader ("shade.by_shader").
   void addShader(const std::string& name, int64_t vertices, double time_s);
   /// Adds wall and CPU time to a stage of the frame ("parse", "hide", "gather", "shade", "image", "write").
   void addStage(const std::string& name, double wall_s, double cpu_s);
 
-  struct ShaderFigures { int64_t vertices = 0; double time_s = 0; };
-  struct StageFigures { double wall_s = 0, cpu_s = 0; };
+  struct ShaderFigures {
+    int64_t vertices = 0;
+    double time_s = 0;
+  };
+  struct StageFigures {
+    double wall_s = 0, cpu_s = 0;
+  };
   std::map<std::string, ShaderFigures> byShader() const;
   std::map<std::string, StageFigures> stages() const;
 
@@ -45,8 +70,8 @@ struct Stats {
 double processCpuSeconds();
 double threadCpuSeconds();
 
-/// Times one stage from construction to destruction, on one thread; `cpuSeconds`: of the process, or where other stages run meanwhile, of the
-/// thread.
+/// Times one stage from construction to destruction, on one thread; `cpuSeconds`: of the process, or where other stages
+/// run meanwhile, of the thread.
 class StageTimer {
  public:
   StageTimer(Stats& stats, std::string name, double (*cpuSeconds)() = processCpuSeconds);

@@ -10,7 +10,8 @@ namespace fs = std::filesystem;
 
 TemporaryFolder::TemporaryFolder(const fs::path& parent) {
   std::string name = (parent / "tomales_XXXXXX").string();
-  if (!::mkdtemp(name.data())) throw fs::filesystem_error("a temporary folder cannot be made", parent, {errno, std::generic_category()});
+  if (!::mkdtemp(name.data()))
+    throw fs::filesystem_error("a temporary folder cannot be made", parent, {errno, std::generic_category()});
   path_ = name;
 }
 

@@ -13,10 +13,17 @@ enum class ValueType : uint8_t { Float, Integer, String, Color, Point, Vector, N
 /// Floats in one value of a type; strings count 1.
 inline int floatsPerValue(ValueType type) {
   switch (type) {
-    case ValueType::Color: case ValueType::Point: case ValueType::Vector: case ValueType::Normal: return 3;
-    case ValueType::HPoint: return 4;
-    case ValueType::Matrix: return 16;
-    default: return 1;
+    case ValueType::Color:
+    case ValueType::Point:
+    case ValueType::Vector:
+    case ValueType::Normal:
+      return 3;
+    case ValueType::HPoint:
+      return 4;
+    case ValueType::Matrix:
+      return 16;
+    default:
+      return 1;
   }
 }
 

@@ -1,8 +1,9 @@
-// Vectors of samples: our names for what the rasterisers use of Highway, which compiles them for several widths and picks one
-// when first called. Include it first in a .cpp that defines HWY_TARGET_INCLUDE.
-// No operation here may be fused (MulAdd) and no sum may cross lanes, so that all widths give the same bits.
+// Vectors of samples: our names for what the rasterisers use of Highway, which compiles them for several widths and
+// picks one when first called. Include it first in a .cpp that defines HWY_TARGET_INCLUDE. No operation here may be
+// fused (MulAdd) and no sum may cross lanes, so that all widths give the same bits.
 
-// Each target costs a compilation; these leave SSE4, AVX2, AVX-512 and, for older CPUs, what the compiler makes of loops.
+// Each target costs a compilation; these leave SSE4, AVX2, AVX-512 and, for older CPUs, what the compiler makes of
+// loops.
 #ifndef HWY_DISABLED_TARGETS
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #endif

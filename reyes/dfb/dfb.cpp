@@ -41,10 +41,12 @@ bool consistent(const Shot& shot) {
 
 }  // namespace
 
-std::unique_ptr<DfbWriter> DfbWriter::create(const std::string& path, const Shot& shot, bool resume, std::string& error) {
+std::unique_ptr<DfbWriter> DfbWriter::create(const std::string& path, const Shot& shot, bool resume,
+                                             std::string& error) {
   auto records = RecordWriter::create(path, dfbKind(), resume, error);
   if (!records) return nullptr;
-  const Bytes packed = pack(Shot{withoutGeometry(shot.scene), shot.frame, shot.seed, shot.sources, shot.folder, shot.world});
+  const Bytes packed =
+      pack(Shot{withoutGeometry(shot.scene), shot.frame, shot.seed, shot.sources, shot.folder, shot.world});
   std::unique_ptr<DfbWriter> writer(new DfbWriter(std::move(records)));
   const auto kept = writer->records_->read(kShotRecord);
   if (kept == packed) {

@@ -1,5 +1,5 @@
-// Which fields of a Scene a .dfb holds: all but geometry. Private to reyes/dfb. A structure that gains a field stops the
-// compiler here: add it to the list, and nothing else needs to be done.
+// Which fields of a Scene a .dfb holds: all but geometry. Private to reyes/dfb. A structure that gains a field stops
+// the compiler here: add it to the list, and nothing else needs to be done.
 #pragma once
 #include "reyes/dfb.h"
 #include "reyes/state_fields.h"
@@ -34,7 +34,8 @@ void fields(A& a, ShadeGroup& x) {
   each(a, attributes, cameraFromObject, primvars, exampleObject, currentFromOpen, solid, subtracted, steps);
 }
 
-/// Packs what `withoutGeometry` leaves; its private members serve geometry alone, so that no structured binding guards this list.
+/// Packs what `withoutGeometry` leaves; its private members serve geometry alone, so that no structured binding guards
+/// this list.
 template <class A>
 void fields(A& a, Scene& x) {
   each(a, x.options, x.cameraFromWorld, x.lights, x.worldFromNamed, x.where, x.groups);

@@ -10,7 +10,8 @@ void column(A& a, std::vector<T>& x, Member T::*member) {
     a.add(sizeof(Member));
   } else if constexpr (kUnpacks<A>) {
     if (x.size() * sizeof(Member) > a.bytes.size()) return void(a.damaged = true);
-    for (size_t i = 0; i < x.size(); ++i) std::memcpy(&(x[i].*member), a.bytes.data() + i * sizeof(Member), sizeof(Member));
+    for (size_t i = 0; i < x.size(); ++i)
+      std::memcpy(&(x[i].*member), a.bytes.data() + i * sizeof(Member), sizeof(Member));
     a.bytes = a.bytes.subspan(x.size() * sizeof(Member));
   } else {
     const size_t begin = a.bytes.size();
@@ -87,7 +88,8 @@ bool consistent(const DeepTile& t) {
   };
   return t.pixels.size() == static_cast<size_t>(t.rect.width()) * static_cast<size_t>(t.rect.height()) &&
          std::all_of(t.facets.begin(), t.facets.end(), fits) &&
-         std::all_of(t.fragments.begin(), t.fragments.end(), [&](const Fragment& f) { return f.facet < t.facets.size(); }) &&
+         std::all_of(t.fragments.begin(), t.fragments.end(),
+                     [&](const Fragment& f) { return f.facet < t.facets.size(); }) &&
          std::all_of(t.pixels.begin(), t.pixels.end(), [&](const DeepPixel& p) {
            return p.first <= t.fragments.size() && p.count <= t.fragments.size() - p.first;
          });

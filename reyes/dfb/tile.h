@@ -1,5 +1,5 @@
-// A tile to bytes and back: its arrays one after the other, member by member, which compresses better than structures do.
-// Private to reyes/dfb.
+// A tile to bytes and back: its arrays one after the other, member by member, which compresses better than structures
+// do. Private to reyes/dfb.
 #pragma once
 #include "reyes/base/pack.h"
 #include "reyes/deep.h"

@@ -9,7 +9,8 @@ mat3 normalMatrix(const Object& o, const mat4& m) {
 }
 
 void transformPrimvar(const Primvar& p, const mat4& m, const mat3& normals, int n, float* values, int stride) {
-  const bool point = p.type == ValueType::Point, vector = p.type == ValueType::Vector, normal = p.type == ValueType::Normal;
+  const bool point = p.type == ValueType::Point, vector = p.type == ValueType::Vector,
+             normal = p.type == ValueType::Normal;
   if (!point && !vector && !normal) return;
   for (int first = 0; first + 2 < p.width; first += 3)
     for (int i = 0; i < n; ++i) {

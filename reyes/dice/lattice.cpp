@@ -36,12 +36,13 @@ TOMALES_HOT void transformDirections(const mat3& m, int n, Triple<const float> f
 
 uint32_t nameOf(uint32_t object, uint32_t patch, const UvRect& r, int nu, int nv) {
   const auto bits = [](float f) { return __builtin_bit_cast(uint32_t, f); };
-  return hashCombine(object, patch, bits(r.u0), bits(r.u1), bits(r.v0), bits(r.v1),
-                     static_cast<uint32_t>(nu), static_cast<uint32_t>(nv));
+  return hashCombine(object, patch, bits(r.u0), bits(r.u1), bits(r.v0), bits(r.v1), static_cast<uint32_t>(nu),
+                     static_cast<uint32_t>(nv));
 }
 
 uint8_t openEdgesOf(const PatchInfo& info, const UvRect& r) {
-  const int touched = (r.u0 <= 0 ? kEdgeU0 : 0) | (r.u1 >= 1 ? kEdgeU1 : 0) | (r.v0 <= 0 ? kEdgeV0 : 0) | (r.v1 >= 1 ? kEdgeV1 : 0);
+  const int touched =
+      (r.u0 <= 0 ? kEdgeU0 : 0) | (r.u1 >= 1 ? kEdgeU1 : 0) | (r.v0 <= 0 ? kEdgeV0 : 0) | (r.v1 >= 1 ? kEdgeV1 : 0);
   return static_cast<uint8_t>(touched & info.openEdges);
 }
 
@@ -53,7 +54,8 @@ std::vector<Kept> keptOfCells(const Prim& prim, const Grid& g) {
   std::vector<Kept> out(static_cast<size_t>(g.cellNumbers()));
   for (int cell = 0; cell < g.cellNumbers(); ++cell) {
     const vec2 lo = g.onPatch(cell, vec2(-kMargin)), hi = g.onPatch(cell, vec2(1 + kMargin));
-    out[static_cast<size_t>(cell)] = prim.kept(g.pieces[static_cast<size_t>(g.pieceOfCell(cell))].patch, {lo.x, hi.x, lo.y, hi.y});
+    out[static_cast<size_t>(cell)] =
+        prim.kept(g.pieces[static_cast<size_t>(g.pieceOfCell(cell))].patch, {lo.x, hi.x, lo.y, hi.y});
   }
   return out;
 }
@@ -87,7 +89,8 @@ Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, in
   return dice(scene, object, {&piece, 1}, nu, nv, keys);
 }
 
-Grid dice(const Scene& scene, int object, std::span<const PatchPiece> pieces, int nu, int nv, const DiceKeys& keys, Pool* pool) {
+Grid dice(const Scene& scene, int object, std::span<const PatchPiece> pieces, int nu, int nv, const DiceKeys& keys,
+          Pool* pool) {
   const Object& o = scene.objects[static_cast<size_t>(object)];
   const int keyCount = static_cast<int>(keys.times.size());
   const Prim& prim = o.shape();
@@ -141,9 +144,11 @@ Grid dice(const Scene& scene, int object, std::span<const PatchPiece> pieces, in
         const Primvar& p = prim.primvars()[k];
         forPieces([&](const Grid::Piece& piece, int first) {
           if (first == 0 || p.storage != Storage::Constant)
-            prim.interpolate(piece.patch, static_cast<int>(k), ofPiece, u.data(), v.data(), g.primvar(offset) + first, g.stride());
+            prim.interpolate(piece.patch, static_cast<int>(k), ofPiece, u.data(), v.data(), g.primvar(offset) + first,
+                             g.stride());
         });
-        for (int c = 0; p.storage == Storage::Constant && c < p.width; ++c) std::fill_n(g.primvar(offset + c), n, g.primvar(offset + c)[0]);
+        for (int c = 0; p.storage == Storage::Constant && c < p.width; ++c)
+          std::fill_n(g.primvar(offset + c), n, g.primvar(offset + c)[0]);
         transformPrimvar(p, m, normals, n, g.primvar(offset), g.stride());
         offset += p.width;
       }

@@ -6,19 +6,22 @@ TrueSurface surfaceAt(const Scene& scene, int object, uint32_t patch, float u, f
   const Object& o = scene.objects[static_cast<size_t>(object)];
   const mat4& m = scene.groups[static_cast<size_t>(o.group)].cameraFromObject;
   Evaluated e(1);
-  evaluateAt(o, o.keyTimes.front(), 1, e, [&](const Prim& shape, Evaluated& out) { shape.evaluate(patch, 1, &u, &v, out.view()); });
+  evaluateAt(o, o.keyTimes.front(), 1, e,
+             [&](const Prim& shape, Evaluated& out) { shape.evaluate(patch, 1, &u, &v, out.view()); });
   return {transformPoint(m, e.get(0, 0)), transformVector(m, e.get(3, 0)), transformVector(m, e.get(6, 0)),
           normalMatrix(o, m) * e.get(9, 0)};
 }
 
 namespace {
 
-/// The shader's parameters at a place of a patch, and how they run along it: patches of one mesh share a parameter square.
+/// The shader's parameters at a place of a patch, and how they run along it: patches of one mesh share a parameter
+/// square.
 struct ShaderParameters {
   float u, v, perU, perV;
 
   ShaderParameters(const Prim& prim, uint32_t patch, float u0, float v0) {
-    const float us[3] = {u0, u0 < 0.5f ? u0 + 0.5f : u0 - 0.5f, u0}, vs[3] = {v0, v0, v0 < 0.5f ? v0 + 0.5f : v0 - 0.5f};
+    const float us[3] = {u0, u0 < 0.5f ? u0 + 0.5f : u0 - 0.5f, u0},
+                vs[3] = {v0, v0, v0 < 0.5f ? v0 + 0.5f : v0 - 0.5f};
     float su[3], sv[3];
     prim.surfaceParameters(patch, 3, us, vs, su, sv);
     const float dsu = (su[1] - su[0]) / (us[1] - us[0]), dsv = (sv[2] - sv[0]) / (vs[2] - vs[0]);
@@ -27,7 +30,8 @@ struct ShaderParameters {
 };
 
 /// All primitive variables at one place, current space.
-void primvarsAt(const Prim& prim, uint32_t patch, float u, float v, const mat4& m, const mat3& normals, AlignedVector<float>& out) {
+void primvarsAt(const Prim& prim, uint32_t patch, float u, float v, const mat4& m, const mat3& normals,
+                AlignedVector<float>& out) {
   out.clear();
   for (size_t k = 0; k < prim.primvars().size(); ++k) {
     const Primvar& p = prim.primvars()[k];
@@ -69,14 +73,16 @@ void evaluatePoint(const Scene& scene, int object, uint32_t patch, float u, floa
   static thread_local AlignedVector<float> values;
   primvarsAt(prim, patch, u, v, m, normals, values);
   for (int c = 0; c < static_cast<int>(values.size()); ++c) batch.primvar(c)[index] = values[static_cast<size_t>(c)];
-  if (const int n = offsetOf(prim.primvars(), "N"); n >= 0) batch.set3(kNx, index, normalizeOr(tripleAt(values, n), geometric));
+  if (const int n = offsetOf(prim.primvars(), "N"); n >= 0)
+    batch.set3(kNx, index, normalizeOr(tripleAt(values, n), geometric));
   const vec2 st = o.attributes->textureAt(shader.u, shader.v);
   const int s = offsetOf(prim.primvars(), "s"), t = offsetOf(prim.primvars(), "t");
   batch.channel(kS)[index] = s >= 0 ? batch.primvar(s)[index] : st.x;
   batch.channel(kT)[index] = t >= 0 ? batch.primvar(t)[index] : st.y;
 }
 
-void evaluateSteps(const Scene& scene, int object, uint32_t patch, float u, float v, float radius, ShadePoints& batch, int index) {
+void evaluateSteps(const Scene& scene, int object, uint32_t patch, float u, float v, float radius, ShadePoints& batch,
+                   int index) {
   constexpr float kWidest = 0.25f;  // of a patch: its end is never passed on both sides
   const Object& o = scene.objects[static_cast<size_t>(object)];
   const Prim& prim = o.shape();
@@ -90,7 +96,8 @@ void evaluateSteps(const Scene& scene, int object, uint32_t patch, float u, floa
   static thread_local AlignedVector<float> moved;
   const vec3 normal = batch.get3(kNx, index);
   for (const bool alongV : {false, true}) {
-    const float edge = glm::length(batch.get3(alongV ? kDpdvX : kDpduX, index)), per = std::abs(alongV ? here.perV : here.perU);
+    const float edge = glm::length(batch.get3(alongV ? kDpdvX : kDpduX, index)),
+                per = std::abs(alongV ? here.perV : here.perU);
     const float patchStep = edge * per > 0 ? std::clamp(2 * radius / (edge * per), 1e-6f, kWidest) : kWidest;
     const float at = alongV ? v : u, sign = at + patchStep <= 1 ? 1.0f : -1.0f;
     const float pu = alongV ? u : u + sign * patchStep, pv = alongV ? v + sign * patchStep : v;

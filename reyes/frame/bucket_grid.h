@@ -20,19 +20,25 @@ struct BucketRange {
 class BucketGrid {
  public:
   explicit BucketGrid(const DeepFrame& frame)
-      : window_(frame.padded), width_(frame.bucketWidth), height_(frame.bucketHeight), columns_(frame.columns), rows_(frame.rows) {}
+      : window_(frame.padded),
+        width_(frame.bucketWidth),
+        height_(frame.bucketHeight),
+        columns_(frame.columns),
+        rows_(frame.rows) {}
 
   const PixelRect& window() const { return window_; }
   BucketRange all() const { return {0, columns_ - 1, 0, rows_ - 1}; }
   BucketRange touched(const Bound2& b) const {
     const auto x0 = static_cast<float>(window_.x0), y0 = static_cast<float>(window_.y0);
-    if (b.hi.x < x0 || b.hi.y < y0 || b.lo.x > static_cast<float>(window_.x1) || b.lo.y > static_cast<float>(window_.y1)) return {};
+    if (b.hi.x < x0 || b.hi.y < y0 || b.lo.x > static_cast<float>(window_.x1) ||
+        b.lo.y > static_cast<float>(window_.y1))
+      return {};
     const auto index = [](float at, int size, int count) {
       const float i = std::floor(at / static_cast<float>(size));
       return static_cast<int>(std::clamp(i, 0.0f, static_cast<float>(count - 1)));
     };
-    return {index(b.lo.x - x0, width_, columns_), index(b.hi.x - x0, width_, columns_), index(b.lo.y - y0, height_, rows_),
-            index(b.hi.y - y0, height_, rows_)};
+    return {index(b.lo.x - x0, width_, columns_), index(b.hi.x - x0, width_, columns_),
+            index(b.lo.y - y0, height_, rows_), index(b.hi.y - y0, height_, rows_)};
   }
   BucketRange only(size_t bucket) const { return {column(bucket), column(bucket), row(bucket), row(bucket)}; }
   int column(size_t bucket) const { return static_cast<int>(bucket) % columns_; }

@@ -42,7 +42,9 @@ uint64_t alongSpiral(int column, int row, int columns, int rows) {
 std::vector<uint32_t> bucketOrder(const std::string& order, int columns, int rows) {
   const uint32_t side = std::bit_ceil(static_cast<uint32_t>(std::max({columns, rows, 1})));
   const auto key = [&](int c, int r) -> uint64_t {
-    const auto pair = [](int major, int minor) { return static_cast<uint64_t>(major) << 32 | static_cast<uint32_t>(minor); };
+    const auto pair = [](int major, int minor) {
+      return static_cast<uint64_t>(major) << 32 | static_cast<uint32_t>(minor);
+    };
     if (order == "vertical") return pair(c, r);
     if (order == "zigzag-x") return pair(r, r % 2 ? columns - c : c);
     if (order == "zigzag-y") return pair(c, c % 2 ? rows - r : r);

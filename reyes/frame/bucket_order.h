@@ -6,8 +6,9 @@
 
 namespace tomales {
 
-/// Indices row * columns + column. "horizontal", "vertical", "zigzag-x" and "zigzag-y" (every other row or column backwards),
-/// "spacefill" (along a Hilbert curve), "spiral" (outwards from the middle), "random". Others count as horizontal.
+/// Indices row * columns + column. "horizontal", "vertical", "zigzag-x" and "zigzag-y" (every other row or column
+/// backwards), "spacefill" (along a Hilbert curve), "spiral" (outwards from the middle), "random". Others count as
+/// horizontal.
 std::vector<uint32_t> bucketOrder(const std::string& order, int columns, int rows);
 
 }  // namespace tomales

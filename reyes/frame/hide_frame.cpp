@@ -9,8 +9,8 @@ namespace tomales {
 namespace {
 
 /// Nothing: cancelled on the way.
-std::optional<DeepTile> hideBucket(size_t bucket, const PixelRect& rect, const NodeList& nodes, const HideContext& context,
-                    const SamplePattern& pattern, HideWarnings& warnings) {
+std::optional<DeepTile> hideBucket(size_t bucket, const PixelRect& rect, const NodeList& nodes,
+                                   const HideContext& context, const SamplePattern& pattern, HideWarnings& warnings) {
   Hider hider(context.scene, context.camera, pattern, rect);
   NodeQueue queue;
   for (HideNode* node : nodes.in(bucket)) queue.push(node);
@@ -23,7 +23,8 @@ std::optional<DeepTile> hideBucket(size_t bucket, const PixelRect& rect, const N
   return tile;
 }
 
-// Buckets hold all their samples, and of crowds a grid for each sample or so. Those of more are halved, which no picture shows.
+// Buckets hold all their samples, and of crowds a grid for each sample or so. Those of more are halved, which no
+// picture shows.
 constexpr int64_t kMostSamplesOfBucket = 1 << 22;
 constexpr double kMostPatchesOfBucket = 1 << 19;
 
@@ -38,7 +39,8 @@ void limitBuckets(DeepFrame& frame, double patchesPerPixel) {
   int &width = frame.bucketWidth, &height = frame.bucketHeight;
   const auto isTooLarge = [&] {
     const int64_t pixels = int64_t{width} * height;
-    return pixels > 1 && (pixels * frame.samplesPerPixel > kMostSamplesOfBucket || static_cast<double>(pixels) * patchesPerPixel > kMostPatchesOfBucket);
+    return pixels > 1 && (pixels * frame.samplesPerPixel > kMostSamplesOfBucket ||
+                          static_cast<double>(pixels) * patchesPerPixel > kMostPatchesOfBucket);
   };
   while (isTooLarge()) {
     int& side = width > height ? width : height;
@@ -67,8 +69,13 @@ DeepFrame layOutFrame(const Scene& scene) {
 
 struct FrameHider::Impl {
   Impl(const DeepFrame& frame, Scene& scene, ShadingSystem& shading, const FrameControl& c, Stats& stats, Log& log)
-      : layout(frame), control(c), camera(scene.options), pattern(samplePattern(scene.options, c.seed)), buckets(frame),
-        context{scene, camera, shading, buckets, stats, log, c.cancelled}, nodes(nodesOfScene(context), buckets.all(), buckets) {
+      : layout(frame),
+        control(c),
+        camera(scene.options),
+        pattern(samplePattern(scene.options, c.seed)),
+        buckets(frame),
+        context{scene, camera, shading, buckets, stats, log, c.cancelled},
+        nodes(nodesOfScene(context), buckets.all(), buckets) {
     markSteps(scene, shading, 0);
   }
 
@@ -99,7 +106,8 @@ struct FrameHider::Impl {
   std::atomic<size_t> done{0};
 };
 
-FrameHider::FrameHider(const DeepFrame& layout, Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log)
+FrameHider::FrameHider(const DeepFrame& layout, Scene& scene, ShadingSystem& shading, const FrameControl& control,
+                       Stats& stats, Log& log)
     : impl_(new Impl(layout, scene, shading, control, stats, log)) {
   if (scene.options.fStop < kInfinity && !impl_->camera.perspective())
     log.report(Severity::Warning, "defocus-orthographic", scene.where,
@@ -116,8 +124,8 @@ bool FrameHider::hide(std::span<const uint32_t> tiles, const TileSink& sink) {
   return !skipped;
 }
 
-bool hideTiles(const DeepFrame& layout, Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log,
-               const TileSink& sink) {
+bool hideTiles(const DeepFrame& layout, Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats,
+               Log& log, const TileSink& sink) {
   // In parts: what lies between finished and unfinished buckets stays in memory.
   constexpr size_t kOfThread = 64;
   const std::vector<uint32_t> order = bucketOrder(scene.options.bucketOrder, layout.columns, layout.rows);

@@ -9,12 +9,13 @@
 namespace tomales {
 namespace {
 
-/// Patches for each pixel from which small nodes are opened anew by every bucket: far more of them would wait for the next row
-/// of buckets than can be seen.
+/// Patches for each pixel from which small nodes are opened anew by every bucket: far more of them would wait for the
+/// next row of buckets than can be seen.
 constexpr float kDense = 4, kSmall_px = 32;
 
-/// Shared: opened by the first bucket that asks what is in it. Transient: by each bucket for itself. AtOnce: likewise, and what is in it is
-/// not put into the queue, where the pieces of many small things that lie side by side would wait for each other.
+/// Shared: opened by the first bucket that asks what is in it. Transient: by each bucket for itself. AtOnce: likewise,
+/// and what is in it is not put into the queue, where the pieces of many small things that lie side by side would wait
+/// for each other.
 enum class Opening : uint8_t { Shared, Transient, AtOnce };
 
 class OpeningNode : public HideNode {
@@ -76,13 +77,15 @@ HideNodes nodesOfPieces(HideContext& context, std::vector<SubPatch> pieces, floa
 class CoarseNode : public OpeningNode {
  public:
   CoarseNode(HideContext& context, const SubPatch& piece, const BucketRange& range)
-      : OpeningNode(context, {piece.raster, piece.zMin}, range, range.count() == 1 ? Opening::Transient : Opening::Shared), piece_(piece) {}
+      : OpeningNode(context, {piece.raster, piece.zMin}, range,
+                    range.count() == 1 ? Opening::Transient : Opening::Shared),
+        piece_(piece) {}
 
  private:
   HideNodes open(const BucketRange& within) override {
     return nodesOfPieces(context_,
-                         splitPiece(context_.scene, piece_, context_.camera, context_.buckets.window(), context_.stats, context_.log,
-                                    context_.cancelled),
+                         splitPiece(context_.scene, piece_, context_.camera, context_.buckets.window(), context_.stats,
+                                    context_.log, context_.cancelled),
                          zMin(), within);
   }
 
@@ -106,8 +109,8 @@ class PatchesNode : public OpeningNode {
  public:
   using Tree = std::shared_ptr<const PatchTree>;
 
-  /// zOfSolid: the nearest of the solid that the object is a part of. What that shows depends on all its pieces, so none may be
-  /// passed over before all are.
+  /// zOfSolid: the nearest of the solid that the object is a part of. What that shows depends on all its pieces, so
+  /// none may be passed over before all are.
   static std::unique_ptr<HideNode> make(HideContext& context, int object, Tree tree, uint32_t level, uint32_t index,
                                         const BucketRange& outer, float zOfSolid) {
     const Object& o = context.scene.objects[static_cast<size_t>(object)];
@@ -123,10 +126,13 @@ class PatchesNode : public OpeningNode {
   }
 
  private:
-  PatchesNode(HideContext& context, const Placement& place, const BucketRange& range, int object, Tree tree, uint32_t level,
-              uint32_t index)
-      : OpeningNode(context, place, range, openingOf(place.raster, range, *tree, level)), object_(object), tree_(std::move(tree)),
-        level_(level), index_(index) {}
+  PatchesNode(HideContext& context, const Placement& place, const BucketRange& range, int object, Tree tree,
+              uint32_t level, uint32_t index)
+      : OpeningNode(context, place, range, openingOf(place.raster, range, *tree, level)),
+        object_(object),
+        tree_(std::move(tree)),
+        level_(level),
+        index_(index) {}
 
   static Opening openingOf(const Bound2& raster, const BucketRange& range, const PatchTree& tree, uint32_t level) {
     if (isDense(raster, tree, level)) return level == 0 ? Opening::AtOnce : Opening::Transient;
@@ -144,15 +150,17 @@ class PatchesNode : public OpeningNode {
   HideNodes open(const BucketRange& within) override {
     HideNodes out;
     if (level_ > 0) {
-      const uint32_t first = index_ * PatchTree::kFan, last = std::min(first + PatchTree::kFan, tree_->count(level_ - 1));
+      const uint32_t first = index_ * PatchTree::kFan,
+                     last = std::min(first + PatchTree::kFan, tree_->count(level_ - 1));
       for (uint32_t i = first; i < last; ++i)
         if (auto node = make(context_, object_, tree_, level_ - 1, i, within, zMin())) out.push_back(std::move(node));
       return out;
     }
-    return nodesOfPieces(context_,
-                         splitPatches(context_.scene, object_, tree_->patches(index_), context_.camera, context_.buckets.window(),
-                                      context_.stats, context_.log, Splitting::Lazily, context_.cancelled),
-                         zMin(), within);
+    return nodesOfPieces(
+        context_,
+        splitPatches(context_.scene, object_, tree_->patches(index_), context_.camera, context_.buckets.window(),
+                     context_.stats, context_.log, Splitting::Lazily, context_.cancelled),
+        zMin(), within);
   }
 
   const int object_;
@@ -160,8 +168,8 @@ class PatchesNode : public OpeningNode {
   const uint32_t level_, index_;
 };
 
-/// Nodes of those of the objects that the camera may see or that cut what it may see; instances share a tree. Pre: the objects
-/// hold all parts of their solids.
+/// Nodes of those of the objects that the camera may see or that cut what it may see; instances share a tree. Pre: the
+/// objects hold all parts of their solids.
 HideNodes nodesOf(HideContext& context, const std::vector<int>& objects, const BucketRange& within) {
   std::map<std::vector<PrimPtr>, std::shared_ptr<const PatchTree>> trees;
   std::map<int, float> zOfSolid;
@@ -200,8 +208,8 @@ class ProceduralNode : public OpeningNode {
  public:
   static std::unique_ptr<HideNode> make(HideContext& context, const Procedural& procedural, const BucketRange& outer) {
     const Procedural& p = procedural;
-    const auto place =
-        placeBox(p.bound, p.cameraFromObject, p.keyTimes, p.displacementBound, context.camera, context.buckets.window());
+    const auto place = placeBox(p.bound, p.cameraFromObject, p.keyTimes, p.displacementBound, context.camera,
+                                context.buckets.window());
     const BucketRange range = place ? outer & context.buckets.touched(place->raster) : BucketRange{};
     if (range.empty()) return nullptr;
     return std::unique_ptr<HideNode>(new ProceduralNode(context, *place, range, p));

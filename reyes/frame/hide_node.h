@@ -1,7 +1,7 @@
-// What a bucket meets on its way from the nearest to the farthest: geometry that is opened into smaller nodes by the first
-// bucket that does not hide it (a procedural, an object, a run of its patches), and pieces, which are diced instead. Each is dropped when
-// the last bucket that its bound touches is done, whether or not that bucket ever saw it (docs/decisions/0008).
-// Threads: visit and release of different buckets are concurrent.
+// What a bucket meets on its way from the nearest to the farthest: geometry that is opened into smaller nodes by the
+// first bucket that does not hide it (a procedural, an object, a run of its patches), and pieces, which are diced
+// instead. Each is dropped when the last bucket that its bound touches is done, whether or not that bucket ever saw it
+// (docs/decisions/0008). Threads: visit and release of different buckets are concurrent.
 #pragma once
 #include <mutex>
 #include <queue>
@@ -96,7 +96,8 @@ class NodeList {
 
  private:
   size_t indexOf(size_t bucket) const {
-    return static_cast<size_t>((buckets_.row(bucket) - range_.r0) * range_.columns() + buckets_.column(bucket) - range_.c0);
+    return static_cast<size_t>((buckets_.row(bucket) - range_.r0) * range_.columns() + buckets_.column(bucket) -
+                               range_.c0);
   }
   const HideNodes nodes_;
   const BucketRange range_;

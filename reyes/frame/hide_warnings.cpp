@@ -7,9 +7,9 @@
 namespace tomales {
 namespace {
 
-constexpr int kFew_px = 12;           // where a crease is met by chance
-constexpr int64_t kFewFacets = 12;    // show nothing
-constexpr double kMostTurned = 0.5;   // of what is visible
+constexpr int kFew_px = 12;          // where a crease is met by chance
+constexpr int64_t kFewFacets = 12;   // show nothing
+constexpr double kMostTurned = 0.5;  // of what is visible
 
 }  // namespace
 
@@ -36,13 +36,16 @@ void HideWarnings::report(Log& log) const {
   for (const auto& [sites, pixels] : samePlaces_) {
     if (pixels < kFew_px) continue;
     log.report(Severity::Warning, "hide-coincident", sites.second.where,
-               fmt::format("{} lies where {} does, as far as depths can tell: which of them is seen is chance; move them apart or leave one out", sites.second.name,
-                           sites.first.name));
+               fmt::format("{} lies where {} does, as far as depths can tell: which of them is seen is chance; move "
+                           "them apart or leave one out",
+                           sites.second.name, sites.first.name));
   }
   if (all_.all < kFewFacets || static_cast<double>(all_.turned) <= kMostTurned * static_cast<double>(all_.all)) return;
-  const auto worst = std::max_element(turned_.begin(), turned_.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto worst = std::max_element(turned_.begin(), turned_.end(),
+                                      [](const auto& a, const auto& b) { return a.second < b.second; });
   log.report(Severity::Warning, "dice-turned", worst->first.where,
-             fmt::format("{}: most micropolygons turn by 23 degrees or more, so that what is round looks like a polyhedron and loses some of its size (ShadingRate, --shading-rate)",
+             fmt::format("{}: most micropolygons turn by 23 degrees or more, so that what is round looks like a "
+                         "polyhedron and loses some of its size (ShadingRate, --shading-rate)",
                          worst->first.name));
 }
 

@@ -1,5 +1,5 @@
-// Where hiding comes to its limits, as warnings: what the buckets of a frame were in doubt about. Private to reyes/frame.
-// Threads: add() is concurrent. The warnings depend on buckets, not on threads.
+// Where hiding comes to its limits, as warnings: what the buckets of a frame were in doubt about. Private to
+// reyes/frame. Threads: add() is concurrent. The warnings depend on buckets, not on threads.
 #pragma once
 #include <map>
 #include <mutex>

@@ -11,9 +11,10 @@ namespace tomales {
 
 namespace {
 
-constexpr int kSmall_cells = 256;  ///< Pieces with fewer share a node if they begin in the same bucket,
+constexpr int kSmall_cells = 256;     ///< Pieces with fewer share a node if they begin in the same bucket,
 constexpr int kStack_vertices = 512;  ///< and grids of about as many vertices,
-constexpr int kStacked_vertices = 64; ///< if they have no more: of larger ones too many would be diced for one that is seen.
+constexpr int kStacked_vertices =
+    64;  ///< if they have no more: of larger ones too many would be diced for one that is seen.
 
 TOMALES_HOT bool allSeeable(const Grid& g, int key, const Camera& camera) {
   const float *x = g.P(key, 0), *y = g.P(key, 1), *z = g.P(key, 2);
@@ -25,7 +26,8 @@ TOMALES_HOT bool allSeeable(const Grid& g, int key, const Camera& camera) {
 /// Does nothing that is decided for a whole grid depend on what shares it?
 bool canStack(const HideContext& context, const SubPatch& piece) {
   const Object& o = context.scene.objects[static_cast<size_t>(piece.object)];
-  return standsStillInFocus(o, context.camera) && !piece.crossesEye && o.shape().kept(piece.patch, piece.rect) == Kept::All;
+  return standsStillInFocus(o, context.camera) && !piece.crossesEye &&
+         o.shape().kept(piece.patch, piece.rect) == Kept::All;
 }
 
 /// From a square of the disk's area to that around it.
@@ -47,10 +49,14 @@ struct Neighbour {
   const SubPatch* piece;
   bool sharesNode(const Neighbour& o) const { return row == o.row && column == o.column; }
   bool sharesGrid(const Neighbour& o) const { return sharesNode(o) && nu == o.nu && nv == o.nv && round == o.round; }
-  bool operator<(const Neighbour& o) const { return std::tie(row, column, nu, nv, round) < std::tie(o.row, o.column, o.nu, o.nv, o.round); }
+  bool operator<(const Neighbour& o) const {
+    return std::tie(row, column, nu, nv, round) < std::tie(o.row, o.column, o.nu, o.nv, o.round);
+  }
 };
 
-PieceStack alone(const SubPatch& p) { return {p.object, p.nu, p.nv, {{p.patch, p.rect}}, {p.raster, p.zMin}, p.crossesEye, p.round}; }
+PieceStack alone(const SubPatch& p) {
+  return {p.object, p.nu, p.nv, {{p.patch, p.rect}}, {p.raster, p.zMin}, p.crossesEye, p.round};
+}
 
 void extend(Placement& place, const Placement& by) {
   place.raster.extend(by.raster.lo), place.raster.extend(by.raster.hi);
@@ -74,13 +80,15 @@ std::vector<PieceStack> stacksOf(const HideContext& context, std::span<const Nei
     }
     last = stacks ? &n : nullptr;
   }
-  std::stable_sort(out.begin(), out.end(), [](const PieceStack& a, const PieceStack& b) { return a.place.zMin < b.place.zMin; });
+  std::stable_sort(out.begin(), out.end(),
+                   [](const PieceStack& a, const PieceStack& b) { return a.place.zMin < b.place.zMin; });
   return out;
 }
 
 }  // namespace
 
-PieceNode::PieceNode(HideContext& context, std::vector<PieceStack> stacks, const Placement& place, const BucketRange& range)
+PieceNode::PieceNode(HideContext& context, std::vector<PieceStack> stacks, const Placement& place,
+                     const BucketRange& range)
     : HideNode(place, range), context_(context), users_(range.count()) {
   stacks_.reserve(stacks.size());
   for (PieceStack& s : stacks) {
@@ -133,9 +141,9 @@ uint64_t PieceNode::bitsOf(const BucketRange& buckets) const {
 std::shared_ptr<const RasterGrid> PieceNode::makeGrid(const PieceStack& stack) {
   const Object& o = context_.scene.objects[static_cast<size_t>(stack.object)];
   const std::shared_ptr<Pool> pool = makePool(stack);
-  auto grid = std::allocate_shared<Grid>(
-      KeepingPool<Grid>(pool),
-      dice(context_.scene, stack.object, stack.pieces, stack.nu, stack.nv, {o.keyTimes, o.cameraFromObject}, pool.get()));
+  auto grid =
+      std::allocate_shared<Grid>(KeepingPool<Grid>(pool), dice(context_.scene, stack.object, stack.pieces, stack.nu,
+                                                               stack.nv, {o.keyTimes, o.cameraFromObject}, pool.get()));
   if ((grid->round = stack.round)) widenToSquares(*grid);
   context_.shading.displace(*grid);
   Stats& stats = context_.stats;
@@ -143,21 +151,24 @@ std::shared_ptr<const RasterGrid> PieceNode::makeGrid(const PieceStack& stack) {
   stats.geometry.micropolygonsDiced += grid->cellCount();
 
   if (leaveOutUnseeable(*grid) && !stack.crossesEye)
-    context_.log.report(Severity::Warning, "grid-behind-eye", o.where,
-                        fmt::format("{}: displaced vertices are not finite or lie behind the eye; the micropolygons there are "
-                                    "left out (is displacementbound too small?)",
-                                    objectName(o)));
-  auto raster = project(std::move(grid), context_.scene, context_.camera, context_.shading.opaque(o.group), stack.place.zMin, pool);
+    context_.log.report(
+        Severity::Warning, "grid-behind-eye", o.where,
+        fmt::format("{}: displaced vertices are not finite or lie behind the eye; the micropolygons there are "
+                    "left out (is displacementbound too small?)",
+                    objectName(o)));
+  auto raster = project(std::move(grid), context_.scene, context_.camera, context_.shading.opaque(o.group),
+                        stack.place.zMin, pool);
   keepPeak(stats.memoryBytes.grids, context_.liveGrids_bytes += static_cast<int64_t>(pool->bytes()));
   return raster;
 }
 
 std::shared_ptr<Pool> PieceNode::makePool(const PieceStack& stack) const {
-  // A vertex takes a dozen floats without motion and primitive variables, each further key six and a box and a third, and a grid about as much as
-  // this without vertices.
+  // A vertex takes a dozen floats without motion and primitive variables, each further key six and a box and a third,
+  // and a grid about as much as this without vertices.
   constexpr size_t kVertex_bytes = 48, kKey_bytes = 72, kGrid_bytes = 768;
   const size_t keys = context_.scene.objects[static_cast<size_t>(stack.object)].keyTimes.size();
-  const auto vertices = static_cast<size_t>(padded(static_cast<int>(stack.pieces.size()) * (stack.nu + 1) * (stack.nv + 1)));
+  const auto vertices =
+      static_cast<size_t>(padded(static_cast<int>(stack.pieces.size()) * (stack.nu + 1) * (stack.nv + 1)));
   const size_t bytes = kGrid_bytes + (kVertex_bytes + kKey_bytes * (keys - 1)) * vertices;
   return {new Pool(bytes), [&live = context_.liveGrids_bytes](const Pool* pool) {
             live -= static_cast<int64_t>(pool->bytes());
@@ -194,7 +205,8 @@ HideNodes pieceNodes(HideContext& context, std::span<const SubPatch> pieces, con
     if (piece.nu * piece.nv < kSmall_cells)
       small.push_back({touched.r0, touched.c0, piece.nu, piece.nv, piece.round, &piece});
     else
-      out.push_back(std::make_unique<PieceNode>(context, std::vector{alone(piece)}, Placement{piece.raster, piece.zMin}, touched));
+      out.push_back(std::make_unique<PieceNode>(context, std::vector{alone(piece)}, Placement{piece.raster, piece.zMin},
+                                                touched));
   }
   std::stable_sort(small.begin(), small.end());
   for (auto begin = small.begin(), end = begin; begin != small.end(); begin = end) {
@@ -202,7 +214,8 @@ HideNodes pieceNodes(HideContext& context, std::span<const SubPatch> pieces, con
     Placement place{{}, kInfinity};
     std::vector<PieceStack> stacks = stacksOf(context, {begin, end});
     for (const PieceStack& s : stacks) extend(place, s.place);
-    out.push_back(std::make_unique<PieceNode>(context, std::move(stacks), place, within & context.buckets.touched(place.raster)));
+    out.push_back(
+        std::make_unique<PieceNode>(context, std::move(stacks), place, within & context.buckets.touched(place.raster)));
   }
   return out;
 }

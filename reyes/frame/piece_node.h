@@ -28,8 +28,8 @@ class PieceNode : public HideNode {
     PieceStack pieces;
     BucketRange range;
     std::shared_ptr<const RasterGrid> grid{};
-    RasterExtent extent{};            ///< Of the grid: displacement rarely takes it as far as it may.
-    uint64_t wanted = 0;              ///< Buckets that the grid touches, as in done_.
+    RasterExtent extent{};  ///< Of the grid: displacement rarely takes it as far as it may.
+    uint64_t wanted = 0;    ///< Buckets that the grid touches, as in done_.
     std::atomic<bool> made{false};
 
     Stack(PieceStack p, const BucketRange& r) : pieces(std::move(p)), range(r) {}
@@ -40,7 +40,8 @@ class PieceNode : public HideNode {
   static constexpr uint64_t kFarBuckets = uint64_t{1} << 63;  ///< Those past the 63rd of a node, which are never done.
   uint64_t bitsOf(const BucketRange& buckets) const;
   std::shared_ptr<Pool> makePool(const PieceStack& stack) const;
-  /// Takes away the cells with vertices that are nearer than the eye plane at some key or not finite. True if there are.
+  /// Takes away the cells with vertices that are nearer than the eye plane at some key or not finite. True if there
+  /// are.
   bool leaveOutUnseeable(Grid& grid) const;
 
   HideContext& context_;
@@ -50,8 +51,9 @@ class PieceNode : public HideNode {
   int users_;
 };
 
-/// A node for each large piece, and one for small ones that lie close together: most of what a tiny piece costs would be its node
-/// and its grid. Which pieces share a grid may depend on buckets, what is seen may not (docs/decisions/0040).
+/// A node for each large piece, and one for small ones that lie close together: most of what a tiny piece costs would
+/// be its node and its grid. Which pieces share a grid may depend on buckets, what is seen may not
+/// (docs/decisions/0040).
 HideNodes pieceNodes(HideContext& context, std::span<const SubPatch> pieces, const BucketRange& within);
 
 }  // namespace tomales

@@ -33,7 +33,8 @@ void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading,
       leaveBlack(points.count(), out);
       continue;
     }
-    if (matte) {  // A holdout holds out as much as it is opaque; compositing takes nothing else of it, so that no light need be asked for.
+    if (matte) {  // A holdout holds out as much as it is opaque; compositing takes nothing else of it, so that no light
+                  // need be asked for.
       ShadeContext opacityAlone = context;
       opacityAlone.direct = opacityAlone.indirect = false;
       shading.shade(points, opacityAlone, out);
@@ -49,8 +50,8 @@ void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading,
   }
 }
 
-bool shadeTiles(std::span<const uint32_t> tiles, const ShadeSteps& steps, const Scene& scene, const ShadingSystem& shading,
-                const ShadeContext& context, const FrameControl& control) {
+bool shadeTiles(std::span<const uint32_t> tiles, const ShadeSteps& steps, const Scene& scene,
+                const ShadingSystem& shading, const ShadeContext& context, const FrameControl& control) {
   std::atomic<size_t> done{0};
   std::atomic<bool> skipped{false};
   parallelInOrder(tiles.size(), [&](size_t i) {

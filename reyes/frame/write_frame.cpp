@@ -25,7 +25,11 @@ MatteNames matteNames(const Scene& scene) {
 class MovingBand {
  public:
   MovingBand(DeepFrame& frame, FrameFilter& filter, const TileFill& fill, const Options& options)
-      : frame_(frame), filter_(filter), fill_(fill), reach_(static_cast<int>(filterReach(options).y)), needed_(tilesOf(frame, options)) {
+      : frame_(frame),
+        filter_(filter),
+        fill_(fill),
+        reach_(static_cast<int>(filterReach(options).y)),
+        needed_(tilesOf(frame, options)) {
     std::sort(needed_.begin(), needed_.end());
     frame.hold(0, 0);
   }
@@ -37,7 +41,8 @@ class MovingBand {
     const auto from = needed_.begin() + static_cast<std::ptrdiff_t>(filled_);
     const auto to = std::lower_bound(from, needed_.end(), static_cast<uint32_t>(last * frame_.columns));
     filled_ = static_cast<size_t>(to - needed_.begin());
-    // Column by column: threads that begin far apart in the list are to begin far apart in the picture (FrameHider::hide).
+    // Column by column: threads that begin far apart in the list are to begin far apart in the picture
+    // (FrameHider::hide).
     const auto columns = static_cast<uint32_t>(frame_.columns);
     std::stable_sort(from, to, [columns](uint32_t a, uint32_t b) { return a % columns < b % columns; });
     fill_({from, to}, [this](size_t index, DeepTile&& tile) {
@@ -75,7 +80,8 @@ class DisplayFiles {
   void write() {
     if (!rows_) return;
     const StageTimer timer(stats_, "write", threadCpuSeconds);
-    for (size_t i = 0; i < files_.size(); ++i) files_[i]->deep() ? files_[i]->write(deep_[i]) : files_[i]->write(*rows_);
+    for (size_t i = 0; i < files_.size(); ++i)
+      files_[i]->deep() ? files_[i]->write(deep_[i]) : files_[i]->write(*rows_);
     rows_.reset();
     deep_.clear();
   }
@@ -98,15 +104,16 @@ void warnOfNoise(const PixelNoise& noise, const Options& options, Log& log) {
   const double share = noise.light > 0 ? noise.error / noise.light : 0;
   if (share <= kUncertain) return;
   log.report(Severity::Warning, "pixel-noise", {},
-             fmt::format("pixels are uncertain by {:.0f} % in the mean: {} x {} samples are few for what moves, is out of focus or thinner than a pixel "
+             fmt::format("pixels are uncertain by {:.0f} % in the mean: {} x {} samples are few for what moves, is out "
+                         "of focus or thinner than a pixel "
                          "(PixelSamples, --pixel-samples)",
                          100 * share, options.xSamples, options.ySamples));
 }
 
 }  // namespace
 
-void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer, const Scene& scene, const ShadingSystem& shading,
-                const FrameControl& control, Stats& stats, Log& log) {
+void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer, const Scene& scene,
+                const ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log) {
   constexpr int kBandRows = 64;  // a multiple of the rows of a tile (image.h)
   const Options& options = scene.options;
   const FrameOutput output = outputOf(options);
@@ -130,7 +137,8 @@ void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer,
     runImager(band, shading);
     if (viewer) viewer(band);
     files.take(std::move(band), filter, y, end);
-    if (control.progress) control.progress(static_cast<float>(end - frame.crop.y0) / static_cast<float>(frame.crop.height()));
+    if (control.progress)
+      control.progress(static_cast<float>(end - frame.crop.y0) / static_cast<float>(frame.crop.height()));
   }
   files.close();
   warnOfNoise(filter.noise(), options, log);

@@ -21,8 +21,7 @@ struct Extents {
     columns = c, rows = r, axes = a;
     for (int key = 0; key < 2; ++key)
       for (int axis = 0; axis < axes; ++axis)
-        for (auto* values : {&lo[key][axis], &hi[key][axis]})
-          values->resize(static_cast<size_t>(count()) + 1);
+        for (auto* values : {&lo[key][axis], &hi[key][axis]}) values->resize(static_cast<size_t>(count()) + 1);
   }
 };
 
@@ -81,14 +80,13 @@ struct Motions {
   }
 
  private:
-  TOMALES_HOT static void set(int count, const float* lo0, const float* hi0, const float* lo1,
-                              const float* hi1, float* __restrict center, float* __restrict step,
-                              float* __restrict reach, float* __restrict most) {
+  TOMALES_HOT static void set(int count, const float* lo0, const float* hi0, const float* lo1, const float* hi1,
+                              float* __restrict center, float* __restrict step, float* __restrict reach,
+                              float* __restrict most) {
     for (int i = 0; i < count; ++i) {
       const float c0 = 0.5f * (lo0[i] + hi0[i]), c1 = 0.5f * (lo1[i] + hi1[i]);
       center[i] = c0, step[i] = c1 - c0, reach[i] = greatest(hi0[i] - c0, hi1[i] - c1);
-      most[i] = greatest(greatest(std::abs(lo0[i]), std::abs(hi0[i])),
-                         greatest(std::abs(lo1[i]), std::abs(hi1[i])));
+      most[i] = greatest(greatest(std::abs(lo0[i]), std::abs(hi0[i])), greatest(std::abs(lo1[i]), std::abs(hi1[i])));
     }
   }
 };
@@ -135,13 +133,12 @@ TOMALES_HOT void slantAll(const float* x, const float* y, const vec2& from, cons
 /// Of a row, from number `first` on: from slanted coordinates back to upright ones. No lens.
 TOMALES_HOT void makeBoxes(const Motions& x, const Motions& y, const Frame& frame, size_t first, int count,
                            BlurBox* __restrict out) {
-  const vec2 o = frame.origin[0], oStep = frame.origin[1] - o, slant = frame.slant,
-             margin = frame.rounding_px();
+  const vec2 o = frame.origin[0], oStep = frame.origin[1] - o, slant = frame.slant, margin = frame.rounding_px();
   const float upright = 1 / (1 - slant.x * slant.y);
   const float *xs = x.center.data() + first, *ys = y.center.data() + first, *xSteps = x.step.data() + first,
               *ySteps = y.step.data() + first;
-  const float *xReach = x.reach.data() + first, *yReach = y.reach.data() + first,
-              *xMost = x.most.data() + first, *yMost = y.most.data() + first;
+  const float *xReach = x.reach.data() + first, *yReach = y.reach.data() + first, *xMost = x.most.data() + first,
+              *yMost = y.most.data() + first;
   for (int i = 0; i < count; ++i) {
     const float rounding = kSlanting * (xMost[i] + yMost[i]);
     out[i] = {o.x + upright * (xs[i] - slant.x * ys[i]),
@@ -164,8 +161,7 @@ void makeBoxes(const Extents& e, const Frame& frame, const vec2& lens, BlurBox* 
   d.set(e, 2);
   const vec2 blur = glm::abs(lens) + glm::abs(frame.slant) * glm::abs(vec2(lens.y, lens.x));
   for (int j = 0; j < e.rows; ++j)
-    for (size_t i = static_cast<size_t>(j * e.pitch()), end = i + static_cast<size_t>(e.columns); i < end;
-         ++i, ++out) {
+    for (size_t i = static_cast<size_t>(j * e.pitch()), end = i + static_cast<size_t>(e.columns); i < end; ++i, ++out) {
       const float reach = d.reach[i] + kRounding * d.most[i];
       out->d = d.center[i], out->dStep = d.step[i];
       out->xReach += blur.x * reach, out->yReach += blur.y * reach;
@@ -176,8 +172,7 @@ std::vector<BlurBounds::Level> levelsOf(const Grid& g) {
   std::vector<BlurBounds::Level> levels{{g.nu, g.nv, 0}};
   while (levels.back().columns > 1 || levels.back().rows > 1) {
     const BlurBounds::Level& l = levels.back();
-    levels.push_back(
-        {(l.columns + 1) / 2, (l.rows + 1) / 2, l.first + static_cast<size_t>(l.columns * l.rows)});
+    levels.push_back({(l.columns + 1) / 2, (l.rows + 1) / 2, l.first + static_cast<size_t>(l.columns * l.rows)});
   }
   return levels;
 }

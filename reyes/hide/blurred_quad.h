@@ -101,18 +101,15 @@ HWY_INLINE Mask inside(Ints left0, Ints left1, Ints left2, Ints right, float fac
 
 /// Which samples the quad covers, and their depth keys. facing: RasterGrid::facing, there and then.
 template <class B>
-HWY_INLINE Mask covers(const BlurredQuad<B>& q, const SampleVector& s, Floats focus, float facing,
-                       Floats& depth) {
+HWY_INLINE Mask covers(const BlurredQuad<B>& q, const SampleVector& s, Floats focus, float facing, Floats& depth) {
   const SeenVertex a = seen(q, 0, s, focus), b = seen(q, 1, s, focus), c = seen(q, 2, s, focus),
                    d = seen(q, 3, s, focus);
-  const Floats ab = edge(a, b, q.swapped[0], s), bc = edge(b, c, q.swapped[1], s),
-               ca = edge(c, a, q.swapped[2], s);
+  const Floats ab = edge(a, b, q.swapped[0], s), bc = edge(b, c, q.swapped[1], s), ca = edge(c, a, q.swapped[2], s);
   const Floats bd = edge(b, d, q.swapped[3], s), dc = edge(d, c, q.swapped[4], s);
   const Ints diagonal = leftOf(bc, q.swapped[1]);
-  const Mask in0 =
-      inside(leftOf(ab, q.swapped[0]), diagonal, leftOf(ca, q.swapped[2]), turnsRight(a, b, c), facing);
-  const Mask in1 = inside(leftOf(bd, q.swapped[3]), hn::Not(diagonal), leftOf(dc, q.swapped[4]),
-                          turnsRight(b, d, c), facing);
+  const Mask in0 = inside(leftOf(ab, q.swapped[0]), diagonal, leftOf(ca, q.swapped[2]), turnsRight(a, b, c), facing);
+  const Mask in1 =
+      inside(leftOf(bd, q.swapped[3]), hn::Not(diagonal), leftOf(dc, q.swapped[4]), turnsRight(b, d, c), facing);
   const Floats p = hn::IfThenElse(in0, bc, dc), r = hn::IfThenElse(in0, ca, hn::Neg(bc)),
                t = hn::IfThenElse(in0, ab, bd);
   const Floats pd = hn::IfThenElse(in0, a.d, b.d), rd = hn::IfThenElse(in0, b.d, d.d);

@@ -33,8 +33,7 @@ SeenCell seenCell(const GridTable::Entry& entry, const Camera& camera, int cell,
   return {corner(a), corner(a + 1), corner(a + row), corner(a + row + 1)};
 }
 
-vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cell,
-                    const SamplePoint& sample) {
+vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample) {
   const SeenCell seen = seenCell(entry, camera, cell, sample);
   const vec2 pa(seen.a), pb(seen.b), pc(seen.c), pd(seen.d);
   const vec2 abc[3] = {pa, pb, pc}, abcUv[3] = {{0, 0}, {1, 0}, {0, 1}};

@@ -1,6 +1,6 @@
-// Samples that a cell of a still, sharp grid covers, kLanes of a pixel at a time. Private to the hider; included once for each vector width, after
-// reyes/base/vector.h. A Shape has covers(samples, lane): which lie in it (mask), depth(x, y, those): their depth keys, and vague(): how far
-// those may be off.
+// Samples that a cell of a still, sharp grid covers, kLanes of a pixel at a time. Private to the hider; included once
+// for each vector width, after reyes/base/vector.h. A Shape has covers(samples, lane): which lie in it (mask), depth(x,
+// y, those): their depth keys, and vague(): how far those may be off.
 #include "reyes/hide/raster.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -35,8 +35,8 @@ HWY_INLINE Reach reachOf(const RasterJob& job, const Shape& shape, size_t lane, 
   return r;
 }
 
-/// Gives the samples from `lane` on to an opaque cell that covers them nearer than what they had. Without a branch for those that it does not
-/// cover, which nobody could foresee.
+/// Gives the samples from `lane` on to an opaque cell that covers them nearer than what they had. Without a branch for
+/// those that it does not cover, which nobody could foresee.
 template <class Shape>
 HWY_INLINE void claim(const RasterJob& job, const Shape& shape, size_t lane, uint32_t cell, Kept kept) {
   SampleBuffer& out = job.out;
@@ -48,7 +48,8 @@ HWY_INLINE void claim(const RasterJob& job, const Shape& shape, size_t lane, uin
   const Mask tight = hn::And(reached, hn::Lt(hn::Sub(before, depth), all(shape.vague())));
   if (HWY_UNLIKELY(!hn::AllFalse(kF, tight))) {
     noteContest(job, lane, bitsOf(tight), shape.vague());
-    if (const Mask ties = hn::And(reached, hn::Eq(depth, before)); !hn::AllFalse(kF, ties)) settleTies(job, lane, bitsOf(ties), cell);
+    if (const Mask ties = hn::And(reached, hn::Eq(depth, before)); !hn::AllFalse(kF, ties))
+      settleTies(job, lane, bitsOf(ties), cell);
     reached = hn::And(reached, hn::Lt(depth, before));
   }
   uint32_t* cells = out.cell.data() + lane;
@@ -57,7 +58,8 @@ HWY_INLINE void claim(const RasterJob& job, const Shape& shape, size_t lane, uin
   hn::Store(hn::IfThenElse(hn::RebindMask(kU, reached), hn::Set(kU, cell), hn::Load(kU, cells)), kU, cells);
 }
 
-/// Writes what a cell covers into a vector of a film: where it does not, what was there, or nothing in one that is fresh.
+/// Writes what a cell covers into a vector of a film: where it does not, what was there, or nothing in one that is
+/// fresh.
 HWY_INLINE void write(Films& films, uint32_t film, bool fresh, size_t first, Mask on, Floats depth, uint32_t cell) {
   float* depths = films.depths(film) + first;
   uint32_t* cells = films.cells(film) + first;
@@ -93,14 +95,17 @@ HWY_INLINE void film(const RasterJob& job, const Shape& shape, size_t pixel, uin
     const bool fresh = films.film(to).samples == samples;
     for (size_t g = 0; g < films.width(); g += hn::Lanes(kF)) {
       const uint64_t here = samples >> g;
-      write(films, to, fresh, g, hn::LoadMaskBits(kF, reinterpret_cast<const uint8_t*>(&here)), hn::Load(kF, depths + g), cell);
+      write(films, to, fresh, g, hn::LoadMaskBits(kF, reinterpret_cast<const uint8_t*>(&here)),
+            hn::Load(kF, depths + g), cell);
     }
   }
 }
 
-/// Asks the samples of the pixels that a cell may touch. make(): its shape, once it is known that not everything hides it.
+/// Asks the samples of the pixels that a cell may touch. make(): its shape, once it is known that not everything hides
+/// it.
 template <bool kOpaque, class Make>
-HWY_INLINE void sampleCell(const RasterJob& job, const PixelRect& pixels, float dMin, uint32_t cell, Kept kept, const Make& make) {
+HWY_INLINE void sampleCell(const RasterJob& job, const PixelRect& pixels, float dMin, uint32_t cell, Kept kept,
+                           const Make& make) {
   SampleBuffer& out = job.out;
   const size_t lanes = static_cast<size_t>(out.lanes);
   if (out.hides(pixels, dMin)) return;

@@ -8,16 +8,20 @@
 namespace tomales {
 namespace {
 
-/// Steps of point i, whose fixed channels are filled. Texture coordinates without primitive variables are bilinear in u, v.
+/// Steps of point i, whose fixed channels are filled. Texture coordinates without primitive variables are bilinear in
+/// u, v.
 template <class Steps>
 void stepsOf(const Scene& scene, const Grid& g, const Steps& steps, ShadePoints& points, int i) {
   const ShadeGroup& group = scene.groups[static_cast<size_t>(points.group())];
-  const auto put = [&](int value, float u, float v) { points.step(value, false)[i] = u, points.step(value, true)[i] = v; };
+  const auto put = [&](int value, float u, float v) {
+    points.step(value, false)[i] = u, points.step(value, true)[i] = v;
+  };
   // N as the grid has it may be of any length; that of a shaded point is 1.
   vec3 n;
   for (int axis = 0; axis < 3; ++axis) n[axis] = steps.mean(g.N(axis));
   const float sign = group.subtracted ? -1.0f : 1.0f, scale = sign * reciprocalLength(dot(n, n));
-  for (int axis = 0; axis < 3; ++axis) put(kStepN + axis, scale * steps.uStep(g.N(axis)), scale * steps.vStep(g.N(axis)));
+  for (int axis = 0; axis < 3; ++axis)
+    put(kStepN + axis, scale * steps.uStep(g.N(axis)), scale * steps.vStep(g.N(axis)));
   const auto& c = group.attributes->textureCoordinates;
   const float u = points.channel(kU)[i], v = points.channel(kV)[i];
   const vec2 alongU = glm::mix(c[1] - c[0], c[3] - c[2], v), alongV = glm::mix(c[2] - c[0], c[3] - c[1], u);
@@ -46,11 +50,13 @@ vec3 driftOf(const Scene& scene, const Grid& g, const Mean& mean) {
   const int last = g.keyCount - 1;
   const vec3 here(mean(g.P(0, 0)), mean(g.P(0, 1)), mean(g.P(0, 2)));
   const vec3 there(mean(g.P(last, 0)), mean(g.P(last, 1)), mean(g.P(last, 2)));
-  const mat4 openFromLast = o.cameraFromObject.at(o.keyTimes.front()) * glm::inverse(o.cameraFromObject.at(o.keyTimes.back()));
+  const mat4 openFromLast =
+      o.cameraFromObject.at(o.keyTimes.front()) * glm::inverse(o.cameraFromObject.at(o.keyTimes.back()));
   return transformPoint(openFromLast, there) - here;
 }
 
-/// Which cells, by their first vertices, may turn by more than a cosine says along u or v: without the roots that would tell for certain.
+/// Which cells, by their first vertices, may turn by more than a cosine says along u or v: without the roots that would
+/// tell for certain.
 TOMALES_HOT void markTurning(const Grid& g, float cosine, int32_t* __restrict turning) {
   const float *x = g.N(0), *y = g.N(1), *z = g.N(2);
   for (int a = 0, row = g.nu + 1, end = g.vertexCount() - row - 1; a < end; ++a) {
@@ -90,8 +96,8 @@ void setTextureCoordinates(const ShadeGroup& group, ShadePoints& points) {
 
 }  // namespace
 
-FacetTable::FacetTable(const Scene& scene, const Camera& camera, const GridTable& grids,
-                       const SampleBuffer& samples, DeepTile& tile)
+FacetTable::FacetTable(const Scene& scene, const Camera& camera, const GridTable& grids, const SampleBuffer& samples,
+                       DeepTile& tile)
     : scene_(scene),
       camera_(camera),
       facingSign_(facingSign(camera)),
@@ -174,18 +180,16 @@ uint32_t FacetTable::facetOfFolded(uint32_t number) {
   const size_t lane = pixel * static_cast<size_t>(samples_.lanes) + size_t{64} * fragment.word +
                       static_cast<size_t>(std::countr_zero(fragment.samples));
   const Side side = sideAt(entry, camera_, cell, samplePoint(samples_, lane));
-  const auto [at, isNew] =
-      folded_.try_emplace({fragment.facet, side}, static_cast<uint32_t>(tile_.facets.size()));
+  const auto [at, isNew] = folded_.try_emplace({fragment.facet, side}, static_cast<uint32_t>(tile_.facets.size()));
   if (!isNew) return at->second;
   Facet& facet = tile_.facets.emplace_back();
-  facet.batch = batchOf(scene_.objects[static_cast<size_t>(g.object)].group),
-  facet.matte = entry.raster->matte;
+  facet.batch = batchOf(scene_.objects[static_cast<size_t>(g.object)].group), facet.matte = entry.raster->matte;
   std::vector<Wish>& list = wishes_[static_cast<size_t>(facet.batch)].list;
   const int a = firstVertex(g, cell), row = g.nu + 1, points[] = {a, a + 1, a + row, a + row + 1};
   for (int k = 0; k < 4; ++k) {
     if (k == 0 || entry.raster->smooth)
-      list.push_back({static_cast<uint32_t>(&entry - grids_.entries().data()),
-                      entry.raster->smooth ? points[k] : cell, side});
+      list.push_back(
+          {static_cast<uint32_t>(&entry - grids_.entries().data()), entry.raster->smooth ? points[k] : cell, side});
     facet.point[k] = static_cast<int>(list.size()) - 1;
   }
   return at->second;

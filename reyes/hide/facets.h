@@ -54,8 +54,7 @@ class FacetTable {
   std::vector<int32_t> turning_;   ///< A vertex of a grid.
   std::vector<int32_t> sides_;     ///< As findSides()
   std::vector<int> corners_;       ///< Points of a grid's vertices, Front before Back; -1: none yet.
-  std::map<std::pair<uint32_t, Side>, uint32_t>
-      folded_;  ///< Facets of cells that may be seen from both sides.
+  std::map<std::pair<uint32_t, Side>, uint32_t> folded_;  ///< Facets of cells that may be seen from both sides.
 };
 
 }  // namespace tomales

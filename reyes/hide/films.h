@@ -9,21 +9,24 @@
 
 namespace tomales {
 
-/// What cells of one grid cover of up to 64 samples of a pixel, each sample once: mostly all that a surface shows there.
+/// What cells of one grid cover of up to 64 samples of a pixel, each sample once: mostly all that a surface shows
+/// there.
 struct Film {
-  uint32_t word;     ///< Bit s of `samples` is lane 64 * (word % Films::wordsOfPixel()) + s of pixel word / wordsOfPixel().
-  int object;        ///< Whose neighbouring pieces may show the same (reyes/hide/reach.h); -1: none does.
+  uint32_t
+      word;    ///< Bit s of `samples` is lane 64 * (word % Films::wordsOfPixel()) + s of pixel word / wordsOfPixel().
+  int object;  ///< Whose neighbouring pieces may show the same (reyes/hide/reach.h); -1: none does.
   uint64_t samples;
 };
 
-/// Grows in memory that its thread keeps from bucket to bucket, up to some size: one bucket of very many layers is no reason to hold as much for
-/// the rest of the frame.
+/// Grows in memory that its thread keeps from bucket to bucket, up to some size: one bucket of very many layers is no
+/// reason to hold as much for the rest of the frame.
 class Films {
  public:
   static constexpr float kUncovered_d = __builtin_inff();
   static constexpr uint32_t kNoCell = ~0U, kNone = ~0U;  ///< Of cells; of films.
 
-  Films(size_t pixels, size_t lanes) : width_(std::min<size_t>(lanes, 64)), words_((lanes + 63) / 64), last_(pixels * words_, kNone) {
+  Films(size_t pixels, size_t lanes)
+      : width_(std::min<size_t>(lanes, 64)), words_((lanes + 63) / 64), last_(pixels * words_, kNone) {
     list_.swap(spare().list), depths_.swap(spare().depths), cells_.swap(spare().cells);
   }
   ~Films() {
@@ -53,9 +56,9 @@ class Films {
     if (depths_.size() < films * width_) depths_.resize(2 * films * width_);
     if (cells_.size() < films * width_) cells_.resize(2 * films * width_);
   }
-  /// The film of the grid that gets some samples of a cell: the last of that word, or a new one if that has one of them. It has them now, but not
-  /// yet their depths and cells; a new one has no others: its `samples` are these, and nothing is written to it.
-  /// Pre: there is room.
+  /// The film of the grid that gets some samples of a cell: the last of that word, or a new one if that has one of
+  /// them. It has them now, but not yet their depths and cells; a new one has no others: its `samples` are these, and
+  /// nothing is written to it. Pre: there is room.
   uint32_t take(uint32_t word, uint64_t samples) {
     uint32_t& last = last_[word];
     if (last - firstOfGrid_ < count_ - firstOfGrid_ && (list_[last].samples & samples) == 0) {

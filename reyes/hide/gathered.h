@@ -1,4 +1,5 @@
-// What points to shade are made of: read off the lattice of a grid, then derived for many at once. Private to the hider.
+// What points to shade are made of: read off the lattice of a grid, then derived for many at once. Private to the
+// hider.
 #pragma once
 #include "reyes/grid.h"
 #include "reyes/points.h"
@@ -66,7 +67,8 @@ struct alignas(64) Gathered {
   /// The centres of `count` cells, the first vertices of which follow each other from `a` on.
   void readCells(const Grid& g, int a, int count, int i) {
     const int row = g.nu + 1;
-    const Sources from{{g.P(0, 0) + a, g.P(0, 1) + a, g.P(0, 2) + a}, {g.N(0) + a, g.N(1) + a, g.N(2) + a}, g.u() + a, g.v() + a};
+    const Sources from{
+        {g.P(0, 0) + a, g.P(0, 1) + a, g.P(0, 2) + a}, {g.N(0) + a, g.N(1) + a, g.N(2) + a}, g.u() + a, g.v() + a};
     if (count >= kRun && a + row + 1 + kLanes <= g.stride())
       readBlock(from, row, i);
     else

@@ -24,7 +24,8 @@ std::vector<float> shutterTimes(const Scene& scene, const Grid& grid) {
 /// Film::object of what a grid covers.
 int joinedObject(const RasterGrid& raster) {
   const std::vector<Grid::Piece>& pieces = raster.grid->pieces;
-  const bool ends = std::all_of(pieces.begin(), pieces.end(), [](const Grid::Piece& p) { return p.openEdges == kAllEdges; });
+  const bool ends =
+      std::all_of(pieces.begin(), pieces.end(), [](const Grid::Piece& p) { return p.openEdges == kAllEdges; });
   return ends || raster.blur || raster.inSolid ? -1 : raster.grid->object;
 }
 
@@ -39,7 +40,9 @@ void countSamePlaces(SampleBuffer& samples, const GridTable& grids, int samplesP
   });
   // Those of a pixel and two objects together, each sample once.
   const auto keyOf = [width](const Contest& c) { return std::tuple(c.lane / width, c.first, c.second); };
-  std::sort(contests.begin(), contests.end(), [&](const Contest& a, const Contest& b) { return std::pair(keyOf(a), a.lane) < std::pair(keyOf(b), b.lane); });
+  std::sort(contests.begin(), contests.end(), [&](const Contest& a, const Contest& b) {
+    return std::pair(keyOf(a), a.lane) < std::pair(keyOf(b), b.lane);
+  });
   contests.erase(std::unique(contests.begin(), contests.end()), contests.end());
   for (auto at = contests.begin(); at != contests.end();) {
     const auto end = std::find_if(at, contests.end(), [&](const Contest& c) { return keyOf(c) != keyOf(*at); });

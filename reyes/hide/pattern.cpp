@@ -9,22 +9,21 @@
 namespace tomales {
 namespace {
 
-/// Enough not to be seen to repeat; with very many samples a pixel has little error that could, and patterns would fill the memory.
+/// Enough not to be seen to repeat; with very many samples a pixel has little error that could, and patterns would fill
+/// the memory.
 constexpr int kMostPatterns = 256, kLeastPatterns = 16, kSamplesOfPatterns = 1 << 20;
 
 /// Position `inside` (0..1) of stratum `i` of n, on the lattice but never in another stratum.
 float placed(int i, int n, float inside) {
   const float width = kLattice / static_cast<float>(n);
-  const float lo = std::ceil(static_cast<float>(i) * width),
-              hi = std::ceil(static_cast<float>(i + 1) * width) - 1;
+  const float lo = std::ceil(static_cast<float>(i) * width), hi = std::ceil(static_cast<float>(i + 1) * width) - 1;
   return std::clamp(std::round((static_cast<float>(i) + inside) * width), lo, std::max(lo, hi)) / kLattice;
 }
 
 /// The number in stratum `i` of n: rounding must not carry it into the next.
 float within(int i, int n, float inside) {
   const float count = static_cast<float>(n);
-  return std::min((static_cast<float>(i) + inside) / count,
-                  std::nextafter(static_cast<float>(i + 1) / count, 0.0f));
+  return std::min((static_cast<float>(i) + inside) / count, std::nextafter(static_cast<float>(i + 1) / count, 0.0f));
 }
 
 /// Which part of the shutter a cell samples: a shuffled Latin square, so that not only the pixel but each of
@@ -49,12 +48,14 @@ class Times {
 }  // namespace
 
 SamplePattern::SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t seed, const Aperture& aperture)
-    : count_(xSamples * ySamples), padded_(tomales::padded(count_)),
-      patterns_(std::clamp(kSamplesOfPatterns / count_, kLeastPatterns, kMostPatterns)), seed_(seed) {
+    : count_(xSamples * ySamples),
+      padded_(tomales::padded(count_)),
+      patterns_(std::clamp(kSamplesOfPatterns / count_, kLeastPatterns, kMostPatterns)),
+      seed_(seed) {
   const size_t size = static_cast<size_t>(patterns_) * static_cast<size_t>(padded_);
   // Padding repeats the corner of the pixel; the hider gives those lanes a depth that nothing beats.
-  x_.assign(size, 0), y_.assign(size, 0), time_.assign(size, 0), lensX_.assign(size, 0),
-      lensY_.assign(size, 0), detail_.assign(size, 0);
+  x_.assign(size, 0), y_.assign(size, 0), time_.assign(size, 0), lensX_.assign(size, 0), lensY_.assign(size, 0),
+      detail_.assign(size, 0);
   const ApertureShape throughAperture(aperture);
   for (uint32_t p = 0; p < static_cast<uint32_t>(patterns_); ++p) {
     const uint32_t name = hashCombine(seed, 0x70617474U, p);
@@ -70,10 +71,8 @@ SamplePattern::SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t s
         return jitter ? unitFloat(hashCombine(name, static_cast<uint32_t>(s), dimension)) : 0.5f;
       };
       const size_t at = static_cast<size_t>(p) * static_cast<size_t>(padded_) + static_cast<size_t>(s);
-      const float x =
-          (static_cast<float>(inColumn[static_cast<size_t>(j)]) + random(0)) / static_cast<float>(ySamples);
-      const float y =
-          (static_cast<float>(inRow[static_cast<size_t>(i)]) + random(1)) / static_cast<float>(xSamples);
+      const float x = (static_cast<float>(inColumn[static_cast<size_t>(j)]) + random(0)) / static_cast<float>(ySamples);
+      const float y = (static_cast<float>(inRow[static_cast<size_t>(i)]) + random(1)) / static_cast<float>(xSamples);
       x_[at] = placed(i, xSamples, jitter ? x : 0.5f);
       y_[at] = placed(j, ySamples, jitter ? y : 0.5f);
       time_[at] = within(times.stratum(i, j), count_, random(2));
@@ -87,7 +86,8 @@ SamplePattern::SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t s
 }
 
 int SamplePattern::patternOf(int x, int y) const {
-  return static_cast<int>(hashCombine(seed_, static_cast<uint32_t>(x), static_cast<uint32_t>(y)) % static_cast<uint32_t>(patterns_));
+  return static_cast<int>(hashCombine(seed_, static_cast<uint32_t>(x), static_cast<uint32_t>(y)) %
+                          static_cast<uint32_t>(patterns_));
 }
 
 }  // namespace tomales

@@ -21,9 +21,9 @@ struct Sight {
 class PixelLayers {
  public:
   using Nearer = std::function<bool(const Sight&, const Sight&)>;
-  /// Cuts sights where surfaces pass through each other within a pixel, so that the list is nearest first for every sample:
-  /// again and again the nearest sight that any sample has in front, for all samples that have it in front. Pre and post:
-  /// in the order of `nearer`.
+  /// Cuts sights where surfaces pass through each other within a pixel, so that the list is nearest first for every
+  /// sample: again and again the nearest sight that any sample has in front, for all samples that have it in front. Pre
+  /// and post: in the order of `nearer`.
   void order(std::vector<Sight>& sights, const Nearer& nearer);
 
   struct Layer {
@@ -32,10 +32,10 @@ class PixelLayers {
   };
   /// What is left of the layers of each sample that has any, nearest first: layers[next .. end). Padded to kLanes.
   struct Queues {
-    AlignedVector<float> d;          ///< Of the layer in front; infinity: none is left.
-    AlignedVector<uint32_t> sight;   ///< Of the same.
+    AlignedVector<float> d;         ///< Of the layer in front; infinity: none is left.
+    AlignedVector<uint32_t> sight;  ///< Of the same.
     std::vector<uint32_t> next, end;
-    std::vector<uint32_t> sample;    ///< 64 * word + bit
+    std::vector<uint32_t> sample;  ///< 64 * word + bit
     std::vector<Layer> layers;
 
     void resize(size_t queues);

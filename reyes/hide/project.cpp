@@ -28,8 +28,7 @@ struct Border {
 float sagitta_px(const Grid& g, const float* x, const float* y, const Border& b, int k) {
   const int v = b.first + std::clamp(k, 1, std::max(1, b.count - 1)) * b.step;
   if (b.count > 1) {
-    const vec2 before{x[v] - x[v - b.step], y[v] - y[v - b.step]},
-        after{x[v + b.step] - x[v], y[v + b.step] - y[v]};
+    const vec2 before{x[v] - x[v - b.step], y[v] - y[v - b.step]}, after{x[v + b.step] - x[v], y[v + b.step] - y[v]};
     const float one = glm::length(before), other = glm::length(after), longer = std::max(one, other);
     if (!(dot(before, after) > 0)) return glm::length(after - before) / 8;
     // By the turn alone: that points of a straight border are not evenly apart, as near the tip of a
@@ -54,8 +53,7 @@ float deviationAlong(const Grid& g, const float* x, const float* y, const Border
 float deviation_px(const Grid& g, const float* x, const float* y) {
   const int row = g.nu + 1;
   float most = 0;
-  for (int j = 0; j <= g.nv; ++j)
-    most = std::max(most, deviationAlong(g, x, y, {kEdgeV0, j * row, 1, row, g.nu}));
+  for (int j = 0; j <= g.nv; ++j) most = std::max(most, deviationAlong(g, x, y, {kEdgeV0, j * row, 1, row, g.nu}));
   for (int i = 0; i <= g.nu; ++i) most = std::max(most, deviationAlong(g, x, y, {kEdgeU0, i, row, 1, g.nv}));
   for (int j = 0; j < g.nv; ++j)
     for (int i = 0; i < g.nu; ++i) {
@@ -109,8 +107,8 @@ void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, 
   }
 }
 
-/// A displaced border that neighbours sample at other places may be anywhere within a micropolygon of what they see: `mostOfDisplaced_px`
-/// limits that; 0: it is not displaced. facing: RasterGrid::facing, if it had one side.
+/// A displaced border that neighbours sample at other places may be anywhere within a micropolygon of what they see:
+/// `mostOfDisplaced_px` limits that; 0: it is not displaced. facing: RasterGrid::facing, if it had one side.
 void pushBorders(const Grid& g, float mostOfDisplaced_px, float facing, float* x, float* y) {
   const auto ends = [](const Grid::Piece& p) { return (p.openEdges & kAllEdges) == kAllEdges; };
   if (std::all_of(g.pieces.begin(), g.pieces.end(), ends)) return;
@@ -125,7 +123,8 @@ void pushBorders(const Grid& g, float mostOfDisplaced_px, float facing, float* x
                               {kEdgeV1, first + g.nv * row, 1, -row, g.nu}};
     for (const Border& b : borders)
       if (!(p.openEdges & b.edge))
-        pushBorder(g, b, x, y, std::max(kMinReach_px, std::min(mostOfDisplaced_px, longestEdge_px(x, y, b))), facing, push);
+        pushBorder(g, b, x, y, std::max(kMinReach_px, std::min(mostOfDisplaced_px, longestEdge_px(x, y, b))), facing,
+                   push);
     first += g.verticesOfPiece();
   }
   for (size_t v = 0; v < push.size(); ++v) x[v] += push[v].x, y[v] += push[v].y;
@@ -139,7 +138,8 @@ struct Vertices {
 };
 
 /// Are all seeable? Those that are not belong to cells that nobody sees, and go where they do no harm.
-TOMALES_HOT bool toRaster(const Vertices& from, const Camera& camera, float* __restrict x, float* __restrict y, float* __restrict d) {
+TOMALES_HOT bool toRaster(const Vertices& from, const Camera& camera, float* __restrict x, float* __restrict y,
+                          float* __restrict d) {
   const vec3 harmless(0, 0, camera.nearClip());
   int unseeable = 0;
   for (int v = 0; v < from.count; ++v) {
@@ -185,7 +185,8 @@ TOMALES_HOT RasterExtent extentOf(const float* x, const float* y, const float* d
         lo[2][i] = d[v] < lo[2][i] ? d[v] : lo[2][i];
       }
     for (int i = 0; i < kLanes; ++i) {
-      e.bound.lo = glm::min(e.bound.lo, vec2(lo[0][i], lo[1][i])), e.bound.hi = glm::max(e.bound.hi, vec2(hi[0][i], hi[1][i]));
+      e.bound.lo = glm::min(e.bound.lo, vec2(lo[0][i], lo[1][i])),
+      e.bound.hi = glm::max(e.bound.hi, vec2(hi[0][i], hi[1][i]));
       e.dMin = std::min(e.dMin, lo[2][i]);
     }
   }
@@ -214,9 +215,8 @@ RasterExtent extentOfSeeable(RasterGrid& r, const Camera& camera, int key, int f
 
 }  // namespace
 
-std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene,
-                                          const Camera& camera, bool opaque, float zMin,
-                                          const std::shared_ptr<Pool>& pool) {
+std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene, const Camera& camera,
+                                          bool opaque, float zMin, const std::shared_ptr<Pool>& pool) {
   auto r = pool ? std::allocate_shared<RasterGrid>(KeepingPool<RasterGrid>(pool)) : std::make_shared<RasterGrid>();
   const Grid& g = *grid;
   const Object& object = scene.objects[static_cast<size_t>(g.object)];
@@ -235,11 +235,12 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
     r->trim = &object.shape();
   }
   // The tail lets blocks of micropolygons be read across the end.
-  const size_t stride = static_cast<size_t>(g.stride()),
-               size = stride * static_cast<size_t>(g.keyCount) + 2 * kLanes;
+  const size_t stride = static_cast<size_t>(g.stride()), size = stride * static_cast<size_t>(g.keyCount) + 2 * kLanes;
   for (PooledVector<float>* axis : {&r->x, &r->y, &r->d}) *axis = PooledVector<float>(size, 0.0f, pool.get());
   // What is transparent would show an overlap that wide.
-  const float mostOfDisplaced_px = opaque && attributes.displacement && object.displacementBound > 0 ? borderReach_px(object.displacementBound) : 0.0f;
+  const float mostOfDisplaced_px = opaque && attributes.displacement && object.displacementBound > 0
+                                       ? borderReach_px(object.displacementBound)
+                                       : 0.0f;
   const int pieces = g.pieceCount(), count = g.verticesOfPiece();
   if (pieces > 1) r->ofPiece.resize(static_cast<size_t>(pieces));
   for (int key = 0; key < g.keyCount; ++key) {

@@ -1,5 +1,5 @@
-// Micropolygons of still, sharp grids, and which samples they cover. Private to the hider; included once for each vector width, after
-// reyes/base/vector.h.
+// Micropolygons of still, sharp grids, and which samples they cover. Private to the hider; included once for each
+// vector width, after reyes/base/vector.h.
 #include "reyes/hide/raster.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -18,7 +18,8 @@ HWY_INLINE Ints products(Ints a, Ints b) {
 #else
   constexpr hn::Repartition<int16_t, decltype(kI)> kHalves;
   Ints odd = hn::Zero(kI);
-  const Ints even = hn::ReorderWidenMulAccumulate(kI, hn::BitCast(kHalves, a), hn::BitCast(kHalves, b), hn::Zero(kI), odd);
+  const Ints even =
+      hn::ReorderWidenMulAccumulate(kI, hn::BitCast(kHalves, a), hn::BitCast(kHalves, b), hn::Zero(kI), odd);
   return hn::RearrangeToOddPlusEven(even, odd);
 #endif
 }
@@ -26,10 +27,11 @@ HWY_INLINE Ints products(Ints a, Ints b) {
 /// kLanes micropolygons abcd that follow each other in the vertex order of a grid.
 struct alignas(64) Corners {
   float x[4][kLanes], y[4][kLanes], d[4][kLanes];
-  int32_t latticeX[4][kLanes], latticeY[4][kLanes];  ///< From SampleBuffer::origin; of those that are too far for this, anything.
+  int32_t latticeX[4][kLanes],
+      latticeY[4][kLanes];  ///< From SampleBuffer::origin; of those that are too far for this, anything.
   float xMin[kLanes], xMax[kLanes], yMin[kLanes], yMax[kLanes], dMin[kLanes], dMax[kLanes];
-  int32_t cell[kLanes];                                       ///< Their numbers.
-  int32_t x0[kLanes], y0[kLanes], x1[kLanes], y1[kLanes];     ///< Pixels of the bucket that they touch.
+  int32_t cell[kLanes];                                    ///< Their numbers.
+  int32_t x0[kLanes], y0[kLanes], x1[kLanes], y1[kLanes];  ///< Pixels of the bucket that they touch.
 };
 
 // Edges of kLanes micropolygons, two kinds. What Edge::inside tells of a sample is the sign of its lane,
@@ -47,10 +49,10 @@ struct FloatEdges {
   };
   struct Edge {
     Floats ox, oy, dx, dy, limit;
-    HWY_INLINE Edge(const FloatEdges& e, int i) : ox(all(e.ox[i])), oy(all(e.oy[i])), dx(all(e.dx[i])), dy(all(e.dy[i])), limit(all(e.limit[i])) {}
+    HWY_INLINE Edge(const FloatEdges& e, int i)
+        : ox(all(e.ox[i])), oy(all(e.oy[i])), dx(all(e.dx[i])), dy(all(e.dy[i])), limit(all(e.limit[i])) {}
     HWY_INLINE Ints inside(const At& at) const {
-      const Mask holds =
-          hn::Gt(hn::Sub(hn::Mul(dx, hn::Sub(at.y, oy)), hn::Mul(dy, hn::Sub(at.x, ox))), limit);
+      const Mask holds = hn::Gt(hn::Sub(hn::Mul(dx, hn::Sub(at.y, oy)), hn::Mul(dy, hn::Sub(at.x, ox))), limit);
       return hn::BitCast(kI, hn::VecFromMask(kF, holds));
     }
   };
@@ -58,7 +60,8 @@ struct FloatEdges {
   /// From corner p to q, with the inside on the left where `left` holds, else on the right. For the lanes
   /// from g on.
   HWY_INLINE void set(size_t g, const Corners& c, int p, int q, Mask left) {
-    const Floats px = hn::Load(kF, c.x[p] + g), py = hn::Load(kF, c.y[p] + g), qx = hn::Load(kF, c.x[q] + g), qy = hn::Load(kF, c.y[q] + g);
+    const Floats px = hn::Load(kF, c.x[p] + g), py = hn::Load(kF, c.y[p] + g), qx = hn::Load(kF, c.x[q] + g),
+                 qy = hn::Load(kF, c.y[q] + g);
     const Mask swapped = hn::Or(hn::Lt(qx, px), hn::And(hn::Eq(qx, px), hn::Lt(qy, py)));
     const Floats x = hn::Sub(qx, px), y = hn::Sub(qy, py);
     hn::Store(hn::IfThenElse(swapped, qx, px), kF, ox + g);
@@ -74,7 +77,8 @@ struct FloatEdges {
   }
 };
 
-/// The same on the lattice, exact: one multiplication of pairs asks a vector of samples. Inside where dx * y - dy * x > limit.
+/// The same on the lattice, exact: one multiplication of pairs asks a vector of samples. Inside where dx * y - dy * x >
+/// limit.
 struct LatticeEdges {
   int32_t pair[kLanes], limit[kLanes];
 
@@ -91,7 +95,8 @@ struct LatticeEdges {
   HWY_INLINE void set(size_t g, const Corners& c, int p, int q, Mask left) {
     const Ints px = hn::Load(kI, c.latticeX[p] + g), py = hn::Load(kI, c.latticeY[p] + g);
     const Ints qx = hn::Load(kI, c.latticeX[q] + g), qy = hn::Load(kI, c.latticeY[q] + g);
-    const auto onLeft = hn::RebindMask(kI, left), swapped = hn::Or(hn::Lt(qx, px), hn::And(hn::Eq(qx, px), hn::Lt(qy, py)));
+    const auto onLeft = hn::RebindMask(kI, left),
+               swapped = hn::Or(hn::Lt(qx, px), hn::And(hn::Eq(qx, px), hn::Lt(qy, py)));
     const Ints x = hn::Sub(qx, px), y = hn::Sub(qy, py);
     const Ints dx = hn::IfThenElse(onLeft, x, hn::Neg(x)), dy = hn::IfThenElse(onLeft, y, hn::Neg(y));
     hn::Store(hn::Or(hn::ShiftLeft<16>(dx), hn::And(hn::Neg(dy), hn::Set(kI, 0xffff))), kI, pair + g);
@@ -101,11 +106,11 @@ struct LatticeEdges {
   }
   HWY_INLINE void close(size_t g, Mask closed) {
     // Values lie within 2^28, so that no difference leaves 32 bits.
-    hn::Store(hn::IfThenElse(hn::RebindMask(kI, closed), hn::Set(kI, 1 << 30), hn::Load(kI, limit + g)), kI,
-              limit + g);
+    hn::Store(hn::IfThenElse(hn::RebindMask(kI, closed), hn::Set(kI, 1 << 30), hn::Load(kI, limit + g)), kI, limit + g);
   }
 
-  /// Edges may be as long: so that floats are exact too, up to a pixel beyond the cell, and which of the two is asked shows in no bit.
+  /// Edges may be as long: so that floats are exact too, up to a pixel beyond the cell, and which of the two is asked
+  /// shows in no bit.
   static constexpr float kMost_px = 3.5f;
 };
 
@@ -129,19 +134,27 @@ struct alignas(64) Triangles {
   }
 
   /// Twice the signed area of a triangle by two of its sides.
-  static HWY_INLINE Floats area(Floats ux, Floats uy, Floats vx, Floats vy) { return hn::Sub(hn::Mul(ux, vy), hn::Mul(uy, vx)); }
+  static HWY_INLINE Floats area(Floats ux, Floats uy, Floats vx, Floats vy) {
+    return hn::Sub(hn::Mul(ux, vy), hn::Mul(uy, vx));
+  }
 
   HWY_INLINE void set(const Corners& q, float facing, size_t g) {
-    const Floats ax = hn::Load(kF, q.x[0] + g), bx = hn::Load(kF, q.x[1] + g), cx = hn::Load(kF, q.x[2] + g), dx = hn::Load(kF, q.x[3] + g);
-    const Floats ay = hn::Load(kF, q.y[0] + g), by = hn::Load(kF, q.y[1] + g), cy = hn::Load(kF, q.y[2] + g), dy = hn::Load(kF, q.y[3] + g);
-    const Floats az = hn::Load(kF, q.d[0] + g), bz = hn::Load(kF, q.d[1] + g), cz = hn::Load(kF, q.d[2] + g), dz = hn::Load(kF, q.d[3] + g);
-    const Floats abx = hn::Sub(bx, ax), aby = hn::Sub(by, ay), abz = hn::Sub(bz, az), acx = hn::Sub(cx, ax), acy = hn::Sub(cy, ay), acz = hn::Sub(cz, az);
-    const Floats bdx = hn::Sub(dx, bx), bdy = hn::Sub(dy, by), bdz = hn::Sub(dz, bz), bcx = hn::Sub(cx, bx), bcy = hn::Sub(cy, by), bcz = hn::Sub(cz, bz);
+    const Floats ax = hn::Load(kF, q.x[0] + g), bx = hn::Load(kF, q.x[1] + g), cx = hn::Load(kF, q.x[2] + g),
+                 dx = hn::Load(kF, q.x[3] + g);
+    const Floats ay = hn::Load(kF, q.y[0] + g), by = hn::Load(kF, q.y[1] + g), cy = hn::Load(kF, q.y[2] + g),
+                 dy = hn::Load(kF, q.y[3] + g);
+    const Floats az = hn::Load(kF, q.d[0] + g), bz = hn::Load(kF, q.d[1] + g), cz = hn::Load(kF, q.d[2] + g),
+                 dz = hn::Load(kF, q.d[3] + g);
+    const Floats abx = hn::Sub(bx, ax), aby = hn::Sub(by, ay), abz = hn::Sub(bz, az), acx = hn::Sub(cx, ax),
+                 acy = hn::Sub(cy, ay), acz = hn::Sub(cz, az);
+    const Floats bdx = hn::Sub(dx, bx), bdy = hn::Sub(dy, by), bdz = hn::Sub(dz, bz), bcx = hn::Sub(cx, bx),
+                 bcy = hn::Sub(cy, by), bcz = hn::Sub(cz, bz);
     const Floats zero = hn::Zero(kF), area0 = area(abx, aby, acx, acy), area1 = area(bdx, bdy, bcx, bcy);
     const Mask left0 = hn::Gt(area0, zero), left1 = hn::Gt(area1, zero), flat0 = hn::Eq(area0, zero),
                flat1 = hn::Eq(area1, zero);
     const Floats side = all(facing);
-    const Mask away0 = hn::Lt(hn::IfThenElse(left0, side, hn::Neg(side)), zero), away1 = hn::Lt(hn::IfThenElse(left1, side, hn::Neg(side)), zero);
+    const Mask away0 = hn::Lt(hn::IfThenElse(left0, side, hn::Neg(side)), zero),
+               away1 = hn::Lt(hn::IfThenElse(left1, side, hn::Neg(side)), zero);
     ab.set(g, q, 0, 1, left0);
     bc.set(g, q, 1, 2, left0);
     ca.set(g, q, 2, 0, left0);
@@ -151,9 +164,12 @@ struct alignas(64) Triangles {
     // A triangle without area has no inside, and one that turns away is not seen.
     ab.close(g, hn::Or(flat0, away0));
     bd.close(g, hn::Or(flat1, away1));
-    const Floats one = all(1.0f), inverse0 = hn::Div(one, hn::IfThenElse(flat0, one, area0)), inverse1 = hn::Div(one, hn::IfThenElse(flat1, one, area1));
-    const Floats x0 = hn::Mul(hn::Sub(hn::Mul(abz, acy), hn::Mul(acz, aby)), inverse0), y0 = hn::Mul(hn::Sub(hn::Mul(acz, abx), hn::Mul(abz, acx)), inverse0);
-    const Floats x1 = hn::Mul(hn::Sub(hn::Mul(bdz, bcy), hn::Mul(bcz, bdy)), inverse1), y1 = hn::Mul(hn::Sub(hn::Mul(bcz, bdx), hn::Mul(bdz, bcx)), inverse1);
+    const Floats one = all(1.0f), inverse0 = hn::Div(one, hn::IfThenElse(flat0, one, area0)),
+                 inverse1 = hn::Div(one, hn::IfThenElse(flat1, one, area1));
+    const Floats x0 = hn::Mul(hn::Sub(hn::Mul(abz, acy), hn::Mul(acz, aby)), inverse0),
+                 y0 = hn::Mul(hn::Sub(hn::Mul(acz, abx), hn::Mul(abz, acx)), inverse0);
+    const Floats x1 = hn::Mul(hn::Sub(hn::Mul(bdz, bcy), hn::Mul(bcz, bdy)), inverse1),
+                 y1 = hn::Mul(hn::Sub(hn::Mul(bcz, bdx), hn::Mul(bdz, bcx)), inverse1);
     hn::Store(x0, kF, gx0 + g), hn::Store(y0, kF, gy0 + g), hn::Store(x1, kF, gx1 + g), hn::Store(y1, kF, gy1 + g);
     const Floats slope = hn::Max(hn::Add(hn::Abs(x0), hn::Abs(y0)), hn::Add(hn::Abs(x1), hn::Abs(y1)));
     hn::Store(vagueDepth(slope, hn::Load(kF, q.dMin + g)), kF, vague + g);

@@ -16,7 +16,9 @@ void noteContest(const RasterJob& job, size_t firstLane, uint64_t lanes, float v
     const size_t lane = firstLane + static_cast<size_t>(std::countr_zero(lanes));
     const uint32_t owner = job.out.cell[lane];
     const int other = owner == kNoCell ? object : job.grids.of(owner).grid().object;
-    if (other != object) job.out.contests.push_back({static_cast<uint32_t>(lane), std::min(object, other), std::max(object, other), job.out.depth[lane] - vague});
+    if (other != object)
+      job.out.contests.push_back(
+          {static_cast<uint32_t>(lane), std::min(object, other), std::max(object, other), job.out.depth[lane] - vague});
   }
 }
 

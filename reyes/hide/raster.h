@@ -3,8 +3,9 @@
 // A sample is inside a triangle if it lies on the inner side of each edge. Every edge is evaluated from its
 // lexicographically smaller end, so both neighbours get the same value with opposite signs, and the value
 // zero belongs to the right of the edge seen from that end: as if every sample were moved by (e^2, -e) for an
-// infinitesimal e. Vertices of still grids and samples lie on a lattice (kLattice), on which the values of micropolygons up to
-// 3.5 px are whole numbers (reyes/hide/quad.h) and exact in float too, so that a fan round a vertex neither misses a sample nor hits it twice.
+// infinitesimal e. Vertices of still grids and samples lie on a lattice (kLattice), on which the values of
+// micropolygons up to 3.5 px are whole numbers (reyes/hide/quad.h) and exact in float too, so that a fan round a vertex
+// neither misses a sample nor hits it twice.
 #pragma once
 #include "reyes/hide/lattice.h"
 #include "reyes/hide/samples.h"
@@ -34,7 +35,9 @@ void rasterizeRound(const RasterJob& job);
 void rasterizeBlurred(const RasterJob& job);
 
 /// Do trim curves, clipping and levels of detail leave all of the job's grid?
-inline bool keepsAll(const RasterJob& job) { return job.raster.grid->kept.empty() && !job.raster.clipped && job.raster.detail.whole(); }
+inline bool keepsAll(const RasterJob& job) {
+  return job.raster.grid->kept.empty() && !job.raster.clipped && job.raster.detail.whole();
+}
 /// What they leave of a cell.
 inline Kept keptOf(const RasterJob& job, int cell) {
   const std::vector<Kept>& given = job.raster.grid->kept;
@@ -49,9 +52,11 @@ uint64_t keptLanes(const RasterJob& job, uint32_t cell, size_t firstLane, uint64
 /// Gives samples at equal depths, lane by lane of a mask, to the cell whose name comes first.
 void settleTies(const RasterJob& job, size_t firstLane, uint64_t lanes, uint32_t cell);
 
-/// How far a depth key may be off because vertices lie on the lattice and numbers are floats; `slope`: of the depth key, per pixel. Above 0.
+/// How far a depth key may be off because vertices lie on the lattice and numbers are floats; `slope`: of the depth
+/// key, per pixel. Above 0.
 inline float vagueDepth(float slope, float depth) { return slope / kLattice + 4e-7f * std::abs(depth) + kTiny; }
-/// A cell of the job comes so close to what samples have had, lane by lane of a mask, that vague depths decide: noted if that is of another object.
+/// A cell of the job comes so close to what samples have had, lane by lane of a mask, that vague depths decide: noted
+/// if that is of another object.
 void noteContest(const RasterJob& job, size_t firstLane, uint64_t lanes, float vague);
 
 }  // namespace tomales

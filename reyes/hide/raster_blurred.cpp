@@ -58,8 +58,7 @@ struct Box {
       cx = hn::Add(cx, hn::Mul(xStep, s.t)), cy = hn::Add(cy, hn::Mul(yStep, s.t));
       if constexpr (B::kDefocuses) cd = hn::Add(cd, hn::Mul(dStep, s.t));
     }
-    if constexpr (B::kDefocuses)
-      cx = hn::Add(cx, hn::Mul(s.lensX, cd)), cy = hn::Add(cy, hn::Mul(s.lensY, cd));
+    if constexpr (B::kDefocuses) cx = hn::Add(cx, hn::Mul(s.lensX, cd)), cy = hn::Add(cy, hn::Mul(s.lensY, cd));
     const Floats dx = hn::Sub(s.x, cx), dy = hn::Sub(s.y, cy);
     return hn::And(hn::Le(hn::Abs(hn::Add(dx, hn::Mul(xSlant, dy))), xReach),
                    hn::Le(hn::Abs(hn::Add(dy, hn::Mul(ySlant, dx))), yReach));
@@ -83,8 +82,8 @@ HWY_INLINE uint32_t* keep(const SampleVector& s, Numbers lane, Mask mask, uint32
 /// Of the samples of a list, those that each of four boxes holds. All at once: one loop that ends when nobody
 /// foresees it instead of four, and no list is read just after it was written.
 template <class B>
-HWY_INLINE void sieve(const Box<B>& a, const Box<B>& b, const Box<B>& c, const Box<B>& d,
-                      const SampleList& from, SampleList (&to)[4]) {
+HWY_INLINE void sieve(const Box<B>& a, const Box<B>& b, const Box<B>& c, const Box<B>& d, const SampleList& from,
+                      SampleList (&to)[4]) {
   const size_t width = hn::Lanes(kF), stride = to[0].stride;
   uint32_t *endA = to[0].first, *endB = to[1].first, *endC = to[2].first, *endD = to[3].first;
   for (size_t i = 0; i < from.count; i += width) {
@@ -96,24 +95,22 @@ HWY_INLINE void sieve(const Box<B>& a, const Box<B>& b, const Box<B>& c, const B
     endC = keep<B>(s, lane, hn::And(c.holds(s), on), endC, stride);
     endD = keep<B>(s, lane, hn::And(d.holds(s), on), endD, stride);
   }
-  to[0].count = static_cast<size_t>(endA - to[0].first),
-  to[1].count = static_cast<size_t>(endB - to[1].first);
-  to[2].count = static_cast<size_t>(endC - to[2].first),
-  to[3].count = static_cast<size_t>(endD - to[3].first);
+  to[0].count = static_cast<size_t>(endA - to[0].first), to[1].count = static_cast<size_t>(endB - to[1].first);
+  to[2].count = static_cast<size_t>(endC - to[2].first), to[3].count = static_cast<size_t>(endD - to[3].first);
 }
 
 /// Those samples of the bucket that a box holds, whose time is in the segment and that see nothing nearer
 /// yet.
 template <class B>
-HWY_INLINE void sieveBucket(const SampleBuffer& out, const PixelRect& pixels, const Interval& when,
-                            const Box<B>& box, float dMin, SampleList& to) {
+HWY_INLINE void sieveBucket(const SampleBuffer& out, const PixelRect& pixels, const Interval& when, const Box<B>& box,
+                            float dMin, SampleList& to) {
   const size_t width = hn::Lanes(kF), lanes = static_cast<size_t>(out.lanes);
   const Numbers first = hn::Iota(kU, 0);
   const Floats begin = all(when.begin), end = all(when.end), inverse = all(1.0f / (when.end - when.begin));
   uint32_t* listEnd = to.first;
   for (int y = pixels.y0; y < pixels.y1; ++y)
-    for (size_t pixel = out.pixelIndex(pixels.x0, y), last = pixel + static_cast<size_t>(pixels.width());
-         pixel < last; ++pixel) {
+    for (size_t pixel = out.pixelIndex(pixels.x0, y), last = pixel + static_cast<size_t>(pixels.width()); pixel < last;
+         ++pixel) {
       if (out.far[pixel] < dMin) continue;
       for (size_t i = pixel * lanes; i < (pixel + 1) * lanes; i += width) {
         const Mask open = hn::Ge(hn::Load(kF, out.depth.data() + i), all(dMin));
@@ -145,8 +142,7 @@ class Descent {
   /// In bands of pixel rows, so that lists stay short in large buckets.
   void run(const Interval& when) {
     const PixelRect pixels = job_.out.touched(job_.raster.bound.lo, job_.raster.bound.hi);
-    const int rowLanes = std::max(1, pixels.width() * job_.out.lanes),
-              rows = std::max(1, kMostLanes / rowLanes);
+    const int rowLanes = std::max(1, pixels.width() * job_.out.lanes), rows = std::max(1, kMostLanes / rowLanes);
     for (int y = pixels.y0; y < pixels.y1; y += rows)
       runBand(when, {pixels.x0, y, pixels.x1, std::min(y + rows, pixels.y1)});
   }
@@ -171,11 +167,8 @@ class Descent {
     if (level == 0) return meet(i, j, samples);
     const BlurBounds::Level& fine = bounds_.levels[level - 1];
     if (level > 1) fetch(bounds_.levels[level - 2], 4 * i, 4 * j);
-    const int x0 = 2 * i, y0 = 2 * j, x1 = std::min(x0 + 1, fine.columns - 1),
-              y1 = std::min(y0 + 1, fine.rows - 1);
-    const auto boxAt = [&](int x, int y) {
-      return Box<B>(bounds_.box(key_, fine, x, y), segment_.slant, focus_);
-    };
+    const int x0 = 2 * i, y0 = 2 * j, x1 = std::min(x0 + 1, fine.columns - 1), y1 = std::min(y0 + 1, fine.rows - 1);
+    const auto boxAt = [&](int x, int y) { return Box<B>(bounds_.box(key_, fine, x, y), segment_.slant, focus_); };
     SampleList quarters[4];
     for (SampleList& q : quarters) q = stack_->push(samples.count);
     sieve<B>(boxAt(x0, y0), boxAt(x1, y0), boxAt(x0, y1), boxAt(x1, y1), samples, quarters);
@@ -203,9 +196,8 @@ class Descent {
     const uint32_t* lanes = samples.array(SampleList::kLane);
     for (size_t k = 0; k < samples.count; k += hn::Lanes(kF)) {
       Floats depth;
-      const Mask in =
-          hn::And(covers(quad, loadSamples<B>(samples, k), all(focus_), job_.raster.facing, depth),
-                  hn::FirstN(kF, samples.count - k));
+      const Mask in = hn::And(covers(quad, loadSamples<B>(samples, k), all(focus_), job_.raster.facing, depth),
+                              hn::FirstN(kF, samples.count - k));
       HWY_ALIGN float depths[kLanes];
       hn::Store(depth, kF, depths);
       if (opaque && kept == Kept::All) {

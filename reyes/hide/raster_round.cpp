@@ -1,5 +1,5 @@
-// Small disks that stand still and are in focus: each is the ellipse that touches the four edges of its cell (Grid::round), exact and without
-// corners, for the price of two lines instead of five (docs/decisions/0051).
+// Small disks that stand still and are in focus: each is the ellipse that touches the four edges of its cell
+// (Grid::round), exact and without corners, for the price of two lines instead of five (docs/decisions/0051).
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reyes/hide/raster_round.cpp"
 #include "reyes/base/vector.h"  // Includes this file again for each target.
@@ -22,7 +22,8 @@ struct Oval {
     center = 0.5f * (pb + pc), e = 0.5f * (pb - pa), f = 0.5f * (pc - pa);
     area = e.x * f.y - e.y * f.x;
     d = 0.5f * (depth[1] + depth[2]);
-    dMin = std::min({depth[0], depth[1], depth[2], depth[3]}), dMax = std::max({depth[0], depth[1], depth[2], depth[3]});
+    dMin = std::min({depth[0], depth[1], depth[2], depth[3]}),
+    dMax = std::max({depth[0], depth[1], depth[2], depth[3]});
     const float alongE = 0.5f * (depth[1] - depth[0]), alongF = 0.5f * (depth[2] - depth[0]);
     slope = vec2(alongE * f.y - alongF * e.y, alongF * e.x - alongE * f.x) / area;
   }
@@ -32,15 +33,25 @@ struct Oval {
 class Round {
  public:
   explicit Round(const Oval& o)
-      : x_(all(o.center.x)), y_(all(o.center.y)), ux_(all(o.f.y / o.area)), uy_(all(-o.f.x / o.area)), vx_(all(-o.e.y / o.area)),
-        vy_(all(o.e.x / o.area)), d_(all(o.d)), gx_(all(o.slope.x)), gy_(all(o.slope.y)), dMin_(all(o.dMin)), dMax_(all(o.dMax)),
+      : x_(all(o.center.x)),
+        y_(all(o.center.y)),
+        ux_(all(o.f.y / o.area)),
+        uy_(all(-o.f.x / o.area)),
+        vx_(all(-o.e.y / o.area)),
+        vy_(all(o.e.x / o.area)),
+        d_(all(o.d)),
+        gx_(all(o.slope.x)),
+        gy_(all(o.slope.y)),
+        dMin_(all(o.dMin)),
+        dMax_(all(o.dMax)),
         vague_(vagueDepth(std::abs(o.slope.x) + std::abs(o.slope.y), o.d)) {}
 
   struct Covered {
     Mask mask;
   };
   HWY_INLINE Covered covers(const SampleBuffer& samples, size_t lane) const {
-    const Floats x = hn::Sub(hn::Load(kF, samples.x.data() + lane), x_), y = hn::Sub(hn::Load(kF, samples.y.data() + lane), y_);
+    const Floats x = hn::Sub(hn::Load(kF, samples.x.data() + lane), x_),
+                 y = hn::Sub(hn::Load(kF, samples.y.data() + lane), y_);
     const Floats u = hn::Add(hn::Mul(x, ux_), hn::Mul(y, uy_)), v = hn::Add(hn::Mul(x, vx_), hn::Mul(y, vy_));
     return {hn::Lt(hn::Add(hn::Mul(u, u), hn::Mul(v, v)), all(1.0f))};
   }

@@ -1,6 +1,6 @@
-// Micropolygons that stand still and are in focus, against the samples of the pixels that they touch: kLanes samples of a
-// pixel at a time. Compiled for several vector widths and chosen when first called (docs/decisions/0011); the operations are
-// the same in all of them, and none is fused, so the bits are too.
+// Micropolygons that stand still and are in focus, against the samples of the pixels that they touch: kLanes samples of
+// a pixel at a time. Compiled for several vector widths and chosen when first called (docs/decisions/0011); the
+// operations are the same in all of them, and none is fused, so the bits are too.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reyes/hide/raster_still.cpp"
 #include "reyes/base/vector.h"  // Includes this file again for each target.
@@ -44,7 +44,8 @@ HWY_INLINE void setBounds(const float v[4][kLanes], float* lo, float* hi) {
 /// Which of kLanes vertices of a grid begin a cell, and its number.
 class CellNumbers {
  public:
-  explicit CellNumbers(const Grid& g) : nu_(g.nu), nv_(g.nv), perRow_(1 / static_cast<float>(nu_ + 1)), perPiece_(1 / static_cast<float>(nv_ + 1)) {}
+  explicit CellNumbers(const Grid& g)
+      : nu_(g.nu), nv_(g.nv), perRow_(1 / static_cast<float>(nu_ + 1)), perPiece_(1 / static_cast<float>(nv_ + 1)) {}
 
   HWY_INLINE uint64_t set(Corners& q, int first, int end) const {
     HWY_ALIGN int32_t begins[kLanes];
@@ -56,7 +57,8 @@ class CellNumbers {
       begins[i] = (u != nu_) & (row - piece * (nv_ + 1) != nv_) & (a < end);
     }
     uint64_t bits = 0;
-    for (size_t g = 0; g < kLanes; g += hn::Lanes(kI)) bits |= bitsOf(hn::RebindMask(kF, hn::Ne(hn::Load(kI, begins + g), hn::Zero(kI)))) << g;
+    for (size_t g = 0; g < kLanes; g += hn::Lanes(kI))
+      bits |= bitsOf(hn::RebindMask(kF, hn::Ne(hn::Load(kI, begins + g), hn::Zero(kI)))) << g;
     return bits;
   }
 
@@ -70,14 +72,23 @@ HWY_INLINE void setPixels(const float* lo, const float* hi, int first, int end, 
   const float origin = static_cast<float>(first), size = static_cast<float>(end - first);
   for (int i = 0; i < kLanes; ++i) {
     const float a = lo[i] - origin, b = hi[i] - origin;
-    const int32_t x0 = static_cast<int32_t>((a < -1 ? -1 : a > size ? size : a) + 1) - 1, x1 = static_cast<int32_t>((b < -1 ? -1 : b > size ? size : b) + 1);
+    const int32_t x0 = static_cast<int32_t>((a < -1     ? -1
+                                             : a > size ? size
+                                                        : a) +
+                                            1) -
+                       1,
+                  x1 = static_cast<int32_t>((b < -1     ? -1
+                                             : b > size ? size
+                                                        : b) +
+                                            1);
     from[i] = first + (x0 < 0 ? 0 : x0);
     to[i] = x1 < end - first ? first + x1 : end;
   }
 }
 
 /// Corners, bounds and numbers of the cells from vertex `first` on, and which of them touch the bucket.
-HWY_INLINE uint64_t setUp(Corners& q, const RasterGrid& r, const CellNumbers& numbers, int first, int end, const PixelRect& bucket) {
+HWY_INLINE uint64_t setUp(Corners& q, const RasterGrid& r, const CellNumbers& numbers, int first, int end,
+                          const PixelRect& bucket) {
   const int row = r.grid->nu + 1;
   loadCorners(q.x, r.x.data() + first, row);
   loadCorners(q.y, r.y.data() + first, row);
@@ -103,14 +114,15 @@ HWY_INLINE uint64_t setUp(Corners& q, const RasterGrid& r, const CellNumbers& nu
 HWY_INLINE bool fitLattice(const Corners& q, uint64_t cells, const SampleBuffer& samples) {
   uint64_t large = 0;
   for (size_t g = 0; g < kLanes; g += hn::Lanes(kF)) {
-    const Floats width = hn::Sub(hn::Load(kF, q.xMax + g), hn::Load(kF, q.xMin + g)), height = hn::Sub(hn::Load(kF, q.yMax + g), hn::Load(kF, q.yMin + g));
+    const Floats width = hn::Sub(hn::Load(kF, q.xMax + g), hn::Load(kF, q.xMin + g)),
+                 height = hn::Sub(hn::Load(kF, q.yMax + g), hn::Load(kF, q.yMin + g));
     large |= bitsOf(hn::Gt(hn::Max(width, height), all(LatticeEdges::kMost_px))) << g;
   }
   return samples.fitsLattice() && (large & cells) == 0;
 }
 
-/// Which pixels are to be asked about which of some cells: those where not everything is nearer. Takes cells, as many as make a list that is long
-/// enough.
+/// Which pixels are to be asked about which of some cells: those where not everything is nearer. Takes cells, as many
+/// as make a list that is long enough.
 size_t listAsks(SampleBuffer& out, const Corners& q, uint64_t& cells) {
   constexpr size_t kLong = 1024;
   const size_t width = static_cast<size_t>(out.rect.width());
@@ -151,7 +163,8 @@ HWY_INLINE void ask(const RasterJob& job, const Corners& q, const Triangles<Edge
   }
 }
 
-/// One list for many cells: which of few pixels a small cell covers is no branch that could be foreseen (docs/decisions/0098).
+/// One list for many cells: which of few pixels a small cell covers is no branch that could be foreseen
+/// (docs/decisions/0098).
 template <class Edges>
 void claimCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   size_t count = listAsks(job.out, q, cells);
@@ -217,7 +230,8 @@ void rasterize(const RasterJob& job) {
   const vec2 lo(job.out.rect.x0, job.out.rect.y0), hi(job.out.rect.x1, job.out.rect.y1);
   const auto seen = [&](size_t p) {
     const RasterExtent& e = pieces[p];
-    const bool touches = (e.bound.lo.x < hi.x) & (e.bound.hi.x >= lo.x) & (e.bound.lo.y < hi.y) & (e.bound.hi.y >= lo.y);
+    const bool touches =
+        (e.bound.lo.x < hi.x) & (e.bound.hi.x >= lo.x) & (e.bound.lo.y < hi.y) & (e.bound.hi.y >= lo.y);
     return touches && !job.out.hides(e.bound, e.dMin);
   };
   Corners q;
@@ -225,7 +239,8 @@ void rasterize(const RasterJob& job) {
   for (size_t p = 0; p < pieces.size(); ++p) {
     const size_t first = p;
     while (p < pieces.size() && seen(p)) ++p;
-    if (p > first) rasterizeRun(job, static_cast<int>(first) * ofPiece, static_cast<int>(p) * ofPiece - withoutCells, q);
+    if (p > first)
+      rasterizeRun(job, static_cast<int>(first) * ofPiece, static_cast<int>(p) * ofPiece - withoutCells, q);
   }
 }
 
@@ -249,7 +264,8 @@ void settlePixels(SampleBuffer& s, const PixelRect& pixels) {
       ++x;
       if (!s.nearer[pixel]) continue;
       Floats most = all(-kInfinity);
-      for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) most = hn::Max(most, hn::Load(kF, s.depth.data() + pixel * lanes + g));
+      for (size_t g = 0; g < lanes; g += hn::Lanes(kF))
+        most = hn::Max(most, hn::Load(kF, s.depth.data() + pixel * lanes + g));
       s.far[pixel] = hn::GetLane(hn::MaxOfLanes(kF, most));
       s.nearer[pixel] = 0;
     }

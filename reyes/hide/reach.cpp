@@ -20,10 +20,14 @@ float extentOf(const RasterGrid& raster, int a) {
 class BorderCell {
  public:
   BorderCell(const GridTable::Entry& entry, const Camera& camera, uint32_t number)
-      : raster_(*entry.raster), grid_(entry.grid()), camera_(camera), a_(firstVertex(grid_, static_cast<int>(number - entry.firstCell))) {
+      : raster_(*entry.raster),
+        grid_(entry.grid()),
+        camera_(camera),
+        a_(firstVertex(grid_, static_cast<int>(number - entry.firstCell))) {
     const int cell = static_cast<int>(number - entry.firstCell), inPiece = grid_.cellInPiece(cell);
     const int i = inPiece % grid_.nu, j = inPiece / grid_.nu;
-    const int at = (i == 0) * kEdgeU0 | (i == grid_.nu - 1) * kEdgeU1 | (j == 0) * kEdgeV0 | (j == grid_.nv - 1) * kEdgeV1;
+    const int at =
+        (i == 0) * kEdgeU0 | (i == grid_.nu - 1) * kEdgeU1 | (j == 0) * kEdgeV0 | (j == grid_.nv - 1) * kEdgeV1;
     joined_ = at & ~grid_.pieces[static_cast<size_t>(grid_.pieceOfCell(cell))].openEdges;
   }
 
@@ -32,7 +36,8 @@ class BorderCell {
   /// Does a point of the raster lie beyond such a border, as it was before it was pushed out?
   bool reachesTo(const vec2& at) const {
     const int b = a_ + 1, c = a_ + grid_.nu + 1, d = c + 1;
-    return beyond(kEdgeU0, a_, c, b, at) || beyond(kEdgeU1, b, d, a_, at) || beyond(kEdgeV0, a_, b, c, at) || beyond(kEdgeV1, c, d, a_, at);
+    return beyond(kEdgeU0, a_, c, b, at) || beyond(kEdgeU1, b, d, a_, at) || beyond(kEdgeV0, a_, b, c, at) ||
+           beyond(kEdgeV1, c, d, a_, at);
   }
   float extent() const { return extentOf(raster_, a_); }
 
@@ -58,13 +63,15 @@ float depthOfCell(const Films& films, const GridTable& grids, size_t film) {
   return extentOf(*entry.raster, firstVertex(entry.grid(), static_cast<int>(cell - entry.firstCell)));
 }
 
-ShownTwice shownTwice(const SampleBuffer& samples, const GridTable& grids, const Camera& camera, size_t film, size_t other) {
+ShownTwice shownTwice(const SampleBuffer& samples, const GridTable& grids, const Camera& camera, size_t film,
+                      size_t other) {
   const Films& films = samples.films;
   const uint64_t common = films.film(film).samples & films.film(other).samples;
   ShownTwice out;
   if (common == 0 || films.film(film).word != films.film(other).word) return out;
   const uint32_t *cells = films.cells(film), *otherCells = films.cells(other);
-  const GridTable::Entry &entry = grids.of(cells[std::countr_zero(common)]), &otherEntry = grids.of(otherCells[std::countr_zero(common)]);
+  const GridTable::Entry &entry = grids.of(cells[std::countr_zero(common)]),
+                         &otherEntry = grids.of(otherCells[std::countr_zero(common)]);
   const size_t words = films.wordsOfPixel(), word = films.film(film).word;
   const size_t first = word / words * static_cast<size_t>(samples.lanes) + 64 * (word % words);
   for (uint64_t left = common; left; left &= left - 1) {

@@ -34,12 +34,11 @@ struct Scratch {
 };
 
 class TileBuilder {
-  static constexpr size_t kAhead = 24;  ///< Films that are on their way while one is looked at.
+  static constexpr size_t kAhead = 24;       ///< Films that are on their way while one is looked at.
   static constexpr float kRounding = 1e-5f;  ///< Of depth keys.
 
  public:
-  TileBuilder(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples,
-              Scratch& scratch)
+  TileBuilder(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples, Scratch& scratch)
       : camera_(camera),
         grids_(grids),
         samples_(samples),
@@ -121,7 +120,8 @@ class TileBuilder {
   void addFragment(size_t pixel, uint32_t cell, float d, uint64_t samples, uint32_t word) {
     facets_.see(cell);
     // The facet is found later.
-    Fragment& f = tile_.fragments.emplace_back(Fragment{cell, camera_.zFromDepthKey(d), samples, static_cast<uint16_t>(word)});
+    Fragment& f =
+        tile_.fragments.emplace_back(Fragment{cell, camera_.zFromDepthKey(d), samples, static_cast<uint16_t>(word)});
     if (grids_.anySmooth() && grids_.of(cell).raster->smooth) setPosition(f, cell, pixel);
   }
 
@@ -130,7 +130,8 @@ class TileBuilder {
     findSheets(pixel);
     const std::vector<Sheet>& sheets = scratch_.sheets;
     for (size_t i = 0, end = 0; i < sheets.size(); i = end) {
-      const bool alone = sheets[i].film != Films::kNone && (i + 1 == sheets.size() || sheets[i + 1].extent.nearest > sheets[i].extent.farthest);
+      const bool alone = sheets[i].film != Films::kNone &&
+                         (i + 1 == sheets.size() || sheets[i + 1].extent.nearest > sheets[i].extent.farthest);
       if (alone && addRanked(pixel, sheets[i].film)) {
         end = i + 1;
         continue;
@@ -157,7 +158,8 @@ class TileBuilder {
     opaque.clear();
     collectOpaque(samples_, pixel, opaque);
     if (!opaque.empty()) {
-      const auto nearest = std::min_element(opaque.begin(), opaque.end(), [](const Sight& a, const Sight& b) { return a.d < b.d; });
+      const auto nearest =
+          std::min_element(opaque.begin(), opaque.end(), [](const Sight& a, const Sight& b) { return a.d < b.d; });
       sheets.push_back({{nearest->d, kInfinity}, Films::kNone, -1});
     }
     const std::vector<uint32_t>& order = scratch_.filmsOfPixel;
@@ -165,7 +167,8 @@ class TileBuilder {
     for (uint32_t k = scratch_.firstFilm[pixel]; k < scratch_.firstFilm[pixel + 1]; ++k) {
       // Those of a pixel are scattered over the list, which is larger than a cache near the processor.
       const uint32_t next = order[std::min(size_t{k} + kAhead, order.size() - 1)];
-      __builtin_prefetch(films.depths(next)), __builtin_prefetch(films.cells(next)), __builtin_prefetch(&films.film(next));
+      __builtin_prefetch(films.depths(next)), __builtin_prefetch(films.cells(next)),
+          __builtin_prefetch(&films.film(next));
       const FilmExtent extent = cullFilm(samples_, grids_, order[k]);
       if (films.film(order[k]).samples) sheets.push_back({extent, order[k], films.film(order[k]).object});
     }
@@ -178,7 +181,8 @@ class TileBuilder {
     std::vector<Sheet>& sheets = scratch_.sheets;
     Films& films = samples_.films;
     const auto ends = [&](const Film& f) {
-      return std::popcount(f.samples) < std::min(64, samples_.sampleCount() - 64 * static_cast<int>(f.word % films.wordsOfPixel()));
+      return std::popcount(f.samples) <
+             std::min(64, samples_.sampleCount() - 64 * static_cast<int>(f.word % films.wordsOfPixel()));
     };
     // Neighbours have a slope. Films that fill a pixel show it; a few samples show nothing.
     float most = 0;
@@ -187,14 +191,18 @@ class TileBuilder {
       s.depth = ends(films.film(s.film)) ? depthOfCell(films, grids_, s.film) : s.extent.farthest - s.extent.nearest;
       most = std::max(most, s.depth);
     }
-    const auto reachOf = [](const Sheet& a, float other) { return a.extent.farthest + 2 * (a.depth + other) + kRounding * std::abs(a.extent.farthest); };
+    const auto reachOf = [](const Sheet& a, float other) {
+      return a.extent.farthest + 2 * (a.depth + other) + kRounding * std::abs(a.extent.farthest);
+    };
     for (size_t i = 0; i < sheets.size(); ++i) {
       Sheet& a = sheets[i];
       if (a.object < 0) continue;
       const float reach = reachOf(a, most);
       for (size_t k = i + 1; k < sheets.size() && sheets[k].extent.nearest <= reach; ++k) {
         Sheet& b = sheets[k];
-        if (b.object != a.object || b.extent.nearest > reachOf(a, b.depth) || (films.film(a.film).samples & films.film(b.film).samples) == 0) continue;
+        if (b.object != a.object || b.extent.nearest > reachOf(a, b.depth) ||
+            (films.film(a.film).samples & films.film(b.film).samples) == 0)
+          continue;
         const ShownTwice twice = shownTwice(samples_, grids_, camera_, a.film, b.film);
         a.twice |= twice.first, b.twice |= twice.second;
       }
@@ -216,8 +224,8 @@ class TileBuilder {
     for (const Sight& s : sights_) addFragment(pixel, s.cell, s.d, s.samples, s.word);
   }
 
-  /// Sorts a few sights by depth without a branch that depends on it; false, and nothing done, if they are many or depths
-  /// are equal.
+  /// Sorts a few sights by depth without a branch that depends on it; false, and nothing done, if they are many or
+  /// depths are equal.
   bool sortByRank() {
     constexpr size_t kFew = 12;
     const size_t n = sights_.size();
@@ -283,7 +291,8 @@ class TileBuilder {
 
 }  // namespace
 
-DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples, HideDoubts* doubts) {
+DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples,
+                     HideDoubts* doubts) {
   static thread_local Scratch scratch;
   return TileBuilder(scene, camera, grids, samples, scratch).build(doubts);
 }

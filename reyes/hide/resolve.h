@@ -5,7 +5,8 @@
 namespace tomales {
 
 /// doubts: gains HideDoubts::turns; may be null.
-DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples, HideDoubts* doubts = nullptr);
+DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples,
+                     HideDoubts* doubts = nullptr);
 
 /// A sample: raster position, time of the shutter (0..1), point of the lens (as SampleBuffer has it).
 struct SamplePoint {

@@ -38,19 +38,24 @@ bool GridTable::precedes(uint32_t a, uint32_t b) const {
 
 namespace {
 
-size_t countOf(const PixelRect& pixels) { return static_cast<size_t>(pixels.width()) * static_cast<size_t>(pixels.height()); }
+size_t countOf(const PixelRect& pixels) {
+  return static_cast<size_t>(pixels.width()) * static_cast<size_t>(pixels.height());
+}
 
 /// The samples of a row of pixels, from the pattern of each.
-TOMALES_HOT void placeRow(const SamplePattern& pattern, const int* patternAt, const PixelRect& rect, int row, int lanes, const vec2& origin,
-                          float* __restrict x, float* __restrict y, int32_t* __restrict xy) {
+TOMALES_HOT void placeRow(const SamplePattern& pattern, const int* patternAt, const PixelRect& rect, int row, int lanes,
+                          const vec2& origin, float* __restrict x, float* __restrict y, int32_t* __restrict xy) {
   for (int column = rect.x0; column < rect.x1; ++column, ++patternAt) {
-    const float *fromX = pattern.x(*patternAt), *fromY = pattern.y(*patternAt), byX = static_cast<float>(column), byY = static_cast<float>(row);
+    const float *fromX = pattern.x(*patternAt), *fromY = pattern.y(*patternAt), byX = static_cast<float>(column),
+                byY = static_cast<float>(row);
     for (int k = 0; k < lanes; k += kLanes, x += kLanes, y += kLanes, xy += kLanes)
 #pragma GCC ivdep
       for (int i = 0; i < kLanes; ++i) {
         x[i] = byX + fromX[k + i], y[i] = byY + fromY[k + i];
-        const auto latticeX = static_cast<int32_t>((x[i] - origin.x) * kLattice), latticeY = static_cast<int32_t>((y[i] - origin.y) * kLattice);
-        xy[i] = static_cast<int32_t>(static_cast<uint32_t>(latticeY) << 16 | (static_cast<uint32_t>(latticeX) & 0xffffU));
+        const auto latticeX = static_cast<int32_t>((x[i] - origin.x) * kLattice),
+                   latticeY = static_cast<int32_t>((y[i] - origin.y) * kLattice);
+        xy[i] =
+            static_cast<int32_t>(static_cast<uint32_t>(latticeY) << 16 | (static_cast<uint32_t>(latticeX) & 0xffffU));
       }
   }
 }
@@ -58,8 +63,13 @@ TOMALES_HOT void placeRow(const SamplePattern& pattern, const int* patternAt, co
 }  // namespace
 
 SampleBuffer::SampleBuffer(const SamplePattern& pattern, const Camera& camera, const PixelRect& pixels)
-    : rect(pixels), lanes(pattern.padded()), origin(rect.x0 + kHalf_px, rect.y0 + kHalf_px), films(countOf(pixels), static_cast<size_t>(lanes)),
-      crossings(countOf(pixels), static_cast<size_t>(lanes)), pattern_(pattern), lens_(camera.lens()) {
+    : rect(pixels),
+      lanes(pattern.padded()),
+      origin(rect.x0 + kHalf_px, rect.y0 + kHalf_px),
+      films(countOf(pixels), static_cast<size_t>(lanes)),
+      crossings(countOf(pixels), static_cast<size_t>(lanes)),
+      pattern_(pattern),
+      lens_(camera.lens()) {
   const size_t count = countOf(rect);
   const size_t width = static_cast<size_t>(lanes), samples = static_cast<size_t>(pattern.count());
   x.resize(count * width), y.resize(count * width), xy.resize(count * width);
@@ -73,10 +83,11 @@ SampleBuffer::SampleBuffer(const SamplePattern& pattern, const Camera& camera, c
   for (int row = rect.y0; row < rect.y1; ++row) {
     const size_t first = patternAt_.size();
     for (int column = rect.x0; column < rect.x1; ++column) patternAt_.push_back(pattern.patternOf(column, row));
-    placeRow(pattern, patternAt_.data() + first, rect, row, lanes, origin, x.data() + first * width, y.data() + first * width,
-             xy.data() + first * width);
+    placeRow(pattern, patternAt_.data() + first, rect, row, lanes, origin, x.data() + first * width,
+             y.data() + first * width, xy.data() + first * width);
   }
-  for (size_t p = 0; p < count && samples < width; ++p) std::fill_n(depth.data() + p * width + samples, width - samples, -kInfinity);
+  for (size_t p = 0; p < count && samples < width; ++p)
+    std::fill_n(depth.data() + p * width + samples, width - samples, -kInfinity);
 }
 
 void SampleBuffer::showBlur() {
@@ -113,7 +124,8 @@ bool SampleBuffer::hides(const Bound2& bound, float d) const {
       if (far[pixel] < d) continue;
       int seeing = 0;
       for (size_t i = first; i < first + width; ++i)
-        seeing |= (x[i] >= bound.lo.x) & (x[i] <= bound.hi.x) & (y[i] >= bound.lo.y) & (y[i] <= bound.hi.y) & (depth[i] >= d);
+        seeing |=
+            (x[i] >= bound.lo.x) & (x[i] <= bound.hi.x) & (y[i] >= bound.lo.y) & (y[i] <= bound.hi.y) & (depth[i] >= d);
       if (seeing) return false;
     }
   return true;

@@ -18,17 +18,19 @@ class GridTable {
   struct Entry {
     uint32_t firstCell;
     std::shared_ptr<const RasterGrid> raster;  ///< Null: let go of.
-    std::vector<float> keyTimes;  ///< Fractions of the shutter; none for a still grid.
+    std::vector<float> keyTimes;               ///< Fractions of the shutter; none for a still grid.
     const Grid& grid() const { return *raster->grid; }
   };
 
   const Entry& add(const std::shared_ptr<const RasterGrid>& raster, std::vector<float> keyTimes);
   const Entry& of(uint32_t cell) const { return entries_[entryOfPage_[cell / kPage]]; }
   const std::vector<Entry>& entries() const { return entries_; }
-  uint32_t cellCount() const { return static_cast<uint32_t>(entryOfPage_.size()) * kPage; }  ///< Numbers in use, gaps included.
+  uint32_t cellCount() const {
+    return static_cast<uint32_t>(entryOfPage_.size()) * kPage;
+  }  ///< Numbers in use, gaps included.
   /// Lets go of every grid that has none of these cells. Pre: sorted.
   void keepOnly(const std::vector<uint32_t>& cells);
-  size_t held() const { return held_; }  ///< Grids not let go of.
+  size_t held() const { return held_; }          ///< Grids not let go of.
   bool anySmooth() const { return anySmooth_; }  ///< Has one RasterGrid::smooth?
   /// Decides between equal depths: by name, never by pointer or order of insertion.
   bool precedes(uint32_t a, uint32_t b) const;
@@ -60,21 +62,21 @@ struct SampleBuffer {
   SampleBuffer(const SamplePattern& pattern, const Camera& camera, const PixelRect& rect);
 
   PixelRect rect;
-  int lanes;                       ///< Of a pixel, a multiple of kLanes.
-  vec2 origin;                     ///< Raster position from which the lattice counts here.
-  UnsetVector<float> x, y;         ///< Raster position.
-  UnsetVector<int32_t> xy;         ///< The same on the lattice if it fits: y in the upper half, x in the lower.
-  UnsetVector<float> time;         ///< Fraction of the shutter; this and the lens are empty before showBlur().
+  int lanes;                        ///< Of a pixel, a multiple of kLanes.
+  vec2 origin;                      ///< Raster position from which the lattice counts here.
+  UnsetVector<float> x, y;          ///< Raster position.
+  UnsetVector<int32_t> xy;          ///< The same on the lattice if it fits: y in the upper half, x in the lower.
+  UnsetVector<float> time;          ///< Fraction of the shutter; this and the lens are empty before showBlur().
   UnsetVector<float> lensX, lensY;  ///< Raster shift of what has a depth key of Camera::focusKey() + 1.
-  AlignedVector<float> depth;      ///< Key of the nearest opaque hit; -infinity in padding, which so never counts.
-  AlignedVector<uint32_t> cell;    ///< That hit.
-  std::vector<uint32_t> pixelOf;   ///< Of kLanes lanes.
-  AlignedVector<float> far;        ///< A pixel: no less than the greatest depth of its lanes.
-  std::vector<uint8_t> nearer;     ///< A pixel: 1 if depths may have changed since `far` was computed.
+  AlignedVector<float> depth;       ///< Key of the nearest opaque hit; -infinity in padding, which so never counts.
+  AlignedVector<uint32_t> cell;     ///< That hit.
+  std::vector<uint32_t> pixelOf;    ///< Of kLanes lanes.
+  AlignedVector<float> far;         ///< A pixel: no less than the greatest depth of its lanes.
+  std::vector<uint8_t> nearer;      ///< A pixel: 1 if depths may have changed since `far` was computed.
   Films films;
-  Films crossings;                 ///< Everything of solids that covers a sample, however deep.
-  std::vector<Ask> asks;           ///< Memory for those who rasterise.
-  std::vector<Contest> contests;   ///< Of what is opaque, still and in focus; some may since have been hidden.
+  Films crossings;                ///< Everything of solids that covers a sample, however deep.
+  std::vector<Ask> asks;          ///< Memory for those who rasterise.
+  std::vector<Contest> contests;  ///< Of what is opaque, still and in focus; some may since have been hidden.
 
   /// Do 16 bits hold the positions on the lattice?
   bool fitsLattice() const {
@@ -92,7 +94,9 @@ struct SampleBuffer {
   /// Of a pixel.
   int sampleCount() const { return pattern_.count(); }
   /// Of a sample of a pixel: Film::word.
-  uint32_t wordOf(uint32_t pixel, uint32_t sample) const { return pixel * static_cast<uint32_t>(films.wordsOfPixel()) + sample / 64; }
+  uint32_t wordOf(uint32_t pixel, uint32_t sample) const {
+    return pixel * static_cast<uint32_t>(films.wordsOfPixel()) + sample / 64;
+  }
   /// Brings `far` up to date.
   void settle(const PixelRect& pixels);
 
@@ -120,8 +124,8 @@ struct SampleBuffer {
         if (!(far[pixelIndex(column, row)] < d)) return false;
     return true;
   }
-  /// Is every sample within a raster bound? Those of a few pixels are asked one by one, as what is smaller than their distance lies mostly
-  /// between them.
+  /// Is every sample within a raster bound? Those of a few pixels are asked one by one, as what is smaller than their
+  /// distance lies mostly between them.
   bool hides(const Bound2& bound, float d) const;
 
  private:

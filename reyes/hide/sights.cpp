@@ -26,8 +26,8 @@ HWY_INLINE uint64_t lanesOf(const uint32_t* cells, const float* depths, size_t l
 }
 
 /// Of the lanes that are left.
-HWY_INLINE void collect(const uint32_t* cells, const float* depths, size_t lanes, uint64_t left, uint32_t word, float farthest,
-                        std::vector<Sight>& sights) {
+HWY_INLINE void collect(const uint32_t* cells, const float* depths, size_t lanes, uint64_t left, uint32_t word,
+                        float farthest, std::vector<Sight>& sights) {
   while (left) {
     Sight& sight = sights.emplace_back();  // In place: a copy would wait for its parts to be written.
     sight.cell = cells[std::countr_zero(left)], sight.word = word;
@@ -181,7 +181,9 @@ void rankOpaque(const SampleBuffer& samples, std::span<const uint32_t> pixels, R
 void rankFilm(const Films& films, size_t film, RankedSights& out) {
   HWY_DYNAMIC_DISPATCH(filmRanked)(films, film, &out);
 }
-FilmExtent cullFilm(SampleBuffer& samples, const GridTable& grids, size_t film) { return HWY_DYNAMIC_DISPATCH(cull)(samples, grids, film); }
+FilmExtent cullFilm(SampleBuffer& samples, const GridTable& grids, size_t film) {
+  return HWY_DYNAMIC_DISPATCH(cull)(samples, grids, film);
+}
 void collectFilm(const Films& films, size_t film, float farthest, std::vector<Sight>& sights) {
   HWY_DYNAMIC_DISPATCH(ofFilm)(films, film, farthest, sights);
 }

@@ -8,8 +8,8 @@
 namespace tomales {
 namespace {
 
-/// Surfaces that coincide are found as far apart as vertices are moved to the lattice and depths rounded: by this share of
-/// what a micropolygon, which is about a pixel, goes through in depth.
+/// Surfaces that coincide are found as far apart as vertices are moved to the lattice and depths rounded: by this share
+/// of what a micropolygon, which is about a pixel, goes through in depth.
 constexpr float kSlackOfCell = 4e-3f;
 constexpr float kRounding = 1e-6f;
 
@@ -65,7 +65,8 @@ class SolidResolver {
   SolidCrossing crossing(const Crossing& c) const {
     const GridTable::Entry& entry = grids_.of(c.cell);
     const Object& o = objectOf(c.cell);
-    const SeenCell s = seenCell(entry, camera_, static_cast<int>(c.cell - entry.firstCell), samplePoint(samples_, c.lane));
+    const SeenCell s =
+        seenCell(entry, camera_, static_cast<int>(c.cell - entry.firstCell), samplePoint(samples_, c.lane));
     const vec2 ad(s.d - s.a), bc(s.c - s.b);
     // Raster y runs down: what turns clockwise from u to v as seen has dPdu x dPdv towards the eye.
     const bool leaving = (ad.x * bc.y - ad.y * bc.x < 0) != o.flipsNormal;
@@ -84,7 +85,8 @@ class SolidResolver {
       if (visible(line[b.crossing], b.entering) && compete(line[b.crossing])) return;
   }
 
-  /// The surface of a solid has an outside by itself, whatever way its primitives are turned. It is whole before it is clipped.
+  /// The surface of a solid has an outside by itself, whatever way its primitives are turned. It is whole before it is
+  /// clipped.
   bool visible(const Crossing& c, bool entering) const {
     const Attributes& a = *objectOf(c.cell).attributes;
     const SamplePoint sample = samplePoint(samples_, c.lane);

@@ -1,5 +1,5 @@
-// What is asked sample by sample: trim curves, whose edge is as smooth as any outline at any shading rate, clipping planes and
-// levels of detail.
+// What is asked sample by sample: trim curves, whose edge is as smooth as any outline at any shading rate, clipping
+// planes and levels of detail.
 #include "reyes/hide/raster.h"
 #include "reyes/hide/resolve.h"
 
@@ -12,7 +12,8 @@ bool keepsSample(const RasterJob& job, uint32_t cell, size_t lane) {
   const int index = static_cast<int>(cell - entry.firstCell);
   if (!raster.detail.contains(job.out.detail(lane))) return false;
   const SamplePoint sample = samplePoint(job.out, lane);
-  if (raster.clipped && job.camera.clips(sample.at, sample.lens, depthOnCell(entry, job.camera, index, sample))) return false;
+  if (raster.clipped && job.camera.clips(sample.at, sample.lens, depthOnCell(entry, job.camera, index, sample)))
+    return false;
   if (!raster.trim) return true;
   const auto keeps = [&](const vec2& offset) {
     SamplePoint moved = sample;

@@ -91,8 +91,7 @@ double ssim(const Image& test, const Image& reference) {
 
 // CIE L*a*b* of linear sRGB, white D65.
 vec3 lab(const vec3& rgb) {
-  const vec3 xyz(dot(rgb, vec3(0.4124f, 0.3576f, 0.1805f)) / 0.9505f,
-                 dot(rgb, vec3(0.2126f, 0.7152f, 0.0722f)),
+  const vec3 xyz(dot(rgb, vec3(0.4124f, 0.3576f, 0.1805f)) / 0.9505f, dot(rgb, vec3(0.2126f, 0.7152f, 0.0722f)),
                  dot(rgb, vec3(0.0193f, 0.1192f, 0.9505f)) / 1.0890f);
   const auto f = [](float t) { return t > 0.008856f ? std::cbrt(t) : 7.787f * t + 16.0f / 116.0f; };
   const vec3 g(f(xyz.x), f(xyz.y), f(xyz.z));
@@ -105,9 +104,8 @@ float hyab(const vec3& a, const vec3& b) {
 std::array<Plane, 3> seenPlanes(const Image& image) {
   const std::vector<int> channels = colorChannels(image);
   const auto plane = [&](int axis) {
-    return blur(
-        planeOf(image, [&](const float* p) { return std::clamp(colorAt(p, channels)[axis], 0.0f, 1.0f); }),
-        1.0f, 3);
+    return blur(planeOf(image, [&](const float* p) { return std::clamp(colorAt(p, channels)[axis], 0.0f, 1.0f); }),
+                1.0f, 3);
   };
   return {plane(0), plane(1), plane(2)};
 }

@@ -23,7 +23,8 @@ struct Blend {
 
 FacetShade blendedShade(const DeepTile& tile, const Facet& facet, const Blend& blend) {
   const ShadedPoints& shaded = tile.shaded[static_cast<size_t>(facet.batch)];
-  FacetShade out{blend.weight[0] * shaded.color(facet.point[0]), blend.weight[0] * shaded.opacity(facet.point[0]), vec3(0.0f)};
+  FacetShade out{blend.weight[0] * shaded.color(facet.point[0]), blend.weight[0] * shaded.opacity(facet.point[0]),
+                 vec3(0.0f)};
   for (int i = 1; i < blend.count; ++i) {
     out.color += blend.weight[i] * shaded.color(facet.point[i]);
     out.opacity += blend.weight[i] * shaded.opacity(facet.point[i]);
@@ -67,7 +68,8 @@ Air Compositor::takeAir(const DeepTile& tile, const Fragment& fragment, FacetSha
   for (int i = 0; i < blend.count; ++i)
     for (int k = 0; k < 3; ++k) {
       const auto point = static_cast<size_t>(facet.point[i]);
-      out.color[k] += blend.weight[i] * shaded.airCi[k][point], out.opacity[k] += blend.weight[i] * shaded.airOi[k][point];
+      out.color[k] += blend.weight[i] * shaded.airCi[k][point],
+          out.opacity[k] += blend.weight[i] * shaded.airOi[k][point];
     }
   shade.color -= out.color, shade.opacity -= out.opacity, shade.coverage -= out.opacity;
   return out;

@@ -1,5 +1,5 @@
-// Private to reyes/image: what the samples of a pixel see. Fragments of one pixel -> contributions, each the final value of some
-// samples, so that a pixel is composited once and not once for every neighbour whose filter touches it.
+// Private to reyes/image: what the samples of a pixel see. Fragments of one pixel -> contributions, each the final
+// value of some samples, so that a pixel is composited once and not once for every neighbour whose filter touches it.
 #pragma once
 #include "reyes/deep.h"
 #include "reyes/image/sample_stack.h"
@@ -17,7 +17,8 @@ struct Contribution {
 /// Contributions of the pixels of a tile; those of pixel i are [first[i], first[i + 1]).
 struct ResolvedTile {
   std::vector<Contribution> contributions;
-  UnsetVector<float> values;  ///< Compositor::width() each: R G B A, then the extra floats. Behind the last, room to read kMargin more.
+  UnsetVector<float> values;  ///< Compositor::width() each: R G B A, then the extra floats. Behind the last, room to
+                              ///< read kMargin more.
   static constexpr size_t kMargin = 4;
   std::vector<uint32_t> first;
 };
@@ -32,8 +33,8 @@ class Compositor {
 
   ResolvedTile resolve(const DeepTile& tile);
 
-  /// Front to back, for what is not hidden: visit(fragment, shade, samples, clear), with the share of light that passes what
-  /// lies before these samples of it. Then, once more, the air that is seen beside the last of each sample.
+  /// Front to back, for what is not hidden: visit(fragment, shade, samples, clear), with the share of light that passes
+  /// what lies before these samples of it. Then, once more, the air that is seen beside the last of each sample.
   template <class Visit>
   void layers(const DeepTile& tile, const DeepPixel& pixel, const Visit& visit);
 
@@ -45,7 +46,8 @@ class Compositor {
     bool deep = false;  ///< hasDepth
   };
   void shadeFacets(const DeepTile& tile);
-  /// After shadeFacets(). Good until the next tile, or where it is blended until as many as `blended_` has room for follow.
+  /// After shadeFacets(). Good until the next tile, or where it is blended until as many as `blended_` has room for
+  /// follow.
   const KnownShade& shadeOf(const DeepTile& tile, const Fragment& fragment) {
     const KnownShade& known = shades_[fragment.facet];
     return known.known ? known : blended(tile, fragment);
@@ -63,19 +65,19 @@ class Compositor {
 
   const Options& options_;
   std::vector<ExtraFloat> extras_;
-  std::vector<KnownShade> shades_;      ///< Of all facets of a tile.
-  std::vector<KnownShade> blended_;     ///< Of fragments of a pixel whose facets have several points.
-  std::vector<uint64_t> seen_;          ///< Samples that any fragment covers.
+  std::vector<KnownShade> shades_;   ///< Of all facets of a tile.
+  std::vector<KnownShade> blended_;  ///< Of fragments of a pixel whose facets have several points.
+  std::vector<uint64_t> seen_;       ///< Samples that any fragment covers.
   /// What a sample saw last while layers() runs, and through what.
   struct Last {
     const Fragment* fragment = nullptr;
     vec3 clear;
   };
-  std::vector<vec3> clear_;             ///< Of every sample, while layers() runs,
-  std::vector<Last> last_;              ///< and in air.
-  std::vector<Contribution> samples_;   ///< Of every sample, while a stack is resolved,
-  std::vector<int> batchOf_;            ///< where their z is from,
-  SampleStack stack_;                   ///< and what they see.
+  std::vector<vec3> clear_;            ///< Of every sample, while layers() runs,
+  std::vector<Last> last_;             ///< and in air.
+  std::vector<Contribution> samples_;  ///< Of every sample, while a stack is resolved,
+  std::vector<int> batchOf_;           ///< where their z is from,
+  SampleStack stack_;                  ///< and what they see.
   std::vector<Lay> lays_;
   std::vector<float> facetValues_;
 };

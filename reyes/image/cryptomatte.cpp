@@ -20,7 +20,8 @@ uint32_t murmur3(std::string_view text) {
   uint32_t h = 0, tail = 0;
   const size_t whole = text.size() / 4 * 4;
   for (size_t i = 0; i < whole; i += 4)
-    h = std::rotl(h ^ scrambled(byte(i) | byte(i + 1) << 8 | byte(i + 2) << 16 | byte(i + 3) << 24), 13) * 5 + 0xe6546b64U;
+    h = std::rotl(h ^ scrambled(byte(i) | byte(i + 1) << 8 | byte(i + 2) << 16 | byte(i + 3) << 24), 13) * 5 +
+        0xe6546b64U;
   for (size_t i = text.size(); i > whole; --i) tail = tail << 8 | byte(i - 1);
   h ^= scrambled(tail);
   h ^= static_cast<uint32_t>(text.size());
@@ -50,8 +51,8 @@ std::string quoted(const std::string& text) {
 
 float cryptoId(const std::string& name) { return std::bit_cast<float>(idBits(name)); }
 
-void cryptomatte(const DeepFrame& frame, const Options& options, const SampleOffsets& samples, const std::vector<std::string>& names,
-                 int first, Image& band) {
+void cryptomatte(const DeepFrame& frame, const Options& options, const SampleOffsets& samples,
+                 const std::vector<std::string>& names, int first, Image& band) {
   std::vector<float> ids;
   for (const std::string& name : names) ids.push_back(cryptoId(name));
   const WeightTable weights(positiveFilter(options), samples);
@@ -69,7 +70,8 @@ void cryptomatte(const DeepFrame& frame, const Options& options, const SampleOff
         forNeighbours(rows.rect, weights, samples, x, y, [&](const WeightTable::Cell& cell, const ivec2& pixel) {
           total += weights.sum(cell);
           for (const Layer& l : rows.at(pixel)) {
-            const float coverage = weights.sum(cell, l.samples, l.word) * meanOf(l.coverage), id = ids[static_cast<size_t>(l.group)];
+            const float coverage = weights.sum(cell, l.samples, l.word) * meanOf(l.coverage),
+                        id = ids[static_cast<size_t>(l.group)];
             if (!(coverage > 0)) continue;
             const auto known = std::find_if(shares.begin(), shares.end(), [&](const Share& s) { return s.id == id; });
             if (known == shares.end())

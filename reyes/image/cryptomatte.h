@@ -1,5 +1,5 @@
-// Private to reyes/image: Cryptomatte (Friedman and Jones 2015; the public specification, version 1.2.0). Every pixel lists, in
-// ranks, the names that it shows and how much of each.
+// Private to reyes/image: Cryptomatte (Friedman and Jones 2015; the public specification, version 1.2.0). Every pixel
+// lists, in ranks, the names that it shows and how much of each.
 #pragma once
 #include "reyes/image/image_file.h"
 #include "reyes/image/weights.h"
@@ -12,8 +12,8 @@ constexpr int kCryptoFloats = 12;  ///< Six ranks of id and coverage.
 float cryptoId(const std::string& name);
 
 /// Fills kCryptoFloats from float `first` of every pixel of `band`. `names`: by Scene::groups.
-void cryptomatte(const DeepFrame& frame, const Options& options, const SampleOffsets& samples, const std::vector<std::string>& names,
-                 int first, Image& band);
+void cryptomatte(const DeepFrame& frame, const Options& options, const SampleOffsets& samples,
+                 const std::vector<std::string>& names, int first, Image& band);
 
 /// What the file says of a layer: its name, how ids are made, and all names with theirs.
 std::vector<Metadata> cryptoMetadata(const std::string& layer, const std::vector<std::string>& names);

@@ -1,7 +1,8 @@
-// Layers of the samples around a pixel -> a short list of depths. What lies at one depth is a share of the filtered pixel;
-// as in deep shadow maps (Lokovic and Veach 2000) the shares, front to back, say how much light is left behind each depth.
-#include "reyes/base/parallel.h"
+// Layers of the samples around a pixel -> a short list of depths. What lies at one depth is a share of the filtered
+// pixel; as in deep shadow maps (Lokovic and Veach 2000) the shares, front to back, say how much light is left behind
+// each depth.
 #include "reyes/image/deep_rows.h"
+#include "reyes/base/parallel.h"
 
 namespace tomales {
 namespace {
@@ -75,11 +76,12 @@ LayeredRows layersOf(const DeepFrame& frame, const Options& options, int y0, int
   for (int y = rows.rect.y0; y < rows.rect.y1; ++y)
     for (int x = rows.rect.x0; x < rows.rect.x1; ++x) {
       if (const DeepTile* tile = finishedTile(frame, x, y))
-        compositor.layers(*tile, tile->pixel(x, y), [&](const Fragment& f, const FacetShade& s, uint64_t samples, const vec3& clear) {
-          if (s.coverage == vec3(0.0f) && s.color == vec3(0.0f)) return;  // a holdout
-          const int group = tile->batches[static_cast<size_t>(tile->facets[f.facet].batch)].group();
-          rows.layers.push_back({samples, f.word, group, f.z, clear * s.color, clear * s.coverage});
-        });
+        compositor.layers(*tile, tile->pixel(x, y),
+                          [&](const Fragment& f, const FacetShade& s, uint64_t samples, const vec3& clear) {
+                            if (s.coverage == vec3(0.0f) && s.color == vec3(0.0f)) return;  // a holdout
+                            const int group = tile->batches[static_cast<size_t>(tile->facets[f.facet].batch)].group();
+                            rows.layers.push_back({samples, f.word, group, f.z, clear * s.color, clear * s.coverage});
+                          });
       rows.first.push_back(rows.layers.size());
     }
   return rows;
@@ -90,8 +92,8 @@ PixelFilter positiveFilter(const Options& options) {
   return asked.hasNegativeLobes() ? PixelFilter("box", 1, 1) : asked;
 }
 
-DeepRows deepRows(const DeepFrame& frame, const Options& options, const SampleOffsets& samples, const DeepMerge& merge, int y0,
-                  int y1) {
+DeepRows deepRows(const DeepFrame& frame, const Options& options, const SampleOffsets& samples, const DeepMerge& merge,
+                  int y0, int y1) {
   const WeightTable weights(positiveFilter(options), samples);
   const int width = frame.crop.width();
   const auto bands = static_cast<size_t>((y1 - y0 + kBandRows - 1) / kBandRows);

@@ -7,8 +7,8 @@
 namespace tomales {
 namespace {
 
-// RISpec 3.2 section 4.1.7: round(zero + value (one - zero) + dither random), clamped. Random numbers are named by pixel and
-// channel.
+// RISpec 3.2 section 4.1.7: round(zero + value (one - zero) + dither random), clamped. Random numbers are named by
+// pixel and channel.
 float quantised(float value, const Quantize& q, float limit, uint32_t name) {
   const float noisy = std::floor(q.zero + (q.one - q.zero) * value + q.dither * (2 * unitFloat(name) - 1) + 0.5f);
   const float low = std::max(q.min, 0.0f);
@@ -57,8 +57,7 @@ float encodeSrgb(float linear) {
 void expose(Image& image, const Options& options) {
   for (const char* name : {"R", "G", "B"}) {
     const int channel = image.channelIndex(name);
-    for (size_t i = static_cast<size_t>(channel); channel >= 0 && i < image.pixels.size();
-         i += image.channels.size()) {
+    for (size_t i = static_cast<size_t>(channel); channel >= 0 && i < image.pixels.size(); i += image.channels.size()) {
       image.pixels[i] = exposed(image.pixels[i], options.exposureGain, options.exposureGamma);
     }
   }
@@ -85,7 +84,10 @@ struct DisplayFile::Impl {
     }
     if (writesDeep(display)) {
       const PixelFilter filter = positiveFilter(options);
-      format.metadata.push_back({kSampleRegion, "", {2.0f * static_cast<float>(filter.reachX()) + 1, 2.0f * static_cast<float>(filter.reachY()) + 1}});
+      format.metadata.push_back(
+          {kSampleRegion,
+           "",
+           {2.0f * static_cast<float>(filter.reachX()) + 1, 2.0f * static_cast<float>(filter.reachY()) + 1}});
     }
     const std::vector<std::string> floats = output.names();
     for (const SelectedFloat& f : selection) {
@@ -173,7 +175,8 @@ struct DisplayFile::Impl {
       const float* value = rows.pixels.data() + from[c];
       for (size_t i = 0; i < pixels; ++i) to[i * from.size()] = value[i * step];
       const auto& exposure = selection[c].encoding.exposure;
-      for (size_t i = 0; exposure && !depth[c] && i < pixels; ++i) to[i * from.size()] = exposed(to[i * from.size()], (*exposure)[0], (*exposure)[1]);
+      for (size_t i = 0; exposure && !depth[c] && i < pixels; ++i)
+        to[i * from.size()] = exposed(to[i * from.size()], (*exposure)[0], (*exposure)[1]);
     }
     return out;
   }
@@ -190,7 +193,8 @@ struct DisplayFile::Impl {
   bool write(const DeepRows& rows) { return file && (file->write(rows) || report()); }
 
   bool report() {
-    log.report(Severity::Output, "image-write", display.where, "\"" + path + "\" could not be written: " + file->error());
+    log.report(Severity::Output, "image-write", display.where,
+               "\"" + path + "\" could not be written: " + file->error());
     file.reset();
     return false;
   }
@@ -202,7 +206,7 @@ struct DisplayFile::Impl {
   const Selection selection;
   FileFormat format;
   Image shape;
-  std::vector<int> from;    ///< Index of every float in a pixel of the frame's picture; -1: it is not there.
+  std::vector<int> from;  ///< Index of every float in a pixel of the frame's picture; -1: it is not there.
   std::vector<bool> depth;
   std::vector<Quantize> quantizers;  ///< Empty: floats are written.
   bool screen = false;
@@ -236,14 +240,16 @@ View viewOf(const Camera& camera, const mat4& cameraFromWorld) {
   screenFromCamera[0][0] = stretch.x, screenFromCamera[1][1] = stretch.y;
   const int last = camera.perspective() ? 2 : 3;  // what x and y are divided by: z, or nothing
   screenFromCamera[last][0] = origin.x, screenFromCamera[last][1] = origin.y;
-  if (camera.perspective()) screenFromCamera[2][3] = 1, screenFromCamera[3][3] = 0, screenFromCamera[3][2] = -camera.nearClip();
+  if (camera.perspective())
+    screenFromCamera[2][3] = 1, screenFromCamera[3][3] = 0, screenFromCamera[3][2] = -camera.nearClip();
   return {cameraFromWorld, screenFromCamera * cameraFromWorld};
 }
 
 bool makeShadow(const std::string& picture, const std::string& map, const SourceLoc& where, Log& log) {
   std::string error;
   if (copyShadowMap(picture, map, error)) return true;
-  log.report(Severity::Missing, "make-shadow", where, "MakeShadow: no map \"" + map + "\" was made of \"" + picture + "\": " + error);
+  log.report(Severity::Missing, "make-shadow", where,
+             "MakeShadow: no map \"" + map + "\" was made of \"" + picture + "\": " + error);
   return false;
 }
 

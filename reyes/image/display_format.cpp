@@ -7,20 +7,23 @@ namespace {
 
 FileFormat formatOfType(const std::string& type) {
   if (type == "openexr" || type == "exr") return {"openexr", SampleType::Float};
-  if (type == "shadow" || type == "zfile" || type == "deepshad" || type == "deepexr") return {"openexr", SampleType::Float};
+  if (type == "shadow" || type == "zfile" || type == "deepshad" || type == "deepexr")
+    return {"openexr", SampleType::Float};
   if (type == "tiff" || type == "tif") return {"tiff", SampleType::UInt8};
   if (type == "png") return {"png", SampleType::UInt8};
   return {"", SampleType::Float};
 }
 
-constexpr std::string_view kOnlyExr[] = {"exrpixeltype", "type", "tiled", "multipart", "chromaticities", "mergedepth", "mergeopacity"};
+constexpr std::string_view kOnlyExr[] = {"exrpixeltype",   "type",       "tiled",       "multipart",
+                                         "chromaticities", "mergedepth", "mergeopacity"};
 constexpr std::string_view kHeader = "exrheader_";
 
 bool knowsParam(const std::string& name) {
-  static constexpr std::string_view kNames[] = {"transfer",    "exrpixeltype", "type",     "compression", "exrcompression",
-                                                "tiled",       "multipart",    "quantize", "dither",      "filter",
-                                                "filterwidth", "exposure",     "origin",   "chromaticities", "mergedepth",
-                                                "mergeopacity", "asrgba"};  // asrgba: Ci and a are R G B A here anyway
+  static constexpr std::string_view kNames[] = {"transfer",       "exrpixeltype",   "type",        "compression",
+                                                "exrcompression", "tiled",          "multipart",   "quantize",
+                                                "dither",         "filter",         "filterwidth", "exposure",
+                                                "origin",         "chromaticities", "mergedepth",  "mergeopacity",
+                                                "asrgba"};  // asrgba: Ci and a are R G B A here anyway
   return name.starts_with(kHeader) || std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
@@ -37,7 +40,8 @@ std::string pixelTypeOf(const DisplayCall& display) {
 std::vector<Metadata> metadataOf(const DisplayCall& display) {
   // Linear light of the primaries of Rec. 709 and sRGB, unless the Display says otherwise.
   Metadata primaries{"chromaticities", "", {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f}};
-  if (const Param* p = findParam(display.params, "chromaticities"); p && p->floats.size() == 8) primaries.numbers = p->floats;
+  if (const Param* p = findParam(display.params, "chromaticities"); p && p->floats.size() == 8)
+    primaries.numbers = p->floats;
   std::vector<Metadata> out{primaries};
   for (const Param& p : display.params) {
     if (!p.name.starts_with(kHeader)) continue;
@@ -61,7 +65,8 @@ void setExr(const DisplayCall& display, FileFormat& format) {
 }
 
 void setCompression(const DisplayCall& display, FileFormat& format, Log& log) {
-  static const std::vector<std::string_view> kExr = {"none", "rle", "zip", "zips", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
+  static const std::vector<std::string_view> kExr = {"none",  "rle", "zip",  "zips", "piz",
+                                                     "pxr24", "b44", "b44a", "dwaa", "dwab"};
   static const std::vector<std::string_view> kTiff = {"none", "rle", "zip", "zips", "lzw"}, kPng = {"zip"};
   const std::vector<std::string_view>& known = format.name == "openexr" ? kExr : format.name == "tiff" ? kTiff : kPng;
   const std::string asked = compressionOf(display);
@@ -70,14 +75,17 @@ void setCompression(const DisplayCall& display, FileFormat& format, Log& log) {
     format.compression = asked;
   else
     log.report(Severity::Warning, "display-compression", display.where,
-               "Display \"" + display.name + "\": files of type " + format.name + " have no compression \"" + asked + "\"; ignored");
+               "Display \"" + display.name + "\": files of type " + format.name + " have no compression \"" + asked +
+                   "\"; ignored");
 }
 
 void warnOfWhatOnlyExrHas(const DisplayCall& display, const FileFormat& format, Log& log) {
   for (const Param& p : display.params)
-    if (p.name.starts_with(kHeader) || std::find(std::begin(kOnlyExr), std::end(kOnlyExr), p.name) != std::end(kOnlyExr))
-      log.report(Severity::Warning, "display-parameter", display.where,
-                 "Display \"" + display.name + "\": files of type " + format.name + " have no \"" + p.name + "\"; ignored");
+    if (p.name.starts_with(kHeader) ||
+        std::find(std::begin(kOnlyExr), std::end(kOnlyExr), p.name) != std::end(kOnlyExr))
+      log.report(
+          Severity::Warning, "display-parameter", display.where,
+          "Display \"" + display.name + "\": files of type " + format.name + " have no \"" + p.name + "\"; ignored");
 }
 
 }  // namespace
@@ -100,8 +108,7 @@ void warnAboutParams(const DisplayCall& display, Log& log) {
     else if (p.name == "origin" && std::any_of(p.ints.begin(), p.ints.end(), [](int at) { return at != 0; }))
       warn("\"origin\" is a place in a frame buffer, and this is a file");
   const std::string transfer = displayText(display, "transfer"), type = pixelTypeOf(display);
-  if (!transfer.empty() && transfer != "srgb" && transfer != "linear")
-    warn("no transfer \"" + transfer + "\"");
+  if (!transfer.empty() && transfer != "srgb" && transfer != "linear") warn("no transfer \"" + transfer + "\"");
   if (!type.empty() && type != "half" && type != "float") warn("no pixel type \"" + type + "\"");
 }
 
@@ -115,7 +122,8 @@ FileFormat formatOf(const DisplayCall& display, std::string& path, Log& log) {
   }
   if (unknown)
     log.report(Severity::Warning, "display-type", display.where,
-               "Display \"" + display.name + "\": no display type \"" + display.type + "\"; \"" + path + "\" is written, of type " + format.name);
+               "Display \"" + display.name + "\": no display type \"" + display.type + "\"; \"" + path +
+                   "\" is written, of type " + format.name);
   setCompression(display, format, log);
   if (format.name == "openexr")
     setExr(display, format);

@@ -14,9 +14,9 @@
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/ImfTileDescriptionAttribute.h>
 #include <OpenEXR/ImfTiledOutputPart.h>
-#include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/ImfVecAttribute.h>
 
 #include <cerrno>
@@ -30,7 +30,8 @@
 namespace tomales {
 namespace {
 
-/// Of 1..9: pictures of floats that share few bits get 1 to 5 % larger than at 4, OpenEXR's own, in two thirds of the time.
+/// Of 1..9: pictures of floats that share few bits get 1 to 5 % larger than at 4, OpenEXR's own, in two thirds of the
+/// time.
 constexpr int kZipLevel = 2;
 
 /// "layer" of "layer.X"; pictures and depth have layers of their own.
@@ -60,9 +61,9 @@ std::vector<Part> partsOf(const std::vector<std::string>& channels, bool multipa
 
 Imf::Compression compressionOf(const FileFormat& format) {
   static const std::pair<const char*, Imf::Compression> kNames[] = {
-      {"none", Imf::NO_COMPRESSION},    {"rle", Imf::RLE_COMPRESSION},   {"zip", Imf::ZIP_COMPRESSION},
-      {"zips", Imf::ZIPS_COMPRESSION},  {"piz", Imf::PIZ_COMPRESSION},   {"pxr24", Imf::PXR24_COMPRESSION},
-      {"b44", Imf::B44_COMPRESSION},    {"b44a", Imf::B44A_COMPRESSION}, {"dwaa", Imf::DWAA_COMPRESSION},
+      {"none", Imf::NO_COMPRESSION},   {"rle", Imf::RLE_COMPRESSION},   {"zip", Imf::ZIP_COMPRESSION},
+      {"zips", Imf::ZIPS_COMPRESSION}, {"piz", Imf::PIZ_COMPRESSION},   {"pxr24", Imf::PXR24_COMPRESSION},
+      {"b44", Imf::B44_COMPRESSION},   {"b44a", Imf::B44A_COMPRESSION}, {"dwaa", Imf::DWAA_COMPRESSION},
       {"dwab", Imf::DWAB_COMPRESSION}};
   for (const auto& [name, compression] : kNames)
     if (format.compression == name) return compression;
@@ -101,11 +102,13 @@ Imf::Header headerOf(const Image& image, const FileFormat& format, const Part& p
   const int width = image.displayWidth > 0 ? image.displayWidth : image.width;
   const int height = image.displayHeight > 0 ? image.displayHeight : image.height;
   const Imath::V2i origin(image.originX, image.originY);
-  Imf::Header header({{0, 0}, {width - 1, height - 1}}, {origin, origin + Imath::V2i(image.width - 1, image.height - 1)});
+  Imf::Header header({{0, 0}, {width - 1, height - 1}},
+                     {origin, origin + Imath::V2i(image.width - 1, image.height - 1)});
   header.pixelAspectRatio() = format.pixelAspect;
   header.compression() = compressionOf(format);
   header.zipCompressionLevel() = kZipLevel;
-  for (const size_t c : part.channels) header.channels().insert(image.channels[c], Imf::Channel(typeOf(format, image.channels[c])));
+  for (const size_t c : part.channels)
+    header.channels().insert(image.channels[c], Imf::Channel(typeOf(format, image.channels[c])));
   if (!part.name.empty()) header.setName(part.name);
   header.setType(format.deep ? Imf::DEEPSCANLINE : format.tile > 0 ? Imf::TILEDIMAGE : Imf::SCANLINEIMAGE);
   if (format.tile > 0) {
@@ -120,7 +123,9 @@ Imf::Header headerOf(const Image& image, const FileFormat& format, const Part& p
 /// One channel's values in the type that the file has.
 class Plane {
  public:
-  Plane(Imf::PixelType type, size_t count) : type_(type) { type == Imf::HALF ? halves_.resize(count) : floats_.resize(count); }
+  Plane(Imf::PixelType type, size_t count) : type_(type) {
+    type == Imf::HALF ? halves_.resize(count) : floats_.resize(count);
+  }
   void set(size_t i, float v) {
     if (type_ == Imf::HALF)
       halves_[i] = v;
@@ -129,8 +134,12 @@ class Plane {
   }
   Imf::PixelType type() const { return type_; }
   size_t valueBytes() const { return type_ == Imf::HALF ? sizeof(Imath::half) : sizeof(float); }
-  char* at(size_t i) { return type_ == Imf::HALF ? reinterpret_cast<char*>(&halves_[i]) : reinterpret_cast<char*>(&floats_[i]); }
-  char* data() { return type_ == Imf::HALF ? reinterpret_cast<char*>(halves_.data()) : reinterpret_cast<char*>(floats_.data()); }
+  char* at(size_t i) {
+    return type_ == Imf::HALF ? reinterpret_cast<char*>(&halves_[i]) : reinterpret_cast<char*>(&floats_[i]);
+  }
+  char* data() {
+    return type_ == Imf::HALF ? reinterpret_cast<char*>(halves_.data()) : reinterpret_cast<char*>(floats_.data());
+  }
 
  private:
   Imf::PixelType type_;
@@ -150,7 +159,8 @@ class ExrFile : public FormatWriter {
     for (const Part& part : parts) headers.push_back(headerOf(shape, format, part));
     const int helpers = threadCount() > 1 ? threadCount() : 0;  // They compress; with none, the caller does.
     if (Imf::globalThreadCount() < helpers) Imf::setGlobalThreadCount(helpers);
-    file = std::make_unique<Imf::MultiPartOutputFile>(*out, headers.data(), static_cast<int>(headers.size()), false, helpers);
+    file = std::make_unique<Imf::MultiPartOutputFile>(*out, headers.data(), static_cast<int>(headers.size()), false,
+                                                      helpers);
   }
 
   void write(const Image& rows) override {
@@ -181,7 +191,8 @@ class ExrFile : public FormatWriter {
     std::vector<Plane> planes;
     std::vector<std::vector<char*>> pointers(channels);
     const size_t row = static_cast<size_t>(shape.width);
-    const ptrdiff_t back = static_cast<ptrdiff_t>(shape.originX) + static_cast<ptrdiff_t>(rows.y0) * static_cast<ptrdiff_t>(row);
+    const ptrdiff_t back =
+        static_cast<ptrdiff_t>(shape.originX) + static_cast<ptrdiff_t>(rows.y0) * static_cast<ptrdiff_t>(row);
     for (size_t c = 0; c < channels; ++c) {
       Plane& plane = planes.emplace_back(typeOf(format, shape.channels[c]), samples + 1);  // an end to point at
       for (size_t i = 0; i < samples; ++i) plane.set(i, rows.values[i * channels + c]);
@@ -189,8 +200,9 @@ class ExrFile : public FormatWriter {
     for (size_t c = 0; c < channels; ++c) {
       size_t first = 0;
       for (const unsigned count : counts) pointers[c].push_back(planes[c].at(first)), first += count;
-      buffer.insert(shape.channels[c], Imf::DeepSlice(planes[c].type(), reinterpret_cast<char*>(pointers[c].data() - back),
-                                                      sizeof(char*), sizeof(char*) * row, planes[c].valueBytes()));
+      buffer.insert(shape.channels[c],
+                    Imf::DeepSlice(planes[c].type(), reinterpret_cast<char*>(pointers[c].data() - back), sizeof(char*),
+                                   sizeof(char*) * row, planes[c].valueBytes()));
     }
     Imf::DeepScanLineOutputPart part(*file, 0);
     part.setFrameBuffer(buffer);
@@ -238,7 +250,8 @@ class ExrFile : public FormatWriter {
 
 std::unique_ptr<FormatWriter> openExr(const std::string& path, const Image& shape, const FileFormat& format) {
   const std::vector<Part> parts = partsOf(shape.channels, format.multipart);
-  const bool rows = parts.size() == 1 && !format.deep && format.tile == 0 && compressionOf(format) == Imf::ZIP_COMPRESSION;
+  const bool rows =
+      parts.size() == 1 && !format.deep && format.tile == 0 && compressionOf(format) == Imf::ZIP_COMPRESSION;
   if (rows) return openExrRows(path, shape, headerOf(shape, format, parts[0]));
   return std::make_unique<ExrFile>(path, shape, format);
 }

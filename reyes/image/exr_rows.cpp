@@ -41,8 +41,7 @@ std::vector<FileChannel> channelsOf(const Image& shape, const Imf::Header& heade
 Bytes rawRows(const Image& rows, int first, int count, const std::vector<FileChannel>& channels) {
   Bytes out;
   const size_t width = static_cast<size_t>(rows.width), all = rows.channels.size();
-  for (const FileChannel& c : channels)
-    out.resize(out.size() + width * static_cast<size_t>(count) * (c.half ? 2 : 4));
+  for (const FileChannel& c : channels) out.resize(out.size() + width * static_cast<size_t>(count) * (c.half ? 2 : 4));
   unsigned char* to = out.data();
   const auto put = [&](auto value) {
     std::memcpy(to, &value, sizeof(value));
@@ -80,8 +79,8 @@ Bytes compressed(Bytes raw) {
   if (!compressor) throw std::bad_alloc();
   Bytes split(raw.size()), differences(raw.size());
   predict(raw.data(), raw.size() / 2, split.data(), differences.data());
-  const size_t size = libdeflate_zlib_compress(compressor.get(), differences.data(), differences.size(),
-                                               split.data(), split.size() - 1);
+  const size_t size = libdeflate_zlib_compress(compressor.get(), differences.data(), differences.size(), split.data(),
+                                               split.size() - 1);
   if (size == 0) return raw;
   split.resize(size);
   return split;
@@ -128,8 +127,7 @@ class ExrRows : public FormatWriter {
       offsets_[next_++] = static_cast<uint64_t>(stream_.tellp());
       put(static_cast<int32_t>(rows.originY + static_cast<int>(b) * kBlockRows));
       put(static_cast<int32_t>(blocks[b].size()));
-      stream_.write(reinterpret_cast<const char*>(blocks[b].data()),
-                    static_cast<std::streamsize>(blocks[b].size()));
+      stream_.write(reinterpret_cast<const char*>(blocks[b].data()), static_cast<std::streamsize>(blocks[b].size()));
     }
     check();
   }
@@ -162,8 +160,7 @@ class ExrRows : public FormatWriter {
 
 }  // namespace
 
-std::unique_ptr<FormatWriter> openExrRows(const std::string& path, const Image& shape,
-                                          const Imf::Header& header) {
+std::unique_ptr<FormatWriter> openExrRows(const std::string& path, const Image& shape, const Imf::Header& header) {
   return std::make_unique<ExrRows>(path, shape, header);
 }
 

@@ -9,7 +9,6 @@
 namespace tomales {
 
 /// header: of all channels of `shape`, with ZIP_COMPRESSION.
-std::unique_ptr<FormatWriter> openExrRows(const std::string& path, const Image& shape,
-                                          const Imf::Header& header);
+std::unique_ptr<FormatWriter> openExrRows(const std::string& path, const Image& shape, const Imf::Header& header);
 
 }  // namespace tomales

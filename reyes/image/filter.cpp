@@ -38,9 +38,7 @@ float sinc(float x) {
 // Printed without pi and without a window; renderers in use pass frequencies up to one half a pixel, under a
 // cosine lobe.
 float sincLobe(float x, float width) { return std::cos(kPi * x / (2 * width)) * sinc(x); }
-float windowedSinc(float x, float y, float xWidth, float yWidth) {
-  return sincLobe(x, xWidth) * sincLobe(y, yWidth);
-}
+float windowedSinc(float x, float y, float xWidth, float yWidth) { return sincLobe(x, xWidth) * sincLobe(y, yWidth); }
 
 // Mitchell and Netravali 1988, B = C = 1/3, stretched so that it ends at half the width.
 float mitchell(float x, float width) {
@@ -48,9 +46,7 @@ float mitchell(float x, float width) {
   if (t < 1) return ((7.0f * t - 12.0f) * t * t + 16.0f / 3.0f) / 6;
   return t < 2 ? (((-7.0f / 3.0f * t + 12.0f) * t - 20.0f) * t + 32.0f / 3.0f) / 6 : 0;
 }
-float mitchell(float x, float y, float xWidth, float yWidth) {
-  return mitchell(x, xWidth) * mitchell(y, yWidth);
-}
+float mitchell(float x, float y, float xWidth, float yWidth) { return mitchell(x, xWidth) * mitchell(y, yWidth); }
 
 float blackmanHarris(float x, float width) {
   const float t = 2 * kPi * (x / width + 0.5f);
@@ -69,8 +65,8 @@ float disk(float x, float y, float xWidth, float yWidth) {
   return u * u + v * v <= 1 ? 1.0f : 0.0f;
 }
 
-// The transform of a disk (Airy's amplitude 2 J1(x) / x), first zero at 1.22 pixels as of the finest circle that pixels hold;
-// windowed like sinc's lobes by that of the whole width.
+// The transform of a disk (Airy's amplitude 2 J1(x) / x), first zero at 1.22 pixels as of the finest circle that pixels
+// hold; windowed like sinc's lobes by that of the whole width.
 float airy(float r) { return r < 1e-3f ? 1.0f : 2 * std::cyl_bessel_jf(1, kPi * r) / (kPi * r); }
 float bessel(float x, float y, float xWidth, float yWidth) {
   const float u = 2 * x / xWidth, v = 2 * y / yWidth, edge = std::sqrt(u * u + v * v);
@@ -112,13 +108,13 @@ PixelFilter::PixelFilter(const std::string& name, float xWidth, float yWidth, bo
 
 float PixelFilter::operator()(float x, float y) const {
   // Half open, so that a sample between two pixels belongs to one of them under a box of one pixel.
-  const bool inside =
-      x >= -0.5f * xWidth_ && x < 0.5f * xWidth_ && y >= -0.5f * yWidth_ && y < 0.5f * yWidth_;
+  const bool inside = x >= -0.5f * xWidth_ && x < 0.5f * xWidth_ && y >= -0.5f * yWidth_ && y < 0.5f * yWidth_;
   return inside ? kFilters[static_cast<size_t>(kind_)].kernel(x, y, xWidth_, yWidth_) : 0.0f;
 }
 
 bool PixelFilter::hasNegativeLobes() const {
-  static constexpr std::string_view kNames[] = {"catmull-rom", "separable-catmull-rom", "sinc", "mitchell", "lanczos", "bessel"};
+  static constexpr std::string_view kNames[] = {"catmull-rom", "separable-catmull-rom", "sinc", "mitchell", "lanczos",
+                                                "bessel"};
   const std::string_view name = kFilters[static_cast<size_t>(kind_)].name;
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }

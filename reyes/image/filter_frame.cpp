@@ -10,7 +10,8 @@
 namespace tomales {
 namespace {
 
-constexpr int kBlockRows = 16, kBlockColumns = 256;  ///< Pixels that are filtered at a time; their contributions are in memory.
+constexpr int kBlockRows = 16,
+              kBlockColumns = 256;  ///< Pixels that are filtered at a time; their contributions are in memory.
 
 /// The floats of a pixel that share a filter.
 struct Pass {
@@ -51,8 +52,8 @@ struct Around {
   std::vector<int> patterns;
 
   Around(const PixelRect& block, const WeightTable& w, const PixelRect& frame, const SampleOffsets& samples)
-      : rect{std::max(frame.x0, block.x0 - w.reachX), std::max(frame.y0, block.y0 - w.reachY), std::min(frame.x1, block.x1 + w.reachX),
-             std::min(frame.y1, block.y1 + w.reachY)} {
+      : rect{std::max(frame.x0, block.x0 - w.reachX), std::max(frame.y0, block.y0 - w.reachY),
+             std::min(frame.x1, block.x1 + w.reachX), std::min(frame.y1, block.y1 + w.reachY)} {
     patterns.reserve(static_cast<size_t>(rect.width()) * static_cast<size_t>(rect.height()));
     for (int y = rect.y0; y < rect.y1; ++y)
       for (int x = rect.x0; x < rect.x1; ++x) patterns.push_back(samples.patternOf(x, y));
@@ -68,7 +69,8 @@ struct FrameFilter::Impl {
 
   Impl(const DeepFrame& f, const Options& o, const SampleOffsets& s, const MatteNames& n)
       : frame(f), options(o), samples(s), names(n), output(outputOf(o)), resolved(f, output, o) {
-    addPass({Reduce::Filter, o.filter, o.xFilterWidth, o.yFilterWidth}).floats = {{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {3, 3, 0}};
+    addPass({Reduce::Filter, o.filter, o.xFilterWidth, o.yFilterWidth}).floats = {
+        {0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {3, 3, 0}};
     const std::vector<ExtraFloat>& extras = resolved.extras();
     for (size_t e = 0; e < extras.size(); ++e) {
       const Channel& channel = output.channels[static_cast<size_t>(extras[e].channel)];
@@ -77,7 +79,9 @@ struct FrameFilter::Impl {
       else if (extras[e].component == 0)
         addReduction(channel, 4 + e);
     }
-    const auto reach = [this](const WeightTable& w) { reachX = std::max(reachX, w.reachX), reachY = std::max(reachY, w.reachY); };
+    const auto reach = [this](const WeightTable& w) {
+      reachX = std::max(reachX, w.reachX), reachY = std::max(reachY, w.reachY);
+    };
     for (const Pass& p : passes) reach(p.weights);
     for (const Reduction& r : reductions) reach(r.weights);
   }
@@ -113,10 +117,11 @@ struct FrameFilter::Impl {
     }
   }
 
-  /// What the samples around bring to each pixel of a block: the floats of a pass, and the weight of those which see something if any has a
-  /// fill. For each pixel by rows, columns and fragments.
+  /// What the samples around bring to each pixel of a block: the floats of a pass, and the weight of those which see
+  /// something if any has a fill. For each pixel by rows, columns and fragments.
   PixelSums sumsOf(const Pass& pass, const PixelRect& block, const Around& around) const {
-    const size_t floats = pass.floats.size(), places = static_cast<size_t>(pass.weights.places()), step = static_cast<size_t>(resolved.width());
+    const size_t floats = pass.floats.size(), places = static_cast<size_t>(pass.weights.places()),
+                 step = static_cast<size_t>(resolved.width());
     const bool fills = pass.anyFill(), copies = fills || !pass.together();
     PixelSums sums(pass.weights, block, static_cast<int>(floats + fills));
     const auto wide = static_cast<size_t>(sums.width());
@@ -127,8 +132,10 @@ struct FrameFilter::Impl {
         const size_t count = here.list.size();
         if (count == 0) return;
         if (weights.size() < count * places) weights.resize(count * places), values.resize(count * wide);
-        for (size_t c = 0; c < count; ++c) pass.weights.sums(patterns[x], here.list[c].samples, here.list[c].word, weights.data() + c * places);
-        if (!copies) return sums.add(x, y, {static_cast<int>(count), weights.data(), here.values + pass.floats[0].from, step});
+        for (size_t c = 0; c < count; ++c)
+          pass.weights.sums(patterns[x], here.list[c].samples, here.list[c].word, weights.data() + c * places);
+        if (!copies)
+          return sums.add(x, y, {static_cast<int>(count), weights.data(), here.values + pass.floats[0].from, step});
         for (size_t c = 0; c < count; ++c) {
           float* to = values.data() + c * wide;
           for (size_t k = 0; k < floats; ++k) to[k] = here.values[c * step + pass.floats[k].from];
@@ -164,7 +171,8 @@ struct FrameFilter::Impl {
       const Seen here = resolved.seenAt(pixel.x, pixel.y);
       for (size_t i = 0; i < here.list.size(); ++i) {
         const Contribution& c = here.list[i];
-        const float w = r.weights.sum(cell, c.samples, c.word), *value = here.values + i * static_cast<size_t>(resolved.width()) + r.from;
+        const float w = r.weights.sum(cell, c.samples, c.word),
+                    *value = here.values + i * static_cast<size_t>(resolved.width()) + r.from;
         if (!(w > 0)) continue;
         const bool first = weight == 0;
         weight += w;
@@ -214,14 +222,15 @@ struct FrameFilter::Impl {
   ResolvedFrame resolved;
 };
 
-FrameFilter::FrameFilter(const DeepFrame& frame, const Options& options, const SampleOffsets& samples, const MatteNames& names)
+FrameFilter::FrameFilter(const DeepFrame& frame, const Options& options, const SampleOffsets& samples,
+                         const MatteNames& names)
     : impl_(new Impl(frame, options, samples, names)) {}
 FrameFilter::~FrameFilter() = default;
 
 Image FrameFilter::shape() const {
   const PixelRect& crop = impl_->frame.crop;
-  return {crop.width(), crop.height(), impl_->output.names(), {}, crop.x0, crop.y0, impl_->options.xResolution,
-          impl_->options.yResolution};
+  return {crop.width(), crop.height(), impl_->output.names(),      {},
+          crop.x0,      crop.y0,       impl_->options.xResolution, impl_->options.yResolution};
 }
 
 Image FrameFilter::rows(int y0, int y1) {
@@ -234,13 +243,17 @@ Image FrameFilter::rows(int y0, int y1) {
   const auto down = static_cast<size_t>((image.height + kBlockRows - 1) / kBlockRows);
   impl_->resolved.resolveRows(y0 - impl_->reachY, y1 + impl_->reachY);
   parallelFor(across * down, 1, [&](size_t begin, size_t) {
-    const int x0 = crop.x0 + static_cast<int>(begin % across) * kBlockColumns, top = y0 + static_cast<int>(begin / across) * kBlockRows;
+    const int x0 = crop.x0 + static_cast<int>(begin % across) * kBlockColumns,
+              top = y0 + static_cast<int>(begin / across) * kBlockRows;
     const PixelRect block{x0, top, std::min(x0 + kBlockColumns, crop.x1), std::min(top + kBlockRows, y1)};
-    for (const Pass& pass : impl_->passes) impl_->filter(pass, block, [&](int x, int y) { return image.at(x - crop.x0, y - y0); });
+    for (const Pass& pass : impl_->passes)
+      impl_->filter(pass, block, [&](int x, int y) { return image.at(x - crop.x0, y - y0); });
     for (int y = block.y0; y < block.y1; ++y) {
       for (int x = block.x0; x < block.x1; ++x)
         for (const Reduction& r : impl_->reductions) impl_->reduce(r, x, y, image.at(x - crop.x0, y - y0));
-      impl_->resolved.forRow(block.x0, block.x1, y, [&](int x, const Impl::Seen& seen) { image.at(x - crop.x0, y - y0)[4] = impl_->depth(seen.list); });
+      impl_->resolved.forRow(block.x0, block.x1, y, [&](int x, const Impl::Seen& seen) {
+        image.at(x - crop.x0, y - y0)[4] = impl_->depth(seen.list);
+      });
     }
   });
   for (const Channel& c : impl_->output.channels)

@@ -130,7 +130,8 @@ bool copyShadowMap(const std::string& from, const std::string& to, std::string& 
     if (std::find(channels.begin(), channels.end(), "Z") == channels.end() || !in->matrix("worldtocamera", matrix))
       return error = "it is no shadow map: depth or the matrices of its camera are missing", false;
   }
-  const fs::path target(to), temporary = target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid());
+  const fs::path target(to),
+      temporary = target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid());
   std::error_code problem;
   if (fs::equivalent(from, target, problem)) return true;
   fs::copy_file(from, temporary, fs::copy_options::overwrite_existing, problem);

@@ -14,22 +14,23 @@ struct Metadata {
 };
 
 struct FileFormat {
-  std::string name;                     ///< "openexr", "tiff", "png"
-  SampleType type = SampleType::Float;  ///< Integer types: pixels hold integers already, 0..255 or 0..65535.
-  bool unassociatedAlpha = false;       ///< Colour has been divided by alpha.
-  std::string compression = {};         ///< Empty: the format's best lossless one.
-  int tile = 0;                         ///< Side of a tile; 0: scanlines.
-  bool deep = false;                    ///< OpenEXR: a list of samples in every pixel.
-  bool multipart = false;               ///< OpenEXR: one part for each layer.
-  std::vector<std::string> precise = {};///< Channels that stay float in a file of halves.
+  std::string name;                       ///< "openexr", "tiff", "png"
+  SampleType type = SampleType::Float;    ///< Integer types: pixels hold integers already, 0..255 or 0..65535.
+  bool unassociatedAlpha = false;         ///< Colour has been divided by alpha.
+  std::string compression = {};           ///< Empty: the format's best lossless one.
+  int tile = 0;                           ///< Side of a tile; 0: scanlines.
+  bool deep = false;                      ///< OpenEXR: a list of samples in every pixel.
+  bool multipart = false;                 ///< OpenEXR: one part for each layer.
+  std::vector<std::string> precise = {};  ///< Channels that stay float in a file of halves.
   std::vector<Metadata> metadata = {};
-  float pixelAspect = 1;                ///< Width of a pixel over its height.
+  float pixelAspect = 1;  ///< Width of a pixel over its height.
 };
 
 /// Format of a file by its name's extension; empty name: none that can be written.
 FileFormat formatOfExtension(const std::string& path);
 
-/// A picture on its way to a temporary name in the same directory; close() renames. What is not closed leaves nothing behind.
+/// A picture on its way to a temporary name in the same directory; close() renames. What is not closed leaves nothing
+/// behind.
 class PictureFile {
  public:
   static constexpr int kBandRows = 64;

@@ -2,8 +2,8 @@
 #include <png.h>
 
 #include <bit>
-#include <cmath>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
 
@@ -30,12 +30,15 @@ struct Handles {
 class PngFile : public FormatWriter {
  public:
   PngFile(const std::string& path, const Image& shape, const FileFormat& format) : format_(format) {
-    static constexpr int kColours[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
+    static constexpr int kColours[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
+                                       PNG_COLOR_TYPE_RGB_ALPHA};
     const int channels = shape.channelCount();
-    if (channels < 1 || channels > 4) throw std::runtime_error(fmt::format("PNG holds 1 to 4 channels, not {}", channels));
+    if (channels < 1 || channels > 4)
+      throw std::runtime_error(fmt::format("PNG holds 1 to 4 channels, not {}", channels));
     file_.stream = std::fopen(path.c_str(), "wb");
     if (!file_.stream) throw std::runtime_error(std::strerror(errno));
-    file_.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &problem_, keepMessage, [](png_structp, png_const_charp) {});
+    file_.png =
+        png_create_write_struct(PNG_LIBPNG_VER_STRING, &problem_, keepMessage, [](png_structp, png_const_charp) {});
     file_.info = png_create_info_struct(file_.png);
     if (!file_.info) throw std::runtime_error("PNG: out of memory");
     guarded([&] {
@@ -43,11 +46,12 @@ class PngFile : public FormatWriter {
       png_set_IHDR(file_.png, file_.info, static_cast<png_uint_32>(shape.width), static_cast<png_uint_32>(shape.height),
                    format_.type == SampleType::UInt16 ? 16 : 8, kColours[channels - 1], PNG_INTERLACE_NONE,
                    PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-      if (shape.originX != 0 || shape.originY != 0) png_set_oFFs(file_.png, file_.info, shape.originX, shape.originY, PNG_OFFSET_PIXEL);
+      if (shape.originX != 0 || shape.originY != 0)
+        png_set_oFFs(file_.png, file_.info, shape.originX, shape.originY, PNG_OFFSET_PIXEL);
       constexpr float kUnits = 1000;  // pixels across, of whatever
       if (format_.pixelAspect != 1)
-        png_set_pHYs(file_.png, file_.info, static_cast<png_uint_32>(kUnits), static_cast<png_uint_32>(std::lround(kUnits * format_.pixelAspect)),
-                     PNG_RESOLUTION_UNKNOWN);
+        png_set_pHYs(file_.png, file_.info, static_cast<png_uint_32>(kUnits),
+                     static_cast<png_uint_32>(std::lround(kUnits * format_.pixelAspect)), PNG_RESOLUTION_UNKNOWN);
       char key[] = "Software", text[] = "Tomales";
       png_text software{};
       software.compression = PNG_TEXT_COMPRESSION_NONE, software.key = key, software.text = text;
@@ -61,7 +65,8 @@ class PngFile : public FormatWriter {
     const std::vector<std::byte> bytes = packed(rows, format_.type);
     const size_t row = bytes.size() / static_cast<size_t>(rows.height);
     guarded([&] {
-      for (size_t at = 0; at < bytes.size(); at += row) png_write_row(file_.png, reinterpret_cast<png_const_bytep>(bytes.data() + at));
+      for (size_t at = 0; at < bytes.size(); at += row)
+        png_write_row(file_.png, reinterpret_cast<png_const_bytep>(bytes.data() + at));
     });
   }
 

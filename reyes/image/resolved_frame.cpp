@@ -28,7 +28,8 @@ ResolvedFrame::TileNoise ResolvedFrame::noiseOf(const ResolvedTile& tile) const 
     float sum = 0, squares = 0;
     for (size_t c = tile.first[pixel]; c < tile.first[pixel + 1]; ++c) {
       const float* color = tile.values.data() + c * static_cast<size_t>(width_);
-      const float light = luminance(vec3(color[0], color[1], color[2])), count = static_cast<float>(std::popcount(tile.contributions[c].samples));
+      const float light = luminance(vec3(color[0], color[1], color[2])),
+                  count = static_cast<float>(std::popcount(tile.contributions[c].samples));
       sum += count * light, squares += count * light * light;
     }
     const float mean = sum / all, variance = (squares / all - mean * mean) / (all - 1);
@@ -69,14 +70,17 @@ void ResolvedFrame::forgetAbove(int y) {
 }
 
 size_t ResolvedFrame::firstTileOf(int y) const {
-  return static_cast<size_t>(frame_.rowOf(std::clamp(y, frame_.padded.y0, frame_.padded.y1 - 1))) * static_cast<size_t>(frame_.columns);
+  return static_cast<size_t>(frame_.rowOf(std::clamp(y, frame_.padded.y0, frame_.padded.y1 - 1))) *
+         static_cast<size_t>(frame_.columns);
 }
 
 ResolvedFrame::TileRun ResolvedFrame::runFrom(int x, int y) const {
   const int right = x - frame_.padded.x0, column = right / frame_.bucketWidth, row = frame_.rowOf(y);
-  const auto& tile = resolved_[static_cast<size_t>(row) * static_cast<size_t>(frame_.columns) + static_cast<size_t>(column)];
+  const auto& tile =
+      resolved_[static_cast<size_t>(row) * static_cast<size_t>(frame_.columns) + static_cast<size_t>(column)];
   const int left = column * frame_.bucketWidth, tileWidth = std::min(frame_.bucketWidth, frame_.padded.width() - left);
-  return {tile.get(), static_cast<size_t>((y - frame_.padded.y0 - row * frame_.bucketHeight) * tileWidth + right - left),
+  return {tile.get(),
+          static_cast<size_t>((y - frame_.padded.y0 - row * frame_.bucketHeight) * tileWidth + right - left),
           frame_.padded.x0 + left + tileWidth};
 }
 

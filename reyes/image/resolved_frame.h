@@ -1,4 +1,5 @@
-// What the samples of a frame's pixels see, tile by tile, for as long as rows of pixels need it. Private to reyes/image.
+// What the samples of a frame's pixels see, tile by tile, for as long as rows of pixels need it. Private to
+// reyes/image.
 #pragma once
 #include <memory>
 #include <mutex>
@@ -52,7 +53,8 @@ class ResolvedFrame {
     Seen at(size_t i, int width) const {
       if (!tile) return {};
       const size_t begin = tile->first[pixel + i], last = tile->first[pixel + i + 1];
-      return {{tile->contributions.data() + begin, last - begin}, tile->values.data() + begin * static_cast<size_t>(width)};
+      return {{tile->contributions.data() + begin, last - begin},
+              tile->values.data() + begin * static_cast<size_t>(width)};
     }
   };
   TileRun runFrom(int x, int y) const;
@@ -73,7 +75,7 @@ class ResolvedFrame {
   std::vector<ExtraFloat> extras_;
   std::vector<std::unique_ptr<ResolvedTile>> resolved_;
   std::vector<TileNoise> noise_;  ///< Of each tile.
-  size_t forgotten_ = 0;  ///< Of these, from the first.
+  size_t forgotten_ = 0;          ///< Of these, from the first.
 };
 
 }  // namespace tomales

@@ -40,7 +40,9 @@ void layAt(const Lay& l, const LayMore& more, Mask covered, SampleStack& stack, 
   const Floats before = hn::Load(kF, nearest);
   const Mask on = hn::AndNot(clear.atMost(stack.hidden), covered);
   // Whole vectors: the next layer reads them back, and could not from a masked store that is still on its way.
-  const auto put = [](Floats v, Mask where, Floats old, float* to) { hn::Store(hn::IfThenElse(where, v, old), kF, to); };
+  const auto put = [](Floats v, Mask where, Floats old, float* to) {
+    hn::Store(hn::IfThenElse(where, v, old), kF, to);
+  };
   const auto add = [&](size_t k, Floats v) {
     float* to = values + k * stack.lanes;
     const Floats sum = hn::Load(kF, to);
@@ -62,7 +64,8 @@ void layAt(const Lay& l, const LayMore& more, Mask covered, SampleStack& stack, 
   add(3, clear.mean(l.shade->coverage));
   if (more.air) {
     const vec3& color = more.air->color;
-    const Floats seen[4] = {hn::Mul(clear.x, all(color.x)), hn::Mul(clear.y, all(color.y)), hn::Mul(clear.z, all(color.z)), clear.mean(more.air->opacity)};
+    const Floats seen[4] = {hn::Mul(clear.x, all(color.x)), hn::Mul(clear.y, all(color.y)),
+                            hn::Mul(clear.z, all(color.z)), clear.mean(more.air->opacity)};
     for (size_t k = 0; k < 4; ++k) {
       float* to = stack.air[k].data() + first;
       put(seen[k], on, hn::Load(kF, to), to);
@@ -75,11 +78,13 @@ void layAt(const Lay& l, const LayMore& more, Mask covered, SampleStack& stack, 
 
 void lay(const Lay& l, const LayMore& more, SampleStack& stack) {
   Mask covered;
-  for (size_t first = size_t{l.word} * 64; first < std::min(size_t{l.word} * 64 + 64, stack.lanes); first += hn::Lanes(kF))
+  for (size_t first = size_t{l.word} * 64; first < std::min(size_t{l.word} * 64 + 64, stack.lanes);
+       first += hn::Lanes(kF))
     if (coveredFrom(l, first, covered)) layAt(l, more, covered, stack, first);
 }
 
-/// The same arithmetic in the same order, a vector of samples after the other: nothing is stored before the last fragment.
+/// The same arithmetic in the same order, a vector of samples after the other: nothing is stored before the last
+/// fragment.
 void layAll(std::span<const Lay> lays, SampleStack& stack) {
   for (size_t first = 0; first < stack.lanes; first += hn::Lanes(kF)) {
     Clear clear{all(1.0f), all(1.0f), all(1.0f)};
@@ -95,7 +100,8 @@ void layAll(std::span<const Lay> lays, SampleStack& stack) {
       add(a, clear.mean(l.shade->coverage));
       nearest = hn::IfThenElse(on, hn::Min(nearest, all(l.z)), nearest);
       const Clear behind = clear.behind(l.shade->opacity);
-      clear = {hn::IfThenElse(on, behind.x, clear.x), hn::IfThenElse(on, behind.y, clear.y), hn::IfThenElse(on, behind.z, clear.z)};
+      clear = {hn::IfThenElse(on, behind.x, clear.x), hn::IfThenElse(on, behind.y, clear.y),
+               hn::IfThenElse(on, behind.z, clear.z)};
     }
     hn::Store(nearest, kF, stack.nearest.data() + first);
     size_t k = 0;

@@ -44,9 +44,10 @@ struct SampleStack {
   AlignedVector<float> clear[3];  ///< Share of light that passes what was laid so far.
   AlignedVector<float> nearest;   ///< Depth.
   AlignedVector<float> values;    ///< An array of lanes for each float of a contribution.
-  AlignedVector<float> air[4];    ///< R G B A of the air before what was laid last, beside it; empty where no tile has any.
+  AlignedVector<float>
+      air[4];  ///< R G B A of the air before what was laid last, beside it; empty where no tile has any.
   size_t lanes = 0;
-  vec3 hidden;                    ///< A sample that lets no more light through sees nothing of what follows.
+  vec3 hidden;  ///< A sample that lets no more light through sees nothing of what follows.
 
   /// samples: a multiple of kLanes. For layAll(), which fills it.
   void resize(size_t samples, size_t floats);

@@ -82,12 +82,13 @@ class TiffFile : public FormatWriter {
     const uint16_t compression = compressionOf(format_);
     TIFFSetField(file_, TIFFTAG_COMPRESSION, compression);
     if (compression == COMPRESSION_LZW || compression == COMPRESSION_ADOBE_DEFLATE)
-      TIFFSetField(file_, TIFFTAG_PREDICTOR, bitsOf(format_.type) == 32 ? PREDICTOR_FLOATINGPOINT : PREDICTOR_HORIZONTAL);
+      TIFFSetField(file_, TIFFTAG_PREDICTOR,
+                   bitsOf(format_.type) == 32 ? PREDICTOR_FLOATINGPOINT : PREDICTOR_HORIZONTAL);
     TIFFSetField(file_, TIFFTAG_ROWSPERSTRIP, PictureFile::kBandRows);
   }
 
-  /// Positions are in units of which the resolution says how many pixels they are: across, a pixel; down, as long a way. TIFF has none that are
-  /// negative.
+  /// Positions are in units of which the resolution says how many pixels they are: across, a pixel; down, as long a
+  /// way. TIFF has none that are negative.
   void setWindow(const Image& shape) {
     TIFFSetField(file_, TIFFTAG_RESOLUTIONUNIT, RESUNIT_NONE);
     TIFFSetField(file_, TIFFTAG_XRESOLUTION, 1.0f);

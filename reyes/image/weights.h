@@ -9,7 +9,10 @@ namespace tomales {
 class WeightTable {
  public:
   WeightTable(const PixelFilter& filter, const SampleOffsets& samples)
-      : reachX(filter.reachX()), reachY(filter.reachY()), cells_((2 * reachX + 1) * (2 * reachY + 1)), stride_(padded(cells_)),
+      : reachX(filter.reachX()),
+        reachY(filter.reachY()),
+        cells_((2 * reachX + 1) * (2 * reachY + 1)),
+        stride_(padded(cells_)),
         count_(samples.count) {
     const size_t perPattern = static_cast<size_t>(count_ * stride_);
     weights_.resize(samples.byPattern.size() * perPattern);
@@ -58,7 +61,8 @@ class WeightTable {
   AlignedVector<float> weights_, sums_;
 };
 
-/// What the samples of a pixel see, in order: `count` times some floats, `step` apart, and for each a row of weights as WeightTable::sums() has them.
+/// What the samples of a pixel see, in order: `count` times some floats, `step` apart, and for each a row of weights as
+/// WeightTable::sums() has them.
 struct Weighted {
   int count;
   const float *weights, *values;
@@ -77,7 +81,9 @@ class PixelSums {
   const float* of(int x, int y) const { return sums_.data() + indexOf(x, y) * width_; }
 
  private:
-  ptrdiff_t indexOf(int x, int y) const { return static_cast<ptrdiff_t>(y - block_.y0) * block_.width() + x - block_.x0; }
+  ptrdiff_t indexOf(int x, int y) const {
+    return static_cast<ptrdiff_t>(y - block_.y0) * block_.width() + x - block_.x0;
+  }
   const WeightTable& weights_;
   const PixelRect block_;
   const int width_;

@@ -35,8 +35,8 @@ bool moveInto(const std::string& temporary, const std::string& file, std::string
   return !problem;
 }
 
-/// Every texel is read here: a truncated picture is found out before anything is made of it. By an ImageInput, since an ImageBuf takes strips
-/// of TIFF that are cut off for read: OpenImageIO returns true and leaves a message.
+/// Every texel is read here: a truncated picture is found out before anything is made of it. By an ImageInput, since an
+/// ImageBuf takes strips of TIFF that are cut off for read: OpenImageIO returns true and leaves a message.
 bool readWhole(const std::string& file, OIIO::ImageBuf& picture, std::string& error) {
   const auto in = OIIO::ImageInput::open(file);
   if (!in) return error = oiioError(), false;
@@ -58,7 +58,8 @@ bool write(const OIIO::ImageBuf& picture, const TextureRecipe& recipe, const std
   config.attribute("maketx:filtername", recipe.filter);
   config.attribute("wrapmodes", recipe.sWrap + "," + recipe.tWrap);
   const std::string temporary = temporaryName(file);
-  if (OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, picture, temporary, config)) return moveInto(temporary, file, error);
+  if (OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, picture, temporary, config))
+    return moveInto(temporary, file, error);
   error = oiioError();
   std::error_code none;
   fs::remove(temporary, none);

@@ -14,7 +14,8 @@ bool convert(const TextureRecipe& recipe, std::string& error);
 /// Six faces as one latitude-longitude picture that resolves them everywhere.
 std::optional<OIIO::ImageBuf> unfoldCube(const TextureRecipe& recipe, std::string& error);
 
-/// The tiled MIP file that stands for a picture: itself, or its conversion in `folder`, made now if need be. Empty: unreadable.
+/// The tiled MIP file that stands for a picture: itself, or its conversion in `folder`, made now if need be. Empty:
+/// unreadable.
 std::string tiledFile(const std::string& picture, const std::string& folder, std::string& error);
 
 }  // namespace tomales

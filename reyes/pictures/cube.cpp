@@ -53,8 +53,8 @@ std::optional<OIIO::ImageBuf> unfoldCube(const TextureRecipe& recipe, std::strin
         const OIIO::ImageBuf& picture = faces[static_cast<size_t>(f)];
         const vec2 slope = vec2(dot(d, face.right), dot(d, face.down)) * (perSlope / dot(d, face.forward));
         const vec2 at = (0.5f * slope + 0.5f) * vec2(picture.spec().width, picture.spec().height);
-        picture.interppixel(at.x + static_cast<float>(picture.xbegin()), at.y + static_cast<float>(picture.ybegin()), texel.data(),
-                            OIIO::ImageBuf::WrapClamp);
+        picture.interppixel(at.x + static_cast<float>(picture.xbegin()), at.y + static_cast<float>(picture.ybegin()),
+                            texel.data(), OIIO::ImageBuf::WrapClamp);
         for (size_t c = 0; c < sum.size(); ++c) sum[c] += texel[c] / (kSide * kSide);
       }
       out.setpixel(x, y, sum.data());

@@ -32,13 +32,19 @@ class ExrReader : public PictureReader {
  public:
   explicit ExrReader(const std::string& path) : file_(path.c_str()) {
     const Imath::Box2i &data = header().dataWindow(), &full = header().displayWindow();
-    shape_ = {data.min.x - full.min.x, data.min.y - full.min.y, data.max.x - data.min.x + 1, data.max.y - data.min.y + 1,
-              full.max.x - full.min.x + 1, full.max.y - full.min.y + 1, {}};
+    shape_ = {data.min.x - full.min.x,
+              data.min.y - full.min.y,
+              data.max.x - data.min.x + 1,
+              data.max.y - data.min.y + 1,
+              full.max.x - full.min.x + 1,
+              full.max.y - full.min.y + 1,
+              {}};
     for (auto c = header().channels().begin(); c != header().channels().end(); ++c) {
       shape_.channels.push_back(c.name());
       plain_ = plain_ && c.channel().type != Imf::UINT && c.channel().xSampling == 1 && c.channel().ySampling == 1;
     }
-    std::sort(shape_.channels.begin(), shape_.channels.end(), [](const auto& a, const auto& b) { return rank(a) < rank(b); });
+    std::sort(shape_.channels.begin(), shape_.channels.end(),
+              [](const auto& a, const auto& b) { return rank(a) < rank(b); });
     const std::string type = header().hasType() ? header().type() : "";
     deep_ = type == Imf::DEEPSCANLINE;
     plain_ = plain_ && file_.parts() == 1 && type != Imf::DEEPTILE;
@@ -62,7 +68,9 @@ class ExrReader : public PictureReader {
   bool read(int first, int end, float* out) override {
     return guarded([&] {
       Imf::FrameBuffer buffer;
-      for (int c = first; c < end; ++c) buffer.insert(shape_.channels[static_cast<size_t>(c)], slice(out + (c - first), static_cast<size_t>(end - first)));
+      for (int c = first; c < end; ++c)
+        buffer.insert(shape_.channels[static_cast<size_t>(c)],
+                      slice(out + (c - first), static_cast<size_t>(end - first)));
       Imf::InputPart part(file_, 0);
       part.setFrameBuffer(buffer);
       part.readPixels(header().dataWindow().min.y, header().dataWindow().max.y);
@@ -72,16 +80,19 @@ class ExrReader : public PictureReader {
   bool readDeep(std::vector<uint32_t>& counts, std::vector<float>& values) override {
     return guarded([&] {
       const Imath::Box2i& window = header().dataWindow();
-      const size_t channels = shape_.channels.size(), pixels = static_cast<size_t>(shape_.width) * static_cast<size_t>(shape_.height);
+      const size_t channels = shape_.channels.size(),
+                   pixels = static_cast<size_t>(shape_.width) * static_cast<size_t>(shape_.height);
       counts.resize(pixels);
       Imf::DeepFrameBuffer buffer;
       buffer.insertSampleCountSlice(Imf::Slice::Make(Imf::UINT, counts.data(), window));
       std::vector<std::vector<float*>> at(channels, std::vector<float*>(pixels));
       const size_t row = static_cast<size_t>(shape_.width);
-      const ptrdiff_t back = static_cast<ptrdiff_t>(window.min.x) + static_cast<ptrdiff_t>(window.min.y) * static_cast<ptrdiff_t>(row);
+      const ptrdiff_t back =
+          static_cast<ptrdiff_t>(window.min.x) + static_cast<ptrdiff_t>(window.min.y) * static_cast<ptrdiff_t>(row);
       for (size_t c = 0; c < channels; ++c)
-        buffer.insert(shape_.channels[c], Imf::DeepSlice(Imf::FLOAT, reinterpret_cast<char*>(at[c].data() - back), sizeof(float*),
-                                                         sizeof(float*) * row, sizeof(float) * channels));
+        buffer.insert(shape_.channels[c],
+                      Imf::DeepSlice(Imf::FLOAT, reinterpret_cast<char*>(at[c].data() - back), sizeof(float*),
+                                     sizeof(float*) * row, sizeof(float) * channels));
       Imf::DeepScanLineInputPart part(file_, 0);
       part.setFrameBuffer(buffer);
       part.readPixelSampleCounts(window.min.y, window.max.y);
@@ -101,7 +112,8 @@ class ExrReader : public PictureReader {
   /// A damaged header may claim any size.
   void refuseMoreThanMemory(double pixels) const {
     constexpr double kMostBytes = 32e9;
-    if (pixels * static_cast<double>(shape_.channels.size() * sizeof(float)) > kMostBytes) throw std::runtime_error("it claims to hold more than 32 GB");
+    if (pixels * static_cast<double>(shape_.channels.size() * sizeof(float)) > kMostBytes)
+      throw std::runtime_error("it claims to hold more than 32 GB");
   }
   const Imf::Header& header() const { return file_.header(0); }
 

@@ -4,8 +4,8 @@
 
 namespace tomales {
 
-/// Null without `error`: no OpenEXR file, or one that is not a single part of scanlines, tiles or deep scanlines of floats, which are
-/// OpenImageIO's. Null with `error`: it is damaged.
+/// Null without `error`: no OpenEXR file, or one that is not a single part of scanlines, tiles or deep scanlines of
+/// floats, which are OpenImageIO's. Null with `error`: it is damaged.
 std::unique_ptr<PictureReader> openExrPicture(const std::string& path, std::string& error);
 
 }  // namespace tomales

@@ -10,8 +10,8 @@
 namespace tomales {
 namespace {
 
-/// Beside the program, as built, or in lib, as installed; else where the loader looks, by the run path of the program (CMakeLists.txt). A
-/// sanitizer's loader looks with its own run path.
+/// Beside the program, as built, or in lib, as installed; else where the loader looks, by the run path of the program
+/// (CMakeLists.txt). A sanitizer's loader looks with its own run path.
 void* openModule() {
   constexpr const char* kName = "libtomales_openimageio.so";
   for (const auto& path : besideProgram(kName))
@@ -61,7 +61,8 @@ std::optional<DepthCamera> depthCameraOf(const PictureReader& picture) {
   DepthCamera out;
   out.depth = static_cast<int>(std::find(channels.begin(), channels.end(), "Z") - channels.begin());
   // RenderMan's matrices act on rows from the right and are stored by rows: that is glm's storage.
-  const bool whole = picture.matrix("worldtocamera", glm::value_ptr(out.cameraFromWorld)) && picture.matrix("worldtoscreen", glm::value_ptr(out.ndcFromWorld));
+  const bool whole = picture.matrix("worldtocamera", glm::value_ptr(out.cameraFromWorld)) &&
+                     picture.matrix("worldtoscreen", glm::value_ptr(out.ndcFromWorld));
   return whole && out.depth < static_cast<int>(channels.size()) ? std::optional(out) : std::nullopt;
 }
 

@@ -18,9 +18,15 @@ class Reader : public PictureReader {
   }
   const PictureShape& shape() const override { return shape_; }
   bool deep() const override { return in_->spec().deep; }
-  bool matrix(const char* name, float* out) const override { return in_->spec().getattribute(name, OIIO::TypeMatrix44, out); }
-  bool pair(const char* name, float* out) const override { return in_->spec().getattribute(name, OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::VEC2), out); }
-  bool read(int first, int end, float* out) override { return in_->read_image(0, 0, first, end, OIIO::TypeDesc::FLOAT, out); }
+  bool matrix(const char* name, float* out) const override {
+    return in_->spec().getattribute(name, OIIO::TypeMatrix44, out);
+  }
+  bool pair(const char* name, float* out) const override {
+    return in_->spec().getattribute(name, OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::VEC2), out);
+  }
+  bool read(int first, int end, float* out) override {
+    return in_->read_image(0, 0, first, end, OIIO::TypeDesc::FLOAT, out);
+  }
   bool readDeep(std::vector<uint32_t>& counts, std::vector<float>& values) override {
     OIIO::DeepData data;
     if (!in_->read_native_deep_image(0, 0, data)) return false;
@@ -45,7 +51,9 @@ class Library : public PictureLibrary {
     if (!in) return error = OIIO::geterror(), nullptr;
     return std::make_unique<Reader>(std::move(in));
   }
-  std::unique_ptr<TextureCache> textures(const TextureSettings& settings) const override { return makeTextureCache(settings); }
+  std::unique_ptr<TextureCache> textures(const TextureSettings& settings) const override {
+    return makeTextureCache(settings);
+  }
   bool makeTexture(const TextureRecipe& recipe, std::string& error) const override { return convert(recipe, error); }
 };
 

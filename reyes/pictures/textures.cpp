@@ -40,7 +40,7 @@ size_t tileMark(const std::string& name, size_t& length) {
 struct Picture {
   std::map<int, Handle*> tiles;  ///< By UDIM number; 0: the one.
   bool tiled = false;
-  std::string error;             ///< Why there is none.
+  std::string error;  ///< Why there is none.
 };
 
 OIIO::TextureOpt optionsOf(const TextureQuery& q) {
@@ -51,7 +51,8 @@ OIIO::TextureOpt optionsOf(const TextureQuery& q) {
   const std::string_view filter = q.filter ? q.filter : "";
   const bool straight = filter.empty() || filter == "box" || filter == "disk" || filter == "lerp";
   o.interpmode = straight ? Opt::InterpBilinear : Opt::InterpSmartBicubic;
-  if (q.sWidth == 0 && q.tWidth == 0 && q.sBlur == 0 && q.tBlur == 0) o.mipmode = Opt::MipModeNoMIP, o.interpmode = Opt::InterpClosest;
+  if (q.sWidth == 0 && q.tWidth == 0 && q.sBlur == 0 && q.tBlur == 0)
+    o.mipmode = Opt::MipModeNoMIP, o.interpmode = Opt::InterpClosest;
   if (q.latlong) o.swrap = Opt::WrapPeriodic, o.twrap = Opt::WrapClamp;
   return o;
 }
@@ -170,7 +171,9 @@ bool Cache::info(const std::string& name, const std::string& what, std::vector<f
   const auto get = [&](const char* fact, OIIO::TypeDesc type, void* to) {
     return system->get_texture_info(handle, nullptr, 0, OIIO::ustring(fact), type, to);
   };
-  const auto matrix = [&](const char* fact) { return numbers.resize(16), get(fact, OIIO::TypeMatrix44, numbers.data()); };
+  const auto matrix = [&](const char* fact) {
+    return numbers.resize(16), get(fact, OIIO::TypeMatrix44, numbers.data());
+  };
   if (what == "viewingmatrix") return matrix("worldtocamera");
   if (what == "projectionmatrix") return matrix("worldtoscreen");
   if (what == "resolution") {
@@ -180,21 +183,27 @@ bool Cache::info(const std::string& name, const std::string& what, std::vector<f
   }
   if (what == "channels" || what == "bitsperchannel") {
     int value = 0;
-    const bool good = get(what == "channels" ? "channels" : "oiio:BitsPerSample", OIIO::TypeInt, &value) ||
-                      (what != "channels" && get("cachedpixeltype", OIIO::TypeInt, &value) &&
-                       (value = static_cast<int>(8 * OIIO::TypeDesc(static_cast<OIIO::TypeDesc::BASETYPE>(value)).size()), true));
+    const bool good =
+        get(what == "channels" ? "channels" : "oiio:BitsPerSample", OIIO::TypeInt, &value) ||
+        (what != "channels" && get("cachedpixeltype", OIIO::TypeInt, &value) &&
+         (value = static_cast<int>(8 * OIIO::TypeDesc(static_cast<OIIO::TypeDesc::BASETYPE>(value)).size()), true));
     return numbers = {static_cast<float>(value)}, good;
   }
   if (what != "type" && what != "textureformat") return false;
   const char* format = nullptr;
   if (!get("textureformat", OIIO::TypeString, &format)) return false;
   const std::string_view kind = format;
-  text = what == "textureformat" ? format : kind == "Shadow" ? "shadow" : kind.find("Env") != kind.npos ? "environment" : "texture";
+  text = what == "textureformat"         ? format
+         : kind == "Shadow"              ? "shadow"
+         : kind.find("Env") != kind.npos ? "environment"
+                                         : "texture";
   return true;
 }
 
 }  // namespace
 
-std::unique_ptr<TextureCache> makeTextureCache(const TextureSettings& settings) { return std::make_unique<Cache>(settings); }
+std::unique_ptr<TextureCache> makeTextureCache(const TextureSettings& settings) {
+  return std::make_unique<Cache>(settings);
+}
 
 }  // namespace tomales

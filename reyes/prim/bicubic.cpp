@@ -21,8 +21,7 @@ TOMALES_HOT void evaluatePositions(const float* c, int n, const float* u, const 
   }
 }
 
-TOMALES_HOT void evaluateDerivatives(const float* c, int n, const float* u, const float* v, float* du,
-                                     float* dv) {
+TOMALES_HOT void evaluateDerivatives(const float* c, int n, const float* u, const float* v, float* du, float* dv) {
   for (int i = 0; i < n; ++i) {
     const float t = u[i], s = 1 - t, b0 = s * s * s, b1 = 3 * s * s * t, b2 = 3 * s * t * t, b3 = t * t * t;
     const float d0 = 3 * s * s, d1 = 6 * s * t, d2 = 3 * t * t;
@@ -94,8 +93,7 @@ double extentOf(const BezierPatch& patch) {
 /// Control values of the curve's piece over [t0, t1], in place at c, c + step, ... (blossoming).
 void restrictCurve(float* c, int step, float t0, float t1) {
   const auto blossom = [&](float r, float s, float t) {
-    const float a = lerp(c[0], c[step], r), b = lerp(c[step], c[2 * step], r),
-                d = lerp(c[2 * step], c[3 * step], r);
+    const float a = lerp(c[0], c[step], r), b = lerp(c[step], c[2 * step], r), d = lerp(c[2 * step], c[3 * step], r);
     return lerp(lerp(a, b, s), lerp(b, d, s), t);
   };
   const float piece[4] = {blossom(t0, t0, t0), blossom(t0, t0, t1), blossom(t0, t1, t1), blossom(t1, t1, t1)};
@@ -129,8 +127,7 @@ BezierNet convertNet(const BezierNet& control, const ToBezier& u, const ToBezier
   BezierNet rows, out;
   for (int j = 0; j < 4; ++j)
     for (int i = 0; i < 4; ++i)
-      rows[4 * j + i] =
-          weigh(u[i], control[4 * j], control[4 * j + 1], control[4 * j + 2], control[4 * j + 3]);
+      rows[4 * j + i] = weigh(u[i], control[4 * j], control[4 * j + 1], control[4 * j + 2], control[4 * j + 3]);
   for (int j = 0; j < 4; ++j)
     for (int i = 0; i < 4; ++i) out[4 * j + i] = weigh(v[j], rows[i], rows[4 + i], rows[8 + i], rows[12 + i]);
   return out;
@@ -140,8 +137,7 @@ void evaluateNet(const BezierNet& net, int n, const float* u, const float* v, fl
   evaluatePositions(net.data(), n, u, v, p);
 }
 
-void evaluateNet(const BezierNet& net, int n, const float* u, const float* v, float* p, float* du,
-                 float* dv) {
+void evaluateNet(const BezierNet& net, int n, const float* u, const float* v, float* p, float* du, float* dv) {
   evaluatePositions(net.data(), n, u, v, p);
   evaluateDerivatives(net.data(), n, u, v, du, dv);
 }

@@ -1,5 +1,5 @@
-// Blobby (PRMan's implicit surfaces). A patch is a quadrilateral of a coarse mesh, and evaluating it moves its points onto
-// the surface: positions are exact at every dicing rate, and derivatives follow from the field's gradient.
+// Blobby (PRMan's implicit surfaces). A patch is a quadrilateral of a coarse mesh, and evaluating it moves its points
+// onto the surface: positions are exact at every dicing rate, and derivatives follow from the field's gradient.
 #include <fmt/format.h>
 
 #include "reyes/prim/blobby_code.h"
@@ -55,9 +55,8 @@ class Blobby : public Prim {
   Bound3 bound(uint32_t patch, const UvRect& rect) const override {
     const Bound3 hull = hullOf(patch, rect);
     if (!mesh_.complete) return paddedForRounding(hull, hull);  // too coarse for a few samples to speak for the rest
-    const Bound3 sampled = boundOfSamples(rect, [&](float u, float v) {
-      return vec3(pointOn(fields_[patch], wayAt(patch, u, v)).p);
-    });
+    const Bound3 sampled =
+        boundOfSamples(rect, [&](float u, float v) { return vec3(pointOn(fields_[patch], wayAt(patch, u, v)).p); });
     return paddedForRounding({glm::max(hull.lo, sampled.lo), glm::min(hull.hi, sampled.hi)}, hull);
   }
 
@@ -133,8 +132,8 @@ struct Read {
   std::vector<Primvar> primvars;
 };
 
-Read readBlobby(int leafCount, const std::vector<int>& code, const std::vector<float>& floats, const GroundReader& grounds,
-                const ParamList& params, Problems& problems) {
+Read readBlobby(int leafCount, const std::vector<int>& code, const std::vector<float>& floats,
+                const GroundReader& grounds, const ParamList& params, Problems& problems) {
   BlobProgram program = readBlobProgram(code, floats, grounds, problems);
   if (static_cast<size_t>(std::max(0, leafCount)) != program.leafCount)
     problems.push_back(fmt::format("it announces {} leaves and has {}", leafCount, program.leafCount));
@@ -148,7 +147,9 @@ PrimPtr makeBlobby(int leafCount, const std::vector<int>& code, const std::vecto
                    const GroundReader& grounds, const ParamList& params, Problems& problems) {
   Read read = readBlobby(leafCount, code, floats, grounds, params, problems);
   BlobMesh mesh = contour(read.program.field, read.program.box);
-  if (!mesh.complete) problems.push_back("a leaf is so drawn out, or so much smaller than others, that details of its shape may be missed");
+  if (!mesh.complete)
+    problems.push_back(
+        "a leaf is so drawn out, or so much smaller than others, that details of its shape may be missed");
   return std::make_shared<Blobby>(read.program.field, std::move(mesh), std::move(read.primvars));
 }
 
@@ -156,7 +157,8 @@ PrimPtr makeBlobbyKey(const Prim& first, int leafCount, const std::vector<int>& 
                       const GroundReader& grounds, const ParamList& params, Problems& problems) {
   Read read = readBlobby(leafCount, code, floats, grounds, params, problems);
   const auto* blobby = dynamic_cast<const Blobby*>(&first);
-  if (!blobby || blobby->leafCount() != read.program.leafCount) return makeBlobby(leafCount, code, floats, grounds, params, problems);
+  if (!blobby || blobby->leafCount() != read.program.leafCount)
+    return makeBlobby(leafCount, code, floats, grounds, params, problems);
   return std::make_shared<Blobby>(read.program.field, blobby->carriedTo(read.program.field), std::move(read.primvars));
 }
 

@@ -13,7 +13,8 @@ enum Code { kDivide = 4, kSubtract = 5, kIdentity = 7, kConstant = 1000, kEllips
 
 class CodeReader {
  public:
-  CodeReader(const std::vector<int>& code, const std::vector<float>& floats, const GroundReader& grounds, Problems& problems)
+  CodeReader(const std::vector<int>& code, const std::vector<float>& floats, const GroundReader& grounds,
+             Problems& problems)
       : code_(code), floats_(floats), grounds_(grounds), problems_(problems) {}
 
   BlobProgram read() {
@@ -34,7 +35,10 @@ class CodeReader {
         steps.push_back({BlobOp::Constant, take(1)[0], 0, {}});
         addLeaf(nullptr);
       } else if (code >= kEllipsoid && code <= kPlugin) {
-        const std::optional<BlobLeaf> leaf = code == kEllipsoid ? ellipsoid() : code == kSegment ? segment() : code == kPlane ? plane() : plugin();
+        const std::optional<BlobLeaf> leaf = code == kEllipsoid ? ellipsoid()
+                                             : code == kSegment ? segment()
+                                             : code == kPlane   ? plane()
+                                                                : plugin();
         steps.push_back({leaf ? BlobOp::Leaf : BlobOp::Constant, 0, static_cast<uint32_t>(leaves_.size()), {}});
         addLeaf(leaf ? &*leaf : nullptr);
       } else {
@@ -119,7 +123,8 @@ class CodeReader {
 
   /// Its name, then a count and a first number for its floats, and the same for its strings.
   std::optional<BlobLeaf> plugin() {
-    problems_.push_back(fmt::format("leaf {} is code from a plugin, for which there is no interface; it counts as 0", leaves_.size()));
+    problems_.push_back(
+        fmt::format("leaf {} is code from a plugin, for which there is no interface; it counts as 0", leaves_.size()));
     for (int k = 0; k < 5; ++k) next();
     return {};
   }
@@ -138,7 +143,8 @@ class CodeReader {
 
 }  // namespace
 
-BlobProgram readBlobProgram(const std::vector<int>& code, const std::vector<float>& floats, const GroundReader& grounds, Problems& problems) {
+BlobProgram readBlobProgram(const std::vector<int>& code, const std::vector<float>& floats, const GroundReader& grounds,
+                            Problems& problems) {
   return CodeReader(code, floats, grounds, problems).read();
 }
 

@@ -11,10 +11,12 @@ struct BlobProgram {
   size_t leafCount;  ///< Those that a primitive variable has values for: a leaf's number is its place among them.
 };
 
-/// Codes (PRMan): leaves 1000 constant, 1001 ellipsoid, 1002 segment; operations 0 add, 1 multiply, 2 maximum, 3 minimum
-/// (a count and operands), 4 divide, 5 subtract (two operands), 6 negate, 7 identity (one). Operands are numbers of earlier
-/// codes. 1003 repels: a string, the name of its picture of depth, and four floats (blobby_ground.h). Leaves that cannot be made (that without its
-/// picture; 1004, from a plugin) count as 0 everywhere, the latter with a sentence. Throws PrimError if the arrays do not fit each other.
-BlobProgram readBlobProgram(const std::vector<int>& code, const std::vector<float>& floats, const GroundReader& grounds, Problems& problems);
+/// Codes (PRMan): leaves 1000 constant, 1001 ellipsoid, 1002 segment; operations 0 add, 1 multiply, 2 maximum, 3
+/// minimum (a count and operands), 4 divide, 5 subtract (two operands), 6 negate, 7 identity (one). Operands are
+/// numbers of earlier codes. 1003 repels: a string, the name of its picture of depth, and four floats
+/// (blobby_ground.h). Leaves that cannot be made (that without its picture; 1004, from a plugin) count as 0 everywhere,
+/// the latter with a sentence. Throws PrimError if the arrays do not fit each other.
+BlobProgram readBlobProgram(const std::vector<int>& code, const std::vector<float>& floats, const GroundReader& grounds,
+                            Problems& problems);
 
 }  // namespace tomales

@@ -43,18 +43,27 @@ FieldPoint apply(BlobOp op, std::span<const uint32_t> operands, const std::vecto
   for (const uint32_t k : operands.subspan(1)) {
     const FieldPoint& x = values[k];
     switch (op) {
-      case BlobOp::Add: out = {out.value + x.value, out.gradient + x.gradient}; break;
+      case BlobOp::Add:
+        out = {out.value + x.value, out.gradient + x.gradient};
+        break;
       case BlobOp::Multiply:
         out = {out.value * x.value, out.gradient * x.value + x.gradient * out.value};
         break;
-      case BlobOp::Maximum: if (x.value > out.value) out = x; break;
-      case BlobOp::Minimum: if (x.value < out.value) out = x; break;
-      case BlobOp::Subtract: out = {out.value - x.value, out.gradient - x.gradient}; break;
+      case BlobOp::Maximum:
+        if (x.value > out.value) out = x;
+        break;
+      case BlobOp::Minimum:
+        if (x.value < out.value) out = x;
+        break;
+      case BlobOp::Subtract:
+        out = {out.value - x.value, out.gradient - x.gradient};
+        break;
       case BlobOp::Divide:
         if (x.value == 0) return {};
         out = {out.value / x.value, (out.gradient - out.value / x.value * x.gradient) / x.value};
         break;
-      default: break;
+      default:
+        break;
     }
   }
   return op == BlobOp::Negate ? FieldPoint{-out.value, -out.gradient} : out;
@@ -65,16 +74,27 @@ FieldRange applyToRanges(BlobOp op, std::span<const uint32_t> operands, const st
   for (const uint32_t k : operands.subspan(1)) {
     const FieldRange& x = ranges[k];
     switch (op) {
-      case BlobOp::Add: out = sum(out, x); break;
-      case BlobOp::Multiply: out = product(out, x); break;
-      case BlobOp::Maximum: out = {std::max(out.lo, x.lo), std::max(out.hi, x.hi)}; break;
-      case BlobOp::Minimum: out = {std::min(out.lo, x.lo), std::min(out.hi, x.hi)}; break;
-      case BlobOp::Subtract: out = {out.lo - x.hi, out.hi - x.lo}; break;
+      case BlobOp::Add:
+        out = sum(out, x);
+        break;
+      case BlobOp::Multiply:
+        out = product(out, x);
+        break;
+      case BlobOp::Maximum:
+        out = {std::max(out.lo, x.lo), std::max(out.hi, x.hi)};
+        break;
+      case BlobOp::Minimum:
+        out = {std::min(out.lo, x.lo), std::min(out.hi, x.hi)};
+        break;
+      case BlobOp::Subtract:
+        out = {out.lo - x.hi, out.hi - x.lo};
+        break;
       case BlobOp::Divide:
         if (x.lo <= 0 && x.hi >= 0) return {-HUGE_VAL, HUGE_VAL};
         out = product(out, {1 / x.hi, 1 / x.lo});
         break;
-      default: break;
+      default:
+        break;
     }
   }
   return op == BlobOp::Negate ? FieldRange{-out.hi, -out.lo} : out;
@@ -188,7 +208,8 @@ std::vector<double> BlobField::leafWeights(const dvec3& p) const {
 }
 
 size_t BlobField::leavesUsed() const {
-  return static_cast<size_t>(std::count_if(code_.begin(), code_.end(), [](const Instruction& i) { return i.op == BlobOp::Leaf; }));
+  return static_cast<size_t>(
+      std::count_if(code_.begin(), code_.end(), [](const Instruction& i) { return i.op == BlobOp::Leaf; }));
 }
 
 dvec3 BlobField::carried(const dvec3& p, const BlobField& other) const {

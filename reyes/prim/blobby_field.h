@@ -1,5 +1,5 @@
-// The function whose level set a Blobby is: leaves that fall off with distance, combined by arithmetic. Private to Blobby.
-// Space: the object's; double precision throughout, so that a zero along a line is good to float's last bit.
+// The function whose level set a Blobby is: leaves that fall off with distance, combined by arithmetic. Private to
+// Blobby. Space: the object's; double precision throughout, so that a zero along a line is good to float's last bit.
 #pragma once
 #include <memory>
 #include <span>
@@ -66,7 +66,8 @@ class BlobField {
   /// What each leaf has to do with the field at p: its value if the field depends on it there.
   std::vector<double> leafWeights(const dvec3& p) const;
 
-  /// Where the leaves take p if they become those of `other`, of as many leaves: the mean of their motions by leafWeights().
+  /// Where the leaves take p if they become those of `other`, of as many leaves: the mean of their motions by
+  /// leafWeights().
   dvec3 carried(const dvec3& p, const BlobField& other) const;
 
   /// The least feature() of the leaves that it uses; infinite if it uses none.

@@ -19,7 +19,9 @@ glm::dvec2 ease(double r) {
 /// Quadratic B-spline: smooth, and within what it blends.
 struct Weights {
   double value[3], slope[3];
-  explicit Weights(double t) : value{0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)}, slope{t - 0.5, -2 * t, t + 0.5} {}
+  explicit Weights(double t)
+      : value{0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)},
+        slope{t - 0.5, -2 * t, t + 0.5} {}
 };
 
 }  // namespace
@@ -41,7 +43,8 @@ FieldRange Repulsion::over(double lo, double hi) const {
   constexpr int kParts = 12;
   const double first = std::max(lo, kLeastHeight), last = std::max(first, std::min(hi, height));
   for (int k = 0; k < kParts; ++k) {
-    const double a = first * std::pow(last / first, static_cast<double>(k) / kParts), b = first * std::pow(last / first, (k + 1.0) / kParts);
+    const double a = first * std::pow(last / first, static_cast<double>(k) / kParts),
+                 b = first * std::pow(last / first, (k + 1.0) / kParts);
     const double r = a / bulgeHeight, s = b / bulgeHeight, atA = bump(r).x, atB = bump(s).x;
     const FieldRange hump{std::min(atA, atB), r <= 1 && s >= 1 ? 1.0 : std::max(atA, atB)};
     const FieldRange force = sum(product({bulge, bulge}, hump), product({-sharpness, -sharpness}, {1 / b, 1 / a}));
@@ -80,15 +83,19 @@ FieldPoint BlobGround::at(const dvec3& p) const {
   double depth = 0, byX = 0, byY = 0;
   for (int j = 0; j < 3; ++j)
     for (int i = 0; i < 3; ++i) {
-      const int texelX = std::clamp(column + i - 1, 0, map.columns - 1), texelY = std::clamp(row + j - 1, 0, map.rows - 1);
-      const double d = map.least[static_cast<size_t>(texelY) * static_cast<size_t>(map.columns) + static_cast<size_t>(texelX)];
-      depth += across.value[i] * down.value[j] * d, byX += across.slope[i] * down.value[j] * d, byY += across.value[i] * down.slope[j] * d;
+      const int texelX = std::clamp(column + i - 1, 0, map.columns - 1),
+                texelY = std::clamp(row + j - 1, 0, map.rows - 1);
+      const double d =
+          map.least[static_cast<size_t>(texelY) * static_cast<size_t>(map.columns) + static_cast<size_t>(texelX)];
+      depth += across.value[i] * down.value[j] * d, byX += across.slope[i] * down.value[j] * d,
+          byY += across.value[i] * down.slope[j] * d;
     }
   if (!std::isfinite(depth)) return {};
   const auto rowOf = [](const glm::dmat4& m, int k) { return dvec3(m[0][k], m[1][k], m[2][k]); };
   const FieldPoint out = repulsion_.at(depth - (cameraFromObject_ * glm::dvec4(p, 1)).z);
   const dvec3 w = rowOf(texelFromObject_, 3);
-  const dvec3 depthGradient = (byX * (rowOf(texelFromObject_, 0) - x * w) + byY * (rowOf(texelFromObject_, 1) - y * w)) / h.w;
+  const dvec3 depthGradient =
+      (byX * (rowOf(texelFromObject_, 0) - x * w) + byY * (rowOf(texelFromObject_, 1) - y * w)) / h.w;
   return {out.value, out.gradient.x * (depthGradient - rowOf(cameraFromObject_, 2))};
 }
 
@@ -108,7 +115,8 @@ FieldRange BlobGround::over(const Box& box) const {
     const double z = (cameraFromObject_ * corner).z;
     near = std::min(near, z), far = std::max(far, z);
     behind = behind || !(h.w > 0);
-    x0 = std::min(x0, h.x / h.w), x1 = std::max(x1, h.x / h.w), y0 = std::min(y0, h.y / h.w), y1 = std::max(y1, h.y / h.w);
+    x0 = std::min(x0, h.x / h.w), x1 = std::max(x1, h.x / h.w), y0 = std::min(y0, h.y / h.w),
+    y1 = std::max(y1, h.y / h.w);
   }
   if (behind) x0 = y0 = 0, x1 = map.columns, y1 = map.rows;
   if (x1 < 0 || y1 < 0 || x0 >= map.columns || y0 >= map.rows) return {0, 0};

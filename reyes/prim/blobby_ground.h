@@ -1,4 +1,5 @@
-// The ground that keeps a Blobby away: heights over a picture of depth, and the field that repels (leaf 1003). Private to Blobby.
+// The ground that keeps a Blobby away: heights over a picture of depth, and the field that repels (leaf 1003). Private
+// to Blobby.
 #pragma once
 #include "reyes/prim.h"
 #include "reyes/prim/blobby_field.h"
@@ -6,8 +7,8 @@
 namespace tomales {
 
 /// As PRMan's application note 31 has it, z being how much nearer than the ground a point is to the picture's camera:
-/// (bulge b(z / bulgeHeight) - sharpness / z) (1 - e(z / height)) below `height`, 0 above and where the picture shows nothing. b rises from 0 to 1 at 1
-/// and falls to 0 at 2; e eases from 0 to 1.
+/// (bulge b(z / bulgeHeight) - sharpness / z) (1 - e(z / height)) below `height`, 0 above and where the picture shows
+/// nothing. b rises from 0 to 1 at 1 and falls to 0 at 2; e eases from 0 to 1.
 struct Repulsion {
   double height, sharpness, bulgeHeight, bulge;  ///< A, B, C, D of the note.
   FieldPoint at(double z) const;                 ///< `gradient.x`: d/dz.

@@ -3,12 +3,13 @@
 namespace tomales {
 namespace {
 
-constexpr int kDeepest = 20;              ///< Halvings of the root cell.
-constexpr int kExtraLevels = 3;           ///< For cells with more than one sheet or a crease.
-constexpr double kCellsOfFeature = 3;     ///< A leaf alone shows with this many cells across.
-constexpr double kLeastCosine = 0.5;      ///< Between normals of a cell and their mean.
-constexpr double kRounding = 1e-9;        ///< Of sums of leaves' values.
-/// More mean that a leaf is drawn out, or far smaller than another; then all cells are larger by this, or by this again.
+constexpr int kDeepest = 20;           ///< Halvings of the root cell.
+constexpr int kExtraLevels = 3;        ///< For cells with more than one sheet or a crease.
+constexpr double kCellsOfFeature = 3;  ///< A leaf alone shows with this many cells across.
+constexpr double kLeastCosine = 0.5;   ///< Between normals of a cell and their mean.
+constexpr double kRounding = 1e-9;     ///< Of sums of leaves' values.
+/// More mean that a leaf is drawn out, or far smaller than another; then all cells are larger by this, or by this
+/// again.
 constexpr size_t kMostCells = 1 << 18, kMostCellsOfLeaf = 1 << 10;
 constexpr double kLeastCoarsening = 4, kMostCoarsening = 64;
 
@@ -16,9 +17,9 @@ using Lattice = std::array<uint32_t, 3>;  ///< In finest cells from the root's c
 
 struct Cell {
   Lattice corner;
-  uint32_t size;           ///< In finest cells.
-  uint32_t firstChild = 0; ///< Of eight; 0: none.
-  uint8_t inside = 0;      ///< Bit k: corner (k & 1, k >> 1 & 1, k >> 2).
+  uint32_t size;            ///< In finest cells.
+  uint32_t firstChild = 0;  ///< Of eight; 0: none.
+  uint8_t inside = 0;       ///< Bit k: corner (k & 1, k >> 1 & 1, k >> 2).
   int32_t vertex = -1;
 };
 
@@ -56,7 +57,8 @@ class Contourer {
  public:
   /// coarser: cells may be so many times larger than the features ask for.
   Contourer(const BlobField& field, const Box& box, double coarser)
-      : origin_(box.lo), cellsOfFeature_(kCellsOfFeature / coarser),
+      : origin_(box.lo),
+        cellsOfFeature_(kCellsOfFeature / coarser),
         mostCells_(kMostCells + kMostCellsOfLeaf * field.leavesUsed()) {
     const dvec3 size = box.hi - box.lo;
     const double side = std::max({size.x, size.y, size.z});
@@ -67,9 +69,12 @@ class Contourer {
     refine(0, field);
   }
 
-  /// How many times larger cells must be at least for the surface to fit, going by how much of the box was done when there were too many: a
-  /// surface has a quarter of the cells when they are twice as large.
-  double wantedCoarsening() const { return std::clamp(std::sqrt(std::pow(unit_ * cells_[0].size, 3) / std::max(done_, 1e-300)), kLeastCoarsening, kMostCoarsening); }
+  /// How many times larger cells must be at least for the surface to fit, going by how much of the box was done when
+  /// there were too many: a surface has a quarter of the cells when they are twice as large.
+  double wantedCoarsening() const {
+    return std::clamp(std::sqrt(std::pow(unit_ * cells_[0].size, 3) / std::max(done_, 1e-300)), kLeastCoarsening,
+                      kMostCoarsening);
+  }
 
   /// Nothing: it takes too many cells.
   std::optional<BlobMesh> run() {
@@ -99,12 +104,14 @@ class Contourer {
     const BlobField field = outer.within(box);
     const FieldRange range = field.over(box);
     const double side = unit_ * cells_[index].size;
-    if (range.lo > kBlobSurface + kRounding || range.hi < kBlobSurface - kRounding) return void(done_ += side * side * side);
+    if (range.lo > kBlobSurface + kRounding || range.hi < kBlobSurface - kRounding)
+      return void(done_ += side * side * side);
     const double wanted = field.feature() / cellsOfFeature_;
     if (cells_[index].size == 1 || side <= wanted) {
       cells_[index].inside = cornersInside(cells_[index], field);
       const std::vector<dvec3> crossings = crossingsOf(cells_[index], field);
-      const bool simple = isOneSheet(cells_[index].inside) && isFlatEnough(crossings, field) && !hidesGap(cells_[index], field);
+      const bool simple =
+          isOneSheet(cells_[index].inside) && isFlatEnough(crossings, field) && !hidesGap(cells_[index], field);
       if (simple || side * (1 << kExtraLevels) <= wanted || cells_[index].size == 1) {
         done_ += side * side * side;
         return makeVertex(index, crossings, field);
@@ -122,7 +129,8 @@ class Contourer {
     for (uint32_t k = 0; k < 8; ++k) refine(first + k, field);
   }
 
-  /// An edge leaves what is inside and comes back, or the other way round: leaves nearly touch. Both cells at an edge ask the same.
+  /// An edge leaves what is inside and comes back, or the other way round: leaves nearly touch. Both cells at an edge
+  /// ask the same.
   bool hidesGap(const Cell& cell, const BlobField& field) const {
     constexpr int kStretches = 4;
     if (field.leavesUsed() < 2) return false;
@@ -132,7 +140,9 @@ class Contourer {
         if (b == a || (cell.inside >> a ^ cell.inside >> b) & 1) continue;
         const dvec3 p = position(cornerOf(cell, a)), q = position(cornerOf(cell, b));
         for (int k = 1; k < kStretches; ++k)
-          if ((field.at(p + (q - p) * (static_cast<double>(k) / kStretches)).value > kBlobSurface) != (cell.inside >> a & 1)) return true;
+          if ((field.at(p + (q - p) * (static_cast<double>(k) / kStretches)).value > kBlobSurface) !=
+              (cell.inside >> a & 1))
+            return true;
       }
     return false;
   }
@@ -188,8 +198,8 @@ class Contourer {
       }
   }
 
-  /// The quadrilateral across an edge of a cell, from corner `a` along `axis`, if no smaller cell has the edge: of cells
-  /// of the same size the first adds it.
+  /// The quadrilateral across an edge of a cell, from corner `a` along `axis`, if no smaller cell has the edge: of
+  /// cells of the same size the first adds it.
   void addQuad(uint32_t index, int axis, int a) {
     const Cell& cell = cells_[index];
     const int y = (axis + 1) % 3, z = (axis + 2) % 3;

@@ -34,10 +34,8 @@ class LayoutMaker {
   void add(int count) {
     const int rest = periodic_ ? count : count - span_;
     if (count < span_ || rest % step_ != 0)
-      throw PrimError(
-          fmt::format("curve {} has {} vertices, which make no whole number of segments", curve_, count));
-    const uint32_t n = static_cast<uint32_t>(count),
-                   segments = static_cast<uint32_t>(rest / step_) + !periodic_;
+      throw PrimError(fmt::format("curve {} has {} vertices, which make no whole number of segments", curve_, count));
+    const uint32_t n = static_cast<uint32_t>(count), segments = static_cast<uint32_t>(rest / step_) + !periodic_;
     const uint32_t corners = segments + !periodic_;
     for (uint32_t k = 0; k < segments; ++k) {
       CurveSegment s{curve_,
@@ -72,8 +70,8 @@ Cubic<vec4> piece(const Cubic<vec4>& c, float t0, float t1) {
   return {blossom(t0, t0, t0), blossom(t0, t0, t1), blossom(t0, t1, t1), blossom(t1, t1, t1)};
 }
 
-CurveSegments::CurveSegments(bool cubic, const Basis& basis, const std::vector<int>& vertexCounts,
-                             bool periodic, const ParamList& params, Problems& problems)
+CurveSegments::CurveSegments(bool cubic, const Basis& basis, const std::vector<int>& vertexCounts, bool periodic,
+                             const ParamList& params, Problems& problems)
     : cubic_(cubic), toBezier_(bezierFrom(basis)) {
   if (vertexCounts.empty()) throw PrimError("there are no curves");
   size_t vertices = 0;
@@ -83,8 +81,7 @@ CurveSegments::CurveSegments(bool cubic, const Basis& basis, const std::vector<i
   segments_ = std::move(layout.segments);
   primvars = takePrimvars(params, layout.counts, problems);
   const Primvar width = widthOf(primvars);
-  const std::vector<Cubic<vec3>> centers =
-      along({"P", Storage::Vertex, ValueType::Point, 3, {}}, &points[0].x);
+  const std::vector<Cubic<vec3>> centers = along({"P", Storage::Vertex, ValueType::Point, 3, {}}, &points[0].x);
   const std::vector<Cubic<vec3>> widths = along(width);
   lines_.resize(segments_.size());
   for (size_t k = 0; k < lines_.size(); ++k)
@@ -98,9 +95,7 @@ void CurveSegments::direction(size_t k, float v, vec3& along, vec3& slope) const
   if (along == vec3(0)) along = vec3(slopeAt(lines_[k], v + (0.5f - v) * 1e-2f));
 }
 
-std::vector<Cubic<vec3>> CurveSegments::along(const Primvar& var) const {
-  return along(var, var.values.data());
-}
+std::vector<Cubic<vec3>> CurveSegments::along(const Primvar& var) const { return along(var, var.values.data()); }
 
 std::vector<Cubic<vec3>> CurveSegments::along(const Primvar& var, const float* values) const {
   std::vector<Cubic<vec3>> out(segments_.size());
@@ -112,8 +107,7 @@ std::vector<Cubic<vec3>> CurveSegments::along(const Primvar& var, const float* v
   return out;
 }
 
-void CurveSegments::interpolate(const Primvar& var, size_t k, int n, const float* v, float* out,
-                                int stride) const {
+void CurveSegments::interpolate(const Primvar& var, size_t k, int n, const float* v, float* out, int stride) const {
   for (int c = 0; c < var.width; ++c) {
     const Cubic<float> values = componentAlong(var, var.values.data(), c, segments_[k]);
     for (int i = 0; i < n; ++i) out[static_cast<ptrdiff_t>(c) * stride + i] = valueAt(values, v[i]);
@@ -123,9 +117,7 @@ void CurveSegments::interpolate(const Primvar& var, size_t k, int n, const float
 /// Bezier values of one component of a variable along a segment.
 Cubic<float> CurveSegments::componentAlong(const Primvar& var, const float* values, int component,
                                            const CurveSegment& s) const {
-  const auto at = [&](uint32_t element) {
-    return values[static_cast<size_t>(element) * var.width + component];
-  };
+  const auto at = [&](uint32_t element) { return values[static_cast<size_t>(element) * var.width + component]; };
   if (var.storage == Storage::Constant) return straight(at(0), at(0));
   if (var.storage == Storage::Uniform) return straight(at(s.curve), at(s.curve));
   if (var.storage != Storage::Vertex) return straight(at(s.corners[0]), at(s.corners[1]));
@@ -136,9 +128,7 @@ Cubic<float> CurveSegments::componentAlong(const Primvar& var, const float* valu
   return out;
 }
 
-vec3 CurveSegments::chord(size_t k) const {
-  return normalizeOr(vec3(lines_[k][3]) - vec3(lines_[k][0]), vec3(0));
-}
+vec3 CurveSegments::chord(size_t k) const { return normalizeOr(vec3(lines_[k][3]) - vec3(lines_[k][0]), vec3(0)); }
 
 void CurveSegments::findMitres() {
   mitres_.resize(segments_.size());

@@ -72,8 +72,7 @@ class CurveSegments {
 
  private:
   std::vector<Cubic<vec3>> along(const Primvar& var, const float* values) const;
-  Cubic<float> componentAlong(const Primvar& var, const float* values, int component,
-                              const CurveSegment& s) const;
+  Cubic<float> componentAlong(const Primvar& var, const float* values, int component, const CurveSegment& s) const;
   void findMitres();
 
   bool cubic_;

@@ -15,7 +15,8 @@ struct Vectors {
   void set(int i, const vec3& v) const { x[i] = v.x, y[i] = v.y, z[i] = v.z; }
 };
 
-/// Cross sections of a ribbon: the unit vector `side`, and `up`, towards where it faces; slopes are by v. Memory is kept by the thread.
+/// Cross sections of a ribbon: the unit vector `side`, and `up`, towards where it faces; slopes are by v. Memory is
+/// kept by the thread.
 class Sections {
  public:
   explicit Sections(int count) : stride_(static_cast<size_t>(padded(count))) {
@@ -23,7 +24,8 @@ class Sections {
     if (memory.size() < kArrays * stride_) memory.resize(kArrays * stride_);
     next_ = memory.data();
     v = array(), width = array(), widthSlope = array();
-    for (Vectors* vectors : {&center, &slope, &along, &alongSlope, &up, &upSlope, &side, &sideSlope}) *vectors = {array(), array(), array()};
+    for (Vectors* vectors : {&center, &slope, &along, &alongSlope, &up, &upSlope, &side, &sideSlope})
+      *vectors = {array(), array(), array()};
   }
   float *v, *width, *widthSlope;
   Vectors center, slope, along, alongSlope, up, upSlope, side, sideSlope;
@@ -36,7 +38,8 @@ class Sections {
 };
 
 /// valueAt, slopeAt and curvatureAt of one component.
-TOMALES_HOT void cubicAt(const float* c, int n, const float* v, float* __restrict value, float* __restrict slope, float* __restrict curvature) {
+TOMALES_HOT void cubicAt(const float* c, int n, const float* v, float* __restrict value, float* __restrict slope,
+                         float* __restrict curvature) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     const float t = v[i], r = 1 - t;
@@ -84,13 +87,15 @@ TOMALES_HOT void spread(int n, const float* u, const int* section, const Section
     const float dvy = c.slope.y[k] + at * (widthSlope * sy + width * c.sideSlope.y[k]);
     const float dvz = c.slope.z[k] + at * (widthSlope * sz + width * c.sideSlope.z[k]);
     const float nx = duy * dvz - dvy * duz, ny = duz * dvx - dvz * dux, nz = dux * dvy - dvx * duy;
-    const bool turns = nx * nx + ny * ny + nz * nz > 1e-12f * (dux * dux + duy * duy + duz * duz) * (dvx * dvx + dvy * dvy + dvz * dvz);
+    const bool turns = nx * nx + ny * ny + nz * nz >
+                       1e-12f * (dux * dux + duy * duy + duz * duz) * (dvx * dvx + dvy * dvy + dvz * dvz);
     // What has no width or length still faces somewhere.
     const float ux = c.up.x[k], uy = c.up.y[k], uz = c.up.z[k], lean = sx * ux + sy * uy + sz * uz;
     const float fx = ux - sx * lean, fy = uy - sy * lean, fz = uz - sz * lean, facing2 = fx * fx + fy * fy + fz * fz;
     const bool faces = facing2 > 0.0f && facing2 < kInfinity;
     const float facing = std::sqrt(faces ? facing2 : 1.0f);
-    out.px[i] = c.center.x[k] + across * sx, out.py[i] = c.center.y[k] + across * sy, out.pz[i] = c.center.z[k] + across * sz;
+    out.px[i] = c.center.x[k] + across * sx, out.py[i] = c.center.y[k] + across * sy,
+    out.pz[i] = c.center.z[k] + across * sz;
     out.dux[i] = dux, out.duy[i] = duy, out.duz[i] = duz;
     out.dvx[i] = dvx, out.dvy[i] = dvy, out.dvz[i] = dvz;
     out.nx[i] = turns ? nx : faces ? fx / facing : 0.0f;
@@ -101,8 +106,7 @@ TOMALES_HOT void spread(int n, const float* u, const int* section, const Section
 
 class Ribbons : public Prim {
  public:
-  explicit Ribbons(CurveSegments segments)
-      : Prim(std::move(segments.primvars)), segments_(std::move(segments)) {
+  explicit Ribbons(CurveSegments segments) : Prim(std::move(segments.primvars)), segments_(std::move(segments)) {
     if (const Primvar* normals = normalsOf(primvars_)) normals_ = segments_.along(*normals);
   }
 
@@ -116,16 +120,15 @@ class Ribbons : public Prim {
   uint32_t patchCount() const override { return segments_.count(); }
   PatchInfo info(uint32_t patch) const override {
     const CurveSegment& s = segments_[patch];
-    return {false,
-            static_cast<uint8_t>(kEdgeU0 | kEdgeU1 | (s.first ? kEdgeV0 : 0) | (s.last ? kEdgeV1 : 0))};
+    return {false, static_cast<uint8_t>(kEdgeU0 | kEdgeU1 | (s.first ? kEdgeV0 : 0) | (s.last ? kEdgeV1 : 0))};
   }
 
   Bound3 bound(uint32_t patch, const UvRect& r) const override {
     Bound3 line;
     float width = 0;
-    for (const vec4& c : piece(segments_.line(patch), r.v0, r.v1))
-      line.extend(vec3(c)), width = std::max(width, c.w);
-    const float longer = segments_.cubic() ? 1 : std::max(mitreAt(patch, false).length(), mitreAt(patch, true).length());
+    for (const vec4& c : piece(segments_.line(patch), r.v0, r.v1)) line.extend(vec3(c)), width = std::max(width, c.w);
+    const float longer =
+        segments_.cubic() ? 1 : std::max(mitreAt(patch, false).length(), mitreAt(patch, true).length());
     const Bound3 ribbon = line.grown(longer * width * std::max(std::abs(r.u0 - 0.5f), std::abs(r.u1 - 0.5f)));
     return paddedForRounding(ribbon, ribbon);
   }
@@ -145,8 +148,7 @@ class Ribbons : public Prim {
   }
 
   /// RISpec: v runs along the whole curve.
-  void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su,
-                         float* sv) const override {
+  void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su, float* sv) const override {
     const CurveSegment& s = segments_[patch];
     std::copy_n(u, n, su);
     for (int i = 0; i < n; ++i) sv[i] = (static_cast<float>(s.number) + v[i]) / static_cast<float>(s.of);
@@ -184,8 +186,8 @@ class Ribbons : public Prim {
     }
   }
 
-  /// Where two segments of a polyline meet: what lies on the bisector of their sides, so long that both are as wide there as elsewhere (but
-  /// no longer than 3), as a part that lies across the segment and one along it.
+  /// Where two segments of a polyline meet: what lies on the bisector of their sides, so long that both are as wide
+  /// there as elsewhere (but no longer than 3), as a part that lies across the segment and one along it.
   struct Mitre {
     float across = 1, along = 0;
     float length() const { return std::hypot(across, along); }

@@ -29,8 +29,7 @@ double latticeDiskArea(int nu, int nv) {
 }
 
 // The square -1..1 onto the disk without a seam (elliptical grid mapping: P. Nowell 2005).
-TOMALES_HOT void evaluateDisk(const Disk& disk, int n, const float* u, const float* v,
-                              const SurfacePoints& out) {
+TOMALES_HOT void evaluateDisk(const Disk& disk, int n, const float* u, const float* v, const SurfacePoints& out) {
   const float r = disk.radius;
   const vec3 c = disk.center, s = disk.tangent, t = disk.bitangent;
 #pragma GCC ivdep
@@ -38,8 +37,7 @@ TOMALES_HOT void evaluateDisk(const Disk& disk, int n, const float* u, const flo
     const float a = 2 * u[i] - 1, b = 2 * v[i] - 1;
     const float sx = std::sqrt(1 - 0.5f * b * b), sy = std::sqrt(1 - 0.5f * a * a);
     const float x = a * sx, y = b * sy;
-    const float xByU = 2 * sx, yByU = 2 * (-0.5f * a * b / sy), xByV = 2 * (-0.5f * a * b / sx),
-                yByV = 2 * sy;
+    const float xByU = 2 * sx, yByU = 2 * (-0.5f * a * b / sy), xByV = 2 * (-0.5f * a * b / sx), yByV = 2 * sy;
     out.px[i] = c.x + r * (x * s.x + y * t.x), out.py[i] = c.y + r * (x * s.y + y * t.y),
     out.pz[i] = c.z + r * (x * s.z + y * t.z);
     out.dux[i] = r * (xByU * s.x + yByU * t.x), out.duy[i] = r * (xByU * s.y + yByU * t.y),
@@ -57,8 +55,7 @@ void evaluateDot(const Disk& disk, float more, const SurfacePoints& out) {
     const float a = i & 1 ? 1.0f : -1.0f, b = i & 2 ? 1.0f : -1.0f, x = a * half, y = b * half,
                 lean = -0.5f * a * b / half;
     const vec3 p = c + r * (x * s + y * t);
-    setFrame(out, i, p + more * (p - c), r * (2 * half * s + 2 * lean * t),
-             r * (2 * lean * s + 2 * half * t));
+    setFrame(out, i, p + more * (p - c), r * (2 * half * s + 2 * lean * t), r * (2 * lean * s + 2 * half * t));
     setNormal(out, i, disk.normal);
   }
 }

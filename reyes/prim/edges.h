@@ -36,7 +36,8 @@ class EdgeFaces {
     size_t first = 0;
     for (const int count : vertexCounts) {
       for (int k = 0; k < count; ++k) {
-        const int a = vertices[first + static_cast<size_t>(k)], b = vertices[first + static_cast<size_t>(k + 1 < count ? k + 1 : 0)];
+        const int a = vertices[first + static_cast<size_t>(k)],
+                  b = vertices[first + static_cast<size_t>(k + 1 < count ? k + 1 : 0)];
         f(std::min(a, b), std::max(a, b));
       }
       first += static_cast<size_t>(count);
@@ -45,8 +46,9 @@ class EdgeFaces {
   ptrdiff_t firstOf(int a) const { return a > 0 ? static_cast<ptrdiff_t>(end_[static_cast<size_t>(a) - 1]) : 0; }
   ptrdiff_t lastOf(int a) const { return static_cast<ptrdiff_t>(end_[static_cast<size_t>(a)]); }
 
-  std::vector<int> others_;   // of vertex after vertex: the greater ends of its sides, sorted, an edge as often as faces have it
-  std::vector<size_t> end_;   // of a vertex's others
+  std::vector<int>
+      others_;  // of vertex after vertex: the greater ends of its sides, sorted, an edge as often as faces have it
+  std::vector<size_t> end_;  // of a vertex's others
 };
 
 }  // namespace tomales

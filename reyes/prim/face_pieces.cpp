@@ -59,9 +59,7 @@ class PointGrid {
   int index(const Point2& q, int axis) const {
     return std::clamp(static_cast<int>((q[axis] - lo_[axis]) * scale_[axis]), 0, side_ - 1);
   }
-  std::vector<int>& cellOf(const Point2& q) {
-    return cells_[static_cast<size_t>(index(q, 1) * side_ + index(q, 0))];
-  }
+  std::vector<int>& cellOf(const Point2& q) { return cells_[static_cast<size_t>(index(q, 1) * side_ + index(q, 0))]; }
 
   const std::vector<Point2>& p_;
   Point2 lo_, scale_;
@@ -73,9 +71,11 @@ class PointGrid {
 class EarClipper {
  public:
   /// Begins to look for ears at position `start`.
-  EarClipper(const Outlines& keys, int start) : p_(keys), left_(keys.begin(), keys.end()), count_(keys[0].size()), next_(start) {
+  EarClipper(const Outlines& keys, int start)
+      : p_(keys), left_(keys.begin(), keys.end()), count_(keys[0].size()), next_(start) {
     for (size_t i = 0; i < count_; ++i)
-      before_.push_back(static_cast<int>((i + count_ - 1) % count_)), after_.push_back(static_cast<int>((i + 1) % count_));
+      before_.push_back(static_cast<int>((i + count_ - 1) % count_)),
+          after_.push_back(static_cast<int>((i + 1) % count_));
     suspects_ = before_;
     dropSpikes();
   }
@@ -121,9 +121,7 @@ class EarClipper {
     const Point2& p = at(key, i);
     for (size_t k = 0; k < 3; ++k) {
       const Point2 &from = abc[(k + 2) % 3], &to = abc[(k + 1) % 3];
-      const auto goesInside = [&](const Point2& end) {
-        return turn(p, to, end) > 0 && turn(from, p, end) > 0;
-      };
+      const auto goesInside = [&](const Point2& end) { return turn(p, to, end) > 0 && turn(from, p, end) > 0; };
       if (p == abc[k]) return goesInside(at(key, before(i))) || goesInside(at(key, after(i)));
     }
     return contains(abc[0], abc[1], abc[2], p);
@@ -224,8 +222,7 @@ glm::dvec3 newellNormal(const std::vector<vec3>& points) {
   glm::dvec3 normal(0);
   const glm::dvec3 origin = points.empty() ? glm::dvec3(0) : glm::dvec3(points[0]);
   for (size_t i = 0; i < points.size(); ++i)
-    normal +=
-        glm::cross(glm::dvec3(points[i]) - origin, glm::dvec3(points[(i + 1) % points.size()]) - origin);
+    normal += glm::cross(glm::dvec3(points[i]) - origin, glm::dvec3(points[(i + 1) % points.size()]) - origin);
   return normal;
 }
 
@@ -234,7 +231,8 @@ glm::dvec3 normalOfWidestTriangle(const std::vector<vec3>& points) {
   for (const vec3& p : points)
     if (const glm::dvec3 way(p - points[0]); glm::length(way) > glm::length(farthest)) farthest = way;
   for (const vec3& p : points)
-    if (const glm::dvec3 n = glm::cross(farthest, glm::dvec3(p - points[0])); glm::length(n) > glm::length(normal)) normal = n;
+    if (const glm::dvec3 n = glm::cross(farthest, glm::dvec3(p - points[0])); glm::length(n) > glm::length(normal))
+      normal = n;
   return normal;
 }
 

@@ -27,7 +27,8 @@ class Bridger {
   Bridger(const Outlines& keys, Walk outline)
       : keys_(keys), p_(keys[0]), walk_(std::move(outline)), shared_(shared(keys[0])) {}
 
-  /// The hole goes clockwise and begins with its rightmost vertex; `later` are those that will be added behind it. False: it lies outside.
+  /// The hole goes clockwise and begins with its rightmost vertex; `later` are those that will be added behind it.
+  /// False: it lies outside.
   bool add(Walk hole, std::span<const Walk> later) {
     int at = findContact(hole);
     if (at < 0) at = findCorner(p_[hole[0]]);
@@ -61,8 +62,7 @@ class Bridger {
     for (size_t k = 0; k < hole.size(); ++k) {
       const Point2& m = p_[hole[k]];
       if (!std::binary_search(shared_.begin(), shared_.end(), m, isLess)) continue;
-      const Point2 &before = p_[hole[(k + hole.size() - 1) % hole.size()]],
-                   &after = p_[hole[(k + 1) % hole.size()]];
+      const Point2 &before = p_[hole[(k + hole.size() - 1) % hole.size()]], &after = p_[hole[(k + 1) % hole.size()]];
       for (int at = 0; at < size(); ++at) {
         if (corner(at) != m || !sees(at, before) || !sees(at, after)) continue;
         std::rotate(hole.begin(), hole.begin() + static_cast<ptrdiff_t>(k), hole.end());
@@ -78,8 +78,7 @@ class Bridger {
     int edge = -1;
     for (int i = 0; i < size(); ++i) {
       const Point2 &a = corner(i), &b = corner(i + 1);
-      if (!(a.y <= m.y && m.y <= b.y && a.y < b.y))
-        continue;  // the inside is to the left of an edge that rises
+      if (!(a.y <= m.y && m.y <= b.y && a.y < b.y)) continue;  // the inside is to the left of an edge that rises
       const double x = a.x + (m.y - a.y) / (b.y - a.y) * (b.x - a.x);
       if (x >= m.x && x < hit) hit = x, edge = i;
     }
@@ -95,8 +94,7 @@ class Bridger {
     for (int i = 0; i < size(); ++i) {
       const Point2& p = corner(i);
       const bool between = far.y < m.y ? contains(m, far, hit, p) : contains(m, hit, far, p);
-      if (between && p.x >= m.x && sees(i, m) &&
-          (best == end && !sees(end, m) ? true : before(m, p, corner(best))))
+      if (between && p.x >= m.x && sees(i, m) && (best == end && !sees(end, m) ? true : before(m, p, corner(best))))
         best = i;
     }
     return best;
@@ -136,12 +134,14 @@ class Bridger {
     for (const std::vector<Point2>& p : keys_) {
       const Point2 &a = p[hole[0]], &b = p[walk_[at]];
       if (!sees(p, at, a) || touches(p, a, b, walk_) || touches(p, a, b, hole)) return false;
-      if (std::any_of(later.begin(), later.end(), [&](const Walk& loop) { return touches(p, a, b, loop); })) return false;
+      if (std::any_of(later.begin(), later.end(), [&](const Walk& loop) { return touches(p, a, b, loop); }))
+        return false;
     }
     return true;
   }
 
-  /// The first clear bridge, the hole turned to begin with its vertex; `fallback` and the hole as it was if there is none.
+  /// The first clear bridge, the hole turned to begin with its vertex; `fallback` and the hole as it was if there is
+  /// none.
   int findClear(Walk& hole, int fallback, std::span<const Walk> later) {
     Walk turned = hole;
     if (hole.size() * walk_.size() <= kMostPairs)
@@ -181,8 +181,7 @@ BridgedOutline bridgeHoles(const Outlines& keys, const std::vector<int>& loopSta
     loops.push_back(std::move(loop));
   }
   // From right to left, so that no later hole is in the way of a bridge.
-  std::stable_sort(loops.begin() + 1, loops.end(),
-                   [&](const Walk& a, const Walk& b) { return p[a[0]].x > p[b[0]].x; });
+  std::stable_sort(loops.begin() + 1, loops.end(), [&](const Walk& a, const Walk& b) { return p[a[0]].x > p[b[0]].x; });
   Bridger bridger(keys, loops[0]);
   BridgedOutline out;
   const std::span<const Walk> holes(loops);

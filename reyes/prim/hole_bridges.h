@@ -11,8 +11,8 @@ struct BridgedOutline {
   bool simple = true;      ///< No bridge crosses anything at any key. False only for a polygon that moves.
 };
 
-/// Loop k is the points loopStarts[k] to loopStarts[k + 1] - 1: first the outline, which goes counter-clockwise, then the holes,
-/// which go either way. Bridges are those of the first key unless something is in their way at another.
+/// Loop k is the points loopStarts[k] to loopStarts[k + 1] - 1: first the outline, which goes counter-clockwise, then
+/// the holes, which go either way. Bridges are those of the first key unless something is in their way at another.
 BridgedOutline bridgeHoles(const Outlines& keys, const std::vector<int>& loopStarts);
 
 }  // namespace tomales

@@ -13,8 +13,8 @@ TOMALES_HOT void bilinear(const float* corner, int n, const float* u, const floa
   }
 }
 
-TOMALES_HOT void bilinearSurface(const float* corner, int n, const float* u, const float* v, float* p,
-                                 float* du, float* dv) {
+TOMALES_HOT void bilinearSurface(const float* corner, int n, const float* u, const float* v, float* p, float* du,
+                                 float* dv) {
   const float a = corner[0], b = corner[1], c = corner[2], d = corner[3];
   const float ab = b - a, cd = d - c, ac = c - a, bd = d - b;
   for (int i = 0; i < n; ++i) {
@@ -36,8 +36,8 @@ TOMALES_HOT void crossProducts(int n, const float* ax, const float* ay, const fl
 
 }  // namespace
 
-void interpolateBilinear(const float* values, int width, const Corners& corners, int n, const float* u,
-                         const float* v, float* out, int stride) {
+void interpolateBilinear(const float* values, int width, const Corners& corners, int n, const float* u, const float* v,
+                         float* out, int stride) {
   for (int c = 0; c < width; ++c) {
     float corner[4];
     for (int k = 0; k < 4; ++k) corner[k] = values[static_cast<size_t>(corners[k]) * width + c];
@@ -56,8 +56,7 @@ bool repeatIfEven(const Primvar& var, size_t uniform, int n, float* out, int str
   return true;
 }
 
-void evaluateBilinear(const std::array<vec3, 4>& corners, int n, const float* u, const float* v,
-                      SurfacePoints out) {
+void evaluateBilinear(const std::array<vec3, 4>& corners, int n, const float* u, const float* v, SurfacePoints out) {
   float* const p[3] = {out.px, out.py, out.pz};
   float* const du[3] = {out.dux, out.duy, out.duz};
   float* const dv[3] = {out.dvx, out.dvy, out.dvz};
@@ -78,8 +77,7 @@ Bound3 boundBilinear(const std::array<vec3, 4>& corners, const UvRect& rect) {
   Bound3 bound, whole;
   for (int k = 0; k < 4; ++k) {
     whole.extend(corners[k]);
-    const vec3 low = corners[0] * (1 - u[k]) + corners[1] * u[k],
-               high = corners[2] * (1 - u[k]) + corners[3] * u[k];
+    const vec3 low = corners[0] * (1 - u[k]) + corners[1] * u[k], high = corners[2] * (1 - u[k]) + corners[3] * u[k];
     bound.extend(low * (1 - v[k]) + high * v[k]);
   }
   return paddedForRounding(bound, whole);

@@ -11,8 +11,8 @@ using Corners = std::array<uint32_t, 4>;
 
 /// Component c of point i goes to out[c * stride + i]. Weights are (1-u) and u, so that both sides of an edge
 /// that is walked in opposite directions add the same two products.
-void interpolateBilinear(const float* values, int width, const Corners& corners, int n, const float* u,
-                         const float* v, float* out, int stride);
+void interpolateBilinear(const float* values, int width, const Corners& corners, int n, const float* u, const float* v,
+                         float* out, int stride);
 
 /// Repeats one element n times.
 void repeatElement(const float* element, int width, int n, float* out, int stride);
@@ -22,8 +22,7 @@ void repeatElement(const float* element, int width, int n, float* out, int strid
 bool repeatIfEven(const Primvar& var, size_t uniform, int n, float* out, int stride);
 
 /// Fills positions and derivatives, and normals as their cross product.
-void evaluateBilinear(const std::array<vec3, 4>& corners, int n, const float* u, const float* v,
-                      SurfacePoints out);
+void evaluateBilinear(const std::array<vec3, 4>& corners, int n, const float* u, const float* v, SurfacePoints out);
 
 /// Of the rectangle: four corners are the hull of a piece of a bilinear patch.
 Bound3 boundBilinear(const std::array<vec3, 4>& corners, const UvRect& rect);

@@ -69,10 +69,8 @@ class NuPatch : public Prim {
     evaluateRational(net(patch), degenerate_, n, u, v, out);
   }
 
-  void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su,
-                         float* sv) const override {
-    for (int k = 0; k < n; ++k)
-      su[k] = u_.parameter(column(patch), u[k]), sv[k] = v_.parameter(row(patch), v[k]);
+  void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su, float* sv) const override {
+    for (int k = 0; k < n; ++k) su[k] = u_.parameter(column(patch), u[k]), sv[k] = v_.parameter(row(patch), v[k]);
   }
 
   Kept kept(uint32_t patch, const UvRect& r) const override {
@@ -109,16 +107,14 @@ class NuPatch : public Prim {
   /// Appends the Bezier controls of a patch; controlOf(number) is a homogeneous control of the whole.
   template <class ControlOf>
   void convert(uint32_t patch, const ControlOf& controlOf, std::vector<vec4>& out) const {
-    const size_t corner =
-        static_cast<size_t>(vSegment(patch)) * u_.controls + static_cast<size_t>(uSegment(patch));
+    const size_t corner = static_cast<size_t>(vSegment(patch)) * u_.controls + static_cast<size_t>(uSegment(patch));
     for (int l = 0; l < v_.order; ++l)
       for (int k = 0; k < u_.order; ++k) {
         glm::dvec4 sum(0);
         for (int j = 0; j < v_.order; ++j) {
           glm::dvec4 along(0);
           for (int i = 0; i < u_.order; ++i)
-            along +=
-                u_.weight(column(patch), k, i) * controlOf(corner + static_cast<size_t>(j * u_.controls + i));
+            along += u_.weight(column(patch), k, i) * controlOf(corner + static_cast<size_t>(j * u_.controls + i));
           sum += v_.weight(row(patch), l, j) * along;
         }
         out.push_back(vec4(sum));
@@ -151,18 +147,16 @@ class NuPatch : public Prim {
       const std::vector<vec4> points = edge(patch, mine);
       const auto sameAsFirst = [&](const vec4& h) { return vec3(h) / h.w == vec3(points[0]) / points[0].w; };
       if (std::all_of(points.begin(), points.end(), sameAsFirst)) return 0;
-      return points == edge(patchAt(column(patch) + du, row(patch) + dv), theirs) ? 0
-                                                                                  : static_cast<int>(mine);
+      return points == edge(patchAt(column(patch) + du, row(patch) + dv), theirs) ? 0 : static_cast<int>(mine);
     };
     return static_cast<uint8_t>(open(kEdgeU0, kEdgeU1, -1, 0) | open(kEdgeU1, kEdgeU0, 1, 0) |
                                 open(kEdgeV0, kEdgeV1, 0, -1) | open(kEdgeV1, kEdgeV0, 0, 1));
   }
 
-  void interpolateCorners(uint32_t patch, const Primvar& var, int n, const float* u, const float* v,
-                          float* out, int stride) const {
+  void interpolateCorners(uint32_t patch, const Primvar& var, int n, const float* u, const float* v, float* out,
+                          int stride) const {
     const uint32_t width = static_cast<uint32_t>(u_.corners());
-    const uint32_t first =
-        static_cast<uint32_t>(vSegment(patch)) * width + static_cast<uint32_t>(uSegment(patch));
+    const uint32_t first = static_cast<uint32_t>(vSegment(patch)) * width + static_cast<uint32_t>(uSegment(patch));
     std::vector<float> along(static_cast<size_t>(2 * n));
     for (int i = 0; i < n; ++i) {
       along[static_cast<size_t>(i)] = u_.alongSegment(column(patch), u[i]);
@@ -172,9 +166,11 @@ class NuPatch : public Prim {
                         along.data(), along.data() + n, out, stride);
   }
 
-  void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v,
-                         float* out, int stride) const {
-    interpolateRational(var, controls_, u_.order, v_.order, [&](const auto& controlOf, auto& values) { convert(patch, controlOf, values); }, n, u, v, out, stride);
+  void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v, float* out,
+                         int stride) const {
+    interpolateRational(
+        var, controls_, u_.order, v_.order,
+        [&](const auto& controlOf, auto& values) { convert(patch, controlOf, values); }, n, u, v, out, stride);
   }
 
   size_t shapeBytes() const override { return bytesOf(controls_) + bytesOf(nets_); }
@@ -182,13 +178,13 @@ class NuPatch : public Prim {
   const std::optional<TrimRegion> trim_;
   std::vector<vec4> controls_;
   std::vector<vec4> nets_;  // Bezier controls, patch by patch
-  double degenerate_ = 0;     // the least length of a normal that can be told from rounding
+  double degenerate_ = 0;   // the least length of a normal that can be told from rounding
 };
 
 }  // namespace
 
-PrimPtr makeNuPatch(const NurbsDirection& u, const NurbsDirection& v, const TrimLoops& trim,
-                    const ParamList& params, Problems& problems) {
+PrimPtr makeNuPatch(const NurbsDirection& u, const NurbsDirection& v, const TrimLoops& trim, const ParamList& params,
+                    Problems& problems) {
   Side uSide = makeSide(u, "u", problems), vSide = makeSide(v, "v", problems);
   std::optional<TrimRegion> region;
   if (!trim.loops.empty()) {

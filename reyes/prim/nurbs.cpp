@@ -22,8 +22,7 @@ void requireBSpline(const NurbsDirection& line, const char* name) {
                              line.controls, line.order, needed));
   for (size_t k = 0; k < needed; ++k) {
     if (!std::isfinite(line.knots[k])) refuse(name, fmt::format("knot {} is not a finite number", k));
-    if (k && line.knots[k] < line.knots[k - 1])
-      refuse(name, fmt::format("knot {} is less than the one before", k));
+    if (k && line.knots[k] < line.knots[k - 1]) refuse(name, fmt::format("knot {} is less than the one before", k));
   }
   if (!std::isfinite(line.min) || !std::isfinite(line.max)) refuse(name, "the range is not finite");
 }
@@ -63,8 +62,7 @@ BezierSpan makeSpan(const NurbsDirection& line, int segment, float begin, float 
 void join(const BezierSpan& last, BezierSpan& next, int order) {
   const int shift = next.segment - last.segment;
   const double* end = &last.weights[static_cast<size_t>(order * (order - 1))];
-  for (int i = 0; i < order; ++i)
-    next.weights[static_cast<size_t>(i)] = i + shift < order ? end[i + shift] : 0.0;
+  for (int i = 0; i < order; ++i) next.weights[static_cast<size_t>(i)] = i + shift < order ? end[i + shift] : 0.0;
 }
 
 void bernstein(int degree, double t, double* value, double* derivative) {
@@ -102,17 +100,15 @@ std::vector<BezierSpan> bezierSpans(const NurbsDirection& line, const char* name
   const size_t first = static_cast<size_t>(line.order) - 1, last = static_cast<size_t>(line.controls);
   const float low = std::max(line.min, line.knots[first]), high = std::min(line.max, line.knots[last]);
   if (low > line.min || high < line.max)
-    problems.push_back(
-        fmt::format("its range {} to {} along {} is more than the knots define; it was cut to {} to {}",
-                    line.min, line.max, name, low, high));
+    problems.push_back(fmt::format("its range {} to {} along {} is more than the knots define; it was cut to {} to {}",
+                                   line.min, line.max, name, low, high));
   std::vector<BezierSpan> spans;
   for (size_t k = first; k < last; ++k) {
     const float begin = std::max(low, line.knots[k]), end = std::min(high, line.knots[k + 1]);
     if (!(begin < end)) continue;
     BezierSpan span = makeSpan(line, static_cast<int>(k - first), begin, end);
     // As many equal knots as the order let the curve jump.
-    if (!spans.empty() && span.segment - spans.back().segment < line.order)
-      join(spans.back(), span, line.order);
+    if (!spans.empty() && span.segment - spans.back().segment < line.order) join(spans.back(), span, line.order);
     spans.push_back(std::move(span));
   }
   if (spans.empty()) refuse(name, fmt::format("the range {} to {} is empty", line.min, line.max));
@@ -153,7 +149,8 @@ vec3 normalOf(const RationalNet& net, double degenerate, const RationalPoint& s,
 
 }  // namespace
 
-void evaluateRational(const RationalNet& net, double degenerate, int n, const float* u, const float* v, const SurfacePoints& out) {
+void evaluateRational(const RationalNet& net, double degenerate, int n, const float* u, const float* v,
+                      const SurfacePoints& out) {
   for (int i = 0; i < n; ++i) {
     const RationalPoint s = evaluateRational(net, u[i], v[i]);
     setFrame(out, i, vec3(s.p), vec3(s.du), vec3(s.dv));

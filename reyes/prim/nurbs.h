@@ -8,9 +8,9 @@ constexpr int kHighestOrder = 32;
 
 /// A knot interval that is not empty, cut to the range that is drawn, as a piece of a Bezier curve.
 struct BezierSpan {
-  int segment;       ///< Empty intervals count too. Its controls are number segment, segment + 1, ... in all
-                     ///< `order`.
-  float begin, end;  ///< Knot values.
+  int segment;                  ///< Empty intervals count too. Its controls are number segment, segment + 1, ... in all
+                                ///< `order`.
+  float begin, end;             ///< Knot values.
   float cornerFrom, cornerTo;   ///< The same as fractions of the knot interval.
   std::vector<double> weights;  ///< Row k of `order`: those of the controls in Bezier control k.
 };
@@ -30,20 +30,23 @@ struct RationalPoint {
 };
 
 RationalPoint evaluateRational(const RationalNet& net, double u, double v);
-/// Where the derivatives do not span a plane, their product no longer than `degenerate`, the normal is that a little way towards the
-/// middle.
-void evaluateRational(const RationalNet& net, double degenerate, int n, const float* u, const float* v, const SurfacePoints& out);
+/// Where the derivatives do not span a plane, their product no longer than `degenerate`, the normal is that a little
+/// way towards the middle.
+void evaluateRational(const RationalNet& net, double degenerate, int n, const float* u, const float* v,
+                      const SurfacePoints& out);
 
-/// A vertex variable, weighted like the positions, so that values stay where they are on the surface. `convert` appends to its second argument
-/// the Bezier controls of the patch made of homogeneous controls, which its first gives by their number.
+/// A vertex variable, weighted like the positions, so that values stay where they are on the surface. `convert` appends
+/// to its second argument the Bezier controls of the patch made of homogeneous controls, which its first gives by their
+/// number.
 template <class Convert>
-void interpolateRational(const Primvar& var, const std::vector<vec4>& controls, int uOrder, int vOrder, const Convert& convert, int n, const float* u,
-                         const float* v, float* out, int stride) {
+void interpolateRational(const Primvar& var, const std::vector<vec4>& controls, int uOrder, int vOrder,
+                         const Convert& convert, int n, const float* u, const float* v, float* out, int stride) {
   for (int c = 0; c < var.width; c += 3) {
     const int many = std::min(3, var.width - c);
     const auto controlOf = [&](size_t control) {
       glm::dvec4 h(0, 0, 0, controls[control].w);
-      for (int k = 0; k < many; ++k) h[k] = h.w * var.values[control * static_cast<size_t>(var.width) + static_cast<size_t>(c + k)];
+      for (int k = 0; k < many; ++k)
+        h[k] = h.w * var.values[control * static_cast<size_t>(var.width) + static_cast<size_t>(c + k)];
       return h;
     };
     std::vector<vec4> values;

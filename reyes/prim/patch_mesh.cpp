@@ -13,14 +13,12 @@ constexpr ToBezier kAsTheyAre{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 
 Direction directionOf(const char* name, int controls, bool periodic, int span, int step) {
   if (step < 1) throw PrimError(fmt::format("the {} step of the basis is {}", name, step));
   if (controls < span)
-    throw PrimError(
-        fmt::format("the mesh has {} control points along {}, and a patch needs {}", controls, name, span));
-  if (controls > 1 << 20)
-    throw PrimError(fmt::format("the mesh has {} control points along {}", controls, name));
+    throw PrimError(fmt::format("the mesh has {} control points along {}, and a patch needs {}", controls, name, span));
+  if (controls > 1 << 20) throw PrimError(fmt::format("the mesh has {} control points along {}", controls, name));
   const int rest = periodic ? controls : controls - span;
   if (rest % step != 0)
-    throw PrimError(fmt::format("{} control points along {} are no whole number of patches with step {}",
-                                controls, name, step));
+    throw PrimError(
+        fmt::format("{} control points along {} are no whole number of patches with step {}", controls, name, step));
   return {controls, step, periodic ? rest / step : rest / step + 1, periodic};
 }
 
@@ -63,9 +61,7 @@ class BilinearMesh : public PatchMesh {
     return {isFlat(corners(patch)), findOpenEdges(patch, edge)};
   }
 
-  Bound3 bound(uint32_t patch, const UvRect& rect) const override {
-    return boundBilinear(corners(patch), rect);
-  }
+  Bound3 bound(uint32_t patch, const UvRect& rect) const override { return boundBilinear(corners(patch), rect); }
 
   void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const override {
     const std::array<vec3, 4> c = corners(patch);
@@ -77,8 +73,8 @@ class BilinearMesh : public PatchMesh {
   }
 
  protected:
-  void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v,
-                         float* out, int stride) const override {
+  void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v, float* out,
+                         int stride) const override {
     interpolateBilinear(var.values.data(), var.width, mesh_.cornersOf(patch), n, u, v, out, stride);
   }
 
@@ -99,22 +95,17 @@ class BilinearMesh : public PatchMesh {
 
 class BicubicMesh : public PatchMesh {
  public:
-  BicubicMesh(const Layout& mesh, const Basis& uBasis, const Basis& vBasis, const ParamList& params,
-              Problems& problems)
+  BicubicMesh(const Layout& mesh, const Basis& uBasis, const Basis& vBasis, const ParamList& params, Problems& problems)
       : PatchMesh(mesh, params, problems), uToBezier_(bezierFrom(uBasis)), vToBezier_(bezierFrom(vBasis)) {
     const std::vector<vec3> controls = takeControls(params, mesh, problems);
     patches_.reserve(mesh.patches());
     for (uint32_t patch = 0; patch < mesh.patches(); ++patch)
-      patches_.push_back(
-          {net(patch, &controls[0].x, 3), net(patch, &controls[0].y, 3), net(patch, &controls[0].z, 3)});
+      patches_.push_back({net(patch, &controls[0].x, 3), net(patch, &controls[0].y, 3), net(patch, &controls[0].z, 3)});
   }
 
   PatchInfo info(uint32_t patch) const override {
     const auto edge = [&](uint32_t p, PatchEdge bit) {
-      const int first = bit == kEdgeU1   ? 3
-                        : bit == kEdgeV1 ? 12
-                                         : 0,
-                step = bit == kEdgeU0 || bit == kEdgeU1 ? 4 : 1;
+      const int first = bit == kEdgeU1 ? 3 : bit == kEdgeV1 ? 12 : 0, step = bit == kEdgeU0 || bit == kEdgeU1 ? 4 : 1;
       std::array<vec3, 4> points;
       for (int k = 0; k < 4; ++k) {
         const int c = first + k * step;
@@ -125,17 +116,15 @@ class BicubicMesh : public PatchMesh {
     return {false, findOpenEdges(patch, edge)};
   }
 
-  Bound3 bound(uint32_t patch, const UvRect& rect) const override {
-    return boundBicubic(patches_[patch], rect);
-  }
+  Bound3 bound(uint32_t patch, const UvRect& rect) const override { return boundBicubic(patches_[patch], rect); }
 
   void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const override {
     evaluateBicubic(patches_[patch], n, u, v, out);
   }
 
  protected:
-  void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v,
-                         float* out, int stride) const override {
+  void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v, float* out,
+                         int stride) const override {
     for (int c = 0; c < var.width; ++c)
       evaluateNet(net(patch, &var.values[static_cast<size_t>(c)], var.width), n, u, v,
                   out + static_cast<ptrdiff_t>(c) * stride);
@@ -164,10 +153,9 @@ PrimPtr makeBilinearPatchMesh(int nu, bool uPeriodic, int nv, bool vPeriodic, co
   return std::make_shared<BilinearMesh>(mesh, params, problems);
 }
 
-PrimPtr makeBicubicPatchMesh(int nu, bool uPeriodic, const Basis& uBasis, int nv, bool vPeriodic,
-                             const Basis& vBasis, const ParamList& params, Problems& problems) {
-  const Layout mesh{directionOf("u", nu, uPeriodic, 4, uBasis.step),
-                    directionOf("v", nv, vPeriodic, 4, vBasis.step)};
+PrimPtr makeBicubicPatchMesh(int nu, bool uPeriodic, const Basis& uBasis, int nv, bool vPeriodic, const Basis& vBasis,
+                             const ParamList& params, Problems& problems) {
+  const Layout mesh{directionOf("u", nu, uPeriodic, 4, uBasis.step), directionOf("v", nv, vPeriodic, 4, vBasis.step)};
   if (isRational(params)) return makeRationalMesh(mesh, 4, bezierFrom(uBasis), bezierFrom(vBasis), params, problems);
   return std::make_shared<BicubicMesh>(mesh, uBasis, vBasis, params, problems);
 }

@@ -35,8 +35,7 @@ struct Layout {
   /// The neighbour across an edge, around the mesh whether or not it is periodic.
   uint32_t neighbour(uint32_t patch, int du, int dv) const {
     const int i = static_cast<int>(patch) % u.patches, j = static_cast<int>(patch) / u.patches;
-    return static_cast<uint32_t>((j + dv + v.patches) % v.patches * u.patches +
-                                 (i + du + u.patches) % u.patches);
+    return static_cast<uint32_t>((j + dv + v.patches) % v.patches * u.patches + (i + du + u.patches) % u.patches);
   }
 };
 
@@ -44,8 +43,7 @@ class PatchMesh : public Prim {
  public:
   uint32_t patchCount() const override { return mesh_.patches(); }
 
-  void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su,
-                         float* sv) const override {
+  void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su, float* sv) const override {
     const float i = static_cast<float>(static_cast<int>(patch) % mesh_.u.patches),
                 nu = static_cast<float>(mesh_.u.patches);
     const float j = static_cast<float>(static_cast<int>(patch) / mesh_.u.patches),
@@ -67,8 +65,8 @@ class PatchMesh : public Prim {
   PatchMesh(const Layout& mesh, const ParamList& params, Problems& problems)
       : Prim(takePrimvars(params, mesh.counts(), problems)), mesh_(mesh) {}
 
-  virtual void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v,
-                                 float* out, int stride) const = 0;
+  virtual void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v, float* out,
+                                 int stride) const = 0;
 
   /// An edge is closed if it is a point, or if it is the opposite edge of the patch next to it: in a mesh
   /// that is not periodic but ends where it began, too. edge(patch, bit) lists its control points.
@@ -78,10 +76,8 @@ class PatchMesh : public Prim {
       PatchEdge mine, theirs;
       int du, dv;
     };
-    static constexpr Side kSides[] = {{kEdgeU0, kEdgeU1, -1, 0},
-                                      {kEdgeU1, kEdgeU0, 1, 0},
-                                      {kEdgeV0, kEdgeV1, 0, -1},
-                                      {kEdgeV1, kEdgeV0, 0, 1}};
+    static constexpr Side kSides[] = {
+        {kEdgeU0, kEdgeU1, -1, 0}, {kEdgeU1, kEdgeU0, 1, 0}, {kEdgeV0, kEdgeV1, 0, -1}, {kEdgeV1, kEdgeV0, 0, 1}};
     int open = 0;
     for (const Side& side : kSides) {
       const auto mine = edge(patch, side.mine);
@@ -94,9 +90,11 @@ class PatchMesh : public Prim {
   const Layout mesh_;
 };
 
-/// Rational patches: "Pw" whose weights differ. `order` controls along either side of a patch become those of a Bezier patch by the
-/// two matrices. Vertex primvars are weighted like positions. Throws PrimError unless all Bezier weights are positive.
-PrimPtr makeRationalMesh(const Layout& mesh, int order, const ToBezier& u, const ToBezier& v, const ParamList& params, Problems& problems);
+/// Rational patches: "Pw" whose weights differ. `order` controls along either side of a patch become those of a Bezier
+/// patch by the two matrices. Vertex primvars are weighted like positions. Throws PrimError unless all Bezier weights
+/// are positive.
+PrimPtr makeRationalMesh(const Layout& mesh, int order, const ToBezier& u, const ToBezier& v, const ParamList& params,
+                         Problems& problems);
 /// Is it one?
 bool isRational(const ParamList& params);
 

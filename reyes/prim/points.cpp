@@ -32,7 +32,8 @@ class PointCloud : public Prim, public Scattered {
   uint32_t patchCount() const override { return static_cast<uint32_t>(points_.size()); }
   void prefetch(uint32_t patch) const override { __builtin_prefetch(&points_[patch]); }
 
-  void evaluateLattice(uint32_t patch, int nu, int nv, const float* u, const float* v, SurfacePoints out) const override {
+  void evaluateLattice(uint32_t patch, int nu, int nv, const float* u, const float* v,
+                       SurfacePoints out) const override {
     evaluate(patch, (nu + 1) * (nv + 1), u, v, out);
     const auto more = static_cast<float>(std::clamp(inflation(nu, nv) - 1, 0.0, double{kMostInflation} - 1));
     const vec3 center = points_[patch];
@@ -128,7 +129,8 @@ class Disks : public FlatPoints<Disks> {
   }
 
   /// Most particles are one cell: its corners, to the bit, without loops and tables.
-  void evaluateLattice(uint32_t patch, int nu, int nv, const float* u, const float* v, SurfacePoints out) const override {
+  void evaluateLattice(uint32_t patch, int nu, int nv, const float* u, const float* v,
+                       SurfacePoints out) const override {
     if (nu != 1 || nv != 1) return PointCloud::evaluateLattice(patch, nu, nv, u, v, out);
     static const float more = static_cast<float>(inflation(1, 1) - 1);
     evaluateDot(diskOf(patch), more, out);
@@ -147,8 +149,9 @@ class Disks : public FlatPoints<Disks> {
   }
 };
 
-/// PRMan's "patch": pictures on cards. v runs down against the object's y, as far as the card's plane has it, and u to the right of who
-/// sees its front in a left-handed space; "patchangle" turns it, "patchaspectratio" is width over height.
+/// PRMan's "patch": pictures on cards. v runs down against the object's y, as far as the card's plane has it, and u to
+/// the right of who sees its front in a left-handed space; "patchangle" turns it, "patchaspectratio" is width over
+/// height.
 class Squares : public FlatPoints<Squares> {
  public:
   Squares(std::vector<vec3> points, std::vector<Primvar> primvars)
@@ -265,7 +268,8 @@ PrimPtr makePoints(const ParamList& params, Problems& problems) {
   const std::string type = typeOf(params);
   if (type == "sphere") return std::make_shared<Spheres>(std::move(points), std::move(primvars));
   if (type == "patch") return std::make_shared<Squares>(std::move(points), std::move(primvars));
-  if (type != "particle" && type != "disk") problems.push_back(fmt::format("points of type \"{}\" are not known: they are disks", type));
+  if (type != "particle" && type != "disk")
+    problems.push_back(fmt::format("points of type \"{}\" are not known: they are disks", type));
   return std::make_shared<Disks>(std::move(points), std::move(primvars));
 }
 

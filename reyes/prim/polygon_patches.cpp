@@ -37,8 +37,8 @@ Face faceOf(const std::vector<vec3>& points, const glm::dvec3& normal, const Bou
 
 class Decomposer {
  public:
-  Decomposer(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
-             const std::vector<int>& vertices, const std::vector<vec3>& positions, const PointKeys& keys)
+  Decomposer(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts, const std::vector<int>& vertices,
+             const std::vector<vec3>& positions, const PointKeys& keys)
       : loopCounts_(loopCounts),
         vertexCounts_(vertexCounts),
         vertices_(vertices),
@@ -61,11 +61,9 @@ class Decomposer {
       loop += counts.size();
     }
     if (dropped)
-      problems.push_back(
-          fmt::format("{} of {} faces have no area; they were dropped", dropped, loopCounts_.size()));
+      problems.push_back(fmt::format("{} of {} faces have no area; they were dropped", dropped, loopCounts_.size()));
     if (holesIgnored_)
-      problems.push_back(
-          fmt::format("{} holes lie outside of their polygon; they were ignored", holesIgnored_));
+      problems.push_back(fmt::format("{} holes lie outside of their polygon; they were ignored", holesIgnored_));
     if (overlapping_)
       problems.push_back(fmt::format("{} faces turn inside out as they move and overlap themselves", overlapping_));
     return std::move(out_);
@@ -74,10 +72,13 @@ class Decomposer {
  private:
   using Points = std::vector<vec3>;
 
-  vec3 position(const Points& key, uint32_t faceVertex) const { return key[static_cast<size_t>(vertices_[faceVertex])]; }
+  vec3 position(const Points& key, uint32_t faceVertex) const {
+    return key[static_cast<size_t>(vertices_[faceVertex])];
+  }
 
   bool coincide(uint32_t a, uint32_t b) const {
-    return std::all_of(keys_.begin(), keys_.end(), [&](const Points* key) { return position(*key, a) == position(*key, b); });
+    return std::all_of(keys_.begin(), keys_.end(),
+                       [&](const Points* key) { return position(*key, a) == position(*key, b); });
   }
 
   const Points& cornersAt(const Points& key) {
@@ -135,11 +136,13 @@ class Decomposer {
     return areaNormal(points, boundOf(points));
   }
 
-  /// Of the outline, at the keys and at the key at hand: there, if it has no area, that of the first key where it has. False: it never has.
+  /// Of the outline, at the keys and at the key at hand: there, if it has no area, that of the first key where it has.
+  /// False: it never has.
   bool findNormals() {
     normals_.clear();
     for (const Points* key : keys_) normals_.push_back(normalAt(*key));
-    const auto any = std::find_if(normals_.begin(), normals_.end(), [](const glm::dvec3& n) { return n != glm::dvec3(0); });
+    const auto any =
+        std::find_if(normals_.begin(), normals_.end(), [](const glm::dvec3& n) { return n != glm::dvec3(0); });
     if (any == normals_.end()) return false;
     normal_ = keys_[0] == &positions_ ? normals_[0] : normalAt(positions_);
     if (normal_ == glm::dvec3(0)) normal_ = *any;
@@ -194,11 +197,12 @@ class Decomposer {
 
   bool openBetween(int a, int b) const { return (a + 1) % static_cast<int>(corner_.size()) == b && open_[a]; }
 
-  /// One patch, of which the edge v = 1 is the corner that its shortest side faces: lines along u are short, and what is linear over the
-  /// triangle is so over the patch.
+  /// One patch, of which the edge v = 1 is the corner that its shortest side faces: lines along u are short, and what
+  /// is linear over the triangle is so over the patch.
   void addTriangle(const Piece& piece) {
     const auto side = [&](size_t k) {
-      const vec3 d = position(*keys_[0], corner_[static_cast<size_t>(piece[(k + 1) % 3])]) - position(*keys_[0], corner_[static_cast<size_t>(piece[k])]);
+      const vec3 d = position(*keys_[0], corner_[static_cast<size_t>(piece[(k + 1) % 3])]) -
+                     position(*keys_[0], corner_[static_cast<size_t>(piece[k])]);
       return glm::dot(d, d);
     };
     const size_t k = side(1) < side(0) ? (side(2) < side(1) ? 2 : 1) : (side(2) < side(0) ? 2 : 0);
@@ -232,21 +236,22 @@ class Decomposer {
   const EdgeFaces edges_;
   Decomposition out_;
   size_t holesIgnored_ = 0, overlapping_ = 0;
-  std::vector<uint32_t> corner_;  // of the face at hand
+  std::vector<uint32_t> corner_;     // of the face at hand
   Points points_;                    // of its corners at some key
   std::vector<glm::dvec3> normals_;  // by key
   glm::dvec3 normal_{0};
   Outlines outlines_;
   bool disjoint_ = true;
-  std::vector<char> open_;      // edge from a corner to the next
-  std::vector<int> loopStart_;  // first corner of every loop, and the end
+  std::vector<char> open_;             // edge from a corner to the next
+  std::vector<int> loopStart_;         // first corner of every loop, and the end
   std::vector<uint32_t> at_, middle_;  // of the piece at hand
 };
 
 }  // namespace
 
-Decomposition decompose(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts, const std::vector<int>& vertices,
-                        const std::vector<vec3>& positions, const PointKeys& keys, Problems& problems) {
+Decomposition decompose(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
+                        const std::vector<int>& vertices, const std::vector<vec3>& positions, const PointKeys& keys,
+                        Problems& problems) {
   return Decomposer(loopCounts, vertexCounts, vertices, positions, keys).run(problems);
 }
 

@@ -1,6 +1,6 @@
-// Faces of polygons cut into bilinear patches. A convex quadrilateral is one patch, and so is a triangle, with an edge of no length;
-// every other face becomes triangles and quadrilaterals around the centres of its convex pieces, which meet at the midpoints of the edges
-// (docs/decisions/0041-a-triangle-is-one-patch.md). Private to polygons.
+// Faces of polygons cut into bilinear patches. A convex quadrilateral is one patch, and so is a triangle, with an edge
+// of no length; every other face becomes triangles and quadrilaterals around the centres of its convex pieces, which
+// meet at the midpoints of the edges (docs/decisions/0041-a-triangle-is-one-patch.md). Private to polygons.
 #pragma once
 #include <span>
 
@@ -16,8 +16,8 @@ struct QuadPatch {
   PatchInfo info;
 };
 
-/// While all faces are quadrilaterals of one patch, two bytes a patch are kept: the corners of patch k are the four face-vertices of
-/// face k.
+/// While all faces are quadrilaterals of one patch, two bytes a patch are kept: the corners of patch k are the four
+/// face-vertices of face k.
 class QuadPatches {
  public:
   size_t size() const { return patches_.empty() ? plain_.size() : patches_.size(); }
@@ -25,7 +25,8 @@ class QuadPatches {
   void reserve(size_t n) { plain_.reserve(n); }
   void add(const QuadPatch& patch) {
     const QuadPatch plain = plainPatch(plain_.size(), patch.info);
-    if (patches_.empty() && plain.face == patch.face && plain.corners == patch.corners) return plain_.push_back(patch.info);
+    if (patches_.empty() && plain.face == patch.face && plain.corners == patch.corners)
+      return plain_.push_back(patch.info);
     for (size_t k = 0; k < plain_.size(); ++k) patches_.push_back(plainPatch(k, plain_[k]));
     plain_ = {};
     patches_.push_back(patch);
@@ -70,11 +71,13 @@ struct Decomposition {
   MadePoints made;
 };
 
-/// A face is a run of loops, its outline and its holes; a loop is a run of `vertices`. All counts have been checked. Faces without area at
-/// any key and holes outside of their polygon are dropped with a sentence. `keys`: where the points are at every key of motion, empty for what
-/// stands still. All keys are cut alike, where that can be done without overlap at any (else as it suits the first, with a sentence);
-/// `Decomposition::faces` are those of `positions`.
-Decomposition decompose(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts, const std::vector<int>& vertices,
-                        const std::vector<vec3>& positions, const PointKeys& keys, Problems& problems);
+/// A face is a run of loops, its outline and its holes; a loop is a run of `vertices`. All counts have been checked.
+/// Faces without area at any key and holes outside of their polygon are dropped with a sentence. `keys`: where the
+/// points are at every key of motion, empty for what stands still. All keys are cut alike, where that can be done
+/// without overlap at any (else as it suits the first, with a sentence); `Decomposition::faces` are those of
+/// `positions`.
+Decomposition decompose(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
+                        const std::vector<int>& vertices, const std::vector<vec3>& positions, const PointKeys& keys,
+                        Problems& problems);
 
 }  // namespace tomales

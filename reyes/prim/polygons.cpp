@@ -9,8 +9,7 @@ namespace {
 
 class Polygons : public Prim {
  public:
-  Polygons(Decomposition parts, std::vector<vec3> positions, std::vector<int> vertices,
-           std::vector<Primvar> primvars)
+  Polygons(Decomposition parts, std::vector<vec3> positions, std::vector<int> vertices, std::vector<Primvar> primvars)
       : Prim(std::move(primvars)),
         parts_(std::move(parts)),
         positions_(std::move(positions)),
@@ -21,21 +20,17 @@ class Polygons : public Prim {
 
   uint32_t patchCount() const override { return static_cast<uint32_t>(parts_.patches.size()); }
   PatchInfo info(uint32_t patch) const override { return parts_.patches[patch].info; }
-  Bound3 bound(uint32_t patch, const UvRect& rect) const override {
-    return boundBilinear(cornersOf(patch), rect);
-  }
+  Bound3 bound(uint32_t patch, const UvRect& rect) const override { return boundBilinear(cornersOf(patch), rect); }
 
   void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const override {
     evaluateBilinear(cornersOf(patch), n, u, v, out);
     const Face& face = parts_.faces[parts_.patches[patch].face];
     for (int i = 0; i < n; ++i)
-      if (face.planar || glm::length(normalOf(out, i)) <= 1e-6f * areaScale(out, i))
-        setNormal(out, i, face.normal);
+      if (face.planar || glm::length(normalOf(out, i)) <= 1e-6f * areaScale(out, i)) setNormal(out, i, face.normal);
   }
 
   /// RISpec section 5.1: the parameters of a polygon are its x and y.
-  void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su,
-                         float* sv) const override {
+  void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su, float* sv) const override {
     const std::array<vec3, 4> corners = cornersOf(patch);
     const float x[4] = {corners[0].x, corners[1].x, corners[2].x, corners[3].x};
     const float y[4] = {corners[0].y, corners[1].y, corners[2].y, corners[3].y};
@@ -91,13 +86,14 @@ class Polygons : public Prim {
         const std::span<const uint32_t> from = parts_.made.sources(k);
         float sum = 0;
         for (uint32_t corner : from)
-          sum +=
-              var.values[(var.storage == Storage::FaceVarying ? corner : vertexNumber(corner)) * width + c];
+          sum += var.values[(var.storage == Storage::FaceVarying ? corner : vertexNumber(corner)) * width + c];
         var.values.push_back(sum / static_cast<float>(from.size()));
       }
   }
 
-  size_t shapeBytes() const override { return bytesOf(parts_.faces) + parts_.patches.bytes() + bytesOf(positions_) + bytesOf(vertices_); }
+  size_t shapeBytes() const override {
+    return bytesOf(parts_.faces) + parts_.patches.bytes() + bytesOf(positions_) + bytesOf(vertices_);
+  }
   Decomposition parts_;
   std::vector<vec3> positions_;
   size_t given_;
@@ -116,7 +112,8 @@ void requireLoops(const std::vector<int>& loopCounts, size_t loops) {
 }  // namespace
 
 PrimPtr makeGeneralPolygons(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
-                            const std::vector<int>& vertices, const ParamList& params, Problems& problems, const PointKeys& keys) {
+                            const std::vector<int>& vertices, const ParamList& params, Problems& problems,
+                            const PointKeys& keys) {
   const size_t used = requireFaces(vertexCounts, vertices);
   requireLoops(loopCounts, vertexCounts.size());
   std::vector<vec3> positions = takePositions(params, used, false, problems);
@@ -130,8 +127,8 @@ PrimPtr makeGeneralPolygons(const std::vector<int>& loopCounts, const std::vecto
   return std::make_shared<Polygons>(std::move(parts), std::move(positions), vertices, std::move(primvars));
 }
 
-PrimPtr makePolygons(const std::vector<int>& vertexCounts, const std::vector<int>& vertices,
-                     const ParamList& params, Problems& problems, const PointKeys& keys) {
+PrimPtr makePolygons(const std::vector<int>& vertexCounts, const std::vector<int>& vertices, const ParamList& params,
+                     Problems& problems, const PointKeys& keys) {
   return makeGeneralPolygons(std::vector<int>(vertexCounts.size(), 1), vertexCounts, vertices, params, problems, keys);
 }
 

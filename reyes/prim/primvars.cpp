@@ -29,8 +29,7 @@ std::vector<float> floatsOf(const Param& param) {
 }
 
 /// Texture coordinates arrive as pairs but shaders know "s" and "t".
-void splitTextureCoordinates(const Param& param, const std::vector<float>& values,
-                             std::vector<Primvar>& out) {
+void splitTextureCoordinates(const Param& param, const std::vector<float>& values, std::vector<Primvar>& out) {
   for (int c = 0; c < 2; ++c) {
     Primvar half{c == 0 ? "s" : "t", param.storage, ValueType::Float, 1, {}};
     half.values.reserve(values.size() / 2);
@@ -39,20 +38,19 @@ void splitTextureCoordinates(const Param& param, const std::vector<float>& value
   }
 }
 
-void takePrimvar(const Param& param, const PrimvarCounts& counts, std::vector<Primvar>& out,
-                 Problems& problems) {
+void takePrimvar(const Param& param, const PrimvarCounts& counts, std::vector<Primvar>& out, Problems& problems) {
   if (param.type == ValueType::String) {
-    if (param.strings.size() == 1 && (param.storage == Storage::Constant || param.storage == Storage::Uniform)) return;  // its shaders have it
-    problems.push_back(
-        fmt::format("{} is a string, which a surface cannot interpolate; it was dropped", param.name));
+    if (param.strings.size() == 1 && (param.storage == Storage::Constant || param.storage == Storage::Uniform))
+      return;  // its shaders have it
+    problems.push_back(fmt::format("{} is a string, which a surface cannot interpolate; it was dropped", param.name));
     return;
   }
   std::vector<float> values = floatsOf(param);
   const size_t elements = elementCount(param.storage, counts);
   const size_t needed = elements * static_cast<size_t>(std::max(1, param.width()));
   if (values.size() != needed) {
-    problems.push_back(fmt::format("{} has {} values where {} elements need {} floats; it was dropped",
-                                   param.name, values.size(), elements, needed));
+    problems.push_back(fmt::format("{} has {} values where {} elements need {} floats; it was dropped", param.name,
+                                   values.size(), elements, needed));
     return;
   }
   if (param.name == "st" && param.width() == 2)
@@ -62,8 +60,8 @@ void takePrimvar(const Param& param, const PrimvarCounts& counts, std::vector<Pr
 }
 
 [[noreturn]] void wrongPositionCount(const char* name, size_t values, size_t vertices, size_t width) {
-  throw PrimError(fmt::format("{} has {} values where {} vertices need {} floats", name, values, vertices,
-                              vertices * width));
+  throw PrimError(
+      fmt::format("{} has {} values where {} vertices need {} floats", name, values, vertices, vertices * width));
 }
 
 std::vector<vec3> dividedByWeight(const Param& param, Problems& problems) {
@@ -75,8 +73,7 @@ std::vector<vec3> dividedByWeight(const Param& param, Problems& problems) {
     points[i] = vec3(p[0], p[1], p[2]) / p[3];
     rational |= p[3] != param.floats[3];
   }
-  if (rational)
-    problems.push_back("Pw has unequal weights; the surface was made from the divided control points");
+  if (rational) problems.push_back("Pw has unequal weights; the surface was made from the divided control points");
   return points;
 }
 
@@ -121,8 +118,7 @@ std::vector<vec4> takeHomogeneous(const ParamList& params, size_t count) {
 
 void requireFinite(std::initializer_list<float> values, const char* what) {
   for (float value : values)
-    if (!std::isfinite(value))
-      throw PrimError(fmt::format("{} has a parameter that is not a finite number", what));
+    if (!std::isfinite(value)) throw PrimError(fmt::format("{} has a parameter that is not a finite number", what));
 }
 
 size_t requireFaces(const std::vector<int>& vertexCounts, const std::vector<int>& vertices) {

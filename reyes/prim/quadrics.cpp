@@ -28,7 +28,8 @@ class ArcRevolution : public Revolution {
   }
 
   std::optional<RoundShape> round() const override {
-    const bool poleToPole = isPole(start_turns_) && isPole(start_turns_ + range_turns_) && std::abs(range_turns_) == 0.5f;
+    const bool poleToPole =
+        isPole(start_turns_) && isPole(start_turns_ + range_turns_) && std::abs(range_turns_) == 0.5f;
     if (center_ != 0 || !poleToPole || !isClosed()) return std::nullopt;
     return RoundShape{vec3(0), std::abs(radius_), vec3(0)};
   }
@@ -73,8 +74,7 @@ class ArcRevolution : public Revolution {
 /// A meridian that is a straight line from a to b: cone, cylinder, disk and hyperboloid.
 class LineRevolution : public Revolution {
  public:
-  LineRevolution(const vec3& a, const vec3& b, float thetaMax_degrees, const ParamList& params,
-                 Problems& problems)
+  LineRevolution(const vec3& a, const vec3& b, float thetaMax_degrees, const ParamList& params, Problems& problems)
       : Revolution(thetaMax_degrees, params, problems), a_(a), b_(b) {
     if (a.x == 0 && a.y == 0) close(kEdgeV0);
     if (b.x == 0 && b.y == 0) close(kEdgeV1);
@@ -121,8 +121,7 @@ class LineRevolution : public Revolution {
 /// r = rmax sqrt(z / zmax).
 class Paraboloid : public Revolution {
  public:
-  Paraboloid(float rmax, float zmin, float zmax, float thetaMax_degrees, const ParamList& params,
-             Problems& problems)
+  Paraboloid(float rmax, float zmin, float zmax, float thetaMax_degrees, const ParamList& params, Problems& problems)
       : Revolution(thetaMax_degrees, params, problems), rmax_(rmax), zmin_(zmin), zmax_(zmax) {
     if (zmin == 0) close(kEdgeV0);
   }
@@ -167,31 +166,27 @@ PrimPtr makeSphere(float radius, float zmin, float zmax, float thetaMax_degrees,
   return std::make_shared<ArcRevolution>(0.0f, radius, phi0, phi1, thetaMax_degrees, params, problems);
 }
 
-PrimPtr makeTorus(float major, float minor, float phiMin_degrees, float phiMax_degrees,
-                  float thetaMax_degrees, const ParamList& params, Problems& problems) {
+PrimPtr makeTorus(float major, float minor, float phiMin_degrees, float phiMax_degrees, float thetaMax_degrees,
+                  const ParamList& params, Problems& problems) {
   requireFinite({major, minor, phiMin_degrees, phiMax_degrees}, "the torus");
   requireArea(minor != 0, "the torus's minor radius is 0");
   requireArea(phiMin_degrees != phiMax_degrees, "the torus's phimin and phimax are equal");
   const double range = std::clamp((static_cast<double>(phiMax_degrees) - phiMin_degrees) / 360, -1.0, 1.0);
   const double start = phiMin_degrees / 360.0;
-  return std::make_shared<ArcRevolution>(major, minor, start, start + range, thetaMax_degrees, params,
-                                         problems);
+  return std::make_shared<ArcRevolution>(major, minor, start, start + range, thetaMax_degrees, params, problems);
 }
 
-PrimPtr makeCone(float height, float radius, float thetaMax_degrees, const ParamList& params,
-                 Problems& problems) {
+PrimPtr makeCone(float height, float radius, float thetaMax_degrees, const ParamList& params, Problems& problems) {
   requireFinite({height, radius}, "the cone");
   requireArea(radius != 0, "the cone's radius is 0");
-  return std::make_shared<LineRevolution>(vec3(radius, 0, 0), vec3(0, 0, height), thetaMax_degrees, params,
-                                          problems);
+  return std::make_shared<LineRevolution>(vec3(radius, 0, 0), vec3(0, 0, height), thetaMax_degrees, params, problems);
 }
 
-PrimPtr makeDisk(float height, float radius, float thetaMax_degrees, const ParamList& params,
-                 Problems& problems) {
+PrimPtr makeDisk(float height, float radius, float thetaMax_degrees, const ParamList& params, Problems& problems) {
   requireFinite({height, radius}, "the disk");
   requireArea(radius != 0, "the disk's radius is 0");
-  return std::make_shared<LineRevolution>(vec3(radius, 0, height), vec3(0, 0, height), thetaMax_degrees,
-                                          params, problems);
+  return std::make_shared<LineRevolution>(vec3(radius, 0, height), vec3(0, 0, height), thetaMax_degrees, params,
+                                          problems);
 }
 
 PrimPtr makeCylinder(float radius, float zmin, float zmax, float thetaMax_degrees, const ParamList& params,
@@ -199,12 +194,12 @@ PrimPtr makeCylinder(float radius, float zmin, float zmax, float thetaMax_degree
   requireFinite({radius, zmin, zmax}, "the cylinder");
   requireArea(radius != 0, "the cylinder's radius is 0");
   requireArea(zmin != zmax, "the cylinder's zmin and zmax are equal");
-  return std::make_shared<LineRevolution>(vec3(radius, 0, zmin), vec3(radius, 0, zmax), thetaMax_degrees,
-                                          params, problems);
+  return std::make_shared<LineRevolution>(vec3(radius, 0, zmin), vec3(radius, 0, zmax), thetaMax_degrees, params,
+                                          problems);
 }
 
-PrimPtr makeHyperboloid(const vec3& point1, const vec3& point2, float thetaMax_degrees,
-                        const ParamList& params, Problems& problems) {
+PrimPtr makeHyperboloid(const vec3& point1, const vec3& point2, float thetaMax_degrees, const ParamList& params,
+                        Problems& problems) {
   requireFinite({point1.x, point1.y, point1.z, point2.x, point2.y, point2.z}, "the hyperboloid");
   requireArea(point1 != point2, "the hyperboloid's two points are equal");
   requireArea(point1.x != 0 || point1.y != 0 || point2.x != 0 || point2.y != 0,

@@ -7,25 +7,36 @@
 namespace tomales {
 namespace {
 
-const Param* weightedPositions(const ParamList& params) { return findParam(params, "P") || findParam(params, "Pz") ? nullptr : findParam(params, "Pw"); }
+const Param* weightedPositions(const ParamList& params) {
+  return findParam(params, "P") || findParam(params, "Pz") ? nullptr : findParam(params, "Pw");
+}
 
 /// As they are: tangents, which some bases have among their controls, may weigh 0.
 std::vector<vec4> takeControls(const ParamList& params, size_t count) {
   const std::vector<float>& f = weightedPositions(params)->floats;
-  if (f.size() != 4 * count) throw PrimError(fmt::format("Pw has {} values where {} vertices need {} floats", f.size(), count, 4 * count));
+  if (f.size() != 4 * count)
+    throw PrimError(fmt::format("Pw has {} values where {} vertices need {} floats", f.size(), count, 4 * count));
   std::vector<vec4> out;
   for (size_t i = 0; i < count; ++i) {
     out.emplace_back(f[4 * i], f[4 * i + 1], f[4 * i + 2], f[4 * i + 3]);
-    if (!isFinite(vec3(out.back())) || !std::isfinite(out.back().w)) throw PrimError(fmt::format("Pw of vertex {} is not a finite number", i));
+    if (!isFinite(vec3(out.back())) || !std::isfinite(out.back().w))
+      throw PrimError(fmt::format("Pw of vertex {} is not a finite number", i));
   }
   return out;
 }
 
 class RationalMesh : public PatchMesh {
  public:
-  RationalMesh(const Layout& mesh, int order, const ToBezier& u, const ToBezier& v, const ParamList& params, Problems& problems)
-      : PatchMesh(mesh, params, problems), order_(order), uToBezier_(u), vToBezier_(v), controls_(takeControls(params, mesh.controls())) {
-    for (uint32_t patch = 0; patch < mesh.patches(); ++patch) convert(patch, [&](size_t control) { return glm::dvec4(controls_[control]); }, nets_);
+  RationalMesh(const Layout& mesh, int order, const ToBezier& u, const ToBezier& v, const ParamList& params,
+               Problems& problems)
+      : PatchMesh(mesh, params, problems),
+        order_(order),
+        uToBezier_(u),
+        vToBezier_(v),
+        controls_(takeControls(params, mesh.controls())) {
+    for (uint32_t patch = 0; patch < mesh.patches(); ++patch)
+      convert(
+          patch, [&](size_t control) { return glm::dvec4(controls_[control]); }, nets_);
     Bound3 whole;
     for (const vec4& h : nets_) {
       if (!(h.w > 0)) throw PrimError("its weights are not positive everywhere");
@@ -52,12 +63,17 @@ class RationalMesh : public PatchMesh {
   }
 
  protected:
-  void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v, float* out, int stride) const override {
-    interpolateRational(var, controls_, order_, order_, [&](const auto& controlOf, auto& values) { convert(patch, controlOf, values); }, n, u, v, out, stride);
+  void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v, float* out,
+                         int stride) const override {
+    interpolateRational(
+        var, controls_, order_, order_, [&](const auto& controlOf, auto& values) { convert(patch, controlOf, values); },
+        n, u, v, out, stride);
   }
 
  private:
-  RationalNet net(uint32_t patch) const { return {&nets_[patch * static_cast<size_t>(order_ * order_)], order_, order_}; }
+  RationalNet net(uint32_t patch) const {
+    return {&nets_[patch * static_cast<size_t>(order_ * order_)], order_, order_};
+  }
 
   /// Appends the Bezier controls of a patch; controlOf(number) is a homogeneous control of the whole.
   template <class ControlOf>
@@ -67,7 +83,8 @@ class RationalMesh : public PatchMesh {
         glm::dvec4 sum(0);
         for (int j = 0; j < order_; ++j)
           for (int i = 0; i < order_; ++i)
-            sum += double{vToBezier_[static_cast<size_t>(l)][static_cast<size_t>(j)]} * double{uToBezier_[static_cast<size_t>(k)][static_cast<size_t>(i)]} *
+            sum += double{vToBezier_[static_cast<size_t>(l)][static_cast<size_t>(j)]} *
+                   double{uToBezier_[static_cast<size_t>(k)][static_cast<size_t>(i)]} *
                    controlOf(mesh_.controlOf(patch, i, j));
         out.push_back(vec4(sum));
       }
@@ -90,7 +107,8 @@ bool isRational(const ParamList& params) {
   return false;
 }
 
-PrimPtr makeRationalMesh(const Layout& mesh, int order, const ToBezier& u, const ToBezier& v, const ParamList& params, Problems& problems) {
+PrimPtr makeRationalMesh(const Layout& mesh, int order, const ToBezier& u, const ToBezier& v, const ParamList& params,
+                         Problems& problems) {
   return std::make_shared<RationalMesh>(mesh, order, u, v, params, problems);
 }
 

@@ -11,8 +11,8 @@ constexpr float kRound =
     12582912.0f;  // 1.5 * 2^23: adding and subtracting it rounds to an integer, in any vector width.
 
 /// Turns meridian vectors by the angles.
-TOMALES_HOT void rotate(int n, const float* sine, const float* cosine, const float* x, const float* y,
-                        const float* z, float scale, float* __restrict outX, float* __restrict outY, float* __restrict outZ) {
+TOMALES_HOT void rotate(int n, const float* sine, const float* cosine, const float* x, const float* y, const float* z,
+                        float scale, float* __restrict outX, float* __restrict outY, float* __restrict outZ) {
   for (int i = 0; i < n; ++i) {
     outX[i] = scale * (x[i] * cosine[i] - y[i] * sine[i]);
     outY[i] = scale * (x[i] * sine[i] + y[i] * cosine[i]);
@@ -20,8 +20,8 @@ TOMALES_HOT void rotate(int n, const float* sine, const float* cosine, const flo
   }
 }
 
-TOMALES_HOT void sweepDerivative(int n, float scale, const float* px, const float* py, float* __restrict dux, float* __restrict duy,
-                                 float* __restrict duz) {
+TOMALES_HOT void sweepDerivative(int n, float scale, const float* px, const float* py, float* __restrict dux,
+                                 float* __restrict duy, float* __restrict duz) {
   for (int i = 0; i < n; ++i) dux[i] = -scale * py[i], duy[i] = scale * px[i], duz[i] = 0;
 }
 
@@ -48,8 +48,7 @@ TOMALES_HOT void sinCosTurns(float offset, float scale, int n, const float* t, f
     const float x = (quarters - nearest) * (kPi / 2), x2 = x * x;
     const float s = x + x * x2 * (-1.6666654611e-1f + x2 * (8.3321608736e-3f + x2 * -1.9515295891e-4f));
     const float c =
-        1 - 0.5f * x2 +
-        x2 * x2 * (4.166664568298827e-2f + x2 * (-1.388731625493765e-3f + x2 * 2.443315711809948e-5f));
+        1 - 0.5f * x2 + x2 * x2 * (4.166664568298827e-2f + x2 * (-1.388731625493765e-3f + x2 * 2.443315711809948e-5f));
     const int quadrant = static_cast<int>(nearest) & 3;
     const float a = quadrant & 1 ? c : s, b = quadrant & 1 ? s : c;
     sine[i] = quadrant & 2 ? -a : a;
@@ -58,8 +57,7 @@ TOMALES_HOT void sinCosTurns(float offset, float scale, int n, const float* t, f
 }
 
 Revolution::Revolution(float thetaMax_degrees, const ParamList& params, Problems& problems)
-    : Prim(takePrimvars(params, {}, problems)),
-      sweep_turns_(std::clamp(thetaMax_degrees / 360.0f, -1.0f, 1.0f)) {
+    : Prim(takePrimvars(params, {}, problems)), sweep_turns_(std::clamp(thetaMax_degrees / 360.0f, -1.0f, 1.0f)) {
   requireFinite({thetaMax_degrees}, "the sweep angle");
   if (thetaMax_degrees == 0) throw PrimError("the sweep angle is 0, so the surface has no area");
   if (std::abs(sweep_turns_) == 1) close(kEdgeU0 | kEdgeU1);
@@ -88,8 +86,7 @@ void Revolution::evaluate(uint32_t, int n, const float* u, const float* v, Surfa
   }
 }
 
-void Revolution::interpolate(uint32_t, int index, int n, const float* u, const float* v, float* out,
-                             int stride) const {
+void Revolution::interpolate(uint32_t, int index, int n, const float* u, const float* v, float* out, int stride) const {
   const Primvar& var = primvars_[static_cast<size_t>(index)];
   if (!repeatIfEven(var, 0, n, out, stride))
     interpolateBilinear(var.values.data(), var.width, {0, 1, 2, 3}, n, u, v, out, stride);

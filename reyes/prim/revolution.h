@@ -25,8 +25,7 @@ class Revolution : public Prim {
   PatchInfo info(uint32_t) const override { return {false, openEdges_}; }
   Bound3 bound(uint32_t, const UvRect& rect) const override;
   void evaluate(uint32_t, int n, const float* u, const float* v, SurfacePoints out) const override;
-  void interpolate(uint32_t, int index, int n, const float* u, const float* v, float* out,
-                   int stride) const override;
+  void interpolate(uint32_t, int index, int n, const float* u, const float* v, float* out, int stride) const override;
 
  protected:
   /// Throws PrimError for a sweep without area.

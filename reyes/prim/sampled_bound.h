@@ -4,9 +4,9 @@
 
 namespace tomales {
 
-/// Samples of the piece, grown by what it can bulge between them; positionAt(u, v) is a point of the surface. A function's
-/// distance from its linear interpolant is an eighth of the second difference where curvature is even; we allow
-/// four times that in each direction, because next to a crease it is not.
+/// Samples of the piece, grown by what it can bulge between them; positionAt(u, v) is a point of the surface. A
+/// function's distance from its linear interpolant is an eighth of the second difference where curvature is even; we
+/// allow four times that in each direction, because next to a crease it is not.
 template <class PositionAt>
 Bound3 boundOfSamples(const UvRect& rect, const PositionAt& positionAt) {
   constexpr int kSide = 5;

@@ -34,8 +34,7 @@ bool CrowdedFaces::isCrowd(const Far::TopologyLevel& level, int face) const {
   return corners > kCrowd;
 }
 
-CrowdedFaces::CrowdedFaces(const Coarse& mesh, const Far::TopologyLevel& level,
-                           const std::vector<int>& candidates) {
+CrowdedFaces::CrowdedFaces(const Coarse& mesh, const Far::TopologyLevel& level, const std::vector<int>& candidates) {
   if (mesh.scheme == OpenSubdiv::Sdc::SCHEME_BILINEAR) return;  // no face has a neighbourhood
   for (const int face : candidates)
     if (isCrowd(level, face)) faces_.push_back(face);
@@ -64,10 +63,8 @@ CrowdedFaces::Values CrowdedFaces::refine(const float* meshValues, int width, in
     return faceVarying ? level.GetNumFVarValues(channel) : level.GetNumVertices();
   };
   const int local = faceVarying ? table_->GetNumLocalPointsFaceVarying(channel) : table_->GetNumLocalPoints();
-  const int refined =
-      faceVarying ? refiner_->GetNumFVarValuesTotal(channel) : refiner_->GetNumVerticesTotal();
-  Values out{width, channel,
-             std::vector<float>(static_cast<size_t>(refined + local) * static_cast<size_t>(width))};
+  const int refined = faceVarying ? refiner_->GetNumFVarValuesTotal(channel) : refiner_->GetNumVerticesTotal();
+  Values out{width, channel, std::vector<float>(static_cast<size_t>(refined + local) * static_cast<size_t>(width))};
   const int coarse = count(refiner_->GetLevel(0));
   std::copy_n(meshValues, static_cast<size_t>(coarse) * static_cast<size_t>(width), out.points.begin());
 
@@ -97,11 +94,10 @@ CrowdedFaces::Values CrowdedFaces::refine(const float* meshValues, int width, in
   return out;
 }
 
-void CrowdedFaces::evaluate(const Values& values, int face, int corner, float u, float v, float* value,
-                            float* byU, float* byV) const {
+void CrowdedFaces::evaluate(const Values& values, int face, int corner, float u, float v, float* value, float* byU,
+                            float* byV) const {
   const bool whole = refiner_->GetLevel(0).GetFaceVertices(face).size() == regularSize_;
-  const Far::PatchTable::PatchHandle* handle =
-      map_->FindPatch(ptex_->GetFaceId(face) + (whole ? 0 : corner), u, v);
+  const Far::PatchTable::PatchHandle* handle = map_->FindPatch(ptex_->GetFaceId(face) + (whole ? 0 : corner), u, v);
   constexpr int kMostControls = 20;
   float weight[kMostControls], weightByU[kMostControls], weightByV[kMostControls];
   const bool faceVarying = values.faceVaryingChannel >= 0;
@@ -110,17 +106,17 @@ void CrowdedFaces::evaluate(const Values& values, int face, int corner, float u,
                                      values.faceVaryingChannel);
   else
     table_->EvaluateBasis(*handle, u, v, weight, weightByU, weightByV);
-  const Far::ConstIndexArray controls = faceVarying
-                                            ? table_->GetPatchFVarValues(*handle, values.faceVaryingChannel)
-                                            : table_->GetPatchVertices(*handle);
+  const Far::ConstIndexArray controls =
+      faceVarying ? table_->GetPatchFVarValues(*handle, values.faceVaryingChannel) : table_->GetPatchVertices(*handle);
   const auto sum = [&](const float* weights, float scale, float* out) {
     if (!out) return;
     std::fill_n(out, values.width, 0.0f);
     for (int k = 0; k < controls.size(); ++k)
       for (int c = 0; c < values.width; ++c)
-        out[c] += scale * weights[k] *
-                  values.points[static_cast<size_t>(controls[k]) * static_cast<size_t>(values.width) +
-                                static_cast<size_t>(c)];
+        out[c] +=
+            scale * weights[k] *
+            values
+                .points[static_cast<size_t>(controls[k]) * static_cast<size_t>(values.width) + static_cast<size_t>(c)];
   };
   // Far measures a corner's share of a face in halves of its coordinates.
   const float scale = whole ? 1 : 0.5f;

@@ -20,8 +20,7 @@ class CrowdedFaces {
 
   /// Those of `candidates` that are in a crowd. The mesh is refined for them alone; without any, nothing is
   /// made.
-  CrowdedFaces(const Coarse& mesh, const OpenSubdiv::Far::TopologyLevel& level,
-               const std::vector<int>& candidates);
+  CrowdedFaces(const Coarse& mesh, const OpenSubdiv::Far::TopologyLevel& level, const std::vector<int>& candidates);
 
   bool has(int face) const { return std::binary_search(faces_.begin(), faces_.end(), face); }
 

@@ -22,7 +22,8 @@ void requireSubdividable(size_t largest, const std::vector<int>& vertexCounts, c
 }
 
 /// OpenSubdiv's weights of the limit around a vertex are as many as the square of its corners: here 250 MB.
-std::optional<Crowd> crowdBeyondMeasure(const std::vector<int>& vertexCounts, const std::vector<int>& vertices, size_t vertexCount) {
+std::optional<Crowd> crowdBeyondMeasure(const std::vector<int>& vertexCounts, const std::vector<int>& vertices,
+                                        size_t vertexCount) {
   constexpr size_t kMost = 8192;
   std::vector<size_t> corners(vertexCount);
   size_t first = 0;
@@ -35,17 +36,15 @@ std::optional<Crowd> crowdBeyondMeasure(const std::vector<int>& vertexCounts, co
   return Crowd{static_cast<int>(most - corners.begin()), *most};
 }
 
-FaceVaryingChannel mergeFaceVarying(const Primvar& var, const std::vector<int>& vertices,
-                                    size_t vertexCount) {
+FaceVaryingChannel mergeFaceVarying(const Primvar& var, const std::vector<int>& vertices, size_t vertexCount) {
   const size_t width = static_cast<size_t>(var.width);
   FaceVaryingChannel out;
   std::vector<std::vector<int>> ofVertex(vertexCount);
   for (size_t k = 0; k < vertices.size(); ++k) {
     const float* value = &var.values[k * width];
     std::vector<int>& known = ofVertex[static_cast<size_t>(vertices[k])];
-    const auto same = std::find_if(known.begin(), known.end(), [&](int i) {
-      return std::equal(value, value + width, &out.values[i * width]);
-    });
+    const auto same = std::find_if(known.begin(), known.end(),
+                                   [&](int i) { return std::equal(value, value + width, &out.values[i * width]); });
     out.indices.push_back(same != known.end() ? *same : static_cast<int>(out.values.size() / width));
     if (same != known.end()) continue;
     known.push_back(out.indices.back());

@@ -6,13 +6,17 @@
 
 namespace tomales {
 
-/// Throws PrimError for a face that OpenSubdiv would take on trust: too small, of more than `largest` vertices, or twice
-/// at one vertex. Sizes and indices have passed requireFaces.
+/// Throws PrimError for a face that OpenSubdiv would take on trust: too small, of more than `largest` vertices, or
+/// twice at one vertex. Sizes and indices have passed requireFaces.
 void requireSubdividable(size_t largest, const std::vector<int>& vertexCounts, const std::vector<int>& vertices);
 
 /// The first vertex around which lie more corners of faces than can be refined in reasonable memory, with their number.
-struct Crowd { int vertex; size_t corners; };
-std::optional<Crowd> crowdBeyondMeasure(const std::vector<int>& vertexCounts, const std::vector<int>& vertices, size_t vertexCount);
+struct Crowd {
+  int vertex;
+  size_t corners;
+};
+std::optional<Crowd> crowdBeyondMeasure(const std::vector<int>& vertexCounts, const std::vector<int>& vertices,
+                                        size_t vertexCount);
 
 /// A face-varying primvar with the values that a vertex's faces agree about merged, so that it may be smooth
 /// there.

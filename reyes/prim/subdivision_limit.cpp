@@ -40,8 +40,7 @@ vec3 normalAt(const FaceAt& face, const FaceMap& map, float u, float v, const Fr
 /// for those that are not there; such faces stay with it.
 std::optional<BezierPatch> asBicubic(const Limit& limit) {
   constexpr int kControls = 16;
-  if (!limit.surface.IsRegular() || limit.surface.IsLinear() ||
-      limit.surface.GetNumControlPoints() != kControls)
+  if (!limit.surface.IsRegular() || limit.surface.IsLinear() || limit.surface.GetNumControlPoints() != kControls)
     return {};
   std::array<int, kControls> index;
   limit.surface.GetControlPointIndices(index.data());
@@ -78,8 +77,7 @@ FaceMap::FaceMap(const Bfr::Parameterization& face, int corner) {
   }
 }
 
-void evaluateFace(const FaceAt& face, const FaceMap& map, int n, const float* u, const float* v,
-                  SurfacePoints out) {
+void evaluateFace(const FaceAt& face, const FaceMap& map, int n, const float* u, const float* v, SurfacePoints out) {
   for (int i = 0; i < n; ++i) {
     const Frame f = frameAt(face, map, u[i], v[i]);
     setFrame(out, i, f.p, f.du, f.dv);
@@ -88,8 +86,7 @@ void evaluateFace(const FaceAt& face, const FaceMap& map, int n, const float* u,
 }
 
 Bound3 boundFace(const FaceAt& face, const FaceMap& map, const UvRect& rect, const Bound3& hull) {
-  const Bound3 sampled =
-      boundOfSamples(rect, [&](float u, float v) { return face(map.at(u, v), nullptr, nullptr); });
+  const Bound3 sampled = boundOfSamples(rect, [&](float u, float v) { return face(map.at(u, v), nullptr, nullptr); });
   return paddedForRounding({glm::max(hull.lo, sampled.lo), glm::min(hull.hi, sampled.hi)}, hull);
 }
 

@@ -31,12 +31,12 @@ struct Limit {
   }
 };
 
-/// A face in a regular neighbourhood is one bicubic patch, which has a faster way to be evaluated and tighter bounds. Pre:
-/// `limit` holds positions.
+/// A face in a regular neighbourhood is one bicubic patch, which has a faster way to be evaluated and tighter bounds.
+/// Pre: `limit` holds positions.
 std::optional<BezierPatch> asBicubic(const Limit& limit);
 
-/// From a patch's unit square to the coordinates of its face. A patch is a whole quadrilateral, or one corner's share of
-/// a face of another size: the quadrilateral of the corner, the middles of its two edges and the centre.
+/// From a patch's unit square to the coordinates of its face. A patch is a whole quadrilateral, or one corner's share
+/// of a face of another size: the quadrilateral of the corner, the middles of its two edges and the centre.
 class FaceMap {
  public:
   FaceMap() = default;  ///< The same coordinates.

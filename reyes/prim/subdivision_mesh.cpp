@@ -57,8 +57,7 @@ class SubdivisionMesh : public Prim {
     const Patch& p = patches_[patch];
     if (crowded_.has(p.face)) return boundFace(crowdedAt(p), mapOfCrowded(p), rect, hull_);
     const PositionLimit& limit = positionsOf(p.face);
-    return limit.bicubic ? boundBicubic(*limit.bicubic, rect)
-                         : boundFace(limitAt(limit), mapOf(p), rect, limit.hull);
+    return limit.bicubic ? boundBicubic(*limit.bicubic, rect) : boundFace(limitAt(limit), mapOf(p), rect, limit.hull);
   }
 
   void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const override {
@@ -183,23 +182,22 @@ void SubdivisionMesh::addPatches(int face) {
   }
 }
 
-void SubdivisionMesh::interpolate(uint32_t patch, int index, int n, const float* u, const float* v,
-                                  float* out, int stride) const {
+void SubdivisionMesh::interpolate(uint32_t patch, int index, int n, const float* u, const float* v, float* out,
+                                  int stride) const {
   const Primvar& var = primvars_[static_cast<size_t>(index)];
   const int face = patches_[patch].face;
   if (repeatIfEven(var, static_cast<size_t>(face), n, out, stride)) return;
   const Patch& p = patches_[patch];
   std::vector<float> element(static_cast<size_t>(var.width));
   const auto put = [&](int i) {
-    for (int c = 0; c < var.width; ++c)
-      out[static_cast<ptrdiff_t>(c) * stride + i] = element[static_cast<size_t>(c)];
+    for (int c = 0; c < var.width; ++c) out[static_cast<ptrdiff_t>(c) * stride + i] = element[static_cast<size_t>(c)];
   };
   if (crowded_.has(face) && var.storage != Storage::Varying) {
     const FaceMap map = mapOfCrowded(p);
     for (int i = 0; i < n; ++i) {
       const vec2 at = map.at(u[i], v[i]);
-      crowded_.evaluate(crowdedValues_[static_cast<size_t>(index)], face, p.corner, at.x, at.y,
-                        element.data(), nullptr, nullptr);
+      crowded_.evaluate(crowdedValues_[static_cast<size_t>(index)], face, p.corner, at.x, at.y, element.data(), nullptr,
+                        nullptr);
       put(i);
     }
     return;
@@ -221,8 +219,8 @@ void SubdivisionMesh::interpolate(uint32_t patch, int index, int n, const float*
 }  // namespace
 
 PrimPtr makeSubdivisionMesh(const std::string& scheme, const std::vector<int>& vertexCounts,
-                            const std::vector<int>& vertices, const SubdivisionTags& tags,
-                            const ParamList& params, Problems& problems) {
+                            const std::vector<int>& vertices, const SubdivisionTags& tags, const ParamList& params,
+                            Problems& problems) {
   const auto type = schemeOf(scheme);
   const size_t used = requireFaces(vertexCounts, vertices);
   requireSubdividable(type == OpenSubdiv::Sdc::SCHEME_LOOP ? 3 : 0xffff, vertexCounts, vertices);
@@ -233,8 +231,7 @@ PrimPtr makeSubdivisionMesh(const std::string& scheme, const std::vector<int>& v
   mesh.tags = readTags(tags, EdgeFaces(vertexCounts, vertices), static_cast<int>(vertexCounts.size()),
                        static_cast<int>(vertexCount), problems);
   for (const Primvar& var : primvars)
-    if (var.storage == Storage::FaceVarying)
-      mesh.channels.push_back(mergeFaceVarying(var, vertices, vertexCount));
+    if (var.storage == Storage::FaceVarying) mesh.channels.push_back(mergeFaceVarying(var, vertices, vertexCount));
   if (const auto crowd = crowdBeyondMeasure(vertexCounts, vertices, vertexCount)) {
     problems.push_back(
         fmt::format("vertex {} has {} corners of faces around it, too many to be smooth: the mesh is drawn "

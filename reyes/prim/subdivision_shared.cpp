@@ -8,8 +8,10 @@ namespace tomales {
 
 template <class A>
 void fields(A& a, MeshTags& x) {
-  auto& [boundary, faceVarying, propagateCorners, smoothTriangles, chaikin, creaseEdges, creaseSharpness, corners, cornerSharpness, holes] = x;
-  each(a, boundary, faceVarying, propagateCorners, smoothTriangles, chaikin, creaseEdges, creaseSharpness, corners, cornerSharpness, holes);
+  auto& [boundary, faceVarying, propagateCorners, smoothTriangles, chaikin, creaseEdges, creaseSharpness, corners,
+         cornerSharpness, holes] = x;
+  each(a, boundary, faceVarying, propagateCorners, smoothTriangles, chaikin, creaseEdges, creaseSharpness, corners,
+       cornerSharpness, holes);
 }
 
 namespace {

@@ -32,8 +32,10 @@ class TagReader {
     if (tag.name == "smoothtriangles") return readSmoothTriangles(tag);
     if (tag.name == "creasemethod") return readCreaseMethod(tag);
     if (tag.name == "vertexedit" || tag.name == "edgeedit" || tag.name == "faceedit")
-      return problems_.push_back(fmt::format("\"{}\" [{}] \"{}\": hierarchical edits are not applied, OpenSubdiv 3 has none; the surface is that of the "
-                                             "coarse mesh there", tag.name, fmt::join(tag.ints, " "), fmt::join(tag.strings, "\" \"")));
+      return problems_.push_back(fmt::format(
+          "\"{}\" [{}] \"{}\": hierarchical edits are not applied, OpenSubdiv 3 has none; the surface is that of the "
+          "coarse mesh there",
+          tag.name, fmt::join(tag.ints, " "), fmt::join(tag.strings, "\" \"")));
     problems_.push_back(fmt::format("tag \"{}\" is not supported; it was ignored", tag.name));
   }
 
@@ -44,8 +46,8 @@ class TagReader {
   bool sharpnessFits(const Tag& tag, size_t count) {
     const bool fits = tag.floats.size() == 1 || (count > 0 && tag.floats.size() == count);
     if (!fits)
-      problems_.push_back(fmt::format("tag \"{}\" has {} sharpnesses for {} elements; it was ignored",
-                                      tag.name, tag.floats.size(), count));
+      problems_.push_back(fmt::format("tag \"{}\" has {} sharpnesses for {} elements; it was ignored", tag.name,
+                                      tag.floats.size(), count));
     return fits;
   }
   static float sharpness(const Tag& tag, size_t k) {
@@ -54,8 +56,7 @@ class TagReader {
   }
 
   void readCrease(const Tag& tag) {
-    if (tag.ints.size() < 2)
-      return problems_.push_back("tag \"crease\" names fewer than two vertices; it was ignored");
+    if (tag.ints.size() < 2) return problems_.push_back("tag \"crease\" names fewer than two vertices; it was ignored");
     if (!sharpnessFits(tag, tag.ints.size() - 1)) return;
     for (size_t k = 0; k + 1 < tag.ints.size(); ++k) {
       const int a = tag.ints[k], b = tag.ints[k + 1];
@@ -85,8 +86,7 @@ class TagReader {
 
   bool inRange(const Tag& tag, size_t k, int count, const char* what) {
     if (tag.ints[k] >= 0 && tag.ints[k] < count) return true;
-    problems_.push_back(
-        fmt::format("tag \"{}\": there is no {} {}; it was ignored", tag.name, what, tag.ints[k]));
+    problems_.push_back(fmt::format("tag \"{}\": there is no {} {}; it was ignored", tag.name, what, tag.ints[k]));
     return false;
   }
 
@@ -118,8 +118,7 @@ class TagReader {
   void readCreaseMethod(const Tag& tag) {
     const std::string method = tag.strings.empty() ? "" : tag.strings[0];
     if (method != "normal" && method != "chaikin")
-      return problems_.push_back(
-          fmt::format("tag \"creasemethod\" has no method \"{}\"; it was ignored", method));
+      return problems_.push_back(fmt::format("tag \"creasemethod\" has no method \"{}\"; it was ignored", method));
     out.chaikin = method == "chaikin";
   }
 

@@ -7,7 +7,8 @@
 namespace tomales {
 namespace {
 
-constexpr double kFlatness = 1.0 / (1 << 19);  ///< Of the parameter square: a tenth of a pixel for 50,000 px of surface.
+constexpr double kFlatness =
+    1.0 / (1 << 19);  ///< Of the parameter square: a tenth of a pixel for 50,000 px of surface.
 constexpr int kMostHalvings = 16;
 constexpr double kGap = 1e-4;  ///< Ends of curves this far apart are closed without a word.
 constexpr size_t kMostSlabs = 256;
@@ -76,8 +77,7 @@ void TrimRegion::addLoop(const std::vector<TrimCurve>& loop, size_t number, cons
   }
   if (polygon.empty()) return;
   gaps |= glm::distance(polygon.back(), polygon.front()) > kGap;
-  if (gaps)
-    problems.push_back(fmt::format("loop {} of its trim curves has gaps; straight lines close them", number));
+  if (gaps) problems.push_back(fmt::format("loop {} of its trim curves has gaps; straight lines close them", number));
   // Rounded once, so that successive segments share their ends to the bit and no ray slips between.
   for (size_t i = 0; i < polygon.size(); ++i) {
     const vec2 a(polygon[i]), b(polygon[(i + 1) % polygon.size()]);
@@ -113,7 +113,8 @@ bool TrimRegion::keeps(const vec2& at) const {
 }
 
 bool TrimRegion::touches(const Segment& s, const vec2& lo, const vec2& hi) const {
-  if (glm::any(glm::lessThan(glm::max(s.a, s.b), lo)) || glm::any(glm::greaterThan(glm::min(s.a, s.b), hi))) return false;
+  if (glm::any(glm::lessThan(glm::max(s.a, s.b), lo)) || glm::any(glm::greaterThan(glm::min(s.a, s.b), hi)))
+    return false;
   // The rectangle lies on one side of the line if its corners do.
   const glm::dvec2 d = glm::dvec2(s.b) - glm::dvec2(s.a);
   int left = 0, right = 0;

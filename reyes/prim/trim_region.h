@@ -14,11 +14,16 @@ class TrimRegion {
   Kept kept(const vec2& lo, const vec2& hi) const;
 
  private:
-  struct Segment { vec2 a, b; };
-  struct Slabs { size_t first, last; };
+  struct Segment {
+    vec2 a, b;
+  };
+  struct Slabs {
+    size_t first, last;
+  };
   using Points = std::vector<glm::dvec2>;
 
-  void addLoop(const std::vector<TrimCurve>& loop, size_t number, const vec2& begin, const vec2& end, Problems& problems);
+  void addLoop(const std::vector<TrimCurve>& loop, size_t number, const vec2& begin, const vec2& end,
+               Problems& problems);
   void sortIntoSlabs();
   Slabs slabsOf(float v0, float v1) const;
   bool touches(const Segment& s, const vec2& lo, const vec2& hi) const;

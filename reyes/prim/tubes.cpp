@@ -25,8 +25,7 @@ vec3 acrossOf(const vec3& along) {
 
 class Tubes : public Prim {
  public:
-  explicit Tubes(CurveSegments segments)
-      : Prim(std::move(segments.primvars)), segments_(std::move(segments)) {
+  explicit Tubes(CurveSegments segments) : Prim(std::move(segments.primvars)), segments_(std::move(segments)) {
     for (uint32_t k = 0; k < segments_.count(); ++k) {
       const CurveSegment& s = segments_[k];
       if (s.first && segments_.line(k)[0].w > 0) ends_.push_back({k, false});
@@ -44,8 +43,7 @@ class Tubes : public Prim {
     const float v = end && end->last ? 1.0f : 0.0f;
     Bound3 line;
     float width = 0;
-    for (const vec4& c :
-         end ? piece(segments_.line(segment), v, v) : piece(segments_.line(segment), r.v0, r.v1))
+    for (const vec4& c : end ? piece(segments_.line(segment), v, v) : piece(segments_.line(segment), r.v0, r.v1))
       line.extend(vec3(c)), width = std::max(width, c.w);
     const bool around = r.u0 <= 0 && r.u1 >= 1;
     const float mitred =
@@ -84,8 +82,7 @@ class Tubes : public Prim {
     }
   }
 
-  void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su,
-                         float* sv) const override {
+  void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su, float* sv) const override {
     const End* end = endOf(patch);
     const CurveSegment& s = segments_[end ? end->segment : patch];
     std::copy_n(u, n, su);
@@ -106,7 +103,7 @@ class Tubes : public Prim {
 
  private:
   static constexpr float kMostInflation = 1.21f;  ///< That of a triangle.
-  static constexpr int kSides = 4;  ///< Stretches of a segment between directions that are carried along.
+  static constexpr int kSides = 4;                ///< Stretches of a segment between directions that are carried along.
 
   struct End {
     uint32_t segment;
@@ -192,13 +189,11 @@ class Tubes : public Prim {
       const auto onRim = [&](int k, const vec3& x) {
         const vec3 side = sides_[segment][k * size_t{kSides}];
         return 0.5f * line[k * size_t{3}].w *
-               joints_[segment][static_cast<size_t>(k)](x.x * side +
-                                                        x.y * cross(segments_.chord(segment), side));
+               joints_[segment][static_cast<size_t>(k)](x.x * side + x.y * cross(segments_.chord(segment), side));
       };
       const vec3 x(cosine, sine, 0), byU(-turn * sine, turn * cosine, 0);
       const vec3 a = onRim(0, x), b = onRim(1, x);
-      p = vec3(value) + glm::mix(a, b, v), du = glm::mix(onRim(0, byU), onRim(1, byU), v),
-      dv = vec3(slope) + b - a;
+      p = vec3(value) + glm::mix(a, b, v), du = glm::mix(onRim(0, byU), onRim(1, byU), v), dv = vec3(slope) + b - a;
       normal = cross(du, dv);
       if (!(glm::length(normal) > 1e-4f * glm::length(du) * glm::length(dv))) normal = out;
     } else {
@@ -206,8 +201,7 @@ class Tubes : public Prim {
       p = vec3(value) + radius * out, du = radius * around;
       dv = vec3(slope) + 0.5f * slope.w * out + radius * (cosine * f.sideSlope + sine * f.upSlope);
       normal = cross(around, dv);
-      if (!(glm::length(normal) > 1e-4f * glm::length(dv)))
-        normal = out;  // no length, or a cone without slope
+      if (!(glm::length(normal) > 1e-4f * glm::length(dv))) normal = out;  // no length, or a cone without slope
     }
     if (normal == vec3(0)) normal = vec3(0, 0, 1);
   }
@@ -218,10 +212,9 @@ class Tubes : public Prim {
   void findSides() {
     sides_.resize(segments_.count());
     for (uint32_t k = 0; k < segments_.count() && !segments_.cubic(); ++k)
-      joints_.push_back({jointOf(segments_.chord(k), segments_.mitres(k)[0]),
-                         jointOf(segments_.chord(k), segments_.mitres(k)[1])});
-    for (uint32_t first = 0; first < segments_.count(); first += segments_[first].of)
-      carry(first, segments_[first].of);
+      joints_.push_back(
+          {jointOf(segments_.chord(k), segments_.mitres(k)[0]), jointOf(segments_.chord(k), segments_.mitres(k)[1])});
+    for (uint32_t first = 0; first < segments_.count(); first += segments_[first].of) carry(first, segments_[first].of);
   }
 
   void carry(uint32_t first, uint32_t count) {
@@ -247,8 +240,7 @@ class Tubes : public Prim {
       if (next == vec3(0)) next = along;
       const vec3 step = nextP - p;
       if (const float d = dot(step, step); d > 0) {
-        const vec3 reflected = side - 2 / d * dot(step, side) * step,
-                   turned = along - 2 / d * dot(step, along) * step;
+        const vec3 reflected = side - 2 / d * dot(step, side) * step, turned = along - 2 / d * dot(step, along) * step;
         const vec3 back = next - turned;
         const float e = dot(back, back);
         side = e > 0 ? reflected - 2 / e * dot(back, reflected) * back : reflected;
@@ -258,20 +250,16 @@ class Tubes : public Prim {
       sides.push_back(side), alongs.push_back(along);
     }
     float excess = 0;
-    if (!segments_[first].first)
-      excess = std::atan2(dot(cross(firstSide, side), firstAlong), dot(firstSide, side));
+    if (!segments_[first].first) excess = std::atan2(dot(cross(firstSide, side), firstAlong), dot(firstSide, side));
     for (uint32_t k = 0; k < count; ++k)
       for (uint32_t i = 0; i <= kSides; ++i) {
         const float angle = -excess * static_cast<float>(k * kSides + i) / static_cast<float>(nodes);
         const uint32_t node = k * kSides + (segments_.cubic() ? i : 0);
-        sides_[first + k][i] =
-            std::cos(angle) * sides[node] + std::sin(angle) * cross(alongs[node], sides[node]);
+        sides_[first + k][i] = std::cos(angle) * sides[node] + std::sin(angle) * cross(alongs[node], sides[node]);
       }
   }
 
-  size_t shapeBytes() const override {
-    return segments_.bytes() + bytesOf(ends_) + bytesOf(sides_) + bytesOf(joints_);
-  }
+  size_t shapeBytes() const override { return segments_.bytes() + bytesOf(ends_) + bytesOf(sides_) + bytesOf(joints_); }
   CurveSegments segments_;
   std::vector<End> ends_;
   std::vector<std::array<vec3, kSides + 1>> sides_;

@@ -17,7 +17,8 @@ void textureCoordinates(GraphicsState& s, const Request& r) {
   for (size_t i = 0; i < 4; ++i) s.scope.edit().textureCoordinates[i] = {a[2 * i], a[2 * i + 1]};
 }
 
-// A thousand micropolygons a pixel are as many as any sampling can tell apart, and what a scene of one layer can be waited for.
+// A thousand micropolygons a pixel are as many as any sampling can tell apart, and what a scene of one layer can be
+// waited for.
 void setShadingRate(GraphicsState& s, const Request& r) {
   s.scope.edit().shadingRate = clamped(s, r, s.scope.shadingRate * s.scope.relativeShadingRate, 1e-3f, 1e8f);
 }
@@ -53,8 +54,7 @@ void geometricApproximation(GraphicsState& s, const Request& r) {
 void shadingInterpolation(GraphicsState& s, const Request& r) {
   const std::string& kind = r.args[0].strings[0];
   if (kind != "constant" && kind != "smooth") return reject(s, r, "unknown interpolation \"" + kind + "\"");
-  s.scope.edit().interpolation =
-      kind == "smooth" ? ShadingInterpolation::Smooth : ShadingInterpolation::Constant;
+  s.scope.edit().interpolation = kind == "smooth" ? ShadingInterpolation::Smooth : ShadingInterpolation::Constant;
 }
 
 void sides(GraphicsState& s, const Request& r) {
@@ -102,13 +102,12 @@ void basis(GraphicsState& s, const Request& r) {
 
 // It names the side that is cut away.
 void trimSense(GraphicsState& s, const Request& r, const std::string& sense) {
-  if (sense != "inside" && sense != "outside") return reject(s, r, "the sense of trim curves is \"inside\" or \"outside\"");
+  if (sense != "inside" && sense != "outside")
+    return reject(s, r, "the sense of trim curves is \"inside\" or \"outside\"");
   s.scope.trim = std::make_shared<TrimLoops>(TrimLoops{s.scope.trim->loops, sense == "outside"});
 }
 
-vec3 color(const Param& p) {
-  return p.floats.size() == 3 ? vec3(p.floats[0], p.floats[1], p.floats[2]) : vec3(1);
-}
+vec3 color(const Param& p) { return p.floats.size() == 3 ? vec3(p.floats[0], p.floats[1], p.floats[2]) : vec3(1); }
 
 // "a,b" replaces the sets, "+a,b" joins and "-a,b" leaves them.
 void editMembership(std::set<std::string>& sets, std::string_view text) {
@@ -142,7 +141,9 @@ HitMode hitMode(const Param& p) { return p.strings[0] == "primitive" ? HitMode::
 
 TessellationMode tessellationMode(const Param& p) {
   const std::string& mode = p.strings[0];
-  return mode == "full" ? TessellationMode::Full : mode == "multiresolution" ? TessellationMode::Multiresolution : TessellationMode::Fixed;
+  return mode == "full"              ? TessellationMode::Full
+         : mode == "multiresolution" ? TessellationMode::Multiresolution
+                                     : TessellationMode::Fixed;
 }
 
 using Setter = void (*)(Attributes&, const Param&);
@@ -154,23 +155,16 @@ const std::unordered_map<std::string_view, Setter>& numberSetters() {
        [](Attributes& a, const Param& p) { a.displacementBound = std::max(0.0f, p.number(0)); }},
       {"visibility:camera", [](Attributes& a, const Param& p) { a.visibility.camera = p.number(1) != 0; }},
       {"visibility:diffuse", [](Attributes& a, const Param& p) { a.visibility.diffuse = p.number(1) != 0; }},
-      {"visibility:specular",
-       [](Attributes& a, const Param& p) { a.visibility.specular = p.number(1) != 0; }},
-      {"visibility:transmission",
-       [](Attributes& a, const Param& p) { a.visibility.transmission = p.number(1) != 0; }},
+      {"visibility:specular", [](Attributes& a, const Param& p) { a.visibility.specular = p.number(1) != 0; }},
+      {"visibility:transmission", [](Attributes& a, const Param& p) { a.visibility.transmission = p.number(1) != 0; }},
       {"visibility:trace",  // until PRMan 12
-       [](Attributes& a, const Param& p) {
-         a.visibility.diffuse = a.visibility.specular = p.number(1) != 0;
-       }},
+       [](Attributes& a, const Param& p) { a.visibility.diffuse = a.visibility.specular = p.number(1) != 0; }},
       {"visibility:indirect",  // of the RIS era
-       [](Attributes& a, const Param& p) {
-         a.visibility.diffuse = a.visibility.specular = p.number(1) != 0;
-       }},
+       [](Attributes& a, const Param& p) { a.visibility.diffuse = a.visibility.specular = p.number(1) != 0; }},
       {"visibility:photon", [](Attributes& a, const Param& p) { a.visibility.photon = p.number(1) != 0; }},
       {"trace:bias", [](Attributes& a, const Param& p) { a.trace.bias = p.number(0); }},
       {"trace:offset", [](Attributes& a, const Param& p) { a.trace.offset = p.number(0); }},
-      {"trace:displacements",
-       [](Attributes& a, const Param& p) { a.trace.displacements = p.number(0) != 0; }},
+      {"trace:displacements", [](Attributes& a, const Param& p) { a.trace.displacements = p.number(0) != 0; }},
       {"trace:samplemotion", [](Attributes& a, const Param& p) { a.trace.sampleMotion = p.number(0) != 0; }},
       {"trace:maxdiffusedepth",
        [](Attributes& a, const Param& p) {
@@ -194,8 +188,7 @@ const std::unordered_map<std::string_view, Setter>& numberSetters() {
          a.radiosity = {false, p.number(0)};
        }},
       {"irradiance:maxerror", [](Attributes& a, const Param& p) { a.irradianceMaxError = p.number(0); }},
-      {"irradiance:maxpixeldist",
-       [](Attributes& a, const Param& p) { a.irradianceMaxPixelDist = p.number(0); }},
+      {"irradiance:maxpixeldist", [](Attributes& a, const Param& p) { a.irradianceMaxPixelDist = p.number(0); }},
       {"dice:binary", [](Attributes& a, const Param& p) { a.binaryDice = p.number(0) != 0; }},
       {"dice:rasterorient", [](Attributes& a, const Param& p) { a.rasterOrient = p.number(1) != 0; }},
   };
@@ -233,8 +226,10 @@ void checkWord(GraphicsState& s, const Request& r, const std::string& key, const
       {"shade:transmissionhitmode", {"shader", "primitive", "cache"}},
   };
   const auto known = table.find(key);
-  if (known == table.end() || std::find(known->second.begin(), known->second.end(), word) != known->second.end()) return;
-  s.warnOnce(key + ' ' + word, r, "rib-unknown-attribute", fmt::format("Attribute \"{}\" knows no \"{}\"; \"{}\" is taken", key, word, known->second[0]));
+  if (known == table.end() || std::find(known->second.begin(), known->second.end(), word) != known->second.end())
+    return;
+  s.warnOnce(key + ' ' + word, r, "rib-unknown-attribute",
+             fmt::format("Attribute \"{}\" knows no \"{}\"; \"{}\" is taken", key, word, known->second[0]));
 }
 
 // User attributes are read by name where they are used; all others have no effect.

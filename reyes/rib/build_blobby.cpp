@@ -20,7 +20,8 @@ PrimPtr blobby(const Request& r, const Prim* first, const GroundReader& grounds,
   const int leaves = r.args[0].integer();
   const std::vector<int>& code = r.args[1].integers;
   const std::vector<float>& floats = r.args[2].numbers;
-  return first ? makeBlobbyKey(*first, leaves, code, floats, grounds, r.params, problems) : makeBlobby(leaves, code, floats, grounds, r.params, problems);
+  return first ? makeBlobbyKey(*first, leaves, code, floats, grounds, r.params, problems)
+               : makeBlobby(leaves, code, floats, grounds, r.params, problems);
 }
 
 GroundPicture readGround(const std::string& path, const mat4& worldFromObject) {
@@ -30,16 +31,23 @@ GroundPicture readGround(const std::string& path, const mat4& worldFromObject) {
   const std::optional<DepthCamera> camera = depthCameraOf(*in);
   if (!camera || in->deep()) throw PrimError("it is no picture of depth with the matrices of its camera");
   const PictureShape& shape = in->shape();
-  GroundPicture out{shape.width, shape.height, std::vector<float>(static_cast<size_t>(shape.width) * static_cast<size_t>(shape.height)), {}, {}};
+  GroundPicture out{shape.width,
+                    shape.height,
+                    std::vector<float>(static_cast<size_t>(shape.width) * static_cast<size_t>(shape.height)),
+                    {},
+                    {}};
   if (!in->read(camera->depth, camera->depth + 1, out.depth.data())) throw PrimError(in->error());
   const vec3 half(0.5f * static_cast<float>(shape.fullWidth), -0.5f * static_cast<float>(shape.fullHeight), 1);
-  const mat4 texelFromNdc = glm::scale(glm::translate(mat4(1.0f), vec3(half.x - static_cast<float>(shape.x), -half.y - static_cast<float>(shape.y), 0)), half);
+  const mat4 texelFromNdc = glm::scale(
+      glm::translate(mat4(1.0f), vec3(half.x - static_cast<float>(shape.x), -half.y - static_cast<float>(shape.y), 0)),
+      half);
   out.cameraFromObject = camera->cameraFromWorld * worldFromObject;
   out.texelFromObject = texelFromNdc * camera->ndcFromWorld * worldFromObject;
   return out;
 }
 
-// A lone ellipsoid shows at half its radius, so each is as large as its point is wide. Where a point has no width there is nothing.
+// A lone ellipsoid shows at half its radius, so each is as large as its point is wide. Where a point has no width there
+// is nothing.
 std::optional<Request> blobbyOfPoints(const Request& r) {
   const Param* type = r.name == "Points" ? findParam(r.params, "type") : nullptr;
   if (!type || type->strings.empty() || type->strings[0] != "blobby") return std::nullopt;
@@ -61,9 +69,14 @@ std::optional<Request> blobbyOfPoints(const Request& r) {
     sum.push_back(static_cast<int>(i));
   }
   code.insert(code.end(), sum.begin(), sum.end());
-  Request out{.name = "Blobby", .args = {integers({static_cast<int>(n)}), integers(std::move(code))}, .params = r.params, .where = r.where};
+  Request out{.name = "Blobby",
+              .args = {integers({static_cast<int>(n)}), integers(std::move(code))},
+              .params = r.params,
+              .where = r.where};
   out.args.push_back({.kind = RibArg::Kind::Numbers, .numbers = std::move(floats)});
-  std::erase_if(out.params, [](const Param& p) { return p.name == "P" || p.name == "type" || p.name == "width" || p.name == "constantwidth"; });
+  std::erase_if(out.params, [](const Param& p) {
+    return p.name == "P" || p.name == "type" || p.name == "width" || p.name == "constantwidth";
+  });
   return out;
 }
 

@@ -1,4 +1,5 @@
-// Geometry "brickmap" -> Points: a disk for every finest voxel, as wide as the voxel is across its corners, in the plane of what it holds.
+// Geometry "brickmap" -> Points: a disk for every finest voxel, as wide as the voxel is across its corners, in the
+// plane of what it holds.
 #include "gi/brick_file.h"
 #include "reyes/rib/geometry_builders.h"
 
@@ -14,7 +15,13 @@ std::vector<float> flattened(const std::vector<vec3>& list) {
 
 Param channelOf(const PointCloud& cloud, const CloudChannel& channel, size_t offset) {
   const bool color = channel.width == 3;
-  Param p{channel.name, Storage::Varying, color ? ValueType::Color : ValueType::Float, color ? 1 : channel.width, {}, {}, {}};
+  Param p{channel.name,
+          Storage::Varying,
+          color ? ValueType::Color : ValueType::Float,
+          color ? 1 : channel.width,
+          {},
+          {},
+          {}};
   for (size_t i = 0; i < cloud.count(); ++i) {
     const float* values = cloud.at(i) + offset;
     p.floats.insert(p.floats.end(), values, values + channel.width);

@@ -8,7 +8,8 @@ namespace {
 
 constexpr float kNoLimit = 1e30f;  // RI_INFINITY
 
-/// Area of the rectangle around the box in the picture, not cut off by its frame; infinite where the box reaches the eye.
+/// Area of the rectangle around the box in the picture, not cut off by its frame; infinite where the box reaches the
+/// eye.
 float size_px2(const GraphicsState& s, const std::vector<float>& b) {
   const Camera camera(s.globals.options);
   const mat4 m = s.cameraFromObject().at(s.globals.options.shutterOpen);
@@ -49,8 +50,9 @@ void detail(GraphicsState& s, const Request& r) {
 void detailRange(GraphicsState& s, const Request& r) {
   const std::vector<float>& a = r.args[0].numbers;
   if (!std::is_sorted(a.begin(), a.end()))
-    return s.warn(r, "rib-attribute",
-                  fmt::format("{} {} {} {} does not increase; the attribute is left as it was", a[0], a[1], a[2], a[3]));
+    return s.warn(
+        r, "rib-attribute",
+        fmt::format("{} {} {} {} does not increase; the attribute is left as it was", a[0], a[1], a[2], a[3]));
   s.scope.detail.range = {a[0], a[1], a[2], a[3]};
   apply(s.scope);
 }

@@ -66,7 +66,8 @@ void display(GraphicsState& s, const Request& r) {
     call.name = DisplayCall().name;
   }
   declareChannel(s, call);
-  if (const auto it = s.globals.quantized.find(call.mode); it != s.globals.quantized.end() && !findParam(call.params, "quantize"))
+  if (const auto it = s.globals.quantized.find(call.mode);
+      it != s.globals.quantized.end() && !findParam(call.params, "quantize"))
     call.params.insert(call.params.end(), it->second.begin(), it->second.end());
   s.globals.options.displays.push_back(std::move(call));
 }
@@ -84,7 +85,8 @@ void displayChannel(GraphicsState& s, const Request& r) {
     call.name = token;
     s.warn(r, "rib-channel", fmt::format("\"{}\" has no type; taken for a color", token));
   }
-  static constexpr std::string_view kKnown[] = {"quantize", "dither", "fill", "filter", "filterwidth", "exposure", "source"};
+  static constexpr std::string_view kKnown[] = {"quantize",    "dither",   "fill",  "filter",
+                                                "filterwidth", "exposure", "source"};
   for (const Param& p : r.params)
     if (std::find(std::begin(kKnown), std::end(kKnown), p.name) == std::end(kKnown))
       s.warnOnce("channel:" + p.name, r, "rib-channel", "DisplayChannel: no parameter \"" + p.name + "\"; ignored");
@@ -107,7 +109,8 @@ void hider(GraphicsState& s, const Request& r) {
   Options& o = s.globals.options;
   o.hider = r.args[0].strings[0];
   if (o.hider != "hidden" && o.hider != "stochastic")
-    s.warnOnce("hider " + o.hider, r, "rib-unsupported", "Hider \"" + o.hider + "\" is not supported" + reasonFor("Hider " + o.hider));
+    s.warnOnce("hider " + o.hider, r, "rib-unsupported",
+               "Hider \"" + o.hider + "\" is not supported" + reasonFor("Hider " + o.hider));
   for (const Param& p : r.params)
     if (p.name == "jitter")
       o.jitter = p.number(1) != 0;
@@ -124,7 +127,8 @@ void hider(GraphicsState& s, const Request& r) {
       depthFilter(s, r, p.strings[0]);
     else
       s.warnOnce("hider:" + p.name, r, "rib-unsupported",
-                 "Hider: parameter \"" + p.name + "\" is not supported or has no such value, ignored" + reasonFor("Hider:" + p.name));
+                 "Hider: parameter \"" + p.name + "\" is not supported or has no such value, ignored" +
+                     reasonFor("Hider:" + p.name));
 }
 
 }  // namespace

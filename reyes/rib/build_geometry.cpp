@@ -16,8 +16,7 @@ bool allFinite(const std::vector<float>& v) {
 /// The number of points that P (or Pw, Pz) brings.
 int pointCount(const Request& r) {
   for (const Param& p : r.params)
-    if (p.name == "P" || p.name == "Pw" || p.name == "Pz")
-      return static_cast<int>(p.floats.size()) / p.width();
+    if (p.name == "P" || p.name == "Pw" || p.name == "Pz") return static_cast<int>(p.floats.size()) / p.width();
   throw PrimError("it has no P");
 }
 
@@ -35,7 +34,8 @@ PointKeys pointKeys(const MotionKeys& motion) {
     std::vector<vec3>& points = out.emplace_back();
     for (const Param& p : key->params)
       if (p.name == "P" && allFinite(p.floats))
-        for (size_t i = 0; i + 2 < p.floats.size(); i += 3) points.emplace_back(p.floats[i], p.floats[i + 1], p.floats[i + 2]);
+        for (size_t i = 0; i + 2 < p.floats.size(); i += 3)
+          points.emplace_back(p.floats[i], p.floats[i + 1], p.floats[i + 2]);
   }
   return out;
 }
@@ -47,7 +47,8 @@ PrimPtr polygon(const Request& r, const MotionKeys& motion, Problems& problems) 
 
 PrimPtr generalPolygon(const Request& r, const MotionKeys& motion, Problems& problems) {
   const std::vector<int>& counts = r.args[0].integers;
-  return makeGeneralPolygons({static_cast<int>(counts.size())}, counts, countUp(pointCount(r)), r.params, problems, pointKeys(motion));
+  return makeGeneralPolygons({static_cast<int>(counts.size())}, counts, countUp(pointCount(r)), r.params, problems,
+                             pointKeys(motion));
 }
 
 PrimPtr pointsPolygons(const Request& r, const MotionKeys& motion, Problems& problems) {
@@ -55,7 +56,8 @@ PrimPtr pointsPolygons(const Request& r, const MotionKeys& motion, Problems& pro
 }
 
 PrimPtr pointsGeneralPolygons(const Request& r, const MotionKeys& motion, Problems& problems) {
-  return makeGeneralPolygons(r.args[0].integers, r.args[1].integers, r.args[2].integers, r.params, problems, pointKeys(motion));
+  return makeGeneralPolygons(r.args[0].integers, r.args[1].integers, r.args[2].integers, r.params, problems,
+                             pointKeys(motion));
 }
 
 bool bicubic(const Request& r) {
@@ -77,8 +79,7 @@ PrimPtr patchMesh(const Request& r, const Scope& s, Problems& problems) {
   };
   const int nu = r.args[1].integer(), nv = r.args[3].integer();
   const bool uPeriodic = periodic(2), vPeriodic = periodic(4);
-  if (bicubic(r))
-    return makeBicubicPatchMesh(nu, uPeriodic, s.uBasis, nv, vPeriodic, s.vBasis, r.params, problems);
+  if (bicubic(r)) return makeBicubicPatchMesh(nu, uPeriodic, s.uBasis, nv, vPeriodic, s.vBasis, r.params, problems);
   return makeBilinearPatchMesh(nu, uPeriodic, nv, vPeriodic, r.params, problems);
 }
 
@@ -112,8 +113,7 @@ PrimPtr subdivisionMesh(const Request& r, const Scope&, Problems& problems) {
     problems.push_back("the counts of its tags do not add up: all tags are ignored");
     tags = {};
   }
-  return makeSubdivisionMesh(r.args[0].strings[0], r.args[1].integers, r.args[2].integers, tags, r.params,
-                             problems);
+  return makeSubdivisionMesh(r.args[0].strings[0], r.args[1].integers, r.args[2].integers, tags, r.params, problems);
 }
 
 // PRMan 19 and 20: the shapes of PxrStdAreaLight, of side or diameter one.
@@ -213,14 +213,17 @@ float reachOf(const Request& r) {
 
 bool isGeometry(std::string_view name) { return builders().contains(name) || keyBuilders().contains(name); }
 
-PrimPtr buildPrim(const Request& r, const Scope& scope, const MotionKeys& motion, const GroundReader& grounds, Problems& problems) {
+PrimPtr buildPrim(const Request& r, const Scope& scope, const MotionKeys& motion, const GroundReader& grounds,
+                  Problems& problems) {
   for (const RibArg& a : r.args)
     if (!allFinite(a.numbers)) throw PrimError("an argument is not finite");
   const auto build = [&](const Request& request) {
-    if (const std::optional<Request> joined = blobbyOfPoints(request)) return blobby(*joined, motion.first, grounds, problems);
+    if (const std::optional<Request> joined = blobbyOfPoints(request))
+      return blobby(*joined, motion.first, grounds, problems);
     if (request.name == "Blobby") return blobby(request, motion.first, grounds, problems);
     const auto keyed = keyBuilders().find(request.name);
-    return keyed != keyBuilders().end() ? keyed->second(request, motion, problems) : builders().at(request.name)(request, scope, problems);
+    return keyed != keyBuilders().end() ? keyed->second(request, motion, problems)
+                                        : builders().at(request.name)(request, scope, problems);
   };
   if (std::all_of(r.params.begin(), r.params.end(), [](const Param& p) { return allFinite(p.floats); }))
     return build(r);

@@ -23,7 +23,8 @@ constexpr float kFarthest = 1e12f;
 float farthest(const Motion& cameraFromObject, float reach) {
   float out = 0;
   for (const mat4& m : cameraFromObject.keys)
-    out = std::max(out, glm::length(vec3(m[3])) + reach * (glm::length(vec3(m[0])) + glm::length(vec3(m[1])) + glm::length(vec3(m[2]))));
+    out = std::max(out, glm::length(vec3(m[3])) +
+                            reach * (glm::length(vec3(m[0])) + glm::length(vec3(m[1])) + glm::length(vec3(m[2]))));
   return out;
 }
 
@@ -37,15 +38,16 @@ bool sameTopology(const Prim& a, const Prim& b) {
   const auto alike = [](const Primvar& x, const Primvar& y) {
     return x.name == y.name && x.storage == y.storage && x.values.size() == y.values.size();
   };
-  return a.patchCount() == b.patchCount() && std::equal(a.primvars().begin(), a.primvars().end(),
-                                                        b.primvars().begin(), b.primvars().end(), alike);
+  return a.patchCount() == b.patchCount() &&
+         std::equal(a.primvars().begin(), a.primvars().end(), b.primvars().begin(), b.primvars().end(), alike);
 }
 
 /// Collapsed to a point or a line all the time, so that none of it has an area.
 bool vanishes(const Motion& m) {
   return std::all_of(m.keys.begin(), m.keys.end(), [](const mat4& k) {
     const glm::dmat3 a(k);
-    return cross(a[0], a[1]) == glm::dvec3(0) && cross(a[1], a[2]) == glm::dvec3(0) && cross(a[2], a[0]) == glm::dvec3(0);
+    return cross(a[0], a[1]) == glm::dvec3(0) && cross(a[1], a[2]) == glm::dvec3(0) &&
+           cross(a[2], a[0]) == glm::dvec3(0);
   });
 }
 
@@ -60,21 +62,22 @@ void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times
                            description(r) + ": geometry outside of WorldBegin and WorldEnd is ignored");
   const Motion cameraFromObject = state_.cameraFromObject();
   if (isFinite(cameraFromObject) && vanishes(cameraFromObject))
-    return state_.warnOnce("collapsed:" + description(r), r, "rib-collapsed",
-                           description(r) + ": its transformation collapses it to a point or a line; nothing of it is drawn");
+    return state_.warnOnce(
+        "collapsed:" + description(r), r, "rib-collapsed",
+        description(r) + ": its transformation collapses it to a point or a line; nothing of it is drawn");
   if (!isFinite(cameraFromObject) || !isInvertible(cameraFromObject)) {
-    state_.log.report(
-        Severity::Missing, "rib-object-dropped", r.where,
-        description(r) + ": its transformation is singular or not finite; the object is dropped");
+    state_.log.report(Severity::Missing, "rib-object-dropped", r.where,
+                      description(r) + ": its transformation is singular or not finite; the object is dropped");
     return;
   }
   if (state_.scope.attributes->detail.empty()) return;  // another level of detail is there
   Master::Shapes shapes = shapesOf(keys, times);
   if (shapes.keys.empty()) return;
   if (const float reach = farthest(cameraFromObject, shapes.reach); !(reach < kFarthest)) {
-    state_.log.report(Severity::Missing, "rib-object-dropped", r.where,
-                      fmt::format("{}: it may reach {:g} from the camera, and floats are no good beyond {:g}; the object is dropped",
-                                  description(r), reach, kFarthest));
+    state_.log.report(
+        Severity::Missing, "rib-object-dropped", r.where,
+        fmt::format("{}: it may reach {:g} from the camera, and floats are no good beyond {:g}; the object is dropped",
+                    description(r), reach, kFarthest));
     return;
   }
   Object object;
@@ -102,7 +105,13 @@ Master::Shapes SceneBuilder::shapesOf(const Keys& keys, const std::vector<float>
 }
 
 Master::Shapes SceneBuilder::buildShapes(const Keys& keys, const std::vector<float>& times) {
-  Master::Shapes out{{}, times, state_.scope.uBasis, state_.scope.vBasis, state_.scope.roundCurves, state_.scope.trim, 0,
+  Master::Shapes out{{},
+                     times,
+                     state_.scope.uBasis,
+                     state_.scope.vBasis,
+                     state_.scope.roundCurves,
+                     state_.scope.trim,
+                     0,
                      contentsOf(keys, times, state_.scope)};
   for (const Request* key : keys) {
     out.reach = std::max(out.reach, reachOf(*key));
@@ -132,7 +141,8 @@ PrimPtr SceneBuilder::buildShape(const Request& r, const MotionKeys& motion) {
   Problems problems;
   PrimPtr prim;
   try {
-    prim = buildPrim(r, state_.scope, motion, [&](int string) { return groundOf(r, string); }, problems);
+    prim = buildPrim(
+        r, state_.scope, motion, [&](int string) { return groundOf(r, string); }, problems);
   } catch (const PrimError& e) {
     state_.log.report(Severity::Missing, "rib-object-dropped", r.where,
                       fmt::format("{}: {}; the object is dropped", description(r), e.what()));
@@ -150,13 +160,15 @@ PrimPtr SceneBuilder::buildShape(const Request& r, const MotionKeys& motion) {
 /// Where the object is when the shutter opens.
 std::optional<GroundPicture> SceneBuilder::groundOf(const Request& r, int string) const {
   const std::vector<std::string>& names = r.args[3].strings;
-  if (string < 0 || static_cast<size_t>(string) >= names.size()) throw PrimError(fmt::format("a leaf names string {} of {}", string, names.size()));
+  if (string < 0 || static_cast<size_t>(string) >= names.size())
+    throw PrimError(fmt::format("a leaf names string {} of {}", string, names.size()));
   const std::string& name = names[static_cast<size_t>(string)];
   try {
     return readGround(name, state_.scope.ctm.at(state_.globals.options.shutterOpen));
   } catch (const PrimError& e) {
-    state_.log.report(Severity::Missing, "rib-ground", r.where,
-                      fmt::format("{}: its ground \"{}\" cannot be read ({}); nothing repels it", description(r), name, e.what()));
+    state_.log.report(
+        Severity::Missing, "rib-ground", r.where,
+        fmt::format("{}: its ground \"{}\" cannot be read ({}); nothing repels it", description(r), name, e.what()));
     return {};
   }
 }
@@ -200,8 +212,7 @@ void SceneBuilder::beginMotion(const Request& r) {
 
 void SceneBuilder::collectKey(const Request& r) {
   motion_->keys.push_back(r);
-  if (motion_->keys.size() > motion_->begin.args[0].numbers.size())
-    motion_->keys.pop_back(), motion_->surplus = true;
+  if (motion_->keys.size() > motion_->begin.args[0].numbers.size()) motion_->keys.pop_back(), motion_->surplus = true;
 }
 
 void SceneBuilder::endMotion() {
@@ -214,8 +225,7 @@ void SceneBuilder::endMotion() {
                             block.surplus ? "more" : "fewer"));
   if (block.keys.empty()) return;
   times.resize(block.keys.size());
-  const bool moves =
-      block.keys.size() > 1 && std::all_of(block.keys.begin(), block.keys.end(), usableArguments);
+  const bool moves = block.keys.size() > 1 && std::all_of(block.keys.begin(), block.keys.end(), usableArguments);
   const std::vector<Request> requests = moves ? grown(block.keys) : block.keys;
   const Request& first = requests[0];
   Keys keys;
@@ -245,14 +255,14 @@ void SceneBuilder::endObject() {
 void SceneBuilder::instance(const Request& r) {
   const auto it = state_.globals.masters.find(r.args[0].strings[0]);
   if (it == state_.globals.masters.end()) {
-    state_.log.report(
-        Severity::Missing, "rib-unknown-object", r.where,
-        "ObjectInstance: no object has the handle \"" + r.args[0].strings[0] + "\"; nothing is drawn");
+    state_.log.report(Severity::Missing, "rib-unknown-object", r.where,
+                      "ObjectInstance: no object has the handle \"" + r.args[0].strings[0] + "\"; nothing is drawn");
     return;
   }
   if (instanceDepth_ >= kDeepestInstance)
-    return state_.log.report(Severity::Missing, "rib-nesting", r.where,
-                             fmt::format("ObjectInstance: more than {} objects within objects; ignored", kDeepestInstance));
+    return state_.log.report(
+        Severity::Missing, "rib-nesting", r.where,
+        fmt::format("ObjectInstance: more than {} objects within objects; ignored", kDeepestInstance));
   if (instanceDepth_ == 0) instanceBudget_ = kLongestInstance;
 
   const std::shared_ptr<Master> master = it->second;
@@ -261,8 +271,7 @@ void SceneBuilder::instance(const Request& r) {
   Master* const outer = std::exchange(master_, master.get());
   const size_t outerRequest = masterRequest_;
   ++instanceDepth_;
-  for (masterRequest_ = 0; masterRequest_ < master->requests.size() && instanceBudget_ > 0;
-       ++masterRequest_) {
+  for (masterRequest_ = 0; masterRequest_ < master->requests.size() && instanceBudget_ > 0; ++masterRequest_) {
     --instanceBudget_;
     step(master->requests[masterRequest_]);
   }
@@ -276,8 +285,9 @@ void SceneBuilder::instance(const Request& r) {
   state_.identity = outerIdentity;
   state_.end(Block::Instance, r.where);
   if (instanceDepth_ == 0 && instanceBudget_ == 0)
-    state_.log.report(Severity::Missing, "rib-nesting", r.where,
-                      fmt::format("ObjectInstance: stands for more than {} requests; the rest is ignored", kLongestInstance));
+    state_.log.report(
+        Severity::Missing, "rib-nesting", r.where,
+        fmt::format("ObjectInstance: stands for more than {} requests; the rest is ignored", kLongestInstance));
 }
 
 }  // namespace tomales::rib

@@ -22,9 +22,10 @@ void format(GraphicsState& s, const Request& r) {
   const std::vector<float>& a = r.args[0].numbers;
   Options& o = s.globals.options;
   if (a[0] > kLargestImage || a[1] > kLargestImage) {
-    s.log.report(Severity::Missing, "rib-option", r.where,
-                 fmt::format("Format: {} x {} is more than the {} pixels that a picture may have on a side; {} x {} stays", a[0], a[1],
-                             kLargestImage, o.xResolution, o.yResolution));
+    s.log.report(
+        Severity::Missing, "rib-option", r.where,
+        fmt::format("Format: {} x {} is more than the {} pixels that a picture may have on a side; {} x {} stays", a[0],
+                    a[1], kLargestImage, o.xResolution, o.yResolution));
     return;
   }
   if (a[0] > 0) o.xResolution = std::max(1, static_cast<int>(a[0]));
@@ -96,7 +97,8 @@ void clipping(GraphicsState& s, const Request& r) {
   s.globals.options.farClip = std::min(a[1], 1e30f);
 }
 
-// RISpec 3.2 section 4.1.2: what lies on the side that the normal points to is clipped. Given in the space of the request.
+// RISpec 3.2 section 4.1.2: what lies on the side that the normal points to is clipped. Given in the space of the
+// request.
 void clippingPlane(GraphicsState& s, const Request& r) {
   const RibArg& a = r.args[0];
   const mat4 m = s.cameraFromObject().at(s.globals.options.shutterOpen);
@@ -208,7 +210,9 @@ bool knownOption(GraphicsState& s, const Request& r, const std::string& key, con
     else
       s.warn(r, "rib-bucket-order", "no bucket order \"" + p.strings[0] + "\"; \"" + o.bucketOrder + "\" is used");
   } else {
-    return key.starts_with("user:") || key.starts_with("shadow:bias") || key == "shade:specular" || key == "texture:width" || key == "texture:filter" || key == "limits:texturememory" || key == "limits:geocachememory" || key == "ribparse:varsubst";
+    return key.starts_with("user:") || key.starts_with("shadow:bias") || key == "shade:specular" ||
+           key == "texture:width" || key == "texture:filter" || key == "limits:texturememory" ||
+           key == "limits:geocachememory" || key == "ribparse:varsubst";
   }
   return true;
 }
@@ -219,7 +223,8 @@ void option(GraphicsState& s, const Request& r) {
     const std::string key = category + ":" + p.name;
     s.globals.options.user[key] = p;
     if (!knownOption(s, r, key, p))
-      s.warnOnce("Option " + key, r, "rib-unknown-option", "Option \"" + key + "\" has no effect here" + reasonFor("Option " + key));
+      s.warnOnce("Option " + key, r, "rib-unknown-option",
+                 "Option \"" + key + "\" has no effect here" + reasonFor("Option " + key));
   }
 }
 

@@ -19,10 +19,9 @@ void restoreTransform(Scope& to, const Scope& from) {
 void restoreShading(Scope& to, const Scope& from) {
   Attributes& a = to.edit();
   const Attributes& b = *from.attributes;
-  a.color = b.color, a.opacity = b.opacity, a.surface = b.surface, a.lights = b.lights,
-  a.areaLight = b.areaLight, a.interior = b.interior, a.exterior = b.exterior;
-  a.shadingRate = b.shadingRate, a.interpolation = b.interpolation, a.indirect = b.indirect,
-  a.trace = b.trace;
+  a.color = b.color, a.opacity = b.opacity, a.surface = b.surface, a.lights = b.lights, a.areaLight = b.areaLight,
+  a.interior = b.interior, a.exterior = b.exterior;
+  a.shadingRate = b.shadingRate, a.interpolation = b.interpolation, a.indirect = b.indirect, a.trace = b.trace;
   a.irradianceMaxError = b.irradianceMaxError, a.irradianceMaxPixelDist = b.irradianceMaxPixelDist;
   to.shadingRate = from.shadingRate, to.relativeShadingRate = from.relativeShadingRate;
   to.lightsCastShadows = from.lightsCastShadows;
@@ -43,8 +42,7 @@ void restoreGeometryDefinition(Scope& to, const Scope& from) {
 
 void restoreHiding(Scope& to, const Scope& from) {
   Attributes& a = to.edit();
-  a.matte = from.attributes->matte, a.sides = from.attributes->sides,
-  a.visibility = from.attributes->visibility;
+  a.matte = from.attributes->matte, a.sides = from.attributes->sides, a.visibility = from.attributes->visibility;
 }
 
 const std::unordered_map<std::string_view, Restore>& subsets() {
@@ -80,16 +78,14 @@ void resource(GraphicsState& s, const Request& r) {
   auto& scopes = s.globals.resources;
   if (r.args[1].strings[0] != "attributes" || (operation != "save" && operation != "restore"))
     return s.warn(r, "rib-resource",
-                  fmt::format("operation \"{}\" of a resource of type \"{}\" is not supported; ignored",
-                              operation, r.args[1].strings[0]));
+                  fmt::format("operation \"{}\" of a resource of type \"{}\" is not supported; ignored", operation,
+                              r.args[1].strings[0]));
   if (operation == "save") {
     scopes.back()[name] = s.scope;
     return;
   }
-  const auto scope =
-      std::find_if(scopes.rbegin(), scopes.rend(), [&](const auto& m) { return m.contains(name); });
-  if (scope == scopes.rend())
-    return s.warn(r, "rib-resource", "nothing is saved as \"" + name + "\"; ignored");
+  const auto scope = std::find_if(scopes.rbegin(), scopes.rend(), [&](const auto& m) { return m.contains(name); });
+  if (scope == scopes.rend()) return s.warn(r, "rib-resource", "nothing is saved as \"" + name + "\"; ignored");
   restore(s, r, scope->at(name));
 }
 

@@ -68,10 +68,8 @@ const HandlerTable& shaderHandlers() {
        [](GraphicsState& s, const Request& r) {
          s.scope.edit().surface = s.shaders(std::make_shared<const ShaderCall>(makeShaderCall(s, r)));
        }},
-      {"Displacement",
-       [](GraphicsState& s, const Request& r) { s.scope.edit().displacement = shaderOrNone(s, r); }},
-      {"Atmosphere",
-       [](GraphicsState& s, const Request& r) { s.scope.edit().atmosphere = shaderOrNone(s, r); }},
+      {"Displacement", [](GraphicsState& s, const Request& r) { s.scope.edit().displacement = shaderOrNone(s, r); }},
+      {"Atmosphere", [](GraphicsState& s, const Request& r) { s.scope.edit().atmosphere = shaderOrNone(s, r); }},
       {"Interior", [](GraphicsState& s, const Request& r) { s.scope.edit().interior = shaderOrNone(s, r); }},
       {"Exterior", [](GraphicsState& s, const Request& r) { s.scope.edit().exterior = shaderOrNone(s, r); }},
       {"LightSource", [](GraphicsState& s, const Request& r) { addLight(s, r, false); }},

@@ -40,8 +40,10 @@ void beginSolid(GraphicsState& s, const Request& r) {
   if (s.scope.solid >= 0 && openSolid(s).operation(s.scope.solidBlock) == SolidOperation::Primitive)
     return s.warn(r, "rib-solid", "inside a primitive; what it holds is part of the surface of that");
   if (s.scope.solid >= 0 && openSolid(s).depth(s.scope.solidBlock) >= kDeepestSolid)
-    return s.warnOnce("solids", r, "rib-nesting",
-                      fmt::format("SolidBegin: more than {} solids within solids; what it holds is part of the one around it", kDeepestSolid));
+    return s.warnOnce(
+        "solids", r, "rib-nesting",
+        fmt::format("SolidBegin: more than {} solids within solids; what it holds is part of the one around it",
+                    kDeepestSolid));
   if (s.scope.solid < 0) {
     s.scope.solid = static_cast<int>(s.world->solids.size());
     s.world->solids.emplace_back();
@@ -62,8 +64,9 @@ void placeInSolid(GraphicsState& s, Object& object) {
   object.solid = s.scope.solid;
   object.solidBlock = s.scope.solidBlock;
   if (openSolid(s).operation(object.solidBlock) == SolidOperation::Primitive) return;
-  s.log.report(Severity::Warning, "rib-solid", object.where,
-               objectName(object) + ": in a solid operation, but not in SolidBegin \"primitive\"; it is a primitive of its own");
+  s.log.report(
+      Severity::Warning, "rib-solid", object.where,
+      objectName(object) + ": in a solid operation, but not in SolidBegin \"primitive\"; it is a primitive of its own");
   object.solidBlock = openSolid(s).add(SolidOperation::Primitive, s.scope.solidBlock);
 }
 

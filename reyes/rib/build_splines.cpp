@@ -6,8 +6,7 @@ namespace {
 
 NurbsDirection nurbsDirection(const Request& r, size_t first) {
   const auto number = [&](size_t k) { return r.args[first + k].numbers[0]; };
-  return {r.args[first].integer(), r.args[first + 1].integer(), r.args[first + 2].numbers, number(3),
-          number(4)};
+  return {r.args[first].integer(), r.args[first + 1].integer(), r.args[first + 2].numbers, number(3), number(4)};
 }
 
 }  // namespace
@@ -24,7 +23,8 @@ PrimPtr curves(const Request& r, const Scope& s, Problems& problems) {
   if (wrap != "periodic" && wrap != "nonperiodic") throw PrimError("unknown wrap \"" + wrap + "\"");
   // Ribbons that have a normal of their own cannot be round.
   const bool round = s.roundCurves && !findParam(r.params, "N");
-  return (round ? makeTubes : makeCurves)(type == "cubic", s.vBasis, r.args[1].integers, wrap == "periodic", r.params, problems);
+  return (round ? makeTubes : makeCurves)(type == "cubic", s.vBasis, r.args[1].integers, wrap == "periodic", r.params,
+                                          problems);
 }
 
 }  // namespace tomales::rib

@@ -28,8 +28,7 @@ std::optional<mat4> perspective(float fov_degrees) {
 std::optional<mat4> skew(const RibArg& r) {
   const vec3 a = normalizeOr(asVec3(r, 1), vec3(0)), b = normalizeOr(asVec3(r, 4), vec3(0));
   const vec3 n = normalizeOr(a - dot(a, b) * b, vec3(0));
-  const float theta = std::acos(std::clamp(dot(a, b), -1.0f, 1.0f)),
-              left = theta - glm::radians(r.numbers[0]);
+  const float theta = std::acos(std::clamp(dot(a, b), -1.0f, 1.0f)), left = theta - glm::radians(r.numbers[0]);
   if (b == vec3(0) || n == vec3(0) || !(left > 0 && left < kPi)) return std::nullopt;
   const float k = 1 / std::tan(left) - 1 / std::tan(theta);
   mat4 m(1);
@@ -100,8 +99,7 @@ bool isTransformation(std::string_view name) {
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
-void applyTransformation(GraphicsState& s, const std::vector<const Request*>& keys,
-                         const std::vector<float>& times) {
+void applyTransformation(GraphicsState& s, const std::vector<const Request*>& keys, const std::vector<float>& times) {
   Motion motion{times, {}};
   for (const Request* r : keys) {
     const std::optional<mat4> m = matrixOf(*r);
@@ -119,9 +117,7 @@ void applyTransformation(GraphicsState& s, const std::vector<const Request*>& ke
 const HandlerTable& transformHandlers() {
   static const HandlerTable table = {
       {"CoordinateSystem",
-       [](GraphicsState& s, const Request& r) {
-         s.globals.coordinateSystems[r.args[0].strings[0]] = s.scope.ctm;
-       }},
+       [](GraphicsState& s, const Request& r) { s.globals.coordinateSystems[r.args[0].strings[0]] = s.scope.ctm; }},
       {"ScopedCoordinateSystem",
        [](GraphicsState& s, const Request& r) {
          const std::string& name = r.args[0].strings[0];

@@ -5,8 +5,8 @@
 namespace tomales::rib {
 namespace {
 
-constexpr int kPoints = 17;         ///< On an edge.
-constexpr float kTolerance = 0.01f; ///< Of the size of the whole; 16 chords leave a circle by 0.7 % of its diameter.
+constexpr int kPoints = 17;          ///< On an edge.
+constexpr float kTolerance = 0.01f;  ///< Of the size of the whole; 16 chords leave a circle by 0.7 % of its diameter.
 constexpr size_t kMostEdges = 2000;
 
 struct EdgeLine {
@@ -22,8 +22,9 @@ EdgeLine edgeLine(const Object& o, uint32_t patch, PatchEdge edge) {
     u[i] = edge == kEdgeU0 ? 0.0f : edge == kEdgeU1 ? 1.0f : along;
     v[i] = edge == kEdgeV0 ? 0.0f : edge == kEdgeV1 ? 1.0f : along;
   }
-  o.shape().evaluate(patch, kPoints, u, v,
-                     {data[0], data[1], data[2], data[3], data[4], data[5], data[6], data[7], data[8], data[9], data[10], data[11]});
+  o.shape().evaluate(
+      patch, kPoints, u, v,
+      {data[0], data[1], data[2], data[3], data[4], data[5], data[6], data[7], data[8], data[9], data[10], data[11]});
   EdgeLine line;
   line.object = &o;
   for (size_t i = 0; i < kPoints; ++i) {
@@ -52,7 +53,8 @@ bool passes(const EdgeLine& line, const vec3& p, float tolerance) {
 bool joined(const EdgeLine& line, const std::vector<EdgeLine>& all, float tolerance) {
   if (glm::length(line.bound.size()) <= tolerance) return true;  // a pole
   return std::all_of(line.at.begin(), line.at.end(), [&](const vec3& p) {
-    return std::any_of(all.begin(), all.end(), [&](const EdgeLine& o) { return &o != &line && passes(o, p, tolerance); });
+    return std::any_of(all.begin(), all.end(),
+                       [&](const EdgeLine& o) { return &o != &line && passes(o, p, tolerance); });
   });
 }
 

@@ -40,15 +40,13 @@ bool isEmptyMesh(const Request& r) {
 }
 
 bool hasNoArea(const Request& r) {
-  static const Extent kQuadrics[] = {{"Sphere", {0, 3}, 1, 2, 1},     {"Cone", {1, 2}},
-                                     {"Cylinder", {0, 3}, 1, 2, 1},   {"Hyperboloid", {6}, 0, 3, 3},
-                                     {"Paraboloid", {0, 3}, 1, 2, 1}, {"Disk", {1, 2}},
-                                     {"Torus", {1, 4}, 2, 3, 1}};
+  static const Extent kQuadrics[] = {
+      {"Sphere", {0, 3}, 1, 2, 1},     {"Cone", {1, 2}}, {"Cylinder", {0, 3}, 1, 2, 1}, {"Hyperboloid", {6}, 0, 3, 3},
+      {"Paraboloid", {0, 3}, 1, 2, 1}, {"Disk", {1, 2}}, {"Torus", {1, 4}, 2, 3, 1}};
   for (const Extent& e : kQuadrics) {
     if (e.name != r.name) continue;
     const std::vector<float>& n = r.args[0].numbers;
-    const bool empty =
-        e.count > 0 && std::equal(n.begin() + e.from, n.begin() + e.from + e.count, n.begin() + e.to);
+    const bool empty = e.count > 0 && std::equal(n.begin() + e.from, n.begin() + e.from + e.count, n.begin() + e.to);
     return empty || std::any_of(e.sizes.begin(), e.sizes.end(), [&](size_t i) { return n[i] == 0; });
   }
   return false;

@@ -34,8 +34,8 @@ bool Conditions::conditionHolds(const Request& r) const {
     return holds(r.args[0].strings[0], variables_);
   } catch (const ExpressionError& e) {
     log_.report(Severity::Warning, "rib-condition", r.where,
-                fmt::format("{} \"{}\": {}; the condition counts as false", r.name,
-                            r.args[0].strings[0].substr(0, 200), e.what()));
+                fmt::format("{} \"{}\": {}; the condition counts as false", r.name, r.args[0].strings[0].substr(0, 200),
+                            e.what()));
     return false;
   }
 }

@@ -39,7 +39,9 @@ constexpr Standard kStandard[] = {
     {"float[2]", "shutteropening exposure filterwidth"},
     {"float[4]", "quantize"},
     {"int[2]", "origin"},
-    {"string", "operation subset compression filter depthfilter type source exrpixeltype exrcompression transfer lightgroup __group __category"},
+    {"string",
+     "operation subset compression filter depthfilter type source exrpixeltype exrcompression transfer lightgroup "
+     "__group __category"},
     {"float", "fill mergedepth mergeopacity"},
     {"float", "maxerror radiusscale"},  // of MakeBrickMap
     {"int", "maxdepth ignorenormals"},
@@ -53,15 +55,18 @@ constexpr Standard kStandard[] = {
     {"color", "limits:othreshold limits:zthreshold"},
     {"string",
      "searchpath:archive searchpath:shader searchpath:texture searchpath:display searchpath:procedural "
-     "searchpath:resource searchpath:texturecache shade:specular texture:filter searchpath:dirmap ribparse:varsubst bucket:order statistics:filename statistics:xmlfilename"},
+     "searchpath:resource searchpath:texturecache shade:specular texture:filter searchpath:dirmap ribparse:varsubst "
+     "bucket:order statistics:filename statistics:xmlfilename"},
     {"float", "shadow:bias shadow:bias0 shadow:bias1 shutter:offset texture:width"},
     {"string",
-     "identifier:name identifier:shadinggroup grouping:membership grouping:tracesubset trace:tessellationmode displacementbound:coordinatesystem "
+     "identifier:name identifier:shadinggroup grouping:membership grouping:tracesubset trace:tessellationmode "
+     "displacementbound:coordinatesystem "
      "light:shadows indirect:surface photon:globalmap photon:causticmap photon:shadingmodel "
      "dice:strategy trimcurve:sense shade:strategy shade:diffusehitmode shade:specularhitmode "
      "shade:transmissionhitmode shade:camerahitmode"},
     {"float",
-     "displacementbound:sphere bound:displacement trace:bias trace:offset trace:tessellation indirect:gain indirect:bleeding "
+     "displacementbound:sphere bound:displacement trace:bias trace:offset trace:tessellation indirect:gain "
+     "indirect:bleeding "
      "irradiance:maxerror irradiance:maxpixeldist irradiance:shadingrate radiosity:screentexels radiosity:worldtexels"},
     {"color", "indirect:bleedingcolor"},
     {"int",
@@ -73,9 +78,8 @@ constexpr Standard kStandard[] = {
 };
 
 constexpr std::pair<std::string_view, Storage> kStorages[] = {
-    {"constant", Storage::Constant},       {"uniform", Storage::Uniform},
-    {"varying", Storage::Varying},         {"vertex", Storage::Vertex},
-    {"facevarying", Storage::FaceVarying}, {"facevertex", Storage::FaceVarying}};
+    {"constant", Storage::Constant}, {"uniform", Storage::Uniform},         {"varying", Storage::Varying},
+    {"vertex", Storage::Vertex},     {"facevarying", Storage::FaceVarying}, {"facevertex", Storage::FaceVarying}};
 constexpr std::pair<std::string_view, ValueType> kTypes[] = {
     {"float", ValueType::Float},   {"int", ValueType::Integer},   {"integer", ValueType::Integer},
     {"string", ValueType::String}, {"color", ValueType::Color},   {"point", ValueType::Point},

@@ -24,17 +24,17 @@ class Dictionary {
   /// Holds the standard names of RISpec 3.2 and of the options and attributes that Tomales knows.
   Dictionary();
 
-  /// `declaration`: "class type[n]", where class and type may each be missing, and n: then it is 1. False: not understood.
+  /// `declaration`: "class type[n]", where class and type may each be missing, and n: then it is 1. False: not
+  /// understood.
   bool declare(const std::string& name, const std::string& declaration);
 
   /// Of the token of a parameter list: a declared name, or an inline declaration "class type[n] name". On
   /// success `name` is the bare name. `category` is that of Option and Attribute ("visibility"), whose own
   /// names come first.
-  std::optional<Declaration> find(const std::string& token, const std::string& category,
-                                  std::string& name) const;
+  std::optional<Declaration> find(const std::string& token, const std::string& category, std::string& name) const;
 
-  /// ColorSamples (RISpec 3.2 section 4.1.6): a row of red, green and blue for each number of a color; empty: they are those three.
-  /// False: the matrix is none.
+  /// ColorSamples (RISpec 3.2 section 4.1.6): a row of red, green and blue for each number of a color; empty: they are
+  /// those three. False: the matrix is none.
   bool setColorSamples(std::vector<float> rgbOfSamples);
   int colorSamples() const { return rgbOfSamples_.empty() ? 3 : static_cast<int>(rgbOfSamples_.size() / 3); }
   /// The colors of the stream as red, green and blue. Pre: a multiple of colorSamples().

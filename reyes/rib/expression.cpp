@@ -15,8 +15,7 @@ constexpr size_t kMostSteps = 1 << 26;  ///< Of a comparison with a pattern, whi
                                         ///< of the text for each of its own.
 
 void checkLength(size_t bytes) {
-  if (bytes > kLongestText)
-    throw ExpressionError(fmt::format("its text would be longer than {} bytes", kLongestText));
+  if (bytes > kLongestText) throw ExpressionError(fmt::format("its text would be longer than {} bytes", kLongestText));
 }
 
 std::optional<double> asNumber(const std::string& text) {
@@ -35,8 +34,8 @@ std::string truth(bool b) { return b ? "1" : "0"; }
 // '*' is any text and '?' any character; on a mismatch the latest star takes one more.
 bool matches(std::string_view text, std::string_view pattern) {
   if (text.size() * pattern.size() > kMostSteps)
-    throw ExpressionError(fmt::format("a text of {} bytes and a pattern of {} are too long to compare",
-                                      text.size(), pattern.size()));
+    throw ExpressionError(
+        fmt::format("a text of {} bytes and a pattern of {} are too long to compare", text.size(), pattern.size()));
   size_t t = 0, p = 0, star = std::string_view::npos, starText = 0;
   while (t < text.size()) {
     if (p < pattern.size() && pattern[p] == '*') {
@@ -189,15 +188,13 @@ class Evaluator {
     skipBlanks();
     size_t n = 0;
     const auto inWord = [&](char c) {
-      const bool exponentSign = (c == '-' || c == '+') && n > 0 &&
-                                (rest_[n - 1] == 'e' || rest_[n - 1] == 'E') &&
+      const bool exponentSign = (c == '-' || c == '+') && n > 0 && (rest_[n - 1] == 'e' || rest_[n - 1] == 'E') &&
                                 std::isdigit(static_cast<unsigned char>(rest_[0]));
       return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == ':' || c == '.' || exponentSign;
     };
     while (n < rest_.size() && inWord(rest_[n])) ++n;
     if (n == 0)
-      throw ExpressionError(rest_.empty() ? "it ends early"
-                                          : fmt::format("'{}' is not understood", rest_[0]));
+      throw ExpressionError(rest_.empty() ? "it ends early" : fmt::format("'{}' is not understood", rest_[0]));
     const std::string out(rest_.substr(0, n));
     rest_.remove_prefix(n);
     return out;

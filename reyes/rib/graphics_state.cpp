@@ -99,7 +99,8 @@ void GraphicsState::enterWorld(const SourceLoc& where) {
 
 void GraphicsState::switchOnEverywhere(int light) {
   const auto switchOn = [light](Scope& s) {
-    if (const auto& on = s.attributes->lights; std::find(on.begin(), on.end(), light) == on.end()) s.edit().lights.push_back(light);
+    if (const auto& on = s.attributes->lights; std::find(on.begin(), on.end(), light) == on.end())
+      s.edit().lights.push_back(light);
   };
   switchOn(scope);
   for (Saved& saved : stack_) switchOn(saved.scope);

@@ -25,9 +25,9 @@ struct Scope {
   Motion ctm;
   Basis uBasis = bezierBasis(), vBasis = bezierBasis();
   std::shared_ptr<const TrimLoops> trim = std::make_shared<TrimLoops>();  ///< Attribute "trimcurve" is part of it.
-  float shadingRate = 1, relativeShadingRate = 1;  ///< Their product is in the attributes.
-  bool roundCurves = false;        ///< Attribute "dice" "roundcurve"
-  bool lightsCastShadows = false;  ///< Attribute "light" "shadows": for lights that are made here.
+  float shadingRate = 1, relativeShadingRate = 1;                         ///< Their product is in the attributes.
+  bool roundCurves = false;                                               ///< Attribute "dice" "roundcurve"
+  bool lightsCastShadows = false;                   ///< Attribute "light" "shadows": for lights that are made here.
   std::map<std::string, Motion> coordinateSystems;  ///< ScopedCoordinateSystem
   DetailState detail;
   int solid = -1, solidBlock = -1;  ///< In World::solids: the SolidBegin around, if any.
@@ -43,9 +43,10 @@ struct Master {
     std::vector<float> times;
     Basis uBasis, vBasis;
     bool roundCurves;
-    std::shared_ptr<const TrimLoops> trim;  ///< Those that it was built with; the others see the values of the request only.
-    float reach;                            ///< reachOf() the requests.
-    uint64_t contents;                      ///< contentsOf() them.
+    std::shared_ptr<const TrimLoops>
+        trim;           ///< Those that it was built with; the others see the values of the request only.
+    float reach;        ///< reachOf() the requests.
+    uint64_t contents;  ///< contentsOf() them.
   };
   std::vector<Request> requests;
   std::map<size_t, Shapes> shapes;  ///< By index of the request.
@@ -60,7 +61,8 @@ struct Globals {
   std::map<std::string, std::shared_ptr<Master>> masters;
   std::vector<std::map<std::string, Scope>> resources{1};  ///< Outermost ResourceBegin first.
   DirMap dirMap;
-  std::map<std::string, std::string> unmappedPaths;  ///< Options::searchPaths before dirMap: headers of frames say both again.
+  std::map<std::string, std::string>
+      unmappedPaths;  ///< Options::searchPaths before dirMap: headers of frames say both again.
   Patterns patterns;
   std::map<std::string, ParamList> quantized;  ///< Quantize of a variable: parameters of the Displays that show it.
 };

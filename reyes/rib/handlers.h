@@ -32,7 +32,8 @@ struct MotionKeys {
   const std::vector<const Request*>& requests;  ///< By time; the request alone if it does not move.
   const Prim* first;                            ///< The shape at the first key, if it is not that itself.
 };
-PrimPtr buildPrim(const Request& request, const Scope& scope, const MotionKeys& motion, const GroundReader& grounds, Problems& problems);
+PrimPtr buildPrim(const Request& request, const Scope& scope, const MotionKeys& motion, const GroundReader& grounds,
+                  Problems& problems);
 /// Of a file that a Display of depth has left. Throws PrimError.
 GroundPicture readGround(const std::string& path, const mat4& worldFromObject);
 
@@ -41,17 +42,15 @@ float reachOf(const Request& request);
 
 /// TrimCurve: the loops that cut the NuPatches after it, none if it is empty.
 void trimCurve(GraphicsState& state, const Request& request);
-// Solids: what SolidBegin and SolidEnd do besides saving the attributes. Begin is called inside the new block, end while
-// it still stands.
+// Solids: what SolidBegin and SolidEnd do besides saving the attributes. Begin is called inside the new block, end
+// while it still stands.
 void beginSolid(GraphicsState& state, const Request& request);
 void endSolid(GraphicsState& state, const Request& request);
 /// Makes an object part of the solid that is open, if any.
 void placeInSolid(GraphicsState& state, Object& object);
 
 // Shared by the handlers.
-inline vec3 asVec3(const RibArg& a, size_t at = 0) {
-  return {a.numbers[at], a.numbers[at + 1], a.numbers[at + 2]};
-}
+inline vec3 asVec3(const RibArg& a, size_t at = 0) { return {a.numbers[at], a.numbers[at + 1], a.numbers[at + 2]}; }
 mat4 asMatrix(const std::vector<float>& sixteen);
 /// Says so where it changes the value.
 float clamped(GraphicsState& state, const Request& request, float value, float least, float most);

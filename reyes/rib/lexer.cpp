@@ -141,8 +141,7 @@ void Lexer::readString() {
   token_.kind = Token::Kind::String;
   stream_.get();
   for (int c = stream_.get(); c != '"'; c = stream_.get()) {
-    if (c == ByteStream::kEnd || token_.text.size() >= kLongestString)
-      return junk("a string without closing quote");
+    if (c == ByteStream::kEnd || token_.text.size() >= kLongestString) return junk("a string without closing quote");
     if (c == '\n') ++line_;
     if (c == '\\')
       readEscape();
@@ -191,8 +190,8 @@ void Lexer::readWord() {
 void Lexer::readJunk() {
   int c = stream_.peek();
   junk(fmt::format("byte 0x{:02x}, which begins nothing in RIB", c));
-  while (c != ByteStream::kEnd && !isWord(c) && !isBlank(c) && !isBinary(c) && c != '"' && c != '[' &&
-         c != ']' && c != '#') {
+  while (c != ByteStream::kEnd && !isWord(c) && !isBlank(c) && !isBinary(c) && c != '"' && c != '[' && c != ']' &&
+         c != '#') {
     stream_.get();
     c = stream_.peek();
   }

@@ -14,8 +14,7 @@ namespace tomales::rib {
 struct Token {
   enum class Kind { End, Number, Floats, String, Name, Open, Close, Junk };
   Kind kind = Kind::End;
-  ScannedNumber
-      number{};  ///< May be infinite or NaN: writers print "inf" and "nan" when their input was broken.
+  ScannedNumber number{};     ///< May be infinite or NaN: writers print "inf" and "nan" when their input was broken.
   std::vector<float> floats;  ///< Floats: an encoded array, brackets included.
   std::string text;           ///< Of a String without quotes and escapes, of a Name; for Junk, what it is.
   int line = 1;

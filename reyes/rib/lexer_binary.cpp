@@ -32,10 +32,9 @@ bool Lexer::readBinary() {
     if (!readBytes(c == 0244 ? 4 : 8, n)) return true;
     token_.kind = Token::Kind::Number;
     const double d = c == 0245 ? std::bit_cast<double>(n) : 0;
-    token_.number = c == 0245
-                        ? ScannedNumber{d, static_cast<float>(std::clamp<double>(d, -HUGE_VALF, HUGE_VALF))}
-                        : ScannedNumber{std::bit_cast<float>(static_cast<uint32_t>(n)),
-                                        std::bit_cast<float>(static_cast<uint32_t>(n))};
+    token_.number = c == 0245 ? ScannedNumber{d, static_cast<float>(std::clamp<double>(d, -HUGE_VALF, HUGE_VALF))}
+                              : ScannedNumber{std::bit_cast<float>(static_cast<uint32_t>(n)),
+                                              std::bit_cast<float>(static_cast<uint32_t>(n))};
   } else if (c == 0246) {
     if (!readBytes(1, n)) return true;
     token_.kind = Token::Kind::Name;
@@ -74,8 +73,7 @@ void Lexer::readInteger(int bytes, int fraction) {
   uint64_t n = 0;
   if (!readBytes(bytes, n)) return;
   const int unused = 64 - 8 * bytes;
-  const double d =
-      std::ldexp(static_cast<double>(static_cast<int64_t>(n << unused) >> unused), -8 * fraction);
+  const double d = std::ldexp(static_cast<double>(static_cast<int64_t>(n << unused) >> unused), -8 * fraction);
   token_.kind = Token::Kind::Number;
   token_.number = {d, static_cast<float>(d)};
 }

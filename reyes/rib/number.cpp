@@ -23,8 +23,7 @@ struct Decimal {
 bool isDigit(char c) { return static_cast<unsigned char>(c - '0') < 10; }
 
 const char* takeDigits(const char* p, const char* last, Decimal& d) {
-  for (; p < last && isDigit(*p); ++p, ++d.digits)
-    d.mantissa = d.mantissa * 10 + static_cast<uint64_t>(*p - '0');
+  for (; p < last && isDigit(*p); ++p, ++d.digits) d.mantissa = d.mantissa * 10 + static_cast<uint64_t>(*p - '0');
   return p;
 }
 
@@ -74,8 +73,7 @@ const char* scanEverydayNumber(const char* first, const char* last, ScannedNumbe
   if (p < last && (*p == 'e' || *p == 'E') && !(p = takeExponent(p + 1, last, d))) return nullptr;
   if (d.mantissa >> 53 != 0 || d.exponent < -22 || d.exponent > 22) return nullptr;
   const auto mantissa = static_cast<double>(d.mantissa);
-  const double size =
-      d.exponent < 0 ? mantissa / kPowersOfTen[-d.exponent] : mantissa * kPowersOfTen[d.exponent];
+  const double size = d.exponent < 0 ? mantissa / kPowersOfTen[-d.exponent] : mantissa * kPowersOfTen[d.exponent];
   out.wide = negative ? -size : size;
   return roundOnce(out.wide, out.narrow) ? p : nullptr;
 }

@@ -5,19 +5,22 @@
 namespace tomales::rib {
 namespace {
 
-/// Strings that a primitive has of its own, which surfaces cannot interpolate: those of one value, which are that of all of it.
+/// Strings that a primitive has of its own, which surfaces cannot interpolate: those of one value, which are that of
+/// all of it.
 ParamList stringsOf(const Request& r) {
   ParamList out;
   const bool has = r.name != "Points" && r.name != "Geometry";  // theirs say what they are
   for (const Param& p : r.params)
-    if (has && p.type == ValueType::String && p.strings.size() == 1 && (p.storage == Storage::Constant || p.storage == Storage::Uniform)) {
+    if (has && p.type == ValueType::String && p.strings.size() == 1 &&
+        (p.storage == Storage::Constant || p.storage == Storage::Uniform)) {
       out.push_back(p);
       out.back().storage = Storage::Constant;
     }
   return out;
 }
 
-/// The call as a primitive has it whose values take the place of the shader's own (RISpec 3.2 section 5, primitive variables).
+/// The call as a primitive has it whose values take the place of the shader's own (RISpec 3.2 section 5, primitive
+/// variables).
 std::shared_ptr<const ShaderCall> overridden(const ShaderCall& given, const ParamList& values) {
   auto call = std::make_shared<ShaderCall>(given);
   for (const Param& p : values) {

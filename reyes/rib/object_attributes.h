@@ -4,8 +4,9 @@
 
 namespace tomales::rib {
 
-/// Of the primitive that a request draws now. Surface "null": nobody sees it, but it may emit; in passes for depth alone that means, by custom, that
-/// no shader need run. Strings of the primitive take the place of those of its shaders.
+/// Of the primitive that a request draws now. Surface "null": nobody sees it, but it may emit; in passes for depth
+/// alone that means, by custom, that no shader need run. Strings of the primitive take the place of those of its
+/// shaders.
 std::shared_ptr<Attributes> attributesOf(const Request& r, GraphicsState& s);
 
 }  // namespace tomales::rib

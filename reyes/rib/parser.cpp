@@ -18,15 +18,13 @@ bool looksLikeRequest(const std::string& word) {
 }  // namespace
 
 Parser::Parser(ByteStream& stream, std::string file, Dictionary& dictionary, Log& log)
-    : file_(std::make_shared<const std::string>(std::move(file))),
-      lexer_(stream),
-      dictionary_(dictionary),
-      log_(log) {}
+    : file_(std::make_shared<const std::string>(std::move(file))), lexer_(stream), dictionary_(dictionary), log_(log) {}
 
 std::optional<Request> Parser::next() {
   for (; !at(Kind::End); ++senseless_) {
     if (senseless_ >= kMostSenseless) {
-      log_.report(Severity::Missing, "rib-senseless", here(), fmt::format("{} places before make no sense as RIB; the rest is not read", senseless_));
+      log_.report(Severity::Missing, "rib-senseless", here(),
+                  fmt::format("{} places before make no sense as RIB; the rest is not read", senseless_));
       break;
     }
     const Signature* signature = at(Kind::Name) ? findSignature(lexer_.peek().text) : nullptr;
@@ -79,8 +77,7 @@ bool Parser::readArguments(const Signature& signature) {
     }
   }
   const bool hasCategory = request_.name == "Option" || request_.name == "Attribute";
-  if (signature.parameterList && !readParameters(hasCategory ? request_.args[0].strings[0] : ""))
-    return false;
+  if (signature.parameterList && !readParameters(hasCategory ? request_.args[0].strings[0] : "")) return false;
   if (!at(Kind::Name) && !at(Kind::End) && !at(Kind::Junk)) return fail("the next request");
   return true;
 }
@@ -145,8 +142,7 @@ bool Parser::readNumbers(size_t count) {
       const std::vector<float>& more = lexer_.peek().floats;
       arg.numbers.insert(arg.numbers.end(), more.begin(), more.end());
     } else {
-      return fail(arg.numbers.size() < count ? fmt::format("number {} of {}", arg.numbers.size() + 1, count)
-                                             : "']'");
+      return fail(arg.numbers.size() < count ? fmt::format("number {} of {}", arg.numbers.size() + 1, count) : "']'");
     }
     lexer_.advance();
   }
@@ -179,8 +175,7 @@ bool Parser::readArray(RibArg::Kind kind) {
     out.strings.push_back(lexer_.peek().text);
     if (!bracketed) return lexer_.advance(), true;
   }
-  if (!bracketed || !at(Kind::Close))
-    return fail(wantsNumbers ? "an array of numbers" : "an array of strings");
+  if (!bracketed || !at(Kind::Close)) return fail(wantsNumbers ? "an array of numbers" : "an array of strings");
   lexer_.advance();
   return true;
 }

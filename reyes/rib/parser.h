@@ -20,14 +20,16 @@ class Parser {
 
   /// The next good request; nothing at the end of the stream, or where so much made no sense that the rest is given up.
   std::optional<Request> next();
-  /// In a branch of a condition that is not read, other renderers may be spoken to: nothing is wrong with what they understand.
+  /// In a branch of a condition that is not read, other renderers may be spoken to: nothing is wrong with what they
+  /// understand.
   void mute(bool muted) { muted_ = muted; }
 
  private:
   using Kind = Token::Kind;
   bool at(Kind kind) const { return lexer_.peek().kind == kind; }
   SourceLoc here() const { return {file_, lexer_.peek().line}; }
-  void warn(const char* code, const SourceLoc& where, const std::string& message, Severity severity = Severity::Warning) const;
+  void warn(const char* code, const SourceLoc& where, const std::string& message,
+            Severity severity = Severity::Warning) const;
   /// Reports what is wrong with the request; always false.
   bool fail(const std::string& expected);
   void skipToKnownRequest(bool reportUnknown);

@@ -21,9 +21,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 }  // namespace
 
@@ -77,8 +75,7 @@ void Program::closeInput() {
 }
 
 void Program::writeInput() {
-  const ssize_t n =
-      send(toChild_, input_.data() + written_, input_.size() - written_, MSG_NOSIGNAL | MSG_DONTWAIT);
+  const ssize_t n = send(toChild_, input_.data() + written_, input_.size() - written_, MSG_NOSIGNAL | MSG_DONTWAIT);
   if (n > 0) written_ += static_cast<size_t>(n);
   const bool broken = n < 0 && errno != EAGAIN && errno != EINTR;
   if (broken) closeInput();

@@ -37,8 +37,8 @@ class Program {
   bool hung_ = false;
 };
 
-/// Programs that have answered wait here for the next question, so that each is started once, or once for each thread that
-/// needs it at the same time. Threads: concurrent.
+/// Programs that have answered wait here for the next question, so that each is started once, or once for each thread
+/// that needs it at the same time. Threads: concurrent.
 class ProgramPool {
  public:
   std::unique_ptr<Program> take(const std::string& command);

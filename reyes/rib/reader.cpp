@@ -14,9 +14,9 @@ SourceLoc wholeFile(const std::string& name) { return {std::make_shared<const st
 
 /// More than what AttributeBegin saves.
 bool changesSurroundings(std::string_view name) {
-  static constexpr std::string_view kNames[] = {"Declare",    "ObjectEnd",       "Option",    "CoordinateSystem",
-                                                "LightSource", "AreaLightSource", "Light",     "Resource",
-                                                "ResourceBegin", "ResourceEnd",   "WorldBegin", "WorldEnd"};
+  static constexpr std::string_view kNames[] = {"Declare",       "ObjectEnd",       "Option",     "CoordinateSystem",
+                                                "LightSource",   "AreaLightSource", "Light",      "Resource",
+                                                "ResourceBegin", "ResourceEnd",     "WorldBegin", "WorldEnd"};
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
@@ -26,7 +26,8 @@ void declare(const Request& r, Dictionary& dictionary, Log& log) {
   if (r.name == "ColorSamples") {
     if (r.args[0].numbers.size() != r.args[1].numbers.size() || !dictionary.setColorSamples(r.args[0].numbers))
       log.report(Severity::Warning, "rib-option", r.where,
-                 fmt::format("ColorSamples: two matrices of 3 times up to {} numbers are needed; ignored", Dictionary::kMostColorSamples));
+                 fmt::format("ColorSamples: two matrices of 3 times up to {} numbers are needed; ignored",
+                             Dictionary::kMostColorSamples));
   }
   if (r.name != "Declare") return;
   const std::string &name = r.args[0].strings[0], &declaration = r.args[1].strings[0];
@@ -51,19 +52,18 @@ bool Reader::readTop(ByteStream& stream, const std::string& name) {
   last_ = wholeFile(name);
   std::error_code error;
   const std::filesystem::path path = std::filesystem::weakly_canonical(name, error);
-  if (read(stream, name, error ? name : path.string(), std::filesystem::path(name).parent_path()) > 0)
-    return true;
-  log_.report(Severity::Error, "rib-empty", wholeFile(name),
-              "the file holds no RIB request that could be read");
+  if (read(stream, name, error ? name : path.string(), std::filesystem::path(name).parent_path()) > 0) return true;
+  log_.report(Severity::Error, "rib-empty", wholeFile(name), "the file holds no RIB request that could be read");
   return false;
 }
 
-size_t Reader::read(ByteStream& stream, const std::string& name, const std::string& key,
-                    const std::string& folder, size_t cost) {
+size_t Reader::read(ByteStream& stream, const std::string& name, const std::string& key, const std::string& folder,
+                    size_t cost) {
   enter(key, folder);
   Parser parser(stream, name, dictionary_, log_);
   size_t count = 0;
-  for (std::optional<Request> request = parser.next(); request && (cost == 0 || spend(cost)); request = parser.next(), ++count) {
+  for (std::optional<Request> request = parser.next(); request && (cost == 0 || spend(cost));
+       request = parser.next(), ++count) {
     if (dictionary_.hasColorSamples()) *request = withRgb(std::move(*request));
     handle(*request);
     parser.mute(!open_.back().conditions.reads());
@@ -103,11 +103,9 @@ void Reader::handle(const Request& r) {
 
 void Reader::perform(const Request& r) {
   static const std::unordered_map<std::string_view, Performer> table = {
-      {"ReadArchive", &Reader::readArchive}, {"ArchiveBegin", &Reader::record},
-      {"ArchiveEnd", &Reader::record},       {"Procedural", &Reader::procedural},
-      {"Procedural2", &Reader::procedural2}, {"System", &Reader::system},
-      {"Geometry", &Reader::geometry},
-      {"Blobby", &Reader::geometry}};
+      {"ReadArchive", &Reader::readArchive}, {"ArchiveBegin", &Reader::record},     {"ArchiveEnd", &Reader::record},
+      {"Procedural", &Reader::procedural},   {"Procedural2", &Reader::procedural2}, {"System", &Reader::system},
+      {"Geometry", &Reader::geometry},       {"Blobby", &Reader::geometry}};
   if (const auto it = table.find(r.name); it != table.end()) return (this->*it->second)(r);
   if (changesSurroundings(r.name)) surroundings_.reset();
   declare(r, dictionary_, log_);
@@ -156,8 +154,7 @@ Request Reader::substituted(const Request& r) const {
     return r;
   }
   if (!unknown.empty())
-    report(Severity::Warning, "rib-variable", r,
-           fmt::format("there is no variable {}; left as written", unknown));
+    report(Severity::Warning, "rib-variable", r, fmt::format("there is no variable {}; left as written", unknown));
   return out;
 }
 

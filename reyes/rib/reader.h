@@ -19,7 +19,11 @@ void declare(const Request& request, Dictionary& dictionary, Log& log);
 class Reader {
  public:
   Reader(const RibSettings& settings, Log& log)
-      : settings_(settings), log_(log), builder_(settings, log), programs_(std::make_shared<ProgramPool>()), plugins_(std::make_shared<PluginPool>()) {}
+      : settings_(settings),
+        log_(log),
+        builder_(settings, log),
+        programs_(std::make_shared<ProgramPool>()),
+        plugins_(std::make_shared<PluginPool>()) {}
 
   /// False, and reported, if it cannot be opened or holds no request.
   bool readFile(const std::string& path);
@@ -62,7 +66,8 @@ class Reader {
 
   bool readTop(ByteStream& stream, const std::string& name);
   /// The number of good requests. `cost`: what each is worth of the budget, beyond which no more are read; 0: all are.
-  size_t read(ByteStream& stream, const std::string& name, const std::string& key, const std::string& folder, size_t cost = 0);
+  size_t read(ByteStream& stream, const std::string& name, const std::string& key, const std::string& folder,
+              size_t cost = 0);
   void enter(const std::string& key, const std::string& folder);
   void leave();
   void handle(const Request& request);
@@ -113,13 +118,14 @@ class Reader {
   SceneBuilder builder_;
   std::vector<Level> open_;  ///< Outermost first.
   InlineArchives inlineArchives_;
-  /// What the outermost archive or procedural may still cost: one a request that is replayed. Procedurals within share it.
+  /// What the outermost archive or procedural may still cost: one a request that is replayed. Procedurals within share
+  /// it.
   std::shared_ptr<std::atomic<size_t>> budget_;
   bool inProcedural_ = false;
   std::shared_ptr<ProgramPool> programs_;
   std::shared_ptr<PluginPool> plugins_;
   std::shared_ptr<const Surroundings> surroundings_;  ///< Null: they have changed.
-  char mark_ = 0;      ///< Of variables in strings; 0: there are none.
+  char mark_ = 0;                                     ///< Of variables in strings; 0: there are none.
   SourceLoc last_;
 };
 

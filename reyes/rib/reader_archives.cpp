@@ -91,8 +91,7 @@ bool Reader::mayEnter(const Request& r, const std::string& key, size_t cost) {
   if (open_.size() > static_cast<size_t>(settings_.maxArchiveDepth))
     return refuse(fmt::format("more than {} archives within archives", settings_.maxArchiveDepth));
   if (!spend(cost))
-    return refuse(
-        fmt::format("the outermost archive stands for more than {} requests", kBudget / kReplayCost));
+    return refuse(fmt::format("the outermost archive stands for more than {} requests", kBudget / kReplayCost));
   return true;
 }
 
@@ -112,7 +111,8 @@ void Reader::geometry(const Request& r) {
   };
   for (Param& p : found.params)
     if (p.name == "filename") std::for_each(p.strings.begin(), p.strings.end(), find);
-  if (r.name == "Blobby" && r.args.size() > 3) std::for_each(found.args[3].strings.begin(), found.args[3].strings.end(), find);
+  if (r.name == "Blobby" && r.args.size() > 3)
+    std::for_each(found.args[3].strings.begin(), found.args[3].strings.end(), find);
   builder_.request(found);
 }
 

@@ -1,5 +1,5 @@
-// Procedural "DynamicLoad". What a plugin calls is taken down first and read after it has returned: its code runs alone, ours need not be
-// ready to be entered again, and what it says before it fails is kept.
+// Procedural "DynamicLoad". What a plugin calls is taken down first and read after it has returned: its code runs
+// alone, ours need not be ready to be entered again, and what it says before it fails is kept.
 #include <fmt/format.h>
 
 #include "reyes/rib/reader.h"
@@ -14,7 +14,8 @@ constexpr size_t kPluginCost = 10;
 void Reader::dynamicLoad(const Request& r) {
   const std::vector<std::string>& call = r.args[1].strings;
   const auto missing = [&](const std::string& why) {
-    report(Severity::Missing, "rib-plugin", r, fmt::format("plugin \"{}\" {}; nothing is drawn in its place", call[0].substr(0, 200), why));
+    report(Severity::Missing, "rib-plugin", r,
+           fmt::format("plugin \"{}\" {}; nothing is drawn in its place", call[0].substr(0, 200), why));
   };
   std::string path = findFile(call[0], "procedural");
   if (path.empty()) path = findFile(call[0] + ".so", "procedural");
@@ -38,7 +39,9 @@ void Reader::callPlugin(const Request& r, const std::string& name, const std::fu
   std::string trouble;
   try {
     const std::lock_guard alone(pluginMutex());
-    recordRiCalls({dictionary_, place.scope.uBasis.step, place.scope.vBasis.step, r.where}, log_, [&] { subdivide(detail); }, calls);
+    recordRiCalls(
+        {dictionary_, place.scope.uBasis.step, place.scope.vBasis.step, r.where}, log_, [&] { subdivide(detail); },
+        calls);
   } catch (const std::exception& e) {
     trouble = fmt::format("failed: {}", e.what());
   } catch (...) {
@@ -53,7 +56,8 @@ void Reader::callPlugin(const Request& r, const std::string& name, const std::fu
   leave();
   perform("AttributeEnd", r.where);
   if (!trouble.empty())
-    report(Severity::Missing, "rib-plugin", r, fmt::format("plugin \"{}\" {}; what it called before is used", name.substr(0, 200), trouble));
+    report(Severity::Missing, "rib-plugin", r,
+           fmt::format("plugin \"{}\" {}; what it called before is used", name.substr(0, 200), trouble));
   else if (calls.empty())
     report(Severity::Warning, "rib-plugin", r, fmt::format("plugin \"{}\" called nothing", name.substr(0, 200)));
 }

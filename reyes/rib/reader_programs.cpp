@@ -1,5 +1,5 @@
-// Procedural, Procedural2 and System. A procedural is read when its bound is needed, by a Reader of its own that has the state of
-// the place where it stands.
+// Procedural, Procedural2 and System. A procedural is read when its bound is needed, by a Reader of its own that has
+// the state of the place where it stands.
 #include <fmt/format.h>
 
 #include "reyes/rib/program.h"
@@ -21,16 +21,22 @@ std::string text(const ParamList& params, const char* name) {
 }
 
 // Infinite is "now"; what is no box at all is worth a word.
-bool isBox(const std::vector<float>& b) {
-  return b.size() == 6 && b[0] <= b[1] && b[2] <= b[3] && b[4] <= b[5];
-}
+bool isBox(const std::vector<float>& b) { return b.size() == 6 && b[0] <= b[1] && b[2] <= b[3] && b[4] <= b[5]; }
 
 }  // namespace
 
-Reader::Reader(const Surroundings& around, const SceneBuilder::Place& place, std::shared_ptr<std::atomic<size_t>> budget)
-    : settings_(around.settings), log_(around.log), dictionary_(around.dictionary),
-      builder_(around.settings, around.log, around.builder, place), inlineArchives_(around.archives), budget_(std::move(budget)),
-      inProcedural_(true), programs_(around.programs), plugins_(around.plugins), mark_(around.mark) {
+Reader::Reader(const Surroundings& around, const SceneBuilder::Place& place,
+               std::shared_ptr<std::atomic<size_t>> budget)
+    : settings_(around.settings),
+      log_(around.log),
+      dictionary_(around.dictionary),
+      builder_(around.settings, around.log, around.builder, place),
+      inlineArchives_(around.archives),
+      budget_(std::move(budget)),
+      inProcedural_(true),
+      programs_(around.programs),
+      plugins_(around.plugins),
+      mark_(around.mark) {
   for (const std::string& key : around.keys) enter(key, around.folder);
 }
 
@@ -38,8 +44,8 @@ std::shared_ptr<const Reader::Surroundings> Reader::surroundings() {
   if (surroundings_) return surroundings_;
   std::vector<std::string> keys;
   for (const Level& level : open_) keys.push_back(level.key);
-  surroundings_ = std::make_shared<const Surroundings>(Surroundings{settings_, log_, dictionary_, inlineArchives_, mark_,
-                                                                    std::move(keys), open_.back().folder,
+  surroundings_ = std::make_shared<const Surroundings>(Surroundings{settings_, log_, dictionary_, inlineArchives_,
+                                                                    mark_, std::move(keys), open_.back().folder,
                                                                     builder_.surroundings(), programs_, plugins_});
   return surroundings_;
 }
@@ -48,7 +54,9 @@ void Reader::procedural(const Request& r) {
   const std::string& kind = r.args[0].strings[0];
   const std::vector<std::string>& data = r.args[1].strings;
   if (!canRead(r, kind, data.empty() ? "" : data[0])) return;
-  const auto read = kind == "RunProgram" ? &Reader::runProgram : kind == "DynamicLoad" ? &Reader::dynamicLoad : &Reader::delayedArchive;
+  const auto read = kind == "RunProgram"    ? &Reader::runProgram
+                    : kind == "DynamicLoad" ? &Reader::dynamicLoad
+                                            : &Reader::delayedArchive;
   later(r, [r, read](Reader& reader) { (reader.*read)(r); });
 }
 
@@ -65,17 +73,22 @@ void Reader::procedural2(const Request& r) {
   plain.args.push_back(strings(std::move(data)));
   plain.args.push_back({RibArg::Kind::Numbers, bound ? bound->floats : std::vector<float>(), {}});
   if (bounding != "SimpleBound")
-    report(Severity::Warning, "rib-bound", r, fmt::format("\"{}\" is not supported: it is read without a bound", bounding));
+    report(Severity::Warning, "rib-bound", r,
+           fmt::format("\"{}\" is not supported: it is read without a bound", bounding));
   procedural(plain);
 }
 
 bool Reader::canRead(const Request& r, const std::string& kind, const std::string& what) const {
   const bool program = kind == "RunProgram", plugin = kind == "DynamicLoad";
   if (!program && !plugin && kind != "DelayedReadArchive")
-    report(Severity::Missing, "rib-unsupported", r, fmt::format("\"{}\" is not supported; nothing is drawn in its place", kind));
+    report(Severity::Missing, "rib-unsupported", r,
+           fmt::format("\"{}\" is not supported; nothing is drawn in its place", kind));
   else if (what.empty())
     report(Severity::Missing, "rib-unsupported", r,
-           fmt::format("\"{}\" names no {}; nothing is drawn in its place", kind, program ? "program" : plugin ? "plugin" : "file"));
+           fmt::format("\"{}\" names no {}; nothing is drawn in its place", kind,
+                       program  ? "program"
+                       : plugin ? "plugin"
+                                : "file"));
   else
     return !(program || plugin) || allowed(r, what);
   return false;
@@ -88,12 +101,16 @@ void Reader::later(const Request& r, const std::function<void(Reader&)>& readNow
   if (!isBox(bound) || !isFinite || !builder_.takesProcedurals()) return readNow(*this);
   auto budget = inProcedural_ || open_.size() > 1 ? budget_ : newBudget();
   if (budget == budget_ && !spend(kProceduralCost))
-    return report(Severity::Missing, "rib-archive-recursion", r, "procedurals within procedurals or archives stand for too much; ignored");
-  builder_.addProcedural(bound, [readNow, around = surroundings(), place = builder_.place(), budget] {
-    Reader reader(*around, place, budget);
-    readNow(reader);
-    return reader.builder_.takeExpansion();
-  }, r.where);
+    return report(Severity::Missing, "rib-archive-recursion", r,
+                  "procedurals within procedurals or archives stand for too much; ignored");
+  builder_.addProcedural(
+      bound,
+      [readNow, around = surroundings(), place = builder_.place(), budget] {
+        Reader reader(*around, place, budget);
+        readNow(reader);
+        return reader.builder_.takeExpansion();
+      },
+      r.where);
 }
 
 void Reader::delayedArchive(const Request& r) {
@@ -102,9 +119,7 @@ void Reader::delayedArchive(const Request& r) {
   perform("AttributeEnd", r.where);
 }
 
-void Reader::perform(const char* blockName, const SourceLoc& where) {
-  builder_.request({blockName, {}, {}, where});
-}
+void Reader::perform(const char* blockName, const SourceLoc& where) { builder_.request({blockName, {}, {}, where}); }
 
 bool Reader::allowed(const Request& r, const std::string& command) const {
   if (!settings_.allowSystem)
@@ -114,7 +129,8 @@ bool Reader::allowed(const Request& r, const std::string& command) const {
   return settings_.allowSystem;
 }
 
-// RISpec 3.2 section 5.10: one line of detail and data in, RIB out, closed by 0377; then the program waits for the next line.
+// RISpec 3.2 section 5.10: one line of detail and data in, RIB out, closed by 0377; then the program waits for the next
+// line.
 void Reader::runProgram(const Request& r) {
   const std::vector<std::string>& call = r.args[1].strings;
   const std::string name = "output of " + call[0];
@@ -133,7 +149,9 @@ void Reader::runProgram(const Request& r) {
       read(*stream, name, fmt::format("{}: program", open_.size()), std::string(open_.back().folder), kAnswerCost);
   perform("AttributeEnd", r.where);
   if (bytes >= kLongestAnswer || *budget_ < kAnswerCost)
-    return report(Severity::Missing, "rib-program", r, fmt::format("\"{}\" does not end its answer; it is killed, and the rest is not read", call[0].substr(0, 200)));
+    return report(
+        Severity::Missing, "rib-program", r,
+        fmt::format("\"{}\" does not end its answer; it is killed, and the rest is not read", call[0].substr(0, 200)));
   if (stream->closed()) return programs_->giveBack(call[0], std::move(program));
   const std::string trouble = program->finish();
   if (!trouble.empty() || count == 0)

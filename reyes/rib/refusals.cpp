@@ -6,18 +6,24 @@
 namespace tomales::rib {
 namespace {
 
-constexpr const char *kVolumes = "nothing is drawn inside of objects; Interior shades what rays bring through them, Atmosphere shades what lies before the camera",
-                     *kVisiblePoints = "there are no shaders of visible points; Atmosphere shades what lies before the camera",
+constexpr const char *kVolumes =
+                         "nothing is drawn inside of objects; Interior shades what rays bring through them, Atmosphere "
+                         "shades what lies before the camera",
+                     *kVisiblePoints =
+                         "there are no shaders of visible points; Atmosphere shades what lies before the camera",
                      *kEdits = "edits are files of their own, for tomales shade --edit; all up to its End is left out",
                      *kCaches = "caches are as large as they need to be", *kHair = "curves are diced like all else",
                      *kResume = "tomales --resume keeps finished buckets", *kNoCache = "rays run shaders instead",
                      *kWriter = "tomales catrib writes RIB", *kStatistics = "tomales --stats FILE.json writes them",
-                     *kAdaptive = "every pixel takes the samples of PixelSamples", *kStatic = "the shadows of lights are traced or come from maps",
+                     *kAdaptive = "every pixel takes the samples of PixelSamples",
+                     *kStatic = "the shadows of lights are traced or come from maps",
                      *kOneCamera = "there is one camera", *kStitch = "edges between patches never open",
-                     *kEstimate = "tomales irradiance --nearest sets it", *kDerivatives = "derivatives are central differences over the grid",
+                     *kEstimate = "tomales irradiance --nearest sets it",
+                     *kDerivatives = "derivatives are central differences over the grid",
                      *kHitList = "Attribute \"trace\" \"bias\" moves rays off surfaces",
                      *kRecords = "tomales gather -o writes irradiance records, tomales render --irradiance reads them",
-                     *kPhotonTrace = "tomales photons --bounces ends the paths of photons", *kSplits = "geometry splits as far as it must";
+                     *kPhotonTrace = "tomales photons --bounces ends the paths of photons",
+                     *kSplits = "geometry splits as far as it must";
 
 const std::unordered_map<std::string_view, const char*>& reasons() {
   static const std::unordered_map<std::string_view, const char*> table = {
@@ -113,9 +119,12 @@ const std::unordered_map<std::string_view, const char*>& reasons() {
 
 // Of all names of a category.
 constexpr std::pair<std::string_view, const char*> kCategories[] = {
-    {"Option statistics:", kStatistics}, {"Option rib:", kWriter},       {"Option checkpoint:", kResume},
+    {"Option statistics:", kStatistics},
+    {"Option rib:", kWriter},
+    {"Option checkpoint:", kResume},
     {"Option texture:", "texture filters are parameters of shaders"},
-    {"Attribute render:", "\"visibility\" says what sees an object, \"trace\" \"displacements\" whether rays see it displaced"}};
+    {"Attribute render:",
+     "\"visibility\" says what sees an object, \"trace\" \"displacements\" whether rays see it displaced"}};
 
 }  // namespace
 

@@ -6,7 +6,8 @@ namespace tomales::rib {
 namespace {
 
 constexpr bool kParams = true, kNone = false;
-constexpr Support kWorks = Support::Works, kDraws = Support::Draws, kNotYet = Support::NotYet, kGeometry = Support::NotYetGeometry;
+constexpr Support kWorks = Support::Works, kDraws = Support::Draws, kNotYet = Support::NotYet,
+                  kGeometry = Support::NotYetGeometry;
 
 constexpr Signature kTable[] = {
     // Stream, blocks, archives

@@ -43,7 +43,10 @@ thread_local Recorder* recorder = nullptr;
 Recorder* listening() {
   static std::once_flag said;
   if (!recorder)
-    std::call_once(said, [] { std::fputs("tomales: warning: a plugin calls Ri functions outside of Subdivide, or in another thread; ignored\n", stderr); });
+    std::call_once(said, [] {
+      std::fputs("tomales: warning: a plugin calls Ri functions outside of Subdivide, or in another thread; ignored\n",
+                 stderr);
+    });
   return recorder;
 }
 
@@ -51,7 +54,8 @@ void say(const char* name, std::vector<RibArg> args = {}) {
   if (Recorder* r = listening()) r->say(name, std::move(args));
 }
 
-void say(const char* name, std::vector<RibArg> args, RI_ARRAYS, const ValueCounts& counts = {}, const std::string& category = "") {
+void say(const char* name, std::vector<RibArg> args, RI_ARRAYS, const ValueCounts& counts = {},
+         const std::string& category = "") {
   if (Recorder* r = listening()) r->say(name, std::move(args), r->params(name, n, tokens, values, counts, category));
 }
 
@@ -78,7 +82,9 @@ Spans spans(bool cubic, RtInt n, RtToken wrap, int step) {
   const size_t patches = periodic ? count(n / by) : n < order ? 0 : count((n - order) / by + 1);
   return {patches, patches + !periodic};
 }
-bool isCubic(RtToken type) { return type && (std::string_view(type) == RI_BICUBIC || std::string_view(type) == RI_CUBIC); }
+bool isCubic(RtToken type) {
+  return type && (std::string_view(type) == RI_BICUBIC || std::string_view(type) == RI_CUBIC);
+}
 
 ValueCounts meshCounts(RtToken type, RtInt nu, RtToken uwrap, RtInt nv, RtToken vwrap) {
   const std::array<int, 2> steps = recorder ? recorder->steps() : std::array<int, 2>{3, 3};
@@ -128,11 +134,11 @@ using namespace tomales::rib;
   return call(__VA_ARGS__, a.n(), a.tokens.data(), a.values.data())
 
 // Requests of one name and parameters: Ri<Request>(name, ...) and Ri<Request>V.
-#define NAMED(request)                                                                                      \
-  RtVoid Ri##request(RtToken name, ...) { VARIADIC(name, Ri##request##V, name); }                           \
+#define NAMED(request)                                                            \
+  RtVoid Ri##request(RtToken name, ...) { VARIADIC(name, Ri##request##V, name); } \
   RtVoid Ri##request##V(RtToken name, RI_ARRAYS) { say(#request, {text(name)}, n, tokens, values); }
-#define NAMED_LIGHT(request)                                                                                \
-  RtLightHandle Ri##request(RtToken name, ...) { VARIADIC(name, Ri##request##V, name); }                    \
+#define NAMED_LIGHT(request)                                                             \
+  RtLightHandle Ri##request(RtToken name, ...) { VARIADIC(name, Ri##request##V, name); } \
   RtLightHandle Ri##request##V(RtToken name, RI_ARRAYS) { return light(#request, name, n, tokens, values); }
 #define PLAIN(request) \
   RtVoid Ri##request(void) { say(#request); }
@@ -148,7 +154,10 @@ using namespace tomales::rib;
 extern "C" {
 
 RtBasis RiBezierBasis = {{-1, 3, -3, 1}, {3, -6, 3, 0}, {-3, 3, 0, 0}, {1, 0, 0, 0}};
-RtBasis RiBSplineBasis = {{-1.f / 6, 3.f / 6, -3.f / 6, 1.f / 6}, {3.f / 6, -1, 3.f / 6, 0}, {-3.f / 6, 0, 3.f / 6, 0}, {1.f / 6, 4.f / 6, 1.f / 6, 0}};
+RtBasis RiBSplineBasis = {{-1.f / 6, 3.f / 6, -3.f / 6, 1.f / 6},
+                          {3.f / 6, -1, 3.f / 6, 0},
+                          {-3.f / 6, 0, 3.f / 6, 0},
+                          {1.f / 6, 4.f / 6, 1.f / 6, 0}};
 RtBasis RiCatmullRomBasis = {{-.5f, 1.5f, -1.5f, .5f}, {1, -2.5f, 2, -.5f}, {-.5f, 0, .5f, 0}, {0, 1, 0, 0}};
 RtBasis RiHermiteBasis = {{2, 1, -2, 1}, {-3, -2, 3, -1}, {0, 1, 0, 0}, {1, 0, 0, 0}};
 RtBasis RiPowerBasis = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
@@ -181,19 +190,26 @@ RtVoid RiMotionBegin(RtInt n, ...) {
 }
 RtVoid RiMotionBeginV(RtInt n, const RtFloat times[]) { say("MotionBegin", {numbers(times, count(n))}); }
 PLAIN(MotionEnd)
-RtVoid RiReadArchive(RtToken name, void (*callback)(RtToken, char*, ...), ...) { VARIADIC(callback, RiReadArchiveV, name, callback); }
-RtVoid RiReadArchiveV(RtToken name, void (*)(RtToken, char*, ...), RI_ARRAYS) { say("ReadArchive", {text(name)}, n, tokens, values); }
+RtVoid RiReadArchive(RtToken name, void (*callback)(RtToken, char*, ...), ...) {
+  VARIADIC(callback, RiReadArchiveV, name, callback);
+}
+RtVoid RiReadArchiveV(RtToken name, void (*)(RtToken, char*, ...), RI_ARRAYS) {
+  say("ReadArchive", {text(name)}, n, tokens, values);
+}
 
 // Attributes
 RtVoid RiAttribute(RtToken name, ...) { VARIADIC(name, RiAttributeV, name); }
-RtVoid RiAttributeV(RtToken name, RI_ARRAYS) { say("Attribute", {text(name)}, n, tokens, values, {}, name ? name : ""); }
+RtVoid RiAttributeV(RtToken name, RI_ARRAYS) {
+  say("Attribute", {text(name)}, n, tokens, values, {}, name ? name : "");
+}
 RtVoid RiColor(const RtFloat c[]) {
   if (Recorder* r = listening()) r->say("Color", {r->color(c)});
 }
 RtVoid RiOpacity(const RtFloat c[]) {
   if (Recorder* r = listening()) r->say("Opacity", {r->color(c)});
 }
-RtVoid RiTextureCoordinates(RtFloat s1, RtFloat t1, RtFloat s2, RtFloat t2, RtFloat s3, RtFloat t3, RtFloat s4, RtFloat t4) {
+RtVoid RiTextureCoordinates(RtFloat s1, RtFloat t1, RtFloat s2, RtFloat t2, RtFloat s3, RtFloat t3, RtFloat s4,
+                            RtFloat t4) {
   say("TextureCoordinates", {numbers({s1, t1, s2, t2, s3, t3, s4, t4})});
 }
 NAMED(Surface)
@@ -212,7 +228,9 @@ WITH_BOX(Detail)
 RtVoid RiDetailRange(RtFloat minvisible, RtFloat lower, RtFloat upper, RtFloat maxvisible) {
   say("DetailRange", {numbers({minvisible, lower, upper, maxvisible})});
 }
-RtVoid RiGeometricApproximation(RtToken type, RtFloat value) { say("GeometricApproximation", {text(type), number(value)}); }
+RtVoid RiGeometricApproximation(RtToken type, RtFloat value) {
+  say("GeometricApproximation", {text(type), number(value)});
+}
 WITH_TEXT(Orientation)
 PLAIN(ReverseOrientation)
 WITH_SWITCH(Sides, RtInt)
@@ -238,7 +256,9 @@ RtVoid RiPolygonV(RtInt nvertices, RI_ARRAYS) {
   const size_t c = count(nvertices);
   say("Polygon", {}, n, tokens, values, {1, c, c, c});
 }
-RtVoid RiGeneralPolygon(RtInt nloops, const RtInt nvertices[], ...) { VARIADIC(nvertices, RiGeneralPolygonV, nloops, nvertices); }
+RtVoid RiGeneralPolygon(RtInt nloops, const RtInt nvertices[], ...) {
+  VARIADIC(nvertices, RiGeneralPolygonV, nloops, nvertices);
+}
 RtVoid RiGeneralPolygonV(RtInt nloops, const RtInt nvertices[], RI_ARRAYS) {
   const size_t c = sum(nvertices, nloops);
   say("GeneralPolygon", {integers(nvertices, count(nloops))}, n, tokens, values, {1, c, c, c});
@@ -251,13 +271,16 @@ RtVoid RiPointsPolygonsV(RtInt npolys, const RtInt nvertices[], const RtInt vert
   say("PointsPolygons", {integers(nvertices, count(npolys)), integers(vertices, corners)}, n, tokens, values,
       faceCounts(npolys, corners, vertices));
 }
-RtVoid RiPointsGeneralPolygons(RtInt npolys, const RtInt nloops[], const RtInt nvertices[], const RtInt vertices[], ...) {
+RtVoid RiPointsGeneralPolygons(RtInt npolys, const RtInt nloops[], const RtInt nvertices[], const RtInt vertices[],
+                               ...) {
   VARIADIC(vertices, RiPointsGeneralPolygonsV, npolys, nloops, nvertices, vertices);
 }
-RtVoid RiPointsGeneralPolygonsV(RtInt npolys, const RtInt nloops[], const RtInt nvertices[], const RtInt vertices[], RI_ARRAYS) {
+RtVoid RiPointsGeneralPolygonsV(RtInt npolys, const RtInt nloops[], const RtInt nvertices[], const RtInt vertices[],
+                                RI_ARRAYS) {
   const size_t loops = sum(nloops, npolys), corners = sum(nvertices, static_cast<RtInt>(loops));
-  say("PointsGeneralPolygons", {integers(nloops, count(npolys)), integers(nvertices, loops), integers(vertices, corners)}, n, tokens,
-      values, faceCounts(npolys, corners, vertices));
+  say("PointsGeneralPolygons",
+      {integers(nloops, count(npolys)), integers(nvertices, loops), integers(vertices, corners)}, n, tokens, values,
+      faceCounts(npolys, corners, vertices));
 }
 
 // Patches
@@ -276,31 +299,34 @@ RtVoid RiPatchMeshV(RtToken type, RtInt nu, RtToken uwrap, RtInt nv, RtToken vwr
   say("PatchMesh", {text(type), integer(nu), text(uwrap), integer(nv), text(vwrap)}, n, tokens, values,
       meshCounts(type, nu, uwrap, nv, vwrap));
 }
-RtVoid RiNuPatch(RtInt nu, RtInt uorder, const RtFloat uknot[], RtFloat umin, RtFloat umax, RtInt nv, RtInt vorder, const RtFloat vknot[],
-                 RtFloat vmin, RtFloat vmax, ...) {
+RtVoid RiNuPatch(RtInt nu, RtInt uorder, const RtFloat uknot[], RtFloat umin, RtFloat umax, RtInt nv, RtInt vorder,
+                 const RtFloat vknot[], RtFloat vmin, RtFloat vmax, ...) {
   VARIADIC(vmax, RiNuPatchV, nu, uorder, uknot, umin, umax, nv, vorder, vknot, vmin, vmax);
 }
-RtVoid RiNuPatchV(RtInt nu, RtInt uorder, const RtFloat uknot[], RtFloat umin, RtFloat umax, RtInt nv, RtInt vorder, const RtFloat vknot[],
-                  RtFloat vmin, RtFloat vmax, RI_ARRAYS) {
+RtVoid RiNuPatchV(RtInt nu, RtInt uorder, const RtFloat uknot[], RtFloat umin, RtFloat umax, RtInt nv, RtInt vorder,
+                  const RtFloat vknot[], RtFloat vmin, RtFloat vmax, RI_ARRAYS) {
   const size_t u = count(nu - uorder + 1), v = count(nv - vorder + 1), ends = (u + 1) * (v + 1);
   say("NuPatch",
-      {integer(nu), integer(uorder), numbers(uknot, count(nu + uorder)), number(umin), number(umax), integer(nv), integer(vorder),
-       numbers(vknot, count(nv + vorder)), number(vmin), number(vmax)},
+      {integer(nu), integer(uorder), numbers(uknot, count(nu + uorder)), number(umin), number(umax), integer(nv),
+       integer(vorder), numbers(vknot, count(nv + vorder)), number(vmin), number(vmax)},
       n, tokens, values, {u * v, ends, count(nu) * count(nv), ends});
 }
-RtVoid RiTrimCurve(RtInt nloops, const RtInt ncurves[], const RtInt order[], const RtFloat knot[], const RtFloat min[], const RtFloat max[],
-                   const RtInt n[], const RtFloat u[], const RtFloat v[], const RtFloat w[]) {
+RtVoid RiTrimCurve(RtInt nloops, const RtInt ncurves[], const RtInt order[], const RtFloat knot[], const RtFloat min[],
+                   const RtFloat max[], const RtInt n[], const RtFloat u[], const RtFloat v[], const RtFloat w[]) {
   const size_t curves = sum(ncurves, nloops), points = sum(n, static_cast<RtInt>(curves));
   const size_t knots = points + sum(order, static_cast<RtInt>(curves));
-  say("TrimCurve", {integers(ncurves, count(nloops)), integers(order, curves), numbers(knot, knots), numbers(min, curves), numbers(max, curves),
-                    integers(n, curves), numbers(u, points), numbers(v, points), numbers(w, points)});
+  say("TrimCurve",
+      {integers(ncurves, count(nloops)), integers(order, curves), numbers(knot, knots), numbers(min, curves),
+       numbers(max, curves), integers(n, curves), numbers(u, points), numbers(v, points), numbers(w, points)});
 }
-RtVoid RiSubdivisionMesh(RtToken scheme, RtInt nfaces, const RtInt nvertices[], const RtInt vertices[], RtInt ntags, const RtToken tags[],
-                         const RtInt nargs[], const RtInt intargs[], const RtFloat floatargs[], ...) {
+RtVoid RiSubdivisionMesh(RtToken scheme, RtInt nfaces, const RtInt nvertices[], const RtInt vertices[], RtInt ntags,
+                         const RtToken tags[], const RtInt nargs[], const RtInt intargs[], const RtFloat floatargs[],
+                         ...) {
   VARIADIC(floatargs, RiSubdivisionMeshV, scheme, nfaces, nvertices, vertices, ntags, tags, nargs, intargs, floatargs);
 }
-RtVoid RiSubdivisionMeshV(RtToken scheme, RtInt nfaces, const RtInt nvertices[], const RtInt vertices[], RtInt ntags, const RtToken tags[],
-                          const RtInt nargs[], const RtInt intargs[], const RtFloat floatargs[], RI_ARRAYS) {
+RtVoid RiSubdivisionMeshV(RtToken scheme, RtInt nfaces, const RtInt nvertices[], const RtInt vertices[], RtInt ntags,
+                          const RtToken tags[], const RtInt nargs[], const RtInt intargs[], const RtFloat floatargs[],
+                          RI_ARRAYS) {
   size_t ints = 0, floats = 0;
   for (RtInt i = 0; i < ntags; ++i) ints += count(nargs[2 * i]), floats += count(nargs[2 * i + 1]);
   const size_t corners = sum(nvertices, nfaces);
@@ -313,16 +339,21 @@ RtVoid RiSubdivisionMeshV(RtToken scheme, RtInt nfaces, const RtInt nvertices[],
 // Quadrics
 #define QUADRIC(request, last, parameters, ...)                                                   \
   RtVoid Ri##request(PARAMETERS parameters, ...) { VARIADIC(last, Ri##request##V, __VA_ARGS__); } \
-  RtVoid Ri##request##V(PARAMETERS parameters, RI_ARRAYS) { say(#request, {numbers({__VA_ARGS__})}, n, tokens, values, kQuadric); }
+  RtVoid Ri##request##V(PARAMETERS parameters, RI_ARRAYS) {                                       \
+    say(#request, {numbers({__VA_ARGS__})}, n, tokens, values, kQuadric);                         \
+  }
 #define PARAMETERS(...) __VA_ARGS__
 QUADRIC(Sphere, thetamax, (RtFloat radius, RtFloat zmin, RtFloat zmax, RtFloat thetamax), radius, zmin, zmax, thetamax)
 QUADRIC(Cone, thetamax, (RtFloat height, RtFloat radius, RtFloat thetamax), height, radius, thetamax)
-QUADRIC(Cylinder, thetamax, (RtFloat radius, RtFloat zmin, RtFloat zmax, RtFloat thetamax), radius, zmin, zmax, thetamax)
+QUADRIC(Cylinder, thetamax, (RtFloat radius, RtFloat zmin, RtFloat zmax, RtFloat thetamax), radius, zmin, zmax,
+        thetamax)
 QUADRIC(Paraboloid, thetamax, (RtFloat rmax, RtFloat zmin, RtFloat zmax, RtFloat thetamax), rmax, zmin, zmax, thetamax)
 QUADRIC(Disk, thetamax, (RtFloat height, RtFloat radius, RtFloat thetamax), height, radius, thetamax)
-QUADRIC(Torus, thetamax, (RtFloat major, RtFloat minor, RtFloat phimin, RtFloat phimax, RtFloat thetamax), major, minor, phimin, phimax,
-        thetamax)
-RtVoid RiHyperboloid(const RtPoint p, const RtPoint q, RtFloat thetamax, ...) { VARIADIC(thetamax, RiHyperboloidV, p, q, thetamax); }
+QUADRIC(Torus, thetamax, (RtFloat major, RtFloat minor, RtFloat phimin, RtFloat phimax, RtFloat thetamax), major, minor,
+        phimin, phimax, thetamax)
+RtVoid RiHyperboloid(const RtPoint p, const RtPoint q, RtFloat thetamax, ...) {
+  VARIADIC(thetamax, RiHyperboloidV, p, q, thetamax);
+}
 RtVoid RiHyperboloidV(const RtPoint p, const RtPoint q, RtFloat thetamax, RI_ARRAYS) {
   say("Hyperboloid", {numbers({p[0], p[1], p[2], q[0], q[1], q[2], thetamax})}, n, tokens, values, kQuadric);
 }
@@ -340,14 +371,16 @@ RtVoid RiCurvesV(RtToken type, RtInt ncurves, const RtInt nvertices[], RtToken w
   say("Curves", {text(type), integers(nvertices, count(ncurves)), text(wrap)}, n, tokens, values,
       curveCounts(type, ncurves, nvertices, wrap));
 }
-RtVoid RiBlobby(RtInt nleaf, RtInt ncode, const RtInt code[], RtInt nfloats, const RtFloat floats[], RtInt nstrings, const RtString strings[], ...) {
+RtVoid RiBlobby(RtInt nleaf, RtInt ncode, const RtInt code[], RtInt nfloats, const RtFloat floats[], RtInt nstrings,
+                const RtString strings[], ...) {
   VARIADIC(strings, RiBlobbyV, nleaf, ncode, code, nfloats, floats, nstrings, strings);
 }
-RtVoid RiBlobbyV(RtInt nleaf, RtInt ncode, const RtInt code[], RtInt nfloats, const RtFloat floats[], RtInt nstrings, const RtString strings[],
-                 RI_ARRAYS) {
+RtVoid RiBlobbyV(RtInt nleaf, RtInt ncode, const RtInt code[], RtInt nfloats, const RtFloat floats[], RtInt nstrings,
+                 const RtString strings[], RI_ARRAYS) {
   const size_t c = count(nleaf);
-  say("Blobby", {integer(nleaf), integers(code, count(ncode)), numbers(floats, count(nfloats)), texts(strings, count(nstrings))}, n, tokens,
-      values, {1, c, c, c});
+  say("Blobby",
+      {integer(nleaf), integers(code, count(ncode)), numbers(floats, count(nfloats)), texts(strings, count(nstrings))},
+      n, tokens, values, {1, c, c, c});
 }
 NAMED(Geometry)
 
@@ -361,8 +394,9 @@ RtVoid RiProcedural(RtPointer data, const RtBound bound, RtProcSubdivFunc subdiv
     if (release) release(p);
   };
   const std::shared_ptr<void> owner(data, free);
-  const std::pair<RtProcSubdivFunc, const char*> own[] = {
-      {RiProcDelayedReadArchive, "DelayedReadArchive"}, {RiProcRunProgram, "RunProgram"}, {RiProcDynamicLoad, "DynamicLoad"}};
+  const std::pair<RtProcSubdivFunc, const char*> own[] = {{RiProcDelayedReadArchive, "DelayedReadArchive"},
+                                                          {RiProcRunProgram, "RunProgram"},
+                                                          {RiProcDynamicLoad, "DynamicLoad"}};
   for (const auto& [function, name] : own)
     if (function == subdivide) {
       const size_t n = function == RiProcDelayedReadArchive ? 1 : 2;

@@ -28,7 +28,8 @@ struct RiContext {
   SourceLoc where;           ///< What the requests say of their place.
 };
 
-/// Runs `program` and takes down the calls that it makes in this thread. What it throws goes on; `calls` holds what came before.
+/// Runs `program` and takes down the calls that it makes in this thread. What it throws goes on; `calls` holds what
+/// came before.
 void recordRiCalls(RiContext context, Log& log, const std::function<void()>& program, std::vector<RiCall>& calls);
 
 /// Plugins were not written for threads: what runs their code holds this.

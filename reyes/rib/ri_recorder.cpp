@@ -29,7 +29,8 @@ void Recorder::procedural(OwnProcedural own, const RtBound bound) {
 }
 
 void Recorder::declare(RtToken name, RtToken declaration) {
-  if (!context_.dictionary.declare(name, declaration)) warn(fmt::format("RiDeclare: \"{}\" is no declaration", declaration));
+  if (!context_.dictionary.declare(name, declaration))
+    warn(fmt::format("RiDeclare: \"{}\" is no declaration", declaration));
   say("Declare", {text(name), text(declaration)});
 }
 

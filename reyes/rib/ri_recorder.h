@@ -11,11 +11,16 @@ struct ValueCounts {
   size_t uniform = 1, varying = 1, vertex = 1, faceVarying = 1;
   size_t of(Storage s) const {
     switch (s) {
-      case Storage::Constant: return 1;
-      case Storage::Uniform: return uniform;
-      case Storage::Varying: return varying;
-      case Storage::Vertex: return vertex;
-      case Storage::FaceVarying: return faceVarying;
+      case Storage::Constant:
+        return 1;
+      case Storage::Uniform:
+        return uniform;
+      case Storage::Varying:
+        return varying;
+      case Storage::Vertex:
+        return vertex;
+      case Storage::FaceVarying:
+        return faceVarying;
     }
     return 1;
   }

@@ -22,10 +22,8 @@ class PlainParse {
       sink_.request(*request);
     }
     if (stream->damaged())
-      log_.report(Severity::Error, "rib-gzip", whole,
-                  "the compressed data is " + stream->damage());
-    if (!any)
-      log_.report(Severity::Error, "rib-empty", whole, "the file holds no RIB request that could be read");
+      log_.report(Severity::Error, "rib-gzip", whole, "the compressed data is " + stream->damage());
+    if (!any) log_.report(Severity::Error, "rib-empty", whole, "the file holds no RIB request that could be read");
     return any && !stream->damaged();
   }
 

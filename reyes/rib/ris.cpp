@@ -35,14 +35,20 @@ Translation pattern(const Request& r, Patterns& patterns) {
 }
 
 Translation camera(const Request& r, Patterns&) {
-  return {{}, {{"Camera", "Camera: the one camera is that of Projection and WorldBegin; its name and parameters are ignored", r.where}}};
+  return {
+      {},
+      {{"Camera", "Camera: the one camera is that of Projection and WorldBegin; its name and parameters are ignored",
+        r.where}}};
 }
 
 // What lies behind the picture; other filters change it.
 Translation displayFilter(const Request& r, Patterns& patterns) {
   if (!r.args[0].strings[0].starts_with("PxrBackground")) return ignored(r, patterns);
-  return {Script(r).say("Imager", {string("background")}, {param("bgcolor", ValueType::Color, color(r, "backgroundColor", 0))}).list(),
-          {standsIn(r, "the imager background")}};
+  return {
+      Script(r)
+          .say("Imager", {string("background")}, {param("bgcolor", ValueType::Color, color(r, "backgroundColor", 0))})
+          .list(),
+      {standsIn(r, "the imager background")}};
 }
 
 const std::unordered_map<std::string_view, Translator>& translators() {

@@ -24,7 +24,8 @@ bool isRis(const Request& request);
 /// Pre: isRis(request).
 Translation translateRis(const Request& request, Patterns& patterns);
 
-/// What Tomales calls the source of a channel ("normal Nn", "color lpe:C<RD>[<L.>O]"), without its type; unknown ones stay.
+/// What Tomales calls the source of a channel ("normal Nn", "color lpe:C<RD>[<L.>O]"), without its type; unknown ones
+/// stay.
 std::string risSource(const std::string& source);
 
 }  // namespace tomales::rib

@@ -56,7 +56,8 @@ Source follow(const Request& r, const char* name, const Patterns& patterns) {
   const std::string reference = text(r, name);
   const auto it = patterns.find(reference.substr(0, reference.find(':')));
   if (it == patterns.end()) {
-    Note none = note(r, fmt::format("refers to a pattern \"{}\", which there is not: \"{}\" keeps its default", reference, name));
+    Note none = note(
+        r, fmt::format("refers to a pattern \"{}\", which there is not: \"{}\" keeps its default", reference, name));
     none.key += " " + reference, none.code = "rib-reference";
     return {{}, "", false, {none}};
   }
@@ -66,7 +67,10 @@ Source follow(const Request& r, const char* name, const Patterns& patterns) {
   if (kind == "PxrTexture" && !text(pattern, "filename").empty())
     return {{1, 1, 1}, text(pattern, "filename"), false, {standsIn(pattern, "paintedplastic with its picture")}};
   if (kind == "PxrChecker")
-    return {mean(color(pattern, "colorA", 1), color(pattern, "colorB", 0)), "", false, {standsIn(pattern, "the mean of its colours")}};
+    return {mean(color(pattern, "colorA", 1), color(pattern, "colorB", 0)),
+            "",
+            false,
+            {standsIn(pattern, "the mean of its colours")}};
   if ((kind == "PxrPrimvar" || kind == "PxrVariable") && (variable == "Cs" || variable == "Ci"))
     return {{}, "", true, {standsIn(pattern, "Cs")}};
   return {{}, "", false, {note(pattern, "is not available: what is connected to it keeps its default")}};
@@ -92,21 +96,27 @@ void noteReferences(const Request& r, const Bxdf& b, const Patterns& patterns, s
 
 /// The parameter that holds the index of refraction of what one sees through; null: it is opaque.
 const char* indexOf(const Request& r) {
-  static const std::unordered_map<std::string_view, const char*> table = {
-      {"PxrGlass", "ior"}, {"PxrLMGlass", "eta"}, {"LamaDielectric", "IOR"}, {"PxrSurface", "glassIor"}, {"PxrLayerSurface", "glassIor"}};
+  static const std::unordered_map<std::string_view, const char*> table = {{"PxrGlass", "ior"},
+                                                                          {"PxrLMGlass", "eta"},
+                                                                          {"LamaDielectric", "IOR"},
+                                                                          {"PxrSurface", "glassIor"},
+                                                                          {"PxrLayerSurface", "glassIor"}};
   const std::string& name = r.args[0].strings[0];
   const auto it = table.find(name);
-  if (it == table.end() || (it->second == std::string_view("glassIor") && !(number(r, "refractionGain", 0) > 0.5f))) return nullptr;
+  if (it == table.end() || (it->second == std::string_view("glassIor") && !(number(r, "refractionGain", 0) > 0.5f)))
+    return nullptr;
   return it->second;
 }
 
 Translation glass(const Request& r, const char* index) {
   ParamList params{param("eta", ValueType::Float, {number(r, index, 1.5f)})};
-  if (findParam(r.params, "refractionColor")) params.push_back(param("transmitcolor", ValueType::Color, color(r, "refractionColor", 1)));
+  if (findParam(r.params, "refractionColor"))
+    params.push_back(param("transmitcolor", ValueType::Color, color(r, "refractionColor", 1)));
   return {Script(r).say("Surface", {string("glass")}, std::move(params)).list(), {standsIn(r, "glass")}};
 }
 
-/// What a metal mirrors straight back: Fresnel's equations for the index n and the absorption k, or an artist's colours.
+/// What a metal mirrors straight back: Fresnel's equations for the index n and the absorption k, or an artist's
+/// colours.
 std::vector<float> metalColor(const Request& r, const Bxdf& b) {
   const auto fresnel = [](float n, float k) { return ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k); };
   const auto physical = [&](const char* index, const char* absorption) {
@@ -126,16 +136,17 @@ std::vector<float> metalColor(const Request& r, const Bxdf& b) {
 /// Rays of a point that mirror the scene.
 constexpr float kReflections = 4;
 
-/// What `disney` takes over from its namesake. PxrSurface tells of its specular lobe by the colour at normal incidence, of which
-/// disney's 1 is 0.08. RIS mirrors the scene in metals and coats.
+/// What `disney` takes over from its namesake. PxrSurface tells of its specular lobe by the colour at normal incidence,
+/// of which disney's 1 is 0.08. RIS mirrors the scene in metals and coats.
 void addDisney(const Request& r, bool metal, ParamList& params) {
   const auto add = [&](const char* name, float value) { params.push_back(param(name, ValueType::Float, {value})); };
   static constexpr std::pair<const char*, const char*> same[] = {
-      {"specular", "specular"}, {"specularTint", "speculartint"}, {"sheen", "sheen"}, {"sheenTint", "sheentint"},
-      {"clearcoat", "clearcoat"}, {"clearcoatGloss", "clearcoatgloss"}};
+      {"specular", "specular"},   {"specularTint", "speculartint"}, {"sheen", "sheen"},
+      {"sheenTint", "sheentint"}, {"clearcoat", "clearcoat"},       {"clearcoatGloss", "clearcoatgloss"}};
   for (const auto& [theirs, ours] : same)
     if (findParam(r.params, theirs)) add(ours, number(r, theirs, 0));
-  if (const Param* metallic = findParam(r.params, "metallic"); metallic || metal) add("metallic", metallic ? metallic->number(0) : 1);
+  if (const Param* metallic = findParam(r.params, "metallic"); metallic || metal)
+    add("metallic", metallic ? metallic->number(0) : 1);
   if (findParam(r.params, "specularFaceColor")) {
     const std::vector<float> face = color(r, "specularFaceColor", 0);
     add("specular", (face[0] + face[1] + face[2]) / (3 * 0.08f));
@@ -151,7 +162,8 @@ Translation risBxdf(const Request& r, const Patterns& patterns) {
   const auto it = bxdfs().find(name);
   const Bxdf b = it == bxdfs().end() ? kMatte : it->second;
   Source base = baseColor(r, b, patterns);
-  const bool metal = b.metal || (b.metallic && number(r, b.metallic, 0) > 0.5f) || (b.diffuseGain && number(r, b.diffuseGain, 1) <= 0);
+  const bool metal =
+      b.metal || (b.metallic && number(r, b.metallic, 0) > 0.5f) || (b.diffuseGain && number(r, b.diffuseGain, 1) <= 0);
   ParamList params;
   if (b.roughness && findParam(r.params, b.roughness))
     params.push_back(param("roughness", ValueType::Float, {std::clamp(number(r, b.roughness, 0.1f), 0.001f, 1.0f)}));

@@ -1,4 +1,5 @@
-// Lights of the RIS era. They shine along +z of their own space; the area lights are a unit square, and shapes of diameter one.
+// Lights of the RIS era. They shine along +z of their own space; the area lights are a unit square, and shapes of
+// diameter one.
 #include <cmath>
 #include <unordered_map>
 
@@ -8,7 +9,8 @@ namespace tomales::rib {
 
 ParamList emission(const Request& r) {
   const float intensity = number(r, "intensity", 1) * std::exp2(number(r, "exposure", 0));
-  return {param("intensity", ValueType::Float, {intensity}), param("lightcolor", ValueType::Color, color(r, "lightColor", 1))};
+  return {param("intensity", ValueType::Float, {intensity}),
+          param("lightcolor", ValueType::Color, color(r, "lightColor", 1))};
 }
 
 namespace {
@@ -38,14 +40,17 @@ Translation cylinderLight(const Request& r) { return areaLight(r, "Cylinder", {n
 Translation lightSource(const Request& r, const char* shader, const ParamList& more) {
   ParamList params = emission(r);
   params.insert(params.end(), more.begin(), more.end());
-  return {Script(r).say("LightSource", {string(shader), string(r.args[1].strings[0])}, params).list(), {standsIn(r, shader)}};
+  return {Script(r).say("LightSource", {string(shader), string(r.args[1].strings[0])}, params).list(),
+          {standsIn(r, shader)}};
 }
 Translation distantLight(const Request& r) {
-  return lightSource(r, "distantlight", {param("from", ValueType::Point, {0, 0, 0}), param("to", ValueType::Point, {0, 0, 1})});
+  return lightSource(r, "distantlight",
+                     {param("from", ValueType::Point, {0, 0, 0}), param("to", ValueType::Point, {0, 0, 1})});
 }
 Translation domeLight(const Request& r) {
   const std::string map = text(r, findParam(r.params, "rman__EnvMap") ? "rman__EnvMap" : "lightColorMap");
-  return lightSource(r, "environmentlight", map.empty() ? ParamList{} : ParamList{param("map", map), param("mapspace", "shader")});
+  return lightSource(r, "environmentlight",
+                     map.empty() ? ParamList{} : ParamList{param("map", map), param("mapspace", "shader")});
 }
 
 // The geometry is what follows in its block.
@@ -60,7 +65,8 @@ const std::string kStdLight = "AreaLightSource\n";
 
 }  // namespace
 
-// RenderMan for Maya 19 and 20 name the shader after the light that they wrote it for: "shaders/PxrStdAreaLightShape1_rfm".
+// RenderMan for Maya 19 and 20 name the shader after the light that they wrote it for:
+// "shaders/PxrStdAreaLightShape1_rfm".
 Translation stdLight(const Request& r, Patterns& patterns) {
   const auto is = [&](const char* kind) { return r.args[0].strings[0].find(kind) != std::string::npos; };
   patterns[kStdLight] = r;
@@ -73,7 +79,8 @@ Translation stdLight(const Request& r, Patterns& patterns) {
 // Skies are not drawn. Those of the two other kinds shine already.
 Translation envSphere(const Request& r, Patterns& patterns) {
   const auto light = patterns.find(kStdLight);
-  if (light == patterns.end() || light->second.args[0].strings[0].find("PxrStdAreaLight") == std::string::npos) return {};
+  if (light == patterns.end() || light->second.args[0].strings[0].find("PxrStdAreaLight") == std::string::npos)
+    return {};
   Translation sky = domeLight(light->second);
   for (Note& n : sky.notes) n.key += " envsphere", n.where = r.where;
   return sky;
@@ -81,8 +88,8 @@ Translation envSphere(const Request& r, Patterns& patterns) {
 
 Translation risLight(const Request& r) {
   static const std::unordered_map<std::string_view, Translation (*)(const Request&)> table = {
-      {"PxrRectLight", rectLight}, {"PxrSphereLight", sphereLight},   {"PxrDiskLight", diskLight},
-      {"PxrDomeLight", domeLight}, {"PxrDistantLight", distantLight}, {"PxrEnvDayLight", dayLight},
+      {"PxrRectLight", rectLight},         {"PxrSphereLight", sphereLight},   {"PxrDiskLight", diskLight},
+      {"PxrDomeLight", domeLight},         {"PxrDistantLight", distantLight}, {"PxrEnvDayLight", dayLight},
       {"PxrCylinderLight", cylinderLight}, {"PxrMeshLight", meshLight}};
   const auto it = table.find(r.args[0].strings[0]);
   if (it != table.end()) return it->second(r);

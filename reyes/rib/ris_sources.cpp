@@ -6,13 +6,14 @@
 namespace tomales::rib {
 namespace {
 
-// Of RenderMan's own presets, those that a standard output answers. What precedes the last semicolon says how to sample, not what.
+// Of RenderMan's own presets, those that a standard output answers. What precedes the last semicolon says how to
+// sample, not what.
 std::string_view outputOfPaths(std::string_view expression) {
   static const std::unordered_map<std::string_view, std::string_view> table = {
-      {"C<RD>[<L.>O]", "diffuse"},          {"C<RD>[DS]+[<L.>O]", "indirectdiffuse"},
-      {"C<RS>[<L.>O]", "specular"},         {"C<RS>[DS]+[<L.>O]", "reflection"},
-      {"C(U2L)|O", "albedo"},               {"C<.S'passthru'>*((U2L)|O)", "albedo"},
-      {"C[DS]*[<L.>O]", "Ci"},              {"C.*[<L.>O]", "Ci"}};
+      {"C<RD>[<L.>O]", "diffuse"},  {"C<RD>[DS]+[<L.>O]", "indirectdiffuse"},
+      {"C<RS>[<L.>O]", "specular"}, {"C<RS>[DS]+[<L.>O]", "reflection"},
+      {"C(U2L)|O", "albedo"},       {"C<.S'passthru'>*((U2L)|O)", "albedo"},
+      {"C[DS]*[<L.>O]", "Ci"},      {"C.*[<L.>O]", "Ci"}};
   if (const size_t flags = expression.rfind(';'); flags != expression.npos) expression.remove_prefix(flags + 1);
   const auto it = table.find(expression);
   return it == table.end() ? std::string_view() : it->second;

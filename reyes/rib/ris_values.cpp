@@ -8,7 +8,9 @@
 namespace tomales::rib {
 namespace {
 
-std::vector<float> values(const Param& p) { return p.floats.empty() ? std::vector<float>(p.ints.begin(), p.ints.end()) : p.floats; }
+std::vector<float> values(const Param& p) {
+  return p.floats.empty() ? std::vector<float>(p.ints.begin(), p.ints.end()) : p.floats;
+}
 
 RibArg integer(int i) { return {RibArg::Kind::Integer, {static_cast<float>(i)}, {}, {i}}; }
 
@@ -24,8 +26,8 @@ bool sayBasis(Script& script, const std::string& name) {
 
 bool sayNumbers(Script& script, const Param& p, const std::vector<float>& v) {
   static const std::unordered_map<std::string_view, size_t> counts = {
-      {"Clipping", 2}, {"Color", 3},   {"CropWindow", 4}, {"FrameAspectRatio", 1}, {"Matte", 1},
-      {"Opacity", 3},  {"ScreenWindow", 4}, {"ShadingRate", 1}, {"Shutter", 2},    {"Sides", 1}};
+      {"Clipping", 2}, {"Color", 3},        {"CropWindow", 4},  {"FrameAspectRatio", 1}, {"Matte", 1},
+      {"Opacity", 3},  {"ScreenWindow", 4}, {"ShadingRate", 1}, {"Shutter", 2},          {"Sides", 1}};
   const auto it = counts.find(p.name);
   if (it == counts.end() || v.size() != it->second) return false;
   script.say(p.name.c_str(), {numbers(v)});

@@ -49,17 +49,18 @@ void SceneBuilder::request(const Request& r) {
 }
 
 bool SceneBuilder::isEdit(const Request& r) {
-  const bool begins = r.name.starts_with("Edit") && r.name.ends_with("Begin"), ends = r.name.starts_with("Edit") && !begins;
+  const bool begins = r.name.starts_with("Edit") && r.name.ends_with("Begin"),
+             ends = r.name.starts_with("Edit") && !begins;
   if (openEdits_ == 0 && !begins && !ends) return false;
-  if (openEdits_ == 0) state_.warnOnce(r.name, r, "rib-unsupported", r.name + " is not supported, ignored" + reasonFor(r.name));
+  if (openEdits_ == 0)
+    state_.warnOnce(r.name, r, "rib-unsupported", r.name + " is not supported, ignored" + reasonFor(r.name));
   openEdits_ = std::max(0, openEdits_ + begins - ends);
   return true;
 }
 
 void SceneBuilder::record(const Request& r) {
   if (r.name == "ObjectEnd") return endObject();
-  const bool leaves =
-      r.name == "WorldEnd" || r.name == "FrameEnd" || r.name == "WorldBegin" || r.name == "FrameBegin";
+  const bool leaves = r.name == "WorldEnd" || r.name == "FrameEnd" || r.name == "WorldBegin" || r.name == "FrameBegin";
   if (r.name == "ObjectBegin") return state_.warn(r, "rib-unbalanced", "inside another ObjectBegin, ignored");
   if (!leaves) {
     recording_->master->requests.push_back(r);
@@ -73,8 +74,7 @@ void SceneBuilder::record(const Request& r) {
 // Takes the requests of motion blocks aside.
 void SceneBuilder::step(const Request& r) {
   if (motion_ && r.name == "MotionEnd") return endMotion();
-  const bool leaves =
-      isBlockRequest(r.name) || (motion_ && !motion_->keys.empty() && motion_->keys[0].name != r.name);
+  const bool leaves = isBlockRequest(r.name) || (motion_ && !motion_->keys.empty() && motion_->keys[0].name != r.name);
   if (motion_ && !leaves) return collectKey(r);
   if (motion_) {
     state_.warn(motion_->begin, "rib-motion", r.name + " at " + r.where.text() + " ends the block early");
@@ -85,8 +85,7 @@ void SceneBuilder::step(const Request& r) {
 
 void SceneBuilder::perform(const Request& r) {
   if (isGeometry(r.name) && !isRis(r)) return addGeometry({&r}, {0.0f});
-  if (!usableArguments(r))
-    return state_.warn(r, "rib-not-finite", "an argument is not a finite number; ignored");
+  if (!usableArguments(r)) return state_.warn(r, "rib-not-finite", "an argument is not a finite number; ignored");
   if (isTransformation(r.name)) return applyTransformation(state_, {&r}, {0.0f});
   if (inProcedural_ && refuse(r)) return;
   if (isRis(r)) return performRis(r);
@@ -101,7 +100,9 @@ void SceneBuilder::perform(const Request& r) {
 bool SceneBuilder::refuse(const Request& r) {
   static constexpr std::string_view kFrame[] = {"FrameBegin", "FrameEnd", "WorldBegin", "WorldEnd"};
   static constexpr std::string_view kLights[] = {"LightSource", "AreaLightSource", "Light"};
-  const auto among = [&](const auto& names) { return std::find(std::begin(names), std::end(names), r.name) != std::end(names); };
+  const auto among = [&](const auto& names) {
+    return std::find(std::begin(names), std::end(names), r.name) != std::end(names);
+  };
   if (among(kFrame)) return state_.warn(r, "rib-unbalanced", "inside a procedural, ignored"), true;
   if (!among(kLights)) return false;
   state_.warnOnce("procedural " + r.name, r, "rib-procedural-light",
@@ -114,25 +115,27 @@ void SceneBuilder::performRis(const Request& r) {
   for (const Note& note : translation.notes) state_.warnOnce(note.key, note.where, note.code, note.text, note.severity);
   const size_t lights = state_.globals.lights.size();
   for (const Request& request : translation.requests) perform(request);
-  for (size_t i = lights; i < state_.globals.lights.size(); ++i) state_.switchOnEverywhere(state_.globals.lights[i]->index);
+  for (size_t i = lights; i < state_.globals.lights.size(); ++i)
+    state_.switchOnEverywhere(state_.globals.lights[i]->index);
 }
 
 float SceneBuilder::rasterArea(const std::vector<float>& b) const {
   const Camera camera(options());
   const float frame = static_cast<float>(camera.xResolution()) * static_cast<float>(camera.yResolution());
-  const Bound3 box = transformBound(state_.cameraFromObject().at(options().shutterOpen),
-                                    {{b[0], b[2], b[4]}, {b[1], b[3], b[5]}});
+  const Bound3 box =
+      transformBound(state_.cameraFromObject().at(options().shutterOpen), {{b[0], b[2], b[4]}, {b[1], b[3], b[5]}});
   Bound2 raster;
-  if (!tomales::isFinite(box.lo) || !tomales::isFinite(box.hi) || !camera.rasterBound(box, raster) || raster.empty()) return frame;
+  if (!tomales::isFinite(box.lo) || !tomales::isFinite(box.hi) || !camera.rasterBound(box, raster) || raster.empty())
+    return frame;
   return std::min(frame, (raster.hi.x - raster.lo.x) * (raster.hi.y - raster.lo.y));
 }
 
 bool SceneBuilder::performBlock(const Request& r) {
-  if (r.name == "version" || r.name == "Declare" || r.name == "ColorSamples" || r.name == "ReadArchive") return true;  // the reader's
+  if (r.name == "version" || r.name == "Declare" || r.name == "ColorSamples" || r.name == "ReadArchive")
+    return true;  // the reader's
   if (r.name == "ErrorHandler") {
     if (r.args[0].strings[0] != "print")
-      state_.warnOnce(r.name, r, "rib-unsupported",
-                      "ErrorHandler: problems are always reported, and never abort");
+      state_.warnOnce(r.name, r, "rib-unsupported", "ErrorHandler: problems are always reported, and never abort");
   } else if (r.name == "FrameBegin") {
     if (state_.isOpen(Block::Frame))
       endFrame(r.where);
@@ -172,9 +175,8 @@ bool SceneBuilder::performBlock(const Request& r) {
 }
 
 bool SceneBuilder::performHandler(const Request& r) {
-  for (const HandlerTable* table :
-       {&attributeHandlers(), &shaderHandlers(), &detailHandlers(), &transformHandlers(), &resourceHandlers(), &optionHandlers(),
-        &displayHandlers()}) {
+  for (const HandlerTable* table : {&attributeHandlers(), &shaderHandlers(), &detailHandlers(), &transformHandlers(),
+                                    &resourceHandlers(), &optionHandlers(), &displayHandlers()}) {
     const auto it = table->find(r.name);
     if (it == table->end()) continue;
     const bool option = table == &optionHandlers() || table == &displayHandlers();
@@ -240,9 +242,9 @@ void SceneBuilder::finish(const SourceLoc& where) {
 }
 
 void SceneBuilder::endUnclosedWorld(const SourceLoc& where) {
-  state_.log.report(Severity::Missing, "rib-unbalanced", where,
-                    "WorldEnd is missing for the world that begins at " + state_.world->where.text() +
-                        "; what there is is rendered");
+  state_.log.report(
+      Severity::Missing, "rib-unbalanced", where,
+      "WorldEnd is missing for the world that begins at " + state_.world->where.text() + "; what there is is rendered");
   endWorld(where);
 }
 

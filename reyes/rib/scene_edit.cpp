@@ -1,5 +1,5 @@
-// Changes to a scene whose geometry is settled: shaders, lights and attributes, addressed by the names of objects and the
-// handles of lights.
+// Changes to a scene whose geometry is settled: shaders, lights and attributes, addressed by the names of objects and
+// the handles of lights.
 #include "reyes/rib/handlers.h"
 
 namespace tomales {
@@ -16,7 +16,8 @@ class SceneEditor : public RiSink {
     if (r.name == "LightSource" || r.name == "AreaLightSource") return editLight(r);
     if (r.name == "Exposure" || r.name == "Imager" || r.name == "Quantize") return editOptions(r);
     if (r.name == "Attribute" && r.args[0].strings[0] == "identifier") return select(r);
-    if (r.name == "Attribute" || r.name == "Color" || r.name == "Illuminate" || r.name == "Surface" || r.name == "Atmosphere")
+    if (r.name == "Attribute" || r.name == "Color" || r.name == "Illuminate" || r.name == "Surface" ||
+        r.name == "Atmosphere")
       return editObjects(r);
     if (r.name != "version" && r.name != "Declare")
       state_.warn(r, "edit-request", r.name + " changes more than shading; ignored, hide the scene again for it");
@@ -31,7 +32,8 @@ class SceneEditor : public RiSink {
 
   void select(const Request& r) {
     const Param* name = findParam(r.params, "name");
-    if (!name || name->strings.empty()) return state_.warn(r, "edit-name", "only \"identifier\" \"name\" selects objects");
+    if (!name || name->strings.empty())
+      return state_.warn(r, "edit-name", "only \"identifier\" \"name\" selects objects");
     selected_ = name->strings[0];
     const auto named = [&](const ShadeGroup& g) { return g.attributes->name == *selected_; };
     if (std::none_of(scene_.groups.begin(), scene_.groups.end(), named))
@@ -56,7 +58,7 @@ class SceneEditor : public RiSink {
   }
 
   /// Unless the request or the old attributes have no shader.
-  void keep(const Request& r, std::shared_ptr<const ShaderCall> Attributes::* which, const Attributes& old) {
+  void keep(const Request& r, std::shared_ptr<const ShaderCall> Attributes::*which, const Attributes& old) {
     auto& shader = state_.scope.edit().*which;
     if (shader && old.*which) shader = std::make_shared<const ShaderCall>(merged(*(old.*which), r, state_));
   }

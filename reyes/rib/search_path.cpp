@@ -43,8 +43,7 @@ std::string expandSearchPath(const std::string& written, const std::string& prev
   std::string out;
   for (size_t i = 0; i < written.size() && out.size() <= kLongestSearchPath; ++i) {
     const char c = written[i];
-    const bool starts = i == 0 || written[i - 1] == ':',
-               ends = i + 1 == written.size() || written[i + 1] == ':';
+    const bool starts = i == 0 || written[i - 1] == ':', ends = i + 1 == written.size() || written[i + 1] == ':';
     if (c == '&' && starts && ends) {
       out += previous;
     } else if (c == '$') {

@@ -24,8 +24,7 @@ struct ByteStream::Inflater {
   }
 };
 
-ByteStream::ByteStream(Source source)
-    : source_(std::move(source)), raw_(std::make_unique<char[]>(kBufferSize)) {}
+ByteStream::ByteStream(Source source) : source_(std::move(source)), raw_(std::make_unique<char[]>(kBufferSize)) {}
 ByteStream::~ByteStream() = default;
 
 std::unique_ptr<ByteStream> ByteStream::open(const std::string& path) {
@@ -36,18 +35,17 @@ std::unique_ptr<ByteStream> ByteStream::open(const std::string& path) {
   const std::shared_ptr<std::FILE> owner(file, [](std::FILE* f) {
     if (f != stdin) std::fclose(f);
   });
-  return std::unique_ptr<ByteStream>(new ByteStream(
-      [owner](char* buffer, size_t size) { return std::fread(buffer, 1, size, owner.get()); }));
+  return std::unique_ptr<ByteStream>(
+      new ByteStream([owner](char* buffer, size_t size) { return std::fread(buffer, 1, size, owner.get()); }));
 }
 
 std::unique_ptr<ByteStream> ByteStream::fromMemory(const std::string& text) {
-  return std::unique_ptr<ByteStream>(
-      new ByteStream([&text, at = size_t{0}](char* buffer, size_t size) mutable {
-        const size_t n = std::min(size, text.size() - at);
-        std::memcpy(buffer, text.data() + at, n);
-        at += n;
-        return n;
-      }));
+  return std::unique_ptr<ByteStream>(new ByteStream([&text, at = size_t{0}](char* buffer, size_t size) mutable {
+    const size_t n = std::min(size, text.size() - at);
+    std::memcpy(buffer, text.data() + at, n);
+    at += n;
+    return n;
+  }));
 }
 
 std::unique_ptr<ByteStream> ByteStream::fromProgram(Source source) {
@@ -102,8 +100,8 @@ bool ByteStream::inflateMore() {
 
 std::string ByteStream::damage() const {
   if (inflater_->out <= kHarmless_bytes) return "damaged or cut off";
-  return "a bomb or damaged: it swells beyond " + std::to_string(kHarmless_bytes >> 20) + " MiB and " + std::to_string(kLargestRatio) +
-         " times its size";
+  return "a bomb or damaged: it swells beyond " + std::to_string(kHarmless_bytes >> 20) + " MiB and " +
+         std::to_string(kLargestRatio) + " times its size";
 }
 
 std::string gzip(std::string_view text) {

@@ -11,8 +11,7 @@ Found text(const std::map<std::string, Param>& all, const std::string& key) {
   const auto it = all.find(key);
   if (it == all.end()) return std::nullopt;
   const Param& p = it->second;
-  return p.type == ValueType::String ? (p.strings.empty() ? "" : p.strings[0])
-                                     : fmt::format("{}", p.number(0));
+  return p.type == ValueType::String ? (p.strings.empty() ? "" : p.strings[0]) : fmt::format("{}", p.number(0));
 }
 
 Found option(const Options& o, const std::string& key) {

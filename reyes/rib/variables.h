@@ -10,7 +10,6 @@ namespace tomales::rib {
 /// "Option:category:name", "Attribute:category:name" or "Frame"; anything else, with or without "user:", is
 /// looked up among user attributes, user options and then everything that Attribute and Option have set by
 /// "category:name".
-std::optional<std::string> findVariable(const Options& options, const Attributes& attributes,
-                                        const std::string& name);
+std::optional<std::string> findVariable(const Options& options, const Attributes& attributes, const std::string& name);
 
 }  // namespace tomales::rib

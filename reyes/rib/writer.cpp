@@ -125,8 +125,7 @@ std::string declarationOf(const Param& p, ValueType type) {
   static constexpr const char* kTypes[] = {"float",  "int",    "string", "color", "point",
                                            "vector", "normal", "hpoint", "matrix"};
   const std::string length = p.arrayLength == 1 ? "" : fmt::format("[{}]", p.arrayLength);
-  return fmt::format("{} {}{} ", kStorages[static_cast<int>(p.storage)], kTypes[static_cast<int>(type)],
-                     length);
+  return fmt::format("{} {}{} ", kStorages[static_cast<int>(p.storage)], kTypes[static_cast<int>(type)], length);
 }
 
 std::string declarationOf(const Param& p) { return declarationOf(p, p.type); }
@@ -174,10 +173,12 @@ class Writer : public RiSink {
   // A name with blanks or brackets cannot be declared inline: its Declare is among the requests.
   void parameter(const Param& p, const Request& r) {
     const bool inlined = p.name.find_first_of(" \t\r\n[]") == std::string::npos;
-    const auto reference = std::find_if(r.references.begin(), r.references.end(), [&](const auto& f) { return f.first == p.name; });
-    encoding_->token(out_, !inlined                          ? p.name
-                           : reference == r.references.end() ? declarationOf(p) + p.name
-                                                             : "reference " + declarationOf(p, reference->second) + p.name);
+    const auto reference =
+        std::find_if(r.references.begin(), r.references.end(), [&](const auto& f) { return f.first == p.name; });
+    encoding_->token(out_, !inlined ? p.name
+                           : reference == r.references.end()
+                               ? declarationOf(p) + p.name
+                               : "reference " + declarationOf(p, reference->second) + p.name);
     if (p.type == ValueType::String) return strings(p.strings);
     if (p.type != ValueType::Integer) return encoding_->floats(out_, p.floats);
     integers(p.ints);
@@ -209,8 +210,6 @@ class Writer : public RiSink {
 
 }  // namespace
 
-std::unique_ptr<RiSink> makeRibWriter(const RibWriterSettings& settings) {
-  return std::make_unique<Writer>(settings);
-}
+std::unique_ptr<RiSink> makeRibWriter(const RibWriterSettings& settings) { return std::make_unique<Writer>(settings); }
 
 }  // namespace tomales

@@ -26,14 +26,19 @@ void ShadingSystem::atmosphere(const ShadePoints& points, ShadedPoints& out) con
     out = before;
     return;
   }
-  const auto transparent = [](const AlignedVector<float>& o, int n) { return std::any_of(o.begin(), o.begin() + n, [](float x) { return x < 1; }); };
-  if (std::none_of(std::begin(before.Oi), std::end(before.Oi), [&](const auto& o) { return transparent(o, points.count()); })) return;
+  const auto transparent = [](const AlignedVector<float>& o, int n) {
+    return std::any_of(o.begin(), o.begin() + n, [](float x) { return x < 1; });
+  };
+  if (std::none_of(std::begin(before.Oi), std::end(before.Oi),
+                   [&](const auto& o) { return transparent(o, points.count()); }))
+    return;
   ShadedPoints air;
   air.resize(points.count());
   if (!run(air)) return;
   for (int k = 0; k < 3; ++k) {
     out.airCi[k] = std::move(air.Ci[k]), out.airOi[k] = std::move(air.Oi[k]);
-    for (size_t i = 0; i < out.airCi[k].size(); ++i) out.airCi[k][i] *= 1 - before.Oi[k][i], out.airOi[k][i] *= 1 - before.Oi[k][i];
+    for (size_t i = 0; i < out.airCi[k].size(); ++i)
+      out.airCi[k][i] *= 1 - before.Oi[k][i], out.airOi[k][i] *= 1 - before.Oi[k][i];
   }
 }
 

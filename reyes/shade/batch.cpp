@@ -113,7 +113,8 @@ void Batch::closeOutputs(const std::vector<BoundVariable>& variables, ShadedPoin
   }
   for (const BoundVariable& v : variables)
     for (int k = 0; v.from == BoundVariable::From::Output && k < v.width; ++k)
-      std::copy_n(params_[static_cast<size_t>(v.index)].c[k], n, out.variables[static_cast<size_t>(v.first + k)].data() + begin);
+      std::copy_n(params_[static_cast<size_t>(v.index)].c[k], n,
+                  out.variables[static_cast<size_t>(v.first + k)].data() + begin);
 }
 
 void Batch::setElsewhere(const Batch& asking, const TmGrid* g, const ShadePoints& moved) {
@@ -149,7 +150,8 @@ void Batch::setLit(const LightProbe& probe, const BoundShader& shader) {
   tm.L = arena.vec3(n), tm.Cl = arena.vec3(n);
   tm.sample = 0, tm.samples = 1;
   float *xi0 = arena.floats(n), *xi1 = arena.floats(n);
-  for (size_t i = 0; i < probe.P.size(); ++i) xi0[i] = probe.xi.empty() ? 0.5f : probe.xi[i].x, xi1[i] = probe.xi.empty() ? 0.5f : probe.xi[i].y;
+  for (size_t i = 0; i < probe.P.size(); ++i)
+    xi0[i] = probe.xi.empty() ? 0.5f : probe.xi[i].x, xi1[i] = probe.xi.empty() ? 0.5f : probe.xi[i].y;
   tm.xi0 = xi0, tm.xi1 = xi1;
 }
 
@@ -166,7 +168,8 @@ void Batch::setPixels(ShadedPixels& p, const BoundShader& shader) {
   tm.alpha = p.alpha.data();
 }
 
-void Batch::answer(const std::vector<float>& numbers, const std::string& text, TmType type, int32_t& typeOut, TmValue& out) {
+void Batch::answer(const std::vector<float>& numbers, const std::string& text, TmType type, int32_t& typeOut,
+                   TmValue& out) {
   const int width = type == TM_FLOAT || type == TM_STRING ? 1 : type == TM_MATRIX ? 16 : 3;
   float* values = arena.floats(std::max(static_cast<int>(numbers.size()), width));
   std::copy(numbers.begin(), numbers.end(), values);
@@ -241,8 +244,7 @@ bool Batch::run(const BoundShader& shader, const TmGrid& tmGrid) {
 }
 
 void Batch::report(Severity severity, const char* code, const std::string& problem) const {
-  const std::string who =
-      running->user == group.object ? running->user : running->user + ", on " + group.object;
+  const std::string who = running->user == group.object ? running->user : running->user + ", on " + group.object;
   scene.log.report(severity, fmt::format("{}-{}", code, running->shader->name), running->where,
                    fmt::format("{}: shader \"{}\" {}", who, running->shader->name, problem));
 }

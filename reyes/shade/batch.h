@@ -19,8 +19,8 @@ class Batch {
   ~Batch();
   Batch(const Batch&) = delete;
 
-  /// Inputs of a surface or volume shader from points, outputs of `count` floats from element `begin`. Adds neighbours where the
-  /// shader wants them and the points have steps.
+  /// Inputs of a surface or volume shader from points, outputs of `count` floats from element `begin`. Adds neighbours
+  /// where the shader wants them and the points have steps.
   void setPoints(ShadePoints& points, const BoundShader& shader, const std::vector<Override>& overrides,
                  ShadedPoints& out, int begin);
   /// After setPoints: the shader's outputs are stored in `out` from `begin`.
@@ -30,15 +30,16 @@ class Batch {
   /// Inputs and outputs of a displacement shader: motion key 0 of a grid.
   void setGrid(Grid& grid, const BoundShader& shader, const std::vector<Override>& overrides);
 
-  /// As a batch whose shader asks for light at `moved`, of its own points: what lights see of the surface and its shader. `g` has the mask.
+  /// As a batch whose shader asks for light at `moved`, of its own points: what lights see of the surface and its
+  /// shader. `g` has the mask.
   void setElsewhere(const Batch& asking, const TmGrid* g, const ShadePoints& moved);
   /// Inputs of a light shader: points that nothing shades.
   void setLit(const LightProbe& probe, const BoundShader& shader);
   /// Inputs and outputs of an imager shader.
   void setPixels(ShadedPixels& pixels, const BoundShader& shader);
 
-  /// How a value changes over each micropolygon, along u or v: by the neighbours, or because the host knows the value. False: it does
-  /// not, and `out` is left alone. Inactive points hold anything.
+  /// How a value changes over each micropolygon, along u or v: by the neighbours, or because the host knows the value.
+  /// False: it does not, and `out` is left alone. Inactive points hold anything.
   bool stepsOf(const TmGrid* g, bool alongV, const float* value, float* out) const;
 
   /// Calls the shader. False: it threw, which has been reported.
@@ -55,11 +56,13 @@ class Batch {
   const ShadeContext& context;
   Arena& arena;
   TmGrid tm{};
-  const ShadePoints* points = nullptr;  ///< Null while displacing. Those that are shaded: tm may hold their neighbours as well.
-  Stencil stencil;                      ///< Unset: no neighbours.
-  const Grid* grid = nullptr;           ///< Null while shading.
+  const ShadePoints* points =
+      nullptr;                 ///< Null while displacing. Those that are shaded: tm may hold their neighbours as well.
+  Stencil stencil;             ///< Unset: no neighbours.
+  const Grid* grid = nullptr;  ///< Null while shading.
   const BoundShader* running = nullptr;
-  const BoundShader* own = nullptr;     ///< What the batch has been set for; `running` is another while lights are evaluated.
+  const BoundShader* own =
+      nullptr;  ///< What the batch has been set for; `running` is another while lights are evaluated.
   Lights lights;
   std::vector<std::unique_ptr<Elsewhere>> elsewhere;  ///< The latest first (elsewhere.h).
   int placesAsked = 0;                                ///< Of them.
@@ -96,10 +99,13 @@ class Batch {
   std::deque<std::string> answers_;
 };
 
-/// What a caller of another release gives of an options struct that begins with structBytes: as many fields as it knows of. Null: none.
+/// What a caller of another release gives of an options struct that begins with structBytes: as many fields as it knows
+/// of. Null: none.
 template <class Options>
 Options givenOptions(Options options, const Options* given) {
-  if (given) std::copy_n(reinterpret_cast<const char*>(given), std::min<size_t>(given->structBytes, sizeof options), reinterpret_cast<char*>(&options));
+  if (given)
+    std::copy_n(reinterpret_cast<const char*>(given), std::min<size_t>(given->structBytes, sizeof options),
+                reinterpret_cast<char*>(&options));
   return options;
 }
 

@@ -7,8 +7,9 @@
 
 namespace tomales {
 
-const ParamNames kLightParams{"lighting", "__nondiffuse", "__nonspecular", "__group", "lightgroup", "__category", "shadowname", "sfpx",
-                              "sfnx",     "sfpy",         "sfny",          "sfpz",       "sfnz",     "shadowvariance"};
+const ParamNames kLightParams{"lighting",   "__nondiffuse", "__nonspecular", "__group",       "lightgroup",
+                              "__category", "shadowname",   "sfpx",          "sfnx",          "sfpy",
+                              "sfny",       "sfpz",         "sfnz",          "shadowvariance"};
 
 namespace {
 
@@ -35,7 +36,8 @@ void warnAboutUnsupported(const BoundShader& light, const IndirectQuery& q, Log&
   if (q.errorFunction != "screen" && q.errorFunction != "ward" && q.errorFunction != "hessian" &&
       q.errorFunction != "split" && q.errorFunction != "plain")
     warn("errorfunction", q.errorFunction, "\"screen\" is used");
-  if (q.radiance != "shader" && q.radiance != "atlas" && q.radiance != "radiosity") warn("radiance", q.radiance, "gather rays run the shaders");
+  if (q.radiance != "shader" && q.radiance != "atlas" && q.radiance != "radiosity")
+    warn("radiance", q.radiance, "gather rays run the shaders");
   if (!q.atlas.empty()) warn("atlas", q.atlas, "it is not read");
 }
 
@@ -69,13 +71,14 @@ void setHostParams(BoundLight& light, const LightCall& call, const ShadowMaps& m
   };
   light.shadowVariance = std::max(0.0f, number("shadowvariance"));
   light.nondiffuse = number("__nondiffuse") != 0, light.nonspecular = number("__nonspecular") != 0;
-  light.group = !text("__group").empty() ? text("__group") : !text("lightgroup").empty() ? text("lightgroup") : call.handle;
+  light.group = !text("__group").empty()      ? text("__group")
+                : !text("lightgroup").empty() ? text("lightgroup")
+                                              : call.handle;
   light.category = !text("__category").empty() ? text("__category") : light.bound->text("__category", "");
   const std::string lighting = text("lighting");
   light.direct = lighting != "indirect", light.indirect = lighting != "direct";
   if (!lighting.empty() && lighting != "both" && light.direct && light.indirect)
-    warn("light-lighting",
-         fmt::format("lighting \"{}\" is none of both, direct, indirect; both is used", lighting));
+    warn("light-lighting", fmt::format("lighting \"{}\" is none of both, direct, indirect; both is used", lighting));
   for (const std::string_view name : kShadowMaps) {
     const std::string map = text(name);
     if (map.empty()) continue;
@@ -86,11 +89,10 @@ void setHostParams(BoundLight& light, const LightCall& call, const ShadowMaps& m
     light.shadows = light.shadows || !mapped;
   }
   if (call.area && !light.can(TM_LIGHT_AREA))
-    warn("light-area",
-         fmt::format("\"{}\" is not an area light; it shines without its geometry", call.shader.name));
+    warn("light-area", fmt::format("\"{}\" is not an area light; it shines without its geometry", call.shader.name));
   if (!call.area && light.can(TM_LIGHT_AREA))
-    warn("light-area",
-         fmt::format("\"{}\" needs AreaLightSource and geometry; it casts no light", call.shader.name), Severity::Missing);
+    warn("light-area", fmt::format("\"{}\" needs AreaLightSource and geometry; it casts no light", call.shader.name),
+         Severity::Missing);
 }
 
 bool hasGeometry(const LightCall& call, const Scene& scene) {
@@ -103,25 +105,30 @@ bool hasGeometry(const LightCall& call, const Scene& scene) {
 std::shared_ptr<const Sky> Binder::sky(const BoundShader& light) {
   const std::string picture = light.text("map", ""), space = light.text("mapspace", "world");
   if (space != "world" && space != "shader")
-    log_.report(Severity::Warning, "light-mapspace", light.where, fmt::format("{}: mapspace \"{}\" is neither \"world\" nor \"shader\"; world is used", light.user, space));
+    log_.report(
+        Severity::Warning, "light-mapspace", light.where,
+        fmt::format("{}: mapspace \"{}\" is neither \"world\" nor \"shader\"; world is used", light.user, space));
   const mat4& currentFromSky = space == "shader" ? light.currentFromShader : cameraFromWorld_;
-  auto sky = picture.empty() ? std::make_shared<Sky>() : std::make_shared<Sky>(textures_, picture, light.where, light.user, skyFromCurrent(currentFromSky));
+  auto sky = picture.empty()
+                 ? std::make_shared<Sky>()
+                 : std::make_shared<Sky>(textures_, picture, light.where, light.user, skyFromCurrent(currentFromSky));
   Portals portals;
   std::istringstream names(light.text("portals", ""));
   for (std::string name; names >> name;) {
     mat4 currentFromPortal;
     if (!scene_.cameraFromNamed(name, currentFromPortal))
-      log_.report(Severity::Warning, "light-portal", light.where, fmt::format("{}: no CoordinateSystem is named \"{}\"; it has no such portal", light.user, name));
+      log_.report(Severity::Warning, "light-portal", light.where,
+                  fmt::format("{}: no CoordinateSystem is named \"{}\"; it has no such portal", light.user, name));
     else if (!portals.add(currentFromPortal))
-      log_.report(Severity::Warning, "light-portal", light.where, fmt::format("{}: the portal \"{}\" has no area; it is left out", light.user, name));
+      log_.report(Severity::Warning, "light-portal", light.where,
+                  fmt::format("{}: the portal \"{}\" has no area; it is left out", light.user, name));
   }
   sky->setPortals(std::move(portals));
   return sky;
 }
 
 std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index) {
-  BoundShaderPtr bound =
-      bind(&call.shader, call.shader.where, fmt::format("light \"{}\"", call.handle), TM_LIGHT);
+  BoundShaderPtr bound = bind(&call.shader, call.shader.where, fmt::format("light \"{}\"", call.handle), TM_LIGHT);
   if (!bound) return nullptr;
   auto light = std::make_unique<BoundLight>();
   light->bound = bound, light->index = index;

@@ -8,8 +8,7 @@ namespace tomales {
 
 const ParamNames kMediumParams{"scattering", "absorption"};
 
-BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, const std::string& user,
-                            TmKind kind) {
+BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind) {
   const std::string name = call ? call->name : "defaultsurface";
   const TmShader* shader = registry_.find(name, kind, path_);
   const float open = scene_.options.shutterOpen;
@@ -22,9 +21,8 @@ BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, cons
   static constexpr const char* kConsequences[] = {"a magenta checker is rendered", "nothing is displaced",
                                                   "it casts no light", "the air is clear",
                                                   "the picture stays as it is"};
-  log_.report(
-      Severity::Missing, "shader-missing", where,
-      fmt::format("{}: {} shader \"{}\" is unknown; {}", user, kindName(kind), name, kConsequences[kind]));
+  log_.report(Severity::Missing, "shader-missing", where,
+              fmt::format("{}: {} shader \"{}\" is unknown; {}", user, kindName(kind), name, kConsequences[kind]));
   if (kind != TM_SURFACE) return nullptr;
   return bindShader(kSubstituteSurface, nullptr, where, user, currentFromShader, {}, log_);
 }

@@ -29,8 +29,7 @@ class Binder {
                          const std::string& user) {
     return cached(call, object, user, TM_SURFACE);
   }
-  BoundShaderPtr optional(const std::shared_ptr<const ShaderCall>& call, const std::string& user,
-                          TmKind kind) {
+  BoundShaderPtr optional(const std::shared_ptr<const ShaderCall>& call, const std::string& user, TmKind kind) {
     return call ? cached(call, call->where, user, kind) : nullptr;
   }
   BoundShaderPtr imager(const std::optional<ShaderCall>& call, const std::string& user) {
@@ -47,8 +46,8 @@ class Binder {
   std::unique_ptr<const BoundLight> light(const LightCall& call, int index);
 
  private:
-  BoundShaderPtr cached(const std::shared_ptr<const ShaderCall>& call, const SourceLoc& object,
-                        const std::string& user, TmKind kind) {
+  BoundShaderPtr cached(const std::shared_ptr<const ShaderCall>& call, const SourceLoc& object, const std::string& user,
+                        TmKind kind) {
     if (!call) return bind(nullptr, object, user, kind);
     const auto [it, isNew] = bound_.try_emplace(call.get());
     if (isNew) it->second = bind(call.get(), call->where, user, kind);

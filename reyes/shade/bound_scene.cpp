@@ -18,9 +18,11 @@ std::vector<Override> overridesOf(const BoundShader& bound, const std::vector<Pr
     for (const Primvar& p : primvars) {
       const bool same = p.name == decl.name && p.width == width && decl.arrayLength == 1;
       if (same && isUniform(decl))
-        log.report(Severity::Warning, fmt::format("shader-parameter-uniform-{}-{}", bound.shader->name, decl.name), bound.where,
-                   fmt::format("{}: shader \"{}\": parameter \"{}\" is uniform; the primitive variable of that name is ignored", bound.user,
-                               bound.shader->name, decl.name));
+        log.report(Severity::Warning, fmt::format("shader-parameter-uniform-{}-{}", bound.shader->name, decl.name),
+                   bound.where,
+                   fmt::format(
+                       "{}: shader \"{}\": parameter \"{}\" is uniform; the primitive variable of that name is ignored",
+                       bound.user, bound.shader->name, decl.name));
       else if (same)
         out.push_back({i, offset, width});
       offset += p.width;
@@ -45,7 +47,8 @@ void warnAboutUnwritten(const FrameOutput& output, const BoundScene& scene) {
     const auto writes = [&](const BoundGroup& g) { return g.variables[i].from != BoundVariable::From::Nothing; };
     if (std::any_of(scene.groups.begin(), scene.groups.end(), writes)) continue;
     scene.log.report(Severity::Warning, fmt::format("channel-unwritten {}", v.source), v.where,
-                     fmt::format("no shader and no surface of this frame has an output \"{}\"; the channel holds {}", v.source, v.fill));
+                     fmt::format("no shader and no surface of this frame has an output \"{}\"; the channel holds {}",
+                                 v.source, v.fill));
   }
 }
 
@@ -72,7 +75,8 @@ int64_t textureMemoryOf(const Options& options) {
 
 /// Its shader never runs.
 BoundShaderPtr storedLight() {
-  static const TmShader shader{TM_SHADER_ABI, sizeof(TmShader), "stored irradiance", TM_LIGHT, 0, nullptr, 0, nullptr, ""};
+  static const TmShader shader{
+      TM_SHADER_ABI, sizeof(TmShader), "stored irradiance", TM_LIGHT, 0, nullptr, 0, nullptr, ""};
   auto bound = std::make_shared<BoundShader>();
   bound->shader = &shader;
   return bound;
@@ -87,13 +91,14 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
       camera(s.options),
       cameraFromWorld(s.cameraFromWorldAtOpen()),
       specularSharpness(specularSharpnessOf(s.options, l)),
-      textures({pathOf(s.options.searchPaths, "texture"), pathOf(s.options.searchPaths, "texturecache"), textureMemoryOf(s.options)}, l, st),
+      textures({pathOf(s.options.searchPaths, "texture"), pathOf(s.options.searchPaths, "texturecache"),
+                textureMemoryOf(s.options)},
+               l, st),
       shadowMaps(pathOf(s.options.searchPaths, "texture"), l),
       skies(textures, skyFromCurrent(cameraFromWorld)) {
   output_ = outputOf(scene.options);
   binder_ = std::make_unique<Binder>(scene, registry, textures, shadowMaps, log);
-  for (const auto& call : scene.lights)
-    lights.push_back(binder_->light(*call, static_cast<int>(lights.size())));
+  for (const auto& call : scene.lights) lights.push_back(binder_->light(*call, static_cast<int>(lights.size())));
   connectFilters(*this);
   stored.bound = storedLight();
   pixels.group = &picture, pixels.object = "the picture";

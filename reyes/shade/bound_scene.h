@@ -16,10 +16,10 @@ struct BoundLight {
   int index = -1;  ///< In Scene::lights.
   int samples = 1;
   bool shadows = false;
-  bool direct = true;                            ///< Lights what the camera sees.
-  bool indirect = true;                          ///< Lights what gather rays see.
-  float shadowVariance = 0;                      ///< Of the share of light that passes: what its shadow rays may leave; 0: all are traced.
-  bool visible = true;                           ///< Glows for the camera (area lights) and for specular rays.
+  bool direct = true;        ///< Lights what the camera sees.
+  bool indirect = true;      ///< Lights what gather rays see.
+  float shadowVariance = 0;  ///< Of the share of light that passes: what its shadow rays may leave; 0: all are traced.
+  bool visible = true;       ///< Glows for the camera (area lights) and for specular rays.
   bool nondiffuse = false, nonspecular = false;  ///< Left out by diffuse(), by specular().
   IndirectQuery query;                           ///< TM_LIGHT_INDIRECT alone.
   std::string group;                             ///< Light parameter "__group" or "lightgroup"; else the handle.

@@ -46,8 +46,7 @@ const TmValue* BoundShader::find(std::string_view name) const {
 
 int BoundShader::output(std::string_view name, ValueType type) const {
   for (int i = 0; i < shader->paramCount; ++i)
-    if (shader->params[i].name == name && isOutput(shader->params[i]) &&
-        accepts(typeOf(shader->params[i]), type))
+    if (shader->params[i].name == name && isOutput(shader->params[i]) && accepts(typeOf(shader->params[i]), type))
       return i;
   return -1;
 }
@@ -68,11 +67,10 @@ std::string BoundShader::text(std::string_view name, const std::string& fallback
 }
 
 BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const SourceLoc& where,
-                          const std::string& user, const mat4& currentFromShader,
-                          const ParamNames& hostParams, Log& log) {
+                          const std::string& user, const mat4& currentFromShader, const ParamNames& hostParams,
+                          Log& log) {
   auto bound = std::make_shared<BoundShader>();
-  bound->shader = &shader, bound->where = where, bound->user = user,
-  bound->currentFromShader = currentFromShader;
+  bound->shader = &shader, bound->where = where, bound->user = user, bound->currentFromShader = currentFromShader;
   const size_t n = static_cast<size_t>(shader.paramCount);
   bound->floats.resize(n), bound->strings.resize(n), bound->values.resize(n);
 
@@ -86,12 +84,17 @@ BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const 
     TmValue& value = bound->values[i];
     value = {{nullptr, nullptr, nullptr}, 0, std::max(1, decl.arrayLength), nullptr};
     if (isOutput(decl)) {
-      const bool isInputToo = std::any_of(shader.params, shader.params + n, [&](const TmParamDecl& d) { return !isOutput(d) && std::string_view(d.name) == decl.name; });
-      if (param && !isInputToo) warn("shader-parameter-output", decl.name, fmt::format("\"{}\" is an output; what is given is ignored", decl.name));
+      const bool isInputToo = std::any_of(shader.params, shader.params + n, [&](const TmParamDecl& d) {
+        return !isOutput(d) && std::string_view(d.name) == decl.name;
+      });
+      if (param && !isInputToo)
+        warn("shader-parameter-output", decl.name,
+             fmt::format("\"{}\" is an output; what is given is ignored", decl.name));
       continue;
     }
     ParameterValue parameter = parameterValue(decl, param);
-    if (!parameter.remark.empty()) warn("shader-parameter-type", decl.name, fmt::format("parameter \"{}\" {}", decl.name, parameter.remark));
+    if (!parameter.remark.empty())
+      warn("shader-parameter-type", decl.name, fmt::format("parameter \"{}\" {}", decl.name, parameter.remark));
     if (typeOf(decl) == TM_STRING) {
       for (const std::string& s : parameter.strings) bound->strings[i].append(s).push_back('\0');
       value.string = bound->strings[i].c_str();
@@ -103,7 +106,8 @@ BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const 
   }
   if (call)
     for (const Param& p : call->params)  // constants are those of a primitive, which no shader need have
-      if (p.storage != Storage::Constant && !bound->find(p.name) && std::find(hostParams.begin(), hostParams.end(), p.name) == hostParams.end())
+      if (p.storage != Storage::Constant && !bound->find(p.name) &&
+          std::find(hostParams.begin(), hostParams.end(), p.name) == hostParams.end())
         warn("shader-parameter-unknown", p.name, fmt::format("has no parameter \"{}\"; it is ignored", p.name));
   return bound;
 }

@@ -36,8 +36,8 @@ using ParamNames = std::vector<std::string_view>;
 /// `call` may be null: all defaults. Reports parameters that the shader does not have, except `hostParams`,
 /// and values of another type or length than declared (parameter_values.h says what becomes of those).
 BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const SourceLoc& where,
-                          const std::string& user, const mat4& currentFromShader,
-                          const ParamNames& hostParams, Log& log);
+                          const std::string& user, const mat4& currentFromShader, const ParamNames& hostParams,
+                          Log& log);
 
 /// Points, vectors and normals (`type`) through a matrix; other types are left alone.
 vec3 transformAs(TmType type, const mat4& m, const vec3& v);

@@ -21,7 +21,8 @@ std::vector<CloudValue> valuesOf(const TmCloudValue* values, int32_t count) {
 }
 
 bool refuse(const Batch& batch, const char* file, const std::string& problem) {
-  batch.report(Severity::Missing, fmt::format("cloud-{}", file).c_str(), fmt::format("point cloud \"{}\": {}", file, problem));
+  batch.report(Severity::Missing, fmt::format("cloud-{}", file).c_str(),
+               fmt::format("point cloud \"{}\": {}", file, problem));
   return false;
 }
 
@@ -29,10 +30,12 @@ bool refuse(const Batch& batch, const char* file, const std::string& problem) {
 float scaleOf(const mat4& m) { return std::cbrt(std::abs(glm::determinant(mat3(m)))); }
 
 /// Points and their radii in the space of the file. False: there is none of that name, which has been reported.
-bool toFile(Batch& batch, const TmGrid* g, const char* file, TmConstVec3 P, TmConstVec3 N, const TmCloudLookup& options, CloudQuery& query) {
+bool toFile(Batch& batch, const TmGrid* g, const char* file, TmConstVec3 P, TmConstVec3 N, const TmCloudLookup& options,
+            CloudQuery& query) {
   const char* name = options.coordSystem ? options.coordSystem : "world";
   const std::optional<Space> space = findSpace(batch, name);
-  if (!space || space->kind != Space::Linear) return refuse(batch, file, fmt::format("there is no coordinate system \"{}\"", name));
+  if (!space || space->kind != Space::Linear)
+    return refuse(batch, file, fmt::format("there is no coordinate system \"{}\"", name));
   const mat4 fileFromCurrent = glm::inverse(space->currentFromSpace);
   const float scale = scaleOf(fileFromCurrent) * options.radiusScale;
   const TmVec3 p = batch.arena.vec3(g->count), n = batch.arena.vec3(g->count);
@@ -40,7 +43,9 @@ bool toFile(Batch& batch, const TmGrid* g, const char* file, TmConstVec3 P, TmCo
   forActive(g, [&](int i) {
     set(p, i, transformPoint(fileFromCurrent, get(P, i)));
     set(n, i, N.x ? normalizeOr(transformAs(TM_NORMAL, fileFromCurrent, get(N, i)), vec3(0)) : vec3(0));
-    radius[i] = scale * (options.radius ? options.radius[i] : batch.points ? micropolygonRadius(*batch.points, g, i) : 0.0f);
+    radius[i] = scale * (options.radius ? options.radius[i]
+                         : batch.points ? micropolygonRadius(*batch.points, g, i)
+                                        : 0.0f);
   });
   query.file = file, query.count = g->count, query.active = g->active;
   query.P = view(p), query.N = view(n), query.radius = radius;
@@ -49,12 +54,15 @@ bool toFile(Batch& batch, const TmGrid* g, const char* file, TmConstVec3 P, TmCo
 
 }  // namespace
 
-// Each point once: not for the neighbours that serve derivatives, for what rays meet, or where a shader runs again for a light group.
-int32_t bake3d(void* host, const TmGrid* all, const char* file, TmConstVec3 P, TmConstVec3 N, const TmCloudLookup* given, const TmCloudValue* values,
-               int32_t valueCount) {
+// Each point once: not for the neighbours that serve derivatives, for what rays meet, or where a shader runs again for
+// a light group.
+int32_t bake3d(void* host, const TmGrid* all, const char* file, TmConstVec3 P, TmConstVec3 N,
+               const TmCloudLookup* given, const TmCloudValue* values, int32_t valueCount) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
-  if (!batch.points || batch.context.kind != RayKind::Camera || batch.context.rehearsal || batch.context.sketch || batch.lights.restricted()) return 1;
+  if (!batch.points || batch.context.kind != RayKind::Camera || batch.context.rehearsal || batch.context.sketch ||
+      batch.lights.restricted())
+    return 1;
   if (!batch.scene.clouds) return refuse(batch, file, "nothing is baked here");
   CloudQuery query;
   if (!toFile(batch, primary.grid(), file, P, N, optionsOf(given), query)) return 0;
@@ -62,8 +70,8 @@ int32_t bake3d(void* host, const TmGrid* all, const char* file, TmConstVec3 P, T
   return batch.scene.clouds->bake(query, valuesOf(values, valueCount), problem) || refuse(batch, file, problem);
 }
 
-int32_t texture3d(void* host, const TmGrid* all, const char* file, TmConstVec3 P, TmConstVec3 N, const TmCloudLookup* given, const TmCloudValue* values,
-                  int32_t valueCount, float* found) {
+int32_t texture3d(void* host, const TmGrid* all, const char* file, TmConstVec3 P, TmConstVec3 N,
+                  const TmCloudLookup* given, const TmCloudValue* values, int32_t valueCount, float* found) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
   forActive(all, [&](int i) { found[i] = 0; });
@@ -78,13 +86,15 @@ int32_t texture3d(void* host, const TmGrid* all, const char* file, TmConstVec3 P
   return isKnown || refuse(batch, file, problem);
 }
 
-int32_t photonMap(void* host, const TmGrid* all, const char* file, TmConstVec3 P, TmConstVec3 N, int32_t estimator, TmVec3 out) {
+int32_t photonMap(void* host, const TmGrid* all, const char* file, TmConstVec3 P, TmConstVec3 N, int32_t estimator,
+                  TmVec3 out) {
   TmPhotonLookup options = TM_PHOTON_DEFAULTS;
   options.estimator = estimator;
   return photonMapWith(host, all, file, P, N, &options, out);
 }
 
-int32_t photonMapWith(void* host, const TmGrid* all, const char* file, TmConstVec3 P, TmConstVec3 N, const TmPhotonLookup* given, TmVec3 out) {
+int32_t photonMapWith(void* host, const TmGrid* all, const char* file, TmConstVec3 P, TmConstVec3 N,
+                      const TmPhotonLookup* given, TmVec3 out) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
   forActive(all, [&](int i) { set(out, i, vec3(0)); });
@@ -92,12 +102,14 @@ int32_t photonMapWith(void* host, const TmGrid* all, const char* file, TmConstVe
   CloudQuery query;
   if (!toFile(batch, primary.grid(), file, P, N, TM_CLOUD_DEFAULTS, query)) return 0;
   std::string problem;
-  const bool isKnown = batch.scene.clouds->photons(query, givenOptions<TmPhotonLookup>(TM_PHOTON_DEFAULTS, given), out, problem);
+  const bool isKnown =
+      batch.scene.clouds->photons(query, givenOptions<TmPhotonLookup>(TM_PHOTON_DEFAULTS, given), out, problem);
   primary.spread(out);
   return isKnown || refuse(batch, file, problem);
 }
 
-bool occlusionByDisks(Batch& batch, const TmGrid* g, const char* file, TmConstVec3 P, TmConstVec3 N, const DisksQuery& disks, float* covered, TmVec3 radiance) {
+bool occlusionByDisks(Batch& batch, const TmGrid* g, const char* file, TmConstVec3 P, TmConstVec3 N,
+                      const DisksQuery& disks, float* covered, TmVec3 radiance) {
   if (!batch.scene.clouds) return refuse(batch, file, "nothing is looked up here");
   CloudQuery query;
   if (!toFile(batch, g, file, P, N, TM_CLOUD_DEFAULTS, query)) return false;
@@ -111,7 +123,8 @@ bool occlusionByDisks(Batch& batch, const TmGrid* g, const char* file, TmConstVe
   return batch.scene.clouds->occlusion(query, inFile, covered, radiance, problem) || refuse(batch, file, problem);
 }
 
-int32_t subsurface(void* host, const TmGrid* all, const char* file, TmConstVec3 P, const TmSubsurface* given, TmVec3 out) {
+int32_t subsurface(void* host, const TmGrid* all, const char* file, TmConstVec3 P, const TmSubsurface* given,
+                   TmVec3 out) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
   forActive(all, [&](int i) { set(out, i, vec3(0)); });

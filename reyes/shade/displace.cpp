@@ -8,24 +8,28 @@
 namespace tomales {
 namespace {
 
-/// Differences along the lattice: a displacement shader sees no better derivatives than its grid has. `d` is the change of the
-/// parameter `of` over a micropolygon; 1 where it does not change along this direction, as at points that are shaded. Stencil::step, written for vectors.
-TOMALES_HOT void derivatives(int n, const Stencil& stencil, int direction, const float* of, TmConstVec3 P, float* __restrict d, TmVec3 dP) {
+/// Differences along the lattice: a displacement shader sees no better derivatives than its grid has. `d` is the change
+/// of the parameter `of` over a micropolygon; 1 where it does not change along this direction, as at points that are
+/// shaded. Stencil::step, written for vectors.
+TOMALES_HOT void derivatives(int n, const Stencil& stencil, int direction, const float* of, TmConstVec3 P,
+                             float* __restrict d, TmVec3 dP) {
   const int32_t *lo = stencil.lo[direction], *hi = stencil.hi[direction];
   const auto next = static_cast<float>(stencil.next[direction]);
-  float *__restrict x = dP.x, *__restrict y = dP.y, *__restrict z = dP.z;
+  float* __restrict x = dP.x, * __restrict y = dP.y, * __restrict z = dP.z;
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     const int a = lo[i], b = hi[i];
     const auto span = static_cast<float>(b - a);
     const float step = (of[b] - of[a]) * next / span, by = step != 0 ? step : 1.0f;
     d[i] = by;
-    x[i] = (P.x[b] - P.x[a]) * next / span / by, y[i] = (P.y[b] - P.y[a]) * next / span / by, z[i] = (P.z[b] - P.z[a]) * next / span / by;
+    x[i] = (P.x[b] - P.x[a]) * next / span / by, y[i] = (P.y[b] - P.y[a]) * next / span / by,
+    z[i] = (P.z[b] - P.z[a]) * next / span / by;
   }
 }
 
 /// Attributes::textureAt of all vertices.
-TOMALES_HOT void textureCoordinates(int n, const std::array<vec2, 4>& corners, const float* u, const float* v, float* __restrict s, float* __restrict t) {
+TOMALES_HOT void textureCoordinates(int n, const std::array<vec2, 4>& corners, const float* u, const float* v,
+                                    float* __restrict s, float* __restrict t) {
   const auto mix = [](float a, float b, float at) { return a * (1.0f - at) + b * at; };
   const vec2 c0 = corners[0], c1 = corners[1], c2 = corners[2], c3 = corners[3];
 #pragma GCC ivdep
@@ -41,7 +45,8 @@ TOMALES_HOT float longestWay(int n, TmConstVec3 from, TmConstVec3 to) {
   for (int first = 0; first < n; first += kLanes)  // arrays are padded
     for (int k = 0; k < kLanes; ++k) {
       const int i = first + k;
-      const float x = to.x[i] - from.x[i], y = to.y[i] - from.y[i], z = to.z[i] - from.z[i], length2 = x * x + y * y + z * z;
+      const float x = to.x[i] - from.x[i], y = to.y[i] - from.y[i], z = to.z[i] - from.z[i],
+                  length2 = x * x + y * y + z * z;
       longest2[k] = (i < n) & (longest2[k] < length2) ? length2 : longest2[k];
     }
   return std::sqrt(*std::max_element(longest2, longest2 + kLanes));
@@ -51,7 +56,8 @@ TOMALES_HOT float longestWay(int n, TmConstVec3 from, TmConstVec3 to) {
 float moveLaterKeys(Grid& g, TmConstVec3 before) {
   for (int key = 1; key < g.keyCount; ++key)
     for (int i = 0; i < g.vertexCount(); ++i) {
-      const vec3 offset = g.position(0, i) - get(before, i), turned = g.turns.empty() ? offset : g.turns[static_cast<size_t>(key)] * offset;
+      const vec3 offset = g.position(0, i) - get(before, i),
+                 turned = g.turns.empty() ? offset : g.turns[static_cast<size_t>(key)] * offset;
       for (int axis = 0; axis < 3; ++axis) g.P(key, axis)[i] += turned[axis];
     }
   return longestWay(g.vertexCount(), before, {g.P(0, 0), g.P(0, 1), g.P(0, 2)});
@@ -78,8 +84,7 @@ void repair(Batch& batch, Grid& g, TmConstVec3 P, TmConstVec3 N, bool all) {
     set(batch.tm.P, i, get(P, i)), set(batch.tm.N, i, get(N, i));
   }
   if (!all)
-    batch.report(Severity::Warning, "shader-not-finite",
-                 "moved points to NaN or infinity; they stay where they were");
+    batch.report(Severity::Warning, "shader-not-finite", "moved points to NaN or infinity; they stay where they were");
 }
 
 }  // namespace
@@ -101,7 +106,8 @@ void Batch::setGrid(Grid& g, const BoundShader& shader, const std::vector<Overri
   textureCoordinates(n, group.group->attributes->textureCoordinates, g.u(), g.v(), s, t);
   // Camera::incident, an array at a time.
   const bool perspective = scene.camera.perspective();
-  for (const auto& [to, from, parallel] : {std::tuple(I.x, P.x, 0.0f), std::tuple(I.y, P.y, 0.0f), std::tuple(I.z, P.z, 1.0f)}) {
+  for (const auto& [to, from, parallel] :
+       {std::tuple(I.x, P.x, 0.0f), std::tuple(I.y, P.y, 0.0f), std::tuple(I.z, P.z, 1.0f)}) {
     if (perspective)
       std::copy_n(from, n, to);
     else
@@ -126,8 +132,9 @@ void ShadingSystem::displace(Grid& grid) const {
   batch.setGrid(grid, *group.displacement, group.displacementOverrides);
   const int n = grid.vertexCount();
   const TmVec3 P = (*arena).vec3(n), N = (*arena).vec3(n);
-  for (const auto& [to, from] : {std::pair(P.x, grid.P(0, 0)), std::pair(P.y, grid.P(0, 1)), std::pair(P.z, grid.P(0, 2)),
-                                 std::pair(N.x, grid.N(0)), std::pair(N.y, grid.N(1)), std::pair(N.z, grid.N(2))})
+  for (const auto& [to, from] :
+       {std::pair(P.x, grid.P(0, 0)), std::pair(P.y, grid.P(0, 1)), std::pair(P.z, grid.P(0, 2)),
+        std::pair(N.x, grid.N(0)), std::pair(N.y, grid.N(1)), std::pair(N.z, grid.N(2))})
     std::copy_n(from, n, to);
 
   const ShaderTimer timer(scene.stats, *group.displacement, n);

@@ -9,9 +9,9 @@
 namespace tomales {
 namespace {
 
-constexpr size_t kRemembered = 4;   ///< As TmServices::illuminance promises.
-constexpr int kSamples = 1 << 20;   ///< Numbers of the samples of one place.
-constexpr int kNumbers = 1 << 10;   ///< Of places, before they begin anew.
+constexpr size_t kRemembered = 4;  ///< As TmServices::illuminance promises.
+constexpr int kSamples = 1 << 20;  ///< Numbers of the samples of one place.
+constexpr int kNumbers = 1 << 10;  ///< Of places, before they begin anew.
 
 bool sameBits(float a, float b) { return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b); }
 
@@ -27,7 +27,8 @@ bool atOwnPoints(const Batch& batch, const TmGrid* g, const TmIlluminance& query
   return true;
 }
 
-/// Another number for each position, so that what is averaged along a march does not draw the same samples at every step.
+/// Another number for each position, so that what is averaged along a march does not draw the same samples at every
+/// step.
 void moveTo(TmConstVec3 P, const uint8_t* active, bool inAir, ShadePoints& points) {
   points.setInAir(inAir);
   for (int i = 0; i < points.count(); ++i) {
@@ -42,7 +43,9 @@ void moveTo(TmConstVec3 P, const uint8_t* active, bool inAir, ShadePoints& point
 
 /// Arrays of a message, and their length.
 int arraysOf(const TmMessage& m) { return m.type == TM_STRING ? 0 : m.type == TM_MATRIX ? 1 : floatsOf(m.type); }
-int lengthOf(const TmMessage& m, const TmGrid* g) { return m.type == TM_MATRIX ? floatsOf(TM_MATRIX) : m.value.step ? g->count : 1; }
+int lengthOf(const TmMessage& m, const TmGrid* g) {
+  return m.type == TM_MATRIX ? floatsOf(TM_MATRIX) : m.value.step ? g->count : 1;
+}
 
 bool isSame(const LightMessage& held, const TmMessage& sent, const TmGrid* g) {
   if (held.name != sent.name || held.type != sent.type || held.value.step != sent.value.step) return false;
@@ -78,7 +81,9 @@ Elsewhere::Elsewhere(const Batch& asking, const TmGrid* g, const TmIlluminance& 
 }
 
 bool Elsewhere::isFor(const TmGrid* g, const TmIlluminance& query, bool inAir) const {
-  if (points.inAir() != inAir || request.category != (query.category ? query.category : "") || request.sent.size() != static_cast<size_t>(query.sentCount)) return false;
+  if (points.inAir() != inAir || request.category != (query.category ? query.category : "") ||
+      request.sent.size() != static_cast<size_t>(query.sentCount))
+    return false;
   for (size_t k = 0; k < request.sent.size(); ++k)
     if (!isSame(request.sent[k], query.sent[k], g)) return false;
   const TmConstVec3 here = points.vec(kPx);
@@ -94,7 +99,8 @@ Batch& placeOf(Batch& batch, const TmGrid* g, TmIlluminance query) {
   if (!isTold && !inAir && atOwnPoints(batch, g, query)) return batch;
   auto& places = batch.elsewhere;
   const bool anew = query.refresh && query.next == 0;
-  auto it = std::find_if(places.begin(), places.end(), [&](const auto& p) { return !anew && p->isFor(g, query, inAir); });
+  auto it =
+      std::find_if(places.begin(), places.end(), [&](const auto& p) { return !anew && p->isFor(g, query, inAir); });
   if (it == places.end()) {
     if (places.size() == kRemembered) places.pop_back();
     do batch.placesAsked = batch.placesAsked % kNumbers + 1;

@@ -1,7 +1,8 @@
-// Where light arrives that a shader asks for: at the points of its batch or, as volumes ask that march along a ray, elsewhere. Behind
-// TmServices::illuminance. What a point gets does not depend on the others of its batch: of a surface's points those that have not moved keep
-// their samples, and a volume that names positions is in the air at all of them. (Lights with "shadowvariance" are the exception: whether their
-// samples are settled is known at the batch's own points alone.)
+// Where light arrives that a shader asks for: at the points of its batch or, as volumes ask that march along a ray,
+// elsewhere. Behind TmServices::illuminance. What a point gets does not depend on the others of its batch: of a
+// surface's points those that have not moved keep their samples, and a volume that names positions is in the air at all
+// of them. (Lights with "shadowvariance" are the exception: whether their samples are settled is known at the batch's
+// own points alone.)
 #pragma once
 #include "reyes/shade/batch.h"
 

@@ -5,10 +5,11 @@
 namespace tomales {
 namespace {
 
-/// Angle that the micropolygon of a point subtends for what it mirrors: twice that from the eye (a flat mirror keeps it; the
-/// factor covers what curvature adds where its normals are not known).
+/// Angle that the micropolygon of a point subtends for what it mirrors: twice that from the eye (a flat mirror keeps
+/// it; the factor covers what curvature adds where its normals are not known).
 float angleSeen(const TmGrid* g, int i) {
-  const float edge = std::max(glm::length(get(g->dPdu, i)) * std::abs(g->du[i]), glm::length(get(g->dPdv, i)) * std::abs(g->dv[i]));
+  const float edge =
+      std::max(glm::length(get(g->dPdu, i)) * std::abs(g->du[i]), glm::length(get(g->dPdv, i)) * std::abs(g->dv[i]));
   const float distance = glm::length(get(g->I, i));
   return distance > 0 ? std::min(2 * edge / distance, kPi) : 0.0f;
 }

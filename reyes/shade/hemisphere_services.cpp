@@ -11,26 +11,31 @@
 namespace tomales {
 namespace {
 
-constexpr float kWholeCone = 0.999f * kPi / 2;   ///< Shaders say pi/2 with few digits.
-constexpr float kVariationOfError = 0.05f;       ///< That maxerror 1 allows.
+constexpr float kWholeCone = 0.999f * kPi / 2;  ///< Shaders say pi/2 with few digits.
+constexpr float kVariationOfError = 0.05f;      ///< That maxerror 1 allows.
 
 /// What occlusion() asks.
 OcclusionQuery occlusionOf(const TmRayOptions& o, const RayQuery& rays, const Attributes& a) {
-  OcclusionQuery q{o.samples, o.maxDistance, o.bias, o.falloff, o.falloffMode, o.maxVariation, rays.subset, rays.excludeSubset, rays.sides};
+  OcclusionQuery q{o.samples,   o.maxDistance,      o.bias,    o.falloff, o.falloffMode, o.maxVariation,
+                   rays.subset, rays.excludeSubset, rays.sides};
   if (q.maxVariation < 0) q.maxVariation = kVariationOfError * a.irradianceMaxError.value_or(0.0f);
   return q;
 }
 
-/// Answers what earlier records know, and returns the points that rays must tell of. Records lie at the points that the eye sees, and hold whole
-/// hemispheres.
-const uint8_t* interpolate(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& o, const OcclusionQuery& q, float* covered) {
-  if (!(q.maxVariation > 0) || batch.context.kind != RayKind::Camera || o.uniform || o.coneAngle < kWholeCone || o.sampleBase > 0) return g->active;
+/// Answers what earlier records know, and returns the points that rays must tell of. Records lie at the points that the
+/// eye sees, and hold whole hemispheres.
+const uint8_t* interpolate(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& o,
+                           const OcclusionQuery& q, float* covered) {
+  if (!(q.maxVariation > 0) || batch.context.kind != RayKind::Camera || o.uniform || o.coneAngle < kWholeCone ||
+      o.sampleBase > 0)
+    return g->active;
   uint8_t *own = batch.arena.bytes(g->count), *moved = batch.arena.bytes(g->count);
   for (int i = 0; i < g->count; ++i) {
     own[i] = g->active[i] && get(P, i) == batch.points->position(i);
     moved[i] = g->active[i] && !own[i];
   }
-  return batch.scene.services->interpolatedOcclusion(*batch.points, own, N, q, batch.context, covered) ? moved : g->active;
+  return batch.scene.services->interpolatedOcclusion(*batch.points, own, N, q, batch.context, covered) ? moved
+                                                                                                       : g->active;
 }
 
 /// What rays that meet nothing see of a picture, as environment() sees it.
@@ -41,7 +46,11 @@ struct OpenSky {
   TmVec3 direction, color;
 
   OpenSky(Batch& batch, const TmGrid* g, const TmRayOptions& o)
-      : picture(o.environment), toMap(environmentDirections(batch, o.environmentSpace)), angle(batch.arena.floats(g->count)), direction(batch.arena.vec3(g->count)), color(batch.arena.vec3(g->count)) {
+      : picture(o.environment),
+        toMap(environmentDirections(batch, o.environmentSpace)),
+        angle(batch.arena.floats(g->count)),
+        direction(batch.arena.vec3(g->count)),
+        color(batch.arena.vec3(g->count)) {
     std::fill_n(angle, g->count, std::sqrt(2 * kPi * (1 - std::cos(o.coneAngle)) / static_cast<float>(o.samples)));
   }
   void lookUp(Batch& batch, const TmGrid& open, TmConstVec3 along) {
@@ -50,12 +59,15 @@ struct OpenSky {
   }
 };
 
-void traceHemisphere(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& options, const TmHemisphere& out) {
-  const bool looksUp = options.environment && (out.radiance.x || out.environmentColor.x), directs = out.environmentDirection.x != nullptr;
+void traceHemisphere(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& options,
+                     const TmHemisphere& out) {
+  const bool looksUp = options.environment && (out.radiance.x || out.environmentColor.x),
+             directs = out.environmentDirection.x != nullptr;
   RayQuery query = rayQuery(options, RayKind::Diffuse);
   const OcclusionQuery asked = occlusionOf(options, query, *batch.group.group->attributes);
   TmGrid traced = *g;
-  if (out.covered && !out.radiance.x && !looksUp && !directs) traced.active = interpolate(batch, g, P, N, options, asked, out.covered);
+  if (out.covered && !out.radiance.x && !looksUp && !directs)
+    traced.active = interpolate(batch, g, P, N, options, asked, out.covered);
   if (std::none_of(traced.active, traced.active + traced.count, [](uint8_t a) { return a != 0; })) return;
   setFootprints(batch, &traced, N, options, query);
   RayResult result;
@@ -71,7 +83,8 @@ void traceHemisphere(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N
   for (; query.number < options.samples; ++query.number) {
     const Batch::Scratch scratch(batch);
     cone.aim(P, N, query.number);
-    batch.scene.services->trace(*batch.points, traced.active, cone.origin(), cone.direction(), query, batch.context, result);
+    batch.scene.services->trace(*batch.points, traced.active, cone.origin(), cone.direction(), query, batch.context,
+                                result);
     for (int i = 0; i < traced.count; ++i) misses[i] = traced.active[i] && !(result.distance[i] < kFarAway);
     if (sky) sky->lookUp(batch, open, cone.direction());
     forActive(&traced, [&](int i) {
@@ -79,30 +92,38 @@ void traceHemisphere(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N
       if (out.covered) out.covered[i] += share * asked.coveredAt(result.distance[i]);
       if (out.radiance.x) set(out.radiance, i, get(out.radiance, i) + share * get(result.color, i) + light);
       if (out.environmentColor.x) set(out.environmentColor, i, get(out.environmentColor, i) + light);
-      if (directs && misses[i]) set(out.environmentDirection, i, get(out.environmentDirection, i) + get(cone.direction(), i));
+      if (directs && misses[i])
+        set(out.environmentDirection, i, get(out.environmentDirection, i) + get(cone.direction(), i));
     });
   }
-  if (directs) forActive(&traced, [&](int i) { set(out.environmentDirection, i, normalizeOr(get(out.environmentDirection, i), vec3(0))); });
+  if (directs)
+    forActive(&traced,
+              [&](int i) { set(out.environmentDirection, i, normalizeOr(get(out.environmentDirection, i), vec3(0))); });
 }
 
 /// The same of a point cloud.
-bool hemisphereOfDisks(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& o, const TmHemisphere& out) {
+bool hemisphereOfDisks(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& o,
+                       const TmHemisphere& out) {
   if (o.environment || out.environmentColor.x || out.environmentDirection.x || o.uniform || o.sampleBase > 0)
-    batch.report(Severity::Missing, "shader-pointbased", "asks a point cloud for environments, an even distribution or a sample base, which rays alone know; they are left out");
-  const DisksQuery query{o.pointChannel ? o.pointChannel : "_radiosity", std::max(o.maxSolidAngle, 1e-4f), o.clamp != 0, o.coneAngle,
-                         occlusionOf(o, rayQuery(o), *batch.group.group->attributes)};
+    batch.report(Severity::Missing, "shader-pointbased",
+                 "asks a point cloud for environments, an even distribution or a sample base, which rays alone know; "
+                 "they are left out");
+  const DisksQuery query{o.pointChannel ? o.pointChannel : "_radiosity", std::max(o.maxSolidAngle, 1e-4f), o.clamp != 0,
+                         o.coneAngle, occlusionOf(o, rayQuery(o), *batch.group.group->attributes)};
   float* covered = out.covered ? out.covered : batch.arena.floats(g->count);
   return occlusionByDisks(batch, g, o.pointCloud, P, N, query, covered, out.radiance);
 }
 
 }  // namespace
 
-void occlusion(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 N, const TmRayOptions* given, float* covered, TmVec3 radiance) {
+void occlusion(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 N, const TmRayOptions* given, float* covered,
+               TmVec3 radiance) {
   TmHemisphere out{sizeof(TmHemisphere), covered, radiance, {}, {}};
   hemisphere(host, all, P, N, given, &out);
 }
 
-int32_t hemisphere(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 N, const TmRayOptions* given, const TmHemisphere* wanted) {
+int32_t hemisphere(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 N, const TmRayOptions* given,
+                   const TmHemisphere* wanted) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
   TmRayOptions options = rayOptions(given);
@@ -113,8 +134,9 @@ int32_t hemisphere(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 N, 
     for (const TmVec3& v : {out.radiance, out.environmentColor, out.environmentDirection})
       if (v.x) set(v, i, vec3(0));
   });
-  const bool known = options.pointCloud ? hemisphereOfDisks(batch, primary.grid(), P, N, options, out)
-                                        : traces(batch) && (traceHemisphere(batch, primary.grid(), P, N, options, out), true);
+  const bool known = options.pointCloud
+                         ? hemisphereOfDisks(batch, primary.grid(), P, N, options, out)
+                         : traces(batch) && (traceHemisphere(batch, primary.grid(), P, N, options, out), true);
   primary.spread(out.covered);
   for (const TmVec3& v : {out.radiance, out.environmentColor, out.environmentDirection}) primary.spread(v);
   return known;

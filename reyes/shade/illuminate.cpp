@@ -12,7 +12,9 @@ namespace {
 #define TOMALES_INLINE inline __attribute__((always_inline))  // clones vectorise only what is part of them
 
 /// Or 0, whatever x is: not a branch, into which the compiler would move what x takes, and then not vectorise.
-TOMALES_INLINE float where(bool holds, float x) { return std::bit_cast<float>(std::bit_cast<uint32_t>(x) & (0U - static_cast<uint32_t>(holds))); }
+TOMALES_INLINE float where(bool holds, float x) {
+  return std::bit_cast<float>(std::bit_cast<uint32_t>(x) & (0U - static_cast<uint32_t>(holds)));
+}
 
 /// 1 over a length, or 0.
 TOMALES_INLINE float inverseLength(float x, float y, float z) {
@@ -21,7 +23,8 @@ TOMALES_INLINE float inverseLength(float x, float y, float z) {
   return where((square > 0.0f) & (square < kInfinity), inverse);
 }
 
-/// x^e for normal x up to 1 and e > 0. The logarithm is a series about 1, so that it is relatively exact there, where large exponents ask for it.
+/// x^e for normal x up to 1 and e > 0. The logarithm is a series about 1, so that it is relatively exact there, where
+/// large exponents ask for it.
 TOMALES_INLINE float power(float x, float e) {
   constexpr uint32_t kSqrtHalf = 0x3f3504f3U, kMantissa = 23;
   const uint32_t bits = std::bit_cast<uint32_t>(x) - kSqrtHalf;
@@ -34,7 +37,8 @@ TOMALES_INLINE float power(float x, float e) {
   const float bounded = y > -126.0f ? y : -126.0f;
   const float whole = static_cast<float>(static_cast<int32_t>(bounded - 0.5f)), f = bounded - whole;  // -1/2 .. 1/2
   const float g = f * 0.693147181f;
-  const float fraction = 1.0f + g * (1.0f + g * (1.0f / 2 + g * (1.0f / 6 + g * (1.0f / 24 + g * (1.0f / 120 + g * (1.0f / 720))))));
+  const float fraction =
+      1.0f + g * (1.0f + g * (1.0f / 2 + g * (1.0f / 6 + g * (1.0f / 24 + g * (1.0f / 120 + g * (1.0f / 720))))));
   const float scale = std::bit_cast<float>(static_cast<uint32_t>(static_cast<int32_t>(whole) + 127) << kMantissa);
   return where(y > -126.0f, scale * fraction);
 }
@@ -71,12 +75,13 @@ TOMALES_HOT void addDiffuse(int n, const float* share, TmConstVec3 N, TmConstVec
   for (int i = 0; i < n; ++i) {
     const float weight = share[i] * (L.x[i] * N.x[i] + L.y[i] * N.y[i] + L.z[i] * N.z[i]);
     const bool counts = share[i] != 0.0f;
-    out.x[i] += where(counts, Cl.x[i] * weight), out.y[i] += where(counts, Cl.y[i] * weight), out.z[i] += where(counts, Cl.z[i] * weight);
+    out.x[i] += where(counts, Cl.x[i] * weight), out.y[i] += where(counts, Cl.y[i] * weight),
+        out.z[i] += where(counts, Cl.z[i] * weight);
   }
 }
 
-TOMALES_HOT void addHighlight(int n, const float* share, TmConstVec3 N, TmConstVec3 V, const float* exponent, TmConstVec3 L, TmConstVec3 Cl,
-                              TmVec3 out) {
+TOMALES_HOT void addHighlight(int n, const float* share, TmConstVec3 N, TmConstVec3 V, const float* exponent,
+                              TmConstVec3 L, TmConstVec3 Cl, TmVec3 out) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     const float hx = L.x[i] + V.x[i], hy = L.y[i] + V.y[i], hz = L.z[i] + V.z[i];
@@ -84,7 +89,8 @@ TOMALES_HOT void addHighlight(int n, const float* share, TmConstVec3 N, TmConstV
     const float positive = cosine > FLT_MIN ? cosine : FLT_MIN, within = positive < 1.0f ? positive : 1.0f;
     const float weight = share[i] * power(within, exponent[i]);
     const bool counts = (share[i] != 0.0f) & (cosine > 0.0f);
-    out.x[i] += where(counts, Cl.x[i] * weight), out.y[i] += where(counts, Cl.y[i] * weight), out.z[i] += where(counts, Cl.z[i] * weight);
+    out.x[i] += where(counts, Cl.x[i] * weight), out.y[i] += where(counts, Cl.y[i] * weight),
+        out.z[i] += where(counts, Cl.z[i] * weight);
   }
 }
 

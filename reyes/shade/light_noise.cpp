@@ -11,15 +11,18 @@ constexpr float kUncertain = 0.2f;
 constexpr double kShareOfPoints = 0.5;
 constexpr int64_t kFewPoints = 100;  ///< Say nothing about a picture.
 
-/// Luminance that each of two halves of a light's samples brings to matte points of reflectance 1: those before and after the middle, each of
-/// which is as well spread as all (an initial part of a Sobol sequence, and its continuation).
+/// Luminance that each of two halves of a light's samples brings to matte points of reflectance 1: those before and
+/// after the middle, each of which is as well spread as all (an initial part of a Sobol sequence, and its
+/// continuation).
 struct Halves {
   const BoundLight* light;
   bool chance;  ///< Its samples are drawn: those of an indirect light are its colours.
   float *first, *second;
 };
 
-bool isDrawn(const BoundLight& light) { return light.can(TM_LIGHT_AREA) || light.can(TM_LIGHT_SKY) || light.can(TM_LIGHT_SAMPLED); }
+bool isDrawn(const BoundLight& light) {
+  return light.can(TM_LIGHT_AREA) || light.can(TM_LIGHT_SKY) || light.can(TM_LIGHT_SAMPLED);
+}
 
 void addSample(const Batch& batch, const LightSample& sample, float* sum) {
   for (int i = 0; i < batch.points->count(); ++i) {
@@ -36,9 +39,11 @@ std::vector<Halves> halvesOf(Batch& batch, const std::vector<LightSample>& sampl
   for (size_t begin = 0, end; begin < samples.size(); begin = end) {
     for (end = begin + 1; end < samples.size() && samples[end].light == samples[begin].light;) ++end;
     const BoundLight& which = *samples[begin].light;
-    const Halves& light = out.emplace_back(Halves{&which, isDrawn(which) && end - begin > 1, batch.arena.floats(n), batch.arena.floats(n)});
+    const Halves& light = out.emplace_back(
+        Halves{&which, isDrawn(which) && end - begin > 1, batch.arena.floats(n), batch.arena.floats(n)});
     std::fill_n(light.first, n, 0.0f), std::fill_n(light.second, n, 0.0f);
-    for (size_t s = begin; s < end; ++s) addSample(batch, samples[s], 2 * (s - begin) < end - begin ? light.first : light.second);
+    for (size_t s = begin; s < end; ++s)
+      addSample(batch, samples[s], 2 * (s - begin) < end - begin ? light.first : light.second);
   }
   return out;
 }
@@ -47,9 +52,12 @@ std::vector<Halves> halvesOf(Batch& batch, const std::vector<LightSample>& sampl
 
 void LightNoise::add(Batch& batch) {
   const ShadeContext& context = batch.context;
-  if (context.kind != RayKind::Camera || context.sketch || context.rehearsal || context.light != Illumination::Lights) return;
+  if (context.kind != RayKind::Camera || context.sketch || context.rehearsal || context.light != Illumination::Lights)
+    return;
   const std::vector<LightSample>& samples = batch.lights.evaluated();
-  if (std::none_of(samples.begin(), samples.end(), [](const LightSample& s) { return isDrawn(*s.light) && s.rays.samples > 1; })) return;
+  if (std::none_of(samples.begin(), samples.end(),
+                   [](const LightSample& s) { return isDrawn(*s.light) && s.rays.samples > 1; }))
+    return;
   const std::vector<Halves> lights = halvesOf(batch, samples);
   // Points that are smaller than a pixel share their noise in it.
   const float most = kUncertain / std::sqrt(std::min(batch.group.group->attributes->shadingRate, 1.0f));
@@ -70,12 +78,15 @@ void LightNoise::add(Batch& batch) {
 void LightNoise::warn(const BoundScene& scene) const {
   const auto worst = std::max_element(uncertain_.begin(), uncertain_.end());
   const double lit = static_cast<double>(lit_.load());
-  if (lit_ < kFewPoints || worst == uncertain_.end() || static_cast<double>(worst->load()) <= kShareOfPoints * lit) return;
+  if (lit_ < kFewPoints || worst == uncertain_.end() || static_cast<double>(worst->load()) <= kShareOfPoints * lit)
+    return;
   const BoundLight& light = *scene.lights[static_cast<size_t>(worst - uncertain_.begin())];
-  scene.log.report(Severity::Warning, "light-noise", light.bound->where,
-                   fmt::format("{}: its samples leave {:.0f} % of the points that are seen uncertain by more than {:.0f} % of their light: most of the light is "
-                               "hidden, or small (\"samples\" of the light, --light-samples; \"portals\" of a sky behind windows)",
-                               light.bound->user, 100 * static_cast<double>(worst->load()) / lit, 100 * kUncertain));
+  scene.log.report(
+      Severity::Warning, "light-noise", light.bound->where,
+      fmt::format("{}: its samples leave {:.0f} % of the points that are seen uncertain by more than {:.0f} % of their "
+                  "light: most of the light is "
+                  "hidden, or small (\"samples\" of the light, --light-samples; \"portals\" of a sky behind windows)",
+                  light.bound->user, 100 * static_cast<double>(worst->load()) / lit, 100 * kUncertain));
 }
 
 }  // namespace tomales

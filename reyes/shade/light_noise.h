@@ -1,4 +1,5 @@
-// How uncertain the samples of lights with an extent leave what the camera sees, counted while they are summed up anyway.
+// How uncertain the samples of lights with an extent leave what the camera sees, counted while they are summed up
+// anyway.
 #pragma once
 #include <atomic>
 #include <deque>

@@ -4,7 +4,8 @@
 
 namespace tomales {
 
-bool ShadeServices::interpolatedOcclusion(const ShadePoints&, const uint8_t*, TmConstVec3, const OcclusionQuery&, const ShadeContext&, float*) const {
+bool ShadeServices::interpolatedOcclusion(const ShadePoints&, const uint8_t*, TmConstVec3, const OcclusionQuery&,
+                                          const ShadeContext&, float*) const {
   return false;
 }
 
@@ -51,7 +52,8 @@ bool ShadingSystem::emits(int group) const {
 
 bool ShadingSystem::reflectsEvenly(int group) const {
   const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
-  const bool varies = g.CsOffset >= 0 || g.OsOffset >= 0 || !(g.indirectSurface ? g.indirectOverrides : g.surfaceOverrides).empty();
+  const bool varies =
+      g.CsOffset >= 0 || g.OsOffset >= 0 || !(g.indirectSurface ? g.indirectOverrides : g.surfaceOverrides).empty();
   return !varies && g.forDiffuseRays().can(TM_EVEN);
 }
 

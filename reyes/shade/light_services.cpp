@@ -14,7 +14,8 @@ void fill(const TmGrid* g, TmVec3 out, const vec3& v) {
   forActive(g, [&](int i) { set(out, i, v); });
 }
 
-/// Of a lookup that leaves it open: Option "shadow" "bias", or a random one between "bias0" and "bias1"; negative: as needed.
+/// Of a lookup that leaves it open: Option "shadow" "bias", or a random one between "bias0" and "bias1"; negative: as
+/// needed.
 float shadowBias(const Options& options, uint32_t name) {
   const auto number = [&](const char* key) -> const Param* {
     const auto it = options.user.find(key);
@@ -43,8 +44,7 @@ void gather(Batch& batch, const TmGrid* g, TmConstVec3 N) {
   auto& last = batch.gathered;
   const size_t bytes = static_cast<size_t>(g->count) * sizeof(float);
   if (last.who == batch.running && std::equal(g->active, g->active + g->count, last.active) &&
-      !std::memcmp(last.N.x, N.x, bytes) && !std::memcmp(last.N.y, N.y, bytes) &&
-      !std::memcmp(last.N.z, N.z, bytes))
+      !std::memcmp(last.N.x, N.x, bytes) && !std::memcmp(last.N.y, N.y, bytes) && !std::memcmp(last.N.z, N.z, bytes))
     return;
   last.who = batch.running;
   last.active = batch.arena.bytes(g->count);
@@ -59,8 +59,7 @@ void gather(Batch& batch, const TmGrid* g, TmConstVec3 N) {
   if (!batch.points || !batch.scene.services || !batch.context.indirect || !attribute.receive) return;
   IndirectResult result{last.E, {last.dominant[0], last.dominant[1], last.dominant[2]}};
   const BoundLight* light = runningLight(batch);
-  batch.scene.services->indirectDiffuse(*batch.points, g->active, N, queryOf(batch, light), batch.context,
-                                        result);
+  batch.scene.services->indirectDiffuse(*batch.points, g->active, N, queryOf(batch, light), batch.context, result);
   const vec3 gain = attribute.gain * (light ? light->sourceTint : vec3(1.0f));
   forActive(g, [&](int i) { set(last.E, i, get(last.E, i) * gain); });
 }
@@ -82,7 +81,8 @@ const uint8_t* litPoints(Batch& place, const TmGrid* g, const TmIlluminance& con
   uint8_t* lit = place.arena.bytes(place.tm.count);
   const float least = std::cos(cone.angle);
   forActive(g, [&](int i) {
-    lit[i] = !cone.axis.x || dot(normalizeOr(get(cone.axis, i), vec3(0)), get(sample.L, i)) >= (cone.angles ? std::cos(cone.angles[i]) : least);
+    lit[i] = !cone.axis.x || dot(normalizeOr(get(cone.axis, i), vec3(0)), get(sample.L, i)) >=
+                                 (cone.angles ? std::cos(cone.angles[i]) : least);
   });
   return lit;
 }

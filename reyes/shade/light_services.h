@@ -12,8 +12,8 @@ int32_t illuminance(void* host, const TmGrid*, TmIlluminance*);
 void shadow(void* host, const TmGrid*, const char* name, TmConstVec3 P, const TmShadowLookup*, TmVec3 out);
 void indirectDiffuse(void* host, const TmGrid*, TmConstVec3 N, TmVec3 out, TmVec3* dominant);
 
-/// RSL categories: is a light of `categories` (names by commas) one that `expression` names? ',' and '|' join alternatives, '&'
-/// conditions, '-' excludes; an empty expression names all.
+/// RSL categories: is a light of `categories` (names by commas) one that `expression` names? ',' and '|' join
+/// alternatives, '&' conditions, '-' excludes; an empty expression names all.
 bool inCategory(std::string_view categories, std::string_view expression);
 
 }  // namespace tomales

@@ -6,8 +6,8 @@
 namespace tomales {
 namespace {
 
-// Visibility estimated from shadow rays is never quite certain: half a ray of each outcome is added, so that a few equal answers do not
-// pass for no variance at all.
+// Visibility estimated from shadow rays is never quite certain: half a ray of each outcome is added, so that a few
+// equal answers do not pass for no variance at all.
 bool settled(const ShadowTally& tally, int i, float maxVariance) {
   const float n = tally.traced[i];
   if (n < 4) return false;
@@ -17,7 +17,8 @@ bool settled(const ShadowTally& tally, int i, float maxVariance) {
 
 uint64_t sumOf(TmConstVec3 toward, int n, const ShadowRays& rays) {
   uint64_t sum = 2 * static_cast<uint64_t>(rays.samples) + rays.solar;
-  for (const float* axis : {toward.x, toward.y, toward.z}) sum = 31 * sum + checksum(std::as_bytes(std::span(axis, static_cast<size_t>(n))));
+  for (const float* axis : {toward.x, toward.y, toward.z})
+    sum = 31 * sum + checksum(std::as_bytes(std::span(axis, static_cast<size_t>(n))));
   return sum;
 }
 
@@ -38,8 +39,8 @@ ShadowAnswer answerOf(TmVec3 passed, const uint8_t* traced, int n, uint64_t aske
   for (int i = 0; i < n; ++i) {
     const vec3 p = get(passed, i);
     const bool part = p != vec3(0.0f) && p != vec3(1.0f);
-    answer.passed.push_back(!traced[i]       ? ShadowAnswer::Unknown
-                            : part           ? ShadowAnswer::Part
+    answer.passed.push_back(!traced[i]        ? ShadowAnswer::Unknown
+                            : part            ? ShadowAnswer::Part
                             : p == vec3(1.0f) ? ShadowAnswer::Everything
                                               : ShadowAnswer::Nothing);
     if (traced[i] && part) answer.parts.push_back(p);
@@ -82,8 +83,8 @@ void Lights::transmit(Batch& batch, const LightSample& sample, const uint8_t* wa
   batch.scene.services->transmission(*batch.points, want, view(sample.toward), sample.rays, batch.context, passed);
 }
 
-// What no answer is known of is traced. When answers are being recorded that is every point, wherever the shader looks and
-// however bright the light: intensities, cones and surfaces may then change without a ray.
+// What no answer is known of is traced. When answers are being recorded that is every point, wherever the shader looks
+// and however bright the light: intensities, cones and surfaces may then change without a ray.
 void Lights::transmitFromAnswers(Batch& batch, const LightSample& sample, const uint8_t* want, TmVec3 passed) const {
   RayAnswers& answers = *batch.context.answers;
   const int n = batch.points->count();
@@ -92,8 +93,7 @@ void Lights::transmitFromAnswers(Batch& batch, const LightSample& sample, const 
   uint8_t* unknown = batch.arena.bytes(n);
   std::copy_n(answers.recording ? batch.tm.active : want, n, unknown);
   const auto known = answers.shadows.find(question);
-  if (known != answers.shadows.end() && known->second.asked == asked)
-    recall(known->second, n, unknown, passed);
+  if (known != answers.shadows.end() && known->second.asked == asked) recall(known->second, n, unknown, passed);
   if (std::none_of(unknown, unknown + n, [](uint8_t u) { return u != 0; })) return;
   transmit(batch, sample, unknown, passed);
   if (answers.recording) answers.shadows[question] = answerOf(passed, unknown, n, asked);

@@ -23,13 +23,13 @@ bool bringsStored(Illumination light) {
 bool isOn(const BoundLight& light, const Batch& batch) {
   if (!(batch.context.kind == RayKind::Diffuse ? light.indirect : light.direct)) return false;
   if (!light.can(TM_LIGHT_INDIRECT)) return batch.context.direct || batch.context.kind != RayKind::Camera;
-  return batch.context.indirect && batch.group.group->attributes->indirect.receive && !(batch.points && batch.points->inAir());
+  return batch.context.indirect && batch.group.group->attributes->indirect.receive &&
+         !(batch.points && batch.points->inAir());
 }
 
 bool applies(const BoundLight& light, const Batch& batch) {
   if (batch.points == nullptr) return false;  // displacement shaders see no light
-  return bringsLights(batch.context.light) && batch.context.kind != RayKind::Transmission &&
-         isOn(light, batch);
+  return bringsLights(batch.context.light) && batch.context.kind != RayKind::Transmission && isOn(light, batch);
 }
 
 /// Of the points, without neighbours; what the light brings has room for those.
@@ -114,8 +114,10 @@ bool runWithExtent(Batch& batch, const BoundLight& light, TmGrid& g) {
   return ran;
 }
 
-/// Where directions from the points meet the light, and how likely its own samples are there. False: nothing can be met.
-bool meetLight(Batch& batch, const BoundLight& light, TmGrid& g, const LobeDirections& lobe, const EmitterPoints& points) {
+/// Where directions from the points meet the light, and how likely its own samples are there. False: nothing can be
+/// met.
+bool meetLight(Batch& batch, const BoundLight& light, TmGrid& g, const LobeDirections& lobe,
+               const EmitterPoints& points) {
   for (int i = 0; i < g.count; ++i) set(g.L, i, get(lobe.L, i));
   if (light.can(TM_LIGHT_AREA)) {
     if (!batch.scene.services) return false;
@@ -124,7 +126,8 @@ bool meetLight(Batch& batch, const BoundLight& light, TmGrid& g, const LobeDirec
       if (points.density[i] > 0) set(g.L, i, get(g.Pl, i) - get(g.P, i));
     return true;
   }
-  for (int i = 0; i < g.count; ++i) points.density[i] = light.sky->density(get(g.P, i), batch.points->facingNormal(i), get(g.L, i));
+  for (int i = 0; i < g.count; ++i)
+    points.density[i] = light.sky->density(get(g.P, i), batch.points->facingNormal(i), get(g.L, i));
   return true;
 }
 
@@ -136,7 +139,8 @@ TmVec3 beforeEmitter(Batch& batch, const TmGrid& g, float reach) {
   return toward;
 }
 
-/// Radiance -> what one of its samples adds to E/pi at normal incidence. density: over solid angle, of all samples together.
+/// Radiance -> what one of its samples adds to E/pi at normal incidence. density: over solid angle, of all samples
+/// together.
 void radianceToSample(const TmGrid& g, const float* density) {
   for (int i = 0; i < g.count; ++i) {
     const float weight = density[i] > 0 ? 1 / (kPi * density[i]) : 0.0f;
@@ -165,7 +169,9 @@ std::vector<LightSample>& Lights::samples(Batch& batch) {
     evaluated_ = true;
     if (batch.points && batch.context.light != Illumination::Lights) substitute(batch);
     for (const BoundLight* light : batch.group.lights)
-      if (!light->can(TM_LIGHT_AMBIENT) && applies(*light, batch) && (!request_ || inCategory(light->category, request_->category))) evaluate(batch, *light);
+      if (!light->can(TM_LIGHT_AMBIENT) && applies(*light, batch) &&
+          (!request_ || inCategory(light->category, request_->category)))
+        evaluate(batch, *light);
   }
   if (!group_) return samples_;
   // Copies share the arrays: what has been traced for one is traced for all.
@@ -194,9 +200,12 @@ void Lights::tell(Batch& batch, const BoundShader& light, std::vector<TmValue>& 
     for (size_t k = 0; k < params.size(); ++k) {
       const TmParamDecl& decl = light.shader->params[k];
       if (decl.name != m.name || isOutput(decl)) continue;
-      const bool fits = floatsOf(typeOf(decl)) == floatsOf(m.type) && decl.arrayLength == 1 && (m.value.step == 0 || !isUniform(decl));
+      const bool fits = floatsOf(typeOf(decl)) == floatsOf(m.type) && decl.arrayLength == 1 &&
+                        (m.value.step == 0 || !isUniform(decl));
       if (!fits)
-        batch.report(Severity::Warning, "shader-sends", fmt::format("sends lights a \"{}\" of another type than \"{}\" has; it keeps its own", m.name, light.shader->name));
+        batch.report(Severity::Warning, "shader-sends",
+                     fmt::format("sends lights a \"{}\" of another type than \"{}\" has; it keeps its own", m.name,
+                                 light.shader->name));
       else
         params[k] = m.value, params[k].string = m.type == TM_STRING ? m.text.c_str() : nullptr;
     }
@@ -207,7 +216,8 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
   const int n = samplesOf(light, batch);
   ShadowTally* tally = nullptr;
   if (light.shadowVariance > 0 && n > 1 && !request_)  // elsewhere it would know what other points have asked for
-    tally = &tallies_.emplace_back(ShadowTally{batch.arena.floats(batch.points->count()), batch.arena.vec3(batch.points->count())});
+    tally = &tallies_.emplace_back(
+        ShadowTally{batch.arena.floats(batch.points->count()), batch.arena.vec3(batch.points->count())});
   for (int s = 0; s < n; ++s) {
     TmGrid g = lightGrid(batch, light);
     openOutputs(batch, *light.bound, params_.emplace_back(light.bound->values));
@@ -222,12 +232,25 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
     if (!runWithExtent(batch, light, g)) return;
     darkenNonFinite(batch, *light.bound, g);
     if (area || sky) {
-      for (int i = 0; i < g.count; ++i) points.density[i] *= static_cast<float>(n), points.meetDensity[i] *= static_cast<float>(n);
+      for (int i = 0; i < g.count; ++i)
+        points.density[i] *= static_cast<float>(n), points.meetDensity[i] *= static_cast<float>(n);
       radianceToSample(g, points.density);
     }
-    LightSample sample{&light, batch.arena.vec3(batch.tm.count), g.Cl, g.L, {light.can(TM_LIGHT_SOLAR), s, n}, nullptr, s, points.meetDensity, tally, g.L, g.params};
-    if (const int k = light.bound->output("__nondiffuse", ValueType::Float); k >= 0) sample.nondiffuse = g.params[k].c[0];
-    if (const int k = light.bound->output("__nonspecular", ValueType::Float); k >= 0) sample.nonspecular = g.params[k].c[0];
+    LightSample sample{&light,
+                       batch.arena.vec3(batch.tm.count),
+                       g.Cl,
+                       g.L,
+                       {light.can(TM_LIGHT_SOLAR), s, n},
+                       nullptr,
+                       s,
+                       points.meetDensity,
+                       tally,
+                       g.L,
+                       g.params};
+    if (const int k = light.bound->output("__nondiffuse", ValueType::Float); k >= 0)
+      sample.nondiffuse = g.params[k].c[0];
+    if (const int k = light.bound->output("__nonspecular", ValueType::Float); k >= 0)
+      sample.nonspecular = g.params[k].c[0];
     normalizeAll(g.count, view(g.L), sample.L);
     if (light.shadows && batch.scene.services) {
       if (area) sample.toward = beforeEmitter(batch, g, batch.scene.services->emitterReach(light.index));
@@ -241,7 +264,8 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
 template <class Body>
 void Lights::forEachWithExtent(Batch& batch, const Body& body) const {
   for (const BoundLight* light : batch.group.lights)
-    if (hasExtent(*light) && !light->nonspecular && applies(*light, batch) && (!group_ || light->group == *group_)) body(*light);
+    if (hasExtent(*light) && !light->nonspecular && applies(*light, batch) && (!group_ || light->group == *group_))
+      body(*light);
 }
 
 int Lights::mostSamples(Batch& batch) const {
@@ -255,11 +279,14 @@ void Lights::along(Batch& batch, const LobeDirections& lobe, TmVec3 Cl) {
   ++lobes_;
 }
 
-void Lights::addSkies(Batch& batch, TmConstVec3 direction, const uint8_t* leaves, TmConstVec3 opacity, TmVec3 color) const {
+void Lights::addSkies(Batch& batch, TmConstVec3 direction, const uint8_t* leaves, TmConstVec3 opacity,
+                      TmVec3 color) const {
   const bool lit = bringsLights(batch.context.light) || bringsStored(batch.context.light);
   if (!lit || std::none_of(leaves, leaves + batch.points->count(), [](uint8_t l) { return l != 0; })) return;
   for (const BoundLight* light : batch.group.lights) {
-    if (!light->can(TM_LIGHT_SKY) || !light->visible || light->nonspecular || !isOn(*light, batch) || (group_ && light->group != *group_)) continue;
+    if (!light->can(TM_LIGHT_SKY) || !light->visible || light->nonspecular || !isOn(*light, batch) ||
+        (group_ && light->group != *group_))
+      continue;
     TmGrid g = lightGrid(batch, *light);
     g.active = leaves;
     for (int i = 0; i < g.count; ++i) set(g.L, i, get(direction, i));
@@ -287,9 +314,16 @@ void Lights::alongOne(Batch& batch, const BoundLight& light, const LobeDirection
   }
   radianceToSample(g, points.density);
   // Questions of own samples are below the limit of their number.
-  LightSample sample{&light, g.L, g.Cl, g.L, {light.can(TM_LIGHT_SOLAR), lobe.sample, lobe.samples}, nullptr, kMostLightSamples + lobes_};
+  LightSample sample{&light,
+                     g.L,
+                     g.Cl,
+                     g.L,
+                     {light.can(TM_LIGHT_SOLAR), lobe.sample, lobe.samples},
+                     nullptr,
+                     kMostLightSamples + lobes_};
   if (light.shadows && batch.scene.services) {
-    if (light.can(TM_LIGHT_AREA)) sample.toward = beforeEmitter(batch, g, batch.scene.services->emitterReach(light.index));
+    if (light.can(TM_LIGHT_AREA))
+      sample.toward = beforeEmitter(batch, g, batch.scene.services->emitterReach(light.index));
     sample.pending = batch.arena.bytes(g.count);
     std::copy_n(met, g.count, sample.pending);
     shadow(batch, sample, met);

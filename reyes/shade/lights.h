@@ -42,14 +42,16 @@ struct LightSample {
   ShadowRays rays;   ///< Which they are.
   uint8_t* pending;  ///< 1: a shadow ray is still to be traced. Null: the light casts no shadows.
   int question = 0;  ///< Name of its shadow rays among those of the light (ray_answers.h).
-  const float* density = nullptr;  ///< Over solid angle, of all samples of the light together, where along() finds it too; else 0, null: nowhere.
-  ShadowTally* tally = nullptr;    ///< Null: every shadow ray is traced.
-  TmVec3 far{};      ///< L at full length, for points and their neighbours.
+  const float* density = nullptr;   ///< Over solid angle, of all samples of the light together, where along() finds it
+                                    ///< too; else 0, null: nowhere.
+  ShadowTally* tally = nullptr;     ///< Null: every shadow ray is traced.
+  TmVec3 far{};                     ///< L at full length, for points and their neighbours.
   const TmValue* params = nullptr;  ///< Of this run of its shader, outputs included.
   const float *nondiffuse = nullptr, *nonspecular = nullptr;  ///< Its outputs of that name.
 };
 
-/// Unit directions that a surface has drawn itself: one of `samples` for each point. density: over solid angle; 0: none.
+/// Unit directions that a surface has drawn itself: one of `samples` for each point. density: over solid angle; 0:
+/// none.
 struct LobeDirections {
   TmConstVec3 L;
   const float* density;
@@ -71,14 +73,15 @@ class Lights {
   std::vector<LightSample>& samples(Batch& batch);
   /// Those that have been asked for so far, of all groups.
   const std::vector<LightSample>& evaluated() const { return samples_; }
-  /// Traces what is pending at the points of `want`, but for those whose light passes to an accuracy that the light is content with.
+  /// Traces what is pending at the points of `want`, but for those whose light passes to an accuracy that the light is
+  /// content with.
   void shadow(Batch& batch, LightSample& sample, const uint8_t* want) const;
 
-  /// Adds what lights with an extent send along the given directions, shadowed, as samples by the power heuristic: with a the density
-  /// of the light's own samples there and b that of those given, radiance / pi * b / (a^2 + b^2).
+  /// Adds what lights with an extent send along the given directions, shadowed, as samples by the power heuristic: with
+  /// a the density of the light's own samples there and b that of those given, radiance / pi * b / (a^2 + b^2).
   void along(Batch& batch, const LobeDirections& lobe, TmVec3 Cl);
-  /// Adds the radiance of lights that are all around, at infinity, to rays that have left the scene along unit directions, through what is opaque by
-  /// `opacity`.
+  /// Adds the radiance of lights that are all around, at infinity, to rays that have left the scene along unit
+  /// directions, through what is opaque by `opacity`.
   void addSkies(Batch& batch, TmConstVec3 direction, const uint8_t* leaves, TmConstVec3 opacity, TmVec3 color) const;
   /// Of the lights that along() may find, the largest number of samples; 0: there are none.
   int mostSamples(Batch& batch) const;

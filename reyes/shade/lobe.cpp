@@ -9,7 +9,8 @@ namespace {
 
 constexpr uint32_t kLobeStream = 0x6c6f6265U;
 
-/// What is displaced goes by its place on the object, so that grids which meet there agree; light probes and pixels have one name for all.
+/// What is displaced goes by its place on the object, so that grids which meet there agree; light probes and pixels
+/// have one name for all.
 SampleName nameOf(const Batch& batch, const TmGrid* g, int i) {
   if (batch.points) return batch.points->name(i % batch.points->count());
   if (!batch.grid) return {};
@@ -41,8 +42,15 @@ struct BlinnLobe {
 class Highlight {
  public:
   Highlight(Batch& batch, const TmGrid* g, TmConstVec3 N, TmConstVec3 V, const float* roughness, TmVec3 out)
-      : batch_(batch), g_(g), out_(out), N_(batch.arena.vec3(g->count)), V_(batch.arena.vec3(g->count)), exponent_(batch.arena.floats(g->count)),
-        share_(batch.arena.floats(g->count)), side_(batch.arena.bytes(g->count)), drawn_(lobeSamples(&batch, g)) {
+      : batch_(batch),
+        g_(g),
+        out_(out),
+        N_(batch.arena.vec3(g->count)),
+        V_(batch.arena.vec3(g->count)),
+        exponent_(batch.arena.floats(g->count)),
+        share_(batch.arena.floats(g->count)),
+        side_(batch.arena.bytes(g->count)),
+        drawn_(lobeSamples(&batch, g)) {
     forActive(g, [&](int i) { set(out, i, vec3(0.0f)); });
     normalizeAll(g->count, N, N_);
     normalizeAll(g->count, V, V_);
@@ -101,7 +109,8 @@ class Highlight {
 
 void specular(void* host, const TmGrid* g, TmConstVec3 N, TmConstVec3 V, const float* roughness, TmVec3 out) {
   Batch& batch = batchOf(host);
-  if (batch.context.kind == RayKind::Diffuse && !batch.context.highlights) return forActive(g, [&](int i) { set(out, i, vec3(0.0f)); });
+  if (batch.context.kind == RayKind::Diffuse && !batch.context.highlights)
+    return forActive(g, [&](int i) { set(out, i, vec3(0.0f)); });
   const Primary primary(batch, g);
   Highlight highlight(batch, primary.grid(), N, V, roughness, out);
   highlight.addLightSamples();
@@ -120,14 +129,16 @@ void lightDensity(void* host, const TmGrid* all, int32_t index, float* out) {
   primary.spread(out);
 }
 
-void lightAlong(void* host, const TmGrid* g, TmConstVec3 L, const float* density, int32_t sample, int32_t samples, TmVec3 Cl) {
+void lightAlong(void* host, const TmGrid* g, TmConstVec3 L, const float* density, int32_t sample, int32_t samples,
+                TmVec3 Cl) {
   Batch& batch = batchOf(host);
   forActive(g, [&](int i) { set(Cl, i, vec3(0.0f)); });
   batch.lights.along(batch, {L, density, sample, samples}, Cl);
   Primary(batch, g).spread(Cl);
 }
 
-// Half as many as of the light: twice as many win little where the lobe is narrow, and cost something where it is wide (docs/performance/rays.md).
+// Half as many as of the light: twice as many win little where the lobe is narrow, and cost something where it is wide
+// (docs/performance/rays.md).
 int32_t lobeSamples(void* host, const TmGrid*) { return (batchOf(host).lights.mostSamples(batchOf(host)) + 1) / 2; }
 
 void stratified(void* host, const TmGrid* g, int32_t sample, int32_t samples, float* xi0, float* xi1) {

@@ -10,13 +10,20 @@ namespace {
 
 TmType typeOf(const Param& p) {
   switch (p.type) {
-    case ValueType::Color: return TM_COLOR;
-    case ValueType::Point: return TM_POINT;
-    case ValueType::Vector: return TM_VECTOR;
-    case ValueType::Normal: return TM_NORMAL;
-    case ValueType::Matrix: return TM_MATRIX;
-    case ValueType::String: return TM_STRING;
-    default: return TM_FLOAT;
+    case ValueType::Color:
+      return TM_COLOR;
+    case ValueType::Point:
+      return TM_POINT;
+    case ValueType::Vector:
+      return TM_VECTOR;
+    case ValueType::Normal:
+      return TM_NORMAL;
+    case ValueType::Matrix:
+      return TM_MATRIX;
+    case ValueType::String:
+      return TM_STRING;
+    default:
+      return TM_FLOAT;
   }
 }
 
@@ -62,11 +69,12 @@ int32_t tellAttribute(Batch& batch, std::string_view name, int32_t* type, TmValu
   if (name == "Sides") return number(static_cast<float>(a.sides));
   if (name == "Color") return color(a.color);
   if (name == "Opacity") return color(a.opacity);
-  if (name == "ShadingInterpolation" || name == "Orientation" || name == "identifier:name" || name == "photon:globalmap" || name == "photon:causticmap") {
-    const std::string text = name == "identifier:name"     ? a.name
-                             : name == "photon:globalmap"  ? a.photon.globalMap
-                             : name == "photon:causticmap" ? a.photon.causticMap
-                             : name == "Orientation"   ? (a.insideOut ? "inside" : "outside")
+  if (name == "ShadingInterpolation" || name == "Orientation" || name == "identifier:name" ||
+      name == "photon:globalmap" || name == "photon:causticmap") {
+    const std::string text = name == "identifier:name"                         ? a.name
+                             : name == "photon:globalmap"                      ? a.photon.globalMap
+                             : name == "photon:causticmap"                     ? a.photon.causticMap
+                             : name == "Orientation"                           ? (a.insideOut ? "inside" : "outside")
                              : a.interpolation == ShadingInterpolation::Smooth ? "smooth"
                                                                                : "constant";
     return batch.answer({}, text, TM_STRING, *type, *out), 1;
@@ -81,7 +89,8 @@ int32_t tellAttribute(Batch& batch, std::string_view name, int32_t* type, TmValu
   if (name == "trace:maxdiffusedepth") return number(static_cast<float>(a.trace.maxDiffuseDepth));
   if (name == "trace:maxspeculardepth") return number(static_cast<float>(a.trace.maxSpecularDepth));
   if (name == "trace:bias") return number(a.trace.bias.value_or(0));
-  const std::map<std::string_view, bool> visible = {{"visibility:camera", a.visibility.camera}, {"visibility:diffuse", a.visibility.diffuse},
+  const std::map<std::string_view, bool> visible = {{"visibility:camera", a.visibility.camera},
+                                                    {"visibility:diffuse", a.visibility.diffuse},
                                                     {"visibility:specular", a.visibility.specular},
                                                     {"visibility:transmission", a.visibility.transmission},
                                                     {"visibility:photon", a.visibility.photon}};
@@ -94,7 +103,8 @@ int32_t tellOption(Batch& batch, std::string_view name, int32_t* type, TmValue* 
   const Options& o = batch.scene.scene.options;
   if (name.starts_with("Ri:")) name.remove_prefix(3);
   const auto numbers = [&](std::vector<float> n) { return tell(batch, std::move(n), TM_FLOAT, type, out); };
-  if (name == "Format") return numbers({static_cast<float>(o.xResolution), static_cast<float>(o.yResolution), o.pixelAspect});
+  if (name == "Format")
+    return numbers({static_cast<float>(o.xResolution), static_cast<float>(o.yResolution), o.pixelAspect});
   if (name == "Shutter") return numbers({o.shutterOpen, o.shutterClose});
   if (name == "Clipping") return numbers({o.nearClip, o.farClip});
   if (name == "CropWindow") return numbers({o.cropWindow.begin(), o.cropWindow.end()});
@@ -111,17 +121,20 @@ int32_t tellRenderer(Batch& batch, std::string_view name, int32_t* type, TmValue
   std::vector<float> version(4, 0.0f);
   const std::string_view text = TOMALES_VERSION;
   for (size_t part = 0, begin = 0; part < 4 && begin < text.size(); ++part) {
-    for (; begin < text.size() && text[begin] != '.'; ++begin) version[part] = 10 * version[part] + static_cast<float>(text[begin] - '0');
+    for (; begin < text.size() && text[begin] != '.'; ++begin)
+      version[part] = 10 * version[part] + static_cast<float>(text[begin] - '0');
     ++begin;
   }
   return tell(batch, version, TM_FLOAT, type, out);
 }
 
-/// Incident and opposite volumes change from point to point with the side that is seen: strings and arrays are those of the first.
+/// Incident and opposite volumes change from point to point with the side that is seen: strings and arrays are those of
+/// the first.
 int32_t tellVolume(Batch& batch, const TmGrid* g, bool incident, std::string_view name, int32_t* type, TmValue* out) {
   TmValue side[2];
   int32_t types[2] = {-1, -1};
-  const bool has[2] = {tell(batch.group.exterior, name, &types[0], &side[0]) != 0, tell(batch.group.interior, name, &types[1], &side[1]) != 0};
+  const bool has[2] = {tell(batch.group.exterior, name, &types[0], &side[0]) != 0,
+                       tell(batch.group.interior, name, &types[1], &side[1]) != 0};
   const auto inside = [&](int i) { return (dot(get(g->I, i), get(g->Ng, i)) > 0) == incident; };
   int first = 0;
   while (first + 1 < g->count && !g->active[first]) ++first;
@@ -146,9 +159,11 @@ int32_t ask(void* host, const TmGrid* g, int32_t whom, int32_t light, const char
   const auto kindIs = [&](TmKind kind) { return batch.own && batch.own->shader->kind == kind; };
   switch (whom) {
     case TM_OF_SURFACE:
-      return kindIs(TM_SURFACE) ? tell(batch.own, batch.tm.params, name, type, out) : tell(group.surface, name, type, out);
+      return kindIs(TM_SURFACE) ? tell(batch.own, batch.tm.params, name, type, out)
+                                : tell(group.surface, name, type, out);
     case TM_OF_DISPLACEMENT:
-      return kindIs(TM_DISPLACEMENT) ? tell(batch.own, batch.tm.params, name, type, out) : tell(group.displacement, name, type, out);
+      return kindIs(TM_DISPLACEMENT) ? tell(batch.own, batch.tm.params, name, type, out)
+                                     : tell(group.displacement, name, type, out);
     case TM_OF_ATMOSPHERE:
       return tell(group.atmosphere, name, type, out);
     case TM_OF_INCIDENT:

@@ -46,9 +46,11 @@ Widened widened(const ShadePoints& points, bool parallel, Arena& arena) {
   for (int side = 0; side < Widened::kWide; ++side)
     for (int i = 0; i < n; ++i) out.points.add(points.name(i));
   for (int c = 0; c < points.channelCount(); ++c)
-    for (int side = 0; side < Widened::kWide; ++side) std::copy_n(points.channel(c), n, out.points.channel(c) + side * n);
+    for (int side = 0; side < Widened::kWide; ++side)
+      std::copy_n(points.channel(c), n, out.points.channel(c) + side * n);
   for (int side = 0; side < Widened::kSides; ++side)
-    for (int i = 0; i < n; ++i) move(points, i, side >= 2, side % 2 ? 0.5f : -0.5f, parallel, out.points, (side + 1) * n + i);
+    for (int i = 0; i < n; ++i)
+      move(points, i, side >= 2, side % 2 ? 0.5f : -0.5f, parallel, out.points, (side + 1) * n + i);
   int32_t* index[Widened::kSides];
   for (int side = 0; side < Widened::kSides; ++side) {
     index[side] = indices(arena, Widened::kWide * n);

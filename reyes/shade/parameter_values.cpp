@@ -8,7 +8,8 @@ namespace tomales {
 namespace {
 
 constexpr const char* kTypes[] = {"float", "color", "point", "vector", "normal", "string", "matrix"};
-constexpr const char* kGiven[] = {"float", "integer", "string", "color", "point", "vector", "normal", "hpoint", "matrix"};
+constexpr const char* kGiven[] = {"float",  "integer", "string", "color", "point",
+                                  "vector", "normal",  "hpoint", "matrix"};
 
 const char* nameOf(int32_t type) { return type >= TM_FLOAT && type <= TM_MATRIX ? kTypes[type] : "unknown type"; }
 const char* nameOf(ValueType type) { return kGiven[static_cast<size_t>(type)]; }
@@ -33,14 +34,16 @@ std::vector<float> promoted(float x, size_t width) {
 
 void takeStrings(const TmParamDecl& declared, const Param* given, ParameterValue& out) {
   const auto length = static_cast<size_t>(std::max(1, declared.arrayLength));
-  for (size_t k = 0; k < length; ++k) out.strings.emplace_back(declared.strings && declared.strings[k] ? declared.strings[k] : "");
+  for (size_t k = 0; k < length; ++k)
+    out.strings.emplace_back(declared.strings && declared.strings[k] ? declared.strings[k] : "");
   if (!given) return;
   if (given->strings.empty()) {
     out.remark = fmt::format("is a string and was given a {}; its default is used", nameOf(given->type));
     return;
   }
   std::copy_n(given->strings.begin(), std::min(length, given->strings.size()), out.strings.begin());
-  if (given->strings.size() != length) out.remark = fmt::format("has {} strings and was given {}", length, given->strings.size());
+  if (given->strings.size() != length)
+    out.remark = fmt::format("has {} strings and was given {}", length, given->strings.size());
 }
 
 /// May numbers of this type stand where values of `width` floats are wanted?
@@ -61,7 +64,8 @@ void takeNumbers(const TmParamDecl& declared, const Param& given, size_t width, 
   const size_t taken = std::min(numbers.size(), out.floats.size()) / width * width;
   std::copy_n(numbers.begin(), taken, out.floats.begin());
   if (numbers.size() != out.floats.size())
-    out.remark = fmt::format("takes {} numbers and was given {}{}", out.floats.size(), count, taken == 0 ? "; its default is used" : "");
+    out.remark = fmt::format("takes {} numbers and was given {}{}", out.floats.size(), count,
+                             taken == 0 ? "; its default is used" : "");
   else if (!accepts(type, given.type))
     out.remark = fmt::format("is a {} and was given a {}, which is converted", nameOf(type), nameOf(given.type));
 }

@@ -10,7 +10,9 @@
 namespace tomales {
 namespace {
 
-TmTextureLookup optionsOf(const TmTextureLookup* given) { return givenOptions<TmTextureLookup>(TM_TEXTURE_DEFAULTS, given); }
+TmTextureLookup optionsOf(const TmTextureLookup* given) {
+  return givenOptions<TmTextureLookup>(TM_TEXTURE_DEFAULTS, given);
+}
 
 /// Option "texture" "width" scales all filters, and "filter" is that of lookups which name none.
 TextureQuery queryOf(const Batch& batch, const TmGrid* g, const char* name, const TmTextureLookup& o) {
@@ -32,8 +34,8 @@ int32_t lookUp(const Batch& batch, const TextureQuery& query, TmVec3 out) {
   return batch.scene.textures.lookup(query, batch.running->where, batch.running->user, out);
 }
 
-/// The mean of the texels of a region that are not greater than `most`, channel by channel; `fill` where all are. Levels of the picture have averaged what
-/// is to be left out: points of the finest are asked instead.
+/// The mean of the texels of a region that are not greater than `most`, channel by channel; `fill` where all are.
+/// Levels of the picture have averaged what is to be left out: points of the finest are asked instead.
 int32_t lookUpBelow(Batch& batch, const TextureQuery& query, float most, TmVec3 out) {
   constexpr uint32_t kPoints = 64;
   const int n = query.count;
@@ -55,24 +57,29 @@ int32_t lookUpBelow(Batch& batch, const TextureQuery& query, float most, TmVec3 
     if (!lookUp(batch, point, texel)) return lookUp(batch, query, out);
     for (int c = 0; c < query.channels; ++c)
       for (int i = 0; i < n; ++i)
-        if (const float value = channel(texel, c)[i]; query.active[i] && value <= most) channel(sum, c)[i] += value, channel(counted, c)[i] += 1;
+        if (const float value = channel(texel, c)[i]; query.active[i] && value <= most)
+          channel(sum, c)[i] += value, channel(counted, c)[i] += 1;
   }
   for (int c = 0; c < query.channels; ++c)
     for (int i = 0; i < n; ++i)
-      if (query.active[i]) channel(out, c)[i] = channel(counted, c)[i] > 0 ? channel(sum, c)[i] / channel(counted, c)[i] : query.fill;
+      if (query.active[i])
+        channel(out, c)[i] = channel(counted, c)[i] > 0 ? channel(sum, c)[i] / channel(counted, c)[i] : query.fill;
   return 1;
 }
 
 int32_t lookUp(Batch& batch, const TextureQuery& query, const TmTextureLookup& o, TmVec3 out) {
-  return o.ignoreAbove < TmTextureLookup(TM_TEXTURE_DEFAULTS).ignoreAbove ? lookUpBelow(batch, query, o.ignoreAbove, out) : lookUp(batch, query, out);
+  return o.ignoreAbove < TmTextureLookup(TM_TEXTURE_DEFAULTS).ignoreAbove
+             ? lookUpBelow(batch, query, o.ignoreAbove, out)
+             : lookUp(batch, query, out);
 }
 
 /// The picture stands in world space, +z at its top.
-int32_t lookUpLatLong(Batch& batch, const TmGrid* g, const char* name, const TmTextureLookup& options, TmConstVec3 direction,
-                      const float* angle, TmVec3 out) {
+int32_t lookUpLatLong(Batch& batch, const TmGrid* g, const char* name, const TmTextureLookup& options,
+                      TmConstVec3 direction, const float* angle, TmVec3 out) {
   const mat3 worldFromCurrent = glm::inverse(mat3(batch.scene.cameraFromWorld));
   const int n = g->count;
-  float *s = batch.arena.floats(n), *t = batch.arena.floats(n), *su = batch.arena.floats(n), *tv = batch.arena.floats(n);
+  float *s = batch.arena.floats(n), *t = batch.arena.floats(n), *su = batch.arena.floats(n),
+        *tv = batch.arena.floats(n);
   float* zero = batch.arena.floats(n);
   forActive(g, [&](int i) {
     const vec3 d = normalizeOr(worldFromCurrent * get(direction, i), vec3(0, 0, 1));
@@ -89,8 +96,8 @@ int32_t lookUpLatLong(Batch& batch, const TmGrid* g, const char* name, const TmT
 
 }  // namespace
 
-int32_t textureOver(void* host, const TmGrid* g, const char* name, const TmTextureLookup* given, const float* s, const float* t, const float* const* sides,
-                    TmVec3 out) {
+int32_t textureOver(void* host, const TmGrid* g, const char* name, const TmTextureLookup* given, const float* s,
+                    const float* t, const float* const* sides, TmVec3 out) {
   Batch& batch = batchOf(host);
   const TmTextureLookup options = optionsOf(given);
   TextureQuery query = queryOf(batch, g, name, options);
@@ -99,7 +106,8 @@ int32_t textureOver(void* host, const TmGrid* g, const char* name, const TmTextu
   return lookUp(batch, query, options, out);
 }
 
-int32_t textureWith(void* host, const TmGrid* g, const char* name, const TmTextureLookup* given, const float* s, const float* t, TmVec3 out) {
+int32_t textureWith(void* host, const TmGrid* g, const char* name, const TmTextureLookup* given, const float* s,
+                    const float* t, TmVec3 out) {
   Batch& batch = batchOf(host);
   const TmTextureLookup options = optionsOf(given);
   TextureQuery query = queryOf(batch, g, name, options);
@@ -110,24 +118,30 @@ int32_t textureWith(void* host, const TmGrid* g, const char* name, const TmTextu
                      batch.stepsOf(g, true, s, steps[2]) && batch.stepsOf(g, true, t, steps[3]);
   if (known)
     query.su = steps[0], query.tu = steps[1], query.sv = steps[2], query.tv = steps[3];
-  else if (batch.points && batch.running->shader->kind != TM_LIGHT && (batch.points->hasSteps() || !(batch.running->can(TM_DERIVATIVES) || batch.running->can(TM_NEIGHBOURS))))
+  else if (batch.points && batch.running->shader->kind != TM_LIGHT &&
+           (batch.points->hasSteps() || !(batch.running->can(TM_DERIVATIVES) || batch.running->can(TM_NEIGHBOURS))))
     batch.report(Severity::Warning, "shader-footprint",
-                 "looks a picture up at places that it has computed, without TM_NEIGHBOURS (or at s, t without TM_DERIVATIVES); it is not filtered");
+                 "looks a picture up at places that it has computed, without TM_NEIGHBOURS (or at s, t without "
+                 "TM_DERIVATIVES); it is not filtered");
   return lookUp(batch, query, options, out);
 }
 
-int32_t texture(void* host, const TmGrid* g, const char* name, int32_t channel, int32_t channels, const float* s, const float* t, TmVec3 out) {
+int32_t texture(void* host, const TmGrid* g, const char* name, int32_t channel, int32_t channels, const float* s,
+                const float* t, TmVec3 out) {
   TmTextureLookup lookup = TM_TEXTURE_DEFAULTS;
   lookup.channel = channel, lookup.channels = channels;
   return textureWith(host, g, name, &lookup, s, t, out);
 }
 
-int32_t environment(void* host, const TmGrid* g, const char* name, TmConstVec3 direction, const float* angle, TmVec3 out) {
+int32_t environment(void* host, const TmGrid* g, const char* name, TmConstVec3 direction, const float* angle,
+                    TmVec3 out) {
   Batch& batch = batchOf(host);
-  return lookUpLatLong(batch, g, name, TM_TEXTURE_DEFAULTS, direction, angle ? angle : batch.arena.floats(g->count), out);
+  return lookUpLatLong(batch, g, name, TM_TEXTURE_DEFAULTS, direction, angle ? angle : batch.arena.floats(g->count),
+                       out);
 }
 
-int32_t environmentWith(void* host, const TmGrid* g, const char* name, const TmTextureLookup* given, TmConstVec3 direction, TmVec3 out) {
+int32_t environmentWith(void* host, const TmGrid* g, const char* name, const TmTextureLookup* given,
+                        TmConstVec3 direction, TmVec3 out) {
   Batch& batch = batchOf(host);
   const TmTextureLookup options = optionsOf(given);
   if (std::string_view(name) == "raytrace") {

@@ -39,7 +39,8 @@ void PluginTrial::start() {
   const std::string program = programs.front();
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_adddup2(&files, ends[1], trial::kSocket);  // first: the numbers of standard files may be those of the socket
+  posix_spawn_file_actions_adddup2(&files, ends[1],
+                                   trial::kSocket);  // first: the numbers of standard files may be those of the socket
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     posix_spawn_file_actions_addopen(&files, standard, "/dev/null", O_RDWR, 0);  // nothing is to be said twice
   char* const arguments[] = {const_cast<char*>(program.c_str()), nullptr};

@@ -1,5 +1,5 @@
-// Plugins are tried in a child process before they are loaded, because their constructors run before anything about them can be checked
-// (docs/decisions/0043). Threads: one at a time.
+// Plugins are tried in a child process before they are loaded, because their constructors run before anything about
+// them can be checked (docs/decisions/0043). Threads: one at a time.
 #pragma once
 #include <sys/types.h>
 
@@ -7,8 +7,8 @@
 
 namespace tomales {
 
-/// One child, the program tomales_plugin_trial, tries plugin after plugin. It is replaced when one has ended it, and ends by itself when nothing is
-/// asked for a while.
+/// One child, the program tomales_plugin_trial, tries plugin after plugin. It is replaced when one has ended it, and
+/// ends by itself when nothing is asked for a while.
 class PluginTrial {
  public:
   PluginTrial() = default;

@@ -1,5 +1,5 @@
-// What PluginTrial and the program that it starts say to each other: paths one way, a word before and a word after each the other way, over a
-// socket of packets.
+// What PluginTrial and the program that it starts say to each other: paths one way, a word before and a word after each
+// the other way, over a socket of packets.
 #pragma once
 #include <poll.h>
 #include <sys/socket.h>

@@ -1,4 +1,5 @@
-// Light and rays are asked for the points of a batch alone: their neighbours, which serve derivatives, share the answers.
+// Light and rays are asked for the points of a batch alone: their neighbours, which serve derivatives, share the
+// answers.
 #pragma once
 #include "reyes/shade/batch.h"
 
@@ -32,7 +33,8 @@ void forActive(const TmGrid* g, const Body& body) {
     if (g->active[i]) body(i);
 }
 
-/// How much of a light counts at each point: where it is lit, what one of its outputs __nondiffuse and __nonspecular leaves. Null: all.
+/// How much of a light counts at each point: where it is lit, what one of its outputs __nondiffuse and __nonspecular
+/// leaves. Null: all.
 inline void setShares(int n, const uint8_t* lit, const float* without, float* share) {
   for (int i = 0; i < n; ++i) share[i] = lit[i] ? (without ? 1 - without[i] : 1.0f) : 0.0f;
 }

@@ -16,10 +16,13 @@ int floatsOf(const TmRayOutput& o) { return o.floats == 3 ? 3 : 1; }
 
 }  // namespace
 
-void setRayOutputs(const Primary& primary, const TmRayOutput* outputs, int32_t outputCount, std::initializer_list<RayValue> known) {
+void setRayOutputs(const Primary& primary, const TmRayOutput* outputs, int32_t outputCount,
+                   std::initializer_list<RayValue> known) {
   for (const TmRayOutput& o : std::span(outputs, static_cast<size_t>(outputCount))) {
-    const auto* const it = std::find_if(known.begin(), known.end(), [&](const RayValue& v) { return v.name == o.name; });
-    const float* const from[3] = {it != known.end() ? it->value.x : nullptr, it != known.end() ? it->value.y : nullptr, it != known.end() ? it->value.z : nullptr};
+    const auto* const it =
+        std::find_if(known.begin(), known.end(), [&](const RayValue& v) { return v.name == o.name; });
+    const float* const from[3] = {it != known.end() ? it->value.x : nullptr, it != known.end() ? it->value.y : nullptr,
+                                  it != known.end() ? it->value.z : nullptr};
     for (int k = 0; k < floatsOf(o); ++k) {
       if (from[k]) forActive(primary.grid(), [&](int i) { o.c[k][i] = from[k][i]; });
       primary.spread(o.c[k]);
@@ -27,7 +30,8 @@ void setRayOutputs(const Primary& primary, const TmRayOutput* outputs, int32_t o
   }
 }
 
-void traceRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 direction, const TmRayOptions* given, TmVec3 color, float* distance) {
+void traceRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 direction, const TmRayOptions* given,
+               TmVec3 color, float* distance) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
   const TmGrid* g = primary.grid();
@@ -44,12 +48,16 @@ void traceRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 directi
   result.distance = batch.arena.floats(g->count);
   if (color.x) result.color = batch.arena.vec3(g->count), result.opacity = batch.arena.vec3(g->count);
   // As of area lights, diffuse rays bring nothing: diffuse() has asked for the light itself.
-  if (color.x && query.kind == RayKind::Specular && query.lampsGlow && batch.context.mirrored && query.maxDistance >= kFarAway) result.leaves = batch.arena.bytes(g->count);
+  if (color.x && query.kind == RayKind::Specular && query.lampsGlow && batch.context.mirrored &&
+      query.maxDistance >= kFarAway)
+    result.leaves = batch.arena.bytes(g->count);
   for (int ray = 0; ray < options.samples; ++ray, ++query.number) {
     const Batch::Scratch scratch(batch);
     cone.aim(P, direction, ray);
-    batch.scene.services->trace(*batch.points, g->active, cone.origin(), cone.direction(), query, batch.context, result);
-    if (result.leaves) batch.lights.addSkies(batch, cone.direction(), result.leaves, view(result.opacity), result.color);
+    batch.scene.services->trace(*batch.points, g->active, cone.origin(), cone.direction(), query, batch.context,
+                                result);
+    if (result.leaves)
+      batch.lights.addSkies(batch, cone.direction(), result.leaves, view(result.opacity), result.color);
     if (color.x) crossVolumes(batch, g, cone.origin(), cone.direction(), result.distance, result.color, result.opacity);
     forActive(g, [&](int i) {
       if (color.x) set(color, i, get(color, i) + get(result.color, i) / static_cast<float>(options.samples));
@@ -59,8 +67,8 @@ void traceRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 directi
   primary.spread(color), primary.spread(distance);
 }
 
-int32_t gatherRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 axis, const TmRayOptions* given, int32_t ray, uint8_t* hit,
-                   const TmRayOutput* outputs, int32_t outputCount) {
+int32_t gatherRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 axis, const TmRayOptions* given,
+                   int32_t ray, uint8_t* hit, const TmRayOutput* outputs, int32_t outputCount) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
   const TmGrid* g = primary.grid();
@@ -79,11 +87,14 @@ int32_t gatherRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 axi
   for (const TmRayOutput& o : std::span(outputs, static_cast<size_t>(outputCount))) {
     const std::string_view name = o.name;
     wantsEffective |= name == "effectivedistance";
-    if (!name.starts_with("ray:") && name != "effectivedistance") result.outputs.push_back({o.name, floatsOf(o), {o.c[0], o.c[1], o.c[2]}});
+    if (!name.starts_with("ray:") && name != "effectivedistance")
+      result.outputs.push_back({o.name, floatsOf(o), {o.c[0], o.c[1], o.c[2]}});
   }
   if (wantsEffective) result.effective = batch.arena.floats(g->count), result.color = batch.arena.vec3(g->count);
   std::fill_n(result.distance, g->count, kInfinity);
-  if (options.maxDistance > 0) batch.scene.services->trace(*batch.points, g->active, cone.origin(), cone.direction(), query, batch.context, result);
+  if (options.maxDistance > 0)
+    batch.scene.services->trace(*batch.points, g->active, cone.origin(), cone.direction(), query, batch.context,
+                                result);
   float *length = batch.arena.floats(g->count), *effective = batch.arena.floats(g->count);
   forActive(g, [&](int i) {
     hit[i] = result.distance[i] < kFarAway;
@@ -92,12 +103,15 @@ int32_t gatherRays(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 axi
   });
   primary.spread(hit);
   setRayOutputs(primary, outputs, outputCount,
-                {{"ray:origin", cone.origin()}, {"ray:direction", cone.direction()}, {"ray:length", {length, length, length}},
+                {{"ray:origin", cone.origin()},
+                 {"ray:direction", cone.direction()},
+                 {"ray:length", {length, length, length}},
                  {"effectivedistance", {effective, effective, effective}}});
   return 1;
 }
 
-void transmissionWith(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 toward, const TmRayOptions* given, TmVec3 out) {
+void transmissionWith(void* host, const TmGrid* all, TmConstVec3 P, TmConstVec3 toward, const TmRayOptions* given,
+                      TmVec3 out) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
   const TmGrid* g = primary.grid();

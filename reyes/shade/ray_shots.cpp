@@ -7,7 +7,8 @@
 namespace tomales {
 namespace {
 
-constexpr float kSpecularCone = 10 * kPi / 180;  ///< trace:specularthreshold of rispec-table 3.2: wider rays are diffuse.
+constexpr float kSpecularCone =
+    10 * kPi / 180;  ///< trace:specularthreshold of rispec-table 3.2: wider rays are diffuse.
 constexpr uint32_t kConeStream = 0x636f6e65U, kBaseStream = 0x62617365U;
 
 }  // namespace
@@ -43,10 +44,16 @@ RayQuery rayQuery(const TmRayOptions& o, RayKind kind) {
   return q;
 }
 
-RayQuery rayQuery(const TmRayOptions& o) { return rayQuery(o, o.coneAngle > kSpecularCone ? RayKind::Diffuse : RayKind::Specular); }
+RayQuery rayQuery(const TmRayOptions& o) {
+  return rayQuery(o, o.coneAngle > kSpecularCone ? RayKind::Diffuse : RayKind::Specular);
+}
 
 Cone::Cone(Batch& batch, const TmGrid* g, const TmRayOptions& options)
-    : batch_(batch), g_(g), options_(options), origin_(batch.arena.vec3(g->count)), direction_(batch.arena.vec3(g->count)) {}
+    : batch_(batch),
+      g_(g),
+      options_(options),
+      origin_(batch.arena.vec3(g->count)),
+      direction_(batch.arena.vec3(g->count)) {}
 
 void Cone::aim(TmConstVec3 P, TmConstVec3 axis, int ray) {
   forActive(g_, [&](int i) {
@@ -59,7 +66,8 @@ vec2 Cone::random(int i, int ray, uint32_t stream) const {
   const SampleName name = batch_.points->name(i);
   const auto number = static_cast<uint32_t>(options_.number * options_.samples + ray);
   const uint32_t index = name.sequence * static_cast<uint32_t>(options_.samples * std::max(1, options_.drawn)) + number;
-  return sobol2(index, hashCombine(name.key, stream, batch_.context.seed, static_cast<uint32_t>(batch_.context.depth + batch_.context.specularDepth)));
+  return sobol2(index, hashCombine(name.key, stream, batch_.context.seed,
+                                   static_cast<uint32_t>(batch_.context.depth + batch_.context.specularDepth)));
 }
 
 vec3 Cone::around(const vec3& axis, const vec2& xi) const {
@@ -89,7 +97,9 @@ void setFootprints(Batch& batch, const TmGrid* g, TmConstVec3 axis, const TmRayO
   float *radius = batch.arena.floats(g->count), *spread = batch.arena.floats(g->count);
   turnOf(batch, g, axis, spread);
   const float share = options.coneAngle / std::sqrt(static_cast<float>(options.samples));
-  forActive(g, [&](int i) { radius[i] = micropolygonRadius(*batch.points, g, i), spread[i] = std::min(0.5f * spread[i] + share, 1.0f); });
+  forActive(g, [&](int i) {
+    radius[i] = micropolygonRadius(*batch.points, g, i), spread[i] = std::min(0.5f * spread[i] + share, 1.0f);
+  });
   query.radius = radius, query.spread = spread;
 }
 

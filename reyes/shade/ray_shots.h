@@ -36,7 +36,8 @@ class Cone {
   TmVec3 origin_, direction_;
 };
 
-/// Differentials: a ray starts as wide as its micropolygon, and widens by how the axis turns over that and by its share of the cone.
+/// Differentials: a ray starts as wide as its micropolygon, and widens by how the axis turns over that and by its share
+/// of the cone.
 void setFootprints(Batch& batch, const TmGrid* g, TmConstVec3 axis, const TmRayOptions& options, RayQuery& query);
 
 }  // namespace tomales

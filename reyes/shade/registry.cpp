@@ -1,13 +1,17 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "reyes/base/search_path.h"
 #include "reyes/shade.h"
 #include "reyes/shade/plugin_trial.h"
 
 namespace tomales {
+
+namespace fs = std::filesystem;
 
 const char* kindName(TmKind kind) {
   static constexpr const char* kNames[] = {"surface", "displacement", "light", "volume", "imager"};
@@ -16,6 +20,7 @@ const char* kindName(TmKind kind) {
 
 struct ShaderRegistry::Impl {
   Log& log;
+  const PluginTrust trust;
   std::mutex mutex;  // over what follows: find() loads plugins while other frames bind
   std::map<std::pair<int, std::string>, const TmShader*> shaders;
   struct Plugin {
@@ -25,6 +30,7 @@ struct ShaderRegistry::Impl {
   std::map<std::string, Plugin> plugins;  // by path
   PluginTrial trial;
   bool untriedSaid = false;
+  std::set<std::string> distrusted;  // plugins that were reported as such
 
   void refuse(const std::string& origin, const std::string& problem) {
     const SourceLoc where{std::make_shared<const std::string>(origin), 0};
@@ -32,6 +38,7 @@ struct ShaderRegistry::Impl {
   }
   bool add(const TmShaderLibrary* library, const std::string& origin, std::vector<const TmShader*>* added = nullptr);
   bool load(const std::string& path);
+  std::vector<std::string> trustedFiles(const std::string& name, const std::string& searchPath);
   std::string heldBy(const std::string& path) const;
   const TmShader* known(const std::string& name, TmKind kind) const {
     const auto it = shaders.find({kind, name});
@@ -55,19 +62,21 @@ std::string lackOf(const TmShader& s) {
   if (s.paramCount < 0 || (s.paramCount > 0 && !s.params)) return "its parameters";
   for (int32_t k = 0; k < s.paramCount; ++k) {
     const TmParamDecl& p = s.params[k];
-    if (!p.name || p.arrayLength < 1 || TM_TYPE_OF(p.type) > TM_MATRIX) return fmt::format("a name, length or type of parameter {}", k + 1);
+    if (!p.name || p.arrayLength < 1 || TM_TYPE_OF(p.type) > TM_MATRIX)
+      return fmt::format("a name, length or type of parameter {}", k + 1);
   }
   return {};
 }
 
 std::string expected(const char* what) {
-  return fmt::format("{} is of another shader ABI than {}; compile it against the headers of this version",
-                     what, TM_SHADER_ABI);
+  return fmt::format("{} is of another shader ABI than {}; compile it against the headers of this version", what,
+                     TM_SHADER_ABI);
 }
 
 }  // namespace
 
-bool ShaderRegistry::Impl::add(const TmShaderLibrary* library, const std::string& origin, std::vector<const TmShader*>* added) {
+bool ShaderRegistry::Impl::add(const TmShaderLibrary* library, const std::string& origin,
+                               std::vector<const TmShader*>* added) {
   if (!matches(library)) return refuse(origin, expected("the shader library")), false;
   for (int32_t i = 0; i < library->count; ++i) {
     const TmShader* shader = library->shaders[i];
@@ -94,8 +103,9 @@ bool ShaderRegistry::Impl::load(const std::string& path) {
   Plugin& plugin = plugins[path];
   if (const std::string fate = trial.fateOf(path); !fate.empty()) return refuse(path, fate + "; it is left out"), false;
   if (!trial.works() && !untriedSaid)
-    untriedSaid = true, log.report(Severity::Warning, "shader-plugin", {std::make_shared<const std::string>(path), 0},
-                                   "plugins are loaded untried, and may end the program: tomales_plugin_trial cannot be started");
+    untriedSaid = true,
+    log.report(Severity::Warning, "shader-plugin", {std::make_shared<const std::string>(path), 0},
+               "plugins are loaded untried, and may end the program: tomales_plugin_trial cannot be started");
   void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle) return refuse(path, fmt::format("cannot be loaded: {}", dlerror())), false;
   const auto function = reinterpret_cast<TmShadersFunction>(dlsym(handle, TM_SHADERS_SYMBOL));
@@ -103,7 +113,41 @@ bool ShaderRegistry::Impl::load(const std::string& path) {
   return plugin.loaded = add(function(), path, &plugin.shaders);
 }
 
-ShaderRegistry::ShaderRegistry(Log& log) : impl_(new Impl{log, {}, {}, {}, {}, false}) {}
+namespace {
+
+std::vector<std::string> pluginFiles(const std::string& name, const std::string& searchPath) {
+  std::vector<std::string> out;
+  for (const fs::path folder : foldersOf(searchPath)) {
+    std::error_code none;
+    if (const fs::path file = folder / (name + ".so"); fs::is_regular_file(file, none)) out.push_back(file.string());
+  }
+  return out;
+}
+
+/// Does the name of a shader lead out of the folders that it is looked for in?
+bool leavesFolders(const fs::path& name) {
+  return name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end();
+}
+
+}  // namespace
+
+std::vector<std::string> ShaderRegistry::Impl::trustedFiles(const std::string& name, const std::string& searchPath) {
+  std::vector<std::string> out;
+  if (!leavesFolders(name)) out = pluginFiles(name, trust.folders);
+  for (const std::string& file : pluginFiles(name, searchPath.empty() ? "." : searchPath)) {
+    if (trust.sceneFolders)
+      out.push_back(file);
+    else if (out.empty() && distrusted.insert(file).second)
+      refuse(file,
+             "is native code in a folder that the scene names, and is not loaded; --shaders FOLDER names a folder "
+             "whose plugins you trust, "
+             "--allow-system trusts those of the scene");
+  }
+  return out;
+}
+
+ShaderRegistry::ShaderRegistry(Log& log, PluginTrust trust)
+    : impl_(new Impl{log, std::move(trust), {}, {}, {}, {}, false, {}}) {}
 ShaderRegistry::~ShaderRegistry() = default;
 
 bool ShaderRegistry::addLibrary(const TmShaderLibrary* library, const std::string& origin) {
@@ -120,14 +164,13 @@ const TmShader* ShaderRegistry::find(const std::string& name, TmKind kind, const
   const std::lock_guard lock(impl_->mutex);
   if (const TmShader* s = impl_->known(name, kind)) return s;
   std::vector<std::string> others;  // plugins of that name without such a shader
-  for (const std::filesystem::path folder : foldersOf(searchPath.empty() ? "." : searchPath)) {
-    const std::filesystem::path file = folder / (name + ".so");
-    std::error_code none;
-    if (!std::filesystem::is_regular_file(file, none) || !impl_->load(file.string())) continue;
+  for (const std::string& file : impl_->trustedFiles(name, searchPath)) {
+    if (!impl_->load(file)) continue;
     if (const TmShader* s = impl_->known(name, kind)) return s;
-    others.push_back(file.string());
+    others.push_back(file);
   }
-  for (const std::string& file : others) impl_->refuse(file, fmt::format("has no {} \"{}\", but {}", kindName(kind), name, impl_->heldBy(file)));
+  for (const std::string& file : others)
+    impl_->refuse(file, fmt::format("has no {} \"{}\", but {}", kindName(kind), name, impl_->heldBy(file)));
   return nullptr;
 }
 

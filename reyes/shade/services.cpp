@@ -8,10 +8,10 @@
 #include "reyes/base/checksum.h"
 #include "reyes/shade/cloud_services.h"
 #include "reyes/shade/light_services.h"
+#include "reyes/shade/lobe.h"
 #include "reyes/shade/messages.h"
 #include "reyes/shade/picture_services.h"
 #include "reyes/shade/primary.h"
-#include "reyes/shade/lobe.h"
 #include "reyes/shade/ray_services.h"
 #include "reyes/shade/spaces.h"
 
@@ -24,7 +24,8 @@ TOMALES_HOT void transformActive(const TmGrid* g, const mat3& m, const vec3& ori
 #pragma GCC ivdep
   for (int i = 0; i < g->count; ++i) {
     const float x = in.x[i], y = in.y[i], z = in.z[i];
-    const float tx = (m[0][0] * x + m[1][0] * y) + (m[2][0] * z + origin.x), ty = (m[0][1] * x + m[1][1] * y) + (m[2][1] * z + origin.y),
+    const float tx = (m[0][0] * x + m[1][0] * y) + (m[2][0] * z + origin.x),
+                ty = (m[0][1] * x + m[1][1] * y) + (m[2][1] * z + origin.y),
                 tz = (m[0][2] * x + m[1][2] * y) + (m[2][2] * z + origin.z);
     out.x[i] = active[i] ? tx : out.x[i], out.y[i] = active[i] ? ty : out.y[i], out.z[i] = active[i] ? tz : out.z[i];
   }
@@ -40,21 +41,23 @@ int32_t transform(void* host, const TmGrid* g, int32_t kind, const char* from, c
   if (!a || !b || (projected && kind != TM_AS_POINT)) {
     forActive(g, [&](int i) { set(out, i, get(in, i)); });
     if (!a || !b)
-      batch.report(Severity::Warning, "shader-space", fmt::format("transforms to or from space \"{}\", which there is not; values stay as they are", a ? to : from));
+      batch.report(Severity::Warning, "shader-space",
+                   fmt::format("transforms to or from space \"{}\", which there is not; values stay as they are",
+                               a ? to : from));
     return 0;
   }
   const TmType type = kind == TM_AS_POINT ? TM_POINT : kind == TM_AS_NORMAL ? TM_NORMAL : TM_VECTOR;
   const mat4 toFromCurrent = glm::inverse(b->currentFromSpace), toFrom = toFromCurrent * a->currentFromSpace;
   if (!projected && (type != TM_POINT || isAffine(toFrom))) {
     const mat3 linear(toFrom);
-    transformActive(g, type == TM_NORMAL ? glm::transpose(glm::inverse(linear)) : linear, type == TM_POINT ? vec3(toFrom[3]) : vec3(0), in, out);
+    transformActive(g, type == TM_NORMAL ? glm::transpose(glm::inverse(linear)) : linear,
+                    type == TM_POINT ? vec3(toFrom[3]) : vec3(0), in, out);
     return 1;
   }
   forActive(g, [&](int i) {
     vec3 p = get(in, i);
     if (!projected) return set(out, i, transformPoint(toFrom, p));
-    p = a->kind == Space::Linear ? transformPoint(a->currentFromSpace, p)
-                                 : currentFromProjected(batch, a->kind, p);
+    p = a->kind == Space::Linear ? transformPoint(a->currentFromSpace, p) : currentFromProjected(batch, a->kind, p);
     p = b->kind == Space::Linear ? transformPoint(toFromCurrent, p) : projectedFromCurrent(batch, b->kind, p);
     set(out, i, p);
   });
@@ -66,7 +69,8 @@ void derivative(void* host, const TmGrid* g, int32_t direction, const float* val
   const bool alongV = direction != 0;
   float* step = batch.arena.floats(g->count);
   if (!batch.stepsOf(g, alongV, value, step))
-    batch.report(Severity::Warning, "shader-derivative", "asks for the derivative of what it has computed, without TM_NEIGHBOURS; it is 0");
+    batch.report(Severity::Warning, "shader-derivative",
+                 "asks for the derivative of what it has computed, without TM_NEIGHBOURS; it is 0");
   const float* size = alongV ? g->dv : g->du;
   forActive(g, [&](int i) { out[i] = size[i] != 0 ? step[i] / size[i] : 0.0f; });
 }
@@ -77,7 +81,8 @@ void calculateNormal(void* host, const TmGrid* g, TmConstVec3 P, TmVec3 out) {
     Grid moved;
     moved.allocate(batch.grid->nu, batch.grid->nv, 1, 0);
     const size_t bytes = static_cast<size_t>(g->count) * sizeof(float);
-    std::memcpy(moved.P(0, 0), P.x, bytes), std::memcpy(moved.P(0, 1), P.y, bytes), std::memcpy(moved.P(0, 2), P.z, bytes);
+    std::memcpy(moved.P(0, 0), P.x, bytes), std::memcpy(moved.P(0, 1), P.y, bytes),
+        std::memcpy(moved.P(0, 2), P.z, bytes);
     const bool flip = batch.scene.scene.objects[static_cast<size_t>(batch.grid->object)].flipsNormal;
     calculateNormals(moved, flip, moved.N(0), moved.N(1), moved.N(2));
     return forActive(g, [&](int i) { set(out, i, moved.normal(i)); });
@@ -102,12 +107,14 @@ void transmission(void* host, const TmGrid* g, TmConstVec3 P, TmConstVec3 toward
 
 void report(void* host, const TmGrid*, int32_t severity, const char* message) {
   const Batch& batch = batchOf(host);
-  // Messages are told apart by how they begin, since a value may follow, and into so many codes: what a shader makes up is not to fill the log.
+  // Messages are told apart by how they begin, since a value may follow, and into so many codes: what a shader makes up
+  // is not to fill the log.
   constexpr size_t kAlike = 24, kCodes = 4096;
   const std::string text = message;
   const uint64_t site = checksum(std::as_bytes(std::span(text).first(std::min(kAlike, text.size())))) % kCodes;
   const bool misses = severity >= 2;
-  batch.report(misses ? Severity::Missing : Severity::Warning, fmt::format("shader-{}-{}", misses ? "misses" : "says", site).c_str(), text);
+  batch.report(misses ? Severity::Missing : Severity::Warning,
+               fmt::format("shader-{}-{}", misses ? "misses" : "says", site).c_str(), text);
 }
 
 void print(void* host, const TmGrid*, const char* text) {
@@ -117,13 +124,43 @@ void print(void* host, const TmGrid*, const char* text) {
 
 }  // namespace
 
-const TmServices kServices = {
-    sizeof(TmServices), diffuse,      specular,        ambient, light,      transform, texture,
-    calculateNormal,    transmission, indirectDiffuse, report,  environment, diffuseOf, shadow,
-    traceRays,          gatherRays,   occlusion,       transmissionWith, rayInfo, rayLabel,
-    lightDensity,       lightAlong,   lobeSamples,     stratified,
-    derivative,         textureWith,  environmentWith, illuminance, ask,   textureInfo,
-    textureOver,        bake3d,       texture3d,       photonMap,   print,
-    subsurface,         hemisphere,   photonMapWith};
+const TmServices kServices = {sizeof(TmServices),
+                              diffuse,
+                              specular,
+                              ambient,
+                              light,
+                              transform,
+                              texture,
+                              calculateNormal,
+                              transmission,
+                              indirectDiffuse,
+                              report,
+                              environment,
+                              diffuseOf,
+                              shadow,
+                              traceRays,
+                              gatherRays,
+                              occlusion,
+                              transmissionWith,
+                              rayInfo,
+                              rayLabel,
+                              lightDensity,
+                              lightAlong,
+                              lobeSamples,
+                              stratified,
+                              derivative,
+                              textureWith,
+                              environmentWith,
+                              illuminance,
+                              ask,
+                              textureInfo,
+                              textureOver,
+                              bake3d,
+                              texture3d,
+                              photonMap,
+                              print,
+                              subsurface,
+                              hemisphere,
+                              photonMapWith};
 
 }  // namespace tomales

@@ -116,7 +116,9 @@ vec3 ShadowMap::shadow(const ShadowReceiver& r, const ShadowLookup& lookup) cons
   };
   view.u = edge(r.edgeU), view.v = edge(r.edgeV);
   const mat4 worldFromCamera = glm::inverse(cameraFromWorld_);
-  const auto texelOfCamera = [&](const vec3& p) { return texelOf(project(ndcFromWorld_, transformPoint(worldFromCamera, p))); };
+  const auto texelOfCamera = [&](const vec3& p) {
+    return texelOf(project(ndcFromWorld_, transformPoint(worldFromCamera, p)));
+  };
   view.center = texelOfCamera({0, 0, 1}), view.scale = texelOfCamera({1, 1, 1}) - view.center;
   view.texel = (perspective_ ? view.P.z : 1) / std::min(std::abs(view.scale.x), std::abs(view.scale.y));
 
@@ -134,7 +136,8 @@ vec3 ShadowMap::shadow(const ShadowReceiver& r, const ShadowLookup& lookup) cons
     const float z = view.depth(middle, reach);
     float bias = lookup.bias;
     if (bias < 0) {
-      // The map holds the nearest depth within a texel; a deep one all depths that its filter reaches. Half a texel more for what is bent.
+      // The map holds the nearest depth within a texel; a deep one all depths that its filter reaches. Half a texel
+      // more for what is bent.
       const vec2 rise(view.depth(middle + vec2(0.5f, 0), reach) - z, view.depth(middle + vec2(0, 0.5f), reach) - z);
       bias = dot(spread_ + 0.5f, glm::abs(rise)) + 0.05f * view.texel + 1e-5f * view.P.z;
     }

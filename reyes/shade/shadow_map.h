@@ -1,5 +1,5 @@
-// Shadow maps for shaders: pictures of depth, or of opacity over depth, that a Display of type "shadow", "zfile" or "deepshad"
-// has left. Threads: concurrent lookups are safe.
+// Shadow maps for shaders: pictures of depth, or of opacity over depth, that a Display of type "shadow", "zfile" or
+// "deepshad" has left. Threads: concurrent lookups are safe.
 #pragma once
 #include <map>
 #include <memory>
@@ -31,9 +31,9 @@ class ShadowMap {
   /// Null: `error` says why.
   static std::unique_ptr<const ShadowMap> read(const std::string& path, std::string& error);
 
-  /// 1: all light is blocked. Percentage-closer filtering (Reeves, Salesin and Cook 1987); in deep maps each sample is one
-  /// less what the opacity before it lets through (Lokovic and Veach 2000). Lit outside the map. The receiver's depth is
-  /// followed along its plane, so that the size of the region asks for no bias.
+  /// 1: all light is blocked. Percentage-closer filtering (Reeves, Salesin and Cook 1987); in deep maps each sample is
+  /// one less what the opacity before it lets through (Lokovic and Veach 2000). Lit outside the map. The receiver's
+  /// depth is followed along its plane, so that the size of the region asks for no bias.
   vec3 shadow(const ShadowReceiver& receiver, const ShadowLookup& lookup) const;
 
  private:
@@ -44,14 +44,14 @@ class ShadowMap {
   struct View;
   vec3 blocked(int x, int y, float z) const;
 
-  int width_ = 0, height_ = 0;       ///< Of the frame,
+  int width_ = 0, height_ = 0;                    ///< Of the frame,
   int x0_ = 0, y0_ = 0, columns_ = 0, rows_ = 0;  ///< and of the part of it that the file holds.
   mat4 cameraFromWorld_{1.0f}, ndcFromWorld_{1.0f};
   mat3 cameraNormalFromWorld_{1.0f};
   bool perspective_ = false;
-  vec2 spread_{1.0f};                ///< Texels, wide and high, of the region whose depths a texel holds.
-  std::vector<float> depth_;         ///< Empty: a deep map.
-  std::vector<size_t> first_;        ///< Of the steps of a texel, one more than there are texels.
+  vec2 spread_{1.0f};          ///< Texels, wide and high, of the region whose depths a texel holds.
+  std::vector<float> depth_;   ///< Empty: a deep map.
+  std::vector<size_t> first_;  ///< Of the steps of a texel, one more than there are texels.
   std::vector<Step> steps_;
 };
 

@@ -68,7 +68,8 @@ Sky::Sky(const Textures& textures, const std::string& picture, const SourceLoc& 
 
 vec3 Sky::sample(const vec3& P, const vec3& N, vec2 xi, float& density) const {
   const float share = portals_.share(P, N);
-  const vec3 L = xi.x < share ? portals_.sample(P, N, {xi.x / share, xi.y}) : openSample(N, {(xi.x - share) / (1 - share), xi.y});
+  const vec3 L =
+      xi.x < share ? portals_.sample(P, N, {xi.x / share, xi.y}) : openSample(N, {(xi.x - share) / (1 - share), xi.y});
   density = this->density(P, N, L);
   return L;
 }
@@ -83,7 +84,8 @@ vec3 Sky::openSample(const vec3& N, vec2 xi) const {
   if (xi.x >= share) return cosineDirection(N, {(xi.x - share) / (1 - share), xi.y});
   double s{xi.x / share}, t{xi.y};
   const size_t j = rows_.pick(t), i = row_[j].pick(s);
-  const vec3 L = latLongDirection({(static_cast<float>(i) + static_cast<float>(s)) / kColumns, (static_cast<float>(j) + static_cast<float>(t)) / kRows});
+  const vec3 L = latLongDirection({(static_cast<float>(i) + static_cast<float>(s)) / kColumns,
+                                   (static_cast<float>(j) + static_cast<float>(t)) / kRows});
   return normalizeOr(glm::transpose(worldFromCurrent_) * L, vec3(0.0f, 0.0f, 1.0f));
 }
 
@@ -94,7 +96,9 @@ float Sky::openDensity(const vec3& N, const vec3& L) const {
 
 float Sky::pictureDensity(const vec3& L) const {
   const vec2 st = latLong(worldFromCurrent_ * L);
-  const auto cell = [](float x, int count) { return static_cast<size_t>(std::clamp(static_cast<int>(x * static_cast<float>(count)), 0, count - 1)); };
+  const auto cell = [](float x, int count) {
+    return static_cast<size_t>(std::clamp(static_cast<int>(x * static_cast<float>(count)), 0, count - 1));
+  };
   const double share = row_[cell(st.y, kRows)].weight(cell(st.x, kColumns)) / rows_.total();
   return static_cast<float>(share * kRows * kColumns / std::max(double{solidAngleAt(st.y)}, 1e-9));
 }
@@ -108,7 +112,9 @@ mat3 skyFromCurrent(const mat4& currentFromSpace) {
 const Sky& Skies::find(const std::string& picture, const SourceLoc& where, const std::string& user) const {
   const std::lock_guard lock(mutex_);
   const auto it = skies_.find(picture);
-  return it != skies_.end() ? it->second : skies_.try_emplace(picture, textures_, picture, where, user, worldFromCurrent_).first->second;
+  return it != skies_.end()
+             ? it->second
+             : skies_.try_emplace(picture, textures_, picture, where, user, worldFromCurrent_).first->second;
 }
 
 }  // namespace tomales

@@ -1,7 +1,7 @@
-// Where a light that is all around, at infinity, is sampled: half by the brightness of its picture, half by the cosine with the normal;
-// without a picture by the cosine alone. A bright sun of a few texels is found by as many samples as it is worth. Before that, most go
-// through portals if there are any.
-// Space: current. Threads: const members may be called concurrently.
+// Where a light that is all around, at infinity, is sampled: half by the brightness of its picture, half by the cosine
+// with the normal; without a picture by the cosine alone. A bright sun of a few texels is found by as many samples as
+// it is worth. Before that, most go through portals if there are any. Space: current. Threads: const members may be
+// called concurrently.
 #pragma once
 #include <map>
 #include <memory>
@@ -16,8 +16,8 @@
 
 namespace tomales {
 
-/// Latitude-longitude pictures (RISpec 3.2, MakeLatLongEnvironment): +z of the world at the top, +x at the left edge, +y a quarter to
-/// the right. s and t in 0..1, t downwards.
+/// Latitude-longitude pictures (RISpec 3.2, MakeLatLongEnvironment): +z of the world at the top, +x at the left edge,
+/// +y a quarter to the right. s and t in 0..1, t downwards.
 vec2 latLong(const vec3& worldDirection);
 vec3 latLongDirection(const vec2& st);
 
@@ -34,7 +34,8 @@ class Sky {
   void setPortals(Portals portals) { portals_ = std::move(portals); }
   const Portals& portals() const { return portals_; }
 
-  /// A unit direction to light a point P with unit normal N by; density over solid angle. N of 0: in the air, lit evenly from all sides.
+  /// A unit direction to light a point P with unit normal N by; density over solid angle. N of 0: in the air, lit
+  /// evenly from all sides.
   vec3 sample(const vec3& P, const vec3& N, vec2 xi, float& density) const;
   float density(const vec3& P, const vec3& N, const vec3& L) const;
 
@@ -55,7 +56,8 @@ mat3 skyFromCurrent(const mat4& currentFromSpace);
 /// Those that shaders name, which stand in the world. Threads: concurrent calls are safe.
 class Skies {
  public:
-  Skies(const Textures& textures, const mat3& worldFromCurrent) : textures_(textures), worldFromCurrent_(worldFromCurrent) {}
+  Skies(const Textures& textures, const mat3& worldFromCurrent)
+      : textures_(textures), worldFromCurrent_(worldFromCurrent) {}
   const Sky& find(const std::string& picture, const SourceLoc& where, const std::string& user) const;
 
  private:

@@ -12,8 +12,7 @@ void rasterScale(const Batch& batch, Space::Kind kind, vec2& scale, vec2& origin
   if (kind == Space::Ndc) scale = {camera.xResolution(), camera.yResolution()};
   if (kind != Space::Screen) return;
   // Screen space is the image plane at z = 1 (orthographic: any), times the focal length.
-  const float focal =
-      camera.perspective() ? 1 / std::tan(batch.scene.scene.options.fov_degrees * kPi / 360) : 1.0f;
+  const float focal = camera.perspective() ? 1 / std::tan(batch.scene.scene.options.fov_degrees * kPi / 360) : 1.0f;
   origin = camera.raster({0, 0, 1});
   scale = (camera.raster({1, 1, 1}) - origin) / focal;
 }
@@ -47,8 +46,10 @@ vec3 currentFromProjected(const Batch& batch, Space::Kind kind, const vec3& p) {
 
 mat3 environmentDirections(const Batch& batch, const char* name) {
   const std::optional<Space> space = findSpace(batch, name ? name : "world");
-  if (space && space->kind == Space::Linear) return mat3(batch.scene.cameraFromWorld) * glm::inverse(mat3(space->currentFromSpace));
-  batch.report(Severity::Warning, "shader-space", fmt::format("looks up an environment in space \"{}\", which there is not; the world is used", name));
+  if (space && space->kind == Space::Linear)
+    return mat3(batch.scene.cameraFromWorld) * glm::inverse(mat3(space->currentFromSpace));
+  batch.report(Severity::Warning, "shader-space",
+               fmt::format("looks up an environment in space \"{}\", which there is not; the world is used", name));
   return mat3(1.0f);
 }
 

@@ -18,8 +18,8 @@ struct Space {
 /// Empty: no such space.
 std::optional<Space> findSpace(const Batch& batch, const std::string& name);
 
-/// From current space to the directions by which environment() finds what a picture shows that stands in the named space (null: "world"). Another
-/// name is told, and the world is used.
+/// From current space to the directions by which environment() finds what a picture shows that stands in the named
+/// space (null: "world"). Another name is told, and the world is used.
 mat3 environmentDirections(const Batch& batch, const char* space);
 
 /// Points only where the space is projected.

@@ -6,8 +6,7 @@
 namespace tomales {
 namespace {
 
-constexpr int kChunk =
-    256;  // points: a few hundred kB of light samples, so a chunk stays in the second-level cache
+constexpr int kChunk = 256;  // points: a few hundred kB of light samples, so a chunk stays in the second-level cache
 
 /// A shader that threw leaves nothing worth showing; one that divides by zero leaves points to black out.
 void repair(Batch& batch, const BoundShader& shader, bool finished) {
@@ -18,8 +17,8 @@ void repair(Batch& batch, const BoundShader& shader, bool finished) {
 
 }  // namespace
 
-ShadingSystem::ShadingSystem(const Scene& scene, ShaderRegistry& registry, const ShadeServices* services,
-                             Log& log, Stats& stats)
+ShadingSystem::ShadingSystem(const Scene& scene, ShaderRegistry& registry, const ShadeServices* services, Log& log,
+                             Stats& stats)
     : impl_(new Impl(scene, registry, log, stats)) {
   setServices(services);
 }
@@ -67,8 +66,7 @@ void ShadingSystem::shade(const ShadePoints& points, const ShadeContext& context
     ShadeContext chunkContext = context;
     chunkContext.chunk = begin / kChunk;
     Batch batch(*impl_, group, chunkContext, *arena);
-    batch.setPoints(chunk, shader, indirectHit ? group.indirectOverrides : group.surfaceOverrides, out,
-                    begin);
+    batch.setPoints(chunk, shader, indirectHit ? group.indirectOverrides : group.surfaceOverrides, out, begin);
     batch.openOutputs(variables, out, begin);
     repair(batch, shader, batch.run(shader, batch.tm));
     batch.closeOutputs(variables, out, begin);
@@ -103,15 +101,19 @@ bool ShadingSystem::asksOcclusion(int group) const {
   const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
   const bool allowed = g.group->attributes->irradianceMaxError.value_or(0.0f) > 0;
   return g.surface->can(TM_OCCLUDED) || std::any_of(g.lights.begin(), g.lights.end(), [&](const BoundLight* l) {
-    const float variation = l->can(TM_OCCLUDED) ? l->bound->number("maxvariation", 1) : 0;
-    return variation < 0 ? allowed : variation > 0;
-  });
+           const float variation = l->can(TM_OCCLUDED) ? l->bound->number("maxvariation", 1) : 0;
+           return variation < 0 ? allowed : variation > 0;
+         });
 }
 
 bool ShadingSystem::needsRays() const {
-  return std::any_of(impl_->lights.begin(), impl_->lights.end(), [](const auto& light) {
-    return light && (light->shadows || light->can(TM_LIGHT_AREA) || light->can(TM_LIGHT_INDIRECT) || light->can(TM_TRACES));
-  }) || std::any_of(impl_->groups.begin(), impl_->groups.end(), [](const BoundGroup& g) { return g.surface->can(TM_TRACES); });
+  return std::any_of(impl_->lights.begin(), impl_->lights.end(),
+                     [](const auto& light) {
+                       return light && (light->shadows || light->can(TM_LIGHT_AREA) || light->can(TM_LIGHT_INDIRECT) ||
+                                        light->can(TM_TRACES));
+                     }) ||
+         std::any_of(impl_->groups.begin(), impl_->groups.end(),
+                     [](const BoundGroup& g) { return g.surface->can(TM_TRACES); });
 }
 
 }  // namespace tomales

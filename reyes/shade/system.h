@@ -18,8 +18,7 @@ class ShaderTimer {
   ShaderTimer(Stats& stats, const BoundShader& shader, int vertices)
       : stats_(stats), shader_(shader), vertices_(vertices), start_(Clock::now()) {}
   ~ShaderTimer() {
-    stats_.addShader(shader_.shader->name, vertices_,
-                     std::chrono::duration<double>(Clock::now() - start_).count());
+    stats_.addShader(shader_.shader->name, vertices_, std::chrono::duration<double>(Clock::now() - start_).count());
   }
   ShaderTimer(const ShaderTimer&) = delete;
 

@@ -46,7 +46,8 @@ Textures::~Textures() {
   s.tileRequests += figures.tileRequests, s.tileMisses += figures.tileMisses, s.bytesRead += figures.bytesRead;
 }
 
-bool Textures::info(const std::string& name, const std::string& what, std::vector<float>& numbers, std::string& text) const {
+bool Textures::info(const std::string& name, const std::string& what, std::vector<float>& numbers,
+                    std::string& text) const {
   return impl_->open() && impl_->cache->info(name, what, numbers, text);
 }
 

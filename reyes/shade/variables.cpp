@@ -15,12 +15,12 @@ struct Standard {
   int width = 3;
 };
 constexpr Standard kStandard[] = {
-    {"P", From::Channel, kPx},       {"N", From::Channel, kNx},       {"Ng", From::Channel, kNgx},
-    {"I", From::Channel, kIx},       {"dPdu", From::Channel, kDpduX}, {"dPdv", From::Channel, kDpdvX},
-    {"u", From::Channel, kU, 1},        {"v", From::Channel, kV, 1},        {"s", From::Channel, kS, 1},
-    {"t", From::Channel, kT, 1},        {"du", From::Channel, kDu, 1},      {"dv", From::Channel, kDv, 1},
-    {"Cs", From::Color, 0},          {"albedo", From::Color, 0},      {"Os", From::Opacity, 0},
-    {"Oi", From::Opacity, 0},        {"normal", From::Normal, 0}};
+    {"P", From::Channel, kPx},   {"N", From::Channel, kNx},       {"Ng", From::Channel, kNgx},
+    {"I", From::Channel, kIx},   {"dPdu", From::Channel, kDpduX}, {"dPdv", From::Channel, kDpdvX},
+    {"u", From::Channel, kU, 1}, {"v", From::Channel, kV, 1},     {"s", From::Channel, kS, 1},
+    {"t", From::Channel, kT, 1}, {"du", From::Channel, kDu, 1},   {"dv", From::Channel, kDv, 1},
+    {"Cs", From::Color, 0},      {"albedo", From::Color, 0},      {"Os", From::Opacity, 0},
+    {"Oi", From::Opacity, 0},    {"normal", From::Normal, 0}};
 
 void find(const Variable& wanted, const BoundGroup& group, BoundVariable& out) {
   if (const int output = group.surface->output(wanted.source, wanted.type); output >= 0) {
@@ -125,8 +125,8 @@ void allocateVariables(const std::vector<BoundVariable>& variables, int count, S
     for (int k = 0; k < v.width; ++k) out.variables.emplace_back(static_cast<size_t>(padded(count)), v.fill);
 }
 
-void storeVariables(const std::vector<BoundVariable>& variables, Batch& batch, const BoundShader& shader, ShadedPoints& out,
-                    int begin) {
+void storeVariables(const std::vector<BoundVariable>& variables, Batch& batch, const BoundShader& shader,
+                    ShadedPoints& out, int begin) {
   LightGroups groups(batch, shader);
   for (const BoundVariable& v : variables) {
     if (v.from == From::Nothing) continue;

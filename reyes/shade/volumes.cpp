@@ -8,10 +8,13 @@ namespace {
 
 constexpr float kFar = 1e30f;
 
-const BoundShader* volumeOf(const BoundGroup& group, bool inside) { return (inside ? group.interior : group.exterior).get(); }
+const BoundShader* volumeOf(const BoundGroup& group, bool inside) {
+  return (inside ? group.interior : group.exterior).get();
+}
 
 /// One volume shader over the colours and opacities at the ends of rays. False: it threw.
-bool run(const BoundScene& scene, const BoundGroup& group, const BoundShader& volume, const ShadeContext& context, ShadePoints& ends, ShadedPoints& out) {
+bool run(const BoundScene& scene, const BoundGroup& group, const BoundShader& volume, const ShadeContext& context,
+         ShadePoints& ends, ShadedPoints& out) {
   const ShaderTimer timer(scene.stats, volume, ends.count());
   ArenaLease arena;
   Batch batch(scene, group, context, *arena);
@@ -22,8 +25,8 @@ bool run(const BoundScene& scene, const BoundGroup& group, const BoundShader& vo
 }
 
 /// Over the rays of `which`.
-void cross(Batch& asking, const BoundShader& volume, const std::vector<int>& which, TmConstVec3 origin, TmConstVec3 direction,
-           const float* distance, TmVec3 color, TmVec3 opacity) {
+void cross(Batch& asking, const BoundShader& volume, const std::vector<int>& which, TmConstVec3 origin,
+           TmConstVec3 direction, const float* distance, TmVec3 color, TmVec3 opacity) {
   const ShadePoints& from = *asking.points;
   ShadePoints ends(from.group(), from.primvarFloats(), from.hasSteps());
   for (int i : which) ends.add(from.name(i));
@@ -44,7 +47,8 @@ void cross(Batch& asking, const BoundShader& volume, const std::vector<int>& whi
 
 }  // namespace
 
-void crossVolumes(Batch& batch, const TmGrid* g, TmConstVec3 origin, TmConstVec3 direction, const float* distance, TmVec3 color, TmVec3 opacity) {
+void crossVolumes(Batch& batch, const TmGrid* g, TmConstVec3 origin, TmConstVec3 direction, const float* distance,
+                  TmVec3 color, TmVec3 opacity) {
   for (const bool inside : {false, true}) {
     const BoundShader* volume = volumeOf(batch.group, inside);
     if (!volume) continue;
@@ -56,7 +60,9 @@ void crossVolumes(Batch& batch, const TmGrid* g, TmConstVec3 origin, TmConstVec3
   }
 }
 
-bool ShadingSystem::hasVolume(int group, bool inside) const { return volumeOf(impl_->groups[static_cast<size_t>(group)], inside) != nullptr; }
+bool ShadingSystem::hasVolume(int group, bool inside) const {
+  return volumeOf(impl_->groups[static_cast<size_t>(group)], inside) != nullptr;
+}
 
 bool ShadingSystem::crossVolume(ShadePoints& ends, bool inside, const ShadeContext& context, ShadedPoints& out) const {
   const BoundGroup& group = impl_->groups[static_cast<size_t>(ends.group())];

@@ -31,8 +31,7 @@ Cells fewest(float alongU, float alongV, int leastU, int leastV) {
   float bestEdge = kInfinity;
   for (const float tried : {std::floor(alongU), std::ceil(alongU), alongU / kLongest}) {
     const int nu = std::max(leastU, static_cast<int>(std::ceil(tried)));
-    const int nv =
-        std::max(leastV, static_cast<int>(std::ceil(kFewer * alongU * alongV / static_cast<float>(nu))));
+    const int nv = std::max(leastV, static_cast<int>(std::ceil(kFewer * alongU * alongV / static_cast<float>(nu))));
     const float edge = std::max(alongU / static_cast<float>(nu), alongV / static_cast<float>(nv));
     const int64_t count = int64_t{nu} * nv, fewestYet = int64_t{best.nu} * best.nv;
     if (best.nu > 0 && (count > fewestYet || (count == fewestYet && edge >= kSquarer * bestEdge))) continue;
@@ -61,8 +60,7 @@ int leastOf(const LineSize& line, float edge_px, float coarsening, bool joins) {
   const float fine = std::ceil(line.px / (kLongest * edge_px)),
               coarse = std::ceil(line.px / (kLongest * edge_px * coarsening));
   const float turning = std::ceil(turnOf(line) / kTurn);
-  const float flat =
-      std::max(within(kFlat_px * coarsening), std::min(turning, std::max(within(kFlat_px), fine)));
+  const float flat = std::max(within(kFlat_px * coarsening), std::min(turning, std::max(within(kFlat_px), fine)));
   const float n = std::max({coarse, std::min(fine, kLeastOfCoarse), static_cast<float>(line.least), flat,
                             joins && 2 * line.bend_px > kOneChord_px ? 2.0f : 1.0f});
   return n >= 1.0f ? static_cast<int>(std::min(n, kMostCells)) : 1;

@@ -10,10 +10,10 @@
 namespace tomales {
 namespace {
 
-constexpr int kMaxDepth = 48;     ///< Halvings of one patch; beyond, the piece is smaller than a float can name.
-/// A bound that is so many times larger than the lines on its piece does not shrink with it: it is rounding, or the circle
-/// in which a ribbon may turn. From some depth on points measured on the piece say where it is, or nothing near the eye would
-/// ever be culled.
+constexpr int kMaxDepth = 48;  ///< Halvings of one patch; beyond, the piece is smaller than a float can name.
+/// A bound that is so many times larger than the lines on its piece does not shrink with it: it is rounding, or the
+/// circle in which a ribbon may turn. From some depth on points measured on the piece say where it is, or nothing near
+/// the eye would ever be culled.
 constexpr float kSlack = 8;
 constexpr int kSlackDepth = 8;
 /// Pieces that one patch may visit: so many times those that cover the window once, and some for small
@@ -23,11 +23,12 @@ constexpr int kSlackDepth = 8;
 constexpr double kLayersOfObject = 128, kLayersOfPatch = 16;
 constexpr double kVisitsOfObject = 1 << 14, kVisitsOfPatch = 1 << 9;
 constexpr float kLeastReach_px = 0.05f;  ///< What vertices are snapped by, and what closes T-vertices.
-/// What a blurred piece costs beyond its visit if it may be seen all over the window: each sample there has to look whether it meets it, and
-/// all buckets wait for its vertices at every key.
+/// What a blurred piece costs beyond its visit if it may be seen all over the window: each sample there has to look
+/// whether it meets it, and all buckets wait for its vertices at every key.
 constexpr double kVisitsOfBlur = 32, kKeysOfBlur = 16;
-constexpr int kRound_cells = 6;        ///< A disk of so many is shaded as one: nothing but P varies over it.
-/// In edges of a micropolygon: a disk whose bound, half as wide again as itself, is no wider takes no more cells however it is measured.
+constexpr int kRound_cells = 6;  ///< A disk of so many is shaded as one: nothing but P varies over it.
+/// In edges of a micropolygon: a disk whose bound, half as wide again as itself, is no wider takes no more cells
+/// however it is measured.
 constexpr float kDot = 3.5f;
 /// Lazily, a patch is halved so often, and what then has so many grids or more is a coarse piece.
 constexpr int kHalvingsAtOnce = 6;
@@ -51,8 +52,8 @@ bool hasMiddle(float from, float to) {
   return from < middle && middle < to;
 }
 
-/// Is a patch bent nowhere, nor shaded as if it were? As a single cell it then reaches farther only by what closes T-vertices, and most small
-/// ones are missed by all samples.
+/// Is a patch bent nowhere, nor shaded as if it were? As a single cell it then reaches farther only by what closes
+/// T-vertices, and most small ones are missed by all samples.
 bool isFlat(const Object& o, uint32_t patch) {
   const std::vector<Primvar>& primvars = o.shape().primvars();
   return o.displacementBound <= 0 && o.shape().info(patch).planar &&
@@ -60,24 +61,37 @@ bool isFlat(const Object& o, uint32_t patch) {
 }
 
 /// Does a whole patch, a particle say, join no neighbour? Nothing is added to its borders then.
-bool isAlone(const Object& o, uint32_t patch) { return o.displacementBound <= 0 && (o.shape().info(patch).openEdges & kAllEdges) == kAllEdges; }
+bool isAlone(const Object& o, uint32_t patch) {
+  return o.displacementBound <= 0 && (o.shape().info(patch).openEdges & kAllEdges) == kAllEdges;
+}
 
 /// Splits the patches of one object.
 class Splitter {
  public:
   /// Pieces that were left out because halving did not help, or there was no time left.
-  struct GivenUp { int64_t atEye = 0, tooMany = 0; };
+  struct GivenUp {
+    int64_t atEye = 0, tooMany = 0;
+  };
 
-  Splitter(const Scene& scene, int object, const Camera& camera, const PixelRect& window, Stats& stats, Splitting splitting,
-           StopFlag stop)
-      : object_(scene.objects[static_cast<size_t>(object)]), index_(object), gridSize_(scene.options.gridSize),
-        longest_(2 * static_cast<int>(std::ceil(std::sqrt(static_cast<double>(gridSize_))))), camera_(camera), window_(window), stats_(stats), lazily_(splitting == Splitting::Lazily), stop_(stop),
+  Splitter(const Scene& scene, int object, const Camera& camera, const PixelRect& window, Stats& stats,
+           Splitting splitting, StopFlag stop)
+      : object_(scene.objects[static_cast<size_t>(object)]),
+        index_(object),
+        gridSize_(scene.options.gridSize),
+        longest_(2 * static_cast<int>(std::ceil(std::sqrt(static_cast<double>(gridSize_))))),
+        camera_(camera),
+        window_(window),
+        stats_(stats),
+        lazily_(splitting == Splitting::Lazily),
+        stop_(stop),
         edge_px_(std::sqrt(std::max(object_.attributes->shadingRate, 1e-4f))) {}
 
   /// May patches like this one be dots? Shapes have nothing but disks, or none.
-  bool hasDots(uint32_t patch) const { return canBeRound(patch) && object_.displacementBound <= 0 && object_.attributes->rasterOrient; }
-  /// Takes a patch that can be seen to be a small disk, or not to be seen, without a measure of it: nothing. Else its bound; it has to be split.
-  /// Pre: hasDots().
+  bool hasDots(uint32_t patch) const {
+    return canBeRound(patch) && object_.displacementBound <= 0 && object_.attributes->rasterOrient;
+  }
+  /// Takes a patch that can be seen to be a small disk, or not to be seen, without a measure of it: nothing. Else its
+  /// bound; it has to be split. Pre: hasDots().
   std::optional<Bound3> takeDot(uint32_t patch, std::vector<SubPatch>& out) {
     if (stopped()) return std::nullopt;
     const Bound3 bare = cameraBound(object_, patch, UvRect{});
@@ -95,12 +109,13 @@ class Splitter {
   }
   /// What is known of a whole patch before it is split.
   struct Known {
-    PatchSize size;             ///< By measureWhole().
+    PatchSize size;                ///< By measureWhole().
     const Bound3* bare = nullptr;  ///< cameraBound(); null: nobody has asked.
   };
   void splitPatch(uint32_t patch, const Known& known, std::vector<SubPatch>& out) {
     const double patches = object_.shape().patchCount();
-    const double layers = std::max(kLayersOfObject / patches, kLayersOfPatch), least = std::max(kVisitsOfObject / patches, kVisitsOfPatch);
+    const double layers = std::max(kLayersOfObject / patches, kLayersOfPatch),
+                 least = std::max(kVisitsOfObject / patches, kVisitsOfPatch);
     splitWithin(static_cast<int64_t>(least + layers * gridsOver(pixelsOf(window_))), patch, UvRect{}, 0, &known, out);
   }
   void splitPiece(const SubPatch& coarse, std::vector<SubPatch>& out) {
@@ -112,7 +127,8 @@ class Splitter {
  private:
   /// Coarse pieces inherit what is left of the visits, in proportion to those that they are expected to take:
   /// however deep they are nested, a patch takes no more than it was given.
-  void splitWithin(int64_t visits, uint32_t patch, const UvRect& rect, int depth, const Known* known, std::vector<SubPatch>& out) {
+  void splitWithin(int64_t visits, uint32_t patch, const UvRect& rect, int depth, const Known* known,
+                   std::vector<SubPatch>& out) {
     const auto first = static_cast<ptrdiff_t>(out.size());
     start_ = depth, budget_ = visits, flat_ = isFlat(object_, patch), alone_ = isAlone(object_, patch);
     split(patch, rect, depth, known, out);
@@ -120,7 +136,8 @@ class Splitter {
     double shares = 0;
     for (auto p = out.begin() + first; p != out.end(); ++p) shares += share(*p);
     for (auto p = out.begin() + first; p != out.end(); ++p)
-      if (p->coarse) p->visits = static_cast<int64_t>(share(*p) / shares * static_cast<double>(std::max<int64_t>(budget_, 0)));
+      if (p->coarse)
+        p->visits = static_cast<int64_t>(share(*p) / shares * static_cast<double>(std::max<int64_t>(budget_, 0)));
   }
 
   /// known: null if nothing is.
@@ -162,8 +179,8 @@ class Splitter {
         out.push_back({index_, patch, rect, 1, 1, rasterOf(bound, reach_px), bound.lo.z, false, 0, false, 0, true});
       else
         out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, reach_px), bound.lo.z, crossesEye, depth, false});
-    } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && gridsOf(nu, nv) >= kGridsOfCoarse &&
-               !crossesEye && isOfOneScale(bare) && glm::length(bare.size()) <= kSlack * reach) {
+    } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && gridsOf(nu, nv) >= kGridsOfCoarse && !crossesEye &&
+               isOfOneScale(bare) && glm::length(bare.size()) <= kSlack * reach) {
       // Halving shrinks such a piece and its bound as it should, so that its grids can be foretold.
       out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, reach_px), bound.lo.z, crossesEye, depth, true});
     } else if (depth == kMaxDepth || !(hasMiddle(rect.u0, rect.u1) || hasMiddle(rect.v0, rect.v1))) {
@@ -187,7 +204,8 @@ class Splitter {
       ++(depth == kMaxDepth && bound.lo.z < glm::length(bound.size()) ? givenUp_.atEye : givenUp_.tooMany);
   }
 
-  /// A long and narrow piece would be diced whole for the end that is seen. What was measured of it holds for its parts.
+  /// A long and narrow piece would be diced whole for the end that is seen. What was measured of it holds for its
+  /// parts.
   void cutAcross(uint32_t patch, const UvRect& rect, int depth, int nu, int nv, std::vector<SubPatch>& out) {
     const bool alongU = nu >= nv;
     int& cellsAlong = alongU ? nu : nv;
@@ -209,14 +227,13 @@ class Splitter {
         continue;
       }
       const Bound3 bound = bare.grown(object_.displacementBound);
-      out.push_back({index_, patch, part, nu, nv, rasterOf(bound, borderReach_px(object_.displacementBound)), bound.lo.z, false, depth, false});
+      out.push_back({index_, patch, part, nu, nv, rasterOf(bound, borderReach_px(object_.displacementBound)),
+                     bound.lo.z, false, depth, false});
     }
   }
 
   /// Is all of it seen at about the same scale? Else what its near end takes says nothing about most of it.
-  bool isOfOneScale(const Bound3& bare) const {
-    return !camera_.perspective() || bare.hi.z <= kDeepest * bare.lo.z;
-  }
+  bool isOfOneScale(const Bound3& bare) const { return !camera_.perspective() || bare.hi.z <= kDeepest * bare.lo.z; }
 
   int64_t visitsOfBlur(const Bound2& raster) const {
     const double keys = 1 + static_cast<double>(object_.keyTimes.size()) / kKeysOfBlur;
@@ -225,7 +242,8 @@ class Splitter {
   int64_t gridsOf(int nu, int nv) const { return static_cast<int64_t>(nu) * nv / gridSize_; }
   /// Width and height of what the window shows of a bound.
   glm::dvec2 sizeInView_px(const Bound2& raster) const {
-    const vec2 lo = glm::max(raster.lo, vec2(window_.x0, window_.y0)), hi = glm::min(raster.hi, vec2(window_.x1, window_.y1));
+    const vec2 lo = glm::max(raster.lo, vec2(window_.x0, window_.y0)),
+               hi = glm::min(raster.hi, vec2(window_.x1, window_.y1));
     return glm::max(hi - lo, vec2(0));
   }
   double inView_px(const Bound2& raster) const {
@@ -248,7 +266,9 @@ class Splitter {
 
   bool stopped() const { return stop_ && stop_->load(std::memory_order_relaxed); }
   /// Is it a whole disk of which one cell, without corners or neighbours, tells all?
-  bool canBeRound(uint32_t patch) const { return standsStillInFocus(object_, camera_) && object_.shape().info(patch).disk; }
+  bool canBeRound(uint32_t patch) const {
+    return standsStillInFocus(object_, camera_) && object_.shape().info(patch).disk;
+  }
   bool cannotBeSeen(const Bound3& bare) const {
     const Bound3 bound = bare.grown(object_.displacementBound);
     if (!isFinite(bound.lo) || !isFinite(bound.hi)) return true;
@@ -284,8 +304,8 @@ class Splitter {
   const bool lazily_;
   const StopFlag stop_;
   const float edge_px_;
-  int start_ = 0;       ///< Depth of what is being split.
-  int64_t budget_ = 0;  ///< Pieces that may still be visited.
+  int start_ = 0;                      ///< Depth of what is being split.
+  int64_t budget_ = 0;                 ///< Pieces that may still be visited.
   bool flat_ = false, alone_ = false;  ///< The patch
   GivenUp givenUp_;
 };
@@ -298,10 +318,11 @@ void report(const Splitter::GivenUp& givenUp, const Object& o, Stats& stats, Log
                            "Clipping near by hand if it shows",
                            objectName(o)));
   if (givenUp.tooMany > 0)
-    log.report(Severity::Missing, "split-too-many", o.where,
-               fmt::format("{} cannot be cut into pieces of the size of a grid: its coordinates, its displacement bound, "
-                           "its blur or the magnification are too large; parts are not drawn",
-                           objectName(o)));
+    log.report(
+        Severity::Missing, "split-too-many", o.where,
+        fmt::format("{} cannot be cut into pieces of the size of a grid: its coordinates, its displacement bound, "
+                    "its blur or the magnification are too large; parts are not drawn",
+                    objectName(o)));
 }
 
 /// split(splitter, pieces) does it; the rest is the same for patches and pieces.
@@ -316,9 +337,11 @@ std::vector<SubPatch> piecesBy(Splitter splitter, const Object& object, Stats& s
 
 }  // namespace
 
-std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<const uint32_t> patches, const Camera& camera,
-                                   const PixelRect& window, Stats& stats, Log& log, Splitting splitting, StopFlag stop) {
-  return piecesBy(Splitter(scene, object, camera, window, stats, splitting, stop), scene.objects[static_cast<size_t>(object)], stats, log,
+std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<const uint32_t> patches,
+                                   const Camera& camera, const PixelRect& window, Stats& stats, Log& log,
+                                   Splitting splitting, StopFlag stop) {
+  return piecesBy(Splitter(scene, object, camera, window, stats, splitting, stop),
+                  scene.objects[static_cast<size_t>(object)], stats, log,
                   [&](Splitter& splitter, std::vector<SubPatch>& out) {
                     const Object& o = scene.objects[static_cast<size_t>(object)];
                     prefetch(o.shape(), patches, [](uint32_t patch) { return patch; });
@@ -326,15 +349,17 @@ std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<con
                     std::vector<Bound3> bounds;
                     const bool dots = !patches.empty() && splitter.hasDots(patches[0]);
                     for (size_t i = 0; dots && i < patches.size(); ++i)
-                      if (const auto bare = splitter.takeDot(patches[i], out)) others.push_back(patches[i]), bounds.push_back(*bare);
+                      if (const auto bare = splitter.takeDot(patches[i], out))
+                        others.push_back(patches[i]), bounds.push_back(*bare);
                     const std::span<const uint32_t> left = dots ? std::span<const uint32_t>(others) : patches;
                     const std::vector<PatchSize> sizes = measureWhole(o, camera, left);
-                    for (size_t i = 0; i < left.size(); ++i) splitter.splitPatch(left[i], {sizes[i], dots ? &bounds[i] : nullptr}, out);
+                    for (size_t i = 0; i < left.size(); ++i)
+                      splitter.splitPatch(left[i], {sizes[i], dots ? &bounds[i] : nullptr}, out);
                   });
 }
 
-std::vector<SubPatch> splitPiece(const Scene& scene, const SubPatch& coarse, const Camera& camera, const PixelRect& window,
-                                 Stats& stats, Log& log, StopFlag stop) {
+std::vector<SubPatch> splitPiece(const Scene& scene, const SubPatch& coarse, const Camera& camera,
+                                 const PixelRect& window, Stats& stats, Log& log, StopFlag stop) {
   return piecesBy(Splitter(scene, coarse.object, camera, window, stats, Splitting::Lazily, stop),
                   scene.objects[static_cast<size_t>(coarse.object)], stats, log,
                   [&](Splitter& splitter, std::vector<SubPatch>& out) { splitter.splitPiece(coarse, out); });

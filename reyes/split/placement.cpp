@@ -10,7 +10,8 @@ Bound3 boundThrough(const mat4& m, const Bound3& b) {
   if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1) return transformBound(m, b);
   const vec3 x0 = vec3(m[0]) * b.lo.x, x1 = vec3(m[0]) * b.hi.x, y0 = vec3(m[1]) * b.lo.y, y1 = vec3(m[1]) * b.hi.y;
   const vec3 z0 = vec3(m[2]) * b.lo.z, z1 = vec3(m[2]) * b.hi.z, origin(m[3]);
-  return {(glm::min(x0, x1) + glm::min(y0, y1)) + (glm::min(z0, z1) + origin), (glm::max(x0, x1) + glm::max(y0, y1)) + (glm::max(z0, z1) + origin)};
+  return {(glm::min(x0, x1) + glm::min(y0, y1)) + (glm::min(z0, z1) + origin),
+          (glm::max(x0, x1) + glm::max(y0, y1)) + (glm::max(z0, z1) + origin)};
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Lines of a lattice of probes over a rectangle are measured chord by chord. Whole patches are measured sixteen at a time, a vector of them
-// at each step: most scenes with many patches have small ones.
+// Lines of a lattice of probes over a rectangle are measured chord by chord. Whole patches are measured sixteen at a
+// time, a vector of them at each step: most scenes with many patches have small ones.
 #include "reyes/split/rate.h"
 
 #include <cmath>
@@ -35,19 +35,23 @@ struct Sizes {
 /// The part of a second difference that lies across the line; what lies along it is mere speed.
 inline float bend(float x0, float y0, float x1, float y1, float x2, float y2) {
   const float alongX = x2 - x0, alongY = y2 - y0, secondX = x2 - 2.0f * x1 + x0, secondY = y2 - 2.0f * y1 + y0;
-  const float length = std::sqrt(alongX * alongX + alongY * alongY), second = std::sqrt(secondX * secondX + secondY * secondY);
+  const float length = std::sqrt(alongX * alongX + alongY * alongY),
+              second = std::sqrt(secondX * secondX + secondY * secondY);
   const float across = std::abs(alongX * secondY - alongY * secondX) / length;
   const float finite = across < kInfinity ? across : 0.0f;
   return length > 1e-3f * second ? finite : second;  // else there and back
 }
 
-/// Chords that a line takes, however short it is, to enclose something: it bends round (a meridian), or closes on itself (a parallel).
-inline int leastCells(float length, float endToEnd) { return endToEnd < 0.3f * length ? 6 : endToEnd < 0.8f * length ? 4 : 1; }
+/// Chords that a line takes, however short it is, to enclose something: it bends round (a meridian), or closes on
+/// itself (a parallel).
+inline int leastCells(float length, float endToEnd) {
+  return endToEnd < 0.3f * length ? 6 : endToEnd < 0.8f * length ? 4 : 1;
+}
 
 /// The line of points first, first + step, ...; where it is longer than what `out` has, that grows.
 template <class L>
-[[gnu::always_inline]] inline void measureLine(const L& __restrict at, int first, int step, const Camera& camera, bool asSeen,
-                                               typename Sizes<L::kPatches>::Line& __restrict out) {
+[[gnu::always_inline]] inline void measureLine(const L& __restrict at, int first, int step, const Camera& camera,
+                                               bool asSeen, typename Sizes<L::kPatches>::Line& __restrict out) {
   constexpr int n = L::kPatches;
   float length_px[n] = {}, length[n] = {}, chord[n];
   for (int k = 0; k < L::kProbes; ++k) {
@@ -62,17 +66,20 @@ template <class L>
       length_px[i] += std::sqrt(dx * dx + dy * dy);
     }
     // Without rasterorient a micropolygon is as large as if it faced the camera (rispec-table 4, dice:rasterorient).
-    for (int i = 0; !asSeen && i < n; ++i) length_px[i] += chord[i] / camera.pixelSize({at.x[a][i], at.y[a][i], at.z[a][i]});
+    for (int i = 0; !asSeen && i < n; ++i)
+      length_px[i] += chord[i] / camera.pixelSize({at.x[a][i], at.y[a][i], at.z[a][i]});
     if (k == 0) continue;
     const int c = a - step;
     for (int i = 0; i < n; ++i) {
-      const float bends = bend(at.rasterX[c][i], at.rasterY[c][i], at.rasterX[a][i], at.rasterY[a][i], at.rasterX[b][i], at.rasterY[b][i]);
+      const float bends = bend(at.rasterX[c][i], at.rasterY[c][i], at.rasterX[a][i], at.rasterY[a][i], at.rasterX[b][i],
+                               at.rasterY[b][i]);
       out.bend_px[i] = out.bend_px[i] < bends ? bends : out.bend_px[i];
     }
   }
   const int last = first + L::kProbes * step;
   for (int i = 0; i < n; ++i) {
-    const float dx = at.x[last][i] - at.x[first][i], dy = at.y[last][i] - at.y[first][i], dz = at.z[last][i] - at.z[first][i];
+    const float dx = at.x[last][i] - at.x[first][i], dy = at.y[last][i] - at.y[first][i],
+                dz = at.z[last][i] - at.z[first][i];
     const int least = leastCells(length[i], std::sqrt(dx * dx + dy * dy + dz * dz));
     out.least[i] = out.least[i] < least ? least : out.least[i];
     out.length[i] = out.length[i] < length[i] ? length[i] : out.length[i];
@@ -80,9 +87,11 @@ template <class L>
   }
 }
 
-/// Twice the area of the triangle at `a` whose sides go to `b` and `c`, in pixels; where that is more than `out` has, that grows.
+/// Twice the area of the triangle at `a` whose sides go to `b` and `c`, in pixels; where that is more than `out` has,
+/// that grows.
 template <class L>
-[[gnu::always_inline]] inline void measureCorner(const L& __restrict at, int a, int b, int c, const Camera& camera, bool asSeen, float* __restrict out) {
+[[gnu::always_inline]] inline void measureCorner(const L& __restrict at, int a, int b, int c, const Camera& camera,
+                                                 bool asSeen, float* __restrict out) {
   constexpr int n = L::kPatches;
   float area[n];
   for (int i = 0; asSeen && i < n; ++i) {
@@ -92,7 +101,8 @@ template <class L>
   }
   for (int i = 0; !asSeen && i < n; ++i) {
     const vec3 o{at.x[a][i], at.y[a][i], at.z[a][i]};
-    const vec3 across = cross(vec3(at.x[b][i], at.y[b][i], at.z[b][i]) - o, vec3(at.x[c][i], at.y[c][i], at.z[c][i]) - o);
+    const vec3 across =
+        cross(vec3(at.x[b][i], at.y[b][i], at.z[b][i]) - o, vec3(at.x[c][i], at.y[c][i], at.z[c][i]) - o);
     const float size = camera.pixelSize(o);
     area[i] = std::sqrt(dot(across, across)) / (size * size);
   }
@@ -101,7 +111,8 @@ template <class L>
 
 /// As if all were as large as the largest between two lines of probes each.
 template <class L>
-[[gnu::always_inline]] inline void measureArea(const L& __restrict at, const Camera& camera, bool asSeen, float* __restrict out) {
+[[gnu::always_inline]] inline void measureArea(const L& __restrict at, const Camera& camera, bool asSeen,
+                                               float* __restrict out) {
   for (int i = 0; i < L::kPatches; ++i) out[i] = 0;
   for (int v = 0; v < L::kProbes; ++v)
     for (int u = 0; u < L::kProbes; ++u) {
@@ -137,20 +148,24 @@ template <class L>
 }
 
 template <int kCount, int kPatches>
-[[gnu::always_inline]] inline void boundPoints(const float (&at)[kCount][kPatches], float* __restrict lo, float* __restrict hi) {
+[[gnu::always_inline]] inline void boundPoints(const float (&at)[kCount][kPatches], float* __restrict lo,
+                                               float* __restrict hi) {
   for (int i = 0; i < kPatches; ++i) lo[i] = kInfinity, hi[i] = -kInfinity;
   for (int k = 0; k < kCount; ++k)
-    for (int i = 0; i < kPatches; ++i) lo[i] = at[k][i] < lo[i] ? at[k][i] : lo[i], hi[i] = hi[i] < at[k][i] ? at[k][i] : hi[i];
+    for (int i = 0; i < kPatches; ++i)
+      lo[i] = at[k][i] < lo[i] ? at[k][i] : lo[i], hi[i] = hi[i] < at[k][i] ? at[k][i] : hi[i];
 }
 
 template <class L>
-[[gnu::always_inline]] inline void measureLattice(L& __restrict at, const mat4& m, const Camera& camera, bool asSeen, Sizes<L::kPatches>& __restrict out) {
+[[gnu::always_inline]] inline void measureLattice(L& __restrict at, const mat4& m, const Camera& camera, bool asSeen,
+                                                  Sizes<L::kPatches>& __restrict out) {
   place(at, m, camera);
   boundPoints(at.x, out.lo[0], out.hi[0]);
   boundPoints(at.y, out.lo[1], out.hi[1]);
   boundPoints(at.z, out.lo[2], out.hi[2]);
   for (auto* longest : {&out.u, &out.v})
-    for (int i = 0; i < L::kPatches; ++i) longest->px[i] = longest->length[i] = longest->bend_px[i] = 0, longest->least[i] = 1;
+    for (int i = 0; i < L::kPatches; ++i)
+      longest->px[i] = longest->length[i] = longest->bend_px[i] = 0, longest->least[i] = 1;
   for (int line = 0; line < L::kRow; ++line) {
     measureLine(at, line * L::kRow, 1, camera, asSeen, out.u);
     measureLine(at, line, L::kRow, camera, asSeen, out.v);
@@ -160,15 +175,17 @@ template <class L>
 
 // The lines of a flat patch are straight, and the longest is one of its edges.
 constexpr int kFlatProbes = 1, kCurvedProbes = 4;
-/// Along u a triangle (edge v = 1 has no length) is, in the mean of squares, this much of its foot: in the mean its cells are smaller than the
-/// rate asks, and the largest, at its foot, have 1.4 times the area.
+/// Along u a triangle (edge v = 1 has no length) is, in the mean of squares, this much of its foot: in the mean its
+/// cells are smaller than the rate asks, and the largest, at its foot, have 1.4 times the area.
 constexpr float kTriangle = 0.70710678f;
 
 // Target clones are no templates.
-TOMALES_HOT void measureHot(Lattice<1, kLanes>& at, const mat4& m, const Camera& camera, bool asSeen, Sizes<kLanes>& out) {
+TOMALES_HOT void measureHot(Lattice<1, kLanes>& at, const mat4& m, const Camera& camera, bool asSeen,
+                            Sizes<kLanes>& out) {
   measureLattice(at, m, camera, asSeen, out);
 }
-TOMALES_HOT void measureHot(Lattice<4, kLanes>& at, const mat4& m, const Camera& camera, bool asSeen, Sizes<kLanes>& out) {
+TOMALES_HOT void measureHot(Lattice<4, kLanes>& at, const mat4& m, const Camera& camera, bool asSeen,
+                            Sizes<kLanes>& out) {
   measureLattice(at, m, camera, asSeen, out);
 }
 template <int kProbes>
@@ -222,12 +239,14 @@ void measureSome(const Object& o, const Pose& pose, const Camera& camera, int co
   for (int i = 0; i < count; ++i) {
     const auto &su = sizes.u, &sv = sizes.v;
     constexpr int c = L::kCount - L::kRow, d = L::kCount - 1;
-    const bool triangle = kProbes == kFlatProbes && at.x[c][i] == at.x[d][i] && at.y[c][i] == at.y[d][i] && at.z[c][i] == at.z[d][i];
+    const bool triangle =
+        kProbes == kFlatProbes && at.x[c][i] == at.x[d][i] && at.y[c][i] == at.y[d][i] && at.z[c][i] == at.z[d][i];
     const float share = triangle ? kTriangle : 1.0f;
-    put(i, PatchSize{{share * su.px[i], su.length[i], su.least[i], su.bend_px[i]},
-                     {sv.px[i], sv.length[i], sv.least[i], sv.bend_px[i]},
-                     share * sizes.area_px2[i],
-                     {{sizes.lo[0][i], sizes.lo[1][i], sizes.lo[2][i]}, {sizes.hi[0][i], sizes.hi[1][i], sizes.hi[2][i]}}});
+    put(i, PatchSize{
+               {share * su.px[i], su.length[i], su.least[i], su.bend_px[i]},
+               {sv.px[i], sv.length[i], sv.least[i], sv.bend_px[i]},
+               share * sizes.area_px2[i],
+               {{sizes.lo[0][i], sizes.lo[1][i], sizes.lo[2][i]}, {sizes.hi[0][i], sizes.hi[1][i], sizes.hi[2][i]}}});
   }
 }
 
@@ -254,8 +273,8 @@ void measureThose(bool planar, const Object& o, const Pose& pose, const Camera& 
   for (size_t first = 0; first < these.size(); first += kLanes) {
     const int count = static_cast<int>(std::min<size_t>(kLanes, these.size() - first));
     measureSome<kProbes, kLanes>(
-        o, pose, camera, count, [&](int i) { return patches[these[first + static_cast<size_t>(i)]]; },
-        UvRect{}, [&](int i, const PatchSize& size) { put(these[first + static_cast<size_t>(i)], size); });
+        o, pose, camera, count, [&](int i) { return patches[these[first + static_cast<size_t>(i)]]; }, UvRect{},
+        [&](int i, const PatchSize& size) { put(these[first + static_cast<size_t>(i)], size); });
   }
 }
 
@@ -263,8 +282,8 @@ void measureThose(bool planar, const Object& o, const Pose& pose, const Camera& 
 
 void PatchSize::extend(const PatchSize& other) {
   for (const auto& [line, more] : {std::pair(&u, &other.u), std::pair(&v, &other.v)})
-    *line = {std::max(line->px, more->px), std::max(line->length, more->length),
-             std::max(line->least, more->least), std::max(line->bend_px, more->bend_px)};
+    *line = {std::max(line->px, more->px), std::max(line->length, more->length), std::max(line->least, more->least),
+             std::max(line->bend_px, more->bend_px)};
   area_px2 = std::max(area_px2, other.area_px2);
   probes.extend(other.probes);
 }

@@ -16,7 +16,7 @@ struct LineSize {
 struct PatchSize {
   LineSize u, v;
   float area_px2 = 0;  ///< u.px * v.px or less, as the lines cross at a slant: of the largest part, for all.
-  Bound3 probes;  ///< Around the points that were measured, in camera space.
+  Bound3 probes;       ///< Around the points that were measured, in camera space.
   /// What is larger of either.
   void extend(const PatchSize& other);
 };
@@ -27,10 +27,10 @@ std::vector<PatchSize> measureWhole(const Object& object, const Camera& camera, 
 struct Cells {
   int nu, nv;
 };
-/// Cells of a piece: as few as have the area edge_px^2 in raster space, with edges up to half as long again where lines cross at a slant or counts are
-/// rounded; fewer where blur lets edges grow by `coarsening`, but never so few, `least`, that the shape collapses, and so many that chords are
-/// flat (docs/decisions/0034, 0050). Binary: powers of two. joins: its
-/// edges meet others.
+/// Cells of a piece: as few as have the area edge_px^2 in raster space, with edges up to half as long again where lines
+/// cross at a slant or counts are rounded; fewer where blur lets edges grow by `coarsening`, but never so few, `least`,
+/// that the shape collapses, and so many that chords are flat (docs/decisions/0034, 0050). Binary: powers of two.
+/// joins: its edges meet others.
 Cells cells(const PatchSize& size, float edge_px, float coarsening, bool binary, bool joins);
 
 }  // namespace tomales

@@ -5,7 +5,8 @@
 using namespace sl;
 
 namespace {
-rsl::StringParam map("map", "", "brick map of irradiance"), texturename("texturename", "", "picture of the colour; none: irradiance alone");
+rsl::StringParam map("map", "", "brick map of irradiance"),
+    texturename("texturename", "", "picture of the colour; none: irradiance alone");
 
 struct atlasview : Surface {
   void main() {
@@ -15,7 +16,8 @@ struct atlasview : Surface {
     Oi = Os;
   }
 };
-const rsl::Shader shader(TM_SURFACE, "atlasview", "irradiance of a brick map", TM_KEEPS_OPACITY | TM_DERIVATIVES, sl::shade<atlasview>, {&map, &texturename});
+const rsl::Shader shader(TM_SURFACE, "atlasview", "irradiance of a brick map", TM_KEEPS_OPACITY | TM_DERIVATIVES,
+                         sl::shade<atlasview>, {&map, &texturename});
 }  // namespace
 
 TM_SHADER_LIBRARY(shader)

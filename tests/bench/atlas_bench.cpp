@@ -1,4 +1,5 @@
-// The passes of the irradiance atlas after the photons, on photons as even as those of a closed room: CPU seconds of one thread.
+// The passes of the irradiance atlas after the photons, on photons as even as those of a closed room: CPU seconds of
+// one thread.
 //     bench_atlas [photons]
 #include <fmt/format.h>
 
@@ -37,7 +38,8 @@ PointCloud photonsInARoom(uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) {
     const vec2 at = sobol2(i, 7);
     const uint32_t face = hashCombine(i, 3) % 7;
-    const vec3 power(1.0f / static_cast<float>(count), 0.5f * (1 + at.x) / static_cast<float>(count), 0.2f / static_cast<float>(count));
+    const vec3 power(1.0f / static_cast<float>(count), 0.5f * (1 + at.x) / static_cast<float>(count),
+                     0.2f / static_cast<float>(count));
     if (face == 6) {
       const float z = 1 - 2 * at.x, phi = 2 * kPi * at.y, r = std::sqrt(std::max(0.0f, 1 - z * z));
       const vec3 n(r * std::cos(phi), r * std::sin(phi), z);
@@ -66,7 +68,8 @@ void bench(uint32_t count) {
   writePointFile(every4, points);
   const PointCloud few = PointFile(points).readAll();
   const float mean = static_cast<float>(PointTiles(PointFile(points)).meanOfData());
-  measure("bricks of every 4th", static_cast<double>(few.count()), [&] { writeBrickMap(few, {.maxError = 0.03f * mean, .coarseness = 2}, bricks); });
+  measure("bricks of every 4th", static_cast<double>(few.count()),
+          [&] { writeBrickMap(few, {.maxError = 0.03f * mean, .coarseness = 2}, bricks); });
   measure("point file", static_cast<double>(all.count()), [&] { writePointFile(all, points); });
   PointCloud read;
   measure("read again", static_cast<double>(all.count()), [&] { read = PointFile(points).readAll(); });
@@ -74,20 +77,23 @@ void bench(uint32_t count) {
     BuiltBricks built;
     measure(fmt::format("bricks, maxerror {}", error).c_str(), static_cast<double>(read.count()),
             [&] { built = writeBrickMap(read, {error * mean}, bricks); });
-    fmt::print("  {} bricks, {} left out, {} levels, {} bytes\n", built.tree.nodes.size(), built.eliminated, built.tree.deepest + 1, fs::file_size(bricks));
+    fmt::print("  {} bricks, {} left out, {} levels, {} bytes\n", built.tree.nodes.size(), built.eliminated,
+               built.tree.deepest + 1, fs::file_size(bricks));
   }
   writeBrickMap(read, {0.03f * mean}, bricks);
   BrickCache cache(size_t{1} << 30);
   const BrickMap map(bricks, cache);
   vec3 E, sum(0.0f);
   const auto lookAll = [&](float radius, size_t step) {
-    for (size_t i = 0; i < read.count(); i += step) map.lookup(read.position[i], read.normal[i], radius, &E.x), sum += E;
+    for (size_t i = 0; i < read.count(); i += step)
+      map.lookup(read.position[i], read.normal[i], radius, &E.x), sum += E;
   };
   lookAll(0.002f, 1), lookAll(0.02f, 1);
   measure("lookups, coherent, fine", static_cast<double>(read.count()), [&] { lookAll(0.002f, 1); });
   measure("lookups, coherent, wide", static_cast<double>(read.count()), [&] { lookAll(0.02f, 1); });
   measure("lookups, incoherent", static_cast<double>(read.count()), [&] {
-    for (size_t i = 0, at = 0; i < read.count(); ++i, at = (at + 7919) % read.count()) map.lookup(read.position[at], read.normal[at], 0.01f, &E.x), sum += E;
+    for (size_t i = 0, at = 0; i < read.count(); ++i, at = (at + 7919) % read.count())
+      map.lookup(read.position[at], read.normal[at], 0.01f, &E.x), sum += E;
   });
   fs::remove_all(folder);
 }
@@ -95,6 +101,4 @@ void bench(uint32_t count) {
 }  // namespace
 }  // namespace tomales
 
-int main(int argc, char** argv) {
-  tomales::bench(argc > 1 ? static_cast<uint32_t>(std::atoi(argv[1])) : 1'000'000);
-}
+int main(int argc, char** argv) { tomales::bench(argc > 1 ? static_cast<uint32_t>(std::atoi(argv[1])) : 1'000'000); }

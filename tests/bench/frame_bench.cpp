@@ -1,6 +1,6 @@
-// Micropolygons a second through dice + hide: splitting, dicing, projecting, sampling and resolving a whole frame into points to shade, of
-// which none is shaded, filtered or written. 1024 x 768 pixels, 16 samples each, shading rate 1, matte, one light; one thread, user seconds,
-// the least of several runs. What counts is what was diced, seen or not.
+// Micropolygons a second through dice + hide: splitting, dicing, projecting, sampling and resolving a whole frame into
+// points to shade, of which none is shaded, filtered or written. 1024 x 768 pixels, 16 samples each, shading rate 1,
+// matte, one light; one thread, user seconds, the least of several runs. What counts is what was diced, seen or not.
 //     bench_frame [RUNS] [SCENE]
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -29,7 +29,9 @@ std::string spheres(double step_px) {
     const double x = i % 16 - 7.5, y = i / 16 - 5.5, turn = 2.4 * i, step = step_px / 64;
     const std::string from = fmt::format("Translate {} {} {} ", x, y, i % 3);
     out += "TransformBegin " + from;
-    if (step_px > 0) out += fmt::format("MotionBegin [0 1] Translate 0 0 0 Translate {} {} 0 MotionEnd ", step * std::cos(turn), step * std::sin(turn));
+    if (step_px > 0)
+      out += fmt::format("MotionBegin [0 1] Translate 0 0 0 Translate {} {} 0 MotionEnd ", step * std::cos(turn),
+                         step * std::sin(turn));
     out += "Sphere 0.62 -0.62 0.62 360 TransformEnd\n";
   }
   return out;
@@ -38,7 +40,8 @@ std::string spheres(double step_px) {
 /// All of a sheet is seen.
 std::string sheet(double step_px) {
   std::string out;
-  if (step_px > 0) out += fmt::format("MotionBegin [0 1] Translate 0 0 0 Translate {0} {0} 0 MotionEnd ", step_px / 64 / std::sqrt(2));
+  if (step_px > 0)
+    out += fmt::format("MotionBegin [0 1] Translate 0 0 0 Translate {0} {0} 0 MotionEnd ", step_px / 64 / std::sqrt(2));
   out += "Patch \"bicubic\" \"P\" [";
   for (int j = 0; j < 4; ++j)
     for (int i = 0; i < 4; ++i) out += fmt::format("{} {} {} ", 6 * (i - 1.5), 4.5 * (j - 1.5), (i * 7 + j * 3) % 3);
@@ -47,7 +50,8 @@ std::string sheet(double step_px) {
 
 Scene sceneOf(const std::string& world) {
   constexpr const char* kFrame =
-      "Format 1024 768 1 PixelSamples 4 4 PixelFilter \"box\" 1 1 ShadingRate 1 Shutter 0 1 Projection \"orthographic\" "
+      "Format 1024 768 1 PixelSamples 4 4 PixelFilter \"box\" 1 1 ShadingRate 1 Shutter 0 1 Projection "
+      "\"orthographic\" "
       "ScreenWindow -8 8 -6 6 Clipping 0.1 100 Translate 0 0 10 WorldBegin "
       "LightSource \"distantlight\" 1 \"from\" [-1 1 -1] \"to\" [0 0 0] Surface \"matte\"\n";
   Log log(Log::Verbosity::Normal);
@@ -77,7 +81,8 @@ void measure(const Bench& bench, int runs) {
     const double begin_s = userSeconds();
     hideTiles(layout, scene, shading, {}, stats, log, {{}, [](size_t, DeepTile&&) {}, {}});
     least_s = std::min(least_s, userSeconds() - begin_s);
-    diced = static_cast<double>(stats.geometry.micropolygonsDiced), visible = static_cast<double>(stats.geometry.micropolygonsVisible);
+    diced = static_cast<double>(stats.geometry.micropolygonsDiced),
+    visible = static_cast<double>(stats.geometry.micropolygonsVisible);
   }
   fmt::print("{:16} {:5.2f} M diced, {:5.2f} M seen, {:.3f} user s", bench.name, diced * 1e-6, visible * 1e-6, least_s);
   if (diced > 0) fmt::print(", {:.1f} M a second", 1e-6 * diced / least_s);

@@ -21,8 +21,7 @@ struct Frame {
     world.freeze();
     if (keys > 1) world.scene.objects[0].keyTimes = {0, 1};
     for (int k = 0; k < kBuckets * kBuckets; ++k) {
-      const float x = static_cast<float>(k % kBuckets * kBucket),
-                  y = static_cast<float>(k / kBuckets * kBucket);
+      const float x = static_cast<float>(k % kBuckets * kBucket), y = static_cast<float>(k / kBuckets * kBucket);
       const Surface tilted = [=](float u, float v, int key) {
         const float across = x + 16 * u, down = y + 16 * v, shift = 4.0f * static_cast<float>(key);
         return at(across + 0.1f * down + 0.37f + shift, down - 0.1f * across + 0.21f, 10 + 0.01f * across);
@@ -83,10 +82,8 @@ BENCHMARK_CAPTURE(hide, still_opaque, 1, true, false, kConstant)->Unit(benchmark
 BENCHMARK_CAPTURE(hide, still_transparent, 1, false, false, kConstant)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(hide, moving_opaque, 2, true, false, kConstant)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(hide, still_opaque_and_resolve, 1, true, true, kConstant)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(hide, still_opaque_smooth_and_resolve, 1, true, true, kSmooth)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(hide, still_transparent_and_resolve, 1, false, true, kConstant)
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(hide, still_opaque_smooth_and_resolve, 1, true, true, kSmooth)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(hide, still_transparent_and_resolve, 1, false, true, kConstant)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace tomales::test

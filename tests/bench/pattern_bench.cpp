@@ -40,18 +40,16 @@ Pixel independent(int root, uint32_t pixel) {
 /// Strata of the plane, of time and of the lens, joined at random.
 Pixel jittered(int root, uint32_t pixel) {
   const int n = root * root;
-  const std::vector<int> times = permutation(n, hash32(pixel ^ 1U)),
-                         lenses = permutation(n, hash32(pixel ^ 2U));
+  const std::vector<int> times = permutation(n, hash32(pixel ^ 1U)), lenses = permutation(n, hash32(pixel ^ 2U));
   const auto in = [](int stratum, float inside, int strata) {
     return (static_cast<float>(stratum) + inside) / static_cast<float>(strata);
   };
   Pixel out;
   for (int s = 0; s < n; ++s) {
     const int lens = lenses[static_cast<size_t>(s)];
-    out.push_back(
-        {in(s % root, number(pixel, s, 0), root), in(s / root, number(pixel, s, 1), root),
-         in(times[static_cast<size_t>(s)], number(pixel, s, 2), n),
-         onDisk(in(lens % root, number(pixel, s, 3), root), in(lens / root, number(pixel, s, 4), root))});
+    out.push_back({in(s % root, number(pixel, s, 0), root), in(s / root, number(pixel, s, 1), root),
+                   in(times[static_cast<size_t>(s)], number(pixel, s, 2), n),
+                   onDisk(in(lens % root, number(pixel, s, 3), root), in(lens / root, number(pixel, s, 4), root))});
   }
   return out;
 }
@@ -120,12 +118,10 @@ Pixel joined(int root, uint32_t pixel) {
   Pixel out = ours(root, pixel);
   const Pixel net = owenSobol(root, hash32(pixel % 256 + 99));
   const auto cell = [&](const Sample& s) {
-    return static_cast<int>(s.x * static_cast<float>(root)) +
-           root * static_cast<int>(s.y * static_cast<float>(root));
+    return static_cast<int>(s.x * static_cast<float>(root)) + root * static_cast<int>(s.y * static_cast<float>(root));
   };
   for (Sample& s : out) {
-    const auto same =
-        std::find_if(net.begin(), net.end(), [&](const Sample& o) { return cell(o) == cell(s); });
+    const auto same = std::find_if(net.begin(), net.end(), [&](const Sample& o) { return cell(o) == cell(s); });
     if (same != net.end()) s.time = same->time, s.lens = same->lens;
   }
   return out;
@@ -190,8 +186,8 @@ int main() {
     std::vector<double> truth;
     for (uint32_t pixel = 0; pixel < 1000; ++pixel) {
       const Pixel dense = owenSobol(64, hash32(pixel + 5000));
-      truth.push_back(static_cast<double>(std::count_if(dense.begin(), dense.end(),
-                                                        [&](const Sample& s) { return edge(s, pixel); })) /
+      truth.push_back(static_cast<double>(
+                          std::count_if(dense.begin(), dense.end(), [&](const Sample& s) { return edge(s, pixel); })) /
                       static_cast<double>(dense.size()));
     }
     for (int root : {2, 3, 4, 8}) {

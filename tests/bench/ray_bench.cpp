@@ -1,7 +1,7 @@
 // Incoherent gather rays against a bare Embree loop over the same rays and polygons, in turn, in one run.
 //     bench_rays [repetitions [rays from each origin]]
-// A closed room with 40 spheres; rays leave floor, walls and spheres with the cosine around the normal, many from each origin as those of a
-// record of the irradiance cache do.
+// A closed room with 40 spheres; rays leave floor, walls and spheres with the cosine around the normal, many from each
+// origin as those of a record of the irradiance cache do.
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 
@@ -34,13 +34,16 @@ void fill(World& world) {
 }
 
 struct BareScene {
-  explicit BareScene(const std::vector<CoarseGroup>& groups) : device(rtcNewDevice(nullptr)), scene(rtcNewScene(device)) {
+  explicit BareScene(const std::vector<CoarseGroup>& groups)
+      : device(rtcNewDevice(nullptr)), scene(rtcNewScene(device)) {
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     for (const CoarseGroup& g : groups) {
       if (g.quads.empty()) continue;
       RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
-      auto* P = static_cast<vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), g.P.size()));
-      auto* quads = static_cast<Quad*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, sizeof(Quad), g.quads.size()));
+      auto* P = static_cast<vec3*>(
+          rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), g.P.size()));
+      auto* quads = static_cast<Quad*>(
+          rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, sizeof(Quad), g.quads.size()));
       std::copy(g.P.begin(), g.P.end(), P);
       std::copy(g.quads.begin(), g.quads.end(), quads);
       rtcCommitGeometry(geometry);
@@ -78,7 +81,8 @@ std::vector<Origin> originsOf(const World& world, uint32_t raysOfOrigin) {
     // From where a first ray meets the room.
     const vec2 a = sobol2(i, 5);
     const float z = 1 - 2 * a.x, r = std::sqrt(std::max(0.0f, 1 - z * z));
-    const Hit start = world.rays->closest({{0, 0, 5.5f}, {r * std::cos(2 * kPi * a.y), r * std::sin(2 * kPi * a.y), z}}, kMaskDiffuse);
+    const Hit start = world.rays->closest({{0, 0, 5.5f}, {r * std::cos(2 * kPi * a.y), r * std::sin(2 * kPi * a.y), z}},
+                                          kMaskDiffuse);
     if (start.object < 0) continue;
     const vec3 N = start.geometricNormal;
     vec3 x, y;
@@ -121,8 +125,10 @@ int bench(int repetitions, uint32_t raysOfOrigin) {
   };
   Way ways[] = {
       {"bare Embree loop", [&](const Origin& o) { return count(o, [&](const Ray& ray) { return bare.hits(ray); }); }},
-      {"closest() by bias", [&](const Origin& o) { return count(o, [&](const Ray& ray) { return traced(ray, false, false); }); }},
-      {"closest() by hit list", [&](const Origin& o) { return count(o, [&](const Ray& ray) { return traced(ray, true, false); }); }},
+      {"closest() by bias",
+       [&](const Origin& o) { return count(o, [&](const Ray& ray) { return traced(ray, false, false); }); }},
+      {"closest() by hit list",
+       [&](const Origin& o) { return count(o, [&](const Ray& ray) { return traced(ray, true, false); }); }},
       {"closest() by hit list, surroundings known",
        [&](const Origin& o) {
          world.rays->lookAround(o.rays.front(), slantedOffset(o.offset, 0), kMaskDiffuse, surroundings);
@@ -138,8 +144,9 @@ int bench(int repetitions, uint32_t raysOfOrigin) {
       }
   const auto rays = static_cast<double>(origins.size()) * raysOfOrigin * repetitions;
   for (const Way& way : ways)
-    fmt::print("{}: {:.2f} million rays a CPU second, {:.1f} % of the bare loop; {:.0f} ns a ray; {:.2f} % hit\n", way.name, rays / way.seconds / 1e6,
-               100 * ways[0].seconds / way.seconds, 1e9 * way.seconds / rays, 100 * static_cast<double>(way.met) / rays);
+    fmt::print("{}: {:.2f} million rays a CPU second, {:.1f} % of the bare loop; {:.0f} ns a ray; {:.2f} % hit\n",
+               way.name, rays / way.seconds / 1e6, 100 * ways[0].seconds / way.seconds, 1e9 * way.seconds / rays,
+               100 * static_cast<double>(way.met) / rays);
   return 0;
 }
 

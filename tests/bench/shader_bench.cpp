@@ -1,9 +1,9 @@
-// A procedural shader (8 octaves of noise, 3 lights, plastic) written with reyes/sl.h, over a loop of the same arithmetic that knows
-// everything beforehand. Prints ratios of interleaved runs.
+// A procedural shader (8 octaves of noise, 3 lights, plastic) written with reyes/sl.h, over a loop of the same
+// arithmetic that knows everything beforehand. Prints ratios of interleaved runs.
 #include <fmt/format.h>
 
-#include <ctime>
 #include <cstdio>
+#include <ctime>
 
 #include "reyes/dice.h"
 #include "reyes/rib.h"
@@ -37,7 +37,8 @@ RSL_HOT void noiseLoop(int n, const float* x, const float* y, const float* z, fl
   for (int i = 0; i < n; ++i) sum[i] = 0;
   for (int k = 0; k < kOctaves; ++k) {
     const float scale = 4 * std::exp2(static_cast<float>(k)), weight = std::exp2(-static_cast<float>(k));
-    for (int i = 0; i < n; ++i) sum[i] += weight * (0.5f + 0.5f * rsl::signedNoise({scale * x[i], scale * y[i], scale * z[i]}));
+    for (int i = 0; i < n; ++i)
+      sum[i] += weight * (0.5f + 0.5f * rsl::signedNoise({scale * x[i], scale * y[i], scale * z[i]}));
   }
 }
 
@@ -48,8 +49,11 @@ void handLoop(const ShadePoints& p, std::vector<float>& sum, ShadedPoints& out) 
     const int n = std::min(kChunk, p.count() - first);
     noiseLoop(n, p.channel(kPx) + first, p.channel(kPy) + first, p.channel(kPz) + first, sum.data());
     for (int i = 0; i < n; ++i) {
-      const auto get = [&](int c) { return rsl::Vec3{p.channel(c)[first + i], p.channel(c + 1)[first + i], p.channel(c + 2)[first + i]}; };
-      const rsl::Vec3 N = rsl::faceforward(rsl::normalize(get(kNx)), get(kIx), get(kNgx)), V = -rsl::normalize(get(kIx));
+      const auto get = [&](int c) {
+        return rsl::Vec3{p.channel(c)[first + i], p.channel(c + 1)[first + i], p.channel(c + 2)[first + i]};
+      };
+      const rsl::Vec3 N = rsl::faceforward(rsl::normalize(get(kNx)), get(kIx), get(kNgx)),
+                      V = -rsl::normalize(get(kIx));
       float diffuse = 0, specular = 0;
       for (const rsl::Vec3& L : lights) {
         const float cosine = rsl::dot(N, L);
@@ -83,7 +87,8 @@ int main() {
   registry.addLibrary(&library, "bench");
   std::string text = "Projection \"perspective\"\nWorldBegin\n";
   for (int k = 0; k < 3; ++k)
-    text += fmt::format("LightSource \"distantlight\" {} \"from\" [{} {} {}] \"to\" [0 0 0]\n", k, kLights[k].x, kLights[k].y, kLights[k].z);
+    text += fmt::format("LightSource \"distantlight\" {} \"from\" [{} {} {}] \"to\" [0 0 0]\n", k, kLights[k].x,
+                        kLights[k].y, kLights[k].z);
   text += "Surface \"procedural\"\nTranslate 0 0 5\nSphere 2 -2 2 360\nWorldEnd\n";
   RibSettings rib;
   rib.onScene = [&](Scene&& scene) {
@@ -91,18 +96,21 @@ int main() {
     ShadePoints points(0, 0);
     for (int i = 0; i < kPoints; ++i) {
       points.add(static_cast<uint32_t>(i));
-      evaluatePoint(scene, 0, 0, 0.5f + 0.4f * static_cast<float>(i % 256) / 256, static_cast<float>(i / 256) / 256, points, i);
+      evaluatePoint(scene, 0, 0, 0.5f + 0.4f * static_cast<float>(i % 256) / 256, static_cast<float>(i / 256) / 256,
+                    points, i);
       points.set3(kIx, i, points.position(i));
     }
     ShadedPoints ours, theirs;
     theirs.resize(kPoints);
     std::vector<float> sum(512);
     for (int run = 0; run < 6; ++run) {
-      const double a = secondsOf([&] { shading.shade(points, {}, ours); }), b = secondsOf([&] { handLoop(points, sum, theirs); });
+      const double a = secondsOf([&] { shading.shade(points, {}, ours); }),
+                   b = secondsOf([&] { handLoop(points, sum, theirs); });
       float worst = 0;
       for (int i = 0; i < kPoints; ++i) worst = std::max(worst, std::abs(ours.color(i).x - theirs.color(i).x));
-      std::puts(fmt::format("{:.0f} ns a point, hand-written {:.0f} ns: {:.0f} % of its speed (difference {:.1g})", 1e9 * a / kPoints, 1e9 * b / kPoints,
-                            100 * b / a, worst).c_str());
+      std::puts(fmt::format("{:.0f} ns a point, hand-written {:.0f} ns: {:.0f} % of its speed (difference {:.1g})",
+                            1e9 * a / kPoints, 1e9 * b / kPoints, 100 * b / a, worst)
+                    .c_str());
     }
   };
   return readRibText(text, "bench", rib, log) ? 0 : 1;

@@ -1,11 +1,11 @@
-// Lookups through the renderer's texture unit over those of a bare TextureSystem loop on the same points; and how many tiles a scan over
-// a picture reads again when little of it fits in memory. Prints ratios of interleaved runs.
+// Lookups through the renderer's texture unit over those of a bare TextureSystem loop on the same points; and how many
+// tiles a scan over a picture reads again when little of it fits in memory. Prints ratios of interleaved runs.
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/texture.h>
 #include <fmt/format.h>
 
-#include <ctime>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 
 #include "reyes/shade/texture.h"
@@ -31,7 +31,8 @@ struct Row {
     for (int x = 0; x < kBatch; ++x) {
       const float u = (static_cast<float>(x) + 0.5f) / kBatch, v = (static_cast<float>(y) + 0.5f) / kBatch;
       s.push_back(0.1f + 0.7f * u + 0.1f * v), t.push_back(0.1f + 0.1f * u + 0.7f * v);
-      su.push_back(0.7f / kBatch), tu.push_back(0.1f / kBatch), sv.push_back(0.1f / kBatch), tv.push_back(2.8f / kBatch);
+      su.push_back(0.7f / kBatch), tu.push_back(0.1f / kBatch), sv.push_back(0.1f / kBatch),
+          tv.push_back(2.8f / kBatch);
     }
   }
 };
@@ -45,12 +46,14 @@ int main() {
   OIIO::ImageBuf picture(OIIO::ImageSpec(kEdge, kEdge, 3, OIIO::TypeDesc::UINT8));
   for (int y = 0; y < kEdge; ++y)
     for (int x = 0; x < kEdge; ++x) {
-      const float c[3] = {static_cast<float>(x * 7 % 256) / 255, static_cast<float>(y * 5 % 256) / 255, static_cast<float>((x ^ y) % 256) / 255};
+      const float c[3] = {static_cast<float>(x * 7 % 256) / 255, static_cast<float>(y * 5 % 256) / 255,
+                          static_cast<float>((x ^ y) % 256) / 255};
       picture.setpixel(x, y, c);
     }
   const std::string source = (folder / "source.tif").string(), file = (folder / "picture.tx").string();
   std::string error;
-  if (!picture.write(source) || !makeTexture({TextureRecipe::Shape::Picture, {source}, file}, error)) return std::puts(error.c_str()), 1;
+  if (!picture.write(source) || !makeTexture({TextureRecipe::Shape::Picture, {source}, file}, error))
+    return std::puts(error.c_str()), 1;
 
   Log log;
   Stats stats;
@@ -81,7 +84,9 @@ int main() {
   ours(), theirs();
   for (int run = 0; run < 5; ++run) {
     const double a = secondsOf(ours), b = secondsOf(theirs);
-    std::puts(fmt::format("{:.0f} ns a lookup, bare loop {:.0f} ns, ratio {:.2f}", 1e9 * a / (kBatch * kBatch), 1e9 * b / (kBatch * kBatch), a / b).c_str());
+    std::puts(fmt::format("{:.0f} ns a lookup, bare loop {:.0f} ns, ratio {:.2f}", 1e9 * a / (kBatch * kBatch),
+                          1e9 * b / (kBatch * kBatch), a / b)
+                  .c_str());
   }
   OIIO::TextureSystem::destroy(bare, true);
 
@@ -90,7 +95,8 @@ int main() {
   {
     constexpr int kPictures = 256;  // OpenImageIO holds 10 MB at least
     const int64_t total = kPictures * int64_t{kEdge} * kEdge * 4;
-    for (int k = 0; k < kPictures; ++k) fs::copy_file(file, folder / fmt::format("{}.tx", k), fs::copy_options::overwrite_existing);
+    for (int k = 0; k < kPictures; ++k)
+      fs::copy_file(file, folder / fmt::format("{}.tx", k), fs::copy_options::overwrite_existing);
     const Textures little({folder.string(), (folder / "cache").string(), total / 100}, log, small);
     for (int y = 0; y < kBatch; ++y)
       for (int k = 0; k < kPictures; ++k) {
@@ -104,7 +110,8 @@ int main() {
   }
   const int64_t requests = small.textures.tileRequests, misses = small.textures.tileMisses;
   std::puts(fmt::format("cache of 1 %: {} tile requests, {} misses, hit rate {:.4f}", requests, misses,
-                        1 - static_cast<double>(misses) / static_cast<double>(requests)).c_str());
+                        1 - static_cast<double>(misses) / static_cast<double>(requests))
+                .c_str());
   fs::remove_all(folder);
   return 0;
 }

@@ -8,6 +8,7 @@ import subprocess
 from program import Suite
 
 t = Suite()
+t.trust_shaders("plugins:.")
 build = t.program.parent
 docs = pathlib.Path(__file__).resolve().parent.parent.parent / "docs"
 prefix = t.folder / "prefix"

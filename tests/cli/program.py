@@ -29,6 +29,10 @@ class Suite:
         (self.folder / name).write_bytes(data)
         return name
 
+    def trust_shaders(self, folders):
+        """Plugins of these folders of the test are loaded, as --shaders has it."""
+        os.environ["TOMALES_SHADERS"] = folders
+
     def run(self, *arguments, stdin=None):
         return subprocess.run([self.program, *arguments], cwd=self.folder, input=stdin, capture_output=True,
                               timeout=60, text=True, errors="replace",

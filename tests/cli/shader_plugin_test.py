@@ -6,6 +6,7 @@ import subprocess
 from program import Suite
 
 t = Suite()
+t.trust_shaders(".")
 source = pathlib.Path(__file__).resolve().parent.parent.parent
 SCENE = """Display "o.exr" "file" "rgba"
 Format 16 16 1

@@ -8,6 +8,7 @@ import subprocess
 from program import Suite
 
 t = Suite()
+t.trust_shaders(".")
 source = pathlib.Path(__file__).resolve().parent.parent.parent
 subprocess.run([os.environ["CXX"], "-O1", "-std=c++17", "-shared", "-fPIC", "-I", source, source / "docs/rsl_plugins/smoke.cpp", "-o", t.folder / "smoke.so"], check=True)
 DEPTH, DENSITY = 4, 0.9

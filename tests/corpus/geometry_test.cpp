@@ -1,5 +1,6 @@
-// Every file of ugly geometry through every stage: bounds contain what is evaluated, all that is diced, hidden, shaded and met
-// by rays is finite. What is said about it, and the exit code, is tested with the program (tests/cli/geometry_test.py).
+// Every file of ugly geometry through every stage: bounds contain what is evaluated, all that is diced, hidden, shaded
+// and met by rays is finite. What is said about it, and the exit code, is tested with the program
+// (tests/cli/geometry_test.py).
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -33,7 +34,8 @@ void expectPatchSound(const Prim& prim, uint32_t patch) {
   constexpr int kCount = 36;
   float u[kCount], v[kCount], f[12][kCount];
   for (uint32_t k = 0; k < 6; ++k) {
-    const float u0 = k ? random(k, 1) : 0, v0 = k ? random(k, 2) : 0, size = k ? std::ldexp(1.0f, -static_cast<int>(k)) : 1;
+    const float u0 = k ? random(k, 1) : 0, v0 = k ? random(k, 2) : 0,
+                size = k ? std::ldexp(1.0f, -static_cast<int>(k)) : 1;
     const UvRect r{u0, std::min(u0 + size, 1.0f), v0, std::min(v0 + size, 1.0f)};
     for (int i = 0; i < kCount; ++i)
       u[i] = lerp(r.u0, r.u1, static_cast<float>(i % 6) / 5), v[i] = lerp(r.v0, r.v1, static_cast<float>(i / 6) / 5);
@@ -52,8 +54,8 @@ void expectPatchSound(const Prim& prim, uint32_t patch) {
 
 void expectGridsSound(const Scene& scene, int object, uint32_t patch, Stats& stats, Log& log) {
   const Camera camera(scene.options);
-  const std::vector<SubPatch> pieces =
-      splitPatches(scene, object, std::span(&patch, 1), camera, {0, 0, camera.xResolution(), camera.yResolution()}, stats, log);
+  const std::vector<SubPatch> pieces = splitPatches(scene, object, std::span(&patch, 1), camera,
+                                                    {0, 0, camera.xResolution(), camera.yResolution()}, stats, log);
   for (size_t k = 0; k < std::min<size_t>(pieces.size(), kMostPieces); ++k) {
     const SubPatch& p = pieces[k];
     const int keys = static_cast<int>(scene.objects[static_cast<size_t>(object)].keyTimes.size());
@@ -93,11 +95,13 @@ void expectRaysFinite(const Scene& scene, const ShadingSystem& shading, Stats& s
   int unsound = 0;
   for (uint32_t i = 0; i < 500; ++i) {
     vec3 origin, direction;
-    camera.ray({random(i, 1) * static_cast<float>(camera.xResolution()), random(i, 2) * static_cast<float>(camera.yResolution())},
+    camera.ray({random(i, 1) * static_cast<float>(camera.xResolution()),
+                random(i, 2) * static_cast<float>(camera.yResolution())},
                origin, direction);
     const Hit hit = rays.closest({origin, direction}, kMaskDiffuse);
     if (hit.object < 0) continue;
-    unsound += !std::isfinite(hit.t) + !isFinite(hit.normal) + !isFinite(hit.geometricNormal) + !(hit.u >= 0 && hit.u <= 1);
+    unsound +=
+        !std::isfinite(hit.t) + !isFinite(hit.normal) + !isFinite(hit.geometricNormal) + !(hit.u >= 0 && hit.u <= 1);
   }
   EXPECT_EQ(unsound, 0) << "among hits of rays";
 }

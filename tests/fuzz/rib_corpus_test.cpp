@@ -34,11 +34,12 @@ TEST(RibCorpus, IsReadWithoutCrashAndEveryComplaintIsLocated) {
   EXPECT_GE(files, 15);
 }
 
-const std::string kSmall[] = {
-    "WorldBegin Color 1 0.5 0.25 Sphere 1 -1 1 360 Translate 1 2 3 WorldEnd\n",
-    "Declare \"a\" \"uniform color\" WorldBegin PointsPolygons [3 3] [0 1 2 2 1 3] \"P\" [0 0 0 1 0 0 0 1 0 1 1 0] \"a\" [1 0 0 0 1 0] WorldEnd\n",
-    "MotionBegin [0 1] Rotate 0 0 0 1 Rotate 9 0 0 1 MotionEnd WorldBegin Surface \"matte\" \"Kd\" [1] Curves \"linear\" [2] \"nonperiodic\" "
-    "\"P\" [0 0 0 1 1 1] \"constantwidth\" [0.1] WorldEnd\n"};
+const std::string kSmall[] = {"WorldBegin Color 1 0.5 0.25 Sphere 1 -1 1 360 Translate 1 2 3 WorldEnd\n",
+                              "Declare \"a\" \"uniform color\" WorldBegin PointsPolygons [3 3] [0 1 2 2 1 3] \"P\" [0 "
+                              "0 0 1 0 0 0 1 0 1 1 0] \"a\" [1 0 0 0 1 0] WorldEnd\n",
+                              "MotionBegin [0 1] Rotate 0 0 0 1 Rotate 9 0 0 1 MotionEnd WorldBegin Surface \"matte\" "
+                              "\"Kd\" [1] Curves \"linear\" [2] \"nonperiodic\" "
+                              "\"P\" [0 0 0 1 1 1] \"constantwidth\" [0.1] WorldEnd\n"};
 
 std::string binaryOf(const std::string& text) {
   std::string out;

@@ -1,5 +1,5 @@
-// libFuzzer entry: any bytes through the RIB reader, and what comes out of it through freezing, splitting, dicing, hiding and
-// tessellation for rays, in a frame of a few pixels. Run as
+// libFuzzer entry: any bytes through the RIB reader, and what comes out of it through freezing, splitting, dicing,
+// hiding and tessellation for rays, in a frame of a few pixels. Run as
 //   rib_fuzz -max_len=4096 -timeout=20 -rss_limit_mb=4096 WORK_FOLDER tests/corpus/rib tests/corpus/geometry
 // with binary seeds from `tomales catrib --binary` in the work folder.
 #include <cstddef>

@@ -46,6 +46,7 @@ def has_to_be_furnished(text):
 def furnish(tomales, root, text, folder):
     """Makes what RIB names that other commands make."""
     if "plugins:" in text:
+        os.environ["TOMALES_SHADERS"] = "plugins"  # for whoever renders it
         (folder / "plugins").mkdir()
         for plugin in sorted(set(re.findall(r'"(\w+)"', text))):
             source = root / "docs/rsl_plugins" / f"{PLUGINS.get(plugin, plugin)}.cpp"

@@ -47,8 +47,10 @@ std::string inShort(const Arguments& arguments) {
       add(requests);
       continue;
     }
-    const bool hasValue = i + 1 < arguments.size() && !arguments[i + 1].starts_with("--") && preludeIn(arguments[i + 1]).empty();
-    if (arguments[i] != "--gi" && arguments[i] != "--error-function") add(arguments[i].substr(2) + (hasValue ? ' ' + arguments[i + 1] : ""));
+    const bool hasValue =
+        i + 1 < arguments.size() && !arguments[i + 1].starts_with("--") && preludeIn(arguments[i + 1]).empty();
+    if (arguments[i] != "--gi" && arguments[i] != "--error-function")
+      add(arguments[i].substr(2) + (hasValue ? ' ' + arguments[i + 1] : ""));
     i += hasValue;
   }
   return out;
@@ -71,23 +73,30 @@ class Chart {
       : settings_(settings), sweep_(sweep), labSettings_(labOf(settings, sweep)), lab_(labSettings_) {
     report_.scene = fs::path(settings.files.front()).filename().string();
     report_.title = sweep.title, report_.oneKnob = sweep.oneKnob(), report_.budget_s = settings.budget_s;
-    report_.commandLine = joined(Arguments{"tomales", "chart"} + settings.files + Arguments{"--sweep", sweep.name} + sharedArguments(settings) +
+    report_.commandLine = joined(Arguments{"tomales", "chart"} + settings.files + Arguments{"--sweep", sweep.name} +
+                                 sharedArguments(settings) +
                                  Arguments{"--budget", fmt::format("{:g}s", settings.budget_s), "-o", settings.output});
     for (const ChartCurve& curve : sweep.curves) report_.curves.push_back(curve.name);
   }
 
-  /// A few batches of the reference, all points, and what is left of the budget for more batches: a chart whose reference is noisy says
-  /// so, and grows quieter when it is asked for again; points that are missing say nothing.
+  /// A few batches of the reference, all points, and what is left of the budget for more batches: a chart whose
+  /// reference is noisy says so, and grows quieter when it is asked for again; points that are missing say nothing.
   int run() {
-    if (const std::string problem = placesProblem(settings_.output, labSettings_.folder); !problem.empty()) return fail(kUnwritable, problem);
+    if (const std::string problem = placesProblem(settings_.output, labSettings_.folder); !problem.empty())
+      return fail(kUnwritable, problem);
     chooseReference();
-    while (reference_.batches() < kFirstBatches && (reference_.batches() < 2 || reference_.noiseFloor() > kSilent) && addBatch()) {}
+    while (reference_.batches() < kFirstBatches && (reference_.batches() < 2 || reference_.noiseFloor() > kSilent) &&
+           addBatch()) {
+    }
     if (reference_.batches() == 0)
-      return fail(interruptExitCode() ? interruptExitCode() : kUnreadable, "no reference: " + (badBatch_.empty() ? lab_.why() : badBatch_));
+      return fail(interruptExitCode() ? interruptExitCode() : kUnreadable,
+                  "no reference: " + (badBatch_.empty() ? lab_.why() : badBatch_));
     if (reference_.isBlack())
-      return fail(kUnreadable, "the reference is black, so there is no error to speak of; the sweep \"" + sweep_.name + "\" needs " + sweep_.needs);
+      return fail(kUnreadable, "the reference is black, so there is no error to speak of; the sweep \"" + sweep_.name +
+                                   "\" needs " + sweep_.needs);
     measure();
-    while (!isQuiet() && addBatch()) {}
+    while (!isQuiet() && addBatch()) {
+    }
     judge();
     if (!write()) return fail(kUnwritable, "\"" + settings_.output + "\" could not be written");
     if (const int code = interruptExitCode()) return code;
@@ -121,7 +130,8 @@ class Chart {
         out.push_back(a);
         continue;
       }
-      const std::string file = (fs::path(labSettings_.folder) / fmt::format("{:016x}.rib", std::hash<std::string>{}(text))).string();
+      const std::string file =
+          (fs::path(labSettings_.folder) / fmt::format("{:016x}.rib", std::hash<std::string>{}(text))).string();
       writeAtOnce(file, text + '\n');
       out.push_back(file);
     }
@@ -148,7 +158,8 @@ class Chart {
     takeWarnings(*run);
     const auto image = readImage(run->picture, badBatch_);
     if (!image) return false;
-    if (!reference_.add(*image)) return badBatch_ = "\"" + run->picture + "\" has another size than the batches before it", false;
+    if (!reference_.add(*image))
+      return badBatch_ = "\"" + run->picture + "\" has another size than the batches before it", false;
     log("reference", fmt::format("batch {}, noise {:.3g} %", reference_.batches(), 100 * reference_.noiseFloor()));
     return true;
   }
@@ -159,8 +170,8 @@ class Chart {
     return reference_.noiseFloor() < std::max(kQuiet * least, kSilent);
   }
 
-  /// The cheapest setting of every method first, and of methods the one that was cheapest last time, so that a small budget leaves as little out
-  /// as it can.
+  /// The cheapest setting of every method first, and of methods the one that was cheapest last time, so that a small
+  /// budget leaves as little out as it can.
   void measure() {
     size_t steps = 0;
     for (const ChartCurve& curve : sweep_.curves) steps = std::max(steps, curve.settings.size());
@@ -172,7 +183,8 @@ class Chart {
         if (step < sweep_.curves[c].settings.size()) last_s[c] = measure(c, sweep_.curves[c].settings[step]);
       std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return last_s[a] < last_s[b]; });
     }
-    std::stable_sort(report_.points.begin(), report_.points.end(), [](const ChartPoint& a, const ChartPoint& b) { return a.curve < b.curve; });
+    std::stable_sort(report_.points.begin(), report_.points.end(),
+                     [](const ChartPoint& a, const ChartPoint& b) { return a.curve < b.curve; });
   }
 
   /// CPU seconds; infinite if it could not be measured.
@@ -185,8 +197,18 @@ class Chart {
       return kInfinity;
     }
     takeWarnings(*run);
-    ChartPoint point{curve, inShort(arguments), sweep_.oneKnob() ? lastNumber(arguments) : 0, commandLine(arguments), *run, reference_.errorOf(*image), false, false, {}, {}};
-    log(report_.curves[curve], fmt::format("{}: {:.3g} % in {:.3g} CPU s{}{}", point.setting, 100 * point.error.mean, run->cpu_s, notFiniteNote(point.error), run->recalled ? " (recalled)" : ""));
+    ChartPoint point{curve,
+                     inShort(arguments),
+                     sweep_.oneKnob() ? lastNumber(arguments) : 0,
+                     commandLine(arguments),
+                     *run,
+                     reference_.errorOf(*image),
+                     false,
+                     false,
+                     {},
+                     {}};
+    log(report_.curves[curve], fmt::format("{}: {:.3g} % in {:.3g} CPU s{}{}", point.setting, 100 * point.error.mean,
+                                           run->cpu_s, notFiniteNote(point.error), run->recalled ? " (recalled)" : ""));
     report_.points.push_back(std::move(point));
     return run->cpu_s;
   }
@@ -207,15 +229,19 @@ class Chart {
     report_.referencePicture = (fs::path(labSettings_.folder) / "reference.thumb.png").string();
     writeImage(report_.referencePicture, thumbnail(reference_.mean(), kPictureSize), true, log_);
     report_.referenceBatches = reference_.batches(), report_.noiseFloor = reference_.noiseFloor();
-    report_.referenceCommandLine = commandLine(referenceArguments_ + Arguments{sweep_.seed, fmt::format("1..{}", reference_.batches())});
+    report_.referenceCommandLine =
+        commandLine(referenceArguments_ + Arguments{sweep_.seed, fmt::format("1..{}", reference_.batches())});
     markBest(report_);
   }
 
   bool write() const {
-    return writeChartPage(settings_.output, report_) && writeChartJson(fs::path(settings_.output).replace_extension(".json").string(), report_);
+    return writeChartPage(settings_.output, report_) &&
+           writeChartJson(fs::path(settings_.output).replace_extension(".json").string(), report_);
   }
 
-  void log(const std::string& who, const std::string& what) const { fmt::print(stderr, "{:6.0f} s  {}, {}\n", lab_.secondsUsed(), who, what); }
+  void log(const std::string& who, const std::string& what) const {
+    fmt::print(stderr, "{:6.0f} s  {}, {}\n", lab_.secondsUsed(), who, what);
+  }
 
   const ChartSettings& settings_;
   const ChartSweep& sweep_;
@@ -236,18 +262,23 @@ std::vector<std::string> sharedArguments(const ChartSettings& s) {
   if (s.format) out = out + Arguments{"--format", fmt::format("{}x{}", (*s.format)[0], (*s.format)[1])};
   if (s.bounces > 0) out = out + Arguments{"--bounces", std::to_string(s.bounces)};
   if (s.threads > 0) out = out + Arguments{"-t", std::to_string(s.threads)};
+  if (s.allowSystem) out.push_back("--allow-system");
+  if (!s.shaderFolders.empty()) out = out + Arguments{"--shaders", s.shaderFolders};
   return out;
 }
 
 std::string joined(const std::vector<std::string>& arguments) {
   std::string out;
-  for (const std::string& a : arguments) out += (out.empty() ? "" : " ") + (a.find(' ') == std::string::npos ? a : '\'' + a + '\'');
+  for (const std::string& a : arguments)
+    out += (out.empty() ? "" : " ") + (a.find(' ') == std::string::npos ? a : '\'' + a + '\'');
   return out;
 }
 
 std::string chartCacheFolder() {
   const char *cache = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
-  const fs::path base = cache && *cache ? fs::path(cache) : home && *home ? fs::path(home) / ".cache" : fs::temp_directory_path();
+  const fs::path base = cache && *cache ? fs::path(cache)
+                        : home && *home ? fs::path(home) / ".cache"
+                                        : fs::temp_directory_path();
   return (base / "tomales" / "chart").string();
 }
 

@@ -20,8 +20,14 @@ vec3 colorAt(const Image& image, const std::array<int, 3>& c, int x, int y) {
 }
 
 Image blank(const Image& like) {
-  return {like.width, like.height, {"R", "G", "B"}, std::vector<float>(static_cast<size_t>(like.width) * static_cast<size_t>(like.height) * 3),
-          0, 0, like.width, like.height};
+  return {like.width,
+          like.height,
+          {"R", "G", "B"},
+          std::vector<float>(static_cast<size_t>(like.width) * static_cast<size_t>(like.height) * 3),
+          0,
+          0,
+          like.width,
+          like.height};
 }
 
 void set(Image& image, int x, int y, const vec3& color) {
@@ -29,7 +35,8 @@ void set(Image& image, int x, int y, const vec3& color) {
   p[0] = color.x, p[1] = color.y, p[2] = color.z;
 }
 
-/// Calls visit(test, reference) for each colour of each pixel that `lit` has any light in. How many pixels are not finite (ErrorFigures::notFinite).
+/// Calls visit(test, reference) for each colour of each pixel that `lit` has any light in. How many pixels are not
+/// finite (ErrorFigures::notFinite).
 template <class Visit>
 int64_t eachValue(const Image& test, const Image& reference, const Image& lit, Visit&& visit) {
   const auto t = colors(test), r = colors(reference), l = colors(lit);
@@ -57,7 +64,8 @@ Image blend(float a, const Image& A, float b, const Image& B) {
 double meanError(const Image& test, const Image& reference, const Image& lit) {
   double sum = 0;
   int64_t count = 0;
-  eachValue(test, reference, lit, [&](float t, float r) { sum += std::abs(t - r) / (std::abs(r) + ChartReference::kFloor), ++count; });
+  eachValue(test, reference, lit,
+            [&](float t, float r) { sum += std::abs(t - r) / (std::abs(r) + ChartReference::kFloor), ++count; });
   return count ? sum / static_cast<double>(count) : 0;
 }
 
@@ -72,7 +80,8 @@ bool ChartReference::add(const Image& batch) {
 }
 
 bool ChartReference::isBlack() const {
-  return std::none_of(mean_.pixels.begin(), mean_.pixels.end(), [](float v) { return std::isfinite(v) && std::abs(v) >= 1e-12f; });
+  return std::none_of(mean_.pixels.begin(), mean_.pixels.end(),
+                      [](float v) { return std::isfinite(v) && std::abs(v) >= 1e-12f; });
 }
 
 Image ChartReference::meanWithout(size_t batch) const {
@@ -83,7 +92,8 @@ Image ChartReference::meanWithout(size_t batch) const {
 double ChartReference::noiseFloor() const {
   const double n = batches();
   if (n < 2) return kInfinity;
-  // A batch is off the mean of the others by its own noise and theirs, sqrt(n + n / (n - 1)) times that of the mean of all.
+  // A batch is off the mean of the others by its own noise and theirs, sqrt(n + n / (n - 1)) times that of the mean of
+  // all.
   double sum = 0;
   for (size_t b = 0; b < batches_.size(); ++b) sum += meanError(batches_[b], meanWithout(b), mean_);
   return sum / n / std::sqrt(n + n / (n - 1));

@@ -12,10 +12,12 @@ namespace tomales {
 /// Of |test - reference| / (reference + 0.01) over the colours of all pixels where the reference is not black.
 struct ErrorFigures {
   double mean = 0, p99 = 0;
-  double bias = 0;        ///< Of the sums of all pixels: test / reference - 1.
-  double rms = 0;         ///< Root mean square of (test - reference), over the mean of the reference.
-  int64_t notFinite = 0;  ///< Pixels that are infinite or no numbers: of the test they count as black, of the reference not at all.
-  double confidence = 0;  ///< Half the 95 % interval of `mean` that the noise of the reference leaves (jackknife over its batches).
+  double bias = 0;  ///< Of the sums of all pixels: test / reference - 1.
+  double rms = 0;   ///< Root mean square of (test - reference), over the mean of the reference.
+  int64_t notFinite =
+      0;  ///< Pixels that are infinite or no numbers: of the test they count as black, of the reference not at all.
+  double confidence =
+      0;  ///< Half the 95 % interval of `mean` that the noise of the reference leaves (jackknife over its batches).
 };
 
 class ChartReference {
@@ -30,7 +32,8 @@ class ChartReference {
   /// ErrorFigures::mean of the reference itself, from the spread of its batches. Infinite with fewer than two.
   double noiseFloor() const;
   ErrorFigures errorOf(const Image& test) const;
-  /// Grey levels would hide the sign: red is too bright, blue too dark, white is right; full colour at `range`. Green: not finite.
+  /// Grey levels would hide the sign: red is too bright, blue too dark, white is right; full colour at `range`. Green:
+  /// not finite.
   Image errorMap(const Image& test, float range) const;
 
  private:

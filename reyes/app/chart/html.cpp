@@ -44,7 +44,8 @@ std::string base64(const std::string& bytes) {
   std::string out;
   for (size_t i = 0; i < bytes.size(); i += 3) {
     uint32_t group = 0;
-    for (size_t k = 0; k < 3; ++k) group = group << 8 | (i + k < bytes.size() ? static_cast<uint8_t>(bytes[i + k]) : 0U);
+    for (size_t k = 0; k < 3; ++k)
+      group = group << 8 | (i + k < bytes.size() ? static_cast<uint8_t>(bytes[i + k]) : 0U);
     for (size_t k = 0; k < 4; ++k) out += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63] : '=';
   }
   return out;
@@ -53,8 +54,10 @@ std::string base64(const std::string& bytes) {
 }  // namespace
 
 void Markup::openPage(const std::string& title, const std::string& heading, const std::string& style) {
-  put("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
-  put("<title>{}</title><style>{}{}</style></head><body>\n<h1>{}</h1>\n", escapeXml(title), kPageStyle, style, escapeXml(heading));
+  put("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width, initial-scale=1\">\n");
+  put("<title>{}</title><style>{}{}</style></head><body>\n<h1>{}</h1>\n", escapeXml(title), kPageStyle, style,
+      escapeXml(heading));
 }
 
 std::string embedded(const std::string& png) {

@@ -60,7 +60,8 @@ void addContents(const fs::path& path, std::set<fs::path>& seen, std::string& su
 
 /// Of what the renderer said: its first error, or else the first line.
 std::string complaint(const std::string& messages) {
-  const size_t error = std::min(messages.find(": error: "), messages.find(": output error: ")), before = error == std::string::npos ? error : messages.rfind('\n', error);
+  const size_t error = std::min(messages.find(": error: "), messages.find(": output error: ")),
+               before = error == std::string::npos ? error : messages.rfind('\n', error);
   const size_t begin = before == std::string::npos ? 0 : before + 1;
   return messages.substr(begin, messages.find('\n', begin) - begin);
 }
@@ -73,8 +74,8 @@ struct Ended {
 
 double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
 
-/// The child ends with this process, however that ends: nobody would take what it renders. Between fork and exec only calls that are
-/// safe in a signal handler.
+/// The child ends with this process, however that ends: nobody would take what it renders. Between fork and exec only
+/// calls that are safe in a signal handler.
 pid_t start(const std::vector<std::string>& arguments, const std::string& messages) {
   std::vector<char*> argv;
   for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
@@ -84,7 +85,8 @@ pid_t start(const std::vector<std::string>& arguments, const std::string& messag
   const pid_t parent = getpid(), child = fork();
   if (child == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() == parent && dup2(file, STDOUT_FILENO) >= 0 && dup2(file, STDERR_FILENO) >= 0) execv(kSelf, argv.data());
+    if (getppid() == parent && dup2(file, STDOUT_FILENO) >= 0 && dup2(file, STDERR_FILENO) >= 0)
+      execv(kSelf, argv.data());
     _exit(127);
   }
   close(file);
@@ -115,9 +117,12 @@ Ended await(pid_t child, Clock::time_point deadline) {
 
 std::string placesProblem(const std::string& page, const std::string& folder) {
   std::error_code error;
-  const auto isWritable = [&error](const fs::path& path) { return fs::is_directory(path, error) && access(path.c_str(), W_OK) == 0; };
+  const auto isWritable = [&error](const fs::path& path) {
+    return fs::is_directory(path, error) && access(path.c_str(), W_OK) == 0;
+  };
   const fs::path beside = fs::path(page).parent_path();
-  if (!isWritable(beside.empty() ? "." : beside)) return "\"" + page + "\" cannot be written: no such folder, or one that must not be written to";
+  if (!isWritable(beside.empty() ? "." : beside))
+    return "\"" + page + "\" cannot be written: no such folder, or one that must not be written to";
   fs::create_directories(folder, error);
   return isWritable(folder) ? "" : "\"" + folder + "\" cannot hold what is measured: no folder that can be written to";
 }
@@ -130,7 +135,9 @@ uint64_t contentsOf(const std::vector<std::string>& files) {
 }
 
 Lab::Lab(LabSettings settings)
-    : settings_(std::move(settings)), contents_(contentsOf(settings_.scene) ^ sumOf(readAll(kSelf))), start_(Clock::now()) {
+    : settings_(std::move(settings)),
+      contents_(contentsOf(settings_.scene) ^ sumOf(readAll(kSelf))),
+      start_(Clock::now()) {
   std::error_code error;
   fs::create_directories(settings_.folder, error);  // placesProblem() says if that fails
 }
@@ -155,7 +162,8 @@ std::optional<Run> Lab::run(const std::vector<std::string>& arguments) {
   const pid_t child = start(all, stem + ".log");
   why_ = "the renderer could not be started";
   if (child < 0) return std::nullopt;
-  const Ended ended = await(child, Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(secondsLeft())));
+  const Ended ended = await(
+      child, Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(secondsLeft())));
   why_ = ended.why;
   std::error_code error;
   if (ended.good) fs::rename(unfinished, stem + ".exr", error);
@@ -171,7 +179,8 @@ std::optional<Run> Lab::run(const std::vector<std::string>& arguments) {
   fs::remove(statistics, error);
   Run out{arguments, stem + ".exr", ended.cpu_s, ended.wall_s, 0, 0, {}, false};
   if (counted.is_object()) {
-    out.peakBytes = counted.value("/memory_bytes/peak_rss"_json_pointer, 0.0);  // wait4() would count this process's memory at the fork
+    out.peakBytes = counted.value("/memory_bytes/peak_rss"_json_pointer,
+                                  0.0);  // wait4() would count this process's memory at the fork
     out.records = counted.value("/irradiance_cache/samples"_json_pointer, int64_t{0});
     for (const Json& w : counted.value("warnings", Json::array())) out.warnings.push_back(w.value("code", ""));
   }
@@ -194,7 +203,11 @@ std::optional<Run> Lab::recall(const std::string& stem, const std::vector<std::s
 }
 
 bool Lab::remember(const std::string& stem, const Run& run) const {
-  const Json j{{"cpu_s", run.cpu_s}, {"wall_s", run.wall_s}, {"peak_bytes", run.peakBytes}, {"records", run.records}, {"warnings", run.warnings}};
+  const Json j{{"cpu_s", run.cpu_s},
+               {"wall_s", run.wall_s},
+               {"peak_bytes", run.peakBytes},
+               {"records", run.records},
+               {"warnings", run.warnings}};
   std::ofstream file(stem + ".json.part");
   file << j.dump(2) << '\n';
   file.close();

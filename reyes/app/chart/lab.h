@@ -1,4 +1,5 @@
-// Runs this program as child processes, so that CPU time and memory are those of one rendering, and remembers what it has measured.
+// Runs this program as child processes, so that CPU time and memory are those of one rendering, and remembers what it
+// has measured.
 #pragma once
 #include <chrono>
 #include <cstdint>
@@ -26,12 +27,13 @@ struct LabSettings {
   double budget_s = 600;
 };
 
-/// A measurement is named by the contents of the program, the scene and the files that it names, and by the arguments, so that an
-/// interrupted chart finds what it has done, and a changed scene finds nothing. Threads: one.
+/// A measurement is named by the contents of the program, the scene and the files that it names, and by the arguments,
+/// so that an interrupted chart finds what it has done, and a changed scene finds nothing. Threads: one.
 class Lab {
  public:
   explicit Lab(LabSettings settings);
-  /// From memory, or from a child. Nothing if the child fails, is interrupted or would outlive the budget; why() then says so.
+  /// From memory, or from a child. Nothing if the child fails, is interrupted or would outlive the budget; why() then
+  /// says so.
   std::optional<Run> run(const std::vector<std::string>& arguments);
   const std::string& why() const { return why_; }
   double secondsLeft() const;
@@ -47,7 +49,8 @@ class Lab {
   std::string why_;
 };
 
-/// Why a page cannot be written there or measurements kept in that folder, which is made if it is missing; empty: they can.
+/// Why a page cannot be written there or measurements kept in that folder, which is made if it is missing; empty: they
+/// can.
 std::string placesProblem(const std::string& page, const std::string& folder);
 
 /// Sum over the contents of these files and of all files that they name in strings, archives included.

@@ -24,7 +24,8 @@ std::string trimmed(const std::string& text) {
 /// What stands before and after the last colon.
 std::pair<std::string, std::string> named(const std::string& text) {
   const size_t colon = text.rfind(": ");
-  return colon == std::string::npos ? std::pair{text, std::string()} : std::pair{trimmed(text.substr(0, colon)), text.substr(colon + 1)};
+  return colon == std::string::npos ? std::pair{text, std::string()}
+                                    : std::pair{trimmed(text.substr(0, colon)), text.substr(colon + 1)};
 }
 
 bool isNumber(const std::string& word) {
@@ -38,10 +39,14 @@ bool isNumber(const std::string& word) {
 
 /// False: no such word, or not what belongs after it.
 bool take(LabScene& scene, const std::string& word, const std::string& rest) {
-  if (word == "title") scene.title = rest;
-  else if (word == "note") scene.note += (scene.note.empty() ? "" : " ") + rest;
-  else if (word == "common") scene.common = wordsOf(rest);
-  else if (word == "truth") scene.truth = wordsOf(rest);
+  if (word == "title")
+    scene.title = rest;
+  else if (word == "note")
+    scene.note += (scene.note.empty() ? "" : " ") + rest;
+  else if (word == "common")
+    scene.common = wordsOf(rest);
+  else if (word == "truth")
+    scene.truth = wordsOf(rest);
   else if (word == "method") {
     const auto [name, arguments] = named(rest);
     scene.methods.push_back({name, wordsOf(arguments)});
@@ -53,7 +58,8 @@ bool take(LabScene& scene, const std::string& word, const std::string& rest) {
     const auto [warning, value] = named(rest);
     scene.limit = LabLimit{warning, trimmed(value)};
     return !warning.empty() && isNumber(scene.limit->value);
-  } else return false;
+  } else
+    return false;
   return true;
 }
 
@@ -73,11 +79,16 @@ std::optional<LabScene> readLabScene(const std::string& file, std::string& error
     return std::nullopt;
   }
   const auto& values = out.values;
-  const bool limitIsElsewhere = out.limit && (values.empty() || std::find(values.begin() + 1, values.end(), out.limit->value) == values.end());
-  for (const auto& [missing, what] : {std::pair{!stream.is_open(), "cannot be read"}, {out.title.empty(), "has no \"##lab title\""},
-                                      {out.values.empty(), "has no \"##lab knob\""}, {out.truth.empty(), "has no \"##lab truth\""},
-                                      {out.methods.empty(), "has no \"##lab method\""}, {out.text.find("$knob") == std::string::npos, "has no $knob"},
-                                      {limitIsElsewhere, "has a \"##lab limit\" that is none of the knob's values after the first"}})
+  const bool limitIsElsewhere =
+      out.limit && (values.empty() || std::find(values.begin() + 1, values.end(), out.limit->value) == values.end());
+  for (const auto& [missing, what] :
+       {std::pair{!stream.is_open(), "cannot be read"},
+        {out.title.empty(), "has no \"##lab title\""},
+        {out.values.empty(), "has no \"##lab knob\""},
+        {out.truth.empty(), "has no \"##lab truth\""},
+        {out.methods.empty(), "has no \"##lab method\""},
+        {out.text.find("$knob") == std::string::npos, "has no $knob"},
+        {limitIsElsewhere, "has a \"##lab limit\" that is none of the knob's values after the first"}})
     if (missing) {
       error = what;
       return std::nullopt;
@@ -86,7 +97,8 @@ std::optional<LabScene> readLabScene(const std::string& file, std::string& error
 }
 
 std::string replaced(std::string text, const std::string& name, const std::string& value) {
-  for (size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + value.size())) text.replace(at, name.size(), value);
+  for (size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + value.size()))
+    text.replace(at, name.size(), value);
   return text;
 }
 

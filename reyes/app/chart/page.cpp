@@ -23,12 +23,17 @@ class Page : Markup {
     reach();
     legend();
     put("<div class=\"plots\">\n");
-    plot("Error against CPU time", "CPU seconds of the whole process", [](const ChartPoint& p) { return p.run.cpu_s; },
-         [](const ChartPoint& p) { return p.bestInTime; });
-    plot("Error against memory", "peak resident memory, MB", [](const ChartPoint& p) { return p.run.peakBytes / 1048576; },
-         [](const ChartPoint& p) { return p.bestInMemory; });
+    plot(
+        "Error against CPU time", "CPU seconds of the whole process", [](const ChartPoint& p) { return p.run.cpu_s; },
+        [](const ChartPoint& p) { return p.bestInTime; });
+    plot(
+        "Error against memory", "peak resident memory, MB",
+        [](const ChartPoint& p) { return p.run.peakBytes / 1048576; },
+        [](const ChartPoint& p) { return p.bestInMemory; });
     if (r_.oneKnob)
-      plot("Error against the setting", r_.title.c_str(), [](const ChartPoint& p) { return p.value; }, [](const ChartPoint&) { return false; });
+      plot(
+          "Error against the setting", r_.title.c_str(), [](const ChartPoint& p) { return p.value; },
+          [](const ChartPoint&) { return false; });
     put("</div>\n");
     table();
     cards();
@@ -37,7 +42,10 @@ class Page : Markup {
   }
 
  private:
-  std::string key(size_t curve) const { return fmt::format("<span class=\"key\" style=\"background:{}\"></span>{}", plotColor(curve), escapeXml(r_.curves[curve])); }
+  std::string key(size_t curve) const {
+    return fmt::format("<span class=\"key\" style=\"background:{}\"></span>{}", plotColor(curve),
+                       escapeXml(r_.curves[curve]));
+  }
 
   /// The value of what varies, where there is room for it: along a single curve.
   std::string nameOf(const ChartPoint& p) const {
@@ -46,16 +54,24 @@ class Page : Markup {
   }
 
   void summary(const std::string& jsonName) {
-    put("<p>Error: mean of |test &minus; reference| / (reference + {}) over all colours of all pixels that the reference lights. Yellow: the "
-        "points that no other beats in both cost and error. Every point leads to its picture.</p>\n", ChartReference::kFloor);
-    put("<p>The reference is the mean of {} independent pictures ({:.0f} CPU s) of <code>{}</code>; its own noise is {}.</p>\n", r_.referenceBatches,
-        r_.referenceSeconds, escapeXml(r_.referenceCommandLine), std::isfinite(r_.noiseFloor) ? percent(r_.noiseFloor) : "unknown");
-    put("<p>Figures: <a href=\"{0}\">{0}</a>. Made with tomales {1}: <code>{2}</code></p>\n", escapeXml(jsonName), kVersion, escapeXml(r_.commandLine));
-    if (!r_.warnings.empty()) put("<p>The renderer warned of: {}. The command lines below say more.</p>\n", escapeXml(fmt::format("{}", fmt::join(r_.warnings, ", "))));
+    put("<p>Error: mean of |test &minus; reference| / (reference + {}) over all colours of all pixels that the "
+        "reference lights. Yellow: the "
+        "points that no other beats in both cost and error. Every point leads to its picture.</p>\n",
+        ChartReference::kFloor);
+    put("<p>The reference is the mean of {} independent pictures ({:.0f} CPU s) of <code>{}</code>; its own noise is "
+        "{}.</p>\n",
+        r_.referenceBatches, r_.referenceSeconds, escapeXml(r_.referenceCommandLine),
+        std::isfinite(r_.noiseFloor) ? percent(r_.noiseFloor) : "unknown");
+    put("<p>Figures: <a href=\"{0}\">{0}</a>. Made with tomales {1}: <code>{2}</code></p>\n", escapeXml(jsonName),
+        kVersion, escapeXml(r_.commandLine));
+    if (!r_.warnings.empty())
+      put("<p>The renderer warned of: {}. The command lines below say more.</p>\n",
+          escapeXml(fmt::format("{}", fmt::join(r_.warnings, ", "))));
     for (const ChartPoint& p : r_.points)
       if (p.error.notFinite > 0)
-        put("<p><strong>{}, {}{}</strong>: of the picture they count as black, of the reference not at all; green in the error map.</p>\n", escapeXml(r_.curves[p.curve]),
-            escapeXml(p.setting), notFiniteNote(p.error));
+        put("<p><strong>{}, {}{}</strong>: of the picture they count as black, of the reference not at all; green in "
+            "the error map.</p>\n",
+            escapeXml(r_.curves[p.curve]), escapeXml(p.setting), notFiniteNote(p.error));
     if (r_.missing.empty()) return;
     put("<p><strong>Not measured:</strong></p>\n<ul>");
     for (const std::string& m : r_.missing) put("<li>{}</li>", escapeXml(m));
@@ -76,7 +92,10 @@ class Page : Markup {
     }
     put("</table></div>\n");
     for (size_t c = 0; c < r_.curves.size(); ++c)
-      if (isFlat(r_, c)) put("<p>{}: the error is the same for all settings; what they change is the cost, if they reach this scene at all.</p>\n", key(c));
+      if (isFlat(r_, c))
+        put("<p>{}: the error is the same for all settings; what they change is the cost, if they reach this scene at "
+            "all.</p>\n",
+            key(c));
   }
 
   void legend() {
@@ -91,39 +110,45 @@ class Page : Markup {
     for (const std::string& name : r_.curves) plot.curves.push_back({name, {}});
     for (size_t i = 0; i < r_.points.size(); ++i) {
       const ChartPoint& p = r_.points[i];
-      const std::string tip = fmt::format("{}, {}: {} in {} s, {}", r_.curves[p.curve], p.setting, percent(p.error.mean), shortNumber(p.run.cpu_s),
-                                          megabytes(p.run.peakBytes));
-      plot.curves[p.curve].points.push_back({cost(p), p.error.mean, tip, fmt::format("#p{}", i), best(p), false, nameOf(p)});
+      const std::string tip = fmt::format("{}, {}: {} in {} s, {}", r_.curves[p.curve], p.setting,
+                                          percent(p.error.mean), shortNumber(p.run.cpu_s), megabytes(p.run.peakBytes));
+      plot.curves[p.curve].points.push_back(
+          {cost(p), p.error.mean, tip, fmt::format("#p{}", i), best(p), false, nameOf(p)});
     }
-    put("<section><h2>{}</h2><div class=\"wide\">{}</div><div class=\"narrow\">{}</div></section>\n", title, drawPlot(plot, 580, 420),
-        drawPlot(plot, 358, 340));
+    put("<section><h2>{}</h2><div class=\"wide\">{}</div><div class=\"narrow\">{}</div></section>\n", title,
+        drawPlot(plot, 580, 420), drawPlot(plot, 358, 340));
   }
 
   void table() {
-    put("<h2>All points</h2><div class=\"scroll\"><table><tr><th>method</th><th class=\"text\">setting</th><th>mean error</th><th>&plusmn; 95 %</th>"
-        "<th>99 % below</th><th>rms</th><th>bias</th><th>CPU s</th><th>wall s</th><th>memory</th><th>records</th></tr>\n");
+    put("<h2>All points</h2><div class=\"scroll\"><table><tr><th>method</th><th class=\"text\">setting</th><th>mean "
+        "error</th><th>&plusmn; 95 %</th>"
+        "<th>99 % below</th><th>rms</th><th>bias</th><th>CPU s</th><th>wall "
+        "s</th><th>memory</th><th>records</th></tr>\n");
     for (size_t i = 0; i < r_.points.size(); ++i) {
       const ChartPoint& p = r_.points[i];
-      put("<tr class=\"{}\"><td>{}</td><td class=\"text\"><a href=\"#p{}\">{}</a></td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>",
-          p.bestInTime ? "best" : "", key(p.curve), i, escapeXml(p.setting), percent(p.error.mean), percent(p.error.confidence), percent(p.error.p99),
-          percent(p.error.rms), percent(p.error.bias));
-      put("<td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", shortNumber(p.run.cpu_s), shortNumber(p.run.wall_s), megabytes(p.run.peakBytes),
-          p.run.records);
+      put("<tr class=\"{}\"><td>{}</td><td class=\"text\"><a "
+          "href=\"#p{}\">{}</a></td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>",
+          p.bestInTime ? "best" : "", key(p.curve), i, escapeXml(p.setting), percent(p.error.mean),
+          percent(p.error.confidence), percent(p.error.p99), percent(p.error.rms), percent(p.error.bias));
+      put("<td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", shortNumber(p.run.cpu_s), shortNumber(p.run.wall_s),
+          megabytes(p.run.peakBytes), p.run.records);
     }
     put("</table></div>\n");
   }
 
   void cards() {
-    put("<h2>Pictures</h2><p>Right: where the picture is too bright (red) and too dark (blue), full colour at {}.</p>\n<div class=\"cards\">\n",
+    put("<h2>Pictures</h2><p>Right: where the picture is too bright (red) and too dark (blue), full colour at "
+        "{}.</p>\n<div class=\"cards\">\n",
         percent(r_.mapRange));
-    put("<figure><img alt=\"reference\" src=\"{}\"><figcaption>reference<br><code>{}</code></figcaption></figure>\n", embedded(r_.referencePicture),
-        escapeXml(r_.referenceCommandLine));
+    put("<figure><img alt=\"reference\" src=\"{}\"><figcaption>reference<br><code>{}</code></figcaption></figure>\n",
+        embedded(r_.referencePicture), escapeXml(r_.referenceCommandLine));
     for (size_t i = 0; i < r_.points.size(); ++i) {
       const ChartPoint& p = r_.points[i];
-      put("<figure id=\"p{}\"><img loading=\"lazy\" alt=\"picture\" src=\"{}\"> <img loading=\"lazy\" alt=\"error\" src=\"{}\">", i, embedded(p.picture),
-          embedded(p.errorMap));
-      put("<figcaption>{} {}<br>{} in {} CPU s<br><code>{}</code></figcaption></figure>\n", key(p.curve), escapeXml(p.setting), percent(p.error.mean),
-          shortNumber(p.run.cpu_s), escapeXml(p.commandLine));
+      put("<figure id=\"p{}\"><img loading=\"lazy\" alt=\"picture\" src=\"{}\"> <img loading=\"lazy\" alt=\"error\" "
+          "src=\"{}\">",
+          i, embedded(p.picture), embedded(p.errorMap));
+      put("<figcaption>{} {}<br>{} in {} CPU s<br><code>{}</code></figcaption></figure>\n", key(p.curve),
+          escapeXml(p.setting), percent(p.error.mean), shortNumber(p.run.cpu_s), escapeXml(p.commandLine));
     }
     put("</div>\n");
   }

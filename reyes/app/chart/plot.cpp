@@ -34,8 +34,9 @@ struct LogAxis {
   }
   std::vector<double> ticks() const {
     std::vector<double> out;
-    const std::vector<double> steps = high / low > 300 ? std::vector<double>{1} : high / low > 8 ? std::vector<double>{1, 2, 5}
-                                                                                                  : std::vector<double>{1, 1.2, 1.5, 2, 3, 4, 5, 6, 8};
+    const std::vector<double> steps = high / low > 300 ? std::vector<double>{1}
+                                      : high / low > 8 ? std::vector<double>{1, 2, 5}
+                                                       : std::vector<double>{1, 1.2, 1.5, 2, 3, 4, 5, 6, 8};
     for (double decade = std::pow(10, std::floor(std::log10(low))); decade <= high; decade *= 10)
       for (const double step : steps)
         if (step * decade >= low && step * decade <= high) out.push_back(step * decade);
@@ -64,27 +65,30 @@ class Drawing : Markup {
   }
 
  private:
-
   void axes() {
     const double bottom = height_ - kBottom, right = width_ - kRight;
     for (const double t : x_.ticks()) {
       put("<path class=\"grid\" d=\"M{0:.1f} {1}V{2:.1f}\"/>", x_.at(t), kTop, bottom);
-      put("<text class=\"tick\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n", x_.at(t), bottom + 16, shortNumber(t));
+      put("<text class=\"tick\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n", x_.at(t), bottom + 16,
+          shortNumber(t));
     }
     for (const double t : y_.ticks()) {
       put("<path class=\"grid\" d=\"M{} {:.1f}H{:.1f}\"/>", kLeft, y_.at(t), right);
-      put("<text class=\"tick\" x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{} %</text>\n", kLeft - 6, y_.at(t) + 4, shortNumber(100 * t));
+      put("<text class=\"tick\" x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{} %</text>\n", kLeft - 6, y_.at(t) + 4,
+          shortNumber(100 * t));
     }
     put("<path class=\"axis\" d=\"M{} {}V{}H{}\"/>\n", kLeft, kTop, bottom, right);
-    put("<text class=\"label\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", (kLeft + right) / 2, height_ - 8, escapeXml(plot_.xLabel));
-    put("<text class=\"label\" transform=\"translate(12 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n", (kTop + bottom) / 2,
-        escapeXml(plot_.yLabel));
+    put("<text class=\"label\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", (kLeft + right) / 2, height_ - 8,
+        escapeXml(plot_.xLabel));
+    put("<text class=\"label\" transform=\"translate(12 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
+        (kTop + bottom) / 2, escapeXml(plot_.yLabel));
   }
 
   void floor() {
     if (!(plot_.floor > 0)) return;
     put("<path class=\"floor\" d=\"M{} {:.1f}H{}\"/>", kLeft, y_.at(plot_.floor), width_ - kRight);
-    put("<text class=\"floor\" x=\"{}\" y=\"{:.1f}\" >noise of the reference</text>\n", kLeft + 6, y_.at(plot_.floor) - 5);
+    put("<text class=\"floor\" x=\"{}\" y=\"{:.1f}\" >noise of the reference</text>\n", kLeft + 6,
+        y_.at(plot_.floor) - 5);
   }
 
   void limit() {
@@ -92,8 +96,8 @@ class Drawing : Markup {
     const double x = x_.at(plot_.limit);
     const bool leftHalf = x < 0.5 * (kLeft + width_ - kRight);
     put("<path class=\"limit\" d=\"M{:.1f} {}V{}\"/>", x, kTop, height_ - kBottom);
-    put("<text class=\"limit\" x=\"{:.1f}\" y=\"{}\" text-anchor=\"{}\">{}</text>\n", leftHalf ? x + 5 : x - 5, height_ - kBottom - 6, leftHalf ? "start" : "end",
-        escapeXml(plot_.limitName));
+    put("<text class=\"limit\" x=\"{:.1f}\" y=\"{}\" text-anchor=\"{}\">{}</text>\n", leftHalf ? x + 5 : x - 5,
+        height_ - kBottom - 6, leftHalf ? "start" : "end", escapeXml(plot_.limitName));
   }
 
   /// A band under the points that nothing beats.
@@ -111,11 +115,13 @@ class Drawing : Markup {
   void curve(size_t c) {
     const PlotCurve& curve = plot_.curves[c];
     put("<path class=\"curve\" stroke=\"{}\" d=\"", plotColor(c));
-    for (const PlotPoint& p : curve.points) put("{}{:.1f} {:.1f}", &p == &curve.points.front() ? "M" : "L", x_.at(p.x), y_.at(p.y));
+    for (const PlotPoint& p : curve.points)
+      put("{}{:.1f} {:.1f}", &p == &curve.points.front() ? "M" : "L", x_.at(p.x), y_.at(p.y));
     put("\"/>\n");
     for (const PlotPoint& p : curve.points) {
       if (p.warned) put("<circle class=\"warned\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"8.5\"/>", x_.at(p.x), y_.at(p.y));
-      put("<a href=\"{}\"><circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" fill=\"{}\"><title>{}</title></circle></a>\n",
+      put("<a href=\"{}\"><circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" "
+          "fill=\"{}\"><title>{}</title></circle></a>\n",
           escapeXml(p.link), p.best ? "point best" : "point", x_.at(p.x), y_.at(p.y), plotColor(c), escapeXml(p.tip));
       if (!p.name.empty()) name(p);
     }
@@ -124,7 +130,8 @@ class Drawing : Markup {
   /// To the right, or where the drawing ends to the left.
   void name(const PlotPoint& p) {
     const bool left = x_.at(p.x) > width_ - kRight - 10 - 7 * static_cast<double>(p.name.size());
-    put("<text class=\"name\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x_.at(p.x) + (left ? -8 : 8), y_.at(p.y) - 5, left ? "end" : "start", escapeXml(p.name));
+    put("<text class=\"name\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x_.at(p.x) + (left ? -8 : 8),
+        y_.at(p.y) - 5, left ? "end" : "start", escapeXml(p.name));
   }
 
   const Plot& plot_;
@@ -139,18 +146,29 @@ const char* plotColor(size_t curve) { return kColors[curve % std::size(kColors)]
 std::string shortNumber(double v) {
   if (!std::isfinite(v)) return "-";
   const double a = std::abs(v);
-  return a != 0 && (a < 1e-4 || a >= 1e7) ? fmt::format("{:.2e}", v) : a >= 100 ? fmt::format("{:.0f}", v) : fmt::format("{:.3g}", v);
+  return a != 0 && (a < 1e-4 || a >= 1e7) ? fmt::format("{:.2e}", v)
+         : a >= 100                       ? fmt::format("{:.0f}", v)
+                                          : fmt::format("{:.3g}", v);
 }
 
 std::string escapeXml(const std::string& text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
     }
   }
   return out;

@@ -7,9 +7,9 @@ namespace tomales {
 
 struct PlotPoint {
   double x, y;
-  std::string tip;   ///< Shown when pointed at.
-  std::string link;  ///< Where a click goes.
-  bool best = false; ///< Nothing else is both cheaper and more accurate.
+  std::string tip;      ///< Shown when pointed at.
+  std::string link;     ///< Where a click goes.
+  bool best = false;    ///< Nothing else is both cheaper and more accurate.
   bool warned = false;  ///< Drawn with a ring.
   std::string name{};   ///< Written beside it.
 };

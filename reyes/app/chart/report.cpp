@@ -56,7 +56,8 @@ std::optional<double> secondsToReach(const ChartReport& report, size_t curve, do
     std::optional<double> seconds;
     if (p.error.mean <= error) seconds = p.run.cpu_s;
     if (seconds && before && before->error.mean > error) {
-      const double share = std::log(before->error.mean / error) / std::log(before->error.mean / std::max(p.error.mean, 1e-9));
+      const double share =
+          std::log(before->error.mean / error) / std::log(before->error.mean / std::max(p.error.mean, 1e-9));
       seconds = before->run.cpu_s * std::pow(p.run.cpu_s / before->run.cpu_s, share);
     }
     if (seconds && (!best || *seconds < *best)) best = seconds;

@@ -10,8 +10,8 @@ namespace tomales {
 /// One setting of one method.
 struct ChartPoint {
   size_t curve;
-  std::string setting;      ///< In short.
-  double value;             ///< Of what varies along the curve; 0: not one number.
+  std::string setting;  ///< In short.
+  double value;         ///< Of what varies along the curve; 0: not one number.
   std::string commandLine;
   Run run;
   ErrorFigures error;
@@ -23,7 +23,7 @@ struct ChartReport {
   bool oneKnob = false;  ///< Curves vary one number: ChartPoint::value.
   std::string scene, title, commandLine, referenceCommandLine;
   std::vector<std::string> curves;
-  std::vector<ChartPoint> points;  ///< Curve by curve, as the sweep has them.
+  std::vector<ChartPoint> points;    ///< Curve by curve, as the sweep has them.
   std::vector<std::string> missing;  ///< What the budget or a failure left out, and why.
   std::set<std::string> warnings;    ///< Codes of what any of the renderings warned of.
   int referenceBatches = 0;
@@ -33,7 +33,8 @@ struct ChartReport {
 };
 
 void markBest(ChartReport& report);
-/// Seconds at which a curve reaches an error, on straight lines between its points in logarithmic axes; nothing if it does not.
+/// Seconds at which a curve reaches an error, on straight lines between its points in logarithmic axes; nothing if it
+/// does not.
 std::optional<double> secondsToReach(const ChartReport& report, size_t curve, double error);
 
 /// All its points have the same error: what its settings change is the cost, if they reach this scene at all.

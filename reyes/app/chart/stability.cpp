@@ -48,12 +48,14 @@ Arguments withKnob(Arguments arguments, const std::string& value) {
 
 class Laboratory {
  public:
-  Laboratory(const ChartSettings& settings, Log& log) : settings_(settings), log_(log), start_(std::chrono::steady_clock::now()) {}
+  Laboratory(const ChartSettings& settings, Log& log)
+      : settings_(settings), log_(log), start_(std::chrono::steady_clock::now()) {}
 
   StabilityCurve measure(LabScene scene) {
     StabilityCurve out{std::move(scene), {}, {}, 0, {}};
     for (const std::string& value : out.scene.values) measure(out, value);
-    std::stable_sort(out.points.begin(), out.points.end(), [](const StabilityPoint& a, const StabilityPoint& b) { return a.method < b.method; });
+    std::stable_sort(out.points.begin(), out.points.end(),
+                     [](const StabilityPoint& a, const StabilityPoint& b) { return a.method < b.method; });
     return out;
   }
 
@@ -71,8 +73,12 @@ class Laboratory {
   void measure(StabilityCurve& out, const std::string& value) {
     const LabScene& scene = out.scene;
     out.truths.emplace_back();
-    const uint64_t place = std::hash<std::string>{}(fs::weakly_canonical(scene.file).string());  // others may have this name too
-    const std::string stem = (fs::path(settings_.folder) / fmt::format("{}_{:08x}_{}", fs::path(scene.file).stem().string(), place & 0xffffffff, value)).string();
+    const uint64_t place =
+        std::hash<std::string>{}(fs::weakly_canonical(scene.file).string());  // others may have this name too
+    const std::string stem =
+        (fs::path(settings_.folder) /
+         fmt::format("{}_{:08x}_{}", fs::path(scene.file).stem().string(), place & 0xffffffff, value))
+            .string();
     const std::string rib = stem + ".rib", truthRib = stem + ".truth.rib", text = replaced(scene.text, "$knob", value);
     if (!writeAtOnce(rib, replaced(text, "$truth", "0")) || !writeAtOnce(truthRib, replaced(text, "$truth", "1"))) {
       out.missing.push_back(fmt::format("{} {}: \"{}\" cannot be written", scene.knob, value, rib));
@@ -97,7 +103,8 @@ class Laboratory {
     for (size_t m = 0; m < scene.methods.size(); ++m) measure(out, value, m, truth, runs, rib);
   }
 
-  void measure(StabilityCurve& out, const std::string& value, size_t method, const ChartReference& truth, Lab& runs, const std::string& rib) {
+  void measure(StabilityCurve& out, const std::string& value, size_t method, const ChartReference& truth, Lab& runs,
+               const std::string& rib) {
     const LabMethod& m = out.scene.methods[method];
     const Arguments arguments = withKnob(m.arguments, value);
     const auto run = runs.run(arguments);
@@ -108,13 +115,17 @@ class Laboratory {
       return;
     }
     Arguments command{"tomales", "render", rib};
-    for (const Arguments& part : {common(out.scene), arguments}) command.insert(command.end(), part.begin(), part.end());
+    for (const Arguments& part : {common(out.scene), arguments})
+      command.insert(command.end(), part.begin(), part.end());
     const auto& limit = out.scene.limit;
-    const bool warned = limit && std::find(run->warnings.begin(), run->warnings.end(), limit->warning) != run->warnings.end();
-    StabilityPoint point{method, value, truth.errorOf(*image), *run, joined(command), run->picture + ".error.png", warned};
+    const bool warned =
+        limit && std::find(run->warnings.begin(), run->warnings.end(), limit->warning) != run->warnings.end();
+    StabilityPoint point{method, value, truth.errorOf(*image), *run, joined(command), run->picture + ".error.png",
+                         warned};
     writeImage(point.errorMap, thumbnail(truth.errorMap(*image, kMapRange), kPictureSize), true, log_);
-    fmt::print(stderr, "{}, {}, {} {}: {:.3g} %{}{}{}\n", fs::path(out.scene.file).stem().string(), m.name, out.scene.knob, value, 100 * point.error.mean,
-               notFiniteNote(point.error), warned ? ", warned" : "", run->recalled ? " (recalled)" : "");
+    fmt::print(stderr, "{}, {}, {} {}: {:.3g} %{}{}{}\n", fs::path(out.scene.file).stem().string(), m.name,
+               out.scene.knob, value, 100 * point.error.mean, notFiniteNote(point.error), warned ? ", warned" : "",
+               run->recalled ? " (recalled)" : "");
     out.points.push_back(std::move(point));
   }
 
@@ -141,14 +152,16 @@ int stabilityCommand(const ChartSettings& given) {
     std::string error;
     auto scene = readLabScene(file, error);
     if (!scene) {
-      log.report(Severity::Error, "lab-scene", {std::make_shared<std::string>(file), 0}, "is no scene of a laboratory: " + error);
+      log.report(Severity::Error, "lab-scene", {std::make_shared<std::string>(file), 0},
+                 "is no scene of a laboratory: " + error);
       return kUnreadable;
     }
     curves.push_back(laboratory.measure(std::move(*scene)));
     whole = whole && curves.back().missing.empty();
   }
   Arguments command{"tomales", "chart", "--stability"};
-  for (const Arguments& part : {settings.files, sharedArguments(settings), {"-o", settings.output}}) command.insert(command.end(), part.begin(), part.end());
+  for (const Arguments& part : {settings.files, sharedArguments(settings), {"-o", settings.output}})
+    command.insert(command.end(), part.begin(), part.end());
   if (!writeStabilityPage(settings.output, curves, joined(command)) ||
       !writeStabilityJson(fs::path(settings.output).replace_extension(".json").string(), curves, joined(command))) {
     log.report(Severity::Output, "chart", {}, "\"" + settings.output + "\" could not be written");
@@ -158,12 +171,15 @@ int stabilityCommand(const ChartSettings& given) {
   return whole ? kDone : kIncomplete;
 }
 
-bool writeStabilityJson(const std::string& path, const std::vector<StabilityCurve>& curves, const std::string& commandLine) {
+bool writeStabilityJson(const std::string& path, const std::vector<StabilityCurve>& curves,
+                        const std::string& commandLine) {
   using Json = nlohmann::ordered_json;
   Json out{{"version", kVersion}, {"command", commandLine}, {"scenes", Json::array()}};
   for (const StabilityCurve& c : curves) {
-    Json scene{{"file", c.scene.file}, {"title", c.scene.title}, {"knob", c.scene.knob}, {"noise_floor", c.noiseFloor}, {"missing", c.missing}, {"points", Json::array()}};
-    if (c.scene.limit) scene["limit"] = {{"knob", std::stod(c.scene.limit->value)}, {"warning", c.scene.limit->warning}};
+    Json scene{{"file", c.scene.file},        {"title", c.scene.title}, {"knob", c.scene.knob},
+               {"noise_floor", c.noiseFloor}, {"missing", c.missing},   {"points", Json::array()}};
+    if (c.scene.limit)
+      scene["limit"] = {{"knob", std::stod(c.scene.limit->value)}, {"warning", c.scene.limit->warning}};
     for (const StabilityPoint& p : c.points)
       scene["points"].push_back({{"method", c.scene.methods[p.method].name},
                                  {"knob", std::stod(p.knob)},

@@ -30,7 +30,9 @@ struct StabilityCurve {
 int stabilityCommand(const ChartSettings& settings);
 
 // Both go to a temporary name first. False: they could not be written.
-bool writeStabilityPage(const std::string& path, const std::vector<StabilityCurve>& curves, const std::string& commandLine);
-bool writeStabilityJson(const std::string& path, const std::vector<StabilityCurve>& curves, const std::string& commandLine);
+bool writeStabilityPage(const std::string& path, const std::vector<StabilityCurve>& curves,
+                        const std::string& commandLine);
+bool writeStabilityJson(const std::string& path, const std::vector<StabilityCurve>& curves,
+                        const std::string& commandLine);
 
 }  // namespace tomales

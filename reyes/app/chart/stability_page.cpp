@@ -17,12 +17,17 @@ constexpr const char* kOwnStyle = R"(
 
 class Page : Markup {
  public:
-  std::string write(const std::vector<StabilityCurve>& curves, const std::string& commandLine, const std::string& json) {
+  std::string write(const std::vector<StabilityCurve>& curves, const std::string& commandLine,
+                    const std::string& json) {
     openPage("Stability", "Where methods fail", kOwnStyle);
-    put("<p>Each scene has a knob that drives methods from harmless to fatal. Error: mean of |test &minus; truth| / (truth + {}) over all colours of all "
-        "pixels that the truth lights.</p>\n", ChartReference::kFloor);
-    put("<p>Figures: <a href=\"{0}\">{0}</a>. Made with tomales {1}: <code>{2}</code></p>\n<ul>\n", escapeXml(json), kVersion, escapeXml(commandLine));
-    for (size_t i = 0; i < curves.size(); ++i) put("<li><a href=\"#s{}\">{}</a></li>\n", i, escapeXml(curves[i].scene.title));
+    put("<p>Each scene has a knob that drives methods from harmless to fatal. Error: mean of |test &minus; truth| / "
+        "(truth + {}) over all colours of all "
+        "pixels that the truth lights.</p>\n",
+        ChartReference::kFloor);
+    put("<p>Figures: <a href=\"{0}\">{0}</a>. Made with tomales {1}: <code>{2}</code></p>\n<ul>\n", escapeXml(json),
+        kVersion, escapeXml(commandLine));
+    for (size_t i = 0; i < curves.size(); ++i)
+      put("<li><a href=\"#s{}\">{}</a></li>\n", i, escapeXml(curves[i].scene.title));
     put("</ul>\n");
     for (size_t i = 0; i < curves.size(); ++i) section(curves[i], i);
     closePage();
@@ -30,32 +35,39 @@ class Page : Markup {
   }
 
  private:
-  static std::string name(size_t scene, const StabilityPoint& p) { return fmt::format("s{}m{}k{}", scene, p.method, p.knob); }
+  static std::string name(size_t scene, const StabilityPoint& p) {
+    return fmt::format("s{}m{}k{}", scene, p.method, p.knob);
+  }
 
   void section(const StabilityCurve& c, size_t scene) {
     put("<h2 id=\"s{}\">{}</h2>\n<p>{}</p>\n", scene, escapeXml(c.scene.title), escapeXml(c.scene.note));
     for (const std::string& m : c.missing) put("<p><strong>Not measured:</strong> {}</p>\n", escapeXml(m));
     for (const StabilityPoint& p : c.points)
       if (p.error.notFinite > 0)
-        put("<p><strong>{}, {} {}{}</strong>: of the picture they count as black, of the truth not at all; green in the error map.</p>\n",
+        put("<p><strong>{}, {} {}{}</strong>: of the picture they count as black, of the truth not at all; green in "
+            "the error map.</p>\n",
             escapeXml(c.scene.methods[p.method].name), escapeXml(c.scene.knob), p.knob, notFiniteNote(p.error));
     Plot plot{c.scene.title, c.scene.knob, "mean relative error", {}, c.noiseFloor};
     if (c.scene.limit) {
       plot.limit = std::stod(c.scene.limit->value), plot.limitName = "limit: " + c.scene.limit->warning;
-      put("<p>Limit: at {} {} and beyond the renderer warns (<code>{}</code>, red rings).</p>\n", escapeXml(c.scene.knob), c.scene.limit->value, escapeXml(c.scene.limit->warning));
+      put("<p>Limit: at {} {} and beyond the renderer warns (<code>{}</code>, red rings).</p>\n",
+          escapeXml(c.scene.knob), c.scene.limit->value, escapeXml(c.scene.limit->warning));
     }
     put("<ul class=\"legend\">");
     for (size_t m = 0; m < c.scene.methods.size(); ++m) {
       plot.curves.push_back({c.scene.methods[m].name, {}});
-      put("<li><span class=\"key\" style=\"background:{}\"></span>{}</li>", plotColor(m), escapeXml(c.scene.methods[m].name));
+      put("<li><span class=\"key\" style=\"background:{}\"></span>{}</li>", plotColor(m),
+          escapeXml(c.scene.methods[m].name));
     }
     put("</ul>\n");
     for (const StabilityPoint& p : c.points)
-      plot.curves[p.method].points.push_back({std::stod(p.knob), p.error.mean,
-                                              fmt::format("{}, {} {}: {} (99th percentile {})", c.scene.methods[p.method].name, c.scene.knob, p.knob,
-                                                          percent(p.error.mean), percent(p.error.p99)),
-                                              '#' + name(scene, p), false, p.warned});
-    put("<div class=\"plots\"><div><div class=\"wide\">{}</div><div class=\"narrow\">{}</div></div><div>\n", drawPlot(plot, 580, 320), drawPlot(plot, 358, 300));
+      plot.curves[p.method].points.push_back(
+          {std::stod(p.knob), p.error.mean,
+           fmt::format("{}, {} {}: {} (99th percentile {})", c.scene.methods[p.method].name, c.scene.knob, p.knob,
+                       percent(p.error.mean), percent(p.error.p99)),
+           '#' + name(scene, p), false, p.warned});
+    put("<div class=\"plots\"><div><div class=\"wide\">{}</div><div class=\"narrow\">{}</div></div><div>\n",
+        drawPlot(plot, 580, 320), drawPlot(plot, 358, 300));
     table(c);
     put("</div></div>\n");
     pictures(c, scene);
@@ -84,13 +96,16 @@ class Page : Markup {
 
   /// The truths above; under them, method by method, where pictures are wrong.
   void pictures(const StabilityCurve& c, size_t scene) {
-    put("<div class=\"strip\" style=\"grid-template-columns:8em repeat({},96px)\"><span>truth</span>", c.scene.values.size());
-    for (const std::string& truth : c.truths) put("{}", truth.empty() ? "<span></span>" : fmt::format("<img alt=\"truth\" src=\"{}\">", embedded(truth)));
+    put("<div class=\"strip\" style=\"grid-template-columns:8em repeat({},96px)\"><span>truth</span>",
+        c.scene.values.size());
+    for (const std::string& truth : c.truths)
+      put("{}", truth.empty() ? "<span></span>" : fmt::format("<img alt=\"truth\" src=\"{}\">", embedded(truth)));
     for (size_t m = 0; m < c.scene.methods.size(); ++m) {
       put("\n<span>{}</span>", escapeXml(c.scene.methods[m].name));
       for (const std::string& value : c.scene.values) {
         if (const StabilityPoint* p = find(c, m, value))
-          put("<img id=\"{}\" alt=\"error\" title=\"{}\" src=\"{}\">", name(scene, *p), escapeXml(p->commandLine), embedded(p->errorMap));
+          put("<img id=\"{}\" alt=\"error\" title=\"{}\" src=\"{}\">", name(scene, *p), escapeXml(p->commandLine),
+              embedded(p->errorMap));
         else
           put("<span></span>");
       }
@@ -101,7 +116,8 @@ class Page : Markup {
 
 }  // namespace
 
-bool writeStabilityPage(const std::string& path, const std::vector<StabilityCurve>& curves, const std::string& commandLine) {
+bool writeStabilityPage(const std::string& path, const std::vector<StabilityCurve>& curves,
+                        const std::string& commandLine) {
   const std::string json = std::filesystem::path(path).filename().replace_extension(".json").string();
   return writeAtOnce(path, Page().write(curves, commandLine, json));
 }

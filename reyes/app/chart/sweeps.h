@@ -13,11 +13,11 @@ struct ChartCurve {
 
 struct ChartSweep {
   std::string name, title;
-  std::string needs;                   ///< Of the scene, lest all pictures are black.
-  std::vector<std::string> common;     ///< Arguments of every run, the reference's included.
-  std::vector<std::string> reference;  ///< Of a batch; batches differ in `seed`.
-  std::string seed;                    ///< The option that makes batches independent.
-  bool tracedReference = false;        ///< Its batches take --samples, by what the budget allows.
+  std::string needs;                             ///< Of the scene, lest all pictures are black.
+  std::vector<std::string> common;               ///< Arguments of every run, the reference's included.
+  std::vector<std::string> reference;            ///< Of a batch; batches differ in `seed`.
+  std::string seed;                              ///< The option that makes batches independent.
+  bool tracedReference = false;                  ///< Its batches take --samples, by what the budget allows.
   bool oneKnob() const { return name != "gi"; }  ///< The last word of a setting is what varies.
   std::vector<ChartCurve> curves;
 };

@@ -1,5 +1,6 @@
-// Where brick maps may leak: light of one surface on another that is near, against the lookup of the nearest photon's irradiance that they
-// replace (Christensen 1999). Every surface has the same irradiance everywhere, so whatever else comes back is noise or a leak.
+// Where brick maps may leak: light of one surface on another that is near, against the lookup of the nearest photon's
+// irradiance that they replace (Christensen 1999). Every surface has the same irradiance everywhere, so whatever else
+// comes back is noise or a leak.
 //     brickmap_lab [--photons N] [--check]
 // README.md has its tables.
 #include <fmt/format.h>
@@ -39,9 +40,12 @@ const std::vector<LabScene>& labScenes() {
   static const std::vector<LabScene> scenes{
       // A floor that goes on behind a wall, and the two sides of the wall.
       {"thin wall",
-       {{{0, 0, 0}, {w, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1}, {{1 - w, 0, 0}, {w, 0, 0}, {0, 1, 0}, {0, 0, 1}, 0.05f},
-        {{w, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, 1}, {{1 - w, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}, 0.05f}}},
-      {"corner", {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1}, {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}, 0.05f}}},
+       {{{0, 0, 0}, {w, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1},
+        {{1 - w, 0, 0}, {w, 0, 0}, {0, 1, 0}, {0, 0, 1}, 0.05f},
+        {{w, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, 1},
+        {{1 - w, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}, 0.05f}}},
+      {"corner",
+       {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1}, {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}, 0.05f}}},
       {"leaf", {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1}, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.05f}}},
       // Rounded by its normals, so that 45 degrees are between neighbours.
       {"bevel",
@@ -49,7 +53,9 @@ const std::vector<LabScene>& labScenes() {
         {{-0.02f, 0, 0.02f}, {0.02f, 0, -0.02f}, {0, 1, 0}, {0.70710678f, 0, 0.70710678f}, 0.5f},
         {{-0.02f, 0, 0.02f}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}, 0.05f}}},
       // The lit underside of a floor, and what lies on the floor and faces down too.
-      {"contact", {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 1}, {{0, 0, 0}, {1, 0, 0.1f}, {0, 1, 0}, {0.0995037f, 0, -0.9950372f}, 0.05f, 2}}},
+      {"contact",
+       {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 1},
+        {{0, 0, 0}, {1, 0, 0.1f}, {0, 1, 0}, {0.0995037f, 0, -0.9950372f}, 0.05f, 2}}},
   };
   return scenes;
 }
@@ -66,12 +72,14 @@ PointCloud photonsOf(const LabScene& scene, int count) {
     const auto own = static_cast<uint32_t>(std::lround(s.E * s.area() / power));
     const float each = s.E * s.area() / static_cast<float>(std::max(own, 1u));
     const std::array values{each, each, each, static_cast<float>(s.number)};
-    for (uint32_t i = 0; i < own; ++i) cloud.add(s.at(sobol2(i, hashCombine(static_cast<uint32_t>(k), 17u))), s.normal, 0, values.data());
+    for (uint32_t i = 0; i < own; ++i)
+      cloud.add(s.at(sobol2(i, hashCombine(static_cast<uint32_t>(k), 17u))), s.normal, 0, values.data());
   }
   return cloud;
 }
 
-/// The irradiance of the nearest point that faces alike: what the photon map gave gather rays before there were brick maps.
+/// The irradiance of the nearest point that faces alike: what the photon map gave gather rays before there were brick
+/// maps.
 float nearestOf(const PointCloud& points, const vec3& P, const vec3& N) {
   float best = kInfinity, E = 0;
   for (size_t i = 0; i < points.count(); ++i) {
@@ -83,8 +91,9 @@ float nearestOf(const PointCloud& points, const vec3& P, const vec3& N) {
 }
 
 struct Errors {
-  double mean = 0;   ///< Of |E - truth| over the brightest, on all surfaces.
-  double leak = 0;   ///< Mean of what is above the truth, within two walls of where surfaces meet, on all but the brightest.
+  double mean = 0;  ///< Of |E - truth| over the brightest, on all surfaces.
+  double leak =
+      0;  ///< Mean of what is above the truth, within two walls of where surfaces meet, on all but the brightest.
 };
 
 template <class Lookup>
@@ -99,7 +108,8 @@ Errors errorsOf(const LabScene& scene, const Lookup& lookup) {
       const double E = double{lookup(P, s)}, error = E - double{s.E};
       out.mean += std::abs(error), ++all;
       const bool leaf = std::strcmp(scene.name, "leaf") == 0;
-      const float apart = std::strcmp(scene.name, "thin wall") == 0 ? std::abs(P.x - 0.5f) - 0.5f * kWall : std::max(P.x, P.z);
+      const float apart =
+          std::strcmp(scene.name, "thin wall") == 0 ? std::abs(P.x - 0.5f) - 0.5f * kWall : std::max(P.x, P.z);
       if (s.E == 1 || (!leaf && apart > 2 * kWall)) continue;
       out.leak += std::max(0.0, error), ++near;
     }
@@ -115,7 +125,8 @@ struct Lab {
 
   void run(const LabScene& scene, int photons, bool check) {
     const PointCloud points = estimateIrradiance(photonsOf(scene, photons), {});
-    const Errors nearest = errorsOf(scene, [&](const vec3& P, const Surface& s) { return nearestOf(points, P, s.normal); });
+    const Errors nearest =
+        errorsOf(scene, [&](const vec3& P, const Surface& s) { return nearestOf(points, P, s.normal); });
     fmt::print("\n## {}, {} photons, {} irradiance points\n\n", scene.name, photons, points.count());
     fmt::print("| maxerror | bricks | left out | bytes |");
     constexpr float kFilters[] = {0.002f, 0.005f, 0.01f, 0.02f, 0.05f, 0.1f};
@@ -127,7 +138,8 @@ struct Lab {
       BrickCache cache(size_t{1} << 28);
       const BrickMap map(path, cache);
       const auto kept = built.tree.nodes.size();
-      fmt::print("| {} | {} | {:.0f} % | {} |", maxError, kept, 100.0 * built.eliminated / static_cast<double>(built.eliminated + static_cast<int>(kept)),
+      fmt::print("| {} | {} | {:.0f} % | {} |", maxError, kept,
+                 100.0 * built.eliminated / static_cast<double>(built.eliminated + static_cast<int>(kept)),
                  fs::file_size(path));
       for (const float filter : kFilters) {
         const Errors e = errorsOf(scene, [&](const vec3& P, const Surface& s) {
@@ -136,8 +148,11 @@ struct Lab {
           return E[0];
         });
         fmt::print(" {} |", text(e));
-        // What README.md says, with room for noise: as fine as the wall, no worse than the nearest photon by more than a hundredth.
-        if (check && filter <= kWall / 4 && maxError <= 0.03f && (e.mean > nearest.mean + 0.01 || e.leak > nearest.leak + 0.01)) ++failures;
+        // What README.md says, with room for noise: as fine as the wall, no worse than the nearest photon by more than
+        // a hundredth.
+        if (check && filter <= kWall / 4 && maxError <= 0.03f &&
+            (e.mean > nearest.mean + 0.01 || e.leak > nearest.leak + 0.01))
+          ++failures;
       }
       fmt::print("\n");
     }

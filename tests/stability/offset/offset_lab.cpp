@@ -2,10 +2,11 @@
 //   bias      hits nearer than rounding do not count
 //   ignore    hits nearer than the offset do not count
 //   hit list  "An Approximate Global Illumination System", section 4.3 (docs/decisions/0006)
-// Flat cases: rays leave places up to d = offset / 1.5 before or behind their sheet, as micropolygons do, with the cosine around its
-// normal. Right is what a ray would meet that leaves the sheet itself and cannot meet it. Curved cases: places on the true surface
-// of a sphere, rays inwards; meeting the sphere before half the way to its other side is wrong. The same at all times of the shutter, where it moves.
-// Curves and points: rays outwards, all of which miss it.
+// Flat cases: rays leave places up to d = offset / 1.5 before or behind their sheet, as micropolygons do, with the
+// cosine around its normal. Right is what a ray would meet that leaves the sheet itself and cannot meet it. Curved
+// cases: places on the true surface of a sphere, rays inwards; meeting the sphere before half the way to its other side
+// is wrong. The same at all times of the shutter, where it moves. Curves and points: rays outwards, all of which miss
+// it.
 //
 //     offset_lab [--rays N] [--check] [--picture FILE.ppm]
 #include <fmt/format.h>
@@ -41,7 +42,7 @@ Ray rayBy(Method method, const vec3& origin, const vec3& direction, float cosine
 /// One sheet that rays leave upwards (+z) and what else there is.
 struct FlatCase {
   std::string name;
-  float alongX = 1;    ///< Rays leave from x in 0..alongX (logarithmically from a hundredth of it, if `edge`).
+  float alongX = 1;  ///< Rays leave from x in 0..alongX (logarithmically from a hundredth of it, if `edge`).
   bool edge = false;
   double limit = 1;
   bool displaced = true;
@@ -77,8 +78,8 @@ Row run(const FlatCase& c, int rays) {
   return row;
 }
 
-/// Rays from the places of an object's micropolygons, at the times of the shutter if it moves, to the outer side or inwards. Wrong is a hit with the
-/// object: outwards any, inwards one before `inside` times the cosine.
+/// Rays from the places of an object's micropolygons, at the times of the shutter if it moves, to the outer side or
+/// inwards. Wrong is a hit with the object: outwards any, inwards one before `inside` times the cosine.
 struct ObjectCase {
   std::string name;
   double limit = 1;
@@ -95,7 +96,8 @@ Row run(const ObjectCase& c, const World& world, int rays) {
     const int k = static_cast<int>(hash32(n) % static_cast<uint32_t>(g.vertexCount()));
     const float time = moves ? sobol1(n, 4) : 0;
     const vec3 P = world.rays->placeAt(0, g.position(0, k), vec3(0), time);
-    const vec3 away = glm::normalize(world.rays->placeAt(0, g.position(0, k) + glm::normalize(g.normal(k)), vec3(0), time) - P);
+    const vec3 away =
+        glm::normalize(world.rays->placeAt(0, g.position(0, k) + glm::normalize(g.normal(k)), vec3(0), time) - P);
     vec3 x, y;
     orthonormalBasis(away, x, y);
     const vec3 d = cosineHemisphere(sobol2(n, 3));
@@ -141,7 +143,8 @@ mat4 aroundRim(float angle) {
 }
 
 ParamList thin(std::vector<float> points, float width) {
-  return {floatsParam("P", ValueType::Point, Storage::Vertex, std::move(points)), floatsParam("constantwidth", ValueType::Float, Storage::Constant, {width})};
+  return {floatsParam("P", ValueType::Point, Storage::Vertex, std::move(points)),
+          floatsParam("constantwidth", ValueType::Float, Storage::Constant, {width})};
 }
 
 std::vector<Row> runThin(int rays) {
@@ -188,14 +191,22 @@ std::vector<std::array<vec3, 3>> crossing(float degrees) {
 std::vector<Row> measure(int rays) {
   std::vector<Row> rows;
   // Documented limits: walls thinner than what the surfaces are off, acute corners within an offset of the edge.
-  for (const auto& [thickness, limit] : std::vector<std::pair<float, double>>{{10, 0.005}, {3, 0.005}, {1.6f, 0.01}, {1, 0.15}, {0.5f, 0.33}, {0.2f, 0.45}, {0.1f, 0.5}})
-    rows.push_back(run({fmt::format("wall of {} offsets", thickness), 1, false, limit, true, wall(thickness * kOffset)}, rays));
-  for (const auto& [degrees, limit] : std::vector<std::pair<float, double>>{{5, 0.7}, {15, 0.5}, {45, 0.35}, {90, 0.3}, {135, 0.2}, {175, 0.1}}) {
-    rows.push_back(run({fmt::format("corner of {} degrees, surfaces exact", degrees), 4 * kOffset, true, limit, false, corner(degrees)}, rays));
-    rows.push_back(run({fmt::format("corner of {} degrees", degrees), 4 * kOffset, true, limit, true, corner(degrees)}, rays));
+  for (const auto& [thickness, limit] : std::vector<std::pair<float, double>>{
+           {10, 0.005}, {3, 0.005}, {1.6f, 0.01}, {1, 0.15}, {0.5f, 0.33}, {0.2f, 0.45}, {0.1f, 0.5}})
+    rows.push_back(
+        run({fmt::format("wall of {} offsets", thickness), 1, false, limit, true, wall(thickness * kOffset)}, rays));
+  for (const auto& [degrees, limit] :
+       std::vector<std::pair<float, double>>{{5, 0.7}, {15, 0.5}, {45, 0.35}, {90, 0.3}, {135, 0.2}, {175, 0.1}}) {
+    rows.push_back(run({fmt::format("corner of {} degrees, surfaces exact", degrees), 4 * kOffset, true, limit, false,
+                        corner(degrees)},
+                       rays));
+    rows.push_back(
+        run({fmt::format("corner of {} degrees", degrees), 4 * kOffset, true, limit, true, corner(degrees)}, rays));
   }
   for (const float degrees : {30.0f, 90.0f})
-    rows.push_back(run({fmt::format("sheets crossing at {} degrees", degrees), 4 * kOffset, true, 0.4, true, crossing(degrees)}, rays));
+    rows.push_back(
+        run({fmt::format("sheets crossing at {} degrees", degrees), 4 * kOffset, true, 0.4, true, crossing(degrees)},
+            rays));
   for (const float radius : {1e-3f, 1e-1f, 10.0f, 1e3f, 1e5f})
     rows.push_back(runSphere(fmt::format("sphere of radius {:g}", radius), radius, 0, rays, 0.03));
   rows.push_back(runSphere("sphere of radius 1, scene moved by 1e6", 1, 1e6f, rays, 0.03));
@@ -216,7 +227,9 @@ bool draw(const std::vector<Row>& rows, const char* path) {
       for (int y = 0; y < kBar - 1; ++y)
         for (int x = 0; x < kWidth * rows[r].wrong[m] + 1; ++x)
           for (int c = 0; c < 3; ++c)
-            if (x < kWidth) pixels[static_cast<size_t>(3 * ((static_cast<int>(r) * pitch + m * kBar + y) * kWidth + x) + c)] = colors[m][c];
+            if (x < kWidth)
+              pixels[static_cast<size_t>(3 * ((static_cast<int>(r) * pitch + m * kBar + y) * kWidth + x) + c)] =
+                  colors[m][c];
   std::FILE* file = std::fopen(path, "wb");
   if (!file) return false;
   fmt::print(file, "P6\n{} {}\n255\n", kWidth, height);
@@ -236,8 +249,10 @@ int lab(int argc, char** argv) {
   const std::vector<Row> rows = measure(rays);
   fmt::print("| case | bias | ignore near hits | hit list |\n|---|---|---|---|\n");
   for (const Row& r : rows) {
-    fmt::print("| {} | {:.2f} % | {:.2f} % | {:.2f} % |\n", r.name, 100 * r.wrong[kBias], 100 * r.wrong[kIgnore], 100 * r.wrong[kHitList]);
-    if (r.wrong[kHitList] > r.limit) fmt::print(stderr, "{}: more than {} % wrong\n", r.name, 100 * r.limit), fine = false;
+    fmt::print("| {} | {:.2f} % | {:.2f} % | {:.2f} % |\n", r.name, 100 * r.wrong[kBias], 100 * r.wrong[kIgnore],
+               100 * r.wrong[kHitList]);
+    if (r.wrong[kHitList] > r.limit)
+      fmt::print(stderr, "{}: more than {} % wrong\n", r.name, 100 * r.limit), fine = false;
   }
   if (picture && !draw(rows, picture)) return 2;
   return check && !fine ? 1 : 0;

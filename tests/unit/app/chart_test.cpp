@@ -13,13 +13,15 @@ namespace tomales {
 namespace {
 
 Image grey(int width, int height, float value) {
-  return {width, height, {"R", "G", "B"}, std::vector<float>(static_cast<size_t>(width * height * 3), value), 0, 0, width, height};
+  return {width, height, {"R", "G", "B"}, std::vector<float>(static_cast<size_t>(width * height * 3), value),
+          0,     0,      width,           height};
 }
 
 /// About `value`, off by up to `noise` of it.
 Image noisy(float value, float noise, uint32_t seed) {
   Image out = grey(64, 64, value);
-  for (uint32_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] *= 1 + noise * (2 * unitFloat(hashCombine(i, seed)) - 1);
+  for (uint32_t i = 0; i < out.pixels.size(); ++i)
+    out.pixels[i] *= 1 + noise * (2 * unitFloat(hashCombine(i, seed)) - 1);
   return out;
 }
 

@@ -73,7 +73,9 @@ TEST(Overrides, AGiModeAddsAnIndirectLightOnceAndOnlyWhereItIsMissing) {
 }
 
 TEST(Overrides, ADraftIsCoarseButForWhatIsAskedBesides) {
-  Scene scene = sceneOf("PixelSamples 4 4\nWorldBegin\nLightSource \"indirectlight\" 1 \"samples\" [600]\nShadingRate 0.5\nDisplacement \"bumpy\"\nSphere 1 -1 1 360\nWorldEnd\n");
+  Scene scene = sceneOf(
+      "PixelSamples 4 4\nWorldBegin\nLightSource \"indirectlight\" 1 \"samples\" [600]\nShadingRate 0.5\nDisplacement "
+      "\"bumpy\"\nSphere 1 -1 1 360\nWorldEnd\n");
   RenderSettings settings;
   settings.draft = true;
   settings.pixelSamples = {{3, 5}};

@@ -21,8 +21,8 @@ TEST(Crop, IsFourOrderedFractions) {
   const auto crop = parseCrop("0,0.5,0.25,1");
   ASSERT_TRUE(crop);
   EXPECT_EQ(*crop, (std::array<float, 4>{0, 0.5f, 0.25f, 1}));
-  for (const char* text : {"", "0,1,0", "0,1,0,1,0", "0.5,0.5,0,1", "1,0,0,1", "0,1.5,0,1", "-0.1,1,0,1",
-                           "nan,1,0,1", "a,b,c,d"})
+  for (const char* text :
+       {"", "0,1,0", "0,1,0,1,0", "0.5,0.5,0,1", "1,0,0,1", "0,1.5,0,1", "-0.1,1,0,1", "nan,1,0,1", "a,b,c,d"})
     EXPECT_FALSE(parseCrop(text)) << text;
 }
 

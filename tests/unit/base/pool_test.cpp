@@ -8,7 +8,8 @@ namespace {
 TEST(Pool, WhatItGivesStandsOnCacheLinesAndDoesNotOverlap) {
   Pool pool(1000);
   std::vector<std::pair<uintptr_t, size_t>> taken;
-  for (const size_t size : {1, 64, 65, 900, 5000, 3}) taken.emplace_back(reinterpret_cast<uintptr_t>(pool.take(size)), size);
+  for (const size_t size : {1, 64, 65, 900, 5000, 3})
+    taken.emplace_back(reinterpret_cast<uintptr_t>(pool.take(size)), size);
   std::sort(taken.begin(), taken.end());
   for (size_t i = 0; i < taken.size(); ++i) {
     EXPECT_EQ(taken[i].first % 64, 0U);

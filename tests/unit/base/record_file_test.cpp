@@ -20,14 +20,17 @@ Bytes bytesOf(const std::string& text) {
 class RecordFiles : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("tomales_records_" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
-                                           testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ = fs::temp_directory_path() /
+              ("tomales_records_" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
+               testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directories(folder_);
     path_ = (folder_ / "file").string();
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  std::unique_ptr<RecordWriter> writer(bool resume = false) { return RecordWriter::create(path_, kKind, resume, error_); }
+  std::unique_ptr<RecordWriter> writer(bool resume = false) {
+    return RecordWriter::create(path_, kKind, resume, error_);
+  }
   std::string content() const {
     std::ifstream file(path_, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
@@ -44,7 +47,8 @@ class RecordFiles : public testing::Test {
   void writeThree() {
     const auto w = writer();
     ASSERT_TRUE(w) << error_;
-    for (const uint32_t i : {2u, 0u, 1u}) ASSERT_TRUE(w->write({7, i}, bytesOf(std::string(40, static_cast<char>('a' + i)))));
+    for (const uint32_t i : {2u, 0u, 1u})
+      ASSERT_TRUE(w->write({7, i}, bytesOf(std::string(40, static_cast<char>('a' + i)))));
     ASSERT_TRUE(w->finish());
   }
 

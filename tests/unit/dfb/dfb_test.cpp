@@ -51,8 +51,9 @@ DeepTile smallTile(const DeepFrame& frame, size_t index) {
 class Dfb : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / (std::string("tomales_dfb_") + testing::UnitTest::GetInstance()->current_test_info()->name() +
-                                           std::to_string(::getpid()));
+    folder_ = fs::temp_directory_path() /
+              (std::string("tomales_dfb_") + testing::UnitTest::GetInstance()->current_test_info()->name() +
+               std::to_string(::getpid()));
     fs::create_directories(folder_);
     path_ = (folder_ / "shot.dfb").string();
   }
@@ -116,7 +117,8 @@ TEST_F(Dfb, HoldsTilesBitForBit) {
   EXPECT_EQ(points.primvar(0)[0], 0.75f);
   EXPECT_TRUE(tile->facets.at(0).matte);
   const Fragment &f = tile->fragments.at(0), &e = expected.fragments[0];
-  EXPECT_TRUE(f.facet == e.facet && f.z == e.z && f.samples == e.samples && f.word == e.word && f.u == e.u && f.v == e.v);
+  EXPECT_TRUE(f.facet == e.facet && f.z == e.z && f.samples == e.samples && f.word == e.word && f.u == e.u &&
+              f.v == e.v);
   EXPECT_EQ(tile->pixel(0, 1).count, 1u);
   EXPECT_TRUE(file->tile(1, error_)->batches.empty());
 }

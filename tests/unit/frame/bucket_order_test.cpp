@@ -14,7 +14,8 @@ constexpr int kColumns = 7, kRows = 5;
 TEST(BucketOrder, VisitsEveryBucketOnceWhateverItsName) {
   std::vector<uint32_t> all(kColumns * kRows);
   std::iota(all.begin(), all.end(), 0u);
-  for (const char* name : {"horizontal", "vertical", "zigzag-x", "zigzag-y", "spacefill", "spiral", "random", "unknown"}) {
+  for (const char* name :
+       {"horizontal", "vertical", "zigzag-x", "zigzag-y", "spacefill", "spiral", "random", "unknown"}) {
     std::vector<uint32_t> order = bucketOrder(name, kColumns, kRows);
     std::sort(order.begin(), order.end());
     EXPECT_EQ(order, all) << name;

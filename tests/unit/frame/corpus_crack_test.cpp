@@ -1,5 +1,6 @@
-// Every closed body of the corpus and of the gallery alone in front of nothing, as large as the picture: a sample that sees nothing where all
-// around is covered looks through a crack. Back faces are left out, so that no far wall hides one.
+// Every closed body of the corpus and of the gallery alone in front of nothing, as large as the picture: a sample that
+// sees nothing where all around is covered looks through a crack. Back faces are left out, so that no far wall hides
+// one.
 #include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -17,11 +18,13 @@ struct View {
 };
 
 constexpr const char* kBumps =
-    "Attribute \"displacementbound\" \"float sphere\" [0.12] \"string coordinatesystem\" [\"world\"] Displacement \"noisybump\" \"float Km\" [0.1] "
+    "Attribute \"displacementbound\" \"float sphere\" [0.12] \"string coordinatesystem\" [\"world\"] Displacement "
+    "\"noisybump\" \"float Km\" [0.1] "
     "\"float frequency\" [3] \"float octaves\" [3] ";
 
 const std::vector<View>& views() {
-  static const std::string fine = std::string("ShadingRate 0.25 ") + kBumps, middle = std::string("ShadingRate 1 ") + kBumps,
+  static const std::string fine = std::string("ShadingRate 0.25 ") + kBumps,
+                           middle = std::string("ShadingRate 1 ") + kBumps,
                            coarse = std::string("ShadingRate 4 ") + kBumps;
   static const std::vector<View> list = {
       {"0.25", "", "ShadingRate 0.25", ""},
@@ -30,7 +33,8 @@ const std::vector<View>& views() {
       {"0.25 displaced", "", fine.c_str(), ""},
       {"1 displaced", "Option \"limits\" \"bucketsize\" [32 32]", middle.c_str(), ""},
       {"4 displaced", "", coarse.c_str(), ""},
-      {"4 displaced, moving", "Shutter 0 1", coarse.c_str(), "MotionBegin [0 1] Rotate 0 1 1 0 Rotate 8 1 1 0 MotionEnd ", 6},
+      {"4 displaced, moving", "Shutter 0 1", coarse.c_str(),
+       "MotionBegin [0 1] Rotate 0 1 1 0 Rotate 8 1 1 0 MotionEnd ", 6},
       {"4 displaced, out of focus", "DepthOfField 4 1 2", coarse.c_str(), "", 6},
   };
   return list;
@@ -69,9 +73,13 @@ bool isAffine(const Object& o) {
 
 /// Samples through which nothing is seen, of the object scaled into the unit ball.
 Holes holesOf(const Object& original, const View& view) {
-  Scene scene = std::move(scenesOf("Format 112 112 1 PixelSamples 5 5 PixelFilter \"box\" 1 1 Projection \"perspective\" \"fov\" 40 "
-                                   "Clipping 0.1 100 " + std::string(view.options) + " Sides 1 Translate 0 0 3.2 Rotate 25 1 0.3 0.1 WorldBegin " +
-                                   view.attributes + " " + view.turn + " Sphere 1 -1 1 360 WorldEnd", "body.rib", false).at(0));
+  Scene scene = std::move(
+      scenesOf("Format 112 112 1 PixelSamples 5 5 PixelFilter \"box\" 1 1 Projection \"perspective\" \"fov\" 40 "
+               "Clipping 0.1 100 " +
+                   std::string(view.options) + " Sides 1 Translate 0 0 3.2 Rotate 25 1 0.3 0.1 WorldBegin " +
+                   view.attributes + " " + view.turn + " Sphere 1 -1 1 360 WorldEnd",
+               "body.rib", false)
+          .at(0));
   const Bound3 b = boundOf(original);
   const float scale = 2 / glm::length(b.size());
   const mat4 fit = glm::scale(mat4(1.0f), vec3(scale)) * glm::translate(mat4(1.0f), -b.center());
@@ -109,11 +117,15 @@ bool isClosedBody(const Object& o) {
   return o.shape().patchCount() > 0 && isAffine(o) && isFinite(b.lo) && isFinite(b.hi) && glm::length(b.size()) > 0;
 }
 
-/// Sharp edges without shared normals are taken apart by displacement along N (docs/decisions/0003); through the torus's hole, a slit, one does see.
+/// Sharp edges without shared normals are taken apart by displacement along N (docs/decisions/0003); through the
+/// torus's hole, a slit, one does see.
 bool isNoCrack(const Object& o, const View& view) {
-  const std::string place = std::filesystem::path(*o.where.file).filename().string() + ':' + std::to_string(o.where.line);
-  const bool sharp = place == "polygons.rib:26" || place == "subdivision.rib:19" || place == "subdivision.rib:35" || place.starts_with("solids.rib:");
-  return (sharp && *view.attributes && std::string(view.name).ends_with("displaced")) || (place == "quadrics.rib:40" && view.blur_px > 2);
+  const std::string place =
+      std::filesystem::path(*o.where.file).filename().string() + ':' + std::to_string(o.where.line);
+  const bool sharp = place == "polygons.rib:26" || place == "subdivision.rib:19" || place == "subdivision.rib:35" ||
+                     place.starts_with("solids.rib:");
+  return (sharp && *view.attributes && std::string(view.name).ends_with("displaced")) ||
+         (place == "quadrics.rib:40" && view.blur_px > 2);
 }
 
 class CrackOfFile : public testing::TestWithParam<std::filesystem::path> {};
@@ -140,7 +152,9 @@ std::vector<std::filesystem::path> files() {
   return out;
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, CrackOfFile, testing::ValuesIn(files()), [](const auto& file) { return file.param.parent_path().filename().string() + "_" + file.param.stem().string(); });
+INSTANTIATE_TEST_SUITE_P(Files, CrackOfFile, testing::ValuesIn(files()), [](const auto& file) {
+  return file.param.parent_path().filename().string() + "_" + file.param.stem().string();
+});
 
 }  // namespace
 }  // namespace tomales

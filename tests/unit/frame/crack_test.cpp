@@ -35,12 +35,14 @@ constexpr const char* kNurbsSphere =
 constexpr const char* kDisplace =
     "Attribute \"displacementbound\" \"float sphere\" [0.12] "
     "Displacement \"noisybump\" \"float Km\" [0.1] \"float frequency\" [3] \"float octaves\" [2] ";
-/// An octahedron whose faces are triangles, and a prism over a concave outline: every edge joins faces of different rates.
+/// An octahedron whose faces are triangles, and a prism over a concave outline: every edge joins faces of different
+/// rates.
 constexpr const char* kOctahedron =
     "PointsPolygons [3 3 3 3 3 3 3 3] [0 2 4 2 1 4 1 3 4 3 0 4 2 0 5 1 2 5 3 1 5 0 3 5] "
     "\"P\" [1 0 0 -1 0 0 0 1 0 0 -1 0 0 0 1 0 0 -1]";
 constexpr const char* kPrism =
-    "Translate -0.2 0 0 PointsPolygons [6 6 4 4 4 4 4 4] [0 5 4 3 2 1 6 7 8 9 10 11 0 1 7 6 1 2 8 7 2 3 9 8 3 4 10 9 4 5 11 10 5 0 "
+    "Translate -0.2 0 0 PointsPolygons [6 6 4 4 4 4 4 4] [0 5 4 3 2 1 6 7 8 9 10 11 0 1 7 6 1 2 8 7 2 3 9 8 3 4 10 9 4 "
+    "5 11 10 5 0 "
     "6 11] \"P\" [-0.8 -0.8 -0.7 0.8 -0.8 -0.7 0.8 -0.1 -0.7 0.2 0 -0.7 0.2 0.8 -0.7 -0.8 0.8 -0.7 "
     "-0.8 -0.8 0.7 0.8 -0.8 0.7 0.8 -0.1 0.7 0.2 0 0.7 0.2 0.8 0.7 -0.8 0.8 0.7]";
 constexpr const char* kSplineTorus =
@@ -66,10 +68,12 @@ std::string bipyramid() {
 
 /// A tube between two ends with sharp rims, whose sides and caps are displaced apart, and one that closes on itself.
 constexpr const char* kTube =
-    "Attribute \"dice\" \"int roundcurve\" [1] Curves \"cubic\" [4] \"nonperiodic\" \"P\" [-1.2 -0.6 0 -0.4 0.9 0 0.4 -0.9 0 1.2 0.6 0] "
+    "Attribute \"dice\" \"int roundcurve\" [1] Curves \"cubic\" [4] \"nonperiodic\" \"P\" [-1.2 -0.6 0 -0.4 0.9 0 0.4 "
+    "-0.9 0 1.2 0.6 0] "
     "\"constantwidth\" [0.6]";
 constexpr const char* kRing =
-    "Attribute \"dice\" \"int roundcurve\" [1] Basis \"b-spline\" 1 \"b-spline\" 1 Curves \"cubic\" [6] \"periodic\" \"P\" [1.4 0 0  0.7 "
+    "Attribute \"dice\" \"int roundcurve\" [1] Basis \"b-spline\" 1 \"b-spline\" 1 Curves \"cubic\" [6] \"periodic\" "
+    "\"P\" [1.4 0 0  0.7 "
     "0.5 1.2  -0.7 -0.3 1.2  -1.4 0 0  -0.7 0.5 -1.2  0.7 -0.3 -1.2] \"constantwidth\" [0.5]";
 
 struct Body {
@@ -90,8 +94,7 @@ TEST_P(Crack, NoneInAClosedBodyAtAnyShadingRate) {
 
 TEST_P(Crack, NoneWhenGridsAreSmall) {
   for (const char* size : {"4", "23"}) {
-    const Holes found =
-        holes(hide(GetParam().rib, "Option \"limits\" \"gridsize\" [" + std::string(size) + "]"));
+    const Holes found = holes(hide(GetParam().rib, "Option \"limits\" \"gridsize\" [" + std::string(size) + "]"));
     EXPECT_GT(found.inside_px, 1500);
     EXPECT_EQ(found.samples, 0) << "grids of " << size;
   }
@@ -102,8 +105,8 @@ TEST_P(Crack, NoneWhenItMovesOrIsOutOfFocus) {
   // = 4 px.
   constexpr int kBlur_px = 6;
   const std::string body = GetParam().rib;
-  const Holes moving = holes(
-      hide("MotionBegin [0 1] Rotate 0 1 1 0 Rotate 8 1 1 0 MotionEnd " + body, "Shutter 0 1"), kBlur_px);
+  const Holes moving =
+      holes(hide("MotionBegin [0 1] Rotate 0 1 1 0 Rotate 8 1 1 0 MotionEnd " + body, "Shutter 0 1"), kBlur_px);
   EXPECT_GT(moving.inside_px, 500);
   EXPECT_EQ(moving.samples, 0);
   const Holes blurred = holes(hide(body, "DepthOfField 4 1 2"), kBlur_px);
@@ -116,10 +119,12 @@ class DisplacedCrack : public testing::TestWithParam<Body> {};
 
 TEST_P(DisplacedCrack, NoneHoweverFarMicropolygonsMissTheBumps) {
   const std::string shader =
-      "Attribute \"displacementbound\" \"float sphere\" [0.2] Displacement \"noisybump\" \"float Km\" [0.12] \"float frequency\" [3] "
+      "Attribute \"displacementbound\" \"float sphere\" [0.2] Displacement \"noisybump\" \"float Km\" [0.12] \"float "
+      "frequency\" [3] "
       "\"float octaves\" [4] ";
   for (const char* rate : {"0.5", "1", "4", "16", "100"}) {
-    const Holes found = holes(hide("ShadingRate " + std::string(rate) + " " + shader + GetParam().rib, {}, "Sides 1 Translate 0 0 4.5 Rotate 30 1 0.3 0 "));
+    const Holes found = holes(hide("ShadingRate " + std::string(rate) + " " + shader + GetParam().rib, {},
+                                   "Sides 1 Translate 0 0 4.5 Rotate 30 1 0.3 0 "));
     EXPECT_GT(found.inside_px, 700);
     EXPECT_LE(found.samples, GetParam().most) << "rate " << rate;
   }
@@ -132,11 +137,10 @@ INSTANTIATE_TEST_SUITE_P(Bodies, DisplacedCrack,
                          [](const auto& p) { return p.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(Bodies, Crack,
-                         testing::Values(Body{"Sphere", kSphere}, Body{"Torus", kTorus},
-                                         Body{"SubdivisionCube", kCube}, Body{"DisplacedSphere", kBumpy},
-                                         Body{"NurbsSphere", kNurbsSphere}, Body{"BSplineTorus", kSplineTorus},
-                                         Body{"Octahedron", kOctahedron}, Body{"ConcavePrism", kPrism},
-                                         Body{"DisplacedSubdivision", kBumpyCube},
+                         testing::Values(Body{"Sphere", kSphere}, Body{"Torus", kTorus}, Body{"SubdivisionCube", kCube},
+                                         Body{"DisplacedSphere", kBumpy}, Body{"NurbsSphere", kNurbsSphere},
+                                         Body{"BSplineTorus", kSplineTorus}, Body{"Octahedron", kOctahedron},
+                                         Body{"ConcavePrism", kPrism}, Body{"DisplacedSubdivision", kBumpyCube},
                                          Body{"DisplacedTorus", kBumpyTorus}, Body{"DisplacedNurbs", kBumpyNurbs}),
                          [](const auto& p) { return p.param.name; });
 

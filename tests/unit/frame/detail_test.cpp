@@ -16,8 +16,9 @@ struct Parts {
   double near = 0, far = 0, twice = 0;
 };
 Parts parts(const std::string& body, const std::string& options = {}) {
-  const DeepFrame f = hideRib("Format 128 128 1 PixelSamples 4 4 PixelFilter \"box\" 1 1 ScreenWindow -2 2 -2 2 Clipping 0.1 100 " +
-                              options + " Translate 0 0 10 WorldBegin Opacity 0.5 0.5 0.5 " + body + " WorldEnd");
+  const DeepFrame f =
+      hideRib("Format 128 128 1 PixelSamples 4 4 PixelFilter \"box\" 1 1 ScreenWindow -2 2 -2 2 Clipping 0.1 100 " +
+              options + " Translate 0 0 10 WorldBegin Opacity 0.5 0.5 0.5 " + body + " WorldEnd");
   Parts p;
   const double sample = 1.0 / (40 * 40 * 16);
   for (int y = 44; y < 84; ++y)
@@ -60,8 +61,9 @@ TEST(Detail, NestedRangesDivideWhatIsLeftToThem) {
 }
 
 TEST(Detail, BoxesThatReachTheEyeAreAsLargeAsCanBe) {
-  const DeepFrame f = hideRib("Format 32 32 1 Projection \"perspective\" \"fov\" 40 WorldBegin Detail [-1 1 -1 1 -1 20] "
-                              "Translate 0 0 10 DetailRange [0 0 1e6 1e6] Sphere 1 -1 1 360 WorldEnd");
+  const DeepFrame f = hideRib(
+      "Format 32 32 1 Projection \"perspective\" \"fov\" 40 WorldBegin Detail [-1 1 -1 1 -1 20] "
+      "Translate 0 0 10 DetailRange [0 0 1e6 1e6] Sphere 1 -1 1 360 WorldEnd");
   EXPECT_EQ(covered(f, 16, 16), 0);
 }
 

@@ -45,17 +45,16 @@ TEST_P(Outline, OfAClosedBodyShowsItsOutsideAlone) {
 
 // As if it stood still: shading is that of shutter open.
 TEST_P(Outline, OfWhatMovesByIsLitOnTheOutsideToo) {
-  const Sides seen = sides(hide(
-      std::string("MotionBegin [0 1] Translate 0 0 0 Translate 0.1 0 0 MotionEnd ") + std::get<0>(GetParam()),
-      options(" Shutter 0 1"), kPlaced));
+  const Sides seen = sides(
+      hide(std::string("MotionBegin [0 1] Translate 0 0 0 Translate 0.1 0 0 MotionEnd ") + std::get<0>(GetParam()),
+           options(" Shutter 0 1"), kPlaced));
   EXPECT_LT(seen.back, seen.front / 1000);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Bodies, Outline,
     ::testing::Combine(::testing::Values(kSphere, kBumpy),
-                       ::testing::Values("ShadingInterpolation \"constant\"",
-                                         "ShadingInterpolation \"smooth\"",
+                       ::testing::Values("ShadingInterpolation \"constant\"", "ShadingInterpolation \"smooth\"",
                                          "Projection \"orthographic\" ScreenWindow -1.3 1.3 -1.3 1.3")));
 
 }  // namespace

@@ -30,7 +30,8 @@ inline DeepFrame hideRib(const std::string& rib) {
   return frame;
 }
 
-inline DeepFrame hide(const std::string& body, const std::string& options = {}, const std::string& placed = kSeenAskew) {
+inline DeepFrame hide(const std::string& body, const std::string& options = {},
+                      const std::string& placed = kSeenAskew) {
   return hideRib(
       "Format 128 128 1 PixelSamples 6 6 PixelFilter \"box\" 1 1 Projection \"perspective\" \"fov\" 40 "
       "Clipping 0.1 100 " +
@@ -64,8 +65,7 @@ inline Holes holes(const DeepFrame& frame, int margin = 2) {
   const auto inside = [&](int x, int y) {
     for (int dy = -margin; dy <= margin; ++dy)
       for (int dx = -margin; dx <= margin; ++dx)
-        if (!r.contains(x + dx, y + dy) || 2 * covered(frame, x + dx, y + dy) < frame.samplesPerPixel)
-          return false;
+        if (!r.contains(x + dx, y + dy) || 2 * covered(frame, x + dx, y + dy) < frame.samplesPerPixel) return false;
     return true;
   };
   for (int y = r.y0; y < r.y1; ++y)

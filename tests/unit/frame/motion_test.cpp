@@ -7,16 +7,22 @@ using namespace test;
 
 /// A square of one unit that moves over 64 x 64 pixels, ten of them a unit, for the shutter 0..1.
 DeepFrame moved(const std::string& motion) {
-  return hideRib("Format 64 64 1 PixelSamples 10 10 PixelFilter \"box\" 1 1 Projection \"orthographic\" ScreenWindow -3.2 3.2 -3.2 3.2 Shutter 0 1 "
-                 "Translate 0 0 1 WorldBegin " + motion + " Polygon \"P\" [-0.5 -0.5 0 0.5 -0.5 0 0.5 0.5 0 -0.5 0.5 0] WorldEnd");
+  return hideRib(
+      "Format 64 64 1 PixelSamples 10 10 PixelFilter \"box\" 1 1 Projection \"orthographic\" ScreenWindow -3.2 3.2 "
+      "-3.2 3.2 Shutter 0 1 "
+      "Translate 0 0 1 WorldBegin " +
+      motion + " Polygon \"P\" [-0.5 -0.5 0 0.5 -0.5 0 0.5 0.5 0 -0.5 0.5 0] WorldEnd");
 }
 
-double shareOf(const DeepFrame& frame, int x, int y) { return static_cast<double>(covered(frame, x, y)) / frame.samplesPerPixel; }
+double shareOf(const DeepFrame& frame, int x, int y) {
+  return static_cast<double>(covered(frame, x, y)) / frame.samplesPerPixel;
+}
 
 TEST(MotionOfFrames, AnyNumberOfUnequalKeysSomeOfThemOutsideTheShutter) {
   const double times[] = {-1, 0.2, 0.5, 0.55, 0.9, 3}, places[] = {-2, 0.4, -1.1, 1.9, 1.9, 0};
-  const DeepFrame frame = moved("MotionBegin [-1 0.2 0.5 0.55 0.9 3] Translate -2 0 0 Translate 0.4 0 0 Translate -1.1 0 0 Translate 1.9 0 0 "
-                                "Translate 1.9 0 0 Translate 0 0 0 MotionEnd");
+  const DeepFrame frame = moved(
+      "MotionBegin [-1 0.2 0.5 0.55 0.9 3] Translate -2 0 0 Translate 0.4 0 0 Translate -1.1 0 0 Translate 1.9 0 0 "
+      "Translate 1.9 0 0 Translate 0 0 0 MotionEnd");
   const auto at = [&](double t) {
     size_t k = 0;
     while (times[k + 1] < t) ++k;
@@ -35,7 +41,8 @@ TEST(MotionOfFrames, AnyNumberOfUnequalKeysSomeOfThemOutsideTheShutter) {
 
 TEST(MotionOfFrames, ATurnFollowsItsArcAndNotTheChord) {
   // Two units out, from the right by a quarter to the top: the middle of the arc lies at 1.41, that of the chord at 1.
-  const DeepFrame frame = moved("MotionBegin [0 1] Rotate 0 0 0 1 Rotate 90 0 0 1 MotionEnd Translate 2 0 0 Scale 0.4 0.4 1");
+  const DeepFrame frame =
+      moved("MotionBegin [0 1] Rotate 0 0 0 1 Rotate 90 0 0 1 MotionEnd Translate 2 0 0 Scale 0.4 0.4 1");
   EXPECT_GT(shareOf(frame, 32 + 14, 32 - 15), 0.05);
   EXPECT_EQ(shareOf(frame, 32 + 10, 32 - 11), 0);
   double sum = 0;
@@ -45,7 +52,8 @@ TEST(MotionOfFrames, ATurnFollowsItsArcAndNotTheChord) {
 }
 
 TEST(MotionOfFrames, KeysThatAllLieOnOneSideOfTheShutterHoldTheNearest) {
-  for (const char* motion : {"MotionBegin [-3 -1] Translate -1 0 0 Translate 1 0 0 MotionEnd", "MotionBegin [2 3] Translate 1 0 0 Translate -1 0 0 MotionEnd"}) {
+  for (const char* motion : {"MotionBegin [-3 -1] Translate -1 0 0 Translate 1 0 0 MotionEnd",
+                             "MotionBegin [2 3] Translate 1 0 0 Translate -1 0 0 MotionEnd"}) {
     const DeepFrame frame = moved(motion);
     EXPECT_EQ(shareOf(frame, 42, 32), 1) << motion;
     EXPECT_EQ(shareOf(frame, 30, 32), 0) << motion;

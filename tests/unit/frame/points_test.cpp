@@ -15,8 +15,10 @@ struct Seen {
 
 Seen seenOf(float width_px, const std::string& attributes = {}, const std::string& options = {}) {
   // Orthographic: a pixel is 1/8.
-  const DeepFrame f = hideRib("Format 16 16 1 PixelSamples 32 32 PixelFilter \"box\" 1 1 Projection \"orthographic\" ScreenWindow -1 1 -1 1 " + options + " WorldBegin " + attributes +
-                              fmt::format(" Points \"P\" [0.03 0.02 5] \"constantwidth\" [{}] WorldEnd", width_px / 8));
+  const DeepFrame f = hideRib(
+      "Format 16 16 1 PixelSamples 32 32 PixelFilter \"box\" 1 1 Projection \"orthographic\" ScreenWindow -1 1 -1 1 " +
+      options + " WorldBegin " + attributes +
+      fmt::format(" Points \"P\" [0.03 0.02 5] \"constantwidth\" [{}] WorldEnd", width_px / 8));
   Seen seen;
   for (int y = f.crop.y0; y < f.crop.y1; ++y)
     for (int x = f.crop.x0; x < f.crop.x1; ++x) seen.area_px2 += covered(f, x, y) / 1024.0;
@@ -40,7 +42,10 @@ TEST(Particles, AreShadedOnceWhereTheyAreSmall) {
 
 /// Mean alpha of a frame of 64 x 64, perspective.
 double coverageOf(const std::string& disks) {
-  const DeepFrame f = hideRib("Format 64 64 1 PixelSamples 4 4 PixelFilter \"box\" 1 1 Clipping 0.1 100 Projection \"perspective\" \"fov\" [60] WorldBegin " + disks + " WorldEnd");
+  const DeepFrame f = hideRib(
+      "Format 64 64 1 PixelSamples 4 4 PixelFilter \"box\" 1 1 Clipping 0.1 100 Projection \"perspective\" \"fov\" "
+      "[60] WorldBegin " +
+      disks + " WorldEnd");
   double samples = 0;
   for (int y = f.crop.y0; y < f.crop.y1; ++y)
     for (int x = f.crop.x0; x < f.crop.x1; ++x) samples += covered(f, x, y);
@@ -52,9 +57,11 @@ TEST(Particles, ThatPassTheEyeAreSeenInFrontOfIt) {
 }
 
 TEST(Particles, OfManySizesAreAllSeen) {
-  const double small = coverageOf("Points \"P\" [-0.5 0 3] \"constantwidth\" [0.08]"), large = coverageOf("Points \"P\" [0.5 0 3] \"constantwidth\" [0.8]");
+  const double small = coverageOf("Points \"P\" [-0.5 0 3] \"constantwidth\" [0.08]"),
+               large = coverageOf("Points \"P\" [0.5 0 3] \"constantwidth\" [0.8]");
   EXPECT_GT(small, 0);
-  EXPECT_NEAR(coverageOf("Points \"P\" [-0.5 0 3 0.5 0 3 0 0 -3 9 0 3] \"width\" [0.08 0.8 0.1 0.1]"), small + large, 1e-6);
+  EXPECT_NEAR(coverageOf("Points \"P\" [-0.5 0 3 0.5 0 3 0 0 -3 9 0 3] \"width\" [0.08 0.8 0.1 0.1]"), small + large,
+              1e-6);
 }
 
 TEST(Particles, ThatMoveOrAreDisplacedAreShadedInMorePlaces) {

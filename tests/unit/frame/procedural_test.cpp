@@ -22,7 +22,8 @@ PrimPtr heightField(int n) {
   P.name = "P", P.type = ValueType::Point, P.storage = Storage::Vertex;
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i)
-      for (const float x : {static_cast<float>(i) / static_cast<float>(n - 1), static_cast<float>(j) / static_cast<float>(n - 1), 0.0f})
+      for (const float x :
+           {static_cast<float>(i) / static_cast<float>(n - 1), static_cast<float>(j) / static_cast<float>(n - 1), 0.0f})
         P.floats.push_back(x);
   Problems problems;
   return makeBilinearPatchMesh(n, false, n, false, {P}, problems);
@@ -96,7 +97,9 @@ TEST(Procedural, GivesTheSamePictureForAnyNumberOfThreads) {
   const auto samples = [](int threads) {
     const ThreadLimit limit(threads);
     Squares squares;
-    for (int i = 0; i < 30; ++i) squares.add({0.37f * static_cast<float>(i % 6) - 3, 0.29f * static_cast<float>(i / 6) - 1, 1 + 0.1f * static_cast<float>(i * 7 % 30)});
+    for (int i = 0; i < 30; ++i)
+      squares.add({0.37f * static_cast<float>(i % 6) - 3, 0.29f * static_cast<float>(i / 6) - 1,
+                   1 + 0.1f * static_cast<float>(i * 7 % 30)});
     Stats stats;
     const DeepFrame frame = squares.hide(stats);
     std::vector<float> out;

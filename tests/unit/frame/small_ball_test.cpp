@@ -10,8 +10,8 @@ using namespace test;
 /// Of a disk of the ball's outline, what its samples cover; 0: in focus.
 double share(float radius, int fStop, int degrees, float x) {
   const std::string options = fStop ? fmt::format("DepthOfField {} 1 5", fStop) : "";
-  const DeepFrame f = hide(fmt::format("Translate {} {} 10 Rotate {} 1 0.3 0 Sphere {} {} {} 360", x,
-                                       0.7f * x, degrees, radius, -radius, radius),
+  const DeepFrame f = hide(fmt::format("Translate {} {} 10 Rotate {} 1 0.3 0 Sphere {} {} {} 360", x, 0.7f * x, degrees,
+                                       radius, -radius, radius),
                            options, "");
   double area_px2 = 0;
   for (int y = f.crop.y0; y < f.crop.y1; ++y)

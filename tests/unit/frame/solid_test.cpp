@@ -7,7 +7,8 @@ namespace {
 constexpr float kUnit_px = 32;
 
 std::string world(const std::string& body, const std::string& options = {}) {
-  return "Format 128 128 1 PixelSamples 4 4 PixelFilter \"box\" 1 1 ScreenWindow -2 2 -2 2 Clipping 0.1 100 ShadingRate 1 " +
+  return "Format 128 128 1 PixelSamples 4 4 PixelFilter \"box\" 1 1 ScreenWindow -2 2 -2 2 Clipping 0.1 100 "
+         "ShadingRate 1 " +
          options + " Translate 0 0 10 WorldBegin " + body + " WorldEnd";
 }
 std::string primitive(const std::string& body) { return " SolidBegin \"primitive\" " + body + " SolidEnd "; }
@@ -71,10 +72,10 @@ TEST(Solids, ASphereLosesTheSegmentThatABoxCutsOff) {
 }
 
 TEST(Solids, TwoCrossedCylindersMakeTheSolidOfSteinmetz) {
-  const DeepFrame f = hideRib(world(
-      solid("intersection", "TransformBegin Rotate 90 1 0 0 " + kCylinder + " TransformEnd TransformBegin Rotate 90 0 1 0 " +
-                                kCylinder + "TransformEnd"),
-      "ShadingRate 0.5"));
+  const DeepFrame f = hideRib(
+      world(solid("intersection", "TransformBegin Rotate 90 1 0 0 " + kCylinder +
+                                      " TransformEnd TransformBegin Rotate 90 0 1 0 " + kCylinder + "TransformEnd"),
+            "ShadingRate 0.5"));
   const Measured m = measure(f);
   EXPECT_NEAR(m.area, 4, 0.01);
   // Half of 16/3 lies in front of the middle; fragments tell the nearest of their samples, a little more.
@@ -83,7 +84,8 @@ TEST(Solids, TwoCrossedCylindersMakeTheSolidOfSteinmetz) {
 
 TEST(Solids, ADifferenceShowsTheFarSideOfWhatItTakesAway) {
   // A bowl: the upper half of what is seen is cut by a ball half as large, whose own surface shows.
-  const DeepFrame f = hideRib(world(solid("difference", kBall + moved("0 0 -1", primitive("Sphere 0.5 -0.5 0.5 360")))));
+  const DeepFrame f =
+      hideRib(world(solid("difference", kBall + moved("0 0 -1", primitive("Sphere 0.5 -0.5 0.5 360")))));
   const Measured whole = measure(hideRib(world(kBall)));
   EXPECT_NEAR(measure(f).area, whole.area, 1e-9);
   // What is gone: two caps that meet, of heights 1/8 of the ball and 3/8 of the cutter.
@@ -103,8 +105,9 @@ TEST(Solids, AreWholeInProceduralsThatAreOpenedOnDemand) {
   const std::string hollow = solid("difference", kBall + moved("0 0 -1", primitive("Sphere 0.5 -0.5 0.5 360")));
   const std::string lens = solid("intersection", moved("-0.5 0 0", kBall) + moved("0.5 0 0", kBall));
   const auto scene = [&](const std::string& first, const std::string& second) {
-    return measure(hideRib(world("ArchiveBegin \"hollow\" " + hollow + " ArchiveEnd ArchiveBegin \"lens\" " + lens + " ArchiveEnd " +
-                                 moved("-1 1 0", lens) + moved("-1 -1 0", first) + moved("1 0 0", second))));
+    return measure(
+        hideRib(world("ArchiveBegin \"hollow\" " + hollow + " ArchiveEnd ArchiveBegin \"lens\" " + lens +
+                      " ArchiveEnd " + moved("-1 1 0", lens) + moved("-1 -1 0", first) + moved("1 0 0", second))));
   };
   const auto procedural = [](const std::string& name) {
     return " Procedural \"DelayedReadArchive\" [\"" + name + "\"] [-1 1 -1 1 -1.5 1]";
@@ -115,7 +118,8 @@ TEST(Solids, AreWholeInProceduralsThatAreOpenedOnDemand) {
 }
 
 TEST(Solids, AUnionHasNoSurfacesInside) {
-  const DeepFrame f = hideRib(world("Opacity 0.5 0.5 0.5 " + solid("union", moved("-0.4 0 0", kBall) + moved("0.4 0 0", kBall))));
+  const DeepFrame f =
+      hideRib(world("Opacity 0.5 0.5 0.5 " + solid("union", moved("-0.4 0 0", kBall) + moved("0.4 0 0", kBall))));
   EXPECT_EQ(surfaces(f, 0, 0), 2);
   const DeepFrame apart = hideRib(world("Opacity 0.5 0.5 0.5 " + moved("-0.4 0 0", kBall) + moved("0.4 0 0", kBall)));
   EXPECT_EQ(surfaces(apart, 0, 0), 4);
@@ -126,9 +130,9 @@ TEST(Solids, OnlyTheWholeHidesWhatIsBehind) {
   const std::string hole = "TransformBegin Rotate 0 1 0 0 Scale 0.5 0.5 1 " + kCylinder + " TransformEnd ";
   // The hole is drilled along the view, so its middle shows the wall, at any order and bucket size.
   for (const int bucket : {16, 7, 64}) {
-    const DeepFrame f = hideRib(world(solid("difference", kBall + hole) + behind,
-                                      "Option \"limits\" \"integer[2] bucketsize\" [" + std::to_string(bucket) + " " +
-                                          std::to_string(bucket) + "]"));
+    const DeepFrame f = hideRib(world(
+        solid("difference", kBall + hole) + behind,
+        "Option \"limits\" \"integer[2] bucketsize\" [" + std::to_string(bucket) + " " + std::to_string(bucket) + "]"));
     forFragments(f, 64, 64, [&](const DeepTile&, const Fragment& g) { EXPECT_NEAR(g.z, 15, 1e-3); });
     EXPECT_NEAR(measure(f).area, 16, 1e-3);  // Nothing is missing, nothing shows through.
   }
@@ -152,7 +156,9 @@ TEST(Solids, SidesOneKeepsTheSurfaceThatTheSubtractedLeaves) {
 
 TEST(Solids, MayHaveTheEyeInside) {
   const std::string room = solid("difference", box(-3, -3, -3, 3, 3, 3) + box(-2.5f, -2.5f, -2.5f, 2.5f, 2.5f, 2.5f));
-  const DeepFrame f = hideRib("Format 64 64 1 PixelSamples 3 3 PixelFilter \"box\" 1 1 Projection \"perspective\" \"fov\" 90 WorldBegin " + room + " WorldEnd");
+  const DeepFrame f = hideRib(
+      "Format 64 64 1 PixelSamples 3 3 PixelFilter \"box\" 1 1 Projection \"perspective\" \"fov\" 90 WorldBegin " +
+      room + " WorldEnd");
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x) {
       ASSERT_EQ(covered(f, x, y), 9) << x << "," << y;
@@ -170,15 +176,19 @@ TEST(Solids, InvisiblePartsStillCut) {
 TEST(Solids, MoveAsAWhole) {
   const std::string lens = solid("intersection", moved("-0.5 0 0", kBall) + moved("0.5 0 0", kBall));
   const Measured still = measure(hideRib(world(lens)));
-  const Measured moving = measure(hideRib(world("MotionBegin [0 1] Translate -0.6 0 0 Translate 0.6 0.2 0 MotionEnd " + lens, "Shutter 0 1")));
+  const Measured moving = measure(
+      hideRib(world("MotionBegin [0 1] Translate -0.6 0 0 Translate 0.6 0.2 0 MotionEnd " + lens, "Shutter 0 1")));
   EXPECT_NEAR(moving.area, still.area, 0.02);
   EXPECT_NEAR(moving.volume, still.volume, 0.02);
 }
 
 TEST(Solids, AreOutOfFocusAsAWhole) {
   const std::string parts = solid("difference", kBall + moved("0 0 -1", kBall));
-  const std::string camera = "Format 64 64 1 PixelSamples 6 6 PixelFilter \"box\" 1 1 Projection \"perspective\" \"fov\" 30 Clipping 1 100 ";
-  const auto hide = [&](const std::string& lens) { return hideRib(camera + lens + " Translate 0 0 10 WorldBegin " + parts + " WorldEnd"); };
+  const std::string camera =
+      "Format 64 64 1 PixelSamples 6 6 PixelFilter \"box\" 1 1 Projection \"perspective\" \"fov\" 30 Clipping 1 100 ";
+  const auto hide = [&](const std::string& lens) {
+    return hideRib(camera + lens + " Translate 0 0 10 WorldBegin " + parts + " WorldEnd");
+  };
   const DeepFrame sharp = hide(""), blurred = hide("DepthOfField 1 0.6 6");
   double a = 0, b = 0;
   for (int y = 0; y < 64; ++y)

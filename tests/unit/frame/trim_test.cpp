@@ -21,8 +21,7 @@ std::string circle(float u, float v, float radius) {
 }
 
 const std::string kKeepInside = "Attribute \"trimcurve\" \"sense\" [\"outside\"] ";
-const std::string kSquare =
-    "NuPatch 2 2 [-2 -2 2 2] -2 2 2 2 [-2 -2 2 2] -2 2 \"P\" [-2 -2 0 2 -2 0 -2 2 0 2 2 0] ";
+const std::string kSquare = "NuPatch 2 2 [-2 -2 2 2] -2 2 2 2 [-2 -2 2 2] -2 2 \"P\" [-2 -2 0 2 -2 0 -2 2 0 2 2 0] ";
 
 double coveredArea_px2(const DeepFrame& frame) {
   int64_t samples = 0;
@@ -38,7 +37,8 @@ DeepFrame hideFlat(const std::string& body, const std::string& options = "") {
 
 TEST(Trim, ADiskHasTheAreaOfTheCircleAtAnyShadingRate) {
   for (const char* rate : {"0.25", "1", "16", "400"}) {
-    const double disk = coveredArea_px2(hideFlat(fmt::format("ShadingRate {} {}", rate, kKeepInside) + circle(0.1f, -0.05f, 1) + kSquare));
+    const double disk = coveredArea_px2(
+        hideFlat(fmt::format("ShadingRate {} {}", rate, kKeepInside) + circle(0.1f, -0.05f, 1) + kSquare));
     EXPECT_NEAR(disk / (M_PI * 50 * 50), 1, 1e-3) << "rate " << rate;
   }
 }
@@ -50,7 +50,9 @@ TEST(Trim, TheSensesShareTheSurfaceBetweenThem) {
 }
 
 TEST(Trim, ALoopInALoopIsOutside) {
-  const auto ring = [](const std::string& outer, const std::string& inner) { return kKeepInside + outer + kSquare + inner; };
+  const auto ring = [](const std::string& outer, const std::string& inner) {
+    return kKeepInside + outer + kSquare + inner;
+  };
   const std::string two =
       "TrimCurve [1 1] [2 2] [0 0 1 2 3 4 4 0 0 1 2 3 4 4] [0 0] [4 4] [5 5] [-1 1 1 -1 -1 -0.5 0.5 0.5 -0.5 -0.5] "
       "[-1 -1 1 1 -1 -0.5 -0.5 0.5 0.5 -0.5] [1 1 1 1 1 1 1 1 1 1] ";
@@ -67,7 +69,9 @@ TEST(Trim, AnEmptyTrimCurveAndTheEndOfItsAttributesEndIt) {
 TEST(Trim, MovesAndBlursWithItsSurface) {
   // A disk that moves over 20 px covers the same area, spread.
   const std::string move = "MotionBegin [0 1] Translate -0.2 0 0 Translate 0.2 0 0 MotionEnd ";
-  EXPECT_NEAR(coveredArea_px2(hideFlat(kKeepInside + circle(0, 0, 0.7f) + move + kSquare, "Shutter 0 1")) / (M_PI * 35 * 35), 1, 2e-3);
+  EXPECT_NEAR(
+      coveredArea_px2(hideFlat(kKeepInside + circle(0, 0, 0.7f) + move + kSquare, "Shutter 0 1")) / (M_PI * 35 * 35), 1,
+      2e-3);
 }
 
 TEST(Trim, WhatIsCutAwayIsNotDiced) {
@@ -78,7 +82,8 @@ TEST(Trim, WhatIsCutAwayIsNotDiced) {
 /// RISpec's circle times a meridian of (radius, height, weight).
 std::string revolved(const std::string& vLine, std::initializer_list<vec3> meridian) {
   const float h = std::sqrt(0.5f);
-  const vec3 ring[9] = {{1, 0, 1}, {1, 1, h}, {0, 1, 1}, {-1, 1, h}, {-1, 0, 1}, {-1, -1, h}, {0, -1, 1}, {1, -1, h}, {1, 0, 1}};
+  const vec3 ring[9] = {{1, 0, 1},   {1, 1, h},  {0, 1, 1},  {-1, 1, h}, {-1, 0, 1},
+                        {-1, -1, h}, {0, -1, 1}, {1, -1, h}, {1, 0, 1}};
   std::string out = "NuPatch 9 3 [0 0 0 1 1 2 2 3 3 4 4 4] 0 4 " + vLine + " \"Pw\" [";
   for (const vec3& m : meridian)
     for (const vec3& c : ring) {
@@ -99,14 +104,17 @@ std::string can() {
   const std::string band =
       "TrimCurve [1] [2] [0 0 1 2 3 4 4] [0] [4] [5] [-1 5 5 -1 -1] [-0.7 -0.7 0.7 0.7 -0.7] [1 1 1 1 1] ";
   const std::string cap = kKeepInside + circle(0, 0, 0.8f) + kSquare;
-  return kKeepInside + band + tube + "AttributeBegin Translate 0 0 0.7 " + cap + "AttributeEnd ReverseOrientation Translate 0 0 -0.7 " + cap;
+  return kKeepInside + band + tube + "AttributeBegin Translate 0 0 0.7 " + cap +
+         "AttributeEnd ReverseOrientation Translate 0 0 -0.7 " + cap;
 }
 
 TEST(Trim, NoCrackWhereTrimmedPiecesOfDifferentRatesMeet) {
   const std::string cut = circle(1.8f, 1.1f, 0.6f);
   for (const auto& rates : {std::pair{1.0, 1.0}, {0.25, 2.0}, {4.0, 0.5}})
     for (const char* turn : {"", "Rotate 70 0 1 0.2 ", "Rotate 130 1 0.4 0 "}) {
-      const std::string body = fmt::format("ShadingRate {} {}{} ShadingRate {} {}", rates.first, cut, sphere(), rates.second, kKeepInside) + sphere();
+      const std::string body =
+          fmt::format("ShadingRate {} {}{} ShadingRate {} {}", rates.first, cut, sphere(), rates.second, kKeepInside) +
+          sphere();
       const Holes found = holes(hide(turn + body));
       EXPECT_GT(found.inside_px, 1500);
       EXPECT_EQ(found.samples, 0) << rates.first << ' ' << rates.second << ' ' << turn;

@@ -28,7 +28,8 @@ void addSquare(PointCloud& cloud, int side, float z, float up, const Value& valu
   if (cloud.channels.empty()) cloud.channels = {{"value", 1}};
   for (int j = 0; j < side; ++j)
     for (int i = 0; i < side; ++i) {
-      const float x = (static_cast<float>(i) + 0.5f) / static_cast<float>(side), y = (static_cast<float>(j) + 0.5f) / static_cast<float>(side);
+      const float x = (static_cast<float>(i) + 0.5f) / static_cast<float>(side),
+                  y = (static_cast<float>(j) + 0.5f) / static_cast<float>(side);
       const float v = value(x, y);
       cloud.add({x, y, z}, {0, 0, up}, 0.8f / static_cast<float>(side), &v);
     }
@@ -190,8 +191,7 @@ TEST_F(BrickMaps, ThreeChannelsAreThreeMapsOfOne) {
     const vec2 at = sobol2(i, 6);
     std::array<float, 3> all;
     ASSERT_TRUE(maps[0].lookup({at, 0}, {0, 0, 1}, 0.02f, all.data()));
-    for (size_t k = 0; k < 3; ++k)
-      EXPECT_NEAR(all[k], lookedUp(maps[k + 1], {at, 0}, {0, 0, 1}, 0.02f), 1e-5f) << k;
+    for (size_t k = 0; k < 3; ++k) EXPECT_NEAR(all[k], lookedUp(maps[k + 1], {at, 0}, {0, 0, 1}, 0.02f), 1e-5f) << k;
   }
 }
 
@@ -225,7 +225,8 @@ TEST(Brick, HoldsItsLayersWithinASixteenthOfTheTolerance) {
         float got[3] = {1, 1, 7};
         brick.add(i, 0.5f, got);
         EXPECT_EQ(got[2], 7) << "beyond its width";
-        for (int k = 0; k < 2; ++k) EXPECT_NEAR(got[k], 1 + 0.5f * parts.data[2 * l + static_cast<size_t>(k)], tolerance / 32 + 1e-5f);
+        for (int k = 0; k < 2; ++k)
+          EXPECT_NEAR(got[k], 1 + 0.5f * parts.data[2 * l + static_cast<size_t>(k)], tolerance / 32 + 1e-5f);
       }
     EXPECT_EQ(l, parts.voxels.size());
   }
@@ -286,7 +287,8 @@ TEST_F(BrickMaps, ScaledRadiiReachFromCubesThatAreNotInMemory) {
   const BrickSettings wide{.radiusScale = 2};
   std::vector<Brick> whole, parts;
   buildBricks(file.readAll(), wide, [&](const Brick& b) { whole.push_back(b); });
-  buildBricks(PointTiles(file), wide, [&](const Brick& b) { parts.push_back(b); }, 1300);
+  buildBricks(
+      PointTiles(file), wide, [&](const Brick& b) { parts.push_back(b); }, 1300);
   ASSERT_EQ(parts.size(), whole.size());
   for (size_t i = 0; i < whole.size(); ++i) EXPECT_EQ(parts[i].bytes(), whole[i].bytes());
 }

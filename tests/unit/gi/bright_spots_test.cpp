@@ -31,8 +31,9 @@ TEST(BrightSpots, HoldAllThatWasFoundAndLittleElse) {
   ASSERT_FALSE(spots.spots().empty());
   for (const BrightFind& find : {disk({0, 0, 5}, 0.2f, 300, 50), disk({3, 0, 4}, 0.1f, 300, 20)})
     for (const BrightHit& hit : find.hits)
-      EXPECT_TRUE(std::any_of(spots.spots().begin(), spots.spots().end(),
-                              [&](const BrightSpots::Spot& s) { return glm::length(hit.position - s.center) <= s.radius; }));
+      EXPECT_TRUE(std::any_of(spots.spots().begin(), spots.spots().end(), [&](const BrightSpots::Spot& s) {
+        return glm::length(hit.position - s.center) <= s.radius;
+      }));
   for (const BrightSpots::Spot& s : spots.spots()) EXPECT_LT(s.radius, 0.25f);
 }
 
@@ -47,11 +48,13 @@ TEST(BrightSpots, WhatIsFlatIsARectangleAndNoSphere) {
   for (BrightHit& hit : ball.hits) hit.normal = normalizeOr(hit.position - vec3(0, 0, 5.02f), {0, 0, -1});
   BrightSpots spots;
   spots.learn({ball});
-  EXPECT_TRUE(std::any_of(spots.spots().begin(), spots.spots().end(), [](const BrightSpots::Spot& s) { return s.normal == vec3(0); }));
+  EXPECT_TRUE(std::any_of(spots.spots().begin(), spots.spots().end(),
+                          [](const BrightSpots::Spot& s) { return s.normal == vec3(0); }));
 }
 
 TEST(SpotAim, ARectangleSeenFromTheSideIsAimedAtAsNarrowlyAsItLooks) {
-  const SpotAim aim(twoDisks(), {5, 0, 4.9f}, normalizeOr({-1, 0, 0.01f}, {}));  // 0.1 above the plane of the first, at 25 radii
+  const SpotAim aim(twoDisks(), {5, 0, 4.9f},
+                    normalizeOr({-1, 0, 0.01f}, {}));  // 0.1 above the plane of the first, at 25 radii
   ASSERT_GT(aim.irradiance(), 0);
   for (uint32_t i = 0; i < 256; ++i) {
     const vec3 d = aim.direction(sobol1(i, 1), sobol2(i, 2));
@@ -70,7 +73,8 @@ TEST(SpotAim, WhatIsHiddenIsAimedAtLess) {
   for (size_t t = 0; t < aim.targets(); ++t)
     if (aim.probe(t, {0.5f, 0.5f}).x < 0.1f) shares[t] = 1;
   aim.dim(shares);
-  for (uint32_t i = 0; i < 1024; ++i) left += aim.direction((static_cast<float>(i) + 0.5f) / 1024, sobol2(i, 2)).x < 0.2f ? 1.0f / 1024 : 0.0f;
+  for (uint32_t i = 0; i < 1024; ++i)
+    left += aim.direction((static_cast<float>(i) + 0.5f) / 1024, sobol2(i, 2)).x < 0.2f ? 1.0f / 1024 : 0.0f;
   EXPECT_LT(aim.irradiance(), all);
   EXPECT_GT(left, 0.95f);  // the other gives a fifth of the light, undimmed
 }
@@ -99,7 +103,9 @@ TEST(Gather, SpotsBehindAScreenTakeNoRaysFromWhatCanBeSeen) {
     for (uint32_t i = 0; i < 300; ++i) {
       GatherSettings settings;
       settings.samples = 512;
-      const double E = luminance(gather(world.rays, world.shading, {0, {0, -1, 1.5f}, {0, 1, 0}, i, 0.01f, 0.01f}, settings, {&spots}, world.stats).E);
+      const double E = luminance(gather(world.rays, world.shading, {0, {0, -1, 1.5f}, {0, 1, 0}, i, 0.01f, 0.01f},
+                                        settings, {&spots}, world.stats)
+                                     .E);
       sum += E, squares += E * E;
     }
     return std::sqrt(std::max(0.0, squares / 300 - sum * sum / 90000)) / (sum / 300);
@@ -176,9 +182,7 @@ TEST(BrightSpots, ASingleHitIsChance) {
   EXPECT_EQ(SpotAim(spots, vec3(0), {0, 0, 1}).irradiance(), 0);
 }
 
-TEST(SpotAim, LooksPastWhatIsBehindTheSurface) {
-  EXPECT_EQ(SpotAim(twoDisks(), vec3(0), {0, 0, -1}).irradiance(), 0);
-}
+TEST(SpotAim, LooksPastWhatIsBehindTheSurface) { EXPECT_EQ(SpotAim(twoDisks(), vec3(0), {0, 0, -1}).irradiance(), 0); }
 
 TEST(SpotAim, ItsDensityIsThatOfItsDirections) {
   const SpotAim aim(twoDisks(), vec3(0), {0, 0, 1});

@@ -19,15 +19,21 @@ namespace fs = std::filesystem;
 struct Wall {
   explicit Wall(int n) : count(n * n), active(static_cast<size_t>(count), 1) {
     for (int i = 0; i < count; ++i) {
-      const float px = static_cast<float>(i % n) / static_cast<float>(n), py = static_cast<float>(i / n) / static_cast<float>(n);
-      x.push_back(px), y.push_back(py), zero.push_back(0), one.push_back(1), radius.push_back(0.8f / static_cast<float>(n)), value.push_back(px + 2 * py);
+      const float px = static_cast<float>(i % n) / static_cast<float>(n),
+                  py = static_cast<float>(i / n) / static_cast<float>(n);
+      x.push_back(px), y.push_back(py), zero.push_back(0), one.push_back(1),
+          radius.push_back(0.8f / static_cast<float>(n)), value.push_back(px + 2 * py);
     }
   }
   CloudQuery query(const std::string& file, int begin, int end) {
     const auto at = [&](std::vector<float>& v) { return v.data() + begin; };
-    return {file, end - begin, active.data() + begin, {at(x), at(y), at(zero)}, {at(zero), at(zero), at(one)}, at(radius)};
+    return {file,      end - begin, active.data() + begin, {at(x), at(y), at(zero)}, {at(zero), at(zero), at(one)},
+            at(radius)};
   }
-  std::vector<CloudValue> values(int begin) { return {{"sum", 1, {value.data() + begin, nullptr, nullptr}}, {"P", 3, {x.data() + begin, y.data() + begin, zero.data() + begin}}}; }
+  std::vector<CloudValue> values(int begin) {
+    return {{"sum", 1, {value.data() + begin, nullptr, nullptr}},
+            {"P", 3, {x.data() + begin, y.data() + begin, zero.data() + begin}}};
+  }
 
   int count;
   std::vector<uint8_t> active;
@@ -77,7 +83,8 @@ TEST_F(Clouds, WhatIsNoPhotonMapSaysSo) {
   CloudFiles files("");
   std::string problem;
   std::vector<float> e(static_cast<size_t>(wall.count));
-  EXPECT_FALSE(files.photons(wall.query(file, 0, wall.count), TM_PHOTON_DEFAULTS, {e.data(), e.data(), e.data()}, problem));
+  EXPECT_FALSE(
+      files.photons(wall.query(file, 0, wall.count), TM_PHOTON_DEFAULTS, {e.data(), e.data(), e.data()}, problem));
   EXPECT_NE(problem.find("power"), std::string::npos) << problem;
 }
 
@@ -109,7 +116,10 @@ TEST_F(Clouds, WhatWasBakedIsFoundAgainAlongTheSearchPathByPointCloudAndByBrickM
     std::vector<float> sum(static_cast<size_t>(at.count), -1), found(sum), px(sum), py(sum), pz(sum);
     at.active[5] = 0;
     std::string problem;
-    EXPECT_TRUE(files.lookUp(at.query(file, 0, at.count), {{"P", 3, {px.data(), py.data(), pz.data()}}, {"sum", 1, {sum.data(), nullptr, nullptr}}}, found.data(), problem)) << problem;
+    EXPECT_TRUE(files.lookUp(at.query(file, 0, at.count),
+                             {{"P", 3, {px.data(), py.data(), pz.data()}}, {"sum", 1, {sum.data(), nullptr, nullptr}}},
+                             found.data(), problem))
+        << problem;
     for (size_t i = 0; i < sum.size(); ++i) {
       if (i == 5) {
         EXPECT_EQ(sum[i], -1) << "nobody asked";
@@ -144,9 +154,11 @@ TEST_F(Clouds, MistakesAreTold) {
   std::string problem;
   EXPECT_FALSE(files.lookUp(wall.query(path("absent.ptc"), 0, 4), wanted, found.data(), problem));
   EXPECT_NE(problem.find("absent.ptc"), std::string::npos) << problem;
-  EXPECT_FALSE(files.lookUp(wall.query(bakeWall(), 0, 4), {{"colour", 3, {sum.data(), sum.data(), sum.data()}}}, found.data(), problem));
+  EXPECT_FALSE(files.lookUp(wall.query(bakeWall(), 0, 4), {{"colour", 3, {sum.data(), sum.data(), sum.data()}}},
+                            found.data(), problem));
   EXPECT_NE(problem.find("colour"), std::string::npos) << problem;
-  EXPECT_FALSE(files.photons(wall.query(path("wall.ptc"), 0, 4), TM_PHOTON_DEFAULTS, {sum.data(), sum.data(), sum.data()}, problem));
+  EXPECT_FALSE(files.photons(wall.query(path("wall.ptc"), 0, 4), TM_PHOTON_DEFAULTS,
+                             {sum.data(), sum.data(), sum.data()}, problem));
   EXPECT_NE(problem.find("photon map"), std::string::npos) << problem;
   std::ofstream(path("short.ptc")) << contents(path("wall.ptc")).substr(0, 2000);
   EXPECT_FALSE(files.lookUp(wall.query(path("short.ptc"), 0, 4), wanted, found.data(), problem));
@@ -170,9 +182,12 @@ TEST_F(Clouds, APhotonMapTellsOfItsIrradiance) {
   std::vector<float> e[3];
   for (auto& c : e) c.assign(1024, 0);
   std::string problem;
-  ASSERT_TRUE(files.photons(wall.query(path("photons.ptc"), 0, 1024), TM_PHOTON_DEFAULTS, {e[0].data(), e[1].data(), e[2].data()}, problem)) << problem;
+  ASSERT_TRUE(files.photons(wall.query(path("photons.ptc"), 0, 1024), TM_PHOTON_DEFAULTS,
+                            {e[0].data(), e[1].data(), e[2].data()}, problem))
+      << problem;
   for (const size_t i : {size_t{16 * 32 + 16}, size_t{12 * 32 + 20}})
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(e[c][i], 1024 * (c == 0 ? 2 : c == 1 ? 1 : 0.5) / double{kPi}, 0.1 * 1024 / double{kPi});
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(e[c][i], 1024 * (c == 0 ? 2 : c == 1 ? 1 : 0.5) / double{kPi}, 0.1 * 1024 / double{kPi});
 }
 
 }  // namespace

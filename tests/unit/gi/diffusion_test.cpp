@@ -17,7 +17,8 @@ PointCloud plane(int n, const vec3& light) {
   PointCloud cloud;
   cloud.channels = {{"_area", 1}, {"_radiance_t", 3}};
   for (int i = 0; i < n * n; ++i) {
-    const vec2 p = kPlain * (vec2(static_cast<float>(i % n), static_cast<float>(i / n)) - 0.5f * static_cast<float>(n - 1));
+    const vec2 p =
+        kPlain * (vec2(static_cast<float>(i % n), static_cast<float>(i / n)) - 0.5f * static_cast<float>(n - 1));
     const float values[4] = {kPlain * kPlain, light.x, light.y, light.z};
     cloud.add({p, 0}, {0, 0, 1}, kPlain, values);
   }
@@ -27,10 +28,13 @@ PointCloud plane(int n, const vec3& light) {
 /// Rd as the paper writes it, for one wavelength, in double precision.
 double publishedRd(double r, double scattering, double absorption, double ior) {
   const double Fdr = -1.440 / (ior * ior) + 0.710 / ior + 0.668 + 0.0636 * ior, A = (1 + Fdr) / (1 - Fdr);
-  const double extinction = scattering + absorption, tr = std::sqrt(3 * absorption * extinction), D = 1 / (3 * extinction);
-  const double zr = 1 / extinction, zv = zr + 4 * A * D, dr = std::sqrt(r * r + zr * zr), dv = std::sqrt(r * r + zv * zv);
+  const double extinction = scattering + absorption, tr = std::sqrt(3 * absorption * extinction),
+               D = 1 / (3 * extinction);
+  const double zr = 1 / extinction, zv = zr + 4 * A * D, dr = std::sqrt(r * r + zr * zr),
+               dv = std::sqrt(r * r + zv * zv);
   return scattering / extinction / (4 * M_PI) *
-         (zr * (tr * dr + 1) * std::exp(-tr * dr) / (dr * dr * dr) + zv * (tr * dv + 1) * std::exp(-tr * dv) / (dv * dv * dv));
+         (zr * (tr * dr + 1) * std::exp(-tr * dr) / (dr * dr * dr) +
+          zv * (tr * dv + 1) * std::exp(-tr * dv) / (dv * dv * dv));
 }
 
 TEST(Dipole, FollowsThePublishedFormulaAtEveryDistance) {
@@ -47,9 +51,10 @@ TEST(Dipole, MeasuredMaterialsReflectAsMuchAsThePaperSays) {
   const struct {
     const char* name;
     vec3 reflectance;
-  } published[] = {{"apple", {.85, .84, .53}},    {"chicken1", {.31, .15, .10}},   {"chicken2", {.32, .16, .10}}, {"cream", {.98, .90, .73}},
-                   {"ketchup", {.16, .01, .00}},  {"marble", {.83, .79, .75}},     {"potato", {.77, .62, .21}},   {"skimmilk", {.81, .81, .69}},
-                   {"skin1", {.44, .22, .13}},    {"skin2", {.63, .44, .34}},      {"spectralon", {1, 1, 1}},     {"wholemilk", {.91, .88, .76}}};
+  } published[] = {{"apple", {.85, .84, .53}},  {"chicken1", {.31, .15, .10}}, {"chicken2", {.32, .16, .10}},
+                   {"cream", {.98, .90, .73}},  {"ketchup", {.16, .01, .00}},  {"marble", {.83, .79, .75}},
+                   {"potato", {.77, .62, .21}}, {"skimmilk", {.81, .81, .69}}, {"skin1", {.44, .22, .13}},
+                   {"skin2", {.63, .44, .34}},  {"spectralon", {1, 1, 1}},     {"wholemilk", {.91, .88, .76}}};
   for (const auto& m : published) {
     ASSERT_TRUE(translucencyOf(m.name)) << m.name;
     const vec3 ours = Dipole(*translucencyOf(m.name)).reflectance();
@@ -100,7 +105,8 @@ TEST(Diffusion, GroupsStandForTheirPoints) {
   const Diffusion diffusion(cloud);
   const Dipole marble(*translucencyOf("marble"));
   for (const vec3 P : {vec3(5), vec3(0, 5, 5), vec3(12, 1, 9)}) {
-    const vec3 all = diffusion.at(P, marble, 1, 0), fine = diffusion.at(P, marble, 1, 0.003f), coarse = diffusion.at(P, marble, 1, 0.3f);
+    const vec3 all = diffusion.at(P, marble, 1, 0), fine = diffusion.at(P, marble, 1, 0.003f),
+               coarse = diffusion.at(P, marble, 1, 0.3f);
     EXPECT_NEAR(fine.y / all.y, 1, 0.01f);
     EXPECT_NEAR(coarse.y / all.y, 1, 0.25f);
     EXPECT_NE(coarse.y, all.y) << "or no group was ever used";
@@ -143,12 +149,14 @@ TEST(Diffusion, FilesAreAskedThroughTheSeamOfShaders) {
     return !files.subsurface(query, bad, {r, g, b}, problem) && !problem.empty();
   };
   for (const float ior : {0.0f, 0.5f, 4.0f, NAN}) EXPECT_TRUE(refused([&](TmSubsurface& m) { m.ior = ior; })) << ior;
-  for (const float length : {0.0f, -1.0f, NAN, INFINITY}) EXPECT_TRUE(refused([&](TmSubsurface& m) { m.unitLength = length; })) << length;
+  for (const float length : {0.0f, -1.0f, NAN, INFINITY})
+    EXPECT_TRUE(refused([&](TmSubsurface& m) { m.unitLength = length; })) << length;
   EXPECT_TRUE(refused([](TmSubsurface& m) { m.meanFreePath[0] = 0, m.scattering[1] = NAN; }));
   material.material = "granite";
   EXPECT_FALSE(files.subsurface(query, material, {r, g, b}, problem));
   EXPECT_NE(problem.find("granite"), std::string::npos);
-  EXPECT_FALSE(files.subsurface({"/absent.ptc", 3, active, {x, x, z}, {none, none, none}, none}, TM_SUBSURFACE_DEFAULTS, {r, g, b}, problem));
+  EXPECT_FALSE(files.subsurface({"/absent.ptc", 3, active, {x, x, z}, {none, none, none}, none}, TM_SUBSURFACE_DEFAULTS,
+                                {r, g, b}, problem));
 }
 
 }  // namespace

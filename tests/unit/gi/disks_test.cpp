@@ -21,7 +21,8 @@ PointCloud cloudOf(int count, float radius, const std::function<void(int i, vec3
 /// Evenly over a unit sphere around `center`, by a spiral.
 PointCloud sphere(int count, const vec3& center) {
   return cloudOf(count, std::sqrt(2 * kPi / static_cast<float>(count)), [&](int i, vec3& P, vec3& N, vec3& light) {
-    const float z = 1 - 2 * (static_cast<float>(i) + 0.5f) / static_cast<float>(count), r = std::sqrt(1 - z * z), phi = 2.39996f * static_cast<float>(i);
+    const float z = 1 - 2 * (static_cast<float>(i) + 0.5f) / static_cast<float>(count), r = std::sqrt(1 - z * z),
+                phi = 2.39996f * static_cast<float>(i);
     N = {r * std::cos(phi), r * std::sin(phi), z}, P = center + N, light = {2, 1, 0};
   });
 }
@@ -29,7 +30,8 @@ PointCloud sphere(int count, const vec3& center) {
 PointCloud wall(int n, float size) {
   const float step = 2 * size / static_cast<float>(n);
   return cloudOf(n * n, step / std::sqrt(2.0f), [&](int i, vec3& P, vec3& N, vec3& light) {
-    P = {1, -size + (static_cast<float>(i % n) + 0.5f) * step, -size + (static_cast<float>(i / n) + 0.5f) * step}, N = {-1, 0, 0}, light = {0, 3, 0};
+    P = {1, -size + (static_cast<float>(i % n) + 0.5f) * step, -size + (static_cast<float>(i / n) + 0.5f) * step},
+    N = {-1, 0, 0}, light = {0, 3, 0};
   });
 }
 const vec3 kUp{0, 0, 1};
@@ -82,7 +84,8 @@ TEST(Disks, SidesDistancesConesAndFalloffAreObeyed) {
   EXPECT_NEAR(covered(query), 0, 0.02f);
   query = {}, query.falloff.maxDistance = 2;  // to 60 degrees from the normal
   EXPECT_NEAR(covered(query), 0.75f, 0.03f);
-  query.falloff.falloffMode = 1, query.falloff.falloff = 1;  // the mean of 1 - 1 / (2 cos) there, by the cosine: 3/4 - 1/2
+  query.falloff.falloffMode = 1,
+  query.falloff.falloff = 1;  // the mean of 1 - 1 / (2 cos) there, by the cosine: 3/4 - 1/2
   EXPECT_NEAR(covered(query), 0.25f, 0.03f);
   query = {}, query.coneAngle = 0.5f, query.falloff.maxDistance = 1.2f;
   EXPECT_NEAR(covered(query), 1, 0.02f);

@@ -99,8 +99,8 @@ struct World {
     s.freeze();
     return s;
   }
-  static ShadingSystem bind(const Scene& scene, ShaderRegistry& registry, const TmShaderLibrary* plugins,
-                            Log& log, Stats& stats) {
+  static ShadingSystem bind(const Scene& scene, ShaderRegistry& registry, const TmShaderLibrary* plugins, Log& log,
+                            Stats& stats) {
     registry.addLibrary(tomales_builtin_shaders(), "built-in");
     if (plugins) registry.addLibrary(plugins, "test");
     return ShadingSystem(scene, registry, nullptr, log, stats);
@@ -118,7 +118,9 @@ struct World {
 inline std::vector<StoredPhoton> traced(World& world, const PhotonSettings& settings) {
   const auto services = world.use({.mode = GiMode::None});
   std::vector<StoredPhoton> out;
-  const auto store = [&](std::span<const StoredPhoton> photons) { out.insert(out.end(), photons.begin(), photons.end()); };
+  const auto store = [&](std::span<const StoredPhoton> photons) {
+    out.insert(out.end(), photons.begin(), photons.end());
+  };
   tracePhotons(world.scene, world.rays, world.shading, settings, store, {}, world.stats, world.log);
   return out;
 }
@@ -135,8 +137,7 @@ inline DeepFrame frameOf(const World& world, int bucket) {
   DeepFrame frame;
   frame.crop = frame.padded = {0, 0, world.camera.xResolution(), world.camera.yResolution()};
   frame.bucketWidth = frame.bucketHeight = bucket;
-  frame.columns = (frame.crop.width() + bucket - 1) / bucket,
-  frame.rows = (frame.crop.height() + bucket - 1) / bucket;
+  frame.columns = (frame.crop.width() + bucket - 1) / bucket, frame.rows = (frame.crop.height() + bucket - 1) / bucket;
   for (int t = 0; t < frame.columns * frame.rows; ++t) {
     DeepTile tile;
     const int x0 = t % frame.columns * bucket, y0 = t / frame.columns * bucket;
@@ -145,8 +146,7 @@ inline DeepFrame frameOf(const World& world, int bucket) {
     for (int y = tile.rect.y0; y < tile.rect.y1; ++y)
       for (int x = tile.rect.x0; x < tile.rect.x1; ++x) {
         Ray ray;
-        world.camera.ray({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}, ray.origin,
-                         ray.direction);
+        world.camera.ray({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}, ray.origin, ray.direction);
         const Hit hit = world.rays.closest(ray, kMaskSpecular);
         tile.pixels.push_back({static_cast<uint32_t>(tile.fragments.size()), hit.object < 0 ? 0U : 1U});
         if (hit.object < 0) continue;
@@ -174,8 +174,8 @@ inline void gatherFrame(GiServices& services, const DeepFrame& frame) {
 }
 
 /// indirectDiffuse() at every point of a batch, on the side of the eye.
-inline std::vector<vec3> indirectAt(const GiServices& services, const ShadePoints& points,
-                                    const IndirectQuery& query, const ShadeContext& context = {}) {
+inline std::vector<vec3> indirectAt(const GiServices& services, const ShadePoints& points, const IndirectQuery& query,
+                                    const ShadeContext& context = {}) {
   const size_t n = static_cast<size_t>(points.count());
   std::vector<uint8_t> active(n, 1);
   AlignedVector<float> N[3], E[3];

@@ -52,7 +52,8 @@ TEST(GatherPass, CoversEveryPointOfTheFrameWithFarFewerRecords) {
   EXPECT_GT(samples, 64 * 64 / 300);
   const int64_t rays = world.stats.rays.gather;
   EXPECT_GE(rays, samples * 65);  // 64 asked for: 5 x 13 cells
-  EXPECT_LE(rays, samples * 65 * 3 / 2 + 2 * 64 * 64) << "up to half as many more where light changes fast, and two for each point that may lie in a slot";
+  EXPECT_LE(rays, samples * 65 * 3 / 2 + 2 * 64 * 64)
+      << "up to half as many more where light changes fast, and two for each point that may lie in a slot";
   indirectOf(*services, world, frame);
   EXPECT_EQ(world.stats.irradianceCache.interpolated, world.stats.irradianceCache.lookups);
   EXPECT_GT(world.stats.irradianceCache.lookups, 3000);
@@ -72,7 +73,8 @@ TEST(GatherPass, ObjectsWhoseRaysSeeDifferentSubsetsShareNoRecords) {
   ASSERT_EQ(services->caches().size(), 2U);
   int dark = 0;
   for (const PreparedCache& c : services->caches())
-    dark += !c.cache.records().empty() && std::all_of(c.cache.records().begin(), c.cache.records().end(), [](const IrradianceRecord& r) { return r.E == vec3(0); });
+    dark += !c.cache.records().empty() && std::all_of(c.cache.records().begin(), c.cache.records().end(),
+                                                      [](const IrradianceRecord& r) { return r.E == vec3(0); });
   EXPECT_EQ(dark, 1);
 }
 
@@ -116,8 +118,7 @@ TEST(GatherPass, AFrameAddsRecordsOnceAndIsKnownByWhatItsPixelsSee) {
   EXPECT_EQ(added(world, caches, frameOf(world, 16)), 0) << "not the last frame, but one of them";
   ASSERT_EQ(caches.size(), 1U);
   caches[0].frames.clear();
-  EXPECT_GT(added(world, caches, frameOf(world, 16)), 0)
-      << "what disagrees is refined in frames that are new";
+  EXPECT_GT(added(world, caches, frameOf(world, 16)), 0) << "what disagrees is refined in frames that are new";
 }
 
 /// E of the records of a floor over which light from far away is the same everywhere.
@@ -140,7 +141,9 @@ std::vector<double> recordsUnderAFarCeiling(float samples, uint32_t seed = 0) {
 
 /// docs/decisions/0095
 TEST(GatherPass, RecordsOfManyRaysMissTheSameAndAreRightInTheMean) {
-  const auto quantile = [](const std::vector<double>& E, double q) { return E[static_cast<size_t>(q * static_cast<double>(E.size() - 1))]; };
+  const auto quantile = [](const std::vector<double>& E, double q) {
+    return E[static_cast<size_t>(q * static_cast<double>(E.size() - 1))];
+  };
   constexpr int kSeeds = 8;
   double mean = 0, ownRange = 0, sharedRange = 0;
   for (uint32_t seed = 0; seed < kSeeds; ++seed) {
@@ -213,7 +216,8 @@ TEST(GatherPass, BumpsTakeNoRecordsAndAreStillSeen) {
   const auto everyPoint = bumps.world.use({.maxError = 0});
   const std::vector<vec3> truth = indirectOf(*everyPoint, bumps.world, bumps.frame);
   float error = 0, mean = 0;
-  for (size_t i = 0; i < E.size(); ++i) error += std::abs(luminance(E[i]) - luminance(truth[i])), mean += luminance(truth[i]);
+  for (size_t i = 0; i < E.size(); ++i)
+    error += std::abs(luminance(E[i]) - luminance(truth[i])), mean += luminance(truth[i]);
   EXPECT_LT(error / mean, 0.08f);
 }
 
@@ -255,13 +259,11 @@ TEST(SheetSearch, NoRayLooksForSheetsNearerThanWhatRaysTakeForTheSurface) {
     World world(b.scene);
     GatherSettings settings;
     SheetSearch search(world.rays, settings);
-    EXPECT_EQ(search.isUnderSheet({0, {0, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, kInfinity, kInfinity),
-              bound == 0);
+    EXPECT_EQ(search.isUnderSheet({0, {0, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, kInfinity, kInfinity), bound == 0);
     EXPECT_FALSE(search.isUnderSheet({0, {0.8f, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, kInfinity, kInfinity));
     EXPECT_FALSE(search.isUnderSheet({0, {0, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, 0.03f, 0.03f))
         << "records have met it";
-    EXPECT_EQ(search.isUnderSheet({0, {0.49f, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, 0.02f, kInfinity),
-              bound == 0)
+    EXPECT_EQ(search.isUnderSheet({0, {0.49f, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, 0.02f, kInfinity), bound == 0)
         << "records have met its edge";
     EXPECT_FALSE(search.isUnderSheet({0, {0.51f, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, 0.02f, kInfinity));
     if (bound == 0)
@@ -286,8 +288,8 @@ TEST(GatherPass, TheHessiansOwnRadiusGrowsWithTheFourthRootOfMaxErrorAndItsFloor
   World world(cornell(indirect(16)).scene);
   const auto byHessian = [&](float maxError) {
     const GatherSettings settings{.samples = 600, .curvature = true, .maxError = maxError};
-    const IrradianceRecord r = gather(
-        world.rays, world.shading, {0, {0.3f, -1, 3}, {0, 1, 0}, 7, 0.01f, 0.01f}, settings, {}, world.stats);
+    const IrradianceRecord r =
+        gather(world.rays, world.shading, {0, {0.3f, -1, 3}, {0, 1, 0}, 7, 0.01f, 0.01f}, settings, {}, world.stats);
     return maxError / (1 / r.smoothRadius - 1 / r.closest);
   };
   EXPECT_NEAR(byHessian(16) / byHessian(1), 2, 1e-3f);
@@ -403,7 +405,8 @@ TEST(GatherPass, ReportsProgressAndObeysCancellation) {
   const DeepFrame frame = frameOf(world, 16);
   std::vector<float> heard;
   auto services = world.use({});
-  services->gatherPass(frame, readerOf(frame), [&](float f) { heard.push_back(f); }, nullptr);
+  services->gatherPass(
+      frame, readerOf(frame), [&](float f) { heard.push_back(f); }, nullptr);
   EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
   EXPECT_EQ(heard.back(), 1);
   std::vector<int> strides;

@@ -11,7 +11,9 @@ namespace {
 using namespace test;
 
 constexpr float kGround = -0.6f;
-Param triple(const std::string& name, ValueType type, const vec3& v) { return {name, Storage::Uniform, type, 1, {v.x, v.y, v.z}, {}, {}}; }
+Param triple(const std::string& name, ValueType type, const vec3& v) {
+  return {name, Storage::Uniform, type, 1, {v.x, v.y, v.z}, {}, {}};
+}
 
 /// A lit ground with blades on it that gather rays do not see; each has its root in the middle of its lower edge.
 SceneBuilder meadow(bool rooted, int blades) {
@@ -23,9 +25,17 @@ SceneBuilder meadow(bool rooted, int blades) {
   for (int k = 0; k < blades; ++k) {
     const float x = -0.9f + 0.4f * static_cast<float>(k), z = 3;
     Problems problems;
-    Param P{"P", Storage::Vertex, ValueType::Point, 1, {x, kGround, z, x + 0.1f, kGround, z, x + 0.1f, 0.5f, z, x, 0.5f, z}, {}, {}};
+    Param P{"P",
+            Storage::Vertex,
+            ValueType::Point,
+            1,
+            {x, kGround, z, x + 0.1f, kGround, z, x + 0.1f, 0.5f, z, x, 0.5f, z},
+            {},
+            {}};
     ParamList params{P};
-    if (rooted) params.push_back(triple("gatherP", ValueType::Point, {x + 0.05f, kGround, z})), params.push_back(triple("gatherN", ValueType::Normal, {0, 2, 0}));
+    if (rooted)
+      params.push_back(triple("gatherP", ValueType::Point, {x + 0.05f, kGround, z})),
+          params.push_back(triple("gatherN", ValueType::Normal, {0, 2, 0}));
     b.add(makePolygons({4}, {0, 1, 2, 3}, params, problems), vec3(0.5f));
     auto hidden = std::make_shared<Attributes>(*b.scene.objects.back().attributes);
     hidden->visibility.diffuse = false;
@@ -64,7 +74,8 @@ TEST(GatherPlaces, ABladeHasTheLightOfItsRoot) {
       for (int i = 0; i < batch.count(); ++i) {
         const vec3 root{batch.primvar(offsetOf(group.primvars, "gatherP"))[i], kGround, 3};
         const IrradianceRecord truth =
-            gather(world.rays, world.shading, {batch.group(), root, {0, 1, 0}, 5, 0.01f, 0.01f}, {.samples = 20000}, {}, world.stats);
+            gather(world.rays, world.shading, {batch.group(), root, {0, 1, 0}, 5, 0.01f, 0.01f}, {.samples = 20000}, {},
+                   world.stats);
         EXPECT_NEAR(luminance(E[static_cast<size_t>(i)]) / luminance(truth.E), 1, 0.06f) << batch.position(i).y;
         EXPECT_EQ(E[static_cast<size_t>(i)], E.front()) << "all of a blade alike";
         if (++seen > 20) return;
@@ -98,7 +109,8 @@ TEST(GatherPlaces, TheReferenceGathersThereToo) {
     ShadePoints top(batch.group(), batch.primvarFloats());
     top.assign(batch, 0, 1);
     const IndirectQuery& query = *world.shading.indirectQuery(batch.group());
-    EXPECT_NEAR(luminance(indirectAt(*cached, top, query)[0]) / luminance(indirectAt(*reference, top, query)[0]), 1, 0.06f);
+    EXPECT_NEAR(luminance(indirectAt(*cached, top, query)[0]) / luminance(indirectAt(*reference, top, query)[0]), 1,
+                0.06f);
     ++found;
   }
   EXPECT_GT(found, 0);

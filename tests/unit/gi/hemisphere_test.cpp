@@ -44,7 +44,9 @@ IrradianceRecord look(const World& world, const vec3& origin, const vec3& normal
   return lookTwice(world, origin, normal, count, seed).record;
 }
 
-Curved lookCurved(const World& world, int count, uint32_t seed) { return lookTwice(world, vec3(0), {0, 0, 1}, count, seed); }
+Curved lookCurved(const World& world, int count, uint32_t seed) {
+  return lookTwice(world, vec3(0), {0, 0, 1}, count, seed);
+}
 
 // E/pi by a midpoint rule, fine enough to differentiate.
 double exactE(const World& world, const vec3& origin, const vec3& normal) {
@@ -106,11 +108,7 @@ TEST(Hemisphere, EveryCellHoldsExactlyOneUnitDirection) {
 }
 
 TEST(Hemisphere, UniformRadianceGivesExactlyItself) {
-  const auto r = look(
-      [](const vec3&, const vec3&) {
-        return Seen{{1, 2, 0.5f}, kInfinity};
-      },
-      vec3(0), kUp, 600);
+  const auto r = look([](const vec3&, const vec3&) { return Seen{{1, 2, 0.5f}, kInfinity}; }, vec3(0), kUp, 600);
   EXPECT_EQ(r.E, vec3(1, 2, 0.5f));
   for (int c = 0; c < 3; ++c) {
     EXPECT_LT(glm::length(r.rotationGradient[c]), 1e-5f);
@@ -201,9 +199,7 @@ TEST(Hemisphere, TranslationGradientMatchesFiniteDifferences) {
 TEST(Hemisphere, GradientsTurnWithTheFrame) {
   // The same world about another axis: magnitudes agree.
   const mat3 turn{vec3(0, 1, 0), vec3(0, 0, 1), vec3(1, 0, 0)};
-  const World turned = [&](const vec3&, const vec3& d) {
-    return smoothCeiling(vec3(0), glm::transpose(turn) * d);
-  };
+  const World turned = [&](const vec3&, const vec3& d) { return smoothCeiling(vec3(0), glm::transpose(turn) * d); };
   const auto a = look(smoothCeiling, vec3(0), kUp, 8000), b = look(turned, vec3(0), turn * kUp, 8000);
   const vec3 back = glm::transpose(turn) * b.translationGradient[0];
   EXPECT_LT(glm::length(back - a.translationGradient[0]), 0.1f * glm::length(a.translationGradient[0]));
@@ -215,7 +211,8 @@ TEST(Hemisphere, GradientsTurnWithTheFrame) {
 vec3 exactHessian(const World& world, float step) {
   const auto E = [&](float x, float y) { return exactE(world, {x, y, 0}, kUp); };
   const double h2 = static_cast<double>(step) * static_cast<double>(step), middle = E(0, 0);
-  return {(E(step, 0) + E(-step, 0) - 2 * middle) / h2, (E(step, step) + E(-step, -step) - E(step, -step) - E(-step, step)) / (4 * h2),
+  return {(E(step, 0) + E(-step, 0) - 2 * middle) / h2,
+          (E(step, step) + E(-step, -step) - E(step, -step) - E(-step, step)) / (4 * h2),
           (E(0, step) + E(0, -step) - 2 * middle) / h2};
 }
 
@@ -237,7 +234,8 @@ double exactOfRectangle(const glm::dvec4& r, double height, const glm::dvec2& at
   const glm::dvec3 corners[] = {{r.x, r.z, height}, {r.y, r.z, height}, {r.y, r.w, height}, {r.x, r.w, height}};
   double sum = 0;
   for (int i = 0; i < 4; ++i) {
-    const glm::dvec3 a = corners[i] - glm::dvec3(at, 0), b = corners[(i + 1) % 4] - glm::dvec3(at, 0), normal = cross(a, b);
+    const glm::dvec3 a = corners[i] - glm::dvec3(at, 0), b = corners[(i + 1) % 4] - glm::dvec3(at, 0),
+                     normal = cross(a, b);
     sum += std::atan2(glm::length(normal), dot(a, b)) * normal.z / glm::length(normal);
   }
   return sum / (2 * static_cast<double>(kPi));
@@ -254,7 +252,8 @@ TEST(Hemisphere, TheHessianIsThatOfTheClosedFormWhereASheetHidesTheLight) {
     const vec3 at = 0.9f * vec3(2 * unitFloat(hash32(2 * i + 1)) - 1, 2 * unitFloat(hash32(2 * i + 2)) - 1, 0);
     const double x = static_cast<double>(at.x), y = static_cast<double>(at.y), h = 2e-3;
     const double middle = 2 * E(x, y);
-    const double xx = (E(x + h, y) + E(x - h, y) - middle) / (h * h), yy = (E(x, y + h) + E(x, y - h) - middle) / (h * h);
+    const double xx = (E(x + h, y) + E(x - h, y) - middle) / (h * h),
+                 yy = (E(x, y + h) + E(x, y - h) - middle) / (h * h);
     const double xy = (E(x + h, y + h) + E(x - h, y - h) - E(x + h, y - h) - E(x - h, y + h)) / (4 * h * h);
     const IrradianceCurvature seen = lookTwice(world, at, kUp, 8000, i).curvature;
     const double size = std::abs(xx) + std::abs(xy) + std::abs(yy);

@@ -71,12 +71,15 @@ double exact(float size, float roughness, const vec3& P, bool disk) {
   double sum = 0;
   for (int j = 0; j < kGrid; ++j)
     for (int i = 0; i < kGrid; ++i) {
-      const vec2 at = (2.0f * vec2(static_cast<float>(i) + 0.5f, static_cast<float>(j) + 0.5f) / static_cast<float>(kGrid) - 1.0f) * size;
+      const vec2 at =
+          (2.0f * vec2(static_cast<float>(i) + 0.5f, static_cast<float>(j) + 0.5f) / static_cast<float>(kGrid) - 1.0f) *
+          size;
       if (disk && dot(at, at) > size * size) continue;
       const vec3 path = vec3(0.5f + at.x, at.y, 3) - P, L = glm::normalize(path);
       const vec3 H = glm::normalize(L - glm::normalize(P));
       const double cosine = std::abs(double{L.z}), cell = 4.0 * double{size} * double{size} / (kGrid * kGrid);
-      sum += std::pow(std::max(0.0, -double{H.z}), 8 / double{roughness}) * cosine * cell / (double{dot(path, path)} * double{kPi});
+      sum += std::pow(std::max(0.0, -double{H.z}), 8 / double{roughness}) * cosine * cell /
+             (double{dot(path, path)} * double{kPi});
     }
   return sum;
 }

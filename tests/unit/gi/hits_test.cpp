@@ -1,5 +1,5 @@
-// What gather rays and paths see in mirrors, behind glass and through what is transparent. In a closed room whose walls all shine
-// alike, E/pi is their radiance, whatever else stands in it and loses nothing (a furnace).
+// What gather rays and paths see in mirrors, behind glass and through what is transparent. In a closed room whose walls
+// all shine alike, E/pi is their radiance, whatever else stands in it and loses nothing (a furnace).
 #include <gtest/gtest.h>
 
 #include "fixture.h"
@@ -32,7 +32,9 @@ struct Furnace {
     points.set3(kPx, 0, {0.1f, 0.999f, 3.05f}), points.set3(kIx, 0, {0, 1, 0});
     points.set3(kNx, 0, {0, -1, 0}), points.set3(kNgx, 0, {0, -1, 0});
     std::vector<float> out(12 * kLanes);
-    const auto vec = [&](size_t k) { return TmVec3{&out[3 * k * kLanes], &out[(3 * k + 1) * kLanes], &out[(3 * k + 2) * kLanes]}; };
+    const auto vec = [&](size_t k) {
+      return TmVec3{&out[3 * k * kLanes], &out[(3 * k + 1) * kLanes], &out[(3 * k + 2) * kLanes]};
+    };
     const uint8_t active[kLanes] = {1};
     services->indirectDiffuse(points, active, points.vec(kNx), {}, {}, {vec(0), {vec(1), vec(2), vec(3)}});
     return out[0];
@@ -51,7 +53,8 @@ TEST_P(BothModes, BehindAVeilStandsTheRoom) {
 }
 
 TEST_P(BothModes, ABlackVeilTakesItsOpacityTwice) {
-  const float open = Furnace("constant", vec3(0), vec3(0)).floor(GetParam()), black = Furnace("constant", vec3(1), vec3(0)).floor(GetParam());
+  const float open = Furnace("constant", vec3(0), vec3(0)).floor(GetParam()),
+              black = Furnace("constant", vec3(1), vec3(0)).floor(GetParam());
   const float veiled = Furnace("constant", vec3(0.4f), vec3(0)).floor(GetParam());
   EXPECT_NEAR(open, 1, 0.005f);
   EXPECT_NEAR((veiled - black) / (open - black), 0.36f, 0.01f);

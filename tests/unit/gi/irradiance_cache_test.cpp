@@ -44,8 +44,7 @@ TEST(IrradianceCache, FindsNothingWhereItHasNoRecords) {
 TEST(IrradianceCache, ScreenWeightsAreThoseOfEquations2To5) {
   const CacheSettings one{ErrorFunction::Screen, 1};
   // R_i / 2 = 0.05 lies between 1.5 and 10 pixels of 0.01.
-  EXPECT_NEAR(weightOfOne(one, recordAt(vec3(0), vec3(1), 0.1f), {0.02f, 0, 0}, kUp, 0.01f),
-              1 - 0.02f / 0.05f, 1e-5f);
+  EXPECT_NEAR(weightOfOne(one, recordAt(vec3(0), vec3(1), 0.1f), {0.02f, 0, 0}, kUp, 0.01f), 1 - 0.02f / 0.05f, 1e-5f);
   // R+ = 10 pixels, measured at the lookup, limits a far record.
   EXPECT_NEAR(weightOfOne(one, recordAt(vec3(0), vec3(1), 9), {0.02f, 0, 0}, kUp, 0.01f), 0.8f, 1e-5f);
   EXPECT_NEAR(weightOfOne(one, recordAt(vec3(0), vec3(1), 9), {0.02f, 0, 0}, kUp, 0.004f), 0.5f, 1e-5f);
@@ -57,9 +56,8 @@ TEST(IrradianceCache, ScreenWeightsAreThoseOfEquations2To5) {
   EXPECT_EQ(weightOfOne(one, recordAt(vec3(0), vec3(1)), vec3(0), tilted(10.1f), 0.01f), 0);
   // The larger of both terms counts, times kappa.
   EXPECT_NEAR(weightOfOne(one, recordAt(vec3(0), vec3(1), 9), {0.09f, 0, 0}, tilted(4), 0.01f), 0.1f, 1e-4f);
-  EXPECT_NEAR(
-      weightOfOne({ErrorFunction::Screen, 2}, recordAt(vec3(0), vec3(1), 9), {0.02f, 0, 0}, kUp, 0.01f), 0.6f,
-      1e-5f);
+  EXPECT_NEAR(weightOfOne({ErrorFunction::Screen, 2}, recordAt(vec3(0), vec3(1), 9), {0.02f, 0, 0}, kUp, 0.01f), 0.6f,
+              1e-5f);
 }
 
 TEST(IrradianceCache, MaxPixelsReplacesTheTenOfEquation3) {
@@ -103,10 +101,12 @@ TEST(IrradianceCache, BumpsThatRaysDoNotSeeLieBehindNoRecord) {
     auto record = recordAt(vec3(0), vec3(1), 2);
     record.smoothRadius = 1, record.relief = 0.06f;
     const CacheSettings wide{function, 1, 10};
-    const float even = weightOfOne(wide, record, {0.1f, 0, 0}, kUp, 0.04f), low = weightOfOne(wide, record, {0.1f, 0, -0.02f}, kUp, 0.04f);
+    const float even = weightOfOne(wide, record, {0.1f, 0, 0}, kUp, 0.04f),
+                low = weightOfOne(wide, record, {0.1f, 0, -0.02f}, kUp, 0.04f);
     EXPECT_GT(low, 0.6f * even);
     EXPECT_LT(low, even);
-    EXPECT_EQ(weightOfOne(wide, record, {0.1f, 0, -0.061f}, kUp, 0.04f), 0) << "what lies farther behind is another surface";
+    EXPECT_EQ(weightOfOne(wide, record, {0.1f, 0, -0.061f}, kUp, 0.04f), 0)
+        << "what lies farther behind is another surface";
   }
 }
 
@@ -123,7 +123,8 @@ TEST(IrradianceCache, WeightsFallToNothingWithTheHeightAboveARecord) {
   const auto record = recordAt(vec3(0), vec3(1), 0.02f);
   float last = weightOfOne({ErrorFunction::Screen, 1}, record, vec3(0), kUp, 0.04f);
   for (int i = 1; i <= 100; ++i) {
-    const float weight = weightOfOne({ErrorFunction::Screen, 1}, record, {0, 0, 1.2e-4f * static_cast<float>(i)}, kUp, 0.04f);
+    const float weight =
+        weightOfOne({ErrorFunction::Screen, 1}, record, {0, 0, 1.2e-4f * static_cast<float>(i)}, kUp, 0.04f);
     EXPECT_LE(weight, last);
     EXPECT_NEAR(weight, last, 0.06f) << i;
     last = weight;
@@ -301,7 +302,8 @@ TEST(IrradianceCache, DisputesShortenNoRecordBelowAPixelOverKappa) {
     cache.insert(recordAt({0.2f * least, 0, 0}, vec3(1.5f), 1, pixel));
     EXPECT_FLOAT_EQ(cache.records()[0].limit, least);
     EXPECT_NEAR(cache.lookup({-0.5f * least, 0, 0}, kUp, pixel).weight, 0.5f + 0.3f, 1e-4f);
-    EXPECT_FALSE(cache.lookup({-0.5f * least, 0, 0}, kUp, pixel).disputed) << "a third record would lie closer than a pixel";
+    EXPECT_FALSE(cache.lookup({-0.5f * least, 0, 0}, kUp, pixel).disputed)
+        << "a third record would lie closer than a pixel";
   }
 }
 
@@ -343,7 +345,9 @@ TEST(IrradianceCache, TheHessianReachesAsFarAsLightIsSmoothButNotPastWhatItSees)
 }
 
 TEST(IrradianceCache, AQuadraticFieldIsReproducedByRecordsThatKnowTheirSecondDerivatives) {
-  const auto field = [](const vec3& p) { return 2 + 0.3f * p.x + 0.8f * p.x * p.x - 0.6f * p.x * p.y + 0.4f * p.y * p.y; };
+  const auto field = [](const vec3& p) {
+    return 2 + 0.3f * p.x + 0.8f * p.x * p.x - 0.6f * p.x * p.y + 0.4f * p.y * p.y;
+  };
   IrradianceCache cache(kBox, {ErrorFunction::Hessian, 1, 40});
   for (uint32_t i = 0; i < 200; ++i) {
     const vec3 p = randomIn(i, 4) * vec3(1, 1, 0);
@@ -455,8 +459,7 @@ TEST(IrradianceCache, PlainIsScreenAsPublished) {
 
 TEST(IrradianceCache, AnEdgeThatARecordHasMetIsNoSheetOverIt) {
   IrradianceCache cache(kBox, {});
-  IrradianceRecord beside = recordAt(vec3(0), vec3(1), 0.01f),
-                   disputed = recordAt({0.02f, 0, 0}, vec3(1), 0.3f);
+  IrradianceRecord beside = recordAt(vec3(0), vec3(1), 0.01f), disputed = recordAt({0.02f, 0, 0}, vec3(1), 0.3f);
   beside.limit = 2, disputed.limit = 0.02f;
   cache.insert(beside);
   EXPECT_EQ(cache.lookup({0.01f, 0, 0}, kUp, 0.02f).headroom, 2);
@@ -468,18 +471,19 @@ TEST(IrradianceCache, ManyLookupsAtOnceHaveTheBitsOfOneAtATime) {
   for (const ErrorFunction function : {ErrorFunction::Screen, ErrorFunction::Ward, ErrorFunction::Hessian,
                                        ErrorFunction::Split, ErrorFunction::Plain}) {
     const bool ward = function == ErrorFunction::Ward || function == ErrorFunction::Split;
-    IrradianceCache cache(kBox,
-                          {function, ward ? 4.0f : 1.0f, function == ErrorFunction::Split ? kInfinity : 10.0f,
-                           function == ErrorFunction::Split ? 0 : 1.5f});
+    IrradianceCache cache(kBox, {function, ward ? 4.0f : 1.0f, function == ErrorFunction::Split ? kInfinity : 10.0f,
+                                 function == ErrorFunction::Split ? 0 : 1.5f});
     for (uint32_t i = 0; i < 3000; ++i) {
-      IrradianceRecord r = recordAt(1.1f * randomIn(i, 1), vec3(1) + 0.02f * randomIn(i, 2), 0.5f * unitFloat(hashCombine(i, 3)));  // some outside
+      IrradianceRecord r = recordAt(1.1f * randomIn(i, 1), vec3(1) + 0.02f * randomIn(i, 2),
+                                    0.5f * unitFloat(hashCombine(i, 3)));  // some outside
       r.normal = glm::normalize(kUp + 0.12f * randomIn(i, 4)), r.smoothRadius = 0.3f;
       cache.insert(r);
     }
     std::vector<IrradiancePlace> places;
     for (uint32_t i = 0; i < 1500; ++i) {  // a walk in small steps, with leaps
       const vec3 start = randomIn(i / 100, 5), normal = glm::normalize(kUp + 0.1f * randomIn(i, 7));
-      places.push_back({start + 0.03f * randomIn(i, 8), normal, glm::normalize(normal + 0.2f * randomIn(i, 6)), i % 100 < 50 ? 0.03f : 0.1f});
+      places.push_back({start + 0.03f * randomIn(i, 8), normal, glm::normalize(normal + 0.2f * randomIn(i, 6)),
+                        i % 100 < 50 ? 0.03f : 0.1f});
     }
     std::vector<IrradianceEstimate> all(places.size());
     cache.lookup(places, all.data());

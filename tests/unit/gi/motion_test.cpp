@@ -27,7 +27,8 @@ void sampleMotion(Scene& scene) {
 }
 
 /// Share of the light from P + toward that arrives, over the whole shutter.
-float light(const GiServices& services, const ShadePoints& points, int i, const vec3& toward, const ShadowRays& rays = {}) {
+float light(const GiServices& services, const ShadePoints& points, int i, const vec3& toward,
+            const ShadowRays& rays = {}) {
   std::vector<uint8_t> active(static_cast<size_t>(points.count()), 0);
   active[static_cast<size_t>(i)] = 1;
   const auto n = active.size();

@@ -1,4 +1,5 @@
-// Ambient occlusion against closed forms (form factors of a point to a sphere and to a wall), through shader, service and rays.
+// Ambient occlusion against closed forms (form factors of a point to a sphere and to a wall), through shader, service
+// and rays.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -24,7 +25,8 @@ struct Floor {
   float clear(const vec3& P) const {
     ShadePoints points(world->scene.objects[object].group, 0);
     points.add(11U);
-    points.set3(kPx, 0, P), points.set3(kIx, 0, {0, 1, 0}), points.set3(kNx, 0, {0, -1, 0}), points.set3(kNgx, 0, {0, -1, 0});
+    points.set3(kPx, 0, P), points.set3(kIx, 0, {0, 1, 0}), points.set3(kNx, 0, {0, -1, 0}),
+        points.set3(kNgx, 0, {0, -1, 0});
     ShadedPoints out;
     world->shading.shade(points, {}, out);
     return out.color(0).x;
@@ -61,7 +63,6 @@ TEST(Occlusion, InACornerIsTheFormFactorOfTheWall) {
   }
 }
 
-
 /// A ball on a floor, before the eye, both under the sky.
 SceneBuilder ballOnFloor(ParamList asked) {
   SceneBuilder b(96);
@@ -81,7 +82,8 @@ struct Error {
   int points = 0;
 };
 
-/// Of shading with the services of `world` against the form factor of the ball, over the floor as far as the eye sees it up to z = 6.
+/// Of shading with the services of `world` against the form factor of the ball, over the floor as far as the eye sees
+/// it up to z = 6.
 Error errorOnFloor(const World& world, const DeepFrame& frame) {
   Error error;
   for (const DeepTile& tile : frame.tiles)

@@ -65,8 +65,7 @@ TEST(PhotonEmission, AHollowLampLightsItselfByAllBounces) {
 TEST(PhotonEmission, SmallRoomsHaveTheLightOfLargeOnes) {
   for (const float size : {1.0f, 1e-4f, 1e-6f}) {
     SceneBuilder b;
-    b.light("pointlight",
-            {floatParam("intensity", size * size), pointParam("from", {0.1f * size, 0, 3 * size})});
+    b.light("pointlight", {floatParam("intensity", size * size), pointParam("from", {0.1f * size, 0, 3 * size})});
     b.sphere(2 * size, vec3(0.5f), {0, 0, 3 * size});
     World world(b.scene);
     const double power = 4 * double{kPi} * double{kPi} * double{size} * double{size};
@@ -84,8 +83,8 @@ struct PhotonFiles : ::testing::Test {
     const auto services = world.use({.mode = GiMode::None});
     AtlasSettings settings;
     settings.photons = {100000, 1};
-    writePhotons(folder, world.scene, world.rays, world.shading, mapNames(world.scene, settings), settings,
-                 {}, world.stats, world.log);
+    writePhotons(folder, world.scene, world.rays, world.shading, mapNames(world.scene, settings), settings, {},
+                 world.stats, world.log);
     const PointCloud cloud = PointFile(atlasFile(folder, map, ".ptc").string()).readAll();
     double sum = 0;
     for (size_t i = 0; i < cloud.count(); ++i) sum += double{cloud.at(i)[1]};
@@ -110,8 +109,7 @@ TEST_F(PhotonFiles, OfMediaHoldItToo) {
   };
   const double once = powerIn(fog(1), "scene.volume");
   EXPECT_GT(once, 1);
-  for (const float scale : {10.0f, 0.1f})
-    EXPECT_NEAR(powerIn(fog(scale), "scene.volume"), once, 0.01 * once) << scale;
+  for (const float scale : {10.0f, 0.1f}) EXPECT_NEAR(powerIn(fog(scale), "scene.volume"), once, 0.01 * once) << scale;
 }
 
 /// Two sheets at different depths that face the sun, and nothing between.
@@ -138,8 +136,7 @@ TEST(PhotonEmission, TheSunSendsPhotonsAtWhatItsWidthReaches) {
       probe.P.emplace_back(0, 0, 5), probe.N.emplace_back(0, 0, -1), probe.xi.push_back(sobol2(i, 3U));
     world.shading.probe(0, probe);
     double E = 0;  // on what faces the middle
-    for (size_t i = 0; i < probe.L.size(); ++i)
-      E -= double{kPi} / 4096 * double{probe.Cl[i].y * probe.L[i].z};
+    for (size_t i = 0; i < probe.L.size(); ++i) E -= double{kPi} / 4096 * double{probe.Cl[i].y * probe.L[i].z};
     ASSERT_GT(E, 1);
     EXPECT_NEAR(powerOf(traced(world, {100000, 1})), 2 * E, 0.01 * 2 * E) << size;
   }
@@ -163,8 +160,7 @@ TEST(PhotonEmission, APenumbraHasTheWidthOfTheSun) {
 SceneBuilder roomWithAWindow(const std::string& portals, const std::string& shader = "environmentlight") {
   SceneBuilder b;
   ParamList params{floatParam("intensity", 1.5f)};
-  if (!portals.empty())
-    params.push_back({"portals", Storage::Uniform, ValueType::String, 1, {}, {}, {portals}});
+  if (!portals.empty()) params.push_back({"portals", Storage::Uniform, ValueType::String, 1, {}, {}, {portals}});
   b.light(shader, params);
   const auto at = [](float x, float y, float z) { return vec3(x, y, 8 + z); };
   const vec3 black(0);
@@ -203,8 +199,7 @@ rsl::StringParam defaultPortals("portals", "window", "");
 void shine(const TmGrid* g) {
   for (int i : rsl::Batch(g)) rsl::set(g->Cl, i, {1.5f, 1.5f, 1.5f});
 }
-const rsl::Shader windowlight(TM_LIGHT, "windowlight", "", TM_LIGHT_SOLAR | TM_LIGHT_SKY, shine,
-                              {&defaultPortals});
+const rsl::Shader windowlight(TM_LIGHT, "windowlight", "", TM_LIGHT_SOLAR | TM_LIGHT_SKY, shine, {&defaultPortals});
 
 TEST(PhotonEmission, PortalsMayBeTheDefaultOfTheSkysShader) {
   const TmShader* const shaders[] = {windowlight};
@@ -256,8 +251,7 @@ TEST(PhotonEmission, ALightThatIsNotDiffuseSendsNone) {
 TEST(PhotonEmission, FarLightsBringWhatNearOnesDo) {
   for (const float distance : {10.0f, 1e3f, 1e5f}) {
     SceneBuilder b;
-    b.light("pointlight",
-            {floatParam("intensity", distance * distance), pointParam("from", {0, 0, 5 - distance})});
+    b.light("pointlight", {floatParam("intensity", distance * distance), pointParam("from", {0, 0, 5 - distance})});
     b.quad({-1, -1, 5}, {1, -1, 5}, {1, 1, 5}, {-1, 1, 5}, vec3(0));
     World world(b.scene);
     const std::vector<StoredPhoton> photons = traced(world, {20000, 1});
@@ -269,8 +263,7 @@ TEST(PhotonEmission, FarLightsBringWhatNearOnesDo) {
 /// A wall that a sheet shades from the light.
 SceneBuilder shaded() {
   SceneBuilder b;
-  b.light("distantlight",
-          {floatParam("intensity", 1), pointParam("from", {0, 0, 0}), pointParam("to", {0, 0, 1})});
+  b.light("distantlight", {floatParam("intensity", 1), pointParam("from", {0, 0, 0}), pointParam("to", {0, 0, 1})});
   b.quad({-1, -1, 8}, {1, -1, 8}, {1, 1, 8}, {-1, 1, 8}, vec3(0.5f));
   b.quad({-1, -1, 5}, {1, -1, 5}, {1, 1, 5}, {-1, 1, 5}, vec3(1));
   return b;

@@ -48,8 +48,8 @@ TEST(PhotonIrradiance, TheFarthestOfFewWithinReachGivesTheRadiusAndDoesNotCount)
   settings.maxRadius = 3.7f, settings.every = 1;  // 45 photons, the farthest at the root of 13
   const PointCloud out = estimateIrradiance(photons, settings);
   ASSERT_EQ(out.count(), photons.count());
-  const auto middle = static_cast<size_t>(
-      std::find(out.position.begin(), out.position.end(), vec3(10, 10, 0)) - out.position.begin());
+  const auto middle =
+      static_cast<size_t>(std::find(out.position.begin(), out.position.end(), vec3(10, 10, 0)) - out.position.begin());
   ASSERT_LT(middle, out.count());
   EXPECT_NEAR(out.at(middle)[0], 44 / (13 * kPi), 1e-4);
 }
@@ -146,8 +146,7 @@ TEST(PhotonIrradiance, DisksCoverTheAreaOfTheirSurface) {
 }
 
 TEST(PhotonIrradiance, PhotonsThatDoNotFitIntoMemoryGiveTheSameLight) {
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("tomales_tiles_" + std::to_string(::getpid()));
+  const auto folder = std::filesystem::temp_directory_path() / ("tomales_tiles_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   PointCloud photons;
   addSquare(photons, 20000, 0, {0, 0, 1}, vec3(1), 3);
@@ -189,8 +188,7 @@ TEST(PhotonTree, FindsTheSamePhotonsAsABruteForceSearch) {
 }
 
 TEST(PointFile, ComesBackAsItWasWritten) {
-  const auto path =
-      std::filesystem::temp_directory_path() / ("tomales_points_" + std::to_string(::getpid()) + ".ptc");
+  const auto path = std::filesystem::temp_directory_path() / ("tomales_points_" + std::to_string(::getpid()) + ".ptc");
   PointCloud cloud;
   cloud.channels = {{"irradiance", 3}, {"area", 1}};
   for (uint32_t i = 0; i < 70000; ++i) {
@@ -233,8 +231,7 @@ PointCloud uneven(const Density& density) {
   const vec3 power(1e-3f);
   for (uint32_t i = 0; i < 60000; ++i) {
     const vec2 at(unitFloat(hashCombine(21u, i, 0u)), unitFloat(hashCombine(21u, i, 1u)));
-    if (unitFloat(hashCombine(21u, i, 2u)) < density(at))
-      photons.add({at.x, at.y, 0}, {0, 0, 1}, 0, &power.x);
+    if (unitFloat(hashCombine(21u, i, 2u)) < density(at)) photons.add({at.x, at.y, 0}, {0, 0, 1}, 0, &power.x);
   }
   return photons;
 }
@@ -248,9 +245,7 @@ TEST(PhotonIrradiance, UnevenLightIsNotTakenForClumps) {
     const vec2 d = (at - 0.5f) / 0.2f;
     return 1 / ((1 + dot(d, d)) * (1 + dot(d, d)));
   };
-  const auto penumbra = [](const vec2& at) {
-    return 0.1f + 0.9f * glm::clamp((at.x - 0.45f) / 0.1f, 0.0f, 1.0f);
-  };
+  const auto penumbra = [](const vec2& at) { return 0.1f + 0.9f * glm::clamp((at.x - 0.45f) / 0.1f, 0.0f, 1.0f); };
   EXPECT_NEAR(meanOf(uneven(nearLamp)), 1, 0.05);
   EXPECT_NEAR(meanOf(uneven(penumbra)), 1, 0.05);
 }
@@ -268,8 +263,8 @@ TEST(PhotonIrradiance, TellsHowManyEstimatesStandOnWeakGround) {
   tiles.channels = ball.channels = {{"power", 3}};
   for (uint32_t i = 0; i < 6400; ++i) {
     const vec2 in(unitFloat(hashCombine(7u, i, 0u)), unitFloat(hashCombine(7u, i, 1u)));
-    tiles.add({static_cast<float>(i % 20) + 0.3f * in.x, static_cast<float>(i / 20 % 20) + 0.1f * in.y, 0},
-              {0, 0, 1}, 0, &power.x);  // 16 on each
+    tiles.add({static_cast<float>(i % 20) + 0.3f * in.x, static_cast<float>(i / 20 % 20) + 0.1f * in.y, 0}, {0, 0, 1},
+              0, &power.x);  // 16 on each
     const float z = 1 - 2 * in.x, r = std::sqrt(1 - z * z), phi = 2 * kPi * in.y;
     const vec3 n(r * std::cos(phi), r * std::sin(phi), z);
     if (i < 200) ball.add(n, n, 0, &power.x);

@@ -52,8 +52,7 @@ TEST(Photons, WithoutThoseStraightFromLightsAreWhatSurfacesSendOn) {
 
 TEST(Photons, ThroughWhatShadowRaysPassComeStraight) {
   SceneBuilder b;
-  b.light("distantlight",
-          {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {0, 0, 1})});
+  b.light("distantlight", {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {0, 0, 1})});
   for (const float z : {4.0f, 5.0f}) b.quad({-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}, vec3(1));
   auto sheet = std::make_shared<Attributes>(*b.scene.objects[0].attributes);
   sheet->photon.shadingModel = "transparent";
@@ -66,8 +65,8 @@ TEST(Photons, ThroughWhatShadowRaysPassComeStraight) {
 TEST(Photons, RouletteKeepsPowersEven) {
   World world(insideOfASphere());
   const std::vector<StoredPhoton> photons = traced(world, {20000, 10});
-  const auto [least, most] = std::minmax_element(
-      photons.begin(), photons.end(), [](const auto& a, const auto& b) { return a.power.y < b.power.y; });
+  const auto [least, most] = std::minmax_element(photons.begin(), photons.end(),
+                                                 [](const auto& a, const auto& b) { return a.power.y < b.power.y; });
   EXPECT_LT(most->power.y, 1.02f * least->power.y);
 }
 
@@ -106,8 +105,7 @@ TEST(Photons, AskSurfacesWhosePrimitiveVariablesColourThem) {
     b.add(makePolygons({3}, {0, 1, 2}, params, problems), vec3(1));
   World world(b.scene);
   for (const auto& [object, even] : {std::pair{0, true}, {1, false}, {2, false}})
-    EXPECT_EQ(world.shading.reflectsEvenly(world.scene.objects[static_cast<size_t>(object)].group), even)
-        << object;
+    EXPECT_EQ(world.shading.reflectsEvenly(world.scene.objects[static_cast<size_t>(object)].group), even) << object;
 }
 
 TEST(Photons, NoneComesIntoAClosedBody) {
@@ -132,8 +130,7 @@ TEST(Photons, NoneLeavesAClosedBoxByItsEdges) {
   b.light("pointlight", {floatParam("intensity", 3), pointParam("from", {0.1f, 0.2f, 3})});
   const auto box = [&](float r) {
     const auto at = [&](int i) { return vec3(i & 1 ? r : -r, i & 2 ? r : -r, (i & 4 ? r : -r) + 3); };
-    constexpr int kFaces[6][4] = {{0, 4, 5, 1}, {2, 3, 7, 6}, {4, 6, 7, 5},
-                                  {0, 1, 3, 2}, {0, 2, 6, 4}, {5, 7, 3, 1}};
+    constexpr int kFaces[6][4] = {{0, 4, 5, 1}, {2, 3, 7, 6}, {4, 6, 7, 5}, {0, 1, 3, 2}, {0, 2, 6, 4}, {5, 7, 3, 1}};
     for (const auto& f : kFaces) b.quad(at(f[0]), at(f[1]), at(f[2]), at(f[3]), vec3(0.75f));
   };
   box(1), box(3);
@@ -157,8 +154,7 @@ TEST(Photons, AModelThatIsNotKnownIsNamedAndMatte) {
 TEST(Photons, WhatComesByAMirrorAloneIsACaustic) {
   // Light falls aslant on a mirror that lies flat, and from there on a wall, which it reaches by itself too.
   SceneBuilder b;
-  b.light("distantlight",
-          {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {1, -1, 0})});
+  b.light("distantlight", {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {1, -1, 0})});
   b.quad({-1, -1, 2}, {1, -1, 2}, {1, -1, 4}, {-1, -1, 4}, vec3(1));
   b.quad({4, -6, -6}, {4, 10, -6}, {4, 10, 12}, {4, -6, 12}, vec3(0.5f));
   auto mirror = std::make_shared<Attributes>(*b.scene.objects[0].attributes);
@@ -176,8 +172,7 @@ TEST(Photons, WhatComesByAMirrorAloneIsACaustic) {
 
 TEST(Photons, ADistantLightIsAimedAtTheObjectsAlone) {
   SceneBuilder b;
-  b.light("distantlight",
-          {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {0, 0, 1})});
+  b.light("distantlight", {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {0, 0, 1})});
   for (const float x : {-5.0f, 5.0f})  // one unit of area each, far apart
     b.quad({x, 0, 5}, {x + 1, 0, 5}, {x + 1, 1, 5}, {x, 1, 5}, vec3(0.5f));
   World world(b.scene);
@@ -191,8 +186,7 @@ TEST(Photons, ASkyGivesAFloorPiTimesItsRadiance) {
   b.light("environmentlight", {floatParam("intensity", 1.5f)});
   b.quad({-1, -1, 5}, {1, -1, 5}, {1, 1, 5}, {-1, 1, 5}, vec3(0));
   World world(b.scene);
-  EXPECT_NEAR(powerOf(traced(world, {100000, 1})), 2 * 4 * 1.5 * double{kPi},
-              0.03 * 12 * double{kPi});  // both sides
+  EXPECT_NEAR(powerOf(traced(world, {100000, 1})), 2 * 4 * 1.5 * double{kPi}, 0.03 * 12 * double{kPi});  // both sides
 }
 
 TEST(Photons, ASceneWithoutLightSaysSo) {
@@ -218,8 +212,8 @@ SceneBuilder cloud(const vec3& scattering, const vec3& absorption) {
   const auto color = [](const char* name, const vec3& c) {
     return Param{name, Storage::Uniform, ValueType::Color, 1, {c.x, c.y, c.z}, {}, {}};
   };
-  attributes->interior = std::make_shared<ShaderCall>(
-      call("fog", {color("scattering", scattering), color("absorption", absorption)}));
+  attributes->interior =
+      std::make_shared<ShaderCall>(call("fog", {color("scattering", scattering), color("absorption", absorption)}));
   attributes->lights = {0};
   b.scene.objects[0].attributes = attributes;
   return b;
@@ -285,9 +279,8 @@ vec3 meanRadianceAt(const fs::path& folder, World& world, const PhotonSettings& 
   for (uint32_t i = 0; i < kPlaces; ++i) {
     const vec3 up = cosineHemisphere(sobol2(i, 5U));  // both halves are alike
     vec3 here(0);
-    EXPECT_TRUE(
-        fluence.lookup(transformPoint(worldFromCurrent, vec3(0, 0, 4) + distance * (i % 2 ? up : -up)),
-                       vec3(0), 0.02f, &here.x));
+    EXPECT_TRUE(fluence.lookup(transformPoint(worldFromCurrent, vec3(0, 0, 4) + distance * (i % 2 ? up : -up)), vec3(0),
+                               0.02f, &here.x));
     sum += here / static_cast<float>(kPlaces);
   }
   return sum / (4 * kPi);
@@ -337,8 +330,7 @@ TEST_F(Atlas, GivesTheSameWhereRaysSampleDirectLight) {
 }
 
 /// Writes an atlas into `folder`; which stages had work to do.
-std::string stagesOf(const fs::path& folder, const AtlasSettings& settings, float wall,
-                     int64_t* kept = nullptr) {
+std::string stagesOf(const fs::path& folder, const AtlasSettings& settings, float wall, int64_t* kept = nullptr) {
   // Two closed rooms, so that what happens in one changes nothing in the other.
   SceneBuilder b;
   for (const float x : {0.0f, 10.0f}) {
@@ -405,8 +397,7 @@ TEST_F(Atlas, MapsWithoutTheirPhotonsAreUsedAndKnownForStrangers) {
 
 TEST_F(Atlas, CausticsHaveMapsOfTheirOwn) {
   SceneBuilder b;
-  b.light("distantlight",
-          {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {1, -1, 0})});
+  b.light("distantlight", {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {1, -1, 0})});
   b.quad({-1, -1, 2}, {1, -1, 2}, {1, -1, 4}, {-1, -1, 4}, vec3(1));
   b.quad({4, -6, -6}, {4, 10, -6}, {4, 10, 12}, {4, -6, 12}, vec3(0.5f));
   auto mirror = std::make_shared<Attributes>(*b.scene.objects[0].attributes),

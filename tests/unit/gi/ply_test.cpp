@@ -25,8 +25,8 @@ class Ply : public testing::Test {
   }
 
  private:
-  const fs::path folder_ =
-      fs::temp_directory_path() / (std::string("tomales_ply_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+  const fs::path folder_ = fs::temp_directory_path() / (std::string("tomales_ply_") +
+                                                        testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 PointCloud someCloud() {
@@ -56,7 +56,8 @@ TEST_F(Ply, WhatIsWrittenReadsAsTheSameCloud) {
 
 TEST_F(Ply, AsciiOfAnotherProgramKeepsItsColours) {
   const PointCloud cloud = read(
-      "ply\r\nformat ascii 1.0\r\ncomment by hand\r\nelement camera 1\r\nproperty list uchar int names\r\nelement vertex 2\r\n"
+      "ply\r\nformat ascii 1.0\r\ncomment by hand\r\nelement camera 1\r\nproperty list uchar int names\r\nelement "
+      "vertex 2\r\n"
       "property double x\r\nproperty double y\r\nproperty double z\r\nproperty uchar red\r\nproperty uchar green\r\n"
       "property uchar blue\r\nproperty float w\r\nend_header\r\n3 1 2 3\r\n1 2 3 255 51 0 9\r\n4 5 6 0 0 255 8\r\n",
       0.5f);
@@ -70,26 +71,31 @@ TEST_F(Ply, AsciiOfAnotherProgramKeepsItsColours) {
 
 TEST_F(Ply, AnyNumberOfElementsWithoutPropertiesIsSkippedAtOnce) {
   const PointCloud cloud = read(
-      "ply\nformat ascii 1.0\nelement nothing 18446744073709551615\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+      "ply\nformat ascii 1.0\nelement nothing 18446744073709551615\nelement vertex 1\nproperty float x\nproperty float "
+      "y\nproperty float z\n"
       "end_header\n1 2 3\n");
   EXPECT_EQ(cloud.count(), 1u);
 }
 
 TEST_F(Ply, BigEndianNumbersAreTurned) {
-  std::string text = "ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty short z\nend_header\n";
+  std::string text =
+      "ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty short "
+      "z\nend_header\n";
   text += std::string("\x3f\x80\x00\x00\xc0\x00\x00\x00\x01\x02", 10);
   EXPECT_EQ(read(text).position.at(0), vec3(1, -2, 258));
 }
 
 TEST_F(Ply, PointsWithoutAFinitePlaceAreDroppedAndCounted) {
-  const std::string header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
   const PlyFigures figures = convertPly(wrote(header + "0 0 0\nnan 0 0\n1 inf 1\n"), at("out.ptc"), 0);
   EXPECT_EQ(figures.points, 1u);
   EXPECT_EQ(figures.dropped, 2u);
 }
 
 TEST_F(Ply, WhatIsDamagedIsNamedAndLeavesNoFile) {
-  const std::string header = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
   const std::string bad[] = {"",
                              "hello",
                              "ply\n",

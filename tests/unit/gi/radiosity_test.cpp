@@ -17,7 +17,9 @@ RadiosityChart gradient(int width, int height) {
   RadiosityChart c;
   c.width = width, c.height = height, c.texelSize = 1;
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) c.texels.emplace_back((static_cast<float>(x) + 0.5f) / static_cast<float>(width), (static_cast<float>(y) + 0.5f) / static_cast<float>(height), 1);
+    for (int x = 0; x < width; ++x)
+      c.texels.emplace_back((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
+                            (static_cast<float>(y) + 0.5f) / static_cast<float>(height), 1);
   c.makeLevels();
   return c;
 }
@@ -30,7 +32,8 @@ TEST(RadiosityChart, InterpolatesAGradientAtEveryLevelThatItFits) {
     EXPECT_NEAR(found.x, 0.4f, 1e-5f) << width;
     EXPECT_NEAR(found.y, 0.6f, 1e-5f) << width;
   }
-  for (const float width : {16.0f, 1e9f, kInfinity}) EXPECT_NEAR(c.lookup(0.1f, 0.9f, width).x, 0.5f, 1e-5f) << "the mean";
+  for (const float width : {16.0f, 1e9f, kInfinity})
+    EXPECT_NEAR(c.lookup(0.1f, 0.9f, width).x, 0.5f, 1e-5f) << "the mean";
 }
 
 TEST(RadiosityChart, OfOneTexelIsThatTexel) {
@@ -70,7 +73,8 @@ TEST(RadiosityPicture, ChartsLieAtMultiplesOfTheirSizeAndDoNotOverlap) {
     EXPECT_EQ(layout.corner[k].x % c.width, 0);
     EXPECT_EQ(layout.corner[k].y % c.height, 0);
     for (int y = 0; y < c.height; ++y)
-      for (int x = 0; x < c.width; ++x) EXPECT_EQ(picture.at(layout.corner[k].x + x, layout.corner[k].y + y)[0], static_cast<float>(k + 1));
+      for (int x = 0; x < c.width; ++x)
+        EXPECT_EQ(picture.at(layout.corner[k].x + x, layout.corner[k].y + y)[0], static_cast<float>(k + 1));
     area += static_cast<int64_t>(c.width) * c.height;
   }
   EXPECT_LT(static_cast<int64_t>(picture.width) * picture.height, 4 * area);
@@ -91,7 +95,8 @@ TEST(RadiosityMaps, HoldWhatAHitSendsBack) {
     if (hit.object < 0 || !maps.lookup(ray, hit, mapped)) continue;
     std::vector<vec3> truth;
     world.rays.shadeHits({ray}, {hit}, {{k, 0}}, world.shading, context, truth);
-    sum += static_cast<double>(luminance(truth[0])), off += static_cast<double>(std::abs(luminance(truth[0]) - luminance(mapped)));
+    sum += static_cast<double>(luminance(truth[0])),
+        off += static_cast<double>(std::abs(luminance(truth[0]) - luminance(mapped)));
     ++found;
   }
   EXPECT_GT(found, 2000);
@@ -144,7 +149,8 @@ TEST(RadiosityMaps, OfATrimmedPatchAreNotDarkAlongItsEdge) {
   const RadiosityMaps maps(world.rays, world.shading, world.camera, {}, world.log);
   ASSERT_EQ(maps.charts(0, false).size(), 1U);
   EXPECT_GT(maps.texelCount(), 100);
-  for (const vec3& texel : maps.charts(0, false)[0].texels) EXPECT_NEAR(glm::distance(texel, {0.5f, 0.25f, 1}), 0, 1e-5f);
+  for (const vec3& texel : maps.charts(0, false)[0].texels)
+    EXPECT_NEAR(glm::distance(texel, {0.5f, 0.25f, 1}), 0, 1e-5f);
 }
 
 TEST(RadiosityMaps, GatherAsShadersDoForNoShaderAtHits) {
@@ -154,14 +160,17 @@ TEST(RadiosityMaps, GatherAsShadersDoForNoShaderAtHits) {
   gatherFrame(*shaded, frame);
   const std::vector<vec3> truth = indirectOf(*shaded, world, frame);
   const auto mapped = world.use({.mode = GiMode::Radiosity});
-  auto maps = std::make_unique<const RadiosityMaps>(world.rays, world.shading, world.camera, RadiositySettings{}, world.log);
+  auto maps =
+      std::make_unique<const RadiosityMaps>(world.rays, world.shading, world.camera, RadiositySettings{}, world.log);
   mapped->setRadiositySource([&] { return std::move(maps); });
   const int64_t before = world.stats.shade.verticesShaded;
   gatherFrame(*mapped, frame);
   const std::vector<vec3> found = indirectOf(*mapped, world, frame);
   EXPECT_EQ(world.stats.shade.verticesShaded, before);
   double sum = 0, off = 0;
-  for (size_t i = 0; i < truth.size(); ++i) sum += static_cast<double>(luminance(truth[i])), off += static_cast<double>(std::abs(luminance(truth[i]) - luminance(found[i])));
+  for (size_t i = 0; i < truth.size(); ++i)
+    sum += static_cast<double>(luminance(truth[i])),
+        off += static_cast<double>(std::abs(luminance(truth[i]) - luminance(found[i])));
   EXPECT_LT(off / sum, 0.02);
 }
 
@@ -175,7 +184,8 @@ struct BrickBake {
     names = mapNames(world.scene, atlas);
   }
   std::unique_ptr<const RadiosityBricks> make(World& world) const {
-    return std::make_unique<const RadiosityBricks>(folder.path(), world.rays, world.shading, world.camera, names, settings, BrickCache::kDefaultBytes, world.stats, world.log);
+    return std::make_unique<const RadiosityBricks>(folder.path(), world.rays, world.shading, world.camera, names,
+                                                   settings, BrickCache::kDefaultBytes, world.stats, world.log);
   }
 };
 
@@ -194,7 +204,9 @@ TEST(RadiosityBricks, GatherAsShadersDoForNoShaderAtHits) {
   const std::vector<vec3> found = indirectOf(*baked, world, frame);
   EXPECT_EQ(world.stats.shade.verticesShaded, before);
   double sum = 0, off = 0;
-  for (size_t i = 0; i < truth.size(); ++i) sum += static_cast<double>(luminance(truth[i])), off += static_cast<double>(std::abs(luminance(truth[i]) - luminance(found[i])));
+  for (size_t i = 0; i < truth.size(); ++i)
+    sum += static_cast<double>(luminance(truth[i])),
+        off += static_cast<double>(std::abs(luminance(truth[i]) - luminance(found[i])));
   EXPECT_LT(off / sum, 0.025) << "voxels, not texels, blur the shadow";
 }
 

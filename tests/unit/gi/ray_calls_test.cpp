@@ -23,7 +23,8 @@ void surface(SceneBuilder& b, const std::string& name, ParamList params = {}) {
 /// A parallelogram whose colour at each place is `color` of its corners, in between bilinear.
 void coloredQuad(SceneBuilder& b, const vec3 (&corner)[4], const vec3 (&color)[4], const char* name = "Cs") {
   Problems problems;
-  Param P{"P", Storage::Vertex, ValueType::Point, 1, {}, {}, {}}, C{name, Storage::Varying, ValueType::Color, 1, {}, {}, {}};
+  Param P{"P", Storage::Vertex, ValueType::Point, 1, {}, {}, {}},
+      C{name, Storage::Varying, ValueType::Color, 1, {}, {}, {}};
   for (const vec3& p : corner) P.floats.insert(P.floats.end(), {p.x, p.y, p.z});
   for (const vec3& c : color) C.floats.insert(C.floats.end(), {c.x, c.y, c.z});
   b.add(makeBilinearPatchMesh(2, false, 2, false, {P, C}, problems), vec3(1));
@@ -57,14 +58,17 @@ struct Answer {
   float effective = 0;
   uint8_t leaves = 0;
 };
-Answer traceOne(const GiServices& services, const vec3& P, const vec3& direction, const RayQuery& query, const ShadeContext& context = {}) {
+Answer traceOne(const GiServices& services, const vec3& P, const vec3& direction, const RayQuery& query,
+                const ShadeContext& context = {}) {
   ShadePoints points(0, 0);
   addPoint(points, P, {0, 1, 0}, {0, -1, 0});
   const uint8_t active = 1;
   Answer a;
   const auto view = [](vec3& v) { return TmVec3{&v.x, &v.y, &v.z}; };
-  const RayResult result{&a.distance, view(a.color), view(a.opacity), &a.effective, &a.leaves, {{"primitive:P", 3, {&a.place.x, &a.place.y, &a.place.z}}}};
-  services.trace(points, &active, {&P.x, &P.y, &P.z}, {&direction.x, &direction.y, &direction.z}, query, context, result);
+  const RayResult result{&a.distance,  view(a.color), view(a.opacity),
+                         &a.effective, &a.leaves,     {{"primitive:P", 3, {&a.place.x, &a.place.y, &a.place.z}}}};
+  services.trace(points, &active, {&P.x, &P.y, &P.z}, {&direction.x, &direction.y, &direction.z}, query, context,
+                 result);
   return a;
 }
 
@@ -82,7 +86,8 @@ TEST(RayCalls, AMirrorShowsThePlaceWhereTheReflectedRayArrives) {
   std::vector<vec3> expected;
   const vec3 eye(0.3f, 2, -1);
   for (int k = 0; k < 50; ++k) {
-    const vec3 P(-3 + 0.12f * static_cast<float>(k), 0, 4 + 0.05f * static_cast<float>(k)), I = P - eye, R(I.x, -I.y, I.z);
+    const vec3 P(-3 + 0.12f * static_cast<float>(k), 0, 4 + 0.05f * static_cast<float>(k)), I = P - eye,
+                                                                                            R(I.x, -I.y, I.z);
     addPoint(points, P, {0, 1, 0}, I);
     expected.push_back(P + R * ((10 - P.z) / R.z));
   }
@@ -111,21 +116,26 @@ TEST(RayCalls, AnEmitterThatAMirrorShowsCountsOnce) {
     const float is = shaded(world, points)[0].x;
     EXPECT_TRUE(is == 3 || is == 0) << is;
     // One of its sides shines, and diffuse rays leave it to direct light.
-    const float other = traceOne(*services, {0, 0, 1}, {0, 1, 0}, asking([&](RayQuery& q) { q.kind = RayKind::Diffuse; })).color.x;
+    const float other =
+        traceOne(*services, {0, 0, 1}, {0, 1, 0}, asking([&](RayQuery& q) { q.kind = RayKind::Diffuse; })).color.x;
     EXPECT_EQ(other, 0);
   }
 }
 
 TEST(RayCalls, AirBetweenLayersIsThatOfTheSideOnWhichTheRayLeavesEach) {
-  // Sheets across a ray along +z, with fog inside and outside of each: the law of Beer and Lambert. Fog before the first is the caller's.
+  // Sheets across a ray along +z, with fog inside and outside of each: the law of Beer and Lambert. Fog before the
+  // first is the caller's.
   struct Sheet {
     float z, opacity;
     vec3 color;
     bool turned;
     float thick[2];  // distances of the fog outside, inside; 0: none
   };
-  const Sheet sheets[] = {{2, 0.25f, {1, 0, 0}, false, {4, 7}}, {3, 0.5f, {0, 1, 0}, true, {5, 2}}, {4.5f, 0.75f, {0.5f, 0.5f, 1}, false, {0, 0}},
-                          {7, 0.2f, {1, 1, 0}, true, {0, 6}}, {9, 1, vec3(1), false, {1, 1}}};
+  const Sheet sheets[] = {{2, 0.25f, {1, 0, 0}, false, {4, 7}},
+                          {3, 0.5f, {0, 1, 0}, true, {5, 2}},
+                          {4.5f, 0.75f, {0.5f, 0.5f, 1}, false, {0, 0}},
+                          {7, 0.2f, {1, 1, 0}, true, {0, 6}},
+                          {9, 1, vec3(1), false, {1, 1}}};
   const vec3 fog(0.2f, 0.4f, 0.8f);
   for (const bool flipped : {false, true}) {
     SceneBuilder b;
@@ -136,7 +146,9 @@ TEST(RayCalls, AirBetweenLayersIsThatOfTheSideOnWhichTheRayLeavesEach) {
         a.opacity = vec3(s.opacity), a.insideOut = s.turned != flipped;
         const auto volume = [&](float distance) {
           Param background{"background", Storage::Uniform, ValueType::Color, 1, {fog.x, fog.y, fog.z}, {}, {}};
-          return distance > 0 ? std::make_shared<ShaderCall>(call("fog", {floatParam("distance", distance), background})) : nullptr;
+          return distance > 0
+                     ? std::make_shared<ShaderCall>(call("fog", {floatParam("distance", distance), background}))
+                     : nullptr;
         };
         a.exterior = volume(s.thick[0]), a.interior = volume(s.thick[1]);
       });
@@ -149,12 +161,14 @@ TEST(RayCalls, AirBetweenLayersIsThatOfTheSideOnWhichTheRayLeavesEach) {
     float clear = 1, before = 0;
     const Sheet* last = nullptr;
     for (const Sheet& s : sheets) {
-      const float distance = last ? last->thick[entersFirst != last->turned] : 0, passes = distance > 0 ? std::exp((before - s.z) / distance) : 1;
+      const float distance = last ? last->thick[entersFirst != last->turned] : 0,
+                  passes = distance > 0 ? std::exp((before - s.z) / distance) : 1;
       color += clear * ((1 - passes) * fog + passes * s.opacity * s.color);
       clear *= passes * (1 - s.opacity), before = s.z, last = &s;
     }
     const Answer is = traceOne(*services, vec3(0), {0, 0, 1}, {});
-    for (int k = 0; k < 3; ++k) EXPECT_NEAR(is.color[k], color[k], 1e-5f) << "channel " << k << (flipped ? ", flipped" : "");
+    for (int k = 0; k < 3; ++k)
+      EXPECT_NEAR(is.color[k], color[k], 1e-5f) << "channel " << k << (flipped ? ", flipped" : "");
     EXPECT_NEAR(is.distance, 2, 1e-5f);
   }
 }
@@ -182,20 +196,29 @@ TEST(RayCalls, LightPassesLayersByTheProductOfTheirClearness) {
       const uint8_t active = 1;
       const vec3 toward(0, 0.5f * static_cast<float>(through) + 0.25f, 0);
       vec3 light(1);
-      services->transmission(points, &active, {&toward.x, &toward.y, &toward.z}, {}, {}, {&light.x, &light.y, &light.z});
-      for (int c = 0; c < 3; ++c) EXPECT_NEAR(light[c], std::pow(0.8f - 0.2f * static_cast<float>(c), static_cast<float>(through)), 1e-5f);
-      // A ray that brings colour goes through them too.
-      const Answer a = traceOne(*services, {0.3f, 0, 0.1f}, {0, 1, 0}, asking([&](RayQuery& q) { q.maxDistance = toward.y; q.mode = HitMode::Primitive; }));
+      services->transmission(points, &active, {&toward.x, &toward.y, &toward.z}, {}, {},
+                             {&light.x, &light.y, &light.z});
       for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(1 - a.opacity[c], std::pow(0.8f - 0.2f * static_cast<float>(c), static_cast<float>(through)), 1e-5f);
+        EXPECT_NEAR(light[c], std::pow(0.8f - 0.2f * static_cast<float>(c), static_cast<float>(through)), 1e-5f);
+      // A ray that brings colour goes through them too.
+      const Answer a = traceOne(*services, {0.3f, 0, 0.1f}, {0, 1, 0}, asking([&](RayQuery& q) {
+        q.maxDistance = toward.y;
+        q.mode = HitMode::Primitive;
+      }));
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(1 - a.opacity[c], std::pow(0.8f - 0.2f * static_cast<float>(c), static_cast<float>(through)),
+                    1e-5f);
       EXPECT_LT(glm::length(a.color - a.opacity), 1e-5f) << "white layers: what covers is what shines";
       EXPECT_EQ(a.leaves, 1) << "nothing that is met is opaque";
       // The mean distance of layers 1/2 apart, by what each covers: the mean over the colours.
       double covered = 0, distances = 0;
       for (int k = 1; k <= through; ++k)
-        for (const double clear : {0.8, 0.6, 0.4}) covered += (1 - clear) * std::pow(clear, k - 1), distances += 0.5 * k * (1 - clear) * std::pow(clear, k - 1);
-      if (through > 0) { EXPECT_NEAR(a.effective, distances / covered, 1e-4); }
-      else EXPECT_EQ(a.effective, kInfinity);
+        for (const double clear : {0.8, 0.6, 0.4})
+          covered += (1 - clear) * std::pow(clear, k - 1), distances += 0.5 * k * (1 - clear) * std::pow(clear, k - 1);
+      if (through > 0) {
+        EXPECT_NEAR(a.effective, distances / covered, 1e-4);
+      } else
+        EXPECT_EQ(a.effective, kInfinity);
     }
   }
 }
@@ -256,17 +279,25 @@ TEST(RayCalls, SubsetsAndSidesAndDistanceChooseWhatIsMet) {
   const auto distance = [&](const RayQuery& q) { return traceOne(*services, P, up, q).distance; };
   EXPECT_NEAR(distance({}), 1, 1e-5f);
   EXPECT_NEAR(distance(asking([&](RayQuery& q) { q.subset = "far"; })), 2, 1e-5f);
-  EXPECT_NEAR(distance(asking([&](RayQuery& q) { q.subset = "all"; q.excludeSubset = "near"; })), 2, 1e-5f);
+  EXPECT_NEAR(distance(asking([&](RayQuery& q) {
+                q.subset = "all";
+                q.excludeSubset = "near";
+              })),
+              2, 1e-5f);
   EXPECT_NEAR(distance(asking([&](RayQuery& q) { q.subset = "near, far"; })), 1, 1e-5f);
   EXPECT_EQ(distance(asking([&](RayQuery& q) { q.subset = "fa"; })), kInfinity);
   EXPECT_EQ(distance(asking([&](RayQuery& q) { q.maxDistance = 0.9f; })), kInfinity);
-  const float front = distance(asking([&](RayQuery& q) { q.sides = HitSides::Front; })), back = distance(asking([&](RayQuery& q) { q.sides = HitSides::Back; }));
+  const float front = distance(asking([&](RayQuery&q) { q.sides = HitSides::Front; })),
+              back = distance(asking([&](RayQuery&q) { q.sides = HitSides::Back; }));
   EXPECT_NEAR(std::min(front, back), 1, 1e-5f);
   EXPECT_NEAR(std::max(front, back), 2, 1e-5f);
-  EXPECT_LT(glm::length(traceOne(*services, P, up, asking([&](RayQuery& q) { q.subset = "far"; })).place - vec3(0.2f, 2, 0.1f)), 1e-5f);
+  EXPECT_LT(glm::length(traceOne(*services, P, up, asking([&](RayQuery& q) { q.subset = "far"; })).place -
+                        vec3(0.2f, 2, 0.1f)),
+            1e-5f);
 }
 
-// In a white sky everything that neither absorbs nor casts shadows is white: mirrors, and glass whose rays go on until they leave.
+// In a white sky everything that neither absorbs nor casts shadows is white: mirrors, and glass whose rays go on until
+// they leave.
 TEST(RayCalls, GlassAndMirrorsAreAsBrightAsTheSkyAroundThem) {
   SceneBuilder b;
   b.light("environmentlight", {floatParam("intensity", 3)});

@@ -23,12 +23,15 @@ struct Shot {
   float distance = 0;
   std::map<std::string, vec3> outputs;
 
-  Shot(const GiServices& services, const vec3& from, const RayQuery& query, std::vector<std::pair<std::string, int>> names = {}, const ShadeContext& context = {}) {
+  Shot(const GiServices& services, const vec3& from, const RayQuery& query,
+       std::vector<std::pair<std::string, int>> names = {}, const ShadeContext& context = {}) {
     ShadePoints points(0, 0);
     const int i = points.add(5U);
-    points.set3(kPx, i, from), points.set3(kNx, i, {0, 0, 1}), points.set3(kNgx, i, {0, 0, 1}), points.set3(kIx, i, {0, 0, -1});
+    points.set3(kPx, i, from), points.set3(kNx, i, {0, 0, 1}), points.set3(kNgx, i, {0, 0, 1}),
+        points.set3(kIx, i, {0, 0, -1});
     RayResult result;
-    result.distance = &distance, result.color = {&color.x, &color.y, &color.z}, result.opacity = {&opacity.x, &opacity.y, &opacity.z};
+    result.distance = &distance, result.color = {&color.x, &color.y, &color.z},
+    result.opacity = {&opacity.x, &opacity.y, &opacity.z};
     for (const auto& [name, floats] : names) {
       vec3& value = outputs[name];
       value = vec3(kUntouched);
@@ -36,7 +39,8 @@ struct Shot {
     }
     const uint8_t active = 1;
     const vec3 toward(0, 0, 1);
-    services.trace(points, &active, {&from.x, &from.y, &from.z}, {&toward.x, &toward.y, &toward.z}, query, context, result);
+    services.trace(points, &active, {&from.x, &from.y, &from.z}, {&toward.x, &toward.y, &toward.z}, query, context,
+                   result);
   }
 };
 
@@ -60,11 +64,28 @@ TEST(RayOutputs, AreWhatTheSceneSaysOfThePlaceThatIsMet) {
   const auto services = world.use({});
   const vec3 from(0.4f, -0.5f, 0.5f), at(0.4f, -0.5f, 3);
   const float u = 0.6f, v = 0.25f;
-  const Shot shot(*services, from, {}, {{"surface:Ci", 3}, {"surface:Oi", 3}, {"primitive:P", 3}, {"primitive:N", 3}, {"primitive:Ng", 3}, {"primitive:I", 3},
-                                        {"primitive:dPdu", 3}, {"primitive:dPdv", 3}, {"primitive:u", 1}, {"primitive:v", 1}, {"primitive:s", 1}, {"primitive:t", 1},
-                                        {"primitive:Cs", 3}, {"primitive:Os", 3}, {"primitive:wet", 1}, {"attribute:user:shot", 1}, {"primitive:dry", 1}});
+  const Shot shot(*services, from, {},
+                  {{"surface:Ci", 3},
+                   {"surface:Oi", 3},
+                   {"primitive:P", 3},
+                   {"primitive:N", 3},
+                   {"primitive:Ng", 3},
+                   {"primitive:I", 3},
+                   {"primitive:dPdu", 3},
+                   {"primitive:dPdv", 3},
+                   {"primitive:u", 1},
+                   {"primitive:v", 1},
+                   {"primitive:s", 1},
+                   {"primitive:t", 1},
+                   {"primitive:Cs", 3},
+                   {"primitive:Os", 3},
+                   {"primitive:wet", 1},
+                   {"attribute:user:shot", 1},
+                   {"primitive:dry", 1}});
   const auto is = [&](const char* name, const vec3& expected) { expectNear(shot.outputs.at(name), expected, name); };
-  const auto number = [&](const char* name, float expected) { EXPECT_NEAR(shot.outputs.at(name).x, expected, 1e-5f) << name; };
+  const auto number = [&](const char* name, float expected) {
+    EXPECT_NEAR(shot.outputs.at(name).x, expected, 1e-5f) << name;
+  };
   const vec3 color(u, 0.5f, v), opacity(0.25f, 0.5f, 1);
   EXPECT_NEAR(shot.distance, 2.5f, 1e-5f);
   is("surface:Ci", color * opacity);
@@ -82,7 +103,8 @@ TEST(RayOutputs, AreWhatTheSceneSaysOfThePlaceThatIsMet) {
   number("primitive:wet", u);
   number("attribute:user:shot", 42);
   number("primitive:dry", kUntouched);
-  EXPECT_EQ(Shot(*services, {5, 0, 0}, {}, {{"primitive:u", 1}}).outputs.at("primitive:u").x, kUntouched) << "a miss sets nothing";
+  EXPECT_EQ(Shot(*services, {5, 0, 0}, {}, {{"primitive:u", 1}}).outputs.at("primitive:u").x, kUntouched)
+      << "a miss sets nothing";
 }
 
 TEST(RayOutputs, AreTheOutputsOfTheShaderThatIsMetAndOfNoOther) {
@@ -93,14 +115,17 @@ TEST(RayOutputs, AreTheOutputsOfTheShaderThatIsMetAndOfNoOther) {
     attributes(b).surface = std::make_shared<ShaderCall>(call(name));
     World world(b.scene);
     const auto services = world.use({});
-    const Shot shot(*services, vec3(0), {}, {{"surface:albedo", 1}, {"primitive:P", 3}, {"surface:albedo", 3}, {"surface:nothing", 3}, {"surface:Oi", 3}});
+    const Shot shot(
+        *services, vec3(0), {},
+        {{"surface:albedo", 1}, {"primitive:P", 3}, {"surface:albedo", 3}, {"surface:nothing", 3}, {"surface:Oi", 3}});
     EXPECT_NEAR(shot.outputs.at("primitive:P").z, 2, 1e-5f) << name;
     expectNear(shot.outputs.at("surface:albedo"), name == "plastic" ? color : vec3(kUntouched), name.c_str());
     EXPECT_EQ(shot.outputs.at("surface:nothing").x, kUntouched) << name;
     expectNear(shot.outputs.at("surface:Oi"), vec3(1), name.c_str());
     RayQuery bare;
     bare.mode = HitMode::Primitive;
-    EXPECT_EQ(Shot(*services, vec3(0), bare, {{"surface:albedo", 3}}).outputs.at("surface:albedo").x, kUntouched) << "no shader ran";
+    EXPECT_EQ(Shot(*services, vec3(0), bare, {{"surface:albedo", 3}}).outputs.at("surface:albedo").x, kUntouched)
+        << "no shader ran";
   }
 }
 
@@ -109,7 +134,8 @@ TEST(RayOutputs, TheShaderRunsWhereTheCallOrElseTheAttributesOfTheObjectSaySo) {
     SceneBuilder b;
     sheet(b, 2, {0.2f, 0.4f, 0.8f});
     attributes(b).surface = std::make_shared<ShaderCall>(call("matte"));  // black without light
-    attributes(b).diffuseHitMode = own, attributes(b).specularHitMode = own == HitMode::Shader ? HitMode::Primitive : HitMode::Shader;
+    attributes(b).diffuseHitMode = own,
+    attributes(b).specularHitMode = own == HitMode::Shader ? HitMode::Primitive : HitMode::Shader;
     World world(b.scene);
     const auto services = world.use({});
     for (const RayKind kind : {RayKind::Diffuse, RayKind::Specular}) {
@@ -131,7 +157,8 @@ TEST(RayOutputs, ARayGoesOnUntilEnoughIsCovered) {
   for (const float z : {1.0f, 2.0f, 3.0f, 4.0f}) sheet(b, z, vec3(1), 0.5f);
   World world(b.scene);
   const auto services = world.use({});
-  for (const auto& [threshold, layers] : {std::pair(0.0f, 1), {0.5f, 1}, {0.51f, 2}, {0.75f, 2}, {0.8f, 3}, {1.0f, 4}}) {
+  for (const auto& [threshold, layers] :
+       {std::pair(0.0f, 1), {0.5f, 1}, {0.51f, 2}, {0.75f, 2}, {0.8f, 3}, {1.0f, 4}}) {
     RayQuery query;
     query.opacityThreshold = threshold;
     const Shot shot(*services, vec3(0), query);
@@ -153,7 +180,8 @@ TEST(RayOutputs, DiffuseRaysAreAsDeepAsTheObjectsOnTheWayAllow) {
     for (int depth = 0; depth < 5; ++depth) {
       ShadeContext context;  // of a point that a ray of this depth has met, whose path allows two more
       context.depth = depth, context.diffuseLimit = depth + 2;
-      EXPECT_EQ(Shot(*services, vec3(0), query, {}, context).distance < kInfinity, limit >= 1) << "limit " << limit << ", depth " << depth;
+      EXPECT_EQ(Shot(*services, vec3(0), query, {}, context).distance < kInfinity, limit >= 1)
+          << "limit " << limit << ", depth " << depth;
       context.diffuseLimit = depth;
       EXPECT_EQ(Shot(*services, vec3(0), query, {}, context).distance, kInfinity) << "an earlier limit is not lifted";
     }
@@ -165,7 +193,8 @@ TEST(RayOutputs, DisplacementIsMetWhereTheObjectAsksForIt) {
     SceneBuilder b(256);
     b.quad({-1, -1, 3}, {1, -1, 3}, {1, 1, 3}, {-1, 1, 3}, vec3(1));
     attributes(b).displacement = std::make_shared<ShaderCall>(call("noisybump", {floatParam("Km", 0.2f)}));
-    attributes(b).displacementBound = 0.2f, attributes(b).trace.displacements = displaced, attributes(b).trace.tessellation = 16;
+    attributes(b).displacementBound = 0.2f, attributes(b).trace.displacements = displaced,
+    attributes(b).trace.tessellation = 16;
     World world(b.scene);
     Grid truth = dice(world.scene, 0, 0, UvRect{}, 64, 64, 1);
     world.shading.displace(truth);

@@ -7,7 +7,8 @@
 namespace tomales::test {
 namespace {
 
-/// A floor at z = 5 that faces the eye, with a lamp before it; what arrives at points that look away from the eye and see the floor alone.
+/// A floor at z = 5 that faces the eye, with a lamp before it; what arrives at points that look away from the eye and
+/// see the floor alone.
 struct OverFloor {
   explicit OverFloor(const ShaderCall& surface, bool areaLamp) {
     SceneBuilder b(32);
@@ -38,7 +39,9 @@ struct OverFloor {
     points.set3(kPx, 0, {0, 0, 4}), points.set3(kIx, 0, {0, 0, -1});
     points.set3(kNx, 0, {0, 0, 1}), points.set3(kNgx, 0, {0, 0, 1});
     std::vector<float> out(12 * kLanes);
-    const auto vec = [&](size_t k) { return TmVec3{&out[3 * k * kLanes], &out[(3 * k + 1) * kLanes], &out[(3 * k + 2) * kLanes]}; };
+    const auto vec = [&](size_t k) {
+      return TmVec3{&out[3 * k * kLanes], &out[(3 * k + 1) * kLanes], &out[(3 * k + 2) * kLanes]};
+    };
     const uint8_t active[kLanes] = {1};
     services->indirectDiffuse(points, active, points.vec(kNx), {}, {}, {vec(0), {vec(1), vec(2), vec(3)}});
     return out[0];
@@ -54,7 +57,9 @@ double overSquare(float x, float z, float half, int cells, const Value& value) {
   double sum = 0;
   for (int j = 0; j < cells; ++j)
     for (int i = 0; i < cells; ++i) {
-      const vec2 at = (2.0f * vec2(static_cast<float>(i) + 0.5f, static_cast<float>(j) + 0.5f) / static_cast<float>(cells) - 1.0f) * half;
+      const vec2 at =
+          (2.0f * vec2(static_cast<float>(i) + 0.5f, static_cast<float>(j) + 0.5f) / static_cast<float>(cells) - 1.0f) *
+          half;
       sum += value(vec3(x + at.x, at.y, z)) * 4 * double{half} * double{half} / static_cast<double>(cells * cells);
     }
   return sum;
@@ -84,7 +89,8 @@ TEST(Reference, AMirrorShowsTheLampAsItsImageBehindIt) {
   EXPECT_NEAR(floor.arrives(GiMode::Reference) / expected, 1, 0.01);
 }
 
-// Inner reflections weaker than a fifth pass too (shaders/glass.cpp); counted, they would leave 2 eta / (eta^2 + 1), 0.923.
+// Inner reflections weaker than a fifth pass too (shaders/glass.cpp); counted, they would leave 2 eta / (eta^2 + 1),
+// 0.923.
 TEST(Reference, AGlassSlabPassesWhatItsFirstSurfaceDoesNotMirror) {
   SceneBuilder b(32);
   b.quad({-9, -9, 4}, {9, -9, 4}, {9, 9, 4}, {-9, 9, 4}, vec3(1));

@@ -12,8 +12,7 @@ using namespace test;
 
 // Inside a sphere every point sees every other with the same form factor: one bounce gives E/pi = rho I / R^2
 // everywhere, wherever the point light is, and each further bounce rho times the last.
-constexpr float kRadius = 2, kAlbedo = 0.5f, kIntensity = 3,
-                kOneBounce = kAlbedo * kIntensity / (kRadius * kRadius);
+constexpr float kRadius = 2, kAlbedo = 0.5f, kIntensity = 3, kOneBounce = kAlbedo * kIntensity / (kRadius * kRadius);
 
 Scene insideOfASphere(const vec3& light, int resolution = 64) {
   SceneBuilder b(resolution);
@@ -45,8 +44,7 @@ TEST(GiServices, AGatheredFurnaceIsUniform) {
   const auto services = world.use({.mode = GiMode::Gather});
   IndirectQuery query;
   query.samples = 200;
-  for (const vec3& E : indirectAt(*services, pointsInside(), query))
-    EXPECT_NEAR(E.x, kOneBounce, 0.02f * kOneBounce);
+  for (const vec3& E : indirectAt(*services, pointsInside(), query)) EXPECT_NEAR(E.x, kOneBounce, 0.02f * kOneBounce);
 }
 
 TEST(GiServices, GatherAndReferenceAgreeWithTheIntegratingSphereForALightOffCentre) {
@@ -55,8 +53,7 @@ TEST(GiServices, GatherAndReferenceAgreeWithTheIntegratingSphereForALightOffCent
   query.samples = 4000;
   for (const GiMode mode : {GiMode::Gather, GiMode::Reference}) {
     const auto services = world.use({.mode = mode});
-    for (const vec3& E : indirectAt(*services, pointsInside(), query))
-      EXPECT_NEAR(E.x, kOneBounce, 0.03f * kOneBounce);
+    for (const vec3& E : indirectAt(*services, pointsInside(), query)) EXPECT_NEAR(E.x, kOneBounce, 0.03f * kOneBounce);
   }
 }
 
@@ -87,7 +84,8 @@ TEST(GiServices, GatheredBouncesAddUpAsAGeometricSeries) {
     const auto services = world.use({.mode = GiMode::Gather, .samples = 400, .bounces = bounces});
     if (cached) gatherFrame(*services, frame);  // else hits find no record and go on as paths
     const int64_t before = world.stats.rays.reference;
-    for (const vec3& E : indirectAt(*services, pointsInside(), query)) EXPECT_NEAR(E.x, expected, 0.03f * expected) << bounces << (cached ? " cached" : " traced");
+    for (const vec3& E : indirectAt(*services, pointsInside(), query))
+      EXPECT_NEAR(E.x, expected, 0.03f * expected) << bounces << (cached ? " cached" : " traced");
     const int64_t paths = world.stats.rays.reference - before;
     EXPECT_GT(paths, cached ? -1 : 4 * 390);
     EXPECT_LT(paths, cached ? 4 * 60 : 4 * 600) << "nearly all hits find records";

@@ -32,7 +32,8 @@ Error errorOf(const World& w, const RasterGrid& surface, const Coverage& exact, 
 }
 
 /// Errors at 2 x 2, 4 x 4, 8 x 8 and 16 x 16 samples; `order` is how fast they must fall: N^-order.
-void expectOrder(const World& w, const std::shared_ptr<const RasterGrid>& surface, const Coverage& exact, double order) {
+void expectOrder(const World& w, const std::shared_ptr<const RasterGrid>& surface, const Coverage& exact,
+                 double order) {
   double first = 0, last = 0;
   for (const int n : {2, 4, 8, 16}) {
     const Error e = errorOf(w, *surface, exact, n, 7);
@@ -63,9 +64,9 @@ TEST(Accuracy, OfAHalfPlane) {
     const float y = -1 + 66 * v;
     return at(lerp(-1, static_cast<float>(edge(y)), u), y);
   });
-  expectOrder(w, raster(w, g), [&](int x, int y) {
-    return mean(512, [&](double v) { return std::clamp(edge(y + v) - x, 0.0, 1.0); });
-  }, 0.7);
+  expectOrder(
+      w, raster(w, g),
+      [&](int x, int y) { return mean(512, [&](double v) { return std::clamp(edge(y + v) - x, 0.0, 1.0); }); }, 0.7);
 }
 
 TEST(Accuracy, OfADisk) {
@@ -73,12 +74,15 @@ TEST(Accuracy, OfADisk) {
   const auto g = makeGrid(0, 1, 600, 12, [](float u, float v, int) {
     return at(32.2f + 25 * v * std::cos(2 * kPi * u), 31.7f + 25 * v * std::sin(2 * kPi * u));
   });
-  expectOrder(w, raster(w, g), [](int x, int y) {
-    return mean(512, [&](double v) {
-      const double dy = y + v - 31.7, half = std::sqrt(std::max(0.0, 625 - dy * dy));
-      return std::max(0.0, std::min(x + 1.0, 32.2 + half) - std::max<double>(x, 32.2 - half));
-    });
-  }, 0.7);
+  expectOrder(
+      w, raster(w, g),
+      [](int x, int y) {
+        return mean(512, [&](double v) {
+          const double dy = y + v - 31.7, half = std::sqrt(std::max(0.0, 625 - dy * dy));
+          return std::max(0.0, std::min(x + 1.0, 32.2 + half) - std::max<double>(x, 32.2 - half));
+        });
+      },
+      0.7);
 }
 
 TEST(Accuracy, OfAThinTriangle) {
@@ -89,11 +93,14 @@ TEST(Accuracy, OfAThinTriangle) {
   const auto g = makeGrid(0, 1, 2, 64, [&](float u, float v, int) {
     return at(lerp(static_cast<float>(left(64 * v)), static_cast<float>(right(64 * v)), u), 64 * v);
   });
-  expectOrder(w, raster(w, g), [&](int x, int y) {
-    return mean(512, [&](double v) {
-      return std::max(0.0, std::min(x + 1.0, right(y + v)) - std::max<double>(x, left(y + v)));
-    });
-  }, 0.65);
+  expectOrder(
+      w, raster(w, g),
+      [&](int x, int y) {
+        return mean(512, [&](double v) {
+          return std::max(0.0, std::min(x + 1.0, right(y + v)) - std::max<double>(x, left(y + v)));
+        });
+      },
+      0.65);
 }
 
 TEST(Accuracy, OfAMovingEdge) {
@@ -104,13 +111,21 @@ TEST(Accuracy, OfAMovingEdge) {
   w.freeze();
   w.scene.objects[0].keyTimes = {0, 1};
   const auto edge = [](double y, double time) { return 20.3 + 0.27 * y + 6 * time; };
-  const auto g = makeGrid(0, 1, 30, 60, [&](float u, float v, int key) {
-    const float y = -1 + 66 * v;
-    return at(lerp(-1, static_cast<float>(edge(y, key)), u), y);
-  }, 2);
-  expectOrder(w, raster(w, g), [&](int x, int y) {
-    return mean(64, [&](double v) { return mean(128, [&](double t) { return std::clamp(edge(y + v, t) - x, 0.0, 1.0); }); });
-  }, 0.5);
+  const auto g = makeGrid(
+      0, 1, 30, 60,
+      [&](float u, float v, int key) {
+        const float y = -1 + 66 * v;
+        return at(lerp(-1, static_cast<float>(edge(y, key)), u), y);
+      },
+      2);
+  expectOrder(
+      w, raster(w, g),
+      [&](int x, int y) {
+        return mean(64, [&](double v) {
+          return mean(128, [&](double t) { return std::clamp(edge(y + v, t) - x, 0.0, 1.0); });
+        });
+      },
+      0.5);
 }
 
 TEST(Accuracy, OfADefocusedEdge) {
@@ -129,14 +144,17 @@ TEST(Accuracy, OfADefocusedEdge) {
   });
   // A thin lens moves the edge over a disk; across the edge the disk's chords are 2/pi sqrt(1 - s^2) of it.
   const double radius = kScale_px * kLens * (1 / kFocus - 1 / kFar) * std::sqrt(1 + 0.27 * 0.27);
-  expectOrder(w, raster(w, g), [&](int x, int y) {
-    return mean(32, [&](double v) {
-      return mean(256, [&](double k) {
-        const double s = 2 * k - 1;
-        return 4 / M_PI * std::sqrt(1 - s * s) * std::clamp(edge(y + v) + radius * s - x, 0.0, 1.0);
-      });
-    });
-  }, 0.5);
+  expectOrder(
+      w, raster(w, g),
+      [&](int x, int y) {
+        return mean(32, [&](double v) {
+          return mean(256, [&](double k) {
+            const double s = 2 * k - 1;
+            return 4 / M_PI * std::sqrt(1 - s * s) * std::clamp(edge(y + v) + radius * s - x, 0.0, 1.0);
+          });
+        });
+      },
+      0.5);
 }
 
 }  // namespace

@@ -72,7 +72,8 @@ TEST(Aperture, DensityMovesLightBetweenCentreAndRim) {
   }
 }
 
-// A thin lens of radius 2.5 focused at 5, and a square of a pixel at 20, on the axis: 32 px stand for an angle of 45 degrees.
+// A thin lens of radius 2.5 focused at 5, and a square of a pixel at 20, on the axis: 32 px stand for an angle of 45
+// degrees.
 TEST(Aperture, ADefocusedPointTakesItsShape) {
   Options o;
   o.xResolution = o.yResolution = 64;

@@ -17,8 +17,7 @@ std::shared_ptr<const RasterGrid> turned(World& world, float angle, float turn) 
   const Surface surface = [=](float u, float v, int key) {
     const float a = angle + turn * static_cast<float>(key), c = std::cos(a), s = std::sin(a);
     const float x = kCells * (u - 0.5f), y = kCells * (v - 0.5f);
-    return at(20.3f + 9 * static_cast<float>(key) + c * x - s * y,
-              30.7f - 5 * static_cast<float>(key) + s * x + c * y);
+    return at(20.3f + 9 * static_cast<float>(key) + c * x - s * y, 30.7f - 5 * static_cast<float>(key) + s * x + c * y);
   };
   return project(makeGrid(0, 1, kCells, kCells, surface, 2), world.scene, Camera(world.scene.options), true);
 }
@@ -35,11 +34,9 @@ TEST(BlurBounds, BoxesOfATurnedGridAreHardlyLargerThanItsCells) {
     const auto r = turned(world, glm::radians(static_cast<float>(degrees)), 0);
     for (const BlurBounds::Level& level : r->blur->levels) {
       // Along rows and columns it would be twice the area at 45 degrees.
-      const float cells = static_cast<float>(kCells / level.columns),
-                  most = (cells + 0.11f) * (cells + 0.11f);
+      const float cells = static_cast<float>(kCells / level.columns), most = (cells + 0.11f) * (cells + 0.11f);
       for (int k = 0; k < level.columns * level.rows; ++k)
-        EXPECT_LT(areaOf(*r->blur, r->blur->box(0, level, k % level.columns, k / level.columns)), most)
-            << degrees;
+        EXPECT_LT(areaOf(*r->blur, r->blur->box(0, level, k % level.columns, k / level.columns)), most) << degrees;
     }
   }
 }
@@ -62,10 +59,8 @@ TEST(BlurBounds, EveryVertexIsInTheBoxesOfItsCellsAtEveryTime) {
                            w = v + static_cast<size_t>(r->grid->stride());
                 const vec2 from = glm::mix(vec2(r->x[v], r->y[v]), vec2(r->x[w], r->y[w]), t) -
                                   vec2(box.x + t * box.xStep, box.y + t * box.yStep);
-                ASSERT_LT(std::abs(from.x + slant.x * from.y), box.xReach)
-                    << degrees << ' ' << turn << ' ' << l;
-                ASSERT_LT(std::abs(from.y + slant.y * from.x), box.yReach)
-                    << degrees << ' ' << turn << ' ' << l;
+                ASSERT_LT(std::abs(from.x + slant.x * from.y), box.xReach) << degrees << ' ' << turn << ' ' << l;
+                ASSERT_LT(std::abs(from.y + slant.y * from.x), box.yReach) << degrees << ' ' << turn << ' ' << l;
               }
           }
     }

@@ -25,8 +25,7 @@ TEST(Coverage, OfAHalfPlaneIsItsAreaWithinTheErrorOfStratification) {
     for (int x = 0; x < 64; ++x) {
       double area = 0;
       for (int k = 0; k < 512; ++k)
-        area += std::clamp(edge(static_cast<float>(y) + (static_cast<float>(k) + 0.5f) / 512) -
-                               static_cast<float>(x),
+        area += std::clamp(edge(static_cast<float>(y) + (static_cast<float>(k) + 0.5f) / 512) - static_cast<float>(x),
                            0.0f, 1.0f) /
                 512;
       const double error = coverage(t, x, y, 64) - area;
@@ -97,14 +96,13 @@ TEST(Tessellation, GridsWithBitEqualBordersLeaveNoGapAndHitNoSampleTwice) {
   w.freeze();
   const SamplePattern pattern(4, 4, true, 9);
   const auto border = [](float v) { return 30.1f + 4 * std::sin(7 * v) * (v > 0 && v < 1 ? 1.0f : 0.0f); };
-  const auto left = makeGrid(0, 1, 9, 31, [&](float u, float v, int) {
-    return at(lerp(4.25f, border(v), u), lerp(4.25f, 59.5f, v));
-  });
+  const auto left = makeGrid(
+      0, 1, 9, 31, [&](float u, float v, int) { return at(lerp(4.25f, border(v), u), lerp(4.25f, 59.5f, v)); });
   const auto right = makeGrid(0, 2, 13, 31, [&](float u, float v, int) {
     return at(u == 0 ? border(v) : lerp(border(v), 59.5f, u), lerp(4.25f, 59.5f, v));
   });
-  expectOneHitInside(hide(w, pattern, kFrame, {raster(w, left, false), raster(w, right, false)}), pattern,
-                     4.25f, 59.5f);
+  expectOneHitInside(hide(w, pattern, kFrame, {raster(w, left, false), raster(w, right, false)}), pattern, 4.25f,
+                     59.5f);
 }
 
 /// Samples of the ring between two grids that join along an arc of radius 20, cut into 5 and into 8.
@@ -153,8 +151,8 @@ TEST(Crack, BordersReachOverByHalfAPixelAtMost) {
   World w;
   w.add();
   w.freeze();
-  const auto g = makeGrid(
-      0, 1, 2, 2, [](float u, float v, int) { return at(10 + 10 * u + 20 * v * (1 - v) * u, 10 + 20 * v); });
+  const auto g =
+      makeGrid(0, 1, 2, 2, [](float u, float v, int) { return at(10 + 10 * u + 20 * v * (1 - v) * u, 10 + 20 * v); });
   g->pieces[0].openEdges = kEdgeU0 | kEdgeV0 | kEdgeV1;
   EXPECT_NEAR(raster(w, g)->bound.hi.x, 25.5f, 0.001f);
 }
@@ -200,7 +198,8 @@ TEST(Facing, UnderPerspectiveIsDecidedAtThePoint) {
 std::vector<std::tuple<float, uint64_t, uint16_t>> seenIn(const DeepTile& t, int x, int y) {
   std::vector<std::tuple<float, uint64_t, uint16_t>> out;
   const DeepPixel& p = t.pixel(x, y);
-  for (uint32_t k = 0; k < p.count; ++k) out.emplace_back(begin(t, p)[k].z, begin(t, p)[k].samples, begin(t, p)[k].word);
+  for (uint32_t k = 0; k < p.count; ++k)
+    out.emplace_back(begin(t, p)[k].z, begin(t, p)[k].samples, begin(t, p)[k].word);
   return out;
 }
 
@@ -219,7 +218,8 @@ TEST(Coverage, OfCellsThatFitTheLatticeAndOthersIsTheSameInBucketsOfAnySize) {
           for (int x0 = 0; x0 < 64; x0 += size) {
             const DeepTile part = hide(w, pattern, {x0, y0, x0 + size, y0 + size}, grids);
             for (int y = y0; y < y0 + size; ++y)
-              for (int x = x0; x < x0 + size; ++x) ASSERT_EQ(seenIn(part, x, y), seenIn(whole, x, y)) << n << " " << size << " " << x << "," << y;
+              for (int x = x0; x < x0 + size; ++x)
+                ASSERT_EQ(seenIn(part, x, y), seenIn(whole, x, y)) << n << " " << size << " " << x << "," << y;
           }
     }
 }
@@ -236,14 +236,16 @@ TEST(Coverage, OfStackedPiecesIsThatOfTheirCells) {
       g->allocate(nu, nv, 1, 0);
       const int row = nu + 1;
       for (int k = 0; k < g->vertexCount(); ++k) {
-        const auto u = static_cast<float>(k % row), v = static_cast<float>(k / row % (nv + 1)), p = static_cast<float>(k / (row * (nv + 1)));
+        const auto u = static_cast<float>(k % row), v = static_cast<float>(k / row % (nv + 1)),
+                   p = static_cast<float>(k / (row * (nv + 1)));
         const vec3 at_ = at(2 + 2 * u, 3 + 20 * p + 2 * v);
         for (int axis = 0; axis < 3; ++axis) g->P(0, axis)[k] = at_[axis];
         g->N(2)[k] = -1;
       }
       size_t cells = 0;
       for (int number = 0; number < g->cellNumbers(); ++number) cells += g->isCell(number);
-      EXPECT_EQ(hide(w, SamplePattern(4, 4, true, 1), kFrame, {raster(w, g)}).facets.size(), cells) << nu << " x " << nv;
+      EXPECT_EQ(hide(w, SamplePattern(4, 4, true, 1), kFrame, {raster(w, g)}).facets.size(), cells)
+          << nu << " x " << nv;
     }
 }
 

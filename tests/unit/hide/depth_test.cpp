@@ -14,8 +14,7 @@ TEST(Depth, FilmsBecomeFragmentsNearestFirst) {
   const SamplePattern pattern(4, 4, true, 1);
   Rasters films;
   for (const float z : {5.0f, 2.0f, 7.0f, 3.0f, 6.0f, 4.0f})
-    films.push_back(
-        raster(w, makeGrid(0, static_cast<uint32_t>(z), 1, 1, rectangle(-1, -1, 17, 20, z)), false));
+    films.push_back(raster(w, makeGrid(0, static_cast<uint32_t>(z), 1, 1, rectangle(-1, -1, 17, 20, z)), false));
   const DeepTile t = hide(w, pattern, kRect, films);
   for (const DeepPixel& p : t.pixels) {
     float z = 2;
@@ -38,8 +37,8 @@ TEST(Depth, AnOpaqueSurfaceEndsTheListOfFilms) {
   const auto sheet = [&](float z, bool opaque) {
     return raster(w, makeGrid(0, static_cast<uint32_t>(z), 1, 1, rectangle(-1, -1, 40, 40, z)), opaque);
   };
-  const DeepTile t = hide(
-      w, pattern, kRect, {sheet(6, false), sheet(2, false), sheet(4, true), sheet(5, true), sheet(3, false)});
+  const DeepTile t =
+      hide(w, pattern, kRect, {sheet(6, false), sheet(2, false), sheet(4, true), sheet(5, true), sheet(3, false)});
   for (const DeepPixel& p : t.pixels) {
     ASSERT_EQ(p.count, 3U);
     for (uint32_t k = 0; k < 3; ++k) ASSERT_EQ(begin(t, p)[k].z, 2 + static_cast<float>(k));

@@ -22,7 +22,9 @@ int contestedPixels(float apart, bool hidden = false) {
   World w;
   w.add(), w.add(), w.add();
   w.freeze();
-  const auto slanted = [](float z) { return [z](float u, float v, int) { return at(4 + 24 * u, 4 + 24 * v, z + 3 * u + 2 * v); }; };
+  const auto slanted = [](float z) {
+    return [z](float u, float v, int) { return at(4 + 24 * u, 4 + 24 * v, z + 3 * u + 2 * v); };
+  };
   Rasters rasters{raster(w, makeGrid(0, 1, 24, 24, slanted(5))), raster(w, makeGrid(1, 2, 17, 19, slanted(5 + apart)))};
   if (hidden) rasters.push_back(raster(w, makeGrid(2, 3, 1, 1, rectangle(0, 0, 32, 32, 1))));
   const HideDoubts doubts = doubtsOf(w, rasters);
@@ -35,20 +37,17 @@ TEST(Doubts, SurfacesAtTheSamePlaceAreToldByTheirPixels) {
   EXPECT_GT(contestedPixels(1e-5f), 24 * 24 / 4);
 }
 
-TEST(Doubts, SurfacesThatDepthsTellApartAreNotInDoubt) {
-  EXPECT_EQ(contestedPixels(0.05f), 0);
-}
+TEST(Doubts, SurfacesThatDepthsTellApartAreNotInDoubt) { EXPECT_EQ(contestedPixels(0.05f), 0); }
 
-TEST(Doubts, WhatIsHiddenAfterwardsIsNotInDoubt) {
-  EXPECT_EQ(contestedPixels(0, true), 0);
-}
+TEST(Doubts, WhatIsHiddenAfterwardsIsNotInDoubt) { EXPECT_EQ(contestedPixels(0, true), 0); }
 
 TEST(Doubts, WhatStandsInFrontOfTheContestIsNotInDoubtEvenIfItIsOneOfTheTwo) {
   World w;
   w.add(), w.add();
   w.freeze();
   // A box on a floor: its bottom lies in the floor, and its top hides both.
-  const auto floor = makeGrid(0, 1, 24, 24, rectangle(0, 0, 32, 32, 9)), bottom = makeGrid(1, 2, 17, 19, rectangle(4, 4, 28, 28, 9));
+  const auto floor = makeGrid(0, 1, 24, 24, rectangle(0, 0, 32, 32, 9)),
+             bottom = makeGrid(1, 2, 17, 19, rectangle(4, 4, 28, 28, 9));
   const auto top = makeGrid(1, 3, 9, 9, rectangle(4, 4, 28, 28, 5));
   EXPECT_FALSE(doubtsOf(w, {raster(w, floor), raster(w, bottom)}).samePlaces.empty());
   EXPECT_TRUE(doubtsOf(w, {raster(w, floor), raster(w, bottom), raster(w, top)}).samePlaces.empty());
@@ -70,7 +69,9 @@ HideDoubts::Turns turnsOfCylinder(int around, float radius_px) {
   w.add();
   w.freeze();
   const auto turn = [](float u) { return kPi * (u - 0.5f); };
-  const auto g = makeGrid(0, 1, around, 4, [&](float u, float v, int) { return at(16 + radius_px * std::sin(turn(u)), 4 + 24 * v, 40 - radius_px * std::cos(turn(u))); });
+  const auto g = makeGrid(0, 1, around, 4, [&](float u, float v, int) {
+    return at(16 + radius_px * std::sin(turn(u)), 4 + 24 * v, 40 - radius_px * std::cos(turn(u)));
+  });
   for (int k = 0; k < g->vertexCount(); ++k) {
     const float a = turn(static_cast<float>(k % (around + 1)) / static_cast<float>(around));
     g->N(0)[k] = std::sin(a), g->N(2)[k] = -std::cos(a);

@@ -6,7 +6,8 @@ namespace tomales {
 namespace {
 
 void give(Films& films, uint32_t word, uint64_t samples, uint32_t cell, float depth) {
-  for (; samples; samples &= samples - 1) films.add(word, static_cast<uint32_t>(std::countr_zero(samples)), cell, depth);
+  for (; samples; samples &= samples - 1)
+    films.add(word, static_cast<uint32_t>(std::countr_zero(samples)), cell, depth);
   films.flush();
 }
 

@@ -47,8 +47,7 @@ struct World {
 using Surface = std::function<vec3(float u, float v, int key)>;
 
 /// Vertices P = surface(u, v, key) on a regular lattice of (u,v) in 0..1; normals towards the viewer.
-inline std::shared_ptr<Grid> makeGrid(int object, uint32_t name, int nu, int nv, const Surface& surface,
-                                      int keys = 1) {
+inline std::shared_ptr<Grid> makeGrid(int object, uint32_t name, int nu, int nv, const Surface& surface, int keys = 1) {
   auto g = std::make_shared<Grid>();
   g->object = object, g->pieces[0].name = name, g->pieces[0].openEdges = kAllEdges;
   g->allocate(nu, nv, keys, 0);

@@ -18,9 +18,7 @@ struct Moving {
     for (const float t : times) world.scene.objects[0].keyTimes.push_back(2 + 2 * t);
     grid = makeGrid(
         0, 1, 3, 3,
-        [&](float u, float v, int key) {
-          return at(10 + u + offset[static_cast<size_t>(key)], 10 + height * v);
-        },
+        [&](float u, float v, int key) { return at(10 + u + offset[static_cast<size_t>(key)], 10 + height * v); },
         static_cast<int>(times.size()));
   }
 };

@@ -133,8 +133,7 @@ void expectNoTraceOfBuckets(int samples) {
       for (int x0 = 0; x0 < 64; x0 += size) {
         const DeepTile part = hide(soup.world, pattern, {x0, y0, x0 + size, y0 + size}, soup.rasters);
         for (int y = y0; y < y0 + size; ++y)
-          for (int x = x0; x < x0 + size; ++x)
-            ASSERT_EQ(seen(part, x, y), seen(whole, x, y)) << x << "," << y;
+          for (int x = x0; x < x0 + size; ++x) ASSERT_EQ(seen(part, x, y), seen(whole, x, y)) << x << "," << y;
       }
 }
 
@@ -167,7 +166,8 @@ TEST(Resolve, HasTheSameBitsForEveryVectorWidth) {
     const Widths one(target);
     const DeepTile tile = hide(soup.world, pattern, rect, soup.rasters);
     for (int y = 0; y < 64; ++y)
-      for (int x = 0; x < 64; ++x) ASSERT_EQ(seen(tile, x, y), seen(widest, x, y)) << hwy::TargetName(target) << " " << x << "," << y;
+      for (int x = 0; x < 64; ++x)
+        ASSERT_EQ(seen(tile, x, y), seen(widest, x, y)) << hwy::TargetName(target) << " " << x << "," << y;
   }
 }
 
@@ -187,27 +187,32 @@ void expectWhole(const SamplePattern& pattern, const PixelRect& rect, int nu, in
   World w;
   w.add();
   w.freeze();
-  const auto x0 = static_cast<float>(rect.x0), y0 = static_cast<float>(rect.y0), x1 = static_cast<float>(rect.x1), y1 = static_cast<float>(rect.y1);
+  const auto x0 = static_cast<float>(rect.x0), y0 = static_cast<float>(rect.y0), x1 = static_cast<float>(rect.x1),
+             y1 = static_cast<float>(rect.y1);
   const Surface slope = [=](float u, float v, int) { return at(lerp(x0, x1, u), lerp(y0, y1, v), 5 - u - 0.1f * v); };
   const DeepTile t = hide(w, pattern, rect, {raster(w, makeGrid(0, 1, nu, nv, slope))});
   EXPECT_EQ(t.facets.size(), static_cast<size_t>(nu * nv));
-  forSamples(pattern, rect, [&](int x, int y, int s, const vec2&, float) { ASSERT_EQ(hits(t, x, y, s), 1) << x << "," << y; });
+  forSamples(pattern, rect,
+             [&](int x, int y, int s, const vec2&, float) { ASSERT_EQ(hits(t, x, y, s), 1) << x << "," << y; });
   for (const DeepPixel& p : t.pixels)
     for (uint32_t k = 1; k < p.count; ++k) ASSERT_LE(begin(t, p)[k - 1].z, begin(t, p)[k].z);
 }
 
 // More pixels than are listed at once.
-TEST(Resolve, SixteenLargeCellsOfOneBucketAreAllSeen) { expectWhole(SamplePattern(4, 4, true, 1), {0, 0, 64, 64}, 4, 4); }
+TEST(Resolve, SixteenLargeCellsOfOneBucketAreAllSeen) {
+  expectWhole(SamplePattern(4, 4, true, 1), {0, 0, 64, 64}, 4, 4);
+}
 
-TEST(Resolve, MoreCellsOfAPixelThanAVectorHoldsAreAllSeen) { expectWhole(SamplePattern(8, 8, false, 1), {3, 5, 4, 6}, 8, 8); }
+TEST(Resolve, MoreCellsOfAPixelThanAVectorHoldsAreAllSeen) {
+  expectWhole(SamplePattern(8, 8, false, 1), {3, 5, 4, 6}, 8, 8);
+}
 
 TEST(Resolve, MoreThanSixtyFourSamplesTakeSeveralWords) {
   World w;
   w.add();
   w.freeze();
   const SamplePattern pattern(12, 9, true, 1);
-  const DeepTile t =
-      hide(w, pattern, {0, 0, 4, 4}, {raster(w, makeGrid(0, 1, 1, 1, rectangle(-1, -1, 9, 9)))});
+  const DeepTile t = hide(w, pattern, {0, 0, 4, 4}, {raster(w, makeGrid(0, 1, 1, 1, rectangle(-1, -1, 9, 9)))});
   for (const DeepPixel& p : t.pixels) {
     ASSERT_EQ(p.count, 2U);
     EXPECT_EQ(begin(t, p)[0].word, 0);
@@ -234,8 +239,7 @@ std::shared_ptr<Grid> oneCell() {
 }
 
 std::vector<Primvar> twoPrimvars() {
-  return {{"heat", Storage::Varying, ValueType::Float, 1, {}},
-          {"t", Storage::Varying, ValueType::Float, 1, {}}};
+  return {{"heat", Storage::Varying, ValueType::Float, 1, {}}, {"t", Storage::Varying, ValueType::Float, 1, {}}};
 }
 
 TEST(Resolve, ConstantShadingHasOnePointAtTheCentreOfAMicropolygon) {
@@ -272,8 +276,8 @@ TEST(Resolve, SmoothShadingSharesCornersAndKnowsThePlaceOnTheFacet) {
   smooth.interpolation = ShadingInterpolation::Smooth;
   w.add(smooth);
   w.freeze();
-  const DeepTile t = hide(w, SamplePattern(1, 1, false, 1), {0, 0, 12, 8},
-                          {raster(w, makeGrid(0, 9, 3, 2, rectangle(0, 0, 12, 8)))});
+  const DeepTile t =
+      hide(w, SamplePattern(1, 1, false, 1), {0, 0, 12, 8}, {raster(w, makeGrid(0, 9, 3, 2, rectangle(0, 0, 12, 8)))});
   ASSERT_EQ(t.facets.size(), 6U);
   EXPECT_EQ(t.batches[0].count(), 12);
   const Fragment& f = *begin(t, t.pixel(5, 6));
@@ -296,7 +300,8 @@ TEST(Resolve, StillHasTheGridsOfSolidsWhenThoseThatNobodySeesAreLetGoOf) {
   w.scene.objects[0].solid = 0, w.scene.objects[0].solidBlock = solid.add(SolidOperation::Primitive, 0);
   w.scene.solids.push_back(solid);
   w.freeze();
-  Rasters rasters = {raster(w, makeGrid(0, 1, 2, 2, rectangle(0, 0, 4, 4, 1))), raster(w, makeGrid(0, 2, 2, 2, rectangle(4, 0, 0, 4, 2)))};
+  Rasters rasters = {raster(w, makeGrid(0, 1, 2, 2, rectangle(0, 0, 4, 4, 1))),
+                     raster(w, makeGrid(0, 2, 2, 2, rectangle(4, 0, 0, 4, 2)))};
   // Each hides the one before.
   for (uint32_t k = 0; k < 6000; ++k)
     rasters.push_back(raster(w, makeGrid(1, 3 + k, 1, 1, rectangle(4, 0, 8, 4, 10 - 0.001f * static_cast<float>(k)))));

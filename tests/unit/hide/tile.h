@@ -9,15 +9,13 @@ namespace tomales::test {
 
 using Rasters = std::vector<std::shared_ptr<const RasterGrid>>;
 
-inline DeepTile hide(const World& w, const SamplePattern& pattern, const PixelRect& rect,
-                     const Rasters& rasters) {
+inline DeepTile hide(const World& w, const SamplePattern& pattern, const PixelRect& rect, const Rasters& rasters) {
   Hider hider(w.scene, Camera(w.scene.options), pattern, rect);
   for (const auto& r : rasters) hider.insert(r);
   return hider.resolve();
 }
 
-inline std::shared_ptr<const RasterGrid> raster(const World& w, const std::shared_ptr<Grid>& g,
-                                                bool opaque = true) {
+inline std::shared_ptr<const RasterGrid> raster(const World& w, const std::shared_ptr<Grid>& g, bool opaque = true) {
   return project(g, w.scene, Camera(w.scene.options), opaque);
 }
 
@@ -61,8 +59,7 @@ inline Seen seen(const DeepTile& t, int x, int y) {
     const Fragment& f = begin(t, p)[k];
     const Facet& facet = t.facets[f.facet];
     std::vector<uint32_t> keys;
-    for (const int point : facet.point)
-      keys.push_back(t.batches[static_cast<size_t>(facet.batch)].key(point));
+    for (const int point : facet.point) keys.push_back(t.batches[static_cast<size_t>(facet.batch)].key(point));
     out.emplace_back(f.z, f.samples, f.word, f.u, f.v, keys);
   }
   return out;

@@ -33,7 +33,8 @@ std::vector<Layer> stack(int layers, float opacity, float gap) {
   std::vector<Layer> out;
   for (int i = 0; i < layers; ++i) {
     const uint64_t samples = (hash32(static_cast<uint32_t>(i)) | 1) & 0xffff;
-    out.push_back({opacity * vec3(0.3f, 0.1f * static_cast<float>(i), 1), vec3(opacity), 2 + gap * static_cast<float>(i), samples});
+    out.push_back({opacity * vec3(0.3f, 0.1f * static_cast<float>(i), 1), vec3(opacity),
+                   2 + gap * static_cast<float>(i), samples});
   }
   return out;
 }
@@ -69,11 +70,13 @@ TEST(DeepRows, MergingMovesOpacityByNoMoreThanItMay) {
   EXPECT_EQ(all.counts[0], 40u);
   EXPECT_LT(merged.counts[0], 15u);
   for (float z = 1.95f; z < 7; z += 0.1f)
-    EXPECT_NEAR(alphaBefore(merged.values.data(), merged.counts[0], z), alphaBefore(all.values.data(), all.counts[0], z), 0.0101f);
+    EXPECT_NEAR(alphaBefore(merged.values.data(), merged.counts[0], z),
+                alphaBefore(all.values.data(), all.counts[0], z), 0.0101f);
 }
 
 TEST(DeepRows, WhatLiesAtOneDepthIsOneSample) {
-  const DeepFrame frame = frameOf({{vec3(1.0f), vec3(1.0f), 5, 0x00ff}, {vec3(0.5f), vec3(1.0f), 5.001f, 0xff00}}, 1, 0, 16);
+  const DeepFrame frame =
+      frameOf({{vec3(1.0f), vec3(1.0f), 5, 0x00ff}, {vec3(0.5f), vec3(1.0f), 5.001f, 0xff00}}, 1, 0, 16);
   const Options options = filtered("box", 1);
   const SampleOffsets samples = jittered(16, 8);
   const DeepRows deep = FrameFilter(frame, options, samples).deepRows(0, 1, {});

@@ -208,10 +208,12 @@ TEST_F(Display, TilesPartsAndCompressionsKeepEveryBit) {
     Param p, compression;
     p.name = option, p.type = ValueType::Integer, p.ints = {1};
     compression.name = "compression", compression.type = ValueType::String, compression.strings = {"piz"};
-    ASSERT_TRUE(writeDisplay(large, {path("a.exr"), "openexr", "rgba", {p, compression}, {}}, options_, log_)) << option;
+    ASSERT_TRUE(writeDisplay(large, {path("a.exr"), "openexr", "rgba", {p, compression}, {}}, options_, log_))
+        << option;
     const Image back = read("a.exr");
     EXPECT_EQ(back.originX, 3);
-    for (int i = 0; i < 150 * 130; ++i) ASSERT_EQ(back.pixels[static_cast<size_t>(4 * i)], large.pixels[static_cast<size_t>(5 * i)]);
+    for (int i = 0; i < 150 * 130; ++i)
+      ASSERT_EQ(back.pixels[static_cast<size_t>(4 * i)], large.pixels[static_cast<size_t>(5 * i)]);
   }
   EXPECT_EQ(log_.entries().size(), 0u);
 }

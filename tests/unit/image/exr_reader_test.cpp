@@ -28,10 +28,12 @@ class ExrReader : public testing::Test {
   static void expectSameShape(const PictureReader& a, const PictureReader& b) {
     const PictureShape &x = a.shape(), &y = b.shape();
     EXPECT_EQ(x.channels, y.channels);
-    EXPECT_EQ(std::tie(x.x, x.y, x.width, x.height, x.fullWidth, x.fullHeight), std::tie(y.x, y.y, y.width, y.height, y.fullWidth, y.fullHeight));
+    EXPECT_EQ(std::tie(x.x, x.y, x.width, x.height, x.fullWidth, x.fullHeight),
+              std::tie(y.x, y.y, y.width, y.height, y.fullWidth, y.fullHeight));
     EXPECT_EQ(a.deep(), b.deep());
     float m[16] = {}, n[16] = {};
-    for (const char* name : {"worldtocamera", "worldtoscreen", "nothing"}) EXPECT_EQ(a.matrix(name, m), b.matrix(name, n)) << name;
+    for (const char* name : {"worldtocamera", "worldtoscreen", "nothing"})
+      EXPECT_EQ(a.matrix(name, m), b.matrix(name, n)) << name;
     EXPECT_TRUE(std::equal(m, m + 16, n));
   }
   void write(const Image& image, const FileFormat& format) const {
@@ -39,12 +41,15 @@ class ExrReader : public testing::Test {
     ASSERT_TRUE(file.write(image) && file.close()) << file.error();
   }
 
-  const std::string path_ = (fs::temp_directory_path() / ("tomales_exr_" + std::to_string(::getpid()) + ".exr")).string();
-  Metadata camera_{"worldtocamera", "", std::vector<float>(16, 0.25f)}, screen_{"worldtoscreen", "", std::vector<float>(16, 0.75f)};
+  const std::string path_ =
+      (fs::temp_directory_path() / ("tomales_exr_" + std::to_string(::getpid()) + ".exr")).string();
+  Metadata camera_{"worldtocamera", "", std::vector<float>(16, 0.25f)},
+      screen_{"worldtoscreen", "", std::vector<float>(16, 0.75f)};
 };
 
 TEST_F(ExrReader, PicturesAreWhatOpenImageIOReads) {
-  Image image{70, 65, {"A", "N.z", "R", "N.x", "G", "B", "Z", "diffuse.B", "diffuse.R", "N.y", "ZBack"}, {}, 3, 5, 200, 210};
+  Image image{70,  65, {"A", "N.z", "R", "N.x", "G", "B", "Z", "diffuse.B", "diffuse.R", "N.y", "ZBack"}, {}, 3, 5,
+              200, 210};
   for (int i = 0; i < 70 * 65 * 11; ++i) image.pixels.push_back(static_cast<float>(i % 977) / 977);
   FileFormat half{"openexr", SampleType::Half}, tiled{"openexr", SampleType::Float}, parts = tiled;
   half.precise = {"Z"}, half.metadata = {camera_, screen_};
@@ -57,7 +62,8 @@ TEST_F(ExrReader, PicturesAreWhatOpenImageIOReads) {
     const int channels = static_cast<int>(ours->shape().channels.size());
     for (const auto& [first, end] : {std::pair(0, channels), std::pair(channels > 2 ? 2 : 0, std::min(channels, 5))}) {
       std::vector<float> a(static_cast<size_t>(70 * image.height * (end - first))), b(a.size());
-      ASSERT_TRUE(ours->read(first, end, a.data()) && theirs->read(first, end, b.data())) << ours->error() << theirs->error();
+      ASSERT_TRUE(ours->read(first, end, a.data()) && theirs->read(first, end, b.data()))
+          << ours->error() << theirs->error();
       EXPECT_EQ(a, b);
     }
   }
@@ -65,7 +71,8 @@ TEST_F(ExrReader, PicturesAreWhatOpenImageIOReads) {
 
 TEST_F(ExrReader, NoiseThatDoesNotCompressAndLongNamesAreWhatOpenImageIOReads) {
   Image image{33, 37, {"a_name_longer_than_the_31_bytes_of_old_files", "k"}, {}, 0, 0, 33, 37};
-  for (uint32_t i = 0; i < 33 * 37 * 2; ++i) image.pixels.push_back(__builtin_bit_cast(float, hash32(i) & ~0x00800000U));  // no infinities
+  for (uint32_t i = 0; i < 33 * 37 * 2; ++i)
+    image.pixels.push_back(__builtin_bit_cast(float, hash32(i) & ~0x00800000U));  // no infinities
   FileFormat format{"openexr", SampleType::Float};
   format.metadata = {{"another_name_that_is_longer_than_31_bytes", "text", {}}};
   write(image, format);

@@ -8,8 +8,8 @@ namespace {
 
 TEST(FilterFrame, AConstantFrameStaysConstantUnderEveryFilter) {
   const vec3 color(0.25f, 0.5f, 4.0f);
-  for (const char* name : {"box", "triangle", "gaussian", "catmull-rom", "separable-catmull-rom", "sinc",
-                           "mitchell", "blackman-harris", "lanczos", "disk"}) {
+  for (const char* name : {"box", "triangle", "gaussian", "catmull-rom", "separable-catmull-rom", "sinc", "mitchell",
+                           "blackman-harris", "lanczos", "disk"}) {
     const DeepFrame frame = frameOf({{color, vec3(1.0f), 2, 0xffff}}, 5, 2, 16);
     const Image image = filterFrame(frame, filtered(name, 4), jittered(16, 8));
     for (int y = 0; y < 5; ++y)
@@ -41,8 +41,7 @@ TEST(FilterFrame, LayersOfOneOpacityCompositeToOneMinusClearnessToTheirNumber) {
 }
 
 TEST(FilterFrame, OpacityOfEachChannelHidesItsOwnChannel) {
-  const DeepFrame frame =
-      frameOf({{vec3(0.0f), vec3(1, 0.5f, 0), 1, 1}, {vec3(1.0f), vec3(1.0f), 2, 1}}, 1, 0, 1);
+  const DeepFrame frame = frameOf({{vec3(0.0f), vec3(1, 0.5f, 0), 1, 1}, {vec3(1.0f), vec3(1.0f), 2, 1}}, 1, 0, 1);
   const Image image = filterFrame(frame, filtered("box", 1), jittered(1, 1));
   EXPECT_FLOAT_EQ(image.at(0, 0)[0], 0);
   EXPECT_FLOAT_EQ(image.at(0, 0)[1], 0.5f);
@@ -50,8 +49,7 @@ TEST(FilterFrame, OpacityOfEachChannelHidesItsOwnChannel) {
 }
 
 TEST(FilterFrame, WhatLiesBehindSomethingOpaqueIsNotSeen) {
-  const DeepFrame frame =
-      frameOf({{vec3(0.5f), vec3(1.0f), 1, 1}, {vec3(100.0f), vec3(1.0f), 2, 3}}, 1, 0, 2);
+  const DeepFrame frame = frameOf({{vec3(0.5f), vec3(1.0f), 1, 1}, {vec3(100.0f), vec3(1.0f), 2, 3}}, 1, 0, 2);
   const Image image = filterFrame(frame, filtered("box", 1), jittered(2, 1));
   EXPECT_FLOAT_EQ(image.at(0, 0)[0], 0.5f * (0.5f + 100.0f));
 }
@@ -65,8 +63,8 @@ TEST(FilterFrame, AMatteObjectHidesAndLeavesNeitherColourNorAlpha) {
 }
 
 TEST(FilterFrame, SamplesBeyondSixtyFourAreKeptApart) {
-  DeepFrame frame = frameOf(
-      {{vec3(1.0f), vec3(0.5f), 1, ~uint64_t{0}}, {vec3(3.0f), vec3(1.0f), 2, ~uint64_t{0}}}, 1, 0, 128);
+  DeepFrame frame =
+      frameOf({{vec3(1.0f), vec3(0.5f), 1, ~uint64_t{0}}, {vec3(3.0f), vec3(1.0f), 2, ~uint64_t{0}}}, 1, 0, 128);
   frame.tiles[0].fragments[1].word = 1;
   const Image image = filterFrame(frame, filtered("box", 1), jittered(128, 2));
   EXPECT_FLOAT_EQ(image.at(0, 0)[0], 2);
@@ -183,7 +181,8 @@ TEST(FilterFrame, TheMidpointOfASingleSurfaceAndTheFarPlane) {
 }
 
 TEST(FilterFrame, BandsOfRowsAreThePicture) {
-  const DeepFrame frame = frameOf({{vec3(0.3f), vec3(0.5f), 1, 0x5a5a}, {vec3(0.9f), vec3(1.0f), 2, 0x0ff0}}, 20, 2, 16);
+  const DeepFrame frame =
+      frameOf({{vec3(0.3f), vec3(0.5f), 1, 0x5a5a}, {vec3(0.9f), vec3(1.0f), 2, 0x0ff0}}, 20, 2, 16);
   const Options options = filtered("mitchell", 4);
   const SampleOffsets samples = jittered(16, 8);
   FrameFilter filter(frame, options, samples);
@@ -213,7 +212,8 @@ DeepFrame cut(DeepFrame frame, int size) {
 TEST(FilterFrame, TilesThatAreBroughtAndGoAreTheSameAsThoseOfTheFrame) {
   const Options options = filtered("gaussian", 4);
   const SampleOffsets samples = jittered(16, 8);
-  DeepFrame frame = cut(frameOf({{vec3(0.3f, 0.2f, 0.9f), vec3(0.4f), 1, 0x0ff3}, {vec3(1.0f), vec3(1.0f), 2, 0x3f0f}}, 20, 2, 16), 5);
+  DeepFrame frame = cut(
+      frameOf({{vec3(0.3f, 0.2f, 0.9f), vec3(0.4f), 1, 0x0ff3}, {vec3(1.0f), vec3(1.0f), 2, 0x3f0f}}, 20, 2, 16), 5);
   const Image whole = filterFrame(frame, options, samples);
   const std::vector<DeepTile> tiles = std::move(frame.tiles);
   frame.hold(0, 0);

@@ -5,8 +5,8 @@
 namespace tomales {
 namespace {
 
-const char* const kNames[] = {"box",  "triangle", "gaussian",        "catmull-rom", "separable-catmull-rom",
-                              "sinc", "mitchell", "blackman-harris", "lanczos",     "disk",
+const char* const kNames[] = {"box",   "triangle", "gaussian",        "catmull-rom", "separable-catmull-rom",
+                              "sinc",  "mitchell", "blackman-harris", "lanczos",     "disk",
                               "bessel"};
 
 double integral(const PixelFilter& filter, double halfWidth) {
@@ -15,8 +15,8 @@ double integral(const PixelFilter& filter, double halfWidth) {
   double sum = 0;
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i)
-      sum += static_cast<double>(filter(static_cast<float>(-halfWidth + (i + 0.5) * step),
-                                        static_cast<float>(-halfWidth + (j + 0.5) * step)));
+      sum += static_cast<double>(
+          filter(static_cast<float>(-halfWidth + (i + 0.5) * step), static_cast<float>(-halfWidth + (j + 0.5) * step)));
   return sum * step * step;
 }
 

@@ -38,8 +38,8 @@ inline DeepFrame frameOf(const std::vector<Layer>& layers, int size, int margin,
   for (int p = 0; p < tile.rect.width() * tile.rect.height(); ++p) {
     tile.pixels.push_back({static_cast<uint32_t>(tile.fragments.size()), static_cast<uint32_t>(count)});
     for (int i = 0; i < count; ++i)
-      tile.fragments.push_back({static_cast<uint32_t>(i), layers[static_cast<size_t>(i)].z,
-                                layers[static_cast<size_t>(i)].samples});
+      tile.fragments.push_back(
+          {static_cast<uint32_t>(i), layers[static_cast<size_t>(i)].z, layers[static_cast<size_t>(i)].samples});
   }
   frame.tiles.push_back(std::move(tile));
   return frame;

@@ -40,11 +40,14 @@ TEST(Weights, WhatIsScatteredIsWhatAPixelWouldGather) {
   // Each pixel sees two things: one value, and its double under the same weights.
   const auto wide = static_cast<size_t>(scattered.width()), places = static_cast<size_t>(table.places());
   std::vector<float> values(2 * wide), weights(2 * places);
-  const auto valueAt = [](int x, int y, int k) { return unitFloat(hashCombine(static_cast<uint32_t>(x), static_cast<uint32_t>(y), static_cast<uint32_t>(k))); };
+  const auto valueAt = [](int x, int y, int k) {
+    return unitFloat(hashCombine(static_cast<uint32_t>(x), static_cast<uint32_t>(y), static_cast<uint32_t>(k)));
+  };
   for (int y = around.y0; y < around.y1; ++y)
     for (int x = around.x0; x < around.x1; ++x) {
       for (size_t k = 0; k < 3; ++k) values[k] = valueAt(x, y, static_cast<int>(k)), values[wide + k] = 2 * values[k];
-      for (size_t c = 0; c < 2; ++c) std::copy_n(table.sums(samples.patternOf(x, y)), places, weights.data() + c * places);
+      for (size_t c = 0; c < 2; ++c)
+        std::copy_n(table.sums(samples.patternOf(x, y)), places, weights.data() + c * places);
       scattered.add(x, y, {2, weights.data(), values.data(), wide});
     }
   for (int y = block.y0; y < block.y1; ++y)

@@ -7,9 +7,7 @@
 namespace tomales {
 namespace {
 
-mat4 rotation(float degrees, const vec3& axis = {0, 0, 1}) {
-  return glm::rotate(mat4(1), glm::radians(degrees), axis);
-}
+mat4 rotation(float degrees, const vec3& axis = {0, 0, 1}) { return glm::rotate(mat4(1), glm::radians(degrees), axis); }
 mat4 translation(const vec3& t) { return glm::translate(mat4(1), t); }
 
 float difference(const mat4& a, const mat4& b) {

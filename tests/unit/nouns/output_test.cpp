@@ -50,7 +50,7 @@ TEST_F(Output, AVariableIsStoredOnceHoweverManyDisplaysShowIt) {
   Options o = showing("N");
   o.displays.push_back({"b.exr", "openexr", "N,u", {text("filter", "zmin")}, {}});
   const FrameOutput output = outputOf(o);
-  EXPECT_EQ(output.floatsPerPoint, 4);   // N and u
+  EXPECT_EQ(output.floatsPerPoint, 4);    // N and u
   EXPECT_EQ(output.channels.size(), 6u);  // Ci a z, N filtered, N and u of the nearest
   EXPECT_EQ(output.floatsPerPixel, 5 + 3 + 3 + 1);
 }

@@ -24,11 +24,14 @@ struct Tree {
   bool contains(const std::vector<bool>& insidePrimitive) const {
     const auto in = [&](const Tree& t) { return t.contains(insidePrimitive); };
     switch (operation) {
-      case SolidOperation::Primitive: return insidePrimitive[static_cast<size_t>(block)];
-      case SolidOperation::Union: return std::any_of(operands.begin(), operands.end(), in);
+      case SolidOperation::Primitive:
+        return insidePrimitive[static_cast<size_t>(block)];
+      case SolidOperation::Union:
+        return std::any_of(operands.begin(), operands.end(), in);
       case SolidOperation::Intersection:
         return !operands.empty() && std::all_of(operands.begin(), operands.end(), in);
-      default: return !operands.empty() && in(operands[0]) && std::none_of(operands.begin() + 1, operands.end(), in);
+      default:
+        return !operands.empty() && in(operands[0]) && std::none_of(operands.begin() + 1, operands.end(), in);
     }
   }
 };
@@ -53,8 +56,7 @@ TEST(Solid, OfRandomTreesHasItsBoundariesWhereMembershipChanges) {
     std::vector<SolidCrossing> crossings;
     // Each primitive is a union of intervals, some of which began before the line does.
     for (const int block : primitives)
-      for (int n = dice.below(7); n > 0; --n)
-        crossings.push_back({block, n % 2 == 0, dice.unit(), 0, 0});
+      for (int n = dice.below(7); n > 0; --n) crossings.push_back({block, n % 2 == 0, dice.unit(), 0, 0});
     std::sort(crossings.begin(), crossings.end(), [](auto& a, auto& b) { return a.t < b.t; });
     SolidWalk walk(solid);
     std::vector<SolidBoundary> found;
@@ -101,11 +103,13 @@ TEST(Solid, LeavesNoFilmWhereTheSubtractedIsFlush) {
   const float slack = 1e-3f;
   // The subtracted ends where the first begins, a rounding early or late.
   for (const float off : {-slack, 0.0f, slack}) {
-    std::vector<SolidCrossing> c = {{1, false, 1, 0, slack}, {2, false, 1 + off, 0, slack}, {2, true, 5, 0, slack}, {1, true, 9, 0, slack}};
+    std::vector<SolidCrossing> c = {
+        {1, false, 1, 0, slack}, {2, false, 1 + off, 0, slack}, {2, true, 5, 0, slack}, {1, true, 9, 0, slack}};
     std::stable_sort(c.begin(), c.end(), [](auto& a, auto& b) { return a.t < b.t; });
     EXPECT_EQ(boundaryCount(twoOf(SolidOperation::Difference), c), 2U);
   }
-  const std::vector<SolidCrossing> thin = {{1, false, 1, 0, slack}, {2, false, 1.1f, 0, slack}, {2, true, 5, 0, slack}, {1, true, 9, 0, slack}};
+  const std::vector<SolidCrossing> thin = {
+      {1, false, 1, 0, slack}, {2, false, 1.1f, 0, slack}, {2, true, 5, 0, slack}, {1, true, 9, 0, slack}};
   EXPECT_EQ(boundaryCount(twoOf(SolidOperation::Difference), thin), 4U);
 }
 

@@ -51,7 +51,8 @@ Enclosed enclosedBy(const Prim& prim, int side) {
     for (int j = 0; j < side; ++j)
       for (int i = 0; i < side; ++i) {
         const auto p = [&](int a, int b) {
-          return glm::dvec3(sampleAt(prim, patch, static_cast<float>(i + a) / side, static_cast<float>(j + b) / side).p);
+          return glm::dvec3(
+              sampleAt(prim, patch, static_cast<float>(i + a) / side, static_cast<float>(j + b) / side).p);
         };
         const glm::dvec3 a = p(0, 0), b = p(1, 0), c = p(1, 1), d = p(0, 1), area = 0.5 * glm::cross(c - a, d - b);
         out.gap += area;
@@ -65,8 +66,7 @@ TEST(Blobby, AFieldIsTheSameWithinABoxHoweverLongItsChainOfOperations) {
   constexpr uint32_t kOperations = 500'000;
   BlobField field({{glm::dmat3(1), glm::dvec3(0), glm::dvec3(0), glm::dvec3(0), 1}});
   field.addLeaf(0);
-  for (uint32_t k = 0; k < kOperations; ++k)
-    field.addOperation(k % 2 ? BlobOp::Identity : BlobOp::Negate, {&k, 1});
+  for (uint32_t k = 0; k < kOperations; ++k) field.addOperation(k % 2 ? BlobOp::Identity : BlobOp::Negate, {&k, 1});
   const glm::dvec3 p(0.25, 0.125, -0.5);
   const BlobField part = field.within({p - 0.1, p + 0.1});
   EXPECT_EQ(part.leavesUsed(), 1u);
@@ -77,8 +77,11 @@ TEST(Blobby, AFieldIsTheSameWithinABoxHoweverLongItsChainOfOperations) {
 TEST(Blobby, LeavesOfAMaximumThatNearlyTouchStayApart) {
   // Two fingers of the width 0.8, 0.9 from axis to axis: a gap of 0.1, less than half a cell.
   const vec3 a(-0.45f, 0, 0), b(0.45f, 0.1f, 0), scale(0.8f, 1.6f, 0.8f);
-  const PrimPtr prim = blobby(2, {kEllipsoid, 0, kEllipsoid, 16, kMaximum, 2, 0, 1}, joined({ball(a, scale), ball(b, scale)}));
-  atRandomPoints(*prim, [&](const Sample& s) { EXPECT_NEAR(std::max(ballAt(s.p, a, scale), ballAt(s.p, b, scale)), 27.0 / 64, 1e-5); });
+  const PrimPtr prim =
+      blobby(2, {kEllipsoid, 0, kEllipsoid, 16, kMaximum, 2, 0, 1}, joined({ball(a, scale), ball(b, scale)}));
+  atRandomPoints(*prim, [&](const Sample& s) {
+    EXPECT_NEAR(std::max(ballAt(s.p, a, scale), ballAt(s.p, b, scale)), 27.0 / 64, 1e-5);
+  });
   const double one = 4 / 3.0 * M_PI * 0.4 * 0.8 * 0.4;
   EXPECT_NEAR(enclosedBy(*prim, 8).volume, 2 * one, 0.01 * one);
 }
@@ -86,7 +89,8 @@ TEST(Blobby, LeavesOfAMaximumThatNearlyTouchStayApart) {
 TEST(Blobby, AKeyOfMotionIsTheNewSurfaceOnTheMeshOfTheFirst) {
   const std::vector<int> code = {kEllipsoid, 0, kEllipsoid, 16, kSegment, 32, kAdd, 3, 0, 1, 2};
   const auto numbers = [](const vec3& at, const vec3& scale, const vec3& end) {
-    return joined({ball(vec3(-0.4f, 0, 0)), ball(at, scale), {0, 0, 0, end.x, end.y, end.z, 0.7f}, ball(vec3(0, 1.8f, 0))});
+    return joined(
+        {ball(vec3(-0.4f, 0, 0)), ball(at, scale), {0, 0, 0, end.x, end.y, end.z, 0.7f}, ball(vec3(0, 1.8f, 0))});
   };
   const vec3 at(0.45f, 0.15f, 0.1f), scale(1.1f, 1, 1), end(0.6f, 0.2f, 0);  // neither parts nor merges
   Problems problems;
@@ -97,13 +101,15 @@ TEST(Blobby, AKeyOfMotionIsTheNewSurfaceOnTheMeshOfTheFirst) {
   atRandomPoints(*key, [&](const Sample& s) {
     const vec3 q = s.p - vec3(0, 1.8f, 0);
     const float t = std::clamp(dot(q, end) / dot(end, end), 0.0f, 1.0f);
-    EXPECT_NEAR(ballAt(s.p, {-0.4f, 0, 0}) + ballAt(s.p, at, scale) + fall(glm::length(q - t * end) / 0.7), 27.0 / 64, 1e-5);
+    EXPECT_NEAR(ballAt(s.p, {-0.4f, 0, 0}) + ballAt(s.p, at, scale) + fall(glm::length(q - t * end) / 0.7), 27.0 / 64,
+                1e-5);
   });
   // Moved as a whole it is moved as a whole.
   const auto still = [](const vec3& by) { return joined({ball(by), ball(vec3(0.8f, 0, 0) + by)}); };
   const std::vector<int> two = {kEllipsoid, 0, kEllipsoid, 16, kAdd, 2, 0, 1};
   const vec3 by(1, 2, 3);
-  const PrimPtr here = blobby(2, two, still(vec3(0))), there = makeBlobbyKey(*here, 2, two, still(by), {}, {}, problems);
+  const PrimPtr here = blobby(2, two, still(vec3(0))),
+                there = makeBlobbyKey(*here, 2, two, still(by), {}, {}, problems);
   for (uint32_t patch = 0; patch < here->patchCount(); patch += 5)
     EXPECT_LT(glm::length(sampleAt(*there, patch, 0.3f, 0.6f).p - sampleAt(*here, patch, 0.3f, 0.6f).p - by), 1e-5f);
 }
@@ -130,7 +136,8 @@ TEST(Blobby, AreaAndVolumeOfASphereConvergeAtSecondOrder) {
   const double coarse = std::abs(dicedArea(*prim, 2) - area), fine = std::abs(dicedArea(*prim, 8) - area);
   EXPECT_LT(fine, coarse / 12);
   EXPECT_LT(fine, 1e-3 * area);
-  const double before = std::abs(enclosedBy(*prim, 2).volume - volume), after = std::abs(enclosedBy(*prim, 8).volume - volume);
+  const double before = std::abs(enclosedBy(*prim, 2).volume - volume),
+               after = std::abs(enclosedBy(*prim, 8).volume - volume);
   EXPECT_LT(after, before / 12);
   EXPECT_LT(after, 2e-3 * volume);
   EXPECT_LT(glm::length(enclosedBy(*prim, 3).gap), 1e-5 * area);
@@ -155,7 +162,10 @@ TEST(Blobby, EveryOperationIsWhatItsNameSays) {
   const Case cases[] = {
       {{kAdd, 3, 0, 1, 2}, [](double x, double y, double z) { return x + y + z; }},
       {{kMultiply, 2, 0, 1}, [](double x, double y, double) { return x * y; }},
-      {{kMaximum, 3, 0, 1, 2}, [](double x, double y, double z) { return std::max({x, y, z}); }},
+      {{kMaximum, 3, 0, 1, 2},
+       [](double x, double y, double z) {
+         return std::max({x, y, z});
+       }},
       {{kMinimum, 2, 0, 2}, [](double x, double, double z) { return std::min(x, z); }},
       {{kDivide, 0, 3}, [](double x, double, double) { return x / double{0.3f}; }},
       {{kSubtract, 0, 2}, [](double x, double, double z) { return x - z; }},
@@ -220,7 +230,8 @@ TEST(Blobby, ValuesOfLeavesBlendByTheirShareOfTheField) {
   }
 }
 
-/// A picture from 2 above the plane z = 0, looking down: two wide, row 0 at y = 1. Depth grows with x by `slope`; nothing is seen beyond x = edge.
+/// A picture from 2 above the plane z = 0, looking down: two wide, row 0 at y = 1. Depth grows with x by `slope`;
+/// nothing is seen beyond x = edge.
 GroundPicture groundAt(float slope, float edge = 1) {
   constexpr int kSize = 64;
   GroundPicture out{kSize, kSize, {}, mat4(1.0f), mat4(1.0f)};
@@ -230,13 +241,16 @@ GroundPicture groundAt(float slope, float edge = 1) {
       out.depth.push_back(at < edge ? 2 + slope * at : INFINITY);
     }
   out.cameraFromObject = glm::translate(mat4(1.0f), vec3(0, 0, 2)) * glm::scale(mat4(1.0f), vec3(1, 1, -1));
-  out.texelFromObject = glm::scale(glm::translate(mat4(1.0f), vec3(kSize / 2, kSize / 2, 0)), vec3(kSize / 2, -kSize / 2, 1));
+  out.texelFromObject =
+      glm::scale(glm::translate(mat4(1.0f), vec3(kSize / 2, kSize / 2, 0)), vec3(kSize / 2, -kSize / 2, 1));
   return out;
 }
 
 /// The note's formula, word by word.
 double repulsionAt(double z, double A, double B, double C, double D) {
-  const auto bump = [](double r) { return r <= 0 || r >= 2 ? 0 : std::pow(r, 3) * (8 - 12 * r + 6 * r * r - std::pow(r, 3)); };
+  const auto bump = [](double r) {
+    return r <= 0 || r >= 2 ? 0 : std::pow(r, 3) * (8 - 12 * r + 6 * r * r - std::pow(r, 3));
+  };
   const auto ease = [](double r) { return r >= 1 ? 1 : r * r * (3 - 2 * r); };
   return z >= A ? 0 : (D * bump(z / C) - B / z) * (1 - ease(z / A));
 }
@@ -246,7 +260,8 @@ TEST(RepelledBlobby, FollowsTheFormulaOverPlaneAndSlopedGrounds) {
   const std::vector<int> code = {kEllipsoid, 0, 1003, 0, 16, kAdd, 2, 0, 1};
   for (const float slope : {0.0f, -0.3f}) {
     Problems problems;
-    const PrimPtr prim = makeBlobby(2, code, numbers, [&](int) { return groundAt(slope); }, {}, problems);
+    const PrimPtr prim = makeBlobby(
+        2, code, numbers, [&](int) { return groundAt(slope); }, {}, problems);
     EXPECT_TRUE(problems.empty());
     float lowest = 1;
     atRandomPoints(*prim, [&](const Sample& s) {
@@ -266,11 +281,13 @@ TEST(RepelledBlobby, IsWhatItIsWithoutGroundAboveItsHeightAndWherePicturesShowNo
   Problems problems;
   for (const bool high : {true, false}) {
     const vec3 center(0, 0, high ? 1.0f : 0.3f);
-    const PrimPtr prim = makeBlobby(2, code, joined({ball(center), {0.4f, 0.01f, 0.15f, 0.3f}}),
-                                    [&](int) -> std::optional<GroundPicture> { return high ? groundAt(0) : groundAt(0, -1); }, {}, problems);
+    const PrimPtr prim = makeBlobby(
+        2, code, joined({ball(center), {0.4f, 0.01f, 0.15f, 0.3f}}),
+        [&](int) -> std::optional<GroundPicture> { return high ? groundAt(0) : groundAt(0, -1); }, {}, problems);
     atRandomPoints(*prim, [&](const Sample& s) { EXPECT_NEAR(glm::distance(s.p, center), 0.5f, 1e-4f); });
   }
-  const PrimPtr unread = makeBlobby(2, code, joined({ball(vec3(0)), {0.4f, 0.01f, 0.15f, 0.3f}}), [](int) { return std::nullopt; }, {}, problems);
+  const PrimPtr unread = makeBlobby(
+      2, code, joined({ball(vec3(0)), {0.4f, 0.01f, 0.15f, 0.3f}}), [](int) { return std::nullopt; }, {}, problems);
   atRandomPoints(*unread, [&](const Sample& s) { EXPECT_NEAR(glm::length(s.p), 0.5f, 1e-4f); });
   EXPECT_TRUE(problems.empty());
 }
@@ -292,14 +309,18 @@ TEST(NastyBlobby, ArraysThatDoNotFitThrowASentence) {
 }
 
 TEST(NastyBlobby, WhatHasNoSurfaceIsEmptyAndWhatIsUnknownIsNamed) {
-  EXPECT_EQ(blobby(2, {kEllipsoid, 0, kConstant, 16, kMultiply, 2, 0, 1}, joined({ball(vec3(0)), {0.1f}}))->patchCount(),
-            0u);
+  EXPECT_EQ(
+      blobby(2, {kEllipsoid, 0, kConstant, 16, kMultiply, 2, 0, 1}, joined({ball(vec3(0)), {0.1f}}))->patchCount(), 0u);
   EXPECT_EQ(blobby(2, {kEllipsoid, 0, kConstant, 16, kDivide, 0, 1}, joined({ball(vec3(0)), {0}}))->patchCount(), 0u);
   Problems problems;
-  EXPECT_GT(makeBlobby(2, {kEllipsoid, 0, 1004, 0, 1, 16, 0, 0, kAdd, 2, 0, 1}, joined({ball(vec3(0)), {1}}), {}, {}, problems)->patchCount(), 0u);
+  EXPECT_GT(makeBlobby(2, {kEllipsoid, 0, 1004, 0, 1, 16, 0, 0, kAdd, 2, 0, 1}, joined({ball(vec3(0)), {1}}), {}, {},
+                       problems)
+                ->patchCount(),
+            0u);
   EXPECT_EQ(problems.size(), 1u);
   problems.clear();
-  makeBlobby(3, {kEllipsoid, 0, kEllipsoid, 16, kAdd, 2, 0, 1}, joined({ball(vec3(0)), ball(vec3(1), {1, 0, 1})}), {}, {}, problems);
+  makeBlobby(3, {kEllipsoid, 0, kEllipsoid, 16, kAdd, 2, 0, 1}, joined({ball(vec3(0)), ball(vec3(1), {1, 0, 1})}), {},
+             {}, problems);
   EXPECT_EQ(problems.size(), 2u);  // a flat leaf; two leaves where three are announced
 }
 

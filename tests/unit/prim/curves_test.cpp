@@ -4,8 +4,7 @@ namespace tomales {
 namespace {
 using namespace test;
 
-PrimPtr curves(bool cubic, const Basis& basis, const std::vector<int>& counts, bool periodic,
-               ParamList params) {
+PrimPtr curves(bool cubic, const Basis& basis, const std::vector<int>& counts, bool periodic, ParamList params) {
   Problems problems;
   const PrimPtr prim = makeCurves(cubic, basis, counts, periodic, params, problems);
   EXPECT_TRUE(problems.empty());
@@ -17,16 +16,15 @@ std::vector<PrimPtr> manyCurves() {
   std::vector<float> up;
   for (uint32_t i = 0; i < 18; ++i) up.push_back(i % 3 == 2 ? 1.0f : 0.4f * noise(i + 900));
   const Param normals = floats("N", Storage::Vertex, ValueType::Normal, up);
-  return {seen(curves(true, bezierBasis(), {7, 4}, false,
-                      {of(11), width(Storage::Varying, {.1f, .2f, .3f, .1f, .2f})})),
-          seen(curves(true, bsplineBasis(), {6}, true,
-                      {of(6), width(Storage::Vertex, {.1f, .2f, .3f, .1f, .2f, .1f})})),
-          seen(curves(true, catmullRomBasis(), {6}, false, {of(6), width(Storage::Constant, {.1f})})),
-          seen(curves(false, bezierBasis(), {5, 2}, false,
-                      {of(7), width(Storage::Varying, {.1f, .2f, .3f, .1f, .2f, .1f, .1f})})),
-          seen(curves(false, bezierBasis(), {6}, true, {of(6), width(Storage::Constant, {.2f})})),
-          curves(true, bsplineBasis(), {6}, false, {of(6), normals, width(Storage::Constant, {.3f})}),
-          curves(true, hermiteBasis(), {6}, false, {of(6)})};
+  return {
+      seen(curves(true, bezierBasis(), {7, 4}, false, {of(11), width(Storage::Varying, {.1f, .2f, .3f, .1f, .2f})})),
+      seen(curves(true, bsplineBasis(), {6}, true, {of(6), width(Storage::Vertex, {.1f, .2f, .3f, .1f, .2f, .1f})})),
+      seen(curves(true, catmullRomBasis(), {6}, false, {of(6), width(Storage::Constant, {.1f})})),
+      seen(curves(false, bezierBasis(), {5, 2}, false,
+                  {of(7), width(Storage::Varying, {.1f, .2f, .3f, .1f, .2f, .1f, .1f})})),
+      seen(curves(false, bezierBasis(), {6}, true, {of(6), width(Storage::Constant, {.2f})})),
+      curves(true, bsplineBasis(), {6}, false, {of(6), normals, width(Storage::Constant, {.3f})}),
+      curves(true, hermiteBasis(), {6}, false, {of(6)})};
 }
 
 TEST(Curves, HaveRISpecsNumberOfSegments) {
@@ -53,12 +51,10 @@ TEST(Curves, TheMiddleOfTheRibbonIsTheCurve) {
     const uint32_t patch = k % 3;
     const float t = unitFloat(hash32(k));
     const double s = 1 - t, t2 = t * t, t3 = t2 * t;
-    const double w[4] = {s * s * s / 6, (3 * t3 - 6 * t2 + 4) / 6, (-3 * t3 + 3 * t2 + 3 * t + 1) / 6,
-                         t3 / 6};
+    const double w[4] = {s * s * s / 6, (3 * t3 - 6 * t2 + 4) / 6, (-3 * t3 + 3 * t2 + 3 * t + 1) / 6, t3 / 6};
     glm::dvec3 expected(0);
     for (size_t i = 0; i < 4; ++i)
-      for (int axis = 0; axis < 3; ++axis)
-        expected[axis] += w[i] * p[3 * (patch + i) + static_cast<size_t>(axis)];
+      for (int axis = 0; axis < 3; ++axis) expected[axis] += w[i] * p[3 * (patch + i) + static_cast<size_t>(axis)];
     EXPECT_LT(glm::length(glm::dvec3(sampleAt(*prim, patch, 0.5f, t).p) - expected), 1e-5);
   }
 }
@@ -81,9 +77,9 @@ TEST(Curves, WithoutPerspectiveTheyFaceTheDirection) {
 }
 
 TEST(Curves, OrientedRibbonsFaceTheirNormalAndNoEye) {
-  const PrimPtr prim = curves(
-      false, bezierBasis(), {2}, false,
-      {positions({0, 0, 0, 3, 0, 0}), floats("N", Storage::Varying, ValueType::Normal, {0, 1, 0, 0, 1, 0})});
+  const PrimPtr prim =
+      curves(false, bezierBasis(), {2}, false,
+             {positions({0, 0, 0, 3, 0, 0}), floats("N", Storage::Varying, ValueType::Normal, {0, 1, 0, 0, 1, 0})});
   EXPECT_EQ(prim->facing(kEye, {0, 0, 1}, true), nullptr);
   EXPECT_EQ(glm::normalize(sampleAt(*prim, 0, 0.2f, 0.5f).n), vec3(0, 1, 0));
   EXPECT_NEAR(dicedArea(*prim, 1), 3, 1e-6);
@@ -103,24 +99,28 @@ TEST(Curves, LinesKeepTheirWidthRoundCorners) {
   const std::vector<vec3> zigzag = {{0, 0, 0}, {1, 2, 0}, {2, 0, 0}, {3, 2, 0}};
   std::vector<float> p;
   for (const vec3& q : zigzag) p.insert(p.end(), {q.x, q.y, q.z});
-  const PrimPtr prim = curves(false, bezierBasis(), {4}, false, {positions(p), width(Storage::Constant, {.2f})})->facing({0, 0, -9}, {0, 0, 1}, false);
+  const PrimPtr prim = curves(false, bezierBasis(), {4}, false, {positions(p), width(Storage::Constant, {.2f})})
+                           ->facing({0, 0, -9}, {0, 0, 1}, false);
   for (uint32_t patch = 0; patch < 3; ++patch)
     for (const float v : {0.0f, 0.3f, 0.7f, 1.0f})
       for (const float u : {0.0f, 1.0f}) {
-        const vec3 along = glm::normalize(zigzag[patch + 1] - zigzag[patch]), from = sampleAt(*prim, patch, u, v).p - zigzag[patch];
+        const vec3 along = glm::normalize(zigzag[patch + 1] - zigzag[patch]),
+                   from = sampleAt(*prim, patch, u, v).p - zigzag[patch];
         EXPECT_NEAR(glm::length(from - along * dot(along, from)), 0.1f, 1e-6f) << patch << " " << u << " " << v;
       }
   EXPECT_GT(glm::length(sampleAt(*prim, 0, 0, 1).p - sampleAt(*prim, 0, 1, 1).p), 0.4f);
 }
 
 TEST(Curves, CornersOfLinesReachNoFartherThanThreeWidths) {
-  const PrimPtr prim = curves(false, bezierBasis(), {3}, false, {positions({0, 0, 0, 3, 0.1f, 0, 0, 0.2f, 0}), width(Storage::Constant, {.2f})})
+  const PrimPtr prim = curves(false, bezierBasis(), {3}, false,
+                              {positions({0, 0, 0, 3, 0.1f, 0, 0, 0.2f, 0}), width(Storage::Constant, {.2f})})
                            ->facing({0, 0, -9}, {0, 0, 1}, false);
   EXPECT_NEAR(glm::length(sampleAt(*prim, 0, 0, 1).p - sampleAt(*prim, 0, 1, 1).p), 0.6f, 1e-4f);
 }
 
 TEST(Curves, CornersThatTheEyeDoesNotSeeAreNoWider) {
-  const PrimPtr prim = curves(false, bezierBasis(), {3}, false, {positions({0, 0, 0, 1, 0, 2, 2, 0, 0}), width(Storage::Constant, {.2f})})
+  const PrimPtr prim = curves(false, bezierBasis(), {3}, false,
+                              {positions({0, 0, 0, 1, 0, 2, 2, 0, 0}), width(Storage::Constant, {.2f})})
                            ->facing({0, 0, 0}, {0, 0, 1}, false);
   EXPECT_NEAR(glm::length(sampleAt(*prim, 0, 0, 1).p - sampleAt(*prim, 0, 1, 1).p), 0.2f, 1e-6f);
 }
@@ -151,11 +151,12 @@ PrimPtr tubes(bool cubic, const Basis& basis, const std::vector<int>& counts, bo
 
 std::vector<PrimPtr> manyTubes() {
   const auto of = [](int n) { return positions(wiggle(n)); };
-  return {tubes(true, bezierBasis(), {7, 4}, false, {of(11), width(Storage::Varying, {.1f, .2f, .3f, .1f, .2f})}),
-          tubes(true, bsplineBasis(), {6}, true, {of(6), width(Storage::Vertex, {.1f, .2f, .3f, .1f, .2f, .1f})}),
-          tubes(true, catmullRomBasis(), {6}, false, {of(6), width(Storage::Constant, {.1f})}),
-          tubes(false, bezierBasis(), {5, 2}, false, {of(7), width(Storage::Varying, {.1f, .2f, .3f, .1f, .2f, .1f, .1f})}),
-          tubes(false, bezierBasis(), {6}, true, {of(6), width(Storage::Constant, {.2f})})};
+  return {
+      tubes(true, bezierBasis(), {7, 4}, false, {of(11), width(Storage::Varying, {.1f, .2f, .3f, .1f, .2f})}),
+      tubes(true, bsplineBasis(), {6}, true, {of(6), width(Storage::Vertex, {.1f, .2f, .3f, .1f, .2f, .1f})}),
+      tubes(true, catmullRomBasis(), {6}, false, {of(6), width(Storage::Constant, {.1f})}),
+      tubes(false, bezierBasis(), {5, 2}, false, {of(7), width(Storage::Varying, {.1f, .2f, .3f, .1f, .2f, .1f, .1f})}),
+      tubes(false, bezierBasis(), {6}, true, {of(6), width(Storage::Constant, {.2f})})};
 }
 
 TEST(Tubes, DerivativesAgreeWithFiniteDifferences) {
@@ -186,7 +187,8 @@ TEST(Tubes, LieAtTheirRadiusFromTheCurveWithNormalsOutward) {
 }
 
 TEST(Tubes, OfAStraightLineAreClosedCylinders) {
-  const PrimPtr prim = tubes(false, bezierBasis(), {2}, false, {positions({0, 0, 0, 0, 3, 0}), width(Storage::Constant, {2})});
+  const PrimPtr prim =
+      tubes(false, bezierBasis(), {2}, false, {positions({0, 0, 0, 0, 3, 0}), width(Storage::Constant, {2})});
   ASSERT_EQ(prim->patchCount(), 3u);
   expectAreaAtSecondOrder(*prim, 2 * M_PI * 3 + 2 * M_PI);
   // The flux of the position through a closed surface is three times its volume.
@@ -204,28 +206,34 @@ TEST(Tubes, OfAStraightLineAreClosedCylinders) {
 
 TEST(Tubes, SegmentsAndTheEndsOfClosedOnesMeet) {
   const std::vector<PrimPtr> all = manyTubes();
-  for (const auto& [prim, first, second] : {std::tuple{all[1], 0u, 1u}, {all[1], 5u, 0u}, {all[2], 1u, 2u}, {all[3], 0u, 1u}, {all[4], 5u, 0u}})
+  for (const auto& [prim, first, second] :
+       {std::tuple{all[1], 0u, 1u}, {all[1], 5u, 0u}, {all[2], 1u, 2u}, {all[3], 0u, 1u}, {all[4], 5u, 0u}})
     for (const float u : {0.0f, 0.25f, 0.8f, 1.0f})
       EXPECT_LT(glm::length(sampleAt(*prim, first, u, 1).p - sampleAt(*prim, second, u, 0).p), 1e-5f) << first;
 }
 
 TEST(Tubes, OfAFewSidesAreAsWideAsTheyShouldOnAverage) {
-  const PrimPtr prim = tubes(false, bezierBasis(), {2}, false, {positions({0, 0, 0, 0, 3, 0}), width(Storage::Constant, {2})});
+  const PrimPtr prim =
+      tubes(false, bezierBasis(), {2}, false, {positions({0, 0, 0, 0, 3, 0}), width(Storage::Constant, {2})});
   for (const int nu : {3, 4, 7}) {
     std::vector<float> u, v, f(12 * size_t{100});
     for (int j = 0; j <= 1; ++j)
-      for (int i = 0; i <= nu; ++i) u.push_back(static_cast<float>(i) / static_cast<float>(nu)), v.push_back(static_cast<float>(j));
+      for (int i = 0; i <= nu; ++i)
+        u.push_back(static_cast<float>(i) / static_cast<float>(nu)), v.push_back(static_cast<float>(j));
     const auto a = [&](size_t k) { return &f[100 * k]; };
-    prim->evaluateLattice(0, nu, 1, u.data(), v.data(), {a(0), a(1), a(2), a(3), a(4), a(5), a(6), a(7), a(8), a(9), a(10), a(11)});
+    prim->evaluateLattice(0, nu, 1, u.data(), v.data(),
+                          {a(0), a(1), a(2), a(3), a(4), a(5), a(6), a(7), a(8), a(9), a(10), a(11)});
     double perimeter = 0;
-    for (size_t i = 0; i < static_cast<size_t>(nu); ++i) perimeter += std::hypot(a(0)[i + 1] - a(0)[i], a(2)[i + 1] - a(2)[i]);
+    for (size_t i = 0; i < static_cast<size_t>(nu); ++i)
+      perimeter += std::hypot(a(0)[i + 1] - a(0)[i], a(2)[i + 1] - a(2)[i]);
     EXPECT_NEAR(perimeter, 2 * M_PI, 1e-4) << nu;
   }
 }
 
 TEST(Tubes, InterpolateAlongVAndEndsTakeTheEndsValues) {
-  const PrimPtr prim = tubes(false, bezierBasis(), {3}, false,
-                             {positions({0, 0, 0, 0, 1, 0, 0, 2, 0}), floats("c", Storage::Varying, ValueType::Float, {5, 6, 8})});
+  const PrimPtr prim =
+      tubes(false, bezierBasis(), {3}, false,
+            {positions({0, 0, 0, 0, 1, 0, 0, 2, 0}), floats("c", Storage::Varying, ValueType::Float, {5, 6, 8})});
   ASSERT_EQ(prim->patchCount(), 4u);
   EXPECT_EQ(primvarAt(*prim, 1, 0, 0.3f, 0.5f)[0], 7);
   EXPECT_EQ(primvarAt(*prim, 2, 0, 0.3f, 0.5f)[0], 5);
@@ -235,21 +243,17 @@ TEST(Tubes, InterpolateAlongVAndEndsTakeTheEndsValues) {
 
 TEST(NastyCurves, DegenerateOnesAreSound) {
   const auto sound = [](const PrimPtr& prim) { expectSoundEverywhere(*seen(prim)); };
-  sound(curves(true, bezierBasis(), {4}, false,
-               {positions({0, 0, 0, 0, 0, 0, 1, 1, 0, 1, 1, 0})}));                           // doubled ends
-  sound(curves(true, bezierBasis(), {4}, false, {positions(std::vector<float>(12, 1.0f))}));  // a point
+  sound(curves(true, bezierBasis(), {4}, false, {positions({0, 0, 0, 0, 0, 0, 1, 1, 0, 1, 1, 0})}));  // doubled ends
+  sound(curves(true, bezierBasis(), {4}, false, {positions(std::vector<float>(12, 1.0f))}));          // a point
+  sound(curves(false, bezierBasis(), {3}, false, {positions({0, 0, 0, 1, 0, 0, 0, 0, 0})}));          // there and back
   sound(
-      curves(false, bezierBasis(), {3}, false, {positions({0, 0, 0, 1, 0, 0, 0, 0, 0})}));  // there and back
-  sound(curves(false, bezierBasis(), {2}, false,
-               {positions({kEye.x, kEye.y, 0, kEye.x, kEye.y, 5})}));  // along the view
-  sound(curves(false, bezierBasis(), {2}, false,
-               {positions({0, 0, 0, 1, 0, 0}), width(Storage::Constant, {0})}));
+      curves(false, bezierBasis(), {2}, false, {positions({kEye.x, kEye.y, 0, kEye.x, kEye.y, 5})}));  // along the view
+  sound(curves(false, bezierBasis(), {2}, false, {positions({0, 0, 0, 1, 0, 0}), width(Storage::Constant, {0})}));
 }
 
 TEST(NastyCurves, WrongInputThrowsASentence) {
   Problems problems;
-  const auto errorWith = [&](bool cubic, const Basis& basis, const std::vector<int>& counts,
-                             const ParamList& params) {
+  const auto errorWith = [&](bool cubic, const Basis& basis, const std::vector<int>& counts, const ParamList& params) {
     return errorOf([&] { makeCurves(cubic, basis, counts, false, params, problems); });
   };
   EXPECT_EQ(errorWith(false, bezierBasis(), {1}, {positions({0, 0, 0})}),
@@ -261,8 +265,7 @@ TEST(NastyCurves, WrongInputThrowsASentence) {
   EXPECT_NE(errorWith(false, bezierBasis(), {3}, {positions(wiggle(2))}), "");
   EXPECT_NE(errorWith(false, bezierBasis(), {2}, {positions({0, 0, 0, NAN, 0, 0})}), "");
   EXPECT_NE(errorWith(false, bezierBasis(), {2}, {positions(wiggle(2)), width(Storage::Constant, {-1})}), "");
-  EXPECT_NE(errorWith(false, bezierBasis(), {2}, {positions(wiggle(2)), width(Storage::Varying, {1, NAN})}),
-            "");
+  EXPECT_NE(errorWith(false, bezierBasis(), {2}, {positions(wiggle(2)), width(Storage::Varying, {1, NAN})}), "");
 }
 
 }  // namespace

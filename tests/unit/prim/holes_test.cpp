@@ -36,8 +36,7 @@ PrimPtr polygon(const std::vector<Loop>& loops, Problems& problems, ParamList pa
   std::vector<float> p;
   for (const Loop& loop : loops) {
     counts.push_back(static_cast<int>(loop.size()));
-    for (const vec2& q : loop)
-      vertices.push_back(static_cast<int>(vertices.size())), p.insert(p.end(), {q.x, q.y, 0});
+    for (const vec2& q : loop) vertices.push_back(static_cast<int>(vertices.size())), p.insert(p.end(), {q.x, q.y, 0});
   }
   params.push_back(positions(p));
   return makeGeneralPolygons({static_cast<int>(loops.size())}, counts, vertices, params, problems);
@@ -111,15 +110,13 @@ TEST(PolygonWithHoles, HolesThatTouchTheOutlineAtCorners) {
   const Loop spike = {{0, 0}, {2, 3.25f}, {3.25f, 3.25f}};  // widens from a corner of the outline
   expectHolesAreOut({kSquare, spike});
   expectHolesAreOut({kSquare, spike, {{0, 0}, {1, 0.5f}, {0.5f, 0.25f}}, {{0, 0}, {0.5f, 3}, {0.25f, 3}}});
-  expectHolesAreOut({kSquare, {{0, 0}, {4, 4}, {3, 0.5f}}});  // cuts it in two
-  expectHolesAreOut(
-      {kSquare, {{4, 0}, {1, 1}, {2, 3}}, {{1, 1}, {0.5f, 3}, {0.5f, 1}}});  // one behind the other
+  expectHolesAreOut({kSquare, {{0, 0}, {4, 4}, {3, 0.5f}}});                               // cuts it in two
+  expectHolesAreOut({kSquare, {{4, 0}, {1, 1}, {2, 3}}, {{1, 1}, {0.5f, 3}, {0.5f, 1}}});  // one behind the other
 }
 
 /// The loops around a connected set of unit squares, the outline first; where two squares touch at a corner
 /// the walk stays at its own, or passes over.
-std::vector<Loop> loopsAround(const std::set<std::pair<int, int>>& squares, bool stay,
-                              const glm::mat2& place) {
+std::vector<Loop> loopsAround(const std::set<std::pair<int, int>>& squares, bool stay, const glm::mat2& place) {
   using Way = std::array<int, 4>;  // from x, y by dx, dy; the set is to the left
   std::set<Way> ways;
   for (const auto& [x, y] : squares) {
@@ -160,8 +157,7 @@ TEST(PolygonWithHoles, AreaIsExactWhereLoopsTouchThemselvesAndEachOtherAtVertice
       const auto [x, y] = found.back();
       found.pop_back();
       if (!squares.insert({x, y}).second) continue;
-      for (const auto& next :
-           {std::pair(x + 1, y), std::pair(x - 1, y), std::pair(x, y + 1), std::pair(x, y - 1)})
+      for (const auto& next : {std::pair(x + 1, y), std::pair(x - 1, y), std::pair(x, y + 1), std::pair(x, y - 1)})
         if (isGiven(next.first, next.second)) found.push_back(next);
     }
     for (const bool stay : {false, true})
@@ -169,8 +165,7 @@ TEST(PolygonWithHoles, AreaIsExactWhereLoopsTouchThemselvesAndEachOtherAtVertice
         const std::vector<Loop> loops = loopsAround(squares, stay, place);
         double area = areaOf(loops[0]);
         for (size_t k = 1; k < loops.size(); ++k) area -= areaOf(loops[k]);
-        EXPECT_NEAR(area, static_cast<double>(squares.size()) * glm::determinant(place), 1e-4)
-            << "the test is wrong";
+        EXPECT_NEAR(area, static_cast<double>(squares.size()) * glm::determinant(place), 1e-4) << "the test is wrong";
         expectHolesAreOut(loops);
         if (HasFailure()) FAIL() << "seed " << seed << " stay " << stay;
       }

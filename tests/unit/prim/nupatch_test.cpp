@@ -17,8 +17,7 @@ std::vector<float> randomControls(int nu, int nv) {
     for (int i = 0; i < nu; ++i) {
       const uint32_t k = static_cast<uint32_t>(4 * (j * nu + i));
       const float w = 1 + 0.5f * noise(k);
-      pw.insert(pw.end(),
-                {w * (i + 0.3f * noise(k + 1)), w * (j + 0.3f * noise(k + 2)), w * noise(k + 3), w});
+      pw.insert(pw.end(), {w * (i + 0.3f * noise(k + 1)), w * (j + 0.3f * noise(k + 2)), w * noise(k + 3), w});
     }
   return pw;
 }
@@ -38,9 +37,8 @@ struct Surface {
 };
 
 std::vector<Surface> manySurfaces() {
-  const NurbsDirection clamped{5, 4, {0, 0, 0, 0, 0.3f, 1, 1, 1, 1}, 0, 1},
-      open{5, 3, {0, 1, 2, 4, 5, 6, 9, 9}, 2, 5}, straight{3, 2, {0, 0, 1, 3, 3}, 0, 3},
-      twice{6, 4, {-1, -1, -1, -1, 0, 0, 2, 2, 2, 2}, -1, 2},
+  const NurbsDirection clamped{5, 4, {0, 0, 0, 0, 0.3f, 1, 1, 1, 1}, 0, 1}, open{5, 3, {0, 1, 2, 4, 5, 6, 9, 9}, 2, 5},
+      straight{3, 2, {0, 0, 1, 3, 3}, 0, 3}, twice{6, 4, {-1, -1, -1, -1, 0, 0, 2, 2, 2, 2}, -1, 2},
       cut{5, 4, {0, 1, 2, 3, 4, 5, 6, 7, 8}, 3.5f, 4.75f},
       high{9, 8, {0, 0, 0, 0, 0, 0, 0, 0, 2, 3, 3, 3, 3, 3, 3, 3, 3}, 0, 3};
   std::vector<Surface> out;
@@ -67,8 +65,7 @@ glm::dvec3 defined(const Surface& s, double u, double v) {
     for (int i = 0; i < s.u.controls; ++i) {
       const float* h = &s.pw[static_cast<size_t>(4 * (j * s.u.controls + i))];
       sum += basis(s.u.knots, static_cast<size_t>(i), s.u.order, u, u == s.u.max) *
-             basis(s.v.knots, static_cast<size_t>(j), s.v.order, v, v == s.v.max) *
-             glm::dvec4(h[0], h[1], h[2], h[3]);
+             basis(s.v.knots, static_cast<size_t>(j), s.v.order, v, v == s.v.max) * glm::dvec4(h[0], h[1], h[2], h[3]);
     }
   return glm::dvec3(sum) / sum.w;
 }
@@ -85,8 +82,7 @@ TEST(NuPatch, PointsAreThoseOfTheCoxDeBoorDefinition) {
       if (su >= 1 && u < 1) continue;  // rounded onto the end
       const glm::dvec3 expected = defined(s, s.u.min + static_cast<double>(su) * (s.u.max - s.u.min),
                                           s.v.min + static_cast<double>(sv) * (s.v.max - s.v.min));
-      EXPECT_LT(glm::length(glm::dvec3(sampleAt(*prim, patch, u, v).p) - expected),
-                1e-5 * (1 + glm::length(expected)));
+      EXPECT_LT(glm::length(glm::dvec3(sampleAt(*prim, patch, u, v).p) - expected), 1e-5 * (1 + glm::length(expected)));
     }
   }
 }
@@ -148,8 +144,7 @@ Surface revolved(const std::vector<vec3>& meridian, NurbsDirection v) {  // (rad
 
 Surface sphere() {
   const float h = std::sqrt(0.5f);
-  return revolved({{0, -1, 1}, {1, -1, h}, {1, 0, 1}, {1, 1, h}, {0, 1, 1}},
-                  {5, 3, {0, 0, 0, 1, 1, 2, 2, 2}, 0, 2});
+  return revolved({{0, -1, 1}, {1, -1, h}, {1, 0, 1}, {1, 1, h}, {0, 1, 1}}, {5, 3, {0, 0, 0, 1, 1, 2, 2, 2}, 0, 2});
 }
 
 TEST(NuPatch, ASphereIsExact) {
@@ -182,11 +177,10 @@ TEST(NuPatch, PrimvarsFollowTheSegmentsTheirCornersAndTheControls) {
   Surface s{{4, 2, {0, 0, 1, 1, 2, 2}, 0, 2}, {2, 2, {0, 0, 1, 1}, 0, 1}, {}};
   for (float y : {0.0f, 1.0f})
     for (float x : {0.0f, 1.0f, 1.0f, 2.0f}) s.pw.insert(s.pw.end(), {x, y, 0, 1});
-  const PrimPtr prim =
-      s.make({floats("k", Storage::Uniform, ValueType::Float, {5, 6, 7}),
-              floats("c", Storage::Varying, ValueType::Float, {0, 1, 2, 4, 0, 1, 2, 4}),
-              floats("e", Storage::Vertex, ValueType::Color,
-                     {0, 0, 0, 1, 2, 3, 1, 2, 3, 2, 4, 6, 0, 0, 0, 1, 2, 3, 1, 2, 3, 2, 4, 6})});
+  const PrimPtr prim = s.make({floats("k", Storage::Uniform, ValueType::Float, {5, 6, 7}),
+                               floats("c", Storage::Varying, ValueType::Float, {0, 1, 2, 4, 0, 1, 2, 4}),
+                               floats("e", Storage::Vertex, ValueType::Color,
+                                      {0, 0, 0, 1, 2, 3, 1, 2, 3, 2, 4, 6, 0, 0, 0, 1, 2, 3, 1, 2, 3, 2, 4, 6})});
   ASSERT_EQ(prim->patchCount(), 2u);
   EXPECT_EQ(primvarAt(*prim, 0, 0, 0.5f, 0.5f)[0], 5);
   EXPECT_EQ(primvarAt(*prim, 1, 0, 0.5f, 0.5f)[0], 7);
@@ -209,9 +203,8 @@ TEST(NuPatch, AVertexVariableThatIsThePositionStaysThePosition) {
 }
 
 TEST(NuPatch, ARangeWithinASegmentKeepsTheSegmentsCornerValues) {
-  Surface s{{2, 2, {0, 0, 1, 1}, 0.25f, 0.75f},
-            {2, 2, {0, 0, 1, 1}, 0, 1},
-            {0, 0, 0, 1, 1, 0, 0, 1, 0, 1, 0, 1, 1, 1, 0, 1}};
+  Surface s{
+      {2, 2, {0, 0, 1, 1}, 0.25f, 0.75f}, {2, 2, {0, 0, 1, 1}, 0, 1}, {0, 0, 0, 1, 1, 0, 0, 1, 0, 1, 0, 1, 1, 1, 0, 1}};
   const PrimPtr prim = s.make({floats("c", Storage::Varying, ValueType::Float, {0, 1, 0, 1})});
   EXPECT_FLOAT_EQ(sampleAt(*prim, 0, 0, 0.5f).p.x, 0.25f);
   EXPECT_FLOAT_EQ(primvarAt(*prim, 0, 0, 1, 0.5f)[0], 0.75f);
@@ -246,8 +239,7 @@ TEST(NastyNuPatch, AJumpAtAFullKnotIsOpenAndARangeTooLongIsCut) {
   const NurbsDirection jump{4, 2, {0, 0, 1, 1, 2, 2}, 0, 9}, v{2, 2, {0, 0, 1, 1}, 0, 1};
   Problems problems;
   const PrimPtr prim = makeNuPatch(
-      jump, v, {}, {positions({0, 0, 0, 1, 0, 0, 5, 0, 0, 6, 0, 0, 0, 1, 0, 1, 1, 0, 5, 1, 0, 6, 1, 0})},
-      problems);
+      jump, v, {}, {positions({0, 0, 0, 1, 0, 0, 5, 0, 0, 6, 0, 0, 0, 1, 0, 1, 1, 0, 5, 1, 0, 6, 1, 0})}, problems);
   EXPECT_EQ(problems.size(), 1u);
   ASSERT_EQ(prim->patchCount(), 2u);
   EXPECT_EQ(prim->info(0).openEdges, kAllEdges);

@@ -11,10 +11,7 @@ std::vector<float> randomPoints(int nu, int nv) {
   for (int j = 0; j < nv; ++j)
     for (int i = 0; i < nu; ++i)
       for (int axis = 0; axis < 3; ++axis)
-        p.push_back((axis == 0   ? i
-                     : axis == 1 ? j
-                                 : 0) +
-                    noise(static_cast<uint32_t>((j * nu + i) * 3 + axis)));
+        p.push_back((axis == 0 ? i : axis == 1 ? j : 0) + noise(static_cast<uint32_t>((j * nu + i) * 3 + axis)));
   return p;
 }
 
@@ -66,8 +63,7 @@ vec3 onCurve(const Basis& basis, const std::vector<vec3>& controls, float u) {
   for (float h : heights)
     for (const vec3& c : controls) p.insert(p.end(), {c.x, c.y, h});
   Problems problems;
-  const PrimPtr prim =
-      makeBicubicPatchMesh(4, false, basis, 4, false, bezierBasis(), {positions(p)}, problems);
+  const PrimPtr prim = makeBicubicPatchMesh(4, false, basis, 4, false, bezierBasis(), {positions(p)}, problems);
   return sampleAt(*prim, 0, u, 0.5f).p;
 }
 
@@ -81,10 +77,9 @@ TEST(BicubicPatch, EachBasisReproducesItsCurve) {
       EXPECT_NEAR(got.y, expected.y, 1e-5);
     };
     expectCurve(bezierBasis(), s * s * s, 3 * s * s * t, 3 * s * t2, t3);
-    expectCurve(bsplineBasis(), s * s * s / 6, (3 * t3 - 6 * t2 + 4) / 6, (-3 * t3 + 3 * t2 + 3 * t + 1) / 6,
-                t3 / 6);
-    expectCurve(catmullRomBasis(), (-t3 + 2 * t2 - t) / 2, (3 * t3 - 5 * t2 + 2) / 2,
-                (-3 * t3 + 4 * t2 + t) / 2, (t3 - t2) / 2);
+    expectCurve(bsplineBasis(), s * s * s / 6, (3 * t3 - 6 * t2 + 4) / 6, (-3 * t3 + 3 * t2 + 3 * t + 1) / 6, t3 / 6);
+    expectCurve(catmullRomBasis(), (-t3 + 2 * t2 - t) / 2, (3 * t3 - 5 * t2 + 2) / 2, (-3 * t3 + 4 * t2 + t) / 2,
+                (t3 - t2) / 2);
     expectCurve(hermiteBasis(), 2 * t3 - 3 * t2 + 1, t3 - 2 * t2 + t, -2 * t3 + 3 * t2, t3 - t2);
     expectCurve(powerBasis(), t3, t2, t, 1);
   }
@@ -97,8 +92,7 @@ TEST(BicubicPatch, ABezierSphereOctantHasTheAreaOfAnOctant) {
   for (const vec2& phi : arc)
     for (const vec2& theta : arc) p.insert(p.end(), {phi.x * theta.x, phi.x * theta.y, phi.y});
   Problems problems;
-  const PrimPtr prim =
-      makeBicubicPatchMesh(4, false, bezierBasis(), 4, false, bezierBasis(), {positions(p)}, problems);
+  const PrimPtr prim = makeBicubicPatchMesh(4, false, bezierBasis(), 4, false, bezierBasis(), {positions(p)}, problems);
   EXPECT_NEAR(dicedArea(*prim, 64), M_PI / 2, 2e-3);
   EXPECT_EQ(prim->info(0).openEdges, kAllEdges & ~kEdgeV1);  // the pole is a point
   for (float u : {0.0f, 0.4f, 1.0f})
@@ -123,8 +117,7 @@ TEST(PatchMesh, PatchesThatShareAnEdgeHaveTheSameBitsThere) {
         }
   };
   Problems problems;
-  expectSharedEdges(*makeBilinearPatchMesh(5, true, 4, false, {positions(randomPoints(5, 4))}, problems), 5,
-                    3);
+  expectSharedEdges(*makeBilinearPatchMesh(5, true, 4, false, {positions(randomPoints(5, 4))}, problems), 5, 3);
   expectSharedEdges(*bicubic(7, false, bezierBasis(), 10, false, bezierBasis()), 2, 3);
   expectSharedEdges(*bicubic(6, true, bsplineBasis(), 5, true, catmullRomBasis()), 6, 5);
   expectSharedEdges(*bicubic(8, false, hermiteBasis(), 8, true, hermiteBasis()), 3, 4);
@@ -146,8 +139,8 @@ TEST(PatchMesh, OnlyTheOutlineIsOpen) {
 TEST(PatchMesh, AMeshThatEndsWhereItBeganIsClosedThere) {
   Problems problems;
   const PrimPtr prism = makeBilinearPatchMesh(
-      4, false, 2, false,
-      {positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 0, 0, 1})}, problems);
+      4, false, 2, false, {positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 0, 0, 1})},
+      problems);
   for (uint32_t patch = 0; patch < 3; ++patch) EXPECT_EQ(prism->info(patch).openEdges, kEdgeV0 | kEdgeV1);
 }
 
@@ -165,11 +158,10 @@ TEST(PatchMesh, InterpolatesEveryStorage) {
   const std::vector<float> p = randomPoints(7, 4);
   for (size_t i = 0; i < 28; ++i) vertex.push_back(p[3 * i + 1]);
   for (int i = 0; i < 6; ++i) varying.push_back(static_cast<float>(i * i));
-  const PrimPtr prim = bicubic(7, false, bezierBasis(), 4, false, bezierBasis(),
-                               {floats("y", Storage::Vertex, ValueType::Float, vertex),
-                                floats("k", Storage::Varying, ValueType::Float, varying),
-                                floats("a", Storage::Uniform, ValueType::Float, {5, 6}),
-                                floats("c", Storage::Constant, ValueType::Float, {9})});
+  const PrimPtr prim = bicubic(
+      7, false, bezierBasis(), 4, false, bezierBasis(),
+      {floats("y", Storage::Vertex, ValueType::Float, vertex), floats("k", Storage::Varying, ValueType::Float, varying),
+       floats("a", Storage::Uniform, ValueType::Float, {5, 6}), floats("c", Storage::Constant, ValueType::Float, {9})});
   EXPECT_FLOAT_EQ(primvarAt(*prim, 1, 0, 0.3f, 0.8f)[0], sampleAt(*prim, 1, 0.3f, 0.8f).p.y);
   EXPECT_FLOAT_EQ(primvarAt(*prim, 1, 1, 0, 0)[0], 1);
   EXPECT_FLOAT_EQ(primvarAt(*prim, 1, 1, 1, 1)[0], 25);
@@ -190,21 +182,23 @@ TEST(PatchMesh, PwIsDividedByItsWeight) {
   Problems problems;
   const PrimPtr prim = makeBilinearPatchMesh(
       2, false, 2, false,
-      {floats("Pw", Storage::Vertex, ValueType::HPoint, {0, 0, 0, 2, 2, 0, 0, 2, 0, 2, 0, 2, 2, 2, 0, 2})},
-      problems);
+      {floats("Pw", Storage::Vertex, ValueType::HPoint, {0, 0, 0, 2, 2, 0, 0, 2, 0, 2, 0, 2, 2, 2, 0, 2})}, problems);
   EXPECT_EQ(sampleAt(*prim, 0, 1, 1).p, vec3(1, 1, 0));
   EXPECT_TRUE(prim->info(0).planar);
   EXPECT_TRUE(problems.empty());
 }
 
 TEST(PatchMesh, PwOfDifferentWeightsIsRationalSoThatCirclesAreExact) {
-  const float w = 0.70710678f, a = (1 + 2 * w) / 3, b = 2 * w / 3, c = 1 / 3.0f;  // a quarter, from (1, 0) to (0, 1), of cubics
+  const float w = 0.70710678f, a = (1 + 2 * w) / 3, b = 2 * w / 3,
+              c = 1 / 3.0f;  // a quarter, from (1, 0) to (0, 1), of cubics
   std::vector<float> pw;
   for (const float z : {0.0f, 1 / 3.0f, 2 / 3.0f, 1.0f})
-    for (const vec3& h : {vec3(1, 0, 1), vec3(c + b, b, a), vec3(b, c + b, a), vec3(0, 1, 1)}) pw.insert(pw.end(), {h.x, h.y, z * h.z, h.z});
+    for (const vec3& h : {vec3(1, 0, 1), vec3(c + b, b, a), vec3(b, c + b, a), vec3(0, 1, 1)})
+      pw.insert(pw.end(), {h.x, h.y, z * h.z, h.z});
   const Param heat = floats("heat", Storage::Vertex, ValueType::Float, std::vector<float>(16, 0.25f));
   Problems problems;
-  const PrimPtr prim = makeBicubicPatchMesh(4, false, bezierBasis(), 4, false, bezierBasis(), {floats("Pw", Storage::Vertex, ValueType::HPoint, pw), heat}, problems);
+  const PrimPtr prim = makeBicubicPatchMesh(4, false, bezierBasis(), 4, false, bezierBasis(),
+                                            {floats("Pw", Storage::Vertex, ValueType::HPoint, pw), heat}, problems);
   EXPECT_TRUE(problems.empty());
   for (const float u : {0.0f, 0.3f, 0.8f, 1.0f}) {
     const Sample s = sampleAt(*prim, 0, u, 0.4f);
@@ -220,8 +214,7 @@ TEST(PatchMesh, WrongCountsThrowASentence) {
   Problems problems;
   const auto mesh = [&](int nu, int nv, std::vector<float> p) {
     return errorOf([&] {
-      makeBicubicPatchMesh(nu, false, bezierBasis(), nv, false, bezierBasis(), {positions(std::move(p))},
-                           problems);
+      makeBicubicPatchMesh(nu, false, bezierBasis(), nv, false, bezierBasis(), {positions(std::move(p))}, problems);
     });
   };
   EXPECT_NE(mesh(5, 4, randomPoints(5, 4)), "");  // no whole number of patches
@@ -229,14 +222,14 @@ TEST(PatchMesh, WrongCountsThrowASentence) {
   EXPECT_NE(mesh(-4, 4, {}), "");
   EXPECT_EQ(mesh(4, 4, {1, 2, 3}), "P has 3 values where 16 vertices need 48 floats");
   EXPECT_NE(errorOf([&] {
-              makeBicubicPatchMesh(4, false, {mat4(1), 0}, 4, false, bezierBasis(),
-                                   {positions(randomPoints(4, 4))}, problems);
+              makeBicubicPatchMesh(4, false, {mat4(1), 0}, 4, false, bezierBasis(), {positions(randomPoints(4, 4))},
+                                   problems);
             }),
             "");
   EXPECT_NE(errorOf([&] {
-              makeBilinearPatchMesh(
-                  2, false, 2, false,
-                  {floats("Pw", Storage::Vertex, ValueType::HPoint, std::vector<float>(16, 0))}, problems);
+              makeBilinearPatchMesh(2, false, 2, false,
+                                    {floats("Pw", Storage::Vertex, ValueType::HPoint, std::vector<float>(16, 0))},
+                                    problems);
             }),
             "");
 }
@@ -249,10 +242,9 @@ TEST(NastyPatch, CollapsedEdgesCornersAndPointsAreSound) {
       *makeBicubicPatchMesh(4, false, bezierBasis(), 4, false, bezierBasis(), {positions(sheet)}, problems));
   expectSoundEverywhere(*makeBicubicPatchMesh(4, false, bezierBasis(), 4, false, bezierBasis(),
                                               {positions(std::vector<float>(48, 2))}, problems));
-  expectSoundEverywhere(*makeBilinearPatchMesh(2, false, 2, false,
-                                               {positions({0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1, 0})}, problems));
   expectSoundEverywhere(
-      *makeBilinearPatchMesh(2, false, 2, false, {positions(std::vector<float>(12, 1))}, problems));
+      *makeBilinearPatchMesh(2, false, 2, false, {positions({0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1, 0})}, problems));
+  expectSoundEverywhere(*makeBilinearPatchMesh(2, false, 2, false, {positions(std::vector<float>(12, 1))}, problems));
 }
 
 }  // namespace

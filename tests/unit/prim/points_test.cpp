@@ -23,9 +23,7 @@ TEST(Points, AreDisksOfTheirWidth) {
     const vec3 center = sampleAt(*prim, patch, 0.5f, 0.5f).p;
     for (float t : {0.0f, 0.3f, 0.8f})
       EXPECT_NEAR(glm::length(sampleAt(*prim, patch, t, 1).p - center), radius[patch], 1e-5f);
-    EXPECT_LT(
-        glm::length(glm::normalize(sampleAt(*prim, patch, 0.2f, 0.9f).n) - glm::normalize(kEye - center)),
-        1e-5f);
+    EXPECT_LT(glm::length(glm::normalize(sampleAt(*prim, patch, 0.2f, 0.9f).n) - glm::normalize(kEye - center)), 1e-5f);
   }
 }
 
@@ -73,11 +71,12 @@ TEST(Points, OfOneCellHaveTheCornersOfTheirDiskMovedOutward) {
     std::vector<float> f[12];
     for (auto& array : f) array.resize(4);
     prim->evaluateLattice(patch, 1, 1, u.data(), v.data(),
-                          {f[0].data(), f[1].data(), f[2].data(), f[3].data(), f[4].data(), f[5].data(), f[6].data(), f[7].data(),
-                           f[8].data(), f[9].data(), f[10].data(), f[11].data()});
+                          {f[0].data(), f[1].data(), f[2].data(), f[3].data(), f[4].data(), f[5].data(), f[6].data(),
+                           f[7].data(), f[8].data(), f[9].data(), f[10].data(), f[11].data()});
     const vec3 center = sampleAt(*prim, patch, 0.5f, 0.5f).p;
     for (size_t i = 0; i < 4; ++i) {
-      EXPECT_NEAR(glm::length(vec3(f[0][i], f[1][i], f[2][i]) - (center + std::sqrt(kPi / 2) * (rim[i].p - center))), 0, 1e-6f);
+      EXPECT_NEAR(glm::length(vec3(f[0][i], f[1][i], f[2][i]) - (center + std::sqrt(kPi / 2) * (rim[i].p - center))), 0,
+                  1e-6f);
       EXPECT_EQ(vec3(f[3][i], f[4][i], f[5][i]), rim[i].du);
       EXPECT_EQ(vec3(f[6][i], f[7][i], f[8][i]), rim[i].dv);
       EXPECT_EQ(vec3(f[9][i], f[10][i], f[11][i]), rim[i].n);
@@ -92,8 +91,7 @@ TEST(Points, OfTypeSphereAreSpheres) {
   expectSoundEverywhere(*prim);
   expectBoundsContainTheSurface(*prim);
   expectDerivativesOfPositions(*prim, 1e-3f);
-  for (const float t : {0.0f, 0.2f, 0.7f, 1.0f})
-    EXPECT_NEAR(glm::length(sampleAt(*prim, 1, t, 0.3f * t).p), 2, 1e-6f);
+  for (const float t : {0.0f, 0.2f, 0.7f, 1.0f}) EXPECT_NEAR(glm::length(sampleAt(*prim, 1, t, 0.3f * t).p), 2, 1e-6f);
   expectAreaAtSecondOrder(*points({positions({1, 2, 3}), width(Storage::Constant, {2}), type}), 4 * M_PI);
   for (const int n : {3, 5, 9}) EXPECT_NEAR(latticeArea(*prim, 0, n, n - 1), M_PI / 4, 1e-6) << n;
 }
@@ -114,7 +112,10 @@ TEST(Points, OfTypePatchAreCardsThatStandUprightUntilTheirAngleTurnsThem) {
   expectBoundsContainTheSurface(*turned);
   expectDerivativesOfPositions(*turned, 1e-3f);
   Problems problems;
-  EXPECT_THROW(makePoints({positions({0, 0, 0}), typed("patch"), floats("patchaspectratio", Storage::Varying, ValueType::Float, {0})}, problems), PrimError);
+  EXPECT_THROW(makePoints({positions({0, 0, 0}), typed("patch"),
+                           floats("patchaspectratio", Storage::Varying, ValueType::Float, {0})},
+                          problems),
+               PrimError);
 }
 
 TEST(Points, OfTypesNobodyKnowsAreDisksAndSaySo) {
@@ -134,18 +135,15 @@ TEST(Points, FaceTheirNormalIfTheyHaveOne) {
 }
 
 TEST(Points, ValuesBelongToTheirPoint) {
-  const PrimPtr prim =
-      points({positions({0, 0, 0, 5, 0, 0}), floats("c", Storage::Varying, ValueType::Float, {3, 4}),
-              floats("k", Storage::Constant, ValueType::Float, {9})});
+  const PrimPtr prim = points({positions({0, 0, 0, 5, 0, 0}), floats("c", Storage::Varying, ValueType::Float, {3, 4}),
+                               floats("k", Storage::Constant, ValueType::Float, {9})});
   EXPECT_EQ(primvarAt(*prim, 1, 0, 0.2f, 0.3f)[0], 4);
   EXPECT_EQ(primvarAt(*prim, 1, 1, 0.2f, 0.3f)[0], 9);
 }
 
 TEST(NastyPoints, WrongInputThrowsASentenceAndNoWidthIsSound) {
   Problems problems;
-  const auto errorWith = [&](const ParamList& params) {
-    return errorOf([&] { makePoints(params, problems); });
-  };
+  const auto errorWith = [&](const ParamList& params) { return errorOf([&] { makePoints(params, problems); }); };
   EXPECT_NE(errorWith({}), "");
   EXPECT_NE(errorWith({positions({})}), "");
   EXPECT_NE(errorWith({positions({0, 0})}), "");

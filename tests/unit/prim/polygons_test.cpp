@@ -39,7 +39,8 @@ std::vector<vec3> pointsOf(const std::vector<float>& p) {
   return out;
 }
 
-/// A flat face at several keys: its patches cover each point of it once at every key, by their areas. `loops`: their number, then their sizes.
+/// A flat face at several keys: its patches cover each point of it once at every key, by their areas. `loops`: their
+/// number, then their sizes.
 void expectCutsCover(const std::vector<std::vector<float>>& keys, const std::vector<int>& loops) {
   const std::vector<int> counts(loops.begin() + 1, loops.end());
   PointKeys points;
@@ -55,7 +56,8 @@ void expectCutsCover(const std::vector<std::vector<float>>& keys, const std::vec
     for (const int count : counts) {
       double loop = 0;
       for (int i = 0; i < count; ++i) {
-        const vec3 &a = points[k][begin + static_cast<size_t>(i)], &b = points[k][begin + static_cast<size_t>((i + 1) % count)];
+        const vec3 &a = points[k][begin + static_cast<size_t>(i)],
+                   &b = points[k][begin + static_cast<size_t>((i + 1) % count)];
         loop += 0.5 * (double(a.x) * double(b.y) - double(a.y) * double(b.x));
       }
       expected += begin ? -std::abs(loop) : std::abs(loop);
@@ -114,8 +116,10 @@ TEST(Polygon, AllKeysOfAMotionAreCutAlike) {
 
 TEST(Polygon, AKeyWhoseFaceHasCollapsedKeepsIt) {
   Problems problems;
-  const std::vector<float> whole = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, half = {0, 0, 0, 0.5f, 0.5f, 0, 1, 1, 0, 0, 1, 0};
-  for (const PointKeys& keys : {PointKeys{pointsOf(whole), pointsOf(half)}, PointKeys{pointsOf(half), pointsOf(whole)}}) {
+  const std::vector<float> whole = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0},
+                           half = {0, 0, 0, 0.5f, 0.5f, 0, 1, 1, 0, 0, 1, 0};
+  for (const PointKeys& keys :
+       {PointKeys{pointsOf(whole), pointsOf(half)}, PointKeys{pointsOf(half), pointsOf(whole)}}) {
     const PrimPtr key = makePolygons({3, 3}, {0, 1, 2, 0, 2, 3}, {positions(half)}, problems, keys);
     EXPECT_EQ(key->patchCount(), 2u);
     EXPECT_EQ(sampleAt(*key, 0, 0.5f, 0.5f).n, vec3(0, 0, 1));
@@ -144,7 +148,8 @@ TEST(Polygon, AHoleThatMovesPastItsBridgeLeavesNoOverlap) {
 
 // Darts whose reflex corner changes places have no cut in common.
 TEST(Polygon, OneThatCannotBeCutAlikeIsToldOf) {
-  const std::vector<float> before = {1.2f, 1.2f, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0}, after = {0, 0, 0, 0.9f, 1.1f, 0, 2, 2, 0, 0, 2, 0};
+  const std::vector<float> before = {1.2f, 1.2f, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0},
+                           after = {0, 0, 0, 0.9f, 1.1f, 0, 2, 2, 0, 0, 2, 0};
   Problems problems;
   makePolygons({4}, {0, 1, 2, 3}, {positions(after)}, problems, {pointsOf(before), pointsOf(after)});
   ASSERT_EQ(problems.size(), 1u);
@@ -178,8 +183,7 @@ TEST(Polygon, AreaIsExactForEveryShape) {
 
 TEST(Polygon, AreaOfARegular100GonIsExact) {
   std::vector<vec2> outline;
-  for (int i = 0; i < 100; ++i)
-    outline.push_back({std::cos(2 * M_PI * i / 100), std::sin(2 * M_PI * i / 100)});
+  for (int i = 0; i < 100; ++i) outline.push_back({std::cos(2 * M_PI * i / 100), std::sin(2 * M_PI * i / 100)});
   expectArea(outline, 50 * std::sin(2 * M_PI / 100));
 }
 
@@ -215,8 +219,8 @@ TEST(Polygon, AWarpedQuadIsNotPlanarAndHasItsOwnNormals) {
 
 TEST(Polygon, EdgesBetweenFacesAndInsideThemAreClosed) {
   Problems problems;  // a quad and a triangle that share edge 1-2
-  const PrimPtr prim = makePolygons({4, 3}, {0, 1, 2, 3, 1, 4, 2},
-                                    {positions({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0})}, problems);
+  const PrimPtr prim =
+      makePolygons({4, 3}, {0, 1, 2, 3, 1, 4, 2}, {positions({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0})}, problems);
   ASSERT_EQ(prim->patchCount(), 2u);
   EXPECT_EQ(prim->info(0).openEdges, kAllEdges & ~kEdgeU1);
   // From 1-4 to corner 2; 2-1 is shared, and the edge at the corner has no length that could gape.
@@ -228,8 +232,7 @@ TEST(Polygon, FacesThatShareAnEdgeAgreeOnItsPoints) {
   const std::vector<float> p = {0.1f, 0.2f, 0.3f, 1.7f, 0.1f, 0.9f,  1.3f, 1.1f, 0.2f, 0, 1,  0,
                                 2.9f, 0.3f, 0.7f, 2.1f, 1.4f, -0.3f, 0,    -1,   0.4f, 2, -1, 0.1f};
   const PrimPtr prim = makePolygons({4, 4}, {0, 1, 2, 3, 1, 4, 5, 2}, {positions(p)}, problems);
-  for (int k = 0; k <= 16; ++k)
-    EXPECT_EQ(sampleAt(*prim, 0, 1, k / 16.0f).p, sampleAt(*prim, 1, 0, k / 16.0f).p);
+  for (int k = 0; k <= 16; ++k) EXPECT_EQ(sampleAt(*prim, 0, 1, k / 16.0f).p, sampleAt(*prim, 1, 0, k / 16.0f).p);
   // The opposite sense: two faces that both walk 0-1 first.
   const PrimPtr mirrored = makePolygons({4, 4}, {0, 1, 2, 3, 1, 0, 6, 7}, {positions(p)}, problems);
   for (int k = 0; k <= 16; ++k)
@@ -237,7 +240,8 @@ TEST(Polygon, FacesThatShareAnEdgeAgreeOnItsPoints) {
 }
 
 TEST(Polygon, ATriangleIsOnePatchFromItsShortestSideToTheCornerAcross) {
-  for (const std::vector<float>& p : {std::vector<float>{0, 0, 0, 1, 0, 0, 0, 3, 0}, {0, 3, 0, 0, 0, 0, 1, 0, 0}, {1, 0, 0, 0, 3, 0, 0, 0, 0}}) {
+  for (const std::vector<float>& p :
+       {std::vector<float>{0, 0, 0, 1, 0, 0, 0, 3, 0}, {0, 3, 0, 0, 0, 0, 1, 0, 0}, {1, 0, 0, 0, 3, 0, 0, 0, 0}}) {
     const PrimPtr prim = polygon(p);
     ASSERT_EQ(prim->patchCount(), 1u);
     EXPECT_EQ(sampleAt(*prim, 0, 0, 0).p, vec3(0));
@@ -248,11 +252,11 @@ TEST(Polygon, ATriangleIsOnePatchFromItsShortestSideToTheCornerAcross) {
 
 TEST(Polygon, VaryingIsLinearOverATriangle) {
   Problems problems;
-  const PrimPtr prim = makePolygons(
-      {3}, {0, 1, 2},
-      {positions({0, 0, 0, 1, 0, 0, 0, 1, 0}), floats("k", Storage::Varying, ValueType::Float, {0, 3, 6}),
-       floats("f", Storage::FaceVarying, ValueType::Float, {3, 6, 9})},
-      problems);
+  const PrimPtr prim =
+      makePolygons({3}, {0, 1, 2},
+                   {positions({0, 0, 0, 1, 0, 0, 0, 1, 0}), floats("k", Storage::Varying, ValueType::Float, {0, 3, 6}),
+                    floats("f", Storage::FaceVarying, ValueType::Float, {3, 6, 9})},
+                   problems);
   for (const float u : {0.0f, 0.3f, 1.0f})
     for (const float v : {0.0f, 0.6f, 1.0f}) {
       const vec3 p = sampleAt(*prim, 0, u, v).p;
@@ -275,12 +279,11 @@ TEST(Polygon, VaryingIsTheMeanAtTheCentreOfOthers) {
 
 TEST(Polygon, UniformAndFaceVaryingBelongToTheirFaceWhenOthersAreDropped) {
   Problems problems;  // face 0 has no area
-  const PrimPtr prim =
-      makePolygons({3, 4}, {0, 1, 1, 0, 1, 2, 3},
-                   {positions({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}),
-                    floats("k", Storage::Uniform, ValueType::Float, {7, 8}),
-                    floats("f", Storage::FaceVarying, ValueType::Float, {0, 0, 0, 1, 2, 3, 4})},
-                   problems);
+  const PrimPtr prim = makePolygons(
+      {3, 4}, {0, 1, 1, 0, 1, 2, 3},
+      {positions({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}), floats("k", Storage::Uniform, ValueType::Float, {7, 8}),
+       floats("f", Storage::FaceVarying, ValueType::Float, {0, 0, 0, 1, 2, 3, 4})},
+      problems);
   ASSERT_EQ(problems.size(), 1u);
   ASSERT_EQ(prim->patchCount(), 1u);
   EXPECT_EQ(primvarAt(*prim, 0, 0, 0.5f, 0.5f)[0], 8);
@@ -299,16 +302,12 @@ TEST(Polygon, WrongInputThrowsASentence) {
   EXPECT_NE(errorOf([&] { makePolygons({4}, {0, 1, 2}, {positions({0, 0, 0})}, problems); }), "");
   EXPECT_NE(errorOf([&] { makePolygons({}, {}, {}, problems); }), "");
   EXPECT_NE(errorOf([&] { makePolygons({3}, {0, 1, 2}, {}, problems); }), "");
-  EXPECT_NE(errorOf([&] {
-              makePolygons({3}, {0, 1, 2}, {positions({0, 0, 0, 1, 0, 0, 0, NAN, 0})}, problems);
-            }),
-            "");
+  EXPECT_NE(errorOf([&] { makePolygons({3}, {0, 1, 2}, {positions({0, 0, 0, 1, 0, 0, 0, NAN, 0})}, problems); }), "");
 }
 
 TEST(Polygon, DegenerateFacesAreDroppedWithASentence) {
-  for (const std::vector<float>& p : {std::vector<float>{0, 0, 0, 1, 1, 1},
-                                      {0, 0, 0, 1, 1, 1, 2, 2, 2},
-                                      {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}}) {
+  for (const std::vector<float>& p :
+       {std::vector<float>{0, 0, 0, 1, 1, 1}, {0, 0, 0, 1, 1, 1, 2, 2, 2}, {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}}) {
     Problems problems;
     EXPECT_EQ(polygon(p, &problems)->patchCount(), 0u);
     EXPECT_EQ(problems.size(), 1u);

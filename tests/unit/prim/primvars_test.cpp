@@ -6,8 +6,8 @@ using namespace test;
 
 TEST(Primvars, StArrivesSplit) {
   Problems problems;
-  const auto vars = takePrimvars(
-      {floats("st", Storage::Varying, ValueType::Float, {0, 1, 2, 3, 4, 5, 6, 7}, 2)}, {}, problems);
+  const auto vars =
+      takePrimvars({floats("st", Storage::Varying, ValueType::Float, {0, 1, 2, 3, 4, 5, 6, 7}, 2)}, {}, problems);
   ASSERT_EQ(vars.size(), 2u);
   EXPECT_EQ(vars[0].name, "s");
   EXPECT_EQ(vars[0].values, (std::vector<float>{0, 2, 4, 6}));
@@ -18,8 +18,7 @@ TEST(Primvars, StArrivesSplit) {
 TEST(Primvars, PositionsAreNotAmongThem) {
   Problems problems;
   EXPECT_TRUE(
-      takePrimvars({positions({0, 0, 0}), floats("Pz", Storage::Vertex, ValueType::Float, {1})}, {}, problems)
-          .empty());
+      takePrimvars({positions({0, 0, 0}), floats("Pz", Storage::Vertex, ValueType::Float, {1})}, {}, problems).empty());
   EXPECT_TRUE(problems.empty());
 }
 
@@ -56,10 +55,9 @@ TEST(Primvars, AStringOfTheWholePrimitiveIsLeftToItsShaders) {
 
 TEST(Primvars, MatricesAndArraysKeepTheirWidth) {
   Problems problems;
-  const auto vars =
-      takePrimvars({floats("m", Storage::Constant, ValueType::Matrix, std::vector<float>(16, 1)),
-                    floats("w", Storage::Uniform, ValueType::Color, std::vector<float>(6, 1), 2)},
-                   {}, problems);
+  const auto vars = takePrimvars({floats("m", Storage::Constant, ValueType::Matrix, std::vector<float>(16, 1)),
+                                  floats("w", Storage::Uniform, ValueType::Color, std::vector<float>(6, 1), 2)},
+                                 {}, problems);
   ASSERT_EQ(vars.size(), 2u);
   EXPECT_EQ(vars[0].width, 16);
   EXPECT_EQ(vars[1].width, 6);

@@ -39,16 +39,10 @@ TEST(Quadric, AreaOfADicedSphereTendsTo4PiRSquared) { expectAreaAtSecondOrder(*s
 TEST(Quadric, AreaOfADicedSphericalZoneTendsToArchimedes) {
   expectAreaAtSecondOrder(*makeSphere(2, -1, 1.5f, 90, {}, none), 2 * M_PI * 2 * 2.5 / 4);
 }
-TEST(Quadric, AreaOfADicedConeTendsToItsClosedForm) {
-  expectAreaAtSecondOrder(*cone(), M_PI * 2 * std::sqrt(13.0));
-}
-TEST(Quadric, AreaOfADicedCylinderTendsToItsClosedForm) {
-  expectAreaAtSecondOrder(*cylinder(), 2 * M_PI * 2 * 4);
-}
+TEST(Quadric, AreaOfADicedConeTendsToItsClosedForm) { expectAreaAtSecondOrder(*cone(), M_PI * 2 * std::sqrt(13.0)); }
+TEST(Quadric, AreaOfADicedCylinderTendsToItsClosedForm) { expectAreaAtSecondOrder(*cylinder(), 2 * M_PI * 2 * 4); }
 TEST(Quadric, AreaOfADicedDiskTendsToItsClosedForm) { expectAreaAtSecondOrder(*disk(), 4 * M_PI); }
-TEST(Quadric, AreaOfADicedTorusTendsToItsClosedForm) {
-  expectAreaAtSecondOrder(*torus(), 4 * M_PI * M_PI * 3);
-}
+TEST(Quadric, AreaOfADicedTorusTendsToItsClosedForm) { expectAreaAtSecondOrder(*torus(), 4 * M_PI * M_PI * 3); }
 TEST(Quadric, AreaOfADicedParaboloidTendsToItsClosedForm) {
   const double r = 2, h = 3;
   const double area = M_PI * r / (6 * h * h) * (std::pow(r * r + 4 * h * h, 1.5) - r * r * r);
@@ -144,8 +138,7 @@ TEST(Quadric, OnlyEdgesThatEndTheSurfaceAreOpen) {
 
 TEST(Quadric, ManyPointsGiveTheBitsOfOne) {
   std::vector<float> u, v;
-  for (uint32_t i = 0; i < 301; ++i)
-    u.push_back(unitFloat(hash32(i))), v.push_back(unitFloat(hash32(i + 1000)));
+  for (uint32_t i = 0; i < 301; ++i) u.push_back(unitFloat(hash32(i))), v.push_back(unitFloat(hash32(i + 1000)));
   for (const PrimPtr& prim : manyQuadrics()) {
     const std::vector<Sample> together = samplesAt(*prim, 0, u, v);
     for (size_t i = 0; i < u.size(); i += 7) EXPECT_EQ(together[i].p, sampleAt(*prim, 0, u[i], v[i]).p);

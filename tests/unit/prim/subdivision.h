@@ -5,10 +5,10 @@
 namespace tomales::test {
 
 inline const std::vector<float> kCube = {-1, -1, -1, 1, -1, -1, 1, 1, -1, -1, 1, -1,
-                                  -1, -1, 1,  1, -1, 1,  1, 1, 1,  -1, 1, 1};
+                                         -1, -1, 1,  1, -1, 1,  1, 1, 1,  -1, 1, 1};
 inline const std::vector<int> kCubeCounts = {4, 4, 4, 4, 4, 4};
 inline const std::vector<int> kCubeFaces = {0, 3, 2, 1, 4, 5, 6, 7, 0, 1, 5, 4,
-                                     1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7};  // outward
+                                            1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7};  // outward
 
 /// What makeSubdivisionMesh() is given.
 struct Mesh {
@@ -19,11 +19,9 @@ struct Mesh {
   Problems problems = {};
 
   PrimPtr make() { return makeSubdivisionMesh(scheme, counts, vertices, tags, params, problems); }
-  Mesh& tag(const std::string& name, const std::vector<int>& ints = {},
-            const std::vector<float>& values = {}) {
+  Mesh& tag(const std::string& name, const std::vector<int>& ints = {}, const std::vector<float>& values = {}) {
     tags.names.push_back(name);
-    tags.argCounts.insert(tags.argCounts.end(),
-                          {static_cast<int>(ints.size()), static_cast<int>(values.size()), 0});
+    tags.argCounts.insert(tags.argCounts.end(), {static_cast<int>(ints.size()), static_cast<int>(values.size()), 0});
     tags.ints.insert(tags.ints.end(), ints.begin(), ints.end());
     tags.floats.insert(tags.floats.end(), values.begin(), values.end());
     return *this;

@@ -173,14 +173,15 @@ TEST(SubdivisionLimit, OfFacesInACrowdIsFars) {
 }
 
 TEST(SubdivisionLimit, OfAPoleOfManyFacesIsHalsteads) {
-  // (n^2 V + 4 sum E + sum F) / (n (n + 5)) of the mesh subdivided once (Halstead et al. 1993); here the mesh is flat but
-  // for the pole, at height 1, so that only the weights of V, of edge points and of face points count.
+  // (n^2 V + 4 sum E + sum F) / (n (n + 5)) of the mesh subdivided once (Halstead et al. 1993); here the mesh is flat
+  // but for the pole, at height 1, so that only the weights of V, of edge points and of face points count.
   for (const int n : {8, 60, 300}) {
     Cage cage;
     cage.points = {0, 0, 1};
     for (int k = 0; k < n; ++k) {
       const double angle = 2 * M_PI * k / n;
-      cage.points.insert(cage.points.end(), {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0});
+      cage.points.insert(cage.points.end(),
+                         {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0});
       cage.counts.push_back(3);
       cage.vertices.insert(cage.vertices.end(), {0, 1 + k, 1 + (k + 1) % n});
     }
@@ -215,10 +216,10 @@ void expectLoopIsFars(const Cage& cage) {
 TEST(SubdivisionLimit, LoopsIsFars) {
   // An octahedron with a pyramid on one face: valences 3 to 5; its boundary is a triangle left out.
   expectLoopIsFars({{3, 3, 3, 3, 3, 3, 3, 3, 3},
-                     {0, 1, 2, 0, 2, 3, 0, 3, 4, 5, 2, 1, 5, 3, 2, 5, 4, 3, 5, 1, 6, 1, 4, 6, 4, 5, 6},
-                     {0, 0, 1, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0, 0, 0, -1, 1, -1, -1},
-                     {1, 2, 2, 3},
-                     {10, 1.5f}});
+                    {0, 1, 2, 0, 2, 3, 0, 3, 4, 5, 2, 1, 5, 3, 2, 5, 4, 3, 5, 1, 6, 1, 4, 6, 4, 5, 6},
+                    {0, 0, 1, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0, 0, 0, -1, 1, -1, -1},
+                    {1, 2, 2, 3},
+                    {10, 1.5f}});
 }
 
 TEST(SubdivisionLimit, LoopsInACrowdIsFars) {

@@ -31,10 +31,7 @@ Mesh sheet(int n) {
   return mesh;
 }
 Mesh tetrahedron() {
-  return {{3, 3, 3, 3},
-          {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3},
-          {positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1})},
-          {}};
+  return {{3, 3, 3, 3}, {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3}, {positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1})}, {}};
 }
 
 TEST(SubdivisionMesh, LimitOfACubesCornerIsCatmullClarks) {
@@ -71,8 +68,7 @@ TEST(SubdivisionMesh, InfinitelySharpCreasesMakeItTheCube) {
 TEST(SubdivisionMesh, SemiSharpCreasesLieBetweenSmoothAndSharp) {
   Mesh mesh = cube();
   const PrimPtr semi = mesh.tag("crease", {4, 5, 6, 7, 4}, {2, 2, 2, 2}).make();
-  const float smooth = sampleAt(*cube().make(), 1, 0.5f, 0).p.z,
-              sharp = sampleAt(*sharpCube().make(), 1, 0.5f, 0).p.z;
+  const float smooth = sampleAt(*cube().make(), 1, 0.5f, 0).p.z, sharp = sampleAt(*sharpCube().make(), 1, 0.5f, 0).p.z;
   const float between = sampleAt(*semi, 1, 0.5f, 0).p.z;
   EXPECT_GT(between, smooth + 0.01f);
   EXPECT_LT(between, sharp - 0.001f);
@@ -110,8 +106,8 @@ TEST(SubdivisionMesh, BoundaryFacesNeedInterpolateBoundary) {
 TEST(SubdivisionMesh, ARegularPatchIsTheUniformBSpline) {
   Problems problems;
   Mesh mesh = sheet(3);
-  const PrimPtr limit = mesh.make(), spline = makeBicubicPatchMesh(4, false, bsplineBasis(), 4, false,
-                                                                   bsplineBasis(), mesh.params, problems);
+  const PrimPtr limit = mesh.make(), spline = makeBicubicPatchMesh(4, false, bsplineBasis(), 4, false, bsplineBasis(),
+                                                                   mesh.params, problems);
   ASSERT_EQ(limit->patchCount(), 1u);
   for (float u : {0.0f, 0.3f, 1.0f})
     for (float v : {0.0f, 0.6f, 1.0f}) {
@@ -147,12 +143,8 @@ TEST(SubdivisionMesh, PatchesMeetAtTheirEdges) {
 }
 
 TEST(SubdivisionMesh, RegularFacesMeetTheirIrregularNeighboursSmoothly) {
-  Mesh mesh = sheet(
-      8);  // a crease inside, holes in the outline: regular, boundary and crease faces next to each other
-  mesh.tag("interpolateboundary", {1})
-      .tag("crease", {28, 29, 30, 31}, {10})
-      .tag("corner", {48}, {3})
-      .tag("hole", {57});
+  Mesh mesh = sheet(8);  // a crease inside, holes in the outline: regular, boundary and crease faces next to each other
+  mesh.tag("interpolateboundary", {1}).tag("crease", {28, 29, 30, 31}, {10}).tag("corner", {48}, {3}).tag("hole", {57});
   const PrimPtr prim = mesh.make();
   EXPECT_TRUE(mesh.problems.empty());
   ASSERT_EQ(prim->patchCount(), 63u);
@@ -175,8 +167,7 @@ TEST(SubdivisionMesh, ThreadsThatShareItGetTheSameBits) {
         sampleAt(*prim, static_cast<uint32_t>(begin % 36), 0.05f * static_cast<float>(begin / 36), 0.3f).p;
   });
   for (size_t i = 0; i < together.size(); ++i)
-    EXPECT_EQ(together[i],
-              sampleAt(*twin, static_cast<uint32_t>(i % 36), 0.05f * static_cast<float>(i / 36), 0.3f).p);
+    EXPECT_EQ(together[i], sampleAt(*twin, static_cast<uint32_t>(i % 36), 0.05f * static_cast<float>(i / 36), 0.3f).p);
 }
 
 TEST(SubdivisionMesh, DerivativesAgreeWithFiniteDifferences) {
@@ -186,9 +177,8 @@ TEST(SubdivisionMesh, DerivativesAgreeWithFiniteDifferences) {
 }
 
 TEST(SubdivisionMesh, BoundsContainTheSurface) {
-  for (Mesh mesh :
-       {cube(), tetrahedron(), sharpCube(), sheet(4).tag("interpolateboundary", {1}),
-        cube().tag("crease", {4, 5, 6, 7, 4}, {3.3f}), tetrahedron().tag("corner", {0, 1}, {1.5f, 4})})
+  for (Mesh mesh : {cube(), tetrahedron(), sharpCube(), sheet(4).tag("interpolateboundary", {1}),
+                    cube().tag("crease", {4, 5, 6, 7, 4}, {3.3f}), tetrahedron().tag("corner", {0, 1}, {1.5f, 4})})
     expectBoundsContainTheSurface(*mesh.make());
 }
 

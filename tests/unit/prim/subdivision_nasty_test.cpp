@@ -28,9 +28,9 @@ TEST(NastyMesh, WrongTopologyThrowsASentence) {
 
 TEST(NastyMesh, TagsThatMakeNoSenseAreDroppedWithASentence) {
   for (const Mesh& bad :
-       {cube().tag("crease", {0, 6}, {2}), cube().tag("crease", {0, 1, 2}, {1, 2, 3}),
-        cube().tag("crease", {0}, {1}), cube().tag("corner", {99}, {1}), cube().tag("corner", {0}),
-        cube().tag("hole", {-1}), cube().tag("nonsense", {1}), cube().tag("interpolateboundary", {9})}) {
+       {cube().tag("crease", {0, 6}, {2}), cube().tag("crease", {0, 1, 2}, {1, 2, 3}), cube().tag("crease", {0}, {1}),
+        cube().tag("corner", {99}, {1}), cube().tag("corner", {0}), cube().tag("hole", {-1}),
+        cube().tag("nonsense", {1}), cube().tag("interpolateboundary", {9})}) {
     Mesh mesh = bad;
     EXPECT_EQ(mesh.make()->patchCount(), 6u);
     EXPECT_EQ(mesh.problems.size(), 1u);
@@ -64,8 +64,8 @@ TEST(NastyMesh, CollapsedAndOddFacesSurvive) {
   Mesh fan;  // a vertex of valence 64
   std::vector<float> p = {0, 0, 1};
   for (int i = 0; i < 64; ++i) {
-    p.insert(p.end(), {std::cos(2 * kPi * static_cast<float>(i) / 64),
-                       std::sin(2 * kPi * static_cast<float>(i) / 64), 0});
+    p.insert(p.end(),
+             {std::cos(2 * kPi * static_cast<float>(i) / 64), std::sin(2 * kPi * static_cast<float>(i) / 64), 0});
     fan.counts.push_back(3);
     fan.vertices.insert(fan.vertices.end(), {0, 1 + i, 1 + (i + 1) % 64});
   }

@@ -6,8 +6,8 @@ namespace tomales {
 namespace {
 using namespace test;
 
-/// Catmull-Clark with semi-sharp creases, step by step (T. DeRose, M. Kass, T. Truong 1998, sections 3 and 4), for sharpness in
-/// whole numbers: sharp rules while it lasts, one less at each step. Vertices keep their numbers.
+/// Catmull-Clark with semi-sharp creases, step by step (T. DeRose, M. Kass, T. Truong 1998, sections 3 and 4), for
+/// sharpness in whole numbers: sharp rules while it lasts, one less at each step. Vertices keep their numbers.
 struct Stepped {
   using Edge = std::pair<int, int>;
   std::vector<glm::dvec3> p;
@@ -70,7 +70,8 @@ struct Stepped {
       const int center = static_cast<int>(next.size());
       next.push_back(centers[f]);
       for (size_t k = 0; k < faces[f].size(); ++k) {
-        const int v = faces[f][k], after = faces[f][(k + 1) % faces[f].size()], before = faces[f][(k + faces[f].size() - 1) % faces[f].size()];
+        const int v = faces[f][k], after = faces[f][(k + 1) % faces[f].size()],
+                  before = faces[f][(k + faces[f].size() - 1) % faces[f].size()];
         quads.push_back({v, middle[edge(v, after)], center, middle[edge(before, v)]});
       }
     }
@@ -98,10 +99,14 @@ TEST(SubdivisionLimit, OfSemiSharpCreasesIsThatOfTheirRules) {
                {1, 2, 2, 3, 3, 4, 4, 1, 0, 1, 1, 5, 5, 3, 3, 0},
                {4, 4, 4, 4, 2, 2, 2, 2}};
   Stepped steps;
-  for (size_t k = 0; k < 6; ++k) steps.p.emplace_back(cage.points[3 * k], cage.points[3 * k + 1], cage.points[3 * k + 2]);
-  for (size_t f = 0; f < 8; ++f) steps.faces.emplace_back(cage.vertices.begin() + static_cast<ptrdiff_t>(3 * f), cage.vertices.begin() + static_cast<ptrdiff_t>(3 * f + 3));
+  for (size_t k = 0; k < 6; ++k)
+    steps.p.emplace_back(cage.points[3 * k], cage.points[3 * k + 1], cage.points[3 * k + 2]);
+  for (size_t f = 0; f < 8; ++f)
+    steps.faces.emplace_back(cage.vertices.begin() + static_cast<ptrdiff_t>(3 * f),
+                             cage.vertices.begin() + static_cast<ptrdiff_t>(3 * f + 3));
   for (size_t k = 0; k < 8; ++k)
-    steps.sharpness[Stepped::edge(cage.creaseEdges[2 * k], cage.creaseEdges[2 * k + 1])] = static_cast<int>(cage.sharpness[k]);
+    steps.sharpness[Stepped::edge(cage.creaseEdges[2 * k], cage.creaseEdges[2 * k + 1])] =
+        static_cast<int>(cage.sharpness[k]);
   for (int k = 0; k < 4; ++k) steps.step();
   const PrimPtr prim = meshOf(cage, "catmull-clark");
   for (uint32_t patch = 0; patch < 24; ++patch) {  // a corner of a face each

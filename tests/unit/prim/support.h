@@ -17,8 +17,8 @@ inline std::vector<Sample> samplesAt(const Prim& prim, uint32_t patch, const std
   std::vector<float> f[12];
   for (auto& array : f) array.assign(n, NAN);
   prim.evaluate(patch, static_cast<int>(n), u.data(), v.data(),
-                {f[0].data(), f[1].data(), f[2].data(), f[3].data(), f[4].data(), f[5].data(), f[6].data(),
-                 f[7].data(), f[8].data(), f[9].data(), f[10].data(), f[11].data()});
+                {f[0].data(), f[1].data(), f[2].data(), f[3].data(), f[4].data(), f[5].data(), f[6].data(), f[7].data(),
+                 f[8].data(), f[9].data(), f[10].data(), f[11].data()});
   std::vector<Sample> out(n);
   for (size_t i = 0; i < n; ++i)
     out[i] = {{f[0][i], f[1][i], f[2][i]},
@@ -120,8 +120,7 @@ inline void expectSoundEverywhere(const Prim& prim) {
   }
 }
 
-inline Param floats(std::string name, Storage storage, ValueType type, std::vector<float> values,
-                    int arrayLength = 1) {
+inline Param floats(std::string name, Storage storage, ValueType type, std::vector<float> values, int arrayLength = 1) {
   Param p;
   p.name = std::move(name), p.storage = storage, p.type = type, p.arrayLength = arrayLength,
   p.floats = std::move(values);

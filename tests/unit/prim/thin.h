@@ -17,8 +17,7 @@ inline std::vector<float> wiggle(int n) {
 }
 
 inline Param width(Storage storage, std::vector<float> values) {
-  return floats(storage == Storage::Constant ? "constantwidth" : "width", storage, ValueType::Float,
-                std::move(values));
+  return floats(storage == Storage::Constant ? "constantwidth" : "width", storage, ValueType::Float, std::move(values));
 }
 
 inline PrimPtr seen(const PrimPtr& prim) { return prim->facing(kEye, {0, 0, 1}, true); }

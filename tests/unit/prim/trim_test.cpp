@@ -51,7 +51,8 @@ TEST(TrimCurves, CutAlongTheCircleThatTheyAreInTheKnotsOfTheSurface) {
 }
 
 TEST(TrimCurves, WhatTheySayOfARectangleHoldsForAllItsPoints) {
-  const PrimPtr prim = plane({{{circle({12, 0}, 1.8f)}, {circle({12, 0}, 1.2f)}, {circle({13.9f, 1.9f}, 0.3f)}}, false});
+  const PrimPtr prim =
+      plane({{{circle({12, 0}, 1.8f)}, {circle({12, 0}, 1.2f)}, {circle({13.9f, 1.9f}, 0.3f)}}, false});
   int counts[3] = {};
   for (uint32_t k = 0; k < 5000; ++k) {
     const float size = k % 2 ? 0.02f : 0.2f, u = unitFloat(hashCombine(k, 1u)), v = unitFloat(hashCombine(k, 2u));
@@ -59,14 +60,16 @@ TEST(TrimCurves, WhatTheySayOfARectangleHoldsForAllItsPoints) {
     const Kept kept = prim->kept(k % 2, r);
     ++counts[static_cast<int>(kept)];
     for (uint32_t i = 0; i < 16 && kept != Kept::Part; ++i)
-      EXPECT_EQ(prim->keeps(k % 2, lerp(r.u0, r.u1, unitFloat(hashCombine(k, i, 3u))), lerp(r.v0, r.v1, unitFloat(hashCombine(k, i, 4u)))),
+      EXPECT_EQ(prim->keeps(k % 2, lerp(r.u0, r.u1, unitFloat(hashCombine(k, i, 3u))),
+                            lerp(r.v0, r.v1, unitFloat(hashCombine(k, i, 4u)))),
                 kept == Kept::All);
   }
   for (int count : counts) EXPECT_GT(count, 300);
 }
 
 TEST(TrimCurves, LoopsMayBeMadeOfManyCurvesAndReachBeyondTheSurface) {
-  const TrimCurve first = polyline({{9, -1}, {20, -1}, {20, 1}}), second = polyline({{20, 1}, {9, 1}}), third = polyline({{9, 1}, {9, -1}});
+  const TrimCurve first = polyline({{9, -1}, {20, -1}, {20, 1}}), second = polyline({{20, 1}, {9, 1}}),
+                  third = polyline({{9, 1}, {9, -1}});
   const PrimPtr prim = plane({{{first, second, third}}, false});
   for (float u : {0.0f, 0.3f, 1.0f}) {
     EXPECT_TRUE(prim->keeps(1, u, 0.2f));

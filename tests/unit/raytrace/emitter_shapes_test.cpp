@@ -84,12 +84,14 @@ TEST_P(EveryShape, ARayToASampleMeetsItWithTheSameDensity) {
     }
 }
 
-/// The light of a Lambertian emitter of radiance 1 through a patch at the eye that faces it, by solid angle and by area.
+/// The light of a Lambertian emitter of radiance 1 through a patch at the eye that faces it, by solid angle and by
+/// area.
 TEST_P(EveryShape, SendsAsMuchLightAsItsArea) {
   const EmitterShape s = tilted(GetParam());
   constexpr uint32_t kSamples = 1 << 14;
   for (const float distance : {1.5f, 4.0f, 300.0f}) {
-    const vec3 eye = s.center + distance * glm::normalize(s.normal + vec3(0.6f, 0.2f, 0.1f)), facing = glm::normalize(s.center - eye);
+    const vec3 eye = s.center + distance * glm::normalize(s.normal + vec3(0.6f, 0.2f, 0.1f)),
+               facing = glm::normalize(s.center - eye);
     double bySolidAngle = 0, byArea = 0;
     for (uint32_t i = 0; i < kSamples; ++i) {
       const auto add = [&](const SeenPoint& p, double density, double& sum) {
@@ -109,7 +111,8 @@ TEST_P(EveryShape, SamplesStandForEqualSolidAngles) {
   for (const float distance : {1.5f, 4.0f}) {
     const vec3 eye = s.center + distance * glm::normalize(s.normal + vec3(0.6f, 0.2f, 0.1f));
     const float first = sampleSolidAngle(s, eye, {0.5f, 0.5f}).density;
-    for (uint32_t i = 0; i < 64; ++i) EXPECT_NEAR(sampleSolidAngle(s, eye, sobol2(i, 5)).density / first, 1, s.kind == Kind::Disk ? 0.01f : 1e-4f);
+    for (uint32_t i = 0; i < 64; ++i)
+      EXPECT_NEAR(sampleSolidAngle(s, eye, sobol2(i, 5)).density / first, 1, s.kind == Kind::Disk ? 0.01f : 1e-4f);
   }
 }
 

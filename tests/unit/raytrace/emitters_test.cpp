@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "reyes/base/rng.h"
 #include "raytrace/emitters.h"
+#include "reyes/base/rng.h"
 #include "world.h"
 
 namespace tomales::test {
@@ -24,8 +24,8 @@ Samples sample(const World& world, int light, int count) {
     xi0[i] = xi.x, xi1[i] = xi.y;
   }
   EXPECT_TRUE(world.rays->emitters().sample(light, count, xi0.data(), xi1.data(),
-                                        {data[0].data(), data[1].data(), data[2].data()},
-                                        {data[3].data(), data[4].data(), data[5].data()}, out.area.data()));
+                                            {data[0].data(), data[1].data(), data[2].data()},
+                                            {data[3].data(), data[4].data(), data[5].data()}, out.area.data()));
   for (size_t i = 0; i < n; ++i) {
     out.P.emplace_back(data[0][i], data[1][i], data[2][i]);
     out.N.emplace_back(data[3][i], data[4][i], data[5][i]);
@@ -61,9 +61,8 @@ TEST(Emitters, ObjectsOfOneLightShareItsSamplesByArea) {
   world.build();
   const Samples s = sample(world, 0, 4000);
   EXPECT_NEAR(s.meanArea, 4, 1e-4);
-  EXPECT_NEAR(
-      static_cast<double>(std::count_if(s.P.begin(), s.P.end(), [](const vec3& p) { return p.x < 1; })), 1000,
-      5);
+  EXPECT_NEAR(static_cast<double>(std::count_if(s.P.begin(), s.P.end(), [](const vec3& p) { return p.x < 1; })), 1000,
+              5);
 }
 
 TEST(Emitters, ASphereLightIsSampledOnTheSphereItself) {
@@ -90,12 +89,15 @@ TEST(Emitters, ASphereLightIsSampledOnTheSphereItself) {
 World& trapezia(World& world, int pieces) {
   world.attributes.areaLight = world.addAreaLight();
   for (int i = 0; i < pieces; ++i) {
-    const float a = 2 * kPi * static_cast<float>(i) / static_cast<float>(pieces), b = a + 3 * kPi / static_cast<float>(pieces);
+    const float a = 2 * kPi * static_cast<float>(i) / static_cast<float>(pieces),
+                b = a + 3 * kPi / static_cast<float>(pieces);
     const vec3 p(std::cos(a), std::sin(a), 0), q(std::cos(b), std::sin(b), 0), up(0, 0, 1);
     Problems problems;
     std::vector<float> values;
-    for (const vec3& c : {q, p, 0.9f * p + 0.3f * (q - p) + up, 0.9f * p + up}) values.insert(values.end(), {c.x, c.y, c.z});
-    world.add(makeBilinearPatchMesh(2, false, 2, false, {floatsParam("P", ValueType::Point, Storage::Vertex, values)}, problems));
+    for (const vec3& c : {q, p, 0.9f * p + 0.3f * (q - p) + up, 0.9f * p + up})
+      values.insert(values.end(), {c.x, c.y, c.z});
+    world.add(makeBilinearPatchMesh(2, false, 2, false, {floatsParam("P", ValueType::Point, Storage::Vertex, values)},
+                                    problems));
   }
   world.build();
   return world;
@@ -180,8 +182,8 @@ TEST(Emitters, ALightWithoutGeometryHasNoSamples) {
   world.build();
   float x = 0.5f, out[7];
   for (const int light : {none, 1, -1, 2})
-    EXPECT_FALSE(world.rays->emitters().sample(light, 1, &x, &x, {out, out + 1, out + 2},
-                                           {out + 3, out + 4, out + 5}, out + 6));
+    EXPECT_FALSE(
+        world.rays->emitters().sample(light, 1, &x, &x, {out, out + 1, out + 2}, {out + 3, out + 4, out + 5}, out + 6));
 }
 
 }  // namespace

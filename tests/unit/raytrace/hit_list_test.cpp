@@ -56,15 +56,12 @@ TEST(HitList, ASecondSheetCloserThanTheOffsetIsTheAnswer) {
   EXPECT_EQ(answer({at(0.0f, false, 1), at(0.1f, false, 2)}), (Answer{0.0f, 0.1f}));
 }
 
-TEST(HitList, AtACreaseTheRayLeavesBothWalls) {
-  EXPECT_EQ(answer({at(1e-6f, true, 1), at(-1e-6f, true, 2)}).next, 99);
-}
+TEST(HitList, AtACreaseTheRayLeavesBothWalls) { EXPECT_EQ(answer({at(1e-6f, true, 1), at(-1e-6f, true, 2)}).next, 99); }
 
 TEST(HitList, AtACreaseTheRayMayLeaveOneWallIntoTheOther) {
   const RayStart start{kOffset, 1e-6f, -1};
   for (const float noise : {-5e-7f, 0.0f, 5e-7f})
-    EXPECT_EQ(answer({at(noise, false, 1), at(0, true, 2), at(3, true, 3)}, start), (Answer{0, noise}))
-        << noise;
+    EXPECT_EQ(answer({at(noise, false, 1), at(0, true, 2), at(3, true, 3)}, start), (Answer{0, noise})) << noise;
 }
 
 TEST(HitList, AtACreaseTheRayLeavesItsOwnGroup) {
@@ -77,9 +74,7 @@ TEST(HitList, HitsBeyondTheOffsetNeverBecomeTheOrigin) {
   EXPECT_EQ(answer({at(1.02f, false), at(-1.02f, true)}), (Answer{99, 1.02f}));
 }
 
-TEST(HitList, WithoutAnOriginHitsBeforeTheRayDoNotCount) {
-  EXPECT_EQ(answer({at(-1.03f, false)}), (Answer{99, 99}));
-}
+TEST(HitList, WithoutAnOriginHitsBeforeTheRayDoNotCount) { EXPECT_EQ(answer({at(-1.03f, false)}), (Answer{99, 99})); }
 
 TEST(HitList, OfTwoHitsEquallyFarTheEarlierIsTheOrigin) {
   EXPECT_EQ(answer({at(0.5f, false), at(-0.5f, true)}), (Answer{-0.5f, 0.5f}));
@@ -103,7 +98,8 @@ TEST(HitList, IsCrowdedWhereASecondSurfaceLiesWithinTheOffset) {
   EXPECT_FALSE(isCrowded({hit(0.2f, true)}, 0, start));
   EXPECT_FALSE(isCrowded({hit(0.2f, true), hit(0.21f, true)}, 0, start)) << "an edge of two polygons";
   EXPECT_TRUE(isCrowded({hit(-0.5f, false), hit(0.2f, true)}, 1, start)) << "the other side of a thin wall";
-  EXPECT_FALSE(isCrowded({hit(0.2f, true), hit(1.01f, false)}, 0, start)) << "recorded for the sake of pairs, but beyond";
+  EXPECT_FALSE(isCrowded({hit(0.2f, true), hit(1.01f, false)}, 0, start))
+      << "recorded for the sake of pairs, but beyond";
   EXPECT_FALSE(isCrowded({hit(0.2f, true)}, -1, start));
 }
 

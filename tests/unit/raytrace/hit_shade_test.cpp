@@ -13,15 +13,13 @@ struct Sheets : World {
       attributes.color = colors[i];
       if (i == 2) attributes.areaLight = addAreaLight();
       if (i == 3)
-        attributes.areaLight = -1, attributes.indirect.bleeding = 0,
-        attributes.indirect.bleedingColor = {1, 0.5f, 2};
+        attributes.areaLight = -1, attributes.indirect.bleeding = 0, attributes.indirect.bleedingColor = {1, 0.5f, 2};
       add(parallelogram({static_cast<float>(i), -1, 3}, {0, 2, 0}, {1, 0, 0}));  // normal towards -z
     }
     build();
     for (uint32_t i = 0; i < 15; ++i) {
       const int sheet = static_cast<int>(i) % 5;
-      rays_.push_back(
-          {vec3(static_cast<float>(sheet) + 0.4f, 0.02f * static_cast<float>(i), 0), vec3(0, 0, 1)});
+      rays_.push_back({vec3(static_cast<float>(sheet) + 0.4f, 0.02f * static_cast<float>(i), 0), vec3(0, 0, 1)});
       hits.push_back(rays->closest(rays_.back(), kMaskDiffuse));
       names.push_back({i, 0});
     }

@@ -18,8 +18,9 @@ struct LevelledWorld : World {
     attributes.trace.displacements = displaced;
     attributes.displacementBound = 0.1f;
     if (displaced)
-      attributes.displacement = shader("noisybump", {floatsParam("Km", ValueType::Float, Storage::Uniform, {0.05f}),
-                                                     floatsParam("frequency", ValueType::Float, Storage::Uniform, {3})});
+      attributes.displacement =
+          shader("noisybump", {floatsParam("Km", ValueType::Float, Storage::Uniform, {0.05f}),
+                               floatsParam("frequency", ValueType::Float, Storage::Uniform, {3})});
     add(sphere(), translation({0, 0, 4}));
     RaySettings settings;
     settings.geometryCacheBytes = cacheBytes;
@@ -48,7 +49,8 @@ TEST(Levels, WideRaysMeetCoarsePolygonsAndNarrowOnesFine) {
     for (uint32_t i = 0; i < 5000; ++i) {
       Ray ray{{0, 0, 4}, anyDirection(i)};
       ray.level = level;
-      off[static_cast<size_t>(level)] = std::max(off[static_cast<size_t>(level)], std::abs(1.0 - double{world.rays->closest(ray, kMaskDiffuse).t}));
+      off[static_cast<size_t>(level)] =
+          std::max(off[static_cast<size_t>(level)], std::abs(1.0 - double{world.rays->closest(ray, kMaskDiffuse).t}));
     }
   EXPECT_LT(4 * off[0], off[1]);
   EXPECT_LT(2 * off[1], off[2]);
@@ -81,8 +83,9 @@ TEST(Levels, PatchParametersLeadBackToTheHit) {
     ASSERT_EQ(hit.object, 0);
     const float u = hit.u, v = hit.v;
     float P[3] = {0, 0, 0}, rest[9];
-    world.scene.objects[0].shape().evaluate(hit.patch, 1, &u, &v,
-                                            {P, P + 1, P + 2, rest, rest + 1, rest + 2, rest + 3, rest + 4, rest + 5, rest + 6, rest + 7, rest + 8});
+    world.scene.objects[0].shape().evaluate(
+        hit.patch, 1, &u, &v,
+        {P, P + 1, P + 2, rest, rest + 1, rest + 2, rest + 3, rest + 4, rest + 5, rest + 6, rest + 7, rest + 8});
     EXPECT_LT(glm::length(vec3(P[0], P[1], P[2]) - ray.direction * hit.t), 5e-3f);
     EXPECT_GT(dot(hit.normal, glm::normalize(vec3(P[0], P[1], P[2]))), 0.9999f);
   }
@@ -120,16 +123,19 @@ TEST(GeometryCache, ASmallOneGivesTheSameHitsForAnyNumberOfThreads) {
   EXPECT_GT(large.stats.geometryCache.bytes, 700000);
 }
 
-/// A wavy field over -1..1 in x and y of n x n patches, of which the first may reach farther than what is twice as large can say.
+/// A wavy field over -1..1 in x and y of n x n patches, of which the first may reach farther than what is twice as
+/// large can say.
 PrimPtr field(int n, bool far) {
   std::vector<float> P;
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i) {
-      const float x = 2 * static_cast<float>(i) / static_cast<float>(n) - 1, y = 2 * static_cast<float>(j) / static_cast<float>(n) - 1;
+      const float x = 2 * static_cast<float>(i) / static_cast<float>(n) - 1,
+                  y = 2 * static_cast<float>(j) / static_cast<float>(n) - 1;
       P.insert(P.end(), {far && i == 0 && j == 0 ? -3e38f : x, y, 0.1f * std::sin(9 * x) * std::cos(7 * y)});
     }
   Problems problems;
-  return makeBilinearPatchMesh(n + 1, false, n + 1, false, {floatsParam("P", ValueType::Point, Storage::Vertex, P)}, problems);
+  return makeBilinearPatchMesh(n + 1, false, n + 1, false, {floatsParam("P", ValueType::Point, Storage::Vertex, P)},
+                               problems);
 }
 
 std::vector<Hit> fieldHits(int threads) {
@@ -181,7 +187,8 @@ TEST(Levels, WhatAsksForTooManyMicropolygonsIsToldTheWayOut) {
   world.attributes.shadingRate = 1e-3f;
   Problems problems;
   const std::vector<float> twisted{-1, -1, 2, 1, -1, 2, -1, 1, 2, 1, 1, 3};
-  world.add(makeBilinearPatchMesh(2, false, 2, false, {floatsParam("P", ValueType::Point, Storage::Vertex, twisted)}, problems));
+  world.add(makeBilinearPatchMesh(2, false, 2, false, {floatsParam("P", ValueType::Point, Storage::Vertex, twisted)},
+                                  problems));
   world.build();
   const auto entries = world.log.entries();
   EXPECT_TRUE(std::any_of(entries.begin(), entries.end(), [](const LogEntry& e) {
@@ -224,9 +231,12 @@ TEST(ResidentCache, KeepsWhatWasUsedLast) {
 
 TEST(ResidentCache, MakesRoomForMoreThanOne) {
   ResidentCache<Block> cache(32, 160);
-  for (size_t i = 0; i < 17; ++i) cache.get(i, [&] { return std::make_shared<const Block>(Block{static_cast<int>(i)}); });
+  for (size_t i = 0; i < 17; ++i)
+    cache.get(i, [&] { return std::make_shared<const Block>(Block{static_cast<int>(i)}); });
   int made = 0;
-  const auto holds = [&](size_t i) { return cache.get(i, [&] { return ++made, std::make_shared<const Block>(Block{static_cast<int>(i)}); }), made == 0; };
+  const auto holds = [&](size_t i) {
+    return cache.get(i, [&] { return ++made, std::make_shared<const Block>(Block{static_cast<int>(i)}); }), made == 0;
+  };
   EXPECT_TRUE(holds(16));
   EXPECT_TRUE(holds(3)) << "the fourth oldest";
   EXPECT_FALSE(holds(2));

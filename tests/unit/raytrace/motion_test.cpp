@@ -39,8 +39,8 @@ TEST(RayMotion, ASquareIsMetWhereItIsAtTheTimeOfTheRay) {
   MovingWorld world;
   world.add(unitSquare());
   // Keys before, inside and after the shutter, not equally spaced; constant after the last.
-  world.scene.objects[0].worldFromObject = {
-      {-1, 0.25f, 0.75f}, {translation({-2, 0, 4}), translation({0, 0, 4}), translation({2, 0, 4})}};
+  world.scene.objects[0].worldFromObject = {{-1, 0.25f, 0.75f},
+                                            {translation({-2, 0, 4}), translation({0, 0, 4}), translation({2, 0, 4})}};
   world.build();
   for (const float time : {0.0f, 0.1f, 0.25f, 0.3f, 0.5f, 0.75f, 0.9f}) {
     const float x = time < 0.25f ? -2 + (time + 1) * 1.6f : time < 0.75f ? (time - 0.25f) * 4 : 2;

@@ -43,9 +43,8 @@ Counts leaveOutwards(const World& world, float leastCosine) {
 struct BumpySphere : World {
   BumpySphere(bool hitList, bool displacedRays) {
     attributes.trace.displacements = displacedRays;
-    attributes.displacement =
-        shader("noisybump", {floatsParam("Km", ValueType::Float, Storage::Uniform, {0.05f}),
-                             floatsParam("frequency", ValueType::Float, Storage::Uniform, {3})});
+    attributes.displacement = shader("noisybump", {floatsParam("Km", ValueType::Float, Storage::Uniform, {0.05f}),
+                                                   floatsParam("frequency", ValueType::Float, Storage::Uniform, {3})});
     attributes.displacementBound = 0.05f;
     add(sphere(), translation({0, 0, 5}));
     build({hitList});

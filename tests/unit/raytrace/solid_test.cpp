@@ -22,7 +22,8 @@ struct Balls : World {
 };
 
 TEST(SolidsForRays, MatchMembershipOfPointsAlongRandomRays) {
-  for (const SolidOperation operation : {SolidOperation::Union, SolidOperation::Intersection, SolidOperation::Difference}) {
+  for (const SolidOperation operation :
+       {SolidOperation::Union, SolidOperation::Intersection, SolidOperation::Difference}) {
     const vec3 center(0.6f, 0.2f, -0.3f);
     Balls w(operation, center, 0.8f);
     w.attributes.trace.tessellation = 4;
@@ -30,11 +31,14 @@ TEST(SolidsForRays, MatchMembershipOfPointsAlongRandomRays) {
     int compared = 0;
     for (uint32_t k = 0; k < 400; ++k) {
       const auto random = [&](uint32_t d) { return 2 * unitFloat(hashCombine(k, d)) - 1; };
-      Ray ray{vec3(random(0), random(1), random(2)) * 3.0f, normalizeOr({random(3), random(4), random(5)}, vec3(1, 0, 0))};
+      Ray ray{vec3(random(0), random(1), random(2)) * 3.0f,
+              normalizeOr({random(3), random(4), random(5)}, vec3(1, 0, 0))};
       const auto inside = [&](float t) {
         const vec3 p = ray.origin + t * ray.direction;
         const bool a = glm::length(p) < 1, b = glm::length(p - center) < 0.8f;
-        return operation == SolidOperation::Union ? a || b : operation == SolidOperation::Intersection ? a && b : a && !b;
+        return operation == SolidOperation::Union          ? a || b
+               : operation == SolidOperation::Intersection ? a && b
+                                                           : a && !b;
       };
       float expected = kInfinity;
       for (float t = 0; t < 8 && expected == kInfinity; t += 0.002f)

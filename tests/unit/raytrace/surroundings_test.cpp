@@ -14,7 +14,8 @@ struct Differences {
   float farthest = 0;  ///< Between the places of hits that agree.
 };
 
-/// Rays from P with and without what is known to lie around it, in all directions that go along each axis by more than `least`.
+/// Rays from P with and without what is known to lie around it, in all directions that go along each axis by more than
+/// `least`.
 void compare(const World& world, int object, const vec3& P, Differences& out, const vec3& least = vec3(-1)) {
   Ray ray = world.rayFrom(object, P, {0, 0, 1});
   const float offset = ray.offset;
@@ -44,9 +45,9 @@ TEST(Surroundings, RaysMeetWhatTheyMeetWithoutThem) {
   for (uint32_t i = 0; i < 300; ++i) {
     const vec2 off = sobol2(i, 3);
     compare(world, ball, vec3(0.2f, -0.1f, 3.2f) + (0.495f + 0.01f * off.x) * anyDirection(i), d);
-    compare(world, 0, {2 * off.x - 1, 2 * off.y - 1, 2}, d, {-1, -1, 0.02f});                          // on a wall,
-    compare(world, 0, {-1, 2 * off.y - 1, 2 + 1e-5f * off.x}, d, {0.02f, -1, 0.02f});                  // where two meet,
-    compare(world, 0, vec3(-1, -1, 2) + 1e-5f * vec3(off.x, off.y, 1), d, {0.02f, 0.02f, 0.02f});      // and where three do
+    compare(world, 0, {2 * off.x - 1, 2 * off.y - 1, 2}, d, {-1, -1, 0.02f});                      // on a wall,
+    compare(world, 0, {-1, 2 * off.y - 1, 2 + 1e-5f * off.x}, d, {0.02f, -1, 0.02f});              // where two meet,
+    compare(world, 0, vec3(-1, -1, 2) + 1e-5f * vec3(off.x, off.y, 1), d, {0.02f, 0.02f, 0.02f});  // and where three do
   }
   EXPECT_GT(d.rays, 40000);
   EXPECT_GT(d.adjusted, d.rays / 2);
@@ -66,7 +67,8 @@ TEST(Surroundings, NoRaySlipsBetweenPolygons) {
     const vec3 eye(0.1f * sobol2(i, 1), 0.13f);
     around.reset(eye, 10);
     for (int k = 0; k < kSpokes; ++k)
-      around.add(0, static_cast<uint32_t>(k), false, {vec3(0), rim(k, 1), 0.5f * (rim(k, 1.5f) + rim(k + 1, 1.5f)), rim(k + 1, 1)});
+      around.add(0, static_cast<uint32_t>(k), false,
+                 {vec3(0), rim(k, 1), 0.5f * (rim(k, 1.5f) + rim(k + 1, 1.5f)), rim(k + 1, 1)});
     for (int k = 0; k < 1000; ++k) {
       // At spokes, the center among them, where rounding puts rays on either side.
       const vec3 at = rim(k, static_cast<float>(k / kSpokes) / 126);
@@ -111,14 +113,17 @@ TEST(Surroundings, GiveUpWhereTheyWouldCostMore) {
   EXPECT_TRUE(around.know({}, 1));
   EXPECT_FALSE(around.know({}, 1.1f));
   EXPECT_FALSE(around.know({0.1f, 0, 0}, 1));
-  for (uint32_t i = 0; i <= Surroundings::kMost; ++i) around.add(0, i, false, {vec3(-1, -1, 0), vec3(1, -1, 0), vec3(1, 1, 0), vec3(-1, 1, 0)});
+  for (uint32_t i = 0; i <= Surroundings::kMost; ++i)
+    around.add(0, i, false, {vec3(-1, -1, 0), vec3(1, -1, 0), vec3(1, 1, 0), vec3(-1, 1, 0)});
   EXPECT_TRUE(around.gaveUp());
 }
 
 TEST(Surroundings, HoldPolygonsOfInstances) {
   const mat4 places[] = {translation({0, 0, 5}),
-                         mat4(vec4(0.8f, 0.3f, 0, 0), vec4(-0.2f, 0.7f, 0.1f, 0), vec4(0, 0.2f, 1.1f, 0), vec4(0.1f, 0, 5.02f, 1)),   // skewed,
-                         mat4(vec4(-1.2f, 0, 0, 0), vec4(0, 0.9f, 0.2f, 0), vec4(0, 0, 1.3f, 0), vec4(-0.1f, 0.1f, 4.97f, 1))};  // mirrored
+                         mat4(vec4(0.8f, 0.3f, 0, 0), vec4(-0.2f, 0.7f, 0.1f, 0), vec4(0, 0.2f, 1.1f, 0),
+                              vec4(0.1f, 0, 5.02f, 1)),  // skewed,
+                         mat4(vec4(-1.2f, 0, 0, 0), vec4(0, 0.9f, 0.2f, 0), vec4(0, 0, 1.3f, 0),
+                              vec4(-0.1f, 0.1f, 4.97f, 1))};  // mirrored
   World world;
   const PrimPtr shared = waves();
   for (const mat4& place : places) world.add(shared, place);

@@ -16,8 +16,7 @@ std::vector<CoarseGroup> coarse(World& world) {
 float longestEdge(const CoarseGroup& g) {
   float longest = 0;
   for (uint32_t q = 0; q < g.quads.size(); ++q)
-    for (int k = 0; k < 4; ++k)
-      longest = std::max(longest, glm::length(g.corner(q, k) - g.corner(q, (k + 1) % 4)));
+    for (int k = 0; k < 4; ++k) longest = std::max(longest, glm::length(g.corner(q, k) - g.corner(q, (k + 1) % 4)));
   return longest;
 }
 
@@ -39,8 +38,7 @@ TEST(Tessellate, PolygonsInViewAreAboutSixteenPixelsLong) {
       world.attributes.trace.tessellation = tessellation;
       world.add(sphere(), translation({0, 0, 3}));
       const auto groups = coarse(world);
-      const float pixel = world.camera->pixelSize({0, 0, 2}),
-                  expected = 16 * std::sqrt(shadingRate) / tessellation;
+      const float pixel = world.camera->pixelSize({0, 0, 2}), expected = 16 * std::sqrt(shadingRate) / tessellation;
       EXPECT_LT(longestEdge(groups[0]),
                 expected * pixel * 1.8f);  // the rate is that of the average distance along a line
       EXPECT_GT(longestEdge(groups[0]), expected * pixel * 0.6f);
@@ -53,8 +51,7 @@ TEST(Tessellate, OutOfViewTheTurnOfTheNormalDecides) {
   const CoarseGroup group = coarse(world)[0];
   EXPECT_NEAR(static_cast<double>(group.quads.size()), 24 * 12, 15);
   for (const Quad& q : group.quads)
-    for (size_t k = 0; k < 4; ++k)
-      EXPECT_GT(dot(group.N[q[k]], group.N[q[(k + 1) % 4]]), std::cos(16 * kPi / 180));
+    for (size_t k = 0; k < 4; ++k) EXPECT_GT(dot(group.N[q[k]], group.N[q[(k + 1) % 4]]), std::cos(16 * kPi / 180));
 }
 
 TEST(Tessellate, TheDeviationIsTheSagittaOfTheChords) {
@@ -102,8 +99,7 @@ TEST(Tessellate, DisplacedPolygonsReachTheRateOfMicropolygons) {
   World world;
   world.attributes.trace.displacements = true;
   world.attributes.trace.tessellation = 16;
-  world.attributes.displacement =
-      shader("noisybump", {floatsParam("Km", ValueType::Float, Storage::Uniform, {0.1f})});
+  world.attributes.displacement = shader("noisybump", {floatsParam("Km", ValueType::Float, Storage::Uniform, {0.1f})});
   world.attributes.displacementBound = 0.1f;
   world.add(parallelogram({-1, -1, 3}, {0, 2, 0}, {2, 0, 0}));
   const auto groups = coarse(world);
@@ -134,8 +130,7 @@ TEST(Tessellate, AnAbsurdRateIsLimitedAndReported) {
   world.add(sphere(), translation({0, 0, -2}));
   world.scene.freeze();
   world.camera = std::make_unique<Camera>(world.scene.options);
-  world.shading =
-      std::make_unique<ShadingSystem>(world.scene, world.registry, nullptr, world.log, world.stats);
+  world.shading = std::make_unique<ShadingSystem>(world.scene, world.registry, nullptr, world.log, world.stats);
   const auto groups = tessellate(world.scene, *world.camera, *world.shading, world.log);
   EXPECT_LE(groups[0].quads.size(), size_t{1} << 22);
   EXPECT_EQ(world.log.count("trace-tessellation"), 1);

@@ -32,8 +32,7 @@ TEST(Transmission, AnOpaqueSheetStopsTheRayUnlessItIsTheOneThatTheRayLeaves) {
   world.build();
   EXPECT_EQ(world.transmission({vec3(0), vec3(0, 0, 1)}), vec3(0));
   EXPECT_EQ(world.transmission(world.rayFrom(0, {0.5f, 0, 1.99f}, {0, 0, 1})), vec3(1));
-  EXPECT_EQ(world.transmission(world.rayFrom(0, {-0.8f, 0, 1.99f}, {0, 0, 1})), vec3(0))
-      << "a second sheet near by";
+  EXPECT_EQ(world.transmission(world.rayFrom(0, {-0.8f, 0, 1.99f}, {0, 0, 1})), vec3(0)) << "a second sheet near by";
 }
 
 TEST(Transmission, TheSurfaceOfALightDoesNotShadowItself) {

@@ -1,8 +1,8 @@
 // Rays and light samples pass through what trim curves cut away.
 #include <gtest/gtest.h>
 
-#include "reyes/base/rng.h"
 #include "raytrace/emitters.h"
+#include "reyes/base/rng.h"
 #include "world.h"
 
 namespace tomales::test {
@@ -16,7 +16,8 @@ PrimPtr sheet(bool keepsInside) {
   const NurbsDirection line{2, 2, {-1, -1, 1, 1}, -1, 1};
   Problems problems;
   return makeNuPatch(line, line, {{{hole}}, keepsInside},
-                     {floatsParam("P", ValueType::Point, Storage::Vertex, {-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0})}, problems);
+                     {floatsParam("P", ValueType::Point, Storage::Vertex, {-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0})},
+                     problems);
 }
 bool inHole(const vec2& p) { return std::abs(p.x - 0.1f) < 0.5f && std::abs(p.y) < 0.5f; }
 bool nearEdge(const vec2& p) {
@@ -53,8 +54,9 @@ TEST(TrimmedForRays, ALampShinesWithItsTrimmedArea) {
   std::vector<float> xi0, xi1, data[6], area(kCount);
   for (auto& d : data) d.resize(kCount);
   for (uint32_t i = 0; i < kCount; ++i) xi0.push_back(sobol2(i, 11).x), xi1.push_back(sobol2(i, 11).y);
-  ASSERT_TRUE(world.rays->emitters().sample(0, kCount, xi0.data(), xi1.data(), {data[0].data(), data[1].data(), data[2].data()},
-                                        {data[3].data(), data[4].data(), data[5].data()}, area.data()));
+  ASSERT_TRUE(world.rays->emitters().sample(0, kCount, xi0.data(), xi1.data(),
+                                            {data[0].data(), data[1].data(), data[2].data()},
+                                            {data[3].data(), data[4].data(), data[5].data()}, area.data()));
   double mean = 0;
   for (size_t i = 0; i < kCount; ++i) {
     mean += double{area[i]} / kCount;

@@ -29,8 +29,8 @@ inline PrimPtr parallelogram(const vec3& o, const vec3& u, const vec3& v) {
   std::vector<float> values;
   for (const vec3& q : p) values.insert(values.end(), {q.x, q.y, q.z});
   Problems problems;
-  return makeBilinearPatchMesh(2, false, 2, false,
-                               {floatsParam("P", ValueType::Point, Storage::Vertex, values)}, problems);
+  return makeBilinearPatchMesh(2, false, 2, false, {floatsParam("P", ValueType::Point, Storage::Vertex, values)},
+                               problems);
 }
 
 /// A wavy sheet over -1..1 in x and y, of as many patches as instances share.
@@ -42,7 +42,8 @@ inline PrimPtr waves() {
       values.insert(values.end(), {x, y, 0.2f * std::sin(4 * x) * std::cos(3 * y)});
     }
   Problems problems;
-  return makeBilinearPatchMesh(9, false, 9, false, {floatsParam("P", ValueType::Point, Storage::Vertex, values)}, problems);
+  return makeBilinearPatchMesh(9, false, 9, false, {floatsParam("P", ValueType::Point, Storage::Vertex, values)},
+                               problems);
 }
 
 inline std::shared_ptr<const ShaderCall> shader(const std::string& name, ParamList params = {}) {

@@ -28,24 +28,22 @@ struct Trusting {
 };
 
 TEST(InlineArchive, IsReadWhereItIsCalledAndNotWhereItStands) {
-  const Reading r(inWorld("ArchiveBegin \"a\" Translate 1 0 0 " + kSphere +
-                          "ArchiveEnd\nReadArchive \"a\" ReadArchive \"a\""));
+  const Reading r(
+      inWorld("ArchiveBegin \"a\" Translate 1 0 0 " + kSphere + "ArchiveEnd\nReadArchive \"a\" ReadArchive \"a\""));
   ASSERT_EQ(r.scene().objects.size(), 2u);
   EXPECT_EQ(r.object(1).worldFromObject.at(0)[3].x, 2);
   EXPECT_TRUE(r.log.entries().empty()) << r.codes();
 }
 
 TEST(InlineArchive, MayHoldArchivesAndBeRedefined) {
-  const Reading r(
-      inWorld("ArchiveBegin \"a\" ArchiveBegin \"b\" " + kSphere +
-              "ArchiveEnd ReadArchive \"b\" ArchiveEnd "
-              "ReadArchive \"a\" ReadArchive \"b\" ArchiveBegin \"a\" ArchiveEnd ReadArchive \"a\""));
+  const Reading r(inWorld("ArchiveBegin \"a\" ArchiveBegin \"b\" " + kSphere +
+                          "ArchiveEnd ReadArchive \"b\" ArchiveEnd "
+                          "ReadArchive \"a\" ReadArchive \"b\" ArchiveBegin \"a\" ArchiveEnd ReadArchive \"a\""));
   EXPECT_EQ(r.scene().objects.size(), 2u);
 }
 
 TEST(InlineArchive, NeitherReadsItselfNorDoublesWithoutEnd) {
-  const Reading self(
-      inWorld("ArchiveBegin \"a\" " + kSphere + "ReadArchive \"a\" ArchiveEnd ReadArchive \"a\""));
+  const Reading self(inWorld("ArchiveBegin \"a\" " + kSphere + "ReadArchive \"a\" ArchiveEnd ReadArchive \"a\""));
   EXPECT_EQ(self.scene().objects.size(), 1u);
   EXPECT_EQ(self.log.count("rib-archive-recursion"), 1);
   std::string text = "ArchiveBegin \"0\" ArchiveEnd\n";
@@ -89,10 +87,11 @@ TEST(Procedural, BoundsThatAreNoBoxAndUnknownKindsAreReported) {
 }
 
 TEST(Procedural, SeesTheStreamAsItWasWhereItStands) {
-  const Reading r(inWorld("ArchiveBegin \"a\" Sphere 2 -2 2 360 ArchiveEnd Declare \"k\" \"constant float\"\n"
-                          "Procedural \"DelayedReadArchive\" [\"a\"] [-1 1 -1 1 -1 1]\n"
-                          "ArchiveBegin \"a\" Cone 1 1 360 Cone 1 1 360 ArchiveEnd\n"
-                          "Procedural \"DelayedReadArchive\" [\"a\"] [-1 1 -1 1 -1 1]\n"));
+  const Reading r(
+      inWorld("ArchiveBegin \"a\" Sphere 2 -2 2 360 ArchiveEnd Declare \"k\" \"constant float\"\n"
+              "Procedural \"DelayedReadArchive\" [\"a\"] [-1 1 -1 1 -1 1]\n"
+              "ArchiveBegin \"a\" Cone 1 1 360 Cone 1 1 360 ArchiveEnd\n"
+              "Procedural \"DelayedReadArchive\" [\"a\"] [-1 1 -1 1 -1 1]\n"));
   ASSERT_EQ(r.scene().objects.size(), 3u);
   EXPECT_NEAR(r.object(0).shape().bound(0, {}).hi.z, 2, 1e-5);
 }
@@ -142,8 +141,8 @@ TEST(RunProgram, IsStartedOnceForManyCalls) {
 
 TEST(RunProgram, IsNotRunUnlessAllowed) {
   const std::string file = testing::TempDir() + "tomales_must_not_exist";
-  const Reading r(inWorld("Procedural \"RunProgram\" [\"touch " + file +
-                          "\" \"\"] [0 1 0 1 0 1]\nSystem \"touch " + file + "\"\n" + kSphere));
+  const Reading r(inWorld("Procedural \"RunProgram\" [\"touch " + file + "\" \"\"] [0 1 0 1 0 1]\nSystem \"touch " +
+                          file + "\"\n" + kSphere));
   EXPECT_FALSE(std::filesystem::exists(file));
   EXPECT_EQ(r.log.count("rib-system"), 2);
   EXPECT_EQ(r.log.worst(), Severity::Missing);
@@ -162,8 +161,8 @@ TEST(RunProgram, GetsDetailAndDataAndEndsWithItsMark) {
 
 TEST(RunProgram, ThatHangsDiesOrIsAbsentIsReported) {
   for (const char* command : {"sleep 100", "exit 3", "kill -9 $$", "no_such_program_of_tomales", "true"}) {
-    const Trusting r(inWorld("\nProcedural \"RunProgram\" [\"" + std::string(command) +
-                             "\" \"\"] [0 1 0 1 0 1]\n" + kSphere));
+    const Trusting r(
+        inWorld("\nProcedural \"RunProgram\" [\"" + std::string(command) + "\" \"\"] [0 1 0 1 0 1]\n" + kSphere));
     EXPECT_EQ(r.objects(), 1u) << command;
     EXPECT_EQ(r.log.count("rib-program"), 1) << command;
     EXPECT_EQ(r.log.entries().at(0).where.line, 3);

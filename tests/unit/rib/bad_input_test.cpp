@@ -48,8 +48,7 @@ TEST(BadInput, ObjectsThatCannotBeDrawnAreDroppedByName) {
                        "Patch \"cubic\" \"P\" [0 0 0]",
                        "PointsGeneralPolygons [2000000000] [3] [0 1 2] \"P\" [0 0 0 1 0 0 0 1 0]"};
   for (const char* text : bad) {
-    const Reading r(
-        inWorld(kSphere + "Attribute \"identifier\" \"name\" \"culprit\"\n" + text + "\n" + kSphere));
+    const Reading r(inWorld(kSphere + "Attribute \"identifier\" \"name\" \"culprit\"\n" + text + "\n" + kSphere));
     EXPECT_EQ(r.scene().objects.size(), 2u) << text;
     const LogEntry e = r.message("rib-object-dropped");
     EXPECT_NE(e.message.find("culprit"), std::string::npos) << text << ": " << r.codes();
@@ -59,9 +58,8 @@ TEST(BadInput, ObjectsThatCannotBeDrawnAreDroppedByName) {
 }
 
 TEST(BadInput, QuadricsWithoutAreaLeaveNothingOut) {
-  for (const char* text :
-       {"Sphere 0 -1 1 360", "Sphere 1 -1 1 0", "Disk 0 0 360", "Cone 1 0 360", "Cylinder 1 2 2 360",
-        "Torus 1 0 0 360 360", "Paraboloid 1 2 2 360", "Hyperboloid 1 2 3 1 2 3 360"}) {
+  for (const char* text : {"Sphere 0 -1 1 360", "Sphere 1 -1 1 0", "Disk 0 0 360", "Cone 1 0 360", "Cylinder 1 2 2 360",
+                           "Torus 1 0 0 360 360", "Paraboloid 1 2 2 360", "Hyperboloid 1 2 3 1 2 3 360"}) {
     const Reading r(inWorld(std::string(text) + "\n" + kSphere));
     EXPECT_EQ(r.scene().objects.size(), 1u) << text;
     const LogEntry e = r.message("rib-no-area");
@@ -72,8 +70,7 @@ TEST(BadInput, QuadricsWithoutAreaLeaveNothingOut) {
 }
 
 TEST(BadInput, PolygonsWithoutAreaOrVerticesLeaveNothing) {
-  for (const char* text :
-       {"Polygon \"P\" [0 0 0 1 0 0]", "Polygon \"P\" []", "PointsPolygons [] [] \"P\" []"}) {
+  for (const char* text : {"Polygon \"P\" [0 0 0 1 0 0]", "Polygon \"P\" []", "PointsPolygons [] [] \"P\" []"}) {
     const Reading r(inWorld(std::string(text) + "\n" + kSphere));
     EXPECT_EQ(r.scene().objects.size(), 1u) << text;
     EXPECT_EQ(r.log.entries().at(0).where.line, 2) << text;
@@ -82,8 +79,7 @@ TEST(BadInput, PolygonsWithoutAreaOrVerticesLeaveNothing) {
 
 TEST(BadInput, SingularAndInfiniteTransformationsDropTheirObjects) {
   for (const char* text : {"Scale 0 1 1", "Scale 1e30 1e30 1e30 Scale 1e30 1e30 1e30"}) {
-    const Reading r(
-        inWorld(std::string("AttributeBegin ") + text + " " + kSphere + "AttributeEnd " + kSphere));
+    const Reading r(inWorld(std::string("AttributeBegin ") + text + " " + kSphere + "AttributeEnd " + kSphere));
     EXPECT_EQ(r.scene().objects.size(), 1u) << text;
     EXPECT_EQ(r.log.count("rib-object-dropped"), 1) << text;
   }
@@ -94,7 +90,8 @@ TEST(BadInput, SingularAndInfiniteTransformationsDropTheirObjects) {
 
 TEST(BadInput, WhatIsCollapsedToAPointOrALineIsNotDrawnAndNothingIsMissing) {
   for (const char* text : {"Scale 0 0 0", "Scale 0 0 2"}) {
-    const Reading r(inWorld(std::string("AttributeBegin ") + text + " " + kSphere + kSphere + "AttributeEnd " + kSphere));
+    const Reading r(
+        inWorld(std::string("AttributeBegin ") + text + " " + kSphere + kSphere + "AttributeEnd " + kSphere));
     EXPECT_EQ(r.scene().objects.size(), 1u) << text;
     EXPECT_EQ(r.log.count("rib-collapsed"), 1) << text;
     EXPECT_EQ(r.log.worst(), Severity::Warning) << text;
@@ -119,8 +116,7 @@ TEST(BadInput, HugeAndSenselessOptionsAreClampedOrRefused) {
   EXPECT_EQ(r.message("rib-clamped").where.line, 2);
   EXPECT_EQ(o.xResolution, 640);
   EXPECT_TRUE(o.xSamples <= 256 && o.ySamples == 1 && o.cropWindow[1] == 1 && o.nearClip < o.farClip);
-  EXPECT_TRUE(o.shutterOpen <= o.shutterClose && o.xFilterWidth == 2 && o.fov_degrees == 90 &&
-              o.exposureGamma == 1);
+  EXPECT_TRUE(o.shutterOpen <= o.shutterClose && o.xFilterWidth == 2 && o.fov_degrees == 90 && o.exposureGamma == 1);
   EXPECT_TRUE(o.bucketWidth == 1 && o.bucketHeight <= 4096);
   EXPECT_EQ(r.log.count("rib-option"), 7) << r.codes();
   EXPECT_EQ(r.log.count("rib-not-finite"), 1);
@@ -150,8 +146,10 @@ TEST(BadInput, DeepNestingEndsWhereItBegan) {
 }
 
 TEST(BadInput, UnsupportedRequestsAreNamedOnce) {
-  const Reading r(inWorld(
-      "VPAtmosphere \"fog\"\nVPAtmosphere \"fog\"\nVolume \"box\" [0 1 0 1 0 1] [0 0 0]\nVolume \"box\" [0 1 0 1 0 1] [0 0 0]\n" + kSphere));
+  const Reading r(
+      inWorld("VPAtmosphere \"fog\"\nVPAtmosphere \"fog\"\nVolume \"box\" [0 1 0 1 0 1] [0 0 0]\nVolume \"box\" [0 1 0 "
+              "1 0 1] [0 0 0]\n" +
+              kSphere));
   EXPECT_EQ(r.log.count("rib-unsupported"), 2);
   EXPECT_EQ(r.log.worst(), Severity::Missing);
   EXPECT_EQ(r.scene().objects.size(), 1u);

@@ -116,8 +116,7 @@ TEST(BinaryRib, RandomBytesNeitherCrashNorHang) {
   std::mt19937 random(7);
   for (int i = 0; i < 300; ++i) {
     std::string text = "WorldBegin Sphere 1 -1 1 360 ";
-    for (int k = 0; k < 400; ++k)
-      text += static_cast<char>(random() % 3 ? 0200 + random() % 128 : random() % 128);
+    for (int k = 0; k < 400; ++k) text += static_cast<char>(random() % 3 ? 0200 + random() % 128 : random() % 128);
     const Reading r(text);
     EXPECT_TRUE(r.good);
   }
@@ -138,10 +137,8 @@ TEST(Number, ScansLikeStrtofAndStrtodToTheLastBit) {
   const auto check = [](const std::string& text) {
     rib::ScannedNumber n{};
     EXPECT_EQ(rib::scanNumber(text.data(), text.data() + text.size(), n), text.data() + text.size()) << text;
-    EXPECT_EQ(std::bit_cast<uint32_t>(n.narrow), std::bit_cast<uint32_t>(std::strtof(text.c_str(), nullptr)))
-        << text;
-    EXPECT_EQ(std::bit_cast<uint64_t>(n.wide), std::bit_cast<uint64_t>(std::strtod(text.c_str(), nullptr)))
-        << text;
+    EXPECT_EQ(std::bit_cast<uint32_t>(n.narrow), std::bit_cast<uint32_t>(std::strtof(text.c_str(), nullptr))) << text;
+    EXPECT_EQ(std::bit_cast<uint64_t>(n.wide), std::bit_cast<uint64_t>(std::strtod(text.c_str(), nullptr))) << text;
   };
   char text[64];
   for (int i = 0; i < 200000; ++i) {
@@ -151,8 +148,7 @@ TEST(Number, ScansLikeStrtofAndStrtodToTheLastBit) {
     std::snprintf(text, sizeof text, i % 2 ? "%.*g" : "%.*e", static_cast<int>(random() % 19 + 1),
                   static_cast<double>(f));
     check(text);
-    std::snprintf(text, sizeof text, "%.*f", static_cast<int>(random() % 12),
-                  static_cast<double>(bits) * 1e-6 - 2000);
+    std::snprintf(text, sizeof text, "%.*f", static_cast<int>(random() % 12), static_cast<double>(bits) * 1e-6 - 2000);
     check(text);
   }
   // Half-way between two floats, and a hair beside it.
@@ -181,7 +177,8 @@ TEST(Writer, RoundTripsEveryKindOfArgument) {
 
 // TOMALES_RIB_FOLDER: one more folder, of scenes that are not ours to keep.
 TEST(Writer, RoundTripsAllScenesAndTheUglyOnesToo) {
-  std::vector<std::string> folders{TOMALES_SOURCE_DIR "/scenes", TOMALES_SOURCE_DIR "/tests/corpus", TOMALES_SOURCE_DIR "/docs"};
+  std::vector<std::string> folders{TOMALES_SOURCE_DIR "/scenes", TOMALES_SOURCE_DIR "/tests/corpus",
+                                   TOMALES_SOURCE_DIR "/docs"};
   if (const char* more = std::getenv("TOMALES_RIB_FOLDER")) folders.emplace_back(more);
   int scenes = 0;
   for (const std::string& folder : folders)

@@ -14,7 +14,8 @@ struct BrickMapFile : ::testing::Test {
   const fs::path folder = fs::temp_directory_path() / ("tomales_rib_bricks_" + std::to_string(::getpid()));
   BrickMapFile() {
     fs::create_directories(folder);
-    const Brick brick({{0, kBrickVoxels - 1}, {{vec3(0, 0, 1), false}, {vec3(0), false}}, {1, 2, 3, 0.5f, 4, 5, 6, 0.25f}}, 4, 0);
+    const Brick brick(
+        {{0, kBrickVoxels - 1}, {{vec3(0, 0, 1), false}, {vec3(0), false}}, {1, 2, 3, 0.5f, 4, 5, 6, 0.25f}}, 4, 0);
     BrickFileWriter file((folder / "two.bkm").string());
     file.add(brick);
     file.finish({{"irradiance", 3}, {"area", 1}}, {{vec3(0), 1}, {BrickNode{}}, 0}, {});
@@ -23,7 +24,8 @@ struct BrickMapFile : ::testing::Test {
 };
 
 TEST_F(BrickMapFile, IsADiskForEachVoxelWithItsChannels) {
-  const Reading r("Option \"searchpath\" \"texture\" [\"" + folder.string() + "\"]" + inWorld("Geometry \"brickmap\" \"filename\" [\"two.bkm\"]"));
+  const Reading r("Option \"searchpath\" \"texture\" [\"" + folder.string() + "\"]" +
+                  inWorld("Geometry \"brickmap\" \"filename\" [\"two.bkm\"]"));
   EXPECT_EQ(r.codes(), "");
   const Prim& prim = r.object(0).shape();
   ASSERT_EQ(prim.patchCount(), 2u);
@@ -31,8 +33,11 @@ TEST_F(BrickMapFile, IsADiskForEachVoxelWithItsChannels) {
   EXPECT_LT(glm::length(first.center() - vec3(1 / 16.0f)), 1e-3f);
   float edge[12];
   const float one = 1, half = 0.5f;
-  prim.evaluate(0, 1, &one, &half, {edge, edge + 1, edge + 2, edge + 3, edge + 4, edge + 5, edge + 6, edge + 7, edge + 8, edge + 9, edge + 10, edge + 11});
-  EXPECT_NEAR(glm::distance(vec3(edge[0], edge[1], edge[2]), vec3(1 / 16.0f)), std::sqrt(3.0f) / 16, 1e-6f);  // a voxel's half diagonal
+  prim.evaluate(0, 1, &one, &half,
+                {edge, edge + 1, edge + 2, edge + 3, edge + 4, edge + 5, edge + 6, edge + 7, edge + 8, edge + 9,
+                 edge + 10, edge + 11});
+  EXPECT_NEAR(glm::distance(vec3(edge[0], edge[1], edge[2]), vec3(1 / 16.0f)), std::sqrt(3.0f) / 16,
+              1e-6f);  // a voxel's half diagonal
   for (const Primvar& var : prim.primvars()) {
     const bool color = var.name == "irradiance" || var.name == "Cs";
     EXPECT_TRUE(!color || var.values == (std::vector<float>{1, 2, 3, 4, 5, 6}));
@@ -41,14 +46,17 @@ TEST_F(BrickMapFile, IsADiskForEachVoxelWithItsChannels) {
 }
 
 TEST_F(BrickMapFile, ThatIsMissingOrNoneIsDroppedByName) {
-  const Reading r(inWorld("Geometry \"brickmap\" \"filename\" [\"/nowhere.bkm\"]\nGeometry \"brickmap\"\nGeometry \"cube\""));
+  const Reading r(
+      inWorld("Geometry \"brickmap\" \"filename\" [\"/nowhere.bkm\"]\nGeometry \"brickmap\"\nGeometry \"cube\""));
   EXPECT_EQ(r.log.count("rib-object-dropped"), 3);
   EXPECT_EQ(r.message("rib-object-dropped").where.line, 2);
 }
 
 TEST(PointsOfTypeBlobby, AreOneBlobbyAsWideAsThePointsAre) {
-  const Reading r(inWorld("Points \"P\" [0 0 0 0.7 0 0 9 0 0] \"constantwidth\" [1] \"uniform string type\" [\"blobby\"] \"varying color Cs\" [1 0 0 0 1 0 0 0 1]\n"
-                          "Blobby 1 [1001 0] [1 0 0 0 0 1 0 0 0 0 1 0 9 0 0 1] [\"\"]"));
+  const Reading r(
+      inWorld("Points \"P\" [0 0 0 0.7 0 0 9 0 0] \"constantwidth\" [1] \"uniform string type\" [\"blobby\"] \"varying "
+              "color Cs\" [1 0 0 0 1 0 0 0 1]\n"
+              "Blobby 1 [1001 0] [1 0 0 0 0 1 0 0 0 0 1 0 9 0 0 1] [\"\"]"));
   EXPECT_EQ(r.codes(), "");
   const auto boundOf = [](const Prim& prim) {
     Bound3 bound;
@@ -62,29 +70,35 @@ TEST(PointsOfTypeBlobby, AreOneBlobbyAsWideAsThePointsAre) {
 }
 
 TEST(RepelledBlobby, WithoutItsPictureIsWholeAndSaidToBe) {
-  const Reading r(inWorld("Blobby 2 [1001 0 1003 0 16 0 2 0 1] [1.5 0 0 0 0 1.5 0 0 0 0 1.5 0 0 0 -.1 1 .4 .01 .3 .08] [\"/nowhere.zfile\"]\n"
-                          "Blobby 2 [1001 0 1003 1 16 0 2 0 1] [1.5 0 0 0 0 1.5 0 0 0 0 1.5 0 0 0 -.1 1 .4 .01 .3 .08] [\"/nowhere.zfile\"]"));
+  const Reading r(
+      inWorld("Blobby 2 [1001 0 1003 0 16 0 2 0 1] [1.5 0 0 0 0 1.5 0 0 0 0 1.5 0 0 0 -.1 1 .4 .01 .3 .08] "
+              "[\"/nowhere.zfile\"]\n"
+              "Blobby 2 [1001 0 1003 1 16 0 2 0 1] [1.5 0 0 0 0 1.5 0 0 0 0 1.5 0 0 0 -.1 1 .4 .01 .3 .08] "
+              "[\"/nowhere.zfile\"]"));
   EXPECT_EQ(r.codes(), "rib-ground@2 rib-object-dropped@3 ");
   EXPECT_EQ(r.scene().objects.size(), 1u);
 }
 
 TEST(PointsOfTypeBlobby, MoveAsBlobbiesDo) {
-  const Reading r("Shutter 0 1" + inWorld("MotionBegin [0 1] Points \"P\" [0 0 0 1 0 0] \"uniform string type\" [\"blobby\"]\n"
-                                          "Points \"P\" [0 1 0 1 1 0] \"uniform string type\" [\"blobby\"] MotionEnd"));
+  const Reading r("Shutter 0 1" +
+                  inWorld("MotionBegin [0 1] Points \"P\" [0 0 0 1 0 0] \"uniform string type\" [\"blobby\"]\n"
+                          "Points \"P\" [0 1 0 1 1 0] \"uniform string type\" [\"blobby\"] MotionEnd"));
   EXPECT_EQ(r.codes(), "");
   EXPECT_EQ(r.object(0).shapes.size(), 2u);
 }
 
 TEST(PointsOfTypeBlobby, OfNoWidthAreNothingAndOfNegativeWidthAnError) {
-  const Reading r(inWorld("Points \"P\" [0 0 0 1 0 0 2 0 0] \"varying float width\" [1 0 0] \"uniform string type\" [\"blobby\"]\n"
-                          "Points \"P\" [0 0 0 1 0 0] \"varying float width\" [1 -1] \"uniform string type\" [\"blobby\"]"));
+  const Reading r(
+      inWorld("Points \"P\" [0 0 0 1 0 0 2 0 0] \"varying float width\" [1 0 0] \"uniform string type\" [\"blobby\"]\n"
+              "Points \"P\" [0 0 0 1 0 0] \"varying float width\" [1 -1] \"uniform string type\" [\"blobby\"]"));
   EXPECT_EQ(r.codes(), "rib-object-dropped@3 ");
   EXPECT_NE(r.message("rib-object-dropped").message.find("width is -1 somewhere"), std::string::npos);
   EXPECT_LT(r.object(0).shape().bound(0, {}).hi.x, 0.6f);
 }
 
 TEST(PointsOfTypeBlobby, WithWidthsThatDoNotFitAreDropped) {
-  const Reading r(inWorld("Points \"P\" [0 0 0 1 0 0] \"varying float width\" [1 2 3] \"uniform string type\" [\"blobby\"]"));
+  const Reading r(
+      inWorld("Points \"P\" [0 0 0 1 0 0] \"varying float width\" [1 2 3] \"uniform string type\" [\"blobby\"]"));
   EXPECT_EQ(r.codes(), "rib-object-dropped@2 ");
 }
 

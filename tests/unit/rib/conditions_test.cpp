@@ -49,8 +49,8 @@ TEST(Expression, FollowsItsGrammar) {
   for (const char* text : {"0", "''", "false", "$n != 3", "$name =~ 'x*'", "1 && 0", "!$n"})
     EXPECT_FALSE(isTrue(text)) << text;
   for (const std::string& text : {std::string(""), std::string("1 +"), std::string("$m"), std::string("(1"),
-                                  std::string("1 2"), std::string("'a"), std::string("hero + 1"),
-                                  std::string("&"), std::string(100000, '('), std::string(100000, '!')})
+                                  std::string("1 2"), std::string("'a"), std::string("hero + 1"), std::string("&"),
+                                  std::string(100000, '('), std::string(100000, '!')})
     EXPECT_THROW(isTrue(text), rib::ExpressionError) << text.substr(0, 20);
 }
 
@@ -79,22 +79,21 @@ TEST(Conditional, ReadsTheFirstBranchThatHolds) {
 TEST(Conditional, SeesFrameAndAttributesInArchivesToo) {
   const Reading r(
       "FrameBegin 7 " +
-      inWorld(
-          "ArchiveBegin \"a\" IfBegin \"$Attribute:identifier:name =~ 'x*' && $Frame == 7\" " + kSphere +
-          "IfEnd ArchiveEnd ReadArchive \"a\" Attribute \"identifier\" \"name\" \"xy\" ReadArchive \"a\"") +
+      inWorld("ArchiveBegin \"a\" IfBegin \"$Attribute:identifier:name =~ 'x*' && $Frame == 7\" " + kSphere +
+              "IfEnd ArchiveEnd ReadArchive \"a\" Attribute \"identifier\" \"name\" \"xy\" ReadArchive \"a\"") +
       "FrameEnd");
   EXPECT_EQ(r.scene().objects.size(), 1u);
 }
 
 TEST(Conditional, BranchesThatAreNotReadMaySpeakToOthers) {
-  const Reading r(inWorld("IfBegin \"0\" Spheer 1 Sphere 1 \"nope\" 2 Color 1 IfBegin \"1\" Cubic IfEnd Else " + kSphere + "Spheer IfEnd\nCuboid"));
+  const Reading r(inWorld("IfBegin \"0\" Spheer 1 Sphere 1 \"nope\" 2 Color 1 IfBegin \"1\" Cubic IfEnd Else " +
+                          kSphere + "Spheer IfEnd\nCuboid"));
   EXPECT_EQ(r.scene().objects.size(), 1u);
   EXPECT_EQ(r.codes(), "rib-unknown-request@3 rib-unknown-request@4 ");
 }
 
 TEST(Conditional, BadOnesAreFalseAndUnbalancedOnesEndWithTheFile) {
-  const Reading r("Else IfEnd\n" + inWorld("IfBegin \"1 +\"\n" + kSphere + "IfEnd\n" + kSphere) +
-                  "IfBegin \"1\"");
+  const Reading r("Else IfEnd\n" + inWorld("IfBegin \"1 +\"\n" + kSphere + "IfEnd\n" + kSphere) + "IfBegin \"1\"");
   EXPECT_EQ(r.scene().objects.size(), 1u);
   EXPECT_EQ(r.message("rib-condition").where.line, 3);
   EXPECT_EQ(r.log.count("rib-unbalanced"), 3) << r.codes();
@@ -117,13 +116,11 @@ TEST(Variables, AreSubstitutedInStringsOnceAsked) {
 }
 
 TEST(Variables, ThatDoubleEndWithAMessage) {
-  std::string text =
-      "Option \"ribparse\" \"string varsubst\" \"$\" Option \"user\" \"string a\" \"0123456789\"\n";
+  std::string text = "Option \"ribparse\" \"string varsubst\" \"$\" Option \"user\" \"string a\" \"0123456789\"\n";
   for (int k = 0; k < 60; ++k) text += "Option \"user\" \"string a\" \"${a}${a}\"\n";
   const Reading r(text + inWorld(kSphere));
   EXPECT_LE(r.scene().options.user.at("user:a").strings[0].size(), rib::kLongestText);
-  EXPECT_NE(r.message("rib-variable").message.find("longer than 1048576 bytes"), std::string::npos)
-      << r.codes();
+  EXPECT_NE(r.message("rib-variable").message.find("longer than 1048576 bytes"), std::string::npos) << r.codes();
   EXPECT_EQ(r.message("rib-variable").where.line, 18);
 }
 
@@ -137,9 +134,8 @@ TEST(SearchPath, ThatDoublesEndsWithAMessageAndKeepsWhatItWas) {
 }
 
 TEST(SearchPath, OfMappedFoldersIsBoundedToo) {
-  const Reading r(
-      "Option \"searchpath\" \"string archive\" \"a:a:a\" \"string[3] dirmap\" [\"NFS\" \"a\" \"" +
-      std::string(60000, 'b') + "\"]" + inWorld(kSphere));
+  const Reading r("Option \"searchpath\" \"string archive\" \"a:a:a\" \"string[3] dirmap\" [\"NFS\" \"a\" \"" +
+                  std::string(60000, 'b') + "\"]" + inWorld(kSphere));
   EXPECT_EQ(r.scene().options.searchPaths.at("archive"), "a:a:a");
   EXPECT_NE(r.message("rib-option").message.find("longer than"), std::string::npos) << r.codes();
 }
@@ -165,11 +161,16 @@ TEST(SearchPath, MapsFoldersOfTheZoneOfUnix) {
                 .scene()
                 .objects.size(),
             1u);
-  EXPECT_EQ(Reading("Option \"searchpath\" \"archive\" \"/z/\"\n" + map + inWorld("ReadArchive \"mapped.rib\"")).scene().objects.size(), 1u) << "in either order";
+  EXPECT_EQ(Reading("Option \"searchpath\" \"archive\" \"/z/\"\n" + map + inWorld("ReadArchive \"mapped.rib\""))
+                .scene()
+                .objects.size(),
+            1u)
+      << "in either order";
 }
 
 TEST(SearchPath, IsMappedOnceThoughEveryFrameSaysItAgain) {
-  const std::string map = "Option \"searchpath\" \"string dirmap\" [\"NFS\" \"/a\" \"/a/b\"]\n", path = "Option \"searchpath\" \"texture\" \"&:/a\"\n";
+  const std::string map = "Option \"searchpath\" \"string dirmap\" [\"NFS\" \"/a\" \"/a/b\"]\n",
+                    path = "Option \"searchpath\" \"texture\" \"&:/a\"\n";
   const Reading r(map + "Option \"searchpath\" \"texture\" \"/a\"\n" + map + path + map + inWorld(""));
   EXPECT_EQ(r.scene().options.searchPaths.at("texture"), "/a/b:/a/b");
 }

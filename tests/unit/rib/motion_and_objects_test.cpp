@@ -13,16 +13,16 @@ namespace {
 const std::string kSphere = "Sphere 1 -1 1 360\n";
 
 TEST(Motion, MovesTransformations) {
-  const Reading r(
-      "Shutter 0 1" +
-      inWorld("MotionBegin [0 1] Translate 0 0 0 Translate 4 0 0 MotionEnd Scale 2 2 2 " + kSphere));
+  const Reading r("Shutter 0 1" +
+                  inWorld("MotionBegin [0 1] Translate 0 0 0 Translate 4 0 0 MotionEnd Scale 2 2 2 " + kSphere));
   const vec3 p = transformPoint(r.object(0).worldFromObject.at(.25f), {1, 0, 0});
   EXPECT_FLOAT_EQ(p.x, 3);
 }
 
 TEST(Motion, RotateTurnsByItsAnglesWholeTurnsToo) {
   const Reading r("Shutter 0 1" + inWorld("MotionBegin [0 1] Rotate 0 0 0 1 Rotate 540 0 0 1 MotionEnd "
-                                          "Translate 2 0 0 " + kSphere));
+                                          "Translate 2 0 0 " +
+                                          kSphere));
   for (const float t : {0.1f, 0.5f, 0.73f}) {
     const vec3 p = transformPoint(r.object(0).worldFromObject.at(t), vec3(0));
     EXPECT_NEAR(glm::length(p), 2, 0.01f);
@@ -36,16 +36,14 @@ TEST(Motion, DeformsGeometry) {
   ASSERT_EQ(r.object(0).shapes.size(), 2u);
   EXPECT_EQ(r.object(0).shapeTimes, (std::vector<float>{0, 1}));
   const UvRect all;
-  EXPECT_GT(r.object(0).shapes[1]->bound(0, all).size().x,
-            1.9f * r.object(0).shapes[0]->bound(0, all).size().x);
+  EXPECT_GT(r.object(0).shapes[1]->bound(0, all).size().x, 1.9f * r.object(0).shapes[0]->bound(0, all).size().x);
 }
 
 TEST(Motion, WhatGrowsFromNothingIsKeptAtAllKeys) {
-  for (const char* keys : {"Sphere 0 0 0 360 Sphere 2 -2 2 360", "Sphere 2 -2 2 360 Sphere 0 0 0 360",
-                           "Sphere 2 -2 2 0 Sphere 2 -2 2 360", "Disk 0 0 360 Disk 0 2 360",
-                           "Hyperboloid 0 0 0 0 0 0 360 Hyperboloid 1 0 0 2 0 0 360"}) {
-    const Reading r(std::string("Shutter 0 1") +
-                    inWorld(std::string("MotionBegin [0 1] ") + keys + " MotionEnd"));
+  for (const char* keys :
+       {"Sphere 0 0 0 360 Sphere 2 -2 2 360", "Sphere 2 -2 2 360 Sphere 0 0 0 360", "Sphere 2 -2 2 0 Sphere 2 -2 2 360",
+        "Disk 0 0 360 Disk 0 2 360", "Hyperboloid 0 0 0 0 0 0 360 Hyperboloid 1 0 0 2 0 0 360"}) {
+    const Reading r(std::string("Shutter 0 1") + inWorld(std::string("MotionBegin [0 1] ") + keys + " MotionEnd"));
     ASSERT_EQ(r.scene().objects.size(), 1u) << keys << r.codes();
     EXPECT_EQ(r.object(0).shapes.size(), 2u) << keys;
     EXPECT_TRUE(r.log.entries().empty()) << keys << r.codes();
@@ -65,7 +63,8 @@ TEST(Motion, WhatGrowsFromNothingIsKeptAtAllKeys) {
 TEST(Motion, DisplacementIsBoundWhereWhatGrowsIsLargest) {
   const std::string bumpy = "Displacement \"bumpy\" Attribute \"displacementbound\" \"sphere\" [0.1] ";
   for (const char* keys : {"Scale 1 1 1 Scale 3 3 3", "Scale 3 3 3 Scale 1 1 1"}) {
-    const Reading r(std::string("Shutter 0 1") + inWorld(bumpy + "MotionBegin [0 1] " + keys + " MotionEnd " + kSphere));
+    const Reading r(std::string("Shutter 0 1") +
+                    inWorld(bumpy + "MotionBegin [0 1] " + keys + " MotionEnd " + kSphere));
     EXPECT_NEAR(r.object(0).displacementBound, 0.3f, 1e-6f) << keys;
   }
 }
@@ -99,8 +98,7 @@ TEST(Motion, WithoutEndDoesNotSwallowTheScene) {
 }
 
 TEST(Objects, ShareTheirGeometryAndTakeTheAttributesOfTheInstance) {
-  const Reading r(inWorld("ObjectBegin 1 " + kSphere + "AttributeBegin Color 0 0 1 Translate 0 1 0 " +
-                          kSphere +
+  const Reading r(inWorld("ObjectBegin 1 " + kSphere + "AttributeBegin Color 0 0 1 Translate 0 1 0 " + kSphere +
                           "AttributeEnd ObjectEnd Color 1 0 0 Translate 1 0 0 ObjectInstance 1 Color 0 1 0 "
                           "Translate 1 0 0 ObjectInstance 1 " +
                           kSphere));
@@ -116,8 +114,7 @@ TEST(Objects, ShareTheirGeometryAndTakeTheAttributesOfTheInstance) {
 }
 
 TEST(Objects, KeepTheirPlaceOverIdentityAndTransformWithin) {
-  const Reading r(
-      inWorld("ObjectBegin 1 Identity " + kSphere + "ObjectEnd Translate 3 0 0 ObjectInstance 1"));
+  const Reading r(inWorld("ObjectBegin 1 Identity " + kSphere + "ObjectEnd Translate 3 0 0 ObjectInstance 1"));
   EXPECT_EQ(r.object(0).worldFromObject.at(0)[3], vec4(3, 0, 0, 1));
 }
 
@@ -136,8 +133,7 @@ TEST(Objects, BuildPatchesAnewUnderAnotherBasis) {
 }
 
 TEST(Objects, ThatNameEachOtherEnd) {
-  const Reading r(
-      inWorld("ObjectBegin 1 " + kSphere + "ObjectInstance 1 ObjectInstance 1 ObjectEnd ObjectInstance 1"));
+  const Reading r(inWorld("ObjectBegin 1 " + kSphere + "ObjectInstance 1 ObjectInstance 1 ObjectEnd ObjectInstance 1"));
   EXPECT_GE(r.log.count("rib-nesting"), 1);
   EXPECT_GE(r.scene().objects.size(), 1u);
 }
@@ -195,8 +191,8 @@ TEST_F(Archives, AreFoundBesideTheFileThatReadsThem) {
 
 TEST_F(Archives, AreFoundInTheSearchPath) {
   write("sub/ball.rib", kSphere);
-  const auto scenes = read({write("main.rib", "Option \"searchpath\" \"archive\" \"/none:" + folder_ +
-                                                  "/sub\"" + inWorld("ReadArchive \"ball.rib\""))});
+  const auto scenes = read({write("main.rib", "Option \"searchpath\" \"archive\" \"/none:" + folder_ + "/sub\"" +
+                                                  inWorld("ReadArchive \"ball.rib\""))});
   EXPECT_EQ(scenes.at(0).objects.size(), 1u);
 }
 

@@ -50,19 +50,19 @@ TEST(Options, AreReadFromEveryRequest) {
   EXPECT_TRUE(o.xResolution == 320 && o.yResolution == 200 && o.pixelAspect == 1.5f && o.frameAspect == 2.0f);
   EXPECT_EQ(o.screenWindow, (std::array<float, 4>{-1, 1, -2, 2}));
   EXPECT_EQ(o.cropWindow, (std::array<float, 4>{.25f, .5f, 0, 1}));
-  EXPECT_TRUE(o.nearClip == 1 && o.farClip == 100 && o.shutterClose == .5f && o.xSamples == 3 &&
-              o.ySamples == 4);
+  EXPECT_TRUE(o.nearClip == 1 && o.farClip == 100 && o.shutterClose == .5f && o.xSamples == 3 && o.ySamples == 4);
   EXPECT_TRUE(o.filter == "box" && o.yFilterWidth == 2 && o.exposureGain == 2 && o.exposureGamma == 2.2f);
-  EXPECT_TRUE(o.rgbaQuantize.one == 1023 && o.quantizeGiven && !o.jitter && o.bucketWidth == 8 &&
-              o.bucketHeight == 4);
+  EXPECT_TRUE(o.rgbaQuantize.one == 1023 && o.quantizeGiven && !o.jitter && o.bucketWidth == 8 && o.bucketHeight == 4);
   EXPECT_TRUE(o.gridSize == 64 && o.searchPaths.at("shader") == "a:b" && o.user.at("user:x").number(0) == 3);
   EXPECT_TRUE(o.imager && o.imager->name == "background" && o.projection == ProjectionKind::Perspective);
   EXPECT_TRUE(o.fov_degrees == 45 && o.frame == 7);
 }
 
 TEST(Options, DisplayChannelsAreTypedByTheirNameAndHidersHaveDepthFilters) {
-  const Reading r(R"(DisplayChannel "varying color diffuse" DisplayChannel "varying normal Nn" "string source" "N" "string filter" "zmin"
-    Hider "hidden" "string depthfilter" "midpoint" Option "limits" "color zthreshold" [0.5 0.5 0.5])" + inWorld(""));
+  const Reading r(
+      R"(DisplayChannel "varying color diffuse" DisplayChannel "varying normal Nn" "string source" "N" "string filter" "zmin"
+    Hider "hidden" "string depthfilter" "midpoint" Option "limits" "color zthreshold" [0.5 0.5 0.5])" +
+      inWorld(""));
   const Options& o = r.scene().options;
   EXPECT_EQ(r.codes(), "");
   EXPECT_EQ(o.channels.at("diffuse").type, ValueType::Color);
@@ -75,15 +75,15 @@ TEST(Options, DisplayChannelsAreTypedByTheirNameAndHidersHaveDepthFilters) {
 TEST(Options, WhatNoPictureHoldsIsNoChannel) {
   const Reading r(R"(DisplayChannel "varying matrix m"
     DisplayChannel "plain"
-    Hider "hidden" "string depthfilter" "median")" + inWorld(""));
+    Hider "hidden" "string depthfilter" "median")" +
+                  inWorld(""));
   EXPECT_EQ(r.scene().options.channels.size(), 1u);
   EXPECT_EQ(r.log.entries().size(), 3u);
 }
 
 TEST(Options, DisplaysAddUpWithAPlusAndStartAnewWithout) {
-  const Reading r(
-      "Display \"a\" \"file\" \"rgb\" Display \"b\" \"tiff\" \"rgba\" Display \"+c\" \"file\" \"z\"" +
-      inWorld(""));
+  const Reading r("Display \"a\" \"file\" \"rgb\" Display \"b\" \"tiff\" \"rgba\" Display \"+c\" \"file\" \"z\"" +
+                  inWorld(""));
   const auto& d = r.scene().options.displays;
   ASSERT_EQ(d.size(), 2u);
   EXPECT_TRUE(d[0].name == "b" && d[1].name == "c" && d[1].mode == "z");
@@ -107,24 +107,25 @@ TEST(Options, FrameEndRestoresOptionsAndAttributes) {
 }
 
 TEST(Camera, IsTheTransformationBetweenProjectionAndWorldBegin) {
-  const Reading r("Translate 9 9 9 Projection \"perspective\" Translate 0 0 5" +
-                  inWorld("Translate 1 0 0 " + kSphere));
+  const Reading r("Translate 9 9 9 Projection \"perspective\" Translate 0 0 5" + inWorld("Translate 1 0 0 " + kSphere));
   expectNear(transformPoint(r.scene().cameraFromWorldAtOpen(), {0, 0, 0}), {0, 0, 5});
   expectNear(inWorldSpace(r.object(0), {0, 0, 0}), {1, 0, 0});
   expectNear(transformPoint(r.object(0).cameraFromObject.at(0), {0, 0, 0}), {1, 0, 5});
 }
 
 TEST(Camera, MayMove) {
-  const Reading r("Shutter 0 1 MotionBegin [0 1] Translate 0 0 1 Translate 0 0 3 MotionEnd" +
-                  inWorld(kSphere));
+  const Reading r("Shutter 0 1 MotionBegin [0 1] Translate 0 0 1 Translate 0 0 3 MotionEnd" + inWorld(kSphere));
   expectNear(transformPoint(r.scene().cameraFromWorld.at(.5f), {0, 0, 0}), {0, 0, 2});
   EXPECT_EQ(r.object(0).keyTimes.size(), 2u);
 }
 
 TEST(Camera, FitsAFrameOfAnotherAspectIntoTheUpperLeftOfTheDisplay) {
-  const auto of = [](const std::string& options) { return Camera(Reading(options + " Projection \"perspective\" " + inWorld(kSphere)).scene().options); };
+  const auto of = [](const std::string& options) {
+    return Camera(Reading(options + " Projection \"perspective\" " + inWorld(kSphere)).scene().options);
+  };
   const auto expectFrame = [](const Camera& camera, const vec2& corner, const std::array<int, 4>& pixels) {
-    expectNear(vec3(camera.raster({0, 0, 1}), 0), vec3(0.5f * corner, 0));  // fov 90: the smaller side spans -1..1 at z = 1
+    expectNear(vec3(camera.raster({0, 0, 1}), 0),
+               vec3(0.5f * corner, 0));  // fov 90: the smaller side spans -1..1 at z = 1
     const vec2 side = camera.raster({1, -1, 1}) - camera.raster({-1, 1, 1});
     EXPECT_NEAR(std::max(side.x, side.y), std::min(corner.x, corner.y), 1e-3f);
     EXPECT_EQ((std::array<int, 4>{camera.crop().x0, camera.crop().y0, camera.crop().x1, camera.crop().y1}), pixels);
@@ -149,8 +150,7 @@ TEST(Transformations, ApplyTheLastOneFirst) {
 
 TEST(Transformations, ReadMatricesAsRowVectorsDo) {
   const Reading r(inWorld("Translate 5 5 5 Transform [2 0 0 0 0 1 0 0 0 0 1 0 7 8 9 1] " + kSphere +
-                          "ConcatTransform 0 1 0 0  -1 0 0 0  0 0 1 0  0 0 0 1 " + kSphere + "Identity " +
-                          kSphere));
+                          "ConcatTransform 0 1 0 0  -1 0 0 0  0 0 1 0  0 0 0 1 " + kSphere + "Identity " + kSphere));
   expectNear(inWorldSpace(r.object(0), {1, 1, 1}), {9, 9, 10});
   expectNear(inWorldSpace(r.object(1), {1, 0, 0}), {7, 9, 9});
   expectNear(inWorldSpace(r.object(2), {1, 2, 3}), {1, 2, 3});
@@ -189,15 +189,17 @@ TEST(CoordinateSystems, AreGlobalAndRelativeToTheWorld) {
 }
 
 TEST(CoordinateSystems, ThatAreScopedEndWithTheirScope) {
-  const Reading r(inWorld(
-      "AttributeBegin Translate 1 0 0 ScopedCoordinateSystem \"a\" Identity CoordSysTransform \"a\" " +
-      kSphere + "AttributeEnd"));
+  const Reading r(
+      inWorld("AttributeBegin Translate 1 0 0 ScopedCoordinateSystem \"a\" Identity CoordSysTransform \"a\" " +
+              kSphere + "AttributeEnd"));
   expectNear(inWorldSpace(r.object(0), {0, 0, 0}), {1, 0, 0});
 }
 
 TEST(Display, MayDeclareWhatItShowsAndQuantizeMayNameIt) {
-  const Reading r("Quantize \"mask\" 100 0 100 .25 Display \"a.tif\" \"tiff\" \"varying float mask\" Display \"+b.tif\" \"tiff\" \"Ci\"" +
-                  inWorld(""));
+  const Reading r(
+      "Quantize \"mask\" 100 0 100 .25 Display \"a.tif\" \"tiff\" \"varying float mask\" Display \"+b.tif\" \"tiff\" "
+      "\"Ci\"" +
+      inWorld(""));
   const Options& o = r.scene().options;
   EXPECT_EQ(o.displays[0].mode, "mask");
   EXPECT_EQ(o.channels.at("mask").type, ValueType::Float);

@@ -70,11 +70,15 @@ TEST(Parser, KnowsTheNamesOfACategoryOnlyThere) {
 }
 
 TEST(Parser, ParametersOfTheStandardShadersNeedNoDeclaration) {
-  const Requests r("Surface \"plastic\" \"Ka\" 1 \"Kd\" 1 \"Ks\" 1 \"roughness\" 1 \"specularcolor\" [1 1 1] Surface \"shinymetal\" \"Kr\" 1 \"texturename\" \"a\"\n"
-                   "LightSource \"spotlight\" 1 \"intensity\" 1 \"lightcolor\" [1 1 1] \"from\" [0 0 0] \"to\" [0 0 1] \"coneangle\" 1 \"conedeltaangle\" 1 \"beamdistribution\" 1\n"
-                   "LightSource \"shadowspot\" 2 \"shadowname\" \"a\" \"width\" 1 \"samples\" 1\n"
-                   "Atmosphere \"depthcue\" \"mindistance\" 0 \"maxdistance\" 1 \"background\" [0 0 0] Atmosphere \"fog\" \"distance\" 1\n"
-                   "Displacement \"bumpy\" \"Km\" 1 \"amplitude\" 1 Imager \"background\" \"bgcolor\" [1 1 1]\n");
+  const Requests r(
+      "Surface \"plastic\" \"Ka\" 1 \"Kd\" 1 \"Ks\" 1 \"roughness\" 1 \"specularcolor\" [1 1 1] Surface \"shinymetal\" "
+      "\"Kr\" 1 \"texturename\" \"a\"\n"
+      "LightSource \"spotlight\" 1 \"intensity\" 1 \"lightcolor\" [1 1 1] \"from\" [0 0 0] \"to\" [0 0 1] "
+      "\"coneangle\" 1 \"conedeltaangle\" 1 \"beamdistribution\" 1\n"
+      "LightSource \"shadowspot\" 2 \"shadowname\" \"a\" \"width\" 1 \"samples\" 1\n"
+      "Atmosphere \"depthcue\" \"mindistance\" 0 \"maxdistance\" 1 \"background\" [0 0 0] Atmosphere \"fog\" "
+      "\"distance\" 1\n"
+      "Displacement \"bumpy\" \"Km\" 1 \"amplitude\" 1 Imager \"background\" \"bgcolor\" [1 1 1]\n");
   EXPECT_TRUE(r.log.entries().empty());
   EXPECT_EQ(r.list.size(), 8u);
 }
@@ -135,8 +139,7 @@ TEST(Dictionary, TakesDeclarationsWithMissingParts) {
   EXPECT_EQ(d.find("a", "", name)->storage, Storage::Uniform);
   EXPECT_EQ(d.find("b", "", name)->storage, Storage::Varying);
   EXPECT_EQ(d.find("c", "", name)->arrayLength, 3);
-  EXPECT_EQ(d.find("facevarying c", "", name)->type, ValueType::Color)
-      << "a class alone keeps the declared type";
+  EXPECT_EQ(d.find("facevarying c", "", name)->type, ValueType::Color) << "a class alone keeps the declared type";
   EXPECT_EQ(name, "c");
   EXPECT_FALSE(d.find("d", "", name));
 }

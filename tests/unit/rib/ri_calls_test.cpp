@@ -55,11 +55,14 @@ TEST(RiCalls, SayAttributesAndTransformations) {
     RiMotionEnd();
     RiAttributeEnd();
   });
-  expectSays(calls,
-             "AttributeBegin Declare \"bump\" \"uniform float[2]\" Attribute \"displacementbound\" \"sphere\" 1 Color 1 0 0\n"
-             "Surface \"paintedplastic\" \"roughness\" .25 \"texturename\" \"a.tex\" \"uniform float[2] bump\" [3 4] Sides 1 Matte 1\n"
-             "Transform [1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16] Rotate 30 0 0 1 MotionBegin [0 .5] Translate 1 2 3 Translate 1 2 4\n"
-             "MotionEnd AttributeEnd");
+  expectSays(
+      calls,
+      "AttributeBegin Declare \"bump\" \"uniform float[2]\" Attribute \"displacementbound\" \"sphere\" 1 Color 1 0 0\n"
+      "Surface \"paintedplastic\" \"roughness\" .25 \"texturename\" \"a.tex\" \"uniform float[2] bump\" [3 4] Sides 1 "
+      "Matte 1\n"
+      "Transform [1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16] Rotate 30 0 0 1 MotionBegin [0 .5] Translate 1 2 3 Translate "
+      "1 2 4\n"
+      "MotionEnd AttributeEnd");
 }
 
 TEST(RiCalls, KnowHowManyValuesEachPrimitiveTakes) {
@@ -67,7 +70,8 @@ TEST(RiCalls, KnowHowManyValuesEachPrimitiveTakes) {
     std::vector<RtFloat> x(200);
     for (size_t i = 0; i < x.size(); ++i) x[i] = static_cast<RtFloat>(i);
     RtFloat* p = x.data();
-    const RtInt triangle[] = {3}, corners[] = {2, 0, 1}, loops[] = {1}, tags[] = {1, 1}, edge[] = {0}, four[] = {4, 7}, two[] = {2};
+    const RtInt triangle[] = {3}, corners[] = {2, 0, 1}, loops[] = {1}, tags[] = {1, 1}, edge[] = {0}, four[] = {4, 7},
+                two[] = {2};
     const RtToken hole[] = {"hole"};
     RiSphere(1, -1, 1, 360, "varying float w", p, "uniform color c", p, RI_NULL);
     RiPolygon(3, RI_P, p, "facevarying float w", p, RI_NULL);
@@ -89,31 +93,33 @@ TEST(RiCalls, KnowHowManyValuesEachPrimitiveTakes) {
     for (int i = 0; i < n; ++i) out += std::to_string(i) + " ";
     return out + "] ";
   };
-  expectSays(calls, "Sphere 1 -1 1 360 \"varying float w\" " + list(4) + "\"uniform color c\" " + list(3) +           //
-                        "Polygon \"P\" " + list(9) + "\"facevarying float w\" " + list(3) +                           //
-                        "PointsPolygons [3] [2 0 1] \"P\" " + list(9) + "\"uniform float f\" " + list(1) +            //
-                        "\"facevarying float[2] st\" " + list(6) +                                                    //
-                        "PointsGeneralPolygons [1] [3] [2 0 1] \"P\" " + list(9) +                                    //
-                        "Patch \"bicubic\" \"P\" " + list(48) + "\"s\" " + list(4) +                                  //
-                        "AttributeBegin Basis [" + "-0.16666667 .5 -.5 0.16666667 .5 -1 .5 0 -.5 0 .5 0 0.16666667 0.6666667 0.16666667 0" +
-                        "] 1 [" + "-0.16666667 .5 -.5 0.16666667 .5 -1 .5 0 -.5 0 .5 0 0.16666667 0.6666667 0.16666667 0" + "] 1 " +
-                        "PatchMesh \"bicubic\" 5 \"nonperiodic\" 4 \"periodic\" \"Pz\" " + list(20) + "\"s\" " + list(3 * 4) +
-                        "\"uniform float f\" " + list(2 * 4) + "AttributeEnd " +                                      //
+  expectSays(calls, "Sphere 1 -1 1 360 \"varying float w\" " + list(4) + "\"uniform color c\" " + list(3) +  //
+                        "Polygon \"P\" " + list(9) + "\"facevarying float w\" " + list(3) +                  //
+                        "PointsPolygons [3] [2 0 1] \"P\" " + list(9) + "\"uniform float f\" " + list(1) +   //
+                        "\"facevarying float[2] st\" " + list(6) +                                           //
+                        "PointsGeneralPolygons [1] [3] [2 0 1] \"P\" " + list(9) +                           //
+                        "Patch \"bicubic\" \"P\" " + list(48) + "\"s\" " + list(4) +                         //
+                        "AttributeBegin Basis [" +
+                        "-0.16666667 .5 -.5 0.16666667 .5 -1 .5 0 -.5 0 .5 0 0.16666667 0.6666667 0.16666667 0" +
+                        "] 1 [" +
+                        "-0.16666667 .5 -.5 0.16666667 .5 -1 .5 0 -.5 0 .5 0 0.16666667 0.6666667 0.16666667 0" +
+                        "] 1 " + "PatchMesh \"bicubic\" 5 \"nonperiodic\" 4 \"periodic\" \"Pz\" " + list(20) +
+                        "\"s\" " + list(3 * 4) + "\"uniform float f\" " + list(2 * 4) + "AttributeEnd " +  //
                         "Curves \"cubic\" [4 7] \"nonperiodic\" \"P\" " + list(33) + "\"width\" " + list(2 + 3) +
-                        "\"uniform float f\" " + list(2) +                                                            //
-                        "Curves \"linear\" [2] \"nonperiodic\" \"P\" " + list(6) + "\"width\" " + list(2) +           //
-                        "NuPatch 3 2 " + list(5) + "1 3 2 2 " + list(4) + "1 2 \"Pw\" " + list(24) + "\"s\" " + list(3 * 2) +
-                        "\"uniform float f\" " + list(2) +                                                            //
-                        "SubdivisionMesh \"catmull-clark\" [3] [2 0 1] [\"hole\"] [1 1] [0] [0] \"P\" " + list(9) +   //
+                        "\"uniform float f\" " + list(2) +                                                   //
+                        "Curves \"linear\" [2] \"nonperiodic\" \"P\" " + list(6) + "\"width\" " + list(2) +  //
+                        "NuPatch 3 2 " + list(5) + "1 3 2 2 " + list(4) + "1 2 \"Pw\" " + list(24) + "\"s\" " +
+                        list(3 * 2) + "\"uniform float f\" " + list(2) +                                             //
+                        "SubdivisionMesh \"catmull-clark\" [3] [2 0 1] [\"hole\"] [1 1] [0] [0] \"P\" " + list(9) +  //
                         "Points \"P\" " + list(6) + "\"width\" " + list(2));
 }
 
 TEST(RiCalls, HaveTheBasesOfTheRib) {
-  const std::pair<RtFloat (*)[4], Basis> pairs[] = {{RiBezierBasis, bezierBasis()},
-                                                    {RiBSplineBasis, bsplineBasis()},
-                                                    {RiCatmullRomBasis, catmullRomBasis()},
-                                                    {RiHermiteBasis, hermiteBasis()},
-                                                    {RiPowerBasis, powerBasis()}};
+  const std::pair<RtFloat(*)[4], Basis> pairs[] = {{RiBezierBasis, bezierBasis()},
+                                                   {RiBSplineBasis, bsplineBasis()},
+                                                   {RiCatmullRomBasis, catmullRomBasis()},
+                                                   {RiHermiteBasis, hermiteBasis()},
+                                                   {RiPowerBasis, powerBasis()}};
   for (const auto& [c, known] : pairs)
     for (int row = 0; row < 4; ++row)
       for (int k = 0; k < 4; ++k) EXPECT_NEAR(c[row][k], known.matrix[row][k], 1e-7);
@@ -128,7 +134,8 @@ TEST(RiCalls, ProceduralsAreThoseOfTheRibOrKeepTheirFunction) {
       RtString file[] = {"a.rib"};
       RiProcedural(file, box, RiProcDelayedReadArchive, [](RtPointer) { ++freed; });
       EXPECT_EQ(freed, 1);
-      RiProcedural(&freed, box, [](RtPointer, RtFloat) {}, [](RtPointer) { ++freed; });
+      RiProcedural(
+          &freed, box, [](RtPointer, RtFloat) {}, [](RtPointer) { ++freed; });
     });
     EXPECT_EQ(calls.list[0].request.args[1].strings, std::vector<std::string>{"a.rib"});
     EXPECT_EQ(calls.list[0].request.args[2].numbers, (std::vector<float>{-1, 1, -2, 2, -3, 3}));
@@ -146,7 +153,14 @@ TEST(RiCalls, SayWhatIsNotDeclaredAndKeepWhatCameBeforeAFailure) {
   });
   EXPECT_TRUE(calls.list[0].request.params.empty());
   EXPECT_EQ(calls.log.count("rib-plugin"), 1);
-  EXPECT_THROW(rib::recordRiCalls({}, calls.log, [] { RiIdentity(); throw 1; }, calls.list), int);
+  EXPECT_THROW(rib::recordRiCalls(
+                   {}, calls.log,
+                   [] {
+                     RiIdentity();
+                     throw 1;
+                   },
+                   calls.list),
+               int);
   EXPECT_EQ(calls.list.back().request.name, "Identity");
   RiIdentity();  // nobody listens any more
   EXPECT_EQ(calls.list.size(), 2u);

@@ -13,7 +13,6 @@ inline Scene opened(Scene&& scene) {
   return std::move(scene);
 }
 
-
 /// All scenes of a text, and what the log says about it.
 struct Reading {
   std::vector<Scene> scenes;

@@ -34,10 +34,14 @@ TEST(Attributes, OfRaysAreRead) {
 }
 
 TEST(Attributes, StringsOfAPrimitiveTakeThePlaceOfThoseOfItsShaders) {
-  const Reading r(inWorld("Surface \"paintedplastic\" \"string texturename\" [\"a.tx\"]\n"
-                          "Sphere 1 -1 1 360 \"constant string texturename\" [\"b.tx\"] \"string other\" [\"c\"]\n"
-                          "Sphere 1 -1 1 360 \"string texturename\" [\"b.tx\"] \"constant string other\" [\"c\"]\n" + kSphere));
-  const auto texture = [&](int object) { return findParam(r.object(static_cast<size_t>(object)).attributes->surface->params, "texturename")->strings; };
+  const Reading r(
+      inWorld("Surface \"paintedplastic\" \"string texturename\" [\"a.tx\"]\n"
+              "Sphere 1 -1 1 360 \"constant string texturename\" [\"b.tx\"] \"string other\" [\"c\"]\n"
+              "Sphere 1 -1 1 360 \"string texturename\" [\"b.tx\"] \"constant string other\" [\"c\"]\n" +
+              kSphere));
+  const auto texture = [&](int object) {
+    return findParam(r.object(static_cast<size_t>(object)).attributes->surface->params, "texturename")->strings;
+  };
   EXPECT_EQ(texture(0), std::vector<std::string>{"b.tx"});
   EXPECT_EQ(texture(2), std::vector<std::string>{"a.tx"});
   EXPECT_EQ(r.object(0).attributes, r.object(1).attributes) << "they may be shaded together";
@@ -45,8 +49,7 @@ TEST(Attributes, StringsOfAPrimitiveTakeThePlaceOfThoseOfItsShaders) {
 }
 
 TEST(Attributes, AreReadFromEveryRequest) {
-  const Reading r(
-      inWorld(R"(Color .1 .2 .3 Opacity [.5 .5 .5] TextureCoordinates 0 0 2 0 0 2 2 2 ShadingRate 4
+  const Reading r(inWorld(R"(Color .1 .2 .3 Opacity [.5 .5 .5] TextureCoordinates 0 0 2 0 0 2 2 2 ShadingRate 4
     GeometricApproximation "motionfactor" 2 GeometricApproximation "focusfactor" .5
     ShadingInterpolation "smooth" Matte 1 Sides 1 Attribute "identifier" "name" "ball" Attribute "user" "float x" 3
     Attribute "displacementbound" "sphere" 2 "coordinatesystem" "world"
@@ -54,20 +57,17 @@ TEST(Attributes, AreReadFromEveryRequest) {
     Attribute "trace" "bias" .1 "offset" .2 "displacements" 1 "tessellation" 3
     Attribute "indirect" "receive" 0 "gain" 2 "bleeding" 3 "bleedingcolor" [1 0 0] "surface" "simple"
     Attribute "irradiance" "maxerror" .3 "maxpixeldist" 9 Attribute "dice" "rasterorient" 0 )" +
-              kSphere));
+                          kSphere));
   EXPECT_EQ(r.codes(), "");
   const Attributes& a = r.attributes(0);
-  EXPECT_TRUE(a.color == vec3(.1f, .2f, .3f) && a.opacity == vec3(.5f) &&
-              a.textureCoordinates[3] == vec2(2, 2));
-  EXPECT_TRUE(a.shadingRate == 4 && a.interpolation == ShadingInterpolation::Smooth && a.matte &&
-              a.sides == 1);
+  EXPECT_TRUE(a.color == vec3(.1f, .2f, .3f) && a.opacity == vec3(.5f) && a.textureCoordinates[3] == vec2(2, 2));
+  EXPECT_TRUE(a.shadingRate == 4 && a.interpolation == ShadingInterpolation::Smooth && a.matte && a.sides == 1);
   EXPECT_TRUE(a.motionFactor == 2 && a.focusFactor == .5f);
   EXPECT_TRUE(a.name == "ball" && a.user.at("user:x").number(0) == 3);
   EXPECT_TRUE(a.displacementBound == 2 && a.displacementBoundSpace == "world");
   const Visibility& v = a.visibility;
   EXPECT_FALSE(v.camera || v.diffuse || v.specular || v.transmission);
-  EXPECT_TRUE(a.trace.bias == .1f && a.trace.offset == .2f && a.trace.displacements &&
-              a.trace.tessellation == 3);
+  EXPECT_TRUE(a.trace.bias == .1f && a.trace.offset == .2f && a.trace.displacements && a.trace.tessellation == 3);
   EXPECT_TRUE(!a.indirect.receive && a.indirect.gain == 2 && a.indirect.bleeding == 3);
   EXPECT_TRUE(a.indirect.bleedingColor == vec3(1, 0, 0) && a.indirect.surface == "simple");
   EXPECT_TRUE(a.irradianceMaxError == .3f && a.irradianceMaxPixelDist == 9 && !a.rasterOrient);
@@ -115,9 +115,9 @@ TEST(Lights, OutsideTheWorldKeepTheirPlace) {
 }
 
 TEST(Lights, AreSwitchedByIlluminateWithinTheScope) {
-  const Reading r(inWorld(
-      "LightSource \"pointlight\" 1 AttributeBegin LightSource \"pointlight\" \"key\" Illuminate 1 0 " +
-      kSphere + "AttributeEnd " + kSphere + "Illuminate \"key\" 1 " + kSphere));
+  const Reading r(
+      inWorld("LightSource \"pointlight\" 1 AttributeBegin LightSource \"pointlight\" \"key\" Illuminate 1 0 " +
+              kSphere + "AttributeEnd " + kSphere + "Illuminate \"key\" 1 " + kSphere));
   EXPECT_EQ(r.attributes(0).lights, std::vector<int>{1});
   EXPECT_EQ(r.attributes(1).lights, std::vector<int>{0});
   EXPECT_EQ(r.attributes(2).lights, (std::vector<int>{0, 1}));
@@ -133,8 +133,8 @@ TEST(Lights, CastShadowsWhenAskedTo) {
 
 TEST(Shaders, NullSurfaceIsSeenByNobodyUntilTheNextSurface) {
   const Reading r(inWorld("AreaLightSource \"arealight\" 1 Surface \"null\" " + kSphere +
-                          "Surface \"matte\" Atmosphere \"fog\" \"distance\" 9 " + kSphere +
-                          "Atmosphere \"null\" " + kSphere));
+                          "Surface \"matte\" Atmosphere \"fog\" \"distance\" 9 " + kSphere + "Atmosphere \"null\" " +
+                          kSphere));
   const Visibility& v = r.attributes(0).visibility;
   EXPECT_FALSE(v.camera || v.diffuse || v.specular || v.transmission);
   EXPECT_EQ(r.attributes(0).areaLight, 0);
@@ -163,8 +163,8 @@ TEST(Attributes, BoundDisplacementIsTheDisplacementBoundOfOldScenes) {
 }
 
 TEST(Lights, OfAreaBelongToTheGeometryThatFollows) {
-  const Reading r(inWorld(kSphere + "AttributeBegin AreaLightSource \"arealight\" 3 \"intensity\" 2 " +
-                          kSphere + "AttributeEnd " + kSphere));
+  const Reading r(inWorld(kSphere + "AttributeBegin AreaLightSource \"arealight\" 3 \"intensity\" 2 " + kSphere +
+                          "AttributeEnd " + kSphere));
   ASSERT_EQ(r.scene().lights.size(), 1u);
   EXPECT_TRUE(r.scene().lights[0]->area && r.scene().lights[0]->castsShadows);
   EXPECT_EQ(r.attributes(0).areaLight, -1);
@@ -174,10 +174,12 @@ TEST(Lights, OfAreaBelongToTheGeometryThatFollows) {
 }
 
 TEST(ShadingRate, IsMultipliedByRelativeRatesDownTheBlocks) {
-  const Reading r(inWorld("ShadingRate 2 Attribute \"shade\" \"float relativeshadingrate\" 3 Sphere 1 -1 1 360\n"
-                          "AttributeBegin ShadingRate 5 Attribute \"shade\" \"float relativeshadingrate\" 2 Sphere 1 -1 1 360 AttributeEnd\n"
-                          "Attribute \"shade\" \"float resetrelativeshadingrate\" .5 Sphere 1 -1 1 360\n"
-                          "Attribute \"shade\" \"float relativeshadingrate\" 0 Sphere 1 -1 1 360"));
+  const Reading r(
+      inWorld("ShadingRate 2 Attribute \"shade\" \"float relativeshadingrate\" 3 Sphere 1 -1 1 360\n"
+              "AttributeBegin ShadingRate 5 Attribute \"shade\" \"float relativeshadingrate\" 2 Sphere 1 -1 1 360 "
+              "AttributeEnd\n"
+              "Attribute \"shade\" \"float resetrelativeshadingrate\" .5 Sphere 1 -1 1 360\n"
+              "Attribute \"shade\" \"float relativeshadingrate\" 0 Sphere 1 -1 1 360"));
   EXPECT_EQ(r.attributes(0).shadingRate, 6);
   EXPECT_EQ(r.attributes(1).shadingRate, 30);
   EXPECT_EQ(r.attributes(2).shadingRate, 1);
@@ -186,9 +188,14 @@ TEST(ShadingRate, IsMultipliedByRelativeRatesDownTheBlocks) {
 }
 
 TEST(Scene, ShadowLightsOfOldListingsFindTheirMap) {
-  const Reading r(inWorld("LightSource \"shadowspot\" 1 \"string shadowfile\" \"a.shd\" LightSource \"shadowspot\" 2 \"string shadowfile\" \"b\" "
-                          "\"string shadowname\" \"c\" LightSource \"mine\" 3 \"string shadowfile\" \"d\"" + std::string(" Sphere 1 -1 1 360")));
-  const auto map = [&](size_t light, const char* name) { return findParam(r.scene().lights.at(light)->shader.params, name); };
+  const Reading r(
+      inWorld("LightSource \"shadowspot\" 1 \"string shadowfile\" \"a.shd\" LightSource \"shadowspot\" 2 \"string "
+              "shadowfile\" \"b\" "
+              "\"string shadowname\" \"c\" LightSource \"mine\" 3 \"string shadowfile\" \"d\"" +
+              std::string(" Sphere 1 -1 1 360")));
+  const auto map = [&](size_t light, const char* name) {
+    return findParam(r.scene().lights.at(light)->shader.params, name);
+  };
   EXPECT_EQ(map(0, "shadowname")->strings[0], "a.shd");
   EXPECT_EQ(map(1, "shadowname")->strings[0], "c");
   EXPECT_EQ(map(2, "shadowname"), nullptr) << "a shader of one's own may mean what it likes";
@@ -206,10 +213,12 @@ TEST(Scene, CastsShadowsOfBmrtIsWhatShadowRaysSee) {
 }
 
 TEST(Visibility, UnderstandsTheNamesOfOldScenes) {
-  const Reading r(inWorld("Attribute \"visibility\" \"int trace\" 0 \"string transmission\" \"transparent\" Sphere 1 -1 1 360\n"
-                          "Attribute \"visibility\" \"string transmission\" \"Os\" Sphere 1 -1 1 360\n"
-                          "Attribute \"visibility\" \"string transmission\" \"shader\" Sphere 1 -1 1 360"));
-  EXPECT_FALSE(r.attributes(0).visibility.diffuse || r.attributes(0).visibility.specular || r.attributes(0).visibility.transmission);
+  const Reading r(
+      inWorld("Attribute \"visibility\" \"int trace\" 0 \"string transmission\" \"transparent\" Sphere 1 -1 1 360\n"
+              "Attribute \"visibility\" \"string transmission\" \"Os\" Sphere 1 -1 1 360\n"
+              "Attribute \"visibility\" \"string transmission\" \"shader\" Sphere 1 -1 1 360"));
+  EXPECT_FALSE(r.attributes(0).visibility.diffuse || r.attributes(0).visibility.specular ||
+               r.attributes(0).visibility.transmission);
   EXPECT_TRUE(r.attributes(1).visibility.transmission);
   EXPECT_EQ(r.attributes(1).transmissionHitMode, HitMode::Primitive);
   EXPECT_EQ(r.attributes(2).transmissionHitMode, HitMode::Shader);
@@ -231,8 +240,9 @@ TEST(ColorSamples, MakeRedGreenAndBlueOfOtherColors) {
 }
 
 TEST(Edits, AreLeftOutAsAWhole) {
-  const Reading r(inWorld("EditBegin \"attribute\" Color 1 0 0 EditAttributeBegin \"x\" Color 0 1 0 EditAttributeEnd Color 0 0 1 EditEnd\n"
-                          "Sphere 1 -1 1 360 EditWorldEnd"));
+  const Reading r(inWorld(
+      "EditBegin \"attribute\" Color 1 0 0 EditAttributeBegin \"x\" Color 0 1 0 EditAttributeEnd Color 0 0 1 EditEnd\n"
+      "Sphere 1 -1 1 360 EditWorldEnd"));
   EXPECT_EQ(r.attributes(0).color, vec3(1));
   EXPECT_EQ(r.log.count("rib-unsupported"), 2) << r.codes();
 }
@@ -266,12 +276,11 @@ TEST(Resource, RestoresAllOrSubsets) {
 }
 
 TEST(Resource, HasScopesOfItsOwnAndMovesIntoTheWorld) {
-  const Reading r(
-      "Translate 0 0 5 Resource \"c\" \"attributes\" \"string operation\" \"save\"" +
-      inWorld("ResourceBegin Resource \"r\" \"attributes\" \"string operation\" \"save\" ResourceEnd\n"
-              "Resource \"r\" \"attributes\" \"string operation\" \"restore\"\nResourceEnd\n"
-              "Translate 1 1 1 Resource \"c\" \"attributes\" \"string operation\" \"restore\"\n" +
-              kSphere));
+  const Reading r("Translate 0 0 5 Resource \"c\" \"attributes\" \"string operation\" \"save\"" +
+                  inWorld("ResourceBegin Resource \"r\" \"attributes\" \"string operation\" \"save\" ResourceEnd\n"
+                          "Resource \"r\" \"attributes\" \"string operation\" \"restore\"\nResourceEnd\n"
+                          "Translate 1 1 1 Resource \"c\" \"attributes\" \"string operation\" \"restore\"\n" +
+                          kSphere));
   EXPECT_EQ(r.log.count("rib-resource"), 1);
   EXPECT_EQ(r.log.count("rib-unbalanced"), 1);
   EXPECT_EQ(r.object(0).worldFromObject.at(0), mat4(1));

@@ -8,9 +8,10 @@ const std::string kCube =
     "\"P\" [-1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1] ";
 
 TEST(Solids, AreTreesOverTheirPrimitives) {
-  const Reading r(inWorld("SolidBegin \"difference\" SolidBegin \"primitive\" Sphere 1 -1 1 360 SolidEnd SolidBegin \"union\" "
-                          "SolidBegin \"primitive\" Cylinder 1 -1 1 360 Disk 1 1 360 Disk -1 1 360 SolidEnd SolidBegin "
-                          "\"primitive\" Torus 1 0.2 0 360 360 SolidEnd SolidEnd SolidEnd Sphere 1 -1 1 360"));
+  const Reading r(
+      inWorld("SolidBegin \"difference\" SolidBegin \"primitive\" Sphere 1 -1 1 360 SolidEnd SolidBegin \"union\" "
+              "SolidBegin \"primitive\" Cylinder 1 -1 1 360 Disk 1 1 360 Disk -1 1 360 SolidEnd SolidBegin "
+              "\"primitive\" Torus 1 0.2 0 360 360 SolidEnd SolidEnd SolidEnd Sphere 1 -1 1 360"));
   EXPECT_EQ(r.codes(), "");
   ASSERT_EQ(r.scene().solids.size(), 1U);
   EXPECT_EQ(r.scene().solids[0].blockCount(), 5);
@@ -37,15 +38,17 @@ TEST_P(ClosedPrimitive, IsNotWarnedOf) {
 }
 INSTANTIATE_TEST_SUITE_P(
     Shapes, ClosedPrimitive,
-    testing::Values("Sphere 1 -1 1 360", "Torus 1 0.2 0 360 360", "Cone 1 1 360 Disk 0 1 360",
-                    "Rotate 40 1 2 3 Scale 1 2 3 Cylinder 1 -1 1 360 Disk 1 1 360 Rotate 77 0 0 1 Disk -1 1 360",
-                    "Sphere 1 -1 0.5 360 Disk 0.5 0.8660254 360",
-                    "PointsPolygons [4 4 4 4 4 4] [0 2 3 1 4 5 7 6 0 1 5 4 2 6 7 3 0 4 6 2 1 3 7 5] \"P\" [-1 -1 -1 1 -1 -1 "
-                    "-1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1]"));
+    testing::Values(
+        "Sphere 1 -1 1 360", "Torus 1 0.2 0 360 360", "Cone 1 1 360 Disk 0 1 360",
+        "Rotate 40 1 2 3 Scale 1 2 3 Cylinder 1 -1 1 360 Disk 1 1 360 Rotate 77 0 0 1 Disk -1 1 360",
+        "Sphere 1 -1 0.5 360 Disk 0.5 0.8660254 360",
+        "PointsPolygons [4 4 4 4 4 4] [0 2 3 1 4 5 7 6 0 1 5 4 2 6 7 3 0 4 6 2 1 3 7 5] \"P\" [-1 -1 -1 1 -1 -1 "
+        "-1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1]"));
 
 class OpenPrimitive : public testing::TestWithParam<const char*> {};
 TEST_P(OpenPrimitive, IsNamedOnceWithItsPlace) {
-  const Reading r(inWorld("SolidBegin \"primitive\"\nAttribute \"identifier\" \"string name\" \"pot\"\n" + std::string(GetParam()) + " SolidEnd"));
+  const Reading r(inWorld("SolidBegin \"primitive\"\nAttribute \"identifier\" \"string name\" \"pot\"\n" +
+                          std::string(GetParam()) + " SolidEnd"));
   EXPECT_EQ(r.codes(), "rib-solid-open@4 ");
   EXPECT_NE(r.message("rib-solid-open").message.find("pot"), std::string::npos);
 }
@@ -55,8 +58,9 @@ INSTANTIATE_TEST_SUITE_P(Shapes, OpenPrimitive,
                                          "Polygon \"P\" [0 0 0 1 0 0 1 1 0]", "Points \"P\" [0 0 0]"));
 
 TEST(Solids, OfWrongUseAreNamedAndMakeSomethingSensible) {
-  const Reading r("SolidBegin \"union\" SolidEnd" + inWorld("SolidBegin \"merge\"\nSphere 1 -1 1 360\nSolidBegin \"primitive\"\n"
-                                                           "SolidBegin \"union\" Sphere 1 -1 1 360 SolidEnd SolidEnd SolidEnd\nSolidEnd"));
+  const Reading r("SolidBegin \"union\" SolidEnd" +
+                  inWorld("SolidBegin \"merge\"\nSphere 1 -1 1 360\nSolidBegin \"primitive\"\n"
+                          "SolidBegin \"union\" Sphere 1 -1 1 360 SolidEnd SolidEnd SolidEnd\nSolidEnd"));
   EXPECT_EQ(r.codes(), "rib-solid@1 rib-solid@2 rib-solid@3 rib-solid@5 rib-unbalanced@6 ");
   ASSERT_EQ(r.scene().objects.size(), 2U);
   EXPECT_EQ(r.scene().solids.size(), 1U);

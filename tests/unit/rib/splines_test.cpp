@@ -22,8 +22,7 @@ TEST(Geometry, WithHolesLeavesThemOut) {
 }
 
 TEST(Geometry, NuPatchHasAPatchForEveryKnotInterval) {
-  const Reading r(
-      inWorld("NuPatch 3 2 [0 0 1 2 2] 0 2 2 2 [0 0 1 1] 0 1 \"P\" [0 0 0 1 0 0 2 0 0 0 1 0 1 1 0 2 1 0]"));
+  const Reading r(inWorld("NuPatch 3 2 [0 0 1 2 2] 0 2 2 2 [0 0 1 1] 0 1 \"P\" [0 0 0 1 0 0 2 0 0 0 1 0 1 1 0 2 1 0]"));
   EXPECT_EQ(r.codes(), "");
   EXPECT_EQ(r.object(0).shape().patchCount(), 2u);
 }
@@ -36,13 +35,14 @@ TEST(Geometry, NuPatchThatIsNoneIsDroppedByName) {
   EXPECT_TRUE(r.scene().objects.empty());
 }
 
-constexpr const char* kTriangleTrim = "TrimCurve [1] [2] [0 0 1 2 3 3] [0] [3] [4] [0.2 0.8 0.8 0.2] [0.2 0.2 0.8 0.2] [1 1 1 1]\n";
+constexpr const char* kTriangleTrim =
+    "TrimCurve [1] [2] [0 0 1 2 3 3] [0] [3] [4] [0.2 0.8 0.8 0.2] [0.2 0.2 0.8 0.2] [1 1 1 1]\n";
 constexpr const char* kUnitNuPatch = "NuPatch 2 2 [0 0 1 1] 0 1 2 2 [0 0 1 1] 0 1 \"P\" [0 0 0 1 0 0 0 1 0 1 1 0]\n";
 
 TEST(Geometry, TrimCurvesBelongToTheAttributesAndTheirSenseIsTheSideCutAway) {
   const std::string trim = kTriangleTrim, patch = kUnitNuPatch;
-  const Reading r(inWorld("AttributeBegin " + trim + patch + "Attribute \"trimcurve\" \"sense\" [\"outside\"] " + patch +
-                          "AttributeEnd " + patch + trim + "TrimCurve [] [] [] [] [] [] [] [] []" + patch));
+  const Reading r(inWorld("AttributeBegin " + trim + patch + "Attribute \"trimcurve\" \"sense\" [\"outside\"] " +
+                          patch + "AttributeEnd " + patch + trim + "TrimCurve [] [] [] [] [] [] [] [] []" + patch));
   EXPECT_EQ(r.codes(), "");
   ASSERT_EQ(r.scene().objects.size(), 4u);
   const bool inside[4] = {false, true, true, true}, outside[4] = {true, false, true, true};
@@ -54,7 +54,8 @@ TEST(Geometry, TrimCurvesBelongToTheAttributesAndTheirSenseIsTheSideCutAway) {
 
 TEST(Geometry, InstancesAreTrimmedByTheCurvesAroundThem) {
   const std::string trim = kTriangleTrim, patch = kUnitNuPatch;
-  const Reading r(inWorld("ObjectBegin \"a\" " + patch + "ObjectEnd ObjectInstance \"a\" " + trim + "ObjectInstance \"a\""));
+  const Reading r(
+      inWorld("ObjectBegin \"a\" " + patch + "ObjectEnd ObjectInstance \"a\" " + trim + "ObjectInstance \"a\""));
   ASSERT_EQ(r.scene().objects.size(), 2u);
   EXPECT_TRUE(r.object(0).shape().keeps(0, 0.6f, 0.4f));
   EXPECT_FALSE(r.object(1).shape().keeps(0, 0.6f, 0.4f));
@@ -62,7 +63,8 @@ TEST(Geometry, InstancesAreTrimmedByTheCurvesAroundThem) {
 
 TEST(Geometry, TrimCurvesWhoseArraysDoNotAgreeAreLeftOutWithAWarning) {
   const std::string patch = kUnitNuPatch;
-  const Reading r(inWorld("TrimCurve [1] [2] [0 0 1 2 3 3] [0] [3] [4] [0.2 0.8] [0.2 0.2 0.8 0.2] [1 1 1 1]\n" + patch +
+  const Reading r(inWorld("TrimCurve [1] [2] [0 0 1 2 3 3] [0] [3] [4] [0.2 0.8] [0.2 0.2 0.8 0.2] [1 1 1 1]\n" +
+                          patch +
                           "TrimCurve [-1] [2] [] [] [] [] [] [] []\nTrimCurve [1] [2] [] [] [] [1e9] [] [] []\n"
                           "Attribute \"trimcurve\" \"sense\" [\"both\"]\n"));
   EXPECT_EQ(r.log.count("rib-trim"), 3);
@@ -72,8 +74,8 @@ TEST(Geometry, TrimCurvesWhoseArraysDoNotAgreeAreLeftOutWithAWarning) {
 
 TEST(Geometry, RoundCurvesAreTubesUnlessTheyHaveNormals) {
   const std::string line = "Curves \"linear\" [2] \"nonperiodic\" \"P\" [0 0 0 1 0 0]";
-  const Reading r(inWorld("Attribute \"dice\" \"roundcurve\" [1]\n" + line + "\n" + line + " \"varying normal N\" [0 0 1 0 0 1]\n" +
-                          "Attribute \"dice\" \"roundcurve\" [0]\n" + line));
+  const Reading r(inWorld("Attribute \"dice\" \"roundcurve\" [1]\n" + line + "\n" + line +
+                          " \"varying normal N\" [0 0 1 0 0 1]\n" + "Attribute \"dice\" \"roundcurve\" [0]\n" + line));
   EXPECT_EQ(r.codes(), "");
   EXPECT_EQ(r.object(0).shape().patchCount(), 3u);  // with two disks
   EXPECT_EQ(r.object(1).shape().patchCount(), 1u);
@@ -92,9 +94,9 @@ TEST(Geometry, CubicCurvesTakeTheBasisOfV) {
 }
 
 TEST(Geometry, CurvesThatAreNoneAreDroppedByName) {
-  const Reading r(inWorld(
-      "Curves \"linear\" [1] \"nonperiodic\" \"P\" [0 0 0]\nCurves \"round\" [2] \"nonperiodic\" \"P\" "
-      "[0 0 0 1 0 0]\nCurves \"linear\" [2] \"around\" \"P\" [0 0 0 1 0 0]\nPoints \"P\" []"));
+  const Reading r(
+      inWorld("Curves \"linear\" [1] \"nonperiodic\" \"P\" [0 0 0]\nCurves \"round\" [2] \"nonperiodic\" \"P\" "
+              "[0 0 0 1 0 0]\nCurves \"linear\" [2] \"around\" \"P\" [0 0 0 1 0 0]\nPoints \"P\" []"));
   EXPECT_EQ(r.log.count("rib-object-dropped"), 4);
 }
 
@@ -113,12 +115,13 @@ TEST(Geometry, PointsTurnToTheEyeThroughTheirTransformation) {
 }
 
 TEST(Shapes, BlobbyTeapotAndHierarchicalMeshAreRead) {
-  const Reading r(inWorld(
-      "Blobby 2 [1001 0 1000 16 5 0 1] [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 .1] [\"\"] \"varying float k\" [1 2]\n"
-      "Geometry \"teapot\"\n"
-      "HierarchicalSubdivisionMesh \"catmull-clark\" [4] [0 1 2 3] [\"interpolateboundary\" \"creasemethod\"] [1 0 0 0 0 1]"
-      " [1] [] [\"chaikin\"] \"P\" [0 0 0 1 0 0 1 1 0 0 1 0]\n"
-      "SubdivisionMesh \"loop\" [3] [0 1 2] [\"interpolateboundary\"] [0 0] [] [] \"P\" [0 0 0 1 0 0 1 1 0]"));
+  const Reading r(
+      inWorld("Blobby 2 [1001 0 1000 16 5 0 1] [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 .1] [\"\"] \"varying float k\" [1 2]\n"
+              "Geometry \"teapot\"\n"
+              "HierarchicalSubdivisionMesh \"catmull-clark\" [4] [0 1 2 3] [\"interpolateboundary\" \"creasemethod\"] "
+              "[1 0 0 0 0 1]"
+              " [1] [] [\"chaikin\"] \"P\" [0 0 0 1 0 0 1 1 0 0 1 0]\n"
+              "SubdivisionMesh \"loop\" [3] [0 1 2] [\"interpolateboundary\"] [0 0] [] [] \"P\" [0 0 0 1 0 0 1 1 0]"));
   ASSERT_EQ(r.scene().objects.size(), 4u);
   EXPECT_GT(r.object(0).shape().patchCount(), 6u);
   EXPECT_EQ(r.object(1).shape().patchCount(), 32u);

@@ -28,9 +28,11 @@ std::string world(const std::string& inside) { return "WorldBegin\n" + inside + 
 
 TEST(WorldSum, DoesNotDependOnCameraFormatLinesOrOrder) {
   const uint64_t sum = sumOf(kCamera + world(kLight + kBall + "Translate 3 0 0\n" + kBall));
-  EXPECT_EQ(sum, sumOf("Format 640 480 1\nRotate 20 1 0 0\nPixelSamples 8 8\n" + world(kLight + kBall + "Translate 3 0 0\n" + kBall)));
+  EXPECT_EQ(sum, sumOf("Format 640 480 1\nRotate 20 1 0 0\nPixelSamples 8 8\n" +
+                       world(kLight + kBall + "Translate 3 0 0\n" + kBall)));
   EXPECT_EQ(sum, sumOf(kCamera + world("# a comment\n\n" + kLight + kBall + "Translate 3 0 0\n" + kBall)));
-  EXPECT_EQ(sum, sumOf(kCamera + world(kLight + "TransformBegin\nTranslate 3 0 0\n" + kBall + "TransformEnd\n" + kBall)));
+  EXPECT_EQ(sum,
+            sumOf(kCamera + world(kLight + "TransformBegin\nTranslate 3 0 0\n" + kBall + "TransformEnd\n" + kBall)));
 }
 
 TEST(WorldSum, ChangesWithEverythingThatLightMeets) {
@@ -50,7 +52,10 @@ TEST(WorldSum, ObjectsThatPhotonsPassDoNotCount) {
 
 TEST(WorldSum, AreaLightsCountThoughPhotonsPassThem) {
   const auto lamp = [](const char* size) {
-    return std::string("AttributeBegin\nAreaLightSource \"arealight\" 2\nAttribute \"visibility\" \"int photon\" [0]\nSphere ") + size + "\nAttributeEnd\n";
+    return std::string(
+               "AttributeBegin\nAreaLightSource \"arealight\" 2\nAttribute \"visibility\" \"int photon\" "
+               "[0]\nSphere ") +
+           size + "\nAttributeEnd\n";
   };
   EXPECT_NE(sumOf(kCamera + world(lamp("1 -1 1 360") + kBall)), sumOf(kCamera + world(lamp("2 -2 2 360") + kBall)));
 }
@@ -58,7 +63,8 @@ TEST(WorldSum, AreaLightsCountThoughPhotonsPassThem) {
 TEST(WorldSum, ChangesWithTheOperationsOfSolids) {
   const auto solid = [](const std::string& operation) {
     const std::string part = "SolidBegin \"primitive\"\n" + kBall + "SolidEnd\n";
-    return sumOf(kCamera + world(kLight + "SolidBegin \"" + operation + "\"\n" + part + "Translate 1 0 0\n" + part + "SolidEnd\n"));
+    return sumOf(kCamera + world(kLight + "SolidBegin \"" + operation + "\"\n" + part + "Translate 1 0 0\n" + part +
+                                 "SolidEnd\n"));
   };
   EXPECT_NE(solid("union"), solid("difference"));
   EXPECT_NE(solid("union"), solid("intersection"));
@@ -66,8 +72,10 @@ TEST(WorldSum, ChangesWithTheOperationsOfSolids) {
 }
 
 TEST(WorldSum, ChangesWithTheFilesThatShadersName) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / ("tomales_world_" + std::to_string(::getpid()) + ".tex");
-  const std::string rib = kCamera + world(kLight + "Surface \"paintedplastic\" \"texturename\" [\"" + file.string() + "\"]\nSphere 1 -1 1 360\n");
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("tomales_world_" + std::to_string(::getpid()) + ".tex");
+  const std::string rib = kCamera + world(kLight + "Surface \"paintedplastic\" \"texturename\" [\"" + file.string() +
+                                          "\"]\nSphere 1 -1 1 360\n");
   const auto write = [&](const std::string& text) { std::ofstream(file) << text; };
   const uint64_t none = sumOf(rib);
   write("a");

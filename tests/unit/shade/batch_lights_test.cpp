@@ -32,10 +32,14 @@ TEST_F(BatchLights, PhongAndTheLobeOfSpecularAreTheirFormulas) {
   light("distantlight", {point("to", {0, 3, 4})});  // from the light: (0, 0.6, 0.8)
   const std::vector<vec3> c = asked(4, [](sl::Surface& s) {
     const Normal N = s.N;
-    s.Ci = Color(xcomp(phong(N, Vector(0, 0, -2), 5)), specularbrdf(Vector(0, -3, -4), N, -s.I, 0.5), xcomp(specular(N, -s.I, 0.5)));
+    s.Ci = Color(xcomp(phong(N, Vector(0, 0, -2), 5)), specularbrdf(Vector(0, -3, -4), N, -s.I, 0.5),
+                 xcomp(specular(N, -s.I, 0.5)));
   });
   const double H = (0.8 + 1) / std::hypot(0.6, 1.8);
-  expectColor(c[0], vec3(static_cast<float>(std::pow(0.8, 5)), static_cast<float>(std::pow(H, 16)), static_cast<float>(std::pow(H, 16))), 1e-5f);
+  expectColor(c[0],
+              vec3(static_cast<float>(std::pow(0.8, 5)), static_cast<float>(std::pow(H, 16)),
+                   static_cast<float>(std::pow(H, 16))),
+              1e-5f);
 }
 
 TEST_F(BatchLights, TheLobeHasTheExponentThatTheSceneChoosesAsSpecularHas) {

@@ -65,7 +65,8 @@ TEST_F(BatchPictures, PicturesAreLookedUpOverRegionsCornersAndChannels) {
   const std::vector<vec3> around = asked(4, [&](sl::Surface& s) {
     // From the equator: +y is a quarter round the picture, where its green is 1/4.
     const Vector corners[4] = {Vector(0.1, 1, 0.1), Vector(-0.1, 1, 0.1), Vector(0.1, 1, -0.1), Vector(-0.1, 1, -0.1)};
-    s.Ci = Color(ycomp(environment(path.c_str(), corners)), fenvironment(path.c_str(), 1, Vector(0, 1, 0)), fenvironment(path.c_str(), 2, Vector(0, 1, 0), "blur", 0.01));
+    s.Ci = Color(ycomp(environment(path.c_str(), corners)), fenvironment(path.c_str(), 1, Vector(0, 1, 0)),
+                 fenvironment(path.c_str(), 2, Vector(0, 1, 0), "blur", 0.01));
   });
   expectColor(around[0], {0.25f, 0.25f, 2}, 0.01f);
   EXPECT_TRUE(log.entries().empty());
@@ -132,7 +133,8 @@ TEST_F(BatchPictures, AnOptionScalesAllTextureFilters) {
   expectColor(c[0], {0.625f, 1, 0}, 0.06f);
 }
 
-// Three quarters of the way from a texel of 0 to one of 1: linear, and by the cubic B-spline of filters that are not boxes.
+// Three quarters of the way from a texel of 0 to one of 1: linear, and by the cubic B-spline of filters that are not
+// boxes.
 TEST_F(BatchPictures, AnOptionNamesTheFilterOfLookupsThatNameNone) {
   const std::string path = stepPicture("/tomales_edge.tif");
   scene.options.user["texture:filter"] = text("filter", "gaussian");
@@ -165,7 +167,8 @@ TEST_F(BatchPictures, PicturesAndLightsTellWhatTheyHold) {
     EXPECT_EQ(kind, "texture");
     Float intensity = 0;
     s.illuminance(s.P, s.N, 1.5f, [&] { EXPECT_TRUE(lightsource(s.lightNumber, "intensity", intensity)); });
-    s.Ci = Color(ftexture(path.c_str(), 1, 0.5 + 0.1 * s.u, s.v), zcomp(environment(path.c_str(), Vector(s.u, 1, 0))), intensity);
+    s.Ci = Color(ftexture(path.c_str(), 1, 0.5 + 0.1 * s.u, s.v), zcomp(environment(path.c_str(), Vector(s.u, 1, 0))),
+                 intensity);
   });
   for (const size_t i : {0u, 1u}) expectColor(c[i], {0.5f, 2, 0.625f});
   EXPECT_TRUE(log.entries().empty());

@@ -15,8 +15,10 @@ std::string pictureOfDirections(const std::string& name) {
   std::string path = ::testing::TempDir() + name;
   OIIO::ImageBuf picture(OIIO::ImageSpec(256, 128, 3, OIIO::TypeDesc::FLOAT));
   for (int k = 0; k < 256 * 128; ++k) {
-    const float theta = kPi * (static_cast<float>(k / 256) + 0.5f) / 128, phi = 2 * kPi * (static_cast<float>(k % 256) + 0.5f) / 256;
-    const float value[] = {1 + std::sin(theta) * std::cos(phi), 1 + std::sin(theta) * std::sin(phi), 1 + std::cos(theta)};
+    const float theta = kPi * (static_cast<float>(k / 256) + 0.5f) / 128,
+                phi = 2 * kPi * (static_cast<float>(k % 256) + 0.5f) / 256;
+    const float value[] = {1 + std::sin(theta) * std::cos(phi), 1 + std::sin(theta) * std::sin(phi),
+                           1 + std::cos(theta)};
     picture.setpixel(k % 256, k / 256, value);
   }
   EXPECT_TRUE(picture.write(path));
@@ -50,11 +52,12 @@ TEST_F(BatchRays, OcclusionTellsOfTheEnvironmentWhereRaysLeave) {
   const std::vector<vec3> c = asked(2, [&](sl::Surface& s) {
     Color environmentColor, environmentDirection;
     Float covers;
-    Color radiance = indirectdiffuse(s.P, Normal(0, 0, 1), 4096, "environmentmap", path.c_str(), "environmentcolor", &environmentColor, "environmentdir",
-                                     &environmentDirection, "occlusion", &covers);
+    Color radiance = indirectdiffuse(s.P, Normal(0, 0, 1), 4096, "environmentmap", path.c_str(), "environmentcolor",
+                                     &environmentColor, "environmentdir", &environmentDirection, "occlusion", &covers);
     s.Ci = radiance;
     EXPECT_NEAR(covers[0], 0.5f, 2e-3f);
-    // By the cosine, the mean of x over the half of the hemisphere where it is positive is 2/(3 pi), of z 1/3, of y 0; each over all.
+    // By the cosine, the mean of x over the half of the hemisphere where it is positive is 2/(3 pi), of z 1/3, of y 0;
+    // each over all.
     const float x = 2.0f / (3 * kPi), z = 1.0f / 3;
     EXPECT_NEAR(environmentColor[0].x, 0.5f + x, 0.01f);
     EXPECT_NEAR(environmentColor[0].y, 0.5f, 0.01f);
@@ -71,22 +74,29 @@ TEST_F(BatchRays, GatherHasCategoriesListsAndTheEffectiveDistance) {
   const std::vector<vec3> c = asked(2, [](sl::Surface& s) {
     Float hits = 0, misses = 0, effective, length;
     Vector direction, sum;
-    gather("illuminance", s.P, s.N, 0.5f, 4, rays("label", "probe", "distribution", "cosine"), {{"effectivedistance", &effective}, {"ray:length", &length}},
-           [&] { hits += effective + 10 * length; }, [&] { misses += 1; });
+    gather(
+        "illuminance", s.P, s.N, 0.5f, 4, rays("label", "probe", "distribution", "cosine"),
+        {{"effectivedistance", &effective}, {"ray:length", &length}}, [&] { hits += effective + 10 * length; },
+        [&] { misses += 1; });
     s.Ci = Color(hits, misses, 0);
-    gather("samplepattern", s.P, s.N, 0.5f, 8, rays(), {{"ray:direction", &direction}}, [&] { hits += 1000; }, [&] { sum += direction; });
+    gather(
+        "samplepattern", s.P, s.N, 0.5f, 8, rays(), {{"ray:direction", &direction}}, [&] { hits += 1000; },
+        [&] { sum += direction; });
     setzcomp(s.Ci, zcomp(normalize(sum)));
   });
   expectColor(c[0], {4 * 36, 0, -1}, 0.05f);
   EXPECT_EQ(services.asked.front().label, "probe");
   EXPECT_EQ(services.asked.size(), 4u) << "a pattern of samples is not traced";
-  body = [](sl::Surface& s) { gather("pathtrace", s.P, s.N, 0.5f, 4, rays(), {}, [] {}, [] {}); };
+  body = [](sl::Surface& s) {
+    gather(
+        "pathtrace", s.P, s.N, 0.5f, 4, rays(), {}, [] {}, [] {});
+  };
   shadeOne();
   EXPECT_EQ(log.entries().size(), 1u);
 }
 
-// A picture of 1 + its own direction holds 4 pi of light, and adds up to a direction of 4 pi / 3 along the axis of each channel. It stands in a space
-// whose x is the world's y.
+// A picture of 1 + its own direction holds 4 pi of light, and adds up to a direction of 4 pi / 3 along the axis of each
+// channel. It stands in a space whose x is the world's y.
 TEST_F(BatchRays, GatherDrawsTheLightOfAnEnvironment) {
   const std::string path = pictureOfDirections("/tomales_gathered.exr");
   worldFromObject = Motion::still(mat4(vec4(0, 1, 0, 0), vec4(-1, 0, 0, 0), vec4(0, 0, 1, 0), vec4(0, 0, 0, 1)));
@@ -95,7 +105,11 @@ TEST_F(BatchRays, GatherDrawsTheLightOfAnEnvironment) {
     Vector direction, redDirection;
     Float solidAngle, hits = 0, length;
     gather(("environment:" + path).c_str(), s.P, Vector(), 0, 4096, rays("environmentspace", "object"),
-           {{"environment:color", &color}, {"environment:solidangle", &solidAngle}, {"ray:direction", &direction}, {"ray:length", &length}}, [&] { hits += 1; },
+           {{"environment:color", &color},
+            {"environment:solidangle", &solidAngle},
+            {"ray:direction", &direction},
+            {"ray:length", &length}},
+           [&] { hits += 1; },
            [&] { sum += color * solidAngle, redDirection += xcomp(color) * solidAngle * direction; });
     EXPECT_EQ(hits[0], 0);
     EXPECT_EQ(length[0], 1e30f);
@@ -111,15 +125,19 @@ TEST_F(BatchRays, GatherDrawsTheLightOfAnEnvironment) {
 TEST_F(BatchRays, ImportanceIsTheProductOfWeights) {
   ShadeContext context;
   context.importance = 0.25f;
-  const std::vector<vec3> c = asked(2, [](sl::Surface& s) {
-    Float importance, shadow;
-    std::string type, label;
-    EXPECT_TRUE(rayinfo("importance", importance) && rayinfo("shadowdepth", shadow) && rayinfo("type", type) && rayinfo("label", label));
-    EXPECT_FALSE(rayinfo("depth", type)) << "a number is no text";
-    EXPECT_EQ(type, "camera");
-    trace(s.P, s.I, "weight", 0.5);
-    s.Ci = Color(importance, shadow, traceDistance(s.P, s.I, "maxdist", 2));
-  }, context);
+  const std::vector<vec3> c = asked(
+      2,
+      [](sl::Surface& s) {
+        Float importance, shadow;
+        std::string type, label;
+        EXPECT_TRUE(rayinfo("importance", importance) && rayinfo("shadowdepth", shadow) && rayinfo("type", type) &&
+                    rayinfo("label", label));
+        EXPECT_FALSE(rayinfo("depth", type)) << "a number is no text";
+        EXPECT_EQ(type, "camera");
+        trace(s.P, s.I, "weight", 0.5);
+        s.Ci = Color(importance, shadow, traceDistance(s.P, s.I, "maxdist", 2));
+      },
+      context);
   expectColor(c[0], {0.25f, 0, 1e30f});
   EXPECT_EQ(services.asked[0].importance, 0.5f);
   EXPECT_EQ(services.asked[1].maxDistance, 2);
@@ -128,16 +146,19 @@ TEST_F(BatchRays, ImportanceIsTheProductOfWeights) {
 TEST_F(BatchRays, PointsKnowTheRayThatCame) {
   ShadeContext context;
   context.kind = RayKind::Diffuse, context.depth = 2, context.specularDepth = 1, context.label = "here";
-  const std::vector<vec3> c = asked(2, [](sl::Surface& s) {
-    Triple depth;
-    EXPECT_TRUE(rayinfo("diffusedepth", depth));
-    EXPECT_FALSE(rayinfo("colour", depth));
-    EXPECT_TRUE(isindirectray());
-    EXPECT_FALSE(isshadowray());
-    EXPECT_EQ(raylabel(), "here");
-    EXPECT_EQ(raydepth(), 3);
-    s.Ci = depth;
-  }, context);
+  const std::vector<vec3> c = asked(
+      2,
+      [](sl::Surface& s) {
+        Triple depth;
+        EXPECT_TRUE(rayinfo("diffusedepth", depth));
+        EXPECT_FALSE(rayinfo("colour", depth));
+        EXPECT_TRUE(isindirectray());
+        EXPECT_FALSE(isshadowray());
+        EXPECT_EQ(raylabel(), "here");
+        EXPECT_EQ(raydepth(), 3);
+        s.Ci = depth;
+      },
+      context);
   EXPECT_EQ(c[0].x, 2);
 }
 
@@ -147,12 +168,15 @@ TEST_F(BatchRays, DiffuseRaysAreThatWhetherTheyWantHighlightsOrNot) {
   context.kind = RayKind::Diffuse;
   for (const bool wanted : {false, true}) {
     context.highlights = wanted;
-    const std::vector<vec3> c = asked(1, [](sl::Surface& s) {
-      Triple wants;
-      EXPECT_TRUE(isindirectray());
-      EXPECT_TRUE(rayinfo("highlights", wants));
-      s.Ci = Color(xcomp(wants), xcomp(phong(s.N, -s.I, 1)), xcomp(specular(s.N, -s.I, 8)));
-    }, context);
+    const std::vector<vec3> c = asked(
+        1,
+        [](sl::Surface& s) {
+          Triple wants;
+          EXPECT_TRUE(isindirectray());
+          EXPECT_TRUE(rayinfo("highlights", wants));
+          s.Ci = Color(xcomp(wants), xcomp(phong(s.N, -s.I, 1)), xcomp(specular(s.N, -s.I, 8)));
+        },
+        context);
     EXPECT_EQ(c[0].x, wanted);
     EXPECT_NEAR(c[0].y, wanted, 1e-5f);
     EXPECT_NEAR(c[0].z, wanted, 1e-5f);
@@ -163,15 +187,20 @@ TEST_F(BatchRays, DiffuseRaysAreThatWhetherTheyWantHighlightsOrNot) {
 class Widths : public ShadeServices {
  public:
   mutable std::vector<vec2> noted;
-  void trace(const ShadePoints&, const uint8_t*, TmConstVec3, TmConstVec3, const RayQuery& query, const ShadeContext&, const RayResult& result) const override {
+  void trace(const ShadePoints&, const uint8_t*, TmConstVec3, TmConstVec3, const RayQuery& query, const ShadeContext&,
+             const RayResult& result) const override {
     noted.emplace_back(query.radius[0], query.spread[0]);
     result.distance[0] = kInfinity;
   }
-  void transmission(const ShadePoints&, const uint8_t*, TmConstVec3, const ShadowRays&, const ShadeContext&, TmVec3) const override {}
-  bool sampleEmitter(int, int, TmConstVec3, const float*, const float*, const EmitterPoints&) const override { return false; }
+  void transmission(const ShadePoints&, const uint8_t*, TmConstVec3, const ShadowRays&, const ShadeContext&,
+                    TmVec3) const override {}
+  bool sampleEmitter(int, int, TmConstVec3, const float*, const float*, const EmitterPoints&) const override {
+    return false;
+  }
   void meetEmitter(int, int, TmConstVec3, TmConstVec3, const EmitterPoints&) const override {}
   float emitterReach(int) const override { return 0; }
-  void indirectDiffuse(const ShadePoints&, const uint8_t*, TmConstVec3, const IndirectQuery&, const ShadeContext&, IndirectResult) const override {}
+  void indirectDiffuse(const ShadePoints&, const uint8_t*, TmConstVec3, const IndirectQuery&, const ShadeContext&,
+                       IndirectResult) const override {}
 };
 
 // Differentials: rays start as wide as the micropolygon and widen with it and with the cone.

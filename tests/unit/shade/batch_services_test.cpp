@@ -1,4 +1,5 @@
-// What shaders in RSL's manner ask of the renderer (reyes/sl_services.h), under masks: random numbers, derivatives, spaces, parameter lists, messages.
+// What shaders in RSL's manner ask of the renderer (reyes/sl_services.h), under masks: random numbers, derivatives,
+// spaces, parameter lists, messages.
 #include <cstdlib>
 #include <set>
 
@@ -59,8 +60,8 @@ TEST_F(BatchServices, FilterstepAveragesOverTheMicropolygonAndDepthCountsBetween
 TEST_F(BatchServices, ParameterListsSetWhatTheyName) {
   services.seen = [](const vec3&) { return vec3(1); };
   asked(2, [](sl::Surface& s) {
-    s.Ci = trace(s.P, Vector(0, 0, 1), "bias", 0.25, "maxdist", 9, "label", "mirror", "subset", "a", "excludesubset", "b", "hitsides", "front", "hitmode",
-                 "shader", "othreshold", 0.5);
+    s.Ci = trace(s.P, Vector(0, 0, 1), "bias", 0.25, "maxdist", 9, "label", "mirror", "subset", "a", "excludesubset",
+                 "b", "hitsides", "front", "hitmode", "shader", "othreshold", 0.5);
     occlusion(s.P, s.N, 3, "coneangle", 0.5, "distribution", "uniform");
   });
   ASSERT_EQ(services.asked.size(), 4u);
@@ -73,10 +74,13 @@ TEST_F(BatchServices, ParameterListsSetWhatTheyName) {
   EXPECT_EQ(q.sides, HitSides::Front);
   EXPECT_EQ(q.mode, HitMode::Shader);
   EXPECT_EQ(q.opacityThreshold, 0.5f);
-  const TmRayOptions rays = listed(rsl::defaultRays(), "samples", 7, "samplecone", 0.1, "distribution", "uniform", "samplebase", 0.5, "falloff", 2, "falloffmode", 1);
-  EXPECT_EQ(std::tie(rays.samples, rays.coneAngle, rays.uniform, rays.sampleBase, rays.falloff, rays.falloffMode), std::tuple(7, 0.1f, 1, 0.5f, 2.0f, 1));
+  const TmRayOptions rays = listed(rsl::defaultRays(), "samples", 7, "samplecone", 0.1, "distribution", "uniform",
+                                   "samplebase", 0.5, "falloff", 2, "falloffmode", 1);
+  EXPECT_EQ(std::tie(rays.samples, rays.coneAngle, rays.uniform, rays.sampleBase, rays.falloff, rays.falloffMode),
+            std::tuple(7, 0.1f, 1, 0.5f, 2.0f, 1));
   const TmTextureLookup l = listed(lookup(), "blur", 0.1, "twidth", 3, "fill", 0.5, "filter", "gaussian", "samples", 4);
-  EXPECT_EQ(std::tuple(l.sblur, l.tblur, l.swidth, l.twidth, l.fill, l.samples), std::tuple(0.1f, 0.1f, 1.0f, 3.0f, 0.5f, 4));
+  EXPECT_EQ(std::tuple(l.sblur, l.tblur, l.swidth, l.twidth, l.fill, l.samples),
+            std::tuple(0.1f, 0.1f, 1.0f, 3.0f, 0.5f, 4));
   EXPECT_STREQ(l.filter, "gaussian");
   const TmShadowLookup w = listed(kShadowDefaults, "bias", 0.01, "blur", 0.2, "width", 2, "samples", 64);
   EXPECT_EQ(std::tuple(w.bias, w.blur, w.width, w.samples), std::tuple(0.01f, 0.2f, 2.0f, 64));
@@ -111,7 +115,9 @@ TEST_F(BatchServices, MessagesHaveRslsNames) {
   Param shot = number("user:shot", 42);
   scene.options.user["user:shot"] = shot;
   displacement("noisybump", {number("Km", 0.25f)});
-  const auto fog = [&](float distance) { return std::make_shared<const ShaderCall>(call("fog", {number("distance", distance)})); };
+  const auto fog = [&](float distance) {
+    return std::make_shared<const ShaderCall>(call("fog", {number("distance", distance)}));
+  };
   attributes.atmosphere = fog(7), attributes.exterior = fog(11), attributes.interior = fog(13);
   asked(4, [](sl::Surface& s) {
     Float x;
@@ -135,12 +141,15 @@ TEST_F(BatchServices, MessagesHaveRslsNames) {
 TEST_F(BatchServices, RandomgridIsOneNumberOfACallAndOfTheObjectsName) {
   attributes.name = "left";
   float first = 0;
-  const std::vector<vec3> c = asked(64, [&](sl::Surface& s) { s.Ci = Color(s.randomgrid(), s.randomgrid(), 0) + Triple(0, 0, 1) * random3(); });
+  const std::vector<vec3> c =
+      asked(64, [&](sl::Surface& s) { s.Ci = Color(s.randomgrid(), s.randomgrid(), 0) + Triple(0, 0, 1) * random3(); });
   first = c[0].x;
   for (size_t i = 0; i < 32; ++i) {
     EXPECT_EQ(c[i].x, first);
     EXPECT_NE(c[i].y, first);
-    if (i > 0) { EXPECT_NE(c[i].z, c[i - 1].z) << "random() differs from point to point"; }
+    if (i > 0) {
+      EXPECT_NE(c[i].z, c[i - 1].z) << "random() differs from point to point";
+    }
   }
   EXPECT_TRUE(first >= 0 && first < 1);
 }

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "reyes/shader.h"
 #include "reyes/shade/parameter_values.h"
+#include "reyes/shader.h"
 #include "tests/unit/shade/stage.h"
 
 namespace tomales {
@@ -28,8 +28,7 @@ TEST_F(Binding, APointAmongThePrimitiveVariablesArrivesAsThePointsHoldIt) {
   static rsl::PointParam where("where", {0, 0, 0}, "a point");
   static const rsl::Shader pointing(TM_SURFACE, "pointing", "", 0,
                                     [](const TmGrid* g) {
-                                      for (int i : rsl::Batch(g))
-                                        rsl::Batch(g).output(i, where(g, i), {1, 1, 1});
+                                      for (int i : rsl::Batch(g)) rsl::Batch(g).output(i, where(g, i), {1, 1, 1});
                                     },
                                     {&where});
   static const TmShader* const shaders[] = {pointing};
@@ -96,7 +95,8 @@ TEST_F(Binding, WhatAPrimitiveHasAndTheShaderHasNotIsNoMistake) {
 
 TEST_F(Binding, WhatPhotonsReadOfAMediumIsKnownToEveryVolumeShader) {
   surface("matte");
-  attributes.interior = std::make_shared<ShaderCall>(call("fog", {color("scattering", {1, 1, 1}), color("absorption", {0, 0, 0}), number("density", 1)}));
+  attributes.interior = std::make_shared<ShaderCall>(
+      call("fog", {color("scattering", {1, 1, 1}), color("absorption", {0, 0, 0}), number("density", 1)}));
   shadeOne();
   EXPECT_EQ(log.entries().size(), 1u);
   EXPECT_EQ(log.count("shader-parameter-unknown-fog-density"), 1);
@@ -181,7 +181,8 @@ TEST_F(Shapes, ArraysAndMatricesHaveDefaultsAndValues) {
   surface("shapes");
   expectColor(shadeOne(), {3, 1, 5});
   EXPECT_EQ(heard, (std::vector<std::string>{"one", "two"}));
-  Param array = given(ValueType::Float, {4, 5, 6}), pair = given(ValueType::Color, {0, 0, 0, 0, 7, 0}), m = given(ValueType::Matrix, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 2, 3, 4, 1});
+  Param array = given(ValueType::Float, {4, 5, 6}), pair = given(ValueType::Color, {0, 0, 0, 0, 7, 0}),
+        m = given(ValueType::Matrix, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 2, 3, 4, 1});
   array.name = "floats", pair.name = "colors", m.name = "matrix";
   Param said;
   said.name = "words", said.type = ValueType::String, said.strings = {"", "three"};
@@ -206,7 +207,8 @@ TEST_F(Shapes, AUniformParameterIsNotOverriddenByPrimitiveVariablesAndThisIsSaid
 TEST(ParameterValues, StringsStayStrings) {
   const char* defaults[] = {"a", "b"};
   Param p = given(ValueType::Float, {1});
-  EXPECT_EQ(parameterValue({"x", TM_STRING, 2, nullptr, defaults, ""}, &p).strings, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(parameterValue({"x", TM_STRING, 2, nullptr, defaults, ""}, &p).strings,
+            (std::vector<std::string>{"a", "b"}));
   p = Param{}, p.type = ValueType::String, p.strings = {"c"};
   const ParameterValue value = parameterValue({"x", TM_STRING, 2, nullptr, defaults, ""}, &p);
   EXPECT_EQ(value.strings, (std::vector<std::string>{"c", "b"}));

@@ -35,13 +35,17 @@ class FakeClouds : public CloudServices {
     return true;
   }
   /// Tells what it was asked.
-  bool occlusion(const CloudQuery& q, const DisksQuery& d, float* covered, TmVec3 radiance, std::string& problem) override {
+  bool occlusion(const CloudQuery& q, const DisksQuery& d, float* covered, TmVec3 radiance,
+                 std::string& problem) override {
     if (q.file != "known.ptc") return problem = "is not there", false;
     for (int i = 0; i < q.count; ++i) {
       if (!q.active[i]) continue;
       covered[i] = d.clamp ? 0.25f : 0.5f;
-      if (d.falloff.maxDistance < 1e30f) covered[i] = 100 * d.falloff.maxDistance + 10 * d.falloff.bias + d.falloff.falloff;
-      if (radiance.x) radiance.x[i] = d.maxSolidAngle, radiance.y[i] = q.P.x[i], radiance.z[i] = d.channel == "_radiosity" ? 1.0f : 2.0f;
+      if (d.falloff.maxDistance < 1e30f)
+        covered[i] = 100 * d.falloff.maxDistance + 10 * d.falloff.bias + d.falloff.falloff;
+      if (radiance.x)
+        radiance.x[i] = d.maxSolidAngle, radiance.y[i] = q.P.x[i],
+        radiance.z[i] = d.channel == "_radiosity" ? 1.0f : 2.0f;
     }
     return true;
   }
@@ -50,7 +54,9 @@ class FakeClouds : public CloudServices {
   bool subsurface(const CloudQuery& q, const TmSubsurface& s, TmVec3 out, std::string& problem) override {
     if (q.file != "known.ptc") return problem = "is not there", false;
     for (int i = 0; i < q.count; ++i)
-      if (q.active[i]) out.x[i] = q.P.x[i], out.y[i] = s.unitLength * s.ior, out.z[i] = s.material ? 0 : s.scattering[1] + s.absorption[2];
+      if (q.active[i])
+        out.x[i] = q.P.x[i], out.y[i] = s.unitLength * s.ior,
+        out.z[i] = s.material ? 0 : s.scattering[1] + s.absorption[2];
     return true;
   }
 
@@ -70,9 +76,7 @@ struct baking : sl::Surface {
 struct finding : sl::Surface {
   void main() {
     sl::Float x = -1, found = -1;
-    sl::If(u < 0.7, [&] {
-      found = sl::texture3d(file(sl::grid()), P, N, {{"x", x}});
-    });
+    sl::If(u < 0.7, [&] { found = sl::texture3d(file(sl::grid()), P, N, {{"x", x}}); });
     Ci = sl::Color(x, found, 0) + sl::photonmap("photons.ptc", P, N, 7) * sl::Color(0, 0, 1), Oi = sl::Color(1.0);
     sl::setzcomp(Ci, sl::xcomp(sl::photonmap("photons.ptc", P, N, 7)));
   }
@@ -81,8 +85,8 @@ struct wax : sl::Surface {
   void main() {
     Ci = sl::Color(-1.0), Oi = sl::Color(1.0);
     sl::If(u < 0.7, [&] {
-      Ci = sl::subsurface(P, N, file(sl::grid()), "coordsystem", "object", "scattering", rsl::Color{1, 2, 3}, "absorption", rsl::Color{4, 5, 6}, "ior", 1.5,
-                          "unitlength", 10);
+      Ci = sl::subsurface(P, N, file(sl::grid()), "coordsystem", "object", "scattering", rsl::Color{1, 2, 3},
+                          "absorption", rsl::Color{4, 5, 6}, "ior", 1.5, "unitlength", 10);
     });
   }
 };
@@ -94,7 +98,8 @@ struct pointbased : sl::Surface {
     Ci = sl::Color(-1.0), Oi = sl::Color(1.0);
     sl::If(u < 0.7, [&] {
       const sl::Float covered = sl::occlusion(P, N, 0, "pointbased", 1, "filename", file(sl::grid()), "clamp", 0);
-      Ci = sl::indirectdiffuse(P, N, 0, "filename", file(sl::grid()), "pointbased", 1, "maxsolidangle", 0.125, "channel", "_light");
+      Ci = sl::indirectdiffuse(P, N, 0, "filename", file(sl::grid()), "pointbased", 1, "maxsolidangle", 0.125,
+                               "channel", "_light");
       Ci += sl::Color(covered, 0, 0);
     });
   }
@@ -104,7 +109,8 @@ struct listing : sl::Surface {
   void main() {
     sl::Float x = 0;
     sl::bake3d("left.ptc", P, N, {{"u", u}}, "coordsystem", "object", "radius", 0.5, "radiusscale", 3);
-    const sl::Float found = sl::texture3d("known.ptc", P, N, {{"x", x}}, "coordsystem", "object", "filterradius", &radius);
+    const sl::Float found =
+        sl::texture3d("known.ptc", P, N, {{"x", x}}, "coordsystem", "object", "filterradius", &radius);
     Ci = sl::photonmap("photons.ptc", P, N, "estimator", 9, "maxdist", 2.5);
     sl::setycomp(Ci, x + 10 * found), Oi = sl::Color(1.0);
   }
@@ -112,7 +118,8 @@ struct listing : sl::Surface {
 };
 struct distant : sl::Surface {
   void main() {
-    Ci = sl::Color(sl::occlusion(P, N, 0, "pointbased", 1, "filename", "known.ptc", "maxdist", 8, "bias", 0.5, "falloff", 3, "distribution", "uniform"));
+    Ci = sl::Color(sl::occlusion(P, N, 0, "pointbased", 1, "filename", "known.ptc", "maxdist", 8, "bias", 0.5,
+                                 "falloff", 3, "distribution", "uniform"));
     Oi = sl::Color(1.0);
   }
 };
@@ -130,7 +137,8 @@ const rsl::Shader findingShader(TM_SURFACE, "finding", "", 0, sl::shade<finding>
 class CloudCalls : public Stage {
  protected:
   CloudCalls() {
-    static const TmShader* const shaders[] = {bakingShader, neighbourShader, findingShader, waxShader, causticShader, pointbasedShader, listingShader, distantShader};
+    static const TmShader* const shaders[] = {bakingShader,  neighbourShader,  findingShader, waxShader,
+                                              causticShader, pointbasedShader, listingShader, distantShader};
     static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 8};
     registry.addLibrary(&library, "test");
   }
@@ -219,7 +227,8 @@ TEST_F(CloudCalls, DistancesOfAPointCloudAreThoseOfTheWorldAndWhatRaysAloneKnowI
   surface("distant");
   scene.cameraFromWorld = Motion::still(mat4(2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1));
   system().setClouds(&clouds);
-  EXPECT_FLOAT_EQ(shade(row()).color(0).x, 100 * 4 + 10 * 0.25f + 6) << "8, 1/2 and exp(-3 d) in a camera of twice the size";
+  EXPECT_FLOAT_EQ(shade(row()).color(0).x, 100 * 4 + 10 * 0.25f + 6)
+      << "8, 1/2 and exp(-3 d) in a camera of twice the size";
   ASSERT_EQ(log.entries().size(), 1u);
   EXPECT_EQ(log.worst(), Severity::Missing);
 }
@@ -259,7 +268,8 @@ TEST_F(CloudCalls, WhatCannotBeIsReportedOnceWithShaderAndFile) {
   system().setClouds(&clouds);
   shade(row()), shade(row());
   ASSERT_EQ(log.entries().size(), 1u);
-  EXPECT_NE(log.entries()[0].message.find("\"absent.ptc\": is not there"), std::string::npos) << log.entries()[0].message;
+  EXPECT_NE(log.entries()[0].message.find("\"absent.ptc\": is not there"), std::string::npos)
+      << log.entries()[0].message;
   EXPECT_EQ(log.worst(), Severity::Missing);
 }
 

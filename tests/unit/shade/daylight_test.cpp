@@ -10,7 +10,8 @@ class Daylight : public Stage {
  protected:
   static Param vector(const std::string& name, const vec3& v) { return triple(name, ValueType::Vector, v); }
   /// What white paper with normal N reflects, the sun `zenithAngle_degrees` from straight up (y) towards x.
-  vec3 onPaper(const std::string& shader, float zenithAngle_degrees, const vec3& N = {0, 1, 0}, float turbidity = 2, int samples = 1024) {
+  vec3 onPaper(const std::string& shader, float zenithAngle_degrees, const vec3& N = {0, 1, 0}, float turbidity = 2,
+               int samples = 1024) {
     scene = Scene(), attributes = Attributes(), shading.reset();
     surface("matte");
     const float a = glm::radians(zenithAngle_degrees);

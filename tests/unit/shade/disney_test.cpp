@@ -32,7 +32,8 @@ TEST_F(Disney, TheSpecularLobeHasTheHeightOfItsDistribution) {
   // f = D G F with D = 1 / (pi a^2), G = 1 / 4 (Smith's two factors, each 1 / 2), F = 0.08 specular; light is E/pi.
   expectColor(facing({number("specular", 0.5f), number("roughness", rough)}), vec3(0.04f / (4 * alpha * alpha)), 1e-4f);
   attributes.color = {1, 0.5f, 0.25f};
-  expectColor(facing({number("metallic", 1), number("roughness", rough)}), attributes.color * (1 / (4 * alpha * alpha)), 1e-3f);
+  expectColor(facing({number("metallic", 1), number("roughness", rough)}), attributes.color * (1 / (4 * alpha * alpha)),
+              1e-3f);
 }
 
 TEST_F(Disney, LightsThatAreNoSpecularLeaveTheMattePart) {
@@ -61,20 +62,22 @@ TEST_F(Disney, ReflectsNoMoreThanItGets) {
     }
 }
 
-// At roughness 1 the distribution is even and each Smith factor 1 / (1 + n.v): what a metal gives back along its normal is the integral
-// of c / (1 + c), 1 - ln 2.
+// At roughness 1 the distribution is even and each Smith factor 1 / (1 + n.v): what a metal gives back along its normal
+// is the integral of c / (1 + c), 1 - ln 2.
 TEST_F(Disney, TheRoughestMetalGivesBackWhatItsIntegralSays) {
   surface("disney", {number("roughness", 1), number("metallic", 1)});
   light("environmentlight", {number("samples", 4096)});
   EXPECT_NEAR(shadeOne().x, 1 - std::log(2.0f), 3e-3f);
 }
 
-// A world of 1 all around is the same whether it is a sky, of which light and lobes are sampled, or what reflected rays see.
+// A world of 1 all around is the same whether it is a sky, of which light and lobes are sampled, or what reflected rays
+// see.
 TEST_F(Disney, ReflectedRaysTellOfTheSameWorldAsHighlights) {
   services.seen = [](const vec3&) { return vec3(1.0f); };
   for (const float rough : {0.1f, 0.5f, 1.0f})
     for (const float coat : {0.0f, 1.0f}) {
-      const ParamList look{number("metallic", 1), number("roughness", rough), number("clearcoat", coat), number("reflections", 2048)};
+      const ParamList look{number("metallic", 1), number("roughness", rough), number("clearcoat", coat),
+                           number("reflections", 2048)};
       shading.reset(), scene.objects.clear(), scene.lights.clear(), attributes.lights.clear();
       surface("disney", look);
       const float mirrored = shadeOne().x;
@@ -94,7 +97,8 @@ TEST_F(Disney, ASharpLobeUnderASkyIsFreeOfNoise) {
   light("environmentlight", {number("samples", 16)});
   const ShadedPoints seen = shade(points(std::vector<vec3>(200, vec3(0, 0, 5))));
   double mean = 0, square = 0;
-  for (int i = 0; i < 200; ++i) mean += double{seen.color(i).x} / 200, square += std::pow(double{seen.color(i).x} - 1, 2) / 200;
+  for (int i = 0; i < 200; ++i)
+    mean += double{seen.color(i).x} / 200, square += std::pow(double{seen.color(i).x} - 1, 2) / 200;
   EXPECT_NEAR(mean, 1, 0.02);
   EXPECT_LT(std::sqrt(square), 0.06);
 }

@@ -87,7 +87,8 @@ TEST_F(Displacement, RandomNumbersGoByThePlaceOnTheObject) {
   EXPECT_GT(heights.size(), 78u) << "each vertex has its own";
   EXPECT_NEAR(mean, 0.5f, 0.13f) << "four standard deviations";
   for (int j = 0; j <= 4; ++j)
-    for (int i = 0; i <= 4; ++i) EXPECT_EQ(coarse.P(0, 2)[j * 5 + i], fine.P(0, 2)[2 * j * 9 + 2 * i]) << "whatever the grid";
+    for (int i = 0; i <= 4; ++i)
+      EXPECT_EQ(coarse.P(0, 2)[j * 5 + i], fine.P(0, 2)[2 * j * 9 + 2 * i]) << "whatever the grid";
 }
 
 TEST_F(Displacement, WithoutAShaderNothingHappens) {

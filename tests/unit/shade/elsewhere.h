@@ -1,4 +1,5 @@
-// A surface and a volume that ask what light arrives as a test says, and a light that counts the points that it is asked for.
+// A surface and a volume that ask what light arrives as a test says, and a light that counts the points that it is
+// asked for.
 #pragma once
 #include "reyes/sl.h"
 #include "tests/unit/shade/stage.h"
@@ -27,13 +28,15 @@ inline void shadeCounting(const TmGrid* g) {
     ++litPoints;
     const rsl::Vec3 P = rsl::get(g->P, i), N = rsl::get(g->N, i);
     doubled.set(g, i, 2 * power(g, i)), normalLength.set(g, i, rsl::length(N));
-    b.illuminate(i, rsl::Vec3{0, 0, -1} - P, (std::string_view(word(g)) == "said" ? 100.0f : 1.0f) * power(g, i) * tint(g, i));
+    b.illuminate(i, rsl::Vec3{0, 0, -1} - P,
+                 (std::string_view(word(g)) == "said" ? 100.0f : 1.0f) * power(g, i) * tint(g, i));
   }
 }
 
 inline const rsl::Shader outsideShader(TM_SURFACE, "outside", "", TM_TRACES, sl::shade<outside>, {});
 inline const rsl::Shader betweenShader(TM_VOLUME, "between", "", 0, sl::shade<between>, {});
-inline const rsl::Shader countingShader(TM_LIGHT, "counting", "", 0, shadeCounting, {&power, &tint, &word, &whole, &doubled, &normalLength});
+inline const rsl::Shader countingShader(TM_LIGHT, "counting", "", 0, shadeCounting,
+                                        {&power, &tint, &word, &whole, &doubled, &normalLength});
 
 class Elsewhere : public Stage {
  protected:

@@ -85,7 +85,8 @@ TEST_F(Elsewhere, LightsTakeWhatTheyAreSent) {
     const auto sum = [&](Color& to) { return [&to, &s] { to += Color(xcomp(s.Cl), ycomp(s.Cl), zcomp(s.Cl)); }; };
     Float varying = 1 + s.u;
     Color red(1, 0, 0);
-    s.illuminance(s.P, lights("send:light:power", varying, "light:doubled", &heard, "light:absent", &deaf), sum(answers[0]));
+    s.illuminance(s.P, lights("send:light:power", varying, "light:doubled", &heard, "light:absent", &deaf),
+                  sum(answers[0]));
     s.illuminance(s.P, s.N, 1.5, lights("send:light:tint", red, "send:light:word", "said"), sum(answers[1]));
     s.illuminance(s.P, lights("send:light:power", red, "send:light:whole", varying), sum(answers[2]));
     s.illuminance(s.P, lights("send:light:power", 7), sum(answers[3]));
@@ -118,7 +119,8 @@ TEST_F(Elsewhere, WhatIsSentIsKeptUntilTheLastLightHasRunAndBelongsToItsPlace) {
     s.Ci = Color(xcomp(sum), xcomp(here), xcomp(there));
     EXPECT_THROW(lights("send:light:power", &sent), std::invalid_argument);
     EXPECT_THROW(lights("lightcache", "renew"), std::invalid_argument);
-    EXPECT_THROW(rays("maxdist", sent), std::invalid_argument) << "no list but that of lights takes a number for each point";
+    EXPECT_THROW(rays("maxdist", sent), std::invalid_argument)
+        << "no list but that of lights takes a number for each point";
   });
   expectColor(out.color(0), {6, 12, 20});
 }
@@ -126,7 +128,9 @@ TEST_F(Elsewhere, WhatIsSentIsKeptUntilTheLastLightHasRunAndBelongsToItsPlace) {
 // Lights that have an extent draw samples by what a point is and where it asks, whoever else asks.
 TEST_F(Elsewhere, WhatAPointGetsDoesNotDependOnTheOthers) {
   light("arealight", {number("samples", 4)}, true);
-  services.emitter = [](float a, float b, vec3& P, vec3& N, float& area) { P = {-1 + 2 * a, -0.5f + b, 3}, N = {0, 0, 1}, area = 2; };
+  services.emitter = [](float a, float b, vec3& P, vec3& N, float& area) {
+    P = {-1 + 2 * a, -0.5f + b, 3}, N = {0, 0, 1}, area = 2;
+  };
   attributes.atmosphere = std::make_shared<const ShaderCall>(call("between", {}));
   onSurface = [](sl::Surface& s) {
     Point Q = s.P;

@@ -24,8 +24,7 @@ class Environment : public Stage {
       for (int x = 0; x < w; ++x) {
         const float theta = kPi * (static_cast<float>(y) + 0.5f) / h,
                     phi = 2 * kPi * (static_cast<float>(x) + 0.5f) / w;
-        const vec3 L =
-            sky({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
+        const vec3 L = sky({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
         picture.setpixel(x, y, &L.x);
       }
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
@@ -80,16 +79,19 @@ TEST_F(Environment, AWallThatHidesHalfOfTheSkyTakesHalfOfTheLight) {
   EXPECT_NEAR(litBy({0, 0, -1}).x, (1 + std::cos(a)) / 2, 3e-3f);
 }
 
-/// As far as 4 samples tell: behind an opening of 0.2 x 0.2, which fills a 90th of the sky, without portals most pixels would be black.
+/// As far as 4 samples tell: behind an opening of 0.2 x 0.2, which fills a 90th of the sky, without portals most pixels
+/// would be black.
 TEST_F(Environment, APortalIsTheUnitSquareOfACoordinateSystem) {
   surface("matte");
-  scene.worldFromNamed["window"] = glm::scale(glm::translate(mat4(1.0f), vec3(0, 0, 4)), vec3(0.2f));  // over (0, 0, 5), whose normal is -z
+  scene.worldFromNamed["window"] =
+      glm::scale(glm::translate(mat4(1.0f), vec3(0, 0, 4)), vec3(0.2f));  // over (0, 0, 5), whose normal is -z
   light("environmentlight", {text("portals", "window")});
   services.visible = [](const vec3& from, const vec3& toward) {
     const vec3 there = toward.z < 0 ? from - toward * (from.z - 4) / toward.z : vec3(kInfinity);
     return std::max(std::abs(there.x), std::abs(there.y)) <= 0.1f ? 1.0f : 0.0f;
   };
-  // Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-3: four quarters of 0.1 x 0.1 at a distance of 1.
+  // Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-3: four quarters of 0.1 x 0.1 at a distance
+  // of 1.
   const float x = 0.1f, root = std::sqrt(1 + x * x), factor = 4 * 2 * x / root * std::atan(x / root) / (2 * kPi);
   const float lit = litBy({0, 0, -1}, 4).x;
   EXPECT_NEAR(lit, factor, 0.25f * factor);
@@ -109,8 +111,7 @@ TEST_F(Environment, LinearSkyHasTheIrradianceOfItsClosedForm) {
   surface("matte");
   // E/pi of L = a + b.w is a + 2/3 b.N: the mean of w over the cosine-weighted hemisphere is 2/3 N.
   const vec3 b(0.2f, 0.3f, 0.4f);
-  light("environmentlight",
-        {text("map", writeMap([b](const vec3& w) { return vec3(1, 2, 0.5f) + vec3(dot(b, w)); }))});
+  light("environmentlight", {text("map", writeMap([b](const vec3& w) { return vec3(1, 2, 0.5f) + vec3(dot(b, w)); }))});
   for (const vec3& N : kNormals) expectColor(litBy(N), vec3(1, 2, 0.5f) + vec3(2.0f / 3 * dot(b, N)), 3e-3f);
   EXPECT_EQ(log.entries().size(), 0u);
 }
@@ -119,8 +120,7 @@ TEST_F(Environment, TheMapStandsInTheWorldNotInTheCamera) {
   surface("matte");
   // The camera looks down the world's z axis: its +z is the world's -z, its y the world's -y.
   scene.cameraFromWorld = Motion::still(mat4(1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1));
-  light("environmentlight",
-        {text("map", writeMap([](const vec3& w) { return vec3(1 + w.z, 1 + w.y, 1 + w.x); }))});
+  light("environmentlight", {text("map", writeMap([](const vec3& w) { return vec3(1 + w.z, 1 + w.y, 1 + w.x); }))});
   expectColor(litBy({0, 0, -1}), {5.0f / 3, 1, 1}, 3e-3f);
   expectColor(litBy({0, -1, 0}), {1, 5.0f / 3, 1}, 3e-3f);
   expectColor(litBy({1, 0, 0}), {1, 1, 5.0f / 3}, 3e-3f);
@@ -129,10 +129,12 @@ TEST_F(Environment, TheMapStandsInTheWorldNotInTheCamera) {
 TEST_F(Environment, TheMapMayStandInTheSpaceOfTheLight) {
   surface("matte");
   scene.cameraFromWorld = Motion::still(mat4(1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1));
-  LightCall& sky = light("environmentlight", {text("map", writeMap([](const vec3& w) { return vec3(1 + w.z, 1 + w.y, 1 + w.x); })), text("mapspace", "shader")});
+  LightCall& sky =
+      light("environmentlight", {text("map", writeMap([](const vec3& w) { return vec3(1 + w.z, 1 + w.y, 1 + w.x); })),
+                                 text("mapspace", "shader")});
   // Twice as large as the world; its z is the world's x, its x the world's y.
   sky.shader.worldFromShader = Motion::still(mat4(0, 2, 0, 0, 0, 0, 2, 0, 2, 0, 0, 0, 0, 0, 0, 1));
-  expectColor(litBy({1, 0, 0}), {5.0f / 3, 1, 1}, 3e-3f);   // current x is the world's, the map's z
+  expectColor(litBy({1, 0, 0}), {5.0f / 3, 1, 1}, 3e-3f);  // current x is the world's, the map's z
   expectColor(litBy({0, -1, 0}), {1, 1, 5.0f / 3}, 3e-3f);
   expectColor(litBy({0, 0, -1}), {1, 5.0f / 3, 1}, 3e-3f);
 }
@@ -140,15 +142,15 @@ TEST_F(Environment, TheMapMayStandInTheSpaceOfTheLight) {
 TEST_F(Environment, AMapSpaceThatThereIsNotIsTheWorldAndTold) {
   surface("matte");
   scene.cameraFromWorld = Motion::still(mat4(1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1));
-  light("environmentlight", {text("map", writeMap([](const vec3& w) { return vec3(1 + w.z, 1 + w.y, 1 + w.x); })), text("mapspace", "object")});
+  light("environmentlight", {text("map", writeMap([](const vec3& w) { return vec3(1 + w.z, 1 + w.y, 1 + w.x); })),
+                             text("mapspace", "object")});
   expectColor(litBy({0, 0, -1}), {5.0f / 3, 1, 1}, 3e-3f);
   ASSERT_EQ(log.count("light-mapspace"), 1);
   EXPECT_EQ(log.worst(), Severity::Warning);
 }
 
 TEST_F(Environment, ShinyMetalMirrorsTheMapByTheReflectedDirection) {
-  surface("shinymetal",
-          {number("Kr", 0.5f), text("texturename", writeMap([](const vec3& w) { return vec3(1) + w; }))});
+  surface("shinymetal", {number("Kr", 0.5f), text("texturename", writeMap([](const vec3& w) { return vec3(1) + w; }))});
   attributes.color = {1, 0.5f, 1};
   ShadePoints p = points({vec3(0, 0, 5)}, glm::normalize(vec3(1, 0, -1)));
   expectColor(shade(p).color(0), 0.5f * attributes.color * vec3(2, 1, 1), 2e-3f);  // I = +z, R = +x
@@ -181,7 +183,8 @@ TEST_F(Environment, WideRaysLeaveTheSkyToDiffuse) {
   expectColor(shadeOne(), {0, 0, 0});
 }
 
-// A white metal in a white sky is as bright as the sky, by the lights alone as with rays that mirror the scene: light samples bring the sky once.
+// A white metal in a white sky is as bright as the sky, by the lights alone as with rays that mirror the scene: light
+// samples bring the sky once.
 TEST_F(Environment, RaysThatPassLampsPassTheSky) {
   const auto lit = [&](float rays) {
     shading.reset(), scene = {}, attributes = {};

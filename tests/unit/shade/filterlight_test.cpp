@@ -47,8 +47,8 @@ TEST_F(FilterLight, DirectionalityIsEquationNine) {
 }
 
 TEST_F(FilterLight, ConeAndDistanceHaveSoftEdges) {
-  filter({number("coneangle", 0.5f), number("conedeltaangle", 0.2f), number("distance", 10),
-          number("distancedelta", 4)});
+  filter(
+      {number("coneangle", 0.5f), number("conedeltaangle", 0.2f), number("distance", 10), number("distancedelta", 4)});
   const auto along = [](float angle, float d) { return vec3(std::sin(angle), 0, std::cos(angle)) * d; };
   EXPECT_NEAR(at(along(0.29f, 5)).x, 0.5f, 1e-5f);
   EXPECT_NEAR(at(along(0.4f, 5)).x, 0.25f, 1e-4f);

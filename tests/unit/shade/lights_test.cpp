@@ -11,8 +11,8 @@ TEST_F(Lights, MatteUnderADistantLightIsCsKdCosine) {
   attributes.color = {0.5f, 0.25f, 1};
   surface("matte", {number("Kd", 0.8f)});
   const float angle = 1.0f;
-  light("distantlight", {point("from", {0, 0, 0}), point("to", {std::sin(angle), 0, std::cos(angle)}),
-                         number("intensity", 2)});
+  light("distantlight",
+        {point("from", {0, 0, 0}), point("to", {std::sin(angle), 0, std::cos(angle)}), number("intensity", 2)});
   expectColor(shadeOne(), attributes.color * 0.8f * 2.0f * std::cos(angle));
   expectColor(shade(points({vec3(0, 0, 5)})).opacity(0), vec3(1));
 }
@@ -42,8 +42,7 @@ TEST_F(Lights, PointsAmongTheParametersOfALightAreInShaderSpace) {
 
 TEST_F(Lights, SpotlightIsFullInsideItsConeAndDarkOutside) {
   surface("matte");
-  light("spotlight",
-        {number("coneangle", 0.5f), number("conedeltaangle", 0.1f), number("beamdistribution", 3)});
+  light("spotlight", {number("coneangle", 0.5f), number("conedeltaangle", 0.1f), number("beamdistribution", 3)});
   const auto under = [](float angle) { return vec3(10 * std::tan(angle), 0, 10); };
   const ShadedPoints out = shade(points({under(0), under(0.39f), under(0.45f), under(0.501f)}));
   const auto full = [](float angle) { return std::pow(std::cos(angle), 3.0f + 1 + 2) / 100; };
@@ -86,8 +85,7 @@ TEST_F(Lights, LightingChoosesBetweenDirectAndIndirect) {
 double lambert(const std::vector<glm::dvec3>& polygon, const glm::dvec3& P, const glm::dvec3& N) {
   double sum = 0;
   for (size_t k = 0; k < polygon.size(); ++k) {
-    const glm::dvec3 a = glm::normalize(polygon[k] - P),
-                     b = glm::normalize(polygon[(k + 1) % polygon.size()] - P);
+    const glm::dvec3 a = glm::normalize(polygon[k] - P), b = glm::normalize(polygon[(k + 1) % polygon.size()] - P);
     sum += std::acos(glm::dot(a, b)) * glm::dot(glm::normalize(glm::cross(a, b)), N);
   }
   return std::abs(sum) / (2 * 3.14159265358979323846);
@@ -113,8 +111,8 @@ TEST_F(AreaLight, IrradianceOfARectangleIsTheClosedFormAtNinePoints) {
   fine.lightSamples = 1024;
   const ShadedPoints out = shade(points(P), fine);
   for (int i = 0; i < 9; ++i) {
-    const double E = 4 * lambert({{-1, -.5, 3}, {1, -.5, 3}, {1, .5, 3}, {-1, .5, 3}},
-                                 P[static_cast<size_t>(i)], {0, 0, -1});
+    const double E =
+        4 * lambert({{-1, -.5, 3}, {1, -.5, 3}, {1, .5, 3}, {-1, .5, 3}}, P[static_cast<size_t>(i)], {0, 0, -1});
     EXPECT_NEAR(out.color(i).x, E, 0.01 * E) << "point " << i;
   }
 }
@@ -129,7 +127,7 @@ TEST_F(AreaLight, StopsTracingShadowsWhereTheirMeanIsKnownWellEnough) {
   const int inTheOpen = std::exchange(services.shadowRays, 0);
   services.visible = visible;
   const float penumbra = shade(clear).color(0).x;
-  EXPECT_LT(inTheOpen, 24);                      // 0.5 / (n + 1) (1 - 0.5 / (n + 1)) / n < 0.002 at n = 16
+  EXPECT_LT(inTheOpen, 24);  // 0.5 / (n + 1) (1 - 0.5 / (n + 1)) / n < 0.002 at n = 16
   EXPECT_GT(services.shadowRays, 2 * inTheOpen);
   ShadeContext fine;
   fine.lightSamples = 4096;
@@ -254,7 +252,8 @@ TEST_F(Lights, MistakenLightsAreWarnedAbout) {
   system();
   EXPECT_EQ(log.count("light-area"), 2);
   const std::vector<LogEntry> said = log.entries();
-  EXPECT_EQ(std::count_if(said.begin(), said.end(), [](const LogEntry& e) { return e.severity == Severity::Missing; }), 1)
+  EXPECT_EQ(std::count_if(said.begin(), said.end(), [](const LogEntry& e) { return e.severity == Severity::Missing; }),
+            1)
       << "the area light without geometry lights nothing";
   EXPECT_EQ(log.count("light-lighting"), 1);
   EXPECT_EQ(log.count("light-shadow-map"), 1);
@@ -264,8 +263,8 @@ TEST_F(Lights, IndirectLightObeysReceiveGainContextAndItsOwnTint) {
   services.E = {1, 1, 1};
   surface("matte");
   attributes.indirect.gain = 2;
-  light("indirectlight", {number("intensity", 3), color("lightcolor", {1, 2, 4}), number("samples", 77),
-                          number("maxerror", 0.5f)});
+  light("indirectlight",
+        {number("intensity", 3), color("lightcolor", {1, 2, 4}), number("samples", 77), number("maxerror", 0.5f)});
   expectColor(shadeOne(), 6.0f * vec3(1, 2, 4));
   EXPECT_EQ(services.queries.back().samples, 77);
   ASSERT_NE(system().indirectQuery(0), nullptr);

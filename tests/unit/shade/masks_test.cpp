@@ -21,10 +21,10 @@ rsl::Vec3Array* axis = nullptr;  ///< (0, 0, -1) everywhere.
 rsl::Array* number = nullptr;    ///< 0.1 everywhere.
 
 const std::vector<Asked>& calls() {
-#define TM_CALL(name, ...)                                                                                                  \
-  {                                                                                                                         \
-    name, [](const TmServices& call, [[maybe_unused]] void* h, [[maybe_unused]] const TmGrid* g, [[maybe_unused]] TmVec3 out, \
-             [[maybe_unused]] uint8_t* flags) { __VA_ARGS__; }                                                              \
+#define TM_CALL(name, ...)                                                                       \
+  {                                                                                              \
+    name, [](const TmServices& call, [[maybe_unused]] void* h, [[maybe_unused]] const TmGrid* g, \
+             [[maybe_unused]] TmVec3 out, [[maybe_unused]] uint8_t* flags) { __VA_ARGS__; }      \
   }
   static const std::vector<Asked> all = {
       TM_CALL("diffuse", call.diffuse(h, g, *axis, out)),
@@ -37,7 +37,11 @@ const std::vector<Asked>& calls() {
       TM_CALL("indirectDiffuse", call.indirectDiffuse(h, g, *axis, out, nullptr)),
       TM_CALL("environment", call.environment(h, g, "absent.exr", *axis, nullptr, out)),
       TM_CALL("diffuseOf", call.diffuseOf(h, g, TM_DIRECT_LIGHT, *axis, out)),
-      TM_CALL("shadow", { const TmShadowLookup lookup{-1, 0, 1, 4}; call.shadow(h, g, "absent.tif", rsl::view(g->P), &lookup, out); }),
+      TM_CALL("shadow",
+              {
+                const TmShadowLookup lookup{-1, 0, 1, 4};
+                call.shadow(h, g, "absent.tif", rsl::view(g->P), &lookup, out);
+              }),
       TM_CALL("trace", call.trace(h, g, rsl::view(g->P), *axis, nullptr, out, nullptr)),
       TM_CALL("gather", call.gather(h, g, rsl::view(g->P), *axis, nullptr, 0, flags, nullptr, 0)),
       TM_CALL("occlusion", call.occlusion(h, g, rsl::view(g->P), *axis, nullptr, out.x, TmVec3{})),
@@ -49,28 +53,32 @@ const std::vector<Asked>& calls() {
       TM_CALL("derivative", call.derivative(h, g, 0, g->s, out.x)),
       TM_CALL("textureWith", call.textureWith(h, g, "absent.tif", nullptr, g->s, g->t, out)),
       TM_CALL("environmentWith", call.environmentWith(h, g, "absent.exr", nullptr, *axis, out)),
-      TM_CALL("illuminance", {
-        TmIlluminance query{};
-        query.structBytes = sizeof query, query.axis = *axis, query.angle = 1.5f;
-        ASSERT_TRUE(call.illuminance(h, g, &query));
-        std::copy_n(query.lit, g->count, flags);
-      }),
-      TM_CALL("illuminance", {
-        TmIlluminance query{};
-        query.structBytes = sizeof query, query.P = *axis;
-        ASSERT_TRUE(call.illuminance(h, g, &query));
-        std::copy_n(query.lit, g->count, flags);
-      }),
-      TM_CALL("textureOver", {
-        const float* sides[4] = {number->data(), number->data(), number->data(), number->data()};
-        call.textureOver(h, g, "absent.tif", nullptr, g->s, g->t, sides, out);
-      }),
+      TM_CALL("illuminance",
+              {
+                TmIlluminance query{};
+                query.structBytes = sizeof query, query.axis = *axis, query.angle = 1.5f;
+                ASSERT_TRUE(call.illuminance(h, g, &query));
+                std::copy_n(query.lit, g->count, flags);
+              }),
+      TM_CALL("illuminance",
+              {
+                TmIlluminance query{};
+                query.structBytes = sizeof query, query.P = *axis;
+                ASSERT_TRUE(call.illuminance(h, g, &query));
+                std::copy_n(query.lit, g->count, flags);
+              }),
+      TM_CALL("textureOver",
+              {
+                const float* sides[4] = {number->data(), number->data(), number->data(), number->data()};
+                call.textureOver(h, g, "absent.tif", nullptr, g->s, g->t, sides, out);
+              }),
       TM_CALL("texture3d", call.texture3d(h, g, "absent.ptc", rsl::view(g->P), *axis, nullptr, nullptr, 0, out.x)),
       TM_CALL("photonMap", call.photonMap(h, g, "absent.ptc", rsl::view(g->P), *axis, 50, out)),
-      TM_CALL("hemisphere", {
-        const TmHemisphere found{sizeof(TmHemisphere), nullptr, out, {}, {}};
-        call.hemisphere(h, g, rsl::view(g->P), *axis, nullptr, &found);
-      }),
+      TM_CALL("hemisphere",
+              {
+                const TmHemisphere found{sizeof(TmHemisphere), nullptr, out, {}, {}};
+                call.hemisphere(h, g, rsl::view(g->P), *axis, nullptr, &found);
+              }),
       TM_CALL("photonMapWith", call.photonMapWith(h, g, "absent.ptc", rsl::view(g->P), *axis, nullptr, out)),
       TM_CALL("subsurface", call.subsurface(h, g, "absent.ptc", rsl::view(g->P), nullptr, out)),
   };
@@ -78,8 +86,10 @@ const std::vector<Asked>& calls() {
   return all;
 }
 
-/// Those that give nothing to single points: bake3d, whose mask has tests with the clouds, and `light`, whose arrays are the host's.
-const std::set<std::string> kOfTheWholeBatch{"light", "report", "rayLabel", "lobeSamples", "ask", "textureInfo", "bake3d", "print"};
+/// Those that give nothing to single points: bake3d, whose mask has tests with the clouds, and `light`, whose arrays
+/// are the host's.
+const std::set<std::string> kOfTheWholeBatch{"light", "report",      "rayLabel", "lobeSamples",
+                                             "ask",   "textureInfo", "bake3d",   "print"};
 
 void maskedRun(const TmGrid* g) {
   std::vector<uint8_t> active(static_cast<size_t>(g->padded), 0);
@@ -99,7 +109,8 @@ void maskedRun(const TmGrid* g) {
     EXPECT_EQ(out[1].y, kUntouched) << asked.service;
     EXPECT_EQ(out[1].z, kUntouched) << asked.service;
     EXPECT_EQ(flags[1], 0) << asked.service;
-    for (const int i : {0, 2}) EXPECT_TRUE(out[i].x != kUntouched || flags[static_cast<size_t>(i)]) << asked.service << " gave nothing";
+    for (const int i : {0, 2})
+      EXPECT_TRUE(out[i].x != kUntouched || flags[static_cast<size_t>(i)]) << asked.service << " gave nothing";
   }
   for (int i : rsl::Batch(g)) rsl::Batch(g).output(i, {1, 1, 1}, {1, 1, 1});
 }

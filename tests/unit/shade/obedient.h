@@ -16,7 +16,8 @@ struct obedient : sl::Surface {
   }
 };
 inline rsl::FloatParam lift("lift", 3, "");
-inline const rsl::Shader obedientShader(TM_SURFACE, "obedient", "", TM_TRACES | TM_DERIVATIVES, sl::shade<obedient>, {&lift});
+inline const rsl::Shader obedientShader(TM_SURFACE, "obedient", "", TM_TRACES | TM_DERIVATIVES, sl::shade<obedient>,
+                                        {&lift});
 
 class BatchServices : public Stage {
  protected:
@@ -32,7 +33,8 @@ class BatchServices : public Stage {
     const ShadedPoints out = shade(points(std::vector<vec3>(static_cast<size_t>(n), vec3(0, 0, 5))), context);
     std::vector<vec3> colors;
     for (int i = 0; i < n; ++i) colors.push_back(out.color(i));
-    for (int i = (n + 1) / 2; i < n; ++i) EXPECT_EQ(colors[static_cast<size_t>(i)], vec3(-1)) << "nobody asked at " << i;
+    for (int i = (n + 1) / 2; i < n; ++i)
+      EXPECT_EQ(colors[static_cast<size_t>(i)], vec3(-1)) << "nobody asked at " << i;
     return colors;
   }
 };

@@ -15,8 +15,7 @@ namespace fs = std::filesystem;
 
 void throwing(const TmGrid*) { throw std::runtime_error("no bananas"); }
 void dividing(const TmGrid* g) {
-  for (int i : rsl::Batch(g))
-    rsl::set(g->Oi, i, {1, 1, 1}), rsl::set(g->Ci, i, {i == 1 ? std::nanf("") : 1.0f, 1, 1});
+  for (int i : rsl::Batch(g)) rsl::set(g->Oi, i, {1, 1, 1}), rsl::set(g->Ci, i, {i == 1 ? std::nanf("") : 1.0f, 1, 1});
 }
 
 // Asks every service with point 1 switched off; Ci.x tells whether anything was written there.
@@ -53,9 +52,8 @@ void looping(const TmGrid* g) {
   TmLightSample sample;
   for (int k = 0; g->call->light(g->host, g, k, &sample); ++k)
     for (int i : rsl::Batch(g)) {
-      rsl::set(
-          g->Ci, i,
-          rsl::get(g->Ci, i) + rsl::Vec3{1, rsl::get(sample.Cl, i).x, static_cast<float>(sample.isIndirect)});
+      rsl::set(g->Ci, i,
+               rsl::get(g->Ci, i) + rsl::Vec3{1, rsl::get(sample.Cl, i).x, static_cast<float>(sample.isIndirect)});
       rsl::set(g->Oi, i, {1, 1, 1});
     }
 }
@@ -145,7 +143,8 @@ TEST_F(Plugins, AShaderOfAnotherAbiOrSizeIsSkippedAndItsNeighboursStay) {
   EXPECT_EQ(log.count("shader-plugin"), 2);
 }
 
-// What the first release that had these fields compiled: offsets that a later one must not move, and no field where an earlier struct ended in padding.
+// What the first release that had these fields compiled: offsets that a later one must not move, and no field where an
+// earlier struct ended in padding.
 TEST_F(Plugins, StructsOfOptionsHaveGrownAtTheirEnds) {
   if (sizeof(void*) != 8) GTEST_SKIP() << "offsets of 64-bit machines";
   EXPECT_EQ(offsetof(TmIlluminance, light), 44u);
@@ -162,17 +161,20 @@ TEST_F(Plugins, AFileThatIsNoPluginIsRefusedWithAReason) {
 
 // The example of the documentation, compiled as a user would: against the installed headers and nothing else.
 TEST_F(Plugins, TheExamplePluginCompilesOutOfTreeAndShades) {
-  const fs::path folder = fs::path(::testing::TempDir()) / "tomales_example_plugin",
-                 source = TOMALES_SOURCE_DIR;
+  const fs::path folder = fs::path(::testing::TempDir()) / "tomales_example_plugin", source = TOMALES_SOURCE_DIR;
   fs::remove_all(folder);
   installHeaders(folder / "include/tomales");
-  const std::string command = std::string(TOMALES_CXX) +
-                              " -std=c++17 -Wall -Wextra -Werror -shared -fPIC -I" +
-                              (folder / "include/tomales").string() + " -o " + (folder / "dots.so").string() +
-                              " " + (source / "docs/example_plugin/dots.cpp").string();
+  const std::string command = std::string(TOMALES_CXX) + " -std=c++17 -Wall -Wextra -Werror -shared -fPIC -I" +
+                              (folder / "include/tomales").string() + " -o " + (folder / "dots.so").string() + " " +
+                              (source / "docs/example_plugin/dots.cpp").string();
   ASSERT_EQ(std::system(command.c_str()), 0) << command;
 
-  scene.options.searchPaths["shader"] = "/nowhere:" + folder.string();
+  ShaderRegistry trusting(log, {.folders = "/nowhere:" + folder.string()});
+  EXPECT_NE(trusting.find("dots", TM_SURFACE, "/elsewhere"), nullptr);
+  ShaderRegistry allowing(log, {.sceneFolders = true});
+  EXPECT_NE(allowing.find("dots", TM_SURFACE, "/nowhere:" + folder.string()), nullptr);
+
+  ASSERT_TRUE(registry.loadPlugin((folder / "dots.so").string()));
   surface("dots", {number("frequency", 2), number("Kd", 1), color("dotcolor", {0, 1, 0})});
   light("distantlight");
   ShadePoints p = points({vec3(0, 0, 5), vec3(0, 0, 5)});

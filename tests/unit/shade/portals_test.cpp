@@ -13,7 +13,8 @@ const vec3 kUp(0, 1, 0);
 /// A window of width x height, `away` to the side of the origin, its sill at y = 0.
 mat4 window(float width, float height, float away) {
   mat4 m(1.0f);
-  m[0] = vec4(0, 0, width, 0), m[1] = vec4(0, height, 0, 0), m[2] = vec4(1, 0, 0, 0), m[3] = vec4(away, height / 2, 0, 1);
+  m[0] = vec4(0, 0, width, 0), m[1] = vec4(0, height, 0, 0), m[2] = vec4(1, 0, 0, 0),
+  m[3] = vec4(away, height / 2, 0, 1);
   return m;
 }
 
@@ -38,7 +39,8 @@ Estimate integrate(const Sky& sky, const vec3& P, const vec3& N, const F& f) {
     const vec3 L = sky.sample(P, N, sobol2(i, 7), density);
     EXPECT_NEAR(glm::length(L), 1, 1e-4f);
     EXPECT_EQ(density, sky.density(P, N, L));
-    const double x = dot(N, L) > 0 && density > 0 ? double{f(L)} * double{dot(N, L)} / (double{kPi} * double{density}) : 0.0;
+    const double x =
+        dot(N, L) > 0 && density > 0 ? double{f(L)} * double{dot(N, L)} / (double{kPi} * double{density}) : 0.0;
     sum += x, squares += x * x;
   }
   const double mean = sum / kSamples;
@@ -57,7 +59,8 @@ TEST(SkyPortals, AnOpenSkyIsAsBrightWithThemAsWithout) {
       EXPECT_NEAR(integrate(sky, P, N, [](const vec3&) { return 1.0f; }).mean, 1, 0.01) << P.x << " " << N.x;
 }
 
-/// A rectangle parallel to the normal, its sill at the point's height (Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-4).
+/// A rectangle parallel to the normal, its sill at the point's height (Howell, A Catalog of Radiation Heat Transfer
+/// Configuration Factors, B-4).
 TEST(SkyPortals, AWindowHasItsFormFactorWithATenthOfTheNoise) {
   constexpr float width = 0.6f, height = 0.5f, away = 2;
   const auto half = [](double a, double b, double c) {  // width b to one side, height c, at distance a
@@ -66,7 +69,8 @@ TEST(SkyPortals, AWindowHasItsFormFactorWithATenthOfTheNoise) {
   };
   const double truth = 2 * half(away, width / 2, height);
   const auto seen = [](const vec3& L) { return throughWindow(L, width, height, away) ? 1.0f : 0.0f; };
-  const Estimate with = integrate(skyThrough({window(width, height, away)}), vec3(0), kUp, seen), without = integrate(Sky(), vec3(0), kUp, seen);
+  const Estimate with = integrate(skyThrough({window(width, height, away)}), vec3(0), kUp, seen),
+                 without = integrate(Sky(), vec3(0), kUp, seen);
   EXPECT_NEAR(with.mean, truth, 0.01 * truth);
   EXPECT_NEAR(without.mean, truth, 0.1 * truth);
   EXPECT_LT(with.error, 0.1 * without.error);

@@ -64,7 +64,8 @@ TEST_F(RayServices, ACosineConeFillsItsProjectedDiskAndAUniformOneItsSolidAngle)
       EXPECT_NEAR(glm::length(d), 1, 1e-5f);
       return -d.z > std::cos(half) ? 2.0f : kInfinity;
     };
-    const double expected = uniform ? (1 - std::cos(half)) / (1 - std::cos(1.0)) : std::pow(std::sin(half) / std::sin(1.0), 2);
+    const double expected =
+        uniform ? (1 - std::cos(half)) / (1 - std::cos(1.0)) : std::pow(std::sin(half) / std::sin(1.0), 2);
     EXPECT_NEAR(mean(Ask::Occlusion).x, expected, 0.003);
   }
 }

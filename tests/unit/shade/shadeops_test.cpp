@@ -1,4 +1,5 @@
-// Shadeops against closed forms and against scalar references written here, in double precision where that says something.
+// Shadeops against closed forms and against scalar references written here, in double precision where that says
+// something.
 #include "reyes/shadeops.h"
 
 #include <gtest/gtest.h>
@@ -67,10 +68,11 @@ TEST(Shadeops, FresnelFollowsTheAnglesOfSnellsLaw) {
       const double sine = eta * std::sin(in);
       if (sine >= 1) {
         EXPECT_EQ(Kr, 1);
-  EXPECT_EQ(rsl::length(T), 0);
+        EXPECT_EQ(rsl::length(T), 0);
         continue;
       }
-      const double out = std::asin(sine), s = std::sin(in - out) / std::sin(in + out), p = std::tan(in - out) / std::tan(in + out);
+      const double out = std::asin(sine), s = std::sin(in - out) / std::sin(in + out),
+                   p = std::tan(in - out) / std::tan(in + out);
       EXPECT_NEAR(Kr, 0.5 * (s * s + p * p), 1e-4);
       EXPECT_NEAR(Kr + Kt, 1, 1e-6);
       expectNear(T, {float(std::sin(out)), 0, float(-std::cos(out))}, 1e-4f);
@@ -89,7 +91,9 @@ TEST(Shadeops, MatricesTurnMoveAndScaleAsRibDoes) {
 TEST(Shadeops, InverseUndoesAndNormalsStayAcrossTheirTangents) {
   Values any;
   for (int k = 0; k < 50; ++k) {
-    const rsl::Matrix m = rsl::rotate(rsl::scale(rsl::translate({}, any.vec(3)), {any(0.5f, 2), any(0.5f, 2), any(-2, -0.5f)}), any(-3, 3), any.vec(1));
+    const rsl::Matrix m =
+        rsl::rotate(rsl::scale(rsl::translate({}, any.vec(3)), {any(0.5f, 2), any(0.5f, 2), any(-2, -0.5f)}),
+                    any(-3, 3), any.vec(1));
     rsl::Matrix inverse;
     ASSERT_NE(rsl::invert(m, &inverse), 0);
     const Vec3 p = any.vec(2);
@@ -122,7 +126,7 @@ TEST(Noise, OfAllDimensionsIsBetween0And1AndHalfOnTheLattice) {
     const Vec3 p = any.vec(50);
     for (const float n : {rsl::noise(p.x), rsl::noise(p.x, p.y), rsl::noise(p), rsl::noise(p, p.x * 0.7f)}) {
       EXPECT_GE(n, 0);
-  EXPECT_LE(n, 1);
+      EXPECT_LE(n, 1);
       lo = std::min(lo, n), hi = std::max(hi, n);
     }
   }
@@ -140,7 +144,8 @@ TEST(Noise, HasTheMeanAndSmoothnessOfNoiseInEveryDimension) {
     const Vec3 p{x, 1.3f * x + 0.1f, 0.71f * x};
     const std::array<float, 4> here = {rsl::noise(x), rsl::noise(x, p.y), rsl::noise(p), rsl::noise(p, p.z + 0.4f)};
     const Vec3 q = p + Vec3{1e-3f, 0, 0};
-    const std::array<float, 4> near = {rsl::noise(x + 1e-3f), rsl::noise(q.x, p.y), rsl::noise(q), rsl::noise(q, p.z + 0.4f)};
+    const std::array<float, 4> near = {rsl::noise(x + 1e-3f), rsl::noise(q.x, p.y), rsl::noise(q),
+                                       rsl::noise(q, p.z + 0.4f)};
     for (size_t d = 0; d < 4; ++d) {
       sum[d] += here[d];
       EXPECT_NEAR(here[d], near[d], 5e-3f);
@@ -165,7 +170,8 @@ TEST(Noise, OfThreeDimensionsIsPerlinsByItsDefinition) {
         const double fade = f[a] * f[a] * f[a] * (f[a] * (f[a] * 6 - 15) + 10);
         weight *= c[a] ? fade : 1 - fade, *o[a] = float(f[a] - c[a]);
       }
-      const uint32_t hash = rsl::latticeHash(int(std::floor(p.x)) + c[0], int(std::floor(p.y)) + c[1], int(std::floor(p.z)) + c[2]);
+      const uint32_t hash =
+          rsl::latticeHash(int(std::floor(p.x)) + c[0], int(std::floor(p.y)) + c[1], int(std::floor(p.z)) + c[2]);
       sum += weight * double(rsl::gradient(hash, offset));
     }
     EXPECT_NEAR(rsl::signedNoise(p), sum, 2e-5);
@@ -207,7 +213,8 @@ TEST(Noise, IsTheSameOnEveryMachine) {
   uint32_t bits = 0;
   for (int k = 0; k < 1000; ++k) {
     const float x = 0.37f * float(k);
-    for (const float n : {rsl::noise(Vec3{x, 2 * x, -x}), rsl::noise(Vec3{x, x, x}, -x), rsl::pnoise(Vec3{x, x, 0.5f}, {7, 7, 7}), rsl::cellnoise(x)}) {
+    for (const float n : {rsl::noise(Vec3{x, 2 * x, -x}), rsl::noise(Vec3{x, x, x}, -x),
+                          rsl::pnoise(Vec3{x, x, 0.5f}, {7, 7, 7}), rsl::cellnoise(x)}) {
       uint32_t b;
       std::memcpy(&b, &n, 4);
       bits = bits * 31 + b;
@@ -254,7 +261,8 @@ TEST(Splines, AreInvertedWhereTheyRiseOrFall) {
   const float rises[6] = {-1, 0, 1, 3, 6, 10}, falls[6] = {10, 6, 3, 1, 0, -1};
   for (float x = 0; x <= 1; x += 0.1f)
     for (const float* k : {rises, falls})
-      EXPECT_NEAR(rsl::solveSpline(rsl::Basis::CatmullRom, rsl::spline(rsl::Basis::CatmullRom, x, k, 6), k, 6), x, 1e-4f);
+      EXPECT_NEAR(rsl::solveSpline(rsl::Basis::CatmullRom, rsl::spline(rsl::Basis::CatmullRom, x, k, 6), k, 6), x,
+                  1e-4f);
 }
 
 }  // namespace

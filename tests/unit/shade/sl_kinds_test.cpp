@@ -21,7 +21,7 @@ struct hazysun : sl::Light {
 struct gradedsky : sl::Light {
   void main() {
     solar([&] { Cl = Color(1 + zcomp(normalize(L))) * (zcomp(P) / 5) * length(N); });  // of the point being lit: z is 5
-    L = Vector(1, 0, 0);  // which is the renderer's
+    L = Vector(1, 0, 0);                                                               // which is the renderer's
   }
 };
 /// As the arealight that comes with the renderer.
@@ -40,8 +40,10 @@ struct dimmer : sl::Imager {
 struct curious : sl::Surface {
   void main() { Ci = Color(time, dtime, xcomp(dPdtime)), Oi = Color(xcomp(E), ycomp(E), ncomps); }
 };
-const rsl::Shader hazysunShader(TM_LIGHT, "hazysun", "", TM_LIGHT_SOLAR | TM_LIGHT_SAMPLED, sl::shade<hazysun>, {&samples});
-const rsl::Shader gradedskyShader(TM_LIGHT, "gradedsky", "", TM_LIGHT_SOLAR | TM_LIGHT_SKY, sl::shade<gradedsky>, {&map, &skySamples});
+const rsl::Shader hazysunShader(TM_LIGHT, "hazysun", "", TM_LIGHT_SOLAR | TM_LIGHT_SAMPLED, sl::shade<hazysun>,
+                                {&samples});
+const rsl::Shader gradedskyShader(TM_LIGHT, "gradedsky", "", TM_LIGHT_SOLAR | TM_LIGHT_SKY, sl::shade<gradedsky>,
+                                  {&map, &skySamples});
 const rsl::Shader panelShader(TM_LIGHT, "panel", "", TM_LIGHT_AREA, sl::shade<panel>, {&intensity});
 const rsl::Shader placedShader(TM_LIGHT, "placed", "", TM_LIGHT_AREA, sl::shade<placed>, {});
 const rsl::Shader dimmerShader(TM_IMAGER, "dimmer", "", 0, sl::shade<dimmer>, {});
@@ -50,10 +52,13 @@ const rsl::Shader curiousShader(TM_SURFACE, "curious", "", 0, sl::shade<curious>
 class SlKinds : public Stage {
  protected:
   SlKinds() {
-    static const TmShader* const shaders[] = {hazysunShader, gradedskyShader, panelShader, placedShader, dimmerShader, curiousShader};
+    static const TmShader* const shaders[] = {hazysunShader, gradedskyShader, panelShader,
+                                              placedShader,  dimmerShader,    curiousShader};
     static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 6};
     registry.addLibrary(&library, "test");
-    services.emitter = [](float a, float b, vec3& P, vec3& N, float& area) { P = {-1 + 2 * a, -0.5f + b, 3}, N = {0, 0, 1}, area = 2; };
+    services.emitter = [](float a, float b, vec3& P, vec3& N, float& area) {
+      P = {-1 + 2 * a, -0.5f + b, 3}, N = {0, 0, 1}, area = 2;
+    };
   }
 };
 
@@ -69,7 +74,8 @@ TEST_F(SlKinds, LightsThatAreSampledMayBeAskedAlone) {
   light("hazysun");
   EXPECT_EQ(system().lightKind(0), LightKind::Distant);
   LightProbe probe;
-  for (uint32_t i = 0; i < 1024; ++i) probe.P.emplace_back(0, 0, 5), probe.N.emplace_back(0, 0, -1), probe.xi.push_back(sobol2(i, 3U));
+  for (uint32_t i = 0; i < 1024; ++i)
+    probe.P.emplace_back(0, 0, 5), probe.N.emplace_back(0, 0, -1), probe.xi.push_back(sobol2(i, 3U));
   system().probe(0, probe);
   float mean = 0;
   for (const vec3& L : probe.L) mean -= normalizeOr(L, vec3(0)).z / 1024;

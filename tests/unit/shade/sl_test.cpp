@@ -20,10 +20,14 @@ rsl::FloatParam lift("lift", 3, "");
 struct conditional : sl::Surface {
   void main() {
     Float x = 0;
-    If(u < 0.5, [&] {
-      x = 1;
-      If(u > 0.2, [&] { x += Float(lift); }, [&] { x += 10; });
-    }, [&] { x = 2 * u; });
+    If(
+        u < 0.5,
+        [&] {
+          x = 1;
+          If(
+              u > 0.2, [&] { x += Float(lift); }, [&] { x += 10; });
+        },
+        [&] { x = 2 * u; });
     Ci = Color(x), Oi = Color(1);
   }
 };
@@ -35,14 +39,16 @@ struct looping : sl::Surface {
   void main() {
     Float n = 0, sum = 0;
     If(u >= 0.25, [&] {
-      While([&] { return n < 10 * u - 0.5; }, [&] {
-        n += 1;
-        While([&] { return sum < 2 * n; }, [&] { sum += 1; });
-      });
+      While([&] { return n < 10 * u - 0.5; },
+            [&] {
+              n += 1;
+              While([&] { return sum < 2 * n; }, [&] { sum += 1; });
+            });
     });
     output(rounds, n);
     Color q = Color(n, sum, 6) / Color(1, 2, 3);
-    If(q == Color(3, 3, 2), [&] { q /= 2; }, [&] { q /= Color(1, 1, 2); });
+    If(
+        q == Color(3, 3, 2), [&] { q /= 2; }, [&] { q /= Color(1, 1, 2); });
     If(u > 0.65, [&] { output(quotient, q); });
     Ci = Color(n, sum, zcomp(q)), Oi = Color(1);
   }
@@ -90,7 +96,8 @@ struct choosing : sl::Surface {
 rsl::FloatOutput dimmed("dimmed", ""), nondiffuse("__nondiffuse", "");
 void shadeTalkative(const TmGrid* g) {
   const rsl::Batch b(g);
-  for (int i : b) dimmed.set(g, i, 0.25f), nondiffuse.set(g, i, g->u[i] < 0.5f ? 1.0f : 0.0f), b.illuminate(i, {0, 0, -2}, {1, 1, 1});
+  for (int i : b)
+    dimmed.set(g, i, 0.25f), nondiffuse.set(g, i, g->u[i] < 0.5f ? 1.0f : 0.0f), b.illuminate(i, {0, 0, -2}, {1, 1, 1});
 }
 void shadeNanLight(const TmGrid* g) {
   const rsl::Batch b(g);
@@ -127,7 +134,8 @@ const rsl::Shader curiousShader(TM_SURFACE, "curious", "", 0, sl::shade<curious>
 class Sl : public Stage {
  protected:
   Sl() {
-    static const TmShader* const shaders[] = {conditionalShader, askingShader, differingShader, choosingShader, talkativeShader, nanShader, curiousShader, loopingShader};
+    static const TmShader* const shaders[] = {conditionalShader, askingShader, differingShader, choosingShader,
+                                              talkativeShader,   nanShader,    curiousShader,   loopingShader};
     static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 8};
     registry.addLibrary(&library, "test");
   }
@@ -266,8 +274,10 @@ TEST_F(Sl, TheRispecExponentIsAnOption) {
 
 TEST_F(Sl, WhatRaysBringCrossesTheVolumeOfItsSide) {
   surface("mirror");
-  attributes.exterior = std::make_shared<const ShaderCall>(call("fog", {number("distance", 2), color("background", {0, 1, 0})}));
-  attributes.interior = std::make_shared<const ShaderCall>(call("fog", {number("distance", 2), color("background", {1, 0, 0})}));
+  attributes.exterior =
+      std::make_shared<const ShaderCall>(call("fog", {number("distance", 2), color("background", {0, 1, 0})}));
+  attributes.interior =
+      std::make_shared<const ShaderCall>(call("fog", {number("distance", 2), color("background", {1, 0, 0})}));
   services.met = [](const vec3&, const vec3&) { return 3.0f; };
   expectColor(shadeOne(), {0, 1 - std::exp(-1.5f), 0}, 1e-5f);
 }
@@ -283,7 +293,8 @@ TEST_F(Sl, TheExamplesCompileOutOfTree) {
   EXPECT_EQ(examples.size(), 9u);
   for (const fs::path& example : examples) {
     const fs::path plugin = folder / example.filename().replace_extension(".so");
-    const std::string command = std::string(TOMALES_CXX) + " -std=c++17 -Wall -Wextra -Wshadow -Werror -shared -fPIC -I" +
+    const std::string command = std::string(TOMALES_CXX) +
+                                " -std=c++17 -Wall -Wextra -Wshadow -Werror -shared -fPIC -I" +
                                 (folder / "include").string() + " -o " + plugin.string() + " " + example.string();
     ASSERT_EQ(std::system(command.c_str()), 0) << command;
     EXPECT_TRUE(registry.loadPlugin(plugin.string()));

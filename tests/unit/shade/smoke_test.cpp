@@ -38,7 +38,8 @@ TEST_F(Smoke, IndirectLightReachesSurfacesAndNotTheAir) {
   EXPECT_EQ(inAir, 1);
 }
 
-// As many ends of rays as points, and the same light at infinity: what shadow rays from the ends answer is not for the surface.
+// As many ends of rays as points, and the same light at infinity: what shadow rays from the ends answer is not for the
+// surface.
 TEST_F(Smoke, WhatAnsweredToAVolumeIsNotRememberedOfTheSurface) {
   light("distantlight").castsShadows = true;
   attributes.exterior = std::make_shared<const ShaderCall>(call("between", {}));
@@ -50,12 +51,16 @@ TEST_F(Smoke, WhatAnsweredToAVolumeIsNotRememberedOfTheSurface) {
   ShadeContext context;
   context.answers = &answers;
   const auto lit = [&] {
-    return asked(2, [](sl::Surface& s) {
-      Color light;
-      s.illuminance(s.P, [&] { light += s.Cl; });
-      trace(s.P, Vector(0, 0, -1));
-      s.Ci = light;
-    }, context).color(1);
+    return asked(
+               2,
+               [](sl::Surface& s) {
+                 Color light;
+                 s.illuminance(s.P, [&] { light += s.Cl; });
+                 trace(s.P, Vector(0, 0, -1));
+                 s.Ci = light;
+               },
+               context)
+        .color(1);
   };
   expectColor(lit(), vec3(1));
   answers.recording = false, services.shadowRays = 0;
@@ -63,19 +68,18 @@ TEST_F(Smoke, WhatAnsweredToAVolumeIsNotRememberedOfTheSurface) {
   EXPECT_EQ(services.shadowRays, 2) << "those of the volume";
 }
 
-// A sky of radiance 1 is 4 pi of it, over pi, from all around; above a surface half of that counts, whatever the density of samples.
+// A sky of radiance 1 is 4 pi of it, over pi, from all around; above a surface half of that counts, whatever the
+// density of samples.
 TEST_F(Smoke, TheAirIsLitByTheSkyFromAllSides) {
   light("environmentlight", {number("samples", 256)});
   float up = 0, down = 0;
-  through(4, [&](sl::Volume& v) {
-    v.illuminance(v.P - 0.5 * v.I, [&] { (v.L[0].z > 0 ? up : down) += v.Cl[0].x; });
-  });
+  through(4, [&](sl::Volume& v) { v.illuminance(v.P - 0.5 * v.I, [&] { (v.L[0].z > 0 ? up : down) += v.Cl[0].x; }); });
   EXPECT_NEAR(up, 2, 0.02f);
   EXPECT_NEAR(down, 2, 0.02f);
 }
 
-// Light falls on a slab from the eye's side at an angle of cosine c: on the way to depth z it goes through z / c of smoke, and z of it on the
-// way back: the integral of s exp(-s z (1 + 1/c)).
+// Light falls on a slab from the eye's side at an angle of cosine c: on the way to depth z it goes through z / c of
+// smoke, and z of it on the way back: the integral of s exp(-s z (1 + 1/c)).
 TEST_F(Smoke, ASlabOfSmokeScattersOnceAsBeerAndLambertSay) {
   constexpr float kDepth = 3, kSigma = 0.7f, kCosine = 0.8f;
   light("distantlight", {point("to", {0.6f, 0, 0.8f}), number("intensity", 2)});

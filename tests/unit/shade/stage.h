@@ -44,7 +44,7 @@ class FakeServices final : public ShadeServices {
  public:
   std::function<float(const vec3& P, const vec3& toward)> visible;
   std::function<float(const vec3& P, const vec3& direction)> met;  ///< Distance
-  std::function<vec3(const vec3& direction)> seen;  ///< Colour
+  std::function<vec3(const vec3& direction)> seen;                 ///< Colour
   mutable std::vector<RayQuery> asked;
   std::function<void(float a, float b, vec3& P, vec3& N, float& area)> emitter;
   vec3 E{0.0f}, dominant[3] = {vec3(0, 0, -1), vec3(0, 0, -1), vec3(0, 0, -1)};
@@ -61,13 +61,14 @@ class FakeServices final : public ShadeServices {
       light.x[i] *= v, light.y[i] *= v, light.z[i] *= v;
     }
   }
-  void trace(const ShadePoints& points, const uint8_t* active, TmConstVec3 P, TmConstVec3 d, const RayQuery& query, const ShadeContext&,
-             const RayResult& result) const override {
+  void trace(const ShadePoints& points, const uint8_t* active, TmConstVec3 P, TmConstVec3 d, const RayQuery& query,
+             const ShadeContext&, const RayResult& result) const override {
     asked.push_back(query);
     for (int i = 0; i < points.count(); ++i) {
       if (!active[i]) continue;
       const vec3 toward{d.x[i], d.y[i], d.z[i]};
-      const float way = met ? met({P.x[i], P.y[i], P.z[i]}, toward) : kInfinity, distance = way < query.maxDistance ? way : kInfinity;
+      const float way = met ? met({P.x[i], P.y[i], P.z[i]}, toward) : kInfinity,
+                  distance = way < query.maxDistance ? way : kInfinity;
       if (result.effective) result.effective[i] = 2 * distance;
       if (result.distance) result.distance[i] = distance;
       if (result.leaves) result.leaves[i] = met && distance == kInfinity;
@@ -75,8 +76,8 @@ class FakeServices final : public ShadeServices {
       if (result.color.x) result.color.x[i] = color.x, result.color.y[i] = color.y, result.color.z[i] = color.z;
     }
   }
-  bool interpolatedOcclusion(const ShadePoints& points, const uint8_t* active, TmConstVec3, const OcclusionQuery&, const ShadeContext&,
-                             float* covered) const override {
+  bool interpolatedOcclusion(const ShadePoints& points, const uint8_t* active, TmConstVec3, const OcclusionQuery&,
+                             const ShadeContext&, float* covered) const override {
     if (!interpolated) return false;
     for (int i = 0; i < points.count(); ++i)
       if (active[i]) covered[i] = *interpolated;
@@ -84,7 +85,8 @@ class FakeServices final : public ShadeServices {
   }
   std::optional<float> interpolated;  ///< What records answer to occlusion(); none: rays must tell.
   float emitterReach(int) const override { return 0; }
-  bool sampleEmitter(int, int count, TmConstVec3 from, const float* a, const float* b, const EmitterPoints& out) const override {
+  bool sampleEmitter(int, int count, TmConstVec3 from, const float* a, const float* b,
+                     const EmitterPoints& out) const override {
     if (!emitter) return false;
     for (int i = 0; i < count; ++i) {
       vec3 p, n;
@@ -101,8 +103,8 @@ class FakeServices final : public ShadeServices {
   void meetEmitter(int, int count, TmConstVec3, TmConstVec3, const EmitterPoints& out) const override {
     std::fill_n(out.density, count, 0.0f);
   }
-  void indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3,
-                       const IndirectQuery& query, const ShadeContext&, IndirectResult out) const override {
+  void indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3, const IndirectQuery& query,
+                       const ShadeContext&, IndirectResult out) const override {
     queries.push_back(query);
     for (int i = 0; i < points.count(); ++i) {
       if (!active[i]) continue;
@@ -193,7 +195,8 @@ class Stage : public ::testing::Test {
 inline void installHeaders(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder / "reyes");
   std::istringstream headers(TOMALES_PLUGIN_HEADERS);
-  for (std::string header; std::getline(headers, header, ':');) std::filesystem::copy(std::filesystem::path(TOMALES_SOURCE_DIR) / header, folder / header);
+  for (std::string header; std::getline(headers, header, ':');)
+    std::filesystem::copy(std::filesystem::path(TOMALES_SOURCE_DIR) / header, folder / header);
 }
 
 inline void expectColor(const vec3& is, const vec3& should, float tolerance = 1e-5f) {

@@ -1,5 +1,5 @@
-// The standard surfaces under all standard lights at once, at random points, against the formulas of rispec-table section 5 written out in
-// double precision. Imagers, volumes and displacements have tests beside those of their stage.
+// The standard surfaces under all standard lights at once, at random points, against the formulas of rispec-table
+// section 5 written out in double precision. Imagers, volumes and displacements have tests beside those of their stage.
 #include <array>
 #include <random>
 
@@ -24,7 +24,8 @@ const D3 kTint{1, 0.6, 0.3}, kFrom{2, -1, 1}, kTo{0.5, 0.5, 6}, kAmbient{0.1, 0.
 std::vector<Lit> lights(const Point& p) {
   const D3 axis = glm::normalize(kTo - kFrom), L = kFrom - p.P;
   const double d2 = dot(L, L), c = dot(-L, axis) / std::sqrt(d2), outer = std::cos(0.6), inner = std::cos(0.6 - 0.2);
-  const double t = std::clamp((c - outer) / (inner - outer), 0.0, 1.0), spot = c > outer ? std::pow(c, 3.0) / d2 * t * t * (3 - 2 * t) : 0.0;
+  const double t = std::clamp((c - outer) / (inner - outer), 0.0, 1.0),
+               spot = c > outer ? std::pow(c, 3.0) / d2 * t * t * (3 - 2 * t) : 0.0;
   return {{-axis, kIntensity * kTint}, {L, kIntensity / d2 * kTint}, {L, kIntensity * spot * kTint}};
 }
 D3 diffuse(const Point& p, const D3& N) {
@@ -53,17 +54,20 @@ class Standard : public Stage {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> any(-1, 1);
     const auto vector = [&] { return D3(any(random), any(random), any(random)); };
-    for (int i = 0; i < kPoints; ++i) at.push_back({D3(0.5, 0.5, 5) + vector(), 3.0 * vector() + D3(0, 0, 0.1), 5.0 * vector() + D3(0, 0.1, 0)});
+    for (int i = 0; i < kPoints; ++i)
+      at.push_back({D3(0.5, 0.5, 5) + vector(), 3.0 * vector() + D3(0, 0, 0.1), 5.0 * vector() + D3(0, 0.1, 0)});
     attributes.color = vec3(Cs), attributes.opacity = vec3(Os);
     services.seen = [](const vec3& d) { return vec3(world(glm::normalize(D3(d)))); };
   }
   static Param tint(const char* name, const D3& c) { return color(name, vec3(c)); }
   void shine() {
-    const Param intensity = number("intensity", float(kIntensity)), lightcolor = tint("lightcolor", kTint), from = point("from", vec3(kFrom)), to = point("to", vec3(kTo));
+    const Param intensity = number("intensity", float(kIntensity)), lightcolor = tint("lightcolor", kTint),
+                from = point("from", vec3(kFrom)), to = point("to", vec3(kTo));
     light("ambientlight", {tint("lightcolor", kAmbient)});
     light("distantlight", {intensity, lightcolor, from, to});
     light("pointlight", {intensity, lightcolor, from});
-    light("spotlight", {intensity, lightcolor, from, to, number("coneangle", 0.6f), number("conedeltaangle", 0.2f), number("beamdistribution", 3)});
+    light("spotlight", {intensity, lightcolor, from, to, number("coneangle", 0.6f), number("conedeltaangle", 0.2f),
+                        number("beamdistribution", 3)});
   }
   void expect(const std::function<D3(const Point&)>& radiance) {
     shine();
@@ -77,7 +81,8 @@ class Standard : public Stage {
     const ShadedPoints out = shade(batch);
     for (int i = 0; i < kPoints; ++i) {
       const D3 truth = Os * radiance(at[static_cast<size_t>(i)]);
-      for (int k = 0; k < 3; ++k) EXPECT_NEAR(out.color(i)[k], truth[k], 2e-5 * (1 + truth[k])) << "point " << i << " channel " << k;
+      for (int k = 0; k < 3; ++k)
+        EXPECT_NEAR(out.color(i)[k], truth[k], 2e-5 * (1 + truth[k])) << "point " << i << " channel " << k;
       expectColor(out.opacity(i), vec3(Os), 0);
     }
     EXPECT_TRUE(log.entries().empty());
@@ -106,7 +111,8 @@ TEST_F(Standard, Metal) {
 }
 
 TEST_F(Standard, ShinymetalOfTheSceneItself) {
-  surface("shinymetal", {number("Ka", 0.4f), number("Ks", 0.9f), number("Kr", 0.7f), number("roughness", 0.5f), text("texturename", "raytrace")});
+  surface("shinymetal", {number("Ka", 0.4f), number("Ks", 0.9f), number("Kr", 0.7f), number("roughness", 0.5f),
+                         text("texturename", "raytrace")});
   expect([&](const Point& p) {
     const D3 R = glm::reflect(glm::normalize(p.I), facing(p));
     return Cs * (0.4 * kAmbient + 0.9 * specular(p, facing(p), 0.5) + 0.7 * world(R));
@@ -119,15 +125,20 @@ TEST_F(Standard, ShinymetalWithoutAMapIsMetal) {
 }
 
 TEST_F(Standard, Plastic) {
-  surface("plastic", {number("Ka", 0.4f), number("Kd", 0.9f), number("Ks", 0.6f), number("roughness", 0.3f), tint("specularcolor", {0.2, 1, 0.7})});
-  expect([&](const Point& p) { return Cs * (0.4 * kAmbient + 0.9 * diffuse(p, facing(p))) + 0.6 * D3(0.2, 1, 0.7) * specular(p, facing(p), 0.3); });
+  surface("plastic", {number("Ka", 0.4f), number("Kd", 0.9f), number("Ks", 0.6f), number("roughness", 0.3f),
+                      tint("specularcolor", {0.2, 1, 0.7})});
+  expect([&](const Point& p) {
+    return Cs * (0.4 * kAmbient + 0.9 * diffuse(p, facing(p))) + 0.6 * D3(0.2, 1, 0.7) * specular(p, facing(p), 0.3);
+  });
 }
 
 TEST_F(Standard, PlasticHasTheDefaultsOfTheTableAndPaintedplasticWithoutAPictureIsPlastic) {
   for (const char* name : {"plastic", "paintedplastic"}) {
     shading.reset(), scene.objects.clear(), scene.lights.clear(), attributes.lights.clear();
     surface(name);
-    expect([&](const Point& p) { return Cs * (kAmbient + 0.5 * diffuse(p, facing(p))) + 0.5 * specular(p, facing(p), 0.1); });
+    expect([&](const Point& p) {
+      return Cs * (kAmbient + 0.5 * diffuse(p, facing(p))) + 0.5 * specular(p, facing(p), 0.1);
+    });
   }
 }
 
@@ -144,7 +155,8 @@ TEST_F(Standard, GlassReflectsAndRefractsAsFresnelSays) {
     const double eta = dot(p.N, p.I) < 0 ? 1 / 1.4 : 1.4, i = std::acos(-dot(I, N)), sine = eta * std::sin(i);
     const D3 R = world(glm::reflect(I, N));
     if (sine >= 1) return 0.9 * R;
-    const double t = std::asin(sine), rs = std::sin(i - t) / std::sin(i + t), rp = std::tan(i - t) / std::tan(i + t), F = (rs * rs + rp * rp) / 2;
+    const double t = std::asin(sine), rs = std::sin(i - t) / std::sin(i + t), rp = std::tan(i - t) / std::tan(i + t),
+                 F = (rs * rs + rp * rp) / 2;
     const D3 T = -std::cos(t) * N + eta * (I - dot(I, N) * N);
     return 0.9 * F * R + 0.8 * (1 - F) * D3(0.5, 1, 0.8) * world(T);
   });
@@ -153,7 +165,9 @@ TEST_F(Standard, GlassReflectsAndRefractsAsFresnelSays) {
 TEST_F(Standard, ShadowedLightsWithoutAMapAreTheirPlainSelves) {
   const ParamList place{point("from", vec3(kFrom)), point("to", vec3(kTo))}, from{point("from", vec3(kFrom))};
   surface("matte");
-  for (const auto& [plain, shadowed, params] : {std::tuple{"spotlight", "shadowspot", place}, {"pointlight", "shadowpoint", from}, {"distantlight", "shadowdistant", place}}) {
+  for (const auto& [plain, shadowed, params] : {std::tuple{"spotlight", "shadowspot", place},
+                                                {"pointlight", "shadowpoint", from},
+                                                {"distantlight", "shadowdistant", place}}) {
     vec3 seen[2];
     for (const int k : {0, 1}) {
       shading.reset(), scene.objects.clear(), scene.lights.clear(), attributes.lights.clear();

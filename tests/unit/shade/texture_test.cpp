@@ -17,7 +17,9 @@ using Texel = std::function<std::array<float, 3>(int x, int y)>;
 
 class Pictures : public ::testing::Test {
  protected:
-  Pictures() : folder(fs::path(::testing::TempDir()) / ("tomales_texture_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()))) {
+  Pictures()
+      : folder(fs::path(::testing::TempDir()) /
+               ("tomales_texture_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()))) {
     fs::remove_all(folder);
     fs::create_directories(folder);
   }
@@ -32,11 +34,13 @@ class Pictures : public ::testing::Test {
     return path;
   }
   Textures& textures() {
-    if (!textures_) textures_ = std::make_unique<Textures>(TextureSettings{folder.string(), (folder / "cache").string()}, log, stats);
+    if (!textures_)
+      textures_ = std::make_unique<Textures>(TextureSettings{folder.string(), (folder / "cache").string()}, log, stats);
     return *textures_;
   }
   /// One point, over a square of that edge.
-  std::array<float, 3> at(const std::string& name, float s, float t, float edge = 0, const std::function<void(TextureQuery&)>& change = {}) {
+  std::array<float, 3> at(const std::string& name, float s, float t, float edge = 0,
+                          const std::function<void(TextureQuery&)>& change = {}) {
     TextureQuery q;
     q.name = name.c_str();
     const uint8_t active = 1;
@@ -86,7 +90,9 @@ TEST_F(Pictures, APlainPictureIsConvertedOnceByContentAndFoundAlongThePath) {
 
 TEST_F(Pictures, AFootprintIsAveragedOverItsOwnShape) {
   // Stripes along t: what is long in t stays sharp, what is long in s is grey.
-  const std::string stripes = write("stripes.tif", 128, [](int x, int) { return std::array<float, 3>{x / 8 % 2 ? 1.0f : 0.0f, 0, 0}; });
+  const std::string stripes = write("stripes.tif", 128, [](int x, int) {
+    return std::array<float, 3>{x / 8 % 2 ? 1.0f : 0.0f, 0, 0};
+  });
   const float s = 76.0f / 128, wide = 0.25f, narrow = 1.0f / 128, zero = 0;
   const auto shaped = [&](const float* su, const float* tv) {
     return at(stripes, s, 0.5f, 0, [&](TextureQuery& q) { q.su = su, q.tu = &zero, q.sv = &zero, q.tv = tv; })[0];
@@ -120,7 +126,9 @@ TEST_F(Pictures, OutsideIsBlackUnlessTheFileWraps) {
   const std::string white = write("white.tif", 16, [](int, int) { return std::array<float, 3>{1, 1, 1}; });
   EXPECT_EQ(at(white, 1.5f, 0.5f)[0], 0);
   std::string error;
-  ASSERT_TRUE(makeTexture({TextureRecipe::Shape::Picture, {white}, (folder / "w.tex").string(), "periodic", "clamp"}, error)) << error;
+  ASSERT_TRUE(
+      makeTexture({TextureRecipe::Shape::Picture, {white}, (folder / "w.tex").string(), "periodic", "clamp"}, error))
+      << error;
   EXPECT_EQ(at("w.tex", 1.5f, 7)[0], 1);
   EXPECT_EQ(filesInCache(), 1u) << "w.tex serves as it is";
 }
@@ -141,7 +149,9 @@ TEST_F(Pictures, WhatIsMissingOrTruncatedIsMagentaAndReported) {
   EXPECT_EQ(at("absent.tif", 0.5f, 0.5f), (std::array<float, 3>{1, 0, 1}));
   EXPECT_FALSE(found);
   for (const std::string type : {".png", ".tif"}) {
-    const std::string whole = write("whole" + type, 256, [](int x, int y) { return std::array<float, 3>{float(x * 7 % 11) / 11, float(y) / 256, 0}; });
+    const std::string whole = write("whole" + type, 256, [](int x, int y) {
+      return std::array<float, 3>{float(x * 7 % 11) / 11, float(y) / 256, 0};
+    });
     std::ifstream in(whole, std::ios::binary);
     std::string bytes((std::istreambuf_iterator<char>(in)), {});
     std::ofstream(folder / ("cut" + type), std::ios::binary) << bytes.substr(0, bytes.size() / 2);
@@ -177,7 +187,8 @@ TEST_F(Pictures, ACubeBecomesTheSurroundingsThatItShows) {
       const float a = 2 * (float(x) + 0.5f) / n - 1, b = 2 * (float(y) + 0.5f) / n - 1;
       float d[3], length = 0;
       for (int k = 0; k < 3; ++k) d[k] = forward[f][k] + a * right[f][k] + b * down[f][k], length += d[k] * d[k];
-      return std::array<float, 3>{1 + d[0] / std::sqrt(length), 1 + d[1] / std::sqrt(length), 1 + d[2] / std::sqrt(length)};
+      return std::array<float, 3>{1 + d[0] / std::sqrt(length), 1 + d[1] / std::sqrt(length),
+                                  1 + d[2] / std::sqrt(length)};
     }));
   std::string error;
   ASSERT_TRUE(makeTexture(recipe, error)) << error;

@@ -30,7 +30,8 @@ TEST(Dice, AreaOfADicedSphereTendsToFourPiAtSecondOrder) {
 
 TEST(Dice, PiecesOfOnePatchShareTheirEdgeBitForBit) {
   const Scene scene = sceneOf({sphere()}, translation({0.3f, -0.2f, 5}));
-  const Grid a = dice(scene, 0, 0, {0.125f, 0.25f, 0.5f, 0.75f}, 8, 5, 1), b = dice(scene, 0, 0, {0.25f, 0.375f, 0.5f, 0.75f}, 3, 5, 1);
+  const Grid a = dice(scene, 0, 0, {0.125f, 0.25f, 0.5f, 0.75f}, 8, 5, 1),
+             b = dice(scene, 0, 0, {0.25f, 0.375f, 0.5f, 0.75f}, 3, 5, 1);
   for (int v = 0; v <= 5; ++v) EXPECT_EQ(a.position(0, v * 9 + 8), b.position(0, v * 4));
 }
 
@@ -38,7 +39,8 @@ TEST(Dice, PiecesThatShareAGridAreWhatTheyAreAlone) {
   const Scene scene = sceneOf({sphere()}, translation({0.3f, -0.2f, 5}));
   const std::vector<float> times = {0};
   const DiceKeys keys{times, scene.objects[0].cameraFromObject};
-  const std::vector<PatchPiece> pieces = {{0, {}}, {0, {0.125f, 0.25f, 0.5f, 0.75f}}, {0, {0.25f, 0.5f, 0, 1}}, {0, {}}};
+  const std::vector<PatchPiece> pieces = {
+      {0, {}}, {0, {0.125f, 0.25f, 0.5f, 0.75f}}, {0, {0.25f, 0.5f, 0, 1}}, {0, {}}};
   const int nu = 3, nv = 2;
   const Grid all = dice(scene, 0, pieces, nu, nv, keys);
   ASSERT_EQ(all.pieceCount(), 4);
@@ -123,7 +125,8 @@ TEST(Dice, WhatMovesWithoutDeformingIsEvaluatedOnce) {
   int count = 0;
   Scene scene = sceneOf({std::make_shared<Counting>(&count)}, translation({0, 0, 5}));
   scene.options.shutterClose = 1;
-  scene.objects[0].worldFromObject = {{0, 0.5f, 1}, {translation({0, 0, 5}), translation({1, 0, 5}), translation({2, 0, 5})}};
+  scene.objects[0].worldFromObject = {{0, 0.5f, 1},
+                                      {translation({0, 0, 5}), translation({1, 0, 5}), translation({2, 0, 5})}};
   scene.objects[0].group = -1;
   scene.freeze();
   const Grid g = dice(scene, 0, 0, {0, 0.5f, 0, 0.5f}, 4, 4, 3);

@@ -64,8 +64,9 @@ TEST(Rate, MotionFactorDicesWhatMovesFarCoarser) {
   Scene scene = sceneOf({sphere(1)}, translation({0, 0, 4}));
   scene.options.shutterClose = 1;
   scene.objects[0].worldFromObject = {{0, 1}, {translation({-0.5f, 0, 4}), translation({0.5f, 0, 4})}};
-  // 128 / (2 tan 30) / 4 = 27.7 px, and 30 px where it is nearest: areas of 6.9 to 7.5 px2 with factor 1. Whole numbers of cells are up to a tenth off
-  // either way: a ratio of 5.6 to 9.2, and the few cells of the coarse ball are a little fewer yet.
+  // 128 / (2 tan 30) / 4 = 27.7 px, and 30 px where it is nearest: areas of 6.9 to 7.5 px2 with factor 1. Whole numbers
+  // of cells are up to a tenth off either way: a ratio of 5.6 to 9.2, and the few cells of the coarse ball are a little
+  // fewer yet.
   const double fine = static_cast<double>(micropolygons(withFactors(scene, 0, 1)));
   EXPECT_NEAR(fine / static_cast<double>(micropolygons(withFactors(scene, 1, 1))), 7.2, 2);
 }
@@ -147,7 +148,8 @@ TEST(Rate, WhatIsSlantedHasMicropolygonsOfTheAreaAsked) {
   // Sides of 128 / (2 tan 30) / 4 = 27.7 px.
   for (const float degrees : {90.0f, 60.0f, 35.0f}) {
     const double area_px = 27.71 * 27.71 * std::sin(glm::radians(degrees));
-    EXPECT_NEAR(static_cast<double>(micropolygons(sceneOf({slanted(degrees)}, translation({-0.5f, 0, 4})))), area_px, 0.12 * area_px);
+    EXPECT_NEAR(static_cast<double>(micropolygons(sceneOf({slanted(degrees)}, translation({-0.5f, 0, 4})))), area_px,
+                0.12 * area_px);
   }
 }
 
@@ -175,7 +177,8 @@ TEST(Rate, WithoutRasterOrientAForeshortenedPatchIsDicedAsIfItFacedTheEye) {
   Stats stats;
   const auto cells = [&](bool rasterOrient) {
     int64_t n = 0;
-    for (const SubPatch& p : split(withDicing(sceneOf({quad(1, -0.2f)}, translation({0, 0, 8})), false, rasterOrient), stats))
+    for (const SubPatch& p :
+         split(withDicing(sceneOf({quad(1, -0.2f)}, translation({0, 0, 8})), false, rasterOrient), stats))
       n += int64_t{p.nu} * p.nv;
     return n;
   };

@@ -26,7 +26,10 @@ TEST(Split, EndsWhenToldToStop) {
   Stats stats;
   Log log(Log::Verbosity::Quiet);
   std::atomic<bool> stop{false};
-  const auto count = [&] { return splitPatches(scene, 0, std::span(&patch, 1), camera, camera.crop(), stats, log, Splitting::Wholly, &stop).size(); };
+  const auto count = [&] {
+    return splitPatches(scene, 0, std::span(&patch, 1), camera, camera.crop(), stats, log, Splitting::Wholly, &stop)
+        .size();
+  };
   EXPECT_GT(count(), 0u);
   stop = true;
   EXPECT_EQ(count(), 0u);
@@ -54,11 +57,14 @@ TEST(Split, SplittingLazilyEndsInTheSamePieces) {
   Stats stats;
   Log log(Log::Verbosity::Quiet);
   const auto isCoarse = [](const SubPatch& p) { return p.coarse; };
-  const auto place = [](const SubPatch& p) { return std::make_tuple(p.object, p.patch, p.rect.u0, p.rect.v0, p.rect.u1, p.rect.v1, p.nu, p.nv); };
+  const auto place = [](const SubPatch& p) {
+    return std::make_tuple(p.object, p.patch, p.rect.u0, p.rect.v0, p.rect.u1, p.rect.v1, p.nu, p.nv);
+  };
   for (int object = 0; object < 2; ++object) {
     const uint32_t patch = 0;
     std::vector<SubPatch> whole = splitPatches(scene, object, {&patch, 1}, camera, camera.crop(), stats, log);
-    std::vector<SubPatch> lazy = splitPatches(scene, object, {&patch, 1}, camera, camera.crop(), stats, log, Splitting::Lazily);
+    std::vector<SubPatch> lazy =
+        splitPatches(scene, object, {&patch, 1}, camera, camera.crop(), stats, log, Splitting::Lazily);
     EXPECT_GT(std::count_if(lazy.begin(), lazy.end(), isCoarse), 0);
     EXPECT_LT(lazy.size(), whole.size() / 4);
     for (auto coarse = lazy.end(); (coarse = std::find_if(lazy.begin(), lazy.end(), isCoarse)) != lazy.end();) {
@@ -82,7 +88,8 @@ std::vector<SubPatch> allPieces(const Scene& scene, Stats& stats, Log& log) {
   const Camera camera(scene.options);
   const uint32_t patch = 0;
   std::vector<SubPatch> out;
-  std::vector<SubPatch> pieces = splitPatches(scene, 0, {&patch, 1}, camera, camera.crop(), stats, log, Splitting::Lazily);
+  std::vector<SubPatch> pieces =
+      splitPatches(scene, 0, {&patch, 1}, camera, camera.crop(), stats, log, Splitting::Lazily);
   while (!pieces.empty()) {
     const SubPatch piece = pieces.back();
     pieces.pop_back();
@@ -111,7 +118,8 @@ TEST(Split, AllPiecesOfAPatchTogetherHaveABudgetHoweverDeepTheyAreNested) {
       P.name = "P", P.type = ValueType::Point, P.storage = Storage::Vertex;
       P.floats.assign(48, 0);
       P.floats[k] = far;
-      Scene scene = sceneOf({makeBicubicPatchMesh(4, false, bezierBasis(), 4, false, bezierBasis(), {P}, problems)}, translation({0, 0, 5}));
+      Scene scene = sceneOf({makeBicubicPatchMesh(4, false, bezierBasis(), 4, false, bezierBasis(), {P}, problems)},
+                            translation({0, 0, 5}));
       scene.objects[0].displacementBound = 0.2f;
       Log log(Log::Verbosity::Quiet);
       EXPECT_LE(visitsOf(scene, log), kBudget) << k;
@@ -132,8 +140,11 @@ TEST(Split, PatchesOfOneObjectShareABudget) {
   const int n = 5;
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i)
-      for (const float x : {(i % 2 ? 1e9f : -1e9f) * static_cast<float>(j), (j % 2 ? 1e9f : -1e9f), 3.0f * static_cast<float>(i + j)}) P.floats.push_back(x);
-  const Scene scene = sceneOf({makeBilinearPatchMesh(n + 1, false, n + 1, false, {P}, problems)}, translation({0, 0, 5}));
+      for (const float x :
+           {(i % 2 ? 1e9f : -1e9f) * static_cast<float>(j), (j % 2 ? 1e9f : -1e9f), 3.0f * static_cast<float>(i + j)})
+        P.floats.push_back(x);
+  const Scene scene =
+      sceneOf({makeBilinearPatchMesh(n + 1, false, n + 1, false, {P}, problems)}, translation({0, 0, 5}));
   Stats stats;
   Log log(Log::Verbosity::Quiet);
   split(scene, stats, log);
@@ -146,7 +157,8 @@ Scene outOfFocus(Scene scene) {
 }
 
 TEST(Split, BlurredPiecesThatMayBeAnywhereCostMore) {
-  // Points beyond floats' precision, which no halving brings apart, and a lens that shows each of them all over the window.
+  // Points beyond floats' precision, which no halving brings apart, and a lens that shows each of them all over the
+  // window.
   Scene scene = sceneOf({sphere(1e9f)}, translation({0, 0, 1e9f}));
   scene.objects[0].displacementBound = 1e5f;
   Log log(Log::Verbosity::Quiet);
@@ -207,7 +219,9 @@ TEST(Split, AHugeGroundPlaneBelowTheEyeIsWhole) {
     camera.ray(r, origin, direction);
     const vec3 p = direction * (-1 / direction.y);
     const float u = 0.5f * (p.x / 1e5f + 1), v = 0.5f * (p.z / 1e5f + 1);
-    const auto holds = [&](const SubPatch& s) { return s.rect.u0 <= u && u <= s.rect.u1 && s.rect.v0 <= v && v <= s.rect.v1; };
+    const auto holds = [&](const SubPatch& s) {
+      return s.rect.u0 <= u && u <= s.rect.u1 && s.rect.v0 <= v && v <= s.rect.v1;
+    };
     EXPECT_TRUE(std::any_of(pieces.begin(), pieces.end(), holds)) << r.x << ' ' << r.y;
   }
 }
@@ -217,8 +231,8 @@ TEST(Split, GroundPlanesAreWholeHoweverLargeAndNearTheEyeTheyAre) {
   // of what is nearest.
   for (const float size : {400.0f, 1e4f, 1e6f})
     for (const float yaw : {0.0f, 0.5f}) {
-      Scene scene = sceneOf({quad(size, -1)},
-                            glm::rotate(glm::rotate(mat4(1.0f), 0.2f, vec3(0, 0, 1)), yaw, vec3(0, 1, 0)));
+      Scene scene =
+          sceneOf({quad(size, -1)}, glm::rotate(glm::rotate(mat4(1.0f), 0.2f, vec3(0, 0, 1)), yaw, vec3(0, 1, 0)));
       scene.options.xResolution = 1920, scene.options.yResolution = 1080, scene.options.fov_degrees = 40,
       scene.options.nearClip = 1e-6f;
       scene.freeze();
@@ -237,8 +251,7 @@ TEST(Split, GroundPlanesAreWholeHoweverLargeAndNearTheEyeTheyAre) {
         const vec2 at(0.5f * (p.x / size + 1), 0.5f * (p.z / size + 1));
         if (!(direction.y < 0) || std::max(std::abs(p.x), std::abs(p.z)) > size) continue;
         const auto holds = [&](const SubPatch& s) {
-          return !s.coarse && s.rect.u0 <= at.x && at.x <= s.rect.u1 && s.rect.v0 <= at.y &&
-                 at.y <= s.rect.v1;
+          return !s.coarse && s.rect.u0 <= at.x && at.x <= s.rect.u1 && s.rect.v0 <= at.y && at.y <= s.rect.v1;
         };
         EXPECT_TRUE(std::any_of(pieces.begin(), pieces.end(), holds)) << size << ' ' << yaw << ' ' << k;
       }
@@ -254,7 +267,8 @@ TEST(Split, ASurfaceThroughTheNearPlaneNeedsFewPieces) {
   EXPECT_TRUE(log.entries().empty());
   EXPECT_LT(pieces.size(), 100u);
   EXPECT_TRUE(std::any_of(pieces.begin(), pieces.end(), [](const SubPatch& p) { return p.zMin < 4.5f; }));
-  EXPECT_FALSE(std::any_of(pieces.begin(), pieces.end(), [](const SubPatch& p) { return p.crossesEye; })) << "the hider cuts it";
+  EXPECT_FALSE(std::any_of(pieces.begin(), pieces.end(), [](const SubPatch& p) { return p.crossesEye; }))
+      << "the hider cuts it";
 }
 
 TEST(Split, ASurfaceThroughTheEyeNeedsFewPieces) {
@@ -303,7 +317,8 @@ TEST(Split, DoesNotDependOnTheCrop) {
   EXPECT_LT(cropped.size(), whole.size());
   for (const SubPatch& c : cropped)
     EXPECT_TRUE(std::any_of(whole.begin(), whole.end(), [&](const SubPatch& w) {
-      return w.object == c.object && w.rect.u0 == c.rect.u0 && w.rect.u1 == c.rect.u1 && w.rect.v0 == c.rect.v0 && w.nu == c.nu && w.nv == c.nv;
+      return w.object == c.object && w.rect.u0 == c.rect.u0 && w.rect.u1 == c.rect.u1 && w.rect.v0 == c.rect.v0 &&
+             w.nu == c.nu && w.nv == c.nv;
     }));
 }
 

@@ -8,7 +8,8 @@
 
 namespace tomales::test {
 
-inline Scene sceneOf(std::vector<PrimPtr> prims, const mat4& cameraFromObject, float shadingRate = 1, int resolution = 128) {
+inline Scene sceneOf(std::vector<PrimPtr> prims, const mat4& cameraFromObject, float shadingRate = 1,
+                     int resolution = 128) {
   Scene scene;
   scene.options.xResolution = scene.options.yResolution = resolution;
   scene.options.projection = ProjectionKind::Perspective;
