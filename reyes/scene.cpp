@@ -12,6 +12,37 @@ bool sameLayout(const std::vector<Primvar>& a, const std::vector<Primvar>& b) {
   });
 }
 
+bool sameGroup(const ShadeGroup& a, const ShadeGroup& b) {
+  return a.attributes == b.attributes && a.solid == b.solid && a.subtracted == b.subtracted &&
+         a.cameraFromObject == b.cameraFromObject && a.currentFromOpen == b.currentFromOpen &&
+         sameLayout(a.primvars, b.primvars);
+}
+
+/// Of what sameGroup() compares.
+class GroupHash {
+ public:
+  explicit GroupHash(const ShadeGroup& g) {
+    add(std::hash<const void*>()(g.attributes.get()));
+    add(uint64_t{g.solid});
+    add(uint64_t{g.subtracted});
+    add(g.cameraFromObject);
+    for (const float time : g.currentFromOpen.times) add(time);
+    for (const mat4& key : g.currentFromOpen.keys) add(key);
+    for (const Primvar& p : g.primvars) add(std::hash<std::string>()(p.name));
+  }
+  uint64_t value() const { return value_; }
+
+ private:
+  void add(uint64_t x) { value_ = (value_ ^ x) * 0x9e3779b97f4a7c15U, value_ ^= value_ >> 32; }
+  void add(float x) { add(uint64_t{__builtin_bit_cast(uint32_t, x + 0.0f)}); }  // -0 equals 0
+  void add(const mat4& m) {
+    for (int column = 0; column < 4; ++column)
+      for (int row = 0; row < 4; ++row) add(m[column][row]);
+  }
+
+  uint64_t value_ = 0;
+};
+
 // Key times inside the shutter, its opening first. Still, or a closed shutter: that one time. shapeTimes: empty if it
 // keeps its shape.
 std::vector<float> keyTimesOf(const std::vector<float>& shapeTimes, const Motion& cameraFromObject,
@@ -96,30 +127,37 @@ void Scene::derive(Procedural& p) const {
     p.displacementBound = std::max(p.displacementBound, displacementBoundOf(*p.attributes, p.cameraFromObject.at(t)));
 }
 
+ShadeGroup Scene::groupFor(const Object& o, int index) const {
+  const mat4 m = o.cameraFromObject.at(options.shutterOpen);
+  ShadeGroup g{.attributes = o.attributes,
+               .cameraFromObject = m,
+               .exampleObject = index,
+               .solid = o.solid >= 0,
+               .subtracted = o.subtracted};
+  if (o.currentFromObject.moving()) g.currentFromOpen = o.currentFromObject * Motion::still(glm::inverse(m));
+  for (const Primvar& p : o.shape().primvars()) g.primvars.push_back({p.name, p.storage, p.type, p.width, {}});
+  return g;
+}
+
 void Scene::findGroup(Object& o, int index) {
   o.subtracted = o.solid >= 0 && solids[static_cast<size_t>(o.solid)].subtracted(o.solidBlock);
-  const mat4 m = o.cameraFromObject.at(options.shutterOpen);
-  const Motion currentFromOpen =
-      o.currentFromObject.moving() ? o.currentFromObject * Motion::still(glm::inverse(m)) : Motion();
-  o.group = -1;
-  const auto [begin, end] = groupsByAttributes_.equal_range(o.attributes.get());
-  for (auto it = begin; it != end && o.group < 0; ++it) {
-    const ShadeGroup& g = groups[static_cast<size_t>(it->second)];
-    if (g.solid == (o.solid >= 0) && g.subtracted == o.subtracted && g.cameraFromObject == m &&
-        g.currentFromOpen == currentFromOpen && sameLayout(g.primvars, o.shape().primvars()))
-      o.group = it->second;
+  ShadeGroup group = groupFor(o, index);
+  const uint64_t hash = GroupHash(group).value();
+  const auto [begin, end] = groupsByHash_.equal_range(hash);
+  const auto known = std::find_if(
+      begin, end, [&](const auto& entry) { return sameGroup(groups[static_cast<size_t>(entry.second)], group); });
+  if (known != end) {
+    o.group = known->second;
+    return;
   }
-  if (o.group >= 0) return;
   o.group = static_cast<int>(groups.size());
-  groupsByAttributes_.emplace(o.attributes.get(), o.group);
-  ShadeGroup g{o.attributes, m, {}, index, currentFromOpen, o.solid >= 0, o.subtracted};
-  for (const Primvar& p : o.shape().primvars()) g.primvars.push_back({p.name, p.storage, p.type, p.width, {}});
-  groups.push_back(std::move(g));
+  groupsByHash_.emplace(hash, o.group);
+  groups.push_back(std::move(group));
 }
 
 void Scene::freeze() {
   groups.clear();
-  groupsByAttributes_.clear();
+  groupsByHash_.clear();
   for (size_t i = 0; i < objects.size(); ++i) {
     derive(objects[i]);
     objects[i].name = static_cast<uint32_t>(i);

@@ -4,6 +4,7 @@
 #pragma once
 #include <functional>
 #include <map>
+#include <unordered_map>
 
 #include "reyes/base/stable_vector.h"
 #include "reyes/camera.h"
@@ -114,10 +115,12 @@ struct Scene {
   void derive(Procedural& procedural) const;
   int add(Object object);
   void findGroup(Object& object, int index);
+  ShadeGroup groupFor(const Object& object, int index) const;
   float displacementBoundOf(const Attributes& attributes, const mat4& cameraFromObject) const;
 
-  /// Requests share one Attributes until something changes, so a look back at equal pointers finds the group fast.
-  std::multimap<const Attributes*, int> groupsByAttributes_;
+  /// By a hash of all that objects of a group have in common. Requests share one Attributes until something
+  /// changes, so equal pointers tell.
+  std::unordered_multimap<uint64_t, int> groupsByHash_;
   std::vector<int> dropped_;  ///< Indices that may be used again.
 };
 

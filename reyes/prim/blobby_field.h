@@ -84,8 +84,6 @@ class BlobField {
   const std::vector<FieldPoint>& run(const dvec3& p) const;
   std::vector<FieldRange> rangesOver(const Box& box) const;
   std::vector<uint32_t> neededOperands(const Instruction& i, const std::vector<FieldRange>& ranges) const;
-  uint32_t copyTo(BlobField& out, uint32_t index, const std::vector<FieldRange>& ranges,
-                  std::vector<int>& copied) const;
 
   std::shared_ptr<const std::vector<BlobLeaf>> leaves_;
   std::vector<Instruction> code_;

@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "reyes/base/deep_stack.h"
 #include "reyes/shade/binder.h"
 #include "reyes/shade/roles.h"
 
@@ -13,7 +14,6 @@ namespace {
 constexpr int kLightSamples = 16;   ///< Of a light that does not say how many.
 constexpr int kColours = 3;         ///< Samples of an indirect light.
 constexpr int kMostRays = 1 << 16;  ///< Of one irradiance sample.
-constexpr int kMostBounces = 1000;  ///< Beyond these no picture changes any more.
 
 /// A count among the parameters of a light.
 int countOf(const BoundShader& light, TmRole role, int fallback, int least, int most, Log& log) {

@@ -16,10 +16,11 @@ constexpr int kMaxDepth = 48;  ///< Halvings of one patch; beyond, the piece is 
 /// the eye would ever be culled.
 constexpr float kSlack = 8;
 constexpr int kSlackDepth = 8;
-/// Pieces that one patch may visit: so many times those that cover the window once, and some for small windows. Only
-/// coordinates beyond float's precision or reach, which no halving makes small, come near it. Patches of one object
-/// share what exceeds the least, or a mesh of them would take hours.
-constexpr double kLayersOfObject = 64, kLayersOfPatch = 4;
+/// Pieces that one patch may visit: so many times those that cover the window once, and some for small
+/// windows. A ground plane up to its horizon takes about ten, as its grids lie over each other there. Only
+/// coordinates beyond float's precision or reach, which no halving makes small, come near it. Patches of one
+/// object share what exceeds the least, or a mesh of them would take hours.
+constexpr double kLayersOfObject = 128, kLayersOfPatch = 16;
 constexpr double kVisitsOfObject = 1 << 14, kVisitsOfPatch = 1 << 9;
 constexpr float kLeastReach_px = 0.05f;  ///< What vertices are snapped by, and what closes T-vertices.
 /// What a blurred piece costs beyond its visit if it may be seen all over the window: each sample there has to look
@@ -32,6 +33,7 @@ constexpr float kDot = 3.5f;
 /// Lazily, a patch is halved so often, and what then has so many grids or more is a coarse piece.
 constexpr int kHalvingsAtOnce = 6;
 constexpr int64_t kGridsOfCoarse = 64;
+constexpr float kDeepest = 2;  ///< Its far end is at most so many times as far from the eye as its near end.
 
 double pixelsOf(const PixelRect& r) { return static_cast<double>(r.width()) * r.height(); }
 
@@ -42,6 +44,12 @@ std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
   else
     a.v1 = b.v0 = 0.5f * (r.v0 + r.v1);
   return {a, b};
+}
+
+/// May it be halved? Else there is no float between its ends.
+bool hasMiddle(float from, float to) {
+  const float middle = 0.5f * (from + to);
+  return from < middle && middle < to;
 }
 
 /// Is a patch bent nowhere, nor shaded as if it were? As a single cell it then reaches farther only by what closes
@@ -117,18 +125,14 @@ class Splitter {
   const GivenUp& givenUp() const { return givenUp_; }
 
  private:
-  /// Coarse pieces inherit what is left of the visits, in proportion to the grids that they may show: however deep they
-  /// are nested, a patch takes no more than it was given.
+  /// Coarse pieces inherit what is left of the visits, in proportion to those that they are expected to take:
+  /// however deep they are nested, a patch takes no more than it was given.
   void splitWithin(int64_t visits, uint32_t patch, const UvRect& rect, int depth, const Known* known,
                    std::vector<SubPatch>& out) {
     const auto first = static_cast<ptrdiff_t>(out.size());
     start_ = depth, budget_ = visits, flat_ = isFlat(object_, patch), alone_ = isAlone(object_, patch);
     split(patch, rect, depth, known, out);
-    const auto share = [this](const SubPatch& p) {
-      return p.coarse ? static_cast<double>(
-                            std::min(gridsOf(p.nu, p.nv), 1 + static_cast<int64_t>(gridsOver(inView_px(p.raster)))))
-                      : 0.0;
-    };
+    const auto share = [this](const SubPatch& p) { return p.coarse ? expectedVisits(p) : 0.0; };
     double shares = 0;
     for (auto p = out.begin() + first; p != out.end(); ++p) shares += share(*p);
     for (auto p = out.begin() + first; p != out.end(); ++p)
@@ -176,17 +180,28 @@ class Splitter {
       else
         out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, reach_px), bound.lo.z, crossesEye, depth, false});
     } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && gridsOf(nu, nv) >= kGridsOfCoarse && !crossesEye &&
-               glm::length(bare.size()) <= kSlack * reach) {
+               isOfOneScale(bare) && glm::length(bare.size()) <= kSlack * reach) {
       // Halving shrinks such a piece and its bound as it should, so that its grids can be foretold.
       out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, reach_px), bound.lo.z, crossesEye, depth, true});
-    } else if (depth == kMaxDepth) {
-      ++(bound.lo.z < glm::length(bound.size()) ? givenUp_.atEye : givenUp_.tooMany);
+    } else if (depth == kMaxDepth || !(hasMiddle(rect.u0, rect.u1) || hasMiddle(rect.v0, rect.v1))) {
+      takeSmallest(patch, rect, depth, bound, crossesEye, rasterOf(bound, reach_px), out);
     } else {
-      const bool alongU = crossesEye ? size.u.length >= size.v.length : nu >= nv;
+      const bool longerInU = crossesEye ? size.u.length >= size.v.length : nu >= nv;
+      const bool alongU = hasMiddle(rect.u0, rect.u1) && (longerInU || !hasMiddle(rect.v0, rect.v1));
       const auto [a, b] = halves(rect, alongU);
       split(patch, a, depth + 1, nullptr, out);
       split(patch, b, depth + 1, nullptr, out);
     }
+  }
+
+  /// Of a plane, what floats cannot name a part of is one cell, however large it is in the picture; but none
+  /// may reach through the eye plane.
+  void takeSmallest(uint32_t patch, const UvRect& rect, int depth, const Bound3& bound, bool crossesEye,
+                    const Bound2& raster, std::vector<SubPatch>& out) {
+    if (object_.shape().info(patch).planar && !crossesEye)
+      out.push_back({index_, patch, rect, 1, 1, raster, bound.lo.z, false, depth, false});
+    else
+      ++(depth == kMaxDepth && bound.lo.z < glm::length(bound.size()) ? givenUp_.atEye : givenUp_.tooMany);
   }
 
   /// A long and narrow piece would be diced whole for the end that is seen. What was measured of it holds for its
@@ -217,17 +232,34 @@ class Splitter {
     }
   }
 
+  /// Is all of it seen at about the same scale? Else what its near end takes says nothing about most of it.
+  bool isOfOneScale(const Bound3& bare) const { return !camera_.perspective() || bare.hi.z <= kDeepest * bare.lo.z; }
+
   int64_t visitsOfBlur(const Bound2& raster) const {
     const double keys = 1 + static_cast<double>(object_.keyTimes.size()) / kKeysOfBlur;
     return static_cast<int64_t>(kVisitsOfBlur * keys * inView_px(raster) / pixelsOf(window_));
   }
   int64_t gridsOf(int nu, int nv) const { return static_cast<int64_t>(nu) * nv / gridSize_; }
-  /// Of a bound, what the window shows.
-  double inView_px(const Bound2& raster) const {
+  /// Width and height of what the window shows of a bound.
+  glm::dvec2 sizeInView_px(const Bound2& raster) const {
     const vec2 lo = glm::max(raster.lo, vec2(window_.x0, window_.y0)),
                hi = glm::min(raster.hi, vec2(window_.x1, window_.y1));
-    const vec2 size = glm::max(hi - lo, vec2(0));
-    return double{size.x} * size.y;
+    return glm::max(hi - lo, vec2(0));
+  }
+  double inView_px(const Bound2& raster) const {
+    const glm::dvec2 size = sizeInView_px(raster);
+    return size.x * size.y;
+  }
+  /// Of a coarse piece: its share of grids by area, those that the window's border may cut, and the halvings
+  /// that lead from all of it to them. Towards a horizon many grids lie over each other; beside the eye next
+  /// to nothing of a huge piece is seen.
+  double expectedVisits(const SubPatch& p) const {
+    const int64_t grids = gridsOf(p.nu, p.nv);
+    const glm::dvec2 size = p.raster.hi - p.raster.lo, seen = sizeInView_px(p.raster);
+    const glm::dvec2 gridsAcross = seen / (double{edge_px_} * std::sqrt(gridSize_)) + 1.0;
+    const double inView = static_cast<double>(grids) * (seen.x / size.x) * (seen.y / size.y);
+    return std::min(static_cast<double>(grids), inView + gridsAcross.x * gridsAcross.y) +
+           std::bit_width(static_cast<uint64_t>(grids));
   }
   /// That a layer of surface over so many pixels takes.
   double gridsOver(double area_px) const { return area_px / (double{edge_px_} * edge_px_ * gridSize_); }

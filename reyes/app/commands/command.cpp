@@ -15,6 +15,7 @@
 #include "reyes/app/exit_code.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/crash_note.h"
+#include "reyes/base/deep_stack.h"
 #include "reyes/base/input_file.h"
 
 namespace tomales {
@@ -152,7 +153,7 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   photons->add_option("--photons", in.render.photons, "Photons to emit")
       ->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
   photons->add_option("--bounces", in.render.bounces, "Most surfaces that a photon may arrive at")
-      ->check(CLI::Range(1, 1000));
+      ->check(CLI::Range(1, kMostBounces));
   photons->add_option("--seed", in.render.seed, "Of all random numbers");
   addRunOptions(*photons, in.render);
   photons->add_option("SCENE", in.render.files, "RIB files")->required();
@@ -227,7 +228,7 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
       "Resolution in pixels");
   c->add_option("--batches", s.batches, "Most independent pictures that make the reference")
       ->check(CLI::Range(2, 10000));
-  c->add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, 1000));
+  c->add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, kMostBounces));
   c->add_option("-t", s.threads, "Threads of each rendering (default: all)")->check(CLI::Range(1, 4096));
   addTrust(*c, s.allowSystem, s.shaderFolders);
   c->add_option("--cache", s.folder, "Keep what has been measured here (default: the user's cache)")
@@ -284,13 +285,7 @@ int parseAndRun(int argc, char** argv) {
   return code;
 }
 
-}  // namespace
-
-int run(int argc, char** argv) {
-  openStandardFiles();
-  endWithMessages();
-  reportCrashes();
-  watchSignals();
+int runGuarded(int argc, char** argv) {
   Log log;
   int code = kDone;
   guarded(log, [&] { code = parseAndRun(argc, argv); });
@@ -298,6 +293,18 @@ int run(int argc, char** argv) {
     log.report(Severity::Output, "output-write", {std::make_shared<std::string>("standard output"), 0},
                "cannot be written");
   return log.worst() > Severity::Info && !interruptExitCode() ? exitCodeOf(log) : code;
+}
+
+}  // namespace
+
+int run(int argc, char** argv) {
+  openStandardFiles();
+  endWithMessages();
+  reportCrashes();
+  watchSignals();  // before other threads start, as they must not get the signals
+  int code = kDone;
+  runOnDeepStack([&] { code = runGuarded(argc, argv); });
+  return code;
 }
 
 }  // namespace tomales

@@ -1,5 +1,7 @@
 #include "reyes/app/commands/options.h"
 
+#include "reyes/base/deep_stack.h"
+
 namespace tomales {
 namespace {
 
@@ -63,7 +65,7 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
       ->type_name("MODE");
   app.add_option("--samples", s.samples, "Gather rays of an irradiance sample, or paths of a point for the reference")
       ->check(CLI::Range(1, 1 << 20));
-  app.add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, 1000));
+  app.add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, kMostBounces));
   app.add_option("--max-error", s.maxError, "Error allowed in irradiance interpolation; 0 computes every point")
       ->check(between(0.0, 1e6));
   addParsed(app, "--error-function", s.errorFunction, parseErrorFunction, "screen|ward|hessian|split|plain",

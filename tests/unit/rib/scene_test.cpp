@@ -1,4 +1,6 @@
 // What attributes, shaders and lights leave in the Scene.
+#include <chrono>
+
 #include "rib_test_tools.h"
 
 namespace tomales {
@@ -293,6 +295,16 @@ TEST(Interning, AlikeAttributesAreOneAndGroupTogether) {
   EXPECT_EQ(r.scene().groups.size(), 3u);
   EXPECT_EQ(r.object(0).attributes, r.object(99).attributes);
   EXPECT_NE(r.object(0).attributes, r.object(1).attributes);
+}
+
+TEST(Interning, ManyObjectsThatDifferInTheirPlaceAloneAreGroupedInTime) {
+  // Compared with all of those before, they took ten minutes.
+  std::string text;
+  for (int i = 0; i < 200000; ++i) text += "Translate 1 0 0 Sphere 1 -1 1 360\n";
+  const auto start = std::chrono::steady_clock::now();
+  const Reading r(inWorld(text));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+  EXPECT_EQ(r.scene().groups.size(), 200000u);
 }
 
 TEST(EmptyMesh, IsAWarningOnly) {
