@@ -9,19 +9,23 @@
 namespace tomales {
 namespace {
 
-constexpr float kFinestPixels = 1;              // of a dispute, at kappa 1
+constexpr float kFinestPixels = 1;              // in pixels, at kappa 1: disagreement shortens no radius below this
 constexpr float kMaxAngleTerm = 0.0151922470f;  // 1 - cos(alpha+), alpha+ = 10 degrees (eq. 4)
-constexpr float kBehindTolerance = 0.1f;        // of the validity radius,
-constexpr float kBehindPixels = 0.45f;  // and at kappa 1: thin sheets have two sides, however far their records reach
-constexpr float kHeight = 0.5f;         // above a record's plane, of its closest distance,
-constexpr float kHeightFade = 4;        // and from three quarters of that on it counts less
-constexpr float kDispute = 0.1f;   // relative difference of extrapolated values, at kappa 1, that is no longer smooth
-constexpr float kTorn = 0.5f;      // the same between points that see other things
-constexpr float kNoiseMargin = 3;  // standard errors
-constexpr float kDark = 0.1f;      // of the mean E: what is darker is off by fractions of this, not of itself
-constexpr float kSteep = 0.3f;     // of E over a record's reach: it serves no wider
-constexpr size_t kRun = 64;        // lookups that share their candidates, at most
-constexpr float kRunPixels = 24;   // diagonal of what they cover, at most: incoherent points would share too many
+constexpr float kBehindTolerance = 0.1f;        // share of the validity radius
+// the same in pixels, at kappa 1: thin surfaces have two sides, however far their records are valid
+constexpr float kBehindPixels = 0.45f;
+constexpr float kHeight = 0.5f;   // share of the closest distance, above the record's plane
+constexpr float kHeightFade = 4;  // the weight fades from three quarters of that height on
+// relative difference of extrapolated values, at kappa 1, beyond which light does not change smoothly
+constexpr float kDispute = 0.1f;
+constexpr float kTorn = 0.5f;      // the same between points that see different surfaces
+constexpr float kNoiseMargin = 3;  // in standard errors
+constexpr float kDark = 0.1f;      // share of the mean E: darker values are compared with this and not with themselves
+// share of E by which it may change over a record's radius; a steeper record serves no wider
+constexpr float kSteep = 0.3f;
+constexpr size_t kRun = 64;  // greatest number of lookups that share their candidates
+// greatest diagonal of the places of a run: incoherent points would share too many candidates
+constexpr float kRunPixels = 24;
 
 struct Candidate {
   uint32_t record;
@@ -45,10 +49,10 @@ struct Vicinity {
   }
 };
 
-/// What a record may serve, but for rounding.
+/// Bounds of what a record may serve, before rounding.
 struct Reach {
-  float least, most, scale;  ///< Its radius is its size between least and most, times scale.
-  float cosine;              ///< Of the angle between normals, at least.
+  float least, most, scale;  ///< The radius is the record's size, clamped between least and most, times scale.
+  float cosine;              ///< Least cosine of the angle between normals.
 };
 
 /// slack[i] > 0: record i may serve a point at p with normal n.
@@ -72,7 +76,7 @@ struct IrradianceCache::Impl {
   Bound3 bound;
   RecordTree tree{bound};
   IrradianceRecords records{};
-  double luminanceSum = 0;  // of their E
+  double luminanceSum = 0;  // sum over the records' E
 
   float size(const IrradianceRecord& r) const {
     switch (settings.errorFunction) {
@@ -93,7 +97,7 @@ struct IrradianceCache::Impl {
     return settings.errorFunction == ErrorFunction::Split || settings.errorFunction == ErrorFunction::Plain;
   }
 
-  // Distance at which the error reaches 1: the denominator of eq. 3 over kappa. Ward's split sphere has the
+  // Returns the distance at which the error reaches 1: the denominator of eq. 3 over kappa. Ward's split sphere has the
   // same limits.
   float reach(float recordSize, float pixelSize) const {
     const float radius = std::max(std::min(recordSize, settings.maxPixels * pixelSize), settings.minPixels * pixelSize);
@@ -110,7 +114,7 @@ struct IrradianceCache::Impl {
   Dispute disputeOf(const vec3& a, const vec3& b, float noise) const {
     if (isPublished()) return Dispute::None;
     const float tolerance =
-        settings.errorFunction == ErrorFunction::Ward ? 4 * kDispute : kDispute;  // as kappa counts there
+        settings.errorFunction == ErrorFunction::Ward ? 4 * kDispute : kDispute;  // kappa counts four times there
     const float larger = std::max(luminance(a), luminance(b)),
                 off = std::abs(luminance(a) - luminance(b)) - kNoiseMargin * noise;
     const auto dark = static_cast<float>(kDark * luminanceSum / static_cast<double>(records.size()));
@@ -118,18 +122,19 @@ struct IrradianceCache::Impl {
     return off > kTorn * std::max(larger, dark) ? Dispute::Torn : Dispute::Steep;
   }
 
-  // Steep light needs no record nearer than a pixel: they would be noise of single pixels, paid with a hemisphere each.
-  // What is torn lies on both sides of something thinner than that.
+  // Where light is steep, no record is needed nearer than a pixel: it would be the noise of single pixels, each paid
+  // with a hemisphere. Where points see different surfaces, something thinner than that lies between them.
   float least(float pixelSize) const { return kFinestPixels * pixelSize / settings.kappa; }
   float limitBy(Dispute dispute, float distance, float pixelSize) const {
     if (dispute == Dispute::None) return kInfinity;
     return dispute == Dispute::Torn ? distance : std::max(distance, least(pixelSize));
   }
 
-  // Of an extrapolated value: gradients are as noisy as E over the mean distance of what is seen.
+  // Standard error of an extrapolated value: gradients are as noisy as E over the mean distance of the hits.
   static float noiseAt(const IrradianceRecord& r, float distance) { return r.noise * (1 + distance / r.harmonicMean); }
 
-  // The new record knows E at its place, which older ones have been guessing, and they at theirs.
+  // The new record knows E at its place, which older records have extrapolated, and they know E at theirs. Where the
+  // two disagree, each ends before the other.
   void settleDisputes(uint32_t index) {
     IrradianceRecord& fresh = records[index];
     for (const Candidate& candidate : candidatesAt(fresh.position, fresh.normal, fresh.pixelSize)) {
@@ -143,14 +148,15 @@ struct IrradianceCache::Impl {
     }
   }
 
-  // 1 where light does not change over the radius, 0 where it does so by kSteep of itself: beyond, it may end.
+  // Returns 1 where light does not change over the radius, and 0 where it changes by kSteep of itself: a shadow's edge
+  // may lie beyond.
   static float evenness(const IrradianceRecord& r, float radius) {
     const vec3 change = radius * (r.translationGradient[0] + r.translationGradient[1] + r.translationGradient[2]);
     const float most = kSteep * (r.E.x + r.E.y + r.E.z);
     return dot(change, change) < most * most ? 1 - dot(change, change) / (most * most) : 0.0f;
   }
 
-  // Smooth down to 0 where the record stops being used, so that interpolation has no seams.
+  // The weight falls smoothly to 0 where the record stops being used, so that interpolation has no seams.
   float weight(const IrradianceRecord& r, const vec3& x, const vec3& n, float pixelSize, float wider) const {
     const float covers = reach(size(r), pixelSize);
     const float radius = std::min(covers * (1 + (wider - 1) * evenness(r, covers)), r.limit);
@@ -163,7 +169,8 @@ struct IrradianceCache::Impl {
         std::max(std::min(kBehindTolerance * radius, kBehindPixels * pixelSize / settings.kappa), r.relief);
     const float behind = -0.5f * dot(step, n + r.normal) / tolerance;
     if (behind >= 1) return 0;
-    // One as high above it as what is closest lies on another surface: R- spans a slot of parallel sides.
+    // A point that is as high above the record as the closest hit lies on another surface: R- may be wider than a slot
+    // between parallel walls.
     const float above = dot(step, r.normal), highest = kHeight * r.closest;
     if (above > 0 && above >= highest) return 0;
     const float upright = above > 0 ? std::min(1.0f, kHeightFade * (1 - above / highest)) : 1.0f;
@@ -178,7 +185,7 @@ struct IrradianceCache::Impl {
     return front * std::max(0.0f, 1 / std::max(error, 1e-4f) - 1);
   }
 
-  // In the order of the records, so that the shape of the tree leaves no trace.
+  // The candidates are in the order of the records, so that the result does not depend on the shape of the tree.
   std::vector<Candidate> candidatesAt(const vec3& x, const vec3& n, float pixelSize) const {
     std::vector<Candidate> out;
     tree.visit(
@@ -234,7 +241,7 @@ struct IrradianceCache::Impl {
     }
   }
 
-  // What extrapolating each record by its own gradient leaves out of their mean.
+  // Returns the error of the mean of linearly extrapolated records, to the second order.
   vec3 secondOrder(const std::vector<Candidate>& candidates, const MeanExtrapolation& mean, float weight,
                    float pixelSize) const {
     if (isPublished()) return vec3(0.0f);
