@@ -1,4 +1,5 @@
-// occlusion() from records of the irradiance cache's kind, of what is not covered instead of light.
+// occlusion() from records as in the irradiance cache, which hold the uncovered share of the hemisphere instead of
+// light.
 #include "gi/frame/state.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"
@@ -6,11 +7,11 @@
 namespace tomales {
 namespace {
 
-constexpr float kMostPixels = 40;  ///< As of the Hessian's records of light.
+constexpr float kMostPixels = 40;  ///< R+, the same as for the Hessian's records of light.
 
-/// A visible point that shows what its group asks.
+/// A visible point at which the shaders of its group are run to learn their queries.
 struct Scout {
-  uint32_t order = ~0U;  ///< The least of the group is taken, whatever the tiles are.
+  uint32_t order = ~0U;  ///< The point with the least number of its group is taken, whatever the tiles are.
   size_t tile = ~size_t{0};
   int batch = 0, point = 0;
   bool operator<(const Scout& o) const { return order != o.order ? order < o.order : tile < o.tile; }

@@ -5,16 +5,15 @@
 namespace tomales {
 namespace {
 
-constexpr float kSheetPixels = 2;  // length of the rays: farther, records know of it
-constexpr float kUnmet = 0.9f;     // of the closest distance of a record: what is nearer it has not met
+constexpr float kSheetPixels = 2;  // length of the rays; occluders farther away have been met by records
+constexpr float kUnmet = 0.9f;     // share of a record's closest distance below which it has met nothing
 constexpr float kSlant = 0.70710678f;
 
 }  // namespace
 
-// Records in front of a slot that is narrower than they reach see the sheet over it edge-on, if at all. Of
-// two rays that leave upwards and aside one meets it, even below its very edge. Records beside that edge have
-// met it, and it may be as near as the sheet is high: a ray upwards tells the points that lie under it from
-// those that do not.
+// Records in front of a slot that is narrower than their radius see the occluder over it edge-on, if at all. One of two
+// rays that leave upwards and aside meets it, even below its very edge. Records beside that edge have met it, and it
+// may be as near as it is high: a ray straight up tells the points that lie under it from those that do not.
 bool SheetSearch::isUnderSheet(const GatherPoint& p, float closest, float headroom) {
   const float farthest = std::min(kSheetPixels * p.pixelSize, gather_.maxDistance),
               met = std::min(farthest, kUnmet * closest);
@@ -23,7 +22,7 @@ bool SheetSearch::isUnderSheet(const GatherPoint& p, float closest, float headro
   ray.spread = spreadOfRays(gather_.samples);
   rays_.prepareOrigin(p.group, p.position, p.edgeLength, ray);
   const float slanted = slantedOffset(ray.offset, kSlant);
-  if (slanted >= ray.tMax) return false;  // of surfaces so near rays do not know which they leave
+  if (slanted >= ray.tMax) return false;  // rays cannot tell surfaces so near from the one that they leave
   if (p.group != group_) filter_.groups = groupsSeenFrom(rays_, group_ = p.group, gather_);
   if (!filter_.passesAll()) ray.filter = &filter_;
   if (ray.tMax > met && meetsSheet(p, ray)) return true;

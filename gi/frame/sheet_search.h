@@ -1,15 +1,16 @@
-// Private to gi: sheets that lie over points nearer than the records that cover these have met anything
+// Private to gi: a search for occluders over a point that are nearer than anything the records that cover it have met
 // (docs/decisions/0061).
 #pragma once
 #include "gi/gather.h"
 
 namespace tomales {
 
-/// For points that come one after the other, those of a group together.
+/// Points are asked one after the other; those of a group should follow each other.
 class SheetSearch {
  public:
   SheetSearch(const RayScene& rays, const GatherSettings& gather) : rays_(rays), gather_(gather) {}
-  /// `closest`: that any record in use at the point has met; `headroom`: no sheet over any of them is lower.
+  /// `closest`: least closest distance of the records in use at the point. `headroom`: no occluder over any of them is
+  /// lower.
   bool isUnderSheet(const GatherPoint& p, float closest, float headroom);
   int64_t raysTraced() const { return traced_; }
 
@@ -19,7 +20,7 @@ class SheetSearch {
   const RayScene& rays_;
   const GatherSettings& gather_;
   RayFilter filter_;
-  int group_ = -1;  ///< Whose filter that is.
+  int group_ = -1;  ///< The group that filter_ belongs to.
   int64_t traced_ = 0;
 };
 
