@@ -20,9 +20,8 @@ struct GatherSettings {
   bool indirect = false;                      ///< The shaders of the hits ask for indirect light in turn.
   bool mirrored = true;                       ///< The same as ShadeContext::mirrored.
   std::string subset{};  ///< Sets of objects that the rays see; empty: those that trace:subset of the object names.
-  std::optional<OcclusionQuery>
-      /// Occlusion instead of light: E/pi is the uncovered share of the hemisphere, and no hit is shaded.
-      occlusion{};
+  /// Occlusion instead of light: E/pi is the uncovered share of the hemisphere, and no hit is shaded.
+  std::optional<OcclusionQuery> occlusion{};
   bool operator==(const GatherSettings&) const = default;
 };
 

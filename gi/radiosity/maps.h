@@ -13,9 +13,8 @@ namespace tomales {
 struct RadiositySettings {
   float texels = 1;  ///< Factor on the texels along each edge that Attribute "radiosity" asks for.
   uint32_t seed = 0;
-  int64_t mostTexels =
-      /// Limit for all maps together, about 20 bytes a texel. The maps are halved until they keep it.
-      int64_t{1} << 25;
+  /// Limit for all maps together, about 20 bytes a texel. The maps are halved until they keep it.
+  int64_t mostTexels = int64_t{1} << 25;
 };
 
 /// Texels of one side of a patch, row by row, v down, and all coarser levels after them.
@@ -27,9 +26,8 @@ struct RadiosityChart {
   /// Share of each texel of the finest level that is known, until makeLevels(); empty: all of each.
   std::vector<float> coverage;
 
-  size_t texelCount() const {
-    return static_cast<size_t>(width) * static_cast<size_t>(height);
-  }  ///< Texels of the finest level.
+  /// Texels of the finest level.
+  size_t texelCount() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
   int levels() const;
   /// Pre: no texels yet.
   void halve();
