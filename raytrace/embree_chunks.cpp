@@ -8,9 +8,8 @@ namespace {
 // Bytes that Embree allocates for each grid polygon and for a scene, as its memory monitor tells.
 constexpr size_t kPolygonBytes = 22, kSceneBytes = 10000;
 
-constexpr int kPartEdge = 16,
-              /// An Extent has one box for so many polygons: 24 bytes where polygons take 9000.
-    kPartPolygons = kPartEdge * kPartEdge;
+/// An Extent has one box for so many polygons: 24 bytes where polygons take 9000.
+constexpr int kPartEdge = 16, kPartPolygons = kPartEdge * kPartEdge;
 
 /// Tests a ray against boxes, grown a little for rounding.
 class Slabs {

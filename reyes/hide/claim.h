@@ -1,6 +1,6 @@
-// Samples that a cell of a still, sharp grid covers, kLanes of a pixel at a time. Private to the hider; included once
-// for each vector width, after reyes/base/vector.h. A Shape has covers(samples, lane): which lie in it (mask), depth(x,
-// y, those): their depth keys, and vague(): how far those may be off.
+// Private to the hider: tests a cell of a still, sharp grid against samples, kLanes of a pixel at a time. It is
+// included once for each vector width, after reyes/base/vector.h. A Shape has covers(samples, lane): the mask of
+// samples inside it; depth(x, y, mask): their depth keys; and vague(): the error of those.
 #include "reyes/hide/raster.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -8,13 +8,13 @@ namespace tomales {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// A vector of samples that a cell covers, no farther than what is opaque there.
+/// The samples of a vector that a cell covers, in front of the nearest opaque surface.
 struct Reach {
   Mask mask;
-  Floats depth, before;  ///< Depth keys of the cell, and of what was nearest.
+  Floats depth, before;  ///< Depth keys of the cell, and of the nearest opaque surface so far.
 };
 
-/// What trim curves and clipping leave of some samples.
+/// The samples that trim curves and clipping keep.
 inline Mask keptOfMask(const RasterJob& job, uint32_t cell, size_t lane, Mask samples) {
   const uint64_t left = keptLanes(job, cell, lane, bitsOf(samples));
   return hn::LoadMaskBits(kF, reinterpret_cast<const uint8_t*>(&left));
@@ -28,15 +28,15 @@ HWY_INLINE Reach reachOf(const RasterJob& job, const Shape& shape, size_t lane, 
   if (hn::AllFalse(kF, in.mask)) return r;
   r.depth = shape.depth(hn::Load(kF, out.x.data() + lane), hn::Load(kF, out.y.data() + lane), in);
   r.before = hn::Load(kF, out.depth.data() + lane);
-  // A solid is decided by all of it; padding still covers nothing.
+  // All surfaces of a solid are needed to resolve it; padding lanes never count.
   const Mask reaches = job.raster.inSolid ? hn::Gt(r.before, all(-kInfinity)) : hn::Le(r.depth, r.before);
   r.mask = hn::And(in.mask, reaches);
   if (HWY_UNLIKELY(kept == Kept::Part)) r.mask = keptOfMask(job, cell, lane, r.mask);
   return r;
 }
 
-/// Gives the samples from `lane` on to an opaque cell that covers them nearer than what they had. Without a branch for
-/// those that it does not cover, which nobody could foresee.
+/// The depth test of an opaque cell: it takes the samples from `lane` on that it covers in front of what they had. It
+/// has no branch for samples outside of the cell, which would be mispredicted.
 template <class Shape>
 HWY_INLINE void claim(const RasterJob& job, const Shape& shape, size_t lane, uint32_t cell, Kept kept) {
   SampleBuffer& out = job.out;
@@ -53,13 +53,13 @@ HWY_INLINE void claim(const RasterJob& job, const Shape& shape, size_t lane, uin
     reached = hn::And(reached, hn::Lt(depth, before));
   }
   uint32_t* cells = out.cell.data() + lane;
-  // Whole vectors: the next cell reads them back, and could not from a masked store that is still on its way.
+  // Whole vectors are stored: the next cell reads them back, and would have to wait for a masked store.
   hn::Store(hn::IfThenElse(reached, depth, before), kF, out.depth.data() + lane);
   hn::Store(hn::IfThenElse(hn::RebindMask(kU, reached), hn::Set(kU, cell), hn::Load(kU, cells)), kU, cells);
 }
 
-/// Writes what a cell covers into a vector of a film: where it does not, what was there, or nothing in one that is
-/// fresh.
+/// Writes the samples that a cell covers to a vector of a transparent layer. Others keep their values, or become empty
+/// in a new layer.
 HWY_INLINE void write(Films& films, uint32_t film, bool fresh, size_t first, Mask on, Floats depth, uint32_t cell) {
   float* depths = films.depths(film) + first;
   uint32_t* cells = films.cells(film) + first;
@@ -70,7 +70,7 @@ HWY_INLINE void write(Films& films, uint32_t film, bool fresh, size_t first, Mas
   hn::Store(hn::IfThenElse(hn::RebindMask(kU, on), hn::Set(kU, cell), otherCells), kU, cells);
 }
 
-/// Notes which samples of a pixel a transparent cell covers in front of what is opaque.
+/// Adds the samples of a pixel that a transparent cell covers in front of opaque surfaces to a transparent layer.
 template <class Shape>
 HWY_INLINE void film(const RasterJob& job, const Shape& shape, size_t pixel, uint32_t cell, Kept kept) {
   Films& films = job.out.filmsOf(job.raster);
@@ -101,8 +101,8 @@ HWY_INLINE void film(const RasterJob& job, const Shape& shape, size_t pixel, uin
   }
 }
 
-/// Asks the samples of the pixels that a cell may touch. make(): its shape, once it is known that not everything hides
-/// it.
+/// Tests the samples of the pixels that a cell may touch. make(): makes its shape, once it is known that the cell is
+/// not hidden.
 template <bool kOpaque, class Make>
 HWY_INLINE void sampleCell(const RasterJob& job, const PixelRect& pixels, float dMin, uint32_t cell, Kept kept,
                            const Make& make) {

@@ -8,15 +8,15 @@
 namespace tomales {
 namespace {
 
-/// Steps of point i, whose fixed channels are filled. Texture coordinates without primitive variables are bilinear in
-/// u, v.
+/// Sets the steps of point i, whose fixed channels are filled. Texture coordinates without primitive variables are
+/// bilinear in u, v.
 template <class Steps>
 void stepsOf(const Scene& scene, const Grid& g, const Steps& steps, ShadePoints& points, int i) {
   const ShadeGroup& group = scene.groups[static_cast<size_t>(points.group())];
   const auto put = [&](int value, float u, float v) {
     points.step(value, false)[i] = u, points.step(value, true)[i] = v;
   };
-  // N as the grid has it may be of any length; that of a shaded point is 1.
+  // The grid's N may be of any length; that of a shaded point is 1.
   vec3 n;
   for (int axis = 0; axis < 3; ++axis) n[axis] = steps.mean(g.N(axis));
   const float sign = group.subtracted ? -1.0f : 1.0f, scale = sign * reciprocalLength(dot(n, n));
@@ -42,7 +42,7 @@ void stepsOf(const Scene& scene, const Grid& g, const Steps& steps, ShadePoints&
   }
 }
 
-/// What is left of the way from the first key of a grid to its last, once the motion of the transformation is undone.
+/// The motion from the first key of a grid to its last that remains when the motion of the transformation is undone.
 template <class Mean>
 vec3 driftOf(const Scene& scene, const Grid& g, const Mean& mean) {
   const Object& o = scene.objects[static_cast<size_t>(g.object)];
@@ -55,8 +55,8 @@ vec3 driftOf(const Scene& scene, const Grid& g, const Mean& mean) {
   return transformPoint(openFromLast, there) - here;
 }
 
-/// Which cells, by their first vertices, may turn by more than a cosine says along u or v: without the roots that would
-/// tell for certain.
+/// Marks the cells, by their first vertices, whose normal may turn along u or v by more than the angle of the cosine.
+/// It computes no roots, and may mark too many.
 TOMALES_HOT void markTurning(const Grid& g, float cosine, int32_t* __restrict turning) {
   const float *x = g.N(0), *y = g.N(1), *z = g.N(2);
   for (int a = 0, row = g.nu + 1, end = g.vertexCount() - row - 1; a < end; ++a) {
@@ -77,7 +77,7 @@ int primvarFloats(const ShadeGroup& group) {
   return n;
 }
 
-/// s and t of points without primitive variables of that name.
+/// Sets s and t of points without primitive variables of that name.
 void setTextureCoordinates(const ShadeGroup& group, ShadePoints& points) {
   const Attributes& a = *group.attributes;
   const float *u = points.channel(kU), *v = points.channel(kV);
@@ -198,8 +198,9 @@ uint32_t FacetTable::facetOfFolded(uint32_t number) {
 void FacetTable::countTurns(const GridTable::Entry& entry, HideDoubts& doubts) {
   const RasterGrid& r = *entry.raster;
   const Grid& g = *r.grid;
-  constexpr float kCosine = 0.92f;      // 23 degrees
-  constexpr float kSagitta_px = 0.05f;  // of the arc over an edge; what is thinner has no outline to spoil
+  constexpr float kCosine = 0.92f;  // 23 degrees
+  // sagitta of the arc over an edge; a thinner one shows no corners in its outline
+  constexpr float kSagitta_px = 0.05f;
   const auto turns = [&](int a, int b) {
     const vec3 n = normalizeOr(g.normal(a), vec3(0)), m = normalizeOr(g.normal(b), vec3(0));
     const float cosine = dot(n, m);
@@ -211,7 +212,7 @@ void FacetTable::countTurns(const GridTable::Entry& entry, HideDoubts& doubts) {
   const int cells = g.cellNumbers();
   HideDoubts::Turns& out = doubts.turns[g.object];
   out.all += std::count(seen, seen + cells, 1);
-  if (g.displaced || g.round || r.blur) return;  // displacement is as rough as it likes
+  if (g.displaced || g.round || r.blur) return;  // a displaced surface may be rough by intention
   turning_.resize(static_cast<size_t>(g.stride()));
   markTurning(g, 1.01f * kCosine, turning_.data());
   for (int row = 0, cell = 0; cell < cells; ++row)

@@ -1,4 +1,4 @@
-// What transparent micropolygons cover, before it is known what hides it. Private to the hider.
+// Private to the hider: the samples that transparent micropolygons cover, before it is known what hides them.
 #pragma once
 #include <algorithm>
 #include <bit>
@@ -9,21 +9,21 @@
 
 namespace tomales {
 
-/// What cells of one grid cover of up to 64 samples of a pixel, each sample once: mostly all that a surface shows
-/// there.
+/// The samples among up to 64 of a pixel that cells of one grid cover, each sample once. It is mostly one surface's
+/// part of the pixel.
 struct Film {
   uint32_t
       word;    ///< Bit s of `samples` is lane 64 * (word % Films::wordsOfPixel()) + s of pixel word / wordsOfPixel().
-  int object;  ///< Whose neighbouring pieces may show the same (reyes/hide/reach.h); -1: none does.
+  int object;  ///< The object whose neighbouring pieces may overlap at a border (reyes/hide/reach.h); -1: none does.
   uint64_t samples;
 };
 
-/// Grows in memory that its thread keeps from bucket to bucket, up to some size: one bucket of very many layers is no
+/// It grows in memory that its thread keeps from bucket to bucket, up to a limit: one bucket of very many layers is no
 /// reason to hold as much for the rest of the frame.
 class Films {
  public:
   static constexpr float kUncovered_d = __builtin_inff();
-  static constexpr uint32_t kNoCell = ~0U, kNone = ~0U;  ///< Of cells; of films.
+  static constexpr uint32_t kNoCell = ~0U, kNone = ~0U;  ///< No cell; no layer.
 
   Films(size_t pixels, size_t lanes)
       : width_(std::min<size_t>(lanes, 64)), words_((lanes + 63) / 64), last_(pixels * words_, kNone) {
@@ -39,26 +39,27 @@ class Films {
   size_t count() const { return count_; }
   Film& film(size_t i) { return list_[i]; }
   const Film& film(size_t i) const { return list_[i]; }
-  size_t width() const { return width_; }  ///< Lanes of a film, a multiple of kLanes.
+  size_t width() const { return width_; }  ///< Number of lanes of each layer, a multiple of kLanes.
   size_t wordsOfPixel() const { return words_; }
-  /// Of a film: a depth key and a cell for each lane; kUncovered_d and kNoCell where it covers none.
+  /// A depth key and a cell for each lane of a layer; kUncovered_d and kNoCell where it covers none.
   float* depths(size_t film) { return depths_.data() + film * width_; }
   const float* depths(size_t film) const { return depths_.data() + film * width_; }
   uint32_t* cells(size_t film) { return cells_.data() + film * width_; }
   const uint32_t* cells(size_t film) const { return cells_.data() + film * width_; }
 
-  /// Films of the next grid have no cells of those before. object: Film::object
+  /// Begins a grid: layers of the next grid hold no cells of those before. object: Film::object.
   void beginGrid(int object = -1) { firstOfGrid_ = count_, object_ = object; }
-  /// For as many more. take() has none of it: a call there would put all vectors of its caller's loops aside.
+  /// Reserves memory for `more` layers. take() never allocates: a call there would spill all vectors of its caller's
+  /// loops.
   void makeRoom(size_t more) {
     const size_t films = count_ + more;
     if (list_.size() < films) list_.resize(2 * films);
     if (depths_.size() < films * width_) depths_.resize(2 * films * width_);
     if (cells_.size() < films * width_) cells_.resize(2 * films * width_);
   }
-  /// The film of the grid that gets some samples of a cell: the last of that word, or a new one if that has one of
-  /// them. It has them now, but not yet their depths and cells; a new one has no others: its `samples` are these, and
-  /// nothing is written to it. Pre: there is room.
+  /// Returns the layer of the current grid that gets these samples of a cell: the last one of that word, or a new one
+  /// if that holds one of them. The layer's `samples` are updated, but its depths and cells are the caller's to write;
+  /// a new layer is not initialised. Pre: there is room.
   uint32_t take(uint32_t word, uint64_t samples) {
     uint32_t& last = last_[word];
     if (last - firstOfGrid_ < count_ - firstOfGrid_ && (list_[last].samples & samples) == 0) {
@@ -69,13 +70,13 @@ class Films {
     return last = count_++;
   }
 
-  /// Some of a film's samples are no longer its.
+  /// Removes samples from a layer.
   void drop(size_t film, uint64_t samples) {
     list_[film].samples &= ~samples;
     for (; samples; samples &= samples - 1) cells(film)[std::countr_zero(samples)] = kNoCell;
   }
 
-  /// Samples one by one: those of a cell stay together until the next flush().
+  /// Adds samples one by one: those of a cell stay together until the next flush().
   void add(uint32_t word, uint32_t sample, uint32_t cell, float depth) {
     if (word != openWord_ || cell != openCell_) flush();
     openWord_ = word, openCell_ = cell;
@@ -116,7 +117,7 @@ class Films {
   UnsetVector<Film> list_;
   UnsetVector<float> depths_;
   UnsetVector<uint32_t> cells_;
-  std::vector<uint32_t> last_;  ///< Film of a word, kNone: there is none yet.
+  std::vector<uint32_t> last_;  ///< The last layer of each word; kNone: there is none yet.
   uint32_t count_ = 0, firstOfGrid_ = 0;
   int object_ = -1;
   uint64_t open_ = 0;

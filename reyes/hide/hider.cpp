@@ -11,7 +11,7 @@ namespace {
 
 constexpr size_t kManyGrids = 1024;
 
-/// Key times of a grid as fractions of the shutter; none if it is still.
+/// Key times of a grid as fractions of the shutter; empty if it is still.
 std::vector<float> shutterTimes(const Scene& scene, const Grid& grid) {
   if (grid.keyCount == 1) return {};
   std::vector<float> times = scene.objects[static_cast<size_t>(grid.object)].keyTimes;
@@ -21,7 +21,7 @@ std::vector<float> shutterTimes(const Scene& scene, const Grid& grid) {
   return times;
 }
 
-/// Film::object of what a grid covers.
+/// Film::object of a grid's layers.
 int joinedObject(const RasterGrid& raster) {
   const std::vector<Grid::Piece>& pieces = raster.grid->pieces;
   const bool ends =
@@ -29,7 +29,7 @@ int joinedObject(const RasterGrid& raster) {
   return ends || raster.blur || raster.inSolid ? -1 : raster.grid->object;
 }
 
-/// Contests whose winner is still seen.
+/// Counts the depth conflicts whose winner is still visible.
 void countSamePlaces(SampleBuffer& samples, const GridTable& grids, int samplesPerPixel, HideDoubts& doubts) {
   constexpr int kShare = 4;
   const auto width = static_cast<uint32_t>(samples.lanes);
@@ -38,7 +38,7 @@ void countSamePlaces(SampleBuffer& samples, const GridTable& grids, int samplesP
     const int seen = grids.of(samples.cell[c.lane]).grid().object;
     return (seen != c.first && seen != c.second) || samples.depth[c.lane] < c.least;
   });
-  // Those of a pixel and two objects together, each sample once.
+  // Conflicts of a pixel and two objects are sorted together, each sample once.
   const auto keyOf = [width](const Contest& c) { return std::tuple(c.lane / width, c.first, c.second); };
   std::sort(contests.begin(), contests.end(), [&](const Contest& a, const Contest& b) {
     return std::pair(keyOf(a), a.lane) < std::pair(keyOf(b), b.lane);
@@ -61,7 +61,7 @@ struct Hider::Impl {
   GridTable grids{};
   size_t enough = kManyGrids;
 
-  /// Grids that no sample sees any more make room, now and then.
+  /// Frees grids that no sample sees any more, now and then.
   void dropUnseen() {
     if (grids.held() < enough) return;
     grids.keepOnly(samples.seen());
@@ -75,7 +75,7 @@ Hider::Hider(const Scene& scene, const Camera& camera, const SamplePattern& patt
 Hider::~Hider() = default;
 
 bool Hider::hidden(const Bound2& raster, float zMin) const {
-  // Vertices are snapped.
+  // The lattice moves vertices by up to this.
   const vec2 reach(1 / kLattice);
   const SampleBuffer& s = impl_->samples;
   return s.hides(Bound2{raster.lo - reach, raster.hi + reach}, impl_->camera.leastDepthKey(zMin));

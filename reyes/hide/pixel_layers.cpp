@@ -61,7 +61,7 @@ HWY_AFTER_NAMESPACE();
 namespace tomales {
 namespace {
 
-/// Calls f(sample, depth) for the samples of a sight.
+/// Calls f(sample, depth) for the samples of a coverage.
 template <class F>
 void forSamples(const Sight& sight, const F& f) {
   for (uint64_t left = sight.samples; left; left &= left - 1) {
@@ -96,7 +96,7 @@ bool PixelLayers::overlap(std::span<const Sight> sights) {
   return twice;
 }
 
-/// Also counts the layers of each sample.
+/// Is the list nearest first for every sample? Also counts the layers of each sample.
 bool PixelLayers::inOrder(std::span<const Sight> sights) {
   size_t words = 0;
   for (const Sight& s : sights) words = std::max(words, size_t{s.word} + 1);
@@ -117,14 +117,14 @@ void PixelLayers::listLayers(std::span<const Sight> sights) {
   uint32_t total = 0;
   for (uint32_t sample = 0, queue = 0; sample < counts_.size(); ++sample) {
     const uint32_t count = counts_[sample];
-    counts_[sample] = queue;  // From here on: its queue.
+    counts_[sample] = queue;  // from here on it is the sample's queue
     if (count == 0) continue;
     queues_.next[queue] = queues_.end[queue] = total, queues_.sample[queue] = sample;
     total += count, ++queue;
   }
   std::vector<Layer>& layers = queues_.layers;
   layers.resize(total);
-  // Nearly sorted already. Equal depths keep the order of the sights, which no schedule changes.
+  // The list is nearly sorted already. Equal depths keep the order of the list, which does not depend on the schedule.
   for (uint32_t k = 0; k < sights.size(); ++k)
     forSamples(sights[k], [&](size_t sample, float d) {
       const uint32_t queue = counts_[sample];
@@ -137,7 +137,7 @@ void PixelLayers::listLayers(std::span<const Sight> sights) {
 
 HWY_EXPORT(merge);
 void PixelLayers::order(std::vector<Sight>& sights, const Nearer& nearer) {
-  // Most are in order already, and stay where they are: `merged_` begins with the first that are not.
+  // Most coverages are in order already and stay where they are: `merged_` begins with the first that are not.
   bool changed = false;
   for (std::span<const Sight> left(sights); !left.empty();) {
     const std::span<const Sight> run = nextRun(left);

@@ -1,5 +1,5 @@
-// Small disks that stand still and are in focus: each is the ellipse that touches the four edges of its cell
-// (Grid::round), exact and without corners, for the price of two lines instead of five (docs/decisions/0051).
+// Rasterises small disks that stand still and are in focus. Each is the ellipse that touches the four edges of its cell
+// (Grid::round): exact, without corners, and tested by two lines instead of five (docs/decisions/0051).
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reyes/hide/raster_round.cpp"
 #include "reyes/base/vector.h"  // Includes this file again for each target.
@@ -11,9 +11,9 @@ namespace tomales {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// A cell abcd, taken as a parallelogram about the middle of bc with half edges e (along u) and f.
+/// A cell abcd, taken as a parallelogram around the middle of bc with half edges e (along u) and f.
 struct Oval {
-  vec2 center, e, f, slope;  ///< slope: of the depth key.
+  vec2 center, e, f, slope;  ///< slope: gradient of the depth key.
   float d, dMin, dMax, area;
 
   Oval(const RasterGrid& r, size_t a) {
@@ -58,7 +58,7 @@ class Round {
   HWY_INLINE Floats depth(Floats sampleX, Floats sampleY, const Covered&) const {
     const Floats x = hn::Sub(sampleX, x_), y = hn::Sub(sampleY, y_);
     const Floats d = hn::Add(d_, hn::Add(hn::Mul(x, gx_), hn::Mul(y, gy_)));
-    // Never outside the cell, or culling by dMin would depend on rounding.
+    // The depth stays within that of the cell, or culling by dMin would depend on rounding.
     return hn::Min(hn::Max(d, dMin_), dMax_);
   }
   float vague() const { return vague_; }

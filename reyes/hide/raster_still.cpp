@@ -1,6 +1,7 @@
-// Micropolygons that stand still and are in focus, against the samples of the pixels that they touch: kLanes samples of
-// a pixel at a time. Compiled for several vector widths and chosen when first called (docs/decisions/0011); the
-// operations are the same in all of them, and none is fused, so the bits are too.
+// Tests micropolygons that stand still and are in focus against the samples of the pixels that they touch: kLanes
+// samples of a pixel at a time. The file is compiled for several vector widths, and one is chosen when it is first
+// called (docs/decisions/0011). The operations are the same in all of them, and none is fused, so the bits are the same
+// too.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reyes/hide/raster_still.cpp"
 #include "reyes/base/vector.h"  // Includes this file again for each target.
@@ -41,7 +42,7 @@ HWY_INLINE void setBounds(const float v[4][kLanes], float* lo, float* hi) {
   }
 }
 
-/// Which of kLanes vertices of a grid begin a cell, and its number.
+/// Finds which of kLanes vertices of a grid begin a cell, and its number.
 class CellNumbers {
  public:
   explicit CellNumbers(const Grid& g)
@@ -50,7 +51,7 @@ class CellNumbers {
   HWY_INLINE uint64_t set(Corners& q, int first, int end) const {
     HWY_ALIGN int32_t begins[kLanes];
     for (int i = 0; i < kLanes; ++i) {
-      // Halves keep the quotients of whole numbers below 2^21 away from where rounding would matter.
+      // Adding a half keeps the quotients of whole numbers below 2^21 away from where rounding would matter.
       const int a = first + i, row = static_cast<int>((static_cast<float>(a) + 0.5f) * perRow_);
       const int piece = static_cast<int>((static_cast<float>(row) + 0.5f) * perPiece_), u = a - row * (nu_ + 1);
       q.cell[i] = row * nu_ + u;
@@ -67,7 +68,7 @@ class CellNumbers {
   float perRow_, perPiece_;
 };
 
-/// Pixels of the bucket that bounds touch, as SampleBuffer::touched has them.
+/// Pixels of the bucket that bounds touch, the same as SampleBuffer::touched().
 HWY_INLINE void setPixels(const float* lo, const float* hi, int first, int end, int32_t* from, int32_t* to) {
   const float origin = static_cast<float>(first), size = static_cast<float>(end - first);
   for (int i = 0; i < kLanes; ++i) {
@@ -86,7 +87,7 @@ HWY_INLINE void setPixels(const float* lo, const float* hi, int first, int end, 
   }
 }
 
-/// Corners, bounds and numbers of the cells from vertex `first` on, and which of them touch the bucket.
+/// Sets corners, bounds and numbers of the cells from vertex `first` on. Returns which of them touch the bucket.
 HWY_INLINE uint64_t setUp(Corners& q, const RasterGrid& r, const CellNumbers& numbers, int first, int end,
                           const PixelRect& bucket) {
   const int row = r.grid->nu + 1;
@@ -121,8 +122,8 @@ HWY_INLINE bool fitLattice(const Corners& q, uint64_t cells, const SampleBuffer&
   return samples.fitsLattice() && (large & cells) == 0;
 }
 
-/// Which pixels are to be asked about which of some cells: those where not everything is nearer. Takes cells, as many
-/// as make a list that is long enough.
+/// Lists pairs of a pixel and a cell to be tested, without pixels whose samples are all nearer. It takes as many cells
+/// as make the list long enough.
 size_t listAsks(SampleBuffer& out, const Corners& q, uint64_t& cells) {
   constexpr size_t kLong = 1024;
   const size_t width = static_cast<size_t>(out.rect.width());
@@ -143,7 +144,7 @@ size_t listAsks(SampleBuffer& out, const Corners& q, uint64_t& cells) {
   return count;
 }
 
-/// Cells one after the other: what is asked stays in registers for all pixels of one.
+/// Tests cell by cell, so that the cell stays in registers for all of its pixels.
 template <class Edges>
 HWY_INLINE void ask(const RasterJob& job, const Corners& q, const Triangles<Edges>& triangles, size_t count) {
   SampleBuffer& out = job.out;
@@ -174,7 +175,7 @@ void claimCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   for (; count > 0 || cells; count = listAsks(job.out, q, cells)) ask(job, q, triangles, count);
 }
 
-/// Of transparent grids and of solids.
+/// For transparent grids and for solids.
 template <class Edges>
 void filmCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   const RasterGrid& r = job.raster;
@@ -190,7 +191,7 @@ void filmCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   }
 }
 
-/// Without those of which trim curves leave nothing.
+/// Returns the cells without those that are trimmed away.
 HWY_INLINE uint64_t keptCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   if (keepsAll(job)) return cells;
   for (uint64_t left = cells; left; left &= left - 1)
@@ -206,7 +207,7 @@ void sampleCells(const RasterJob& job, const Corners& q, uint64_t cells) {
     filmCells<Edges>(job, q, cells);
 }
 
-/// The micropolygons whose first vertices are those from `first` to before `end`.
+/// Rasterises the micropolygons whose first vertices are `first` to `end` - 1.
 void rasterizeRun(const RasterJob& job, int first, int end, Corners& q) {
   const CellNumbers numbers(*job.raster.grid);
   for (int k = first; k < end; k += kLanes) {
@@ -222,7 +223,7 @@ void rasterizeRun(const RasterJob& job, int first, int end, Corners& q) {
   }
 }
 
-/// Pieces that other buckets see are passed over, and so are those that are hidden here.
+/// Pieces that only other buckets see, and those that are hidden here, are skipped.
 void rasterize(const RasterJob& job) {
   const Grid& g = *job.raster.grid;
   const auto& pieces = job.raster.ofPiece;
@@ -256,7 +257,7 @@ void settlePixels(SampleBuffer& s, const PixelRect& pixels) {
   for (int y = pixels.y0; y < pixels.y1; ++y)
     for (int x = pixels.x0; x < pixels.x1;) {
       const size_t pixel = s.pixelIndex(x, y);
-      // Of a stack's bound a bucket often sees little.
+      // A bucket often sees little of the bound of a stack.
       if (x + 8 <= pixels.x1 && !anyOfEight(&s.nearer[pixel])) {
         x += 8;
         continue;

@@ -7,9 +7,9 @@
 namespace tomales {
 namespace {
 
-constexpr float kRounding = 1e-5f;  ///< Of depth keys.
+constexpr float kRounding = 1e-5f;  ///< Relative error of depth keys.
 
-/// Of the depth keys of a cell, which begins at vertex a.
+/// Range of the depth keys of a cell, which begins at vertex a.
 float extentOf(const RasterGrid& raster, int a) {
   const float* d = raster.d.data() + a;
   const int row = raster.grid->nu + 1;
@@ -33,7 +33,7 @@ class BorderCell {
 
   /// Does it lie at a border that joins a neighbour?
   bool joins() const { return joined_ != 0; }
-  /// Does a point of the raster lie beyond such a border, as it was before it was pushed out?
+  /// Does a point of the raster lie beyond such a border, as the border was before it was pushed out?
   bool reachesTo(const vec2& at) const {
     const int b = a_ + 1, c = a_ + grid_.nu + 1, d = c + 1;
     return beyond(kEdgeU0, a_, c, b, at) || beyond(kEdgeU1, b, d, a_, at) || beyond(kEdgeV0, a_, b, c, at) ||
@@ -82,7 +82,7 @@ ShownTwice shownTwice(const SampleBuffer& samples, const GridTable& grids, const
     if (std::abs(d - otherD) > mine.extent() + theirs.extent() + kRounding * std::abs(d)) continue;
     const vec2 at(samples.x[first + s], samples.y[first + s]);
     const bool reaches = mine.reachesTo(at), otherReaches = theirs.reachesTo(at);
-    // Where both reach, the nearer stays.
+    // Where both reach over, the nearer sample stays.
     const bool nearer = d < otherD || (d == otherD && grids.precedes(cells[s], otherCells[s]));
     const uint64_t sample = left & (~left + 1);
     if (reaches && !(otherReaches && nearer)) out.first |= sample;

@@ -12,17 +12,17 @@
 namespace tomales {
 namespace {
 
-/// What opaque surfaces leave of a film.
+/// The part of a transparent layer in front of opaque surfaces; or the opaque surfaces of a pixel.
 struct Sheet {
   FilmExtent extent;
   uint32_t film;
   int object;          ///< Film::object
-  float depth = 0;     ///< Of what is there of that object: how far a cell's depth keys lie apart.
-  uint64_t twice = 0;  ///< Samples that a neighbour shows.
+  float depth = 0;     ///< Range of depth keys within a cell of that object here.
+  uint64_t twice = 0;  ///< Samples that a neighbour shows too.
   bool operator<(const Sheet& o) const { return extent.nearest < o.extent.nearest; }
 };
 
-/// What outlives a tile: the memory of its lists.
+/// Memory of lists, which outlives a tile.
 struct Scratch {
   std::vector<uint32_t> filmsOfPixel, firstFilm;
   std::vector<Sheet> sheets;
@@ -34,8 +34,8 @@ struct Scratch {
 };
 
 class TileBuilder {
-  static constexpr size_t kAhead = 24;       ///< Films that are on their way while one is looked at.
-  static constexpr float kRounding = 1e-5f;  ///< Of depth keys.
+  static constexpr size_t kAhead = 24;       ///< Layers that are prefetched ahead of the current one.
+  static constexpr float kRounding = 1e-5f;  ///< Relative error of depth keys.
 
  public:
   TileBuilder(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples, Scratch& scratch)
@@ -62,7 +62,7 @@ class TileBuilder {
   }
 
  private:
-  /// Counts, then places: films of a pixel stand together.
+  /// Counting sort by pixel.
   void sortFilms(size_t pixels) {
     const Films& films = samples_.films;
     const auto words = static_cast<uint32_t>(films.wordsOfPixel());
@@ -104,7 +104,8 @@ class TileBuilder {
     addSights(pixel, false);
   }
 
-  /// Most of what is seen: a few surfaces. False, and nothing done, if there are more.
+  /// Adds fragments that are already in order, which is the most frequent case. Returns false, and adds nothing, if
+  /// there are too many surfaces.
   bool addRanked(size_t pixel, const RankedSights& seen, uint32_t word) {
     for (int i = 0; i < seen.count; ++i)
       addFragment(pixel, seen.sights[i].cell, seen.sights[i].d, seen.sights[i].samples, word);
@@ -119,13 +120,13 @@ class TileBuilder {
 
   void addFragment(size_t pixel, uint32_t cell, float d, uint64_t samples, uint32_t word) {
     facets_.see(cell);
-    // The facet is found later.
+    // facets_ replaces the cell by its facet later.
     Fragment& f =
         tile_.fragments.emplace_back(Fragment{cell, camera_.zFromDepthKey(d), samples, static_cast<uint16_t>(word)});
     if (grids_.anySmooth() && grids_.of(cell).raster->smooth) setPosition(f, cell, pixel);
   }
 
-  /// Sheets that lie behind all before them need not be looked at together with them.
+  /// Layers that lie behind all before them are sorted without them.
   void addFilms(size_t pixel) {
     findSheets(pixel);
     const std::vector<Sheet>& sheets = scratch_.sheets;
@@ -150,7 +151,7 @@ class TileBuilder {
     }
   }
 
-  /// Nearest first.
+  /// Finds the layers of a pixel, nearest first.
   void findSheets(size_t pixel) {
     std::vector<Sheet>& sheets = scratch_.sheets;
     std::vector<Sight>& opaque = scratch_.opaque;
@@ -165,7 +166,7 @@ class TileBuilder {
     const std::vector<uint32_t>& order = scratch_.filmsOfPixel;
     Films& films = samples_.films;
     for (uint32_t k = scratch_.firstFilm[pixel]; k < scratch_.firstFilm[pixel + 1]; ++k) {
-      // Those of a pixel are scattered over the list, which is larger than a cache near the processor.
+      // Layers of a pixel are scattered over the list, which is larger than a near cache.
       const uint32_t next = order[std::min(size_t{k} + kAhead, order.size() - 1)];
       __builtin_prefetch(films.depths(next)), __builtin_prefetch(films.cells(next)),
           __builtin_prefetch(&films.film(next));
@@ -176,7 +177,7 @@ class TileBuilder {
     dropTwice();
   }
 
-  /// What neighbours reach over each other counts once.
+  /// Removes samples that two neighbours show because they reach over a border.
   void dropTwice() {
     std::vector<Sheet>& sheets = scratch_.sheets;
     Films& films = samples_.films;
@@ -184,7 +185,8 @@ class TileBuilder {
       return std::popcount(f.samples) <
              std::min(64, samples_.sampleCount() - 64 * static_cast<int>(f.word % films.wordsOfPixel()));
     };
-    // Neighbours have a slope. Films that fill a pixel show it; a few samples show nothing.
+    // The range of depths in a cell of neighbours is estimated from layers that fill a pixel; a few samples do not show
+    // it.
     float most = 0;
     for (Sheet& s : sheets) {
       if (s.object < 0) continue;
@@ -213,7 +215,7 @@ class TileBuilder {
 
   /// overlapping: a sample may see several of them.
   void addSights(size_t pixel, bool overlapping) {
-    // Nearest first; equal depths in an order that no schedule changes.
+    // Nearest first; equal depths have an order that does not depend on the schedule.
     const auto nearer = [this](const Sight& a, const Sight& b) {
       if (a.d != b.d) return a.d < b.d;
       if (a.cell != b.cell) return grids_.precedes(a.cell, b.cell);
@@ -224,7 +226,7 @@ class TileBuilder {
     for (const Sight& s : sights_) addFragment(pixel, s.cell, s.d, s.samples, s.word);
   }
 
-  /// Sorts a few sights by depth without a branch that depends on it; false, and nothing done, if they are many or
+  /// Sorts a few coverages by depth without a branch on depths. Returns false, and does nothing, if they are many or
   /// depths are equal.
   bool sortByRank() {
     constexpr size_t kFew = 12;
@@ -243,7 +245,7 @@ class TileBuilder {
     return true;
   }
 
-  /// Sorts many sights by depth as integers; false, and nothing done, if depths are equal.
+  /// Sorts many coverages by depth as integers. Returns false, and does nothing, if depths are equal.
   bool sortByKey() {
     std::vector<uint64_t>& keys = scratch_.keys;
     keys.clear();
@@ -266,7 +268,7 @@ class TileBuilder {
     const int cell = static_cast<int>(cellNumber - entry.firstCell);
     const size_t first = pixel * static_cast<size_t>(samples_.lanes) + size_t{64} * fragment.word;
     const bool blurred = entry.raster->blur != nullptr;
-    // The corners of what is still and in focus are the same for all samples: ask once, at their mean place.
+    // The corners of a still cell in focus are the same for all samples: one query at their mean place suffices.
     vec2 places(0), positions(0);
     for (uint64_t left = fragment.samples; left != 0; left &= left - 1) {
       const SamplePoint sample = samplePoint(samples_, first + static_cast<size_t>(std::countr_zero(left)));

@@ -42,7 +42,7 @@ size_t countOf(const PixelRect& pixels) {
   return static_cast<size_t>(pixels.width()) * static_cast<size_t>(pixels.height());
 }
 
-/// The samples of a row of pixels, from the pattern of each.
+/// Places the samples of a row of pixels, from the pattern of each.
 TOMALES_HOT void placeRow(const SamplePattern& pattern, const int* patternAt, const PixelRect& rect, int row, int lanes,
                           const vec2& origin, float* __restrict x, float* __restrict y, int32_t* __restrict xy) {
   for (int column = rect.x0; column < rect.x1; ++column, ++patternAt) {

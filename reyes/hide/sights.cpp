@@ -1,4 +1,5 @@
-// For the first sample that is left, all that see the same cell at once.
+// Finds the samples of each cell in a list of lanes: repeatedly all lanes that see the same cell as the first lane that
+// is left.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reyes/hide/sights.cpp"
 #include "reyes/base/vector.h"  // Includes this file again for each target.
@@ -12,7 +13,7 @@ namespace tomales {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Bits of up to 64 lanes whose cell is `cell`, and the least of their depths.
+/// Mask of the lanes, up to 64, whose cell is `cell`, and the least of their depths.
 HWY_INLINE uint64_t lanesOf(const uint32_t* cells, const float* depths, size_t lanes, uint32_t cell, float& nearest) {
   uint64_t bits = 0;
   Floats least = all(kInfinity);
@@ -25,11 +26,11 @@ HWY_INLINE uint64_t lanesOf(const uint32_t* cells, const float* depths, size_t l
   return bits;
 }
 
-/// Of the lanes that are left.
+/// Collects the coverages of the lanes of the mask `left`.
 HWY_INLINE void collect(const uint32_t* cells, const float* depths, size_t lanes, uint64_t left, uint32_t word,
                         float farthest, std::vector<Sight>& sights) {
   while (left) {
-    Sight& sight = sights.emplace_back();  // In place: a copy would wait for its parts to be written.
+    Sight& sight = sights.emplace_back();  // made in place: copying it would wait for its parts to be written
     sight.cell = cells[std::countr_zero(left)], sight.word = word;
     sight.depths = depths, sight.far = farthest;
     sight.samples = lanesOf(cells, depths, lanes, sight.cell, sight.d);
@@ -50,15 +51,15 @@ void opaque(const SampleBuffer& samples, size_t pixel, std::vector<Sight>& sight
   }
 }
 
-/// Up to 64 lanes, and which of them are left.
+/// Up to 64 lanes, and a mask of those that are left.
 struct Lanes {
   const uint32_t* cells;
   const float* depths;
   uint64_t left;
 };
 
-/// Orders what was found without a branch that depends on depths: how many are nearer. nearest: their depths,
-/// and infinity beyond them.
+/// Orders what was found without a branch on depths: the place of each is the number of nearer ones. nearest: their
+/// depths, and infinity after them.
 HWY_INLINE int order(const RankedSight* found, const float* nearest, int count, RankedSight* out) {
   uint64_t taken = 0;
   for (int i = 0; i < count; ++i) {
@@ -71,7 +72,7 @@ HWY_INLINE int order(const RankedSight* found, const float* nearest, int count, 
   return taken == (uint64_t{1} << count) - 1 ? count : -1;
 }
 
-/// In step: the next cell of a pixel is known when all lanes of the one before are, and meanwhile other
+/// Several pixels advance in turn: the next cell of a pixel depends on all lanes of the one before, and meanwhile other
 /// pixels find theirs.
 HWY_INLINE void rank(Lanes* pixels, size_t count, size_t lanes, RankedSights* out) {
   RankedSight found[kRankedTogether][kMostRanked];

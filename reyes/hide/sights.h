@@ -1,4 +1,4 @@
-// Which cells the samples of a pixel see: lists of lanes become one Sight a cell. Private to the hider.
+// Private to the hider: turns lists of lanes into one coverage for each visible cell.
 #pragma once
 #include <span>
 
@@ -7,34 +7,34 @@
 
 namespace tomales {
 
-/// Appends what the samples of a pixel see of opaque surfaces.
+/// Appends the opaque cells that the samples of a pixel see.
 void collectOpaque(const SampleBuffer& samples, size_t pixel, std::vector<Sight>& sights);
 
-/// A Sight that is alone at its samples, among the first 64 of a word.
+/// A coverage whose samples see no other one, among the first 64 of a word.
 struct RankedSight {
   uint64_t samples;
   uint32_t cell;
   float d;
 };
 constexpr int kMostRanked = kLanes;
-/// Nearest first. count: less than 0 if samples see more than are looked at here, or some at equal depths.
+/// Nearest first. count: less than 0 if the samples see more than kMostRanked cells, or some at equal depths.
 struct RankedSights {
   int count;
   RankedSight sights[kMostRanked];
 };
 constexpr size_t kRankedTogether = 32;
-/// What the samples of some pixels see of opaque surfaces. Pre: no more than kRankedTogether.
+/// Finds the opaque cells that the samples of some pixels see. Pre: no more than kRankedTogether pixels.
 void rankOpaque(const SampleBuffer& samples, std::span<const uint32_t> pixels, RankedSights* out);
-/// What those of a pixel see of a film.
+/// The same for a transparent layer.
 void rankFilm(const Films& films, size_t film, RankedSights& out);
 
-/// What is left of a film: the depth keys between which it lies.
+/// The depth keys between which a transparent layer lies.
 struct FilmExtent {
   float nearest, farthest;
 };
-/// Takes away from a film what opaque surfaces hide. Pre: it covers something; afterwards it may cover nothing.
+/// Removes the hidden samples from a transparent layer. Pre: it covers some sample; afterwards it may cover none.
 FilmExtent cullFilm(SampleBuffer& samples, const GridTable& grids, size_t film);
-/// Appends what the samples see of a film. farthest: of its depth keys.
+/// Appends the cells that the samples see of a transparent layer. farthest: greatest of its depth keys.
 void collectFilm(const Films& films, size_t film, float farthest, std::vector<Sight>& sights);
 
 }  // namespace tomales
