@@ -6,7 +6,7 @@
 namespace tomales {
 namespace {
 
-/// Camera rays see the radiance of an area light added to what its surface reflects (docs/gi.md).
+/// Camera rays see the radiance of an area light added to the light that its surface reflects (docs/gi.md).
 void addVisibleEmission(const ShadePoints& points, const vec3& emission, ShadedPoints& out) {
   for (int i = 0; i < points.count(); ++i) {
     if (dot(points.get3(kIx, i), points.get3(kNgx, i)) >= 0) continue;
@@ -14,7 +14,7 @@ void addVisibleEmission(const ShadePoints& points, const vec3& emission, ShadedP
   }
 }
 
-/// Opaque and black: what needs no shader.
+/// Makes the points opaque and black: these need no shader.
 void leaveBlack(int count, ShadedPoints& out) {
   out.resize(count);
   for (auto& o : out.Oi) std::fill(o.begin(), o.end(), 1.0f);
@@ -33,8 +33,8 @@ void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading,
       leaveBlack(points.count(), out);
       continue;
     }
-    if (matte) {  // A holdout holds out as much as it is opaque; compositing takes nothing else of it, so that no light
-                  // need be asked for.
+    // A holdout holds out as much as it is opaque. Compositing uses nothing else of it, so no light is needed.
+    if (matte) {
       ShadeContext opacityAlone = context;
       opacityAlone.direct = opacityAlone.indirect = false;
       shading.shade(points, opacityAlone, out);

@@ -10,7 +10,7 @@ void settleTies(const RasterJob& job, size_t firstLane, uint64_t lanes, uint32_t
 }
 
 void noteContest(const RasterJob& job, size_t firstLane, uint64_t lanes, float vague) {
-  constexpr size_t kMost = 1 << 20;  // a heap of coincident things says no more
+  constexpr size_t kMost = 1 << 20;  // further conflicts of coincident surfaces add no information
   const int object = job.raster.grid->object;
   for (; lanes && job.out.contests.size() < kMost; lanes &= lanes - 1) {
     const size_t lane = firstLane + static_cast<size_t>(std::countr_zero(lanes));
