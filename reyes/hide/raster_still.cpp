@@ -164,8 +164,8 @@ HWY_INLINE void ask(const RasterJob& job, const Corners& q, const Triangles<Edge
   }
 }
 
-/// One list for many cells: which of few pixels a small cell covers is no branch that could be foreseen
-/// (docs/decisions/0098).
+/// A small cell covers few pixels, and branches on which ones would be mispredicted, so one list holds those of many
+/// cells (docs/decisions/0098).
 template <class Edges>
 void claimCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   size_t count = listAsks(job.out, q, cells);
