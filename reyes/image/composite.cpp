@@ -150,7 +150,7 @@ ResolvedTile Compositor::resolve(const DeepTile& tile) {
   return out;
 }
 
-/// Where the values of the next contributions go.
+/// Makes room for the values of further contributions, and returns where they begin.
 float* Compositor::room(size_t contributions, ResolvedTile& out) const {
   const size_t at = out.values.size();
   out.values.resize(at + contributions * static_cast<size_t>(width()));
@@ -167,10 +167,10 @@ void Compositor::resolveEach(const DeepTile& tile, const Fragment* begin, const 
   }
 }
 
-/// Depth looks behind what is opaque, for its second surface.
+/// Notes the depths of a fragment; Options::depthFilter may need the second surface, behind an opaque one.
 void Compositor::noteDepth(const DeepTile& tile, const Fragment& f) {
   const Facet& facet = tile.facets[f.facet];
-  // Neighbours on one surface reach over each other (docs/decisions/0003) and are no second one.
+  // Neighbours on one surface overlap at their border (docs/decisions/0003), which makes no second surface.
   const float overlap = tile.edgeOf(facet);
   for (uint64_t left = f.samples; left; left &= left - 1) {
     const size_t sample = size_t{f.word} * 64 + static_cast<size_t>(lowestBit(left));

@@ -9,7 +9,7 @@ namespace tomales {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Which of a vector of samples, from `first` on, a lay covers. None: false.
+/// The samples of a vector, from `first` on, that a layer covers. Returns false if there are none.
 HWY_INLINE bool coveredFrom(const Lay& l, size_t first, Mask& covered) {
   if (l.word != first / 64) return false;
   const uint64_t samples = l.samples >> first % 64 & ((uint64_t{1} << hn::Lanes(kF)) - 1);
@@ -17,7 +17,7 @@ HWY_INLINE bool coveredFrom(const Lay& l, size_t first, Mask& covered) {
   return samples != 0;
 }
 
-/// The share of light that passes what was laid so far over a vector of samples.
+/// The light that passes all layers so far, for a vector of samples.
 struct Clear {
   Floats x, y, z;
 
@@ -32,14 +32,14 @@ struct Clear {
   }
 };
 
-/// A vector of samples.
+/// Composites a layer over a vector of samples.
 void layAt(const Lay& l, const LayMore& more, Mask covered, SampleStack& stack, size_t first) {
   float *cx = stack.clear[0].data() + first, *cy = stack.clear[1].data() + first, *cz = stack.clear[2].data() + first;
   float *nearest = stack.nearest.data() + first, *values = stack.values.data() + first;
   const Clear clear{hn::Load(kF, cx), hn::Load(kF, cy), hn::Load(kF, cz)};
   const Floats before = hn::Load(kF, nearest);
   const Mask on = hn::AndNot(clear.atMost(stack.hidden), covered);
-  // Whole vectors: the next layer reads them back, and could not from a masked store that is still on its way.
+  // Whole vectors are stored: the next layer reads them back, and would have to wait for a masked store.
   const auto put = [](Floats v, Mask where, Floats old, float* to) {
     hn::Store(hn::IfThenElse(where, v, old), kF, to);
   };
@@ -83,7 +83,7 @@ void lay(const Lay& l, const LayMore& more, SampleStack& stack) {
     if (coveredFrom(l, first, covered)) layAt(l, more, covered, stack, first);
 }
 
-/// The same arithmetic in the same order, a vector of samples after the other: nothing is stored before the last
+/// The same arithmetic in the same order, one vector of samples after the other: nothing is stored before the last
 /// fragment.
 void layAll(std::span<const Lay> lays, SampleStack& stack) {
   for (size_t first = 0; first < stack.lanes; first += hn::Lanes(kF)) {
