@@ -65,7 +65,7 @@ BuiltBricks writeIrradianceBricks(const std::filesystem::path& points, const std
 /// False: they were made of these points and settings already, and are kept. Throws FileError.
 bool renewIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out,
                            const BrickSettings& settings, Stats& stats);
-/// What a point cloud was made from; zeros for a file that is missing or damaged.
+/// Reads the MadeFrom of a point cloud; zeros for a file that is missing or damaged.
 MadeFrom pointsMadeFrom(const std::filesystem::path& path);
 
 /// Makes all three kinds of files for a scene, as far as the folder does not hold them yet. Photons are traced again if

@@ -38,7 +38,8 @@ class CloudFiles final : public CloudServices {
     std::unique_ptr<const Data> data;  ///< Null: it could not be opened.
     std::string problem;
   };
-  /// With `photons`: a photon map, opened as the irradiance of the nearest photons. Brick maps hold irradiance already.
+  /// Opens a file. If `photons` is not null it is a photon map, opened as the irradiance of the nearest photons. Brick
+  /// maps hold irradiance already.
   const Opened<BrickMap>& opened(const std::string& file, const TmPhotonLookup* photons = nullptr);
   /// Opens what `make` makes of all points of a file.
   template <class Data, class Key, class Make>

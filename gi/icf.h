@@ -48,8 +48,8 @@ class IcfFile {
   IrradianceShot shot_;
 };
 
-/// Where the records of all caches lie, in world space and without extent: "record", which is 1; "irradiance" (E/pi),
-/// "closest" and "harmonicmean" (units of the world, 1e30 where rays meet nothing), "noise" (of E/pi).
+/// The records of all caches as points in world space, without extent. Channels: "record", which is 1; "irradiance"
+/// (E/pi), "closest" and "harmonicmean" (units of the world, 1e30 where rays meet nothing), "noise" (of E/pi).
 PointCloud recordsOf(const IrradianceShot& shot);
 
 /// Moves records to the camera of another frame; the same bits if it is the same.

@@ -45,7 +45,8 @@ struct IrradianceEstimate {
   float headroom = kInfinity;
 };
 
-/// Where irradiance is looked up. Records that serve `normal` are chosen, and extrapolated to `shadingNormal`.
+/// A place at which irradiance is looked up. Records that serve `normal` are chosen, and extrapolated to
+/// `shadingNormal`.
 struct IrradiancePlace {
   vec3 position, normal, shadingNormal;
   float pixelSize;  ///< Root of the projected pixel area.

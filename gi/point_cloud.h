@@ -40,7 +40,7 @@ struct MadeFrom {
   uint64_t inputs = 0;  ///< Sum of the input files and of the settings.
 };
 
-/// What a cloud looks up about its channels for every point.
+/// Channels, with the facts about them that a cloud needs for every point.
 class CloudChannels {
  public:
   CloudChannels() = default;

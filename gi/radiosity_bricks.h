@@ -28,7 +28,7 @@ class RadiosityBricks final : public HitRadiance {
 
  private:
   const Scene& scene_;
-  std::vector<uint8_t> sides_;  ///< Which sides of each object have points.
+  std::vector<uint8_t> sides_;  ///< The sides of each object that have points.
   std::unique_ptr<const IrradianceAtlas> maps_;
 };
 

@@ -7,7 +7,7 @@
 
 namespace tomales {
 
-/// Where the charts lie in a picture: their lower corners in texels.
+/// The placement of charts in a picture: their lower corners in texels.
 struct ChartLayout {
   int width = 0, height = 0;  ///< Powers of two.
   std::vector<glm::ivec2> corner;

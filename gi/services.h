@@ -48,7 +48,7 @@ struct PreparedCache {
   std::vector<uint64_t> frames{};
 };
 
-/// What is needed to answer a ray.
+/// The objects that answer a ray.
 struct RayTools {
   const RayScene* rays;
   const ShadingSystem* shading;  ///< The shading of the scene that the rays meet.

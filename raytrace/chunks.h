@@ -31,7 +31,7 @@ struct Chunk {
 struct ChunkMesh {
   std::vector<vec3> P;                ///< At least 4 readable bytes follow the last. A tile that is not finite is NaN.
   std::vector<uint32_t> N;            ///< Normals on the RISpec side, packed as in reyes/base/packed_normal.h.
-  std::vector<uint32_t> firstVertex;  ///< By tile.
+  std::vector<uint32_t> firstVertex;  ///< Indexed by tile.
 
   size_t bytes() const {
     return P.capacity() * sizeof(vec3) + (N.capacity() + firstVertex.capacity()) * sizeof(uint32_t);
@@ -73,8 +73,8 @@ class Chunks {
   const Scene& scene_;
   const ShadingSystem& shading_;
   Log& log_;
-  std::vector<bool> full_;     ///< By group: rays of all levels see the finest.
-  std::vector<bool> present_;  ///< By group: some chunk belongs to it.
+  std::vector<bool> full_;     ///< Indexed by group: do rays of all levels see the finest?
+  std::vector<bool> present_;  ///< Indexed by group: does some chunk belong to it?
   std::vector<Chunk> chunks_;
   std::vector<std::array<float, kLevelsInChunks>> deviations_;
   int64_t finePolygons_ = 0;

@@ -69,10 +69,10 @@ class EmbreeChunks {
   const Chunks& chunks_;
   RTCDevice device_ = nullptr;
   uint32_t firstInstance_ = 0;
-  std::vector<Geometry> described_;  ///< By group.
+  std::vector<Geometry> described_;  ///< Indexed by group.
   std::deque<Members> members_;      ///< Embree keeps their addresses.
   mutable ResidentCache<Resident> cache_;
-  mutable std::vector<Extent> extents_;  ///< By chunk.
+  mutable std::vector<Extent> extents_;  ///< Indexed by chunk.
 };
 
 }  // namespace tomales

@@ -37,7 +37,7 @@ struct EmbreeScene::Impl {
   const SharedShapes& shapes;
   bool fades = false;  ///< Some group fades between levels of detail.
   std::atomic<int64_t> bytes{0};
-  std::deque<Geometry> geometries;  ///< By Embree's geomID; Embree keeps their addresses.
+  std::deque<Geometry> geometries;  ///< Indexed by geomID of Embree; Embree keeps their addresses.
   std::deque<Geometry> masters;
   Instances instances;
   std::optional<EmbreeChunks> chunks;

@@ -87,7 +87,7 @@ class Tessellator {
   const Camera& camera_;
   const ShadingSystem& shading_;
   Log& log_;
-  const std::vector<std::vector<float>> times_;  ///< By group.
+  const std::vector<std::vector<float>> times_;  ///< Indexed by group.
 };
 
 void append(CoarseGroup& to, const CoarseGroup& from) {

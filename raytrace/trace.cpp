@@ -22,7 +22,8 @@ std::vector<uint32_t> masksOf(const Scene& scene) {
   return masks;
 }
 
-/// By group: the opacity is that of the attributes, as no primitive variable and no shader of shadow rays changes it.
+/// Returns for each group whether its opacity is that of the attributes, because no primitive variable and no shader of
+/// shadow rays changes it.
 std::vector<bool> constantOpacityOf(const Scene& scene, const ShadingSystem& shading) {
   std::vector<bool> constant;
   for (const ShadeGroup& g : scene.groups) {

@@ -20,7 +20,7 @@ namespace tomales {
 
 /// Restricts the hits of a ray beyond its mask.
 struct RayFilter {
-  const std::vector<uint8_t>* groups = nullptr;  ///< By shade group: 1 if the ray sees it; null: it sees all.
+  const std::vector<uint8_t>* groups = nullptr;  ///< Indexed by shade group: 1 if the ray sees it; null: it sees all.
   HitSides sides = HitSides::Both;
   bool passesAll() const { return !groups && sides == HitSides::Both; }
   bool passes(uint32_t group, bool leaving) const {
@@ -66,7 +66,7 @@ struct HitAnswers {
   std::vector<vec3> color, opacity;  ///< Zero for misses.
 };
 
-/// Which rays see an object; bits of Attributes::visibility.
+/// The rays that see an object, as bits of Attributes::visibility.
 enum RayMask : uint32_t { kMaskDiffuse = 1, kMaskSpecular = 2, kMaskTransmission = 4, kMaskPhoton = 8 };
 
 class Emitters;
@@ -96,8 +96,8 @@ class RayScene {
   std::vector<vec3> transmission(const std::vector<Ray>& rays, const std::vector<SampleName>& names,
                                  const ShadingSystem& shading, const ShadeContext& context, int64_t& adjusted) const;
 
-  /// By group: 1 if it has a member in one of the sets of `subset` (all, if empty) and none in those of `exclude`. Sets
-  /// are separated by commas or spaces. Null: all groups. The result stays valid.
+  /// Indexed by group: 1 if it has a member in one of the sets of `subset` (all, if empty) and none in those of
+  /// `exclude`. Sets are separated by commas or spaces. Null: all groups. The result stays valid.
   const std::vector<uint8_t>* groupsIn(const std::string& subset, const std::string& exclude) const;
 
   /// Sets group, level, offset and bias of a ray of known spread and radius that leaves P on a micropolygon of this

@@ -30,7 +30,7 @@ struct Image {
 /// docs/rib_support.md lists.
 class PixelFilter {
  public:
-  /// For unknown names it is gaussian, and `known` is set to false.
+  /// An unknown name gives gaussian and sets `known` to false.
   PixelFilter(const std::string& name, float xWidth, float yWidth, bool* known = nullptr);
   float operator()(float x, float y) const;  ///< Weight at an offset from the pixel centre, in pixels.
   bool hasNegativeLobes() const;

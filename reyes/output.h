@@ -15,7 +15,7 @@ enum class Reduce : uint8_t { Filter, ZMin, ZMax, Min, Max, Average };
 
 struct Sampling {
   Reduce reduce = Reduce::Filter;
-  std::string filter = "box";  ///< For Reduce::Filter.
+  std::string filter = "box";  ///< Used by Reduce::Filter.
   float xWidth = 1, yWidth = 1;
   bool operator==(const Sampling&) const = default;
 };

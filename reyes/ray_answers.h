@@ -30,7 +30,7 @@ using IndirectAnswer = std::array<vec3, 4>;
 struct RayAnswers {
   bool recording = false;
   std::map<ShadowQuestion, ShadowAnswer> shadows;
-  std::map<uint64_t, IndirectAnswer> indirect;  ///< For points that the irradiance cache does not serve.
+  std::map<uint64_t, IndirectAnswer> indirect;  ///< Answers at points that the irradiance cache does not serve.
 };
 
 }  // namespace tomales

@@ -95,7 +95,7 @@ struct Scene {
   /// attributes.
   void freeze();
 
-  /// With a closed shutter nothing is blurred.
+  /// Is the shutter open for some time? Otherwise nothing is blurred.
   bool shutterIsOpen() const { return options.shutterClose > options.shutterOpen; }
   /// Opens a procedural. The result has its derived fields except for its groups. The scene does not change.
   Expansion opened(const Procedural& procedural) const;

@@ -40,7 +40,7 @@ class Solid {
   std::vector<Block> blocks_;
 };
 
-/// Where a line crosses the surface of a primitive.
+/// A crossing of a line with the surface of a primitive.
 struct SolidCrossing {
   int block;     ///< A primitive block of the solid.
   bool leaving;  ///< The line goes to the side of the surface's own normal.
@@ -72,8 +72,8 @@ class SolidWalk {
   void findDistinct(std::span<const SolidCrossing> crossings);
 
   const Solid* solid_;
-  std::vector<uint8_t> inside_;  ///< By block; all 0 between walks.
-  std::vector<int> satisfied_;   ///< By block: number of operands that are where its operation wants them.
+  std::vector<uint8_t> inside_;  ///< Indexed by block; all 0 between walks.
+  std::vector<int> satisfied_;   ///< Indexed by block: number of operands that are where its operation wants them.
   std::vector<uint32_t> distinct_;
 };
 

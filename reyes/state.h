@@ -113,7 +113,7 @@ struct Options {
   Quantize rgbaQuantize{}, depthQuantize{0, 0, 0, 0};
   bool quantizeGiven = false;                   ///< The RIB has a Quantize request; else the file's type decides.
   std::vector<DisplayCall> displays;            ///< Empty: the default Display.
-  std::map<std::string, ChannelCall> channels;  ///< By name.
+  std::map<std::string, ChannelCall> channels;  ///< Indexed by name.
   DepthFilter depthFilter = DepthFilter::Min;
   vec3 opaqueThreshold{0.996f};  ///< Limits "othreshold": a surface of this opacity hides everything behind it.
   vec3 depthThreshold{1.0f};     ///< Limits "zthreshold": less opaque surfaces have no depth.

@@ -55,7 +55,7 @@ uint64_t brickInputs(const PointFile& points, const BrickSettings& settings) {
   return contentSum(kMethod, points.contents(), maxError, maxDepth, radiusScale, ignoreNormals, coarseness);
 }
 
-/// What a brick file was made from; zeros if it is missing or damaged.
+/// Reads the MadeFrom of a brick file; zeros if it is missing or damaged.
 MadeFrom bricksMadeFrom(const fs::path& path) {
   try {
     return BrickFile(path.string()).madeFrom();

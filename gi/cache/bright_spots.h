@@ -25,7 +25,7 @@ class BrightSpots {
   struct Spot {
     vec3 center;
     float radius, radiance;
-    vec3 normal;              ///< Of a rectangle, which shines to that side; zero means a sphere.
+    vec3 normal;              ///< Unit normal of a rectangle, which shines to that side; zero means a sphere.
     vec2 found{1};            ///< Share of the extents that held hits; a margin surrounds it.
     vec3 halfU{0}, halfV{0};  ///< Perpendicular vectors from the rectangle's centre to the middles of two edges.
   };

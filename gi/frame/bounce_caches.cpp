@@ -137,7 +137,7 @@ void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::
   settings.indirect = true;
   for (int b = 2; b < bounces && !settled() && !run.isCancelled(); ++b) {
     settings.depth = bounces - b + 1;
-    // With the same rays on every level their error would be multiplied as light is, and not average out.
+    // If every level had the same rays, their error would be multiplied as light is, and not average out.
     settings.seed = hashCombine(gather.seed, static_cast<uint32_t>(b));
     settings.samples = std::max(kLeastDeepSamples, settings.samples / 2);
     IrradianceCache level(bound, kCoarse);

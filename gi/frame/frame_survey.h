@@ -1,4 +1,4 @@
-// What a gather pass must know about a frame before its first phase.
+// The facts about a frame that a gather pass needs before its first phase.
 #pragma once
 #include <atomic>
 #include <vector>

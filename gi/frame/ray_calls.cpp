@@ -118,7 +118,7 @@ class ShaderRays {
     vec3 start{0.0f};
     float share = 0, distance = 0;
   };
-  std::map<int, Covered> covered_;  ///< By element, where `effective` is wanted.
+  std::map<int, Covered> covered_;  ///< Indexed by element, where `effective` is wanted.
 };
 
 void clearResult(const ShadePoints& points, const uint8_t* active, const RayResult& result) {

@@ -99,7 +99,7 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
   const int depth = context.depth + 1;
   ShadeContext hitContext{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
   hitContext.diffuseLimit =
-      bounces;  // of wide lobes that shaders follow, too; mirrors reflect as deep as their objects allow
+      bounces;  // also limits wide lobes that shaders follow; mirrors reflect as deep as their objects allow
   hitContext.highlights = true;
   PathBatches batches(state, *tools, points, N, query, hitContext);
   std::vector<PathSum> sums;

@@ -75,7 +75,7 @@ class GatherPlaces {
   bool bumped_;
 };
 
-/// What records give at the active points of a batch.
+/// The answers of records at the active points of a batch.
 struct BatchLookup {
   std::vector<int> points;                ///< Indices of the points in the batch.
   std::vector<IrradiancePlace> at;        ///< The places where they look.

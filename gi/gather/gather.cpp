@@ -18,7 +18,7 @@ constexpr size_t kRaysOfProbe = 8;  ///< One ray in so many of the hemisphere's 
 /// Least rays of the hemisphere for each spot; with fewer, probes would cost too much.
 constexpr size_t kLeastPerSpot = 4;
 constexpr float kLeastShare = 0.05f;   ///< Share of a spot's light that is assumed when its few probes have seen none.
-constexpr float kFoundByChance = 160;  ///< Where so many rays of the hemisphere are expected on spots, none are aimed.
+constexpr float kFoundByChance = 160;  ///< If so many rays of the hemisphere are expected on spots, none are aimed.
 constexpr float kUnhidden = 1.5f;  ///< Factor on kFoundByChance below which probes find out whether spots are hidden.
 /// Above that number of rays, probes are traced only where less than this share of the spots' light is seen.
 constexpr float kHidden = 0.25f;

@@ -26,7 +26,7 @@ struct HemisphereSamples {
   std::span<const vec3> directions;
   std::span<const vec3> radiance;
   std::span<const float> distances;      ///< Infinite where the ray missed.
-  std::span<const CellSpread> spread{};  ///< Of each cell, where some have several rays; may be empty.
+  std::span<const CellSpread> spread{};  ///< Set if some cells have several rays; otherwise empty.
 };
 
 /// Fills E, noise, gradients, dominant directions, harmonicMean, closest and normal. The caller sets position and

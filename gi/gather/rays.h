@@ -8,7 +8,7 @@
 
 namespace tomales {
 
-/// Where the rays of a hemisphere end, one for each cell.
+/// The hits of the rays of a hemisphere, one for each cell.
 struct FirstHits {
   std::vector<float> distances;  ///< Infinite where they miss.
   std::vector<vec3> normals;     ///< Unit, on the side that the ray sees.

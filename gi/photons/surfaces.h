@@ -38,7 +38,7 @@ class PhotonSurfaces {
   const RayScene& rays_;
   const ShadingSystem& shading_;
   const uint32_t seed_;
-  std::vector<PhotonModel> models_;          ///< By group.
+  std::vector<PhotonModel> models_;          ///< Indexed by group.
   std::vector<std::optional<Answer>> even_;  ///< The answer of each group where it is the same everywhere.
 };
 

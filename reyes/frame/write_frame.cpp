@@ -95,7 +95,7 @@ class DisplayFiles {
   Stats& stats_;
   std::vector<std::unique_ptr<DisplayFile>> files_;
   std::optional<Image> rows_;
-  std::vector<DeepRows> deep_;  ///< By file.
+  std::vector<DeepRows> deep_;  ///< Indexed by file.
 };
 
 /// Warns of noise where surfaces move far, are far out of focus, or are thinner than the samples are apart.

@@ -26,7 +26,7 @@ template <class B>
 struct BlurredQuad {
   static constexpr int kKeys = B::kMoves ? 2 : 1;
   float x[kKeys][4], y[kKeys][4], d[kKeys][4];
-  bool swapped[5];  ///< For the edges ab, bc, ca, bd, dc: the second end is the canonical one.
+  bool swapped[5];  ///< Is the second end of the edges ab, bc, ca, bd, dc the canonical one?
   float dMin = kInfinity, dMax = -kInfinity;
 
   BlurredQuad(const RasterGrid& r, int key, int a) {

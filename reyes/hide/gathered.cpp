@@ -20,7 +20,7 @@ TOMALES_HOT void derive(const Gathered& g, bool perspective, const PointBlock& o
   for (int i = 0; i < kLanes; ++i) {
     const float ux = g.uEdge[0][i], uy = g.uEdge[1][i], uz = g.uEdge[2][i];
     const float vx = g.vEdge[0][i], vy = g.vEdge[1][i], vz = g.vEdge[2][i];
-    // For a cell this is half the cross product of the diagonals: its area, exactly so where it is flat.
+    // In a cell this is half the cross product of the diagonals: its area, exactly so where it is flat.
     const float spanX = uy * vz - uz * vy, spanY = uz * vx - ux * vz, spanZ = ux * vy - uy * vx;
     const float area2 = spanX * spanX + spanY * spanY + spanZ * spanZ;
     // Where the normal has turned away from the eye though its side is seen, that of the outline is taken, slightly

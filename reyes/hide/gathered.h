@@ -76,7 +76,7 @@ struct alignas(64) Gathered {
   }
 
  private:
-  static constexpr int kRun = 4;  ///< With at least so many cells a vector pays.
+  static constexpr int kRun = 4;  ///< A vector pays for at least so many cells.
   struct Sources {
     const float *P[3], *N[3], *u, *v;
   };

@@ -175,7 +175,7 @@ void claimCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   for (; count > 0 || cells; count = listAsks(job.out, q, cells)) ask(job, q, triangles, count);
 }
 
-/// For transparent grids and for solids.
+/// The version for transparent grids and for solids.
 template <class Edges>
 void filmCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   const RasterGrid& r = job.raster;

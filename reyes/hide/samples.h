@@ -72,8 +72,8 @@ struct SampleBuffer {
   AlignedVector<float> depth;
   AlignedVector<uint32_t> cell;   ///< Cell of that hit.
   std::vector<uint32_t> pixelOf;  ///< Pixel of each group of kLanes lanes.
-  AlignedVector<float> far;       ///< By pixel: an upper bound of the depths of its lanes.
-  std::vector<uint8_t> nearer;    ///< By pixel: 1 if depths may have changed since `far` was computed.
+  AlignedVector<float> far;       ///< Indexed by pixel: an upper bound of the depths of its lanes.
+  std::vector<uint8_t> nearer;    ///< Indexed by pixel: 1 if depths may have changed since `far` was computed.
   Films films;
   Films crossings;                ///< All surfaces of solids that cover a sample, however deep.
   std::vector<Ask> asks;          ///< Memory for the rasterisers.
@@ -134,7 +134,7 @@ struct SampleBuffer {
   static constexpr int kMostExact_px = 16384;  ///< Beyond, floats round positions, some of them to the next pixel.
   const SamplePattern& pattern_;
   const vec2 lens_;
-  std::vector<int> patternAt_;  ///< By pixel.
+  std::vector<int> patternAt_;  ///< Indexed by pixel.
 };
 
 }  // namespace tomales

@@ -112,7 +112,7 @@ class SolidResolver {
   const Camera& camera_;
   const GridTable& grids_;
   SampleBuffer& samples_;
-  std::map<int, SolidWalk> walks_;  ///< By solid.
+  std::map<int, SolidWalk> walks_;  ///< Indexed by solid.
   std::vector<SolidCrossing> crossings_;
   std::vector<SolidBoundary> boundaries_;
 };

@@ -66,17 +66,17 @@ class Compositor {
 
   const Options& options_;
   std::vector<ExtraFloat> extras_;
-  std::vector<KnownShade> shades_;   ///< By facet of a tile.
-  std::vector<KnownShade> blended_;  ///< For fragments of a pixel whose facets have several points.
+  std::vector<KnownShade> shades_;   ///< Indexed by facet of a tile.
+  std::vector<KnownShade> blended_;  ///< Shades of fragments of a pixel whose facets have several points.
   std::vector<uint64_t> seen_;       ///< Samples that any fragment covers.
   /// The last fragment that a sample has seen while layers() runs, and the light that passed to it.
   struct Last {
     const Fragment* fragment = nullptr;
     vec3 clear;
   };
-  std::vector<vec3> clear_;            ///< By sample, while layers() runs: the light that passes.
-  std::vector<Last> last_;             ///< By sample, while layers() runs with air.
-  std::vector<Contribution> samples_;  ///< By sample, while a stack is resolved.
+  std::vector<vec3> clear_;            ///< Indexed by sample, while layers() runs: the light that passes.
+  std::vector<Last> last_;             ///< Indexed by sample, while layers() runs with air.
+  std::vector<Contribution> samples_;  ///< Indexed by sample, while a stack is resolved.
   std::vector<int> batchOf_;           ///< The batch that gave the z of each sample.
   SampleStack stack_;                  ///< The samples of a pixel while they are composited.
   std::vector<Lay> lays_;

@@ -27,7 +27,7 @@ float cubic(float r) {
   if (r < 1) return (3 * r - 5) * r * r + 2;
   return r < 2 ? ((5 - r) * r - 8) * r + 4 : 0;
 }
-// As printed, it is radial and depends on its width only by clipping; PRMan calls the product of two "separable".
+// The printed formula is radial and depends on its width only by clipping; PRMan calls the product of two "separable".
 float catmullRom(float x, float y, float, float) { return cubic(std::sqrt(x * x + y * y)); }
 float separableCatmullRom(float x, float y, float, float) { return cubic(std::abs(x)) * cubic(std::abs(y)); }
 

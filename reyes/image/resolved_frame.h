@@ -73,7 +73,7 @@ class ResolvedFrame {
   int width_;
   std::vector<ExtraFloat> extras_;
   std::vector<std::unique_ptr<ResolvedTile>> resolved_;
-  std::vector<TileNoise> noise_;  ///< By tile.
+  std::vector<TileNoise> noise_;  ///< Indexed by tile.
   size_t forgotten_ = 0;          ///< Number of tiles that have been dropped, from the first.
 };
 

@@ -26,7 +26,7 @@ class BlobGround;
 /// its ends are equal, in the leaf's own space. Or the leaf is a ground, which has no values to blend and moves
 /// nothing.
 struct BlobLeaf {
-  glm::dmat3 axes;  ///< With `origin`, transforms from object space to leaf space.
+  glm::dmat3 axes;  ///< Transforms from object space to leaf space, with `origin`.
   dvec3 origin;
   dvec3 from, to;
   double radius;

@@ -197,7 +197,7 @@ class EarClipper {
   }
 
   const Outlines& p_;
-  std::vector<PointGrid> left_;  ///< By key.
+  std::vector<PointGrid> left_;  ///< Indexed by key.
   size_t count_;
   std::vector<int> before_, after_;  ///< Neighbours among the corners that are left.
   std::vector<int> suspects_;        ///< Corners that may have become spikes.

@@ -16,7 +16,7 @@ struct QuadPatch {
   PatchInfo info;
 };
 
-/// As long as all faces are quadrilaterals of one patch, two bytes for each patch are kept: the corners of patch k are
+/// While all faces are quadrilaterals of one patch, two bytes for each patch are kept: the corners of patch k are
 /// the four face-vertices of face k.
 class QuadPatches {
  public:
@@ -67,7 +67,7 @@ class MadePoints {
 };
 
 struct Decomposition {
-  std::vector<Face> faces;  ///< By RIB face.
+  std::vector<Face> faces;  ///< Indexed by RIB face.
   QuadPatches patches;
   MadePoints made;
 };

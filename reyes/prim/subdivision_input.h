@@ -20,7 +20,7 @@ std::optional<Crowd> crowdBeyondMeasure(const std::vector<int>& vertexCounts, co
 
 /// A face-varying primvar. Values on which a vertex's faces agree are merged, so that it may be smooth there.
 struct FaceVaryingChannel {
-  std::vector<int> indices;  ///< By face-vertex.
+  std::vector<int> indices;  ///< Indexed by face-vertex.
   std::vector<float> values;
 };
 

@@ -276,7 +276,7 @@ class Splitter {
   const float edge_px_;
   int start_ = 0;                      ///< Depth of the piece that is being split.
   int64_t budget_ = 0;                 ///< Number of pieces that may still be visited.
-  bool flat_ = false, alone_ = false;  ///< Of the current patch.
+  bool flat_ = false, alone_ = false;  ///< Results of isFlat() and isAlone() for the current patch.
   GivenUp givenUp_;
 };
 
