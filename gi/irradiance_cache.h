@@ -42,7 +42,7 @@ struct IrradianceEstimate {
   bool hasRecord = false;     ///< A record lies at this very place.
   float closest = kInfinity;  ///< Least closest distance of the records used.
   /// No occluder over any record used is lower than this, though some records may have met its edge.
-  float headroom = kInfinity;
+  float occluderHeight = kInfinity;
 };
 
 /// A place at which irradiance is looked up. Records that serve `normal` are chosen, and extrapolated to

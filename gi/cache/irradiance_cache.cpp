@@ -269,7 +269,7 @@ struct IrradianceCache::Impl {
         worst = std::max(worst, disputeOf(E, out.E / out.weight, 2 * noiseAt(r, distance)));
       nearest = std::min(nearest, distance);
       out.closest = std::min(out.closest, r.closest);
-      out.headroom = std::min(out.headroom, std::max(r.closest, r.limit));
+      out.occluderHeight = std::min(out.occluderHeight, std::max(r.closest, r.limit));
       out.hasRecord |= distance == 0;
       out.E += candidate.weight * E;
       for (int c = 0; c < 3; ++c) out.dominant[c] += candidate.weight * r.dominant[c];  // eq. 7

@@ -4,7 +4,7 @@
 #include <unordered_set>
 
 #include "gi/frame/frame_survey.h"
-#include "gi/frame/sheet_search.h"
+#include "gi/frame/occluder_search.h"
 #include "gi/frame/state.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/process.h"
@@ -209,13 +209,13 @@ class GatherPass {
     for (const Site& s : asked) places.push_back({s.point.position, s.point.normal, s.point.normal, s.point.pixelSize});
     std::vector<IrradianceEstimate> known(places.size());
     state_.caches[cache].cache.lookup(places, known.data());
-    SheetSearch sheets(*tools_->rays, state_.caches[cache].plan.gather);
+    OccluderSearch sheets(*tools_->rays, state_.caches[cache].plan.gather);
     const bool isNew = this->isNew(cache);
     const float enough = state_.caches[cache].plan.cache.enough;
     for (size_t i = 0; i < asked.size(); ++i) {
       const IrradianceEstimate& k = known[i];
       if (k.weight < enough || (k.disputed && (isNew || isAnew(asked[i]))) ||
-          (isLight(cache) && !k.hasRecord && sheets.isUnderSheet(asked[i].point, k.closest, k.headroom)))
+          (isLight(cache) && !k.hasRecord && sheets.isUnderOccluder(asked[i].point, k.closest, k.occluderHeight)))
         out.push_back(asked[i]);
     }
     state_.stats.rays.gather += sheets.raysTraced();

@@ -246,7 +246,7 @@ class Hemisphere {
 /// Returns the validity radius under a nearby occluder. Light changes there over the occluder's height, whatever the
 /// size of a pixel, so a record is valid as far as that and no farther, but for at least a quarter of a pixel. A tenth
 /// of the nearly upright rays have to meet the occluder, so that a hair does not count.
-float reachUnderSheet(const HemisphereSamples& samples, float pixelSize, std::vector<float>& upright) {
+float radiusUnderOccluder(const HemisphereSamples& samples, float pixelSize, std::vector<float>& upright) {
   constexpr float kUpright = 0.8f;  // cosine
   constexpr size_t kTenth = 10;
   constexpr float kFinestPixels = 0.25f;
@@ -274,7 +274,7 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
   IrradianceRecord record = summarize(samples);
   record.position = point.position;
   record.pixelSize = point.pixelSize;
-  if (!settings.occlusion) record.limit = reachUnderSheet(samples, point.pixelSize, hemisphere.upright());
+  if (!settings.occlusion) record.limit = radiusUnderOccluder(samples, point.pixelSize, hemisphere.upright());
   if (settings.curvature) {
     const IrradianceCurvature curvature = curvatureOf(samples);
     record.tangent = samples.tangent;

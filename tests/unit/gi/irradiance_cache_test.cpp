@@ -462,9 +462,9 @@ TEST(IrradianceCache, AnEdgeThatARecordHasMetIsNoSheetOverIt) {
   IrradianceRecord beside = recordAt(vec3(0), vec3(1), 0.01f), disputed = recordAt({0.02f, 0, 0}, vec3(1), 0.3f);
   beside.limit = 2, disputed.limit = 0.02f;
   cache.insert(beside);
-  EXPECT_EQ(cache.lookup({0.01f, 0, 0}, kUp, 0.02f).headroom, 2);
+  EXPECT_EQ(cache.lookup({0.01f, 0, 0}, kUp, 0.02f).occluderHeight, 2);
   cache.insert(disputed);
-  EXPECT_EQ(cache.lookup({0.01f, 0, 0}, kUp, 0.02f).headroom, 0.3f);
+  EXPECT_EQ(cache.lookup({0.01f, 0, 0}, kUp, 0.02f).occluderHeight, 0.3f);
 }
 
 TEST(IrradianceCache, ManyLookupsAtOnceHaveTheBitsOfOneAtATime) {

@@ -6,16 +6,16 @@
 namespace tomales {
 
 /// Points are asked one after the other; those of a group should follow each other.
-class SheetSearch {
+class OccluderSearch {
  public:
-  SheetSearch(const RayScene& rays, const GatherSettings& gather) : rays_(rays), gather_(gather) {}
-  /// `closest`: least closest distance of the records in use at the point. `headroom`: no occluder over any of them is
-  /// lower.
-  bool isUnderSheet(const GatherPoint& p, float closest, float headroom);
+  OccluderSearch(const RayScene& rays, const GatherSettings& gather) : rays_(rays), gather_(gather) {}
+  /// `closest`: least closest distance of the records in use at the point. `occluderHeight`: no occluder over any of
+  /// them is lower.
+  bool isUnderOccluder(const GatherPoint& p, float closest, float occluderHeight);
   int64_t raysTraced() const { return traced_; }
 
  private:
-  bool meetsSheet(const GatherPoint& p, const Ray& ray);
+  bool meetsOccluder(const GatherPoint& p, const Ray& ray);
 
   const RayScene& rays_;
   const GatherSettings& gather_;

@@ -1,12 +1,12 @@
-#include "gi/frame/sheet_search.h"
+#include "gi/frame/occluder_search.h"
 
 #include "reyes/base/rng.h"
 
 namespace tomales {
 namespace {
 
-constexpr float kSheetPixels = 2;  // length of the rays; occluders farther away have been met by records
-constexpr float kUnmet = 0.9f;     // share of a record's closest distance below which it has met nothing
+constexpr float kOccluderPixels = 2;  // length of the rays; occluders farther away have been met by records
+constexpr float kUnmet = 0.9f;        // share of a record's closest distance below which it has met nothing
 constexpr float kSlant = 0.70710678f;
 
 }  // namespace
@@ -14,18 +14,18 @@ constexpr float kSlant = 0.70710678f;
 // Records in front of a slot that is narrower than their radius see the occluder over it edge-on, if at all. One of two
 // rays that leave upwards and aside meets it, even below its very edge. Records beside that edge have met it, and it
 // may be as near as it is high: a ray straight up tells the points that lie under it from those that do not.
-bool SheetSearch::isUnderSheet(const GatherPoint& p, float closest, float headroom) {
-  const float farthest = std::min(kSheetPixels * p.pixelSize, gather_.maxDistance),
+bool OccluderSearch::isUnderOccluder(const GatherPoint& p, float closest, float occluderHeight) {
+  const float farthest = std::min(kOccluderPixels * p.pixelSize, gather_.maxDistance),
               met = std::min(farthest, kUnmet * closest);
   Ray ray{p.position, p.normal};
-  ray.tMax = std::min(farthest, kUnmet * headroom);
+  ray.tMax = std::min(farthest, kUnmet * occluderHeight);
   ray.spread = spreadOfRays(gather_.samples);
   rays_.prepareOrigin(p.group, p.position, p.edgeLength, ray);
   const float slanted = slantedOffset(ray.offset, kSlant);
   if (slanted >= ray.tMax) return false;  // rays cannot tell surfaces so near from the one that they leave
   if (p.group != group_) filter_.groups = groupsSeenFrom(rays_, group_ = p.group, gather_);
   if (!filter_.passesAll()) ray.filter = &filter_;
-  if (ray.tMax > met && meetsSheet(p, ray)) return true;
+  if (ray.tMax > met && meetsOccluder(p, ray)) return true;
   ray.offset = slanted, ray.tMax = met;
   if (slanted >= met) return false;
   vec3 tangent, bitangent;
@@ -34,12 +34,12 @@ bool SheetSearch::isUnderSheet(const GatherPoint& p, float closest, float headro
   const vec3 aside = std::cos(azimuth) * tangent + std::sin(azimuth) * bitangent;
   for (const float side : {-kSlant, kSlant}) {
     ray.direction = kSlant * p.normal + side * aside;
-    if (meetsSheet(p, ray)) return true;
+    if (meetsOccluder(p, ray)) return true;
   }
   return false;
 }
 
-bool SheetSearch::meetsSheet(const GatherPoint& p, const Ray& ray) {
+bool OccluderSearch::meetsOccluder(const GatherPoint& p, const Ray& ray) {
   ++traced_;
   const Hit hit = rays_.closest(ray, kMaskDiffuse);
   return hit.object >= 0 && std::abs(dot(hit.geometricNormal, p.normal)) > kSlant;
