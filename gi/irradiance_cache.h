@@ -38,7 +38,7 @@ struct IrradianceEstimate {
   vec3 E;
   vec3 dominant[3];
   float weight = 0;           ///< Sum of weights; 0: nothing usable was found.
-  bool disputed = false;      ///< The records used differ by more than their noise explains.
+  bool inconsistent = false;  ///< The records used differ by more than their noise explains.
   bool hasRecord = false;     ///< A record lies at this very place.
   float closest = kInfinity;  ///< Least closest distance of the records used.
   /// No occluder over any record used is lower than this, though some records may have met its edge.

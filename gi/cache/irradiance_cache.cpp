@@ -17,10 +17,10 @@ constexpr float kBehindPixels = 0.45f;
 constexpr float kHeight = 0.5f;   // share of the closest distance, above the record's plane
 constexpr float kHeightFade = 4;  // the weight fades from three quarters of that height on
 // relative difference of extrapolated values, at kappa 1, beyond which light does not change smoothly
-constexpr float kDispute = 0.1f;
-constexpr float kTorn = 0.5f;      // the same between points that see different surfaces
-constexpr float kNoiseMargin = 3;  // in standard errors
-constexpr float kDark = 0.1f;      // share of the mean E: darker values are compared with this and not with themselves
+constexpr float kDisagreement = 0.1f;
+constexpr float kDiscontinuous = 0.5f;  // the same between points that see different surfaces
+constexpr float kNoiseMargin = 3;       // in standard errors
+constexpr float kDark = 0.1f;  // share of the mean E: darker values are compared with this and not with themselves
 // share of E by which it may change over a record's radius; a steeper record serves no wider
 constexpr float kSteep = 0.3f;
 constexpr size_t kRun = 64;  // greatest number of lookups that share their candidates
@@ -109,25 +109,26 @@ struct IrradianceCache::Impl {
     tree.insert(index, r.position, size(r), reach(size(r), r.pixelSize));
   }
 
-  enum class Dispute { None, Steep, Torn };
+  enum class Disagreement { None, Steep, Discontinuous };
 
-  Dispute disputeOf(const vec3& a, const vec3& b, float noise) const {
-    if (isPublished()) return Dispute::None;
-    const float tolerance =
-        settings.errorFunction == ErrorFunction::Ward ? 4 * kDispute : kDispute;  // kappa counts four times there
+  Disagreement disagreementOf(const vec3& a, const vec3& b, float noise) const {
+    if (isPublished()) return Disagreement::None;
+    const float tolerance = settings.errorFunction == ErrorFunction::Ward
+                                ? 4 * kDisagreement
+                                : kDisagreement;  // kappa counts four times there
     const float larger = std::max(luminance(a), luminance(b)),
                 off = std::abs(luminance(a) - luminance(b)) - kNoiseMargin * noise;
     const auto dark = static_cast<float>(kDark * luminanceSum / static_cast<double>(records.size()));
-    if (!(off > tolerance / settings.kappa * std::max(larger, dark))) return Dispute::None;
-    return off > kTorn * std::max(larger, dark) ? Dispute::Torn : Dispute::Steep;
+    if (!(off > tolerance / settings.kappa * std::max(larger, dark))) return Disagreement::None;
+    return off > kDiscontinuous * std::max(larger, dark) ? Disagreement::Discontinuous : Disagreement::Steep;
   }
 
   // Where light is steep, no record is needed nearer than a pixel: it would be the noise of single pixels, each paid
   // with a hemisphere. Where points see different surfaces, something thinner than that lies between them.
   float least(float pixelSize) const { return kFinestPixels * pixelSize / settings.kappa; }
-  float limitBy(Dispute dispute, float distance, float pixelSize) const {
-    if (dispute == Dispute::None) return kInfinity;
-    return dispute == Dispute::Torn ? distance : std::max(distance, least(pixelSize));
+  float limitBy(Disagreement disagreement, float distance, float pixelSize) const {
+    if (disagreement == Disagreement::None) return kInfinity;
+    return disagreement == Disagreement::Discontinuous ? distance : std::max(distance, least(pixelSize));
   }
 
   // Standard error of an extrapolated value: gradients are as noisy as E over the mean distance of the hits.
@@ -135,14 +136,16 @@ struct IrradianceCache::Impl {
 
   // The new record knows E at its place, which older records have extrapolated, and they know E at theirs. Where the
   // two disagree, each ends before the other.
-  void settleDisputes(uint32_t index) {
+  void limitDisagreeing(uint32_t index) {
     IrradianceRecord& fresh = records[index];
     for (const Candidate& candidate : candidatesAt(fresh.position, fresh.normal, fresh.pixelSize)) {
       IrradianceRecord& old = records[candidate.record];
       const float distance = glm::length(fresh.position - old.position), fromOld = noiseAt(old, distance),
                   fromFresh = noiseAt(fresh, distance);
-      const Dispute ofOld = disputeOf(extrapolate(old, fresh.position, fresh.normal), fresh.E, fromOld + fresh.noise);
-      const Dispute ofFresh = disputeOf(extrapolate(fresh, old.position, old.normal), old.E, fromFresh + old.noise);
+      const Disagreement ofOld =
+          disagreementOf(extrapolate(old, fresh.position, fresh.normal), fresh.E, fromOld + fresh.noise);
+      const Disagreement ofFresh =
+          disagreementOf(extrapolate(fresh, old.position, old.normal), old.E, fromFresh + old.noise);
       old.limit = std::min(old.limit, limitBy(ofOld, distance, old.pixelSize));
       fresh.limit = std::min(fresh.limit, limitBy(ofFresh, distance, fresh.pixelSize));
     }
@@ -259,14 +262,14 @@ struct IrradianceCache::Impl {
                            float pixelSize) const {
     IrradianceEstimate out{vec3(0.0f), {vec3(0.0f), vec3(0.0f), vec3(0.0f)}};
     float nearest = kInfinity;
-    Dispute worst = Dispute::None;
+    Disagreement worst = Disagreement::None;
     MeanExtrapolation mean(x, n);
     for (const Candidate& candidate : candidates) {
       const IrradianceRecord& r = records[candidate.record];
       const vec3 E = mean.add(r, candidate.weight);
       const float distance = glm::length(x - r.position);
       if (&candidate != &candidates.front())
-        worst = std::max(worst, disputeOf(E, out.E / out.weight, 2 * noiseAt(r, distance)));
+        worst = std::max(worst, disagreementOf(E, out.E / out.weight, 2 * noiseAt(r, distance)));
       nearest = std::min(nearest, distance);
       out.closest = std::min(out.closest, r.closest);
       out.occluderHeight = std::min(out.occluderHeight, std::max(r.closest, r.limit));
@@ -277,7 +280,7 @@ struct IrradianceCache::Impl {
     }
     if (out.weight > 0)
       out.E = glm::max(vec3(0.0f), out.E / out.weight + secondOrder(candidates, mean, out.weight, pixelSize));
-    out.disputed = limitBy(worst, nearest, pixelSize) <= nearest;
+    out.inconsistent = limitBy(worst, nearest, pixelSize) <= nearest;
     for (vec3& d : out.dominant) d = normalizeOr(d, n);
     return out;
   }
@@ -296,7 +299,7 @@ void IrradianceCache::insert(const IrradianceRecord& record) {
   impl.luminanceSum += luminance(record.E);
   if (!(impl.settings.kappa < kInfinity)) return;
   limitDerivatives(impl.records.back(), impl.reach(impl.size(record), record.pixelSize));
-  impl.settleDisputes(static_cast<uint32_t>(impl.records.size() - 1));
+  impl.limitDisagreeing(static_cast<uint32_t>(impl.records.size() - 1));
   impl.insert(static_cast<uint32_t>(impl.records.size() - 1));
 }
 

@@ -209,16 +209,16 @@ class GatherPass {
     for (const Site& s : asked) places.push_back({s.point.position, s.point.normal, s.point.normal, s.point.pixelSize});
     std::vector<IrradianceEstimate> known(places.size());
     state_.caches[cache].cache.lookup(places, known.data());
-    OccluderSearch sheets(*tools_->rays, state_.caches[cache].plan.gather);
+    OccluderSearch occluders(*tools_->rays, state_.caches[cache].plan.gather);
     const bool isNew = this->isNew(cache);
     const float enough = state_.caches[cache].plan.cache.enough;
     for (size_t i = 0; i < asked.size(); ++i) {
       const IrradianceEstimate& k = known[i];
-      if (k.weight < enough || (k.disputed && (isNew || isAnew(asked[i]))) ||
-          (isLight(cache) && !k.hasRecord && sheets.isUnderOccluder(asked[i].point, k.closest, k.occluderHeight)))
+      if (k.weight < enough || (k.inconsistent && (isNew || isAnew(asked[i]))) ||
+          (isLight(cache) && !k.hasRecord && occluders.isUnderOccluder(asked[i].point, k.closest, k.occluderHeight)))
         out.push_back(asked[i]);
     }
-    state_.stats.rays.gather += sheets.raysTraced();
+    state_.stats.rays.gather += occluders.raysTraced();
   }
 
   // Makes the records of a phase, and inserts them when all have been made.
