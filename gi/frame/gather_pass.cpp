@@ -15,13 +15,13 @@ namespace {
 
 constexpr int kLastPhases = 8;  // for points beyond the first of each pixel, in the order of a hash
 constexpr int kPhases = kLatticePhases + kLastPhases;
-constexpr int kScoutPhases = 3;  // bright spots are learnt from the records of these phases
+constexpr int kPilotPhases = 3;  // bright spots are learnt from the records of these phases
 constexpr size_t kPointsPerSlice = 256;
 // With so many rays or more, all records have the same directions: what those miss changes little between records, and
 // is no more than other directions miss (docs/decisions/0095).
 constexpr int kManyRays = 512;
 // the first records that look for bright spots have so many times fewer rays, of their own
-constexpr int kRaysPerScoutRay = 4;
+constexpr int kRaysPerPilotRay = 4;
 
 /// Returns the stride of the lattice that this phase completes; 0: it completes none.
 int strideAfter(int phase) { return phase < kLatticePhases && phase % 2 == 0 ? 16 >> phase / 2 : 0; }
@@ -62,7 +62,7 @@ class GatherPass {
   // false if no group asks for indirect light.
   bool prepareCaches() {
     cachesOfGroup_.assign(state_.scene.groups.size(), {});
-    rehearse(state_, layout_, tiles_, cancelled_);
+    learnOcclusionQueries(state_, layout_, tiles_, cancelled_);
     std::vector<std::pair<size_t, GatherPlan>> plans;
     for (size_t g = 0; g < cachesOfGroup_.size(); ++g) {
       const int group = static_cast<int>(g);
@@ -225,7 +225,7 @@ class GatherPass {
   void gatherAt(std::vector<Site> sites) {
     if (sites.empty()) return report(1);
     std::vector<IrradianceRecord> records(sites.size());
-    std::vector<BrightFind> finds(phase_ < kScoutPhases ? sites.size() : 0);
+    std::vector<BrightFind> finds(phase_ < kPilotPhases ? sites.size() : 0);
     size_t done = makeRecords(sites, records, finds);
     size_t lights = 0;
     for (size_t i = 0; i < finds.size(); ++i)
@@ -239,7 +239,7 @@ class GatherPass {
 
   bool sharesRays(size_t cache) const { return state_.caches[cache].plan.gather.samples >= kManyRays; }
   /// Is the record that was made while bright spots were searched to be replaced? It could not aim at them.
-  bool isScoutAlone(size_t cache) const {
+  bool isPilotRecord(size_t cache) const {
     return isLight(cache) && (sharesRays(cache) || (phase_ == 0 && !state_.spots.spots().empty()));
   }
 
@@ -247,14 +247,14 @@ class GatherPass {
   /// or empty when only the records of the search are replaced.
   size_t makeRecords(const std::vector<Site>& sites, std::vector<IrradianceRecord>& records,
                      std::vector<BrightFind>& finds) {
-    const bool isFirst = phase_ >= kScoutPhases || !finds.empty();
+    const bool isFirst = phase_ >= kPilotPhases || !finds.empty();
     size_t done = 0;
     for (; done < sites.size() && !isCancelled(); done = std::min(done + kPointsPerSlice, sites.size())) {
       if (isFirst) report(static_cast<float>(done) / static_cast<float>(sites.size()));
       const size_t count = std::min(kPointsPerSlice, sites.size() - done);
       parallelFor(count, 1, [&](size_t begin, size_t end) {
         for (size_t i = done + begin; i < done + end; ++i)
-          if (isFirst || isScoutAlone(sites[i].cache))
+          if (isFirst || isPilotRecord(sites[i].cache))
             records[i] = gatherAt(sites[i], finds.empty() || !isLight(sites[i].cache) ? nullptr : &finds[i]);
       });
     }
@@ -267,7 +267,7 @@ class GatherPass {
     GatherPoint point = site.point;
     // Bright spots are searched with other rays than those of the final records: a spot that all of these miss would be
     // missed for good.
-    if (sharesRays(site.cache) && find) settings.samples /= kRaysPerScoutRay;
+    if (sharesRays(site.cache) && find) settings.samples /= kRaysPerPilotRay;
     if (sharesRays(site.cache) && !find) point.key = 0;
     IrradianceRecord record = gather(*tools_->rays, *tools_->shading, point, settings, known, state_.stats, find);
     record.relief = reliefOfGroup_[static_cast<size_t>(site.point.group)];

@@ -19,7 +19,7 @@ struct GiState {
   std::optional<Emitters> emitters;                      ///< Emitters that are known without rays.
   BrightSpots spots{};                                   ///< Written by fillCaches().
   BounceCaches bounces{};                                ///< Written by fillCaches().
-  /// Queries of each group; written by rehearse() alone.
+  /// Queries of each group; written by learnOcclusionQueries() alone.
   mutable std::vector<std::vector<OcclusionQuery>> occlusionAsked{};
   bool cachesGiven = false;                                ///< The caches were not gathered for this very frame.
   std::optional<PixelRect> anew{};                         ///< Pixels whose given records have been taken out.
@@ -42,7 +42,7 @@ GatherPlan planFor(const GiState&, int group, const OcclusionQuery&);
 bool interpolatesIndirect(const GiState&);
 
 /// Runs the shaders of each group that asksOcclusion() at one of its visible points, to learn what they ask.
-void rehearse(GiState&, const DeepFrame& layout, const TileReader&, const std::atomic<bool>* cancelled);
+void learnOcclusionQueries(GiState&, const DeepFrame& layout, const TileReader&, const std::atomic<bool>* cancelled);
 
 /// Number of diffuse bounces of a light.
 int bouncesFor(const GiState&, const IndirectQuery&);
