@@ -9,7 +9,7 @@ namespace HWY_NAMESPACE {
 namespace {
 
 /// The samples of a vector that a cell covers, in front of the nearest opaque surface.
-struct Reach {
+struct VisibleSamples {
   Mask mask;
   Floats depth, before;  ///< Depth keys of the cell, and of the nearest opaque surface so far.
 };
@@ -21,10 +21,11 @@ inline Mask keptOfMask(const RasterJob& job, uint32_t cell, size_t lane, Mask sa
 }
 
 template <class Shape>
-HWY_INLINE Reach reachOf(const RasterJob& job, const Shape& shape, size_t lane, uint32_t cell, Kept kept) {
+HWY_INLINE VisibleSamples visibleSamples(const RasterJob& job, const Shape& shape, size_t lane, uint32_t cell,
+                                         Kept kept) {
   const SampleBuffer& out = job.out;
   const auto in = shape.covers(out, lane);
-  Reach r{in.mask, all(0.0f), all(0.0f)};
+  VisibleSamples r{in.mask, all(0.0f), all(0.0f)};
   if (hn::AllFalse(kF, in.mask)) return r;
   r.depth = shape.depth(hn::Load(kF, out.x.data() + lane), hn::Load(kF, out.y.data() + lane), in);
   r.before = hn::Load(kF, out.depth.data() + lane);
@@ -60,10 +61,11 @@ HWY_INLINE void claim(const RasterJob& job, const Shape& shape, size_t lane, uin
 
 /// Writes the samples that a cell covers to a vector of a transparent layer. Others keep their values, or become empty
 /// in a new layer.
-HWY_INLINE void write(Films& films, uint32_t film, bool fresh, size_t first, Mask on, Floats depth, uint32_t cell) {
-  float* depths = films.depths(film) + first;
-  uint32_t* cells = films.cells(film) + first;
-  Floats otherDepths = all(Films::kUncovered_d);
+HWY_INLINE void write(TransparentLayers& layers, uint32_t layer, bool fresh, size_t first, Mask on, Floats depth,
+                      uint32_t cell) {
+  float* depths = layers.depths(layer) + first;
+  uint32_t* cells = layers.cells(layer) + first;
+  Floats otherDepths = all(TransparentLayers::kUncovered_d);
   auto otherCells = hn::Set(kU, kNoCell);
   if (!fresh) otherDepths = hn::Load(kF, depths), otherCells = hn::Load(kU, cells);
   hn::Store(hn::IfThenElse(on, depth, otherDepths), kF, depths);
@@ -72,30 +74,30 @@ HWY_INLINE void write(Films& films, uint32_t film, bool fresh, size_t first, Mas
 
 /// Adds the samples of a pixel that a transparent cell covers in front of opaque surfaces to a transparent layer.
 template <class Shape>
-HWY_INLINE void film(const RasterJob& job, const Shape& shape, size_t pixel, uint32_t cell, Kept kept) {
-  Films& films = job.out.filmsOf(job.raster);
+HWY_INLINE void addToLayer(const RasterJob& job, const Shape& shape, size_t pixel, uint32_t cell, Kept kept) {
+  TransparentLayers& layers = job.out.layersOf(job.raster);
   const size_t lanes = static_cast<size_t>(job.out.lanes), first = pixel * lanes;
   if (lanes == hn::Lanes(kF)) {  // Nothing need leave the registers.
-    const Reach r = reachOf(job, shape, first, cell, kept);
+    const VisibleSamples r = visibleSamples(job, shape, first, cell, kept);
     const uint64_t samples = bitsOf(r.mask);
     if (samples == 0) return;
-    const uint32_t to = films.take(static_cast<uint32_t>(pixel), samples);
-    return write(films, to, films.film(to).samples == samples, 0, r.mask, r.depth, cell);
+    const uint32_t to = layers.take(static_cast<uint32_t>(pixel), samples);
+    return write(layers, to, layers.layer(to).samples == samples, 0, r.mask, r.depth, cell);
   }
-  for (size_t word = 0; word < films.wordsOfPixel(); ++word) {
+  for (size_t word = 0; word < layers.wordsOfPixel(); ++word) {
     HWY_ALIGN float depths[64];
     uint64_t samples = 0;
-    for (size_t g = 0, end = std::min(films.width(), lanes - 64 * word); g < end; g += hn::Lanes(kF)) {
-      const Reach r = reachOf(job, shape, first + 64 * word + g, cell, kept);
+    for (size_t g = 0, end = std::min(layers.width(), lanes - 64 * word); g < end; g += hn::Lanes(kF)) {
+      const VisibleSamples r = visibleSamples(job, shape, first + 64 * word + g, cell, kept);
       hn::Store(r.depth, kF, depths + g);
       samples |= bitsOf(r.mask) << g;
     }
     if (samples == 0) continue;
-    const uint32_t to = films.take(static_cast<uint32_t>(pixel * films.wordsOfPixel() + word), samples);
-    const bool fresh = films.film(to).samples == samples;
-    for (size_t g = 0; g < films.width(); g += hn::Lanes(kF)) {
+    const uint32_t to = layers.take(static_cast<uint32_t>(pixel * layers.wordsOfPixel() + word), samples);
+    const bool fresh = layers.layer(to).samples == samples;
+    for (size_t g = 0; g < layers.width(); g += hn::Lanes(kF)) {
       const uint64_t here = samples >> g;
-      write(films, to, fresh, g, hn::LoadMaskBits(kF, reinterpret_cast<const uint8_t*>(&here)),
+      write(layers, to, fresh, g, hn::LoadMaskBits(kF, reinterpret_cast<const uint8_t*>(&here)),
             hn::Load(kF, depths + g), cell);
     }
   }
@@ -110,8 +112,8 @@ HWY_INLINE void sampleCell(const RasterJob& job, const PixelRect& pixels, float 
   const size_t lanes = static_cast<size_t>(out.lanes);
   if (out.hides(pixels, dMin)) return;
   if constexpr (!kOpaque) {
-    Films& films = out.filmsOf(job.raster);
-    films.makeRoom(static_cast<size_t>(pixels.width()) * static_cast<size_t>(pixels.height()) * films.wordsOfPixel());
+    TransparentLayers& layers = out.layersOf(job.raster);
+    layers.makeRoom(static_cast<size_t>(pixels.width()) * static_cast<size_t>(pixels.height()) * layers.wordsOfPixel());
   }
   const auto shape = make();
   for (int y = pixels.y0; y < pixels.y1; ++y)
@@ -122,7 +124,7 @@ HWY_INLINE void sampleCell(const RasterJob& job, const PixelRect& pixels, float 
         for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) claim(job, shape, pixel * lanes + g, cell, kept);
         out.nearer[pixel] = 1;
       } else {
-        film(job, shape, pixel, cell, kept);
+        addToLayer(job, shape, pixel, cell, kept);
       }
     }
 }

@@ -21,7 +21,7 @@ std::vector<float> shutterTimes(const Scene& scene, const Grid& grid) {
   return times;
 }
 
-/// Film::object of a grid's layers.
+/// TransparentLayer::object of a grid's layers.
 int joinedObject(const RasterGrid& raster) {
   const std::vector<Grid::Piece>& pieces = raster.grid->pieces;
   const bool ends =
@@ -88,7 +88,7 @@ void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
   if (hidden(*raster)) return;
   impl_->dropUnseen();
   const GridTable::Entry& entry = impl_->grids.add(raster, shutterTimes(impl_->scene, *raster->grid));
-  s.films.beginGrid(joinedObject(*raster)), s.crossings.beginGrid();
+  s.layers.beginGrid(joinedObject(*raster)), s.crossings.beginGrid();
   const RasterJob job{*raster, impl_->grids, entry.firstCell, entry.keyTimes, impl_->camera, s};
   if (raster->blur) {
     s.showBlur();

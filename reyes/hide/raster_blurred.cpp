@@ -208,7 +208,7 @@ class Descent {
         if (kept == Kept::All || keepsSample(job_, cell, lanes[k + s])) give(lanes[k + s], depths[s], cell);
       }
     }
-    job_.out.filmsOf(job_.raster).flush();
+    job_.out.layersOf(job_.raster).flush();
   }
 
   void give(uint32_t lane, float depth, uint32_t cell) {
@@ -218,7 +218,7 @@ class Descent {
     const uint32_t pixel = out.pixelOf[lane / kLanes];
     if (!job_.raster.opaque || job_.raster.inSolid) {
       const uint32_t s = lane - pixel * static_cast<uint32_t>(out.lanes);
-      return out.filmsOf(job_.raster).add(out.wordOf(pixel, s), s % 64, cell, depth);
+      return out.layersOf(job_.raster).add(out.wordOf(pixel, s), s % 64, cell, depth);
     }
     if (depth == before) return settleTies(job_, lane, 1, cell);
     before = depth, out.cell[lane] = cell, out.nearer[pixel] = 1;
@@ -251,7 +251,7 @@ void rasterize(const RasterJob& job) {
   const bool moves = job.raster.grid->keyCount > 1;
   for (int key = 0; key + 1 < std::max(2, job.raster.grid->keyCount); ++key) {
     const size_t k = static_cast<size_t>(key);
-    job.out.filmsOf(job.raster).beginGrid();  // The layers of a cell belong to one interval, whatever hides it.
+    job.out.layersOf(job.raster).beginGrid();  // The layers of a cell belong to one interval, whatever hides it.
     const Interval when = moves ? Interval{job.keyTimes[k], job.keyTimes[k + 1]} : Interval{0, 1};
     if (!moves)
       Descent<Blur<false, true>>(job, key).run(when);

@@ -177,7 +177,7 @@ void claimCells(const RasterJob& job, const Corners& q, uint64_t cells) {
 
 /// The version for transparent grids and for solids.
 template <class Edges>
-void filmCells(const RasterJob& job, const Corners& q, uint64_t cells) {
+void layerCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   const RasterGrid& r = job.raster;
   Triangles<Edges> triangles;
   triangles.set(q, r.facing);
@@ -204,7 +204,7 @@ void sampleCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   if (job.raster.opaque && !job.raster.inSolid)
     claimCells<Edges>(job, q, cells);
   else
-    filmCells<Edges>(job, q, cells);
+    layerCells<Edges>(job, q, cells);
 }
 
 /// Rasterises the micropolygons whose first vertices are `first` to `end` - 1.

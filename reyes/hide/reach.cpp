@@ -57,28 +57,28 @@ class BorderCell {
 
 }  // namespace
 
-float depthOfCell(const Films& films, const GridTable& grids, size_t film) {
-  const uint32_t cell = films.cells(film)[std::countr_zero(films.film(film).samples)];
+float depthOfCell(const TransparentLayers& layers, const GridTable& grids, size_t layer) {
+  const uint32_t cell = layers.cells(layer)[std::countr_zero(layers.layer(layer).samples)];
   const GridTable::Entry& entry = grids.of(cell);
   return extentOf(*entry.raster, firstVertex(entry.grid(), static_cast<int>(cell - entry.firstCell)));
 }
 
-ShownTwice shownTwice(const SampleBuffer& samples, const GridTable& grids, const Camera& camera, size_t film,
+ShownTwice shownTwice(const SampleBuffer& samples, const GridTable& grids, const Camera& camera, size_t layer,
                       size_t other) {
-  const Films& films = samples.films;
-  const uint64_t common = films.film(film).samples & films.film(other).samples;
+  const TransparentLayers& layers = samples.layers;
+  const uint64_t common = layers.layer(layer).samples & layers.layer(other).samples;
   ShownTwice out;
-  if (common == 0 || films.film(film).word != films.film(other).word) return out;
-  const uint32_t *cells = films.cells(film), *otherCells = films.cells(other);
+  if (common == 0 || layers.layer(layer).word != layers.layer(other).word) return out;
+  const uint32_t *cells = layers.cells(layer), *otherCells = layers.cells(other);
   const GridTable::Entry &entry = grids.of(cells[std::countr_zero(common)]),
                          &otherEntry = grids.of(otherCells[std::countr_zero(common)]);
-  const size_t words = films.wordsOfPixel(), word = films.film(film).word;
+  const size_t words = layers.wordsOfPixel(), word = layers.layer(layer).word;
   const size_t first = word / words * static_cast<size_t>(samples.lanes) + 64 * (word % words);
   for (uint64_t left = common; left; left &= left - 1) {
     const auto s = static_cast<size_t>(std::countr_zero(left));
     const BorderCell mine(entry, camera, cells[s]), theirs(otherEntry, camera, otherCells[s]);
     if (!mine.joins() || !theirs.joins()) continue;
-    const float d = films.depths(film)[s], otherD = films.depths(other)[s];
+    const float d = layers.depths(layer)[s], otherD = layers.depths(other)[s];
     if (std::abs(d - otherD) > mine.extent() + theirs.extent() + kRounding * std::abs(d)) continue;
     const vec2 at(samples.x[first + s], samples.y[first + s]);
     const bool reaches = mine.reachesTo(at), otherReaches = theirs.reachesTo(at);

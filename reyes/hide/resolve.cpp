@@ -14,9 +14,9 @@ namespace {
 
 /// The part of a transparent layer in front of opaque surfaces; or the opaque surfaces of a pixel.
 struct Sheet {
-  FilmExtent extent;
-  uint32_t film;
-  int object;          ///< Film::object
+  LayerExtent extent;
+  uint32_t layer;
+  int object;          ///< TransparentLayer::object
   float depth = 0;     ///< Range of depth keys within a cell of that object here.
   uint64_t twice = 0;  ///< Samples that a neighbour shows too.
   bool operator<(const Sheet& o) const { return extent.nearest < o.extent.nearest; }
@@ -24,7 +24,7 @@ struct Sheet {
 
 /// Memory of lists, which outlives a tile.
 struct Scratch {
-  std::vector<uint32_t> filmsOfPixel, firstFilm;
+  std::vector<uint32_t> layersOfPixel, firstLayer;
   std::vector<Sheet> sheets;
   std::vector<Sight> sights, opaque, sorted;
   std::vector<uint64_t> keys;
@@ -50,7 +50,7 @@ class TileBuilder {
     tile_.rect = samples_.rect;
     const size_t count = samples_.far.size();
     tile_.pixels.reserve(count);
-    sortFilms(count);
+    sortLayers(count);
     {
       const Lent fragments(tile_.fragments, scratch_.fragments);
       for (size_t first = 0; first < count; first += kRankedTogether)
@@ -63,34 +63,34 @@ class TileBuilder {
 
  private:
   /// Counting sort by pixel.
-  void sortFilms(size_t pixels) {
-    const Films& films = samples_.films;
-    const auto words = static_cast<uint32_t>(films.wordsOfPixel());
-    std::vector<uint32_t>& first = scratch_.firstFilm;
+  void sortLayers(size_t pixels) {
+    const TransparentLayers& layers = samples_.layers;
+    const auto words = static_cast<uint32_t>(layers.wordsOfPixel());
+    std::vector<uint32_t>& first = scratch_.firstLayer;
     first.assign(pixels + 1, 0);
-    const auto count = static_cast<uint32_t>(films.count());
-    for (uint32_t i = 0; i < count; ++i) ++first[films.film(i).word / words + 1];
+    const auto count = static_cast<uint32_t>(layers.count());
+    for (uint32_t i = 0; i < count; ++i) ++first[layers.layer(i).word / words + 1];
     std::partial_sum(first.begin(), first.end(), first.begin());
-    scratch_.filmsOfPixel.resize(count);
-    for (uint32_t i = 0; i < count; ++i) scratch_.filmsOfPixel[first[films.film(i).word / words]++] = i;
+    scratch_.layersOfPixel.resize(count);
+    for (uint32_t i = 0; i < count; ++i) scratch_.layersOfPixel[first[layers.layer(i).word / words]++] = i;
     for (size_t p = pixels; p > 0; --p) first[p] = first[p - 1];
     first[0] = 0;
   }
 
-  bool hasFilms(size_t pixel) const { return scratch_.firstFilm[pixel] < scratch_.firstFilm[pixel + 1]; }
+  bool hasLayers(size_t pixel) const { return scratch_.firstLayer[pixel] < scratch_.firstLayer[pixel + 1]; }
 
   void addPixels(size_t begin, size_t end) {
     uint32_t opaque[kRankedTogether];
     size_t count = 0;
     for (size_t pixel = begin; pixel < end; ++pixel)
-      opaque[count] = static_cast<uint32_t>(pixel), count += !hasFilms(pixel);
+      opaque[count] = static_cast<uint32_t>(pixel), count += !hasLayers(pixel);
     RankedSights seen[kRankedTogether];
     rankOpaque(samples_, {opaque, count}, seen);
     const RankedSights* next = seen;
     for (size_t pixel = begin; pixel < end; ++pixel) {
       const auto first = static_cast<uint32_t>(tile_.fragments.size());
-      if (hasFilms(pixel))
-        addFilms(pixel);
+      if (hasLayers(pixel))
+        addLayers(pixel);
       else
         addOpaque(pixel, *next++);
       tile_.pixels.push_back({first, static_cast<uint32_t>(tile_.fragments.size()) - first});
@@ -111,11 +111,11 @@ class TileBuilder {
       addFragment(pixel, seen.sights[i].cell, seen.sights[i].d, seen.sights[i].samples, word);
     return seen.count >= 0;
   }
-  bool addRanked(size_t pixel, uint32_t film) {
+  bool addRanked(size_t pixel, uint32_t layer) {
     RankedSights seen;
-    rankFilm(samples_.films, film, seen);
+    rankLayer(samples_.layers, layer, seen);
     return addRanked(pixel, seen,
-                     static_cast<uint32_t>(samples_.films.film(film).word % samples_.films.wordsOfPixel()));
+                     static_cast<uint32_t>(samples_.layers.layer(layer).word % samples_.layers.wordsOfPixel()));
   }
 
   void addFragment(size_t pixel, uint32_t cell, float d, uint64_t samples, uint32_t word) {
@@ -127,13 +127,13 @@ class TileBuilder {
   }
 
   /// Layers that lie behind all before them are sorted without them.
-  void addFilms(size_t pixel) {
+  void addLayers(size_t pixel) {
     findSheets(pixel);
     const std::vector<Sheet>& sheets = scratch_.sheets;
     for (size_t i = 0, end = 0; i < sheets.size(); i = end) {
-      const bool alone = sheets[i].film != Films::kNone &&
+      const bool alone = sheets[i].layer != TransparentLayers::kNone &&
                          (i + 1 == sheets.size() || sheets[i + 1].extent.nearest > sheets[i].extent.farthest);
-      if (alone && addRanked(pixel, sheets[i].film)) {
+      if (alone && addRanked(pixel, sheets[i].layer)) {
         end = i + 1;
         continue;
       }
@@ -142,10 +142,10 @@ class TileBuilder {
       for (; end < sheets.size() && (end == i || sheets[end].extent.nearest <= far); ++end) {
         const Sheet& sheet = sheets[end];
         far = std::max(far, sheet.extent.farthest);
-        if (sheet.film == Films::kNone)
+        if (sheet.layer == TransparentLayers::kNone)
           sights_.insert(sights_.end(), scratch_.opaque.begin(), scratch_.opaque.end());
         else
-          collectFilm(samples_.films, sheet.film, sheet.extent.farthest, sights_);
+          collectLayer(samples_.layers, sheet.layer, sheet.extent.farthest, sights_);
       }
       addSights(pixel, end - i > 1);
     }
@@ -161,17 +161,17 @@ class TileBuilder {
     if (!opaque.empty()) {
       const auto nearest =
           std::min_element(opaque.begin(), opaque.end(), [](const Sight& a, const Sight& b) { return a.d < b.d; });
-      sheets.push_back({{nearest->d, kInfinity}, Films::kNone, -1});
+      sheets.push_back({{nearest->d, kInfinity}, TransparentLayers::kNone, -1});
     }
-    const std::vector<uint32_t>& order = scratch_.filmsOfPixel;
-    Films& films = samples_.films;
-    for (uint32_t k = scratch_.firstFilm[pixel]; k < scratch_.firstFilm[pixel + 1]; ++k) {
+    const std::vector<uint32_t>& order = scratch_.layersOfPixel;
+    TransparentLayers& layers = samples_.layers;
+    for (uint32_t k = scratch_.firstLayer[pixel]; k < scratch_.firstLayer[pixel + 1]; ++k) {
       // Layers of a pixel are scattered over the list, which is larger than a near cache.
       const uint32_t next = order[std::min(size_t{k} + kAhead, order.size() - 1)];
-      __builtin_prefetch(films.depths(next)), __builtin_prefetch(films.cells(next)),
-          __builtin_prefetch(&films.film(next));
-      const FilmExtent extent = cullFilm(samples_, grids_, order[k]);
-      if (films.film(order[k]).samples) sheets.push_back({extent, order[k], films.film(order[k]).object});
+      __builtin_prefetch(layers.depths(next)), __builtin_prefetch(layers.cells(next)),
+          __builtin_prefetch(&layers.layer(next));
+      const LayerExtent extent = cullLayer(samples_, grids_, order[k]);
+      if (layers.layer(order[k]).samples) sheets.push_back({extent, order[k], layers.layer(order[k]).object});
     }
     std::sort(sheets.begin(), sheets.end());
     dropTwice();
@@ -180,17 +180,18 @@ class TileBuilder {
   /// Removes samples that two neighbours show because they reach over a border.
   void dropTwice() {
     std::vector<Sheet>& sheets = scratch_.sheets;
-    Films& films = samples_.films;
-    const auto ends = [&](const Film& f) {
+    TransparentLayers& layers = samples_.layers;
+    const auto ends = [&](const TransparentLayer& f) {
       return std::popcount(f.samples) <
-             std::min(64, samples_.sampleCount() - 64 * static_cast<int>(f.word % films.wordsOfPixel()));
+             std::min(64, samples_.sampleCount() - 64 * static_cast<int>(f.word % layers.wordsOfPixel()));
     };
     // The range of depths in a cell of neighbours is estimated from layers that fill a pixel; a few samples do not show
     // it.
     float most = 0;
     for (Sheet& s : sheets) {
       if (s.object < 0) continue;
-      s.depth = ends(films.film(s.film)) ? depthOfCell(films, grids_, s.film) : s.extent.farthest - s.extent.nearest;
+      s.depth =
+          ends(layers.layer(s.layer)) ? depthOfCell(layers, grids_, s.layer) : s.extent.farthest - s.extent.nearest;
       most = std::max(most, s.depth);
     }
     const auto reachOf = [](const Sheet& a, float other) {
@@ -203,14 +204,14 @@ class TileBuilder {
       for (size_t k = i + 1; k < sheets.size() && sheets[k].extent.nearest <= reach; ++k) {
         Sheet& b = sheets[k];
         if (b.object != a.object || b.extent.nearest > reachOf(a, b.depth) ||
-            (films.film(a.film).samples & films.film(b.film).samples) == 0)
+            (layers.layer(a.layer).samples & layers.layer(b.layer).samples) == 0)
           continue;
-        const ShownTwice twice = shownTwice(samples_, grids_, camera_, a.film, b.film);
+        const ShownTwice twice = shownTwice(samples_, grids_, camera_, a.layer, b.layer);
         a.twice |= twice.first, b.twice |= twice.second;
       }
     }
     for (const Sheet& sheet : sheets)
-      if (sheet.twice) films.drop(sheet.film, sheet.twice);
+      if (sheet.twice) layers.drop(sheet.layer, sheet.twice);
   }
 
   /// overlapping: a sample may see several of them.

@@ -4,12 +4,12 @@
 #include <cfloat>
 
 #include "reyes/hide.h"
-#include "reyes/hide/films.h"
+#include "reyes/hide/layers.h"
 
 namespace tomales {
 
 constexpr float kNothing = FLT_MAX;  ///< Depth key of a sample that nothing opaque covers.
-constexpr uint32_t kNoCell = Films::kNoCell;
+constexpr uint32_t kNoCell = TransparentLayers::kNoCell;
 
 /// Grids in the order of insertion.
 class GridTable {
@@ -74,8 +74,8 @@ struct SampleBuffer {
   std::vector<uint32_t> pixelOf;  ///< Pixel of each group of kLanes lanes.
   AlignedVector<float> far;       ///< Indexed by pixel: an upper bound of the depths of its lanes.
   std::vector<uint8_t> nearer;    ///< Indexed by pixel: 1 if depths may have changed since `far` was computed.
-  Films films;
-  Films crossings;                ///< All surfaces of solids that cover a sample, however deep.
+  TransparentLayers layers;
+  TransparentLayers crossings;    ///< All surfaces of solids that cover a sample, however deep.
   std::vector<Ask> asks;          ///< Memory for the rasterisers.
   std::vector<Contest> contests;  ///< Conflicts of opaque, still surfaces in focus; some may be hidden later.
 
@@ -91,12 +91,12 @@ struct SampleBuffer {
     return pattern_.detail(patternAt_[lane / width])[lane % width];
   }
   /// The layers that get the samples of a transparent grid or a solid.
-  Films& filmsOf(const RasterGrid& raster) { return raster.inSolid ? crossings : films; }
+  TransparentLayers& layersOf(const RasterGrid& raster) { return raster.inSolid ? crossings : layers; }
   /// Samples of a pixel.
   int sampleCount() const { return pattern_.count(); }
-  /// Film::word of a sample of a pixel.
+  /// TransparentLayer::word of a sample of a pixel.
   uint32_t wordOf(uint32_t pixel, uint32_t sample) const {
-    return pixel * static_cast<uint32_t>(films.wordsOfPixel()) + sample / 64;
+    return pixel * static_cast<uint32_t>(layers.wordsOfPixel()) + sample / 64;
   }
   /// Updates `far`.
   void settle(const PixelRect& pixels);

@@ -117,18 +117,18 @@ void opaqueRanked(const SampleBuffer& samples, std::span<const uint32_t> pixels,
   rank(ofPixels, pixels.size(), lanes, out);
 }
 
-void filmRanked(const Films& films, size_t film, RankedSights* out) {
-  Lanes ofPixel{films.cells(film), films.depths(film), films.film(film).samples};
-  rank(&ofPixel, 1, films.width(), out);
+void layerRanked(const TransparentLayers& layers, size_t layer, RankedSights* out) {
+  Lanes ofPixel{layers.cells(layer), layers.depths(layer), layers.layer(layer).samples};
+  rank(&ofPixel, 1, layers.width(), out);
 }
 
-FilmExtent cull(SampleBuffer& samples, const GridTable& grids, size_t index) {
-  Films& films = samples.films;
-  Film& film = films.film(index);
-  const size_t lanes = static_cast<size_t>(samples.lanes), words = films.wordsOfPixel(), word = film.word % words;
-  const size_t first = film.word / words * lanes + 64 * word, here = std::min(films.width(), lanes - 64 * word);
-  float* depths = films.depths(index);
-  uint32_t* cells = films.cells(index);
+LayerExtent cull(SampleBuffer& samples, const GridTable& grids, size_t index) {
+  TransparentLayers& layers = samples.layers;
+  TransparentLayer& layer = layers.layer(index);
+  const size_t lanes = static_cast<size_t>(samples.lanes), words = layers.wordsOfPixel(), word = layer.word % words;
+  const size_t first = layer.word / words * lanes + 64 * word, here = std::min(layers.width(), lanes - 64 * word);
+  float* depths = layers.depths(index);
+  uint32_t* cells = layers.cells(index);
   Floats nearest = all(kInfinity), farthest = all(-kInfinity);
   for (size_t g = 0; g < here; g += hn::Lanes(kF)) {
     const Floats d = hn::Load(kF, depths + g), before = hn::Load(kF, samples.depth.data() + first + g);
@@ -145,17 +145,17 @@ FilmExtent cull(SampleBuffer& samples, const GridTable& grids, size_t index) {
     nearest = hn::Min(nearest, hn::IfThenElse(kept, d, all(kInfinity)));
     farthest = hn::Max(farthest, hn::IfThenElse(kept, d, all(-kInfinity)));
     if (const uint64_t hidden = bitsOf(hn::AndNot(kept, on)); hidden) {
-      film.samples &= ~(hidden << g);
+      layer.samples &= ~(hidden << g);
       hn::Store(hn::IfThenElse(hn::RebindMask(kU, kept), hn::Load(kU, cells + g), hn::Set(kU, kNoCell)), kU, cells + g);
     }
   }
   return {hn::GetLane(hn::MinOfLanes(kF, nearest)), hn::GetLane(hn::MaxOfLanes(kF, farthest))};
 }
 
-void ofFilm(const Films& films, size_t index, float farthest, std::vector<Sight>& sights) {
-  const Film& film = films.film(index);
-  const auto word = static_cast<uint32_t>(film.word % films.wordsOfPixel());
-  collect(films.cells(index), films.depths(index), films.width(), film.samples, word, farthest, sights);
+void ofLayer(const TransparentLayers& layers, size_t index, float farthest, std::vector<Sight>& sights) {
+  const TransparentLayer& layer = layers.layer(index);
+  const auto word = static_cast<uint32_t>(layer.word % layers.wordsOfPixel());
+  collect(layers.cells(index), layers.depths(index), layers.width(), layer.samples, word, farthest, sights);
 }
 
 }  // namespace
@@ -167,9 +167,9 @@ HWY_AFTER_NAMESPACE();
 namespace tomales {
 HWY_EXPORT(opaque);
 HWY_EXPORT(opaqueRanked);
-HWY_EXPORT(filmRanked);
+HWY_EXPORT(layerRanked);
 HWY_EXPORT(cull);
-HWY_EXPORT(ofFilm);
+HWY_EXPORT(ofLayer);
 void collectOpaque(const SampleBuffer& samples, size_t pixel, std::vector<Sight>& sights) {
   HWY_DYNAMIC_DISPATCH(opaque)(samples, pixel, sights);
 }
@@ -179,14 +179,14 @@ void rankOpaque(const SampleBuffer& samples, std::span<const uint32_t> pixels, R
   else
     for (size_t k = 0; k < pixels.size(); ++k) out[k].count = -1;
 }
-void rankFilm(const Films& films, size_t film, RankedSights& out) {
-  HWY_DYNAMIC_DISPATCH(filmRanked)(films, film, &out);
+void rankLayer(const TransparentLayers& layers, size_t layer, RankedSights& out) {
+  HWY_DYNAMIC_DISPATCH(layerRanked)(layers, layer, &out);
 }
-FilmExtent cullFilm(SampleBuffer& samples, const GridTable& grids, size_t film) {
-  return HWY_DYNAMIC_DISPATCH(cull)(samples, grids, film);
+LayerExtent cullLayer(SampleBuffer& samples, const GridTable& grids, size_t layer) {
+  return HWY_DYNAMIC_DISPATCH(cull)(samples, grids, layer);
 }
-void collectFilm(const Films& films, size_t film, float farthest, std::vector<Sight>& sights) {
-  HWY_DYNAMIC_DISPATCH(ofFilm)(films, film, farthest, sights);
+void collectLayer(const TransparentLayers& layers, size_t layer, float farthest, std::vector<Sight>& sights) {
+  HWY_DYNAMIC_DISPATCH(ofLayer)(layers, layer, farthest, sights);
 }
 }  // namespace tomales
 #endif

@@ -26,15 +26,15 @@ constexpr size_t kRankedTogether = 32;
 /// Finds the opaque cells that the samples of some pixels see. Pre: no more than kRankedTogether pixels.
 void rankOpaque(const SampleBuffer& samples, std::span<const uint32_t> pixels, RankedSights* out);
 /// The same for a transparent layer.
-void rankFilm(const Films& films, size_t film, RankedSights& out);
+void rankLayer(const TransparentLayers& layers, size_t layer, RankedSights& out);
 
 /// The depth keys between which a transparent layer lies.
-struct FilmExtent {
+struct LayerExtent {
   float nearest, farthest;
 };
 /// Removes the hidden samples from a transparent layer. Pre: it covers some sample; afterwards it may cover none.
-FilmExtent cullFilm(SampleBuffer& samples, const GridTable& grids, size_t film);
+LayerExtent cullLayer(SampleBuffer& samples, const GridTable& grids, size_t layer);
 /// Appends the cells that the samples see of a transparent layer. farthest: greatest of its depth keys.
-void collectFilm(const Films& films, size_t film, float farthest, std::vector<Sight>& sights);
+void collectLayer(const TransparentLayers& layers, size_t layer, float farthest, std::vector<Sight>& sights);
 
 }  // namespace tomales

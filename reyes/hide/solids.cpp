@@ -28,7 +28,7 @@ class SolidResolver {
 
   void resolve() {
     const std::vector<Crossing> all = sorted();
-    samples_.films.beginGrid();
+    samples_.layers.beginGrid();
     for (size_t first = 0, last = 0; first < all.size(); first = last) {
       while (last < all.size() && sameLine(all[first], all[last])) ++last;
       resolveLine({all.data() + first, last - first});
@@ -42,12 +42,12 @@ class SolidResolver {
 
   std::vector<Crossing> sorted() {
     std::vector<Crossing> all;
-    const Films& crossings = samples_.crossings;
+    const TransparentLayers& crossings = samples_.crossings;
     const auto lanes = static_cast<uint32_t>(samples_.lanes), words = static_cast<uint32_t>(crossings.wordsOfPixel());
     for (size_t i = 0; i < crossings.count(); ++i) {
-      const Film& film = crossings.film(i);
-      const uint32_t first = film.word / words * lanes + 64 * (film.word % words);
-      for (uint64_t left = film.samples; left; left &= left - 1) {
+      const TransparentLayer& layer = crossings.layer(i);
+      const uint32_t first = layer.word / words * lanes + 64 * (layer.word % words);
+      for (uint64_t left = layer.samples; left; left &= left - 1) {
         const auto s = static_cast<uint32_t>(std::countr_zero(left));
         const uint32_t cell = crossings.cells(i)[s];
         all.push_back({first + s, objectOf(cell).solid, crossings.depths(i)[s], cell});
@@ -99,8 +99,8 @@ class SolidResolver {
     if (c.d > depth) return false;
     if (!grids_.of(c.cell).raster->opaque) {
       const uint32_t lanes = static_cast<uint32_t>(samples_.lanes), s = c.lane % lanes;
-      samples_.films.add(samples_.wordOf(c.lane / lanes, s), s % 64, c.cell, c.d);
-      samples_.films.flush();
+      samples_.layers.add(samples_.wordOf(c.lane / lanes, s), s % 64, c.cell, c.d);
+      samples_.layers.flush();
       return false;
     }
     uint32_t& owner = samples_.cell[c.lane];

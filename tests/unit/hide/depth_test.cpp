@@ -12,10 +12,10 @@ TEST(Depth, FilmsBecomeFragmentsNearestFirst) {
   w.add();
   w.freeze();
   const SamplePattern pattern(4, 4, true, 1);
-  Rasters films;
+  Rasters layers;
   for (const float z : {5.0f, 2.0f, 7.0f, 3.0f, 6.0f, 4.0f})
-    films.push_back(raster(w, makeGrid(0, static_cast<uint32_t>(z), 1, 1, rectangle(-1, -1, 17, 20, z)), false));
-  const DeepTile t = hide(w, pattern, kRect, films);
+    layers.push_back(raster(w, makeGrid(0, static_cast<uint32_t>(z), 1, 1, rectangle(-1, -1, 17, 20, z)), false));
+  const DeepTile t = hide(w, pattern, kRect, layers);
   for (const DeepPixel& p : t.pixels) {
     float z = 2;
     uint64_t samples[6] = {};
