@@ -7,7 +7,7 @@ namespace {
 
 constexpr PixelRect kRect{0, 0, 16, 16};
 
-TEST(Depth, FilmsBecomeFragmentsNearestFirst) {
+TEST(Depth, TransparentLayersBecomeFragmentsNearestFirst) {
   World w;
   w.add();
   w.freeze();
@@ -29,7 +29,7 @@ TEST(Depth, FilmsBecomeFragmentsNearestFirst) {
   }
 }
 
-TEST(Depth, AnOpaqueSurfaceEndsTheListOfFilms) {
+TEST(Depth, AnOpaqueSurfaceEndsTheListOfLayers) {
   World w;
   w.add();
   w.freeze();
@@ -67,7 +67,7 @@ TEST(Depth, InterpenetratingSurfacesAreSortedSampleBySample) {
 }
 
 /// Transparent sheets that cross each other within pixels, one of them moving, before an opaque one.
-TEST(Depth, FilmsThatCrossAreInOrderForEverySample) {
+TEST(Depth, LayersThatCrossAreInOrderForEverySample) {
   World w;
   w.scene.options.shutterClose = 1;
   for (int k = 0; k < 4; ++k) w.add();

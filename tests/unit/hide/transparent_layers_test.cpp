@@ -11,7 +11,7 @@ void give(TransparentLayers& layers, uint32_t word, uint64_t samples, uint32_t c
   layers.flush();
 }
 
-TEST(TransparentLayers, CellsOfAGridShareAFilmUntilOneSeesASampleTwice) {
+TEST(TransparentLayers, CellsOfAGridShareALayerUntilOneSeesASampleTwice) {
   TransparentLayers layers(2, 16);
   layers.beginGrid();
   give(layers, 1, 0b0011, 7, 1);
