@@ -74,9 +74,9 @@ uint32_t Disks::build(uint32_t begin, uint32_t end) {
 }
 
 /// One line of sight through the tree.
-class Disks::Sight {
+class Disks::LineOfSight {
  public:
-  Sight(const Disks& disks, const vec3& P, const vec3& d, const DisksQuery& query)
+  LineOfSight(const Disks& disks, const vec3& P, const vec3& d, const DisksQuery& query)
       : disks_(disks), P_(P), d_(d), over_(1.0f / d), query_(query), reach_(query.falloff.maxDistance) {}
 
   void walk() {
@@ -160,7 +160,7 @@ HemisphereView Disks::seenFrom(const vec3& P, const vec3& N, const DisksQuery& q
   for (const vec3& whole : directions_) {
     const vec2 d = spread * vec2(whole);
     const vec3 local(d, std::sqrt(std::max(0.0f, 1 - dot(d, d))));
-    Sight sight(*this, P, local.x * tangent + local.y * bitangent + local.z * N, query);
+    LineOfSight sight(*this, P, local.x * tangent + local.y * bitangent + local.z * N, query);
     sight.walk();
     out.covered += sight.covered / kDirections, out.radiance += sight.light / static_cast<float>(kDirections);
   }

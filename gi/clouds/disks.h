@@ -49,7 +49,7 @@ class Disks {
     float seen;                   ///< Area as seen from afar.
     uint32_t begin, end, second;  ///< The first child follows its parent; second is 0 in a leaf.
   };
-  class Sight;
+  class LineOfSight;
   static Sum sumOf(const Disk& disk);
   uint32_t build(uint32_t begin, uint32_t end);
 

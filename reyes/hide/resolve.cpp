@@ -5,27 +5,27 @@
 #include <numeric>
 
 #include "reyes/base/lent.h"
+#include "reyes/hide/border_overlap.h"
 #include "reyes/hide/facets.h"
-#include "reyes/hide/reach.h"
 #include "reyes/hide/sights.h"
 
 namespace tomales {
 namespace {
 
 /// The part of a transparent layer in front of opaque surfaces; or the opaque surfaces of a pixel.
-struct Sheet {
+struct LayerInOrder {
   LayerExtent extent;
   uint32_t layer;
   int object;          ///< TransparentLayer::object
   float depth = 0;     ///< Range of depth keys within a cell of that object here.
   uint64_t twice = 0;  ///< Samples that a neighbour shows too.
-  bool operator<(const Sheet& o) const { return extent.nearest < o.extent.nearest; }
+  bool operator<(const LayerInOrder& o) const { return extent.nearest < o.extent.nearest; }
 };
 
 /// Memory of lists, which outlives a tile.
 struct Scratch {
   std::vector<uint32_t> layersOfPixel, firstLayer;
-  std::vector<Sheet> sheets;
+  std::vector<LayerInOrder> ordered;
   std::vector<Sight> sights, opaque, sorted;
   std::vector<uint64_t> keys;
   PixelLayers layers;
@@ -128,40 +128,40 @@ class TileBuilder {
 
   /// Layers that lie behind all before them are sorted without them.
   void addLayers(size_t pixel) {
-    findSheets(pixel);
-    const std::vector<Sheet>& sheets = scratch_.sheets;
-    for (size_t i = 0, end = 0; i < sheets.size(); i = end) {
-      const bool alone = sheets[i].layer != TransparentLayers::kNone &&
-                         (i + 1 == sheets.size() || sheets[i + 1].extent.nearest > sheets[i].extent.farthest);
-      if (alone && addRanked(pixel, sheets[i].layer)) {
+    findLayers(pixel);
+    const std::vector<LayerInOrder>& ordered = scratch_.ordered;
+    for (size_t i = 0, end = 0; i < ordered.size(); i = end) {
+      const bool alone = ordered[i].layer != TransparentLayers::kNone &&
+                         (i + 1 == ordered.size() || ordered[i + 1].extent.nearest > ordered[i].extent.farthest);
+      if (alone && addRanked(pixel, ordered[i].layer)) {
         end = i + 1;
         continue;
       }
       sights_.clear();
       float far = -kInfinity;
-      for (; end < sheets.size() && (end == i || sheets[end].extent.nearest <= far); ++end) {
-        const Sheet& sheet = sheets[end];
-        far = std::max(far, sheet.extent.farthest);
-        if (sheet.layer == TransparentLayers::kNone)
+      for (; end < ordered.size() && (end == i || ordered[end].extent.nearest <= far); ++end) {
+        const LayerInOrder& current = ordered[end];
+        far = std::max(far, current.extent.farthest);
+        if (current.layer == TransparentLayers::kNone)
           sights_.insert(sights_.end(), scratch_.opaque.begin(), scratch_.opaque.end());
         else
-          collectLayer(samples_.layers, sheet.layer, sheet.extent.farthest, sights_);
+          collectLayer(samples_.layers, current.layer, current.extent.farthest, sights_);
       }
       addSights(pixel, end - i > 1);
     }
   }
 
   /// Finds the layers of a pixel, nearest first.
-  void findSheets(size_t pixel) {
-    std::vector<Sheet>& sheets = scratch_.sheets;
+  void findLayers(size_t pixel) {
+    std::vector<LayerInOrder>& ordered = scratch_.ordered;
     std::vector<Sight>& opaque = scratch_.opaque;
-    sheets.clear();
+    ordered.clear();
     opaque.clear();
     collectOpaque(samples_, pixel, opaque);
     if (!opaque.empty()) {
       const auto nearest =
           std::min_element(opaque.begin(), opaque.end(), [](const Sight& a, const Sight& b) { return a.d < b.d; });
-      sheets.push_back({{nearest->d, kInfinity}, TransparentLayers::kNone, -1});
+      ordered.push_back({{nearest->d, kInfinity}, TransparentLayers::kNone, -1});
     }
     const std::vector<uint32_t>& order = scratch_.layersOfPixel;
     TransparentLayers& layers = samples_.layers;
@@ -171,15 +171,15 @@ class TileBuilder {
       __builtin_prefetch(layers.depths(next)), __builtin_prefetch(layers.cells(next)),
           __builtin_prefetch(&layers.layer(next));
       const LayerExtent extent = cullLayer(samples_, grids_, order[k]);
-      if (layers.layer(order[k]).samples) sheets.push_back({extent, order[k], layers.layer(order[k]).object});
+      if (layers.layer(order[k]).samples) ordered.push_back({extent, order[k], layers.layer(order[k]).object});
     }
-    std::sort(sheets.begin(), sheets.end());
-    dropTwice();
+    std::sort(ordered.begin(), ordered.end());
+    dropOverlaps();
   }
 
   /// Removes samples that two neighbours show because they reach over a border.
-  void dropTwice() {
-    std::vector<Sheet>& sheets = scratch_.sheets;
+  void dropOverlaps() {
+    std::vector<LayerInOrder>& ordered = scratch_.ordered;
     TransparentLayers& layers = samples_.layers;
     const auto ends = [&](const TransparentLayer& f) {
       return std::popcount(f.samples) <
@@ -188,30 +188,30 @@ class TileBuilder {
     // The range of depths in a cell of neighbours is estimated from layers that fill a pixel; a few samples do not show
     // it.
     float most = 0;
-    for (Sheet& s : sheets) {
+    for (LayerInOrder& s : ordered) {
       if (s.object < 0) continue;
-      s.depth =
-          ends(layers.layer(s.layer)) ? depthOfCell(layers, grids_, s.layer) : s.extent.farthest - s.extent.nearest;
+      s.depth = ends(layers.layer(s.layer)) ? depthRangeOfCell(layers, grids_, s.layer)
+                                            : s.extent.farthest - s.extent.nearest;
       most = std::max(most, s.depth);
     }
-    const auto reachOf = [](const Sheet& a, float other) {
+    const auto reachOf = [](const LayerInOrder& a, float other) {
       return a.extent.farthest + 2 * (a.depth + other) + kRounding * std::abs(a.extent.farthest);
     };
-    for (size_t i = 0; i < sheets.size(); ++i) {
-      Sheet& a = sheets[i];
+    for (size_t i = 0; i < ordered.size(); ++i) {
+      LayerInOrder& a = ordered[i];
       if (a.object < 0) continue;
       const float reach = reachOf(a, most);
-      for (size_t k = i + 1; k < sheets.size() && sheets[k].extent.nearest <= reach; ++k) {
-        Sheet& b = sheets[k];
+      for (size_t k = i + 1; k < ordered.size() && ordered[k].extent.nearest <= reach; ++k) {
+        LayerInOrder& b = ordered[k];
         if (b.object != a.object || b.extent.nearest > reachOf(a, b.depth) ||
             (layers.layer(a.layer).samples & layers.layer(b.layer).samples) == 0)
           continue;
-        const ShownTwice twice = shownTwice(samples_, grids_, camera_, a.layer, b.layer);
+        const BorderOverlap twice = borderOverlap(samples_, grids_, camera_, a.layer, b.layer);
         a.twice |= twice.first, b.twice |= twice.second;
       }
     }
-    for (const Sheet& sheet : sheets)
-      if (sheet.twice) layers.drop(sheet.layer, sheet.twice);
+    for (const LayerInOrder& current : ordered)
+      if (current.twice) layers.drop(current.layer, current.twice);
   }
 
   /// overlapping: a sample may see several of them.

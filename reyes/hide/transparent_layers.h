@@ -14,7 +14,8 @@ namespace tomales {
 struct TransparentLayer {
   uint32_t word;  ///< Bit s of `samples` is lane 64 * (word % TransparentLayers::wordsOfPixel()) + s of pixel word /
                   ///< wordsOfPixel().
-  int object;     ///< The object whose neighbouring pieces may overlap at a border (reyes/hide/reach.h); -1: none does.
+  int object;  ///< The object whose neighbouring pieces may overlap at a border (reyes/hide/border_overlap.h); -1: none
+               ///< does.
   uint64_t samples;
 };
 

@@ -1,4 +1,4 @@
-#include "reyes/hide/reach.h"
+#include "reyes/hide/border_overlap.h"
 
 #include <bit>
 
@@ -57,17 +57,17 @@ class BorderCell {
 
 }  // namespace
 
-float depthOfCell(const TransparentLayers& layers, const GridTable& grids, size_t layer) {
+float depthRangeOfCell(const TransparentLayers& layers, const GridTable& grids, size_t layer) {
   const uint32_t cell = layers.cells(layer)[std::countr_zero(layers.layer(layer).samples)];
   const GridTable::Entry& entry = grids.of(cell);
   return extentOf(*entry.raster, firstVertex(entry.grid(), static_cast<int>(cell - entry.firstCell)));
 }
 
-ShownTwice shownTwice(const SampleBuffer& samples, const GridTable& grids, const Camera& camera, size_t layer,
-                      size_t other) {
+BorderOverlap borderOverlap(const SampleBuffer& samples, const GridTable& grids, const Camera& camera, size_t layer,
+                            size_t other) {
   const TransparentLayers& layers = samples.layers;
   const uint64_t common = layers.layer(layer).samples & layers.layer(other).samples;
-  ShownTwice out;
+  BorderOverlap out;
   if (common == 0 || layers.layer(layer).word != layers.layer(other).word) return out;
   const uint32_t *cells = layers.cells(layer), *otherCells = layers.cells(other);
   const GridTable::Entry &entry = grids.of(cells[std::countr_zero(common)]),

@@ -6,16 +6,16 @@
 namespace tomales {
 
 /// Difference between the depth keys of one of a layer's cells.
-float depthOfCell(const TransparentLayers& layers, const GridTable& grids, size_t layer);
+float depthRangeOfCell(const TransparentLayers& layers, const GridTable& grids, size_t layer);
 /// Samples of two layers that their cells cover only by reaching beyond a border, where the other layer covers them as
 /// well.
-struct ShownTwice {
+struct BorderOverlap {
   uint64_t first = 0, second = 0;
 };
 /// The result depends on what the samples see of the two, not on how cells came to share layers. Pre:
 /// TransparentLayer::object of both is the same. Layers that move or are out of focus have no such samples, nor have
 /// those of solids, which count a crossing once.
-ShownTwice shownTwice(const SampleBuffer& samples, const GridTable& grids, const Camera& camera, size_t layer,
-                      size_t other);
+BorderOverlap borderOverlap(const SampleBuffer& samples, const GridTable& grids, const Camera& camera, size_t layer,
+                            size_t other);
 
 }  // namespace tomales
