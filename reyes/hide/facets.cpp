@@ -122,12 +122,12 @@ void FacetTable::make(HideDoubts* doubts) {
       f.facet = facetOf_[cell];
   }
   for (const uint32_t i : ofFolded) tile_.fragments[i].facet = facetOfFolded(i);
-  tile_.batches.reserve(wishes_.size());
-  for (const Wishes& wishes : wishes_) {
-    const ShadeGroup& group = scene_.groups[static_cast<size_t>(wishes.group)];
-    ShadePoints& points = tile_.batches.emplace_back(wishes.group, primvarFloats(group), group.steps);
-    points.reserve(static_cast<int>(wishes.list.size()));
-    fill(wishes, points);
+  tile_.batches.reserve(requests_.size());
+  for (const PointRequests& requests : requests_) {
+    const ShadeGroup& group = scene_.groups[static_cast<size_t>(requests.group)];
+    ShadePoints& points = tile_.batches.emplace_back(requests.group, primvarFloats(group), group.steps);
+    points.reserve(static_cast<int>(requests.list.size()));
+    fill(requests, points);
     setTextureCoordinates(group, points);
   }
 }
@@ -137,14 +137,14 @@ void FacetTable::makeFacets(const GridTable::Entry& entry) {
   const auto number = static_cast<uint32_t>(&entry - grids_.entries().data());
   const uint8_t* seen = seen_.data() + entry.firstCell;
   const int batch = batchOf(scene_.objects[static_cast<size_t>(g.object)].group), row = g.nu + 1;
-  std::vector<Wish>& list = wishes_[static_cast<size_t>(batch)].list;
-  const auto wish = [&](int index, Side side) {
+  std::vector<PointRequest>& list = requests_[static_cast<size_t>(batch)].list;
+  const auto requestPoint = [&](int index, Side side) {
     list.push_back({number, index, side});
     return static_cast<int>(list.size()) - 1;
   };
   const auto corner = [&](int vertex, Side side) {
     int& point = corners_[2 * static_cast<size_t>(vertex) + (side == Side::Back)];
-    if (point < 0) point = wish(vertex, side);
+    if (point < 0) point = requestPoint(vertex, side);
     return point;
   };
   const bool smooth = entry.raster->smooth;
@@ -164,7 +164,7 @@ void FacetTable::makeFacets(const GridTable::Entry& entry) {
         const int vertices[4] = {a, a + 1, a + row, a + row + 1};
         for (int k = 0; k < 4; ++k) facet.point[k] = corner(vertices[k], side);
       } else {
-        std::fill_n(facet.point, 4, wish(cell, side));
+        std::fill_n(facet.point, 4, requestPoint(cell, side));
       }
     }
 }
@@ -184,7 +184,7 @@ uint32_t FacetTable::facetOfFolded(uint32_t number) {
   if (!isNew) return at->second;
   Facet& facet = tile_.facets.emplace_back();
   facet.batch = batchOf(scene_.objects[static_cast<size_t>(g.object)].group), facet.matte = entry.raster->matte;
-  std::vector<Wish>& list = wishes_[static_cast<size_t>(facet.batch)].list;
+  std::vector<PointRequest>& list = requests_[static_cast<size_t>(facet.batch)].list;
   const int a = firstVertex(g, cell), row = g.nu + 1, points[] = {a, a + 1, a + row, a + row + 1};
   for (int k = 0; k < 4; ++k) {
     if (k == 0 || entry.raster->smooth)
@@ -228,20 +228,21 @@ int FacetTable::batchOf(int group) {
   if (g >= batchOf_.size()) batchOf_.resize(g + 1, -1);
   int& batch = batchOf_[g];
   if (batch < 0) {
-    batch = static_cast<int>(wishes_.size());
-    wishes_.push_back({group, {}});
+    batch = static_cast<int>(requests_.size());
+    requests_.push_back({group, {}});
   }
   return batch;
 }
 
-void FacetTable::fill(const Wishes& wishes, ShadePoints& points) const {
+void FacetTable::fill(const PointRequests& requests, ShadePoints& points) const {
   Gathered gathered{};
-  const bool subtracted = scene_.groups[static_cast<size_t>(wishes.group)].subtracted;
-  const int count = static_cast<int>(wishes.list.size()), floats = points.primvarFloats();
+  const bool subtracted = scene_.groups[static_cast<size_t>(requests.group)].subtracted;
+  const int count = static_cast<int>(requests.list.size()), floats = points.primvarFloats();
   for (int first = 0; first < count; first += kLanes) {
-    const std::span<const Wish> block(wishes.list.data() + first, static_cast<size_t>(std::min(kLanes, count - first)));
+    const std::span<const PointRequest> block(requests.list.data() + first,
+                                              static_cast<size_t>(std::min(kLanes, count - first)));
     for (size_t i = 0; i < block.size();) {
-      const Wish& w = block[i];
+      const PointRequest& w = block[i];
       const GridTable::Entry& entry = grids_.entries()[w.entry];
       const Grid& g = entry.grid();
       const bool vertex = entry.raster->smooth;
@@ -274,8 +275,8 @@ void FacetTable::fill(const Wishes& wishes, ShadePoints& points) const {
   std::fill_n(points.channel(kTime), count, -1.0f);
 }
 
-void FacetTable::addSteps(std::span<const Wish> wishes, ShadePoints& points, int first) const {
-  for (const Wish& w : wishes) {
+void FacetTable::addSteps(std::span<const PointRequest> requests, ShadePoints& points, int first) const {
+  for (const PointRequest& w : requests) {
     const GridTable::Entry& entry = grids_.entries()[w.entry];
     if (entry.raster->smooth)
       stepsOf(scene_, entry.grid(), VertexSteps(entry.grid(), w.index), points, first++);
@@ -284,11 +285,11 @@ void FacetTable::addSteps(std::span<const Wish> wishes, ShadePoints& points, int
   }
 }
 
-int FacetTable::runLength(const Grid& g, std::span<const Wish> wishes) {
-  const Wish& w = wishes[0];
-  const auto most = std::min(wishes.size(), static_cast<size_t>(g.nu - w.index % g.nu));
+int FacetTable::runLength(const Grid& g, std::span<const PointRequest> requests) {
+  const PointRequest& w = requests[0];
+  const auto most = std::min(requests.size(), static_cast<size_t>(g.nu - w.index % g.nu));
   size_t n = 1;
-  while (n < most && wishes[n].entry == w.entry && wishes[n].index == w.index + static_cast<int>(n)) ++n;
+  while (n < most && requests[n].entry == w.entry && requests[n].index == w.index + static_cast<int>(n)) ++n;
   return static_cast<int>(n);
 }
 

@@ -20,24 +20,24 @@ class FacetTable {
 
  private:
   /// A point to be made, at the centre of a cell or at a vertex.
-  struct Wish {
+  struct PointRequest {
     uint32_t entry;  ///< Index into the entries of the GridTable.
     int index;       ///< Index of the cell or vertex.
     Side side;       ///< The side that is seen.
   };
-  struct Wishes {
+  struct PointRequests {
     int group;
-    std::vector<Wish> list;
+    std::vector<PointRequest> list;
   };
   void makeFacets(const GridTable::Entry& entry);
   /// The facet of a fragment of a cell that may be seen from both sides, for the side that the fragment sees.
   uint32_t facetOfFolded(uint32_t fragment);
   void countTurns(const GridTable::Entry& entry, HideDoubts& doubts);
   int batchOf(int group);
-  void fill(const Wishes& wishes, ShadePoints& points) const;
-  void addSteps(std::span<const Wish> wishes, ShadePoints& points, int first) const;
+  void fill(const PointRequests& requests, ShadePoints& points) const;
+  void addSteps(std::span<const PointRequest> requests, ShadePoints& points, int first) const;
   /// The number of requests from the first on for cells that follow each other in a row of a grid.
-  static int runLength(const Grid& g, std::span<const Wish> wishes);
+  static int runLength(const Grid& g, std::span<const PointRequest> requests);
 
   static constexpr uint32_t kNotMade = ~0U, kFolded = ~0U - 1;
 
@@ -47,13 +47,13 @@ class FacetTable {
   const GridTable& grids_;
   const SampleBuffer& samples_;
   DeepTile& tile_;
-  std::vector<uint8_t> seen_;      ///< Indexed by cell.
-  std::vector<uint32_t> facetOf_;  ///< Indexed by cell; kNotMade: none yet; kFolded: look it up in folded_.
-  std::vector<int> batchOf_;       ///< Indexed by group; -1: none yet.
-  std::vector<Wishes> wishes_;     ///< Indexed by batch.
-  std::vector<int32_t> turning_;   ///< Indexed by vertex of a grid.
-  std::vector<int32_t> sides_;     ///< The result of findSides().
-  std::vector<int> corners_;       ///< Points of a grid's vertices, Front before Back; -1: none yet.
+  std::vector<uint8_t> seen_;            ///< Indexed by cell.
+  std::vector<uint32_t> facetOf_;        ///< Indexed by cell; kNotMade: none yet; kFolded: look it up in folded_.
+  std::vector<int> batchOf_;             ///< Indexed by group; -1: none yet.
+  std::vector<PointRequests> requests_;  ///< Indexed by batch.
+  std::vector<int32_t> turning_;         ///< Indexed by vertex of a grid.
+  std::vector<int32_t> sides_;           ///< The result of findSides().
+  std::vector<int> corners_;             ///< Points of a grid's vertices, Front before Back; -1: none yet.
   std::map<std::pair<uint32_t, Side>, uint32_t> folded_;  ///< Facets of cells that may be seen from both sides.
 };
 

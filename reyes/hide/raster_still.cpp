@@ -124,7 +124,7 @@ HWY_INLINE bool fitLattice(const Corners& q, uint64_t cells, const SampleBuffer&
 
 /// Lists pairs of a pixel and a cell to be tested, without pixels whose samples are all nearer. It takes as many cells
 /// as make the list long enough.
-size_t listAsks(SampleBuffer& out, const Corners& q, uint64_t& cells) {
+size_t listPixelTests(SampleBuffer& out, const Corners& q, uint64_t& cells) {
   constexpr size_t kLong = 1024;
   const size_t width = static_cast<size_t>(out.rect.width());
   const float* far = out.far.data();
@@ -132,12 +132,12 @@ size_t listAsks(SampleBuffer& out, const Corners& q, uint64_t& cells) {
   for (; cells && count < kLong; cells &= cells - 1) {
     const int i = std::countr_zero(cells);
     const size_t columns = static_cast<size_t>(q.x1[i] - q.x0[i]), rows = static_cast<size_t>(q.y1[i] - q.y0[i]);
-    if (out.asks.size() < count + columns * rows) out.asks.resize(2 * (count + columns * rows));
-    Ask* asks = out.asks.data();
+    if (out.pixelTests.size() < count + columns * rows) out.pixelTests.resize(2 * (count + columns * rows));
+    PixelTest* pixelTests = out.pixelTests.data();
     size_t first = out.pixelIndex(q.x0[i], q.y0[i]);
     for (size_t y = 0; y < rows; ++y, first += width)
       for (size_t pixel = first; pixel < first + columns; ++pixel) {
-        asks[count] = {static_cast<uint32_t>(pixel), i};
+        pixelTests[count] = {static_cast<uint32_t>(pixel), i};
         count += q.dMin[i] <= far[pixel];
       }
   }
@@ -146,21 +146,21 @@ size_t listAsks(SampleBuffer& out, const Corners& q, uint64_t& cells) {
 
 /// Tests cell by cell, so that the cell stays in registers for all of its pixels.
 template <class Edges>
-HWY_INLINE void ask(const RasterJob& job, const Corners& q, const Triangles<Edges>& triangles, size_t count) {
+HWY_INLINE void runPixelTests(const RasterJob& job, const Corners& q, const Triangles<Edges>& triangles, size_t count) {
   SampleBuffer& out = job.out;
   const size_t lanes = static_cast<size_t>(out.lanes);
-  const Ask* asks = out.asks.data();
+  const PixelTest* pixelTests = out.pixelTests.data();
   const bool whole = keepsAll(job);
   for (size_t k = 0; k < count;) {
-    const int i = asks[k].cell;
+    const int i = pixelTests[k].cell;
     const Kept kept = whole ? Kept::All : keptOf(job, q.cell[i]);
     const Quad<Edges> quad(q, triangles, i);
     const uint32_t cell = job.firstCell + static_cast<uint32_t>(q.cell[i]);
     do {
-      const size_t pixel = asks[k].pixel;
+      const size_t pixel = pixelTests[k].pixel;
       for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) claim(job, quad, pixel * lanes + g, cell, kept);
       out.nearer[pixel] = 1;
-    } while (++k < count && asks[k].cell == i);
+    } while (++k < count && pixelTests[k].cell == i);
   }
 }
 
@@ -168,11 +168,11 @@ HWY_INLINE void ask(const RasterJob& job, const Corners& q, const Triangles<Edge
 /// cells (docs/decisions/0098).
 template <class Edges>
 void claimCells(const RasterJob& job, const Corners& q, uint64_t cells) {
-  size_t count = listAsks(job.out, q, cells);
+  size_t count = listPixelTests(job.out, q, cells);
   if (count == 0 && cells == 0) return;
   Triangles<Edges> triangles;
   triangles.set(q, job.raster.facing);
-  for (; count > 0 || cells; count = listAsks(job.out, q, cells)) ask(job, q, triangles, count);
+  for (; count > 0 || cells; count = listPixelTests(job.out, q, cells)) runPixelTests(job, q, triangles, count);
 }
 
 /// The version for transparent grids and for solids.

@@ -51,7 +51,7 @@ struct Contest {
 };
 
 /// A pixel whose samples are to be tested against a micropolygon, one of kLanes.
-struct Ask {
+struct PixelTest {
   uint32_t pixel;
   int cell;
 };
@@ -75,9 +75,9 @@ struct SampleBuffer {
   AlignedVector<float> far;       ///< Indexed by pixel: an upper bound of the depths of its lanes.
   std::vector<uint8_t> nearer;    ///< Indexed by pixel: 1 if depths may have changed since `far` was computed.
   TransparentLayers layers;
-  TransparentLayers crossings;    ///< All surfaces of solids that cover a sample, however deep.
-  std::vector<Ask> asks;          ///< Memory for the rasterisers.
-  std::vector<Contest> contests;  ///< Conflicts of opaque, still surfaces in focus; some may be hidden later.
+  TransparentLayers crossings;        ///< All surfaces of solids that cover a sample, however deep.
+  std::vector<PixelTest> pixelTests;  ///< Memory for the rasterisers.
+  std::vector<Contest> contests;      ///< Conflicts of opaque, still surfaces in focus; some may be hidden later.
 
   /// Do 16 bits hold the positions on the lattice?
   bool fitsLattice() const {
