@@ -3,7 +3,7 @@
 namespace tomales {
 namespace {
 
-constexpr float kOutline = 1e-3f;  ///< Cosine between the line of sight and a normal at an outline.
+constexpr float kOutline = 1e-3f;  ///< Cosine between the line of coverage and a normal at an outline.
 
 }  // namespace
 

@@ -6,8 +6,8 @@
 
 #include "reyes/base/lent.h"
 #include "reyes/hide/border_overlap.h"
+#include "reyes/hide/coverages.h"
 #include "reyes/hide/facets.h"
-#include "reyes/hide/sights.h"
 
 namespace tomales {
 namespace {
@@ -26,7 +26,7 @@ struct LayerInOrder {
 struct Scratch {
   std::vector<uint32_t> layersOfPixel, firstLayer;
   std::vector<LayerInOrder> ordered;
-  std::vector<Sight> sights, opaque, sorted;
+  std::vector<CellCoverage> coverages, opaque, sorted;
   std::vector<uint64_t> keys;
   PixelLayers layers;
   std::vector<Facet> facets;
@@ -43,7 +43,7 @@ class TileBuilder {
         grids_(grids),
         samples_(samples),
         scratch_(scratch),
-        sights_(scratch.sights),
+        coverages_(scratch.coverages),
         facets_(scene, camera, grids, samples, tile_) {}
 
   DeepTile build(HideDoubts* doubts) {
@@ -84,9 +84,9 @@ class TileBuilder {
     size_t count = 0;
     for (size_t pixel = begin; pixel < end; ++pixel)
       opaque[count] = static_cast<uint32_t>(pixel), count += !hasLayers(pixel);
-    RankedSights seen[kRankedTogether];
+    RankedCoverages seen[kRankedTogether];
     rankOpaque(samples_, {opaque, count}, seen);
-    const RankedSights* next = seen;
+    const RankedCoverages* next = seen;
     for (size_t pixel = begin; pixel < end; ++pixel) {
       const auto first = static_cast<uint32_t>(tile_.fragments.size());
       if (hasLayers(pixel))
@@ -97,22 +97,22 @@ class TileBuilder {
     }
   }
 
-  void addOpaque(size_t pixel, const RankedSights& seen) {
+  void addOpaque(size_t pixel, const RankedCoverages& seen) {
     if (addRanked(pixel, seen, 0)) return;
-    sights_.clear();
-    collectOpaque(samples_, pixel, sights_);
-    addSights(pixel, false);
+    coverages_.clear();
+    collectOpaque(samples_, pixel, coverages_);
+    addCoverages(pixel, false);
   }
 
   /// Adds fragments that are already in order, which is the most frequent case. Returns false, and adds nothing, if
   /// there are too many surfaces.
-  bool addRanked(size_t pixel, const RankedSights& seen, uint32_t word) {
+  bool addRanked(size_t pixel, const RankedCoverages& seen, uint32_t word) {
     for (int i = 0; i < seen.count; ++i)
-      addFragment(pixel, seen.sights[i].cell, seen.sights[i].d, seen.sights[i].samples, word);
+      addFragment(pixel, seen.coverages[i].cell, seen.coverages[i].d, seen.coverages[i].samples, word);
     return seen.count >= 0;
   }
   bool addRanked(size_t pixel, uint32_t layer) {
-    RankedSights seen;
+    RankedCoverages seen;
     rankLayer(samples_.layers, layer, seen);
     return addRanked(pixel, seen,
                      static_cast<uint32_t>(samples_.layers.layer(layer).word % samples_.layers.wordsOfPixel()));
@@ -137,30 +137,30 @@ class TileBuilder {
         end = i + 1;
         continue;
       }
-      sights_.clear();
+      coverages_.clear();
       float far = -kInfinity;
       for (; end < ordered.size() && (end == i || ordered[end].extent.nearest <= far); ++end) {
         const LayerInOrder& current = ordered[end];
         far = std::max(far, current.extent.farthest);
         if (current.layer == TransparentLayers::kNone)
-          sights_.insert(sights_.end(), scratch_.opaque.begin(), scratch_.opaque.end());
+          coverages_.insert(coverages_.end(), scratch_.opaque.begin(), scratch_.opaque.end());
         else
-          collectLayer(samples_.layers, current.layer, current.extent.farthest, sights_);
+          collectLayer(samples_.layers, current.layer, current.extent.farthest, coverages_);
       }
-      addSights(pixel, end - i > 1);
+      addCoverages(pixel, end - i > 1);
     }
   }
 
   /// Finds the layers of a pixel, nearest first.
   void findLayers(size_t pixel) {
     std::vector<LayerInOrder>& ordered = scratch_.ordered;
-    std::vector<Sight>& opaque = scratch_.opaque;
+    std::vector<CellCoverage>& opaque = scratch_.opaque;
     ordered.clear();
     opaque.clear();
     collectOpaque(samples_, pixel, opaque);
     if (!opaque.empty()) {
-      const auto nearest =
-          std::min_element(opaque.begin(), opaque.end(), [](const Sight& a, const Sight& b) { return a.d < b.d; });
+      const auto nearest = std::min_element(opaque.begin(), opaque.end(),
+                                            [](const CellCoverage& a, const CellCoverage& b) { return a.d < b.d; });
       ordered.push_back({{nearest->d, kInfinity}, TransparentLayers::kNone, -1});
     }
     const std::vector<uint32_t>& order = scratch_.layersOfPixel;
@@ -215,34 +215,34 @@ class TileBuilder {
   }
 
   /// overlapping: a sample may see several of them.
-  void addSights(size_t pixel, bool overlapping) {
+  void addCoverages(size_t pixel, bool overlapping) {
     // Nearest first; equal depths have an order that does not depend on the schedule.
-    const auto nearer = [this](const Sight& a, const Sight& b) {
+    const auto nearer = [this](const CellCoverage& a, const CellCoverage& b) {
       if (a.d != b.d) return a.d < b.d;
       if (a.cell != b.cell) return grids_.precedes(a.cell, b.cell);
       return a.word < b.word;
     };
-    if (!sortByRank() && !sortByKey()) std::sort(sights_.begin(), sights_.end(), nearer);
-    if (overlapping) scratch_.layers.order(sights_, nearer);
-    for (const Sight& s : sights_) addFragment(pixel, s.cell, s.d, s.samples, s.word);
+    if (!sortByRank() && !sortByKey()) std::sort(coverages_.begin(), coverages_.end(), nearer);
+    if (overlapping) scratch_.layers.order(coverages_, nearer);
+    for (const CellCoverage& s : coverages_) addFragment(pixel, s.cell, s.d, s.samples, s.word);
   }
 
   /// Sorts a few coverages by depth without a branch on depths. Returns false, and does nothing, if they are many or
   /// depths are equal.
   bool sortByRank() {
     constexpr size_t kFew = 12;
-    const size_t n = sights_.size();
+    const size_t n = coverages_.size();
     if (n > kFew) return false;
-    Sight sorted[kFew];
+    CellCoverage sorted[kFew];
     uint32_t taken = 0;
     for (size_t i = 0; i < n; ++i) {
       uint32_t rank = 0;
-      for (size_t k = 0; k < n; ++k) rank += sights_[k].d < sights_[i].d;
-      sorted[rank] = sights_[i];
+      for (size_t k = 0; k < n; ++k) rank += coverages_[k].d < coverages_[i].d;
+      sorted[rank] = coverages_[i];
       taken |= 1U << rank;
     }
     if (taken != (1U << n) - 1) return false;
-    std::copy_n(sorted, n, sights_.begin());
+    std::copy_n(sorted, n, coverages_.begin());
     return true;
   }
 
@@ -250,8 +250,8 @@ class TileBuilder {
   bool sortByKey() {
     std::vector<uint64_t>& keys = scratch_.keys;
     keys.clear();
-    for (uint32_t i = 0; i < sights_.size(); ++i) {
-      const uint32_t bits = std::bit_cast<uint32_t>(sights_[i].d + 0.0f);  // -0 is 0
+    for (uint32_t i = 0; i < coverages_.size(); ++i) {
+      const uint32_t bits = std::bit_cast<uint32_t>(coverages_[i].d + 0.0f);  // -0 is 0
       const uint32_t ordered = bits >> 31 ? ~bits : bits | 0x80000000U;
       keys.push_back(uint64_t{ordered} << 32 | i);
     }
@@ -259,8 +259,8 @@ class TileBuilder {
     for (size_t i = 1; i < keys.size(); ++i)
       if (keys[i] >> 32 == keys[i - 1] >> 32) return false;
     scratch_.sorted.clear();
-    for (const uint64_t key : keys) scratch_.sorted.push_back(sights_[key & 0xffffffffU]);
-    sights_.swap(scratch_.sorted);
+    for (const uint64_t key : keys) scratch_.sorted.push_back(coverages_[key & 0xffffffffU]);
+    coverages_.swap(scratch_.sorted);
     return true;
   }
 
@@ -287,7 +287,7 @@ class TileBuilder {
   const GridTable& grids_;
   SampleBuffer& samples_;
   Scratch& scratch_;
-  std::vector<Sight>& sights_;
+  std::vector<CellCoverage>& coverages_;
   DeepTile tile_;
   FacetTable facets_;
 };

@@ -8,25 +8,25 @@
 namespace tomales {
 
 /// Appends the opaque cells that the samples of a pixel see.
-void collectOpaque(const SampleBuffer& samples, size_t pixel, std::vector<Sight>& sights);
+void collectOpaque(const SampleBuffer& samples, size_t pixel, std::vector<CellCoverage>& coverages);
 
 /// A coverage whose samples see no other one, among the first 64 of a word.
-struct RankedSight {
+struct RankedCoverage {
   uint64_t samples;
   uint32_t cell;
   float d;
 };
 constexpr int kMostRanked = kLanes;
 /// Nearest first. count: less than 0 if the samples see more than kMostRanked cells, or some at equal depths.
-struct RankedSights {
+struct RankedCoverages {
   int count;
-  RankedSight sights[kMostRanked];
+  RankedCoverage coverages[kMostRanked];
 };
 constexpr size_t kRankedTogether = 32;
 /// Finds the opaque cells that the samples of some pixels see. Pre: no more than kRankedTogether pixels.
-void rankOpaque(const SampleBuffer& samples, std::span<const uint32_t> pixels, RankedSights* out);
+void rankOpaque(const SampleBuffer& samples, std::span<const uint32_t> pixels, RankedCoverages* out);
 /// The same for a transparent layer.
-void rankLayer(const TransparentLayers& layers, size_t layer, RankedSights& out);
+void rankLayer(const TransparentLayers& layers, size_t layer, RankedCoverages& out);
 
 /// The depth keys between which a transparent layer lies.
 struct LayerExtent {
@@ -35,6 +35,6 @@ struct LayerExtent {
 /// Removes the hidden samples from a transparent layer. Pre: it covers some sample; afterwards it may cover none.
 LayerExtent cullLayer(SampleBuffer& samples, const GridTable& grids, size_t layer);
 /// Appends the cells that the samples see of a transparent layer. farthest: greatest of its depth keys.
-void collectLayer(const TransparentLayers& layers, size_t layer, float farthest, std::vector<Sight>& sights);
+void collectLayer(const TransparentLayers& layers, size_t layer, float farthest, std::vector<CellCoverage>& coverages);
 
 }  // namespace tomales
