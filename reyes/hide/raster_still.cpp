@@ -9,7 +9,7 @@
 #include <bit>
 #include <cstring>
 
-#include "reyes/hide/claim.h"
+#include "reyes/hide/depthTest.h"
 #include "reyes/hide/quad.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -158,7 +158,7 @@ HWY_INLINE void runPixelTests(const RasterJob& job, const Corners& q, const Tria
     const uint32_t cell = job.firstCell + static_cast<uint32_t>(q.cell[i]);
     do {
       const size_t pixel = pixelTests[k].pixel;
-      for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) claim(job, quad, pixel * lanes + g, cell, kept);
+      for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) depthTest(job, quad, pixel * lanes + g, cell, kept);
       out.nearer[pixel] = 1;
     } while (++k < count && pixelTests[k].cell == i);
   }
@@ -167,7 +167,7 @@ HWY_INLINE void runPixelTests(const RasterJob& job, const Corners& q, const Tria
 /// A small cell covers few pixels, and branches on which ones would be mispredicted, so one list holds those of many
 /// cells (docs/decisions/0098).
 template <class Edges>
-void claimCells(const RasterJob& job, const Corners& q, uint64_t cells) {
+void depthTestCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   size_t count = listPixelTests(job.out, q, cells);
   if (count == 0 && cells == 0) return;
   Triangles<Edges> triangles;
@@ -202,7 +202,7 @@ HWY_INLINE uint64_t keptCells(const RasterJob& job, const Corners& q, uint64_t c
 template <class Edges>
 void sampleCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   if (job.raster.opaque && !job.raster.inSolid)
-    claimCells<Edges>(job, q, cells);
+    depthTestCells<Edges>(job, q, cells);
   else
     layerCells<Edges>(job, q, cells);
 }

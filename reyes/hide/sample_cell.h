@@ -39,7 +39,7 @@ HWY_INLINE VisibleSamples visibleSamples(const RasterJob& job, const Shape& shap
 /// The depth test of an opaque cell: it takes the samples from `lane` on that it covers in front of what they had. It
 /// has no branch for samples outside of the cell, which would be mispredicted.
 template <class Shape>
-HWY_INLINE void claim(const RasterJob& job, const Shape& shape, size_t lane, uint32_t cell, Kept kept) {
+HWY_INLINE void depthTest(const RasterJob& job, const Shape& shape, size_t lane, uint32_t cell, Kept kept) {
   SampleBuffer& out = job.out;
   const auto in = shape.covers(out, lane);
   const Floats depth = shape.depth(hn::Load(kF, out.x.data() + lane), hn::Load(kF, out.y.data() + lane), in);
@@ -121,7 +121,7 @@ HWY_INLINE void sampleCell(const RasterJob& job, const PixelRect& pixels, float 
       const size_t pixel = out.pixelIndex(x, y);
       if (dMin > out.far[pixel]) continue;
       if constexpr (kOpaque) {
-        for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) claim(job, shape, pixel * lanes + g, cell, kept);
+        for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) depthTest(job, shape, pixel * lanes + g, cell, kept);
         out.nearer[pixel] = 1;
       } else {
         addToLayer(job, shape, pixel, cell, kept);
