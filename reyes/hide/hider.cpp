@@ -33,19 +33,20 @@ int joinedObject(const RasterGrid& raster) {
 void countSamePlaces(SampleBuffer& samples, const GridTable& grids, int samplesPerPixel, HideDoubts& doubts) {
   constexpr int kShare = 4;
   const auto width = static_cast<uint32_t>(samples.lanes);
-  std::vector<Contest>& contests = samples.contests;
-  std::erase_if(contests, [&](const Contest& c) {
+  std::vector<DepthConflict>& depthConflicts = samples.depthConflicts;
+  std::erase_if(depthConflicts, [&](const DepthConflict& c) {
     const int seen = grids.of(samples.cell[c.lane]).grid().object;
     return (seen != c.first && seen != c.second) || samples.depth[c.lane] < c.least;
   });
   // Conflicts of a pixel and two objects are sorted together, each sample once.
-  const auto keyOf = [width](const Contest& c) { return std::tuple(c.lane / width, c.first, c.second); };
-  std::sort(contests.begin(), contests.end(), [&](const Contest& a, const Contest& b) {
+  const auto keyOf = [width](const DepthConflict& c) { return std::tuple(c.lane / width, c.first, c.second); };
+  std::sort(depthConflicts.begin(), depthConflicts.end(), [&](const DepthConflict& a, const DepthConflict& b) {
     return std::pair(keyOf(a), a.lane) < std::pair(keyOf(b), b.lane);
   });
-  contests.erase(std::unique(contests.begin(), contests.end()), contests.end());
-  for (auto at = contests.begin(); at != contests.end();) {
-    const auto end = std::find_if(at, contests.end(), [&](const Contest& c) { return keyOf(c) != keyOf(*at); });
+  depthConflicts.erase(std::unique(depthConflicts.begin(), depthConflicts.end()), depthConflicts.end());
+  for (auto at = depthConflicts.begin(); at != depthConflicts.end();) {
+    const auto end =
+        std::find_if(at, depthConflicts.end(), [&](const DepthConflict& c) { return keyOf(c) != keyOf(*at); });
     if (kShare * (end - at) >= samplesPerPixel) ++doubts.samePlaces[{at->first, at->second}];
     at = end;
   }

@@ -120,7 +120,7 @@ struct alignas(64) Triangles {
   Edges ab, bc, ca, bd, dc;
   int32_t flipped[kLanes];  ///< -1: the inside of bc for abc is the outside for bdc; 0: the quad is folded along bc.
   float gx0[kLanes], gy0[kLanes], gx1[kLanes], gy1[kLanes];  ///< Depth gradients of abc and bdc.
-  float vague[kLanes];                                       ///< The error of depth keys, vagueDepth().
+  float depthError[kLanes];                                  ///< The error of depth keys, depthErrorBound().
 
   /// facing: RasterGrid::facing.
   HWY_INLINE void set(const Corners& q, float facing) {
@@ -128,7 +128,7 @@ struct alignas(64) Triangles {
   }
 
  private:
-  static HWY_INLINE Floats vagueDepth(Floats slope, Floats depth) {
+  static HWY_INLINE Floats depthErrorBound(Floats slope, Floats depth) {
     return hn::Add(hn::Add(hn::Div(slope, all(kLattice)), hn::Mul(all(4e-7f), hn::Abs(depth))), all(kTiny));
   }
 
@@ -171,7 +171,7 @@ struct alignas(64) Triangles {
                  y1 = hn::Mul(hn::Sub(hn::Mul(bcz, bdx), hn::Mul(bdz, bcx)), inverse1);
     hn::Store(x0, kF, gx0 + g), hn::Store(y0, kF, gy0 + g), hn::Store(x1, kF, gx1 + g), hn::Store(y1, kF, gy1 + g);
     const Floats slope = hn::Max(hn::Add(hn::Abs(x0), hn::Abs(y0)), hn::Add(hn::Abs(x1), hn::Abs(y1)));
-    hn::Store(vagueDepth(slope, hn::Load(kF, q.dMin + g)), kF, vague + g);
+    hn::Store(depthErrorBound(slope, hn::Load(kF, q.dMin + g)), kF, depthError + g);
   }
 };
 
@@ -195,7 +195,7 @@ class Quad {
         gy0_(all(t.gy0[i])),
         gx1_(all(t.gx1[i])),
         gy1_(all(t.gy1[i])),
-        vague_(t.vague[i]) {}
+        depthError_(t.depthError[i]) {}
 
   struct Covered {
     Mask mask, first;  ///< The samples covered by either triangle; those covered by abc.
@@ -213,7 +213,7 @@ class Quad {
     // The depth stays within that of the cell, or culling by dMin would depend on rounding.
     return hn::Min(hn::Max(d, dMin_), dMax_);
   }
-  float vague() const { return vague_; }
+  float depthError() const { return depthError_; }
 
  private:
   static HWY_INLINE Mask negative(Ints v) { return hn::RebindMask(kF, hn::Lt(v, hn::Zero(kI))); }
@@ -221,7 +221,7 @@ class Quad {
   typename Edges::Edge ab_, bc_, ca_, bd_, dc_;
   Ints flipped_;
   Floats bx_, by_, bDepth_, dMin_, dMax_, gx0_, gy0_, gx1_, gy1_;
-  float vague_;
+  float depthError_;
 };
 
 }  // namespace

@@ -53,9 +53,9 @@ void settleTies(const RasterJob& job, size_t firstLane, uint64_t lanes, uint32_t
 
 /// Error bound of a depth key because vertices lie on the lattice and numbers are floats. `slope`: change of the depth
 /// key in a pixel. Above 0.
-inline float vagueDepth(float slope, float depth) { return slope / kLattice + 4e-7f * std::abs(depth) + kTiny; }
+inline float depthErrorBound(float slope, float depth) { return slope / kLattice + 4e-7f * std::abs(depth) + kTiny; }
 /// Notes a depth conflict where the cell comes so close to the earlier depth of samples of a mask that depth errors
 /// decide, if that is of another object.
-void noteContest(const RasterJob& job, size_t firstLane, uint64_t lanes, float vague);
+void noteDepthConflict(const RasterJob& job, size_t firstLane, uint64_t lanes, float depthError);
 
 }  // namespace tomales

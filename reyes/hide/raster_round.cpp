@@ -44,7 +44,7 @@ class Round {
         gy_(all(o.slope.y)),
         dMin_(all(o.dMin)),
         dMax_(all(o.dMax)),
-        vague_(vagueDepth(std::abs(o.slope.x) + std::abs(o.slope.y), o.d)) {}
+        depthError_(depthErrorBound(std::abs(o.slope.x) + std::abs(o.slope.y), o.d)) {}
 
   struct Covered {
     Mask mask;
@@ -61,11 +61,11 @@ class Round {
     // The depth stays within that of the cell, or culling by dMin would depend on rounding.
     return hn::Min(hn::Max(d, dMin_), dMax_);
   }
-  float vague() const { return vague_; }
+  float depthError() const { return depthError_; }
 
  private:
   Floats x_, y_, ux_, uy_, vx_, vy_, d_, gx_, gy_, dMin_, dMax_;
-  float vague_;
+  float depthError_;
 };
 
 void rasterizeOvals(const RasterJob& job) {

@@ -1,6 +1,6 @@
 // Private to the hider: tests a cell of a still, sharp grid against samples, kLanes of a pixel at a time. It is
 // included once for each vector width, after reyes/base/vector.h. A Shape has covers(samples, lane): the mask of
-// samples inside it; depth(x, y, mask): their depth keys; and vague(): the error of those.
+// samples inside it; depth(x, y, mask): their depth keys; and depthError(): the error of those.
 #include "reyes/hide/raster.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -46,9 +46,9 @@ HWY_INLINE void depthTest(const RasterJob& job, const Shape& shape, size_t lane,
   const Floats before = hn::Load(kF, out.depth.data() + lane);
   Mask reached = hn::And(in.mask, hn::Le(depth, before));
   if (HWY_UNLIKELY(kept == Kept::Part)) reached = keptOfMask(job, cell, lane, reached);
-  const Mask tight = hn::And(reached, hn::Lt(hn::Sub(before, depth), all(shape.vague())));
+  const Mask tight = hn::And(reached, hn::Lt(hn::Sub(before, depth), all(shape.depthError())));
   if (HWY_UNLIKELY(!hn::AllFalse(kF, tight))) {
-    noteContest(job, lane, bitsOf(tight), shape.vague());
+    noteDepthConflict(job, lane, bitsOf(tight), shape.depthError());
     if (const Mask ties = hn::And(reached, hn::Eq(depth, before)); !hn::AllFalse(kF, ties))
       settleTies(job, lane, bitsOf(ties), cell);
     reached = hn::And(reached, hn::Lt(depth, before));

@@ -43,11 +43,11 @@ class GridTable {
 };
 
 /// A sample for which two objects compete whose depths differ by less than their error (z-fighting).
-struct Contest {
+struct DepthConflict {
   uint32_t lane;
   int first, second;  ///< first < second
   float least;        ///< Depth key of the nearer one; a sample with a smaller key has hidden both.
-  bool operator==(const Contest& o) const { return lane == o.lane && first == o.first && second == o.second; }
+  bool operator==(const DepthConflict& o) const { return lane == o.lane && first == o.first && second == o.second; }
 };
 
 /// A pixel whose samples are to be tested against a micropolygon, one of kLanes.
@@ -77,7 +77,8 @@ struct SampleBuffer {
   TransparentLayers layers;
   TransparentLayers crossings;        ///< All surfaces of solids that cover a sample, however deep.
   std::vector<PixelTest> pixelTests;  ///< Memory for the rasterisers.
-  std::vector<Contest> contests;      ///< Conflicts of opaque, still surfaces in focus; some may be hidden later.
+  std::vector<DepthConflict>
+      depthConflicts;  ///< Conflicts of opaque, still surfaces in focus; some may be hidden later.
 
   /// Do 16 bits hold the positions on the lattice?
   bool fitsLattice() const {

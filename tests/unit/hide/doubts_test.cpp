@@ -18,7 +18,7 @@ HideDoubts doubtsOf(const World& w, const Rasters& rasters) {
 }
 
 /// Two slanted squares of other dicing, `apart` in depth, behind what hides part of them.
-int contestedPixels(float apart, bool hidden = false) {
+int conflictPixels(float apart, bool hidden = false) {
   World w;
   w.add(), w.add(), w.add();
   w.freeze();
@@ -33,15 +33,15 @@ int contestedPixels(float apart, bool hidden = false) {
 }
 
 TEST(Doubts, SurfacesAtTheSamePlaceAreToldByTheirPixels) {
-  EXPECT_GT(contestedPixels(0), 24 * 24 / 2);
-  EXPECT_GT(contestedPixels(1e-5f), 24 * 24 / 4);
+  EXPECT_GT(conflictPixels(0), 24 * 24 / 2);
+  EXPECT_GT(conflictPixels(1e-5f), 24 * 24 / 4);
 }
 
-TEST(Doubts, SurfacesThatDepthsTellApartAreNotInDoubt) { EXPECT_EQ(contestedPixels(0.05f), 0); }
+TEST(Doubts, SurfacesThatDepthsTellApartAreNotInDoubt) { EXPECT_EQ(conflictPixels(0.05f), 0); }
 
-TEST(Doubts, WhatIsHiddenAfterwardsIsNotInDoubt) { EXPECT_EQ(contestedPixels(0, true), 0); }
+TEST(Doubts, WhatIsHiddenAfterwardsIsNotInDoubt) { EXPECT_EQ(conflictPixels(0, true), 0); }
 
-TEST(Doubts, WhatStandsInFrontOfTheContestIsNotInDoubtEvenIfItIsOneOfTheTwo) {
+TEST(Doubts, WhatStandsInFrontOfAConflictIsNotPartOfItEvenIfItIsOneOfTheTwo) {
   World w;
   w.add(), w.add();
   w.freeze();
