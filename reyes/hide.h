@@ -80,7 +80,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
                                           const std::shared_ptr<Pool>& pool = nullptr);
 
 /// Counts of samples whose result is uncertain or badly shown, from which warnings are made.
-struct HideDoubts {
+struct HideDiagnostics {
   /// Pixels in which chance decides which of two objects is seen, the first with the lower number: in a quarter of the
   /// samples or more their depths differ by less than their error. Only opaque, still surfaces in focus count.
   std::map<std::pair<int, int>, int> samePlaces;
@@ -103,7 +103,7 @@ class Hider {
   bool hidden(const RasterExtent& extent) const;
   void insert(const std::shared_ptr<const RasterGrid>& grid);
   /// Collects visible micropolygons into points to shade. The Hider cannot be used after it.
-  DeepTile resolve(HideDoubts* doubts = nullptr);
+  DeepTile resolve(HideDiagnostics* diagnostics = nullptr);
 
  private:
   struct Impl;

@@ -17,9 +17,9 @@ std::optional<DeepTile> hideBucket(size_t bucket, const PixelRect& rect, const N
   while (const auto node = context.isCancelled() ? nullptr : queue.pop())
     if (!hider.hidden(node->raster(), node->zMin())) node->visit(bucket, queue, hider);
   if (context.isCancelled()) return {};
-  HideDoubts doubts;
-  DeepTile tile = hider.resolve(&doubts);
-  warnings.add(doubts, context.scene);
+  HideDiagnostics diagnostics;
+  DeepTile tile = hider.resolve(&diagnostics);
+  warnings.add(diagnostics, context.scene);
   return tile;
 }
 

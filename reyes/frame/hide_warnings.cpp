@@ -18,7 +18,7 @@ HideWarnings::Site HideWarnings::siteOf(const Scene& scene, int object) {
   return {o.where, objectName(o)};
 }
 
-void HideWarnings::add(const HideDoubts& bucket, const Scene& scene) {
+void HideWarnings::add(const HideDiagnostics& bucket, const Scene& scene) {
   if (bucket.samePlaces.empty() && bucket.turns.empty()) return;
   const std::lock_guard lock(mutex_);
   for (const auto& [pair, pixels] : bucket.samePlaces) {

@@ -13,7 +13,7 @@ namespace tomales {
 class HideWarnings {
  public:
   /// Pre: the bucket's objects still exist; their numbers may be given to others later.
-  void add(const HideDoubts& ofBucket, const Scene& scene);
+  void add(const HideDiagnostics& ofBucket, const Scene& scene);
   void report(Log& log) const;
 
  private:
@@ -28,7 +28,7 @@ class HideWarnings {
 
   std::mutex mutex_;
   std::map<std::pair<Site, Site>, int> samePlaces_;  ///< Number of pixels.
-  HideDoubts::Turns all_;
+  HideDiagnostics::Turns all_;
   std::map<Site, int64_t> turned_;
 };
 

@@ -107,14 +107,14 @@ FacetTable::FacetTable(const Scene& scene, const Camera& camera, const GridTable
       seen_(grids.cellCount(), 0),
       facetOf_(grids.cellCount(), kNotMade) {}
 
-void FacetTable::make(HideDoubts* doubts) {
+void FacetTable::make(HideDiagnostics* diagnostics) {
   tile_.facets.reserve(static_cast<size_t>(std::count(seen_.begin(), seen_.end(), 1)));
   std::vector<uint32_t> ofFolded;
   for (Fragment& f : tile_.fragments) {
     const uint32_t cell = f.facet;
     if (facetOf_[cell] == kNotMade) {
       makeFacets(grids_.of(cell));
-      if (doubts) countTurns(grids_.of(cell), *doubts);
+      if (diagnostics) countTurns(grids_.of(cell), *diagnostics);
     }
     if (facetOf_[cell] == kFolded)
       ofFolded.push_back(static_cast<uint32_t>(&f - tile_.fragments.data()));
@@ -195,7 +195,7 @@ uint32_t FacetTable::facetOfFolded(uint32_t number) {
   return at->second;
 }
 
-void FacetTable::countTurns(const GridTable::Entry& entry, HideDoubts& doubts) {
+void FacetTable::countTurns(const GridTable::Entry& entry, HideDiagnostics& diagnostics) {
   const RasterGrid& r = *entry.raster;
   const Grid& g = *r.grid;
   constexpr float kCosine = 0.92f;  // 23 degrees
@@ -210,7 +210,7 @@ void FacetTable::countTurns(const GridTable::Entry& entry, HideDoubts& doubts) {
   };
   const uint8_t* seen = seen_.data() + entry.firstCell;
   const int cells = g.cellNumbers();
-  HideDoubts::Turns& out = doubts.turns[g.object];
+  HideDiagnostics::Turns& out = diagnostics.turns[g.object];
   out.all += std::count(seen, seen + cells, 1);
   if (g.displaced || g.round || r.blur) return;  // a displaced surface may be rough by intention
   turning_.resize(static_cast<size_t>(g.stride()));

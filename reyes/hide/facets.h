@@ -15,8 +15,8 @@ class FacetTable {
   void see(uint32_t cell) { seen_[cell] = 1; }
   /// Makes the facets of all cells that are marked, and their points; the tile has none before. They depend on the grid
   /// alone, and on the side that is seen. The tile's fragments name cells instead of facets until then, each one
-  /// marked. doubts: may be null.
-  void make(HideDoubts* doubts);
+  /// marked. diagnostics: may be null.
+  void make(HideDiagnostics* diagnostics);
 
  private:
   /// A point to be made, at the centre of a cell or at a vertex.
@@ -32,7 +32,7 @@ class FacetTable {
   void makeFacets(const GridTable::Entry& entry);
   /// The facet of a fragment of a cell that may be seen from both sides, for the side that the fragment sees.
   uint32_t facetOfFolded(uint32_t fragment);
-  void countTurns(const GridTable::Entry& entry, HideDoubts& doubts);
+  void countTurns(const GridTable::Entry& entry, HideDiagnostics& diagnostics);
   int batchOf(int group);
   void fill(const PointRequests& requests, ShadePoints& points) const;
   void addSteps(std::span<const PointRequest> requests, ShadePoints& points, int first) const;

@@ -30,7 +30,7 @@ int joinedObject(const RasterGrid& raster) {
 }
 
 /// Counts the depth conflicts whose winner is still visible.
-void countSamePlaces(SampleBuffer& samples, const GridTable& grids, int samplesPerPixel, HideDoubts& doubts) {
+void countSamePlaces(SampleBuffer& samples, const GridTable& grids, int samplesPerPixel, HideDiagnostics& diagnostics) {
   constexpr int kShare = 4;
   const auto width = static_cast<uint32_t>(samples.lanes);
   std::vector<DepthConflict>& depthConflicts = samples.depthConflicts;
@@ -47,7 +47,7 @@ void countSamePlaces(SampleBuffer& samples, const GridTable& grids, int samplesP
   for (auto at = depthConflicts.begin(); at != depthConflicts.end();) {
     const auto end =
         std::find_if(at, depthConflicts.end(), [&](const DepthConflict& c) { return keyOf(c) != keyOf(*at); });
-    if (kShare * (end - at) >= samplesPerPixel) ++doubts.samePlaces[{at->first, at->second}];
+    if (kShare * (end - at) >= samplesPerPixel) ++diagnostics.samePlaces[{at->first, at->second}];
     at = end;
   }
 }
@@ -102,11 +102,11 @@ void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
   s.settle(s.touched(raster->bound.lo, raster->bound.hi));
 }
 
-DeepTile Hider::resolve(HideDoubts* doubts) {
+DeepTile Hider::resolve(HideDiagnostics* diagnostics) {
   const std::unique_ptr<Impl> spent = std::move(impl_);
   resolveSolids(spent->scene, spent->camera, spent->grids, spent->samples);
-  if (doubts) countSamePlaces(spent->samples, spent->grids, spent->samplesPerPixel, *doubts);
-  return resolveTile(spent->scene, spent->camera, spent->grids, spent->samples, doubts);
+  if (diagnostics) countSamePlaces(spent->samples, spent->grids, spent->samplesPerPixel, *diagnostics);
+  return resolveTile(spent->scene, spent->camera, spent->grids, spent->samples, diagnostics);
 }
 
 }  // namespace tomales

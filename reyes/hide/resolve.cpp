@@ -46,7 +46,7 @@ class TileBuilder {
         coverages_(scratch.coverages),
         facets_(scene, camera, grids, samples, tile_) {}
 
-  DeepTile build(HideDoubts* doubts) {
+  DeepTile build(HideDiagnostics* diagnostics) {
     tile_.rect = samples_.rect;
     const size_t count = samples_.far.size();
     tile_.pixels.reserve(count);
@@ -56,7 +56,7 @@ class TileBuilder {
       for (size_t first = 0; first < count; first += kRankedTogether)
         addPixels(first, std::min(first + kRankedTogether, count));
     }
-    facets_.make(doubts);
+    facets_.make(diagnostics);
     tile_.shrink();
     return std::move(tile_);
   }
@@ -295,9 +295,9 @@ class TileBuilder {
 }  // namespace
 
 DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples,
-                     HideDoubts* doubts) {
+                     HideDiagnostics* diagnostics) {
   static thread_local Scratch scratch;
-  return TileBuilder(scene, camera, grids, samples, scratch).build(doubts);
+  return TileBuilder(scene, camera, grids, samples, scratch).build(diagnostics);
 }
 
 }  // namespace tomales

@@ -4,9 +4,9 @@
 
 namespace tomales {
 
-/// doubts: gains HideDoubts::turns; may be null.
+/// diagnostics: gains HideDiagnostics::turns; may be null.
 DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples,
-                     HideDoubts* doubts = nullptr);
+                     HideDiagnostics* diagnostics = nullptr);
 
 /// A sample: raster position, time of the shutter (0..1), point of the lens (as in SampleBuffer).
 struct SamplePoint {
