@@ -10,7 +10,7 @@
 
 #include "reyes/hide/blur_bounds.h"
 #include "reyes/hide/blurred_quad.h"
-#include "reyes/hide/sieve.h"
+#include "reyes/hide/cullSamples.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tomales {
@@ -82,8 +82,8 @@ HWY_INLINE uint32_t* keep(const SampleVector& s, Numbers lane, Mask mask, uint32
 /// Distributes the samples of a list to the lists of four boxes that contain them. One loop for all four has a single
 /// mispredicted end, and reads no list just after it was written.
 template <class B>
-HWY_INLINE void sieve(const Box<B>& a, const Box<B>& b, const Box<B>& c, const Box<B>& d, const SampleList& from,
-                      SampleList (&to)[4]) {
+HWY_INLINE void cullSamples(const Box<B>& a, const Box<B>& b, const Box<B>& c, const Box<B>& d, const SampleList& from,
+                            SampleList (&to)[4]) {
   const size_t width = hn::Lanes(kF), stride = to[0].stride;
   uint32_t *endA = to[0].first, *endB = to[1].first, *endC = to[2].first, *endD = to[3].first;
   for (size_t i = 0; i < from.count; i += width) {
@@ -101,8 +101,8 @@ HWY_INLINE void sieve(const Box<B>& a, const Box<B>& b, const Box<B>& c, const B
 
 /// Collects the samples of the bucket inside a box, whose time is in the segment and that see nothing nearer yet.
 template <class B>
-HWY_INLINE void sieveBucket(const SampleBuffer& out, const PixelRect& pixels, const Interval& when, const Box<B>& box,
-                            float dMin, SampleList& to) {
+HWY_INLINE void cullBucketSamples(const SampleBuffer& out, const PixelRect& pixels, const Interval& when,
+                                  const Box<B>& box, float dMin, SampleList& to) {
   const size_t width = hn::Lanes(kF), lanes = static_cast<size_t>(out.lanes);
   const Numbers first = hn::Iota(kU, 0);
   const Floats begin = all(when.begin), end = all(when.end), inverse = all(1.0f / (when.end - when.begin));
@@ -153,10 +153,10 @@ class Descent {
     const size_t top = bounds_.levels.size() - 1,
                  most = static_cast<size_t>(pixels.width() * pixels.height() * job_.out.lanes);
     const BlurBox& box = bounds_.box(key_, bounds_.levels[top], 0, 0);
-    stack_ = &SieveStack::ofThread(4 * bounds_.levels.size(), most);
+    stack_ = &SampleListStack::ofThread(4 * bounds_.levels.size(), most);
     SampleList list = stack_->push(most);
-    sieveBucket<B>(job_.out, pixels, when, Box<B>(box, segment_.slant, focus_),
-                   job_.raster.inSolid ? job_.raster.dMin : segment_.dMin, list);
+    cullBucketSamples<B>(job_.out, pixels, when, Box<B>(box, segment_.slant, focus_),
+                         job_.raster.inSolid ? job_.raster.dMin : segment_.dMin, list);
     descend(top, 0, 0, list);
     stack_->pop(most);
   }
@@ -170,7 +170,7 @@ class Descent {
     const auto boxAt = [&](int x, int y) { return Box<B>(bounds_.box(key_, fine, x, y), segment_.slant, focus_); };
     SampleList quarters[4];
     for (SampleList& q : quarters) q = stack_->push(samples.count);
-    sieve<B>(boxAt(x0, y0), boxAt(x1, y0), boxAt(x0, y1), boxAt(x1, y1), samples, quarters);
+    cullSamples<B>(boxAt(x0, y0), boxAt(x1, y0), boxAt(x0, y1), boxAt(x1, y1), samples, quarters);
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) descend(level - 1, x, y, quarters[2 * (y - y0) + x - x0]);
     stack_->pop(samples.count, 4);
@@ -244,7 +244,7 @@ class Descent {
   const int key_;
   const BlurBounds::Segment& segment_;
   const float focus_;
-  SieveStack* stack_ = nullptr;
+  SampleListStack* stack_ = nullptr;
 };
 
 void rasterize(const RasterJob& job) {

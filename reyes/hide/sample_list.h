@@ -23,12 +23,12 @@ struct SampleList {
   uint32_t* array(Array a) const { return first + a * stride; }
 };
 
-class SieveStack {
+class SampleListStack {
  public:
   /// The thread's stack, whose memory is kept from grid to grid. It has room for `depth` lists of at most `most`
   /// samples.
-  static SieveStack& ofThread(size_t depth, size_t most) {
-    static thread_local SieveStack stack;
+  static SampleListStack& ofThread(size_t depth, size_t most) {
+    static thread_local SampleListStack stack;
     const size_t size = depth * SampleList::kArrays * strideOf(most);
     if (stack.memory_.size() < size) stack.memory_.resize(size);
     return stack;
