@@ -191,21 +191,21 @@ void Compositor::resolveStack(const DeepTile& tile, const Fragment* begin, const
     stack_.resize(samples_.size(), static_cast<size_t>(width()));
   else
     stack_.reset(samples_.size(), static_cast<size_t>(width()), withAir);
-  lays_.clear();
+  shadedLayers_.clear();
   for (const Fragment* f = begin; f != end; ++f) {
     const KnownShade& known = shadeOf(tile, *f);
     if (known.deep) noteDepth(tile, *f);
     if (atOnce) {
-      lays_.push_back({&known.shade, f->samples, f->z, f->word});
+      shadedLayers_.push_back({&known.shade, f->samples, f->z, f->word});
       continue;
     }
     FacetShade shade = known.shade;
     const Air air = withAir ? takeAir(tile, *f, shade) : Air{};
     extraValues(tile, *f, facetValues_.data());
-    stack_.lay({&shade, f->samples, f->z, f->word}, {extras_, facetValues_.data(), withAir ? &air : nullptr});
+    stack_.composite({&shade, f->samples, f->z, f->word}, {extras_, facetValues_.data(), withAir ? &air : nullptr});
   }
   if (atOnce)
-    stack_.layAll(lays_);
+    stack_.compositeAll(shadedLayers_);
   else
     stack_.addAir();
   size_t seeing = 0;

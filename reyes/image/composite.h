@@ -79,7 +79,7 @@ class Compositor {
   std::vector<Contribution> samples_;  ///< Indexed by sample, while a stack is resolved.
   std::vector<int> batchOf_;           ///< The batch that gave the z of each sample.
   SampleStack stack_;                  ///< The samples of a pixel while they are composited.
-  std::vector<Lay> lays_;
+  std::vector<ShadedLayer> shadedLayers_;
   std::vector<float> facetValues_;
 };
 

@@ -26,14 +26,14 @@ struct FacetShade {
 };
 
 /// A layer: a shade over some samples.
-struct Lay {
+struct ShadedLayer {
   const FacetShade* shade;
   uint64_t samples;
   float z;
   uint16_t word;
 };
 /// The other values of a layer.
-struct LayMore {
+struct LayerExtras {
   std::span<const ExtraFloat> extras;
   const float* extraValues;
   const Air* air = nullptr;  ///< Air that is left out of the shade. Null: no fragment of the tile has any.
@@ -48,14 +48,14 @@ struct SampleStack {
   size_t lanes = 0;
   vec3 hidden;  ///< A sample that lets no more light through than this sees nothing of further layers.
 
-  /// Prepares for layAll(), which fills it. samples: a multiple of kLanes.
+  /// Prepares for compositeAll(), which fills it. samples: a multiple of kLanes.
   void resize(size_t samples, size_t floats);
-  /// Prepares for lay().
+  /// Prepares for composite().
   void reset(size_t samples, size_t floats, bool withAir);
   /// Composites a layer by "over", with an opacity for each channel.
-  void lay(const Lay& l, const LayMore& more);
+  void composite(const ShadedLayer& l, const LayerExtras& more);
   /// Composites all layers of a pixel at once, where no other values are needed. Does not set `values` and `nearest`.
-  void layAll(std::span<const Lay> lays);
+  void compositeAll(std::span<const ShadedLayer> shadedLayers);
   /// Call it after the last layer: no other surface follows that holds this air.
   void addAir();
 };
