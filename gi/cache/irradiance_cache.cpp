@@ -169,7 +169,7 @@ struct IrradianceCache::Impl {
     // A point behind the record sees other things than the record did (Ward et al. 1988, section 4), unless
     // it is no farther than bumps that rays do not see.
     const float tolerance =
-        std::max(std::min(kBehindTolerance * radius, kBehindPixels * pixelSize / settings.kappa), r.relief);
+        std::max(std::min(kBehindTolerance * radius, kBehindPixels * pixelSize / settings.kappa), r.unseenDisplacement);
     const float behind = -0.5f * dot(step, n + r.normal) / tolerance;
     if (behind >= 1) return 0;
     // A point that is as high above the record as the closest hit lies on another surface: R- may be wider than a slot

@@ -19,8 +19,8 @@ struct IrradianceRecord {
   float noise;                  ///< upper bound of the standard error of the luminance of E
   /// greatest validity radius: neighbours disagree beyond it, or an occluder over the record ends there
   float limit = kInfinity;
-  float pixelSize;   ///< root of the projected pixel area at the record, for R+ and R- (eq. 3)
-  float relief = 0;  ///< Greatest distance from the surface that its rays see to the displaced one.
+  float pixelSize;               ///< root of the projected pixel area at the record, for R+ and R- (eq. 3)
+  float unseenDisplacement = 0;  ///< Greatest distance from the surface that its rays see to the displaced one.
 };
 
 }  // namespace tomales

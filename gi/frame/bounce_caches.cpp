@@ -29,7 +29,7 @@ int phaseOf(uint32_t key) {
 
 /// Gives a record of a further level the radii of the first level's record, whose distances are known best as it has
 /// the most rays. Its own gradients are noise, of which clamping at 0 would keep the bright half, so they are cleared.
-void reachAs(const IrradianceRecord& first, IrradianceRecord& record) {
+void copyRadii(const IrradianceRecord& first, IrradianceRecord& record) {
   record.closest = first.closest, record.harmonicMean = first.harmonicMean, record.limit = first.limit;
   std::fill_n(record.rotationGradient, 3, vec3(0)), std::fill_n(record.translationGradient, 3, vec3(0));
 }
@@ -142,7 +142,7 @@ void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::
     settings.samples = std::max(kLeastDeepSamples, settings.samples / 2);
     IrradianceCache level(bound, kCoarse);
     std::vector<IrradianceRecord> records = recordsAt(tools, points_, settings, run);
-    for (size_t i = 0; i < records.size(); ++i) reachAs(levels_[0].records()[i], records[i]);
+    for (size_t i = 0; i < records.size(); ++i) copyRadii(levels_[0].records()[i], records[i]);
     light_.push_back(0);
     insert(level, records);
     levels_.push_back(std::move(level));

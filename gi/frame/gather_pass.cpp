@@ -42,7 +42,7 @@ class GatherPass {
            const std::function<void(int stride)>& covered) {
     progress_ = &progress, cancelled_ = cancelled;
     if (!prepareCaches() || !(tools_ = gatherTools(state_))) return;
-    measureRelief();
+    measureUnseenDisplacement();
     for (phase_ = 0; phase_ < kPhases && !isCancelled(); ++phase_) {
       std::vector<Site> sites = uncovered();
       if (phase_ == 0) prepareBounces(sites);
@@ -110,12 +110,12 @@ class GatherPass {
         if (isNew(c)) state_.caches[c].frames.push_back(frames_[c]);
   }
 
-  void measureRelief() {
-    reliefOfGroup_.assign(cachesOfGroup_.size(), 0.0f);
+  void measureUnseenDisplacement() {
+    unseenDisplacementOfGroup_.assign(cachesOfGroup_.size(), 0.0f);
     for (const Object& o : tools_->rays->scene().objects)
       if (!o.attributes->trace.displacements) {
-        float& relief = reliefOfGroup_[static_cast<size_t>(o.group)];
-        relief = std::max(relief, o.displacementBound);
+        float& unseenDisplacement = unseenDisplacementOfGroup_[static_cast<size_t>(o.group)];
+        unseenDisplacement = std::max(unseenDisplacement, o.displacementBound);
       }
   }
 
@@ -270,7 +270,7 @@ class GatherPass {
     if (sharesRays(site.cache) && find) settings.samples /= kRaysPerPilotRay;
     if (sharesRays(site.cache) && !find) point.key = 0;
     IrradianceRecord record = gather(*tools_->rays, *tools_->shading, point, settings, known, state_.stats, find);
-    record.relief = reliefOfGroup_[static_cast<size_t>(site.point.group)];
+    record.unseenDisplacement = unseenDisplacementOfGroup_[static_cast<size_t>(site.point.group)];
     return record;
   }
 
@@ -283,8 +283,8 @@ class GatherPass {
   const TileReader& tiles_;
   const RayTools* tools_ = nullptr;
   std::vector<std::vector<size_t>> cachesOfGroup_;
-  std::vector<float> reliefOfGroup_;  ///< Displacement that rays do not see, in current space.
-  std::vector<uint64_t> frames_;      ///< Checksum of this frame's pixels, for each cache.
+  std::vector<float> unseenDisplacementOfGroup_;  ///< Displacement that rays do not see, in current space.
+  std::vector<uint64_t> frames_;                  ///< Checksum of this frame's pixels, for each cache.
   std::optional<PointBits> seen_;
   std::vector<std::unordered_set<uint64_t>> sites_;  ///< The sites of each cache that have a record.
   const std::function<void(float)>* progress_ = nullptr;

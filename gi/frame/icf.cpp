@@ -9,9 +9,9 @@ namespace tomales {
 template <class A>
 void fields(A& a, IrradianceRecord& x) {
   auto& [position, normal, E, rotation, translation, tangent, hessian, dominant, harmonicMean, closest, smoothRadius,
-         noise, limit, pixelSize, relief] = x;
+         noise, limit, pixelSize, unseenDisplacement] = x;
   each(a, position, normal, E, rotation, translation, tangent, hessian, dominant, harmonicMean, closest, smoothRadius,
-       noise, limit, pixelSize, relief);
+       noise, limit, pixelSize, unseenDisplacement);
 }
 
 template <class A>
@@ -216,7 +216,7 @@ class RecordMove {
     r.tangent = turned(r.tangent);
     for (vec3& second : r.hessian) second /= scale_ * scale_;
     r.hessian[1] *= hand_;
-    for (float* length : {&r.harmonicMean, &r.closest, &r.smoothRadius, &r.limit, &r.pixelSize, &r.relief})
+    for (float* length : {&r.harmonicMean, &r.closest, &r.smoothRadius, &r.limit, &r.pixelSize, &r.unseenDisplacement})
       *length *= scale_;
   }
 

@@ -206,9 +206,9 @@ struct BumpedRoom {
 };
 
 TEST(GatherPass, BumpsTakeNoRecordsAndAreStillSeen) {
-  BumpedRoom bumps(0), relief(1e-4f);
-  for (BumpedRoom* room : {&bumps, &relief}) gatherFrame(*room->world.use({}), room->frame);
-  EXPECT_LT(bumps.world.stats.irradianceCache.samples * 3, relief.world.stats.irradianceCache.samples);
+  BumpedRoom bumps(0), unseenDisplacement(1e-4f);
+  for (BumpedRoom* room : {&bumps, &unseenDisplacement}) gatherFrame(*room->world.use({}), room->frame);
+  EXPECT_LT(bumps.world.stats.irradianceCache.samples * 3, unseenDisplacement.world.stats.irradianceCache.samples);
   const auto services = bumps.world.use({});
   gatherFrame(*services, bumps.frame);
   const std::vector<vec3> E = indirectOf(*services, bumps.world, bumps.frame);

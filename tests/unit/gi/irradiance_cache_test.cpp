@@ -99,7 +99,7 @@ TEST(IrradianceCache, ASheetThinnerThanAPixelHidesItsBackFromTheRecordsOfItsFron
 TEST(IrradianceCache, BumpsThatRaysDoNotSeeLieBehindNoRecord) {
   for (const auto function : {ErrorFunction::Screen, ErrorFunction::Ward, ErrorFunction::Hessian}) {
     auto record = recordAt(vec3(0), vec3(1), 2);
-    record.smoothRadius = 1, record.relief = 0.06f;
+    record.smoothRadius = 1, record.unseenDisplacement = 0.06f;
     const CacheSettings wide{function, 1, 10};
     const float even = weightOfOne(wide, record, {0.1f, 0, 0}, kUp, 0.04f),
                 low = weightOfOne(wide, record, {0.1f, 0, -0.02f}, kUp, 0.04f);
