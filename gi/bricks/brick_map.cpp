@@ -62,13 +62,13 @@ bool BrickMap::lookup(const vec3& P, const vec3& N, float radius, float* out, in
 namespace {
 
 /// The voxels that a lookup overlaps in one dimension, and by how much.
-struct Reach {
+struct VoxelOverlap {
   int first, last;
   std::array<float, 4> overlap;
 
   /// Coordinates are in voxels, of which there are `end`; `half` is at most one. So there are three voxels, or four by
   /// rounding.
-  Reach(float center, float half, int end) {
+  VoxelOverlap(float center, float half, int end) {
     const float lo = center - half, hi = center + half;
     first = std::min(static_cast<int>(std::max(lo, 0.0f)), end - 1),
     last = std::min(static_cast<int>(std::max(hi, 0.0f)), end - 1);
@@ -94,7 +94,7 @@ void BrickMap::addLevel(int level, const vec3& P, const vec3& N, float halfWidth
   const float h = std::min(halfWidth / voxel, 1.0f);  // farther than two voxels only where the root is still too fine
   if (glm::any(glm::lessThan(p, vec3(-2.0f))) || glm::any(glm::greaterThan(p, vec3(static_cast<float>(end) + 2))))
     return;
-  const Reach xs(p.x, h, end), ys(p.y, h, end), zs(p.z, h, end);
+  const VoxelOverlap xs(p.x, h, end), ys(p.y, h, end), zs(p.z, h, end);
   std::array<float, kMostWidth> own;
   std::fill_n(own.begin(), width(), 0.0f);
   const float before = std::exchange(sum.weight, 0.0f);

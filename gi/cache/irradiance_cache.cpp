@@ -50,13 +50,13 @@ struct Vicinity {
 };
 
 /// Bounds of what a record may serve, before rounding.
-struct Reach {
+struct ValidityBounds {
   float least, most, scale;  ///< The radius is the record's size, clamped between least and most, times scale.
   float cosine;              ///< Least cosine of the angle between normals.
 };
 
 /// slack[i] > 0: record i may serve a point at p with normal n.
-TOMALES_HOT void findSlack(const Vicinity& v, const vec3& p, const vec3& n, const Reach& reach, float* slack) {
+TOMALES_HOT void findSlack(const Vicinity& v, const vec3& p, const vec3& n, const ValidityBounds& reach, float* slack) {
   const float *x = v.x.data(), *y = v.y.data(), *z = v.z.data(), *nx = v.nx.data(), *ny = v.ny.data(),
               *nz = v.nz.data();
   const float *size = v.size.data(), *limit = v.limit.data();
@@ -200,7 +200,7 @@ struct IrradianceCache::Impl {
     return out;
   }
 
-  Reach reachAt(float pixelSize, float wider) const {
+  ValidityBounds boundsAt(float pixelSize, float wider) const {
     constexpr float kRounding = 1e-4f;
     const float angle =
         isWard() ? 1 / (settings.kappa * settings.kappa) : kMaxAngleTerm / (settings.kappa * settings.kappa);
@@ -220,7 +220,7 @@ struct IrradianceCache::Impl {
       return lookup(places.subspan(half), out + half, wider, near, found);
     }
     near.clear();
-    const Reach farthest = reachAt(pixelSize, wider);
+    const ValidityBounds farthest = boundsAt(pixelSize, wider);
     const auto reachOf = [&](float recordSize) {
       return farthest.scale * std::max(std::min(recordSize, farthest.most), farthest.least);
     };
@@ -232,7 +232,7 @@ struct IrradianceCache::Impl {
     });
     near.slack.resize(near.records.size());
     for (const IrradiancePlace& p : places) {
-      findSlack(near, p.position, p.normal, reachAt(p.pixelSize, wider), near.slack.data());
+      findSlack(near, p.position, p.normal, boundsAt(p.pixelSize, wider), near.slack.data());
       found.clear();
       for (size_t k = 0; k < near.records.size(); ++k) {
         if (!(near.slack[k] > 0)) continue;
