@@ -10,7 +10,7 @@
 
 #include "reyes/hide/blur_bounds.h"
 #include "reyes/hide/blurred_quad.h"
-#include "reyes/hide/cullSamples.h"
+#include "reyes/hide/sample_list.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tomales {

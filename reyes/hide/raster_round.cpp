@@ -4,7 +4,7 @@
 #define HWY_TARGET_INCLUDE "reyes/hide/raster_round.cpp"
 #include "reyes/base/vector.h"  // Includes this file again for each target.
 
-#include "reyes/hide/depthTest.h"
+#include "reyes/hide/sample_cell.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tomales {

@@ -9,8 +9,8 @@
 #include <bit>
 #include <cstring>
 
-#include "reyes/hide/depthTest.h"
 #include "reyes/hide/quad.h"
+#include "reyes/hide/sample_cell.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tomales {

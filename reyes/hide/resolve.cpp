@@ -6,7 +6,7 @@
 
 #include "reyes/base/lent.h"
 #include "reyes/hide/border_overlap.h"
-#include "reyes/hide/coverages.h"
+#include "reyes/hide/cell_coverage.h"
 #include "reyes/hide/facets.h"
 
 namespace tomales {

@@ -4,7 +4,7 @@
 #include <cfloat>
 
 #include "reyes/hide.h"
-#include "reyes/hide/layers.h"
+#include "reyes/hide/transparent_layers.h"
 
 namespace tomales {
 

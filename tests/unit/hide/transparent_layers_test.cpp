@@ -1,4 +1,4 @@
-#include "reyes/hide/layers.h"
+#include "reyes/hide/transparent_layers.h"
 
 #include <gtest/gtest.h>
 
