@@ -18,7 +18,7 @@ namespace tomales {
 namespace {
 
 constexpr size_t kManyQuads =
-    4096;  ///< A geometry of its own costs less than copies of so many (Geometry in raytrace/embree_filters.h).
+    4096;  ///< A geometry of its own costs less than copies of so many quads (Geometry in raytrace/embree_filters.h).
 
 /// Embree takes no negative tnear: the ray starts `shift` before its origin.
 RTCRay rayFrom(const Ray& ray, float shift, float tNear, uint32_t mask) {
@@ -54,9 +54,9 @@ struct EmbreeScene::Impl {
 
   const std::vector<CoarseGroup>& groups;
   const SharedShapes& shapes;
-  bool fades = false;  ///< Some group does.
+  bool fades = false;  ///< Some group fades between levels of detail.
   std::atomic<int64_t> bytes{0};
-  std::deque<Geometry> geometries;  ///< By Embree's geomID; Embree keeps their addresses.
+  std::deque<Geometry> geometries;  ///< Indexed by geomID of Embree; Embree keeps their addresses.
   std::deque<Geometry> masters;
   Instances instances;
   std::optional<EmbreeChunks> chunks;
@@ -90,7 +90,7 @@ struct EmbreeScene::Impl {
     return t;
   }
 
-  /// One geometry of quads of the given groups.
+  /// Adds one geometry with the quads of the given groups.
   void attach(std::vector<Geometry::Run> runs, uint32_t mask, bool opaque) {
     const CoarseGroup& like = groups[runs.front().mesh];
     const auto id = static_cast<unsigned>(geometries.size());
@@ -146,7 +146,7 @@ struct EmbreeScene::Impl {
     for (RTCScene s : scenes) rtcReleaseScene(s);  // the instances hold it
   }
 
-  /// `mask`: as Embree knows it.
+  /// `mask` is Embree's mask.
   void addTo(Surroundings& out, uint32_t geometryId, uint32_t primitive, uint32_t mask) const {
     if (geometryId >= instances.firstChunk) {
       if (chunks->maskOf(geometryId - instances.firstChunk) & mask) out.giveUp();
@@ -219,8 +219,8 @@ EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const SharedSha
             .push_back(run);
   }
   for (auto& [kind, runs] : alike) impl_->attach(std::move(runs), std::get<0>(kind), std::get<1>(kind));
-  // With several threads the order of primitives in a leaf, and with it which of two hits at equal t is found
-  // first, would depend on their number.
+  // With several threads the order of primitives in a leaf would depend on their number, and with it which of two hits
+  // at equal t is found first.
   const ThreadLimit one(1);
   impl_->attachInstances(groupOf, masks, opaque);
   const uint32_t end = impl_->instances.firstId + static_cast<uint32_t>(impl_->instances.group.size());
@@ -268,7 +268,7 @@ void EmbreeScene::around(const vec3& P, float reach, uint32_t mask, Level level,
 bool EmbreeScene::nearestBeyond(const Ray& ray, float window, uint32_t mask, HitList& list, PolygonHit& beyond) const {
   list.clear();
   if (ray.surroundings && ray.time == 0 && ray.surroundings->know(ray.origin, window)) {
-    // Rather twice what lies at the end of the window than not at all.
+    // A hit at the end of the window may be found twice, but must not be missed.
     ray.surroundings->meet(ray.direction, window + roundingAt(ray.origin), list);
     if (ray.filter)
       std::erase_if(list, [&](const PolygonHit& hit) { return !ray.filter->passes(hit.group, hit.leaving); });

@@ -18,7 +18,7 @@ bool sameGroup(const ShadeGroup& a, const ShadeGroup& b) {
          sameLayout(a.primvars, b.primvars);
 }
 
-/// Of what sameGroup() compares.
+/// A hash of all that sameGroup() compares.
 class GroupHash {
  public:
   explicit GroupHash(const ShadeGroup& g) {
@@ -43,8 +43,8 @@ class GroupHash {
   uint64_t value_ = 0;
 };
 
-// Key times inside the shutter, its opening first. Still, or a closed shutter: that one time. shapeTimes: empty if it
-// keeps its shape.
+// Key times inside the shutter, its opening first. A still object, or a closed shutter, has that one time alone.
+// shapeTimes: empty if the shape does not change.
 std::vector<float> keyTimesOf(const std::vector<float>& shapeTimes, const Motion& cameraFromObject,
                               const Options& options) {
   std::vector<float> times{options.shutterOpen};
@@ -66,8 +66,8 @@ float largestScale(const mat4& m) {
   return std::max({glm::length(vec3(m[0])), glm::length(vec3(m[1])), glm::length(vec3(m[2]))});
 }
 
-// Motion in the frame of the camera at shutter open, where `m` is the place of the object. Not the camera's own motion
-// at that time, which may lie between two keys: what stands still must not be a rounding away from where the camera
+// Motion relative to the camera at shutter open; `m` is the object's transformation then. It does not use the camera's
+// motion interpolated at that time, which may lie between two keys: a still object must be exactly where the camera
 // sees it.
 Motion heldCamera(const Motion& worldFromObject, float open, const mat4& m) {
   if (!worldFromObject.moving()) return Motion::still(m);
@@ -114,7 +114,7 @@ void Scene::derive(Object& o) const {
   o.currentFromObject = heldCamera(o.worldFromObject, options.shutterOpen, m);
   turnToEye(o, m, options.projection == ProjectionKind::Perspective);
   o.flipsNormal = (glm::determinant(mat3(m)) < 0) != o.attributes->insideOut;
-  o.displacementBound = 0;  // What grows carries its displacement along.
+  o.displacementBound = 0;  // displacement moves with the object's scale
   for (const float t : o.keyTimes)
     o.displacementBound = std::max(o.displacementBound, displacementBoundOf(*o.attributes, o.cameraFromObject.at(t)));
 }
@@ -201,7 +201,7 @@ int Scene::add(Object object) {
 
 void Scene::drop(int object) {
   Object& o = objects[static_cast<size_t>(object)];
-  Object rest;  // whoever walks over all objects still learns what it was, and that no ray meets it
+  Object rest;  // code that goes over all objects still finds its attributes, and that no ray meets it
   rest.attributes = o.attributes, rest.where = o.where, rest.group = o.group;
   o = std::move(rest);
   dropped_.push_back(object);

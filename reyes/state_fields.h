@@ -1,5 +1,5 @@
-// Which fields the structures of reyes/state.h have, for reyes/base/pack.h. A structure that gains a field stops the
-// compiler here: add it to the list, and files and sums have it.
+// The fields of the structures of reyes/state.h, for reyes/base/pack.h. A structure that gains a field stops the
+// compiler here: add it to the list, and files and checksums include it.
 #pragma once
 #include "reyes/base/pack.h"
 #include "reyes/state.h"

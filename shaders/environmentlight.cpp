@@ -13,10 +13,10 @@ rsl::StringParam portals("portals", "",
                          "CoordinateSystems, the unit squares of which are windows that the sky shines through",
                          TM_ROLE_SKY_PORTALS);
 
-// The map is seen through a filter of this angle, radians: that of the cells by which its brightness is known.
+// Angle in radians of the filter of map lookups: that of the cells by which the map's brightness is known.
 constexpr float kCell = 0.00614f;
 
-/// environment() looks along world directions: those that stand in the world as L does in the map's space.
+/// environment() takes world directions: those with the coordinates in world space that L has in the map's space.
 rsl::Vec3Array directions(const TmGrid* g) {
   rsl::Vec3Array out(g);
   for (int i : rsl::Batch(g)) out.set(i, rsl::get(g->L, i));

@@ -1,5 +1,5 @@
-// Shadow maps for lights: parameters, and the share of light that the maps let through. `raytrace` and maps that cannot
-// be read let all light through here; the renderer traces those shadows.
+// Shadow maps for lights: parameters, and the share of light that the maps let through. Here `raytrace` and maps that
+// cannot be read let all light through; the renderer traces those shadows.
 #pragma once
 #include "reyes/shader.h"
 

@@ -19,14 +19,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kCaustic = ".caustic";  ///< What the names of caustic maps end in.
+constexpr std::string_view kCaustic = ".caustic";  ///< Ending of the names of caustic maps.
 constexpr const char* kVolume = "scene.volume";
-constexpr double kStoredBytes = 2.5 * 36;  ///< Of one emitted photon: so many surfaces, so many bytes.
+/// Bytes of one emitted photon: the mean number of its surfaces times bytes of a stored photon.
+constexpr double kStoredBytes = 2.5 * 36;
 constexpr double kLeastOfMap =
-    1e-3;  ///< Share of its map, by area, that a surface needs for a number: leaves share their photons.
+    1e-3;  ///< Share of its map's area that a surface needs to have a number: leaves share their photons.
 
-/// Size of the objects of each group, as the area of their boxes in the world, so that every camera finds the same
-/// maps.
+/// Area of the boxes of each group's objects in world space, so that every camera finds the same maps.
 std::vector<double> boxAreas(const Scene& scene) {
   std::vector<double> areas(scene.groups.size(), 0.0);
   for (const Object& o : scene.objects) {
@@ -38,7 +38,7 @@ std::vector<double> boxAreas(const Scene& scene) {
   return areas;
 }
 
-/// Counted up when the same inputs begin to make other files.
+/// To be increased when the same inputs begin to make other files.
 constexpr uint32_t kMethod = 9;
 
 uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
@@ -56,7 +56,7 @@ uint64_t brickInputs(const PointFile& points, const BrickSettings& settings) {
   return contentSum(kMethod, points.contents(), maxError, maxDepth, radiusScale, ignoreNormals, coarseness);
 }
 
-/// The groups of each map from 1 on; 0: small ones.
+/// Numbers the surfaces of each map from 1; 0: small ones.
 std::vector<int> numbered(const std::vector<std::string>& maps, const std::vector<double>& areas) {
   struct Map {
     double area = 0;
@@ -68,7 +68,8 @@ std::vector<int> numbered(const std::vector<std::string>& maps, const std::vecto
   for (size_t g = 0; g < maps.size(); ++g) {
     Map& map = byName[maps[g]];
     const int number =
-        1 + map.groups++ % kMostSurfaces;  // small ones count too, so that who is small changes no number
+        // small surfaces are counted too, so that the numbers do not depend on which are small
+        1 + map.groups++ % kMostSurfaces;
     out.push_back(areas[g] >= kLeastOfMap * map.area ? number : 0);
   }
   return out;
@@ -105,7 +106,7 @@ MapNames mapNames(const Scene& scene, const ShadingSystem& shading, const AtlasS
                                                  (kStoredBytes * static_cast<double>(settings.photons.emit)));
   MapNames names;
   names.world = settings.world;
-  double before = 0;  // groups follow each other as objects do in the scene: neighbours in its hierarchy stay together
+  double before = 0;  // groups follow the order of objects in the scene, so neighbours in its hierarchy stay together
   for (size_t g = 0; g < areas.size(); ++g) {
     const std::string& given = scene.groups[g].attributes->photon.globalMap;
     const std::string& caustic = scene.groups[g].attributes->photon.causticMap;
@@ -196,7 +197,8 @@ void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonI
   PhotonIrradianceSettings settings = given;
   settings.maxRadius = reachOf(given, file.bound());
   const TemporaryFolder temporary(out.parent_path().empty() ? "." : out.parent_path());
-  const fs::path compact = temporary.path() / "photons.ptc";  // their own chunks lie everywhere, as photons do
+  // chunks of photons spread over the whole scene, so they are sorted first
+  const fs::path compact = temporary.path() / "photons.ptc";
   PointTiles(file).writeCompact(compact.string());
   const PointFile sorted(compact.string());
   const PointTiles tiles(sorted);

@@ -25,7 +25,7 @@ enum class Encoding { Ascii, Little, Big };
 struct Scalar {
   size_t bytes;
   double (*value)(const std::byte*);
-  double whole;  ///< What stands for 1 where it holds a colour.
+  double whole;  ///< The value that stands for 1 in a colour.
 };
 
 template <class T>
@@ -55,7 +55,7 @@ std::optional<Scalar> scalarNamed(const std::string& type) {
 struct Property {
   std::string name;
   Scalar type;
-  std::optional<Scalar> length;  ///< Of a list.
+  std::optional<Scalar> length;  ///< Type of a list's length, for lists.
 };
 
 struct Element {
@@ -68,7 +68,7 @@ struct Element {
   throw FileError(fmt::format("\"{}\": {}", path, what));
 }
 
-/// A file from behind its header, number by number.
+/// Reads a file after its header, number by number.
 class PlyReader {
  public:
   explicit PlyReader(const std::string& path) : path_(path) {
@@ -84,7 +84,7 @@ class PlyReader {
       std::string word;
       in_ >> word;
       char* end = nullptr;
-      const double v = std::strtod(word.c_str(), &end);  // takes "nan" and "inf", which streams do not
+      const double v = std::strtod(word.c_str(), &end);  // takes "nan" and "inf", unlike streams
       if (word.empty()) fail(path_, "ends too early");
       if (*end != 0) fail(path_, "holds what is no number: " + word.substr(0, 40));
       return v;
@@ -97,7 +97,7 @@ class PlyReader {
   }
 
   void skip(const Element& element) {
-    if (element.properties.empty()) return;  // however many: they take no bytes
+    if (element.properties.empty()) return;  // its elements take no bytes, however many
     for (uint64_t i = 0; i < element.count; ++i)
       for (const Property& p : element.properties) {
         const double count = p.length ? number(*p.length) : 1;
@@ -168,7 +168,7 @@ class PlyReader {
   std::vector<Element> elements_;
 };
 
-/// Where the numbers of a vertex go: a place among kFixed floats, then the channels.
+/// Offset of each property of a vertex among its kFixed floats and the channels after them.
 class VertexLayout {
  public:
   enum Fixed { X, Y, Z, Nx, Ny, Nz, Radius, kFixed };
@@ -203,7 +203,7 @@ class VertexLayout {
     return name == "red" ? 0 : name == "green" ? 1 : name == "blue" ? 2 : -1;
   }
 
-  /// Its float among those of all channels.
+  /// Returns the property's offset among the floats of all channels.
   size_t addToChannel(const std::string& name) {
     const size_t bar = name.rfind('_');
     const int part = colorPart(name);

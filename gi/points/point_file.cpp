@@ -35,7 +35,7 @@ void PointFileWriter::addChunk(const PointCloud& points) {
   if (points.count() == 0) return;
   std::vector<uint32_t> normals(points.count());
   std::transform(points.normal.begin(), points.normal.end(), normals.begin(), packNormal);
-  ByteWriter w;  // of many files that are written at once, each would keep its own
+  ByteWriter w;  // local, because each of many files that are written at once would keep its own
   const size_t floats = 5 + static_cast<size_t>(points.width());
   w.bytes.reserve(4 * sizeof(uint64_t) + points.count() * floats * sizeof(float));
   w.put(points.position);
@@ -94,7 +94,7 @@ void PointFile::read(size_t chunk, PointCloud& to) const {
   if (normals.size() != n || radii.size() != n || data.size() != n * static_cast<size_t>(to.width()))
     throw DamageError(file_.path(), fmt::format("\"{}\" is damaged: a chunk does not add up", file_.path()));
   const auto finite = [](float v) { return std::isfinite(v); };
-  const Bound3& b = bounds_[chunk];  // finite, so that what lies within is
+  const Bound3& b = bounds_[chunk];  // the bound is finite, so all points within it are
   if (!std::all_of(positions.begin(), positions.end(),
                    [&](const vec3& P) {
                      return glm::all(glm::greaterThanEqual(P, b.lo)) && glm::all(glm::lessThanEqual(P, b.hi));

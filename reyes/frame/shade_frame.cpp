@@ -14,7 +14,7 @@ void addEmission(const ShadePoints& points, const ShadingSystem& shading, Shaded
     for (int c = 0; c < 3; ++c) out.Ci[c][i] += emission[i][c];
 }
 
-/// Opaque and black: what needs no shader.
+/// Makes the points opaque and black: these need no shader.
 void leaveBlack(int count, ShadedPoints& out) {
   out.resize(count);
   for (auto& o : out.Oi) std::fill(o.begin(), o.end(), 1.0f);
@@ -33,8 +33,8 @@ void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading,
       leaveBlack(points.count(), out);
       continue;
     }
-    if (matte) {  // A holdout holds out as much as it is opaque; compositing takes nothing else of it, so that no light
-                  // need be asked for.
+    // A holdout holds out as much as it is opaque. Compositing uses nothing else of it, so no light is needed.
+    if (matte) {
       ShadeContext opacityAlone = context;
       opacityAlone.direct = opacityAlone.indirect = false;
       shading.shade(points, opacityAlone, out);

@@ -1,4 +1,4 @@
-// Private to reyes/image: pixels to and from files, whatever their format.
+// Private to reyes/image: reads and writes pixels in files of any format.
 #pragma once
 #include "reyes/image.h"
 #include "reyes/pictures.h"
@@ -7,11 +7,11 @@ namespace tomales {
 
 enum class SampleType { Half, Float, UInt8, UInt16 };
 
-/// Something that a file says about itself.
+/// A named text or list of numbers in a file's header.
 struct Metadata {
   std::string name;
-  std::string text;            ///< Or else
-  std::vector<float> numbers;  ///< 16 of them: a matrix.
+  std::string text;            ///< Empty if it is `numbers`.
+  std::vector<float> numbers;  ///< 16 numbers are a matrix.
 };
 
 struct FileFormat {
@@ -27,17 +27,18 @@ struct FileFormat {
   float pixelAspect = 1;  ///< Width of a pixel over its height.
 };
 
-/// Format of a file by its name's extension; empty name: none that can be written.
+/// Format of a file by its name's extension; an empty name: no format that can be written.
 FileFormat formatOfExtension(const std::string& path);
 
-/// An UnfinishedFile of pixels: what is not closed leaves nothing behind.
+/// Writes a picture to an UnfinishedFile; close() gives it its name. A file that is not closed leaves nothing behind.
 class PictureFile {
  public:
   static constexpr int kBandRows = 64;
 
   PictureFile(const std::string& path, const Image& shape, const FileFormat& format);
   ~PictureFile();
-  /// The next rows from the top; all calls but the last with a multiple of kBandRows. False: error() says why.
+  /// Writes the next rows from the top; all calls but the last have a multiple of kBandRows. Returns false: error()
+  /// says why.
   bool write(const Image& rows);
   bool write(const DeepRows& rows);
   bool close();

@@ -5,7 +5,7 @@
 namespace tomales {
 namespace {
 
-/// Of the point nearest to q: 0 at its beginning, 1 at its end.
+/// Parameter of the segment's point nearest to q: 0 at its beginning, 1 at its end.
 double placeOnSegment(const BlobLeaf& leaf, const dvec3& q) {
   const dvec3 along = leaf.to - leaf.from;
   const double length2 = glm::dot(along, along);
@@ -144,7 +144,8 @@ std::vector<FieldRange> BlobField::rangesOver(const Box& box) const {
   return ranges;
 }
 
-/// Without terms that are 0 and without those that lose to another all over the box: at() returns the same bits.
+/// Returns the operands without terms that are 0 and without those that lose to another all over the box: at() returns
+/// the same bits.
 std::vector<uint32_t> BlobField::neededOperands(const Instruction& i, const std::vector<FieldRange>& ranges) const {
   const std::span<const uint32_t> all = operandsOf(i);
   std::vector<uint32_t> needed;
@@ -191,7 +192,7 @@ BlobField BlobField::within(const Box& box) const {
 std::vector<double> BlobField::leafWeights(const dvec3& p) const {
   const std::vector<FieldPoint>& values = run(p);
   std::vector<double> weights(leaves_->size(), 0.0);
-  std::vector<char> counts(code_.size(), 0);  // the field depends on it
+  std::vector<char> counts(code_.size(), 0);  // does the field depend on it?
   counts.back() = 1;
   for (size_t index = code_.size(); index-- > 0;) {
     const Instruction& i = code_[index];

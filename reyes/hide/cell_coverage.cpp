@@ -1,18 +1,19 @@
-// For the first sample that is left, all that see the same cell at once.
+// Finds the samples of each cell in a list of lanes: repeatedly all lanes that see the same cell as the first lane that
+// is left.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "reyes/hide/sights.cpp"
+#define HWY_TARGET_INCLUDE "reyes/hide/cell_coverage.cpp"
 #include "reyes/base/vector.h"  // Includes this file again for each target.
 
 #include <utility>
 
-#include "reyes/hide/sights.h"
+#include "reyes/hide/cell_coverage.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tomales {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Bits of up to 64 lanes whose cell is `cell`, and the least of their depths.
+/// Mask of the lanes, up to 64, whose cell is `cell`, and the least of their depths.
 HWY_INLINE uint64_t lanesOf(const uint32_t* cells, const float* depths, size_t lanes, uint32_t cell, float& nearest) {
   uint64_t bits = 0;
   Floats least = all(kInfinity);
@@ -25,19 +26,20 @@ HWY_INLINE uint64_t lanesOf(const uint32_t* cells, const float* depths, size_t l
   return bits;
 }
 
-/// Of the lanes that are left.
+/// Collects the coverages of the lanes of the mask `left`.
 HWY_INLINE void collect(const uint32_t* cells, const float* depths, size_t lanes, uint64_t left, uint32_t word,
-                        float farthest, std::vector<Sight>& sights) {
+                        float farthest, std::vector<CellCoverage>& coverages) {
   while (left) {
-    Sight& sight = sights.emplace_back();  // In place: a copy would wait for its parts to be written.
-    sight.cell = cells[std::countr_zero(left)], sight.word = word;
-    sight.depths = depths, sight.far = farthest;
-    sight.samples = lanesOf(cells, depths, lanes, sight.cell, sight.d);
-    left &= ~sight.samples;
+    CellCoverage& coverage =
+        coverages.emplace_back();  // made in place: copying it would wait for its parts to be written
+    coverage.cell = cells[std::countr_zero(left)], coverage.word = word;
+    coverage.depths = depths, coverage.far = farthest;
+    coverage.samples = lanesOf(cells, depths, lanes, coverage.cell, coverage.d);
+    left &= ~coverage.samples;
   }
 }
 
-void opaque(const SampleBuffer& samples, size_t pixel, std::vector<Sight>& sights) {
+void opaque(const SampleBuffer& samples, size_t pixel, std::vector<CellCoverage>& coverages) {
   const size_t lanes = static_cast<size_t>(samples.lanes);
   for (size_t first = 0; first < lanes; first += 64) {
     const size_t here = std::min<size_t>(64, lanes - first);
@@ -46,20 +48,20 @@ void opaque(const SampleBuffer& samples, size_t pixel, std::vector<Sight>& sight
     float nearest;
     uint64_t left = ~lanesOf(cells, depths, here, kNoCell, nearest);
     if (here < 64) left &= (uint64_t{1} << here) - 1;
-    collect(cells, depths, here, left, static_cast<uint32_t>(first / 64), kInfinity, sights);
+    collect(cells, depths, here, left, static_cast<uint32_t>(first / 64), kInfinity, coverages);
   }
 }
 
-/// Up to 64 lanes, and which of them are left.
+/// Up to 64 lanes, and a mask of those that are left.
 struct Lanes {
   const uint32_t* cells;
   const float* depths;
   uint64_t left;
 };
 
-/// Orders what was found without a branch that depends on depths: how many are nearer. nearest: their depths,
-/// and infinity beyond them.
-HWY_INLINE int order(const RankedSight* found, const float* nearest, int count, RankedSight* out) {
+/// Orders what was found without a branch on depths: the place of each is the number of nearer ones. nearest: their
+/// depths, and infinity after them.
+HWY_INLINE int order(const RankedCoverage* found, const float* nearest, int count, RankedCoverage* out) {
   uint64_t taken = 0;
   for (int i = 0; i < count; ++i) {
     size_t nearer = 0;
@@ -71,10 +73,10 @@ HWY_INLINE int order(const RankedSight* found, const float* nearest, int count, 
   return taken == (uint64_t{1} << count) - 1 ? count : -1;
 }
 
-/// In step: the next cell of a pixel is known when all lanes of the one before are, and meanwhile other
+/// Several pixels advance in turn: the next cell of a pixel depends on all lanes of the one before, and meanwhile other
 /// pixels find theirs.
-HWY_INLINE void rank(Lanes* pixels, size_t count, size_t lanes, RankedSights* out) {
-  RankedSight found[kRankedTogether][kMostRanked];
+HWY_INLINE void rank(Lanes* pixels, size_t count, size_t lanes, RankedCoverages* out) {
+  RankedCoverage found[kRankedTogether][kMostRanked];
   HWY_ALIGN float nearest[kRankedTogether][kMostRanked];
   uint32_t active[kRankedTogether];
   size_t actives = 0;
@@ -89,7 +91,7 @@ HWY_INLINE void rank(Lanes* pixels, size_t count, size_t lanes, RankedSights* ou
     for (size_t k = 0; k < before; ++k) {
       const uint32_t p = active[k];
       Lanes& pixel = pixels[p];
-      RankedSight& s = found[p][round];
+      RankedCoverage& s = found[p][round];
       s.cell = pixel.cells[std::countr_zero(pixel.left)];
       s.samples = lanesOf(pixel.cells, pixel.depths, lanes, s.cell, s.d);
       nearest[p][round] = s.d;
@@ -100,10 +102,10 @@ HWY_INLINE void rank(Lanes* pixels, size_t count, size_t lanes, RankedSights* ou
     }
   }
   for (size_t p = 0; p < count; ++p)
-    out[p].count = pixels[p].left ? -1 : order(found[p], nearest[p], out[p].count, out[p].sights);
+    out[p].count = pixels[p].left ? -1 : order(found[p], nearest[p], out[p].count, out[p].coverages);
 }
 
-void opaqueRanked(const SampleBuffer& samples, std::span<const uint32_t> pixels, RankedSights* out) {
+void opaqueRanked(const SampleBuffer& samples, std::span<const uint32_t> pixels, RankedCoverages* out) {
   const size_t lanes = static_cast<size_t>(samples.lanes);
   Lanes ofPixels[kRankedTogether];
   for (size_t k = 0; k < pixels.size(); ++k) {
@@ -116,18 +118,18 @@ void opaqueRanked(const SampleBuffer& samples, std::span<const uint32_t> pixels,
   rank(ofPixels, pixels.size(), lanes, out);
 }
 
-void filmRanked(const Films& films, size_t film, RankedSights* out) {
-  Lanes ofPixel{films.cells(film), films.depths(film), films.film(film).samples};
-  rank(&ofPixel, 1, films.width(), out);
+void layerRanked(const TransparentLayers& layers, size_t layer, RankedCoverages* out) {
+  Lanes ofPixel{layers.cells(layer), layers.depths(layer), layers.layer(layer).samples};
+  rank(&ofPixel, 1, layers.width(), out);
 }
 
-FilmExtent cull(SampleBuffer& samples, const GridTable& grids, size_t index) {
-  Films& films = samples.films;
-  Film& film = films.film(index);
-  const size_t lanes = static_cast<size_t>(samples.lanes), words = films.wordsOfPixel(), word = film.word % words;
-  const size_t first = film.word / words * lanes + 64 * word, here = std::min(films.width(), lanes - 64 * word);
-  float* depths = films.depths(index);
-  uint32_t* cells = films.cells(index);
+LayerExtent cull(SampleBuffer& samples, const GridTable& grids, size_t index) {
+  TransparentLayers& layers = samples.layers;
+  TransparentLayer& layer = layers.layer(index);
+  const size_t lanes = static_cast<size_t>(samples.lanes), words = layers.wordsOfPixel(), word = layer.word % words;
+  const size_t first = layer.word / words * lanes + 64 * word, here = std::min(layers.width(), lanes - 64 * word);
+  float* depths = layers.depths(index);
+  uint32_t* cells = layers.cells(index);
   Floats nearest = all(kInfinity), farthest = all(-kInfinity);
   for (size_t g = 0; g < here; g += hn::Lanes(kF)) {
     const Floats d = hn::Load(kF, depths + g), before = hn::Load(kF, samples.depth.data() + first + g);
@@ -144,17 +146,17 @@ FilmExtent cull(SampleBuffer& samples, const GridTable& grids, size_t index) {
     nearest = hn::Min(nearest, hn::IfThenElse(kept, d, all(kInfinity)));
     farthest = hn::Max(farthest, hn::IfThenElse(kept, d, all(-kInfinity)));
     if (const uint64_t hidden = bitsOf(hn::AndNot(kept, on)); hidden) {
-      film.samples &= ~(hidden << g);
+      layer.samples &= ~(hidden << g);
       hn::Store(hn::IfThenElse(hn::RebindMask(kU, kept), hn::Load(kU, cells + g), hn::Set(kU, kNoCell)), kU, cells + g);
     }
   }
   return {hn::GetLane(hn::MinOfLanes(kF, nearest)), hn::GetLane(hn::MaxOfLanes(kF, farthest))};
 }
 
-void ofFilm(const Films& films, size_t index, float farthest, std::vector<Sight>& sights) {
-  const Film& film = films.film(index);
-  const auto word = static_cast<uint32_t>(film.word % films.wordsOfPixel());
-  collect(films.cells(index), films.depths(index), films.width(), film.samples, word, farthest, sights);
+void ofLayer(const TransparentLayers& layers, size_t index, float farthest, std::vector<CellCoverage>& coverages) {
+  const TransparentLayer& layer = layers.layer(index);
+  const auto word = static_cast<uint32_t>(layer.word % layers.wordsOfPixel());
+  collect(layers.cells(index), layers.depths(index), layers.width(), layer.samples, word, farthest, coverages);
 }
 
 }  // namespace
@@ -166,26 +168,26 @@ HWY_AFTER_NAMESPACE();
 namespace tomales {
 HWY_EXPORT(opaque);
 HWY_EXPORT(opaqueRanked);
-HWY_EXPORT(filmRanked);
+HWY_EXPORT(layerRanked);
 HWY_EXPORT(cull);
-HWY_EXPORT(ofFilm);
-void collectOpaque(const SampleBuffer& samples, size_t pixel, std::vector<Sight>& sights) {
-  HWY_DYNAMIC_DISPATCH(opaque)(samples, pixel, sights);
+HWY_EXPORT(ofLayer);
+void collectOpaque(const SampleBuffer& samples, size_t pixel, std::vector<CellCoverage>& coverages) {
+  HWY_DYNAMIC_DISPATCH(opaque)(samples, pixel, coverages);
 }
-void rankOpaque(const SampleBuffer& samples, std::span<const uint32_t> pixels, RankedSights* out) {
+void rankOpaque(const SampleBuffer& samples, std::span<const uint32_t> pixels, RankedCoverages* out) {
   if (samples.lanes <= 64)
     HWY_DYNAMIC_DISPATCH(opaqueRanked)(samples, pixels, out);
   else
     for (size_t k = 0; k < pixels.size(); ++k) out[k].count = -1;
 }
-void rankFilm(const Films& films, size_t film, RankedSights& out) {
-  HWY_DYNAMIC_DISPATCH(filmRanked)(films, film, &out);
+void rankLayer(const TransparentLayers& layers, size_t layer, RankedCoverages& out) {
+  HWY_DYNAMIC_DISPATCH(layerRanked)(layers, layer, &out);
 }
-FilmExtent cullFilm(SampleBuffer& samples, const GridTable& grids, size_t film) {
-  return HWY_DYNAMIC_DISPATCH(cull)(samples, grids, film);
+LayerExtent cullLayer(SampleBuffer& samples, const GridTable& grids, size_t layer) {
+  return HWY_DYNAMIC_DISPATCH(cull)(samples, grids, layer);
 }
-void collectFilm(const Films& films, size_t film, float farthest, std::vector<Sight>& sights) {
-  HWY_DYNAMIC_DISPATCH(ofFilm)(films, film, farthest, sights);
+void collectLayer(const TransparentLayers& layers, size_t layer, float farthest, std::vector<CellCoverage>& coverages) {
+  HWY_DYNAMIC_DISPATCH(ofLayer)(layers, layer, farthest, coverages);
 }
 }  // namespace tomales
 #endif

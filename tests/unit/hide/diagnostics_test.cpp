@@ -8,17 +8,17 @@ namespace {
 
 constexpr PixelRect kRect{0, 0, 32, 32};
 
-HideDoubts doubtsOf(const World& w, const Rasters& rasters) {
+HideDiagnostics diagnosticsOf(const World& w, const Rasters& rasters) {
   const SamplePattern pattern(4, 4, true, 1);
   Hider hider(w.scene, Camera(w.scene.options), pattern, kRect);
   for (const auto& r : rasters) hider.insert(r);
-  HideDoubts doubts;
-  hider.resolve(&doubts);
-  return doubts;
+  HideDiagnostics diagnostics;
+  hider.resolve(&diagnostics);
+  return diagnostics;
 }
 
 /// Two slanted squares of other dicing, `apart` in depth, behind what hides part of them.
-int contestedPixels(float apart, bool hidden = false) {
+int conflictPixels(float apart, bool hidden = false) {
   World w;
   w.add(), w.add(), w.add();
   w.freeze();
@@ -27,21 +27,21 @@ int contestedPixels(float apart, bool hidden = false) {
   };
   Rasters rasters{raster(w, makeGrid(0, 1, 24, 24, slanted(5))), raster(w, makeGrid(1, 2, 17, 19, slanted(5 + apart)))};
   if (hidden) rasters.push_back(raster(w, makeGrid(2, 3, 1, 1, rectangle(0, 0, 32, 32, 1))));
-  const HideDoubts doubts = doubtsOf(w, rasters);
-  const auto found = doubts.samePlaces.find({0, 1});
-  return found == doubts.samePlaces.end() ? 0 : found->second;
+  const HideDiagnostics diagnostics = diagnosticsOf(w, rasters);
+  const auto found = diagnostics.samePlaces.find({0, 1});
+  return found == diagnostics.samePlaces.end() ? 0 : found->second;
 }
 
-TEST(Doubts, SurfacesAtTheSamePlaceAreToldByTheirPixels) {
-  EXPECT_GT(contestedPixels(0), 24 * 24 / 2);
-  EXPECT_GT(contestedPixels(1e-5f), 24 * 24 / 4);
+TEST(Diagnostics, SurfacesAtTheSamePlaceAreToldByTheirPixels) {
+  EXPECT_GT(conflictPixels(0), 24 * 24 / 2);
+  EXPECT_GT(conflictPixels(1e-5f), 24 * 24 / 4);
 }
 
-TEST(Doubts, SurfacesThatDepthsTellApartAreNotInDoubt) { EXPECT_EQ(contestedPixels(0.05f), 0); }
+TEST(Diagnostics, SurfacesThatDepthsTellApartAreNotInDoubt) { EXPECT_EQ(conflictPixels(0.05f), 0); }
 
-TEST(Doubts, WhatIsHiddenAfterwardsIsNotInDoubt) { EXPECT_EQ(contestedPixels(0, true), 0); }
+TEST(Diagnostics, WhatIsHiddenAfterwardsIsNotInConflict) { EXPECT_EQ(conflictPixels(0, true), 0); }
 
-TEST(Doubts, WhatStandsInFrontOfTheContestIsNotInDoubtEvenIfItIsOneOfTheTwo) {
+TEST(Diagnostics, WhatStandsInFrontOfAConflictIsNotPartOfItEvenIfItIsOneOfTheTwo) {
   World w;
   w.add(), w.add();
   w.freeze();
@@ -49,22 +49,22 @@ TEST(Doubts, WhatStandsInFrontOfTheContestIsNotInDoubtEvenIfItIsOneOfTheTwo) {
   const auto floor = makeGrid(0, 1, 24, 24, rectangle(0, 0, 32, 32, 9)),
              bottom = makeGrid(1, 2, 17, 19, rectangle(4, 4, 28, 28, 9));
   const auto top = makeGrid(1, 3, 9, 9, rectangle(4, 4, 28, 28, 5));
-  EXPECT_FALSE(doubtsOf(w, {raster(w, floor), raster(w, bottom)}).samePlaces.empty());
-  EXPECT_TRUE(doubtsOf(w, {raster(w, floor), raster(w, bottom), raster(w, top)}).samePlaces.empty());
+  EXPECT_FALSE(diagnosticsOf(w, {raster(w, floor), raster(w, bottom)}).samePlaces.empty());
+  EXPECT_TRUE(diagnosticsOf(w, {raster(w, floor), raster(w, bottom), raster(w, top)}).samePlaces.empty());
 }
 
-TEST(Doubts, WallsThatMeetAreNotInDoubt) {
+TEST(Diagnostics, WallsThatMeetAreNotInConflict) {
   World w;
   w.add(), w.add();
   w.freeze();
   const auto one = makeGrid(0, 1, 24, 24, [](float u, float v, int) { return at(16 * u, 32 * v, 5 + 8 * u); });
   const auto other = makeGrid(1, 2, 24, 24, [](float u, float v, int) { return at(32 * u, 32 * v, 5 + 16 * (1 - u)); });
-  const HideDoubts doubts = doubtsOf(w, {raster(w, one), raster(w, other)});
-  for (const auto& [pair, pixels] : doubts.samePlaces) EXPECT_LT(pixels, 3);
+  const HideDiagnostics diagnostics = diagnosticsOf(w, {raster(w, one), raster(w, other)});
+  for (const auto& [pair, pixels] : diagnostics.samePlaces) EXPECT_LT(pixels, 3);
 }
 
 /// A cylinder that stands upright, of so many micropolygons around and so many pixels wide.
-HideDoubts::Turns turnsOfCylinder(int around, float radius_px) {
+HideDiagnostics::Turns turnsOfCylinder(int around, float radius_px) {
   World w;
   w.add();
   w.freeze();
@@ -76,11 +76,11 @@ HideDoubts::Turns turnsOfCylinder(int around, float radius_px) {
     const float a = turn(static_cast<float>(k % (around + 1)) / static_cast<float>(around));
     g->N(0)[k] = std::sin(a), g->N(2)[k] = -std::cos(a);
   }
-  const HideDoubts doubts = doubtsOf(w, {raster(w, g)});
-  return doubts.turns.at(0);
+  const HideDiagnostics diagnostics = diagnosticsOf(w, {raster(w, g)});
+  return diagnostics.turns.at(0);
 }
 
-TEST(Doubts, MicropolygonsThatTurnFarAreCounted) {
+TEST(Diagnostics, MicropolygonsThatTurnFarAreCounted) {
   const auto coarse = turnsOfCylinder(4, 12), fine = turnsOfCylinder(24, 12), thin = turnsOfCylinder(4, 0.3f);
   EXPECT_EQ(coarse.turned, coarse.all);
   EXPECT_GT(coarse.all, 8);

@@ -1,17 +1,17 @@
-// Lists of samples, and the stack that they live on. Private to the hider.
+// Private to the hider: lists of samples, and the stack that they live on.
 #pragma once
 #include "reyes/base/simd.h"
 
 namespace tomales {
 
-/// Arrays that a vector may be written to beyond `count`; all are `stride` apart, so that few registers tell
-/// where those of four lists are.
+/// Arrays that a vector may write to beyond `count`. All are `stride` apart, so that few registers address those of
+/// four lists.
 struct SampleList {
   enum Array : size_t {
     kX,
     kY,
-    kLane,  ///< In SampleBuffer.
-    kT,     ///< Fraction of the way between two motion keys.
+    kLane,  ///< Index in SampleBuffer.
+    kT,     ///< Fraction between two motion keys.
     kLensX,
     kLensY,
     kArrays
@@ -23,11 +23,12 @@ struct SampleList {
   uint32_t* array(Array a) const { return first + a * stride; }
 };
 
-class SieveStack {
+class SampleListStack {
  public:
-  /// Keeps what it has from grid to grid. Before a descent: room for `depth` lists of at most `most` samples.
-  static SieveStack& ofThread(size_t depth, size_t most) {
-    static thread_local SieveStack stack;
+  /// The thread's stack, whose memory is kept from grid to grid. It has room for `depth` lists of at most `most`
+  /// samples.
+  static SampleListStack& ofThread(size_t depth, size_t most) {
+    static thread_local SampleListStack stack;
     const size_t size = depth * SampleList::kArrays * strideOf(most);
     if (stack.memory_.size() < size) stack.memory_.resize(size);
     return stack;
@@ -38,7 +39,7 @@ class SieveStack {
     used_ += SampleList::kArrays * list.stride;
     return list;
   }
-  /// The last `lists` of the same size.
+  /// Removes the last `lists` lists of this size.
   void pop(size_t most, size_t lists = 1) { used_ -= lists * SampleList::kArrays * strideOf(most); }
 
  private:
@@ -46,7 +47,7 @@ class SieveStack {
     return most + 2 * static_cast<size_t>(kLanes) - most % static_cast<size_t>(kLanes);
   }
 
-  UnsetVector<uint32_t> memory_;  ///< Of which little is touched: lists get short.
+  UnsetVector<uint32_t> memory_;  ///< Little of it is touched: lists get short.
   size_t used_ = 0;
 };
 

@@ -35,7 +35,7 @@ Rasters bentSheets(World& w, float slope, float bowl, float z) {
           raster(w, joined(makeGrid(0, 2, 5, 14, right), kAllEdges & ~kEdgeU0), false)};
 }
 
-TEST(Reach, NeighboursOfOneSurfaceCountOnce) {
+TEST(BorderOverlap, NeighboursOfOneSurfaceCountOnce) {
   for (const auto& [slope, bowl] : {std::pair{0.0f, 0.0f}, {0.5f, 0.0f}, {0.0f, 6.0f}}) {
     World w;
     w.add();
@@ -45,7 +45,7 @@ TEST(Reach, NeighboursOfOneSurfaceCountOnce) {
   }
 }
 
-TEST(Reach, LayersOfOneObjectCountEach) {
+TEST(BorderOverlap, LayersOfOneObjectCountEach) {
   World w;
   w.add();
   w.freeze();
@@ -56,7 +56,7 @@ TEST(Reach, LayersOfOneObjectCountEach) {
 }
 
 /// A sheet folded along a line that is seen edge on: both sides end there, on the same side.
-TEST(Reach, SidesOfAFoldCountBoth) {
+TEST(BorderOverlap, SidesOfAFoldCountBoth) {
   World w;
   w.add();
   w.freeze();

@@ -1,4 +1,4 @@
-#include "reyes/hide/reach.h"
+#include "reyes/hide/border_overlap.h"
 
 #include <bit>
 
@@ -7,9 +7,9 @@
 namespace tomales {
 namespace {
 
-constexpr float kRounding = 1e-5f;  ///< Of depth keys.
+constexpr float kRounding = 1e-5f;  ///< Relative error of depth keys.
 
-/// Of the depth keys of a cell, which begins at vertex a.
+/// Range of the depth keys of a cell, which begins at vertex a.
 float extentOf(const RasterGrid& raster, int a) {
   const float* d = raster.d.data() + a;
   const int row = raster.grid->nu + 1;
@@ -33,7 +33,7 @@ class BorderCell {
 
   /// Does it lie at a border that joins a neighbour?
   bool joins() const { return joined_ != 0; }
-  /// Does a point of the raster lie beyond such a border, as it was before it was pushed out?
+  /// Does a point of the raster lie beyond such a border, as the border was before it was pushed out?
   bool reachesTo(const vec2& at) const {
     const int b = a_ + 1, c = a_ + grid_.nu + 1, d = c + 1;
     return beyond(kEdgeU0, a_, c, b, at) || beyond(kEdgeU1, b, d, a_, at) || beyond(kEdgeV0, a_, b, c, at) ||
@@ -57,32 +57,32 @@ class BorderCell {
 
 }  // namespace
 
-float depthOfCell(const Films& films, const GridTable& grids, size_t film) {
-  const uint32_t cell = films.cells(film)[std::countr_zero(films.film(film).samples)];
+float depthRangeOfCell(const TransparentLayers& layers, const GridTable& grids, size_t layer) {
+  const uint32_t cell = layers.cells(layer)[std::countr_zero(layers.layer(layer).samples)];
   const GridTable::Entry& entry = grids.of(cell);
   return extentOf(*entry.raster, firstVertex(entry.grid(), static_cast<int>(cell - entry.firstCell)));
 }
 
-ShownTwice shownTwice(const SampleBuffer& samples, const GridTable& grids, const Camera& camera, size_t film,
-                      size_t other) {
-  const Films& films = samples.films;
-  const uint64_t common = films.film(film).samples & films.film(other).samples;
-  ShownTwice out;
-  if (common == 0 || films.film(film).word != films.film(other).word) return out;
-  const uint32_t *cells = films.cells(film), *otherCells = films.cells(other);
+BorderOverlap borderOverlap(const SampleBuffer& samples, const GridTable& grids, const Camera& camera, size_t layer,
+                            size_t other) {
+  const TransparentLayers& layers = samples.layers;
+  const uint64_t common = layers.layer(layer).samples & layers.layer(other).samples;
+  BorderOverlap out;
+  if (common == 0 || layers.layer(layer).word != layers.layer(other).word) return out;
+  const uint32_t *cells = layers.cells(layer), *otherCells = layers.cells(other);
   const GridTable::Entry &entry = grids.of(cells[std::countr_zero(common)]),
                          &otherEntry = grids.of(otherCells[std::countr_zero(common)]);
-  const size_t words = films.wordsOfPixel(), word = films.film(film).word;
+  const size_t words = layers.wordsOfPixel(), word = layers.layer(layer).word;
   const size_t first = word / words * static_cast<size_t>(samples.lanes) + 64 * (word % words);
   for (uint64_t left = common; left; left &= left - 1) {
     const auto s = static_cast<size_t>(std::countr_zero(left));
     const BorderCell mine(entry, camera, cells[s]), theirs(otherEntry, camera, otherCells[s]);
     if (!mine.joins() || !theirs.joins()) continue;
-    const float d = films.depths(film)[s], otherD = films.depths(other)[s];
+    const float d = layers.depths(layer)[s], otherD = layers.depths(other)[s];
     if (std::abs(d - otherD) > mine.extent() + theirs.extent() + kRounding * std::abs(d)) continue;
     const vec2 at(samples.x[first + s], samples.y[first + s]);
     const bool reaches = mine.reachesTo(at), otherReaches = theirs.reachesTo(at);
-    // Where both reach, the nearer stays.
+    // Where both reach over, the nearer sample stays.
     const bool nearer = d < otherD || (d == otherD && grids.precedes(cells[s], otherCells[s]));
     const uint64_t sample = left & (~left + 1);
     if (reaches && !(otherReaches && nearer)) out.first |= sample;
