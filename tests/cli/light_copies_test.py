@@ -1,5 +1,6 @@
 """A light is known by what its shader declares, never by names: a plugin copy of every built-in light, under another name and with other
 names of its parameters, gives the same bits by every way to indirect light and through every command."""
+import json
 import os
 import pathlib
 import re
@@ -16,9 +17,9 @@ t.trust_shaders(".")
 source = pathlib.Path(__file__).resolve().parent.parent.parent
 
 # --- The copies: one plugin of all files that hold lights, each in a namespace of its own.
-PARAMETER = re.compile(r'(\b\w+[({])"(\w+)"(?=, )')
+PARAMETER = re.compile(r'(\b\w+[({]\s*)"(\w+)"(?=,\s)')
 LIGHT = re.compile(r'\bTM_LIGHT,\s*"(\w+)"')
-declared = {}  # of each light, what its file calls parameters
+declared = {}  # of each light, the names of its parameters
 
 
 def copied(path):
@@ -30,18 +31,15 @@ def copied(path):
 
 def build_copies():
     (t.folder / "copied_shaders").mkdir()
-    headers = {p.name: set(n for _, n in PARAMETER.findall(p.read_text())) for p in (source / "shaders").glob("*.h")}
+    headers = sorted(p.name for p in (source / "shaders").glob("*.h"))
     for name in headers:
         t.write("copied_shaders/" + name, copied(source / "shaders" / name))
     parts, shaders = ["#include <cstring>\n#include \"reyes/shader.h\"\n"], []
-    parts += [f'#include "copied_shaders/{name}"\n' for name in sorted(headers)]
+    parts += [f'#include "copied_shaders/{name}"\n' for name in headers]
     for path in sorted((source / "shaders").glob("*.cpp")):
-        text = path.read_text()
-        names = LIGHT.findall(text)
+        names = LIGHT.findall(path.read_text())
         if not names:
             continue
-        held = set(n for _, n in PARAMETER.findall(text)).union(*(headers[h] for h in re.findall(r'"shaders/(\w+\.h)"', text)))
-        declared.update({name: held for name in names})
         t.write("copied_" + path.name, copied(path))
         parts.append(f'namespace {path.stem}_copy {{\n#include "copied_{path.name}"\n}}\n')
         shaders += [f"{path.stem}_copy::{name}Shader" for name in names]
@@ -50,8 +48,9 @@ def build_copies():
     # The options of the build that arithmetic depends on.
     subprocess.run([os.environ["CXX"], "-O1", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-std=c++20", "-shared", "-fPIC", "-I", t.folder,
                     "-I", source, t.folder / "copies.cpp", "-o", t.folder / "copies.so"], check=True)
-    for name in declared:
-        os.link(t.folder / "copies.so", t.folder / f"copy_{name}.so")
+    for shader in json.loads(t.run("info", "--json", "copies.so").stdout)["shaders"]:
+        os.link(t.folder / "copies.so", t.folder / (shader["name"] + ".so"))
+        declared[shader["name"].removeprefix("copy_")] = {p["name"].removeprefix("z") for p in shader["parameters"]}
 
 
 build_copies()
@@ -187,7 +186,7 @@ t.expect(by_option == by_light != gathered, "the light asks for it as the option
 t.expect((t.folder / "copy_maps").is_dir(), "and for the folder")
 CLOUDS = [["photons", "{v}.rib", "-o", "{v}_photons", *PHOTONS], ["irradiance", "{v}_photons", "-o", "{v}_clouds"]]
 by_option = alike("points", asking(bounces=3), *CLOUDS, [*RENDER, "--gi", "points", "--atlas", "{v}_clouds"])
-by_light = alike("points of the light", asking(bounces=3, radiance='"points"', atlas='"{v}_clouds"'), RENDER)
+by_light = alike("points of the light", asking(bounces=3, radiance='"points"', atlas='"{v}_clouds"'), *CLOUDS, RENDER)
 t.expect(by_option == by_light != gathered, "the light asks for it as the option does")
 KEEP = [*RENDER, "--baked", "{v}_baked"]
 alike("baked", asking(), KEEP, [*RENDER, "--gi", "baked", "--baked", "{v}_baked"])

@@ -195,7 +195,7 @@ TEST(PhotonEmission, ASkySendsPhotonsThroughItsPortals) {
   EXPECT_LT(noise["window"], 0.1 * noise[""]);
 }
 
-rsl::StringParam defaultPortals("portals", "window", "");
+rsl::StringParam defaultPortals("portals", "window", "", TM_ROLE_SKY_PORTALS);
 void shine(const TmGrid* g) {
   for (int i : rsl::Batch(g)) rsl::set(g->Cl, i, {1.5f, 1.5f, 1.5f});
 }

@@ -9,7 +9,8 @@ namespace {
 using namespace sl;
 
 constexpr double kCone = 0.6;
-rsl::FloatParam samples("samples", 256, ""), skySamples("samples", 256, ""), intensity("intensity", 4, "");
+rsl::FloatParam samples("samples", 256, "", TM_ROLE_SAMPLES), skySamples("samples", 256, "", TM_ROLE_SAMPLES),
+    intensity("intensity", 4, "");
 rsl::StringParam map("map", "", "");
 
 struct hazysun : sl::Light {
