@@ -16,7 +16,7 @@ void shade(const TmGrid* g) {
   rsl::Vec3Array picture(g), direction(g), light(g), Nf = b.facingNormals();
   TmTextureOptions lookup = tmTextureDefaults();
   lookup.swidth = lookup.twidth = 2;
-  b.texture(texturename(g), picture, lookup);
+  if (*texturename(g)) b.texture(texturename(g), picture, lookup);
   TmRayOptions rays = tmRayDefaults();
   rays.samples = static_cast<int32_t>(samples(g)), rays.coneAngle = 0.02f, rays.label = "frozen";
   for (int i : b) direction.set(i, axis(g, i));

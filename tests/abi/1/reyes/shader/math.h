@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+/// Before functions with variables that outlive them: each plugin, and the renderer, has its own. Else all that are
+/// loaded would share the first one's, whatever release it is of.
+#define TM_OF_THIS_PLUGIN __attribute__((visibility("hidden")))
+
 namespace rsl {
 
 struct Vec3 {

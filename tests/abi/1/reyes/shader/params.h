@@ -26,7 +26,7 @@ class Param {
 
  private:
   friend class Shader;
-  friend const char* faultOfParameters();
+  TM_OF_THIS_PLUGIN friend const char* faultOfParameters();
   std::vector<float> floats_;
   std::vector<const char*> strings_;
   TmParamDecl decl_;
@@ -34,15 +34,14 @@ class Param {
   std::vector<const TmShader*> listedBy_;
   Param* const older_ = std::exchange(newest(), this);
 
-  // All of the plugin. Hidden, since each plugin has its own, and the renderer as well.
-  __attribute__((visibility("hidden"))) static Param*& newest() {
+  TM_OF_THIS_PLUGIN static Param*& newest() {
     static Param* param = nullptr;
     return param;
   }
 };
 
 /// Of TmShaderLibrary: a parameter that no shader lists has no value.
-inline const char* faultOfParameters() {
+TM_OF_THIS_PLUGIN inline const char* faultOfParameters() {
   static std::string fault;
   for (const Param* p = Param::newest(); p; p = p->older_)
     if (p->listedBy_.empty())

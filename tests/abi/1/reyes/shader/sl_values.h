@@ -22,7 +22,7 @@ class Run {
   float specularScale = 0;  ///< Of sl::specularScale(); 0: not asked yet.
 
  private:
-  static Run*& current() {
+  TM_OF_THIS_PLUGIN static Run*& current() {
     thread_local Run* run = nullptr;
     return run;
   }
@@ -58,7 +58,7 @@ class Lanes {
       for (auto& block : *this) ::operator delete (block.second, std::align_val_t{64});
     }
   };
-  static Spare& spare() {
+  TM_OF_THIS_PLUGIN static Spare& spare() {
     thread_local Spare list;
     return list;
   }

@@ -10,7 +10,7 @@ namespace rsl {
 
 class WaveletTile {
  public:
-  static const WaveletTile& get() {
+  TM_OF_THIS_PLUGIN static const WaveletTile& get() {
     static const WaveletTile tile;
     return tile;
   }
