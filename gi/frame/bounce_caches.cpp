@@ -71,8 +71,14 @@ std::vector<GatherPoint> BounceCaches::hitsFrom(const RayScene& rays, const Came
         if (hit.object < 0) continue;
         const vec3 P = ray.origin + hit.t * ray.direction,
                    n = dot(ray.direction, hit.geometricNormal) > 0 ? -hit.normal : hit.normal;
-        found[p * kRaysOfPoint + k] =
-            GatherPoint{rays.groupOf(hit), P, n, hashCombine(key, k), pixelSize(camera, P), 0, vec3(0), 0};
+        found[p * kRaysOfPoint + k] = GatherPoint{.group = rays.groupOf(hit),
+                                                  .position = P,
+                                                  .normal = n,
+                                                  .key = hashCombine(key, k),
+                                                  .pixelSize = pixelSize(camera, P),
+                                                  .edgeLength = 0,
+                                                  .drift = vec3(0),
+                                                  .time = 0};
       }
     }
   });
