@@ -46,7 +46,8 @@ struct RasterExtent {
   Bound2 bound;
   float dMin = kInfinity;
   void extend(const RasterExtent& e) {
-    bound.extend(e.bound.lo), bound.extend(e.bound.hi);
+    bound.extend(e.bound.lo);
+    bound.extend(e.bound.hi);
     dMin = std::min(dMin, e.dMin);
   }
 };

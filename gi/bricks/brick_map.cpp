@@ -130,7 +130,9 @@ void BrickMap::find(int level, const glm::ivec3& place, Sum& sum) const {
     sum.path[static_cast<size_t>(++at)] = child;
   }
   if (const int32_t node = sum.path[static_cast<size_t>(at)]; node != before) sum.brick = cached(node);
-  sum.level = level, sum.place = place, sum.foundLevel = at;
+  sum.level = level;
+  sum.place = place;
+  sum.foundLevel = at;
 }
 
 /// Adds the layers of a voxel. Pre: the voxel is filled, and its brick is found.

@@ -72,8 +72,13 @@ struct Cluster {
     }
     const vec2 middle = 0.5f * (low + high), found = 0.5f * margin() * (high - low),
                half = glm::max(found, kNarrowest * vec2(found.y, found.x));
-    return {mean + middle.x * u + middle.y * v, glm::length(half), radiance,  n,
-            0.5f * (high - low) / half,         half.x * u,        half.y * v};
+    return {.center = mean + middle.x * u + middle.y * v,
+            .radius = glm::length(half),
+            .radiance = radiance,
+            .normal = n,
+            .found = 0.5f * (high - low) / half,
+            .halfU = half.x * u,
+            .halfV = half.y * v};
   }
 };
 
@@ -113,8 +118,15 @@ SpotAim::SpotAim(const BrightSpots& spots, const vec3& position, const vec3& nor
                            : 4 * glm::length(s.halfU) * glm::length(s.halfV) * std::max(0.0f, -dot(axis, s.normal));
     const float covered = area / (kPi * distance * distance) * std::min(1.0f, dot(axis, normal) + sine);
     if (covered <= 0 || s.radiance <= 0) continue;
-    targets_.push_back({path, axis, s.normal, s.halfU, s.halfV, s.found, sine * sine / (1 + std::sqrt(1 - sine * sine)),
-                        s.radiance * covered, covered});
+    targets_.push_back({.path = path,
+                        .axis = axis,
+                        .normal = s.normal,
+                        .u = s.halfU,
+                        .v = s.halfV,
+                        .found = s.found,
+                        .versine = sine * sine / (1 + std::sqrt(1 - sine * sine)),
+                        .share = s.radiance * covered,
+                        .covered = covered});
   }
   settle();
 }

@@ -43,9 +43,14 @@ struct Vicinity {
   }
   void add(uint32_t record, const IrradianceRecord& r, float recordSize) {
     records.push_back(record);
-    x.push_back(r.position.x), y.push_back(r.position.y), z.push_back(r.position.z);
-    nx.push_back(r.normal.x), ny.push_back(r.normal.y), nz.push_back(r.normal.z);
-    size.push_back(recordSize), limit.push_back(r.limit);
+    x.push_back(r.position.x);
+    y.push_back(r.position.y);
+    z.push_back(r.position.z);
+    nx.push_back(r.normal.x);
+    ny.push_back(r.normal.y);
+    nz.push_back(r.normal.z);
+    size.push_back(recordSize);
+    limit.push_back(r.limit);
   }
 };
 

@@ -17,7 +17,11 @@ constexpr float kOwnPlane = 0.3f;
 
 void Disks::Sum::add(const Sum& o) {
   P += o.area * o.P;  // divided by the area when all disks are added
-  area += o.area, facing += o.facing, front += o.front, light += o.light, lightFront += o.lightFront;
+  area += o.area;
+  facing += o.facing;
+  front += o.front;
+  light += o.light;
+  lightFront += o.lightFront;
 }
 
 Disks::Sum Disks::sumOf(const Disk& d) {
@@ -56,7 +60,8 @@ uint32_t Disks::build(uint32_t begin, uint32_t end) {
   Group group{{}, {}, 0, begin, end, 0};
   for (uint32_t i = begin; i < end; ++i) {
     group.sum.add(sumOf(disks_[i]));
-    group.bound.extend(disks_[i].P - disks_[i].radius), group.bound.extend(disks_[i].P + disks_[i].radius);
+    group.bound.extend(disks_[i].P - disks_[i].radius);
+    group.bound.extend(disks_[i].P + disks_[i].radius);
   }
   group.sum.P /= group.sum.area;
   const vec3 size = group.bound.size();
@@ -92,7 +97,8 @@ class Disks::LineOfSight {
       if (outside != vec3(0) && group.seen < query_.maxSolidAngle * dot(way, way)) {
         meet(group.sum);
       } else if (group.second != 0) {
-        open[depth++] = group.second, open[depth++] = node + 1;
+        open[depth++] = group.second;
+        open[depth++] = node + 1;
       } else {
         for (uint32_t i = group.begin; i < group.end; ++i) meet(disks_.disks_[i]);
       }
@@ -139,11 +145,13 @@ class Disks::LineOfSight {
     const float shown = sides == HitSides::Both ? 1.0f : sides == HitSides::Front ? front : back;
     if (t > reach_ || !(shown > 0)) return;
     if (!query_.clamp) {
-      covered += share * shown * query_.falloff.coveredAt(t), light += share * sends;
+      covered += share * shown * query_.falloff.coveredAt(t);
+      light += share * sends;
       return;
     }
     reach_ = t;
-    covered = shown * query_.falloff.coveredAt(t), light = sends;
+    covered = shown * query_.falloff.coveredAt(t);
+    light = sends;
   }
 
   const Disks& disks_;
@@ -162,7 +170,8 @@ HemisphereView Disks::seenFrom(const vec3& P, const vec3& N, const DisksQuery& q
     const vec3 local(d, std::sqrt(std::max(0.0f, 1 - dot(d, d))));
     LineOfSight sight(*this, P, local.x * tangent + local.y * bitangent + local.z * N, query);
     sight.walk();
-    out.covered += sight.covered / kDirections, out.radiance += sight.light / static_cast<float>(kDirections);
+    out.covered += sight.covered / kDirections;
+    out.radiance += sight.light / static_cast<float>(kDirections);
   }
   out.covered = std::min(1.0f, out.covered);
   return out;

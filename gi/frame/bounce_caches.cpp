@@ -30,7 +30,9 @@ int phaseOf(uint32_t key) {
 /// Gives a record of a further level the radii of the first level's record, whose distances are known best as it has
 /// the most rays. Its own gradients are noise, of which clamping at 0 would keep the bright half, so they are cleared.
 void copyRadii(const IrradianceRecord& first, IrradianceRecord& record) {
-  record.closest = first.closest, record.harmonicMean = first.harmonicMean, record.limit = first.limit;
+  record.closest = first.closest;
+  record.harmonicMean = first.harmonicMean;
+  record.limit = first.limit;
   std::fill_n(record.rotationGradient, 3, vec3(0)), std::fill_n(record.translationGradient, 3, vec3(0));
 }
 
@@ -69,8 +71,14 @@ std::vector<GatherPoint> BounceCaches::hitsFrom(const RayScene& rays, const Came
         if (hit.object < 0) continue;
         const vec3 P = ray.origin + hit.t * ray.direction,
                    n = dot(ray.direction, hit.geometricNormal) > 0 ? -hit.normal : hit.normal;
-        found[p * kRaysOfPoint + k] =
-            GatherPoint{rays.groupOf(hit), P, n, hashCombine(key, k), pixelSize(camera, P), 0, vec3(0), 0};
+        found[p * kRaysOfPoint + k] = GatherPoint{.group = rays.groupOf(hit),
+                                                  .position = P,
+                                                  .normal = n,
+                                                  .key = hashCombine(key, k),
+                                                  .pixelSize = pixelSize(camera, P),
+                                                  .edgeLength = 0,
+                                                  .drift = vec3(0),
+                                                  .time = 0};
       }
     }
   });
@@ -121,13 +129,17 @@ bool BounceCaches::settled() const {
 
 void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::vector<GatherPoint>& from,
                         const GatherSettings& gather, int bounces, const Run& run) {
-  levels_.clear(), light_.assign(1, 0.0), points_.clear();
+  levels_.clear();
+  light_.assign(1, 0.0);
+  points_.clear();
   float distance = 0;
   for (const GatherPoint& p : from) distance += glm::length(p.position) / static_cast<float>(from.size());
   leastDistance_ = 0.5f * distance;
   GatherSettings settings = gather;
   settings.samples = std::clamp(gather.samples / kSamplesShare, kLeastSamples, kMostSamples);
-  settings.curvature = false, settings.indirect = false, settings.depth = bounces;
+  settings.curvature = false;
+  settings.indirect = false;
+  settings.depth = bounces;
   const std::vector<GatherPoint> seen = hitsFrom(*tools.rays, camera, from, 0x68697473U);
   Bound3 bound;
   for (const GatherPoint& p : seen) bound.extend(p.position);

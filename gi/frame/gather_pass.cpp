@@ -40,7 +40,8 @@ class GatherPass {
 
   void run(const std::function<void(float)>& progress, const std::atomic<bool>* cancelled,
            const std::function<void(int stride)>& covered) {
-    progress_ = &progress, cancelled_ = cancelled;
+    progress_ = &progress;
+    cancelled_ = cancelled;
     if (!prepareCaches() || !(tools_ = gatherTools(state_))) return;
     measureUnseenDisplacement();
     for (phase_ = 0; phase_ < kPhases && !isCancelled(); ++phase_) {
@@ -85,7 +86,8 @@ class GatherPass {
       frames_.resize(state_.caches.size());
       frames_[c] += survey.seenOfGroup[group];
     }
-    sites_.resize(state_.caches.size()), frames_.resize(state_.caches.size());
+    sites_.resize(state_.caches.size());
+    frames_.resize(state_.caches.size());
     return state_.anew || forgetKnownCaches();
   }
 

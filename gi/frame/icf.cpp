@@ -105,7 +105,8 @@ void fields(A& a, StoredShot& x) {
 
 RecordFileKind icfKind() {
   SchemaSum schema;
-  schema.add(schemaOf<StoredShot>()), schema.add(schemaOf<RayAnswers>());
+  schema.add(schemaOf<StoredShot>());
+  schema.add(schemaOf<RayAnswers>());
   return {"TomalICF", 1, schema.sum};
 }
 

@@ -26,7 +26,8 @@ bool OccluderSearch::isUnderOccluder(const GatherPoint& p, float closest, float 
   if (p.group != group_) filter_.groups = groupsSeenFrom(rays_, group_ = p.group, gather_);
   if (!filter_.passesAll()) ray.filter = &filter_;
   if (ray.tMax > met && meetsOccluder(p, ray)) return true;
-  ray.offset = slanted, ray.tMax = met;
+  ray.offset = slanted;
+  ray.tMax = met;
   if (slanted >= met) return false;
   vec3 tangent, bitangent;
   orthonormalBasis(p.normal, tangent, bitangent);

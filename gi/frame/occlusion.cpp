@@ -52,7 +52,9 @@ void learnOcclusionQueries(GiState& state, const DeepFrame& layout, const TileRe
   for (const ExamplePoint& s : examplePointsOf(state, layout, tiles, cancelled))
     if (s.tile < ofTile.size()) ofTile[s.tile].push_back(s);
   ShadeContext context;
-  context.rehearsal = true, context.indirect = false, context.seed = state.settings.seed;
+  context.rehearsal = true;
+  context.indirect = false;
+  context.seed = state.settings.seed;
   parallelFor(ofTile.size(), 1, [&](size_t t, size_t) {
     const auto tile = ofTile[t].empty() ? nullptr : tiles(t);
     for (const ExamplePoint& s : tile ? ofTile[t] : std::vector<ExamplePoint>{}) {

@@ -52,7 +52,8 @@ std::vector<int> contrastCells(const HemisphereCells& cells, std::span<const vec
       for (int ring = std::max(j - 1, 0); ring <= std::min(j + 1, M - 1); ++ring)
         for (int side = -1; side <= 1; ++side) {
           if (ring == j && side == 0) continue;
-          least = std::min(least, light(ring, k + side)), most = std::max(most, light(ring, k + side));
+          least = std::min(least, light(ring, k + side));
+          most = std::max(most, light(ring, k + side));
         }
       if (most - least > kContrast * mean) out.push_back(j * N + k);
     }
@@ -113,7 +114,8 @@ class Hemisphere {
   /// Adds up to half as many rays again, in strata of the cells where light changes fast.
   void refine(Stats& stats) {
     scratch_.raysOfCell.assign(count_, 1);
-    scratch_.fineDirections.clear(), scratch_.fineCells.clear();
+    scratch_.fineDirections.clear();
+    scratch_.fineCells.clear();
     const std::vector<int> chosen = contrastCells(cells_, scratch_.radiance);
     if (chosen.empty()) return;
     const int split = std::min(
@@ -156,7 +158,8 @@ class Hemisphere {
   /// Aims the more rays, the more light is expected from the spots. The rays of this hemisphere do not decide it,
   /// except for whether to probe for hidden spots: chance does not lose three quarters of so much light.
   void aim(Stats& stats) {
-    scratch_.aimedDirections.clear(), scratch_.aimedCells.clear();
+    scratch_.aimedDirections.clear();
+    scratch_.aimedCells.clear();
     const auto byChance = [&] { return aim_.coverage() * static_cast<float>(count_); };
     const bool asks = byChance() < kUnhidden * kFoundByChance || irradianceSeen() < kHidden * aim_.irradiance();
     if (asks && worthAiming() >= kLeastAimed) probe(stats);
@@ -279,7 +282,9 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
   if (settings.curvature) {
     const IrradianceCurvature curvature = curvatureOf(samples);
     record.tangent = samples.tangent;
-    record.hessian[0] = curvature.xx, record.hessian[1] = curvature.xy, record.hessian[2] = curvature.yy;
+    record.hessian[0] = curvature.xx;
+    record.hessian[1] = curvature.xy;
+    record.hessian[2] = curvature.yy;
     // Light changes faster near an occluder, so the curvature at the record holds for half of the distance at best.
     if (settings.occlusion)
       record.smoothRadius =

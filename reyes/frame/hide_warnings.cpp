@@ -27,7 +27,8 @@ void HideWarnings::add(const HideDiagnostics& bucket, const Scene& scene) {
     samePlaces_[sites] += pixels;
   }
   for (const auto& [object, turns] : bucket.turns) {
-    all_.turned += turns.turned, all_.all += turns.all;
+    all_.turned += turns.turned;
+    all_.all += turns.all;
     if (turns.turned > 0) turned_[siteOf(scene, object)] += turns.turned;
   }
 }

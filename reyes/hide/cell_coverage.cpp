@@ -32,8 +32,10 @@ HWY_INLINE void collect(const uint32_t* cells, const float* depths, size_t lanes
   while (left) {
     CellCoverage& coverage =
         coverages.emplace_back();  // made in place: copying it would wait for its parts to be written
-    coverage.cell = cells[std::countr_zero(left)], coverage.word = word;
-    coverage.depths = depths, coverage.far = farthest;
+    coverage.cell = cells[std::countr_zero(left)];
+    coverage.word = word;
+    coverage.depths = depths;
+    coverage.far = farthest;
     coverage.samples = lanesOf(cells, depths, lanes, coverage.cell, coverage.d);
     left &= ~coverage.samples;
   }

@@ -84,7 +84,8 @@ void setTextureCoordinates(const ShadeGroup& group, ShadePoints& points) {
   float *s = points.channel(kS), *t = points.channel(kT);
   for (int i = 0; i < points.count(); ++i) {
     const vec2 st = a.textureAt(u[i], v[i]);
-    s[i] = st.x, t[i] = st.y;
+    s[i] = st.x;
+    t[i] = st.y;
   }
   int offset = 0;
   for (const Primvar& p : group.primvars) {
@@ -159,7 +160,8 @@ void FacetTable::makeFacets(const GridTable::Entry& entry) {
       if (made == kFolded) continue;
       const Side side = sides == kBack ? Side::Back : Side::Front;
       Facet& facet = tile_.facets.emplace_back();
-      facet.batch = batch, facet.matte = entry.raster->matte;
+      facet.batch = batch;
+      facet.matte = entry.raster->matte;
       if (smooth) {
         const int vertices[4] = {a, a + 1, a + row, a + row + 1};
         for (int k = 0; k < 4; ++k) facet.point[k] = corner(vertices[k], side);
@@ -183,7 +185,8 @@ uint32_t FacetTable::facetOfFolded(uint32_t number) {
   const auto [at, isNew] = folded_.try_emplace({fragment.facet, side}, static_cast<uint32_t>(tile_.facets.size()));
   if (!isNew) return at->second;
   Facet& facet = tile_.facets.emplace_back();
-  facet.batch = batchOf(scene_.objects[static_cast<size_t>(g.object)].group), facet.matte = entry.raster->matte;
+  facet.batch = batchOf(scene_.objects[static_cast<size_t>(g.object)].group);
+  facet.matte = entry.raster->matte;
   std::vector<PointRequest>& list = requests_[static_cast<size_t>(facet.batch)].list;
   const int a = firstVertex(g, cell), row = g.nu + 1, points[] = {a, a + 1, a + row, a + row + 1};
   for (int k = 0; k < 4; ++k) {

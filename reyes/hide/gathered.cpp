@@ -42,13 +42,25 @@ TOMALES_HOT void derive(const Gathered& g, bool perspective, const PointBlock& o
     const float Nx = noNormal ? (flat ? ex : gx) : hx, Ny = noNormal ? (flat ? ey : gy) : hy,
                 Nz = noNormal ? (flat ? ez : gz) : hz;
     const float du = g.du[i] != 0 ? g.du[i] : 1.0f, dv = g.dv[i] != 0 ? g.dv[i] : 1.0f;
-    out.channel[kPx][i] = g.P[0][i], out.channel[kPy][i] = g.P[1][i], out.channel[kPz][i] = g.P[2][i];
-    out.channel[kNx][i] = Nx, out.channel[kNy][i] = Ny, out.channel[kNz][i] = Nz;
-    out.channel[kNgx][i] = flat ? Nx : gx, out.channel[kNgy][i] = flat ? Ny : gy, out.channel[kNgz][i] = flat ? Nz : gz;
-    out.channel[kDpduX][i] = ux / du, out.channel[kDpduY][i] = uy / du, out.channel[kDpduZ][i] = uz / du;
-    out.channel[kDpdvX][i] = vx / dv, out.channel[kDpdvY][i] = vy / dv, out.channel[kDpdvZ][i] = vz / dv;
-    out.channel[kU][i] = g.u[i], out.channel[kV][i] = g.v[i];
-    out.channel[kDu][i] = du, out.channel[kDv][i] = dv;
+    out.channel[kPx][i] = g.P[0][i];
+    out.channel[kPy][i] = g.P[1][i];
+    out.channel[kPz][i] = g.P[2][i];
+    out.channel[kNx][i] = Nx;
+    out.channel[kNy][i] = Ny;
+    out.channel[kNz][i] = Nz;
+    out.channel[kNgx][i] = flat ? Nx : gx;
+    out.channel[kNgy][i] = flat ? Ny : gy;
+    out.channel[kNgz][i] = flat ? Nz : gz;
+    out.channel[kDpduX][i] = ux / du;
+    out.channel[kDpduY][i] = uy / du;
+    out.channel[kDpduZ][i] = uz / du;
+    out.channel[kDpdvX][i] = vx / dv;
+    out.channel[kDpdvY][i] = vy / dv;
+    out.channel[kDpdvZ][i] = vz / dv;
+    out.channel[kU][i] = g.u[i];
+    out.channel[kV][i] = g.v[i];
+    out.channel[kDu][i] = du;
+    out.channel[kDv][i] = dv;
     out.channel[kArea][i] = std::sqrt(area2);
   }
   // A loop of its own, because the compiler does not vectorise a choice that is the same for all lanes.

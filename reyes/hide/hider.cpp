@@ -89,7 +89,8 @@ void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
   if (hidden(*raster)) return;
   impl_->dropUnseen();
   const GridTable::Entry& entry = impl_->grids.add(raster, shutterTimes(impl_->scene, *raster->grid));
-  s.layers.beginGrid(joinedObject(*raster)), s.crossings.beginGrid();
+  s.layers.beginGrid(joinedObject(*raster));
+  s.crossings.beginGrid();
   const RasterJob job{*raster, impl_->grids, entry.firstCell, entry.keyTimes, impl_->camera, s};
   if (raster->blur) {
     s.showBlur();

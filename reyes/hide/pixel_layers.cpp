@@ -76,8 +76,11 @@ void forSamples(const CellCoverage& coverage, const F& f) {
 
 void PixelLayers::Queues::resize(size_t queues) {
   const auto lanes = static_cast<size_t>(padded(static_cast<int>(queues)));
-  d.assign(lanes, kNone_d), coverage.assign(lanes, kNone);
-  next.resize(queues), end.resize(queues), sample.resize(queues);
+  d.assign(lanes, kNone_d);
+  coverage.assign(lanes, kNone);
+  next.resize(queues);
+  end.resize(queues);
+  sample.resize(queues);
 }
 
 std::span<const CellCoverage> PixelLayers::nextRun(std::span<const CellCoverage> coverages) {
@@ -122,8 +125,10 @@ void PixelLayers::listLayers(std::span<const CellCoverage> coverages) {
     const uint32_t count = counts_[sample];
     counts_[sample] = queue;  // from here on it is the sample's queue
     if (count == 0) continue;
-    queues_.next[queue] = queues_.end[queue] = total, queues_.sample[queue] = sample;
-    total += count, ++queue;
+    queues_.next[queue] = queues_.end[queue] = total;
+    queues_.sample[queue] = sample;
+    total += count;
+    ++queue;
   }
   std::vector<Layer>& layers = queues_.layers;
   layers.resize(total);

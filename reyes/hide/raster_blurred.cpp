@@ -28,7 +28,8 @@ template <class B>
 HWY_INLINE SampleVector loadSamples(const SampleList& s, size_t i) {
   const auto at = [&](SampleList::Array a) { return hn::BitCast(kF, hn::LoadU(kU, s.array(a) + i)); };
   SampleVector v;
-  v.x = at(SampleList::kX), v.y = at(SampleList::kY);
+  v.x = at(SampleList::kX);
+  v.y = at(SampleList::kY);
   v.t = B::kMoves ? at(SampleList::kT) : all(0);
   v.lensX = B::kDefocuses ? at(SampleList::kLensX) : all(0);
   v.lensY = B::kDefocuses ? at(SampleList::kLensY) : all(0);
@@ -55,7 +56,8 @@ struct Box {
   HWY_INLINE Mask holds(const SampleVector& s) const {
     Floats cx = x, cy = y, cd = d;
     if constexpr (B::kMoves) {
-      cx = hn::Add(cx, hn::Mul(xStep, s.t)), cy = hn::Add(cy, hn::Mul(yStep, s.t));
+      cx = hn::Add(cx, hn::Mul(xStep, s.t));
+      cy = hn::Add(cy, hn::Mul(yStep, s.t));
       if constexpr (B::kDefocuses) cd = hn::Add(cd, hn::Mul(dStep, s.t));
     }
     if constexpr (B::kDefocuses) cx = hn::Add(cx, hn::Mul(s.lensX, cd)), cy = hn::Add(cy, hn::Mul(s.lensY, cd));
@@ -95,8 +97,10 @@ HWY_INLINE void cullSamples(const Box<B>& a, const Box<B>& b, const Box<B>& c, c
     endC = keep<B>(s, lane, hn::And(c.holds(s), on), endC, stride);
     endD = keep<B>(s, lane, hn::And(d.holds(s), on), endD, stride);
   }
-  to[0].count = static_cast<size_t>(endA - to[0].first), to[1].count = static_cast<size_t>(endB - to[1].first);
-  to[2].count = static_cast<size_t>(endC - to[2].first), to[3].count = static_cast<size_t>(endD - to[3].first);
+  to[0].count = static_cast<size_t>(endA - to[0].first);
+  to[1].count = static_cast<size_t>(endB - to[1].first);
+  to[2].count = static_cast<size_t>(endC - to[2].first);
+  to[3].count = static_cast<size_t>(endD - to[3].first);
 }
 
 /// Collects the samples of the bucket inside a box, whose time is in the segment and that see nothing nearer yet.
@@ -114,10 +118,12 @@ HWY_INLINE void cullBucketSamples(const SampleBuffer& out, const PixelRect& pixe
       for (size_t i = pixel * lanes; i < (pixel + 1) * lanes; i += width) {
         const Mask open = hn::Ge(hn::Load(kF, out.depth.data() + i), all(dMin));
         SampleVector s;
-        s.x = hn::Load(kF, out.x.data() + i), s.y = hn::Load(kF, out.y.data() + i);
+        s.x = hn::Load(kF, out.x.data() + i);
+        s.y = hn::Load(kF, out.y.data() + i);
         const Floats time = hn::Load(kF, out.time.data() + i);
         s.t = hn::Mul(hn::Sub(time, begin), inverse);
-        s.lensX = hn::Load(kF, out.lensX.data() + i), s.lensY = hn::Load(kF, out.lensY.data() + i);
+        s.lensX = hn::Load(kF, out.lensX.data() + i);
+        s.lensY = hn::Load(kF, out.lensY.data() + i);
         Mask in = hn::And(open, box.holds(s));
         if constexpr (B::kMoves) in = hn::And(in, hn::And(hn::Ge(time, begin), hn::Lt(time, end)));
         if (!hn::AllFalse(kF, in))
@@ -221,7 +227,9 @@ class Descent {
       return out.layersOf(job_.raster).add(out.wordOf(pixel, s), s % 64, cell, depth);
     }
     if (depth == before) return settleTies(job_, lane, 1, cell);
-    before = depth, out.cell[lane] = cell, out.nearer[pixel] = 1;
+    before = depth;
+    out.cell[lane] = cell;
+    out.nearer[pixel] = 1;
   }
 
   /// The same for most samples, with pointers that need not be read again after every flag, which may alias everything.

@@ -19,7 +19,9 @@ struct Oval {
   Oval(const RasterGrid& r, size_t a) {
     const float *x = r.x.data() + a, *y = r.y.data() + a, *depth = r.d.data() + a;
     const vec2 pa(x[0], y[0]), pb(x[1], y[1]), pc(x[2], y[2]);
-    center = 0.5f * (pb + pc), e = 0.5f * (pb - pa), f = 0.5f * (pc - pa);
+    center = 0.5f * (pb + pc);
+    e = 0.5f * (pb - pa);
+    f = 0.5f * (pc - pa);
     area = e.x * f.y - e.y * f.x;
     d = 0.5f * (depth[1] + depth[2]);
     dMin = std::min({depth[0], depth[1], depth[2], depth[3]}),

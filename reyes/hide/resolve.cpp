@@ -207,7 +207,8 @@ class TileBuilder {
             (layers.layer(a.layer).samples & layers.layer(b.layer).samples) == 0)
           continue;
         const BorderOverlap twice = borderOverlap(samples_, grids_, camera_, a.layer, b.layer);
-        a.twice |= twice.first, b.twice |= twice.second;
+        a.twice |= twice.first;
+        b.twice |= twice.second;
       }
     }
     for (const LayerInOrder& current : ordered)
@@ -280,7 +281,8 @@ class TileBuilder {
     if (!blurred)
       positions = glm::clamp(positionOnCell(entry, camera_, cell, {places * share, 0, vec2(0)}), vec2(0), vec2(1));
     const vec2 mean = positions * (blurred ? 255 * share : 255.0f);
-    fragment.u = static_cast<uint8_t>(std::lround(mean.x)), fragment.v = static_cast<uint8_t>(std::lround(mean.y));
+    fragment.u = static_cast<uint8_t>(std::lround(mean.x));
+    fragment.v = static_cast<uint8_t>(std::lround(mean.y));
   }
 
   const Camera& camera_;

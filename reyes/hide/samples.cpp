@@ -51,7 +51,8 @@ TOMALES_HOT void placeRow(const SamplePattern& pattern, const int* patternAt, co
     for (int k = 0; k < lanes; k += kLanes, x += kLanes, y += kLanes, xy += kLanes)
 #pragma GCC ivdep
       for (int i = 0; i < kLanes; ++i) {
-        x[i] = byX + fromX[k + i], y[i] = byY + fromY[k + i];
+        x[i] = byX + fromX[k + i];
+        y[i] = byY + fromY[k + i];
         const auto latticeX = static_cast<int32_t>((x[i] - origin.x) * kLattice),
                    latticeY = static_cast<int32_t>((y[i] - origin.y) * kLattice);
         xy[i] =
@@ -72,12 +73,15 @@ SampleBuffer::SampleBuffer(const SamplePattern& pattern, const Camera& camera, c
       lens_(camera.lens()) {
   const size_t count = countOf(rect);
   const size_t width = static_cast<size_t>(lanes), samples = static_cast<size_t>(pattern.count());
-  x.resize(count * width), y.resize(count * width), xy.resize(count * width);
+  x.resize(count * width);
+  y.resize(count * width);
+  xy.resize(count * width);
   depth.assign(count * width, kNothing);
   cell.assign(count * width, kNoCell);
   far.assign(count, kNothing);
   nearer.assign(count, 0);
-  patternAt_.reserve(count), pixelOf.resize(count * width / kLanes);
+  patternAt_.reserve(count);
+  pixelOf.resize(count * width / kLanes);
   for (size_t p = 0, k = 0; p < count; ++p)
     for (const size_t end = k + width / kLanes; k < end; ++k) pixelOf[k] = static_cast<uint32_t>(p);
   for (int row = rect.y0; row < rect.y1; ++row) {
@@ -92,7 +96,9 @@ SampleBuffer::SampleBuffer(const SamplePattern& pattern, const Camera& camera, c
 
 void SampleBuffer::showBlur() {
   if (!time.empty()) return;
-  time.resize(x.size()), lensX.resize(x.size()), lensY.resize(x.size());
+  time.resize(x.size());
+  lensX.resize(x.size());
+  lensY.resize(x.size());
   const size_t width = static_cast<size_t>(lanes);
   for (size_t p = 0; p < patternAt_.size(); ++p) {
     const int at = patternAt_[p];

@@ -28,7 +28,9 @@ class TransparentLayers {
 
   TransparentLayers(size_t pixels, size_t lanes)
       : width_(std::min<size_t>(lanes, 64)), words_((lanes + 63) / 64), last_(pixels * words_, kNone) {
-    list_.swap(spare().list), depths_.swap(spare().depths), cells_.swap(spare().cells);
+    list_.swap(spare().list);
+    depths_.swap(spare().depths);
+    cells_.swap(spare().cells);
   }
   ~TransparentLayers() {
     if (worthKeeping(list_, spare().list)) list_.swap(spare().list);
@@ -80,7 +82,8 @@ class TransparentLayers {
   /// Adds samples one by one: those of a cell stay together until the next flush().
   void add(uint32_t word, uint32_t sample, uint32_t cell, float depth) {
     if (word != openWord_ || cell != openCell_) flush();
-    openWord_ = word, openCell_ = cell;
+    openWord_ = word;
+    openCell_ = cell;
     open_ |= uint64_t{1} << sample;
     openDepths_[sample] = depth;
   }

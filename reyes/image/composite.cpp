@@ -17,7 +17,10 @@ struct Blend {
     if (isConstant(f)) return;
     const float u = static_cast<float>(fragment.u) / 255, v = static_cast<float>(fragment.v) / 255;
     count = 4;
-    weight[0] = (1 - u) * (1 - v), weight[1] = u * (1 - v), weight[2] = (1 - u) * v, weight[3] = u * v;
+    weight[0] = (1 - u) * (1 - v);
+    weight[1] = u * (1 - v);
+    weight[2] = (1 - u) * v;
+    weight[3] = u * v;
   }
 };
 
@@ -71,7 +74,9 @@ Air Compositor::takeAir(const DeepTile& tile, const Fragment& fragment, FacetSha
       out.color[k] += blend.weight[i] * shaded.airCi[k][point],
           out.opacity[k] += blend.weight[i] * shaded.airOi[k][point];
     }
-  shade.color -= out.color, shade.opacity -= out.opacity, shade.coverage -= out.opacity;
+  shade.color -= out.color;
+  shade.opacity -= out.opacity;
+  shade.coverage -= out.opacity;
   return out;
 }
 
@@ -162,7 +167,10 @@ void Compositor::resolveEach(const DeepTile& tile, const Fragment* begin, const 
   for (const Fragment* f = begin; f != end; ++f, value += width()) {
     const auto& [s, known, deep] = shadeOf(tile, *f);
     out.contributions.push_back({f->samples, f->word, f->z, deep ? f->z : kInfinity});
-    value[0] = s.color.x, value[1] = s.color.y, value[2] = s.color.z, value[3] = meanOf(s.coverage);
+    value[0] = s.color.x;
+    value[1] = s.color.y;
+    value[2] = s.color.z;
+    value[3] = meanOf(s.coverage);
     if (!extras_.empty()) extraValues(tile, *f, value + 4);
   }
 }
@@ -215,7 +223,9 @@ void Compositor::resolveStack(const DeepTile& tile, const Fragment* begin, const
     for (uint64_t left = seen_[word]; left; left &= left - 1, value += width()) {
       const size_t sample = word * 64 + static_cast<size_t>(lowestBit(left));
       Contribution& s = samples_[sample];
-      s.samples = left & (~left + 1), s.word = static_cast<uint16_t>(word), s.nearest = stack_.nearest[sample];
+      s.samples = left & (~left + 1);
+      s.word = static_cast<uint16_t>(word);
+      s.nearest = stack_.nearest[sample];
       out.contributions.push_back(s);
       for (size_t k = 0; k < static_cast<size_t>(width()); ++k) value[k] = stack_.values[k * stack_.lanes + sample];
     }

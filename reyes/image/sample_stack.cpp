@@ -119,7 +119,8 @@ namespace tomales {
 
 void SampleStack::resize(size_t samples, size_t floats) {
   lanes = samples;
-  nearest.resize(lanes), values.resize(lanes * floats);
+  nearest.resize(lanes);
+  values.resize(lanes * floats);
   for (auto& a : air) a.clear();
 }
 

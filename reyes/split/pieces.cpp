@@ -103,7 +103,7 @@ class Splitter {
     if (seen && !(std::max(size.x, size.y) <= kDot * edge_px_)) return bare;
     ++stats_.geometry.piecesVisited;
     if (seen)
-      out.push_back({index_, patch, UvRect{}, 1, 1, raster, bare.lo.z, false, 0, false, 0, true});
+      out.push_back(roundPiece(patch, UvRect{}, raster, bare.lo.z));
     else
       ++stats_.geometry.culled;
     return std::nullopt;
@@ -177,13 +177,30 @@ class Splitter {
       if (std::max(nu, nv) > longest_ && !crossesEye)
         cutAcross(patch, rect, depth + 1, nu, nv, out);
       else if (depth == 0 && nu * nv <= kRound_cells && !crossesEye && canBeRound(patch))
-        out.push_back({index_, patch, rect, 1, 1, rasterOf(bound, reach_px), bound.lo.z, false, 0, false, 0, true});
+        out.push_back(roundPiece(patch, rect, rasterOf(bound, reach_px), bound.lo.z));
       else
-        out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, reach_px), bound.lo.z, crossesEye, depth, false});
+        out.push_back({.object = index_,
+                       .patch = patch,
+                       .rect = rect,
+                       .nu = nu,
+                       .nv = nv,
+                       .raster = rasterOf(bound, reach_px),
+                       .zMin = bound.lo.z,
+                       .crossesEye = crossesEye,
+                       .depth = depth});
     } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && gridsOf(nu, nv) >= kGridsOfCoarse && !crossesEye &&
                isOfOneScale(bare) && glm::length(bare.size()) <= kSlack * reach) {
       // Halving shrinks such a piece and its bound as it should, so that the number of its grids can be estimated.
-      out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, reach_px), bound.lo.z, crossesEye, depth, true});
+      out.push_back({.object = index_,
+                     .patch = patch,
+                     .rect = rect,
+                     .nu = nu,
+                     .nv = nv,
+                     .raster = rasterOf(bound, reach_px),
+                     .zMin = bound.lo.z,
+                     .crossesEye = crossesEye,
+                     .depth = depth,
+                     .coarse = true});
     } else if (depth == kMaxDepth || !(hasMiddle(rect.u0, rect.u1) || hasMiddle(rect.v0, rect.v1))) {
       takeSmallest(patch, rect, depth, bound, crossesEye, rasterOf(bound, reach_px), out);
     } else {
@@ -200,7 +217,14 @@ class Splitter {
   void takeSmallest(uint32_t patch, const UvRect& rect, int depth, const Bound3& bound, bool crossesEye,
                     const Bound2& raster, std::vector<SubPatch>& out) {
     if (object_.shape().info(patch).planar && !crossesEye)
-      out.push_back({index_, patch, rect, 1, 1, raster, bound.lo.z, false, depth, false});
+      out.push_back({.object = index_,
+                     .patch = patch,
+                     .rect = rect,
+                     .nu = 1,
+                     .nv = 1,
+                     .raster = raster,
+                     .zMin = bound.lo.z,
+                     .depth = depth});
     else
       ++(depth == kMaxDepth && bound.lo.z < glm::length(bound.size()) ? givenUp_.atEye : givenUp_.tooMany);
   }
@@ -228,8 +252,14 @@ class Splitter {
         continue;
       }
       const Bound3 bound = bare.grown(object_.displacementBound);
-      out.push_back({index_, patch, part, nu, nv, rasterOf(bound, borderReach_px(object_.displacementBound)),
-                     bound.lo.z, false, depth, false});
+      out.push_back({.object = index_,
+                     .patch = patch,
+                     .rect = part,
+                     .nu = nu,
+                     .nv = nv,
+                     .raster = rasterOf(bound, borderReach_px(object_.displacementBound)),
+                     .zMin = bound.lo.z,
+                     .depth = depth});
     }
   }
 
@@ -265,6 +295,16 @@ class Splitter {
   /// Number of grids in a layer of surface over this area.
   double gridsOver(double area_px) const { return area_px / (double{edge_px_} * edge_px_ * gridSize_); }
 
+  SubPatch roundPiece(uint32_t patch, const UvRect& rect, const Bound2& raster, float zMin) const {
+    return {.object = index_,
+            .patch = patch,
+            .rect = rect,
+            .nu = 1,
+            .nv = 1,
+            .raster = raster,
+            .zMin = zMin,
+            .round = true};
+  }
   bool stopped() const { return stop_ && stop_->load(std::memory_order_relaxed); }
   /// Is it a whole disk that one cell without corners or neighbours represents?
   bool canBeRound(uint32_t patch) const {

@@ -150,7 +150,8 @@ TEST(GatherPass, RecordsOfManyRaysMissTheSameAndAreRightInTheMean) {
     const std::vector<double> own = recordsUnderAFarCeiling(500, seed), shared = recordsUnderAFarCeiling(520, seed);
     ASSERT_GT(shared.size(), 100U);
     EXPECT_LT(quantile(shared, 0.8) - quantile(shared, 0.2), 0.2 * (quantile(own, 0.8) - quantile(own, 0.2)));
-    ownRange += own.back() - own.front(), sharedRange += shared.back() - shared.front();
+    ownRange += own.back() - own.front();
+    sharedRange += shared.back() - shared.front();
     mean += quantile(shared, 0.5) / kSeeds;
   }
   EXPECT_LT(sharedRange, 0.4 * ownRange) << "those that look for bright spots are no records";
@@ -239,7 +240,9 @@ TEST(GatherPass, UnderASheetAsHighAsAPixelLightIsThatOfTheSlot) {
         const vec3 P = batch.position(i);
         if (!(P.y < -0.999f && P.x > 0.2f && P.x < 0.9f && P.z > 2.62f && P.z < 3)) continue;
         const size_t pixel = batch.key(i) / 10000 * 64 + batch.key(i) % 10000;
-        error += std::abs(luminance(E[pixel]) - luminance(truth[pixel])), light += luminance(truth[pixel]), ++seen;
+        error += std::abs(luminance(E[pixel]) - luminance(truth[pixel]));
+        light += luminance(truth[pixel]);
+        ++seen;
       }
   EXPECT_GT(seen, 5);
   EXPECT_LT(error / light, 0.25f);
@@ -340,7 +343,8 @@ TEST(GatherPass, InterpolatedLightAgreesWithTheReference) {
     float a = 0, b = 0;
     for (size_t k = 0; k < 64; ++k) {
       const size_t i = (block / 8 * 8 + k / 8) * 64 + block % 8 * 8 + k % 8;
-      a += cached[i].y, b += truth[i].y;
+      a += cached[i].y;
+      b += truth[i].y;
     }
     if (b > 0) error += std::abs(a / b - 1) / 64;
   }
@@ -357,7 +361,8 @@ DeepFrame frameOfOneFacet(const World& world, size_t pixels) {
   });
   const int last = tile.batches[static_cast<size_t>(backWall->batch)].count() - 1;
   const Facet facet{backWall->batch, {0, last / 3, last * 2 / 3, last}};
-  tile.facets = {facet}, tile.fragments = {Fragment{0, 4.2f, 1}};
+  tile.facets = {facet};
+  tile.fragments = {Fragment{0, 4.2f, 1}};
   for (size_t i = 0; i < tile.pixels.size(); ++i) tile.pixels[i] = {0, i < pixels ? 1U : 0U};
   return frame;
 }
@@ -375,7 +380,8 @@ TEST(GatherPass, HoldoutsAndSurfacesThatDoNotReceiveAreLeftOut) {
     Scene scene = cornell(indirect(16)).scene;
     for (Object& o : scene.objects) {
       auto attributes = std::make_shared<Attributes>(*o.attributes);
-      attributes->matte = matte, attributes->indirect.receive = matte;
+      attributes->matte = matte;
+      attributes->indirect.receive = matte;
       o.attributes = attributes;
     }
     World world(scene);

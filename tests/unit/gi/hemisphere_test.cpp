@@ -34,9 +34,12 @@ Curved lookTwice(const World& world, const vec3& origin, const vec3& normal, int
       const vec3 d = hemisphereDirection(cells, j, k, {unitFloat(hash32(key)), unitFloat(hash32(key ^ 99U))});
       directions.push_back(d.x * s.tangent + d.y * s.bitangent + d.z * normal);
       const Seen seen = world(origin, directions.back());
-      radiance.push_back(seen.radiance), distances.push_back(seen.distance);
+      radiance.push_back(seen.radiance);
+      distances.push_back(seen.distance);
     }
-  s.directions = directions, s.radiance = radiance, s.distances = distances;
+  s.directions = directions;
+  s.radiance = radiance;
+  s.distances = distances;
   return {summarize(s), curvatureOf(s)};
 }
 

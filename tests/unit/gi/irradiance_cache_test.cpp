@@ -14,9 +14,12 @@ const Bound3 kBox{vec3(-1), vec3(1)};
 
 IrradianceRecord recordAt(const vec3& position, const vec3& E, float closest = 1, float pixelSize = 0.01f) {
   IrradianceRecord r{};
-  r.position = position, r.normal = kUp, r.E = E;
+  r.position = position;
+  r.normal = kUp;
+  r.E = E;
   for (vec3& d : r.dominant) d = kUp;
-  r.harmonicMean = r.closest = closest, r.pixelSize = pixelSize;
+  r.harmonicMean = r.closest = closest;
+  r.pixelSize = pixelSize;
   return r;
 }
 
@@ -99,7 +102,8 @@ TEST(IrradianceCache, ASheetThinnerThanAPixelHidesItsBackFromTheRecordsOfItsFron
 TEST(IrradianceCache, BumpsThatRaysDoNotSeeLieBehindNoRecord) {
   for (const auto function : {ErrorFunction::Screen, ErrorFunction::Ward, ErrorFunction::Hessian}) {
     auto record = recordAt(vec3(0), vec3(1), 2);
-    record.smoothRadius = 1, record.unseenDisplacement = 0.06f;
+    record.smoothRadius = 1;
+    record.unseenDisplacement = 0.06f;
     const CacheSettings wide{function, 1, 10};
     const float even = weightOfOne(wide, record, {0.1f, 0, 0}, kUp, 0.04f),
                 low = weightOfOne(wide, record, {0.1f, 0, -0.02f}, kUp, 0.04f);
@@ -328,7 +332,8 @@ TEST(IrradianceCache, NoiseIsNoDispute) {
   IrradianceCache cache(kBox, {});
   IrradianceRecord a = recordAt(vec3(0), vec3(1)), b = recordAt({0.05f, 0, 0}, vec3(1.5f));
   a.noise = b.noise = 0.1f;
-  cache.insert(a), cache.insert(b);
+  cache.insert(a);
+  cache.insert(b);
   EXPECT_EQ(cache.records()[0].limit, kInfinity);
   const IrradianceEstimate between = cache.lookup({0.02f, 0, 0}, kUp, 0.01f);
   EXPECT_FALSE(between.inconsistent);
@@ -353,7 +358,8 @@ TEST(IrradianceCache, AQuadraticFieldIsReproducedByRecordsThatKnowTheirSecondDer
     const vec3 p = randomIn(i, 4) * vec3(1, 1, 0);
     auto record = recordAt(p, vec3(field(p)), 1, 0.01f);
     for (vec3& g : record.translationGradient) g = {0.3f + 1.6f * p.x - 0.6f * p.y, 0.8f * p.y - 0.6f * p.x, 0};
-    record.smoothRadius = 0.3f, record.tangent = normalizeOr(vec3(1, 2, 0), vec3(0));
+    record.smoothRadius = 0.3f;
+    record.tangent = normalizeOr(vec3(1, 2, 0), vec3(0));
     // Of 0.8 xx - 0.6 xy + 0.4 yy, along (1, 2) and (-2, 1).
     record.hessian[0] = vec3(0.48f), record.hessian[1] = vec3(0.04f), record.hessian[2] = vec3(1.92f);
     cache.insert(record);
@@ -383,7 +389,8 @@ TEST(IrradianceCache, ASecondDerivativeHoldsAsFarAsItsRecordReaches) {
   IrradianceCache cache(kBox, {ErrorFunction::Hessian, 1, 40});
   for (const bool edge : {false, true}) {
     auto r = recordAt({edge ? -0.015f : -0.25f, 0, 0}, vec3(1));
-    r.smoothRadius = edge ? 0.02f : 0.3f, r.tangent = {1, 0, 0};
+    r.smoothRadius = edge ? 0.02f : 0.3f;
+    r.tangent = {1, 0, 0};
     r.hessian[0] = vec3(edge ? -200.0f : 0.0f);
     cache.insert(r);
   }
@@ -397,7 +404,8 @@ TEST(IrradianceCache, BeyondAShadowsEdgeBendingLightsNoDark) {
     IrradianceCache cache(kBox, {f, 1});
     for (const float x : {-0.05f, 0.05f}) {
       IrradianceRecord r = recordAt({x, 0, 0}, vec3(light(x)), 9);
-      r.smoothRadius = 0.1f, r.tangent = {1, 0, 0};
+      r.smoothRadius = 0.1f;
+      r.tangent = {1, 0, 0};
       for (int c = 0; c < 3; ++c) r.translationGradient[c].x = x > 0 ? 2 * x : 0;
       r.hessian[0] = vec3(x > 0 ? 2.0f : 0.0f);
       cache.insert(r);
@@ -412,7 +420,9 @@ TEST(IrradianceCache, BeyondAShadowsEdgeBendingLightsNoDark) {
 TEST(IrradianceCache, NoSecondDerivativeMakesLightNegativeOrMoreThanDoublesIt) {
   for (const float bend : {-1e6f, 1e6f, kInfinity}) {
     auto record = recordAt(vec3(0), vec3(1));
-    record.smoothRadius = 0.3f, record.tangent = {1, 0, 0}, record.hessian[0] = vec3(bend);
+    record.smoothRadius = 0.3f;
+    record.tangent = {1, 0, 0};
+    record.hessian[0] = vec3(bend);
     IrradianceCache cache(kBox, {ErrorFunction::Hessian, 1, 40});
     cache.insert(record);
     const float E = cache.lookup({0.25f, 0, 0}, kUp, 0.01f).E.x;
@@ -424,7 +434,8 @@ TEST(IrradianceCache, NoSecondDerivativeMakesLightNegativeOrMoreThanDoublesIt) {
 TEST(IrradianceCache, TheSplitSphereAsPublishedKnowsNoPixelsAndNoDisputes) {
   const CacheSettings split{ErrorFunction::Split, 4, kInfinity, 0};
   IrradianceRecord far = recordAt(vec3(0), vec3(1), 9), near = recordAt(vec3(0), vec3(1), 0.01f);
-  far.harmonicMean = 2, near.harmonicMean = 0.02f;
+  far.harmonicMean = 2;
+  near.harmonicMean = 0.02f;
   for (const float pixelSize : {0.001f, 0.1f}) {
     EXPECT_NEAR(weightOfOne(split, far, {0.25f, 0, 0}, kUp, pixelSize), 1, 1e-5f);
     EXPECT_EQ(weightOfOne(split, near, {0.006f, 0, 0}, kUp, pixelSize), 0);
@@ -460,7 +471,8 @@ TEST(IrradianceCache, PlainIsScreenAsPublished) {
 TEST(IrradianceCache, AnEdgeThatARecordHasMetIsNoSheetOverIt) {
   IrradianceCache cache(kBox, {});
   IrradianceRecord beside = recordAt(vec3(0), vec3(1), 0.01f), inconsistent = recordAt({0.02f, 0, 0}, vec3(1), 0.3f);
-  beside.limit = 2, inconsistent.limit = 0.02f;
+  beside.limit = 2;
+  inconsistent.limit = 0.02f;
   cache.insert(beside);
   EXPECT_EQ(cache.lookup({0.01f, 0, 0}, kUp, 0.02f).occluderHeight, 2);
   cache.insert(inconsistent);
@@ -476,7 +488,8 @@ TEST(IrradianceCache, ManyLookupsAtOnceHaveTheBitsOfOneAtATime) {
     for (uint32_t i = 0; i < 3000; ++i) {
       IrradianceRecord r = recordAt(1.1f * randomIn(i, 1), vec3(1) + 0.02f * randomIn(i, 2),
                                     0.5f * unitFloat(hashCombine(i, 3)));  // some outside
-      r.normal = glm::normalize(kUp + 0.12f * randomIn(i, 4)), r.smoothRadius = 0.3f;
+      r.normal = glm::normalize(kUp + 0.12f * randomIn(i, 4));
+      r.smoothRadius = 0.3f;
       cache.insert(r);
     }
     std::vector<IrradiancePlace> places;

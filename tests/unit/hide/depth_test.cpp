@@ -47,7 +47,8 @@ TEST(Depth, AnOpaqueSurfaceEndsTheListOfLayers) {
 
 TEST(Depth, InterpenetratingSurfacesAreSortedSampleBySample) {
   World w;
-  w.add(), w.add();
+  w.add();
+  w.add();
   w.freeze();
   ASSERT_NE(w.scene.objects[0].group, w.scene.objects[1].group);
   const auto a = makeGrid(0, 1, 3, 3, [](float u, float v, int) { return at(16 * u, 16 * v, 1 + u); });
@@ -144,7 +145,8 @@ TEST(Depth, MatteHidesWhatIsBehindAndStaysVisible) {
   World w;
   Attributes matte;
   matte.matte = true;
-  w.add(), w.add(matte);
+  w.add();
+  w.add(matte);
   w.freeze();
   const auto back = raster(w, makeGrid(0, 1, 2, 2, rectangle(0, 0, 16, 16, 2)));
   const auto front = raster(w, makeGrid(1, 2, 2, 2, rectangle(0, 0, 16, 16, 1)));

@@ -20,7 +20,9 @@ HideDiagnostics diagnosticsOf(const World& w, const Rasters& rasters) {
 /// Two slanted squares of other dicing, `apart` in depth, behind what hides part of them.
 int conflictPixels(float apart, bool hidden = false) {
   World w;
-  w.add(), w.add(), w.add();
+  w.add();
+  w.add();
+  w.add();
   w.freeze();
   const auto slanted = [](float z) {
     return [z](float u, float v, int) { return at(4 + 24 * u, 4 + 24 * v, z + 3 * u + 2 * v); };
@@ -43,7 +45,8 @@ TEST(Diagnostics, WhatIsHiddenAfterwardsIsNotInConflict) { EXPECT_EQ(conflictPix
 
 TEST(Diagnostics, WhatStandsInFrontOfAConflictIsNotPartOfItEvenIfItIsOneOfTheTwo) {
   World w;
-  w.add(), w.add();
+  w.add();
+  w.add();
   w.freeze();
   // A box on a floor: its bottom lies in the floor, and its top hides both.
   const auto floor = makeGrid(0, 1, 24, 24, rectangle(0, 0, 32, 32, 9)),
@@ -55,7 +58,8 @@ TEST(Diagnostics, WhatStandsInFrontOfAConflictIsNotPartOfItEvenIfItIsOneOfTheTwo
 
 TEST(Diagnostics, WallsThatMeetAreNotInConflict) {
   World w;
-  w.add(), w.add();
+  w.add();
+  w.add();
   w.freeze();
   const auto one = makeGrid(0, 1, 24, 24, [](float u, float v, int) { return at(16 * u, 32 * v, 5 + 8 * u); });
   const auto other = makeGrid(1, 2, 24, 24, [](float u, float v, int) { return at(32 * u, 32 * v, 5 + 16 * (1 - u)); });
@@ -74,7 +78,8 @@ HideDiagnostics::Turns turnsOfCylinder(int around, float radius_px) {
   });
   for (int k = 0; k < g->vertexCount(); ++k) {
     const float a = turn(static_cast<float>(k % (around + 1)) / static_cast<float>(around));
-    g->N(0)[k] = std::sin(a), g->N(2)[k] = -std::cos(a);
+    g->N(0)[k] = std::sin(a);
+    g->N(2)[k] = -std::cos(a);
   }
   const HideDiagnostics diagnostics = diagnosticsOf(w, {raster(w, g)});
   return diagnostics.turns.at(0);

@@ -17,7 +17,9 @@ struct Soup {
     Attributes smooth, oneSided;
     smooth.interpolation = ShadingInterpolation::Smooth;
     oneSided.sides = 1;
-    world.add(), world.add(smooth), world.add(oneSided);
+    world.add();
+    world.add(smooth);
+    world.add(oneSided);
     world.freeze();
     for (Object& o : world.scene.objects) o.keyTimes = {0, 1};
     for (uint32_t k = 0; k < 60; ++k) rasters.push_back(one(k));
@@ -226,13 +228,16 @@ TEST(Resolve, MoreThanSixtyFourSamplesTakeSeveralWords) {
 /// One cell, 4 px by 2 px at depth 3, with a primitive variable.
 std::shared_ptr<Grid> oneCell() {
   auto g = std::make_shared<Grid>();
-  g->object = 0, g->pieces[0].name = 42, g->pieces[0].openEdges = kAllEdges;
+  g->object = 0;
+  g->pieces[0].name = 42;
+  g->pieces[0].openEdges = kAllEdges;
   g->allocate(1, 1, 1, 2);
   for (int k = 0; k < 4; ++k) {
     const vec3 p = at(static_cast<float>(k % 2) * 4, static_cast<float>(k / 2) * 2, 3);
     for (int axis = 0; axis < 3; ++axis) g->P(0, axis)[k] = p[axis];
     g->N(2)[k] = -2;
-    g->u()[k] = 0.5f + 0.25f * static_cast<float>(k % 2), g->v()[k] = 0.5f * static_cast<float>(k / 2);
+    g->u()[k] = 0.5f + 0.25f * static_cast<float>(k % 2);
+    g->v()[k] = 0.5f * static_cast<float>(k / 2);
     g->primvar(0)[k] = static_cast<float>(k), g->primvar(1)[k] = 7;
   }
   return g;
@@ -294,10 +299,12 @@ TEST(Resolve, SmoothShadingSharesCornersAndKnowsThePlaceOnTheFacet) {
 
 TEST(Resolve, StillHasTheGridsOfSolidsWhenThoseThatNobodySeesAreLetGoOf) {
   World w;
-  w.add(), w.add();
+  w.add();
+  w.add();
   Solid solid;
   solid.add(SolidOperation::Union, -1);
-  w.scene.objects[0].solid = 0, w.scene.objects[0].solidBlock = solid.add(SolidOperation::Primitive, 0);
+  w.scene.objects[0].solid = 0;
+  w.scene.objects[0].solidBlock = solid.add(SolidOperation::Primitive, 0);
   w.scene.solids.push_back(solid);
   w.freeze();
   Rasters rasters = {raster(w, makeGrid(0, 1, 2, 2, rectangle(0, 0, 4, 4, 1))),
