@@ -27,7 +27,7 @@ KINDS = {  # requests before WorldBegin and before the sphere
     "dots": ("", 'Surface "dots" "float Kd" [0.9] "color dotcolor" [0 0 1]\n'),
     "ripple": ("", 'Attribute "displacementbound" "float sphere" [0.1]\nDisplacement "ripple" "float waves" [6]\nSurface "plastic"\n'),
     "flame": ("", 'LightSource "flame" 2 "point from" [1 1 -3] "float intensity" [5]\nSurface "plastic"\n'),
-    "panel": ("", 'AttributeBegin\nTranslate 0 2 -2\nRotate 90 1 0 0\nAreaLightSource "panel" 2 "float radiance" [5]\nPolygon "P" [-1 -1 0 -1 1 0 1 1 0 1 -1 0]\nAttributeEnd\nIlluminate 2 1\nSurface "plastic"\n'),
+    "panel": ("", 'AttributeBegin\nTranslate 0 2 -2\nRotate -90 1 0 0\nAreaLightSource "panel" 2 "float radiance" [5]\nPolygon "P" [-1 -1 0 -1 1 0 1 1 0 1 -1 0]\nAttributeEnd\nIlluminate 2 1\nSurface "plastic"\n'),
     "murk": ("", 'Atmosphere "murk"\nSurface "plastic"\n'),
     "scanlines": ('Imager "scanlines"\n', 'Surface "plastic"\n'),
     "toon": ("", 'Surface "toon"\n'),

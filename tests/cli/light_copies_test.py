@@ -86,7 +86,7 @@ WorldEnd
 """
 LAMP = """AttributeBegin
 Translate 0 1.2 0.5
-Rotate 90 1 0 0
+Rotate -90 1 0 0
 {light}
 Scale 0.6 0.6 1
 Polygon "P" [-1 -1 0 -1 1 0 1 1 0 1 -1 0]
@@ -157,7 +157,7 @@ alone = [
 ]
 for name, params in alone:
     alike(name, [(name, "it", params)], RENDER)
-alike("arealight", [AREA], RENDER)
+t.expect(alike("arealight", [AREA], RENDER)[10, 17][0] > 0, "it lights the floor")
 alike("arealight, invisible", [("arealight", "lamp", {"samples": 4, "visible": 0})], RENDER)
 tested = {name for name, _ in alone} | {"arealight", "indirectlight", "filterlight"}
 t.expect(tested == set(declared), f"every built-in light is here: {tested ^ set(declared)}")

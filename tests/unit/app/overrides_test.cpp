@@ -69,9 +69,9 @@ GiMode modeOf(const std::string& lights, GiChoice choice) {
 
 TEST(Overrides, TheGiModeIsThatOfTheCommandLineOrElseOfTheIndirectLight) {
   const std::string none, gather = "LightSource \"indirectlight\" 1\n",
-                          atlas = "LightSource \"indirectlight\" 1 \"radiance\" \"atlas\"\n",
-                          points = "LightSource \"indirectlight\" 1 \"radiance\" \"points\"\n",
-                          radiosity = "LightSource \"indirectlight\" 1 \"radiance\" \"radiosity\"\n";
+                          atlas = "LightSource \"indirectlight\" 1 \"string radiance\" \"atlas\"\n",
+                          points = "LightSource \"indirectlight\" 1 \"string radiance\" \"points\"\n",
+                          radiosity = "LightSource \"indirectlight\" 1 \"string radiance\" \"radiosity\"\n";
   EXPECT_EQ(modeOf(none, GiChoice::Scene), GiMode::None);
   EXPECT_EQ(modeOf(gather, GiChoice::Scene), GiMode::Gather);
   EXPECT_EQ(modeOf(atlas, GiChoice::Scene), GiMode::Atlas);

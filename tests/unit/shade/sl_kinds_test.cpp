@@ -11,7 +11,7 @@ using namespace sl;
 constexpr double kCone = 0.6;
 rsl::FloatParam samples("samples", 256, "", TM_ROLE_SAMPLES), skySamples("samples", 256, "", TM_ROLE_SAMPLES),
     intensity("intensity", 4, "");
-rsl::StringParam map("map", "", "");
+rsl::StringParam map("map", "", "", TM_ROLE_SKY_MAP);
 
 struct hazysun : sl::Light {
   void main() {
